@@ -1,0 +1,54 @@
+// A short text inside itself: reasons and names on paths that must not allocate.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdarg>
+#include <cstddef>
+#include <cstdio>
+#include <string_view>
+
+namespace drover {
+
+template <std::size_t N>
+class FixedText {
+ public:
+  FixedText() = default;
+  FixedText(std::string_view text) { assign(text); }
+  FixedText(const char* text) { assign(text); }
+
+  /// Copies; what does not fit is cut at a UTF-8 character boundary.
+  void assign(std::string_view text) {
+    size_ = text.size() < N ? text.size() : N;
+    if (size_ < text.size()) {
+      while (size_ > 0 && (static_cast<unsigned char>(text[size_]) & 0xC0U) == 0x80U) --size_;
+    }
+    for (std::size_t i = 0; i < size_; ++i) chars_[i] = text[i];
+  }
+  /// printf into the text; cut when it does not fit. glibc's vsnprintf does not allocate for these.
+  [[gnu::format(printf, 2, 3)]] void format(const char* pattern, ...) {
+    std::array<char, N + 1> buffer{};
+    va_list args;
+    va_start(args, pattern);
+    const int n = std::vsnprintf(buffer.data(), buffer.size(), pattern, args);
+    va_end(args);
+    assign(std::string_view(buffer.data(), n < 0 ? 0 : std::min<std::size_t>(n, N)));
+  }
+  void clear() { size_ = 0; }
+  bool empty() const { return size_ == 0; }
+  std::string_view view() const { return {chars_.data(), size_}; }
+  operator std::string_view() const { return view(); }
+  friend bool operator==(const FixedText& a, const FixedText& b) { return a.view() == b.view(); }
+  friend bool operator==(const FixedText& a, std::string_view b) { return a.view() == b; }
+
+ private:
+  std::array<char, N> chars_{};
+  std::size_t size_ = 0;
+};
+
+/// A sentence that an operator understands.
+using Reason = FixedText<160>;
+/// A joint, line or link name.
+using Name = FixedText<48>;
+
+}  // namespace drover

@@ -1,0 +1,108 @@
+// What drivers report: one typed value with the instant at which it was true.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <variant>
+
+#include "drover/fixed_text.h"
+#include "drover/time.h"
+
+namespace drover {
+
+inline constexpr double kAbsent = std::numeric_limits<double>::quiet_NaN();
+inline constexpr std::size_t kMaxAxes = 16;
+
+/// Index of a driven axis (joint), in the order of the configuration's `drives`.
+using AxisId = std::uint8_t;
+
+/// Motion of one axis at the joint, after gear ratio and sign (positive: the base drives forward).
+struct AxisMotion {
+  AxisId axis = 0;
+  double position_rad = kAbsent;
+  double velocity_radps = kAbsent;
+  double effort_Nm = kAbsent;
+};
+
+enum class AxisState : std::uint8_t {
+  unknown,  ///< nothing heard yet
+  idle,     ///< power stage off: the axis may coast
+  arming,   ///< on its way to `running`
+  running,  ///< closed loop: obeys set points, holds at zero
+  fault,    ///< the drive reports an error; `reason` decodes it
+};
+
+struct AxisStatus {
+  AxisId axis = 0;
+  AxisState state = AxisState::unknown;
+  std::uint64_t error_code = 0;  ///< as the drive sent it
+  Reason reason;                 ///< decoded text, empty when there is no error
+};
+
+struct AxisTemperature {
+  AxisId axis = 0;
+  double inverter_degC = kAbsent;
+  double motor_degC = kAbsent;
+};
+
+struct AxisSupply {
+  AxisId axis = 0;
+  double bus_V = kAbsent;
+  double bus_A = kAbsent;
+};
+
+/// Numbers as in NMEA 0183 GGA field 6.
+enum class FixQuality : std::uint8_t {
+  none = 0,
+  single = 1,
+  dgps = 2,
+  pps = 3,
+  rtk_fixed = 4,
+  rtk_float = 5,
+  estimated = 6,
+  manual = 7,
+  simulator = 8,
+};
+
+/// Position of the antenna. Degrees are kept as the receiver sent them (no wrapping).
+struct GnssPosition {
+  double latitude_deg = kAbsent;
+  double longitude_deg = kAbsent;
+  double altitude_msl_m = kAbsent;
+  double undulation_m = kAbsent;
+  FixQuality quality = FixQuality::none;
+  int satellites = 0;
+  double hdop = kAbsent;
+  double correction_age_s = kAbsent;
+  double sigma_east_m = kAbsent;   ///< of this epoch's GST, absent when there is none
+  double sigma_north_m = kAbsent;
+};
+
+struct GnssVelocity {
+  double speed_mps = kAbsent;
+  double course_deg = kAbsent;  ///< clockwise from true north; absent at low speed
+};
+
+/// Direction of the antenna baseline, degrees clockwise from true north, [0, 360).
+struct GnssHeading {
+  double heading_deg = kAbsent;
+};
+
+enum class Line : std::uint8_t { estop, bumper, zone_far, zone_near };
+inline constexpr std::size_t kLineCount = 4;
+
+/// Debounced meaning of a digital input: `active` is "stop", "touched" or "somebody is in the zone".
+struct LineState {
+  Line line = Line::estop;
+  bool active = true;
+};
+
+struct Measurement {
+  Time time = kNever;      ///< when it was true
+  Time received = kNever;  ///< when the bytes came in
+  std::variant<std::monostate, AxisMotion, AxisStatus, AxisTemperature, AxisSupply, GnssPosition,
+               GnssVelocity, GnssHeading, LineState>
+      value;
+};
+
+}  // namespace drover

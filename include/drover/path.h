@@ -1,0 +1,27 @@
+// A track prepared for driving: points in the local frame.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace drover {
+
+/// `map` frame (ENU about the origin), metres.
+struct PathPoint {
+  double x_m = 0;
+  double y_m = 0;
+};
+
+/// Built outside the control thread, read-only inside it, given back through an event.
+struct Path {
+  std::string name;
+  std::vector<PathPoint> points;  ///< in the order of the track, ids 1..N
+};
+
+struct GeodeticPoint {
+  double latitude_deg = 0;
+  double longitude_deg = 0;
+  double altitude_m = 0;  ///< above the ellipsoid
+};
+
+}  // namespace drover

@@ -1,0 +1,107 @@
+// The state of the robot at one instant: the only thing publishers read.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "drover/driver.h"
+#include "drover/fixed_text.h"
+#include "drover/fixed_vector.h"
+#include "drover/measurement.h"
+#include "drover/path.h"
+#include "drover/time.h"
+
+namespace drover {
+
+/// The RTK navigation protocol's `nav.locate`.
+enum class LocateState : std::uint8_t { uninit, lost, good };
+/// The RTK navigation protocol's `nav.status`.
+enum class NavStatus : std::uint8_t { free, run, success, error };
+/// Who owns the drives, highest rank first.
+enum class Owner : std::uint8_t { estop, manual, task, joint_command, nobody };
+
+/// Planar pose and twist in the `map` frame (ENU about the origin), twist in `base_link`.
+struct Pose {
+  Time time = kNever;
+  double x_m = 0;
+  double y_m = 0;
+  double yaw_rad = 0;  ///< counter-clockwise from east, [-pi, pi)
+  double vx_mps = 0;
+  double wz_radps = 0;
+  double position_sigma_m = kAbsent;  ///< one sigma, larger horizontal axis
+  double yaw_sigma_rad = kAbsent;
+};
+
+struct AxisSnapshot {
+  Name joint;
+  AxisMotion motion;
+  AxisState state = AxisState::unknown;
+  Reason fault;
+  double commanded_velocity_radps = 0;
+  double inverter_degC = kAbsent;
+  double motor_degC = kAbsent;
+  double bus_V = kAbsent;
+  SourceState health = SourceState::never_heard;
+  Time last_motion = kNever;
+};
+
+struct GnssSnapshot {
+  SourceState health = SourceState::never_heard;
+  GnssPosition position;          ///< last one, for display
+  Time position_time = kNever;    ///< when it was true
+  double heading_deg = kAbsent;   ///< of the vehicle, clockwise from true north
+  /// Antenna position of the pose's own instant, so that pose and rtk belong together.
+  double pose_latitude_deg = 0;
+  double pose_longitude_deg = 0;
+};
+
+struct NavSnapshot {
+  NavStatus status = NavStatus::free;
+  LocateState locate = LocateState::uninit;
+  bool obstacle = false;
+  bool paused = false;
+  Owner owner = Owner::nobody;
+  Name track;
+  std::uint32_t target_id = 0;        ///< as the operator counts, 0 when none
+  double cross_track_m = 0;           ///< left of the path positive, while a task runs
+  double distance_left_m = 0;
+  double asked_speed_mps = 0;
+};
+
+struct CycleStats {
+  std::uint64_t cycles = 0;
+  std::uint64_t overruns = 0;
+  Duration longest_step{};
+};
+
+struct LinkSnapshot {
+  Name name;
+  bool up = false;
+  Reason reason;               ///< why it is not up
+  std::uint64_t received = 0;
+  std::uint64_t sent = 0;
+  std::uint64_t dropped = 0;   ///< receive queue overflow, refused sends
+  std::uint64_t refused = 0;   ///< frames stopped by the gate
+};
+
+struct Snapshot {
+  Time time = kNever;
+  Pose pose;
+  NavSnapshot nav;
+  GnssSnapshot gnss;
+  FixedVector<AxisSnapshot, kMaxAxes> axes;
+  std::array<bool, kLineCount> line_active{};
+  std::array<SourceState, kLineCount> line_health{};
+  std::array<bool, kLineCount> line_configured{};
+  FixedVector<LinkSnapshot, 8> links;
+  bool stop_latched = false;   ///< nothing moves until a person acts
+  bool guard_alive = false;
+  bool guard_has_bus = false;
+  bool origin_set = false;
+  GeodeticPoint origin;
+  /// Why the robot does not move, or may not: the first is the cause. Empty when all is well.
+  FixedVector<Reason, 8> why;
+  CycleStats cycle;
+};
+
+}  // namespace drover

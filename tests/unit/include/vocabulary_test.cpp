@@ -1,0 +1,66 @@
+#include <gtest/gtest.h>
+
+#include <thread>
+
+#include "drover/angle.h"
+#include "drover/can_frame.h"
+#include "drover/command.h"
+#include "drover/driver.h"
+#include "drover/event.h"
+#include "drover/fixed_text.h"
+#include "drover/registry.h"
+#include "drover/result.h"
+#include "drover/snapshot.h"
+#include "drover/triple_buffer.h"
+
+namespace drover {
+
+TEST(FixedText, IsCutAtACharacterNotInsideOne) {
+  FixedText<4> text("园区");  // two characters of three bytes
+  EXPECT_EQ(text.view(), "园");
+}
+
+TEST(FixedText, FormatsWithinItsSize) {
+  FixedText<8> text;
+  text.format("%s %d", "abc", 123456);
+  EXPECT_EQ(text.view(), "abc 1234");
+}
+
+TEST(Angle, CompassNorthIsYawNinetyDegrees) {
+  EXPECT_NEAR(yaw_rad_from_compass_deg(0.0), kPi / 2, 1e-12);
+  EXPECT_NEAR(yaw_rad_from_compass_deg(90.0), 0.0, 1e-12);
+  EXPECT_NEAR(compass_deg_from_yaw_rad(kPi), 270.0, 1e-9);
+  EXPECT_NEAR(wrap_rad(3 * kPi), -kPi, 1e-9);
+  EXPECT_EQ(wrap_deg(360.0), 0.0);
+}
+
+TEST(DriverOut, CountsWhatDoesNotFit) {
+  DriverOut out;
+  for (int i = 0; i < 40; ++i) out.send(make_frame(1));
+  EXPECT_EQ(out.frames.size(), 32U);
+  EXPECT_EQ(out.overflows, 8U);
+}
+
+TEST(TripleBuffer, ReaderSeesWholeValuesOnly) {
+  struct Pair {
+    int a = 0;
+    int b = 0;
+  };
+  TripleBuffer<Pair> buffer;
+  std::thread writer([&] {
+    for (int i = 1; i <= 100000; ++i) {
+      buffer.back() = {i, -i};
+      buffer.publish();
+    }
+  });
+  int last = 0;
+  while (last < 100000) {
+    const auto& pair = buffer.latest();
+    ASSERT_EQ(pair.a, -pair.b);
+    ASSERT_GE(pair.a, last);
+    last = pair.a;
+  }
+  writer.join();
+}
+
+}  // namespace drover
