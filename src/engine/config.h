@@ -1,0 +1,88 @@
+// Every number of the engine, with its default. Field names are the configuration file's keys.
+#pragma once
+
+#include <array>
+
+#include "drover/fixed_text.h"
+#include "drover/fixed_vector.h"
+#include "drover/measurement.h"
+
+namespace drover::engine {
+
+/// Skid-steer base. Axes are indices into the configuration's `drives`.
+struct BaseConfig {
+  double wheel_radius_m = 0.165;
+  double track_m = 0.60;  ///< between the centres of the left and right wheels
+  /// How much wider than `track_m` the base behaves when it turns, because wheels skid.
+  /// The estimate refines it while driving.
+  double yaw_slip_factor = 1.0;
+  FixedVector<AxisId, 8> left;
+  FixedVector<AxisId, 8> right;
+};
+
+struct LimitsConfig {
+  double max_speed_mps = 0.8;         ///< faster requests are clamped to this, and it is said
+  double min_speed_mps = 0.05;        ///< slower requests are refused: the base cannot hold them
+  double max_yaw_rate_radps = 0.8;
+  double acceleration_mps2 = 0.4;
+  double deceleration_mps2 = 0.8;     ///< controlled stop; an e-stop is immediate
+  double jerk_mps3 = 2.0;
+  double yaw_acceleration_radps2 = 1.5;
+};
+
+struct EstimateConfig {
+  // Antenna (reference point of the receiver's position) in base_link, REP 103: x ahead, y left.
+  double antenna_x_m = 0.0;
+  double antenna_y_m = 0.0;
+  double antenna_z_m = 0.0;
+  double gnss_latency_s = 0.08;          ///< already applied by the driver; kept for the README's table
+  double heading_baseline_offset_deg = 0.0;  ///< of the antenna line from ahead, clockwise
+  double heading_sigma_deg = 0.5;
+  double max_correction_age_s = 30.0;    ///< an older RTK fix counts as float
+  // The predicted error (two sigma, larger axis) inside which the position counts as good.
+  double bound_start_m = 0.10;
+  double bound_run_m = 0.30;
+  double bound_yaw_deg = 5.0;
+  double max_measurement_delay_s = 0.5;
+  double gate_sigma = 5.0;               ///< innovations beyond this are not believed
+  double jump_time_s = 1.0;              ///< believed again after disagreeing, consistently, this long
+};
+
+struct NavigateConfig {
+  double start_distance_m = 2.0;         ///< farther from the track: refused
+  double start_angle_deg = 30.0;         ///< worse turned: refused
+  double goal_tolerance_m = 0.10;
+  double lookahead_s = 1.0;
+  double min_lookahead_m = 0.35;
+  double lateral_acceleration_mps2 = 0.3;  ///< slows for curvature
+  double creep_speed_mps = 0.10;         ///< slowest speed while approaching the goal
+  double far_zone_speed_mps = 0.25;      ///< cap while the scanner's far zone is occupied
+  double corridor_m = 0.50;              ///< farther off the track while driving: the task fails
+  double resume_after_s = 1.0;           ///< of health, before a pause ends by itself
+  double obstacle_timeout_s = 120.0;     ///< a longer obstacle ends the task
+  double locate_timeout_s = 60.0;        ///< a longer loss of localisation ends the task
+  double start_timeout_s = 3.0;          ///< drives not running by then: start_nav_failse
+  double blocked_timeout_s = 2.0;        ///< commanded but not moving for so long: the task fails
+  double arrival_timeout_s = 20.0;       ///< creeping near the goal longer than this: the task fails
+};
+
+struct HealthConfig {
+  double drive_stale_s = 0.1;
+  double gnss_stale_s = 0.3;
+  double line_stale_s = 0.02;
+  double joint_command_stale_s = 0.1;
+  bool guard_required = true;
+};
+
+struct EngineConfig {
+  BaseConfig base;
+  LimitsConfig limits;
+  EstimateConfig estimate;
+  NavigateConfig navigate;
+  HealthConfig health;
+  FixedVector<Name, kMaxAxes> joints;              ///< names, by AxisId
+  std::array<bool, kLineCount> line_configured{};  ///< by Line
+  double tick_Hz = 200.0;
+};
+
+}  // namespace drover::engine

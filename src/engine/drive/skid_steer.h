@@ -1,0 +1,23 @@
+// Base twist to wheel speeds and back, for a skid-steer base.
+#pragma once
+
+#include <array>
+
+#include "engine/config.h"
+#include "engine/navigate/tracker.h"
+
+namespace drover::engine {
+
+/// Joint velocities (rad/s) of left and right wheels for a twist of base_link. When a wheel would be
+/// faster than `max_wheel_mps`, both are scaled so that the curvature stays.
+struct WheelSpeeds {
+  double left_radps = 0;
+  double right_radps = 0;
+};
+WheelSpeeds wheels_from_twist(const BaseConfig& base, double yaw_slip_factor, const Twist& twist,
+                              double max_wheel_mps);
+/// `left_mps`, `right_mps`: rim speeds.
+Twist twist_from_wheels(const BaseConfig& base, double yaw_slip_factor, double left_mps,
+                        double right_mps);
+
+}  // namespace drover::engine

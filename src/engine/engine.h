@@ -1,0 +1,48 @@
+// The engine: measurements and commands in, one snapshot, axis commands and events out.
+// Pure and deterministic: equal inputs give equal outputs, to the bit. No descriptor, clock or
+// allocation after construction. Stages, each a folder: health, estimate, navigate, drive, gate.
+#pragma once
+
+#include <array>
+
+#include "drover/command.h"
+#include "drover/driver.h"
+#include "drover/event.h"
+#include "drover/fixed_vector.h"
+#include "drover/snapshot.h"
+#include "engine/config.h"
+
+namespace drover::engine {
+
+/// What the runtime knows and the engine must not find out itself.
+struct Environment {
+  bool guard_alive = false;
+  bool guard_has_bus = false;  ///< the guard sends stop frames; ours are blocked until hand-back
+  /// Health of each drive, by AxisId, and of the receiver, as their drivers judge it.
+  std::array<SourceHealth, kMaxAxes> axes{};
+  SourceHealth gnss;
+  std::array<SourceHealth, kLineCount> lines{};
+  bool gnss_configured = true;
+};
+
+struct EngineOutput {
+  std::array<AxisCommand, kMaxAxes> axes{};
+  FixedVector<Event, 64> events;
+  /// True while any motion is permitted this cycle; the frame gate refuses motion frames otherwise.
+  bool motion_permitted = false;
+};
+
+class Engine final {
+ public:
+  explicit Engine(const EngineConfig& config);
+  ~Engine();
+
+  void on_measurement(const Measurement& measurement);
+  void on_command(const Command& command, Time now);
+  /// One control cycle. `out` is cleared first.
+  void step(Time now, const Environment& environment, EngineOutput& out);
+  /// The engine's part of the snapshot (links and cycle statistics are the runtime's).
+  const Snapshot& snapshot() const;
+};
+
+}  // namespace drover::engine
