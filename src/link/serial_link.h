@@ -1,0 +1,40 @@
+// An open serial line, raw and non-blocking.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include "link/opened.h"
+#include "link/unique_fd.h"
+
+namespace drover::link {
+
+struct SerialSettings {
+  std::string path;  ///< "/dev/drover/gnss"
+  int baud = 115200;
+};
+
+class SerialLink final {
+ public:
+  explicit SerialLink(UniqueFd fd) : fd_(std::move(fd)) {}
+
+  /// Reads what waits, at most `buffer`. `size` 0: nothing. False when the line hung up: close it at
+  /// once, otherwise the device comes back under another name.
+  [[nodiscard]] bool read(std::span<std::uint8_t> buffer, std::size_t& size);
+  /// Writes what the line takes; the rest is dropped. False when the line hung up.
+  [[nodiscard]] bool write(std::span<const std::uint8_t> bytes);
+
+  int fd() const { return fd_.get(); }
+  int error() const { return error_; }
+
+ private:
+  UniqueFd fd_;
+  int error_ = 0;
+};
+
+/// Raw before the first read (a fresh line echoes and would feed the receiver its own words),
+/// exclusive, without control of a modem's lines on close.
+Opened<SerialLink> open_serial(const SerialSettings& settings);
+
+}  // namespace drover::link
