@@ -1,0 +1,239 @@
+// drover-guard: stops the wheels when droverd dies or hangs.
+//
+// It gets descriptors and stop frames from droverd at start, then watches a counter in shared memory.
+// When the counter stands still longer than the limit, or the socket closes, it sends the stop frames
+// every 10 ms until a new droverd has taken over and asks for the bus. It opens no device, knows no
+// protocol and shares no code path with what it watches.
+#include <fcntl.h>
+#include <sched.h>
+#include <signal.h>
+#include <sys/epoll.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <sys/timerfd.h>
+#include <sys/un.h>
+#include <systemd/sd-daemon.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <ctime>
+
+#include "guard/stop_set.h"
+#include "guard/watch.h"
+
+namespace {
+
+using drover::Duration;
+using drover::GuardMessage;
+using drover::GuardShared;
+using drover::GuardVerb;
+using drover::Time;
+
+constexpr long kCycle_ns = 10'000'000;
+constexpr const char* kDefaultSocket = "/run/drover/guard.sock";
+
+Time now() {
+  timespec t{};
+  ::clock_gettime(CLOCK_MONOTONIC, &t);
+  return Time{std::chrono::seconds(t.tv_sec) + Duration(t.tv_nsec)};
+}
+
+int listen_at(const char* path) {
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  if (std::strlen(path) >= sizeof address.sun_path) return -1;
+  std::strcpy(address.sun_path, path);
+  const int fd = ::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+  ::unlink(path);
+  if (::bind(fd, reinterpret_cast<sockaddr*>(&address), sizeof address) != 0) return -1;
+  ::chmod(path, 0660);
+  return ::listen(fd, 4) == 0 ? fd : -1;
+}
+
+int make_timer() {
+  const int fd = ::timerfd_create(CLOCK_MONOTONIC, TFD_CLOEXEC | TFD_NONBLOCK);
+  const itimerspec cycle{{0, kCycle_ns}, {0, kCycle_ns}};
+  ::timerfd_settime(fd, 0, &cycle, nullptr);
+  return fd;
+}
+
+class Guard final {
+ public:
+  explicit Guard(int listener) : listener_(listener), timer_(make_timer()) {
+    epoll_ = ::epoll_create1(EPOLL_CLOEXEC);
+    add(listener_);
+    add(timer_);
+  }
+
+  void run() {
+    for (;;) {
+      epoll_event event{};
+      if (::epoll_wait(epoll_, &event, 1, -1) != 1) continue;
+      if (event.data.fd == timer_) cycle();
+      if (event.data.fd == listener_) accept_daemon();
+      if (event.data.fd == daemon_) receive();
+    }
+  }
+
+ private:
+  void add(int fd) {
+    epoll_event event{};
+    event.events = EPOLLIN;
+    event.data.fd = fd;
+    ::epoll_ctl(epoll_, EPOLL_CTL_ADD, fd, &event);
+  }
+
+  void cycle() {
+    std::uint64_t expirations = 0;
+    (void)!::read(timer_, &expirations, sizeof expirations);
+    const auto t = now();
+    const bool was_holding = holding_;
+    holding_ = watch_.step(beats(), t);
+    if (holding_) {
+      if (!was_holding) {
+        std::fprintf(stderr,
+                     "drover-guard: droverd's heartbeat is %.0f ms old: stopping the drives "
+                     "(%zu frames each 10 ms)\n",
+                     drover::to_s(watch_.age(t)) * 1e3, set_.size());
+      }
+      set_.send();
+    }
+    if (shared_ != nullptr) {
+      shared_->guard_beats.fetch_add(1, std::memory_order_relaxed);
+      shared_->guard_holds.store(holding_ ? 1 : 0, std::memory_order_release);
+    }
+    if (++cycles_ % 20 == 0) ::sd_notify(0, "WATCHDOG=1");
+  }
+
+  std::uint64_t beats() const {
+    return shared_ == nullptr ? 0 : shared_->daemon_beats.load(std::memory_order_acquire);
+  }
+
+  void accept_daemon() {
+    const int fd = ::accept4(listener_, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
+    if (fd < 0) return;
+    if (daemon_ >= 0) {  // one daemon at a time; the first keeps the guard
+      ::close(fd);
+      return;
+    }
+    daemon_ = fd;
+    add(daemon_);
+  }
+
+  void receive() {
+    GuardMessage message;
+    iovec vector{&message, sizeof message};
+    alignas(cmsghdr) std::array<char, CMSG_SPACE(sizeof(int))> control{};
+    msghdr header{};
+    header.msg_iov = &vector;
+    header.msg_iovlen = 1;
+    header.msg_control = control.data();
+    header.msg_controllen = control.size();
+    const auto n = ::recvmsg(daemon_, &header, MSG_CMSG_CLOEXEC);
+    if (n < 0 && (errno == EAGAIN || errno == EINTR)) return;
+    int fd = -1;
+    if (n > 0)
+      if (const auto* c = CMSG_FIRSTHDR(&header); c != nullptr && c->cmsg_type == SCM_RIGHTS)
+        std::memcpy(&fd, CMSG_DATA(c), sizeof fd);
+    if (n != sizeof message || message.version != drover::kGuardVersion || !obey(message, fd)) {
+      if (fd >= 0) ::close(fd);
+      if (n > 0) std::fprintf(stderr, "drover-guard: a message was not understood\n");
+      drop_daemon();
+    }
+  }
+
+  void drop_daemon() {
+    ::close(daemon_);
+    daemon_ = -1;
+    if (set_.size() > 0) std::fprintf(stderr, "drover-guard: droverd is gone\n");
+    watch_.lost();
+    cycle();  // do not wait for the timer
+  }
+
+  /// Takes `fd` when it returns true.
+  bool obey(const GuardMessage& message, int fd) {
+    switch (message.verb) {
+      case GuardVerb::hello:
+        next_.clear();
+        limit_ = std::chrono::milliseconds(message.limit_ms);
+        return map_shared(fd);
+      case GuardVerb::descriptor:
+        return fd >= 0 && next_.set_descriptor(message.descriptor, fd);
+      case GuardVerb::stop_frame:
+        return fd < 0 && next_.add(message);
+      case GuardVerb::watch:
+        set_.swap(next_);
+        next_.clear();
+        watch_.begin(beats(), limit_, now());
+        return fd < 0;
+      case GuardVerb::hand_back:
+        watch_.hand_back(now());
+        return fd < 0;
+    }
+    return false;
+  }
+
+  bool map_shared(int fd) {
+    if (fd < 0) return false;
+    // A file that shrinks under a mapping would kill us with SIGBUS: only a sealed one is believed.
+    const int seals = ::fcntl(fd, F_GET_SEALS);
+    struct stat info {};
+    if (seals < 0 || (seals & F_SEAL_SHRINK) == 0 || ::fstat(fd, &info) != 0 ||
+        info.st_size < static_cast<off_t>(sizeof(GuardShared)))
+      return false;
+    void* memory =
+        ::mmap(nullptr, sizeof(GuardShared), PROT_READ | PROT_WRITE, MAP_SHARED, fd, 0);
+    if (memory == MAP_FAILED) return false;
+    if (shared_ != nullptr) ::munmap(shared_, sizeof(GuardShared));
+    shared_ = static_cast<GuardShared*>(memory);
+    ::close(fd);
+    return true;
+  }
+
+  int listener_;
+  int timer_;
+  int epoll_ = -1;
+  int daemon_ = -1;
+  GuardShared* shared_ = nullptr;
+  drover::guard::StopSet set_;
+  drover::guard::StopSet next_;
+  drover::guard::Watch watch_;
+  Duration limit_ = std::chrono::milliseconds(50);
+  bool holding_ = false;
+  std::uint64_t cycles_ = 0;
+};
+
+void become_real_time() {
+  sched_param priority{};
+  priority.sched_priority = 70;  // above droverd's control thread: it must run when that one spins
+  if (::sched_setscheduler(0, SCHED_FIFO, &priority) != 0)
+    std::fprintf(stderr, "drover-guard: no real-time priority (%s)\n", std::strerror(errno));
+  ::mlockall(MCL_CURRENT | MCL_FUTURE);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const char* path = kDefaultSocket;
+  if (argc == 3 && std::strcmp(argv[1], "--socket") == 0) {
+    path = argv[2];
+  } else if (argc != 1) {
+    const bool asked = argc == 2 && std::strcmp(argv[1], "--help") == 0;
+    std::fprintf(asked ? stdout : stderr,
+                 "drover-guard [--socket PATH]   (default %s)\n"
+                 "Stops the drives with the frames droverd gave it when droverd dies or hangs.\n",
+                 kDefaultSocket);
+    return asked ? 0 : 2;
+  }
+  ::signal(SIGPIPE, SIG_IGN);
+  const int listener = listen_at(path);
+  if (listener < 0) {
+    std::fprintf(stderr, "drover-guard: cannot listen at %s: %s\n", path, std::strerror(errno));
+    return 2;
+  }
+  become_real_time();
+  ::sd_notify(0, "READY=1");
+  static Guard guard(listener);
+  guard.run();
+}

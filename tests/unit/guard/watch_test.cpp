@@ -1,0 +1,60 @@
+#include "guard/watch.h"
+
+#include <gtest/gtest.h>
+
+namespace drover::guard {
+
+namespace {
+using namespace std::chrono_literals;
+constexpr Time kStart{std::chrono::seconds(100)};
+}  // namespace
+
+TEST(GuardWatch, SendsNothingBeforeASetIsInForce) {
+  Watch watch;
+  watch.lost();
+  EXPECT_FALSE(watch.step(0, kStart));
+  EXPECT_FALSE(watch.step(0, kStart + 10s));
+}
+
+TEST(GuardWatch, TakesTheBusWhenTheHeartbeatIsLate) {
+  Watch watch;
+  watch.begin(7, 50ms, kStart);
+  EXPECT_FALSE(watch.step(8, kStart + 5ms));
+  EXPECT_FALSE(watch.step(8, kStart + 55ms));
+  EXPECT_TRUE(watch.step(8, kStart + 56ms));
+}
+
+TEST(GuardWatch, TakesTheBusAtOnceWhenTheDaemonDies) {
+  Watch watch;
+  watch.begin(7, 50ms, kStart);
+  watch.lost();
+  EXPECT_TRUE(watch.step(7, kStart + 1ms));
+}
+
+TEST(GuardWatch, KeepsTheBusWhenTheHeartbeatComesBackUntilItIsAskedForIt) {
+  Watch watch;
+  watch.begin(7, 50ms, kStart);
+  EXPECT_TRUE(watch.step(7, kStart + 60ms));
+  EXPECT_TRUE(watch.step(8, kStart + 65ms));
+  watch.hand_back(kStart + 70ms);
+  EXPECT_FALSE(watch.step(9, kStart + 75ms));
+}
+
+TEST(GuardWatch, DoesNotHandBackToADaemonWhoseHeartbeatIsLate) {
+  Watch watch;
+  watch.begin(7, 50ms, kStart);
+  EXPECT_TRUE(watch.step(7, kStart + 60ms));
+  watch.hand_back(kStart + 70ms);
+  EXPECT_TRUE(watch.step(7, kStart + 75ms));
+}
+
+TEST(GuardWatch, ANewDaemonDoesNotEndTheHoldByConnecting) {
+  Watch watch;
+  watch.begin(7, 50ms, kStart);
+  watch.lost();
+  EXPECT_TRUE(watch.step(7, kStart + 1ms));
+  watch.begin(0, 50ms, kStart + 1s);
+  EXPECT_TRUE(watch.step(1, kStart + 1s + 5ms));
+}
+
+}  // namespace drover::guard
