@@ -56,9 +56,10 @@ struct AxisCommand {
 
 /// What a frame does to the machine, for the gate.
 enum class FrameEffect : std::uint8_t {
-  harmless,  ///< reads, configuration the driver may set, arming with a zero set point
-  stop,      ///< brings or keeps the axis at rest
-  motion,    ///< may move the axis
+  harmless,   ///< reads, configuration the driver may set, arming with a zero set point
+  stop,       ///< brings or keeps the axis at rest
+  motion,     ///< may move the axis
+  forbidden,  ///< must never leave, whatever asks: another state, a new node id, a save to flash
 };
 
 /// One frame that may leave: anything that matches no rule is refused by the gate.

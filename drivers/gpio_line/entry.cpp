@@ -1,0 +1,81 @@
+// Options of a digital input and its line in the registry.
+#include "drivers/gpio_line/entry.h"
+
+#include <memory>
+#include <stdexcept>
+
+#include "drivers/gpio_line/driver.h"
+
+namespace drover {
+namespace gpio_line {
+namespace {
+
+constexpr std::string_view kLevels[] = {"low", "high"};
+
+const OptionSpec kOptions[] = {
+    {.name = "active_level",
+     .default_value = std::string("low"),
+     .choices = kLevels,
+     .text = "level that means stop, touched or occupied; low, because a normally closed contact "
+             "that feeds the line high reads low when it opens and when its wire breaks"},
+    {.name = "active_debounce_s",
+     .default_value = 0.0,
+     .min = 0.0,
+     .max = 1.0,
+     .text = "active for so long before it counts (s); 0 for an emergency stop, always; a scanner "
+             "whose outputs carry test pulses needs a little more than a pulse"},
+    {.name = "release_debounce_s",
+     .default_value = 0.2,
+     .min = 0.0,
+     .max = 10.0,
+     .text = "inactive without a break for so long before it is released (s); contacts bounce for "
+             "some 20 ms, and nobody is in a hurry to be moved"},
+    {.name = "stale_s",
+     .default_value = 0.02,
+     .min = 0.001,
+     .max = 1.0,
+     .text = "without a reading for longer it counts as active (s); four control cycles"},
+};
+
+std::unique_ptr<LineDriver> make(const Options& options, Line line) {
+  return std::make_unique<GpioLineDriver>(read_settings(options, line));
+}
+
+}  // namespace
+
+std::span<const OptionSpec> option_table() { return kOptions; }
+
+Settings read_settings(const Options& options, Line line) {
+  Settings settings;
+  settings.line = line;
+  const std::string& level = options.text("active_level");
+  if (level != "low" && level != "high")
+    throw std::runtime_error("active_level must be \"low\" or \"high\"");
+  settings.active_high = level == "high";
+  const auto seconds = [&](std::string_view name, double at_least_s) {
+    const double value_s = options.number(name);
+    if (!(value_s >= at_least_s && value_s <= 10.0))
+      throw std::runtime_error(std::string(name) + " is out of range");
+    return from_s(value_s);
+  };
+  settings.active_debounce = seconds("active_debounce_s", 0.0);
+  settings.release_debounce = seconds("release_debounce_s", 0.0);
+  settings.stale_after = seconds("stale_s", 0.001);
+  if (line == Line::estop && settings.active_debounce != Duration{})
+    throw std::runtime_error("active_debounce_s must be 0: an emergency stop counts at once");
+  return settings;
+}
+
+}  // namespace gpio_line
+
+const DriverEntry kGpioLineEntry = {
+    .name = "gpio_line",
+    .folder = "gpio_line",
+    .options = gpio_line::kOptions,
+    .make = gpio_line::make,
+    .twin_options = {},
+    .make_twin = {},
+    .summary = "digital input: emergency stop, bumper, zones of a safety scanner",
+};
+
+}  // namespace drover

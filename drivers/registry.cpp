@@ -1,0 +1,24 @@
+// The one table of drivers: an include and a line each.
+#include "drover/registry.h"
+
+#include <array>
+
+#include "drivers/gpio_line/entry.h"
+
+namespace drover {
+
+std::span<const DriverEntry> driver_registry() {
+  // Filled at the first call: the entries live in other files, whose order of start is not ours.
+  static const std::array kTable{
+      kGpioLineEntry,
+  };
+  return kTable;
+}
+
+const DriverEntry* find_driver(std::string_view name) {
+  for (const DriverEntry& entry : driver_registry())
+    if (entry.name == name) return &entry;
+  return nullptr;
+}
+
+}  // namespace drover
