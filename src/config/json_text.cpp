@@ -1,0 +1,124 @@
+// Writes JSON text: commas, escapes and numbers that read back to the same bits.
+#include "config/json_text.h"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+
+namespace drover::json {
+namespace {
+
+/// Length of the valid UTF-8 character at the front, 0 when it is none (RFC 3629: shortest form,
+/// no surrogates, nothing above U+10FFFF).
+std::size_t utf8_length(std::string_view text) {
+  const auto byte = [&](std::size_t i) {
+    return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U;
+  };
+  const auto follows = [&](std::size_t i) { return (byte(i) & 0xC0U) == 0x80U; };
+  const unsigned first = byte(0);
+  if (first < 0x80) return 1;
+  if (first >= 0xC2 && first <= 0xDF) return follows(1) ? 2 : 0;
+  if (first >= 0xE0 && first <= 0xEF) {
+    if (!follows(1) || !follows(2)) return 0;
+    if (first == 0xE0 && byte(1) < 0xA0) return 0;
+    if (first == 0xED && byte(1) > 0x9F) return 0;
+    return 3;
+  }
+  if (first >= 0xF0 && first <= 0xF4) {
+    if (!follows(1) || !follows(2) || !follows(3)) return 0;
+    if (first == 0xF0 && byte(1) < 0x90) return 0;
+    if (first == 0xF4 && byte(1) > 0x8F) return 0;
+    return 4;
+  }
+  return 0;
+}
+
+void append_control(std::string& out, unsigned char c) {
+  constexpr std::string_view kHex = "0123456789abcdef";
+  out += "\\u00";
+  out += kHex[c >> 4U];
+  out += kHex[c & 0xFU];
+}
+
+}  // namespace
+
+void JsonText::separate() {
+  if (comma_) out_ += ',';
+  comma_ = true;
+}
+
+JsonText& JsonText::open(char bracket) {
+  separate();
+  out_ += bracket;
+  comma_ = false;
+  return *this;
+}
+
+JsonText& JsonText::close(char bracket) {
+  out_ += bracket;
+  comma_ = true;
+  return *this;
+}
+
+JsonText& JsonText::key(std::string_view name) {
+  text(name);
+  out_ += ':';
+  comma_ = false;
+  return *this;
+}
+
+JsonText& JsonText::text(std::string_view value) {
+  separate();
+  out_ += '"';
+  while (!value.empty()) {
+    const auto c = static_cast<unsigned char>(value.front());
+    const std::size_t length = utf8_length(value);
+    if (c == '"' || c == '\\') {
+      out_ += '\\';
+      out_ += value.front();
+    } else if (c < 0x20 || c == 0x7F) {
+      append_control(out_, c);
+    } else if (length == 0) {
+      out_ += "\xEF\xBF\xBD";
+    } else {
+      out_ += value.substr(0, length);
+    }
+    value.remove_prefix(length == 0 ? 1 : length);
+  }
+  out_ += '"';
+  return *this;
+}
+
+JsonText& JsonText::boolean(bool value) {
+  separate();
+  out_ += value ? "true" : "false";
+  return *this;
+}
+
+JsonText& JsonText::integer(std::int64_t value) {
+  separate();
+  out_ += std::to_string(value);
+  return *this;
+}
+
+JsonText& JsonText::number(double value) {
+  separate();
+  std::array<char, 40> digits{};
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(),
+                                 std::isfinite(value) ? value : 0.0);
+  out_.append(digits.data(), end.ptr);
+  return *this;
+}
+
+JsonText& JsonText::null() {
+  separate();
+  out_ += "null";
+  return *this;
+}
+
+JsonText& JsonText::newline() {
+  out_ += '\n';
+  return *this;
+}
+
+}  // namespace drover::json
