@@ -1,0 +1,114 @@
+// Two framings of Ethernet, and the passt process.
+#include "net_relay.h"
+
+#include <arpa/inet.h>
+#include <netinet/in.h>
+#include <signal.h>
+#include <sys/prctl.h>
+#include <sys/uio.h>
+#include <sys/wait.h>
+
+#include <array>
+#include <cstdint>
+
+namespace drover::lab {
+namespace {
+
+constexpr std::size_t kFrameMax = 65535;
+
+int free_port() {
+  Fd fd(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  socklen_t size = sizeof address;
+  if (::bind(fd.get(), reinterpret_cast<sockaddr*>(&address), size) != 0) fail("bind");
+  if (::getsockname(fd.get(), reinterpret_cast<sockaddr*>(&address), &size) != 0) {
+    fail("getsockname");
+  }
+  return ntohs(address.sin_port);
+}
+
+}  // namespace
+
+NetRelay::NetRelay(Fd kernel, int port, const std::string& log_path)
+    : kernel_(std::move(kernel)), port_(port > 0 ? port : free_port()) {
+  auto [ours, theirs] = make_socket_pair(SOCK_STREAM);
+  const std::string forward = "127.0.0.1/" + std::to_string(port_) + ":1883";
+  const std::string fd_text = std::to_string(theirs.get());
+  const int log = ::open(log_path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
+  pid_ = ::fork();
+  if (pid_ < 0) fail("fork");
+  if (pid_ == 0) {
+    ::setpgid(0, 0);
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+    sigset_t none;
+    sigemptyset(&none);
+    ::sigprocmask(SIG_SETMASK, &none, nullptr);
+    ::fcntl(theirs.get(), F_SETFD, 0);
+    ::dup2(log, 1);
+    ::dup2(log, 2);
+    ::execlp("passt", "passt", "-f", "-1", "-F", fd_text.c_str(), "-t", forward.c_str(), "-u",
+             "none", "-4", "-a", "10.0.2.15", "-n", "24", "-g", "10.0.2.2", "--no-map-gw",
+             static_cast<char*>(nullptr));
+    ::_exit(127);
+  }
+  ::close(log);
+  passt_ = std::move(ours);
+}
+
+NetRelay::~NetRelay() {
+  passt_.reset();
+  ::kill(pid_, SIGKILL);
+  ::waitpid(pid_, nullptr, 0);
+}
+
+void NetRelay::from_kernel() {
+  std::array<char, kFrameMax> frame;
+  const ssize_t n = ::recv(kernel_.get(), frame.data(), frame.size(), MSG_DONTWAIT);
+  if (n <= 0 || !passt_.open()) return;
+  std::uint32_t length = htonl(static_cast<std::uint32_t>(n));
+  std::array<iovec, 2> parts{{{&length, sizeof length},
+                              {frame.data(), static_cast<std::size_t>(n)}}};
+  msghdr message{};
+  message.msg_iov = parts.data();
+  message.msg_iovlen = parts.size();
+  std::size_t left = sizeof length + static_cast<std::size_t>(n);
+  // A stream must not lose half a frame, so this waits; passt always reads.
+  while (left > 0) {
+    const ssize_t sent = ::sendmsg(passt_.get(), &message, MSG_NOSIGNAL);
+    if (sent < 0 && errno == EINTR) continue;
+    if (sent < 0) return passt_.reset();
+    left -= static_cast<std::size_t>(sent);
+    std::size_t skip = static_cast<std::size_t>(sent);
+    for (auto& part : parts) {
+      const std::size_t used = skip < part.iov_len ? skip : part.iov_len;
+      part.iov_base = static_cast<char*>(part.iov_base) + used;
+      part.iov_len -= used;
+      skip -= used;
+    }
+  }
+}
+
+void NetRelay::from_passt() {
+  std::array<char, kFrameMax> buffer;
+  const ssize_t n = ::recv(passt_.get(), buffer.data(), buffer.size(), MSG_DONTWAIT);
+  if (n < 0 && (errno == EAGAIN || errno == EINTR)) return;
+  if (n <= 0) return passt_.reset();
+  stream_.append(buffer.data(), static_cast<std::size_t>(n));
+  std::size_t at = 0;
+  while (stream_.size() - at >= sizeof(std::uint32_t)) {
+    std::uint32_t length = 0;
+    std::memcpy(&length, stream_.data() + at, sizeof length);
+    length = ntohl(length);
+    if (length > kFrameMax) return passt_.reset();
+    if (stream_.size() - at - sizeof length < length) break;
+    // A full queue drops the frame, as any wire may; TCP repairs it.
+    (void)::send(kernel_.get(), stream_.data() + at + sizeof length, length,
+                 MSG_DONTWAIT | MSG_NOSIGNAL);
+    at += sizeof length + length;
+  }
+  stream_.erase(0, at);
+}
+
+}  // namespace drover::lab

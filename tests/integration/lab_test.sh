@@ -1,0 +1,249 @@
+#!/bin/bash
+# The lab keeps its promises: status, output, clock, links, repeatability, and no traces.
+# Prints one line per sentence; exit status 1 when any failed, 3 when the lab cannot run here.
+set -uo pipefail
+
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
+lab=$root/sim/lab
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+failed=0
+
+# check SENTENCE COMMAND...: the command's status says whether the sentence is true.
+check() {
+  local sentence=$1
+  shift
+  if "$@" > "$work/check.out" 2>&1; then
+    echo "ok - $sentence"
+  else
+    echo "not ok - $sentence"
+    sed 's/^/  # /' "$work/check.out"
+    failed=1
+  fi
+}
+
+equal() {
+  [[ $1 == "$2" ]] && return 0
+  printf 'got:  %q\nwant: %q\n' "$1" "$2"
+  return 1
+}
+
+status_of() {
+  "$@" > /dev/null 2> "$work/stderr"
+  echo $?
+}
+
+refuses_wrong_usage() {
+  equal "$(status_of "$lab")" 2 &&
+    equal "$(status_of "$lab" --no-such-option -- true)" 2 &&
+    equal "$(status_of "$lab" --seed x -- true)" 2 &&
+    equal "$(status_of "$lab" --host-port 0 -- true)" 2 &&
+    equal "$(status_of "$lab" --can ethernet -- true)" 2
+}
+
+refuses_a_missing_command() { equal "$(status_of "$lab" -- /no/such/program)" 127; }
+
+reports_a_dead_kernel() {
+  # Process 1 cannot survive the removal of its own memory.
+  equal "$(status_of "$lab" --memory 4M -- true)" 125 && grep -q 'ended without a status' "$work/stderr"
+}
+
+ends_at_the_timeout() {
+  local before=$SECONDS
+  equal "$(status_of "$lab" --real-time --timeout 2 -- sleep 600)" 124 &&
+    [[ $((SECONDS - before)) -lt 60 ]] && grep -q 'timeout' "$work/stderr"
+}
+
+carries_the_exit_status() {
+  equal "$(status_of "$lab" -- true)" 0 &&
+    equal "$(status_of "$lab" -- sh -c 'exit 7')" 7 &&
+    equal "$(status_of "$lab" -- sh -c 'kill -KILL $$')" 137
+}
+
+carries_output_exactly() {
+  local script='printf "a\nb\r\n\tc\001\377"; printf "to stderr\n" >&2'
+  "$lab" -- sh -c "$script" > "$work/out" 2> "$work/err"
+  sh -c "$script" > "$work/want_out" 2> "$work/want_err"
+  cmp "$work/out" "$work/want_out" && cmp "$work/err" "$work/want_err"
+}
+
+carries_much_output() {
+  local script='seq 300000'
+  equal "$("$lab" -- sh -c "$script" | sha256sum)" "$(sh -c "$script" | sha256sum)"
+}
+
+keeps_a_shared_stream_in_order() {
+  local script='for i in 1 2 3; do echo out$i; echo err$i >&2; done'
+  equal "$("$lab" -- sh -c "$script" 2>&1)" "$(sh -c "$script" 2>&1)"
+}
+
+is_a_terminal_only_on_a_terminal() {
+  equal "$("$lab" -- sh -c '[ -t 1 ] && echo yes || echo no')" no &&
+    equal "$(script -qec "'$lab' -- sh -c '[ -t 1 ] && echo yes'" /dev/null < /dev/null |
+      tr -d '\r')" yes
+}
+
+ends_with_its_command_though_children_stay() {
+  equal "$("$lab" --timeout 60 -- sh -c 'sleep 1000000000 & echo ended')" ended
+}
+
+exports_the_seed() {
+  # shellcheck disable=SC2016
+  equal "$("$lab" --seed 42 -- sh -c 'echo $DROVER_SEED')" 42 &&
+    equal "$("$lab" -- sh -c 'echo $DROVER_SEED')" 1
+}
+
+runs_in_the_callers_folder() {
+  mkdir -p "$work/folder" && echo here > "$work/folder/file" &&
+    equal "$(cd "$work/folder" && "$lab" -- cat file)" here
+}
+
+cannot_write_to_the_host() {
+  "$lab" -- sh -c "touch '$work/folder/written' '$root/written'" > /dev/null 2>&1
+  [[ ! -e $work/folder/written && ! -e $root/written ]]
+}
+
+sleeps_in_virtual_time() {
+  local wall_before=$SECONDS out
+  out=$("$lab" -- sh -c 'a=$(date +%s%N); sleep 3600; b=$(date +%s%N); echo $((b - a)) $a')
+  read -r slept_ns start_ns <<< "$out"
+  # Starting a process moves the clock by no more than a few timer ticks.
+  [[ $slept_ns -ge 3600000000000 && $slept_ns -lt 3600100000000 ]] &&
+    equal "${start_ns:0:9}" 176722560 && [[ $((SECONDS - wall_before)) -lt 60 ]]
+}
+
+passes_can_frames() {
+  equal "$("$lab" -- sh -c 'candump -n 2 can0 & p=$!; sleep 0.1
+      cansend can0 123#11223344; cansend can0 1F334455#; wait $p')" \
+    $'  can0       123   [4]  11 22 33 44\n  can0  1F334455   [0] '
+}
+
+passes_can_fd_frames() {
+  "$lab" --can canfd -- sh -c 'candump -n 1 can1 & p=$!; sleep 0.1
+    cansend can1 123##100112233445566778899AABB; wait $p' > "$work/fd"
+  grep -q '\[12\]  00 11 22 33 44 55 66 77 88 99 AA BB' "$work/fd"
+}
+
+makes_no_can_when_told() {
+  equal "$("$lab" --can none -- sh -c 'ls /sys/class/net | grep -c can')" 0
+}
+
+shows_gpio_edges() {
+  # shellcheck disable=SC2016
+  "$lab" -- sh -c 'gpiomon -n 2 -F "%o %e %s.%n" $(gpiofind estop) > /tmp/edges & p=$!; sleep 0.1
+    cd "$DROVER_GPIO/sim_gpio0"; echo pull-up > pull; sleep 0.01; echo pull-down > pull
+    wait $p; cat /tmp/edges; gpioget $(gpiofind bumper)
+    gpioset -m time -u 1000 $(gpiofind lamp)=1 & sleep 0.001; cat ../sim_gpio5/value' > "$work/g"
+  sed 's/ [0-9.]*$//' "$work/g" | tr '\n' ',' > "$work/edges"
+  equal "$(< "$work/edges")" '0 1,0 0,0,1,'
+}
+
+traffic='candump -ta -n 300 can0,can1 > $DROVER_LOGS/can.log & p=$!; sleep 0.1
+  cangen can0 -g 3 -I i -D i -L 8 -n 200 & cangen can1 -g 7.5 -I 7 -D i -L 4 -n 100 & wait $p
+  date +%s.%N; cat /proc/uptime'
+
+repeats_itself_to_the_byte() {
+  mkdir -p "$work/1" "$work/2"
+  "$lab" --keep-logs "$work/1" -- sh -c "$traffic" > "$work/1/out"
+  "$lab" --keep-logs "$work/2" -- sh -c "$traffic" > "$work/2/out"
+  [[ $(wc -l < "$work/1/can.log") == 300 ]] && cmp "$work/1/can.log" "$work/2/can.log" &&
+    cmp "$work/1/out" "$work/2/out"
+}
+
+keeps_logs() {
+  # shellcheck disable=SC2016
+  "$lab" --keep-logs "$work/logs dir" -- sh -c 'mkdir $DROVER_LOGS/a; seq 100000 > $DROVER_LOGS/a/b'
+  seq 100000 | cmp - "$work/logs dir/a/b" && grep -q 'Linux version' "$work/logs dir/kernel.log"
+}
+
+traces() {
+  find "/tmp/drover-lab-$EUID" -mindepth 1 -maxdepth 1 -type d 2> /dev/null | sort
+  find /dev/shm -name 'vm_file*' | sort
+}
+
+# The number of kernels that this test's labs could have left: all of them carry its marker.
+leaves_nothing() {
+  local before after
+  before=$(traces)
+  "$lab" -- true
+  "$lab" --real-time --timeout 1 -- sleep 600 2> /dev/null
+  "$lab" --real-time -- sleep 601 & local running=$!
+  sleep 2
+  kill -INT "$running"
+  wait "$running"
+  equal $? 130 || return 1
+  "$lab" --real-time -- sleep 602 & running=$!
+  sleep 2
+  kill -KILL "$running"
+  wait "$running" 2> /dev/null
+  "$lab" -- true  # sweeps what the killed one could not remove
+  after=$(traces)
+  equal "$after" "$before" || return 1
+  ! pgrep -f "init=/tmp/drover-lab-$EUID/$running/"
+}
+
+ends_when_its_reader_leaves() {
+  equal "$("$lab" --timeout 60 -- sh -c 'while :; do echo line; done' | head -n 1)" line
+}
+
+reaches_a_broker_inside() {
+  command -v passt mosquitto mosquitto_pub mosquitto_sub > /dev/null || { echo missing; return 1; }
+  printf 'listener 1883\nallow_anonymous true\n' > "$work/mosquitto.conf"
+  "$lab" --real-time --host-port 0 --timeout 30 --keep-logs "$work/net" -- sh -c \
+    "mosquitto -c '$work/mosquitto.conf' & while :; do sleep 0.2
+     mosquitto_pub -i p -t greeting -m hello; done" > /dev/null 2>&1 &
+  local running=$! heard=''
+  for _ in {1..40}; do
+    [[ ! -s $work/net/host-port ]] ||
+      heard=$(mosquitto_sub -i s -W 2 -C 1 -p "$(< "$work/net/host-port")" -t greeting) && break
+    sleep 0.25
+  done
+  kill "$running"
+  wait "$running"
+  equal "$heard" hello
+}
+
+lets_a_visitor_in() {
+  "$lab" --real-time --shell-socket --timeout 30 -- sleep 25 > /dev/null 2> "$work/visit.err" &
+  local running=$!
+  sleep 2
+  "$lab" list | grep -q "^$running  real time.*second console: sleep 25" || return 1
+  printf 'echo in""side $((6*7)); cat /proc/1/comm; exit\r' > "$work/keys"
+  # The keys come after the prompt, as a person's would.
+  { sleep 3; cat "$work/keys"; sleep 3; } |
+    script -qec "'$lab' enter $running" /dev/null > "$work/visit"
+  kill "$running"
+  wait "$running"
+  grep -q 'inside 42' "$work/visit" && grep -q '^init' "$work/visit"
+}
+
+status=$(status_of "$lab" --build)
+if [[ $status == 3 ]]; then
+  cat "$work/stderr"
+  exit 3
+fi
+check "refuses wrong usage" refuses_wrong_usage
+check "refuses a missing command" refuses_a_missing_command
+check "reports a kernel that died" reports_a_dead_kernel
+check "ends at the timeout" ends_at_the_timeout
+check "carries the exit status" carries_the_exit_status
+check "carries output exactly" carries_output_exactly
+check "carries much output" carries_much_output
+check "keeps a shared stream in order" keeps_a_shared_stream_in_order
+check "is a terminal only on a terminal" is_a_terminal_only_on_a_terminal
+check "ends with its command though children stay" ends_with_its_command_though_children_stay
+check "ends when its reader leaves" ends_when_its_reader_leaves
+check "exports the seed" exports_the_seed
+check "runs in the caller's folder" runs_in_the_callers_folder
+check "cannot write to the host" cannot_write_to_the_host
+check "sleeps in virtual time" sleeps_in_virtual_time
+check "passes CAN frames" passes_can_frames
+check "passes CAN FD frames" passes_can_fd_frames
+check "makes no CAN when told" makes_no_can_when_told
+check "shows GPIO edges" shows_gpio_edges
+check "repeats itself to the byte" repeats_itself_to_the_byte
+check "keeps logs" keeps_logs
+check "reaches a broker inside from the host" reaches_a_broker_inside
+check "lets a visitor in" lets_a_visitor_in
+check "leaves nothing behind" leaves_nothing
+exit $failed
