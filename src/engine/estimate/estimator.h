@@ -4,10 +4,14 @@
 // goes in where it belongs and what came after is applied again. Fixed size, no allocation.
 #pragma once
 
+#include <cstdint>
+
 #include "drover/measurement.h"
 #include "drover/path.h"
 #include "drover/snapshot.h"
 #include "engine/config.h"
+#include "engine/estimate/history.h"
+#include "engine/estimate/local_frame.h"
 
 namespace drover::engine {
 
@@ -24,26 +28,59 @@ struct Estimate {
   bool disagrees = false;       ///< GNSS and odometry contradict each other beyond the gate
 };
 
+/// Measurements that did not get into the estimate, since the start.
+struct EstimatorCounters {
+  std::uint64_t absurd = 0;    ///< not finite, or nothing a robot or receiver can mean
+  std::uint64_t late = 0;      ///< older than max_measurement_delay_s
+  std::uint64_t repeated = 0;  ///< a second one of the same kind and instant
+  std::uint64_t refused = 0;   ///< by the innovation gates
+  std::uint64_t broken = 0;    ///< times the filter lost its numbers and began anew
+};
+
 class Estimator final {
  public:
   Estimator(const EstimateConfig& config, const BaseConfig& base);
 
-  /// Takes an origin; the state is forgotten and found again from the next measurements.
+  /// Takes an origin; the state is forgotten and found again from the next measurements. Only the
+  /// yaw gain and the wheel scale, which no origin changes, are kept.
   void set_origin(const GeodeticPoint& origin);
   bool has_origin() const;
   const GeodeticPoint& origin() const;
-  /// Position of the antenna for a pose of base_link, degrees (for rtk.latitude/longitude).
+  /// Position of the antenna for a pose of base_link, degrees (for rtk.latitude/longitude). The
+  /// altitude is the last received one. NaN without an origin.
   GeodeticPoint antenna_geodetic(const Pose& pose) const;
-  /// base_link position in the map frame of a geodetic point (for tracks).
+  /// Position in the map frame of a geodetic point (for tracks). NaN without an origin.
   PathPoint local(const GeodeticPoint& point) const;
 
   void on_measurement(const Measurement& measurement);  ///< others than wheels/GNSS are ignored
   /// Advances to `now` (monotonic) and returns the state there.
   const Estimate& step(Time now);
 
+  EstimatorCounters counters() const;
+
  private:
-  struct Impl;  // see estimator.cpp
-  // The implementer decides: members directly here, fixed size. (A pimpl is allocated once at start.)
+  void on_wheel(const AxisMotion& motion, Time time);
+  void on_position(const GnssPosition& position, Time time);
+  void on_heading(const GnssHeading& heading, Time time);
+  void insert(Time time, const estimate::Input& input);
+  bool too_old(Time time);
+  void clamp_future(Time now);
+  void replay();
+  void advance(estimate::State& state, Time to) const;
+  void take(estimate::State& state, const estimate::Input& input) const;
+  void report(const estimate::State& state, Time now);
+  estimate::State blank() const;
+
+  EstimateConfig config_;
+  BaseConfig base_;
+  Duration wheel_stale_;
+  Duration max_delay_;
+  estimate::LocalFrame frame_;
+  estimate::History history_;
+  double altitude_m_ = kAbsent;  ///< of the antenna, above the ellipsoid
+  Time now_ = kNever;            ///< of the last step
+  EstimatorCounters counters_;
+  Estimate estimate_;
 };
 
 }  // namespace drover::engine

@@ -1,0 +1,170 @@
+#include "engine/estimate/filter.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "drover/angle.h"
+
+namespace drover::engine::estimate {
+namespace {
+
+// With silent wheels the base may be pushed or towed: the variance grows by the square of these
+// each second (0.3 m and 0.3 rad after one second).
+constexpr double kUnknownMotion_m = 0.3;
+constexpr double kUnknownTurn_rad = 0.3;
+// What a standing base still does: tyres settle, soil gives. Per square root of second.
+constexpr double kStanding_m = 0.0005;
+constexpr double kStanding_rad = 0.0002;
+// Wheels of one side that contradict each other do so for about this long with the same sign.
+constexpr double kSpreadTime_s = 1.0;
+
+double square(double v) { return v * v; }
+
+/// Adds `factor` times row `from` to row `to`, and the same for columns: covariance of
+/// x_to + factor * x_from.
+struct RowSum {
+  std::size_t from;
+  double factor;
+};
+
+template <std::size_t N>
+void add_rows(Matrix& p, std::size_t to, const std::array<RowSum, N>& sums) {
+  for (std::size_t c = 0; c < kStates; ++c) {
+    for (const RowSum& sum : sums) p[to][c] += sum.factor * p[sum.from][c];
+  }
+  for (std::size_t r = 0; r < kStates; ++r) {
+    for (const RowSum& sum : sums) p[r][to] += sum.factor * p[r][sum.from];
+  }
+}
+
+void fade_bias(Belief& belief, double dt_s, double correlation_s, double sigma_x_m,
+               double sigma_y_m) {
+  const double keep = 1.0 / (1.0 + dt_s / correlation_s);
+  for (const std::size_t i : {std::size_t{kBiasX}, std::size_t{kBiasY}}) {
+    belief.mean[i] *= keep;
+    for (std::size_t k = 0; k < kStates; ++k) belief.covariance[i][k] *= keep;
+    for (std::size_t k = 0; k < kStates; ++k) belief.covariance[k][i] *= keep;
+    const double sigma_m = i == kBiasX ? sigma_x_m : sigma_y_m;
+    belief.covariance[i][i] += (1.0 - keep * keep) * square(sigma_m);
+  }
+}
+
+}  // namespace
+
+void Belief::reset(std::size_t i, double value, double sigma) {
+  for (std::size_t k = 0; k < kStates; ++k) covariance[i][k] = covariance[k][i] = 0;
+  covariance[i][i] = square(sigma);
+  mean[i] = value;
+}
+
+void Belief::correct(const Vector& row, double innovation, double variance) {
+  Vector spread{};  // covariance * row^T
+  for (std::size_t r = 0; r < kStates; ++r) {
+    for (std::size_t c = 0; c < kStates; ++c) spread[r] += covariance[r][c] * row[c];
+  }
+  double total = variance;
+  for (std::size_t c = 0; c < kStates; ++c) total += row[c] * spread[c];
+  if (!(total > 0)) return;
+  for (std::size_t r = 0; r < kStates; ++r) {
+    mean[r] += spread[r] / total * innovation;
+    for (std::size_t c = 0; c <= r; ++c) {
+      covariance[r][c] -= spread[r] * spread[c] / total;
+      covariance[c][r] = covariance[r][c];
+    }
+  }
+  mean[kYaw] = wrap_rad(mean[kYaw]);
+  // Far outside of what any tyre does the model does not hold; stay where it does.
+  mean[kGain] = std::clamp(mean[kGain], 0.2, 2.0);
+  mean[kScale] = std::clamp(mean[kScale], 0.8, 1.2);
+}
+
+double Belief::project(const Vector& row, const Vector& other) const {
+  double sum = 0;
+  for (std::size_t r = 0; r < kStates; ++r) {
+    if (row[r] == 0) continue;
+    for (std::size_t c = 0; c < kStates; ++c) sum += row[r] * covariance[r][c] * other[c];
+  }
+  return sum;
+}
+
+void Belief::floor_variance(std::size_t i, double variance) {
+  covariance[i][i] = std::max(covariance[i][i], variance);
+}
+
+bool Belief::finite() const {
+  for (std::size_t r = 0; r < kStates; ++r) {
+    if (!std::isfinite(mean[r]) || !(covariance[r][r] >= 0)) return false;
+    for (const double c : covariance[r]) {
+      if (!std::isfinite(c)) return false;
+    }
+  }
+  return true;
+}
+
+double two_sigma_position_m(const Belief& belief) {
+  const double xx = belief.covariance[kX][kX];
+  const double yy = belief.covariance[kY][kY];
+  const double xy = belief.covariance[kX][kY];
+  const double larger = (xx + yy) / 2 + std::sqrt(square((xx - yy) / 2) + square(xy));
+  return 2 * std::sqrt(larger);
+}
+
+void predict(Belief& belief, const WheelMotion& wheels, double dt_s, bool heading_known,
+             double bias_sigma_x_m, double bias_sigma_y_m, const EstimateConfig& config,
+             double track_m) {
+  if (!(dt_s > 0)) return;
+  Vector& x = belief.mean;
+  Matrix& p = belief.covariance;
+  fade_bias(belief, dt_s, config.gnss_correlation_s, bias_sigma_x_m, bias_sigma_y_m);
+
+  if (!wheels.known) {
+    p[kX][kX] += square(kUnknownMotion_m) * dt_s;
+    p[kY][kY] += square(kUnknownMotion_m) * dt_s;
+    p[kYaw][kYaw] += square(kUnknownTurn_rad) * dt_s;
+    return;
+  }
+  const double rim_mps = (wheels.left_mps + wheels.right_mps) / 2;
+  const double rim_turn_rad = (wheels.right_mps - wheels.left_mps) / track_m * dt_s;
+  const double way_m = x[kScale] * rim_mps * dt_s;
+  const double turn_rad = x[kGain] * rim_turn_rad;
+  const double spread_variance = square(wheels.spread_mps) * kSpreadTime_s * dt_s;
+
+  if (!heading_known) {
+    const double possible_m = std::abs(way_m);
+    p[kX][kX] = square(std::sqrt(p[kX][kX]) + possible_m) + spread_variance;
+    p[kY][kY] = square(std::sqrt(p[kY][kY]) + possible_m) + spread_variance;
+    return;
+  }
+  const double middle_rad = x[kYaw] + turn_rad / 2;
+  const double c = std::cos(middle_rad);
+  const double s = std::sin(middle_rad);
+  x[kX] += way_m * c;
+  x[kY] += way_m * s;
+  x[kYaw] = wrap_rad(x[kYaw] + turn_rad);
+
+  // x and y first: their derivatives use the yaw before the turn.
+  add_rows<3>(p, kX, {{{kYaw, -way_m * s},
+                       {kGain, -way_m * s * rim_turn_rad / 2},
+                       {kScale, rim_mps * dt_s * c}}});
+  add_rows<3>(p, kY, {{{kYaw, way_m * c},
+                       {kGain, way_m * c * rim_turn_rad / 2},
+                       {kScale, rim_mps * dt_s * s}}});
+  add_rows<1>(p, kYaw, {{{kGain, rim_turn_rad}}});
+
+  const double metres = std::abs(way_m);
+  const double radians = std::abs(turn_rad);
+  const double shift = square(config.turning_shift_m) * radians + square(kStanding_m) * dt_s;
+  const double along = square(config.odometry_along_m) * metres + spread_variance;
+  const double across = square(config.odometry_across_m) * metres;
+  p[kX][kX] += along * c * c + across * s * s + shift;
+  p[kY][kY] += along * s * s + across * c * c + shift;
+  p[kX][kY] += (along - across) * c * s;
+  p[kY][kX] = p[kX][kY];
+  p[kYaw][kYaw] += square(config.odometry_yaw_rad) * metres +
+                   square(config.turning_yaw_rad) * radians +
+                   spread_variance / square(track_m) + square(kStanding_rad) * dt_s;
+  p[kGain][kGain] += square(config.yaw_slip_walk) * radians;
+  p[kScale][kScale] += square(config.wheel_scale_walk) * metres;
+}
+
+}  // namespace drover::engine::estimate

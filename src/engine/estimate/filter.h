@@ -1,0 +1,62 @@
+// The closed part of the estimate: seven correlated numbers, predicted by wheels, corrected by
+// scalar measurements. It knows no sensor; the models do.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "engine/config.h"
+
+namespace drover::engine::estimate {
+
+/// Indices of the state.
+enum : std::size_t {
+  kX,      ///< base_link in `map`, m
+  kY,      ///< m
+  kYaw,    ///< rad
+  kGain,   ///< true yaw rate over the one that `track_m` gives: 1 / yaw_slip_factor
+  kScale,  ///< true speed over the one that `wheel_radius_m` gives
+  kBiasX,  ///< slowly changing error of the GNSS position, m
+  kBiasY,  ///< m
+  kStates
+};
+
+using Vector = std::array<double, kStates>;
+using Matrix = std::array<Vector, kStates>;
+
+/// What the wheels say about an interval.
+struct WheelMotion {
+  double left_mps = 0;
+  double right_mps = 0;
+  double spread_mps = 0;   ///< how much the wheels of one side contradict each other
+  bool known = false;      ///< false: a whole side is silent, the base may do anything
+  bool standing = false;   ///< known, and every wheel is at rest
+};
+
+struct Belief {
+  Vector mean{};
+  Matrix covariance{};
+
+  /// Sets one entry as known to `sigma`, independent of the others.
+  void reset(std::size_t i, double value, double sigma);
+  /// Corrects by one scalar: `innovation` = measured - predicted, `row` = its derivative,
+  /// `variance` of the measurement's own noise.
+  void correct(const Vector& row, double innovation, double variance);
+  /// row * covariance * other^T
+  double project(const Vector& row, const Vector& other) const;
+  /// Lifts the variance of an entry to at least `variance`.
+  void floor_variance(std::size_t i, double variance);
+  bool finite() const;
+};
+
+/// Two sigma of the larger horizontal axis, m.
+double two_sigma_position_m(const Belief& belief);
+
+/// Moves the belief over `dt_s` (short: some 20 ms) by the wheels. `heading_known` false: the
+/// position stays and its uncertainty grows by the distance. `bias_sigma` is the stationary sigma
+/// of the GNSS error, m.
+void predict(Belief& belief, const WheelMotion& wheels, double dt_s, bool heading_known,
+             double bias_sigma_x_m, double bias_sigma_y_m, const EstimateConfig& config,
+             double track_m);
+
+}  // namespace drover::engine::estimate

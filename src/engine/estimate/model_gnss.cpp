@@ -1,0 +1,175 @@
+#include "engine/estimate/model_gnss.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "drover/angle.h"
+
+namespace drover::engine::estimate {
+namespace {
+
+// The share of the fixed sigma under which a position is never claimed to be known: a fix that
+// comes and goes has the same multipath error each time, so averaging its spells proves nothing.
+constexpr double kFloorShare = 0.8;
+
+double square(double v) { return v * v; }
+
+/// A new kind of error: what was learnt of the old one is forgotten.
+void follow_quality(State& state, const AntennaPosition& position) {
+  GnssTrack& gnss = state.gnss;
+  if (position.quality != gnss.quality) {
+    const double sigma = std::max(position.sigma_x_m, position.sigma_y_m);
+    const double before = std::max(gnss.sigma_x_m, gnss.sigma_y_m);
+    if (gnss.quality != GnssClass::none && before > sigma) {
+      gnss.improved = state.time;
+      gnss.old_sigma_m = before;
+    }
+    gnss.quality = position.quality;
+    state.belief.reset(kBiasX, 0, position.sigma_x_m);
+    state.belief.reset(kBiasY, 0, position.sigma_y_m);
+  }
+  gnss.sigma_x_m = position.sigma_x_m;
+  gnss.sigma_y_m = position.sigma_y_m;
+}
+
+/// A filter in the receiver lets the error of the worse quality fade after the better one is shown.
+double settling_variance(const State& state, const EstimateConfig& config) {
+  if (state.gnss.improved == kNever || !(config.fix_settle_s > 0)) return 0;
+  const double since_s = to_s(state.time - state.gnss.improved);
+  if (since_s > 10 * config.fix_settle_s) return 0;
+  return square(state.gnss.old_sigma_m * std::exp(-since_s / config.fix_settle_s));
+}
+
+void place(State& state, const AntennaPosition& position, double arm_x_m, double arm_y_m,
+           double extra_variance) {
+  const double sigma_x = std::sqrt(square(position.sigma_x_m) + extra_variance);
+  const double sigma_y = std::sqrt(square(position.sigma_y_m) + extra_variance);
+  state.belief.reset(kX, position.x_m - arm_x_m, sigma_x);
+  state.belief.reset(kY, position.y_m - arm_y_m, sigma_y);
+  state.belief.reset(kBiasX, 0, position.sigma_x_m);
+  state.belief.reset(kBiasY, 0, position.sigma_y_m);
+  // The place is wrong by just as much as the position it was taken from.
+  Matrix& p = state.belief.covariance;
+  p[kX][kBiasX] = p[kBiasX][kX] = -square(position.sigma_x_m);
+  p[kY][kBiasY] = p[kBiasY][kY] = -square(position.sigma_y_m);
+  state.has_position = true;
+}
+
+/// Remembers a refused position. True when it is to be believed after all: the base has stood
+/// since before the new place appeared, and the place has repeated for long enough.
+bool refuse(State& state, const AntennaPosition& position, double distance_m, double noise_m,
+            const EstimateConfig& config) {
+  GnssTrack& gnss = state.gnss;
+  const bool standing = state.standing_since != kNever;
+  const bool same_place = standing && std::hypot(position.x_m - gnss.place_x_m,
+                                                 position.y_m - gnss.place_y_m) <
+                                          config.gate_sigma * noise_m;
+  gnss.jumps.refused(state.time, same_place);
+  gnss.contradiction_m = distance_m;
+  ++state.refused;
+  if (gnss.jumps.new_place()) {
+    gnss.place_x_m = position.x_m;
+    gnss.place_y_m = position.y_m;
+  }
+  return standing && gnss.jumps.settled(from_s(config.jump_time_s));
+}
+
+}  // namespace
+
+GnssClass class_of(const GnssPosition& position, const EstimateConfig& config) {
+  switch (position.quality) {
+    case FixQuality::none:
+    case FixQuality::estimated:
+    case FixQuality::manual:
+    case FixQuality::simulator:
+      return GnssClass::none;
+    case FixQuality::rtk_fixed:
+      return position.correction_age_s > config.max_correction_age_s ? GnssClass::floating
+                                                                     : GnssClass::fixed;
+    case FixQuality::rtk_float:
+      return GnssClass::floating;
+    case FixQuality::dgps:
+      return GnssClass::dgps;
+    case FixQuality::single:
+    case FixQuality::pps:
+      break;
+  }
+  return GnssClass::single;  // an unknown number is never better than 1
+}
+
+double floor_sigma_m(GnssClass quality, const EstimateConfig& config) {
+  switch (quality) {
+    case GnssClass::fixed:
+      return config.sigma_fixed_m;
+    case GnssClass::floating:
+      return config.sigma_float_m;
+    case GnssClass::dgps:
+      return config.sigma_dgps_m;
+    case GnssClass::none:
+    case GnssClass::single:
+      break;
+  }
+  return config.sigma_single_m;
+}
+
+double sigma_m(GnssClass quality, double gst_sigma_m, const EstimateConfig& config) {
+  const double floor = floor_sigma_m(quality, config);
+  return gst_sigma_m > floor && std::isfinite(gst_sigma_m) ? gst_sigma_m : floor;
+}
+
+void apply(State& state, const AntennaPosition& position, double speed_mps,
+           const EstimateConfig& config) {
+  follow_quality(state, position);
+  Belief& belief = state.belief;
+  const double c = std::cos(belief.mean[kYaw]);
+  const double s = std::sin(belief.mean[kYaw]);
+  const double lever_m = std::hypot(config.antenna_x_m, config.antenna_y_m);
+  // Without heading the antenna is somewhere around base_link.
+  const bool oriented = state.has_heading;
+  const double arm_x = oriented ? config.antenna_x_m * c - config.antenna_y_m * s : 0;
+  const double arm_y = oriented ? config.antenna_x_m * s + config.antenna_y_m * c : 0;
+  const double extra = settling_variance(state, config) + (oriented ? 0 : square(lever_m)) +
+                       square(speed_mps * config.gnss_timing_sigma_s);
+  const double variance_x = square(config.gnss_white_share * position.sigma_x_m) + extra;
+  const double variance_y = square(config.gnss_white_share * position.sigma_y_m) + extra;
+  const double turned_m2 = square(lever_m) * belief.covariance[kYaw][kYaw];
+  const double place_variance = variance_x + (oriented ? turned_m2 : 0);
+  if (!state.has_position) {
+    place(state, position, arm_x, arm_y, place_variance);
+    return;
+  }
+
+  Vector row_x{};
+  row_x[kX] = row_x[kBiasX] = 1;
+  row_x[kYaw] = -arm_y;
+  Vector row_y{};
+  row_y[kY] = row_y[kBiasY] = 1;
+  row_y[kYaw] = arm_x;
+  const double dx = position.x_m - (belief.mean[kX] + arm_x + belief.mean[kBiasX]);
+  const double dy = position.y_m - (belief.mean[kY] + arm_y + belief.mean[kBiasY]);
+  const double sxx = belief.project(row_x, row_x) + variance_x;
+  const double syy = belief.project(row_y, row_y) + variance_y;
+  const double sxy = belief.project(row_x, row_y);
+  const double determinant = sxx * syy - sxy * sxy;
+  const double distance2 = (syy * dx * dx - 2 * sxy * dx * dy + sxx * dy * dy) / determinant;
+  if (!(distance2 <= square(config.gate_sigma))) {
+    const double noise = std::max(position.sigma_x_m, position.sigma_y_m);
+    if (refuse(state, position, std::hypot(dx, dy), noise, config)) {
+      place(state, position, arm_x, arm_y, place_variance);
+      state.gnss.jumps.accepted();
+    }
+    return;
+  }
+  state.gnss.jumps.accepted();
+  const Vector before = belief.mean;
+  belief.correct(row_x, dx, variance_x);
+  // The first correction has moved the state; the second one starts from there.
+  const double moved_m = belief.mean[kY] - before[kY] + belief.mean[kBiasY] - before[kBiasY] +
+                         arm_x * wrap_rad(belief.mean[kYaw] - before[kYaw]);
+  belief.correct(row_y, dy - moved_m, variance_y);
+  const double floor = square(kFloorShare * config.sigma_fixed_m);
+  belief.floor_variance(kX, floor);
+  belief.floor_variance(kY, floor);
+}
+
+}  // namespace drover::engine::estimate

@@ -1,0 +1,30 @@
+// How a GNSS position corrects the state: antenna lever arm, noise by quality, gate and jumps.
+#pragma once
+
+#include "engine/config.h"
+#include "engine/estimate/state.h"
+
+namespace drover::engine::estimate {
+
+/// A position of the antenna in `map`, prepared for the filter.
+struct AntennaPosition {
+  double x_m = 0;
+  double y_m = 0;
+  GnssClass quality = GnssClass::none;
+  double sigma_x_m = 0;
+  double sigma_y_m = 0;
+};
+
+/// The class whose error a quality has. Dead reckoning of the receiver, manual input and its
+/// simulator mode are no measurements; an RTK fix with old corrections is a float.
+GnssClass class_of(const GnssPosition& position, const EstimateConfig& config);
+double floor_sigma_m(GnssClass quality, const EstimateConfig& config);
+/// The receiver's own sigma (GST), never below the floor of the class. Receivers assume white
+/// noise; that the error lasts is the filter's own bias state, so nothing is inflated here.
+double sigma_m(GnssClass quality, double gst_sigma_m, const EstimateConfig& config);
+
+/// Applies the position to a state that stands at the position's own time.
+void apply(State& state, const AntennaPosition& position, double speed_mps,
+           const EstimateConfig& config);
+
+}  // namespace drover::engine::estimate

@@ -1,0 +1,54 @@
+// Everything the estimate knows at one instant; the history keeps one per measurement, so that a
+// late one can be put where it belongs. All that steers the filter is in here, none beside it.
+#pragma once
+
+#include <cstdint>
+
+#include "drover/measurement.h"
+#include "drover/time.h"
+#include "engine/estimate/filter.h"
+#include "engine/estimate/jump_watch.h"
+#include "engine/estimate/wheels.h"
+
+namespace drover::engine::estimate {
+
+/// Qualities that share a kind of error; when the class changes, the old error says nothing of the
+/// new one.
+enum class GnssClass : std::uint8_t { none, fixed, floating, dgps, single };
+
+struct GnssTrack {
+  GnssClass quality = GnssClass::none;
+  double sigma_x_m = 0;       ///< of the class, or of GST when that is larger
+  double sigma_y_m = 0;
+  Time improved = kNever;     ///< when the quality last became better
+  double old_sigma_m = 0;     ///< what it was before
+  JumpWatch jumps;
+  double place_x_m = 0;       ///< the refused place that must repeat
+  double place_y_m = 0;
+  double contradiction_m = 0; ///< how far the last refused position was off
+};
+
+struct HeadingTrack {
+  Time last = kNever;
+  JumpWatch jumps;
+  double place_rad = 0;
+};
+
+/// A robot that has been turned by more than this without being seen has no heading any more: the
+/// filter's straight-line approximations end here.
+inline constexpr double kLostYaw_rad = 0.5;
+
+struct State {
+  Time time = kNever;
+  bool has_position = false;
+  bool has_heading = false;
+  Belief belief;
+  Wheels wheels;
+  Time standing_since = kNever;  ///< kNever while the base moves or may move
+  GnssTrack gnss;
+  HeadingTrack heading;
+  std::uint32_t refused = 0;     ///< by the gates, since the start
+  std::uint32_t broken = 0;      ///< times the filter lost its numbers and was started again
+};
+
+}  // namespace drover::engine::estimate
