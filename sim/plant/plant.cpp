@@ -1,0 +1,225 @@
+// Loading, placing and stepping. Names are looked up once; a step allocates nothing.
+#include <array>
+#include <cmath>
+#include <stdexcept>
+
+#include "sim/plant/plant_impl.h"
+
+namespace drover::sim {
+namespace {
+
+constexpr int kTerrainGroup = 0;
+constexpr int kTerrainBit = 1;
+constexpr int kObstacleBit = 2;
+constexpr double kParked_m = -20;  // an obstacle that is not there
+
+std::string name_of(const mjModel& model, int type, int id) {
+  const char* name = mj_id2name(&model, type, id);
+  return name == nullptr ? "" : name;
+}
+
+int need(const mjModel& model, int type, const char* name, const std::string& file) {
+  const int id = mj_name2id(&model, type, name);
+  if (id < 0) throw std::runtime_error(file + ": the world has no '" + name + "'");
+  return id;
+}
+
+// MuJoCo ends the process when its arena is too small or the state is not a number; an exception
+// carries the reason to the simulator's one place for errors.
+void throw_error(const char* text) {
+  throw std::runtime_error(std::string("MuJoCo: ") + text);
+}
+
+}  // namespace
+
+int Plant::Impl::mocap(std::string_view name) const {
+  const int body = mj_name2id(model.get(), mjOBJ_BODY, std::string(name).c_str());
+  return body < 0 ? -1 : model->body_mocapid[body];
+}
+
+double Plant::Impl::ground_m(double x_m, double y_m) const {
+  const std::array<mjtNum, 3> from{x_m, y_m, 50};
+  const std::array<mjtNum, 3> down{0, 0, -1};
+  std::array<mjtByte, mjNGROUP> groups{};
+  groups[kTerrainGroup] = 1;
+  int geom = -1;
+  const double distance_m =
+      mj_ray(model.get(), data.get(), from.data(), down.data(), groups.data(), 1, -1, &geom);
+  return distance_m < 0 ? 0 : from[2] - distance_m;
+}
+
+bool Plant::Impl::set_mocap(std::string_view name, double x_m, double y_m, double z_m) {
+  const int id = mocap(name);
+  if (id < 0) return false;
+  mjtNum* at = data->mocap_pos + 3 * id;
+  at[0] = x_m;
+  at[1] = y_m;
+  at[2] = z_m;
+  mj_kinematics(model.get(), data.get());
+  return true;
+}
+
+Plant::Plant(const std::string& world_file) : impl_(std::make_unique<Impl>()) {
+  mju_user_error = throw_error;
+  std::array<char, 1000> error{};
+  impl_->model.reset(mj_loadXML(world_file.c_str(), nullptr, error.data(), error.size()));
+  if (!impl_->model) throw std::runtime_error(world_file + ": " + error.data());
+  const mjModel& m = *impl_->model;
+  impl_->data.reset(mj_makeData(&m));
+  impl_->base = need(m, mjOBJ_BODY, "base", world_file);
+  const int free_joint = need(m, mjOBJ_JOINT, "base", world_file);
+  impl_->base_qpos = m.jnt_qposadr[free_joint];
+  impl_->base_qvel = m.jnt_dofadr[free_joint];
+  impl_->bumper = need(m, mjOBJ_GEOM, "bumper", world_file);
+  impl_->front_m = m.geom_pos[3 * impl_->bumper] + m.geom_size[3 * impl_->bumper];
+  for (int i = 0; i < m.nu; ++i) {
+    impl_->joint_ids.push_back(m.actuator_trnid[2 * i]);
+    impl_->joints.push_back(name_of(m, mjOBJ_JOINT, m.actuator_trnid[2 * i]));
+    impl_->wheels.push_back({m.jnt_bodyid[m.actuator_trnid[2 * i]], -1, Tyre{}});
+  }
+  for (int geom = 0; geom < m.ngeom; ++geom) {
+    const bool of_robot = m.body_rootid[m.geom_bodyid[geom]] == impl_->base;
+    for (auto& wheel : impl_->wheels) {
+      if (wheel.body != m.geom_bodyid[geom] || (m.geom_contype[geom] & kTerrainBit) == 0) continue;
+      wheel.contact_geom = geom;
+      impl_->radius_m = m.geom_size[3 * geom];
+    }
+    if (!of_robot && m.geom_type[geom] == mjGEOM_BOX && (m.geom_contype[geom] & kObstacleBit) != 0)
+      impl_->boxes.push_back(geom);
+  }
+  if (impl_->boxes.size() > kMaxBoxes)
+    throw std::runtime_error(world_file + ": more than 64 obstacle boxes");
+  place(0, 0, 0);
+}
+
+Plant::~Plant() = default;
+Plant::Plant(Plant&&) noexcept = default;
+Plant& Plant::operator=(Plant&&) noexcept = default;
+
+double Plant::timestep_s() const {
+  return impl_->model->opt.timestep;
+}
+double Plant::time_s() const {
+  return impl_->data->time;
+}
+const std::vector<std::string>& Plant::joints() const {
+  return impl_->joints;
+}
+
+std::size_t Plant::joint(std::string_view name) const {
+  std::string known;
+  for (std::size_t i = 0; i < impl_->joints.size(); ++i) {
+    if (impl_->joints[i] == name) return i;
+    known += (known.empty() ? "" : ", ") + impl_->joints[i];
+  }
+  throw std::runtime_error("no joint '" + std::string(name) + "' in the world; it has " + known);
+}
+
+void Plant::place(double x_m, double y_m, double yaw_rad) {
+  const mjModel& m = *impl_->model;
+  mjData& d = *impl_->data;
+  // Obstacles stay where a scenario has put them.
+  const std::vector<mjtNum> mocap(d.mocap_pos, d.mocap_pos + 3 * m.nmocap);
+  mj_resetData(&m, &d);
+  for (std::size_t i = 0; i < mocap.size() && d.time == 0; ++i) d.mocap_pos[i] = mocap[i];
+  mj_kinematics(&m, &d);
+  for (auto& wheel : impl_->wheels) wheel.tyre.reset();
+
+  // A plane through the ground under the wheels: slope along x, slope along y, height.
+  const double c = std::cos(yaw_rad);
+  const double s = std::sin(yaw_rad);
+  double sum_h = 0, sum_hx = 0, sum_hy = 0, sum_xx = 0, sum_yy = 0;
+  for (const int joint : impl_->joint_ids) {
+    const mjtNum* at = m.body_pos + 3 * m.jnt_bodyid[joint];
+    const double h = impl_->ground_m(x_m + c * at[0] - s * at[1], y_m + s * at[0] + c * at[1]);
+    sum_h += h;
+    sum_hx += h * at[0];
+    sum_hy += h * at[1];
+    sum_xx += at[0] * at[0];
+    sum_yy += at[1] * at[1];
+  }
+  const double slope_x = sum_hx / sum_xx;
+  const double slope_y = sum_hy / sum_yy;
+  const double pitch_rad = -std::atan(slope_x);
+  const double roll_rad = std::atan(slope_y);
+  const double z_m = sum_h / static_cast<double>(impl_->joint_ids.size()) +
+                     impl_->radius_m / (std::cos(pitch_rad) * std::cos(roll_rad));
+
+  mjtNum* q = d.qpos + impl_->base_qpos;
+  q[0] = x_m;
+  q[1] = y_m;
+  q[2] = z_m;
+  const double cy = std::cos(yaw_rad / 2), sy = std::sin(yaw_rad / 2);
+  const double cp = std::cos(pitch_rad / 2), sp = std::sin(pitch_rad / 2);
+  const double cr = std::cos(roll_rad / 2), sr = std::sin(roll_rad / 2);
+  q[3] = cr * cp * cy + sr * sp * sy;
+  q[4] = sr * cp * cy - cr * sp * sy;
+  q[5] = cr * sp * cy + sr * cp * sy;
+  q[6] = cr * cp * sy - sr * sp * cy;
+  mj_forward(&m, &d);
+}
+
+void Plant::set_torque(std::size_t joint, double torque_Nm) {
+  impl_->data->ctrl[joint] = std::isfinite(torque_Nm) ? torque_Nm : 0;
+}
+
+// The contacts are those of the step before: one step late, as every force here is.
+void Plant::Impl::pull_tyre(Wheel& wheel) {
+  const mjModel& m = *model;
+  mjData& d = *data;
+  std::array<mjtNum, 3> up{};  // the normals, weighted by their loads
+  double load_N = 0;
+  for (int i = 0; i < d.ncon; ++i) {
+    const mjContact& contact = d.contact[i];
+    const bool second = contact.geom2 == wheel.contact_geom;
+    if ((!second && contact.geom1 != wheel.contact_geom) || contact.efc_address < 0) continue;
+    std::array<mjtNum, 6> force{};
+    mj_contactForce(&m, &d, i, force.data());
+    load_N += force[0];
+    mju_addToScl3(up.data(), contact.frame, second ? force[0] : -force[0]);
+  }
+  mjtNum* push = d.xfrc_applied + 6 * wheel.body;
+  mju_zero(push, 6);
+  if (!(load_N > 0) || mju_normalize3(up.data()) < mjMINVAL) {
+    wheel.tyre.reset();
+    return;
+  }
+  const mjtNum* r = d.xmat + 9 * wheel.body;
+  const std::array<mjtNum, 3> axle{r[1], r[4], r[7]};
+  std::array<mjtNum, 3> ahead{}, left{}, arm{}, rim{};
+  mju_cross(ahead.data(), axle.data(), up.data());
+  mju_normalize3(ahead.data());
+  mju_cross(left.data(), up.data(), ahead.data());
+  mju_scl3(arm.data(), up.data(), -radius_m);
+  std::array<mjtNum, 6> hub{};  // angular, then linear
+  mj_objectVelocity(&m, &d, mjOBJ_XBODY, wheel.body, hub.data(), 0);
+  mju_cross(rim.data(), hub.data(), arm.data());
+  mju_addTo3(rim.data(), hub.data() + 3);
+  const auto grip =
+      wheel.tyre.step(mju_dot3(rim.data(), ahead.data()), mju_dot3(rim.data(), left.data()),
+                      mju_dot3(hub.data() + 3, ahead.data()), load_N, m.opt.timestep);
+  mju_addToScl3(push, ahead.data(), grip.ahead_N);
+  mju_addToScl3(push, left.data(), grip.left_N);
+  mju_cross(push + 3, arm.data(), push);
+}
+
+void Plant::step() {
+  for (auto& wheel : impl_->wheels) impl_->pull_tyre(wheel);
+  mj_step(impl_->model.get(), impl_->data.get());
+}
+
+void Plant::kick(double vx_mps, double vy_mps) {
+  const mjtNum* r = impl_->rotation();
+  mjtNum* v = impl_->data->qvel + impl_->base_qvel;
+  for (int i = 0; i < 3; ++i) v[i] += r[3 * i] * vx_mps + r[3 * i + 1] * vy_mps;
+}
+
+bool Plant::set_obstacle(std::string_view name, double x_m, double y_m) {
+  return impl_->set_mocap(name, x_m, y_m, impl_->ground_m(x_m, y_m));
+}
+
+bool Plant::remove_obstacle(std::string_view name) {
+  return impl_->set_mocap(name, 0, 0, kParked_m);
+}
+
+}  // namespace drover::sim

@@ -1,0 +1,89 @@
+// The simulated robot's mechanics: wheel torques in; wheel motion, pose and contacts out.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace drover::sim {
+
+/// Of base_link in the world (x east, y north, z up, yaw counter-clockwise from east; REP 103).
+struct BasePose {
+  double x_m = 0;
+  double y_m = 0;
+  double z_m = 0;
+  double roll_rad = 0;
+  double pitch_rad = 0;  ///< positive: nose down
+  double yaw_rad = 0;    ///< [-pi, pi)
+};
+
+/// Of base_link, along its own axes.
+struct BaseVelocity {
+  double vx_mps = 0;
+  double vy_mps = 0;
+  double vz_mps = 0;
+  double wx_radps = 0;
+  double wy_radps = 0;
+  double wz_radps = 0;
+};
+
+struct WheelState {
+  double position_rad = 0;  ///< unbounded
+  double velocity_radps = 0;
+};
+
+/// Deterministic: the same calls give the same bits. No clock, no threads.
+class Plant {
+ public:
+  /// Loads an MJCF world. Throws std::runtime_error with the file and MuJoCo's message.
+  explicit Plant(const std::string& world_file);
+  ~Plant();
+  Plant(Plant&&) noexcept;
+  Plant& operator=(Plant&&) noexcept;
+
+  double timestep_s() const;
+  double time_s() const;
+
+  /// Index of a wheel joint for the calls below, in the world's order of motors.
+  /// Throws std::runtime_error naming the joints that there are.
+  std::size_t joint(std::string_view name) const;
+  const std::vector<std::string>& joints() const;
+
+  /// Puts the robot down at rest, level with the ground under its wheels; wheel angles become 0.
+  void place(double x_m, double y_m, double yaw_rad);
+  /// Torque at a wheel joint until it is set again; positive drives ahead.
+  void set_torque(std::size_t joint, double torque_Nm);
+  /// Advances by one timestep.
+  void step();
+  /// Adds to the base's velocity, along its own axes: a shove.
+  void kick(double vx_mps, double vy_mps);
+
+  WheelState wheel(std::size_t joint) const;
+  BasePose pose() const;
+  BaseVelocity velocity() const;
+  /// Velocity of a point that is fixed to the base (given in base_link), in the world's axes.
+  struct Vector {
+    double x = 0;
+    double y = 0;
+    double z = 0;
+  };
+  Vector point_m(const Vector& in_base_m) const;
+  Vector point_velocity_mps(const Vector& in_base_m) const;
+
+  /// The bumper's strip touches something.
+  bool bumper_touched() const;
+  /// Along base_link's x from the bumper's face to the nearest obstacle in a corridor this wide;
+  /// infinity when there is none.
+  double free_distance_m(double width_m) const;
+
+  /// Moves one of the world's movable obstacles, centred at x, y. False: no such obstacle.
+  bool set_obstacle(std::string_view name, double x_m, double y_m);
+  bool remove_obstacle(std::string_view name);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace drover::sim

@@ -1,0 +1,53 @@
+// What Plant hides: the model, its state, and the numbers of the things in it.
+#pragma once
+
+#include <mujoco/mujoco.h>
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sim/plant/plant.h"
+#include "sim/plant/tyre.h"
+
+namespace drover::sim {
+
+inline constexpr std::size_t kMaxBoxes = 64;
+
+struct ModelDeleter {
+  void operator()(mjModel* model) const { mj_deleteModel(model); }
+};
+struct DataDeleter {
+  void operator()(mjData* data) const { mj_deleteData(data); }
+};
+
+// What a wheel needs for its tyre's force.
+struct Wheel {
+  int body = 0;
+  int contact_geom = 0;
+  Tyre tyre;
+};
+
+struct Plant::Impl {
+  std::unique_ptr<mjModel, ModelDeleter> model;
+  std::unique_ptr<mjData, DataDeleter> data;
+  int base = 0;         // body
+  int base_qpos = 0;    // position, quaternion
+  int base_qvel = 0;    // linear in the world's axes, angular in the body's
+  int bumper = 0;       // geom
+  double front_m = 0;   // the bumper's face in base_link
+  double radius_m = 0;  // of the wheels
+  std::vector<std::string> joints;
+  std::vector<int> joint_ids;
+  std::vector<Wheel> wheels;  // by joint
+  std::vector<int> boxes;     // geoms that a scanner sees
+
+  const mjtNum* rotation() const { return data->xmat + 9 * base; }
+  int mocap(std::string_view name) const;
+  void pull_tyre(Wheel& wheel);
+  double ground_m(double x_m, double y_m) const;
+  bool set_mocap(std::string_view name, double x_m, double y_m, double z_m);
+};
+
+}  // namespace drover::sim

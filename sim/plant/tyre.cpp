@@ -1,0 +1,39 @@
+// Spring and damper inside the friction circle; the bend itself is kept inside it too, so that a
+// tyre that stops sliding starts to spring back at once.
+#include "sim/plant/tyre.h"
+
+#include <cmath>
+
+namespace drover::sim {
+namespace {
+
+void limit_length(double& x, double& y, double longest) {
+  const double length = std::sqrt(x * x + y * y);
+  if (length <= longest) return;
+  x *= longest / length;
+  y *= longest / length;
+}
+
+}  // namespace
+
+Tyre::Force Tyre::step(double slip_ahead_mps, double slip_left_mps, double roll_mps, double load_N,
+                       double dt_s) {
+  if (!(load_N > 0)) {
+    reset();
+    return {};
+  }
+  const double grip_N = config_.friction * load_N;
+  // Implicit in the creep, so that no speed makes it overshoot.
+  const double kept = 1 / (1 + std::abs(roll_mps) * dt_s / config_.relaxation_m);
+  bend_ahead_m_ = (bend_ahead_m_ + slip_ahead_mps * dt_s) * kept;
+  bend_left_m_ = (bend_left_m_ + slip_left_mps * dt_s) * kept;
+  limit_length(bend_ahead_m_, bend_left_m_, grip_N / config_.stiffness_Npm);
+
+  Force force;
+  force.ahead_N = -config_.stiffness_Npm * bend_ahead_m_ - config_.damping_Nspm * slip_ahead_mps;
+  force.left_N = -config_.stiffness_Npm * bend_left_m_ - config_.damping_Nspm * slip_left_mps;
+  limit_length(force.ahead_N, force.left_N, grip_N);
+  return force;
+}
+
+}  // namespace drover::sim
