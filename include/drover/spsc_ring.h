@@ -13,11 +13,12 @@ class SpscRing {
   static_assert((N & (N - 1)) == 0, "the size is a power of two");
 
  public:
-  /// Producer only; false when full (the caller counts or refuses aloud).
-  [[nodiscard]] bool push(T value) {
+  /// Producer only; false when full (the caller counts or refuses aloud): then `value` is untouched.
+  template <class U>
+  [[nodiscard]] bool push(U&& value) {
     const auto tail = tail_.load(std::memory_order_relaxed);
     if (tail - head_.load(std::memory_order_acquire) == N) return false;
-    items_[tail & (N - 1)] = std::move(value);
+    items_[tail & (N - 1)] = std::forward<U>(value);
     tail_.store(tail + 1, std::memory_order_release);
     return true;
   }

@@ -1,0 +1,94 @@
+// The whole configuration as plain values; each field is a key of drover.json.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "drover/measurement.h"
+#include "drover/options.h"
+#include "engine/config.h"
+
+namespace drover::config {
+
+struct PathsConfig {
+  std::string state = "/var/lib/drover";  ///< tracks and origin
+  std::string run = "/run/drover";        ///< socket of the command line
+};
+
+struct ControlConfig {
+  double tick_Hz = 200;
+  bool realtime = true;  ///< SCHED_FIFO and locked memory where the system allows it
+  int priority = 50;
+};
+
+struct BusConfig {
+  std::string name;
+  std::string interface;  ///< "can0", or "unix:PATH" for a socket that carries the same frames
+};
+
+struct DriveConfig {
+  std::string joint;
+  std::string driver;
+  std::string bus;
+  Options options;
+  std::size_t bus_index = 0;  ///< resolved from `bus`
+};
+
+struct GnssConfig {
+  bool configured = false;
+  std::string driver = "nmea0183";
+  std::string port = "/dev/drover/gnss";
+  int baud = 115200;
+  Options options;
+};
+
+struct LineConfig {
+  bool configured = false;
+  std::string driver = "gpio_line";
+  std::string name;  ///< line name on the chip
+  Options options;
+};
+
+struct LinesConfig {
+  std::string chip;  ///< label or name of the chip, or "files:DIRECTORY"
+  std::array<LineConfig, kLineCount> line;  ///< by Line
+};
+
+struct GuardConfig {
+  bool required = true;
+  std::string socket = "/run/drover/guard.sock";
+  int limit_ms = 50;
+};
+
+struct MqttConfig {
+  bool enabled = true;
+  std::string host = "127.0.0.1";  ///< or the path of a Unix socket, with port 0
+  int port = 1883;
+  std::string client_id;           ///< empty: "droverd-" and eight random hex digits
+  std::string username;
+  std::string password_file;
+  int keepalive_s = 10;
+};
+
+struct ProtocolConfig {
+  std::string heading = "clockwise_from_north";
+  int first_target_id = 1;         ///< number of a track's first point: 1, or 0 for some makers
+  std::string power = "percent";   ///< "percent" or "volts"
+  bool automatic_origin = true;    ///< take the first RTK fix as origin when none was ever stored
+};
+
+struct DroverConfig {
+  std::string robot_name = "drover";
+  PathsConfig paths;
+  ControlConfig control;
+  std::vector<BusConfig> buses;
+  std::vector<DriveConfig> drives;
+  GnssConfig gnss;
+  LinesConfig lines;
+  GuardConfig guard;
+  MqttConfig mqtt;
+  ProtocolConfig protocol;
+  engine::EngineConfig engine;
+};
+
+}  // namespace drover::config

@@ -1,0 +1,34 @@
+// Reads drover.json: every problem at once, each with its place and a suggestion.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "config/config.h"
+
+namespace drover::config {
+
+struct Problem {
+  std::size_t line = 0;    ///< from 1; 0 when it has no place
+  std::size_t column = 0;
+  std::string path;        ///< "drives[1].options.node"
+  std::string message;
+  std::string suggestion;  ///< empty when there is none
+  /// "drover.json:12:7: drives[1].options.node: ... (did you mean ...?)"
+  std::string text(std::string_view file) const;
+};
+
+struct Loaded {
+  DroverConfig config;  ///< to be used only when there are no problems
+  std::vector<Problem> problems;
+};
+
+Loaded load_text(std::string_view text);
+/// A file that cannot be read is a problem without a place.
+Loaded load_file(const std::string& path);
+
+/// JSON schema (draft 7) of the configuration, from the same tables.
+std::string schema_text();
+
+}  // namespace drover::config

@@ -1,0 +1,213 @@
+#include "config/reader.h"
+
+#include <cstdio>
+#include <numeric>
+
+namespace drover::config {
+
+namespace {
+
+/// Edits (insert, delete, replace) that make one word of the other.
+std::size_t distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const auto replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+      diagonal = row[j];
+      row[j] = std::min({row[j] + 1, row[j - 1] + 1, replaced});
+    }
+  }
+  return row.back();
+}
+
+std::string did_you_mean(std::string_view word, const std::vector<std::string>& candidates) {
+  const auto best = nearest(word, candidates);
+  return best.empty() ? "" : "did you mean \"" + best + "\"?";
+}
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const auto& word : words) text += (text.empty() ? "" : ", ") + word;
+  return text;
+}
+
+}  // namespace
+
+std::string nearest(std::string_view word, const std::vector<std::string>& candidates) {
+  std::string best;
+  std::size_t least = std::max<std::size_t>(word.size() / 2, 2) + 1;
+  for (const auto& candidate : candidates) {
+    // "max_speed" for "max_speed_mps" is the usual slip: a forgotten unit.
+    const auto edits = candidate.starts_with(word) ? 1 : distance(word, candidate);
+    if (edits < least) {
+      least = edits;
+      best = candidate;
+    }
+  }
+  return best;
+}
+
+std::string number_text(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.10g", value);
+  return text;
+}
+
+Reader::Reader(const json::Node& node, std::string path, std::vector<Problem>& problems)
+    : node_(node), path_(std::move(path)), problems_(problems) {}
+
+std::string Reader::path_of(std::string_view key) const {
+  return path_.empty() ? std::string(key) : path_ + "." + std::string(key);
+}
+
+void Reader::add(const json::Node& place, std::string path, std::string message,
+                 std::string suggestion) {
+  problems_.push_back(
+      {place.line, place.column, std::move(path), std::move(message), std::move(suggestion)});
+}
+
+void Reader::add_at(std::string_view key, std::string message, std::string suggestion) {
+  const auto* member = node_.find(key);
+  add(member != nullptr ? *member : node_, path_of(key), std::move(message), std::move(suggestion));
+}
+
+const json::Node* Reader::find(std::string_view key, Presence presence) {
+  known_.emplace_back(key);
+  const auto* node = node_.find(key);
+  if (node == nullptr && presence == Presence::required)
+    add(node_, path_of(key), "is missing");
+  return node;
+}
+
+void Reader::wrong_type(const json::Node& node, std::string_view key, std::string_view expected) {
+  add(node, path_of(key),
+      "is " + std::string(node.kind()) + ", but " + std::string(expected) + " is expected");
+}
+
+void Reader::out_of_range(const json::Node& node, std::string_view key, Range range) {
+  add(node, path_of(key),
+      "is " + number_text(*node.number()) + ", but must be between " + number_text(range.min) +
+          " and " + number_text(range.max));
+}
+
+void Reader::number(std::string_view key, double& into, Range range, std::string_view,
+                    Presence presence) {
+  const auto* node = find(key, presence);
+  if (node == nullptr) return;
+  const auto value = node->number();
+  if (!value) return wrong_type(*node, key, "a number");
+  if (*value < range.min || *value > range.max) return out_of_range(*node, key, range);
+  into = *value;
+}
+
+void Reader::integer(std::string_view key, int& into, Range range, std::string_view,
+                     Presence presence) {
+  const auto* node = find(key, presence);
+  if (node == nullptr) return;
+  const auto value = node->integer();
+  if (!value) return wrong_type(*node, key, "a whole number");
+  if (*value < static_cast<std::int64_t>(range.min) || *value > static_cast<std::int64_t>(range.max))
+    return out_of_range(*node, key, range);
+  into = static_cast<int>(*value);
+}
+
+void Reader::flag(std::string_view key, bool& into, std::string_view, Presence presence) {
+  const auto* node = find(key, presence);
+  if (node == nullptr) return;
+  if (node->boolean() == nullptr) return wrong_type(*node, key, "true or false");
+  into = *node->boolean();
+}
+
+void Reader::text(std::string_view key, std::string& into, std::string_view, Presence presence) {
+  const auto* node = find(key, presence);
+  if (node == nullptr) return;
+  if (node->text() == nullptr) return wrong_type(*node, key, "a text");
+  if (node->text()->find('\0') != std::string::npos)
+    return add(*node, path_of(key), "holds a NUL character");
+  into = *node->text();
+}
+
+void Reader::choice(std::string_view key, std::string& into,
+                    const std::vector<std::string>& choices, std::string_view what,
+                    Presence presence) {
+  std::string value = into;
+  const auto before = problems_.size();
+  text(key, value, what, presence);
+  const auto* node = node_.find(key);
+  if (node == nullptr || problems_.size() != before) return;
+  if (std::find(choices.begin(), choices.end(), value) == choices.end())
+    return add(*node, path_of(key), "\"" + value + "\" is not one of: " + joined(choices),
+               did_you_mean(value, choices));
+  into = value;
+}
+
+void Reader::names(std::string_view key, std::vector<std::string>& into, std::string_view,
+                   Presence presence) {
+  const auto* node = find(key, presence);
+  if (node == nullptr) return;
+  if (node->list() == nullptr) return wrong_type(*node, key, "a list of texts");
+  for (const auto& item : *node->list()) {
+    if (item.text() == nullptr) {
+      wrong_type(item, key, "a list of texts");
+    } else {
+      into.push_back(*item.text());
+    }
+  }
+}
+
+void Reader::options(std::string_view key, Options& into, const std::string& driver,
+                     DriverShape shape) {
+  known_.emplace_back(key);
+  const auto* entry = find_driver(driver);
+  if (entry == nullptr || entry->make.index() != static_cast<std::size_t>(shape)) return;
+  into = Options(entry->options);
+  static const json::Node kEmpty{std::vector<json::Member>{}, 0, 0};
+  const auto* given = node_.find(key);
+  json::Node none = kEmpty;
+  none.line = node_.line;
+  none.column = node_.column;
+  const auto& node = given != nullptr ? *given : none;
+  if (node.object() == nullptr) return wrong_type(node, key, "an object");
+  Reader inner(node, path_of(key), problems_);
+  for (const auto& spec : entry->options) {
+    const auto* value =
+        inner.find(spec.name, spec.required ? Presence::required : Presence::optional);
+    if (value != nullptr) inner.option(spec, *value, into);
+  }
+  inner.finish();
+}
+
+void Reader::option(const OptionSpec& spec, const json::Node& node, Options& into) {
+  if (std::holds_alternative<bool>(spec.default_value)) {
+    if (node.boolean() == nullptr) return wrong_type(node, spec.name, "true or false");
+    into.set(spec.name, *node.boolean());
+  } else if (std::holds_alternative<double>(spec.default_value)) {
+    if (spec.integer && !node.integer()) return wrong_type(node, spec.name, "a whole number");
+    if (!node.number()) return wrong_type(node, spec.name, "a number");
+    const double number = *node.number();
+    if (spec.min < spec.max && (number < spec.min || number > spec.max))
+      return out_of_range(node, spec.name, {spec.min, spec.max});
+    into.set(spec.name, number);
+  } else {
+    if (node.text() == nullptr) return wrong_type(node, spec.name, "a text");
+    const std::vector<std::string> choices(spec.choices.begin(), spec.choices.end());
+    const auto& value = *node.text();
+    if (!choices.empty() && std::find(choices.begin(), choices.end(), value) == choices.end())
+      return add(node, path_of(spec.name), "\"" + value + "\" is not one of: " + joined(choices),
+                 did_you_mean(value, choices));
+    into.set(spec.name, value);
+  }
+}
+
+void Reader::finish() {
+  for (const auto& member : *node_.object()) {
+    if (std::find(known_.begin(), known_.end(), member.key) != known_.end()) continue;
+    problems_.push_back({member.line, member.column, path_of(member.key), "is no known key",
+                         did_you_mean(member.key, known_)});
+  }
+}
+
+}  // namespace drover::config

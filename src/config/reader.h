@@ -1,0 +1,85 @@
+// Visitor that reads one JSON object into a configuration struct and collects every problem.
+#pragma once
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "config/fields.h"
+#include "config/load.h"
+#include "config/located_json.h"
+
+namespace drover::config {
+
+class Reader final {
+ public:
+  Reader(const json::Node& node, std::string path, std::vector<Problem>& problems);
+
+  void number(std::string_view key, double& into, Range range, std::string_view text,
+              Presence presence = Presence::optional);
+  void integer(std::string_view key, int& into, Range range, std::string_view text,
+               Presence presence = Presence::optional);
+  void flag(std::string_view key, bool& into, std::string_view text,
+            Presence presence = Presence::optional);
+  void text(std::string_view key, std::string& into, std::string_view text,
+            Presence presence = Presence::optional);
+  void choice(std::string_view key, std::string& into, const std::vector<std::string>& choices,
+              std::string_view text, Presence presence = Presence::optional);
+  void names(std::string_view key, std::vector<std::string>& into, std::string_view text,
+             Presence presence = Presence::optional);
+  void options(std::string_view key, Options& into, const std::string& driver, DriverShape shape);
+
+  template <class T>
+  void object(std::string_view key, T& into, std::string_view, Presence presence = Presence::optional) {
+    const auto* node = find(key, presence);
+    if (node == nullptr) return;
+    if (node->object() == nullptr) return wrong_type(*node, key, "an object");
+    Reader inner(*node, path_of(key), problems_);
+    visit(inner, into);
+    inner.finish();
+  }
+  template <class T>
+  void list(std::string_view key, std::vector<T>& into, std::string_view,
+            Presence presence = Presence::optional) {
+    const auto* node = find(key, presence);
+    if (node == nullptr) return;
+    if (node->list() == nullptr) return wrong_type(*node, key, "a list");
+    for (const auto& item : *node->list()) {
+      const auto path = path_of(key) + "[" + std::to_string(into.size()) + "]";
+      into.emplace_back();
+      if (item.object() == nullptr) {
+        add(item, path, "is " + std::string(item.kind()) + ", but an object is expected");
+        continue;
+      }
+      Reader inner(item, path, problems_);
+      visit(inner, into.back());
+      inner.finish();
+    }
+  }
+  /// Reports the members that nobody asked for.
+  void finish();
+  /// Place of a member for checks that come later; the object itself when it is not there.
+  void add_at(std::string_view key, std::string message, std::string suggestion = {});
+
+ private:
+  const json::Node* find(std::string_view key, Presence presence);
+  std::string path_of(std::string_view key) const;
+  void wrong_type(const json::Node& node, std::string_view key, std::string_view expected);
+  void out_of_range(const json::Node& node, std::string_view key, Range range);
+  void add(const json::Node& place, std::string path, std::string message,
+           std::string suggestion = {});
+  void option(const OptionSpec& spec, const json::Node& node, Options& into);
+
+  const json::Node& node_;
+  std::string path_;
+  std::vector<Problem>& problems_;
+  std::vector<std::string> known_;
+};
+
+/// The candidate that `word` most likely was meant to be; empty when none is near.
+std::string nearest(std::string_view word, const std::vector<std::string>& candidates);
+/// "0.5", "200": without trailing zeros.
+std::string number_text(double value);
+
+}  // namespace drover::config

@@ -1,0 +1,148 @@
+// Writes the JSON schema from the tables in fields.h.
+#include <nlohmann/json.hpp>
+
+#include "config/fields.h"
+#include "config/load.h"
+
+namespace drover::config {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json option_schema(const OptionSpec& spec) {
+  Json schema;
+  schema["description"] = std::string(spec.text);
+  if (std::holds_alternative<bool>(spec.default_value)) {
+    schema["type"] = "boolean";
+  } else if (std::holds_alternative<double>(spec.default_value)) {
+    schema["type"] = spec.integer ? "integer" : "number";
+    if (spec.min < spec.max) {
+      schema["minimum"] = spec.min;
+      schema["maximum"] = spec.max;
+    }
+  } else {
+    schema["type"] = "string";
+    for (const auto choice : spec.choices) schema["enum"].push_back(std::string(choice));
+  }
+  if (!spec.required)
+    std::visit([&schema](const auto& value) { schema["default"] = value; }, spec.default_value);
+  return schema;
+}
+
+class SchemaWriter final {
+ public:
+  void number(std::string_view key, const double& value, Range range, std::string_view text,
+              Presence presence = Presence::optional) {
+    auto& p = property(key, "number", text, presence);
+    p["minimum"] = range.min;
+    p["maximum"] = range.max;
+    if (presence == Presence::optional) p["default"] = value;
+  }
+  void integer(std::string_view key, const int& value, Range range, std::string_view text,
+               Presence presence = Presence::optional) {
+    auto& p = property(key, "integer", text, presence);
+    p["minimum"] = static_cast<int>(range.min);
+    p["maximum"] = static_cast<int>(range.max);
+    if (presence == Presence::optional) p["default"] = value;
+  }
+  void flag(std::string_view key, const bool& value, std::string_view text,
+            Presence presence = Presence::optional) {
+    property(key, "boolean", text, presence)["default"] = value;
+  }
+  void text(std::string_view key, const std::string& value, std::string_view text,
+            Presence presence = Presence::optional) {
+    auto& p = property(key, "string", text, presence);
+    if (presence == Presence::optional) p["default"] = value;
+  }
+  void choice(std::string_view key, const std::string& value,
+              const std::vector<std::string>& choices, std::string_view text,
+              Presence presence = Presence::optional) {
+    this->text(key, value, text, presence);
+    schema_["properties"][std::string(key)]["enum"] = choices;
+  }
+  void names(std::string_view key, const std::vector<std::string>&, std::string_view text,
+             Presence presence = Presence::optional) {
+    property(key, "array", text, presence)["items"]["type"] = "string";
+  }
+  template <class T>
+  void object(std::string_view key, T value, std::string_view text,
+              Presence presence = Presence::optional) {
+    SchemaWriter inner;
+    visit(inner, value);
+    insert(key, inner.finish(), text, presence);
+  }
+  template <class T>
+  void list(std::string_view key, const std::vector<T>&, std::string_view text,
+            Presence presence = Presence::optional) {
+    SchemaWriter inner;
+    T item;
+    visit(inner, item);
+    Json schema;
+    schema["type"] = "array";
+    schema["items"] = inner.finish();
+    insert(key, schema, text, presence);
+  }
+  /// The options depend on the driver: one condition for each driver of the shape.
+  void options(std::string_view key, const Options&, const std::string& default_driver,
+               DriverShape shape) {
+    property(key, "object", "options of the driver", Presence::optional);
+    for (const auto& entry : driver_registry()) {
+      if (entry.make.index() != static_cast<std::size_t>(shape)) continue;
+      Json options;
+      options["type"] = "object";
+      options["additionalProperties"] = false;
+      options["properties"] = Json::object();
+      for (const auto& spec : entry.options) {
+        options["properties"][std::string(spec.name)] = option_schema(spec);
+        if (spec.required) options["required"].push_back(std::string(spec.name));
+      }
+      Json condition;
+      condition["if"]["properties"]["driver"]["const"] = std::string(entry.name);
+      // Without a "driver" the default one is meant.
+      if (entry.name != default_driver) condition["if"]["required"] = {"driver"};
+      condition["then"]["properties"][std::string(key)] = options;
+      schema_["allOf"].push_back(condition);
+    }
+  }
+  Json finish() {
+    Json schema;
+    schema["type"] = "object";
+    schema["additionalProperties"] = false;
+    schema.update(schema_);
+    return schema;
+  }
+
+ private:
+  Json& property(std::string_view key, const char* type, std::string_view text, Presence presence) {
+    Json schema;
+    schema["type"] = type;
+    insert(key, schema, text, presence);
+    return schema_["properties"][std::string(key)];
+  }
+  void insert(std::string_view key, const Json& schema, std::string_view text, Presence presence) {
+    Json with_text;
+    with_text["description"] = std::string(text);
+    with_text.update(schema);
+    schema_["properties"][std::string(key)] = with_text;
+    if (presence == Presence::required) schema_["required"].push_back(std::string(key));
+  }
+  Json schema_ = Json::object();
+};
+
+}  // namespace
+
+std::string schema_text() {
+  DroverConfig config;
+  BaseNames base;
+  base.base = &config.engine.base;
+  SchemaWriter writer;
+  visit(writer, config, base);
+  Json schema;
+  schema["$schema"] = "http://json-schema.org/draft-07/schema#";
+  schema["title"] = "Configuration of droverd";
+  schema.update(writer.finish());
+  return schema.dump(2) + "\n";
+}
+
+}  // namespace drover::config

@@ -1,0 +1,23 @@
+// The only readers of the system's clocks.
+#pragma once
+
+#include <ctime>
+
+#include "drover/time.h"
+
+namespace drover::runtime {
+
+inline Duration read_clock(clockid_t clock) {
+  timespec t{};
+  ::clock_gettime(clock, &t);
+  return std::chrono::seconds(t.tv_sec) + Duration(t.tv_nsec);
+}
+
+inline Time monotonic_now() { return Time{read_clock(CLOCK_MONOTONIC)}; }
+
+/// What to take off a wall-clock stamp of the kernel to get monotonic time, right now.
+inline Duration wall_minus_monotonic() {
+  return read_clock(CLOCK_REALTIME) - read_clock(CLOCK_MONOTONIC);
+}
+
+}  // namespace drover::runtime

@@ -1,0 +1,241 @@
+#include "runtime/control_loop.h"
+
+#include <sys/epoll.h>
+#include <sys/timerfd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <stdexcept>
+
+#include "runtime/clock.h"
+
+namespace drover::runtime {
+
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr std::uint64_t kTimerTag = 1;
+constexpr std::uint64_t kGnssTag = 2;
+constexpr std::uint64_t kLinesTag = 3;
+/// A guard whose own cycle is 10 ms and that was not seen for so long is not there.
+constexpr Duration kGuardStale = 80ms;
+/// The bus is asked back when the robot was at rest and our heartbeat good for this long.
+constexpr Duration kHandBackAfter = 500ms;
+
+link::UniqueFd make_timer(double tick_Hz) {
+  link::UniqueFd fd(::timerfd_create(CLOCK_MONOTONIC, TFD_CLOEXEC | TFD_NONBLOCK));
+  const auto period_ns = static_cast<long>(1e9 / tick_Hz);
+  const itimerspec cycle{{0, period_ns}, {0, period_ns}};
+  if (!fd || ::timerfd_settime(fd.get(), 0, &cycle, nullptr) != 0)
+    throw std::runtime_error("control.tick_Hz: the timer cannot be set");
+  return fd;
+}
+
+}  // namespace
+
+ControlLoop::ControlLoop(const config::DroverConfig& config, Gateway& gateway, LinkKeeper& keeper,
+                         const GuardMemory& guard, ControlExchange& exchange)
+    : config_(config),
+      gateway_(gateway),
+      keeper_(keeper),
+      guard_(guard),
+      exchange_(exchange),
+      epoll_(::epoll_create1(EPOLL_CLOEXEC)),
+      timer_(make_timer(config.control.tick_Hz)) {
+  if (!epoll_) throw std::runtime_error("no epoll descriptor");
+  watch(timer_.get(), kTimerTag);
+  for (const auto& line : config.lines.line) line_count_ += line.configured ? 1 : 0;
+  for (std::size_t slot = 0; slot < kLinkSlots; ++slot) {
+    link_state_[slot].name = slot_name(slot);
+    link_state_[slot].reason = "not opened yet";
+  }
+}
+
+Name ControlLoop::slot_name(std::size_t slot) const {
+  if (slot == kGnssSlot) return config_.gnss.configured ? Name("gnss") : Name();
+  if (slot == kLinesSlot) return line_count_ > 0 ? Name("lines") : Name();
+  return slot < config_.buses.size() ? Name(config_.buses[slot].name) : Name();
+}
+
+void ControlLoop::watch(int fd, std::uint64_t tag) {
+  epoll_event event{};
+  event.events = EPOLLIN;
+  event.data.u64 = tag;
+  ::epoll_ctl(epoll_.get(), EPOLL_CTL_ADD, fd, &event);
+}
+
+void ControlLoop::run(const std::atomic<bool>& stop) {
+  std::array<epoll_event, 8> events{};
+  while (!stop.load(std::memory_order_relaxed)) {
+    const int n = ::epoll_wait(epoll_.get(), events.data(), events.size(), -1);
+    std::uint64_t expirations = 0;
+    for (int i = 0; i < n; ++i) {
+      switch (events[i].data.u64) {
+        case kTimerTag:
+          (void)!::read(timer_.get(), &expirations, sizeof expirations);
+          break;
+        case kGnssTag:
+          read_gnss();
+          break;
+        case kLinesTag:
+          if (lines_) lines_->drain_edges();
+          read_lines(monotonic_now());
+          break;
+        default:
+          break;
+      }
+    }
+    if (expirations > 0) cycle(expirations);
+  }
+}
+
+void ControlLoop::cycle(std::uint64_t expirations) {
+  const Time begin = monotonic_now();
+  ++stats_.cycles;
+  stats_.overruns += expirations - 1;
+  take_links(begin);
+  drain_can(begin);
+  read_lines(begin);
+  watch_guard(begin);
+  Command command;
+  while (exchange_.commands.pop(command)) gateway_.on_command(command, begin);
+
+  const auto& out = gateway_.step(begin, guard_seen_ + kGuardStale > begin, guard_has_bus_);
+  for (std::size_t bus = 0; bus < gateway_.bus_count(); ++bus) {
+    if (!can_[bus] || out.frames[bus].empty()) continue;
+    if (!can_[bus]->send(out.frames[bus])) lose(bus, can_[bus]->error(), begin);
+  }
+  if (gnss_ && !out.gnss_bytes.empty() && !gnss_->write(out.gnss_bytes))
+    lose(kGnssSlot, gnss_->error(), begin);
+
+  guard_.shared().daemon_beats.fetch_add(1, std::memory_order_release);
+  exchange_.beats.fetch_add(1, std::memory_order_relaxed);
+  for (const auto& event : out.engine.events)
+    if (!exchange_.events.push(event)) exchange_.lost_events.fetch_add(1);
+  if (!out.engine.events.empty()) exchange_.events_ready.notify();
+  publish(begin);
+}
+
+void ControlLoop::take_links(Time now) {
+  for (auto& dead : going_back_)
+    if (dead.opened()) (void)keeper_.give_back(dead);
+  LinkHandover arrived;
+  while (keeper_.take(arrived)) {
+    const auto slot = arrived.slot;
+    link_state_[slot].up = arrived.opened();
+    link_state_[slot].reason = arrived.problem;
+    if (!arrived.opened()) continue;
+    if (slot == kGnssSlot) {
+      gnss_ = std::move(arrived.serial);
+      watch(gnss_->fd(), kGnssTag);
+      gateway_.on_gnss_up(now);
+    } else if (slot == kLinesSlot) {
+      lines_ = std::move(arrived.lines);
+      for (const int fd : lines_->edge_fds()) watch(fd, kLinesTag);
+    } else {
+      can_[slot] = std::move(arrived.can);
+      gateway_.on_bus_up(slot, now);
+    }
+  }
+}
+
+void ControlLoop::lose(std::size_t slot, int error, Time now) {
+  auto& dead = going_back_[slot];
+  dead.slot = slot;
+  dead.problem.format("%.*s: lost (%s)", static_cast<int>(link_state_[slot].name.view().size()),
+                      link_state_[slot].name.view().data(), ::strerrordesc_np(error));
+  link_state_[slot].up = false;
+  link_state_[slot].reason = dead.problem;
+  // Out of epoll at once: a descriptor that hung up is always ready and would spin the loop.
+  if (slot == kGnssSlot) {
+    ::epoll_ctl(epoll_.get(), EPOLL_CTL_DEL, gnss_->fd(), nullptr);
+    dead.serial = std::move(gnss_);
+  } else if (slot == kLinesSlot) {
+    for (const int fd : lines_->edge_fds()) ::epoll_ctl(epoll_.get(), EPOLL_CTL_DEL, fd, nullptr);
+    dead.lines = std::move(lines_);
+    gateway_.on_lines_lost(now);
+  } else {
+    dead.can = std::move(can_[slot]);
+  }
+  (void)keeper_.give_back(dead);
+}
+
+void ControlLoop::read_gnss() {
+  if (!gnss_) return;
+  std::array<std::uint8_t, 1024> buffer;
+  std::size_t size = 0;
+  const Time now = monotonic_now();
+  if (!gnss_->read(buffer, size)) return lose(kGnssSlot, gnss_->error(), now);
+  if (size == 0) return;
+  link_state_[kGnssSlot].received += size;
+  // The first byte came in before the last one: take the wire's time off.
+  const Duration wire = from_s(10.0 * static_cast<double>(size - 1) / config_.gnss.baud);
+  gateway_.on_gnss_bytes({buffer.data(), size}, now - wire);
+}
+
+void ControlLoop::read_lines(Time now) {
+  if (line_count_ == 0) return;
+  if (!lines_) return gateway_.on_lines_lost(now);
+  std::array<bool, link::kMaxLines> levels{};
+  if (!lines_->read(levels)) return lose(kLinesSlot, lines_->error(), now);
+  gateway_.on_levels({levels.data(), line_count_}, now);
+}
+
+void ControlLoop::drain_can(Time now) {
+  const link::StampWindow window{previous_drain_, now, wall_minus_monotonic()};
+  previous_drain_ = now;
+  constexpr int kMostBatches = 64;  // a babbling bus must not hold the cycle for ever
+  for (std::size_t bus = 0; bus < gateway_.bus_count(); ++bus) {
+    for (int i = 0; i < kMostBatches && can_[bus]; ++i) {
+      if (!can_[bus]->receive(window, batch_)) {
+        lose(bus, can_[bus]->error(), now);
+        break;
+      }
+      for (const auto& received : batch_) gateway_.on_frame(bus, received.frame, received.received);
+      if (batch_.size() < batch_.capacity()) break;
+    }
+  }
+}
+
+void ControlLoop::watch_guard(Time now) {
+  const auto& shared = guard_.shared();
+  const auto beats = shared.guard_beats.load(std::memory_order_acquire);
+  if (beats != guard_beats_) {
+    guard_beats_ = beats;
+    guard_seen_ = now;
+  }
+  const bool holds = shared.guard_holds.load(std::memory_order_acquire) != 0;
+  if (holds && !guard_has_bus_) guard_held_since_ = now;
+  guard_has_bus_ = holds;
+  const bool at_rest = gateway_.snapshot().nav.status != NavStatus::run;
+  if (holds && at_rest && now - guard_held_since_ > kHandBackAfter &&
+      now - hand_back_asked_ > kHandBackAfter) {
+    hand_back_asked_ = now;
+    keeper_.request_hand_back();
+  }
+}
+
+void ControlLoop::publish(Time now) {
+  auto& snapshot = exchange_.snapshot.back();
+  snapshot = gateway_.snapshot();
+  snapshot.links.clear();
+  for (std::size_t slot = 0; slot < kLinkSlots; ++slot) {
+    auto& state = link_state_[slot];
+    if (state.name.empty()) continue;
+    if (slot < kMaxBuses && can_[slot]) {
+      const auto& c = can_[slot]->counters();
+      state.received = c.received;
+      state.sent = c.sent;
+      state.dropped = c.receive_overflows + c.send_refused;
+      state.refused = gateway_.refused(slot);
+    }
+    (void)snapshot.links.push_back(state);
+  }
+  const Duration step = monotonic_now() - now;
+  if (step > stats_.longest_step) stats_.longest_step = step;
+  snapshot.cycle = stats_;
+  exchange_.snapshot.publish();
+}
+
+}  // namespace drover::runtime

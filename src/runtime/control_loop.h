@@ -1,0 +1,69 @@
+// The control thread: a timer tick drains CAN, reads lines, steps the gateway and sends; serial bytes
+// and edges wake it at once. After start it takes no lock, allocates nothing, logs nothing.
+#pragma once
+
+#include <atomic>
+
+#include "drover/event.h"
+#include "drover/spsc_ring.h"
+#include "drover/triple_buffer.h"
+#include "runtime/gateway.h"
+#include "runtime/guard_client.h"
+#include "runtime/link_keeper.h"
+#include "runtime/wake.h"
+
+namespace drover::runtime {
+
+/// What the control thread shares with the publish thread.
+struct ControlExchange {
+  SpscRing<Command, 64> commands;     ///< publish → control
+  SpscRing<Event, 256> events;        ///< control → publish
+  TripleBuffer<Snapshot> snapshot;    ///< control → publish
+  Wake events_ready;
+  std::atomic<std::uint64_t> beats{0};
+  std::atomic<std::uint64_t> lost_events{0};
+};
+
+class ControlLoop final {
+ public:
+  ControlLoop(const config::DroverConfig& config, Gateway& gateway, LinkKeeper& keeper,
+              const GuardMemory& guard, ControlExchange& exchange);
+  void run(const std::atomic<bool>& stop);
+
+ private:
+  void take_links(Time now);
+  void lose(std::size_t slot, int error, Time now);
+  void read_gnss();
+  void read_lines(Time now);
+  void drain_can(Time now);
+  void cycle(std::uint64_t expirations);
+  void watch_guard(Time now);
+  void publish(Time now);
+  void watch(int fd, std::uint64_t tag);
+  Name slot_name(std::size_t slot) const;
+
+  const config::DroverConfig& config_;
+  Gateway& gateway_;
+  LinkKeeper& keeper_;
+  const GuardMemory& guard_;
+  ControlExchange& exchange_;
+
+  link::UniqueFd epoll_;
+  link::UniqueFd timer_;
+  std::array<std::unique_ptr<link::CanLink>, kMaxBuses> can_;
+  std::unique_ptr<link::SerialLink> gnss_;
+  std::unique_ptr<link::LineLink> lines_;
+  std::array<LinkHandover, kLinkSlots> going_back_;  ///< dead links that the keeper has yet to take
+  std::array<LinkSnapshot, kLinkSlots> link_state_;
+  std::size_t line_count_ = 0;
+  Time previous_drain_ = kNever;
+  CycleStats stats_;
+  std::uint64_t guard_beats_ = 0;
+  Time guard_seen_ = kNever;
+  Time guard_held_since_ = kNever;
+  Time hand_back_asked_ = kNever;
+  bool guard_has_bus_ = false;
+  link::FrameBatch batch_;
+};
+
+}  // namespace drover::runtime

@@ -1,0 +1,74 @@
+// Drivers, engine and gates put together: bytes with a time in, frames, events and a snapshot out.
+// Reads no clock and touches no descriptor, so that live, replay, simulation and tests run the same.
+// After construction it allocates nothing.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "config/config.h"
+#include "drover/driver.h"
+#include "drover/registry.h"
+#include "engine/engine.h"
+#include "engine/gate/frame_gate.h"
+
+namespace drover::runtime {
+
+inline constexpr std::size_t kMaxBuses = 4;
+
+struct CycleOutput {
+  std::array<FixedVector<CanFrame, 128>, kMaxBuses> frames;  ///< to be sent, by bus
+  FixedVector<std::uint8_t, 512> gnss_bytes;
+  engine::EngineOutput engine;
+};
+
+class Gateway final {
+ public:
+  /// Throws std::runtime_error naming the key that cannot be.
+  explicit Gateway(const config::DroverConfig& config);
+
+  void on_frame(std::size_t bus, const CanFrame& frame, Time received);
+  void on_gnss_bytes(std::span<const std::uint8_t> bytes, Time first_byte);
+  /// `levels[i]` belongs to the i-th configured line, in the order of Line.
+  void on_levels(std::span<const bool> levels, Time at);
+  void on_lines_lost(Time at);
+  void on_bus_up(std::size_t bus, Time now);
+  void on_gnss_up(Time now);
+  void on_command(const Command& command, Time now);
+
+  /// One control cycle; the reference stays good until the next call.
+  const CycleOutput& step(Time now, bool guard_alive, bool guard_has_bus);
+  const Snapshot& snapshot() const { return engine_.snapshot(); }
+  /// Frames of `bus` that the gate refused so far.
+  std::uint64_t refused(std::size_t bus) const { return refused_[bus]; }
+
+  std::size_t bus_count() const { return bus_count_; }
+  /// For the guard: every stop frame of the drives on `bus`, and how long a cycle's frames are.
+  std::vector<CanFrame> stop_frames(std::size_t bus) const;
+
+ private:
+  struct Drive {
+    std::size_t bus = 0;
+    std::unique_ptr<CanDriver> driver;
+  };
+  void absorb(const DriverOut& out);
+  void emit(const Drive& drive, bool motion_permitted, bool guard_has_bus);
+
+  engine::Engine engine_;
+  std::vector<Drive> drives_;
+  std::unique_ptr<ByteDriver> gnss_;
+  std::vector<std::unique_ptr<LineDriver>> lines_;
+  std::vector<Line> line_ids_;
+  std::size_t bus_count_ = 0;
+  engine::FrameGate frame_gate_;
+  engine::Environment environment_;
+  DriverOut scratch_;
+  CycleOutput cycle_;
+  std::array<std::uint64_t, kMaxBuses> refused_{};
+  bool motion_permitted_ = false;
+  bool guard_has_bus_ = false;
+};
+
+}  // namespace drover::runtime

@@ -1,0 +1,157 @@
+#include "runtime/link_keeper.h"
+
+#include <poll.h>
+
+#include <algorithm>
+
+#include "runtime/clock.h"
+#include "runtime/log.h"
+
+namespace drover::runtime {
+
+namespace {
+// A device that comes back is there within a second: the pause never grows beyond half of it.
+constexpr Duration kFirstPause = std::chrono::milliseconds(50);
+constexpr Duration kLongestPause = std::chrono::milliseconds(500);
+
+std::vector<std::string> line_names(const config::LinesConfig& lines) {
+  std::vector<std::string> names;
+  for (const auto& line : lines.line)
+    if (line.configured) names.push_back(line.name);
+  return names;
+}
+}  // namespace
+
+LinkKeeper::LinkKeeper(const config::DroverConfig& config, const GuardMemory& memory,
+                       std::vector<std::vector<CanFrame>> stop_frames)
+    : config_(config),
+      stop_frames_(std::move(stop_frames)),
+      guard_(config.guard.socket, config.guard.limit_ms, memory) {
+  for (std::size_t i = 0; i < config.buses.size(); ++i) slots_[i].used = true;
+  slots_[kGnssSlot].used = config.gnss.configured;
+  slots_[kLinesSlot].used = !line_names(config.lines).empty();
+}
+
+bool LinkKeeper::give_back(LinkHandover& lost) {
+  if (!losses_.push(std::move(lost))) return false;
+  wake_.notify();
+  return true;
+}
+
+void LinkKeeper::run(const std::atomic<bool>& stop) {
+  while (!stop.load(std::memory_order_relaxed)) {
+    const Time now = monotonic_now();
+    take_back_lost(now);
+    for (std::size_t i = 0; i < kLinkSlots; ++i)
+      if (slots_[i].used && !slots_[i].open && now >= slots_[i].next_try) try_open(i, now);
+    supply_guard(now);
+    if (hand_back_wanted_.exchange(false, std::memory_order_relaxed)) guard_.hand_back();
+
+    std::array<pollfd, 2> fds{{{wake_.fd(), POLLIN, 0}, {guard_.fd(), POLLIN | POLLHUP, 0}}};
+    const auto wait = std::chrono::ceil<std::chrono::milliseconds>(until_next_try(now));
+    ::poll(fds.data(), guard_.connected() ? 2 : 1, static_cast<int>(wait.count()));
+    wake_.clear();
+    if (guard_.connected() && fds[1].revents != 0) {  // the guard never talks: it went away
+      guard_.disconnect();
+      guard_set_changed_ = true;
+      log(LogLevel::error, "drover-guard is gone: nothing may move until it is back");
+    }
+  }
+}
+
+Duration LinkKeeper::until_next_try(Time now) const {
+  Duration wait = std::chrono::seconds(10);
+  for (const auto& slot : slots_)
+    if (slot.used && !slot.open) wait = std::min(wait, slot.next_try - now);
+  if (guard_set_changed_) wait = std::min(wait, guard_slot_.next_try - now);
+  return std::max(wait, Duration(std::chrono::milliseconds(1)));
+}
+
+void LinkKeeper::take_back_lost(Time now) {
+  LinkHandover lost;
+  while (losses_.pop(lost)) {
+    auto& slot = slots_[lost.slot];
+    slot.open = false;
+    slot.pause = {};
+    slot.next_try = now;
+    if (lost.slot < kMaxBuses) guard_set_changed_ = true;
+    log(LogLevel::error, lost.problem.view());
+    lost = {};  // closes: at once, or the device comes back under another name
+  }
+}
+
+link::CanSettings LinkKeeper::can_settings(std::size_t bus) const {
+  link::CanSettings settings;
+  settings.interface = config_.buses[bus].interface;
+  // Two frames an axis and cycle: the set point and a poll.
+  settings.frames_per_cycle = std::max<std::size_t>(2 * stop_frames_[bus].size(), 4);
+  return settings;
+}
+
+LinkHandover LinkKeeper::open(std::size_t slot, std::string& problem) const {
+  LinkHandover handover;
+  handover.slot = slot;
+  const auto take = [&problem](auto opened, auto& into) {
+    into = std::move(opened.link);
+    problem = std::move(opened.problem);
+  };
+  if (slot == kGnssSlot) {
+    take(link::open_serial({config_.gnss.port, config_.gnss.baud}), handover.serial);
+  } else if (slot == kLinesSlot) {
+    take(link::open_lines({config_.lines.chip, line_names(config_.lines)}), handover.lines);
+  } else {
+    take(link::open_can(can_settings(slot)), handover.can);
+  }
+  return handover;
+}
+
+void LinkKeeper::try_open(std::size_t slot, Time now) {
+  std::string problem;
+  auto handover = open(slot, problem);
+  if (!handover.opened()) return failed(slot, problem, now);
+  if (!arrivals_.push(std::move(handover))) return failed(slot, "the control thread is busy", now);
+  slots_[slot].open = true;
+  slots_[slot].problem.clear();
+  if (slot < kMaxBuses) guard_set_changed_ = true;
+  const auto name = slot == kGnssSlot    ? config_.gnss.port
+                    : slot == kLinesSlot ? "gpio " + config_.lines.chip
+                                         : config_.buses[slot].interface;
+  log(LogLevel::info, name + ": open");
+}
+
+void LinkKeeper::failed(std::size_t slot, const std::string& problem, Time now) {
+  auto& s = slots_[slot];
+  s.pause = std::clamp(s.pause * 2, kFirstPause, kLongestPause);
+  s.next_try = now + s.pause;
+  if (problem == s.problem) return;  // said once, not at every try
+  s.problem = problem;
+  log(LogLevel::warning, problem);
+  LinkHandover report;
+  report.slot = slot;
+  report.problem = problem;
+  (void)arrivals_.push(std::move(report));
+}
+
+void LinkKeeper::supply_guard(Time now) {
+  if (!guard_set_changed_ || now < guard_slot_.next_try) return;
+  std::vector<GuardedLink> links(config_.buses.size());
+  std::string problem;
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    if (!slots_[i].open) continue;
+    links[i].descriptor = link::open_can_descriptor(can_settings(i), problem);
+    links[i].stop_frames = stop_frames_[i];
+  }
+  problem.clear();
+  if (guard_.hand_over(links, problem)) {
+    guard_set_changed_ = false;
+    guard_slot_ = {};
+    log(LogLevel::info, "drover-guard watches the drives");
+    return;
+  }
+  guard_slot_.pause = std::clamp(guard_slot_.pause * 2, kFirstPause, kLongestPause);
+  guard_slot_.next_try = now + guard_slot_.pause;
+  if (problem != guard_slot_.problem) log(LogLevel::warning, problem);
+  guard_slot_.problem = problem;
+}
+
+}  // namespace drover::runtime

@@ -1,0 +1,85 @@
+// Opens links and opens them again for ever, with a growing pause, in a thread of its own: opening and
+// closing may allocate or block, which the control thread must not. Keeps the guard supplied too.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "config/config.h"
+#include "drover/fixed_text.h"
+#include "drover/spsc_ring.h"
+#include "link/can_open.h"
+#include "link/lines.h"
+#include "link/serial_link.h"
+#include "runtime/gateway.h"
+#include "runtime/guard_client.h"
+#include "runtime/wake.h"
+
+namespace drover::runtime {
+
+/// Slots: the buses first, then the receiver, then the digital lines.
+inline constexpr std::size_t kGnssSlot = kMaxBuses;
+inline constexpr std::size_t kLinesSlot = kMaxBuses + 1;
+inline constexpr std::size_t kLinkSlots = kMaxBuses + 2;
+
+/// A link on its way between the keeper and the control thread; which pointer is set follows the slot.
+struct LinkHandover {
+  std::size_t slot = 0;
+  std::unique_ptr<link::CanLink> can;
+  std::unique_ptr<link::SerialLink> serial;
+  std::unique_ptr<link::LineLink> lines;
+  Reason problem;  ///< keeper → control: why there is no link; control → keeper: why it was given back
+  bool opened() const { return can || serial || lines; }
+};
+
+class LinkKeeper final {
+ public:
+  LinkKeeper(const config::DroverConfig& config, const GuardMemory& memory,
+             std::vector<std::vector<CanFrame>> stop_frames);
+
+  // Control thread:
+  bool take(LinkHandover& arrived) { return arrivals_.pop(arrived); }
+  /// False when the queue is full: keep it and try again next cycle.
+  bool give_back(LinkHandover& lost);
+  void request_hand_back() {
+    hand_back_wanted_.store(true, std::memory_order_relaxed);
+    wake_.notify();
+  }
+
+  // Keeper thread:
+  void run(const std::atomic<bool>& stop);
+  void wake() const { wake_.notify(); }
+
+ private:
+  struct Slot {
+    bool used = false;
+    bool open = false;
+    Time next_try = kNever;
+    Duration pause{};
+    std::string problem;
+  };
+  void take_back_lost(Time now);
+  void try_open(std::size_t slot, Time now);
+  LinkHandover open(std::size_t slot, std::string& problem) const;
+  link::CanSettings can_settings(std::size_t bus) const;
+  void failed(std::size_t slot, const std::string& problem, Time now);
+  void supply_guard(Time now);
+  Duration until_next_try(Time now) const;
+
+  const config::DroverConfig& config_;
+  std::vector<std::vector<CanFrame>> stop_frames_;  ///< by bus
+  std::array<Slot, kLinkSlots> slots_{};
+  SpscRing<LinkHandover, 16> arrivals_;
+  SpscRing<LinkHandover, 16> losses_;
+  Wake wake_;
+  std::atomic<bool> hand_back_wanted_{false};
+  GuardClient guard_;
+  Slot guard_slot_;
+  bool guard_set_changed_ = true;
+};
+
+}  // namespace drover::runtime
