@@ -1,0 +1,70 @@
+// The origin of the map frame on disk: it survives a restart.
+#include "store/origin_store.h"
+
+#include <cerrno>
+#include <cmath>
+
+namespace drover::store {
+namespace {
+
+constexpr std::string_view kFormat = "drover-origin";
+constexpr int kVersion = 1;
+const std::string kFile = "origin.json";
+
+}  // namespace
+
+void write_origin(json::JsonText& out, const std::optional<GeodeticPoint>& origin) {
+  if (!origin) {
+    out.null();
+    return;
+  }
+  out.open('{').key("latitude_deg").number(origin->latitude_deg);
+  out.key("longitude_deg").number(origin->longitude_deg);
+  out.key("altitude_m").number(origin->altitude_m).close('}');
+}
+
+std::optional<GeodeticPoint> read_origin(const json::Node& node) {
+  const auto number = [&](std::string_view key) {
+    const auto* member = node.find(key);
+    return member == nullptr ? std::nullopt : member->number();
+  };
+  const auto latitude_deg = number("latitude_deg");
+  const auto longitude_deg = number("longitude_deg");
+  const auto altitude_m = number("altitude_m");
+  if (!latitude_deg || !longitude_deg || !altitude_m) return std::nullopt;
+  if (std::abs(*latitude_deg) > 90 || std::abs(*longitude_deg) > 360) return std::nullopt;
+  return GeodeticPoint{*latitude_deg, *longitude_deg, *altitude_m};
+}
+
+OriginStore::OriginStore(Files& files, std::string folder)
+    : files_(files), folder_(std::move(folder)) {}
+
+std::optional<GeodeticPoint> OriginStore::load(std::vector<std::string>& report) {
+  const std::string path = folder_ + "/" + kFile;
+  std::string content;
+  if (const int e = files_.read(path, 65536, content); e != 0) {
+    if (e != ENOENT) report.push_back(failure_text("read", path, e));
+    return std::nullopt;
+  }
+  std::string what = "has no latitude, longitude and altitude";
+  const auto body = unseal(kFormat, kVersion, content);
+  if (body.ok()) {
+    const auto parsed = json::parse(*body);
+    const auto origin = parsed.ok() ? read_origin(parsed->root) : std::nullopt;
+    if (origin) return origin;
+  } else {
+    what = body.error().text;
+  }
+  const auto aside = quarantine(files_, folder_, kFile);
+  report.push_back(path + " " + what + "; " +
+                   (aside.ok() ? "kept as " + *aside : aside.error().text));
+  return std::nullopt;
+}
+
+std::optional<Failure> OriginStore::save(const GeodeticPoint& origin) {
+  json::JsonText body;
+  write_origin(body, origin);
+  return write_durably(files_, folder_, kFile, seal(kFormat, kVersion, body.str()));
+}
+
+}  // namespace drover::store

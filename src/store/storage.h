@@ -1,0 +1,63 @@
+// The storage thread's work: one job in, one reply out, in order.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "drover/command.h"
+#include "store/files.h"
+#include "store/origin_store.h"
+#include "store/track.h"
+#include "store/track_store.h"
+
+namespace drover::store {
+
+struct SaveTrack {
+  Track track;
+};
+struct DeleteTrack {
+  std::string name;
+};
+struct DeleteAllTracks {};
+struct SaveOrigin {
+  GeodeticPoint origin;
+};
+
+struct StorageJob {
+  RequestId id;
+  std::variant<SaveTrack, DeleteTrack, DeleteAllTracks, SaveOrigin> what;
+};
+
+struct StorageReply {
+  RequestId id;
+  bool ok = false;                   ///< durable
+  std::string reason;                ///< why not
+  std::vector<std::string> removed;  ///< DeleteAllTracks: names that are gone, also when not ok
+};
+
+/// What was found at start.
+struct StoredState {
+  std::vector<Track> tracks;
+  std::optional<GeodeticPoint> origin;
+  std::vector<std::string> report;  ///< for the log, a sentence each
+};
+
+/// Owns the state folder's content: `tracks/` and `origin.json`.
+class Storage final {
+ public:
+  /// Makes `folder` and its `tracks` when they are missing.
+  /// @throws std::runtime_error with folder and reason; start-up only
+  Storage(Files& files, const std::string& folder);
+
+  StoredState load();
+  StorageReply run(const StorageJob& job);
+
+ private:
+  TrackStore tracks_;
+  OriginStore origin_;
+};
+
+}  // namespace drover::store

@@ -1,0 +1,111 @@
+// How a track lies on disk: its file name and its content.
+#include "store/track_file.h"
+
+#include <cinttypes>
+#include <cstdio>
+
+#include "config/json_text.h"
+#include "config/located_json.h"
+#include "store/origin_store.h"
+
+namespace drover::store {
+namespace {
+
+constexpr std::string_view kFormat = "drover-track";
+constexpr int kVersion = 1;
+constexpr std::size_t kMaxEscaped = 100;
+constexpr std::size_t kNumbersPerPoint = 7;
+
+bool stays(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+}
+
+/// A point is a list, in the order of TrackPoint's fields: the file stays small.
+bool read_point(const json::Node& node, TrackPoint& point) {
+  const auto* items = node.list();
+  if (items == nullptr || items->size() != kNumbersPerPoint) return false;
+  double* const fields[kNumbersPerPoint] = {&point.longitude_deg, &point.latitude_deg,
+                                            &point.angle_deg,     &point.x_m,
+                                            &point.y_m,           &point.yaw_rad,
+                                            &point.z_m};
+  for (std::size_t i = 0; i < kNumbersPerPoint; ++i) {
+    const auto number = (*items)[i].number();
+    if (!number) return false;
+    *fields[i] = *number;
+  }
+  return true;
+}
+
+}  // namespace
+
+std::string track_file_name(std::string_view name, int attempt) {
+  std::string file = "t-";
+  bool whole = true;
+  for (const char c : name) {
+    if (file.size() + 3 > kMaxEscaped) {
+      whole = false;
+      break;
+    }
+    if (stays(c)) {
+      file += c;
+    } else {
+      char escaped[4] = {};
+      std::snprintf(escaped, sizeof escaped, "%%%02x", static_cast<unsigned char>(c));
+      file += escaped;
+    }
+  }
+  if (!whole) {
+    char digits[18] = {};
+    std::snprintf(digits, sizeof digits, "~%016" PRIx64, fingerprint(name));
+    file += digits;
+  }
+  if (attempt > 0) file += "~" + std::to_string(attempt);
+  return file + std::string(kTrackEnding);
+}
+
+std::string encode_track(const Track& track) {
+  json::JsonText body;
+  body.open('{').key("name").text(track.name).key("origin");
+  write_origin(body, track.origin);
+  body.key("points").open('[');
+  for (const TrackPoint& point : track.points) {
+    body.newline().open('[');
+    body.number(point.longitude_deg).number(point.latitude_deg).number(point.angle_deg);
+    body.number(point.x_m).number(point.y_m).number(point.yaw_rad).number(point.z_m);
+    body.close(']');
+  }
+  body.close(']').close('}');
+  return seal(kFormat, kVersion, body.str());
+}
+
+Result<Track, Failure> decode_track(std::string_view content) {
+  const auto body = unseal(kFormat, kVersion, content);
+  if (!body.ok()) return body.error();
+  const auto parsed = json::parse(*body, {.max_bytes = kMaxTrackFileBytes,
+                                          .max_depth = 8,
+                                          .max_values = kMaxPointsPerTrack * 8 + 100});
+  if (!parsed.ok()) return Failure{"is no JSON: " + parsed.error().text()};
+  const json::Node& root = parsed->root;
+  const auto* name = root.find("name");
+  const auto* origin = root.find("origin");
+  const auto* points = root.find("points");
+  if (name == nullptr || name->text() == nullptr || origin == nullptr || points == nullptr ||
+      points->list() == nullptr) {
+    return Failure{"lacks name, origin or points"};
+  }
+  Track track;
+  track.name = *name->text();
+  if (!origin->is_null()) {
+    track.origin = read_origin(*origin);
+    if (!track.origin) return Failure{"has an origin that is none"};
+  }
+  track.points.resize(points->list()->size());
+  for (std::size_t i = 0; i < track.points.size(); ++i) {
+    if (!read_point((*points->list())[i], track.points[i])) {
+      return Failure{"has no seven numbers in point " + std::to_string(i + 1)};
+    }
+  }
+  return track;
+}
+
+}  // namespace drover::store
