@@ -1,0 +1,69 @@
+// The framer's state machine; every byte leads to a defined state.
+#include "drivers/nmea0183/framer.h"
+
+namespace drover::nmea0183 {
+namespace {
+
+constexpr std::uint8_t kSumDigits = 2;
+constexpr std::uint8_t kCrcDigits = 8;
+
+int hex_value(std::uint8_t byte) {
+  if (byte >= '0' && byte <= '9') return byte - '0';
+  if (byte >= 'A' && byte <= 'F') return byte - 'A' + 10;
+  if (byte >= 'a' && byte <= 'f') return byte - 'a' + 10;
+  return -1;
+}
+
+// Unicore's replies count the leading `$` into the XOR; they are no damaged sentences.
+bool is_reply(std::string_view body) {
+  return body.starts_with("command,") || body.starts_with("CONFIG,");
+}
+
+}  // namespace
+
+Framer::Event Framer::push(std::uint8_t byte) {
+  if (byte == '$') {
+    // A new start inside a line means that the old line was cut: the new one may still be whole.
+    const bool cut = state_ != State::idle;
+    state_ = State::body;
+    size_ = 0;
+    sum_ = 0;
+    digits_ = 0;
+    claimed_ = 0;
+    return cut ? Event::dropped : Event::none;
+  }
+  if (state_ == State::idle) return Event::none;
+  if (state_ == State::body) {
+    if (byte == '*') {
+      state_ = State::checksum;
+      return Event::none;
+    }
+    // `#` begins a log of another format; a line end here means that there is no checksum.
+    if (byte < 0x20 || byte > 0x7E || byte == '#' || size_ == kMaxBody) return drop();
+    buffer_[size_++] = static_cast<char>(byte);
+    sum_ = static_cast<std::uint8_t>(sum_ ^ byte);
+    return Event::none;
+  }
+  if (byte == '\r' || byte == '\n') return finish();
+  const int digit = hex_value(byte);
+  if (digit < 0 || digits_ == kCrcDigits) return drop();
+  ++digits_;
+  claimed_ = (claimed_ << 4U) | static_cast<std::uint32_t>(digit);
+  return Event::none;
+}
+
+Framer::Event Framer::drop() {
+  state_ = State::idle;
+  return Event::dropped;
+}
+
+Framer::Event Framer::finish() {
+  state_ = State::idle;
+  if (digits_ == kCrcDigits) return Event::foreign;
+  if (digits_ != kSumDigits) return Event::dropped;
+  if (claimed_ == sum_) return Event::sentence;
+  if (claimed_ == (sum_ ^ std::uint32_t{'$'}) && is_reply(body())) return Event::foreign;
+  return Event::dropped;
+}
+
+}  // namespace drover::nmea0183

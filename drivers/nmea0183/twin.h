@@ -1,0 +1,108 @@
+// A simulated RTK receiver: five sentences an epoch, with the errors of its kind of fix.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "drivers/nmea0183/compose.h"
+#include "drivers/nmea0183/noise.h"
+#include "drover/options.h"
+#include "drover/twin.h"
+
+namespace drover::nmea0183 {
+
+using Utc = std::chrono::sys_time<Duration>;
+/// "yyyy-mm-ddThh:mm:ss"; nullopt for everything else.
+std::optional<Utc> parse_utc(std::string_view text);
+
+/// An epoch measured at t is told at t + latency, with the truth of t and the UTC of t.
+///
+/// States of set_state():
+///   fix float dgps single    kind of fix; these also end `silent` and `garbage`
+///   none                     epochs without a position, a speed or a heading
+///   silent                   no bytes
+///   garbage                  as many bytes as ever, none of them sensible
+///   bad_checksum:<n>         one sentence in n is damaged; 0 ends it
+///   lag:<ms>                 that much more latency, at most 2000; 0 ends it
+///   rate:<Hz>                epochs a second, 0.2 to 20
+///   jump:<m>                 the position is that far east of the truth; 0 ends it
+///   drift:<mm/s>             the position wanders east from now on; 0 ends it
+///   stuck                    position and speed stay as they are, time runs on
+///   corrections_lost         the age of corrections grows, the quality stays
+///   heading_flip             the heading is turned by 180 degrees
+///   heading_lost             the heading field is empty
+///   clear                    ends everything but the kind of fix
+class Nmea0183Twin final : public GnssTwin {
+ public:
+  /// Throws std::runtime_error naming the option.
+  Nmea0183Twin(const Options& options, std::uint64_t seed);
+
+  std::size_t on_tick(Time now, const GnssTruth& truth, std::span<char> out) override;
+  bool set_state(std::string_view name, Time now) override;
+
+ private:
+  struct Sample {
+    Time at = kNever;
+    GnssTruth truth;
+  };
+  enum class Output : std::uint8_t { sentences, silent, garbage };
+  struct Faults {
+    Output output = Output::sentences;
+    double bad_checksum_one_in = 0;
+    Duration lag{};
+    double jump_m = 0;
+    double drift_mps = 0;
+    Time drift_since = kNever;
+    bool stuck = false;
+    std::optional<Time> corrections_lost_at;
+    bool heading_flip = false;
+    bool heading_lost = false;
+  };
+
+  void remember(Time now, const GnssTruth& truth);
+  GnssTruth truth_at(Time at) const;
+  std::size_t write_epoch(Time at, std::span<char> out);
+  Solution solve(Time at);
+  GnssPosition measure_position(Time at, const GnssTruth& truth, double elapsed_s);
+  void damage(std::span<char> epoch);
+  void clear();
+  bool set_number(std::string_view name, double value, Time now);
+  double asked_sigma_m() const;
+
+  // Settings.
+  Duration period_;
+  Duration configured_period_;
+  Duration latency_;
+  Utc utc_start_;
+  std::string talker_;
+  double sigma_fix_m_;
+  double sigma_float_m_;
+  double sigma_dgps_m_;
+  double sigma_single_m_;
+  double heading_sigma_deg_;
+  double speed_sigma_mps_;
+  double undulation_m_;
+
+  // State.
+  Random noise_;
+  Random fault_noise_;
+  AxisError east_;
+  AxisError north_;
+  AxisError up_;
+  Drift heading_error_;
+  FixQuality quality_ = FixQuality::rtk_fixed;
+  Faults faults_;
+  double sigma_m_ = 0;  ///< of each horizontal axis now; follows the kind of fix smoothly
+  bool started_ = false;
+  Time start_ = kNever;
+  Time next_epoch_ = kNever;
+  Time last_epoch_ = kNever;
+  Solution last_;
+  std::vector<Sample> history_;  ///< a ring, sized once
+  std::size_t newest_ = 0;
+};
+
+}  // namespace drover::nmea0183
