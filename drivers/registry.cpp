@@ -4,13 +4,17 @@
 #include <array>
 
 #include "drivers/gpio_line/entry.h"
+#include "drivers/nmea0183/entry.h"
+#include "drivers/odrive/entry.h"
 
 namespace drover {
 
 std::span<const DriverEntry> driver_registry() {
   // Filled at the first call: the entries live in other files, whose order of start is not ours.
   static const std::array kTable{
+      kOdriveEntry,
       kGpioLineEntry,
+      kNmea0183Entry,
   };
   return kTable;
 }

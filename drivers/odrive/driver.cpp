@@ -1,0 +1,229 @@
+// The state machine: when an ODrive axis is armed, fed, commanded and given up.
+#include "drivers/odrive/driver.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace drover::odrive {
+namespace {
+
+using std::chrono::milliseconds;
+constexpr Duration kRetry = milliseconds(100);
+/// A heartbeat that was under way when the request left tells nothing of it.
+constexpr Duration kSettle = milliseconds(20);
+/// Errors that were cleared must be gone in the heartbeat after the next.
+constexpr Duration kClearTime = milliseconds(250);
+constexpr double kSlow_radps = 0.1;
+constexpr Duration kIdleAtLast = milliseconds(1000);
+
+}  // namespace
+
+OdriveDriver::OdriveDriver(const Settings& settings, AxisId axis)
+    : settings_(settings),
+      axis_(axis),
+      rules_(odrive::allow_list(settings)),
+      poller_(settings),
+      watchdog_(settings) {
+  if (settings.watchdog_timeout_s > 0) {
+    silence_text_.format("free-wheels after %.3f s (its watchdog, %s)", settings.watchdog_timeout_s,
+                         settings.sets_watchdog() ? "set and read back at each arming"
+                                                  : "saved in the drive as configured");
+  } else {
+    silence_text_ = "keeps its last velocity for ever: the drive has no watchdog set";
+  }
+}
+
+bool OdriveDriver::silent(Time now) const {
+  return last_heartbeat_ == kNever || now - last_heartbeat_ > kSilence;
+}
+
+bool OdriveDriver::attempts_to_run() const {
+  return phase_ == Phase::configuring || phase_ == Phase::arming || phase_ == Phase::running;
+}
+
+void OdriveDriver::lock(std::string_view why, bool fault) {
+  phase_ = Phase::locked;
+  fault_ = fault;
+  lock_reason_.assign(why);
+}
+
+void OdriveDriver::start_arming(Time now, DriverOut& out) {
+  fault_ = false;
+  lock_reason_.clear();
+  cleared_at_ = kNever;
+  attempted_ = false;
+  phase_since_ = now;
+  if (silent(now)) {
+    lock("asked to run while the drive was silent", true);
+    return;
+  }
+  phase_ = Phase::arming;
+  if (settings_.sets_watchdog()) {
+    phase_ = Phase::configuring;
+    watchdog_.begin(now);
+  }
+  report_status(now, false, out);
+}
+
+/// What the newest heartbeat means for what is under way.
+void OdriveDriver::follow_heartbeat(Time now) {
+  const bool closed_loop = heartbeat_.state == kStateClosedLoop;
+  if (phase_ == Phase::running) {
+    // The state alone is a fault too: a drive whose motor or encoder is unplugged may report no
+    // error at all.
+    if (heartbeat_.failed() || !closed_loop) {
+      lock(closed_loop ? "drive reports an error" : "left closed loop", true);
+      poller_.hurry();
+    }
+  } else if (phase_ == Phase::arming && attempted_) {
+    if (heartbeat_.failed()) {
+      if (cleared_at_ != kNever && now - cleared_at_ > kClearTime) {
+        lock("error does not clear", true);
+        poller_.hurry();
+      }
+    } else if (closed_loop && now - phase_since_ >= kSettle) {
+      phase_ = Phase::running;
+    }
+  }
+}
+
+double OdriveDriver::motor_turnps(double velocity_radps) {
+  const double turnps =
+      velocity_radps * settings_.gear_ratio * settings_.sign / (2 * std::numbers::pi);
+  if (!std::isfinite(turnps)) {
+    ++bad_setpoints_;
+    return 0;
+  }
+  if (std::abs(turnps) > settings_.velocity_limit_turnps) {
+    ++bad_setpoints_;
+    return std::copysign(settings_.velocity_limit_turnps, turnps);
+  }
+  return turnps;
+}
+
+void OdriveDriver::send_setpoint(double turnps, Time now, bool at_once, DriverOut& out) {
+  const bool stops = turnps == 0 && last_turnps_ != 0;
+  if (!at_once && !stops && now - last_setpoint_ < settings_.setpoint_period) return;
+  last_setpoint_ = now;
+  last_turnps_ = turnps;
+  out.send(encode_set_input_vel(settings_.node, turnps));
+}
+
+void OdriveDriver::control(const AxisCommand& command, Time now, DriverOut& out) {
+  if (last_heartbeat_ == kNever) return;  // never a frame to a node that was not heard
+  if (attempts_to_run() && silent(now)) lock("heartbeat ceased while armed", false);
+  if (phase_ == Phase::configuring || phase_ == Phase::arming) {
+    if (now - phase_since_ > settings_.arming_timeout) {
+      Reason why = "does not enter closed loop";
+      const auto result = procedure_text(heartbeat_.procedure_result);
+      if (!result.empty())
+        why.format("does not enter closed loop: %.*s", static_cast<int>(result.size()),
+                   result.data());
+      lock(why, true);
+      poller_.hurry();
+    }
+  }
+  const bool attempt = now - last_attempt_ >= kRetry;
+  switch (phase_) {
+    case Phase::configuring:
+      watchdog_.on_tick(now, out);
+      if (watchdog_.failed()) {
+        lock(watchdog_.reason(), true);
+      } else if (watchdog_.done()) {
+        phase_ = Phase::arming;
+        phase_since_ = now;
+      }
+      break;
+    case Phase::arming:
+      if (attempted_ && !attempt) break;
+      if (heartbeat_.failed() && cleared_at_ == kNever) {
+        // Once for each request: an error that comes back is for a person to look at.
+        cleared_at_ = now;
+        out.send(encode_clear_errors(settings_.node));
+        errors_ = {};
+      }
+      attempted_ = true;
+      last_attempt_ = now;
+      out.send(encode_set_controller_mode(settings_.node, kControlVelocity, kInputPassthrough));
+      send_setpoint(0, now, true, out);
+      out.send(encode_set_axis_state(settings_.node, kStateClosedLoop));
+      break;
+    case Phase::running:
+      send_setpoint(motor_turnps(command.velocity_radps), now, false, out);
+      return;
+    case Phase::idling:
+      if (heartbeat_.state != kStateIdle && attempt &&
+          (std::abs(velocity_radps_) < kSlow_radps || now - phase_since_ > kIdleAtLast)) {
+        last_attempt_ = now;
+        send_setpoint(0, now, true, out);
+        out.send(encode_set_axis_state(settings_.node, kStateIdle));
+      }
+      break;
+    case Phase::resting:
+    case Phase::locked:
+      break;
+  }
+  send_setpoint(0, now, false, out);
+}
+
+void OdriveDriver::on_command(const AxisCommand& command, Time now, DriverOut& out) {
+  commanded_ = true;
+  if (command.request != request_) {
+    const AxisRequest before = request_;
+    request_ = command.request;
+    if (request_ == AxisRequest::run) {
+      start_arming(now, out);
+    } else {
+      phase_ = request_ == AxisRequest::idle ? Phase::idling : Phase::resting;
+      phase_since_ = now;
+      if (before == AxisRequest::run) {
+        fault_ = false;
+        lock_reason_.clear();
+      }
+    }
+  }
+  control(command, now, out);
+}
+
+void OdriveDriver::on_tick(Time now, DriverOut& out) {
+  // Nobody decided this cycle: zero, as at rest.
+  if (!commanded_) control(AxisCommand{}, now, out);
+  commanded_ = false;
+  if (last_heartbeat_ != kNever) poller_.on_tick(now, out);
+  report_status(now, false, out);
+}
+
+void OdriveDriver::on_link_up(Time now) {
+  last_heartbeat_ = kNever;
+  last_estimates_ = kNever;
+  heartbeat_ = {};
+  errors_ = {};
+  effort_at_ = kNever;
+  last_turnps_ = 0;
+  poller_.restart(now);
+  if (request_ == AxisRequest::run) lock("the link was lost while armed", false);
+}
+
+FrameEffect OdriveDriver::effect(const CanFrame& frame) const {
+  return odrive::effect(frame, settings_);
+}
+
+StopRecipe OdriveDriver::stop_recipe() const {
+  StopRecipe recipe;
+  static_cast<void>(recipe.frames.push_back(encode_set_input_vel(settings_.node, 0)));
+  recipe.period = milliseconds(10);
+  // Closed loop at zero holds on a slope, and the frames keep the watchdog from letting go.
+  recipe.holds = true;
+  return recipe;
+}
+
+SilenceBehaviour OdriveDriver::silence() const {
+  SilenceBehaviour behaviour;
+  behaviour.stops = settings_.watchdog_timeout_s > 0;
+  behaviour.after = from_s(settings_.watchdog_timeout_s);
+  behaviour.text = silence_text_.view();
+  return behaviour;
+}
+
+}  // namespace drover::odrive

@@ -1,0 +1,105 @@
+// One axis of an ODrive on CANSimple, in velocity control.
+//
+// It arms only by a new request to run, never by itself: not after a reboot of the drive, a gap in
+// its heartbeat, a fault or a new link. Set points of zero are sent in every state once the node
+// was heard, because they feed the drive's watchdog and a drive that expires coasts.
+#pragma once
+
+#include "drivers/odrive/errors.h"
+#include "drivers/odrive/poller.h"
+#include "drivers/odrive/watchdog_setup.h"
+#include "drover/driver.h"
+
+namespace drover::odrive {
+
+/// Without a heartbeat for so long the drive is gone: three of its 100 ms periods.
+inline constexpr Duration kSilence = std::chrono::milliseconds(300);
+
+class OdriveDriver final : public CanDriver {
+ public:
+  OdriveDriver(const Settings& settings, AxisId axis);
+
+  void on_frame(const CanFrame& frame, Time received, DriverOut& out) override;
+  void on_tick(Time now, DriverOut& out) override;
+  void on_command(const AxisCommand& command, Time now, DriverOut& out) override;
+  void on_link_up(Time now) override;
+  SourceHealth health(Time now) const override;
+  std::span<const FrameRule> allow_list() const override { return rules_; }
+  FrameEffect effect(const CanFrame& frame) const override;
+  StopRecipe stop_recipe() const override;
+  SilenceBehaviour silence() const override;
+
+  /// Set points that were not numbers (sent as zero) or beyond the limit (clamped).
+  std::uint64_t bad_setpoints() const { return bad_setpoints_; }
+
+ private:
+  enum class Phase : std::uint8_t {
+    resting,      ///< zero, whatever state the drive is in
+    configuring,  ///< the watchdog is being set
+    arming,       ///< zero, asking for closed loop
+    running,      ///< set points go out
+    locked,       ///< still asked to run, but only a new request will arm again
+    idling,       ///< zero until slow, then power stage off
+  };
+
+  // receive.cpp
+  bool on_reply(std::uint8_t command, const CanFrame& frame, Time received, DriverOut& out);
+  bool on_heartbeat(const CanFrame& frame, Time received, DriverOut& out);
+  bool on_estimates(const CanFrame& frame, Time received, DriverOut& out);
+  bool on_errors(std::uint8_t command, const CanFrame& frame);
+  bool on_effort(const CanFrame& frame, double Nm_per_unit, Time received);
+  template <class T>
+  void report(const T& value, Time received, DriverOut& out) const;
+  AxisStatus status(Time now) const;
+  void report_status(Time now, bool always, DriverOut& out);
+
+  // driver.cpp
+  bool silent(Time now) const;
+  bool attempts_to_run() const;
+  void start_arming(Time now, DriverOut& out);
+  void follow_heartbeat(Time now);
+  void lock(std::string_view why, bool fault);
+  double motor_turnps(double velocity_radps);
+  void send_setpoint(double turnps, Time now, bool at_once, DriverOut& out);
+  void control(const AxisCommand& command, Time now, DriverOut& out);
+
+  Settings settings_;
+  AxisId axis_;
+  RuleList rules_;
+  Reason silence_text_;
+  Poller poller_;
+  WatchdogSetup watchdog_;
+
+  // What the drive said.
+  Time last_heartbeat_ = kNever;  ///< since the link came up
+  Time last_estimates_ = kNever;
+  Time last_good_ = kNever;
+  Heartbeat heartbeat_;
+  ErrorReport errors_;
+  double velocity_radps_ = 0;
+  double effort_Nm_ = kAbsent;
+  Time effort_at_ = kNever;
+  std::uint64_t good_ = 0;
+  std::uint64_t bad_ = 0;
+  std::uint32_t foreign_id_ = 0;
+  Time foreign_at_ = kNever;
+
+  // What is wanted of it.
+  Phase phase_ = Phase::resting;
+  AxisRequest request_ = AxisRequest::rest;
+  bool commanded_ = false;  ///< since the last tick
+  Time phase_since_ = kNever;
+  Time last_attempt_ = kNever;
+  bool attempted_ = false;
+  Time cleared_at_ = kNever;  ///< errors, for this request
+  bool fault_ = false;    ///< `lock_reason_` is a fault
+  Reason lock_reason_;
+  Time last_setpoint_ = kNever;
+  double last_turnps_ = 0;
+  std::uint64_t bad_setpoints_ = 0;
+
+  AxisStatus reported_;
+  bool reported_once_ = false;
+};
+
+}  // namespace drover::odrive

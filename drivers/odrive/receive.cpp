@@ -1,0 +1,272 @@
+// The receiving half of the driver: frames to measurements, status and health.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "drivers/odrive/driver.h"
+
+namespace drover::odrive {
+namespace {
+
+using std::chrono::milliseconds;
+constexpr Duration kForeignShown = milliseconds(1000);
+
+double finite_or_absent(float value) {
+  return std::isfinite(value) ? static_cast<double>(value) : kAbsent;
+}
+
+bool is_master_command(std::uint8_t command, Firmware firmware) {
+  switch (command) {
+    case cmd::kEstop:
+    case cmd::kSetAxisState:
+    case cmd::kSetControllerMode:
+    case cmd::kSetInputPos:
+    case cmd::kSetInputVel:
+    case cmd::kSetInputTorque:
+    case cmd::kClearErrors:
+      return true;
+    case cmd::kRxSdo:
+      return firmware == Firmware::v0_6;
+    default:
+      return false;
+  }
+}
+
+}  // namespace
+
+template <class T>
+void OdriveDriver::report(const T& value, Time received, DriverOut& out) const {
+  Measurement m;
+  m.time = received;  // the drive stamps nothing
+  m.received = received;
+  m.value = value;
+  out.report(m);
+}
+
+void OdriveDriver::on_frame(const CanFrame& frame, Time received, DriverOut& out) {
+  if (!belongs_to(frame, settings_.node) || frame.remote) return;
+  const std::uint8_t command = command_of(frame.id);
+  if (is_master_command(command, settings_.firmware)) {
+    // The guard's zeros are welcome; whoever sends anything else fights with this gateway.
+    if (effect(frame) != FrameEffect::stop) {
+      foreign_id_ = frame.id;
+      foreign_at_ = received;
+    }
+    return;
+  }
+  if (!on_reply(command, frame, received, out)) ++bad_;
+}
+
+/// False when the frame is not as documented; frames that nobody asked for are fine.
+bool OdriveDriver::on_reply(std::uint8_t command, const CanFrame& frame, Time received,
+                            DriverOut& out) {
+  const bool v0_6 = settings_.firmware == Firmware::v0_6;
+  bool understood = false;
+  switch (command) {
+    case cmd::kHeartbeat:
+      understood = on_heartbeat(frame, received, out);
+      break;
+    case cmd::kEstimates:
+      understood = on_estimates(frame, received, out);
+      break;
+    case cmd::kError:
+    case cmd::kControllerError:
+      if (v0_6 && command == cmd::kControllerError) return true;
+      understood = on_errors(command, frame);
+      break;
+    case cmd::kEncoderError:
+      understood = on_errors(command, frame);
+      break;
+    case cmd::kTxSdo: {
+      if (!v0_6) return true;
+      const auto value = decode_tx_sdo(frame);
+      if (value && phase_ == Phase::configuring) watchdog_.on_reply(*value);
+      understood = value.has_value();
+      break;
+    }
+    case cmd::kIq:
+      understood = on_effort(frame, v0_6 ? 0 : settings_.torque_constant_Nm_per_A, received);
+      break;
+    case cmd::kTorques:
+      if (!v0_6) return true;
+      understood = on_effort(frame, 1, received);
+      break;
+    case cmd::kTemperature: {
+      if (!v0_6) return true;
+      const auto pair = decode_floats(frame);
+      understood = pair.has_value();
+      if (pair)
+        report(AxisTemperature{axis_, finite_or_absent(pair->first),
+                               finite_or_absent(pair->second)},
+               received, out);
+      break;
+    }
+    case cmd::kBus: {
+      const auto pair = decode_floats(frame);
+      understood = pair.has_value();
+      if (pair)
+        report(AxisSupply{axis_, finite_or_absent(pair->first), finite_or_absent(pair->second)},
+               received, out);
+      break;
+    }
+    default:
+      return true;
+  }
+  if (understood) {
+    ++good_;
+    last_good_ = received;
+  }
+  return understood;
+}
+
+bool OdriveDriver::on_heartbeat(const CanFrame& frame, Time received, DriverOut& out) {
+  const auto heartbeat = decode_heartbeat(frame, settings_.firmware);
+  if (!heartbeat) return false;
+  const bool gap = last_heartbeat_ != kNever && received - last_heartbeat_ > kSilence;
+  if (last_heartbeat_ == kNever || gap) {
+    poller_.restart(received);
+    if (attempts_to_run()) lock("heartbeat ceased while armed", false);
+    if (gap) errors_ = {};
+  }
+  const bool failed_before = heartbeat_.failed();
+  last_heartbeat_ = received;
+  heartbeat_ = *heartbeat;
+  errors_.axis = heartbeat->error;
+  if (heartbeat->failed() && !failed_before) poller_.hurry();
+  follow_heartbeat(received);
+  report_status(received, true, out);
+  return true;
+}
+
+bool OdriveDriver::on_estimates(const CanFrame& frame, Time received, DriverOut& out) {
+  const auto pair = decode_floats(frame);
+  if (!pair || !std::isfinite(pair->first) || !std::isfinite(pair->second)) return false;
+  const double rad_per_turn = 2 * std::numbers::pi * settings_.sign / settings_.gear_ratio;
+  AxisMotion motion;
+  motion.axis = axis_;
+  motion.position_rad = static_cast<double>(pair->first) * rad_per_turn;
+  motion.velocity_radps = static_cast<double>(pair->second) * rad_per_turn;
+  // A torque is asked for less often than positions come: it may be two polls old.
+  const Duration lifetime = std::max<Duration>(2 * settings_.poll_period, settings_.stale_after);
+  if (effort_at_ != kNever && received - effort_at_ <= lifetime) motion.effort_Nm = effort_Nm_;
+  last_estimates_ = received;
+  velocity_radps_ = motion.velocity_radps;
+  report(motion, received, out);
+  return true;
+}
+
+bool OdriveDriver::on_errors(std::uint8_t command, const CanFrame& frame) {
+  if (settings_.firmware == Firmware::v0_6) {
+    const auto error = decode_error_0_6(frame);
+    if (!error) return false;
+    errors_.disarm_reason = error->disarm_reason;
+    return true;
+  }
+  if (command == cmd::kError) {
+    const auto error = decode_motor_error_0_5(frame);
+    if (!error) return false;
+    errors_.motor = *error;
+    return true;
+  }
+  const auto error = decode_u32_error_0_5(frame);
+  if (!error) return false;
+  (command == cmd::kEncoderError ? errors_.encoder : errors_.controller) = *error;
+  return true;
+}
+
+/// The second value is what is measured: current (A) or torque (Nm) at the motor.
+bool OdriveDriver::on_effort(const CanFrame& frame, double Nm_per_unit, Time received) {
+  const auto pair = decode_floats(frame);
+  if (!pair) return false;
+  if (Nm_per_unit == 0) return true;
+  effort_Nm_ = finite_or_absent(pair->second) * Nm_per_unit * settings_.gear_ratio * settings_.sign;
+  effort_at_ = received;
+  return true;
+}
+
+AxisStatus OdriveDriver::status(Time now) const {
+  AxisStatus status;
+  status.axis = axis_;
+  if (last_heartbeat_ == kNever) {
+    status.reason = "no heartbeat yet";
+    return status;
+  }
+  if (silent(now)) {
+    status.reason = "no heartbeat for more than 0.3 s";
+    return status;
+  }
+  status.error_code = heartbeat_.error;
+  const bool arming = phase_ == Phase::configuring || phase_ == Phase::arming;
+  if (fault_ || (heartbeat_.failed() && !arming)) {
+    status.state = AxisState::fault;
+    // An old reason of disarming is no news unless something is wrong now.
+    if (status.error_code == 0) status.error_code = errors_.disarm_reason;
+    if (status.error_code == 0) status.error_code = errors_.motor;
+    const Reason text = error_text(errors_, settings_.firmware);
+    if (!fault_) {
+      status.reason = text.empty() ? Reason("error flag without a code") : text;
+    } else if (text.empty()) {
+      status.reason = lock_reason_;
+    } else {
+      const auto a = lock_reason_.view();
+      const auto b = text.view();
+      status.reason.format("%.*s: %.*s", static_cast<int>(a.size()), a.data(),
+                           static_cast<int>(b.size()), b.data());
+    }
+    return status;
+  }
+  status.reason = lock_reason_;
+  if (arming) {
+    status.state = AxisState::arming;
+  } else if (heartbeat_.state == kStateClosedLoop) {
+    status.state = AxisState::running;
+  } else if (heartbeat_.state == kStateIdle) {
+    status.state = AxisState::idle;
+  } else if (heartbeat_.state != 0) {
+    // Calibrations, homing and the like turn the motor by themselves.
+    status.state = AxisState::fault;
+    status.reason.format("drive is in state %u, neither idle nor closed loop",
+                         static_cast<unsigned>(heartbeat_.state));
+  }
+  return status;
+}
+
+void OdriveDriver::report_status(Time now, bool always, DriverOut& out) {
+  const AxisStatus current = status(now);
+  const bool changed = !reported_once_ || current.state != reported_.state ||
+                       current.error_code != reported_.error_code ||
+                       !(current.reason == reported_.reason);
+  if (!changed && !always) return;
+  reported_once_ = true;
+  reported_ = current;
+  report(current, now, out);
+}
+
+SourceHealth OdriveDriver::health(Time now) const {
+  SourceHealth health;
+  health.last_good = last_good_;
+  health.good = good_;
+  health.bad = bad_;
+  if (last_good_ == kNever) {
+    health.reason.format("node %u was never heard", static_cast<unsigned>(settings_.node));
+    return health;
+  }
+  health.state = SourceState::stale;
+  if (last_heartbeat_ == kNever) {
+    health.reason = "no heartbeat since the link came up";
+  } else if (silent(now)) {
+    health.reason.format("no heartbeat for %.2f s", to_s(now - last_heartbeat_));
+  } else if (last_estimates_ == kNever) {
+    health.reason = "heartbeats but no encoder estimates: are they sent cyclically (10 ms)?";
+  } else if (now - last_estimates_ > settings_.stale_after) {
+    health.reason.format("no encoder estimates for %.2f s", to_s(now - last_estimates_));
+  } else {
+    health.state = SourceState::fresh;
+    if (foreign_at_ != kNever && now - foreign_at_ <= kForeignShown)
+      health.reason.format("foreign command id 0x%03X on the bus",
+                           static_cast<unsigned>(foreign_id_));
+  }
+  return health;
+}
+
+}  // namespace drover::odrive
