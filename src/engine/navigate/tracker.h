@@ -7,6 +7,7 @@
 #include "drover/snapshot.h"
 #include "drover/time.h"
 #include "engine/config.h"
+#include "engine/navigate/path_geometry.h"
 
 namespace drover::engine {
 
@@ -23,26 +24,67 @@ struct TrackProgress {
   double heading_error_rad = 0;  ///< of the robot against the direction of travel
   double distance_left_m = 0;  ///< along the path to the target point
   double distance_to_goal_m = 0;  ///< straight line to the target point
-  bool arrived = false;        ///< inside the tolerance, or the goal was passed along the path
+  /// At the goal, as near as a stop begun now comes to it; or inside the tolerance and at rest; or
+  /// just past it. `distance_to_goal_m` says how near.
+  bool arrived = false;
+  /// The goal lies behind the robot: it cannot get there by driving ahead. Without `arrived`: failed.
+  bool goal_passed = false;
+  /// Was within 0.2 m of the track since begin: only then a corridor means anything.
+  bool joined = false;
 };
 
-/// Why a path cannot be driven; empty when it can. Index counts as the operator does, from 1.
+/// Why a path cannot be driven; empty when it can. Points are named as the operator counts, from 1;
+/// `target` is an index from 0.
 Reason check_path(const Path& path, std::uint32_t target);
 
+/// Follows a smooth line through the points: curvature ahead of the drives' lag, plus feedback on
+/// offset and heading. Where the track has a true corner it stops, turns on the spot and goes on.
 class Tracker final {
  public:
   Tracker(const NavigateConfig& config, const LimitsConfig& limits);
 
   /// Starts on `path` (borrowed until the next begin/end) from the point of it nearest to `pose`.
+  /// `path` must have passed check_path. O(points), about 10 ns each.
   void begin(const Path& path, std::uint32_t target, double speed_mps, const Pose& pose);
   void end();
-  bool active() const;
+  bool active() const { return active_; }
 
-  /// Progress at a pose, advancing monotonically along the path (a crossing track stays on its leg).
+  /// Progress at a pose. The search looks only near the last place, so a track that crosses itself
+  /// or comes back close to itself stays on its leg. Call each cycle, also while paused.
   TrackProgress locate(const Pose& pose);
-  /// The twist wanted now. `speed_cap_mps` is the least of all caps in force (far zone, error budget).
-  /// Speed is shaped only by the path (curvature, end); acceleration and jerk are the gate's.
+  /// The twist wanted now. `speed_cap_mps` is the least of all caps in force (far zone, error
+  /// budget); 0 gives a twist of zero. Speed is shaped only by the path (curvature, end);
+  /// acceleration and jerk are the gate's.
   Twist follow(const Pose& pose, const TrackProgress& progress, double speed_cap_mps, Duration dt);
+
+ private:
+  enum class Phase : std::uint8_t { follow, halt, pivot };
+
+  void enter_leg(std::size_t first, double first_m);
+  void look_for_corner();
+  bool is_last_leg() const { return leg_.last + 1 == route_.size(); }
+  double stop_distance_m(double speed_mps) const;
+  double path_speed_mps(double cap_mps, double s_m) const;
+  Twist pivot(const Pose& pose);
+  Twist steer(const Pose& pose, double cap_mps, Duration dt);
+
+  NavigateConfig config_;
+  LimitsConfig limits_;
+  double braking_mps2_;
+  double horizon_m_;  ///< corners are looked for this far ahead
+  bool active_ = false;
+  Route route_;
+  Leg leg_;
+  Station station_;   ///< where the robot is
+  double s_m_ = 0;
+  double goal_m_ = 0;  ///< arc length of the target
+  Vector goal_;
+  Station scan_;        ///< corners are known up to here
+  double tested_m_ = 0;  ///< of the last point tested
+  Phase phase_ = Phase::follow;
+  double speed_mps_ = 0;
+  double yaw_gain_ = 0;  ///< learnt: how much more the base must be asked to turn
+  bool joined_ = false;
 };
 
 }  // namespace drover::engine

@@ -1,0 +1,103 @@
+// A polyline as it is driven: walking along it, its true corners, and a smooth line through it.
+//
+// Nothing is copied and nothing is stored per point: a recorded track may have 100 000 points and
+// the control thread may not allocate. Places are arc lengths `s` (m) that grow with travel, found
+// from a Station that moves along with the robot.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <span>
+
+#include "drover/path.h"
+
+namespace drover::engine {
+
+/// A point or a free vector in the `map` frame, metres (directions: unit length).
+struct Vector {
+  double x = 0;
+  double y = 0;
+};
+inline Vector operator+(Vector a, Vector b) { return {a.x + b.x, a.y + b.y}; }
+inline Vector operator-(Vector a, Vector b) { return {a.x - b.x, a.y - b.y}; }
+inline Vector operator*(double k, Vector a) { return {k * a.x, k * a.y}; }
+inline double dot(Vector a, Vector b) { return a.x * b.x + a.y * b.y; }
+/// Positive when `b` points to the left of `a`.
+inline double cross(Vector a, Vector b) { return a.x * b.y - a.y * b.x; }
+inline double length(Vector a) { return std::sqrt(dot(a, a)); }
+/// `otherwise` where `a` has no direction.
+Vector unit(Vector a, Vector otherwise);
+
+/// A path's points in the order of travel; the last one is the target.
+class Route final {
+ public:
+  Route() = default;
+  /// Borrows `points`. Travel is from the list's one end to `target`.
+  Route(std::span<const PathPoint> points, std::size_t target, bool forwards)
+      : points_(points),
+        size_(forwards ? target + 1 : points.size() - target),
+        forwards_(forwards) {}
+  std::size_t size() const { return size_; }
+  Vector point(std::size_t k) const {
+    const PathPoint& p = points_[forwards_ ? k : points_.size() - 1 - k];
+    return {p.x_m, p.y_m};
+  }
+  double segment_m(std::size_t k) const { return length(point(k + 1) - point(k)); }
+
+ private:
+  std::span<const PathPoint> points_;
+  std::size_t size_ = 0;
+  bool forwards_ = true;
+};
+
+/// A segment of the route, by its first point, and the arc length at that point.
+struct Station {
+  std::size_t segment = 0;
+  double start_m = 0;
+};
+
+/// A stretch without a true corner inside. Beyond its ends it goes on straight.
+struct Leg {
+  std::size_t first = 0;  ///< point of the route
+  std::size_t last = 0;
+  double first_m = 0;  ///< arc length there
+  double last_m = 0;
+  Vector enter{1, 0};  ///< direction at the first point
+  Vector leave{1, 0};  ///< direction at the last point
+};
+
+/// Moves a station to where `s_m` is, inside the leg.
+Station seek(const Route& route, const Leg& leg, Station station, double s_m);
+Vector position(const Route& route, const Leg& leg, Station& station, double s_m);
+
+/// Directions of the chords of `reach_m` before and after a point, not going beyond `first`/`last`.
+/// Length 0 where there is less than 0.1 m of line: too little to tell a direction from noise.
+Vector chord_before(const Route& route, std::size_t point, std::size_t first, double reach_m);
+Vector chord_after(const Route& route, std::size_t point, std::size_t last, double reach_m);
+/// How sharply the route turns at a point, 0..pi; `first` is the first point of the leg.
+double corner_rad(const Route& route, std::size_t point, std::size_t first);
+
+/// The smooth line at one place.
+struct Reference {
+  Vector point;
+  Vector ahead{1, 0};       ///< direction of travel
+  double curvature_radpm = 0;  ///< counter-clockwise positive
+};
+
+/// Half the width of the window over which the line is smoothed. Tracks are recorded each 0.5 m:
+/// a triangle of exactly this half-width makes an arc of such chords into an arc of one curvature.
+inline constexpr double kSmoothing_m = 0.5;
+
+/// The polyline averaged under a triangle (so the 1 cm noise of recording does not reach the
+/// wheels), moved out again by what averaging cuts off a bend.
+Reference smooth(const Route& route, const Leg& leg, Station station, double s_m);
+
+/// Arc length of the foot of `point` on the smooth line, searched near `s_m` only: a line that
+/// crosses or comes back beside itself cannot catch the search. Moves at most 0.25 m an iteration.
+double foot_m(const Route& route, const Leg& leg, Station station, double s_m, Vector point,
+              int iterations);
+
+/// Distance of `point` from the polyline itself near `s_m`, left of travel positive (m).
+double offset_m(const Route& route, const Leg& leg, Station station, double s_m, Vector point);
+
+}  // namespace drover::engine

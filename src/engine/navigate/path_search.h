@@ -1,0 +1,25 @@
+// Where on a whole path a robot begins: the only search that looks at every point.
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "engine/navigate/path_geometry.h"
+
+namespace drover::engine {
+
+struct PathStart {
+  std::size_t segment = 0;  ///< of the list: between its points `segment` and `segment + 1`
+  double along_m = 0;       ///< from point `segment`
+  bool forwards = true;     ///< the target lies towards the end of the list
+};
+
+/// The point of the path nearest to `at`. Where several legs are about equally near (0.3 m), the
+/// one whose direction of travel fits `yaw_rad` best (10 degrees are no difference); where that
+/// fits alike too, one with way left before the target itself (a loop is driven), then the nearer,
+/// and of equally near ones (0.1 m) the one with more way left.
+/// Needs at least two different points.
+PathStart find_start(std::span<const PathPoint> points, std::size_t target, Vector at,
+                     double yaw_rad);
+
+}  // namespace drover::engine

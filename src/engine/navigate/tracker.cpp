@@ -1,0 +1,269 @@
+// Follows a polyline: where the robot is along it, and the twist that keeps it there.
+#include "engine/navigate/tracker.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "drover/angle.h"
+#include "engine/navigate/path_search.h"
+
+namespace drover::engine {
+namespace {
+
+constexpr double kEndChord_m = 0.25;
+constexpr double kLookBack_m = 1.0;
+constexpr double kCornerSpread_m = 0.3;   // points this close belong to one corner
+constexpr double kTestSpacing_m = 0.02;   // of points tested for corners, where points are dense
+constexpr double kJoined_m = 0.2;
+constexpr double kAtRest_mps = 0.005;
+
+Vector place(const Pose& pose) { return {pose.x_m, pose.y_m}; }
+double direction_rad(Vector v) { return std::atan2(v.y, v.x); }
+
+bool usable(const Pose& pose) {
+  return std::isfinite(pose.x_m) && std::isfinite(pose.y_m) && std::isfinite(pose.yaw_rad) &&
+         std::isfinite(pose.vx_mps) && std::isfinite(pose.wz_radps);
+}
+
+}  // namespace
+
+Tracker::Tracker(const NavigateConfig& config, const LimitsConfig& limits)
+    : config_(config),
+      limits_(limits),
+      braking_mps2_(config.braking_fraction * limits.deceleration_mps2),
+      horizon_m_(limits.max_speed_mps * limits.max_speed_mps / (2 * braking_mps2_) + 2.0) {}
+
+void Tracker::begin(const Path& path, std::uint32_t target, double speed_mps, const Pose& pose) {
+  const PathStart start = find_start(path.points, target, place(pose), pose.yaw_rad);
+  route_ = Route(path.points, target, start.forwards);
+  const std::size_t last_segment = path.points.size() - 2;
+  // Arc length 0 is the first point, in the order of travel, of the segment the robot starts on.
+  station_ = {start.forwards ? start.segment : last_segment - start.segment, 0};
+  s_m_ = start.forwards ? start.along_m : route_.segment_m(station_.segment) - start.along_m;
+  goal_ = route_.point(route_.size() - 1);
+  goal_m_ = 0;
+  for (std::size_t k = station_.segment; k + 1 < route_.size(); ++k) {
+    goal_m_ += route_.segment_m(k);
+  }
+  // The leg begins at a corner just behind, or far enough behind not to matter.
+  const double sharp_rad = to_rad(config_.pivot_angle_deg);
+  std::size_t first = station_.segment;
+  double first_m = 0;
+  while (first > 0 && first_m > -kLookBack_m && corner_rad(route_, first, 0) < sharp_rad) {
+    --first;
+    first_m -= route_.segment_m(first);
+  }
+  enter_leg(first, first_m);
+  scan_ = station_;
+  tested_m_ = 0;
+  phase_ = Phase::follow;
+  speed_mps_ = speed_mps;
+  joined_ = false;
+  active_ = true;
+  s_m_ = foot_m(route_, leg_, station_, s_m_, place(pose), 16);
+  look_for_corner();
+}
+
+void Tracker::end() {
+  active_ = false;
+  route_ = {};
+}
+
+void Tracker::enter_leg(std::size_t first, double first_m) {
+  const std::size_t last = route_.size() - 1;
+  const Vector fallback = unit(route_.point(last) - route_.point(first), {1, 0});
+  leg_ = {first, last, first_m, goal_m_, {}, {}};
+  leg_.enter = unit(chord_after(route_, first, last, kEndChord_m), fallback);
+  leg_.leave = unit(chord_before(route_, last, first, kEndChord_m), leg_.enter);
+}
+
+void Tracker::look_for_corner() {
+  if (!is_last_leg()) return;  // one is known already
+  const double sharp_rad = to_rad(config_.pivot_angle_deg);
+  Station found;
+  double found_rad = sharp_rad;
+  double until_m = s_m_ + horizon_m_;
+  while (scan_.segment + 2 < route_.size() && scan_.start_m < until_m) {
+    scan_ = {scan_.segment + 1, scan_.start_m + route_.segment_m(scan_.segment)};
+    if (scan_.start_m - tested_m_ < kTestSpacing_m) continue;
+    tested_m_ = scan_.start_m;
+    const double angle_rad = corner_rad(route_, scan_.segment, leg_.first);
+    if (angle_rad <= found_rad) continue;
+    // Dense points: the sharpest of those around is the corner.
+    if (found.segment == 0) until_m = scan_.start_m + kCornerSpread_m;
+    found = scan_;
+    found_rad = angle_rad;
+  }
+  if (found.segment == 0) return;
+  leg_.last = found.segment;
+  leg_.last_m = found.start_m;
+  leg_.leave = unit(chord_before(route_, leg_.last, leg_.first, kEndChord_m), leg_.enter);
+  scan_ = found;
+  tested_m_ = found.start_m;
+  station_ = seek(route_, leg_, station_, std::min(s_m_, leg_.last_m));
+}
+
+/// What a stop takes that begins now: the drives' lag, then a ramp whose jerk is limited.
+double Tracker::stop_distance_m(double speed_mps) const {
+  const double v = std::max(speed_mps, 0.0);
+  const double a = limits_.deceleration_mps2;
+  const double j = limits_.jerk_mps3;
+  const double ramp_m = v < a * a / j ? v * std::sqrt(v / j) : v * v / (2 * a) + v * a / (2 * j);
+  return v * config_.drive_lag_s + ramp_m;
+}
+
+TrackProgress Tracker::locate(const Pose& pose) {
+  TrackProgress progress;
+  if (!active_ || !usable(pose)) return progress;
+  if (phase_ != Phase::pivot) {
+    s_m_ = foot_m(route_, leg_, station_, s_m_, place(pose), 3);
+    station_ = seek(route_, leg_, station_, s_m_);
+    look_for_corner();
+  }
+  const Reference here = smooth(route_, leg_, station_, s_m_);
+  progress.cross_track_m = offset_m(route_, leg_, station_, s_m_, place(pose));
+  progress.heading_error_rad = wrap_rad(pose.yaw_rad - direction_rad(here.ahead));
+  progress.distance_left_m = std::max(goal_m_ - s_m_, 0.0);
+  progress.distance_to_goal_m = length(goal_ - place(pose));
+  joined_ = joined_ || std::abs(progress.cross_track_m) < kJoined_m;
+  progress.joined = joined_;
+  // On a loop the goal is near all the time: what counts is what is left along the track.
+  const double left_m = goal_m_ - s_m_;
+  if (!is_last_leg() || left_m > 2 * config_.goal_tolerance_m) return progress;
+  progress.goal_passed = left_m <= 0;
+  const bool stops_there = left_m <= stop_distance_m(pose.vx_mps);
+  const bool rests_there = std::abs(pose.vx_mps) < kAtRest_mps;
+  const bool inside = progress.distance_to_goal_m <= config_.goal_tolerance_m;
+  const bool beside = progress.distance_to_goal_m <= 2 * config_.goal_tolerance_m;
+  progress.arrived = (inside && (stops_there || rests_there)) || (beside && progress.goal_passed);
+  return progress;
+}
+
+Twist Tracker::follow(const Pose& pose, const TrackProgress&, double speed_cap_mps, Duration dt) {
+  const double cap_mps = std::min({speed_mps_, speed_cap_mps, limits_.max_speed_mps});
+  if (!active_ || !usable(pose) || !(cap_mps > 0)) return {};
+  if (phase_ == Phase::pivot) return pivot(pose);
+  // Once it brakes for the end it does not creep on because its stop distance shrank meanwhile.
+  const double left_m = leg_.last_m - s_m_;
+  if (phase_ == Phase::halt && left_m > config_.goal_tolerance_m) phase_ = Phase::follow;
+  if (left_m <= stop_distance_m(pose.vx_mps)) phase_ = Phase::halt;
+  if (phase_ == Phase::follow) return steer(pose, cap_mps, dt);
+  const double settled_mps = 4 * kAtRest_mps;
+  if (is_last_leg() || std::abs(pose.vx_mps) > settled_mps) return {};
+  phase_ = Phase::pivot;
+  return pivot(pose);
+}
+
+Twist Tracker::pivot(const Pose& pose) {
+  constexpr double kDone_rad = 1.0 * kPi / 180;
+  constexpr double kDone_radps = 0.1;
+  constexpr double kGain_ps = 3.0;
+  const Vector next = unit(chord_after(route_, leg_.last, route_.size() - 1, kEndChord_m),
+                           leg_.leave);
+  const double left_rad = wrap_rad(direction_rad(next) - pose.yaw_rad);
+  if (std::abs(left_rad) < kDone_rad && std::abs(pose.wz_radps) < kDone_radps) {
+    phase_ = Phase::follow;
+    s_m_ = leg_.last_m;
+    station_ = {leg_.last, leg_.last_m};
+    enter_leg(leg_.last, leg_.last_m);
+    look_for_corner();
+    return {};
+  }
+  // Foresee the lag, so that the turn does not swing past its end.
+  const double foreseen_rad = left_rad - pose.wz_radps * config_.drive_lag_s;
+  const double braking_radps =
+      std::sqrt(limits_.yaw_acceleration_radps2 * std::abs(foreseen_rad));
+  const double rate_radps = std::min({limits_.max_yaw_rate_radps, braking_radps,
+                                      kGain_ps * std::abs(foreseen_rad)});
+  return {0, std::copysign(rate_radps, foreseen_rad)};
+}
+
+/// The fastest that bends and the end of the leg permit at `s_m`.
+double Tracker::path_speed_mps(double cap_mps, double s_m) const {
+  constexpr double kStep_m = 0.1;
+  constexpr std::size_t kSide = 5;  // steps in kSmoothing_m
+  constexpr std::size_t kStations = 50;
+  static_assert(kSide * 0.1 == kSmoothing_m);
+  const double steering_radps = 0.85 * limits_.max_yaw_rate_radps;  // the rest is for feedback
+  const double reach_m = cap_mps * cap_mps / (2 * braking_mps2_) + kStep_m;
+  const std::size_t stations = std::min(
+      kStations, 2 * kSide + 1 + static_cast<std::size_t>(std::min(reach_m / kStep_m, 100.0)));
+  std::array<Vector, kStations> line;
+  Station station = seek(route_, leg_, station_, s_m - kSmoothing_m);
+  for (std::size_t i = 0; i < stations; ++i) {
+    const double offset_m = kStep_m * (static_cast<double>(i) - static_cast<double>(kSide));
+    line[i] = position(route_, leg_, station, s_m + offset_m);
+  }
+  double fastest_mps = cap_mps;
+  for (std::size_t i = kSide; i + kSide < stations; ++i) {
+    const Vector slope = 1 / (2 * kSmoothing_m) * (line[i + kSide] - line[i - kSide]);
+    const Vector bend = 1 / (kSmoothing_m * kSmoothing_m) *
+                        (line[i + kSide] - 2 * line[i] + line[i - kSide]);
+    const double size = std::max(length(slope), 0.3);
+    const double curvature_radpm = std::abs(cross(slope, bend)) / (size * size * size);
+    if (curvature_radpm < 1e-3) continue;
+    const double bend_mps = std::min(std::sqrt(config_.lateral_acceleration_mps2 / curvature_radpm),
+                                     steering_radps / curvature_radpm);
+    const double ahead_m = kStep_m * static_cast<double>(i - kSide);
+    fastest_mps = std::min(fastest_mps, std::sqrt(bend_mps * bend_mps + 2 * braking_mps2_ * ahead_m));
+  }
+  // Down to creeping where the stop begins.
+  const double creep_mps = std::min(config_.creep_speed_mps, cap_mps);
+  const double left_m = std::max(leg_.last_m - s_m - stop_distance_m(creep_mps), 0.0);
+  return std::min(fastest_mps, std::sqrt(creep_mps * creep_mps + 2 * braking_mps2_ * left_m));
+}
+
+Twist Tracker::steer(const Pose& pose, double cap_mps, Duration dt) {
+  constexpr double kDamping = 2.4;        // of the heading, over the look-ahead
+  constexpr double kStiffness = 2.0;      // of the offset, over its square
+  constexpr double kApproach_rad = 1.0;   // steepest way back to the line
+  constexpr double kTurning_mps = 0.2;    // heading is corrected as if at least so fast
+  constexpr double kRamp_s = 0.1;         // a braking ramp is behind its profile by this
+
+  // The drives answer late: steer for where the base will be then.
+  const double lag_s = config_.drive_lag_s;
+  const double turned_rad = pose.yaw_rad + 0.5 * pose.wz_radps * lag_s;
+  const Vector at = place(pose) + pose.vx_mps * lag_s *
+                                      Vector{std::cos(turned_rad), std::sin(turned_rad)};
+  const double s_m = foot_m(route_, leg_, station_, s_m_ + pose.vx_mps * lag_s, at, 2);
+  const Reference line = smooth(route_, leg_, station_, s_m);
+  const double offset_m = cross(line.ahead, at - line.point);
+  const double heading_rad =
+      wrap_rad(pose.yaw_rad + pose.wz_radps * lag_s - direction_rad(line.ahead));
+
+  double vx_mps = path_speed_mps(cap_mps, s_m + std::max(pose.vx_mps, 0.0) * kRamp_s);
+  vx_mps /= 1 + std::max(std::abs(offset_m) - 0.1, 0.0);
+  // The gate ramps the speed; turning goes with the speed there is, so that the curvature is right.
+  const double speed_mps = pose.vx_mps + std::clamp(vx_mps - pose.vx_mps, -0.1, 0.1);
+  const double rolling_mps = std::max(speed_mps, 0.0);
+
+  const double lookahead_m = std::max(config_.lookahead_s * rolling_mps, config_.min_lookahead_m);
+  const double damping = kDamping / lookahead_m;
+  const double stiffness = kStiffness / (lookahead_m * lookahead_m);
+  const double back_rad =
+      -kApproach_rad * std::tanh(stiffness / damping * offset_m / kApproach_rad);
+  const double off_rad = wrap_rad(heading_rad - back_rad);
+  const double correction_radpm = -damping * off_rad;
+
+  const double bend_radpm = line.curvature_radpm * std::cos(heading_rad) /
+                            std::max(1 - line.curvature_radpm * offset_m, 0.5);
+  // Skidding wheels turn the base less than asked; what feedback adds in bends, they need always.
+  if (std::abs(offset_m) < 0.1 && std::abs(heading_rad) < 0.2 && pose.vx_mps > 0.1) {
+    constexpr double kLearning_m = 0.3;
+    yaw_gain_ += kLearning_m * line.curvature_radpm * correction_radpm * pose.vx_mps * to_s(dt);
+    yaw_gain_ = std::clamp(yaw_gain_, -0.15, 0.35);
+  }
+
+  // Badly turned: rather turn than go.
+  vx_mps *= std::clamp(1 - (std::abs(off_rad) - 0.5) / 0.7, 0.0, 1.0);
+  double wz_radps = rolling_mps * bend_radpm * (1 + yaw_gain_) +
+                    std::max(rolling_mps, kTurning_mps) * correction_radpm;
+  if (std::abs(wz_radps) > limits_.max_yaw_rate_radps) {
+    vx_mps *= limits_.max_yaw_rate_radps / std::abs(wz_radps);
+    wz_radps = std::copysign(limits_.max_yaw_rate_radps, wz_radps);
+  }
+  return {vx_mps, wz_radps};
+}
+
+}  // namespace drover::engine
