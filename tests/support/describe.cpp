@@ -1,0 +1,185 @@
+// Text of measurements and frames, compact and the same on every machine.
+#include "support/describe.h"
+
+#include <cmath>
+#include <cstdio>
+#include <stdexcept>
+
+namespace drover::test {
+namespace {
+
+class Line {
+ public:
+  explicit Line(std::string name) : text_(std::move(name)) {}
+  Line& number(const char* key, double value, const char* pattern = "%.6g") {
+    if (std::isnan(value)) return *this;
+    char buffer[64];
+    // Adding zero turns minus zero into zero.
+    std::snprintf(buffer, sizeof buffer, pattern, value + 0.0);
+    return word(key, buffer);
+  }
+  Line& integer(const char* key, long long value) { return word(key, std::to_string(value)); }
+  Line& word(const char* key, const std::string& value) {
+    text_ += ' ';
+    text_ += key;
+    text_ += '=';
+    text_ += value;
+    return *this;
+  }
+  std::string text() const { return text_; }
+
+ private:
+  std::string text_;
+};
+
+const char* name(AxisState state) {
+  switch (state) {
+    case AxisState::unknown:
+      return "unknown";
+    case AxisState::idle:
+      return "idle";
+    case AxisState::arming:
+      return "arming";
+    case AxisState::running:
+      return "running";
+    case AxisState::fault:
+      return "fault";
+  }
+  return "?";
+}
+
+const char* line_name(drover::Line line) {
+  switch (line) {
+    case drover::Line::estop:
+      return "estop";
+    case drover::Line::bumper:
+      return "bumper";
+    case drover::Line::zone_far:
+      return "zone_far";
+    case drover::Line::zone_near:
+      return "zone_near";
+  }
+  return "?";
+}
+
+struct Describe {
+  std::string operator()(const std::monostate&) const { return "empty"; }
+  std::string operator()(const AxisMotion& m) const {
+    return Line("axis_motion")
+        .integer("axis", m.axis)
+        .number("position_rad", m.position_rad)
+        .number("velocity_radps", m.velocity_radps)
+        .number("effort_Nm", m.effort_Nm)
+        .text();
+  }
+  std::string operator()(const AxisStatus& m) const {
+    Line line("axis_status");
+    line.integer("axis", m.axis).word("state", name(m.state));
+    if (m.error_code != 0) {
+      char buffer[32];
+      std::snprintf(buffer, sizeof buffer, "0x%llx", static_cast<unsigned long long>(m.error_code));
+      line.word("error_code", buffer);
+    }
+    if (!m.reason.empty()) line.word("reason", '"' + std::string(m.reason.view()) + '"');
+    return line.text();
+  }
+  std::string operator()(const AxisTemperature& m) const {
+    return Line("axis_temperature")
+        .integer("axis", m.axis)
+        .number("inverter_degC", m.inverter_degC)
+        .number("motor_degC", m.motor_degC)
+        .text();
+  }
+  std::string operator()(const AxisSupply& m) const {
+    return Line("axis_supply")
+        .integer("axis", m.axis)
+        .number("bus_V", m.bus_V)
+        .number("bus_A", m.bus_A)
+        .text();
+  }
+  std::string operator()(const GnssPosition& m) const {
+    return Line("gnss_position")
+        .number("latitude_deg", m.latitude_deg, "%.10f")
+        .number("longitude_deg", m.longitude_deg, "%.10f")
+        .number("altitude_msl_m", m.altitude_msl_m)
+        .number("undulation_m", m.undulation_m)
+        .integer("quality", static_cast<int>(m.quality))
+        .integer("satellites", m.satellites)
+        .number("hdop", m.hdop)
+        .number("correction_age_s", m.correction_age_s)
+        .number("sigma_east_m", m.sigma_east_m)
+        .number("sigma_north_m", m.sigma_north_m)
+        .text();
+  }
+  std::string operator()(const GnssVelocity& m) const {
+    return Line("gnss_velocity")
+        .number("speed_mps", m.speed_mps)
+        .number("course_deg", m.course_deg)
+        .text();
+  }
+  std::string operator()(const GnssHeading& m) const {
+    return Line("gnss_heading").number("heading_deg", m.heading_deg).text();
+  }
+  std::string operator()(const LineState& m) const {
+    return Line("line_state")
+        .word("line", line_name(m.line))
+        .word("active", m.active ? "true" : "false")
+        .text();
+  }
+};
+
+int nibble(char c) {
+  if (c >= '0' && c <= '9') return c - '0';
+  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
+  if (c >= 'A' && c <= 'F') return c - 'A' + 10;
+  throw std::invalid_argument(std::string("not a hex digit: ") + c);
+}
+
+}  // namespace
+
+std::string describe(const Measurement& measurement) {
+  return std::visit(Describe{}, measurement.value);
+}
+
+std::string describe(const DriverOut& out) {
+  std::string text;
+  for (const Measurement& m : out.measurements) {
+    if (!text.empty()) text += "; ";
+    text += describe(m);
+  }
+  return text.empty() ? "nothing" : text;
+}
+
+std::string describe(const CanFrame& frame) {
+  char buffer[16];
+  std::snprintf(buffer, sizeof buffer, frame.extended ? "%08X#" : "%03X#", frame.id);
+  std::string text = buffer;
+  if (frame.remote) text += 'R';
+  for (const std::uint8_t byte : frame.payload()) {
+    std::snprintf(buffer, sizeof buffer, "%02X", byte);
+    text += buffer;
+  }
+  return text;
+}
+
+CanFrame parse_frame(std::string_view text) {
+  const auto hash = text.find('#');
+  if (hash != 3 && hash != 8) throw std::invalid_argument("id must have 3 or 8 digits");
+  CanFrame frame;
+  frame.extended = hash == 8;
+  for (const char c : text.substr(0, hash))
+    frame.id = frame.id << 4U | static_cast<std::uint32_t>(nibble(c));
+  std::string_view data = text.substr(hash + 1);
+  if (!data.empty() && data[0] == 'R') {
+    frame.remote = true;
+    data.remove_prefix(1);
+  }
+  if (data.size() % 2 != 0 || data.size() > 2 * frame.data.size())
+    throw std::invalid_argument("data must be whole bytes, 64 at most");
+  for (std::size_t i = 0; i < data.size(); i += 2)
+    frame.data[frame.len++] =
+        static_cast<std::uint8_t>(nibble(data[i]) << 4 | nibble(data[i + 1]));
+  return frame;
+}
+
+}  // namespace drover::test
