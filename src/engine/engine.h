@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 
 #include "drover/command.h"
 #include "drover/driver.h"
@@ -34,6 +35,7 @@ struct EngineOutput {
 
 class Engine final {
  public:
+  /// Throws std::invalid_argument when an axis of the base is not among the joints.
   explicit Engine(const EngineConfig& config);
   ~Engine();
 
@@ -43,6 +45,10 @@ class Engine final {
   void step(Time now, const Environment& environment, EngineOutput& out);
   /// The engine's part of the snapshot (links and cycle statistics are the runtime's).
   const Snapshot& snapshot() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
 };
 
 }  // namespace drover::engine

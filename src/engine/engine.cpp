@@ -1,0 +1,281 @@
+// The engine: health, estimate, navigate, drive and gate, in the order of a cycle.
+#include "engine/engine.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "drover/angle.h"
+#include "engine/drive/skid_steer.h"
+#include "engine/estimate/estimator.h"
+#include "engine/event_queue.h"
+#include "engine/gate/target_gate.h"
+#include "engine/health/announcer.h"
+#include "engine/health/health.h"
+#include "engine/health/wheels.h"
+#include "engine/navigate/navigator.h"
+
+namespace drover::engine {
+namespace {
+
+constexpr Duration kOldestTarget = std::chrono::milliseconds(100);
+constexpr Duration kLongestCycle = std::chrono::milliseconds(50);
+
+bool valid(const GeodeticPoint& point) {
+  return std::abs(point.latitude_deg) <= 90 && std::abs(point.longitude_deg) <= 180 &&
+         std::isfinite(point.altitude_m);
+}
+
+}  // namespace
+
+struct Engine::Impl {
+  explicit Impl(const EngineConfig& c);
+
+  void take(const Measurement& m);
+  void propose_origin(const RequestId& id, Time now);
+  void set_origin(const RequestId& id, const GeodeticPoint& origin, Time now);
+  void command_axes(const Twist& twist, bool run, EngineOutput& out);
+  void command_side(const FixedVector<AxisId, 8>& side, double velocity_radps, bool run,
+                    EngineOutput& out);
+  void fill_snapshot(Time now, const Environment& environment, const Estimate& estimate);
+
+  EngineConfig config;
+  Estimator estimator;
+  HealthMonitor health;
+  WheelMonitor wheels;
+  Announcer announcer;
+  Navigator navigator;
+  TargetGate gate;
+  EventQueue events;
+  std::array<bool, kLineCount> level{};  ///< last reported; active until then
+  std::array<bool, kLineCount> pulse{};  ///< was active at some instant since the last step
+  Estimate estimate;                              ///< of the last step
+  GnssPosition fix;                               ///< the last one
+  double baseline_deg = kAbsent;                  ///< last measured heading of the antennas
+  Time last_step = kNever;
+  Snapshot snapshot;
+};
+
+Engine::Impl::Impl(const EngineConfig& c)
+    : config(c),
+      estimator(c.estimate, c.base),
+      health(c),
+      wheels(c),
+      navigator(c),
+      gate(c.limits, kOldestTarget) {
+  level.fill(true);
+  for (const Name& joint : config.joints) {
+    AxisSnapshot axis;
+    axis.joint = joint;
+    if (!snapshot.axes.push_back(axis)) break;
+  }
+  snapshot.line_configured = config.line_configured;
+  snapshot.line_active = config.line_configured;
+}
+
+void Engine::Impl::take(const Measurement& m) {
+  estimator.on_measurement(m);
+  const auto axis_of = [this](AxisId id) -> AxisSnapshot* {
+    return id < snapshot.axes.size() ? &snapshot.axes[id] : nullptr;
+  };
+  if (const auto* motion = std::get_if<AxisMotion>(&m.value)) {
+    AxisSnapshot* axis = axis_of(motion->axis);
+    // Frames that overtook each other never move a state backwards.
+    if (axis == nullptr || m.time < axis->last_motion) return;
+    axis->motion = *motion;
+    axis->last_motion = m.time;
+  } else if (const auto* status = std::get_if<AxisStatus>(&m.value)) {
+    AxisSnapshot* axis = axis_of(status->axis);
+    if (axis == nullptr) return;
+    axis->state = status->state;
+    axis->fault = status->reason;
+  } else if (const auto* temperature = std::get_if<AxisTemperature>(&m.value)) {
+    AxisSnapshot* axis = axis_of(temperature->axis);
+    if (axis == nullptr) return;
+    axis->inverter_degC = temperature->inverter_degC;
+    axis->motor_degC = temperature->motor_degC;
+  } else if (const auto* supply = std::get_if<AxisSupply>(&m.value)) {
+    AxisSnapshot* axis = axis_of(supply->axis);
+    if (axis != nullptr) axis->bus_V = supply->bus_V;
+  } else if (const auto* position = std::get_if<GnssPosition>(&m.value)) {
+    if (m.time < snapshot.gnss.position_time) return;
+    fix = *position;
+    snapshot.gnss.position = *position;
+    snapshot.gnss.position_time = m.time;
+  } else if (const auto* heading = std::get_if<GnssHeading>(&m.value)) {
+    if (std::isfinite(heading->heading_deg)) baseline_deg = heading->heading_deg;
+  } else if (const auto* line = std::get_if<LineState>(&m.value)) {
+    const auto index = static_cast<std::size_t>(line->line);
+    if (index >= kLineCount) return;
+    level[index] = line->active;
+    pulse[index] = pulse[index] || line->active;
+  }
+}
+
+void Engine::Impl::propose_origin(const RequestId& id, Time now) {
+  const auto refuse = [&](const Reason& why) { events.push(now, CommandRefused{id, why}); };
+  if (navigator.active()) return refuse("a task runs");
+  const Time at = snapshot.gnss.position_time;
+  if (!health.report().gnss_ok || at == kNever ||
+      now - at > from_s(config.health.gnss_stale_s)) {
+    return refuse("the receiver gives no position");
+  }
+  if (fix.quality != FixQuality::rtk_fixed) return refuse("the position is not RTK fixed");
+  if (fix.correction_age_s > config.estimate.max_correction_age_s) {
+    return refuse("the corrections are too old");
+  }
+  GeodeticPoint origin{fix.latitude_deg, fix.longitude_deg, fix.altitude_msl_m};
+  if (std::isfinite(fix.undulation_m)) origin.altitude_m += fix.undulation_m;
+  if (!std::isfinite(origin.altitude_m)) origin.altitude_m = 0;  // it only tilts the map
+  if (!valid(origin)) return refuse("the receiver's position is not valid");
+  events.push(now, OriginProposed{id, origin});
+}
+
+void Engine::Impl::set_origin(const RequestId& id, const GeodeticPoint& origin, Time now) {
+  if (navigator.active()) {
+    events.push(now, CommandRefused{id, "a task runs"});
+  } else if (!valid(origin)) {
+    events.push(now, CommandRefused{id, "the origin is not a place on earth"});
+  } else {
+    estimator.set_origin(origin);
+    estimate = estimator.step(last_step == kNever ? now : last_step);
+    snapshot.origin_set = true;
+    snapshot.origin = origin;
+    events.push(now, CommandAccepted{id, {}});
+  }
+}
+
+void Engine::Impl::command_side(const FixedVector<AxisId, 8>& side, double velocity_radps,
+                                bool run, EngineOutput& out) {
+  for (const AxisId id : side) {
+    AxisCommand& command = out.axes[id];
+    command.request = run ? AxisRequest::run : AxisRequest::rest;
+    command.velocity_radps = run && std::isfinite(velocity_radps) ? velocity_radps : 0.0;
+    snapshot.axes[id].commanded_velocity_radps = command.velocity_radps;
+    out.motion_permitted = out.motion_permitted || command.velocity_radps != 0;
+  }
+}
+
+void Engine::Impl::command_axes(const Twist& twist, bool run, EngineOutput& out) {
+  const double slip = estimate.yaw_slip_factor;
+  const WheelSpeeds speeds = wheels_from_twist(config.base, slip, twist,
+                                               max_wheel_mps(config.base, config.limits, slip));
+  command_side(config.base.left, speeds.left_radps, run, out);
+  command_side(config.base.right, speeds.right_radps, run, out);
+}
+
+void Engine::Impl::fill_snapshot(Time now, const Environment& environment,
+                                 const Estimate& located) {
+  const HealthReport& report = health.report();
+  snapshot.time = now;
+  snapshot.pose = located.pose;
+  snapshot.nav = navigator.snapshot(report);
+  // A stop ramp is still the task's motion.
+  if (snapshot.nav.owner == Owner::nobody && !gate.at_rest()) snapshot.nav.owner = Owner::task;
+  snapshot.gnss.health = report.gnss_ok ? environment.gnss.state : SourceState::stale;
+  if (environment.gnss.state == SourceState::never_heard) {
+    snapshot.gnss.health = SourceState::never_heard;
+  }
+  if (located.has_heading) {
+    snapshot.gnss.heading_deg = compass_deg_from_yaw_rad(located.pose.yaw_rad);
+  } else if (std::isfinite(baseline_deg)) {
+    snapshot.gnss.heading_deg =
+        wrap_deg(baseline_deg - config.estimate.heading_baseline_offset_deg);
+  }
+  if (located.has_position) {
+    const GeodeticPoint antenna = estimator.antenna_geodetic(located.pose);
+    snapshot.gnss.pose_latitude_deg = antenna.latitude_deg;
+    snapshot.gnss.pose_longitude_deg = antenna.longitude_deg;
+  } else if (std::isfinite(fix.latitude_deg) && std::isfinite(fix.longitude_deg)) {
+    snapshot.gnss.pose_latitude_deg = fix.latitude_deg;
+    snapshot.gnss.pose_longitude_deg = fix.longitude_deg;
+  }
+  snapshot.stop_latched = !navigator.latched().empty();
+  snapshot.guard_alive = environment.guard_alive;
+  snapshot.guard_has_bus = environment.guard_has_bus;
+  snapshot.why = report.why;
+}
+
+Engine::Engine(const EngineConfig& config) {
+  for (const auto* side : {&config.base.left, &config.base.right}) {
+    for (const AxisId id : *side) {
+      if (id >= config.joints.size()) {
+        throw std::invalid_argument("the base names an axis that is not among the drives");
+      }
+    }
+  }
+  impl_ = std::make_unique<Impl>(config);
+}
+
+Engine::~Engine() = default;
+
+void Engine::on_measurement(const Measurement& measurement) { impl_->take(measurement); }
+
+void Engine::on_command(const Command& command, Time now) {
+  Impl& e = *impl_;
+  const RequestId& id = command.id;
+  if (const auto* task = std::get_if<StartTask>(&command.body)) {
+    e.navigator.start(id, *task, now, e.estimate, e.estimator.has_origin(), e.health.report(),
+                      e.events);
+    if (e.navigator.starting() && e.gate.at_rest()) e.gate.reset();
+  } else if (std::holds_alternative<CancelTask>(command.body)) {
+    e.navigator.cancel(id, now, e.events);
+  } else if (std::holds_alternative<ResetStop>(command.body)) {
+    e.navigator.reset_stop(id, now, e.gate.at_rest(), e.health.report(), e.events);
+  } else if (std::holds_alternative<ProposeOrigin>(command.body)) {
+    e.propose_origin(id, now);
+  } else if (const auto* origin = std::get_if<SetOrigin>(&command.body)) {
+    e.set_origin(id, origin->origin, now);
+  } else {
+    e.events.push(now, CommandRefused{id, "an empty command"});
+  }
+}
+
+void Engine::step(Time now, const Environment& environment, EngineOutput& out) {
+  Impl& e = *impl_;
+  out.axes = {};
+  out.events.clear();
+  out.motion_permitted = false;
+  const Duration nominal = from_s(1.0 / e.config.tick_Hz);
+  const Duration dt = e.last_step == kNever
+                          ? nominal
+                          : std::clamp(now - e.last_step, Duration{0}, kLongestCycle);
+  e.last_step = now;
+  for (std::size_t i = 0; i < e.snapshot.axes.size(); ++i) {
+    AxisSnapshot& axis = e.snapshot.axes[i];
+    axis.last_motion = std::min(axis.last_motion, now);  // a time to come must not hide a silence
+    axis.health = environment.axes[i].state;
+  }
+  LineTable lines;
+  for (std::size_t i = 0; i < kLineCount; ++i) {
+    // Any edge counts: what was active for an instant is active for the cycle.
+    lines.active[i] = e.level[i] || e.pulse[i];
+    e.snapshot.line_active[i] = e.config.line_configured[i] && lines.active[i];
+    e.snapshot.line_health[i] = environment.lines[i].state;
+  }
+  e.pulse.fill(false);
+  e.estimate = e.estimator.step(now);
+  const std::span<const AxisSnapshot> axes{e.snapshot.axes.data(), e.snapshot.axes.size()};
+  e.health.update({now, environment, axes, lines, e.estimate, e.estimator.has_origin(),
+                   e.navigator.active(), e.navigator.latched()});
+  const WheelFault wheels = e.wheels.update(now, dt, axes);
+  const NavOutput wanted =
+      e.navigator.step({now, dt, e.estimate, e.health.report(), wheels, e.wheels.reason(),
+                        e.gate.at_rest(), e.gate.refusal()},
+                       e.events);
+  const Offer offer{e.health.report().estop ? Owner::estop
+                    : wanted.drives         ? Owner::task
+                                            : Owner::nobody,
+                    wanted.target, now};
+  const Twist twist = e.gate.step(now, dt, {&offer, 1}, wanted.stop);
+  const bool run = wanted.stop != Stop::immediate && (wanted.drives || !e.gate.at_rest());
+  e.command_axes(twist, run, out);
+  e.navigator.on_commanded(now, out.motion_permitted, e.events);
+  e.announcer.update(now, e.health.report(), e.events);
+  e.fill_snapshot(now, environment, e.estimate);
+  e.events.drain(out.events);
+}
+
+const Snapshot& Engine::snapshot() const { return impl_->snapshot; }
+
+}  // namespace drover::engine

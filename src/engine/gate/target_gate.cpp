@@ -1,0 +1,118 @@
+// The first gate: the only way a wanted motion becomes a commanded one.
+#include "engine/gate/target_gate.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace drover::engine {
+namespace {
+
+/// Towards `target` by at most `step`.
+double approach(double value, double target, double step) {
+  return std::abs(target - value) <= step ? target : value + std::copysign(step, target - value);
+}
+
+}  // namespace
+
+std::string_view text(TargetRefusal refusal) {
+  switch (refusal) {
+    case TargetRefusal::none: return "";
+    case TargetRefusal::nobody: return "nobody drives";
+    case TargetRefusal::stop: return "a stop is in force";
+    case TargetRefusal::stale: return "the wanted speed is too old";
+    case TargetRefusal::not_finite: return "the wanted speed is not a number";
+  }
+  return "";
+}
+
+TargetGate::TargetGate(const LimitsConfig& limits, Duration max_age)
+    : limits_(limits), max_age_(max_age) {}
+
+void TargetGate::reset() {
+  twist_ = {};
+  acceleration_mps2_ = 0;
+}
+
+Twist TargetGate::choose(Time now, std::span<const Offer> offers) {
+  const Offer* best = nullptr;
+  for (const Offer& offer : offers) {
+    if (best == nullptr || offer.owner < best->owner) best = &offer;
+  }
+  if (best == nullptr || best->owner == Owner::nobody) {
+    refusal_ = TargetRefusal::nobody;
+    return {};
+  }
+  if (best->owner == Owner::estop) {
+    refusal_ = TargetRefusal::stop;
+    return {};
+  }
+  if (now - best->issued > max_age_ || best->issued > now) {
+    refusal_ = TargetRefusal::stale;
+    return {};
+  }
+  if (!std::isfinite(best->target.vx_mps) || !std::isfinite(best->target.wz_radps)) {
+    refusal_ = TargetRefusal::not_finite;
+    ++not_finite_;
+    return {};
+  }
+  refusal_ = TargetRefusal::none;
+  return {std::clamp(best->target.vx_mps, -limits_.max_speed_mps, limits_.max_speed_mps),
+          std::clamp(best->target.wz_radps, -limits_.max_yaw_rate_radps,
+                     limits_.max_yaw_rate_radps)};
+}
+
+void TargetGate::follow(const Twist& target, double dt_s) {
+  // The speed is taken as positive in the direction of present motion, so that slowing down and
+  // speeding up have each their limit; through zero it goes in two steps.
+  const double sign = twist_.vx_mps < 0 || (twist_.vx_mps == 0 && target.vx_mps < 0) ? -1.0 : 1.0;
+  const double v_mps = sign * twist_.vx_mps;
+  const double target_mps = std::max(sign * target.vx_mps, 0.0);
+  const double change_mps = target_mps - v_mps;
+  const double limit_mps2 =
+      change_mps > 0 ? limits_.acceleration_mps2 : limits_.deceleration_mps2;
+  // Acceleration that can still be taken back in time, with the jerk there is.
+  const double j = limits_.jerk_mps3;
+  const double wanted_mps2 =
+      std::copysign(std::min(limit_mps2, std::sqrt(2 * j * std::abs(change_mps))), change_mps);
+  // What worked the other way ends at once: no more speed once less is wanted.
+  double a_mps2 = sign * acceleration_mps2_;
+  if (a_mps2 * change_mps < 0) a_mps2 = 0;
+  a_mps2 = approach(a_mps2, wanted_mps2, j * dt_s);
+  const double next_mps = v_mps + a_mps2 * dt_s;
+  const bool there = change_mps > 0 ? next_mps >= target_mps : next_mps <= target_mps;
+  twist_.vx_mps = sign * (there ? target_mps : next_mps);
+  acceleration_mps2_ = there ? 0 : sign * a_mps2;
+  twist_.wz_radps =
+      approach(twist_.wz_radps, target.wz_radps, limits_.yaw_acceleration_radps2 * dt_s);
+}
+
+void TargetGate::ramp_down(double dt_s) {
+  const double before_mps = twist_.vx_mps;
+  twist_.vx_mps = approach(before_mps, 0, limits_.deceleration_mps2 * dt_s);
+  acceleration_mps2_ = 0;
+  // Turning ends with driving, so that the base stays on its curve.
+  const double kept = std::abs(before_mps) > 1e-3 ? twist_.vx_mps / before_mps : 0.0;
+  twist_.wz_radps = approach(twist_.wz_radps, kept * twist_.wz_radps,
+                             limits_.yaw_acceleration_radps2 * dt_s);
+}
+
+const Twist& TargetGate::step(Time now, Duration dt, std::span<const Offer> offers, Stop stop) {
+  const Twist target = choose(now, offers);
+  const bool estop = std::any_of(offers.begin(), offers.end(),
+                                 [](const Offer& o) { return o.owner == Owner::estop; });
+  if (stop == Stop::immediate || estop) {
+    refusal_ = TargetRefusal::stop;
+    reset();
+    return twist_;
+  }
+  const double dt_s = std::max(to_s(dt), 0.0);
+  if (stop == Stop::controlled) refusal_ = TargetRefusal::stop;
+  if (refusal_ == TargetRefusal::none) {
+    follow(target, dt_s);
+  } else {
+    ramp_down(dt_s);
+  }
+  return twist_;
+}
+
+}  // namespace drover::engine

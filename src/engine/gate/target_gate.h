@@ -1,0 +1,69 @@
+// The first gate: the only way a wanted motion becomes a commanded one.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "drover/snapshot.h"
+#include "engine/config.h"
+#include "engine/navigate/tracker.h"
+
+namespace drover::engine {
+
+/// How motion ends, if it has to.
+enum class Stop : std::uint8_t {
+  none,
+  controlled,  ///< ramps down with the configured deceleration, along the curve being driven
+  immediate,   ///< zero at once
+};
+
+/// What one owner wants of the base.
+struct Offer {
+  Owner owner = Owner::nobody;
+  Twist target;
+  Time issued = kNever;
+};
+
+enum class TargetRefusal : std::uint8_t {
+  none,
+  nobody,      ///< nobody wants anything: at rest
+  stop,        ///< a stop is in force
+  stale,       ///< the wish of the owner in force is too old
+  not_finite,  ///< not a number
+};
+
+/// Limits of speed, acceleration and jerk between wishes and wheels. What is refused becomes a ramp
+/// to zero. Fails closed: without a fresh, finite wish of somebody the base comes to rest.
+class TargetGate final {
+ public:
+  /// A wish older than `max_age` is not followed.
+  TargetGate(const LimitsConfig& limits, Duration max_age);
+
+  /// The twist to command now. Of several offers the highest rank counts, and only that one: a stale
+  /// or senseless wish of the owner in force does not hand the base to the next.
+  const Twist& step(Time now, Duration dt, std::span<const Offer> offers, Stop stop);
+  /// Forgets all motion: on arming and after an immediate stop.
+  void reset();
+
+  bool at_rest() const { return twist_.vx_mps == 0 && twist_.wz_radps == 0; }
+  const Twist& twist() const { return twist_; }
+  TargetRefusal refusal() const { return refusal_; }
+  std::uint64_t not_finite() const { return not_finite_; }
+
+ private:
+  Twist choose(Time now, std::span<const Offer> offers);
+  void follow(const Twist& target, double dt_s);
+  void ramp_down(double dt_s);
+
+  LimitsConfig limits_;
+  Duration max_age_;
+  Twist twist_;
+  double acceleration_mps2_ = 0;
+  TargetRefusal refusal_ = TargetRefusal::nobody;
+  std::uint64_t not_finite_ = 0;
+};
+
+/// For people; empty for `none`.
+std::string_view text(TargetRefusal refusal);
+
+}  // namespace drover::engine

@@ -1,0 +1,188 @@
+// What is good and what is not, each cycle, in an operator's words.
+#include "engine/health/health.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace drover::engine {
+namespace {
+
+template <std::size_t N>
+void put(FixedText<N>& out, const char* before, std::string_view name, std::string_view text) {
+  out.format("%s %.*s: %.*s", before, static_cast<int>(name.size()), name.data(),
+             static_cast<int>(text.size()), text.data());
+}
+
+}  // namespace
+
+std::string_view line_name(Line line) {
+  switch (line) {
+    case Line::estop: return "e-stop";
+    case Line::bumper: return "bumper";
+    case Line::zone_far: return "far zone";
+    case Line::zone_near: return "near zone";
+  }
+  return "line";
+}
+
+HealthMonitor::HealthMonitor(const EngineConfig& config)
+    : config_(config), locate_(config.estimate) {
+  for (const AxisId id : config.base.left) driven_[id] = true;
+  for (const AxisId id : config.base.right) driven_[id] = true;
+}
+
+void HealthMonitor::hold(Cause cause, const Reason& text) {
+  const auto index = static_cast<std::size_t>(cause);
+  if (holds(cause)) return;  // the first of a kind speaks for all
+  report_.causes |= 1U << index;
+  report_.texts[index] = text;
+}
+
+void HealthMonitor::look_at_lines(const HealthInput& input) {
+  report_.lines_ok = true;
+  for (std::size_t i = 0; i < kLineCount; ++i) {
+    if (!config_.line_configured[i]) continue;
+    const auto line = static_cast<Line>(i);
+    const SourceHealth& source = input.environment.lines[i];
+    // The driver judges; the age is looked at again so that a driver never asked is noticed, too.
+    const bool old = source.last_good != kNever &&
+                     input.now - source.last_good > from_s(config_.health.line_stale_s);
+    const bool lost = source.state != SourceState::fresh || old;
+    const bool active = input.lines.active[i] || lost;
+    if (lost) {
+      Reason text;
+      put(text, "line", line_name(line),
+          source.reason.empty() ? std::string_view("not readable") : source.reason.view());
+      hold(Cause::line_lost, text);
+      report_.lines_ok = false;
+    }
+    switch (line) {
+      case Line::estop:
+        report_.estop = active;
+        if (active && !lost) hold(Cause::estop, "e-stop pressed");
+        report_.lines_ok = report_.lines_ok && !active;
+        break;
+      case Line::bumper:
+        if (active && !lost) hold(Cause::bumper, "bumper touched");
+        report_.lines_ok = report_.lines_ok && !active;
+        break;
+      case Line::zone_far:
+        report_.far_zone = active;
+        if (active && !lost) hold(Cause::far_zone, "somebody in the far zone: slowly");
+        break;
+      case Line::zone_near:
+        report_.near_zone = active;
+        if (active && !lost) hold(Cause::near_zone, "obstacle in the near zone");
+        break;
+    }
+  }
+}
+
+void HealthMonitor::look_at_drives(const HealthInput& input) {
+  report_.drives_ok = true;
+  report_.drives_running = true;
+  const Duration stale = from_s(config_.health.drive_stale_s);
+  std::size_t driven = 0;
+  std::size_t silent = 0;
+  for (std::size_t i = 0; i < input.axes.size(); ++i) {
+    if (!driven_[i]) continue;
+    ++driven;
+    const AxisSnapshot& axis = input.axes[i];
+    const SourceHealth& source = input.environment.axes[i];
+    const Duration age = input.now - axis.last_motion;
+    Reason text;
+    if (axis.last_motion == kNever || source.state == SourceState::never_heard) {
+      put(text, "wheel", axis.joint,
+          source.reason.empty() ? std::string_view("never heard") : source.reason.view());
+    } else if (age >= stale || source.state != SourceState::fresh) {
+      Reason what;
+      what.format("no feedback for %.2f s", to_s(age));
+      put(text, "wheel", axis.joint,
+          age < stale && !source.reason.empty() ? source.reason.view() : what.view());
+    }
+    if (!text.empty()) {
+      ++silent;
+      hold(Cause::drive_silent, text);
+    } else if (axis.state == AxisState::fault) {
+      put(text, "wheel", axis.joint,
+          axis.fault.empty() ? std::string_view("fault") : axis.fault.view());
+      hold(Cause::drive_fault, text);
+    }
+    report_.drives_ok = report_.drives_ok && text.empty();
+    if (!text.empty() || axis.state != AxisState::running) {
+      report_.drives_running = false;
+      if (text.empty()) put(text, "wheel", axis.joint, "the drive is not in closed loop");
+      if (report_.not_running.empty()) report_.not_running = text;
+    }
+  }
+  if (driven == 0) {
+    report_.drives_ok = report_.drives_running = false;
+    hold(Cause::drive_silent, "no drives are configured");
+  } else if (silent == driven && driven > 1) {
+    // The first is named all the same: its text carries the driver's or link's own reason.
+    Reason all;
+    const auto& first = report_.texts[static_cast<std::size_t>(Cause::drive_silent)];
+    all.format("no drive answers (%.*s)", static_cast<int>(first.view().size()),
+               first.view().data());
+    report_.texts[static_cast<std::size_t>(Cause::drive_silent)] = all;
+  }
+}
+
+void HealthMonitor::look_at_guard(const Environment& environment) {
+  const bool silent = config_.health.guard_required && !environment.guard_alive;
+  report_.guard_ok = !silent && !environment.guard_has_bus;
+  if (environment.guard_has_bus) hold(Cause::guard_has_bus, "the guard stopped the drives");
+  if (silent) hold(Cause::guard_silent, "the guard does not answer");
+}
+
+void HealthMonitor::look_at_position(const HealthInput& input) {
+  const SourceHealth& gnss = input.environment.gnss;
+  const bool old = gnss.last_good != kNever &&
+                   input.now - gnss.last_good > from_s(config_.health.gnss_stale_s);
+  report_.gnss_ok = !input.environment.gnss_configured ||
+                    (gnss.state == SourceState::fresh && !old);
+  if (!report_.gnss_ok) {
+    Reason text;
+    if (!gnss.reason.empty()) {
+      put(text, "receiver", "GNSS", gnss.reason);
+    } else if (gnss.last_good == kNever) {
+      text = "receiver never heard";
+    } else {
+      text.format("receiver silent for %.1f s", to_s(input.now - gnss.last_good));
+    }
+    hold(Cause::receiver, text);
+  }
+  report_.locate = locate_.update(input.estimate, input.has_origin, input.task_active);
+  report_.locate_reason = locate_.reason();
+  report_.budget_used = locate_.used();
+  if (!input.has_origin) {
+    hold(Cause::origin, locate_.reason());
+  } else if (report_.locate != LocateState::good) {
+    hold(Cause::locate, locate_.reason());
+  }
+}
+
+const HealthReport& HealthMonitor::update(const HealthInput& input) {
+  // Emptied field by field: the texts are large and most stay unused.
+  report_.ready = true;
+  report_.estop = report_.near_zone = report_.far_zone = false;
+  report_.causes = 0;
+  report_.stop.clear();
+  report_.not_running.clear();
+  report_.why.clear();
+  look_at_lines(input);
+  look_at_guard(input.environment);
+  look_at_drives(input);
+  look_at_position(input);
+  if (!input.latched.empty()) hold(Cause::latched, input.latched);
+  for (std::size_t i = 0; i < kCauseCount; ++i) {
+    const auto cause = static_cast<Cause>(i);
+    if (!holds(cause)) continue;
+    const bool stops = cause <= Cause::guard_silent;
+    if (stops && report_.stop.empty()) report_.stop = report_.texts[i];
+    if (!report_.why.push_back(report_.texts[i])) break;
+  }
+  return report_;
+}
+
+}  // namespace drover::engine

@@ -1,0 +1,93 @@
+// What is good and what is not, each cycle, in an operator's words.
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "engine/engine.h"
+#include "engine/health/locate.h"
+
+namespace drover::engine {
+
+/// Everything that can be wrong, the more causal the earlier: an e-stop cuts the drives' power, so
+/// silent drives come after it.
+enum class Cause : std::uint8_t {
+  estop,
+  line_lost,
+  guard_has_bus,
+  bumper,
+  drive_silent,
+  guard_silent,
+  drive_fault,
+  latched,     ///< not a present cause: what stopped the robot before a person acted
+  near_zone,
+  origin,      ///< none set
+  receiver,    ///< silent
+  locate,
+  far_zone,
+};
+inline constexpr std::size_t kCauseCount = 13;
+
+/// Last known state of the lines: the levels the drivers reported since the last cycle.
+struct LineTable {
+  std::array<bool, kLineCount> active{true, true, true, true};
+};
+
+struct HealthInput {
+  Time now = kNever;
+  const Environment& environment;
+  std::span<const AxisSnapshot> axes;
+  const LineTable& lines;
+  const Estimate& estimate;
+  bool has_origin = false;
+  bool task_active = false;
+  const Reason& latched;  ///< empty when nothing is
+};
+
+struct HealthReport {
+  bool ready = false;      ///< at least one cycle was looked at
+  bool drives_ok = false;  ///< all heard, fresh and without a fault
+  bool drives_running = false;  ///< all in closed loop
+  bool lines_ok = false;   ///< no e-stop, no bumper, no line lost
+  bool gnss_ok = false;    ///< the receiver talks
+  bool guard_ok = false;   ///< answers, or is not required; and has not taken the bus
+  bool estop = false;
+  bool near_zone = false;
+  bool far_zone = false;
+  LocateState locate = LocateState::uninit;
+  double budget_used = 1;  ///< of the permitted position error
+  /// Nothing may move now and motion stops without a ramp: why. Empty when motion is possible.
+  Reason stop;
+  /// Which drive is not in closed loop, and its fault: stops a task that runs, while at rest arming
+  /// may clear it. Empty when all run.
+  Reason not_running;
+  Reason locate_reason;
+  FixedVector<Reason, 8> why;  ///< the cause first
+  std::uint32_t causes = 0;    ///< bits by Cause
+  std::array<Reason, kCauseCount> texts;  ///< by Cause, for causes that hold
+};
+
+class HealthMonitor final {
+ public:
+  explicit HealthMonitor(const EngineConfig& config);
+  const HealthReport& update(const HealthInput& input);
+  const HealthReport& report() const { return report_; }
+
+ private:
+  void hold(Cause cause, const Reason& text);
+  void look_at_lines(const HealthInput& input);
+  void look_at_drives(const HealthInput& input);
+  void look_at_guard(const Environment& environment);
+  void look_at_position(const HealthInput& input);
+  bool holds(Cause cause) const { return (report_.causes >> static_cast<unsigned>(cause) & 1U) != 0; }
+
+  EngineConfig config_;
+  std::array<bool, kMaxAxes> driven_{};  ///< axes of the base
+  LocateMonitor locate_;
+  HealthReport report_;
+};
+
+/// "e-stop", "bumper", ...
+std::string_view line_name(Line line);
+
+}  // namespace drover::engine

@@ -1,0 +1,52 @@
+// Whether the position is good enough, without flapping.
+#include "engine/health/locate.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "drover/angle.h"
+
+namespace drover::engine {
+namespace {
+
+constexpr double kGoodAgain = 0.8;  // of the bound
+
+bool finite(const Pose& pose) {
+  return std::isfinite(pose.x_m) && std::isfinite(pose.y_m) && std::isfinite(pose.yaw_rad) &&
+         std::isfinite(pose.vx_mps) && std::isfinite(pose.wz_radps);
+}
+
+}  // namespace
+
+LocateState LocateMonitor::update(const Estimate& estimate, bool has_origin, bool task_active) {
+  reason_.clear();
+  used_ = 1;
+  if (!has_origin || !estimate.has_position || !estimate.has_heading) {
+    reason_ = !has_origin              ? "no origin is set"
+              : !estimate.has_position ? "no position yet"
+                                       : "no heading yet";
+    return state_ = LocateState::uninit;
+  }
+  const double bound_m = task_active ? config_.bound_run_m : config_.bound_start_m;
+  const double bound_rad = to_rad(config_.bound_yaw_deg);
+  const double share = state_ == LocateState::good ? 1.0 : kGoodAgain;
+  const double error_m = estimate.predicted_error_m;
+  const double error_rad = estimate.yaw_error_rad;
+  // Written so that a value that is not a number is never good.
+  if (!finite(estimate.pose)) {
+    reason_ = "the position estimate is not a number";
+  } else if (estimate.disagrees) {
+    reason_ = estimate.reason.empty() ? Reason("position disagrees with odometry") : estimate.reason;
+  } else if (!(error_m <= share * bound_m)) {
+    reason_.format("position uncertain by %.2f m, allowed %.2f m", error_m, bound_m);
+  } else if (!(error_rad <= share * bound_rad)) {
+    reason_.format("heading uncertain by %.1f degrees, allowed %.1f", to_deg(error_rad),
+                   config_.bound_yaw_deg);
+  } else {
+    used_ = std::max(error_m / bound_m, error_rad / bound_rad);
+    return state_ = LocateState::good;
+  }
+  return state_ = LocateState::lost;
+}
+
+}  // namespace drover::engine

@@ -1,0 +1,115 @@
+// Whether the wheels do what they are told: blocked, not following, running away.
+#include "engine/health/wheels.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace drover::engine {
+namespace {
+
+constexpr double kJudgedShare = 0.05;     // of the highest speed
+constexpr double kFollows = 0.2;          // of the commanded way
+constexpr double kMark_s = 0.05;          // a wheel that follows is marked so often
+constexpr double kRunaway_s = 0.1;
+constexpr double kRunawayMargin_mps = 0.3;
+constexpr double kHighestSlip = 2.5;      // the estimate never goes so far
+
+}  // namespace
+
+double max_wheel_mps(const BaseConfig& base, const LimitsConfig& limits, double yaw_slip_factor) {
+  return limits.max_speed_mps +
+         0.5 * base.track_m * yaw_slip_factor * limits.max_yaw_rate_radps;
+}
+
+WheelMonitor::WheelMonitor(const EngineConfig& config)
+    : config_(config),
+      judged_radps_(kJudgedShare * config.limits.max_speed_mps / config.base.wheel_radius_m),
+      fastest_radps_((max_wheel_mps(config.base, config.limits, kHighestSlip) +
+                      kRunawayMargin_mps) / config.base.wheel_radius_m) {}
+
+void WheelMonitor::reset() { wheels_ = {}; }
+
+void WheelMonitor::watch(Wheel& wheel, const AxisSnapshot& axis, Time now, Duration dt) {
+  const double command_radps = axis.commanded_velocity_radps;
+  const bool forwards = command_radps >= 0;
+  const double position_rad = axis.motion.position_rad;
+  double step_rad = 0;
+  if (!std::isfinite(position_rad)) {  // a drive without a position is judged by its velocity
+    const double velocity_radps = axis.motion.velocity_radps;
+    step_rad = std::isfinite(velocity_radps) ? velocity_radps * to_s(dt) : 0.0;
+  } else if (std::isfinite(wheel.last_position_rad)) {
+    step_rad = position_rad - wheel.last_position_rad;
+  }
+  wheel.last_position_rad = position_rad;
+  if (!(std::abs(command_radps) > judged_radps_)) {
+    wheel.active = false;
+    return;
+  }
+  if (!wheel.active || wheel.forwards != forwards) {
+    wheel.active = true;
+    wheel.forwards = forwards;
+    wheel.commanded_rad = 0;
+    wheel.moved_rad = 0;
+    wheel.mark = now;
+    return;
+  }
+  wheel.commanded_rad += std::abs(command_radps) * to_s(dt);
+  wheel.moved_rad += forwards ? step_rad : -step_rad;
+  if (now - wheel.mark < from_s(kMark_s)) return;
+  if (wheel.moved_rad < kFollows * wheel.commanded_rad) return;
+  wheel.commanded_rad = 0;
+  wheel.moved_rad = 0;
+  wheel.mark = now;
+}
+
+bool WheelMonitor::runs_away(Wheel& wheel, const AxisSnapshot& axis, Time now) const {
+  const bool fast = axis.state == AxisState::running &&
+                    std::abs(axis.motion.velocity_radps) > fastest_radps_;
+  if (!fast) {
+    wheel.fast_since = kNever;
+    return false;
+  }
+  if (wheel.fast_since == kNever) wheel.fast_since = now;
+  return now - wheel.fast_since >= from_s(kRunaway_s);
+}
+
+WheelFault WheelMonitor::update(Time now, Duration dt, std::span<const AxisSnapshot> axes) {
+  reason_.clear();
+  const AxisSnapshot* behind = nullptr;
+  Duration longest{};
+  Duration shortest = Duration::max();
+  std::size_t judged = 0;
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    Wheel& wheel = wheels_[i];
+    if (runs_away(wheel, axes[i], now)) {
+      const std::string_view joint = axes[i].joint;
+      reason_.format("wheel %.*s runs away: %.1f rad/s", static_cast<int>(joint.size()),
+                     joint.data(), axes[i].motion.velocity_radps);
+      return WheelFault::runaway;
+    }
+    watch(wheel, axes[i], now, dt);
+    if (!wheel.active) continue;
+    ++judged;
+    const Duration age = now - wheel.mark;
+    shortest = std::min(shortest, age);
+    if (age >= longest) {
+      longest = age;
+      behind = &axes[i];
+    }
+  }
+  if (judged == 0) return WheelFault::none;
+  if (shortest >= from_s(config_.navigate.blocked_timeout_s)) {
+    reason_.format("blocked: the wheels do not move for %.1f s", to_s(shortest));
+    return WheelFault::blocked;
+  }
+  const Duration allowed = from_s(config_.health.follow_timeout_s);
+  if (longest >= allowed && shortest < allowed) {
+    const std::string_view joint = behind->joint;
+    reason_.format("wheel %.*s does not follow its command", static_cast<int>(joint.size()),
+                   joint.data());
+    return WheelFault::not_following;
+  }
+  return WheelFault::none;
+}
+
+}  // namespace drover::engine

@@ -1,0 +1,298 @@
+// The task's life: free, starting, running, paused, ended; and what is answered to whom.
+#include "engine/navigate/navigator.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/navigate/navigator_checks.h"
+
+namespace drover::engine {
+namespace {
+
+constexpr double kGoalNear_m = 0.5;     // the arrival time-out runs inside this
+constexpr double kStandstill_mps = 0.02;
+constexpr double kSlowFrom = 0.5;       // share of the error budget from which on it slows
+constexpr double kSlowest = 0.5;        // share of the speed that is left when the budget is spent
+
+unsigned long long as_counted(std::uint32_t target) {
+  return static_cast<unsigned long long>(target) + 1;
+}
+
+}  // namespace
+
+Navigator::Navigator(const EngineConfig& config)
+    : config_(config), tracker_(config.navigate, config.limits) {}
+
+void Navigator::Wait::update(bool bad, Time now, Duration resume_after) {
+  if (bad) {
+    if (since == kNever) since = now;
+    last_bad = now;
+  } else if (since != kNever && now - last_bad >= resume_after) {
+    since = kNever;
+  }
+}
+
+void Navigator::start(const RequestId& id, const StartTask& task, Time now,
+                      const Estimate& estimate, bool has_origin, const HealthReport& health,
+                      EventQueue& events) {
+  const auto refuse = [&](const Reason& reason) {
+    events.push(now, CommandRefused{id, reason});
+    if (task.path != nullptr) events.push(now, PathReleased{task.path});
+  };
+  if (active()) return refuse("a task runs already");
+  if (task.path == nullptr) return refuse("there is no such track");
+  if (const Reason why = check_path(*task.path, task.target); !why.empty()) return refuse(why);
+  const SpeedCheck speed = check_speed(task.speed_mps, config_.limits);
+  if (!speed.refusal.empty()) return refuse(speed.refusal);
+  if (!software_stop_.empty()) {
+    Reason why;
+    why.format("reset the stop first: %.*s", static_cast<int>(software_stop_.view().size()),
+               software_stop_.view().data());
+    return refuse(why);
+  }
+  if (const Reason why = check_robot(health, has_origin); !why.empty()) return refuse(why);
+  tracker_.begin(*task.path, task.target, speed.speed_mps, estimate.pose);
+  progress_ = tracker_.locate(estimate.pose);
+  const Reason why =
+      check_place(*task.path, task.target, estimate.pose, progress_, config_.navigate);
+  if (!why.empty()) {
+    tracker_.end();
+    return refuse(why);
+  }
+  events.push(now, CommandAccepted{id, speed.note});
+  id_ = id;
+  path_ = task.path;
+  track_.assign(task.path->name);
+  target_ = task.target;
+  speed_mps_ = speed.speed_mps;
+  accepted_ = now;
+  goal_near_since_ = kNever;
+  begun_ = stopping_at_goal_ = false;
+  obstacle_ = lost_ = {};
+  failed_.clear();
+  phase_ = Phase::starting;
+  status_ = NavStatus::run;
+  if (progress_.arrived && progress_.distance_to_goal_m <= config_.navigate.goal_tolerance_m) {
+    end(now, TaskEnded::How::success, "the robot was there already", events);
+  }
+}
+
+void Navigator::cancel(const RequestId& id, Time now, EventQueue& events) {
+  events.push(now, CommandAccepted{id, {}});
+  if (active()) {
+    end(now, TaskEnded::How::cancelled, "cancelled", events);
+  }
+  status_ = NavStatus::free;
+  failed_.clear();
+}
+
+void Navigator::reset_stop(const RequestId& id, Time now, bool at_rest, const HealthReport& health,
+                           EventQueue& events) {
+  const Reason why = !health.ready          ? Reason("the gateway has just started")
+                     : active()             ? Reason("a task runs: cancel it first")
+                     : !at_rest             ? Reason("the robot is still stopping")
+                                            : health.stop;
+  if (!why.empty()) {
+    events.push(now, CommandRefused{id, why});
+    return;
+  }
+  const bool nothing = latched().empty();
+  events.push(now, CommandAccepted{id, nothing ? Reason("nothing was latched") : Reason()});
+  software_stop_.clear();
+  failed_.clear();
+}
+
+void Navigator::end(Time now, TaskEnded::How how, const Reason& reason, EventQueue& events) {
+  if (how == TaskEnded::How::success && !begun_) {
+    begun_ = true;
+    events.push(now, NavigationStarted{id_});
+  }
+  if (begun_) {
+    events.push(now, TaskEnded{id_, how, reason});
+  } else {
+    events.push(now, NavigationNotStarted{id_, reason});
+  }
+  tracker_.end();
+  events.push(now, PathReleased{path_});
+  path_ = nullptr;
+  phase_ = Phase::idle;
+  switch (how) {
+    case TaskEnded::How::success: status_ = NavStatus::success; break;
+    case TaskEnded::How::cancelled: status_ = NavStatus::free; break;
+    case TaskEnded::How::failed: status_ = NavStatus::error; break;
+  }
+}
+
+void Navigator::fail(Time now, const Reason& reason, EventQueue& events) {
+  failed_ = reason;
+  end(now, TaskEnded::How::failed, reason, events);
+}
+
+/// What leaves no time for a ramp, and what no task survives.
+bool Navigator::stop_at_once(const NavInput& input, EventQueue& events) {
+  Reason why;
+  if (input.wheels == WheelFault::runaway) {
+    why = software_stop_ = input.wheel_reason;
+  } else if (!input.health.stop.empty()) {
+    why = input.health.stop;
+  } else if (phase_ == Phase::running || phase_ == Phase::paused) {
+    why = !input.health.drives_running ? input.health.not_running : input.wheel_reason;
+  }
+  if (why.empty()) return false;
+  if (active()) fail(input.now, why, events);
+  return true;
+}
+
+NavOutput Navigator::step(const NavInput& input, EventQueue& events) {
+  if (stop_at_once(input, events)) return {{}, false, Stop::immediate};
+  switch (phase_) {
+    case Phase::idle: return {{}, false, Stop::controlled};
+    case Phase::starting: return arm(input, events);
+    case Phase::running:
+    case Phase::paused: return run(input, events);
+  }
+  return {{}, false, Stop::immediate};
+}
+
+NavOutput Navigator::arm(const NavInput& input, EventQueue& events) {
+  if (input.health.drives_running) {
+    phase_ = Phase::running;
+    return run(input, events);
+  }
+  if (input.now - accepted_ > from_s(config_.navigate.start_timeout_s)) {
+    fail(input.now, input.health.not_running, events);
+    return {{}, false, Stop::immediate};
+  }
+  return {{}, true, Stop::controlled};
+}
+
+Reason Navigator::find_position_failure(const Estimate& estimate,
+                                        const HealthReport& health) const {
+  const Pose& pose = estimate.pose;
+  if (estimate.has_position && !std::isfinite(pose.x_m + pose.y_m + pose.yaw_rad + pose.vx_mps)) {
+    return "the position estimate is not a number";
+  }
+  if (estimate.disagrees) {
+    return estimate.reason.empty() ? Reason("position disagrees with odometry") : estimate.reason;
+  }
+  if (health.locate != LocateState::good) return {};  // a pause, not a failure
+  Reason why;
+  const double off_m = std::abs(progress_.cross_track_m);
+  const double allowed_m = progress_.joined ? config_.navigate.corridor_m
+                                            : config_.navigate.start_distance_m +
+                                                  config_.navigate.corridor_m;
+  if (!(off_m <= allowed_m)) {
+    why.format("the robot left the corridor: %.2f m beside the track", off_m);
+  } else if (progress_.goal_passed && !progress_.arrived && !stopping_at_goal_) {
+    why.format("passed point %llu at %.2f m", as_counted(target_), progress_.distance_to_goal_m);
+  }
+  return why;
+}
+
+Reason Navigator::find_failure(const NavInput& input) {
+  const NavigateConfig& limits = config_.navigate;
+  if (input.refusal == TargetRefusal::not_finite) return "the wanted speed was not a number";
+  if (const Reason why = find_position_failure(input.estimate, input.health); !why.empty()) {
+    return why;
+  }
+  Reason why;
+  if (obstacle_.longer_than(limits.obstacle_timeout_s, input.now)) {
+    why.format("an obstacle blocked the way for %.0f s", limits.obstacle_timeout_s);
+  } else if (lost_.longer_than(limits.locate_timeout_s, input.now)) {
+    why.format("localisation was lost for %.0f s", limits.locate_timeout_s);
+  } else if (goal_near_since_ != kNever &&
+             input.now - goal_near_since_ > from_s(limits.arrival_timeout_s)) {
+    why.format("did not arrive at point %llu within %.0f s", as_counted(target_),
+               limits.arrival_timeout_s);
+  }
+  return why;
+}
+
+void Navigator::watch_pauses(const NavInput& input, EventQueue& events) {
+  const Duration resume_after = from_s(config_.navigate.resume_after_s);
+  obstacle_.update(input.health.near_zone, input.now, resume_after);
+  lost_.update(input.health.locate != LocateState::good, input.now, resume_after);
+  const bool wait = obstacle_.holds() || lost_.holds();
+  if (wait && phase_ == Phase::running) {
+    phase_ = Phase::paused;
+    Reason text;
+    const std::string_view what = obstacle_.holds() ? "obstacle in the near zone"
+                                                    : input.health.locate_reason.view();
+    text.format("paused: %.*s", static_cast<int>(what.size()), what.data());
+    events.notice(input.now, Notice::Level::warning, text);
+  } else if (!wait && phase_ == Phase::paused) {
+    phase_ = Phase::running;
+    events.notice(input.now, Notice::Level::info, "goes on after a pause");
+  }
+}
+
+void Navigator::settle_at_goal(const NavInput& input, EventQueue& events) {
+  if (!input.at_rest || std::abs(input.estimate.pose.vx_mps) > kStandstill_mps) return;
+  Reason text;
+  text.format("%.2f m from point %llu", progress_.distance_to_goal_m, as_counted(target_));
+  if (progress_.distance_to_goal_m <= config_.navigate.goal_tolerance_m) {
+    end(input.now, TaskEnded::How::success, text, events);
+  } else if (progress_.goal_passed) {
+    fail(input.now, text, events);
+  } else {
+    stopping_at_goal_ = false;  // short of it: goes on
+  }
+}
+
+double Navigator::speed_cap_mps(const HealthReport& health) const {
+  double cap_mps = speed_mps_;
+  if (health.far_zone) cap_mps = std::min(cap_mps, config_.navigate.far_zone_speed_mps);
+  const double over = (health.budget_used - kSlowFrom) / (1 - kSlowFrom);
+  const double share = 1 - (1 - kSlowest) * std::clamp(over, 0.0, 1.0);
+  return std::min(cap_mps, std::max(share * speed_mps_, config_.limits.min_speed_mps));
+}
+
+NavOutput Navigator::run(const NavInput& input, EventQueue& events) {
+  const bool located = input.health.locate == LocateState::good;
+  if (located) progress_ = tracker_.locate(input.estimate.pose);
+  if (const Reason why = find_failure(input); !why.empty()) {
+    fail(input.now, why, events);
+    return {{}, false, Stop::controlled};
+  }
+  watch_pauses(input, events);
+  if (phase_ == Phase::paused) {
+    if (goal_near_since_ != kNever) goal_near_since_ = input.now;  // waiting is not creeping
+    return {{}, true, Stop::controlled};
+  }
+  if (goal_near_since_ == kNever && progress_.distance_left_m < kGoalNear_m) {
+    goal_near_since_ = input.now;
+  }
+  stopping_at_goal_ = stopping_at_goal_ || progress_.arrived;
+  if (stopping_at_goal_) {
+    settle_at_goal(input, events);
+    return {{}, active(), Stop::none};  // a ramp as the tracker foresaw it
+  }
+  const Twist target = tracker_.follow(input.estimate.pose, progress_,
+                                       speed_cap_mps(input.health), input.dt);
+  return {target, true, Stop::none};
+}
+
+void Navigator::on_commanded(Time now, bool moving, EventQueue& events) {
+  if (phase_ != Phase::running || begun_ || !moving) return;
+  begun_ = true;
+  events.push(now, NavigationStarted{id_});
+}
+
+NavSnapshot Navigator::snapshot(const HealthReport& health) const {
+  NavSnapshot nav;
+  nav.status = status_;
+  nav.locate = health.locate;
+  nav.obstacle = health.near_zone || (phase_ == Phase::paused && obstacle_.holds());
+  nav.paused = phase_ == Phase::paused;
+  nav.owner = health.estop ? Owner::estop : active() ? Owner::task : Owner::nobody;
+  if (status_ == NavStatus::free) return nav;
+  nav.track = track_;
+  nav.target_id = target_ + 1;
+  nav.asked_speed_mps = speed_mps_;
+  if (!active()) return nav;
+  nav.cross_track_m = progress_.cross_track_m;
+  nav.distance_left_m = progress_.distance_left_m;
+  return nav;
+}
+
+}  // namespace drover::engine

@@ -1,0 +1,102 @@
+// The task's life: free, starting, running, paused, ended; and what is answered to whom.
+#pragma once
+
+#include "engine/event_queue.h"
+#include "engine/gate/target_gate.h"
+#include "engine/health/health.h"
+#include "engine/health/wheels.h"
+#include "engine/navigate/tracker.h"
+
+namespace drover::engine {
+
+/// What the navigator needs each cycle.
+struct NavInput {
+  Time now = kNever;
+  Duration dt{};
+  const Estimate& estimate;
+  const HealthReport& health;
+  WheelFault wheels = WheelFault::none;
+  const Reason& wheel_reason;
+  bool at_rest = true;        ///< the target gate commands nothing
+  TargetRefusal refusal = TargetRefusal::none;  ///< of the last cycle
+};
+
+struct NavOutput {
+  Twist target;
+  bool drives = false;        ///< there is a task: axes are to run (armed, if at rest)
+  Stop stop = Stop::controlled;
+};
+
+/// Nothing moves but between an accepted StartTask and the end of that task. Each StartTask is
+/// answered once, its path returned once; each accepted one has exactly one NavigationStarted and
+/// then one TaskEnded, or exactly one NavigationNotStarted.
+class Navigator final {
+ public:
+  explicit Navigator(const EngineConfig& config);
+
+  void start(const RequestId& id, const StartTask& task, Time now, const Estimate& estimate,
+             bool has_origin, const HealthReport& health, EventQueue& events);
+  void cancel(const RequestId& id, Time now, EventQueue& events);
+  void reset_stop(const RequestId& id, Time now, bool at_rest, const HealthReport& health,
+                  EventQueue& events);
+
+  NavOutput step(const NavInput& input, EventQueue& events);
+  /// After the gate: the first motion commanded begins the navigation.
+  void on_commanded(Time now, bool moving, EventQueue& events);
+
+  bool active() const { return phase_ != Phase::idle; }
+  bool starting() const { return phase_ == Phase::starting; }
+  /// What a person has to act upon before anything moves; empty when nothing.
+  const Reason& latched() const { return software_stop_.empty() ? failed_ : software_stop_; }
+  NavSnapshot snapshot(const HealthReport& health) const;
+
+ private:
+  enum class Phase : std::uint8_t {
+    idle,
+    starting,  ///< accepted, drives are being armed
+    running,
+    paused,
+  };
+  /// A reason to wait, from its beginning until there was health for long enough.
+  struct Wait {
+    Time since = kNever;  ///< kNever: not waiting
+    Time last_bad = kNever;
+    void update(bool bad, Time now, Duration resume_after);
+    bool holds() const { return since != kNever; }
+    bool longer_than(double limit_s, Time now) const {
+      return holds() && now - since > from_s(limit_s);
+    }
+  };
+
+  void end(Time now, TaskEnded::How how, const Reason& reason, EventQueue& events);
+  void fail(Time now, const Reason& reason, EventQueue& events);
+  NavOutput arm(const NavInput& input, EventQueue& events);
+  NavOutput run(const NavInput& input, EventQueue& events);
+  void settle_at_goal(const NavInput& input, EventQueue& events);
+  void watch_pauses(const NavInput& input, EventQueue& events);
+  bool stop_at_once(const NavInput& input, EventQueue& events);
+  Reason find_failure(const NavInput& input);
+  Reason find_position_failure(const Estimate& estimate, const HealthReport& health) const;
+  double speed_cap_mps(const HealthReport& health) const;
+
+  EngineConfig config_;
+  Tracker tracker_;
+  Phase phase_ = Phase::idle;
+  NavStatus status_ = NavStatus::free;
+  RequestId id_;
+  const Path* path_ = nullptr;
+  Name track_;
+  std::uint32_t target_ = 0;
+  double speed_mps_ = 0;
+  bool begun_ = false;            ///< NavigationStarted was said
+  bool stopping_at_goal_ = false;
+  Time accepted_ = kNever;
+  Time goal_near_since_ = kNever;
+  Wait obstacle_;
+  Wait lost_;
+  TrackProgress progress_;
+  Reason failed_;
+  Reason software_stop_;
+};
+
+}  // namespace drover::engine

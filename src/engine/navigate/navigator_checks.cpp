@@ -1,0 +1,82 @@
+// Whether a task may start: each refusal with its reason.
+#include "engine/navigate/navigator_checks.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "drover/angle.h"
+#include "engine/navigate/path_search.h"
+
+namespace drover::engine {
+namespace {
+
+/// From `at` to the segment that the tracker would begin on, m.
+double distance_m(const Path& path, std::uint32_t target, const Pose& pose) {
+  const Vector at{pose.x_m, pose.y_m};
+  const PathStart start = find_start(path.points, target, at, pose.yaw_rad);
+  const PathPoint& a = path.points[start.segment];
+  const PathPoint& b = path.points[start.segment + 1];
+  const Vector from{a.x_m, a.y_m};
+  const Vector along = Vector{b.x_m, b.y_m} - from;
+  const double squared = dot(along, along);
+  const double share = squared > 0 ? std::clamp(dot(at - from, along) / squared, 0.0, 1.0) : 0.0;
+  return length(at - (from + share * along));
+}
+
+}  // namespace
+
+SpeedCheck check_speed(double asked_mps, const LimitsConfig& limits) {
+  SpeedCheck check;
+  if (!std::isfinite(asked_mps)) {
+    check.refusal = "the speed is not a number";
+  } else if (asked_mps <= 0) {
+    check.refusal.format("the speed must be above zero, not %.3g m/s", asked_mps);
+  } else if (asked_mps < limits.min_speed_mps) {
+    check.refusal.format("the base cannot hold %.3g m/s; the least is %.2f m/s", asked_mps,
+                         limits.min_speed_mps);
+  } else if (asked_mps > limits.max_speed_mps) {
+    check.note.format("speed limited to %.2f m/s, %.3g m/s was asked", limits.max_speed_mps,
+                      asked_mps);
+  }
+  if (check.refusal.empty()) check.speed_mps = std::min(asked_mps, limits.max_speed_mps);
+  return check;
+}
+
+Reason check_robot(const HealthReport& health, bool has_origin) {
+  if (!health.ready) return "the gateway has just started";
+  if (!health.stop.empty()) return health.stop;
+  // A drive that reports a fault is no refusal: arming clears what can be cleared.
+  if (!has_origin) return "no origin is set";
+  if (!health.gnss_ok) {
+    return health.texts[static_cast<std::size_t>(Cause::receiver)];
+  }
+  if (health.locate != LocateState::good) {
+    return health.locate_reason.empty() ? Reason("the position is not good") : health.locate_reason;
+  }
+  return {};
+}
+
+Reason check_place(const Path& path, std::uint32_t target, const Pose& pose,
+                   const TrackProgress& progress, const NavigateConfig& config) {
+  Reason reason;
+  const double off_m = distance_m(path, target, pose);
+  if (!(off_m <= config.start_distance_m)) {
+    reason.format("the robot is %.1f m away from the track, allowed %.1f m", off_m,
+                  config.start_distance_m);
+    return reason;
+  }
+  if (progress.arrived && progress.distance_to_goal_m <= config.goal_tolerance_m) return reason;
+  if (progress.goal_passed) {
+    reason.format("point %llu lies behind the robot (%.1f m)",
+                  static_cast<unsigned long long>(target) + 1, progress.distance_to_goal_m);
+    return reason;
+  }
+  const double turned_deg = to_deg(std::abs(progress.heading_error_rad));
+  if (!(turned_deg <= config.start_angle_deg)) {
+    reason.format("the robot is turned %.0f degrees away from the way to point %llu, allowed %.0f",
+                  turned_deg, static_cast<unsigned long long>(target) + 1, config.start_angle_deg);
+  }
+  return reason;
+}
+
+}  // namespace drover::engine
