@@ -14,30 +14,55 @@ constexpr double kFloorShare = 0.8;
 
 double square(double v) { return v * v; }
 
-/// A new kind of error: what was learnt of the old one is forgotten.
-void follow_quality(State& state, const AntennaPosition& position) {
-  GnssTrack& gnss = state.gnss;
-  if (position.quality != gnss.quality) {
-    const double sigma = std::max(position.sigma_x_m, position.sigma_y_m);
-    const double before = std::max(gnss.sigma_x_m, gnss.sigma_y_m);
-    if (gnss.quality != GnssClass::none && before > sigma) {
-      gnss.improved = state.time;
-      gnss.old_sigma_m = before;
-    }
-    gnss.quality = position.quality;
-    state.belief.reset(kBiasX, 0, position.sigma_x_m);
-    state.belief.reset(kBiasY, 0, position.sigma_y_m);
-  }
-  gnss.sigma_x_m = position.sigma_x_m;
-  gnss.sigma_y_m = position.sigma_y_m;
+double larger_sigma_m(const AntennaPosition& position) {
+  return std::max(position.sigma_x_m, position.sigma_y_m);
 }
 
-/// A filter in the receiver lets the error of the worse quality fade after the better one is shown.
-double settling_variance(const State& state, const EstimateConfig& config) {
-  if (state.gnss.improved == kNever || !(config.fix_settle_s > 0)) return 0;
-  const double since_s = to_s(state.time - state.gnss.improved);
-  if (since_s > 10 * config.fix_settle_s) return 0;
-  return square(state.gnss.old_sigma_m * std::exp(-since_s / config.fix_settle_s));
+/// Filters in the receiver let the error of the worse quality fade after the better one is shown:
+/// until then the position is taken for as bad as that.
+AntennaPosition settled(AntennaPosition position, const State& state,
+                        const EstimateConfig& config) {
+  const GnssTrack& gnss = state.gnss;
+  if (gnss.improved == kNever || !(config.fix_settle_s > 0)) return position;
+  const double age = to_s(state.time - gnss.improved) / config.fix_settle_s;
+  const double left_m = age < 20 ? gnss.old_sigma_m * std::exp(-age) : 0.0;
+  position.sigma_x_m = std::hypot(position.sigma_x_m, left_m);
+  position.sigma_y_m = std::hypot(position.sigma_y_m, left_m);
+  return position;
+}
+
+/// The error has a size and, relative to it, a value that wanders: a new size scales it.
+void scale_bias(Belief& belief, std::size_t i, double factor) {
+  belief.mean[i] *= factor;
+  for (std::size_t k = 0; k < kStates; ++k) belief.covariance[i][k] *= factor;
+  for (std::size_t k = 0; k < kStates; ++k) belief.covariance[k][i] *= factor;
+}
+
+/// Follows the size of the error; another class has another error, of which nothing is known.
+/// Returns the position with the sigma to be used.
+AntennaPosition follow_quality(State& state, const AntennaPosition& position,
+                               const EstimateConfig& config) {
+  GnssTrack& gnss = state.gnss;
+  const bool changed = position.quality != gnss.quality;
+  if (changed && gnss.quality != GnssClass::none) {
+    const double before_m = std::max(gnss.sigma_x_m, gnss.sigma_y_m);
+    if (before_m > larger_sigma_m(position)) {
+      gnss.improved = state.time;
+      gnss.old_sigma_m = before_m;
+    }
+  }
+  const AntennaPosition used = settled(position, state, config);
+  if (changed) {
+    gnss.quality = used.quality;
+    state.belief.reset(kBiasX, 0, used.sigma_x_m);
+    state.belief.reset(kBiasY, 0, used.sigma_y_m);
+  } else {
+    scale_bias(state.belief, kBiasX, used.sigma_x_m / gnss.sigma_x_m);
+    scale_bias(state.belief, kBiasY, used.sigma_y_m / gnss.sigma_y_m);
+  }
+  gnss.sigma_x_m = used.sigma_x_m;
+  gnss.sigma_y_m = used.sigma_y_m;
+  return used;
 }
 
 void place(State& state, const AntennaPosition& position, double arm_x_m, double arm_y_m,
@@ -114,12 +139,13 @@ double floor_sigma_m(GnssClass quality, const EstimateConfig& config) {
 
 double sigma_m(GnssClass quality, double gst_sigma_m, const EstimateConfig& config) {
   const double floor = floor_sigma_m(quality, config);
-  return gst_sigma_m > floor && std::isfinite(gst_sigma_m) ? gst_sigma_m : floor;
+  const bool worse = gst_sigma_m > floor && std::isfinite(gst_sigma_m);
+  return config.gnss_inflation * (worse ? gst_sigma_m : floor);
 }
 
-void apply(State& state, const AntennaPosition& position, double speed_mps,
+void apply(State& state, const AntennaPosition& measured, double speed_mps,
            const EstimateConfig& config) {
-  follow_quality(state, position);
+  const AntennaPosition position = follow_quality(state, measured, config);
   Belief& belief = state.belief;
   const double c = std::cos(belief.mean[kYaw]);
   const double s = std::sin(belief.mean[kYaw]);
@@ -128,7 +154,7 @@ void apply(State& state, const AntennaPosition& position, double speed_mps,
   const bool oriented = state.has_heading;
   const double arm_x = oriented ? config.antenna_x_m * c - config.antenna_y_m * s : 0;
   const double arm_y = oriented ? config.antenna_x_m * s + config.antenna_y_m * c : 0;
-  const double extra = settling_variance(state, config) + (oriented ? 0 : square(lever_m)) +
+  const double extra = (oriented ? 0 : square(lever_m)) +
                        square(speed_mps * config.gnss_timing_sigma_s);
   const double variance_x = square(config.gnss_white_share * position.sigma_x_m) + extra;
   const double variance_y = square(config.gnss_white_share * position.sigma_y_m) + extra;
@@ -153,8 +179,7 @@ void apply(State& state, const AntennaPosition& position, double speed_mps,
   const double determinant = sxx * syy - sxy * sxy;
   const double distance2 = (syy * dx * dx - 2 * sxy * dx * dy + sxx * dy * dy) / determinant;
   if (!(distance2 <= square(config.gate_sigma))) {
-    const double noise = std::max(position.sigma_x_m, position.sigma_y_m);
-    if (refuse(state, position, std::hypot(dx, dy), noise, config)) {
+    if (refuse(state, position, std::hypot(dx, dy), larger_sigma_m(position), config)) {
       place(state, position, arm_x, arm_y, place_variance);
       state.gnss.jumps.accepted();
     }

@@ -19,12 +19,13 @@ struct AntennaPosition {
 /// simulator mode are no measurements; an RTK fix with old corrections is a float.
 GnssClass class_of(const GnssPosition& position, const EstimateConfig& config);
 double floor_sigma_m(GnssClass quality, const EstimateConfig& config);
-/// The receiver's own sigma (GST), never below the floor of the class. Receivers assume white
-/// noise; that the error lasts is the filter's own bias state, so nothing is inflated here.
+/// The receiver's own sigma (GST) but not less than the floor of the class, times gnss_inflation,
+/// because receivers are optimists. That the error lasts (multipath: 30 to 300 s) is not a matter of
+/// its size: the filter carries it as a state of its own.
 double sigma_m(GnssClass quality, double gst_sigma_m, const EstimateConfig& config);
 
 /// Applies the position to a state that stands at the position's own time.
-void apply(State& state, const AntennaPosition& position, double speed_mps,
+void apply(State& state, const AntennaPosition& measured, double speed_mps,
            const EstimateConfig& config);
 
 }  // namespace drover::engine::estimate

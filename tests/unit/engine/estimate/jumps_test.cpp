@@ -1,0 +1,116 @@
+// Receiver and wheels contradict each other: outliers, wrong fixes, a carried robot.
+#include <gtest/gtest.h>
+
+#include "unit/engine/estimate/rig.h"
+
+namespace drover::engine::estimate {
+namespace {
+
+class EstimateJumps : public testing::TestWithParam<double> {};
+
+TEST_P(EstimateJumps, AreNotFollowedWhileDriving) {
+  Rig rig;
+  rig.stand(5);
+  rig.drive(0.5, 0.5, 5);
+  rig.world.jump_x_m = GetParam();
+  rig.forget();
+  rig.drive(0.5, 0.5, 0.9);
+  EXPECT_FALSE(rig.last.disagrees);
+  EXPECT_LT(rig.max_m(), 0.05);
+  rig.drive(0.5, 0.5, 0.5);
+  EXPECT_TRUE(rig.last.disagrees);
+  EXPECT_EQ(rig.last.reason.view(), "position disagrees with odometry");
+  EXPECT_GT(rig.last.predicted_error_m, 0.8 * GetParam());
+  rig.drive(0.5, 0.5, 3);
+  EXPECT_TRUE(rig.last.disagrees);
+  EXPECT_LT(rig.max_m(), 0.1);
+}
+
+TEST_P(EstimateJumps, EndWhenTheReceiverComesBack) {
+  Rig rig;
+  rig.stand(5);
+  rig.drive(0.5, 0.5, 5);
+  rig.world.jump_x_m = GetParam();
+  rig.drive(0.5, 0.5, 2);
+  rig.world.jump_x_m = 0;
+  rig.drive(0.5, 0.5, 0.5);
+  EXPECT_FALSE(rig.last.disagrees);
+  EXPECT_LT(rig.position_error_m(), 0.05);
+}
+
+INSTANTIATE_TEST_SUITE_P(HalfAMetreToFifty, EstimateJumps, testing::Values(0.5, 5.0, 50.0));
+
+TEST(EstimateContradiction, SingleOutliersAreNoDisagreement) {
+  Rig rig;
+  rig.stand(5);
+  for (int i = 0; i < 20; ++i) {
+    rig.world.jump_x_m = 2;
+    rig.drive(0.5, 0.5, 0.1);
+    rig.world.jump_x_m = 0;
+    rig.drive(0.5, 0.5, 0.3);
+    EXPECT_FALSE(rig.last.disagrees);
+  }
+  EXPECT_LT(rig.position_error_m(), 0.05);
+  EXPECT_GT(rig.estimator.counters().refused, 15U);
+}
+
+TEST(EstimateContradiction, ACarriedRobotIsFoundAgainWhenItStands) {
+  Rig rig;
+  rig.stand(20);
+  rig.x_m += 3;
+  rig.yaw_rad += 1;
+  rig.stand(0.9);
+  EXPECT_GT(rig.position_error_m(), 2.9);  // not yet believed
+  rig.stand(0.5);
+  EXPECT_LT(rig.position_error_m(), 0.05);
+  EXPECT_LT(to_deg(rig.yaw_error_rad()), 1.5);
+  EXPECT_FALSE(rig.last.disagrees);
+}
+
+TEST(EstimateContradiction, AWanderingReceiverIsNotFollowedByAStandingRobot) {
+  Rig rig;
+  rig.stand(20);
+  for (int i = 0; i < 40; ++i) {
+    rig.world.jump_x_m = 3 + 0.5 * i;  // never twice the same place
+    rig.stand(0.1);
+  }
+  EXPECT_TRUE(rig.last.disagrees);
+  EXPECT_LT(rig.position_error_m(), 0.05);
+}
+
+TEST(EstimateContradiction, AFlippedHeadingIsNotFollowedWhileDriving) {
+  Rig rig;
+  rig.stand(5);
+  rig.drive(0.5, 0.5, 2);
+  rig.world.heading_off_deg = 180;
+  rig.drive(0.5, 0.5, 2);
+  EXPECT_TRUE(rig.last.disagrees);
+  EXPECT_EQ(rig.last.reason.view(), "heading disagrees with odometry");
+  EXPECT_LT(to_deg(rig.yaw_error_rad()), 2.0);
+}
+
+TEST(EstimateContradiction, AHeadingFlippedFromTheStartShowsWithinAMetre) {
+  Rig rig;
+  rig.world.heading_off_deg = 180;
+  rig.stand(5);
+  const double x_m = rig.x_m;
+  const double y_m = rig.y_m;
+  while (!rig.last.disagrees && std::hypot(rig.x_m - x_m, rig.y_m - y_m) < 2) rig.tick(0.5, 0.5);
+  EXPECT_LT(std::hypot(rig.x_m - x_m, rig.y_m - y_m), 1.0);
+}
+
+TEST(EstimateContradiction, AStuckReceiverShowsWhileDriving) {
+  Rig rig;
+  rig.stand(5);
+  rig.world.position = false;
+  const double x_m = rig.x_m;
+  const double y_m = rig.y_m;
+  for (int i = 0; i < 20; ++i) {
+    rig.estimator.on_measurement(rig.position_at(x_m, y_m, FixQuality::rtk_fixed, rig.now));
+    rig.drive(0.5, 0.5, 0.1);
+  }
+  EXPECT_TRUE(rig.last.disagrees);
+}
+
+}  // namespace
+}  // namespace drover::engine::estimate
