@@ -194,6 +194,11 @@ void Engine::Impl::fill_snapshot(Time now, const Environment& environment,
   snapshot.guard_alive = environment.guard_alive;
   snapshot.guard_has_bus = environment.guard_has_bus;
   snapshot.why = report.why;
+  // Latched in this very cycle by something that is no lasting cause.
+  if (snapshot.why.empty() && snapshot.stop_latched) {
+    snapshot.why.resize(1);
+    snapshot.why[0] = navigator.latched();
+  }
 }
 
 Engine::Engine(const EngineConfig& config) {

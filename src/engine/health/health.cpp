@@ -174,7 +174,12 @@ const HealthReport& HealthMonitor::update(const HealthInput& input) {
   look_at_guard(input.environment);
   look_at_drives(input);
   look_at_position(input);
-  if (!input.latched.empty()) hold(Cause::latched, input.latched);
+  if (!input.latched.empty()) {
+    Reason text;
+    text.format("stopped: %.*s", static_cast<int>(input.latched.view().size()),
+                input.latched.view().data());
+    hold(Cause::latched, text);
+  }
   for (std::size_t i = 0; i < kCauseCount; ++i) {
     const auto cause = static_cast<Cause>(i);
     if (!holds(cause)) continue;

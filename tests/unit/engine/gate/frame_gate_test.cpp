@@ -1,0 +1,189 @@
+#include "engine/gate/frame_gate.h"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+#include <vector>
+
+namespace drover::engine {
+namespace {
+
+/// Sends 0x10 (8 bytes; first byte: 0 stop, 1 motion, 2 harmless, else forbidden), 0x11 as a remote
+/// frame, and 0x12 extended.
+class FakeDrive final : public CanDriver {
+ public:
+  explicit FakeDrive(std::uint32_t base = 0x10, std::uint8_t max_len = 8)
+      : rules_{{base, false, false, 8, max_len},
+               {base + 1, false, true, 0, 0},
+               {base + 2, true, false, 1, 4}} {}
+  void on_frame(const CanFrame&, Time, DriverOut&) override {}
+  void on_tick(Time, DriverOut&) override {}
+  void on_command(const AxisCommand&, Time, DriverOut&) override {}
+  void on_link_up(Time) override {}
+  SourceHealth health(Time) const override { return {}; }
+  std::span<const FrameRule> allow_list() const override { return rules_; }
+  FrameEffect effect(const CanFrame& frame) const override {
+    if (frame.remote || frame.extended) return FrameEffect::harmless;
+    switch (frame.data[0]) {
+      case 0: return FrameEffect::stop;
+      case 1: return FrameEffect::motion;
+      case 2: return FrameEffect::harmless;
+      default: return FrameEffect::forbidden;
+    }
+  }
+  StopRecipe stop_recipe() const override { return {}; }
+  SilenceBehaviour silence() const override { return {}; }
+
+ private:
+  std::vector<FrameRule> rules_;
+};
+
+CanFrame frame(std::uint8_t first) { return make_frame(0x10, {first, 0, 0, 0, 0, 0, 0, 0}); }
+
+class AFrameGate : public ::testing::Test {
+ protected:
+  AFrameGate() {
+    gate.add(1, drive);
+    gate.add(1, other);
+  }
+  FrameVerdict admit(const CanFrame& f, bool motion = true, bool guard = false) {
+    return gate.admit(1, f, drive, motion, guard);
+  }
+  FakeDrive drive;
+  FakeDrive other{0x20};
+  FakeDrive stranger{0x10};
+  FrameGate gate;
+};
+
+constexpr auto kNotAllowed = FrameVerdict::refused_not_allowed;
+
+TEST_F(AFrameGate, RefusesAnIdThatIsNotOnTheList) {
+  CanFrame f = frame(0);
+  f.id = 0x13;
+  EXPECT_EQ(admit(f), kNotAllowed);
+}
+TEST_F(AFrameGate, RefusesTheIdOfAnotherDriveOfTheBus) {
+  CanFrame f = frame(0);
+  f.id = 0x20;
+  EXPECT_EQ(admit(f), kNotAllowed);
+  EXPECT_EQ(gate.admit(1, f, other, true, false), FrameVerdict::pass);
+}
+TEST_F(AFrameGate, RefusesADriveOnABusItDoesNotHangOn) {
+  EXPECT_EQ(gate.admit(0, frame(0), drive, true, false), kNotAllowed);
+}
+TEST_F(AFrameGate, RefusesASenderItWasNotToldOf) {
+  EXPECT_EQ(gate.admit(1, frame(0), stranger, true, false), kNotAllowed);
+}
+TEST_F(AFrameGate, RefusesABusThatDoesNotExist) {
+  EXPECT_EQ(gate.admit(FrameGate::kMaxBuses, frame(0), drive, true, false), kNotAllowed);
+}
+TEST_F(AFrameGate, RefusesTheExtendedTwinOfAStandardId) {
+  CanFrame f = frame(0);
+  f.extended = true;
+  EXPECT_EQ(admit(f), kNotAllowed);
+}
+TEST_F(AFrameGate, RefusesADataFrameWhereARemoteFrameIsListed) {
+  EXPECT_EQ(admit(make_frame(0x11)), kNotAllowed);
+}
+TEST_F(AFrameGate, RefusesARemoteFrameWhereADataFrameIsListed) {
+  CanFrame f = frame(0);
+  f.remote = true;
+  EXPECT_EQ(admit(f), kNotAllowed);
+}
+TEST_F(AFrameGate, RefusesATooShortAndATooLongFrame) {
+  CanFrame f = frame(0);
+  f.len = 7;
+  EXPECT_EQ(admit(f), kNotAllowed);
+  f = make_frame(0x12, {1, 2, 3, 4, 5});
+  f.extended = true;
+  EXPECT_EQ(admit(f), kNotAllowed);
+}
+TEST_F(AFrameGate, RefusesAnFdFrameUnderARuleForClassicFrames) {
+  CanFrame f = frame(0);
+  f.fd = true;
+  EXPECT_EQ(admit(f), kNotAllowed);
+}
+TEST_F(AFrameGate, RefusesAnErrorFrame) {
+  CanFrame f = frame(0);
+  f.error = true;
+  EXPECT_EQ(admit(f), kNotAllowed);
+}
+TEST_F(AFrameGate, RefusesAForbiddenEffectWhateverIsPermitted) {
+  EXPECT_EQ(admit(frame(9), true, false), kNotAllowed);
+}
+TEST_F(AFrameGate, RefusesMotionWhileNoneIsPermitted) {
+  EXPECT_EQ(admit(frame(1), false, false), FrameVerdict::refused_motion);
+}
+TEST_F(AFrameGate, RefusesMotionWhileTheGuardHasTheBus) {
+  EXPECT_EQ(admit(frame(1), true, true), FrameVerdict::refused_motion);
+}
+TEST_F(AFrameGate, PassesMotionOnlyWhenItIsPermitted) {
+  EXPECT_EQ(admit(frame(1), true, false), FrameVerdict::pass);
+}
+TEST_F(AFrameGate, PassesStopsAndHarmlessFramesAtAnyTime) {
+  for (const bool motion : {false, true}) {
+    for (const bool guard : {false, true}) {
+      EXPECT_EQ(admit(frame(0), motion, guard), FrameVerdict::pass);
+      EXPECT_EQ(admit(frame(2), motion, guard), FrameVerdict::pass);
+    }
+  }
+}
+TEST_F(AFrameGate, PassesRemoteAndExtendedFramesThatAreListedSo) {
+  CanFrame remote = make_frame(0x11);
+  remote.remote = true;
+  EXPECT_EQ(admit(remote), FrameVerdict::pass);
+  CanFrame extended = make_frame(0x12, {1});
+  extended.extended = true;
+  EXPECT_EQ(admit(extended), FrameVerdict::pass);
+}
+TEST_F(AFrameGate, CountsWhatItDoesOnEachBus) {
+  admit(frame(0));
+  admit(frame(1), false);
+  admit(frame(1), false);
+  admit(frame(9));
+  EXPECT_EQ(gate.counts(1).passed, 1U);
+  EXPECT_EQ(gate.counts(1).motion, 2U);
+  EXPECT_EQ(gate.counts(1).not_allowed, 1U);
+  EXPECT_EQ(gate.counts(0).passed, 0U);
+}
+TEST_F(AFrameGate, RefusesEveryIdOfEveryBusThatNobodyListed) {
+  for (std::size_t bus = 0; bus < FrameGate::kMaxBuses; ++bus) {
+    for (std::uint32_t id = 0; id < 0x800; ++id) {
+      CanFrame f = frame(0);
+      f.id = id;
+      const bool listed = bus == 1 && id == 0x10;
+      EXPECT_EQ(gate.admit(bus, f, drive, true, false) == FrameVerdict::pass, listed) << id;
+    }
+  }
+}
+
+TEST(FrameGate, PassesFdFramesUnderARuleForMoreThanEightBytes) {
+  const FakeDrive fd_drive(0x10, 16);
+  FrameGate gate;
+  gate.add(0, fd_drive);
+  CanFrame f = frame(0);
+  EXPECT_EQ(gate.admit(0, f, fd_drive, true, false), kNotAllowed);
+  f.fd = true;
+  f.len = 16;
+  EXPECT_EQ(gate.admit(0, f, fd_drive, true, false), FrameVerdict::pass);
+}
+TEST(FrameGate, RefusesToBeBuiltWithTwoDrivesOfOneNumberOnOneBus) {
+  const FakeDrive a;
+  const FakeDrive b;
+  FrameGate gate;
+  gate.add(0, a);
+  EXPECT_THROW(gate.add(0, b), std::runtime_error);
+  EXPECT_NO_THROW(gate.add(1, b));
+}
+TEST(FrameGate, RefusesToBeBuiltWithMoreBusesOrDrivesThanItHolds) {
+  FrameGate gate;
+  const FakeDrive one;
+  EXPECT_THROW(gate.add(FrameGate::kMaxBuses, one), std::runtime_error);
+  std::vector<FakeDrive> drives;
+  for (std::uint32_t i = 0; i <= kMaxAxes; ++i) drives.emplace_back(0x100 + 4 * i);
+  for (std::size_t i = 0; i < kMaxAxes; ++i) gate.add(0, drives[i]);
+  EXPECT_THROW(gate.add(0, drives[kMaxAxes]), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace drover::engine
