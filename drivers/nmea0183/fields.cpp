@@ -63,8 +63,9 @@ double FieldReader::fail_absent() {
 char FieldReader::letter(std::size_t i) {
   const auto field = text(i);
   if (field.empty()) return '\0';
-  if (field.size() != 1) ok_ = false;
-  return field[0];
+  if (field.size() == 1) return field[0];
+  ok_ = false;
+  return '?';
 }
 
 void FieldReader::expect_letter_or_empty(std::size_t i, char unit) {

@@ -23,7 +23,7 @@ class FieldReader final {
 
   /// Empty when the sentence has no such field.
   std::string_view text(std::size_t i) const;
-  /// One letter, or '\0' when the field is empty.
+  /// One letter, '\0' when the field is empty, '?' (and a failure) when it is longer.
   char letter(std::size_t i);
   /// Fails when the field is neither empty nor `unit`.
   void expect_letter_or_empty(std::size_t i, char unit);

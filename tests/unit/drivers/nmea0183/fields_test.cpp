@@ -1,0 +1,106 @@
+// The grammar of single fields.
+#include "drivers/nmea0183/fields.h"
+
+#include <gtest/gtest.h>
+
+#include <clocale>
+#include <cmath>
+#include <string>
+
+namespace drover::nmea0183 {
+namespace {
+
+using namespace std::chrono_literals;
+
+TEST(NmeaFields, RefuseWhatIsNoPlainDecimal) {
+  for (const auto* text : {"", "-", ".", "nan", "NAN", "inf", "-inf", "infinity", "0x10", "1e5",
+                           "1E5", "+1", " 1", "1 ", "1.2.3", "--1", "1-", "1,5", "٣",
+                           "123456789012345678901"})
+    EXPECT_FALSE(parse_decimal(text).has_value()) << text;
+}
+
+TEST(NmeaFields, ReadPlainDecimals) {
+  EXPECT_EQ(parse_decimal("5327.03942"), 5327.03942);
+  EXPECT_EQ(parse_decimal("-21.3"), -21.3);
+  EXPECT_EQ(parse_decimal(".5"), 0.5);
+  EXPECT_EQ(parse_decimal("5."), 5.0);
+  EXPECT_EQ(parse_decimal("007"), 7.0);
+}
+
+TEST(NmeaFields, ReadDecimalsInADecimalCommaLocale) {
+  const std::string before = std::setlocale(LC_ALL, nullptr);
+  if (std::setlocale(LC_ALL, "de_DE.UTF-8") == nullptr) GTEST_SKIP() << "no de_DE locale here";
+  EXPECT_EQ(parse_decimal("5327.03942"), 5327.03942);
+  std::setlocale(LC_ALL, before.c_str());
+}
+
+TEST(NmeaFields, RefuseWrongAngles) {
+  for (const auto* text :
+       {"5360.0,N", "9100.0,N", "9000.00001,N", "-5327.0,N", "5327.0,X", "5327.0,", "5327.0,NN",
+        "327.0,N", "05327.0,N", "53.27,N", "5327.0e1,N", "nan,N", "5327.0,E", "53 7.0,N", ",X"}) {
+    FieldReader fields(text);
+    EXPECT_TRUE(std::isnan(fields.latitude_deg(0))) << text;
+    EXPECT_FALSE(fields.ok()) << text;
+  }
+  FieldReader east("18000.00001,E");
+  EXPECT_TRUE(std::isnan(east.longitude_deg(0)));
+  EXPECT_FALSE(east.ok());
+}
+
+TEST(NmeaFields, ReadAngles) {
+  FieldReader fields("4134.49795459,N,09345.03431408,W");
+  EXPECT_NEAR(fields.latitude_deg(0), 41.5749659098, 5e-11);
+  EXPECT_NEAR(fields.longitude_deg(2), -93.7505719013, 5e-11);
+  EXPECT_TRUE(fields.ok());
+  FieldReader limits("9000.00000,S,18000,E");
+  EXPECT_EQ(limits.latitude_deg(0), -90.0);
+  EXPECT_EQ(limits.longitude_deg(2), 180.0);
+  EXPECT_TRUE(limits.ok());
+}
+
+TEST(NmeaFields, TakeEmptyForUnknownAndNotForZero) {
+  FieldReader fields("GNGGA,,,,,");
+  EXPECT_TRUE(std::isnan(fields.decimal(1, 0, 1)));
+  EXPECT_TRUE(std::isnan(fields.latitude_deg(2)));
+  EXPECT_FALSE(fields.integer(4, 9).has_value());
+  EXPECT_FALSE(fields.time_of_day(1).has_value());
+  EXPECT_TRUE(std::isnan(fields.decimal(99, 0, 1)));
+  EXPECT_TRUE(fields.ok());
+}
+
+TEST(NmeaFields, RefuseTimesThatNoClockShows) {
+  for (const auto* text : {"240000", "236000", "103660", "235961", "123460.00", "10360", "1036070",
+                           "10:36:07", "103607.0x", "103607.1234567890", "-10360"}) {
+    FieldReader fields(text);
+    EXPECT_FALSE(fields.time_of_day(0).has_value()) << text;
+    EXPECT_FALSE(fields.ok()) << text;
+  }
+}
+
+TEST(NmeaFields, ReadTimesAndTheLeapSecond) {
+  EXPECT_EQ(FieldReader("132819.60").time_of_day(0), 13h + 28min + 19s + 600ms);
+  EXPECT_EQ(FieldReader("094737").time_of_day(0), 9h + 47min + 37s);
+  EXPECT_EQ(FieldReader("094737.").time_of_day(0), 9h + 47min + 37s);
+  EXPECT_EQ(FieldReader("000000.123456789").time_of_day(0), 123456789ns);
+  EXPECT_EQ(FieldReader("235960.00").time_of_day(0), 24h);
+}
+
+TEST(NmeaFields, WrapDirectionsThatWereRoundedUp) {
+  EXPECT_EQ(FieldReader("360.00").direction_deg(0), 0.0);
+  EXPECT_EQ(FieldReader("359.99").direction_deg(0), 359.99);
+  FieldReader beyond("360.01");
+  EXPECT_TRUE(std::isnan(beyond.direction_deg(0)));
+  EXPECT_FALSE(beyond.ok());
+}
+
+TEST(NmeaFields, IgnoreFieldsBeyondTheirNumber) {
+  std::string many;
+  for (int i = 0; i < 100; ++i) many += "1,";
+  FieldReader fields(many);
+  EXPECT_EQ(fields.size(), 32U);
+  EXPECT_EQ(fields.text(31), "1");
+  EXPECT_EQ(fields.text(32), "");
+}
+
+}  // namespace
+}  // namespace drover::nmea0183

@@ -1,0 +1,134 @@
+// The framer finds whole sentences and nothing else.
+#include "drivers/nmea0183/framer.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "unit/drivers/nmea0183/lines.h"
+
+namespace drover::nmea0183 {
+namespace {
+
+using test::line;
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+struct Framed {
+  std::vector<std::string> bodies;
+  int dropped = 0;
+  int foreign = 0;
+};
+
+Framed frame(std::string_view text) {
+  Framer framer;
+  Framed result;
+  for (const std::uint8_t byte : test::bytes(text)) {
+    const auto event = framer.push(byte);
+    if (event == Framer::Event::sentence) result.bodies.emplace_back(framer.body());
+    result.dropped += event == Framer::Event::dropped ? 1 : 0;
+    result.foreign += event == Framer::Event::foreign ? 1 : 0;
+  }
+  return result;
+}
+
+const std::string kHdt = "$GNHDT,244.28,T*13\r\n";
+
+TEST(NmeaFramer, RejectsABadChecksum) {
+  const auto framed = frame("$GNGLL,5327.04319,S,00214.41396,E,223232.00,A,A*22\r\n");
+  EXPECT_THAT(framed.bodies, IsEmpty());
+  EXPECT_EQ(framed.dropped, 1);
+}
+
+TEST(NmeaFramer, RejectsALineWithoutChecksum) {
+  EXPECT_EQ(frame("$GNHDT,244.28,T\r\n").dropped, 1);
+  EXPECT_EQ(frame("$GNHDT,244.28,T*\r\n").dropped, 1);
+  EXPECT_EQ(frame("$GNHDT,244.28,T*1\r\n").dropped, 1);
+  EXPECT_EQ(frame("$GNHDT,244.28,T*133\r\n").dropped, 1);
+  EXPECT_EQ(frame("$GNHDT,244.28,T*1G\r\n").dropped, 1);
+}
+
+TEST(NmeaFramer, RejectsControlAndHighBytesInsideASentence) {
+  for (const char odd : {'\0', '\x01', '\x7F', '\xFF', '\t'}) {
+    std::string body = "GNHDT,244.28,T";
+    body[5] = odd;
+    const auto framed = frame(line(body) + kHdt);
+    EXPECT_THAT(framed.bodies, ElementsAre("GNHDT,244.28,T")) << int(odd);
+    EXPECT_EQ(framed.dropped, 1) << int(odd);
+  }
+}
+
+TEST(NmeaFramer, StartsAgainAtADollarInsideACutLine) {
+  const auto framed = frame("$GNGGA,103607.00,5327.0" + kHdt);
+  EXPECT_THAT(framed.bodies, ElementsAre("GNHDT,244.28,T"));
+  EXPECT_EQ(framed.dropped, 1);
+}
+
+TEST(NmeaFramer, StartsAgainAtADollarInsideAChecksum) {
+  EXPECT_THAT(frame("$GNHDT,1.0,T*1" + kHdt).bodies, ElementsAre("GNHDT,244.28,T"));
+  EXPECT_THAT(frame("$GNHDT,1.0,T*" + kHdt).bodies, ElementsAre("GNHDT,244.28,T"));
+}
+
+TEST(NmeaFramer, DropsALineThatAHashCuts) {
+  const auto framed = frame("$GNHDT,1.#BESTNAVA,97,GPS;x*3e3517dd\r\n" + kHdt);
+  EXPECT_THAT(framed.bodies, ElementsAre("GNHDT,244.28,T"));
+  EXPECT_EQ(framed.dropped, 1);
+}
+
+TEST(NmeaFramer, CountsALineWithoutEndOnceAndFindsTheNext) {
+  const auto framed = frame("$" + std::string(65536, 'A') + "\r\n" + kHdt);
+  EXPECT_THAT(framed.bodies, ElementsAre("GNHDT,244.28,T"));
+  EXPECT_EQ(framed.dropped, 1);
+}
+
+TEST(NmeaFramer, TakesABodyAsLongAsItsBufferAndNoLonger) {
+  EXPECT_EQ(frame(line(std::string(Framer::kMaxBody, 'A'))).bodies.size(), 1U);
+  EXPECT_EQ(frame(line(std::string(Framer::kMaxBody + 1, 'A'))).dropped, 1);
+}
+
+TEST(NmeaFramer, LeavesLinesWithA32BitCheckToOthers) {
+  const auto framed = frame("$KSXT,1,2*3e3517dd\r\n");
+  EXPECT_THAT(framed.bodies, IsEmpty());
+  EXPECT_EQ(framed.dropped, 0);
+  EXPECT_EQ(framed.foreign, 1);
+}
+
+TEST(NmeaFramer, CountsNoRepliesOfAReceiverAsDamaged) {
+  const auto framed = frame(
+      "$command,VERSION,response: OK*04\r\n"
+      "$CONFIG,COM3,CONFIG COM3 115200*23\r\n");
+  EXPECT_EQ(framed.foreign, 2);
+  EXPECT_EQ(framed.dropped, 0);
+}
+
+TEST(NmeaFramer, RefusesASumWithTheDollarForOtherSentences) {
+  const std::string body = "GNHDT,244.28,T";  // 13 without the dollar, 37 with it
+  EXPECT_EQ(frame("$" + body + "*37\r\n").dropped, 1);
+}
+
+TEST(NmeaFramer, IgnoresWhatLiesBetweenSentences) {
+  const auto framed = frame("\xB5\x62\x01\x07 text\r\n\r\n" + kHdt + "\xD3" + kHdt);
+  EXPECT_EQ(framed.bodies.size(), 2U);
+  EXPECT_EQ(framed.dropped, 0);
+}
+
+TEST(NmeaFramer, AcceptsLineFeedAloneReturnAloneAndLowerCase) {
+  EXPECT_EQ(frame("$GNHDT,244.28,T*13\n").bodies.size(), 1U);
+  EXPECT_EQ(frame("$GNHDT,244.28,T*13\r").bodies.size(), 1U);
+  EXPECT_EQ(frame("$GNRMC,103607.00,A,5327.03942,N,10214.42462,W,0.046,,060321,,,A,V*0e\n")
+                .bodies.size(),
+            1U);
+}
+
+TEST(NmeaFramer, ForgetsALineThatHadBegun) {
+  Framer framer;
+  for (const std::uint8_t byte : test::bytes("$GNHDT,244.28,T*1")) framer.push(byte);
+  framer.reset();
+  EXPECT_EQ(framer.push('3'), Framer::Event::none);
+  EXPECT_EQ(framer.push('\n'), Framer::Event::none);
+}
+
+}  // namespace
+}  // namespace drover::nmea0183
