@@ -24,7 +24,7 @@ struct Estimate {
   double left_mps = 0;          ///< mean rim speed of the left wheels
   double right_mps = 0;
   double yaw_slip_factor = 1.0; ///< as refined
-  Reason reason;                ///< why it is not good ("position disagrees with odometry"), or empty
+  Reason reason;                ///< why it is not good; empty when it is
   bool disagrees = false;       ///< GNSS and odometry contradict each other beyond the gate
 };
 

@@ -20,8 +20,8 @@ struct AntennaPosition {
 GnssClass class_of(const GnssPosition& position, const EstimateConfig& config);
 double floor_sigma_m(GnssClass quality, const EstimateConfig& config);
 /// The receiver's own sigma (GST) but not less than the floor of the class, times gnss_inflation,
-/// because receivers are optimists. That the error lasts (multipath: 30 to 300 s) is not a matter of
-/// its size: the filter carries it as a state of its own.
+/// because receivers are optimists. That the error lasts (multipath: 30 to 300 s) is not a matter
+/// of its size: the filter carries it as a state of its own.
 double sigma_m(GnssClass quality, double gst_sigma_m, const EstimateConfig& config);
 
 /// Applies the position to a state that stands at the position's own time.

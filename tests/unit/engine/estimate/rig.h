@@ -136,7 +136,8 @@ class Rig {
     const double root_way = std::sqrt(std::abs(way));
     const double along = way + d * 0.01 * root_way * normal();
     const double across = d * 0.005 * root_way * normal();
-    const double turned = turn + d * (0.007 * root_way + 0.02 * std::sqrt(std::abs(turn))) * normal();
+    const double scrub = 0.007 * root_way + 0.02 * std::sqrt(std::abs(turn));
+    const double turned = turn + d * scrub * normal();
     const double middle = yaw_rad + turned / 2;
     x_m += along * std::cos(middle) - across * std::sin(middle);
     y_m += along * std::sin(middle) + across * std::cos(middle);
