@@ -1,0 +1,133 @@
+// What a scenario or a person can do to the robot while it runs, as lines of text:
+//   estop press|release              the button
+//   bumper touch|free                forced, or left to the mechanics
+//   zone near|far occupied|free      the same for the scanner's zones
+//   obstacle NAME X Y|remove         a movable box of the world, centred at X, Y (m)
+//   gnss STATE                       see drover/twin.h: fix, float, single, none, silent, ...
+//   drive JOINT power on|off         supply of one drive; "all" means every drive
+//   drive JOINT fault NAME|none      see the drive's README
+//   kick VX VY                       a shove along the base's own axes (m/s)
+//   truth                            pose and speed as JSON
+#include <charconv>
+#include <cmath>
+#include <vector>
+
+#include "sim/robot/robot.h"
+
+namespace drover::sim {
+namespace {
+
+std::vector<std::string_view> split(std::string_view text) {
+  std::vector<std::string_view> words;
+  std::size_t at = 0;
+  while ((at = text.find_first_not_of(" \t\r\n", at)) != std::string_view::npos) {
+    const auto end = std::min(text.find_first_of(" \t\r\n", at), text.size());
+    words.push_back(text.substr(at, end - at));
+    at = end;
+  }
+  return words;
+}
+
+std::optional<double> number(std::string_view text) {
+  double value = 0;
+  const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (result.ec != std::errc{} || result.ptr != text.data() + text.size() || !std::isfinite(value))
+    return std::nullopt;
+  return value;
+}
+
+std::string error(std::string text) {
+  return "error: " + std::move(text);
+}
+
+}  // namespace
+
+std::string Robot::command(std::string_view text) {
+  auto words = split(text);
+  if (words.empty()) return error("no command");
+  const std::string_view verb = words[0];
+  words.resize(5);  // missing words are empty
+  const auto force = [this](LineName line, std::string_view word, std::string_view on,
+                            std::string_view off) {
+    if (word != on && word != off)
+      return error("say " + std::string(on) + " or " + std::string(off));
+    forced_[static_cast<std::size_t>(line)] = word == on ? Override(true) : Override();
+    return std::string("ok");
+  };
+  if (verb == "estop") {
+    const auto answer = force(LineName::estop, words[1], "press", "release");
+    if (answer == "ok" && scenario_.estop_cuts_power)
+      for (auto& drive : drives_) set_power(drive, words[1] == "release");
+    return answer;
+  }
+  if (verb == "bumper") return force(LineName::bumper, words[1], "touch", "free");
+  if (verb == "zone" && words[1] == "near")
+    return force(LineName::zone_near, words[2], "occupied", "free");
+  if (verb == "zone" && words[1] == "far")
+    return force(LineName::zone_far, words[2], "occupied", "free");
+  if (verb == "obstacle") return command_obstacle(words[1], words[2], words[3]);
+  if (verb == "gnss") return command_gnss(words[1]);
+  if (verb == "drive") return command_drive(words[1], words[2], words[3]);
+  if (verb == "kick") {
+    const auto vx_mps = number(words[1]);
+    const auto vy_mps = number(words[2]);
+    if (!vx_mps || !vy_mps) return error("say: kick VX VY");
+    plant_.kick(*vx_mps, *vy_mps);
+    return "ok";
+  }
+  if (verb == "truth") return truth_text();
+  return error("unknown command '" + std::string(verb) + "'");
+}
+
+std::string Robot::command_obstacle(std::string_view name, std::string_view x, std::string_view y) {
+  const auto x_m = number(x);
+  const auto y_m = number(y);
+  if (x != "remove" && (!x_m || !y_m)) return error("say: obstacle NAME X Y, or NAME remove");
+  const bool known =
+      x == "remove" ? plant_.remove_obstacle(name) : plant_.set_obstacle(name, *x_m, *y_m);
+  return known ? "ok" : error("no movable obstacle '" + std::string(name) + "' in the world");
+}
+
+std::string Robot::command_gnss(std::string_view state) {
+  if (!gnss_) return error("the scenario has no receiver");
+  return gnss_->set_state(state, now_) ? "ok"
+                                       : error("no receiver state '" + std::string(state) + "'");
+}
+
+void Robot::set_power(Drive& drive, bool on) {
+  drive.powered = on;
+  drive.twin->set_power(on, now_);
+}
+
+std::string Robot::command_drive(std::string_view joint, std::string_view verb,
+                                 std::string_view value) {
+  const bool power = verb == "power" && (value == "on" || value == "off");
+  if (!power && (verb != "fault" || value.empty()))
+    return error("say: drive JOINT power on|off, or fault NAME|none");
+  bool found = false;
+  for (std::size_t i = 0; i < drives_.size(); ++i) {
+    if (joint != "all" && joint != scenario_.drives[i].joint) continue;
+    found = true;
+    if (power)
+      set_power(drives_[i], value == "on");
+    else if (!drives_[i].twin->set_fault(value == "none" ? "" : value, now_))
+      return error("the drive knows no fault '" + std::string(value) + "'");
+  }
+  return found ? "ok" : error("no drive '" + std::string(joint) + "'");
+}
+
+std::string Robot::truth_text() const {
+  std::array<char, 512> text{};
+  const auto& t = truth_;
+  const int n = std::snprintf(
+      text.data(), text.size(),
+      "{\"time_s\":%.9f,\"x_m\":%.6f,\"y_m\":%.6f,\"z_m\":%.6f,\"roll_rad\":%.6f,"
+      "\"pitch_rad\":%.6f,\"yaw_rad\":%.6f,\"vx_mps\":%.6f,\"vy_mps\":%.6f,\"wz_radps\":%.6f,"
+      "\"free_ahead_m\":%.3f}",
+      to_s(t.time), t.pose.x_m, t.pose.y_m, t.pose.z_m, t.pose.roll_rad, t.pose.pitch_rad,
+      t.pose.yaw_rad, t.velocity.vx_mps, t.velocity.vy_mps, t.velocity.wz_radps,
+      std::min(t.free_ahead_m, 999.0));
+  return {text.data(), static_cast<std::size_t>(n)};
+}
+
+}  // namespace drover::sim

@@ -1,0 +1,86 @@
+// drover-sim: the MuJoCo robot that answers on the gateway's wires.
+#include <CLI/CLI.hpp>
+
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <string>
+#include <vector>
+
+#include "sim/robot/simulator.h"
+
+namespace {
+
+constexpr const char* kFooter = R"(
+Commands for a running simulator (drover-sim ctl COMMAND...):
+  estop press|release            bumper touch|free        zone near|far occupied|free
+  obstacle NAME X Y|remove       gnss STATE               kick VX VY
+  drive JOINT|all power on|off   drive JOINT|all fault NAME|none
+  can BUS slcan TEXT|stall|flow|unplug|plug               truth               quit
+
+Examples:
+  drover-sim --scenario sim/scenarios/straight.json
+  drover-sim --scenario s.json --can-transport unix --lines files --run-dir /tmp/robot
+  drover-sim ctl estop press
+  drover-sim ctl --run-dir /tmp/robot obstacle obstacle 4.0 0.0
+  drover-sim ctl can can0 slcan sb256256
+)";
+
+int control(const std::string& run_folder, const std::vector<std::string>& words) {
+  std::string text;
+  for (const auto& word : words) text += (text.empty() ? "" : " ") + word;
+  const auto answer = drover::sim::ask(run_folder + "/sim.sock", text);
+  std::printf("%s\n", answer.c_str());
+  return answer.starts_with("error") ? 1 : 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  drover::sim::SimulatorSettings settings;
+  std::string can_transport = "socketcan";
+  std::string lines = "gpio-sim";
+  std::vector<std::string> words;
+
+  CLI::App app("The simulated robot: the other end of every wire of the gateway.", "drover-sim");
+  app.footer(kFooter);
+  app.set_version_flag("--version", DROVER_VERSION);
+  app.add_option("--scenario", settings.scenario_file, "robot, world and events (JSON)");
+  app.add_option("--seed", settings.seed, "source of all randomness")->envname("DROVER_SEED");
+  app.add_option("--run-dir", settings.run_folder, "for sockets and the receiver's line")
+      ->capture_default_str();
+  app.add_option("--log-dir", settings.log_folder, "for can.log and truth.csv; none: no logs");
+  app.add_option("--can-transport", can_transport, "buses as the scenario says, or all as sockets")
+      ->check(CLI::IsMember({"socketcan", "unix"}))
+      ->capture_default_str();
+  app.add_option("--lines", lines, "contacts as a gpio-sim chip's inputs, or as files")
+      ->check(CLI::IsMember({"gpio-sim", "files"}))
+      ->capture_default_str();
+  auto* ctl = app.add_subcommand("ctl", "send a command to a running simulator");
+  ctl->add_option("--run-dir", settings.run_folder, "of the running simulator");
+  ctl->add_option("command", words, "see below")->required();
+  ctl->positionals_at_end(false);
+  ctl->prefix_command();
+  CLI11_PARSE(app, argc, argv);
+
+  try {
+    if (ctl->parsed()) {
+      const auto rest = ctl->remaining();
+      words.insert(words.end(), rest.begin(), rest.end());
+      return control(settings.run_folder, words);
+    }
+    if (settings.scenario_file.empty()) {
+      std::fprintf(stderr, "drover-sim: --scenario is missing; see --help\n");
+      return 2;
+    }
+    settings.can_over_unix = can_transport == "unix";
+    settings.line_files = lines == "files";
+    drover::sim::Simulator simulator(settings);
+    simulator.run();
+    std::fprintf(stderr, "drover-sim: %s\n", simulator.summary().c_str());
+    return 0;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "drover-sim: %s\n", error.what());
+    return 2;
+  }
+}

@@ -1,0 +1,136 @@
+#include "sim/robot/robot.h"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "drover/angle.h"
+
+namespace drover::sim {
+
+Twins make_twins(const Scenario& scenario, std::uint64_t seed) {
+  Twins twins;
+  for (const auto& drive : scenario.drives) {
+    try {
+      twins.drives.push_back(std::get<MakeCanTwin>(drive.driver->make_twin)(drive.options));
+    } catch (const std::exception& error) {
+      throw std::runtime_error("drive '" + drive.joint + "': " + error.what());
+    }
+  }
+  if (scenario.gnss) {
+    const auto make = std::get<MakeGnssTwin>(scenario.gnss->driver->make_twin);
+    try {
+      twins.gnss = make(scenario.gnss->options, seed);
+    } catch (const std::exception& error) {
+      throw std::runtime_error(std::string("gnss: ") + error.what());
+    }
+  }
+  return twins;
+}
+
+Robot::Robot(const Scenario& scenario, Twins twins)
+    : scenario_(scenario),
+      plant_(scenario.world),
+      earth_(scenario.origin_latitude_deg, scenario.origin_longitude_deg,
+             scenario.origin_altitude_m),
+      gnss_(std::move(twins.gnss)),
+      sent_(scenario.buses.size()),
+      waiting_(scenario.buses.size()) {
+  if (twins.drives.size() != scenario.drives.size())
+    throw std::runtime_error("the scenario's drives and their twins differ in number");
+  const double steps = to_s(kTick) / plant_.timestep_s();
+  steps_per_tick_ = static_cast<int>(std::lround(steps));
+  if (steps_per_tick_ < 1 || std::abs(steps - steps_per_tick_) > 1e-9)
+    throw std::runtime_error(scenario.world + ": the timestep must divide 5 ms");
+  for (std::size_t i = 0; i < scenario.drives.size(); ++i) {
+    Drive drive;
+    drive.joint = plant_.joint(scenario.drives[i].joint);
+    drive.bus = scenario.drives[i].bus;
+    drive.twin = std::move(twins.drives[i]);
+    drives_.push_back(std::move(drive));
+  }
+  truth_.wheels.resize(drives_.size());
+  plant_.place(scenario.start_x_m, scenario.start_y_m, to_rad(scenario.start_yaw_deg));
+}
+
+void Robot::on_frame(std::size_t bus, const CanFrame& frame, Time now) {
+  if (frame.error) return;
+  now_ = now;
+  for (auto& drive : drives_) {
+    if (drive.bus != bus || !drive.powered) continue;
+    frames_.clear();
+    drive.twin->on_frame(frame, now, frames_);
+    waiting_[bus].insert(waiting_[bus].end(), frames_.begin(), frames_.end());
+  }
+}
+
+// Answers to what came in and the first mechanical step's frames leave with this tick; frames that
+// fall due at a later mechanical step leave with the next one.
+void Robot::step(Time now) {
+  now_ = now;
+  for (std::size_t bus = 0; bus < sent_.size(); ++bus) {
+    sent_[bus].clear();
+    sent_[bus].swap(waiting_[bus]);
+  }
+  sense(now);
+  tell_gnss(now);
+  for (int i = 0; i < steps_per_tick_; ++i)
+    turn_wheels(now + kTick * i / steps_per_tick_, i == 0 ? sent_ : waiting_);
+}
+
+void Robot::sense(Time now) {
+  truth_.time = now;
+  truth_.pose = plant_.pose();
+  truth_.velocity = plant_.velocity();
+  truth_.free_ahead_m = plant_.free_distance_m(scenario_.zone_width_m);
+  for (std::size_t i = 0; i < drives_.size(); ++i) {
+    const WheelState wheel = plant_.wheel(drives_[i].joint);
+    truth_.wheels[i] = {wheel.position_rad, wheel.velocity_radps, drives_[i].shaft.torque_Nm};
+  }
+  const auto set = [this](LineName line, bool value) {
+    sensed_[static_cast<std::size_t>(line)] = value;
+  };
+  set(LineName::bumper, plant_.bumper_touched());
+  set(LineName::zone_far, truth_.free_ahead_m < scenario_.zone_far_m);
+  set(LineName::zone_near, truth_.free_ahead_m < scenario_.zone_near_m);
+}
+
+void Robot::tell_gnss(Time now) {
+  gnss_size_ = 0;
+  if (!gnss_) return;
+  const auto& spec = *scenario_.gnss;
+  const Plant::Vector arm{spec.antenna_x_m, spec.antenna_y_m, spec.antenna_z_m};
+  const auto at = plant_.point_m(arm);
+  const auto speed = plant_.point_velocity_mps(arm);
+  GnssTruth truth;
+  earth_.Reverse(at.x, at.y, at.z, truth.latitude_deg, truth.longitude_deg, truth.altitude_m);
+  truth.heading_deg =
+      wrap_deg(compass_deg_from_yaw_rad(truth_.pose.yaw_rad) + spec.heading_offset_deg);
+  truth.speed_mps = std::hypot(speed.x, speed.y);
+  truth.course_deg = compass_deg_from_yaw_rad(std::atan2(speed.y, speed.x));
+  gnss_size_ = gnss_->on_tick(now, truth, gnss_bytes_);
+}
+
+void Robot::turn_wheels(Time now, std::vector<std::vector<CanFrame>>& out) {
+  for (auto& drive : drives_) {
+    const WheelState wheel = plant_.wheel(drive.joint);
+    drive.shaft.position_rad = wheel.position_rad;
+    drive.shaft.velocity_radps = wheel.velocity_radps;
+    frames_.clear();
+    drive.twin->on_tick(now, drive.shaft, frames_);
+    if (!drive.powered) drive.shaft.torque_Nm = 0;
+    if (drive.powered) out[drive.bus].insert(out[drive.bus].end(), frames_.begin(), frames_.end());
+    plant_.set_torque(drive.joint, drive.shaft.torque_Nm);
+  }
+  plant_.step();
+}
+
+bool Robot::active(LineName line) const {
+  const auto i = static_cast<std::size_t>(line);
+  return forced_[i].value_or(sensed_[i]);
+}
+
+bool Robot::line_high(LineName line) const {
+  return active(line) == scenario_.lines[static_cast<std::size_t>(line)].active_high;
+}
+
+}  // namespace drover::sim

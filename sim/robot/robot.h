@@ -1,0 +1,98 @@
+// The simulated robot without its wires: plant, drives, receiver and contacts, stepped by the tick.
+#pragma once
+
+#include <GeographicLib/LocalCartesian.hpp>
+
+#include <array>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "drover/twin.h"
+#include "sim/plant/plant.h"
+#include "sim/robot/scenario.h"
+
+namespace drover::sim {
+
+inline constexpr Duration kTick = std::chrono::milliseconds(5);
+
+struct Twins {
+  std::vector<std::unique_ptr<CanTwin>> drives;  ///< in the scenario's order
+  std::unique_ptr<GnssTwin> gnss;                ///< nullptr: none
+};
+/// From the registry. Throws std::runtime_error naming the drive and its option.
+Twins make_twins(const Scenario& scenario, std::uint64_t seed);
+
+/// No descriptors, no clock: equal calls give equal frames, bytes and levels, to the bit.
+class Robot {
+ public:
+  /// Throws std::runtime_error (world, joints). `twins` belong to the scenario's drives and
+  /// receiver.
+  Robot(const Scenario& scenario, Twins twins);
+
+  /// A frame on a bus (index into the scenario's), heard by all drives on it.
+  void on_frame(std::size_t bus, const CanFrame& frame, Time now);
+  /// One tick: contacts and outputs as of `now`, then the mechanics from `now` to the next tick.
+  void step(Time now);
+
+  /// What the drives send at this tick. Cleared by the next step.
+  const std::vector<CanFrame>& frames(std::size_t bus) const { return sent_[bus]; }
+  /// What the receiver said at this tick, not yet paced.
+  std::string_view gnss_bytes() const { return {gnss_bytes_.data(), gnss_size_}; }
+  /// Electrical level.
+  bool line_high(LineName line) const;
+
+  struct Truth {
+    Time time = kNever;
+    BasePose pose;
+    BaseVelocity velocity;
+    std::vector<Shaft> wheels;  ///< in the order of `drives`
+    double free_ahead_m = 0;
+  };
+  /// As of the last step's `now`.
+  const Truth& truth() const { return truth_; }
+  const Scenario& scenario() const { return scenario_; }
+
+  /// One line of text, see command.h. Returns "ok", "error: ...", or the answer.
+  std::string command(std::string_view text);
+
+ private:
+  struct Drive {
+    std::size_t joint = 0;
+    std::size_t bus = 0;
+    std::unique_ptr<CanTwin> twin;
+    Shaft shaft;
+    bool powered = true;
+  };
+  /// What a scenario forces a contact to; nothing: the mechanics decide.
+  using Override = std::optional<bool>;
+
+  void sense(Time now);
+  void tell_gnss(Time now);
+  void turn_wheels(Time now, std::vector<std::vector<CanFrame>>& out);
+  void set_power(Drive& drive, bool on);
+  std::string command_gnss(std::string_view state);
+  std::string command_drive(std::string_view joint, std::string_view verb, std::string_view value);
+  std::string command_obstacle(std::string_view name, std::string_view x, std::string_view y);
+  std::string truth_text() const;
+  bool active(LineName line) const;
+
+  Scenario scenario_;
+  Plant plant_;
+  GeographicLib::LocalCartesian earth_;
+  std::vector<Drive> drives_;
+  std::unique_ptr<GnssTwin> gnss_;
+  std::vector<std::vector<CanFrame>> sent_;     // by bus: for this tick
+  std::vector<std::vector<CanFrame>> waiting_;  // by bus: for the next one
+  TwinFrames frames_;                           // of one call
+  std::array<char, 8192> gnss_bytes_{};
+  std::size_t gnss_size_ = 0;
+  std::array<bool, kLineNames> sensed_{};
+  std::array<Override, kLineNames> forced_{};
+  Truth truth_;
+  Time now_{};
+  int steps_per_tick_ = 0;
+};
+
+}  // namespace drover::sim

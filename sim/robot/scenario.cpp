@@ -1,0 +1,183 @@
+#include "sim/robot/scenario.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+#include "sim/robot/json_reader.h"
+
+namespace drover::sim {
+namespace {
+
+const DriverEntry& find_twin(const JsonReader& reader, const std::string& name,
+                             std::size_t twin_kind) {
+  std::string known;
+  for (const auto& entry : driver_registry()) {
+    if (entry.make_twin.index() != twin_kind) continue;
+    if (entry.name == name) return entry;
+    known += (known.empty() ? "" : ", ") + std::string(entry.name);
+  }
+  reader.fail("driver", "no simulated '" + name +
+                            "' of this kind; there is: " + (known.empty() ? "none" : known));
+}
+
+// Indices of the alternatives of DriverEntry::make_twin.
+constexpr std::size_t kCanTwin = 1;
+constexpr std::size_t kGnssTwin = 2;
+
+void read_options(JsonReader& reader, const DriverEntry& entry, Options& options) {
+  reader.options("options", entry.options, options);
+  reader.options("twin", entry.twin_options, options);
+}
+
+CanKind read_kind(JsonReader& reader) {
+  const auto kind = reader.text("kind");
+  if (kind == "vcan") return CanKind::vcan;
+  if (kind == "canfd") return CanKind::canfd;
+  if (kind == "slcan") return CanKind::slcan;
+  if (kind == "unix") return CanKind::unix_socket;
+  reader.fail("kind", "must be one of vcan, canfd, slcan, unix");
+}
+
+void read_buses(JsonReader& top, Scenario& scenario) {
+  if (!top.has("can")) return;
+  auto can = top.object("can");
+  for (const auto& name : can.keys()) {
+    if (name.empty() || name.size() > 15 || name.find_first_of("/ .") != std::string::npos)
+      can.fail(name, "is no name of an interface");
+    auto bus = can.object(name);
+    scenario.buses.push_back({name, read_kind(bus)});
+    bus.done();
+  }
+}
+
+DriveSpec read_drive(JsonReader& reader, const Scenario& scenario) {
+  DriveSpec drive;
+  drive.joint = reader.text("joint");
+  drive.driver = &find_twin(reader, reader.text("driver"), kCanTwin);
+  const auto bus = reader.text("bus");
+  const auto at = std::find_if(scenario.buses.begin(), scenario.buses.end(),
+                               [&bus](const BusSpec& spec) { return spec.name == bus; });
+  if (at == scenario.buses.end()) reader.fail("bus", "'" + bus + "' is not in 'can'");
+  drive.bus = static_cast<std::size_t>(at - scenario.buses.begin());
+  read_options(reader, *drive.driver, drive.options);
+  reader.done();
+  for (const auto& other : scenario.drives)
+    if (other.joint == drive.joint)
+      reader.fail("joint", "'" + drive.joint + "' has a drive already");
+  return drive;
+}
+
+GnssSpec read_gnss(JsonReader reader) {
+  GnssSpec gnss;
+  gnss.driver = &find_twin(reader, reader.text("driver", "nmea0183"), kGnssTwin);
+  gnss.port = reader.text("port", gnss.port);
+  const double baud = reader.number("baud", gnss.baud);
+  if (!(baud >= 4800 && baud <= 4'000'000)) reader.fail("baud", "must be from 4800 to 4000000");
+  gnss.baud = static_cast<int>(baud);
+  if (reader.has("antenna")) {
+    auto antenna = reader.object("antenna");
+    gnss.antenna_x_m = antenna.number("x_m", 0);
+    gnss.antenna_y_m = antenna.number("y_m", 0);
+    gnss.antenna_z_m = antenna.number("z_m", 0);
+    gnss.heading_offset_deg = antenna.number("heading_offset_deg", 0);
+    antenna.done();
+  }
+  read_options(reader, *gnss.driver, gnss.options);
+  reader.done();
+  return gnss;
+}
+
+void read_lines(JsonReader& top, Scenario& scenario) {
+  if (!top.has("lines")) return;
+  auto lines = top.object("lines");
+  for (std::size_t i = 0; i < kLineNames; ++i) {
+    const auto active = lines.text(kLineText[i], "low");
+    if (active != "low" && active != "high" && active != "unwired")
+      lines.fail(kLineText[i], "must be the active level, low or high, or unwired");
+    scenario.lines[i] = {active != "unwired", active == "high"};
+  }
+  lines.done();
+}
+
+void read_zones(JsonReader& top, Scenario& scenario) {
+  if (!top.has("zones")) return;
+  auto zones = top.object("zones");
+  scenario.zone_near_m = zones.number("near_m", scenario.zone_near_m);
+  scenario.zone_far_m = zones.number("far_m", scenario.zone_far_m);
+  scenario.zone_width_m = zones.number("width_m", scenario.zone_width_m);
+  if (!(scenario.zone_near_m > 0)) zones.fail("near_m", "must be above 0");
+  if (!(scenario.zone_far_m >= scenario.zone_near_m))
+    zones.fail("far_m", "must not be below near_m");
+  if (!(scenario.zone_width_m > 0)) zones.fail("width_m", "must be above 0");
+  zones.done();
+}
+
+void read_places(JsonReader& top, Scenario& scenario) {
+  if (top.has("start")) {
+    auto start = top.object("start");
+    scenario.start_x_m = start.number("x_m", 0);
+    scenario.start_y_m = start.number("y_m", 0);
+    scenario.start_yaw_deg = start.number("yaw_deg", 0);
+    start.done();
+  }
+  auto origin = top.object("origin");
+  scenario.origin_latitude_deg = origin.number("latitude_deg");
+  scenario.origin_longitude_deg = origin.number("longitude_deg");
+  scenario.origin_altitude_m = origin.number("altitude_m", 0);
+  if (!(std::abs(scenario.origin_latitude_deg) <= 89))
+    origin.fail("latitude_deg", "must be from -89 to 89");
+  if (!(std::abs(scenario.origin_longitude_deg) <= 180))
+    origin.fail("longitude_deg", "must be from -180 to 180");
+  origin.done();
+}
+
+void read_events(JsonReader& top, Scenario& scenario) {
+  if (!top.has("events")) return;
+  for (auto& item : top.list("events")) {
+    const double at_s = item.number("at_s");
+    if (!(at_s >= 0 && at_s <= 1e6)) item.fail("at_s", "must be from 0 to 1000000");
+    scenario.events.push_back({from_s(at_s), item.text("command")});
+    item.done();
+  }
+  std::stable_sort(scenario.events.begin(), scenario.events.end(),
+                   [](const Event& a, const Event& b) { return a.at < b.at; });
+}
+
+}  // namespace
+
+Scenario parse_scenario(std::string_view json, const std::string& folder) {
+  const nlohmann::json document = parse_json(json);
+  JsonReader top(document, "");
+  Scenario scenario;
+  scenario.name = top.text("name", "");
+  scenario.world = (std::filesystem::path(folder) / top.text("world")).lexically_normal();
+  read_places(top, scenario);
+  read_buses(top, scenario);
+  if (top.has("drives"))
+    for (auto& drive : top.list("drives")) scenario.drives.push_back(read_drive(drive, scenario));
+  if (top.has("gnss")) scenario.gnss = read_gnss(top.object("gnss"));
+  read_lines(top, scenario);
+  read_zones(top, scenario);
+  scenario.estop_cuts_power = top.flag("estop_cuts_power", false);
+  read_events(top, scenario);
+  for (const auto* key : {"description", "mission", "player"}) top.ignore(key);
+  top.done();
+  return scenario;
+}
+
+Scenario load_scenario(const std::string& file) {
+  std::ifstream stream(file);
+  if (!stream) throw std::runtime_error(file + ": cannot open");
+  std::ostringstream text;
+  text << stream.rdbuf();
+  try {
+    return parse_scenario(text.str(), std::filesystem::path(file).parent_path().string());
+  } catch (const std::exception& error) {
+    throw std::runtime_error(file + ": " + error.what());
+  }
+}
+
+}  // namespace drover::sim

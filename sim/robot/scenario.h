@@ -1,0 +1,91 @@
+// What the simulated robot is built of: world, start, origin, devices and timed events, from JSON.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "drover/options.h"
+#include "drover/registry.h"
+#include "drover/time.h"
+
+namespace drover::sim {
+
+enum class CanKind : std::uint8_t {
+  vcan,         ///< an interface that exists already
+  canfd,        ///< the same, with frames of 64 bytes
+  slcan,        ///< made by drover-sim on a pseudo-terminal: a controller with error states
+  unix_socket,  ///< SOCK_SEQPACKET with `struct can_frame`s, for hosts without AF_CAN
+};
+
+struct BusSpec {
+  std::string name;
+  CanKind kind = CanKind::vcan;
+};
+
+struct DriveSpec {
+  std::string joint;  ///< of the world
+  const DriverEntry* driver = nullptr;
+  std::size_t bus = 0;  ///< index into `buses`
+  Options options;      ///< the driver's and the twin's
+};
+
+struct GnssSpec {
+  const DriverEntry* driver = nullptr;
+  std::string port = "gnss";  ///< symbolic link to the pseudo-terminal; relative: in the run folder
+  int baud = 115200;
+  Options options;
+  // Antenna in base_link.
+  double antenna_x_m = 0;
+  double antenna_y_m = 0;
+  double antenna_z_m = 0;
+  double heading_offset_deg = 0;  ///< of the antennas' baseline from ahead, clockwise
+};
+
+enum class LineName : std::uint8_t { estop, bumper, zone_far, zone_near };
+inline constexpr std::size_t kLineNames = 4;
+inline constexpr std::array<std::string_view, kLineNames> kLineText{"estop", "bumper", "zone_far",
+                                                                    "zone_near"};
+
+/// A contact. All are fail-safe by default, as a normally closed contact or a scanner's output is:
+/// high means that all is well, low that it is active, or that the wire is broken.
+struct LineSpec {
+  bool wired = true;
+  bool active_high = false;
+};
+
+struct Event {
+  Duration at{};  ///< since the simulator became ready
+  std::string command;
+};
+
+struct Scenario {
+  std::string name;
+  std::string world;  ///< path of the MJCF file
+  double start_x_m = 0;
+  double start_y_m = 0;
+  double start_yaw_deg = 0;  ///< counter-clockwise from east
+  double origin_latitude_deg = 0;
+  double origin_longitude_deg = 0;
+  double origin_altitude_m = 0;
+  std::vector<BusSpec> buses;
+  std::vector<DriveSpec> drives;
+  std::optional<GnssSpec> gnss;
+  std::array<LineSpec, kLineNames> lines;
+  double zone_near_m = 0.6;  ///< ahead of the bumper
+  double zone_far_m = 2.0;
+  double zone_width_m = 0.8;
+  bool estop_cuts_power = false;  ///< the pressed button also takes the drives' supply away
+  std::vector<Event> events;      ///< by time
+};
+
+/// Throws std::runtime_error with one sentence that names the key ("drives[2].bus: ...").
+/// A world's path is relative to `folder`. Keys that belong to the scenario's player
+/// ("description", "mission", "player") are left alone; any other unknown key is refused.
+Scenario parse_scenario(std::string_view json, const std::string& folder);
+Scenario load_scenario(const std::string& file);
+
+}  // namespace drover::sim

@@ -1,0 +1,245 @@
+#include "sim/robot/simulator.h"
+
+#include <sys/epoll.h>
+#include <sys/signalfd.h>
+#include <sys/timerfd.h>
+#include <unistd.h>
+
+#include <array>
+#include <csignal>
+#include <cstdio>
+#include <ctime>
+#include <filesystem>
+#include <fstream>
+
+namespace drover::sim {
+namespace {
+
+constexpr std::uint64_t kMaxCatchUp = 20;  // ticks
+constexpr Duration kTruthPeriod = std::chrono::milliseconds(50);
+constexpr Duration kFlushPeriod = std::chrono::seconds(1);
+
+Duration read_clock(clockid_t clock) {
+  timespec now{};
+  ::clock_gettime(clock, &now);
+  return std::chrono::seconds(now.tv_sec) + Duration(now.tv_nsec);
+}
+
+timespec to_timespec(Duration d) {
+  return {static_cast<time_t>(d.count() / 1'000'000'000), d.count() % 1'000'000'000};
+}
+
+std::string made_folder(const std::string& folder) {
+  if (!folder.empty()) std::filesystem::create_directories(folder);
+  return folder;
+}
+
+std::string log_file(const SimulatorSettings& settings, const char* name) {
+  return settings.log_folder.empty() ? "" : made_folder(settings.log_folder) + "/" + name;
+}
+
+Robot make_robot(const SimulatorSettings& settings) {
+  const auto scenario = load_scenario(settings.scenario_file);
+  return {scenario, make_twins(scenario, settings.seed)};
+}
+
+std::unique_ptr<CanPort> make_port(const BusSpec& bus, const SimulatorSettings& settings) {
+  if (settings.can_over_unix || bus.kind == CanKind::unix_socket)
+    return make_unix_port(settings.run_folder + "/" + bus.name + ".sock");
+  if (bus.kind == CanKind::slcan) return make_slcan_port(bus.name);
+  return make_socketcan_port(bus.name);
+}
+
+link::UniqueFd block_signals() {
+  sigset_t set;
+  sigemptyset(&set);
+  sigaddset(&set, SIGTERM);
+  sigaddset(&set, SIGINT);
+  ::sigprocmask(SIG_BLOCK, &set, nullptr);
+  return link::UniqueFd(::signalfd(-1, &set, SFD_CLOEXEC | SFD_NONBLOCK));
+}
+
+void watch(int epoll, int fd) {
+  epoll_event event{};
+  event.events = EPOLLIN;
+  event.data.fd = fd;
+  ::epoll_ctl(epoll, EPOLL_CTL_ADD, fd, &event);
+}
+
+}  // namespace
+
+Simulator::Simulator(const SimulatorSettings& settings)
+    : settings_(settings),
+      robot_(make_robot(settings)),
+      epoll_(::epoll_create1(EPOLL_CLOEXEC)),
+      timer_(::timerfd_create(CLOCK_MONOTONIC, TFD_CLOEXEC | TFD_NONBLOCK)),
+      lines_(settings.line_files
+                 ? LinePort::files(robot_.scenario(), made_folder(settings.run_folder) + "/lines")
+                 : LinePort::gpio_sim(robot_.scenario())),
+      can_log_(log_file(settings, "can.log")),
+      truth_log_(log_file(settings, "truth.csv"), robot_.scenario()) {
+  made_folder(settings_.run_folder);
+  const auto& scenario = robot_.scenario();
+  // Before the signals are blocked, which a child (`ip`) would inherit.
+  for (const auto& bus : scenario.buses) buses_.push_back(make_port(bus, settings_));
+  if (scenario.gnss) {
+    const auto link = std::filesystem::path(settings_.run_folder) / scenario.gnss->port;
+    gnss_.emplace(link.string(), scenario.gnss->baud);
+  }
+  signals_ = block_signals();
+  control_.emplace(settings_.run_folder + "/sim.sock", epoll_.get());
+  watch(epoll_.get(), timer_.get());
+  watch(epoll_.get(), signals_.get());
+}
+
+Simulator::~Simulator() {
+  ::unlink((settings_.run_folder + "/ready").c_str());
+}
+
+void Simulator::run() {
+  write_lines();
+  measure_clocks();
+  const auto now = read_clock(CLOCK_MONOTONIC);
+  start_ = Time{(now / kTick + 1) * kTick};
+  previous_ = start_ - kTick;
+  next_truth_ = next_flush_ = start_;
+  itimerspec times{to_timespec(kTick), to_timespec(start_.time_since_epoch())};
+  ::timerfd_settime(timer_.get(), TFD_TIMER_ABSTIME, &times, nullptr);
+
+  std::printf("drover-sim ready: %s, seed %llu, %zu drives, run folder %s\n",
+              robot_.scenario().name.c_str(), static_cast<unsigned long long>(settings_.seed),
+              robot_.scenario().drives.size(), settings_.run_folder.c_str());
+  std::fflush(stdout);
+  std::ofstream(settings_.run_folder + "/ready") << ::getpid() << "\n";
+
+  Time next = start_;
+  while (!quit_) {
+    on_events(-1);
+    if (expired_ > kMaxCatchUp) {
+      left_out_ += expired_ - kMaxCatchUp;
+      next += kTick * static_cast<std::int64_t>(expired_ - kMaxCatchUp);
+      expired_ = kMaxCatchUp;
+    }
+    for (; expired_ > 0 && !quit_; --expired_, next += kTick) tick(next);
+  }
+  can_log_.flush();
+  truth_log_.flush();
+}
+
+void Simulator::on_events(int timeout_ms) {
+  std::array<epoll_event, 16> events{};
+  const int n = ::epoll_wait(epoll_.get(), events.data(), events.size(), timeout_ms);
+  for (int i = 0; i < n; ++i) {
+    const int fd = events[static_cast<std::size_t>(i)].data.fd;
+    if (fd == timer_.get()) {
+      std::uint64_t expirations = 0;
+      if (::read(fd, &expirations, sizeof expirations) == sizeof expirations)
+        expired_ += expirations;
+    } else if (fd == signals_.get()) {
+      quit_ = true;
+    } else {
+      control_->on_event(fd, [this](std::string_view text) { return command(text); });
+    }
+  }
+}
+
+void Simulator::tick(Time now) {
+  ++ticks_;
+  const auto& events = robot_.scenario().events;
+  while (next_event_ < events.size() && now - start_ >= events[next_event_].at) {
+    const auto answer = command(events[next_event_].command);
+    if (answer.starts_with("error"))
+      std::fprintf(stderr, "drover-sim: event '%s': %s\n", events[next_event_].command.c_str(),
+                   answer.c_str());
+    ++next_event_;
+  }
+  exchange_can(now);
+  robot_.step(now);
+  send_can(now);
+  write_lines();
+  if (gnss_) gnss_->pump(robot_.gnss_bytes(), kTick);
+  keep_records(now);
+  previous_ = now;
+}
+
+void Simulator::exchange_can(Time now) {
+  for (std::size_t i = 0; i < buses_.size(); ++i) {
+    received_.clear();
+    buses_[i]->receive({previous_, now, wall_minus_monotonic_}, received_);
+    frames_in_ += received_.size();
+    for (const auto& received : received_) {
+      can_log_.write(received.received, robot_.scenario().buses[i].name, received.frame);
+      robot_.on_frame(i, received.frame, now);
+    }
+  }
+}
+
+void Simulator::send_can(Time now) {
+  for (std::size_t i = 0; i < buses_.size(); ++i) {
+    const auto& frames = robot_.frames(i);
+    if (frames.empty()) continue;
+    buses_[i]->send(frames);
+    frames_out_ += frames.size();
+    for (const auto& frame : frames) can_log_.write(now, robot_.scenario().buses[i].name, frame);
+  }
+}
+
+void Simulator::write_lines() {
+  for (std::size_t i = 0; i < kLineNames; ++i) {
+    const auto line = static_cast<LineName>(i);
+    lines_.set(line, robot_.line_high(line));
+  }
+}
+
+void Simulator::keep_records(Time now) {
+  if (now >= next_truth_) {
+    truth_log_.write(robot_.truth());
+    next_truth_ = now + kTruthPeriod;
+  }
+  if (now >= next_flush_) {
+    can_log_.flush();
+    truth_log_.flush();
+    measure_clocks();
+    next_flush_ = now + kFlushPeriod;
+  }
+}
+
+// The kernel stamps CAN frames with the wall clock.
+void Simulator::measure_clocks() {
+  const auto before = read_clock(CLOCK_MONOTONIC);
+  const auto wall = read_clock(CLOCK_REALTIME);
+  const auto after = read_clock(CLOCK_MONOTONIC);
+  wall_minus_monotonic_ = wall - (before + (after - before) / 2);
+}
+
+std::string Simulator::command(std::string_view text) {
+  if (text == "quit") {
+    quit_ = true;
+    return "ok";
+  }
+  if (!text.starts_with("can ")) return robot_.command(text);
+  text.remove_prefix(4);
+  const auto space = text.find(' ');
+  for (std::size_t i = 0; i < buses_.size() && space != std::string_view::npos; ++i)
+    if (robot_.scenario().buses[i].name == text.substr(0, space))
+      return buses_[i]->command(text.substr(space + 1));
+  return "error: say: can BUS slcan TEXT|stall|flow|unplug|plug|disconnect, with a bus of the "
+         "scenario";
+}
+
+std::string Simulator::summary() const {
+  std::uint64_t can_dropped = 0;
+  for (const auto& bus : buses_) can_dropped += bus->dropped();
+  std::array<char, 256> text{};
+  const int n = std::snprintf(
+      text.data(), text.size(),
+      "%llu ticks (%llu left out), CAN frames %llu in, %llu out, %llu dropped, GNSS bytes dropped "
+      "%llu",
+      static_cast<unsigned long long>(ticks_), static_cast<unsigned long long>(left_out_),
+      static_cast<unsigned long long>(frames_in_), static_cast<unsigned long long>(frames_out_),
+      static_cast<unsigned long long>(can_dropped),
+      static_cast<unsigned long long>(gnss_ ? gnss_->dropped() : 0));
+  return {text.data(), static_cast<std::size_t>(n)};
+}
+
+}  // namespace drover::sim

@@ -1,0 +1,76 @@
+// The robot on its wires: one thread, one timer, every bus, line and log.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sim/robot/can_port.h"
+#include "sim/robot/control_socket.h"
+#include "sim/robot/gnss_port.h"
+#include "sim/robot/line_port.h"
+#include "sim/robot/log.h"
+#include "sim/robot/robot.h"
+
+namespace drover::sim {
+
+struct SimulatorSettings {
+  std::string scenario_file;
+  std::uint64_t seed = 1;
+  std::string run_folder = "/run/drover-sim";
+  std::string log_folder;      ///< empty: no logs
+  bool can_over_unix = false;  ///< every bus a socket RUN_FOLDER/NAME.sock
+  bool line_files = false;     ///< lines as files below RUN_FOLDER/lines
+};
+
+class Simulator {
+ public:
+  /// Opens everything. Throws std::runtime_error with one sentence.
+  explicit Simulator(const SimulatorSettings& settings);
+  ~Simulator();
+
+  /// Until SIGTERM, SIGINT or the command "quit". Ticks lie on multiples of 5 ms of the monotonic
+  /// clock; after a delay of more than 100 ms the ticks in between are left out and counted.
+  void run();
+  /// One line for people.
+  std::string summary() const;
+
+ private:
+  void tick(Time now);
+  void exchange_can(Time now);
+  void send_can(Time now);
+  void write_lines();
+  void keep_records(Time now);
+  void measure_clocks();
+  std::string command(std::string_view text);
+  void on_events(int timeout_ms);
+
+  SimulatorSettings settings_;
+  Robot robot_;
+  link::UniqueFd epoll_;
+  link::UniqueFd timer_;
+  link::UniqueFd signals_;
+  std::vector<std::unique_ptr<CanPort>> buses_;
+  std::optional<GnssPort> gnss_;
+  LinePort lines_;
+  CanLog can_log_;
+  TruthLog truth_log_;
+  std::optional<ControlSocket> control_;
+  std::vector<link::ReceivedFrame> received_;
+  Duration wall_minus_monotonic_{};
+  Time start_{};
+  Time previous_{};
+  Time next_truth_{};
+  Time next_flush_{};
+  std::size_t next_event_ = 0;
+  std::uint64_t expired_ = 0;  // timer expirations not yet worked off
+  std::uint64_t ticks_ = 0;
+  std::uint64_t left_out_ = 0;
+  std::uint64_t frames_in_ = 0;
+  std::uint64_t frames_out_ = 0;
+  bool quit_ = false;
+};
+
+}  // namespace drover::sim
