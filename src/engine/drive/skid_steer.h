@@ -8,8 +8,9 @@
 
 namespace drover::engine {
 
-/// Joint velocities (rad/s) of left and right wheels for a twist of base_link. When a wheel would be
-/// faster than `max_wheel_mps`, both are scaled so that the curvature stays.
+/// Joint velocities (rad/s) of left and right wheels for a twist of base_link. When a wheel would
+/// be faster than `max_wheel_mps`, both are scaled so that the curvature stays. Zero when any
+/// number is not finite, or when the limit or the wheel permits no motion.
 struct WheelSpeeds {
   double left_radps = 0;
   double right_radps = 0;

@@ -33,13 +33,14 @@ Reason check_path(const Path& path, std::uint32_t target) {
       return reason;
     }
     if (k == 0) continue;
-    const double gap_m = std::hypot(points[k].x_m - points[k - 1].x_m,
-                                    points[k].y_m - points[k - 1].y_m);
-    if (gap_m >= kLongestGap_m) {
-      reason.format("point %zu of the track is %.0f m away from the one before it", k + 1, gap_m);
+    const Vector gap = {points[k].x_m - points[k - 1].x_m, points[k].y_m - points[k - 1].y_m};
+    const double gap_m2 = dot(gap, gap);
+    if (gap_m2 >= kLongestGap_m * kLongestGap_m) {
+      reason.format("point %zu of the track is %.0f m away from the one before it", k + 1,
+                    std::sqrt(gap_m2));
       return reason;
     }
-    has_length = has_length || gap_m > kSamePoint_m;
+    has_length = has_length || gap_m2 > kSamePoint_m * kSamePoint_m;
   }
   if (!has_length) reason = "all points of the track are the same";
   return reason;

@@ -14,24 +14,19 @@ constexpr double kAboutAsTurned_rad = 10 * kPi / 180;
 constexpr double kSameStretch_cos = 0.5;  // within 60 degrees: one leg, not two
 constexpr double kAtTarget_m = 0.5;
 
+/// The place on a segment nearest to a point. Squares only: this runs for every segment.
 struct Foot {
-  double along_m = 0;
-  double distance_m = 0;
-  double segment_m = 0;
-  Vector direction;
+  Vector segment;
+  double share = 0;  ///< of the segment, 0..1
+  double distance_m2 = 0;
 };
 
-Foot foot_on(Vector a, Vector b, Vector at) {
-  Foot foot;
-  foot.segment_m = length(b - a);
-  if (foot.segment_m <= 0) {
-    foot.distance_m = length(at - a);
-    return foot;
-  }
-  foot.direction = 1 / foot.segment_m * (b - a);
-  foot.along_m = std::clamp(dot(at - a, foot.direction), 0.0, foot.segment_m);
-  foot.distance_m = length(at - (a + foot.along_m * foot.direction));
-  return foot;
+inline Foot foot_on(Vector a, Vector b, Vector at) {
+  const Vector ab = b - a;
+  const double ab_m2 = dot(ab, ab);
+  const double share = ab_m2 > 0 ? std::clamp(dot(at - a, ab) / ab_m2, 0.0, 1.0) : 0.0;
+  const Vector off = at - a - share * ab;
+  return {ab, share, dot(off, off)};
 }
 
 Vector vector(const PathPoint& p) { return {p.x_m, p.y_m}; }
@@ -59,16 +54,16 @@ bool better(const Candidate& a, const Candidate& b) {
 
 PathStart find_start(std::span<const PathPoint> points, std::size_t target, Vector at,
                      double yaw_rad) {
-  double least_m = INFINITY;
+  double least_m2 = INFINITY;
   double target_m = 0;
   double s_m = 0;
   for (std::size_t k = 0; k + 1 < points.size(); ++k) {
     const Foot foot = foot_on(vector(points[k]), vector(points[k + 1]), at);
-    least_m = std::min(least_m, foot.distance_m);
-    if (k == target) target_m = s_m;
-    s_m += foot.segment_m;
+    least_m2 = std::min(least_m2, foot.distance_m2);
+    s_m += length(foot.segment);
+    if (k < target) target_m = s_m;
   }
-  if (target + 1 >= points.size()) target_m = s_m;
+  const double near_m = std::sqrt(least_m2) + kAboutAsNear_m;
 
   Candidate best;
   Candidate leg;
@@ -77,12 +72,15 @@ PathStart find_start(std::span<const PathPoint> points, std::size_t target, Vect
   s_m = 0;
   for (std::size_t k = 0; k + 1 < points.size(); ++k) {
     const Foot foot = foot_on(vector(points[k]), vector(points[k + 1]), at);
+    const double segment_m = length(foot.segment);
     const double start_m = s_m;
-    s_m += foot.segment_m;
-    if (foot.segment_m <= 0) continue;
-    const bool near = foot.distance_m <= least_m + kAboutAsNear_m;
-    const bool goes_on = in_leg && near && k != target &&
-                         dot(foot.direction, leg_direction) > kSameStretch_cos;
+    s_m += segment_m;
+    if (segment_m <= 0) continue;
+    const bool near = foot.distance_m2 <= near_m * near_m;
+    if (!near && !in_leg) continue;
+    const Vector direction = 1 / segment_m * foot.segment;
+    const bool goes_on =
+        in_leg && near && k != target && dot(direction, leg_direction) > kSameStretch_cos;
     if (in_leg && !goes_on) {
       if (better(leg, best)) best = leg;
       in_leg = false;
@@ -91,17 +89,20 @@ PathStart find_start(std::span<const PathPoint> points, std::size_t target, Vect
     if (!in_leg) {
       in_leg = true;
       leg = {};
-      leg_direction = foot.direction;
+      leg_direction = direction;
     }
-    if (foot.distance_m >= leg.distance_m) continue;
+    const double distance_m = std::sqrt(foot.distance_m2);
+    if (distance_m >= leg.distance_m) continue;
     const bool forwards = k < target;
-    const Vector travel = (forwards ? 1.0 : -1.0) * foot.direction;
-    leg.start = {k, foot.along_m, forwards};
-    leg.distance_m = foot.distance_m;
+    const Vector travel = (forwards ? 1.0 : -1.0) * direction;
+    const double along_m = foot.share * segment_m;
+    leg.start = {k, along_m, 0, forwards};
+    leg.distance_m = distance_m;
     leg.turned_rad = std::abs(wrap_rad(std::atan2(travel.y, travel.x) - yaw_rad));
-    leg.left_m = std::abs(target_m - (start_m + foot.along_m));
+    leg.left_m = std::abs(target_m - (start_m + along_m));
   }
   if (in_leg && better(leg, best)) best = leg;
+  best.start.left_m = best.left_m;
   return best.start;
 }
 

@@ -11,6 +11,7 @@ namespace drover::engine {
 struct PathStart {
   std::size_t segment = 0;  ///< of the list: between its points `segment` and `segment + 1`
   double along_m = 0;       ///< from point `segment`
+  double left_m = 0;        ///< along the path to the target
   bool forwards = true;     ///< the target lies towards the end of the list
 };
 

@@ -22,7 +22,9 @@ Vector place(const Pose& pose) { return {pose.x_m, pose.y_m}; }
 double direction_rad(Vector v) { return std::atan2(v.y, v.x); }
 
 bool usable(const Pose& pose) {
-  return std::isfinite(pose.x_m) && std::isfinite(pose.y_m) && std::isfinite(pose.yaw_rad) &&
+  constexpr double kFarthest_m = 1e7;  // beyond it sums lose millimetres
+  return std::abs(pose.x_m) < kFarthest_m && std::abs(pose.y_m) < kFarthest_m &&
+         std::isfinite(pose.yaw_rad) &&
          std::isfinite(pose.vx_mps) && std::isfinite(pose.wz_radps);
 }
 
@@ -42,10 +44,7 @@ void Tracker::begin(const Path& path, std::uint32_t target, double speed_mps, co
   station_ = {start.forwards ? start.segment : last_segment - start.segment, 0};
   s_m_ = start.forwards ? start.along_m : route_.segment_m(station_.segment) - start.along_m;
   goal_ = route_.point(route_.size() - 1);
-  goal_m_ = 0;
-  for (std::size_t k = station_.segment; k + 1 < route_.size(); ++k) {
-    goal_m_ += route_.segment_m(k);
-  }
+  goal_m_ = s_m_ + start.left_m;
   // The leg begins at a corner just behind, or far enough behind not to matter.
   const double sharp_rad = to_rad(config_.pivot_angle_deg);
   std::size_t first = station_.segment;
@@ -104,9 +103,10 @@ void Tracker::look_for_corner() {
   station_ = seek(route_, leg_, station_, std::min(s_m_, leg_.last_m));
 }
 
-/// What a stop takes that begins now: the drives' lag, then a ramp whose jerk is limited.
+/// What a stop from creeping takes: the drives' lag, then a ramp whose jerk is limited. A faster
+/// robot brakes for its creeping speed already and needs no more.
 double Tracker::stop_distance_m(double speed_mps) const {
-  const double v = std::max(speed_mps, 0.0);
+  const double v = std::clamp(speed_mps, 0.0, config_.creep_speed_mps);
   const double a = limits_.deceleration_mps2;
   const double j = limits_.jerk_mps3;
   const double ramp_m = v < a * a / j ? v * std::sqrt(v / j) : v * v / (2 * a) + v * a / (2 * j);
@@ -115,6 +115,7 @@ double Tracker::stop_distance_m(double speed_mps) const {
 
 TrackProgress Tracker::locate(const Pose& pose) {
   TrackProgress progress;
+  progress.joined = joined_;
   if (!active_ || !usable(pose)) return progress;
   if (phase_ != Phase::pivot) {
     s_m_ = foot_m(route_, leg_, station_, s_m_, place(pose), 3);
@@ -142,7 +143,7 @@ TrackProgress Tracker::locate(const Pose& pose) {
 
 Twist Tracker::follow(const Pose& pose, const TrackProgress&, double speed_cap_mps, Duration dt) {
   const double cap_mps = std::min({speed_mps_, speed_cap_mps, limits_.max_speed_mps});
-  if (!active_ || !usable(pose) || !(cap_mps > 0)) return {};
+  if (!active_ || !usable(pose) || !(speed_cap_mps > 0) || !(cap_mps > 0)) return {};
   if (phase_ == Phase::pivot) return pivot(pose);
   // Once it brakes for the end it does not creep on because its stop distance shrank meanwhile.
   const double left_m = leg_.last_m - s_m_;
@@ -206,7 +207,8 @@ double Tracker::path_speed_mps(double cap_mps, double s_m) const {
     const double bend_mps = std::min(std::sqrt(config_.lateral_acceleration_mps2 / curvature_radpm),
                                      steering_radps / curvature_radpm);
     const double ahead_m = kStep_m * static_cast<double>(i - kSide);
-    fastest_mps = std::min(fastest_mps, std::sqrt(bend_mps * bend_mps + 2 * braking_mps2_ * ahead_m));
+    fastest_mps = std::min(fastest_mps,
+                           std::sqrt(bend_mps * bend_mps + 2 * braking_mps2_ * ahead_m));
   }
   // Down to creeping where the stop begins.
   const double creep_mps = std::min(config_.creep_speed_mps, cap_mps);
@@ -219,7 +221,6 @@ Twist Tracker::steer(const Pose& pose, double cap_mps, Duration dt) {
   constexpr double kStiffness = 2.0;      // of the offset, over its square
   constexpr double kApproach_rad = 1.0;   // steepest way back to the line
   constexpr double kTurning_mps = 0.2;    // heading is corrected as if at least so fast
-  constexpr double kRamp_s = 0.1;         // a braking ramp is behind its profile by this
 
   // The drives answer late: steer for where the base will be then.
   const double lag_s = config_.drive_lag_s;
@@ -232,7 +233,9 @@ Twist Tracker::steer(const Pose& pose, double cap_mps, Duration dt) {
   const double heading_rad =
       wrap_rad(pose.yaw_rad + pose.wz_radps * lag_s - direction_rad(line.ahead));
 
-  double vx_mps = path_speed_mps(cap_mps, s_m + std::max(pose.vx_mps, 0.0) * kRamp_s);
+  // A ramp whose jerk is limited is behind its profile.
+  const double ramp_s = braking_mps2_ / (2 * limits_.jerk_mps3);
+  double vx_mps = path_speed_mps(cap_mps, s_m + std::max(pose.vx_mps, 0.0) * ramp_s);
   vx_mps /= 1 + std::max(std::abs(offset_m) - 0.1, 0.0);
   // The gate ramps the speed; turning goes with the speed there is, so that the curvature is right.
   const double speed_mps = pose.vx_mps + std::clamp(vx_mps - pose.vx_mps, -0.1, 0.1);
