@@ -40,6 +40,7 @@ class FixedText {
   operator std::string_view() const { return view(); }
   friend bool operator==(const FixedText& a, const FixedText& b) { return a.view() == b.view(); }
   friend bool operator==(const FixedText& a, std::string_view b) { return a.view() == b; }
+  friend bool operator==(const FixedText& a, const char* b) { return a.view() == b; }
 
  private:
   std::array<char, N> chars_{};
