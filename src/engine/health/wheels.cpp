@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kJudgedShare = 0.05;     // of the highest speed
 constexpr double kFollows = 0.2;          // of the commanded way
-constexpr double kMark_s = 0.05;          // a wheel that follows is marked so often
+constexpr double kWindow_s = 0.1;         // ways are compared over this long
 constexpr double kRunaway_s = 0.1;
 constexpr double kRunawayMargin_mps = 0.3;
 constexpr double kHighestSlip = 2.5;      // the estimate never goes so far
@@ -51,15 +51,17 @@ void WheelMonitor::watch(Wheel& wheel, const AxisSnapshot& axis, Time now, Durat
     wheel.commanded_rad = 0;
     wheel.moved_rad = 0;
     wheel.mark = now;
+    wheel.window = now;
     return;
   }
   wheel.commanded_rad += std::abs(command_radps) * to_s(dt);
   wheel.moved_rad += forwards ? step_rad : -step_rad;
-  if (now - wheel.mark < from_s(kMark_s)) return;
-  if (wheel.moved_rad < kFollows * wheel.commanded_rad) return;
+  if (now - wheel.window < from_s(kWindow_s)) return;
+  // Each window for itself: a wheel that stood for a moment has nothing to make up for.
+  if (wheel.moved_rad >= kFollows * wheel.commanded_rad) wheel.mark = now;
   wheel.commanded_rad = 0;
   wheel.moved_rad = 0;
-  wheel.mark = now;
+  wheel.window = now;
 }
 
 bool WheelMonitor::runs_away(Wheel& wheel, const AxisSnapshot& axis, Time now) const {

@@ -32,9 +32,10 @@ class WheelMonitor final {
   struct Wheel {
     bool active = false;        ///< commanded enough to be judged
     bool forwards = true;
-    double commanded_rad = 0;   ///< since the mark
-    double moved_rad = 0;       ///< since the mark, in the commanded direction
+    double commanded_rad = 0;   ///< in this window
+    double moved_rad = 0;       ///< in this window, in the commanded direction
     double last_position_rad = kAbsent;
+    Time window = kNever;       ///< when this window began
     Time mark = kNever;         ///< when it was last seen to follow
     Time fast_since = kNever;
   };

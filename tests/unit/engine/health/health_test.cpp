@@ -1,0 +1,247 @@
+#include "engine/health/health.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "engine/health/announcer.h"
+
+namespace drover::engine {
+namespace {
+
+using ::testing::HasSubstr;
+
+class AHealthMonitor : public ::testing::Test {
+ protected:
+  AHealthMonitor() {
+    for (const char* name : {"front_left", "front_right"}) {
+      (void)config.joints.push_back(name);
+    }
+    (void)config.base.left.push_back(0);
+    (void)config.base.right.push_back(1);
+    config.line_configured = {true, true, true, true};
+    for (std::size_t i = 0; i < 2; ++i) {
+      axes[i].joint = config.joints[i];
+      axes[i].state = AxisState::running;
+      axes[i].last_motion = now;
+      environment.axes[i].state = SourceState::fresh;
+    }
+    for (SourceHealth& line : environment.lines) {
+      line.state = SourceState::fresh;
+      line.last_good = now;
+    }
+    environment.guard_alive = true;
+    environment.gnss.state = SourceState::fresh;
+    environment.gnss.last_good = now;
+    lines.active = {};
+    estimate.has_position = estimate.has_heading = true;
+    estimate.predicted_error_m = 0.03;
+    estimate.yaw_error_rad = 0.01;
+  }
+  const HealthReport& update() {
+    if (!monitor) monitor.emplace(config);
+    return monitor->update({now, environment, axes, lines, estimate, has_origin, task, latched});
+  }
+  std::string first_why() {
+    const HealthReport& report = update();
+    return report.why.empty() ? "" : std::string(report.why[0].view());
+  }
+  void expect_stop(const std::string& text) {
+    EXPECT_THAT(first_why(), HasSubstr(text));
+    EXPECT_THAT(std::string(update().stop.view()), HasSubstr(text));
+  }
+  SourceHealth& line(Line l) { return environment.lines[static_cast<std::size_t>(l)]; }
+  void activate(Line l) { lines.active[static_cast<std::size_t>(l)] = true; }
+
+  EngineConfig config;
+  std::optional<HealthMonitor> monitor;
+  Environment environment;
+  std::array<AxisSnapshot, 2> axes{};
+  LineTable lines;
+  Estimate estimate;
+  bool has_origin = true;
+  bool task = false;
+  Reason latched;
+  Time now{std::chrono::seconds(1000)};
+};
+
+TEST_F(AHealthMonitor, StopsForAPressedEstop) {
+  activate(Line::estop);
+  expect_stop("e-stop pressed");
+  EXPECT_TRUE(update().estop);
+  EXPECT_FALSE(update().lines_ok);
+}
+TEST_F(AHealthMonitor, StopsForATouchedBumper) {
+  activate(Line::bumper);
+  expect_stop("bumper touched");
+}
+TEST_F(AHealthMonitor, StopsForEveryLineThatIsLost) {
+  for (const Line l : {Line::estop, Line::bumper, Line::zone_far, Line::zone_near}) {
+    for (const SourceState state : {SourceState::stale, SourceState::never_heard}) {
+      line(l).state = state;
+      expect_stop(std::string("line ") + std::string(line_name(l)));
+      line(l).state = SourceState::fresh;
+    }
+  }
+}
+TEST_F(AHealthMonitor, TakesALostEstopLineForAPressedEstop) {
+  line(Line::estop).state = SourceState::stale;
+  EXPECT_TRUE(update().estop);
+}
+TEST_F(AHealthMonitor, StopsWhenALineWasNotReadForTwentyMilliseconds) {
+  line(Line::bumper).last_good = now - std::chrono::milliseconds(20);
+  EXPECT_TRUE(update().stop.empty());
+  line(Line::bumper).last_good = now - std::chrono::milliseconds(21);
+  expect_stop("line bumper");
+}
+TEST_F(AHealthMonitor, DoesNotLookAtLinesThatAreNotConfigured) {
+  config.line_configured = {true, false, false, false};
+  activate(Line::bumper);
+  activate(Line::zone_near);
+  line(Line::zone_far).state = SourceState::never_heard;
+  EXPECT_TRUE(update().stop.empty());
+  EXPECT_FALSE(update().near_zone || update().far_zone);
+}
+TEST_F(AHealthMonitor, StopsWhileTheGuardHasTheBus) {
+  environment.guard_has_bus = true;
+  expect_stop("the guard stopped the drives");
+  EXPECT_FALSE(update().guard_ok);
+}
+TEST_F(AHealthMonitor, StopsWithoutAGuardUnlessNoneIsRequired) {
+  environment.guard_alive = false;
+  expect_stop("the guard does not answer");
+  config.health.guard_required = false;
+  monitor.reset();
+  EXPECT_TRUE(update().stop.empty());
+}
+TEST_F(AHealthMonitor, NamesTheWheelThatIsSilentAndForHowLong) {
+  axes[1].last_motion = now - std::chrono::milliseconds(120);
+  expect_stop("wheel front_right: no feedback for 0.12 s");
+  EXPECT_FALSE(update().drives_ok);
+  EXPECT_FALSE(update().drives_running);
+}
+TEST_F(AHealthMonitor, CallsAWheelSilentAtTheLimitAndNotBefore) {
+  axes[0].last_motion = now - std::chrono::milliseconds(99);
+  EXPECT_TRUE(update().stop.empty());
+  axes[0].last_motion = now - std::chrono::milliseconds(100);
+  EXPECT_FALSE(update().stop.empty());
+}
+TEST_F(AHealthMonitor, BelievesADriverThatCallsItsDriveStale) {
+  environment.axes[0].state = SourceState::stale;
+  environment.axes[0].reason = "heartbeat missing";
+  expect_stop("wheel front_left: heartbeat missing");
+}
+TEST_F(AHealthMonitor, StopsForADriveThatWasNeverHeard) {
+  axes[0].last_motion = kNever;
+  expect_stop("wheel front_left: never heard");
+}
+TEST_F(AHealthMonitor, SaysThatNoDriveAnswersWhenAllAreSilent) {
+  for (auto& axis : axes) axis.last_motion = now - std::chrono::milliseconds(500);
+  expect_stop("no drive answers (wheel front_left: no feedback for 0.50 s)");
+}
+TEST_F(AHealthMonitor, StopsWithoutDrives) {
+  config.base.left.clear();
+  config.base.right.clear();
+  expect_stop("no drives are configured");
+}
+TEST_F(AHealthMonitor, TellsADrivesFaultInItsOwnWords) {
+  axes[1].state = AxisState::fault;
+  axes[1].fault = "motor over temperature";
+  EXPECT_EQ(first_why(), "wheel front_right: motor over temperature");
+  EXPECT_TRUE(update().stop.empty()) << "at rest it is no stop: arming may clear it";
+  EXPECT_EQ(update().not_running, "wheel front_right: motor over temperature");
+}
+TEST_F(AHealthMonitor, SeesThatADriveIsNotInClosedLoop) {
+  axes[0].state = AxisState::idle;
+  EXPECT_TRUE(update().drives_ok);
+  EXPECT_FALSE(update().drives_running);
+  EXPECT_THAT(std::string(update().not_running.view()), HasSubstr("not in closed loop"));
+  EXPECT_EQ(first_why(), "") << "idle drives are how a robot rests";
+}
+TEST_F(AHealthMonitor, PutsTheEstopBeforeTheDrivesThatItSilences) {
+  axes[0].last_motion = axes[1].last_motion = kNever;
+  estimate.predicted_error_m = 5;
+  activate(Line::estop);
+  const HealthReport& report = update();
+  ASSERT_EQ(report.why.size(), 3U);
+  EXPECT_EQ(report.why[0], "e-stop pressed");
+  EXPECT_THAT(std::string(report.why[1].view()), HasSubstr("no drive answers"));
+  EXPECT_THAT(std::string(report.why[2].view()), HasSubstr("position uncertain"));
+}
+TEST_F(AHealthMonitor, PutsPresentCausesBeforeLatchedOnes) {
+  latched = "bumper touched";
+  EXPECT_EQ(first_why(), "stopped: bumper touched");
+  activate(Line::estop);
+  EXPECT_EQ(first_why(), "e-stop pressed");
+}
+TEST_F(AHealthMonitor, TellsTheReceiversSilence) {
+  environment.gnss.last_good = now - std::chrono::milliseconds(1200);
+  EXPECT_EQ(first_why(), "receiver silent for 1.2 s");
+  EXPECT_FALSE(update().gnss_ok);
+  EXPECT_TRUE(update().stop.empty()) << "wheels carry the position for a while";
+}
+TEST_F(AHealthMonitor, TellsWhyThereIsNoPosition) {
+  has_origin = false;
+  EXPECT_EQ(first_why(), "no origin is set");
+  has_origin = true;
+  estimate.has_heading = false;
+  EXPECT_EQ(first_why(), "no heading yet");
+}
+TEST_F(AHealthMonitor, SeesBothZones) {
+  activate(Line::zone_far);
+  EXPECT_TRUE(update().far_zone);
+  EXPECT_THAT(first_why(), HasSubstr("far zone"));
+  activate(Line::zone_near);
+  EXPECT_TRUE(update().near_zone);
+  EXPECT_THAT(first_why(), HasSubstr("near zone"));
+  EXPECT_TRUE(update().stop.empty());
+}
+TEST_F(AHealthMonitor, HasNothingToSayAboutAHealthyRobot) {
+  const HealthReport& report = update();
+  EXPECT_TRUE(report.why.empty());
+  EXPECT_TRUE(report.drives_ok && report.drives_running && report.lines_ok);
+  EXPECT_TRUE(report.gnss_ok && report.guard_ok);
+  EXPECT_EQ(report.locate, LocateState::good);
+}
+
+class AnAnnouncer : public AHealthMonitor {
+ protected:
+  std::vector<std::string> said() {
+    announcer.update(now, update(), events);
+    FixedVector<Event, 64> some;
+    events.drain(some);
+    std::vector<std::string> texts;
+    for (const Event& event : some) {
+      texts.emplace_back(std::get<Notice>(event.body).text.view());
+    }
+    return texts;
+  }
+  void wait(Duration time) {
+    now += time;
+    for (auto& l : environment.lines) l.last_good = now;
+    for (auto& axis : axes) axis.last_motion = now;
+    environment.gnss.last_good = now;
+  }
+  Announcer announcer;
+  EventQueue events;
+};
+
+TEST_F(AnAnnouncer, IsSilentWhileAllIsWell) { EXPECT_TRUE(said().empty()); }
+TEST_F(AnAnnouncer, SaysOnceWhatBeginsAndOnceThatItIsOver) {
+  activate(Line::bumper);
+  EXPECT_THAT(said(), ::testing::ElementsAre("bumper touched"));
+  EXPECT_TRUE(said().empty());
+  lines.active = {};
+  EXPECT_THAT(said(), ::testing::ElementsAre("bumper free"));
+}
+TEST_F(AnAnnouncer, DoesNotFloodTheJournalWhenASourceFlaps) {
+  std::size_t count = 0;
+  for (int i = 0; i < 400; ++i) {
+    wait(std::chrono::milliseconds(5));
+    lines.active[static_cast<std::size_t>(Line::bumper)] = i % 2 == 0;
+    count += said().size();
+  }
+  EXPECT_LE(count, 6U);
+}
+
+}  // namespace
+}  // namespace drover::engine

@@ -1,0 +1,131 @@
+#include "engine/health/wheels.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace drover::engine {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// Four wheels that do what a test says.
+class AWheelMonitor : public ::testing::Test {
+ protected:
+  AWheelMonitor() {
+    for (std::size_t i = 0; i < 4; ++i) {
+      axes[i].joint = std::string_view("abcd").substr(i, 1);
+      axes[i].state = AxisState::running;
+      axes[i].motion.position_rad = 100;
+      axes[i].motion.velocity_radps = 0;
+    }
+  }
+  void command(double radps) {
+    for (AxisSnapshot& axis : axes) axis.commanded_velocity_radps = radps;
+  }
+  /// Wheel i moves with share[i] of its command. Returns the time of the first fault, or 0.
+  double run_s(double seconds, std::array<double, 4> share) {
+    for (int i = 1; i <= static_cast<int>(seconds * 200 + 0.5); ++i) {
+      for (std::size_t k = 0; k < 4; ++k) {
+        axes[k].motion.velocity_radps = share[k] * axes[k].commanded_velocity_radps;
+        if (k != stuck) axes[k].motion.position_rad += axes[k].motion.velocity_radps * 0.005;
+        if (k == speechless) axes[k].motion.velocity_radps = kAbsent;
+      }
+      now += std::chrono::milliseconds(5);
+      fault = monitor.update(now, std::chrono::milliseconds(5), axes);
+      if (fault != WheelFault::none) return i * 0.005;
+    }
+    return 0;
+  }
+  std::string reason() { return std::string(monitor.reason().view()); }
+
+  EngineConfig config;
+  WheelMonitor monitor{config};
+  std::array<AxisSnapshot, 4> axes{};
+  std::size_t stuck = 99;       ///< this wheel's position does not move
+  std::size_t speechless = 99;  ///< this wheel reports no velocity
+  Time now{std::chrono::seconds(9)};
+  WheelFault fault = WheelFault::none;
+};
+
+TEST_F(AWheelMonitor, FindsAWheelThatDoesNotFollowWithinHalfASecond) {
+  command(3);
+  EXPECT_EQ(run_s(2, {1, 1, 1, 1}), 0);
+  const double found_s = run_s(2, {1, 1, 0, 1});
+  EXPECT_GT(found_s, 0.2);
+  EXPECT_LE(found_s, 0.5);
+  EXPECT_EQ(fault, WheelFault::not_following);
+  EXPECT_EQ(reason(), "wheel c does not follow its command");
+}
+TEST_F(AWheelMonitor, FindsAWheelThatTurnsTheWrongWay) {
+  command(3);
+  EXPECT_GT(run_s(1, {1, 1, 1, -1}), 0);
+  EXPECT_THAT(reason(), HasSubstr("wheel d"));
+}
+TEST_F(AWheelMonitor, FindsThatAllWheelsAreBlockedAfterTheTimeOut) {
+  command(3);
+  run_s(1, {1, 1, 1, 1});
+  EXPECT_NEAR(run_s(5, {0, 0, 0, 0}), 2.0, 0.1);
+  EXPECT_EQ(fault, WheelFault::blocked);
+  EXPECT_THAT(reason(), HasSubstr("blocked"));
+}
+TEST_F(AWheelMonitor, FindsBlockedWheelsAlsoAtTheStartOfAMotion) {
+  command(-1);
+  EXPECT_NEAR(run_s(5, {0, 0, 0, 0}), 2.0, 0.1);
+}
+TEST_F(AWheelMonitor, IsNotFooledByAVelocityThatRunsOnWhileThePositionIsStuck) {
+  command(3);
+  stuck = 1;
+  EXPECT_GT(run_s(1, {1, 1, 1, 1}), 0);
+  EXPECT_EQ(fault, WheelFault::not_following);
+  EXPECT_THAT(reason(), HasSubstr("wheel b"));
+}
+TEST_F(AWheelMonitor, DoesNotMindALagALoadOrASlowWheel) {
+  command(3);
+  EXPECT_EQ(run_s(0.2, {0, 0, 0, 0}), 0);
+  EXPECT_EQ(run_s(5, {0.3, 1, 0.5, 1.2}), 0);
+}
+TEST_F(AWheelMonitor, DoesNotJudgeCommandsBelowFivePerCent) {
+  command(0.2);
+  EXPECT_EQ(run_s(10, {0, 0, 0, 0}), 0);
+  command(0);
+  EXPECT_EQ(run_s(10, {0, 0, 0, 0}), 0);
+}
+TEST_F(AWheelMonitor, JudgesADriveWithoutAPositionByItsVelocity) {
+  command(3);
+  axes[0].motion.position_rad = kAbsent;
+  EXPECT_EQ(run_s(3, {1, 1, 1, 1}), 0);
+  EXPECT_GT(run_s(3, {0, 1, 1, 1}), 0);
+  EXPECT_THAT(reason(), HasSubstr("wheel a"));
+}
+TEST_F(AWheelMonitor, TakesADriveThatSaysNothingForStanding) {
+  command(3);
+  axes[0].motion.position_rad = kAbsent;
+  speechless = 0;
+  EXPECT_GT(run_s(3, {1, 1, 1, 1}), 0);
+  EXPECT_THAT(reason(), HasSubstr("wheel a"));
+}
+TEST_F(AWheelMonitor, FindsAWheelThatRunsAway) {
+  command(0);
+  axes[2].motion.velocity_radps = 20;
+  double found_s = 0;
+  for (int i = 1; i < 100 && found_s == 0; ++i) {
+    now += std::chrono::milliseconds(5);
+    if (monitor.update(now, std::chrono::milliseconds(5), axes) == WheelFault::runaway) {
+      found_s = i * 0.005;
+    }
+  }
+  EXPECT_GT(found_s, 0.05);
+  EXPECT_LE(found_s, 0.2);
+  EXPECT_THAT(reason(), HasSubstr("wheel c runs away"));
+}
+TEST_F(AWheelMonitor, DoesNotMindAnIdleRobotThatIsPushed) {
+  axes[2].motion.velocity_radps = 20;
+  axes[2].state = AxisState::idle;
+  for (int i = 0; i < 100; ++i) {
+    now += std::chrono::milliseconds(5);
+    ASSERT_EQ(monitor.update(now, std::chrono::milliseconds(5), axes), WheelFault::none);
+  }
+}
+
+}  // namespace
+}  // namespace drover::engine
