@@ -153,6 +153,40 @@ TEST(GnssModel, BelievesAReceiverThatSaysItIsWorseNotBetter) {
   EXPECT_EQ(sigma_m(GnssClass::fixed, 0.05, config), config.gnss_inflation * 0.05);
 }
 
+AntennaPosition fixed_at(double x_m, double y_m) {
+  return {.x_m = x_m, .y_m = y_m, .quality = GnssClass::fixed, .sigma_x_m = 0.0125,
+          .sigma_y_m = 0.0125};
+}
+
+TEST(GnssModel, TurnsTheBaseTowardsAnAntennaThatIsAside) {
+  EstimateConfig config;
+  config.antenna_x_m = 0.3;
+  config.antenna_y_m = 0.4;
+  for (const bool sideways : {true, false}) {
+    State state;
+    state.time = kStart;
+    state.has_position = state.has_heading = true;
+    state.belief.reset(kYaw, 0, 0.1);
+    state.belief.reset(kX, 0, 1e-3);  // the place is known, so only the yaw can be wrong
+    state.belief.reset(kY, 0, 1e-3);
+    // 0.1 rad to the left moves the antenna by (-0.04, +0.03).
+    apply(state, sideways ? fixed_at(0.3, 0.43) : fixed_at(0.26, 0.4), 0, config);
+    EXPECT_GT(state.belief.mean[kYaw], 0.02) << sideways;
+    EXPECT_LT(state.belief.mean[kYaw], 0.1) << sideways;
+  }
+}
+
+TEST(GnssModel, LearnsNothingFromHearingTheFirstPositionAgain) {
+  const EstimateConfig config;
+  State state;
+  state.time = kStart;
+  apply_heading(state, 0, config);
+  for (int i = 0; i < 20; ++i) apply(state, fixed_at(1, 2), 0, config);
+  EXPECT_TRUE(state.has_position);
+  EXPECT_GE(two_sigma_position_m(state.belief), 2 * 0.0124);
+  EXPECT_NEAR(state.belief.mean[kX], 1, 1e-9);
+}
+
 // Source of the pairs: heading 90, offset 0 -> 0; 0, 0 -> 90; 270, 90 -> -90; 359.9, 180 -> -89.9.
 TEST(HeadingModel, TurnsACompassBaselineIntoYaw) {
   EstimateConfig config;
