@@ -1,0 +1,268 @@
+// What every CAN drive must do, whoever made it.
+#include <gtest/gtest.h>
+
+#include "support/describe.h"
+#include "unit/drivers/conformance/harness.h"
+
+namespace drover::test {
+namespace {
+
+class CanConformance : public ::testing::TestWithParam<Subject> {
+ protected:
+  void expect_decent(const CanBench& bench) {
+    EXPECT_EQ(bench.off_list, 0) << "sent outside its own allow-list";
+    EXPECT_EQ(bench.forbidden, 0) << "sent what it calls forbidden itself";
+    EXPECT_EQ(bench.motion_at_rest, 0) << "sent motion while asked to rest";
+    EXPECT_EQ(bench.allocations, 0U) << "allocated memory in on_frame, on_command or on_tick";
+    EXPECT_EQ(bench.overflows, 0U);
+  }
+};
+
+constexpr auto kRun = AxisRequest::run;
+constexpr auto kRest = AxisRequest::rest;
+
+TEST_P(CanConformance, SendsNothingToANodeThatWasNeverHeard) {
+  CanBench bench(GetParam());
+  bench.twin->set_power(false, bench.now);
+  bench.run(milliseconds(500), kRest);
+  bench.run(milliseconds(500), kRun, 1.0);
+  for (const CanFrame& frame : bench.sent)
+    EXPECT_EQ(bench.driver->effect(frame), FrameEffect::harmless) << describe(frame);
+  EXPECT_EQ(bench.status.state, AxisState::unknown);
+  EXPECT_EQ(bench.driver->health(bench.now).state, SourceState::never_heard);
+  expect_decent(bench);
+}
+
+TEST_P(CanConformance, NeverArmsByItselfWhileAtRest) {
+  CanBench bench(GetParam());
+  bench.run(milliseconds(2000), kRest);
+  EXPECT_EQ(bench.status.state, AxisState::idle);
+  EXPECT_EQ(bench.shaft.torque_Nm, 0.0);
+  expect_decent(bench);
+}
+
+TEST_P(CanConformance, ReachesRunningAndFollowsTheVelocity) {
+  CanBench bench(GetParam());
+  bench.run(milliseconds(500), kRest);
+  bench.run(milliseconds(1000), kRun, 0.0);
+  ASSERT_EQ(bench.status.state, AxisState::running) << bench.status.reason.view();
+  for (const double velocity_radps : {3.0, -2.0, 0.5}) {
+    bench.run(milliseconds(1500), kRun, velocity_radps);
+    EXPECT_NEAR(bench.shaft.velocity_radps, velocity_radps, 0.1 * std::abs(velocity_radps));
+    EXPECT_NEAR(bench.motion.velocity_radps, velocity_radps, 0.1 * std::abs(velocity_radps));
+  }
+  const double before_rad = bench.motion.position_rad;
+  const double truly_before_rad = bench.shaft.position_rad;
+  bench.run(milliseconds(1000), kRun, 2.0);
+  EXPECT_NEAR(bench.motion.position_rad - before_rad, bench.shaft.position_rad - truly_before_rad,
+              0.1);
+  expect_decent(bench);
+}
+
+TEST_P(CanConformance, StopsAtRestAndHoldsAgainstALoad) {
+  CanBench bench(GetParam());
+  bench.run(milliseconds(500), kRest);
+  bench.run(milliseconds(2000), kRun, 3.0);
+  bench.run(milliseconds(1000), kRest);
+  EXPECT_NEAR(bench.shaft.velocity_radps, 0.0, 0.02);
+  const double before_rad = bench.shaft.position_rad;
+  bench.load_Nm = 4;  // a quarter of 60 kg on a slope of 15 %, radius 0.165 m
+  bench.run(milliseconds(2000), kRest);
+  EXPECT_NEAR(bench.shaft.position_rad, before_rad, 0.05 / 0.165);
+  expect_decent(bench);
+}
+
+TEST_P(CanConformance, GoesStaleWhenItsDeviceFallsSilent) {
+  CanBench bench(GetParam());
+  bench.run(milliseconds(500), kRest);
+  bench.run(milliseconds(1000), kRun, 1.0);
+  ASSERT_EQ(bench.driver->health(bench.now).state, SourceState::fresh);
+  EXPECT_TRUE(bench.driver->health(bench.now).reason.empty());
+  bench.twin->set_power(false, bench.now);
+  bench.run(milliseconds(105), kRun, 1.0);
+  EXPECT_EQ(bench.driver->health(bench.now).state, SourceState::stale);
+  EXPECT_FALSE(bench.driver->health(bench.now).reason.empty());
+  bench.run(milliseconds(400), kRun, 1.0);
+  EXPECT_EQ(bench.status.state, AxisState::unknown);
+  bench.sent.clear();
+  bench.run(milliseconds(100), kRun, 1.0);
+  for (const CanFrame& frame : bench.sent)
+    EXPECT_NE(bench.driver->effect(frame), FrameEffect::motion) << describe(frame);
+}
+
+TEST_P(CanConformance, ArmsAfterAPowerCycleOnlyByANewRequest) {
+  CanBench bench(GetParam());
+  bench.run(milliseconds(500), kRest);
+  bench.run(milliseconds(1000), kRun, 1.0);
+  bench.twin->set_power(false, bench.now);
+  bench.run(milliseconds(600), kRun, 1.0);
+  bench.twin->set_power(true, bench.now);
+  bench.sent.clear();
+  bench.run(milliseconds(3000), kRun, 1.0);
+  EXPECT_NE(bench.status.state, AxisState::running);
+  EXPECT_EQ(bench.shaft.torque_Nm, 0.0);
+  for (const CanFrame& frame : bench.sent)
+    EXPECT_NE(bench.driver->effect(frame), FrameEffect::motion) << describe(frame);
+  bench.run(milliseconds(100), kRest);
+  bench.run(milliseconds(2000), kRun, 1.0);
+  EXPECT_EQ(bench.status.state, AxisState::running) << bench.status.reason.view();
+  EXPECT_NEAR(bench.shaft.velocity_radps, 1.0, 0.1);
+  expect_decent(bench);
+}
+
+TEST_P(CanConformance, ArmsAfterANewLinkOnlyByANewRequest) {
+  CanBench bench(GetParam());
+  bench.run(milliseconds(500), kRest);
+  bench.run(milliseconds(1000), kRun, 1.0);
+  bench.driver->on_link_up(bench.now);
+  bench.sent.clear();
+  bench.run(milliseconds(1000), kRun, 1.0);
+  for (const CanFrame& frame : bench.sent)
+    EXPECT_NE(bench.driver->effect(frame), FrameEffect::motion) << describe(frame);
+  bench.run(milliseconds(50), kRest);
+  bench.run(milliseconds(1500), kRun, 1.0);
+  EXPECT_EQ(bench.status.state, AxisState::running) << bench.status.reason.view();
+}
+
+TEST_P(CanConformance, SaysHowItStopsAndTheRecipeStopsIt) {
+  CanBench bench(GetParam());
+  const StopRecipe recipe = bench.driver->stop_recipe();
+  ASSERT_FALSE(recipe.frames.empty());
+  EXPECT_GT(recipe.period, Duration{});
+  EXPECT_LE(recipe.period, milliseconds(50));
+  for (const CanFrame& frame : recipe.frames) {
+    EXPECT_TRUE(on_list(bench.driver->allow_list(), frame)) << describe(frame);
+    EXPECT_EQ(bench.driver->effect(frame), FrameEffect::stop) << describe(frame);
+  }
+  EXPECT_FALSE(bench.driver->silence().text.empty());
+  EXPECT_EQ(bench.driver->silence().stops, bench.driver->silence().after > Duration{});
+
+  bench.run(milliseconds(500), kRest);
+  bench.run(milliseconds(2000), kRun, 3.0);
+  ASSERT_NEAR(bench.shaft.velocity_radps, 3.0, 0.3);
+  bench.driver_alive = false;  // from here on somebody who knows only the recipe
+  Time next = bench.now;
+  for (int i = 0; i < 200; ++i) {
+    for (; next <= bench.now; next += recipe.period)
+      for (const CanFrame& frame : recipe.frames) bench.send(frame);
+    bench.step({});
+  }
+  EXPECT_NEAR(bench.shaft.velocity_radps, 0.0, 0.05);
+  if (recipe.holds) {
+    EXPECT_NE(bench.shaft.torque_Nm, 0.0) << "let go instead of holding";
+  }
+}
+
+TEST_P(CanConformance, IgnoresItsFramesUnderAForeignFlag) {
+  CanBench bench(GetParam());
+  for (CanFrame frame : golden_frames(*GetParam().entry)) {
+    for (int i = 0; i < 3; ++i) {
+      CanFrame foreign = frame;
+      if (i == 0) foreign.extended = !foreign.extended;
+      if (i == 1) foreign.fd = true;
+      if (i == 2) foreign.error = true;
+      if (foreign == frame) continue;
+      const bool was_not_its_own = i == 0 && frame.extended;
+      if (was_not_its_own) continue;
+      bench.inject(foreign);
+      EXPECT_TRUE(bench.out.measurements.empty()) << describe(foreign);
+    }
+  }
+  EXPECT_EQ(bench.driver->health(bench.now).good, 0U);
+  EXPECT_EQ(bench.driver->health(bench.now).bad, 0U);
+}
+
+TEST_P(CanConformance, SurvivesEveryTruncation) {
+  CanBench bench(GetParam());
+  for (CanFrame frame : golden_frames(*GetParam().entry)) {
+    for (std::uint8_t len = 0; len <= frame.len; ++len) {
+      CanFrame cut = frame;
+      cut.len = len;
+      bench.inject(cut);
+      bench.step({kRest, 0});
+    }
+  }
+  expect_decent(bench);
+}
+
+TEST_P(CanConformance, SurvivesAHundredThousandRandomFrames) {
+  const auto like = golden_frames(*GetParam().entry);
+  std::mt19937 random(20250101);
+  CanBench bench(GetParam());
+  for (int i = 0; i < 100000; ++i) {
+    bench.inject(random_frame(random, like));
+    if (i % 16 == 0) {
+      bench.now += milliseconds(5);
+      bench.out.clear();
+      bench.driver->on_command({i % 4096 < 2048 ? kRest : kRun, 1.0}, bench.now, bench.out);
+      bench.driver->on_tick(bench.now, bench.out);
+      for (const CanFrame& frame : bench.out.frames) {
+        ASSERT_TRUE(on_list(bench.driver->allow_list(), frame)) << describe(frame);
+        ASSERT_NE(bench.driver->effect(frame), FrameEffect::forbidden) << describe(frame);
+        if (i % 4096 < 2048) {
+          ASSERT_NE(bench.driver->effect(frame), FrameEffect::motion) << describe(frame);
+        }
+      }
+    }
+  }
+  expect_decent(bench);
+}
+
+TEST_P(CanConformance, JudgesEveryRandomFrameWithoutCallingItAStopThatMoves) {
+  // A frame that the driver calls stop, on its list, never makes the twin push.
+  std::mt19937 random(7);
+  CanBench bench(GetParam());
+  bench.run(milliseconds(500), kRest);
+  bench.run(milliseconds(2000), kRun, 0.0);
+  std::vector<CanFrame> like = bench.sent;
+  bench.driver_alive = false;
+  for (int i = 0; i < 20000; ++i) {
+    const CanFrame frame = random_frame(random, like);
+    if (!on_list(bench.driver->allow_list(), frame)) continue;
+    const FrameEffect effect = bench.driver->effect(frame);
+    if (effect == FrameEffect::motion || effect == FrameEffect::forbidden) continue;
+    bench.send(frame);
+    bench.step({});
+    ASSERT_LT(std::abs(bench.shaft.velocity_radps), 0.05) << describe(frame);
+  }
+}
+
+TEST_P(CanConformance, StaysDecentThroughRandomHistories) {
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    std::mt19937 random(seed);
+    CanBench bench(GetParam());
+    AxisCommand command;
+    for (int i = 0; i < 600; ++i) {
+      if (random() % 40 == 0)
+        command.request = static_cast<AxisRequest>(random() % 3);
+      if (random() % 20 == 0) command.velocity_radps = static_cast<double>(random() % 11) - 5.0;
+      if (random() % 200 == 0) command.velocity_radps = kAbsent;
+      if (random() % 100 == 0) bench.twin->set_power(random() % 2 == 0, bench.now);
+      if (random() % 300 == 0) bench.driver->on_link_up(bench.now);
+      if (random() % 100 == 0) bench.twin->set_fault(random() % 2 ? "silent" : "", bench.now);
+      bench.step(command);
+    }
+    expect_decent(bench);
+  }
+}
+
+TEST_P(CanConformance, GivesTheSameForTheSame) {
+  std::string texts[2];
+  for (std::string& text : texts) {
+    CanBench bench(GetParam());
+    bench.run(milliseconds(300), kRest);
+    for (int i = 0; i < 400; ++i) {
+      bench.step({kRun, 0.01 * i});
+      text += describe(bench.out);
+      for (const CanFrame& frame : bench.out.frames) text += describe(frame);
+    }
+  }
+  EXPECT_EQ(texts[0], texts[1]);
+}
+
+INSTANTIATE_TEST_SUITE_P(Registry, CanConformance,
+                         ::testing::ValuesIn(subjects<MakeCanDriver>()), label_of);
+
+}  // namespace
+}  // namespace drover::test

@@ -1,0 +1,221 @@
+// Walks the registry: every driver, with every choice of its options, and a bench to run it on.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cctype>
+#include <ostream>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "drover/registry.h"
+#include "support/allocation_counter.h"
+#include "support/golden.h"
+
+namespace drover::test {
+
+using std::chrono::milliseconds;
+
+/// One driver with one set of options.
+struct Subject {
+  const DriverEntry* entry = nullptr;
+  Options options;
+  std::string label;  ///< letters, digits and underscores only
+  friend std::ostream& operator<<(std::ostream& stream, const Subject& subject) {
+    return stream << subject.label;
+  }
+};
+
+inline std::string alphanumeric(std::string text) {
+  for (char& c : text)
+    if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
+  return text;
+}
+
+/// Defaults, the required options filled with something valid, and the twin's defaults.
+inline Options example_options(const DriverEntry& entry) {
+  Options options(entry.options);
+  for (const auto table : {entry.options, entry.twin_options}) {
+    for (const OptionSpec& spec : table) {
+      OptionValue value = spec.default_value;
+      if (spec.required && spec.min < spec.max) value = std::min(spec.min + 3, spec.max);
+      if (spec.required && !spec.choices.empty()) value = std::string(spec.choices[0]);
+      options.set(spec.name, value);
+    }
+  }
+  return options;
+}
+
+/// All drivers of one shape; each choice of a text option and each flag makes one more subject.
+template <class Make>
+std::vector<Subject> subjects() {
+  std::vector<Subject> all;
+  for (const DriverEntry& entry : driver_registry()) {
+    if (!std::holds_alternative<Make>(entry.make)) continue;
+    const Options plain = example_options(entry);
+    all.push_back({&entry, plain, std::string(entry.name)});
+    for (const OptionSpec& spec : entry.options) {
+      const std::string label = std::string(entry.name) + "_" + std::string(spec.name);
+      for (const std::string_view choice : spec.choices) {
+        if (std::string(choice) == plain.text(spec.name)) continue;
+        Options options = plain;
+        options.set(spec.name, std::string(choice));
+        all.push_back({&entry, options, alphanumeric(label + "_" + std::string(choice))});
+      }
+      if (const bool* flag = std::get_if<bool>(&spec.default_value)) {
+        Options options = plain;
+        options.set(spec.name, !*flag);
+        all.push_back({&entry, options, alphanumeric(label + (*flag ? "_false" : "_true"))});
+      }
+    }
+  }
+  return all;
+}
+
+inline std::string label_of(const ::testing::TestParamInfo<Subject>& info) {
+  return info.param.label;
+}
+
+inline bool on_list(std::span<const FrameRule> rules, const CanFrame& frame) {
+  for (const FrameRule& rule : rules)
+    if (rule.id == frame.id && rule.extended == frame.extended && rule.remote == frame.remote &&
+        frame.len >= rule.min_len && frame.len <= rule.max_len)
+      return !frame.fd && !frame.error;
+  return false;
+}
+
+/// A driver and its twin on one wire, a shaft with inertia and friction, 5 ms ticks.
+class CanBench {
+ public:
+  explicit CanBench(const Subject& subject)
+      : driver(std::get<MakeCanDriver>(subject.entry->make)(subject.options, 0)),
+        twin(std::get<MakeCanTwin>(subject.entry->make_twin)(subject.options)) {
+    driver->on_link_up(now);
+  }
+
+  /// Runs with one command; the plant steps at 2.5 ms.
+  void run(Duration time, AxisRequest request, double velocity_radps = 0) {
+    for (const Time end = now + time; now < end;) step({request, velocity_radps});
+  }
+
+  void step(const AxisCommand& command) {
+    for (int i = 0; i < 2; ++i) {
+      now += std::chrono::microseconds(2500);
+      twin_frames.clear();
+      twin->on_tick(now, shaft, twin_frames);
+      to_driver();
+      shaft.velocity_radps +=
+          0.0025 / inertia_kgm2 *
+          (shaft.torque_Nm + load_Nm - friction_Nms_per_rad * shaft.velocity_radps);
+      shaft.position_rad += 0.0025 * shaft.velocity_radps;
+    }
+    if (!driver_alive) return;
+    out.clear();
+    AllocationCounter counter;
+    driver->on_command(command, now, out);
+    driver->on_tick(now, out);
+    allocations += counter.count();
+    take(command);
+  }
+
+  /// Straight to the twin, as the guard does.
+  void send(const CanFrame& frame) {
+    twin_frames.clear();
+    twin->on_frame(frame, now, twin_frames);
+    to_driver();
+  }
+
+  /// Something on the wire that is not from the twin.
+  void inject(const CanFrame& frame) {
+    out.clear();
+    AllocationCounter counter;
+    driver->on_frame(frame, now, out);
+    allocations += counter.count();
+    overflows += out.overflows;
+    note();
+  }
+
+  std::unique_ptr<CanDriver> driver;
+  std::unique_ptr<CanTwin> twin;
+  Shaft shaft;
+  double load_Nm = 0;
+  double inertia_kgm2 = 0.4;
+  double friction_Nms_per_rad = 0.2;
+  bool driver_alive = true;
+  Time now{std::chrono::seconds(1)};
+  DriverOut out;
+  TwinFrames twin_frames;
+  std::vector<CanFrame> sent;
+  AxisStatus status;
+  AxisMotion motion;
+  int off_list = 0;
+  int forbidden = 0;
+  int motion_at_rest = 0;
+  std::uint64_t allocations = 0;
+  std::uint64_t overflows = 0;
+
+ private:
+  void to_driver() {
+    if (!driver_alive) return;
+    for (const CanFrame& frame : twin_frames) inject(frame);
+  }
+  void note() {
+    for (const Measurement& m : out.measurements) {
+      if (const auto* value = std::get_if<AxisStatus>(&m.value)) status = *value;
+      if (const auto* value = std::get_if<AxisMotion>(&m.value)) motion = *value;
+    }
+  }
+  void take(const AxisCommand& command) {
+    note();
+    overflows += out.overflows;
+    const DriverOut sending = out;
+    for (const CanFrame& frame : sending.frames) {
+      sent.push_back(frame);
+      off_list += on_list(driver->allow_list(), frame) ? 0 : 1;
+      const FrameEffect effect = driver->effect(frame);
+      forbidden += effect == FrameEffect::forbidden ? 1 : 0;
+      motion_at_rest += effect == FrameEffect::motion && command.request != AxisRequest::run;
+      send(frame);
+    }
+  }
+};
+
+/// Frames that look like the driver's own traffic, broken in every way.
+inline CanFrame random_frame(std::mt19937& random, std::span<const CanFrame> like) {
+  CanFrame frame;
+  const auto roll = random() % 8;
+  if (roll < 5 && !like.empty()) {
+    frame = like[random() % like.size()];
+  } else {
+    frame.id = static_cast<std::uint32_t>(random() % (random() % 4 == 0 ? 0x20000000U : 0x800U));
+  }
+  const auto break_how = random() % 8;
+  if (break_how == 0) frame.extended = !frame.extended;
+  if (break_how == 1) frame.remote = !frame.remote;
+  if (break_how == 2) frame.fd = true;
+  if (break_how == 3) frame.error = true;
+  if (break_how != 4) frame.len = static_cast<std::uint8_t>(random() % (frame.fd ? 65 : 9));
+  if (break_how < 7)
+    for (auto& byte : frame.data)
+      if (random() % 3 == 0) byte = static_cast<std::uint8_t>(random());
+  return frame;
+}
+
+inline std::vector<CanFrame> golden_frames(const DriverEntry& entry) {
+  std::vector<CanFrame> frames;
+  for (const GoldenFile& file : read_goldens(DROVER_SOURCE_DIR, entry))
+    for (const GoldenCase& one : file.cases)
+      if (one.is_frame) frames.push_back(one.frame);
+  return frames;
+}
+
+inline std::vector<std::uint8_t> golden_bytes(const DriverEntry& entry) {
+  std::vector<std::uint8_t> bytes;
+  for (const GoldenFile& file : read_goldens(DROVER_SOURCE_DIR, entry))
+    for (const GoldenCase& one : file.cases)
+      bytes.insert(bytes.end(), one.bytes.begin(), one.bytes.end());
+  return bytes;
+}
+
+}  // namespace drover::test

@@ -1,0 +1,442 @@
+#include "drivers/odrive/driver.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "drivers/odrive/entry.h"
+#include "support/describe.h"
+
+namespace drover::odrive {
+namespace {
+
+using std::chrono::milliseconds;
+using test::describe;
+using test::parse_frame;
+
+constexpr auto kIdleBeat = "061#0000000001000000";
+constexpr auto kRunningBeat = "061#0000000008000000";
+
+Options options() { return Options(option_table()).set("node", 3.0).set("poll_s", 0.0); }
+
+/// The driver alone, with heartbeats given by hand.
+class Bench {
+ public:
+  explicit Bench(const Options& values = options()) : driver(read_settings(values), 0) {
+    driver.on_link_up(now);
+  }
+  /// One frame from the drive.
+  void hear(const std::string& frame) {
+    out.clear();
+    driver.on_frame(parse_frame(frame), now, out);
+    note();
+  }
+  /// Cycles of 5 ms; a heartbeat each 100 ms if there is one.
+  void run(int cycles, AxisRequest request, double velocity_radps = 0,
+           const std::string& heartbeat = "") {
+    for (int i = 0; i < cycles; ++i) {
+      now += milliseconds(5);
+      if (!heartbeat.empty() && ++since_beat % 20 == 0) hear(heartbeat);
+      out.clear();
+      driver.on_command({request, velocity_radps}, now, out);
+      driver.on_tick(now, out);
+      note();
+    }
+  }
+  /// In closed loop, following.
+  void arm() {
+    hear(kIdleBeat);
+    run(2, AxisRequest::rest);
+    run(10, AxisRequest::run);
+    hear(kRunningBeat);
+    ASSERT_EQ(status.state, AxisState::running);
+    sent.clear();
+  }
+  int count(const std::string& frame) const {
+    int n = 0;
+    for (const auto& each : sent) n += each == frame ? 1 : 0;
+    return n;
+  }
+  int motions() const {
+    int n = 0;
+    for (const auto& each : sent)
+      n += driver.effect(parse_frame(each)) == FrameEffect::motion ? 1 : 0;
+    return n;
+  }
+
+  Time now{std::chrono::seconds(5)};
+  OdriveDriver driver;
+  DriverOut out;
+  std::vector<std::string> sent;
+  AxisStatus status;
+  int statuses = 0;
+  int since_beat = 0;
+
+ private:
+  void note() {
+    for (const CanFrame& frame : out.frames) sent.push_back(describe(frame));
+    for (const Measurement& m : out.measurements) {
+      if (const auto* value = std::get_if<AxisStatus>(&m.value)) {
+        status = *value;
+        ++statuses;
+      }
+    }
+  }
+};
+
+constexpr auto kZero = "06D#0000000000000000";
+constexpr auto kMode = "06B#0200000001000000";
+constexpr auto kClosedLoop = "067#08000000";
+constexpr auto kIdle = "067#01000000";
+constexpr auto kClear = "078#00";
+
+TEST(OdriveDriver, SendsNothingBeforeAHeartbeat) {
+  Bench bench;
+  bench.run(100, AxisRequest::rest);
+  bench.run(100, AxisRequest::run, 1.0);
+  bench.run(100, AxisRequest::idle);
+  EXPECT_TRUE(bench.sent.empty());
+  EXPECT_EQ(bench.status.state, AxisState::unknown);
+}
+
+TEST(OdriveDriver, IsNotWokenByEstimatesAlone) {
+  Bench bench;
+  bench.hear("069#00004841000050C0");
+  bench.run(100, AxisRequest::rest);
+  EXPECT_TRUE(bench.sent.empty());
+  EXPECT_EQ(bench.driver.health(bench.now).state, SourceState::stale);
+}
+
+TEST(OdriveDriver, DoesNotArmWhenAskedWhileTheDriveWasSilent) {
+  Bench bench;
+  bench.run(10, AxisRequest::run, 1.0);
+  bench.run(200, AxisRequest::run, 1.0, kIdleBeat);
+  EXPECT_EQ(bench.count(kClosedLoop), 0);
+  EXPECT_EQ(bench.status.state, AxisState::fault);
+}
+
+TEST(OdriveDriver, FeedsAnIdleDriveWithZeros) {
+  Bench bench;
+  bench.hear(kIdleBeat);
+  bench.run(40, AxisRequest::rest);
+  EXPECT_EQ(bench.count(kZero), 40);
+  EXPECT_EQ(bench.sent.size(), 40U);
+}
+
+TEST(OdriveDriver, FeedsEvenWhenNobodyCommands) {
+  Bench bench;
+  bench.arm();
+  for (int i = 0; i < 10; ++i) {
+    bench.now += milliseconds(5);
+    bench.out.clear();
+    bench.driver.on_tick(bench.now, bench.out);
+    ASSERT_EQ(bench.out.frames.size(), 1U);
+    EXPECT_EQ(describe(bench.out.frames[0]), kZero);
+  }
+}
+
+TEST(OdriveDriver, ArmsWithModeThenZeroThenClosedLoop) {
+  Bench bench;
+  bench.hear(kIdleBeat);
+  bench.run(1, AxisRequest::rest);
+  bench.sent.clear();
+  bench.run(1, AxisRequest::run, 2.0);
+  ASSERT_GE(bench.sent.size(), 3U);
+  EXPECT_EQ(bench.sent[0], kMode);
+  EXPECT_EQ(bench.sent[1], kZero);
+  EXPECT_EQ(bench.sent[2], kClosedLoop);
+  EXPECT_EQ(bench.status.state, AxisState::arming);
+}
+
+TEST(OdriveDriver, SendsOnlyZeroUntilTheDriveSaysClosedLoopAndRetries) {
+  Bench bench;
+  bench.hear(kIdleBeat);
+  bench.run(1, AxisRequest::rest);
+  bench.run(100, AxisRequest::run, 2.0, kIdleBeat);  // 0.5 s
+  EXPECT_EQ(bench.motions(), 0);
+  EXPECT_EQ(bench.count(kClosedLoop), 5);
+  EXPECT_GE(bench.count(kZero), 100);
+  bench.hear(kRunningBeat);
+  bench.run(1, AxisRequest::run, 2.0 * 3.14159265358979 * 2);
+  EXPECT_EQ(bench.sent.back(), "06D#0000004000000000");  // 2 turns/s
+}
+
+TEST(OdriveDriver, DoesNotBelieveAClosedLoopFromBeforeItsRequest) {
+  Bench bench;
+  bench.hear(kRunningBeat);
+  bench.run(1, AxisRequest::rest);
+  bench.run(1, AxisRequest::run, 2.0);
+  bench.hear(kRunningBeat);  // was under way
+  bench.run(1, AxisRequest::run, 2.0);
+  EXPECT_EQ(bench.motions(), 0);
+  bench.run(10, AxisRequest::run, 2.0);
+  bench.hear(kRunningBeat);
+  bench.run(1, AxisRequest::run, 2.0);
+  EXPECT_EQ(bench.motions(), 1);
+}
+
+TEST(OdriveDriver, GivesUpArmingInTimeAndSaysWhy) {
+  Bench bench;
+  bench.hear(kIdleBeat);
+  bench.run(1, AxisRequest::rest);
+  bench.run(450, AxisRequest::run, 2.0, "061#00000000010E0000");
+  EXPECT_EQ(bench.status.state, AxisState::fault);
+  EXPECT_EQ(bench.status.reason, "does not enter closed loop: not calibrated");
+  bench.sent.clear();
+  bench.run(100, AxisRequest::run, 2.0, kIdleBeat);
+  EXPECT_EQ(bench.count(kClosedLoop), 0);
+}
+
+TEST(OdriveDriver, ClearsErrorsOnceForEachRequest) {
+  Bench bench;
+  const std::string failed = "061#0000000101030000";
+  bench.hear(failed);
+  bench.run(100, AxisRequest::rest, 0, failed);
+  EXPECT_EQ(bench.count(kClear), 0);
+  EXPECT_EQ(bench.status.state, AxisState::fault);
+  EXPECT_EQ(bench.status.reason, "watchdog expired");
+  bench.run(200, AxisRequest::run, 1.0, failed);
+  EXPECT_EQ(bench.count(kClear), 1);
+  EXPECT_EQ(bench.status.state, AxisState::fault);
+  EXPECT_EQ(bench.status.reason, "error does not clear: watchdog expired");
+  bench.run(10, AxisRequest::rest, 0, failed);
+  bench.run(200, AxisRequest::run, 1.0, failed);
+  EXPECT_EQ(bench.count(kClear), 2);
+  EXPECT_EQ(bench.motions(), 0);
+}
+
+TEST(OdriveDriver, RunsAfterAnErrorThatClears) {
+  Bench bench;
+  bench.hear("061#0000000101030000");
+  bench.run(1, AxisRequest::rest);
+  bench.run(10, AxisRequest::run, 1.0);
+  EXPECT_EQ(bench.status.state, AxisState::arming);
+  bench.hear(kRunningBeat);
+  EXPECT_EQ(bench.status.state, AxisState::running);
+}
+
+TEST(OdriveDriver, TakesLeavingClosedLoopWithoutAnErrorForAFault) {
+  Bench bench;
+  bench.arm();
+  bench.run(10, AxisRequest::run, 1.0);
+  EXPECT_EQ(bench.motions(), 10);
+  bench.hear(kIdleBeat);
+  EXPECT_EQ(bench.status.state, AxisState::fault);
+  EXPECT_EQ(bench.status.reason, "left closed loop");
+  bench.sent.clear();
+  bench.run(200, AxisRequest::run, 1.0, kIdleBeat);
+  EXPECT_EQ(bench.motions(), 0);
+  EXPECT_EQ(bench.count(kClosedLoop), 0);
+  EXPECT_EQ(bench.status.state, AxisState::fault);
+  bench.run(1, AxisRequest::rest);
+  EXPECT_EQ(bench.status.state, AxisState::idle);
+  bench.run(1, AxisRequest::run);
+  EXPECT_EQ(bench.count(kClosedLoop), 1);
+}
+
+TEST(OdriveDriver, AsksForTheReasonAtOnceWhenADriveStops) {
+  Bench bench;
+  bench.arm();
+  bench.hear("061#0020000001030000");
+  bench.run(2, AxisRequest::run, 1.0);
+  EXPECT_EQ(bench.count("063#R"), 1);
+  bench.hear("063#0020000000200000");
+  EXPECT_EQ(bench.status.reason, "left closed loop: motor over temperature");
+  EXPECT_EQ(bench.status.error_code, 0x2000U);
+}
+
+TEST(OdriveDriver, AsksForAllThreeReasonsOnOldFirmware) {
+  Bench bench(options().set("firmware", std::string("0.5.6")));
+  bench.arm();
+  bench.hear("061#4000000001010000");
+  bench.run(5, AxisRequest::run, 1.0);
+  EXPECT_EQ(bench.count("063#R"), 1);
+  EXPECT_EQ(bench.count("064#R"), 1);
+  EXPECT_EQ(bench.count("07D#R"), 1);
+  bench.hear("063#0000000008000000");
+  bench.run(1, AxisRequest::run, 1.0);
+  EXPECT_EQ(bench.status.reason, "left closed loop: motor failed; unbalanced phases");
+}
+
+TEST(OdriveDriver, StaysLockedWhenTheHeartbeatComesBackInClosedLoop) {
+  Bench bench;
+  bench.arm();
+  bench.run(70, AxisRequest::run, 1.0);  // 0.35 s without a heartbeat
+  EXPECT_EQ(bench.status.state, AxisState::unknown);
+  bench.sent.clear();
+  bench.run(100, AxisRequest::run, 1.0, kRunningBeat);
+  EXPECT_EQ(bench.motions(), 0);
+  EXPECT_GE(bench.count(kZero), 99);
+}
+
+TEST(OdriveDriver, GoesIdleOnlyAfterZeroAndWhenSlow) {
+  Bench bench;
+  bench.arm();
+  bench.run(5, AxisRequest::run, 5.0);
+  bench.hear("069#0000000000000040");  // 2 turns/s
+  bench.sent.clear();
+  bench.run(20, AxisRequest::idle);
+  EXPECT_EQ(bench.count(kIdle), 0);
+  EXPECT_EQ(bench.count(kZero), 20);
+  bench.hear("069#0000000000000000");
+  bench.run(1, AxisRequest::idle);
+  EXPECT_EQ(bench.count(kIdle), 1);
+  bench.hear(kIdleBeat);
+  bench.run(40, AxisRequest::idle);
+  EXPECT_EQ(bench.count(kIdle), 1);
+}
+
+TEST(OdriveDriver, GoesIdleAtLastWhenItNeverSlowsDown) {
+  Bench bench;
+  bench.arm();
+  bench.hear("069#0000000000000040");
+  bench.run(250, AxisRequest::idle, 0, kRunningBeat);
+  EXPECT_GE(bench.count(kIdle), 2);
+}
+
+TEST(OdriveDriver, TurnsNoNumberIntoZeroAndCountsIt) {
+  Bench bench;
+  bench.arm();
+  bench.run(1, AxisRequest::run, std::nan(""));
+  bench.run(1, AxisRequest::run, INFINITY);
+  EXPECT_EQ(bench.motions(), 0);
+  EXPECT_EQ(bench.driver.bad_setpoints(), 2U);
+}
+
+TEST(OdriveDriver, ClampsToItsVelocityLimitAndCountsIt) {
+  Bench bench(options().set("velocity_limit_turnps", 2.0));
+  bench.arm();
+  bench.run(1, AxisRequest::run, -1000.0);
+  EXPECT_EQ(bench.sent.back(), "06D#000000C000000000");
+  EXPECT_EQ(bench.driver.bad_setpoints(), 1U);
+}
+
+TEST(OdriveDriver, AppliesGearRatioAndSignBothWays) {
+  Bench bench(options().set("gear_ratio", 4.0).set("reversed", true));
+  bench.arm();
+  bench.run(1, AxisRequest::run, 3.14159265358979);
+  EXPECT_EQ(bench.sent.back(), "06D#000000C000000000");  // -2 turns/s
+  bench.hear("069#00008040000000C0");
+  EXPECT_EQ(describe(bench.out),
+            "axis_motion axis=0 position_rad=-6.28319 velocity_radps=3.14159");
+}
+
+TEST(OdriveDriver, KeepsItsDistanceBetweenSetPointsButStopsAtOnce) {
+  Bench bench;
+  bench.arm();
+  bench.now += milliseconds(10);
+  const auto step = [&](double velocity_radps) {
+    bench.now += milliseconds(1);
+    bench.out.clear();
+    bench.driver.on_command({AxisRequest::run, velocity_radps}, bench.now, bench.out);
+    bench.driver.on_tick(bench.now, bench.out);
+    return bench.out.frames.size();
+  };
+  EXPECT_EQ(step(1.0), 1U);
+  EXPECT_EQ(step(1.1), 0U);
+  EXPECT_EQ(step(0.0), 1U);
+  EXPECT_EQ(describe(bench.out.frames[0]), kZero);
+  EXPECT_EQ(step(0.0), 0U);
+}
+
+TEST(OdriveDriver, ReportsItsStatusWithEachHeartbeat) {
+  Bench bench;
+  for (int i = 0; i < 5; ++i) bench.hear(kIdleBeat);
+  EXPECT_EQ(bench.statuses, 5);
+}
+
+TEST(OdriveDriver, DropsAnEffortThatIsOld) {
+  Bench bench;
+  bench.hear("07C#0000003F8FC2F53E");
+  bench.hear("069#0000000000000000");
+  EXPECT_NE(describe(bench.out).find("effort_Nm=0.48"), std::string::npos);
+  bench.now += milliseconds(150);
+  bench.hear("069#0000000000000000");
+  EXPECT_EQ(describe(bench.out).find("effort_Nm"), std::string::npos);
+}
+
+TEST(OdriveDriver, PollsRarelyAndOneFrameAtATime) {
+  Bench bench(options().set("poll_s", 0.5));
+  bench.hear(kIdleBeat);
+  bench.run(400, AxisRequest::rest, 0, kIdleBeat);  // 2 s
+  for (const char* id : {"063#R", "07C#R", "075#R", "077#R"})
+    EXPECT_NEAR(bench.count(id), 4, 1) << id;
+}
+
+TEST(OdriveDriver, ReportsAnotherMaster) {
+  Bench bench;
+  bench.hear(kIdleBeat);
+  bench.hear("069#0000000000000000");
+  bench.hear(kZero);
+  EXPECT_TRUE(bench.driver.health(bench.now).reason.empty()) << "zeros are the guard's";
+  bench.hear("06D#0000004000000000");
+  EXPECT_EQ(bench.driver.health(bench.now).reason, "foreign command id 0x06D on the bus");
+  EXPECT_EQ(bench.driver.health(bench.now).bad, 0U);
+}
+
+TEST(OdriveRules, ForbidWhatMustNeverLeave) {
+  const Settings settings = read_settings(options());
+  for (const char* text :
+       {"067#00000000", "067#02000000", "067#03000000", "067#07000000", "067#0B000000",
+        "067#0801000000000000", "06B#0100000001000000", "06B#0300000005000000",
+        "06B#0200000008000000", "076#01", "076#02", "076#00", "066#05", "079#00000000", "070#",
+        "07F#", "078#01", "062#", "064#01830100B6F39D3F", "064#00830100", "06C#0000000000000000",
+        "06E#00000000", "7F6#00", "7E6#", "061#R", "06D#00000000"})
+    EXPECT_EQ(effect(parse_frame(text), settings), FrameEffect::forbidden) << text;
+}
+
+TEST(OdriveRules, TellStopFromMotion) {
+  const Settings settings = read_settings(options());
+  EXPECT_EQ(effect(parse_frame("06D#0000000000000000"), settings), FrameEffect::stop);
+  EXPECT_EQ(effect(parse_frame("06D#0000008000000000"), settings), FrameEffect::stop);  // -0
+  EXPECT_EQ(effect(parse_frame("06D#0000004000000000"), settings), FrameEffect::motion);
+  EXPECT_EQ(effect(parse_frame("06D#000000000000003F"), settings), FrameEffect::motion);
+  EXPECT_EQ(effect(parse_frame("06D#0000C07F00000000"), settings), FrameEffect::motion);
+  EXPECT_EQ(effect(parse_frame("067#01000000"), settings), FrameEffect::stop);
+  EXPECT_EQ(effect(parse_frame("067#08000000"), settings), FrameEffect::harmless);
+}
+
+TEST(OdriveOptions, AreRefusedWithTheirName) {
+  const auto refused = [](const Options& values) -> std::string {
+    try {
+      read_settings(values);
+    } catch (const std::runtime_error& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  EXPECT_NE(refused(options().set("node", 63.0)).find("node"), std::string::npos);
+  EXPECT_NE(refused(options().set("gear_ratio", 0.0)).find("gear_ratio"), std::string::npos);
+  EXPECT_NE(refused(options().set("gear_ratio", std::nan(""))).find("gear_ratio"),
+            std::string::npos);
+  EXPECT_NE(refused(options().set("firmware", std::string("0.4"))).find("firmware"),
+            std::string::npos);
+  EXPECT_NE(refused(options().set("watchdog_timeout_s", 0.1).set("watchdog_enable_endpoint", 5.0))
+                .find("together"),
+            std::string::npos);
+  EXPECT_NE(refused(options().set("watchdog_timeout_s", 0.005)).find("watchdog_timeout_s"),
+            std::string::npos);
+  EXPECT_NE(refused(options()
+                        .set("firmware", std::string("0.5.6"))
+                        .set("watchdog_timeout_s", 0.1)
+                        .set("watchdog_enable_endpoint", 5.0)
+                        .set("watchdog_timeout_endpoint", 6.0))
+                .find("0.5.6"),
+            std::string::npos);
+  EXPECT_EQ(refused(options()), "accepted");
+}
+
+TEST(OdriveSilence, IsToldHonestly) {
+  const OdriveDriver none(read_settings(options()), 0);
+  EXPECT_FALSE(none.silence().stops);
+  EXPECT_NE(none.silence().text.find("for ever"), std::string::npos);
+  const OdriveDriver saved(read_settings(options().set("watchdog_timeout_s", 0.1)), 0);
+  EXPECT_TRUE(saved.silence().stops);
+  EXPECT_EQ(saved.silence().after, milliseconds(100));
+  EXPECT_NE(saved.silence().text.find("saved in the drive"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace drover::odrive
