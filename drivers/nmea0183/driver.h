@@ -18,8 +18,8 @@ namespace drover::nmea0183 {
 /// Time. A receiver measures at one instant and tells it in a burst of sentences, an epoch. All
 /// measurements of an epoch carry the same instant: the arrival of the first byte of the epoch's
 /// first sentence, freed from delays on the way (TimeAnchor), minus the option `latency_s`, the
-/// receiver's own time between measuring and the first byte. Sentences belong to one epoch when they
-/// carry the same UTC; those without UTC (VTG, HDT, THS) belong to the burst they come in.
+/// receiver's own time between measuring and the first byte. Sentences belong to one epoch when
+/// they carry the same UTC; those without UTC (VTG, HDT, THS) belong to the burst they come in.
 class Nmea0183Driver final : public ByteDriver {
  public:
   /// Throws std::runtime_error when options contradict each other.

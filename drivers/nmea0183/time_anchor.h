@@ -6,8 +6,8 @@
 namespace drover::nmea0183 {
 
 /// Epochs come from the receiver at an even pace, but their bytes may be held up on the way (a busy
-/// line, an adapter's latency timer, a scheduler). The earliest arrival, relative to UTC, is the one
-/// that was held up least: later epochs are placed by it. What is held up for good, such as a
+/// line, an adapter's latency timer, a scheduler). The earliest arrival, relative to UTC, is the
+/// one that was held up least: later epochs are placed by it. What is held up for good, such as a
 /// receiver that lags by a second, thereby gets an honest, old time.
 class TimeAnchor final {
  public:

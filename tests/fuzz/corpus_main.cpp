@@ -24,7 +24,7 @@ Bytes read(const std::filesystem::path& path) {
 
 // One to eight small damages: a changed byte, a cut, a repeated part, a part of another input.
 Bytes mutated(Bytes bytes, const std::vector<Bytes>& corpus, std::mt19937_64& random) {
-  const auto below = [&](std::size_t n) { return n == 0 ? 0 : static_cast<std::size_t>(random() % n); };
+  const auto below = [&](std::size_t n) -> std::size_t { return n == 0 ? 0 : random() % n; };
   const auto offset = [](std::size_t n) { return static_cast<std::ptrdiff_t>(n); };
   for (std::size_t left = 1 + below(8); left > 0; --left) {
     const std::size_t at = below(bytes.size());

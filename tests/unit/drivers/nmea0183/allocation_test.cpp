@@ -19,7 +19,8 @@ TEST(NmeaAllocation, IsNoneInAnyCallOfTheDriver) {
   Nmea0183Driver driver{Options(kNmea0183Entry.options)};
   Nmea0183Twin twin{Options(kNmea0183Entry.twin_options), 3};
   const std::string odd = test::line("GNGGA,103607.00,nan,N,00214.42462,W,4,06,5.88,inf,M,48.5,M") +
-                          "$GNGLL,1*00\r\n" + test::line("PXYZ,1") + std::string(3000, '$') + "\x80";
+                          "$GNGLL,1*00\r\n" + test::line("PXYZ,1") + std::string(3000, '$') +
+                          "\x80";
   DriverOut out;
   std::array<char, 4096> buffer{};
   std::size_t measurements = 0;

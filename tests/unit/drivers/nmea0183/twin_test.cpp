@@ -94,8 +94,9 @@ TEST_F(NmeaTwin, RefusesUnknownStatesAndWrongNumbers) {
 TEST_F(NmeaTwin, RefusesOptionsThatMeanNothing) {
   EXPECT_THROW(Nmea0183Twin(twin_defaults().set("utc_start", std::string("today")), 1),
                std::runtime_error);
-  EXPECT_THROW(Nmea0183Twin(twin_defaults().set("utc_start", std::string("2026-02-29T00:00:00")), 1),
-               std::runtime_error);
+  EXPECT_THROW(
+      Nmea0183Twin(twin_defaults().set("utc_start", std::string("2026-02-29T00:00:00")), 1),
+      std::runtime_error);
   EXPECT_THROW(Nmea0183Twin(twin_defaults().set("talker", std::string("GNX")), 1),
                std::runtime_error);
   EXPECT_THROW(Nmea0183Twin(twin_defaults().set("first_fix", std::string("rtk")), 1),
