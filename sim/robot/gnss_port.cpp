@@ -16,9 +16,11 @@ std::size_t BaudPacer::take(std::size_t waiting, Duration tick) {
     credit_ = 0;
     return 0;
   }
-  credit_ += baud_ / 10.0 * to_s(tick);
-  const auto bytes = std::min(waiting, static_cast<std::size_t>(credit_));
-  credit_ -= static_cast<double>(bytes);
+  // Whole numbers, in bits times nanoseconds a second: nothing is lost to rounding.
+  constexpr std::int64_t kByte = 10 * std::int64_t{1'000'000'000};
+  credit_ += baud_ * std::int64_t{tick.count()};
+  const auto bytes = std::min(waiting, static_cast<std::size_t>(credit_ / kByte));
+  credit_ -= static_cast<std::int64_t>(bytes) * kByte;
   return bytes;
 }
 

@@ -1,6 +1,7 @@
 // The receiver's serial line: a pseudo-terminal whose bytes leave at the pace of the baud rate.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -19,7 +20,7 @@ class BaudPacer {
 
  private:
   int baud_;
-  double credit_ = 0;
+  std::int64_t credit_ = 0;
 };
 
 class GnssPort {

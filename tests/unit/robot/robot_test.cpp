@@ -1,0 +1,252 @@
+// The robot between its wires: frames reach the right drives, contacts follow the world, commands
+// do what they say, and two runs are equal to the bit.
+#include "sim/robot/robot.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace drover::sim {
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+/// A drive with a torque from its last frame, which reports its angle once a tick.
+class FakeDrive final : public CanTwin {
+ public:
+  explicit FakeDrive(std::uint32_t id) : id_(id) {}
+  void on_frame(const CanFrame& frame, Time, TwinFrames& out) override {
+    if (frame.id != id_) return;
+    torque_Nm_ = frame.data[0];
+    (void)out.push_back(make_frame(id_ + 0x100, {frame.data[0]}));
+  }
+  void on_tick(Time now, Shaft& shaft, TwinFrames& out) override {
+    shaft.torque_Nm = torque_Nm_;
+    (void)out.push_back(
+        make_frame(id_ + (now.time_since_epoch() % kTick == Duration{} ? 0x200 : 0x300)));
+  }
+  void set_power(bool on, Time) override { torque_Nm_ = on ? torque_Nm_ : 0; }
+  bool set_fault(std::string_view name, Time) override { return name == "hot" || name.empty(); }
+
+ private:
+  std::uint32_t id_;
+  double torque_Nm_ = 0;
+};
+
+struct FakeReceiver final : GnssTwin {
+  explicit FakeReceiver(GnssTruth* seen) : last(seen) {}
+  std::size_t on_tick(Time, const GnssTruth& truth, std::span<char> out) override {
+    *last = truth;
+    out[0] = '$';
+    return 1;
+  }
+  bool set_state(std::string_view name, Time) override { return name == "float"; }
+  GnssTruth* last;
+};
+
+class RobotTest : public testing::Test {
+ protected:
+  RobotTest() {
+    scenario.world = std::string(DROVER_SOURCE_DIR) + "/sim/worlds/field.xml";
+    scenario.origin_latitude_deg = 52;
+    scenario.origin_longitude_deg = 13;
+    scenario.buses = {{"can0", CanKind::vcan}, {"can1", CanKind::vcan}};
+    for (const auto* joint : {"front_left", "front_right", "rear_left", "rear_right"})
+      scenario.drives.push_back({joint, nullptr, 0, {}});
+    scenario.gnss.emplace();
+    scenario.gnss->antenna_x_m = 1;
+  }
+  Robot make() {
+    Twins twins;
+    for (std::uint32_t i = 0; i < scenario.drives.size(); ++i)
+      twins.drives.push_back(std::make_unique<FakeDrive>(i + 1));
+    twins.gnss = std::make_unique<FakeReceiver>(&seen);
+    return {scenario, std::move(twins)};
+  }
+  void run(Robot& robot, Duration time) {
+    for (const Time end = now + time; now < end; now += kTick) robot.step(now);
+  }
+  Scenario scenario;
+  GnssTruth seen;
+  Time now{std::chrono::seconds(100)};
+};
+
+TEST_F(RobotTest, RefusesAJointThatTheWorldDoesNotHave) {
+  scenario.drives[2].joint = "tail";
+  EXPECT_THROW(make(), std::runtime_error);
+}
+
+TEST_F(RobotTest, RefusesUnknownCommandsAndChangesNothing) {
+  auto robot = make();
+  for (const auto* text :
+       {"", "  ", "dance", "estop", "estop maybe", "zone middle occupied", "zone near",
+        "obstacle obstacle 1", "obstacle cow 1 1", "obstacle obstacle nan 0", "kick 1", "kick 1 x",
+        "gnss", "gnss sunny", "drive front_left", "drive front_left power", "drive tail power on",
+        "drive all fault broken", "drive all fault"})
+    EXPECT_THAT(robot.command(text), StartsWith("error: ")) << text;
+  run(robot, kTick);
+  for (std::size_t i = 0; i < kLineNames; ++i)
+    EXPECT_TRUE(robot.line_high(static_cast<LineName>(i)));
+}
+
+TEST_F(RobotTest, IgnoresFramesOfAnotherBus) {
+  auto robot = make();
+  robot.on_frame(1, make_frame(1, {9}), now);
+  run(robot, std::chrono::seconds(1));
+  EXPECT_NEAR(robot.truth().pose.x_m, 0, 1e-3);
+  EXPECT_TRUE(robot.frames(1).empty());
+}
+
+TEST_F(RobotTest, IgnoresErrorFrames) {
+  auto robot = make();
+  auto frame = make_frame(1, {9});
+  frame.error = true;
+  robot.on_frame(0, frame, now);
+  robot.step(now);
+  EXPECT_EQ(robot.truth().wheels[0].torque_Nm, 0);
+}
+
+TEST_F(RobotTest, SendsAnswersAndTheTicksFramesAndKeepsLaterOnes) {
+  auto robot = make();
+  robot.on_frame(0, make_frame(1, {3}), now);
+  robot.step(now);
+  ASSERT_EQ(robot.frames(0).size(), 5U);
+  EXPECT_EQ(robot.frames(0)[0], make_frame(0x101, {3}));
+  EXPECT_EQ(robot.frames(0)[1].id, 0x201U);
+  robot.step(now + kTick);
+  ASSERT_EQ(robot.frames(0).size(), 8U);
+  EXPECT_EQ(robot.frames(0)[0].id, 0x301U);  // fell due between the ticks
+}
+
+TEST_F(RobotTest, DrivesWhereItsDrivesTurn) {
+  auto robot = make();
+  for (std::uint32_t i = 1; i <= 4; ++i) robot.on_frame(0, make_frame(i, {3}), now);
+  run(robot, std::chrono::seconds(3));
+  EXPECT_GT(robot.truth().pose.x_m, 1);
+  EXPECT_GT(robot.truth().wheels[0].velocity_radps, 1);
+  EXPECT_EQ(robot.truth().wheels[0].torque_Nm, 3);
+}
+
+TEST_F(RobotTest, TellsTheReceiverWhereItsAntennaIs) {
+  scenario.start_yaw_deg = 90;  // north
+  scenario.gnss->heading_offset_deg = 30;
+  auto robot = make();
+  robot.step(now);
+  // One metre of latitude is 1 / 111 267 degree at 52 degrees north.
+  EXPECT_NEAR((seen.latitude_deg - 52) * 111267, 1, 1e-3);
+  EXPECT_NEAR(seen.longitude_deg, 13, 1e-8);
+  EXPECT_NEAR(seen.heading_deg, 30, 1e-6);
+  EXPECT_EQ(robot.gnss_bytes(), "$");
+}
+
+TEST_F(RobotTest, PullsTheLineOfAPressedButtonLow) {
+  auto robot = make();
+  EXPECT_TRUE(robot.line_high(LineName::estop));
+  EXPECT_EQ(robot.command("estop press"), "ok");
+  EXPECT_FALSE(robot.line_high(LineName::estop));
+  EXPECT_EQ(robot.command("estop release"), "ok");
+  EXPECT_TRUE(robot.line_high(LineName::estop));
+}
+
+TEST_F(RobotTest, TurnsTheLevelsRoundWhereTheScenarioSaysSo) {
+  scenario.lines[0].active_high = true;
+  auto robot = make();
+  EXPECT_FALSE(robot.line_high(LineName::estop));
+  robot.command("estop press");
+  EXPECT_TRUE(robot.line_high(LineName::estop));
+}
+
+TEST_F(RobotTest, SeesAnObstacleInItsZonesUntilItIsGone) {
+  auto robot = make();
+  EXPECT_EQ(robot.command("obstacle obstacle 2.0 0"), "ok");
+  robot.step(now);
+  EXPECT_FALSE(robot.line_high(LineName::zone_far));
+  EXPECT_TRUE(robot.line_high(LineName::zone_near));
+  EXPECT_EQ(robot.command("obstacle obstacle 1.2 0"), "ok");
+  robot.step(now + kTick);
+  EXPECT_FALSE(robot.line_high(LineName::zone_near));
+  EXPECT_EQ(robot.command("obstacle obstacle remove"), "ok");
+  robot.step(now + 2 * kTick);
+  EXPECT_TRUE(robot.line_high(LineName::zone_far));
+  EXPECT_TRUE(robot.line_high(LineName::zone_near));
+}
+
+TEST_F(RobotTest, ForcesAZoneUntilItIsLeftToTheWorldAgain) {
+  auto robot = make();
+  robot.command("zone near occupied");
+  run(robot, 2 * kTick);
+  EXPECT_FALSE(robot.line_high(LineName::zone_near));
+  robot.command("zone near free");
+  EXPECT_TRUE(robot.line_high(LineName::zone_near));
+}
+
+TEST_F(RobotTest, FeelsABoxWithItsBumper) {
+  auto robot = make();
+  robot.command("obstacle obstacle 1.0 0");
+  for (std::uint32_t i = 1; i <= 4; ++i) robot.on_frame(0, make_frame(i, {4}), now);
+  bool touched = false;
+  for (int i = 0; i < 600; ++i, now += kTick) {
+    robot.step(now);
+    touched = touched || !robot.line_high(LineName::bumper);
+  }
+  EXPECT_TRUE(touched);
+}
+
+TEST_F(RobotTest, LosesADriveWithoutSupply) {
+  auto robot = make();
+  EXPECT_EQ(robot.command("drive front_left power off"), "ok");
+  robot.on_frame(0, make_frame(1, {9}), now);
+  robot.step(now);
+  EXPECT_EQ(robot.frames(0).size(), 3U);
+  EXPECT_EQ(robot.command("drive front_left power on"), "ok");
+  robot.step(now + kTick);
+  EXPECT_EQ(robot.truth().wheels[0].torque_Nm, 0);
+  EXPECT_EQ(robot.frames(0).size(), 3U + 4U);
+}
+
+TEST_F(RobotTest, TakesTheDrivesSupplyAwayWithTheButtonWhereItIsWiredSo) {
+  scenario.estop_cuts_power = true;
+  auto robot = make();
+  robot.command("estop press");
+  robot.step(now);
+  EXPECT_TRUE(robot.frames(0).empty());
+  robot.command("estop release");
+  robot.step(now + kTick);
+  EXPECT_EQ(robot.frames(0).size(), 4U);
+}
+
+TEST_F(RobotTest, PassesFaultsAndReceiverStatesOn) {
+  auto robot = make();
+  EXPECT_EQ(robot.command("drive all fault hot"), "ok");
+  EXPECT_EQ(robot.command("drive all fault none"), "ok");
+  EXPECT_EQ(robot.command("gnss float"), "ok");
+}
+
+TEST_F(RobotTest, AnswersWithTheTruth) {
+  auto robot = make();
+  robot.step(now);
+  EXPECT_THAT(robot.command("truth"), StartsWith("{\"time_s\":100.000000000,\"x_m\":"));
+  EXPECT_THAT(robot.command("truth"), HasSubstr("\"yaw_rad\":"));
+}
+
+TEST_F(RobotTest, GivesTheSameBitsTwice) {
+  const auto drive = [this] {
+    auto robot = make();
+    now = Time{std::chrono::seconds(100)};
+    robot.on_frame(0, make_frame(1, {2}), now);
+    robot.on_frame(0, make_frame(2, {5}), now);
+    run(robot, std::chrono::seconds(2));
+    robot.command("kick 0.3 -0.2");
+    run(robot, std::chrono::seconds(2));
+    const auto& truth = robot.truth();
+    return std::array{truth.pose.x_m,     truth.pose.y_m,
+                      truth.pose.yaw_rad, truth.wheels[3].position_rad,
+                      seen.latitude_deg,  seen.longitude_deg};
+  };
+  EXPECT_EQ(drive(), drive());
+}
+
+}  // namespace
+}  // namespace drover::sim

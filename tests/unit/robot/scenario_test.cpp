@@ -1,0 +1,147 @@
+// A scenario is refused with one sentence that names the key, or read whole.
+#include "sim/robot/scenario.h"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+namespace drover::sim {
+namespace {
+
+const std::string kPlain = R"({"world": "field.xml",
+  "origin": {"latitude_deg": 52, "longitude_deg": 13})";
+
+/// The message with which a scenario of these further members is refused.
+std::string refusal(const std::string& members) {
+  try {
+    (void)parse_scenario(kPlain + members + "}", "/w");
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(Scenario, RefusesAnUnknownKeyAndNamesTheKnownOnes) {
+  EXPECT_EQ(refusal(R"(, "start": {"x": 1})"),
+            "start.x: unknown key; known here: x_m, y_m, yaw_deg");
+}
+
+TEST(Scenario, RefusesAKeyThatStandsThereTwice) {
+  EXPECT_EQ(refusal(R"(, "name": "a", "name": "b")"), "name: the key stands there twice");
+}
+
+TEST(Scenario, RefusesTextThatIsNoJson) {
+  EXPECT_THROW((void)parse_scenario("{\"world\": ", ""), std::exception);
+  EXPECT_THROW((void)parse_scenario("[]", ""), std::exception);
+}
+
+TEST(Scenario, RefusesAScenarioWithoutAWorld) {
+  EXPECT_THROW((void)parse_scenario("{}", ""), std::runtime_error);
+}
+
+TEST(Scenario, RefusesAWrongType) {
+  EXPECT_EQ(refusal(R"(, "start": {"x_m": "1"})"), "start.x_m: must be a number");
+  EXPECT_EQ(refusal(R"(, "estop_cuts_power": 1)"), "estop_cuts_power: must be true or false");
+  EXPECT_EQ(refusal(R"(, "drives": {})"), "drives: must be a list");
+  EXPECT_EQ(refusal(R"(, "can": 3)"), "can: must be an object");
+}
+
+TEST(Scenario, RefusesAnUnknownKindOfBus) {
+  EXPECT_EQ(refusal(R"(, "can": {"can0": {"kind": "usb"}})"),
+            "can.can0.kind: must be one of vcan, canfd, slcan, unix");
+}
+
+TEST(Scenario, RefusesADriveOnABusThatIsNotThere) {
+  EXPECT_EQ(refusal(R"(, "drives": [{"joint": "a", "driver": "odrive", "bus": "can7"}])"),
+            "drives[0].bus: 'can7' is not in 'can'");
+}
+
+TEST(Scenario, RefusesADriverWithoutATwin) {
+  EXPECT_NE(refusal(R"(, "can": {"can0": {"kind": "vcan"}},
+    "drives": [{"joint": "a", "driver": "gpio_line", "bus": "can0"}])")
+                .find("drives[0].driver: no simulated 'gpio_line' of this kind; there is: odrive"),
+            std::string::npos);
+}
+
+TEST(Scenario, RefusesAnOptionThatTheDriverDoesNotHave) {
+  EXPECT_EQ(refusal(R"(, "can": {"can0": {"kind": "vcan"}}, "drives": [{"joint": "a",
+    "driver": "odrive", "bus": "can0", "options": {"node": 0, "nod": 1}}])")
+                .find("drives[0].options.nod: unknown key; known here: "),
+            0U);
+}
+
+TEST(Scenario, RefusesAnOptionOutsideItsRange) {
+  EXPECT_EQ(refusal(R"(, "can": {"can0": {"kind": "vcan"}}, "drives": [{"joint": "a",
+    "driver": "odrive", "bus": "can0", "options": {"node": 99}}])")
+                .find("drives[0].options.node: must be from 0 to 6"),
+            0U);
+}
+
+TEST(Scenario, RefusesTwoDrivesOfOneJoint) {
+  const std::string drive =
+      R"({"joint": "a", "driver": "odrive", "bus": "can0", "options": {"node": 1}})";
+  EXPECT_EQ(
+      refusal(R"(, "can": {"can0": {"kind": "vcan"}}, "drives": [)" + drive + "," + drive + "]"),
+      "drives[1].joint: 'a' has a drive already");
+}
+
+TEST(Scenario, RefusesALevelThatIsNone) {
+  EXPECT_EQ(refusal(R"(, "lines": {"estop": "closed"})"),
+            "lines.estop: must be the active level, low or high, or unwired");
+}
+
+TEST(Scenario, RefusesAnOriginThatIsNoPlace) {
+  EXPECT_THROW((void)parse_scenario(
+                   R"({"world": "w", "origin": {"latitude_deg": 91, "longitude_deg": 0}})", ""),
+               std::runtime_error);
+}
+
+TEST(Scenario, RefusesAFarZoneInsideTheNearOne) {
+  EXPECT_EQ(refusal(R"(, "zones": {"near_m": 1, "far_m": 0.5})"),
+            "zones.far_m: must not be below near_m");
+}
+
+TEST(Scenario, RefusesAFileThatIsNotThere) {
+  EXPECT_THROW((void)load_scenario("/no/such/scenario.json"), std::runtime_error);
+}
+
+TEST(Scenario, FindsTheWorldBesideItself) {
+  const auto scenario = parse_scenario(kPlain + "}", "/a/scenarios/../worlds");
+  EXPECT_EQ(scenario.world, "/a/worlds/field.xml");
+}
+
+TEST(Scenario, HasFailSafeLinesUnlessItSaysOtherwise) {
+  EXPECT_FALSE(parse_scenario(kPlain + "}", "").lines[0].active_high);
+  const auto scenario =
+      parse_scenario(kPlain + R"(, "lines": {"estop": "high", "bumper": "unwired"}})", "");
+  EXPECT_TRUE(scenario.lines[0].active_high);
+  EXPECT_FALSE(scenario.lines[1].wired);
+  EXPECT_TRUE(scenario.lines[2].wired);
+}
+
+TEST(Scenario, PutsItsEventsInOrder) {
+  const auto scenario = parse_scenario(
+      kPlain + R"(, "events": [{"at_s": 2, "command": "b"}, {"at_s": 0.5, "command": "a"}]})", "");
+  ASSERT_EQ(scenario.events.size(), 2U);
+  EXPECT_EQ(scenario.events[0].command, "a");
+  EXPECT_EQ(scenario.events[0].at, std::chrono::milliseconds(500));
+}
+
+TEST(Scenario, ReadsAWholeRobotWithComments) {
+  const auto scenario = parse_scenario(kPlain + R"(, // the buses
+    "can": {"can0": {"kind": "slcan"}},
+    "drives": [{"joint": "front_left", "driver": "odrive", "bus": "can0", "options": {"node": 5}}],
+    "gnss": {"baud": 38400, "antenna": {"z_m": 0.8, "heading_offset_deg": 90}},
+    "player": {"anything": [1]}})",
+                                       "");
+  EXPECT_EQ(scenario.buses[0].kind, CanKind::slcan);
+  ASSERT_EQ(scenario.drives.size(), 1U);
+  EXPECT_EQ(scenario.drives[0].options.number("node"), 5);
+  ASSERT_TRUE(scenario.gnss);
+  EXPECT_EQ(scenario.gnss->baud, 38400);
+  EXPECT_EQ(scenario.gnss->antenna_z_m, 0.8);
+  EXPECT_EQ(scenario.gnss->heading_offset_deg, 90);
+}
+
+}  // namespace
+}  // namespace drover::sim

@@ -1,0 +1,90 @@
+// The whole simulator on socket buses and files, in real time: it starts, answers, records, ends.
+#include "sim/robot/simulator.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <poll.h>
+#include <stdlib.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <thread>
+
+#include "link/can_open.h"
+
+namespace drover::sim {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+class SimulatorTest : public testing::Test {
+ protected:
+  SimulatorTest() {
+    std::string pattern = (fs::temp_directory_path() / "drover-sim-XXXXXX").string();
+    folder = ::mkdtemp(pattern.data());
+    std::ofstream(folder / "scenario.json")
+        << R"({"name": "smoke", "world": ")" << DROVER_SOURCE_DIR << R"(/sim/worlds/field.xml",
+      "origin": {"latitude_deg": 52, "longitude_deg": 13},
+      "can": {"can0": {"kind": "vcan"}},
+      "drives": [{"joint": "front_left", "driver": "odrive", "bus": "can0",
+                  "options": {"node": 0}}],
+      "gnss": {}})";
+    settings.scenario_file = (folder / "scenario.json").string();
+    settings.run_folder = (folder / "run").string();
+    settings.log_folder = (folder / "log").string();
+    settings.can_over_unix = true;
+    settings.line_files = true;
+  }
+  ~SimulatorTest() override { fs::remove_all(folder); }
+  std::string read(const fs::path& path) const {
+    std::ifstream stream(folder / path);
+    std::ostringstream text;
+    text << stream.rdbuf();
+    return text.str();
+  }
+  fs::path folder;
+  SimulatorSettings settings;
+};
+
+TEST_F(SimulatorTest, RefusesAScenarioThatIsNotThere) {
+  settings.scenario_file = "/no/such.json";
+  EXPECT_THROW(Simulator{settings}, std::runtime_error);
+}
+
+TEST_F(SimulatorTest, AnswersOnItsWiresUntilItIsToldToQuit) {
+  Simulator simulator(settings);
+  std::thread loop([&simulator] { simulator.run(); });
+  const auto socket = settings.run_folder + "/sim.sock";
+  auto can = link::open_can({"unix:" + settings.run_folder + "/can0.sock", 64, false});
+  ASSERT_TRUE(can.link) << can.problem;
+  pollfd wait{can.link->fd(), POLLIN, 0};
+  EXPECT_EQ(::poll(&wait, 1, 20'000), 1) << "no frame came";
+
+  EXPECT_THAT(ask(socket, "dance"), StartsWith("error: unknown command"));
+  EXPECT_THAT(ask(socket, "can can9 unplug"), StartsWith("error: say: can BUS"));
+  EXPECT_THAT(ask(socket, "truth"), HasSubstr("\"x_m\":"));
+  EXPECT_EQ(ask(socket, "estop press"), "ok");
+  EXPECT_TRUE(fs::is_symlink(folder / "run/gnss"));
+  EXPECT_EQ(ask(socket, "quit"), "ok");
+  loop.join();
+  EXPECT_THAT(simulator.summary(), HasSubstr(" ticks"));
+  EXPECT_THAT(read("log/can.log"), HasSubstr(") can0 001#"));
+  EXPECT_THAT(read("log/truth.csv"), StartsWith("time_s,x_m,y_m"));
+}
+
+TEST_F(SimulatorTest, LeavesNothingInItsRunFolder) {
+  {
+    Simulator simulator(settings);
+    std::thread loop([&simulator] { simulator.run(); });
+    (void)ask(settings.run_folder + "/sim.sock", "quit");
+    loop.join();
+  }
+  for (const auto* name : {"run/gnss", "run/can0.sock", "run/sim.sock", "run/ready"})
+    EXPECT_FALSE(fs::exists(fs::symlink_status(folder / name))) << name;
+}
+
+}  // namespace
+}  // namespace drover::sim
