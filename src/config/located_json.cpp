@@ -219,7 +219,7 @@ class Builder {
       if (const auto* items = frame.node.list()) {
         path += "[" + std::to_string(items->size()) + "]";
       } else if (!frame.key.empty()) {
-        path += (path.empty() ? "" : ".") + frame.key.substr(0, 60);
+        path += (path.empty() ? "" : ".") + shown(frame.key, 60);
       }
     }
     return path;
@@ -243,6 +243,17 @@ std::string JsonError::text() const {
   std::string text = "line " + std::to_string(line) + ", column " + std::to_string(column);
   if (!path.empty()) text += " (" + path + ")";
   return text + ": " + message;
+}
+
+std::string shown(std::string_view text, std::size_t max_bytes) {
+  std::size_t size = std::min(text.size(), max_bytes);
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  while (size > 0 && size < text.size() && (byte(size) & 0xC0U) == 0x80U) --size;
+  std::string out(text.substr(0, size));
+  for (char& c : out) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = '?';
+  }
+  return size < text.size() ? out + "..." : out;
 }
 
 Result<Document, JsonError> parse(std::string_view text, const Limits& limits) {

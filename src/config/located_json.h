@@ -59,11 +59,15 @@ struct Limits {
 struct JsonError {
   std::size_t line = 0;  ///< from 1
   std::size_t column = 0;
-  std::string path;      ///< like `data.points[3].x`; empty at the top
+  std::string path;  ///< like `data.points[3].x`; empty at the top
   std::string message;
   /// "line 3, column 7 (data.name): ..."
   std::string text() const;
 };
+
+/// Foreign text for a message or a log line: at most `max_bytes`, cut between characters, control
+/// characters as '?', so that it cannot forge a line.
+std::string shown(std::string_view text, std::size_t max_bytes);
 
 /// Refuses, while parsing: depth, size and number of values beyond `limits`, duplicate keys,
 /// integers beyond 64 bits, numbers beyond a double, invalid UTF-8, lone surrogates, a byte order

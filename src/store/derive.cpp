@@ -21,9 +21,10 @@ Track derive(const Track& track, const std::optional<GeodeticPoint>& origin,
                                             origin->altitude_m);
   for (TrackPoint& point : derived.points) {
     double up_m = 0;
-    // A track knows no height above the ellipsoid; the origin's own is right to centimetres in x, y.
-    frame.Forward(point.latitude_deg, point.longitude_deg, origin->altitude_m, point.x_m,
-                  point.y_m, up_m);
+    // A track knows no height above the ellipsoid; the origin's own is right to centimetres in x,
+    // y.
+    frame.Forward(point.latitude_deg, point.longitude_deg, origin->altitude_m, point.x_m, point.y_m,
+                  up_m);
     const double c = std::cos(point.yaw_rad);
     const double s = std::sin(point.yaw_rad);
     point.x_m -= c * antenna.x_m - s * antenna.y_m;

@@ -9,8 +9,8 @@
 
 namespace drover::store {
 
-/// Where the receiver's reference point is in base_link (REP 103: x ahead, y left), metres: latitude
-/// and longitude of a recorded point are the antenna's, x and y are base_link's.
+/// Where the receiver's reference point is in base_link (REP 103: x ahead, y left), metres:
+/// latitude and longitude of a recorded point are the antenna's, x and y are base_link's.
 struct AntennaOffset {
   double x_m = 0;
   double y_m = 0;

@@ -77,12 +77,11 @@ Result<std::string, Failure> unseal(std::string_view format, int version, std::s
 }
 
 std::string failure_text(std::string_view step, const std::string& path, int error) {
-  return "cannot " + std::string(step) + " " + path + ": " +
-         std::generic_category().message(error);
+  return "cannot " + std::string(step) + " " + path + ": " + std::generic_category().message(error);
 }
 
 std::optional<Failure> write_durably(Files& files, const std::string& folder,
-                                         const std::string& name, std::string_view content) {
+                                     const std::string& name, std::string_view content) {
   const std::string path = folder + "/" + name;
   std::string temporary;
   int descriptor = -1;
@@ -107,14 +106,16 @@ std::optional<Failure> write_durably(Files& files, const std::string& folder,
     files.remove(temporary);
     return Failure{failure_text(step, temporary, error)};
   }
-  if (const int e = files.sync_folder(folder); e != 0) return Failure{failure_text("sync", folder, e)};
+  if (const int e = files.sync_folder(folder); e != 0)
+    return Failure{failure_text("sync", folder, e)};
   return std::nullopt;
 }
 
 Result<std::string, Failure> quarantine(Files& files, const std::string& folder,
                                         const std::string& name) {
   std::vector<std::string> taken;
-  if (const int e = files.list(folder, taken); e != 0) return Failure{failure_text("list", folder, e)};
+  if (const int e = files.list(folder, taken); e != 0)
+    return Failure{failure_text("list", folder, e)};
   std::string aside = name + ".bad";
   for (int i = 2; std::find(taken.begin(), taken.end(), aside) != taken.end(); ++i) {
     aside = name + ".bad" + std::to_string(i);

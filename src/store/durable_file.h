@@ -30,7 +30,7 @@ Result<std::string, Failure> unseal(std::string_view format, int version, std::s
 /// file, because the kernel forgets what it could not write.
 /// The failure names the step, the path and the system's words.
 std::optional<Failure> write_durably(Files& files, const std::string& folder,
-                                         const std::string& name, std::string_view content);
+                                     const std::string& name, std::string_view content);
 
 /// "cannot write /path: No space left on device"
 std::string failure_text(std::string_view step, const std::string& path, int error);

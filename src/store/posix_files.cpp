@@ -13,7 +13,9 @@
 namespace drover::store {
 namespace {
 
-int result(int value) { return value < 0 ? errno : 0; }
+int result(int value) {
+  return value < 0 ? errno : 0;
+}
 
 int open_again(const std::string& path, int flags, mode_t mode = 0) {
   int descriptor = -1;
@@ -89,15 +91,21 @@ int PosixFiles::write(int descriptor, std::string_view content) {
   return 0;
 }
 
-int PosixFiles::sync(int descriptor) { return result(::fsync(descriptor)); }
+int PosixFiles::sync(int descriptor) {
+  return result(::fsync(descriptor));
+}
 
-int PosixFiles::close(int descriptor) { return result(::close(descriptor)); }
+int PosixFiles::close(int descriptor) {
+  return result(::close(descriptor));
+}
 
 int PosixFiles::rename(const std::string& from, const std::string& to) {
   return result(std::rename(from.c_str(), to.c_str()));
 }
 
-int PosixFiles::remove(const std::string& path) { return result(::unlink(path.c_str())); }
+int PosixFiles::remove(const std::string& path) {
+  return result(::unlink(path.c_str()));
+}
 
 int PosixFiles::sync_folder(const std::string& path) {
   const int descriptor = open_again(path, O_RDONLY | O_DIRECTORY);

@@ -10,8 +10,8 @@
 
 namespace drover::store {
 
-/// All numbers are kept as they came, whether they make sense or not (the protocol's own example has
-/// a longitude of 188.2): what cannot be driven is refused at start.
+/// All numbers are kept as they came, whether they make sense or not (the protocol's own example
+/// has a longitude of 188.2): what cannot be driven is refused at start.
 struct TrackPoint {
   double longitude_deg = 0;
   double latitude_deg = 0;

@@ -24,10 +24,9 @@ bool stays(char c) {
 bool read_point(const json::Node& node, TrackPoint& point) {
   const auto* items = node.list();
   if (items == nullptr || items->size() != kNumbersPerPoint) return false;
-  double* const fields[kNumbersPerPoint] = {&point.longitude_deg, &point.latitude_deg,
-                                            &point.angle_deg,     &point.x_m,
-                                            &point.y_m,           &point.yaw_rad,
-                                            &point.z_m};
+  double* const fields[kNumbersPerPoint] = {
+      &point.longitude_deg, &point.latitude_deg, &point.angle_deg, &point.x_m,
+      &point.y_m,           &point.yaw_rad,      &point.z_m};
   for (std::size_t i = 0; i < kNumbersPerPoint; ++i) {
     const auto number = (*items)[i].number();
     if (!number) return false;

@@ -14,10 +14,10 @@ inline constexpr std::string_view kTrackEnding = ".json";
 /// Room for kMaxPointsPerTrack points.
 inline constexpr std::size_t kMaxTrackFileBytes = std::size_t{24} << 20;
 
-/// A file name for any track name: lower-case letters, digits, `_`, `-` stay, all other bytes become
-/// %xx, so it never leaves its folder and two names never share it by case or normalisation. Long
-/// names are cut and end in `~` and a fingerprint. `attempt` > 0 gives another name, for the case
-/// that two long names share the fingerprint.
+/// A file name for any track name: lower-case letters, digits, `_`, `-` stay, all other bytes
+/// become %xx, so it never leaves its folder and two names never share it by case or normalisation.
+/// Long names are cut and end in `~` and a fingerprint. `attempt` > 0 gives another name, for the
+/// case that two long names share the fingerprint.
 std::string track_file_name(std::string_view name, int attempt = 0);
 
 std::string encode_track(const Track& track);

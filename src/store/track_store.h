@@ -18,8 +18,9 @@ class TrackStore final {
   /// `files` is borrowed for the lifetime of this object; `folder` exists.
   TrackStore(Files& files, std::string folder);
 
-  /// Reads all tracks. What cannot be used is renamed to `<file>.bad` and reported, a sentence each;
-  /// leftovers of interrupted saves are removed; what exceeds the limits stays and is reported.
+  /// Reads all tracks. What cannot be used is renamed to `<file>.bad` and reported, a sentence
+  /// each; leftovers of interrupted saves are removed; what exceeds the limits stays and is
+  /// reported.
   std::vector<Track> load(std::vector<std::string>& report);
 
   /// Stores or replaces; returns nothing when it is durable.

@@ -15,10 +15,15 @@ std::string refusal(std::string_view text, const Limits& limits = {}) {
 }
 
 TEST(LocatedJson, RefusesWhatIsNoJson) {
-  for (const std::string_view text :
-       {"", " ", "// only a comment", "{", "[1,]", "{\"a\":1,}", "[1 2]", "nul", "NaN", "Infinity",
-        "-Infinity", "'a'", "{a:1}", "01", "+1", ".5", "1.", "0x10", "\"\t\"", "\"\\x\"",
-        "/* open", "{} {}", "{}x", "[1],", "1 // c\n2", "undefined", "\"open"}) {
+  for (const std::string_view text : {"",          " ",         "// only a comment",
+                                      "{",         "[1,]",      "{\"a\":1,}",
+                                      "[1 2]",     "nul",       "NaN",
+                                      "Infinity",  "-Infinity", "'a'",
+                                      "{a:1}",     "01",        "+1",
+                                      ".5",        "1.",        "0x10",
+                                      "\"\t\"",    "\"\\x\"",   "/* open",
+                                      "{} {}",     "{}x",       "[1],",
+                                      "1 // c\n2", "undefined", "\"open"}) {
     EXPECT_NE(refusal(text), "accepted") << text;
   }
 }
@@ -61,9 +66,9 @@ TEST(LocatedJson, RefusesNumbersThatDoNotFit) {
 }
 
 TEST(LocatedJson, RefusesBadUnicode) {
-  for (const std::string_view text : {"\"\xFF\"", "\"\xC0\xAF\"", "\"\xED\xA0\x80\"", "\"\xE5\x9B\"",
-                                      "\"\\ud800\"", "\"\\udc00\"", "\"\\ud800x\"",
-                                      "\xEF\xBB\xBF{}"}) {
+  for (const std::string_view text :
+       {"\"\xFF\"", "\"\xC0\xAF\"", "\"\xED\xA0\x80\"", "\"\xE5\x9B\"", "\"\\ud800\"",
+        "\"\\udc00\"", "\"\\ud800x\"", "\xEF\xBB\xBF{}"}) {
     EXPECT_NE(refusal(text), "accepted");
   }
 }
@@ -110,7 +115,8 @@ TEST(LocatedJson, KeepsANulInsideATextVisible) {
 }
 
 TEST(LocatedJson, TellsWhereEachValueStandsPastCommentsAndWideCharacters) {
-  const auto parsed = parse("{ // 电池信息：注释，\n  \"园区\": 12/*x*/,\n\t\"b\":[ -1.5e3,\n{}] }");
+  const auto parsed =
+      parse("{ // 电池信息：注释，\n  \"园区\": 12/*x*/,\n\t\"b\":[ -1.5e3,\n{}] }");
   ASSERT_TRUE(parsed.ok()) << parsed.error().text();
   const Node* first = parsed->root.find("园区");
   ASSERT_NE(first, nullptr);
@@ -126,6 +132,13 @@ TEST(LocatedJson, TellsWhereEachValueStandsPastCommentsAndWideCharacters) {
   EXPECT_EQ(parsed->root.object()->at(1).column, 2U);
 }
 
+TEST(LocatedJson, ShowsForeignTextOnOneShortLine) {
+  EXPECT_EQ(refusal("{\"a\\nb\":{\"x\":1,\"x\":2}}"),
+            "line 1, column 15 (a?b.x): this key is there twice");
+  EXPECT_EQ(shown("园区01", 5), "园...");
+  EXPECT_EQ(shown("园区01", 8), "园区01");
+}
+
 TEST(JsonText, WritesNumbersThatReadBackToTheSameBits) {
   for (const double value : {0.004363323129985824, 113.0196366456667, 23.1496524965, -0.0, 1e-300,
                              188.2222333, 1.7976931348623157e308, 0.1 + 0.2}) {
@@ -139,7 +152,12 @@ TEST(JsonText, WritesNumbersThatReadBackToTheSameBits) {
 
 TEST(JsonText, EscapesWhatMustBeAndReplacesWhatIsNoText) {
   JsonText out;
-  out.open('{').key("a\"b").text("x\n\\ 园 \xFF \x01").key("n").number(std::numeric_limits<double>::infinity()).close('}');
+  out.open('{')
+      .key("a\"b")
+      .text("x\n\\ 园 \xFF \x01")
+      .key("n")
+      .number(std::numeric_limits<double>::infinity())
+      .close('}');
   EXPECT_EQ(out.str(), "{\"a\\\"b\":\"x\\u000a\\\\ 园 \xEF\xBF\xBD \\u0001\",\"n\":0}");
 }
 

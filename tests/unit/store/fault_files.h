@@ -1,4 +1,5 @@
-// A file system in memory that fails or loses power at a chosen call and then shows what a disk would.
+// A file system in memory that fails or loses power at a chosen call and then shows what a disk
+// would.
 #pragma once
 
 #include <cerrno>
@@ -18,7 +19,7 @@ class FaultFiles final : public Files {
   enum class Fault { none, fail, cut_before, cut_after };
   /// What reached the disk of that which was never synced.
   struct Remains {
-    bool names = false;        ///< renames, creations, removals
+    bool names = false;         ///< renames, creations, removals
     bool half_content = false;  ///< the first half of unsynced bytes
   };
 

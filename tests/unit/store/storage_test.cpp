@@ -116,8 +116,8 @@ TEST(Storage, KeepsWhatItAcknowledgedWhereverThePowerGoes) {
         run_script(files, model);
         files.boot_after_cut({(remains & 1) != 0, (remains & 2) != 0});
         Storage again(files, "/state");
-        model.expect(again.load(), "cut at call " + std::to_string(at) + " remains " +
-                                       std::to_string(remains));
+        model.expect(again.load(),
+                     "cut at call " + std::to_string(at) + " remains " + std::to_string(remains));
       }
     }
   }

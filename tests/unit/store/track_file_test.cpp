@@ -12,11 +12,37 @@ namespace {
 
 /// Names that a file system, a shell or a person would take for something else.
 std::vector<std::string> odd_names() {
-  return {"", ".", "..", "../../etc/passwd", "/etc/passwd", "CON", "con", "-rf", "a/b", "a\\b",
-          "%2e%2e", "%252e", "a b", "园区01", "caf\xC3\xA9", "cafe\xCC\x81", "\xE2\x80\xAEtxt.exe",
-          "test1", "Test1", "test1.json", "~", "a~1", "line\nbreak", std::string("a\0/../x", 7),
-          "__proto__", std::string(300, 'x'), std::string(300, 'x') + "y", std::string(300, '/'),
-          std::string(97, 'x'), std::string(98, 'x'), std::string(99, 'x')};
+  return {"",
+          ".",
+          "..",
+          "../../etc/passwd",
+          "/etc/passwd",
+          "CON",
+          "con",
+          "-rf",
+          "a/b",
+          "a\\b",
+          "%2e%2e",
+          "%252e",
+          "a b",
+          "园区01",
+          "caf\xC3\xA9",
+          "cafe\xCC\x81",
+          "\xE2\x80\xAEtxt.exe",
+          "test1",
+          "Test1",
+          "test1.json",
+          "~",
+          "a~1",
+          "line\nbreak",
+          std::string("a\0/../x", 7),
+          "__proto__",
+          std::string(300, 'x'),
+          std::string(300, 'x') + "y",
+          std::string(300, '/'),
+          std::string(97, 'x'),
+          std::string(98, 'x'),
+          std::string(99, 'x')};
 }
 
 TEST(TrackFile, NamesNeverLeaveTheFolderAndNeverMeet) {

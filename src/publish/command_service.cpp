@@ -1,0 +1,239 @@
+// Requests: what each needs before it goes to the engine or to the disk.
+#include "publish/command_service.h"
+
+#include <algorithm>
+
+#include "publish/rtk_navigation/trajectory_data.h"
+
+namespace drover::publish {
+namespace {
+
+/// Shorter than any track with points; longer messages are not worth parsing in a flood.
+constexpr std::size_t kShortMessageBytes = 4096;
+/// No point is written in fewer bytes: saves building a message that will be too long.
+constexpr std::size_t kLeastPointBytes = 60;
+constexpr double kAutomaticOriginRetry_s = 5.0;
+
+bool stops(const ControlCommand& request) {
+  return std::holds_alternative<CancelTaskRequest>(request) ||
+         std::holds_alternative<TerminateRequest>(request);
+}
+
+Verb verb_of(const ControlCommand& request) {
+  constexpr Verb kVerbs[] = {
+      Verb::get_all_trajectory,    Verb::save_trajectory, Verb::delete_trajectory,
+      Verb::delete_all_trajectory, Verb::start_task,      Verb::cancel_task,
+      Verb::init_rtk_data,         Verb::terminate,       Verb::reset_stop};
+  return kVerbs[request.index()];
+}
+
+}  // namespace
+
+CommandService::CommandService(const CommandServiceConfig& config, store::StoredState stored)
+    : config_(config),
+      report_(std::move(stored.report)),
+      origin_(stored.origin),
+      mqtt_bucket_(config.max_requests_Hz, config.request_burst),
+      cli_bucket_(config.max_requests_Hz, config.request_burst),
+      slow_down_bucket_(config.max_requests_Hz, config.request_burst) {
+  for (store::Track& track : stored.tracks) {
+    std::string name = track.name;
+    tracks_.insert_or_assign(std::move(name), std::move(track));
+  }
+}
+
+void CommandService::begin(Time now, Actions& out) {
+  for (std::string& line : report_) out.push_back(LogLine{Notice::Level::warning, std::move(line)});
+  report_.clear();
+  if (!origin_) return;
+  const RequestId id = next_id(RequestId::Source::internal);
+  Pending& pending = expect(id, Verb::init_rtk_data);
+  pending.origin = *origin_;
+  send(id, now, SetOrigin{*origin_}, out);
+}
+
+void CommandService::on_control(std::string_view payload, bool retained, Time now, Actions& out) {
+  if (payload.size() > kShortMessageBytes && mqtt_bucket_.empty(now)) {
+    return slow_down("unknown_failse", now, out);
+  }
+  auto request = parse_control(payload, retained, config_.limits);
+  if (request.ok() && stops(*request)) {
+    return handle(next_id(RequestId::Source::mqtt), std::move(request.value()), now, out);
+  }
+  if (!mqtt_bucket_.take(now)) {
+    return slow_down(request.ok() ? failure_cmd(verb_of(*request)) : request.error().feedback_cmd,
+                     now, out);
+  }
+  if (!request.ok()) {
+    const ControlRefusal& refusal = request.error();
+    out.push_back(
+        PublishText{kTopicFeedback, feedback_text(refusal.feedback_cmd, refusal.reason, {})});
+    out.push_back(LogLine{Notice::Level::warning,
+                          "mqtt_control: " + refusal.feedback_cmd + ": " + refusal.reason});
+    return;
+  }
+  if (is_duplicate(payload, *request, now)) {
+    out.push_back(LogLine{Notice::Level::info, "start_task came twice and was executed once"});
+    return;
+  }
+  handle(next_id(RequestId::Source::mqtt), std::move(request.value()), now, out);
+}
+
+void CommandService::on_cli(std::uint64_t number, ControlCommand request, Time now, Actions& out) {
+  const RequestId id{RequestId::Source::cli, number};
+  if (!stops(request) && !cli_bucket_.take(now)) {
+    out.push_back(Answer{id, false, "slow down"});
+    return;
+  }
+  handle(id, std::move(request), now, out);
+}
+
+void CommandService::slow_down(std::string_view cmd, Time now, Actions& out) {
+  if (!slow_down_bucket_.take(now)) return;
+  out.push_back(PublishText{kTopicFeedback, feedback_text(cmd, "slow down", {})});
+}
+
+/// A broker that delivers "at least once" may deliver a start twice. Two starts of a person with
+/// anything between them (a cancel, the end of the task) are two.
+bool CommandService::is_duplicate(std::string_view payload, const ControlCommand& request,
+                                  Time now) {
+  if (!std::holds_alternative<StartTaskRequest>(request)) return false;
+  const bool again = last_start_ == payload && changes_ == last_start_changes_ &&
+                     now - last_start_time_ <= from_s(config_.duplicate_window_s);
+  if (!again) {
+    last_start_ = payload;
+    last_start_time_ = now;
+    last_start_changes_ = changes_ + 1;  // handling it counts as one
+  }
+  return again;
+}
+
+void CommandService::handle(RequestId id, ControlCommand request, Time now, Actions& out) {
+  if (find(id) != nullptr) {
+    out.push_back(Answer{id, false, "this request number is in use"});
+    return;
+  }
+  if (!std::holds_alternative<GetAllTrajectory>(request)) ++changes_;
+  if (std::holds_alternative<GetAllTrajectory>(request)) {
+    get_all(id, out);
+  } else if (auto* to_save = std::get_if<SaveTrajectory>(&request)) {
+    save(id, std::move(*to_save), out);
+  } else if (auto* to_delete = std::get_if<DeleteTrajectory>(&request)) {
+    remove(id, std::move(*to_delete), out);
+  } else if (std::holds_alternative<DeleteAllTrajectory>(request)) {
+    if (writes_pending() >= config_.max_pending_writes) {
+      return tell(id, Verb::delete_all_trajectory, false, "the disk is behind, try again", out);
+    }
+    expect(id, Verb::delete_all_trajectory);
+    out.push_back(store::StorageJob{id, store::DeleteAllTracks{}});
+  } else if (const auto* to_start = std::get_if<StartTaskRequest>(&request)) {
+    start(id, *to_start, now, out);
+  } else if (std::holds_alternative<InitRtkData>(request)) {
+    propose_origin(id, now, out);
+  } else if (std::holds_alternative<ResetStopRequest>(request)) {
+    expect(id, Verb::reset_stop);
+    send(id, now, ResetStop{}, out);
+  } else {
+    expect(id, verb_of(request));  // cancel_task or terminate
+    send(id, now, CancelTask{}, out);
+  }
+}
+
+void CommandService::get_all(RequestId id, Actions& out) {
+  std::size_t points = 0;
+  std::vector<store::Track> all;
+  for (const auto& [name, track] : tracks_) points += track.points.size();
+  std::string text;
+  if (points * kLeastPointBytes <= config_.max_message_bytes) {
+    for (const auto& [name, track] : tracks_) {
+      all.push_back(store::derive(track, origin_, config_.antenna));
+    }
+    text = trajectory_data_text(all);
+  }
+  if (text.empty() || text.size() > config_.max_message_bytes) {
+    return tell(id, Verb::get_all_trajectory, false,
+                "the tracks have " + std::to_string(points) +
+                    " points, more than fit into one message; delete some",
+                out);
+  }
+  if (id.source == RequestId::Source::cli) {
+    out.push_back(Answer{id, true, std::move(text)});
+  } else {
+    out.push_back(PublishText{kTopicTrajectoryData, std::move(text)});
+  }
+}
+
+void CommandService::save(RequestId id, SaveTrajectory request, Actions& out) {
+  if (writes_pending() >= config_.max_pending_writes) {
+    return tell(id, Verb::save_trajectory, false, "the disk is behind, try again", out);
+  }
+  request.track.origin = origin_;
+  Pending& pending = expect(id, Verb::save_trajectory, request.track.name);
+  pending.track = request.track;
+  out.push_back(store::StorageJob{id, store::SaveTrack{std::move(request.track)}});
+}
+
+void CommandService::remove(RequestId id, DeleteTrajectory request, Actions& out) {
+  if (!tracks_.contains(request.name) && !being_written(request.name)) {
+    return tell(id, Verb::delete_trajectory, false, "there is no track of this name", out);
+  }
+  if (writes_pending() >= config_.max_pending_writes) {
+    return tell(id, Verb::delete_trajectory, false, "the disk is behind, try again", out);
+  }
+  expect(id, Verb::delete_trajectory, request.name);
+  out.push_back(store::StorageJob{id, store::DeleteTrack{std::move(request.name)}});
+}
+
+std::optional<std::string> CommandService::start_problem(const StartTaskRequest& request,
+                                                         std::uint32_t& index) const {
+  if (being_written(request.name)) return "the track is being stored or deleted, try again";
+  const auto found = tracks_.find(request.name);
+  if (found == tracks_.end()) return "there is no track of this name";
+  if (origin_pending()) return "the origin is being set, try again";
+  if (!origin_) return "there is no origin yet: it needs a first RTK fixed position";
+  const auto count = static_cast<std::int64_t>(found->second.points.size());
+  if (count == 0) return "the track has no points";
+  const std::int64_t first = config_.zero_based_ids ? 0 : 1;
+  if (request.id < first || request.id > count - 1 + first) {
+    return "point " + std::to_string(request.id) + " is not on the track: its ids are " +
+           std::to_string(first) + " to " + std::to_string(count - 1 + first);
+  }
+  index = static_cast<std::uint32_t>(request.id - first);
+  return std::nullopt;
+}
+
+void CommandService::start(RequestId id, const StartTaskRequest& request, Time now, Actions& out) {
+  std::uint32_t index = 0;
+  if (const auto problem = start_problem(request, index)) {
+    return tell(id, Verb::start_task, false, *problem, out);
+  }
+  // The path is the task's own copy: whatever happens to the track, the task drives what it was.
+  paths_.push_back(store::build_path(tracks_.at(request.name), *origin_, config_.antenna));
+  expect(id, Verb::start_task, request.name);
+  send(id, now, StartTask{paths_.back().get(), index, request.speed_mps}, out);
+}
+
+void CommandService::propose_origin(RequestId id, Time now, Actions& out) {
+  if (origin_pending()) {
+    return tell(id, Verb::init_rtk_data, false, "the origin is being set already", out);
+  }
+  expect(id, Verb::init_rtk_data);
+  send(id, now, ProposeOrigin{}, out);
+}
+
+void CommandService::on_snapshot(const Snapshot& snapshot, Time now, Actions& out) {
+  if (!config_.automatic_origin || origin_ || origin_pending()) return;
+  const bool fixed = snapshot.gnss.health == SourceState::fresh &&
+                     snapshot.gnss.position.quality == FixQuality::rtk_fixed;
+  if (!fixed || now < next_automatic_origin_) return;
+  next_automatic_origin_ = now + from_s(kAutomaticOriginRetry_s);
+  propose_origin(next_id(RequestId::Source::internal), now, out);
+}
+
+std::optional<store::Track> CommandService::find_track(const std::string& name) const {
+  const auto found = tracks_.find(name);
+  if (found == tracks_.end()) return std::nullopt;
+  return store::derive(found->second, origin_, config_.antenna);
+}
+
+}  // namespace drover::publish

@@ -1,0 +1,144 @@
+// What becomes of a request: the track library, who waits for which answer, and what to do next.
+//
+// Pure: no thread, clock or I/O. Each call appends what must be done to a list of actions; the
+// runtime does it in that order. All calls from one thread.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "drover/command.h"
+#include "drover/event.h"
+#include "drover/path.h"
+#include "drover/snapshot.h"
+#include "publish/rtk_navigation/control.h"
+#include "publish/rtk_navigation/feedback.h"
+#include "publish/token_bucket.h"
+#include "store/derive.h"
+#include "store/storage.h"
+
+namespace drover::publish {
+
+/// Publish on the broker, not retained.
+struct PublishText {
+  std::string_view topic;
+  std::string text;
+};
+/// To the command line; `text` is the reason of a failure or the note of a success.
+struct Answer {
+  RequestId id;
+  bool ok = false;
+  std::string text;
+};
+struct LogLine {
+  Notice::Level level = Notice::Level::info;
+  std::string text;
+};
+
+/// A StorageJob goes to the storage thread, a Command to the engine.
+using Action = std::variant<PublishText, Answer, LogLine, store::StorageJob, Command>;
+using Actions = std::vector<Action>;
+
+/// Field names are the configuration file's keys.
+struct CommandServiceConfig {
+  bool zero_based_ids = false;   ///< default: the first point's id is 1
+  bool automatic_origin = true;  ///< the first RTK fixed position becomes the origin if none is
+  double max_requests_Hz = 10;   ///< of each source; stopping is never limited
+  double request_burst = 20;
+  double duplicate_window_s = 1.0;  ///< the same start_task again inside it is executed once
+  /// A longer trajectory_data is refused: a broker closes the connection on what is over its own
+  /// limit (max_packet_size).
+  std::size_t max_message_bytes = 1'000'000;
+  std::size_t max_pending_writes = 16;  ///< for the disk; each may hold a track
+  store::AntennaOffset antenna{};
+  ControlLimits limits{};
+};
+
+class CommandService final {
+ public:
+  CommandService(const CommandServiceConfig& config, store::StoredState stored);
+
+  /// Once, before anything else: the stored origin goes to the engine, the report to the log.
+  void begin(Time now, Actions& out);
+  /// A message on mqtt_control. `retained` is the broker's flag.
+  void on_control(std::string_view payload, bool retained, Time now, Actions& out);
+  /// A request of the command line; `number` is the caller's and comes back in the Answer.
+  void on_cli(std::uint64_t number, ControlCommand request, Time now, Actions& out);
+  void on_reply(const store::StorageReply& reply, Time now, Actions& out);
+  void on_event(const Event& event, Actions& out);
+  void on_snapshot(const Snapshot& snapshot, Time now, Actions& out);
+  /// A Command that found the engine's ring full.
+  void on_undelivered(const Command& command, Actions& out);
+
+  /// Stored tracks by name.
+  const std::map<std::string, store::Track>& tracks() const { return tracks_; }
+  /// As it would be driven now; nothing when there is none of that name.
+  std::optional<store::Track> find_track(const std::string& name) const;
+  const std::optional<GeodeticPoint>& origin() const { return origin_; }
+  /// Paths that the engine holds; none is left when all tasks are over.
+  std::size_t paths_lent() const { return paths_.size(); }
+
+ private:
+  struct Pending {
+    RequestId id;
+    Verb verb = Verb::cancel_task;
+    std::string name;      ///< of the track
+    store::Track track;    ///< save_trajectory: becomes the library's when it is stored
+    GeodeticPoint origin;  ///< init_rtk_data: once proposed
+    bool origin_stored = false;
+  };
+  using Key = std::pair<RequestId::Source, std::uint64_t>;
+
+  void handle(RequestId id, ControlCommand request, Time now, Actions& out);
+  void get_all(RequestId id, Actions& out);
+  void save(RequestId id, SaveTrajectory request, Actions& out);
+  void remove(RequestId id, DeleteTrajectory request, Actions& out);
+  void start(RequestId id, const StartTaskRequest& request, Time now, Actions& out);
+  void propose_origin(RequestId id, Time now, Actions& out);
+  /// Why a path cannot be made for the request; `index` counts from 0.
+  std::optional<std::string> start_problem(const StartTaskRequest& request,
+                                           std::uint32_t& index) const;
+
+  Pending& expect(RequestId id, Verb verb, std::string name = {});
+  Pending* find(RequestId id);
+  void forget(RequestId id) { pending_.erase(Key{id.source, id.number}); }
+  void send(RequestId id, Time now, decltype(Command::body) body, Actions& out);
+  /// Tells the one who asked, in its own way.
+  void tell(RequestId id, Verb verb, bool ok, std::string_view text, Actions& out);
+  void finish(RequestId id, Verb verb, bool ok, std::string_view text, Actions& out);
+
+  void accepted(const CommandAccepted& event, Actions& out);
+  void refused(RequestId id, std::string_view reason, Actions& out);
+  void release(const Path* path);
+  bool being_written(const std::string& name) const;
+  bool origin_pending() const;
+  std::size_t writes_pending() const;
+  RequestId next_id(RequestId::Source source) { return {source, ++last_number_}; }
+  void slow_down(std::string_view cmd, Time now, Actions& out);
+  bool is_duplicate(std::string_view payload, const ControlCommand& request, Time now);
+
+  CommandServiceConfig config_;
+  std::vector<std::string> report_;
+  std::map<std::string, store::Track> tracks_;
+  std::optional<GeodeticPoint> origin_;
+  std::map<Key, Pending> pending_;
+  std::vector<std::unique_ptr<const Path>> paths_;
+  std::uint64_t last_number_ = 0;
+  TokenBucket mqtt_bucket_;
+  TokenBucket cli_bucket_;
+  TokenBucket slow_down_bucket_;  ///< answers to a flood must not be a flood
+  Time next_automatic_origin_ = kNever;
+  // To recognise a start_task that the broker delivered twice.
+  std::uint64_t changes_ = 0;  ///< requests and task ends so far: an equal count is unchanged state
+  std::string last_start_;
+  Time last_start_time_ = kNever;
+  std::uint64_t last_start_changes_ = 0;
+};
+
+}  // namespace drover::publish

@@ -1,0 +1,155 @@
+// The `base_status` topic: the snapshot in the document's words.
+#include "publish/rtk_navigation/base_status.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "config/json_text.h"
+#include "drover/angle.h"
+#include "publish/rtk_navigation/spelling.h"
+#include "publish/status/names.h"
+
+namespace drover::publish {
+namespace {
+
+bool drives_healthy(const Snapshot& snapshot) {
+  return !snapshot.axes.empty() &&
+         std::all_of(snapshot.axes.begin(), snapshot.axes.end(), [](const AxisSnapshot& axis) {
+           return axis.health == SourceState::fresh && axis.state != AxisState::fault;
+         });
+}
+
+/// The zone contacts stand for the obstacle sensor: true when there is one and all of it answers.
+bool zones_healthy(const Snapshot& snapshot) {
+  bool any = false;
+  for (const Line line : {Line::zone_far, Line::zone_near}) {
+    const auto i = static_cast<std::size_t>(line);
+    if (!snapshot.line_configured[i]) continue;
+    if (snapshot.line_health[i] != SourceState::fresh) return false;
+    any = true;
+  }
+  return any;
+}
+
+bool active(const Snapshot& snapshot, Line line) {
+  const auto i = static_cast<std::size_t>(line);
+  return snapshot.line_configured[i] && snapshot.line_active[i];
+}
+
+}  // namespace
+
+double angle_deg_from_compass(HeadingConvention convention, double compass_deg) {
+  switch (convention) {
+    case HeadingConvention::counterclockwise_from_north:
+      return wrap_deg(-compass_deg);
+    case HeadingConvention::counterclockwise_from_east:
+      return wrap_deg(90.0 - compass_deg);
+    case HeadingConvention::clockwise_from_north:
+      break;
+  }
+  return wrap_deg(compass_deg);
+}
+
+int rtk_status(FixQuality quality) {
+  switch (quality) {
+    case FixQuality::single:
+    case FixQuality::pps:
+      return 1;
+    case FixQuality::dgps:
+      return 2;
+    case FixQuality::rtk_fixed:
+      return 4;
+    case FixQuality::rtk_float:
+      return 5;
+    default:
+      return 0;
+  }
+}
+
+int robot_status(const Snapshot& snapshot) {
+  constexpr int kHardEstop = 1 << 0;
+  constexpr int kSoftEstop = 1 << 2;
+  constexpr int kRemoteOffline = 1 << 3;
+  constexpr int kFrontBumper = 1 << 4;
+  const bool hard = active(snapshot, Line::estop);
+  const bool bumper = active(snapshot, Line::bumper);
+  return kRemoteOffline | (hard ? kHardEstop : 0) | (bumper ? kFrontBumper : 0) |
+         (snapshot.stop_latched && !hard ? kSoftEstop : 0);
+}
+
+double BaseStatus::keep(double& last, double value) {
+  if (std::isfinite(value)) last = value;
+  return last;
+}
+
+double BaseStatus::power(const Snapshot& snapshot, const BatteryState& battery) {
+  if (config_.power == PowerUnit::percent) return battery_.soc_percent;
+  if (battery.valid) return keep(bus_V_, battery.voltage_V);
+  // Without a battery driver the drives know the voltage; the lowest is the one that matters.
+  double lowest_V = kAbsent;
+  for (const AxisSnapshot& axis : snapshot.axes) lowest_V = std::fmin(lowest_V, axis.bus_V);
+  return keep(bus_V_, lowest_V);
+}
+
+std::string BaseStatus::text(const Snapshot& snapshot, const BatteryState& battery) {
+  const NavSnapshot& nav = snapshot.nav;
+  const GnssSnapshot& gnss = snapshot.gnss;
+  if (battery.valid) battery_ = battery;
+  // Clients record tracks from these messages, so pose and rtk are of one instant where there is a
+  // good pose; otherwise the receiver's last word.
+  const bool located = nav.locate == LocateState::good;
+  keep(latitude_deg_, located ? gnss.pose_latitude_deg : gnss.position.latitude_deg);
+  keep(longitude_deg_, located ? gnss.pose_longitude_deg : gnss.position.longitude_deg);
+  const double compass_deg =
+      located ? compass_deg_from_yaw_rad(snapshot.pose.yaw_rad) : gnss.heading_deg;
+  keep(angle_deg_, angle_deg_from_compass(config_.heading, compass_deg));
+  const bool receiver_fresh = gnss.health == SourceState::fresh;
+
+  json::JsonText out;
+  out.open('{');
+  out.key("bms").open('{');
+  out.key("current").number(battery_.current_A);
+  out.key("error").integer(battery.valid ? battery.error
+                                         : std::max<std::int64_t>(battery.error, 1));
+  out.key("remaining_capacity").number(battery_.remaining_capacity_Ah);
+  out.key("soc").number(battery_.soc_percent);
+  out.key("status").integer(battery_.status);
+  out.key("tem").number(battery_.temperature_degC);
+  out.key("voltage").number(battery_.voltage_V);
+  out.key("valid").boolean(battery.valid).close('}');
+
+  out.key("nav").open('{');
+  out.key("locate").text(spelling(nav.locate));
+  out.key("obstacle").boolean(nav.obstacle);
+  out.key("status").text(spelling(nav.status));
+  out.key("owner").text(word(nav.owner));
+  out.key("why").open('[');
+  for (const drover::Reason& reason : snapshot.why) out.text(reason.view());
+  out.close(']').close('}');
+
+  out.key("pose").open('{');
+  out.key("x").number(keep(x_m_, snapshot.pose.x_m));
+  out.key("y").number(keep(y_m_, snapshot.pose.y_m));
+  out.key("yaw").number(keep(yaw_rad_, snapshot.pose.yaw_rad)).close('}');
+
+  out.key("robot").open('{');
+  out.key("power").number(power(snapshot, battery));
+  out.key("robot_status").integer(robot_status(snapshot));
+  out.key("vx").number(keep(vx_mps_, snapshot.pose.vx_mps));
+  out.key("vy").number(0);
+  out.key("vz").number(keep(wz_radps_, snapshot.pose.wz_radps)).close('}');
+
+  out.key("rtk").open('{');
+  out.key("angle").number(angle_deg_);
+  out.key("latitude").number(latitude_deg_);
+  out.key("longitude").number(longitude_deg_);
+  out.key("status").integer(receiver_fresh ? rtk_status(gnss.position.quality) : 0).close('}');
+
+  out.key("sensor").open('{');
+  out.key("imu").boolean(false);
+  out.key("laser").boolean(zones_healthy(snapshot));
+  out.key("robot").boolean(drives_healthy(snapshot)).close('}');
+  return out.close('}').str();
+}
+
+}  // namespace drover::publish

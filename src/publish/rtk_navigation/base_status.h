@@ -1,0 +1,78 @@
+// The `base_status` topic: the snapshot in the document's words.
+//
+// RTK navigation protocol, "状态反馈 base_status". Every field is always there and of the
+// document's type; where a value is unknown the last one stays, 0 before the first.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "drover/snapshot.h"
+
+namespace drover::publish {
+
+/// How the protocol's `angle` counts; makers differ.
+enum class HeadingConvention : std::uint8_t {
+  clockwise_from_north,
+  counterclockwise_from_north,
+  counterclockwise_from_east,
+};
+
+/// What `robot.power` carries.
+enum class PowerUnit : std::uint8_t { percent, volts };
+
+/// Field names are the configuration file's keys.
+struct RtkConfig {
+  HeadingConvention heading = HeadingConvention::clockwise_from_north;
+  PowerUnit power = PowerUnit::percent;
+};
+
+/// What a battery driver will report; not valid until there is one.
+struct BatteryState {
+  bool valid = false;
+  double current_A = 0;
+  double voltage_V = 0;
+  double soc_percent = 0;
+  double remaining_capacity_Ah = 0;
+  double temperature_degC = 0;
+  std::int64_t status = 0;
+  std::int64_t error = 0;
+};
+
+/// Degrees [0, 360) in the given convention, of a compass heading (clockwise from true north).
+double angle_deg_from_compass(HeadingConvention convention, double compass_deg);
+/// The document knows 0, 1, 2, 4, 5. PPS counts as single; estimated, manual and simulated
+/// positions are no fix.
+int rtk_status(FixQuality quality);
+/// Bits of the GT01's status word: 0 hard e-stop, 2 soft e-stop, 3 remote control offline (always:
+/// there is none yet), 4 front bumper.
+int robot_status(const Snapshot& snapshot);
+
+/// Keeps what stays when a value becomes unknown, hence a class.
+class BaseStatus final {
+ public:
+  explicit BaseStatus(const RtkConfig& config) : config_(config) {}
+
+  /// One message. Added to the document: bms.valid, nav.owner, nav.why (a list of texts, the cause
+  /// first, empty when all is well).
+  std::string text(const Snapshot& snapshot, const BatteryState& battery);
+
+ private:
+  /// `value` when it is finite, otherwise what it last was.
+  static double keep(double& last, double value);
+  double power(const Snapshot& snapshot, const BatteryState& battery);
+
+  RtkConfig config_;
+  BatteryState battery_{};
+  double x_m_ = 0;
+  double y_m_ = 0;
+  double yaw_rad_ = 0;
+  double vx_mps_ = 0;
+  double wz_radps_ = 0;
+  double latitude_deg_ = 0;
+  double longitude_deg_ = 0;
+  double angle_deg_ = 0;
+  double bus_V_ = 0;
+};
+
+}  // namespace drover::publish

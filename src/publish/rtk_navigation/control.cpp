@@ -1,0 +1,189 @@
+// The messages of `mqtt_control`: strict text in, typed commands or a refusal out.
+#include "publish/rtk_navigation/control.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+
+#include "config/located_json.h"
+
+namespace drover::publish {
+namespace {
+
+using json::Node;
+using Reason = std::optional<std::string>;
+
+/// Reads one command's members; returns why it cannot.
+using Read = Reason (*)(const Node& root, const ControlLimits& limits, ControlCommand& out);
+
+std::string quoted(std::string_view text) {
+  return "'" + json::shown(text, 40) + "'";
+}
+
+/// The one rule for names. Control characters would forge lines in logs and listings.
+Reason name_problem(const std::string& name, const ControlLimits& limits) {
+  const auto is_control = [](char c) {
+    return static_cast<unsigned char>(c) < 0x20 || static_cast<unsigned char>(c) == 0x7F;
+  };
+  if (std::any_of(name.begin(), name.end(), is_control)) {
+    return "the name contains a control character";
+  }
+  if (name.size() > limits.max_name_bytes) {
+    return "the name is longer than " + std::to_string(limits.max_name_bytes) + " bytes";
+  }
+  return std::nullopt;
+}
+
+Reason read_text(const Node& object, std::string_view key, std::string& out) {
+  const Node* node = object.find(key);
+  if (node == nullptr) return quoted(key) + " is missing";
+  if (node->text() == nullptr) {
+    return quoted(key) + " must be a text, not " + std::string(node->kind());
+  }
+  out = *node->text();
+  return std::nullopt;
+}
+
+Reason read_number(const Node& object, std::string_view key, double& out) {
+  const Node* node = object.find(key);
+  if (node == nullptr) return quoted(key) + " is missing";
+  const auto number = node->number();
+  if (!number) return quoted(key) + " must be a number, not " + std::string(node->kind());
+  out = *number;
+  return std::nullopt;
+}
+
+Reason read_name(const Node& object, const ControlLimits& limits, std::string& out) {
+  if (auto reason = read_text(object, "name", out)) return reason;
+  return name_problem(out, limits);
+}
+
+Reason read_point(const Node& node, store::TrackPoint& point) {
+  if (node.object() == nullptr) return "is no object but " + std::string(node.kind());
+  if (auto reason = read_number(node, "longitude", point.longitude_deg)) return reason;
+  if (auto reason = read_number(node, "latitude", point.latitude_deg)) return reason;
+  if (auto reason = read_number(node, "angle", point.angle_deg)) return reason;
+  if (auto reason = read_number(node, "x", point.x_m)) return reason;
+  if (auto reason = read_number(node, "y", point.y_m)) return reason;
+  if (auto reason = read_number(node, "yaw", point.yaw_rad)) return reason;
+  // save_trajectory has no z, trajectory_data has: a track that was read may be saved again.
+  return node.find("z") == nullptr ? std::nullopt : read_number(node, "z", point.z_m);
+}
+
+Reason read_save(const Node& root, const ControlLimits& limits, ControlCommand& out) {
+  const Node* data = root.find("data");
+  if (data == nullptr || data->object() == nullptr) return "'data' must be an object";
+  SaveTrajectory save;
+  if (auto reason = read_name(*data, limits, save.track.name)) return reason;
+  const Node* points = data->find("data");
+  if (points == nullptr || points->list() == nullptr) return "'data.data' must be a list of points";
+  if (points->list()->size() > store::kMaxPointsPerTrack) {
+    return "a track has at most " + std::to_string(store::kMaxPointsPerTrack) + " points";
+  }
+  save.track.points.resize(points->list()->size());
+  for (std::size_t i = 0; i < save.track.points.size(); ++i) {
+    if (auto reason = read_point((*points->list())[i], save.track.points[i])) {
+      return "point " + std::to_string(i + 1) + ": " + *reason;
+    }
+  }
+  out = std::move(save);
+  return std::nullopt;
+}
+
+Reason read_delete(const Node& root, const ControlLimits& limits, ControlCommand& out) {
+  DeleteTrajectory request;
+  auto reason = read_name(root, limits, request.name);
+  out = std::move(request);
+  return reason;
+}
+
+Reason read_start(const Node& root, const ControlLimits& limits, ControlCommand& out) {
+  StartTaskRequest request;
+  if (auto reason = read_name(root, limits, request.name)) return reason;
+  const Node* id = root.find("id");
+  if (id == nullptr) return "'id' is missing";
+  if (!id->integer()) return "'id' must be an integer, not " + std::string(id->kind());
+  request.id = *id->integer();
+  if (auto reason = read_number(root, "speed", request.speed_mps)) return reason;
+  out = std::move(request);
+  return std::nullopt;
+}
+
+template <class Body>
+Reason read_nothing(const Node&, const ControlLimits&, ControlCommand& out) {
+  out = Body{};
+  return std::nullopt;
+}
+
+struct Row {
+  std::string_view cmd_type;
+  std::string_view cmd;
+  Read read;
+};
+
+constexpr std::array kRows = {
+    Row{"trajectory_control", "get_all_trajectory", read_nothing<GetAllTrajectory>},
+    Row{"trajectory_control", "save_trajectory", read_save},
+    Row{"trajectory_control", "delete_trajectory", read_delete},
+    Row{"trajectory_control", "delete_all_trajectory", read_nothing<DeleteAllTrajectory>},
+    Row{"task_control", "start_task", read_start},
+    Row{"task_control", "cancel_task", read_nothing<CancelTaskRequest>},
+    Row{"task_control", "init_rtk_data", read_nothing<InitRtkData>},
+    Row{"manual_control", "terminate", read_nothing<TerminateRequest>},
+};
+
+const Row* find_row(std::string_view cmd) {
+  const auto* row =
+      std::find_if(kRows.begin(), kRows.end(), [&](const Row& r) { return r.cmd == cmd; });
+  return row == kRows.end() ? nullptr : row;
+}
+
+/// A key that makes a JavaScript client change its own objects: nobody sends it in good faith.
+bool carries_prototype(const Node& root) {
+  const Node* data = root.find("data");
+  return root.find("__proto__") != nullptr ||
+         (data != nullptr && data->find("__proto__") != nullptr);
+}
+
+}  // namespace
+
+std::string failure_cmd(std::string_view cmd) {
+  const auto plain = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
+  };
+  const bool usable =
+      !cmd.empty() && cmd.size() <= 40 && std::all_of(cmd.begin(), cmd.end(), plain);
+  return std::string(usable ? cmd : "unknown") + "_failse";
+}
+
+Result<ControlCommand, ControlRefusal> parse_control(std::string_view payload, bool retained,
+                                                     const ControlLimits& limits) {
+  const auto parsed = json::parse(payload, {limits.max_bytes, limits.max_depth, limits.max_values});
+  if (!parsed.ok()) return ControlRefusal{failure_cmd(""), parsed.error().text()};
+  const Node& root = parsed->root;
+  if (root.object() == nullptr) {
+    return ControlRefusal{failure_cmd(""),
+                          "a command is an object, not " + std::string(root.kind())};
+  }
+  std::string cmd;
+  std::string cmd_type;
+  Reason reason = read_text(root, "cmd", cmd);
+  const auto refuse = [&](std::string why) {
+    return ControlRefusal{failure_cmd(cmd), std::move(why)};
+  };
+  if (!reason) reason = read_text(root, "cmd_type", cmd_type);
+  if (reason) return refuse(*reason);
+  const Row* row = find_row(cmd);
+  if (row == nullptr) return refuse("there is no command " + quoted(cmd));
+  if (row->cmd_type != cmd_type) {
+    return refuse("the cmd_type of " + std::string(cmd) + " is " + std::string(row->cmd_type) +
+                  ", not " + quoted(cmd_type));
+  }
+  if (retained) return refuse("the message was retained by the broker: publish without retain");
+  if (carries_prototype(root)) return refuse("a member named __proto__ is not accepted");
+  ControlCommand command;
+  if ((reason = row->read(root, limits, command))) return refuse(*reason);
+  return command;
+}
+
+}  // namespace drover::publish

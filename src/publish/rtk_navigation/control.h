@@ -1,0 +1,63 @@
+// The messages of `mqtt_control`: strict text in, typed commands or a refusal out.
+//
+// RTK navigation protocol, "控制命令表" and the sections after it.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <variant>
+
+#include "drover/result.h"
+#include "store/track.h"
+
+namespace drover::publish {
+
+struct GetAllTrajectory {};
+/// `track.origin` is left for the receiver to fill in.
+struct SaveTrajectory {
+  store::Track track;
+};
+struct DeleteTrajectory {
+  std::string name;
+};
+struct DeleteAllTrajectory {};
+struct StartTaskRequest {
+  std::string name;
+  std::int64_t id = 0;   ///< as the operator counts; any integer
+  double speed_mps = 0;  ///< finite; range is the engine's
+};
+struct CancelTaskRequest {};
+struct InitRtkData {};
+/// A later edition's emergency stop (`manual_control`, `terminate`).
+struct TerminateRequest {};
+/// Clears a latched software stop. The command line's; no message of the protocol gives it.
+struct ResetStopRequest {};
+
+using ControlCommand = std::variant<GetAllTrajectory, SaveTrajectory, DeleteTrajectory,
+                                    DeleteAllTrajectory, StartTaskRequest, CancelTaskRequest,
+                                    InitRtkData, TerminateRequest, ResetStopRequest>;
+
+struct ControlRefusal {
+  std::string feedback_cmd;  ///< always one that can be published, "unknown_failse" at worst
+  std::string reason;        ///< for the operator
+};
+
+struct ControlLimits {
+  std::size_t max_bytes = std::size_t{1} << 20;
+  std::size_t max_depth = 16;
+  std::size_t max_values = 200'000;
+  std::size_t max_name_bytes = 1200;  ///< 300 characters of the longest kind
+};
+
+/// Accepts exactly the document's messages, comments included; unknown members are ignored. Nothing
+/// is coerced: 1.0 and true are no point id. A message that the broker had retained is refused
+/// whatever it says: nobody sends it now.
+Result<ControlCommand, ControlRefusal> parse_control(std::string_view payload, bool retained,
+                                                     const ControlLimits& limits = {});
+
+/// The `cmd` that tells a failure of `cmd`: `<cmd>_failse` when it is a plain short word, otherwise
+/// "unknown_failse".
+std::string failure_cmd(std::string_view cmd);
+
+}  // namespace drover::publish

@@ -1,0 +1,66 @@
+// The words for states, as the command line and the status object spell them.
+#pragma once
+
+#include <string_view>
+
+#include "drover/snapshot.h"
+
+namespace drover::publish {
+
+constexpr std::string_view word(SourceState state) {
+  switch (state) {
+    case SourceState::never_heard: return "never heard";
+    case SourceState::fresh: return "fresh";
+    case SourceState::stale: return "stale";
+  }
+  return "?";
+}
+
+constexpr std::string_view word(AxisState state) {
+  switch (state) {
+    case AxisState::unknown: return "unknown";
+    case AxisState::idle: return "idle";
+    case AxisState::arming: return "arming";
+    case AxisState::running: return "running";
+    case AxisState::fault: return "fault";
+  }
+  return "?";
+}
+
+constexpr std::string_view word(Owner owner) {
+  switch (owner) {
+    case Owner::estop: return "estop";
+    case Owner::manual: return "manual";
+    case Owner::task: return "task";
+    case Owner::joint_command: return "joint_command";
+    case Owner::nobody: return "nobody";
+  }
+  return "?";
+}
+
+constexpr std::string_view word(Line line) {
+  switch (line) {
+    case Line::estop: return "estop";
+    case Line::bumper: return "bumper";
+    case Line::zone_far: return "zone_far";
+    case Line::zone_near: return "zone_near";
+  }
+  return "?";
+}
+
+constexpr std::string_view word(FixQuality quality) {
+  switch (quality) {
+    case FixQuality::none: return "none";
+    case FixQuality::single: return "single";
+    case FixQuality::dgps: return "dgps";
+    case FixQuality::pps: return "pps";
+    case FixQuality::rtk_fixed: return "rtk fixed";
+    case FixQuality::rtk_float: return "rtk float";
+    case FixQuality::estimated: return "estimated";
+    case FixQuality::manual: return "manual";
+    case FixQuality::simulator: return "simulator";
+  }
+  return "?";
+}
+
+}  // namespace drover::publish

@@ -1,0 +1,473 @@
+#include "publish/command_service.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "config/located_json.h"
+#include "tests/unit/publish/examples.h"
+
+namespace drover::publish {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+constexpr GeodeticPoint kOrigin{23.0, 113.0, 10.0};
+
+store::Track straight(const std::string& name) {
+  store::Track track{name, {}, kOrigin};
+  for (int i = 0; i < 5; ++i) track.points.push_back({113, 23, 0, 0.5 * i, 1, 0, 0});
+  return track;
+}
+
+class CommandServiceTest : public testing::Test {
+ protected:
+  CommandServiceTest() { make({}, {{straight("13"), straight("other")}, kOrigin, {}}); }
+
+  void make(const CommandServiceConfig& config, store::StoredState stored) {
+    service_ = std::make_unique<CommandService>(config, std::move(stored));
+    service_->begin(now_, actions_);
+    answer_all_commands();
+    actions_.clear();
+  }
+  /// As an engine that agrees with everything.
+  void answer_all_commands() {
+    for (const Command& command : all<Command>()) event(CommandAccepted{command.id, {}});
+  }
+  void control(const std::string& payload, bool retained = false) {
+    service_->on_control(payload, retained, now_, actions_);
+  }
+  void start(const std::string& name = "13", const std::string& id = "2") {
+    control("{\"cmd_type\":\"task_control\",\"cmd\":\"start_task\",\"name\":\"" + name +
+            "\",\"id\":" + id + ",\"speed\":0.2}");
+  }
+  void save(const std::string& name) {
+    control(
+        "{\"cmd_type\":\"trajectory_control\",\"cmd\":\"save_trajectory\",\"data\":{\"name\":\"" +
+        name +
+        "\",\"data\":[{\"longitude\":113,\"latitude\":23,\"angle\":0,\"x\":1,\"y\":2,\"yaw\":3}]"
+        "}}");
+  }
+  template <class Body>
+  void event(Body body) {
+    service_->on_event({now_, std::move(body)}, actions_);
+  }
+  void reply(const store::StorageJob& job, bool ok, const std::string& reason = "",
+             std::vector<std::string> removed = {}) {
+    service_->on_reply({job.id, ok, reason, std::move(removed)}, now_, actions_);
+  }
+  template <class T>
+  std::vector<T> all() const {
+    std::vector<T> found;
+    for (const Action& action : actions_) {
+      if (const auto* one = std::get_if<T>(&action)) found.push_back(*one);
+    }
+    return found;
+  }
+  template <class T>
+  T only() const {
+    const auto found = all<T>();
+    EXPECT_EQ(found.size(), 1U);
+    return found.empty() ? T{} : found.back();
+  }
+  /// The `cmd` of each feedback so far, with ": reason" or " (note)"; forgets them.
+  std::vector<std::string> feedback() {
+    std::vector<std::string> told;
+    for (const PublishText& message : all<PublishText>()) {
+      if (message.topic != kTopicFeedback) continue;
+      const auto parsed = json::parse(message.text);
+      std::string line = *parsed->root.find("cmd")->text();
+      EXPECT_EQ(*parsed->root.find("cmd_type")->text(), "feedback");
+      if (const auto* reason = parsed->root.find("reason")) line += ": " + *reason->text();
+      if (const auto* note = parsed->root.find("note")) line += " (" + *note->text() + ")";
+      told.push_back(line);
+    }
+    actions_.clear();
+    return told;
+  }
+
+  Time now_ = Time{from_s(100)};
+  Actions actions_;
+  std::unique_ptr<CommandService> service_;
+};
+
+TEST_F(CommandServiceTest, RefusesPointIdsThatAreNotOnTheTrack) {
+  for (const char* id : {"0", "-1", "6", "1000000000", "4294967297", "-9223372036854775808"}) {
+    now_ += from_s(1);
+    start("13", id);
+    EXPECT_TRUE(all<Command>().empty()) << id;
+    EXPECT_THAT(feedback(), ElementsAre(HasSubstr("start_task_failse: point " + std::string(id) +
+                                                  " is not on the track: its ids are 1 to 5")));
+  }
+}
+
+TEST_F(CommandServiceTest, CountsPointsAsConfigured) {
+  start("13", "5");
+  EXPECT_EQ(std::get<StartTask>(only<Command>().body).target, 4U);
+  make({.zero_based_ids = true}, {{straight("13")}, kOrigin, {}});
+  start("13", "0");
+  EXPECT_EQ(std::get<StartTask>(only<Command>().body).target, 0U);
+  actions_.clear();
+  start("13", "5");
+  EXPECT_THAT(feedback(), ElementsAre(HasSubstr("its ids are 0 to 4")));
+}
+
+TEST_F(CommandServiceTest, RefusesATrackItDoesNotHave) {
+  start("unknown");
+  EXPECT_THAT(feedback(), ElementsAre("start_task_failse: there is no track of this name"));
+  make({}, {{{"empty", {}, kOrigin}}, kOrigin, {}});
+  start("empty", "1");
+  EXPECT_THAT(feedback(), ElementsAre("start_task_failse: the track has no points"));
+}
+
+TEST_F(CommandServiceTest, RefusesAStartWithoutAnOrigin) {
+  make({}, {{straight("13")}, std::nullopt, {}});
+  start();
+  EXPECT_THAT(feedback(), ElementsAre(HasSubstr("start_task_failse: there is no origin yet")));
+}
+
+TEST_F(CommandServiceTest, RefusesAStartWhileItsTrackIsBeingWritten) {
+  save("13");
+  const auto job = only<store::StorageJob>();
+  actions_.clear();
+  start();
+  EXPECT_THAT(feedback(), ElementsAre(HasSubstr("being stored or deleted")));
+  start("other");
+  EXPECT_EQ(all<Command>().size(), 1U);
+  actions_.clear();
+  reply(job, true);
+  EXPECT_THAT(feedback(), ElementsAre("save_trajectory_success"));
+  start("13", "1");
+  EXPECT_EQ(all<Command>().size(), 1U);
+}
+
+TEST_F(CommandServiceTest, RefusesAStartWhileTheOriginIsBeingSet) {
+  control(example("init_rtk_data"));
+  actions_.clear();
+  start();
+  EXPECT_THAT(feedback(), ElementsAre("start_task_failse: the origin is being set, try again"));
+}
+
+TEST_F(CommandServiceTest, MalformedAndRetainedMessagesChangeNothing) {
+  control("{");
+  control(example("start_task"), true);
+  EXPECT_TRUE(all<Command>().empty());
+  EXPECT_TRUE(all<store::StorageJob>().empty());
+  EXPECT_THAT(feedback(), ElementsAre(HasSubstr("unknown_failse: line 1"),
+                                      HasSubstr("start_task_failse: the message was retained")));
+}
+
+TEST_F(CommandServiceTest, TellsEachStageOfATaskAtItsMoment) {
+  start();
+  const Command command = only<Command>();
+  EXPECT_THAT(feedback(), IsEmpty());
+  event(CommandAccepted{command.id, "speed clamped to 0.8 m/s"});
+  EXPECT_THAT(feedback(), ElementsAre("start_task_success (speed clamped to 0.8 m/s)"));
+  event(NavigationStarted{command.id});
+  EXPECT_THAT(feedback(), ElementsAre("start_nav_success"));
+  event(TaskEnded{command.id, TaskEnded::How::success, {}});
+  EXPECT_THAT(feedback(), IsEmpty());
+}
+
+TEST_F(CommandServiceTest, TellsWhyATaskDidNotBeginToMove) {
+  start();
+  const Command command = only<Command>();
+  event(CommandAccepted{command.id, {}});
+  event(NavigationNotStarted{command.id, "wheel front_left did not arm"});
+  EXPECT_THAT(feedback(),
+              ElementsAre("start_task_success", "start_nav_failse: wheel front_left did not arm"));
+}
+
+TEST_F(CommandServiceTest, GivesTheEnginesRefusalOn) {
+  start();
+  const Command command = only<Command>();
+  event(CommandRefused{command.id, "a task runs already"});
+  event(PathReleased{std::get<StartTask>(command.body).path});
+  EXPECT_THAT(feedback(), ElementsAre("start_task_failse: a task runs already"));
+  EXPECT_EQ(service_->paths_lent(), 0U);
+}
+
+TEST_F(CommandServiceTest, ARunningTaskKeepsItsPathWhateverBecomesOfItsTrack) {
+  start();
+  const auto* path = std::get<StartTask>(only<Command>().body).path;
+  event(CommandAccepted{only<Command>().id, {}});
+  actions_.clear();
+  save("13");
+  reply(only<store::StorageJob>(), true);
+  actions_.clear();
+  control(example("delete_all_trajectory"));
+  reply(only<store::StorageJob>(), true, "", {"13", "other"});
+  EXPECT_THAT(service_->tracks(), IsEmpty());
+  ASSERT_EQ(path->points.size(), 5U);
+  EXPECT_EQ(path->points[4].x_m, 2.0);
+  event(PathReleased{path});
+  EXPECT_EQ(service_->paths_lent(), 0U);
+}
+
+TEST_F(CommandServiceTest, TheEngineThatTakesNoCommandIsAFailureToo) {
+  start();
+  const Command command = only<Command>();
+  actions_.clear();
+  service_->on_undelivered(command, actions_);
+  EXPECT_THAT(feedback(), ElementsAre(HasSubstr("start_task_failse: the control loop")));
+  EXPECT_EQ(service_->paths_lent(), 0U);
+}
+
+TEST_F(CommandServiceTest, AcknowledgesASaveOnlyWhenItIsStored) {
+  save("园区01");
+  const auto job = only<store::StorageJob>();
+  EXPECT_THAT(feedback(), IsEmpty());
+  EXPECT_FALSE(service_->tracks().contains("园区01"));
+  const auto& track = std::get<store::SaveTrack>(job.what).track;
+  EXPECT_EQ(track.origin->latitude_deg, kOrigin.latitude_deg);
+  reply(job, true);
+  EXPECT_THAT(feedback(), ElementsAre("save_trajectory_success"));
+  EXPECT_TRUE(service_->tracks().contains("园区01"));
+}
+
+TEST_F(CommandServiceTest, AFailedSaveLeavesTheOldTrack) {
+  save("13");
+  reply(only<store::StorageJob>(), false, "cannot write x: No space left on device");
+  EXPECT_THAT(feedback(),
+              ElementsAre(HasSubstr("save_trajectory_failse: cannot write x: No space")));
+  EXPECT_EQ(service_->tracks().at("13").points.size(), 5U);
+}
+
+TEST_F(CommandServiceTest, RefusesMoreWritesThanTheDiskMayOwe) {
+  for (int i = 0; i < 16; ++i) save("t" + std::to_string(i));
+  EXPECT_EQ(all<store::StorageJob>().size(), 16U);
+  actions_.clear();
+  save("one more");
+  control(example("delete_all_trajectory"));
+  EXPECT_THAT(feedback(),
+              ElementsAre("save_trajectory_failse: the disk is behind, try again",
+                          "delete_all_trajectory_failse: the disk is behind, try again"));
+}
+
+TEST_F(CommandServiceTest, DeletesOnlyWhatIsThere) {
+  control(example("delete_trajectory"));
+  EXPECT_TRUE(all<store::StorageJob>().empty());
+  EXPECT_THAT(feedback(), ElementsAre("delete_trajectory_failse: there is no track of this name"));
+  save("test5");
+  control(example("delete_trajectory"));  // the save is not stored yet, but comes first
+  const auto jobs = all<store::StorageJob>();
+  ASSERT_EQ(jobs.size(), 2U);
+  reply(jobs[0], true);
+  reply(jobs[1], true);
+  EXPECT_THAT(feedback(), ElementsAre("save_trajectory_success", "delete_trajectory_success"));
+  EXPECT_FALSE(service_->tracks().contains("test5"));
+}
+
+TEST_F(CommandServiceTest, DeletingAllWhenThereIsNoneSucceeds) {
+  make({}, {{}, kOrigin, {}});
+  control(example("delete_all_trajectory"));
+  reply(only<store::StorageJob>(), true);
+  EXPECT_THAT(feedback(), ElementsAre("delete_all_trajectory_success"));
+}
+
+TEST_F(CommandServiceTest, AHalfDoneDeleteAllForgetsWhatIsGone) {
+  control(example("delete_all_trajectory"));
+  reply(only<store::StorageJob>(), false, "cannot remove", {"13"});
+  EXPECT_THAT(feedback(), ElementsAre("delete_all_trajectory_failse: cannot remove"));
+  EXPECT_FALSE(service_->tracks().contains("13"));
+  EXPECT_TRUE(service_->tracks().contains("other"));
+}
+
+TEST_F(CommandServiceTest, AnswersWithAllTracksByName) {
+  control(example("get_all_trajectory"));
+  const auto message = only<PublishText>();
+  EXPECT_EQ(message.topic, kTopicTrajectoryData);
+  const auto parsed = json::parse(message.text);
+  ASSERT_TRUE(parsed.ok());
+  ASSERT_EQ(parsed->root.list()->size(), 2U);
+  EXPECT_EQ(*(*parsed->root.list())[0].find("name")->text(), "13");
+  make({}, {{}, kOrigin, {}});
+  control(example("get_all_trajectory"));
+  EXPECT_EQ(only<PublishText>().text, "[]");
+}
+
+TEST_F(CommandServiceTest, RefusesAListThatTheBrokerWouldNotCarry) {
+  make({.max_message_bytes = 300}, {{straight("13")}, kOrigin, {}});
+  control(example("get_all_trajectory"));
+  EXPECT_THAT(feedback(),
+              ElementsAre(HasSubstr("get_all_trajectory_failse: the tracks have 5 points")));
+}
+
+TEST_F(CommandServiceTest, CancelAlwaysGoesToTheEngineAtOnce) {
+  for (int i = 0; i < 200; ++i) control(example("cancel_task"));
+  const auto commands = all<Command>();
+  ASSERT_EQ(commands.size(), 200U);
+  EXPECT_TRUE(std::holds_alternative<CancelTask>(commands.back().body));
+  actions_.clear();
+  event(CommandAccepted{commands[0].id, {}});
+  EXPECT_THAT(feedback(), ElementsAre("cancel_task_success"));
+}
+
+TEST_F(CommandServiceTest, TerminateStopsTheTaskAndClaimsNoMore) {
+  control("{\"cmd_type\":\"manual_control\",\"cmd\":\"terminate\"}");
+  const Command command = only<Command>();
+  EXPECT_TRUE(std::holds_alternative<CancelTask>(command.body));
+  event(CommandAccepted{command.id, {}});
+  EXPECT_THAT(feedback(), ElementsAre(HasSubstr("terminate_failse: any task was cancelled")));
+}
+
+TEST_F(CommandServiceTest, KeepsTheOrderOfCancelsAndStarts) {
+  for (int i = 0; i < 9; ++i) {
+    control(example("cancel_task"));
+    start();
+  }
+  const auto commands = all<Command>();
+  ASSERT_EQ(commands.size(), 18U);
+  for (std::size_t i = 0; i < commands.size(); ++i) {
+    EXPECT_EQ(std::holds_alternative<StartTask>(commands[i].body), i % 2 == 1);
+    if (i > 0) {
+      EXPECT_GT(commands[i].id.number, commands[i - 1].id.number);
+    }
+  }
+}
+
+TEST_F(CommandServiceTest, ExecutesAStartThatTheBrokerDeliversTwiceOnce) {
+  start();
+  now_ += from_s(0.5);
+  start();
+  EXPECT_EQ(all<Command>().size(), 1U);
+}
+
+TEST_F(CommandServiceTest, TakesTheSameStartAgainAfterASecondOrAChange) {
+  start();
+  now_ += from_s(1.1);
+  start();
+  EXPECT_EQ(all<Command>().size(), 2U);
+  control(example("cancel_task"));
+  start();
+  EXPECT_EQ(all<Command>().size(), 4U);
+  event(TaskEnded{all<Command>().back().id, TaskEnded::How::success, {}});
+  start();
+  EXPECT_EQ(all<Command>().size(), 5U);
+}
+
+TEST_F(CommandServiceTest, AnswersAFloodWithSlowDownAndNoFloodOfItsOwn) {
+  for (int i = 0; i < 10'000; ++i) {
+    now_ += from_s(1e-4);
+    control(example("get_all_trajectory"));
+  }
+  std::size_t lists = 0;
+  for (const auto& message : all<PublishText>()) lists += message.topic == kTopicTrajectoryData;
+  EXPECT_GE(lists, 29U);
+  EXPECT_LE(lists, 31U);
+  const auto told = feedback();
+  EXPECT_GE(told.size(), 29U);
+  EXPECT_LE(told.size(), 31U);
+  EXPECT_EQ(told.back(), "get_all_trajectory_failse: slow down");
+  now_ += from_s(1);
+  control(example("get_all_trajectory"));
+  EXPECT_EQ(only<PublishText>().topic, kTopicTrajectoryData);
+}
+
+TEST_F(CommandServiceTest, TheCommandLineIsNotHeldUpByAFloodOnTheBroker) {
+  for (int i = 0; i < 100; ++i) control(example("get_all_trajectory"));
+  actions_.clear();
+  service_->on_cli(1, StartTaskRequest{"13", 1, 0.5}, now_, actions_);
+  const Command command = only<Command>();
+  EXPECT_EQ(command.id.source, RequestId::Source::cli);
+  event(CommandAccepted{command.id, "note"});
+  const auto answer = only<Answer>();
+  EXPECT_TRUE(answer.ok);
+  EXPECT_EQ(answer.text, "note");
+  EXPECT_THAT(feedback(), IsEmpty());
+}
+
+TEST_F(CommandServiceTest, TheCommandLineResetsAStop) {
+  service_->on_cli(7, ResetStopRequest{}, now_, actions_);
+  event(CommandRefused{only<Command>().id, "the e-stop is still pressed"});
+  const auto answer = only<Answer>();
+  EXPECT_FALSE(answer.ok);
+  EXPECT_EQ(answer.id.number, 7U);
+  EXPECT_EQ(answer.text, "the e-stop is still pressed");
+}
+
+TEST_F(CommandServiceTest, AStoredOriginGoesToTheEngineAtStart) {
+  service_ = std::make_unique<CommandService>(
+      CommandServiceConfig{}, store::StoredState{{}, kOrigin, {"a file was put aside"}});
+  service_->begin(now_, actions_);
+  EXPECT_EQ(std::get<SetOrigin>(only<Command>().body).origin.latitude_deg, 23.0);
+  EXPECT_EQ(only<LogLine>().text, "a file was put aside");
+}
+
+TEST_F(CommandServiceTest, ANewOriginIsStoredBeforeItIsUsed) {
+  control(example("init_rtk_data"));
+  const Command ask = only<Command>();
+  EXPECT_TRUE(std::holds_alternative<ProposeOrigin>(ask.body));
+  actions_.clear();
+  const GeodeticPoint proposed{23.01, 113.0, 10.0};
+  event(OriginProposed{ask.id, proposed});
+  const auto job = only<store::StorageJob>();
+  EXPECT_EQ(std::get<store::SaveOrigin>(job.what).origin.latitude_deg, 23.01);
+  EXPECT_TRUE(all<Command>().empty());
+  actions_.clear();
+  reply(job, true);
+  EXPECT_EQ(std::get<SetOrigin>(only<Command>().body).origin.latitude_deg, 23.01);
+  EXPECT_EQ(service_->origin()->latitude_deg, 23.0);
+  event(CommandAccepted{only<Command>().id, {}});
+  EXPECT_THAT(feedback(), ElementsAre("init_rtk_data_success"));
+  EXPECT_EQ(service_->origin()->latitude_deg, 23.01);
+  EXPECT_EQ(service_->tracks().size(), 2U) << "it deletes nothing";
+  // Tracks of the old origin are derived from latitude and longitude now.
+  EXPECT_NEAR(service_->find_track("13")->points[0].y_m, -1107.5, 1);
+}
+
+TEST_F(CommandServiceTest, AnOriginThatCannotBeProposedStoredOrUsedFails) {
+  control(example("init_rtk_data"));
+  event(CommandRefused{only<Command>().id, "no RTK fixed position"});
+  EXPECT_THAT(feedback(), ElementsAre("init_rtk_data_failse: no RTK fixed position"));
+
+  control(example("init_rtk_data"));
+  event(OriginProposed{only<Command>().id, {24, 113, 0}});
+  reply(only<store::StorageJob>(), false, "disk full");
+  EXPECT_THAT(feedback(), ElementsAre("init_rtk_data_failse: disk full"));
+
+  control(example("init_rtk_data"));
+  event(OriginProposed{only<Command>().id, {24, 113, 0}});
+  reply(only<store::StorageJob>(), true);
+  const auto id = all<Command>().back().id;
+  actions_.clear();
+  event(CommandRefused{id, "a task runs"});
+  const auto back = std::get<store::SaveOrigin>(only<store::StorageJob>().what);
+  EXPECT_EQ(back.origin.latitude_deg, 23.0) << "the disk holds what the engine uses";
+  EXPECT_THAT(feedback(), ElementsAre("init_rtk_data_failse: a task runs"));
+  EXPECT_EQ(service_->origin()->latitude_deg, 23.0);
+}
+
+TEST_F(CommandServiceTest, TwoOriginRequestsAtOnceAreOneTooMany) {
+  control(example("init_rtk_data"));
+  control(example("init_rtk_data"));
+  EXPECT_EQ(all<Command>().size(), 1U);
+  EXPECT_THAT(feedback(), ElementsAre("init_rtk_data_failse: the origin is being set already"));
+}
+
+TEST_F(CommandServiceTest, TheFirstFixedPositionBecomesTheOriginWhenThereIsNone) {
+  make({}, {});
+  Snapshot snapshot;
+  snapshot.gnss.health = SourceState::fresh;
+  snapshot.gnss.position.quality = FixQuality::rtk_float;
+  service_->on_snapshot(snapshot, now_, actions_);
+  EXPECT_TRUE(all<Command>().empty());
+  snapshot.gnss.position.quality = FixQuality::rtk_fixed;
+  service_->on_snapshot(snapshot, now_, actions_);
+  service_->on_snapshot(snapshot, now_, actions_);
+  const Command ask = only<Command>();
+  EXPECT_TRUE(std::holds_alternative<ProposeOrigin>(ask.body));
+  event(CommandRefused{ask.id, "not yet"});
+  EXPECT_THAT(feedback(), IsEmpty()) << "nobody asked";
+  service_->on_snapshot(snapshot, now_ + from_s(1), actions_);
+  EXPECT_TRUE(all<Command>().empty());
+  service_->on_snapshot(snapshot, now_ + from_s(6), actions_);
+  EXPECT_EQ(all<Command>().size(), 1U);
+  make({.automatic_origin = false}, {});
+  service_->on_snapshot(snapshot, now_, actions_);
+  EXPECT_TRUE(actions_.empty());
+}
+
+}  // namespace
+}  // namespace drover::publish

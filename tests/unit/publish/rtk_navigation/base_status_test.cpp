@@ -1,0 +1,241 @@
+#include "publish/rtk_navigation/base_status.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "config/located_json.h"
+#include "publish/rtk_navigation/feedback.h"
+#include "publish/rtk_navigation/trajectory_data.h"
+#include "tests/unit/publish/examples.h"
+
+namespace drover::publish {
+namespace {
+
+using json::Node;
+
+json::Document parsed(const std::string& text) {
+  auto result = json::parse(text);
+  EXPECT_TRUE(result.ok()) << result.error().text() << "\n" << text;
+  return result.ok() ? std::move(result.value()) : json::Document{};
+}
+
+const Node& at(const json::Document& document, const char* group, const char* field) {
+  return *document.root.find(group)->find(field);
+}
+
+Snapshot good_snapshot() {
+  Snapshot snapshot;
+  snapshot.nav.locate = LocateState::good;
+  snapshot.gnss.health = SourceState::fresh;
+  snapshot.gnss.position.quality = FixQuality::rtk_fixed;
+  snapshot.gnss.position.latitude_deg = 1;
+  snapshot.gnss.position.longitude_deg = 2;
+  snapshot.gnss.heading_deg = 45;
+  snapshot.gnss.pose_latitude_deg = 23.1496524965123;
+  snapshot.gnss.pose_longitude_deg = 113.0196366456667;
+  snapshot.pose.x_m = 12.5;
+  snapshot.pose.yaw_rad = 0;  // east
+  snapshot.pose.wz_radps = 0.004363323129985824;
+  AxisSnapshot axis;
+  axis.health = SourceState::fresh;
+  axis.state = AxisState::running;
+  EXPECT_TRUE(snapshot.axes.push_back(axis));
+  return snapshot;
+}
+
+json::Document status(const Snapshot& snapshot, const RtkConfig& config = {},
+                      const BatteryState& battery = {}) {
+  return parsed(BaseStatus(config).text(snapshot, battery));
+}
+
+TEST(BaseStatus, HasEveryFieldOfTheDocumentWithItsType) {
+  const auto document = parsed(example("base_status"));
+  for (const auto& ours : {status(Snapshot{}), status(good_snapshot())}) {
+    for (const auto& group : *document.root.object()) {
+      const Node* our_group = ours.root.find(group.key);
+      ASSERT_NE(our_group, nullptr) << group.key;
+      for (const auto& field : *group.node.object()) {
+        const Node* value = our_group->find(field.key);
+        ASSERT_NE(value, nullptr) << group.key << "." << field.key;
+        EXPECT_EQ(value->number().has_value(), field.node.number().has_value()) << field.key;
+        EXPECT_EQ(value->text() != nullptr, field.node.text() != nullptr) << field.key;
+        EXPECT_EQ(value->boolean() != nullptr, field.node.boolean() != nullptr) << field.key;
+      }
+    }
+  }
+}
+
+TEST(BaseStatus, AddsNothingBesideWhatItDeclares) {
+  const auto document = parsed(example("base_status"));
+  const auto ours = status(good_snapshot());
+  std::vector<std::string> added;
+  for (const auto& group : *ours.root.object()) {
+    const Node* theirs = document.root.find(group.key);
+    ASSERT_NE(theirs, nullptr) << group.key;
+    for (const auto& field : *group.node.object()) {
+      if (theirs->find(field.key) == nullptr) added.push_back(group.key + "." + field.key);
+    }
+  }
+  EXPECT_THAT(added, testing::ElementsAre("bms.valid", "nav.owner", "nav.why"));
+}
+
+TEST(BaseStatus, BeforeAnythingIsKnownItClaimsNothing) {
+  const auto ours = status(Snapshot{});
+  EXPECT_EQ(*at(ours, "nav", "locate").text(), "LOCATE_UNINIT");
+  EXPECT_EQ(*at(ours, "nav", "status").text(), "NAV_FREE");
+  EXPECT_EQ(at(ours, "rtk", "status").integer(), 0);
+  EXPECT_EQ(at(ours, "rtk", "latitude").number(), 0);
+  EXPECT_EQ(at(ours, "bms", "error").integer(), 1);
+  EXPECT_FALSE(*at(ours, "bms", "valid").boolean());
+  for (const char* sensor : {"imu", "laser", "robot"}) {
+    EXPECT_FALSE(*at(ours, "sensor", sensor).boolean()) << sensor;
+  }
+  EXPECT_EQ(at(ours, "robot", "robot_status").integer(), 8);
+}
+
+TEST(BaseStatus, NeverWritesWhatIsNoNumber) {
+  Snapshot snapshot = good_snapshot();
+  const double bad = std::numeric_limits<double>::quiet_NaN();
+  BaseStatus publisher{RtkConfig{}};
+  publisher.text(snapshot, {});
+  snapshot.pose.x_m = snapshot.pose.yaw_rad = snapshot.pose.vx_mps = bad;
+  snapshot.pose.wz_radps = std::numeric_limits<double>::infinity();
+  snapshot.gnss.pose_latitude_deg = snapshot.gnss.pose_longitude_deg = bad;
+  const auto ours = parsed(publisher.text(snapshot, {}));
+  EXPECT_EQ(at(ours, "pose", "x").number(), 12.5);
+  EXPECT_EQ(at(ours, "rtk", "latitude").number(), 23.1496524965123);
+  EXPECT_EQ(at(ours, "rtk", "angle").number(), 90);
+}
+
+TEST(BaseStatus, TakesRtkOfThePosesOwnInstantWhileLocated) {
+  const auto ours = status(good_snapshot());
+  EXPECT_EQ(at(ours, "rtk", "latitude").number(), 23.1496524965123);
+  EXPECT_EQ(at(ours, "rtk", "longitude").number(), 113.0196366456667);
+  EXPECT_EQ(at(ours, "rtk", "angle").number(), 90);
+  EXPECT_EQ(at(ours, "robot", "vz").number(), 0.004363323129985824);
+}
+
+TEST(BaseStatus, TakesTheReceiversLastWordWhenNotLocated) {
+  Snapshot snapshot = good_snapshot();
+  snapshot.nav.locate = LocateState::lost;
+  const auto ours = status(snapshot);
+  EXPECT_EQ(*at(ours, "nav", "locate").text(), "LOCATE_FALSE");
+  EXPECT_EQ(at(ours, "rtk", "latitude").number(), 1);
+  EXPECT_EQ(at(ours, "rtk", "angle").number(), 45);
+}
+
+TEST(BaseStatus, ASilentReceiverHasNoFix) {
+  Snapshot snapshot = good_snapshot();
+  snapshot.gnss.health = SourceState::stale;
+  EXPECT_EQ(at(status(snapshot), "rtk", "status").integer(), 0);
+}
+
+TEST(BaseStatus, KnowsOnlyTheDocumentsFixStates) {
+  const int expected[] = {0, 1, 2, 1, 4, 5, 0, 0, 0};
+  for (int i = 0; i < 9; ++i) EXPECT_EQ(rtk_status(static_cast<FixQuality>(i)), expected[i]) << i;
+  EXPECT_EQ(rtk_status(static_cast<FixQuality>(9)), 0);
+}
+
+TEST(BaseStatus, CountsAnglesInTheConfiguredConvention) {
+  using enum HeadingConvention;
+  EXPECT_EQ(angle_deg_from_compass(clockwise_from_north, 90), 90);
+  EXPECT_EQ(angle_deg_from_compass(clockwise_from_north, 360), 0);
+  EXPECT_EQ(angle_deg_from_compass(counterclockwise_from_north, 90), 270);
+  EXPECT_EQ(angle_deg_from_compass(counterclockwise_from_north, 0), 0);
+  EXPECT_EQ(angle_deg_from_compass(counterclockwise_from_east, 90), 0);
+  EXPECT_EQ(angle_deg_from_compass(counterclockwise_from_east, 0), 90);
+  EXPECT_EQ(angle_deg_from_compass(counterclockwise_from_east, 180), 270);
+}
+
+TEST(BaseStatus, PublishesStopsAsTheChassisStatusBits) {
+  Snapshot snapshot;
+  const auto estop = static_cast<std::size_t>(Line::estop);
+  const auto bumper = static_cast<std::size_t>(Line::bumper);
+  snapshot.line_active[estop] = true;
+  EXPECT_EQ(robot_status(snapshot), 8) << "a line that is not configured says nothing";
+  snapshot.line_configured[estop] = true;
+  snapshot.stop_latched = true;
+  EXPECT_EQ(robot_status(snapshot), 8 + 1);
+  snapshot.line_active[estop] = false;
+  EXPECT_EQ(robot_status(snapshot), 8 + 4);
+  snapshot.line_configured[bumper] = snapshot.line_active[bumper] = true;
+  EXPECT_EQ(robot_status(snapshot), 8 + 4 + 16);
+}
+
+TEST(BaseStatus, CallsTheBaseHealthyOnlyWhenEveryDriveIs) {
+  Snapshot snapshot = good_snapshot();
+  EXPECT_TRUE(*at(status(snapshot), "sensor", "robot").boolean());
+  AxisSnapshot axis = snapshot.axes[0];
+  axis.health = SourceState::stale;
+  ASSERT_TRUE(snapshot.axes.push_back(axis));
+  EXPECT_FALSE(*at(status(snapshot), "sensor", "robot").boolean());
+  snapshot.axes[1].health = SourceState::fresh;
+  snapshot.axes[1].state = AxisState::fault;
+  EXPECT_FALSE(*at(status(snapshot), "sensor", "robot").boolean());
+}
+
+TEST(BaseStatus, CallsTheScannerHealthyOnlyWhenItIsThereAndAnswers) {
+  Snapshot snapshot = good_snapshot();
+  EXPECT_FALSE(*at(status(snapshot), "sensor", "laser").boolean());
+  const auto near = static_cast<std::size_t>(Line::zone_near);
+  snapshot.line_configured[near] = true;
+  EXPECT_FALSE(*at(status(snapshot), "sensor", "laser").boolean());
+  snapshot.line_health[near] = SourceState::fresh;
+  EXPECT_TRUE(*at(status(snapshot), "sensor", "laser").boolean());
+}
+
+TEST(BaseStatus, PowerIsPercentOrVoltsAsConfigured) {
+  Snapshot snapshot = good_snapshot();
+  snapshot.axes[0].bus_V = 48.5;
+  EXPECT_EQ(at(status(snapshot), "robot", "power").number(), 0);
+  EXPECT_EQ(at(status(snapshot, {.power = PowerUnit::volts}), "robot", "power").number(), 48.5);
+  BatteryState battery;
+  battery.valid = true;
+  battery.soc_percent = 68;
+  battery.voltage_V = 51;
+  const auto percent = status(snapshot, {}, battery);
+  EXPECT_EQ(at(percent, "robot", "power").number(), 68);
+  EXPECT_EQ(at(percent, "bms", "error").integer(), 0);
+  EXPECT_EQ(at(status(snapshot, {.power = PowerUnit::volts}, battery), "robot", "power").number(),
+            51);
+}
+
+TEST(BaseStatus, SaysWhyTheCauseFirst) {
+  Snapshot snapshot = good_snapshot();
+  ASSERT_TRUE(snapshot.why.push_back(Reason("e-stop pressed")));
+  ASSERT_TRUE(snapshot.why.push_back(Reason("receiver silent")));
+  const auto ours = status(snapshot);
+  const auto& why = *at(ours, "nav", "why").list();
+  ASSERT_EQ(why.size(), 2U);
+  EXPECT_EQ(*why[0].text(), "e-stop pressed");
+}
+
+TEST(TrajectoryData, NoTrackIsAnEmptyList) {
+  EXPECT_EQ(trajectory_data_text({}), "[]");
+}
+
+TEST(TrajectoryData, HasTheDocumentsShapeAndDigits) {
+  store::Track track{"test5", {}, {}};
+  track.points.assign(2, {188.2222333, 23.04934955, 30, 322100, 45220, 230, 3.141592});
+  const auto ours = parsed(trajectory_data_text({&track, 1}));
+  const auto theirs = parsed(example("trajectory_data"));
+  const Node& our_point = (*(*ours.root.list())[0].find("data")->list())[1];
+  const Node& their_point = (*(*theirs.root.list())[0].find("data")->list())[1];
+  ASSERT_EQ(our_point.object()->size(), their_point.object()->size());
+  for (const auto& field : *their_point.object()) {
+    EXPECT_EQ(our_point.find(field.key)->number(), field.node.number()) << field.key;
+  }
+  EXPECT_EQ(*(*ours.root.list())[0].find("name")->text(), "test5");
+}
+
+TEST(Feedback, HasTheDocumentsShape) {
+  EXPECT_EQ(feedback_text(success_cmd(Verb::delete_trajectory), {}, {}),
+            "{\"cmd\":\"delete_trajectory_success\",\"cmd_type\":\"feedback\"}");
+  EXPECT_EQ(feedback_text(failure_cmd(Verb::start_nav), "why", {}),
+            "{\"cmd\":\"start_nav_failse\",\"cmd_type\":\"feedback\",\"reason\":\"why\"}");
+}
+
+}  // namespace
+}  // namespace drover::publish

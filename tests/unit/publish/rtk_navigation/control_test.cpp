@@ -1,0 +1,204 @@
+#include "publish/rtk_navigation/control.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/unit/publish/examples.h"
+
+namespace drover::publish {
+namespace {
+
+using testing::HasSubstr;
+
+/// "accepted", or "<feedback cmd>: <reason>".
+std::string answer(std::string_view payload, bool retained = false) {
+  const auto result = parse_control(payload, retained);
+  return result.ok() ? "accepted" : result.error().feedback_cmd + ": " + result.error().reason;
+}
+
+std::string start(std::string_view id, std::string_view speed = "0.5",
+                  std::string_view name = "\"13\"") {
+  return "{\"cmd_type\":\"task_control\",\"cmd\":\"start_task\",\"name\":" + std::string(name) +
+         ",\"id\":" + std::string(id) + ",\"speed\":" + std::string(speed) + "}";
+}
+
+std::string save(std::string_view points, std::string_view name = "\"t\"") {
+  return "{\"cmd_type\":\"trajectory_control\",\"cmd\":\"save_trajectory\",\"data\":{\"name\":" +
+         std::string(name) + ",\"data\":" + std::string(points) + "}}";
+}
+
+const std::string kPoint =
+    "{\"longitude\":113.0,\"latitude\":23.0,\"angle\":30,\"x\":1,\"y\":2.5,\"yaw\":0.1}";
+
+TEST(Control, RefusesAPointIdThatIsNoInteger) {
+  for (const char* id : {"1.9", "2.0", "1e0", "1e9", "true", "\"1\"", "null", "[]", "{}"}) {
+    EXPECT_THAT(answer(start(id)), HasSubstr("start_task_failse: 'id' must be an integer")) << id;
+  }
+  EXPECT_THAT(answer(start("18446744073709551616")), HasSubstr("64 bits"));
+  EXPECT_THAT(answer(start("18446744073709551615")), HasSubstr("'id' must be an integer"));
+  EXPECT_EQ(answer("{\"cmd_type\":\"task_control\",\"cmd\":\"start_task\",\"name\":\"13\","
+                   "\"speed\":0.2}"),
+            "start_task_failse: 'id' is missing");
+}
+
+TEST(Control, DoesNotWrapALargePointId) {
+  const auto result = parse_control(start("4294967297"), false);
+  ASSERT_TRUE(result.ok());
+  EXPECT_EQ(std::get<StartTaskRequest>(*result).id, 4294967297);
+}
+
+TEST(Control, RefusesASpeedThatIsNoNumber) {
+  for (const char* speed : {"\"fast\"", "null", "true", "[0.5]"}) {
+    EXPECT_THAT(answer(start("1", speed)), HasSubstr("'speed' must be a number")) << speed;
+  }
+  for (const char* speed : {"NaN", "Infinity", "-Infinity", "1e999"}) {
+    EXPECT_THAT(answer(start("1", speed)), HasSubstr("unknown_failse")) << speed;
+  }
+}
+
+TEST(Control, RefusesATrackNameThatIsNoText) {
+  for (const char* name : {"13", "null", "true", "[\"13\"]", "{}"}) {
+    EXPECT_THAT(answer(start("1", "0.5", name)), HasSubstr("'name' must be a text")) << name;
+    EXPECT_THAT(answer(save("[]", name)), HasSubstr("save_trajectory_failse: 'name' must")) << name;
+  }
+}
+
+TEST(Control, RefusesNamesThatWouldForgeALine) {
+  for (const char* name : {"\"a\\u0000/../x\"", "\"a\\nb\"", "\"a\\u007fb\"", "\"\\u001b[2J\""}) {
+    EXPECT_THAT(answer(save("[]", name)), HasSubstr("control character")) << name;
+  }
+  EXPECT_THAT(answer(save("[]", "\"" + std::string(1201, 'x') + "\"")), HasSubstr("longer than"));
+}
+
+TEST(Control, TakesAnyOtherName) {
+  for (const char* name : {"\"../../etc/passwd\"", "\"园区01\"", "\"\"", "\"CON\"", "\".\"",
+                           "\"%2e%2e\"", "\"-rf\"", "\"\\u202Etxt\"", "\"__proto__\""}) {
+    EXPECT_EQ(answer(save("[]", name)), "accepted") << name;
+  }
+  EXPECT_EQ(answer(save("[]", "\"" + std::string(300, 'x') + "\"")), "accepted");
+}
+
+TEST(Control, RefusesPointsThatAreNone) {
+  const std::pair<std::string, const char*> table[] = {
+      {"[" + kPoint + ",7]", "point 2: is no object but an integer"},
+      {"[{}]", "point 1: 'longitude' is missing"},
+      {"[{\"longitude\":\"113\"}]", "point 1: 'longitude' must be a number, not a text"},
+      {"[{\"longitude\":1,\"latitude\":2,\"angle\":3,\"x\":4,\"y\":5}]", "'yaw' is missing"},
+      {"[{\"longitude\":1,\"latitude\":null,\"angle\":3,\"x\":4,\"y\":5,\"yaw\":6}]", "'latitude'"},
+      {"[{\"longitude\":1,\"latitude\":2,\"angle\":3,\"x\":NaN,\"y\":5,\"yaw\":6}]", "line 1"},
+      {"[{\"longitude\":1,\"latitude\":2,\"angle\":3,\"x\":4,\"y\":5,\"yaw\":6,\"z\":\"\"}]",
+       "'z'"},
+      {"{}", "must be a list of points"},
+      {"null", "must be a list of points"},
+  };
+  for (const auto& [points, reason] : table) {
+    EXPECT_THAT(answer(save(points)), HasSubstr(reason)) << points;
+  }
+}
+
+TEST(Control, RefusesMoreThanALimitOfAnything) {
+  EXPECT_THAT(answer(std::string((1U << 20) + 1, ' ')), HasSubstr("bytes"));
+  EXPECT_THAT(answer(std::string(1'000'000, '[')), HasSubstr("nested deeper"));
+  std::string zeros = "[0";
+  for (int i = 0; i < 300'000; ++i) zeros += ",0";
+  EXPECT_THAT(answer(save(zeros + "]")), HasSubstr("more than 200000 values"));
+}
+
+TEST(Control, KeepsPointsThatMakeNoSenseAsTheyCame) {
+  EXPECT_EQ(answer(save("[]")), "accepted");
+  EXPECT_EQ(answer(save("[" + kPoint + "]")), "accepted");
+  EXPECT_EQ(answer(save("[" + kPoint + "," + kPoint + "]")), "accepted");
+  const auto result = parse_control(
+      save("[{\"longitude\":188.2222333,\"latitude\":91,\"angle\":-1,\"x\":1e6,\"y\":-0,"
+           "\"yaw\":230,\"z\":3.141592}]"),
+      false);
+  ASSERT_TRUE(result.ok());
+  const auto& point = std::get<SaveTrajectory>(*result).track.points.at(0);
+  EXPECT_EQ(point.longitude_deg, 188.2222333);
+  EXPECT_EQ(point.latitude_deg, 91);
+  EXPECT_EQ(point.x_m, 1e6);
+  EXPECT_EQ(point.z_m, 3.141592);
+}
+
+TEST(Control, RefusesHostileText) {
+  for (const std::string& payload :
+       {std::string(), std::string("{"), std::string("null"), std::string("[]"),
+        std::string("\"x\""), std::string("{\"cmd\":\"\xFF\"}"),
+        std::string("{\"cmd\":\"\\ud800\"}"), "\xEF\xBB\xBF" + start("1"), start("1") + start("1"),
+        start("1") + std::string("\0x", 2),
+        std::string("{\"cmd\":\"cancel_task\",\"cmd\":\"start_task\"}"),
+        std::string("{\"cmd\":7,\"cmd_type\":\"task_control\"}"),
+        std::string("{\"cmd\":\"cancel_task\"}"), std::string("{\"cmd_type\":\"task_control\"}"),
+        std::string("{\"__proto__\":{},\"cmd\":\"cancel_task\",\"cmd_type\":\"task_control\"}")}) {
+    EXPECT_NE(answer(payload), "accepted") << payload;
+  }
+}
+
+TEST(Control, RefusesADuplicateKeyInsteadOfTakingTheLast) {
+  EXPECT_THAT(
+      answer("{\"cmd_type\":\"task_control\",\"cmd\":\"start_task\",\"name\":\"1\",\"id\":1,"
+             "\"id\":2,\"speed\":0.5}"),
+      HasSubstr("(id): this key is there twice"));
+}
+
+TEST(Control, RefusesARetainedMessage) {
+  for (const char* name : {"start_task", "cancel_task", "delete_all_trajectory"}) {
+    EXPECT_EQ(answer(example(name), true),
+              std::string(name) +
+                  "_failse: the message was retained by the broker: publish without retain");
+  }
+}
+
+TEST(Control, RefusesACommandUnderAnotherType) {
+  EXPECT_EQ(answer("{\"cmd_type\":\"trajectory_control\",\"cmd\":\"start_task\"}"),
+            "start_task_failse: the cmd_type of start_task is task_control, not "
+            "'trajectory_control'");
+}
+
+TEST(Control, AnswersUnknownCommandsByTheirOwnNameWhereThatIsOne) {
+  EXPECT_THAT(answer("{\"cmd_type\":\"manual_control\",\"cmd\":\"cmd_vel\"}"),
+              HasSubstr("cmd_vel_failse: there is no command 'cmd_vel'"));
+  EXPECT_THAT(answer("{\"cmd_type\":\"task_control\",\"cmd\":\"<b>x</b>\"}"),
+              HasSubstr("unknown_failse: "));
+  EXPECT_EQ(failure_cmd(std::string(41, 'a')), "unknown_failse");
+  EXPECT_EQ(failure_cmd(""), "unknown_failse");
+}
+
+TEST(Control, TakesEveryExampleOfTheDocument) {
+  const auto parsed = [](const char* name) { return parse_control(example(name), false); };
+  EXPECT_TRUE(std::holds_alternative<GetAllTrajectory>(*parsed("get_all_trajectory")));
+  EXPECT_TRUE(std::holds_alternative<DeleteAllTrajectory>(*parsed("delete_all_trajectory")));
+  EXPECT_TRUE(std::holds_alternative<CancelTaskRequest>(*parsed("cancel_task")));
+  EXPECT_TRUE(std::holds_alternative<InitRtkData>(*parsed("init_rtk_data")));
+  EXPECT_EQ(std::get<DeleteTrajectory>(*parsed("delete_trajectory")).name, "test5");
+  const auto start_task = parsed("start_task");
+  const auto& request = std::get<StartTaskRequest>(*start_task);
+  EXPECT_EQ(request.name, "13");
+  EXPECT_EQ(request.id, 2);
+  EXPECT_EQ(request.speed_mps, 0.2);
+  const auto saved = parsed("save_trajectory");
+  const auto& track = std::get<SaveTrajectory>(*saved).track;
+  EXPECT_EQ(track.name, "test1");
+  ASSERT_EQ(track.points.size(), 2U);
+  EXPECT_EQ(track.points[1].longitude_deg, 188.2222333);
+  EXPECT_EQ(track.points[1].latitude_deg, 23.04934955);
+  EXPECT_EQ(track.points[1].angle_deg, 230);
+  EXPECT_EQ(track.points[1].x_m, 322100.0);
+  EXPECT_EQ(track.points[1].y_m, 45220.0);
+  EXPECT_EQ(track.points[1].yaw_rad, 3.141592);
+  EXPECT_EQ(track.points[1].z_m, 0);
+}
+
+TEST(Control, RefusesTheExamplesOfWhatTheRobotPublishes) {
+  for (const char* name : {"base_status", "trajectory_data", "feedback"}) {
+    EXPECT_NE(answer(example(name)), "accepted") << name;
+  }
+}
+
+TEST(Control, IgnoresMembersOfNewerClients) {
+  EXPECT_EQ(answer("{\"cmd_type\":\"task_control\",\"cmd\":\"cancel_task\",\"new\":[{}]}"),
+            "accepted");
+}
+
+}  // namespace
+}  // namespace drover::publish
