@@ -134,7 +134,7 @@ TEST(LocatedJson, TellsWhereEachValueStandsPastCommentsAndWideCharacters) {
 
 TEST(LocatedJson, ShowsForeignTextOnOneShortLine) {
   EXPECT_EQ(refusal("{\"a\\nb\":{\"x\":1,\"x\":2}}"),
-            "line 1, column 15 (a?b.x): this key is there twice");
+            "line 1, column 16 (a?b.x): this key is there twice");
   EXPECT_EQ(shown("园区01", 5), "园...");
   EXPECT_EQ(shown("园区01", 8), "园区01");
 }
