@@ -1,18 +1,18 @@
 // A CAN controller with real error states: the kernel's slcan driver on one end of a
 // pseudo-terminal, this file as the adapter's firmware on the other.
-#include <fcntl.h>
 #include <net/if.h>
 #include <poll.h>
 #include <spawn.h>
 #include <sys/ioctl.h>
-#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <termios.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
+#include <deque>
 #include <stdexcept>
 
 #include "sim/robot/can_port.h"
@@ -24,14 +24,28 @@ extern char** environ;
 namespace drover::sim {
 namespace {
 
+constexpr int kLook_ms = 1;
 constexpr int kLineDisciplineSlcan = 17;  // N_SLCAN
 
 class SlcanPort final : public CanPort {
  public:
-  explicit SlcanPort(std::string interface) : interface_(std::move(interface)) { plug(); }
+  explicit SlcanPort(std::string interface) : interface_(std::move(interface)) {
+    plug();
+    while (!brought_up()) {
+      pollfd wait{pty_.master.get(), POLLIN, 0};
+      ::poll(&wait, 1, kLook_ms);
+      pump();
+    }
+    if (!problem_.empty()) throw std::runtime_error(problem_);
+  }
+  ~SlcanPort() override {
+    pty_ = Pty{};  // the driver lets `ip` go
+    if (child_ > 0) ::waitpid(child_, nullptr, 0);
+  }
 
   void receive(const link::StampWindow& window, std::vector<link::ReceivedFrame>& out) override {
     if (!stalled_) pump();
+    (void)brought_up();
     std::size_t begin = 0;
     for (auto end = in_.find('\r'); end != std::string::npos; end = in_.find('\r', begin)) {
       if (const auto frame = parse_slcan(std::string_view(in_).substr(begin, end - begin)))
@@ -79,31 +93,39 @@ class SlcanPort final : public CanPort {
     if (::ioctl(pty_.slave.get(), SIOCGIFNAME, &request) != 0)
       throw std::runtime_error(interface_ + ": slcan has no name: " + std::strerror(errno));
     const std::string made = request.ifr_name;
-    if (made != interface_) run({"ip", "link", "set", made, "name", interface_});
-    run({"ip", "link", "set", interface_, "type", "can", "bitrate", "500000"});
-    run({"ip", "link", "set", interface_, "up"});
+    problem_.clear();
+    todo_.clear();
+    if (made != interface_) todo_.push_back({"ip", "link", "set", made, "name", interface_});
+    todo_.push_back({"ip", "link", "set", interface_, "type", "can", "bitrate", "500000"});
+    todo_.push_back({"ip", "link", "set", interface_, "up"});
   }
 
-  // The driver waits for the adapter to take its commands while `ip` runs, so keep taking them.
-  void run(std::vector<std::string> words) {
+  // One `ip` after the other, without waiting: the driver wants the adapter to take its commands
+  // while `ip` runs, and the robot must not stand still meanwhile. True when there is no more.
+  bool brought_up() {
+    if (child_ > 0) {
+      int status = 0;
+      if (::waitpid(child_, &status, WNOHANG) == 0) return false;
+      child_ = -1;
+      if (status != 0) fail("'ip link set' failed for " + interface_);
+    }
+    if (todo_.empty()) return true;
+    auto words = todo_.front();
+    todo_.pop_front();
     std::vector<char*> argv;
     for (auto& word : words) argv.push_back(word.data());
     argv.push_back(nullptr);
-    pid_t child = -1;
-    if (const int error = ::posix_spawnp(&child, argv[0], nullptr, nullptr, argv.data(), environ))
-      throw std::runtime_error(std::string("ip: ") + std::strerror(error));
-    const link::UniqueFd ended(static_cast<int>(::syscall(SYS_pidfd_open, child, 0)));
-    std::array<pollfd, 2> wait{{{ended.get(), POLLIN, 0}, {pty_.master.get(), POLLIN, 0}}};
-    while ((wait[0].revents & POLLIN) == 0) {
-      if (::poll(wait.data(), wait.size(), -1) < 0 && errno != EINTR) break;
-      if (wait[1].revents != 0) pump();
+    if (const int error =
+            ::posix_spawnp(&child_, argv[0], nullptr, nullptr, argv.data(), environ)) {
+      child_ = -1;
+      fail(std::string("cannot run ip: ") + std::strerror(error));
     }
-    int status = 0;
-    ::waitpid(child, &status, 0);
-    if (status == 0) return;
-    std::string text;
-    for (const auto& word : words) text += (text.empty() ? "" : " ") + word;
-    throw std::runtime_error("'" + text + "' failed");
+    return false;
+  }
+  void fail(std::string problem) {
+    todo_.clear();
+    problem_ = std::move(problem);
+    std::fprintf(stderr, "drover-sim: %s\n", problem_.c_str());
   }
 
   void pump() {
@@ -126,6 +148,9 @@ class SlcanPort final : public CanPort {
   std::string interface_;
   Pty pty_;
   std::string in_;
+  std::deque<std::vector<std::string>> todo_;
+  pid_t child_ = -1;
+  std::string problem_;
   bool stalled_ = false;
   std::uint64_t dropped_ = 0;
 };
