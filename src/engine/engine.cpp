@@ -193,11 +193,14 @@ void Engine::Impl::fill_snapshot(Time now, const Environment& environment,
   snapshot.stop_latched = !navigator.latched().empty();
   snapshot.guard_alive = environment.guard_alive;
   snapshot.guard_has_bus = environment.guard_has_bus;
-  snapshot.why = report.why;
-  // Latched in this very cycle by something that is no lasting cause.
-  if (snapshot.why.empty() && snapshot.stop_latched) {
-    snapshot.why.resize(1);
-    snapshot.why[0] = navigator.latched();
+  const std::uint32_t latched_bit = 1U << static_cast<unsigned>(Cause::latched);
+  snapshot.why.clear();
+  // Latched in this very cycle by what is no lasting cause: health will tell from the next on.
+  if (snapshot.stop_latched && (report.causes & latched_bit) == 0 && report.stop.empty()) {
+    (void)snapshot.why.push_back(navigator.latched());
+  }
+  for (const Reason& reason : report.why) {
+    if (!snapshot.why.push_back(reason)) break;
   }
 }
 

@@ -104,8 +104,9 @@ WheelFault WheelMonitor::update(Time now, Duration dt, std::span<const AxisSnaps
     reason_.format("blocked: the wheels do not move for %.1f s", to_s(shortest));
     return WheelFault::blocked;
   }
-  const Duration allowed = from_s(config_.health.follow_timeout_s);
-  if (longest >= allowed && shortest < allowed) {
+  // Only beside one that does follow now; when all stand, the robot is about to be blocked.
+  const bool others_follow = shortest <= from_s(1.5 * kWindow_s);
+  if (longest >= from_s(config_.health.follow_timeout_s) && others_follow) {
     const std::string_view joint = behind->joint;
     reason_.format("wheel %.*s does not follow its command", static_cast<int>(joint.size()),
                    joint.data());

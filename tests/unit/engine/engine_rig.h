@@ -1,0 +1,230 @@
+// The whole engine with a simulated base, drives, receiver, lines and guard about it.
+#pragma once
+
+#include <array>
+#include <deque>
+#include <memory>
+#include <vector>
+
+#include "drover/angle.h"
+#include "engine/engine.h"
+#include "engine/estimate/estimator.h"
+#include "support/plant_2d.h"
+
+namespace drover::engine {
+
+inline constexpr Duration kRigTick = std::chrono::milliseconds(5);
+inline constexpr GeodeticPoint kRigOrigin{48.1, 11.6, 500};
+
+inline EngineConfig rig_config() {
+  EngineConfig config;
+  for (const char* name : {"front_left", "front_right", "rear_left", "rear_right"}) {
+    (void)config.joints.push_back(name);
+  }
+  for (const AxisId id : {AxisId{0}, AxisId{2}}) (void)config.base.left.push_back(id);
+  for (const AxisId id : {AxisId{1}, AxisId{3}}) (void)config.base.right.push_back(id);
+  config.line_configured = {true, true, true, true};
+  config.estimate.antenna_x_m = 0.2;
+  return config;
+}
+
+/// One call of `tick` is one control cycle. Faults are fields that a test sets.
+class EngineRig {
+ public:
+  explicit EngineRig(const EngineConfig& c = rig_config(), double x_m = 0, double y_m = 0,
+                     double yaw_rad = 0)
+      : config(c),
+        engine(std::make_unique<Engine>(c)),
+        plant(c.base, {}, x_m, y_m, yaw_rad),
+        geo_(c.estimate, c.base) {
+    geo_.set_origin(kRigOrigin);
+  }
+
+  struct Drive {
+    bool silent = false;
+    bool refuses = false;  ///< does not arm
+    bool stuck = false;    ///< feedback stands still
+    bool fault = false;
+    AxisState state = AxisState::idle;
+    int arming = 0;
+    double position_rad = 0;
+  };
+
+  void command(const decltype(Command::body)& body) {
+    engine->on_command({{RequestId::Source::mqtt, ++asked}, now, body}, now);
+  }
+  void start(const Path& path, std::uint32_t target, double speed_mps) {
+    command(StartTask{&path, target, speed_mps});
+  }
+  void set_origin() { command(SetOrigin{kRigOrigin}); }
+
+  void tick() {
+    now += kRigTick;
+    move();
+    sense();
+    environment.guard_alive = guard_alive;
+    environment.guard_has_bus = guard_has_bus;
+    engine->step(now, environment, out);
+    log.insert(log.end(), out.events.begin(), out.events.end());
+  }
+  void run_s(double seconds) {
+    for (int i = 0; i < static_cast<int>(seconds * 200 + 0.5); ++i) tick();
+  }
+  /// Origin set, drives heard, fix there: as a robot is before its first task.
+  void settle() {
+    tick();
+    set_origin();
+    run_s(3);
+  }
+
+  double fastest_command_radps() const {
+    double fastest = 0;
+    for (const AxisCommand& axis : out.axes) {
+      fastest = std::max(fastest, std::abs(axis.velocity_radps));
+    }
+    return fastest;
+  }
+  template <class Body>
+  std::vector<Body> said() const {
+    std::vector<Body> all;
+    for (const Event& event : log) {
+      if (const auto* body = std::get_if<Body>(&event.body)) all.push_back(*body);
+    }
+    return all;
+  }
+  const Snapshot& snapshot() const { return engine->snapshot(); }
+  std::string why() const {
+    return snapshot().why.empty() ? "" : std::string(snapshot().why[0].view());
+  }
+
+  EngineConfig config;
+  std::unique_ptr<Engine> engine;
+  test::Plant2d plant;
+  Environment environment;
+  EngineOutput out;
+  std::vector<Event> log;
+  std::array<Drive, 4> drives;
+  std::array<bool, kLineCount> lines{};
+  std::array<bool, kLineCount> line_lost{};
+  bool guard_alive = true;
+  bool guard_has_bus = false;
+  bool receiver_silent = false;
+  bool no_heading = false;
+  bool blocked = false;
+  FixQuality quality = FixQuality::rtk_fixed;
+  double jump_m = 0;  ///< of the reported position, east
+  Time now{std::chrono::seconds(10)};
+  std::uint64_t asked = 0;
+
+ private:
+  struct Fix {
+    Time time;
+    GnssPosition position;
+    GnssHeading heading;
+  };
+
+  /// The drives do what the last cycle asked, the plant turns it into motion.
+  void move() {
+    std::array<double, 4> speed{};
+    for (std::size_t i = 0; i < 4; ++i) {
+      Drive& drive = drives[i];
+      const AxisCommand& asked_of = out.axes[i];
+      if (drive.fault) {
+        drive.state = AxisState::fault;
+      } else if (drive.state == AxisState::fault) {
+        drive.state = AxisState::idle;
+      } else if (asked_of.request == AxisRequest::run && drive.state == AxisState::idle &&
+                 !drive.refuses) {
+        drive.state = AxisState::arming;
+        drive.arming = 40;
+      } else if (drive.state == AxisState::arming && --drive.arming <= 0) {
+        drive.state = AxisState::running;
+      }
+      if (drive.state == AxisState::running) speed[i] = asked_of.velocity_radps;
+    }
+    if (blocked) speed = {};
+    const double dt_s = to_s(kRigTick);
+    plant.step({0.5 * (speed[0] + speed[2]), 0.5 * (speed[1] + speed[3])}, dt_s);
+    const Pose seen = plant.estimate();
+    const double turn_mps = 0.5 * config.base.track_m * seen.wz_radps;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const double rim_mps = seen.vx_mps + (i % 2 == 0 ? -turn_mps : turn_mps);
+      const double radps = rim_mps / config.base.wheel_radius_m;
+      Drive& drive = drives[i];
+      if (!drive.stuck) drive.position_rad += radps * dt_s;
+      environment.axes[i].state = drive.silent ? SourceState::stale : SourceState::fresh;
+      if (drive.silent) continue;
+      AxisMotion motion;
+      motion.axis = static_cast<AxisId>(i);
+      motion.position_rad = drive.position_rad;
+      motion.velocity_radps = drive.stuck ? 0 : radps;
+      measure(now, motion);
+      measure(now, AxisStatus{static_cast<AxisId>(i), drive.state, 0,
+                              drive.fault ? Reason("over temperature") : Reason()});
+    }
+  }
+
+  void sense() {
+    for (std::size_t i = 0; i < kLineCount; ++i) {
+      SourceHealth& source = environment.lines[i];
+      source.state = line_lost[i] ? SourceState::stale : SourceState::fresh;
+      if (line_lost[i]) continue;
+      source.last_good = now;
+      measure(now, LineState{static_cast<Line>(i), lines[i]});
+    }
+    environment.gnss.state = receiver_silent ? SourceState::stale : SourceState::fresh;
+    if (!receiver_silent) environment.gnss.last_good = now;
+    if (++ticks_ % 20 == 0) read_receiver();
+    while (!fixes_.empty() && now - fixes_.front().time >= std::chrono::milliseconds(80)) {
+      const Fix& fix = fixes_.front();
+      if (!receiver_silent) {
+        measure(fix.time, fix.position);
+        if (!no_heading) measure(fix.time, fix.heading);
+      }
+      fixes_.pop_front();
+    }
+  }
+
+  void read_receiver() {
+    Pose pose = plant.estimate();
+    pose.x_m += jump_m;
+    const GeodeticPoint antenna = geo_.antenna_geodetic(pose);
+    Fix fix;
+    fix.time = now;
+    fix.position.latitude_deg = antenna.latitude_deg;
+    fix.position.longitude_deg = antenna.longitude_deg;
+    fix.position.altitude_msl_m = 455;
+    fix.position.undulation_m = 45;
+    fix.position.quality = quality;
+    fix.position.satellites = 20;
+    fix.position.hdop = 0.7;
+    fix.position.correction_age_s = 1;
+    fix.heading.heading_deg = compass_deg_from_yaw_rad(pose.yaw_rad);
+    fixes_.push_back(fix);
+  }
+
+  template <class Value>
+  void measure(Time time, const Value& value) {
+    Measurement m;
+    m.time = time;
+    m.received = now;
+    m.value = value;
+    engine->on_measurement(m);
+  }
+
+  Estimator geo_;  ///< only its geodesy
+  std::deque<Fix> fixes_;
+  std::uint64_t ticks_ = 0;
+};
+
+/// Points each half metre from (0, 0) along x.
+inline Path straight_path(double length_m) {
+  Path path;
+  path.name = "straight";
+  for (int i = 0; i <= static_cast<int>(length_m * 2 + 0.5); ++i) {
+    path.points.push_back({0.5 * i, 0});
+  }
+  return path;
+}
+
+}  // namespace drover::engine
