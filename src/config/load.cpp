@@ -142,6 +142,9 @@ class Checks final {
   void finish_engine() {
     auto& c = loaded_.config;
     c.engine.tick_Hz = c.control.tick_Hz;
+    // The driver places each byte in time by the pace at which the line is really opened.
+    if (c.gnss.options.has("baud"))
+      c.gnss.options.set("baud", static_cast<double>(c.gnss.baud));
     c.engine.health.guard_required = c.guard.required;
     for (const auto& drive : c.drives) (void)c.engine.joints.push_back(Name(drive.joint));
     for (std::size_t i = 0; i < kLineCount; ++i)

@@ -111,6 +111,7 @@ void ControlLoop::cycle(std::uint64_t expirations) {
 
   guard_.shared().daemon_beats.fetch_add(1, std::memory_order_release);
   exchange_.beats.fetch_add(1, std::memory_order_relaxed);
+  exchange_.at_rest.store(!out.engine.motion_permitted, std::memory_order_relaxed);
   for (const auto& event : out.engine.events)
     if (!exchange_.events.push(event)) exchange_.lost_events.fetch_add(1);
   if (!out.engine.events.empty()) exchange_.events_ready.notify();

@@ -21,6 +21,7 @@ struct ControlExchange {
   TripleBuffer<Snapshot> snapshot;    ///< control → publish
   Wake events_ready;
   std::atomic<std::uint64_t> beats{0};
+  std::atomic<bool> at_rest{true};    ///< no task, and no axis is commanded to move
   std::atomic<std::uint64_t> lost_events{0};
 };
 

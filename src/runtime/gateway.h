@@ -42,10 +42,10 @@ class Gateway final {
   const CycleOutput& step(Time now, bool guard_alive, bool guard_has_bus);
   const Snapshot& snapshot() const { return engine_.snapshot(); }
   /// Frames of `bus` that the gate refused so far.
-  std::uint64_t refused(std::size_t bus) const { return refused_[bus]; }
+  std::uint64_t refused(std::size_t bus) const;
 
   std::size_t bus_count() const { return bus_count_; }
-  /// For the guard: every stop frame of the drives on `bus`, and how long a cycle's frames are.
+  /// For the guard: every stop frame of the drives on `bus`.
   std::vector<CanFrame> stop_frames(std::size_t bus) const;
 
  private:
@@ -54,7 +54,8 @@ class Gateway final {
     std::unique_ptr<CanDriver> driver;
   };
   void absorb(const DriverOut& out);
-  void emit(const Drive& drive, bool motion_permitted, bool guard_has_bus);
+  void absorb_gnss();
+  void emit(const Drive& drive);
 
   engine::Engine engine_;
   std::vector<Drive> drives_;
@@ -66,7 +67,7 @@ class Gateway final {
   engine::Environment environment_;
   DriverOut scratch_;
   CycleOutput cycle_;
-  std::array<std::uint64_t, kMaxBuses> refused_{};
+  std::array<FixedVector<CanFrame, 128>, kMaxBuses> pending_;  ///< passed the gate, not yet handed out
   bool motion_permitted_ = false;
   bool guard_has_bus_ = false;
 };

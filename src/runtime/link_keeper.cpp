@@ -128,7 +128,7 @@ void LinkKeeper::failed(std::size_t slot, const std::string& problem, Time now) 
   log(LogLevel::warning, problem);
   LinkHandover report;
   report.slot = slot;
-  report.problem = problem;
+  report.problem.assign(problem);
   (void)arrivals_.push(std::move(report));
 }
 

@@ -1,0 +1,18 @@
+// One question to droverd over its Unix socket, one answer.
+#pragma once
+
+#include <string>
+
+#include "config/located_json.h"
+
+namespace drover::cli {
+
+/// The daemon could not be asked: the sentence says why.
+struct NoAnswer {
+  std::string text;
+};
+
+/// Sends `request` (one JSON line) and waits for the reply. Throws NoAnswer.
+std::string ask(const std::string& socket_path, const std::string& request);
+
+}  // namespace drover::cli

@@ -1,0 +1,172 @@
+// drover: the field engineer's command line. Talks to droverd over a Unix socket, broker or not.
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <string>
+
+#include "cli/client.h"
+#include "cli/show.h"
+#include "config/json_text.h"
+
+namespace {
+
+using drover::json::JsonText;
+using drover::json::Node;
+
+// Exit codes, also in the help.
+constexpr int kDone = 0;
+constexpr int kRefused = 1;
+constexpr int kUsage = 2;
+constexpr int kNoDaemon = 3;
+
+struct Settings {
+  std::string socket = "/run/drover/drover.sock";
+  bool json = false;
+  bool watch = false;
+  std::string name;
+  std::int64_t id = 1;
+  double speed_mps = 0.5;
+};
+
+using Show = std::string (*)(const Node&);
+
+/// Asks, prints the member `wanted` of the answer, or why it was refused.
+int run(const Settings& settings, const std::string& request, std::string_view wanted = {},
+        Show show = nullptr) {
+  const auto reply = drover::cli::ask(settings.socket, request);
+  const auto document = drover::json::parse(
+      reply, {.max_bytes = std::size_t{64} << 20, .max_depth = 16, .max_values = 10'000'000});
+  if (!document) {
+    std::fprintf(stderr, "drover: the answer is not understood: %s\n",
+                 document.error().text().c_str());
+    return kNoDaemon;
+  }
+  const auto& root = document->root;
+  const auto* ok = root.find("ok");
+  const bool done = ok != nullptr && ok->boolean() != nullptr && *ok->boolean();
+  if (settings.json) {
+    std::printf("%s\n", reply.c_str());
+    return done ? kDone : kRefused;
+  }
+  const auto* word = root.find(done ? "note" : "reason");
+  if (!done) {
+    std::fprintf(stderr, "refused: %s\n",
+                 word != nullptr && word->text() != nullptr ? word->text()->c_str() : "no reason");
+    return kRefused;
+  }
+  if (const auto* value = root.find(wanted); show != nullptr && value != nullptr) {
+    std::fputs(show(*value).c_str(), stdout);
+  } else {
+    const bool noted = word != nullptr && word->text() != nullptr && !word->text()->empty();
+    std::printf("done%s%s\n", noted ? ": " : "", noted ? word->text()->c_str() : "");
+  }
+  return kDone;
+}
+
+std::string request(std::string_view cmd) {
+  return JsonText().open('{').key("cmd").text(cmd).close('}').take();
+}
+
+std::string named_request(std::string_view cmd, const std::string& name) {
+  return JsonText().open('{').key("cmd").text(cmd).key("name").text(name).close('}').take();
+}
+
+std::string start_request(const Settings& s) {
+  JsonText out;
+  out.open('{').key("cmd").text("task_start").key("name").text(s.name);
+  out.key("id").integer(s.id).key("speed").number(s.speed_mps).close('}');
+  return out.take();
+}
+
+int status(const Settings& settings) {
+  const auto question = request("status");
+  if (!settings.watch) return run(settings, question, "status", drover::cli::show_status);
+  const bool terminal = ::isatty(STDOUT_FILENO) != 0;
+  for (;;) {
+    if (terminal && !settings.json) std::fputs("\033[H\033[2J", stdout);
+    if (const int code = run(settings, question, "status", drover::cli::show_status)) return code;
+    std::fflush(stdout);
+    ::usleep(terminal ? 200'000 : 1'000'000);
+  }
+}
+
+void print_version(const Settings& settings) {
+  std::printf("drover %s\n", DROVER_VERSION);
+  try {
+    const auto reply = drover::cli::ask(settings.socket, request("version"));
+    const auto document = drover::json::parse(reply);
+    const auto* version = document ? document->root.find("version") : nullptr;
+    if (version != nullptr && version->text() != nullptr)
+      std::printf("droverd %s\n", version->text()->c_str());
+  } catch (const drover::cli::NoAnswer& no) {
+    std::printf("droverd: %s\n", no.text.c_str());
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Settings s;
+  int code = kDone;
+  CLI::App app{"drover: ask and command droverd"};
+  app.require_subcommand(1);
+  app.add_option("--socket", s.socket, "droverd's socket")
+      ->capture_default_str()
+      ->envname("DROVER_SOCKET");
+  app.footer(
+      "Exit codes: 0 done, 1 refused (the reason is on stderr), 2 wrong usage, 3 no droverd.\n"
+      "Examples:\n"
+      "  drover status --watch\n"
+      "  drover status --json\n"
+      "  drover traj list\n"
+      "  drover task start 'row 7' --id 57 --speed 0.5\n"
+      "  drover task cancel");
+
+  auto* status_command = app.add_subcommand("status", "what the robot does, and why it does not");
+  status_command->add_flag("--json", s.json, "one JSON object");
+  status_command->add_flag("--watch", s.watch, "again and again");
+  status_command->callback([&] { code = status(s); });
+
+  auto* traj = app.add_subcommand("traj", "saved tracks")->require_subcommand(1);
+  auto* list = traj->add_subcommand("list", "name, points and length of each");
+  list->add_flag("--json", s.json, "one JSON object");
+  list->callback([&] { code = run(s, request("traj_list"), "tracks", drover::cli::show_tracks); });
+  auto* show = traj->add_subcommand("show", "the points of a track");
+  show->add_option("name", s.name, "track")->required();
+  show->add_flag("--json", s.json, "one JSON object");
+  show->callback(
+      [&] { code = run(s, named_request("traj_show", s.name), "track", drover::cli::show_track); });
+  auto* remove = traj->add_subcommand("delete", "delete a track");
+  remove->add_option("name", s.name, "track")->required();
+  remove->add_flag("--json", s.json, "one JSON object");
+  remove->callback([&] { code = run(s, named_request("traj_delete", s.name)); });
+
+  auto* task = app.add_subcommand("task", "drive a track")->require_subcommand(1);
+  auto* start = task->add_subcommand("start", "drive along a track to one of its points");
+  start->add_option("name", s.name, "track")->required();
+  start->add_option("--id", s.id, "number of the point to stop at")->required();
+  start->add_option("--speed", s.speed_mps, "m/s")->capture_default_str();
+  start->add_flag("--json", s.json, "one JSON object");
+  start->callback([&] { code = run(s, start_request(s)); });
+  auto* cancel = task->add_subcommand("cancel", "stop");
+  cancel->add_flag("--json", s.json, "one JSON object");
+  cancel->callback([&] { code = run(s, request("task_cancel")); });
+
+  auto* reset = app.add_subcommand("reset", "clear a latched software stop; never starts motion");
+  reset->add_flag("--json", s.json, "one JSON object");
+  reset->callback([&] { code = run(s, request("reset")); });
+  app.add_subcommand("version", "versions of drover and droverd")->callback([&] {
+    print_version(s);
+  });
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? kDone : kUsage;
+  } catch (const drover::cli::NoAnswer& no) {
+    std::fprintf(stderr, "drover: %s\n", no.text.c_str());
+    return kNoDaemon;
+  }
+  return code;
+}

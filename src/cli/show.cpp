@@ -1,0 +1,165 @@
+#include "cli/show.h"
+
+#include <cstdio>
+
+namespace drover::cli {
+
+namespace {
+
+using json::Node;
+
+const Node& at(const Node& node, std::string_view key) {
+  static const Node kNothing;
+  const auto* found = node.find(key);
+  return found != nullptr ? *found : kNothing;
+}
+
+std::string text(const Node& node) {
+  if (const auto* value = node.text()) return *value;
+  if (const auto* value = node.boolean()) return *value ? "yes" : "no";
+  return "";
+}
+
+/// "12.34 m", or "-" when it is absent.
+std::string quantity(const Node& node, const char* format) {
+  const auto value = node.number();
+  if (!value) return "-";
+  char out[64];
+  std::snprintf(out, sizeof out, format, *value);
+  return out;
+}
+
+bool yes(const Node& node) { return node.boolean() != nullptr && *node.boolean(); }
+
+void line(std::string& out, std::string_view label, const std::string& value) {
+  char head[32];
+  std::snprintf(head, sizeof head, "%-10.*s", static_cast<int>(label.size()), label.data());
+  out += head + value + "\n";
+}
+
+/// Pads to `width` columns, counting UTF-8 characters.
+std::string padded(std::string value, std::size_t width) {
+  std::size_t characters = 0;
+  for (const char c : value) characters += (static_cast<unsigned char>(c) & 0xC0U) != 0x80U ? 1 : 0;
+  if (characters < width) value.append(width - characters, ' ');
+  return value;
+}
+
+void show_why(std::string& out, const Node& status) {
+  const auto* why = at(status, "why").list();
+  if (why == nullptr) return;
+  for (std::size_t i = 0; i < why->size(); ++i)
+    line(out, i == 0 ? "why" : "", text((*why)[i]));
+}
+
+void show_nav(std::string& out, const Node& status) {
+  const auto& nav = at(status, "nav");
+  std::string task = text(at(nav, "status"));
+  if (yes(at(nav, "paused"))) task += ", paused";
+  if (yes(at(nav, "obstacle"))) task += ", obstacle";
+  if (!text(at(nav, "track")).empty()) {
+    task += "  track \"" + text(at(nav, "track")) + "\" to point " +
+            quantity(at(nav, "target_id"), "%.0f") + ", " +
+            quantity(at(nav, "distance_left_m"), "%.1f m left") + ", " +
+            quantity(at(nav, "cross_track_m"), "%.3f m beside it");
+  }
+  line(out, "task", task);
+  line(out, "located", text(at(nav, "locate")));
+}
+
+void show_place(std::string& out, const Node& status) {
+  const auto& pose = at(status, "pose");
+  line(out, "pose", quantity(at(pose, "x_m"), "x %.2f m") + quantity(at(pose, "y_m"), "  y %.2f m") +
+                        quantity(at(pose, "yaw_rad"), "  yaw %.3f rad") +
+                        quantity(at(pose, "position_sigma_m"), "  +- %.3f m"));
+  line(out, "speed", quantity(at(pose, "vx_mps"), "%.2f m/s") +
+                         quantity(at(pose, "wz_radps"), "  %.2f rad/s"));
+  const auto& gnss = at(status, "gnss");
+  line(out, "gnss", text(at(gnss, "quality")) + ", " + text(at(gnss, "health")) +
+                        quantity(at(gnss, "latitude_deg"), "  %.9f") +
+                        quantity(at(gnss, "longitude_deg"), " %.9f") +
+                        quantity(at(gnss, "satellites"), "  %.0f satellites") +
+                        quantity(at(gnss, "age_s"), "  %.2f s old"));
+}
+
+void show_axes(std::string& out, const Node& status) {
+  const auto* axes = at(status, "axes").list();
+  if (axes == nullptr) return;
+  for (const auto& axis : *axes) {
+    std::string value = padded(text(at(axis, "joint")), 14) + padded(text(at(axis, "state")), 9) +
+                        quantity(at(axis, "velocity_radps"), "%7.2f rad/s") +
+                        quantity(at(axis, "effort_Nm"), " %7.2f Nm") +
+                        quantity(at(axis, "motor_degC"), "  %.0f C") +
+                        quantity(at(axis, "bus_V"), "  %.1f V") + "  " + text(at(axis, "health"));
+    if (!text(at(axis, "fault")).empty()) value += "  " + text(at(axis, "fault"));
+    line(out, &axis == &axes->front() ? "axes" : "", value);
+  }
+}
+
+void show_devices(std::string& out, const Node& status) {
+  if (const auto* lines = at(status, "lines").object()) {
+    std::string value;
+    for (const auto& member : *lines)
+      value += member.key + (yes(at(member.node, "active")) ? " ACTIVE" : " clear") + "  ";
+    line(out, "lines", value);
+  }
+  if (const auto* links = at(status, "links").list()) {
+    for (const auto& link : *links) {
+      std::string value = padded(text(at(link, "name")), 8);
+      value += yes(at(link, "up")) ? quantity(at(link, "received"), "up  in %.0f") +
+                                         quantity(at(link, "sent"), "  out %.0f") +
+                                         quantity(at(link, "dropped"), "  dropped %.0f") +
+                                         quantity(at(link, "refused"), "  refused %.0f")
+                                   : "down  " + text(at(link, "reason"));
+      line(out, &link == &links->front() ? "links" : "", value);
+    }
+  }
+  const auto& guard = at(status, "guard");
+  line(out, "guard", !yes(at(guard, "alive"))     ? "does not answer"
+                     : yes(at(guard, "has_bus")) ? "holds the drives"
+                                                  : "watches");
+  const auto& broker = at(status, "broker");
+  line(out, "broker", yes(at(broker, "connected")) ? "connected" : text(at(broker, "reason")));
+}
+
+}  // namespace
+
+std::string show_status(const Node& status) {
+  std::string out;
+  line(out, "robot", text(at(status, "robot")) + "  droverd " + text(at(status, "version")) +
+                         quantity(at(status, "uptime_s"), "  up %.0f s"));
+  show_nav(out, status);
+  show_why(out, status);
+  show_place(out, status);
+  show_axes(out, status);
+  show_devices(out, status);
+  return out;
+}
+
+std::string show_tracks(const Node& tracks) {
+  const auto* list = tracks.list();
+  if (list == nullptr || list->empty()) return "no track is saved\n";
+  std::string out;
+  for (const auto& track : *list) {
+    out += padded(text(at(track, "name")), 32) + quantity(at(track, "points"), "%6.0f points") +
+           quantity(at(track, "length_m"), "  %8.1f m") + "\n";
+  }
+  return out;
+}
+
+std::string show_track(const Node& track) {
+  std::string out = "  id      latitude       longitude     angle         x         y\n";
+  const auto* points = at(track, "data").list();
+  if (points == nullptr) return out;
+  std::size_t id = 0;
+  for (const auto& point : *points) {
+    char number[16];
+    std::snprintf(number, sizeof number, "%4zu", ++id);
+    out += number + quantity(at(point, "latitude"), " %14.9f") +
+           quantity(at(point, "longitude"), " %14.9f") + quantity(at(point, "angle"), " %7.2f") +
+           quantity(at(point, "x"), " %10.3f") + quantity(at(point, "y"), " %10.3f") + "\n";
+  }
+  return out;
+}
+
+}  // namespace drover::cli

@@ -1,0 +1,61 @@
+// droverd: the gateway between a field robot's hardware and everything that commands or watches it.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+
+#include "config/load.h"
+#include "runtime/daemon.h"
+
+namespace {
+
+constexpr int kBadConfiguration = 2;
+
+bool report(const drover::config::Loaded& loaded, const std::string& file) {
+  for (const auto& problem : loaded.problems)
+    std::fprintf(stderr, "%s\n", problem.text(file).c_str());
+  return loaded.problems.empty();
+}
+
+int check(const std::string& file) {
+  const auto loaded = drover::config::load_file(file);
+  if (!report(loaded, file)) {
+    std::fprintf(stderr, "%s: %zu problem%s\n", file.c_str(), loaded.problems.size(),
+                 loaded.problems.size() == 1 ? "" : "s");
+    return kBadConfiguration;
+  }
+  std::printf("%s: good: %zu bus(es), %zu drive(s)\n", file.c_str(), loaded.config.buses.size(),
+              loaded.config.drives.size());
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"droverd: the gateway of a field robot"};
+  std::string file = "/etc/drover/drover.json";
+  std::string checked;
+  bool schema = false;
+  app.add_option("-c,--config", file, "configuration")->capture_default_str();
+  app.add_option("--check", checked, "check a configuration and exit (0 good, 2 not)");
+  app.add_flag("--schema", schema, "print the configuration's JSON schema and exit");
+  app.set_version_flag("--version", DROVER_VERSION);
+  app.footer(
+      "Examples:\n"
+      "  droverd --check /etc/drover/drover.json\n"
+      "  droverd --config robot.json\n"
+      "  droverd --schema > drover.schema.json");
+  CLI11_PARSE(app, argc, argv);
+  if (schema) {
+    std::fputs(drover::config::schema_text().c_str(), stdout);
+    return 0;
+  }
+  if (!checked.empty()) return check(checked);
+  try {
+    const auto loaded = drover::config::load_file(file);
+    if (!report(loaded, file)) return kBadConfiguration;
+    return drover::runtime::run_daemon(loaded.config);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "droverd: %s\n", error.what());
+    return kBadConfiguration;
+  }
+}

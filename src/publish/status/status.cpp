@@ -1,0 +1,173 @@
+#include "publish/status/status.h"
+
+#include <cmath>
+
+#include "config/json_text.h"
+#include "publish/rtk_navigation/spelling.h"
+#include "publish/status/names.h"
+
+namespace drover::publish {
+
+namespace {
+
+using json::JsonText;
+
+void number(JsonText& out, std::string_view key, double value) {
+  out.key(key);
+  if (std::isfinite(value)) {
+    out.number(value);
+  } else {
+    out.null();
+  }
+}
+
+void age(JsonText& out, std::string_view key, Time now, Time then) {
+  number(out, key, then == kNever ? kAbsent : to_s(now - then));
+}
+
+void pose(JsonText& out, const Snapshot& s) {
+  out.key("pose").open('{');
+  number(out, "x_m", s.pose.x_m);
+  number(out, "y_m", s.pose.y_m);
+  number(out, "yaw_rad", s.pose.yaw_rad);
+  number(out, "vx_mps", s.pose.vx_mps);
+  number(out, "wz_radps", s.pose.wz_radps);
+  number(out, "position_sigma_m", s.pose.position_sigma_m);
+  number(out, "yaw_sigma_rad", s.pose.yaw_sigma_rad);
+  out.close('}');
+}
+
+void nav(JsonText& out, const Snapshot& s) {
+  out.key("nav").open('{');
+  out.key("status").text(spelling(s.nav.status));
+  out.key("locate").text(spelling(s.nav.locate));
+  out.key("obstacle").boolean(s.nav.obstacle);
+  out.key("paused").boolean(s.nav.paused);
+  out.key("owner").text(word(s.nav.owner));
+  out.key("track").text(s.nav.track.view());
+  out.key("target_id").integer(s.nav.target_id);
+  number(out, "cross_track_m", s.nav.cross_track_m);
+  number(out, "distance_left_m", s.nav.distance_left_m);
+  number(out, "asked_speed_mps", s.nav.asked_speed_mps);
+  out.close('}');
+}
+
+void gnss(JsonText& out, const Snapshot& s) {
+  out.key("gnss").open('{');
+  out.key("health").text(word(s.gnss.health));
+  out.key("quality").text(word(s.gnss.position.quality));
+  number(out, "latitude_deg", s.gnss.position.latitude_deg);
+  number(out, "longitude_deg", s.gnss.position.longitude_deg);
+  number(out, "heading_deg", s.gnss.heading_deg);
+  out.key("satellites").integer(s.gnss.position.satellites);
+  number(out, "hdop", s.gnss.position.hdop);
+  number(out, "correction_age_s", s.gnss.position.correction_age_s);
+  age(out, "age_s", s.time, s.gnss.position_time);
+  out.close('}');
+}
+
+void axes(JsonText& out, const Snapshot& s) {
+  out.key("axes").open('[');
+  for (const auto& axis : s.axes) {
+    out.open('{');
+    out.key("joint").text(axis.joint.view());
+    out.key("state").text(word(axis.state));
+    out.key("health").text(word(axis.health));
+    out.key("fault").text(axis.fault.view());
+    number(out, "position_rad", axis.motion.position_rad);
+    number(out, "velocity_radps", axis.motion.velocity_radps);
+    number(out, "commanded_velocity_radps", axis.commanded_velocity_radps);
+    number(out, "effort_Nm", axis.motion.effort_Nm);
+    number(out, "inverter_degC", axis.inverter_degC);
+    number(out, "motor_degC", axis.motor_degC);
+    number(out, "bus_V", axis.bus_V);
+    age(out, "age_s", s.time, axis.last_motion);
+    out.close('}');
+  }
+  out.close(']');
+}
+
+void lines(JsonText& out, const Snapshot& s) {
+  out.key("lines").open('{');
+  for (std::size_t i = 0; i < kLineCount; ++i) {
+    if (!s.line_configured[i]) continue;
+    out.key(word(static_cast<Line>(i))).open('{');
+    out.key("active").boolean(s.line_active[i]);
+    out.key("health").text(word(s.line_health[i]));
+    out.close('}');
+  }
+  out.close('}');
+}
+
+void links(JsonText& out, const Snapshot& s) {
+  out.key("links").open('[');
+  for (const auto& link : s.links) {
+    out.open('{');
+    out.key("name").text(link.name.view());
+    out.key("up").boolean(link.up);
+    out.key("reason").text(link.reason.view());
+    out.key("received").integer(static_cast<std::int64_t>(link.received));
+    out.key("sent").integer(static_cast<std::int64_t>(link.sent));
+    out.key("dropped").integer(static_cast<std::int64_t>(link.dropped));
+    out.key("refused").integer(static_cast<std::int64_t>(link.refused));
+    out.close('}');
+  }
+  out.close(']');
+}
+
+void origin(JsonText& out, const Snapshot& s) {
+  out.key("origin");
+  if (!s.origin_set) {
+    out.null();
+    return;
+  }
+  out.open('{');
+  number(out, "latitude_deg", s.origin.latitude_deg);
+  number(out, "longitude_deg", s.origin.longitude_deg);
+  number(out, "altitude_m", s.origin.altitude_m);
+  out.close('}');
+}
+
+void daemon_part(JsonText& out, const Snapshot& s, const DaemonStatus& daemon) {
+  out.key("guard").open('{');
+  out.key("alive").boolean(s.guard_alive);
+  out.key("has_bus").boolean(s.guard_has_bus);
+  out.close('}');
+  out.key("broker").open('{');
+  out.key("connected").boolean(daemon.broker_connected);
+  out.key("reason").text(daemon.broker_text);
+  out.key("dropped").integer(static_cast<std::int64_t>(daemon.telemetry_dropped));
+  out.close('}');
+  out.key("cycle").open('{');
+  out.key("count").integer(static_cast<std::int64_t>(s.cycle.cycles));
+  out.key("overruns").integer(static_cast<std::int64_t>(s.cycle.overruns));
+  number(out, "longest_step_s", to_s(s.cycle.longest_step));
+  out.key("events_lost").integer(static_cast<std::int64_t>(daemon.events_lost));
+  out.close('}');
+}
+
+}  // namespace
+
+std::string status_json(const Snapshot& s, const DaemonStatus& daemon) {
+  JsonText out;
+  out.open('{');
+  out.key("robot").text(daemon.robot);
+  out.key("version").text(DROVER_VERSION);
+  number(out, "uptime_s", daemon.uptime_s);
+  out.key("stopped_until_told").boolean(s.stop_latched);
+  out.key("why").open('[');
+  for (const auto& reason : s.why) out.text(reason.view());
+  out.close(']');
+  nav(out, s);
+  pose(out, s);
+  origin(out, s);
+  gnss(out, s);
+  axes(out, s);
+  lines(out, s);
+  links(out, s);
+  daemon_part(out, s, daemon);
+  out.close('}');
+  return out.take();
+}
+
+}  // namespace drover::publish

@@ -1,0 +1,23 @@
+// The whole state as one JSON object: what `drover status --json` prints.
+#pragma once
+
+#include <string>
+
+#include "drover/snapshot.h"
+
+namespace drover::publish {
+
+/// What the snapshot does not know.
+struct DaemonStatus {
+  std::string robot;
+  bool broker_connected = false;
+  std::string broker_text;       ///< why it is not connected
+  double uptime_s = 0;
+  std::uint64_t telemetry_dropped = 0;
+  std::uint64_t events_lost = 0;
+};
+
+/// Angles in rad and degrees by their names' suffix; absent values are null.
+std::string status_json(const Snapshot& snapshot, const DaemonStatus& daemon);
+
+}  // namespace drover::publish

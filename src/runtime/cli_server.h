@@ -1,0 +1,55 @@
+// The command line's socket: one JSON request a line, one JSON reply a line.
+//
+// Open to the daemon's own user, its group and root. A request is bounded in size and a client in
+// number, and nobody waits for a slow one.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <string>
+#include <string_view>
+
+#include "drover/time.h"
+#include "link/unique_fd.h"
+
+namespace drover::runtime {
+
+class CliServer final {
+ public:
+  using ClientId = std::uint64_t;
+  using OnRequest = std::function<void(ClientId, std::string_view line)>;
+
+  /// Listens at `path` (mode 0660). Throws std::runtime_error with the path and the reason.
+  CliServer(const std::string& path, OnRequest on_request);
+  ~CliServer();
+  CliServer(const CliServer&) = delete;
+  CliServer& operator=(const CliServer&) = delete;
+
+  /// An epoll descriptor of its own: readable when on_ready() has something to do.
+  int fd() const { return epoll_.get(); }
+  void on_ready();
+  /// Answers a client that may be gone meanwhile; then it is not heard.
+  void reply(ClientId client, std::string text);
+
+ private:
+  struct Client {
+    link::UniqueFd fd;
+    std::string in;
+    std::string out;
+  };
+  void accept();
+  void read(ClientId id);
+  void write(ClientId id);
+  void watch(ClientId id, bool writing);
+  bool may_connect(int fd) const;
+
+  std::string path_;
+  OnRequest on_request_;
+  link::UniqueFd listener_;
+  link::UniqueFd epoll_;
+  std::map<ClientId, Client> clients_;
+  ClientId next_id_ = 1;
+};
+
+}  // namespace drover::runtime

@@ -1,0 +1,148 @@
+#include "runtime/gateway.h"
+
+#include <stdexcept>
+
+namespace drover::runtime {
+
+namespace {
+
+template <class Make>
+Make maker(const std::string& driver, const std::string& key) {
+  const auto* entry = find_driver(driver);
+  const auto* make = entry == nullptr ? nullptr : std::get_if<Make>(&entry->make);
+  if (make == nullptr) throw std::runtime_error(key + ": no driver \"" + driver + "\" of this kind");
+  return *make;
+}
+
+}  // namespace
+
+Gateway::Gateway(const config::DroverConfig& config)
+    : engine_(config.engine), bus_count_(config.buses.size()) {
+  if (bus_count_ > kMaxBuses) throw std::runtime_error("buses: too many");
+  drives_.reserve(config.drives.size());
+  for (const auto& drive : config.drives) {
+    const auto make = maker<MakeCanDriver>(drive.driver, "drives: " + drive.joint);
+    drives_.push_back({drive.bus_index, make(drive.options, static_cast<AxisId>(drives_.size()))});
+    frame_gate_.add(drive.bus_index, *drives_.back().driver);
+  }
+  if (config.gnss.configured)
+    gnss_ = maker<MakeByteDriver>(config.gnss.driver, "gnss")(config.gnss.options);
+  environment_.gnss_configured = config.gnss.configured;
+  for (std::size_t i = 0; i < kLineCount; ++i) {
+    const auto& line = config.lines.line[i];
+    if (!line.configured) continue;
+    const auto make = maker<MakeLineDriver>(line.driver, "lines: " + line.name);
+    lines_.push_back(make(line.options, static_cast<Line>(i)));
+    line_ids_.push_back(static_cast<Line>(i));
+  }
+}
+
+void Gateway::absorb(const DriverOut& out) {
+  for (const auto& measurement : out.measurements) engine_.on_measurement(measurement);
+}
+
+/// What a drive wants to say goes through the frame gate, and nowhere around it.
+void Gateway::emit(const Drive& drive) {
+  absorb(scratch_);
+  for (const auto& frame : scratch_.frames) {
+    const auto verdict = frame_gate_.admit(drive.bus, frame, *drive.driver, motion_permitted_,
+                                           guard_has_bus_);
+    if (verdict == engine::FrameVerdict::pass) (void)pending_[drive.bus].push_back(frame);
+  }
+  scratch_.clear();
+}
+
+void Gateway::on_frame(std::size_t bus, const CanFrame& frame, Time received) {
+  if (frame.error) return;
+  for (const auto& drive : drives_) {
+    if (drive.bus != bus) continue;
+    drive.driver->on_frame(frame, received, scratch_);
+    emit(drive);
+  }
+}
+
+void Gateway::on_bus_up(std::size_t bus, Time now) {
+  for (const auto& drive : drives_)
+    if (drive.bus == bus) drive.driver->on_link_up(now);
+}
+
+void Gateway::on_gnss_up(Time now) {
+  if (gnss_) gnss_->on_link_up(now);
+}
+
+void Gateway::on_gnss_bytes(std::span<const std::uint8_t> bytes, Time first_byte) {
+  if (!gnss_) return;
+  gnss_->on_bytes(bytes, first_byte, scratch_);
+  absorb_gnss();
+}
+
+void Gateway::absorb_gnss() {
+  absorb(scratch_);
+  for (const auto byte : scratch_.bytes) (void)cycle_.gnss_bytes.push_back(byte);
+  scratch_.clear();
+}
+
+void Gateway::on_levels(std::span<const bool> levels, Time at) {
+  for (std::size_t i = 0; i < lines_.size() && i < levels.size(); ++i)
+    lines_[i]->on_level(levels[i], at, scratch_);
+  absorb(scratch_);
+  scratch_.clear();
+}
+
+void Gateway::on_lines_lost(Time at) {
+  for (const auto& line : lines_) line->on_lost(at, scratch_);
+  absorb(scratch_);
+  scratch_.clear();
+}
+
+void Gateway::on_command(const Command& command, Time now) { engine_.on_command(command, now); }
+
+const CycleOutput& Gateway::step(Time now, bool guard_alive, bool guard_has_bus) {
+  cycle_.gnss_bytes.clear();
+  if (gnss_) {
+    gnss_->on_tick(now, scratch_);
+    absorb_gnss();
+    environment_.gnss = gnss_->health(now);
+  }
+  for (std::size_t i = 0; i < lines_.size(); ++i) {
+    lines_[i]->on_tick(now, scratch_);
+    environment_.lines[static_cast<std::size_t>(line_ids_[i])] = lines_[i]->health(now);
+  }
+  absorb(scratch_);
+  scratch_.clear();
+  for (std::size_t i = 0; i < drives_.size(); ++i)
+    environment_.axes[i] = drives_[i].driver->health(now);
+  environment_.guard_alive = guard_alive;
+  environment_.guard_has_bus = guard_has_bus;
+
+  engine_.step(now, environment_, cycle_.engine);
+  motion_permitted_ = cycle_.engine.motion_permitted;
+  guard_has_bus_ = guard_has_bus;
+  for (std::size_t i = 0; i < drives_.size(); ++i) {
+    drives_[i].driver->on_command(cycle_.engine.axes[i], now, scratch_);
+    drives_[i].driver->on_tick(now, scratch_);
+    emit(drives_[i]);
+  }
+  for (std::size_t bus = 0; bus < bus_count_; ++bus) {
+    cycle_.frames[bus] = pending_[bus];
+    pending_[bus].clear();
+  }
+  return cycle_;
+}
+
+std::uint64_t Gateway::refused(std::size_t bus) const {
+  const auto& counts = frame_gate_.counts(bus);
+  return counts.not_allowed + counts.motion;
+}
+
+std::vector<CanFrame> Gateway::stop_frames(std::size_t bus) const {
+  std::vector<CanFrame> frames;
+  for (const auto& drive : drives_) {
+    if (drive.bus != bus) continue;
+    const auto recipe = drive.driver->stop_recipe();
+    frames.insert(frames.end(), recipe.frames.begin(), recipe.frames.end());
+  }
+  return frames;
+}
+
+}  // namespace drover::runtime

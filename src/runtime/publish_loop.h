@@ -1,0 +1,66 @@
+// The publish thread: broker, command line and the engine's events meet here. Never waits for the disk.
+#pragma once
+
+#include <atomic>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "config/config.h"
+#include "publish/command_service.h"
+#include "publish/rtk_navigation/base_status.h"
+#include "publish/status/status.h"
+#include "runtime/cli_server.h"
+#include "runtime/control_loop.h"
+#include "runtime/mqtt_client.h"
+#include "runtime/storage_loop.h"
+
+namespace drover::runtime {
+
+class PublishLoop final {
+ public:
+  /// Throws std::runtime_error when a socket or password file is missing.
+  PublishLoop(const config::DroverConfig& config, ControlExchange& control,
+              StorageExchange& storage, store::StoredState stored);
+  void run(const std::atomic<bool>& stop);
+  /// Wakes the loop so that it sees `stop`.
+  void wake() const { control_.events_ready.notify(); }
+  /// From another thread, at the daemon's end: stops the task as its operator would.
+  void request_cancel() {
+    cancel_wanted_.store(true, std::memory_order_relaxed);
+    wake();
+  }
+  /// Counts once a turn: a supervisor sees whether the thread lives.
+  std::uint64_t turns() const { return turns_.load(std::memory_order_relaxed); }
+
+ private:
+  void watch(int fd, std::uint64_t tag);
+  void watch_broker();
+  void publish_status(Time now);
+  void take_events();
+  void take_replies(Time now);
+  void on_cli_line(CliServer::ClientId client, std::string_view line, Time now);
+  std::string cli_reply(std::string_view cmd, const std::string& name);
+  void carry_out(publish::Actions& actions);
+
+  const config::DroverConfig& config_;
+  ControlExchange& control_;
+  StorageExchange& storage_;
+  publish::CommandService service_;
+  publish::BaseStatus base_status_;
+  publish::Actions actions_;
+  Time started_;
+  std::string broker_text_;
+  std::unique_ptr<MqttClient> broker_;
+  CliServer cli_;
+  std::map<std::uint64_t, CliServer::ClientId> waiting_;  ///< request number → who asked
+  std::uint64_t next_request_ = 1;
+  link::UniqueFd epoll_;
+  link::UniqueFd timer_;
+  int broker_fd_ = -1;       ///< as it is in epoll
+  bool broker_writes_ = false;
+  std::atomic<std::uint64_t> turns_{0};
+  std::atomic<bool> cancel_wanted_{false};
+};
+
+}  // namespace drover::runtime
