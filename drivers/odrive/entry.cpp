@@ -20,8 +20,8 @@ const OptionSpec kTwinOptions[] = {
      .default_value = 8.0,
      .min = 0,
      .max = 10000,
-     .text = "of the velocity controller, at the joint; fits a wheel that carries a quarter of 60 kg "
-             "on a radius of 0.165 m"},
+     .text = "of the velocity controller, at the joint; fits a wheel that carries a quarter of "
+             "60 kg on a radius of 0.165 m"},
     {.name = "integrator_gain_Nm_per_rad",
      .default_value = 60.0,
      .min = 0,
@@ -73,7 +73,8 @@ const OptionSpec kTwinOptions[] = {
      .default_value = -1.0,
      .min = -1,
      .max = 10,
-     .text = "time-out in the simulated drive's flash; 0: none; -1: what the driver's options state"},
+     .text = "time-out in the simulated drive's flash; 0: none; -1: what the driver's options "
+             "state"},
 };
 
 std::unique_ptr<CanDriver> make(const Options& options, AxisId axis) {

@@ -34,7 +34,8 @@ const OptionSpec kOptions[] = {
      .default_value = 0.0,
      .min = 0,
      .max = 100,
-     .text = "of the motor; 8.27 divided by its KV. 0: unknown, then firmware 0.5.6 gives no effort"},
+     .text = "of the motor; 8.27 divided by its KV. 0: unknown, then firmware 0.5.6 gives no "
+             "effort"},
     {.name = "velocity_limit_turnps",
      .default_value = 100.0,
      .min = 0.001,
@@ -53,14 +54,15 @@ const OptionSpec kOptions[] = {
      .min = 0,
      .max = 65535,
      .integer = true,
-     .text = "firmware 0.6: end point id of axis0.config.enable_watchdog in the flat_endpoints.json "
-             "of exactly this firmware; 0: not set by the driver"},
+     .text = "firmware 0.6: end point id of axis0.config.enable_watchdog in the "
+             "flat_endpoints.json of exactly this firmware; 0: not set by the driver"},
     {.name = "watchdog_timeout_endpoint",
      .default_value = 0.0,
      .min = 0,
      .max = 65535,
      .integer = true,
-     .text = "firmware 0.6: end point id of axis0.config.watchdog_timeout; 0: not set by the driver"},
+     .text = "firmware 0.6: end point id of axis0.config.watchdog_timeout; 0: not set by the "
+             "driver"},
     {.name = "stale_s",
      .default_value = 0.1,
      .min = 0.01,

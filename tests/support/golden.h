@@ -6,8 +6,8 @@
 //   bytes "$GPGGA,...*47\r\n" => gnss_position ...      text with \r \n \\ \" and \xHH
 //   bytes B562 0107 => ...                              or hex
 //
-// Right of the arrow stands what test::describe() gives for the call, with " and bad" behind it when
-// the bad counter rose too, or
+// Right of the arrow stands what test::describe() gives for the call, with " and bad" behind it
+// when the bad counter rose too, or
 //   nothing   understood or swallowed: no measurement, nothing counted as bad
 //   ignored   no measurement, and no counter moves
 //   bad       no measurement, and the bad counter rises

@@ -20,7 +20,9 @@ class AnyDriver {
     if (can_ && one.is_frame) can_->on_frame(one.frame, now, out);
     if (byte_ && !one.is_frame) byte_->on_bytes(one.bytes, now, out);
   }
-  bool fits(const GoldenCase& one) const { return one.is_frame ? can_ != nullptr : byte_ != nullptr; }
+  bool fits(const GoldenCase& one) const {
+    return one.is_frame ? can_ != nullptr : byte_ != nullptr;
+  }
   SourceHealth health(Time now) const { return can_ ? can_->health(now) : byte_->health(now); }
 
  private:

@@ -271,6 +271,15 @@ TEST(OdriveDriver, StaysLockedWhenTheHeartbeatComesBackInClosedLoop) {
   EXPECT_GE(bench.count(kZero), 99);
 }
 
+TEST(OdriveDriver, StaysLockedAfterAGapThatNoCycleSaw) {
+  Bench bench;
+  bench.arm();
+  bench.now += milliseconds(400);  // the gateway itself was held up
+  bench.hear(kRunningBeat);
+  bench.run(20, AxisRequest::run, 1.0);
+  EXPECT_EQ(bench.motions(), 0);
+}
+
 TEST(OdriveDriver, GoesIdleOnlyAfterZeroAndWhenSlow) {
   Bench bench;
   bench.arm();

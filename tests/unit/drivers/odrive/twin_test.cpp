@@ -18,7 +18,8 @@ constexpr auto kRun = AxisRequest::run;
 constexpr auto kRest = AxisRequest::rest;
 
 test::Subject subject(const std::function<void(Options&)>& change = [](Options&) {}) {
-  test::Subject made{find_driver("odrive"), test::example_options(*find_driver("odrive")), "odrive"};
+  const DriverEntry* entry = find_driver("odrive");
+  test::Subject made{entry, test::example_options(*entry), "odrive"};
   change(made.options);
   return made;
 }
@@ -141,6 +142,22 @@ TEST(OdriveWatchdog, ThatReadsBackAnotherTimeIsNotBelieved) {
   EXPECT_TRUE(setup.failed());
   EXPECT_EQ(setup.reason(),
             "watchdog not set: the drive has it on with 0.500 s instead of on with 0.100 s");
+}
+
+TEST(OdriveWatchdog, TakesNoConfirmationOfAWriteForWhatWasReadBack) {
+  WatchdogSetup setup(read_settings(subject(with_endpoints).options));
+  const Time now{std::chrono::seconds(1)};
+  DriverOut out;
+  setup.begin(now);
+  setup.on_tick(now, out);
+  ASSERT_EQ(out.frames.size(), 2U);  // the writes
+  setup.on_reply({.endpoint = 300, .size = 1, .raw = 1});
+  setup.on_reply({.endpoint = 301, .size = 4, .raw = 0x3DCCCCCD});  // 0.1 s
+  EXPECT_FALSE(setup.done());
+  setup.on_tick(now + milliseconds(20), out);  // the reads
+  setup.on_reply({.endpoint = 300, .size = 1, .raw = 1});
+  setup.on_reply({.endpoint = 301, .size = 4, .raw = 0x3DCCCCCD});
+  EXPECT_TRUE(setup.done());
 }
 
 TEST(OdriveTwin, OverTemperatureStopsItAndDoesNotClear) {
