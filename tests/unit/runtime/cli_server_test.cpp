@@ -1,0 +1,101 @@
+#include "runtime/cli_server.h"
+
+#include <gtest/gtest.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <sys/un.h>
+
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+
+namespace drover::runtime {
+namespace {
+
+class CliServerTest : public ::testing::Test {
+ protected:
+  CliServerTest() {
+    std::string pattern = std::filesystem::temp_directory_path() / "drover-cli-XXXXXX";
+    folder_ = ::mkdtemp(pattern.data());
+    server_ = std::make_unique<CliServer>(
+        folder_ + "/drover.sock", [this](CliServer::ClientId id, std::string_view line) {
+          lines_.emplace_back(line);
+          server_->reply(id, "got " + std::string(line));
+        });
+  }
+  ~CliServerTest() override {
+    server_.reset();
+    std::filesystem::remove_all(folder_);
+  }
+  link::UniqueFd connect() const {
+    sockaddr_un address{};
+    address.sun_family = AF_UNIX;
+    std::strcpy(address.sun_path, (folder_ + "/drover.sock").c_str());
+    link::UniqueFd fd(::socket(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK, 0));
+    EXPECT_EQ(::connect(fd.get(), reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
+    return fd;
+  }
+  /// Lets the server work until it has nothing to do.
+  void work() const {
+    pollfd ready{server_->fd(), POLLIN, 0};
+    while (::poll(&ready, 1, 20) == 1) server_->on_ready();
+  }
+  static std::string read(const link::UniqueFd& fd) {
+    std::string text(4096, '\0');
+    const auto n = ::recv(fd.get(), text.data(), text.size(), 0);
+    text.resize(n > 0 ? static_cast<std::size_t>(n) : 0);
+    return text;
+  }
+
+  std::string folder_;
+  std::vector<std::string> lines_;
+  std::unique_ptr<CliServer> server_;
+};
+
+}  // namespace
+
+TEST_F(CliServerTest, ClosesAClientWhoseRequestNeverEnds) {
+  const auto client = connect();
+  work();
+  const std::string flood(8192, 'x');
+  for (int i = 0; i < 16; ++i) {
+    (void)!::send(client.get(), flood.data(), flood.size(), MSG_NOSIGNAL);
+    work();
+  }
+  EXPECT_TRUE(lines_.empty());
+  char byte = 0;
+  EXPECT_LE(::recv(client.get(), &byte, 1, 0), 0);
+  const auto next = connect();  // others are served
+  ASSERT_EQ(::send(next.get(), "a\n", 2, 0), 2);
+  work();
+  EXPECT_EQ(read(next), "got a\n");
+}
+
+TEST_F(CliServerTest, PutsRequestsTogetherHoweverTheyAreCut) {
+  const auto client = connect();
+  for (const char* part : {"o", "ne\ntw", "o\n"}) {
+    ASSERT_GT(::send(client.get(), part, std::strlen(part), 0), 0);
+    work();
+  }
+  EXPECT_EQ(lines_, (std::vector<std::string>{"one", "two"}));
+  EXPECT_EQ(read(client), "got one\ngot two\n");
+}
+
+TEST_F(CliServerTest, ForgetsAClientThatIsGone) {
+  {
+    const auto client = connect();
+    ASSERT_GT(::send(client.get(), "x\n", 2, 0), 0);
+  }
+  work();
+  EXPECT_EQ(lines_.size(), 1U);
+  server_->reply(1, "nobody hears this");
+  work();
+}
+
+TEST_F(CliServerTest, IsOpenToItsUserAndGroupOnly) {
+  const auto mode = std::filesystem::status(folder_ + "/drover.sock").permissions();
+  using std::filesystem::perms;
+  EXPECT_EQ(mode & perms::others_all, perms::none);
+}
+
+}  // namespace drover::runtime
