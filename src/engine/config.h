@@ -35,7 +35,6 @@ struct EstimateConfig {
   double antenna_x_m = 0.0;
   double antenna_y_m = 0.0;
   double antenna_z_m = 0.0;
-  double gnss_latency_s = 0.08;          ///< already applied by the driver; kept for the README's table
   double heading_baseline_offset_deg = 0.0;  ///< of the antenna line from ahead, clockwise
   double heading_sigma_deg = 0.5;
   double max_correction_age_s = 30.0;    ///< an older RTK fix counts as float
@@ -95,8 +94,7 @@ struct HealthConfig {
   double drive_stale_s = 0.1;
   double gnss_stale_s = 0.3;
   double line_stale_s = 0.02;
-  double joint_command_stale_s = 0.1;
-  double follow_timeout_s = 0.4;         ///< one wheel commanded but not following for so long
+  double follow_timeout_s = 0.4;  ///< one wheel commanded but not following for so long: failed
   bool guard_required = true;
 };
 

@@ -1,4 +1,4 @@
-// Events between the place where they arise and the cycle that hands them out: fixed size, in order.
+// Events between where they arise and the cycle that hands them out: fixed size, in order.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 
 namespace drover::engine {
 
-/// Answers to commands and returned paths must arrive, so they have half of the queue to themselves:
+/// Answers to commands and returned paths must arrive, so half of the queue is theirs alone:
 /// notices are dropped (and counted) when it is half full.
 class EventQueue final {
  public:

@@ -13,11 +13,11 @@ namespace drover::engine {
 
 enum class FrameVerdict : std::uint8_t {
   pass,
-  refused_not_allowed,  ///< not on the sender's list for this bus, or an effect that is forbidden
+  refused_not_allowed,  ///< not on the sender's list for this bus, or a forbidden effect
   refused_motion,       ///< may move an axis while nothing may, or while the guard has the bus
 };
 
-/// Built once from the allow-lists of the drivers; refuses everything else. Pure but for its counts.
+/// Built once from the allow-lists of the drivers; refuses all else. Pure but for its counts.
 class FrameGate final {
  public:
   static constexpr std::size_t kMaxBuses = 8;

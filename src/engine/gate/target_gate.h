@@ -39,8 +39,8 @@ class TargetGate final {
   /// A wish older than `max_age` is not followed.
   TargetGate(const LimitsConfig& limits, Duration max_age);
 
-  /// The twist to command now. Of several offers the highest rank counts, and only that one: a stale
-  /// or senseless wish of the owner in force does not hand the base to the next.
+  /// The twist to command now. Of several offers the highest rank counts, and only that one: a
+  /// stale or senseless wish of the owner in force does not hand the base to the next.
   const Twist& step(Time now, Duration dt, std::span<const Offer> offers, Stop stop);
   /// Forgets all motion: on arming and after an immediate stop.
   void reset();

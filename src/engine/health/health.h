@@ -79,7 +79,9 @@ class HealthMonitor final {
   void look_at_drives(const HealthInput& input);
   void look_at_guard(const Environment& environment);
   void look_at_position(const HealthInput& input);
-  bool holds(Cause cause) const { return (report_.causes >> static_cast<unsigned>(cause) & 1U) != 0; }
+  bool holds(Cause cause) const {
+    return (report_.causes >> static_cast<unsigned>(cause) & 1U) != 0;
+  }
 
   EngineConfig config_;
   std::array<bool, kMaxAxes> driven_{};  ///< axes of the base

@@ -36,7 +36,8 @@ LocateState LocateMonitor::update(const Estimate& estimate, bool has_origin, boo
   if (!finite(estimate.pose)) {
     reason_ = "the position estimate is not a number";
   } else if (estimate.disagrees) {
-    reason_ = estimate.reason.empty() ? Reason("position disagrees with odometry") : estimate.reason;
+    reason_ = estimate.reason;
+    if (reason_.empty()) reason_ = "position disagrees with odometry";
   } else if (!(error_m <= share * bound_m)) {
     reason_.format("position uncertain by %.2f m, allowed %.2f m", error_m, bound_m);
   } else if (!(error_rad <= share * bound_rad)) {

@@ -56,7 +56,8 @@ class Oracle {
     for (const auto& drive : rig_.drives) {
       if (drive.silent) return true;
     }
-    return std::any_of(rig_.line_lost.begin(), rig_.line_lost.end(), [](bool lost) { return lost; });
+    return std::any_of(rig_.line_lost.begin(), rig_.line_lost.end(),
+                       [](bool lost) { return lost; });
   }
   /// Whether a task is on.
   bool note_events() {

@@ -1,14 +1,11 @@
 #include "engine/engine.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <stdexcept>
 
-#include "engine_rig.h"
+#include "engine_fixture.h"
 #include "support/allocation_counter.h"
 
 namespace drover::engine {
@@ -16,48 +13,6 @@ namespace {
 
 using ::testing::HasSubstr;
 using How = TaskEnded::How;
-
-class AnEngine : public ::testing::Test {
- protected:
-  /// Settled, then under way on a straight track at 0.5 m/s.
-  void drive() {
-    rig.settle();
-    rig.start(path, 40, 0.5);
-    rig.run_s(4);
-    ASSERT_EQ(rig.snapshot().nav.status, NavStatus::run) << rig.why();
-    ASSERT_GT(rig.fastest_command_radps(), 1);
-    ASSERT_EQ(rig.said<NavigationStarted>().size(), 1U);
-  }
-  /// From the next cycle on there is no motion, and none comes back when the cause goes.
-  void expect_stopped_at_once(const std::string& reason) {
-    rig.tick();
-    expect_stopped_now(reason);
-  }
-  void expect_stopped_now(const std::string& reason) {
-    EXPECT_EQ(rig.fastest_command_radps(), 0);
-    EXPECT_FALSE(rig.out.motion_permitted);
-    EXPECT_EQ(rig.snapshot().nav.status, NavStatus::error);
-    EXPECT_THAT(rig.why(), HasSubstr(reason));
-    ASSERT_EQ(rig.said<TaskEnded>().size(), 1U);
-    EXPECT_EQ(rig.said<TaskEnded>()[0].how, How::failed);
-    EXPECT_THAT(std::string(rig.said<TaskEnded>()[0].reason.view()), HasSubstr(reason));
-    EXPECT_EQ(rig.said<PathReleased>().size(), 1U);
-    EXPECT_TRUE(rig.snapshot().stop_latched);
-  }
-  void expect_no_motion_for_s(double seconds) {
-    for (int i = 0; i < static_cast<int>(seconds * 200); ++i) {
-      rig.tick();
-      ASSERT_EQ(rig.fastest_command_radps(), 0);
-    }
-  }
-  std::string refusal() {
-    const auto refused = rig.said<CommandRefused>();
-    return refused.empty() ? "" : std::string(refused.back().reason.view());
-  }
-
-  Path path = straight_path(20);
-  EngineRig rig;
-};
 
 // --- refusals ---------------------------------------------------------------------------------
 
@@ -272,141 +227,6 @@ TEST_F(AnEngine, GoesOnSmoothlyWhenAStartFollowsACancel) {
   EXPECT_EQ(rig.said<NavigationStarted>().size(), 2U);
 }
 
-// --- stops ------------------------------------------------------------------------------------
-
-TEST_F(AnEngine, IsAtZeroInTheCycleOfAnEstopAndStaysThereWhenItIsReleased) {
-  drive();
-  rig.lines[0] = true;
-  expect_stopped_at_once("e-stop pressed");
-  EXPECT_EQ(rig.snapshot().nav.owner, Owner::estop);
-  rig.lines[0] = false;
-  expect_no_motion_for_s(5);
-  EXPECT_THAT(rig.why(), HasSubstr("stopped: e-stop pressed"));
-  rig.start(path, 40, 0.5);
-  rig.run_s(3);
-  EXPECT_EQ(rig.said<NavigationStarted>().size(), 2U) << "only a new start moves it";
-}
-TEST_F(AnEngine, DoesNotMissAnEstopThatWasPressedForAnInstant) {
-  drive();
-  Measurement edge;
-  edge.time = edge.received = rig.now;
-  edge.value = LineState{Line::estop, true};
-  rig.engine->on_measurement(edge);
-  expect_stopped_at_once("e-stop pressed");
-}
-TEST_F(AnEngine, StopsAtOnceWhenASafetyLineIsLost) {
-  drive();
-  rig.line_lost[0] = true;
-  expect_stopped_at_once("line e-stop");
-}
-TEST_F(AnEngine, StopsAtOnceForTheBumper) {
-  drive();
-  rig.lines[1] = true;
-  expect_stopped_at_once("bumper touched");
-  rig.lines[1] = false;
-  expect_no_motion_for_s(5);
-}
-TEST_F(AnEngine, StopsAllWheelsAtOnceWhenOneDriveFallsSilent) {
-  drive();
-  rig.drives[2].silent = true;
-  expect_stopped_at_once("wheel rear_left");
-  rig.drives[2].silent = false;
-  expect_no_motion_for_s(5);
-}
-TEST_F(AnEngine, StopsAtOnceForADrivesFault) {
-  drive();
-  rig.drives[0].fault = true;
-  expect_stopped_at_once("wheel front_left: over temperature");
-}
-TEST_F(AnEngine, StopsWhenADriveRestartedMeanwhile) {
-  drive();
-  rig.drives[0].state = AxisState::idle;
-  rig.drives[0].refuses = true;
-  expect_stopped_at_once("wheel front_left: the drive is not in closed loop");
-}
-TEST_F(AnEngine, StopsWithinHalfASecondWhenFeedbackIsStuck) {
-  drive();
-  rig.drives[3].stuck = true;
-  for (int i = 0; i < 100 && rig.said<TaskEnded>().empty(); ++i) rig.tick();
-  expect_stopped_now("wheel rear_right does not follow");
-}
-TEST_F(AnEngine, StopsAtOnceWhenTheGuardIsGone) {
-  drive();
-  rig.guard_alive = false;
-  expect_stopped_at_once("the guard does not answer");
-}
-TEST_F(AnEngine, StopsAtOnceWhenTheGuardTakesTheBus) {
-  drive();
-  rig.guard_has_bus = true;
-  expect_stopped_at_once("the guard stopped the drives");
-  rig.guard_has_bus = false;
-  expect_no_motion_for_s(3);
-}
-TEST_F(AnEngine, FailsWhenItPushesAgainstAWall) {
-  drive();
-  rig.blocked = true;
-  rig.run_s(1.9);
-  EXPECT_EQ(rig.snapshot().nav.status, NavStatus::run);
-  for (int i = 0; i < 300 && rig.said<TaskEnded>().empty(); ++i) rig.tick();
-  expect_stopped_now("blocked");
-}
-
-// --- pauses -----------------------------------------------------------------------------------
-
-TEST_F(AnEngine, WaitsForAnObstacleAndGoesOnToTheGoal) {
-  drive();
-  rig.lines[3] = true;
-  rig.run_s(2);
-  EXPECT_EQ(rig.fastest_command_radps(), 0);
-  EXPECT_TRUE(rig.snapshot().nav.obstacle);
-  EXPECT_TRUE(rig.snapshot().nav.paused);
-  EXPECT_EQ(rig.snapshot().nav.status, NavStatus::run);
-  EXPECT_THAT(rig.why(), HasSubstr("near zone"));
-  rig.lines[3] = false;
-  rig.run_s(60);
-  EXPECT_EQ(rig.snapshot().nav.status, NavStatus::success) << rig.why();
-  EXPECT_LT(std::hypot(rig.plant.truth().x_m - 20, rig.plant.truth().y_m), 0.10);
-}
-TEST_F(AnEngine, SlowsDownForTheFarZone) {
-  drive();
-  rig.lines[2] = true;
-  rig.run_s(2);
-  EXPECT_NEAR(rig.plant.truth().vx_mps, 0.25, 0.02);
-  rig.lines[2] = false;
-  rig.run_s(3);
-  EXPECT_NEAR(rig.plant.truth().vx_mps, 0.5, 0.03);
-}
-TEST_F(AnEngine, DrivesOnWithoutAReceiverUntilTheBudgetIsSpentAndGoesOnWithIt) {
-  path = straight_path(200);
-  rig.settle();
-  rig.start(path, 400, 0.5);
-  rig.run_s(4);
-  rig.receiver_silent = true;
-  rig.run_s(2);
-  EXPECT_GT(rig.fastest_command_radps(), 0);
-  EXPECT_THAT(rig.why(), HasSubstr("receiver"));
-  int ticks = 0;
-  while (rig.fastest_command_radps() > 0 && ticks++ < 100 * 200) rig.tick();
-  EXPECT_TRUE(rig.snapshot().nav.paused) << rig.why();
-  EXPECT_EQ(rig.snapshot().nav.locate, LocateState::lost);
-  std::printf("without a receiver it drove %.1f s\n", 2 + ticks * 0.005);
-  rig.receiver_silent = false;
-  rig.run_s(6);
-  EXPECT_EQ(rig.snapshot().nav.status, NavStatus::run);
-  EXPECT_GT(rig.fastest_command_radps(), 0) << rig.why();
-}
-TEST_F(AnEngine, NeverFollowsAPositionThatJumps) {
-  drive();
-  rig.jump_m = 5;
-  for (int i = 0; i < 600 && rig.said<TaskEnded>().empty(); ++i) {
-    rig.tick();
-    EXPECT_LT(std::abs(rig.plant.truth().y_m), 0.1);
-  }
-  rig.run_s(1);
-  EXPECT_EQ(rig.fastest_command_radps(), 0);
-  EXPECT_TRUE(rig.snapshot().nav.status == NavStatus::error || rig.snapshot().nav.paused);
-}
-
 // --- what it promises to the runtime ----------------------------------------------------------
 
 TEST_F(AnEngine, AnswersEveryCommandOnceAndReturnsEveryPathOnce) {
@@ -485,6 +305,38 @@ TEST_F(AnEngine, ReportsPoseAndAntennaOfOneInstant) {
   EXPECT_EQ(snapshot.nav.target_id, 41U);
   EXPECT_EQ(snapshot.nav.track, "straight");
   EXPECT_NEAR(snapshot.pose.x_m, rig.plant.truth().x_m, 0.1);
+}
+TEST_F(AnEngine, DoesNotLetFramesThatOvertookEachOtherMoveAStateBackwards) {
+  rig.settle();
+  Measurement m;
+  m.received = rig.now;
+  m.time = rig.now - std::chrono::milliseconds(50);
+  m.value = AxisMotion{0, 1234, 0, 0};
+  rig.engine->on_measurement(m);
+  EXPECT_NE(rig.snapshot().axes[0].motion.position_rad, 1234);
+}
+TEST_F(AnEngine, NoticesASilentDriveWhoseLastStampLayInTheFuture) {
+  drive();
+  Measurement m;
+  m.received = rig.now;
+  m.time = rig.now + std::chrono::seconds(60);
+  m.value = rig.snapshot().axes[0].motion;
+  rig.engine->on_measurement(m);
+  rig.drives[0].silent = true;
+  for (int i = 0; i < 25; ++i) {
+    rig.now += kRigTick;
+    for (SourceHealth& line : rig.environment.lines) line.last_good = rig.now;
+    for (std::size_t k = 1; k < 4; ++k) {
+      m.time = m.received = rig.now;
+      AxisMotion motion = rig.snapshot().axes[k].motion;
+      motion.axis = static_cast<AxisId>(k);
+      m.value = motion;
+      rig.engine->on_measurement(m);
+    }
+    rig.engine->step(rig.now, rig.environment, rig.out);
+  }
+  EXPECT_EQ(rig.fastest_command_radps(), 0);
+  EXPECT_THAT(rig.why(), HasSubstr("wheel front_left: no feedback"));
 }
 TEST_F(AnEngine, IgnoresMeasurementsOfThingsItDoesNotHave) {
   rig.tick();

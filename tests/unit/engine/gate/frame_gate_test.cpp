@@ -28,6 +28,7 @@ class FakeDrive final : public CanDriver {
       case 0: return FrameEffect::stop;
       case 1: return FrameEffect::motion;
       case 2: return FrameEffect::harmless;
+      case 0xFF: return static_cast<FrameEffect>(77);
       default: return FrameEffect::forbidden;
     }
   }
@@ -110,6 +111,9 @@ TEST_F(AFrameGate, RefusesAnErrorFrame) {
 }
 TEST_F(AFrameGate, RefusesAForbiddenEffectWhateverIsPermitted) {
   EXPECT_EQ(admit(frame(9), true, false), kNotAllowed);
+}
+TEST_F(AFrameGate, RefusesAnEffectThatItDoesNotKnow) {
+  EXPECT_EQ(admit(frame(0xFF), true, false), kNotAllowed);
 }
 TEST_F(AFrameGate, RefusesMotionWhileNoneIsPermitted) {
   EXPECT_EQ(admit(frame(1), false, false), FrameVerdict::refused_motion);

@@ -1,10 +1,4 @@
-#include "engine/navigate/navigator.h"
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <limits>
-#include <vector>
+#include "navigator_fixture.h"
 
 namespace drover::engine {
 namespace {
@@ -12,99 +6,6 @@ namespace {
 using ::testing::HasSubstr;
 using How = TaskEnded::How;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-
-/// A navigator with everything about it in a test's hands: track along x from 0 to 10 m, the robot
-/// at (2, 0) looking along it, all healthy, drives in closed loop.
-class ANavigator : public ::testing::Test {
- protected:
-  ANavigator() {
-    for (int i = 0; i <= 10; ++i) path.points.push_back({1.0 * i, 0});
-    path.name = "row";
-    health.ready = health.drives_ok = health.drives_running = health.lines_ok = true;
-    health.gnss_ok = health.guard_ok = true;
-    health.locate = LocateState::good;
-    health.budget_used = 0.2;
-    estimate.has_position = estimate.has_heading = true;
-    estimate.predicted_error_m = 0.03;
-    estimate.yaw_error_rad = 0.01;
-    estimate.pose.x_m = 2;
-  }
-
-  template <class Body>
-  std::vector<Body> said() {
-    std::vector<Body> all;
-    for (const Event& event : log) {
-      if (const auto* body = std::get_if<Body>(&event.body)) all.push_back(*body);
-    }
-    return all;
-  }
-  void drain() {
-    FixedVector<Event, 64> some;
-    events.drain(some);
-    log.insert(log.end(), some.begin(), some.end());
-  }
-  RequestId next_id() { return {RequestId::Source::mqtt, ++number}; }
-  void start(double speed_mps = 0.5, std::uint32_t target = 10) {
-    start_on(&path, target, speed_mps);
-  }
-  void start_on(const Path* p, std::uint32_t target, double speed_mps) {
-    navigator.start(next_id(), {p, target, speed_mps}, now, estimate, has_origin, health, events);
-    drain();
-  }
-  void cancel() {
-    navigator.cancel(next_id(), now, events);
-    drain();
-  }
-  NavOutput step() {
-    now += std::chrono::milliseconds(5);
-    const NavOutput out = navigator.step(
-        {now, std::chrono::milliseconds(5), estimate, health, wheels, wheel_reason, at_rest, refusal},
-        events);
-    const bool moving = out.target.vx_mps != 0 || out.target.wz_radps != 0;
-    navigator.on_commanded(now, moving && out.stop == Stop::none, events);
-    drain();
-    return out;
-  }
-  NavOutput run_s(double seconds) {
-    NavOutput out;
-    for (int i = 0; i < static_cast<int>(seconds * 200); ++i) out = step();
-    return out;
-  }
-  void start_and_run() {
-    start();
-    step();
-    ASSERT_EQ(said<NavigationStarted>().size(), 1U);
-  }
-  NavStatus status() { return navigator.snapshot(health).status; }
-  std::string refusal_text() {
-    const auto refused = said<CommandRefused>();
-    return refused.empty() ? "" : std::string(refused.back().reason.view());
-  }
-  void expect_failed(const std::string& reason) {
-    ASSERT_EQ(said<TaskEnded>().size(), 1U);
-    EXPECT_EQ(said<TaskEnded>()[0].how, How::failed);
-    EXPECT_THAT(std::string(said<TaskEnded>()[0].reason.view()), HasSubstr(reason));
-    EXPECT_EQ(status(), NavStatus::error);
-    EXPECT_EQ(said<PathReleased>().size(), 1U);
-    EXPECT_THAT(std::string(navigator.latched().view()), HasSubstr(reason));
-    EXPECT_FALSE(step().drives);
-  }
-
-  EngineConfig config;
-  Navigator navigator{config};
-  EventQueue events;
-  std::vector<Event> log;
-  Path path;
-  HealthReport health;
-  Estimate estimate;
-  WheelFault wheels = WheelFault::none;
-  Reason wheel_reason;
-  bool at_rest = true;
-  bool has_origin = true;
-  TargetRefusal refusal = TargetRefusal::none;
-  Time now{std::chrono::seconds(50)};
-  std::uint64_t number = 0;
-};
 
 // --- refusals ---------------------------------------------------------------------------------
 
@@ -253,6 +154,23 @@ TEST_F(ANavigator, SucceedsOnlyWhenItRestsAtTheGoal) {
   EXPECT_EQ(status(), NavStatus::success) << "stays until the next command";
 }
 
+TEST_F(ANavigator, GoesOnWhenItCameToRestShortOfTheGoal) {
+  start_and_run();
+  estimate.pose.vx_mps = 0.1;
+  at_rest = false;
+  for (double x_m = 2; x_m < 9.99; x_m += 0.02) {
+    estimate.pose.x_m = x_m;
+    step();
+  }
+  ASSERT_EQ(step().target.vx_mps, 0);
+  estimate.pose.x_m = 9.8;  // rolled back
+  estimate.pose.vx_mps = 0;
+  at_rest = true;
+  step();
+  EXPECT_TRUE(said<TaskEnded>().empty());
+  EXPECT_GT(step().target.vx_mps, 0);
+}
+
 // --- cancel -----------------------------------------------------------------------------------
 
 TEST_F(ANavigator, TakesACancelWhenNothingRunsAsOftenAsItComes) {
@@ -375,171 +293,6 @@ TEST_F(ANavigator, SlowsDownWhenTheErrorBudgetIsNearlySpent) {
   start_and_run();
   health.budget_used = 1;
   EXPECT_NEAR(run_s(1).target.vx_mps, 0.25, 0.02);
-}
-
-// --- failures ---------------------------------------------------------------------------------
-
-TEST_F(ANavigator, StopsAtOnceForWhateverStops) {
-  start_and_run();
-  health.stop = "e-stop pressed";
-  EXPECT_EQ(step().stop, Stop::immediate);
-  expect_failed("e-stop pressed");
-  health.stop.clear();
-  run_s(5);
-  EXPECT_EQ(status(), NavStatus::error);
-}
-TEST_F(ANavigator, StopsAtOnceAlsoWhileItArms) {
-  health.drives_running = false;
-  start();
-  health.stop = "bumper touched";
-  EXPECT_EQ(step().stop, Stop::immediate);
-  EXPECT_EQ(said<NavigationNotStarted>().size(), 1U);
-}
-TEST_F(ANavigator, StopsAtOnceWhenADriveLeavesClosedLoop) {
-  start_and_run();
-  health.drives_running = false;
-  health.not_running = "wheel a: the drive is not in closed loop";
-  EXPECT_EQ(step().stop, Stop::immediate);
-  expect_failed("wheel a");
-}
-TEST_F(ANavigator, FailsWhenADriveIsLostDuringAPause) {
-  start_and_run();
-  health.near_zone = true;
-  step();
-  health.drives_running = false;
-  health.not_running = "wheel a: fault";
-  step();
-  expect_failed("wheel a: fault");
-}
-TEST_F(ANavigator, FailsWhenTheWheelsAreBlocked) {
-  start_and_run();
-  wheels = WheelFault::blocked;
-  wheel_reason = "blocked: the wheels do not move";
-  EXPECT_EQ(step().stop, Stop::immediate);
-  wheels = WheelFault::none;
-  wheel_reason.clear();
-  expect_failed("blocked");
-}
-TEST_F(ANavigator, FailsWhenItLeavesTheCorridor) {
-  start_and_run();
-  estimate.pose.y_m = 0.49;
-  step();
-  EXPECT_EQ(status(), NavStatus::run);
-  estimate.pose.y_m = 0.52;
-  step();
-  expect_failed("corridor");
-}
-TEST_F(ANavigator, DoesNotMindTheCorridorBeforeItJoinedTheTrack) {
-  estimate.pose.y_m = 1.5;
-  start();
-  run_s(1);
-  EXPECT_EQ(status(), NavStatus::run);
-}
-TEST_F(ANavigator, FailsWhenPositionAndOdometryDisagree) {
-  start_and_run();
-  estimate.disagrees = true;
-  health.locate = LocateState::lost;
-  step();
-  expect_failed("disagrees");
-}
-TEST_F(ANavigator, FailsWhenTheEstimateIsNotANumber) {
-  start_and_run();
-  estimate.pose.x_m = kNan;
-  health.locate = LocateState::lost;
-  step();
-  expect_failed("not a number");
-}
-TEST_F(ANavigator, FailsWhenTheTargetGateSawNoNumber) {
-  start_and_run();
-  refusal = TargetRefusal::not_finite;
-  step();
-  expect_failed("not a number");
-}
-TEST_F(ANavigator, FailsWhenItPassesTheGoalBesideIt) {
-  start_and_run();
-  estimate.pose.y_m = 0.3;
-  for (double x_m = 2; x_m < 10.2; x_m += 0.02) {
-    estimate.pose.x_m = x_m;
-    step();
-  }
-  expect_failed("passed point 11");
-}
-TEST_F(ANavigator, FailsWhenItDoesNotArrive) {
-  start_and_run();
-  for (double x_m = 2; x_m < 9.6; x_m += 0.02) {
-    estimate.pose.x_m = x_m;
-    step();
-  }
-  run_s(21);
-  expect_failed("did not arrive");
-}
-TEST_F(ANavigator, DoesNotCountAPauseAsCreeping) {
-  start_and_run();
-  for (double x_m = 2; x_m < 9.6; x_m += 0.02) {
-    estimate.pose.x_m = x_m;
-    step();
-  }
-  health.near_zone = true;
-  run_s(30);
-  EXPECT_EQ(status(), NavStatus::run);
-}
-
-// --- what a person does afterwards ------------------------------------------------------------
-
-TEST_F(ANavigator, TakesANewStartOnceTheCauseIsGone) {
-  start_and_run();
-  health.stop = "bumper touched";
-  step();
-  start();
-  EXPECT_EQ(refusal_text(), "bumper touched");
-  health.stop.clear();
-  start();
-  EXPECT_EQ(status(), NavStatus::run);
-  EXPECT_TRUE(navigator.latched().empty());
-  EXPECT_GT(step().target.vx_mps, 0);
-}
-TEST_F(ANavigator, IsFreeAfterACancelThatFollowsAnError) {
-  start_and_run();
-  health.stop = "bumper touched";
-  step();
-  cancel();
-  EXPECT_EQ(status(), NavStatus::free);
-  EXPECT_EQ(said<TaskEnded>().size(), 1U);
-}
-TEST_F(ANavigator, LatchesASoftwareStopThatOnlyAResetClears) {
-  wheels = WheelFault::runaway;
-  wheel_reason = "wheel a runs away";
-  EXPECT_EQ(step().stop, Stop::immediate);
-  wheels = WheelFault::none;
-  wheel_reason.clear();
-  start();
-  EXPECT_EQ(refusal_text(), "reset the stop first: wheel a runs away");
-  cancel();
-  EXPECT_FALSE(navigator.latched().empty());
-  navigator.reset_stop(next_id(), now, true, health, events);
-  drain();
-  EXPECT_TRUE(navigator.latched().empty());
-  EXPECT_FALSE(step().drives) << "a reset never starts motion";
-  start();
-  EXPECT_EQ(status(), NavStatus::run);
-}
-TEST_F(ANavigator, RefusesAResetWhileTheCausePersistsOrTheRobotMoves) {
-  navigator.reset_stop(next_id(), now, false, health, events);
-  drain();
-  EXPECT_EQ(refusal_text(), "the robot is still stopping");
-  health.stop = "e-stop pressed";
-  navigator.reset_stop(next_id(), now, true, health, events);
-  drain();
-  EXPECT_EQ(refusal_text(), "e-stop pressed");
-  health.stop.clear();
-  start_and_run();
-  navigator.reset_stop(next_id(), now, true, health, events);
-  drain();
-  EXPECT_EQ(refusal_text(), "a task runs: cancel it first");
-  health.ready = false;
-  navigator.reset_stop(next_id(), now, true, health, events);
-  drain();
-  EXPECT_EQ(said<CommandRefused>().size(), 4U);
 }
 
 }  // namespace
