@@ -91,12 +91,7 @@ class Guard final {
     const bool was_holding = holding_;
     holding_ = watch_.step(beats(), t);
     if (holding_) {
-      if (!was_holding) {
-        std::fprintf(stderr,
-                     "drover-guard: droverd's heartbeat is %.0f ms old: stopping the drives "
-                     "(%zu frames each 10 ms)\n",
-                     drover::to_s(watch_.age(t)) * 1e3, set_.size());
-      }
+      if (!was_holding) tell_of_hold(t);
       set_.send();
     }
     if (shared_ != nullptr) {
@@ -104,6 +99,16 @@ class Guard final {
       shared_->guard_holds.store(holding_ ? 1 : 0, std::memory_order_release);
     }
     if (++cycles_ % 20 == 0) ::sd_notify(0, "WATCHDOG=1");
+  }
+
+  void tell_of_hold(Time t) const {
+    if (daemon_ < 0) {
+      std::fprintf(stderr, "drover-guard: droverd is gone: ");
+    } else {
+      std::fprintf(stderr, "drover-guard: droverd's heartbeat is %.0f ms old: ",
+                   drover::to_s(watch_.age(t)) * 1e3);
+    }
+    std::fprintf(stderr, "stopping the drives (%zu frames each 10 ms)\n", set_.size());
   }
 
   std::uint64_t beats() const {
@@ -146,7 +151,6 @@ class Guard final {
   void drop_daemon() {
     ::close(daemon_);
     daemon_ = -1;
-    if (set_.size() > 0) std::fprintf(stderr, "drover-guard: droverd is gone\n");
     watch_.lost();
     cycle();  // do not wait for the timer
   }
