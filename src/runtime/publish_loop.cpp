@@ -104,20 +104,16 @@ void PublishLoop::watch(int fd, std::uint64_t tag) {
   ::epoll_ctl(epoll_.get(), EPOLL_CTL_ADD, fd, &event);
 }
 
-/// libmosquitto opens and closes its descriptor by itself: keep epoll in step.
+/// libmosquitto opens and closes its descriptor by itself, and a new one may have the old one's
+/// number: ask epoll at every turn instead of remembering.
 void PublishLoop::watch_broker() {
-  if (!broker_) return;
-  const int fd = broker_->fd();
-  const bool writes = broker_->wants_write();
-  if (fd == broker_fd_ && writes == broker_writes_) return;
+  const int fd = broker_ ? broker_->fd() : -1;
+  if (fd < 0) return;
   epoll_event event{};
-  event.events = EPOLLIN | (writes ? EPOLLOUT : 0U);
+  event.events = EPOLLIN | (broker_->wants_write() ? EPOLLOUT : 0U);
   event.data.u64 = kBroker;
-  // A closed descriptor left epoll by itself; its number may have come back as a new one.
-  if (fd >= 0 && ::epoll_ctl(epoll_.get(), EPOLL_CTL_MOD, fd, &event) != 0)
+  if (::epoll_ctl(epoll_.get(), EPOLL_CTL_MOD, fd, &event) != 0)
     ::epoll_ctl(epoll_.get(), EPOLL_CTL_ADD, fd, &event);
-  broker_fd_ = fd;
-  broker_writes_ = writes;
 }
 
 void PublishLoop::run(const std::atomic<bool>& stop) {

@@ -57,8 +57,6 @@ class PublishLoop final {
   std::uint64_t next_request_ = 1;
   link::UniqueFd epoll_;
   link::UniqueFd timer_;
-  int broker_fd_ = -1;       ///< as it is in epoll
-  bool broker_writes_ = false;
   std::atomic<std::uint64_t> turns_{0};
   std::atomic<bool> cancel_wanted_{false};
 };
