@@ -1,0 +1,249 @@
+# The rules of the tree: each function prints one "file:line: what is wrong" per problem.
+# Sourced by tests/lint/run, which has changed into the tree: `files` lists what is in it, a line
+# in $notes is shown, a line in $skips says that a rule could not be checked.
+# shellcheck shell=bash disable=SC2154
+
+# Who may include whom: room, then the prefixes it may include ("<...>" are rule_headers').
+# config/ holds two things: strict JSON, which several rooms share, and the configuration.
+includes_of_rooms() {
+  cat << 'TABLE'
+include/drover   drover/
+drivers          drover/ drivers/
+src/engine       drover/ engine/
+src/link         drover/ link/
+src/scene        drover/ scene/
+src/store        drover/ store/ config/located_json.h config/json_text.h
+src/config       drover/ config/ engine/config.h
+src/publish      drover/ publish/ store/ config/located_json.h config/json_text.h
+src/runtime      drover/ runtime/ publish/ store/ config/ link/ engine/
+src/guard        drover/ guard/
+src/cli          cli/ link/unique_fd.h config/located_json.h config/json_text.h
+src/droverd.cpp  config/ runtime/
+sim/plant        drover/ sim/plant/
+sim/robot        drover/ link/ sim/plant/ sim/robot/
+sim/scenario     drover/ link/ sim/robot/ sim/scenario/ config/located_json.h config/json_text.h
+TABLE
+}
+
+sources() { files | grep -E '\.(h|cpp)$' | grep -E "^($1)" || true; }
+
+rule_include_directions() {
+  local rooms
+  rooms=$(includes_of_rooms)
+  sources 'include/|drivers/|src/|sim/' | grep -v '^sim/labkit/' | while read -r file; do
+    awk -v file="$file" -v rooms="$rooms" '
+      BEGIN {
+        n = split(rooms, lines, "\n")
+        for (i = 1; i <= n; ++i) {
+          m = split(lines[i], w, / +/)
+          if (file == w[1] || index(file, w[1] "/") == 1) {
+            room = w[1]
+            for (j = 2; j <= m; ++j) allowed[w[j]] = 1
+          }
+        }
+        if (room == "") print file ":1: this folder is no room of the table in tests/lint/rules.sh"
+      }
+      room != "" && /^ *# *include *"/ {
+        split($0, part, "\"")
+        good = 0
+        for (prefix in allowed) {
+          whole = prefix ~ /\.h$/
+          if (whole ? part[2] == prefix : index(part[2], prefix) == 1) good = 1
+        }
+        if (!good) print file ":" NR ": " room " may not include \"" part[2] "\""
+      }' "$file"
+  done
+}
+
+# The rooms without I/O know the standard library only; the engine also GeographicLib.
+rule_headers() {
+  sources 'include/|drivers/|src/engine/' | while read -r file; do
+    awk -v file="$file" '
+      /^ *# *include *</ {
+        name = $0
+        gsub(/.*<|>.*/, "", name)
+        if (name ~ /^(thread|mutex|shared_mutex|condition_variable|future|ctime)$/ ||
+            name ~ /^(iostream|fstream|filesystem|random)$/)
+          print file ":" NR ": <" name "> has no place here"
+        else if (name !~ /^[a-z_]+$/ && !(file ~ /^src\/engine\// && name ~ /^GeographicLib\//))
+          print file ":" NR ": only the standard library here, not <" name ">"
+      }' "$file"
+  done
+}
+
+# code FILE...: "file:line:text" without comments and strings.
+code() {
+  awk '{
+    text = $0
+    gsub(/\\./, "", text)
+    gsub(/"[^"]*"/, "\"\"", text)
+    sub(/\/\/.*/, "", text)
+    if (text ~ /[^ ]/) print FILENAME ":" FNR ":" text
+  }' "$@"
+}
+
+# matches PATTERN MESSAGE < names of files
+matches() {
+  local names
+  mapfile -t names
+  [[ ${#names[@]} -gt 0 ]] || return 0
+  code "${names[@]}" | grep -E "^[^:]+:[0-9]+:.*($1)" | sed -E "s|^([^:]+:[0-9]+):.*|\1: $2|" || true
+}
+
+rule_pure_rooms() {
+  sources 'drivers/|src/engine/' | matches \
+    '\<now\(|_clock\>|clock_gettime|sleep|std::thread|\<mutex\>|lock_guard|getenv|std::async' \
+    'no clock, thread, lock or environment in drivers and engine: time is an argument'
+  sources 'drivers/|src/engine/' | matches \
+    '\<f?open\(|\<socket\(|[^A-Za-z0-9_>]::(read|write|send|recv|ioctl|poll)\(' 'no I/O in drivers and engine'
+  sources 'drivers/|src/engine/' | matches \
+    '\<f?printf\(|\<f?puts\(|std::c(out|err|log)\>|\<[io]?fstream\>' \
+    'no I/O in drivers and engine'
+  # spsc_ring and triple_buffer are the only exchange; the vocabulary has no clock either.
+  sources 'include/' | matches '\<now\(|_clock::now|clock_gettime|std::mutex|std::thread|sleep' \
+    'the vocabulary has no clock, thread or lock'
+}
+
+rule_no_own_mutex() {
+  sources 'include/|drivers/|src/' | matches \
+    'std::(recursive_|shared_|timed_)?mutex|pthread_mutex|condition_variable' \
+    'no mutex of our own: triple buffer and rings'
+}
+
+# Descriptors belong to the links, the loop, the programs and the file store.
+rule_descriptors() {
+  sources 'src/' | grep -vE '^src/(link|runtime|guard|cli)/|^src/(store/posix_files|config/load)\.cpp$' |
+    matches '[^A-Za-z0-9_>]::(open(at)?|socket|read|write|send|recv|ioctl|poll|epoll_[a-z0-9]+|close)\(' \
+      'descriptors belong to src/link, src/runtime and the file readers'
+}
+
+rule_clocks() {
+  sources 'src/|include/|drivers/' | grep -v '^src/runtime/clock\.h$' |
+    matches 'system_clock|CLOCK_REALTIME|gettimeofday|\<time\(NULL|\<time\(nullptr' \
+      'wall time is read in src/runtime/clock.h only'
+  sources 'src/' | grep -vE '^src/(runtime/clock\.h|guard/guard\.cpp)$' |
+    matches 'steady_clock|clock_gettime' 'the clock is read in src/runtime/clock.h only'
+}
+
+# `*_failse` and the topics are spelled in publish/ only.
+rule_spellings() {
+  local file
+  sources 'include/|drivers/|src/' | grep -v '^src/publish/' | while read -r file; do
+    # Code only: comments may name what they explain.
+    sed -E 's|//.*||' "$file" | grep -nE '_failse|LOCATE_TRUE|NAV_RUN' |
+      sed -E "s|^([0-9]+):.*|$file:\1: wire spellings live in src/publish only|" || true
+  done
+}
+
+rule_file_length() {
+  local file lines
+  while read -r file; do
+    lines=$(wc -l < "$file")
+    if [[ $lines -gt 500 ]]; then
+      echo "$file:500: $lines lines; split it"
+    elif [[ $lines -gt 300 ]]; then
+      echo "$file: $lines lines, is it still one thing?" >> "$notes"
+    fi
+  done < <(files | grep -E '\.(h|cpp|sh)$|^sim/(lab|demo)$|^sim/labkit/init$|^tests/(.*/)?run$')
+}
+
+rule_line_length() {
+  local file
+  files | grep -E '\.(h|cpp|sh)$|CMakeLists\.txt$' | while read -r file; do
+    LC_ALL=C.UTF-8 grep -nE '^.{101,}' "$file" |
+      sed -E "s|^([0-9]+):.*|$file:\1: more than 100 columns|" || true
+  done
+}
+
+rule_headers_begin_well() {
+  local file
+  sources 'include/|drivers/|src/|sim/|tests/' | while read -r file; do
+    [[ $file != *.h ]] || grep -q '^#pragma once' "$file" || echo "$file:1: no #pragma once"
+    case $file in
+      tests/*_test.cpp | */entry.cpp) ;;
+      *.h) [[ $(head -c 2 "$file") == // ]] || echo "$file:1: no purpose sentence on top" ;;
+    esac
+  done
+}
+
+rule_top_level() {
+  files | cut -d/ -f1 | sort -u |
+    grep -vE '^(CMakeLists\.txt|README\.md|LICENSE|\..*)$' |
+    grep -vxE 'src|drivers|include|config|udev|tests|sim' |
+    sed 's|$|:1: the top level is fixed|' || true
+}
+
+# A machine's own paths, generated files, and words about how the work was done.
+rule_no_machine_paths() {
+  local file
+  files | grep -vE '^(LICENSE|tests/lint/)' | while read -r file; do
+    grep -nIE '(^|[^A-Za-z0-9_.}*-])/(work|root|home/[a-z]+)(/|\>)' "$file" | sed -E "s|^([0-9]+):.*|$file:\1: a path of one machine|" || true
+  done
+  files | grep -E '^(include|drivers|src|config|udev)/' | while read -r file; do
+    grep -nI '/tmp/' "$file" | sed -E "s|^([0-9]+):.*|$file:\1: /tmp in the product|" || true
+  done
+  files | grep -vE '^(LICENSE|README\.md)$' | while read -r file; do
+    [[ -s $file && $file != tests/fuzz/corpus/* && $file != */golden/* ]] || continue
+    grep -qI . "$file" || echo "$file:1: a binary file"
+  done
+}
+
+rule_driver_folders() {
+  local folder
+  files | grep -oE '^drivers/[^/]+/' | sort -u | while read -r folder; do
+    [[ -s ${folder}README.md ]] || echo "${folder}README.md:1: missing: source document and frames"
+    # A driver without a codec has levels, not bytes.
+    [[ ! -e ${folder}codec.h ]] || files | grep -q "^${folder}golden/" ||
+      echo "${folder}golden:1: missing: captured or documented bytes"
+    grep -q "$(basename "$folder")" drivers/registry.cpp 2> /dev/null ||
+      echo "drivers/registry.cpp:1: no line for $folder"
+  done
+}
+
+# Every package that README.md names in an apt-get line is in the list.
+rule_packages() {
+  [[ -e .ci/packages ]] || { echo ".ci/packages:1: missing"; return; }
+  [[ -e README.md ]] || { echo "README.md:1: missing"; return; }
+  awk '
+    FILENAME == ".ci/packages" { if (NF && $1 !~ /^[#[]/) known[$1] = 1; next }
+    /apt(-get)? install/ { on = 1; sub(/.*install/, "") }
+    on {
+      text = $0
+      gsub(/[`\\|]/, " ", text)
+      n = split(text, words, " ")
+      for (i = 1; i <= n; ++i)
+        if (words[i] ~ /^[a-z0-9][a-z0-9.+-]+$/ && !(words[i] in known))
+          print FILENAME ":" FNR ": " words[i] " is not in .ci/packages"
+      if ($0 !~ /\\$/) on = 0
+    }' .ci/packages README.md
+  awk 'NF && $1 !~ /^[#[]/ {
+    if (seen[$1]++) print FILENAME ":" FNR ": " $1 " stands twice"
+    if ($0 !~ /# [^ ]/) print FILENAME ":" FNR ": " $1 ": say what it is used for"
+  }' .ci/packages
+}
+
+# Programs only: what they source is followed.
+scripts() {
+  local file first
+  files | grep -vE '\.(h|cpp|md|json|xml|txt)$' | while read -r file; do
+    [[ -s $file ]] || continue
+    IFS= read -rn 40 first < "$file" || true
+    [[ $first =~ ^'#!'.*(bash|/sh) ]] && echo "$file"
+  done
+}
+
+rule_shellcheck() {
+  command -v shellcheck > /dev/null || { echo 'shellcheck is missing' >> "$skips"; return 0; }
+  local names
+  mapfile -t names < <(scripts)
+  [[ ${#names[@]} -gt 0 ]] || return 0
+  # SC2317: functions that are called by their name in a variable. SC2016: text for another shell.
+  shellcheck -x -e SC2317,SC2016 -f gcc "${names[@]}" || true
+}
+
+rule_format() {
+  command -v clang-format > /dev/null || { echo 'clang-format is missing' >> "$skips"; return 0; }
+  sources '' | xargs -r -P "$(nproc)" -n 1 sh -c \
+    'clang-format "$0" | cmp -s - "$0" || echo "$0:1: clang-format would change this"' |
+    LC_ALL=C sort
+}
