@@ -1,0 +1,97 @@
+// A whole robot on one machine: broker, simulated hardware, guard and gateway as real processes,
+// with CAN frames over a socket, contacts as files and the receiver on a pseudo-terminal.
+//
+// It runs in real time on whatever machine builds it, so nothing here asserts a time; deadlines
+// only end what hangs, and grow with DROVER_DEADLINE_FACTOR.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "integration/operator_client.h"
+#include "integration/process.h"
+
+namespace drover::test {
+
+struct CommandResult {
+  int code = -1;  ///< -1: it did not end
+  std::string text;
+};
+
+/// A velocity set point on the bus.
+struct SetPoint {
+  double time_s = 0;  ///< of the monotonic clock
+  unsigned node = 0;
+  float velocity_turnps = 0;
+};
+
+class RobotRig : public testing::Test {
+ protected:
+  RobotRig();
+  ~RobotRig() override;
+
+  void start_broker();
+  void start_sim();
+  void start_guard();
+  void start_daemon();
+  /// All four, until the robot knows where it is.
+  void start_all();
+  /// Ends the gateway as systemd would and expects that it ends well.
+  void stop_daemon();
+
+  /// Turns the operator's loop until `done`; false at the deadline (20 s).
+  bool wait_until(const std::function<bool()>& done);
+  bool wait_for_feedback(std::string_view cmd, std::size_t from);
+  bool wait_for_status(std::string_view nav_status);
+  bool wait_for_locate();
+
+  void control(std::string_view text, bool retained = false);
+  /// A straight track ahead of where the robot believes to be, points each half metre.
+  void save_track(const std::string& name, double length_m);
+  void start_task(const std::string& name, int id, double speed_mps = 0.5);
+  /// Saves a track of `length_m`, starts it and waits until the robot moves.
+  void drive(double length_m);
+
+  CommandResult drover(std::vector<std::string> words);
+  CommandResult droverd(std::vector<std::string> words);
+  std::string sim(std::vector<std::string> words);
+
+  /// A member of the newest base_status, like `nav.status`; text as it is, anything else as JSON.
+  std::string status_text(std::string_view section, std::string_view key) const;
+  double status_number(std::string_view section, std::string_view key) const;
+  double true_speed_mps();
+  bool at_rest() { return true_speed_mps() < 0.01; }
+  /// Ends the simulator and reads its record of the bus.
+  std::vector<SetPoint> set_points_on_the_bus();
+  static double now_s();
+
+  const std::filesystem::path& folder() const { return folder_; }
+  Process& broker() { return broker_; }
+  Process& simulator() { return sim_; }
+  Process& guard() { return guard_; }
+  Process& daemon() { return daemon_; }
+  OperatorClient& client() { return client_; }
+
+ private:
+  std::string log(const char* name) const { return (folder_ / name).string(); }
+  CommandResult run(const std::vector<std::string>& words);
+  void write_files();
+  void expect_no_sanitizer_report(const Process& process) const;
+
+  std::filesystem::path folder_;
+  int port_ = 0;
+  int commands_ = 0;
+  Process broker_;
+  Process sim_;
+  Process guard_;
+  Process daemon_;
+  OperatorClient client_;
+};
+
+}  // namespace drover::test
