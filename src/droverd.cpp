@@ -8,8 +8,10 @@
 
 namespace {
 
+// systemd does not start again after it (RestartPreventExitStatus=): no retry would help.
 constexpr int kBadConfiguration = 2;
 
+/// False when there are problems; each is a line on stderr.
 bool report(const drover::config::Loaded& loaded, const std::string& file) {
   for (const auto& problem : loaded.problems)
     std::fprintf(stderr, "%s\n", problem.text(file).c_str());
@@ -36,20 +38,26 @@ int main(int argc, char** argv) {
   std::string checked;
   bool schema = false;
   app.add_option("-c,--config", file, "configuration")->capture_default_str();
-  app.add_option("--check", checked, "check a configuration and exit (0 good, 2 not)");
+  const auto* check_wanted =
+      app.add_option("--check", checked, "check a configuration and exit (0 good, 2 not)");
   app.add_flag("--schema", schema, "print the configuration's JSON schema and exit");
   app.set_version_flag("--version", DROVER_VERSION);
   app.footer(
       "Examples:\n"
       "  droverd --check /etc/drover/drover.json\n"
       "  droverd --config robot.json\n"
-      "  droverd --schema > drover.schema.json");
-  CLI11_PARSE(app, argc, argv);
+      "  droverd --schema > drover.schema.json\n"
+      "Exit codes: 0 ended as asked, 2 wrong arguments or configuration.");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : kBadConfiguration;  // 0: --help and --version
+  }
   if (schema) {
     std::fputs(drover::config::schema_text().c_str(), stdout);
     return 0;
   }
-  if (!checked.empty()) return check(checked);
+  if (check_wanted->count() > 0) return check(checked);
   try {
     const auto loaded = drover::config::load_file(file);
     if (!report(loaded, file)) return kBadConfiguration;

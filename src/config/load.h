@@ -10,9 +10,9 @@
 namespace drover::config {
 
 struct Problem {
-  std::size_t line = 0;    ///< from 1; 0 when it has no place
+  std::size_t line = 0;  ///< from 1; 0 when it has no place
   std::size_t column = 0;
-  std::string path;        ///< "drives[1].options.node"
+  std::string path;  ///< "drives[1].options.node"
   std::string message;
   std::string suggestion;  ///< empty when there is none
   /// "drover.json:12:7: drives[1].options.node: ... (did you mean ...?)"

@@ -23,25 +23,44 @@ std::size_t distance(std::string_view a, std::string_view b) {
   return row.back();
 }
 
-std::string did_you_mean(std::string_view word, const std::vector<std::string>& candidates) {
-  const auto best = nearest(word, candidates);
-  return best.empty() ? "" : "did you mean \"" + best + "\"?";
-}
-
 std::string joined(const std::vector<std::string>& words) {
   std::string text;
   for (const auto& word : words) text += (text.empty() ? "" : ", ") + word;
   return text;
 }
 
+/// What to write instead, for the usual slips.
+std::string right_type(const json::Node& node, std::string_view expected) {
+  if (const auto* text = node.text(); text != nullptr) {
+    const auto inner = json::parse(*text);
+    const bool number = inner && inner->root.number() && expected.ends_with("number");
+    const bool flag = inner && inner->root.boolean() != nullptr && expected == "true or false";
+    return number || flag ? "write it without quotes" : "";
+  }
+  if (node.number() && expected == "a text") return "write it in quotes";
+  if (node.number() && expected == "a whole number") return "write it without a fraction";
+  if (node.is_null()) return "leave the key out for its default";
+  return "";
+}
+
+std::string counted(std::size_t n) {
+  return std::to_string(n) + (n == 1 ? " entry" : " entries");
+}
+
 }  // namespace
+
+std::string did_you_mean(std::string_view word, const std::vector<std::string>& candidates) {
+  const auto best = nearest(word, candidates);
+  return best.empty() ? "" : "did you mean \"" + best + "\"?";
+}
 
 std::string nearest(std::string_view word, const std::vector<std::string>& candidates) {
   std::string best;
   std::size_t least = std::max<std::size_t>(word.size() / 2, 2) + 1;
   for (const auto& candidate : candidates) {
     // "max_speed" for "max_speed_mps" is the usual slip: a forgotten unit.
-    const auto edits = candidate.starts_with(word) ? 1 : distance(word, candidate);
+    const bool begun = word.size() >= 2 && candidate.starts_with(word);
+    const auto edits = begun ? 1 : distance(word, candidate);
     if (edits < least) {
       least = edits;
       best = candidate;
@@ -69,22 +88,27 @@ void Reader::add(const json::Node& place, std::string path, std::string message,
       {place.line, place.column, std::move(path), std::move(message), std::move(suggestion)});
 }
 
-void Reader::add_at(std::string_view key, std::string message, std::string suggestion) {
-  const auto* member = node_.find(key);
-  add(member != nullptr ? *member : node_, path_of(key), std::move(message), std::move(suggestion));
-}
-
-const json::Node* Reader::find(std::string_view key, Presence presence) {
+const json::Node* Reader::find(std::string_view key, Presence presence, std::string_view text) {
   known_.emplace_back(key);
   const auto* node = node_.find(key);
   if (node == nullptr && presence == Presence::required)
-    add(node_, path_of(key), "is missing");
+    add(node_, path_of(key), "is missing", std::string(text));
   return node;
 }
 
 void Reader::wrong_type(const json::Node& node, std::string_view key, std::string_view expected) {
   add(node, path_of(key),
-      "is " + std::string(node.kind()) + ", but " + std::string(expected) + " is expected");
+      "is " + std::string(node.kind()) + ", but " + std::string(expected) + " is expected",
+      right_type(node, expected));
+}
+
+void Reader::check_count(const json::Node& list, std::string_view key, Count count) {
+  const auto size = list.list()->size();
+  if (size < count.min)
+    add(list, path_of(key), "has " + counted(size) + ", but needs at least " + counted(count.min));
+  if (size > count.max)
+    add(list, path_of(key),
+        "has " + counted(size) + ", but may have at most " + counted(count.max));
 }
 
 void Reader::out_of_range(const json::Node& node, std::string_view key, Range range) {
@@ -93,9 +117,9 @@ void Reader::out_of_range(const json::Node& node, std::string_view key, Range ra
           " and " + number_text(range.max));
 }
 
-void Reader::number(std::string_view key, double& into, Range range, std::string_view,
+void Reader::number(std::string_view key, double& into, Range range, std::string_view text,
                     Presence presence) {
-  const auto* node = find(key, presence);
+  const auto* node = find(key, presence, text);
   if (node == nullptr) return;
   const auto value = node->number();
   if (!value) return wrong_type(*node, key, "a number");
@@ -103,30 +127,34 @@ void Reader::number(std::string_view key, double& into, Range range, std::string
   into = *value;
 }
 
-void Reader::integer(std::string_view key, int& into, Range range, std::string_view,
+void Reader::integer(std::string_view key, int& into, Range range, std::string_view text,
                      Presence presence) {
-  const auto* node = find(key, presence);
+  const auto* node = find(key, presence, text);
   if (node == nullptr) return;
   const auto value = node->integer();
   if (!value) return wrong_type(*node, key, "a whole number");
-  if (*value < static_cast<std::int64_t>(range.min) || *value > static_cast<std::int64_t>(range.max))
+  if (*value < static_cast<std::int64_t>(range.min) ||
+      *value > static_cast<std::int64_t>(range.max))
     return out_of_range(*node, key, range);
   into = static_cast<int>(*value);
 }
 
-void Reader::flag(std::string_view key, bool& into, std::string_view, Presence presence) {
-  const auto* node = find(key, presence);
+void Reader::flag(std::string_view key, bool& into, std::string_view text, Presence presence) {
+  const auto* node = find(key, presence, text);
   if (node == nullptr) return;
   if (node->boolean() == nullptr) return wrong_type(*node, key, "true or false");
   into = *node->boolean();
 }
 
-void Reader::text(std::string_view key, std::string& into, std::string_view, Presence presence) {
-  const auto* node = find(key, presence);
+void Reader::text(std::string_view key, std::string& into, std::string_view what,
+                  Presence presence) {
+  const auto* node = find(key, presence, what);
   if (node == nullptr) return;
   if (node->text() == nullptr) return wrong_type(*node, key, "a text");
   if (node->text()->find('\0') != std::string::npos)
     return add(*node, path_of(key), "holds a NUL character");
+  if (presence == Presence::required && node->text()->empty())
+    return add(*node, path_of(key), "is empty", std::string(what));
   into = *node->text();
 }
 
@@ -144,11 +172,12 @@ void Reader::choice(std::string_view key, std::string& into,
   into = value;
 }
 
-void Reader::names(std::string_view key, std::vector<std::string>& into, std::string_view,
-                   Presence presence) {
-  const auto* node = find(key, presence);
+void Reader::names(std::string_view key, std::vector<std::string>& into, Count count,
+                   std::string_view text, Presence presence) {
+  const auto* node = find(key, presence, text);
   if (node == nullptr) return;
   if (node->list() == nullptr) return wrong_type(*node, key, "a list of texts");
+  check_count(*node, key, count);
   for (const auto& item : *node->list()) {
     if (item.text() == nullptr) {
       wrong_type(item, key, "a list of texts");
@@ -174,7 +203,7 @@ void Reader::options(std::string_view key, Options& into, const std::string& dri
   Reader inner(node, path_of(key), problems_);
   for (const auto& spec : entry->options) {
     const auto* value =
-        inner.find(spec.name, spec.required ? Presence::required : Presence::optional);
+        inner.find(spec.name, spec.required ? Presence::required : Presence::optional, spec.text);
     if (value != nullptr) inner.option(spec, *value, into);
   }
   inner.finish();

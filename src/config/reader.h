@@ -26,13 +26,14 @@ class Reader final {
             Presence presence = Presence::optional);
   void choice(std::string_view key, std::string& into, const std::vector<std::string>& choices,
               std::string_view text, Presence presence = Presence::optional);
-  void names(std::string_view key, std::vector<std::string>& into, std::string_view text,
-             Presence presence = Presence::optional);
+  void names(std::string_view key, std::vector<std::string>& into, Count count,
+             std::string_view text, Presence presence = Presence::optional);
   void options(std::string_view key, Options& into, const std::string& driver, DriverShape shape);
 
   template <class T>
-  void object(std::string_view key, T& into, std::string_view, Presence presence = Presence::optional) {
-    const auto* node = find(key, presence);
+  void object(std::string_view key, T& into, std::string_view text,
+              Presence presence = Presence::optional) {
+    const auto* node = find(key, presence, text);
     if (node == nullptr) return;
     if (node->object() == nullptr) return wrong_type(*node, key, "an object");
     Reader inner(*node, path_of(key), problems_);
@@ -40,11 +41,12 @@ class Reader final {
     inner.finish();
   }
   template <class T>
-  void list(std::string_view key, std::vector<T>& into, std::string_view,
+  void list(std::string_view key, std::vector<T>& into, Count count, std::string_view text,
             Presence presence = Presence::optional) {
-    const auto* node = find(key, presence);
+    const auto* node = find(key, presence, text);
     if (node == nullptr) return;
     if (node->list() == nullptr) return wrong_type(*node, key, "a list");
+    check_count(*node, key, count);
     for (const auto& item : *node->list()) {
       const auto path = path_of(key) + "[" + std::to_string(into.size()) + "]";
       into.emplace_back();
@@ -59,14 +61,13 @@ class Reader final {
   }
   /// Reports the members that nobody asked for.
   void finish();
-  /// Place of a member for checks that come later; the object itself when it is not there.
-  void add_at(std::string_view key, std::string message, std::string suggestion = {});
 
  private:
-  const json::Node* find(std::string_view key, Presence presence);
+  const json::Node* find(std::string_view key, Presence presence, std::string_view text);
   std::string path_of(std::string_view key) const;
   void wrong_type(const json::Node& node, std::string_view key, std::string_view expected);
   void out_of_range(const json::Node& node, std::string_view key, Range range);
+  void check_count(const json::Node& list, std::string_view key, Count count);
   void add(const json::Node& place, std::string path, std::string message,
            std::string suggestion = {});
   void option(const OptionSpec& spec, const json::Node& node, Options& into);
@@ -77,6 +78,8 @@ class Reader final {
   std::vector<std::string> known_;
 };
 
+/// "did you mean ...?"; empty when no candidate is near.
+std::string did_you_mean(std::string_view word, const std::vector<std::string>& candidates);
 /// The candidate that `word` most likely was meant to be; empty when none is near.
 std::string nearest(std::string_view word, const std::vector<std::string>& candidates);
 /// "0.5", "200": without trailing zeros.

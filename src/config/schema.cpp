@@ -1,4 +1,5 @@
 // Writes the JSON schema from the tables in fields.h.
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "config/fields.h"
@@ -10,6 +11,16 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+void put_range(Json& schema, Range range, bool integer) {
+  if (integer) {
+    schema["minimum"] = std::llround(range.min);
+    schema["maximum"] = std::llround(range.max);
+  } else {
+    schema["minimum"] = range.min;
+    schema["maximum"] = range.max;
+  }
+}
+
 Json option_schema(const OptionSpec& spec) {
   Json schema;
   schema["description"] = std::string(spec.text);
@@ -18,15 +29,15 @@ Json option_schema(const OptionSpec& spec) {
   } else if (std::holds_alternative<double>(spec.default_value)) {
     schema["type"] = spec.integer ? "integer" : "number";
     if (spec.min < spec.max) {
-      schema["minimum"] = spec.min;
-      schema["maximum"] = spec.max;
+      put_range(schema, {spec.min, spec.max}, spec.integer);
     }
   } else {
     schema["type"] = "string";
     for (const auto choice : spec.choices) schema["enum"].push_back(std::string(choice));
   }
-  if (!spec.required)
-    std::visit([&schema](const auto& value) { schema["default"] = value; }, spec.default_value);
+  if (spec.required) return schema;
+  std::visit([&schema](const auto& value) { schema["default"] = value; }, spec.default_value);
+  if (spec.integer) schema["default"] = std::llround(std::get<double>(spec.default_value));
   return schema;
 }
 
@@ -35,15 +46,13 @@ class SchemaWriter final {
   void number(std::string_view key, const double& value, Range range, std::string_view text,
               Presence presence = Presence::optional) {
     auto& p = property(key, "number", text, presence);
-    p["minimum"] = range.min;
-    p["maximum"] = range.max;
+    put_range(p, range, false);
     if (presence == Presence::optional) p["default"] = value;
   }
   void integer(std::string_view key, const int& value, Range range, std::string_view text,
                Presence presence = Presence::optional) {
     auto& p = property(key, "integer", text, presence);
-    p["minimum"] = static_cast<int>(range.min);
-    p["maximum"] = static_cast<int>(range.max);
+    put_range(p, range, true);
     if (presence == Presence::optional) p["default"] = value;
   }
   void flag(std::string_view key, const bool& value, std::string_view text,
@@ -53,7 +62,11 @@ class SchemaWriter final {
   void text(std::string_view key, const std::string& value, std::string_view text,
             Presence presence = Presence::optional) {
     auto& p = property(key, "string", text, presence);
-    if (presence == Presence::optional) p["default"] = value;
+    if (presence == Presence::optional) {
+      p["default"] = value;
+    } else {
+      p["minLength"] = 1;
+    }
   }
   void choice(std::string_view key, const std::string& value,
               const std::vector<std::string>& choices, std::string_view text,
@@ -61,9 +74,12 @@ class SchemaWriter final {
     this->text(key, value, text, presence);
     schema_["properties"][std::string(key)]["enum"] = choices;
   }
-  void names(std::string_view key, const std::vector<std::string>&, std::string_view text,
-             Presence presence = Presence::optional) {
-    property(key, "array", text, presence)["items"]["type"] = "string";
+  void names(std::string_view key, const std::vector<std::string>&, Count count,
+             std::string_view text, Presence presence = Presence::optional) {
+    auto& p = property(key, "array", text, presence);
+    p["minItems"] = count.min;
+    p["maxItems"] = count.max;
+    p["items"]["type"] = "string";
   }
   template <class T>
   void object(std::string_view key, T value, std::string_view text,
@@ -73,13 +89,15 @@ class SchemaWriter final {
     insert(key, inner.finish(), text, presence);
   }
   template <class T>
-  void list(std::string_view key, const std::vector<T>&, std::string_view text,
+  void list(std::string_view key, const std::vector<T>&, Count count, std::string_view text,
             Presence presence = Presence::optional) {
     SchemaWriter inner;
     T item;
     visit(inner, item);
     Json schema;
     schema["type"] = "array";
+    schema["minItems"] = count.min;
+    schema["maxItems"] = count.max;
     schema["items"] = inner.finish();
     insert(key, schema, text, presence);
   }
@@ -102,6 +120,7 @@ class SchemaWriter final {
       // Without a "driver" the default one is meant.
       if (entry.name != default_driver) condition["if"]["required"] = {"driver"};
       condition["then"]["properties"][std::string(key)] = options;
+      if (options.contains("required")) condition["then"]["required"] = {std::string(key)};
       schema_["allOf"].push_back(condition);
     }
   }

@@ -1,0 +1,238 @@
+#include "config/checks.h"
+
+#include <algorithm>
+#include <exception>
+#include <map>
+#include <variant>
+
+#include "config/reader.h"
+
+namespace drover::config {
+
+namespace {
+
+constexpr std::array<std::string_view, kLineCount> kLineKeys{"estop", "bumper", "zone_far",
+                                                             "zone_near"};
+
+template <class T, class Get>
+std::vector<std::string> collect(const std::vector<T>& items, Get get) {
+  std::vector<std::string> names;
+  for (const auto& item : items) names.push_back(get(item));
+  return names;
+}
+
+std::string item(std::string_view list, std::size_t index) {
+  return std::string(list) + "[" + std::to_string(index) + "]";
+}
+
+/// The value at a path like "drives[1].options.node", or as much of the way as is there.
+const json::Node& place(const json::Node& root, std::string_view path) {
+  const auto end = path.find_first_of(".[", 1);
+  const auto step = path.substr(0, end);
+  const json::Node* next = nullptr;
+  if (step.starts_with('[')) {
+    const auto index = static_cast<std::size_t>(std::stoul(std::string(step.substr(1))));
+    if (root.list() != nullptr && index < root.list()->size()) next = &(*root.list())[index];
+  } else {
+    next = root.find(step.starts_with('.') ? step.substr(1) : step);
+  }
+  if (next == nullptr) return root;
+  return end == path.npos ? *next : place(*next, path.substr(end));
+}
+
+class Checks final {
+ public:
+  Checks(const json::Node& root, Loaded& loaded)
+      : root_(root), loaded_(loaded), config_(loaded.config) {}
+
+  void run(const BaseNames& base) {
+    unique_names();
+    buses_of_drives();
+    addresses();
+    side("base.left", base.left, config_.engine.base.left);
+    side("base.right", base.right, config_.engine.base.right);
+    both_sides(base);
+    unique_lines();
+    limits();
+    broker();
+    finish_engine();
+    build_drivers();
+  }
+
+ private:
+  void add(std::string path, std::string message, std::string hint = {}) {
+    const auto& at = place(root_, path);
+    loaded_.problems.push_back(
+        {at.line, at.column, std::move(path), std::move(message), std::move(hint)});
+  }
+  bool given(std::string_view section, std::string_view object, std::string_view key) const {
+    const auto* outer = root_.find(section);
+    const auto* inner = outer != nullptr ? outer->find(object) : nullptr;
+    return inner != nullptr && inner->find(key) != nullptr;
+  }
+  bool has_problem(std::string_view path) const {
+    return std::any_of(loaded_.problems.begin(), loaded_.problems.end(),
+                       [path](const auto& p) { return p.path.starts_with(path); });
+  }
+
+  /// Empty names were told already.
+  void unique(std::string_view list, std::string_view key, const std::vector<std::string>& names) {
+    std::map<std::string, std::string> first;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      const auto path = item(list, i) + "." + std::string(key);
+      const auto [it, inserted] = first.emplace(names[i], path);
+      if (!inserted && !names[i].empty())
+        add(path, "\"" + names[i] + "\" is used by " + it->second + " already");
+    }
+  }
+  void unique_names() {
+    const auto joints = collect(config_.drives, [](const auto& d) { return d.joint; });
+    unique("buses", "name", collect(config_.buses, [](const auto& b) { return b.name; }));
+    unique("buses", "interface", collect(config_.buses, [](const auto& b) { return b.interface; }));
+    unique("drives", "joint", joints);
+    for (std::size_t i = 0; i < joints.size(); ++i)
+      if (Name(joints[i]).view() != joints[i]) add(item("drives", i) + ".joint", "is too long");
+  }
+
+  void buses_of_drives() {
+    const auto buses = collect(config_.buses, [](const auto& b) { return b.name; });
+    for (std::size_t i = 0; i < config_.drives.size(); ++i) {
+      auto& drive = config_.drives[i];
+      const auto path = item("drives", i) + ".bus";
+      const auto bus = std::find(buses.begin(), buses.end(), drive.bus);
+      if (bus != buses.end()) {
+        drive.bus_index = static_cast<std::size_t>(bus - buses.begin());
+      } else if (!has_problem(path)) {
+        add(path, "there is no bus named \"" + drive.bus + "\"", did_you_mean(drive.bus, buses));
+      }
+    }
+  }
+
+  void addresses() {
+    std::map<std::string, std::string> first;
+    for (std::size_t i = 0; i < config_.drives.size(); ++i) {
+      const auto& drive = config_.drives[i];
+      if (!drive.options.has("node")) continue;
+      const auto path = item("drives", i) + ".options.node";
+      const auto address =
+          drive.bus + ", " + drive.driver + " node " + number_text(drive.options.number("node"));
+      const auto [it, inserted] = first.emplace(address, path);
+      if (!inserted)
+        add(path, "two drives have one address (" + address + "): the other is " + it->second);
+    }
+  }
+
+  void side(const std::string& path, const std::vector<std::string>& joints,
+            FixedVector<AxisId, 8>& into) {
+    const auto known = collect(config_.drives, [](const auto& d) { return d.joint; });
+    for (const auto& joint : joints) {
+      const auto it = std::find(known.begin(), known.end(), joint);
+      if (it == known.end()) {
+        add(path, "no drive has the joint \"" + joint + "\"", did_you_mean(joint, known));
+        continue;
+      }
+      const auto axis = static_cast<AxisId>(it - known.begin());
+      if (std::find(into.begin(), into.end(), axis) != into.end())
+        add(path, "the joint \"" + joint + "\" is there twice");
+      else
+        (void)into.push_back(axis);  // too many are told by the reader
+    }
+  }
+  void both_sides(const BaseNames& base) {
+    for (const auto& joint : base.left)
+      if (std::find(base.right.begin(), base.right.end(), joint) != base.right.end())
+        add("base.right", "the joint \"" + joint + "\" is on both sides");
+  }
+
+  void unique_lines() {
+    std::map<std::string, std::string> first;
+    for (std::size_t i = 0; i < kLineCount; ++i) {
+      const auto& line = config_.lines.line[i];
+      if (!line.configured || line.name.empty()) continue;
+      const auto path = "lines." + std::string(kLineKeys[i]) + ".line";
+      const auto [it, inserted] = first.emplace(line.name, path);
+      if (!inserted) add(path, "\"" + line.name + "\" is used by " + it->second + " already");
+    }
+  }
+
+  void limits() {
+    const auto& engine = config_.engine;
+    if (engine.limits.min_speed_mps > engine.limits.max_speed_mps)
+      add("limits.min_speed_mps", "is above limits.max_speed_mps");
+    if (engine.estimate.bound_start_m > engine.estimate.bound_run_m)
+      add("estimate.bound_start_m", "is above estimate.bound_run_m",
+          "a task would start and pause at once");
+    constexpr double kBeats = 2.5;  // two lost cycles are no failure
+    const double least_ms = kBeats * 1e3 / config_.control.tick_Hz;
+    if (config_.guard.limit_ms < least_ms)
+      add("guard.limit_ms",
+          "is shorter than 2.5 control cycles (" + number_text(least_ms) + " ms)");
+  }
+
+  void broker() {
+    const bool is_path = config_.mqtt.host.starts_with('/');
+    if (is_path && config_.mqtt.port != 0)
+      add("mqtt.port", "must be 0 when mqtt.host is the path of a Unix socket");
+    if (!is_path && config_.mqtt.port == 0 && !has_problem("mqtt.port"))
+      add("mqtt.port", "is 0, but mqtt.host is no path of a Unix socket", "1883 is usual");
+    if (!config_.mqtt.password_file.empty() && config_.mqtt.username.empty())
+      add("mqtt.password_file", "is given without mqtt.username");
+  }
+
+  void finish_engine() {
+    auto& c = config_;
+    c.engine.tick_Hz = c.control.tick_Hz;
+    // The driver places each byte in time by the pace at which the line is really opened.
+    if (c.gnss.options.has("baud")) {
+      if (given("gnss", "options", "baud") && c.gnss.options.number("baud") != c.gnss.baud)
+        add("gnss.options.baud", "differs from gnss.baud", "leave it out: it follows gnss.baud");
+      c.gnss.options.set("baud", static_cast<double>(c.gnss.baud));
+    }
+    c.engine.health.guard_required = c.guard.required;
+    for (const auto& drive : c.drives) (void)c.engine.joints.push_back(Name(drive.joint));
+    for (std::size_t i = 0; i < kLineCount; ++i)
+      c.engine.line_configured[i] = c.lines.line[i].configured;
+  }
+
+  /// What a driver says about options that do not fit together, it says when it is made.
+  template <class... More>
+  void build(const std::string& path, const std::string& driver, const Options& options,
+             More... more) {
+    if (has_problem(path)) return;
+    const auto* entry = find_driver(driver);
+    if (entry == nullptr) return;
+    try {
+      std::visit(
+          [&](const auto& make) {
+            if constexpr (std::is_invocable_v<decltype(make), const Options&, More...>)
+              (void)make(options, more...);
+          },
+          entry->make);
+    } catch (const std::exception& error) {
+      add(path + ".options", error.what());
+    }
+  }
+  void build_drivers() {
+    for (std::size_t i = 0; i < config_.drives.size(); ++i)
+      build(item("drives", i), config_.drives[i].driver, config_.drives[i].options, AxisId{0});
+    if (config_.gnss.configured) build("gnss", config_.gnss.driver, config_.gnss.options);
+    for (std::size_t i = 0; i < kLineCount; ++i) {
+      const auto& line = config_.lines.line[i];
+      if (line.configured)
+        build("lines." + std::string(kLineKeys[i]), line.driver, line.options,
+              static_cast<Line>(i));
+    }
+  }
+
+  const json::Node& root_;
+  Loaded& loaded_;
+  DroverConfig& config_;
+};
+
+}  // namespace
+
+void check_and_resolve(const json::Node& root, const BaseNames& base, Loaded& loaded) {
+  Checks(root, loaded).run(base);
+}
+
+}  // namespace drover::config

@@ -1,0 +1,14 @@
+// Checks that span several keys: names that refer to each other, addresses, limits, whole drivers.
+#pragma once
+
+#include "config/fields.h"
+#include "config/load.h"
+#include "config/located_json.h"
+
+namespace drover::config {
+
+/// Adds what it finds to the problems, and fills in what follows from several keys: bus and axis
+/// numbers, and the engine's copies. `loaded` was read from `root`.
+void check_and_resolve(const json::Node& root, const BaseNames& base, Loaded& loaded);
+
+}  // namespace drover::config

@@ -1,0 +1,175 @@
+// Keys of the engine's numbers: range and meaning of each, in one table per struct.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "engine/config.h"
+
+namespace drover::config {
+
+/// Inclusive.
+struct Range {
+  double min = 0;
+  double max = 0;
+};
+/// How many entries a list may have, inclusive.
+struct Count {
+  std::size_t min = 0;
+  std::size_t max = 0;
+};
+enum class Presence : std::uint8_t { optional, required };
+
+template <class V>
+void visit(V& v, engine::LimitsConfig& c) {
+  v.number("max_speed_mps", c.max_speed_mps, Range{0.05, 5},
+           "faster requests are clamped, and it is said");
+  v.number("min_speed_mps", c.min_speed_mps, Range{0.01, 1}, "slower requests are refused");
+  v.number("max_yaw_rate_radps", c.max_yaw_rate_radps, Range{0.05, 5}, "fastest turn");
+  v.number("acceleration_mps2", c.acceleration_mps2, Range{0.05, 5}, "speeding up");
+  v.number("deceleration_mps2", c.deceleration_mps2, Range{0.05, 10},
+           "controlled stop; an emergency stop is immediate");
+  v.number("jerk_mps3", c.jerk_mps3, Range{0.1, 100}, "change of acceleration");
+  v.number("yaw_acceleration_radps2", c.yaw_acceleration_radps2, Range{0.1, 20}, "change of turn");
+}
+
+template <class V>
+void visit_gnss(V& v, engine::EstimateConfig& c) {
+  v.number("antenna_x_m", c.antenna_x_m, Range{-10, 10}, "antenna ahead of base_link");
+  v.number("antenna_y_m", c.antenna_y_m, Range{-10, 10}, "antenna left of base_link");
+  v.number("antenna_z_m", c.antenna_z_m, Range{-10, 10},
+           "antenna above base_link; without a sensor of roll and pitch it has no effect");
+  v.number("heading_baseline_offset_deg", c.heading_baseline_offset_deg, Range{-360, 360},
+           "antenna line from ahead, clockwise");
+  v.number("heading_sigma_deg", c.heading_sigma_deg, Range{0.05, 20}, "one sigma of the heading");
+  v.number("heading_correlation_s", c.heading_correlation_s, Range{0.001, 60},
+           "how long a heading error stays the same");
+  v.number("max_correction_age_s", c.max_correction_age_s, Range{1, 600},
+           "an RTK fix with older corrections counts as float");
+  v.number("sigma_fixed_m", c.sigma_fixed_m, Range{0.001, 1},
+           "one sigma of an RTK fix: a floor under what the receiver claims");
+  v.number("sigma_float_m", c.sigma_float_m, Range{0.01, 10}, "the same of an RTK float");
+  v.number("sigma_dgps_m", c.sigma_dgps_m, Range{0.01, 20},
+           "the same with differential corrections");
+  v.number("sigma_single_m", c.sigma_single_m, Range{0.1, 50}, "the same without corrections");
+  v.number("gnss_inflation", c.gnss_inflation, Range{1, 10},
+           "times the larger of that floor and the receiver's claim");
+  v.number("gnss_correlation_s", c.gnss_correlation_s, Range{0.1, 600},
+           "how long a position error stays the same (multipath)");
+  v.number("gnss_white_share", c.gnss_white_share, Range{0.01, 1},
+           "uncorrelated noise on top, as a share of the sigma");
+  v.number("gnss_timing_sigma_s", c.gnss_timing_sigma_s, Range{0, 0.5},
+           "one sigma of the instant of a position");
+  v.number("fix_settle_s", c.fix_settle_s, Range{0.1, 60},
+           "the old error fades so fast when the quality improves");
+}
+
+template <class V>
+void visit_odometry(V& v, engine::EstimateConfig& c) {
+  v.number("wheel_stale_s", c.wheel_stale_s, Range{0.02, 2},
+           "older wheel speeds say nothing about the motion");
+  v.number("odometry_along_m", c.odometry_along_m, Range{0.0001, 1},
+           "one sigma along, per square root of metre driven");
+  v.number("odometry_across_m", c.odometry_across_m, Range{0.0001, 1},
+           "one sigma across, per square root of metre driven");
+  v.number("odometry_yaw_rad", c.odometry_yaw_rad, Range{0.0001, 1},
+           "one sigma of the heading, per square root of metre driven");
+  v.number("turning_shift_m", c.turning_shift_m, Range{0, 1},
+           "one sigma of the place, per square root of radian turned");
+  v.number("turning_yaw_rad", c.turning_yaw_rad, Range{0, 1},
+           "one sigma of the heading, per square root of radian turned");
+  v.number("yaw_slip_sigma", c.yaw_slip_sigma, Range{0.001, 1},
+           "one sigma of 1 / base.yaw_slip_factor at the start");
+  v.number("yaw_slip_walk", c.yaw_slip_walk, Range{0, 1},
+           "how much it changes, per square root of radian turned");
+  v.number("wheel_scale_sigma", c.wheel_scale_sigma, Range{0.0001, 0.5},
+           "one sigma of wheel radius and longitudinal slip at the start, as a share");
+  v.number("wheel_scale_walk", c.wheel_scale_walk, Range{0, 0.1},
+           "how much it changes, per square root of metre driven");
+}
+
+template <class V>
+void visit(V& v, engine::EstimateConfig& c) {
+  v.number("bound_start_m", c.bound_start_m, Range{0.01, 10},
+           "largest predicted position error (two sigma) to start with");
+  v.number("bound_run_m", c.bound_run_m, Range{0.01, 10},
+           "largest predicted position error (two sigma) to drive with");
+  v.number("bound_yaw_deg", c.bound_yaw_deg, Range{0.5, 45},
+           "largest predicted heading error (two sigma)");
+  v.number("max_measurement_delay_s", c.max_measurement_delay_s, Range{0.05, 1},
+           "older measurements are not used");
+  v.number("gate_sigma", c.gate_sigma, Range{2, 20},
+           "measurements farther from the prediction are not believed");
+  v.number("jump_time_s", c.jump_time_s, Range{0.2, 10},
+           "disagreement, all in one direction, that ends a task; at rest it is believed then");
+  visit_gnss(v, c);
+  visit_odometry(v, c);
+}
+
+template <class V>
+void visit(V& v, engine::NavigateConfig& c) {
+  v.number("start_distance_m", c.start_distance_m, Range{0.1, 20},
+           "a start farther from the track is refused");
+  v.number("start_angle_deg", c.start_angle_deg, Range{5, 180}, "a start worse turned is refused");
+  v.number("goal_tolerance_m", c.goal_tolerance_m, Range{0.02, 2}, "so near the goal is arrived");
+  v.number("lookahead_s", c.lookahead_s, Range{0.2, 5}, "look-ahead of the tracker");
+  v.number("min_lookahead_m", c.min_lookahead_m, Range{0.1, 5}, "shortest look-ahead");
+  v.number("drive_lag_s", c.drive_lag_s, Range{0, 1},
+           "from a set point to the wheels' motion; the tracker foresees it");
+  v.number("pivot_angle_deg", c.pivot_angle_deg, Range{20, 180},
+           "sharper corners are turned on the spot; 180: none");
+  v.number("braking_fraction", c.braking_fraction, Range{0.1, 1},
+           "share of limits.deceleration_mps2 used to slow for bends and the end");
+  v.number("lateral_acceleration_mps2", c.lateral_acceleration_mps2, Range{0.05, 3},
+           "slows for curves to stay below");
+  v.number("creep_speed_mps", c.creep_speed_mps, Range{0.02, 1}, "slowest speed near the goal");
+  v.number("far_zone_speed_mps", c.far_zone_speed_mps, Range{0, 5},
+           "cap while the far zone is occupied");
+  v.number("corridor_m", c.corridor_m, Range{0.05, 10}, "farther off the track the task fails");
+  v.number("resume_after_s", c.resume_after_s, Range{0.2, 60}, "health before a pause ends");
+  v.number("obstacle_timeout_s", c.obstacle_timeout_s, Range{1, 3600},
+           "a longer obstacle ends the task");
+  v.number("locate_timeout_s", c.locate_timeout_s, Range{1, 3600},
+           "a longer loss of localisation ends the task");
+  v.number("start_timeout_s", c.start_timeout_s, Range{0.5, 60},
+           "drives not running by then: the task does not start");
+  v.number("blocked_timeout_s", c.blocked_timeout_s, Range{0.2, 60},
+           "commanded but not moving for so long: the task fails");
+  v.number("arrival_timeout_s", c.arrival_timeout_s, Range{1, 600},
+           "creeping near the goal for longer: the task fails");
+}
+
+template <class V>
+void visit(V& v, engine::HealthConfig& c) {
+  v.number("drive_stale_s", c.drive_stale_s, Range{0.02, 2}, "longest silence of a drive");
+  v.number("gnss_stale_s", c.gnss_stale_s, Range{0.1, 5}, "longest silence of the receiver");
+  v.number("line_stale_s", c.line_stale_s, Range{0.01, 1}, "longest silence of a digital input");
+  v.number("follow_timeout_s", c.follow_timeout_s, Range{0.1, 10},
+           "a wheel that is commanded but does not follow for so long is a fault");
+}
+
+/// The base names joints; the engine wants axis numbers: `left` and `right` are resolved
+/// afterwards.
+struct BaseNames {
+  engine::BaseConfig* base = nullptr;
+  std::vector<std::string> left;
+  std::vector<std::string> right;
+};
+
+inline constexpr Count kSideCount{1, decltype(engine::BaseConfig::left)::capacity()};
+
+template <class V>
+void visit(V& v, BaseNames& c) {
+  v.number("wheel_radius_m", c.base->wheel_radius_m, Range{0.01, 2}, "wheel radius",
+           Presence::required);
+  v.number("track_m", c.base->track_m, Range{0.05, 5}, "between left and right wheels",
+           Presence::required);
+  v.number("yaw_slip_factor", c.base->yaw_slip_factor, Range{0.5, 4},
+           "how much wider than track_m the base behaves when it turns; refined while driving");
+  v.names("left", c.left, kSideCount, "joints of the left side", Presence::required);
+  v.names("right", c.right, kSideCount, "joints of the right side", Presence::required);
+}
+
+}  // namespace drover::config

@@ -1,0 +1,165 @@
+// Every field of a configuration struct is a key, and no key sets the field of another.
+#include "config/fields.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <type_traits>
+#include <utility>
+
+namespace drover::config {
+namespace {
+
+/// Converts to whatever a field is; never run.
+struct Anything {
+  template <class T>
+  operator T() const;
+};
+
+template <class T, std::size_t... I>
+constexpr bool takes(std::index_sequence<I...>) {
+  return requires {
+    T{((void)I, Anything{})...};
+  };
+}
+
+/// Number of fields of an aggregate without arrays.
+template <class T, std::size_t N = 0>
+constexpr std::size_t field_count() {
+  static_assert(std::is_aggregate_v<T>);
+  if constexpr (takes<T>(std::make_index_sequence<N + 1>{})) {
+    return field_count<T, N + 1>();
+  } else {
+    return N;
+  }
+}
+
+/// A visitor that writes down where each key's value lives.
+class Places final {
+ public:
+  void number(std::string_view key, double& value, Range range, std::string_view text,
+              Presence = Presence::optional) {
+    add(key, &value, text);
+    EXPECT_LE(range.min, value) << key << ": the default is outside the range";
+    EXPECT_GE(range.max, value) << key << ": the default is outside the range";
+  }
+  void integer(std::string_view key, int& value, Range range, std::string_view text,
+               Presence = Presence::optional) {
+    add(key, &value, text);
+    EXPECT_LE(range.min, value) << key << ": the default is outside the range";
+    EXPECT_GE(range.max, value) << key << ": the default is outside the range";
+  }
+  void choice(std::string_view key, std::string& value, const std::vector<std::string>& choices,
+              std::string_view text, Presence presence = Presence::optional) {
+    add(key, &value, text);
+    if (presence == Presence::required) return;
+    EXPECT_EQ(std::count(choices.begin(), choices.end(), value), 1)
+        << key << ": the default is no choice";
+  }
+  template <class T>
+  void options(std::string_view key, T& value, const std::string&, DriverShape) {
+    add(key, &value, "options");
+  }
+  template <class T>
+  void names(std::string_view key, T& value, Count, std::string_view text, Presence) {
+    add(key, &value, text);
+  }
+  template <class T>
+  void list(std::string_view key, T& value, Count, std::string_view text, Presence) {
+    add(key, &value, text);
+  }
+  template <class T>
+  void object(std::string_view key, T& value, std::string_view text,
+              Presence = Presence::optional) {
+    add(key, &value, text);
+  }
+  template <class T>
+  void flag(std::string_view key, T& value, std::string_view text, Presence = Presence::optional) {
+    add(key, &value, text);
+  }
+  template <class T>
+  void text(std::string_view key, T& value, std::string_view what, Presence = Presence::optional) {
+    add(key, &value, what);
+  }
+
+  std::size_t count() const { return keys_.size(); }
+
+ private:
+  void add(std::string_view key, const void* place, std::string_view text) {
+    EXPECT_FALSE(text.empty()) << key << ": no meaning";
+    const auto [it, inserted] = places_.emplace(place, key);
+    EXPECT_TRUE(inserted) << key << " sets the same field as " << it->second;
+    EXPECT_TRUE(keys_.emplace(key, place).second) << key << ": two fields of this name";
+  }
+  std::map<const void*, std::string> places_;
+  std::map<std::string, const void*, std::less<>> keys_;
+};
+
+template <class T>
+std::size_t key_count() {
+  T value;
+  Places places;
+  visit(places, value);
+  return places.count();
+}
+
+/// `others`: fields that are no keys because they follow from something else.
+template <class T>
+void expect_complete(std::size_t others = 0) {
+  EXPECT_EQ(key_count<T>() + others, field_count<T>());
+}
+
+TEST(Fields, AreCounted) {
+  struct Three {
+    double a = 1;
+    std::string b;
+    std::vector<int> c;
+  };
+  EXPECT_EQ(field_count<Three>(), 3u);
+}
+
+TEST(Fields, OfTheEngineAreAllKeys) {
+  expect_complete<engine::LimitsConfig>();
+  expect_complete<engine::EstimateConfig>();
+  expect_complete<engine::NavigateConfig>();
+  expect_complete<engine::HealthConfig>(1);  // guard_required is guard.required
+}
+
+TEST(Fields, OfTheDaemonAreAllKeys) {
+  expect_complete<PathsConfig>();
+  expect_complete<ControlConfig>();
+  expect_complete<BusConfig>();
+  expect_complete<DriveConfig>(1);  // bus_index
+  expect_complete<GnssConfig>(1);   // configured
+  expect_complete<LineConfig>(1);   // configured
+  expect_complete<GuardConfig>();
+  expect_complete<MqttConfig>();
+  expect_complete<ProtocolConfig>();
+}
+
+TEST(Fields, OfTheBaseAreAllKeys) {
+  engine::BaseConfig base;
+  BaseNames names;
+  names.base = &base;
+  Places places;
+  visit(places, names);
+  EXPECT_EQ(places.count(), field_count<engine::BaseConfig>());
+}
+
+TEST(Fields, OfTheWholeAreAllKeysOrSections) {
+  DroverConfig config;
+  BaseNames base;
+  base.base = &config.engine.base;
+  Places places;
+  visit(places, config, base);
+  // The engine's five parts are sections of their own, and its struct is none; what else it holds
+  // follows from other keys.
+  EXPECT_EQ(places.count(), field_count<DroverConfig>() - 1 + 5);
+}
+
+TEST(Fields, OfEachLineOfTheRobotAreKeys) {
+  EXPECT_EQ(key_count<LinesConfig>(), 1 + kLineCount);
+}
+
+}  // namespace
+}  // namespace drover::config

@@ -1,0 +1,140 @@
+// The schema is written from the reader's own tables; here both judge the same texts.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <valijson/adapters/nlohmann_json_adapter.hpp>
+#include <valijson/schema.hpp>
+#include <valijson/schema_parser.hpp>
+#include <valijson/validator.hpp>
+
+#include "unit/config/config_text.h"
+
+namespace drover::config {
+namespace {
+
+using Json = nlohmann::json;
+using Adapter = valijson::adapters::NlohmannJsonAdapter;
+
+std::string read(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  std::ostringstream text;
+  text << file.rdbuf();
+  EXPECT_TRUE(file.good()) << path;
+  return text.str();
+}
+
+bool schema_accepts(const std::string& text) {
+  static const Json document = Json::parse(schema_text());
+  static const auto schema = [] {
+    auto made = std::make_unique<valijson::Schema>();
+    valijson::SchemaParser(valijson::SchemaParser::kDraft7)
+        .populateSchema(Adapter(document), *made);
+    return made;
+  }();
+  const Json target = Json::parse(text, nullptr, true, /*ignore_comments=*/true);
+  return valijson::Validator().validate(*schema, Adapter(target), nullptr);
+}
+
+TEST(Schema, AndTheReaderRefuseTheSame) {
+  for (const auto& [piece, replacement] :
+       std::initializer_list<std::pair<const char*, const char*>>{
+           {"max_speed_mps", "max_sped_mps"},  // unknown key
+           {"0.8", "\"0.8\""},                 // types
+           {"0.8", "null"},
+           {"1883", "\"1883\""},
+           {"1883", "1.5"},
+           {"\"127.0.0.1\"", "true"},
+           {"[\"right\"]", "\"right\""},
+           {"[\"right\"]", "[1]"},
+           {"{\"max_speed_mps\": 0.8}", "0.8"},
+           {"0.8", "5.01"},  // ranges
+           {"0.8", "0.04"},
+           {"1883", "65536"},
+           {"1883", "-1"},
+           {"\"track_m\": 0.6, ", ""},  // missing
+           {"\"joint\": \"left\", ", ""},
+           {"\"chip\": \"chip0\", ", ""},
+           {", \"options\": {\"node\": 1}", ""},
+           {"\"chip0\"", "\"\""},  // empty
+           {"[\"right\"]", "[]"},
+           {"{\"joint\": \"left\", \"driver\": \"odrive\"",
+            "{\"joint\": \"left\", \"driver\": \"odriv\""},  // choices
+           {"\"port\": \"/dev", "\"driver\": \"odrive\", \"port\": \"/dev"},
+           {"1883}", "1883}, \"protocol\": {\"power\": \"watt\"}"},
+           {"\"node\": 1", "\"nod\": 1"},  // options of drivers
+           {"\"node\": 1", "\"node\": 63"},
+           {"\"node\": 1", "\"node\": 1.5"},
+           {"\"node\": 1", "\"node\": 1, \"firmware\": \"0.4\""},
+           {"\"node\": 1", "\"node\": 1, \"reversed\": 1"},
+           {"115200", "115200, \"options\": {\"node\": 1}"},
+           {"115200", "115200, \"options\": {\"latency_s\": 2}"},
+           {"{\"line\": \"a\"}", "{\"line\": \"a\", \"options\": {\"active_level\": \"up\"}}"},
+           {"\"estop\"", "\"estopp\""},
+       }) {
+    const auto text = with(piece, replacement);
+    EXPECT_NE(problems(text), "") << piece << " -> " << replacement;
+    EXPECT_FALSE(schema_accepts(text)) << piece << " -> " << replacement;
+  }
+}
+
+TEST(Schema, AndTheReaderAcceptTheSame) {
+  EXPECT_TRUE(schema_accepts(std::string(kGood)));
+  for (const auto& [piece, replacement] :
+       std::initializer_list<std::pair<const char*, const char*>>{
+           {"0.8", "5"},
+           {"0.8", "0.05"},
+           {"\"gnss\": {\"port\"", "\"gnss\": {\"driver\": \"nmea0183\", \"port\""},
+           {"\"node\": 1", "\"node\": 0, \"firmware\": \"0.5.6\", \"gear_ratio\": 8"},
+           {"115200", "115200, \"options\": {\"latency_s\": 0.1}"},
+           {"{\"line\": \"a\"}", "{\"line\": \"a\", \"options\": {\"active_level\": \"high\"}}"},
+           {"{\"line\": \"a\"}", "{\"line\": \"a\", \"driver\": \"gpio_line\"}"},
+       }) {
+    const auto text = with(piece, replacement);
+    EXPECT_EQ(problems(text), "") << piece << " -> " << replacement;
+    EXPECT_TRUE(schema_accepts(text)) << piece << " -> " << replacement;
+  }
+}
+
+TEST(Schema, AndTheReaderAcceptTheExamples) {
+  const std::filesystem::path folder = DROVER_SOURCE_DIR "/config";
+  std::vector<std::filesystem::path> files{folder / "drover.json"};
+  for (const auto& entry : std::filesystem::directory_iterator(folder / "examples"))
+    files.push_back(entry.path());
+  ASSERT_GE(files.size(), 2u);
+  for (const auto& file : files) {
+    EXPECT_EQ(problems(read(file)), "") << file;
+    EXPECT_TRUE(schema_accepts(read(file))) << file;
+  }
+}
+
+TEST(Schema, InTheFolderIsTheOneThatIsWritten) {
+  EXPECT_TRUE(read(DROVER_SOURCE_DIR "/config/drover.schema.json") == schema_text())
+      << "write it anew: droverd --schema > config/drover.schema.json";
+}
+
+TEST(Example, ExplainsEverySection) {
+  const auto text = read(DROVER_SOURCE_DIR "/config/drover.json");
+  const auto schema = Json::parse(schema_text());
+  for (const auto& [section, ignored] : schema["properties"].items())
+    EXPECT_THAT(text, testing::HasSubstr("\n  \"" + section + "\":")) << section;
+}
+
+TEST(Example, StatesTheDefaultsWhereItStatesWhatHasADefault) {
+  const auto loaded = load_text(read(DROVER_SOURCE_DIR "/config/drover.json"));
+  const engine::EngineConfig defaults;
+  const auto& engine = loaded.config.engine;
+  EXPECT_EQ(engine.limits.max_speed_mps, defaults.limits.max_speed_mps);
+  EXPECT_EQ(engine.limits.deceleration_mps2, defaults.limits.deceleration_mps2);
+  EXPECT_EQ(engine.navigate.corridor_m, defaults.navigate.corridor_m);
+  EXPECT_EQ(engine.navigate.goal_tolerance_m, defaults.navigate.goal_tolerance_m);
+  EXPECT_EQ(engine.estimate.bound_run_m, defaults.estimate.bound_run_m);
+  EXPECT_EQ(engine.health.drive_stale_s, defaults.health.drive_stale_s);
+  EXPECT_EQ(loaded.config.guard.limit_ms, GuardConfig{}.limit_ms);
+}
+
+}  // namespace
+}  // namespace drover::config
