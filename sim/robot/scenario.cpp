@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 #include <stdexcept>
 
 #include "sim/robot/json_reader.h"
+#include "sim/robot/scenario_file.h"
 
 namespace drover::sim {
 namespace {
@@ -146,10 +145,7 @@ void read_events(JsonReader& top, Scenario& scenario) {
                    [](const Event& a, const Event& b) { return a.at < b.at; });
 }
 
-}  // namespace
-
-Scenario parse_scenario(std::string_view json, const std::string& folder) {
-  const nlohmann::json document = parse_json(json);
+Scenario read_scenario(const nlohmann::json& document, const std::string& folder) {
   JsonReader top(document, "");
   Scenario scenario;
   scenario.name = top.text("name", "");
@@ -168,13 +164,16 @@ Scenario parse_scenario(std::string_view json, const std::string& folder) {
   return scenario;
 }
 
+}  // namespace
+
+Scenario parse_scenario(std::string_view json, const std::string& folder) {
+  return read_scenario(parse_json(json), folder);
+}
+
 Scenario load_scenario(const std::string& file) {
-  std::ifstream stream(file);
-  if (!stream) throw std::runtime_error(file + ": cannot open");
-  std::ostringstream text;
-  text << stream.rdbuf();
+  const auto document = load_scenario_document(file);
   try {
-    return parse_scenario(text.str(), std::filesystem::path(file).parent_path().string());
+    return read_scenario(document, std::filesystem::path(file).parent_path().string());
   } catch (const std::exception& error) {
     throw std::runtime_error(file + ": " + error.what());
   }

@@ -86,6 +86,7 @@ struct Scenario {
 /// A world's path is relative to `folder`. Keys that belong to the scenario's player
 /// ("description", "mission", "player") are left alone; any other unknown key is refused.
 Scenario parse_scenario(std::string_view json, const std::string& folder);
+/// The same for a file, which may name its robot: see scenario_file.h.
 Scenario load_scenario(const std::string& file);
 
 }  // namespace drover::sim

@@ -1,0 +1,63 @@
+#include "sim/robot/scenario_file.h"
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+#include "sim/robot/json_reader.h"
+
+namespace drover::sim {
+namespace {
+
+namespace fs = std::filesystem;
+
+nlohmann::json read_object(const std::string& file) {
+  std::ifstream stream(file);
+  if (!stream) throw std::runtime_error(file + ": cannot open");
+  std::ostringstream text;
+  text << stream.rdbuf();
+  try {
+    auto document = parse_json(text.str());
+    if (!document.is_object()) throw std::runtime_error("must be an object");
+    return document;
+  } catch (const std::exception& error) {
+    throw std::runtime_error(file + ": " + error.what());
+  }
+}
+
+/// As written, relative to the scenario's folder; empty: none.
+fs::path robot_reference(const nlohmann::json& document, const std::string& file) {
+  const auto robot = document.find("robot");
+  if (robot == document.end()) return {};
+  if (!robot->is_string()) throw std::runtime_error(file + ": robot: must be the path of a file");
+  return robot->get<std::string>();
+}
+
+fs::path resolved(const std::string& file, const fs::path& reference) {
+  return (fs::path(file).parent_path() / reference).lexically_normal();
+}
+
+}  // namespace
+
+nlohmann::json load_scenario_document(const std::string& file) {
+  auto scenario = read_object(file);
+  const auto reference = robot_reference(scenario, file);
+  if (reference.empty()) return scenario;
+  scenario.erase("robot");
+  const auto robot_file = resolved(file, reference).string();
+  auto merged = read_object(robot_file);
+  if (merged.contains("robot"))
+    throw std::runtime_error(robot_file + ": robot: a robot cannot name another robot");
+  if (const auto world = merged.find("world"); world != merged.end() && world->is_string())
+    *world = (reference.parent_path() / world->get<std::string>()).string();
+  merged.merge_patch(scenario);
+  return merged;
+}
+
+std::string robot_file_of(const std::string& file) {
+  const auto reference = robot_reference(read_object(file), file);
+  return reference.empty() ? "" : resolved(file, reference).string();
+}
+
+}  // namespace drover::sim

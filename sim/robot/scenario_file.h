@@ -1,0 +1,19 @@
+// A scenario's document: the file and, below it, the robot that it names.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include <string>
+
+namespace drover::sim {
+
+/// Reads FILE. When it has a member "robot" (the path of another document, relative to FILE), the
+/// result is that document with FILE's own members merged over it (RFC 7396: objects member by
+/// member, null removes, everything else replaces). "world" becomes relative to FILE's folder.
+/// Throws std::runtime_error naming the file.
+nlohmann::json load_scenario_document(const std::string& file);
+
+/// The path of the robot that FILE names, empty when it names none. Throws as above.
+std::string robot_file_of(const std::string& file);
+
+}  // namespace drover::sim

@@ -1,0 +1,62 @@
+#include "sim/scenario/map_sketch.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "drover/angle.h"
+
+namespace drover::sim {
+namespace {
+
+constexpr double kMargin_m = 2;
+constexpr double kWidth = 76;   // characters
+constexpr double kHeight = 14;  // lines
+
+}  // namespace
+
+MapSketch::MapSketch(const std::vector<TrackPose>& track) {
+  double east_m = 0;
+  double south_m = 0;
+  if (!track.empty()) {
+    const auto x = [](const TrackPose& a, const TrackPose& b) { return a.x_m < b.x_m; };
+    const auto y = [](const TrackPose& a, const TrackPose& b) { return a.y_m < b.y_m; };
+    const auto [left, right] = std::minmax_element(track.begin(), track.end(), x);
+    const auto [low, high] = std::minmax_element(track.begin(), track.end(), y);
+    west_m_ = left->x_m, east_m = right->x_m;
+    south_m = low->y_m, north_m_ = high->y_m;
+  }
+  west_m_ -= kMargin_m, north_m_ += kMargin_m;
+  east_m += kMargin_m, south_m -= kMargin_m;
+  cell_m_ = std::max((east_m - west_m_) / kWidth, (north_m_ - south_m) / (2 * kHeight));
+  const auto columns = static_cast<std::size_t>(std::ceil((east_m - west_m_) / cell_m_));
+  const auto lines = static_cast<std::size_t>(std::ceil((north_m_ - south_m) / (2 * cell_m_)));
+  cells_.assign(lines, std::vector<std::string>(columns, " "));
+  for (const auto& pose : track) put(pose, ".");
+}
+
+void MapSketch::put(const TrackPose& place, const std::string& mark) {
+  const double column = std::floor((place.x_m - west_m_) / cell_m_);
+  const double line = std::floor((north_m_ - place.y_m) / (2 * cell_m_));
+  if (!(line >= 0 && line < static_cast<double>(cells_.size()))) return;
+  auto& row = cells_[static_cast<std::size_t>(line)];
+  if (column >= 0 && column < static_cast<double>(row.size()))
+    row[static_cast<std::size_t>(column)] = mark;
+}
+
+std::vector<std::string> MapSketch::rows() const {
+  std::vector<std::string> rows;
+  for (const auto& cells : cells_) {
+    rows.emplace_back();
+    for (const auto& cell : cells) rows.back() += cell;
+  }
+  return rows;
+}
+
+std::string arrow(double yaw_rad) {
+  constexpr std::array<const char*, 8> kArrows{"→", "↗", "↑", "↖", "←", "↙", "↓", "↘"};
+  const auto eighth = static_cast<int>(std::lround(wrap_rad(yaw_rad) / (kPi / 4)));
+  return kArrows[static_cast<std::size_t>((eighth + 8) % 8)];
+}
+
+}  // namespace drover::sim

@@ -1,0 +1,207 @@
+#include "sim/scenario/mission.h"
+
+#include <csignal>
+
+#include <array>
+#include <charconv>
+#include <stdexcept>
+#include <string_view>
+
+#include "drover/angle.h"
+#include "sim/robot/json_reader.h"
+
+namespace drover::sim {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::array<std::string_view, 4> kPrograms{"mosquitto",    "drover-sim", "drover-guard",
+                                                    "droverd"};
+constexpr std::array<std::string_view, 9> kTruthValues{
+    "x_m", "y_m", "z_m", "roll_rad", "pitch_rad", "yaw_rad", "vx_mps", "wz_radps", "free_ahead_m"};
+
+int parse_signal(JsonReader& reader) {
+  const auto text = reader.text("signal", "KILL");
+  if (text == "KILL") return SIGKILL;
+  if (text == "STOP") return SIGSTOP;
+  if (text == "CONT") return SIGCONT;
+  if (text == "TERM") return SIGTERM;
+  reader.fail("signal", "must be one of KILL, STOP, CONT, TERM");
+}
+
+std::string program(JsonReader& reader, std::string_view key) {
+  const auto name = reader.text(key);
+  for (const auto known : kPrograms)
+    if (name == known) return name;
+  reader.fail(key, "must be one of mosquitto, drover-sim, drover-guard, droverd");
+}
+
+std::size_t parse_id(JsonReader& reader, std::string_view key) {
+  const double id = reader.number(key);
+  if (!(id >= 1 && id <= 1e6 && id == std::floor(id))) reader.fail(key, "must be from 1 up");
+  return static_cast<std::size_t>(id);
+}
+
+/// `raw` is what the reader reads; messages go out as they stand there.
+Action read_action(JsonReader& reader, const json& raw) {
+  Action action;
+  using Kind = Action::Kind;
+  if (reader.has("sim")) {
+    action = {Kind::sim, reader.text("sim")};
+  } else if (reader.has("kill")) {
+    action.kind = Kind::kill;
+    action.text = program(reader, "kill");
+    action.signal = parse_signal(reader);
+  } else if (reader.has("start")) {
+    action = {Kind::start, program(reader, "start")};
+  } else if (reader.has("publish")) {
+    const auto& message = raw.at("publish");
+    action = {Kind::publish, message.is_string() ? message.get<std::string>() : message.dump()};
+    action.topic = reader.text("topic", "mqtt_control");
+    action.retain = reader.flag("retain", false);
+  } else if (reader.has("start_task")) {
+    action.kind = Kind::start_task;
+    auto task = reader.object("start_task");
+    if (task.has("id")) action.id = parse_id(task, "id");
+    if (task.has("speed_mps")) action.speed_mps = task.number("speed_mps");
+    task.done();
+  } else if (reader.has("cli")) {
+    action = {Kind::cli, reader.text("cli")};
+  } else if (reader.flag("cancel", false)) {
+    action.kind = Kind::cancel;
+  } else if (reader.flag("save", false)) {
+    action.kind = Kind::save;
+  } else {
+    reader.fail("", "must be one of sim, kill, start, publish, cancel, save, start_task, cli");
+  }
+  reader.done();
+  return action;
+}
+
+Condition read_condition(JsonReader reader) {
+  const auto keys = reader.keys();
+  if (keys.size() != 1) reader.fail("", "must have one member, such as x_m_above");
+  for (const auto value : kTruthValues)
+    for (const bool above : {true, false})
+      if (keys[0] == std::string(value) + (above ? "_above" : "_below"))
+        return {std::string(value), above, reader.number(keys[0])};
+  reader.fail(keys[0], "is no value of the truth with _above or _below");
+}
+
+Step read_step(JsonReader& reader, const json& raw) {
+  Step step;
+  step.name = reader.text("name", "");
+  step.after = parse_event_name(reader.text("after", "boot"));
+  const double delay_s = reader.number("delay_s", 0);
+  if (!(delay_s >= 0 && delay_s <= 1e6)) reader.fail("delay_s", "must be from 0 to 1000000");
+  step.delay = from_s(delay_s);
+  if (reader.has("when")) step.when = read_condition(reader.object("when"));
+  const auto& what = raw.at("do");
+  if (what.is_array()) {
+    auto items = reader.list("do");
+    for (std::size_t i = 0; i < items.size(); ++i)
+      step.actions.push_back(read_action(items[i], what[i]));
+  } else {
+    auto item = reader.object("do");
+    step.actions.push_back(read_action(item, what));
+  }
+  reader.done();
+  return step;
+}
+
+Shape read_shape(JsonReader& reader) {
+  Shape shape;
+  if (reader.has("straight_m")) {
+    shape.straight_m = reader.number("straight_m");
+    if (!(shape.straight_m > 0)) reader.fail("straight_m", "must be above 0");
+  } else {
+    shape.turn_rad = to_rad(reader.number("turn_deg"));
+    shape.radius_m = reader.number("radius_m");
+    if (!(shape.radius_m >= 0)) reader.fail("radius_m", "must not be below 0");
+  }
+  reader.done();
+  return shape;
+}
+
+TrackPose read_start(JsonReader& top) {
+  if (!top.has("start")) return {};
+  auto start = top.object("start");
+  return {start.number("x_m", 0), start.number("y_m", 0), to_rad(start.number("yaw_deg", 0))};
+}
+
+void read_places(JsonReader& top, Mission& mission) {
+  auto origin = top.object("origin");
+  mission.origin = {origin.number("latitude_deg"), origin.number("longitude_deg"),
+                    origin.number("altitude_m", 0)};
+  if (!top.has("gnss")) return;
+  auto gnss = top.object("gnss");
+  if (!gnss.has("antenna")) return;
+  auto antenna = gnss.object("antenna");
+  mission.antenna = {antenna.number("x_m", 0), antenna.number("y_m", 0)};
+}
+
+void read_end(JsonReader& reader, Mission& mission) {
+  if (!reader.has("end")) return;
+  auto end = reader.object("end");
+  mission.end_after = parse_event_name(end.text("after"));
+  mission.end_delay = from_s(end.number("delay_s", 1));
+  end.done();
+}
+
+}  // namespace
+
+EventName parse_event_name(const std::string& text) {
+  const auto mark = text.find('#');
+  EventName event{text.substr(0, mark), 1};
+  if (mark == std::string::npos) return event;
+  const auto* end = text.data() + text.size();
+  const auto [at, error] = std::from_chars(text.data() + mark + 1, end, event.count);
+  if (error != std::errc{} || at != end || event.count == 0 || event.name.empty())
+    throw std::runtime_error("'" + text + "' is no event: say NAME or NAME#2");
+  return event;
+}
+
+Mission read_mission(const json& document) {
+  JsonReader top(document, "");
+  Mission mission;
+  mission.name = top.text("name", "");
+  read_places(top, mission);
+  auto reader = top.object("mission");
+  std::vector<Shape> shapes;
+  for (auto& item : reader.list("track")) shapes.push_back(read_shape(item));
+  mission.track = make_track(read_start(top), shapes);
+  mission.track_name = reader.text("track_name", mission.name);
+  mission.target_id =
+      reader.has("target_id") ? parse_id(reader, "target_id") : mission.track.size();
+  mission.speed_mps = reader.number("speed_mps", mission.speed_mps);
+  mission.automatic = reader.flag("automatic", true);
+  if (reader.has("steps")) {
+    const auto& raw = document.at("mission").at("steps");
+    auto items = reader.list("steps");
+    for (std::size_t i = 0; i < items.size(); ++i)
+      mission.steps.push_back(read_step(items[i], raw[i]));
+  }
+  read_end(reader, mission);
+  mission.timeout = from_s(reader.number("timeout_s", to_s(mission.timeout)));
+  mission.expect_status = reader.text("expect_status", mission.expect_status);
+  reader.done();
+  return mission;
+}
+
+void set_member(json& document, const std::string& assignment) {
+  const auto equals = assignment.find('=');
+  if (equals == 0 || equals == std::string::npos)
+    throw std::runtime_error("--set " + assignment + ": say KEY.KEY=VALUE");
+  std::string pointer = "/" + assignment.substr(0, equals);
+  for (auto& c : pointer)
+    if (c == '.') c = '/';
+  const auto text = assignment.substr(equals + 1);
+  auto value = json::parse(text, nullptr, false);
+  try {
+    document[json::json_pointer(pointer)] = value.is_discarded() ? json(text) : std::move(value);
+  } catch (const json::exception& error) {
+    throw std::runtime_error("--set " + assignment + ": " + error.what());
+  }
+}
+
+}  // namespace drover::sim

@@ -1,0 +1,332 @@
+#include "sim/scenario/player.h"
+
+#include <poll.h>
+#include <sys/signalfd.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <array>
+#include <csignal>
+#include <cstdio>
+#include <ctime>
+#include <filesystem>
+#include <stdexcept>
+
+#include "sim/robot/control_socket.h"
+
+namespace drover::sim {
+namespace {
+
+constexpr Duration kLook = std::chrono::milliseconds(10);
+constexpr Duration kReconnect = std::chrono::milliseconds(50);
+constexpr Duration kSecond = std::chrono::seconds(1);
+// Real time: a loaded machine may take long to load a world.
+constexpr Duration kBootTimeout = std::chrono::seconds(60);
+constexpr Duration kEndTimeout = std::chrono::seconds(5);
+
+Time now() {
+  timespec t{};
+  ::clock_gettime(CLOCK_MONOTONIC, &t);
+  return Time{std::chrono::seconds(t.tv_sec) + Duration(t.tv_nsec)};
+}
+
+link::UniqueFd block_signals() {
+  sigset_t set;
+  sigemptyset(&set);
+  for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGCHLD}) sigaddset(&set, number);
+  ::sigprocmask(SIG_BLOCK, &set, nullptr);
+  ::signal(SIGPIPE, SIG_IGN);
+  return link::UniqueFd(::signalfd(-1, &set, SFD_CLOEXEC | SFD_NONBLOCK));
+}
+
+std::string stamp(Time time) {
+  std::array<char, 48> text{};
+  const auto ns = time.time_since_epoch().count();
+  const int n = std::snprintf(text.data(), text.size(), "(%lld.%09lld) ",
+                              static_cast<long long>(ns / 1'000'000'000),
+                              static_cast<long long>(ns % 1'000'000'000));
+  return {text.data(), static_cast<std::size_t>(n)};
+}
+
+/// One line whatever it says: control characters as \xNN.
+void append_line(std::string& line, std::string_view text) {
+  for (const char c : text) {
+    if (static_cast<unsigned char>(c) >= 0x20 && c != 0x7F) {
+      line += c;
+      continue;
+    }
+    std::array<char, 8> code{};
+    std::snprintf(code.data(), code.size(), "\\x%02X", static_cast<unsigned>(c) & 0xFFU);
+    line += code.data();
+  }
+  line += '\n';
+}
+
+std::string how_it_ended(int status) {
+  if (WIFSIGNALED(status)) return "by signal " + std::to_string(WTERMSIG(status));
+  return "with status " + std::to_string(WEXITSTATUS(status));
+}
+
+}  // namespace
+
+Player::Player(const Workplace& workplace, const Mission& mission, View& view)
+    : workplace_(workplace),
+      mission_(mission),
+      view_(view),
+      events_log_(workplace.log_folder() + "/events.log"),
+      mqtt_log_(workplace.log_folder() + "/mqtt.log"),
+      signals_(block_signals()),
+      children_(workplace.log_folder()),
+      story_(mission.steps),
+      result_{mission.target_id} {}
+
+Outcome Player::play() {
+  boot_ = next_second_ = now();
+  boot();
+  if (going()) happened("boot");
+  const Time timeout = boot_ + mission_.timeout;
+  while (going() && now() < std::min(end_, timeout)) turn(std::min(end_, timeout));
+  tell(interrupted_       ? "interrupted"
+       : !broken_.empty() ? "broken: " + broken_
+       : now() >= end_    ? "the end"
+                          : "time-out");
+  if (interrupted_) return Outcome::interrupted;
+  if (!broken_.empty()) return Outcome::broken;
+  if (now() < end_) return Outcome::timed_out;
+  return result_.status == mission_.expect_status ? Outcome::as_expected : Outcome::otherwise;
+}
+
+void Player::keep_running() {
+  while (going()) turn(Time::max());
+}
+
+/// The records end first: what follows is no part of the scenario.
+bool Player::finish() {
+  recording_ = false;
+  interrupted_ = false;
+  broken_.clear();
+  for (const auto* name : {"drover-sim", "droverd", "drover-guard", "mosquitto"}) end_program(name);
+  events_log_.flush();
+  mqtt_log_.flush();
+  return broken_.empty();
+}
+
+void Player::end_program(const std::string& name) {
+  killed_.insert(name);
+  // One that was stopped by a step hears nothing else.
+  if (!children_.signal(name, SIGCONT) || !children_.signal(name, SIGTERM)) return;
+  const Time limit = now() + kEndTimeout;
+  while (children_.runs(name) && now() < limit) poll_once(limit);
+  if (children_.runs(name)) broken_ = name + " did not end within five seconds";
+}
+
+void Player::boot() {
+  client_.emplace(workplace_.port(), [this](const MqttMessage& message) { on_message(message); });
+  start("mosquitto");
+  start("drover-sim");
+  wait_for("the broker", [this] { return client_->subscribed(); });
+  wait_for("drover-sim",
+           [this] { return std::filesystem::exists(workplace_.ready_file()); });
+  start("drover-guard");
+  wait_for("drover-guard",
+           [this] { return std::filesystem::exists(workplace_.guard_socket()); });
+  start("droverd");
+}
+
+void Player::wait_for(const std::string& what, const std::function<bool()>& is_there) {
+  const Time limit = now() + kBootTimeout;
+  while (going() && !is_there()) {
+    if (now() > limit) broken_ = what + " did not come up";
+    turn(now() + kLook);
+  }
+}
+
+void Player::start(const std::string& name, const std::string& words) {
+  if (!going()) return;
+  const auto problem = children_.start(workplace_.program(name, words));
+  killed_.erase(name);
+  tell("start " + name + (words.empty() ? "" : " " + words) +
+       (problem.empty() ? "" : ": " + problem));
+  if (!problem.empty()) broken_ = problem;
+}
+
+/// Works off what is due and waits for more, until `until` at most, once.
+void Player::turn(Time until) {
+  take_steps();
+  const Time t = now();
+  if (t >= next_reconnect_) {
+    client_->connect();
+    next_reconnect_ = t + kReconnect;
+  }
+  if (t >= next_second_) {
+    client_->serve(false, false);
+    events_log_.flush();
+    mqtt_log_.flush();
+    next_second_ = t + kSecond;
+  }
+  until = std::min({until, next_second_, story_.next(t)});
+  if (client_->descriptor() < 0) until = std::min(until, next_reconnect_);
+  until = std::min(until, view_.draw(t, report_));
+  poll_once(until);
+}
+
+void Player::poll_once(Time until) {
+  std::array<pollfd, 16> polls{};
+  std::size_t count = 0;
+  const auto watch = [&](int fd, bool writing) {
+    if (fd >= 0 && count < polls.size())
+      polls[count++] = {fd, static_cast<short>(writing ? POLLIN | POLLOUT : POLLIN), 0};
+  };
+  watch(client_->descriptor(), client_->wants_to_write());
+  watch(signals_.get(), false);
+  watch(view_.descriptor(), false);
+  for (const int fd : children_.descriptors()) watch(fd, false);
+  const auto left = std::max(Duration::zero(), until - now());
+  const timespec timeout{static_cast<time_t>(left.count() / 1'000'000'000),
+                         left.count() % 1'000'000'000};
+  if (::ppoll(polls.data(), count, &timeout, nullptr) <= 0) return;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto& poll = polls[i];
+    if (poll.revents == 0) continue;
+    if (poll.fd == signals_.get()) {
+      signalfd_siginfo info{};
+      while (::read(signals_.get(), &info, sizeof info) == sizeof info)
+        if (info.ssi_signo != SIGCHLD) interrupted_ = true;
+    } else if (poll.fd == client_->descriptor()) {
+      client_->serve((poll.revents & ~POLLOUT) != 0, (poll.revents & POLLOUT) != 0);
+    } else if (poll.fd == view_.descriptor()) {
+      view_.on_readable();
+    }
+  }
+  if (client_->subscribed() != was_subscribed_) {
+    was_subscribed_ = !was_subscribed_;
+    happened(was_subscribed_ ? "broker_back" : "broker_lost");
+  }
+  collect_children();
+}
+
+void Player::collect_children() {
+  for (const auto& ended : children_.reap()) {
+    tell("end of " + ended.name + " " + how_it_ended(ended.status));
+    const bool asked = killed_.contains(ended.name) || ended.name == "drover";
+    // A program that was asked to end, not killed, must do so cleanly.
+    const bool clean = WIFSIGNALED(ended.status)
+                           ? WTERMSIG(ended.status) == SIGKILL || WTERMSIG(ended.status) == SIGTERM
+                           : WEXITSTATUS(ended.status) == 0 || ended.name == "drover";
+    if (!asked || !clean) broken_ = ended.name + " ended " + how_it_ended(ended.status);
+    if (asked) happened("exit_" + ended.name);
+  }
+}
+
+void Player::take_steps() {
+  const Time t = now();
+  nlohmann::json truth;
+  if (story_.asks_for_truth(t)) {
+    try {
+      truth = nlohmann::json::parse(ask(workplace_.sim_socket(), "truth"), nullptr, false);
+    } catch (const std::runtime_error&) {
+      // The simulator is not there: the condition does not hold.
+    }
+  }
+  for (const auto* step : story_.take_due(t, truth)) {
+    for (const auto& action : step->actions) act(action);
+    if (!step->name.empty()) happened(step->name);
+  }
+}
+
+void Player::act(const Action& action) {
+  using Kind = Action::Kind;
+  switch (action.kind) {
+    case Kind::sim:
+      tell("sim " + action.text);
+      view_.on_sim_command(action.text);
+      if (const auto answer = ask(workplace_.sim_socket(), action.text); answer != "ok")
+        broken_ = "sim " + action.text + ": " + answer;
+      return;
+    case Kind::kill:
+      if (action.signal == SIGKILL || action.signal == SIGTERM) killed_.insert(action.text);
+      tell("signal " + std::to_string(action.signal) + " to " + action.text);
+      if (!children_.signal(action.text, action.signal)) broken_ = action.text + " does not run";
+      return;
+    case Kind::start: return start(action.text);
+    case Kind::publish: return publish(action.topic, action.text, action.retain);
+    case Kind::cancel:
+      return publish("mqtt_control", R"({"cmd_type":"task_control","cmd":"cancel_task"})");
+    case Kind::save: return save_track();
+    case Kind::start_task: return start_task(action);
+    case Kind::cli: return start("drover", action.text);
+  }
+}
+
+void Player::publish(const std::string& topic, const std::string& payload, bool retain) {
+  const bool sent = client_->publish(topic, payload, retain);
+  std::string shown = payload.substr(0, 200);
+  tell("publish " + topic + (sent ? " " : " (no broker) ") + shown +
+       (shown.size() < payload.size() ? "..." : ""));
+}
+
+void Player::save_track() {
+  const auto shift = map_shift(report_.fix(), mission_.origin, mission_.antenna);
+  publish("mqtt_control", save_message(mission_.track_name, mission_.track, shift, mission_.origin,
+                                       mission_.antenna));
+}
+
+void Player::start_task(const Action& action) {
+  result_.target_id = action.id.value_or(mission_.target_id);
+  const nlohmann::ordered_json message{{"cmd_type", "task_control"},
+                                       {"cmd", "start_task"},
+                                       {"name", mission_.track_name},
+                                       {"id", result_.target_id},
+                                       {"speed", action.speed_mps.value_or(mission_.speed_mps)}};
+  publish("mqtt_control", message.dump());
+}
+
+void Player::on_message(const MqttMessage& message) {
+  const Time t = now();
+  if (!recording_) return;
+  std::string line = stamp(t);
+  line += message.topic;
+  line += message.retained ? " 1 " : " 0 ";
+  append_line(line, message.payload);
+  mqtt_log_.append(line);
+  if (message.retained) return;
+  std::vector<std::string> events;
+  if (message.topic == "base_status") events = report_.on_base_status(message.payload);
+  if (message.topic == "feedback") events = report_.on_feedback(message.payload);
+  for (const auto& event : events) happened(event);
+}
+
+void Player::happened(const std::string& event) {
+  const Time t = now();
+  const auto count = story_.happened(event, t);
+  tell("event " + event + "#" + std::to_string(count));
+  if (event == "start_nav") {
+    if (result_.begin == kNever) result_.begin = t;
+  }
+  if (event == "nav_success" || event == "nav_error") {
+    result_.end = t;
+    result_.status = report_.nav_status();
+  }
+  if (mission_.automatic && event == "ready" && count == 1) save_track();
+  if (mission_.automatic && event == "saved" && count == 1) start_task({});
+  look_for_end(event);
+}
+
+void Player::look_for_end(const std::string& event) {
+  if (end_ != Time::max()) return;
+  const bool end = mission_.end_after
+                       ? story_.has_happened(*mission_.end_after)
+                       : event == "nav_success" || event == "nav_error" ||
+                             event == "start_task_failed" || event == "start_nav_failed" ||
+                             event == "save_failed";
+  if (end) end_ = now() + mission_.end_delay;
+}
+
+void Player::tell(const std::string& text) {
+  std::string line = stamp(now());
+  append_line(line, text);
+  events_log_.append(line);
+  view_.on_event(text);
+}
+
+}  // namespace drover::sim

@@ -1,0 +1,91 @@
+// Plays a scenario: supervisor of the programs, operator, recorder.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+
+#include "sim/robot/log.h"
+#include "sim/scenario/children.h"
+#include "sim/scenario/mission.h"
+#include "sim/scenario/operator_client.h"
+#include "sim/scenario/robot_report.h"
+#include "sim/scenario/story.h"
+#include "sim/scenario/view.h"
+#include "sim/scenario/workplace.h"
+
+namespace drover::sim {
+
+enum class Outcome {
+  as_expected = 0,
+  otherwise = 1,     ///< the mission ended in another state than it should
+  broken = 3,        ///< a program ended by itself
+  timed_out = 4,
+  interrupted = 130  ///< by a person
+};
+
+/// One thread and one poll(); the monotonic clock is the only one it reads.
+class Player {
+ public:
+  Player(const Workplace& workplace, const Mission& mission, View& view);
+
+  /// Starts everything and plays until the mission has ended; everything still runs then.
+  Outcome play();
+  /// Goes on, recording, until a signal comes.
+  void keep_running();
+  /// Ends every program. False: one did not end cleanly.
+  bool finish();
+
+  struct Result {
+    std::size_t target_id = 0;  ///< of the last start, from 1
+    Time begin = kNever;        ///< the first start_nav
+    Time end = kNever;          ///< the last nav_success or nav_error
+    std::string status{};
+  };
+  const Result& result() const { return result_; }
+  /// What broke, empty when nothing did.
+  const std::string& broken() const { return broken_; }
+
+ private:
+  bool going() const { return !interrupted_ && broken_.empty(); }
+  void boot();
+  void wait_for(const std::string& what, const std::function<bool()>& is_there);
+  void start(const std::string& name, const std::string& words = {});
+  void end_program(const std::string& name);
+  void turn(Time until);
+  void poll_once(Time until);
+  void collect_children();
+  void take_steps();
+  void act(const Action& action);
+  void publish(const std::string& topic, const std::string& payload, bool retain = false);
+  void save_track();
+  void start_task(const Action& action);
+  void on_message(const MqttMessage& message);
+  void happened(const std::string& event);
+  void look_for_end(const std::string& event);
+  void tell(const std::string& text);
+
+  const Workplace& workplace_;
+  const Mission& mission_;
+  View& view_;
+  TextLog events_log_;
+  TextLog mqtt_log_;
+  link::UniqueFd signals_;
+  Children children_;
+  Story story_;
+  RobotReport report_;
+  std::optional<OperatorClient> client_;
+  bool was_subscribed_ = false;
+  std::set<std::string> killed_;  // whose end was asked for
+  std::string broken_;            // what ended by itself
+  Result result_;
+  Time boot_{};
+  Time end_ = Time::max();
+  Time next_second_{};
+  Time next_reconnect_{};
+  bool recording_ = true;
+  bool interrupted_ = false;
+};
+
+}  // namespace drover::sim

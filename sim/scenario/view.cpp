@@ -1,0 +1,124 @@
+#include "sim/scenario/view.h"
+
+#include <cmath>
+#include <cstdio>
+#include <sstream>
+
+#include "drover/angle.h"
+#include "sim/scenario/map_sketch.h"
+
+namespace drover::sim {
+namespace {
+
+Duration period(ViewKind kind) {
+  return kind == ViewKind::terminal ? std::chrono::milliseconds(250) : std::chrono::seconds(1);
+}
+
+template <class... Arguments>
+std::string text(const char* format, Arguments... arguments) {
+  std::array<char, 256> out{};
+  const int n = std::snprintf(out.data(), out.size(), format, arguments...);
+  return {out.data(), std::min(static_cast<std::size_t>(n), out.size() - 1)};
+}
+
+const char* rtk_word(int status) {
+  switch (status) {
+    case 1: return "single";
+    case 2: return "DGPS";
+    case 4: return "RTK fixed";
+    case 5: return "RTK float";
+    default: return "no position";
+  }
+}
+
+double number_at(const nlohmann::json& object, const char* key) {
+  const auto it = object.find(key);
+  return it != object.end() && it->is_number() ? it->get<double>() : NAN;
+}
+
+}  // namespace
+
+View::View(ViewKind kind, const Mission& mission, const std::string& daemon_socket)
+    : kind_(kind), mission_(mission), status_(daemon_socket) {}
+
+Time View::draw(Time now, const RobotReport& report) {
+  if (kind_ == ViewKind::none) return Time::max();
+  if (begin_ == kNever) begin_ = next_ = now;
+  if (now < next_) return next_;
+  elapsed_s_ = to_s(now - begin_);
+  next_ = now + period(kind_);
+  const auto shown = kind_ == ViewKind::lines ? line(report) : picture(report);
+  std::fwrite(shown.data(), 1, shown.size(), stdout);
+  std::fflush(stdout);
+  status_.ask();
+  return next_;
+}
+
+void View::on_sim_command(const std::string& command) {
+  std::istringstream words(command);
+  std::string verb, name;
+  TrackPose at;
+  words >> verb >> name;
+  if (verb != "obstacle") return;
+  if (words >> at.x_m >> at.y_m)
+    obstacles_[name] = at;
+  else
+    obstacles_.erase(name);
+}
+
+void View::on_event(const std::string& event) {
+  last_event_ = event.substr(0, 70);
+  if (kind_ != ViewKind::lines) return;
+  std::printf("       %s\n", last_event_.c_str());
+}
+
+std::string View::line(const RobotReport& report) const {
+  if (!report.heard()) return text("%6.1f s starting\n", elapsed_s_);
+  const auto& fix = report.fix();
+  auto out = text("%6.1f s %-11s x %7.2f y %7.2f yaw %6.1f deg  %5.2f m/s  %s, %s%s", elapsed_s_,
+                  report.nav_status().c_str(), fix.x_m, fix.y_m, to_deg(fix.yaw_rad),
+                  report.speed_mps(), rtk_word(report.rtk_status()), report.locate().c_str(),
+                  report.obstacle() ? ", obstacle" : "");
+  if (!report.why().empty()) out += "  (" + report.why() + ")";
+  return out + "\n";
+}
+
+std::string View::wheels() const {
+  std::string out = "wheels ";
+  const auto& status = status_.status();
+  if (!status.is_object() || !status.contains("axes")) return out + "-";
+  for (const auto& axis : status.at("axes"))
+    out += text(" %s %6.2f rad/s", axis.value("joint", "").c_str(),
+                number_at(axis, "velocity_radps"));
+  return out;
+}
+
+std::string View::picture(const RobotReport& report) const {
+  MapSketch map(mission_.track);
+  for (const auto& [name, place] : obstacles_) map.put(place, "#");
+  const std::size_t goal = mission_.target_id - 1;
+  if (goal < mission_.track.size()) map.put(mission_.track[goal], "G");
+  if (report.heard() && report.locate() != "LOCATE_UNINIT") {
+    const auto shift = map_shift(report.fix(), mission_.origin, mission_.antenna);
+    const auto& fix = report.fix();
+    map.put({fix.x_m - shift.x_m, fix.y_m - shift.y_m, fix.yaw_rad}, arrow(fix.yaw_rad));
+  }
+  double sigma_m = NAN;
+  if (const auto& status = status_.status(); status.is_object() && status.contains("pose"))
+    sigma_m = number_at(status.at("pose"), "position_sigma_m");
+  std::string out = "\033[H";
+  const auto add = [&out](const std::string& line) { out += line + "\033[K\n"; };
+  add(text("%s  %.1f s", mission_.name.c_str(), elapsed_s_));
+  for (const auto& row : map.rows()) add(row);
+  add(text("%-11s %-13s %5.2f m/s  turning %6.1f deg/s%s", report.nav_status().c_str(),
+           report.locate().c_str(), report.speed_mps(), to_deg(report.turn_radps()),
+           report.obstacle() ? "  OBSTACLE" : ""));
+  add(text("%s, position error %.3f m (one sigma)", rtk_word(report.rtk_status()), sigma_m));
+  add(wheels());
+  add("why: " + (report.why().empty() ? "-" : report.why()));
+  add("last feedback: " + (report.last_feedback().empty() ? "-" : report.last_feedback()));
+  add(last_event_);
+  return out + "\033[J";
+}
+
+}  // namespace drover::sim

@@ -1,0 +1,46 @@
+// What a person sees while a scenario runs: a picture redrawn in place, plain lines, or nothing.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "drover/time.h"
+#include "sim/scenario/mission.h"
+#include "sim/scenario/robot_report.h"
+#include "sim/scenario/status_client.h"
+
+namespace drover::sim {
+
+enum class ViewKind { none, lines, terminal };
+
+class View {
+ public:
+  View(ViewKind kind, const Mission& mission, const std::string& daemon_socket);
+
+  /// Draws when it is time; returns when it will be time again (Time::max(): never).
+  Time draw(Time now, const RobotReport& report);
+  /// Of a question to droverd that is on its way; -1: none.
+  int descriptor() const { return status_.descriptor(); }
+  void on_readable() { status_.on_readable(); }
+
+  /// A command to the simulator: obstacles appear on the map.
+  void on_sim_command(const std::string& command);
+  /// What the player does and hears.
+  void on_event(const std::string& text);
+
+ private:
+  std::string line(const RobotReport& report) const;
+  std::string picture(const RobotReport& report) const;
+  std::string wheels() const;
+
+  ViewKind kind_;
+  const Mission& mission_;
+  StatusClient status_;
+  std::map<std::string, TrackPose> obstacles_;
+  std::string last_event_;
+  Time begin_ = kNever;
+  Time next_ = kNever;
+  double elapsed_s_ = 0;
+};
+
+}  // namespace drover::sim

@@ -1,0 +1,147 @@
+#include "sim/scenario/workplace.h"
+
+#include <arpa/inet.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+#include "sim/robot/scenario_file.h"
+#include "sim/scenario/mission.h"
+
+namespace drover::sim {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+std::string temporary_folder() {
+  auto pattern = (fs::temp_directory_path() / "drover-scenario-XXXXXX").string();
+  if (::mkdtemp(pattern.data()) == nullptr)
+    throw std::runtime_error(pattern + ": cannot make a folder");
+  return pattern;
+}
+
+/// A port that was free a moment ago.
+int free_port() {
+  link::UniqueFd fd(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  socklen_t size = sizeof address;
+  auto* generic = reinterpret_cast<sockaddr*>(&address);
+  if (::bind(fd.get(), generic, size) != 0 || ::getsockname(fd.get(), generic, &size) != 0)
+    throw std::runtime_error("no free port on 127.0.0.1");
+  return ntohs(address.sin_port);
+}
+
+/// droverd's configuration stands beside the robot: field.json, field.drover.json.
+json read_config(const std::string& scenario_file) {
+  auto robot = robot_file_of(scenario_file);
+  if (robot.empty())
+    throw std::runtime_error(scenario_file +
+                             ": robot: is missing; it names the gateway's file too");
+  const auto file = fs::path(robot).replace_extension(".drover.json").string();
+  std::ifstream stream(file);
+  if (!stream) throw std::runtime_error(file + ": cannot open");
+  auto config = json::parse(stream, nullptr, false, true);
+  if (!config.is_object()) throw std::runtime_error(file + ": is no JSON object");
+  return config;
+}
+
+void write_file(const std::string& path, const std::string& text) {
+  std::ofstream stream(path);
+  stream << text;
+  stream.close();
+  if (!stream) throw std::runtime_error(path + ": cannot write");
+}
+
+}  // namespace
+
+Workplace::Workplace(const WorkplaceSettings& settings)
+    : settings_(settings),
+      document_(load_scenario_document(settings.scenario_file)),
+      private_folder_(temporary_folder()),
+      log_folder_(settings.log_folder) {
+  for (const auto& change : settings.changes) set_member(document_, change);
+  const auto folder = fs::absolute(fs::path(settings.scenario_file)).parent_path();
+  document_["world"] = (folder / document_.value("world", "")).lexically_normal().string();
+  if (log_folder_.empty()) log_folder_ = private_folder_ + "/log";
+  fs::create_directories(log_folder_);
+  auto config = read_config(settings.scenario_file);
+  if (settings.native) make_native(config);
+  guard_socket_ = config["guard"].value("socket", "/run/drover/guard.sock");
+  daemon_folder_ = config["paths"].value("run", daemon_folder_);
+  fs::create_directories(sim_folder_);
+  fs::create_directories(daemon_folder_);
+  fs::create_directories(config["paths"].value("state", daemon_folder_ + "/state"));
+  write_files(config);
+}
+
+Workplace::~Workplace() {
+  std::error_code ignored;
+  fs::remove_all(private_folder_, ignored);
+}
+
+void Workplace::make_native(json& config) {
+  port_ = free_port();
+  sim_folder_ = private_folder_ + "/sim";
+  const auto run = private_folder_ + "/run";
+  config["paths"] = {{"run", run}, {"state", private_folder_ + "/state"}};
+  for (auto& bus : config["buses"])
+    bus["interface"] = "unix:" + sim_folder_ + "/" + bus.value("name", "") + ".sock";
+  config["gnss"]["port"] = sim_folder_ + "/gnss";
+  config["lines"]["chip"] = "files:" + sim_folder_ + "/lines";
+  config["guard"]["socket"] = run + "/guard.sock";
+  config["mqtt"]["port"] = port_;
+  config["control"]["realtime"] = false;
+}
+
+void Workplace::write_files(const json& config) {
+  write_file(private_folder_ + "/scenario.json", document_.dump(1));
+  write_file(private_folder_ + "/drover.json", config.dump(1));
+  std::ostringstream broker;
+  broker << "listener " << port_ << (settings_.native ? " 127.0.0.1" : "") << "\n"
+         << "allow_anonymous true\n"
+         << "persistence false\n"
+         << "set_tcp_nodelay true\n"
+         << "max_packet_size 1048576\n"
+         // Another user would lose the promise to die with its parent.
+         << "user root\n";
+  write_file(private_folder_ + "/mosquitto.conf", broker.str());
+}
+
+Program Workplace::program(const std::string& name, const std::string& words) const {
+  const auto broker = name == "mosquitto";
+  auto path = find_program(settings_.program_folder, name);
+  if (broker)
+    for (const char* folder : {"/usr/sbin", "/usr/local/sbin", "/usr/bin"})
+      if (path.empty()) path = find_program(folder, name);
+  if (path.empty())
+    throw std::runtime_error(name + " is not in " +
+                             (broker ? "/usr/sbin" : settings_.program_folder));
+  Program program{name, {path}};
+  auto add = [&program](std::initializer_list<std::string> more) {
+    program.command.insert(program.command.end(), more);
+  };
+  if (broker) add({"-c", private_folder_ + "/mosquitto.conf"});
+  if (name == "drover-guard") add({"--socket", guard_socket_});
+  if (name == "droverd") add({"-c", private_folder_ + "/drover.json"});
+  if (name == "drover-sim") {
+    add({"--scenario", private_folder_ + "/scenario.json", "--seed",
+         std::to_string(settings_.seed), "--run-dir", sim_folder_, "--log-dir", log_folder_});
+    if (settings_.native) add({"--can-transport", "unix", "--lines", "files"});
+  }
+  if (name == "drover") {
+    add({"--socket", daemon_socket()});
+    std::istringstream stream(words);
+    for (std::string word; stream >> word;) add({word});
+  }
+  return program;
+}
+
+}  // namespace drover::sim

@@ -1,0 +1,55 @@
+// Where a scenario runs: folders, generated files, and the programs' command lines.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include <cstdint>
+#include <string>
+
+#include "sim/scenario/children.h"
+
+namespace drover::sim {
+
+struct WorkplaceSettings {
+  std::string scenario_file;
+  std::vector<std::string> changes;  ///< see set_member
+  std::uint64_t seed = 1;
+  std::string log_folder;  ///< empty: a temporary one
+  std::string program_folder;
+  bool native = false;  ///< no CAN interfaces, no gpio-sim: sockets and files in a private folder
+};
+
+/// Made once; the private folder goes when it ends.
+class Workplace {
+ public:
+  /// Throws std::runtime_error with one sentence.
+  explicit Workplace(const WorkplaceSettings& settings);
+  ~Workplace();
+  Workplace(const Workplace&) = delete;
+  Workplace& operator=(const Workplace&) = delete;
+
+  const nlohmann::json& document() const { return document_; }
+  int port() const { return port_; }
+  const std::string& log_folder() const { return log_folder_; }
+  std::string ready_file() const { return sim_folder_ + "/ready"; }
+  std::string sim_socket() const { return sim_folder_ + "/sim.sock"; }
+  std::string guard_socket() const { return guard_socket_; }
+  std::string daemon_socket() const { return daemon_folder_ + "/drover.sock"; }
+  /// mosquitto, drover-sim, drover-guard, droverd, or drover with `words` as its arguments.
+  Program program(const std::string& name, const std::string& words = {}) const;
+
+ private:
+  void make_native(nlohmann::json& config);
+  void write_files(const nlohmann::json& config);
+
+  WorkplaceSettings settings_;
+  nlohmann::json document_;
+  std::string private_folder_;
+  std::string sim_folder_ = "/run/drover-sim";
+  std::string daemon_folder_ = "/run/drover";
+  std::string guard_socket_;
+  std::string log_folder_;
+  int port_ = 1883;
+};
+
+}  // namespace drover::sim
