@@ -45,7 +45,8 @@ std::string Children::start(const Program& program) {
   const pid_t pid = ::fork();
   if (pid == 0) become(arguments.data(), log.get(), parent);
   if (pid < 0) return program.name + ": " + std::strerror(errno);
-  children_[program.name] = {pid, link::UniqueFd(static_cast<int>(::syscall(SYS_pidfd_open, pid, 0)))};
+  const auto pidfd = static_cast<int>(::syscall(SYS_pidfd_open, pid, 0));
+  children_[program.name] = {pid, link::UniqueFd(pidfd)};
   return {};
 }
 
