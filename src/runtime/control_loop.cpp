@@ -18,8 +18,9 @@ using namespace std::chrono_literals;
 constexpr std::uint64_t kTimerTag = 1;
 constexpr std::uint64_t kGnssTag = 2;
 constexpr std::uint64_t kLinesTag = 3;
-/// A guard whose own cycle is 10 ms and that was not seen for so long is not there.
-constexpr Duration kGuardStale = 80ms;
+/// The guard's own cycle is 10 ms. It is given what it gives us, and three cycles more; then it is
+/// not there.
+constexpr Duration kGuardCycles = 30ms;
 /// The bus is asked back when the robot was at rest and our heartbeat good for this long.
 constexpr Duration kHandBackAfter = 500ms;
 
@@ -41,6 +42,7 @@ ControlLoop::ControlLoop(const config::DroverConfig& config, Gateway& gateway, L
       keeper_(keeper),
       guard_(guard),
       exchange_(exchange),
+      guard_stale_(std::chrono::milliseconds(config.guard.limit_ms) + kGuardCycles),
       epoll_(::epoll_create1(EPOLL_CLOEXEC)),
       timer_(make_timer(config.control.tick_Hz)) {
   if (!epoll_) throw std::runtime_error("no epoll descriptor");
@@ -101,7 +103,7 @@ void ControlLoop::cycle(std::uint64_t expirations) {
   Command command;
   while (exchange_.commands.pop(command)) gateway_.on_command(command, begin);
 
-  const auto& out = gateway_.step(begin, guard_seen_ + kGuardStale > begin, guard_has_bus_);
+  const auto& out = gateway_.step(begin, guard_seen_ + guard_stale_ > begin, guard_has_bus_);
   for (std::size_t bus = 0; bus < gateway_.bus_count(); ++bus) {
     if (!can_[bus] || out.frames[bus].empty()) continue;
     if (!can_[bus]->send(out.frames[bus])) lose(bus, can_[bus]->error(), begin);

@@ -48,6 +48,7 @@ class ControlLoop final {
   LinkKeeper& keeper_;
   const GuardMemory& guard_;
   ControlExchange& exchange_;
+  const Duration guard_stale_;
 
   link::UniqueFd epoll_;
   link::UniqueFd timer_;
