@@ -5,6 +5,8 @@ namespace drover::engine {
 namespace {
 
 constexpr Duration kAtMostEach = std::chrono::seconds(1);
+/// Nothing was heard yet in the first moments: that is no news, unless it stays so.
+constexpr Duration kQuietStart = std::chrono::seconds(1);
 
 std::string_view over(Cause cause) {
   switch (cause) {
@@ -28,6 +30,8 @@ std::string_view over(Cause cause) {
 }  // namespace
 
 void Announcer::update(Time now, const HealthReport& report, EventQueue& events) {
+  if (begun_ == kNever) begun_ = now;
+  if (now - begun_ < kQuietStart) return;
   for (std::size_t i = 0; i < kCauseCount; ++i) {
     const std::uint32_t bit = 1U << i;
     const bool holds = (report.causes & bit) != 0;

@@ -13,6 +13,7 @@ class Announcer final {
   void update(Time now, const HealthReport& report, EventQueue& events);
 
  private:
+  Time begun_ = kNever;
   std::uint32_t told_ = 0;  ///< bits by Cause
   std::array<Time, kCauseCount> told_at_ = [] {
     std::array<Time, kCauseCount> times{};

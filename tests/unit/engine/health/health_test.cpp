@@ -226,7 +226,17 @@ class AnAnnouncer : public AHealthMonitor {
 };
 
 TEST_F(AnAnnouncer, IsSilentWhileAllIsWell) { EXPECT_TRUE(said().empty()); }
+TEST_F(AnAnnouncer, WaitsASecondBeforeItCallsItNewsThatNothingWasHeardYet) {
+  activate(Line::bumper);
+  EXPECT_TRUE(said().empty());
+  wait(std::chrono::milliseconds(999));
+  EXPECT_TRUE(said().empty());
+  wait(std::chrono::milliseconds(1));
+  EXPECT_THAT(said(), ::testing::ElementsAre("bumper touched"));
+}
 TEST_F(AnAnnouncer, SaysOnceWhatBeginsAndOnceThatItIsOver) {
+  EXPECT_TRUE(said().empty());
+  wait(std::chrono::seconds(1));
   activate(Line::bumper);
   EXPECT_THAT(said(), ::testing::ElementsAre("bumper touched"));
   EXPECT_TRUE(said().empty());
