@@ -1,0 +1,158 @@
+// Frames, motion, position: what the CAN log and the truth say together.
+#include "mission/conduct.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+namespace drover::mission {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr std::size_t kEnough = 10;
+// A publisher looks at the snapshot each few milliseconds, and a frame waits for its cycle.
+constexpr Duration kAnnounced = 100ms;
+// From the highest speed to rest: 0.8 m/s at 0.8 m/s^2, the jerk limit's 0.4 s, and a margin.
+constexpr Duration kRamp = 1600ms;
+constexpr Duration kGuard = 100ms;
+
+void add(Problems& problems, std::string text) {
+  if (problems.size() < kEnough) problems.push_back(std::move(text));
+}
+
+/// A task: from the operator's start to the end that the gateway told.
+struct Task {
+  Time begin = kNever;
+  Time end = Time::max();
+};
+
+Time asked(const Record& record, Time answered) {
+  Time time = kNever;
+  for (const auto& line : record.mqtt)
+    if (line.time <= answered && line.topic == "mqtt_control" &&
+        line.payload.find("\"start_task\"") != std::string::npos)
+      time = line.time;
+  return time;
+}
+
+/// The last instant at which the task may still move the wheels.
+Time last_motion(const Record& record, Time answered) {
+  Time end = Time::max();
+  bool ran = false;
+  for (const auto& status : record.statuses) {
+    if (status.time < answered) continue;
+    ran = ran || status.nav == "NAV_RUN";
+    const bool ended = status.nav == "NAV_SUCCESS" || status.nav == "NAV_ERROR" ||
+                       (ran && status.nav != "NAV_RUN");
+    if (!ended) continue;
+    end = status.nav == "NAV_SUCCESS" ? status.time : status.time + kRamp;
+    break;
+  }
+  for (const auto* text : {"signal 9 to droverd", "signal 19 to droverd"})
+    for (const Time killed : record.all(text))
+      if (killed > answered) end = std::min(end, killed + kGuard);
+  return end;
+}
+
+std::vector<Task> tasks(const Record& record) {
+  std::vector<Task> found;
+  for (const auto& one : record.feedback)
+    if (one.cmd == "start_task_success")
+      found.push_back({asked(record, one.time), last_motion(record, one.time)});
+  return found;
+}
+
+bool inside(const std::vector<Task>& tasks, Time time) {
+  return std::any_of(tasks.begin(), tasks.end(), [time](const Task& task) {
+    return time >= task.begin && time <= task.end;
+  });
+}
+
+}  // namespace
+
+std::string seconds(Duration duration) {
+  std::array<char, 48> text{};
+  std::snprintf(text.data(), text.size(), "%.3f s", to_s(duration));
+  return text.data();
+}
+std::string seconds(Time time) { return seconds(time.time_since_epoch()); }
+
+Problems check_frames(const Record& record) {
+  Problems problems;
+  std::size_t number = 0;
+  for (const auto& line : record.can) {
+    ++number;
+    const auto why = line.bus == "can0" ? forbidden(line.frame) : "no bus of this robot";
+    if (!why.empty()) add(problems, "can.log:" + std::to_string(number) + ": " + why);
+  }
+  if (record.sent.empty()) add(problems, "no set point was ever sent");
+  return problems;
+}
+
+Problems check_motion(const Record& record) {
+  Problems problems;
+  const auto list = tasks(record);
+  for (const auto& one : record.moving())
+    if (!inside(list, one.time))
+      add(problems, seconds(one.time) + ": node " + std::to_string(one.wheel.node) +
+                        " is told to move outside of any task");
+  for (const auto& one : record.feedback) {
+    if (one.cmd != "start_nav_success") continue;
+    Time begin = kNever;
+    for (const auto& task : list)
+      if (task.begin <= one.time) begin = task.begin;
+    const auto moved = record.moving(begin, Time::max());
+    if (moved.empty() || moved.front().time > one.time + kAnnounced ||
+        moved.front().time < one.time - kAnnounced)
+      add(problems, seconds(one.time) + ": start_nav_success, but the first motion was " +
+                        (moved.empty() ? "never" : "at " + seconds(moved.front().time)));
+  }
+  return problems;
+}
+
+Problems check_truth(const Record& record, double bound_m) {
+  Problems problems;
+  std::size_t looked = 0;
+  auto sent = record.sent.begin();
+  bool moves = false;
+  for (const auto& status : record.statuses) {
+    for (; sent != record.sent.end() && sent->time <= status.time; ++sent)
+      if (sent->wheel.node == kFirstNode) moves = sent->wheel.moves();
+    if (!moves || status.time >= record.truth.back().time) continue;
+    ++looked;
+    const auto truth = record.truth_at(status.time);
+    const double error_m = distance_m({truth.x_m, truth.y_m}, status.sim);
+    if (!(error_m <= bound_m))
+      add(problems, seconds(status.time) + ": it moves and is " + std::to_string(error_m) +
+                        " m from where it believes to be");
+  }
+  if (looked == 0) add(problems, "it never moved");
+  return problems;
+}
+
+DriveFigures drive_figures(const Record& record, Time begin, Time end) {
+  DriveFigures figures;
+  Beside beside(record.track);
+  const TruthLine* last = nullptr;
+  double square_sum = 0;
+  for (const auto& line : record.truth) {
+    if (line.time < begin || line.time > end) continue;
+    const Place at{line.x_m, line.y_m};
+    const double off_m = beside.distance_m(at);
+    const double way_m = last == nullptr ? 0 : distance_m(at, {last->x_m, last->y_m});
+    figures.max_m = std::max(figures.max_m, off_m);
+    figures.distance_m += way_m;
+    square_sum += way_m * off_m * off_m;
+    last = &line;
+  }
+  figures.rms_m = std::sqrt(square_sum / figures.distance_m);  // not a number: it never moved
+  const Place at{record.truth.back().x_m, record.truth.back().y_m};
+  figures.goal_m = record.target_id >= 1 && record.target_id <= record.track.size()
+                       ? distance_m(at, record.track[record.target_id - 1])
+                       : NAN;
+  return figures;
+}
+
+}  // namespace drover::mission

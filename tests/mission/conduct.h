@@ -1,0 +1,50 @@
+// What every mission must keep, whatever happens in it. Each check returns what is wrong, in words;
+// nothing means that all is well.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mission/record.h"
+
+namespace drover::mission {
+
+using Problems = std::vector<std::string>;
+
+/// Every frame on the bus is a drive's, or on the list of what may be sent to a wheel.
+Problems check_frames(const Record& record);
+/// base_status: the document's keys and no others but bms.valid, nav.owner, nav.why; the
+/// document's types; values that the document knows; not retained. feedback: the same.
+Problems check_form(const Record& record);
+/// base_status: 10.0 Hz to 0.1 while gateway and broker run; back within 2 s of their start.
+Problems check_rate(const Record& record);
+/// Set points with motion only between an accepted start_task and the end of that task; navigation
+/// is announced when the first of them goes out.
+Problems check_motion(const Record& record);
+/// pose and rtk of one message are of one instant, and angle and yaw are one heading.
+Problems check_pose(const Record& record);
+/// While it moves, what the robot believes is within `bound_m` of the truth.
+Problems check_truth(const Record& record, double bound_m);
+
+/// Between `begin` and `end`.
+struct Interval {
+  Time begin = kNever;
+  Time end = kNever;
+};
+/// When gateway and broker both ran, from the record of what was started and stopped.
+std::vector<Interval> alive(const Record& record);
+
+/// How the true motion kept to the track, from the n-th start_nav_success to the n-th `last` word.
+struct DriveFigures {
+  double distance_m = 0;
+  double rms_m = 0;  ///< beside the track, each sample weighed by the way since the last
+  double max_m = 0;
+  double goal_m = 0;  ///< from the target point, at the end of the record
+};
+DriveFigures drive_figures(const Record& record, Time begin, Time end);
+
+/// Seconds with three digits, for messages.
+std::string seconds(Time time);
+std::string seconds(Duration duration);
+
+}  // namespace drover::mission

@@ -1,0 +1,51 @@
+// What holds in every mission.
+#include <gmock/gmock.h>
+
+#include "mission/conduct.h"
+
+namespace drover::mission {
+namespace {
+
+using namespace std::chrono_literals;
+using testing::IsEmpty;
+
+// The configured bound on the predicted error while driving (estimate.bound_run_m, default).
+constexpr double kBoundRun_m = 0.30;
+
+class EveryMission : public testing::TestWithParam<const char*> {
+ protected:
+  const Record& log() const { return record(GetParam()); }
+};
+
+TEST_P(EveryMission, SendsNoFrameThatIsNotOnTheList) { EXPECT_THAT(check_frames(log()), IsEmpty()); }
+
+TEST_P(EveryMission, MovesNothingOutsideOfATask) { EXPECT_THAT(check_motion(log()), IsEmpty()); }
+
+TEST_P(EveryMission, NeverMovesFartherFromTheTruthThanTheBound) {
+  EXPECT_THAT(check_truth(log(), kBoundRun_m), IsEmpty());
+}
+
+TEST_P(EveryMission, TellsItsStatusInTheDocumentsWords) {
+  EXPECT_THAT(check_form(log()), IsEmpty());
+}
+
+TEST_P(EveryMission, TellsItsStatusTenTimesASecond) { EXPECT_THAT(check_rate(log()), IsEmpty()); }
+
+TEST_P(EveryMission, TellsPoseAndPositionOfOneInstant) {
+  EXPECT_THAT(check_pose(log()), IsEmpty());
+}
+
+TEST_P(EveryMission, IsAtRestAtItsEnd) {
+  const Time end = log().event("the end");
+  EXPECT_THAT(log().moving(end - 100ms, Time::max()), IsEmpty());
+  EXPECT_NEAR(log().truth.back().vx_mps, 0.0, 0.01);
+}
+
+INSTANTIATE_TEST_SUITE_P(Each, EveryMission,
+                         testing::Values("straight_and_uturn", "figure8", "gnss_outage",
+                                         "fix_float_fix", "estop", "obstacle", "broker_restart",
+                                         "kill_on_ramp", "hang", "long"),
+                         [](const auto& one) { return std::string(one.param); });
+
+}  // namespace
+}  // namespace drover::mission

@@ -1,0 +1,193 @@
+// Reading is strict: a log that is missing, empty or cut short is an error, never less to check.
+#include "mission/record.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <functional>
+#include <map>
+#include <stdexcept>
+
+namespace drover::mission {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+void each_line(const fs::path& file, const std::function<void(std::string_view)>& take) {
+  std::ifstream stream(file);
+  if (!stream) throw std::runtime_error(file.string() + ": is missing");
+  std::string line;
+  std::size_t number = 0;
+  while (std::getline(stream, line)) {
+    ++number;
+    try {
+      if (stream.eof()) throw std::runtime_error("cut short");
+      take(line);
+    } catch (const std::exception& error) {
+      throw std::runtime_error(file.string() + ":" + std::to_string(number) + ": " + error.what());
+    }
+  }
+  if (number == 0) throw std::runtime_error(file.string() + ": is empty");
+}
+
+template <typename Line>
+void append(std::vector<Line>& lines, Line line) {
+  if (!lines.empty() && line.time < lines.back().time) throw std::runtime_error("time goes back");
+  lines.push_back(std::move(line));
+}
+
+Status read_status(const MqttLine& line, const Earth& earth) {
+  Status status;
+  status.time = line.time;
+  status.document = json::parse(line.payload);
+  const auto& nav = status.document.at("nav");
+  const auto& pose = status.document.at("pose");
+  const auto& rtk = status.document.at("rtk");
+  status.nav = nav.at("status").get<std::string>();
+  status.locate = nav.at("locate").get<std::string>();
+  status.obstacle = nav.at("obstacle").get<bool>();
+  for (const auto& reason : nav.value("why", json::array()))
+    status.why += (status.why.empty() ? "" : "; ") + reason.get<std::string>();
+  status.map = {pose.at("x").get<double>(), pose.at("y").get<double>()};
+  status.sim = earth.base(rtk.at("latitude").get<double>(), rtk.at("longitude").get<double>(),
+                          pose.at("yaw").get<double>());
+  return status;
+}
+
+void read_control(const std::string& payload, const Earth& earth, Record& record) {
+  const auto message = json::parse(payload, nullptr, false);
+  if (!message.is_object()) return;  // a scenario may send nonsense
+  const auto cmd = message.value("cmd", "");
+  if (cmd == "save_trajectory") record.track = read_track(message, earth);
+  if (cmd == "start_task") record.target_id = message.at("id").get<std::size_t>();
+}
+
+void read_mqtt(MqttLine line, const Earth& earth, Record& record) {
+  if (line.topic == "base_status") record.statuses.push_back(read_status(line, earth));
+  if (line.topic == "feedback") {
+    const auto message = json::parse(line.payload);
+    record.feedback.push_back(
+        {line.time, message.at("cmd").get<std::string>(), message.value("reason", "")});
+  }
+  if (line.topic == "mqtt_control") read_control(line.payload, earth, record);
+  append(record.mqtt, std::move(line));
+}
+
+json read_json(const fs::path& file) {
+  std::ifstream stream(file);
+  if (!stream) throw std::runtime_error(file.string() + ": is missing");
+  return json::parse(stream, nullptr, true, true);
+}
+
+[[noreturn]] void missing(const Record& record, const std::string& what) {
+  throw std::runtime_error(record.folder.string() + ": " + what);
+}
+
+}  // namespace
+
+Record read_record(const fs::path& folder, const json& scenario) {
+  Record record;
+  record.folder = folder;
+  const Earth earth(scenario);
+  each_line(folder / "can.log", [&](std::string_view line) {
+    auto parsed = parse_can_line(line);
+    if (const auto wheel = wheel_command(parsed.frame))
+      record.sent.push_back({parsed.time, *wheel});
+    append(record.can, std::move(parsed));
+  });
+  each_line(folder / "mqtt.log",
+            [&](std::string_view line) { read_mqtt(parse_mqtt_line(line), earth, record); });
+  each_line(folder / "events.log",
+            [&](std::string_view line) { append(record.events, parse_event_line(line)); });
+  std::optional<TruthColumns> columns;
+  each_line(folder / "truth.csv", [&](std::string_view line) {
+    if (columns)
+      append(record.truth, columns->parse(line));
+    else
+      columns.emplace(line);
+  });
+  if (record.truth.size() < 2) missing(record, "no true motion");
+  return record;
+}
+
+json read_scenario(const std::string& name) {
+  const fs::path file = fs::path(DROVER_SOURCE_DIR) / "sim/scenarios" / (name + ".json");
+  auto scenario = read_json(file);
+  if (!scenario.contains("robot")) return scenario;
+  auto whole = read_json(file.parent_path() / scenario.at("robot").get<std::string>());
+  whole.merge_patch(scenario);
+  return whole;
+}
+
+fs::path logs_folder() {
+  const char* folder = std::getenv("DROVER_MISSION_LOGS");
+  if (folder == nullptr) throw std::runtime_error("DROVER_MISSION_LOGS is not set");
+  return folder;
+}
+
+const Record& record(const std::string& name) {
+  static std::map<std::string, Record> records;
+  const auto at = records.find(name);
+  if (at != records.end()) return at->second;
+  return records[name] = read_record(logs_folder() / name, read_scenario(name));
+}
+
+std::vector<Time> Record::all(const std::string& text) const {
+  std::vector<Time> times;
+  for (const auto& event : events)
+    if (event.text == text) times.push_back(event.time);
+  return times;
+}
+
+Time Record::event(const std::string& text, std::size_t n) const {
+  const auto times = all(text);
+  if (times.size() < n) missing(*this, "no event '" + text + "' number " + std::to_string(n));
+  return times[n - 1];
+}
+
+Time Record::answered(const std::string& cmd, std::size_t n) const {
+  for (const auto& one : feedback)
+    if (one.cmd == cmd && --n == 0) return one.time;
+  missing(*this, "no feedback " + cmd);
+}
+
+std::vector<std::string> Record::feedback_words() const {
+  std::vector<std::string> words;
+  for (const auto& one : feedback) words.push_back(one.cmd);
+  return words;
+}
+
+TruthLine Record::truth_at(Time time) const {
+  const auto after = std::upper_bound(truth.begin(), truth.end(), time,
+                                      [](Time t, const TruthLine& line) { return t < line.time; });
+  if (after == truth.begin() || after == truth.end()) missing(*this, "no true motion then");
+  const TruthLine& a = *(after - 1);
+  const TruthLine& b = *after;
+  const double share = to_s(time - a.time) / to_s(b.time - a.time);
+  const auto mix = [share](double from, double to) { return from + share * (to - from); };
+  const double turn_rad = std::remainder(b.yaw_rad - a.yaw_rad, 2 * M_PI);
+  return {time,
+          mix(a.x_m, b.x_m),
+          mix(a.y_m, b.y_m),
+          mix(a.z_m, b.z_m),
+          a.yaw_rad + share * turn_rad,
+          mix(a.vx_mps, b.vx_mps),
+          mix(a.free_ahead_m, b.free_ahead_m)};
+}
+
+std::vector<Sent> Record::moving(Time begin, Time end) const {
+  std::vector<Sent> found;
+  for (const auto& one : sent)
+    if (one.time >= begin && one.time <= end && one.wheel.moves()) found.push_back(one);
+  return found;
+}
+
+const Status& Record::first_status(const std::string& word, Time begin) const {
+  for (const auto& status : statuses)
+    if (status.time >= begin && (status.nav == word || status.locate == word)) return status;
+  missing(*this, "no status " + word);
+}
+
+}  // namespace drover::mission

@@ -1,0 +1,78 @@
+// One mission as its logs tell it: frames, messages, the operator's doings, and the true motion.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mission/log_lines.h"
+#include "mission/track.h"
+#include "mission/wire.h"
+
+namespace drover::mission {
+
+/// One base_status message.
+struct Status {
+  Time time = kNever;
+  nlohmann::json document;
+  std::string nav;
+  std::string locate;
+  bool obstacle = false;
+  std::string why;  ///< all reasons, "; " between them
+  Place map;        ///< pose.x, pose.y
+  Place sim;        ///< of base_link in the simulator's frame, from rtk and pose.yaw
+};
+
+struct Feedback {
+  Time time = kNever;
+  std::string cmd;
+  std::string reason;
+};
+
+struct Sent {
+  Time time = kNever;
+  WheelCommand wheel;
+};
+
+struct Record {
+  std::filesystem::path folder;
+  std::vector<CanLine> can;
+  std::vector<MqttLine> mqtt;
+  std::vector<EventLine> events;
+  std::vector<TruthLine> truth;
+  // What the lines above mean:
+  std::vector<Status> statuses;
+  std::vector<Feedback> feedback;
+  std::vector<Sent> sent;     ///< every Set_Input_Vel on the bus, whoever sent it
+  std::vector<Place> track;   ///< of the last save_trajectory, in the simulator's frame
+  std::size_t target_id = 0;  ///< of the last start_task, from 1
+
+  /// When the n-th event of this text happened. Throws std::runtime_error when it did not.
+  Time event(const std::string& text, std::size_t n = 1) const;
+  std::vector<Time> all(const std::string& text) const;
+  /// When the n-th feedback of this kind came. Throws.
+  Time answered(const std::string& cmd, std::size_t n = 1) const;
+  std::vector<std::string> feedback_words() const;
+  /// Interpolated between two lines; throws outside of them.
+  TruthLine truth_at(Time time) const;
+  /// Commands with motion from `begin` to `end`, both included.
+  std::vector<Sent> moving(Time begin, Time end) const;
+  std::vector<Sent> moving() const { return moving(kNever, Time::max()); }
+  /// The first status from `begin` on with this nav.status or locate. Throws.
+  const Status& first_status(const std::string& word, Time begin = kNever) const;
+};
+
+/// Reads can.log, mqtt.log, events.log and truth.csv. Throws std::runtime_error with file and line.
+Record read_record(const std::filesystem::path& folder, const nlohmann::json& scenario);
+
+/// The scenario's file and below it the robot it names. Throws std::runtime_error.
+nlohmann::json read_scenario(const std::string& name);
+
+/// The record of a scenario, from $DROVER_MISSION_LOGS/NAME; read once. Throws when there is none.
+const Record& record(const std::string& name);
+/// $DROVER_MISSION_LOGS. Throws when it is not set.
+std::filesystem::path logs_folder();
+
+}  // namespace drover::mission

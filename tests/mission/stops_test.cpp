@@ -1,0 +1,194 @@
+// Missions that are ended by force: nothing moves until a person starts again.
+#include "mission/support.h"
+
+namespace drover::mission {
+namespace {
+
+constexpr Duration kEstop = 20ms;
+constexpr Duration kGuard = 100ms;
+
+/// The next accepted start after `time`, as its answer came; the end of time when there is none.
+Time next_start(const Record& log, Time time) {
+  for (const auto& one : log.feedback)
+    if (one.time > time && one.cmd == "start_task_success") return one.time;
+  return Time::max();
+}
+
+/// Between `begin` and the next start nothing moves; the operator's own message comes a little
+/// before its answer.
+void expect_rest_until_started(const Record& log, Time begin) {
+  const Time start = next_start(log, begin);
+  EXPECT_THAT(log.moving(begin, start == Time::max() ? start : start - kEstop),
+              testing::IsEmpty());
+}
+
+bool moved_until(const Record& log, Time time) {
+  return !log.moving(time - 100ms, time).empty();
+}
+
+TEST(Estop, StopsEveryWheelCommandWithin20Milliseconds) {
+  const Record& log = record("estop");
+  const Time pressed = log.event("sim estop press");
+  ASSERT_TRUE(moved_until(log, pressed)) << "it did not drive when the button was pressed";
+  const auto last = log.moving(pressed, pressed + 2s);
+  std::printf("  last motion %s after the button\n",
+              last.empty() ? "not" : seconds(last.back().time - pressed).c_str());
+  EXPECT_THAT(log.moving(pressed + kEstop, pressed + 2s), testing::IsEmpty());
+  for (std::uint8_t node = kFirstNode; node <= kLastNode; ++node) {
+    std::size_t zeros = 0;
+    for (const auto& one : log.sent)
+      if (one.wheel.node == node && one.time > pressed && one.time <= pressed + kEstop &&
+          !one.wheel.moves())
+        ++zeros;
+    EXPECT_GT(zeros, 0U) << "node " << int{node} << " was not told to stop";
+  }
+}
+
+TEST(Estop, EndsTheTaskAndStaysSoUntilANewStart) {
+  const Record& log = record("estop");
+  const Time pressed = log.event("sim estop press");
+  expect_rest_until_started(log, pressed + kEstop);
+  const auto& error = log.first_status("NAV_ERROR", pressed);
+  EXPECT_LT(error.time - pressed, 200ms);
+  EXPECT_NE(error.why.find("e-stop"), std::string::npos) << error.why;
+  EXPECT_EQ(error.document.at("robot").at("robot_status").get<int>() & 1, 1);
+  const Time start = next_start(log, pressed);
+  ASSERT_NE(start, Time::max()) << "the scenario starts no second task";
+  expect_nav_stays(log, "NAV_ERROR", error.time, start - 150ms);
+}
+
+TEST(Estop, LetsANewStartReachTheGoalAfterItsRelease) {
+  const Record& log = record("estop");
+  const Time released = log.event("sim estop release");
+  EXPECT_GT(next_start(log, log.event("sim estop press")), released)
+      << "started while the button was pressed";
+  EXPECT_EQ(log.feedback.back().cmd, "start_nav_success");
+  EXPECT_EQ(log.statuses.back().nav, "NAV_SUCCESS");
+  const auto& success = log.first_status("NAV_SUCCESS", released);
+  EXPECT_LT(drive_figures(log, released, success.time).goal_m, 0.10);
+}
+
+TEST(BrokerRestart, LeavesNoGapOnTheBus) {
+  const Record& log = record("broker_restart");
+  const Time killed = log.event("signal 9 to mosquitto");
+  const Time back = log.event("start mosquitto", 2);
+  ASSERT_GT(back, killed);
+  Time last = kNever;
+  std::size_t looked = 0;
+  for (const auto& one : log.sent) {
+    if (one.wheel.node != kFirstNode) continue;
+    if (last > killed && one.time < back + 5s) {
+      ++looked;
+      EXPECT_LE(one.time - last, 20ms) << "at " << seconds(one.time);
+      EXPECT_TRUE(one.wheel.moves()) << "it stopped at " << seconds(one.time);
+    }
+    last = one.time;
+  }
+  EXPECT_GT(looked, 100U);
+}
+
+TEST(BrokerRestart, BringsTheStatusBackAndReplaysNothing) {
+  const Record& log = record("broker_restart");
+  const Time back = log.event("start mosquitto", 2);
+  EXPECT_LE(log.first_status("NAV_RUN", back).time - back, 2s);
+  for (const auto& line : log.mqtt)
+    if (line.time > back) {
+      EXPECT_NE(line.topic, "mqtt_control") << line.payload;
+    }
+}
+
+TEST(BrokerRestart, ReachesTheGoal) {
+  const Record& log = record("broker_restart");
+  EXPECT_EQ(log.feedback_words(), kStarted);
+  expect_good_drive(log);
+}
+
+/// After the gateway died or hung: the guard's zeros for every wheel, for as long as `end`.
+void expect_guard(const Record& log, Time gone, Time end) {
+  ASSERT_TRUE(moved_until(log, gone)) << "it did not drive when the gateway went";
+  const auto last = log.moving(gone, end);
+  std::printf("  last motion %s after it\n",
+              last.empty() ? "none" : seconds(last.back().time - gone).c_str());
+  EXPECT_THAT(log.moving(gone + kGuard, end), testing::IsEmpty());
+  for (std::uint8_t node = kFirstNode; node <= kLastNode; ++node) {
+    Time before = gone;
+    std::size_t zeros = 0;
+    for (const auto& one : log.sent) {
+      if (one.wheel.node != node || one.wheel.moves() || one.time <= gone || one.time > end)
+        continue;
+      if (zeros == 0) std::printf("  node %d: first zero %s after it\n", int{node},
+                                  seconds(one.time - gone).c_str());
+      // The first within the promise, then one each 10 ms.
+      EXPECT_LE(one.time - before, zeros == 0 ? kGuard : 15ms) << "at " << seconds(one.time);
+      before = one.time;
+      ++zeros;
+    }
+    EXPECT_GT(zeros, 0U) << "node " << int{node};
+    EXPECT_LE(end - before, 15ms) << "the guard gave up";
+  }
+}
+
+TEST(KillOnRamp, IsStoppedByTheGuardWithin100Milliseconds) {
+  const Record& log = record("kill_on_ramp");
+  expect_guard(log, log.event("signal 9 to droverd"), log.event("start droverd", 2));
+}
+
+TEST(KillOnRamp, HoldsTheRobotOnTheSlope) {
+  const Record& log = record("kill_on_ramp");
+  const Time killed = log.event("signal 9 to droverd");
+  const Time back = log.event("start droverd", 2);
+  // Along the slope, against the way it drove. It still rolls ahead when the kill comes, so from
+  // the farthest point on.
+  const auto at_kill = log.truth_at(killed);
+  ASSERT_GT(log.truth_at(killed).z_m - log.truth.front().z_m, 0.1) << "it is not on the ramp";
+  double ahead_m = 0;
+  double back_m = 0;
+  for (const auto& line : log.truth) {
+    if (line.time < killed || line.time > back) continue;
+    const double along_m = (line.x_m - at_kill.x_m) * std::cos(at_kill.yaw_rad) +
+                           (line.y_m - at_kill.y_m) * std::sin(at_kill.yaw_rad);
+    const double way_m = std::copysign(std::hypot(along_m, line.z_m - at_kill.z_m), along_m);
+    ahead_m = std::max(ahead_m, way_m);
+    back_m = std::max(back_m, ahead_m - way_m);
+  }
+  std::printf("  rolled on %.3f m, then back %.3f m\n", ahead_m, back_m);
+  EXPECT_LE(back_m, 0.05);
+  EXPECT_LE(ahead_m, 0.30);
+}
+
+TEST(KillOnRamp, TellsTheTruthAfterTheRestartAndStaysStopped) {
+  const Record& log = record("kill_on_ramp");
+  const Time back = log.event("start droverd", 2);
+  const auto first = std::find_if(log.statuses.begin(), log.statuses.end(),
+                                  [back](const Status& status) { return status.time > back; });
+  ASSERT_NE(first, log.statuses.end());
+  EXPECT_LE(first->time - back, 1s);
+  const Time start = next_start(log, back);
+  const Time until = start == Time::max() ? start : start - 150ms;
+  for (const auto& status : log.statuses) {
+    if (status.time < back || status.time > until) continue;
+    EXPECT_TRUE(status.nav == "NAV_FREE" || status.nav == "NAV_ERROR")
+        << status.nav << " at " << seconds(status.time);
+  }
+  EXPECT_GT(std::min(until, log.event("the end")) - back, 2s) << "too short to prove anything";
+  expect_rest_until_started(log, back);
+}
+
+TEST(Hang, IsStoppedByTheGuardWithin100Milliseconds) {
+  const Record& log = record("hang");
+  expect_guard(log, log.event("signal 19 to droverd"), log.event("signal 18 to droverd"));
+}
+
+TEST(Hang, StaysStoppedAfterTheGatewayWakesAndSaysWhoStoppedIt) {
+  const Record& log = record("hang");
+  const Time woken = log.event("signal 18 to droverd");
+  expect_rest_until_started(log, woken);
+  const auto& error = log.first_status("NAV_ERROR", woken);
+  EXPECT_LE(error.time - woken, 1s);
+  EXPECT_NE(error.why.find("guard"), std::string::npos) << error.why;
+  EXPECT_EQ(log.statuses.back().nav, "NAV_ERROR");
+  EXPECT_GT(log.event("the end") - woken, 2s) << "too short to prove anything";
+}
+
+}  // namespace
+}  // namespace drover::mission

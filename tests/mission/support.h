@@ -1,0 +1,42 @@
+// Words that the tests of several missions share.
+#pragma once
+
+#include <gmock/gmock.h>
+
+#include "mission/conduct.h"
+
+namespace drover::mission {
+
+using namespace std::chrono_literals;
+
+/// The feedback of a task that starts as it should.
+inline const std::vector<std::string> kStarted{"save_trajectory_success", "start_task_success",
+                                               "start_nav_success"};
+
+/// NAV_SUCCESS within 10 cm of the goal, and less than 5 cm beside the track.
+inline void expect_good_drive(const Record& record, std::size_t task = 1) {
+  const Time begin = record.answered("start_nav_success", task);
+  const auto& success = record.first_status("NAV_SUCCESS", begin);
+  const auto figures = drive_figures(record, begin, success.time);
+  std::printf("  %.1f m in %s: cross-track RMS %.3f m, max %.3f m; %.3f m from the goal\n",
+              figures.distance_m, seconds(success.time - begin).c_str(), figures.rms_m,
+              figures.max_m, figures.goal_m);
+  EXPECT_LT(figures.rms_m, 0.05);
+  EXPECT_LT(figures.goal_m, 0.10);
+  EXPECT_GT(figures.distance_m, 5.0);
+  EXPECT_EQ(record.statuses.back().nav, "NAV_SUCCESS");
+}
+
+/// From `begin` on every status says `nav`, and there are some.
+inline void expect_nav_stays(const Record& record, const std::string& nav, Time begin,
+                             Time end = Time::max()) {
+  std::size_t looked = 0;
+  for (const auto& status : record.statuses) {
+    if (status.time < begin || status.time > end) continue;
+    ++looked;
+    EXPECT_EQ(status.nav, nav) << "at " << seconds(status.time);
+  }
+  EXPECT_GT(looked, 0U) << "no status from " << seconds(begin) << " to " << seconds(end);
+}
+
+}  // namespace drover::mission
