@@ -37,13 +37,13 @@ TEST_F(Daemon, RefusesWhatIsNotExactlyACommandAndMovesNothing) {
   const auto start_with = [](const std::string& members) {
     return R"({"cmd_type": "task_control", "cmd": "start_task", )" + members + "}";
   };
-  for (const auto& members : {R"("name": "nobody", "id": 2, "speed": 0.5)",
-                              R"("name": "row", "id": 1.9, "speed": 0.5)",
-                              R"("name": "row", "id": true, "speed": 0.5)",
-                              R"("name": "row", "id": 4294967297, "speed": 0.5)",
-                              R"("name": "row", "id": 0, "speed": 0.5)",
-                              R"("name": "row", "id": 2, "id": 3, "speed": 0.5)",
-                              R"("name": "row", "id": 2, "speed": NaN)"}) {
+  for (const auto& members :
+       {R"("name": "nobody", "id": 2, "speed": 0.5)", R"("name": "row", "id": 1.9, "speed": 0.5)",
+        R"("name": "row", "id": true, "speed": 0.5)",
+        R"("name": "row", "id": 4294967297, "speed": 0.5)",
+        R"("name": "row", "id": 0, "speed": 0.5)",
+        R"("name": "row", "id": 2, "id": 3, "speed": 0.5)",
+        R"("name": "row", "id": 2, "speed": NaN)"}) {
     const auto before = client().heard().size();
     control(start_with(members));
     EXPECT_TRUE(wait_until([&] { return !client().feedback(before).empty(); })) << members;
@@ -82,8 +82,8 @@ TEST_F(Daemon, PicksUpEachPartWhenItAppears) {
   for (const char* name : {"can0", "gnss", "lines"})
     EXPECT_TRUE(wait_until([&] { return link_is_up(name); })) << name;
   ASSERT_NO_FATAL_FAILURE(start_guard());
-  EXPECT_TRUE(wait_until(
-      [this] { return daemon().output().find("guard watches") != std::string::npos; }));
+  EXPECT_TRUE(
+      wait_until([this] { return daemon().output().find("guard watches") != std::string::npos; }));
   ASSERT_NO_FATAL_FAILURE(start_broker());
   EXPECT_TRUE(wait_for_locate());
   ASSERT_NO_FATAL_FAILURE(drive(1));
@@ -128,8 +128,9 @@ TEST_F(Daemon, StaysWhereItIsAfterAnEmergencyStopUntilANewStart) {
   EXPECT_TRUE(wait_for_feedback("start_nav_success", before));
   stop_daemon();
   for (const auto& point : set_points_on_the_bus())
-    if (point.time_s > released_s && point.time_s < end_s)
+    if (point.time_s > released_s && point.time_s < end_s) {
       ASSERT_EQ(point.velocity_turnps, 0) << "node " << point.node << " at " << point.time_s;
+    }
 }
 
 TEST_F(Daemon, LeavesTheWheelsToTheGuardWhenItIsKilled) {
@@ -156,8 +157,7 @@ TEST_F(Daemon, LeavesTheWheelsToTheGuardWhenItIsKilled) {
   for (const auto& point : set_points_on_the_bus()) {
     if (point.time_s < killed_s + kGrace_s) continue;
     ASSERT_EQ(point.velocity_turnps, 0) << "node " << point.node << " at " << point.time_s;
-    if (point.time_s < restarted_s && point.node < guard_frames.size())
-      ++guard_frames[point.node];
+    if (point.time_s < restarted_s && point.node < guard_frames.size()) ++guard_frames[point.node];
   }
   for (std::size_t node = 1; node < guard_frames.size(); ++node)
     EXPECT_GT(guard_frames[node], 3) << "set points while no daemon lived, node " << node;
@@ -195,8 +195,9 @@ TEST_F(Daemon, ComesToRestBeforeItEnds) {
   bool slowed = false;
   for (const auto& point : set_points_on_the_bus()) {
     slowed = slowed || (point.time_s > asked_s && point.velocity_turnps != 0);
-    if (point.time_s > ended_s)
+    if (point.time_s > ended_s) {
       ASSERT_EQ(point.velocity_turnps, 0) << "node " << point.node << " at " << point.time_s;
+    }
   }
   EXPECT_TRUE(slowed) << "it ramps down, as after a cancel";
 }

@@ -9,13 +9,13 @@ namespace drover::test {
 OperatorClient::OperatorClient() {
   ::mosquitto_lib_init();
   client_ = ::mosquitto_new("operator", true, this);
-  ::mosquitto_message_callback_set(
-      client_, [](mosquitto*, void* self, const mosquitto_message* message) {
-        static_cast<OperatorClient*>(self)->heard_.push_back(
-            {message->topic,
-             {static_cast<const char*>(message->payload),
-              static_cast<std::size_t>(message->payloadlen)}});
-      });
+  ::mosquitto_message_callback_set(client_,
+                                   [](mosquitto*, void* self, const mosquitto_message* message) {
+                                     static_cast<OperatorClient*>(self)->heard_.push_back(
+                                         {message->topic,
+                                          {static_cast<const char*>(message->payload),
+                                           static_cast<std::size_t>(message->payloadlen)}});
+                                   });
   ::mosquitto_subscribe_callback_set(client_, [](mosquitto*, void* self, int, int, const int*) {
     static_cast<OperatorClient*>(self)->subscribed_ = true;
   });

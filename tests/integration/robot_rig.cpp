@@ -7,14 +7,9 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cmath>
-#include <cstring>
 #include <fstream>
-#include <limits>
+#include <iterator>
 #include <stdexcept>
-
-#include "config/json_text.h"
-#include "config/located_json.h"
 
 namespace drover::test {
 
@@ -115,19 +110,13 @@ RobotRig::~RobotRig() {
     sim_.signal(SIGTERM);
     EXPECT_EQ(sim_.wait(deadline()), 0) << sim_.output();
   }
-  for (const auto* process : {&daemon_, &sim_, &guard_}) expect_no_sanitizer_report(*process);
-  if (HasFailure()) {
-    for (const char* name : {"droverd.log", "guard.log", "sim.log", "broker.log"})
-      std::fprintf(stderr, "---- %s\n%s\n", name, [&] {
-        std::string text((std::istreambuf_iterator<char>(
-                             *std::make_unique<std::ifstream>(folder_ / name))),
-                         {});
-        return text;
-      }().c_str());
-    for (const auto& heard : client_.heard())
-      if (heard.topic == "feedback") std::fprintf(stderr, "feedback %s\n", heard.text.c_str());
-    std::fprintf(stderr, "last base_status: %s\n", client_.last("base_status").c_str());
-  }
+  bool clean = true;
+  for (const auto* process : {&daemon_, &sim_, &guard_})
+    clean = expect_no_sanitizer_report(*process) && clean;
+  if (HasFailure()) tell_what_happened();
+  if (HasFailure() && clean && starvation_.starved())
+    std::fprintf(stderr, "machine-starved: a sleeping thread woke %.1f s too late\n",
+                 starvation_.longest_s());
   // Destructors of the processes run later: end them before their folder goes.
   for (auto* process : {&daemon_, &guard_, &sim_, &broker_}) {
     process->signal(SIGKILL);
@@ -147,11 +136,26 @@ void RobotRig::write_files() {
       << "listener " << port_ << " 127.0.0.1\nallow_anonymous true\npersistence false\n";
 }
 
-void RobotRig::expect_no_sanitizer_report(const Process& process) const {
+bool RobotRig::expect_no_sanitizer_report(const Process& process) const {
   const auto text = process.output();
   for (const char* word : {"AddressSanitizer", "LeakSanitizer", "ThreadSanitizer",
-                           "runtime error:", "terminate called"})
-    EXPECT_EQ(text.find(word), std::string::npos) << text;
+                           "runtime error:", "terminate called"}) {
+    if (text.find(word) == std::string::npos) continue;
+    ADD_FAILURE() << text;
+    return false;
+  }
+  return true;
+}
+
+void RobotRig::tell_what_happened() const {
+  for (const char* name : {"droverd.log", "guard.log", "sim.log", "broker.log"}) {
+    std::ifstream file(folder_ / name);
+    const std::string text((std::istreambuf_iterator<char>(file)), {});
+    std::fprintf(stderr, "---- %s\n%s\n", name, text.c_str());
+  }
+  for (const auto& heard : client_.heard())
+    if (heard.topic == "feedback") std::fprintf(stderr, "feedback %s\n", heard.text.c_str());
+  std::fprintf(stderr, "last base_status: %s\n", client_.last("base_status").c_str());
 }
 
 void RobotRig::start_broker() {
@@ -169,8 +173,7 @@ void RobotRig::start_sim() {
 
 void RobotRig::start_guard() {
   guard_ = Process({DROVER_GUARD_PROGRAM, "--socket", log("guard.sock")}, log("guard.log"));
-  ASSERT_TRUE(wait_until([this] { return fs::exists(folder_ / "guard.sock"); }))
-      << guard_.output();
+  ASSERT_TRUE(wait_until([this] { return fs::exists(folder_ / "guard.sock"); })) << guard_.output();
 }
 
 void RobotRig::start_daemon() {
@@ -216,47 +219,6 @@ bool RobotRig::wait_for_locate() {
   return wait_until([&] { return status_text("nav", "locate") == "LOCATE_TRUE"; });
 }
 
-void RobotRig::control(std::string_view text, bool retained) {
-  client_.publish("mqtt_control", text, retained);
-}
-
-void RobotRig::save_track(const std::string& name, double length_m) {
-  constexpr double kMetresPerDegree = 111'320;
-  const double x_m = status_number("pose", "x");
-  const double y_m = status_number("pose", "y");
-  const double latitude_deg = status_number("rtk", "latitude");
-  const double longitude_deg = status_number("rtk", "longitude");
-  json::JsonText text;
-  text.open('{').key("cmd_type").text("trajectory_control").key("cmd").text("save_trajectory");
-  text.key("data").open('{').key("name").text(name).key("data").open('[');
-  for (double s_m = 0; s_m < length_m + 0.01; s_m += 0.5) {
-    text.open('{').key("angle").number(90).key("latitude").number(latitude_deg);
-    text.key("longitude")
-        .number(longitude_deg +
-                s_m / kMetresPerDegree / std::cos(latitude_deg * std::acos(-1.0) / 180));
-    text.key("x").number(x_m + s_m).key("y").number(y_m).key("yaw").number(0).close('}');
-  }
-  text.close(']').close('}').close('}');
-  const auto before = client_.heard().size();
-  control(text.str());
-  ASSERT_TRUE(wait_for_feedback("save_trajectory_success", before));
-}
-
-void RobotRig::start_task(const std::string& name, int id, double speed_mps) {
-  json::JsonText text;
-  text.open('{').key("cmd_type").text("task_control").key("cmd").text("start_task");
-  text.key("name").text(name).key("id").integer(id).key("speed").number(speed_mps).close('}');
-  control(text.str());
-}
-
-void RobotRig::drive(double length_m) {
-  ASSERT_NO_FATAL_FAILURE(save_track("row", length_m));
-  const auto before = client_.heard().size();
-  start_task("row", static_cast<int>(length_m / 0.5) + 1);
-  ASSERT_TRUE(wait_for_feedback("start_nav_success", before));
-  ASSERT_TRUE(wait_until([&] { return true_speed_mps() > 0.1; }));
-}
-
 CommandResult RobotRig::run(const std::vector<std::string>& words) {
   const auto file = log(("command" + std::to_string(++commands_) + ".log").c_str());
   Process process(words, file);
@@ -277,54 +239,6 @@ CommandResult RobotRig::droverd(std::vector<std::string> words) {
 std::string RobotRig::sim(std::vector<std::string> words) {
   words.insert(words.begin(), {DROVER_SIM_PROGRAM, "ctl", "--run-dir", log("sim")});
   return run(words).text;
-}
-
-std::string RobotRig::status_text(std::string_view section, std::string_view key) const {
-  const auto document = json::parse(client_.last("base_status"));
-  const auto* part = document ? document->root.find(section) : nullptr;
-  const auto* value = part != nullptr ? part->find(key) : nullptr;
-  if (value == nullptr) return {};
-  if (const auto* text = value->text()) return *text;
-  if (const auto* flag = value->boolean()) return *flag ? "true" : "false";
-  return {};
-}
-
-double RobotRig::status_number(std::string_view section, std::string_view key) const {
-  const auto document = json::parse(client_.last("base_status"));
-  const auto* part = document ? document->root.find(section) : nullptr;
-  const auto* value = part != nullptr ? part->find(key) : nullptr;
-  const auto number = value != nullptr ? value->number() : std::nullopt;
-  return number.value_or(std::numeric_limits<double>::quiet_NaN());
-}
-
-double RobotRig::true_speed_mps() {
-  const auto truth = json::parse(sim({"truth"}));
-  const auto* vx = truth ? truth->root.find("vx_mps") : nullptr;
-  EXPECT_NE(vx, nullptr) << sim_.output();
-  return vx != nullptr ? std::abs(vx->number().value_or(99)) : 99;
-}
-
-std::vector<SetPoint> RobotRig::set_points_on_the_bus() {
-  sim_.signal(SIGTERM);
-  EXPECT_EQ(sim_.wait(deadline()), 0) << sim_.output();
-  constexpr unsigned kSetInputVel = 0x0D;  // ODrive CANSimple: node in bits 5 to 10, command below
-  std::vector<SetPoint> points;
-  std::ifstream file(folder_ / "log" / "can.log");
-  std::string line;
-  while (std::getline(file, line)) {
-    SetPoint point;
-    unsigned id = 0;
-    unsigned b[4]{};
-    if (std::sscanf(line.c_str(), "(%lf) can0 %3x#%2x%2x%2x%2x", &point.time_s, &id, &b[0], &b[1],
-                    &b[2], &b[3]) != 6 ||
-        (id & 0x1FU) != kSetInputVel)
-      continue;
-    const std::uint32_t bits = b[0] | b[1] << 8U | b[2] << 16U | b[3] << 24U;
-    std::memcpy(&point.velocity_turnps, &bits, sizeof bits);
-    point.node = id >> 5U;
-    points.push_back(point);
-  }
-  return points;
 }
 
 double RobotRig::now_s() {

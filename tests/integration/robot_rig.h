@@ -2,7 +2,8 @@
 // with CAN frames over a socket, contacts as files and the receiver on a pseudo-terminal.
 //
 // It runs in real time on whatever machine builds it, so nothing here asserts a time; deadlines
-// only end what hangs, and grow with DROVER_DEADLINE_FACTOR.
+// only end what hangs, and grow with DROVER_DEADLINE_FACTOR. A test that fails on a machine that
+// had no time for it says so, and ctest shows it as skipped.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -16,6 +17,7 @@
 
 #include "integration/operator_client.h"
 #include "integration/process.h"
+#include "integration/starvation_watch.h"
 
 namespace drover::test {
 
@@ -82,7 +84,9 @@ class RobotRig : public testing::Test {
   std::string log(const char* name) const { return (folder_ / name).string(); }
   CommandResult run(const std::vector<std::string>& words);
   void write_files();
-  void expect_no_sanitizer_report(const Process& process) const;
+  /// False when there is one.
+  bool expect_no_sanitizer_report(const Process& process) const;
+  void tell_what_happened() const;
 
   std::filesystem::path folder_;
   int port_ = 0;
@@ -92,6 +96,7 @@ class RobotRig : public testing::Test {
   Process guard_;
   Process daemon_;
   OperatorClient client_;
+  StarvationWatch starvation_;
 };
 
 }  // namespace drover::test

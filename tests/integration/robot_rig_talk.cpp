@@ -1,0 +1,105 @@
+// What the rig says to the robot and hears from it: commands, status, the record of the bus.
+#include <signal.h>
+
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <limits>
+
+#include "config/json_text.h"
+#include "config/located_json.h"
+#include "integration/robot_rig.h"
+
+namespace drover::test {
+
+void RobotRig::control(std::string_view text, bool retained) {
+  client_.publish("mqtt_control", text, retained);
+}
+
+void RobotRig::save_track(const std::string& name, double length_m) {
+  constexpr double kMetresPerDegree = 111'320;
+  const double x_m = status_number("pose", "x");
+  const double y_m = status_number("pose", "y");
+  const double latitude_deg = status_number("rtk", "latitude");
+  const double longitude_deg = status_number("rtk", "longitude");
+  json::JsonText text;
+  text.open('{').key("cmd_type").text("trajectory_control").key("cmd").text("save_trajectory");
+  text.key("data").open('{').key("name").text(name).key("data").open('[');
+  for (double s_m = 0; s_m < length_m + 0.01; s_m += 0.5) {
+    text.open('{').key("angle").number(90).key("latitude").number(latitude_deg);
+    text.key("longitude")
+        .number(longitude_deg +
+                s_m / kMetresPerDegree / std::cos(latitude_deg * std::acos(-1.0) / 180));
+    text.key("x").number(x_m + s_m).key("y").number(y_m).key("yaw").number(0).close('}');
+  }
+  text.close(']').close('}').close('}');
+  const auto before = client_.heard().size();
+  control(text.str());
+  ASSERT_TRUE(wait_for_feedback("save_trajectory_success", before));
+}
+
+void RobotRig::start_task(const std::string& name, int id, double speed_mps) {
+  json::JsonText text;
+  text.open('{').key("cmd_type").text("task_control").key("cmd").text("start_task");
+  text.key("name").text(name).key("id").integer(id).key("speed").number(speed_mps).close('}');
+  control(text.str());
+}
+
+void RobotRig::drive(double length_m) {
+  ASSERT_NO_FATAL_FAILURE(save_track("row", length_m));
+  const auto before = client_.heard().size();
+  start_task("row", static_cast<int>(length_m / 0.5) + 1);
+  ASSERT_TRUE(wait_for_feedback("start_nav_success", before));
+  ASSERT_TRUE(wait_until([&] { return true_speed_mps() > 0.1; }));
+}
+
+std::string RobotRig::status_text(std::string_view section, std::string_view key) const {
+  const auto document = json::parse(client_.last("base_status"));
+  const auto* part = document ? document->root.find(section) : nullptr;
+  const auto* value = part != nullptr ? part->find(key) : nullptr;
+  if (value == nullptr) return {};
+  if (const auto* text = value->text()) return *text;
+  if (const auto* flag = value->boolean()) return *flag ? "true" : "false";
+  return {};
+}
+
+double RobotRig::status_number(std::string_view section, std::string_view key) const {
+  const auto document = json::parse(client_.last("base_status"));
+  const auto* part = document ? document->root.find(section) : nullptr;
+  const auto* value = part != nullptr ? part->find(key) : nullptr;
+  const auto number = value != nullptr ? value->number() : std::nullopt;
+  return number.value_or(std::numeric_limits<double>::quiet_NaN());
+}
+
+double RobotRig::true_speed_mps() {
+  const auto truth = json::parse(sim({"truth"}));
+  const auto* vx = truth ? truth->root.find("vx_mps") : nullptr;
+  EXPECT_NE(vx, nullptr) << sim_.output();
+  return vx != nullptr ? std::abs(vx->number().value_or(99)) : 99;
+}
+
+std::vector<SetPoint> RobotRig::set_points_on_the_bus() {
+  sim_.signal(SIGTERM);
+  EXPECT_EQ(sim_.wait(std::chrono::seconds(60)), 0) << sim_.output();
+  constexpr unsigned kSetInputVel = 0x0D;  // ODrive CANSimple: node in bits 5 to 10, command below
+  std::vector<SetPoint> points;
+  std::ifstream file(folder_ / "log" / "can.log");
+  std::string line;
+  while (std::getline(file, line)) {
+    SetPoint point;
+    unsigned id = 0;
+    unsigned b[4]{};
+    if (std::sscanf(line.c_str(), "(%lf) can0 %3x#%2x%2x%2x%2x", &point.time_s, &id, &b[0], &b[1],
+                    &b[2], &b[3]) != 6 ||
+        (id & 0x1FU) != kSetInputVel)
+      continue;
+    const std::uint32_t bits = b[0] | b[1] << 8U | b[2] << 16U | b[3] << 24U;
+    std::memcpy(&point.velocity_turnps, &bits, sizeof bits);
+    point.node = id >> 5U;
+    points.push_back(point);
+  }
+  return points;
+}
+
+}  // namespace drover::test
