@@ -74,7 +74,7 @@ bool inside(const std::vector<Task>& tasks, Time time) {
 
 std::string seconds(Duration duration) {
   std::array<char, 48> text{};
-  std::snprintf(text.data(), text.size(), "%.3f s", to_s(duration));
+  std::snprintf(text.data(), text.size(), "%.6f s", to_s(duration));
   return text.data();
 }
 std::string seconds(Time time) { return seconds(time.time_since_epoch()); }

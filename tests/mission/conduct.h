@@ -34,7 +34,7 @@ struct Interval {
 /// When gateway and broker both ran, from the record of what was started and stopped.
 std::vector<Interval> alive(const Record& record);
 
-/// How the true motion kept to the track, from the n-th start_nav_success to the n-th `last` word.
+/// How the true motion kept to the track from `begin` to `end`.
 struct DriveFigures {
   double distance_m = 0;
   double rms_m = 0;  ///< beside the track, each sample weighed by the way since the last
@@ -43,7 +43,7 @@ struct DriveFigures {
 };
 DriveFigures drive_figures(const Record& record, Time begin, Time end);
 
-/// Seconds with three digits, for messages.
+/// Seconds with six digits, for messages.
 std::string seconds(Time time);
 std::string seconds(Duration duration);
 

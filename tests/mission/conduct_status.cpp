@@ -128,7 +128,9 @@ Problems check_form(const Record& record) {
     const bool ours = line.topic == "base_status" || line.topic == "feedback" ||
                       line.topic == "trajectory_data";
     if (ours && line.retained) add(problems, seconds(line.time) + ": retained " + line.topic);
-    if (!ours && line.topic != "mqtt_control")
+    // Added to the document: whether the gateway is there, as the broker's last will tells it.
+    const bool online = line.topic == "drover/online" && (line.payload == "1" || line.payload == "0");
+    if (!ours && !online && line.topic != "mqtt_control")
       add(problems, seconds(line.time) + ": a topic of no document: " + line.topic);
     if (line.topic != "feedback") continue;
     const auto message = json::parse(line.payload);

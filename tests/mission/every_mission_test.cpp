@@ -1,12 +1,9 @@
 // What holds in every mission.
-#include <gmock/gmock.h>
-
-#include "mission/conduct.h"
+#include "mission/support.h"
 
 namespace drover::mission {
 namespace {
 
-using namespace std::chrono_literals;
 using testing::IsEmpty;
 
 // The configured bound on the predicted error while driving (estimate.bound_run_m, default).

@@ -3,11 +3,20 @@
 
 #include <gmock/gmock.h>
 
+#include <cstdio>
+#include <ostream>
+
 #include "mission/conduct.h"
 
 namespace drover::mission {
 
 using namespace std::chrono_literals;
+
+/// How a test shows a set point that should not be there.
+inline void PrintTo(const Sent& sent, std::ostream* out) {
+  *out << seconds(sent.time) << " node " << int{sent.wheel.node} << " "
+       << sent.wheel.velocity_turnps << " turn/s";
+}
 
 /// The feedback of a task that starts as it should.
 inline const std::vector<std::string> kStarted{"save_trajectory_success", "start_task_success",
