@@ -65,9 +65,8 @@ std::vector<Task> tasks(const Record& record) {
 }
 
 bool inside(const std::vector<Task>& tasks, Time time) {
-  return std::any_of(tasks.begin(), tasks.end(), [time](const Task& task) {
-    return time >= task.begin && time <= task.end;
-  });
+  return std::any_of(tasks.begin(), tasks.end(),
+                     [time](const Task& task) { return time >= task.begin && time <= task.end; });
 }
 
 }  // namespace
@@ -77,7 +76,9 @@ std::string seconds(Duration duration) {
   std::snprintf(text.data(), text.size(), "%.6f s", to_s(duration));
   return text.data();
 }
-std::string seconds(Time time) { return seconds(time.time_since_epoch()); }
+std::string seconds(Time time) {
+  return seconds(time.time_since_epoch());
+}
 
 Problems check_frames(const Record& record) {
   Problems problems;

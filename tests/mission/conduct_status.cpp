@@ -23,10 +23,14 @@ enum class Kind { number, integer, boolean, text, texts };
 
 bool is(const json& value, Kind kind) {
   switch (kind) {
-    case Kind::number: return value.is_number() && std::isfinite(value.get<double>());
-    case Kind::integer: return value.is_number_integer();
-    case Kind::boolean: return value.is_boolean();
-    case Kind::text: return value.is_string();
+    case Kind::number:
+      return value.is_number() && std::isfinite(value.get<double>());
+    case Kind::integer:
+      return value.is_number_integer();
+    case Kind::boolean:
+      return value.is_boolean();
+    case Kind::text:
+      return value.is_string();
     case Kind::texts:
       return value.is_array() && std::all_of(value.begin(), value.end(),
                                              [](const json& one) { return one.is_string(); });
@@ -36,7 +40,8 @@ bool is(const json& value, Kind kind) {
 
 using Keys = std::vector<std::pair<const char*, Kind>>;
 
-// RTK navigation protocol, "状态反馈 base_status"; bms.valid, nav.owner and nav.why are added to it.
+// RTK navigation protocol, "状态反馈 base_status"; bms.valid, nav.owner and nav.why are added to
+// it.
 const std::vector<std::pair<const char*, Keys>> kDocument{
     {"bms",
      {{"current", Kind::number},
@@ -97,8 +102,7 @@ std::string judge_status(const Status& status) {
 void judge_interval(const Record& record, const Interval& interval, Problems& problems) {
   std::vector<Time> times;
   for (const auto& status : record.statuses)
-    if (status.time >= interval.begin && status.time <= interval.end)
-      times.push_back(status.time);
+    if (status.time >= interval.begin && status.time <= interval.end) times.push_back(status.time);
   const auto where = " from " + seconds(interval.begin) + " to " + seconds(interval.end);
   if (times.empty()) {
     if (interval.end - interval.begin > kBack) add(problems, "no base_status" + where);
@@ -108,11 +112,10 @@ void judge_interval(const Record& record, const Interval& interval, Problems& pr
   if (interval.end - times.back() > kGap) add(problems, "base_status ended early" + where);
   for (std::size_t i = 1; i < times.size(); ++i)
     if (times[i] - times[i - 1] > kGap)
-      add(problems, seconds(times[i]) + ": base_status after a gap of " +
-                        seconds(times[i] - times[i - 1]));
+      add(problems,
+          seconds(times[i]) + ": base_status after a gap of " + seconds(times[i] - times[i - 1]));
   if (interval.end - interval.begin < 5s) return;
-  const double rate_Hz =
-      static_cast<double>(times.size() - 1) / to_s(times.back() - times.front());
+  const double rate_Hz = static_cast<double>(times.size() - 1) / to_s(times.back() - times.front());
   if (!(std::abs(rate_Hz - 10.0) <= 0.1))
     add(problems, "base_status at " + std::to_string(rate_Hz) + " Hz" + where);
 }
@@ -125,11 +128,12 @@ Problems check_form(const Record& record) {
     if (const auto why = judge_status(status); !why.empty())
       add(problems, seconds(status.time) + ": base_status: " + why);
   for (const auto& line : record.mqtt) {
-    const bool ours = line.topic == "base_status" || line.topic == "feedback" ||
-                      line.topic == "trajectory_data";
+    const bool ours =
+        line.topic == "base_status" || line.topic == "feedback" || line.topic == "trajectory_data";
     if (ours && line.retained) add(problems, seconds(line.time) + ": retained " + line.topic);
     // Added to the document: whether the gateway is there, as the broker's last will tells it.
-    const bool online = line.topic == "drover/online" && (line.payload == "1" || line.payload == "0");
+    const bool online =
+        line.topic == "drover/online" && (line.payload == "1" || line.payload == "0");
     if (!ours && !online && line.topic != "mqtt_control")
       add(problems, seconds(line.time) + ": a topic of no document: " + line.topic);
     if (line.topic != "feedback") continue;
@@ -150,8 +154,7 @@ std::vector<Interval> alive(const Record& record) {
     const bool before = gateway && broker;
     const auto says = [&event](const char* text) { return event.text == text; };
     if (says("start droverd") || says("signal 18 to droverd")) gateway = true;
-    if (says("signal 9 to droverd") || says("signal 15 to droverd") ||
-        says("signal 19 to droverd"))
+    if (says("signal 9 to droverd") || says("signal 15 to droverd") || says("signal 19 to droverd"))
       gateway = false;
     if (says("start mosquitto")) broker = true;
     if (says("signal 9 to mosquitto") || says("signal 15 to mosquitto")) broker = false;

@@ -3,10 +3,10 @@
 
 #include <gmock/gmock.h>
 
+#include <unistd.h>
 #include <array>
 #include <cmath>
 #include <fstream>
-#include <unistd.h>
 
 #include <functional>
 
@@ -55,18 +55,17 @@ struct Logs {
       can.push_back({ms, ms >= 3000 && ms < 7000 ? "can0 02D#0000803F00000000"
                                                  : "can0 02D#0000000000000000"});
     for (int ms = 100; ms <= 10'000; ms += 100)
-      mqtt.push_back({ms, "base_status 0 " +
-                              status(ms < 2100   ? "NAV_FREE"
-                                     : ms < 8000 ? "NAV_RUN"
-                                                 : "NAV_SUCCESS")
-                                  .dump()});
+      mqtt.push_back({ms, "base_status 0 " + status(ms < 2100   ? "NAV_FREE"
+                                                    : ms < 8000 ? "NAV_RUN"
+                                                                : "NAV_SUCCESS")
+                                                 .dump()});
     say(2000, R"(mqtt_control 0 {"cmd_type":"task_control","cmd":"start_task","id":1})");
     say(2005, R"(feedback 0 {"cmd":"start_task_success","cmd_type":"feedback"})");
     say(3005, R"(feedback 0 {"cmd":"start_nav_success","cmd_type":"feedback"})");
   }
   void say(int ms, const std::string& text) {
-    const auto at = std::find_if(mqtt.begin(), mqtt.end(),
-                                 [ms](const Line& line) { return line.ms > ms; });
+    const auto at =
+        std::find_if(mqtt.begin(), mqtt.end(), [ms](const Line& line) { return line.ms > ms; });
     mqtt.insert(at, {ms, text});
   }
   void tell(int ms, const std::string& text) { events.insert(events.end() - 1, {ms, text}); }
@@ -172,8 +171,7 @@ TEST(MissionChecks, FindMotionWithoutAnAcceptedStart) {
   Logs logs;
   for (auto& line : logs.mqtt)
     if (line.text.find("start_task_success") != std::string::npos)
-      line.text =
-          R"(feedback 0 {"cmd":"start_task_failse","cmd_type":"feedback","reason":"no"})";
+      line.text = R"(feedback 0 {"cmd":"start_task_failse","cmd_type":"feedback","reason":"no"})";
   EXPECT_THAT(check_motion(logs.read()), Not(IsEmpty()));
 }
 

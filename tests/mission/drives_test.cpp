@@ -16,9 +16,13 @@ TEST(StraightAndUturn, IsDrivenToSuccessCloseToTheTrack) {
   expect_plain_mission("straight_and_uturn");
 }
 
-TEST(Figure8, IsDrivenToSuccessCloseToTheTrack) { expect_plain_mission("figure8"); }
+TEST(Figure8, IsDrivenToSuccessCloseToTheTrack) {
+  expect_plain_mission("figure8");
+}
 
-TEST(Long, IsDrivenToSuccessCloseToTheTrack) { expect_plain_mission("long"); }
+TEST(Long, IsDrivenToSuccessCloseToTheTrack) {
+  expect_plain_mission("long");
+}
 
 TEST(Long, LastsTenMinutes) {
   const Record& log = record("long");

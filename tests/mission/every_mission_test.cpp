@@ -14,9 +14,13 @@ class EveryMission : public testing::TestWithParam<const char*> {
   const Record& log() const { return record(GetParam()); }
 };
 
-TEST_P(EveryMission, SendsNoFrameThatIsNotOnTheList) { EXPECT_THAT(check_frames(log()), IsEmpty()); }
+TEST_P(EveryMission, SendsNoFrameThatIsNotOnTheList) {
+  EXPECT_THAT(check_frames(log()), IsEmpty());
+}
 
-TEST_P(EveryMission, MovesNothingOutsideOfATask) { EXPECT_THAT(check_motion(log()), IsEmpty()); }
+TEST_P(EveryMission, MovesNothingOutsideOfATask) {
+  EXPECT_THAT(check_motion(log()), IsEmpty());
+}
 
 TEST_P(EveryMission, NeverMovesFartherFromTheTruthThanTheBound) {
   EXPECT_THAT(check_truth(log(), kBoundRun_m), IsEmpty());
@@ -26,7 +30,9 @@ TEST_P(EveryMission, TellsItsStatusInTheDocumentsWords) {
   EXPECT_THAT(check_form(log()), IsEmpty());
 }
 
-TEST_P(EveryMission, TellsItsStatusTenTimesASecond) { EXPECT_THAT(check_rate(log()), IsEmpty()); }
+TEST_P(EveryMission, TellsItsStatusTenTimesASecond) {
+  EXPECT_THAT(check_rate(log()), IsEmpty());
+}
 
 TEST_P(EveryMission, TellsPoseAndPositionOfOneInstant) {
   EXPECT_THAT(check_pose(log()), IsEmpty());

@@ -135,7 +135,8 @@ TruthLine TruthColumns::parse(std::string_view line) const {
     values[i] = number<double>(cells[columns_[i]], line);
     if (!std::isfinite(values[i])) fail("not finite", line);
   }
-  return {Time{from_s(values[0])}, values[1], values[2], values[3], values[4], values[5], values[6]};
+  return {
+      Time{from_s(values[0])}, values[1], values[2], values[3], values[4], values[5], values[6]};
 }
 
 }  // namespace drover::mission

@@ -1,4 +1,5 @@
-// Lines of a mission's logs as values. Every parser throws std::runtime_error that says what is wrong.
+// Lines of a mission's logs as values. Every parser throws std::runtime_error that says what is
+// wrong.
 #pragma once
 
 #include <string>

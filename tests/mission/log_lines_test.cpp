@@ -13,13 +13,13 @@ void expect_refused(const Parse& parse, std::initializer_list<const char*> lines
 }
 
 TEST(MissionCanLine, IsRefusedWhenItIsNotAsCandumpWritesIt) {
-  expect_refused(parse_can_line,
-                 {"", "(1.000000000)", "(1.000000000) can0", "(1.000000000) can0 ",
-                  "1.000000000 can0 00D#", "(1.0) can0 00D#", "(x.000000000) can0 00D#",
-                  "(1.00000000x) can0 00D#", "(1.000000000) can0 00D", "(1.000000000) can0 0D#",
-                  "(1.000000000) can0 00D#0", "(1.000000000) can0 00D#0G",
-                  "(1.000000000) can0 00D#112233445566778899", "(1.000000000) can0 00D#R9",
-                  "(1.000000000) can0 00D##"});
+  expect_refused(
+      parse_can_line,
+      {"", "(1.000000000)", "(1.000000000) can0", "(1.000000000) can0 ", "1.000000000 can0 00D#",
+       "(1.0) can0 00D#", "(x.000000000) can0 00D#", "(1.00000000x) can0 00D#",
+       "(1.000000000) can0 00D", "(1.000000000) can0 0D#", "(1.000000000) can0 00D#0",
+       "(1.000000000) can0 00D#0G", "(1.000000000) can0 00D#112233445566778899",
+       "(1.000000000) can0 00D#R9", "(1.000000000) can0 00D##"});
 }
 
 TEST(MissionCanLine, GivesStampBusAndFrame) {
@@ -39,9 +39,9 @@ TEST(MissionCanLine, TellsPollsErrorsAndOtherKindsOfFrameApart) {
 }
 
 TEST(MissionMqttLine, IsRefusedWithoutTopicOrRetained) {
-  expect_refused(parse_mqtt_line, {"", "(1.000000000) ", "(1.000000000) feedback",
-                                   "(1.000000000) feedback {}", "(1.000000000) feedback 2 {}",
-                                   "(1.000000000)  0 {}"});
+  expect_refused(parse_mqtt_line,
+                 {"", "(1.000000000) ", "(1.000000000) feedback", "(1.000000000) feedback {}",
+                  "(1.000000000) feedback 2 {}", "(1.000000000)  0 {}"});
 }
 
 TEST(MissionMqttLine, KeepsBlanksOfThePayload) {
@@ -66,9 +66,9 @@ TEST(MissionTruth, IsRefusedWithoutItsColumns) {
 
 TEST(MissionTruth, RefusesLinesThatAreNotNumbersOfTheHeadersCount) {
   const TruthColumns columns("free_ahead_m,time_s,x_m,y_m,z_m,yaw_rad,vx_mps");
-  expect_refused([&columns](std::string_view line) { return columns.parse(line); },
-                 {"", "1,2,3,4,5,6", "1,2,3,4,5,6,7,8", "1,2,3,4,5,6,x", "1,2,3,4,5,6,nan",
-                  "1,2,3,4,5,6,"});
+  expect_refused(
+      [&columns](std::string_view line) { return columns.parse(line); },
+      {"", "1,2,3,4,5,6", "1,2,3,4,5,6,7,8", "1,2,3,4,5,6,x", "1,2,3,4,5,6,nan", "1,2,3,4,5,6,"});
 }
 
 TEST(MissionTruth, FindsItsColumnsByName) {

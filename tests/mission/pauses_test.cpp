@@ -29,7 +29,9 @@ std::vector<Pause> pauses(const Record& log, Time begin, Time end, const Cause& 
   return found;
 }
 
-bool lost(const Status& status) { return status.locate != "LOCATE_TRUE"; }
+bool lost(const Status& status) {
+  return status.locate != "LOCATE_TRUE";
+}
 
 void expect_rest_in(const Record& log, const Pause& pause) {
   // It may have ended just after the message before the one that tells so.
@@ -94,7 +96,9 @@ TEST(FixFloatFix, EndsWithSuccessWithoutAnotherStart) {
   EXPECT_LT(drive_figures(log, begin, end).goal_m, 0.10);
 }
 
-bool blocked(const Status& status) { return status.obstacle; }
+bool blocked(const Status& status) {
+  return status.obstacle;
+}
 
 std::vector<Pause> obstacles(const Record& log) {
   const Time begin = log.answered("start_nav_success");
@@ -148,7 +152,7 @@ TEST(Obstacle, IsNeverTouched) {
 }
 
 TEST(Obstacle, SlowsTheRobotInTheFarZone) {
-  constexpr double kFar_m = 2.0;             // the robot's zones.far_m
+  constexpr double kFar_m = 2.0;              // the robot's zones.far_m
   constexpr double kFarZoneSpeed_mps = 0.25;  // navigate.far_zone_speed_mps
   const Record& log = record("obstacle");
   Time entered = kNever;

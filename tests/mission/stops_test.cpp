@@ -18,8 +18,7 @@ Time next_start(const Record& log, Time time) {
 /// before its answer.
 void expect_rest_until_started(const Record& log, Time begin) {
   const Time start = next_start(log, begin);
-  EXPECT_THAT(log.moving(begin, start == Time::max() ? start : start - kEstop),
-              testing::IsEmpty());
+  EXPECT_THAT(log.moving(begin, start == Time::max() ? start : start - kEstop), testing::IsEmpty());
 }
 
 bool moved_until(const Record& log, Time time) {
@@ -122,8 +121,9 @@ void expect_guard(const Record& log, Time gone, Time end) {
     for (const auto& one : log.sent) {
       if (one.wheel.node != node || one.wheel.moves() || one.time <= gone || one.time > end)
         continue;
-      if (zeros == 0) std::printf("  node %d: first zero %s after it\n", int{node},
-                                  seconds(one.time - gone).c_str());
+      if (zeros == 0)
+        std::printf("  node %d: first zero %s after it\n", int{node},
+                    seconds(one.time - gone).c_str());
       // The first within the promise, then one each 10 ms.
       EXPECT_LE(one.time - before, zeros == 0 ? kGuard : 15ms) << "at " << seconds(one.time);
       before = one.time;

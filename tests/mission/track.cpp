@@ -42,8 +42,7 @@ std::vector<Place> read_track(const nlohmann::json& save_message, const Earth& e
   std::vector<Place> track;
   for (const auto& point : save_message.at("data").at("data"))
     track.push_back(earth.base(point.at("latitude").get<double>(),
-                               point.at("longitude").get<double>(),
-                               point.at("yaw").get<double>()));
+                               point.at("longitude").get<double>(), point.at("yaw").get<double>()));
   return track;
 }
 

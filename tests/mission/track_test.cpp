@@ -28,10 +28,11 @@ TEST(MissionTrack, TakesTheAntennaOff) {
 
 TEST(MissionTrack, ReadsLatitudeNorthAndLongitudeEast) {
   const Earth earth(kScenario);
-  const auto track = read_track(
-      nlohmann::json::parse(R"({"data": {"data": [{"latitude": 23.001, "longitude": 113.0, "yaw": 0},
+  const auto track =
+      read_track(nlohmann::json::parse(
+                     R"({"data": {"data": [{"latitude": 23.001, "longitude": 113.0, "yaw": 0},
                                 {"latitude": 23.0, "longitude": 113.001, "yaw": 0}]}})"),
-      earth);
+                 earth);
   ASSERT_EQ(track.size(), 2U);
   // WGS 84 at 23 degrees: 110.75 km and 102.52 km a degree.
   EXPECT_NEAR(track[0].y_m, 110.75, 0.1);

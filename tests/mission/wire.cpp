@@ -75,10 +75,10 @@ std::string forbidden(const CanFrame& frame) {
   if (frame.remote) {
     if (frame.len != 0) return "a poll with a length";
     return one_of(command, {kError, kTorques, kTemperature, kSupply}) ? std::string{}
-                                                                       : "a poll off the list";
+                                                                      : "a poll off the list";
   }
-  const bool told = one_of(command, {kHeartbeat, kEstimates, kError, kTorques, kTemperature,
-                                     kSupply});
+  const bool told =
+      one_of(command, {kHeartbeat, kEstimates, kError, kTorques, kTemperature, kSupply});
   if (told) return frame.len == 8 ? std::string{} : "a drive's frame of another length";
   return judge_command(command, frame);
 }

@@ -1,7 +1,7 @@
 // What a frame on the robot's bus is: ODrive CANSimple of firmware 0.6, read by hand.
 //
-// Source: ODrive documentation "CAN Protocol" for firmware 0.6. It shares nothing with the driver on
-// purpose: an error there must not hide here.
+// Source: ODrive documentation "CAN Protocol" for firmware 0.6. It shares nothing with the driver
+// on purpose: an error there must not hide here.
 #pragma once
 
 #include <cstdint>

@@ -8,26 +8,31 @@
 namespace drover::mission {
 namespace {
 
-CanFrame frame(const std::string& text) { return parse_can_line("(1.000000000) can0 " + text).frame; }
+CanFrame frame(const std::string& text) {
+  return parse_can_line("(1.000000000) can0 " + text).frame;
+}
 
 TEST(MissionWire, RefusesFramesThatCalibrateMoveByTorqueOrChangeTheDrive) {
   for (const char* text : {
-           "027#03000000",           // full calibration
-           "027#0800000000",         // a state of another length
-           "02B#0300000001000000",   // position control
-           "02C#0000000000000000",   // a position
-           "02E#00000000",           // a torque
-           "02D#0000803F0000803F",   // a torque beside a velocity
-           "02D#0000C07F00000000",   // a velocity that is no number
-           "02D#0000803F",           // a velocity of another length
-           "036#",                   // reboot
-           "022#",                   // the drive's own e-stop
-           "024#0100000000",         // a parameter
-           "026#0000000000000000",   // a node id
-           "038#01",                 // clear errors with an identify request
-           "029#R", "023#R8",        // polls off the list
-           "00D#0000000000000000",   // a node of no wheel
-           "0AD#0000000000000000", "0000002D#0000000000000000", "20000004#0000000000000000",
+           "027#03000000",          // full calibration
+           "027#0800000000",        // a state of another length
+           "02B#0300000001000000",  // position control
+           "02C#0000000000000000",  // a position
+           "02E#00000000",          // a torque
+           "02D#0000803F0000803F",  // a torque beside a velocity
+           "02D#0000C07F00000000",  // a velocity that is no number
+           "02D#0000803F",          // a velocity of another length
+           "036#",                  // reboot
+           "022#",                  // the drive's own e-stop
+           "024#0100000000",        // a parameter
+           "026#0000000000000000",  // a node id
+           "038#01",                // clear errors with an identify request
+           "029#R",
+           "023#R8",                // polls off the list
+           "00D#0000000000000000",  // a node of no wheel
+           "0AD#0000000000000000",
+           "0000002D#0000000000000000",
+           "20000004#0000000000000000",
        })
     EXPECT_FALSE(forbidden(frame(text)).empty()) << text;
 }
