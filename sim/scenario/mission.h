@@ -2,8 +2,8 @@
 //
 // Events that steps can follow: boot (all programs were started), ready (LOCATE_TRUE),
 // locate_false, saved, save_failed, start_task, start_task_failed, start_nav, start_nav_failed,
-// nav_success, nav_error, obstacle, obstacle_gone, cancelled, broker_lost, broker_back, exit_NAME
-// of a program, and the name of every step. "ready#2" is the second one.
+// nav_success, nav_error, obstacle (while NAV_RUN), obstacle_gone, cancelled, broker_lost,
+// broker_back, exit_NAME of a program, and the name of every step. "ready#2" is the second one.
 #pragma once
 
 #include <nlohmann/json.hpp>

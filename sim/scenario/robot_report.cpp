@@ -42,9 +42,10 @@ std::vector<std::string> RobotReport::on_base_status(std::string_view payload) t
   const auto locate = std::exchange(locate_, nav.at("locate").get<std::string>());
   if (locate_ != locate && locate_ == "LOCATE_TRUE") events.emplace_back("ready");
   if (locate_ != locate && locate_ == "LOCATE_FALSE") events.emplace_back("locate_false");
-  const bool obstacle = std::exchange(obstacle_, nav.at("obstacle").get<bool>());
-  if (obstacle_ != obstacle) events.emplace_back(obstacle_ ? "obstacle" : "obstacle_gone");
+  obstacle_ = nav.at("obstacle").get<bool>();
   const auto status = std::exchange(nav_status_, nav.at("status").get<std::string>());
+  const bool held = std::exchange(held_, obstacle_ && nav_status_ == "NAV_RUN");
+  if (held_ != held) events.emplace_back(held_ ? "obstacle" : "obstacle_gone");
   if (nav_status_ != status && nav_status_ == "NAV_SUCCESS") events.emplace_back("nav_success");
   if (nav_status_ != status && nav_status_ == "NAV_ERROR") events.emplace_back("nav_error");
   return events;

@@ -35,6 +35,7 @@ class RobotReport {
   std::string locate_ = "LOCATE_UNINIT";
   std::string nav_status_ = "NAV_FREE";
   bool obstacle_ = false;
+  bool held_ = false;  // by an obstacle, while driving
   int rtk_status_ = 0;
   double speed_mps_ = 0;
   double turn_radps_ = 0;

@@ -1,0 +1,141 @@
+#include "sim/scenario/mission.h"
+
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+
+#include "sim/robot/scenario.h"
+#include "sim/robot/scenario_file.h"
+
+namespace drover::sim {
+namespace {
+
+using nlohmann::json;
+
+json document() {
+  return json::parse(R"({
+    "name": "m", "origin": {"latitude_deg": 1, "longitude_deg": 2},
+    "start": {"x_m": 3, "y_m": 4, "yaw_deg": 90},
+    "gnss": {"antenna": {"x_m": 0.1, "y_m": 0.2, "z_m": 0.6}},
+    "mission": {"track": [{"straight_m": 2}], "speed_mps": 0.4}})");
+}
+
+std::string refusal(const json& document) {
+  try {
+    (void)read_mission(document);
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+void expect_refused(const std::string& steps, const std::string& text) {
+  auto with = document();
+  with["mission"]["steps"] = json::parse(steps);
+  EXPECT_NE(refusal(with).find(text), std::string::npos) << refusal(with);
+}
+
+TEST(AMission, RefusesWhatItDoesNotKnowAndNamesThePlace) {
+  auto with = document();
+  with["mission"]["speed"] = 1;
+  EXPECT_NE(refusal(with).find("mission.speed"), std::string::npos) << refusal(with);
+  expect_refused(R"([{"do": {"jump": 1}}])", "steps[0].do");
+  expect_refused(R"([{"do": {"kill": "init"}}])", "steps[0].do.kill");
+  expect_refused(R"([{"do": {"kill": "droverd", "signal": "HUP"}}])", "signal");
+  expect_refused(R"([{"when": {"x_above": 1}, "do": {"save": true}}])", "x_above");
+  expect_refused(R"([{"do": {"start_task": {"id": 0}}}])", "id");
+  expect_refused(R"([{"delay_s": -1, "do": {"save": true}}])", "delay_s");
+  expect_refused(R"([{"do": [{"save": true}, {"sim": "quit", "x": 1}]}])", "steps[0].do[1].x");
+}
+
+TEST(AMission, StartsItsTrackWhereTheRobotStandsAndEndsAtTheLastPoint) {
+  const auto mission = read_mission(document());
+  ASSERT_EQ(mission.track.size(), 5U);
+  EXPECT_NEAR(mission.track.back().x_m, 3, 1e-12);
+  EXPECT_NEAR(mission.track.back().y_m, 6, 1e-12);
+  EXPECT_EQ(mission.target_id, 5U);
+  EXPECT_EQ(mission.track_name, "m");
+  EXPECT_DOUBLE_EQ(mission.antenna.y_m, 0.2);
+}
+
+TEST(AMission, ReadsStepsWithTheirActions) {
+  auto with = document();
+  with["mission"]["steps"] = json::parse(R"([
+    {"name": "n", "after": "start_nav#2", "delay_s": 1.5, "when": {"pitch_rad_below": -0.1},
+     "do": [{"kill": "droverd", "signal": "STOP"}, {"publish": {"cmd": "x"}, "retain": true},
+            {"publish": "{broken", "topic": "t"}, {"start_task": {"id": 2, "speed_mps": 0.3}}]}])");
+  const auto mission = read_mission(with);
+  ASSERT_EQ(mission.steps.size(), 1U);
+  const auto& step = mission.steps[0];
+  EXPECT_EQ(step.after.count, 2U);
+  EXPECT_EQ(step.delay, std::chrono::milliseconds(1500));
+  ASSERT_TRUE(step.when);
+  EXPECT_FALSE(step.when->above);
+  ASSERT_EQ(step.actions.size(), 4U);
+  EXPECT_EQ(step.actions[0].signal, SIGSTOP);
+  EXPECT_EQ(step.actions[1].text, R"({"cmd":"x"})");
+  EXPECT_EQ(step.actions[1].topic, "mqtt_control");
+  EXPECT_TRUE(step.actions[1].retain);
+  EXPECT_EQ(step.actions[2].text, "{broken");
+  EXPECT_EQ(step.actions[3].id, 2U);
+}
+
+TEST(SetMember, ChangesOneMemberAndRefusesWhatIsNoAssignment) {
+  auto changed = document();
+  set_member(changed, "mission.speed_mps=0.3");
+  set_member(changed, "mission.track_name=row 7");
+  const auto mission = read_mission(changed);
+  EXPECT_DOUBLE_EQ(mission.speed_mps, 0.3);
+  EXPECT_EQ(mission.track_name, "row 7");
+  EXPECT_THROW(set_member(changed, "mission"), std::runtime_error);
+  EXPECT_THROW(set_member(changed, "=1"), std::runtime_error);
+  EXPECT_THROW(set_member(changed, "name.x=1"), std::runtime_error);
+}
+
+// Every scenario that is delivered can be played: the player and the simulator both read it.
+TEST(TheScenarios, AreReadByThePlayerAndByTheSimulator) {
+  std::size_t count = 0;
+  const auto folder = std::filesystem::path(DROVER_SOURCE_DIR) / "sim/scenarios";
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    const auto file = entry.path().string();
+    const auto mission = read_mission(load_scenario_document(file));
+    EXPECT_EQ(mission.name, entry.path().stem().string());
+    EXPECT_EQ(load_scenario(file).drives.size(), 4U) << file;
+    EXPECT_TRUE(std::filesystem::exists(load_scenario(file).world)) << file;
+    EXPECT_TRUE(std::filesystem::exists(robot_file_of(file))) << file;
+    ++count;
+  }
+  EXPECT_GE(count, 10U);
+}
+
+class ARobotFile : public testing::Test {
+ protected:
+  void write(const std::string& name, const std::string& text) {
+    std::filesystem::create_directories((folder_ / name).parent_path());
+    std::ofstream(folder_ / name) << text;
+  }
+  std::filesystem::path folder_ = std::filesystem::path(testing::TempDir()) / "robot_file_test";
+};
+
+TEST_F(ARobotFile, MustBeThereAndMustNotNameAnother) {
+  write("a/s.json", R"({"robot": "../b/none.json"})");
+  EXPECT_THROW(load_scenario_document((folder_ / "a/s.json").string()), std::runtime_error);
+  write("b/r.json", R"({"robot": "x.json"})");
+  write("a/s.json", R"({"robot": "../b/r.json"})");
+  EXPECT_THROW(load_scenario_document((folder_ / "a/s.json").string()), std::runtime_error);
+  write("a/s.json", R"({"robot": 1})");
+  EXPECT_THROW(load_scenario_document((folder_ / "a/s.json").string()), std::runtime_error);
+}
+
+TEST_F(ARobotFile, LiesBelowTheScenariosOwnMembers) {
+  write("b/r.json", R"({"world": "w.xml", "gnss": {"baud": 9600, "port": "p"}, "can": {"a": 1}})");
+  write("a/s.json", R"({"robot": "../b/r.json", "gnss": {"baud": 4800}, "can": null})");
+  const auto merged = load_scenario_document((folder_ / "a/s.json").string());
+  EXPECT_EQ(merged, json::parse(R"({"world": "../b/w.xml", "gnss": {"baud": 4800, "port": "p"}})"));
+}
+
+}  // namespace
+}  // namespace drover::sim
