@@ -73,6 +73,18 @@ void summarize(const drover::sim::Workplace& place, const drover::sim::Mission& 
   std::fflush(stdout);
 }
 
+/// What a person can do while all goes on running.
+void tell_ways_in(const drover::sim::Workplace& place) {
+  std::printf("\nEverything goes on running; Ctrl-C ends it.\n");
+  int port = place.port();
+  // The lab leaves the port of the machine outside here.
+  std::ifstream outside(place.log_folder() + "/host-port");
+  const bool lab = static_cast<bool>(outside >> port);
+  std::printf("  mosquitto_sub -h 127.0.0.1 -p %d -t base_status\n", port);
+  if (lab) std::printf("  sim/lab enter        a shell beside the programs\n");
+  std::fflush(stdout);
+}
+
 int play(const Options& options) {
   const drover::sim::Workplace place(options.place);
   const auto mission = drover::sim::read_mission(place.document());
@@ -81,6 +93,8 @@ int play(const Options& options) {
   auto outcome = player.play();
   if (options.keep && outcome != Outcome::interrupted && outcome != Outcome::broken) {
     summarize(place, mission, player, outcome);
+    tell_ways_in(place);
+    view.rest();
     player.keep_running();
     player.finish();
     return static_cast<int>(outcome);

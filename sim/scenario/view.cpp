@@ -43,7 +43,10 @@ View::View(ViewKind kind, const Mission& mission, const std::string& daemon_sock
 
 Time View::draw(Time now, const RobotReport& report) {
   if (kind_ == ViewKind::none) return Time::max();
-  if (begin_ == kNever) begin_ = next_ = now;
+  if (begin_ == kNever) {
+    begin_ = next_ = now;
+    if (kind_ == ViewKind::terminal) std::fputs("\033[2J", stdout);
+  }
   if (now < next_) return next_;
   elapsed_s_ = to_s(now - begin_);
   next_ = now + period(kind_);

@@ -23,6 +23,9 @@ class View {
   int descriptor() const { return status_.descriptor(); }
   void on_readable() { status_.on_readable(); }
 
+  /// Draws nothing from now on: what stands there is to be read.
+  void rest() { kind_ = ViewKind::none; }
+
   /// A command to the simulator: obstacles appear on the map.
   void on_sim_command(const std::string& command);
   /// What the player does and hears.
