@@ -67,7 +67,7 @@ void Navigator::start(const RequestId& id, const StartTask& task, Time now,
   speed_mps_ = speed.speed_mps;
   accepted_ = now;
   goal_near_since_ = kNever;
-  begun_ = stopping_at_goal_ = false;
+  begun_ = stopping_at_goal_ = drives_asked_ = false;
   obstacle_ = lost_ = {};
   failed_.clear();
   phase_ = Phase::starting;
@@ -155,6 +155,12 @@ NavOutput Navigator::step(const NavInput& input, EventQueue& events) {
 }
 
 NavOutput Navigator::arm(const NavInput& input, EventQueue& events) {
+  // A drive that still holds from the last task reports that it runs, and arms anew for this one:
+  // what was reported before it heard of the request says nothing.
+  if (!drives_asked_) {
+    drives_asked_ = true;
+    return {{}, true, Stop::controlled};
+  }
   if (input.health.drives_running) {
     phase_ = Phase::running;
     return run(input, events);

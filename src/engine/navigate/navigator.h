@@ -90,6 +90,7 @@ class Navigator final {
   double speed_mps_ = 0;
   bool begun_ = false;            ///< NavigationStarted was said
   bool stopping_at_goal_ = false;
+  bool drives_asked_ = false;     ///< to run, at least one cycle ago
   Time accepted_ = kNever;
   Time goal_near_since_ = kNever;
   Wait obstacle_;

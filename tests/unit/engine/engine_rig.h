@@ -46,6 +46,7 @@ class EngineRig {
     bool stuck = false;    ///< feedback stands still
     bool fault = false;
     AxisState state = AxisState::idle;
+    AxisRequest asked = AxisRequest::rest;  ///< in the cycle before
     int arming = 0;
     double position_rad = 0;
   };
@@ -133,13 +134,15 @@ class EngineRig {
         drive.state = AxisState::fault;
       } else if (drive.state == AxisState::fault) {
         drive.state = AxisState::idle;
-      } else if (asked_of.request == AxisRequest::run && drive.state == AxisState::idle &&
+      } else if (asked_of.request == AxisRequest::run && drive.asked != AxisRequest::run &&
                  !drive.refuses) {
+        // Each new request is armed anew, also by a drive that still holds from the last one.
         drive.state = AxisState::arming;
         drive.arming = 40;
       } else if (drive.state == AxisState::arming && --drive.arming <= 0) {
         drive.state = AxisState::running;
       }
+      drive.asked = asked_of.request;
       if (drive.state == AxisState::running) speed[i] = asked_of.velocity_radps;
     }
     if (blocked) speed = {};

@@ -127,6 +127,7 @@ TEST_F(ANavigator, TakesANewStartOnceTheCauseIsGone) {
   start();
   EXPECT_EQ(status(), NavStatus::run);
   EXPECT_TRUE(navigator.latched().empty());
+  EXPECT_EQ(step().target.vx_mps, 0) << "the drives have yet to hear of it";
   EXPECT_GT(step().target.vx_mps, 0);
 }
 TEST_F(ANavigator, IsFreeAfterACancelThatFollowsAnError) {

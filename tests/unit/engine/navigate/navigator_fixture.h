@@ -72,6 +72,7 @@ class ANavigator : public ::testing::Test {
   }
   void start_and_run() {
     start();
+    step();  // the drives hear of it
     step();
     ASSERT_EQ(said<NavigationStarted>().size(), 1U);
   }
