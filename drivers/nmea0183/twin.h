@@ -73,7 +73,7 @@ class Nmea0183Twin final : public GnssTwin {
   double asked_sigma_m() const;
 
   // Settings.
-  Duration period_;
+  Duration period_{};
   Duration configured_period_;
   Duration latency_;
   Utc utc_start_;

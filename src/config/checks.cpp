@@ -17,6 +17,7 @@ constexpr std::array<std::string_view, kLineCount> kLineKeys{"estop", "bumper", 
 template <class T, class Get>
 std::vector<std::string> collect(const std::vector<T>& items, Get get) {
   std::vector<std::string> names;
+  names.reserve(items.size());
   for (const auto& item : items) names.push_back(get(item));
   return names;
 }
