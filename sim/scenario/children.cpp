@@ -82,8 +82,7 @@ void Children::kill_all() {
 }
 
 std::string find_program(const std::string& folder, const std::string& name) {
-  for (const char* place :
-       {"", "src/", "src/guard/", "src/cli/", "sim/robot/", "sim/scenario/"}) {
+  for (const char* place : {"", "src/", "src/guard/", "src/cli/", "sim/robot/", "sim/scenario/"}) {
     const auto path = folder + "/" + place + name;
     if (::access(path.c_str(), X_OK) == 0) return path;
   }

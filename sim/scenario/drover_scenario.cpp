@@ -1,6 +1,6 @@
 // drover-scenario: plays a scenario with the real programs and says how the drive went.
-#include <CLI/CLI.hpp>
 #include <unistd.h>
+#include <CLI/CLI.hpp>
 
 #include <cstdio>
 #include <exception>

@@ -15,7 +15,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::array<std::string_view, 4> kPrograms{"mosquitto",    "drover-sim", "drover-guard",
+constexpr std::array<std::string_view, 4> kPrograms{"mosquitto", "drover-sim", "drover-guard",
                                                     "droverd"};
 constexpr std::array<std::string_view, 9> kTruthValues{
     "x_m", "y_m", "z_m", "roll_rad", "pitch_rad", "yaw_rad", "vx_mps", "wz_radps", "free_ahead_m"};

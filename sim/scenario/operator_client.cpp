@@ -28,9 +28,13 @@ void OperatorClient::connect() {
   (void)::mosquitto_connect(client_, "127.0.0.1", port_, 60);
 }
 
-int OperatorClient::descriptor() const { return ::mosquitto_socket(client_); }
+int OperatorClient::descriptor() const {
+  return ::mosquitto_socket(client_);
+}
 
-bool OperatorClient::wants_to_write() const { return ::mosquitto_want_write(client_); }
+bool OperatorClient::wants_to_write() const {
+  return ::mosquitto_want_write(client_);
+}
 
 void OperatorClient::serve(bool readable, bool writable) {
   if (descriptor() < 0) return;
@@ -40,9 +44,9 @@ void OperatorClient::serve(bool readable, bool writable) {
 }
 
 bool OperatorClient::publish(const std::string& topic, std::string_view payload, bool retain) {
-  return subscribed_ && ::mosquitto_publish(client_, nullptr, topic.c_str(),
-                                            static_cast<int>(payload.size()), payload.data(), 0,
-                                            retain) == MOSQ_ERR_SUCCESS;
+  return subscribed_ &&
+         ::mosquitto_publish(client_, nullptr, topic.c_str(), static_cast<int>(payload.size()),
+                             payload.data(), 0, retain) == MOSQ_ERR_SUCCESS;
 }
 
 void OperatorClient::on_connect(mosquitto* client, void*, int code) {

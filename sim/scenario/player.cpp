@@ -10,9 +10,6 @@
 #include <cstdio>
 #include <ctime>
 #include <filesystem>
-#include <stdexcept>
-
-#include "sim/robot/control_socket.h"
 
 namespace drover::sim {
 namespace {
@@ -125,11 +122,9 @@ void Player::boot() {
   start("mosquitto");
   start("drover-sim");
   wait_for("the broker", [this] { return client_->subscribed(); });
-  wait_for("drover-sim",
-           [this] { return std::filesystem::exists(workplace_.ready_file()); });
+  wait_for("drover-sim", [this] { return std::filesystem::exists(workplace_.ready_file()); });
   start("drover-guard");
-  wait_for("drover-guard",
-           [this] { return std::filesystem::exists(workplace_.guard_socket()); });
+  wait_for("drover-guard", [this] { return std::filesystem::exists(workplace_.guard_socket()); });
   start("droverd");
 }
 
@@ -152,8 +147,8 @@ void Player::start(const std::string& name, const std::string& words) {
 
 /// Works off what is due and waits for more, until `until` at most, once.
 void Player::turn(Time until) {
-  take_steps();
   const Time t = now();
+  take_steps(t);
   if (t >= next_reconnect_) {
     client_->connect();
     next_reconnect_ = t + kReconnect;
@@ -218,69 +213,6 @@ void Player::collect_children() {
   }
 }
 
-void Player::take_steps() {
-  const Time t = now();
-  nlohmann::json truth;
-  if (story_.asks_for_truth(t)) {
-    try {
-      truth = nlohmann::json::parse(ask(workplace_.sim_socket(), "truth"), nullptr, false);
-    } catch (const std::runtime_error&) {
-      // The simulator is not there: the condition does not hold.
-    }
-  }
-  for (const auto* step : story_.take_due(t, truth)) {
-    for (const auto& action : step->actions) act(action);
-    if (!step->name.empty()) happened(step->name);
-  }
-}
-
-void Player::act(const Action& action) {
-  using Kind = Action::Kind;
-  switch (action.kind) {
-    case Kind::sim:
-      tell("sim " + action.text);
-      view_.on_sim_command(action.text);
-      if (const auto answer = ask(workplace_.sim_socket(), action.text); answer != "ok")
-        broken_ = "sim " + action.text + ": " + answer;
-      return;
-    case Kind::kill:
-      if (action.signal == SIGKILL || action.signal == SIGTERM) killed_.insert(action.text);
-      tell("signal " + std::to_string(action.signal) + " to " + action.text);
-      if (!children_.signal(action.text, action.signal)) broken_ = action.text + " does not run";
-      return;
-    case Kind::start: return start(action.text);
-    case Kind::publish: return publish(action.topic, action.text, action.retain);
-    case Kind::cancel:
-      return publish("mqtt_control", R"({"cmd_type":"task_control","cmd":"cancel_task"})");
-    case Kind::save: return save_track();
-    case Kind::start_task: return start_task(action);
-    case Kind::cli: return start("drover", action.text);
-  }
-}
-
-void Player::publish(const std::string& topic, const std::string& payload, bool retain) {
-  const bool sent = client_->publish(topic, payload, retain);
-  std::string shown = payload.substr(0, 200);
-  tell("publish " + topic + (sent ? " " : " (no broker) ") + shown +
-       (shown.size() < payload.size() ? "..." : ""));
-}
-
-void Player::save_track() {
-  const auto shift = map_shift(report_.fix(), mission_.origin, mission_.antenna);
-  publish("mqtt_control", save_message(mission_.track_name, mission_.track, shift, mission_.origin,
-                                       mission_.antenna));
-}
-
-void Player::start_task(const Action& action) {
-  result_.target_id = action.id.value_or(mission_.target_id);
-  const nlohmann::ordered_json message{{"cmd_type", "task_control"},
-                                       {"cmd", "start_task"},
-                                       {"name", mission_.track_name},
-                                       {"id", result_.target_id},
-                                       {"speed", action.speed_mps.value_or(mission_.speed_mps)}};
-  publish("mqtt_control", message.dump());
-}
-
 void Player::on_message(const MqttMessage& message) {
   const Time t = now();
   if (!recording_) return;
@@ -314,11 +246,10 @@ void Player::happened(const std::string& event) {
 
 void Player::look_for_end(const std::string& event) {
   if (end_ != Time::max()) return;
-  const bool end = mission_.end_after
-                       ? story_.has_happened(*mission_.end_after)
-                       : event == "nav_success" || event == "nav_error" ||
-                             event == "start_task_failed" || event == "start_nav_failed" ||
-                             event == "save_failed";
+  const bool end = mission_.end_after ? story_.has_happened(*mission_.end_after)
+                                      : event == "nav_success" || event == "nav_error" ||
+                                            event == "start_task_failed" ||
+                                            event == "start_nav_failed" || event == "save_failed";
   if (end) end_ = now() + mission_.end_delay;
 }
 
@@ -326,7 +257,7 @@ void Player::tell(const std::string& text) {
   std::string line = stamp(now());
   append_line(line, text);
   events_log_.append(line);
-  view_.on_event(text);
+  if (recording_) view_.on_event(text);
 }
 
 }  // namespace drover::sim

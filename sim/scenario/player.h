@@ -19,8 +19,8 @@ namespace drover::sim {
 
 enum class Outcome {
   as_expected = 0,
-  otherwise = 1,     ///< the mission ended in another state than it should
-  broken = 3,        ///< a program ended by itself
+  otherwise = 1,  ///< the mission ended in another state than it should
+  broken = 3,     ///< a program ended by itself
   timed_out = 4,
   interrupted = 130  ///< by a person
 };
@@ -56,7 +56,7 @@ class Player {
   void turn(Time until);
   void poll_once(Time until);
   void collect_children();
-  void take_steps();
+  void take_steps(Time t);
   void act(const Action& action);
   void publish(const std::string& topic, const std::string& payload, bool retain = false);
   void save_track();

@@ -47,8 +47,8 @@ std::vector<TruthSample> read_truth(std::istream& csv) {
     if (csv.eof()) break;  // no line end: cut short
     const auto cells = split(line);
     if (cells.size() != names.size()) throw std::runtime_error("truth: a line of another length");
-    samples.push_back({number(cells[columns[0]]), number(cells[columns[1]]),
-                       number(cells[columns[2]])});
+    samples.push_back(
+        {number(cells[columns[0]]), number(cells[columns[1]]), number(cells[columns[2]])});
   }
   return samples;
 }

@@ -23,11 +23,16 @@ std::string text(const char* format, Arguments... arguments) {
 
 const char* rtk_word(int status) {
   switch (status) {
-    case 1: return "single";
-    case 2: return "DGPS";
-    case 4: return "RTK fixed";
-    case 5: return "RTK float";
-    default: return "no position";
+    case 1:
+      return "single";
+    case 2:
+      return "DGPS";
+    case 4:
+      return "RTK fixed";
+    case 5:
+      return "RTK float";
+    default:
+      return "no position";
   }
 }
 
@@ -91,8 +96,8 @@ std::string View::wheels() const {
   const auto& status = status_.status();
   if (!status.is_object() || !status.contains("axes")) return out + "-";
   for (const auto& axis : status.at("axes"))
-    out += text(" %s %6.2f rad/s", axis.value("joint", "").c_str(),
-                number_at(axis, "velocity_radps"));
+    out +=
+        text(" %s %6.2f rad/s", axis.value("joint", "").c_str(), number_at(axis, "velocity_radps"));
   return out;
 }
 

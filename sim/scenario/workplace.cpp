@@ -132,8 +132,8 @@ Program Workplace::program(const std::string& name, const std::string& words) co
   if (name == "drover-guard") add({"--socket", guard_socket_});
   if (name == "droverd") add({"-c", private_folder_ + "/drover.json"});
   if (name == "drover-sim") {
-    add({"--scenario", private_folder_ + "/scenario.json", "--seed",
-         std::to_string(settings_.seed), "--run-dir", sim_folder_, "--log-dir", log_folder_});
+    add({"--scenario", private_folder_ + "/scenario.json", "--seed", std::to_string(settings_.seed),
+         "--run-dir", sim_folder_, "--log-dir", log_folder_});
     if (settings_.native) add({"--can-transport", "unix", "--lines", "files"});
   }
   if (name == "drover") {

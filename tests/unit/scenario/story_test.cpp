@@ -9,7 +9,9 @@ namespace {
 
 using nlohmann::json;
 
-Time at(double s) { return Time{from_s(s)}; }
+Time at(double s) {
+  return Time{from_s(s)};
+}
 
 Step step(const std::string& name, const std::string& after, double delay_s = 0) {
   Step step;

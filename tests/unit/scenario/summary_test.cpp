@@ -40,8 +40,8 @@ TEST(DriveFigures, AreNothingWithoutSamplesInTheTime) {
 }
 
 TEST(DriveFigures, CountOnlyTheTimeOfTheDrive) {
-  const auto figures = measure_drive(
-      {{0, 0, 5}, {1, 0, 0}, {2, 3, 0}, {3, 7, 0}, {4, 7, 9}}, kTrack, 2, 1, 3);
+  const auto figures =
+      measure_drive({{0, 0, 5}, {1, 0, 0}, {2, 3, 0}, {3, 7, 0}, {4, 7, 9}}, kTrack, 2, 1, 3);
   EXPECT_DOUBLE_EQ(figures.time_s, 2);
   EXPECT_DOUBLE_EQ(figures.distance_m, 7);
   EXPECT_DOUBLE_EQ(figures.cross_track_max_m, 0);

@@ -52,16 +52,15 @@ TEST(MakeTrack, KeepsTheSpacingAcrossShapes) {
   const auto track = make_track(
       {}, {{.straight_m = 0.7}, {.turn_rad = kPi / 2, .radius_m = 1}, {.straight_m = 2}});
   for (std::size_t i = 1; i + 1 < track.size(); ++i) {
-    const double d_m =
-        std::hypot(track[i].x_m - track[i - 1].x_m, track[i].y_m - track[i - 1].y_m);
+    const double d_m = std::hypot(track[i].x_m - track[i - 1].x_m, track[i].y_m - track[i - 1].y_m);
     EXPECT_LE(d_m, 0.5 + 1e-9) << i;
     EXPECT_GE(d_m, 0.49) << "a chord of half a metre of a circle of one metre, or longer: " << i;
   }
 }
 
 TEST(MakeTrack, TurnsACornerOnTheSpot) {
-  const auto track = make_track(
-      {}, {{.straight_m = 1}, {.turn_rad = kPi / 2, .radius_m = 0}, {.straight_m = 1}});
+  const auto track =
+      make_track({}, {{.straight_m = 1}, {.turn_rad = kPi / 2, .radius_m = 0}, {.straight_m = 1}});
   ASSERT_EQ(track.size(), 5U);
   expect_place(track[2], 1, 0, kPi / 2);
   expect_place(track[4], 1, 1, kPi / 2);
@@ -75,8 +74,8 @@ Fix fix_at(const TrackPose& base, const TrackPose& shift, const Antenna& antenna
   double height_m = 0;
   GeographicLib::LocalCartesian(kOrigin.latitude_deg, kOrigin.longitude_deg, kOrigin.altitude_m)
       .Reverse(base.x_m + c * antenna.x_m - s * antenna.y_m,
-               base.y_m + s * antenna.x_m + c * antenna.y_m, 0, fix.latitude_deg,
-               fix.longitude_deg, height_m);
+               base.y_m + s * antenna.x_m + c * antenna.y_m, 0, fix.latitude_deg, fix.longitude_deg,
+               height_m);
   return fix;
 }
 
@@ -121,8 +120,8 @@ TEST(CrossTrackDistance, IsToTheNearestPartOfTheLine) {
 }
 
 TEST(CrossTrackDistance, DoesNotTakeTheRowBesideForTheRowThatIsDriven) {
-  const auto track = make_track(
-      {}, {{.straight_m = 20}, {.turn_rad = kPi, .radius_m = 0.5}, {.straight_m = 20}});
+  const auto track =
+      make_track({}, {{.straight_m = 20}, {.turn_rad = kPi, .radius_m = 0.5}, {.straight_m = 20}});
   CrossTrack cross_track(track);
   for (double x_m = 0; x_m < 10; x_m += 0.1) (void)cross_track.distance_m(x_m, 0);
   EXPECT_NEAR(cross_track.distance_m(10, 0.9), 0.9, 1e-9) << "the way back runs at 1 m";
