@@ -32,7 +32,11 @@ MapSketch::MapSketch(const std::vector<TrackPose>& track) {
   const auto columns = static_cast<std::size_t>(std::ceil((east_m - west_m_) / cell_m_));
   const auto lines = static_cast<std::size_t>(std::ceil((north_m_ - south_m) / (2 * cell_m_)));
   cells_.assign(lines, std::vector<std::string>(columns, " "));
-  for (const auto& pose : track) put(pose, ".");
+  for (std::size_t i = 0; i + 1 < track.size(); ++i)
+    for (const double part : {0.0, 0.25, 0.5, 0.75, 1.0})  // or a row of points has gaps
+      put({track[i].x_m + part * (track[i + 1].x_m - track[i].x_m),
+           track[i].y_m + part * (track[i + 1].y_m - track[i].y_m), 0},
+          ".");
 }
 
 void MapSketch::put(const TrackPose& place, const std::string& mark) {

@@ -36,18 +36,13 @@ void Player::act(const Action& action) {
       tell("signal " + std::to_string(action.signal) + " to " + action.text);
       if (!children_.signal(action.text, action.signal)) broken_ = action.text + " does not run";
       return;
-    case Kind::start:
-      return start(action.text);
-    case Kind::publish:
-      return publish(action.topic, action.text, action.retain);
+    case Kind::start: return start(action.text);
+    case Kind::publish: return publish(action.topic, action.text, action.retain);
     case Kind::cancel:
       return publish("mqtt_control", R"({"cmd_type":"task_control","cmd":"cancel_task"})");
-    case Kind::save:
-      return save_track();
-    case Kind::start_task:
-      return start_task(action);
-    case Kind::cli:
-      return start("drover", action.text);
+    case Kind::save: return save_track();
+    case Kind::start_task: return start_task(action);
+    case Kind::cli: return start("drover", action.text);
   }
 }
 

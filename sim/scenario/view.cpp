@@ -23,16 +23,11 @@ std::string text(const char* format, Arguments... arguments) {
 
 const char* rtk_word(int status) {
   switch (status) {
-    case 1:
-      return "single";
-    case 2:
-      return "DGPS";
-    case 4:
-      return "RTK fixed";
-    case 5:
-      return "RTK float";
-    default:
-      return "no position";
+    case 1: return "single";
+    case 2: return "DGPS";
+    case 4: return "RTK fixed";
+    case 5: return "RTK float";
+    default: return "no position";
   }
 }
 

@@ -1,0 +1,87 @@
+#include "sim/scenario/children.h"
+
+#include <gtest/gtest.h>
+#include <poll.h>
+#include <sys/wait.h>
+
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+namespace drover::sim {
+namespace {
+
+std::string folder() {
+  const auto path = std::filesystem::path(testing::TempDir()) / "children_test";
+  std::filesystem::remove_all(path);
+  std::filesystem::create_directories(path);
+  return path.string();
+}
+
+/// Waits until a child's descriptor says that it ended.
+std::vector<Children::Ended> wait_for_end(Children& children) {
+  const auto fds = children.descriptors();
+  EXPECT_EQ(fds.size(), 1U);
+  pollfd poll{fds.at(0), POLLIN, 0};
+  while (::poll(&poll, 1, -1) != 1) {
+  }
+  return children.reap();
+}
+
+TEST(TheChildren, RefuseASecondOneOfTheSameName) {
+  Children children(folder());
+  EXPECT_EQ(children.start({"sleeper", {"/bin/sleep", "1000"}}), "");
+  EXPECT_NE(children.start({"sleeper", {"/bin/sleep", "1000"}}), "");
+  EXPECT_TRUE(children.reap().empty());
+}
+
+TEST(TheChildren, CannotBeSignalledWhenTheyDoNotRun) {
+  Children children(folder());
+  EXPECT_FALSE(children.signal("nobody", SIGTERM));
+}
+
+TEST(TheChildren, ThatCannotBeExecutedEndWithStatus127) {
+  Children children(folder());
+  EXPECT_EQ(children.start({"none", {"/nowhere/program"}}), "");
+  const auto ended = wait_for_end(children);
+  ASSERT_EQ(ended.size(), 1U);
+  EXPECT_EQ(WEXITSTATUS(ended[0].status), 127);
+  EXPECT_FALSE(children.runs("none"));
+}
+
+TEST(TheChildren, AreSignalledAndTellHowTheyEnded) {
+  Children children(folder());
+  ASSERT_EQ(children.start({"sleeper", {"/bin/sleep", "1000"}}), "");
+  EXPECT_TRUE(children.runs("sleeper"));
+  EXPECT_TRUE(children.signal("sleeper", SIGKILL));
+  const auto ended = wait_for_end(children);
+  ASSERT_EQ(ended.size(), 1U);
+  EXPECT_EQ(ended[0].name, "sleeper");
+  EXPECT_TRUE(WIFSIGNALED(ended[0].status));
+}
+
+TEST(TheChildren, WriteTheirOutputAndErrorsToALogThatGrowsWithEachStart) {
+  const auto logs = folder();
+  Children children(logs);
+  for (int i = 0; i < 2; ++i) {
+    ASSERT_EQ(children.start({"talker", {"/bin/sh", "-c", "echo one; echo two >&2"}}), "");
+    EXPECT_EQ(WEXITSTATUS(wait_for_end(children).at(0).status), 0);
+  }
+  std::ostringstream text;
+  text << std::ifstream(logs + "/talker.log").rdbuf();
+  EXPECT_EQ(text.str(), "one\ntwo\none\ntwo\n");
+}
+
+TEST(FindProgram, LooksInTheFolderAndWhereABuildLeavesPrograms) {
+  const auto place = folder();
+  EXPECT_EQ(find_program(place, "droverd"), "");
+  std::filesystem::create_directories(place + "/src");
+  std::ofstream(place + "/src/droverd") << "#!/bin/sh\n";
+  EXPECT_EQ(find_program(place, "droverd"), "") << "it cannot be executed";
+  std::filesystem::permissions(place + "/src/droverd", std::filesystem::perms::owner_all);
+  EXPECT_EQ(find_program(place, "droverd"), place + "/src/droverd");
+}
+
+}  // namespace
+}  // namespace drover::sim

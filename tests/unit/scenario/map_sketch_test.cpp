@@ -1,0 +1,60 @@
+#include "sim/scenario/map_sketch.h"
+
+#include <gtest/gtest.h>
+
+#include "drover/angle.h"
+
+namespace drover::sim {
+namespace {
+
+std::size_t row_of(const std::vector<std::string>& rows, const std::string& mark) {
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    if (rows[i].find(mark) != std::string::npos) return i;
+  return rows.size();
+}
+
+TEST(AMapSketch, DrawsNothingBeyondItsEdge) {
+  MapSketch map(make_track({}, {{.straight_m = 10}}));
+  const auto before = map.rows();
+  map.put({1000, 0, 0}, "#");
+  map.put({0, -1000, 0}, "#");
+  EXPECT_EQ(map.rows(), before);
+}
+
+TEST(AMapSketch, HasNorthUpAndEastRight) {
+  MapSketch map(make_track({}, {{.straight_m = 10}, {.turn_rad = kPi / 2, .radius_m = 3}}));
+  map.put({0, 0, 0}, "S");
+  map.put({13, 3, 0}, "E");
+  const auto rows = map.rows();
+  ASSERT_LT(row_of(rows, "S"), rows.size());
+  EXPECT_LT(row_of(rows, "E"), row_of(rows, "S"));
+  EXPECT_GT(rows[row_of(rows, "E")].find('E'), rows[row_of(rows, "S")].find('S'));
+}
+
+TEST(AMapSketch, DrawsTheTrackWithoutGaps) {
+  const auto rows = MapSketch(make_track({}, {{.straight_m = 10}})).rows();
+  const auto& row = rows.at(row_of(rows, "."));
+  EXPECT_EQ(row.find_first_not_of('.', row.find('.')), row.find_last_of('.') + 1);
+}
+
+TEST(AMapSketch, FitsAnEightyColumnTerminalWhateverTheTrack) {
+  for (const double length_m : {1.0, 50.0, 900.0}) {
+    for (const double yaw_rad : {0.0, 1.5}) {
+      const auto rows = MapSketch(make_track({0, 0, yaw_rad}, {{.straight_m = length_m}})).rows();
+      EXPECT_LE(rows.size(), 15U);
+      EXPECT_LE(rows.at(0).size(), 78U);
+    }
+  }
+}
+
+TEST(AnArrow, PointsWhereTheRobotLooks) {
+  EXPECT_EQ(arrow(0.1), "→");
+  EXPECT_EQ(arrow(kPi / 2), "↑");
+  EXPECT_EQ(arrow(-kPi / 2 + 0.2), "↓");
+  EXPECT_EQ(arrow(3.1), "←");
+  EXPECT_EQ(arrow(-3.1), "←");
+  EXPECT_EQ(arrow(-kPi / 4), "↘");
+}
+
+}  // namespace
+}  // namespace drover::sim
