@@ -43,7 +43,9 @@ std::unique_ptr<LineDriver> make(const Options& options, Line line) {
 
 }  // namespace
 
-std::span<const OptionSpec> option_table() { return kOptions; }
+std::span<const OptionSpec> option_table() {
+  return kOptions;
+}
 
 Settings read_settings(const Options& options, Line line) {
   Settings settings;

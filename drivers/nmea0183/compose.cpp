@@ -14,24 +14,15 @@ constexpr double kKmphPerMps = 3.6;
 // The letter of RMC and VTG for a GGA quality (NMEA 0183 version 2.3 and later).
 char mode_letter(FixQuality quality) {
   switch (quality) {
-    case FixQuality::single:
-      return 'A';
-    case FixQuality::dgps:
-      return 'D';
-    case FixQuality::pps:
-      return 'P';
-    case FixQuality::rtk_fixed:
-      return 'R';
-    case FixQuality::rtk_float:
-      return 'F';
-    case FixQuality::estimated:
-      return 'E';
-    case FixQuality::manual:
-      return 'M';
-    case FixQuality::simulator:
-      return 'S';
-    case FixQuality::none:
-      break;
+    case FixQuality::single: return 'A';
+    case FixQuality::dgps: return 'D';
+    case FixQuality::pps: return 'P';
+    case FixQuality::rtk_fixed: return 'R';
+    case FixQuality::rtk_float: return 'F';
+    case FixQuality::estimated: return 'E';
+    case FixQuality::manual: return 'M';
+    case FixQuality::simulator: return 'S';
+    case FixQuality::none: break;
   }
   return 'N';
 }

@@ -43,12 +43,9 @@ void Nmea0183Driver::on_bytes(std::span<const std::uint8_t> bytes, Time first_by
         noise_since_ = kNever;
         on_sentence({sentence_first_byte_, at, first_byte}, out);
         break;
-      case Framer::Event::dropped:
-        ++bad_;
-        break;
+      case Framer::Event::dropped: ++bad_; break;
       case Framer::Event::foreign:
-      case Framer::Event::none:
-        break;
+      case Framer::Event::none: break;
     }
     at += byte_time_;
   }

@@ -36,8 +36,8 @@ class Nmea0183Driver final : public ByteDriver {
     Time first_byte = kNever;  ///< of the first sentence
     Time last_byte = kNever;   ///< of the latest sentence
     std::optional<Duration> utc;
-    Time due = kNever;         ///< `first_byte` freed from delays
-    std::uint8_t kinds = 0;    ///< sentences seen
+    Time due = kNever;       ///< `first_byte` freed from delays
+    std::uint8_t kinds = 0;  ///< sentences seen
     bool velocity_reported = false;
   };
   /// Sigmas count for a position only when both are of one kind of fix.

@@ -13,7 +13,9 @@ std::uint64_t Random::bits() {
   return z ^ (z >> 31U);
 }
 
-double Random::uniform() { return static_cast<double>(bits() >> 11U) * 0x1.0p-53; }
+double Random::uniform() {
+  return static_cast<double>(bits() >> 11U) * 0x1.0p-53;
+}
 
 double Random::normal() {
   double sum = -6;

@@ -44,7 +44,9 @@ const KindOfFix& kind_of(FixQuality quality) {
   return kKinds.back();
 }
 
-double blend(double from, double to, double share) { return from + share * (to - from); }
+double blend(double from, double to, double share) {
+  return from + share * (to - from);
+}
 double blend_deg(double from_deg, double to_deg, double share) {
   const double turn_deg = wrap_deg(to_deg - from_deg + 180) - 180;
   return wrap_deg(from_deg + share * turn_deg);
@@ -165,14 +167,10 @@ std::size_t Nmea0183Twin::write_epoch(Time at, std::span<char> out) {
 
 double Nmea0183Twin::asked_sigma_m() const {
   switch (quality_) {
-    case FixQuality::rtk_fixed:
-      return sigma_fix_m_;
-    case FixQuality::rtk_float:
-      return sigma_float_m_;
-    case FixQuality::dgps:
-      return sigma_dgps_m_;
-    default:
-      return sigma_single_m_;
+    case FixQuality::rtk_fixed: return sigma_fix_m_;
+    case FixQuality::rtk_float: return sigma_float_m_;
+    case FixQuality::dgps: return sigma_dgps_m_;
+    default: return sigma_single_m_;
   }
 }
 
@@ -196,8 +194,7 @@ Solution Nmea0183Twin::solve(Time at) {
 
   const double speed_error_mps = speed_sigma_mps_ * noise_.normal();
   const double across_mps = speed_sigma_mps_ * noise_.normal();
-  const double heading_error_deg =
-      heading_sigma_deg_ * heading_error_.step(elapsed_s, noise_);
+  const double heading_error_deg = heading_sigma_deg_ * heading_error_.step(elapsed_s, noise_);
   if (solved) {
     const double speed_mps = std::max(0.0, truth.speed_mps + speed_error_mps);
     solution.velocity.speed_mps = speed_mps;
@@ -223,8 +220,7 @@ GnssPosition Nmea0183Twin::measure_position(Time at, const GnssTruth& truth, dou
   // The epoch at hand was measured a latency ago, perhaps before the drift began.
   const double drifting_s = std::max(0.0, to_s(at - faults_.drift_since));
   const double drift_m = faults_.drift_mps == 0 ? 0 : faults_.drift_mps * drifting_s;
-  const double east_m =
-      sigma_m_ * east_.step(elapsed_s, noise_) + faults_.jump_m + drift_m;
+  const double east_m = sigma_m_ * east_.step(elapsed_s, noise_) + faults_.jump_m + drift_m;
   const double north_m = sigma_m_ * north_.step(elapsed_s, noise_);
   const double up_m = sigma_m_ * kVerticalFactor * up_.step(elapsed_s, noise_);
 

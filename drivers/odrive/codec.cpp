@@ -46,7 +46,9 @@ float read_float(const CanFrame& frame, std::uint8_t at) {
   return std::bit_cast<float>(read_u32(frame, at));
 }
 
-float SdoValue::as_float() const { return std::bit_cast<float>(raw); }
+float SdoValue::as_float() const {
+  return std::bit_cast<float>(raw);
+}
 
 std::optional<Heartbeat> decode_heartbeat(const CanFrame& frame, Firmware firmware) {
   if (frame.remote || frame.len != 8) return {};

@@ -46,7 +46,9 @@ inline constexpr std::uint8_t kMaxNode = 62;
 constexpr std::uint32_t frame_id(std::uint8_t node, std::uint8_t command) {
   return static_cast<std::uint32_t>(node) << 5U | command;
 }
-constexpr std::uint8_t command_of(std::uint32_t id) { return id & 0x1FU; }
+constexpr std::uint8_t command_of(std::uint32_t id) {
+  return id & 0x1FU;
+}
 /// True for a plain 11-bit frame of that node, data or remote.
 inline bool belongs_to(const CanFrame& frame, std::uint8_t node) {
   return !frame.extended && !frame.fd && !frame.error && frame.id >> 5U == node;
@@ -74,9 +76,9 @@ struct FloatPair {
 };
 struct SdoValue {
   std::uint16_t endpoint = 0;
-  std::uint8_t size = 0;     ///< bytes that came, 0 to 4
-  std::uint32_t raw = 0;     ///< missing bytes are zero
-  float as_float() const;    ///< meaningful when size is 4
+  std::uint8_t size = 0;   ///< bytes that came, 0 to 4
+  std::uint32_t raw = 0;   ///< missing bytes are zero
+  float as_float() const;  ///< meaningful when size is 4
 };
 
 // From the drive.

@@ -161,8 +161,7 @@ void OdriveDriver::control(const AxisCommand& command, Time now, DriverOut& out)
       }
       break;
     case Phase::resting:
-    case Phase::locked:
-      break;
+    case Phase::locked: break;
   }
   send_setpoint(0, now, false, out);
 }

@@ -92,7 +92,7 @@ class OdriveDriver final : public CanDriver {
   Time last_attempt_ = kNever;
   bool attempted_ = false;
   Time cleared_at_ = kNever;  ///< errors, for this request
-  bool fault_ = false;    ///< `lock_reason_` is a fault
+  bool fault_ = false;        ///< `lock_reason_` is a fault
   Reason lock_reason_;
   Time last_setpoint_ = kNever;
   double last_turnps_ = 0;

@@ -87,7 +87,9 @@ std::unique_ptr<CanTwin> make_twin(const Options& options) {
 
 }  // namespace
 
-std::span<const OptionSpec> twin_option_table() { return kTwinOptions; }
+std::span<const OptionSpec> twin_option_table() {
+  return kTwinOptions;
+}
 
 TwinSettings read_twin_settings(const Options& options) {
   for (const OptionSpec& spec : kTwinOptions) {

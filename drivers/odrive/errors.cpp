@@ -56,16 +56,11 @@ constexpr Bit kMotor_0_5[] = {
     {0x800000000, "unbalanced phases"},
 };
 constexpr Bit kEncoder_0_5[] = {
-    {0x1, "encoder gain unstable"},
-    {0x2, "encoder resolution and pole pairs disagree"},
-    {0x4, "encoder does not respond"},
-    {0x8, "encoder mode unsupported"},
-    {0x10, "illegal Hall state"},
-    {0x20, "encoder index not found yet"},
-    {0x40, "encoder SPI time-out"},
-    {0x80, "encoder SPI broken"},
-    {0x100, "encoder SPI not ready"},
-    {0x200, "Hall sensors not calibrated"},
+    {0x1, "encoder gain unstable"},    {0x2, "encoder resolution and pole pairs disagree"},
+    {0x4, "encoder does not respond"}, {0x8, "encoder mode unsupported"},
+    {0x10, "illegal Hall state"},      {0x20, "encoder index not found yet"},
+    {0x40, "encoder SPI time-out"},    {0x80, "encoder SPI broken"},
+    {0x100, "encoder SPI not ready"},  {0x200, "Hall sensors not calibrated"},
 };
 constexpr Bit kController_0_5[] = {
     {0x1, "overspeed"},

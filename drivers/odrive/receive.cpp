@@ -23,12 +23,9 @@ bool is_master_command(std::uint8_t command, Firmware firmware) {
     case cmd::kSetInputPos:
     case cmd::kSetInputVel:
     case cmd::kSetInputTorque:
-    case cmd::kClearErrors:
-      return true;
-    case cmd::kRxSdo:
-      return firmware == Firmware::v0_6;
-    default:
-      return false;
+    case cmd::kClearErrors: return true;
+    case cmd::kRxSdo: return firmware == Firmware::v0_6;
+    default: return false;
   }
 }
 
@@ -63,20 +60,14 @@ bool OdriveDriver::on_reply(std::uint8_t command, const CanFrame& frame, Time re
   const bool v0_6 = settings_.firmware == Firmware::v0_6;
   bool understood = false;
   switch (command) {
-    case cmd::kHeartbeat:
-      understood = on_heartbeat(frame, received, out);
-      break;
-    case cmd::kEstimates:
-      understood = on_estimates(frame, received, out);
-      break;
+    case cmd::kHeartbeat: understood = on_heartbeat(frame, received, out); break;
+    case cmd::kEstimates: understood = on_estimates(frame, received, out); break;
     case cmd::kError:
     case cmd::kControllerError:
       if (v0_6 && command == cmd::kControllerError) return true;
       understood = on_errors(command, frame);
       break;
-    case cmd::kEncoderError:
-      understood = on_errors(command, frame);
-      break;
+    case cmd::kEncoderError: understood = on_errors(command, frame); break;
     case cmd::kTxSdo: {
       if (!v0_6) return true;
       const auto value = decode_tx_sdo(frame);
@@ -96,9 +87,9 @@ bool OdriveDriver::on_reply(std::uint8_t command, const CanFrame& frame, Time re
       const auto pair = decode_floats(frame);
       understood = pair.has_value();
       if (pair)
-        report(AxisTemperature{axis_, finite_or_absent(pair->first),
-                               finite_or_absent(pair->second)},
-               received, out);
+        report(
+            AxisTemperature{axis_, finite_or_absent(pair->first), finite_or_absent(pair->second)},
+            received, out);
       break;
     }
     case cmd::kBus: {
@@ -109,8 +100,7 @@ bool OdriveDriver::on_reply(std::uint8_t command, const CanFrame& frame, Time re
                received, out);
       break;
     }
-    default:
-      return true;
+    default: return true;
   }
   if (understood) {
     ++good_;

@@ -81,10 +81,8 @@ FrameEffect effect(const CanFrame& frame, const Settings& settings) {
     case cmd::kClearErrors:
       return frame == encode_clear_errors(settings.node) ? FrameEffect::harmless
                                                          : FrameEffect::forbidden;
-    case cmd::kRxSdo:
-      return effect_of_sdo(frame, settings);
-    default:
-      return FrameEffect::forbidden;
+    case cmd::kRxSdo: return effect_of_sdo(frame, settings);
+    default: return FrameEffect::forbidden;
   }
 }
 

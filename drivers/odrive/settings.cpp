@@ -27,9 +27,7 @@ const OptionSpec kOptions[] = {
      .min = 0.001,
      .max = 1000,
      .text = "motor turns per turn of the joint"},
-    {.name = "reversed",
-     .default_value = false,
-     .text = "the motor turns against the joint"},
+    {.name = "reversed", .default_value = false, .text = "the motor turns against the joint"},
     {.name = "torque_constant_Nm_per_A",
      .default_value = 0.0,
      .min = 0,
@@ -104,7 +102,9 @@ double checked(const Options& options, std::string_view name) {
 
 }  // namespace
 
-std::span<const OptionSpec> option_table() { return kOptions; }
+std::span<const OptionSpec> option_table() {
+  return kOptions;
+}
 
 Settings read_settings(const Options& options) {
   Settings settings;

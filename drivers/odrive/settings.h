@@ -12,8 +12,8 @@ namespace drover::odrive {
 struct Settings {
   std::uint8_t node = 0;
   Firmware firmware = Firmware::v0_6;
-  double gear_ratio = 1;  ///< motor turns per joint turn
-  double sign = 1;        ///< -1: the motor turns against the joint
+  double gear_ratio = 1;                ///< motor turns per joint turn
+  double sign = 1;                      ///< -1: the motor turns against the joint
   double torque_constant_Nm_per_A = 0;  ///< of the motor; 0: unknown
   double velocity_limit_turnps = 0;     ///< of the motor
   double watchdog_timeout_s = 0;        ///< 0: the drive has none

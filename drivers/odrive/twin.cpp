@@ -123,9 +123,7 @@ void OdriveTwin::on_frame(const CanFrame& frame, Time now, TwinFrames& out) {
 
 void OdriveTwin::on_data(const CanFrame& frame, Time now, TwinFrames& out) {
   switch (command_of(frame.id)) {
-    case cmd::kEstop:
-      disarm(v0_6() ? kEstop_0_6 : kEstop_0_5);
-      break;
+    case cmd::kEstop: disarm(v0_6() ? kEstop_0_6 : kEstop_0_5); break;
     case cmd::kRxSdo:
       if (v0_6()) on_sdo(frame, out);
       break;
@@ -198,9 +196,7 @@ void OdriveTwin::answer(std::uint8_t command, TwinFrames& out) const {
     send(encode_floats(node, command, static_cast<float>(first), static_cast<float>(second)), out);
   };
   switch (command) {
-    case cmd::kHeartbeat:
-      send(encode_heartbeat(node, heartbeat(), settings_.firmware), out);
-      break;
+    case cmd::kHeartbeat: send(encode_heartbeat(node, heartbeat(), settings_.firmware), out); break;
     case cmd::kError:
       if (v0_6()) {
         send(encode_words(node, command, error_, disarm_reason_), out);
@@ -215,22 +211,17 @@ void OdriveTwin::answer(std::uint8_t command, TwinFrames& out) const {
     case cmd::kEstimates:
       floats(measured_rad_ * per_joint_turn, measured_radps_ * per_joint_turn);
       break;
-    case cmd::kIq:
-      floats(motor_Nm / constant, motor_Nm / constant);
-      break;
+    case cmd::kIq: floats(motor_Nm / constant, motor_Nm / constant); break;
     case cmd::kTemperature:
       if (v0_6())
         floats(twin_.ambient_degC + 0.5 * (motor_degC_ - twin_.ambient_degC),
                twin_.has_thermistor ? motor_degC_ : std::numeric_limits<double>::quiet_NaN());
       break;
-    case cmd::kBus:
-      floats(twin_.bus_V, electrical_W_ / twin_.bus_V);
-      break;
+    case cmd::kBus: floats(twin_.bus_V, electrical_W_ / twin_.bus_V); break;
     case cmd::kTorques:
       if (v0_6()) floats(motor_Nm, motor_Nm);
       break;
-    default:
-      break;
+    default: break;
   }
 }
 

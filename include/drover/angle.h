@@ -19,12 +19,18 @@ inline double wrap_deg(double angle_deg) {
   const double wrapped = angle_deg - std::floor(angle_deg / 360.0) * 360.0;
   return wrapped >= 360.0 ? 0.0 : wrapped;
 }
-constexpr double to_rad(double deg) { return deg * kPi / 180.0; }
-constexpr double to_deg(double rad) { return rad * 180.0 / kPi; }
+constexpr double to_rad(double deg) {
+  return deg * kPi / 180.0;
+}
+constexpr double to_deg(double rad) {
+  return rad * 180.0 / kPi;
+}
 
 inline double yaw_rad_from_compass_deg(double heading_deg) {
   return wrap_rad(to_rad(90.0 - heading_deg));
 }
-inline double compass_deg_from_yaw_rad(double yaw_rad) { return wrap_deg(90.0 - to_deg(yaw_rad)); }
+inline double compass_deg_from_yaw_rad(double yaw_rad) {
+  return wrap_deg(90.0 - to_deg(yaw_rad));
+}
 
 }  // namespace drover

@@ -16,7 +16,8 @@ struct RequestId {
 };
 
 /// Drive along `path` from where the robot is to point `target` (index from 0) and stop there.
-/// The engine takes the path, and gives it back in a PathReleased event whatever becomes of the task.
+/// The engine takes the path, and gives it back in a PathReleased event whatever becomes of the
+/// task.
 struct StartTask {
   const Path* path = nullptr;
   std::uint32_t target = 0;

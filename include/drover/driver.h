@@ -1,7 +1,8 @@
 // The driver seam: pure codecs and state machines between bytes and measurements.
 //
 // A driver does no I/O, reads no clock, starts no thread, and after construction allocates nothing
-// and throws nothing. Everything it has to say goes into a DriverOut that the caller owns and empties.
+// and throws nothing. Everything it has to say goes into a DriverOut that the caller owns and
+// empties.
 #pragma once
 
 #include <cstdint>
@@ -17,9 +18,9 @@ namespace drover {
 /// What a driver says in answer to one call.
 struct DriverOut {
   FixedVector<Measurement, 64> measurements;
-  FixedVector<CanFrame, 32> frames;          ///< CAN drivers: to be sent, in this order
-  FixedVector<std::uint8_t, 512> bytes;      ///< byte drivers: to be written, in this order
-  std::uint32_t overflows = 0;               ///< things that did not fit and were dropped
+  FixedVector<CanFrame, 32> frames;      ///< CAN drivers: to be sent, in this order
+  FixedVector<std::uint8_t, 512> bytes;  ///< byte drivers: to be written, in this order
+  std::uint32_t overflows = 0;           ///< things that did not fit and were dropped
 
   void report(const Measurement& m) { overflows += measurements.push_back(m) ? 0 : 1; }
   void send(const CanFrame& f) { overflows += frames.push_back(f) ? 0 : 1; }
@@ -81,9 +82,9 @@ struct StopRecipe {
 
 /// What the device does by itself when frames cease.
 struct SilenceBehaviour {
-  bool stops = false;      ///< a time-out of its own is set by this driver
-  Duration after{};        ///< that time-out
-  std::string_view text;   ///< for operators: "disarms after 0.1 s (watchdog)"
+  bool stops = false;     ///< a time-out of its own is set by this driver
+  Duration after{};       ///< that time-out
+  std::string_view text;  ///< for operators: "disarms after 0.1 s (watchdog)"
 };
 
 /// One drive on a CAN bus: one axis.

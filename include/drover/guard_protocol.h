@@ -1,9 +1,10 @@
-// Between droverd and drover-guard: a SOCK_SEQPACKET socket for what changes seldom, and shared memory
-// for the heartbeats. Plain data; no logic.
+// Between droverd and drover-guard: a SOCK_SEQPACKET socket for what changes seldom, and shared
+// memory for the heartbeats. Plain data; no logic.
 //
-// Order: `hello` (with the shared memory's descriptor) begins a new set, then a `descriptor` for each
-// link that a drive hangs on, then the `stop_frame`s of every drive, then `watch` makes the set the one
-// in force. A changed link means the whole set again. `hand_back` gives the bus back to the daemon.
+// Order: `hello` (with the shared memory's descriptor) begins a new set, then a `descriptor` for
+// each link that a drive hangs on, then the `stop_frame`s of every drive, then `watch` makes the
+// set the one in force. A changed link means the whole set again. `hand_back` gives the bus back to
+// the daemon.
 #pragma once
 
 #include <array>
@@ -23,9 +24,9 @@ enum class GuardVerb : std::uint32_t { hello = 1, descriptor, stop_frame, watch,
 struct GuardMessage {
   std::uint32_t version = kGuardVersion;
   GuardVerb verb = GuardVerb::hello;
-  std::uint32_t descriptor = 0;           ///< index of the link (descriptor, stop_frame)
-  std::uint32_t limit_ms = 50;            ///< hello: a heartbeat later than this is too late
-  std::uint32_t size = 0;                 ///< stop_frame: bytes used
+  std::uint32_t descriptor = 0;  ///< index of the link (descriptor, stop_frame)
+  std::uint32_t limit_ms = 50;   ///< hello: a heartbeat later than this is too late
+  std::uint32_t size = 0;        ///< stop_frame: bytes used
   std::array<std::uint8_t, kGuardMaxBytes> bytes{};  ///< written to the descriptor as they are
 };
 static_assert(std::is_trivially_copyable_v<GuardMessage>);

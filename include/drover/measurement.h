@@ -74,7 +74,7 @@ struct GnssPosition {
   int satellites = 0;
   double hdop = kAbsent;
   double correction_age_s = kAbsent;
-  double sigma_east_m = kAbsent;   ///< of this epoch's GST, absent when there is none
+  double sigma_east_m = kAbsent;  ///< of this epoch's GST, absent when there is none
   double sigma_north_m = kAbsent;
 };
 
@@ -91,7 +91,8 @@ struct GnssHeading {
 enum class Line : std::uint8_t { estop, bumper, zone_far, zone_near };
 inline constexpr std::size_t kLineCount = 4;
 
-/// Debounced meaning of a digital input: `active` is "stop", "touched" or "somebody is in the zone".
+/// Debounced meaning of a digital input: `active` is "stop", "touched" or "somebody is in the
+/// zone".
 struct LineState {
   Line line = Line::estop;
   bool active = true;

@@ -22,14 +22,14 @@ using MakeGnssTwin = std::unique_ptr<GnssTwin> (*)(const Options&, std::uint64_t
 
 /// Factories throw std::runtime_error naming the option; only at start-up.
 struct DriverEntry {
-  std::string_view name;                ///< as written in the configuration
-  std::string_view folder;              ///< below drivers/
+  std::string_view name;    ///< as written in the configuration
+  std::string_view folder;  ///< below drivers/
   std::span<const OptionSpec> options;
   std::variant<MakeCanDriver, MakeByteDriver, MakeLineDriver> make;
   /// Options of the simulated device; its factory gets these and the driver's in one Options.
   std::span<const OptionSpec> twin_options;
   std::variant<std::monostate, MakeCanTwin, MakeGnssTwin> make_twin;
-  std::string_view summary;             ///< one line for people
+  std::string_view summary;  ///< one line for people
 };
 
 std::span<const DriverEntry> driver_registry();

@@ -47,9 +47,9 @@ struct AxisSnapshot {
 
 struct GnssSnapshot {
   SourceState health = SourceState::never_heard;
-  GnssPosition position;          ///< last one, for display
-  Time position_time = kNever;    ///< when it was true
-  double heading_deg = kAbsent;   ///< of the vehicle, clockwise from true north
+  GnssPosition position;         ///< last one, for display
+  Time position_time = kNever;   ///< when it was true
+  double heading_deg = kAbsent;  ///< of the vehicle, clockwise from true north
   /// Antenna position of the pose's own instant, so that pose and rtk belong together.
   double pose_latitude_deg = 0;
   double pose_longitude_deg = 0;
@@ -62,8 +62,8 @@ struct NavSnapshot {
   bool paused = false;
   Owner owner = Owner::nobody;
   Name track;
-  std::uint32_t target_id = 0;        ///< as the operator counts, 0 when none
-  double cross_track_m = 0;           ///< left of the path positive, while a task runs
+  std::uint32_t target_id = 0;  ///< as the operator counts, 0 when none
+  double cross_track_m = 0;     ///< left of the path positive, while a task runs
   double distance_left_m = 0;
   double asked_speed_mps = 0;
 };
@@ -77,11 +77,11 @@ struct CycleStats {
 struct LinkSnapshot {
   Name name;
   bool up = false;
-  Reason reason;               ///< why it is not up
+  Reason reason;  ///< why it is not up
   std::uint64_t received = 0;
   std::uint64_t sent = 0;
-  std::uint64_t dropped = 0;   ///< receive queue overflow, refused sends
-  std::uint64_t refused = 0;   ///< frames stopped by the gate
+  std::uint64_t dropped = 0;  ///< receive queue overflow, refused sends
+  std::uint64_t refused = 0;  ///< frames stopped by the gate
 };
 
 struct Snapshot {
@@ -94,7 +94,7 @@ struct Snapshot {
   std::array<SourceState, kLineCount> line_health{};
   std::array<bool, kLineCount> line_configured{};
   FixedVector<LinkSnapshot, 8> links;
-  bool stop_latched = false;   ///< nothing moves until a person acts
+  bool stop_latched = false;  ///< nothing moves until a person acts
   bool guard_alive = false;
   bool guard_has_bus = false;
   bool origin_set = false;

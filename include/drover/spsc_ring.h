@@ -13,7 +13,8 @@ class SpscRing {
   static_assert((N & (N - 1)) == 0, "the size is a power of two");
 
  public:
-  /// Producer only; false when full (the caller counts or refuses aloud): then `value` is untouched.
+  /// Producer only; false when full (the caller counts or refuses aloud): then `value` is
+  /// untouched.
   template <class U>
   [[nodiscard]] bool push(U&& value) {
     const auto tail = tail_.load(std::memory_order_relaxed);

@@ -22,8 +22,14 @@ using Time = MonotonicClock::time_point;
 /// "Never": older than anything that can happen, without overflowing when subtracted.
 inline constexpr Time kNever{Duration{INT64_MIN / 4}};
 
-constexpr double to_s(Duration d) { return static_cast<double>(d.count()) * 1e-9; }
-constexpr double to_s(Time t) { return to_s(t.time_since_epoch()); }
-inline Duration from_s(double s) { return Duration{std::llround(s * 1e9)}; }
+constexpr double to_s(Duration d) {
+  return static_cast<double>(d.count()) * 1e-9;
+}
+constexpr double to_s(Time t) {
+  return to_s(t.time_since_epoch());
+}
+inline Duration from_s(double s) {
+  return Duration{std::llround(s * 1e9)};
+}
 
 }  // namespace drover

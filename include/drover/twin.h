@@ -11,8 +11,8 @@
 
 namespace drover {
 
-/// The mechanical side of a simulated drive, at the joint. The plant fills in position and velocity,
-/// the twin answers with a torque.
+/// The mechanical side of a simulated drive, at the joint. The plant fills in position and
+/// velocity, the twin answers with a torque.
 struct Shaft {
   double position_rad = 0;
   double velocity_radps = 0;
@@ -25,7 +25,8 @@ class CanTwin {
  public:
   virtual ~CanTwin() = default;
   virtual void on_frame(const CanFrame& frame, Time now, TwinFrames& out) = 0;
-  /// Advances to `now` (monotonic, called at the plant's step): updates the torque, sends what is due.
+  /// Advances to `now` (monotonic, called at the plant's step): updates the torque, sends what is
+  /// due.
   virtual void on_tick(Time now, Shaft& shaft, TwinFrames& out) = 0;
   /// Supply on or off; off forgets everything that is not in the device's flash.
   virtual void set_power(bool on, Time now) = 0;
@@ -36,10 +37,10 @@ class CanTwin {
 
 /// What a simulated receiver knows of the world.
 struct GnssTruth {
-  double latitude_deg = 0;   ///< of the antenna
+  double latitude_deg = 0;  ///< of the antenna
   double longitude_deg = 0;
-  double altitude_m = 0;     ///< above the ellipsoid
-  double heading_deg = 0;    ///< of the antenna baseline, clockwise from true north
+  double altitude_m = 0;   ///< above the ellipsoid
+  double heading_deg = 0;  ///< of the antenna baseline, clockwise from true north
   double speed_mps = 0;
   double course_deg = 0;
 };
@@ -47,11 +48,11 @@ struct GnssTruth {
 class GnssTwin {
  public:
   virtual ~GnssTwin() = default;
-  /// Call at each plant step; appends the bytes of epochs whose output is due to `out` (a queue that
-  /// the caller paces at the line's baud rate). Returns the number appended.
+  /// Call at each plant step; appends the bytes of epochs whose output is due to `out` (a queue
+  /// that the caller paces at the line's baud rate). Returns the number appended.
   virtual std::size_t on_tick(Time now, const GnssTruth& truth, std::span<char> out) = 0;
-  /// Scenario event: "fix", "float", "dgps", "single", "none" (no position), "silent", "heading_lost",
-  /// "jump:<metres east>", ... Returns false when unknown.
+  /// Scenario event: "fix", "float", "dgps", "single", "none" (no position), "silent",
+  /// "heading_lost", "jump:<metres east>", ... Returns false when unknown.
   virtual bool set_state(std::string_view name, Time now) = 0;
 };
 

@@ -39,8 +39,7 @@ std::string ask(const std::string& socket_path, const std::string& request) {
   const timeval patience{kPatience_s, 0};
   ::setsockopt(fd.get(), SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
   const std::string line = request + "\n";
-  if (::send(fd.get(), line.data(), line.size(), MSG_NOSIGNAL) !=
-      static_cast<ssize_t>(line.size()))
+  if (::send(fd.get(), line.data(), line.size(), MSG_NOSIGNAL) != static_cast<ssize_t>(line.size()))
     throw NoAnswer{why(socket_path, errno)};
 
   std::string reply;

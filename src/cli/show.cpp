@@ -29,7 +29,9 @@ std::string quantity(const Node& node, const char* format) {
   return out;
 }
 
-bool yes(const Node& node) { return node.boolean() != nullptr && *node.boolean(); }
+bool yes(const Node& node) {
+  return node.boolean() != nullptr && *node.boolean();
+}
 
 void line(std::string& out, std::string_view label, const std::string& value) {
   char head[32];
@@ -48,8 +50,7 @@ std::string padded(std::string value, std::size_t width) {
 void show_why(std::string& out, const Node& status) {
   const auto* why = at(status, "why").list();
   if (why == nullptr) return;
-  for (std::size_t i = 0; i < why->size(); ++i)
-    line(out, i == 0 ? "why" : "", text((*why)[i]));
+  for (std::size_t i = 0; i < why->size(); ++i) line(out, i == 0 ? "why" : "", text((*why)[i]));
 }
 
 void show_nav(std::string& out, const Node& status) {
@@ -69,17 +70,19 @@ void show_nav(std::string& out, const Node& status) {
 
 void show_place(std::string& out, const Node& status) {
   const auto& pose = at(status, "pose");
-  line(out, "pose", quantity(at(pose, "x_m"), "x %.2f m") + quantity(at(pose, "y_m"), "  y %.2f m") +
-                        quantity(at(pose, "yaw_rad"), "  yaw %.3f rad") +
-                        quantity(at(pose, "position_sigma_m"), "  +- %.3f m"));
-  line(out, "speed", quantity(at(pose, "vx_mps"), "%.2f m/s") +
-                         quantity(at(pose, "wz_radps"), "  %.2f rad/s"));
+  line(out, "pose",
+       quantity(at(pose, "x_m"), "x %.2f m") + quantity(at(pose, "y_m"), "  y %.2f m") +
+           quantity(at(pose, "yaw_rad"), "  yaw %.3f rad") +
+           quantity(at(pose, "position_sigma_m"), "  +- %.3f m"));
+  line(out, "speed",
+       quantity(at(pose, "vx_mps"), "%.2f m/s") + quantity(at(pose, "wz_radps"), "  %.2f rad/s"));
   const auto& gnss = at(status, "gnss");
-  line(out, "gnss", text(at(gnss, "quality")) + ", " + text(at(gnss, "health")) +
-                        quantity(at(gnss, "latitude_deg"), "  %.9f") +
-                        quantity(at(gnss, "longitude_deg"), " %.9f") +
-                        quantity(at(gnss, "satellites"), "  %.0f satellites") +
-                        quantity(at(gnss, "age_s"), "  %.2f s old"));
+  line(out, "gnss",
+       text(at(gnss, "quality")) + ", " + text(at(gnss, "health")) +
+           quantity(at(gnss, "latitude_deg"), "  %.9f") +
+           quantity(at(gnss, "longitude_deg"), " %.9f") +
+           quantity(at(gnss, "satellites"), "  %.0f satellites") +
+           quantity(at(gnss, "age_s"), "  %.2f s old"));
 }
 
 void show_axes(std::string& out, const Node& status) {
@@ -115,9 +118,10 @@ void show_devices(std::string& out, const Node& status) {
     }
   }
   const auto& guard = at(status, "guard");
-  line(out, "guard", !yes(at(guard, "alive"))     ? "does not answer"
-                     : yes(at(guard, "has_bus")) ? "holds the drives"
-                                                  : "watches");
+  line(out, "guard",
+       !yes(at(guard, "alive"))    ? "does not answer"
+       : yes(at(guard, "has_bus")) ? "holds the drives"
+                                   : "watches");
   const auto& broker = at(status, "broker");
   line(out, "broker", yes(at(broker, "connected")) ? "connected" : text(at(broker, "reason")));
 }
@@ -126,8 +130,9 @@ void show_devices(std::string& out, const Node& status) {
 
 std::string show_status(const Node& status) {
   std::string out;
-  line(out, "robot", text(at(status, "robot")) + "  droverd " + text(at(status, "version")) +
-                         quantity(at(status, "uptime_s"), "  up %.0f s"));
+  line(out, "robot",
+       text(at(status, "robot")) + "  droverd " + text(at(status, "version")) +
+           quantity(at(status, "uptime_s"), "  up %.0f s"));
   show_nav(out, status);
   show_why(out, status);
   show_place(out, status);

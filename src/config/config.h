@@ -50,7 +50,7 @@ struct LineConfig {
 };
 
 struct LinesConfig {
-  std::string chip;  ///< label or name of the chip, or "files:DIRECTORY"
+  std::string chip;                         ///< label or name of the chip, or "files:DIRECTORY"
   std::array<LineConfig, kLineCount> line;  ///< by Line
 };
 
@@ -64,7 +64,7 @@ struct MqttConfig {
   bool enabled = true;
   std::string host = "127.0.0.1";  ///< or the path of a Unix socket, with port 0
   int port = 1883;
-  std::string client_id;           ///< empty: "droverd-" and eight random hex digits
+  std::string client_id;  ///< empty: "droverd-" and eight random hex digits
   std::string username;
   std::string password_file;
   int keepalive_s = 10;
@@ -72,9 +72,9 @@ struct MqttConfig {
 
 struct ProtocolConfig {
   std::string heading = "clockwise_from_north";
-  int first_target_id = 1;         ///< number of a track's first point: 1, or 0 for some makers
-  std::string power = "percent";   ///< "percent" or "volts"
-  bool automatic_origin = true;    ///< take the first RTK fix as origin when none was ever stored
+  int first_target_id = 1;        ///< number of a track's first point: 1, or 0 for some makers
+  std::string power = "percent";  ///< "percent" or "volts"
+  bool automatic_origin = true;   ///< take the first RTK fix as origin when none was ever stored
 };
 
 struct DroverConfig {

@@ -21,11 +21,11 @@ struct BaseConfig {
 };
 
 struct LimitsConfig {
-  double max_speed_mps = 0.8;         ///< faster requests are clamped to this, and it is said
-  double min_speed_mps = 0.05;        ///< slower requests are refused: the base cannot hold them
+  double max_speed_mps = 0.8;   ///< faster requests are clamped to this, and it is said
+  double min_speed_mps = 0.05;  ///< slower requests are refused: the base cannot hold them
   double max_yaw_rate_radps = 0.8;
   double acceleration_mps2 = 0.4;
-  double deceleration_mps2 = 0.8;     ///< controlled stop; an e-stop is immediate
+  double deceleration_mps2 = 0.8;  ///< controlled stop; an e-stop is immediate
   double jerk_mps3 = 2.0;
   double yaw_acceleration_radps2 = 1.5;
 };
@@ -37,57 +37,57 @@ struct EstimateConfig {
   double antenna_z_m = 0.0;
   double heading_baseline_offset_deg = 0.0;  ///< of the antenna line from ahead, clockwise
   double heading_sigma_deg = 0.5;
-  double max_correction_age_s = 30.0;    ///< an older RTK fix counts as float
+  double max_correction_age_s = 30.0;  ///< an older RTK fix counts as float
   // The predicted error (two sigma, larger axis) inside which the position counts as good.
   double bound_start_m = 0.10;
   double bound_run_m = 0.30;
   double bound_yaw_deg = 5.0;
   double max_measurement_delay_s = 0.5;
-  double gate_sigma = 5.0;               ///< innovations beyond this are not believed
-  double jump_time_s = 1.0;              ///< believed again after disagreeing, consistently, this long
-  double wheel_stale_s = 0.1;            ///< older wheel speeds say nothing about the motion
+  double gate_sigma = 5.0;     ///< innovations beyond this are not believed
+  double jump_time_s = 1.0;    ///< believed again after disagreeing, consistently, this long
+  double wheel_stale_s = 0.1;  ///< older wheel speeds say nothing about the motion
   // One sigma of a position by quality: a floor under what the receiver claims in GST.
   double sigma_fixed_m = 0.01;
   double sigma_float_m = 0.30;
   double sigma_dgps_m = 0.60;
   double sigma_single_m = 2.0;
-  double gnss_inflation = 1.25;          ///< times that floor or GST: receivers are optimists
-  double gnss_correlation_s = 30.0;      ///< how long a position error stays the same (multipath)
-  double gnss_white_share = 0.5;         ///< uncorrelated noise on top, as a share of the sigma
-  double gnss_timing_sigma_s = 0.01;     ///< how well the instant of a position is known
-  double fix_settle_s = 1.0;             ///< the old error fades so fast when the quality improves
-  double heading_correlation_s = 0.1;    ///< how long a heading error stays the same
+  double gnss_inflation = 1.25;        ///< times that floor or GST: receivers are optimists
+  double gnss_correlation_s = 30.0;    ///< how long a position error stays the same (multipath)
+  double gnss_white_share = 0.5;       ///< uncorrelated noise on top, as a share of the sigma
+  double gnss_timing_sigma_s = 0.01;   ///< how well the instant of a position is known
+  double fix_settle_s = 1.0;           ///< the old error fades so fast when the quality improves
+  double heading_correlation_s = 0.1;  ///< how long a heading error stays the same
   // Odometry noise: per square root of metre driven or of radian turned.
   double odometry_along_m = 0.01;
   double odometry_across_m = 0.01;
   double odometry_yaw_rad = 0.01;
-  double turning_shift_m = 0.02;         ///< the base does not turn exactly about its middle
+  double turning_shift_m = 0.02;  ///< the base does not turn exactly about its middle
   double turning_yaw_rad = 0.03;
-  double yaw_slip_sigma = 0.3;           ///< of the yaw gain (1 / yaw_slip_factor), at the start
-  double yaw_slip_walk = 0.03;           ///< of the yaw gain, per square root of radian turned
-  double wheel_scale_sigma = 0.02;       ///< of wheel radius and longitudinal slip, at the start
-  double wheel_scale_walk = 0.002;       ///< per square root of metre
+  double yaw_slip_sigma = 0.3;      ///< of the yaw gain (1 / yaw_slip_factor), at the start
+  double yaw_slip_walk = 0.03;      ///< of the yaw gain, per square root of radian turned
+  double wheel_scale_sigma = 0.02;  ///< of wheel radius and longitudinal slip, at the start
+  double wheel_scale_walk = 0.002;  ///< per square root of metre
 };
 
 struct NavigateConfig {
-  double start_distance_m = 2.0;         ///< farther from the track: refused
-  double start_angle_deg = 30.0;         ///< worse turned: refused
+  double start_distance_m = 2.0;  ///< farther from the track: refused
+  double start_angle_deg = 30.0;  ///< worse turned: refused
   double goal_tolerance_m = 0.10;
   double lookahead_s = 1.0;
   double min_lookahead_m = 0.35;
-  double drive_lag_s = 0.12;             ///< from a set point to the wheels' motion, foreseen
-  double pivot_angle_deg = 60.0;         ///< sharper corners are turned on the spot; 180: none
-  double braking_fraction = 0.5;         ///< of the deceleration, used to slow for bends and the end
+  double drive_lag_s = 0.12;      ///< from a set point to the wheels' motion, foreseen
+  double pivot_angle_deg = 60.0;  ///< sharper corners are turned on the spot; 180: none
+  double braking_fraction = 0.5;  ///< of the deceleration, used to slow for bends and the end
   double lateral_acceleration_mps2 = 0.3;  ///< slows for curvature
-  double creep_speed_mps = 0.10;         ///< slowest speed while approaching the goal
-  double far_zone_speed_mps = 0.25;      ///< cap while the scanner's far zone is occupied
-  double corridor_m = 0.50;              ///< farther off the track while driving: the task fails
-  double resume_after_s = 1.0;           ///< of health, before a pause ends by itself
-  double obstacle_timeout_s = 120.0;     ///< a longer obstacle ends the task
-  double locate_timeout_s = 60.0;        ///< a longer loss of localisation ends the task
-  double start_timeout_s = 3.0;          ///< drives not running by then: start_nav_failse
-  double blocked_timeout_s = 2.0;        ///< commanded but not moving for so long: the task fails
-  double arrival_timeout_s = 20.0;       ///< creeping near the goal longer than this: the task fails
+  double creep_speed_mps = 0.10;           ///< slowest speed while approaching the goal
+  double far_zone_speed_mps = 0.25;        ///< cap while the scanner's far zone is occupied
+  double corridor_m = 0.50;                ///< farther off the track while driving: the task fails
+  double resume_after_s = 1.0;             ///< of health, before a pause ends by itself
+  double obstacle_timeout_s = 120.0;       ///< a longer obstacle ends the task
+  double locate_timeout_s = 60.0;          ///< a longer loss of localisation ends the task
+  double start_timeout_s = 3.0;            ///< drives not running by then: start_nav_failse
+  double blocked_timeout_s = 2.0;          ///< commanded but not moving for so long: the task fails
+  double arrival_timeout_s = 20.0;  ///< creeping near the goal longer than this: the task fails
 };
 
 struct HealthConfig {

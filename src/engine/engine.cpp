@@ -49,9 +49,9 @@ struct Engine::Impl {
   EventQueue events;
   std::array<bool, kLineCount> level{};  ///< last reported; active until then
   std::array<bool, kLineCount> pulse{};  ///< was active at some instant since the last step
-  Estimate estimate;                              ///< of the last step
-  GnssPosition fix;                               ///< the last one
-  double baseline_deg = kAbsent;                  ///< last measured heading of the antennas
+  Estimate estimate;                     ///< of the last step
+  GnssPosition fix;                      ///< the last one
+  double baseline_deg = kAbsent;         ///< last measured heading of the antennas
   Time last_step = kNever;
   Snapshot snapshot;
 };
@@ -116,8 +116,7 @@ void Engine::Impl::propose_origin(const RequestId& id, Time now) {
   const auto refuse = [&](const Reason& why) { events.push(now, CommandRefused{id, why}); };
   if (navigator.active()) return refuse("a task runs");
   const Time at = snapshot.gnss.position_time;
-  if (!health.report().gnss_ok || at == kNever ||
-      now - at > from_s(config.health.gnss_stale_s)) {
+  if (!health.report().gnss_ok || at == kNever || now - at > from_s(config.health.gnss_stale_s)) {
     return refuse("the receiver gives no position");
   }
   if (fix.quality != FixQuality::rtk_fixed) return refuse("the position is not RTK fixed");
@@ -145,8 +144,8 @@ void Engine::Impl::set_origin(const RequestId& id, const GeodeticPoint& origin, 
   }
 }
 
-void Engine::Impl::command_side(const FixedVector<AxisId, 8>& side, double velocity_radps,
-                                bool run, EngineOutput& out) {
+void Engine::Impl::command_side(const FixedVector<AxisId, 8>& side, double velocity_radps, bool run,
+                                EngineOutput& out) {
   for (const AxisId id : side) {
     AxisCommand& command = out.axes[id];
     command.request = run ? AxisRequest::run : AxisRequest::rest;
@@ -158,8 +157,8 @@ void Engine::Impl::command_side(const FixedVector<AxisId, 8>& side, double veloc
 
 void Engine::Impl::command_axes(const Twist& twist, bool run, EngineOutput& out) {
   const double slip = estimate.yaw_slip_factor;
-  const WheelSpeeds speeds = wheels_from_twist(config.base, slip, twist,
-                                               max_wheel_mps(config.base, config.limits, slip));
+  const WheelSpeeds speeds =
+      wheels_from_twist(config.base, slip, twist, max_wheel_mps(config.base, config.limits, slip));
   command_side(config.base.left, speeds.left_radps, run, out);
   command_side(config.base.right, speeds.right_radps, run, out);
 }
@@ -217,7 +216,9 @@ Engine::Engine(const EngineConfig& config) {
 
 Engine::~Engine() = default;
 
-void Engine::on_measurement(const Measurement& measurement) { impl_->take(measurement); }
+void Engine::on_measurement(const Measurement& measurement) {
+  impl_->take(measurement);
+}
 
 void Engine::on_command(const Command& command, Time now) {
   Impl& e = *impl_;
@@ -245,9 +246,8 @@ void Engine::step(Time now, const Environment& environment, EngineOutput& out) {
   out.events.clear();
   out.motion_permitted = false;
   const Duration nominal = from_s(1.0 / e.config.tick_Hz);
-  const Duration dt = e.last_step == kNever
-                          ? nominal
-                          : std::clamp(now - e.last_step, Duration{0}, kLongestCycle);
+  const Duration dt =
+      e.last_step == kNever ? nominal : std::clamp(now - e.last_step, Duration{0}, kLongestCycle);
   e.last_step = now;
   for (std::size_t i = 0; i < e.snapshot.axes.size(); ++i) {
     AxisSnapshot& axis = e.snapshot.axes[i];
@@ -267,10 +267,9 @@ void Engine::step(Time now, const Environment& environment, EngineOutput& out) {
   e.health.update({now, environment, axes, lines, e.estimate, e.estimator.has_origin(),
                    e.navigator.active(), e.navigator.latched()});
   const WheelFault wheels = e.wheels.update(now, dt, axes);
-  const NavOutput wanted =
-      e.navigator.step({now, dt, e.estimate, e.health.report(), wheels, e.wheels.reason(),
-                        e.gate.at_rest(), e.gate.refusal()},
-                       e.events);
+  const NavOutput wanted = e.navigator.step({now, dt, e.estimate, e.health.report(), wheels,
+                                             e.wheels.reason(), e.gate.at_rest(), e.gate.refusal()},
+                                            e.events);
   const Offer offer{e.health.report().estop ? Owner::estop
                     : wanted.drives         ? Owner::task
                                             : Owner::nobody,
@@ -284,6 +283,8 @@ void Engine::step(Time now, const Environment& environment, EngineOutput& out) {
   e.events.drain(out.events);
 }
 
-const Snapshot& Engine::snapshot() const { return impl_->snapshot; }
+const Snapshot& Engine::snapshot() const {
+  return impl_->snapshot;
+}
 
 }  // namespace drover::engine

@@ -1,9 +1,9 @@
 // drover-guard: stops the wheels when droverd dies or hangs.
 //
-// It gets descriptors and stop frames from droverd at start, then watches a counter in shared memory.
-// When the counter stands still longer than the limit, or the socket closes, it sends the stop frames
-// every 10 ms until a new droverd has taken over and asks for the bus. It opens no device, knows no
-// protocol and shares no code path with what it watches.
+// It gets descriptors and stop frames from droverd at start, then watches a counter in shared
+// memory. When the counter stands still longer than the limit, or the socket closes, it sends the
+// stop frames every 10 ms until a new droverd has taken over and asks for the bus. It opens no
+// device, knows no protocol and shares no code path with what it watches.
 #include <fcntl.h>
 #include <sched.h>
 #include <signal.h>
@@ -162,18 +162,14 @@ class Guard final {
         next_.clear();
         limit_ = std::chrono::milliseconds(message.limit_ms);
         return map_shared(fd);
-      case GuardVerb::descriptor:
-        return fd >= 0 && next_.set_descriptor(message.descriptor, fd);
-      case GuardVerb::stop_frame:
-        return fd < 0 && next_.add(message);
+      case GuardVerb::descriptor: return fd >= 0 && next_.set_descriptor(message.descriptor, fd);
+      case GuardVerb::stop_frame: return fd < 0 && next_.add(message);
       case GuardVerb::watch:
         set_.swap(next_);
         next_.clear();
         watch_.begin(beats(), limit_, now());
         return fd < 0;
-      case GuardVerb::hand_back:
-        watch_.hand_back(now());
-        return fd < 0;
+      case GuardVerb::hand_back: watch_.hand_back(now()); return fd < 0;
     }
     return false;
   }
@@ -186,8 +182,7 @@ class Guard final {
     if (seals < 0 || (seals & F_SEAL_SHRINK) == 0 || ::fstat(fd, &info) != 0 ||
         info.st_size < static_cast<off_t>(sizeof(GuardShared)))
       return false;
-    void* memory =
-        ::mmap(nullptr, sizeof(GuardShared), PROT_READ | PROT_WRITE, MAP_SHARED, fd, 0);
+    void* memory = ::mmap(nullptr, sizeof(GuardShared), PROT_READ | PROT_WRITE, MAP_SHARED, fd, 0);
     if (memory == MAP_FAILED) return false;
     if (shared_ != nullptr) ::munmap(shared_, sizeof(GuardShared));
     shared_ = static_cast<GuardShared*>(memory);

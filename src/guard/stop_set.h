@@ -1,5 +1,5 @@
-// What the guard sends and where: bytes and descriptors that droverd handed over. The guard knows no
-// protocol; it repeats what it was given.
+// What the guard sends and where: bytes and descriptors that droverd handed over. The guard knows
+// no protocol; it repeats what it was given.
 #pragma once
 
 #include <sys/socket.h>

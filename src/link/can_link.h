@@ -1,7 +1,7 @@
 // An open CAN descriptor: SocketCAN, or a SOCK_SEQPACKET socket that carries `struct can_frame`s.
 //
-// Not in epoll: the control loop drains it once a cycle with one recvmmsg per batch, and sends with one
-// sendmmsg, because a wake-up for each frame would cost more than everything else.
+// Not in epoll: the control loop drains it once a cycle with one recvmmsg per batch, and sends with
+// one sendmmsg, because a wake-up for each frame would cost more than everything else.
 #pragma once
 
 #include <cstdint>

@@ -52,8 +52,8 @@ UniqueFd open_can_descriptor(const CanSettings& settings, std::string& problem) 
 
   UniqueFd fd(::socket(PF_CAN, SOCK_RAW | SOCK_CLOEXEC | SOCK_NONBLOCK, CAN_RAW));
   if (!fd) {
-    problem = problem_text(name, errno == EAFNOSUPPORT ? "this kernel has no CAN" : "cannot open",
-                           errno);
+    problem =
+        problem_text(name, errno == EAFNOSUPPORT ? "this kernel has no CAN" : "cannot open", errno);
     return {};
   }
   ifreq request{};
@@ -80,7 +80,8 @@ UniqueFd open_can_descriptor(const CanSettings& settings, std::string& problem) 
     set_option(fd.get(), SOL_CAN_RAW, CAN_RAW_ERR_FILTER,
                static_cast<can_err_mask_t>(CAN_ERR_MASK));
   }
-  constexpr int kReceiveBytes = 2 * 1024 * 1024;  // a control thread held up for 100 ms loses nothing
+  constexpr int kReceiveBytes =
+      2 * 1024 * 1024;  // a control thread held up for 100 ms loses nothing
   set_option(fd.get(), SOL_SOCKET, SO_RCVBUF, kReceiveBytes);
   limit_send_buffer(fd.get(), settings.frames_per_cycle);
   sockaddr_can address{};

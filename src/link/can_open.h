@@ -1,5 +1,5 @@
-// Opens CAN links: "can0" is a SocketCAN interface, "unix:PATH" a SOCK_SEQPACKET socket that carries
-// the same frames (hosts without AF_CAN, sanitizer runs, replay).
+// Opens CAN links: "can0" is a SocketCAN interface, "unix:PATH" a SOCK_SEQPACKET socket that
+// carries the same frames (hosts without AF_CAN, sanitizer runs, replay).
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 namespace drover::link {
 
 struct CanSettings {
-  std::string interface;        ///< "can0" or "unix:/run/x/can0.sock"
+  std::string interface;              ///< "can0" or "unix:/run/x/can0.sock"
   std::size_t frames_per_cycle = 16;  ///< sizes the send buffer: no more than one cycle may wait
   bool error_frames = true;
 };

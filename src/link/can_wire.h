@@ -12,7 +12,8 @@ namespace drover::link {
 /// Bytes that go to the descriptor for this frame: CAN_MTU or CANFD_MTU.
 inline std::size_t to_wire(const CanFrame& frame, canfd_frame& wire) {
   std::memset(&wire, 0, sizeof wire);
-  wire.can_id = frame.id | (frame.extended ? CAN_EFF_FLAG : 0U) | (frame.remote ? CAN_RTR_FLAG : 0U);
+  wire.can_id =
+      frame.id | (frame.extended ? CAN_EFF_FLAG : 0U) | (frame.remote ? CAN_RTR_FLAG : 0U);
   wire.len = frame.len;
   if (!frame.remote) std::memcpy(wire.data, frame.data.data(), frame.len);
   return frame.fd ? CANFD_MTU : CAN_MTU;

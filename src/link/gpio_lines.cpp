@@ -1,5 +1,5 @@
-// libgpiod 1.x (Debian 12) and 2.x (Debian 13) behind one seam. Lines are asked for with both edges;
-// debouncing is the line drivers' business, since 1.x has none.
+// libgpiod 1.x (Debian 12) and 2.x (Debian 13) behind one seam. Lines are asked for with both
+// edges; debouncing is the line drivers' business, since 1.x has none.
 #include <gpiod.h>
 
 #include "link/lines.h"
@@ -146,8 +146,8 @@ class GpioLines final : public LineLink {
 bool has_label(gpiod_chip* chip, const std::string& wanted) {
   gpiod_chip_info* info = ::gpiod_chip_get_info(chip);
   if (info == nullptr) return false;
-  const bool same = wanted == ::gpiod_chip_info_get_label(info) ||
-                    wanted == ::gpiod_chip_info_get_name(info);
+  const bool same =
+      wanted == ::gpiod_chip_info_get_label(info) || wanted == ::gpiod_chip_info_get_name(info);
   ::gpiod_chip_info_free(info);
   return same;
 }

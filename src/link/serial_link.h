@@ -19,8 +19,8 @@ class SerialLink final {
  public:
   explicit SerialLink(UniqueFd fd) : fd_(std::move(fd)) {}
 
-  /// Reads what waits, at most `buffer`. `size` 0: nothing. False when the line hung up: close it at
-  /// once, otherwise the device comes back under another name.
+  /// Reads what waits, at most `buffer`. `size` 0: nothing. False when the line hung up: close it
+  /// at once, otherwise the device comes back under another name.
   [[nodiscard]] bool read(std::span<std::uint8_t> buffer, std::size_t& size);
   /// Writes what the line takes; the rest is dropped. False when the line hung up.
   [[nodiscard]] bool write(std::span<const std::uint8_t> bytes);

@@ -117,8 +117,7 @@ void CommandService::accepted(const CommandAccepted& event, Actions& out) {
     case Verb::terminate:
       return finish(event.id, Verb::terminate, false,
                     "any task was cancelled; an emergency stop by message is not supported", out);
-    default:
-      return finish(event.id, pending->verb, true, event.note.view(), out);
+    default: return finish(event.id, pending->verb, true, event.note.view(), out);
   }
 }
 

@@ -41,7 +41,9 @@ CliServer::CliServer(const std::string& path, OnRequest on_request)
   ::epoll_ctl(epoll_.get(), EPOLL_CTL_ADD, listener_.get(), &event);
 }
 
-CliServer::~CliServer() { ::unlink(path_.c_str()); }
+CliServer::~CliServer() {
+  ::unlink(path_.c_str());
+}
 
 void CliServer::on_ready() {
   std::array<epoll_event, 16> events{};

@@ -13,7 +13,9 @@ inline Duration read_clock(clockid_t clock) {
   return std::chrono::seconds(t.tv_sec) + Duration(t.tv_nsec);
 }
 
-inline Time monotonic_now() { return Time{read_clock(CLOCK_MONOTONIC)}; }
+inline Time monotonic_now() {
+  return Time{read_clock(CLOCK_MONOTONIC)};
+}
 
 /// What to take off a wall-clock stamp of the kernel to get monotonic time, right now.
 inline Duration wall_minus_monotonic() {

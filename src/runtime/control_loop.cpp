@@ -74,18 +74,13 @@ void ControlLoop::run(const std::atomic<bool>& stop) {
     std::uint64_t expirations = 0;
     for (int i = 0; i < n; ++i) {
       switch (events[i].data.u64) {
-        case kTimerTag:
-          (void)!::read(timer_.get(), &expirations, sizeof expirations);
-          break;
-        case kGnssTag:
-          read_gnss();
-          break;
+        case kTimerTag: (void)!::read(timer_.get(), &expirations, sizeof expirations); break;
+        case kGnssTag: read_gnss(); break;
         case kLinesTag:
           if (lines_) lines_->drain_edges();
           read_lines(monotonic_now());
           break;
-        default:
-          break;
+        default: break;
       }
     }
     if (expirations > 0) cycle(expirations);

@@ -1,5 +1,5 @@
-// The control thread: a timer tick drains CAN, reads lines, steps the gateway and sends; serial bytes
-// and edges wake it at once. After start it takes no lock, allocates nothing, logs nothing.
+// The control thread: a timer tick drains CAN, reads lines, steps the gateway and sends; serial
+// bytes and edges wake it at once. After start it takes no lock, allocates nothing, logs nothing.
 #pragma once
 
 #include <atomic>
@@ -16,12 +16,12 @@ namespace drover::runtime {
 
 /// What the control thread shares with the publish thread.
 struct ControlExchange {
-  SpscRing<Command, 64> commands;     ///< publish → control
-  SpscRing<Event, 256> events;        ///< control → publish
-  TripleBuffer<Snapshot> snapshot;    ///< control → publish
+  SpscRing<Command, 64> commands;   ///< publish → control
+  SpscRing<Event, 256> events;      ///< control → publish
+  TripleBuffer<Snapshot> snapshot;  ///< control → publish
   Wake events_ready;
   std::atomic<std::uint64_t> beats{0};
-  std::atomic<bool> at_rest{true};    ///< no task, and no axis is commanded to move
+  std::atomic<bool> at_rest{true};  ///< no task, and no axis is commanded to move
   std::atomic<std::uint64_t> lost_events{0};
 };
 

@@ -10,7 +10,8 @@ template <class Make>
 Make maker(const std::string& driver, const std::string& key) {
   const auto* entry = find_driver(driver);
   const auto* make = entry == nullptr ? nullptr : std::get_if<Make>(&entry->make);
-  if (make == nullptr) throw std::runtime_error(key + ": no driver \"" + driver + "\" of this kind");
+  if (make == nullptr)
+    throw std::runtime_error(key + ": no driver \"" + driver + "\" of this kind");
   return *make;
 }
 
@@ -45,8 +46,8 @@ void Gateway::absorb(const DriverOut& out) {
 void Gateway::emit(const Drive& drive) {
   absorb(scratch_);
   for (const auto& frame : scratch_.frames) {
-    const auto verdict = frame_gate_.admit(drive.bus, frame, *drive.driver, motion_permitted_,
-                                           guard_has_bus_);
+    const auto verdict =
+        frame_gate_.admit(drive.bus, frame, *drive.driver, motion_permitted_, guard_has_bus_);
     if (verdict == engine::FrameVerdict::pass) (void)pending_[drive.bus].push_back(frame);
   }
   scratch_.clear();
@@ -95,7 +96,9 @@ void Gateway::on_lines_lost(Time at) {
   scratch_.clear();
 }
 
-void Gateway::on_command(const Command& command, Time now) { engine_.on_command(command, now); }
+void Gateway::on_command(const Command& command, Time now) {
+  engine_.on_command(command, now);
+}
 
 const CycleOutput& Gateway::step(Time now, bool guard_alive, bool guard_has_bus) {
   cycle_.gnss_bytes.clear();

@@ -1,6 +1,6 @@
 // Drivers, engine and gates put together: bytes with a time in, frames, events and a snapshot out.
-// Reads no clock and touches no descriptor, so that live, replay, simulation and tests run the same.
-// After construction it allocates nothing.
+// Reads no clock and touches no descriptor, so that live, replay, simulation and tests run the
+// same. After construction it allocates nothing.
 #pragma once
 
 #include <array>
@@ -67,7 +67,8 @@ class Gateway final {
   engine::Environment environment_;
   DriverOut scratch_;
   CycleOutput cycle_;
-  std::array<FixedVector<CanFrame, 128>, kMaxBuses> pending_;  ///< passed the gate, not yet handed out
+  std::array<FixedVector<CanFrame, 128>, kMaxBuses>
+      pending_;  ///< passed the gate, not yet handed out
   bool motion_permitted_ = false;
   bool guard_has_bus_ = false;
 };

@@ -26,7 +26,9 @@ GuardMemory::GuardMemory() : fd_(::memfd_create("drover-guard", MFD_CLOEXEC | MF
   shared_ = new (memory) GuardShared{};
 }
 
-GuardMemory::~GuardMemory() { ::munmap(shared_, sizeof(GuardShared)); }
+GuardMemory::~GuardMemory() {
+  ::munmap(shared_, sizeof(GuardShared));
+}
 
 GuardClient::GuardClient(std::string socket_path, int limit_ms, const GuardMemory& memory)
     : path_(std::move(socket_path)), limit_ms_(limit_ms), memory_(memory) {}

@@ -11,7 +11,8 @@
 
 namespace drover::runtime {
 
-/// What the guard must do for one link: a descriptor of its own, and the frames that stop its drives.
+/// What the guard must do for one link: a descriptor of its own, and the frames that stop its
+/// drives.
 struct GuardedLink {
   link::UniqueFd descriptor;
   std::vector<CanFrame> stop_frames;

@@ -1,5 +1,6 @@
-// Opens links and opens them again for ever, with a growing pause, in a thread of its own: opening and
-// closing may allocate or block, which the control thread must not. Keeps the guard supplied too.
+// Opens links and opens them again for ever, with a growing pause, in a thread of its own: opening
+// and closing may allocate or block, which the control thread must not. Keeps the guard supplied
+// too.
 #pragma once
 
 #include <array>
@@ -26,13 +27,15 @@ inline constexpr std::size_t kGnssSlot = kMaxBuses;
 inline constexpr std::size_t kLinesSlot = kMaxBuses + 1;
 inline constexpr std::size_t kLinkSlots = kMaxBuses + 2;
 
-/// A link on its way between the keeper and the control thread; which pointer is set follows the slot.
+/// A link on its way between the keeper and the control thread; which pointer is set follows the
+/// slot.
 struct LinkHandover {
   std::size_t slot = 0;
   std::unique_ptr<link::CanLink> can;
   std::unique_ptr<link::SerialLink> serial;
   std::unique_ptr<link::LineLink> lines;
-  Reason problem;  ///< keeper → control: why there is no link; control → keeper: why it was given back
+  /// keeper → control: why there is no link; control → keeper: why it was given back
+  Reason problem;
   bool opened() const { return can || serial || lines; }
 };
 

@@ -4,8 +4,8 @@
 #include <sys/random.h>
 
 #include <algorithm>
-#include <cstring>
 #include <cstdio>
+#include <cstring>
 #include <fstream>
 #include <stdexcept>
 
@@ -87,9 +87,13 @@ MqttClient::~MqttClient() {
   ::mosquitto_lib_cleanup();
 }
 
-int MqttClient::fd() const { return ::mosquitto_socket(client_); }
+int MqttClient::fd() const {
+  return ::mosquitto_socket(client_);
+}
 
-bool MqttClient::wants_write() const { return fd() >= 0 && ::mosquitto_want_write(client_); }
+bool MqttClient::wants_write() const {
+  return fd() >= 0 && ::mosquitto_want_write(client_);
+}
 
 void MqttClient::on_readable() {
   if (const int code = ::mosquitto_loop_read(client_, 1); code != MOSQ_ERR_SUCCESS) failed(code);
@@ -121,8 +125,8 @@ void MqttClient::tick(Time now) {
 void MqttClient::connect(Time now) {
   pause_ = std::clamp(pause_ * 2, kFirstPause, kLongestPause);
   next_try_ = now + pause_;
-  const int code = ::mosquitto_connect_async(client_, config_.host.c_str(), config_.port,
-                                             config_.keepalive_s);
+  const int code =
+      ::mosquitto_connect_async(client_, config_.host.c_str(), config_.port, config_.keepalive_s);
   if (code == MOSQ_ERR_SUCCESS) {
     connecting_ = true;
   } else {

@@ -1,5 +1,6 @@
-// The connection to the broker: never blocks, reconnects for ever, drops old telemetry when the broker
-// does not take it. Runs inside the publish thread's loop; libmosquitto gets no thread of its own.
+// The connection to the broker: never blocks, reconnects for ever, drops old telemetry when the
+// broker does not take it. Runs inside the publish thread's loop; libmosquitto gets no thread of
+// its own.
 #pragma once
 
 #include <cstdint>

@@ -50,7 +50,14 @@ LogLevel log_level(Notice::Level level) {
 }
 
 std::string refusal(std::string_view reason) {
-  return json::JsonText().open('{').key("ok").boolean(false).key("reason").text(reason).close('}').take();
+  return json::JsonText()
+      .open('{')
+      .key("ok")
+      .boolean(false)
+      .key("reason")
+      .text(reason)
+      .close('}')
+      .take();
 }
 
 double length_m(const store::Track& track) {
@@ -138,9 +145,7 @@ void PublishLoop::run(const std::atomic<bool>& stop) {
           if ((events[i].events & EPOLLOUT) != 0) broker_->on_writable();
           if ((events[i].events & (EPOLLIN | EPOLLHUP | EPOLLERR)) != 0) broker_->on_readable();
           break;
-        case kCli:
-          cli_.on_ready();
-          break;
+        case kCli: cli_.on_ready(); break;
         case kEvents:
           control_.events_ready.clear();
           take_events();
@@ -149,8 +154,7 @@ void PublishLoop::run(const std::atomic<bool>& stop) {
           storage_.replies_ready.clear();
           take_replies(now);
           break;
-        default:
-          break;
+        default: break;
       }
       carry_out(actions_);
     }
@@ -213,7 +217,8 @@ void PublishLoop::carry_out(publish::Actions& actions) {
 }
 
 void PublishLoop::on_cli_line(CliServer::ClientId client, std::string_view line, Time now) {
-  const auto document = json::parse(line, {.max_bytes = 64 * 1024, .max_depth = 4, .max_values = 64});
+  const auto document =
+      json::parse(line, {.max_bytes = 64 * 1024, .max_depth = 4, .max_values = 64});
   if (!document) return cli_.reply(client, refusal("not understood: " + document.error().text()));
   const auto text_of = [&](std::string_view key) {
     const auto* node = document->root.find(key);
@@ -255,7 +260,8 @@ std::string PublishLoop::cli_reply(std::string_view cmd, const std::string& name
     daemon.telemetry_dropped = broker_ ? broker_->dropped() : 0;
     daemon.events_lost = control_.lost_events.load(std::memory_order_relaxed);
     // The status is an object of its own already.
-    return R"({"ok":true,"status":)" + publish::status_json(control_.snapshot.latest(), daemon) + "}";
+    return R"({"ok":true,"status":)" + publish::status_json(control_.snapshot.latest(), daemon) +
+           "}";
   } else if (cmd == "traj_list") {
     out.key("tracks").open('[');
     for (const auto& [key, track] : service_.tracks()) {

@@ -1,4 +1,5 @@
-// The publish thread: broker, command line and the engine's events meet here. Never waits for the disk.
+// The publish thread: broker, command line and the engine's events meet here. Never waits for the
+// disk.
 #pragma once
 
 #include <atomic>

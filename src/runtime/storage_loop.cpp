@@ -14,7 +14,8 @@ void run_storage(store::Storage& storage, StorageExchange& exchange,
     while (exchange.jobs.pop(job)) {
       auto reply = storage.run(job);
       job = {};
-      // Never lost: as many replies fit as jobs, and the publish thread empties them at every wake-up.
+      // Never lost: as many replies fit as jobs, and the publish thread empties them at every
+      // wake-up.
       while (!exchange.replies.push(std::move(reply)) && !stop.load()) ::poll(nullptr, 0, 1);
       exchange.replies_ready.notify();
     }

@@ -1,4 +1,5 @@
-// The storage thread: runs the store's jobs in order, as long as the disk takes. Outside the heartbeat.
+// The storage thread: runs the store's jobs in order, as long as the disk takes. Outside the
+// heartbeat.
 #pragma once
 
 #include <atomic>
@@ -11,8 +12,8 @@ namespace drover::runtime {
 
 /// What the storage thread shares with the publish thread.
 struct StorageExchange {
-  SpscRing<store::StorageJob, 64> jobs;        ///< publish → storage; full: the command is refused
-  SpscRing<store::StorageReply, 64> replies;   ///< storage → publish
+  SpscRing<store::StorageJob, 64> jobs;       ///< publish → storage; full: the command is refused
+  SpscRing<store::StorageReply, 64> replies;  ///< storage → publish
   Wake jobs_ready;
   Wake replies_ready;
 };

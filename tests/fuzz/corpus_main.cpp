@@ -40,12 +40,8 @@ Bytes mutated(Bytes bytes, const std::vector<Bytes>& corpus, std::mt19937_64& ra
       case 1:
         if (!bytes.empty()) bytes[at] ^= static_cast<std::uint8_t>(1U << below(8));
         break;
-      case 2:
-        bytes.erase(bytes.begin() + offset(at), bytes.begin() + offset(at + length));
-        break;
-      default:
-        bytes.insert(bytes.begin() + offset(at), part.begin(), part.end());
-        break;
+      case 2: bytes.erase(bytes.begin() + offset(at), bytes.begin() + offset(at + length)); break;
+      default: bytes.insert(bytes.begin() + offset(at), part.begin(), part.end()); break;
     }
   }
   return bytes;

@@ -44,7 +44,9 @@ void check(const Measurement& m) {
   }
 }
 
-bool same(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
+bool same(double a, double b) {
+  return a == b || (std::isnan(a) && std::isnan(b));
+}
 
 void check_same(const Measurement& a, const Measurement& b) {
   require(a.time == b.time && a.value.index() == b.value.index());

@@ -46,7 +46,8 @@ refuses_a_missing_command() { equal "$(status_of "$lab" -- /no/such/program)" 12
 
 reports_a_dead_kernel() {
   # Process 1 cannot survive the removal of its own memory.
-  equal "$(status_of "$lab" --memory 4M -- true)" 125 && grep -q 'ended without a status' "$work/stderr"
+  equal "$(status_of "$lab" --memory 4M -- true)" 125 &&
+    grep -q 'ended without a status' "$work/stderr"
 }
 
 ends_at_the_timeout() {

@@ -87,7 +87,8 @@ matches() {
   local names
   mapfile -t names
   [[ ${#names[@]} -gt 0 ]] || return 0
-  code "${names[@]}" | grep -E "^[^:]+:[0-9]+:.*($1)" | sed -E "s|^([^:]+:[0-9]+):.*|\1: $2|" || true
+  code "${names[@]}" | grep -E "^[^:]+:[0-9]+:.*($1)" |
+    sed -E "s|^([^:]+:[0-9]+):.*|\1: $2|" || true
 }
 
 rule_pure_rooms() {
@@ -95,7 +96,8 @@ rule_pure_rooms() {
     '\<now\(|_clock\>|clock_gettime|sleep|std::thread|\<mutex\>|lock_guard|getenv|std::async' \
     'no clock, thread, lock or environment in drivers and engine: time is an argument'
   sources 'drivers/|src/engine/' | matches \
-    '\<f?open\(|\<socket\(|[^A-Za-z0-9_>]::(read|write|send|recv|ioctl|poll)\(' 'no I/O in drivers and engine'
+    '\<f?open\(|\<socket\(|[^A-Za-z0-9_>]::(read|write|send|recv|ioctl|poll)\(' \
+    'no I/O in drivers and engine'
   sources 'drivers/|src/engine/' | matches \
     '\<f?printf\(|\<f?puts\(|std::c(out|err|log)\>|\<[io]?fstream\>' \
     'no I/O in drivers and engine'
@@ -112,8 +114,10 @@ rule_no_own_mutex() {
 
 # Descriptors belong to the links, the loop, the programs and the file store.
 rule_descriptors() {
-  sources 'src/' | grep -vE '^src/(link|runtime|guard|cli)/|^src/(store/posix_files|config/load)\.cpp$' |
-    matches '[^A-Za-z0-9_>]::(open(at)?|socket|read|write|send|recv|ioctl|poll|epoll_[a-z0-9]+|close)\(' \
+  sources 'src/' |
+    grep -vE '^src/(link|runtime|guard|cli)/|^src/(store/posix_files|config/load)\.cpp$' |
+    matches \
+      '[^A-Za-z0-9_>]::(open(at)?|socket|read|write|send|recv|ioctl|poll|epoll_[a-z0-9]+|close)\(' \
       'descriptors belong to src/link, src/runtime and the file readers'
 }
 
@@ -177,7 +181,8 @@ rule_top_level() {
 rule_no_machine_paths() {
   local file
   files | grep -vE '^(LICENSE|tests/lint/)' | while read -r file; do
-    grep -nIE '(^|[^A-Za-z0-9_.}*-])/(work|root|home/[a-z]+)(/|\>)' "$file" | sed -E "s|^([0-9]+):.*|$file:\1: a path of one machine|" || true
+    grep -nIE '(^|[^A-Za-z0-9_.}*-])/(work|root|home/[a-z]+)(/|\>)' "$file" |
+      sed -E "s|^([0-9]+):.*|$file:\1: a path of one machine|" || true
   done
   files | grep -E '^(include|drivers|src|config|udev)/' | while read -r file; do
     grep -nI '/tmp/' "$file" | sed -E "s|^([0-9]+):.*|$file:\1: /tmp in the product|" || true

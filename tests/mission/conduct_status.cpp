@@ -23,14 +23,10 @@ enum class Kind { number, integer, boolean, text, texts };
 
 bool is(const json& value, Kind kind) {
   switch (kind) {
-    case Kind::number:
-      return value.is_number() && std::isfinite(value.get<double>());
-    case Kind::integer:
-      return value.is_number_integer();
-    case Kind::boolean:
-      return value.is_boolean();
-    case Kind::text:
-      return value.is_string();
+    case Kind::number: return value.is_number() && std::isfinite(value.get<double>());
+    case Kind::integer: return value.is_number_integer();
+    case Kind::boolean: return value.is_boolean();
+    case Kind::text: return value.is_string();
     case Kind::texts:
       return value.is_array() && std::all_of(value.begin(), value.end(),
                                              [](const json& one) { return one.is_string(); });

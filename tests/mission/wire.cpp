@@ -49,8 +49,7 @@ std::string judge_command(std::uint8_t command, const CanFrame& frame) {
       return {};
     case kClearErrors:
       return frame.len == 1 && frame.data[0] == 0 ? std::string{} : "an odd clear errors";
-    default:
-      return "a command off the list";
+    default: return "a command off the list";
   }
 }
 

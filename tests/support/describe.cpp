@@ -34,30 +34,21 @@ class Line {
 
 const char* name(AxisState state) {
   switch (state) {
-    case AxisState::unknown:
-      return "unknown";
-    case AxisState::idle:
-      return "idle";
-    case AxisState::arming:
-      return "arming";
-    case AxisState::running:
-      return "running";
-    case AxisState::fault:
-      return "fault";
+    case AxisState::unknown: return "unknown";
+    case AxisState::idle: return "idle";
+    case AxisState::arming: return "arming";
+    case AxisState::running: return "running";
+    case AxisState::fault: return "fault";
   }
   return "?";
 }
 
 const char* line_name(drover::Line line) {
   switch (line) {
-    case drover::Line::estop:
-      return "estop";
-    case drover::Line::bumper:
-      return "bumper";
-    case drover::Line::zone_far:
-      return "zone_far";
-    case drover::Line::zone_near:
-      return "zone_near";
+    case drover::Line::estop: return "estop";
+    case drover::Line::bumper: return "bumper";
+    case drover::Line::zone_far: return "zone_far";
+    case drover::Line::zone_near: return "zone_near";
   }
   return "?";
 }
@@ -177,8 +168,7 @@ CanFrame parse_frame(std::string_view text) {
   if (data.size() % 2 != 0 || data.size() > 2 * frame.data.size())
     throw std::invalid_argument("data must be whole bytes, 64 at most");
   for (std::size_t i = 0; i < data.size(); i += 2)
-    frame.data[frame.len++] =
-        static_cast<std::uint8_t>(nibble(data[i]) << 4 | nibble(data[i + 1]));
+    frame.data[frame.len++] = static_cast<std::uint8_t>(nibble(data[i]) << 4 | nibble(data[i + 1]));
   return frame;
 }
 

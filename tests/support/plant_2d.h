@@ -15,11 +15,11 @@
 namespace drover::test {
 
 struct PlantConfig {
-  double wheel_lag_s = 0.12;       ///< first order, each side
-  double yaw_scrub = 0.08;         ///< the base turns this much less than its wheels say
-  double position_noise_m = 0.009; ///< one sigma of each axis, as the estimate has it
+  double wheel_lag_s = 0.12;        ///< first order, each side
+  double yaw_scrub = 0.08;          ///< the base turns this much less than its wheels say
+  double position_noise_m = 0.009;  ///< one sigma of each axis, as the estimate has it
   double yaw_noise_rad = 0.3 * kPi / 180;
-  double noise_time_s = 0.5;       ///< of correlation: an estimate does not jump
+  double noise_time_s = 0.5;  ///< of correlation: an estimate does not jump
   std::uint64_t seed = 1;
 };
 
@@ -87,8 +87,8 @@ class TwistRamp final {
     // As hard as the ramp can still be taken back when the gap closes.
     const double closing = std::sqrt(2 * limits_.jerk_mps3 * std::abs(gap_mps));
     const double aim = std::copysign(std::min({most, closing, std::abs(gap_mps) / dt_s}), gap_mps);
-    acceleration_ += std::clamp(aim - acceleration_, -limits_.jerk_mps3 * dt_s,
-                                limits_.jerk_mps3 * dt_s);
+    acceleration_ +=
+        std::clamp(aim - acceleration_, -limits_.jerk_mps3 * dt_s, limits_.jerk_mps3 * dt_s);
     now_.vx_mps += acceleration_ * dt_s;
     const double most_radps = limits_.yaw_acceleration_radps2 * dt_s;
     now_.wz_radps += std::clamp(wanted.wz_radps - now_.wz_radps, -most_radps, most_radps);

@@ -20,12 +20,12 @@ constexpr const char* kStart_ns = "1767225600000000000";
 std::vector<std::string> arguments(const Options& options, const std::string& state_dir) {
   auto fd = [](int n) { return "fd:" + std::to_string(n); };
   std::vector<std::string> args{
-      options.kernel, "mem=" + options.memory, "root=/dev/root", "rootfstype=hostfs",
-      "rootflags=/", "ro", "init=" + state_dir + "/init", "lab_state=" + state_dir,
-      "con=null", "con0=null," + fd(kLog),
+      options.kernel, "mem=" + options.memory, "root=/dev/root", "rootfstype=hostfs", "rootflags=/",
+      "ro", "init=" + state_dir + "/init", "lab_state=" + state_dir, "con=null",
+      "con0=null," + fd(kLog),
       "con1=" + (options.interactive ? fd(kIn) : std::string("null")) + "," + fd(kOut),
-      "con2=null," + fd(kErr), "uml_dir=" + state_dir + "/uml", "umid=lab",
-      "vcan.echo=1", "norandmaps",
+      "con2=null," + fd(kErr), "uml_dir=" + state_dir + "/uml", "umid=lab", "vcan.echo=1",
+      "norandmaps",
       // Nothing feeds the random pool, and the first reader would burn seconds of virtual time:
       // let the seed that the kernel takes from the host at its start count.
       "random.trust_bootloader=on", "random.trust_cpu=on"};
@@ -91,17 +91,17 @@ KernelEnds start_kernel(const Options& options, const std::string& state_dir, in
   }
   if (options.shell) wire(make_socket_pair(SOCK_STREAM), ends.console, console);
   if (options.host_port >= 0) wire(make_socket_pair(SOCK_DGRAM), ends.net, net);
-  const Fd log_file(::open((state_dir + "/kernel.log").c_str(),
-                           O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0600));
+  const Fd log_file(
+      ::open((state_dir + "/kernel.log").c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0600));
   if (!log_file.open()) fail("cannot open kernel.log");
 
   std::vector<std::string> args = arguments(options, state_dir);
   std::vector<char*> argv;
   for (auto& arg : args) argv.push_back(arg.data());
   argv.push_back(nullptr);
-  const std::vector<std::pair<int, int>> moves{
-      {log.get(), kLog}, {out.get(), kOut},         {err.get(), kErr},
-      {in.get(), kIn},   {console.get(), kConsole}, {net.get(), kNet}};
+  const std::vector<std::pair<int, int>> moves{{log.get(), kLog},         {out.get(), kOut},
+                                               {err.get(), kErr},         {in.get(), kIn},
+                                               {console.get(), kConsole}, {net.get(), kNet}};
   const pid_t parent = ::getpid();
   ends.pid = ::fork();
   if (ends.pid < 0) fail("fork");

@@ -13,21 +13,36 @@ namespace {
 using drover::lab::Options;
 
 void set(Options& options, std::string_view key, const std::string& value) {
-  if (key == "base_dir") options.base_dir = value;
-  else if (key == "kernel") options.kernel = value;
-  else if (key == "init") options.init = value;
-  else if (key == "can") options.can = value;
-  else if (key == "logs_dir") options.logs_dir = value;
-  else if (key == "memory") options.memory = value;
-  else if (key == "seed") options.seed = std::stoull(value);
-  else if (key == "timeout_s") options.timeout_s = std::stod(value);
-  else if (key == "cpu") options.cpu = std::stoi(value);
-  else if (key == "host_port") options.host_port = std::stoi(value);
-  else if (key == "real_time") options.real_time = value == "1";
-  else if (key == "interactive") options.interactive = value == "1";
-  else if (key == "shell") options.shell = value == "1";
-  else if (key == "env") options.environment.push_back(value);
-  else throw std::runtime_error("unknown option " + std::string(key));
+  if (key == "base_dir")
+    options.base_dir = value;
+  else if (key == "kernel")
+    options.kernel = value;
+  else if (key == "init")
+    options.init = value;
+  else if (key == "can")
+    options.can = value;
+  else if (key == "logs_dir")
+    options.logs_dir = value;
+  else if (key == "memory")
+    options.memory = value;
+  else if (key == "seed")
+    options.seed = std::stoull(value);
+  else if (key == "timeout_s")
+    options.timeout_s = std::stod(value);
+  else if (key == "cpu")
+    options.cpu = std::stoi(value);
+  else if (key == "host_port")
+    options.host_port = std::stoi(value);
+  else if (key == "real_time")
+    options.real_time = value == "1";
+  else if (key == "interactive")
+    options.interactive = value == "1";
+  else if (key == "shell")
+    options.shell = value == "1";
+  else if (key == "env")
+    options.environment.push_back(value);
+  else
+    throw std::runtime_error("unknown option " + std::string(key));
 }
 
 Options parse(int argc, char** argv) {

@@ -68,8 +68,8 @@ void NetRelay::from_kernel() {
   const ssize_t n = ::recv(kernel_.get(), frame.data(), frame.size(), MSG_DONTWAIT);
   if (n <= 0 || !passt_.open()) return;
   std::uint32_t length = htonl(static_cast<std::uint32_t>(n));
-  std::array<iovec, 2> parts{{{&length, sizeof length},
-                              {frame.data(), static_cast<std::size_t>(n)}}};
+  std::array<iovec, 2> parts{
+      {{&length, sizeof length}, {frame.data(), static_cast<std::size_t>(n)}}};
   msghdr message{};
   message.msg_iov = parts.data();
   message.msg_iovlen = parts.size();

@@ -8,11 +8,11 @@
 namespace drover::lab {
 
 struct Options {
-  std::string base_dir;    // holds one folder per running lab
-  std::string kernel;      // the User-Mode Linux executable
-  std::string init;        // the script that runs as process 1 inside
+  std::string base_dir;  // holds one folder per running lab
+  std::string kernel;    // the User-Mode Linux executable
+  std::string init;      // the script that runs as process 1 inside
   std::string can = "vcan";
-  std::string logs_dir;    // empty: logs stay inside and are lost
+  std::string logs_dir;  // empty: logs stay inside and are lost
   std::string memory = "512M";
   std::uint64_t seed = 1;
   double timeout_s = 0.0;  // wall clock, 0 = none

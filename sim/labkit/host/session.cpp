@@ -27,7 +27,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 bool same_file(int a, int b) {
-  struct stat left {}, right {};
+  struct stat left {
+  }, right{};
   return ::fstat(a, &left) == 0 && ::fstat(b, &right) == 0 && left.st_dev == right.st_dev &&
          left.st_ino == right.st_ino;
 }
@@ -47,7 +48,8 @@ std::string fstab(const std::string& state_dir) {
          "devpts /dev/pts devpts ptmxmode=0666,X-mount.mkdir\n"
          "tmpfs /dev/shm tmpfs X-mount.mkdir\n"
          "tmpfs /run tmpfs\n"
-         "host /run/lab/host hostfs " + state_dir + ",X-mount.mkdir\n";
+         "host /run/lab/host hostfs " +
+         state_dir + ",X-mount.mkdir\n";
 }
 
 // Everything the init inside reads: plain files, so that no quoting is needed.
@@ -88,7 +90,9 @@ Fd catch_signals() {
 class Session final {
  public:
   explicit Session(const Options& options)
-      : options_(options), signals_(catch_signals()), state_(options.base_dir),
+      : options_(options),
+        signals_(catch_signals()),
+        state_(options.base_dir),
         cpu_(lease_cpu(options.base_dir, options.cpu)) {
     write_orders(options, state_);
     ends_ = start_kernel(options, state_.path(), cpu_.cpu);

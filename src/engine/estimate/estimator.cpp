@@ -53,9 +53,15 @@ void Estimator::set_origin(const GeodeticPoint& origin) {
   frame_.set_origin(origin);
 }
 
-bool Estimator::has_origin() const { return frame_.has_origin(); }
-const GeodeticPoint& Estimator::origin() const { return frame_.origin(); }
-PathPoint Estimator::local(const GeodeticPoint& point) const { return frame_.local(point); }
+bool Estimator::has_origin() const {
+  return frame_.has_origin();
+}
+const GeodeticPoint& Estimator::origin() const {
+  return frame_.origin();
+}
+PathPoint Estimator::local(const GeodeticPoint& point) const {
+  return frame_.local(point);
+}
 
 GeodeticPoint Estimator::antenna_geodetic(const Pose& pose) const {
   const double c = std::cos(pose.yaw_rad);
@@ -198,10 +204,10 @@ void Estimator::advance(State& state, Time to) const {
     } else if (state.standing_since == kNever) {
       state.standing_since = state.time;
     }
-    const Time until = std::min({to, state.time + longest,
-                                 state.wheels.next_stale(state.time, wheel_stale_)});
-    predict(state.belief, motion, to_s(until - state.time), state.has_heading,
-            state.gnss.sigma_x_m, state.gnss.sigma_y_m, config_, base_.track_m);
+    const Time until =
+        std::min({to, state.time + longest, state.wheels.next_stale(state.time, wheel_stale_)});
+    predict(state.belief, motion, to_s(until - state.time), state.has_heading, state.gnss.sigma_x_m,
+            state.gnss.sigma_y_m, config_, base_.track_m);
     state.time = until;
     if (state.belief.covariance[kYaw][kYaw] > kLostYaw_rad * kLostYaw_rad) {
       state.has_heading = false;
@@ -258,8 +264,7 @@ void Estimator::report(const State& state, Time now) {
   e.pose.y_m = belief.mean[kY];
   e.pose.yaw_rad = belief.mean[kYaw];
   e.pose.vx_mps = belief.mean[kScale] * (motion.left_mps + motion.right_mps) / 2;
-  e.pose.wz_radps =
-      belief.mean[kGain] * (motion.right_mps - motion.left_mps) / base_.track_m;
+  e.pose.wz_radps = belief.mean[kGain] * (motion.right_mps - motion.left_mps) / base_.track_m;
   e.left_mps = motion.left_mps;
   e.right_mps = motion.right_mps;
   e.yaw_slip_factor = 1.0 / belief.mean[kGain];

@@ -18,14 +18,14 @@ namespace drover::engine {
 struct Estimate {
   bool has_position = false;
   bool has_heading = false;
-  Pose pose;                    ///< predicted to the asked time
+  Pose pose;                           ///< predicted to the asked time
   double predicted_error_m = kAbsent;  ///< two sigma of the larger horizontal axis
   double yaw_error_rad = kAbsent;      ///< two sigma
-  double left_mps = 0;          ///< mean rim speed of the left wheels
+  double left_mps = 0;                 ///< mean rim speed of the left wheels
   double right_mps = 0;
-  double yaw_slip_factor = 1.0; ///< as refined
-  Reason reason;                ///< why it is not good; empty when it is
-  bool disagrees = false;       ///< GNSS and odometry contradict each other beyond the gate
+  double yaw_slip_factor = 1.0;  ///< as refined
+  Reason reason;                 ///< why it is not good; empty when it is
+  bool disagrees = false;        ///< GNSS and odometry contradict each other beyond the gate
 };
 
 /// Measurements that did not get into the estimate, since the start.

@@ -18,7 +18,9 @@ constexpr double kStanding_rad = 0.0002;
 // Wheels of one side that contradict each other do so for about this long with the same sign.
 constexpr double kSpreadTime_s = 1.0;
 
-double square(double v) { return v * v; }
+double square(double v) {
+  return v * v;
+}
 
 /// Adds `factor` times row `from` to row `to`, and the same for columns: covariance of
 /// x_to + factor * x_from.
@@ -143,12 +145,12 @@ void predict(Belief& belief, const WheelMotion& wheels, double dt_s, bool headin
   x[kYaw] = wrap_rad(x[kYaw] + turn_rad);
 
   // x and y first: their derivatives use the yaw before the turn.
-  add_rows<3>(p, kX, {{{kYaw, -way_m * s},
-                       {kGain, -way_m * s * rim_turn_rad / 2},
-                       {kScale, rim_mps * dt_s * c}}});
-  add_rows<3>(p, kY, {{{kYaw, way_m * c},
-                       {kGain, way_m * c * rim_turn_rad / 2},
-                       {kScale, rim_mps * dt_s * s}}});
+  add_rows<3>(
+      p, kX,
+      {{{kYaw, -way_m * s}, {kGain, -way_m * s * rim_turn_rad / 2}, {kScale, rim_mps * dt_s * c}}});
+  add_rows<3>(
+      p, kY,
+      {{{kYaw, way_m * c}, {kGain, way_m * c * rim_turn_rad / 2}, {kScale, rim_mps * dt_s * s}}});
   add_rows<1>(p, kYaw, {{{kGain, rim_turn_rad}}});
 
   const double metres = std::abs(way_m);
@@ -161,8 +163,8 @@ void predict(Belief& belief, const WheelMotion& wheels, double dt_s, bool headin
   p[kX][kY] += (along - across) * c * s;
   p[kY][kX] = p[kX][kY];
   p[kYaw][kYaw] += square(config.odometry_yaw_rad) * metres +
-                   square(config.turning_yaw_rad) * radians +
-                   spread_variance / square(track_m) + square(kStanding_rad) * dt_s;
+                   square(config.turning_yaw_rad) * radians + spread_variance / square(track_m) +
+                   square(kStanding_rad) * dt_s;
   p[kGain][kGain] += square(config.yaw_slip_walk) * radians;
   p[kScale][kScale] += square(config.wheel_scale_walk) * metres;
 }

@@ -28,9 +28,9 @@ using Matrix = std::array<Vector, kStates>;
 struct WheelMotion {
   double left_mps = 0;
   double right_mps = 0;
-  double spread_mps = 0;   ///< how much the wheels of one side contradict each other
-  bool known = false;      ///< false: a whole side is silent, the base may do anything
-  bool standing = false;   ///< known, and every wheel is at rest
+  double spread_mps = 0;  ///< how much the wheels of one side contradict each other
+  bool known = false;     ///< false: a whole side is silent, the base may do anything
+  bool standing = false;  ///< known, and every wheel is at rest
 };
 
 struct Belief {

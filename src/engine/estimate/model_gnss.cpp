@@ -12,7 +12,9 @@ namespace {
 // comes and goes has the same multipath error each time, so averaging its spells proves nothing.
 constexpr double kFloorShare = 0.8;
 
-double square(double v) { return v * v; }
+double square(double v) {
+  return v * v;
+}
 
 double larger_sigma_m(const AntennaPosition& position) {
   return std::max(position.sigma_x_m, position.sigma_y_m);
@@ -86,9 +88,9 @@ bool refuse(State& state, const AntennaPosition& position, double distance_m, do
             const EstimateConfig& config) {
   GnssTrack& gnss = state.gnss;
   const bool standing = state.standing_since != kNever;
-  const bool same_place = standing && std::hypot(position.x_m - gnss.place_x_m,
-                                                 position.y_m - gnss.place_y_m) <
-                                          config.gate_sigma * noise_m;
+  const bool same_place =
+      standing && std::hypot(position.x_m - gnss.place_x_m, position.y_m - gnss.place_y_m) <
+                      config.gate_sigma * noise_m;
   gnss.jumps.refused(state.time, same_place);
   gnss.contradiction_m = distance_m;
   ++state.refused;
@@ -106,33 +108,25 @@ GnssClass class_of(const GnssPosition& position, const EstimateConfig& config) {
     case FixQuality::none:
     case FixQuality::estimated:
     case FixQuality::manual:
-    case FixQuality::simulator:
-      return GnssClass::none;
+    case FixQuality::simulator: return GnssClass::none;
     case FixQuality::rtk_fixed:
       return position.correction_age_s > config.max_correction_age_s ? GnssClass::floating
                                                                      : GnssClass::fixed;
-    case FixQuality::rtk_float:
-      return GnssClass::floating;
-    case FixQuality::dgps:
-      return GnssClass::dgps;
+    case FixQuality::rtk_float: return GnssClass::floating;
+    case FixQuality::dgps: return GnssClass::dgps;
     case FixQuality::single:
-    case FixQuality::pps:
-      break;
+    case FixQuality::pps: break;
   }
   return GnssClass::single;  // an unknown number is never better than 1
 }
 
 double floor_sigma_m(GnssClass quality, const EstimateConfig& config) {
   switch (quality) {
-    case GnssClass::fixed:
-      return config.sigma_fixed_m;
-    case GnssClass::floating:
-      return config.sigma_float_m;
-    case GnssClass::dgps:
-      return config.sigma_dgps_m;
+    case GnssClass::fixed: return config.sigma_fixed_m;
+    case GnssClass::floating: return config.sigma_float_m;
+    case GnssClass::dgps: return config.sigma_dgps_m;
     case GnssClass::none:
-    case GnssClass::single:
-      break;
+    case GnssClass::single: break;
   }
   return config.sigma_single_m;
 }
@@ -154,8 +148,8 @@ void apply(State& state, const AntennaPosition& measured, double speed_mps,
   const bool oriented = state.has_heading;
   const double arm_x = oriented ? config.antenna_x_m * c - config.antenna_y_m * s : 0;
   const double arm_y = oriented ? config.antenna_x_m * s + config.antenna_y_m * c : 0;
-  const double extra = (oriented ? 0 : square(lever_m)) +
-                       square(speed_mps * config.gnss_timing_sigma_s);
+  const double extra =
+      (oriented ? 0 : square(lever_m)) + square(speed_mps * config.gnss_timing_sigma_s);
   const double variance_x = square(config.gnss_white_share * position.sigma_x_m) + extra;
   const double variance_y = square(config.gnss_white_share * position.sigma_y_m) + extra;
   const double turned_m2 = square(lever_m) * belief.covariance[kYaw][kYaw];

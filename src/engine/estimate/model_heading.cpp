@@ -13,7 +13,9 @@ constexpr double kFloorShare = 0.2;
 // Two headings closer than this are taken as this far apart, so that a burst weighs like one.
 constexpr double kShortest_s = 0.01;
 
-double square(double v) { return v * v; }
+double square(double v) {
+  return v * v;
+}
 
 void place(State& state, double yaw_rad, double sigma_rad) {
   state.belief.reset(kYaw, yaw_rad, sigma_rad);

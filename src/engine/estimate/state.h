@@ -18,14 +18,14 @@ enum class GnssClass : std::uint8_t { none, fixed, floating, dgps, single };
 
 struct GnssTrack {
   GnssClass quality = GnssClass::none;
-  double sigma_x_m = 0;       ///< of the class, or of GST when that is larger
+  double sigma_x_m = 0;  ///< of the class, or of GST when that is larger
   double sigma_y_m = 0;
-  Time improved = kNever;     ///< when the quality last became better
-  double old_sigma_m = 0;     ///< what it was before
+  Time improved = kNever;  ///< when the quality last became better
+  double old_sigma_m = 0;  ///< what it was before
   JumpWatch jumps;
-  double place_x_m = 0;       ///< the refused place that must repeat
+  double place_x_m = 0;  ///< the refused place that must repeat
   double place_y_m = 0;
-  double contradiction_m = 0; ///< how far the last refused position was off
+  double contradiction_m = 0;  ///< how far the last refused position was off
 };
 
 struct HeadingTrack {
@@ -47,8 +47,8 @@ struct State {
   Time standing_since = kNever;  ///< kNever while the base moves or may move
   GnssTrack gnss;
   HeadingTrack heading;
-  std::uint32_t refused = 0;     ///< by the gates, since the start
-  std::uint32_t broken = 0;      ///< times the filter lost its numbers and was started again
+  std::uint32_t refused = 0;  ///< by the gates, since the start
+  std::uint32_t broken = 0;   ///< times the filter lost its numbers and was started again
 };
 
 }  // namespace drover::engine::estimate

@@ -45,8 +45,8 @@ WheelMotion Wheels::motion(Time at, Duration stale) const {
   if (rest) return motion;
   motion.left_mps = sides[0].sum_mps / sides[0].count;
   motion.right_mps = sides[1].sum_mps / sides[1].count;
-  motion.spread_mps = std::max(sides[0].high_mps - sides[0].low_mps,
-                               sides[1].high_mps - sides[1].low_mps) / 2;
+  motion.spread_mps =
+      std::max(sides[0].high_mps - sides[0].low_mps, sides[1].high_mps - sides[1].low_mps) / 2;
   return motion;
 }
 

@@ -48,18 +48,15 @@ FrameVerdict FrameGate::judge(std::size_t bus, const CanFrame& frame, const CanD
   });
   if (!known) return FrameVerdict::refused_not_allowed;
   const auto rules = from.allow_list();
-  const bool listed = std::any_of(rules.begin(), rules.end(), [&](const FrameRule& rule) {
-    return matches(rule, frame);
-  });
+  const bool listed = std::any_of(rules.begin(), rules.end(),
+                                  [&](const FrameRule& rule) { return matches(rule, frame); });
   if (!listed) return FrameVerdict::refused_not_allowed;
   switch (from.effect(frame)) {
     case FrameEffect::harmless:
-    case FrameEffect::stop:
-      return FrameVerdict::pass;
+    case FrameEffect::stop: return FrameVerdict::pass;
     case FrameEffect::motion:
       return motion_possible ? FrameVerdict::pass : FrameVerdict::refused_motion;
-    case FrameEffect::forbidden:
-      break;
+    case FrameEffect::forbidden: break;
   }
   return FrameVerdict::refused_not_allowed;
 }

@@ -56,9 +56,9 @@ Twist TargetGate::choose(Time now, std::span<const Offer> offers) {
     return {};
   }
   refusal_ = TargetRefusal::none;
-  return {std::clamp(best->target.vx_mps, -limits_.max_speed_mps, limits_.max_speed_mps),
-          std::clamp(best->target.wz_radps, -limits_.max_yaw_rate_radps,
-                     limits_.max_yaw_rate_radps)};
+  return {
+      std::clamp(best->target.vx_mps, -limits_.max_speed_mps, limits_.max_speed_mps),
+      std::clamp(best->target.wz_radps, -limits_.max_yaw_rate_radps, limits_.max_yaw_rate_radps)};
 }
 
 void TargetGate::follow(const Twist& target, double dt_s) {
@@ -68,8 +68,7 @@ void TargetGate::follow(const Twist& target, double dt_s) {
   const double v_mps = sign * twist_.vx_mps;
   const double target_mps = std::max(sign * target.vx_mps, 0.0);
   const double change_mps = target_mps - v_mps;
-  const double limit_mps2 =
-      change_mps > 0 ? limits_.acceleration_mps2 : limits_.deceleration_mps2;
+  const double limit_mps2 = change_mps > 0 ? limits_.acceleration_mps2 : limits_.deceleration_mps2;
   // Acceleration that can still be taken back in time, with the jerk there is.
   const double j = limits_.jerk_mps3;
   const double wanted_mps2 =
@@ -92,8 +91,8 @@ void TargetGate::ramp_down(double dt_s) {
   acceleration_mps2_ = 0;
   // Turning ends with driving, so that the base stays on its curve.
   const double kept = std::abs(before_mps) > 1e-3 ? twist_.vx_mps / before_mps : 0.0;
-  twist_.wz_radps = approach(twist_.wz_radps, kept * twist_.wz_radps,
-                             limits_.yaw_acceleration_radps2 * dt_s);
+  twist_.wz_radps =
+      approach(twist_.wz_radps, kept * twist_.wz_radps, limits_.yaw_acceleration_radps2 * dt_s);
 }
 
 const Twist& TargetGate::step(Time now, Duration dt, std::span<const Offer> offers, Stop stop) {

@@ -40,7 +40,7 @@ void Announcer::update(Time now, const HealthReport& report, EventQueue& events)
     told_ ^= bit;
     if (holds) told_at_[i] = now;
     const auto cause = static_cast<Cause>(i);
-    const auto level = !holds                          ? Notice::Level::info
+    const auto level = !holds                        ? Notice::Level::info
                        : cause <= Cause::drive_fault ? Notice::Level::error
                                                      : Notice::Level::warning;
     events.notice(now, level, holds ? report.texts[i] : Reason(over(cause)));

@@ -137,10 +137,10 @@ void HealthMonitor::look_at_guard(const Environment& environment) {
 
 void HealthMonitor::look_at_position(const HealthInput& input) {
   const SourceHealth& gnss = input.environment.gnss;
-  const bool old = gnss.last_good != kNever &&
-                   input.now - gnss.last_good > from_s(config_.health.gnss_stale_s);
-  report_.gnss_ok = !input.environment.gnss_configured ||
-                    (gnss.state == SourceState::fresh && !old);
+  const bool old =
+      gnss.last_good != kNever && input.now - gnss.last_good > from_s(config_.health.gnss_stale_s);
+  report_.gnss_ok =
+      !input.environment.gnss_configured || (gnss.state == SourceState::fresh && !old);
   if (!report_.gnss_ok) {
     Reason text;
     if (!gnss.reason.empty()) {

@@ -19,10 +19,10 @@ enum class Cause : std::uint8_t {
   drive_silent,
   guard_silent,
   drive_fault,
-  latched,     ///< not a present cause: what stopped the robot before a person acted
+  latched,  ///< not a present cause: what stopped the robot before a person acted
   near_zone,
-  origin,      ///< none set
-  receiver,    ///< silent
+  origin,    ///< none set
+  receiver,  ///< silent
   locate,
   far_zone,
 };
@@ -45,12 +45,12 @@ struct HealthInput {
 };
 
 struct HealthReport {
-  bool ready = false;      ///< at least one cycle was looked at
-  bool drives_ok = false;  ///< all heard, fresh and without a fault
+  bool ready = false;           ///< at least one cycle was looked at
+  bool drives_ok = false;       ///< all heard, fresh and without a fault
   bool drives_running = false;  ///< all in closed loop
-  bool lines_ok = false;   ///< no e-stop, no bumper, no line lost
-  bool gnss_ok = false;    ///< the receiver talks
-  bool guard_ok = false;   ///< answers, or is not required; and has not taken the bus
+  bool lines_ok = false;        ///< no e-stop, no bumper, no line lost
+  bool gnss_ok = false;         ///< the receiver talks
+  bool guard_ok = false;        ///< answers, or is not required; and has not taken the bus
   bool estop = false;
   bool near_zone = false;
   bool far_zone = false;
@@ -62,8 +62,8 @@ struct HealthReport {
   /// may clear it. Empty when all run.
   Reason not_running;
   Reason locate_reason;
-  FixedVector<Reason, 8> why;  ///< the cause first
-  std::uint32_t causes = 0;    ///< bits by Cause
+  FixedVector<Reason, 8> why;             ///< the cause first
+  std::uint32_t causes = 0;               ///< bits by Cause
   std::array<Reason, kCauseCount> texts;  ///< by Cause, for causes that hold
 };
 

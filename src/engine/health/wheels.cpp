@@ -7,27 +7,29 @@
 namespace drover::engine {
 namespace {
 
-constexpr double kJudgedShare = 0.05;     // of the highest speed
-constexpr double kFollows = 0.2;          // of the commanded way
-constexpr double kWindow_s = 0.1;         // ways are compared over this long
+constexpr double kJudgedShare = 0.05;  // of the highest speed
+constexpr double kFollows = 0.2;       // of the commanded way
+constexpr double kWindow_s = 0.1;      // ways are compared over this long
 constexpr double kRunaway_s = 0.1;
 constexpr double kRunawayMargin_mps = 0.3;
-constexpr double kHighestSlip = 2.5;      // the estimate never goes so far
+constexpr double kHighestSlip = 2.5;  // the estimate never goes so far
 
 }  // namespace
 
 double max_wheel_mps(const BaseConfig& base, const LimitsConfig& limits, double yaw_slip_factor) {
-  return limits.max_speed_mps +
-         0.5 * base.track_m * yaw_slip_factor * limits.max_yaw_rate_radps;
+  return limits.max_speed_mps + 0.5 * base.track_m * yaw_slip_factor * limits.max_yaw_rate_radps;
 }
 
 WheelMonitor::WheelMonitor(const EngineConfig& config)
     : config_(config),
       judged_radps_(kJudgedShare * config.limits.max_speed_mps / config.base.wheel_radius_m),
-      fastest_radps_((max_wheel_mps(config.base, config.limits, kHighestSlip) +
-                      kRunawayMargin_mps) / config.base.wheel_radius_m) {}
+      fastest_radps_(
+          (max_wheel_mps(config.base, config.limits, kHighestSlip) + kRunawayMargin_mps) /
+          config.base.wheel_radius_m) {}
 
-void WheelMonitor::reset() { wheels_ = {}; }
+void WheelMonitor::reset() {
+  wheels_ = {};
+}
 
 void WheelMonitor::watch(Wheel& wheel, const AxisSnapshot& axis, Time now, Duration dt) {
   const double command_radps = axis.commanded_velocity_radps;
@@ -65,8 +67,8 @@ void WheelMonitor::watch(Wheel& wheel, const AxisSnapshot& axis, Time now, Durat
 }
 
 bool WheelMonitor::runs_away(Wheel& wheel, const AxisSnapshot& axis, Time now) const {
-  const bool fast = axis.state == AxisState::running &&
-                    std::abs(axis.motion.velocity_radps) > fastest_radps_;
+  const bool fast =
+      axis.state == AxisState::running && std::abs(axis.motion.velocity_radps) > fastest_radps_;
   if (!fast) {
     wheel.fast_since = kNever;
     return false;

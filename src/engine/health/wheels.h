@@ -12,9 +12,9 @@ namespace drover::engine {
 /// What is wrong with the wheels; `none` when they follow.
 enum class WheelFault : std::uint8_t {
   none,
-  blocked,     ///< all are commanded and none moves
+  blocked,        ///< all are commanded and none moves
   not_following,  ///< some move and one does not, or moves the wrong way
-  runaway,     ///< faster than any command can be
+  runaway,        ///< faster than any command can be
 };
 
 /// Compares commands with feedback. It looks at travelled angle, so it needs no tuned lag: a wheel
@@ -30,13 +30,13 @@ class WheelMonitor final {
 
  private:
   struct Wheel {
-    bool active = false;        ///< commanded enough to be judged
+    bool active = false;  ///< commanded enough to be judged
     bool forwards = true;
-    double commanded_rad = 0;   ///< in this window
-    double moved_rad = 0;       ///< in this window, in the commanded direction
+    double commanded_rad = 0;  ///< in this window
+    double moved_rad = 0;      ///< in this window, in the commanded direction
     double last_position_rad = kAbsent;
-    Time window = kNever;       ///< when this window began
-    Time mark = kNever;         ///< when it was last seen to follow
+    Time window = kNever;  ///< when this window began
+    Time mark = kNever;    ///< when it was last seen to follow
     Time fast_since = kNever;
   };
   void watch(Wheel& wheel, const AxisSnapshot& axis, Time now, Duration dt);

@@ -9,10 +9,10 @@
 namespace drover::engine {
 namespace {
 
-constexpr double kGoalNear_m = 0.5;     // the arrival time-out runs inside this
+constexpr double kGoalNear_m = 0.5;  // the arrival time-out runs inside this
 constexpr double kStandstill_mps = 0.02;
-constexpr double kSlowFrom = 0.5;       // share of the error budget from which on it slows
-constexpr double kSlowest = 0.5;        // share of the speed that is left when the budget is spent
+constexpr double kSlowFrom = 0.5;  // share of the error budget from which on it slows
+constexpr double kSlowest = 0.5;   // share of the speed that is left when the budget is spent
 
 unsigned long long as_counted(std::uint32_t target) {
   return static_cast<unsigned long long>(target) + 1;
@@ -88,10 +88,10 @@ void Navigator::cancel(const RequestId& id, Time now, EventQueue& events) {
 
 void Navigator::reset_stop(const RequestId& id, Time now, bool at_rest, const HealthReport& health,
                            EventQueue& events) {
-  const Reason why = !health.ready          ? Reason("the gateway has just started")
-                     : active()             ? Reason("a task runs: cancel it first")
-                     : !at_rest             ? Reason("the robot is still stopping")
-                                            : health.stop;
+  const Reason why = !health.ready ? Reason("the gateway has just started")
+                     : active()    ? Reason("a task runs: cancel it first")
+                     : !at_rest    ? Reason("the robot is still stopping")
+                                   : health.stop;
   if (!why.empty()) {
     events.push(now, CommandRefused{id, why});
     return;
@@ -184,9 +184,9 @@ Reason Navigator::find_position_failure(const Estimate& estimate,
   if (health.locate != LocateState::good) return {};  // a pause, not a failure
   Reason why;
   const double off_m = std::abs(progress_.cross_track_m);
-  const double allowed_m = progress_.joined ? config_.navigate.corridor_m
-                                            : config_.navigate.start_distance_m +
-                                                  config_.navigate.corridor_m;
+  const double allowed_m = progress_.joined
+                               ? config_.navigate.corridor_m
+                               : config_.navigate.start_distance_m + config_.navigate.corridor_m;
   if (!(off_m <= allowed_m)) {
     why.format("the robot left the corridor: %.2f m beside the track", off_m);
   } else if (progress_.goal_passed && !progress_.arrived && !stopping_at_goal_) {
@@ -222,8 +222,8 @@ void Navigator::watch_pauses(const NavInput& input, EventQueue& events) {
   if (wait && phase_ == Phase::running) {
     phase_ = Phase::paused;
     Reason text;
-    const std::string_view what = obstacle_.holds() ? "obstacle in the near zone"
-                                                    : input.health.locate_reason.view();
+    const std::string_view what =
+        obstacle_.holds() ? "obstacle in the near zone" : input.health.locate_reason.view();
     text.format("paused: %.*s", static_cast<int>(what.size()), what.data());
     events.notice(input.now, Notice::Level::warning, text);
   } else if (!wait && phase_ == Phase::paused) {
@@ -273,8 +273,8 @@ NavOutput Navigator::run(const NavInput& input, EventQueue& events) {
     settle_at_goal(input, events);
     return {{}, active(), Stop::none};  // a ramp as the tracker foresaw it
   }
-  const Twist target = tracker_.follow(input.estimate.pose, progress_,
-                                       speed_cap_mps(input.health), input.dt);
+  const Twist target =
+      tracker_.follow(input.estimate.pose, progress_, speed_cap_mps(input.health), input.dt);
   return {target, true, Stop::none};
 }
 

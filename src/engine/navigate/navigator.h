@@ -17,13 +17,13 @@ struct NavInput {
   const HealthReport& health;
   WheelFault wheels = WheelFault::none;
   const Reason& wheel_reason;
-  bool at_rest = true;        ///< the target gate commands nothing
+  bool at_rest = true;                          ///< the target gate commands nothing
   TargetRefusal refusal = TargetRefusal::none;  ///< of the last cycle
 };
 
 struct NavOutput {
   Twist target;
-  bool drives = false;        ///< there is a task: axes are to run (armed, if at rest)
+  bool drives = false;  ///< there is a task: axes are to run (armed, if at rest)
   Stop stop = Stop::controlled;
 };
 
@@ -88,9 +88,9 @@ class Navigator final {
   Name track_;
   std::uint32_t target_ = 0;
   double speed_mps_ = 0;
-  bool begun_ = false;            ///< NavigationStarted was said
+  bool begun_ = false;  ///< NavigationStarted was said
   bool stopping_at_goal_ = false;
-  bool drives_asked_ = false;     ///< to run, at least one cycle ago
+  bool drives_asked_ = false;  ///< to run, at least one cycle ago
   Time accepted_ = kNever;
   Time goal_near_since_ = kNever;
   Wait obstacle_;

@@ -45,8 +45,8 @@ Window integrate(const Route& route, const Leg& leg, Station& station, double fr
     const double w_middle = weight(0.5 * (a_m + b_m));
     sum.mean = sum.mean + part * middle;
     // Simpson's rule is exact here: a linear weight on a linear piece.
-    sum.weighted = sum.weighted +
-                   part / 6 * (weight(a_m) * a + 4 * w_middle * middle + weight(b_m) * b);
+    sum.weighted =
+        sum.weighted + part / 6 * (weight(a_m) * a + 4 * w_middle * middle + weight(b_m) * b);
     a_m = b_m;
     a = b;
   }

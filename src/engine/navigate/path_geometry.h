@@ -18,13 +18,25 @@ struct Vector {
   double x = 0;
   double y = 0;
 };
-inline Vector operator+(Vector a, Vector b) { return {a.x + b.x, a.y + b.y}; }
-inline Vector operator-(Vector a, Vector b) { return {a.x - b.x, a.y - b.y}; }
-inline Vector operator*(double k, Vector a) { return {k * a.x, k * a.y}; }
-inline double dot(Vector a, Vector b) { return a.x * b.x + a.y * b.y; }
+inline Vector operator+(Vector a, Vector b) {
+  return {a.x + b.x, a.y + b.y};
+}
+inline Vector operator-(Vector a, Vector b) {
+  return {a.x - b.x, a.y - b.y};
+}
+inline Vector operator*(double k, Vector a) {
+  return {k * a.x, k * a.y};
+}
+inline double dot(Vector a, Vector b) {
+  return a.x * b.x + a.y * b.y;
+}
 /// Positive when `b` points to the left of `a`.
-inline double cross(Vector a, Vector b) { return a.x * b.y - a.y * b.x; }
-inline double length(Vector a) { return std::sqrt(dot(a, a)); }
+inline double cross(Vector a, Vector b) {
+  return a.x * b.y - a.y * b.x;
+}
+inline double length(Vector a) {
+  return std::sqrt(dot(a, a));
+}
 /// `otherwise` where `a` has no direction.
 Vector unit(Vector a, Vector otherwise);
 
@@ -80,7 +92,7 @@ double corner_rad(const Route& route, std::size_t point, std::size_t first);
 /// The smooth line at one place.
 struct Reference {
   Vector point;
-  Vector ahead{1, 0};       ///< direction of travel
+  Vector ahead{1, 0};          ///< direction of travel
   double curvature_radpm = 0;  ///< counter-clockwise positive
 };
 

@@ -29,7 +29,9 @@ inline Foot foot_on(Vector a, Vector b, Vector at) {
   return {ab, share, dot(off, off)};
 }
 
-Vector vector(const PathPoint& p) { return {p.x_m, p.y_m}; }
+Vector vector(const PathPoint& p) {
+  return {p.x_m, p.y_m};
+}
 
 /// The nearest place of one leg that passes close by.
 struct Candidate {

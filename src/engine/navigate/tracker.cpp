@@ -13,19 +13,22 @@ namespace {
 
 constexpr double kEndChord_m = 0.25;
 constexpr double kLookBack_m = 1.0;
-constexpr double kCornerSpread_m = 0.3;   // points this close belong to one corner
-constexpr double kTestSpacing_m = 0.02;   // of points tested for corners, where points are dense
+constexpr double kCornerSpread_m = 0.3;  // points this close belong to one corner
+constexpr double kTestSpacing_m = 0.02;  // of points tested for corners, where points are dense
 constexpr double kJoined_m = 0.2;
 constexpr double kAtRest_mps = 0.005;
 
-Vector place(const Pose& pose) { return {pose.x_m, pose.y_m}; }
-double direction_rad(Vector v) { return std::atan2(v.y, v.x); }
+Vector place(const Pose& pose) {
+  return {pose.x_m, pose.y_m};
+}
+double direction_rad(Vector v) {
+  return std::atan2(v.y, v.x);
+}
 
 bool usable(const Pose& pose) {
   constexpr double kFarthest_m = 1e7;  // beyond it sums lose millimetres
   return std::abs(pose.x_m) < kFarthest_m && std::abs(pose.y_m) < kFarthest_m &&
-         std::isfinite(pose.yaw_rad) &&
-         std::isfinite(pose.vx_mps) && std::isfinite(pose.wz_radps);
+         std::isfinite(pose.yaw_rad) && std::isfinite(pose.vx_mps) && std::isfinite(pose.wz_radps);
 }
 
 }  // namespace
@@ -160,8 +163,8 @@ Twist Tracker::pivot(const Pose& pose) {
   constexpr double kDone_rad = 1.0 * kPi / 180;
   constexpr double kDone_radps = 0.1;
   constexpr double kGain_ps = 3.0;
-  const Vector next = unit(chord_after(route_, leg_.last, route_.size() - 1, kEndChord_m),
-                           leg_.leave);
+  const Vector next =
+      unit(chord_after(route_, leg_.last, route_.size() - 1, kEndChord_m), leg_.leave);
   const double left_rad = wrap_rad(direction_rad(next) - pose.yaw_rad);
   if (std::abs(left_rad) < kDone_rad && std::abs(pose.wz_radps) < kDone_radps) {
     phase_ = Phase::follow;
@@ -173,10 +176,9 @@ Twist Tracker::pivot(const Pose& pose) {
   }
   // Foresee the lag, so that the turn does not swing past its end.
   const double foreseen_rad = left_rad - pose.wz_radps * config_.drive_lag_s;
-  const double braking_radps =
-      std::sqrt(limits_.yaw_acceleration_radps2 * std::abs(foreseen_rad));
-  const double rate_radps = std::min({limits_.max_yaw_rate_radps, braking_radps,
-                                      kGain_ps * std::abs(foreseen_rad)});
+  const double braking_radps = std::sqrt(limits_.yaw_acceleration_radps2 * std::abs(foreseen_rad));
+  const double rate_radps =
+      std::min({limits_.max_yaw_rate_radps, braking_radps, kGain_ps * std::abs(foreseen_rad)});
   return {0, std::copysign(rate_radps, foreseen_rad)};
 }
 
@@ -199,16 +201,16 @@ double Tracker::path_speed_mps(double cap_mps, double s_m) const {
   double fastest_mps = cap_mps;
   for (std::size_t i = kSide; i + kSide < stations; ++i) {
     const Vector slope = 1 / (2 * kSmoothing_m) * (line[i + kSide] - line[i - kSide]);
-    const Vector bend = 1 / (kSmoothing_m * kSmoothing_m) *
-                        (line[i + kSide] - 2 * line[i] + line[i - kSide]);
+    const Vector bend =
+        1 / (kSmoothing_m * kSmoothing_m) * (line[i + kSide] - 2 * line[i] + line[i - kSide]);
     const double size = std::max(length(slope), 0.3);
     const double curvature_radpm = std::abs(cross(slope, bend)) / (size * size * size);
     if (curvature_radpm < 1e-3) continue;
     const double bend_mps = std::min(std::sqrt(config_.lateral_acceleration_mps2 / curvature_radpm),
                                      steering_radps / curvature_radpm);
     const double ahead_m = kStep_m * static_cast<double>(i - kSide);
-    fastest_mps = std::min(fastest_mps,
-                           std::sqrt(bend_mps * bend_mps + 2 * braking_mps2_ * ahead_m));
+    fastest_mps =
+        std::min(fastest_mps, std::sqrt(bend_mps * bend_mps + 2 * braking_mps2_ * ahead_m));
   }
   // Down to creeping where the stop begins.
   const double creep_mps = std::min(config_.creep_speed_mps, cap_mps);
@@ -217,16 +219,16 @@ double Tracker::path_speed_mps(double cap_mps, double s_m) const {
 }
 
 Twist Tracker::steer(const Pose& pose, double cap_mps, Duration dt) {
-  constexpr double kDamping = 2.4;        // of the heading, over the look-ahead
-  constexpr double kStiffness = 2.0;      // of the offset, over its square
-  constexpr double kApproach_rad = 1.0;   // steepest way back to the line
-  constexpr double kTurning_mps = 0.2;    // heading is corrected as if at least so fast
+  constexpr double kDamping = 2.4;       // of the heading, over the look-ahead
+  constexpr double kStiffness = 2.0;     // of the offset, over its square
+  constexpr double kApproach_rad = 1.0;  // steepest way back to the line
+  constexpr double kTurning_mps = 0.2;   // heading is corrected as if at least so fast
 
   // The drives answer late: steer for where the base will be then.
   const double lag_s = config_.drive_lag_s;
   const double turned_rad = pose.yaw_rad + 0.5 * pose.wz_radps * lag_s;
-  const Vector at = place(pose) + pose.vx_mps * lag_s *
-                                      Vector{std::cos(turned_rad), std::sin(turned_rad)};
+  const Vector at =
+      place(pose) + pose.vx_mps * lag_s * Vector{std::cos(turned_rad), std::sin(turned_rad)};
   const double s_m = foot_m(route_, leg_, station_, s_m_ + pose.vx_mps * lag_s, at, 2);
   const Reference line = smooth(route_, leg_, station_, s_m);
   const double offset_m = cross(line.ahead, at - line.point);

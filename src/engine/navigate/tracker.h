@@ -20,9 +20,9 @@ struct Twist {
 /// Where a pose is relative to a path that is driven from its point nearest to the start towards
 /// `target`, forwards or backwards through the list.
 struct TrackProgress {
-  double cross_track_m = 0;    ///< left of the direction of travel positive
-  double heading_error_rad = 0;  ///< of the robot against the direction of travel
-  double distance_left_m = 0;  ///< along the path to the target point
+  double cross_track_m = 0;       ///< left of the direction of travel positive
+  double heading_error_rad = 0;   ///< of the robot against the direction of travel
+  double distance_left_m = 0;     ///< along the path to the target point
   double distance_to_goal_m = 0;  ///< straight line to the target point
   /// At the goal, as near as a stop begun now comes to it; or inside the tolerance and at rest; or
   /// just past it. `distance_to_goal_m` says how near.
@@ -75,11 +75,11 @@ class Tracker final {
   bool active_ = false;
   Route route_;
   Leg leg_;
-  Station station_;   ///< where the robot is
+  Station station_;  ///< where the robot is
   double s_m_ = 0;
   double goal_m_ = 0;  ///< arc length of the target
   Vector goal_;
-  Station scan_;        ///< corners are known up to here
+  Station scan_;         ///< corners are known up to here
   double tested_m_ = 0;  ///< of the last point tested
   Phase phase_ = Phase::follow;
   double speed_mps_ = 0;

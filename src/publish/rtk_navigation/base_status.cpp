@@ -40,12 +40,9 @@ bool active(const Snapshot& snapshot, Line line) {
 
 double angle_deg_from_compass(HeadingConvention convention, double compass_deg) {
   switch (convention) {
-    case HeadingConvention::counterclockwise_from_north:
-      return wrap_deg(-compass_deg);
-    case HeadingConvention::counterclockwise_from_east:
-      return wrap_deg(90.0 - compass_deg);
-    case HeadingConvention::clockwise_from_north:
-      break;
+    case HeadingConvention::counterclockwise_from_north: return wrap_deg(-compass_deg);
+    case HeadingConvention::counterclockwise_from_east: return wrap_deg(90.0 - compass_deg);
+    case HeadingConvention::clockwise_from_north: break;
   }
   return wrap_deg(compass_deg);
 }
@@ -53,16 +50,11 @@ double angle_deg_from_compass(HeadingConvention convention, double compass_deg) 
 int rtk_status(FixQuality quality) {
   switch (quality) {
     case FixQuality::single:
-    case FixQuality::pps:
-      return 1;
-    case FixQuality::dgps:
-      return 2;
-    case FixQuality::rtk_fixed:
-      return 4;
-    case FixQuality::rtk_float:
-      return 5;
-    default:
-      return 0;
+    case FixQuality::pps: return 1;
+    case FixQuality::dgps: return 2;
+    case FixQuality::rtk_fixed: return 4;
+    case FixQuality::rtk_float: return 5;
+    default: return 0;
   }
 }
 

@@ -11,7 +11,7 @@ namespace drover::publish {
 struct DaemonStatus {
   std::string robot;
   bool broker_connected = false;
-  std::string broker_text;       ///< why it is not connected
+  std::string broker_text;  ///< why it is not connected
   double uptime_s = 0;
   std::uint64_t telemetry_dropped = 0;
   std::uint64_t events_lost = 0;

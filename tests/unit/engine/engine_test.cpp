@@ -243,8 +243,7 @@ TEST_F(AnEngine, AnswersEveryCommandOnceAndReturnsEveryPathOnce) {
   rig.command(CancelTask{});
   rig.run_s(0.1);
   const std::size_t answers = rig.said<CommandAccepted>().size() +
-                              rig.said<CommandRefused>().size() +
-                              rig.said<OriginProposed>().size();
+                              rig.said<CommandRefused>().size() + rig.said<OriginProposed>().size();
   EXPECT_EQ(answers, rig.asked - before);
   EXPECT_EQ(rig.said<PathReleased>().size(), 40U);
 }
@@ -288,7 +287,9 @@ TEST_F(AnEngine, GivesEqualOutputsForEqualInputsToTheBit) {
     other.tick();
     for (std::size_t k = 0; k < 4; ++k) {
       ASSERT_EQ(std::memcmp(&rig.out.axes[k].velocity_radps, &other.out.axes[k].velocity_radps,
-                            sizeof(double)), 0) << i;
+                            sizeof(double)),
+                0)
+          << i;
     }
   }
 }

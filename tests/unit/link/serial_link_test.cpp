@@ -47,7 +47,10 @@ TEST(SerialLink, IsRawAndDoesNotEcho) {
   Pty pty;
   const auto opened = open_serial({pty.path, 115200});
   ASSERT_NE(opened.link, nullptr) << opened.problem;
-  const std::string bytes("\r\n\x11\x13\x00\xff" "A", 7);
+  const std::string bytes(
+      "\r\n\x11\x13\x00\xff"
+      "A",
+      7);
   ASSERT_EQ(::write(pty.master.get(), bytes.data(), bytes.size()), 7);
   std::array<std::uint8_t, 64> buffer{};
   std::size_t size = 0;

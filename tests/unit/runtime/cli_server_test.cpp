@@ -17,11 +17,11 @@ class CliServerTest : public ::testing::Test {
   CliServerTest() {
     std::string pattern = std::filesystem::temp_directory_path() / "drover-cli-XXXXXX";
     folder_ = ::mkdtemp(pattern.data());
-    server_ = std::make_unique<CliServer>(
-        folder_ + "/drover.sock", [this](CliServer::ClientId id, std::string_view line) {
-          lines_.emplace_back(line);
-          server_->reply(id, "got " + std::string(line));
-        });
+    server_ = std::make_unique<CliServer>(folder_ + "/drover.sock",
+                                          [this](CliServer::ClientId id, std::string_view line) {
+                                            lines_.emplace_back(line);
+                                            server_->reply(id, "got " + std::string(line));
+                                          });
   }
   ~CliServerTest() override {
     server_.reset();

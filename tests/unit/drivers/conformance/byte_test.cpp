@@ -130,8 +130,8 @@ TEST_P(ByteConformance, IsNeverHeardThenFreshThenStaleAndSaysWhy) {
   EXPECT_FALSE(driver->health(now).reason.empty());
 }
 
-INSTANTIATE_TEST_SUITE_P(Registry, ByteConformance,
-                         ::testing::ValuesIn(subjects<MakeByteDriver>()), label_of);
+INSTANTIATE_TEST_SUITE_P(Registry, ByteConformance, ::testing::ValuesIn(subjects<MakeByteDriver>()),
+                         label_of);
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(ByteConformance);
 
 class LineConformance : public ::testing::TestWithParam<Subject> {
@@ -176,8 +176,8 @@ TEST_P(LineConformance, IsReleasedByOneLevelAndActiveWhenLostOrSilent) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Registry, LineConformance,
-                         ::testing::ValuesIn(subjects<MakeLineDriver>()), label_of);
+INSTANTIATE_TEST_SUITE_P(Registry, LineConformance, ::testing::ValuesIn(subjects<MakeLineDriver>()),
+                         label_of);
 
 }  // namespace
 }  // namespace drover::test

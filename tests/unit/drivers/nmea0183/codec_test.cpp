@@ -64,12 +64,10 @@ TEST(NmeaGga, TakesAFixWithoutAPositionForNone) {
 }
 
 TEST(NmeaGga, DoesNotBelieveNullIsland) {
-  expect_no_fix(
-      decoded<Gga>("GNGGA,103607.00,0000.00000,N,00000.00000,E,4,06,5.88,0.0,M,0.0,M,,"),
-      Oddity::null_island);
-  expect_no_fix(
-      decoded<Gga>("GNGGA,103607.00,0000.00000,S,00000.00000,W,1,06,5.88,0.0,M,0.0,M,,"),
-      Oddity::null_island);
+  expect_no_fix(decoded<Gga>("GNGGA,103607.00,0000.00000,N,00000.00000,E,4,06,5.88,0.0,M,0.0,M,,"),
+                Oddity::null_island);
+  expect_no_fix(decoded<Gga>("GNGGA,103607.00,0000.00000,S,00000.00000,W,1,06,5.88,0.0,M,0.0,M,,"),
+                Oddity::null_island);
 }
 
 TEST(NmeaGga, DoesNotBelieveAFixWithUnknownHdop) {
@@ -130,8 +128,8 @@ TEST(NmeaGga, ReadsRtkFloatAndFixed) {
 }
 
 TEST(NmeaGga, ReadsTheAgeOfOldCorrections) {
-  const auto gga = decoded<Gga>(
-      "GNGGA,103607.00,5327.03942,N,00214.42462,W,4,30,0.60,56.0,M,48.5,M,61.0,0001");
+  const auto gga =
+      decoded<Gga>("GNGGA,103607.00,5327.03942,N,00214.42462,W,4,30,0.60,56.0,M,48.5,M,61.0,0001");
   EXPECT_EQ(gga.position.quality, FixQuality::rtk_fixed);
   EXPECT_EQ(gga.position.correction_age_s, 61.0);
 }
@@ -152,12 +150,10 @@ TEST(NmeaGga, TakesMissingFieldsAtTheEndForUnknown) {
 }
 
 TEST(NmeaRmc, TakesStatusVWithNumbersForInvalid) {
-  const auto rmc = decoded<Rmc>(
-      "GNRMC,103607.00,V,5327.03942,N,00214.42462,W,0.046,,060321,,,N,V");
+  const auto rmc = decoded<Rmc>("GNRMC,103607.00,V,5327.03942,N,00214.42462,W,0.046,,060321,,,N,V");
   EXPECT_FALSE(rmc.valid);
   EXPECT_TRUE(std::isnan(rmc.velocity.speed_mps));
-  EXPECT_FALSE(
-      decoded<Rmc>("GPRMC,235959.00,V,0000.0000,N,00000.0000,E,,,250910,,,N").valid);
+  EXPECT_FALSE(decoded<Rmc>("GPRMC,235959.00,V,0000.0000,N,00000.0000,E,,,250910,,,N").valid);
 }
 
 TEST(NmeaRmc, TakesModeNForInvalid) {
@@ -183,16 +179,14 @@ TEST(NmeaRmc, RejectsOnlyTheDateWhenOnlyTheDateIsWrong) {
 }
 
 TEST(NmeaRmc, FlagsADateFromBeforeThisProgram) {
-  const auto rmc =
-      decoded<Rmc>("GNRMC,103607.00,A,5327.03942,N,00214.42462,W,0.046,,230906,,,A,V");
+  const auto rmc = decoded<Rmc>("GNRMC,103607.00,A,5327.03942,N,00214.42462,W,0.046,,230906,,,A,V");
   EXPECT_EQ(rmc.oddity, Oddity::old_date);
   EXPECT_EQ(rmc.year, 2006);
   EXPECT_EQ(decoded<Rmc>("GNRMC,103607.00,A,,,,,0.046,,070287,,,A,V").year, 1987);
 }
 
 TEST(NmeaRmc, TakesNavStatusVForNotProvided) {
-  const auto rmc = decoded<Rmc>(
-      "GNRMC,103607.00,A,5327.03942,N,10214.42462,W,0.046,,060326,,,A,V");
+  const auto rmc = decoded<Rmc>("GNRMC,103607.00,A,5327.03942,N,10214.42462,W,0.046,,060326,,,A,V");
   EXPECT_TRUE(rmc.valid);
   EXPECT_TRUE(std::isnan(rmc.velocity.course_deg));
   EXPECT_EQ(rmc.oddity, Oddity::none);
@@ -211,8 +205,7 @@ TEST(NmeaRmc, ReadsSpeedCourseAndDate) {
 }
 
 TEST(NmeaVtg, TakesModeNForNoSpeed) {
-  EXPECT_TRUE(
-      std::isnan(decoded<Vtg>("GNVTG,1.0,T,,M,2.0,N,3.7,K,N").velocity.speed_mps));
+  EXPECT_TRUE(std::isnan(decoded<Vtg>("GNVTG,1.0,T,,M,2.0,N,3.7,K,N").velocity.speed_mps));
 }
 
 TEST(NmeaVtg, RejectsWrongUnits) {

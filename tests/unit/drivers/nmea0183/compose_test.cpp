@@ -40,7 +40,9 @@ TEST(NmeaCompose, WritesNothingThatDoesNotFit) {
   EXPECT_EQ(compose(full(), "GN", small), 0U);
 }
 
-TEST(NmeaCompose, FitsTheLongestEpoch) { EXPECT_GT(composed(full()).size(), 250U); }
+TEST(NmeaCompose, FitsTheLongestEpoch) {
+  EXPECT_GT(composed(full()).size(), 250U);
+}
 
 TEST(NmeaCompose, NeverWritesSixtyMinutesOrThreeHundredSixtyDegrees) {
   const std::string text = composed(full());

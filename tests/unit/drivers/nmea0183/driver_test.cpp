@@ -17,8 +17,12 @@ namespace {
 using namespace std::chrono_literals;
 using test::line;
 
-Options defaults() { return Options(kNmea0183Entry.options); }
-Time at(Duration since_start) { return Time{1000s + since_start}; }
+Options defaults() {
+  return Options(kNmea0183Entry.options);
+}
+Time at(Duration since_start) {
+  return Time{1000s + since_start};
+}
 
 std::string utc(int tenths) {
   const std::string seconds = std::to_string(tenths / 10);

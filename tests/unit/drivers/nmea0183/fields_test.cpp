@@ -13,9 +13,10 @@ namespace {
 using namespace std::chrono_literals;
 
 TEST(NmeaFields, RefuseWhatIsNoPlainDecimal) {
-  for (const auto* text : {"", "-", ".", "nan", "NAN", "inf", "-inf", "infinity", "0x10", "1e5",
-                           "1E5", "+1", " 1", "1 ", "1.2.3", "--1", "1-", "1,5", "٣",
-                           "123456789012345678901"})
+  for (const auto* text : {"",    "-",    ".",        "nan",  "NAN",
+                           "inf", "-inf", "infinity", "0x10", "1e5",
+                           "1E5", "+1",   " 1",       "1 ",   "1.2.3",
+                           "--1", "1-",   "1,5",      "٣",    "123456789012345678901"})
     EXPECT_FALSE(parse_decimal(text).has_value()) << text;
 }
 

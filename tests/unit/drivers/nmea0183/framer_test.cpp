@@ -117,9 +117,9 @@ TEST(NmeaFramer, IgnoresWhatLiesBetweenSentences) {
 TEST(NmeaFramer, AcceptsLineFeedAloneReturnAloneAndLowerCase) {
   EXPECT_EQ(frame("$GNHDT,244.28,T*13\n").bodies.size(), 1U);
   EXPECT_EQ(frame("$GNHDT,244.28,T*13\r").bodies.size(), 1U);
-  EXPECT_EQ(frame("$GNRMC,103607.00,A,5327.03942,N,10214.42462,W,0.046,,060321,,,A,V*0e\n")
-                .bodies.size(),
-            1U);
+  EXPECT_EQ(
+      frame("$GNRMC,103607.00,A,5327.03942,N,10214.42462,W,0.046,,060321,,,A,V*0e\n").bodies.size(),
+      1U);
 }
 
 TEST(NmeaFramer, ForgetsALineThatHadBegun) {

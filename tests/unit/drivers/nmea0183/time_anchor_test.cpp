@@ -8,7 +8,9 @@ namespace {
 
 using namespace std::chrono_literals;
 
-Time at(Duration since_start) { return Time{100s + since_start}; }
+Time at(Duration since_start) {
+  return Time{100s + since_start};
+}
 
 TEST(NmeaTimeAnchor, IsNeverLaterThanTheArrival) {
   TimeAnchor anchor;

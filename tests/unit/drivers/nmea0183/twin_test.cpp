@@ -24,7 +24,9 @@ constexpr double kLongitude_deg = 121.5;
 constexpr double kMetresPerDegree_east = 95283;  // at that latitude
 constexpr double kMetresPerDegree_north = 110873;
 
-Options twin_defaults() { return Options(kNmea0183Entry.twin_options); }
+Options twin_defaults() {
+  return Options(kNmea0183Entry.twin_options);
+}
 
 /// A robot that drives north at `speed_mps` from the start.
 class NmeaTwin : public testing::Test {
@@ -159,8 +161,7 @@ TEST_F(NmeaTwin, ErrsInACorrelatedWay) {
   const auto positions = all<GnssPosition>();
   double step = 0;
   for (std::size_t i = 1; i < positions.size(); ++i)
-    step += std::pow(
-        east_error_m(positions[i].second) - east_error_m(positions[i - 1].second), 2);
+    step += std::pow(east_error_m(positions[i].second) - east_error_m(positions[i - 1].second), 2);
   const double step_rms_m = std::sqrt(step / static_cast<double>(positions.size() - 1));
   // White noise of 2 m would step by 2.8 m; a tenth of its variance is white: 0.9 m.
   EXPECT_LT(step_rms_m, 1.2);

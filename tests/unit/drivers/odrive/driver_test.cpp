@@ -19,7 +19,9 @@ using test::parse_frame;
 constexpr auto kIdleBeat = "061#0000000001000000";
 constexpr auto kRunningBeat = "061#0000000008000000";
 
-Options options() { return Options(option_table()).set("node", 3.0).set("poll_s", 0.0); }
+Options options() {
+  return Options(option_table()).set("node", 3.0).set("poll_s", 0.0);
+}
 
 /// The driver alone, with heartbeats given by hand.
 class Bench {
@@ -328,8 +330,7 @@ TEST(OdriveDriver, AppliesGearRatioAndSignBothWays) {
   bench.run(1, AxisRequest::run, 3.14159265358979);
   EXPECT_EQ(bench.sent.back(), "06D#000000C000000000");  // -2 turns/s
   bench.hear("069#00008040000000C0");
-  EXPECT_EQ(describe(bench.out),
-            "axis_motion axis=0 position_rad=-6.28319 velocity_radps=3.14159");
+  EXPECT_EQ(describe(bench.out), "axis_motion axis=0 position_rad=-6.28319 velocity_radps=3.14159");
 }
 
 TEST(OdriveDriver, KeepsItsDistanceBetweenSetPointsButStopsAtOnce) {
@@ -387,12 +388,32 @@ TEST(OdriveDriver, ReportsAnotherMaster) {
 
 TEST(OdriveRules, ForbidWhatMustNeverLeave) {
   const Settings settings = read_settings(options());
-  for (const char* text :
-       {"067#00000000", "067#02000000", "067#03000000", "067#07000000", "067#0B000000",
-        "067#0801000000000000", "06B#0100000001000000", "06B#0300000005000000",
-        "06B#0200000008000000", "076#01", "076#02", "076#00", "066#05", "079#00000000", "070#",
-        "07F#", "078#01", "062#", "064#01830100B6F39D3F", "064#00830100", "06C#0000000000000000",
-        "06E#00000000", "7F6#00", "7E6#", "061#R", "06D#00000000"})
+  for (const char* text : {"067#00000000",
+                           "067#02000000",
+                           "067#03000000",
+                           "067#07000000",
+                           "067#0B000000",
+                           "067#0801000000000000",
+                           "06B#0100000001000000",
+                           "06B#0300000005000000",
+                           "06B#0200000008000000",
+                           "076#01",
+                           "076#02",
+                           "076#00",
+                           "066#05",
+                           "079#00000000",
+                           "070#",
+                           "07F#",
+                           "078#01",
+                           "062#",
+                           "064#01830100B6F39D3F",
+                           "064#00830100",
+                           "06C#0000000000000000",
+                           "06E#00000000",
+                           "7F6#00",
+                           "7E6#",
+                           "061#R",
+                           "06D#00000000"})
     EXPECT_EQ(effect(parse_frame(text), settings), FrameEffect::forbidden) << text;
 }
 

@@ -24,7 +24,9 @@ test::Subject subject(const std::function<void(Options&)>& change = [](Options&)
   return made;
 }
 
-void old_firmware(Options& options) { options.set("firmware", std::string("0.5.6")); }
+void old_firmware(Options& options) {
+  options.set("firmware", std::string("0.5.6"));
+}
 void with_endpoints(Options& options) {
   options.set("watchdog_timeout_s", 0.1)
       .set("watchdog_enable_endpoint", 300.0)

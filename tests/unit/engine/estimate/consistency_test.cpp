@@ -9,9 +9,9 @@ namespace drover::engine::estimate {
 namespace {
 
 struct Account {
-  double inside = 0;          ///< share of errors within the predicted two sigma
+  double inside = 0;  ///< share of errors within the predicted two sigma
   double yaw_inside = 0;
-  double normalised2 = 0;     ///< mean squared error over variance, of three degrees of freedom
+  double normalised2 = 0;  ///< mean squared error over variance, of three degrees of freedom
   double rms_m = 0;
 };
 

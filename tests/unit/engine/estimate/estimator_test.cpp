@@ -57,8 +57,8 @@ TEST(Estimator, RejectsWheelSpeedsThatAreNoSpeeds) {
 }
 
 TEST(Estimator, TakesNoPositionFromAReceiverThatHasNone) {
-  for (const FixQuality quality : {FixQuality::none, FixQuality::estimated, FixQuality::manual,
-                                   FixQuality::simulator}) {
+  for (const FixQuality quality :
+       {FixQuality::none, FixQuality::estimated, FixQuality::manual, FixQuality::simulator}) {
     Rig rig;
     rig.world.quality = quality;
     rig.stand(2);
@@ -122,12 +122,12 @@ TEST(Estimator, CountsARepeatedInstantOnce) {
 TEST(Estimator, TakesAStampFromTheFutureForNow) {
   Rig rig;
   rig.drive(0.5, 0.5, 5);
-  Measurement m = rig.position_at(rig.x_m, rig.y_m, FixQuality::rtk_fixed,
-                                  rig.now + std::chrono::hours(1));
+  Measurement m =
+      rig.position_at(rig.x_m, rig.y_m, FixQuality::rtk_fixed, rig.now + std::chrono::hours(1));
   m.received = kNever;
   rig.estimator.on_measurement(m);
-  rig.estimator.on_measurement(heading(compass_deg_from_yaw_rad(rig.yaw_rad),
-                                       rig.now + std::chrono::hours(2)));
+  rig.estimator.on_measurement(
+      heading(compass_deg_from_yaw_rad(rig.yaw_rad), rig.now + std::chrono::hours(2)));
   rig.drive(0.5, 0.5, 5);
   EXPECT_LT(rig.position_error_m(), 0.04);
   EXPECT_EQ(rig.estimator.counters().late, 0U);

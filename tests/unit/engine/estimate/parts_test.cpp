@@ -154,7 +154,10 @@ TEST(GnssModel, BelievesAReceiverThatSaysItIsWorseNotBetter) {
 }
 
 AntennaPosition fixed_at(double x_m, double y_m) {
-  return {.x_m = x_m, .y_m = y_m, .quality = GnssClass::fixed, .sigma_x_m = 0.0125,
+  return {.x_m = x_m,
+          .y_m = y_m,
+          .quality = GnssClass::fixed,
+          .sigma_x_m = 0.0125,
           .sigma_y_m = 0.0125};
 }
 

@@ -18,20 +18,20 @@ inline constexpr GeodeticPoint kField{
     .latitude_deg = 48.1372, .longitude_deg = 11.5756, .altitude_m = 560.0};
 
 struct World {
-  double slip = 1.0;             ///< true yaw slip factor
-  double scale = 1.0;            ///< true way over rim way
+  double slip = 1.0;   ///< true yaw slip factor
+  double scale = 1.0;  ///< true way over rim way
   double latency_s = 0.08;
-  double stamp_error_s = 0.0;    ///< stamp minus truth: 0.08 is a receiver taken as immediate
+  double stamp_error_s = 0.0;  ///< stamp minus truth: 0.08 is a receiver taken as immediate
   bool heading = true;
   bool wheels = true;
   bool position = true;
   bool gst = false;
   FixQuality quality = FixQuality::rtk_fixed;
-  double noise = 1.0;            ///< 0: a perfect receiver
-  double disturbance = 1.0;      ///< 0: a perfect ground
-  double fade_s = 0.0;           ///< how slowly the noise follows a better quality
+  double noise = 1.0;        ///< 0: a perfect receiver
+  double disturbance = 1.0;  ///< 0: a perfect ground
+  double fade_s = 0.0;       ///< how slowly the noise follows a better quality
   double correlation_s = 30.0;
-  double drift_share = 0.9;      ///< of the variance; the rest is white
+  double drift_share = 0.9;  ///< of the variance; the rest is white
   double jump_x_m = 0.0;
   double heading_off_deg = 0.0;
 };
@@ -167,8 +167,9 @@ class Rig {
     std::array<double, 2> at{x_m + e.antenna_x_m * c - e.antenna_y_m * s,
                              y_m + e.antenna_x_m * s + e.antenna_y_m * c};
     for (std::size_t i = 0; i < 2; ++i) {
-      at[i] += world.noise * sigma_now_ * (std::sqrt(world.drift_share) * drift_[i] +
-                                           std::sqrt(1 - world.drift_share) * normal());
+      at[i] +=
+          world.noise * sigma_now_ *
+          (std::sqrt(world.drift_share) * drift_[i] + std::sqrt(1 - world.drift_share) * normal());
     }
     at[0] += world.jump_x_m;
     const Time stamp = now + from_s(world.stamp_error_s);

@@ -39,7 +39,9 @@ class FakeDrive final : public CanDriver {
   std::vector<FrameRule> rules_;
 };
 
-CanFrame frame(std::uint8_t first) { return make_frame(0x10, {first, 0, 0, 0, 0, 0, 0, 0}); }
+CanFrame frame(std::uint8_t first) {
+  return make_frame(0x10, {first, 0, 0, 0, 0, 0, 0, 0});
+}
 
 class AFrameGate : public ::testing::Test {
  protected:

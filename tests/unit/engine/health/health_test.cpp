@@ -225,7 +225,9 @@ class AnAnnouncer : public AHealthMonitor {
   EventQueue events;
 };
 
-TEST_F(AnAnnouncer, IsSilentWhileAllIsWell) { EXPECT_TRUE(said().empty()); }
+TEST_F(AnAnnouncer, IsSilentWhileAllIsWell) {
+  EXPECT_TRUE(said().empty());
+}
 TEST_F(AnAnnouncer, WaitsASecondBeforeItCallsItNewsThatNothingWasHeardYet) {
   activate(Line::bumper);
   EXPECT_TRUE(said().empty());

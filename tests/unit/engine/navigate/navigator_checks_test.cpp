@@ -12,10 +12,9 @@ using ::testing::HasSubstr;
 
 TEST(SpeedCheck, RefusesWhatIsNoSpeed) {
   const LimitsConfig limits;
-  for (const double bad : {0.0, -0.0, -1.0, 0.049, 1e-300,
-                           std::numeric_limits<double>::quiet_NaN(),
-                           std::numeric_limits<double>::infinity(),
-                           -std::numeric_limits<double>::infinity()}) {
+  for (const double bad :
+       {0.0, -0.0, -1.0, 0.049, 1e-300, std::numeric_limits<double>::quiet_NaN(),
+        std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()}) {
     const SpeedCheck check = check_speed(bad, limits);
     EXPECT_FALSE(check.refusal.empty()) << bad;
     EXPECT_EQ(check.speed_mps, 0) << bad;
@@ -77,7 +76,9 @@ TEST(RobotCheck, LetsADriveWithAFaultTryToArm) {
   report.not_running = "wheel a: over temperature";
   EXPECT_TRUE(check_robot(report, true).empty());
 }
-TEST(RobotCheck, AcceptsAHealthyRobot) { EXPECT_TRUE(check_robot(good_health(), true).empty()); }
+TEST(RobotCheck, AcceptsAHealthyRobot) {
+  EXPECT_TRUE(check_robot(good_health(), true).empty());
+}
 
 class APlaceCheck : public ::testing::Test {
  protected:

@@ -56,10 +56,9 @@ class ANavigator : public ::testing::Test {
   }
   NavOutput step() {
     now += std::chrono::milliseconds(5);
-    const NavOutput out = navigator.step(
-        {now, std::chrono::milliseconds(5), estimate, health, wheels, wheel_reason, at_rest,
-         refusal},
-        events);
+    const NavOutput out = navigator.step({now, std::chrono::milliseconds(5), estimate, health,
+                                          wheels, wheel_reason, at_rest, refusal},
+                                         events);
     const bool moving = out.target.vx_mps != 0 || out.target.wz_radps != 0;
     navigator.on_commanded(now, moving && out.stop == Stop::none, events);
     drain();

@@ -9,7 +9,9 @@
 namespace drover::engine {
 namespace {
 
-std::uint32_t last(const Path& path) { return static_cast<std::uint32_t>(path.points.size() - 1); }
+std::uint32_t last(const Path& path) {
+  return static_cast<std::uint32_t>(path.points.size() - 1);
+}
 
 /// Worst of three seeds, driven over a track recorded with 1 cm of noise.
 struct Figures {

@@ -104,7 +104,7 @@ inline double distance_m(const Points& points, double x_m, double y_m) {
 
 struct Drive {
   bool arrived = false;
-  double rms_m = 0;    ///< off the recorded points' polyline, of the truth
+  double rms_m = 0;  ///< off the recorded points' polyline, of the truth
   double p95_m = 0;
   double max_m = 0;
   double final_m = 0;  ///< from the target, at rest
@@ -153,8 +153,8 @@ inline Drive drive(const Path& path, std::uint32_t target, const DriveSetup& set
     plant.step(wheels_from_twist(base, 1.0, twist, 1.5), kTick_s);
     result.driven_m += plant.truth().vx_mps * kTick_s;
     result.fastest_mps = std::max(result.fastest_mps, plant.truth().vx_mps);
-    result.most_lateral_mps2 = std::max(
-        result.most_lateral_mps2, std::abs(plant.truth().vx_mps * plant.truth().wz_radps));
+    result.most_lateral_mps2 =
+        std::max(result.most_lateral_mps2, std::abs(plant.truth().vx_mps * plant.truth().wz_radps));
     if (ticks % 20 != 0) continue;
     off.push_back(distance_m(path.points, plant.truth().x_m, plant.truth().y_m));
     square_m2 += off.back() * off.back();

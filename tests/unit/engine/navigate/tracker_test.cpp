@@ -20,7 +20,9 @@ Path path_of(Points points) {
   path.points = std::move(points);
   return path;
 }
-std::uint32_t last(const Path& path) { return static_cast<std::uint32_t>(path.points.size() - 1); }
+std::uint32_t last(const Path& path) {
+  return static_cast<std::uint32_t>(path.points.size() - 1);
+}
 Pose pose_at(double x_m, double y_m, double yaw_rad, double vx_mps = 0) {
   Pose pose;
   pose.x_m = x_m;
@@ -29,7 +31,9 @@ Pose pose_at(double x_m, double y_m, double yaw_rad, double vx_mps = 0) {
   pose.vx_mps = vx_mps;
   return pose;
 }
-Tracker tracker() { return Tracker(NavigateConfig{}, LimitsConfig{}); }
+Tracker tracker() {
+  return Tracker(NavigateConfig{}, LimitsConfig{});
+}
 TrackProgress begin_and_locate(const Path& path, std::uint32_t target, const Pose& pose) {
   Tracker t = tracker();
   t.begin(path, target, 0.5, pose);
@@ -107,8 +111,8 @@ TEST(Tracker, GivesNoMotionUnderACapOfZeroOrNoNumber) {
 }
 
 TEST(Tracker, BeginsAtTheNearestPointForwards) {
-  const TrackProgress p = begin_and_locate(path_of({{0, 0}, {5, 0}, {10, 0}}), 2,
-                                           pose_at(3, 0.4, 0.1));
+  const TrackProgress p =
+      begin_and_locate(path_of({{0, 0}, {5, 0}, {10, 0}}), 2, pose_at(3, 0.4, 0.1));
   EXPECT_NEAR(p.cross_track_m, 0.4, 1e-9);
   EXPECT_NEAR(p.heading_error_rad, 0.1, 1e-9);
   EXPECT_NEAR(p.distance_left_m, 7, 1e-6);
@@ -340,8 +344,7 @@ TEST(Tracker, AllocatesNothingAndIsTheSameToTheBitEachTime) {
 TEST(Tracker, FindsItsPlaceAmongAHundredThousandPoints) {
   Path path;
   for (int i = 0; i < 100000; ++i) path.points.push_back({0.1 * i, std::sin(0.001 * i)});
-  const TrackProgress p =
-      begin_and_locate(path, 99999, pose_at(7000, std::sin(70.0) + 0.2, 0.006));
+  const TrackProgress p = begin_and_locate(path, 99999, pose_at(7000, std::sin(70.0) + 0.2, 0.006));
   EXPECT_NEAR(p.cross_track_m, 0.2, 0.01);
   EXPECT_NEAR(p.distance_left_m, 2999.9, 0.5);
 }
