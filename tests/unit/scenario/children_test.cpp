@@ -9,15 +9,10 @@
 #include <fstream>
 #include <sstream>
 
+#include "support/temp_folder.h"
+
 namespace drover::sim {
 namespace {
-
-std::string folder() {
-  const auto path = std::filesystem::path(testing::TempDir()) / "children_test";
-  std::filesystem::remove_all(path);
-  std::filesystem::create_directories(path);
-  return path.string();
-}
 
 /// Waits until a child's descriptor says that it ended.
 std::vector<Children::Ended> wait_for_end(Children& children) {
@@ -30,19 +25,22 @@ std::vector<Children::Ended> wait_for_end(Children& children) {
 }
 
 TEST(TheChildren, RefuseASecondOneOfTheSameName) {
-  Children children(folder());
+  const test::TempFolder folder;
+  Children children(folder.path());
   EXPECT_EQ(children.start({"sleeper", {"/bin/sleep", "1000"}}), "");
   EXPECT_NE(children.start({"sleeper", {"/bin/sleep", "1000"}}), "");
   EXPECT_TRUE(children.reap().empty());
 }
 
 TEST(TheChildren, CannotBeSignalledWhenTheyDoNotRun) {
-  Children children(folder());
+  const test::TempFolder folder;
+  Children children(folder.path());
   EXPECT_FALSE(children.signal("nobody", SIGTERM));
 }
 
 TEST(TheChildren, ThatCannotBeExecutedEndWithStatus127) {
-  Children children(folder());
+  const test::TempFolder folder;
+  Children children(folder.path());
   EXPECT_EQ(children.start({"none", {"/nowhere/program"}}), "");
   const auto ended = wait_for_end(children);
   ASSERT_EQ(ended.size(), 1U);
@@ -51,7 +49,8 @@ TEST(TheChildren, ThatCannotBeExecutedEndWithStatus127) {
 }
 
 TEST(TheChildren, AreSignalledAndTellHowTheyEnded) {
-  Children children(folder());
+  const test::TempFolder folder;
+  Children children(folder.path());
   ASSERT_EQ(children.start({"sleeper", {"/bin/sleep", "1000"}}), "");
   EXPECT_TRUE(children.runs("sleeper"));
   EXPECT_TRUE(children.signal("sleeper", SIGKILL));
@@ -62,7 +61,8 @@ TEST(TheChildren, AreSignalledAndTellHowTheyEnded) {
 }
 
 TEST(TheChildren, WriteTheirOutputAndErrorsToALogThatGrowsWithEachStart) {
-  const auto logs = folder();
+  const test::TempFolder folder;
+  const auto& logs = folder.path();
   Children children(logs);
   for (int i = 0; i < 2; ++i) {
     ASSERT_EQ(children.start({"talker", {"/bin/sh", "-c", "echo one; echo two >&2"}}), "");
@@ -74,7 +74,8 @@ TEST(TheChildren, WriteTheirOutputAndErrorsToALogThatGrowsWithEachStart) {
 }
 
 TEST(FindProgram, LooksInTheFolderAndWhereABuildLeavesPrograms) {
-  const auto place = folder();
+  const test::TempFolder folder;
+  const auto& place = folder.path();
   EXPECT_EQ(find_program(place, "droverd"), "");
   std::filesystem::create_directories(place + "/src");
   std::ofstream(place + "/src/droverd") << "#!/bin/sh\n";

@@ -9,6 +9,7 @@
 
 #include "sim/robot/scenario.h"
 #include "sim/robot/scenario_file.h"
+#include "support/temp_folder.h"
 
 namespace drover::sim {
 namespace {
@@ -117,7 +118,8 @@ class ARobotFile : public testing::Test {
     std::filesystem::create_directories((folder_ / name).parent_path());
     std::ofstream(folder_ / name) << text;
   }
-  std::filesystem::path folder_ = std::filesystem::path(testing::TempDir()) / "robot_file_test";
+  const test::TempFolder temp_;
+  std::filesystem::path folder_ = temp_.path();
 };
 
 TEST_F(ARobotFile, MustBeThereAndMustNotNameAnother) {
