@@ -59,8 +59,8 @@ class StopSet final {
   }
 
  private:
-  std::array<int, kGuardMaxDescriptors> descriptors_;
-  std::array<GuardMessage, kGuardMaxFrames> frames_;
+  std::array<int, kGuardMaxDescriptors> descriptors_{};
+  std::array<GuardMessage, kGuardMaxFrames> frames_{};
   std::size_t count_ = 0;
 };
 
