@@ -117,7 +117,7 @@ void CliServer::read(ClientId id) {
   }
 }
 
-void CliServer::reply(ClientId id, std::string text) {
+void CliServer::reply(ClientId id, const std::string& text) {
   const auto it = clients_.find(id);
   if (it == clients_.end()) return;
   it->second.out += text + "\n";

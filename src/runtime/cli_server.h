@@ -30,7 +30,7 @@ class CliServer final {
   int fd() const { return epoll_.get(); }
   void on_ready();
   /// Answers a client that may be gone meanwhile; then it is not heard.
-  void reply(ClientId client, std::string text);
+  void reply(ClientId client, const std::string& text);
 
  private:
   struct Client {

@@ -161,7 +161,7 @@ void ControlLoop::lose(std::size_t slot, int error, Time now) {
 
 void ControlLoop::read_gnss() {
   if (!gnss_) return;
-  std::array<std::uint8_t, 1024> buffer;
+  std::array<std::uint8_t, 1024> buffer{};
   std::size_t size = 0;
   const Time now = monotonic_now();
   if (!gnss_->read(buffer, size)) return lose(kGnssSlot, gnss_->error(), now);

@@ -12,11 +12,11 @@ void run_storage(store::Storage& storage, StorageExchange& exchange,
     ::poll(&wait, 1, -1);
     exchange.jobs_ready.clear();
     while (exchange.jobs.pop(job)) {
-      auto reply = storage.run(job);
+      const auto reply = storage.run(job);
       job = {};
       // Never lost: as many replies fit as jobs, and the publish thread empties them at every
       // wake-up.
-      while (!exchange.replies.push(std::move(reply)) && !stop.load()) ::poll(nullptr, 0, 1);
+      while (!exchange.replies.push(reply) && !stop.load()) ::poll(nullptr, 0, 1);
       exchange.replies_ready.notify();
     }
   }
