@@ -74,6 +74,7 @@ const DriverEntry kGpioLineEntry = {
     .name = "gpio_line",
     .folder = "gpio_line",
     .options = gpio_line::kOptions,
+    .device = Device::line,
     .make = gpio_line::make,
     .twin_options = {},
     .make_twin = {},

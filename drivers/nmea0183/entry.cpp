@@ -118,6 +118,7 @@ constinit const DriverEntry kNmea0183Entry{
     .name = "nmea0183",
     .folder = "nmea0183",
     .options = nmea0183::kOptions,
+    .device = Device::gnss,
     .make = MakeByteDriver{nmea0183::make},
     .twin_options = nmea0183::kTwinOptions,
     .make_twin = MakeGnssTwin{nmea0183::make_twin},

@@ -124,6 +124,7 @@ const DriverEntry kOdriveEntry = {
     .name = "odrive",
     .folder = "odrive",
     .options = odrive::option_table(),
+    .device = Device::drive,
     .make = odrive::make,
     .twin_options = odrive::twin_option_table(),
     .make_twin = odrive::make_twin,

@@ -4,6 +4,9 @@
 #include <cstdint>
 #include <variant>
 
+#include "drover/fixed_text.h"
+#include "drover/fixed_vector.h"
+#include "drover/measurement.h"
 #include "drover/path.h"
 #include "drover/time.h"
 
@@ -11,7 +14,7 @@ namespace drover {
 
 /// Who asked, and under which number the answer is expected.
 struct RequestId {
-  enum class Source : std::uint8_t { mqtt, cli, internal } source = Source::internal;
+  enum class Source : std::uint8_t { mqtt, cli, internal, aimrt } source = Source::internal;
   std::uint64_t number = 0;
 };
 
@@ -34,10 +37,29 @@ struct SetOrigin {
   GeodeticPoint origin;
 };
 
+/// What one joint is to do. The drives follow a velocity.
+struct JointTarget {
+  AxisId axis = 0;
+  double velocity_radps = 0;
+};
+/// One message of a stream of joint commands: joints that it does not name come to rest. A stream
+/// begins with all velocities 0, and ends when it is silent for health.joint_command_timeout_s.
+struct JointTargets {
+  FixedVector<JointTarget, kMaxAxes> joints;
+};
+/// A joint command that was not understood or not permitted, so that it is seen and counted.
+struct JointTargetsRefused {
+  Reason reason;
+};
+/// Drive straight ahead for a short way, so that a receiver with one antenna shows the heading.
+struct FindHeading {};
+
 struct Command {
   RequestId id;
   Time received = kNever;
-  std::variant<std::monostate, StartTask, CancelTask, ResetStop, ProposeOrigin, SetOrigin> body;
+  std::variant<std::monostate, StartTask, CancelTask, ResetStop, ProposeOrigin, SetOrigin,
+               JointTargets, JointTargetsRefused, FindHeading>
+      body;
 };
 
 }  // namespace drover

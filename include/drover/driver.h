@@ -20,7 +20,9 @@ struct DriverOut {
   FixedVector<Measurement, 64> measurements;
   FixedVector<CanFrame, 32> frames;      ///< CAN drivers: to be sent, in this order
   FixedVector<std::uint8_t, 512> bytes;  ///< byte drivers: to be written, in this order
-  std::uint32_t overflows = 0;           ///< things that did not fit and were dropped
+  /// Byte drivers: not 0: close the line and open it again at this speed, once `bytes` have left.
+  std::uint32_t reopen_baud = 0;
+  std::uint32_t overflows = 0;  ///< things that did not fit and were dropped
 
   void report(const Measurement& m) { overflows += measurements.push_back(m) ? 0 : 1; }
   void send(const CanFrame& f) { overflows += frames.push_back(f) ? 0 : 1; }
@@ -28,6 +30,7 @@ struct DriverOut {
     measurements.clear();
     frames.clear();
     bytes.clear();
+    reopen_baud = 0;
     overflows = 0;
   }
 };
@@ -114,6 +117,37 @@ class ByteDriver {
   /// `first_byte` is when the first of these bytes came in.
   virtual void on_bytes(std::span<const std::uint8_t> bytes, Time first_byte, DriverOut& out) = 0;
   virtual void on_tick(Time now, DriverOut& out) = 0;
+  virtual void on_link_up(Time now) = 0;
+  virtual SourceHealth health(Time now) const = 0;
+};
+
+/// One request of a device that is asked for 16-bit registers (Modbus functions 3 and 4).
+struct RegisterBlock {
+  std::uint8_t function = 3;
+  std::uint16_t address = 0;
+  std::uint16_t count = 0;
+};
+
+/// Why a request brought no registers.
+enum class RegisterFailure : std::uint8_t {
+  silent,      ///< nothing, or not enough, came within the time allowed
+  damaged,     ///< checksum, length or echo
+  wrong_unit,  ///< somebody else answered
+  refused,     ///< the device answered with an exception
+  link,        ///< there is no line to it
+};
+
+/// One device that is polled for registers, slowly, from a thread of its own.
+class RegisterDriver {
+ public:
+  virtual ~RegisterDriver() = default;
+  /// What to ask for, in this order, each round.
+  virtual std::span<const RegisterBlock> blocks() const = 0;
+  /// The answer to `blocks()[block]`; `words` has its count.
+  virtual void on_registers(std::size_t block, std::span<const std::uint16_t> words, Time received,
+                            DriverOut& out) = 0;
+  /// `exception` is the Modbus exception code of a refusal, else 0.
+  virtual void on_failure(std::size_t block, RegisterFailure failure, int exception, Time now) = 0;
   virtual void on_link_up(Time now) = 0;
   virtual SourceHealth health(Time now) const = 0;
 };

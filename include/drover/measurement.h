@@ -98,11 +98,62 @@ struct LineState {
   bool active = true;
 };
 
+struct Vector3 {
+  double x = 0;
+  double y = 0;
+  double z = 0;
+};
+/// Rotation from the named frame to its parent; unit length.
+struct Quaternion {
+  double w = 1;
+  double x = 0;
+  double y = 0;
+  double z = 0;
+};
+
+/// One sample of an inertial sensor in the axes of base_link (REP 103: x ahead, y left, z up),
+/// after the mounting rotation. As measured: biases are not removed.
+struct ImuSample {
+  Vector3 acceleration_mps2;       ///< specific force: z is +9.81 at rest on level ground
+  Vector3 angular_velocity_radps;  ///< right-handed: z positive turning left
+  bool has_orientation = false;
+  /// Of base_link; roll and pitch from gravity, yaw from an arbitrary start unless the driver was
+  /// told to trust the magnetometer.
+  Quaternion orientation;
+  bool has_magnetic_field = false;
+  Vector3 magnetic_field;  ///< in the device's own unit: a direction only
+  double temperature_degC = kAbsent;
+  bool saturated = false;  ///< a channel is at the end of its range: the truth is larger
+};
+
+enum class BatteryFlow : std::uint8_t { unknown, idle, charging, discharging };
+enum class BatteryAlarm : std::uint8_t {
+  none,
+  warning,   ///< the pack complains, and goes on
+  critical,  ///< the pack will switch off, or has
+};
+
+/// What a battery's management system says. Absent numbers were not told.
+struct BatterySample {
+  double voltage_V = kAbsent;
+  double current_A = kAbsent;  ///< into the pack positive
+  double soc_percent = kAbsent;
+  double remaining_Ah = kAbsent;
+  double temperature_degC = kAbsent;  ///< hottest cell probe
+  double min_cell_V = kAbsent;
+  double max_cell_V = kAbsent;
+  BatteryFlow flow = BatteryFlow::unknown;
+  bool charger_connected = false;
+  BatteryAlarm alarm = BatteryAlarm::none;
+  std::uint32_t alarm_bits = 0;  ///< as the map numbers them; 0: none
+  Reason alarm_text;             ///< the worst alarms in words; empty: none
+};
+
 struct Measurement {
   Time time = kNever;      ///< when it was true
   Time received = kNever;  ///< when the bytes came in
   std::variant<std::monostate, AxisMotion, AxisStatus, AxisTemperature, AxisSupply, GnssPosition,
-               GnssVelocity, GnssHeading, LineState>
+               GnssVelocity, GnssHeading, LineState, ImuSample, BatterySample>
       value;
 };
 

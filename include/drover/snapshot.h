@@ -55,6 +55,36 @@ struct GnssSnapshot {
   double pose_longitude_deg = 0;
 };
 
+struct ImuSnapshot {
+  bool configured = false;
+  SourceState health = SourceState::never_heard;
+  Time time = kNever;                      ///< of the sample
+  ImuSample sample;                        ///< the last one, as measured
+  Vector3 gyro_bias_radps;                 ///< learned at rest; to be taken off
+  double gyro_bias_sigma_radps = kAbsent;  ///< of the z axis; absent: none learned yet
+  double roll_rad = kAbsent;
+  double pitch_rad = kAbsent;
+  // One sigma of each axis, for the covariances of ImuState.
+  double orientation_sigma_rad = kAbsent;
+  double angular_velocity_sigma_radps = kAbsent;
+  double acceleration_sigma_mps2 = kAbsent;
+};
+
+struct BatterySnapshot {
+  bool configured = false;
+  SourceState health = SourceState::never_heard;
+  Time time = kNever;
+  BatterySample sample;  ///< the last one
+};
+
+/// The stream of joint commands.
+struct JointCommandSnapshot {
+  bool active = false;  ///< a stream is heard and owns the drives or waits for them
+  std::uint64_t accepted = 0;
+  std::uint64_t refused = 0;
+  Reason reason;  ///< of the last refusal; empty when the last message was followed
+};
+
 struct NavSnapshot {
   NavStatus status = NavStatus::free;
   LocateState locate = LocateState::uninit;
@@ -66,6 +96,10 @@ struct NavSnapshot {
   double cross_track_m = 0;     ///< left of the path positive, while a task runs
   double distance_left_m = 0;
   double asked_speed_mps = 0;
+  /// How far it could still drive by dead reckoning before the position is too uncertain; absent
+  /// while the receiver gives an RTK fix.
+  double metres_left = kAbsent;
+  double owner_timeout_s = kAbsent;  ///< silence of the owner after which the base comes to rest
 };
 
 struct CycleStats {
@@ -89,6 +123,9 @@ struct Snapshot {
   Pose pose;
   NavSnapshot nav;
   GnssSnapshot gnss;
+  ImuSnapshot imu;
+  BatterySnapshot battery;
+  JointCommandSnapshot joint_command;
   FixedVector<AxisSnapshot, kMaxAxes> axes;
   std::array<bool, kLineCount> line_active{};
   std::array<SourceState, kLineCount> line_health{};

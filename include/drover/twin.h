@@ -7,6 +7,7 @@
 
 #include "drover/can_frame.h"
 #include "drover/fixed_vector.h"
+#include "drover/measurement.h"
 #include "drover/time.h"
 
 namespace drover {
@@ -54,6 +55,48 @@ class GnssTwin {
   /// Scenario event: "fix", "float", "dgps", "single", "none" (no position), "silent",
   /// "heading_lost", "jump:<metres east>", ... Returns false when unknown.
   virtual bool set_state(std::string_view name, Time now) = 0;
+};
+
+/// What a simulated inertial sensor knows of the world, in the axes of base_link.
+struct ImuTruth {
+  Vector3 specific_force_mps2;  ///< at the sensor's place
+  Vector3 angular_velocity_radps;
+  Quaternion orientation;  ///< of base_link in the world (ENU)
+};
+
+class ImuTwin {
+ public:
+  virtual ~ImuTwin() = default;
+  /// Call at each plant step; appends the bytes that are due to `out`, which the caller paces.
+  virtual std::size_t on_tick(Time now, const ImuTruth& truth, std::span<char> out) = 0;
+  /// What the gateway wrote: settings.
+  virtual void on_bytes(std::span<const std::uint8_t> bytes, Time now) = 0;
+  /// Speed of its line now; bytes at another speed are noise to it and from it.
+  virtual std::uint32_t baud() const = 0;
+  /// Scenario event: "silent", "frozen", "saturated", "bias:<degrees a second about z>", "" (well).
+  /// Returns false when unknown.
+  virtual bool set_state(std::string_view name, Time now) = 0;
+};
+
+/// What a simulated battery knows of itself.
+struct BatteryTruth {
+  double voltage_V = 0;
+  double current_A = 0;  ///< into the pack positive
+  double soc_percent = 0;
+  double capacity_Ah = 0;
+  double temperature_degC = 0;
+  bool charger_connected = false;
+  std::uint32_t alarm_bits = 0;
+};
+
+/// The registers of a simulated device; its wire is the simulator's.
+class RegisterTwin {
+ public:
+  virtual ~RegisterTwin() = default;
+  virtual void set_truth(const BatteryTruth& truth) = 0;
+  /// False: no such registers, answered with exception 2.
+  virtual bool read(std::uint8_t function, std::uint16_t address,
+                    std::span<std::uint16_t> words) const = 0;
 };
 
 }  // namespace drover

@@ -180,15 +180,20 @@ class Checks final {
       add("mqtt.password_file", "is given without mqtt.username");
   }
 
+  void follow_baud(const std::string& section, int baud, Options& options) {
+    if (!options.has("baud")) return;
+    if (given(section, "options", "baud") && options.number("baud") != baud)
+      add(section + ".options.baud", "differs from " + section + ".baud",
+          "leave it out: it follows " + section + ".baud");
+    options.set("baud", static_cast<double>(baud));
+  }
+
   void finish_engine() {
     auto& c = config_;
     c.engine.tick_Hz = c.control.tick_Hz;
     // The driver places each byte in time by the pace at which the line is really opened.
-    if (c.gnss.options.has("baud")) {
-      if (given("gnss", "options", "baud") && c.gnss.options.number("baud") != c.gnss.baud)
-        add("gnss.options.baud", "differs from gnss.baud", "leave it out: it follows gnss.baud");
-      c.gnss.options.set("baud", static_cast<double>(c.gnss.baud));
-    }
+    follow_baud("gnss", c.gnss.baud, c.gnss.options);
+    follow_baud("imu", c.imu.baud, c.imu.options);
     c.engine.health.guard_required = c.guard.required;
     for (const auto& drive : c.drives) (void)c.engine.joints.push_back(Name(drive.joint));
     for (std::size_t i = 0; i < kLineCount; ++i)
@@ -217,6 +222,7 @@ class Checks final {
     for (std::size_t i = 0; i < config_.drives.size(); ++i)
       build(item("drives", i), config_.drives[i].driver, config_.drives[i].options, AxisId{0});
     if (config_.gnss.configured) build("gnss", config_.gnss.driver, config_.gnss.options);
+    if (config_.imu.configured) build("imu", config_.imu.driver, config_.imu.options);
     for (std::size_t i = 0; i < kLineCount; ++i) {
       const auto& line = config_.lines.line[i];
       if (line.configured)

@@ -42,6 +42,14 @@ struct GnssConfig {
   Options options;
 };
 
+struct ImuConfig {
+  bool configured = false;
+  std::string driver;
+  std::string port = "/dev/drover/imu";
+  int baud = 115200;
+  Options options;
+};
+
 struct LineConfig {
   bool configured = false;
   std::string driver = "gpio_line";
@@ -84,6 +92,7 @@ struct DroverConfig {
   std::vector<BusConfig> buses;
   std::vector<DriveConfig> drives;
   GnssConfig gnss;
+  ImuConfig imu;
   LinesConfig lines;
   GuardConfig guard;
   MqttConfig mqtt;

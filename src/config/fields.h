@@ -17,12 +17,11 @@ namespace drover::config {
 /// As many as the runtime has room for.
 inline constexpr std::size_t kMaxBuses = 4;
 
-enum class DriverShape : std::uint8_t { can, bytes, line };
-/// Names of the registered drivers of one shape.
-inline std::vector<std::string> driver_names(DriverShape shape) {
+/// Names of the registered drivers for one kind of device.
+inline std::vector<std::string> driver_names(Device device) {
   std::vector<std::string> names;
   for (const auto& entry : driver_registry())
-    if (entry.make.index() == static_cast<std::size_t>(shape)) names.emplace_back(entry.name);
+    if (entry.device == device) names.emplace_back(entry.name);
   return names;
 }
 
@@ -49,25 +48,34 @@ void visit(V& v, BusConfig& c) {
 template <class V>
 void visit(V& v, DriveConfig& c) {
   v.text("joint", c.joint, "name of the driven axis", Presence::required);
-  v.choice("driver", c.driver, driver_names(DriverShape::can), "driver", Presence::required);
+  v.choice("driver", c.driver, driver_names(Device::drive), "driver", Presence::required);
   v.text("bus", c.bus, "name of the bus it hangs on", Presence::required);
-  v.options("options", c.options, c.driver, DriverShape::can);
+  v.options("options", c.options, c.driver, Device::drive);
 }
 
 template <class V>
 void visit(V& v, GnssConfig& c) {
-  v.choice("driver", c.driver, driver_names(DriverShape::bytes), "driver");
+  v.choice("driver", c.driver, driver_names(Device::gnss), "driver");
   v.text("port", c.port, "serial line");
   v.integer("baud", c.baud, Range{4800, 921600}, "baud rate");
-  v.options("options", c.options, c.driver, DriverShape::bytes);
+  v.options("options", c.options, c.driver, Device::gnss);
+  c.configured = true;
+}
+
+template <class V>
+void visit(V& v, ImuConfig& c) {
+  v.choice("driver", c.driver, driver_names(Device::imu), "driver", Presence::required);
+  v.text("port", c.port, "serial line");
+  v.integer("baud", c.baud, Range{4800, 921600}, "baud rate");
+  v.options("options", c.options, c.driver, Device::imu);
   c.configured = true;
 }
 
 template <class V>
 void visit(V& v, LineConfig& c) {
   v.text("line", c.name, "name of the line on the chip", Presence::required);
-  v.choice("driver", c.driver, driver_names(DriverShape::line), "driver");
-  v.options("options", c.options, c.driver, DriverShape::line);
+  v.choice("driver", c.driver, driver_names(Device::line), "driver");
+  v.options("options", c.options, c.driver, Device::line);
   c.configured = true;
 }
 

@@ -188,10 +188,10 @@ void Reader::names(std::string_view key, std::vector<std::string>& into, Count c
 }
 
 void Reader::options(std::string_view key, Options& into, const std::string& driver,
-                     DriverShape shape) {
+                     Device device) {
   known_.emplace_back(key);
   const auto* entry = find_driver(driver);
-  if (entry == nullptr || entry->make.index() != static_cast<std::size_t>(shape)) return;
+  if (entry == nullptr || entry->device != device) return;
   into = Options(entry->options);
   static const json::Node kEmpty{std::vector<json::Member>{}, 0, 0};
   const auto* given = node_.find(key);

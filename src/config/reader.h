@@ -28,7 +28,7 @@ class Reader final {
               std::string_view text, Presence presence = Presence::optional);
   void names(std::string_view key, std::vector<std::string>& into, Count count,
              std::string_view text, Presence presence = Presence::optional);
-  void options(std::string_view key, Options& into, const std::string& driver, DriverShape shape);
+  void options(std::string_view key, Options& into, const std::string& driver, Device device);
 
   template <class T>
   void object(std::string_view key, T& into, std::string_view text,

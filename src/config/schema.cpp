@@ -103,10 +103,10 @@ class SchemaWriter final {
   }
   /// The options depend on the driver: one condition for each driver of the shape.
   void options(std::string_view key, const Options&, const std::string& default_driver,
-               DriverShape shape) {
+               Device device) {
     property(key, "object", "options of the driver", Presence::optional);
     for (const auto& entry : driver_registry()) {
-      if (entry.make.index() != static_cast<std::size_t>(shape)) continue;
+      if (entry.device != device) continue;
       Json options;
       options["type"] = "object";
       options["additionalProperties"] = false;

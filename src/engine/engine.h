@@ -22,6 +22,8 @@ struct Environment {
   /// Health of each drive, by AxisId, and of the receiver, as their drivers judge it.
   std::array<SourceHealth, kMaxAxes> axes{};
   SourceHealth gnss;
+  SourceHealth imu;
+  SourceHealth battery;
   std::array<SourceHealth, kLineCount> lines{};
   bool gnss_configured = true;
 };

@@ -16,13 +16,17 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr std::uint64_t kTimerTag = 1;
-constexpr std::uint64_t kGnssTag = 2;
-constexpr std::uint64_t kLinesTag = 3;
+constexpr std::uint64_t kLinesTag = 2;
+constexpr std::uint64_t kFirstStreamTag = 3;
 /// The guard's own cycle is 10 ms. It is given what it gives us, and three cycles more; then it is
 /// not there.
 constexpr Duration kGuardCycles = 30ms;
 /// The bus is asked back when the robot was at rest and our heartbeat good for this long.
 constexpr Duration kHandBackAfter = 500ms;
+
+constexpr std::size_t slot_of(Stream stream) {
+  return kFirstStreamSlot + static_cast<std::size_t>(stream);
+}
 
 link::UniqueFd make_timer(double tick_Hz) {
   link::UniqueFd fd(::timerfd_create(CLOCK_MONOTONIC, TFD_CLOEXEC | TFD_NONBLOCK));
@@ -44,7 +48,8 @@ ControlLoop::ControlLoop(const config::DroverConfig& config, Gateway& gateway, L
       exchange_(exchange),
       guard_stale_(std::chrono::milliseconds(config.guard.limit_ms) + kGuardCycles),
       epoll_(::epoll_create1(EPOLL_CLOEXEC)),
-      timer_(make_timer(config.control.tick_Hz)) {
+      timer_(make_timer(config.control.tick_Hz)),
+      stream_baud_{config.gnss.baud, config.imu.baud} {
   if (!epoll_) throw std::runtime_error("no epoll descriptor");
   watch(timer_.get(), kTimerTag);
   for (const auto& line : config.lines.line) line_count_ += line.configured ? 1 : 0;
@@ -55,7 +60,8 @@ ControlLoop::ControlLoop(const config::DroverConfig& config, Gateway& gateway, L
 }
 
 Name ControlLoop::slot_name(std::size_t slot) const {
-  if (slot == kGnssSlot) return config_.gnss.configured ? Name("gnss") : Name();
+  if (slot == slot_of(Stream::gnss)) return config_.gnss.configured ? Name("gnss") : Name();
+  if (slot == slot_of(Stream::imu)) return config_.imu.configured ? Name("imu") : Name();
   if (slot == kLinesSlot) return line_count_ > 0 ? Name("lines") : Name();
   return slot < config_.buses.size() ? Name(config_.buses[slot].name) : Name();
 }
@@ -73,14 +79,14 @@ void ControlLoop::run(const std::atomic<bool>& stop) {
     const int n = ::epoll_wait(epoll_.get(), events.data(), events.size(), -1);
     std::uint64_t expirations = 0;
     for (int i = 0; i < n; ++i) {
-      switch (events[i].data.u64) {
+      const auto tag = events[i].data.u64;
+      switch (tag) {
         case kTimerTag: (void)!::read(timer_.get(), &expirations, sizeof expirations); break;
-        case kGnssTag: read_gnss(); break;
         case kLinesTag:
           if (lines_) lines_->drain_edges();
           read_lines(monotonic_now());
           break;
-        default: break;
+        default: read_stream(tag - kFirstStreamTag); break;
       }
     }
     if (expirations > 0) cycle(expirations);
@@ -103,8 +109,7 @@ void ControlLoop::cycle(std::uint64_t expirations) {
     if (!can_[bus] || out.frames[bus].empty()) continue;
     if (!can_[bus]->send(out.frames[bus])) lose(bus, can_[bus]->error(), begin);
   }
-  if (gnss_ && !out.gnss_bytes.empty() && !gnss_->write(out.gnss_bytes))
-    lose(kGnssSlot, gnss_->error(), begin);
+  for (std::size_t i = 0; i < kStreamCount; ++i) serve_stream(i, out.streams[i], begin);
 
   guard_.shared().daemon_beats.fetch_add(1, std::memory_order_release);
   exchange_.beats.fetch_add(1, std::memory_order_relaxed);
@@ -124,10 +129,11 @@ void ControlLoop::take_links(Time now) {
     link_state_[slot].up = arrived.opened();
     link_state_[slot].reason = arrived.problem;
     if (!arrived.opened()) continue;
-    if (slot == kGnssSlot) {
-      gnss_ = std::move(arrived.serial);
-      watch(gnss_->fd(), kGnssTag);
-      gateway_.on_gnss_up(now);
+    if (is_stream(slot)) {
+      const auto stream = slot - kFirstStreamSlot;
+      streams_[stream] = std::move(arrived.serial);
+      watch(streams_[stream]->fd(), kFirstStreamTag + stream);
+      gateway_.on_stream_up(static_cast<Stream>(stream), now);
     } else if (slot == kLinesSlot) {
       lines_ = std::move(arrived.lines);
       for (const int fd : lines_->edge_fds()) watch(fd, kLinesTag);
@@ -141,14 +147,22 @@ void ControlLoop::take_links(Time now) {
 void ControlLoop::lose(std::size_t slot, int error, Time now) {
   auto& dead = going_back_[slot];
   dead.slot = slot;
-  dead.problem.format("%.*s: lost (%s)", static_cast<int>(link_state_[slot].name.view().size()),
-                      link_state_[slot].name.view().data(), ::strerrordesc_np(error));
+  const auto name = link_state_[slot].name.view();
+  if (error == 0) {
+    dead.problem.format("%.*s: changes to %d baud", static_cast<int>(name.size()), name.data(),
+                        dead.reopen_baud);
+  } else {
+    dead.reopen_baud = 0;
+    dead.problem.format("%.*s: lost (%s)", static_cast<int>(name.size()), name.data(),
+                        ::strerrordesc_np(error));
+  }
   link_state_[slot].up = false;
   link_state_[slot].reason = dead.problem;
   // Out of epoll at once: a descriptor that hung up is always ready and would spin the loop.
-  if (slot == kGnssSlot) {
-    ::epoll_ctl(epoll_.get(), EPOLL_CTL_DEL, gnss_->fd(), nullptr);
-    dead.serial = std::move(gnss_);
+  if (is_stream(slot)) {
+    auto& serial = streams_[slot - kFirstStreamSlot];
+    ::epoll_ctl(epoll_.get(), EPOLL_CTL_DEL, serial->fd(), nullptr);
+    dead.serial = std::move(serial);
   } else if (slot == kLinesSlot) {
     for (const int fd : lines_->edge_fds()) ::epoll_ctl(epoll_.get(), EPOLL_CTL_DEL, fd, nullptr);
     dead.lines = std::move(lines_);
@@ -159,17 +173,31 @@ void ControlLoop::lose(std::size_t slot, int error, Time now) {
   (void)keeper_.give_back(dead);
 }
 
-void ControlLoop::read_gnss() {
-  if (!gnss_) return;
+void ControlLoop::read_stream(std::size_t stream) {
+  if (stream >= kStreamCount || !streams_[stream]) return;
+  const auto slot = kFirstStreamSlot + stream;
   std::array<std::uint8_t, 1024> buffer{};
   std::size_t size = 0;
   const Time now = monotonic_now();
-  if (!gnss_->read(buffer, size)) return lose(kGnssSlot, gnss_->error(), now);
+  if (!streams_[stream]->read(buffer, size)) return lose(slot, streams_[stream]->error(), now);
   if (size == 0) return;
-  link_state_[kGnssSlot].received += size;
+  link_state_[slot].received += size;
   // The first byte came in before the last one: take the wire's time off.
-  const Duration wire = from_s(10.0 * static_cast<double>(size - 1) / config_.gnss.baud);
-  gateway_.on_gnss_bytes({buffer.data(), size}, now - wire);
+  const Duration wire = from_s(10.0 * static_cast<double>(size - 1) / stream_baud_[stream]);
+  gateway_.on_bytes(static_cast<Stream>(stream), {buffer.data(), size}, now - wire);
+}
+
+void ControlLoop::serve_stream(std::size_t stream, const StreamOutput& out, Time now) {
+  if (!streams_[stream]) return;
+  const auto slot = kFirstStreamSlot + stream;
+  if (!out.bytes.empty() && !streams_[stream]->write(out.bytes))
+    return lose(slot, streams_[stream]->error(), now);
+  if (out.reopen_baud == 0) return;
+  // Setting a line's speed may block: the keeper does it.
+  stream_baud_[stream] = static_cast<int>(out.reopen_baud);
+  auto& dead = going_back_[slot];
+  dead.reopen_baud = stream_baud_[stream];
+  lose(slot, 0, now);
 }
 
 void ControlLoop::read_lines(Time now) {

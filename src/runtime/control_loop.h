@@ -34,7 +34,8 @@ class ControlLoop final {
  private:
   void take_links(Time now);
   void lose(std::size_t slot, int error, Time now);
-  void read_gnss();
+  void read_stream(std::size_t stream);
+  void serve_stream(std::size_t stream, const StreamOutput& out, Time now);
   void read_lines(Time now);
   void drain_can(Time now);
   void cycle(std::uint64_t expirations);
@@ -53,7 +54,8 @@ class ControlLoop final {
   link::UniqueFd epoll_;
   link::UniqueFd timer_;
   std::array<std::unique_ptr<link::CanLink>, kMaxBuses> can_;
-  std::unique_ptr<link::SerialLink> gnss_;
+  std::array<std::unique_ptr<link::SerialLink>, kStreamCount> streams_;
+  std::array<int, kStreamCount> stream_baud_{};
   std::unique_ptr<link::LineLink> lines_;
   std::array<LinkHandover, kLinkSlots> going_back_;  ///< dead links that the keeper has yet to take
   std::array<LinkSnapshot, kLinkSlots> link_state_;

@@ -15,6 +15,10 @@ Make maker(const std::string& driver, const std::string& key) {
   return *make;
 }
 
+constexpr std::size_t index(Stream stream) {
+  return static_cast<std::size_t>(stream);
+}
+
 }  // namespace
 
 Gateway::Gateway(const config::DroverConfig& config)
@@ -27,7 +31,11 @@ Gateway::Gateway(const config::DroverConfig& config)
     frame_gate_.add(drive.bus_index, *drives_.back().driver);
   }
   if (config.gnss.configured)
-    gnss_ = maker<MakeByteDriver>(config.gnss.driver, "gnss")(config.gnss.options);
+    streams_[index(Stream::gnss)] =
+        maker<MakeByteDriver>(config.gnss.driver, "gnss")(config.gnss.options);
+  if (config.imu.configured)
+    streams_[index(Stream::imu)] =
+        maker<MakeByteDriver>(config.imu.driver, "imu")(config.imu.options);
   environment_.gnss_configured = config.gnss.configured;
   for (std::size_t i = 0; i < kLineCount; ++i) {
     const auto& line = config.lines.line[i];
@@ -67,19 +75,21 @@ void Gateway::on_bus_up(std::size_t bus, Time now) {
     if (drive.bus == bus) drive.driver->on_link_up(now);
 }
 
-void Gateway::on_gnss_up(Time now) {
-  if (gnss_) gnss_->on_link_up(now);
+void Gateway::on_stream_up(Stream stream, Time now) {
+  if (streams_[index(stream)]) streams_[index(stream)]->on_link_up(now);
 }
 
-void Gateway::on_gnss_bytes(std::span<const std::uint8_t> bytes, Time first_byte) {
-  if (!gnss_) return;
-  gnss_->on_bytes(bytes, first_byte, scratch_);
-  absorb_gnss();
+void Gateway::on_bytes(Stream stream, std::span<const std::uint8_t> bytes, Time first_byte) {
+  if (!streams_[index(stream)]) return;
+  streams_[index(stream)]->on_bytes(bytes, first_byte, scratch_);
+  absorb_stream(index(stream));
 }
 
-void Gateway::absorb_gnss() {
+void Gateway::absorb_stream(std::size_t stream) {
   absorb(scratch_);
-  for (const auto byte : scratch_.bytes) (void)cycle_.gnss_bytes.push_back(byte);
+  auto& out = cycle_.streams[stream];
+  for (const auto byte : scratch_.bytes) (void)out.bytes.push_back(byte);
+  if (scratch_.reopen_baud != 0) out.reopen_baud = scratch_.reopen_baud;
   scratch_.clear();
 }
 
@@ -101,11 +111,12 @@ void Gateway::on_command(const Command& command, Time now) {
 }
 
 const CycleOutput& Gateway::step(Time now, bool guard_alive, bool guard_has_bus) {
-  cycle_.gnss_bytes.clear();
-  if (gnss_) {
-    gnss_->on_tick(now, scratch_);
-    absorb_gnss();
-    environment_.gnss = gnss_->health(now);
+  for (std::size_t i = 0; i < kStreamCount; ++i) {
+    cycle_.streams[i] = {};
+    if (!streams_[i]) continue;
+    streams_[i]->on_tick(now, scratch_);
+    absorb_stream(i);
+    (i == index(Stream::gnss) ? environment_.gnss : environment_.imu) = streams_[i]->health(now);
   }
   for (std::size_t i = 0; i < lines_.size(); ++i) {
     lines_[i]->on_tick(now, scratch_);

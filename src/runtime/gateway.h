@@ -18,9 +18,19 @@ namespace drover::runtime {
 
 inline constexpr std::size_t kMaxBuses = 4;
 
+/// Devices on byte streams.
+enum class Stream : std::uint8_t { gnss, imu };
+inline constexpr std::size_t kStreamCount = 2;
+
+/// What a stream's driver wants of its line.
+struct StreamOutput {
+  FixedVector<std::uint8_t, 512> bytes;  ///< to be written
+  std::uint32_t reopen_baud = 0;         ///< not 0: then open the line anew at this speed
+};
+
 struct CycleOutput {
   std::array<FixedVector<CanFrame, 128>, kMaxBuses> frames;  ///< to be sent, by bus
-  FixedVector<std::uint8_t, 512> gnss_bytes;
+  std::array<StreamOutput, kStreamCount> streams;
   engine::EngineOutput engine;
 };
 
@@ -30,12 +40,12 @@ class Gateway final {
   explicit Gateway(const config::DroverConfig& config);
 
   void on_frame(std::size_t bus, const CanFrame& frame, Time received);
-  void on_gnss_bytes(std::span<const std::uint8_t> bytes, Time first_byte);
+  void on_bytes(Stream stream, std::span<const std::uint8_t> bytes, Time first_byte);
   /// `levels[i]` belongs to the i-th configured line, in the order of Line.
   void on_levels(std::span<const bool> levels, Time at);
   void on_lines_lost(Time at);
   void on_bus_up(std::size_t bus, Time now);
-  void on_gnss_up(Time now);
+  void on_stream_up(Stream stream, Time now);
   void on_command(const Command& command, Time now);
 
   /// One control cycle; the reference stays good until the next call.
@@ -54,12 +64,12 @@ class Gateway final {
     std::unique_ptr<CanDriver> driver;
   };
   void absorb(const DriverOut& out);
-  void absorb_gnss();
+  void absorb_stream(std::size_t stream);
   void emit(const Drive& drive);
 
   engine::Engine engine_;
   std::vector<Drive> drives_;
-  std::unique_ptr<ByteDriver> gnss_;
+  std::array<std::unique_ptr<ByteDriver>, kStreamCount> streams_;
   std::vector<std::unique_ptr<LineDriver>> lines_;
   std::vector<Line> line_ids_;
   std::size_t bus_count_ = 0;

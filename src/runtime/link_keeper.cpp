@@ -28,7 +28,13 @@ LinkKeeper::LinkKeeper(const config::DroverConfig& config, const GuardMemory& me
       stop_frames_(std::move(stop_frames)),
       guard_(config.guard.socket, config.guard.limit_ms, memory) {
   for (std::size_t i = 0; i < config.buses.size(); ++i) slots_[i].used = true;
-  slots_[kGnssSlot].used = config.gnss.configured;
+  const auto use_stream = [this](Stream stream, const auto& settings) {
+    auto& slot = slots_[kFirstStreamSlot + static_cast<std::size_t>(stream)];
+    slot.used = settings.configured;
+    slot.serial = {settings.port, settings.baud};
+  };
+  use_stream(Stream::gnss, config.gnss);
+  use_stream(Stream::imu, config.imu);
   slots_[kLinesSlot].used = !line_names(config.lines).empty();
 }
 
@@ -75,7 +81,8 @@ void LinkKeeper::take_back_lost(Time now) {
     slot.pause = {};
     slot.next_try = now;
     if (lost.slot < kMaxBuses) guard_set_changed_ = true;
-    log(LogLevel::error, lost.problem.view());
+    if (lost.reopen_baud > 0) slot.serial.baud = lost.reopen_baud;
+    log(lost.reopen_baud > 0 ? LogLevel::info : LogLevel::error, lost.problem.view());
     lost = {};  // closes: at once, or the device comes back under another name
   }
 }
@@ -95,8 +102,8 @@ LinkHandover LinkKeeper::open(std::size_t slot, std::string& problem) const {
     into = std::move(opened.link);
     problem = std::move(opened.problem);
   };
-  if (slot == kGnssSlot) {
-    take(link::open_serial({config_.gnss.port, config_.gnss.baud}), handover.serial);
+  if (is_stream(slot)) {
+    take(link::open_serial(slots_[slot].serial), handover.serial);
   } else if (slot == kLinesSlot) {
     take(link::open_lines({config_.lines.chip, line_names(config_.lines)}), handover.lines);
   } else {
@@ -113,7 +120,7 @@ void LinkKeeper::try_open(std::size_t slot, Time now) {
   slots_[slot].open = true;
   slots_[slot].problem.clear();
   if (slot < kMaxBuses) guard_set_changed_ = true;
-  const auto name = slot == kGnssSlot    ? config_.gnss.port
+  const auto name = is_stream(slot)      ? slots_[slot].serial.path
                     : slot == kLinesSlot ? "gpio " + config_.lines.chip
                                          : config_.buses[slot].interface;
   log(LogLevel::info, name + ": open");

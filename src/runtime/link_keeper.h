@@ -22,10 +22,13 @@
 
 namespace drover::runtime {
 
-/// Slots: the buses first, then the receiver, then the digital lines.
-inline constexpr std::size_t kGnssSlot = kMaxBuses;
-inline constexpr std::size_t kLinesSlot = kMaxBuses + 1;
-inline constexpr std::size_t kLinkSlots = kMaxBuses + 2;
+/// Slots: the buses first, then the byte streams, then the digital lines.
+inline constexpr std::size_t kFirstStreamSlot = kMaxBuses;
+inline constexpr std::size_t kLinesSlot = kFirstStreamSlot + kStreamCount;
+inline constexpr std::size_t kLinkSlots = kLinesSlot + 1;
+constexpr bool is_stream(std::size_t slot) {
+  return slot >= kFirstStreamSlot && slot < kLinesSlot;
+}
 
 /// A link on its way between the keeper and the control thread; which pointer is set follows the
 /// slot.
@@ -36,6 +39,7 @@ struct LinkHandover {
   std::unique_ptr<link::LineLink> lines;
   /// keeper → control: why there is no link; control → keeper: why it was given back
   Reason problem;
+  int reopen_baud = 0;  ///< control → keeper, streams: open it again at this speed; 0: as before
   bool opened() const { return can || serial || lines; }
 };
 
@@ -64,6 +68,7 @@ class LinkKeeper final {
     Time next_try = kNever;
     Duration pause{};
     std::string problem;
+    link::SerialSettings serial;  ///< of a stream
   };
   void take_back_lost(Time now);
   void try_open(std::size_t slot, Time now);
