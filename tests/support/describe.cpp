@@ -53,6 +53,16 @@ const char* line_name(drover::Line line) {
   return "?";
 }
 
+const char* name(BatteryFlow flow) {
+  switch (flow) {
+    case BatteryFlow::unknown: return "unknown";
+    case BatteryFlow::idle: return "idle";
+    case BatteryFlow::charging: return "charging";
+    case BatteryFlow::discharging: return "discharging";
+  }
+  return "?";
+}
+
 struct Describe {
   std::string operator()(const std::monostate&) const { return "empty"; }
   std::string operator()(const AxisMotion& m) const {
@@ -116,6 +126,41 @@ struct Describe {
         .word("line", line_name(m.line))
         .word("active", m.active ? "true" : "false")
         .text();
+  }
+  std::string operator()(const ImuSample& m) const {
+    Line line("imu_sample");
+    line.number("ax_mps2", m.acceleration_mps2.x)
+        .number("ay_mps2", m.acceleration_mps2.y)
+        .number("az_mps2", m.acceleration_mps2.z)
+        .number("wx_radps", m.angular_velocity_radps.x)
+        .number("wy_radps", m.angular_velocity_radps.y)
+        .number("wz_radps", m.angular_velocity_radps.z);
+    if (m.has_orientation)
+      line.number("qw", m.orientation.w)
+          .number("qx", m.orientation.x)
+          .number("qy", m.orientation.y)
+          .number("qz", m.orientation.z);
+    if (m.has_magnetic_field)
+      line.number("mx", m.magnetic_field.x)
+          .number("my", m.magnetic_field.y)
+          .number("mz", m.magnetic_field.z);
+    line.number("temperature_degC", m.temperature_degC);
+    if (m.saturated) line.word("saturated", "true");
+    return line.text();
+  }
+  std::string operator()(const BatterySample& m) const {
+    Line line("battery");
+    line.number("voltage_V", m.voltage_V)
+        .number("current_A", m.current_A)
+        .number("soc_percent", m.soc_percent)
+        .number("remaining_Ah", m.remaining_Ah)
+        .number("temperature_degC", m.temperature_degC)
+        .number("min_cell_V", m.min_cell_V)
+        .number("max_cell_V", m.max_cell_V)
+        .word("flow", name(m.flow));
+    if (m.charger_connected) line.word("charger", "true");
+    if (!m.alarm_text.empty()) line.word("alarm", '"' + std::string(m.alarm_text.view()) + '"');
+    return line.text();
   }
 };
 
