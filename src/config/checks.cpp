@@ -56,6 +56,7 @@ class Checks final {
     unique_lines();
     limits();
     broker();
+    channel();
     finish_engine();
     build_drivers();
   }
@@ -178,6 +179,19 @@ class Checks final {
       add("mqtt.port", "is 0, but mqtt.host is no path of a Unix socket", "1883 is usual");
     if (!config_.mqtt.password_file.empty() && config_.mqtt.username.empty())
       add("mqtt.password_file", "is given without mqtt.username");
+  }
+
+  void channel() {
+    const auto& aimrt = config_.aimrt;
+    for (const auto& [key, topic] : {std::pair{"joint_state", &aimrt.joint_state},
+                                     {"imu_state", &aimrt.imu_state},
+                                     {"touch_state", &aimrt.touch_state},
+                                     {"joint_command", &aimrt.joint_command}}) {
+      constexpr std::size_t kLongest = 200;
+      const auto path = "aimrt." + std::string(key);
+      if (topic->empty()) add(path, "is empty");
+      if (topic->size() > kLongest) add(path, "is too long");
+    }
   }
 
   void follow_baud(const std::string& section, int baud, Options& options) {

@@ -85,6 +85,19 @@ struct ProtocolConfig {
   bool automatic_origin = true;   ///< take the first RTK fix as origin when none was ever stored
 };
 
+/// The AimRT channel on the same broker.
+struct AimrtConfig {
+  bool enabled = true;
+  double rate_Hz = 50;
+  bool commands = true;  ///< follow joint commands
+  int max_command_age_ms = 250;
+  // Topics of the channel, as AimRT's modules name them.
+  std::string joint_state = "/joint_state";
+  std::string imu_state = "/imu_state";
+  std::string touch_state = "/touch_state";
+  std::string joint_command = "/joint_command";
+};
+
 struct DroverConfig {
   std::string robot_name = "drover";
   PathsConfig paths;
@@ -97,6 +110,7 @@ struct DroverConfig {
   GuardConfig guard;
   MqttConfig mqtt;
   ProtocolConfig protocol;
+  AimrtConfig aimrt;
   engine::EngineConfig engine;
 };
 

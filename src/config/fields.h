@@ -119,6 +119,19 @@ void visit(V& v, ProtocolConfig& c) {
 }
 
 template <class V>
+void visit(V& v, AimrtConfig& c) {
+  v.flag("enabled", c.enabled, "publish AimRT's messages on the broker");
+  v.number("rate_Hz", c.rate_Hz, Range{1, 200}, "messages of each type a second");
+  v.flag("commands", c.commands, "follow joint commands");
+  v.integer("max_command_age_ms", c.max_command_age_ms, Range{10, 10000},
+            "a joint command with an older time stamp is refused");
+  v.text("joint_state", c.joint_state, "channel topic of JointState");
+  v.text("imu_state", c.imu_state, "channel topic of ImuState");
+  v.text("touch_state", c.touch_state, "channel topic of TouchState");
+  v.text("joint_command", c.joint_command, "channel topic of JointCommand");
+}
+
+template <class V>
 void visit(V& v, DroverConfig& c, BaseNames& base) {
   v.text("robot", c.robot_name, "name of this robot");
   v.object("paths", c.paths, "folders");
@@ -135,6 +148,7 @@ void visit(V& v, DroverConfig& c, BaseNames& base) {
   v.object("guard", c.guard, "drover-guard");
   v.object("mqtt", c.mqtt, "broker");
   v.object("protocol", c.protocol, "choices of the RTK navigation protocol");
+  v.object("aimrt", c.aimrt, "AimRT channel");
 }
 
 }  // namespace drover::config

@@ -15,8 +15,7 @@ namespace {
 
 constexpr Duration kFirstPause = std::chrono::milliseconds(250);
 constexpr Duration kLongestPause = std::chrono::seconds(2);
-constexpr int kQosControl = 1;
-constexpr const char* kControlTopic = "mqtt_control";
+constexpr int kQosAnswers = 1;
 constexpr const char* kOnlineTopic = "drover/online";
 
 std::string random_client_id() {
@@ -38,10 +37,13 @@ std::string read_password(const std::string& path) {
 
 }  // namespace
 
-MqttClient::MqttClient(const config::MqttConfig& config, const std::string& robot_name,
-                       OnMessage on_message, OnState on_state)
-    : config_(config), on_message_(std::move(on_message)), on_state_(std::move(on_state)) {
-  (void)robot_name;
+MqttClient::MqttClient(const config::MqttConfig& config,
+                       std::vector<MqttSubscription> subscriptions, OnMessage on_message,
+                       OnState on_state)
+    : config_(config),
+      subscriptions_(std::move(subscriptions)),
+      on_message_(std::move(on_message)),
+      on_state_(std::move(on_state)) {
   ::mosquitto_lib_init();
   const auto id = config_.client_id.empty() ? random_client_id() : config_.client_id;
   // Clean session: a start that was queued while we were away must never be replayed.
@@ -53,7 +55,7 @@ MqttClient::MqttClient(const config::MqttConfig& config, const std::string& robo
         config_.password_file.empty() ? std::string() : read_password(config_.password_file);
     ::mosquitto_username_pw_set(client_, config_.username.c_str(), password.c_str());
   }
-  ::mosquitto_will_set(client_, kOnlineTopic, 1, "0", kQosControl, true);
+  ::mosquitto_will_set(client_, kOnlineTopic, 1, "0", kQosAnswers, true);
   ::mosquitto_connect_callback_set(client_, [](mosquitto*, void* self, int code) {
     auto& me = *static_cast<MqttClient*>(self);
     if (code != 0) return me.on_state_(false, ::mosquitto_connack_string(code));
@@ -61,8 +63,9 @@ MqttClient::MqttClient(const config::MqttConfig& config, const std::string& robo
     me.connecting_ = false;
     me.pause_ = kFirstPause;
     me.last_text_.clear();
-    ::mosquitto_subscribe(me.client_, nullptr, kControlTopic, kQosControl);
-    ::mosquitto_publish(me.client_, nullptr, kOnlineTopic, 1, "1", kQosControl, true);
+    for (const auto& [topic, qos] : me.subscriptions_)
+      ::mosquitto_subscribe(me.client_, nullptr, topic.c_str(), qos);
+    ::mosquitto_publish(me.client_, nullptr, kOnlineTopic, 1, "1", kQosAnswers, true);
     me.on_state_(true, "connected to the broker");
   });
   ::mosquitto_disconnect_callback_set(client_, [](mosquitto*, void* self, int) {
@@ -79,7 +82,7 @@ MqttClient::MqttClient(const config::MqttConfig& config, const std::string& robo
 
 MqttClient::~MqttClient() {
   if (connected_) {
-    ::mosquitto_publish(client_, nullptr, kOnlineTopic, 1, "0", kQosControl, true);
+    ::mosquitto_publish(client_, nullptr, kOnlineTopic, 1, "0", kQosAnswers, true);
     for (int i = 0; i < 10 && ::mosquitto_want_write(client_); ++i)
       ::mosquitto_loop_write(client_, 1);
   }
@@ -146,7 +149,7 @@ bool MqttClient::publish_latest(const char* topic, const std::string& payload) {
 bool MqttClient::publish(const char* topic, const std::string& payload, bool retained) {
   if (!connected_) return false;
   return ::mosquitto_publish(client_, nullptr, topic, static_cast<int>(payload.size()),
-                             payload.data(), kQosControl, retained) == MOSQ_ERR_SUCCESS;
+                             payload.data(), kQosAnswers, retained) == MOSQ_ERR_SUCCESS;
 }
 
 }  // namespace drover::runtime

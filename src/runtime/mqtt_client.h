@@ -8,6 +8,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "config/config.h"
 #include "drover/time.h"
@@ -22,14 +23,19 @@ struct MqttMessage {
   bool retained = false;
 };
 
+struct MqttSubscription {
+  std::string topic;
+  int qos = 0;
+};
+
 class MqttClient final {
  public:
   using OnMessage = std::function<void(const MqttMessage&)>;
   using OnState = std::function<void(bool connected, const std::string& text)>;
 
   /// Throws std::runtime_error when the password file cannot be read.
-  MqttClient(const config::MqttConfig& config, const std::string& robot_name, OnMessage on_message,
-             OnState on_state);
+  MqttClient(const config::MqttConfig& config, std::vector<MqttSubscription> subscriptions,
+             OnMessage on_message, OnState on_state);
   ~MqttClient();
   MqttClient(const MqttClient&) = delete;
   MqttClient& operator=(const MqttClient&) = delete;
@@ -54,6 +60,7 @@ class MqttClient final {
   void failed(int code);
 
   config::MqttConfig config_;
+  std::vector<MqttSubscription> subscriptions_;
   OnMessage on_message_;
   OnState on_state_;
   mosquitto* client_ = nullptr;

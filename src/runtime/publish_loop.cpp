@@ -4,12 +4,9 @@
 #include <sys/timerfd.h>
 
 #include <array>
-#include <cmath>
 #include <stdexcept>
 
 #include "config/json_text.h"
-#include "config/located_json.h"
-#include "publish/rtk_navigation/trajectory_data.h"
 #include "runtime/clock.h"
 #include "runtime/log.h"
 
@@ -17,9 +14,10 @@ namespace drover::runtime {
 
 namespace {
 
-constexpr long kStatusPeriod_ns = 100'000'000;  // base_status: 10 Hz, RTK navigation protocol
+constexpr Duration kStatusPeriod =
+    std::chrono::milliseconds(100);  // base_status: 10 Hz, RTK navigation protocol
 
-enum Tag : std::uint64_t { kTimer = 1, kBroker, kCli, kEvents, kReplies };
+enum Tag : std::uint64_t { kTimer = 1, kBroker, kCli, kEvents, kReplies, kAimrt };
 
 publish::CommandServiceConfig service_config(const config::DroverConfig& config) {
   publish::CommandServiceConfig service;
@@ -40,6 +38,34 @@ publish::RtkConfig rtk_config(const config::ProtocolConfig& protocol) {
   return rtk;
 }
 
+publish::aimrt::ChannelConfig channel_config(const config::DroverConfig& config) {
+  const auto& aimrt = config.aimrt;
+  publish::aimrt::ChannelConfig channel;
+  channel.joint_state = aimrt.joint_state;
+  channel.imu_state = aimrt.imu_state;
+  channel.touch_state = aimrt.touch_state;
+  channel.joint_command = aimrt.joint_command;
+  channel.rules.max_age = from_s(1e-3 * aimrt.max_command_age_ms);
+  for (const auto& drive : config.drives) channel.rules.joints.push_back(drive.joint);
+  return channel;
+}
+
+/// A timer that is readable so often a second.
+link::UniqueFd periodic_timer(Duration period) {
+  link::UniqueFd timer(::timerfd_create(CLOCK_MONOTONIC, TFD_CLOEXEC | TFD_NONBLOCK));
+  const auto ns = static_cast<long>(period.count());
+  const itimerspec each{{ns / 1'000'000'000, ns % 1'000'000'000},
+                        {ns / 1'000'000'000, ns % 1'000'000'000}};
+  if (!timer || ::timerfd_settime(timer.get(), 0, &each, nullptr) != 0)
+    throw std::runtime_error("the publish thread's timer cannot be set");
+  return timer;
+}
+
+void clear_timer(const link::UniqueFd& timer) {
+  std::uint64_t expirations = 0;
+  (void)!::read(timer.get(), &expirations, sizeof expirations);
+}
+
 LogLevel log_level(Notice::Level level) {
   switch (level) {
     case Notice::Level::info: return LogLevel::info;
@@ -47,25 +73,6 @@ LogLevel log_level(Notice::Level level) {
     case Notice::Level::error: return LogLevel::error;
   }
   return LogLevel::error;
-}
-
-std::string refusal(std::string_view reason) {
-  return json::JsonText()
-      .open('{')
-      .key("ok")
-      .boolean(false)
-      .key("reason")
-      .text(reason)
-      .close('}')
-      .take();
-}
-
-double length_m(const store::Track& track) {
-  double length = 0;
-  for (std::size_t i = 1; i < track.points.size(); ++i)
-    length += std::hypot(track.points[i].x_m - track.points[i - 1].x_m,
-                         track.points[i].y_m - track.points[i - 1].y_m);
-  return length;
 }
 
 }  // namespace
@@ -83,25 +90,40 @@ PublishLoop::PublishLoop(const config::DroverConfig& config, ControlExchange& co
              on_cli_line(client, line, monotonic_now());
            }),
       epoll_(::epoll_create1(EPOLL_CLOEXEC)),
-      timer_(::timerfd_create(CLOCK_MONOTONIC, TFD_CLOEXEC | TFD_NONBLOCK)) {
-  const itimerspec period{{0, kStatusPeriod_ns}, {0, kStatusPeriod_ns}};
-  if (!epoll_ || ::timerfd_settime(timer_.get(), 0, &period, nullptr) != 0)
-    throw std::runtime_error("the publish thread's timer cannot be set");
+      timer_(periodic_timer(kStatusPeriod)) {
+  if (!epoll_) throw std::runtime_error("the publish thread's epoll cannot be made");
   watch(timer_.get(), kTimer);
   watch(cli_.fd(), kCli);
   watch(control_.events_ready.fd(), kEvents);
   watch(storage_.replies_ready.fd(), kReplies);
-  if (!config.mqtt.enabled) return;
+  if (config.mqtt.enabled) connect_broker();
+}
+
+void PublishLoop::connect_broker() {
+  // QoS 0 for the stream: what did not arrive is not worth sending twice.
+  std::vector<MqttSubscription> subscriptions{{std::string(publish::kTopicControl), 1}};
+  if (config_.aimrt.enabled) {
+    aimrt_.emplace(channel_config(config_));
+    aimrt_timer_ = periodic_timer(from_s(1 / config_.aimrt.rate_Hz));
+    watch(aimrt_timer_.get(), kAimrt);
+    if (config_.aimrt.commands) subscriptions.push_back({aimrt_->command_topic(), 0});
+  }
   broker_ = std::make_unique<MqttClient>(
-      config.mqtt, config.robot_name,
-      [this](const MqttMessage& message) {
-        if (message.topic == publish::kTopicControl)
-          service_.on_control(message.payload, message.retained, monotonic_now(), actions_);
-      },
+      config_.mqtt, std::move(subscriptions),
+      [this](const MqttMessage& message) { on_message(message); },
       [this](bool connected, const std::string& text) {
         broker_text_ = connected ? "" : text;
         log(connected ? LogLevel::info : LogLevel::warning, text);
       });
+}
+
+void PublishLoop::on_message(const MqttMessage& message) {
+  if (message.topic == publish::kTopicControl) {
+    service_.on_control(message.payload, message.retained, monotonic_now(), actions_);
+  } else if (aimrt_ && message.topic == aimrt_->command_topic()) {
+    aimrt_->on_command(message.payload, message.retained, monotonic_now(), wall_minus_monotonic(),
+                       actions_);
+  }
 }
 
 void PublishLoop::watch(int fd, std::uint64_t tag) {
@@ -134,13 +156,15 @@ void PublishLoop::run(const std::atomic<bool>& stop) {
     const Time now = monotonic_now();
     for (int i = 0; i < n; ++i) {
       switch (events[i].data.u64) {
-        case kTimer: {
-          std::uint64_t expirations = 0;
-          (void)!::read(timer_.get(), &expirations, sizeof expirations);
+        case kTimer:
+          clear_timer(timer_);
           if (broker_) broker_->tick(now);
           publish_status(now);
           break;
-        }
+        case kAimrt:
+          clear_timer(aimrt_timer_);
+          publish_aimrt();
+          break;
         case kBroker:
           if ((events[i].events & EPOLLOUT) != 0) broker_->on_writable();
           if ((events[i].events & (EPOLLIN | EPOLLHUP | EPOLLERR)) != 0) broker_->on_readable();
@@ -174,6 +198,13 @@ void PublishLoop::publish_status(Time now) {
     broker_->publish_latest(publish::kTopicBaseStatus.data(),
                             base_status_.text(snapshot, publish::BatteryState{}));
   }
+}
+
+void PublishLoop::publish_aimrt() {
+  const auto& snapshot = control_.snapshot.latest();
+  if (snapshot.time == kNever || !broker_->connected()) return;
+  for (const auto& [topic, payload] : aimrt_->telemetry(snapshot, wall_minus_monotonic()))
+    broker_->publish_latest(topic->c_str(), payload);
 }
 
 void PublishLoop::take_events() {
@@ -214,72 +245,6 @@ void PublishLoop::carry_out(publish::Actions& actions) {
     }
   }
   actions.clear();
-}
-
-void PublishLoop::on_cli_line(CliServer::ClientId client, std::string_view line, Time now) {
-  const auto document =
-      json::parse(line, {.max_bytes = 64 * 1024, .max_depth = 4, .max_values = 64});
-  if (!document) return cli_.reply(client, refusal("not understood: " + document.error().text()));
-  const auto text_of = [&](std::string_view key) {
-    const auto* node = document->root.find(key);
-    return node != nullptr && node->text() != nullptr ? *node->text() : std::string();
-  };
-  const auto cmd = text_of("cmd");
-  const auto name = text_of("name");
-  const auto request = [&](publish::ControlCommand command) {
-    const auto number = next_request_++;
-    waiting_[number] = client;
-    service_.on_cli(number, std::move(command), now, actions_);
-    carry_out(actions_);
-  };
-  if (cmd == "task_start") {
-    const auto* id = document->root.find("id");
-    const auto* speed = document->root.find("speed");
-    if (id == nullptr || !id->integer() || speed == nullptr || !speed->number())
-      return cli_.reply(client, refusal("id (a whole number) or speed is missing"));
-    return request(publish::StartTaskRequest{name, *id->integer(), *speed->number()});
-  }
-  if (cmd == "task_cancel") return request(publish::CancelTaskRequest{});
-  if (cmd == "traj_delete") return request(publish::DeleteTrajectory{name});
-  if (cmd == "reset") return request(publish::ResetStopRequest{});
-  cli_.reply(client, cli_reply(cmd, name));
-}
-
-/// Questions that are answered from what is at hand.
-std::string PublishLoop::cli_reply(std::string_view cmd, const std::string& name) {
-  json::JsonText out;
-  out.open('{').key("ok").boolean(true);
-  if (cmd == "version") {
-    out.key("version").text(DROVER_VERSION);
-  } else if (cmd == "status") {
-    publish::DaemonStatus daemon;
-    daemon.robot = config_.robot_name;
-    daemon.broker_connected = broker_ && broker_->connected();
-    daemon.broker_text = broker_ ? broker_text_ : "not configured";
-    daemon.uptime_s = to_s(monotonic_now() - started_);
-    daemon.telemetry_dropped = broker_ ? broker_->dropped() : 0;
-    daemon.events_lost = control_.lost_events.load(std::memory_order_relaxed);
-    // The status is an object of its own already.
-    return R"({"ok":true,"status":)" + publish::status_json(control_.snapshot.latest(), daemon) +
-           "}";
-  } else if (cmd == "traj_list") {
-    out.key("tracks").open('[');
-    for (const auto& [key, track] : service_.tracks()) {
-      out.open('{').key("name").text(key);
-      out.key("points").integer(static_cast<std::int64_t>(track.points.size()));
-      out.key("length_m").number(length_m(track)).close('}');
-    }
-    out.close(']');
-  } else if (cmd == "traj_show") {
-    const auto track = service_.find_track(name);
-    if (!track) return refusal("there is no track named \"" + name + "\"");
-    const auto list = publish::trajectory_data_text({&*track, 1});
-    return R"({"ok":true,"track":)" + list.substr(1, list.size() - 2) + "}";
-  } else {
-    return refusal("unknown request \"" + std::string(cmd) + "\"");
-  }
-  out.close('}');
-  return out.take();
 }
 
 }  // namespace drover::runtime

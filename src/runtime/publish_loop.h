@@ -5,9 +5,11 @@
 #include <atomic>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "config/config.h"
+#include "publish/aimrt/channel.h"
 #include "publish/command_service.h"
 #include "publish/rtk_navigation/base_status.h"
 #include "publish/status/status.h"
@@ -37,7 +39,10 @@ class PublishLoop final {
  private:
   void watch(int fd, std::uint64_t tag);
   void watch_broker();
+  void connect_broker();
+  void on_message(const MqttMessage& message);
   void publish_status(Time now);
+  void publish_aimrt();
   void take_events();
   void take_replies(Time now);
   void on_cli_line(CliServer::ClientId client, std::string_view line, Time now);
@@ -49,6 +54,7 @@ class PublishLoop final {
   StorageExchange& storage_;
   publish::CommandService service_;
   publish::BaseStatus base_status_;
+  std::optional<publish::aimrt::Channel> aimrt_;  ///< nothing when it is switched off
   publish::Actions actions_;
   Time started_;
   std::string broker_text_;
@@ -58,6 +64,7 @@ class PublishLoop final {
   std::uint64_t next_request_ = 1;
   link::UniqueFd epoll_;
   link::UniqueFd timer_;
+  link::UniqueFd aimrt_timer_;
   std::atomic<std::uint64_t> turns_{0};
   std::atomic<bool> cancel_wanted_{false};
 };

@@ -139,6 +139,15 @@ TEST(ConfigurationChecks, RefuseABrokerThatIsHalfASocketAndHalfANetworkAddress) 
             "f:11:64: mqtt.password_file: is given without mqtt.username\n");
 }
 
+TEST(ConfigurationChecks, RefuseAChannelTopicWithoutANameOrWithALongOne) {
+  const auto text = [](const std::string& topic) {
+    return with("1883}", "1883},\n  \"aimrt\": {\"imu_state\": \"" + topic + "\"}");
+  };
+  EXPECT_EQ(problems(text("")), "f:12:26: aimrt.imu_state: is empty\n");
+  EXPECT_EQ(problems(text(std::string(201, 'x'))), "f:12:26: aimrt.imu_state: is too long\n");
+  EXPECT_EQ(problems(text("/imu")), "");
+}
+
 TEST(ConfigurationChecks, ResolveNamesToNumbers) {
   const auto loaded = load_text(kGood);
   const auto& engine = loaded.config.engine;

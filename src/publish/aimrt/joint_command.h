@@ -1,0 +1,50 @@
+// JointCommand: from bytes to velocities for the engine, or to the reason why not.
+//
+// Pure: names, limits and time are arguments. Nothing is repaired: one bad joint refuses the whole
+// message, so that no joint moves as part of a motion that was never asked for.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "drover/command.h"
+#include "drover/result.h"
+
+namespace drover::publish::aimrt {
+
+/// A longer message is not even decoded: sixteen joints need a fifth of it.
+inline constexpr std::size_t kMaxCommandBytes = 16 * 1024;
+
+struct JointCommandEntry {
+  std::string name;
+  double position_rad = 0;
+  double velocity_radps = 0;
+  double effort_Nm = 0;
+  double stiffness = 0;  ///< N*m/rad
+  double damping = 0;    ///< N*m*s/rad
+};
+
+struct JointCommandMessage {
+  std::uint64_t stamp_ns = 0;  ///< wall time; 0: none
+  std::vector<JointCommandEntry> joints;
+};
+
+struct JointCommandRules {
+  std::vector<std::string> joints;  ///< by AxisId
+  Duration max_age = std::chrono::milliseconds(250);
+};
+
+/// Protobuf bytes; unknown fields are skipped. Nothing when it is no JointCommand.
+std::optional<JointCommandMessage> decode_joint_command(std::string_view bytes);
+
+/// `wall` is now since the epoch, `last_stamp_ns` that of the last message that was accepted, 0
+/// when there is none. Every drive follows a velocity: with stiffness 0 a position has no weight,
+/// so it is checked and not used. A velocity beyond the limits is for the gate to clamp.
+Result<JointTargets, Reason> accept_joint_command(const JointCommandMessage& message,
+                                                  const JointCommandRules& rules, Duration wall,
+                                                  std::uint64_t last_stamp_ns);
+
+}  // namespace drover::publish::aimrt

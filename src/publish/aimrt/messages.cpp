@@ -1,0 +1,104 @@
+#include "publish/aimrt/messages.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+#include <utility>
+
+#include "publish/aimrt/sensor.pb.h"
+
+namespace drover::publish::aimrt {
+
+namespace {
+
+namespace pb = ::aimrt::protocols;
+
+constexpr const char* kBaseFrame = "base_link";
+constexpr std::array<std::pair<Line, const char*>, 3> kTouchLines{
+    {{Line::bumper, "bumper"}, {Line::zone_far, "zone_far"}, {Line::zone_near, "zone_near"}}};
+
+void fill(pb::common::Header& header, Time time, const char* frame, const Stamping& stamping) {
+  const auto wall_ns = (time.time_since_epoch() + stamping.wall_minus_monotonic).count();
+  header.set_time_stamp(wall_ns > 0 ? static_cast<std::uint64_t>(wall_ns) : 0);
+  header.set_frame_id(frame);
+  header.set_sequence_num(stamping.sequence);
+}
+
+void fill(pb::geometry::Vector3& into, const Vector3& v) {
+  into.set_x(v.x);
+  into.set_y(v.y);
+  into.set_z(v.z);
+}
+
+/// Appends a 3 x 3 matrix with the variance on its diagonal; zeros when sigma is absent.
+template <class Values>
+void fill_covariance(Values& into, double sigma) {
+  const double variance = std::isfinite(sigma) ? sigma * sigma : 0;
+  for (int i = 0; i < 9; ++i) into.Add(i % 4 == 0 ? variance : 0);
+}
+
+bool is_heard(const AxisSnapshot& axis) {
+  return axis.health == SourceState::fresh && axis.last_motion != kNever;
+}
+
+}  // namespace
+
+std::string joint_state(const Snapshot& snapshot, const Stamping& stamping) {
+  pb::sensor::JointState message;
+  Time oldest = snapshot.time;
+  for (const auto& axis : snapshot.axes) {
+    auto& joint = *message.add_joints();
+    joint.set_name(std::string(axis.joint.view()));
+    const bool heard = is_heard(axis);
+    joint.set_position(heard ? axis.motion.position_rad : kAbsent);
+    joint.set_velocity(heard ? axis.motion.velocity_radps : kAbsent);
+    joint.set_effort(heard ? axis.motion.effort_Nm : kAbsent);
+    if (heard) oldest = std::min(oldest, axis.last_motion);
+  }
+  fill(*message.mutable_header(), oldest, kBaseFrame, stamping);
+  return message.SerializeAsString();
+}
+
+std::string imu_state(const Snapshot& snapshot, const Stamping& stamping) {
+  const auto& imu = snapshot.imu;
+  pb::sensor::ImuState message;
+  fill(*message.mutable_header(), imu.time, kBaseFrame, stamping);
+
+  auto& orientation = *message.mutable_orientation();
+  orientation.set_w(1);
+  if (imu.sample.has_orientation) {
+    const auto& q = imu.sample.orientation;
+    orientation.set_x(q.x);
+    orientation.set_y(q.y);
+    orientation.set_z(q.z);
+    orientation.set_w(q.w);
+  }
+  auto& orientation_covariance = *message.mutable_orientation_covariance();
+  fill_covariance(orientation_covariance, imu.orientation_sigma_rad);
+  if (!imu.sample.has_orientation) orientation_covariance.Set(0, -1);
+
+  const auto& rate = imu.sample.angular_velocity_radps;
+  const auto& bias = imu.gyro_bias_radps;
+  fill(*message.mutable_angular_velocity(), {rate.x - bias.x, rate.y - bias.y, rate.z - bias.z});
+  fill_covariance(*message.mutable_angular_velocity_covariance(), imu.angular_velocity_sigma_radps);
+
+  fill(*message.mutable_linear_acceleration(), imu.sample.acceleration_mps2);
+  fill_covariance(*message.mutable_linear_acceleration_covariance(), imu.acceleration_sigma_mps2);
+  return message.SerializeAsString();
+}
+
+std::string touch_state(const Snapshot& snapshot, const Stamping& stamping) {
+  pb::sensor::TouchState message;
+  fill(*message.mutable_header(), snapshot.time, kBaseFrame, stamping);
+  for (const auto& [line, name] : kTouchLines) {
+    const auto i = static_cast<std::size_t>(line);
+    if (!snapshot.line_configured[i]) continue;
+    message.add_names(name);
+    const bool touched = snapshot.line_active[i] || snapshot.line_health[i] != SourceState::fresh;
+    message.add_states()->add_pressure(touched ? 1 : 0);
+  }
+  return message.SerializeAsString();
+}
+
+}  // namespace drover::publish::aimrt

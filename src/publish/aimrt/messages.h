@@ -1,0 +1,32 @@
+// The snapshot as AimRT messages: serialized protobuf, without the packet around it.
+//
+// Field numbers and types: the .proto files beside this one. A message's time stamp is the wall
+// time at which its values were true.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "drover/snapshot.h"
+
+namespace drover::publish::aimrt {
+
+struct Stamping {
+  Duration wall_minus_monotonic{};
+  std::uint64_t sequence = 0;
+};
+
+/// Every driven axis: rad, rad/s, N*m; NaN where the drive does not tell or is not heard. The time
+/// stamp is the oldest heard axis' own, that of the snapshot when none is heard.
+std::string joint_state(const Snapshot& snapshot, const Stamping& stamping);
+
+/// The inertial sensor's last sample in base_link, the learned gyro bias taken off. Covariances
+/// are diagonal; as in sensor_msgs/Imu they are all 0 when unknown, and the orientation's first is
+/// -1 when there is no orientation (which is then the identity).
+std::string imu_state(const Snapshot& snapshot, const Stamping& stamping);
+
+/// The configured contacts and zones: "bumper", "zone_far", "zone_near", one pressure each: 1
+/// touched or occupied, 0 free. A line that cannot be read counts as touched, as for the robot.
+std::string touch_state(const Snapshot& snapshot, const Stamping& stamping);
+
+}  // namespace drover::publish::aimrt

@@ -1,0 +1,181 @@
+#include "publish/aimrt/channel.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/unit/publish/aimrt/wire.h"
+
+namespace drover::publish::aimrt {
+namespace {
+
+using test::hex;
+using test::in_packet;
+using test::joint_entry;
+using test::stamp;
+
+constexpr Duration kWallMinusMonotonic = std::chrono::hours(400'000);
+
+class AnAimrtChannel : public testing::Test {
+ protected:
+  AnAimrtChannel() {
+    config_.rules.joints = {"left", "right"};
+    channel_.emplace(config_);
+  }
+  void give(const std::string& payload, bool retained = false) {
+    channel_->on_command(payload, retained, now_, kWallMinusMonotonic, actions_);
+  }
+  std::uint64_t wall_ns() const {
+    return static_cast<std::uint64_t>((now_.time_since_epoch() + kWallMinusMonotonic).count());
+  }
+  template <class Body>
+  std::vector<Body> commands() const {
+    std::vector<Body> all;
+    for (const auto& action : actions_)
+      if (const auto* command = std::get_if<Command>(&action))
+        if (const auto* body = std::get_if<Body>(&command->body)) all.push_back(*body);
+    return all;
+  }
+  std::size_t log_lines() const {
+    std::size_t lines = 0;
+    for (const auto& action : actions_) lines += std::holds_alternative<LogLine>(action) ? 1 : 0;
+    return lines;
+  }
+  std::string last_refusal() const {
+    const auto all = commands<JointTargetsRefused>();
+    return all.empty() ? "" : std::string(all.back().reason.view());
+  }
+
+  ChannelConfig config_;
+  std::optional<Channel> channel_;
+  Actions actions_;
+  Time now_ = Time(from_s(1000));
+};
+
+TEST_F(AnAimrtChannel, NeverFollowsARetainedMessage) {
+  give(in_packet(joint_entry("left", 0, 1)), true);
+  EXPECT_EQ(last_refusal(), "a retained message is never followed");
+  EXPECT_TRUE(commands<JointTargets>().empty());
+}
+
+TEST_F(AnAimrtChannel, RefusesWhatIsNoProtobufPacket) {
+  give("");
+  EXPECT_EQ(last_refusal(), "the packet ends inside its content type");
+  give(hex("04 6a 73 6f 6e 00 7b 7d"));
+  EXPECT_EQ(last_refusal(), "the content type 'json' is not pb");
+  give(in_packet("x"));
+  EXPECT_EQ(last_refusal(), "the message is no JointCommand");
+  give(in_packet(std::string(kMaxCommandBytes + 1, '\0')));
+  EXPECT_EQ(last_refusal(), "the message is longer than 16 KiB");
+  give(in_packet(joint_entry("left", 0, 1) + joint_entry("wing", 0, 1)));
+  EXPECT_EQ(last_refusal(), "joint 'wing': there is no such joint");
+  EXPECT_TRUE(commands<JointTargets>().empty());
+}
+
+TEST_F(AnAimrtChannel, PassesAStreamOn) {
+  for (int i = 0; i < 3; ++i) {
+    give(in_packet(stamp(wall_ns()) + joint_entry("right", 0, 0.5 * i)));
+    now_ += std::chrono::milliseconds(5);
+  }
+  const auto targets = commands<JointTargets>();
+  ASSERT_EQ(targets.size(), 3U);
+  EXPECT_EQ(targets[2].joints[0].axis, 1);
+  EXPECT_EQ(targets[2].joints[0].velocity_radps, 1.0);
+  const auto& last = std::get<Command>(actions_.back());
+  EXPECT_EQ(last.id.source, RequestId::Source::aimrt);
+  EXPECT_EQ(last.id.number, 3U);
+  EXPECT_EQ(last.received, now_ - std::chrono::milliseconds(5));
+  EXPECT_EQ(log_lines(), 0U);
+}
+
+TEST_F(AnAimrtChannel, FollowsTheSameStampOnce) {
+  const auto payload = in_packet(stamp(wall_ns()) + joint_entry("left", 0, 1));
+  give(payload);
+  give(payload);
+  EXPECT_EQ(commands<JointTargets>().size(), 1U);
+  EXPECT_EQ(last_refusal(), "time_stamp is not newer than the last accepted one");
+}
+
+TEST_F(AnAimrtChannel, TakesALastStampFromAcceptedMessagesOnly) {
+  give(in_packet(stamp(wall_ns() + 1'000'000) + joint_entry("wing", 0, 1)));
+  give(in_packet(stamp(wall_ns()) + joint_entry("left", 0, 1)));
+  EXPECT_EQ(commands<JointTargets>().size(), 1U);
+}
+
+TEST_F(AnAimrtChannel, LeavesRoomForOthersInAFlood) {
+  for (int i = 0; i < 10'000; ++i) {
+    give(in_packet(joint_entry("left", 0, 1)));
+    now_ += std::chrono::microseconds(100);
+  }
+  EXPECT_LE(commands<JointTargets>().size(), 250U + 50U + 1U);
+  EXPECT_LE(commands<JointTargetsRefused>().size(), 2U);
+  EXPECT_EQ(last_refusal(), "too many messages a second, slow down");
+}
+
+TEST_F(AnAimrtChannel, TakesTwoHundredMessagesASecond) {
+  for (int i = 0; i < 2000; ++i) {
+    give(in_packet(joint_entry("left", 0, 1)));
+    now_ += std::chrono::milliseconds(5);
+  }
+  EXPECT_EQ(commands<JointTargets>().size(), 2000U);
+}
+
+TEST_F(AnAimrtChannel, TellsTheLogOfAStreamOfRefusalsNowAndThen) {
+  for (int i = 0; i < 1000; ++i) {
+    give(in_packet(joint_entry("joint" + std::to_string(i), 0, 1)));
+    now_ += std::chrono::milliseconds(10);
+  }
+  EXPECT_EQ(commands<JointTargetsRefused>().size(), 1000U);
+  EXPECT_LE(log_lines(), 5U);
+  EXPECT_GE(log_lines(), 3U);
+}
+
+TEST_F(AnAimrtChannel, PublishesAnInertialSampleOnceAndOnlyAFreshOne) {
+  Snapshot snapshot;
+  snapshot.time = now_;
+  const auto topics = [&] {
+    std::vector<std::string> names;
+    for (const auto& each : channel_->telemetry(snapshot, kWallMinusMonotonic))
+      names.push_back(*each.topic);
+    return names;
+  };
+  const std::string joints = "/channel/%2Fjoint_state/pb%3Aaimrt.protocols.sensor.JointState";
+  const std::string imu = "/channel/%2Fimu_state/pb%3Aaimrt.protocols.sensor.ImuState";
+  EXPECT_EQ(topics(), std::vector{joints});
+  snapshot.imu.configured = true;
+  snapshot.imu.time = now_;
+  snapshot.imu.health = SourceState::stale;
+  EXPECT_EQ(topics(), std::vector{joints});
+  snapshot.imu.health = SourceState::fresh;
+  EXPECT_EQ(topics(), (std::vector{joints, imu}));
+  EXPECT_EQ(topics(), std::vector{joints});
+  snapshot.imu.time += std::chrono::milliseconds(10);
+  EXPECT_EQ(topics(), (std::vector{joints, imu}));
+}
+
+TEST_F(AnAimrtChannel, PublishesTouchOnlyWhereAContactIsConfigured) {
+  Snapshot snapshot;
+  snapshot.time = now_;
+  snapshot.line_configured[static_cast<std::size_t>(Line::estop)] = true;
+  EXPECT_EQ(channel_->telemetry(snapshot, kWallMinusMonotonic).size(), 1U);
+  snapshot.line_configured[static_cast<std::size_t>(Line::zone_far)] = true;
+  const auto packets = channel_->telemetry(snapshot, kWallMinusMonotonic);
+  ASSERT_EQ(packets.size(), 2U);
+  EXPECT_EQ(*packets[1].topic, "/channel/%2Ftouch_state/pb%3Aaimrt.protocols.sensor.TouchState");
+}
+
+TEST_F(AnAimrtChannel, CountsTheMessagesOfEachType) {
+  Snapshot snapshot;
+  snapshot.time = now_;
+  (void)channel_->telemetry(snapshot, kWallMinusMonotonic);
+  const auto second = channel_->telemetry(snapshot, kWallMinusMonotonic);
+  const auto& payload = second[0].payload;
+  EXPECT_EQ(payload.substr(payload.size() - 2), hex("18 02")) << "sequence_num = 3";
+}
+
+TEST_F(AnAimrtChannel, ListensToTheConfiguredTopic) {
+  config_.joint_command = "/arm/joint command";
+  EXPECT_EQ(Channel(config_).command_topic(),
+            "/channel/%2Farm%2Fjoint+command/pb%3Aaimrt.protocols.sensor.JointCommand");
+}
+
+}  // namespace
+}  // namespace drover::publish::aimrt

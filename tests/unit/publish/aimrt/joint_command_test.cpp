@@ -1,0 +1,145 @@
+#include "publish/aimrt/joint_command.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "tests/unit/publish/aimrt/wire.h"
+
+namespace drover::publish::aimrt {
+namespace {
+
+using test::hex;
+using test::joint_entry;
+using test::stamp;
+
+constexpr std::uint64_t kMs = 1'000'000;
+constexpr std::uint64_t kNow_ns = 1'700'000'000'000 * kMs;
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+Result<JointTargets, Reason> judge(const std::string& bytes, std::uint64_t last_stamp_ns = 0,
+                                   std::uint64_t now_ns = kNow_ns) {
+  const auto message = decode_joint_command(bytes);
+  if (!message) return Reason("not decodable");
+  const JointCommandRules rules{{"left", "right"}, std::chrono::milliseconds(250)};
+  return accept_joint_command(*message, rules, Duration(now_ns), last_stamp_ns);
+}
+
+std::string refusal(const std::string& bytes, std::uint64_t last_stamp_ns = 0) {
+  const auto result = judge(bytes, last_stamp_ns);
+  return result ? "accepted" : std::string(result.error().view());
+}
+
+TEST(AimrtJointCommand, RefusesBytesThatAreNone) {
+  EXPECT_FALSE(decode_joint_command(hex("ff")));
+  EXPECT_FALSE(decode_joint_command(hex("12 05 0a 01 61")));     // ends inside a joint
+  EXPECT_FALSE(decode_joint_command(hex("12 03 0a 01 ff")));     // a name that is no UTF-8
+  EXPECT_FALSE(decode_joint_command(hex("0a 02 0a 01")));        // a header that is none
+  EXPECT_FALSE(decode_joint_command(std::string(200, '\x0b')));  // groups in groups
+  const auto whole = stamp(kNow_ns) + joint_entry("left", 0, 1);
+  for (std::size_t size = 1; size < whole.size(); ++size) {
+    if (size == stamp(kNow_ns).size()) continue;  // a header alone is a message
+    EXPECT_FALSE(decode_joint_command(whole.substr(0, size))) << size;
+  }
+}
+
+TEST(AimrtJointCommand, RefusesAMessageThatIsTooLongToLookAt) {
+  const auto padding = [](std::size_t size) {
+    return test::bytes_field(15, std::string(size, 'x'));  // an unknown field
+  };
+  EXPECT_TRUE(decode_joint_command(padding(kMaxCommandBytes - 4)));
+  EXPECT_FALSE(decode_joint_command(padding(kMaxCommandBytes)));
+}
+
+TEST(AimrtJointCommand, RefusesTheWholeMessageAndNamesJointAndField) {
+  const std::string good = joint_entry("left", 0, 1);
+  EXPECT_EQ(refusal(""), "it names no joint");
+  EXPECT_EQ(refusal(good + joint_entry("middle", 0, 1)), "joint 'middle': there is no such joint");
+  EXPECT_EQ(refusal(joint_entry("", 0, 1)), "joint '': there is no such joint");
+  EXPECT_EQ(refusal(good + good), "joint 'left': it is named twice");
+  EXPECT_EQ(refusal(good + good + good), "it names 3 joints, this robot has 2");
+  EXPECT_EQ(refusal(good + joint_entry("right", kNaN, 1)), "joint 'right': position is NaN");
+  EXPECT_EQ(refusal(good + joint_entry("right", 0, kNaN)), "joint 'right': velocity is NaN");
+  EXPECT_EQ(refusal(joint_entry("left", 0, -kInfinity)), "joint 'left': velocity is infinite");
+  EXPECT_EQ(refusal(joint_entry("left", 0, 1, kNaN)), "joint 'left': effort is NaN");
+  EXPECT_EQ(refusal(joint_entry("left", 0, 1, 0, kInfinity)),
+            "joint 'left': stiffness is infinite");
+  EXPECT_EQ(refusal(joint_entry("left", 0, 1, 0, 0, kNaN)), "joint 'left': damping is NaN");
+  EXPECT_EQ(refusal(joint_entry("left", 1e6, 1)), "joint 'left': position 1e+06 is absurd");
+  EXPECT_EQ(refusal(joint_entry("left", 0, -1e6)), "joint 'left': velocity -1e+06 is absurd");
+  EXPECT_EQ(refusal(joint_entry("left", 0, 1, 0, -1)),
+            "joint 'left': stiffness is -1, but this drive follows velocity only: 0");
+  EXPECT_EQ(refusal(joint_entry("left", 0, 1, 2.5)),
+            "joint 'left': effort is 2.5, but this drive follows velocity only: 0");
+  EXPECT_EQ(refusal(joint_entry("left", 0, 1, 0, 0, -0.5)),
+            "joint 'left': damping -0.5 is negative");
+}
+
+TEST(AimrtJointCommand, ForgesNoLineWithTheNameOfAJoint) {
+  EXPECT_EQ(refusal(joint_entry("a\nb", 0, 1)), "joint 'a?b': there is no such joint");
+  EXPECT_LT(refusal(joint_entry(std::string(4000, 'x'), 0, 1)).size(), 100U);
+}
+
+TEST(AimrtJointCommand, RefusesAnOldStamp) {
+  const auto at = [](std::uint64_t ns) { return stamp(ns) + joint_entry("left", 0, 1); };
+  EXPECT_EQ(refusal(at(kNow_ns - 250 * kMs)), "accepted");
+  EXPECT_EQ(refusal(at(kNow_ns - 251 * kMs)), "time_stamp is 251 ms old, 250 ms are allowed");
+  EXPECT_NE(refusal(at(1)), "accepted");
+}
+
+TEST(AimrtJointCommand, RefusesAStampOfTheFuture) {
+  const auto at = [](std::uint64_t ns) { return stamp(ns) + joint_entry("left", 0, 1); };
+  EXPECT_EQ(refusal(at(kNow_ns + 1000 * kMs)), "accepted");
+  EXPECT_EQ(refusal(at(kNow_ns + 1001 * kMs)), "time_stamp is 1001 ms ahead of the robot's clock");
+  EXPECT_NE(refusal(at(UINT64_MAX)), "accepted");
+}
+
+TEST(AimrtJointCommand, RefusesAStampThatIsNotNewerThanTheLast) {
+  const auto message = stamp(kNow_ns) + joint_entry("left", 0, 1);
+  EXPECT_EQ(refusal(message, kNow_ns - 1), "accepted");
+  EXPECT_EQ(refusal(message, kNow_ns), "time_stamp is not newer than the last accepted one");
+  EXPECT_EQ(refusal(message, kNow_ns + kMs), "time_stamp is not newer than the last accepted one");
+}
+
+TEST(AimrtJointCommand, ForgetsALastStampFromBeforeTheClockWasSetBack) {
+  EXPECT_EQ(refusal(stamp(kNow_ns) + joint_entry("left", 0, 1), kNow_ns + 3600'000 * kMs),
+            "accepted");
+}
+
+TEST(AimrtJointCommand, TakesAMessageWithoutAStampAtAnyTime) {
+  EXPECT_TRUE(judge(joint_entry("left", 0, 1), kNow_ns).ok());
+  EXPECT_TRUE(judge(stamp(0) + joint_entry("left", 0, 1), kNow_ns).ok());
+}
+
+TEST(AimrtJointCommand, GivesTheVelocitiesOfTheNamedJoints) {
+  const auto targets =
+      judge(stamp(kNow_ns) + joint_entry("right", 99, -2.5, 0, 0, 3) + joint_entry("left", 0, 1e4));
+  ASSERT_TRUE(targets.ok());
+  ASSERT_EQ(targets->joints.size(), 2U);
+  EXPECT_EQ(targets->joints[0].axis, 1);
+  EXPECT_EQ(targets->joints[0].velocity_radps, -2.5);
+  EXPECT_EQ(targets->joints[1].axis, 0);
+  EXPECT_EQ(targets->joints[1].velocity_radps, 1e4) << "clamping is the gate's";
+}
+
+TEST(AimrtJointCommand, DecodesBytesWorkedOutByHand) {
+  // header{time_stamp 300}, joints{name "a", position 1, velocity 2, effort 4, stiffness -1,
+  // damping 0.5}
+  const auto message = decode_joint_command(
+      hex("0a 03 08 ac02  12 30 0a 01 61  11 000000000000f03f  19 0000000000000040"
+          "  21 0000000000001040  29 000000000000f0bf  31 000000000000e03f"));
+  ASSERT_TRUE(message);
+  EXPECT_EQ(message->stamp_ns, 300U);
+  ASSERT_EQ(message->joints.size(), 1U);
+  const auto& joint = message->joints[0];
+  EXPECT_EQ(joint.name, "a");
+  EXPECT_EQ(joint.position_rad, 1);
+  EXPECT_EQ(joint.velocity_radps, 2);
+  EXPECT_EQ(joint.effort_Nm, 4);
+  EXPECT_EQ(joint.stiffness, -1);
+  EXPECT_EQ(joint.damping, 0.5);
+}
+
+}  // namespace
+}  // namespace drover::publish::aimrt

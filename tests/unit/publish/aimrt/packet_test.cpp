@@ -1,0 +1,71 @@
+#include "publish/aimrt/packet.h"
+
+#include <gtest/gtest.h>
+
+#include "publish/aimrt/topic.h"
+#include "tests/unit/publish/aimrt/wire.h"
+
+namespace drover::publish::aimrt {
+namespace {
+
+using test::hex;
+
+TEST(AimrtPacket, RefusesEveryTruncationOfItsHeader) {
+  // "pb", one pair: key "ab", value "c".
+  const auto whole = hex("02 70 62  01  02 00 61 62  01 00 63");
+  ASSERT_TRUE(decode_packet(whole).ok());
+  for (std::size_t size = 0; size < whole.size(); ++size)
+    EXPECT_FALSE(decode_packet(std::string_view(whole).substr(0, size)).ok()) << size;
+}
+
+TEST(AimrtPacket, SaysWhereItEnds) {
+  EXPECT_EQ(decode_packet("").error(), PacketError::no_content_type);
+  EXPECT_EQ(decode_packet(hex("03 70 62")).error(), PacketError::no_content_type);
+  EXPECT_EQ(decode_packet(hex("02 70 62")).error(), PacketError::no_context);
+  EXPECT_EQ(decode_packet(hex("02 70 62 01")).error(), PacketError::bad_context);
+}
+
+TEST(AimrtPacket, RefusesAContextLongerThanThePacket) {
+  EXPECT_EQ(decode_packet(hex("02 70 62 01 ff ff 61 62 01 00 63")).error(),
+            PacketError::bad_context);
+  EXPECT_EQ(decode_packet(hex("02 70 62 01 02 00 61 62 02 00 63")).error(),
+            PacketError::bad_context);
+  EXPECT_EQ(decode_packet(hex("02 70 62 ff 00 00 00 00")).error(), PacketError::bad_context);
+}
+
+TEST(AimrtPacket, GivesContentTypeContextAndMessage) {
+  const auto packet = decode_packet(hex("04 6a 73 6f 6e  01  01 00 61  00 00  7b 7d"));
+  ASSERT_TRUE(packet.ok());
+  EXPECT_EQ(packet->content_type, "json");
+  EXPECT_EQ(packet->context, hex("01 00 61 00 00"));
+  EXPECT_EQ(packet->message, "{}");
+}
+
+TEST(AimrtPacket, CountsALengthOfTwoBytesLittleEndian) {
+  const std::string value(0x0102, 'v');
+  const auto packet = decode_packet(hex("02 70 62 01 00 00 02 01") + value + "message");
+  ASSERT_TRUE(packet.ok());
+  EXPECT_EQ(packet->message, "message");
+}
+
+TEST(AimrtPacket, IsWrittenWithoutContext) {
+  EXPECT_EQ(encode_packet(hex("08 01")), hex("02 70 62 00 08 01"));
+  EXPECT_EQ(encode_packet(""), hex("02 70 62 00"));
+}
+
+TEST(AimrtTopic, IsTheDocumentsExample) {
+  EXPECT_EQ(mqtt_topic("/joint_state", "JointStateArray"),
+            "/channel/%2Fjoint_state/pb%3Aaimrt.protocols.sensor.JointStateArray");
+}
+
+TEST(AimrtTopic, KeepsFourMarksAndWritesABlankAsPlus) {
+  EXPECT_EQ(url_encoded("aZ09-_.~ /"), "aZ09-_.~+%2F");
+}
+
+TEST(AimrtTopic, WritesEveryOtherByteInUpperCaseHex) {
+  EXPECT_EQ(url_encoded("+#%*左"), "%2B%23%25%2A%E5%B7%A6");
+  EXPECT_EQ(url_encoded(std::string_view("\0\n\x7F", 3)), "%00%0A%7F");
+}
+
+}  // namespace
+}  // namespace drover::publish::aimrt
