@@ -4,6 +4,7 @@
 #include <array>
 
 #include "drivers/gpio_line/entry.h"
+#include "drivers/modbus_bms/entry.h"
 #include "drivers/nmea0183/entry.h"
 #include "drivers/odrive/entry.h"
 
@@ -15,6 +16,7 @@ std::span<const DriverEntry> driver_registry() {
       kOdriveEntry,
       kGpioLineEntry,
       kNmea0183Entry,
+      kModbusBmsEntry,
   };
   return kTable;
 }

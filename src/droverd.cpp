@@ -4,6 +4,7 @@
 #include <exception>
 
 #include "config/load.h"
+#include "config/register_map.h"
 #include "runtime/daemon.h"
 
 namespace {
@@ -37,10 +38,12 @@ int main(int argc, char** argv) {
   std::string file = "/etc/drover/drover.json";
   std::string checked;
   bool schema = false;
+  bool map_schema = false;
   app.add_option("-c,--config", file, "configuration")->capture_default_str();
   const auto* check_wanted =
       app.add_option("--check", checked, "check a configuration and exit (0 good, 2 not)");
   app.add_flag("--schema", schema, "print the configuration's JSON schema and exit");
+  app.add_flag("--map-schema", map_schema, "print the JSON schema of a battery's register map");
   app.set_version_flag("--version", DROVER_VERSION);
   app.footer(
       "Examples:\n"
@@ -55,6 +58,10 @@ int main(int argc, char** argv) {
   }
   if (schema) {
     std::fputs(drover::config::schema_text().c_str(), stdout);
+    return 0;
+  }
+  if (map_schema) {
+    std::fputs(drover::config::register_map_schema_text().c_str(), stdout);
     return 0;
   }
   if (check_wanted->count() > 0) return check(checked);

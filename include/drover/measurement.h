@@ -140,12 +140,13 @@ struct BatterySample {
   double soc_percent = kAbsent;
   double remaining_Ah = kAbsent;
   double temperature_degC = kAbsent;  ///< hottest cell probe
+  double mosfet_degC = kAbsent;       ///< of the switch
   double min_cell_V = kAbsent;
   double max_cell_V = kAbsent;
   BatteryFlow flow = BatteryFlow::unknown;
   bool charger_connected = false;
   BatteryAlarm alarm = BatteryAlarm::none;
-  std::uint32_t alarm_bits = 0;  ///< as the map numbers them; 0: none
+  std::uint64_t alarm_bits = 0;  ///< as the map numbers them; 0: none
   Reason alarm_text;             ///< the worst alarms in words; empty: none
 };
 

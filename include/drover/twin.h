@@ -86,7 +86,7 @@ struct BatteryTruth {
   double capacity_Ah = 0;
   double temperature_degC = 0;
   bool charger_connected = false;
-  std::uint32_t alarm_bits = 0;
+  std::uint64_t alarm_bits = 0;  ///< as the map numbers them
 };
 
 /// The registers of a simulated device; its wire is the simulator's.

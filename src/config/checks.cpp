@@ -1,11 +1,13 @@
 #include "config/checks.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <exception>
 #include <map>
 #include <variant>
 
 #include "config/reader.h"
+#include "config/register_map.h"
 
 namespace drover::config {
 
@@ -41,10 +43,27 @@ const json::Node& place(const json::Node& root, std::string_view path) {
   return end == path.npos ? *next : place(*next, path.substr(end));
 }
 
+/// "" when a battery's port is a device or tcp:ADDRESS:PORT. No names: to resolve one may take
+/// longer than anything here waits.
+std::string check_modbus_port(const std::string& port) {
+  if (!port.starts_with("tcp:")) return "";
+  unsigned a = 0;
+  unsigned b = 0;
+  unsigned c = 0;
+  unsigned d = 0;
+  unsigned number = 0;
+  int used = 0;
+  const int got =
+      std::sscanf(port.c_str(), "tcp:%3u.%3u.%3u.%3u:%5u%n", &a, &b, &c, &d, &number, &used);
+  const bool good = got == 5 && static_cast<std::size_t>(used) == port.size() &&
+                    std::max({a, b, c, d}) <= 255 && number >= 1 && number <= 65535;
+  return good ? "" : "must be tcp:ADDRESS:PORT with an IPv4 address, like tcp:192.168.1.50:502";
+}
+
 class Checks final {
  public:
-  Checks(const json::Node& root, Loaded& loaded)
-      : root_(root), loaded_(loaded), config_(loaded.config) {}
+  Checks(const json::Node& root, const std::string& folder, Loaded& loaded)
+      : root_(root), folder_(folder), loaded_(loaded), config_(loaded.config) {}
 
   void run(const BaseNames& base) {
     unique_names();
@@ -57,6 +76,7 @@ class Checks final {
     limits();
     broker();
     channel();
+    battery();
     finish_engine();
     build_drivers();
   }
@@ -65,7 +85,7 @@ class Checks final {
   void add(std::string path, std::string message, std::string hint = {}) {
     const auto& at = place(root_, path);
     loaded_.problems.push_back(
-        {at.line, at.column, std::move(path), std::move(message), std::move(hint)});
+        {at.line, at.column, std::move(path), std::move(message), std::move(hint), ""});
   }
   bool given(std::string_view section, std::string_view object, std::string_view key) const {
     const auto* outer = root_.find(section);
@@ -202,6 +222,19 @@ class Checks final {
     options.set("baud", static_cast<double>(baud));
   }
 
+  void battery() {
+    auto& battery = config_.battery;
+    if (!battery.configured || has_problem("battery.map")) return;
+    if (const auto why = check_modbus_port(battery.port); !why.empty()) add("battery.port", why);
+    auto loaded = load_register_map(find_register_map(battery.map, folder_));
+    if (!loaded.problems.empty())
+      add("battery.map", "is no good register map", "see its own problems");
+    for (auto& problem : loaded.problems) loaded_.problems.push_back(std::move(problem));
+    battery.registers = std::move(loaded.map);
+    if (battery.baud == 0) battery.baud = battery.registers.baud;
+    if (battery.unit == 0) battery.unit = battery.registers.unit;
+  }
+
   void finish_engine() {
     auto& c = config_;
     c.engine.tick_Hz = c.control.tick_Hz;
@@ -237,6 +270,8 @@ class Checks final {
       build(item("drives", i), config_.drives[i].driver, config_.drives[i].options, AxisId{0});
     if (config_.gnss.configured) build("gnss", config_.gnss.driver, config_.gnss.options);
     if (config_.imu.configured) build("imu", config_.imu.driver, config_.imu.options);
+    if (config_.battery.configured)
+      build("battery", config_.battery.driver, config_.battery.options, config_.battery.registers);
     for (std::size_t i = 0; i < kLineCount; ++i) {
       const auto& line = config_.lines.line[i];
       if (line.configured)
@@ -246,14 +281,16 @@ class Checks final {
   }
 
   const json::Node& root_;
+  const std::string& folder_;
   Loaded& loaded_;
   DroverConfig& config_;
 };
 
 }  // namespace
 
-void check_and_resolve(const json::Node& root, const BaseNames& base, Loaded& loaded) {
-  Checks(root, loaded).run(base);
+void check_and_resolve(const json::Node& root, const BaseNames& base, const std::string& folder,
+                       Loaded& loaded) {
+  Checks(root, folder, loaded).run(base);
 }
 
 }  // namespace drover::config

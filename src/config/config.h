@@ -6,6 +6,7 @@
 
 #include "drover/measurement.h"
 #include "drover/options.h"
+#include "drover/register_map.h"
 #include "engine/config.h"
 
 namespace drover::config {
@@ -48,6 +49,19 @@ struct ImuConfig {
   std::string port = "/dev/drover/imu";
   int baud = 115200;
   Options options;
+};
+
+struct BatteryConfig {
+  bool configured = false;
+  std::string driver = "modbus_bms";
+  std::string map;                           ///< file of the device's registers
+  std::string port = "/dev/drover/battery";  ///< serial line, or "tcp:ADDRESS:PORT"
+  int baud = 0;                              ///< 0: as the map says
+  std::string parity = "none";
+  int unit = 0;  ///< 0: as the map says
+  double period_s = 1.0;
+  Options options;
+  RegisterMap registers;  ///< read from `map`
 };
 
 struct LineConfig {
@@ -106,6 +120,7 @@ struct DroverConfig {
   std::vector<DriveConfig> drives;
   GnssConfig gnss;
   ImuConfig imu;
+  BatteryConfig battery;
   LinesConfig lines;
   GuardConfig guard;
   MqttConfig mqtt;

@@ -72,6 +72,21 @@ void visit(V& v, ImuConfig& c) {
 }
 
 template <class V>
+void visit(V& v, BatteryConfig& c) {
+  v.choice("driver", c.driver, driver_names(Device::battery), "driver");
+  v.text("map", c.map,
+         "file of the device's registers: beside this file, or one of the installed maps",
+         Presence::required);
+  v.text("port", c.port, "serial line, or tcp:ADDRESS:PORT with an IPv4 address");
+  v.integer("baud", c.baud, Range{0, 921600}, "baud rate; 0: the device's usual one");
+  v.choice("parity", c.parity, {"none", "even", "odd"}, "parity of the serial line");
+  v.integer("unit", c.unit, Range{0, 247}, "Modbus unit; 0: the device's usual one");
+  v.number("period_s", c.period_s, Range{0.2, 60}, "how often it is asked");
+  v.options("options", c.options, c.driver, Device::battery);
+  c.configured = true;
+}
+
+template <class V>
 void visit(V& v, LineConfig& c) {
   v.text("line", c.name, "name of the line on the chip", Presence::required);
   v.choice("driver", c.driver, driver_names(Device::line), "driver");
@@ -140,6 +155,7 @@ void visit(V& v, DroverConfig& c, BaseNames& base) {
   v.list("drives", c.drives, Count{1, kMaxAxes}, "driven axes, in order", Presence::required);
   v.object("base", base, "the vehicle", Presence::required);
   v.object("gnss", c.gnss, "RTK receiver");
+  v.object("battery", c.battery, "battery management system over Modbus");
   v.object("lines", c.lines, "digital inputs");
   v.object("limits", c.engine.limits, "limits of motion");
   v.object("estimate", c.engine.estimate, "fusion");

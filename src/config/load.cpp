@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 #include <utility>
 
 #include "config/checks.h"
@@ -41,8 +42,8 @@ Loaded one_problem(Problem problem) {
 
 }  // namespace
 
-std::string Problem::text(std::string_view file) const {
-  std::string out(file);
+std::string Problem::text(std::string_view given_file) const {
+  std::string out(file.empty() ? std::string(given_file) : json::shown(file, 400));
   if (line > 0) out += ":" + std::to_string(line) + ":" + std::to_string(column);
   out += ": ";
   // Keys and texts of the file are foreign: they must not forge a line.
@@ -52,22 +53,22 @@ std::string Problem::text(std::string_view file) const {
   return out;
 }
 
-Loaded load_text(std::string_view text) {
+Loaded load_text(std::string_view text, const std::string& folder) {
   const auto document = json::parse(text);
   if (!document) {
     const auto& error = document.error();
-    return one_problem({error.line, error.column, error.path, error.message, ""});
+    return one_problem({error.line, error.column, error.path, error.message, "", ""});
   }
   const auto& root = document->root;
   if (root.object() == nullptr)
-    return one_problem({root.line, root.column, "", "an object is expected", "{ ... }"});
+    return one_problem({root.line, root.column, "", "an object is expected", "{ ... }", ""});
   Loaded loaded;
   BaseNames base;
   base.base = &loaded.config.engine.base;
   Reader reader(root, "", loaded.problems);
   visit(reader, loaded.config, base);
   reader.finish();
-  check_and_resolve(root, base, loaded);
+  check_and_resolve(root, base, folder, loaded);
   std::stable_sort(loaded.problems.begin(), loaded.problems.end(),
                    [](const Problem& a, const Problem& b) {
                      return std::pair(a.line, a.column) < std::pair(b.line, b.column);
@@ -77,9 +78,14 @@ Loaded load_text(std::string_view text) {
 
 Loaded load_file(const std::string& path) {
   std::string text;
-  if (const int error = read_file(path, text); error != 0)
-    return one_problem({0, 0, "", std::string("cannot be read: ") + std::strerror(error), ""});
-  return load_text(text);
+  if (const auto problem = read_text(path, text); !problem.empty())
+    return one_problem({0, 0, "", problem, "", ""});
+  return load_text(text, std::filesystem::path(path).parent_path().string());
+}
+
+std::string read_text(const std::string& path, std::string& text) {
+  const int error = read_file(path, text);
+  return error == 0 ? "" : std::string("cannot be read: ") + std::strerror(error);
 }
 
 }  // namespace drover::config

@@ -15,8 +15,9 @@ struct Problem {
   std::string path;  ///< "drives[1].options.node"
   std::string message;
   std::string suggestion;  ///< empty when there is none
+  std::string file;        ///< empty: the configuration; otherwise the register map it names
   /// "drover.json:12:7: drives[1].options.node: ... (did you mean ...?)"
-  std::string text(std::string_view file) const;
+  std::string text(std::string_view given_file) const;
 };
 
 struct Loaded {
@@ -24,9 +25,13 @@ struct Loaded {
   std::vector<Problem> problems;
 };
 
-Loaded load_text(std::string_view text);
+/// Files that the configuration names are looked for below `folder`.
+Loaded load_text(std::string_view text, const std::string& folder = "");
 /// A file that cannot be read is a problem without a place.
 Loaded load_file(const std::string& path);
+
+/// Reads a whole file of at most 1 MiB and a byte; empty, or why not.
+std::string read_text(const std::string& path, std::string& text);
 
 /// JSON schema (draft 7) of the configuration, from the same tables.
 std::string schema_text();

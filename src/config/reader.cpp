@@ -1,5 +1,6 @@
 #include "config/reader.h"
 
+#include <charconv>
 #include <cstdio>
 #include <numeric>
 
@@ -85,7 +86,7 @@ std::string Reader::path_of(std::string_view key) const {
 void Reader::add(const json::Node& place, std::string path, std::string message,
                  std::string suggestion) {
   problems_.push_back(
-      {place.line, place.column, std::move(path), std::move(message), std::move(suggestion)});
+      {place.line, place.column, std::move(path), std::move(message), std::move(suggestion), ""});
 }
 
 const json::Node* Reader::find(std::string_view key, Presence presence, std::string_view text) {
@@ -187,6 +188,40 @@ void Reader::names(std::string_view key, std::vector<std::string>& into, Count c
   }
 }
 
+void Reader::address(std::string_view key, int& into, std::string_view text, Presence presence) {
+  constexpr Range kRegisters{0, 65535};
+  const auto* node = find(key, presence, text);
+  if (node == nullptr) return;
+  std::optional<std::int64_t> value = node->integer();
+  if (const auto* word = node->text(); word != nullptr && word->starts_with("0x")) {
+    unsigned number = 0;
+    const auto* end = word->data() + word->size();
+    const auto result = std::from_chars(word->data() + 2, end, number, 16);
+    if (result.ec == std::errc{} && result.ptr == end && word->size() <= 6) value = number;
+  }
+  if (!value) return wrong_type(*node, key, "an address like 40 or \"0x28\"");
+  if (*value < 0 || *value > 65535) return out_of_range(*node, key, kRegisters);
+  into = static_cast<int>(*value);
+}
+
+void Reader::numbers(std::string_view key, std::vector<double>& into, Count count, Range range,
+                     std::string_view text, Presence presence) {
+  const auto* node = find(key, presence, text);
+  if (node == nullptr) return;
+  if (node->list() == nullptr) return wrong_type(*node, key, "a list of numbers");
+  check_count(*node, key, count);
+  for (const auto& item : *node->list()) {
+    const auto value = item.number();
+    if (!value) {
+      wrong_type(item, key, "a list of numbers");
+    } else if (*value < range.min || *value > range.max) {
+      out_of_range(item, key, range);
+    } else {
+      into.push_back(*value);
+    }
+  }
+}
+
 void Reader::options(std::string_view key, Options& into, const std::string& driver,
                      Device device) {
   known_.emplace_back(key);
@@ -235,7 +270,7 @@ void Reader::finish() {
   for (const auto& member : *node_.object()) {
     if (std::find(known_.begin(), known_.end(), member.key) != known_.end()) continue;
     problems_.push_back({member.line, member.column, path_of(member.key), "is no known key",
-                         did_you_mean(member.key, known_)});
+                         did_you_mean(member.key, known_), ""});
   }
 }
 

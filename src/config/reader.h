@@ -28,6 +28,11 @@ class Reader final {
               std::string_view text, Presence presence = Presence::optional);
   void names(std::string_view key, std::vector<std::string>& into, Count count,
              std::string_view text, Presence presence = Presence::optional);
+  /// A register's address: a whole number, or a text like "0x1290".
+  void address(std::string_view key, int& into, std::string_view text,
+               Presence presence = Presence::optional);
+  void numbers(std::string_view key, std::vector<double>& into, Count count, Range range,
+               std::string_view text, Presence presence = Presence::optional);
   void options(std::string_view key, Options& into, const std::string& driver, Device device);
 
   template <class T>

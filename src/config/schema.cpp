@@ -3,7 +3,8 @@
 #include <nlohmann/json.hpp>
 
 #include "config/fields.h"
-#include "config/load.h"
+#include "config/fields_map.h"
+#include "config/register_map.h"
 
 namespace drover::config {
 
@@ -80,6 +81,26 @@ class SchemaWriter final {
     p["minItems"] = count.min;
     p["maxItems"] = count.max;
     p["items"]["type"] = "string";
+  }
+  void address(std::string_view key, const int&, std::string_view text,
+               Presence presence = Presence::optional) {
+    Json whole;
+    whole["type"] = "integer";
+    put_range(whole, Range{0, 65535}, true);
+    Json hex;
+    hex["type"] = "string";
+    hex["pattern"] = "^0x[0-9A-Fa-f]{1,4}$";
+    Json schema;
+    schema["anyOf"] = {whole, hex};
+    insert(key, schema, text, presence);
+  }
+  void numbers(std::string_view key, const std::vector<double>&, Count count, Range range,
+               std::string_view text, Presence presence = Presence::optional) {
+    auto& p = property(key, "array", text, presence);
+    p["minItems"] = count.min;
+    p["maxItems"] = count.max;
+    p["items"]["type"] = "number";
+    put_range(p["items"], range, false);
   }
   template <class T>
   void object(std::string_view key, T value, std::string_view text,
@@ -160,6 +181,17 @@ std::string schema_text() {
   Json schema;
   schema["$schema"] = "http://json-schema.org/draft-07/schema#";
   schema["title"] = "Configuration of droverd";
+  schema.update(writer.finish());
+  return schema.dump(2) + "\n";
+}
+
+std::string register_map_schema_text() {
+  MapFile file;
+  SchemaWriter writer;
+  visit(writer, file);
+  Json schema;
+  schema["$schema"] = "http://json-schema.org/draft-07/schema#";
+  schema["title"] = "Register map of a battery";
   schema.update(writer.finish());
   return schema.dump(2) + "\n";
 }

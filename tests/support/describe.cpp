@@ -155,6 +155,7 @@ struct Describe {
         .number("soc_percent", m.soc_percent)
         .number("remaining_Ah", m.remaining_Ah)
         .number("temperature_degC", m.temperature_degC)
+        .number("mosfet_degC", m.mosfet_degC)
         .number("min_cell_V", m.min_cell_V)
         .number("max_cell_V", m.max_cell_V)
         .word("flow", name(m.flow));

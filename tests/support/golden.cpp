@@ -81,6 +81,10 @@ void read_line(const std::string& text, int number, const DriverEntry& entry, Go
     return;
   }
   if (text.rfind("option ", 0) == 0) return set_option(file.options, entry, text.substr(7));
+  if (text.rfind("map ", 0) == 0) {
+    file.map = trimmed(text.substr(4));
+    return;
+  }
   const auto arrow = text.rfind(" => ");
   if (arrow == std::string::npos) throw std::invalid_argument("no =>");
   GoldenCase one;
@@ -92,8 +96,11 @@ void read_line(const std::string& text, int number, const DriverEntry& entry, Go
     one.frame = parse_frame(trimmed(input.substr(6)));
   } else if (input.rfind("bytes ", 0) == 0) {
     one.bytes = parse_bytes(trimmed(input.substr(6)));
+  } else if (input.rfind("exchange ", 0) == 0) {
+    one.is_exchange = true;
+    one.bytes = parse_bytes(trimmed(input.substr(9)));
   } else {
-    throw std::invalid_argument("neither option, frame nor bytes");
+    throw std::invalid_argument("neither option, map, frame, bytes nor exchange");
   }
   file.cases.push_back(one);
 }

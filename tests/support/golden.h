@@ -2,9 +2,12 @@
 //
 //   # source: ..., # provenance: captured | test of ... | computed   (both are required)
 //   option <name> = <value>           before the first case; true/false, a number or a text
+//   map <file in config/maps>         the same, for drivers that read registers
 //   frame 069#00004841000050C0 => axis_motion axis=0 position_rad=78.5398 ...
 //   bytes "$GPGGA,...*47\r\n" => gnss_position ...      text with \r \n \\ \" and \xHH
 //   bytes B562 0107 => ...                              or hex
+//   exchange 0103... 0103... => battery ...             request and answer of Modbus RTU: what the
+//                                                       map's fields inside these registers mean
 //
 // Right of the arrow stands what test::describe() gives for the call, with " and bad" behind it
 // when the bad counter rose too, or
@@ -27,6 +30,7 @@ namespace drover::test {
 struct GoldenCase {
   int line = 0;
   bool is_frame = false;
+  bool is_exchange = false;
   CanFrame frame;
   std::vector<std::uint8_t> bytes;
   std::string expected;
@@ -37,6 +41,7 @@ struct GoldenFile {
   bool has_source = false;
   bool has_provenance = false;
   Options options;
+  std::string map;
   std::vector<GoldenCase> cases;
 };
 

@@ -37,9 +37,9 @@ inline std::string with(std::string_view piece, std::string_view replacement) {
 }
 
 /// All problems, a line each, as droverd prints them for a file called "f".
-inline std::string problems(std::string_view text) {
+inline std::string problems(std::string_view text, const std::string& folder = "") {
   std::string all;
-  for (const auto& problem : load_text(text).problems) all += problem.text("f") + "\n";
+  for (const auto& problem : load_text(text, folder).problems) all += problem.text("f") + "\n";
   return all;
 }
 

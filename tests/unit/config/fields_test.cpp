@@ -129,9 +129,10 @@ TEST(Fields, OfTheDaemonAreAllKeys) {
   expect_complete<PathsConfig>();
   expect_complete<ControlConfig>();
   expect_complete<BusConfig>();
-  expect_complete<DriveConfig>(1);  // bus_index
-  expect_complete<GnssConfig>(1);   // configured
-  expect_complete<LineConfig>(1);   // configured
+  expect_complete<DriveConfig>(1);    // bus_index
+  expect_complete<GnssConfig>(1);     // configured
+  expect_complete<BatteryConfig>(2);  // configured, registers
+  expect_complete<LineConfig>(1);     // configured
   expect_complete<GuardConfig>();
   expect_complete<MqttConfig>();
   expect_complete<ProtocolConfig>();

@@ -3,6 +3,7 @@
 
 #include "support/describe.h"
 #include "unit/drivers/conformance/harness.h"
+#include "unit/drivers/conformance/register_harness.h"
 
 namespace drover::test {
 namespace {
@@ -12,26 +13,47 @@ class GoldenBytes : public ::testing::TestWithParam<Subject> {};
 /// The driver behind one face, whatever its shape.
 class AnyDriver {
  public:
-  AnyDriver(const DriverEntry& entry, const Options& options) {
+  AnyDriver(const DriverEntry& entry, const GoldenFile& file) {
+    const Options& options = file.options;
     if (const auto* make = std::get_if<MakeCanDriver>(&entry.make)) can_ = (*make)(options, 0);
     if (const auto* make = std::get_if<MakeByteDriver>(&entry.make)) byte_ = (*make)(options);
+    if (const auto* make = std::get_if<MakeRegisterDriver>(&entry.make)) {
+      make_registers_ = *make;
+      options_ = options;
+      map_ = read_map(file.map);
+    }
+  }
+  /// What was exchanged decides which part of its map a register driver gets.
+  void prepare(const GoldenCase& one) {
+    if (make_registers_ != nullptr)
+      registers_ = make_registers_(options_, map_inside(map_, read_exchange(one.bytes)));
   }
   void give(const GoldenCase& one, Time now, DriverOut& out) {
     if (can_ && one.is_frame) can_->on_frame(one.frame, now, out);
     if (byte_ && !one.is_frame) byte_->on_bytes(one.bytes, now, out);
+    if (registers_) answer(*registers_, map_.stride, read_exchange(one.bytes), now, out);
   }
   bool fits(const GoldenCase& one) const {
+    if (one.is_exchange) return make_registers_ != nullptr;
     return one.is_frame ? can_ != nullptr : byte_ != nullptr;
   }
-  SourceHealth health(Time now) const { return can_ ? can_->health(now) : byte_->health(now); }
+  SourceHealth health(Time now) const {
+    if (make_registers_ != nullptr) return registers_ ? registers_->health(now) : SourceHealth{};
+    return can_ ? can_->health(now) : byte_->health(now);
+  }
 
  private:
   std::unique_ptr<CanDriver> can_;
   std::unique_ptr<ByteDriver> byte_;
+  MakeRegisterDriver make_registers_ = nullptr;
+  Options options_;
+  RegisterMap map_;
+  std::unique_ptr<RegisterDriver> registers_;
 };
 
 std::string outcome(const GoldenCase& one, AnyDriver& driver, Time now) {
   DriverOut out;
+  driver.prepare(one);
   const SourceHealth before = driver.health(now);
   driver.give(one, now, out);
   const SourceHealth after = driver.health(now);
@@ -49,7 +71,7 @@ TEST_P(GoldenBytes, MeanWhatTheirFileSays) {
     EXPECT_TRUE(file.has_source) << file.path << ": no \"# source:\"";
     EXPECT_TRUE(file.has_provenance) << file.path << ": no \"# provenance:\"";
     EXPECT_FALSE(file.cases.empty()) << file.path;
-    AnyDriver driver(*GetParam().entry, file.options);
+    AnyDriver driver(*GetParam().entry, file);
     Time now{std::chrono::seconds(1)};
     for (const GoldenCase& one : file.cases) {
       ASSERT_TRUE(driver.fits(one)) << file.path << ":" << one.line;

@@ -1,0 +1,29 @@
+// Reads a register map file: every problem at once, each with its place.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "config/load.h"
+#include "drover/register_map.h"
+
+namespace drover::config {
+
+struct LoadedMap {
+  RegisterMap map;  ///< to be used only when there are no problems
+  std::vector<Problem> problems;
+};
+
+LoadedMap parse_register_map(std::string_view text);
+/// Problems carry the file's name. A file that cannot be read is a problem without a place.
+LoadedMap load_register_map(const std::string& path);
+
+/// Where a configuration in `folder` means by `map`: an absolute path, a file below its folder, or
+/// else one of the installed maps. The first when none is there.
+std::string find_register_map(const std::string& map, const std::string& folder);
+
+/// JSON schema (draft 7) of a map file, from the same tables.
+std::string register_map_schema_text();
+
+}  // namespace drover::config
