@@ -1,0 +1,77 @@
+// The AimRT channel of the daemon as it is shipped, seen from the broker.
+#include <gmock/gmock.h>
+
+#include "integration/robot_rig.h"
+#include "support/protoc.h"
+
+namespace drover::test {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+constexpr const char* kJoints = "/channel/%2Fjoint_state/pb%3Aaimrt.protocols.sensor.JointState";
+constexpr const char* kTouch = "/channel/%2Ftouch_state/pb%3Aaimrt.protocols.sensor.TouchState";
+constexpr const char* kCommand =
+    "/channel/%2Fjoint_command/pb%3Aaimrt.protocols.sensor.JointCommand";
+
+class AimrtChannel : public RobotRig {
+ protected:
+  /// The newest message of a topic, as protoc reads it.
+  std::string decoded(const char* topic, const char* type) {
+    return protoc_decoded(type, message_of_packet(client().last(topic)));
+  }
+  /// `text` as protoc reads it, like `joints { name: "front_left" velocity: 1 }`.
+  void command(std::string_view text, bool retained = false) {
+    const std::string start("\x02pb\0", 4);
+    client().publish(kCommand, start + protoc_encoded("JointCommand", text), retained);
+  }
+  bool wait_for_log(std::string_view text) {
+    return wait_until([&] { return daemon().output().find(text) != std::string::npos; });
+  }
+  void expect_nothing_moved() {
+    stop_daemon();
+    for (const auto& point : set_points_on_the_bus())
+      ASSERT_EQ(point.velocity_turnps, 0) << "node " << point.node;
+  }
+};
+
+TEST_F(AimrtChannel, ShowsJointsAndContactsInTheDocumentsFields) {
+  ASSERT_NO_FATAL_FAILURE(start_all());
+  ASSERT_TRUE(wait_until([&] { return !client().last(kTouch).empty(); }));
+  const auto joints = decoded(kJoints, "JointState");
+  for (const char* name : {"front_left", "rear_left", "front_right", "rear_right"})
+    EXPECT_THAT(joints, HasSubstr("name: \"" + std::string(name) + "\"")) << joints;
+  EXPECT_THAT(joints, HasSubstr("time_stamp: "));
+  EXPECT_THAT(joints, Not(HasSubstr("nan"))) << joints;
+  EXPECT_THAT(decoded(kTouch, "TouchState"),
+              HasSubstr("names: \"bumper\"\nnames: \"zone_far\"\nnames: \"zone_near\"\n"
+                        "states {\n  pressure: 0\n}\n"));
+  EXPECT_EQ(sim({"bumper", "touch"}), "ok\n");
+  EXPECT_TRUE(wait_until(
+      [&] { return decoded(kTouch, "TouchState").find("pressure: 1") != std::string::npos; }));
+}
+
+TEST_F(AimrtChannel, FollowsNoCommandThatIsNotWhollyGood) {
+  ASSERT_NO_FATAL_FAILURE(start_broker());
+  command(R"(joints { name: "front_left" velocity: 1 })", true);  // lies there since some other day
+  ASSERT_NO_FATAL_FAILURE(start_sim());
+  ASSERT_NO_FATAL_FAILURE(start_guard());
+  start_daemon();
+  ASSERT_TRUE(wait_for_locate());
+  EXPECT_TRUE(wait_for_log("joint command refused: a retained message is never followed"));
+  command(R"(joints { name: "front_left" velocity: 1 } joints { name: "wing" velocity: 1 })");
+  EXPECT_TRUE(wait_for_log("joint command refused: joint 'wing': there is no such joint"));
+  command(R"(joints { name: "front_left" velocity: nan })");
+  EXPECT_TRUE(wait_for_log("joint command refused: joint 'front_left': velocity is NaN"));
+  // The journal has its fill; these are refused in silence.
+  command(R"(header { time_stamp: 1 } joints { name: "front_left" velocity: 1 })");
+  command(R"(joints { name: "front_left" velocity: 1 stiffness: -1 })");
+  client().publish(kCommand, "\x02pb");
+  const double sent_s = now_s();
+  (void)wait_until([&] { return now_s() > sent_s + 1; });  // long enough to move, if it would
+  expect_nothing_moved();
+}
+
+}  // namespace
+}  // namespace drover::test
