@@ -28,6 +28,8 @@ struct StartTask {
 };
 /// Always stops; success also when nothing runs.
 struct CancelTask {};
+/// A person's emergency stop: zero at once, latched until ResetStop.
+struct EngageStop {};
 /// Clears a latched software stop; refused while its cause persists. Never starts motion.
 struct ResetStop {};
 /// Asks for the present position as a new origin; answered by OriginProposed or a refusal.
@@ -57,8 +59,8 @@ struct FindHeading {};
 struct Command {
   RequestId id;
   Time received = kNever;
-  std::variant<std::monostate, StartTask, CancelTask, ResetStop, ProposeOrigin, SetOrigin,
-               JointTargets, JointTargetsRefused, FindHeading>
+  std::variant<std::monostate, StartTask, CancelTask, EngageStop, ResetStop, ProposeOrigin,
+               SetOrigin, JointTargets, JointTargetsRefused, FindHeading>
       body;
 };
 

@@ -153,6 +153,15 @@ int main(int argc, char** argv) {
   cancel->add_flag("--json", s.json, "one JSON object");
   cancel->callback([&] { code = run(s, request("task_cancel")); });
 
+  auto* heading = app.add_subcommand("heading", "direction of the robot")->require_subcommand(1);
+  auto* find = heading->add_subcommand(
+      "find", "DRIVES a short way straight ahead, so that one antenna shows the heading");
+  find->add_flag("--json", s.json, "one JSON object");
+  find->callback([&] { code = run(s, request("heading_find")); });
+
+  auto* stop = app.add_subcommand("stop", "emergency stop: zero at once, until `drover reset`");
+  stop->add_flag("--json", s.json, "one JSON object");
+  stop->callback([&] { code = run(s, request("stop")); });
   auto* reset = app.add_subcommand("reset", "clear a latched software stop; never starts motion");
   reset->add_flag("--json", s.json, "one JSON object");
   reset->callback([&] { code = run(s, request("reset")); });

@@ -137,6 +137,10 @@ void visit(V& v, engine::NavigateConfig& c) {
            "drives not running by then: the task does not start");
   v.number("blocked_timeout_s", c.blocked_timeout_s, Range{0.2, 60},
            "commanded but not moving for so long: the task fails");
+  v.number("find_heading_speed_mps", c.find_heading_speed_mps, Range{0.05, 0.5},
+           "speed of the straight way that shows the heading");
+  v.number("find_heading_distance_m", c.find_heading_distance_m, Range{1, 10},
+           "longest way that is driven to find the heading");
   v.number("arrival_timeout_s", c.arrival_timeout_s, Range{1, 600},
            "creeping near the goal for longer: the task fails");
 }
@@ -146,6 +150,8 @@ void visit(V& v, engine::HealthConfig& c) {
   v.number("drive_stale_s", c.drive_stale_s, Range{0.02, 2}, "longest silence of a drive");
   v.number("gnss_stale_s", c.gnss_stale_s, Range{0.1, 5}, "longest silence of the receiver");
   v.number("line_stale_s", c.line_stale_s, Range{0.01, 1}, "longest silence of a digital input");
+  v.number("joint_command_timeout_s", c.joint_command_timeout_s, Range{0.02, 1},
+           "longest silence within a stream of joint commands");
   v.number("follow_timeout_s", c.follow_timeout_s, Range{0.1, 10},
            "a wheel that is commanded but does not follow for so long is a fault");
 }

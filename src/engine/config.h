@@ -87,6 +87,8 @@ struct NavigateConfig {
   double locate_timeout_s = 60.0;          ///< a longer loss of localisation ends the task
   double start_timeout_s = 3.0;            ///< drives not running by then: start_nav_failse
   double blocked_timeout_s = 2.0;          ///< commanded but not moving for so long: the task fails
+  double find_heading_speed_mps = 0.2;     ///< of the straight way that shows the heading
+  double find_heading_distance_m = 3.0;    ///< its longest
   double arrival_timeout_s = 20.0;  ///< creeping near the goal longer than this: the task fails
 };
 
@@ -94,6 +96,7 @@ struct HealthConfig {
   double drive_stale_s = 0.1;
   double gnss_stale_s = 0.3;
   double line_stale_s = 0.02;
+  double joint_command_timeout_s = 0.1;  ///< a stream silent for longer has ended
   double follow_timeout_s = 0.4;  ///< one wheel commanded but not following for so long: failed
   bool guard_required = true;
 };

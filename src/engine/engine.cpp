@@ -9,16 +9,15 @@
 #include "engine/drive/skid_steer.h"
 #include "engine/estimate/estimator.h"
 #include "engine/event_queue.h"
-#include "engine/gate/target_gate.h"
 #include "engine/health/announcer.h"
 #include "engine/health/health.h"
 #include "engine/health/wheels.h"
 #include "engine/navigate/navigator.h"
+#include "engine/own/owners.h"
 
 namespace drover::engine {
 namespace {
 
-constexpr Duration kOldestTarget = std::chrono::milliseconds(100);
 constexpr Duration kLongestCycle = std::chrono::milliseconds(50);
 
 bool valid(const GeodeticPoint& point) {
@@ -32,12 +31,17 @@ struct Engine::Impl {
   explicit Impl(const EngineConfig& c);
 
   void take(const Measurement& m);
+  /// What a person has to act upon before anything moves; empty when nothing.
+  const Reason& latched() const {
+    return navigator.latched().empty() ? owners.latched() : navigator.latched();
+  }
   void propose_origin(const RequestId& id, Time now);
   void set_origin(const RequestId& id, const GeodeticPoint& origin, Time now);
-  void command_axes(const Twist& twist, bool run, EngineOutput& out);
-  void command_side(const FixedVector<AxisId, 8>& side, double velocity_radps, bool run,
-                    EngineOutput& out);
-  void fill_snapshot(Time now, const Environment& environment, const Estimate& estimate);
+  void start_task(const RequestId& id, const StartTask& task, Time now);
+  void command_axes(const Motion& motion, EngineOutput& out);
+  void command_axis(AxisId id, double velocity_radps, bool run, EngineOutput& out);
+  void fill_snapshot(Time now, const Environment& environment, const Estimate& estimate,
+                     Owner owner);
 
   EngineConfig config;
   Estimator estimator;
@@ -45,7 +49,7 @@ struct Engine::Impl {
   WheelMonitor wheels;
   Announcer announcer;
   Navigator navigator;
-  TargetGate gate;
+  Owners owners;
   EventQueue events;
   std::array<bool, kLineCount> level{};  ///< last reported; active until then
   std::array<bool, kLineCount> pulse{};  ///< was active at some instant since the last step
@@ -57,12 +61,7 @@ struct Engine::Impl {
 };
 
 Engine::Impl::Impl(const EngineConfig& c)
-    : config(c),
-      estimator(c.estimate, c.base),
-      health(c),
-      wheels(c),
-      navigator(c),
-      gate(c.limits, kOldestTarget) {
+    : config(c), estimator(c.estimate, c.base), health(c), wheels(c), navigator(c), owners(c) {
   level.fill(true);
   for (const Name& joint : config.joints) {
     AxisSnapshot axis;
@@ -144,33 +143,48 @@ void Engine::Impl::set_origin(const RequestId& id, const GeodeticPoint& origin, 
   }
 }
 
-void Engine::Impl::command_side(const FixedVector<AxisId, 8>& side, double velocity_radps, bool run,
-                                EngineOutput& out) {
-  for (const AxisId id : side) {
-    AxisCommand& command = out.axes[id];
-    command.request = run ? AxisRequest::run : AxisRequest::rest;
-    command.velocity_radps = run && std::isfinite(velocity_radps) ? velocity_radps : 0.0;
-    snapshot.axes[id].commanded_velocity_radps = command.velocity_radps;
-    out.motion_permitted = out.motion_permitted || command.velocity_radps != 0;
+void Engine::Impl::command_axis(AxisId id, double velocity_radps, bool run, EngineOutput& out) {
+  AxisCommand& command = out.axes[id];
+  command.request = run ? AxisRequest::run : AxisRequest::rest;
+  command.velocity_radps = run && std::isfinite(velocity_radps) ? velocity_radps : 0.0;
+  snapshot.axes[id].commanded_velocity_radps = command.velocity_radps;
+  out.motion_permitted = out.motion_permitted || command.velocity_radps != 0;
+}
+
+void Engine::Impl::command_axes(const Motion& motion, EngineOutput& out) {
+  if (motion.joints) {
+    const auto& velocities_radps = owners.joint_velocities_radps();
+    for (std::size_t i = 0; i < snapshot.axes.size(); ++i) {
+      command_axis(static_cast<AxisId>(i), velocities_radps[i], motion.run, out);
+    }
+    return;
   }
-}
-
-void Engine::Impl::command_axes(const Twist& twist, bool run, EngineOutput& out) {
   const double slip = estimate.yaw_slip_factor;
-  const WheelSpeeds speeds =
-      wheels_from_twist(config.base, slip, twist, max_wheel_mps(config.base, config.limits, slip));
-  command_side(config.base.left, speeds.left_radps, run, out);
-  command_side(config.base.right, speeds.right_radps, run, out);
+  const WheelSpeeds speeds = wheels_from_twist(config.base, slip, motion.twist,
+                                               max_wheel_mps(config.base, config.limits, slip));
+  for (const AxisId id : config.base.left) command_axis(id, speeds.left_radps, motion.run, out);
+  for (const AxisId id : config.base.right) command_axis(id, speeds.right_radps, motion.run, out);
 }
 
-void Engine::Impl::fill_snapshot(Time now, const Environment& environment,
-                                 const Estimate& located) {
+void Engine::Impl::start_task(const RequestId& id, const StartTask& task, Time now) {
+  if (const Reason why = owners.hinders_task(); !why.empty()) {
+    events.push(now, CommandRefused{id, why});
+    if (task.path != nullptr) events.push(now, PathReleased{task.path});
+    return;
+  }
+  navigator.start(id, task, now, estimate, estimator.has_origin(), health.report(), events);
+  if (navigator.starting()) owners.on_task_started();
+}
+
+void Engine::Impl::fill_snapshot(Time now, const Environment& environment, const Estimate& located,
+                                 Owner owner) {
   const HealthReport& report = health.report();
   snapshot.time = now;
   snapshot.pose = located.pose;
   snapshot.nav = navigator.snapshot(report);
-  // A stop ramp is still the task's motion.
-  if (snapshot.nav.owner == Owner::nobody && !gate.at_rest()) snapshot.nav.owner = Owner::task;
+  snapshot.nav.owner = owner;
+  snapshot.nav.owner_timeout_s = owners.timeout_s(owner);
+  snapshot.joint_command = owners.joint_command();
   snapshot.gnss.health = report.gnss_ok ? environment.gnss.state : SourceState::stale;
   if (environment.gnss.state == SourceState::never_heard) {
     snapshot.gnss.health = SourceState::never_heard;
@@ -189,14 +203,14 @@ void Engine::Impl::fill_snapshot(Time now, const Environment& environment,
     snapshot.gnss.pose_latitude_deg = fix.latitude_deg;
     snapshot.gnss.pose_longitude_deg = fix.longitude_deg;
   }
-  snapshot.stop_latched = !navigator.latched().empty();
+  snapshot.stop_latched = !latched().empty();
   snapshot.guard_alive = environment.guard_alive;
   snapshot.guard_has_bus = environment.guard_has_bus;
   const std::uint32_t latched_bit = 1U << static_cast<unsigned>(Cause::latched);
   snapshot.why.clear();
   // Latched in this very cycle by what is no lasting cause: health will tell from the next on.
   if (snapshot.stop_latched && (report.causes & latched_bit) == 0 && report.stop.empty()) {
-    (void)snapshot.why.push_back(navigator.latched());
+    (void)snapshot.why.push_back(latched());
   }
   for (const Reason& reason : report.why) {
     if (!snapshot.why.push_back(reason)) break;
@@ -224,17 +238,27 @@ void Engine::on_command(const Command& command, Time now) {
   Impl& e = *impl_;
   const RequestId& id = command.id;
   if (const auto* task = std::get_if<StartTask>(&command.body)) {
-    e.navigator.start(id, *task, now, e.estimate, e.estimator.has_origin(), e.health.report(),
-                      e.events);
-    if (e.navigator.starting() && e.gate.at_rest()) e.gate.reset();
+    e.start_task(id, *task, now);
   } else if (std::holds_alternative<CancelTask>(command.body)) {
     e.navigator.cancel(id, now, e.events);
+    e.owners.cancel(now, e.events);
+  } else if (std::holds_alternative<EngageStop>(command.body)) {
+    e.navigator.engage_stop(id, now, e.events);
   } else if (std::holds_alternative<ResetStop>(command.body)) {
-    e.navigator.reset_stop(id, now, e.gate.at_rest(), e.health.report(), e.events);
+    if (e.navigator.reset_stop(id, now, e.owners.at_rest(), !e.latched().empty(), e.health.report(),
+                               e.events)) {
+      e.owners.reset();
+    }
   } else if (std::holds_alternative<ProposeOrigin>(command.body)) {
     e.propose_origin(id, now);
   } else if (const auto* origin = std::get_if<SetOrigin>(&command.body)) {
     e.set_origin(id, origin->origin, now);
+  } else if (const auto* targets = std::get_if<JointTargets>(&command.body)) {
+    e.owners.take(*targets, now);
+  } else if (const auto* refused = std::get_if<JointTargetsRefused>(&command.body)) {
+    e.owners.refuse(*refused);
+  } else if (std::holds_alternative<FindHeading>(command.body)) {
+    e.owners.find_heading(id, e.estimate, e.health.report(), now, e.events);
   } else {
     e.events.push(now, CommandRefused{id, "an empty command"});
   }
@@ -265,21 +289,20 @@ void Engine::step(Time now, const Environment& environment, EngineOutput& out) {
   e.estimate = e.estimator.step(now);
   const std::span<const AxisSnapshot> axes{e.snapshot.axes.data(), e.snapshot.axes.size()};
   e.health.update({now, environment, axes, lines, e.estimate, e.estimator.has_origin(),
-                   e.navigator.active(), e.navigator.latched()});
+                   e.navigator.active(), e.latched()});
   const WheelFault wheels = e.wheels.update(now, dt, axes);
-  const NavOutput wanted = e.navigator.step({now, dt, e.estimate, e.health.report(), wheels,
-                                             e.wheels.reason(), e.gate.at_rest(), e.gate.refusal()},
-                                            e.events);
-  const Offer offer{e.health.report().estop ? Owner::estop
-                    : wanted.drives         ? Owner::task
-                                            : Owner::nobody,
-                    wanted.target, now};
-  const Twist twist = e.gate.step(now, dt, {&offer, 1}, wanted.stop);
-  const bool run = wanted.stop != Stop::immediate && (wanted.drives || !e.gate.at_rest());
-  e.command_axes(twist, run, out);
+  const NavOutput wanted =
+      e.navigator.step({now, dt, e.estimate, e.health.report(), wheels, e.wheels.reason(),
+                        e.owners.at_rest(), e.owners.refusal()},
+                       e.events);
+  const Motion& motion =
+      e.owners.step({now, dt, e.estimate, e.health.report(), wheels, e.wheels.reason(), wanted,
+                     e.navigator.software_stop().view()},
+                    e.events);
+  e.command_axes(motion, out);
   e.navigator.on_commanded(now, out.motion_permitted, e.events);
   e.announcer.update(now, e.health.report(), e.events);
-  e.fill_snapshot(now, environment, e.estimate);
+  e.fill_snapshot(now, environment, e.estimate, motion.owner);
   e.events.drain(out.events);
 }
 

@@ -20,10 +20,11 @@ bool stops(const ControlCommand& request) {
 }
 
 Verb verb_of(const ControlCommand& request) {
-  constexpr Verb kVerbs[] = {
-      Verb::get_all_trajectory,    Verb::save_trajectory, Verb::delete_trajectory,
-      Verb::delete_all_trajectory, Verb::start_task,      Verb::cancel_task,
-      Verb::init_rtk_data,         Verb::terminate,       Verb::reset_stop};
+  constexpr Verb kVerbs[] = {Verb::get_all_trajectory, Verb::save_trajectory,
+                             Verb::delete_trajectory,  Verb::delete_all_trajectory,
+                             Verb::start_task,         Verb::cancel_task,
+                             Verb::init_rtk_data,      Verb::terminate,
+                             Verb::reset_stop,         Verb::find_heading};
   return kVerbs[request.index()];
 }
 
@@ -133,8 +134,14 @@ void CommandService::handle(RequestId id, ControlCommand request, Time now, Acti
   } else if (std::holds_alternative<ResetStopRequest>(request)) {
     expect(id, Verb::reset_stop);
     send(id, now, ResetStop{}, out);
+  } else if (std::holds_alternative<FindHeadingRequest>(request)) {
+    expect(id, Verb::find_heading);
+    send(id, now, FindHeading{}, out);
+  } else if (std::holds_alternative<TerminateRequest>(request)) {
+    expect(id, Verb::terminate);
+    send(id, now, EngageStop{}, out);
   } else {
-    expect(id, verb_of(request));  // cancel_task or terminate
+    expect(id, Verb::cancel_task);
     send(id, now, CancelTask{}, out);
   }
 }

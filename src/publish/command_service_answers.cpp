@@ -114,9 +114,6 @@ void CommandService::accepted(const CommandAccepted& event, Actions& out) {
     case Verb::init_rtk_data:
       origin_ = pending->origin;
       return finish(event.id, Verb::init_rtk_data, true, event.note.view(), out);
-    case Verb::terminate:
-      return finish(event.id, Verb::terminate, false,
-                    "any task was cancelled; an emergency stop by message is not supported", out);
     default: return finish(event.id, pending->verb, true, event.note.view(), out);
   }
 }

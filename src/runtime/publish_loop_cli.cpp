@@ -58,6 +58,8 @@ void PublishLoop::on_cli_line(CliServer::ClientId client, std::string_view line,
   if (cmd == "task_cancel") return request(publish::CancelTaskRequest{});
   if (cmd == "traj_delete") return request(publish::DeleteTrajectory{name});
   if (cmd == "reset") return request(publish::ResetStopRequest{});
+  if (cmd == "stop") return request(publish::TerminateRequest{});
+  if (cmd == "heading_find") return request(publish::FindHeadingRequest{});
   cli_.reply(client, cli_reply(cmd, name));
 }
 

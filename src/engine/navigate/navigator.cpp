@@ -86,20 +86,26 @@ void Navigator::cancel(const RequestId& id, Time now, EventQueue& events) {
   failed_.clear();
 }
 
-void Navigator::reset_stop(const RequestId& id, Time now, bool at_rest, const HealthReport& health,
-                           EventQueue& events) {
+void Navigator::engage_stop(const RequestId& id, Time now, EventQueue& events) {
+  software_stop_ = "emergency stop of an operator";
+  events.push(now, CommandAccepted{id, {}});
+  if (active()) fail(now, software_stop_, events);
+}
+
+bool Navigator::reset_stop(const RequestId& id, Time now, bool at_rest, bool anything,
+                           const HealthReport& health, EventQueue& events) {
   const Reason why = !health.ready ? Reason("the gateway has just started")
                      : active()    ? Reason("a task runs: cancel it first")
                      : !at_rest    ? Reason("the robot is still stopping")
                                    : health.stop;
   if (!why.empty()) {
     events.push(now, CommandRefused{id, why});
-    return;
+    return false;
   }
-  const bool nothing = latched().empty();
-  events.push(now, CommandAccepted{id, nothing ? Reason("nothing was latched") : Reason()});
+  events.push(now, CommandAccepted{id, anything ? Reason() : Reason("nothing was latched")});
   software_stop_.clear();
   failed_.clear();
+  return true;
 }
 
 void Navigator::end(Time now, TaskEnded::How how, const Reason& reason, EventQueue& events) {
@@ -135,6 +141,8 @@ bool Navigator::stop_at_once(const NavInput& input, EventQueue& events) {
     why = software_stop_ = input.wheel_reason;
   } else if (!input.health.stop.empty()) {
     why = input.health.stop;
+  } else if (!software_stop_.empty()) {
+    why = software_stop_;
   } else if (phase_ == Phase::running || phase_ == Phase::paused) {
     why = !input.health.drives_running ? input.health.not_running : input.wheel_reason;
   }
@@ -290,7 +298,6 @@ NavSnapshot Navigator::snapshot(const HealthReport& health) const {
   nav.locate = health.locate;
   nav.obstacle = health.near_zone || (phase_ == Phase::paused && obstacle_.holds());
   nav.paused = phase_ == Phase::paused;
-  nav.owner = health.estop ? Owner::estop : active() ? Owner::task : Owner::nobody;
   if (status_ == NavStatus::free) return nav;
   nav.track = track_;
   nav.target_id = target_ + 1;

@@ -37,8 +37,11 @@ class Navigator final {
   void start(const RequestId& id, const StartTask& task, Time now, const Estimate& estimate,
              bool has_origin, const HealthReport& health, EventQueue& events);
   void cancel(const RequestId& id, Time now, EventQueue& events);
-  void reset_stop(const RequestId& id, Time now, bool at_rest, const HealthReport& health,
-                  EventQueue& events);
+  /// A person's emergency stop.
+  void engage_stop(const RequestId& id, Time now, EventQueue& events);
+  /// `anything`: something is latched, here or elsewhere. True when it was accepted.
+  bool reset_stop(const RequestId& id, Time now, bool at_rest, bool anything,
+                  const HealthReport& health, EventQueue& events);
 
   NavOutput step(const NavInput& input, EventQueue& events);
   /// After the gate: the first motion commanded begins the navigation.
@@ -47,6 +50,7 @@ class Navigator final {
   bool active() const { return phase_ != Phase::idle; }
   bool starting() const { return phase_ == Phase::starting; }
   /// What a person has to act upon before anything moves; empty when nothing.
+  const Reason& software_stop() const { return software_stop_; }  ///< a person has to reset it
   const Reason& latched() const { return software_stop_.empty() ? failed_ : software_stop_; }
   NavSnapshot snapshot(const HealthReport& health) const;
 

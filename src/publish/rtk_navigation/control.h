@@ -31,12 +31,15 @@ struct CancelTaskRequest {};
 struct InitRtkData {};
 /// A later edition's emergency stop (`manual_control`, `terminate`).
 struct TerminateRequest {};
+/// A short straight way that shows the heading. The command line's.
+struct FindHeadingRequest {};
 /// Clears a latched software stop. The command line's; no message of the protocol gives it.
 struct ResetStopRequest {};
 
-using ControlCommand = std::variant<GetAllTrajectory, SaveTrajectory, DeleteTrajectory,
-                                    DeleteAllTrajectory, StartTaskRequest, CancelTaskRequest,
-                                    InitRtkData, TerminateRequest, ResetStopRequest>;
+using ControlCommand =
+    std::variant<GetAllTrajectory, SaveTrajectory, DeleteTrajectory, DeleteAllTrajectory,
+                 StartTaskRequest, CancelTaskRequest, InitRtkData, TerminateRequest,
+                 ResetStopRequest, FindHeadingRequest>;
 
 struct ControlRefusal {
   std::string feedback_cmd;  ///< always one that can be published, "unknown_failse" at worst

@@ -9,7 +9,7 @@ std::string_view verb_name(Verb verb) {
   constexpr std::string_view kNames[] = {
       "get_all_trajectory", "save_trajectory", "delete_trajectory", "delete_all_trajectory",
       "start_task",         "cancel_task",     "init_rtk_data",     "start_nav",
-      "reset_stop",         "terminate"};
+      "reset_stop",         "terminate",       "find_heading"};
   return kNames[static_cast<std::size_t>(verb)];
 }
 

@@ -24,8 +24,9 @@ enum class Verb : std::uint8_t {
   cancel_task,
   init_rtk_data,
   start_nav,
-  reset_stop,  ///< not of this protocol: the command line's
-  terminate,   ///< of a later edition
+  reset_stop,    ///< not of this protocol: the command line's
+  terminate,     ///< of a later edition
+  find_heading,  ///< the command line's
 };
 
 std::string_view verb_name(Verb verb);

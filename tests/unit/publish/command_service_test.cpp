@@ -304,12 +304,12 @@ TEST_F(CommandServiceTest, CancelAlwaysGoesToTheEngineAtOnce) {
   EXPECT_THAT(feedback(), ElementsAre("cancel_task_success"));
 }
 
-TEST_F(CommandServiceTest, TerminateStopsTheTaskAndClaimsNoMore) {
+TEST_F(CommandServiceTest, TerminateIsAnEmergencyStop) {
   control("{\"cmd_type\":\"manual_control\",\"cmd\":\"terminate\"}");
   const Command command = only<Command>();
-  EXPECT_TRUE(std::holds_alternative<CancelTask>(command.body));
+  EXPECT_TRUE(std::holds_alternative<EngageStop>(command.body));
   event(CommandAccepted{command.id, {}});
-  EXPECT_THAT(feedback(), ElementsAre(HasSubstr("terminate_failse: any task was cancelled")));
+  EXPECT_THAT(feedback(), ElementsAre("terminate_success"));
 }
 
 TEST_F(CommandServiceTest, KeepsTheOrderOfCancelsAndStarts) {

@@ -148,7 +148,7 @@ TEST_F(ANavigator, LatchesASoftwareStopThatOnlyAResetClears) {
   EXPECT_EQ(refusal_text(), "reset the stop first: wheel a runs away");
   cancel();
   EXPECT_FALSE(navigator.latched().empty());
-  navigator.reset_stop(next_id(), now, true, health, events);
+  navigator.reset_stop(next_id(), now, true, !navigator.latched().empty(), health, events);
   drain();
   EXPECT_TRUE(navigator.latched().empty());
   EXPECT_FALSE(step().drives) << "a reset never starts motion";
@@ -156,20 +156,20 @@ TEST_F(ANavigator, LatchesASoftwareStopThatOnlyAResetClears) {
   EXPECT_EQ(status(), NavStatus::run);
 }
 TEST_F(ANavigator, RefusesAResetWhileTheCausePersistsOrTheRobotMoves) {
-  navigator.reset_stop(next_id(), now, false, health, events);
+  navigator.reset_stop(next_id(), now, false, !navigator.latched().empty(), health, events);
   drain();
   EXPECT_EQ(refusal_text(), "the robot is still stopping");
   health.stop = "e-stop pressed";
-  navigator.reset_stop(next_id(), now, true, health, events);
+  navigator.reset_stop(next_id(), now, true, !navigator.latched().empty(), health, events);
   drain();
   EXPECT_EQ(refusal_text(), "e-stop pressed");
   health.stop.clear();
   start_and_run();
-  navigator.reset_stop(next_id(), now, true, health, events);
+  navigator.reset_stop(next_id(), now, true, !navigator.latched().empty(), health, events);
   drain();
   EXPECT_EQ(refusal_text(), "a task runs: cancel it first");
   health.ready = false;
-  navigator.reset_stop(next_id(), now, true, health, events);
+  navigator.reset_stop(next_id(), now, true, !navigator.latched().empty(), health, events);
   drain();
   EXPECT_EQ(said<CommandRefused>().size(), 4U);
 }

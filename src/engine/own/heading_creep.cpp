@@ -1,0 +1,69 @@
+// The short straight way that shows a receiver with one antenna where the robot is heading.
+#include "engine/own/heading_creep.h"
+
+#include <cmath>
+
+namespace drover::engine {
+
+double HeadingCreep::timeout_s() const {
+  return config_.start_timeout_s +
+         3 * config_.find_heading_distance_m / config_.find_heading_speed_mps;
+}
+
+void HeadingCreep::start(const RequestId& id, std::string_view hindrance, const Estimate& estimate,
+                         const HealthReport& health, Time now, EventQueue& events) {
+  const auto refuse = [&](const Reason& why) { events.push(now, CommandRefused{id, why}); };
+  if (active_) return refuse("the heading is being looked for already");
+  if (!hindrance.empty()) return refuse(hindrance);
+  if (estimate.has_heading) return refuse("the heading is known already");
+  if (!health.gnss_ok) return refuse("the receiver gives no position");
+  if (!estimate.has_position) return refuse("there is no position yet");
+  if (!(estimate.predicted_error_m <= config_.find_heading_distance_m / 2)) {
+    return refuse("the position is too uncertain to show a heading");
+  }
+  active_ = true;
+  began_ = now;
+  driven_m_ = 0;
+  Reason note;
+  note.format("drives at most %.1f m straight ahead", config_.find_heading_distance_m);
+  events.push(now, CommandAccepted{id, note});
+}
+
+void HeadingCreep::end(std::string_view why, Time now, EventQueue& events) {
+  if (!active_) return;
+  active_ = false;
+  Reason text;
+  text.format("no heading: %.*s", static_cast<int>(why.size()), why.data());
+  events.notice(now, Notice::Level::warning, text);
+}
+
+Twist HeadingCreep::step(Time now, Duration dt, const Estimate& estimate,
+                         const HealthReport& health, EventQueue& events) {
+  if (!active_) return {};
+  if (estimate.has_heading) {
+    active_ = false;
+    Reason text;
+    text.format("heading found after %.1f m", driven_m_);
+    events.notice(now, Notice::Level::info, text);
+    return {};
+  }
+  if (health.near_zone) {
+    end("obstacle in the near zone", now, events);
+    return {};
+  }
+  if (!health.drives_running) {
+    if (driven_m_ > 0 || now - began_ > from_s(config_.start_timeout_s)) {
+      end(health.not_running, now, events);
+    }
+    return {};
+  }
+  driven_m_ += 0.5 * std::abs(estimate.left_mps + estimate.right_mps) * to_s(dt);
+  if (driven_m_ > config_.find_heading_distance_m) {
+    end("the way did not show it", now, events);
+  } else if (now - began_ > from_s(timeout_s())) {
+    end("the robot did not move", now, events);
+  }
+  return active_ ? Twist{config_.find_heading_speed_mps, 0} : Twist{};
+}
+
+}  // namespace drover::engine

@@ -1,0 +1,35 @@
+// The short straight way that shows a receiver with one antenna where the robot is heading.
+#pragma once
+
+#include "drover/command.h"
+#include "engine/event_queue.h"
+#include "engine/health/health.h"
+#include "engine/navigate/tracker.h"
+
+namespace drover::engine {
+
+/// Straight ahead, slowly, until the estimate has a heading; asked for by a person, who watches.
+class HeadingCreep final {
+ public:
+  explicit HeadingCreep(const NavigateConfig& config) : config_(config) {}
+
+  /// `hindrance`: why nothing may move now; empty: it may.
+  void start(const RequestId& id, std::string_view hindrance, const Estimate& estimate,
+             const HealthReport& health, Time now, EventQueue& events);
+  void end(std::string_view why, Time now, EventQueue& events);
+
+  /// What to drive now; zero while the drives are armed and when it is over.
+  Twist step(Time now, Duration dt, const Estimate& estimate, const HealthReport& health,
+             EventQueue& events);
+  bool active() const { return active_; }
+  /// Total time after which it gives up.
+  double timeout_s() const;
+
+ private:
+  NavigateConfig config_;
+  bool active_ = false;
+  Time began_ = kNever;
+  double driven_m_ = 0;
+};
+
+}  // namespace drover::engine

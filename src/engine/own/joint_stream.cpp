@@ -1,0 +1,53 @@
+// The stream of joint commands: when it may begin, what it asks for now, when it has ended.
+#include "engine/own/joint_stream.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace drover::engine {
+
+void JointStream::take(const JointTargets& targets, std::string_view busy, Time now) {
+  std::array<double, kMaxAxes> wanted{};
+  for (const JointTarget& joint : targets.joints) {
+    if (joint.axis >= kMaxAxes || !std::isfinite(joint.velocity_radps)) {
+      return refuse("a joint or a velocity that cannot be");
+    }
+    wanted[joint.axis] = joint.velocity_radps;
+  }
+  const bool neutral = std::all_of(wanted.begin(), wanted.end(), [](double v) { return v == 0; });
+  if (!busy.empty()) {
+    if (following_) end(busy);
+    if (!neutral) return refuse(busy);
+    last_ = now;
+    return;
+  }
+  if (!following_ && !neutral) return refuse("a stream of joint commands begins with velocity 0");
+  if (!following_) since_ = now;
+  following_ = true;
+  last_ = now;
+  velocities_ = wanted;
+  ++accepted_;
+  reason_.clear();
+}
+
+void JointStream::refuse(const Reason& why) {
+  ++refused_;
+  reason_ = why;
+}
+
+void JointStream::end(std::string_view why) {
+  if (!following_) return;
+  following_ = false;
+  velocities_.fill(0);
+  reason_ = why;
+}
+
+void JointStream::step(Time now) {
+  if (following_ && now - last_ > timeout_) end("the stream of joint commands fell silent");
+}
+
+bool JointStream::wants_motion() const {
+  return std::any_of(velocities_.begin(), velocities_.end(), [](double v) { return v != 0; });
+}
+
+}  // namespace drover::engine

@@ -1,0 +1,45 @@
+// The stream of joint commands: when it may begin, what it asks for now, when it has ended.
+#pragma once
+
+#include <array>
+
+#include "drover/command.h"
+#include "drover/snapshot.h"
+
+namespace drover::engine {
+
+/// A stream begins with a message whose velocities are all zero, so that a program that was stopped
+/// while it drove does not drive on when the cause is gone; and it ends when it falls silent.
+class JointStream final {
+ public:
+  explicit JointStream(Duration timeout) : timeout_(timeout) {}
+
+  /// `busy`: why joint commands cannot be followed now; empty: they can.
+  void take(const JointTargets& targets, std::string_view busy, Time now);
+  /// A message that was not permitted before it came here.
+  void refuse(const Reason& why);
+  /// Ends it for a cause that lies elsewhere.
+  void end(std::string_view why);
+  /// Once a cycle: notices silence.
+  void step(Time now);
+
+  bool following() const { return following_; }
+  bool wants_motion() const;
+  Time last() const { return last_; }
+  Time since() const { return since_; }  ///< when it began
+  /// rad/s by AxisId; zero for joints that the last message did not name.
+  const std::array<double, kMaxAxes>& velocities_radps() const { return velocities_; }
+  JointCommandSnapshot snapshot() const { return {following_, accepted_, refused_, reason_}; }
+
+ private:
+  Duration timeout_;
+  bool following_ = false;
+  Time last_ = kNever;
+  Time since_ = kNever;
+  std::array<double, kMaxAxes> velocities_{};
+  std::uint64_t accepted_ = 0;
+  std::uint64_t refused_ = 0;
+  Reason reason_;
+};
+
+}  // namespace drover::engine

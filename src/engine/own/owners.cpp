@@ -1,0 +1,147 @@
+// Who moves the base, decided in one place: e-stop, manual, task, joint commands, in that order.
+#include "engine/own/owners.h"
+
+namespace drover::engine {
+namespace {
+
+constexpr Duration kOldestTarget = std::chrono::milliseconds(100);
+
+}  // namespace
+
+Owners::Owners(const EngineConfig& config)
+    : config_(config),
+      twist_gate_(config.limits, kOldestTarget),
+      joint_gate_(config.limits, config.base.wheel_radius_m),
+      stream_(from_s(config.health.joint_command_timeout_s)),
+      creep_(config.navigate),
+      busy_("the gateway has just started") {}
+
+double Owners::timeout_s(Owner owner) const {
+  switch (owner) {
+    case Owner::manual: return creep_.timeout_s();
+    case Owner::task: return to_s(kOldestTarget);
+    case Owner::joint_command: return config_.health.joint_command_timeout_s;
+    case Owner::estop:
+    case Owner::nobody: break;
+  }
+  return kAbsent;
+}
+
+void Owners::find_heading(const RequestId& id, const Estimate& estimate, const HealthReport& health,
+                          Time now, EventQueue& events) {
+  Reason why = busy_;
+  if (why.empty() && (!at_rest() || stream_.wants_motion())) why = "the robot moves";
+  if (why.empty() && health.near_zone) why = "obstacle in the near zone";
+  creep_.start(id, why, estimate, health, now, events);
+  if (creep_.active()) stream_.end("the heading is being looked for");
+}
+
+void Owners::cancel(Time now, EventQueue& events) {
+  creep_.end("cancelled", now, events);
+  stream_.end("cancelled");
+  latched_.clear();
+}
+
+Reason Owners::hinders_task() const {
+  if (creep_.active()) return "the heading is being looked for: wait, or cancel it";
+  if (stream_.wants_motion() || !joint_gate_.at_rest()) {
+    return "joint commands move the robot: end them first";
+  }
+  return {};
+}
+
+void Owners::on_task_started() {
+  stream_.end("a task owns the drives");
+  latched_.clear();
+  if (at_rest()) twist_gate_.reset();
+}
+
+/// Why nobody but a task may move the base now.
+Reason Owners::hindrance(const OwnInput& input) const {
+  if (!input.health.ready) return "the gateway has just started";
+  if (!input.health.stop.empty()) return input.health.stop;
+  const std::string_view latched = input.latched.empty() ? latched_.view() : input.latched;
+  if (!latched.empty()) {
+    Reason why;
+    why.format("reset the stop first: %.*s", static_cast<int>(latched.size()), latched.data());
+    return why;
+  }
+  if (input.task.drives) return "a task owns the drives";
+  return {};
+}
+
+Owner Owners::rank(const OwnInput& input) const {
+  if (input.health.estop) return Owner::estop;
+  if (creep_.active()) return Owner::manual;
+  if (input.task.drives) return Owner::task;
+  if (stream_.following()) return Owner::joint_command;
+  return Owner::nobody;
+}
+
+void Owners::latch(const Reason& why) {
+  if (!stream_.following()) return;
+  latched_ = why;
+  stream_.end(why);
+}
+
+/// What ends the stream, and how its motion ends then.
+Stop Owners::watch_stream(const OwnInput& input, bool at_once) {
+  stream_.step(input.now);
+  if (at_once) latch(input.wheels != WheelFault::none ? input.wheel_reason : input.health.stop);
+  if (!busy_.empty()) stream_.end(busy_);
+  if (input.health.near_zone && stream_.wants_motion()) stream_.end("obstacle in the near zone");
+  if (!stream_.following()) {
+    stream_asked_ = stream_ran_ = false;
+    return Stop::controlled;
+  }
+  // A drive that still holds from earlier reports that it runs, and arms anew for this stream.
+  if (!stream_asked_) {
+    stream_asked_ = true;
+    return Stop::controlled;
+  }
+  if (input.health.drives_running) {
+    stream_ran_ = true;
+    return Stop::none;
+  }
+  const bool late = input.now - stream_.since() > from_s(config_.navigate.start_timeout_s);
+  if (stream_ran_ || late) {
+    latch(input.health.not_running);
+    return Stop::immediate;
+  }
+  return Stop::controlled;  // the drives are being armed
+}
+
+const Motion& Owners::step(const OwnInput& input, EventQueue& events) {
+  busy_ = hindrance(input);
+  const bool wheels = input.wheels != WheelFault::none;
+  const bool at_once = input.task.stop == Stop::immediate || !input.health.stop.empty() || wheels;
+  if (at_once) creep_.end(wheels ? input.wheel_reason : input.health.stop, input.now, events);
+  const Twist creep = creep_.step(input.now, input.dt, input.estimate, input.health, events);
+  if (busy_.empty() && creep_.active()) busy_ = "the heading is being looked for";
+  const Stop stream_stop = watch_stream(input, at_once);
+
+  motion_.owner = rank(input);
+  const bool manual = motion_.owner == Owner::manual;
+  const Offer offer{motion_.owner == Owner::joint_command ? Owner::nobody : motion_.owner,
+                    manual ? creep : input.task.target, input.now};
+  const Stop twist_stop = at_once ? Stop::immediate : manual ? Stop::none : input.task.stop;
+  motion_.twist = twist_gate_.step(input.now, input.dt, {&offer, 1}, twist_stop);
+  const double fastest_radps =
+      max_wheel_mps(config_.base, config_.limits, input.estimate.yaw_slip_factor) /
+      config_.base.wheel_radius_m;
+  // One gate moves at a time: the other waits until it has come to rest.
+  const Stop joint_stop = at_once                 ? Stop::immediate
+                          : twist_gate_.at_rest() ? stream_stop
+                                                  : Stop::controlled;
+  joint_gate_.step(input.dt, stream_.velocities_radps(), fastest_radps, joint_stop);
+  motion_.joints = motion_.owner == Owner::joint_command || !joint_gate_.at_rest();
+  motion_.run = !at_once && (motion_.owner == Owner::task || manual ||
+                             motion_.owner == Owner::joint_command || !at_rest());
+  // A stop ramp is still the motion of the one who drove.
+  if (motion_.owner == Owner::nobody && !at_rest()) {
+    motion_.owner = motion_.joints ? Owner::joint_command : Owner::task;
+  }
+  return motion_;
+}
+
+}  // namespace drover::engine

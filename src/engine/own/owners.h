@@ -1,0 +1,82 @@
+// Who moves the base, decided in one place: e-stop, manual, task, joint commands, in that order.
+#pragma once
+
+#include "engine/gate/joint_gate.h"
+#include "engine/gate/target_gate.h"
+#include "engine/health/wheels.h"
+#include "engine/navigate/navigator.h"
+#include "engine/own/heading_creep.h"
+#include "engine/own/joint_stream.h"
+
+namespace drover::engine {
+
+struct OwnInput {
+  Time now = kNever;
+  Duration dt{};
+  const Estimate& estimate;
+  const HealthReport& health;
+  WheelFault wheels = WheelFault::none;
+  const Reason& wheel_reason;
+  const NavOutput& task;
+  std::string_view latched;  ///< a software stop that a person has to reset; empty: none
+};
+
+/// What the gates let through this cycle.
+struct Motion {
+  Owner owner = Owner::nobody;
+  bool run = false;     ///< axes are to run (armed, if at rest)
+  bool joints = false;  ///< single joints are commanded, otherwise `twist`
+  Twist twist;
+};
+
+/// The owners below the task, both gates, and the rank among all. A lower owner is refused while a
+/// higher one is active, and takes nothing over: it has to begin anew.
+class Owners final {
+ public:
+  explicit Owners(const EngineConfig& config);
+
+  void take(const JointTargets& targets, Time now) { stream_.take(targets, busy_, now); }
+  void refuse(const JointTargetsRefused& refused) { stream_.refuse(refused.reason); }
+  void find_heading(const RequestId& id, const Estimate& estimate, const HealthReport& health,
+                    Time now, EventQueue& events);
+  /// A person's cancel stops every owner.
+  void cancel(Time now, EventQueue& events);
+  /// Why a task cannot take the base over now; empty: it can. An idle stream makes way.
+  Reason hinders_task() const;
+  /// A task begins: forget old motion.
+  void on_task_started();
+  /// A person has seen what stopped the stream.
+  void reset() { latched_.clear(); }
+  /// What stopped the stream so that a person has to act before another begins; empty: nothing.
+  const Reason& latched() const { return latched_; }
+
+  const Motion& step(const OwnInput& input, EventQueue& events);
+
+  bool at_rest() const { return twist_gate_.at_rest() && joint_gate_.at_rest(); }
+  TargetRefusal refusal() const { return twist_gate_.refusal(); }
+  const std::array<double, kMaxAxes>& joint_velocities_radps() const {
+    return joint_gate_.velocities_radps();
+  }
+  JointCommandSnapshot joint_command() const { return stream_.snapshot(); }
+  /// Silence after which that owner's motion ends, s; absent when there is no such time.
+  double timeout_s(Owner owner) const;
+
+ private:
+  Owner rank(const OwnInput& input) const;
+  Reason hindrance(const OwnInput& input) const;
+  Stop watch_stream(const OwnInput& input, bool at_once);
+  void latch(const Reason& why);
+
+  EngineConfig config_;
+  TargetGate twist_gate_;
+  JointGate joint_gate_;
+  JointStream stream_;
+  HeadingCreep creep_;
+  Reason latched_;
+  bool stream_asked_ = false;  ///< the drives were asked to run, at least one cycle ago
+  bool stream_ran_ = false;    ///< the drives were seen running since it began
+  Reason busy_;                ///< why joint commands cannot be followed; empty: they can
+  Motion motion_;
+};
+
+}  // namespace drover::engine

@@ -1,0 +1,202 @@
+// Who may move the base: joint commands, the straight way for a heading, and their betters.
+#include <cmath>
+
+#include "../engine_fixture.h"
+#include "engine/health/wheels.h"
+
+namespace drover::engine {
+namespace {
+
+using ::testing::HasSubstr;
+
+class JointCommands : public AnEngine {
+ protected:
+  /// One message: the same velocity for all four joints.
+  void send(double radps) {
+    JointTargets targets;
+    for (AxisId id = 0; id < 4; ++id) (void)targets.joints.push_back({id, radps});
+    rig.command(targets);
+  }
+  /// A stream at 50 Hz.
+  void stream_s(double radps, double seconds) {
+    for (int i = 0; i < static_cast<int>(seconds * 50 + 0.5); ++i) {
+      send(radps);
+      for (int k = 0; k < 4; ++k) rig.tick();
+    }
+  }
+  void drive_by_joints() {
+    stream_s(0, 0.5);
+    stream_s(2, 2);
+    ASSERT_NEAR(rig.out.axes[0].velocity_radps, 2, 1e-9) << reason() << rig.why();
+    ASSERT_EQ(rig.snapshot().nav.owner, Owner::joint_command);
+  }
+  std::string reason() const { return std::string(rig.snapshot().joint_command.reason.view()); }
+};
+
+TEST_F(JointCommands, MoveNothingBeforeAMessageWithVelocityZero) {
+  stream_s(2, 1);
+  EXPECT_EQ(rig.fastest_command_radps(), 0);
+  EXPECT_THAT(reason(), HasSubstr("begins with velocity 0"));
+  EXPECT_EQ(rig.snapshot().joint_command.refused, 50U);
+  EXPECT_EQ(rig.snapshot().nav.owner, Owner::nobody);
+}
+TEST_F(JointCommands, ReachTheDrivesThroughTheLimitsOfSpeedAndAcceleration) {
+  stream_s(0, 0.5);
+  double before = 0;
+  for (int i = 0; i < 100; ++i) {
+    send(1000);
+    rig.tick();
+    const double now = rig.out.axes[2].velocity_radps;
+    EXPECT_LE(now - before,
+              rig.config.limits.acceleration_mps2 / rig.config.base.wheel_radius_m / 200 + 1e-9);
+    before = now;
+  }
+  EXPECT_GT(before, 0);
+  stream_s(1000, 5);
+  const double fastest = max_wheel_mps(rig.config.base, rig.config.limits, 1.0);
+  EXPECT_LE(rig.fastest_command_radps() * rig.config.base.wheel_radius_m, 1.2 * fastest);
+}
+TEST_F(JointCommands, EndInARampWhenTheStreamFallsSilent) {
+  drive_by_joints();
+  rig.run_s(0.11);
+  EXPECT_LT(rig.fastest_command_radps(), 2) << "the ramp has begun";
+  rig.run_s(1);
+  EXPECT_EQ(rig.fastest_command_radps(), 0);
+  EXPECT_THAT(reason(), HasSubstr("fell silent"));
+  send(2);
+  rig.run_s(0.5);
+  EXPECT_EQ(rig.fastest_command_radps(), 0) << "it has to begin with zero again";
+}
+TEST_F(JointCommands, StopAtOnceForAnEstopAndStayStoppedUntilAPersonResets) {
+  drive_by_joints();
+  rig.lines[0] = true;
+  rig.tick();
+  EXPECT_EQ(rig.fastest_command_radps(), 0);
+  rig.lines[0] = false;
+  stream_s(0, 1);
+  stream_s(2, 1);
+  EXPECT_EQ(rig.fastest_command_radps(), 0);
+  EXPECT_THAT(reason(), HasSubstr("reset the stop first: e-stop pressed"));
+  EXPECT_TRUE(rig.snapshot().stop_latched);
+  rig.command(ResetStop{});
+  drive_by_joints();
+}
+TEST_F(JointCommands, AreRefusedWhileATaskDrives) {
+  drive();
+  stream_s(0, 0.2);
+  stream_s(2, 0.2);
+  EXPECT_EQ(rig.snapshot().nav.owner, Owner::task);
+  EXPECT_THAT(reason(), HasSubstr("a task owns the drives"));
+  EXPECT_EQ(rig.snapshot().nav.status, NavStatus::run);
+}
+TEST_F(JointCommands, ThatMoveTheRobotHinderATask) {
+  rig.settle();
+  drive_by_joints();
+  rig.start(path, 40, 0.5);
+  ASSERT_EQ(rig.said<CommandRefused>().size(), 0U) << "events come with the next cycle";
+  rig.tick();
+  ASSERT_EQ(rig.said<CommandRefused>().size(), 1U);
+  EXPECT_THAT(std::string(rig.said<CommandRefused>()[0].reason.view()),
+              HasSubstr("joint commands"));
+  EXPECT_EQ(rig.said<PathReleased>().size(), 1U);
+}
+TEST_F(JointCommands, ThatRestMakeWayForATask) {
+  rig.settle();
+  stream_s(0, 0.5);
+  rig.start(path, 40, 0.5);
+  stream_s(0, 2);
+  EXPECT_EQ(rig.said<NavigationStarted>().size(), 1U);
+  EXPECT_EQ(rig.snapshot().nav.owner, Owner::task);
+}
+TEST_F(JointCommands, StopForAnObstacleInTheNearZone) {
+  drive_by_joints();
+  rig.lines[3] = true;
+  stream_s(2, 1.5);
+  EXPECT_EQ(rig.fastest_command_radps(), 0);
+}
+TEST_F(JointCommands, StopAtOnceWhenADriveLeavesClosedLoop) {
+  drive_by_joints();
+  rig.drives[1].state = AxisState::idle;
+  rig.drives[1].refuses = true;
+  send(2);
+  rig.tick();
+  rig.tick();
+  EXPECT_EQ(rig.fastest_command_radps(), 0);
+  EXPECT_THAT(reason(), HasSubstr("front_right"));
+}
+TEST_F(JointCommands, WithANumberThatIsNoneAreRefusedAndCounted) {
+  stream_s(0, 0.5);
+  send(std::nan(""));
+  rig.tick();
+  EXPECT_EQ(rig.snapshot().joint_command.refused, 1U);
+  rig.command(JointTargetsRefused{"joint arm: unknown"});
+  rig.tick();
+  EXPECT_EQ(rig.snapshot().joint_command.refused, 2U);
+  EXPECT_EQ(reason(), "joint arm: unknown");
+}
+
+TEST_F(AnEngine, StopsAtOnceForAnOperatorsEmergencyStopUntilItIsReset) {
+  drive();
+  rig.command(EngageStop{});
+  rig.tick();
+  EXPECT_EQ(rig.fastest_command_radps(), 0);
+  ASSERT_EQ(rig.said<TaskEnded>().size(), 1U);
+  EXPECT_EQ(rig.said<TaskEnded>()[0].how, TaskEnded::How::failed);
+  expect_no_motion_for_s(1);
+  rig.start(path, 40, 0.5);
+  rig.run_s(1);
+  EXPECT_THAT(std::string(rig.said<CommandRefused>().back().reason.view()),
+              HasSubstr("reset the stop first: emergency stop of an operator"));
+  rig.command(ResetStop{});
+  rig.start(path, 40, 0.5);
+  rig.run_s(2);
+  EXPECT_GT(rig.fastest_command_radps(), 0);
+}
+
+class FindingTheHeading : public AnEngine {
+ protected:
+  void settle_without_heading() {
+    rig.no_heading = true;
+    rig.settle();
+    ASSERT_EQ(rig.snapshot().nav.locate, LocateState::uninit);
+  }
+  std::string last_notice() const { return std::string(rig.said<Notice>().back().text.view()); }
+};
+
+TEST_F(FindingTheHeading, IsRefusedWhenItIsKnown) {
+  rig.settle();
+  rig.command(FindHeading{});
+  rig.run_s(1);
+  EXPECT_EQ(rig.fastest_command_radps(), 0);
+  EXPECT_THAT(std::string(rig.said<CommandRefused>().back().reason.view()), HasSubstr("known"));
+}
+TEST_F(FindingTheHeading, DrivesNoFartherThanItMay) {
+  settle_without_heading();
+  rig.quality = FixQuality::none;  // nothing will ever show it
+  rig.command(FindHeading{});
+  rig.run_s(3);
+  EXPECT_EQ(rig.snapshot().nav.owner, Owner::manual);
+  EXPECT_GT(rig.fastest_command_radps(), 0);
+  rig.run_s(40);
+  EXPECT_EQ(rig.fastest_command_radps(), 0);
+  EXPECT_THAT(last_notice(), HasSubstr("no heading"));
+  EXPECT_LT(rig.plant.estimate().x_m, rig.config.navigate.find_heading_distance_m + 0.3);
+}
+TEST_F(FindingTheHeading, EndsWithACancelAndWithAnEstop) {
+  settle_without_heading();
+  rig.command(FindHeading{});
+  rig.run_s(2);
+  rig.command(CancelTask{});
+  rig.run_s(1.5);
+  EXPECT_EQ(rig.fastest_command_radps(), 0);
+  rig.command(FindHeading{});
+  rig.run_s(2);
+  rig.lines[0] = true;
+  rig.tick();
+  EXPECT_EQ(rig.fastest_command_radps(), 0);
+  rig.lines[0] = false;
+  expect_no_motion_for_s(2);
+}
+
+}  // namespace
+}  // namespace drover::engine
