@@ -7,6 +7,7 @@
 #include "drivers/modbus_bms/entry.h"
 #include "drivers/nmea0183/entry.h"
 #include "drivers/odrive/entry.h"
+#include "drivers/witmotion/entry.h"
 
 namespace drover {
 
@@ -17,6 +18,7 @@ std::span<const DriverEntry> driver_registry() {
       kGpioLineEntry,
       kNmea0183Entry,
       kModbusBmsEntry,
+      kWitmotionEntry,
   };
   return kTable;
 }

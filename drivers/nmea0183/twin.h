@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "drivers/nmea0183/compose.h"
-#include "drivers/nmea0183/noise.h"
+#include "drivers/noise.h"
 #include "drover/options.h"
 #include "drover/twin.h"
 

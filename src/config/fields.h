@@ -155,6 +155,7 @@ void visit(V& v, DroverConfig& c, BaseNames& base) {
   v.list("drives", c.drives, Count{1, kMaxAxes}, "driven axes, in order", Presence::required);
   v.object("base", base, "the vehicle", Presence::required);
   v.object("gnss", c.gnss, "RTK receiver");
+  v.object("imu", c.imu, "inertial sensor");
   v.object("battery", c.battery, "battery management system over Modbus");
   v.object("lines", c.lines, "digital inputs");
   v.object("limits", c.engine.limits, "limits of motion");

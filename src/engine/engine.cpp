@@ -103,6 +103,10 @@ void Engine::Impl::take(const Measurement& m) {
     snapshot.gnss.position_time = m.time;
   } else if (const auto* heading = std::get_if<GnssHeading>(&m.value)) {
     if (std::isfinite(heading->heading_deg)) baseline_deg = heading->heading_deg;
+  } else if (const auto* imu = std::get_if<ImuSample>(&m.value)) {
+    if (m.time < snapshot.imu.time) return;
+    snapshot.imu.sample = *imu;
+    snapshot.imu.time = m.time;
   } else if (const auto* line = std::get_if<LineState>(&m.value)) {
     const auto index = static_cast<std::size_t>(line->line);
     if (index >= kLineCount) return;
@@ -189,6 +193,8 @@ void Engine::Impl::fill_snapshot(Time now, const Environment& environment, const
   if (environment.gnss.state == SourceState::never_heard) {
     snapshot.gnss.health = SourceState::never_heard;
   }
+  snapshot.imu.configured = environment.imu_configured;
+  snapshot.imu.health = environment.imu.state;
   if (located.has_heading) {
     snapshot.gnss.heading_deg = compass_deg_from_yaw_rad(located.pose.yaw_rad);
   } else if (std::isfinite(baseline_deg)) {

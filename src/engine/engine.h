@@ -26,6 +26,7 @@ struct Environment {
   SourceHealth battery;
   std::array<SourceHealth, kLineCount> lines{};
   bool gnss_configured = true;
+  bool imu_configured = false;
 };
 
 struct EngineOutput {

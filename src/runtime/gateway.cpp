@@ -37,6 +37,7 @@ Gateway::Gateway(const config::DroverConfig& config)
     streams_[index(Stream::imu)] =
         maker<MakeByteDriver>(config.imu.driver, "imu")(config.imu.options);
   environment_.gnss_configured = config.gnss.configured;
+  environment_.imu_configured = config.imu.configured;
   for (std::size_t i = 0; i < kLineCount; ++i) {
     const auto& line = config.lines.line[i];
     if (!line.configured) continue;

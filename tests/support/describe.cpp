@@ -14,8 +14,10 @@ class Line {
   Line& number(const char* key, double value, const char* pattern = "%.6g") {
     if (std::isnan(value)) return *this;
     char buffer[64];
-    // Adding zero turns minus zero into zero.
-    std::snprintf(buffer, sizeof buffer, pattern, value + 0.0);
+    // What a rotation leaves of zero differs between machines. Adding zero turns minus zero into
+    // it.
+    const double tidy = std::abs(value) < 1e-12 ? 0.0 : value + 0.0;
+    std::snprintf(buffer, sizeof buffer, pattern, tidy);
     return word(key, buffer);
   }
   Line& integer(const char* key, long long value) { return word(key, std::to_string(value)); }

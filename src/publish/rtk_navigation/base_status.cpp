@@ -138,7 +138,7 @@ std::string BaseStatus::text(const Snapshot& snapshot, const BatteryState& batte
   out.key("status").integer(receiver_fresh ? rtk_status(gnss.position.quality) : 0).close('}');
 
   out.key("sensor").open('{');
-  out.key("imu").boolean(false);
+  out.key("imu").boolean(snapshot.imu.configured && snapshot.imu.health == SourceState::fresh);
   out.key("laser").boolean(zones_healthy(snapshot));
   out.key("robot").boolean(drives_healthy(snapshot)).close('}');
   return out.close('}').str();

@@ -339,6 +339,23 @@ TEST_F(AnEngine, NoticesASilentDriveWhoseLastStampLayInTheFuture) {
   EXPECT_EQ(rig.fastest_command_radps(), 0);
   EXPECT_THAT(rig.why(), HasSubstr("wheel front_left: no feedback"));
 }
+TEST_F(AnEngine, ShowsTheLatestSampleOfTheInertialSensorAndItsHealth) {
+  rig.tick();
+  EXPECT_FALSE(rig.snapshot().imu.configured);
+  rig.environment.imu_configured = true;
+  rig.environment.imu.state = SourceState::fresh;
+  ImuSample sample;
+  sample.angular_velocity_radps.z = 0.25;
+  const Time at = rig.now - std::chrono::milliseconds(3);
+  rig.engine->on_measurement({at, rig.now, sample});
+  sample.angular_velocity_radps.z = 9;  // one that overtook it
+  rig.engine->on_measurement({at - std::chrono::milliseconds(10), rig.now, sample});
+  rig.tick();
+  EXPECT_TRUE(rig.snapshot().imu.configured);
+  EXPECT_EQ(rig.snapshot().imu.health, SourceState::fresh);
+  EXPECT_EQ(rig.snapshot().imu.time, at);
+  EXPECT_EQ(rig.snapshot().imu.sample.angular_velocity_radps.z, 0.25);
+}
 TEST_F(AnEngine, IgnoresMeasurementsOfThingsItDoesNotHave) {
   rig.tick();
   Measurement m;

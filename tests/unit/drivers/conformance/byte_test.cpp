@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "support/describe.h"
+#include "support/imu_bench.h"
 #include "unit/drivers/conformance/harness.h"
 
 namespace drover::test {
@@ -128,6 +129,53 @@ TEST_P(ByteConformance, IsNeverHeardThenFreshThenStaleAndSaysWhy) {
   driver->on_tick(now, out);
   EXPECT_EQ(driver->health(now).state, SourceState::stale);
   EXPECT_FALSE(driver->health(now).reason.empty());
+}
+
+/// A sensor of the robot's motion, turning left on level ground.
+TEST_P(ByteConformance, TellsTheMotionOfItsTwinThenGoesStaleAndSaysWhy) {
+  const auto* make_twin = std::get_if<MakeImuTwin>(&GetParam().entry->make_twin);
+  if (make_twin == nullptr) GTEST_SKIP();
+  ImuBench bench(make(), (*make_twin)(GetParam().options, 1),
+                 static_cast<std::uint32_t>(GetParam().options.number("baud")));
+  EXPECT_EQ(bench.driver->health(bench.now).state, SourceState::never_heard);
+  bench.truth.angular_velocity_radps = {0, 0, 0.5};
+  bench.run(std::chrono::seconds(20));
+  const SourceHealth health = bench.driver->health(bench.now);
+  EXPECT_EQ(health.state, SourceState::fresh) << health.reason.view();
+  EXPECT_TRUE(health.reason.empty()) << health.reason.view();
+  EXPECT_EQ(health.bad, 0U);
+  EXPECT_GT(bench.samples, 100U);
+  EXPECT_NEAR(bench.sample.acceleration_mps2.z, 9.81, 0.5);
+  EXPECT_NEAR(bench.sample.angular_velocity_radps.z, 0.5, 0.05);
+  Time last = kNever;
+  for (const Measurement& m : bench.heard) {
+    ASSERT_GE(m.time, last);
+    ASSERT_LE(m.time, bench.now);
+    last = m.time;
+  }
+  EXPECT_EQ(bench.overflows, 0U);
+  EXPECT_TRUE(bench.twin->set_state("silent", bench.now));
+  bench.run(std::chrono::seconds(3));
+  EXPECT_EQ(bench.driver->health(bench.now).state, SourceState::stale);
+  EXPECT_FALSE(bench.driver->health(bench.now).reason.empty());
+  EXPECT_TRUE(bench.twin->set_state("", bench.now));
+  bench.run(std::chrono::seconds(3));
+  EXPECT_EQ(bench.driver->health(bench.now).state, SourceState::fresh);
+}
+
+TEST_P(ByteConformance, DoesNotBelieveReadingsThatStandStillOrEndTheirRange) {
+  const auto* make_twin = std::get_if<MakeImuTwin>(&GetParam().entry->make_twin);
+  if (make_twin == nullptr) GTEST_SKIP();
+  for (const char* state : {"frozen", "saturated"}) {
+    ImuBench bench(make(), (*make_twin)(GetParam().options, 1),
+                   static_cast<std::uint32_t>(GetParam().options.number("baud")));
+    bench.run(std::chrono::seconds(5));
+    ASSERT_EQ(bench.driver->health(bench.now).state, SourceState::fresh);
+    ASSERT_TRUE(bench.twin->set_state(state, bench.now));
+    bench.run(std::chrono::seconds(2));
+    EXPECT_EQ(bench.driver->health(bench.now).state, SourceState::stale) << state;
+    EXPECT_FALSE(bench.driver->health(bench.now).reason.empty()) << state;
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Registry, ByteConformance, ::testing::ValuesIn(subjects<MakeByteDriver>()),

@@ -95,6 +95,19 @@ TEST(BaseStatus, BeforeAnythingIsKnownItClaimsNothing) {
   EXPECT_EQ(at(ours, "robot", "robot_status").integer(), 8);
 }
 
+TEST(BaseStatus, CallsTheInertialSensorGoodOnlyWhenThereIsOneAndItIsFresh) {
+  Snapshot snapshot = good_snapshot();
+  for (const bool configured : {false, true}) {
+    for (const SourceState state :
+         {SourceState::never_heard, SourceState::fresh, SourceState::stale}) {
+      snapshot.imu.configured = configured;
+      snapshot.imu.health = state;
+      EXPECT_EQ(*at(status(snapshot), "sensor", "imu").boolean(),
+                configured && state == SourceState::fresh);
+    }
+  }
+}
+
 TEST(BaseStatus, NeverWritesWhatIsNoNumber) {
   Snapshot snapshot = good_snapshot();
   const double bad = std::numeric_limits<double>::quiet_NaN();

@@ -1,9 +1,9 @@
-// Noise generators of the simulated receiver.
-#include "drivers/nmea0183/noise.h"
+// Noise generators of the simulated devices.
+#include "drivers/noise.h"
 
 #include <cmath>
 
-namespace drover::nmea0183 {
+namespace drover {
 
 std::uint64_t Random::bits() {
   state_ += 0x9E3779B97F4A7C15U;
@@ -35,4 +35,4 @@ double AxisError::step(double elapsed_s, Random& random) {
   return std::sqrt(kDriftShare) * drift + std::sqrt(1 - kDriftShare) * random.normal();
 }
 
-}  // namespace drover::nmea0183
+}  // namespace drover

@@ -1,9 +1,9 @@
-// Seeded noise for the simulated receiver: the same numbers on every machine.
+// Seeded noise for simulated devices: the same numbers on every machine.
 #pragma once
 
 #include <cstdint>
 
-namespace drover::nmea0183 {
+namespace drover {
 
 /// SplitMix64 (Steele, Lea, Flood 2014): small, fast, and good enough for noise.
 class Random final {
@@ -40,4 +40,4 @@ class AxisError final {
   Drift drift_;
 };
 
-}  // namespace drover::nmea0183
+}  // namespace drover

@@ -1,0 +1,43 @@
+// Quaternions and the mounting of a sensor: rotations as products, without matrices.
+#pragma once
+
+#include <cmath>
+
+#include "drover/measurement.h"
+
+namespace drover::witmotion {
+
+inline Quaternion operator*(const Quaternion& a, const Quaternion& b) {
+  return {
+      a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z, a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
+      a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x, a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w};
+}
+inline Quaternion conjugate(const Quaternion& q) {
+  return {q.w, -q.x, -q.y, -q.z};
+}
+/// From the named frame to its parent.
+inline Vector3 rotate(const Quaternion& q, const Vector3& v) {
+  const Quaternion turned = q * Quaternion{0, v.x, v.y, v.z} * conjugate(q);
+  return {turned.x, turned.y, turned.z};
+}
+inline Quaternion about_z(double angle_rad) {
+  return {std::cos(angle_rad / 2), 0, 0, std::sin(angle_rad / 2)};
+}
+/// Order Z, Y, X: yaw first, then pitch, then roll, each about the turned axis.
+inline Quaternion from_angles(double roll_rad, double pitch_rad, double yaw_rad) {
+  const Quaternion pitch{std::cos(pitch_rad / 2), 0, std::sin(pitch_rad / 2), 0};
+  const Quaternion roll{std::cos(roll_rad / 2), std::sin(roll_rad / 2), 0, 0};
+  return about_z(yaw_rad) * pitch * roll;
+}
+inline double length(const Vector3& v) {
+  return std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z);
+}
+inline double length(const Quaternion& q) {
+  return std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
+}
+inline Quaternion normalised(const Quaternion& q) {
+  const double n = length(q);
+  return {q.w / n, q.x / n, q.y / n, q.z / n};
+}
+
+}  // namespace drover::witmotion

@@ -1,0 +1,112 @@
+// Any bytes into the WitMotion driver: no crash, no absurd value, the same result for any chunking,
+// and nothing sent but the commands it may send.
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <span>
+#include <string>
+
+#include "drivers/witmotion/driver.h"
+#include "drivers/witmotion/entry.h"
+
+namespace {
+
+using namespace std::chrono_literals;
+using namespace drover;
+
+constexpr std::size_t kMaxInput = 2048;  // 64 measurements and no more
+constexpr double kBaud = 115200;
+const Time kStart{100s};
+
+void require(bool holds) {
+  if (!holds) std::abort();
+}
+
+bool within(const Vector3& v, double limit) {
+  return std::abs(v.x) <= limit && std::abs(v.y) <= limit && std::abs(v.z) <= limit;
+}
+
+void check(const Measurement& m) {
+  const auto* s = std::get_if<ImuSample>(&m.value);
+  require(s != nullptr && m.time <= m.received + 1s);
+  // A rotation may bring three full ranges onto one axis.
+  require(within(s->acceleration_mps2, 273) && within(s->angular_velocity_radps, 61));
+  require(within(s->magnetic_field, 56800));
+  const Quaternion& q = s->orientation;
+  require(std::abs(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z - 1) < 1e-9);
+}
+
+void check_same(const Measurement& a, const Measurement& b) {
+  const auto& s = std::get<ImuSample>(a.value);
+  const auto& t = std::get<ImuSample>(b.value);
+  require(a.time == b.time && s.saturated == t.saturated);
+  require(s.acceleration_mps2.x == t.acceleration_mps2.x);
+  require(s.angular_velocity_radps.z == t.angular_velocity_radps.z);
+  require(s.orientation.w == t.orientation.w && s.has_orientation == t.has_orientation);
+}
+
+void check_commands(std::span<const std::uint8_t> sent) {
+  require(sent.size() % 5 == 0);
+  for (std::size_t at = 0; at < sent.size(); at += 5) {
+    const int address = sent[at + 2];
+    require(sent[at] == 0xFF && sent[at + 1] == 0xAA);
+    require(address == 0x00 || (address >= 0x02 && address <= 0x04) || address == 0x1F ||
+            address == 0x24 || address == 0x27 || address == 0x69);
+    require(address != 0x00 || (sent[at + 3] == 0 && sent[at + 4] == 0));
+  }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  if (size < 2 || size > kMaxInput) return 0;
+  // The first byte chooses the format and the chunking of the second run.
+  std::uint32_t choice = data[0];
+  const std::span<const std::uint8_t> bytes(data + 1, size - 1);
+  Options options(kWitmotionEntry.options);
+  options.set("mount_yaw_deg", -90.0);
+  if (choice % 2 == 1) options.set("protocol", std::string("combined"));
+  if (choice % 4 >= 2) options.set("orientation", std::string("quaternion"));
+  witmotion::WitmotionDriver whole(options);
+  witmotion::WitmotionDriver pieces(options);
+  static DriverOut from_whole;
+  static DriverOut from_pieces;
+  from_whole.clear();
+  from_pieces.clear();
+
+  whole.on_bytes(bytes, kStart, from_whole);
+  const Duration byte_time = from_s(10 / kBaud);
+  for (std::size_t at = 0; at < bytes.size();) {
+    choice = choice * 1664525U + 1013904223U;
+    const std::size_t length = std::min<std::size_t>(1 + (choice >> 26U), bytes.size() - at);
+    pieces.on_bytes(bytes.subspan(at, length), kStart + static_cast<int>(at) * byte_time,
+                    from_pieces);
+    at += length;
+  }
+  require(from_whole.measurements.size() == from_pieces.measurements.size());
+  require(from_whole.overflows == from_pieces.overflows);
+  for (std::size_t i = 0; i < from_whole.measurements.size(); ++i) {
+    check(from_whole.measurements[i]);
+    check_same(from_whole.measurements[i], from_pieces.measurements[i]);
+  }
+  const auto one = whole.health(kStart + 10s);
+  const auto other = pieces.health(kStart + 10s);
+  require(one.good == other.good && one.bad == other.bad);
+
+  // The same bytes as answers to its questions, over some seconds.
+  witmotion::WitmotionDriver asking(options);
+  asking.on_link_up(kStart);
+  Time now = kStart;
+  for (std::size_t at = 0; at < bytes.size(); at += 33) {
+    now += 200ms;
+    from_whole.clear();
+    asking.on_bytes(bytes.subspan(at, std::min<std::size_t>(33, bytes.size() - at)), now,
+                    from_whole);
+    asking.on_tick(now, from_whole);
+    check_commands({from_whole.bytes.data(), from_whole.bytes.size()});
+    require(from_whole.overflows == 0);
+  }
+  return 0;
+}
