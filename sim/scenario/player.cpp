@@ -59,6 +59,16 @@ void append_line(std::string& line, std::string_view text) {
   line += '\n';
 }
 
+/// Protobuf packets: every byte as two hex digits.
+void append_hex_line(std::string& line, std::string_view bytes) {
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  for (const char c : bytes) {
+    line += kDigits[static_cast<unsigned char>(c) >> 4U];
+    line += kDigits[static_cast<unsigned char>(c) & 0xFU];
+  }
+  line += '\n';
+}
+
 std::string how_it_ended(int status) {
   if (WIFSIGNALED(status)) return "by signal " + std::to_string(WTERMSIG(status));
   return "with status " + std::to_string(WEXITSTATUS(status));
@@ -219,7 +229,11 @@ void Player::on_message(const MqttMessage& message) {
   std::string line = stamp(t);
   line += message.topic;
   line += message.retained ? " 1 " : " 0 ";
-  append_line(line, message.payload);
+  if (message.topic.starts_with("/channel/")) {
+    append_hex_line(line, message.payload);
+  } else {
+    append_line(line, message.payload);
+  }
   mqtt_log_.append(line);
   if (message.retained) return;
   std::vector<std::string> events;

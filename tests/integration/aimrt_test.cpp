@@ -73,5 +73,24 @@ TEST_F(AimrtChannel, FollowsNoCommandThatIsNotWhollyGood) {
   expect_nothing_moved();
 }
 
+TEST_F(AimrtChannel, FollowsAStreamOfCommandsUntilItFallsSilent) {
+  ASSERT_NO_FATAL_FAILURE(start_all());
+  const auto packet = [](const std::string& velocity) {
+    std::string text;
+    for (const char* name : {"front_left", "rear_left", "front_right", "rear_right"})
+      text += "joints { name: \"" + std::string(name) + "\" velocity: " + velocity + " } ";
+    return std::string("\x02pb\0", 4) + protoc_encoded("JointCommand", text);
+  };
+  const auto rest = packet("0");  // a stream begins at rest
+  const auto slow = packet("1");  // rad/s: 0.165 m/s with this rig's wheels
+  const double begun_s = now_s();
+  EXPECT_TRUE(wait_until([&] {
+    client().publish(kCommand, now_s() < begun_s + 1 ? rest : slow);
+    return true_speed_mps() > 0.1;
+  })) << daemon().output();
+  EXPECT_TRUE(wait_until([this] { return at_rest(); })) << "nobody commands any more";
+  EXPECT_EQ(status_text("nav", "status"), "NAV_FREE");
+}
+
 }  // namespace
 }  // namespace drover::test

@@ -80,7 +80,8 @@ constexpr const char* kDroverFile = R"({
             "zone_far": {"line": "zone_far", "options": {"stale_s": 0.5}},
             "zone_near": {"line": "zone_near", "options": {"stale_s": 0.5}}},
   "estimate": {"antenna_x_m": 0.1, "antenna_z_m": 0.6},
-  "health": {"drive_stale_s": 1, "gnss_stale_s": 2, "line_stale_s": 0.5},
+  "health": {"drive_stale_s": 1, "gnss_stale_s": 2, "line_stale_s": 0.5,
+             "joint_command_timeout_s": 1},
   "guard": {"socket": "@folder@/guard.sock", "limit_ms": 500},
   "mqtt": {"port": @port@, "client_id": "droverd"}
 })";

@@ -116,6 +116,18 @@ void judge_interval(const Record& record, const Interval& interval, Problems& pr
     add(problems, "base_status at " + std::to_string(rate_Hz) + " Hz" + where);
 }
 
+/// AimRT's messages and their packet, in hex: content type "pb", no context, a header first.
+std::string judge_packet(const MqttLine& line) {
+  static const std::set<std::string> kTopics{
+      "/channel/%2Fjoint_state/pb%3Aaimrt.protocols.sensor.JointState",
+      "/channel/%2Fimu_state/pb%3Aaimrt.protocols.sensor.ImuState",
+      "/channel/%2Ftouch_state/pb%3Aaimrt.protocols.sensor.TouchState"};
+  if (line.topic.ends_with(".JointCommand")) return "";  // a scenario may send nonsense
+  if (!kTopics.contains(line.topic)) return "a topic of no document";
+  if (line.retained) return "is retained";
+  return line.payload.starts_with("027062000a") ? "" : "is no packet: " + line.payload;
+}
+
 }  // namespace
 
 Problems check_form(const Record& record) {
@@ -130,7 +142,12 @@ Problems check_form(const Record& record) {
     // Added to the document: whether the gateway is there, as the broker's last will tells it.
     const bool online =
         line.topic == "drover/online" && (line.payload == "1" || line.payload == "0");
-    if (!ours && !online && line.topic != "mqtt_control")
+    const bool aimrt = line.topic.starts_with("/channel/");
+    if (aimrt) {
+      if (const auto why = judge_packet(line); !why.empty())
+        add(problems, seconds(line.time) + ": " + line.topic + ": " + why);
+    }
+    if (!ours && !online && !aimrt && line.topic != "mqtt_control")
       add(problems, seconds(line.time) + ": a topic of no document: " + line.topic);
     if (line.topic != "feedback") continue;
     const auto message = json::parse(line.payload);

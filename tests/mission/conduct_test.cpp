@@ -218,6 +218,18 @@ TEST(MissionChecks, FindRetainedMessagesAndFailuresWithoutAReason) {
   EXPECT_THAT(check_form(logs.read()), testing::SizeIs(3));
 }
 
+TEST(MissionChecks, FindPacketsOfNoDocument) {
+  const std::string joints = "/channel/%2Fjoint_state/pb%3Aaimrt.protocols.sensor.JointState";
+  Logs good;
+  good.say(9050, joints + " 0 027062000a02080a");
+  EXPECT_THAT(check_form(good.read()), IsEmpty());
+  Logs logs;
+  logs.say(9050, joints + " 1 027062000a02080a");
+  logs.say(9060, joints + " 0 0a02080a");
+  logs.say(9070, "/channel/%2Fother/pb%3Aaimrt.protocols.sensor.JointState 0 027062000a02080a");
+  EXPECT_THAT(check_form(logs.read()), testing::SizeIs(3));
+}
+
 TEST(MissionChecks, FindAGapALateBeginningAndAnEarlyEndOfTheStatus) {
   for (const auto& [begin, end] : {std::pair{5000, 5300}, {0, 2500}, {9700, 10'050}}) {
     Logs logs;

@@ -1,5 +1,6 @@
 // What holds in every mission.
 #include "mission/support.h"
+#include "support/protoc.h"
 
 namespace drover::mission {
 namespace {
@@ -8,6 +9,13 @@ using testing::IsEmpty;
 
 // The configured bound on the predicted error while driving (estimate.bound_run_m, default).
 constexpr double kBoundRun_m = 0.30;
+
+std::string bytes_of_hex(std::string_view digits) {
+  std::string bytes;
+  for (std::size_t i = 0; i + 1 < digits.size(); i += 2)
+    bytes += static_cast<char>(std::stoi(std::string(digits.substr(i, 2)), nullptr, 16));
+  return bytes;
+}
 
 class EveryMission : public testing::TestWithParam<const char*> {
  protected:
@@ -36,6 +44,19 @@ TEST_P(EveryMission, TellsItsStatusTenTimesASecond) {
 
 TEST_P(EveryMission, TellsPoseAndPositionOfOneInstant) {
   EXPECT_THAT(check_pose(log()), IsEmpty());
+}
+
+TEST_P(EveryMission, SendsAimrtPacketsThatProtocReads) {
+  const auto newest = [this](std::string_view type) -> std::string {
+    for (auto line = log().mqtt.rbegin(); line != log().mqtt.rend(); ++line)
+      if (line->topic.ends_with("." + std::string(type)))
+        return test::protoc_decoded(type, test::message_of_packet(bytes_of_hex(line->payload)));
+    return "none";
+  };
+  const auto joints = newest("JointState");
+  for (const char* name : {"front_left", "rear_left", "front_right", "rear_right"})
+    EXPECT_THAT(joints, testing::HasSubstr("name: \"" + std::string(name) + "\"\n  position: "));
+  EXPECT_THAT(newest("TouchState"), testing::HasSubstr("names: \"bumper\""));
 }
 
 TEST_P(EveryMission, IsAtRestAtItsEnd) {
