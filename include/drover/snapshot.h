@@ -32,6 +32,14 @@ struct Pose {
   double yaw_sigma_rad = kAbsent;
 };
 
+/// What a device's driver says of itself: why it is not fresh or what is odd (empty when all is
+/// well), what it understood and what not, and how many measurements it gave.
+struct SourceSnapshot {
+  Reason reason;
+  std::uint64_t samples = 0;
+  std::uint64_t bad = 0;
+};
+
 struct AxisSnapshot {
   Name joint;
   AxisMotion motion;
@@ -41,14 +49,19 @@ struct AxisSnapshot {
   double inverter_degC = kAbsent;
   double motor_degC = kAbsent;
   double bus_V = kAbsent;
+  double bus_A = kAbsent;
   SourceState health = SourceState::never_heard;
+  SourceSnapshot source;  ///< samples: motions
   Time last_motion = kNever;
 };
 
 struct GnssSnapshot {
+  bool configured = false;
   SourceState health = SourceState::never_heard;
+  SourceSnapshot source;         ///< samples: positions
   GnssPosition position;         ///< last one, for display
   Time position_time = kNever;   ///< when it was true
+  GnssVelocity velocity;         ///< last one, for display
   double heading_deg = kAbsent;  ///< of the vehicle, clockwise from true north
   /// Antenna position of the pose's own instant, so that pose and rtk belong together.
   double pose_latitude_deg = 0;
@@ -58,6 +71,7 @@ struct GnssSnapshot {
 struct ImuSnapshot {
   bool configured = false;
   SourceState health = SourceState::never_heard;
+  SourceSnapshot source;
   Time time = kNever;                      ///< of the sample
   ImuSample sample;                        ///< the last one, as measured
   Vector3 gyro_bias_radps;                 ///< learned at rest; to be taken off
@@ -73,6 +87,7 @@ struct ImuSnapshot {
 struct BatterySnapshot {
   bool configured = false;
   SourceState health = SourceState::never_heard;
+  SourceSnapshot source;
   Time time = kNever;
   BatterySample sample;  ///< the last one
 };
@@ -130,6 +145,7 @@ struct Snapshot {
   std::array<bool, kLineCount> line_active{};
   std::array<SourceState, kLineCount> line_health{};
   std::array<bool, kLineCount> line_configured{};
+  std::array<SourceSnapshot, kLineCount> line_source{};  ///< samples: changes
   FixedVector<LinkSnapshot, 8> links;
   bool stop_latched = false;  ///< nothing moves until a person acts
   bool guard_alive = false;

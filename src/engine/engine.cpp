@@ -31,6 +31,8 @@ struct Engine::Impl {
   explicit Impl(const EngineConfig& c);
 
   void take(const Measurement& m);
+  void count(const Measurement& m);
+  void fill_sources(const Environment& environment);
   /// What a person has to act upon before anything moves; empty when nothing.
   const Reason& latched() const {
     return navigator.latched().empty() ? owners.latched() : navigator.latched();
@@ -72,7 +74,23 @@ Engine::Impl::Impl(const EngineConfig& c)
   snapshot.line_active = config.line_configured;
 }
 
+void Engine::Impl::count(const Measurement& m) {
+  if (const auto* motion = std::get_if<AxisMotion>(&m.value)) {
+    if (motion->axis < snapshot.axes.size()) ++snapshot.axes[motion->axis].source.samples;
+  } else if (const auto* line = std::get_if<LineState>(&m.value)) {
+    const auto index = static_cast<std::size_t>(line->line);
+    if (index < kLineCount) ++snapshot.line_source[index].samples;
+  } else if (std::holds_alternative<GnssPosition>(m.value)) {
+    ++snapshot.gnss.source.samples;
+  } else if (std::holds_alternative<ImuSample>(m.value)) {
+    ++snapshot.imu.source.samples;
+  } else if (std::holds_alternative<BatterySample>(m.value)) {
+    ++snapshot.battery.source.samples;
+  }
+}
+
 void Engine::Impl::take(const Measurement& m) {
+  count(m);
   estimator.on_measurement(m);
   const auto axis_of = [this](AxisId id) -> AxisSnapshot* {
     return id < snapshot.axes.size() ? &snapshot.axes[id] : nullptr;
@@ -95,12 +113,16 @@ void Engine::Impl::take(const Measurement& m) {
     axis->motor_degC = temperature->motor_degC;
   } else if (const auto* supply = std::get_if<AxisSupply>(&m.value)) {
     AxisSnapshot* axis = axis_of(supply->axis);
-    if (axis != nullptr) axis->bus_V = supply->bus_V;
+    if (axis == nullptr) return;
+    axis->bus_V = supply->bus_V;
+    axis->bus_A = supply->bus_A;
   } else if (const auto* position = std::get_if<GnssPosition>(&m.value)) {
     if (m.time < snapshot.gnss.position_time) return;
     fix = *position;
     snapshot.gnss.position = *position;
     snapshot.gnss.position_time = m.time;
+  } else if (const auto* velocity = std::get_if<GnssVelocity>(&m.value)) {
+    snapshot.gnss.velocity = *velocity;
   } else if (const auto* heading = std::get_if<GnssHeading>(&m.value)) {
     if (std::isfinite(heading->heading_deg)) baseline_deg = heading->heading_deg;
   } else if (const auto* imu = std::get_if<ImuSample>(&m.value)) {
@@ -180,15 +202,30 @@ void Engine::Impl::start_task(const RequestId& id, const StartTask& task, Time n
   if (navigator.starting()) owners.on_task_started();
 }
 
+void Engine::Impl::fill_sources(const Environment& environment) {
+  const auto tell = [](SourceSnapshot& source, const SourceHealth& driver) {
+    source.reason = driver.reason;
+    source.bad = driver.bad;
+  };
+  tell(snapshot.gnss.source, environment.gnss);
+  tell(snapshot.imu.source, environment.imu);
+  tell(snapshot.battery.source, environment.battery);
+  for (std::size_t i = 0; i < snapshot.axes.size(); ++i)
+    tell(snapshot.axes[i].source, environment.axes[i]);
+  for (std::size_t i = 0; i < kLineCount; ++i) tell(snapshot.line_source[i], environment.lines[i]);
+}
+
 void Engine::Impl::fill_snapshot(Time now, const Environment& environment, const Estimate& located,
                                  Owner owner) {
   const HealthReport& report = health.report();
   snapshot.time = now;
+  fill_sources(environment);
   snapshot.pose = located.pose;
   snapshot.nav = navigator.snapshot(report);
   snapshot.nav.owner = owner;
   snapshot.nav.owner_timeout_s = owners.timeout_s(owner);
   snapshot.joint_command = owners.joint_command();
+  snapshot.gnss.configured = environment.gnss_configured;
   snapshot.gnss.health = report.gnss_ok ? environment.gnss.state : SourceState::stale;
   if (environment.gnss.state == SourceState::never_heard) {
     snapshot.gnss.health = SourceState::never_heard;

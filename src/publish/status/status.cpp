@@ -52,17 +52,72 @@ void nav(JsonText& out, const Snapshot& s) {
   out.close('}');
 }
 
+void source(JsonText& out, const SourceSnapshot& from) {
+  out.key("reason").text(from.reason.view());
+  out.key("samples").integer(static_cast<std::int64_t>(from.samples));
+  out.key("bad").integer(static_cast<std::int64_t>(from.bad));
+}
+
+void vector(JsonText& out, std::string_view key, const Vector3& v) {
+  out.key(key).open('[');
+  for (const double each : {v.x, v.y, v.z}) {
+    if (std::isfinite(each)) {
+      out.number(each);
+    } else {
+      out.null();
+    }
+  }
+  out.close(']');
+}
+
 void gnss(JsonText& out, const Snapshot& s) {
-  out.key("gnss").open('{');
+  out.key("gnss");
+  if (!s.gnss.configured) {
+    out.null();
+    return;
+  }
+  out.open('{');
   out.key("health").text(word(s.gnss.health));
   out.key("quality").text(word(s.gnss.position.quality));
   number(out, "latitude_deg", s.gnss.position.latitude_deg);
   number(out, "longitude_deg", s.gnss.position.longitude_deg);
+  number(out, "altitude_msl_m", s.gnss.position.altitude_msl_m);
+  number(out, "sigma_east_m", s.gnss.position.sigma_east_m);
+  number(out, "sigma_north_m", s.gnss.position.sigma_north_m);
+  number(out, "speed_mps", s.gnss.velocity.speed_mps);
+  number(out, "course_deg", s.gnss.velocity.course_deg);
   number(out, "heading_deg", s.gnss.heading_deg);
   out.key("satellites").integer(s.gnss.position.satellites);
   number(out, "hdop", s.gnss.position.hdop);
   number(out, "correction_age_s", s.gnss.position.correction_age_s);
   age(out, "age_s", s.time, s.gnss.position_time);
+  source(out, s.gnss.source);
+  out.close('}');
+}
+
+void imu(JsonText& out, const Snapshot& s) {
+  out.key("imu");
+  if (!s.imu.configured) {
+    out.null();
+    return;
+  }
+  // Before the first sample its numbers are nothing, not zero.
+  constexpr Vector3 kNothing{kAbsent, kAbsent, kAbsent};
+  const ImuSample& sample = s.imu.sample;
+  const bool heard = s.imu.time != kNever;
+  const bool learned = std::isfinite(s.imu.gyro_bias_sigma_radps);
+  out.open('{');
+  out.key("health").text(word(s.imu.health));
+  vector(out, "acceleration_mps2", heard ? sample.acceleration_mps2 : kNothing);
+  vector(out, "angular_velocity_radps", heard ? sample.angular_velocity_radps : kNothing);
+  vector(out, "gyro_bias_radps", learned ? s.imu.gyro_bias_radps : kNothing);
+  number(out, "gyro_bias_sigma_radps", s.imu.gyro_bias_sigma_radps);
+  number(out, "roll_rad", s.imu.roll_rad);
+  number(out, "pitch_rad", s.imu.pitch_rad);
+  number(out, "temperature_degC", sample.temperature_degC);
+  out.key("saturated").boolean(sample.saturated);
+  age(out, "age_s", s.time, s.imu.time);
+  source(out, s.imu.source);
   out.close('}');
 }
 
@@ -81,7 +136,9 @@ void axes(JsonText& out, const Snapshot& s) {
     number(out, "inverter_degC", axis.inverter_degC);
     number(out, "motor_degC", axis.motor_degC);
     number(out, "bus_V", axis.bus_V);
+    number(out, "bus_A", axis.bus_A);
     age(out, "age_s", s.time, axis.last_motion);
+    source(out, axis.source);
     out.close('}');
   }
   out.close(']');
@@ -94,6 +151,7 @@ void lines(JsonText& out, const Snapshot& s) {
     out.key(word(static_cast<Line>(i))).open('{');
     out.key("active").boolean(s.line_active[i]);
     out.key("health").text(word(s.line_health[i]));
+    source(out, s.line_source[i]);
     out.close('}');
   }
   out.close('}');
@@ -154,6 +212,7 @@ std::string status_json(const Snapshot& s, const DaemonStatus& daemon) {
   out.key("robot").text(daemon.robot);
   out.key("version").text(DROVER_VERSION);
   number(out, "uptime_s", daemon.uptime_s);
+  number(out, "time_s", to_s(s.time));
   out.key("stopped_until_told").boolean(s.stop_latched);
   out.key("why").open('[');
   for (const auto& reason : s.why) out.text(reason.view());
@@ -162,6 +221,7 @@ std::string status_json(const Snapshot& s, const DaemonStatus& daemon) {
   pose(out, s);
   origin(out, s);
   gnss(out, s);
+  imu(out, s);
   axes(out, s);
   lines(out, s);
   links(out, s);
