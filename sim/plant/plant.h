@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "drover/measurement.h"
+
 namespace drover::sim {
 
 /// Of base_link in the world (x east, y north, z up, yaw counter-clockwise from east; REP 103).
@@ -70,6 +72,10 @@ class Plant {
   };
   Vector point_m(const Vector& in_base_m) const;
   Vector point_velocity_mps(const Vector& in_base_m) const;
+  /// Of base_link in the world.
+  Quaternion orientation() const;
+  /// The same direction, seen along base_link's axes.
+  Vector in_base_axes(const Vector& in_world) const;
 
   /// The bumper's strip touches something.
   bool bumper_touched() const;

@@ -68,6 +68,21 @@ Plant::Vector Plant::point_velocity_mps(const Vector& in_base_m) const {
   return {v[0] + turned[0], v[1] + turned[1], v[2] + turned[2]};
 }
 
+Quaternion Plant::orientation() const {
+  const mjtNum* q = impl_->data->qpos + impl_->base_qpos + 3;
+  return {q[0], q[1], q[2], q[3]};
+}
+
+Plant::Vector Plant::in_base_axes(const Vector& in_world) const {
+  const mjtNum* q = impl_->data->qpos + impl_->base_qpos + 3;
+  const std::array<mjtNum, 3> from{in_world.x, in_world.y, in_world.z};
+  std::array<mjtNum, 4> back{};
+  std::array<mjtNum, 3> turned{};
+  mju_negQuat(back.data(), q);
+  mju_rotVecQuat(turned.data(), from.data(), back.data());
+  return {turned[0], turned[1], turned[2]};
+}
+
 bool Plant::bumper_touched() const {
   const mjData& d = *impl_->data;
   for (int i = 0; i < d.ncon; ++i)

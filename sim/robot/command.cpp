@@ -4,6 +4,7 @@
 //   zone near|far occupied|free      the same for the scanner's zones
 //   obstacle NAME X Y|remove         a movable box of the world, centred at X, Y (m)
 //   gnss STATE                       see drover/twin.h: fix, float, single, none, silent, ...
+//   imu STATE                        silent, frozen, saturated, bias:2, ...; well: nothing is wrong
 //   drive JOINT power on|off         supply of one drive; "all" means every drive
 //   drive JOINT fault NAME|none      see the drive's README
 //   kick VX VY                       a shove along the base's own axes (m/s)
@@ -67,6 +68,7 @@ std::string Robot::command(std::string_view text) {
     return force(LineName::zone_far, words[2], "occupied", "free");
   if (verb == "obstacle") return command_obstacle(words[1], words[2], words[3]);
   if (verb == "gnss") return command_gnss(words[1]);
+  if (verb == "imu") return command_imu(words[1]);
   if (verb == "drive") return command_drive(words[1], words[2], words[3]);
   if (verb == "kick") {
     const auto vx_mps = number(words[1]);
@@ -92,6 +94,14 @@ std::string Robot::command_gnss(std::string_view state) {
   if (!gnss_) return error("the scenario has no receiver");
   return gnss_->set_state(state, now_) ? "ok"
                                        : error("no receiver state '" + std::string(state) + "'");
+}
+
+std::string Robot::command_imu(std::string_view state) {
+  if (!imu_) return error("the scenario has no inertial sensor");
+  if (state.empty()) return error("say: imu STATE, or imu well");
+  return imu_->set_state(state == "well" ? "" : state, now_)
+             ? "ok"
+             : error("no state '" + std::string(state) + "' of an inertial sensor");
 }
 
 void Robot::set_power(Drive& drive, bool on) {

@@ -14,7 +14,8 @@ namespace {
 constexpr const char* kFooter = R"(
 Commands for a running simulator (drover-sim ctl COMMAND...):
   estop press|release            bumper touch|free        zone near|far occupied|free
-  obstacle NAME X Y|remove       gnss STATE               kick VX VY
+  obstacle NAME X Y|remove       gnss STATE|unplug|plug   kick VX VY
+  imu STATE|well|unplug|plug     (silent, frozen, saturated, bias:2, restart, ...)
   drive JOINT|all power on|off   drive JOINT|all fault NAME|none
   can BUS slcan TEXT|stall|flow|unplug|plug               truth               quit
 
@@ -47,7 +48,7 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", DROVER_VERSION);
   app.add_option("--scenario", settings.scenario_file, "robot, world and events (JSON)");
   app.add_option("--seed", settings.seed, "source of all randomness")->envname("DROVER_SEED");
-  app.add_option("--run-dir", settings.run_folder, "for sockets and the receiver's line")
+  app.add_option("--run-dir", settings.run_folder, "for sockets and serial lines")
       ->capture_default_str();
   app.add_option("--log-dir", settings.log_folder, "for can.log and truth.csv; none: no logs");
   app.add_option("--can-transport", can_transport, "buses as the scenario says, or all as sockets")

@@ -24,6 +24,15 @@ Twins make_twins(const Scenario& scenario, std::uint64_t seed) {
       throw std::runtime_error(std::string("gnss: ") + error.what());
     }
   }
+  if (scenario.imu) {
+    const auto make = std::get<MakeImuTwin>(scenario.imu->driver->make_twin);
+    try {
+      // Another stream of noise than the receiver's.
+      twins.imu = make(scenario.imu->options, seed ^ 0x696D75U);
+    } catch (const std::exception& error) {
+      throw std::runtime_error(std::string("imu: ") + error.what());
+    }
+  }
   return twins;
 }
 
@@ -33,6 +42,7 @@ Robot::Robot(const Scenario& scenario, Twins twins)
       earth_(scenario.origin_latitude_deg, scenario.origin_longitude_deg,
              scenario.origin_altitude_m),
       gnss_(std::move(twins.gnss)),
+      imu_(std::move(twins.imu)),
       sent_(scenario.buses.size()),
       waiting_(scenario.buses.size()) {
   if (twins.drives.size() != scenario.drives.size())
@@ -73,6 +83,7 @@ void Robot::step(Time now) {
   }
   sense(now);
   tell_gnss(now);
+  imu_size_ = imu_ ? imu_->on_tick(now, truth_.imu, imu_bytes_) : 0;
   for (int i = 0; i < steps_per_tick_; ++i)
     turn_wheels(now + kTick * i / steps_per_tick_, i == 0 ? sent_ : waiting_);
 }
@@ -86,12 +97,36 @@ void Robot::sense(Time now) {
     const WheelState wheel = plant_.wheel(drives_[i].joint);
     truth_.wheels[i] = {wheel.position_rad, wheel.velocity_radps, drives_[i].shaft.torque_Nm};
   }
+  sense_motion();
   const auto set = [this](LineName line, bool value) {
     sensed_[static_cast<std::size_t>(line)] = value;
   };
   set(LineName::bumper, plant_.bumper_touched());
   set(LineName::zone_far, truth_.free_ahead_m < scenario_.zone_far_m);
   set(LineName::zone_near, truth_.free_ahead_m < scenario_.zone_near_m);
+}
+
+// The specific force is the change of the sensor's velocity over the last tick, which averages what
+// happened in it as a sensor's filter does, and gravity.
+void Robot::sense_motion() {
+  constexpr double kGravity_mps2 = 9.80665;
+  Plant::Vector place;
+  if (scenario_.imu) place = {scenario_.imu->x_m, scenario_.imu->y_m, scenario_.imu->z_m};
+  const auto velocity = plant_.point_velocity_mps(place);
+  const auto before = sensor_velocity_mps_.value_or(velocity);
+  sensor_velocity_mps_ = velocity;
+  const double tick_s = to_s(kTick);
+  const auto force =
+      plant_.in_base_axes({(velocity.x - before.x) / tick_s, (velocity.y - before.y) / tick_s,
+                           (velocity.z - before.z) / tick_s + kGravity_mps2});
+  truth_.imu.specific_force_mps2 = {force.x, force.y, force.z};
+  truth_.imu.angular_velocity_radps = {truth_.velocity.wx_radps, truth_.velocity.wy_radps,
+                                       truth_.velocity.wz_radps};
+  truth_.imu.orientation = plant_.orientation();
+}
+
+void Robot::on_imu_bytes(std::span<const std::uint8_t> bytes, Time now) {
+  if (imu_ && !bytes.empty()) imu_->on_bytes(bytes, now);
 }
 
 void Robot::tell_gnss(Time now) {

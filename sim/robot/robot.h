@@ -5,6 +5,8 @@
 
 #include <array>
 #include <memory>
+#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,6 +22,7 @@ inline constexpr Duration kTick = std::chrono::milliseconds(5);
 struct Twins {
   std::vector<std::unique_ptr<CanTwin>> drives;  ///< in the scenario's order
   std::unique_ptr<GnssTwin> gnss;                ///< nullptr: none
+  std::unique_ptr<ImuTwin> imu;                  ///< nullptr: none
 };
 /// From the registry. Throws std::runtime_error naming the drive and its option.
 Twins make_twins(const Scenario& scenario, std::uint64_t seed);
@@ -40,6 +43,10 @@ class Robot {
   const std::vector<CanFrame>& frames(std::size_t bus) const { return sent_[bus]; }
   /// What the receiver said at this tick, not yet paced.
   std::string_view gnss_bytes() const { return {gnss_bytes_.data(), gnss_size_}; }
+  /// The same of the inertial sensor, at its own speed; and what was written to it.
+  std::string_view imu_bytes() const { return {imu_bytes_.data(), imu_size_}; }
+  int imu_baud() const { return imu_ ? static_cast<int>(imu_->baud()) : 0; }
+  void on_imu_bytes(std::span<const std::uint8_t> bytes, Time now);
   /// Electrical level.
   bool line_high(LineName line) const;
 
@@ -49,6 +56,7 @@ class Robot {
     BaseVelocity velocity;
     std::vector<Shaft> wheels;  ///< in the order of `drives`
     double free_ahead_m = 0;
+    ImuTruth imu;  ///< at the inertial sensor's place; base_link where there is none
   };
   /// As of the last step's `now`.
   const Truth& truth() const { return truth_; }
@@ -69,10 +77,12 @@ class Robot {
   using Override = std::optional<bool>;
 
   void sense(Time now);
+  void sense_motion();
   void tell_gnss(Time now);
   void turn_wheels(Time now, std::vector<std::vector<CanFrame>>& out);
   void set_power(Drive& drive, bool on);
   std::string command_gnss(std::string_view state);
+  std::string command_imu(std::string_view state);
   std::string command_drive(std::string_view joint, std::string_view verb, std::string_view value);
   std::string command_obstacle(std::string_view name, std::string_view x, std::string_view y);
   std::string truth_text() const;
@@ -83,11 +93,15 @@ class Robot {
   GeographicLib::LocalCartesian earth_;
   std::vector<Drive> drives_;
   std::unique_ptr<GnssTwin> gnss_;
+  std::unique_ptr<ImuTwin> imu_;
   std::vector<std::vector<CanFrame>> sent_;     // by bus: for this tick
   std::vector<std::vector<CanFrame>> waiting_;  // by bus: for the next one
   TwinFrames frames_;                           // of one call
   std::array<char, 8192> gnss_bytes_{};
   std::size_t gnss_size_ = 0;
+  std::array<char, 1024> imu_bytes_{};
+  std::size_t imu_size_ = 0;
+  std::optional<Plant::Vector> sensor_velocity_mps_;  // a tick ago
   std::array<bool, kLineNames> sensed_{};
   std::array<Override, kLineNames> forced_{};
   Truth truth_;

@@ -25,6 +25,7 @@ const DriverEntry& find_twin(const JsonReader& reader, const std::string& name,
 // Indices of the alternatives of DriverEntry::make_twin.
 constexpr std::size_t kCanTwin = 1;
 constexpr std::size_t kGnssTwin = 2;
+constexpr std::size_t kImuTwin = 3;
 
 void read_options(JsonReader& reader, const DriverEntry& entry, Options& options) {
   reader.options("options", entry.options, options);
@@ -69,13 +70,17 @@ DriveSpec read_drive(JsonReader& reader, const Scenario& scenario) {
   return drive;
 }
 
+int read_baud(JsonReader& reader, int otherwise) {
+  const double baud = reader.number("baud", otherwise);
+  if (!(baud >= 4800 && baud <= 4'000'000)) reader.fail("baud", "must be from 4800 to 4000000");
+  return static_cast<int>(baud);
+}
+
 GnssSpec read_gnss(JsonReader reader) {
   GnssSpec gnss;
   gnss.driver = &find_twin(reader, reader.text("driver", "nmea0183"), kGnssTwin);
   gnss.port = reader.text("port", gnss.port);
-  const double baud = reader.number("baud", gnss.baud);
-  if (!(baud >= 4800 && baud <= 4'000'000)) reader.fail("baud", "must be from 4800 to 4000000");
-  gnss.baud = static_cast<int>(baud);
+  gnss.baud = read_baud(reader, gnss.baud);
   if (reader.has("antenna")) {
     auto antenna = reader.object("antenna");
     gnss.antenna_x_m = antenna.number("x_m", 0);
@@ -87,6 +92,24 @@ GnssSpec read_gnss(JsonReader reader) {
   read_options(reader, *gnss.driver, gnss.options);
   reader.done();
   return gnss;
+}
+
+ImuSpec read_imu(JsonReader reader) {
+  ImuSpec imu;
+  imu.driver = &find_twin(reader, reader.text("driver", "witmotion"), kImuTwin);
+  imu.port = reader.text("port", imu.port);
+  imu.baud = read_baud(reader, imu.baud);
+  if (reader.has("place")) {
+    auto place = reader.object("place");
+    imu.x_m = place.number("x_m", 0);
+    imu.y_m = place.number("y_m", 0);
+    imu.z_m = place.number("z_m", 0);
+    place.done();
+  }
+  read_options(reader, *imu.driver, imu.options);
+  imu.options.set("baud", static_cast<double>(imu.baud));
+  reader.done();
+  return imu;
 }
 
 void read_lines(JsonReader& top, Scenario& scenario) {
@@ -155,6 +178,7 @@ Scenario read_scenario(const nlohmann::json& document, const std::string& folder
   if (top.has("drives"))
     for (auto& drive : top.list("drives")) scenario.drives.push_back(read_drive(drive, scenario));
   if (top.has("gnss")) scenario.gnss = read_gnss(top.object("gnss"));
+  if (top.has("imu")) scenario.imu = read_imu(top.object("imu"));
   read_lines(top, scenario);
   read_zones(top, scenario);
   scenario.estop_cuts_power = top.flag("estop_cuts_power", false);

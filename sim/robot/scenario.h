@@ -45,6 +45,17 @@ struct GnssSpec {
   double heading_offset_deg = 0;  ///< of the antennas' baseline from ahead, clockwise
 };
 
+struct ImuSpec {
+  const DriverEntry* driver = nullptr;
+  std::string port = "imu";  ///< as the receiver's
+  int baud = 115200;
+  Options options;  ///< with the attitude in which it is mounted
+  // Place in base_link.
+  double x_m = 0;
+  double y_m = 0;
+  double z_m = 0;
+};
+
 enum class LineName : std::uint8_t { estop, bumper, zone_far, zone_near };
 inline constexpr std::size_t kLineNames = 4;
 inline constexpr std::array<std::string_view, kLineNames> kLineText{"estop", "bumper", "zone_far",
@@ -74,6 +85,7 @@ struct Scenario {
   std::vector<BusSpec> buses;
   std::vector<DriveSpec> drives;
   std::optional<GnssSpec> gnss;
+  std::optional<ImuSpec> imu;
   std::array<LineSpec, kLineNames> lines;
   double zone_near_m = 0.6;  ///< ahead of the bumper
   double zone_far_m = 2.0;

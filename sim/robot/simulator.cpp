@@ -82,10 +82,9 @@ Simulator::Simulator(const SimulatorSettings& settings)
   const auto& scenario = robot_.scenario();
   // Before the signals are blocked, which a child (`ip`) would inherit.
   for (const auto& bus : scenario.buses) buses_.push_back(make_port(bus, settings_));
-  if (scenario.gnss) {
-    const auto link = std::filesystem::path(settings_.run_folder) / scenario.gnss->port;
-    gnss_.emplace(link.string(), scenario.gnss->baud);
-  }
+  const std::filesystem::path folder(settings_.run_folder);
+  if (scenario.gnss) gnss_.emplace((folder / scenario.gnss->port).string(), scenario.gnss->baud);
+  if (scenario.imu) imu_.emplace((folder / scenario.imu->port).string(), scenario.imu->baud);
   signals_ = block_signals();
   control_.emplace(settings_.run_folder + "/sim.sock", epoll_.get());
   watch(epoll_.get(), timer_.get());
@@ -157,7 +156,7 @@ void Simulator::tick(Time now) {
   robot_.step(now);
   send_can(now);
   write_lines();
-  if (gnss_) gnss_->pump(robot_.gnss_bytes(), kTick);
+  exchange_serial(now);
   keep_records(now);
   previous_ = now;
 }
@@ -182,6 +181,15 @@ void Simulator::send_can(Time now) {
     frames_out_ += frames.size();
     for (const auto& frame : frames) can_log_.write(now, robot_.scenario().buses[i].name, frame);
   }
+}
+
+void Simulator::exchange_serial(Time now) {
+  // What is written to a receiver does not concern this one.
+  if (gnss_) gnss_->pump(robot_.gnss_bytes(), kTick);
+  if (!imu_) return;
+  imu_->set_baud(robot_.imu_baud());
+  imu_->pump(robot_.imu_bytes(), kTick);
+  robot_.on_imu_bytes(imu_->heard(), now);
 }
 
 void Simulator::write_lines() {
@@ -217,8 +225,15 @@ std::string Simulator::command(std::string_view text) {
     quit_ = true;
     return "ok";
   }
-  if (!text.starts_with("can ")) return robot_.command(text);
-  text.remove_prefix(4);
+  if (text.starts_with("can ")) return command_can(text.substr(4));
+  for (const std::string_view device : {"gnss ", "imu "})
+    for (const std::string_view verb : {"plug", "unplug"})
+      if (text.starts_with(device) && text.substr(device.size()) == verb)
+        return command_plug(device.substr(0, device.size() - 1), verb);
+  return robot_.command(text);
+}
+
+std::string Simulator::command_can(std::string_view text) {
   const auto space = text.find(' ');
   for (std::size_t i = 0; i < buses_.size() && space != std::string_view::npos; ++i)
     if (robot_.scenario().buses[i].name == text.substr(0, space))
@@ -227,18 +242,31 @@ std::string Simulator::command(std::string_view text) {
          "scenario";
 }
 
+std::string Simulator::command_plug(std::string_view device, std::string_view verb) {
+  auto& port = device == "imu" ? imu_ : gnss_;
+  if (!port) return "error: the scenario has no such device";
+  if (verb == "unplug") {
+    port->unplug();
+    return "ok";
+  }
+  port->plug();
+  // It lives on the cable's supply.
+  return device == "imu" ? robot_.command("imu restart") : "ok";
+}
+
 std::string Simulator::summary() const {
   std::uint64_t can_dropped = 0;
   for (const auto& bus : buses_) can_dropped += bus->dropped();
   std::array<char, 256> text{};
   const int n = std::snprintf(
       text.data(), text.size(),
-      "%llu ticks (%llu left out), CAN frames %llu in, %llu out, %llu dropped, GNSS bytes dropped "
-      "%llu",
+      "%llu ticks (%llu left out), CAN frames %llu in, %llu out, %llu dropped, serial bytes "
+      "dropped %llu",
       static_cast<unsigned long long>(ticks_), static_cast<unsigned long long>(left_out_),
       static_cast<unsigned long long>(frames_in_), static_cast<unsigned long long>(frames_out_),
       static_cast<unsigned long long>(can_dropped),
-      static_cast<unsigned long long>(gnss_ ? gnss_->dropped() : 0));
+      static_cast<unsigned long long>((gnss_ ? gnss_->dropped() : 0) +
+                                      (imu_ ? imu_->dropped() : 0)));
   return {text.data(), static_cast<std::size_t>(n)};
 }
 

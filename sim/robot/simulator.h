@@ -9,10 +9,10 @@
 
 #include "sim/robot/can_port.h"
 #include "sim/robot/control_socket.h"
-#include "sim/robot/gnss_port.h"
 #include "sim/robot/line_port.h"
 #include "sim/robot/log.h"
 #include "sim/robot/robot.h"
+#include "sim/robot/serial_port.h"
 
 namespace drover::sim {
 
@@ -44,7 +44,10 @@ class Simulator {
   void write_lines();
   void keep_records(Time now);
   void measure_clocks();
+  void exchange_serial(Time now);
   std::string command(std::string_view text);
+  std::string command_can(std::string_view text);
+  std::string command_plug(std::string_view device, std::string_view verb);
   void on_events(int timeout_ms);
 
   SimulatorSettings settings_;
@@ -53,7 +56,8 @@ class Simulator {
   link::UniqueFd timer_;
   link::UniqueFd signals_;
   std::vector<std::unique_ptr<CanPort>> buses_;
-  std::optional<GnssPort> gnss_;
+  std::optional<SerialPort> gnss_;
+  std::optional<SerialPort> imu_;
   LinePort lines_;
   CanLog can_log_;
   TruthLog truth_log_;

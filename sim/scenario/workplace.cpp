@@ -95,6 +95,7 @@ void Workplace::make_native(json& config) {
   for (auto& bus : config["buses"])
     bus["interface"] = "unix:" + sim_folder_ + "/" + bus.value("name", "") + ".sock";
   config["gnss"]["port"] = sim_folder_ + "/gnss";
+  if (config.contains("imu")) config["imu"]["port"] = sim_folder_ + "/imu";
   config["lines"]["chip"] = "files:" + sim_folder_ + "/lines";
   config["guard"]["socket"] = run + "/guard.sock";
   config["mqtt"]["port"] = port_;

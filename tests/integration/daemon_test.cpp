@@ -90,6 +90,21 @@ TEST_F(Daemon, PicksUpEachPartWhenItAppears) {
   EXPECT_TRUE(wait_for_status("NAV_SUCCESS"));
 }
 
+TEST_F(Daemon, FindsReceiverAndInertialSensorAgainAfterTheirCablesWerePulled) {
+  ASSERT_NO_FATAL_FAILURE(start_all());
+  const auto sensor = [this] { return status_text("sensor", "imu") == "true"; };
+  const auto receiver = [this] { return status_number("rtk", "status") == 4; };
+  ASSERT_TRUE(wait_until([&] { return sensor() && receiver(); }));
+  sim({"imu", "unplug"});
+  EXPECT_TRUE(wait_until([&] { return !sensor() && receiver(); }));
+  sim({"gnss", "unplug"});
+  EXPECT_TRUE(wait_until([&] { return !receiver(); }));
+  sim({"imu", "plug"});
+  EXPECT_TRUE(wait_until([&] { return sensor() && !receiver(); }));
+  sim({"gnss", "plug"});
+  EXPECT_TRUE(wait_until([&] { return sensor() && receiver(); }));
+}
+
 TEST_F(Daemon, DrivesASavedTrackToItsEnd) {
   ASSERT_NO_FATAL_FAILURE(start_all());
   ASSERT_NO_FATAL_FAILURE(drive(3));

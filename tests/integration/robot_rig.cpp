@@ -53,6 +53,8 @@ constexpr const char* kSimFile = R"({
     {"joint": "front_right", "driver": "odrive", "bus": "can0", "options": {"node": 3}},
     {"joint": "rear_right", "driver": "odrive", "bus": "can0", "options": {"node": 4}}],
   "gnss": {"driver": "nmea0183", "antenna": {"x_m": 0.1, "y_m": 0, "z_m": 0.6}},
+  "imu": {"driver": "witmotion", "place": {"x_m": 0.05, "z_m": 0.15},
+          "options": {"mount_yaw_deg": -90}},
   "lines": {}
 })";
 
@@ -74,6 +76,8 @@ constexpr const char* kDroverFile = R"({
   "base": {"wheel_radius_m": 0.165, "track_m": 0.6, "yaw_slip_factor": 1.69,
            "left": ["front_left", "rear_left"], "right": ["front_right", "rear_right"]},
   "gnss": {"port": "@folder@/sim/gnss", "options": {"stale_s": 2}},
+  "imu": {"driver": "witmotion", "port": "@folder@/sim/imu",
+          "options": {"mount_yaw_deg": -90, "stale_s": 2}},
   "lines": {"chip": "files:@folder@/sim/lines",
             "estop": {"line": "estop", "options": {"stale_s": 0.5}},
             "bumper": {"line": "bumper", "options": {"stale_s": 0.5}},

@@ -11,10 +11,11 @@
 #include <string>
 
 #include "link/can_open.h"
+#include "link/serial_link.h"
 #include "sim/robot/can_port.h"
-#include "sim/robot/gnss_port.h"
 #include "sim/robot/line_port.h"
 #include "sim/robot/log.h"
+#include "sim/robot/serial_port.h"
 
 namespace drover::sim {
 namespace {
@@ -42,6 +43,17 @@ class Ports : public testing::Test {
     auto opened = link::open_can({"unix:" + (folder / "can0.sock").string(), 64, false});
     EXPECT_TRUE(opened.link) << opened.problem;
     return std::move(opened.link);
+  }
+  std::unique_ptr<link::SerialLink> open_line(const char* name, int baud) {
+    auto opened = link::open_serial({(folder / name).string(), baud});
+    EXPECT_TRUE(opened.link) << opened.problem;
+    return std::move(opened.link);
+  }
+  static std::string received(link::SerialLink& line) {
+    std::array<std::uint8_t, 64> bytes{};
+    std::size_t size = 0;
+    EXPECT_TRUE(line.read(bytes, size));
+    return {bytes.begin(), bytes.begin() + static_cast<long>(size)};
   }
   fs::path folder;
   Scenario scenario;
@@ -134,19 +146,68 @@ TEST_F(Ports, WaitForAnInterfaceThatIsNotThere) {
 }
 
 TEST_F(Ports, LoseAReceiversBytesWhileNobodyListens) {
-  GnssPort port((folder / "gnss").string(), 115200);
+  SerialPort port((folder / "gnss").string(), 115200);
   for (int i = 0; i < 100; ++i) port.pump(i == 0 ? "$OLD\r\n" : "", std::chrono::milliseconds(5));
-  const link::UniqueFd reader(::open((folder / "gnss").c_str(), O_RDWR | O_NONBLOCK | O_NOCTTY));
+  const auto reader = open_line("gnss", 115200);
   ASSERT_TRUE(reader);
   for (int i = 0; i < 100; ++i) port.pump(i == 0 ? "$NEW\r\n" : "", std::chrono::milliseconds(5));
-  std::array<char, 64> bytes{};
-  const auto n = ::read(reader.get(), bytes.data(), bytes.size());
-  ASSERT_GT(n, 0);
-  EXPECT_EQ(std::string(bytes.data(), static_cast<std::size_t>(n)), "$NEW\r\n");
+  EXPECT_EQ(received(*reader), "$NEW\r\n");
+}
+
+TEST_F(Ports, CarryWhatIsWrittenToADeviceEvenWhileItIsSilent) {
+  SerialPort port((folder / "imu").string(), 115200);
+  const auto host = open_line("imu", 115200);
+  ASSERT_TRUE(host);
+  const std::array<std::uint8_t, 5> command{0xFF, 0xAA, 0x69, 0x88, 0xB5};
+  ASSERT_TRUE(host->write(command));
+  std::vector<std::uint8_t> heard;
+  for (int i = 0; i < 4; ++i) {
+    port.pump("", kTick);
+    heard.insert(heard.end(), port.heard().begin(), port.heard().end());
+  }
+  EXPECT_EQ(heard, std::vector<std::uint8_t>(command.begin(), command.end()));
+}
+
+TEST_F(Ports, TurnEverythingIntoNoiseWhenTheSpeedsDiffer) {
+  SerialPort port((folder / "imu").string(), 9600);
+  const auto host = open_line("imu", 115200);
+  ASSERT_TRUE(host);
+  ASSERT_TRUE(host->write(std::array<std::uint8_t, 5>{0xFF, 0xAA, 0x69, 0x88, 0xB5}));
+  for (int i = 0; i < 20; ++i) {
+    port.pump(i == 0 ? "spoken words" : "", kTick);
+    if (i == 0) {
+      EXPECT_EQ(port.heard().size(), 5U);
+      EXPECT_NE(port.heard()[1], 0xAA);
+    }
+  }
+  const auto heard = received(*host);
+  EXPECT_EQ(heard.size(), 12U);
+  EXPECT_NE(heard, "spoken words");
+  // The device changes its speed: both agree now.
+  port.set_baud(115200);
+  for (int i = 0; i < 4; ++i) port.pump(i == 0 ? "spoken words" : "", kTick);
+  EXPECT_EQ(received(*host), "spoken words");
+}
+
+TEST_F(Ports, HangUpWhenUnpluggedAndAreThereAgainWhenPlugged) {
+  SerialPort port((folder / "imu").string(), 115200);
+  const auto host = open_line("imu", 115200);
+  ASSERT_TRUE(host);
+  port.unplug();
+  port.pump("lost", kTick);
+  EXPECT_FALSE(fs::is_symlink(folder / "imu"));
+  std::array<std::uint8_t, 8> bytes{};
+  std::size_t size = 0;
+  EXPECT_FALSE(host->read(bytes, size));
+  port.plug();
+  const auto again = open_line("imu", 115200);
+  ASSERT_TRUE(again);
+  for (int i = 0; i < 4; ++i) port.pump(i == 0 ? "new" : "", kTick);
+  EXPECT_EQ(received(*again), "new");
 }
 
 TEST_F(Ports, RemoveTheReceiversLinkAtTheEnd) {
-  { const GnssPort port((folder / "gnss").string(), 9600); }
+  { const SerialPort port((folder / "gnss").string(), 9600); }
   EXPECT_FALSE(fs::is_symlink(folder / "gnss"));
 }
 

@@ -46,6 +46,19 @@ struct FakeReceiver final : GnssTwin {
   GnssTruth* last;
 };
 
+struct FakeSensor final : ImuTwin {
+  explicit FakeSensor(ImuTruth* seen) : last(seen) {}
+  std::size_t on_tick(Time, const ImuTruth& truth, std::span<char> out) override {
+    *last = truth;
+    out[0] = 'U';
+    return 1;
+  }
+  void on_bytes(std::span<const std::uint8_t>, Time) override {}
+  std::uint32_t baud() const override { return 9600; }
+  bool set_state(std::string_view name, Time) override { return name.empty() || name == "frozen"; }
+  ImuTruth* last;
+};
+
 class RobotTest : public testing::Test {
  protected:
   RobotTest() {
@@ -63,6 +76,7 @@ class RobotTest : public testing::Test {
     for (std::uint32_t i = 0; i < scenario.drives.size(); ++i)
       twins.drives.push_back(std::make_unique<FakeDrive>(i + 1));
     twins.gnss = std::make_unique<FakeReceiver>(&seen);
+    if (scenario.imu) twins.imu = std::make_unique<FakeSensor>(&felt);
     return {scenario, std::move(twins)};
   }
   void run(Robot& robot, Duration time) {
@@ -70,6 +84,7 @@ class RobotTest : public testing::Test {
   }
   Scenario scenario;
   GnssTruth seen;
+  ImuTruth felt;
   Time now{std::chrono::seconds(100)};
 };
 
@@ -80,11 +95,27 @@ TEST_F(RobotTest, RefusesAJointThatTheWorldDoesNotHave) {
 
 TEST_F(RobotTest, RefusesUnknownCommandsAndChangesNothing) {
   auto robot = make();
-  for (const auto* text :
-       {"", "  ", "dance", "estop", "estop maybe", "zone middle occupied", "zone near",
-        "obstacle obstacle 1", "obstacle cow 1 1", "obstacle obstacle nan 0", "kick 1", "kick 1 x",
-        "gnss", "gnss sunny", "drive front_left", "drive front_left power", "drive tail power on",
-        "drive all fault broken", "drive all fault"})
+  for (const auto* text : {"",
+                           "  ",
+                           "dance",
+                           "estop",
+                           "estop maybe",
+                           "zone middle occupied",
+                           "zone near",
+                           "obstacle obstacle 1",
+                           "obstacle cow 1 1",
+                           "obstacle obstacle nan 0",
+                           "kick 1",
+                           "kick 1 x",
+                           "gnss",
+                           "gnss sunny",
+                           "imu",
+                           "imu frozen",
+                           "drive front_left",
+                           "drive front_left power",
+                           "drive tail power on",
+                           "drive all fault broken",
+                           "drive all fault"})
     EXPECT_THAT(robot.command(text), StartsWith("error: ")) << text;
   run(robot, kTick);
   for (std::size_t i = 0; i < kLineNames; ++i)
@@ -139,6 +170,44 @@ TEST_F(RobotTest, TellsTheReceiverWhereItsAntennaIs) {
   EXPECT_NEAR(seen.longitude_deg, 13, 1e-8);
   EXPECT_NEAR(seen.heading_deg, 30, 1e-6);
   EXPECT_EQ(robot.gnss_bytes(), "$");
+}
+
+TEST_F(RobotTest, TellsTheInertialSensorGravityAndTheMotionOfItsPlace) {
+  scenario.imu.emplace();
+  scenario.imu->y_m = 0.5;
+  auto robot = make();
+  run(robot, std::chrono::seconds(2));
+  EXPECT_EQ(robot.imu_bytes(), "U");
+  EXPECT_EQ(robot.imu_baud(), 9600);
+  EXPECT_NEAR(felt.specific_force_mps2.x, 0, 0.02);
+  EXPECT_NEAR(felt.specific_force_mps2.y, 0, 0.02);
+  EXPECT_NEAR(felt.specific_force_mps2.z, 9.80665, 0.05);
+  // Turning on the spot pulls the sensor towards the middle, from the left to the right.
+  for (std::uint32_t i = 1; i <= 4; ++i)  // the drives of the right side are the even ones
+    robot.on_frame(0, make_frame(i, {static_cast<std::uint8_t>(i % 2 == 0 ? 60 : 0)}), now);
+  run(robot, std::chrono::milliseconds(400));
+  double sum_force = 0;
+  double sum_square = 0;
+  double sum_rate = 0;
+  double before_rad = robot.truth().pose.yaw_rad;
+  for (int i = 0; i < 40; ++i) {
+    run(robot, kTick);
+    sum_force += felt.specific_force_mps2.y / 40;
+    sum_square += felt.angular_velocity_radps.z * felt.angular_velocity_radps.z / 40;
+    sum_rate += felt.angular_velocity_radps.z * to_s(kTick);
+  }
+  EXPECT_GT(sum_square, 0.1);
+  EXPECT_NEAR(sum_rate, robot.truth().pose.yaw_rad - before_rad, 0.02);
+  EXPECT_LT(sum_force, 0);
+}
+
+TEST_F(RobotTest, PassesStatesOfTheInertialSensorOn) {
+  scenario.imu.emplace();
+  auto robot = make();
+  EXPECT_EQ(robot.command("imu frozen"), "ok");
+  EXPECT_EQ(robot.command("imu well"), "ok");
+  EXPECT_THAT(robot.command("imu"), StartsWith("error: "));
+  EXPECT_THAT(robot.command("imu tired"), StartsWith("error: "));
 }
 
 TEST_F(RobotTest, PullsTheLineOfAPressedButtonLow) {

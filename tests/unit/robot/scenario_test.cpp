@@ -132,6 +132,8 @@ TEST(Scenario, ReadsAWholeRobotWithComments) {
     "can": {"can0": {"kind": "slcan"}},
     "drives": [{"joint": "front_left", "driver": "odrive", "bus": "can0", "options": {"node": 5}}],
     "gnss": {"baud": 38400, "antenna": {"z_m": 0.8, "heading_offset_deg": 90}},
+    "imu": {"baud": 230400, "place": {"z_m": 0.2}, "options": {"mount_yaw_deg": -90},
+            "twin": {"bias_sigma_dps": 1}},
     "player": {"anything": [1]}})",
                                        "");
   EXPECT_EQ(scenario.buses[0].kind, CanKind::slcan);
@@ -141,6 +143,11 @@ TEST(Scenario, ReadsAWholeRobotWithComments) {
   EXPECT_EQ(scenario.gnss->baud, 38400);
   EXPECT_EQ(scenario.gnss->antenna_z_m, 0.8);
   EXPECT_EQ(scenario.gnss->heading_offset_deg, 90);
+  ASSERT_TRUE(scenario.imu);
+  EXPECT_EQ(scenario.imu->z_m, 0.2);
+  EXPECT_EQ(scenario.imu->options.number("baud"), 230400);
+  EXPECT_EQ(scenario.imu->options.number("mount_yaw_deg"), -90);
+  EXPECT_EQ(scenario.imu->options.number("bias_sigma_dps"), 1);
 }
 
 }  // namespace

@@ -68,6 +68,11 @@ TEST_F(SimulatorTest, AnswersOnItsWiresUntilItIsToldToQuit) {
   EXPECT_THAT(ask(socket, "truth"), HasSubstr("\"x_m\":"));
   EXPECT_EQ(ask(socket, "estop press"), "ok");
   EXPECT_TRUE(fs::is_symlink(folder / "run/gnss"));
+  EXPECT_THAT(ask(socket, "imu unplug"), StartsWith("error: "));
+  EXPECT_EQ(ask(socket, "gnss unplug"), "ok");
+  EXPECT_FALSE(fs::is_symlink(folder / "run/gnss"));
+  EXPECT_EQ(ask(socket, "gnss plug"), "ok");
+  EXPECT_TRUE(fs::is_symlink(folder / "run/gnss"));
   EXPECT_EQ(ask(socket, "quit"), "ok");
   loop.join();
   EXPECT_THAT(simulator.summary(), HasSubstr(" ticks"));

@@ -1,0 +1,128 @@
+#include "sim/robot/serial_port.h"
+
+#include <poll.h>
+#include <termios.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <stdexcept>
+
+namespace drover::sim {
+namespace {
+
+// A device says what its line can carry; what is more is torn or lost.
+constexpr std::size_t kLongestQueue = 4096;
+// A silent device is asked so seldom whether somebody writes to it: system calls are dear in
+// places.
+constexpr int kTicksBetweenLooks = 4;
+
+struct Speed {
+  speed_t code;
+  int baud;
+};
+constexpr Speed kSpeeds[] = {{B4800, 4800},     {B9600, 9600},     {B19200, 19200},
+                             {B38400, 38400},   {B57600, 57600},   {B115200, 115200},
+                             {B230400, 230400}, {B460800, 460800}, {B921600, 921600}};
+
+/// Of the side that has opened the line; 0 when it cannot be told. A pseudo-terminal carries no
+/// bits, but it remembers the setting.
+int host_baud(int master) {
+  termios settings{};
+  if (::tcgetattr(master, &settings) != 0) return 0;
+  const speed_t code = ::cfgetospeed(&settings);
+  for (const auto& speed : kSpeeds)
+    if (speed.code == code) return speed.baud;
+  return 0;
+}
+
+}  // namespace
+
+std::size_t BaudPacer::take(std::size_t waiting, Duration tick) {
+  if (waiting == 0) {
+    credit_ = 0;
+    return 0;
+  }
+  // Whole numbers, in bits times nanoseconds a second: nothing is lost to rounding.
+  constexpr std::int64_t kByte = 10 * std::int64_t{1'000'000'000};
+  credit_ += baud_ * std::int64_t{tick.count()};
+  const auto bytes = std::min(waiting, static_cast<std::size_t>(credit_ / kByte));
+  credit_ -= static_cast<std::int64_t>(bytes) * kByte;
+  return bytes;
+}
+
+SerialPort::SerialPort(const std::string& link_path, int baud)
+    : link_path_(link_path), pacer_(baud) {
+  plug();
+}
+
+SerialPort::~SerialPort() {
+  unplug();
+}
+
+void SerialPort::plug() {
+  if (plugged()) return;
+  Pty pty = open_pty();
+  // While we hold the slave ourselves, nothing tells whether somebody else does.
+  pty.slave.reset();
+  ::unlink(link_path_.c_str());
+  if (::symlink(pty.slave_path.c_str(), link_path_.c_str()) != 0)
+    throw std::runtime_error(link_path_ + ": cannot link: " + std::strerror(errno));
+  pty_ = std::move(pty);
+  listening_ = false;
+}
+
+void SerialPort::unplug() {
+  if (!plugged()) return;
+  ::unlink(link_path_.c_str());
+  pty_.reset();
+  queue_.clear();
+  heard_.clear();
+}
+
+char SerialPort::noise() {
+  noise_ = noise_ * 1664525U + 1013904223U;
+  return static_cast<char>(noise_ >> 24U);
+}
+
+// Asked when the device has something to say: a system call for each tick is dear.
+void SerialPort::look() {
+  ticks_since_look_ = 0;
+  pollfd line{pty_->master.get(), POLLIN, 0};
+  listening_ = ::poll(&line, 1, 0) >= 0 && (line.revents & POLLHUP) == 0;
+  if (!listening_) return;
+  const int host = host_baud(pty_->master.get());
+  speeds_agree_ = host == 0 || host == pacer_.baud();
+  if ((line.revents & POLLIN) != 0) hear();
+}
+
+void SerialPort::hear() {
+  std::array<std::uint8_t, 512> bytes{};
+  for (ssize_t n = 0; (n = ::read(pty_->master.get(), bytes.data(), bytes.size())) > 0;)
+    heard_.insert(heard_.end(), bytes.begin(), bytes.begin() + n);
+  if (speeds_agree_) return;
+  for (auto& byte : heard_) byte = static_cast<std::uint8_t>(noise());
+}
+
+void SerialPort::pump(std::string_view said, Duration tick) {
+  heard_.clear();
+  if (!plugged()) return;
+  if (!said.empty() || ++ticks_since_look_ >= kTicksBetweenLooks) look();
+  if (queue_.size() + said.size() <= kLongestQueue) {
+    queue_ += said;
+  } else {
+    dropped_ += said.size();
+  }
+  const auto bytes = pacer_.take(queue_.size(), tick);
+  if (bytes == 0) return;
+  if (listening_) {
+    if (!speeds_agree_) std::generate_n(queue_.begin(), bytes, [this] { return noise(); });
+    const auto n = ::write(pty_->master.get(), queue_.data(), bytes);
+    dropped_ += bytes - static_cast<std::size_t>(std::max<ssize_t>(n, 0));
+  }
+  queue_.erase(0, bytes);
+}
+
+}  // namespace drover::sim
