@@ -14,11 +14,7 @@ namespace drover {
 std::span<const DriverEntry> driver_registry() {
   // Filled at the first call: the entries live in other files, whose order of start is not ours.
   static const std::array kTable{
-      kOdriveEntry,
-      kGpioLineEntry,
-      kNmea0183Entry,
-      kModbusBmsEntry,
-      kWitmotionEntry,
+      kOdriveEntry, kGpioLineEntry, kNmea0183Entry, kModbusBmsEntry, kWitmotionEntry,
   };
   return kTable;
 }
