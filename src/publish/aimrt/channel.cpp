@@ -11,6 +11,9 @@ namespace drover::publish::aimrt {
 
 namespace {
 
+/// A beat of the timer before a tenth of a second is over.
+constexpr Duration kTouchPeriod = std::chrono::milliseconds(90);
+
 bool has_touch_lines(const Snapshot& snapshot) {
   return std::any_of(snapshot.line_configured.begin(), snapshot.line_configured.end(),
                      [i = std::size_t{0}](bool configured) mutable {
@@ -41,9 +44,18 @@ std::vector<Telemetry> Channel::telemetry(const Snapshot& snapshot, Duration wal
     last_imu_ = imu.time;
     add(imu_state_topic_, imu_state(snapshot, {wall_minus_monotonic, ++imu_sequence_}));
   }
-  if (has_touch_lines(snapshot))
+  if (touch_is_due(snapshot))
     add(touch_state_topic_, touch_state(snapshot, {wall_minus_monotonic, ++touch_sequence_}));
   return packets;
+}
+
+bool Channel::touch_is_due(const Snapshot& snapshot) {
+  if (!has_touch_lines(snapshot)) return false;
+  const auto lines = touched(snapshot);
+  if (lines == touched_ && snapshot.time - last_touch_ < kTouchPeriod) return false;
+  touched_ = lines;
+  last_touch_ = snapshot.time;
+  return true;
 }
 
 Result<JointTargets, Reason> Channel::judged(std::string_view payload, bool retained,

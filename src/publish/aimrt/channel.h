@@ -3,6 +3,7 @@
 // Pure, as the command service: time is an argument, and what must be done is appended to actions.
 #pragma once
 
+#include <array>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -37,7 +38,7 @@ class Channel final {
   const std::string& command_topic() const { return joint_command_topic_; }
 
   /// What to publish now. An inertial sample is published once: a sensor that is silent is silent
-  /// here too. Touch only where such a line is configured.
+  /// here too. Touch where such a line is configured, at each change and ten times a second.
   std::vector<Telemetry> telemetry(const Snapshot& snapshot, Duration wall_minus_monotonic);
 
   /// A message on command_topic(): a JointTargets or JointTargetsRefused for the engine, and now
@@ -46,6 +47,7 @@ class Channel final {
                   Actions& out);
 
  private:
+  bool touch_is_due(const Snapshot& snapshot);
   Result<JointTargets, Reason> judged(std::string_view payload, bool retained, Duration wall);
 
   std::string joint_state_topic_;
@@ -57,6 +59,8 @@ class Channel final {
   std::uint64_t imu_sequence_ = 0;
   std::uint64_t touch_sequence_ = 0;
   Time last_imu_ = kNever;
+  Time last_touch_ = kNever;
+  std::array<bool, kLineCount> touched_{};
   std::uint64_t last_stamp_ns_ = 0;
   std::uint64_t commands_ = 0;
   TokenBucket command_bucket_;

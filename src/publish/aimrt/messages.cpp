@@ -88,15 +88,22 @@ std::string imu_state(const Snapshot& snapshot, const Stamping& stamping) {
   return message.SerializeAsString();
 }
 
+std::array<bool, kLineCount> touched(const Snapshot& snapshot) {
+  std::array<bool, kLineCount> lines{};
+  for (std::size_t i = 0; i < kLineCount; ++i)
+    lines[i] = snapshot.line_active[i] || snapshot.line_health[i] != SourceState::fresh;
+  return lines;
+}
+
 std::string touch_state(const Snapshot& snapshot, const Stamping& stamping) {
   pb::sensor::TouchState message;
   fill(*message.mutable_header(), snapshot.time, kBaseFrame, stamping);
+  const auto lines = touched(snapshot);
   for (const auto& [line, name] : kTouchLines) {
     const auto i = static_cast<std::size_t>(line);
     if (!snapshot.line_configured[i]) continue;
     message.add_names(name);
-    const bool touched = snapshot.line_active[i] || snapshot.line_health[i] != SourceState::fresh;
-    message.add_states()->add_pressure(touched ? 1 : 0);
+    message.add_states()->add_pressure(lines[i] ? 1 : 0);
   }
   return message.SerializeAsString();
 }

@@ -4,6 +4,7 @@
 // time at which its values were true.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 
@@ -25,8 +26,11 @@ std::string joint_state(const Snapshot& snapshot, const Stamping& stamping);
 /// -1 when there is no orientation (which is then the identity).
 std::string imu_state(const Snapshot& snapshot, const Stamping& stamping);
 
+/// What the robot takes for touched, by Line: a line that cannot be read is.
+std::array<bool, kLineCount> touched(const Snapshot& snapshot);
+
 /// The configured contacts and zones: "bumper", "zone_far", "zone_near", one pressure each: 1
-/// touched or occupied, 0 free. A line that cannot be read counts as touched, as for the robot.
+/// touched() or occupied, 0 free.
 std::string touch_state(const Snapshot& snapshot, const Stamping& stamping);
 
 }  // namespace drover::publish::aimrt

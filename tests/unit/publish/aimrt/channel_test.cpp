@@ -162,6 +162,31 @@ TEST_F(AnAimrtChannel, PublishesTouchOnlyWhereAContactIsConfigured) {
   EXPECT_EQ(*packets[1].topic, "/channel/%2Ftouch_state/pb%3Aaimrt.protocols.sensor.TouchState");
 }
 
+TEST_F(AnAimrtChannel, PublishesTouchAtEachChangeAndTenTimesASecond) {
+  Snapshot snapshot;
+  snapshot.time = now_;
+  snapshot.line_configured[static_cast<std::size_t>(Line::bumper)] = true;
+  snapshot.line_health.fill(SourceState::fresh);
+  const auto is_published = [&] {
+    return channel_->telemetry(snapshot, kWallMinusMonotonic).size() == 2;
+  };
+  int published = 0;
+  for (int i = 0; i < 50; ++i) {
+    published += is_published() ? 1 : 0;
+    snapshot.time += std::chrono::milliseconds(20);
+  }
+  EXPECT_EQ(published, 10);
+  EXPECT_TRUE(is_published());
+  EXPECT_FALSE(is_published());
+  snapshot.line_active[static_cast<std::size_t>(Line::bumper)] = true;
+  EXPECT_TRUE(is_published());
+  EXPECT_FALSE(is_published());
+  snapshot.line_active[static_cast<std::size_t>(Line::bumper)] = false;
+  EXPECT_TRUE(is_published());
+  snapshot.line_health[static_cast<std::size_t>(Line::bumper)] = SourceState::stale;
+  EXPECT_TRUE(is_published()) << "not to be read is touched";
+}
+
 TEST_F(AnAimrtChannel, CountsTheMessagesOfEachType) {
   Snapshot snapshot;
   snapshot.time = now_;
