@@ -40,7 +40,7 @@ void visit_gnss(V& v, engine::EstimateConfig& c) {
   v.number("antenna_x_m", c.antenna_x_m, Range{-10, 10}, "antenna ahead of base_link");
   v.number("antenna_y_m", c.antenna_y_m, Range{-10, 10}, "antenna left of base_link");
   v.number("antenna_z_m", c.antenna_z_m, Range{-10, 10},
-           "antenna above base_link; without a sensor of roll and pitch it has no effect");
+           "antenna above base_link; without an inertial sensor it has no effect");
   v.number("heading_baseline_offset_deg", c.heading_baseline_offset_deg, Range{-360, 360},
            "antenna line from ahead, clockwise");
   v.number("heading_sigma_deg", c.heading_sigma_deg, Range{0.05, 20}, "one sigma of the heading");
@@ -91,6 +91,25 @@ void visit_odometry(V& v, engine::EstimateConfig& c) {
 }
 
 template <class V>
+void visit_imu(V& v, engine::EstimateConfig& c) {
+  v.number("imu_stale_s", c.imu_stale_s, Range{0.02, 2}, "older rates say nothing about the turn");
+  v.number("imu_gyro_noise_rad", c.imu_gyro_noise_rad, Range{0.00001, 0.1},
+           "one sigma of the heading by the gyro's noise, per square root of second");
+  v.number("imu_gyro_bias_sigma_radps", c.imu_gyro_bias_sigma_radps, Range{0.0001, 0.2},
+           "one sigma of the gyro's bias before it was learned at rest");
+  v.number("imu_gyro_bias_walk_radps", c.imu_gyro_bias_walk_radps, Range{0, 0.01},
+           "how much the bias changes, per square root of second");
+  v.number("imu_gyro_scale_sigma", c.imu_gyro_scale_sigma, Range{0.0001, 0.2},
+           "one sigma of the gyro's scale at the start, as a share");
+  v.number("imu_orientation_sigma_deg", c.imu_orientation_sigma_deg, Range{0.05, 20},
+           "one sigma of roll and pitch");
+  v.number("imu_rate_sigma_radps", c.imu_rate_sigma_radps, Range{0.0001, 1},
+           "one sigma of a sample of the angular velocity, as published");
+  v.number("imu_acceleration_sigma_mps2", c.imu_acceleration_sigma_mps2, Range{0.001, 10},
+           "one sigma of a sample of the acceleration, as published");
+}
+
+template <class V>
 void visit(V& v, engine::EstimateConfig& c) {
   v.number("bound_start_m", c.bound_start_m, Range{0.01, 10},
            "largest predicted position error (two sigma) to start with");
@@ -106,6 +125,7 @@ void visit(V& v, engine::EstimateConfig& c) {
            "disagreement, all in one direction, that ends a task; at rest it is believed then");
   visit_gnss(v, c);
   visit_odometry(v, c);
+  visit_imu(v, c);
 }
 
 template <class V>
@@ -149,6 +169,7 @@ template <class V>
 void visit(V& v, engine::HealthConfig& c) {
   v.number("drive_stale_s", c.drive_stale_s, Range{0.02, 2}, "longest silence of a drive");
   v.number("gnss_stale_s", c.gnss_stale_s, Range{0.1, 5}, "longest silence of the receiver");
+  v.number("imu_stale_s", c.imu_stale_s, Range{0.05, 5}, "longest silence of the inertial sensor");
   v.number("line_stale_s", c.line_stale_s, Range{0.01, 1}, "longest silence of a digital input");
   v.number("joint_command_timeout_s", c.joint_command_timeout_s, Range{0.02, 1},
            "longest silence within a stream of joint commands");

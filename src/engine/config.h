@@ -67,6 +67,15 @@ struct EstimateConfig {
   double yaw_slip_walk = 0.03;      ///< of the yaw gain, per square root of radian turned
   double wheel_scale_sigma = 0.02;  ///< of wheel radius and longitudinal slip, at the start
   double wheel_scale_walk = 0.002;  ///< per square root of metre
+  // Inertial sensor. The noise is that of a moving machine, not of the data sheet.
+  double imu_stale_s = 0.1;                   ///< older rates say nothing about the turn
+  double imu_gyro_noise_rad = 0.0005;         ///< of the heading, per square root of second
+  double imu_gyro_bias_sigma_radps = 0.02;    ///< before it was learned at rest
+  double imu_gyro_bias_walk_radps = 0.00005;  ///< per square root of second
+  double imu_gyro_scale_sigma = 0.01;         ///< of the true turn over the measured one
+  double imu_orientation_sigma_deg = 0.5;     ///< of roll and pitch
+  double imu_rate_sigma_radps = 0.005;        ///< of one sample, for those who read them
+  double imu_acceleration_sigma_mps2 = 0.05;  ///< of one sample
 };
 
 struct NavigateConfig {
@@ -95,6 +104,7 @@ struct NavigateConfig {
 struct HealthConfig {
   double drive_stale_s = 0.1;
   double gnss_stale_s = 0.3;
+  double imu_stale_s = 0.3;
   double line_stale_s = 0.02;
   double joint_command_timeout_s = 0.1;  ///< a stream silent for longer has ended
   double follow_timeout_s = 0.4;  ///< one wheel commanded but not following for so long: failed

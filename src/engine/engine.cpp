@@ -42,6 +42,7 @@ struct Engine::Impl {
   void start_task(const RequestId& id, const StartTask& task, Time now);
   void command_axes(const Motion& motion, EngineOutput& out);
   void command_axis(AxisId id, double velocity_radps, bool run, EngineOutput& out);
+  void fill_imu(const Estimate& located);
   void fill_snapshot(Time now, const Environment& environment, const Estimate& estimate,
                      Owner owner);
 
@@ -57,6 +58,7 @@ struct Engine::Impl {
   std::array<bool, kLineCount> pulse{};  ///< was active at some instant since the last step
   Estimate estimate;                     ///< of the last step
   GnssPosition fix;                      ///< the last one
+  bool imu_trusted = false;              ///< by its driver, in the last step
   double baseline_deg = kAbsent;         ///< last measured heading of the antennas
   Time last_step = kNever;
   Snapshot snapshot;
@@ -91,7 +93,8 @@ void Engine::Impl::count(const Measurement& m) {
 
 void Engine::Impl::take(const Measurement& m) {
   count(m);
-  estimator.on_measurement(m);
+  // What a stuck or silent sensor's driver still hands on is not believed.
+  if (imu_trusted || !std::holds_alternative<ImuSample>(m.value)) estimator.on_measurement(m);
   const auto axis_of = [this](AxisId id) -> AxisSnapshot* {
     return id < snapshot.axes.size() ? &snapshot.axes[id] : nullptr;
   };
@@ -192,6 +195,17 @@ void Engine::Impl::command_axes(const Motion& motion, EngineOutput& out) {
   for (const AxisId id : config.base.right) command_axis(id, speeds.right_radps, motion.run, out);
 }
 
+void Engine::Impl::fill_imu(const Estimate& located) {
+  ImuSnapshot& imu = snapshot.imu;
+  imu.gyro_bias_radps = located.gyro_bias_radps;
+  imu.gyro_bias_sigma_radps = located.gyro_bias_sigma_radps;
+  imu.roll_rad = located.roll_rad;
+  imu.pitch_rad = located.pitch_rad;
+  imu.orientation_sigma_rad = to_rad(config.estimate.imu_orientation_sigma_deg);
+  imu.angular_velocity_sigma_radps = config.estimate.imu_rate_sigma_radps;
+  imu.acceleration_sigma_mps2 = config.estimate.imu_acceleration_sigma_mps2;
+}
+
 void Engine::Impl::start_task(const RequestId& id, const StartTask& task, Time now) {
   if (const Reason why = owners.hinders_task(); !why.empty()) {
     events.push(now, CommandRefused{id, why});
@@ -226,6 +240,8 @@ void Engine::Impl::fill_snapshot(Time now, const Environment& environment, const
   snapshot.nav.owner_timeout_s = owners.timeout_s(owner);
   snapshot.joint_command = owners.joint_command();
   snapshot.gnss.configured = environment.gnss_configured;
+  snapshot.nav.metres_left = located.metres_left;
+  fill_imu(located);
   snapshot.gnss.health = report.gnss_ok ? environment.gnss.state : SourceState::stale;
   if (environment.gnss.state == SourceState::never_heard) {
     snapshot.gnss.health = SourceState::never_heard;
@@ -329,6 +345,7 @@ void Engine::step(Time now, const Environment& environment, EngineOutput& out) {
     e.snapshot.line_health[i] = environment.lines[i].state;
   }
   e.pulse.fill(false);
+  e.imu_trusted = environment.imu.state == SourceState::fresh;
   e.estimate = e.estimator.step(now);
   const std::span<const AxisSnapshot> axes{e.snapshot.axes.data(), e.snapshot.axes.size()};
   e.health.update({now, environment, axes, lines, e.estimate, e.estimator.has_origin(),

@@ -12,13 +12,31 @@ namespace {
 
 using namespace estimate;
 
-// Rim speeds that become known within one slot share an entry of the history, so its length does
-// not depend on the number of wheels. At 0.4 m/s2 the speed changes by 2 mm/s in one.
-constexpr Duration kWheelSlot = std::chrono::milliseconds(4);
+// Rim speeds and rates that become known within one slot share an entry of the history, so its
+// length does not depend on the number of wheels. At 0.4 m/s2 the speed changes by 2 mm/s in one.
+constexpr Duration kSlot = std::chrono::milliseconds(4);
 // Longest stretch predicted at once: the arc of a step is taken as its chord.
 constexpr Duration kLongestStep = std::chrono::milliseconds(20);
 constexpr double kFastestRim_mps = 20.0;  // faster is a broken encoder, not a field robot
 constexpr double kFarthest_m = 100000.0;  // from the origin: another place, not this field
+// A sensor that was away comes back with another bias.
+constexpr Duration kGyroAway = std::chrono::seconds(1);
+constexpr double kGyroReturn_radps = 0.001;
+// No place changes these.
+constexpr std::array<std::size_t, 4> kCarried{kGain, kScale, kGyroBias, kGyroScale};
+
+/// On a slope the base gets on less than its wheels roll.
+WheelMotion level_motion(const State& state, WheelMotion motion, Duration imu_stale) {
+  if (!state.gyro.fresh(state.time, imu_stale)) return motion;
+  const double level = std::cos(state.gyro.pitch_rad);
+  motion.left_mps *= level;
+  motion.right_mps *= level;
+  return motion;
+}
+
+Time next_stale(const GyroTrack& gyro, Time now, Duration stale) {
+  return gyro.fresh(now, stale) ? gyro.at + stale + Duration{1} : Time::max();
+}
 
 }  // namespace
 
@@ -26,7 +44,9 @@ Estimator::Estimator(const EstimateConfig& config, const BaseConfig& base)
     : config_(config),
       base_(base),
       wheel_stale_(from_s(config.wheel_stale_s)),
-      max_delay_(from_s(config.max_measurement_delay_s)) {
+      imu_stale_(from_s(config.imu_stale_s)),
+      max_delay_(from_s(config.max_measurement_delay_s)),
+      imu_(kSlot) {
   history_.restart(blank());
 }
 
@@ -34,6 +54,8 @@ State Estimator::blank() const {
   State state;
   state.belief.reset(kGain, 1.0 / base_.yaw_slip_factor, config_.yaw_slip_sigma);
   state.belief.reset(kScale, 1.0, config_.wheel_scale_sigma);
+  state.belief.reset(kGyroBias, 0.0, config_.imu_gyro_bias_sigma_radps);
+  state.belief.reset(kGyroScale, 1.0, config_.imu_gyro_scale_sigma);
   return state;
 }
 
@@ -46,7 +68,8 @@ void Estimator::set_origin(const GeodeticPoint& origin) {
   state.standing_since = old.standing_since;
   state.refused = old.refused;
   state.broken = old.broken;
-  for (const std::size_t i : {std::size_t{kGain}, std::size_t{kScale}}) {
+  state.gyro = old.gyro;
+  for (const std::size_t i : kCarried) {
     state.belief.reset(i, old.belief.mean[i], std::sqrt(old.belief.covariance[i][i]));
   }
   history_.restart(state);
@@ -66,8 +89,11 @@ PathPoint Estimator::local(const GeodeticPoint& point) const {
 GeodeticPoint Estimator::antenna_geodetic(const Pose& pose) const {
   const double c = std::cos(pose.yaw_rad);
   const double s = std::sin(pose.yaw_rad);
-  return frame_.geodetic({.x_m = pose.x_m + config_.antenna_x_m * c - config_.antenna_y_m * s,
-                          .y_m = pose.y_m + config_.antenna_x_m * s + config_.antenna_y_m * c},
+  const bool tilted = std::isfinite(estimate_.roll_rad);
+  const LeverArm arm =
+      lever_arm(tilted ? estimate_.roll_rad : 0, tilted ? estimate_.pitch_rad : 0, config_);
+  return frame_.geodetic({.x_m = pose.x_m + arm.ahead_m * c - arm.left_m * s,
+                          .y_m = pose.y_m + arm.ahead_m * s + arm.left_m * c},
                          altitude_m_);
 }
 
@@ -87,6 +113,8 @@ void Estimator::on_measurement(const Measurement& measurement) {
   // A GNSS velocity is not used: it is the same carrier phase as the position, and later.
   if (const auto* motion = std::get_if<AxisMotion>(&measurement.value)) {
     on_wheel(*motion, time);
+  } else if (const auto* imu = std::get_if<ImuSample>(&measurement.value)) {
+    on_imu(*imu, time);
   } else if (const auto* position = std::get_if<GnssPosition>(&measurement.value)) {
     on_position(*position, time);
   } else if (const auto* heading = std::get_if<GnssHeading>(&measurement.value)) {
@@ -102,19 +130,39 @@ void Estimator::on_wheel(const AxisMotion& motion, Time time) {
     ++counters_.absurd;
     return;
   }
-  const Time slot = time - time.time_since_epoch() % kWheelSlot;
+  const Time slot = time - time.time_since_epoch() % kSlot;
   if (too_old(slot)) return;
-  WheelInput input;
-  const std::size_t i = history_.find(slot, 0);
-  if (i < history_.size()) input = *std::get_if<WheelInput>(&history_.at(i).input);
+  WheelInput input = slot_at(slot);
   input.present = static_cast<std::uint16_t>(input.present | 1U << wheel);
   input.rim_mps[wheel] = rim_mps;
-  if (i < history_.size()) {
-    history_.at(i).input = input;
-    history_.mark_dirty(i);
-  } else {
-    insert(slot, input);
+  put_slot(slot, input);
+}
+
+void Estimator::on_imu(const ImuSample& sample, Time time) {
+  if (too_old(time)) return;
+  const bool standing = history_.before(history_.dirty()).standing_since != kNever;
+  switch (imu_.take(sample, time, standing, estimate_.pose.vx_mps)) {
+    case ImuIntake::Verdict::absurd: ++counters_.absurd; return;
+    case ImuIntake::Verdict::repeated: ++counters_.repeated; return;
+    case ImuIntake::Verdict::taken: break;
   }
+  if (!imu_.finished() || imu_.finished()->slot < history_.base().time) return;
+  WheelInput input = slot_at(imu_.finished()->slot);
+  input.turn = imu_.finished()->rate;
+  put_slot(imu_.finished()->slot, input);
+}
+
+/// What is known of a slot so far.
+WheelInput Estimator::slot_at(Time slot) const {
+  const std::size_t i = history_.find(slot, 0);
+  return i < history_.size() ? *std::get_if<WheelInput>(&history_.at(i).input) : WheelInput{};
+}
+
+void Estimator::put_slot(Time slot, const WheelInput& input) {
+  const std::size_t i = history_.find(slot, 0);
+  if (i == history_.size()) return insert(slot, input);
+  history_.at(i).input = input;
+  history_.mark_dirty(i);
 }
 
 void Estimator::on_position(const GnssPosition& position, Time time) {
@@ -198,17 +246,22 @@ void Estimator::advance(State& state, Time to) const {
   // After a long silence of everything, coarser steps: bounded work matters more there.
   const Duration longest = std::max(kLongestStep, (to - state.time) / 256);
   while (state.time < to) {
-    const WheelMotion motion = state.wheels.motion(state.time, wheel_stale_);
-    if (!motion.standing) {
+    WheelMotion motion =
+        level_motion(state, state.wheels.motion(state.time, wheel_stale_), imu_stale_);
+    motion.slip_mps = state.watch.slip_mps();
+    const GyroMotion gyro = motion_of(state.gyro, state.belief, motion, state.time, config_);
+    if (!motion.standing || gyro.pushed) {
       state.standing_since = kNever;
     } else if (state.standing_since == kNever) {
       state.standing_since = state.time;
     }
     const Time until =
-        std::min({to, state.time + longest, state.wheels.next_stale(state.time, wheel_stale_)});
-    predict(state.belief, motion, to_s(until - state.time), state.has_heading, state.gnss.sigma_x_m,
-            state.gnss.sigma_y_m, config_, base_.track_m);
+        std::min({to, state.time + longest, state.wheels.next_stale(state.time, wheel_stale_),
+                  next_stale(state.gyro, state.time, imu_stale_)});
+    const double dt_s = to_s(until - state.time);
+    reckon(state, motion, gyro, dt_s);
     state.time = until;
+    follow_turn(state.gyro, state.belief, motion, state.time, dt_s, config_, base_.track_m);
     if (state.belief.covariance[kYaw][kYaw] > kLostYaw_rad * kLostYaw_rad) {
       state.has_heading = false;
       state.belief.reset(kYaw, state.belief.mean[kYaw], kLostYaw_rad);
@@ -216,12 +269,51 @@ void Estimator::advance(State& state, Time to) const {
   }
 }
 
+/// Predicts, and tells those who compare the way with the receiver's.
+void Estimator::reckon(State& state, const WheelMotion& motion, const GyroMotion& gyro,
+                       double dt_s) const {
+  Belief& belief = state.belief;
+  const double x_m = belief.mean[kX];
+  const double y_m = belief.mean[kY];
+  predict(belief, motion, dt_s, state.has_heading, state.gnss.sigma_x_m, state.gnss.sigma_y_m,
+          config_, base_.track_m, gyro);
+  if (!motion.known || gyro.pushed) {
+    state.watch.forget();
+    state.course = {};
+    return;
+  }
+  const double way_m = belief.mean[kScale] * (motion.left_mps + motion.right_mps) / 2 * dt_s;
+  const double turn_rad =
+      gyro.known ? belief.mean[kGyroScale] * (gyro.rate_radps - belief.mean[kGyroBias]) * dt_s
+                 : belief.mean[kGain] * (motion.right_mps - motion.left_mps) / base_.track_m * dt_s;
+  if (state.has_heading) {
+    state.watch.advance(belief.mean[kX] - x_m, belief.mean[kY] - y_m, std::abs(way_m),
+                        std::abs(turn_rad));
+  } else {
+    state.course.advance(way_m, turn_rad);
+  }
+}
+
+void Estimator::take_rates(State& state, const WheelInput& input) const {
+  for (std::size_t i = 0; i < kWheels; ++i) {
+    if ((input.present >> i & 1U) != 0) state.wheels.set(i, input.rim_mps[i], state.time);
+  }
+  if (!input.turn) return;
+  GyroTrack& gyro = state.gyro;
+  if (gyro.at != kNever && state.time - gyro.at > kGyroAway) {
+    state.belief.floor_variance(kGyroBias, kGyroReturn_radps * kGyroReturn_radps);
+  }
+  gyro.rate_radps = input.turn->radps;
+  gyro.roll_rad = input.turn->roll_rad;
+  gyro.pitch_rad = input.turn->pitch_rad;
+  gyro.at = input.turn->saturated ? kNever : state.time;
+}
+
 void Estimator::take(State& state, const Input& input) const {
   if (const auto* wheels = std::get_if<WheelInput>(&input)) {
-    for (std::size_t i = 0; i < kWheels; ++i) {
-      if ((wheels->present >> i & 1U) != 0) state.wheels.set(i, wheels->rim_mps[i], state.time);
-    }
+    take_rates(state, *wheels);
   } else if (const auto* yaw = std::get_if<YawInput>(&input)) {
+    hear_heading(state.gyro, yaw->yaw_rad, state.time);
     apply_heading(state, yaw->yaw_rad, config_);
   } else if (const auto* position = std::get_if<AntennaPosition>(&input)) {
     const WheelMotion motion = state.wheels.motion(state.time, wheel_stale_);
@@ -251,54 +343,6 @@ const Estimate& Estimator::step(Time now) {
   advance(state, now);
   report(state, now);
   return estimate_;
-}
-
-void Estimator::report(const State& state, Time now) {
-  const Belief& belief = state.belief;
-  const WheelMotion motion = state.wheels.motion(now, wheel_stale_);
-  Estimate& e = estimate_;
-  e.has_position = state.has_position;
-  e.has_heading = state.has_heading;
-  e.pose.time = now;
-  e.pose.x_m = belief.mean[kX];
-  e.pose.y_m = belief.mean[kY];
-  e.pose.yaw_rad = belief.mean[kYaw];
-  e.pose.vx_mps = belief.mean[kScale] * (motion.left_mps + motion.right_mps) / 2;
-  e.pose.wz_radps = belief.mean[kGain] * (motion.right_mps - motion.left_mps) / base_.track_m;
-  e.left_mps = motion.left_mps;
-  e.right_mps = motion.right_mps;
-  e.yaw_slip_factor = 1.0 / belief.mean[kGain];
-
-  const double two_sigma_m = two_sigma_position_m(belief);
-  const double two_sigma_rad = 2 * std::sqrt(belief.covariance[kYaw][kYaw]);
-  e.pose.position_sigma_m = state.has_position ? two_sigma_m / 2 : kAbsent;
-  e.pose.yaw_sigma_rad = state.has_heading ? two_sigma_rad / 2 : kAbsent;
-  e.predicted_error_m = state.has_position ? two_sigma_m : kAbsent;
-  e.yaw_error_rad = state.has_heading ? two_sigma_rad : kAbsent;
-
-  const Duration patience = from_s(config_.jump_time_s);
-  const bool position_disagrees = state.gnss.jumps.disagrees(patience);
-  const bool heading_disagrees = state.heading.jumps.disagrees(patience);
-  e.disagrees = position_disagrees || heading_disagrees;
-  // One of the two is wrong, and nobody knows which: the error may be all that lies between them.
-  if (position_disagrees && state.has_position) {
-    e.predicted_error_m = std::max(two_sigma_m, state.gnss.contradiction_m);
-  }
-  if (position_disagrees) {
-    e.reason = "position disagrees with odometry";
-  } else if (heading_disagrees) {
-    e.reason = "heading disagrees with odometry";
-  } else if (!frame_.has_origin()) {
-    e.reason = "no origin";
-  } else if (!state.has_position) {
-    e.reason = "no position yet";
-  } else if (!state.has_heading) {
-    e.reason = "no heading";
-  } else if (!motion.known) {
-    e.reason = "wheels are silent";
-  } else {
-    e.reason.clear();
-  }
 }
 
 }  // namespace drover::engine

@@ -1,4 +1,4 @@
-// Position, heading and velocity of the base, with covariance, from wheels and GNSS.
+// Position, heading and velocity of the base, with covariance, from wheels, GNSS and gyro.
 //
 // Measurements are applied at their own time: a short history of states is kept, a late measurement
 // goes in where it belongs and what came after is applied again. Fixed size, no allocation.
@@ -11,6 +11,7 @@
 #include "drover/snapshot.h"
 #include "engine/config.h"
 #include "engine/estimate/history.h"
+#include "engine/estimate/imu_intake.h"
 #include "engine/estimate/local_frame.h"
 
 namespace drover::engine {
@@ -26,6 +27,16 @@ struct Estimate {
   double yaw_slip_factor = 1.0;  ///< as refined
   Reason reason;                 ///< why it is not good; empty when it is
   bool disagrees = false;        ///< GNSS and odometry contradict each other beyond the gate
+  bool slipping = false;         ///< the wheels roll another way than the base moves
+  /// What was noticed and is made up for, so far: slipping wheels, a gyro that is not believed.
+  Reason notice;
+  /// How far it could still drive by dead reckoning; absent with an RTK fix, or without a place.
+  double metres_left = kAbsent;
+  bool gyro_used = false;  ///< the heading is predicted by the inertial sensor
+  double roll_rad = kAbsent;
+  double pitch_rad = kAbsent;
+  Vector3 gyro_bias_radps;                 ///< learned at rest, z refined while driving
+  double gyro_bias_sigma_radps = kAbsent;  ///< of z; absent: none learned yet
 };
 
 /// Measurements that did not get into the estimate, since the start.
@@ -52,7 +63,7 @@ class Estimator final {
   /// Position in the map frame of a geodetic point (for tracks). NaN without an origin.
   PathPoint local(const GeodeticPoint& point) const;
 
-  void on_measurement(const Measurement& measurement);  ///< others than wheels/GNSS are ignored
+  void on_measurement(const Measurement& measurement);  ///< what it does not use is ignored
   /// Advances to `now` (monotonic) and returns the state there.
   const Estimate& step(Time now);
 
@@ -60,6 +71,7 @@ class Estimator final {
 
  private:
   void on_wheel(const AxisMotion& motion, Time time);
+  void on_imu(const ImuSample& sample, Time time);
   void on_position(const GnssPosition& position, Time time);
   void on_heading(const GnssHeading& heading, Time time);
   void insert(Time time, const estimate::Input& input);
@@ -67,17 +79,29 @@ class Estimator final {
   void clamp_future(Time now);
   void replay();
   void advance(estimate::State& state, Time to) const;
+  void reckon(estimate::State& state, const estimate::WheelMotion& motion,
+              const estimate::GyroMotion& gyro, double dt_s) const;
   void take(estimate::State& state, const estimate::Input& input) const;
-  void report(const estimate::State& state, Time now);
+  void take_rates(estimate::State& state, const estimate::WheelInput& input) const;
+  estimate::WheelInput slot_at(Time slot) const;
+  void put_slot(Time slot, const estimate::WheelInput& input);
   estimate::State blank() const;
+  // What a state means, in report.cpp:
+  void report(const estimate::State& state, Time now);
+  void report_trouble(const estimate::State& state, Time now);
+  void report_imu(const estimate::State& state, Time now);
+  double reach_m(const estimate::State& state, Time now) const;
 
   EstimateConfig config_;
   BaseConfig base_;
   Duration wheel_stale_;
+  Duration imu_stale_;
   Duration max_delay_;
   estimate::LocalFrame frame_;
   estimate::History history_;
+  estimate::ImuIntake imu_;
   double altitude_m_ = kAbsent;  ///< of the antenna, above the ellipsoid
+  Time reach_at_ = kNever;       ///< when metres_left was computed last
   Time now_ = kNever;            ///< of the last step
   EstimatorCounters counters_;
   Estimate estimate_;

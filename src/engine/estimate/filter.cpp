@@ -17,6 +17,8 @@ constexpr double kStanding_m = 0.0005;
 constexpr double kStanding_rad = 0.0002;
 // Wheels of one side that contradict each other do so for about this long with the same sign.
 constexpr double kSpreadTime_s = 1.0;
+// What a gyro's non-linearity and its tilt add to a turn, per square root of radian.
+constexpr double kGyroTurn_rad = 0.002;
 
 double square(double v) {
   return v * v;
@@ -78,6 +80,7 @@ void Belief::correct(const Vector& row, double innovation, double variance) {
   // Far outside of what any tyre does the model does not hold; stay where it does.
   mean[kGain] = std::clamp(mean[kGain], 0.2, 2.0);
   mean[kScale] = std::clamp(mean[kScale], 0.8, 1.2);
+  mean[kGyroScale] = std::clamp(mean[kGyroScale], 0.8, 1.2);
 }
 
 double Belief::project(const Vector& row, const Vector& other) const {
@@ -111,60 +114,113 @@ double two_sigma_position_m(const Belief& belief) {
   return 2 * std::sqrt(larger);
 }
 
+namespace {
+
+/// The turn of an interval with all that it depends on.
+struct Turn {
+  double rad = 0;
+  double by_gain = 0;        ///< derivative by kGain
+  double by_gyro_bias = 0;   ///< by kGyroBias
+  double by_gyro_scale = 0;  ///< by kGyroScale
+  double variance = 0;       ///< of its own noise
+};
+
+Turn turn_of_gyro(Belief& belief, const GyroMotion& gyro, double dt_s,
+                  const EstimateConfig& config) {
+  const Vector& x = belief.mean;
+  const double measured_rad = (gyro.rate_radps - x[kGyroBias]) * dt_s;
+  const double rad = x[kGyroScale] * measured_rad;
+  belief.covariance[kGyroBias][kGyroBias] += square(config.imu_gyro_bias_walk_radps) * dt_s;
+  return {
+      .rad = rad,
+      .by_gyro_bias = -x[kGyroScale] * dt_s,
+      .by_gyro_scale = measured_rad,
+      .variance = square(config.imu_gyro_noise_rad) * dt_s + square(kGyroTurn_rad) * std::abs(rad)};
+}
+
+Turn turn_of_wheels(const Belief& belief, double rim_turn_rad, double metres,
+                    double spread_variance, double track_m, const EstimateConfig& config) {
+  const double rad = belief.mean[kGain] * rim_turn_rad;
+  return {.rad = rad,
+          .by_gain = rim_turn_rad,
+          .variance = square(config.odometry_yaw_rad) * metres +
+                      square(config.turning_yaw_rad) * std::abs(rad) +
+                      spread_variance / square(track_m)};
+}
+
+/// Turns the yaw; what x and y depend on must have been carried before.
+void apply_turn(Belief& belief, const Turn& turn) {
+  belief.mean[kYaw] = wrap_rad(belief.mean[kYaw] + turn.rad);
+  // A factor that is zero adds nothing: with wheels alone the gyro's numbers stay out of it.
+  if (turn.by_gain != 0) {
+    add_rows<1>(belief.covariance, kYaw, {{{kGain, turn.by_gain}}});
+  } else {
+    add_rows<2>(belief.covariance, kYaw,
+                {{{kGyroBias, turn.by_gyro_bias}, {kGyroScale, turn.by_gyro_scale}}});
+  }
+  belief.covariance[kYaw][kYaw] += turn.variance;
+}
+
+}  // namespace
+
 void predict(Belief& belief, const WheelMotion& wheels, double dt_s, bool heading_known,
              double bias_sigma_x_m, double bias_sigma_y_m, const EstimateConfig& config,
-             double track_m) {
+             double track_m, const GyroMotion& gyro) {
   if (!(dt_s > 0)) return;
   Vector& x = belief.mean;
   Matrix& p = belief.covariance;
   fade_bias(belief, dt_s, config.gnss_correlation_s, bias_sigma_x_m, bias_sigma_y_m);
 
-  if (!wheels.known) {
+  if (!wheels.known || gyro.pushed) {
     p[kX][kX] += square(kUnknownMotion_m) * dt_s;
     p[kY][kY] += square(kUnknownMotion_m) * dt_s;
-    p[kYaw][kYaw] += square(kUnknownTurn_rad) * dt_s;
+    if (gyro.known) {
+      if (heading_known) apply_turn(belief, turn_of_gyro(belief, gyro, dt_s, config));
+    } else {
+      p[kYaw][kYaw] += square(kUnknownTurn_rad) * dt_s;
+    }
     return;
   }
   const double rim_mps = (wheels.left_mps + wheels.right_mps) / 2;
   const double rim_turn_rad = (wheels.right_mps - wheels.left_mps) / track_m * dt_s;
   const double way_m = x[kScale] * rim_mps * dt_s;
-  const double turn_rad = x[kGain] * rim_turn_rad;
+  const double metres = std::abs(way_m);
   const double spread_variance = square(wheels.spread_mps) * kSpreadTime_s * dt_s;
 
   if (!heading_known) {
-    const double possible_m = std::abs(way_m);
-    p[kX][kX] = square(std::sqrt(p[kX][kX]) + possible_m) + spread_variance;
-    p[kY][kY] = square(std::sqrt(p[kY][kY]) + possible_m) + spread_variance;
+    p[kX][kX] = square(std::sqrt(p[kX][kX]) + metres) + spread_variance;
+    p[kY][kY] = square(std::sqrt(p[kY][kY]) + metres) + spread_variance;
     return;
   }
-  const double middle_rad = x[kYaw] + turn_rad / 2;
+  const Turn turn =
+      gyro.known ? turn_of_gyro(belief, gyro, dt_s, config)
+                 : turn_of_wheels(belief, rim_turn_rad, metres, spread_variance, track_m, config);
+  const double middle_rad = x[kYaw] + turn.rad / 2;
   const double c = std::cos(middle_rad);
   const double s = std::sin(middle_rad);
   x[kX] += way_m * c;
   x[kY] += way_m * s;
-  x[kYaw] = wrap_rad(x[kYaw] + turn_rad);
 
-  // x and y first: their derivatives use the yaw before the turn.
+  // x and y first: their derivatives use the yaw before the turn. That half a gyro's error of this
+  // short step bends its chord is left out.
   add_rows<3>(
       p, kX,
-      {{{kYaw, -way_m * s}, {kGain, -way_m * s * rim_turn_rad / 2}, {kScale, rim_mps * dt_s * c}}});
+      {{{kYaw, -way_m * s}, {kGain, -way_m * s * turn.by_gain / 2}, {kScale, rim_mps * dt_s * c}}});
   add_rows<3>(
       p, kY,
-      {{{kYaw, way_m * c}, {kGain, way_m * c * rim_turn_rad / 2}, {kScale, rim_mps * dt_s * s}}});
-  add_rows<1>(p, kYaw, {{{kGain, rim_turn_rad}}});
+      {{{kYaw, way_m * c}, {kGain, way_m * c * turn.by_gain / 2}, {kScale, rim_mps * dt_s * s}}});
+  apply_turn(belief, turn);
 
-  const double metres = std::abs(way_m);
-  const double radians = std::abs(turn_rad);
+  const double radians = std::abs(turn.rad);
   const double shift = square(config.turning_shift_m) * radians + square(kStanding_m) * dt_s;
-  const double along = square(config.odometry_along_m) * metres + spread_variance;
+  const double along = square(config.odometry_along_m) * metres + spread_variance +
+                       square(wheels.slip_mps) * kSpreadTime_s * dt_s;
   const double across = square(config.odometry_across_m) * metres;
   p[kX][kX] += along * c * c + across * s * s + shift;
   p[kY][kY] += along * s * s + across * c * c + shift;
   p[kX][kY] += (along - across) * c * s;
   p[kY][kX] = p[kX][kY];
-  p[kYaw][kYaw] += square(config.odometry_yaw_rad) * metres +
-                   square(config.turning_yaw_rad) * radians + spread_variance / square(track_m) +
-                   square(kStanding_rad) * dt_s;
+  p[kYaw][kYaw] += square(kStanding_rad) * dt_s;
   p[kGain][kGain] += square(config.yaw_slip_walk) * radians;
   p[kScale][kScale] += square(config.wheel_scale_walk) * metres;
 }

@@ -1,5 +1,5 @@
-// The closed part of the estimate: seven correlated numbers, predicted by wheels, corrected by
-// scalar measurements. It knows no sensor; the models do.
+// The closed part of the estimate: nine correlated numbers, predicted by wheels and a gyro,
+// corrected by scalar measurements. It knows no sensor; the models do.
 #pragma once
 
 #include <array>
@@ -11,13 +11,15 @@ namespace drover::engine::estimate {
 
 /// Indices of the state.
 enum : std::size_t {
-  kX,      ///< base_link in `map`, m
-  kY,      ///< m
-  kYaw,    ///< rad
-  kGain,   ///< true yaw rate over the one that `track_m` gives: 1 / yaw_slip_factor
-  kScale,  ///< true speed over the one that `wheel_radius_m` gives
-  kBiasX,  ///< slowly changing error of the GNSS position, m
-  kBiasY,  ///< m
+  kX,          ///< base_link in `map`, m
+  kY,          ///< m
+  kYaw,        ///< rad
+  kGain,       ///< true yaw rate over the one that `track_m` gives: 1 / yaw_slip_factor
+  kScale,      ///< true speed over the one that `wheel_radius_m` gives
+  kBiasX,      ///< slowly changing error of the GNSS position, m
+  kBiasY,      ///< m
+  kGyroBias,   ///< what the gyro says of a base that does not turn, rad/s
+  kGyroScale,  ///< true turn over the one that the gyro gives, bias removed
   kStates
 };
 
@@ -31,6 +33,15 @@ struct WheelMotion {
   double spread_mps = 0;  ///< how much the wheels of one side contradict each other
   bool known = false;     ///< false: a whole side is silent, the base may do anything
   bool standing = false;  ///< known, and every wheel is at rest
+  double slip_mps = 0;    ///< how wrong the speed may be, because wheels were seen to slip
+};
+
+/// What the gyro says about an interval. Without it the wheels tell the turn.
+struct GyroMotion {
+  double rate_radps = 0;  ///< about the vertical, as measured
+  bool known = false;     ///< fresh and believed
+  /// The base turns while its wheels stand: somebody pushes or lifts it, and it may move, too.
+  bool pushed = false;
 };
 
 struct Belief {
@@ -54,9 +65,10 @@ double two_sigma_position_m(const Belief& belief);
 
 /// Moves the belief over `dt_s` (short: some 20 ms) by the wheels. `heading_known` false: the
 /// position stays and its uncertainty grows by the distance. `bias_sigma` is the stationary sigma
-/// of the GNSS error, m.
+/// of the GNSS error, m. With a gyro the turn is the gyro's, and the wheels' gain has no part in
+/// it.
 void predict(Belief& belief, const WheelMotion& wheels, double dt_s, bool heading_known,
              double bias_sigma_x_m, double bias_sigma_y_m, const EstimateConfig& config,
-             double track_m);
+             double track_m, const GyroMotion& gyro = {});
 
 }  // namespace drover::engine::estimate

@@ -4,18 +4,21 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <variant>
 
+#include "engine/estimate/imu_intake.h"
 #include "engine/estimate/model_gnss.h"
 #include "engine/estimate/state.h"
 
 namespace drover::engine::estimate {
 
-/// Rim speeds that became known within one slot of time.
+/// Rim speeds that became known within one slot of time, and the turn that began in it.
 struct WheelInput {
   std::uint16_t present = 0;  ///< bit per wheel
   std::array<double, kWheels> rim_mps{};
+  std::optional<TurnRate> turn;
 };
 static_assert(kWheels <= 16);
 

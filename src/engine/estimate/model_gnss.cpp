@@ -82,6 +82,39 @@ void place(State& state, const AntennaPosition& position, double arm_x_m, double
   state.has_position = true;
 }
 
+struct TiltedArm {
+  LeverArm arm;
+  double variance_m2 = 0;  ///< of where the antenna is, by the tilt
+};
+
+/// While the sensor of the tilt is silent the antenna may be as far out as it was last.
+TiltedArm tilted_arm(const State& state, const EstimateConfig& config) {
+  const GyroTrack& gyro = state.gyro;
+  const double z2 = square(config.antenna_z_m);
+  if (gyro.fresh(state.time, from_s(config.imu_stale_s))) {
+    return {lever_arm(gyro.roll_rad, gyro.pitch_rad, config),
+            z2 * square(to_rad(config.imu_orientation_sigma_deg))};
+  }
+  return {lever_arm(0, 0, config), z2 * (square(gyro.roll_rad) + square(gyro.pitch_rad))};
+}
+
+/// A base with one antenna finds its heading while it drives.
+void find_heading(State& state, const AntennaPosition& position, const LeverArm& arm,
+                  const EstimateConfig& config) {
+  const bool may = !state.has_heading && position.quality == GnssClass::fixed;
+  if (!may) {
+    state.course = {};
+    return;
+  }
+  const auto found = heading_of_course(state.course, position.x_m, position.y_m,
+                                       larger_sigma_m(position), arm, state.time, config);
+  if (!found) return;
+  state.belief.reset(kYaw, found->yaw_rad, found->sigma_rad);
+  state.has_heading = true;
+  state.has_position = false;  // found again with the arm turned the right way
+  state.course = {};
+}
+
 /// Remembers a refused position. True when it is to be believed after all: the base has stood
 /// since before the new place appeared, and the place has repeated for long enough.
 bool refuse(State& state, const AntennaPosition& position, double distance_m, double noise_m,
@@ -137,19 +170,29 @@ double sigma_m(GnssClass quality, double gst_sigma_m, const EstimateConfig& conf
   return config.gnss_inflation * (worse ? gst_sigma_m : floor);
 }
 
+LeverArm lever_arm(double roll_rad, double pitch_rad, const EstimateConfig& config) {
+  const double over_m =
+      config.antenna_y_m * std::sin(roll_rad) + config.antenna_z_m * std::cos(roll_rad);
+  return {
+      .ahead_m = config.antenna_x_m * std::cos(pitch_rad) + over_m * std::sin(pitch_rad),
+      .left_m = config.antenna_y_m * std::cos(roll_rad) - config.antenna_z_m * std::sin(roll_rad)};
+}
+
 void apply(State& state, const AntennaPosition& measured, double speed_mps,
            const EstimateConfig& config) {
   const AntennaPosition position = follow_quality(state, measured, config);
   Belief& belief = state.belief;
+  const TiltedArm tilted = tilted_arm(state, config);
+  find_heading(state, position, tilted.arm, config);
   const double c = std::cos(belief.mean[kYaw]);
   const double s = std::sin(belief.mean[kYaw]);
-  const double lever_m = std::hypot(config.antenna_x_m, config.antenna_y_m);
+  const double lever_m = std::hypot(tilted.arm.ahead_m, tilted.arm.left_m);
   // Without heading the antenna is somewhere around base_link.
   const bool oriented = state.has_heading;
-  const double arm_x = oriented ? config.antenna_x_m * c - config.antenna_y_m * s : 0;
-  const double arm_y = oriented ? config.antenna_x_m * s + config.antenna_y_m * c : 0;
-  const double extra =
-      (oriented ? 0 : square(lever_m)) + square(speed_mps * config.gnss_timing_sigma_s);
+  const double arm_x = oriented ? tilted.arm.ahead_m * c - tilted.arm.left_m * s : 0;
+  const double arm_y = oriented ? tilted.arm.ahead_m * s + tilted.arm.left_m * c : 0;
+  const double extra = (oriented ? 0 : square(lever_m)) + tilted.variance_m2 +
+                       square(speed_mps * config.gnss_timing_sigma_s);
   const double variance_x = square(config.gnss_white_share * position.sigma_x_m) + extra;
   const double variance_y = square(config.gnss_white_share * position.sigma_y_m) + extra;
   const double turned_m2 = square(lever_m) * belief.covariance[kYaw][kYaw];
@@ -157,6 +200,15 @@ void apply(State& state, const AntennaPosition& measured, double speed_mps,
   if (!state.has_position) {
     place(state, position, arm_x, arm_y, place_variance);
     return;
+  }
+  const bool fixed = position.quality == GnssClass::fixed && oriented;
+  const BaseFix fix{.x_m = position.x_m - arm_x,
+                    .y_m = position.y_m - arm_y,
+                    .sigma_m = larger_sigma_m(position)};
+  if (!fixed) {
+    state.watch.forget();
+  } else {
+    watch_slip(state.watch, belief, fix, state.time);
   }
 
   Vector row_x{};
@@ -176,10 +228,15 @@ void apply(State& state, const AntennaPosition& measured, double speed_mps,
     if (refuse(state, position, std::hypot(dx, dy), larger_sigma_m(position), config)) {
       place(state, position, arm_x, arm_y, place_variance);
       state.gnss.jumps.accepted();
+      state.watch.forget();
     }
     return;
   }
   state.gnss.jumps.accepted();
+  if (fixed) {
+    state.gnss.fixed = state.time;
+    watch_drift(state.watch, belief, fix, state.time, config);
+  }
   const Vector before = belief.mean;
   belief.correct(row_x, dx, variance_x);
   // The first correction has moved the state; the second one starts from there.

@@ -24,6 +24,9 @@ double floor_sigma_m(GnssClass quality, const EstimateConfig& config);
 /// of its size: the filter carries it as a state of its own.
 double sigma_m(GnssClass quality, double gst_sigma_m, const EstimateConfig& config);
 
+/// Where the antenna is over base_link, in horizontal axes of a base that is tilted like this.
+LeverArm lever_arm(double roll_rad, double pitch_rad, const EstimateConfig& config);
+
 /// Applies the position to a state that stands at the position's own time.
 void apply(State& state, const AntennaPosition& measured, double speed_mps,
            const EstimateConfig& config);

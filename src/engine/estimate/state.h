@@ -6,8 +6,11 @@
 
 #include "drover/measurement.h"
 #include "drover/time.h"
+#include "engine/estimate/course.h"
 #include "engine/estimate/filter.h"
+#include "engine/estimate/gyro_track.h"
 #include "engine/estimate/jump_watch.h"
+#include "engine/estimate/motion_watch.h"
 #include "engine/estimate/wheels.h"
 
 namespace drover::engine::estimate {
@@ -26,6 +29,7 @@ struct GnssTrack {
   double place_x_m = 0;  ///< the refused place that must repeat
   double place_y_m = 0;
   double contradiction_m = 0;  ///< how far the last refused position was off
+  Time fixed = kNever;         ///< the last believed RTK fix
 };
 
 struct HeadingTrack {
@@ -47,6 +51,9 @@ struct State {
   Time standing_since = kNever;  ///< kNever while the base moves or may move
   GnssTrack gnss;
   HeadingTrack heading;
+  GyroTrack gyro;
+  MotionWatch watch;
+  Course course;
   std::uint32_t refused = 0;  ///< by the gates, since the start
   std::uint32_t broken = 0;   ///< times the filter lost its numbers and was started again
 };

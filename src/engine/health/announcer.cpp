@@ -21,6 +21,8 @@ std::string_view over(Cause cause) {
     case Cause::near_zone: return "near zone free";
     case Cause::origin: return "an origin is set";
     case Cause::receiver: return "receiver heard";
+    case Cause::imu: return "IMU heard";
+    case Cause::sensors: return "wheels, gyro and receiver agree";
     case Cause::locate: return "position good";
     case Cause::far_zone: return "far zone free";
   }

@@ -135,6 +135,21 @@ void HealthMonitor::look_at_guard(const Environment& environment) {
   if (silent) hold(Cause::guard_silent, "the guard does not answer");
 }
 
+void HealthMonitor::look_at_imu(const HealthInput& input) {
+  const SourceHealth& imu = input.environment.imu;
+  const Duration age = input.now - imu.last_good;
+  const bool old = imu.last_good != kNever && age > from_s(config_.health.imu_stale_s);
+  if (!input.environment.imu_configured || (imu.state == SourceState::fresh && !old)) return;
+  Reason text;
+  if (imu.last_good == kNever) {
+    text = imu.reason.empty() ? Reason("IMU never heard") : Reason();
+  } else if (old) {
+    text.format("IMU silent for %.1f s", to_s(age));
+  }
+  if (text.empty()) put(text, "sensor", "IMU", imu.reason.empty() ? "stale" : imu.reason.view());
+  hold(Cause::imu, text);
+}
+
 void HealthMonitor::look_at_position(const HealthInput& input) {
   const SourceHealth& gnss = input.environment.gnss;
   const bool old =
@@ -155,6 +170,9 @@ void HealthMonitor::look_at_position(const HealthInput& input) {
   report_.locate = locate_.update(input.estimate, input.has_origin, input.task_active);
   report_.locate_reason = locate_.reason();
   report_.budget_used = locate_.used();
+  // On wheels alone the next outage of the receiver is a short one: slowly, from now on.
+  if (holds(Cause::imu)) report_.budget_used = 1;
+  if (!input.estimate.notice.empty()) hold(Cause::sensors, input.estimate.notice);
   if (!input.has_origin) {
     hold(Cause::origin, locate_.reason());
   } else if (report_.locate != LocateState::good) {
@@ -173,6 +191,7 @@ const HealthReport& HealthMonitor::update(const HealthInput& input) {
   look_at_lines(input);
   look_at_guard(input.environment);
   look_at_drives(input);
+  look_at_imu(input);
   look_at_position(input);
   if (!input.latched.empty()) {
     Reason text;

@@ -23,10 +23,12 @@ enum class Cause : std::uint8_t {
   near_zone,
   origin,    ///< none set
   receiver,  ///< silent
+  imu,       ///< configured and silent, stuck or out of its range
   locate,
+  sensors,  ///< contradict each other, and it is made up for
   far_zone,
 };
-inline constexpr std::size_t kCauseCount = 13;
+inline constexpr std::size_t kCauseCount = 15;
 
 /// Last known state of the lines: the levels the drivers reported since the last cycle.
 struct LineTable {
@@ -65,6 +67,9 @@ struct HealthReport {
   FixedVector<Reason, 8> why;             ///< the cause first
   std::uint32_t causes = 0;               ///< bits by Cause
   std::array<Reason, kCauseCount> texts;  ///< by Cause, for causes that hold
+
+  bool holds(Cause cause) const { return (causes >> static_cast<unsigned>(cause) & 1U) != 0; }
+  const Reason& text(Cause cause) const { return texts[static_cast<std::size_t>(cause)]; }
 };
 
 class HealthMonitor final {
@@ -78,10 +83,9 @@ class HealthMonitor final {
   void look_at_lines(const HealthInput& input);
   void look_at_drives(const HealthInput& input);
   void look_at_guard(const Environment& environment);
+  void look_at_imu(const HealthInput& input);
   void look_at_position(const HealthInput& input);
-  bool holds(Cause cause) const {
-    return (report_.causes >> static_cast<unsigned>(cause) & 1U) != 0;
-  }
+  bool holds(Cause cause) const { return report_.holds(cause); }
 
   EngineConfig config_;
   std::array<bool, kMaxAxes> driven_{};  ///< axes of the base

@@ -50,6 +50,7 @@ Reason check_robot(const HealthReport& health, bool has_origin) {
   if (!health.gnss_ok) {
     return health.texts[static_cast<std::size_t>(Cause::receiver)];
   }
+  if (health.holds(Cause::imu)) return health.text(Cause::imu);
   if (health.locate != LocateState::good) {
     return health.locate_reason.empty() ? Reason("the position is not good") : health.locate_reason;
   }

@@ -115,6 +115,7 @@ std::string BaseStatus::text(const Snapshot& snapshot, const BatteryState& batte
   out.key("obstacle").boolean(nav.obstacle);
   out.key("status").text(spelling(nav.status));
   out.key("owner").text(word(nav.owner));
+  if (std::isfinite(nav.metres_left)) out.key("metres_left").number(nav.metres_left);
   out.key("why").open('[');
   for (const drover::Reason& reason : snapshot.why) out.text(reason.view());
   out.close(']').close('}');

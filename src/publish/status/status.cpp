@@ -49,6 +49,7 @@ void nav(JsonText& out, const Snapshot& s) {
   number(out, "cross_track_m", s.nav.cross_track_m);
   number(out, "distance_left_m", s.nav.distance_left_m);
   number(out, "asked_speed_mps", s.nav.asked_speed_mps);
+  number(out, "metres_left", s.nav.metres_left);
   out.close('}');
 }
 

@@ -1,5 +1,5 @@
-// A small seeded world for the estimator: a skid-steer base, its wheels and a receiver with late,
-// slowly wandering positions.
+// A small seeded world for the estimator: a skid-steer base, its wheels, a receiver with late,
+// slowly wandering positions, and an inertial sensor.
 #pragma once
 
 #include <algorithm>
@@ -34,6 +34,18 @@ struct World {
   double drift_share = 0.9;  ///< of the variance; the rest is white
   double jump_x_m = 0.0;
   double heading_off_deg = 0.0;
+  double drift_mps = 0.0;  ///< of the position, north: a wrong base
+  double grip = 1.0;       ///< share of the rolled way that the base makes
+  double turn_grip = 1.0;  ///< share of the turn
+  double pitch_rad = 0.0;  ///< of the ground under the base
+  double roll_rad = 0.0;
+  // The inertial sensor, 100 a second. Off unless a test turns it on.
+  bool imu = false;
+  bool imu_frozen = false;
+  double gyro_bias_radps = 0.01;
+  double gyro_scale = 1.0;  ///< measured over true; -1: mounted upside down and not told
+  double gyro_noise_radps = 0.003;
+  double gyro_walk_radps = 0.00003;  ///< of the bias, per square root of second
 };
 
 inline EngineConfig rig_config() {
@@ -49,6 +61,7 @@ class Rig {
 
   explicit Rig(std::uint64_t seed = 1, const EngineConfig& config = rig_config())
       : config_(config), estimator(config.estimate, config.base), random_(seed) {
+    imu_random_.seed(seed + 4711);
     frame_.set_origin(kField);
     estimator.set_origin(kField);
     for (double& d : drift_) d = normal();
@@ -58,6 +71,7 @@ class Rig {
   double x_m = 0;
   double y_m = 0;
   double yaw_rad = 0.3;
+  double way_m = 0;  ///< driven, either direction
   Time now{std::chrono::seconds(100)};
   Estimate last;
 
@@ -84,6 +98,7 @@ class Rig {
     now += from_s(kTick_s);
     ++ticks_;
     if (world.wheels && ticks_ % 2 == 0) send_wheels(left_mps, right_mps);
+    if (world.imu && ticks_ % 2 == 0) send_imu();
     if (ticks_ % 20 == 0) measure();
     while (!queue_.empty() && queue_.front().received <= now) {
       estimator.on_measurement(queue_.front());
@@ -92,6 +107,9 @@ class Rig {
     last = estimator.step(now);
     note();
   }
+
+  /// Somebody turns the base; the gyro sees it.
+  void carry(double turn_rad) { turned_rad_ += turn_rad; }
 
   double position_error_m() const { return std::hypot(last.pose.x_m - x_m, last.pose.y_m - y_m); }
   double yaw_error_rad() const { return std::abs(wrap_rad(last.pose.yaw_rad - yaw_rad)); }
@@ -130,8 +148,10 @@ class Rig {
 
  private:
   void move(double left_mps, double right_mps) {
-    const double way = world.scale * (left_mps + right_mps) / 2 * kTick_s;
-    const double turn = (right_mps - left_mps) / config_.base.track_m / world.slip * kTick_s;
+    const double level = world.grip * std::cos(world.pitch_rad);
+    const double way = level * world.scale * (left_mps + right_mps) / 2 * kTick_s;
+    const double turn =
+        world.turn_grip * (right_mps - left_mps) / config_.base.track_m / world.slip * kTick_s;
     const double d = world.disturbance;
     const double root_way = std::sqrt(std::abs(way));
     const double along = way + d * 0.01 * root_way * normal();
@@ -142,7 +162,31 @@ class Rig {
     x_m += along * std::cos(middle) - across * std::sin(middle);
     y_m += along * std::sin(middle) + across * std::cos(middle);
     yaw_rad = wrap_rad(yaw_rad + turned);
+    turned_rad_ += turned;
+    way_m += std::abs(along);
   }
+  void send_imu() {
+    const double rate_radps = turned_rad_ / (2 * kTick_s);
+    turned_rad_ = 0;
+    gyro_walked_radps_ += world.gyro_walk_radps * std::sqrt(2 * kTick_s) * imu_normal();
+    const double noise = world.gyro_noise_radps;
+    if (!world.imu_frozen) {
+      const double bias = world.gyro_bias_radps + gyro_walked_radps_;
+      const double sp = std::sin(world.pitch_rad);
+      const double cp = std::cos(world.pitch_rad);
+      const double sr = std::sin(world.roll_rad);
+      const double cr = std::cos(world.roll_rad);
+      imu_.angular_velocity_radps = {
+          .x = -0.004 - sp * rate_radps + noise * imu_normal(),
+          .y = 0.006 + sr * cp * rate_radps + noise * imu_normal(),
+          .z = bias + world.gyro_scale * cr * cp * rate_radps + noise * imu_normal()};
+      imu_.acceleration_mps2 = {.x = -9.81 * sp + 0.05 * imu_normal(),
+                                .y = 9.81 * cp * sr + 0.05 * imu_normal(),
+                                .z = 9.81 * cp * cr + 0.05 * imu_normal()};
+    }
+    estimator.on_measurement({.time = now, .received = now, .value = imu_});
+  }
+  double imu_normal() { return imu_normal_(imu_random_); }
   void send_wheels(double left_mps, double right_mps) {
     for (AxisId axis = 0; axis < 4; ++axis) {
       const double rim = axis < 2 ? left_mps : right_mps;
@@ -164,8 +208,14 @@ class Rig {
     const auto& e = config_.estimate;
     const double c = std::cos(yaw_rad);
     const double s = std::sin(yaw_rad);
-    std::array<double, 2> at{x_m + e.antenna_x_m * c - e.antenna_y_m * s,
-                             y_m + e.antenna_x_m * s + e.antenna_y_m * c};
+    const double over =
+        e.antenna_y_m * std::sin(world.roll_rad) + e.antenna_z_m * std::cos(world.roll_rad);
+    const double ahead =
+        e.antenna_x_m * std::cos(world.pitch_rad) + over * std::sin(world.pitch_rad);
+    const double aside =
+        e.antenna_y_m * std::cos(world.roll_rad) - e.antenna_z_m * std::sin(world.roll_rad);
+    drifted_m_ = world.drift_mps == 0 ? 0 : drifted_m_ + world.drift_mps * 20 * kTick_s;
+    std::array<double, 2> at{x_m + ahead * c - aside * s, y_m + ahead * s + aside * c + drifted_m_};
     for (std::size_t i = 0; i < 2; ++i) {
       at[i] +=
           world.noise * sigma_now_ *
@@ -205,6 +255,12 @@ class Rig {
   std::normal_distribution<double> normal_;
   std::array<double, 2> drift_{};
   std::deque<Measurement> queue_;
+  std::mt19937_64 imu_random_{4711};  ///< its own, so that it does not disturb the world
+  std::normal_distribution<double> imu_normal_;
+  ImuSample imu_;
+  double turned_rad_ = 0;
+  double gyro_walked_radps_ = 0;
+  double drifted_m_ = 0;
   double sigma_now_ = 0;
   std::int64_t ticks_ = 0;
   double n_ = 0, sum2_ = 0, sum2_yaw_ = 0, max_ = 0, inside_ = 0, yaw_inside_ = 0;

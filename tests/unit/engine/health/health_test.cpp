@@ -64,6 +64,31 @@ class AHealthMonitor : public ::testing::Test {
   Time now{std::chrono::seconds(1000)};
 };
 
+TEST_F(AHealthMonitor, SaysHowLongTheImuHasBeenSilent) {
+  environment.imu_configured = true;
+  EXPECT_EQ(first_why(), "IMU never heard");
+  environment.imu.state = SourceState::fresh;
+  environment.imu.last_good = now - std::chrono::milliseconds(300);
+  EXPECT_EQ(first_why(), "");
+  EXPECT_LT(update().budget_used, 1);
+  environment.imu.last_good = now - std::chrono::milliseconds(310);
+  EXPECT_EQ(first_why(), "IMU silent for 0.3 s");
+  EXPECT_TRUE(update().stop.empty());  // it goes on by the wheels,
+  EXPECT_EQ(update().budget_used, 1);  // slowly
+  environment.imu_configured = false;
+  EXPECT_EQ(first_why(), "");
+}
+TEST_F(AHealthMonitor, SaysWhatIsWrongWithAnImuThatTalks) {
+  environment.imu_configured = true;
+  environment.imu = {.state = SourceState::stale, .last_good = now, .reason = "frozen"};
+  EXPECT_EQ(first_why(), "sensor IMU: frozen");
+}
+TEST_F(AHealthMonitor, PassesOnThatSensorsContradictEachOther) {
+  estimate.notice = "wheels slip";
+  EXPECT_EQ(first_why(), "wheels slip");
+  EXPECT_TRUE(update().stop.empty());
+  EXPECT_EQ(update().locate, LocateState::good);
+}
 TEST_F(AHealthMonitor, StopsForAPressedEstop) {
   activate(Line::estop);
   expect_stop("e-stop pressed");

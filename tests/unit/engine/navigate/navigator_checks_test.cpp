@@ -61,6 +61,12 @@ TEST(RobotCheck, RefusesWithASilentReceiver) {
   report.texts[static_cast<std::size_t>(Cause::receiver)] = "receiver silent for 1.0 s";
   EXPECT_EQ(check_robot(report, true), "receiver silent for 1.0 s");
 }
+TEST(RobotCheck, RefusesWithoutAnImuThatIsConfigured) {
+  HealthReport report = good_health();
+  report.causes = 1U << static_cast<unsigned>(Cause::imu);
+  report.texts[static_cast<std::size_t>(Cause::imu)] = "IMU silent for 0.3 s";
+  EXPECT_EQ(check_robot(report, true), "IMU silent for 0.3 s");
+}
 TEST(RobotCheck, RefusesUntilThePositionIsGood) {
   for (const LocateState state : {LocateState::uninit, LocateState::lost}) {
     HealthReport report = good_health();

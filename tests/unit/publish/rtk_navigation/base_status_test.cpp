@@ -81,6 +81,14 @@ TEST(BaseStatus, AddsNothingBesideWhatItDeclares) {
   EXPECT_THAT(added, testing::ElementsAre("bms.valid", "nav.owner", "nav.why"));
 }
 
+TEST(BaseStatus, SaysHowManyMetresAreLeftOnlyWithoutAFix) {
+  Snapshot snapshot = good_snapshot();
+  snapshot.nav.metres_left = 12.5;
+  EXPECT_EQ(at(status(snapshot), "nav", "metres_left").number(), 12.5);
+  snapshot.nav.metres_left = kAbsent;
+  EXPECT_EQ(status(snapshot).root.find("nav")->find("metres_left"), nullptr);
+}
+
 TEST(BaseStatus, BeforeAnythingIsKnownItClaimsNothing) {
   const auto ours = status(Snapshot{});
   EXPECT_EQ(*at(ours, "nav", "locate").text(), "LOCATE_UNINIT");

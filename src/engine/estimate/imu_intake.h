@@ -1,0 +1,50 @@
+// What is taken from the samples of an inertial sensor: the turn about the vertical in slots of
+// time, roll and pitch, and the bias at rest. Refuses what no sensor can mean.
+#pragma once
+
+#include <optional>
+
+#include "drover/measurement.h"
+#include "engine/estimate/rest_bias.h"
+#include "engine/estimate/tilt.h"
+
+namespace drover::engine::estimate {
+
+/// How the base turns from one slot of time until the next such entry.
+struct TurnRate {
+  double radps = 0;  ///< about the vertical, bias not removed
+  double roll_rad = 0;
+  double pitch_rad = 0;
+  bool saturated = false;  ///< the truth is larger
+};
+
+struct TurnSlot {
+  Time slot = kNever;
+  TurnRate rate;
+};
+
+class ImuIntake final {
+ public:
+  explicit ImuIntake(Duration slot) : slot_(slot) {}
+
+  enum class Verdict : std::uint8_t { taken, absurd, repeated };
+  /// A sample is the mean rate since the one before it. `absurd` when no sensor can mean it,
+  /// `repeated` when it is not newer than the last. `standing` and `speed_mps` by the wheels.
+  Verdict take(const ImuSample& sample, Time at, bool standing, double speed_mps);
+  /// What the last sample completed: samples that come closer than the slots are summed up, and the
+  /// turn stays the same however the slots cut it.
+  const std::optional<TurnSlot>& finished() const { return finished_; }
+  const RestBias& bias() const { return bias_; }
+
+ private:
+  Duration slot_;
+  Tilt tilt_;
+  RestBias bias_;
+  Time last_ = kNever;
+  Time from_ = kNever;     ///< slot in which the present sum began
+  double turned_rad_ = 0;  ///< since then
+  bool saturated_ = false;
+  std::optional<TurnSlot> finished_;
+};
+
+}  // namespace drover::engine::estimate

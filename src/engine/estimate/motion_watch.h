@@ -1,0 +1,77 @@
+// Compares the way by wheels and gyro with the way by RTK positions, over a second for slipping
+// wheels and over many seconds for positions that drift away (a wrong base, a spoofer).
+#pragma once
+
+#include <array>
+
+#include "drover/time.h"
+#include "engine/config.h"
+#include "engine/estimate/filter.h"
+
+namespace drover::engine::estimate {
+
+/// Both ways since one RTK position.
+struct Leg {
+  Time since = kNever;  ///< kNever: not begun
+  double x_m = 0;       ///< base_link by that position, in `map`
+  double y_m = 0;
+  double sigma_m = 0;  ///< of that position
+  double east_m = 0;   ///< dead reckoned from there
+  double north_m = 0;
+  double way_m = 0;  ///< rolled, either direction
+  double turn_rad = 0;
+
+  void advance(double east, double north, double way, double turn) {
+    east_m += east;
+    north_m += north;
+    way_m += way;
+    turn_rad += turn;
+  }
+};
+
+/// An RTK fix, turned into the place of base_link.
+struct BaseFix {
+  double x_m = 0;
+  double y_m = 0;
+  double sigma_m = 0;
+};
+
+struct MotionWatch {
+  Leg brief;
+  std::array<Leg, 2> lasting;  ///< the younger begins when the older is half as old as it may be
+  double last_gap_m = 0;
+  double largest_step_m = 0;  ///< how much of the gap came between two positions: a jump is no slip
+
+  Time slip_since = kNever;  ///< kNever: the wheels do not slip
+  double wheel_mps = 0;      ///< while they do
+  double receiver_mps = 0;
+  Time drift_since = kNever;
+  double drift_m = 0;     ///< how far the position went away from the wheels
+  double drift_s = 0;     ///< in this time
+  double crab_rad = 0;    ///< course less heading on straights, as learned
+  double crab_way_m = 0;  ///< over this way
+
+  bool slipping() const { return slip_since != kNever; }
+  /// The base hardly follows its wheels, or the receiver is stuck: nobody can tell which.
+  bool stuck(Time now, Duration patience) const {
+    return slipping() && now - slip_since >= patience && receiver_mps < 0.4 * wheel_mps;
+  }
+  bool drifting(Time now, Duration patience) const {
+    return drift_since != kNever && now - drift_since >= patience;
+  }
+  /// How wrong the speed by wheels may be, m/s.
+  double slip_mps() const;
+  /// A step of dead reckoning; `way` rolled in either direction.
+  void advance(double east, double north, double way, double turn);
+  /// Begins anew; what was learned of the mounting stays.
+  void forget();
+};
+
+/// A fix before it is judged by the gate. When wheels begin to slip the belief loses trust in its
+/// place along the way, so that the fixes are followed.
+void watch_slip(MotionWatch& watch, Belief& belief, const BaseFix& fix, Time now);
+/// A fix that was believed.
+void watch_drift(MotionWatch& watch, const Belief& belief, const BaseFix& fix, Time now,
+                 const EstimateConfig& config);
+
+}  // namespace drover::engine::estimate

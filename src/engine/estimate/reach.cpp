@@ -1,0 +1,49 @@
+#include "engine/estimate/reach.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "drover/angle.h"
+
+namespace drover::engine::estimate {
+namespace {
+
+constexpr double kIdle_mps = 0.3;
+constexpr double kFirst_m = 0.05;
+constexpr double kGrowth = 1.15;
+constexpr int kSteps = 40;
+
+/// Of the bounds: 0 none, 1 all.
+double used_share(const Belief& belief, const EstimateConfig& config) {
+  return std::max(two_sigma_position_m(belief) / config.bound_run_m,
+                  2 * std::sqrt(belief.covariance[kYaw][kYaw]) / to_rad(config.bound_yaw_deg));
+}
+
+}  // namespace
+
+double metres_left(Belief belief, WheelMotion wheels, GyroMotion gyro, double bias_sigma_x_m,
+                   double bias_sigma_y_m, const EstimateConfig& config, double track_m) {
+  if (!wheels.known || gyro.pushed || used_share(belief, config) >= 1) return 0;
+  double speed_mps = std::abs(belief.mean[kScale] * (wheels.left_mps + wheels.right_mps) / 2);
+  if (speed_mps < kIdle_mps / 4) {  // it stands or turns on the spot
+    wheels.left_mps = wheels.right_mps = speed_mps = kIdle_mps;
+    wheels.standing = false;
+    gyro.rate_radps = belief.mean[kGyroBias];
+  }
+  // Each step longer than the one before: a few suffice for a near bound and for a far one.
+  double left_m = 0;
+  double step_m = kFirst_m;
+  double used = used_share(belief, config);
+  for (int i = 0; i < kSteps; ++i) {
+    predict(belief, wheels, step_m / speed_mps, true, bias_sigma_x_m, bias_sigma_y_m, config,
+            track_m, gyro);
+    const double next = used_share(belief, config);
+    if (next >= 1) return left_m + step_m * (1 - used) / (next - used);
+    used = next;
+    left_m += step_m;
+    step_m *= kGrowth;
+  }
+  return left_m;
+}
+
+}  // namespace drover::engine::estimate

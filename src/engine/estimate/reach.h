@@ -1,0 +1,15 @@
+// How far the base could still drive by dead reckoning before its position or heading is too
+// uncertain.
+#pragma once
+
+#include "engine/config.h"
+#include "engine/estimate/filter.h"
+
+namespace drover::engine::estimate {
+
+/// Metres at the present kind of driving (slowly straight ahead when it stands) until two
+/// sigma reach bound_run_m or bound_yaw_deg; not more than about 100.
+double metres_left(Belief belief, WheelMotion wheels, GyroMotion gyro, double bias_sigma_x_m,
+                   double bias_sigma_y_m, const EstimateConfig& config, double track_m);
+
+}  // namespace drover::engine::estimate
