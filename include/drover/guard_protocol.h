@@ -4,7 +4,8 @@
 // Order: `hello` (with the shared memory's descriptor) begins a new set, then a `descriptor` for
 // each link that a drive hangs on, then the `stop_frame`s of every drive, then `watch` makes the
 // set the one in force. A changed link means the whole set again. `hand_back` gives the bus back to
-// the daemon.
+// the daemon. `pulse_line`, at any time, brings the handle of the line that feeds a hardware
+// watchdog; it stays with the guard when the daemon ends.
 #pragma once
 
 #include <array>
@@ -19,7 +20,14 @@ inline constexpr std::size_t kGuardMaxDescriptors = 8;
 inline constexpr std::size_t kGuardMaxFrames = 64;
 inline constexpr std::size_t kGuardMaxBytes = 72;  ///< one CAN FD frame
 
-enum class GuardVerb : std::uint32_t { hello = 1, descriptor, stop_frame, watch, hand_back };
+enum class GuardVerb : std::uint32_t {
+  hello = 1,
+  descriptor,
+  stop_frame,
+  watch,
+  hand_back,
+  pulse_line,
+};
 
 struct GuardMessage {
   std::uint32_t version = kGuardVersion;

@@ -91,6 +91,10 @@ struct GnssHeading {
 enum class Line : std::uint8_t { estop, bumper, zone_far, zone_near };
 inline constexpr std::size_t kLineCount = 4;
 
+/// Digital outputs of the gateway; the hardware watchdog's line is the guard's.
+enum class Output : std::uint8_t { enable_relay, lamp, buzzer };
+inline constexpr std::size_t kOutputCount = 3;
+
 /// Debounced meaning of a digital input: `active` is "stop", "touched" or "somebody is in the
 /// zone".
 struct LineState {

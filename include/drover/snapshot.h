@@ -146,7 +146,9 @@ struct Snapshot {
   std::array<SourceState, kLineCount> line_health{};
   std::array<bool, kLineCount> line_configured{};
   std::array<SourceSnapshot, kLineCount> line_source{};  ///< samples: changes
-  FixedVector<LinkSnapshot, 8> links;
+  std::array<bool, kOutputCount> output_configured{};
+  std::array<bool, kOutputCount> output_on{};
+  FixedVector<LinkSnapshot, 10> links;
   bool stop_latched = false;  ///< nothing moves until a person acts
   bool guard_alive = false;
   bool guard_has_bus = false;

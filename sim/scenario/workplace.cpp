@@ -97,6 +97,11 @@ void Workplace::make_native(json& config) {
   config["gnss"]["port"] = sim_folder_ + "/gnss";
   if (config.contains("imu")) config["imu"]["port"] = sim_folder_ + "/imu";
   config["lines"]["chip"] = "files:" + sim_folder_ + "/lines";
+  if (config.contains("outputs")) {
+    fs::create_directories(private_folder_ + "/outputs");
+    config["outputs"]["chip"] = "files:" + private_folder_ + "/outputs";
+    config["outputs"].erase("watchdog");  // a file cannot be pulsed
+  }
   config["guard"]["socket"] = run + "/guard.sock";
   config["mqtt"]["port"] = port_;
   config["control"]["realtime"] = false;

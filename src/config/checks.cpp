@@ -175,6 +175,17 @@ class Checks final {
       const auto [it, inserted] = first.emplace(line.name, path);
       if (!inserted) add(path, "\"" + line.name + "\" is used by " + it->second + " already");
     }
+    if (config_.outputs.chip != config_.lines.chip) first.clear();
+    const auto output = [&](const std::string& key, const OutputConfig& line) {
+      if (!line.configured || line.name.empty()) return;
+      const auto [it, inserted] = first.emplace(line.name, "outputs." + key + ".line");
+      if (!inserted)
+        add("outputs." + key + ".line",
+            "\"" + line.name + "\" is used by " + it->second + " already");
+    };
+    constexpr std::array<const char*, kOutputCount> kKeys{"enable_relay", "lamp", "buzzer"};
+    for (std::size_t i = 0; i < kOutputCount; ++i) output(kKeys[i], config_.outputs.output[i]);
+    output("watchdog", config_.outputs.watchdog);
   }
 
   void limits() {
@@ -245,6 +256,8 @@ class Checks final {
     for (const auto& drive : c.drives) (void)c.engine.joints.push_back(Name(drive.joint));
     for (std::size_t i = 0; i < kLineCount; ++i)
       c.engine.line_configured[i] = c.lines.line[i].configured;
+    for (std::size_t i = 0; i < kOutputCount; ++i)
+      c.engine.output_configured[i] = c.outputs.output[i].configured;
   }
 
   /// What a driver says about options that do not fit together, it says when it is made.

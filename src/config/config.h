@@ -76,6 +76,18 @@ struct LinesConfig {
   std::array<LineConfig, kLineCount> line;  ///< by Line
 };
 
+struct OutputConfig {
+  bool configured = false;
+  std::string name;  ///< line name on the chip
+  bool active_low = false;
+};
+
+struct OutputsConfig {
+  std::string chip;                               ///< as LinesConfig's
+  std::array<OutputConfig, kOutputCount> output;  ///< by Output
+  OutputConfig watchdog;                          ///< pulsed by the guard for a hardware watchdog
+};
+
 struct GuardConfig {
   bool required = true;
   std::string socket = "/run/drover/guard.sock";
@@ -122,6 +134,7 @@ struct DroverConfig {
   ImuConfig imu;
   BatteryConfig battery;
   LinesConfig lines;
+  OutputsConfig outputs;
   GuardConfig guard;
   MqttConfig mqtt;
   ProtocolConfig protocol;

@@ -104,6 +104,24 @@ void visit(V& v, LinesConfig& c) {
 }
 
 template <class V>
+void visit(V& v, OutputConfig& c) {
+  v.text("line", c.name, "name of the line on the chip", Presence::required);
+  v.flag("active_low", c.active_low, "on is electrically low");
+  c.configured = true;
+}
+
+template <class V>
+void visit(V& v, OutputsConfig& c) {
+  v.text("chip", c.chip, "label or name of the GPIO chip, or files:DIRECTORY", Presence::required);
+  v.object("enable_relay", c.output[static_cast<std::size_t>(Output::enable_relay)],
+           "power of the drives: off while an e-stop is pressed");
+  v.object("lamp", c.output[static_cast<std::size_t>(Output::lamp)], "state, for people near it");
+  v.object("buzzer", c.output[static_cast<std::size_t>(Output::buzzer)],
+           "two beeps before motion, a long one at a stop");
+  v.object("watchdog", c.watchdog, "pulsed by drover-guard for a hardware watchdog");
+}
+
+template <class V>
 void visit(V& v, GuardConfig& c) {
   v.flag("required", c.required, "refuse to move without drover-guard");
   v.text("socket", c.socket, "where drover-guard listens");
@@ -162,6 +180,7 @@ void visit(V& v, DroverConfig& c, BaseNames& base) {
   v.object("estimate", c.engine.estimate, "fusion");
   v.object("navigate", c.engine.navigate, "tasks");
   v.object("health", c.engine.health, "freshness");
+  v.object("outputs", c.outputs, "digital outputs");
   v.object("guard", c.guard, "drover-guard");
   v.object("mqtt", c.mqtt, "broker");
   v.object("protocol", c.protocol, "choices of the RTK navigation protocol");

@@ -117,8 +117,9 @@ struct EngineConfig {
   EstimateConfig estimate;
   NavigateConfig navigate;
   HealthConfig health;
-  FixedVector<Name, kMaxAxes> joints;              ///< names, by AxisId
-  std::array<bool, kLineCount> line_configured{};  ///< by Line
+  FixedVector<Name, kMaxAxes> joints;                  ///< names, by AxisId
+  std::array<bool, kLineCount> line_configured{};      ///< by Line
+  std::array<bool, kOutputCount> output_configured{};  ///< by Output
   double tick_Hz = 200.0;
 };
 

@@ -14,6 +14,7 @@
 #include "engine/health/wheels.h"
 #include "engine/navigate/navigator.h"
 #include "engine/own/owners.h"
+#include "engine/signals/signals.h"
 
 namespace drover::engine {
 namespace {
@@ -53,6 +54,7 @@ struct Engine::Impl {
   Announcer announcer;
   Navigator navigator;
   Owners owners;
+  Signals signals;
   EventQueue events;
   std::array<bool, kLineCount> level{};  ///< last reported; active until then
   std::array<bool, kLineCount> pulse{};  ///< was active at some instant since the last step
@@ -74,6 +76,7 @@ Engine::Impl::Impl(const EngineConfig& c)
   }
   snapshot.line_configured = config.line_configured;
   snapshot.line_active = config.line_configured;
+  snapshot.output_configured = config.output_configured;
 }
 
 void Engine::Impl::count(const Measurement& m) {
@@ -363,6 +366,8 @@ void Engine::step(Time now, const Environment& environment, EngineOutput& out) {
   e.navigator.on_commanded(now, out.motion_permitted, e.events);
   e.announcer.update(now, e.health.report(), e.events);
   e.fill_snapshot(now, environment, e.estimate, motion.owner);
+  out.outputs = e.snapshot.output_on =
+      e.signals.step(now, e.snapshot, out.motion_permitted, motion.run);
   e.events.drain(out.events);
 }
 

@@ -31,6 +31,7 @@ struct Environment {
 
 struct EngineOutput {
   std::array<AxisCommand, kMaxAxes> axes{};
+  std::array<bool, kOutputCount> outputs{};  ///< by Output, true is on
   FixedVector<Event, 64> events;
   /// True while any motion is permitted this cycle; the frame gate refuses motion frames otherwise.
   bool motion_permitted = false;

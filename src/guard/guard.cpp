@@ -5,9 +5,11 @@
 // stop frames every 10 ms until a new droverd has taken over and asks for the bus. It opens no
 // device, knows no protocol and shares no code path with what it watches.
 #include <fcntl.h>
+#include <linux/gpio.h>
 #include <sched.h>
 #include <signal.h>
 #include <sys/epoll.h>
+#include <sys/ioctl.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
 #include <sys/timerfd.h>
@@ -90,15 +92,31 @@ class Guard final {
     const auto t = now();
     const bool was_holding = holding_;
     holding_ = watch_.step(beats(), t);
+    bool in_command = true;
     if (holding_) {
       if (!was_holding) tell_of_hold(t);
-      set_.send();
+      in_command = set_.send() == set_.size();
     }
+    // Drives that nobody can stop are the hardware watchdog's.
+    if (in_command) pulse();
     if (shared_ != nullptr) {
       shared_->guard_beats.fetch_add(1, std::memory_order_relaxed);
       shared_->guard_holds.store(holding_ ? 1 : 0, std::memory_order_release);
     }
     if (++cycles_ % 20 == 0) ::sd_notify(0, "WATCHDOG=1");
+  }
+
+  /// One edge a cycle. A line that is gone is closed, so that droverd can open it again.
+  void pulse() {
+    if (pulse_line_ < 0) return;
+    pulse_high_ = !pulse_high_;
+    gpio_v2_line_values values{};
+    values.mask = 1;
+    values.bits = pulse_high_ ? 1 : 0;
+    if (::ioctl(pulse_line_, GPIO_V2_LINE_SET_VALUES_IOCTL, &values) == 0) return;
+    std::fprintf(stderr, "drover-guard: the watchdog's line is gone (%s)\n", std::strerror(errno));
+    ::close(pulse_line_);
+    pulse_line_ = -1;
   }
 
   void tell_of_hold(Time t) const {
@@ -170,8 +188,16 @@ class Guard final {
         watch_.begin(beats(), limit_, now());
         return fd < 0;
       case GuardVerb::hand_back: watch_.hand_back(now()); return fd < 0;
+      case GuardVerb::pulse_line: return take_pulse_line(fd);
     }
     return false;
+  }
+
+  bool take_pulse_line(int fd) {
+    if (fd < 0) return false;
+    if (pulse_line_ >= 0) ::close(pulse_line_);
+    pulse_line_ = fd;
+    return true;
   }
 
   bool map_shared(int fd) {
@@ -200,6 +226,8 @@ class Guard final {
   drover::guard::Watch watch_;
   Duration limit_ = std::chrono::milliseconds(50);
   bool holding_ = false;
+  int pulse_line_ = -1;
+  bool pulse_high_ = false;
   std::uint64_t cycles_ = 0;
 };
 

@@ -3,6 +3,7 @@
 #include <sys/epoll.h>
 #include <sys/timerfd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <stdexcept>
@@ -63,6 +64,11 @@ Name ControlLoop::slot_name(std::size_t slot) const {
   if (slot == slot_of(Stream::gnss)) return config_.gnss.configured ? Name("gnss") : Name();
   if (slot == slot_of(Stream::imu)) return config_.imu.configured ? Name("imu") : Name();
   if (slot == kLinesSlot) return line_count_ > 0 ? Name("lines") : Name();
+  if (slot == kOutputsSlot) {
+    const auto& outputs = config_.engine.output_configured;
+    return std::find(outputs.begin(), outputs.end(), true) != outputs.end() ? Name("outputs")
+                                                                            : Name();
+  }
   return slot < config_.buses.size() ? Name(config_.buses[slot].name) : Name();
 }
 
@@ -110,6 +116,7 @@ void ControlLoop::cycle(std::uint64_t expirations) {
     if (!can_[bus]->send(out.frames[bus])) lose(bus, can_[bus]->error(), begin);
   }
   for (std::size_t i = 0; i < kStreamCount; ++i) serve_stream(i, out.streams[i], begin);
+  write_outputs(out.engine.outputs, begin);
 
   guard_.shared().daemon_beats.fetch_add(1, std::memory_order_release);
   exchange_.beats.fetch_add(1, std::memory_order_relaxed);
@@ -134,6 +141,8 @@ void ControlLoop::take_links(Time now) {
       streams_[stream] = std::move(arrived.serial);
       watch(streams_[stream]->fd(), kFirstStreamTag + stream);
       gateway_.on_stream_up(static_cast<Stream>(stream), now);
+    } else if (slot == kOutputsSlot) {
+      outputs_ = std::move(arrived.outputs);
     } else if (slot == kLinesSlot) {
       lines_ = std::move(arrived.lines);
       for (const int fd : lines_->edge_fds()) watch(fd, kLinesTag);
@@ -167,6 +176,8 @@ void ControlLoop::lose(std::size_t slot, int error, Time now) {
     for (const int fd : lines_->edge_fds()) ::epoll_ctl(epoll_.get(), EPOLL_CTL_DEL, fd, nullptr);
     dead.lines = std::move(lines_);
     gateway_.on_lines_lost(now);
+  } else if (slot == kOutputsSlot) {
+    dead.outputs = std::move(outputs_);
   } else {
     dead.can = std::move(can_[slot]);
   }
@@ -206,6 +217,15 @@ void ControlLoop::read_lines(Time now) {
   std::array<bool, link::kMaxLines> levels{};
   if (!lines_->read(levels)) return lose(kLinesSlot, lines_->error(), now);
   gateway_.on_levels({levels.data(), line_count_}, now);
+}
+
+void ControlLoop::write_outputs(const std::array<bool, kOutputCount>& on, Time now) {
+  if (!outputs_) return;
+  std::array<bool, kOutputCount> levels{};  // of the configured ones, in the order of Output
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < kOutputCount; ++i)
+    if (config_.engine.output_configured[i]) levels[count++] = on[i];
+  if (!outputs_->write({levels.data(), count})) lose(kOutputsSlot, outputs_->error(), now);
 }
 
 void ControlLoop::drain_can(Time now) {

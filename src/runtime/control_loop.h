@@ -37,6 +37,7 @@ class ControlLoop final {
   void read_stream(std::size_t stream);
   void serve_stream(std::size_t stream, const StreamOutput& out, Time now);
   void read_lines(Time now);
+  void write_outputs(const std::array<bool, kOutputCount>& on, Time now);
   void drain_can(Time now);
   void cycle(std::uint64_t expirations);
   void watch_guard(Time now);
@@ -57,6 +58,7 @@ class ControlLoop final {
   std::array<std::unique_ptr<link::SerialLink>, kStreamCount> streams_;
   std::array<int, kStreamCount> stream_baud_{};
   std::unique_ptr<link::LineLink> lines_;
+  std::unique_ptr<link::OutputLink> outputs_;
   std::array<LinkHandover, kLinkSlots> going_back_;  ///< dead links that the keeper has yet to take
   std::array<LinkSnapshot, kLinkSlots> link_state_;
   std::size_t line_count_ = 0;

@@ -101,6 +101,12 @@ bool GuardClient::hand_over(std::span<const GuardedLink> links, std::string& pro
   return sent;
 }
 
+bool GuardClient::give_pulse_line(int line) {
+  GuardMessage message;
+  message.verb = GuardVerb::pulse_line;
+  return connected() && send(message, line);
+}
+
 bool GuardClient::hand_back() {
   GuardMessage message;
   message.verb = GuardVerb::hand_back;

@@ -40,6 +40,8 @@ class GuardClient final {
   /// Connects when needed and hands over the whole set. False with a sentence in `problem`.
   bool hand_over(std::span<const GuardedLink> links, std::string& problem);
   bool hand_back();
+  /// The handle of the hardware watchdog's line; the guard keeps one of its own.
+  bool give_pulse_line(int line);
   /// To be polled for the guard's death; -1 while not connected.
   int fd() const { return socket_.get(); }
   void disconnect() { socket_.reset(); }

@@ -20,6 +20,15 @@ std::vector<std::string> line_names(const config::LinesConfig& lines) {
     if (line.configured) names.push_back(line.name);
   return names;
 }
+std::vector<link::OutputLine> output_lines(const config::OutputsConfig& outputs) {
+  std::vector<link::OutputLine> lines;
+  for (const auto& output : outputs.output)
+    if (output.configured) lines.push_back({output.name, output.active_low});
+  return lines;
+}
+
+/// The guard holds the line for as long as it lives; now and then it is looked whether it is free.
+constexpr Duration kWatchdogPause = std::chrono::seconds(1);
 }  // namespace
 
 LinkKeeper::LinkKeeper(const config::DroverConfig& config, const GuardMemory& memory,
@@ -36,6 +45,8 @@ LinkKeeper::LinkKeeper(const config::DroverConfig& config, const GuardMemory& me
   use_stream(Stream::gnss, config.gnss);
   use_stream(Stream::imu, config.imu);
   slots_[kLinesSlot].used = !line_names(config.lines).empty();
+  slots_[kOutputsSlot].used = !output_lines(config.outputs).empty();
+  watchdog_.used = config.outputs.watchdog.configured;
 }
 
 bool LinkKeeper::give_back(LinkHandover& lost) {
@@ -51,6 +62,7 @@ void LinkKeeper::run(const std::atomic<bool>& stop) {
     for (std::size_t i = 0; i < kLinkSlots; ++i)
       if (slots_[i].used && !slots_[i].open && now >= slots_[i].next_try) try_open(i, now);
     supply_guard(now);
+    supply_watchdog(now);
     if (hand_back_wanted_.exchange(false, std::memory_order_relaxed)) guard_.hand_back();
 
     std::array<pollfd, 2> fds{{{wake_.fd(), POLLIN, 0}, {guard_.fd(), POLLIN | POLLHUP, 0}}};
@@ -70,6 +82,7 @@ Duration LinkKeeper::until_next_try(Time now) const {
   for (const auto& slot : slots_)
     if (slot.used && !slot.open) wait = std::min(wait, slot.next_try - now);
   if (guard_set_changed_) wait = std::min(wait, guard_slot_.next_try - now);
+  if (watchdog_.used) wait = std::min(wait, watchdog_.next_try - now);
   return std::max(wait, Duration(std::chrono::milliseconds(1)));
 }
 
@@ -106,6 +119,9 @@ LinkHandover LinkKeeper::open(std::size_t slot, std::string& problem) const {
     take(link::open_serial(slots_[slot].serial), handover.serial);
   } else if (slot == kLinesSlot) {
     take(link::open_lines({config_.lines.chip, line_names(config_.lines)}), handover.lines);
+  } else if (slot == kOutputsSlot) {
+    take(link::open_outputs({config_.outputs.chip, output_lines(config_.outputs)}),
+         handover.outputs);
   } else {
     take(link::open_can(can_settings(slot)), handover.can);
   }
@@ -120,9 +136,10 @@ void LinkKeeper::try_open(std::size_t slot, Time now) {
   slots_[slot].open = true;
   slots_[slot].problem.clear();
   if (slot < kMaxBuses) guard_set_changed_ = true;
-  const auto name = is_stream(slot)      ? slots_[slot].serial.path
-                    : slot == kLinesSlot ? "gpio " + config_.lines.chip
-                                         : config_.buses[slot].interface;
+  const auto name = is_stream(slot)        ? slots_[slot].serial.path
+                    : slot == kLinesSlot   ? "gpio " + config_.lines.chip
+                    : slot == kOutputsSlot ? "gpio " + config_.outputs.chip + " (outputs)"
+                                           : config_.buses[slot].interface;
   log(LogLevel::info, name + ": open");
 }
 
@@ -159,6 +176,28 @@ void LinkKeeper::supply_guard(Time now) {
   guard_slot_.next_try = now + guard_slot_.pause;
   if (problem != guard_slot_.problem) log(LogLevel::warning, problem);
   guard_slot_.problem = problem;
+}
+
+void LinkKeeper::supply_watchdog(Time now) {
+  if (!watchdog_.used || !guard_.connected() || now < watchdog_.next_try) {
+    if (watchdog_.next_try <= now) watchdog_.next_try = now + kWatchdogPause;
+    return;
+  }
+  watchdog_.next_try = now + kWatchdogPause;
+  const auto& line = config_.outputs.watchdog;
+  const auto opened = link::open_outputs({config_.outputs.chip, {{line.name, line.active_low}}});
+  if (opened.link && opened.link->fd() < 0) {
+    watchdog_.used = false;
+    log(LogLevel::warning, "outputs.watchdog: a file is no line that the guard can pulse");
+  } else if (opened.link && guard_.give_pulse_line(opened.link->fd())) {
+    watchdog_.open = true;
+    watchdog_.problem.clear();
+    log(LogLevel::info, "drover-guard pulses the hardware watchdog's line");
+  } else if (!opened.link && !watchdog_.open && opened.problem != watchdog_.problem) {
+    // Once the guard has it, it is busy: that is as it should be.
+    watchdog_.problem = opened.problem;
+    log(LogLevel::warning, opened.problem);
+  }
 }
 
 }  // namespace drover::runtime

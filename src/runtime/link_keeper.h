@@ -15,6 +15,7 @@
 #include "drover/spsc_ring.h"
 #include "link/can_open.h"
 #include "link/lines.h"
+#include "link/outputs.h"
 #include "link/serial_link.h"
 #include "runtime/gateway.h"
 #include "runtime/guard_client.h"
@@ -22,10 +23,11 @@
 
 namespace drover::runtime {
 
-/// Slots: the buses first, then the byte streams, then the digital lines.
+/// Slots: the buses first, then the byte streams, then the digital inputs and outputs.
 inline constexpr std::size_t kFirstStreamSlot = kMaxBuses;
 inline constexpr std::size_t kLinesSlot = kFirstStreamSlot + kStreamCount;
-inline constexpr std::size_t kLinkSlots = kLinesSlot + 1;
+inline constexpr std::size_t kOutputsSlot = kLinesSlot + 1;
+inline constexpr std::size_t kLinkSlots = kOutputsSlot + 1;
 constexpr bool is_stream(std::size_t slot) {
   return slot >= kFirstStreamSlot && slot < kLinesSlot;
 }
@@ -37,10 +39,11 @@ struct LinkHandover {
   std::unique_ptr<link::CanLink> can;
   std::unique_ptr<link::SerialLink> serial;
   std::unique_ptr<link::LineLink> lines;
+  std::unique_ptr<link::OutputLink> outputs;
   /// keeper → control: why there is no link; control → keeper: why it was given back
   Reason problem;
   int reopen_baud = 0;  ///< control → keeper, streams: open it again at this speed; 0: as before
-  bool opened() const { return can || serial || lines; }
+  bool opened() const { return can || serial || lines || outputs; }
 };
 
 class LinkKeeper final {
@@ -76,6 +79,7 @@ class LinkKeeper final {
   link::CanSettings can_settings(std::size_t bus) const;
   void failed(std::size_t slot, const std::string& problem, Time now);
   void supply_guard(Time now);
+  void supply_watchdog(Time now);
   Duration until_next_try(Time now) const;
 
   const config::DroverConfig& config_;
@@ -88,6 +92,7 @@ class LinkKeeper final {
   GuardClient guard_;
   Slot guard_slot_;
   bool guard_set_changed_ = true;
+  Slot watchdog_;  ///< of the line that the guard pulses
 };
 
 }  // namespace drover::runtime

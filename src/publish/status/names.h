@@ -48,6 +48,15 @@ constexpr std::string_view word(Line line) {
   return "?";
 }
 
+constexpr std::string_view word(Output output) {
+  switch (output) {
+    case Output::enable_relay: return "enable_relay";
+    case Output::lamp: return "lamp";
+    case Output::buzzer: return "buzzer";
+  }
+  return "?";
+}
+
 constexpr std::string_view word(FixQuality quality) {
   switch (quality) {
     case FixQuality::none: return "none";

@@ -158,6 +158,15 @@ void lines(JsonText& out, const Snapshot& s) {
   out.close('}');
 }
 
+void outputs(JsonText& out, const Snapshot& s) {
+  out.key("outputs").open('{');
+  for (std::size_t i = 0; i < kOutputCount; ++i) {
+    if (!s.output_configured[i]) continue;
+    out.key(word(static_cast<Output>(i))).boolean(s.output_on[i]);
+  }
+  out.close('}');
+}
+
 void links(JsonText& out, const Snapshot& s) {
   out.key("links").open('[');
   for (const auto& link : s.links) {
@@ -225,6 +234,7 @@ std::string status_json(const Snapshot& s, const DaemonStatus& daemon) {
   imu(out, s);
   axes(out, s);
   lines(out, s);
+  outputs(out, s);
   links(out, s);
   daemon_part(out, s, daemon);
   out.close('}');

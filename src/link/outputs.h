@@ -1,0 +1,40 @@
+// Digital outputs: levels that are set each control cycle, and lines that another process may set.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "link/opened.h"
+#include "link/unique_fd.h"
+
+namespace drover::link {
+
+inline constexpr std::size_t kMaxOutputs = 8;
+
+struct OutputLine {
+  std::string name;  ///< on the chip
+  bool active_low = false;
+};
+
+struct OutputSettings {
+  std::string chip;  ///< label or name of the chip, or "files:DIRECTORY"
+  std::vector<OutputLine> lines;
+};
+
+/// One request for all lines, held as long as it lives.
+class OutputLink {
+ public:
+  virtual ~OutputLink() = default;
+  /// `levels` in the order of the settings, true is active. False when the chip is gone.
+  [[nodiscard]] virtual bool write(std::span<const bool> levels) = 0;
+  virtual int error() const = 0;
+  /// The kernel's line handle, for the guard; -1 where there is none.
+  virtual int fd() const { return -1; }
+};
+
+/// All lines off at first.
+Opened<OutputLink> open_outputs(const OutputSettings& settings);
+
+}  // namespace drover::link
