@@ -125,6 +125,7 @@ struct CycleStats {
 
 struct LinkSnapshot {
   Name name;
+  bool is_bus = false;  ///< a CAN bus; otherwise a serial line, the GPIO chip, ...
   bool up = false;
   Reason reason;  ///< why it is not up
   std::uint64_t received = 0;

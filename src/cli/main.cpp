@@ -6,6 +6,9 @@
 #include <string>
 
 #include "cli/client.h"
+#include "cli/devices.h"
+#include "cli/exit_codes.h"
+#include "cli/option_texts.h"
 #include "cli/show.h"
 #include "config/json_text.h"
 
@@ -14,11 +17,10 @@ namespace {
 using drover::json::JsonText;
 using drover::json::Node;
 
-// Exit codes, also in the help.
-constexpr int kDone = 0;
-constexpr int kRefused = 1;
-constexpr int kUsage = 2;
-constexpr int kNoDaemon = 3;
+using drover::cli::kDone;
+using drover::cli::kNoDaemon;
+using drover::cli::kRefused;
+using drover::cli::kUsage;
 
 struct Settings {
   std::string socket = "/run/drover/drover.sock";
@@ -119,6 +121,8 @@ int main(int argc, char** argv) {
       "Examples:\n"
       "  drover status --watch\n"
       "  drover status --json\n"
+      "  drover gnss --watch\n"
+      "  drover can --file candump.log --driver odrive --node 3\n"
       "  drover traj list\n"
       "  drover task start 'row 7' --id 57 --speed 0.5\n"
       "  drover task cancel");
@@ -127,6 +131,8 @@ int main(int argc, char** argv) {
   status_command->add_flag("--json", s.json, "one JSON object");
   status_command->add_flag("--watch", s.watch, "again and again");
   status_command->callback([&] { code = status(s); });
+
+  drover::cli::add_device_commands(app, s.socket, code);
 
   auto* traj = app.add_subcommand("traj", "saved tracks")->require_subcommand(1);
   auto* list = traj->add_subcommand("list", "name, points and length of each");
@@ -173,6 +179,9 @@ int main(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? kDone : kUsage;
+  } catch (const drover::cli::WrongUsage& wrong) {
+    std::fprintf(stderr, "drover: %s\n", wrong.what());
+    return kUsage;
   } catch (const drover::cli::NoAnswer& no) {
     std::fprintf(stderr, "drover: %s\n", no.text.c_str());
     return kNoDaemon;

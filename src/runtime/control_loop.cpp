@@ -56,6 +56,7 @@ ControlLoop::ControlLoop(const config::DroverConfig& config, Gateway& gateway, L
   for (const auto& line : config.lines.line) line_count_ += line.configured ? 1 : 0;
   for (std::size_t slot = 0; slot < kLinkSlots; ++slot) {
     link_state_[slot].name = slot_name(slot);
+    link_state_[slot].is_bus = slot < kMaxBuses;
     link_state_[slot].reason = "not opened yet";
   }
 }

@@ -17,7 +17,7 @@ src/config       drover/ config/ engine/config.h
 src/publish      drover/ publish/ store/ config/located_json.h config/json_text.h
 src/runtime      drover/ runtime/ publish/ store/ config/ link/ engine/
 src/guard        drover/ guard/
-src/cli          cli/ link/unique_fd.h config/located_json.h config/json_text.h
+src/cli          drover/ cli/ link/unique_fd.h config/ publish/status/names.h
 src/droverd.cpp  config/ runtime/
 sim/plant        drover/ sim/plant/
 sim/robot        drover/ link/ sim/plant/ sim/robot/

@@ -57,6 +57,16 @@ constexpr std::string_view word(Output output) {
   return "?";
 }
 
+constexpr std::string_view word(BatteryFlow flow) {
+  switch (flow) {
+    case BatteryFlow::unknown: return "unknown";
+    case BatteryFlow::idle: return "idle";
+    case BatteryFlow::charging: return "charging";
+    case BatteryFlow::discharging: return "discharging";
+  }
+  return "?";
+}
+
 constexpr std::string_view word(FixQuality quality) {
   switch (quality) {
     case FixQuality::none: return "none";

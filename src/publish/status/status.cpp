@@ -172,6 +172,7 @@ void links(JsonText& out, const Snapshot& s) {
   for (const auto& link : s.links) {
     out.open('{');
     out.key("name").text(link.name.view());
+    out.key("bus").boolean(link.is_bus);
     out.key("up").boolean(link.up);
     out.key("reason").text(link.reason.view());
     out.key("received").integer(static_cast<std::int64_t>(link.received));

@@ -1,0 +1,50 @@
+#include "cli/layout.h"
+
+#include <cstdio>
+
+namespace drover::cli {
+
+using json::Node;
+
+const Node& at(const Node& node, std::string_view key) {
+  static const Node kNothing;
+  const auto* found = node.find(key);
+  return found != nullptr ? *found : kNothing;
+}
+
+std::string text(const Node& node) {
+  if (const auto* value = node.text()) return *value;
+  if (const auto* value = node.boolean()) return *value ? "yes" : "no";
+  return "";
+}
+
+std::string quantity(const Node& node, const char* format) {
+  const auto value = node.number();
+  if (!value) return "-";
+  char out[64];
+  std::snprintf(out, sizeof out, format, *value);
+  return out;
+}
+
+std::string labelled(std::string_view label, const Node& node, const char* format) {
+  return std::string(label) + " " + quantity(node, format);
+}
+
+bool yes(const Node& node) {
+  return node.boolean() != nullptr && *node.boolean();
+}
+
+void line(std::string& out, std::string_view label, const std::string& value) {
+  char head[32];
+  std::snprintf(head, sizeof head, "%-10.*s", static_cast<int>(label.size()), label.data());
+  out += head + value + "\n";
+}
+
+std::string padded(std::string value, std::size_t width) {
+  std::size_t characters = 0;
+  for (const char c : value) characters += (static_cast<unsigned char>(c) & 0xC0U) != 0x80U ? 1 : 0;
+  if (characters < width) value.append(width - characters, ' ');
+  return value;
+}
+
+}  // namespace drover::cli

@@ -1,0 +1,25 @@
+// How values of droverd's answers become columns of text: absent ones are "-", never 0.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "config/located_json.h"
+
+namespace drover::cli {
+
+/// A member; a node without a value where there is none.
+const json::Node& at(const json::Node& node, std::string_view key);
+/// A text as it is, a flag as "yes" or "no", anything else as nothing.
+std::string text(const json::Node& node);
+/// One number by a printf format such as "%.2f m"; "-" when it is absent.
+std::string quantity(const json::Node& node, const char* format);
+/// "speed 0.50 m/s", or "speed -" when it is absent.
+std::string labelled(std::string_view label, const json::Node& node, const char* format);
+bool yes(const json::Node& node);
+/// Appends one line with its label in a column of its own.
+void line(std::string& out, std::string_view label, const std::string& value);
+/// Pads to `width` columns, counting UTF-8 characters.
+std::string padded(std::string value, std::size_t width);
+
+}  // namespace drover::cli

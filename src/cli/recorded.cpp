@@ -1,0 +1,237 @@
+#include "cli/recorded.h"
+
+#include <algorithm>
+#include <istream>
+#include <map>
+#include <memory>
+#include <optional>
+#include <ostream>
+
+#include "cli/can_table.h"
+#include "cli/candump.h"
+#include "cli/exit_codes.h"
+#include "cli/measurement.h"
+#include "cli/option_texts.h"
+#include "cli/register_log.h"
+#include "config/register_map.h"
+#include "drover/registry.h"
+
+namespace drover::cli {
+
+namespace {
+
+constexpr double kBitsPerByte = 10;  // start, eight data bits, stop
+constexpr double kUsualBaud = 115200;
+/// Between two rounds of a battery: its recording carries no times.
+constexpr Duration kRound = std::chrono::seconds(1);
+constexpr int kShownProblems = 5;
+
+/// Prints measurements and counts what came of the recording.
+class Printer final {
+ public:
+  Printer(const Recording& recording, std::ostream& out, std::ostream& notes)
+      : json_(recording.json), out_(out), notes_(notes) {}
+
+  void print(const DriverOut& from, const Place& place) {
+    for (const auto& m : from.measurements) {
+      ++measurements_;
+      out_ << (json_ ? measurement_json(m, place) : measurement_text(m, place)) << '\n';
+    }
+  }
+  void problem(std::size_t number, const std::string& text) {
+    if (++problems_ <= kShownProblems) notes_ << "line " << number << ": " << text << '\n';
+  }
+  void add_bad(std::uint64_t count) { bad_ += count; }
+  int finish() { return finish(measurements_, "measurements"); }
+  int finish(std::uint64_t count, std::string_view what) {
+    notes_ << what << ' ' << count;
+    if (bad_ > 0) notes_ << ", malformed " << bad_;
+    if (problems_ > 0) notes_ << ", lines not understood " << problems_;
+    notes_ << '\n';
+    return count > 0 ? kDone : kRefused;
+  }
+
+ private:
+  bool json_;
+  std::ostream& out_;
+  std::ostream& notes_;
+  std::uint64_t measurements_ = 0;
+  std::uint64_t problems_ = 0;
+  std::uint64_t bad_ = 0;
+};
+
+template <class Make>
+Make maker(const DriverEntry& entry) {
+  const auto* make = std::get_if<Make>(&entry.make);
+  if (make == nullptr)
+    throw WrongUsage("driver " + std::string(entry.name) + " does not read such recordings");
+  return *make;
+}
+
+/// What a driver refuses of its options is wrong usage here.
+template <class Make, class... Arguments>
+auto made(Make make, const Arguments&... arguments) {
+  try {
+    return make(arguments...);
+  } catch (const WrongUsage&) {
+    throw;
+  } catch (const std::exception& error) {
+    throw WrongUsage(error.what());
+  }
+}
+
+const DriverEntry& entry_of(Device device, const std::string& name) {
+  const auto* entry = find_driver(name);
+  if (entry != nullptr && entry->device == device) return *entry;
+  std::string known;
+  for (const auto& each : driver_registry())
+    if (each.device == device) known += (known.empty() ? "" : ", ") + std::string(each.name);
+  throw WrongUsage(name.empty() ? "--driver is missing: " + known
+                                : "no driver \"" + name + "\" for this device: " + known);
+}
+
+/// The recording carries no times: its bytes come one after the other at the line's speed.
+int show_bytes(Device device, std::istream& in, const Recording& recording, std::ostream& out,
+               std::ostream& notes) {
+  const auto& entry = entry_of(device, recording.driver);
+  const auto options = options_from(entry.options, recording.options);
+  const auto driver = made(maker<MakeByteDriver>(entry), options);
+  const double baud = options.has("baud") ? options.number("baud") : kUsualBaud;
+  const Duration byte_time = from_s(kBitsPerByte / baud);
+  Printer printer(recording, out, notes);
+  DriverOut said;
+  Time now{};
+  driver->on_link_up(now);
+  std::uint64_t offset = 0;
+  for (int c = in.get(); c != std::istream::traits_type::eof(); c = in.get()) {
+    const auto byte = static_cast<std::uint8_t>(c);
+    driver->on_bytes({&byte, 1}, now, said);
+    printer.print(said, {"byte", static_cast<double>(++offset), 0, ""});
+    said.clear();
+    now += byte_time;
+  }
+  printer.add_bad(driver->health(now).bad);
+  return printer.finish();
+}
+
+/// In two parts: nanoseconds since 1970 are too many for a double.
+double seconds_of(Time stamp) {
+  constexpr std::int64_t kSecond = 1'000'000'000;
+  const std::int64_t ns = stamp.time_since_epoch().count();
+  return static_cast<double>(ns / kSecond) + static_cast<double>(ns % kSecond) / 1e9;
+}
+
+struct Node {
+  std::string name;
+  std::unique_ptr<CanDriver> driver;
+};
+
+std::vector<Node> nodes_of(const Recording& recording) {
+  const auto& entry = entry_of(Device::drive, recording.driver);
+  const auto make = maker<MakeCanDriver>(entry);
+  std::vector<Node> nodes;
+  const auto add = [&](const std::string& name, const std::vector<std::string>& texts) {
+    nodes.push_back({name, made(make, options_from(entry.options, texts), AxisId{0})});
+  };
+  if (recording.nodes.empty()) add("", recording.options);
+  for (const int node : recording.nodes) {
+    auto texts = recording.options;
+    texts.push_back("node=" + std::to_string(node));
+    add("node " + std::to_string(node), texts);
+  }
+  return nodes;
+}
+
+int show_frames(std::istream& in, const Recording& recording, std::ostream& out,
+                std::ostream& notes) {
+  Printer printer(recording, out, notes);
+  std::optional<CanTable> table;
+  std::vector<Node> nodes;
+  if (recording.driver.empty()) {
+    if (!recording.nodes.empty() || !recording.options.empty())
+      throw WrongUsage("--node and --option need --driver");
+    table.emplace();
+  } else {
+    nodes = nodes_of(recording);
+  }
+  DriverOut said;
+  Time last{};
+  bool begun = false;
+  std::string line;
+  for (std::size_t number = 1; std::getline(in, line); ++number) {
+    if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
+    const auto logged = parse_candump(line);
+    if (!logged) {
+      printer.problem(number, "not of the form (SECONDS) BUS ID#DATA");
+      continue;
+    }
+    if (!recording.bus.empty() && logged->bus != recording.bus) continue;
+    last = logged->time;
+    const double stamp_s = seconds_of(last);
+    if (table) table->add(*logged);
+    for (const auto& node : nodes) {
+      if (!begun) node.driver->on_link_up(last);
+      if (!logged->frame.error) node.driver->on_frame(logged->frame, last, said);
+      printer.print(said, {"t_s", stamp_s, 6, node.name});
+      said.clear();
+    }
+    begun = true;
+  }
+  for (const auto& node : nodes) {
+    const auto health = node.driver->health(last);
+    printer.add_bad(health.bad);
+    if (!health.reason.empty())
+      notes << node.name << (node.name.empty() ? "" : ": ") << health.reason.view() << '\n';
+  }
+  if (!table) return printer.finish();
+  table->print(out, recording.json);
+  return printer.finish(table->frames(), "frames");
+}
+
+int show_registers(std::istream& in, const Recording& recording, std::ostream& out,
+                   std::ostream& notes) {
+  const auto& entry = entry_of(Device::battery, recording.driver);
+  if (recording.map.empty()) throw WrongUsage("--map is missing: the file of the registers");
+  const auto loaded = config::load_register_map(config::find_register_map(recording.map, "."));
+  for (const auto& problem : loaded.problems) throw WrongUsage(problem.text(problem.file));
+  const auto options = options_from(entry.options, recording.options);
+  const auto driver = made(maker<MakeRegisterDriver>(entry), options, loaded.map);
+  RegisterLog log(driver->blocks(), loaded.map.stride);
+  Printer printer(recording, out, notes);
+  DriverOut said;
+  Time now{};
+  driver->on_link_up(now);
+  std::string line;
+  for (std::size_t number = 1; std::getline(in, line); ++number) {
+    line.resize(std::min(line.size(), line.find('#')));
+    if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
+    if (const auto problem = log.add(line); !problem.empty()) printer.problem(number, problem);
+    if (!log.complete()) continue;
+    now += kRound;
+    for (std::size_t block = 0; block < driver->blocks().size(); ++block)
+      driver->on_registers(block, log.words(block), now, said);
+    printer.print(said, {"line", static_cast<double>(number), 0, ""});
+    said.clear();
+  }
+  const auto health = driver->health(now);
+  printer.add_bad(health.bad);
+  if (const auto never = log.never_seen(); !never.empty()) {
+    notes << "the map also needs register " << never << ", which is not in the recording\n";
+  } else if (!health.reason.empty()) {
+    notes << health.reason.view() << '\n';
+  }
+  return printer.finish();
+}
+
+}  // namespace
+
+int show_recording(std::string_view device, std::istream& in, const Recording& recording,
+                   std::ostream& out, std::ostream& notes) {
+  if (device == "gnss") return show_bytes(Device::gnss, in, recording, out, notes);
+  if (device == "imu") return show_bytes(Device::imu, in, recording, out, notes);
+  if (device == "bms") return show_registers(in, recording, out, notes);
+  if (device == "can") return show_frames(in, recording, out, notes);
+  throw WrongUsage("levels of GPIO lines are not recorded: leave out --file");
+}
+
+}  // namespace drover::cli
