@@ -34,8 +34,10 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 12> kUnits{{
 std::string fixed(double value, int decimals) {
   if (!std::isfinite(value)) return "-";
   char out[64];
-  std::snprintf(out, sizeof out, "%.*f", decimals, value + 0.0);
-  return out;
+  std::snprintf(out, sizeof out, "%.*f", decimals, value);
+  // What rounds to zero is zero.
+  const bool zero = std::string_view(out).find_first_of("123456789") == std::string_view::npos;
+  return zero && out[0] == '-' ? out + 1 : out;
 }
 
 /// The unit that the value's name ends in; takes it off the name.

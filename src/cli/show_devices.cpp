@@ -94,6 +94,12 @@ std::string show_bms(const Node& status) {
   return out;
 }
 
+/// A line whose label is a joint's name.
+void wide(std::string& out, const std::string& label, std::string value) {
+  while (!value.empty() && value.back() == ' ') value.pop_back();
+  out += padded(label, 13) + " " + value + "\n";
+}
+
 std::string counter(const Node& link, const std::string& key) {
   return labelled(key, at(link, key), "%.0f") + " (" + quantity(at(link, key + "_Hz"), "%.1f/s") +
          ")  ";
@@ -104,7 +110,7 @@ std::string show_can(const Node& status) {
   if (const auto* links = at(status, "links").list()) {
     for (const auto& link : *links) {
       if (!yes(at(link, "bus"))) continue;
-      line(out, text(at(link, "name")),
+      wide(out, text(at(link, "name")),
            (yes(at(link, "up")) ? "up  " : "DOWN  ") + counter(link, "received") +
                counter(link, "sent") + counter(link, "dropped") + counter(link, "refused") +
                text(at(link, "reason")));
@@ -113,7 +119,7 @@ std::string show_can(const Node& status) {
   const auto* axes = at(status, "axes").list();
   if (axes == nullptr) return out;
   for (const auto& axis : *axes) {
-    line(out, text(at(axis, "joint")),
+    wide(out, text(at(axis, "joint")),
          padded(text(at(axis, "state")), 9) + quantity(at(axis, "position_rad"), "%10.3f rad") +
              "  " + quantity(at(axis, "velocity_radps"), "%7.3f rad/s") + "  " +
              quantity(at(axis, "effort_Nm"), "%6.2f Nm") + "  " +
@@ -126,7 +132,7 @@ std::string show_can(const Node& status) {
                        labelled("bad", at(axis, "bad"), "%.0f") + "  " + text(at(axis, "health"));
     for (const auto* key : {"fault", "reason"})
       if (!text(at(axis, key)).empty()) more += "  " + text(at(axis, key));
-    line(out, "", more);
+    wide(out, "", more);
   }
   return out;
 }

@@ -122,6 +122,31 @@ void imu(JsonText& out, const Snapshot& s) {
   out.close('}');
 }
 
+void battery(JsonText& out, const Snapshot& s) {
+  out.key("battery");
+  if (!s.battery.configured) {
+    out.null();
+    return;
+  }
+  const BatterySample& sample = s.battery.sample;
+  out.open('{');
+  out.key("health").text(word(s.battery.health));
+  number(out, "soc_percent", sample.soc_percent);
+  number(out, "voltage_V", sample.voltage_V);
+  number(out, "current_A", sample.current_A);
+  number(out, "remaining_Ah", sample.remaining_Ah);
+  number(out, "temperature_degC", sample.temperature_degC);
+  number(out, "mosfet_degC", sample.mosfet_degC);
+  number(out, "min_cell_V", sample.min_cell_V);
+  number(out, "max_cell_V", sample.max_cell_V);
+  out.key("flow").text(word(sample.flow));
+  out.key("charger_connected").boolean(sample.charger_connected);
+  out.key("alarm").text(sample.alarm_text.view());
+  age(out, "age_s", s.time, s.battery.time);
+  source(out, s.battery.source);
+  out.close('}');
+}
+
 void axes(JsonText& out, const Snapshot& s) {
   out.key("axes").open('[');
   for (const auto& axis : s.axes) {
@@ -233,6 +258,7 @@ std::string status_json(const Snapshot& s, const DaemonStatus& daemon) {
   origin(out, s);
   gnss(out, s);
   imu(out, s);
+  battery(out, s);
   axes(out, s);
   lines(out, s);
   outputs(out, s);

@@ -99,11 +99,11 @@ TEST(DeviceViews, ShowBusesAndDrivesButNoOtherLinks) {
           "axes":[{"joint":"left","state":"fault","position_rad":1,"velocity_radps":-2,
           "effort_Nm":3,"motor_degC":40,"inverter_degC":null,"bus_V":48,"bus_A":1.5,"rate_Hz":100,
           "age_s":0.01,"bad":0,"health":"stale","fault":"spinout","reason":"silent"}]})"),
-      "can0      DOWN  received 10 (2.5/s)  sent 5 (-)  dropped 0 (0.0/s)  refused 1 (0.0/s)  "
+      "can0          DOWN  received 10 (2.5/s)  sent 5 (-)  dropped 0 (0.0/s)  refused 1 (0.0/s)  "
       "no such device\n"
-      "left      fault         1.000 rad   -2.000 rad/s    3.00 Nm  motor 40 C  inverter -  "
+      "left          fault         1.000 rad   -2.000 rad/s    3.00 Nm  motor 40 C  inverter -  "
       "bus 48.0 V 1.5 A\n"
-      "          100.0 Hz  age 0.010 s  bad 0  stale  spinout  silent\n");
+      "              100.0 Hz  age 0.010 s  bad 0  stale  spinout  silent\n");
 }
 
 TEST(DeviceViews, ShowLinesInWordsAndOutputs) {
