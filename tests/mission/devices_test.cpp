@@ -1,0 +1,141 @@
+// Missions in which inertial sensor, battery or receiver fail: what is told, and that it goes on.
+#include <algorithm>
+#include <cmath>
+
+#include "mission/support.h"
+
+namespace drover::mission {
+namespace {
+
+bool imu(const Status& status) {
+  return status.document.at("sensor").at("imu").get<bool>();
+}
+bool battery(const Status& status) {
+  const auto& bms = status.document.at("bms");
+  const bool valid = bms.at("valid").get<bool>();
+  EXPECT_EQ(valid, bms.at("error").get<int>() == 0) << "at " << seconds(status.time);
+  return valid;
+}
+
+/// The first status from `begin` on for which `is` holds; the end of time when there is none.
+template <typename Is>
+Time first(const Record& log, Time begin, const Is& is) {
+  for (const auto& status : log.statuses)
+    if (status.time >= begin && is(status)) return status.time;
+  return Time::max();
+}
+const Status& status_at(const Record& log, Time time) {
+  const Status* last = &log.statuses.front();
+  for (const auto& status : log.statuses)
+    if (status.time <= time) last = &status;
+  return *last;
+}
+
+void expect_success_without_another_start(const Record& log) {
+  EXPECT_EQ(log.feedback_words(), kStarted);
+  EXPECT_EQ(log.statuses.back().nav, "NAV_SUCCESS");
+  const Time begin = log.answered("start_nav_success");
+  const auto figures = drive_figures(log, begin, log.first_status("NAV_SUCCESS", begin).time);
+  EXPECT_LT(figures.goal_m, 0.10);
+  EXPECT_LT(figures.rms_m, 0.10);
+}
+
+/// Set points go to each wheel each control cycle, whatever another device does: the longest time
+/// between two of them.
+Duration longest_silence(const Record& log, Time begin, Time end) {
+  Duration longest{};
+  Time last = begin;
+  for (const auto& one : log.sent) {
+    if (one.wheel.node != kFirstNode || one.time < begin || one.time > end) continue;
+    longest = std::max(longest, one.time - last);
+    last = one.time;
+  }
+  return std::max(longest, end - last);
+}
+
+TEST(ImuFaults, AreToldAndDrivenThrough) {
+  const Record& log = record("imu_faults");
+  const Time pulled = log.event("sim imu unplug");
+  const Time back = log.event("sim imu plug");
+  ASSERT_TRUE(imu(status_at(log, pulled)));
+  EXPECT_LT(first(log, pulled, [](const Status& s) { return !imu(s); }) - pulled, 500ms);
+  const auto& gone = status_at(log, back - 1s);
+  EXPECT_NE(gone.why.find("IMU"), std::string::npos) << gone.why;
+  EXPECT_LT(first(log, back, imu) - back, 2s) << "it was not heard again";
+  const Time frozen = log.event("sim imu frozen");
+  EXPECT_LT(first(log, frozen, [](const Status& s) { return !imu(s); }) - frozen, 1500ms);
+  expect_success_without_another_start(log);
+}
+
+TEST(BatteryFaults, MarkTheValuesAsUnknownAndTouchNothingElse) {
+  const Record& log = record("battery_faults");
+  ASSERT_TRUE(battery(status_at(log, log.event("sim battery silent"))));
+  for (const char* fault : {"sim battery silent", "sim battery drip"}) {
+    const Time begin = log.event(fault);
+    EXPECT_LT(first(log, begin, [](const Status& s) { return !battery(s); }) - begin, 7s) << fault;
+  }
+  // Whatever comes of a line that lies, no value on it changes by more than driving does.
+  double last_percent = kAbsent;
+  for (const auto& status : log.statuses) {
+    const double percent = status.document.at("bms").at("soc").get<double>();
+    if (percent == 0 && std::isnan(last_percent)) continue;  // not heard yet
+    if (!std::isnan(last_percent)) EXPECT_NEAR(percent, last_percent, 1) << seconds(status.time);
+    last_percent = percent;
+  }
+  const Time well = log.event("sim battery well", 3);
+  EXPECT_LT(first(log, well, battery) - well, 4s) << "it was not heard again";
+  const Time begin = log.answered("start_nav_success");
+  const Time end = log.first_status("NAV_SUCCESS", begin).time;
+  EXPECT_LE(longest_silence(log, begin, end - 200ms), 10ms) << "the control tick waited";
+  expect_success_without_another_start(log);
+}
+
+TEST(BatteryEmpty, EndsTheTaskInARampAndRefusesAStartWhileItCharges) {
+  const Record& log = record("battery_empty");
+  const Time empty = log.event("sim battery soc 2");
+  const auto& error = log.first_status("NAV_ERROR", empty);
+  EXPECT_LT(error.time - empty, 30s);
+  EXPECT_NE(error.why.find("battery"), std::string::npos) << error.why;
+  EXPECT_THAT(log.moving(error.time + 1500ms, Time::max()), testing::IsEmpty());
+  ASSERT_EQ(log.feedback_words().back(), "start_task_failse");
+  EXPECT_NE(log.feedback.back().reason.find("charg"), std::string::npos)
+      << log.feedback.back().reason;
+}
+
+TEST(OutageOnCurve, StaysWithinAShareOfTheWay) {
+  const Record& log = record("outage_on_curve");
+  const Time begin = log.event("sim gnss none");
+  const Time end = log.event("sim gnss fix");
+  double worst_m = 0;
+  double way_m = 0;
+  Time last = kNever;
+  for (const auto& status : log.statuses) {
+    if (status.time < begin || status.time > end) continue;
+    const TruthLine truth = log.truth_at(status.time);
+    worst_m = std::max(worst_m, std::hypot(status.sim.x_m - truth.x_m, status.sim.y_m - truth.y_m));
+    if (last != kNever) way_m += std::abs(truth.vx_mps) * to_s(status.time - last);
+    last = status.time;
+  }
+  std::printf("  30 s without a position on a curve: %.1f m driven, at most %.3f m off (%.2f %%)\n",
+              way_m, worst_m, 100 * worst_m / way_m);
+  EXPECT_GT(way_m, 5);
+  EXPECT_LT(worst_m, 0.30);
+  EXPECT_TRUE(status_at(log, end - 5s).document.at("nav").contains("metres_left"));
+  EXPECT_EQ(log.feedback_words(), kStarted);
+  EXPECT_EQ(log.statuses.back().nav, "NAV_SUCCESS");
+}
+
+TEST(ReceiverReplugged, IsHeardAgainWithinASecond) {
+  const Record& log = record("receiver_replugged");
+  const auto fixed = [](const Status& s) {
+    return s.document.at("rtk").at("status").get<int>() == 4;
+  };
+  const Time pulled = log.event("sim gnss unplug");
+  const Time back = log.event("sim gnss plug");
+  EXPECT_LT(first(log, pulled, [&](const Status& s) { return !fixed(s); }) - pulled, 600ms);
+  EXPECT_LT(first(log, back, fixed) - back, 1500ms);
+  expect_success_without_another_start(log);
+}
+
+}  // namespace
+}  // namespace drover::mission
