@@ -50,7 +50,9 @@ Time View::draw(Time now, const RobotReport& report) {
   if (now < next_) return next_;
   elapsed_s_ = to_s(now - begin_);
   next_ = now + period(kind_);
-  const auto shown = kind_ == ViewKind::lines ? line(report) : picture(report);
+  auto shown = kind_ == ViewKind::lines ? line(report) : picture(report);
+  if (kind_ == ViewKind::lines && report.heard() && ++lines_ % 10 == 0)
+    shown += "       " + sensors() + "\n       " + wheels() + "\n";
   std::fwrite(shown.data(), 1, shown.size(), stdout);
   std::fflush(stdout);
   status_.ask();
@@ -96,6 +98,20 @@ std::string View::wheels() const {
   return out;
 }
 
+std::string View::sensors() const {
+  const auto& status = status_.status();
+  const auto part = [&status](const char* name) {
+    const auto it = status.is_object() ? status.find(name) : status.end();
+    return it != status.end() && it->is_object() ? *it : nlohmann::json::object();
+  };
+  const auto battery = part("battery");
+  const auto imu = part("imu");
+  return text("battery %.1f %% %.1f V %+.1f A; IMU %s, roll %.1f pitch %.1f deg",
+              number_at(battery, "soc_percent"), number_at(battery, "voltage_V"),
+              number_at(battery, "current_A"), imu.value("health", "-").c_str(),
+              to_deg(number_at(imu, "roll_rad")), to_deg(number_at(imu, "pitch_rad")));
+}
+
 std::string View::picture(const RobotReport& report) const {
   MapSketch map(mission_.track);
   for (const auto& [name, place] : obstacles_) map.put(place, "#");
@@ -118,6 +134,7 @@ std::string View::picture(const RobotReport& report) const {
            report.obstacle() ? "  OBSTACLE" : ""));
   add(text("%s, position error %.3f m (one sigma)", rtk_word(report.rtk_status()), sigma_m));
   add(wheels());
+  add(sensors());
   add("why: " + (report.why().empty() ? "-" : report.why()));
   add("last feedback: " + (report.last_feedback().empty() ? "-" : report.last_feedback()));
   add(last_event_);

@@ -35,6 +35,7 @@ class View {
   std::string line(const RobotReport& report) const;
   std::string picture(const RobotReport& report) const;
   std::string wheels() const;
+  std::string sensors() const;
 
   ViewKind kind_;
   const Mission& mission_;
@@ -43,6 +44,7 @@ class View {
   std::string last_event_;
   Time begin_ = kNever;
   Time next_ = kNever;
+  std::size_t lines_ = 0;  ///< drawn so far
   double elapsed_s_ = 0;
 };
 
