@@ -48,6 +48,20 @@ void show_place(std::string& out, const Node& status) {
            quantity(at(gnss, "age_s"), "  %.2f s old"));
 }
 
+void show_battery(std::string& out, const Node& status) {
+  const auto& battery = at(status, "battery");
+  if (battery.object() == nullptr) return;
+  std::string value = quantity(at(battery, "soc_percent"), "%.1f %%") +
+                      quantity(at(battery, "voltage_V"), "  %.2f V") +
+                      quantity(at(battery, "current_A"), "  %.1f A") +
+                      quantity(at(battery, "temperature_degC"), "  %.0f C") + "  " +
+                      text(at(battery, "flow")) + "  " + text(at(battery, "health"));
+  if (yes(at(battery, "charger_connected"))) value += "  CHARGER";
+  for (const auto* key : {"alarm", "reason"})
+    if (!text(at(battery, key)).empty()) value += "  " + text(at(battery, key));
+  line(out, "battery", value);
+}
+
 void show_axes(std::string& out, const Node& status) {
   const auto* axes = at(status, "axes").list();
   if (axes == nullptr) return;
@@ -99,6 +113,7 @@ std::string show_status(const Node& status) {
   show_nav(out, status);
   show_why(out, status);
   show_place(out, status);
+  show_battery(out, status);
   show_axes(out, status);
   show_devices(out, status);
   return out;

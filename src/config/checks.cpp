@@ -190,6 +190,10 @@ class Checks final {
 
   void limits() {
     const auto& engine = config_.engine;
+    if (engine.health.battery_critical_percent > engine.health.battery_low_percent)
+      add("health.battery_critical_percent", "is above health.battery_low_percent");
+    if (engine.health.battery_hot_degC > engine.health.battery_too_hot_degC)
+      add("health.battery_hot_degC", "is above health.battery_too_hot_degC");
     if (engine.limits.min_speed_mps > engine.limits.max_speed_mps)
       add("limits.min_speed_mps", "is above limits.max_speed_mps");
     if (engine.estimate.bound_start_m > engine.estimate.bound_run_m)
@@ -253,6 +257,7 @@ class Checks final {
     follow_baud("gnss", c.gnss.baud, c.gnss.options);
     follow_baud("imu", c.imu.baud, c.imu.options);
     c.engine.health.guard_required = c.guard.required;
+    c.engine.battery_configured = c.battery.configured;
     for (const auto& drive : c.drives) (void)c.engine.joints.push_back(Name(drive.joint));
     for (std::size_t i = 0; i < kLineCount; ++i)
       c.engine.line_configured[i] = c.lines.line[i].configured;

@@ -175,6 +175,18 @@ void visit(V& v, engine::HealthConfig& c) {
            "longest silence within a stream of joint commands");
   v.number("follow_timeout_s", c.follow_timeout_s, Range{0.1, 10},
            "a wheel that is commanded but does not follow for so long is a fault");
+  v.number("battery_stale_s", c.battery_stale_s, Range{2, 120}, "longest silence of the battery");
+  v.number("battery_low_percent", c.battery_low_percent, Range{0, 100},
+           "below: told, and no task starts");
+  v.number("battery_critical_percent", c.battery_critical_percent, Range{0, 100},
+           "below: a task ends with a controlled stop");
+  v.number("battery_hot_degC", c.battery_hot_degC, Range{20, 100}, "hotter: told");
+  v.number("battery_too_hot_degC", c.battery_too_hot_degC, Range{20, 100},
+           "hotter: a task ends, and none starts");
+  v.number("battery_cell_spread_V", c.battery_cell_spread_V, Range{0.02, 3},
+           "lowest and highest cell farther apart: a task ends, and none starts");
+  v.number("battery_hold_s", c.battery_hold_s, Range{0, 600},
+           "beyond a battery limit, or back, for so long before it counts: a sag is no end");
 }
 
 /// The base names joints; the engine wants axis numbers: `left` and `right` are resolved

@@ -109,6 +109,13 @@ struct HealthConfig {
   double joint_command_timeout_s = 0.1;  ///< a stream silent for longer has ended
   double follow_timeout_s = 0.4;  ///< one wheel commanded but not following for so long: failed
   bool guard_required = true;
+  double battery_stale_s = 5.0;          ///< of its thread; the driver judges the device
+  double battery_low_percent = 20.0;     ///< below: told, and no task starts
+  double battery_critical_percent = 10;  ///< below: a task ends
+  double battery_hot_degC = 50.0;        ///< above: told
+  double battery_too_hot_degC = 60.0;    ///< above: a task ends, and none starts
+  double battery_cell_spread_V = 0.5;    ///< between lowest and highest cell: the same
+  double battery_hold_s = 20.0;          ///< so long beyond, or back, before it counts
 };
 
 struct EngineConfig {
@@ -120,6 +127,7 @@ struct EngineConfig {
   FixedVector<Name, kMaxAxes> joints;                  ///< names, by AxisId
   std::array<bool, kLineCount> line_configured{};      ///< by Line
   std::array<bool, kOutputCount> output_configured{};  ///< by Output
+  bool battery_configured = false;
   double tick_Hz = 200.0;
 };
 

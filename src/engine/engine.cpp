@@ -135,6 +135,10 @@ void Engine::Impl::take(const Measurement& m) {
     if (m.time < snapshot.imu.time) return;
     snapshot.imu.sample = *imu;
     snapshot.imu.time = m.time;
+  } else if (const auto* sample = std::get_if<BatterySample>(&m.value)) {
+    if (m.time < snapshot.battery.time) return;
+    snapshot.battery.sample = *sample;
+    snapshot.battery.time = m.time;
   } else if (const auto* line = std::get_if<LineState>(&m.value)) {
     const auto index = static_cast<std::size_t>(line->line);
     if (index >= kLineCount) return;
@@ -265,6 +269,13 @@ void Engine::Impl::fill_snapshot(Time now, const Environment& environment, const
     snapshot.gnss.pose_latitude_deg = fix.latitude_deg;
     snapshot.gnss.pose_longitude_deg = fix.longitude_deg;
   }
+  snapshot.battery.configured = config.battery_configured;
+  snapshot.battery.health = environment.battery.state;
+  snapshot.battery.reason = environment.battery.reason;
+  if (snapshot.battery.time != kNever &&
+      now - snapshot.battery.time > from_s(config.health.battery_stale_s)) {
+    snapshot.battery.health = SourceState::stale;
+  }
   snapshot.stop_latched = !latched().empty();
   snapshot.guard_alive = environment.guard_alive;
   snapshot.guard_has_bus = environment.guard_has_bus;
@@ -352,7 +363,7 @@ void Engine::step(Time now, const Environment& environment, EngineOutput& out) {
   e.estimate = e.estimator.step(now);
   const std::span<const AxisSnapshot> axes{e.snapshot.axes.data(), e.snapshot.axes.size()};
   e.health.update({now, environment, axes, lines, e.estimate, e.estimator.has_origin(),
-                   e.navigator.active(), e.latched()});
+                   e.navigator.active(), e.latched(), &e.snapshot.battery});
   const WheelFault wheels = e.wheels.update(now, dt, axes);
   const NavOutput wanted =
       e.navigator.step({now, dt, e.estimate, e.health.report(), wheels, e.wheels.reason(),

@@ -41,12 +41,14 @@ link::UniqueFd make_timer(double tick_Hz) {
 }  // namespace
 
 ControlLoop::ControlLoop(const config::DroverConfig& config, Gateway& gateway, LinkKeeper& keeper,
-                         const GuardMemory& guard, ControlExchange& exchange)
+                         const GuardMemory& guard, ControlExchange& exchange,
+                         BatteryExchange* battery)
     : config_(config),
       gateway_(gateway),
       keeper_(keeper),
       guard_(guard),
       exchange_(exchange),
+      battery_(battery),
       guard_stale_(std::chrono::milliseconds(config.guard.limit_ms) + kGuardCycles),
       epoll_(::epoll_create1(EPOLL_CLOEXEC)),
       timer_(make_timer(config.control.tick_Hz)),
@@ -108,6 +110,7 @@ void ControlLoop::cycle(std::uint64_t expirations) {
   drain_can(begin);
   read_lines(begin);
   watch_guard(begin);
+  take_battery();
   Command command;
   while (exchange_.commands.pop(command)) gateway_.on_command(command, begin);
 
@@ -263,6 +266,13 @@ void ControlLoop::watch_guard(Time now) {
   }
 }
 
+void ControlLoop::take_battery() {
+  if (battery_ == nullptr) return;
+  Measurement sample;
+  while (battery_->samples.pop(sample)) gateway_.on_battery(sample);
+  gateway_.set_battery_health(battery_->state.latest().health);
+}
+
 void ControlLoop::publish(Time now) {
   auto& snapshot = exchange_.snapshot.back();
   snapshot = gateway_.snapshot();
@@ -279,6 +289,7 @@ void ControlLoop::publish(Time now) {
     }
     (void)snapshot.links.push_back(state);
   }
+  if (battery_ != nullptr) (void)snapshot.links.push_back(battery_->state.latest().link);
   const Duration step = monotonic_now() - now;
   if (step > stats_.longest_step) stats_.longest_step = step;
   snapshot.cycle = stats_;

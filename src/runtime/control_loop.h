@@ -7,6 +7,7 @@
 #include "drover/event.h"
 #include "drover/spsc_ring.h"
 #include "drover/triple_buffer.h"
+#include "runtime/battery_loop.h"
 #include "runtime/gateway.h"
 #include "runtime/guard_client.h"
 #include "runtime/link_keeper.h"
@@ -28,7 +29,8 @@ struct ControlExchange {
 class ControlLoop final {
  public:
   ControlLoop(const config::DroverConfig& config, Gateway& gateway, LinkKeeper& keeper,
-              const GuardMemory& guard, ControlExchange& exchange);
+              const GuardMemory& guard, ControlExchange& exchange,
+              BatteryExchange* battery = nullptr);
   void run(const std::atomic<bool>& stop);
 
  private:
@@ -41,6 +43,7 @@ class ControlLoop final {
   void drain_can(Time now);
   void cycle(std::uint64_t expirations);
   void watch_guard(Time now);
+  void take_battery();
   void publish(Time now);
   void watch(int fd, std::uint64_t tag);
   Name slot_name(std::size_t slot) const;
@@ -50,6 +53,7 @@ class ControlLoop final {
   LinkKeeper& keeper_;
   const GuardMemory& guard_;
   ControlExchange& exchange_;
+  BatteryExchange* battery_;  ///< nullptr: none
   const Duration guard_stale_;
 
   link::UniqueFd epoll_;

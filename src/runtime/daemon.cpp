@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "link/opened.h"
+#include "runtime/battery_loop.h"
 #include "runtime/clock.h"
 #include "runtime/control_loop.h"
 #include "runtime/log.h"
@@ -60,12 +61,18 @@ class Daemon final {
         storage_(files_, config.paths.state),
         gateway_(config),
         keeper_(config, guard_, stop_frames()),
-        control_(config, gateway_, keeper_, guard_, control_exchange_),
+        battery_(config.battery.configured
+                     ? std::make_unique<BatteryLoop>(config.battery, battery_exchange_)
+                     : nullptr),
+        control_(config, gateway_, keeper_, guard_, control_exchange_,
+                 battery_ ? &battery_exchange_ : nullptr),
         publish_(config, control_exchange_, storage_exchange_, storage_.load()) {}
 
   void run() {
     std::thread keeper([this] { keeper_.run(stop_keeper_); });
     std::thread storage([this] { run_storage(storage_, storage_exchange_, stop_publish_); });
+    std::thread battery;
+    if (battery_) battery = std::thread([this] { battery_->run(stop_battery_); });
     std::thread control([this] {
       if (config_.control.realtime)
         if (const auto missing = become_real_time(config_.control.priority); !missing.empty())
@@ -78,6 +85,8 @@ class Daemon final {
     wait_for_end();
     ::sd_notify(0, "STOPPING=1");
     come_to_rest();
+    stop_battery_ = true;
+    if (battery_) battery_->wake();
     stop_publish_ = true;
     publish_.wake();
     storage_exchange_.jobs_ready.notify();
@@ -86,6 +95,7 @@ class Daemon final {
     // Until here the guard saw our heartbeat; from here on it keeps the drives at rest by itself.
     stop_control_ = true;
     control.join();
+    if (battery.joinable()) battery.join();
     stop_keeper_ = true;
     keeper_.wake();
     keeper.join();
@@ -104,12 +114,19 @@ class Daemon final {
     const auto signals = end_signals();
     std::uint64_t beats = 0;
     std::uint64_t turns = 0;
+    std::uint64_t battery_turns = 0;
+    int battery_still = 0;
     for (;;) {
       const timespec half_second{0, 500'000'000};
       if (::sigtimedwait(&signals, nullptr, &half_second) > 0) return;
       const auto new_beats = control_exchange_.beats.load(std::memory_order_relaxed);
       const auto new_turns = publish_.turns();
-      if (new_beats != beats && new_turns != turns) ::sd_notify(0, "WATCHDOG=1");
+      // The battery's thread may take its time, but not for ever.
+      const auto new_battery = battery_ ? battery_->turns() : 0;
+      battery_still = battery_ && new_battery == battery_turns ? battery_still + 1 : 0;
+      battery_turns = new_battery;
+      const bool battery_lives = battery_still * 500ms < BatteryLoop::kLongestTurn;
+      if (new_beats != beats && new_turns != turns && battery_lives) ::sd_notify(0, "WATCHDOG=1");
       beats = new_beats;
       turns = new_turns;
     }
@@ -130,10 +147,13 @@ class Daemon final {
   LinkKeeper keeper_;
   ControlExchange control_exchange_;
   StorageExchange storage_exchange_;
+  BatteryExchange battery_exchange_;
+  std::unique_ptr<BatteryLoop> battery_;
   ControlLoop control_;
   PublishLoop publish_;
   std::atomic<bool> stop_control_{false};
   std::atomic<bool> stop_publish_{false};
+  std::atomic<bool> stop_battery_{false};
   std::atomic<bool> stop_keeper_{false};
 };
 

@@ -44,6 +44,9 @@ class Gateway final {
   /// `levels[i]` belongs to the i-th configured line, in the order of Line.
   void on_levels(std::span<const bool> levels, Time at);
   void on_lines_lost(Time at);
+  /// From the battery's own thread.
+  void on_battery(const Measurement& sample) { engine_.on_measurement(sample); }
+  void set_battery_health(const SourceHealth& health) { environment_.battery = health; }
   void on_bus_up(std::size_t bus, Time now);
   void on_stream_up(Stream stream, Time now);
   void on_command(const Command& command, Time now);

@@ -195,8 +195,7 @@ void PublishLoop::publish_status(Time now) {
   if (snapshot.time == kNever) return;  // the control thread has not had its first cycle
   service_.on_snapshot(snapshot, now, actions_);
   if (broker_) {
-    broker_->publish_latest(publish::kTopicBaseStatus.data(),
-                            base_status_.text(snapshot, publish::BatteryState{}));
+    broker_->publish_latest(publish::kTopicBaseStatus.data(), base_status_.text(snapshot));
   }
 }
 

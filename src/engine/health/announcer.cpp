@@ -18,6 +18,8 @@ std::string_view over(Cause cause) {
     case Cause::guard_silent: return "the guard answers";
     case Cause::drive_fault: return "no drive reports a fault";
     case Cause::latched: return "ready for a new start";
+    case Cause::charger: return "charger unplugged";
+    case Cause::battery_critical: return "battery good for driving again";
     case Cause::near_zone: return "near zone free";
     case Cause::origin: return "an origin is set";
     case Cause::receiver: return "receiver heard";
@@ -25,6 +27,9 @@ std::string_view over(Cause cause) {
     case Cause::sensors: return "wheels, gyro and receiver agree";
     case Cause::locate: return "position good";
     case Cause::far_zone: return "far zone free";
+    case Cause::battery_low: return "battery charged";
+    case Cause::battery_warning: return "battery without a warning";
+    case Cause::battery_silent: return "battery heard";
   }
   return "over";
 }

@@ -26,7 +26,7 @@ std::string_view line_name(Line line) {
 }
 
 HealthMonitor::HealthMonitor(const EngineConfig& config)
-    : config_(config), locate_(config.estimate) {
+    : config_(config), locate_(config.estimate), battery_(config.health) {
   for (const AxisId id : config.base.left) driven_[id] = true;
   for (const AxisId id : config.base.right) driven_[id] = true;
 }
@@ -180,6 +180,24 @@ void HealthMonitor::look_at_position(const HealthInput& input) {
   }
 }
 
+void HealthMonitor::look_at_battery(const HealthInput& input) {
+  report_.end_task.clear();
+  report_.no_start.clear();
+  if (!config_.battery_configured || input.battery == nullptr) return;
+  const BatteryVerdict& verdict =
+      battery_.update(input.now, *input.battery, input.environment.battery);
+  const auto told = [this](Cause cause, const Reason& text) {
+    if (!text.empty()) hold(cause, text);
+    return !text.empty();
+  };
+  if (told(Cause::charger, verdict.charger)) report_.end_task = verdict.charger;
+  if (told(Cause::battery_critical, verdict.critical) && report_.end_task.empty())
+    report_.end_task = verdict.critical;
+  if (told(Cause::battery_low, verdict.low)) report_.no_start = verdict.low;
+  told(Cause::battery_warning, verdict.warning);
+  told(Cause::battery_silent, verdict.silent);
+}
+
 const HealthReport& HealthMonitor::update(const HealthInput& input) {
   // Emptied field by field: the texts are large and most stay unused.
   report_.ready = true;
@@ -193,6 +211,7 @@ const HealthReport& HealthMonitor::update(const HealthInput& input) {
   look_at_drives(input);
   look_at_imu(input);
   look_at_position(input);
+  look_at_battery(input);
   if (!input.latched.empty()) {
     Reason text;
     text.format("stopped: %.*s", static_cast<int>(input.latched.view().size()),

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "engine/engine.h"
+#include "engine/health/battery.h"
 #include "engine/health/locate.h"
 
 namespace drover::engine {
@@ -19,7 +20,9 @@ enum class Cause : std::uint8_t {
   drive_silent,
   guard_silent,
   drive_fault,
-  latched,  ///< not a present cause: what stopped the robot before a person acted
+  latched,           ///< not a present cause: what stopped the robot before a person acted
+  charger,           ///< connected: must not move
+  battery_critical,  ///< empty, too hot, or about to switch off: a task ends
   near_zone,
   origin,    ///< none set
   receiver,  ///< silent
@@ -27,8 +30,11 @@ enum class Cause : std::uint8_t {
   locate,
   sensors,  ///< contradict each other, and it is made up for
   far_zone,
+  battery_low,      ///< no start, a task goes on
+  battery_warning,  ///< told only
+  battery_silent,   ///< told only: nothing is known of it
 };
-inline constexpr std::size_t kCauseCount = 15;
+inline constexpr std::size_t kCauseCount = 20;
 
 /// Last known state of the lines: the levels the drivers reported since the last cycle.
 struct LineTable {
@@ -44,6 +50,7 @@ struct HealthInput {
   bool has_origin = false;
   bool task_active = false;
   const Reason& latched;  ///< empty when nothing is
+  const BatterySnapshot* battery = nullptr;
 };
 
 struct HealthReport {
@@ -64,6 +71,8 @@ struct HealthReport {
   /// may clear it. Empty when all run.
   Reason not_running;
   Reason locate_reason;
+  Reason end_task;  ///< a task ends with a ramp and none starts: why; empty when there is nothing
+  Reason no_start;  ///< a task goes on but none starts: why; empty when there is nothing
   FixedVector<Reason, 8> why;             ///< the cause first
   std::uint32_t causes = 0;               ///< bits by Cause
   std::array<Reason, kCauseCount> texts;  ///< by Cause, for causes that hold
@@ -85,11 +94,13 @@ class HealthMonitor final {
   void look_at_guard(const Environment& environment);
   void look_at_imu(const HealthInput& input);
   void look_at_position(const HealthInput& input);
+  void look_at_battery(const HealthInput& input);
   bool holds(Cause cause) const { return report_.holds(cause); }
 
   EngineConfig config_;
   std::array<bool, kMaxAxes> driven_{};  ///< axes of the base
   LocateMonitor locate_;
+  BatteryMonitor battery_;
   HealthReport report_;
 };
 

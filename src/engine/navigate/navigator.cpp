@@ -169,6 +169,10 @@ NavOutput Navigator::arm(const NavInput& input, EventQueue& events) {
     drives_asked_ = true;
     return {{}, true, Stop::controlled};
   }
+  if (!input.health.end_task.empty()) {
+    fail(input.now, input.health.end_task, events);
+    return {{}, false, Stop::controlled};
+  }
   if (input.health.drives_running) {
     phase_ = Phase::running;
     return run(input, events);
@@ -206,6 +210,7 @@ Reason Navigator::find_position_failure(const Estimate& estimate,
 Reason Navigator::find_failure(const NavInput& input) {
   const NavigateConfig& limits = config_.navigate;
   if (input.refusal == TargetRefusal::not_finite) return "the wanted speed was not a number";
+  if (!input.health.end_task.empty()) return input.health.end_task;
   if (const Reason why = find_position_failure(input.estimate, input.health); !why.empty()) {
     return why;
   }

@@ -31,6 +31,12 @@ bool zones_healthy(const Snapshot& snapshot) {
   return any;
 }
 
+/// Heard lately, and the state of charge with it: that is what clients show.
+bool known(const BatterySnapshot& battery) {
+  return battery.configured && battery.health == SourceState::fresh && battery.time != kNever &&
+         std::isfinite(battery.sample.soc_percent);
+}
+
 bool active(const Snapshot& snapshot, Line line) {
   const auto i = static_cast<std::size_t>(line);
   return snapshot.line_configured[i] && snapshot.line_active[i];
@@ -74,19 +80,34 @@ double BaseStatus::keep(double& last, double value) {
   return last;
 }
 
-double BaseStatus::power(const Snapshot& snapshot, const BatteryState& battery) {
-  if (config_.power == PowerUnit::percent) return battery_.soc_percent;
-  if (battery.valid) return keep(bus_V_, battery.voltage_V);
-  // Without a battery driver the drives know the voltage; the lowest is the one that matters.
+int bms_error(const BatterySnapshot& battery) {
+  if (!known(battery)) return 1;
+  return battery.sample.alarm == BatteryAlarm::critical  ? 3
+         : battery.sample.alarm == BatteryAlarm::warning ? 2
+                                                         : 0;
+}
+
+int bms_status(const BatterySnapshot& battery) {
+  constexpr int kCharger = 4;
+  const int flow = battery.sample.flow == BatteryFlow::charging      ? 1
+                   : battery.sample.flow == BatteryFlow::discharging ? 2
+                                                                     : 0;
+  return flow + (battery.sample.charger_connected ? kCharger : 0);
+}
+
+double BaseStatus::power(const Snapshot& snapshot) {
+  if (config_.power == PowerUnit::percent) return soc_percent_;
+  if (known(snapshot.battery)) return keep(bus_V_, snapshot.battery.sample.voltage_V);
+  // Without a battery that answers the drives know the voltage; the lowest is the one that matters.
   double lowest_V = kAbsent;
   for (const AxisSnapshot& axis : snapshot.axes) lowest_V = std::fmin(lowest_V, axis.bus_V);
   return keep(bus_V_, lowest_V);
 }
 
-std::string BaseStatus::text(const Snapshot& snapshot, const BatteryState& battery) {
+std::string BaseStatus::text(const Snapshot& snapshot) {
+  const BatterySnapshot& battery = snapshot.battery;
   const NavSnapshot& nav = snapshot.nav;
   const GnssSnapshot& gnss = snapshot.gnss;
-  if (battery.valid) battery_ = battery;
   // Clients record tracks from these messages, so pose and rtk are of one instant where there is a
   // good pose; otherwise the receiver's last word.
   const bool located = nav.locate == LocateState::good;
@@ -100,15 +121,14 @@ std::string BaseStatus::text(const Snapshot& snapshot, const BatteryState& batte
   json::JsonText out;
   out.open('{');
   out.key("bms").open('{');
-  out.key("current").number(battery_.current_A);
-  out.key("error").integer(battery.valid ? battery.error
-                                         : std::max<std::int64_t>(battery.error, 1));
-  out.key("remaining_capacity").number(battery_.remaining_capacity_Ah);
-  out.key("soc").number(battery_.soc_percent);
-  out.key("status").integer(battery_.status);
-  out.key("tem").number(battery_.temperature_degC);
-  out.key("voltage").number(battery_.voltage_V);
-  out.key("valid").boolean(battery.valid).close('}');
+  out.key("current").number(keep(current_A_, battery.sample.current_A));
+  out.key("error").integer(bms_error(battery));
+  out.key("remaining_capacity").number(keep(remaining_Ah_, battery.sample.remaining_Ah));
+  out.key("soc").number(keep(soc_percent_, battery.sample.soc_percent));
+  out.key("status").integer(bms_status(battery));
+  out.key("tem").number(keep(temperature_degC_, battery.sample.temperature_degC));
+  out.key("voltage").number(keep(voltage_V_, battery.sample.voltage_V));
+  out.key("valid").boolean(known(battery)).close('}');
 
   out.key("nav").open('{');
   out.key("locate").text(spelling(nav.locate));
@@ -126,7 +146,7 @@ std::string BaseStatus::text(const Snapshot& snapshot, const BatteryState& batte
   out.key("yaw").number(keep(yaw_rad_, snapshot.pose.yaw_rad)).close('}');
 
   out.key("robot").open('{');
-  out.key("power").number(power(snapshot, battery));
+  out.key("power").number(power(snapshot));
   out.key("robot_status").integer(robot_status(snapshot));
   out.key("vx").number(keep(vx_mps_, snapshot.pose.vx_mps));
   out.key("vy").number(0);

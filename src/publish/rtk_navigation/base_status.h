@@ -27,17 +27,12 @@ struct RtkConfig {
   PowerUnit power = PowerUnit::percent;
 };
 
-/// What a battery driver will report; not valid until there is one.
-struct BatteryState {
-  bool valid = false;
-  double current_A = 0;
-  double voltage_V = 0;
-  double soc_percent = 0;
-  double remaining_capacity_Ah = 0;
-  double temperature_degC = 0;
-  std::int64_t status = 0;
-  std::int64_t error = 0;
-};
+/// `bms.error`, which the document leaves open: 0 all is well, 1 nothing is known now, 2 the pack
+/// warns, 3 the pack will switch off or has.
+int bms_error(const BatterySnapshot& battery);
+/// `bms.status`, which the document leaves open: 0 idle or unknown, 1 charging, 2 discharging; 4 is
+/// added while a charger is connected.
+int bms_status(const BatterySnapshot& battery);
 
 /// Degrees [0, 360) in the given convention, of a compass heading (clockwise from true north).
 double angle_deg_from_compass(HeadingConvention convention, double compass_deg);
@@ -55,15 +50,20 @@ class BaseStatus final {
 
   /// One message. Added to the document: bms.valid, nav.owner, nav.why (a list of texts, the cause
   /// first, empty when all is well).
-  std::string text(const Snapshot& snapshot, const BatteryState& battery);
+  std::string text(const Snapshot& snapshot);
 
  private:
   /// `value` when it is finite, otherwise what it last was.
   static double keep(double& last, double value);
-  double power(const Snapshot& snapshot, const BatteryState& battery);
+  double power(const Snapshot& snapshot);
 
   RtkConfig config_;
-  BatteryState battery_{};
+  // Of the battery, the last that was known.
+  double current_A_ = 0;
+  double voltage_V_ = 0;
+  double soc_percent_ = 0;
+  double remaining_Ah_ = 0;
+  double temperature_degC_ = 0;
   double x_m_ = 0;
   double y_m_ = 0;
   double yaw_rad_ = 0;

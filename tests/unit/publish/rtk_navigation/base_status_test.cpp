@@ -45,9 +45,22 @@ Snapshot good_snapshot() {
   return snapshot;
 }
 
-json::Document status(const Snapshot& snapshot, const RtkConfig& config = {},
-                      const BatteryState& battery = {}) {
-  return parsed(BaseStatus(config).text(snapshot, battery));
+json::Document status(const Snapshot& snapshot, const RtkConfig& config = {}) {
+  return parsed(BaseStatus(config).text(snapshot));
+}
+
+BatterySnapshot good_battery() {
+  BatterySnapshot battery;
+  battery.configured = true;
+  battery.health = SourceState::fresh;
+  battery.time = Time{std::chrono::seconds(10)};
+  battery.sample.soc_percent = 68;
+  battery.sample.voltage_V = 51;
+  battery.sample.current_A = -8;
+  battery.sample.remaining_Ah = 34;
+  battery.sample.temperature_degC = 23;
+  battery.sample.flow = BatteryFlow::discharging;
+  return battery;
 }
 
 TEST(BaseStatus, HasEveryFieldOfTheDocumentWithItsType) {
@@ -120,11 +133,11 @@ TEST(BaseStatus, NeverWritesWhatIsNoNumber) {
   Snapshot snapshot = good_snapshot();
   const double bad = std::numeric_limits<double>::quiet_NaN();
   BaseStatus publisher{RtkConfig{}};
-  publisher.text(snapshot, {});
+  publisher.text(snapshot);
   snapshot.pose.x_m = snapshot.pose.yaw_rad = snapshot.pose.vx_mps = bad;
   snapshot.pose.wz_radps = std::numeric_limits<double>::infinity();
   snapshot.gnss.pose_latitude_deg = snapshot.gnss.pose_longitude_deg = bad;
-  const auto ours = parsed(publisher.text(snapshot, {}));
+  const auto ours = parsed(publisher.text(snapshot));
   EXPECT_EQ(at(ours, "pose", "x").number(), 12.5);
   EXPECT_EQ(at(ours, "rtk", "latitude").number(), 23.1496524965123);
   EXPECT_EQ(at(ours, "rtk", "angle").number(), 90);
@@ -212,15 +225,48 @@ TEST(BaseStatus, PowerIsPercentOrVoltsAsConfigured) {
   snapshot.axes[0].bus_V = 48.5;
   EXPECT_EQ(at(status(snapshot), "robot", "power").number(), 0);
   EXPECT_EQ(at(status(snapshot, {.power = PowerUnit::volts}), "robot", "power").number(), 48.5);
-  BatteryState battery;
-  battery.valid = true;
-  battery.soc_percent = 68;
-  battery.voltage_V = 51;
-  const auto percent = status(snapshot, {}, battery);
-  EXPECT_EQ(at(percent, "robot", "power").number(), 68);
-  EXPECT_EQ(at(percent, "bms", "error").integer(), 0);
-  EXPECT_EQ(at(status(snapshot, {.power = PowerUnit::volts}, battery), "robot", "power").number(),
-            51);
+  snapshot.battery = good_battery();
+  EXPECT_EQ(at(status(snapshot), "robot", "power").number(), 68);
+  EXPECT_EQ(at(status(snapshot, {.power = PowerUnit::volts}), "robot", "power").number(), 51);
+}
+
+TEST(BaseStatus, KeepsTheLastOfABatteryThatIsSilentAndMarksItUnknown) {
+  Snapshot snapshot = good_snapshot();
+  snapshot.battery = good_battery();
+  BaseStatus publisher{RtkConfig{}};
+  const auto before = parsed(publisher.text(snapshot));
+  EXPECT_TRUE(*at(before, "bms", "valid").boolean());
+  EXPECT_EQ(at(before, "bms", "error").integer(), 0);
+  EXPECT_EQ(at(before, "bms", "status").integer(), 2);
+  snapshot.battery.health = SourceState::stale;
+  snapshot.battery.sample = {};
+  const auto after = parsed(publisher.text(snapshot));
+  EXPECT_FALSE(*at(after, "bms", "valid").boolean());
+  EXPECT_EQ(at(after, "bms", "error").integer(), 1);
+  EXPECT_EQ(at(after, "bms", "soc").number(), 68);
+  EXPECT_EQ(at(after, "bms", "voltage").number(), 51);
+  EXPECT_EQ(at(after, "bms", "current").number(), -8);
+  EXPECT_EQ(at(after, "robot", "power").number(), 68);
+}
+
+TEST(BaseStatus, NeverCallsABatteryKnownWhoseChargeIsNot) {
+  Snapshot snapshot = good_snapshot();
+  snapshot.battery = good_battery();
+  snapshot.battery.sample.soc_percent = kAbsent;
+  EXPECT_FALSE(*at(status(snapshot), "bms", "valid").boolean());
+  EXPECT_EQ(at(status(snapshot), "bms", "error").integer(), 1);
+}
+
+TEST(BaseStatus, TellsThePacksAlarmsAndTheCharger) {
+  Snapshot snapshot = good_snapshot();
+  snapshot.battery = good_battery();
+  snapshot.battery.sample.alarm = BatteryAlarm::warning;
+  snapshot.battery.sample.flow = BatteryFlow::charging;
+  snapshot.battery.sample.charger_connected = true;
+  EXPECT_EQ(at(status(snapshot), "bms", "error").integer(), 2);
+  EXPECT_EQ(at(status(snapshot), "bms", "status").integer(), 5);
+  snapshot.battery.sample.alarm = BatteryAlarm::critical;
+  EXPECT_EQ(at(status(snapshot), "bms", "error").integer(), 3);
 }
 
 TEST(BaseStatus, SaysWhyTheCauseFirst) {

@@ -1,0 +1,88 @@
+// Whether the battery lets a task start or go on, in an operator's words.
+#include "engine/health/battery.h"
+
+#include <cmath>
+
+namespace drover::engine {
+namespace {
+
+/// An alarm must stand in two samples: one may be torn inside the device.
+constexpr Duration kAlarmOn = std::chrono::milliseconds(500);
+
+}  // namespace
+
+void BatteryMonitor::Limit::update(bool known, bool beyond, Time now, Duration on, Duration off) {
+  if (!known) return;
+  if (!begun_) {
+    begun_ = true;
+    holds_ = beyond;
+  }
+  if (beyond == holds_) {
+    since_ = kNever;
+    return;
+  }
+  if (since_ == kNever) since_ = now;
+  if (now - since_ < (beyond ? on : off)) return;
+  holds_ = beyond;
+  since_ = kNever;
+}
+
+void BatteryMonitor::judge(Time now, const BatterySample& sample) {
+  const Duration hold = from_s(config_.battery_hold_s);
+  const auto limit = [&](Limit& which, double value, bool beyond) {
+    which.update(!std::isnan(value), beyond, now, hold, hold);
+  };
+  const double spread_V = sample.max_cell_V - sample.min_cell_V;
+  limit(low_, sample.soc_percent, sample.soc_percent < config_.battery_low_percent);
+  limit(critical_, sample.soc_percent, sample.soc_percent < config_.battery_critical_percent);
+  limit(hot_, sample.temperature_degC, sample.temperature_degC > config_.battery_hot_degC);
+  limit(too_hot_, sample.temperature_degC, sample.temperature_degC > config_.battery_too_hot_degC);
+  limit(apart_, spread_V, spread_V > config_.battery_cell_spread_V);
+  alarm_.update(true, sample.alarm == BatteryAlarm::critical, now, kAlarmOn, hold);
+}
+
+const BatteryVerdict& BatteryMonitor::update(Time now, const BatterySnapshot& battery,
+                                             const SourceHealth& source) {
+  verdict_ = {};
+  const bool old = battery.time != kNever && now - battery.time > from_s(config_.battery_stale_s);
+  if (battery.time == kNever || source.state != SourceState::fresh || old) {
+    const Reason& why = source.reason;
+    verdict_.silent.format("battery unknown: %.*s", static_cast<int>(why.view().size()),
+                           why.view().data());
+    if (why.empty()) verdict_.silent = "battery unknown: no answer";
+  } else if (!source.reason.empty()) {
+    verdict_.silent.format("battery: %.*s", static_cast<int>(source.reason.view().size()),
+                           source.reason.view().data());
+  }
+  if (battery.time == kNever) return verdict_;
+  const BatterySample& sample = battery.sample;
+  if (battery.time != judged_) {
+    judged_ = battery.time;
+    judge(battery.time, sample);
+  }
+  // What was last known of a limit stays true while nothing new is heard.
+  if (sample.charger_connected && !old) verdict_.charger = "charging: unplug the charger first";
+  const auto alarm = sample.alarm_text.view();
+  if (critical_.holds()) {
+    verdict_.critical.format("battery empty: %.0f %%, at least %.0f %% are needed",
+                             sample.soc_percent, config_.battery_critical_percent);
+  } else if (alarm_.holds()) {
+    verdict_.critical.format("battery: %.*s", static_cast<int>(alarm.empty() ? 5 : alarm.size()),
+                             alarm.empty() ? "alarm" : alarm.data());
+  } else if (too_hot_.holds()) {
+    verdict_.critical.format("battery too hot: %.0f C", sample.temperature_degC);
+  } else if (apart_.holds()) {
+    verdict_.critical.format("battery cells too far apart: %.2f V to %.2f V", sample.min_cell_V,
+                             sample.max_cell_V);
+  }
+  if (low_.holds() && !critical_.holds())
+    verdict_.low.format("battery low: %.0f %%", sample.soc_percent);
+  if (sample.alarm == BatteryAlarm::warning) {
+    verdict_.warning.format("battery: %.*s", static_cast<int>(alarm.size()), alarm.data());
+  } else if (hot_.holds() && !too_hot_.holds()) {
+    verdict_.warning.format("battery hot: %.0f C", sample.temperature_degC);
+  }
+  return verdict_;
+}
+
+}  // namespace drover::engine

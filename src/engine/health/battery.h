@@ -1,0 +1,54 @@
+// Whether the battery lets a task start or go on, in an operator's words.
+#pragma once
+
+#include "drover/driver.h"
+#include "drover/snapshot.h"
+#include "engine/config.h"
+
+namespace drover::engine {
+
+/// Each empty when there is nothing to say.
+struct BatteryVerdict {
+  Reason charger;   ///< a task ends, and none starts
+  Reason critical;  ///< the same
+  Reason low;       ///< no task starts
+  Reason warning;   ///< told only
+  Reason silent;    ///< told only: nothing is known
+};
+
+/// Limits count when a value was beyond them without a break for health.battery_hold_s, and no
+/// longer when it was back for as long: a sag under load is no empty battery. The first sample
+/// counts at once, so that no task starts on an empty one.
+class BatteryMonitor final {
+ public:
+  explicit BatteryMonitor(const HealthConfig& config) : config_(config) {}
+  const BatteryVerdict& update(Time now, const BatterySnapshot& battery,
+                               const SourceHealth& source);
+
+ private:
+  /// A limit with memory. A value that is not known changes nothing.
+  class Limit {
+   public:
+    void update(bool known, bool beyond, Time now, Duration on, Duration off);
+    bool holds() const { return holds_; }
+
+   private:
+    bool begun_ = false;
+    bool holds_ = false;
+    Time since_ = kNever;  ///< since when the values say the opposite of `holds_`
+  };
+
+  void judge(Time now, const BatterySample& sample);
+
+  HealthConfig config_;
+  BatteryVerdict verdict_;
+  Limit low_;
+  Limit critical_;
+  Limit hot_;
+  Limit too_hot_;
+  Limit apart_;
+  Limit alarm_;
+  Time judged_ = kNever;  ///< of the last sample
+};
+
+}  // namespace drover::engine

@@ -1,0 +1,149 @@
+#include "runtime/battery_loop.h"
+
+#include <poll.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <stdexcept>
+
+#include "drover/registry.h"
+#include "runtime/clock.h"
+#include "runtime/log.h"
+
+namespace drover::runtime {
+
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr Duration kFirstPause = 500ms;
+constexpr Duration kLongestPause = 10s;
+/// The longest sleep: the thread shows that it lives.
+constexpr Duration kLongestSleep = 1s;
+
+link::ModbusSettings link_settings(const config::BatteryConfig& config) {
+  link::ModbusSettings settings;
+  settings.port = config.port;
+  settings.baud = config.baud;
+  settings.parity = config.parity == "even" ? 'E' : config.parity == "odd" ? 'O' : 'N';
+  settings.unit = static_cast<std::uint8_t>(config.unit);
+  settings.gap_s = config.registers.gap_s;
+  settings.reply_s = config.registers.reply_s;
+  return settings;
+}
+
+std::unique_ptr<RegisterDriver> make_driver(const config::BatteryConfig& config) {
+  const auto* entry = find_driver(config.driver);
+  const auto* make = entry == nullptr ? nullptr : std::get_if<MakeRegisterDriver>(&entry->make);
+  if (make == nullptr)
+    throw std::runtime_error("battery: no driver \"" + config.driver + "\" of this kind");
+  return (*make)(config.options, config.registers);
+}
+
+}  // namespace
+
+BatteryLoop::BatteryLoop(const config::BatteryConfig& config, BatteryExchange& exchange)
+    : config_(config), exchange_(exchange), driver_(make_driver(config)) {}
+
+void BatteryLoop::run(const std::atomic<bool>& stop) {
+  std::uint64_t rounds_told = 0;
+  while (!stop.load(std::memory_order_relaxed)) {
+    Time now = monotonic_now();
+    if (!link_ && now >= next_open_) open(now);
+    if (link_ && now >= std::max(next_round_, link_->ready_at())) ask(now);
+    now = monotonic_now();
+    publish(now);
+    if (rounds_told == 0 && driver_->health(now).good > 0) {
+      rounds_told = 1;
+      log(LogLevel::info, "battery: answers");
+    }
+    turns_.fetch_add(1, std::memory_order_relaxed);
+    sleep_until(link_ ? std::max(next_round_, link_->ready_at()) : next_open_, now);
+  }
+  link_.reset();
+}
+
+void BatteryLoop::open(Time now) {
+  auto opened = link::open_modbus(link_settings(config_), &monotonic_now);
+  now = monotonic_now();
+  if (!opened.link) {
+    driver_->on_failure(0, RegisterFailure::link, 0, now);
+    return lose(opened.problem, now);
+  }
+  link_ = std::move(opened.link);
+  pause_ = {};
+  if (!problem_.empty()) log(LogLevel::info, "battery: " + config_.port + " is open");
+  problem_.clear();
+  block_ = 0;
+  next_round_ = now;
+  driver_->on_link_up(now);
+}
+
+void BatteryLoop::lose(const std::string& why, Time now) {
+  if (problem_.view() != why) log(LogLevel::warning, "battery: " + why);
+  problem_.assign(why);
+  if (link_) {
+    const auto& last = link_->counters();
+    closed_.requests += last.requests;
+    closed_.answers += last.answers;
+    closed_.late_bytes += last.late_bytes;
+  }
+  link_.reset();
+  pause_ = std::clamp(pause_ * 2, kFirstPause, kLongestPause);
+  next_open_ = now + pause_;
+}
+
+/// One block; the round goes on at the next turn.
+void BatteryLoop::ask(Time now) {
+  const auto period = from_s(config_.period_s);
+  if (block_ == 0) next_round_ = now;
+  const RegisterBlock& block = driver_->blocks()[block_];
+  std::array<std::uint16_t, 125> words{};
+  const std::span<std::uint16_t> part(words.data(), std::min<std::size_t>(block.count, 125));
+  const auto result = link_->read(block, part);
+  now = monotonic_now();
+  if (result.good) {
+    out_.clear();
+    driver_->on_registers(block_, part, now, out_);
+    for (const auto& sample : out_.measurements) dropped_ += exchange_.samples.push(sample) ? 0 : 1;
+    if (++block_ == driver_->blocks().size()) {
+      block_ = 0;
+      next_round_ += period;
+    }
+    return;
+  }
+  driver_->on_failure(block_, result.failure, result.exception, now);
+  block_ = 0;
+  next_round_ = now + period;
+  if (result.failure == RegisterFailure::link)
+    lose(config_.port + ": lost (" + std::strerror(link_->error()) + ")", now);
+}
+
+void BatteryLoop::publish(Time now) {
+  auto& state = exchange_.state.back();
+  state.health = driver_->health(now);
+  state.link.name = "battery";
+  state.link.up = link_ != nullptr;
+  state.link.reason = problem_;
+  state.link.sent = closed_.requests + (link_ ? link_->counters().requests : 0);
+  state.link.received = closed_.answers + (link_ ? link_->counters().answers : 0);
+  state.link.dropped = dropped_ + closed_.late_bytes + (link_ ? link_->counters().late_bytes : 0);
+  exchange_.state.publish();
+}
+
+void BatteryLoop::sleep_until(Time due, Time now) {
+  const Duration left = std::clamp(due - now, Duration{0}, kLongestSleep);
+  const timespec wait{static_cast<time_t>(left / 1s), static_cast<long>((left % 1s).count())};
+  pollfd fds[2] = {{wake_.fd(), POLLIN, 0}, {link_ ? link_->fd() : -1, POLLIN, 0}};
+  if (::ppoll(fds, 2, &wait, nullptr) <= 0) return;
+  if ((fds[0].revents & POLLIN) != 0) wake_.clear();
+  if (link_ && fds[1].revents != 0 && !link_->drain()) {
+    // Noticed at once: a device that stays open comes back under another name.
+    const Time then = monotonic_now();
+    driver_->on_failure(0, RegisterFailure::link, 0, then);
+    lose(config_.port + ": lost (" + std::strerror(link_->error()) + ")", then);
+  }
+}
+
+}  // namespace drover::runtime

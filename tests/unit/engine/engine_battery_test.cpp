@@ -1,0 +1,80 @@
+// What the battery does to tasks.
+#include "engine_fixture.h"
+
+namespace drover::engine {
+namespace {
+
+class AnEngineWithABattery : public AnEngine {
+ protected:
+  AnEngineWithABattery() {
+    EngineConfig config = rig_config();
+    config.battery_configured = true;
+    config.health.battery_stale_s = 120;
+    rig = EngineRig(config);
+    rig.environment.battery.state = SourceState::fresh;
+    sample.soc_percent = 70;
+    tell();
+  }
+  void tell() {
+    Measurement m;
+    m.time = m.received = rig.now;
+    m.value = sample;
+    rig.engine->on_measurement(m);
+  }
+  BatterySample sample;
+};
+
+TEST_F(AnEngineWithABattery, RefusesAStartWhileTheChargerIsConnected) {
+  sample.charger_connected = true;
+  tell();
+  rig.settle();
+  rig.start(path, 40, 0.5);
+  rig.tick();
+  EXPECT_EQ(refusal(), "charging: unplug the charger first");
+  expect_no_motion_for_s(1);
+}
+
+TEST_F(AnEngineWithABattery, FailsATaskWithARampWhenTheChargerIsPluggedIn) {
+  drive();
+  sample.charger_connected = true;
+  tell();
+  rig.tick();
+  EXPECT_GT(rig.fastest_command_radps(), 0) << "a ramp, no jolt";
+  ASSERT_EQ(rig.said<TaskEnded>().size(), 1U);
+  EXPECT_EQ(rig.said<TaskEnded>()[0].how, TaskEnded::How::failed);
+  EXPECT_EQ(rig.said<TaskEnded>()[0].reason, "charging: unplug the charger first");
+  rig.run_s(2);
+  EXPECT_EQ(rig.fastest_command_radps(), 0);
+  sample.charger_connected = false;
+  tell();
+  expect_no_motion_for_s(2);
+}
+
+TEST_F(AnEngineWithABattery, RefusesAStartWithALowOneAndLetsATaskGoOn) {
+  drive();
+  sample.soc_percent = 15;
+  for (int i = 0; i < 22; ++i) {
+    tell();
+    rig.run_s(1);
+  }
+  EXPECT_EQ(rig.snapshot().nav.status, NavStatus::run);
+  EXPECT_EQ(rig.why(), "battery low: 15 %");
+  rig.command(CancelTask{});
+  rig.run_s(2);
+  rig.start(path, 40, 0.5);
+  rig.tick();
+  EXPECT_EQ(refusal(), "battery low: 15 %");
+}
+
+TEST_F(AnEngineWithABattery, DrivesOnWhenTheBatteryIsSilentAndSaysSo) {
+  drive();
+  rig.environment.battery.state = SourceState::stale;
+  rig.environment.battery.reason = "no answer";
+  rig.run_s(5);
+  EXPECT_EQ(rig.snapshot().nav.status, NavStatus::run);
+  EXPECT_EQ(rig.why(), "battery unknown: no answer");
+  EXPECT_EQ(rig.snapshot().battery.health, SourceState::stale);
+}
+
+}  // namespace
+}  // namespace drover::engine
