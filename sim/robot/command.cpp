@@ -5,6 +5,8 @@
 //   obstacle NAME X Y|remove         a movable box of the world, centred at X, Y (m)
 //   gnss STATE                       see drover/twin.h: fix, float, single, none, silent, ...
 //   imu STATE                        silent, frozen, saturated, bias:2, ...; well: nothing is wrong
+//   battery soc PERCENT              so much is left
+//   battery charger plug|unplug      and see battery_port.h for the faults of its line
 //   drive JOINT power on|off         supply of one drive; "all" means every drive
 //   drive JOINT fault NAME|none      see the drive's README
 //   kick VX VY                       a shove along the base's own axes (m/s)
@@ -69,6 +71,7 @@ std::string Robot::command(std::string_view text) {
   if (verb == "obstacle") return command_obstacle(words[1], words[2], words[3]);
   if (verb == "gnss") return command_gnss(words[1]);
   if (verb == "imu") return command_imu(words[1]);
+  if (verb == "battery") return command_battery(words[1], words[2]);
   if (verb == "drive") return command_drive(words[1], words[2], words[3]);
   if (verb == "kick") {
     const auto vx_mps = number(words[1]);
@@ -102,6 +105,19 @@ std::string Robot::command_imu(std::string_view state) {
   return imu_->set_state(state == "well" ? "" : state, now_)
              ? "ok"
              : error("no state '" + std::string(state) + "' of an inertial sensor");
+}
+
+std::string Robot::command_battery(std::string_view what, std::string_view value) {
+  if (!battery_) return error("the scenario has no battery");
+  const auto percent = number(value);
+  if (what == "soc" && percent && *percent >= 0 && *percent <= 100) {
+    battery_->set_soc(*percent);
+  } else if (what == "charger" && (value == "plug" || value == "unplug")) {
+    battery_->set_charger(value == "plug");
+  } else {
+    return error("say: battery soc PERCENT, or battery charger plug|unplug");
+  }
+  return "ok";
 }
 
 void Robot::set_power(Drive& drive, bool on) {

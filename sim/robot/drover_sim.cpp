@@ -17,6 +17,8 @@ Commands for a running simulator (drover-sim ctl COMMAND...):
   obstacle NAME X Y|remove       gnss STATE|unplug|plug   kick VX VY
   imu STATE|well|unplug|plug     (silent, frozen, saturated, bias:2, restart, ...)
   drive JOINT|all power on|off   drive JOINT|all fault NAME|none
+  battery soc P | charger plug|unplug | unplug|plug
+  battery well|silent|slow|other_unit|wrong_crc|drip|echo|deaf_echo|exception
   can BUS slcan TEXT|stall|flow|unplug|plug               truth               quit
 
 Examples:

@@ -33,6 +33,10 @@ Twins make_twins(const Scenario& scenario, std::uint64_t seed) {
       throw std::runtime_error(std::string("imu: ") + error.what());
     }
   }
+  if (scenario.battery) {
+    const auto make = std::get<MakeRegisterTwin>(scenario.battery->driver->make_twin);
+    twins.battery = make(scenario.battery->options, scenario.battery->map);
+  }
   return twins;
 }
 
@@ -43,6 +47,7 @@ Robot::Robot(const Scenario& scenario, Twins twins)
              scenario.origin_altitude_m),
       gnss_(std::move(twins.gnss)),
       imu_(std::move(twins.imu)),
+      battery_twin_(std::move(twins.battery)),
       sent_(scenario.buses.size()),
       waiting_(scenario.buses.size()) {
   if (twins.drives.size() != scenario.drives.size())
@@ -58,6 +63,7 @@ Robot::Robot(const Scenario& scenario, Twins twins)
     drive.twin = std::move(twins.drives[i]);
     drives_.push_back(std::move(drive));
   }
+  if (battery_twin_) battery_.emplace(scenario.battery ? scenario.battery->model : BatteryModel{});
   truth_.wheels.resize(drives_.size());
   plant_.place(scenario.start_x_m, scenario.start_y_m, to_rad(scenario.start_yaw_deg));
 }
@@ -86,6 +92,17 @@ void Robot::step(Time now) {
   imu_size_ = imu_ ? imu_->on_tick(now, truth_.imu, imu_bytes_) : 0;
   for (int i = 0; i < steps_per_tick_; ++i)
     turn_wheels(now + kTick * i / steps_per_tick_, i == 0 ? sent_ : waiting_);
+  use_battery();
+}
+
+void Robot::use_battery() {
+  if (!battery_) return;
+  double wheels_W = 0;
+  for (const Shaft& wheel : truth_.wheels) wheels_W += wheel.torque_Nm * wheel.velocity_radps;
+  battery_->step(to_s(kTick), wheels_W);
+  if (now_ < next_battery_) return;
+  next_battery_ = now_ + std::chrono::milliseconds(100);
+  battery_twin_->set_truth(battery_->truth());
 }
 
 void Robot::sense(Time now) {

@@ -23,6 +23,7 @@ struct Twins {
   std::vector<std::unique_ptr<CanTwin>> drives;  ///< in the scenario's order
   std::unique_ptr<GnssTwin> gnss;                ///< nullptr: none
   std::unique_ptr<ImuTwin> imu;                  ///< nullptr: none
+  std::unique_ptr<RegisterTwin> battery;         ///< nullptr: none
 };
 /// From the registry. Throws std::runtime_error naming the drive and its option.
 Twins make_twins(const Scenario& scenario, std::uint64_t seed);
@@ -47,6 +48,8 @@ class Robot {
   std::string_view imu_bytes() const { return {imu_bytes_.data(), imu_size_}; }
   int imu_baud() const { return imu_ ? static_cast<int>(imu_->baud()) : 0; }
   void on_imu_bytes(std::span<const std::uint8_t> bytes, Time now);
+  /// The battery's registers; nullptr: none.
+  const RegisterTwin* battery_registers() const { return battery_twin_.get(); }
   /// Electrical level.
   bool line_high(LineName line) const;
 
@@ -85,6 +88,8 @@ class Robot {
   std::string command_imu(std::string_view state);
   std::string command_drive(std::string_view joint, std::string_view verb, std::string_view value);
   std::string command_obstacle(std::string_view name, std::string_view x, std::string_view y);
+  void use_battery();
+  std::string command_battery(std::string_view what, std::string_view value);
   std::string truth_text() const;
   bool active(LineName line) const;
 
@@ -94,6 +99,9 @@ class Robot {
   std::vector<Drive> drives_;
   std::unique_ptr<GnssTwin> gnss_;
   std::unique_ptr<ImuTwin> imu_;
+  std::unique_ptr<RegisterTwin> battery_twin_;
+  std::optional<Battery> battery_;
+  Time next_battery_ = kNever;
   std::vector<std::vector<CanFrame>> sent_;     // by bus: for this tick
   std::vector<std::vector<CanFrame>> waiting_;  // by bus: for the next one
   TwinFrames frames_;                           // of one call

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "config/register_map.h"
 #include "sim/robot/json_reader.h"
 #include "sim/robot/scenario_file.h"
 
@@ -26,6 +27,7 @@ const DriverEntry& find_twin(const JsonReader& reader, const std::string& name,
 constexpr std::size_t kCanTwin = 1;
 constexpr std::size_t kGnssTwin = 2;
 constexpr std::size_t kImuTwin = 3;
+constexpr std::size_t kRegisterTwin = 4;
 
 void read_options(JsonReader& reader, const DriverEntry& entry, Options& options) {
   reader.options("options", entry.options, options);
@@ -112,6 +114,29 @@ ImuSpec read_imu(JsonReader reader) {
   return imu;
 }
 
+BatterySpec read_battery(JsonReader reader, const std::string& folder) {
+  BatterySpec battery;
+  battery.driver = &find_twin(reader, reader.text("driver", "modbus_bms"), kRegisterTwin);
+  const auto file = config::find_register_map(reader.text("map"), folder);
+  auto loaded = config::load_register_map(file);
+  for (const auto& problem : loaded.problems) reader.fail("map", problem.text(file));
+  battery.map = std::move(loaded.map);
+  battery.port = reader.text("port", battery.port);
+  battery.baud = static_cast<int>(reader.number("baud", battery.map.baud));
+  battery.unit = static_cast<std::uint8_t>(reader.number("unit", battery.map.unit));
+  battery.model.capacity_Ah = reader.number("capacity_Ah", battery.model.capacity_Ah);
+  battery.model.soc_percent = reader.number("soc_percent", battery.model.soc_percent);
+  battery.model.idle_W = reader.number("idle_W", battery.model.idle_W);
+  battery.model.charger_A = reader.number("charger_A", battery.model.charger_A);
+  if (!(battery.model.capacity_Ah > 0)) reader.fail("capacity_Ah", "must be above 0");
+  if (!(battery.model.soc_percent >= 0 && battery.model.soc_percent <= 100))
+    reader.fail("soc_percent", "must be from 0 to 100");
+  read_options(reader, *battery.driver, battery.options);
+  battery.model.cells = battery.options.number("cells");
+  reader.done();
+  return battery;
+}
+
 void read_lines(JsonReader& top, Scenario& scenario) {
   if (!top.has("lines")) return;
   auto lines = top.object("lines");
@@ -179,6 +204,7 @@ Scenario read_scenario(const nlohmann::json& document, const std::string& folder
     for (auto& drive : top.list("drives")) scenario.drives.push_back(read_drive(drive, scenario));
   if (top.has("gnss")) scenario.gnss = read_gnss(top.object("gnss"));
   if (top.has("imu")) scenario.imu = read_imu(top.object("imu"));
+  if (top.has("battery")) scenario.battery = read_battery(top.object("battery"), folder);
   read_lines(top, scenario);
   read_zones(top, scenario);
   scenario.estop_cuts_power = top.flag("estop_cuts_power", false);

@@ -11,6 +11,7 @@
 #include "drover/options.h"
 #include "drover/registry.h"
 #include "drover/time.h"
+#include "sim/robot/battery.h"
 
 namespace drover::sim {
 
@@ -56,6 +57,16 @@ struct ImuSpec {
   double z_m = 0;
 };
 
+struct BatterySpec {
+  const DriverEntry* driver = nullptr;
+  RegisterMap map;
+  std::string port = "battery";  ///< symbolic link to the pseudo-terminal
+  int baud = 9600;
+  std::uint8_t unit = 1;
+  Options options;
+  BatteryModel model;
+};
+
 enum class LineName : std::uint8_t { estop, bumper, zone_far, zone_near };
 inline constexpr std::size_t kLineNames = 4;
 inline constexpr std::array<std::string_view, kLineNames> kLineText{"estop", "bumper", "zone_far",
@@ -86,6 +97,7 @@ struct Scenario {
   std::vector<DriveSpec> drives;
   std::optional<GnssSpec> gnss;
   std::optional<ImuSpec> imu;
+  std::optional<BatterySpec> battery;
   std::array<LineSpec, kLineNames> lines;
   double zone_near_m = 0.6;  ///< ahead of the bumper
   double zone_far_m = 2.0;
@@ -95,7 +107,8 @@ struct Scenario {
 };
 
 /// Throws std::runtime_error with one sentence that names the key ("drives[2].bus: ...").
-/// A world's path is relative to `folder`. Keys that belong to the scenario's player
+/// The paths of a world and of a register map are relative to `folder`. Keys that belong to the
+/// scenario's player
 /// ("description", "mission", "player") are left alone; any other unknown key is refused.
 Scenario parse_scenario(std::string_view json, const std::string& folder);
 /// The same for a file, which may name its robot: see scenario_file.h.

@@ -51,6 +51,12 @@ nlohmann::json load_scenario_document(const std::string& file) {
     throw std::runtime_error(robot_file + ": robot: a robot cannot name another robot");
   if (const auto world = merged.find("world"); world != merged.end() && world->is_string())
     *world = (reference.parent_path() / world->get<std::string>()).string();
+  // One of the installed maps has no folder.
+  if (merged.contains("battery") && merged["battery"].contains("map")) {
+    auto& map = merged["battery"]["map"];
+    const auto beside = reference.parent_path() / map.get<std::string>();
+    if (fs::exists(resolved(file, beside))) map = beside.string();
+  }
   merged.merge_patch(scenario);
   return merged;
 }

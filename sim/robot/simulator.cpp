@@ -85,6 +85,9 @@ Simulator::Simulator(const SimulatorSettings& settings)
   const std::filesystem::path folder(settings_.run_folder);
   if (scenario.gnss) gnss_.emplace((folder / scenario.gnss->port).string(), scenario.gnss->baud);
   if (scenario.imu) imu_.emplace((folder / scenario.imu->port).string(), scenario.imu->baud);
+  if (scenario.battery)
+    battery_.emplace((folder / scenario.battery->port).string(), scenario.battery->baud,
+                     scenario.battery->unit);
   signals_ = block_signals();
   control_.emplace(settings_.run_folder + "/sim.sock", epoll_.get());
   watch(epoll_.get(), timer_.get());
@@ -157,6 +160,7 @@ void Simulator::tick(Time now) {
   send_can(now);
   write_lines();
   exchange_serial(now);
+  if (battery_) battery_->pump(now, kTick, *robot_.battery_registers());
   keep_records(now);
   previous_ = now;
 }
@@ -230,6 +234,11 @@ std::string Simulator::command(std::string_view text) {
     for (const std::string_view verb : {"plug", "unplug"})
       if (text.starts_with(device) && text.substr(device.size()) == verb)
         return command_plug(device.substr(0, device.size() - 1), verb);
+  constexpr std::string_view kBattery = "battery ";
+  if (battery_ && text.starts_with(kBattery)) {
+    const auto what = text.substr(kBattery.size());
+    if (!what.starts_with("soc") && !what.starts_with("charger")) return battery_->command(what);
+  }
   return robot_.command(text);
 }
 

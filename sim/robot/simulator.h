@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "sim/robot/battery_port.h"
 #include "sim/robot/can_port.h"
 #include "sim/robot/control_socket.h"
 #include "sim/robot/line_port.h"
@@ -58,6 +59,7 @@ class Simulator {
   std::vector<std::unique_ptr<CanPort>> buses_;
   std::optional<SerialPort> gnss_;
   std::optional<SerialPort> imu_;
+  std::optional<BatteryPort> battery_;
   LinePort lines_;
   CanLog can_log_;
   TruthLog truth_log_;

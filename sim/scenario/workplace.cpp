@@ -39,6 +39,13 @@ int free_port() {
   return ntohs(address.sin_port);
 }
 
+/// The battery's register map, when it stands below `folder`.
+void make_map_absolute(json& document, const fs::path& folder) {
+  if (!document.contains("battery") || !document["battery"].contains("map")) return;
+  const auto path = folder / document["battery"].value("map", "");
+  if (fs::exists(path)) document["battery"]["map"] = path.lexically_normal().string();
+}
+
 /// droverd's configuration stands beside the robot: field.json, field.drover.json.
 json read_config(const std::string& scenario_file) {
   auto robot = robot_file_of(scenario_file);
@@ -50,6 +57,7 @@ json read_config(const std::string& scenario_file) {
   if (!stream) throw std::runtime_error(file + ": cannot open");
   auto config = json::parse(stream, nullptr, false, true);
   if (!config.is_object()) throw std::runtime_error(file + ": is no JSON object");
+  make_map_absolute(config, fs::absolute(file).parent_path());
   return config;
 }
 
@@ -70,6 +78,7 @@ Workplace::Workplace(const WorkplaceSettings& settings)
   for (const auto& change : settings.changes) set_member(document_, change);
   const auto folder = fs::absolute(fs::path(settings.scenario_file)).parent_path();
   document_["world"] = (folder / document_.value("world", "")).lexically_normal().string();
+  make_map_absolute(document_, folder);
   if (log_folder_.empty()) log_folder_ = private_folder_ + "/log";
   fs::create_directories(log_folder_);
   auto config = read_config(settings.scenario_file);
@@ -96,6 +105,7 @@ void Workplace::make_native(json& config) {
     bus["interface"] = "unix:" + sim_folder_ + "/" + bus.value("name", "") + ".sock";
   config["gnss"]["port"] = sim_folder_ + "/gnss";
   if (config.contains("imu")) config["imu"]["port"] = sim_folder_ + "/imu";
+  if (config.contains("battery")) config["battery"]["port"] = sim_folder_ + "/battery";
   config["lines"]["chip"] = "files:" + sim_folder_ + "/lines";
   if (config.contains("outputs")) {
     fs::create_directories(private_folder_ + "/outputs");

@@ -102,10 +102,7 @@ FoundAnswer find_rtu_answer(std::span<const std::uint8_t> bytes, std::uint8_t un
       at += request.size();
       continue;
     }
-    // Less than an echo may be the beginning of one.
-    if (!(at == 0 && rest.size() < request.size() &&
-          std::equal(rest.begin(), rest.end(), request.begin())))
-      worse(Answer::incomplete);
+    worse(Answer::incomplete);
     ++at;
   }
   return found;

@@ -42,6 +42,8 @@ int free_port() {
   return ::ntohs(address.sin_port);
 }
 
+constexpr const char* kMaps = DROVER_SOURCE_DIR "/config/maps";
+
 constexpr const char* kSimFile = R"({
   "name": "integration", "world": "@world@",
   "start": {"x_m": 0, "y_m": 0, "yaw_deg": 0},
@@ -55,6 +57,7 @@ constexpr const char* kSimFile = R"({
   "gnss": {"driver": "nmea0183", "antenna": {"x_m": 0.1, "y_m": 0, "z_m": 0.6}},
   "imu": {"driver": "witmotion", "place": {"x_m": 0.05, "z_m": 0.15},
           "options": {"mount_yaw_deg": -90}},
+  "battery": {"map": "@maps@/daly_d2.json", "soc_percent": 84},
   "lines": {}
 })";
 
@@ -78,6 +81,8 @@ constexpr const char* kDroverFile = R"({
   "gnss": {"port": "@folder@/sim/gnss", "options": {"stale_s": 2}},
   "imu": {"driver": "witmotion", "port": "@folder@/sim/imu",
           "options": {"mount_yaw_deg": -90, "stale_s": 2}},
+  "battery": {"map": "@maps@/daly_d2.json", "port": "@folder@/sim/battery", "period_s": 0.5,
+              "options": {"stale_s": 5}},
   "lines": {"chip": "files:@folder@/sim/lines",
             "estop": {"line": "estop", "options": {"stale_s": 0.5}},
             "bumper": {"line": "bumper", "options": {"stale_s": 0.5}},
@@ -133,10 +138,11 @@ RobotRig::~RobotRig() {
 
 void RobotRig::write_files() {
   const auto folder = folder_.string();
-  std::ofstream(folder_ / "sim.json")
-      << filled(kSimFile, "@world@", DROVER_SOURCE_DIR "/sim/worlds/field.xml");
+  std::ofstream(folder_ / "sim.json") << filled(
+      filled(kSimFile, "@world@", DROVER_SOURCE_DIR "/sim/worlds/field.xml"), "@maps@", kMaps);
   std::ofstream(folder_ / "drover.json")
-      << filled(filled(kDroverFile, "@folder@", folder), "@port@", std::to_string(port_));
+      << filled(filled(filled(kDroverFile, "@folder@", folder), "@port@", std::to_string(port_)),
+                "@maps@", kMaps);
   std::ofstream(folder_ / "mosquitto.conf")
       << "listener " << port_ << " 127.0.0.1\nallow_anonymous true\npersistence false\n";
 }

@@ -20,7 +20,7 @@ src/guard        drover/ guard/
 src/cli          drover/ cli/ link/unique_fd.h config/ publish/status/names.h
 src/droverd.cpp  config/ runtime/
 sim/plant        drover/ sim/plant/
-sim/robot        drover/ link/ sim/plant/ sim/robot/
+sim/robot        drover/ link/ sim/plant/ sim/robot/ config/register_map.h
 sim/scenario     drover/ link/ sim/robot/ sim/scenario/ config/located_json.h config/json_text.h
 TABLE
 }

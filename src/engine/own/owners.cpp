@@ -60,6 +60,7 @@ void Owners::on_task_started() {
 Reason Owners::hindrance(const OwnInput& input) const {
   if (!input.health.ready) return "the gateway has just started";
   if (!input.health.stop.empty()) return input.health.stop;
+  if (!input.health.end_task.empty()) return input.health.end_task;
   const std::string_view latched = input.latched.empty() ? latched_.view() : input.latched;
   if (!latched.empty()) {
     Reason why;
@@ -116,6 +117,7 @@ const Motion& Owners::step(const OwnInput& input, EventQueue& events) {
   const bool wheels = input.wheels != WheelFault::none;
   const bool at_once = input.task.stop == Stop::immediate || !input.health.stop.empty() || wheels;
   if (at_once) creep_.end(wheels ? input.wheel_reason : input.health.stop, input.now, events);
+  if (!input.health.end_task.empty()) creep_.end(input.health.end_task, input.now, events);
   const Twist creep = creep_.step(input.now, input.dt, input.estimate, input.health, events);
   if (busy_.empty() && creep_.active()) busy_ = "the heading is being looked for";
   const Stop stream_stop = watch_stream(input, at_once);

@@ -1,0 +1,147 @@
+#include "sim/robot/battery_port.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <stdexcept>
+
+#include "link/modbus_frame.h"
+
+namespace drover::sim {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr std::array<std::string_view, 9> kWords{
+    "well", "silent", "slow", "other_unit", "wrong_crc", "drip", "echo", "deaf_echo", "exception"};
+constexpr Duration kLook = 20ms;
+constexpr Duration kThinking = 10ms;
+constexpr Duration kSlow = 3s;
+constexpr Duration kDrip = 490ms;
+constexpr Duration kRequestEnds = 50ms;  ///< a request that is not whole by then is forgotten
+
+std::vector<std::uint8_t> sealed(std::vector<std::uint8_t> frame) {
+  const auto crc = link::modbus_crc(frame);
+  frame.push_back(static_cast<std::uint8_t>(crc));
+  frame.push_back(static_cast<std::uint8_t>(crc >> 8U));
+  return frame;
+}
+
+}  // namespace
+
+BatteryPort::BatteryPort(const std::string& link_path, int baud, std::uint8_t unit)
+    : link_path_(link_path), unit_(unit), pacer_(baud) {
+  plug();
+}
+
+BatteryPort::~BatteryPort() {
+  ::unlink(link_path_.c_str());
+}
+
+void BatteryPort::plug() {
+  if (pty_) return;
+  pty_ = open_pty();
+  // Kept open, the line would look as if somebody listened; closed, the last settings stay raw.
+  pty_->slave.reset();
+  ::unlink(link_path_.c_str());
+  if (::symlink(pty_->slave_path.c_str(), link_path_.c_str()) != 0)
+    throw std::runtime_error(link_path_ + ": cannot link: " + std::strerror(errno));
+}
+
+std::string BatteryPort::command(std::string_view word) {
+  if (word == "plug") {
+    plug();
+    return "ok";
+  }
+  if (word == "unplug") {
+    ::unlink(link_path_.c_str());
+    pty_.reset();
+    heard_.clear();
+    answers_.clear();
+    return "ok";
+  }
+  const auto it = std::find(kWords.begin(), kWords.end(), word);
+  if (it == kWords.end())
+    return "error: say: battery soc P, charger plug|unplug, unplug, plug, well, silent, slow, "
+           "other_unit, wrong_crc, drip, echo, deaf_echo or exception";
+  fault_ = static_cast<LineFault>(it - kWords.begin());
+  answers_.clear();
+  return "ok";
+}
+
+void BatteryPort::pump(Time now, Duration tick, const RegisterTwin& device) {
+  if (!pty_) return;
+  // A system call for each tick is dear where they are slow.
+  if (now >= next_look_) {
+    next_look_ = now + kLook;
+    take(now, device);
+  }
+  send(now, tick);
+}
+
+void BatteryPort::take(Time now, const RegisterTwin& device) {
+  std::array<std::uint8_t, 256> chunk{};
+  const auto n = ::read(pty_->master.get(), chunk.data(), chunk.size());
+  if (n <= 0) {
+    if (!heard_.empty() && now - heard_at_ > kRequestEnds) heard_.clear();
+    return;
+  }
+  heard_.insert(heard_.end(), chunk.begin(), chunk.begin() + n);
+  heard_at_ = now;
+  while (heard_.size() >= link::kRtuRequestSize) {
+    answer({heard_.data(), link::kRtuRequestSize}, now, device);
+    heard_.erase(heard_.begin(), heard_.begin() + link::kRtuRequestSize);
+  }
+}
+
+void BatteryPort::answer(std::span<const std::uint8_t> request, Time now,
+                         const RegisterTwin& device) {
+  ++requests_;
+  const bool echoes = fault_ == LineFault::echo || fault_ == LineFault::deaf_echo;
+  if (echoes) answers_.push_back({now, {request.begin(), request.end()}});
+  const auto word = [&](std::size_t at) {
+    return static_cast<std::uint16_t>(request[at] << 8U | request[at + 1]);
+  };
+  const auto crc = link::modbus_crc(request.first(6));
+  const bool good = request[6] == (crc & 0xFFU) && request[7] == crc >> 8U;
+  if (!good || request[0] != unit_ || fault_ == LineFault::silent || fault_ == LineFault::deaf_echo)
+    return;
+  std::array<std::uint16_t, 125> registers{};
+  const std::uint16_t count = word(4);
+  const std::uint8_t unit = fault_ == LineFault::other_unit ? unit_ + 1 : unit_;
+  std::vector<std::uint8_t> frame{unit, request[1]};
+  if (fault_ == LineFault::exception || count < 1 || count > registers.size() ||
+      !device.read(request[1], word(2), {registers.data(), count})) {
+    frame[1] |= 0x80;
+    frame.push_back(2);
+  } else {
+    frame.push_back(static_cast<std::uint8_t>(2 * count));
+    for (std::uint16_t i = 0; i < count; ++i) {
+      frame.push_back(static_cast<std::uint8_t>(registers[i] >> 8U));
+      frame.push_back(static_cast<std::uint8_t>(registers[i]));
+    }
+  }
+  frame = sealed(std::move(frame));
+  if (fault_ == LineFault::wrong_crc) frame.back() ^= 0x55;
+  answers_.push_back({now + (fault_ == LineFault::slow ? kSlow : kThinking), std::move(frame)});
+}
+
+void BatteryPort::send(Time now, Duration tick) {
+  if (answers_.empty() || now < answers_.front().due) return;
+  auto& bytes = answers_.front().bytes;
+  std::size_t size = 0;
+  if (fault_ == LineFault::drip) {
+    if (now < next_drip_) return;
+    next_drip_ = now + kDrip;
+    size = 1;
+  } else {
+    size = pacer_.take(bytes.size(), tick);
+  }
+  if (size > 0) (void)!::write(pty_->master.get(), bytes.data(), size);
+  bytes.erase(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(size));
+  if (bytes.empty()) answers_.pop_front();
+}
+
+}  // namespace drover::sim
