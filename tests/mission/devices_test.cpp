@@ -75,11 +75,13 @@ TEST(BatteryFaults, MarkTheValuesAsUnknownAndTouchNothingElse) {
     EXPECT_LT(first(log, begin, [](const Status& s) { return !battery(s); }) - begin, 7s) << fault;
   }
   // Whatever comes of a line that lies, no value on it changes by more than driving does.
-  double last_percent = kAbsent;
+  double last_percent = NAN;
   for (const auto& status : log.statuses) {
     const double percent = status.document.at("bms").at("soc").get<double>();
     if (percent == 0 && std::isnan(last_percent)) continue;  // not heard yet
-    if (!std::isnan(last_percent)) EXPECT_NEAR(percent, last_percent, 1) << seconds(status.time);
+    if (!std::isnan(last_percent)) {
+      EXPECT_NEAR(percent, last_percent, 1) << seconds(status.time);
+    }
     last_percent = percent;
   }
   const Time well = log.event("sim battery well", 3);
