@@ -37,7 +37,7 @@ bool is(const json& value, Kind kind) {
 using Keys = std::vector<std::pair<const char*, Kind>>;
 
 // RTK navigation protocol, "状态反馈 base_status"; bms.valid, nav.owner and nav.why are added to
-// it.
+// it, and nav.metres_left while the position is reckoned without an RTK fix.
 const std::vector<std::pair<const char*, Keys>> kDocument{
     {"bms",
      {{"current", Kind::number},
@@ -69,7 +69,12 @@ const std::vector<std::pair<const char*, Keys>> kDocument{
     {"sensor", {{"imu", Kind::boolean}, {"laser", Kind::boolean}, {"robot", Kind::boolean}}},
 };
 
-std::string judge_part(const std::string& name, const json& part, const Keys& keys) {
+std::string judge_part(const std::string& name, json part, const Keys& keys) {
+  if (part.is_object() && name == "nav" && part.contains("metres_left")) {
+    if (!is(part.at("metres_left"), Kind::number) || part.at("metres_left").get<double>() < 0)
+      return "nav.metres_left is no distance";
+    part.erase("metres_left");
+  }
   if (!part.is_object() || part.size() != keys.size()) return name + " has other keys";
   for (const auto& [key, kind] : keys) {
     if (!part.contains(key)) return name + "." + key + " is missing";
