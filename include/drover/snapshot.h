@@ -90,7 +90,6 @@ struct BatterySnapshot {
   SourceSnapshot source;
   Time time = kNever;
   BatterySample sample;  ///< the last one
-  Reason reason;         ///< why it is not fresh, or what is odd; empty when all is well
 };
 
 /// The stream of joint commands.

@@ -271,7 +271,6 @@ void Engine::Impl::fill_snapshot(Time now, const Environment& environment, const
   }
   snapshot.battery.configured = config.battery_configured;
   snapshot.battery.health = environment.battery.state;
-  snapshot.battery.reason = environment.battery.reason;
   if (snapshot.battery.time != kNever &&
       now - snapshot.battery.time > from_s(config.health.battery_stale_s)) {
     snapshot.battery.health = SourceState::stale;
