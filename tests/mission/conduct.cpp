@@ -156,4 +156,28 @@ DriveFigures drive_figures(const Record& record, Time begin, Time end) {
   return figures;
 }
 
+PoseFigures pose_figures(const Record& record, Time begin, Time end) {
+  constexpr double kMoves_mps = 0.02;
+  PoseFigures figures;
+  double count = 0;
+  for (const auto& status : record.statuses) {
+    if (status.time < begin || status.time > end) continue;
+    if (status.time >= record.truth.back().time) break;
+    const auto truth = record.truth_at(status.time);
+    if (std::abs(truth.vx_mps) < kMoves_mps) continue;
+    const double error_m = distance_m({truth.x_m, truth.y_m}, status.sim);
+    const double yaw_rad = status.document.at("pose").at("yaw").get<double>();
+    const double error_deg =
+        std::abs(std::remainder(yaw_rad - truth.yaw_rad, 2 * M_PI)) * 180 / M_PI;
+    figures.rms_m += error_m * error_m;
+    figures.rms_deg += error_deg * error_deg;
+    figures.max_m = std::max(figures.max_m, error_m);
+    figures.max_deg = std::max(figures.max_deg, error_deg);
+    ++count;
+  }
+  figures.rms_m = std::sqrt(figures.rms_m / count);
+  figures.rms_deg = std::sqrt(figures.rms_deg / count);
+  return figures;
+}
+
 }  // namespace drover::mission

@@ -44,6 +44,15 @@ struct DriveFigures {
 };
 DriveFigures drive_figures(const Record& record, Time begin, Time end);
 
+/// How far what it believed was from the truth, while it moved from `begin` to `end`.
+struct PoseFigures {
+  double rms_m = 0;
+  double max_m = 0;
+  double rms_deg = 0;
+  double max_deg = 0;
+};
+PoseFigures pose_figures(const Record& record, Time begin, Time end);
+
 /// Seconds with six digits, for messages.
 std::string seconds(Time time);
 std::string seconds(Duration duration);

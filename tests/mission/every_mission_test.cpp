@@ -31,6 +31,9 @@ TEST_P(EveryMission, MovesNothingOutsideOfATask) {
 }
 
 TEST_P(EveryMission, NeverMovesFartherFromTheTruthThanTheBound) {
+  const auto pose = pose_figures(log(), kNever, Time::max());
+  std::printf("  pose error in motion: RMS %.1f, max %.1f mm; heading RMS %.2f, max %.2f degrees\n",
+              1000 * pose.rms_m, 1000 * pose.max_m, pose.rms_deg, pose.max_deg);
   EXPECT_THAT(check_truth(log(), kBoundRun_m), IsEmpty());
 }
 

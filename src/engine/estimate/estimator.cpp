@@ -89,9 +89,8 @@ PathPoint Estimator::local(const GeodeticPoint& point) const {
 GeodeticPoint Estimator::antenna_geodetic(const Pose& pose) const {
   const double c = std::cos(pose.yaw_rad);
   const double s = std::sin(pose.yaw_rad);
-  const bool tilted = std::isfinite(estimate_.roll_rad);
-  const LeverArm arm =
-      lever_arm(tilted ? estimate_.roll_rad : 0, tilted ? estimate_.pitch_rad : 0, config_);
+  // Of a level base, whatever the ground: the same pose is found again from a stored position.
+  const LeverArm arm = lever_arm(0, 0, config_);
   return frame_.geodetic({.x_m = pose.x_m + arm.ahead_m * c - arm.left_m * s,
                           .y_m = pose.y_m + arm.ahead_m * s + arm.left_m * c},
                          altitude_m_);

@@ -80,6 +80,7 @@ void place(State& state, const AntennaPosition& position, double arm_x_m, double
   p[kX][kBiasX] = p[kBiasX][kX] = -square(position.sigma_x_m);
   p[kY][kBiasY] = p[kBiasY][kY] = -square(position.sigma_y_m);
   state.has_position = true;
+  if (position.quality == GnssClass::fixed) state.gnss.fixed = state.time;
 }
 
 struct TiltedArm {

@@ -14,6 +14,7 @@ constexpr Duration kBrief = std::chrono::milliseconds(750);
 // half of it.
 constexpr double kSlip_m = 0.05;
 constexpr double kSlipShare = 0.25;
+constexpr double kSlipGate = 3.0;  // sigmas of the two positions
 constexpr double kJumpShare = 0.6;  // of the gap between two positions: not the wheels' doing
 
 constexpr Duration kLasting = std::chrono::seconds(24);
@@ -123,7 +124,9 @@ void watch_slip(MotionWatch& watch, Belief& belief, const BaseFix& fix, Time now
   watch.last_gap_m = gap_m;
   const Duration age = now - leg.since;
   if (age < kBriefest) return;
-  const double most_m = kSlip_m + kSlipShare * wheels_m;
+  // Fixes that still settle after an outage wander by more than wheels slip.
+  const double noise_m = kSlipGate * std::hypot(leg.sigma_m, fix.sigma_m);
+  const double most_m = std::max(kSlip_m, noise_m) + kSlipShare * wheels_m;
   const bool creeping = watch.largest_step_m < kJumpShare * std::abs(gap_m);
   watch.wheel_mps = wheels_m / to_s(age);
   watch.receiver_mps = receiver_m / to_s(age);

@@ -285,6 +285,20 @@ TEST(EstimateFusion, FollowsAndTellsWheelsThatSlipALittle) {
   EXPECT_FALSE(rig.last.disagrees);
 }
 
+TEST(EstimateFusion, TakesAFixThatSettlesForNoSlip) {
+  Rig rig(15);
+  rig.world.gst = true;
+  rig.world.fade_s = 1;
+  settle(rig);
+  rig.world.quality = FixQuality::single;
+  rig.stand(2);
+  rig.world.quality = FixQuality::rtk_fixed;
+  for (int i = 0; i < 60; ++i) {
+    rig.stand(0.1);
+    EXPECT_FALSE(rig.last.slipping) << i;
+  }
+}
+
 TEST(EstimateFusion, HasNoFalsePlaceOnIce) {
   for (const bool imu : {false, true}) {
     Rig rig(11);
