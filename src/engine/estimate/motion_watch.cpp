@@ -14,7 +14,7 @@ constexpr Duration kBrief = std::chrono::milliseconds(750);
 // half of it.
 constexpr double kSlip_m = 0.05;
 constexpr double kSlipShare = 0.25;
-constexpr double kSlipGate = 3.0;  // sigmas of the two positions
+constexpr double kSlipGate = 3.0;   // sigmas of the two positions
 constexpr double kJumpShare = 0.6;  // of the gap between two positions: not the wheels' doing
 
 constexpr Duration kLasting = std::chrono::seconds(24);
