@@ -74,7 +74,8 @@ Angles angles(const Words& raw, std::uint16_t version) {
 // Whole degrees times ten million, and minutes times a hundred thousand in what is left.
 double coordinate_deg(std::int32_t value) {
   constexpr std::int32_t kDegree = 10'000'000;
-  return value / kDegree + value % kDegree / 1e5 / 60;
+  const std::int32_t degrees = value / kDegree;
+  return degrees + value % kDegree / 1e5 / 60;
 }
 
 Attitude attitude(const Reader& r) {
@@ -175,10 +176,10 @@ std::optional<std::uint32_t> baud_of(std::uint16_t code) {
   return std::nullopt;
 }
 std::uint16_t bandwidth_code(double bandwidth_Hz) {
-  std::uint16_t code = 0;
-  for (std::uint16_t i = 0; i < std::size(kBandwidths_Hz); ++i)
+  std::size_t code = 0;
+  for (std::size_t i = 0; i < std::size(kBandwidths_Hz); ++i)
     if (kBandwidths_Hz[i] >= bandwidth_Hz) code = i;
-  return code;
+  return static_cast<std::uint16_t>(code);
 }
 
 }  // namespace drover::witmotion

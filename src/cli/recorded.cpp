@@ -118,7 +118,8 @@ int show_bytes(Device device, std::istream& in, const Recording& recording, std:
 double seconds_of(Time stamp) {
   constexpr std::int64_t kSecond = 1'000'000'000;
   const std::int64_t ns = stamp.time_since_epoch().count();
-  return static_cast<double>(ns / kSecond) + static_cast<double>(ns % kSecond) / 1e9;
+  const std::int64_t whole_s = ns / kSecond;
+  return static_cast<double>(whole_s) + static_cast<double>(ns % kSecond) / 1e9;
 }
 
 struct Node {

@@ -15,7 +15,7 @@
 #include "link/modbus_frame.h"
 #include "link/opened.h"
 
-struct _modbus;
+struct _modbus;  // libmodbus' own name  NOLINT(bugprone-reserved-identifier)
 
 namespace drover::link {
 
