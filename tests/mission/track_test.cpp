@@ -13,7 +13,7 @@ const auto kScenario = nlohmann::json::parse(R"({
   "gnss": {"antenna": {"x_m": 0.1, "y_m": 0.02}}})");
 
 TEST(MissionTrack, NeedsOriginAndAntenna) {
-  EXPECT_THROW(Earth(nlohmann::json::object()), nlohmann::json::exception);
+  EXPECT_THROW(Earth{nlohmann::json::object()}, nlohmann::json::exception);
 }
 
 TEST(MissionTrack, TakesTheAntennaOff) {

@@ -34,7 +34,8 @@ TEST(AimrtPacket, RefusesAContextLongerThanThePacket) {
 }
 
 TEST(AimrtPacket, GivesContentTypeContextAndMessage) {
-  const auto packet = decode_packet(hex("04 6a 73 6f 6e  01  01 00 61  00 00  7b 7d"));
+  const std::string bytes = hex("04 6a 73 6f 6e  01  01 00 61  00 00  7b 7d");
+  const auto packet = decode_packet(bytes);
   ASSERT_TRUE(packet.ok());
   EXPECT_EQ(packet->content_type, "json");
   EXPECT_EQ(packet->context, hex("01 00 61 00 00"));
@@ -43,7 +44,8 @@ TEST(AimrtPacket, GivesContentTypeContextAndMessage) {
 
 TEST(AimrtPacket, CountsALengthOfTwoBytesLittleEndian) {
   const std::string value(0x0102, 'v');
-  const auto packet = decode_packet(hex("02 70 62 01 00 00 02 01") + value + "message");
+  const std::string bytes = hex("02 70 62 01 00 00 02 01") + value + "message";
+  const auto packet = decode_packet(bytes);
   ASSERT_TRUE(packet.ok());
   EXPECT_EQ(packet->message, "message");
 }
