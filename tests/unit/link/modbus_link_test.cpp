@@ -134,7 +134,8 @@ class AModbusLine : public ::testing::Test {
   }
 
   // What the device's thread looks at outlives it.
-  Bytes answer;
+  std::vector<Bytes> prepared;  ///< not changed while the device runs
+  std::atomic<std::size_t> turn{0};
   std::atomic<bool> answers{false};
   std::atomic<std::uint16_t> next{100};
   Device device;
@@ -169,17 +170,19 @@ TEST_F(AModbusLine, BringsTheRegisters) {
 }
 
 TEST_F(AModbusLine, TellsWhatWentWrong) {
-  device.start([&](Device& d, const Bytes&) { d.send(answer); });
+  prepared = {
+      {}, answer_to(0xD3, kBlock, 1), answer_to(0xD2, kBlock, 1), answer_to(0xD2, kBlock, 77)};
+  prepared[2].back() ^= 1;
+  device.start([&](Device& d, const Bytes&) { d.send(prepared[turn]); });
   open();
   EXPECT_EQ(ask().failure, RegisterFailure::silent);
   open();
-  answer = answer_to(0xD3, kBlock, 1);
+  turn = 1;
   EXPECT_EQ(ask().failure, RegisterFailure::wrong_unit);
   open();
-  answer = answer_to(0xD2, kBlock, 1);
-  answer.back() ^= 1;
+  turn = 2;
   EXPECT_EQ(ask().failure, RegisterFailure::damaged);
-  answer = answer_to(0xD2, kBlock, 77);
+  turn = 3;
   ASSERT_TRUE(ask().good) << "the next one is good";
   EXPECT_EQ(words.front(), 77);
 }
