@@ -39,6 +39,9 @@ class AimrtChannel : public RobotRig {
 TEST_F(AimrtChannel, ShowsJointsAndContactsInTheDocumentsFields) {
   ASSERT_NO_FATAL_FAILURE(start_all());
   ASSERT_TRUE(wait_until([&] { return !client().last(kTouch).empty(); }));
+  // A joint that was not heard yet has no numbers.
+  ASSERT_TRUE(
+      wait_until([&] { return decoded(kJoints, "JointState").find("nan") == std::string::npos; }));
   const auto joints = decoded(kJoints, "JointState");
   for (const char* name : {"front_left", "rear_left", "front_right", "rear_right"})
     EXPECT_THAT(joints, HasSubstr("name: \"" + std::string(name) + "\"")) << joints;

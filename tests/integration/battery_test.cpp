@@ -42,7 +42,8 @@ TEST_F(ABattery, IsUnknownButKeepsItsLastWordWhateverItsLineDoes) {
     ASSERT_EQ(sim({"battery", "well"}), "ok\n");
     ASSERT_TRUE(wait_for_valid(true)) << fault;
   }
-  EXPECT_EQ(status_text("nav", "locate"), "LOCATE_TRUE") << "the control loop went on";
+  EXPECT_TRUE(wait_until([&] { return status_text("nav", "locate") == "LOCATE_TRUE"; }))
+      << "the control loop went on";
 }
 
 TEST_F(ABattery, ComesBackWhenItsAdapterIsPluggedInAgain) {
