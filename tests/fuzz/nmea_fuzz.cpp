@@ -3,24 +3,21 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <span>
 
 #include "drivers/nmea0183/driver.h"
 #include "drivers/nmea0183/entry.h"
+#include "tests/fuzz/chunking.h"
 
 namespace {
 
 using namespace std::chrono_literals;
 using namespace drover;
+using fuzz::require;
 
 constexpr std::size_t kMaxInput = 8192;
 constexpr double kBaud = 115200;
 const Time kStart{100s};
-
-void require(bool holds) {
-  if (!holds) std::abort();
-}
 
 bool inside(double value, double min, double max) {
   return std::isnan(value) || (value >= min && value <= max);
@@ -66,34 +63,11 @@ void check_same(const Measurement& a, const Measurement& b) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size < 2 || size > kMaxInput) return 0;
   // The first byte chooses the chunking of the second run, the rest is what the line brings.
-  std::uint32_t choice = data[0];
+  const std::uint32_t choice = data[0];
   const std::span<const std::uint8_t> bytes(data + 1, size - 1);
   const Options options(kNmea0183Entry.options);
   nmea0183::Nmea0183Driver whole(options);
   nmea0183::Nmea0183Driver pieces(options);
-  static DriverOut from_whole;
-  static DriverOut from_pieces;
-  from_whole.clear();
-  from_pieces.clear();
-
-  whole.on_bytes(bytes, kStart, from_whole);
-  const Duration byte_time = from_s(10 / kBaud);
-  for (std::size_t at = 0; at < bytes.size();) {
-    choice = choice * 1664525U + 1013904223U;
-    const std::size_t length = std::min<std::size_t>(1 + (choice >> 26U), bytes.size() - at);
-    pieces.on_bytes(bytes.subspan(at, length), kStart + static_cast<int>(at) * byte_time,
-                    from_pieces);
-    at += length;
-  }
-
-  require(from_whole.measurements.size() == from_pieces.measurements.size());
-  require(from_whole.overflows == from_pieces.overflows);
-  for (std::size_t i = 0; i < from_whole.measurements.size(); ++i) {
-    check(from_whole.measurements[i]);
-    check_same(from_whole.measurements[i], from_pieces.measurements[i]);
-  }
-  const auto one = whole.health(kStart + 10s);
-  const auto other = pieces.health(kStart + 10s);
-  require(one.good == other.good && one.bad == other.bad);
+  fuzz::check_chunking(whole, pieces, bytes, choice, kStart, kBaud, check, check_same);
   return 0;
 }

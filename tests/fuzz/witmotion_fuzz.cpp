@@ -4,25 +4,22 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <span>
 #include <string>
 
 #include "drivers/witmotion/driver.h"
 #include "drivers/witmotion/entry.h"
+#include "tests/fuzz/chunking.h"
 
 namespace {
 
 using namespace std::chrono_literals;
 using namespace drover;
+using fuzz::require;
 
 constexpr std::size_t kMaxInput = 2048;  // 64 measurements and no more
 constexpr double kBaud = 115200;
 const Time kStart{100s};
-
-void require(bool holds) {
-  if (!holds) std::abort();
-}
 
 bool within(const Vector3& v, double limit) {
   return std::abs(v.x) <= limit && std::abs(v.y) <= limit && std::abs(v.z) <= limit;
@@ -63,7 +60,7 @@ void check_commands(std::span<const std::uint8_t> sent) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size < 2 || size > kMaxInput) return 0;
   // The first byte chooses the format and the chunking of the second run.
-  std::uint32_t choice = data[0];
+  const std::uint32_t choice = data[0];
   const std::span<const std::uint8_t> bytes(data + 1, size - 1);
   Options options(kWitmotionEntry.options);
   options.set("mount_yaw_deg", -90.0);
@@ -71,42 +68,20 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (choice % 4 >= 2) options.set("orientation", std::string("quaternion"));
   witmotion::WitmotionDriver whole(options);
   witmotion::WitmotionDriver pieces(options);
-  static DriverOut from_whole;
-  static DriverOut from_pieces;
-  from_whole.clear();
-  from_pieces.clear();
-
-  whole.on_bytes(bytes, kStart, from_whole);
-  const Duration byte_time = from_s(10 / kBaud);
-  for (std::size_t at = 0; at < bytes.size();) {
-    choice = choice * 1664525U + 1013904223U;
-    const std::size_t length = std::min<std::size_t>(1 + (choice >> 26U), bytes.size() - at);
-    pieces.on_bytes(bytes.subspan(at, length), kStart + static_cast<int>(at) * byte_time,
-                    from_pieces);
-    at += length;
-  }
-  require(from_whole.measurements.size() == from_pieces.measurements.size());
-  require(from_whole.overflows == from_pieces.overflows);
-  for (std::size_t i = 0; i < from_whole.measurements.size(); ++i) {
-    check(from_whole.measurements[i]);
-    check_same(from_whole.measurements[i], from_pieces.measurements[i]);
-  }
-  const auto one = whole.health(kStart + 10s);
-  const auto other = pieces.health(kStart + 10s);
-  require(one.good == other.good && one.bad == other.bad);
+  fuzz::check_chunking(whole, pieces, bytes, choice, kStart, kBaud, check, check_same);
 
   // The same bytes as answers to its questions, over some seconds.
   witmotion::WitmotionDriver asking(options);
   asking.on_link_up(kStart);
+  static DriverOut out;
   Time now = kStart;
   for (std::size_t at = 0; at < bytes.size(); at += 33) {
     now += 200ms;
-    from_whole.clear();
-    asking.on_bytes(bytes.subspan(at, std::min<std::size_t>(33, bytes.size() - at)), now,
-                    from_whole);
-    asking.on_tick(now, from_whole);
-    check_commands({from_whole.bytes.data(), from_whole.bytes.size()});
-    require(from_whole.overflows == 0);
+    out.clear();
+    asking.on_bytes(bytes.subspan(at, std::min<std::size_t>(33, bytes.size() - at)), now, out);
+    asking.on_tick(now, out);
+    check_commands({out.bytes.data(), out.bytes.size()});
+    require(out.overflows == 0);
   }
   return 0;
 }
