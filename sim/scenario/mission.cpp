@@ -42,6 +42,25 @@ std::size_t parse_id(JsonReader& reader, std::string_view key) {
   return static_cast<std::size_t>(id);
 }
 
+/// {"velocities_radps": {"front_left": 1, "rear_left": "nan"}, "rate_Hz": 50, "for_s": 2}
+CommandStreamSpec read_stream(JsonReader reader, const json& raw) {
+  CommandStreamSpec stream;
+  auto joints = reader.object("velocities_radps");
+  for (const auto& joint : joints.keys()) {
+    const bool text = raw.at("velocities_radps").at(joint).is_string();
+    if (text && joints.text(joint) != "nan") joints.fail(joint, "must be a number or nan");
+    stream.joints.push_back({joint, text ? NAN : joints.number(joint)});
+  }
+  joints.done();
+  stream.rate_Hz = reader.number("rate_Hz", stream.rate_Hz);
+  if (!(stream.rate_Hz >= 1 && stream.rate_Hz <= 1000)) reader.fail("rate_Hz", "must be 1 to 1000");
+  const double for_s = reader.number("for_s");
+  if (!(for_s > 0 && for_s <= 1e6)) reader.fail("for_s", "must be above 0");
+  stream.lasts = from_s(for_s);
+  reader.done();
+  return stream;
+}
+
 /// `raw` is what the reader reads; messages go out as they stand there.
 Action read_action(JsonReader& reader, const json& raw) {
   Action action;
@@ -67,12 +86,18 @@ Action read_action(JsonReader& reader, const json& raw) {
     task.done();
   } else if (reader.has("cli")) {
     action = {Kind::cli, reader.text("cli")};
+  } else if (reader.has("joint_commands")) {
+    action.kind = Kind::joint_commands;
+    action.stream = read_stream(reader.object("joint_commands"), raw.at("joint_commands"));
   } else if (reader.flag("cancel", false)) {
     action.kind = Kind::cancel;
   } else if (reader.flag("save", false)) {
     action.kind = Kind::save;
   } else {
-    reader.fail("", "must be one of sim, kill, start, publish, cancel, save, start_task, cli");
+    reader.fail(
+        "",
+        "must be one of sim, kill, start, publish, cancel, save, start_task, joint_commands, "
+        "cli");
   }
   reader.done();
   return action;

@@ -159,6 +159,7 @@ void Player::start(const std::string& name, const std::string& words) {
 void Player::turn(Time until) {
   const Time t = now();
   take_steps(t);
+  command_joints(t);
   if (t >= next_reconnect_) {
     client_->connect();
     next_reconnect_ = t + kReconnect;
@@ -169,7 +170,7 @@ void Player::turn(Time until) {
     mqtt_log_.flush();
     next_second_ = t + kSecond;
   }
-  until = std::min({until, next_second_, story_.next(t)});
+  until = std::min({until, next_second_, story_.next(t), commands_.next()});
   if (client_->descriptor() < 0) until = std::min(until, next_reconnect_);
   until = std::min(until, view_.draw(t, report_));
   poll_once(until);

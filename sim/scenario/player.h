@@ -57,8 +57,9 @@ class Player {
   void poll_once(Time until);
   void collect_children();
   void take_steps(Time t);
-  void act(const Action& action);
+  void act(const Action& action, Time now);
   void publish(const std::string& topic, const std::string& payload, bool retain = false);
+  void command_joints(Time t);
   void save_track();
   void start_task(const Action& action);
   void on_message(const MqttMessage& message);
@@ -74,6 +75,7 @@ class Player {
   link::UniqueFd signals_;
   Children children_;
   Story story_;
+  CommandStream commands_;
   RobotReport report_;
   std::optional<OperatorClient> client_;
   bool was_subscribed_ = false;

@@ -17,12 +17,18 @@ void Player::take_steps(Time t) {
     }
   }
   for (const auto* step : story_.take_due(t, truth)) {
-    for (const auto& action : step->actions) act(action);
+    for (const auto& action : step->actions) act(action, t);
     if (!step->name.empty()) happened(step->name);
   }
 }
 
-void Player::act(const Action& action) {
+void Player::command_joints(Time t) {
+  if (const auto message = commands_.due(t))
+    client_->publish(std::string(kJointCommandTopic), *message, false);
+  if (commands_.ends(t)) happened("commands_end");
+}
+
+void Player::act(const Action& action, Time now) {
   using Kind = Action::Kind;
   switch (action.kind) {
     case Kind::sim:
@@ -43,6 +49,9 @@ void Player::act(const Action& action) {
     case Kind::save: return save_track();
     case Kind::start_task: return start_task(action);
     case Kind::cli: return start("drover", action.text);
+    case Kind::joint_commands:
+      tell("joint commands for " + std::to_string(to_s(action.stream.lasts)) + " s");
+      return commands_.begin(action.stream, now);
   }
 }
 

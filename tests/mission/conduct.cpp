@@ -95,10 +95,13 @@ Problems check_frames(const Record& record) {
 Problems check_motion(const Record& record) {
   Problems problems;
   const auto list = tasks(record);
+  auto permitted = list;
+  for (const auto& stream : streams(record.joint_commands))
+    permitted.push_back({stream.begin, stream.last + kStreamTimeout + kRamp});
   for (const auto& one : record.moving())
-    if (!inside(list, one.time))
+    if (!inside(permitted, one.time))
       add(problems, seconds(one.time) + ": node " + std::to_string(one.wheel.node) +
-                        " is told to move outside of any task");
+                        " is told to move outside of any task and stream of joint commands");
   for (const auto& one : record.feedback) {
     if (one.cmd != "start_nav_success") continue;
     Time begin = kNever;

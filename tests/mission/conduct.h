@@ -19,8 +19,9 @@ Problems check_frames(const Record& record);
 Problems check_form(const Record& record);
 /// base_status: 10.0 Hz to 0.1 while gateway and broker run; back within 2 s of their start.
 Problems check_rate(const Record& record);
-/// Set points with motion only between an accepted start_task and the end of that task; navigation
-/// is announced when the first of them goes out.
+/// Set points with motion only between an accepted start_task and the end of that task, or while a
+/// stream of joint commands lives and in its ramp; navigation is announced when a task's first goes
+/// out.
 Problems check_motion(const Record& record);
 /// pose and rtk of one message are of one instant, and angle and yaw are one heading.
 Problems check_pose(const Record& record);

@@ -175,6 +175,54 @@ TEST(MissionChecks, FindMotionWithoutAnAcceptedStart) {
   EXPECT_THAT(check_motion(logs.read()), Not(IsEmpty()));
 }
 
+/// A message for one joint, the velocity as the hexadecimal digits of its eight bytes.
+std::string joint_command(const std::string& joint, const std::string& velocity) {
+  std::string hex;
+  for (const char c : joint) {
+    std::array<char, 3> digits{};
+    std::snprintf(digits.data(), digits.size(), "%02x", static_cast<unsigned>(c));
+    hex += digits.data();
+  }
+  std::array<char, 16> head{};
+  std::snprintf(head.data(), head.size(), "12%02x0a%02x", static_cast<unsigned>(joint.size() + 11),
+                static_cast<unsigned>(joint.size()));
+  return std::string(kJointCommandTopic) + " 0 02706200" + head.data() + hex + "19" + velocity;
+}
+
+TEST(MissionChecks, PermitMotionToAStreamThatBeganAtRestAndIsSound) {
+  const std::string rest = "0000000000000000";
+  const std::string one = "000000000000f03f";
+  const std::string nan = "000000000000f87f";
+  struct Case {
+    std::string first, then;
+    bool permitted;
+  };
+  for (const auto& [first, then, permitted] :
+       {Case{joint_command("front_left", rest), joint_command("front_left", one), true},
+        Case{joint_command("front_left", one), joint_command("front_left", one), false},
+        Case{joint_command("wing", rest), joint_command("front_left", one), false},
+        Case{joint_command("front_left", nan), joint_command("front_left", one), false}}) {
+    Logs logs;
+    logs.say(50, first);
+    logs.say(90, then);
+    logs.can[10].text = "can0 08D#0100000000000000";
+    EXPECT_THAT(check_motion(logs.read()), testing::SizeIs(permitted ? 0 : 1)) << first << then;
+  }
+}
+
+TEST(MissionChecks, FindMotionLongAfterAStreamFellSilent) {
+  Logs logs;
+  logs.say(50, joint_command("front_left", "0000000000000000"));
+  logs.can[190].text = "can0 08D#0100000000000000";
+  EXPECT_THAT(check_motion(logs.read()), testing::SizeIs(1));
+}
+
+TEST(MissionChecks, RefuseARecordWithAJointCommandThatIsNone) {
+  Logs logs;
+  logs.say(50, std::string(kJointCommandTopic) + " 0 0270620012ff");
+  EXPECT_ANY_THROW((void)logs.read());
+}
+
 TEST(MissionChecks, FindMotionThatOutlivesTheGateway) {
   Logs logs;
   logs.tell(5000, "signal 9 to droverd");

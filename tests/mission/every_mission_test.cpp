@@ -26,7 +26,7 @@ TEST_P(EveryMission, SendsNoFrameThatIsNotOnTheList) {
   EXPECT_THAT(check_frames(log()), IsEmpty());
 }
 
-TEST_P(EveryMission, MovesNothingOutsideOfATask) {
+TEST_P(EveryMission, MovesNothingOutsideOfATaskOrAStream) {
   EXPECT_THAT(check_motion(log()), IsEmpty());
 }
 
@@ -73,7 +73,7 @@ INSTANTIATE_TEST_SUITE_P(Each, EveryMission,
                                          "fix_float_fix", "estop", "obstacle", "broker_restart",
                                          "kill_on_ramp", "hang", "long", "imu_faults",
                                          "battery_faults", "battery_empty", "outage_on_curve",
-                                         "receiver_replugged"),
+                                         "receiver_replugged", "joint_commands"),
                          [](const auto& one) { return std::string(one.param); });
 
 }  // namespace

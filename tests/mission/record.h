@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "mission/joint_command.h"
 #include "mission/log_lines.h"
 #include "mission/track.h"
 #include "mission/wire.h"
@@ -45,7 +46,8 @@ struct Record {
   // What the lines above mean:
   std::vector<Status> statuses;
   std::vector<Feedback> feedback;
-  std::vector<Sent> sent;     ///< every Set_Input_Vel on the bus, whoever sent it
+  std::vector<Sent> sent;  ///< every Set_Input_Vel on the bus, whoever sent it
+  std::vector<JointCommandLine> joint_commands;
   std::vector<Place> track;   ///< of the last save_trajectory, in the simulator's frame
   std::size_t target_id = 0;  ///< of the last start_task, from 1
 

@@ -5,23 +5,38 @@
 #include <cmath>
 
 namespace drover::engine {
+namespace {
+
+using namespace std::chrono_literals;
+
+// A stream of 200 refused messages a second is one line in the journal.
+constexpr Duration kSameAgain = 1s;
+constexpr Duration kBetweenNews = 200ms;
+
+Reason text_of(const char* what, std::string_view why) {
+  Reason text;
+  text.format("%s%.*s", what, static_cast<int>(why.size()), why.data());
+  return text;
+}
+
+}  // namespace
 
 void JointStream::take(const JointTargets& targets, std::string_view busy, Time now) {
   std::array<double, kMaxAxes> wanted{};
   for (const JointTarget& joint : targets.joints) {
     if (joint.axis >= kMaxAxes || !std::isfinite(joint.velocity_radps)) {
-      return refuse("a joint or a velocity that cannot be");
+      return reject("a joint or a velocity that cannot be");
     }
     wanted[joint.axis] = joint.velocity_radps;
   }
   const bool neutral = std::all_of(wanted.begin(), wanted.end(), [](double v) { return v == 0; });
   if (!busy.empty()) {
     if (following_) end(busy);
-    if (!neutral) return refuse(busy);
+    if (!neutral) return reject(busy);
     last_ = now;
     return;
   }
-  if (!following_ && !neutral) return refuse("a stream of joint commands begins with velocity 0");
+  if (!following_ && !neutral) return reject("a stream of joint commands begins with velocity 0");
   if (!following_) since_ = now;
   following_ = true;
   last_ = now;
@@ -35,11 +50,29 @@ void JointStream::refuse(const Reason& why) {
   reason_ = why;
 }
 
+void JointStream::reject(const Reason& why) {
+  refuse(why);
+  news_ = text_of("joint command refused: ", why);
+}
+
+void JointStream::announce(Time now, EventQueue& events) {
+  if (news_.empty() || now - told_at_ < kBetweenNews) return;
+  const bool same = news_ == told_ && now < same_until_;
+  same_until_ = now + kSameAgain;
+  if (!same) {
+    events.notice(now, Notice::Level::warning, news_);
+    told_ = news_;
+    told_at_ = now;
+  }
+  news_.clear();
+}
+
 void JointStream::end(std::string_view why) {
   if (!following_) return;
   following_ = false;
   velocities_.fill(0);
   reason_ = why;
+  news_ = text_of("joint commands ended: ", why);
 }
 
 void JointStream::step(Time now) {

@@ -5,6 +5,7 @@
 
 #include "drover/command.h"
 #include "drover/snapshot.h"
+#include "engine/event_queue.h"
 
 namespace drover::engine {
 
@@ -16,12 +17,14 @@ class JointStream final {
 
   /// `busy`: why joint commands cannot be followed now; empty: they can.
   void take(const JointTargets& targets, std::string_view busy, Time now);
-  /// A message that was not permitted before it came here.
+  /// A message that was not permitted before it came here, which the journal knows already.
   void refuse(const Reason& why);
   /// Ends it for a cause that lies elsewhere.
   void end(std::string_view why);
   /// Once a cycle: notices silence.
   void step(Time now);
+  /// Tells what was refused or has ended, once for a row of messages of which the same holds.
+  void announce(Time now, EventQueue& events);
 
   bool following() const { return following_; }
   bool wants_motion() const;
@@ -32,6 +35,8 @@ class JointStream final {
   JointCommandSnapshot snapshot() const { return {following_, accepted_, refused_, reason_}; }
 
  private:
+  void reject(const Reason& why);
+
   Duration timeout_;
   bool following_ = false;
   Time last_ = kNever;
@@ -40,6 +45,10 @@ class JointStream final {
   std::uint64_t accepted_ = 0;
   std::uint64_t refused_ = 0;
   Reason reason_;
+  Reason news_;  ///< not announced yet; the newest is told
+  Reason told_;
+  Time told_at_ = kNever;
+  Time same_until_ = kNever;  ///< until then the same is no news
 };
 
 }  // namespace drover::engine

@@ -143,6 +143,7 @@ const Motion& Owners::step(const OwnInput& input, EventQueue& events) {
   if (motion_.owner == Owner::nobody && !at_rest()) {
     motion_.owner = motion_.joints ? Owner::joint_command : Owner::task;
   }
+  stream_.announce(input.now, events);
   return motion_;
 }
 

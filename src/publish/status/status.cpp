@@ -222,6 +222,15 @@ void origin(JsonText& out, const Snapshot& s) {
   out.close('}');
 }
 
+void joint_commands(JsonText& out, const JointCommandSnapshot& s) {
+  out.key("joint_commands").open('{');
+  out.key("active").boolean(s.active);
+  out.key("accepted").integer(static_cast<std::int64_t>(s.accepted));
+  out.key("refused").integer(static_cast<std::int64_t>(s.refused));
+  out.key("reason").text(s.reason.view());
+  out.close('}');
+}
+
 void daemon_part(JsonText& out, const Snapshot& s, const DaemonStatus& daemon) {
   out.key("guard").open('{');
   out.key("alive").boolean(s.guard_alive);
@@ -254,6 +263,7 @@ std::string status_json(const Snapshot& s, const DaemonStatus& daemon) {
   for (const auto& reason : s.why) out.text(reason.view());
   out.close(']');
   nav(out, s);
+  joint_commands(out, s.joint_command);
   pose(out, s);
   origin(out, s);
   gnss(out, s);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
@@ -48,6 +49,9 @@ TEST(AMission, RefusesWhatItDoesNotKnowAndNamesThePlace) {
   expect_refused(R"([{"do": {"kill": "droverd", "signal": "HUP"}}])", "signal");
   expect_refused(R"([{"when": {"x_above": 1}, "do": {"save": true}}])", "x_above");
   expect_refused(R"([{"do": {"start_task": {"id": 0}}}])", "id");
+  expect_refused(R"([{"do": {"joint_commands": {"velocities_radps": {"a": 1}}}}])", "for_s");
+  expect_refused(R"([{"do": {"joint_commands": {"velocities_radps": {"a": "fast"}, "for_s": 1}}}])",
+                 "joint_commands.velocities_radps.a");
   expect_refused(R"([{"delay_s": -1, "do": {"save": true}}])", "delay_s");
   expect_refused(R"([{"do": [{"save": true}, {"sim": "quit", "x": 1}]}])", "steps[0].do[1].x");
 }
@@ -67,7 +71,8 @@ TEST(AMission, ReadsStepsWithTheirActions) {
   with["mission"]["steps"] = json::parse(R"([
     {"name": "n", "after": "start_nav#2", "delay_s": 1.5, "when": {"pitch_rad_below": -0.1},
      "do": [{"kill": "droverd", "signal": "STOP"}, {"publish": {"cmd": "x"}, "retain": true},
-            {"publish": "{broken", "topic": "t"}, {"start_task": {"id": 2, "speed_mps": 0.3}}]}])");
+            {"publish": "{broken", "topic": "t"}, {"start_task": {"id": 2, "speed_mps": 0.3}},
+            {"joint_commands": {"velocities_radps": {"a": 1, "b": "nan"}, "for_s": 2}}]}])");
   const auto mission = read_mission(with);
   ASSERT_EQ(mission.steps.size(), 1U);
   const auto& step = mission.steps[0];
@@ -75,13 +80,18 @@ TEST(AMission, ReadsStepsWithTheirActions) {
   EXPECT_EQ(step.delay, std::chrono::milliseconds(1500));
   ASSERT_TRUE(step.when);
   EXPECT_FALSE(step.when->above);
-  ASSERT_EQ(step.actions.size(), 4U);
+  ASSERT_EQ(step.actions.size(), 5U);
   EXPECT_EQ(step.actions[0].signal, SIGSTOP);
   EXPECT_EQ(step.actions[1].text, R"({"cmd":"x"})");
   EXPECT_EQ(step.actions[1].topic, "mqtt_control");
   EXPECT_TRUE(step.actions[1].retain);
   EXPECT_EQ(step.actions[2].text, "{broken");
   EXPECT_EQ(step.actions[3].id, 2U);
+  const auto& stream = step.actions[4].stream;
+  ASSERT_EQ(stream.joints.size(), 2U);
+  EXPECT_EQ(stream.joints[0].velocity_radps, 1);
+  EXPECT_TRUE(std::isnan(stream.joints[1].velocity_radps));
+  EXPECT_EQ(stream.lasts, std::chrono::seconds(2));
 }
 
 TEST(SetMember, ChangesOneMemberAndRefusesWhatIsNoAssignment) {

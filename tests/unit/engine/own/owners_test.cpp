@@ -1,4 +1,5 @@
 // Who may move the base: joint commands, the straight way for a heading, and their betters.
+#include <algorithm>
 #include <cmath>
 
 #include "../engine_fixture.h"
@@ -88,6 +89,24 @@ TEST_F(JointCommands, AreRefusedWhileATaskDrives) {
   EXPECT_EQ(rig.snapshot().nav.owner, Owner::task);
   EXPECT_THAT(reason(), HasSubstr("a task owns the drives"));
   EXPECT_EQ(rig.snapshot().nav.status, NavStatus::run);
+}
+TEST_F(JointCommands, ThatAreRefusedInARowAreToldOnceInTheJournal) {
+  const auto told = [this](const std::string& text) {
+    const auto notices = rig.said<Notice>();
+    return std::count_if(notices.begin(), notices.end(),
+                         [&](const Notice& notice) { return notice.text == text; });
+  };
+  drive();
+  stream_s(2, 3);
+  EXPECT_EQ(told("joint command refused: a task owns the drives"), 1);
+  rig.run_s(2);
+  stream_s(2, 1);
+  EXPECT_EQ(told("joint command refused: a task owns the drives"), 2) << "another stream";
+  rig.command(CancelTask{});
+  rig.run_s(2);
+  drive_by_joints();
+  rig.run_s(0.5);
+  EXPECT_EQ(told("joint commands ended: the stream of joint commands fell silent"), 1);
 }
 TEST_F(JointCommands, ThatMoveTheRobotHinderATask) {
   rig.settle();

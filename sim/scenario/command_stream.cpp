@@ -1,0 +1,61 @@
+#include "sim/scenario/command_stream.h"
+
+#include <bit>
+#include <cstdint>
+
+namespace drover::sim {
+namespace {
+
+// Protobuf: a field's tag is its number and, in the lowest three bits, how its value is written.
+constexpr char kName = 1 << 3 | 2;      // bytes with their length
+constexpr char kVelocity = 3 << 3 | 1;  // eight bytes, the lowest first
+constexpr char kJoint = 2 << 3 | 2;
+
+/// Seven bits a byte, the lowest first.
+std::string varint(std::size_t value) {
+  std::string bytes;
+  for (; value >= 0x80; value >>= 7U) bytes += static_cast<char>(value % 0x80 + 0x80);
+  return bytes + static_cast<char>(value);
+}
+
+std::string with_length(char tag, const std::string& bytes) {
+  return tag + varint(bytes.size()) + bytes;
+}
+
+std::string double_bytes(double value) {
+  auto bits = std::bit_cast<std::uint64_t>(value);
+  std::string bytes;
+  for (int i = 0; i < 8; ++i, bits >>= 8U) bytes += static_cast<char>(bits & 0xFFU);
+  return bytes;
+}
+
+}  // namespace
+
+std::string joint_command_packet(const std::vector<JointVelocity>& joints) {
+  std::string packet("\x02pb\0", 4);
+  for (const auto& joint : joints)
+    packet += with_length(
+        kJoint, with_length(kName, joint.joint) + kVelocity + double_bytes(joint.velocity_radps));
+  return packet;
+}
+
+void CommandStream::begin(const CommandStreamSpec& spec, Time now) {
+  payload_ = joint_command_packet(spec.joints);
+  period_ = from_s(1 / spec.rate_Hz);
+  next_ = now;
+  end_ = now + spec.lasts;
+}
+
+std::optional<std::string_view> CommandStream::due(Time now) {
+  if (now < next_ || now >= end_) return std::nullopt;
+  next_ = std::max(next_ + period_, now);
+  return payload_;
+}
+
+bool CommandStream::ends(Time now) {
+  if (now < end_) return false;
+  next_ = end_ = Time::max();
+  return true;
+}
+
+}  // namespace drover::sim
