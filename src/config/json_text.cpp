@@ -103,10 +103,14 @@ JsonText& JsonText::integer(std::int64_t value) {
 
 JsonText& JsonText::number(double value) {
   separate();
+  if (!std::isfinite(value)) value = 0;
   std::array<char, 40> digits{};
-  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(),
-                                 std::isfinite(value) ? value : 0.0);
-  out_.append(digits.data(), end.ptr);
+  auto* const end = digits.data() + digits.size();
+  // Digits alone are an integer to who reads them, and beyond 64 bits they are none.
+  const bool large = std::abs(value) >= 0x1p63;
+  const auto done = large ? std::to_chars(digits.data(), end, value, std::chars_format::scientific)
+                          : std::to_chars(digits.data(), end, value);
+  out_.append(digits.data(), done.ptr);
   return *this;
 }
 

@@ -140,8 +140,11 @@ TEST(LocatedJson, ShowsForeignTextOnOneShortLine) {
 }
 
 TEST(JsonText, WritesNumbersThatReadBackToTheSameBits) {
-  for (const double value : {0.004363323129985824, 113.0196366456667, 23.1496524965, -0.0, 1e-300,
-                             188.2222333, 1.7976931348623157e308, 0.1 + 0.2}) {
+  for (const double value :
+       {0.004363323129985824, 113.0196366456667, 23.1496524965, -0.0, 1e-300, 188.2222333,
+        1.7976931348623157e308, 0.1 + 0.2,
+        // As many digits as an integer has that fits into 64 bits, or not.
+        9223372036854775808.0, 25123456789012344832.0, -123456789012345683968.0}) {
     JsonText out;
     out.open('[').number(value).close(']');
     const auto parsed = parse(out.str());
