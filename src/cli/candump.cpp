@@ -1,5 +1,6 @@
 #include "cli/candump.h"
 
+#include <algorithm>
 #include <cctype>
 #include <sstream>
 
@@ -30,6 +31,13 @@ std::optional<Time> parse_stamp(std::string_view text) {
   if (seconds > 8'000'000'000) return std::nullopt;  // beyond what nanoseconds hold
   for (auto n = digits.size(); n < 9; ++n) fraction *= 10;
   return Time{Duration{seconds * 1'000'000'000 + fraction}};
+}
+
+/// A name that an interface may have, and that does nothing to a terminal.
+bool is_bus(std::string_view name) {
+  constexpr std::size_t kLongest = 15;  // linux/if.h
+  return name.size() <= kLongest &&
+         std::all_of(name.begin(), name.end(), [](char c) { return c > 0x20 && c < 0x7F; });
 }
 
 bool parse_data(std::string_view hex, CanFrame& frame) {
@@ -85,7 +93,7 @@ std::optional<LoggedFrame> parse_candump(std::string_view line) {
   if (!(words >> stamp >> bus >> frame_text)) return std::nullopt;
   const auto time = parse_stamp(stamp);
   const auto frame = parse_frame(frame_text);
-  if (!time || !frame) return std::nullopt;
+  if (!time || !frame || !is_bus(bus)) return std::nullopt;
   return LoggedFrame{*time, bus, *frame};
 }
 

@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "cli/hex.h"
+#include "config/located_json.h"
 
 namespace drover::cli {
 
@@ -69,7 +70,7 @@ std::string RegisterLog::add_words(std::string_view head, std::string_view words
     words.remove_prefix(begin);
     const auto word = words.substr(0, words.find_first_of(" \t\r"));
     const auto value = from_hex(word);
-    if (!value || *value > 0xFFFF) return "\"" + std::string(word) + "\" is no word";
+    if (!value || *value > 0xFFFF) return "\"" + json::shown(word, 20) + "\" is no word";
     values.push_back(static_cast<std::uint16_t>(*value));
     words.remove_prefix(word.size());
   }

@@ -10,7 +10,9 @@ TEST(Candump, RefusesWhatIsNoLoggedFrame) {
        {"", "can0 123#00", "(1.5) can0", "(1.5) can0 123", "(1.5) can0 12#00", "(x.5) can0 123#00",
         "(1) can0 123#00", "(-1.5) can0 123#00", "(1.5) can0 123#0", "(1.5) can0 123#0G",
         "(1.5) can0 800#00", "(1.5) can0 123#001122334455667788", "(1.5) can0 123#R9",
-        "(1.5) can0 123##", "(1.5) can0 FFFFFFFF#00", "(99999999999.5) can0 123#00"})
+        "(1.5) can0 123##", "(1.5) can0 FFFFFFFF#00", "(99999999999.5) can0 123#00",
+        // No interface has such a name, and on a terminal it would do something.
+        "(1.5) c\x1b[2J 123#00", "(1.5) can\x80 123#00", "(1.5) abcdefghijklmnop 123#00"})
     EXPECT_FALSE(parse_candump(line)) << line;
 }
 

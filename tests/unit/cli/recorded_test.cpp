@@ -152,7 +152,7 @@ TEST(Recordings, OfABatteryAreDecodedWhicheverBlocksTheMasterRead) {
   for (int i = 0; i < 28; ++i) text += " 0000";
   text += " 003C 003D 003E 003F 0000 0000 0000 0000\n0x28: 008C 754E 0384 103D 101F 0000 0000 ";
   text += "0000 0D80 0004 0004 0039 0001 0000 0001 102E 0141 002A 0000 0000 0000 0000\n";
-  text += "5/0: 1\n0x3E: 12345\n";
+  text += "5/0: 1\n0x3E: 12345\n0x3E: \x1b[2J\n";
   const auto shown = show("bms", text,
                           {.driver = "modbus_bms",
                            .map = std::string(DROVER_SOURCE_DIR) + "/config/maps/daly_d2.json"});
@@ -163,7 +163,7 @@ TEST(Recordings, OfABatteryAreDecodedWhicheverBlocksTheMasterRead) {
       << shown.notes;
   EXPECT_EQ(shown.notes,
             "line 3: the function is neither 3 nor 4\nline 4: \"12345\" is no word\n"
-            "measurements 1, lines not understood 2\n");
+            "line 5: \"?[2J\" is no word\nmeasurements 1, lines not understood 3\n");
 }
 
 }  // namespace
