@@ -70,8 +70,12 @@ std::string plain_message(std::string_view what) {
     what.remove_prefix(end + 2);
   }
   std::string message(what.substr(0, std::min(what.find("; last read"), std::size_t{120})));
-  if (const auto expected = what.rfind("; expected"); expected != what.npos) {
-    if (message.size() <= expected) message += what.substr(expected, 80);
+  if (message.size() == what.size()) return message;
+  // What it had read may itself speak of what is expected.
+  for (const std::string_view token :
+       {"string literal", "':'", "'}'", "']'", "end of input", "'[', '{', or a literal"}) {
+    const std::string expected = "; expected " + std::string(token);
+    if (what.ends_with(expected)) return message + expected;
   }
   return message;
 }

@@ -135,6 +135,16 @@ TEST(LocatedJson, TellsWhereEachValueStandsPastCommentsAndWideCharacters) {
 TEST(LocatedJson, ShowsForeignTextOnOneShortLine) {
   EXPECT_EQ(refusal("{\"a\\nb\":{\"x\":1,\"x\":2}}"),
             "line 1, column 16 (a?b.x): this key is there twice");
+  // What the parser read last is not quoted, whatever it looks like.
+  EXPECT_EQ(refusal("/*'; expected \xAD"),
+            "line 1, column 15: syntax error while parsing value - invalid comment; missing "
+            "closing '*/'");
+  EXPECT_EQ(refusal("{\"; expected x"),
+            "line 1, column 2: syntax error while parsing object key - invalid string: missing "
+            "closing quote; expected string literal");
+  EXPECT_EQ(refusal("[1"),
+            "line 1, column 3 ([1]): syntax error while parsing array - unexpected end of input; "
+            "expected ']'");
   EXPECT_EQ(shown("园区01", 5), "园...");
   EXPECT_EQ(shown("园区01", 8), "园区01");
 }
