@@ -36,7 +36,9 @@ struct DriveSpec {
 
 struct GnssSpec {
   const DriverEntry* driver = nullptr;
-  std::string port = "gnss";  ///< symbolic link to the pseudo-terminal; relative: in the run folder
+  /// Symbolic link to the pseudo-terminal; relative: in the run folder. "usb:1546:01a9": see
+  /// serial_port.h.
+  std::string port = "gnss";
   int baud = 115200;
   Options options;
   // Antenna in base_link.

@@ -10,6 +10,8 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "sim/robot/pty.h"
+
 namespace drover::sim {
 namespace {
 
@@ -55,6 +57,8 @@ std::size_t BaudPacer::take(std::size_t waiting, Duration tick) {
 
 SerialPort::SerialPort(const std::string& link_path, int baud)
     : link_path_(link_path), pacer_(baud) {
+  constexpr std::string_view kUsb = "usb:";
+  if (link_path.starts_with(kUsb)) usb_.emplace(link_path.substr(kUsb.size()));
   plug();
 }
 
@@ -64,20 +68,25 @@ SerialPort::~SerialPort() {
 
 void SerialPort::plug() {
   if (plugged()) return;
+  line_ = usb_ ? usb_->plug() : linked_terminal();
+  listening_ = false;
+}
+
+link::UniqueFd SerialPort::linked_terminal() {
   Pty pty = open_pty();
   // While we hold the slave ourselves, nothing tells whether somebody else does.
   pty.slave.reset();
   ::unlink(link_path_.c_str());
   if (::symlink(pty.slave_path.c_str(), link_path_.c_str()) != 0)
     throw std::runtime_error(link_path_ + ": cannot link: " + std::strerror(errno));
-  pty_ = std::move(pty);
-  listening_ = false;
+  return std::move(pty.master);
 }
 
 void SerialPort::unplug() {
   if (!plugged()) return;
-  ::unlink(link_path_.c_str());
-  pty_.reset();
+  if (!usb_) ::unlink(link_path_.c_str());
+  line_.reset();
+  if (usb_) usb_->unplug();
   queue_.clear();
   heard_.clear();
 }
@@ -90,17 +99,18 @@ char SerialPort::noise() {
 // Asked when the device has something to say: a system call for each tick is dear.
 void SerialPort::look() {
   ticks_since_look_ = 0;
-  pollfd line{pty_->master.get(), POLLIN, 0};
-  listening_ = ::poll(&line, 1, 0) >= 0 && (line.revents & POLLHUP) == 0;
+  pollfd line{line_.get(), POLLIN, 0};
+  listening_ = ::poll(&line, 1, 0) >= 0 && (line.revents & POLLHUP) == 0 &&
+               (!usb_ || UsbGadget::is_taken(line_.get()));
   if (!listening_) return;
-  const int host = host_baud(pty_->master.get());
+  const int host = usb_ ? 0 : host_baud(line_.get());
   speeds_agree_ = host == 0 || host == pacer_.baud();
   if ((line.revents & POLLIN) != 0) hear();
 }
 
 void SerialPort::hear() {
   std::array<std::uint8_t, 512> bytes{};
-  for (ssize_t n = 0; (n = ::read(pty_->master.get(), bytes.data(), bytes.size())) > 0;)
+  for (ssize_t n = 0; (n = ::read(line_.get(), bytes.data(), bytes.size())) > 0;)
     heard_.insert(heard_.end(), bytes.begin(), bytes.begin() + n);
   if (speeds_agree_) return;
   for (auto& byte : heard_) byte = static_cast<std::uint8_t>(noise());
@@ -119,7 +129,7 @@ void SerialPort::pump(std::string_view said, Duration tick) {
   if (bytes == 0) return;
   if (listening_) {
     if (!speeds_agree_) std::generate_n(queue_.begin(), bytes, [this] { return noise(); });
-    const auto n = ::write(pty_->master.get(), queue_.data(), bytes);
+    const auto n = ::write(line_.get(), queue_.data(), bytes);
     dropped_ += bytes - static_cast<std::size_t>(std::max<ssize_t>(n, 0));
   }
   queue_.erase(0, bytes);

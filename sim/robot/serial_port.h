@@ -1,4 +1,5 @@
-// A device's serial line: a pseudo-terminal with the pace and the speed of a real one, both ways.
+// A device's serial line: a pseudo-terminal with the pace and the speed of a real one, both ways;
+// or one on USB.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +10,8 @@
 #include <vector>
 
 #include "drover/time.h"
-#include "sim/robot/pty.h"
+#include "link/unique_fd.h"
+#include "sim/robot/usb_gadget.h"
 
 namespace drover::sim {
 
@@ -32,7 +34,8 @@ class BaudPacer {
 /// device.
 class SerialPort {
  public:
-  /// Makes `link_path` a symbolic link to the pseudo-terminal. Throws std::runtime_error.
+  /// Makes `link_path` a symbolic link to the pseudo-terminal; "usb:1546:01a9" is a device on USB
+  /// of that vendor and product instead, which knows no speed. Throws std::runtime_error.
   SerialPort(const std::string& link_path, int baud);
   ~SerialPort();
   SerialPort(const SerialPort&) = delete;
@@ -47,19 +50,22 @@ class SerialPort {
   void set_baud(int baud) { pacer_.set_baud(baud); }
   /// Pulls the plug: the reader's descriptor hangs up and the link is gone.
   void unplug();
-  /// Another pseudo-terminal under the same link. Throws std::runtime_error.
+  /// Another pseudo-terminal under the same link, or the device on USB under another name. Throws
+  /// std::runtime_error.
   void plug();
-  bool plugged() const { return pty_.has_value(); }
+  bool plugged() const { return static_cast<bool>(line_); }
   /// Bytes that nobody took although the line was open, or that the line had no time for.
   std::uint64_t dropped() const { return dropped_; }
 
  private:
+  link::UniqueFd linked_terminal();
   void look();
   void hear();
   char noise();
 
   std::string link_path_;
-  std::optional<Pty> pty_;
+  std::optional<UsbGadget> usb_;
+  link::UniqueFd line_;  ///< the device's end
   BaudPacer pacer_;
   std::string queue_;
   std::vector<std::uint8_t> heard_;

@@ -83,7 +83,10 @@ Simulator::Simulator(const SimulatorSettings& settings)
   // Before the signals are blocked, which a child (`ip`) would inherit.
   for (const auto& bus : scenario.buses) buses_.push_back(make_port(bus, settings_));
   const std::filesystem::path folder(settings_.run_folder);
-  if (scenario.gnss) gnss_.emplace((folder / scenario.gnss->port).string(), scenario.gnss->baud);
+  if (scenario.gnss) {
+    const auto& port = scenario.gnss->port;
+    gnss_.emplace(port.starts_with("usb:") ? port : (folder / port).string(), scenario.gnss->baud);
+  }
   if (scenario.imu) imu_.emplace((folder / scenario.imu->port).string(), scenario.imu->baud);
   if (scenario.battery)
     battery_.emplace((folder / scenario.battery->port).string(), scenario.battery->baud,

@@ -112,7 +112,8 @@ bool Player::finish() {
   recording_ = false;
   interrupted_ = false;
   broken_.clear();
-  for (const auto* name : {"drover-sim", "droverd", "drover-guard", "mosquitto"}) end_program(name);
+  for (const auto* name : {"drover-sim", "droverd", "drover-guard", "udevd", "mosquitto"})
+    end_program(name);
   events_log_.flush();
   mqtt_log_.flush();
   return broken_.empty();
@@ -130,6 +131,10 @@ void Player::end_program(const std::string& name) {
 void Player::boot() {
   client_.emplace(workplace_.port(), [this](const MqttMessage& message) { on_message(message); });
   start("mosquitto");
+  if (workplace_.has_udev()) {
+    start("udevd");
+    wait_for("udevd", [] { return std::filesystem::exists("/run/udev/control"); });
+  }
   start("drover-sim");
   wait_for("the broker", [this] { return client_->subscribed(); });
   wait_for("drover-sim", [this] { return std::filesystem::exists(workplace_.ready_file()); });

@@ -19,6 +19,8 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
+constexpr const char* kUdevd = "/lib/systemd/systemd-udevd";
+
 std::string temporary_folder() {
   auto pattern = (fs::temp_directory_path() / "drover-scenario-XXXXXX").string();
   if (::mkdtemp(pattern.data()) == nullptr)
@@ -83,6 +85,7 @@ Workplace::Workplace(const WorkplaceSettings& settings)
   fs::create_directories(log_folder_);
   auto config = read_config(settings.scenario_file);
   if (settings.native) make_native(config);
+  if (document_["gnss"].value("port", "").starts_with("usb:")) prepare_udev(config);
   guard_socket_ = config["guard"].value("socket", "/run/drover/guard.sock");
   daemon_folder_ = config["paths"].value("run", daemon_folder_);
   fs::create_directories(sim_folder_);
@@ -117,6 +120,20 @@ void Workplace::make_native(json& config) {
   config["control"]["realtime"] = false;
 }
 
+/// A udevd of our own would rename the host's devices: only the lab has none.
+void Workplace::prepare_udev(json& config) {
+  if (settings_.native || std::getenv("DROVER_LAB") == nullptr)
+    throw std::runtime_error("a receiver on USB needs the lab");
+  if (!fs::exists(kUdevd))
+    throw std::runtime_error(std::string(kUdevd) + " is missing: install udev");
+  const auto folder = fs::absolute(fs::path(settings_.scenario_file)).parent_path();
+  udev_rules_ = folder / document_.value("/player/udev_rules"_json_pointer, "");
+  const fs::path rules("/run/udev/rules.d");
+  fs::create_directories(rules);
+  fs::copy_file(udev_rules_, rules / fs::path(udev_rules_).filename());
+  config["gnss"]["port"] = "/dev/drover/gnss";
+}
+
 void Workplace::write_files(const json& config) {
   write_file(private_folder_ + "/scenario.json", document_.dump(1));
   write_file(private_folder_ + "/drover.json", config.dump(1));
@@ -133,6 +150,7 @@ void Workplace::write_files(const json& config) {
 
 Program Workplace::program(const std::string& name, const std::string& words) const {
   const auto broker = name == "mosquitto";
+  if (name == "udevd") return {name, {kUdevd}};
   auto path = find_program(settings_.program_folder, name);
   if (broker)
     for (const char* folder : {"/usr/sbin", "/usr/local/sbin", "/usr/bin"})

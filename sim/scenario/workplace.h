@@ -35,11 +35,15 @@ class Workplace {
   std::string sim_socket() const { return sim_folder_ + "/sim.sock"; }
   std::string guard_socket() const { return guard_socket_; }
   std::string daemon_socket() const { return daemon_folder_ + "/drover.sock"; }
-  /// mosquitto, drover-sim, drover-guard, droverd, or drover with `words` as its arguments.
+  /// Whether devices come and go on USB: then udevd gives them their names, by the rules that the
+  /// scenario names (player.udev_rules).
+  bool has_udev() const { return !udev_rules_.empty(); }
+  /// mosquitto, udevd, drover-sim, drover-guard, droverd, or drover with `words` as its arguments.
   Program program(const std::string& name, const std::string& words = {}) const;
 
  private:
   void make_native(nlohmann::json& config);
+  void prepare_udev(nlohmann::json& config);
   void write_files(const nlohmann::json& config);
 
   WorkplaceSettings settings_;
@@ -49,6 +53,7 @@ class Workplace {
   std::string daemon_folder_ = "/run/drover";
   std::string guard_socket_;
   std::string log_folder_;
+  std::string udev_rules_;  ///< empty: none
   int port_ = 1883;
 };
 

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 
 #include "link/can_open.h"
@@ -209,6 +210,11 @@ TEST_F(Ports, HangUpWhenUnpluggedAndAreThereAgainWhenPlugged) {
 TEST_F(Ports, RemoveTheReceiversLinkAtTheEnd) {
   { const SerialPort port((folder / "gnss").string(), 9600); }
   EXPECT_FALSE(fs::is_symlink(folder / "gnss"));
+}
+
+TEST_F(Ports, RefuseADeviceOnUsbThatIsNoneOrWhoseIdsAreIncomplete) {
+  for (const char* path : {"usb:", "usb:1546"})
+    EXPECT_THROW(SerialPort(path, 9600), std::runtime_error);
 }
 
 TEST(BaudPacer, LetsBytesGoAtTheLinesPace) {
