@@ -12,7 +12,6 @@ constexpr Duration kVtgKeep = std::chrono::seconds(1);
 constexpr Duration kHeadingKeep = std::chrono::seconds(1);
 // GST or RMC of the epoch before may come after the first sentence of the next.
 constexpr Duration kMaxDisorder = std::chrono::seconds(1);
-constexpr double kBitsPerByte = 10;  // start, eight data bits, stop
 constexpr double kPaceWeight = 0.2;
 
 }  // namespace

@@ -11,7 +11,6 @@
 namespace drover::witmotion {
 namespace {
 
-constexpr double kBitsPerByte = 10;  // start, eight data bits, stop
 constexpr Duration kTorn = std::chrono::milliseconds(100);
 constexpr double kUnitTolerance = 0.05;
 constexpr std::uint16_t kNeeded = kAcceleration | kAngularRate;

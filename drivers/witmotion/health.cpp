@@ -8,7 +8,6 @@ namespace {
 
 constexpr Duration kNoFrame = std::chrono::seconds(1);
 constexpr Duration kTellFor = std::chrono::seconds(1);
-constexpr double kPaceTolerance = 1.5;
 
 }  // namespace
 

@@ -8,7 +8,6 @@
 namespace drover::witmotion {
 namespace {
 
-constexpr double kBitsPerByte = 10;   // start, eight data bits, stop
 constexpr double kFullestLine = 0.9;  // of the line's capacity
 
 bool is_combined(const Options& options) {

@@ -19,8 +19,7 @@ constexpr Duration kShort = milliseconds(1500);
 constexpr Duration kCheckAgain = seconds(30);
 constexpr int kMaxTries = 3;
 constexpr int kMaxRounds = 3;
-constexpr int kMaxSaves = 10;  // flash wears out: from then on settings last until power-off
-constexpr double kPaceTolerance = 1.5;
+constexpr int kMaxSaves = 10;         // flash wears out: from then on settings last until power-off
 constexpr std::uint32_t kEnough = 2;  // frames that prove a speed
 
 constexpr std::uint32_t kCandidates[] = {115200, 9600,  921600, 460800, 230400,

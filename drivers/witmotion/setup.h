@@ -33,6 +33,9 @@ struct Observed {
   double pace_Hz = kAbsent;   ///< of output cycles
 };
 
+/// The output's pace may differ from what is set by this factor.
+inline constexpr double kPaceTolerance = 1.5;
+
 /// Listens; asks the device for its registers; writes those that differ, with the maker's pauses;
 /// asks again and saves only what the device has taken. Flash is therefore written when a setting
 /// was wrong, and never at an ordinary start. Begins anew when the link or the device comes back,

@@ -110,6 +110,9 @@ class CanDriver {
   virtual SilenceBehaviour silence() const = 0;
 };
 
+/// Of a serial line as every receiver and sensor here uses it: start, eight data bits, stop.
+inline constexpr double kBitsPerByte = 10;
+
 /// One device on a byte stream; it owns its framer and gives the same result for any chunking.
 class ByteDriver {
  public:

@@ -20,7 +20,6 @@ namespace drover::cli {
 
 namespace {
 
-constexpr double kBitsPerByte = 10;  // start, eight data bits, stop
 constexpr double kUsualBaud = 115200;
 /// Between two rounds of a battery: its recording carries no times.
 constexpr Duration kRound = std::chrono::seconds(1);
@@ -122,15 +121,15 @@ double seconds_of(Time stamp) {
   return static_cast<double>(whole_s) + static_cast<double>(ns % kSecond) / 1e9;
 }
 
-struct Node {
+struct DriveNode {
   std::string name;
   std::unique_ptr<CanDriver> driver;
 };
 
-std::vector<Node> nodes_of(const Recording& recording) {
+std::vector<DriveNode> nodes_of(const Recording& recording) {
   const auto& entry = entry_of(Device::drive, recording.driver);
   const auto make = maker<MakeCanDriver>(entry);
-  std::vector<Node> nodes;
+  std::vector<DriveNode> nodes;
   const auto add = [&](const std::string& name, const std::vector<std::string>& texts) {
     nodes.push_back({name, made(make, options_from(entry.options, texts), AxisId{0})});
   };
@@ -147,7 +146,7 @@ int show_frames(std::istream& in, const Recording& recording, std::ostream& out,
                 std::ostream& notes) {
   Printer printer(recording, out, notes);
   std::optional<CanTable> table;
-  std::vector<Node> nodes;
+  std::vector<DriveNode> nodes;
   if (recording.driver.empty()) {
     if (!recording.nodes.empty() || !recording.options.empty())
       throw WrongUsage("--node and --option need --driver");

@@ -8,8 +8,6 @@ namespace drover::link {
 
 namespace {
 
-constexpr std::string_view kFilesPrefix = "files:";
-
 class FileLines final : public LineLink {
  public:
   explicit FileLines(std::vector<UniqueFd> files) : files_(std::move(files)) {}

@@ -8,8 +8,6 @@ namespace drover::link {
 
 namespace {
 
-constexpr const char* kConsumer = "droverd";
-
 std::string missing_line(const LineSettings& settings, const std::string& line) {
   return "gpio " + settings.chip + ": no line named \"" + line + "\"";
 }

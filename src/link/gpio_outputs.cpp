@@ -8,14 +8,12 @@
 #include <algorithm>
 #include <cstring>
 
+#include "link/lines.h"
 #include "link/outputs.h"
 
 namespace drover::link {
 
 namespace {
-
-constexpr const char* kConsumer = "droverd";
-constexpr std::string_view kFilesPrefix = "files:";
 
 class GpioOutputs final : public OutputLink {
  public:

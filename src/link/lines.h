@@ -5,6 +5,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "link/opened.h"
@@ -12,6 +13,10 @@
 namespace drover::link {
 
 inline constexpr std::size_t kMaxLines = 16;
+/// Who holds a line, as gpioinfo shows it.
+inline constexpr const char* kConsumer = "droverd";
+/// Before a folder that stands for a chip.
+inline constexpr std::string_view kFilesPrefix = "files:";
 
 /// The seam between the two kinds of lines.
 class LineLink {

@@ -29,8 +29,8 @@ constexpr int kMostDoublings = 2;
 constexpr int kTcpMostUnanswered = 3;
 
 /// libmodbus takes any other rate for 9600 without a word.
-constexpr int kBaudRates[] = {1200,  2400,   4800,   9600,   19200, 38400,
-                              57600, 115200, 230400, 460800, 921600};
+constexpr int kModbusBaudRates[] = {1200,  2400,   4800,   9600,   19200, 38400,
+                                    57600, 115200, 230400, 460800, 921600};
 
 }  // namespace
 
@@ -190,8 +190,8 @@ bool descriptors_left() {
 
 Opened<ModbusLink> open_modbus(const ModbusSettings& settings, NowFunction now) {
   const bool tcp = settings.port.starts_with("tcp:");
-  if (!tcp && std::find(std::begin(kBaudRates), std::end(kBaudRates), settings.baud) ==
-                  std::end(kBaudRates)) {
+  if (!tcp && std::find(std::begin(kModbusBaudRates), std::end(kModbusBaudRates), settings.baud) ==
+                  std::end(kModbusBaudRates)) {
     Opened<ModbusLink> opened;
     opened.problem =
         settings.port + ": baud rate " + std::to_string(settings.baud) + " is not supported";

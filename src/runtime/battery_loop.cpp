@@ -17,8 +17,8 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr Duration kFirstPause = 500ms;
-constexpr Duration kLongestPause = 10s;
+constexpr Duration kFirstBatteryPause = 500ms;
+constexpr Duration kLongestBatteryPause = 10s;
 /// The longest sleep: the thread shows that it lives.
 constexpr Duration kLongestSleep = 1s;
 
@@ -90,7 +90,7 @@ void BatteryLoop::lose(const std::string& why, Time now) {
     closed_.late_bytes += last.late_bytes;
   }
   link_.reset();
-  pause_ = std::clamp(pause_ * 2, kFirstPause, kLongestPause);
+  pause_ = std::clamp(pause_ * 2, kFirstBatteryPause, kLongestBatteryPause);
   next_open_ = now + pause_;
 }
 

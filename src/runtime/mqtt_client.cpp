@@ -13,8 +13,8 @@ namespace drover::runtime {
 
 namespace {
 
-constexpr Duration kFirstPause = std::chrono::milliseconds(250);
-constexpr Duration kLongestPause = std::chrono::seconds(2);
+constexpr Duration kFirstBrokerPause = std::chrono::milliseconds(250);
+constexpr Duration kLongestBrokerPause = std::chrono::seconds(2);
 constexpr int kQosAnswers = 1;
 constexpr const char* kOnlineTopic = "drover/online";
 
@@ -61,7 +61,7 @@ MqttClient::MqttClient(const config::MqttConfig& config,
     if (code != 0) return me.on_state_(false, ::mosquitto_connack_string(code));
     me.connected_ = true;
     me.connecting_ = false;
-    me.pause_ = kFirstPause;
+    me.pause_ = kFirstBrokerPause;
     me.last_text_.clear();
     for (const auto& [topic, qos] : me.subscriptions_)
       ::mosquitto_subscribe(me.client_, nullptr, topic.c_str(), qos);
@@ -126,7 +126,7 @@ void MqttClient::tick(Time now) {
 }
 
 void MqttClient::connect(Time now) {
-  pause_ = std::clamp(pause_ * 2, kFirstPause, kLongestPause);
+  pause_ = std::clamp(pause_ * 2, kFirstBrokerPause, kLongestBrokerPause);
   next_try_ = now + pause_;
   const int code =
       ::mosquitto_connect_async(client_, config_.host.c_str(), config_.port, config_.keepalive_s);

@@ -7,8 +7,8 @@
 namespace drover::store {
 namespace {
 
-constexpr std::string_view kFormat = "drover-origin";
-constexpr int kVersion = 1;
+constexpr std::string_view kOriginFormat = "drover-origin";
+constexpr int kOriginVersion = 1;
 const std::string kFile = "origin.json";
 
 }  // namespace
@@ -47,7 +47,7 @@ std::optional<GeodeticPoint> OriginStore::load(std::vector<std::string>& report)
     return std::nullopt;
   }
   std::string what = "has no latitude, longitude and altitude";
-  const auto body = unseal(kFormat, kVersion, content);
+  const auto body = unseal(kOriginFormat, kOriginVersion, content);
   if (body.ok()) {
     const auto parsed = json::parse(*body);
     const auto origin = parsed.ok() ? read_origin(parsed->root) : std::nullopt;
@@ -64,7 +64,7 @@ std::optional<GeodeticPoint> OriginStore::load(std::vector<std::string>& report)
 std::optional<Failure> OriginStore::save(const GeodeticPoint& origin) {
   json::JsonText body;
   write_origin(body, origin);
-  return write_durably(files_, folder_, kFile, seal(kFormat, kVersion, body.str()));
+  return write_durably(files_, folder_, kFile, seal(kOriginFormat, kOriginVersion, body.str()));
 }
 
 }  // namespace drover::store

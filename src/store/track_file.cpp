@@ -11,8 +11,8 @@
 namespace drover::store {
 namespace {
 
-constexpr std::string_view kFormat = "drover-track";
-constexpr int kVersion = 1;
+constexpr std::string_view kTrackFormat = "drover-track";
+constexpr int kTrackVersion = 1;
 constexpr std::size_t kMaxEscaped = 100;
 constexpr std::size_t kNumbersPerPoint = 7;
 
@@ -74,11 +74,11 @@ std::string encode_track(const Track& track) {
     body.close(']');
   }
   body.close(']').close('}');
-  return seal(kFormat, kVersion, body.str());
+  return seal(kTrackFormat, kTrackVersion, body.str());
 }
 
 Result<Track, Failure> decode_track(std::string_view content) {
-  const auto body = unseal(kFormat, kVersion, content);
+  const auto body = unseal(kTrackFormat, kTrackVersion, content);
   if (!body.ok()) return body.error();
   const auto parsed = json::parse(*body, {.max_bytes = kMaxTrackFileBytes,
                                           .max_depth = 8,

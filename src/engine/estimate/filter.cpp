@@ -20,10 +20,6 @@ constexpr double kSpreadTime_s = 1.0;
 // What a gyro's non-linearity and its tilt add to a turn, per square root of radian.
 constexpr double kGyroTurn_rad = 0.002;
 
-double square(double v) {
-  return v * v;
-}
-
 /// Adds `factor` times row `from` to row `to`, and the same for columns: covariance of
 /// x_to + factor * x_from.
 struct RowSum {

@@ -9,6 +9,10 @@
 
 namespace drover::engine::estimate {
 
+constexpr double square(double v) {
+  return v * v;
+}
+
 /// Indices of the state.
 enum : std::size_t {
   kX,          ///< base_link in `map`, m

@@ -31,10 +31,6 @@ constexpr double kGainLoosens = 0.05;  // when the gain is outside: perhaps the 
 constexpr double kLongestPatience_s = 300;
 constexpr double kJudgedTurn_rad = 0.002;
 
-double square(double v) {
-  return v * v;
-}
-
 void forget_recent(GyroTrack& gyro) {
   gyro.apart_rad = gyro.white_rad2 = gyro.wheel_turn_rad = 0;
   gyro.recent_way_m = gyro.recent_s = 0;

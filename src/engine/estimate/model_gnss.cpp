@@ -12,10 +12,6 @@ namespace {
 // comes and goes has the same multipath error each time, so averaging its spells proves nothing.
 constexpr double kFloorShare = 0.8;
 
-double square(double v) {
-  return v * v;
-}
-
 double larger_sigma_m(const AntennaPosition& position) {
   return std::max(position.sigma_x_m, position.sigma_y_m);
 }

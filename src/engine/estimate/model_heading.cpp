@@ -9,13 +9,9 @@ namespace drover::engine::estimate {
 namespace {
 
 // The antennas are mounted with an error of their own, which no number of measurements shows.
-constexpr double kFloorShare = 0.2;
+constexpr double kHeadingFloorShare = 0.2;
 // Two headings closer than this are taken as this far apart, so that a burst weighs like one.
 constexpr double kShortest_s = 0.01;
-
-double square(double v) {
-  return v * v;
-}
 
 void place(State& state, double yaw_rad, double sigma_rad) {
   state.belief.reset(kYaw, yaw_rad, sigma_rad);
@@ -56,7 +52,7 @@ void apply_heading(State& state, double yaw_rad, const EstimateConfig& config) {
   Vector row{};
   row[kYaw] = 1;
   state.belief.correct(row, innovation, square(sigma) * repeated);
-  state.belief.floor_variance(kYaw, square(kFloorShare * sigma));
+  state.belief.floor_variance(kYaw, square(kHeadingFloorShare * sigma));
 }
 
 }  // namespace drover::engine::estimate

@@ -31,10 +31,6 @@ constexpr double kCrabWay_m = 3.0;
 constexpr double kMostCrabWay_m = 60.0;
 constexpr double kCrab_rad = 0.0025;
 
-double square(double v) {
-  return v * v;
-}
-
 Leg begin(const BaseFix& fix, Time now) {
   Leg leg;
   leg.since = now;
