@@ -1,6 +1,5 @@
 #include "sim/robot/serial_port.h"
 
-#include <poll.h>
 #include <termios.h>
 #include <unistd.h>
 
@@ -17,8 +16,8 @@ namespace {
 
 // A device says what its line can carry; what is more is torn or lost.
 constexpr std::size_t kLongestQueue = 4096;
-// A silent device is asked so seldom whether somebody writes to it: system calls are dear in
-// places.
+// So seldom a port looks whether somebody writes to it, or has it open at all: system calls are
+// dear in places.
 constexpr int kTicksBetweenLooks = 4;
 
 struct Speed {
@@ -96,22 +95,22 @@ char SerialPort::noise() {
   return static_cast<char>(noise_ >> 24U);
 }
 
-// Asked when the device has something to say: a system call for each tick is dear.
+void SerialPort::set_baud(int baud) {
+  if (baud != pacer_.baud()) ticks_since_look_ = kTicksBetweenLooks;
+  pacer_.set_baud(baud);
+}
+
 void SerialPort::look() {
   ticks_since_look_ = 0;
-  pollfd line{line_.get(), POLLIN, 0};
-  listening_ = ::poll(&line, 1, 0) >= 0 && (line.revents & POLLHUP) == 0 &&
-               (!usb_ || UsbGadget::is_taken(line_.get()));
+  std::array<std::uint8_t, 512> bytes{};
+  ssize_t n = 0;
+  while ((n = ::read(line_.get(), bytes.data(), bytes.size())) > 0)
+    heard_.insert(heard_.end(), bytes.begin(), bytes.begin() + n);
+  // EIO: nobody has it open.
+  listening_ = n < 0 && errno == EAGAIN && (!usb_ || UsbGadget::is_taken(line_.get()));
   if (!listening_) return;
   const int host = usb_ ? 0 : host_baud(line_.get());
   speeds_agree_ = host == 0 || host == pacer_.baud();
-  if ((line.revents & POLLIN) != 0) hear();
-}
-
-void SerialPort::hear() {
-  std::array<std::uint8_t, 512> bytes{};
-  for (ssize_t n = 0; (n = ::read(line_.get(), bytes.data(), bytes.size())) > 0;)
-    heard_.insert(heard_.end(), bytes.begin(), bytes.begin() + n);
   if (speeds_agree_) return;
   for (auto& byte : heard_) byte = static_cast<std::uint8_t>(noise());
 }
@@ -119,7 +118,8 @@ void SerialPort::hear() {
 void SerialPort::pump(std::string_view said, Duration tick) {
   heard_.clear();
   if (!plugged()) return;
-  if (!said.empty() || ++ticks_since_look_ >= kTicksBetweenLooks) look();
+  const bool lost_for_ever = !listening_ && !said.empty();
+  if (++ticks_since_look_ >= kTicksBetweenLooks || lost_for_ever) look();
   if (queue_.size() + said.size() <= kLongestQueue) {
     queue_ += said;
   } else {

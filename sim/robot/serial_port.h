@@ -47,7 +47,7 @@ class SerialPort {
   /// What was written to the device, found by the last pump().
   std::span<const std::uint8_t> heard() const { return heard_; }
   /// The device's own speed.
-  void set_baud(int baud) { pacer_.set_baud(baud); }
+  void set_baud(int baud);
   /// Pulls the plug: the reader's descriptor hangs up and the link is gone.
   void unplug();
   /// Another pseudo-terminal under the same link, or the device on USB under another name. Throws
@@ -60,7 +60,6 @@ class SerialPort {
  private:
   link::UniqueFd linked_terminal();
   void look();
-  void hear();
   char noise();
 
   std::string link_path_;

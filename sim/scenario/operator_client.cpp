@@ -40,7 +40,7 @@ void OperatorClient::serve(bool readable, bool writable) {
   if (descriptor() < 0) return;
   if (readable) (void)::mosquitto_loop_read(client_, 1);
   if (writable) (void)::mosquitto_loop_write(client_, 1);
-  (void)::mosquitto_loop_misc(client_);
+  if (!readable && !writable) (void)::mosquitto_loop_misc(client_);
 }
 
 bool OperatorClient::publish(const std::string& topic, std::string_view payload, bool retain) {

@@ -1,6 +1,7 @@
 #include "sim/scenario/player.h"
 
 #include <poll.h>
+#include <sched.h>
 #include <sys/signalfd.h>
 #include <sys/wait.h>
 
@@ -34,6 +35,13 @@ link::UniqueFd block_signals() {
   ::sigprocmask(SIG_BLOCK, &set, nullptr);
   ::signal(SIGPIPE, SIG_IGN);
   return link::UniqueFd(::signalfd(-1, &set, SFD_CLOEXEC | SFD_NONBLOCK));
+}
+
+/// Whoever looks on lets the others say what they have to say and takes it all at once: in the lab
+/// a change of programs is dear. The children are not concerned.
+void run_after_the_others() {
+  const sched_param none{};
+  (void)::sched_setscheduler(0, SCHED_BATCH | SCHED_RESET_ON_FORK, &none);
 }
 
 std::string stamp(Time time) {
@@ -85,14 +93,17 @@ Player::Player(const Workplace& workplace, const Mission& mission, View& view)
       signals_(block_signals()),
       children_(workplace.log_folder()),
       story_(mission.steps),
-      result_{mission.target_id} {}
+      result_{mission.target_id} {
+  run_after_the_others();
+}
 
 Outcome Player::play() {
   boot_ = next_second_ = now();
   boot();
   if (going()) happened("boot");
   const Time timeout = boot_ + mission_.timeout;
-  while (going() && now() < std::min(end_, timeout)) turn(std::min(end_, timeout));
+  while (going() && turn(std::min(end_, timeout))) {
+  }
   tell(interrupted_       ? "interrupted"
        : !broken_.empty() ? "broken: " + broken_
        : now() >= end_    ? "the end"
@@ -124,7 +135,7 @@ void Player::end_program(const std::string& name) {
   // One that was stopped by a step hears nothing else.
   if (!children_.signal(name, SIGCONT) || !children_.signal(name, SIGTERM)) return;
   const Time limit = now() + kEndTimeout;
-  while (children_.runs(name) && now() < limit) poll_once(limit);
+  for (Time t = now(); children_.runs(name) && t < limit; t = now()) poll_once(limit - t);
   if (children_.runs(name)) broken_ = name + " did not end within five seconds";
 }
 
@@ -160,9 +171,10 @@ void Player::start(const std::string& name, const std::string& words) {
   if (!problem.empty()) broken_ = problem;
 }
 
-/// Works off what is due and waits for more, until `until` at most, once.
-void Player::turn(Time until) {
+/// Works off what is due and waits for more, until `until` at most, once. False: it is `until`.
+bool Player::turn(Time until) {
   const Time t = now();
+  if (t >= until) return false;
   take_steps(t);
   command_joints(t);
   if (t >= next_reconnect_) {
@@ -178,10 +190,11 @@ void Player::turn(Time until) {
   until = std::min({until, next_second_, story_.next(t), commands_.next()});
   if (client_->descriptor() < 0) until = std::min(until, next_reconnect_);
   until = std::min(until, view_.draw(t, report_));
-  poll_once(until);
+  poll_once(until - t);
+  return true;
 }
 
-void Player::poll_once(Time until) {
+void Player::poll_once(Duration wait) {
   std::array<pollfd, 16> polls{};
   std::size_t count = 0;
   const auto watch = [&](int fd, bool writing) {
@@ -192,10 +205,11 @@ void Player::poll_once(Time until) {
   watch(signals_.get(), false);
   watch(view_.descriptor(), false);
   for (const int fd : children_.descriptors()) watch(fd, false);
-  const auto left = std::max(Duration::zero(), until - now());
+  const auto left = std::max(Duration::zero(), wait);
   const timespec timeout{static_cast<time_t>(left.count() / 1'000'000'000),
                          left.count() % 1'000'000'000};
   if (::ppoll(polls.data(), count, &timeout, nullptr) <= 0) return;
+  bool child_ended = false;
   for (std::size_t i = 0; i < count; ++i) {
     const auto& poll = polls[i];
     if (poll.revents == 0) continue;
@@ -207,13 +221,15 @@ void Player::poll_once(Time until) {
       client_->serve((poll.revents & ~POLLOUT) != 0, (poll.revents & POLLOUT) != 0);
     } else if (poll.fd == view_.descriptor()) {
       view_.on_readable();
+    } else {
+      child_ended = true;
     }
   }
   if (client_->subscribed() != was_subscribed_) {
     was_subscribed_ = !was_subscribed_;
     happened(was_subscribed_ ? "broker_back" : "broker_lost");
   }
-  collect_children();
+  if (child_ended) collect_children();
 }
 
 void Player::collect_children() {

@@ -53,8 +53,8 @@ class Player {
   void wait_for(const std::string& what, const std::function<bool()>& is_there);
   void start(const std::string& name, const std::string& words = {});
   void end_program(const std::string& name);
-  void turn(Time until);
-  void poll_once(Time until);
+  bool turn(Time until);
+  void poll_once(Duration wait);
   void collect_children();
   void take_steps(Time t);
   void act(const Action& action, Time now);
