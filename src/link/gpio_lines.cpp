@@ -18,6 +18,9 @@ std::string missing_line(const LineSettings& settings, const std::string& line) 
 
 namespace {
 
+/// 1.x asks for each line's level by itself. Where every line tells its edges, one line a call is
+/// read, in turn, and all of them after an edge: a level cannot change without one, and a chip that
+/// vanished is noticed by any line.
 class GpioLines final : public LineLink {
  public:
   GpioLines(gpiod_chip* chip, std::vector<gpiod_line*> lines)
@@ -32,18 +35,23 @@ class GpioLines final : public LineLink {
   GpioLines& operator=(const GpioLines&) = delete;
 
   bool read(std::array<bool, kMaxLines>& levels) override {
-    for (std::size_t i = 0; i < lines_.size(); ++i) {
-      const int value = ::gpiod_line_get_value(lines_[i]);
+    const bool whole = read_all_ || fds_.size() < lines_.size();
+    for (std::size_t n = whole ? lines_.size() : 1; n > 0; --n) {
+      next_ = (next_ + 1) % lines_.size();
+      const int value = ::gpiod_line_get_value(lines_[next_]);
       if (value < 0) {
         error_ = errno;
         return false;
       }
-      levels[i] = value == 1;
+      levels_[next_] = value == 1;
     }
+    read_all_ = false;
+    levels = levels_;
     return true;
   }
   std::span<const int> edge_fds() const override { return fds_; }
   void drain_edges() override {
+    read_all_ = true;
     constexpr unsigned kEvents = 16;  // the kernel's queue a line
     std::array<gpiod_line_event, kEvents> events{};
     for (auto* line : lines_) {
@@ -58,6 +66,9 @@ class GpioLines final : public LineLink {
   gpiod_chip* chip_;
   std::vector<gpiod_line*> lines_;
   std::vector<int> fds_;
+  std::array<bool, kMaxLines> levels_{};
+  std::size_t next_ = 0;
+  bool read_all_ = true;
   int error_ = 0;
 };
 

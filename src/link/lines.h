@@ -23,6 +23,8 @@ class LineLink {
  public:
   virtual ~LineLink() = default;
   /// Electrical levels (true: high), in the order of the settings. False when the chip is gone.
+  /// Called once a cycle and after drain_edges(). A line that tells its edges may be believed to be
+  /// as it was for some cycles without one.
   [[nodiscard]] virtual bool read(std::array<bool, kMaxLines>& levels) = 0;
   /// Descriptors that become readable at an edge; empty when there is none.
   virtual std::span<const int> edge_fds() const = 0;

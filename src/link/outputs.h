@@ -1,4 +1,4 @@
-// Digital outputs: levels that are set each control cycle, and lines that another process may set.
+// Digital outputs: levels that are set when they change, and lines that another process may set.
 #pragma once
 
 #include <memory>

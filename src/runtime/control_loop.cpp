@@ -1,7 +1,7 @@
 #include "runtime/control_loop.h"
 
-#include <sys/epoll.h>
-#include <sys/timerfd.h>
+#include <poll.h>
+#include <sys/prctl.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -16,26 +16,18 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr std::uint64_t kTimerTag = 1;
-constexpr std::uint64_t kLinesTag = 2;
-constexpr std::uint64_t kFirstStreamTag = 3;
 /// The guard's own cycle is 10 ms. It is given what it gives us, and three cycles more; then it is
 /// not there.
 constexpr Duration kGuardCycles = 30ms;
 /// The bus is asked back when the robot was at rest and our heartbeat good for this long.
 constexpr Duration kHandBackAfter = 500ms;
+/// The two clocks keep their distance except when somebody sets one.
+constexpr Duration kMeasureClocksEach = 100ms;
+/// Outputs are written when they change, and so often to learn whether their chip is still there.
+constexpr Duration kWriteOutputsEach = 100ms;
 
 constexpr std::size_t slot_of(Stream stream) {
   return kFirstStreamSlot + static_cast<std::size_t>(stream);
-}
-
-link::UniqueFd make_timer(double tick_Hz) {
-  link::UniqueFd fd(::timerfd_create(CLOCK_MONOTONIC, TFD_CLOEXEC | TFD_NONBLOCK));
-  const auto period_ns = static_cast<long>(1e9 / tick_Hz);
-  const itimerspec cycle{{0, period_ns}, {0, period_ns}};
-  if (!fd || ::timerfd_settime(fd.get(), 0, &cycle, nullptr) != 0)
-    throw std::runtime_error("control.tick_Hz: the timer cannot be set");
-  return fd;
 }
 
 }  // namespace
@@ -50,11 +42,8 @@ ControlLoop::ControlLoop(const config::DroverConfig& config, Gateway& gateway, L
       exchange_(exchange),
       battery_(battery),
       guard_stale_(std::chrono::milliseconds(config.guard.limit_ms) + kGuardCycles),
-      epoll_(::epoll_create1(EPOLL_CLOEXEC)),
-      timer_(make_timer(config.control.tick_Hz)),
+      tick_(from_s(1 / config.control.tick_Hz)),
       stream_baud_{config.gnss.baud, config.imu.baud} {
-  if (!epoll_) throw std::runtime_error("no epoll descriptor");
-  watch(timer_.get(), kTimerTag);
   for (const auto& line : config.lines.line) line_count_ += line.configured ? 1 : 0;
   for (std::size_t slot = 0; slot < kLinkSlots; ++slot) {
     link_state_[slot].name = slot_name(slot);
@@ -75,37 +64,49 @@ Name ControlLoop::slot_name(std::size_t slot) const {
   return slot < config_.buses.size() ? Name(config_.buses[slot].name) : Name();
 }
 
-void ControlLoop::watch(int fd, std::uint64_t tag) {
-  epoll_event event{};
-  event.events = EPOLLIN;
-  event.data.u64 = tag;
-  ::epoll_ctl(epoll_.get(), EPOLL_CTL_ADD, fd, &event);
-}
-
+/// The wait ends at the tick's time or with bytes and edges, which are worth a wake-up at once. Of
+/// CAN the kernel keeps each frame's time, so that it can wait for the tick.
 void ControlLoop::run(const std::atomic<bool>& stop) {
-  std::array<epoll_event, 8> events{};
+  // Else the kernel would add up to 50 us to each wait of a thread without real-time priority.
+  ::prctl(PR_SET_TIMERSLACK, 1);
+  Time now = monotonic_now();
+  Time next = now + tick_;
   while (!stop.load(std::memory_order_relaxed)) {
-    const int n = ::epoll_wait(epoll_.get(), events.data(), events.size(), -1);
-    std::uint64_t expirations = 0;
-    for (int i = 0; i < n; ++i) {
-      const auto tag = events[i].data.u64;
-      switch (tag) {
-        case kTimerTag: (void)!::read(timer_.get(), &expirations, sizeof expirations); break;
-        case kLinesTag:
-          if (lines_) lines_->drain_edges();
-          read_lines(monotonic_now());
-          break;
-        default: read_stream(tag - kFirstStreamTag); break;
-      }
+    if (now >= next) {
+      const auto late = static_cast<std::uint64_t>((now - next) / tick_);
+      next += tick_ * static_cast<std::int64_t>(late + 1);
+      now = cycle(now, late);
     }
-    if (expirations > 0) cycle(expirations);
+    now = wait(std::max(Duration::zero(), next - now));
   }
 }
 
-void ControlLoop::cycle(std::uint64_t expirations) {
-  const Time begin = monotonic_now();
+Time ControlLoop::wait(Duration longest) {
+  std::array<pollfd, kStreamCount + link::kMaxLines> fds{};
+  for (std::size_t i = 0; i < kStreamCount; ++i)
+    fds[i] = {streams_[i] ? streams_[i]->fd() : -1, POLLIN, 0};
+  std::size_t count = kStreamCount;
+  if (lines_)
+    for (const int fd : lines_->edge_fds()) fds[count++] = {fd, POLLIN, 0};
+  const timespec time{static_cast<time_t>(longest / 1s), static_cast<long>((longest % 1s).count())};
+  const int ready = ::ppoll(fds.data(), count, &time, nullptr);
+  const Time now = monotonic_now();
+  if (ready <= 0) return now;
+  const auto is_ready = [](const pollfd& fd) { return fd.revents != 0; };
+  for (std::size_t i = 0; i < kStreamCount; ++i)
+    if (is_ready(fds[i])) read_stream(i, now);
+  if (std::any_of(fds.begin() + kStreamCount, fds.begin() + static_cast<std::ptrdiff_t>(count),
+                  is_ready)) {
+    lines_->drain_edges();
+    read_lines(now);
+  }
+  return now;
+}
+
+/// Returns the time at its end.
+Time ControlLoop::cycle(Time begin, std::uint64_t late) {
   ++stats_.cycles;
-  stats_.overruns += expirations - 1;
+  stats_.overruns += late;
   take_links(begin);
   drain_can(begin);
   read_lines(begin);
@@ -128,7 +129,7 @@ void ControlLoop::cycle(std::uint64_t expirations) {
   for (const auto& event : out.engine.events)
     if (!exchange_.events.push(event)) exchange_.lost_events.fetch_add(1);
   if (!out.engine.events.empty()) exchange_.events_ready.notify();
-  publish(begin);
+  return publish(begin);
 }
 
 void ControlLoop::take_links(Time now) {
@@ -143,13 +144,12 @@ void ControlLoop::take_links(Time now) {
     if (is_stream(slot)) {
       const auto stream = slot - kFirstStreamSlot;
       streams_[stream] = std::move(arrived.serial);
-      watch(streams_[stream]->fd(), kFirstStreamTag + stream);
       gateway_.on_stream_up(static_cast<Stream>(stream), now);
     } else if (slot == kOutputsSlot) {
       outputs_ = std::move(arrived.outputs);
+      outputs_written_ = kNever;
     } else if (slot == kLinesSlot) {
       lines_ = std::move(arrived.lines);
-      for (const int fd : lines_->edge_fds()) watch(fd, kLinesTag);
     } else {
       can_[slot] = std::move(arrived.can);
       gateway_.on_bus_up(slot, now);
@@ -171,13 +171,10 @@ void ControlLoop::lose(std::size_t slot, int error, Time now) {
   }
   link_state_[slot].up = false;
   link_state_[slot].reason = dead.problem;
-  // Out of epoll at once: a descriptor that hung up is always ready and would spin the loop.
+  // Not waited for any more: a descriptor that hung up is always ready and would spin the loop.
   if (is_stream(slot)) {
-    auto& serial = streams_[slot - kFirstStreamSlot];
-    ::epoll_ctl(epoll_.get(), EPOLL_CTL_DEL, serial->fd(), nullptr);
-    dead.serial = std::move(serial);
+    dead.serial = std::move(streams_[slot - kFirstStreamSlot]);
   } else if (slot == kLinesSlot) {
-    for (const int fd : lines_->edge_fds()) ::epoll_ctl(epoll_.get(), EPOLL_CTL_DEL, fd, nullptr);
     dead.lines = std::move(lines_);
     gateway_.on_lines_lost(now);
   } else if (slot == kOutputsSlot) {
@@ -188,12 +185,10 @@ void ControlLoop::lose(std::size_t slot, int error, Time now) {
   (void)keeper_.give_back(dead);
 }
 
-void ControlLoop::read_stream(std::size_t stream) {
-  if (stream >= kStreamCount || !streams_[stream]) return;
+void ControlLoop::read_stream(std::size_t stream, Time now) {
   const auto slot = kFirstStreamSlot + stream;
   std::array<std::uint8_t, 1024> buffer{};
   std::size_t size = 0;
-  const Time now = monotonic_now();
   if (!streams_[stream]->read(buffer, size)) return lose(slot, streams_[stream]->error(), now);
   if (size == 0) return;
   link_state_[slot].received += size;
@@ -229,19 +224,28 @@ void ControlLoop::write_outputs(const std::array<bool, kOutputCount>& on, Time n
   std::size_t count = 0;
   for (std::size_t i = 0; i < kOutputCount; ++i)
     if (config_.engine.output_configured[i]) levels[count++] = on[i];
+  if (levels == output_levels_ && now - outputs_written_ < kWriteOutputsEach) return;
+  output_levels_ = levels;
+  outputs_written_ = now;
   if (!outputs_->write({levels.data(), count})) lose(kOutputsSlot, outputs_->error(), now);
 }
 
 void ControlLoop::drain_can(Time now) {
-  const link::StampWindow window{previous_drain_, now, wall_minus_monotonic()};
+  if (now - clocks_measured_ >= kMeasureClocksEach) {
+    clocks_measured_ = now;
+    wall_minus_monotonic_ = wall_minus_monotonic();
+  }
+  const link::StampWindow window{previous_drain_, now, wall_minus_monotonic_};
   previous_drain_ = now;
   constexpr int kMostBatches = 64;  // a babbling bus must not hold the cycle for ever
   for (std::size_t bus = 0; bus < gateway_.bus_count(); ++bus) {
     for (int i = 0; i < kMostBatches && can_[bus]; ++i) {
+      const auto clamped = can_[bus]->counters().clamped_stamps;
       if (!can_[bus]->receive(window, batch_)) {
         lose(bus, can_[bus]->error(), now);
         break;
       }
+      if (can_[bus]->counters().clamped_stamps != clamped) clocks_measured_ = kNever;  // one was set
       for (const auto& received : batch_) gateway_.on_frame(bus, received.frame, received.received);
       if (batch_.size() < batch_.capacity()) break;
     }
@@ -273,7 +277,7 @@ void ControlLoop::take_battery() {
   gateway_.set_battery_health(battery_->state.latest().health);
 }
 
-void ControlLoop::publish(Time now) {
+Time ControlLoop::publish(Time now) {
   auto& snapshot = exchange_.snapshot.back();
   snapshot = gateway_.snapshot();
   snapshot.links.clear();
@@ -290,10 +294,11 @@ void ControlLoop::publish(Time now) {
     (void)snapshot.links.push_back(state);
   }
   if (battery_ != nullptr) (void)snapshot.links.push_back(battery_->state.latest().link);
-  const Duration step = monotonic_now() - now;
-  if (step > stats_.longest_step) stats_.longest_step = step;
+  const Time end = monotonic_now();
+  if (end - now > stats_.longest_step) stats_.longest_step = end - now;
   snapshot.cycle = stats_;
   exchange_.snapshot.publish();
+  return end;
 }
 
 }  // namespace drover::runtime

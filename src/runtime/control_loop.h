@@ -1,4 +1,4 @@
-// The control thread: a timer tick drains CAN, reads lines, steps the gateway and sends; serial
+// The control thread: a tick drains CAN, reads lines, steps the gateway and sends; serial
 // bytes and edges wake it at once. After start it takes no lock, allocates nothing, logs nothing.
 #pragma once
 
@@ -36,16 +36,16 @@ class ControlLoop final {
  private:
   void take_links(Time now);
   void lose(std::size_t slot, int error, Time now);
-  void read_stream(std::size_t stream);
+  Time wait(Duration longest);
+  void read_stream(std::size_t stream, Time now);
   void serve_stream(std::size_t stream, const StreamOutput& out, Time now);
   void read_lines(Time now);
   void write_outputs(const std::array<bool, kOutputCount>& on, Time now);
   void drain_can(Time now);
-  void cycle(std::uint64_t expirations);
+  Time cycle(Time begin, std::uint64_t late);
   void watch_guard(Time now);
   void take_battery();
-  void publish(Time now);
-  void watch(int fd, std::uint64_t tag);
+  Time publish(Time now);
   Name slot_name(std::size_t slot) const;
 
   const config::DroverConfig& config_;
@@ -56,17 +56,20 @@ class ControlLoop final {
   BatteryExchange* battery_;  ///< nullptr: none
   const Duration guard_stale_;
 
-  link::UniqueFd epoll_;
-  link::UniqueFd timer_;
+  const Duration tick_;
   std::array<std::unique_ptr<link::CanLink>, kMaxBuses> can_;
   std::array<std::unique_ptr<link::SerialLink>, kStreamCount> streams_;
   std::array<int, kStreamCount> stream_baud_{};
   std::unique_ptr<link::LineLink> lines_;
   std::unique_ptr<link::OutputLink> outputs_;
+  std::array<bool, kOutputCount> output_levels_{};
+  Time outputs_written_ = kNever;
   std::array<LinkHandover, kLinkSlots> going_back_;  ///< dead links that the keeper has yet to take
   std::array<LinkSnapshot, kLinkSlots> link_state_;
   std::size_t line_count_ = 0;
   Time previous_drain_ = kNever;
+  Time clocks_measured_ = kNever;
+  Duration wall_minus_monotonic_{};
   CycleStats stats_;
   std::uint64_t guard_beats_ = 0;
   Time guard_seen_ = kNever;

@@ -128,6 +128,7 @@ void MqttClient::tick(Time now) {
 void MqttClient::connect(Time now) {
   pause_ = std::clamp(pause_ * 2, kFirstBrokerPause, kLongestBrokerPause);
   next_try_ = now + pause_;
+  ++connections_;
   const int code =
       ::mosquitto_connect_async(client_, config_.host.c_str(), config_.port, config_.keepalive_s);
   if (code == MOSQ_ERR_SUCCESS) {

@@ -43,6 +43,8 @@ class MqttClient final {
   /// Descriptor to watch, -1 while there is none; and whether it wants to write.
   int fd() const;
   bool wants_write() const;
+  /// How often a connection was tried: tells a new descriptor from an old one of the same number.
+  std::uint64_t connections() const { return connections_; }
   bool connected() const { return connected_; }
   void on_readable();
   void on_writable();
@@ -69,6 +71,7 @@ class MqttClient final {
   Time next_try_ = kNever;
   Duration pause_{};
   std::string last_text_;
+  std::uint64_t connections_ = 0;
   std::uint64_t dropped_ = 0;
 };
 

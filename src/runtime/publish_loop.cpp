@@ -133,19 +133,22 @@ void PublishLoop::watch(int fd, std::uint64_t tag) {
   ::epoll_ctl(epoll_.get(), EPOLL_CTL_ADD, fd, &event);
 }
 
-/// libmosquitto opens and closes its descriptor by itself, and a new one may have the old one's
-/// number: ask epoll at every turn instead of remembering.
+/// A new connection may have the old one's descriptor number, hence their count.
 void PublishLoop::watch_broker() {
   const int fd = broker_ ? broker_->fd() : -1;
   if (fd < 0) return;
+  const BrokerWatch wanted{fd, broker_->connections(), broker_->wants_write()};
+  if (wanted == broker_watch_) return;
+  broker_watch_ = wanted;
   epoll_event event{};
-  event.events = EPOLLIN | (broker_->wants_write() ? EPOLLOUT : 0U);
+  event.events = EPOLLIN | (wanted.writing ? EPOLLOUT : 0U);
   event.data.u64 = kBroker;
   if (::epoll_ctl(epoll_.get(), EPOLL_CTL_MOD, fd, &event) != 0)
     ::epoll_ctl(epoll_.get(), EPOLL_CTL_ADD, fd, &event);
 }
 
 void PublishLoop::run(const std::atomic<bool>& stop) {
+  wall_minus_monotonic_ = wall_minus_monotonic();
   service_.begin(monotonic_now(), actions_);
   carry_out(actions_);
   if (broker_) broker_->tick(monotonic_now());
@@ -158,6 +161,7 @@ void PublishLoop::run(const std::atomic<bool>& stop) {
       switch (events[i].data.u64) {
         case kTimer:
           clear_timer(timer_);
+          wall_minus_monotonic_ = wall_minus_monotonic();
           if (broker_) broker_->tick(now);
           publish_status(now);
           break;
@@ -202,7 +206,7 @@ void PublishLoop::publish_status(Time now) {
 void PublishLoop::publish_aimrt() {
   const auto& snapshot = control_.snapshot.latest();
   if (snapshot.time == kNever || !broker_->connected()) return;
-  for (const auto& [topic, payload] : aimrt_->telemetry(snapshot, wall_minus_monotonic()))
+  for (const auto& [topic, payload] : aimrt_->telemetry(snapshot, wall_minus_monotonic_))
     broker_->publish_latest(topic->c_str(), payload);
 }
 

@@ -37,6 +37,14 @@ class PublishLoop final {
   std::uint64_t turns() const { return turns_.load(std::memory_order_relaxed); }
 
  private:
+  /// What epoll knows of the broker's connection.
+  struct BrokerWatch {
+    int fd = -1;
+    std::uint64_t connection = 0;
+    bool writing = false;
+    bool operator==(const BrokerWatch&) const = default;
+  };
+
   void watch(int fd, std::uint64_t tag);
   void watch_broker();
   void connect_broker();
@@ -59,6 +67,8 @@ class PublishLoop final {
   Time started_;
   std::string broker_text_;
   std::unique_ptr<MqttClient> broker_;
+  BrokerWatch broker_watch_;
+  Duration wall_minus_monotonic_{};  ///< ten times a second
   CliServer cli_;
   std::map<std::uint64_t, CliServer::ClientId> waiting_;  ///< request number → who asked
   std::uint64_t next_request_ = 1;
