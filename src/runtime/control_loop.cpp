@@ -245,7 +245,8 @@ void ControlLoop::drain_can(Time now) {
         lose(bus, can_[bus]->error(), now);
         break;
       }
-      if (can_[bus]->counters().clamped_stamps != clamped) clocks_measured_ = kNever;  // one was set
+      // Somebody has set a clock.
+      if (can_[bus]->counters().clamped_stamps != clamped) clocks_measured_ = kNever;
       for (const auto& received : batch_) gateway_.on_frame(bus, received.frame, received.received);
       if (batch_.size() < batch_.capacity()) break;
     }
