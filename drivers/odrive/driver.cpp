@@ -53,6 +53,7 @@ void OdriveDriver::start_arming(Time now, DriverOut& out) {
   lock_reason_.clear();
   cleared_at_ = kNever;
   attempted_ = false;
+  arming_step_ = ArmingStep::first;
   phase_since_ = now;
   if (silent(now)) {
     lock("asked to run while the drive was silent", true);
@@ -110,6 +111,34 @@ void OdriveDriver::send_setpoint(double turnps, Time now, bool at_once, DriverOu
   out.send(encode_set_input_vel(settings_.node, turnps));
 }
 
+/// One step a cycle: the bus takes two frames of each drive in one, what is more is lost, and all
+/// drives are armed at once.
+void OdriveDriver::arm(Time now, DriverOut& out) {
+  switch (arming_step_) {
+    case ArmingStep::first:
+      last_attempt_ = now;
+      if (heartbeat_.failed() && cleared_at_ == kNever) {
+        // Once for each request: an error that comes back is for a person to look at.
+        cleared_at_ = now;
+        out.send(encode_clear_errors(settings_.node));
+        errors_ = {};
+        arming_step_ = ArmingStep::mode;
+        break;
+      }
+      [[fallthrough]];
+    case ArmingStep::mode:
+      out.send(encode_set_controller_mode(settings_.node, kControlVelocity, kInputPassthrough));
+      arming_step_ = ArmingStep::state;
+      break;
+    case ArmingStep::state:
+      attempted_ = true;
+      send_setpoint(0, now, true, out);
+      out.send(encode_set_axis_state(settings_.node, kStateClosedLoop));
+      arming_step_ = ArmingStep::first;
+      break;
+  }
+}
+
 void OdriveDriver::control(const AxisCommand& command, Time now, DriverOut& out) {
   if (last_heartbeat_ == kNever) return;  // never a frame to a node that was not heard
   if (attempts_to_run() && silent(now)) lock("heartbeat ceased while armed", false);
@@ -136,18 +165,7 @@ void OdriveDriver::control(const AxisCommand& command, Time now, DriverOut& out)
       }
       break;
     case Phase::arming:
-      if (attempted_ && !attempt) break;
-      if (heartbeat_.failed() && cleared_at_ == kNever) {
-        // Once for each request: an error that comes back is for a person to look at.
-        cleared_at_ = now;
-        out.send(encode_clear_errors(settings_.node));
-        errors_ = {};
-      }
-      attempted_ = true;
-      last_attempt_ = now;
-      out.send(encode_set_controller_mode(settings_.node, kControlVelocity, kInputPassthrough));
-      send_setpoint(0, now, true, out);
-      out.send(encode_set_axis_state(settings_.node, kStateClosedLoop));
+      if (arming_step_ != ArmingStep::first || !attempted_ || attempt) arm(now, out);
       break;
     case Phase::running:
       send_setpoint(motor_turnps(command.velocity_radps), now, false, out);

@@ -61,6 +61,7 @@ class OdriveDriver final : public CanDriver {
   void lock(std::string_view why, bool fault);
   double motor_turnps(double velocity_radps);
   void send_setpoint(double turnps, Time now, bool at_once, DriverOut& out);
+  void arm(Time now, DriverOut& out);
   void control(const AxisCommand& command, Time now, DriverOut& out);
 
   Settings settings_;
@@ -91,8 +92,10 @@ class OdriveDriver final : public CanDriver {
   Time phase_since_ = kNever;
   Time last_attempt_ = kNever;
   bool attempted_ = false;
-  Time cleared_at_ = kNever;  ///< errors, for this request
-  bool fault_ = false;        ///< `lock_reason_` is a fault
+  enum class ArmingStep : std::uint8_t { first, mode, state };
+  ArmingStep arming_step_ = ArmingStep::first;  ///< the next one
+  Time cleared_at_ = kNever;                    ///< errors, for this request
+  bool fault_ = false;                          ///< `lock_reason_` is a fault
   Reason lock_reason_;
   Time last_setpoint_ = kNever;
   double last_turnps_ = 0;

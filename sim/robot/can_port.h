@@ -21,6 +21,10 @@ class CanPort {
   virtual void send(std::span<const CanFrame> frames) = 0;
   /// A fault of the bus ("slcan sb256256", "unplug", ...). Returns "ok" or "error: ...".
   virtual std::string command(std::string_view text) = 0;
+  /// Of a bus that cannot wait for the next tick to take what comes; -1: it can.
+  virtual int descriptor() const { return -1; }
+  /// Takes what has come; receive() hands it out.
+  virtual void drain() {}
   /// Frames that found no room.
   virtual std::uint64_t dropped() const = 0;
 };

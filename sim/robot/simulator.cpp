@@ -59,9 +59,12 @@ link::UniqueFd block_signals() {
   return link::UniqueFd(::signalfd(-1, &set, SFD_CLOEXEC | SFD_NONBLOCK));
 }
 
-void watch(int epoll, int fd) {
+// What a stalled bus does not take must not wake us again and again.
+constexpr std::uint32_t kOnce = EPOLLIN | EPOLLET;
+
+void watch(int epoll, int fd, std::uint32_t events = EPOLLIN) {
   epoll_event event{};
-  event.events = EPOLLIN;
+  event.events = events;
   event.data.fd = fd;
   ::epoll_ctl(epoll, EPOLL_CTL_ADD, fd, &event);
 }
@@ -95,6 +98,7 @@ Simulator::Simulator(const SimulatorSettings& settings)
   control_.emplace(settings_.run_folder + "/sim.sock", epoll_.get());
   watch(epoll_.get(), timer_.get());
   watch(epoll_.get(), signals_.get());
+  for (const auto& bus : buses_) watch(epoll_.get(), bus->descriptor(), kOnce);
 }
 
 Simulator::~Simulator() {
@@ -142,10 +146,19 @@ void Simulator::on_events(int timeout_ms) {
         expired_ += expirations;
     } else if (fd == signals_.get()) {
       quit_ = true;
-    } else {
+    } else if (!drain_bus(fd)) {
       control_->on_event(fd, [this](std::string_view text) { return command(text); });
     }
   }
+}
+
+bool Simulator::drain_bus(int fd) {
+  for (const auto& bus : buses_) {
+    if (bus->descriptor() != fd) continue;
+    bus->drain();
+    return true;
+  }
+  return false;
 }
 
 void Simulator::tick(Time now) {
@@ -248,10 +261,13 @@ std::string Simulator::command(std::string_view text) {
 std::string Simulator::command_can(std::string_view text) {
   const auto space = text.find(' ');
   for (std::size_t i = 0; i < buses_.size() && space != std::string_view::npos; ++i)
-    if (robot_.scenario().buses[i].name == text.substr(0, space))
-      return buses_[i]->command(text.substr(space + 1));
-  return "error: say: can BUS slcan TEXT|stall|flow|unplug|plug|disconnect, with a bus of the "
-         "scenario";
+    if (robot_.scenario().buses[i].name == text.substr(0, space)) {
+      auto answer = buses_[i]->command(text.substr(space + 1));
+      watch(epoll_.get(), buses_[i]->descriptor(), kOnce);  // it may have another one now
+      return answer;
+    }
+  return "error: say: can BUS slcan TEXT|stall|flow|bus_off|restart|unplug|plug|disconnect, with "
+         "a bus of the scenario";
 }
 
 std::string Simulator::command_plug(std::string_view device, std::string_view verb) {

@@ -44,18 +44,27 @@ class SlcanPort final : public CanPort {
   }
 
   void receive(const link::StampWindow& window, std::vector<link::ReceivedFrame>& out) override {
-    if (!stalled_) pump();
+    drain();
     (void)brought_up();
     std::size_t begin = 0;
     for (auto end = in_.find('\r'); end != std::string::npos; end = in_.find('\r', begin)) {
-      if (const auto frame = parse_slcan(std::string_view(in_).substr(begin, end - begin)))
+      const auto line = std::string_view(in_).substr(begin, end - begin);
+      if (line == "O") bus_off_ = false;
+      if (const auto frame = parse_slcan(line); frame && !bus_off_)
         out.push_back({*frame, window.now});
       begin = end + 1;
     }
     in_.erase(0, begin);
   }
 
+  int descriptor() const override { return pty_.master.get(); }
+  // The driver hands out a frame when the one before was taken.
+  void drain() override {
+    if (!stalled_) pump();
+  }
+
   void send(std::span<const CanFrame> frames) override {
+    if (bus_off_) return;
     std::string text;
     for (const auto& frame : frames)
       if (!append_slcan(text, frame)) ++dropped_;
@@ -68,13 +77,18 @@ class SlcanPort final : public CanPort {
         write(std::string(text.substr(6)) + "\r");
       } else if (text == "stall" || text == "flow") {
         stalled_ = text == "stall";
+      } else if (text == "bus_off") {
+        write("sb256256\r");
+        bus_off_ = true;
+      } else if (text == "restart") {
+        restart();
       } else if (text == "unplug") {
         pty_ = Pty{};
         in_.clear();
       } else if (text == "plug") {
         if (!pty_.master) plug();
       } else {
-        return "error: an slcan bus knows: slcan TEXT, stall, flow, unplug, plug";
+        return "error: an slcan bus knows: slcan TEXT, stall, flow, bus_off, restart, unplug, plug";
       }
     } catch (const std::exception& error) {
       return std::string("error: ") + error.what();
@@ -97,6 +111,12 @@ class SlcanPort final : public CanPort {
     todo_.clear();
     if (made != interface_) todo_.push_back({"ip", "link", "set", made, "name", interface_});
     todo_.push_back({"ip", "link", "set", interface_, "type", "can", "bitrate", "500000"});
+    todo_.push_back({"ip", "link", "set", interface_, "up"});
+  }
+
+  // This driver refuses restart-ms, so a person does it; the adapter is then opened anew.
+  void restart() {
+    todo_.push_back({"ip", "link", "set", interface_, "down"});
     todo_.push_back({"ip", "link", "set", interface_, "up"});
   }
 
@@ -152,6 +172,7 @@ class SlcanPort final : public CanPort {
   pid_t child_ = -1;
   std::string problem_;
   bool stalled_ = false;
+  bool bus_off_ = false;  // nothing goes either way until the interface is opened anew
   std::uint64_t dropped_ = 0;
 };
 

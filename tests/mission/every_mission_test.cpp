@@ -73,8 +73,8 @@ INSTANTIATE_TEST_SUITE_P(Each, EveryMission,
                                          "fix_float_fix", "estop", "obstacle", "broker_restart",
                                          "kill_on_ramp", "hang", "long", "imu_faults",
                                          "battery_faults", "battery_empty", "outage_on_curve",
-                                         "receiver_replugged", "receiver_renamed",
-                                         "joint_commands"),
+                                         "receiver_replugged", "receiver_renamed", "joint_commands",
+                                         "bus_off"),
                          [](const auto& one) { return std::string(one.param); });
 
 }  // namespace

@@ -73,6 +73,48 @@ TEST(Estop, LetsANewStartReachTheGoalAfterItsRelease) {
   expect_new_start_succeeds(log, log.event("sim estop release"));
 }
 
+// Bus-off: the drives hear nothing any more, and nobody hears them.
+TEST(BusOff, LetsTheDrivesStopByTheirOwnWatchdogs) {
+  const Record& log = record("bus_off");
+  const Time off = log.event("sim can can0 bus_off");
+  ASSERT_TRUE(moved_until(log, off)) << "it did not drive";
+  EXPECT_NEAR(log.truth_at(off).vx_mps, 0.5, 0.05);
+  // 0.2 s after the last set point they switch off, and the robot rolls out.
+  EXPECT_LT(log.truth_at(off + 200ms + 1s).vx_mps, 0.4);
+  const Time rest = off + 5s;
+  EXPECT_NEAR(log.truth_at(rest).vx_mps, 0, 0.01);
+  const double way_m = log.truth_at(rest).x_m - log.truth_at(off).x_m;
+  std::printf("  %.2f m after the bus-off\n", way_m);
+  EXPECT_LT(way_m, 1.2);
+  EXPECT_NEAR(log.truth_at(log.answered("start_task_success", 2)).x_m, log.truth_at(rest).x_m, 0.01)
+      << "it moved before a person started it";
+}
+
+TEST(BusOff, IsToldAndStaysAnErrorUntilANewStart) {
+  const Record& log = record("bus_off");
+  const Time off = log.event("sim can can0 bus_off");
+  const auto& error = log.first_status("NAV_ERROR", off);
+  EXPECT_LT(error.time - off, 300ms);
+  EXPECT_NE(error.why.find("no drive answers"), std::string::npos) << error.why;
+  EXPECT_EQ(log.feedback_words(),
+            (std::vector<std::string>{"save_trajectory_success", "start_task_success",
+                                      "start_nav_success", "start_task_failse",
+                                      "start_task_success", "start_nav_success"}));
+  EXPECT_NE(log.feedback[3].reason.find("no drive answers"), std::string::npos);
+  const Time restarted = log.event("sim can can0 restart");
+  const Time start = log.answered("start_task_success", 2);
+  EXPECT_GT(start, restarted);
+  expect_nav_stays(log, "NAV_ERROR", error.time, start - 150ms);
+  EXPECT_THAT(log.moving(off + 5ms, start - kEstop), testing::IsEmpty());
+}
+
+TEST(BusOff, LetsANewStartReachTheGoalAfterARestartOfTheController) {
+  const Record& log = record("bus_off");
+  EXPECT_EQ(log.statuses.back().nav, "NAV_SUCCESS");
+  const Time start = log.answered("start_task_success", 2);
+  EXPECT_LT(drive_figures(log, start, log.first_status("NAV_SUCCESS", start).time).goal_m, 0.10);
+}
+
 TEST(BrokerRestart, LeavesNoGapOnTheBus) {
   const Record& log = record("broker_restart");
   const Time killed = log.event("signal 9 to mosquitto");
