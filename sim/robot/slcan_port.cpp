@@ -14,6 +14,8 @@
 #include <cstring>
 #include <deque>
 #include <stdexcept>
+#include <thread>
+#include <utility>
 
 #include "sim/robot/can_port.h"
 #include "sim/robot/pty.h"
@@ -40,6 +42,7 @@ class SlcanPort final : public CanPort {
   }
   ~SlcanPort() override {
     pty_ = Pty{};  // the driver lets `ip` go
+    if (closer_.joinable()) closer_.join();
     if (child_ > 0) ::waitpid(child_, nullptr, 0);
   }
 
@@ -83,8 +86,7 @@ class SlcanPort final : public CanPort {
       } else if (text == "restart") {
         restart();
       } else if (text == "unplug") {
-        pty_ = Pty{};
-        in_.clear();
+        unplug();
       } else if (text == "plug") {
         if (!pty_.master) plug();
       } else {
@@ -100,6 +102,7 @@ class SlcanPort final : public CanPort {
 
  private:
   void plug() {
+    if (closer_.joinable()) closer_.join();
     pty_ = open_pty();
     if (::ioctl(pty_.slave.get(), TIOCSETD, &kLineDisciplineSlcan) != 0)
       throw std::runtime_error(interface_ + ": this kernel has no slcan: " + std::strerror(errno));
@@ -112,6 +115,14 @@ class SlcanPort final : public CanPort {
     if (made != interface_) todo_.push_back({"ip", "link", "set", made, "name", interface_});
     todo_.push_back({"ip", "link", "set", interface_, "type", "can", "bitrate", "500000"});
     todo_.push_back({"ip", "link", "set", interface_, "up"});
+  }
+
+  // The kernel takes a second to part with an interface at which others listen: not the robot's.
+  void unplug() {
+    if (closer_.joinable()) closer_.join();
+    closer_ = std::thread([old = std::exchange(pty_, Pty{})]() mutable { old = Pty{}; });
+    in_.clear();
+    todo_.clear();
   }
 
   // This driver refuses restart-ms, so a person does it; the adapter is then opened anew.
@@ -168,6 +179,7 @@ class SlcanPort final : public CanPort {
   std::string interface_;
   Pty pty_;
   std::string in_;
+  std::thread closer_;
   std::deque<std::vector<std::string>> todo_;
   pid_t child_ = -1;
   std::string problem_;

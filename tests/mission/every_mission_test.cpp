@@ -74,7 +74,7 @@ INSTANTIATE_TEST_SUITE_P(Each, EveryMission,
                                          "kill_on_ramp", "hang", "long", "imu_faults",
                                          "battery_faults", "battery_empty", "outage_on_curve",
                                          "receiver_replugged", "receiver_renamed", "joint_commands",
-                                         "bus_off"),
+                                         "bus_off", "can_replugged"),
                          [](const auto& one) { return std::string(one.param); });
 
 }  // namespace

@@ -73,10 +73,17 @@ TEST(Estop, LetsANewStartReachTheGoalAfterItsRelease) {
   expect_new_start_succeeds(log, log.event("sim estop release"));
 }
 
-// Bus-off: the drives hear nothing any more, and nobody hears them.
-TEST(BusOff, LetsTheDrivesStopByTheirOwnWatchdogs) {
-  const Record& log = record("bus_off");
-  const Time off = log.event("sim can can0 bus_off");
+// The drives hear nothing any more, and nobody hears them: their bus is off, or its adapter pulled.
+struct Severed {
+  const char* mission;
+  const char* by;
+  const char* mended_by;
+};
+class DrivesOutOfReach : public testing::TestWithParam<Severed> {};
+
+TEST_P(DrivesOutOfReach, LetsTheDrivesStopByTheirOwnWatchdogs) {
+  const Record& log = record(GetParam().mission);
+  const Time off = log.event(GetParam().by);
   ASSERT_TRUE(moved_until(log, off)) << "it did not drive";
   EXPECT_NEAR(log.truth_at(off).vx_mps, 0.5, 0.05);
   // 0.2 s after the last set point they switch off, and the robot rolls out.
@@ -84,15 +91,15 @@ TEST(BusOff, LetsTheDrivesStopByTheirOwnWatchdogs) {
   const Time rest = off + 5s;
   EXPECT_NEAR(log.truth_at(rest).vx_mps, 0, 0.01);
   const double way_m = log.truth_at(rest).x_m - log.truth_at(off).x_m;
-  std::printf("  %.2f m after the bus-off\n", way_m);
+  std::printf("  %.2f m without the drives\n", way_m);
   EXPECT_LT(way_m, 1.2);
   EXPECT_NEAR(log.truth_at(log.answered("start_task_success", 2)).x_m, log.truth_at(rest).x_m, 0.01)
       << "it moved before a person started it";
 }
 
-TEST(BusOff, IsToldAndStaysAnErrorUntilANewStart) {
-  const Record& log = record("bus_off");
-  const Time off = log.event("sim can can0 bus_off");
+TEST_P(DrivesOutOfReach, IsToldAndStaysAnErrorUntilANewStart) {
+  const Record& log = record(GetParam().mission);
+  const Time off = log.event(GetParam().by);
   const auto& error = log.first_status("NAV_ERROR", off);
   EXPECT_LT(error.time - off, 300ms);
   EXPECT_NE(error.why.find("no drive answers"), std::string::npos) << error.why;
@@ -101,19 +108,25 @@ TEST(BusOff, IsToldAndStaysAnErrorUntilANewStart) {
                                       "start_nav_success", "start_task_failse",
                                       "start_task_success", "start_nav_success"}));
   EXPECT_NE(log.feedback[3].reason.find("no drive answers"), std::string::npos);
-  const Time restarted = log.event("sim can can0 restart");
+  const Time restarted = log.event(GetParam().mended_by);
   const Time start = log.answered("start_task_success", 2);
   EXPECT_GT(start, restarted);
   expect_nav_stays(log, "NAV_ERROR", error.time, start - 150ms);
   EXPECT_THAT(log.moving(off + 5ms, start - kEstop), testing::IsEmpty());
 }
 
-TEST(BusOff, LetsANewStartReachTheGoalAfterARestartOfTheController) {
-  const Record& log = record("bus_off");
+TEST_P(DrivesOutOfReach, LetsANewStartReachTheGoalWhenItIsMended) {
+  const Record& log = record(GetParam().mission);
   EXPECT_EQ(log.statuses.back().nav, "NAV_SUCCESS");
   const Time start = log.answered("start_task_success", 2);
   EXPECT_LT(drive_figures(log, start, log.first_status("NAV_SUCCESS", start).time).goal_m, 0.10);
 }
+
+INSTANTIATE_TEST_SUITE_P(
+    Each, DrivesOutOfReach,
+    testing::Values(Severed{"bus_off", "sim can can0 bus_off", "sim can can0 restart"},
+                    Severed{"can_replugged", "sim can can0 unplug", "sim can can0 plug"}),
+    [](const auto& one) { return std::string(one.param.mission); });
 
 TEST(BrokerRestart, LeavesNoGapOnTheBus) {
   const Record& log = record("broker_restart");

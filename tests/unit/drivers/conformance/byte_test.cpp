@@ -89,8 +89,10 @@ TEST_P(ByteConformance, SurvivesAHundredThousandRandomBytesAndAllocatesNothing) 
   EXPECT_EQ(allocations, 0U);
 }
 
-TEST_P(ByteConformance, IsNeverHeardThenFreshThenStaleAndSaysWhy) {
-  if (!std::holds_alternative<MakeGnssTwin>(GetParam().entry->make_twin)) GTEST_SKIP();
+/// Receivers of a position.
+class GnssConformance : public ByteConformance {};
+
+TEST_P(GnssConformance, IsNeverHeardThenFreshThenStaleAndSaysWhy) {
   const auto driver = make();
   Time now{std::chrono::seconds(100)};
   driver->on_link_up(now);
@@ -131,12 +133,18 @@ TEST_P(ByteConformance, IsNeverHeardThenFreshThenStaleAndSaysWhy) {
   EXPECT_FALSE(driver->health(now).reason.empty());
 }
 
-/// A sensor of the robot's motion, turning left on level ground.
-TEST_P(ByteConformance, TellsTheMotionOfItsTwinThenGoesStaleAndSaysWhy) {
-  const auto* make_twin = std::get_if<MakeImuTwin>(&GetParam().entry->make_twin);
-  if (make_twin == nullptr) GTEST_SKIP();
-  ImuBench bench(make(), (*make_twin)(GetParam().options, 1),
-                 static_cast<std::uint32_t>(GetParam().options.number("baud")));
+/// Sensors of the robot's motion.
+class ImuConformance : public ByteConformance {
+ protected:
+  ImuBench make_bench() const {
+    return {make(), std::get<MakeImuTwin>(GetParam().entry->make_twin)(GetParam().options, 1),
+            static_cast<std::uint32_t>(GetParam().options.number("baud"))};
+  }
+};
+
+/// Turning left on level ground.
+TEST_P(ImuConformance, TellsTheMotionOfItsTwinThenGoesStaleAndSaysWhy) {
+  ImuBench bench = make_bench();
   EXPECT_EQ(bench.driver->health(bench.now).state, SourceState::never_heard);
   bench.truth.angular_velocity_radps = {0, 0, 0.5};
   bench.run(std::chrono::seconds(20));
@@ -163,12 +171,9 @@ TEST_P(ByteConformance, TellsTheMotionOfItsTwinThenGoesStaleAndSaysWhy) {
   EXPECT_EQ(bench.driver->health(bench.now).state, SourceState::fresh);
 }
 
-TEST_P(ByteConformance, DoesNotBelieveReadingsThatStandStillOrEndTheirRange) {
-  const auto* make_twin = std::get_if<MakeImuTwin>(&GetParam().entry->make_twin);
-  if (make_twin == nullptr) GTEST_SKIP();
+TEST_P(ImuConformance, DoesNotBelieveReadingsThatStandStillOrEndTheirRange) {
   for (const char* state : {"frozen", "saturated"}) {
-    ImuBench bench(make(), (*make_twin)(GetParam().options, 1),
-                   static_cast<std::uint32_t>(GetParam().options.number("baud")));
+    ImuBench bench = make_bench();
     bench.run(std::chrono::seconds(5));
     ASSERT_EQ(bench.driver->health(bench.now).state, SourceState::fresh);
     ASSERT_TRUE(bench.twin->set_state(state, bench.now));
@@ -180,7 +185,12 @@ TEST_P(ByteConformance, DoesNotBelieveReadingsThatStandStillOrEndTheirRange) {
 
 INSTANTIATE_TEST_SUITE_P(Registry, ByteConformance, ::testing::ValuesIn(subjects<MakeByteDriver>()),
                          label_of);
-GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(ByteConformance);
+INSTANTIATE_TEST_SUITE_P(Registry, GnssConformance,
+                         ::testing::ValuesIn(subjects_with_twin<MakeByteDriver, MakeGnssTwin>()),
+                         label_of);
+INSTANTIATE_TEST_SUITE_P(Registry, ImuConformance,
+                         ::testing::ValuesIn(subjects_with_twin<MakeByteDriver, MakeImuTwin>()),
+                         label_of);
 
 class LineConformance : public ::testing::TestWithParam<Subject> {
  protected:

@@ -73,6 +73,16 @@ std::vector<Subject> subjects() {
   return all;
 }
 
+/// Those of them whose twin is of this kind.
+template <class Make, class MakeTwin>
+std::vector<Subject> subjects_with_twin() {
+  std::vector<Subject> all = subjects<Make>();
+  std::erase_if(all, [](const Subject& subject) {
+    return !std::holds_alternative<MakeTwin>(subject.entry->make_twin);
+  });
+  return all;
+}
+
 inline std::string label_of(const ::testing::TestParamInfo<Subject>& info) {
   return info.param.label;
 }

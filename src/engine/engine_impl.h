@@ -1,0 +1,56 @@
+// What the engine is made of; its two files share it and nobody else includes it.
+#pragma once
+
+#include <array>
+
+#include "engine/engine.h"
+#include "engine/estimate/estimator.h"
+#include "engine/event_queue.h"
+#include "engine/health/announcer.h"
+#include "engine/health/health.h"
+#include "engine/health/wheels.h"
+#include "engine/navigate/navigator.h"
+#include "engine/own/owners.h"
+#include "engine/signals/signals.h"
+
+namespace drover::engine {
+
+struct Engine::Impl {
+  explicit Impl(const EngineConfig& c);
+
+  void take(const Measurement& m);
+  void count(const Measurement& m);
+  void fill_sources(const Environment& environment);
+  /// What a person has to act upon before anything moves; empty when nothing.
+  const Reason& latched() const {
+    return navigator.latched().empty() ? owners.latched() : navigator.latched();
+  }
+  void propose_origin(const RequestId& id, Time now);
+  void set_origin(const RequestId& id, const GeodeticPoint& origin, Time now);
+  void start_task(const RequestId& id, const StartTask& task, Time now);
+  void command_axes(const Motion& motion, EngineOutput& out);
+  void command_axis(AxisId id, double velocity_radps, bool run, EngineOutput& out);
+  void fill_imu(const Estimate& located);
+  void fill_snapshot(Time now, const Environment& environment, const Estimate& estimate,
+                     Owner owner);
+
+  EngineConfig config;
+  Estimator estimator;
+  HealthMonitor health;
+  WheelMonitor wheels;
+  Announcer announcer;
+  Navigator navigator;
+  Owners owners;
+  Signals signals;
+  EventQueue events;
+  std::array<bool, kLineCount> level{};  ///< last reported; active until then
+  std::array<bool, kLineCount> pulse{};  ///< was active at some instant since the last step
+  Estimate estimate;                     ///< of the last step
+  GnssPosition fix;                      ///< the last one
+  bool imu_trusted = false;              ///< by its driver, in the last step
+  double baseline_deg = kAbsent;         ///< last measured heading of the antennas
+  Time last_step = kNever;
+  Snapshot snapshot;
+};
+
+}  // namespace drover::engine

@@ -1,0 +1,86 @@
+// The engine's part of the snapshot, at the end of each cycle.
+#include <cmath>
+
+#include "drover/angle.h"
+#include "engine/engine_impl.h"
+
+namespace drover::engine {
+
+void Engine::Impl::fill_imu(const Estimate& located) {
+  ImuSnapshot& imu = snapshot.imu;
+  imu.gyro_bias_radps = located.gyro_bias_radps;
+  imu.gyro_bias_sigma_radps = located.gyro_bias_sigma_radps;
+  imu.roll_rad = located.roll_rad;
+  imu.pitch_rad = located.pitch_rad;
+  imu.orientation_sigma_rad = to_rad(config.estimate.imu_orientation_sigma_deg);
+  imu.angular_velocity_sigma_radps = config.estimate.imu_rate_sigma_radps;
+  imu.acceleration_sigma_mps2 = config.estimate.imu_acceleration_sigma_mps2;
+}
+
+void Engine::Impl::fill_sources(const Environment& environment) {
+  const auto tell = [](SourceSnapshot& source, const SourceHealth& driver) {
+    source.reason = driver.reason;
+    source.bad = driver.bad;
+  };
+  tell(snapshot.gnss.source, environment.gnss);
+  tell(snapshot.imu.source, environment.imu);
+  tell(snapshot.battery.source, environment.battery);
+  for (std::size_t i = 0; i < snapshot.axes.size(); ++i)
+    tell(snapshot.axes[i].source, environment.axes[i]);
+  for (std::size_t i = 0; i < kLineCount; ++i) tell(snapshot.line_source[i], environment.lines[i]);
+}
+
+void Engine::Impl::fill_snapshot(Time now, const Environment& environment, const Estimate& located,
+                                 Owner owner) {
+  const HealthReport& report = health.report();
+  snapshot.time = now;
+  fill_sources(environment);
+  snapshot.pose = located.pose;
+  snapshot.nav = navigator.snapshot(report);
+  snapshot.nav.owner = owner;
+  snapshot.nav.owner_timeout_s = owners.timeout_s(owner);
+  snapshot.joint_command = owners.joint_command();
+  snapshot.gnss.configured = environment.gnss_configured;
+  snapshot.nav.metres_left = located.metres_left;
+  fill_imu(located);
+  snapshot.gnss.health = report.gnss_ok ? environment.gnss.state : SourceState::stale;
+  if (environment.gnss.state == SourceState::never_heard) {
+    snapshot.gnss.health = SourceState::never_heard;
+  }
+  snapshot.imu.configured = environment.imu_configured;
+  snapshot.imu.health = environment.imu.state;
+  if (located.has_heading) {
+    snapshot.gnss.heading_deg = compass_deg_from_yaw_rad(located.pose.yaw_rad);
+  } else if (std::isfinite(baseline_deg)) {
+    snapshot.gnss.heading_deg =
+        wrap_deg(baseline_deg - config.estimate.heading_baseline_offset_deg);
+  }
+  if (located.has_position) {
+    const GeodeticPoint antenna = estimator.antenna_geodetic(located.pose);
+    snapshot.gnss.pose_latitude_deg = antenna.latitude_deg;
+    snapshot.gnss.pose_longitude_deg = antenna.longitude_deg;
+  } else if (std::isfinite(fix.latitude_deg) && std::isfinite(fix.longitude_deg)) {
+    snapshot.gnss.pose_latitude_deg = fix.latitude_deg;
+    snapshot.gnss.pose_longitude_deg = fix.longitude_deg;
+  }
+  snapshot.battery.configured = config.battery_configured;
+  snapshot.battery.health = environment.battery.state;
+  if (snapshot.battery.time != kNever &&
+      now - snapshot.battery.time > from_s(config.health.battery_stale_s)) {
+    snapshot.battery.health = SourceState::stale;
+  }
+  snapshot.stop_latched = !latched().empty();
+  snapshot.guard_alive = environment.guard_alive;
+  snapshot.guard_has_bus = environment.guard_has_bus;
+  const std::uint32_t latched_bit = 1U << static_cast<unsigned>(Cause::latched);
+  snapshot.why.clear();
+  // Latched in this very cycle by what is no lasting cause: health will tell from the next on.
+  if (snapshot.stop_latched && (report.causes & latched_bit) == 0 && report.stop.empty()) {
+    (void)snapshot.why.push_back(latched());
+  }
+  for (const Reason& reason : report.why) {
+    if (!snapshot.why.push_back(reason)) break;
+  }
+}
+
+}  // namespace drover::engine
