@@ -35,16 +35,17 @@ OdriveDriver::OdriveDriver(const Settings& settings, AxisId axis)
 }
 
 bool OdriveDriver::silent(Time now) const {
-  return last_heartbeat_ == kNever || now - last_heartbeat_ > kSilence;
+  return last_heartbeat_ == kNever || now - last_heartbeat_ > settings_.heartbeat_timeout;
 }
 
 bool OdriveDriver::attempts_to_run() const {
   return phase_ == Phase::configuring || phase_ == Phase::arming || phase_ == Phase::running;
 }
 
-void OdriveDriver::lock(std::string_view why, bool fault) {
+/// A drive that holds at zero until it is asked to run anew is a fault for whoever counts on it.
+void OdriveDriver::lock(std::string_view why) {
   phase_ = Phase::locked;
-  fault_ = fault;
+  fault_ = true;
   lock_reason_.assign(why);
 }
 
@@ -56,7 +57,7 @@ void OdriveDriver::start_arming(Time now, DriverOut& out) {
   arming_step_ = ArmingStep::first;
   phase_since_ = now;
   if (silent(now)) {
-    lock("asked to run while the drive was silent", true);
+    lock("asked to run while the drive was silent");
     return;
   }
   phase_ = Phase::arming;
@@ -74,13 +75,13 @@ void OdriveDriver::follow_heartbeat(Time now) {
     // The state alone is a fault too: a drive whose motor or encoder is unplugged may report no
     // error at all.
     if (heartbeat_.failed() || !closed_loop) {
-      lock(closed_loop ? "drive reports an error" : "left closed loop", true);
+      lock(closed_loop ? "drive reports an error" : "left closed loop");
       poller_.hurry();
     }
   } else if (phase_ == Phase::arming && attempted_) {
     if (heartbeat_.failed()) {
       if (cleared_at_ != kNever && now - cleared_at_ > kClearTime) {
-        lock("error does not clear", true);
+        lock("error does not clear");
         poller_.hurry();
       }
     } else if (closed_loop && now - phase_since_ >= kSettle) {
@@ -141,7 +142,7 @@ void OdriveDriver::arm(Time now, DriverOut& out) {
 
 void OdriveDriver::control(const AxisCommand& command, Time now, DriverOut& out) {
   if (last_heartbeat_ == kNever) return;  // never a frame to a node that was not heard
-  if (attempts_to_run() && silent(now)) lock("heartbeat ceased while armed", false);
+  if (attempts_to_run() && silent(now)) lock("heartbeat ceased while armed");
   if (phase_ == Phase::configuring || phase_ == Phase::arming) {
     if (now - phase_since_ > settings_.arming_timeout) {
       Reason why = "does not enter closed loop";
@@ -149,7 +150,7 @@ void OdriveDriver::control(const AxisCommand& command, Time now, DriverOut& out)
       if (!result.empty())
         why.format("does not enter closed loop: %.*s", static_cast<int>(result.size()),
                    result.data());
-      lock(why, true);
+      lock(why);
       poller_.hurry();
     }
   }
@@ -158,7 +159,7 @@ void OdriveDriver::control(const AxisCommand& command, Time now, DriverOut& out)
     case Phase::configuring:
       watchdog_.on_tick(now, out);
       if (watchdog_.failed()) {
-        lock(watchdog_.reason(), true);
+        lock(watchdog_.reason());
       } else if (watchdog_.done()) {
         phase_ = Phase::arming;
         phase_since_ = now;
@@ -219,7 +220,7 @@ void OdriveDriver::on_link_up(Time now) {
   effort_at_ = kNever;
   last_turnps_ = 0;
   poller_.restart(now);
-  if (request_ == AxisRequest::run) lock("the link was lost while armed", false);
+  if (request_ == AxisRequest::run) lock("the link was lost while armed");
 }
 
 FrameEffect OdriveDriver::effect(const CanFrame& frame) const {

@@ -12,9 +12,6 @@
 
 namespace drover::odrive {
 
-/// Without a heartbeat for so long the drive is gone: three of its 100 ms periods.
-inline constexpr Duration kSilence = std::chrono::milliseconds(300);
-
 class OdriveDriver final : public CanDriver {
  public:
   OdriveDriver(const Settings& settings, AxisId axis);
@@ -58,7 +55,7 @@ class OdriveDriver final : public CanDriver {
   bool attempts_to_run() const;
   void start_arming(Time now, DriverOut& out);
   void follow_heartbeat(Time now);
-  void lock(std::string_view why, bool fault);
+  void lock(std::string_view why);
   double motor_turnps(double velocity_radps);
   void send_setpoint(double turnps, Time now, bool at_once, DriverOut& out);
   void arm(Time now, DriverOut& out);
@@ -95,7 +92,7 @@ class OdriveDriver final : public CanDriver {
   enum class ArmingStep : std::uint8_t { first, mode, state };
   ArmingStep arming_step_ = ArmingStep::first;  ///< the next one
   Time cleared_at_ = kNever;                    ///< errors, for this request
-  bool fault_ = false;                          ///< `lock_reason_` is a fault
+  bool fault_ = false;                          ///< `lock_reason_` says which
   Reason lock_reason_;
   Time last_setpoint_ = kNever;
   double last_turnps_ = 0;

@@ -112,10 +112,11 @@ bool OdriveDriver::on_reply(std::uint8_t command, const CanFrame& frame, Time re
 bool OdriveDriver::on_heartbeat(const CanFrame& frame, Time received, DriverOut& out) {
   const auto heartbeat = decode_heartbeat(frame, settings_.firmware);
   if (!heartbeat) return false;
-  const bool gap = last_heartbeat_ != kNever && received - last_heartbeat_ > kSilence;
+  const bool gap =
+      last_heartbeat_ != kNever && received - last_heartbeat_ > settings_.heartbeat_timeout;
   if (last_heartbeat_ == kNever || gap) {
     poller_.restart(received);
-    if (attempts_to_run()) lock("heartbeat ceased while armed", false);
+    if (attempts_to_run()) lock("heartbeat ceased while armed");
     if (gap) errors_ = {};
   }
   const bool failed_before = heartbeat_.failed();
@@ -182,7 +183,7 @@ AxisStatus OdriveDriver::status(Time now) const {
     return status;
   }
   if (silent(now)) {
-    status.reason = "no heartbeat for more than 0.3 s";
+    status.reason.format("no heartbeat for more than %.1f s", to_s(settings_.heartbeat_timeout));
     return status;
   }
   status.error_code = heartbeat_.error;

@@ -67,6 +67,13 @@ const OptionSpec kOptions[] = {
      .max = 2,
      .text = "without encoder estimates for longer the axis counts as silent (s); ten of the "
              "drive's default 10 ms periods"},
+    {.name = "heartbeat_timeout_s",
+     .default_value = 0.3,
+     .min = 0.05,
+     .max = 5,
+     .text =
+         "without a heartbeat for longer the drive is gone and is armed only anew (s); three of "
+         "the drive's default 100 ms periods"},
     {.name = "setpoint_period_s",
      .default_value = 0.004,
      .min = 0.0005,
@@ -141,6 +148,7 @@ Settings read_settings(const Options& options) {
   if (one && settings.watchdog_enable_endpoint == settings.watchdog_timeout_endpoint)
     throw std::runtime_error("watchdog_timeout_endpoint is the same as watchdog_enable_endpoint");
   settings.stale_after = from_s(checked(options, "stale_s"));
+  settings.heartbeat_timeout = from_s(checked(options, "heartbeat_timeout_s"));
   settings.setpoint_period = from_s(checked(options, "setpoint_period_s"));
   settings.poll_period = from_s(checked(options, "poll_s"));
   settings.arming_timeout = from_s(checked(options, "arming_timeout_s"));

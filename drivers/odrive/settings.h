@@ -20,6 +20,7 @@ struct Settings {
   std::uint16_t watchdog_enable_endpoint = 0;
   std::uint16_t watchdog_timeout_endpoint = 0;
   Duration stale_after{};
+  Duration heartbeat_timeout{};
   Duration setpoint_period{};
   Duration poll_period{};  ///< of each polled value; zero: none but errors after a fault
   Duration arming_timeout{};

@@ -60,7 +60,7 @@ struct Mission {
   std::vector<TrackPose> track;
   std::size_t target_id = 0;  ///< from 1
   double speed_mps = 0.5;
-  bool automatic = true;  ///< save when first ready, start when saved
+  bool automatic = true;  ///< save when first ready, then start when ready
   std::vector<Step> steps;
   std::optional<EventName> end_after;  ///< none: the first nav_success, nav_error or failed start
   Duration end_delay = std::chrono::seconds(1);

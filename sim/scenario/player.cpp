@@ -276,8 +276,15 @@ void Player::happened(const std::string& event) {
     result_.status = report_.nav_status();
   }
   if (mission_.automatic && event == "ready" && count == 1) save_track();
-  if (mission_.automatic && event == "saved" && count == 1) start_task({});
+  if (mission_.automatic && (event == "saved" || event == "ready")) start_when_ready();
   look_for_end(event);
+}
+
+/// As an operator does: with the track saved and the robot sure of its place.
+void Player::start_when_ready() {
+  if (started_ || !story_.has_happened({"saved", 1}) || report_.locate() != "LOCATE_TRUE") return;
+  started_ = true;
+  start_task({});
 }
 
 void Player::look_for_end(const std::string& event) {

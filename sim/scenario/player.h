@@ -64,6 +64,7 @@ class Player {
   void start_task(const Action& action);
   void on_message(const MqttMessage& message);
   void happened(const std::string& event);
+  void start_when_ready();
   void look_for_end(const std::string& event);
   void tell(const std::string& text);
 
@@ -86,6 +87,7 @@ class Player {
   Time end_ = Time::max();
   Time next_second_{};
   Time next_reconnect_{};
+  bool started_ = false;  // by itself: `automatic`
   bool recording_ = true;
   bool interrupted_ = false;
 };

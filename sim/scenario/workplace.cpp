@@ -9,6 +9,7 @@
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
+#include <string_view>
 
 #include "sim/robot/scenario_file.h"
 #include "sim/scenario/mission.h"
@@ -63,6 +64,11 @@ json read_config(const std::string& scenario_file) {
   return config;
 }
 
+bool lab_in_real_time() {
+  const auto* lab = std::getenv("DROVER_LAB");
+  return lab != nullptr && std::string_view(lab) == "real";
+}
+
 void write_file(const std::string& path, const std::string& text) {
   std::ofstream stream(path);
   stream << text;
@@ -85,6 +91,7 @@ Workplace::Workplace(const WorkplaceSettings& settings)
   fs::create_directories(log_folder_);
   auto config = read_config(settings.scenario_file);
   if (settings.native) make_native(config);
+  if (settings.native || lab_in_real_time()) widen_ages(config);
   if (document_["gnss"].value("port", "").starts_with("usb:")) prepare_udev(config);
   guard_socket_ = config["guard"].value("socket", "/run/drover/guard.sock");
   daemon_folder_ = config["paths"].value("run", daemon_folder_);
@@ -118,6 +125,23 @@ void Workplace::make_native(json& config) {
   config["guard"]["socket"] = run + "/guard.sock";
   config["mqtt"]["port"] = port_;
   config["control"]["realtime"] = false;
+}
+
+/// Where the clock is the host's, robot and gateway share its hold-ups: a desktop lets a process
+/// sleep 0.2 s longer than it asked for. A robot's ages are for a machine of its own.
+void Workplace::widen_ages(json& config) {
+  for (auto* drives : {&config["drives"], &document_["drives"]})
+    for (auto& drive : *drives) drive["options"]["watchdog_timeout_s"] = 2;
+  for (auto& drive : config["drives"])
+    drive["options"].update({{"stale_s", 1}, {"heartbeat_timeout_s", 1}});
+  for (const char* device : {"gnss", "imu"})
+    if (config.contains(device)) config[device]["options"]["stale_s"] = 2;
+  for (const char* line : {"estop", "bumper", "zone_far", "zone_near"})
+    if (config["lines"].contains(line)) config["lines"][line]["options"]["stale_s"] = 0.5;
+  config["health"].update(
+      {{"drive_stale_s", 1}, {"gnss_stale_s", 2}, {"imu_stale_s", 2}, {"line_stale_s", 0.5}});
+  config["estimate"].update({{"wheel_stale_s", 0.5}, {"imu_stale_s", 0.5}});
+  config["guard"]["limit_ms"] = 500;
 }
 
 /// A udevd of our own would rename the host's devices: only the lab has none.

@@ -42,6 +42,7 @@ class Workplace {
   Program program(const std::string& name, const std::string& words = {}) const;
 
  private:
+  void widen_ages(nlohmann::json& config);
   void make_native(nlohmann::json& config);
   void prepare_udev(nlohmann::json& config);
   void write_files(const nlohmann::json& config);

@@ -160,7 +160,10 @@ class Bench {
     }
   }
 
-  bool heard() const { return heartbeat_ != kNever && now_ - heartbeat_ <= odrive::kSilence; }
+  bool heard() const {
+    constexpr auto kSilence = std::chrono::milliseconds(300);
+    return heartbeat_ != kNever && now_ - heartbeat_ <= kSilence;
+  }
 
   bool allowed(const CanFrame& frame) const {
     for (const FrameRule& rule : driver_->allow_list())

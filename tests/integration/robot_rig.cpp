@@ -124,9 +124,10 @@ RobotRig::~RobotRig() {
   for (const auto* process : {&daemon_, &sim_, &guard_})
     clean = expect_no_sanitizer_report(*process) && clean;
   if (HasFailure()) tell_what_happened();
-  if (HasFailure() && clean && starvation_.starved())
-    std::fprintf(stderr, "machine-starved: a sleeping thread woke %.1f s too late\n",
-                 starvation_.longest_s());
+  if (HasFailure() && clean && starvation_.starved()) {
+    machine_was_starved = true;
+    std::fprintf(stderr, "a sleeping thread woke %.1f s too late\n", starvation_.longest_s());
+  }
   // Destructors of the processes run later: end them before their folder goes.
   for (auto* process : {&daemon_, &guard_, &sim_, &broker_}) {
     process->signal(SIGKILL);

@@ -7,6 +7,13 @@ namespace drover::guard {
 namespace {
 using namespace std::chrono_literals;
 constexpr Time kStart{std::chrono::seconds(100)};
+
+/// The guard's cycles after `from` up to and with `to`, while the daemon says nothing new.
+bool step_until(Watch& watch, std::uint64_t beats, Time from, Time to) {
+  bool holds = false;
+  for (Time t = from + 1ms; t <= to; t += 1ms) holds = watch.step(beats, t);
+  return holds;
+}
 }  // namespace
 
 TEST(GuardWatch, SendsNothingBeforeASetIsInForce) {
@@ -20,8 +27,31 @@ TEST(GuardWatch, TakesTheBusWhenTheHeartbeatIsLate) {
   Watch watch;
   watch.begin(7, 50ms, kStart);
   EXPECT_FALSE(watch.step(8, kStart + 5ms));
-  EXPECT_FALSE(watch.step(8, kStart + 55ms));
+  EXPECT_FALSE(step_until(watch, 8, kStart + 5ms, kStart + 55ms));
   EXPECT_TRUE(watch.step(8, kStart + 56ms));
+}
+
+TEST(GuardWatch, LetsTheDaemonShowItselfAfterItWasHeldUpItself) {
+  Watch watch;
+  watch.begin(7, 50ms, kStart);
+  EXPECT_FALSE(watch.step(7, kStart + 180ms));
+  EXPECT_FALSE(step_until(watch, 7, kStart + 180ms, kStart + 190ms));
+  EXPECT_FALSE(watch.step(8, kStart + 191ms)) << "the daemon was held up as well and goes on";
+}
+
+TEST(GuardWatch, TakesTheBusWhenTheDaemonStaysSilentAfterBothWereHeldUp) {
+  Watch watch;
+  watch.begin(7, 50ms, kStart);
+  EXPECT_FALSE(watch.step(7, kStart + 180ms));
+  EXPECT_FALSE(step_until(watch, 7, kStart + 180ms, kStart + 200ms));
+  EXPECT_TRUE(watch.step(7, kStart + 201ms));
+}
+
+TEST(GuardWatch, BeingHeldUpAgainAndAgainPutsTheHoldOffOnlyOnce) {
+  Watch watch;
+  watch.begin(7, 50ms, kStart);
+  EXPECT_FALSE(watch.step(7, kStart + 30ms));
+  EXPECT_TRUE(watch.step(7, kStart + 60ms));
 }
 
 TEST(GuardWatch, TakesTheBusAtOnceWhenTheDaemonDies) {
@@ -34,7 +64,7 @@ TEST(GuardWatch, TakesTheBusAtOnceWhenTheDaemonDies) {
 TEST(GuardWatch, KeepsTheBusWhenTheHeartbeatComesBackUntilItIsAskedForIt) {
   Watch watch;
   watch.begin(7, 50ms, kStart);
-  EXPECT_TRUE(watch.step(7, kStart + 60ms));
+  EXPECT_TRUE(step_until(watch, 7, kStart, kStart + 60ms));
   EXPECT_TRUE(watch.step(8, kStart + 65ms));
   watch.hand_back(kStart + 70ms);
   EXPECT_FALSE(watch.step(9, kStart + 75ms));
@@ -43,7 +73,7 @@ TEST(GuardWatch, KeepsTheBusWhenTheHeartbeatComesBackUntilItIsAskedForIt) {
 TEST(GuardWatch, DoesNotHandBackToADaemonWhoseHeartbeatIsLate) {
   Watch watch;
   watch.begin(7, 50ms, kStart);
-  EXPECT_TRUE(watch.step(7, kStart + 60ms));
+  EXPECT_TRUE(step_until(watch, 7, kStart, kStart + 60ms));
   watch.hand_back(kStart + 70ms);
   EXPECT_TRUE(watch.step(7, kStart + 75ms));
 }

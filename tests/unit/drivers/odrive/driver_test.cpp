@@ -284,6 +284,20 @@ TEST(OdriveDriver, StaysLockedWhenTheHeartbeatComesBackInClosedLoop) {
   bench.run(100, AxisRequest::run, 1.0, kRunningBeat);
   EXPECT_EQ(bench.motions(), 0);
   EXPECT_GE(bench.count(kZero), 99);
+  EXPECT_EQ(bench.status.state, AxisState::fault);
+  EXPECT_EQ(bench.status.reason, "heartbeat ceased while armed");
+}
+
+TEST(OdriveDriver, WaitsForAHeartbeatAsLongAsConfigured) {
+  auto patient = options();
+  patient.set("heartbeat_timeout_s", 1.0);
+  Bench bench(patient);
+  bench.arm();
+  bench.run(190, AxisRequest::run, 1.0);  // 0.95 s
+  EXPECT_EQ(bench.status.state, AxisState::running);
+  bench.run(20, AxisRequest::run, 1.0);
+  EXPECT_EQ(bench.status.state, AxisState::unknown);
+  EXPECT_EQ(bench.status.reason, "no heartbeat for more than 1.0 s");
 }
 
 TEST(OdriveDriver, StaysLockedAfterAGapThatNoCycleSaw) {
@@ -293,6 +307,9 @@ TEST(OdriveDriver, StaysLockedAfterAGapThatNoCycleSaw) {
   bench.hear(kRunningBeat);
   bench.run(20, AxisRequest::run, 1.0);
   EXPECT_EQ(bench.motions(), 0);
+  EXPECT_EQ(bench.status.state, AxisState::fault) << "it does not obey, whatever the drive says";
+  bench.run(1, AxisRequest::rest);
+  EXPECT_EQ(bench.status.state, AxisState::running) << "the task is over: a new one may start";
 }
 
 TEST(OdriveDriver, GoesIdleOnlyAfterZeroAndWhenSlow) {
