@@ -127,7 +127,7 @@ struct LinkSnapshot {
   Name name;
   bool is_bus = false;  ///< a CAN bus; otherwise a serial line, the GPIO chip, ...
   bool up = false;
-  Reason reason;  ///< why it is not up
+  Reason reason;  ///< why it is not up, or what is wrong with the bus
   std::uint64_t received = 0;
   std::uint64_t sent = 0;
   std::uint64_t dropped = 0;  ///< receive queue overflow, refused sends

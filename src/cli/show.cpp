@@ -89,7 +89,8 @@ void show_devices(std::string& out, const Node& status) {
       value += yes(at(link, "up")) ? quantity(at(link, "received"), "up  in %.0f") +
                                          quantity(at(link, "sent"), "  out %.0f") +
                                          quantity(at(link, "dropped"), "  dropped %.0f") +
-                                         quantity(at(link, "refused"), "  refused %.0f")
+                                         quantity(at(link, "refused"), "  refused %.0f") + "  " +
+                                         text(at(link, "reason"))
                                    : "down  " + text(at(link, "reason"));
       line(out, &link == &links->front() ? "links" : "", value);
     }

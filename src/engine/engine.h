@@ -21,6 +21,7 @@ struct Environment {
   bool guard_has_bus = false;  ///< the guard sends stop frames; ours are blocked until hand-back
   /// Health of each drive, by AxisId, and of the receiver, as their drivers judge it.
   std::array<SourceHealth, kMaxAxes> axes{};
+  Reason bus;  ///< what is wrong with a CAN bus; empty when all is well
   SourceHealth gnss;
   SourceHealth imu;
   SourceHealth battery;

@@ -140,7 +140,10 @@ void ControlLoop::take_links(Time now) {
     const auto slot = arrived.slot;
     link_state_[slot].up = arrived.opened();
     link_state_[slot].reason = arrived.problem;
-    if (!arrived.opened()) continue;
+    if (!arrived.opened()) {
+      if (slot < kMaxBuses) gateway_.on_bus_lost(slot, arrived.problem);
+      continue;
+    }
     if (is_stream(slot)) {
       const auto stream = slot - kFirstStreamSlot;
       streams_[stream] = std::move(arrived.serial);
@@ -181,6 +184,7 @@ void ControlLoop::lose(std::size_t slot, int error, Time now) {
     dead.outputs = std::move(outputs_);
   } else {
     dead.can = std::move(can_[slot]);
+    gateway_.on_bus_lost(slot, dead.problem);
   }
   (void)keeper_.give_back(dead);
 }
@@ -291,6 +295,7 @@ Time ControlLoop::publish(Time now) {
       state.sent = c.sent;
       state.dropped = c.receive_overflows + c.send_refused;
       state.refused = gateway_.refused(slot);
+      state.reason = gateway_.bus_trouble(slot, now);
     }
     (void)snapshot.links.push_back(state);
   }

@@ -24,6 +24,8 @@ constexpr std::size_t index(Stream stream) {
 Gateway::Gateway(const config::DroverConfig& config)
     : engine_(config.engine), bus_count_(config.buses.size()) {
   if (bus_count_ > kMaxBuses) throw std::runtime_error("buses: too many");
+  for (std::size_t bus = 0; bus < bus_count_; ++bus)
+    buses_[bus].name = Name(config.buses[bus].name);
   drives_.reserve(config.drives.size());
   for (const auto& drive : config.drives) {
     const auto make = maker<MakeCanDriver>(drive.driver, "drives: " + drive.joint);
@@ -63,7 +65,8 @@ void Gateway::emit(const Drive& drive) {
 }
 
 void Gateway::on_frame(std::size_t bus, const CanFrame& frame, Time received) {
-  if (frame.error) return;
+  if (frame.error) return buses_[bus].condition.on_error_frame(frame, received);
+  buses_[bus].condition.on_frame(received);
   for (const auto& drive : drives_) {
     if (drive.bus != bus) continue;
     drive.driver->on_frame(frame, received, scratch_);
@@ -72,8 +75,38 @@ void Gateway::on_frame(std::size_t bus, const CanFrame& frame, Time received) {
 }
 
 void Gateway::on_bus_up(std::size_t bus, Time now) {
+  buses_[bus].condition = {};
+  buses_[bus].lost.clear();
   for (const auto& drive : drives_)
     if (drive.bus == bus) drive.driver->on_link_up(now);
+}
+
+void Gateway::on_bus_lost(std::size_t bus, const Reason& why) {
+  buses_[bus].lost = why;
+}
+
+Reason Gateway::bus_trouble(std::size_t bus, Time now) const {
+  const Bus& it = buses_[bus];
+  return it.lost.empty() ? it.condition.text(it.name.view(), now) : it.lost;
+}
+
+/// Drives that are silent because of their bus say so; on one that is gone or off they are silent
+/// before their time-out.
+void Gateway::look_at_buses(Time now) {
+  environment_.bus.clear();
+  for (std::size_t bus = 0; bus < bus_count_; ++bus) {
+    const Reason trouble = bus_trouble(bus, now);
+    if (trouble.empty()) continue;
+    if (environment_.bus.empty()) environment_.bus = trouble;
+    const bool cut = !buses_[bus].lost.empty() ||
+                     buses_[bus].condition.state() == link::CanCondition::State::off;
+    for (std::size_t i = 0; i < drives_.size(); ++i) {
+      SourceHealth& health = environment_.axes[i];
+      if (drives_[i].bus != bus || (health.state == SourceState::fresh && !cut)) continue;
+      if (health.state == SourceState::fresh) health.state = SourceState::stale;
+      health.reason = trouble;
+    }
+  }
 }
 
 void Gateway::on_stream_up(Stream stream, Time now) {
@@ -127,6 +160,7 @@ const CycleOutput& Gateway::step(Time now, bool guard_alive, bool guard_has_bus)
   scratch_.clear();
   for (std::size_t i = 0; i < drives_.size(); ++i)
     environment_.axes[i] = drives_[i].driver->health(now);
+  look_at_buses(now);
   environment_.guard_alive = guard_alive;
   environment_.guard_has_bus = guard_has_bus;
 

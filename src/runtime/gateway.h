@@ -13,6 +13,7 @@
 #include "drover/registry.h"
 #include "engine/engine.h"
 #include "engine/gate/frame_gate.h"
+#include "link/can_condition.h"
 
 namespace drover::runtime {
 
@@ -48,6 +49,8 @@ class Gateway final {
   void on_battery(const Measurement& sample) { engine_.on_measurement(sample); }
   void set_battery_health(const SourceHealth& health) { environment_.battery = health; }
   void on_bus_up(std::size_t bus, Time now);
+  /// It is gone, or cannot be opened: why. Until on_bus_up.
+  void on_bus_lost(std::size_t bus, const Reason& why);
   void on_stream_up(Stream stream, Time now);
   void on_command(const Command& command, Time now);
 
@@ -56,6 +59,9 @@ class Gateway final {
   const Snapshot& snapshot() const { return engine_.snapshot(); }
   /// Frames of `bus` that the gate refused so far.
   std::uint64_t refused(std::size_t bus) const;
+
+  /// What is wrong with it, as its error frames or the system tell; empty when all is well.
+  Reason bus_trouble(std::size_t bus, Time now) const;
 
   std::size_t bus_count() const { return bus_count_; }
   /// For the guard: every stop frame of the drives on `bus`.
@@ -66,6 +72,12 @@ class Gateway final {
     std::size_t bus = 0;
     std::unique_ptr<CanDriver> driver;
   };
+  struct Bus {
+    Name name;
+    link::CanCondition condition;
+    Reason lost;
+  };
+  void look_at_buses(Time now);
   void absorb(const DriverOut& out);
   void absorb_stream(std::size_t stream);
   void emit(const Drive& drive);
@@ -75,6 +87,7 @@ class Gateway final {
   std::array<std::unique_ptr<ByteDriver>, kStreamCount> streams_;
   std::vector<std::unique_ptr<LineDriver>> lines_;
   std::vector<Line> line_ids_;
+  std::array<Bus, kMaxBuses> buses_;
   std::size_t bus_count_ = 0;
   engine::FrameGate frame_gate_;
   engine::Environment environment_;

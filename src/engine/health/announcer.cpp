@@ -21,6 +21,7 @@ std::string_view over(Cause cause) {
     case Cause::charger: return "charger unplugged";
     case Cause::battery_critical: return "battery good for driving again";
     case Cause::near_zone: return "near zone free";
+    case Cause::bus: return "CAN buses good";
     case Cause::origin: return "an origin is set";
     case Cause::receiver: return "receiver heard";
     case Cause::imu: return "IMU heard";

@@ -97,8 +97,8 @@ void HealthMonitor::look_at_drives(const HealthInput& input) {
     } else if (age >= stale || source.state != SourceState::fresh) {
       Reason what;
       what.format("no feedback for %.2f s", to_s(age));
-      put(text, "wheel", axis.joint,
-          age < stale && !source.reason.empty() ? source.reason.view() : what.view());
+      const bool known = source.state != SourceState::fresh && !source.reason.empty();
+      put(text, "wheel", axis.joint, known ? source.reason.view() : what.view());
     }
     if (!text.empty()) {
       ++silent;
@@ -133,6 +133,7 @@ void HealthMonitor::look_at_guard(const Environment& environment) {
   report_.guard_ok = !silent && !environment.guard_has_bus;
   if (environment.guard_has_bus) hold(Cause::guard_has_bus, "the guard stopped the drives");
   if (silent) hold(Cause::guard_silent, "the guard does not answer");
+  if (!environment.bus.empty()) hold(Cause::bus, environment.bus);
 }
 
 void HealthMonitor::look_at_imu(const HealthInput& input) {

@@ -24,6 +24,7 @@ enum class Cause : std::uint8_t {
   charger,           ///< connected: must not move
   battery_critical,  ///< empty, too hot, or about to switch off: a task ends
   near_zone,
+  bus,       ///< told only: what it does to the drives is their own cause
   origin,    ///< none set
   receiver,  ///< silent
   imu,       ///< configured and silent, stuck or out of its range
@@ -34,7 +35,7 @@ enum class Cause : std::uint8_t {
   battery_warning,  ///< told only
   battery_silent,   ///< told only: nothing is known of it
 };
-inline constexpr std::size_t kCauseCount = 20;
+inline constexpr std::size_t kCauseCount = 21;
 
 /// Last known state of the lines: the levels the drivers reported since the last cycle.
 struct LineTable {

@@ -155,6 +155,18 @@ TEST_F(AHealthMonitor, BelievesADriverThatCallsItsDriveStale) {
   environment.axes[0].reason = "heartbeat missing";
   expect_stop("wheel front_left: heartbeat missing");
 }
+TEST_F(AHealthMonitor, TellsTheDriversReasonAlsoWhenTheFeedbackIsOld) {
+  axes[0].last_motion = now - std::chrono::milliseconds(500);
+  environment.axes[0].state = SourceState::stale;
+  environment.axes[0].reason = "can0 is bus-off";
+  expect_stop("wheel front_left: can0 is bus-off");
+}
+TEST_F(AHealthMonitor, TellsOfABusInTroubleAndDrivesOn) {
+  environment.bus = "can0 has many errors";
+  EXPECT_TRUE(update().stop.empty());
+  ASSERT_EQ(update().why.size(), 1U);
+  EXPECT_EQ(update().why[0], "can0 has many errors");
+}
 TEST_F(AHealthMonitor, StopsForADriveThatWasNeverHeard) {
   axes[0].last_motion = kNever;
   expect_stop("wheel front_left: never heard");
