@@ -41,6 +41,9 @@ class OdriveDriver final : public CanDriver {
 
   // receive.cpp
   bool on_reply(std::uint8_t command, const CanFrame& frame, Time received, DriverOut& out);
+  void on_foreign(const CanFrame& frame, Time received);
+  bool fought(Time now) const;
+  Reason foreign_text() const;
   bool on_heartbeat(const CanFrame& frame, Time received, DriverOut& out);
   bool on_estimates(const CanFrame& frame, Time received, DriverOut& out);
   bool on_errors(std::uint8_t command, const CanFrame& frame);

@@ -44,14 +44,33 @@ void OdriveDriver::on_frame(const CanFrame& frame, Time received, DriverOut& out
   if (!belongs_to(frame, settings_.node) || frame.remote) return;
   const std::uint8_t command = command_of(frame.id);
   if (is_master_command(command, settings_.firmware)) {
-    // The guard's zeros are welcome; whoever sends anything else fights with this gateway.
-    if (effect(frame) != FrameEffect::stop) {
-      foreign_id_ = frame.id;
-      foreign_at_ = received;
-    }
+    on_foreign(frame, received);
     return;
   }
   if (!on_reply(command, frame, received, out)) ++bad_;
+}
+
+/// The guard's zeros are welcome, and so is who only reads; whoever sends anything else fights with
+/// this gateway.
+void OdriveDriver::on_foreign(const CanFrame& frame, Time received) {
+  constexpr std::uint8_t kReads = 0;
+  const bool reads =
+      command_of(frame.id) == cmd::kRxSdo && frame.len > 0 && frame.data[0] == kReads;
+  if (reads || effect(frame) == FrameEffect::stop) return;
+  foreign_id_ = frame.id;
+  foreign_at_ = received;
+  if (attempts_to_run()) lock(foreign_text().view());
+}
+
+bool OdriveDriver::fought(Time now) const {
+  return foreign_at_ != kNever && now - foreign_at_ <= kForeignShown;
+}
+
+Reason OdriveDriver::foreign_text() const {
+  Reason text;
+  text.format("somebody else commands it: id 0x%03X on the bus",
+              static_cast<unsigned>(foreign_id_));
+  return text;
 }
 
 /// False when the frame is not as documented; frames that nobody asked for are fine.
@@ -187,6 +206,11 @@ AxisStatus OdriveDriver::status(Time now) const {
     return status;
   }
   status.error_code = heartbeat_.error;
+  if (fought(now) && !fault_) {
+    status.state = AxisState::fault;
+    status.reason = foreign_text();
+    return status;
+  }
   const bool arming = phase_ == Phase::configuring || phase_ == Phase::arming;
   if (fault_ || (heartbeat_.failed() && !arming)) {
     status.state = AxisState::fault;
@@ -253,9 +277,7 @@ SourceHealth OdriveDriver::health(Time now) const {
     health.reason.format("no encoder estimates for %.2f s", to_s(now - last_estimates_));
   } else {
     health.state = SourceState::fresh;
-    if (foreign_at_ != kNever && now - foreign_at_ <= kForeignShown)
-      health.reason.format("foreign command id 0x%03X on the bus",
-                           static_cast<unsigned>(foreign_id_));
+    if (fought(now)) health.reason = foreign_text();
   }
   return health;
 }

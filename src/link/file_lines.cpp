@@ -24,7 +24,7 @@ class FileLines final : public LineLink {
     return true;
   }
   std::span<const int> edge_fds() const override { return {}; }
-  void drain_edges() override {}
+  void drain_edges(std::array<bool, kMaxLines>& /*edged*/) override {}
   int error() const override { return error_; }
 
  private:

@@ -50,14 +50,15 @@ class GpioLines final : public LineLink {
     return true;
   }
   std::span<const int> edge_fds() const override { return fds_; }
-  void drain_edges() override {
+  void drain_edges(std::array<bool, kMaxLines>& edged) override {
     read_all_ = true;
     constexpr unsigned kEvents = 16;  // the kernel's queue a line
     std::array<gpiod_line_event, kEvents> events{};
-    for (auto* line : lines_) {
+    for (std::size_t i = 0; i < lines_.size(); ++i) {
       const timespec no_wait{};
-      if (::gpiod_line_event_wait(line, &no_wait) == 1)
-        (void)::gpiod_line_event_read_multiple(line, events.data(), kEvents);
+      if (::gpiod_line_event_wait(lines_[i], &no_wait) != 1) continue;
+      edged[i] = true;
+      (void)::gpiod_line_event_read_multiple(lines_[i], events.data(), kEvents);
     }
   }
   int error() const override { return error_; }
@@ -113,12 +114,12 @@ namespace {
 
 class GpioLines final : public LineLink {
  public:
-  GpioLines(gpiod_chip* chip, gpiod_line_request* request, std::size_t count)
+  GpioLines(gpiod_chip* chip, gpiod_line_request* request, std::vector<unsigned> offsets)
       : chip_(chip),
         request_(request),
         events_(::gpiod_edge_event_buffer_new(64)),
         fd_(::gpiod_line_request_get_fd(request)),
-        count_(count) {}
+        offsets_(std::move(offsets)) {}
   ~GpioLines() override {
     ::gpiod_edge_event_buffer_free(events_);
     ::gpiod_line_request_release(request_);
@@ -133,13 +134,22 @@ class GpioLines final : public LineLink {
       error_ = errno;
       return false;
     }
-    for (std::size_t i = 0; i < count_; ++i) levels[i] = values[i] == GPIOD_LINE_VALUE_ACTIVE;
+    for (std::size_t i = 0; i < offsets_.size(); ++i)
+      levels[i] = values[i] == GPIOD_LINE_VALUE_ACTIVE;
     return true;
   }
   std::span<const int> edge_fds() const override { return {&fd_, 1}; }
-  void drain_edges() override {
-    while (::gpiod_line_request_wait_edge_events(request_, 0) == 1)
-      if (::gpiod_line_request_read_edge_events(request_, events_, 64) <= 0) return;
+  void drain_edges(std::array<bool, kMaxLines>& edged) override {
+    while (::gpiod_line_request_wait_edge_events(request_, 0) == 1) {
+      const int count = ::gpiod_line_request_read_edge_events(request_, events_, 64);
+      if (count <= 0) return;
+      for (int n = 0; n < count; ++n) {
+        auto* event = ::gpiod_edge_event_buffer_get_event(events_, static_cast<unsigned long>(n));
+        const unsigned offset = ::gpiod_edge_event_get_line_offset(event);
+        for (std::size_t i = 0; i < offsets_.size(); ++i)
+          if (offsets_[i] == offset) edged[i] = true;
+      }
+    }
   }
   int error() const override { return error_; }
 
@@ -148,7 +158,7 @@ class GpioLines final : public LineLink {
   gpiod_line_request* request_;
   gpiod_edge_event_buffer* events_;
   int fd_;
-  std::size_t count_;
+  std::vector<unsigned> offsets_;
   int error_ = 0;
 };
 
@@ -223,7 +233,7 @@ Opened<LineLink> open_gpio_lines(const LineSettings& settings) {
     ::gpiod_chip_close(chip);
     return opened;
   }
-  opened.link = std::make_unique<GpioLines>(chip, request, offsets.size());
+  opened.link = std::make_unique<GpioLines>(chip, request, std::move(offsets));
   return opened;
 }
 

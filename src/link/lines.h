@@ -28,8 +28,9 @@ class LineLink {
   [[nodiscard]] virtual bool read(std::array<bool, kMaxLines>& levels) = 0;
   /// Descriptors that become readable at an edge; empty when there is none.
   virtual std::span<const int> edge_fds() const = 0;
-  /// Takes waiting edges off the descriptors; the level that is read afterwards is what counts.
-  virtual void drain_edges() = 0;
+  /// Takes waiting edges off the descriptors and marks the lines that had one: such a line was at
+  /// its other level too, however short, whatever is read afterwards.
+  virtual void drain_edges(std::array<bool, kMaxLines>& edged) = 0;
   virtual int error() const = 0;
 };
 

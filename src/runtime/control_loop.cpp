@@ -97,8 +97,9 @@ Time ControlLoop::wait(Duration longest) {
     if (is_ready(fds[i])) read_stream(i, now);
   if (std::any_of(fds.begin() + kStreamCount, fds.begin() + static_cast<std::ptrdiff_t>(count),
                   is_ready)) {
-    lines_->drain_edges();
-    read_lines(now);
+    std::array<bool, link::kMaxLines> edged{};
+    lines_->drain_edges(edged);
+    read_lines(now, edged);
   }
   return now;
 }
@@ -115,20 +116,28 @@ Time ControlLoop::cycle(Time begin, std::uint64_t late) {
   Command command;
   while (exchange_.commands.pop(command)) gateway_.on_command(command, begin);
 
-  const auto& out = gateway_.step(begin, guard_seen_ + guard_stale_ > begin, guard_has_bus_);
+  const bool guard_alive = guard_seen_ + guard_stale_ > begin && keeper_.guard_equipped();
+  const auto& out = gateway_.step(begin, guard_alive, guard_has_bus_);
   for (std::size_t bus = 0; bus < gateway_.bus_count(); ++bus) {
     if (!can_[bus] || out.frames[bus].empty()) continue;
-    if (!can_[bus]->send(out.frames[bus])) lose(bus, can_[bus]->error(), begin);
+    if (!can_[bus]->send(out.frames[bus])) {
+      lose(bus, can_[bus]->error(), begin);
+    } else {
+      const auto& counters = can_[bus]->counters();
+      gateway_.on_sent(bus, counters.sent, counters.send_refused, begin);
+    }
   }
   for (std::size_t i = 0; i < kStreamCount; ++i) serve_stream(i, out.streams[i], begin);
   write_outputs(out.engine.outputs, begin);
 
   guard_.shared().daemon_beats.fetch_add(1, std::memory_order_release);
   exchange_.beats.fetch_add(1, std::memory_order_relaxed);
-  exchange_.at_rest.store(!out.engine.motion_permitted, std::memory_order_relaxed);
   for (const auto& event : out.engine.events)
     if (!exchange_.events.push(event)) exchange_.lost_events.fetch_add(1);
   if (!out.engine.events.empty()) exchange_.events_ready.notify();
+  // After the events: who waits for it may end the thread that tells them.
+  const bool task = gateway_.snapshot().nav.status == NavStatus::run;
+  exchange_.at_rest.store(!out.engine.motion_permitted && !task, std::memory_order_release);
   return publish(begin);
 }
 
@@ -214,11 +223,18 @@ void ControlLoop::serve_stream(std::size_t stream, const StreamOutput& out, Time
   lose(slot, 0, now);
 }
 
-void ControlLoop::read_lines(Time now) {
+/// A line in `edged` is told at its other level first: a pulse that is over already counts too.
+void ControlLoop::read_lines(Time now, const std::array<bool, link::kMaxLines>& edged) {
   if (line_count_ == 0) return;
   if (!lines_) return gateway_.on_lines_lost(now);
   std::array<bool, link::kMaxLines> levels{};
   if (!lines_->read(levels)) return lose(kLinesSlot, lines_->error(), now);
+  const bool pulses = std::find(edged.begin(), edged.end(), true) != edged.end();
+  if (pulses) {
+    auto before = levels;
+    for (std::size_t i = 0; i < line_count_; ++i) before[i] = levels[i] != edged[i];
+    gateway_.on_levels({before.data(), line_count_}, now);
+  }
   gateway_.on_levels({levels.data(), line_count_}, now);
 }
 

@@ -39,7 +39,7 @@ class ControlLoop final {
   Time wait(Duration longest);
   void read_stream(std::size_t stream, Time now);
   void serve_stream(std::size_t stream, const StreamOutput& out, Time now);
-  void read_lines(Time now);
+  void read_lines(Time now, const std::array<bool, link::kMaxLines>& edged = {});
   void write_outputs(const std::array<bool, kOutputCount>& on, Time now);
   void drain_can(Time now);
   Time cycle(Time begin, std::uint64_t late);

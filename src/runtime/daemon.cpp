@@ -82,6 +82,7 @@ class Daemon final {
     std::thread publish([this] { publish_.run(stop_publish_); });
     ::sd_notify(0, "READY=1");
     log(LogLevel::info, "droverd " DROVER_VERSION " runs");
+    for (const auto& caution : gateway_.cautions()) log(LogLevel::warning, caution);
     wait_for_end();
     ::sd_notify(0, "STOPPING=1");
     come_to_rest();

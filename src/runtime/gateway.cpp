@@ -22,7 +22,9 @@ constexpr std::size_t index(Stream stream) {
 }  // namespace
 
 Gateway::Gateway(const config::DroverConfig& config)
-    : engine_(config.engine), bus_count_(config.buses.size()) {
+    : engine_(config.engine),
+      bus_count_(config.buses.size()),
+      jammed_after_(from_s(config.engine.health.drive_stale_s)) {
   if (bus_count_ > kMaxBuses) throw std::runtime_error("buses: too many");
   for (std::size_t bus = 0; bus < bus_count_; ++bus)
     buses_[bus].name = Name(config.buses[bus].name);
@@ -77,6 +79,7 @@ void Gateway::on_frame(std::size_t bus, const CanFrame& frame, Time received) {
 void Gateway::on_bus_up(std::size_t bus, Time now) {
   buses_[bus].condition = {};
   buses_[bus].lost.clear();
+  buses_[bus].jammed_since = kNever;
   for (const auto& drive : drives_)
     if (drive.bus == bus) drive.driver->on_link_up(now);
 }
@@ -85,9 +88,31 @@ void Gateway::on_bus_lost(std::size_t bus, const Reason& why) {
   buses_[bus].lost = why;
 }
 
+void Gateway::on_sent(std::size_t bus, std::uint64_t sent, std::uint64_t refused, Time now) {
+  Bus& it = buses_[bus];
+  if (sent != it.sent) {
+    it.jammed_since = kNever;
+  } else if (refused != it.refused && it.jammed_since == kNever) {
+    it.jammed_since = now;
+  }
+  it.sent = sent;
+  it.refused = refused;
+}
+
+bool Gateway::jammed(const Bus& bus, Time now) const {
+  return bus.jammed_since != kNever && now - bus.jammed_since >= jammed_after_;
+}
+
 Reason Gateway::bus_trouble(std::size_t bus, Time now) const {
   const Bus& it = buses_[bus];
-  return it.lost.empty() ? it.condition.text(it.name.view(), now) : it.lost;
+  if (!it.lost.empty()) return it.lost;
+  Reason text = it.condition.text(it.name.view(), now);
+  if (text.empty() && jammed(it, now)) {
+    const auto name = it.name.view();
+    text.format("%.*s takes no frames: nobody acknowledges them, or its queue is stuck",
+                static_cast<int>(name.size()), name.data());
+  }
+  return text;
 }
 
 /// Drives that are silent because of their bus say so; on one that is gone or off they are silent
@@ -98,8 +123,9 @@ void Gateway::look_at_buses(Time now) {
     const Reason trouble = bus_trouble(bus, now);
     if (trouble.empty()) continue;
     if (environment_.bus.empty()) environment_.bus = trouble;
-    const bool cut = !buses_[bus].lost.empty() ||
-                     buses_[bus].condition.state() == link::CanCondition::State::off;
+    const Bus& it = buses_[bus];
+    const bool cut = !it.lost.empty() || jammed(it, now) ||
+                     it.condition.state() == link::CanCondition::State::off;
     for (std::size_t i = 0; i < drives_.size(); ++i) {
       SourceHealth& health = environment_.axes[i];
       if (drives_[i].bus != bus || (health.state == SourceState::fresh && !cut)) continue;
@@ -182,6 +208,17 @@ const CycleOutput& Gateway::step(Time now, bool guard_alive, bool guard_has_bus)
 std::uint64_t Gateway::refused(std::size_t bus) const {
   const auto& counts = frame_gate_.counts(bus);
   return counts.not_allowed + counts.motion;
+}
+
+std::vector<std::string> Gateway::cautions() const {
+  std::vector<std::string> all;
+  for (std::size_t i = 0; i < drives_.size(); ++i) {
+    const auto silence = drives_[i].driver->silence();
+    if (silence.stops) continue;
+    const auto& joint = engine_.snapshot().axes[i].joint;
+    all.push_back("drive " + std::string(joint) + " " + std::string(silence.text));
+  }
+  return all;
 }
 
 std::vector<CanFrame> Gateway::stop_frames(std::size_t bus) const {

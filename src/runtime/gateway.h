@@ -6,6 +6,7 @@
 #include <array>
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "config/config.h"
@@ -51,6 +52,9 @@ class Gateway final {
   void on_bus_up(std::size_t bus, Time now);
   /// It is gone, or cannot be opened: why. Until on_bus_up.
   void on_bus_lost(std::size_t bus, const Reason& why);
+  /// After each cycle's frames: how many the link took and refused so far. One that takes none for
+  /// as long as a drive may be silent is as good as gone, though it still hears.
+  void on_sent(std::size_t bus, std::uint64_t sent, std::uint64_t refused, Time now);
   void on_stream_up(Stream stream, Time now);
   void on_command(const Command& command, Time now);
 
@@ -62,6 +66,9 @@ class Gateway final {
 
   /// What is wrong with it, as its error frames or the system tell; empty when all is well.
   Reason bus_trouble(std::size_t bus, Time now) const;
+
+  /// What a person should know of the configured drives: those that go on when frames cease.
+  std::vector<std::string> cautions() const;
 
   std::size_t bus_count() const { return bus_count_; }
   /// For the guard: every stop frame of the drives on `bus`.
@@ -76,7 +83,11 @@ class Gateway final {
     Name name;
     link::CanCondition condition;
     Reason lost;
+    std::uint64_t sent = 0;
+    std::uint64_t refused = 0;
+    Time jammed_since = kNever;
   };
+  bool jammed(const Bus& bus, Time now) const;
   void look_at_buses(Time now);
   void absorb(const DriverOut& out);
   void absorb_stream(std::size_t stream);
@@ -89,6 +100,7 @@ class Gateway final {
   std::vector<Line> line_ids_;
   std::array<Bus, kMaxBuses> buses_;
   std::size_t bus_count_ = 0;
+  Duration jammed_after_;
   engine::FrameGate frame_gate_;
   engine::Environment environment_;
   DriverOut scratch_;

@@ -46,6 +46,8 @@ bool GuardClient::connect(std::string& problem) {
     problem = link::problem_text("drover-guard at " + path_, "cannot connect", errno);
     return false;
   }
+  // A guard that is stopped must not hold up who supplies it.
+  ::fcntl(fd.get(), F_SETFL, O_NONBLOCK);
   socket_ = std::move(fd);
   return true;
 }

@@ -81,7 +81,7 @@ Duration LinkKeeper::until_next_try(Time now) const {
   Duration wait = std::chrono::seconds(10);
   for (const auto& slot : slots_)
     if (slot.used && !slot.open) wait = std::min(wait, slot.next_try - now);
-  if (guard_set_changed_) wait = std::min(wait, guard_slot_.next_try - now);
+  if (guard_set_changed_ || !guard_.connected()) wait = std::min(wait, guard_slot_.next_try - now);
   if (watchdog_.used) wait = std::min(wait, watchdog_.next_try - now);
   return std::max(wait, Duration(std::chrono::milliseconds(1)));
 }
@@ -157,16 +157,23 @@ void LinkKeeper::failed(std::size_t slot, const std::string& problem, Time now) 
 }
 
 void LinkKeeper::supply_guard(Time now) {
-  if (!guard_set_changed_ || now < guard_slot_.next_try) return;
+  const bool supplied = !guard_set_changed_ && guard_.connected();
+  if (supplied || now < guard_slot_.next_try) return;
   std::vector<GuardedLink> links(config_.buses.size());
-  std::string problem;
+  std::string missing;
   for (std::size_t i = 0; i < links.size(); ++i) {
     if (!slots_[i].open) continue;
-    links[i].descriptor = link::open_can_descriptor(can_settings(i), problem);
+    std::string why;
+    links[i].descriptor = link::open_can_descriptor(can_settings(i), why);
     links[i].stop_frames = stop_frames_[i];
+    if (!links[i].descriptor) missing = "drover-guard cannot have its own way to " + why;
   }
-  problem.clear();
-  if (guard_.hand_over(links, problem)) {
+  std::string problem;
+  // What there is goes over at once; what is missing keeps the robot from moving.
+  const bool handed_over = guard_.hand_over(links, problem);
+  if (handed_over) problem = missing;
+  guard_equipped_.store(missing.empty(), std::memory_order_relaxed);
+  if (handed_over && missing.empty()) {
     guard_set_changed_ = false;
     guard_slot_ = {};
     log(LogLevel::info, "drover-guard watches the drives");

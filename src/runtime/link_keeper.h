@@ -55,6 +55,8 @@ class LinkKeeper final {
   bool take(LinkHandover& arrived) { return arrivals_.pop(arrived); }
   /// False when the queue is full: keep it and try again next cycle.
   bool give_back(LinkHandover& lost);
+  /// False: the guard lacks a descriptor for a bus that is open, and cannot stop its drives.
+  bool guard_equipped() const { return guard_equipped_.load(std::memory_order_relaxed); }
   void request_hand_back() {
     hand_back_wanted_.store(true, std::memory_order_relaxed);
     wake_.notify();
@@ -89,6 +91,7 @@ class LinkKeeper final {
   SpscRing<LinkHandover, 16> losses_;
   Wake wake_;
   std::atomic<bool> hand_back_wanted_{false};
+  std::atomic<bool> guard_equipped_{true};
   GuardClient guard_;
   Slot guard_slot_;
   bool guard_set_changed_ = true;

@@ -412,8 +412,33 @@ TEST(OdriveDriver, ReportsAnotherMaster) {
   bench.hear(kZero);
   EXPECT_TRUE(bench.driver.health(bench.now).reason.empty()) << "zeros are the guard's";
   bench.hear("06D#0000004000000000");
-  EXPECT_EQ(bench.driver.health(bench.now).reason, "foreign command id 0x06D on the bus");
+  EXPECT_EQ(bench.driver.health(bench.now).reason,
+            "somebody else commands it: id 0x06D on the bus");
   EXPECT_EQ(bench.driver.health(bench.now).bad, 0U);
+  bench.run(1, AxisRequest::rest);
+  EXPECT_EQ(bench.status.state, AxisState::fault) << "also while this gateway lets it rest";
+  bench.run(400, AxisRequest::rest, 0, kIdleBeat);
+  EXPECT_EQ(bench.status.state, AxisState::idle);
+}
+
+TEST(OdriveDriver, StopsAtOnceWhenSomebodyElseCommandsIt) {
+  Bench bench;
+  bench.arm();
+  bench.run(10, AxisRequest::run, 1.0);
+  bench.hear("06D#0000004000000000");
+  bench.sent.clear();
+  bench.run(400, AxisRequest::run, 1.0, kRunningBeat);
+  EXPECT_EQ(bench.motions(), 0);
+  EXPECT_EQ(bench.status.state, AxisState::fault);
+  EXPECT_EQ(bench.status.reason, "somebody else commands it: id 0x06D on the bus");
+}
+
+TEST(OdriveDriver, DoesNotMindWhoOnlyReads) {
+  Bench bench;
+  bench.arm();
+  bench.hear("064#0005010000000000");
+  bench.run(20, AxisRequest::run, 1.0);
+  EXPECT_EQ(bench.status.state, AxisState::running);
 }
 
 }  // namespace

@@ -1,0 +1,117 @@
+#include "runtime/gateway.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "config/load.h"
+#include "support/describe.h"
+
+namespace drover::runtime {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr auto kConfig = R"({
+  "buses": [{"name": "can0", "interface": "can0"}],
+  "drives": [
+    {"joint": "left", "driver": "odrive", "bus": "can0",
+     "options": {"node": 1, "watchdog_timeout_s": 0.2}},
+    {"joint": "right", "driver": "odrive", "bus": "can0", "options": {"node": 2}}],
+  "base": {"wheel_radius_m": 0.165, "track_m": 0.6, "left": ["left"], "right": ["right"]},
+  "gnss": {"port": "/dev/drover/gnss", "baud": 115200},
+  "lines": {"chip": "chip0", "estop": {"line": "a"}, "bumper": {"line": "b"}},
+  "mqtt": {"host": "127.0.0.1", "port": 1883}
+})";
+
+/// Two drives that talk, on one bus.
+class Bench {
+ public:
+  Bench() : gateway(config::load_text(kConfig).config) {
+    gateway.on_bus_up(0, now);
+    for (int i = 0; i < 20; ++i) cycle();
+  }
+  void cycle(bool drives_talk = true) {
+    now += 5ms;
+    if (drives_talk)
+      for (const char* frame : {"021#0000000008000000", "029#0000000000000000",
+                                "041#0000000008000000", "049#0000000000000000"})
+        gateway.on_frame(0, test::parse_frame(frame), now);
+    const std::array<bool, 2> released{true, true};
+    gateway.on_levels(released, now);
+    gateway.step(now, true, false);
+  }
+  bool told(std::string_view what) const {
+    for (const auto& reason : gateway.snapshot().why)
+      if (reason.view().find(what) != std::string_view::npos) return true;
+    return false;
+  }
+  Time now{100s};
+  Gateway gateway;
+};
+
+CanFrame bus_off() {
+  CanFrame frame;
+  frame.error = true;
+  frame.id = 0x40;
+  frame.len = 8;
+  return frame;
+}
+
+TEST(Gateway, StopsForABusThatIsOffBeforeItsDrivesAreSilent) {
+  Bench bench;
+  EXPECT_FALSE(bench.told("wheel left"));
+  bench.gateway.on_frame(0, bus_off(), bench.now);
+  bench.cycle(false);
+  EXPECT_TRUE(bench.told("no drive answers (wheel left: can0 is bus-off"));
+  bench.cycle();
+  EXPECT_FALSE(bench.told("bus-off")) << "it hears frames again";
+}
+
+TEST(Gateway, TellsOfABusThatIsGoneUntilItIsBack) {
+  Bench bench;
+  bench.gateway.on_bus_lost(0, "can0: lost (No such device)");
+  bench.cycle();
+  EXPECT_TRUE(bench.told("wheel left: can0: lost"));
+  bench.gateway.on_bus_up(0, bench.now);
+  bench.cycle();
+  EXPECT_FALSE(bench.told("lost"));
+}
+
+TEST(Gateway, TakesABusThatTakesNoFramesForLost) {
+  Bench bench;
+  bench.gateway.on_sent(0, 40, 0, bench.now);
+  for (int i = 1; i <= 19; ++i) {
+    bench.gateway.on_sent(0, 40, static_cast<std::uint64_t>(4 * i), bench.now);
+    bench.cycle();
+  }
+  EXPECT_FALSE(bench.told("takes no frames")) << "for less than 0.1 s";
+  for (int i = 20; i <= 22; ++i) {
+    bench.gateway.on_sent(0, 40, static_cast<std::uint64_t>(4 * i), bench.now);
+    bench.cycle();
+  }
+  EXPECT_TRUE(bench.told("no drive answers (wheel left: can0 takes no frames"));
+  bench.gateway.on_sent(0, 44, 88, bench.now);
+  bench.cycle();
+  EXPECT_FALSE(bench.told("takes no frames"));
+}
+
+TEST(Gateway, ForgivesAShortRefusal) {
+  Bench bench;
+  for (std::uint64_t i = 0; i < 100; ++i) {
+    bench.gateway.on_sent(0, 40 + i / 10, i, bench.now);  // one frame of eleven goes out
+    bench.cycle();
+    EXPECT_FALSE(bench.told("takes no frames"));
+  }
+}
+
+TEST(Gateway, NamesTheDrivesThatNothingStopsWhenFramesCease) {
+  Bench bench;
+  const auto notes = bench.gateway.cautions();
+  ASSERT_EQ(notes.size(), 1U);
+  EXPECT_EQ(notes[0],
+            "drive right keeps its last velocity for ever: the drive has no watchdog set");
+}
+
+}  // namespace
+}  // namespace drover::runtime
