@@ -12,6 +12,7 @@ constexpr double kFollows = 0.2;       // of the commanded way
 constexpr double kWindow_s = 0.1;      // ways are compared over this long
 constexpr double kRunaway_s = 0.1;
 constexpr double kRunawayMargin_mps = 0.3;
+constexpr double kReachHeld_s = 0.5;  // drives lag, and a load overshoots
 constexpr double kHighestSlip = 2.5;  // the estimate never goes so far
 
 }  // namespace
@@ -25,7 +26,9 @@ WheelMonitor::WheelMonitor(const EngineConfig& config)
       judged_radps_(kJudgedShare * config.limits.max_speed_mps / config.base.wheel_radius_m),
       fastest_radps_(
           (max_wheel_mps(config.base, config.limits, kHighestSlip) + kRunawayMargin_mps) /
-          config.base.wheel_radius_m) {}
+          config.base.wheel_radius_m),
+      margin_radps_(kRunawayMargin_mps / config.base.wheel_radius_m),
+      falls_radps2_(config.limits.deceleration_mps2 / config.base.wheel_radius_m) {}
 
 void WheelMonitor::reset() {
   wheels_ = {};
@@ -66,15 +69,49 @@ void WheelMonitor::watch(Wheel& wheel, const AxisSnapshot& axis, Time now, Durat
   wheel.window = now;
 }
 
-bool WheelMonitor::runs_away(Wheel& wheel, const AxisSnapshot& axis, Time now) const {
+/// How fast the wheel may be at most after the commands it had.
+void WheelMonitor::follow_command(Wheel& wheel, const AxisSnapshot& axis, Time now,
+                                  Duration dt) const {
+  const bool heard =
+      axis.last_motion != kNever && now - axis.last_motion < from_s(config_.health.drive_stale_s);
+  const bool judged = heard && axis.state == AxisState::running;
+  double asked_radps = std::abs(axis.commanded_velocity_radps);
+  // A guard may be slowing it down since before this gateway began, or somebody pushed it.
+  const double found_radps = std::abs(axis.motion.velocity_radps);
+  if (!wheel.judged && std::isfinite(found_radps)) asked_radps = std::max(asked_radps, found_radps);
+  if (!wheel.judged || asked_radps >= wheel.reach_radps) {
+    wheel.reach_radps = asked_radps;
+    wheel.reached = now;
+  } else if (now - wheel.reached >= from_s(kReachHeld_s)) {
+    wheel.reach_radps = std::max(asked_radps, wheel.reach_radps - falls_radps2_ * to_s(dt));
+  }
+  wheel.judged = judged;
+}
+
+bool WheelMonitor::runs_away(Wheel& wheel, const AxisSnapshot& axis, Time now, Duration dt) const {
+  follow_command(wheel, axis, now, dt);
+  const double limit_radps =
+      wheel.judged ? std::min(fastest_radps_, wheel.reach_radps + margin_radps_) : fastest_radps_;
   const bool fast =
-      axis.state == AxisState::running && std::abs(axis.motion.velocity_radps) > fastest_radps_;
+      axis.state == AxisState::running && std::abs(axis.motion.velocity_radps) > limit_radps;
   if (!fast) {
     wheel.fast_since = kNever;
     return false;
   }
   if (wheel.fast_since == kNever) wheel.fast_since = now;
   return now - wheel.fast_since >= from_s(kRunaway_s);
+}
+
+void WheelMonitor::tell_runaway(const AxisSnapshot& axis) {
+  const auto size = static_cast<int>(axis.joint.view().size());
+  const char* joint = axis.joint.view().data();
+  const double radps = axis.motion.velocity_radps;
+  if (std::abs(radps) > fastest_radps_) {
+    reason_.format("wheel %.*s runs away: %.1f rad/s", size, joint, radps);
+  } else {
+    reason_.format("wheel %.*s turns by itself: %.1f rad/s, commanded %.1f", size, joint, radps,
+                   axis.commanded_velocity_radps);
+  }
 }
 
 WheelFault WheelMonitor::update(Time now, Duration dt, std::span<const AxisSnapshot> axes) {
@@ -85,10 +122,8 @@ WheelFault WheelMonitor::update(Time now, Duration dt, std::span<const AxisSnaps
   std::size_t judged = 0;
   for (std::size_t i = 0; i < axes.size(); ++i) {
     Wheel& wheel = wheels_[i];
-    if (runs_away(wheel, axes[i], now)) {
-      const std::string_view joint = axes[i].joint;
-      reason_.format("wheel %.*s runs away: %.1f rad/s", static_cast<int>(joint.size()),
-                     joint.data(), axes[i].motion.velocity_radps);
+    if (runs_away(wheel, axes[i], now, dt)) {
+      tell_runaway(axes[i]);
       return WheelFault::runaway;
     }
     watch(wheel, axes[i], now, dt);

@@ -14,11 +14,13 @@ enum class WheelFault : std::uint8_t {
   none,
   blocked,        ///< all are commanded and none moves
   not_following,  ///< some move and one does not, or moves the wrong way
-  runaway,        ///< faster than any command can be
+  runaway,        ///< one turns much faster than it was told to of late
 };
 
 /// Compares commands with feedback. It looks at travelled angle, so it needs no tuned lag: a wheel
-/// follows when it made a fifth of the commanded way, in the commanded direction.
+/// follows when it made a fifth of the commanded way, in the commanded direction. How fast a wheel
+/// may turn follows its command with the delay and the deceleration of a stop; a wheel that is seen
+/// for the first time, again after a silence, or newly in closed loop begins with the speed it has.
 class WheelMonitor final {
  public:
   explicit WheelMonitor(const EngineConfig& config);
@@ -35,16 +37,23 @@ class WheelMonitor final {
     double commanded_rad = 0;  ///< in this window
     double moved_rad = 0;      ///< in this window, in the commanded direction
     double last_position_rad = kAbsent;
-    Time window = kNever;  ///< when this window began
-    Time mark = kNever;    ///< when it was last seen to follow
+    Time window = kNever;    ///< when this window began
+    Time mark = kNever;      ///< when it was last seen to follow
+    bool judged = false;     ///< heard, and in closed loop, in the cycle before
+    double reach_radps = 0;  ///< how fast the commands of late may have made it
+    Time reached = kNever;   ///< when a command, or its first speed, last asked for so much
     Time fast_since = kNever;
   };
   void watch(Wheel& wheel, const AxisSnapshot& axis, Time now, Duration dt);
-  bool runs_away(Wheel& wheel, const AxisSnapshot& axis, Time now) const;
+  void follow_command(Wheel& wheel, const AxisSnapshot& axis, Time now, Duration dt) const;
+  bool runs_away(Wheel& wheel, const AxisSnapshot& axis, Time now, Duration dt) const;
+  void tell_runaway(const AxisSnapshot& axis);
 
   EngineConfig config_;
   double judged_radps_;   ///< slower commands are not judged
   double fastest_radps_;  ///< no command is faster
+  double margin_radps_;   ///< faster than told by more than this: it runs away
+  double falls_radps2_;   ///< of a wheel's reach, once nothing asks for it any more
   std::array<Wheel, kMaxAxes> wheels_{};
   Reason reason_;
 };

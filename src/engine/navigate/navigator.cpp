@@ -104,6 +104,7 @@ bool Navigator::reset_stop(const RequestId& id, Time now, bool at_rest, bool any
   }
   events.push(now, CommandAccepted{id, anything ? Reason() : Reason("nothing was latched")});
   software_stop_.clear();
+  runaway_ = false;
   failed_.clear();
   return true;
 }
@@ -138,7 +139,10 @@ void Navigator::fail(Time now, const Reason& reason, EventQueue& events) {
 bool Navigator::stop_at_once(const NavInput& input, EventQueue& events) {
   Reason why;
   if (input.wheels == WheelFault::runaway) {
-    why = software_stop_ = input.wheel_reason;
+    // Its speed changes all the time; what was told first stays.
+    if (!runaway_) software_stop_ = input.wheel_reason;
+    runaway_ = true;
+    why = software_stop_;
   } else if (!input.health.stop.empty()) {
     why = input.health.stop;
   } else if (!software_stop_.empty()) {

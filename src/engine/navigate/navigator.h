@@ -102,6 +102,7 @@ class Navigator final {
   TrackProgress progress_;
   Reason failed_;
   Reason software_stop_;
+  bool runaway_ = false;  ///< that stop was for a wheel that runs away
 };
 
 }  // namespace drover::engine

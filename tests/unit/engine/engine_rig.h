@@ -45,6 +45,7 @@ class EngineRig {
     bool refuses = false;  ///< does not arm
     bool stuck = false;    ///< feedback stands still
     bool fault = false;
+    double by_itself_radps = 0;  ///< the wheel turns so much faster than it is told to
     AxisState state = AxisState::idle;
     AxisRequest asked = AxisRequest::rest;  ///< in the cycle before
     int arming = 0;
@@ -152,8 +153,8 @@ class EngineRig {
     const double turn_mps = 0.5 * config.base.track_m * seen.wz_radps;
     for (std::size_t i = 0; i < 4; ++i) {
       const double rim_mps = seen.vx_mps + (i % 2 == 0 ? -turn_mps : turn_mps);
-      const double radps = rim_mps / config.base.wheel_radius_m;
       Drive& drive = drives[i];
+      const double radps = rim_mps / config.base.wheel_radius_m + drive.by_itself_radps;
       if (!drive.stuck) drive.position_rad += radps * dt_s;
       environment.axes[i].state = drive.silent ? SourceState::stale : SourceState::fresh;
       if (drive.silent) continue;

@@ -87,6 +87,31 @@ TEST_F(AnEngine, FailsWhenItPushesAgainstAWall) {
   for (int i = 0; i < 300 && rig.said<TaskEnded>().empty(); ++i) rig.tick();
   expect_stopped_now("blocked");
 }
+TEST_F(AnEngine, StopsWithin200MillisecondsWhenAWheelRunsAwayAndWaitsForAReset) {
+  drive();
+  rig.drives[1].by_itself_radps = 2.5;
+  for (int i = 0; i < 40 && rig.said<TaskEnded>().empty(); ++i) rig.tick();
+  expect_stopped_now("wheel front_right turns by itself");
+  rig.drives[1].by_itself_radps = 0;
+  expect_no_motion_for_s(2);
+  rig.start(path, 40, 0.5);
+  rig.tick();
+  EXPECT_THAT(refusal(), HasSubstr("reset the stop first: wheel front_right turns by itself"));
+}
+TEST_F(AnEngine, ThatNobodyDrivesTellsAWheelThatTurnsByItself) {
+  drive();
+  rig.command(CancelTask{});
+  rig.run_s(4);  // the drives hold in closed loop
+  ASSERT_EQ(rig.drives[2].state, AxisState::running);
+  ASSERT_FALSE(rig.snapshot().stop_latched) << rig.why();
+  rig.drives[2].by_itself_radps = 3;
+  rig.run_s(0.3);
+  EXPECT_TRUE(rig.snapshot().stop_latched);
+  EXPECT_THAT(rig.why(), HasSubstr("wheel rear_left turns by itself: 3.0 rad/s, commanded 0.0"));
+  rig.command(ResetStop{});
+  rig.tick();
+  EXPECT_TRUE(rig.snapshot().stop_latched) << "it turns still";
+}
 
 // --- pauses -----------------------------------------------------------------------------------
 

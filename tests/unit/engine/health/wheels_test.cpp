@@ -30,8 +30,22 @@ class AWheelMonitor : public ::testing::Test {
         if (k != stuck) axes[k].motion.position_rad += axes[k].motion.velocity_radps * 0.005;
         if (k == speechless) axes[k].motion.velocity_radps = kAbsent;
       }
-      now += std::chrono::milliseconds(5);
-      fault = monitor.update(now, std::chrono::milliseconds(5), axes);
+      step();
+      if (fault != WheelFault::none) return i * 0.005;
+    }
+    return 0;
+  }
+  void step() {
+    now += std::chrono::milliseconds(5);
+    for (AxisSnapshot& axis : axes) axis.last_motion = now;
+    fault = monitor.update(now, std::chrono::milliseconds(5), axes);
+  }
+  /// All wheels turn at `radps` at first and slow down by `falls_radps2`, whatever is commanded.
+  double turn_s(double seconds, double radps, double falls_radps2 = 0) {
+    for (int i = 1; i <= static_cast<int>(seconds * 200 + 0.5); ++i) {
+      const double speed_radps = std::max(radps - i * 0.005 * falls_radps2, 0.0);
+      for (AxisSnapshot& axis : axes) axis.motion.velocity_radps = speed_radps;
+      step();
       if (fault != WheelFault::none) return i * 0.005;
     }
     return 0;
@@ -117,6 +131,61 @@ TEST_F(AWheelMonitor, FindsAWheelThatRunsAway) {
   EXPECT_GT(found_s, 0.05);
   EXPECT_LE(found_s, 0.2);
   EXPECT_THAT(reason(), HasSubstr("wheel c runs away"));
+}
+TEST_F(AWheelMonitor, FindsAWheelThatTurnsThoughNobodyDrives) {
+  turn_s(1, 0);
+  axes[1].motion.velocity_radps = -3;
+  int cycles = 0;
+  for (; cycles < 100 && fault == WheelFault::none; ++cycles) step();
+  EXPECT_GT(cycles, 15);
+  EXPECT_LE(cycles, 40);
+  EXPECT_EQ(fault, WheelFault::runaway);
+  EXPECT_EQ(reason(), "wheel b turns by itself: -3.0 rad/s, commanded 0.0");
+}
+TEST_F(AWheelMonitor, FindsAWheelThatIsMuchFasterThanItsCommand) {
+  command(2);
+  EXPECT_EQ(run_s(2, {1, 1.3, 1, 1}), 0);
+  const double found_s = run_s(1, {1, 1, 1, 2});
+  EXPECT_GT(found_s, 0);
+  EXPECT_LE(found_s, 0.2);
+  EXPECT_EQ(reason(), "wheel d turns by itself: 4.0 rad/s, commanded 2.0");
+}
+TEST_F(AWheelMonitor, FindsAWheelThatGoesOnAfterItsCommandEnded) {
+  command(4);
+  run_s(1, {1, 1, 1, 1});
+  command(0);
+  const double found_s = turn_s(3, 4);
+  EXPECT_GT(found_s, 0.5) << "a stop takes its time";
+  EXPECT_LE(found_s, 1.2);
+}
+TEST_F(AWheelMonitor, DoesNotMindAWheelThatStopsWithADelayAndTheDeceleration) {
+  command(4.8);
+  run_s(1, {1, 1, 1, 1});
+  command(0);
+  EXPECT_EQ(turn_s(0.3, 4.8), 0);
+  EXPECT_EQ(turn_s(3, 4.8, 0.8 / 0.165), 0);
+}
+TEST_F(AWheelMonitor, BeginsWithTheSpeedThatItFinds) {
+  EXPECT_EQ(turn_s(3, 4, 0.8 / 0.165), 0) << "the guard is slowing it down";
+  now += std::chrono::milliseconds(300);
+  monitor.update(now, std::chrono::milliseconds(50), axes);
+  EXPECT_EQ(turn_s(3, 4, 0.8 / 0.165), 0) << "after a silence";
+  EXPECT_GT(turn_s(3, 4), 0) << "but it has to come to rest";
+}
+TEST_F(AWheelMonitor, BeginsWithTheSpeedOfARobotThatIsPushedWhenItsDrivesAreSwitchedOn) {
+  for (AxisSnapshot& axis : axes) axis.state = AxisState::idle;
+  EXPECT_EQ(turn_s(2, 4), 0);
+  for (AxisSnapshot& axis : axes) axis.state = AxisState::running;
+  EXPECT_EQ(turn_s(2, 4, 0.8 / 0.165), 0);
+}
+TEST_F(AWheelMonitor, BelievesNoSpeedOfASilentDrive) {
+  command(4);
+  run_s(1, {1, 1, 1, 1});
+  command(0);
+  for (int i = 0; i < 600; ++i) {
+    now += std::chrono::milliseconds(5);
+    ASSERT_EQ(monitor.update(now, std::chrono::milliseconds(5), axes), WheelFault::none);
+  }
 }
 TEST_F(AWheelMonitor, DoesNotMindAnIdleRobotThatIsPushed) {
   axes[2].motion.velocity_radps = 20;
