@@ -6,6 +6,12 @@ namespace {
 
 constexpr Duration kOldestTarget = std::chrono::milliseconds(100);
 
+/// Why everything stops without a ramp.
+Reason why_at_once(const OwnInput& input) {
+  if (input.wheels != WheelFault::none) return input.wheel_reason;
+  return input.health.stop.empty() ? Reason(input.latched) : input.health.stop;
+}
+
 }  // namespace
 
 Owners::Owners(const EngineConfig& config)
@@ -88,7 +94,7 @@ void Owners::latch(const Reason& why) {
 /// What ends the stream, and how its motion ends then.
 Stop Owners::watch_stream(const OwnInput& input, bool at_once) {
   stream_.step(input.now);
-  if (at_once) latch(input.wheels != WheelFault::none ? input.wheel_reason : input.health.stop);
+  if (at_once) latch(why_at_once(input));
   if (!busy_.empty()) stream_.end(busy_);
   if (input.health.near_zone && stream_.wants_motion()) stream_.end("obstacle in the near zone");
   if (!stream_.following()) {
@@ -114,9 +120,9 @@ Stop Owners::watch_stream(const OwnInput& input, bool at_once) {
 
 const Motion& Owners::step(const OwnInput& input, EventQueue& events) {
   busy_ = hindrance(input);
-  const bool wheels = input.wheels != WheelFault::none;
-  const bool at_once = input.task.stop == Stop::immediate || !input.health.stop.empty() || wheels;
-  if (at_once) creep_.end(wheels ? input.wheel_reason : input.health.stop, input.now, events);
+  const bool at_once = input.task.stop == Stop::immediate || !input.health.stop.empty() ||
+                       input.wheels != WheelFault::none;
+  if (at_once) creep_.end(why_at_once(input), input.now, events);
   if (!input.health.end_task.empty()) creep_.end(input.health.end_task, input.now, events);
   const Twist creep = creep_.step(input.now, input.dt, input.estimate, input.health, events);
   if (busy_.empty() && creep_.active()) busy_ = "the heading is being looked for";

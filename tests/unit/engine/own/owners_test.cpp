@@ -10,7 +10,17 @@ namespace {
 
 using ::testing::HasSubstr;
 
-class JointCommands : public AnEngine {
+class AnOwner : public AnEngine {
+ protected:
+  /// How often the journal said so.
+  std::ptrdiff_t told(const std::string& text) const {
+    const auto notices = rig.said<Notice>();
+    return std::count_if(notices.begin(), notices.end(),
+                         [&](const Notice& notice) { return notice.text == text; });
+  }
+};
+
+class JointCommands : public AnOwner {
  protected:
   /// One message: the same velocity for all four joints.
   void send(double radps) {
@@ -82,6 +92,15 @@ TEST_F(JointCommands, StopAtOnceForAnEstopAndStayStoppedUntilAPersonResets) {
   rig.command(ResetStop{});
   drive_by_joints();
 }
+TEST_F(JointCommands, TellThatAnOperatorsEmergencyStopEndedThem) {
+  drive_by_joints();
+  rig.command(EngageStop{});
+  rig.tick();
+  EXPECT_EQ(rig.fastest_command_radps(), 0);
+  EXPECT_EQ(reason(), "emergency stop of an operator");
+  rig.run_s(0.5);
+  EXPECT_EQ(told("joint commands ended: emergency stop of an operator"), 1);
+}
 TEST_F(JointCommands, AreRefusedWhileATaskDrives) {
   drive();
   stream_s(0, 0.2);
@@ -91,11 +110,6 @@ TEST_F(JointCommands, AreRefusedWhileATaskDrives) {
   EXPECT_EQ(rig.snapshot().nav.status, NavStatus::run);
 }
 TEST_F(JointCommands, ThatAreRefusedInARowAreToldOnceInTheJournal) {
-  const auto told = [this](const std::string& text) {
-    const auto notices = rig.said<Notice>();
-    return std::count_if(notices.begin(), notices.end(),
-                         [&](const Notice& notice) { return notice.text == text; });
-  };
   drive();
   stream_s(2, 3);
   EXPECT_EQ(told("joint command refused: a task owns the drives"), 1);
@@ -172,7 +186,7 @@ TEST_F(AnEngine, StopsAtOnceForAnOperatorsEmergencyStopUntilItIsReset) {
   EXPECT_GT(rig.fastest_command_radps(), 0);
 }
 
-class FindingTheHeading : public AnEngine {
+class FindingTheHeading : public AnOwner {
  protected:
   void settle_without_heading() {
     rig.no_heading = true;
@@ -200,6 +214,16 @@ TEST_F(FindingTheHeading, DrivesNoFartherThanItMay) {
   EXPECT_EQ(rig.fastest_command_radps(), 0);
   EXPECT_THAT(last_notice(), HasSubstr("no heading"));
   EXPECT_LT(rig.plant.estimate().x_m, rig.config.navigate.find_heading_distance_m + 0.3);
+}
+TEST_F(FindingTheHeading, TellsThatAnOperatorsEmergencyStopEndedIt) {
+  settle_without_heading();
+  rig.command(FindHeading{});
+  rig.run_s(2);
+  ASSERT_GT(rig.fastest_command_radps(), 0);
+  rig.command(EngageStop{});
+  rig.tick();
+  EXPECT_EQ(rig.fastest_command_radps(), 0);
+  EXPECT_EQ(told("no heading: emergency stop of an operator"), 1);
 }
 TEST_F(FindingTheHeading, EndsWithACancelAndWithAnEstop) {
   settle_without_heading();
