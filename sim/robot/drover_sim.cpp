@@ -14,6 +14,7 @@ namespace {
 constexpr const char* kFooter = R"(
 Commands for a running simulator (drover-sim ctl COMMAND...):
   estop press|release            bumper touch|free        zone near|far occupied|free
+  tap estop|bumper|zone_...      (an instant only)
   obstacle NAME X Y|remove       gnss STATE|unplug|plug   kick VX VY
   imu STATE|well|unplug|plug     (silent, frozen, saturated, bias:2, restart, ...)
   drive JOINT|all power on|off   drive JOINT|all fault NAME|none

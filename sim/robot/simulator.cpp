@@ -5,6 +5,7 @@
 #include <sys/timerfd.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <csignal>
 #include <cstdio>
@@ -246,6 +247,7 @@ std::string Simulator::command(std::string_view text) {
     return "ok";
   }
   if (text.starts_with("can ")) return command_can(text.substr(4));
+  if (text.starts_with("tap ")) return command_tap(text.substr(4));
   for (const std::string_view device : {"gnss ", "imu "})
     for (const std::string_view verb : {"plug", "unplug"})
       if (text.starts_with(device) && text.substr(device.size()) == verb)
@@ -256,6 +258,17 @@ std::string Simulator::command(std::string_view text) {
     if (!what.starts_with("soc") && !what.starts_with("charger")) return battery_->command(what);
   }
   return robot_.command(text);
+}
+
+/// Both edges at one instant: over before anybody can read the level.
+std::string Simulator::command_tap(std::string_view name) {
+  const auto* const found = std::find(kLineText.begin(), kLineText.end(), name);
+  if (found == kLineText.end()) return "error: say: tap estop|bumper|zone_far|zone_near";
+  const auto line = static_cast<LineName>(found - kLineText.begin());
+  const bool high = robot_.line_high(line);
+  lines_.set(line, !high);
+  lines_.set(line, high);
+  return "ok";
 }
 
 std::string Simulator::command_can(std::string_view text) {

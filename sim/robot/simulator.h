@@ -48,6 +48,7 @@ class Simulator {
   void measure_clocks();
   void exchange_serial(Time now);
   std::string command(std::string_view text);
+  std::string command_tap(std::string_view name);
   std::string command_can(std::string_view text);
   std::string command_plug(std::string_view device, std::string_view verb);
   void on_events(int timeout_ms);

@@ -70,11 +70,12 @@ TEST_P(EveryMission, IsAtRestAtItsEnd) {
 
 INSTANTIATE_TEST_SUITE_P(Each, EveryMission,
                          testing::Values("straight_and_uturn", "figure8", "gnss_outage",
-                                         "fix_float_fix", "estop", "obstacle", "broker_restart",
-                                         "kill_on_ramp", "hang", "long", "imu_faults",
-                                         "battery_faults", "battery_empty", "outage_on_curve",
-                                         "receiver_replugged", "receiver_renamed", "joint_commands",
-                                         "bus_off", "can_replugged"),
+                                         "fix_float_fix", "estop", "estop_tap", "obstacle",
+                                         "broker_restart", "kill_on_ramp", "hang", "long",
+                                         "imu_faults", "battery_faults", "battery_empty",
+                                         "outage_on_curve", "receiver_replugged",
+                                         "receiver_renamed", "joint_commands", "bus_off",
+                                         "can_replugged"),
                          [](const auto& one) { return std::string(one.param); });
 
 }  // namespace

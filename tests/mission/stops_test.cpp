@@ -56,6 +56,16 @@ TEST(Estop, EndsTheTaskAndStaysSoUntilANewStart) {
   expect_nav_stays(log, "NAV_ERROR", error.time, start - 150ms);
 }
 
+TEST(EstopTap, StopsAndEndsTheTaskThoughTheContactIsClosedAgain) {
+  const Record& log = record("estop_tap");
+  const Time tapped = log.event("sim tap estop");
+  ASSERT_TRUE(moved_until(log, tapped));
+  EXPECT_THAT(log.moving(tapped + kEstop, Time::max()), testing::IsEmpty());
+  const auto& error = log.first_status("NAV_ERROR", tapped);
+  EXPECT_LT(error.time - tapped, 200ms);
+  EXPECT_NE(error.why.find("e-stop"), std::string::npos) << error.why;
+}
+
 /// The second start was accepted after `gone` ended, and it reached the goal.
 void expect_new_start_succeeds(const Record& log, Time gone) {
   auto twice = kStarted;
