@@ -1,0 +1,62 @@
+#!/bin/bash
+# The README's first command as a person uses it: drives to the summary, goes on while looked at,
+# and leaves nothing behind after Ctrl-C.  BUILD_FOLDER is build, as sim/demo finds it.
+set -uo pipefail
+cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../.." || exit 1
+
+folder=$(mktemp -d)
+demo=
+finish() {
+  [[ -z $demo ]] || kill -KILL -- "-$demo" 2> /dev/null
+  rm -rf "$folder"
+}
+trap finish EXIT
+
+failed=0
+check() {  # WHAT: the last command's status decides
+  if [[ $? == 0 ]]; then echo "ok   $1"; else echo "FAIL $1"; failed=1; fi
+}
+number() { sed -n "s/.*\"$1\": *\([-0-9.e]*\).*/\1/p" "$folder/logs/summary.json"; }
+below() { awk -v value="$1" -v limit="$2" 'BEGIN { exit !(value != "" && value < limit) }'; }
+
+mkdir "$folder/tmp"
+export TMPDIR=$folder/tmp
+# A process group of its own, which gets the Ctrl-C of a terminal.
+set -m
+sim/demo --keep -y --logs "$folder/logs" > "$folder/out" 2>&1 < /dev/null &
+demo=$!
+set +m
+
+port=
+for _ in {1..300}; do
+  port=$(sed -n 's/.*mosquitto_sub -h 127.0.0.1 -p \([0-9]*\) .*/\1/p' "$folder/out")
+  if [[ -n $port ]] || ! kill -0 "$demo" 2> /dev/null; then break; fi
+  sleep 1
+done
+grep -q '^NAV_SUCCESS$' "$folder/out"
+check "the mission ends in NAV_SUCCESS"
+grep -A 4 '^demo$' "$folder/out"
+below "$(number cross_track_rms_m)" 0.05
+check "cross-track RMS is under 5 cm"
+below "$(number goal_distance_m)" 0.10
+check "the goal is nearer than 10 cm"
+
+timeout 60 mosquitto_sub -h 127.0.0.1 -p "${port:-1}" -i demo-test -t base_status -C 201 -F %U \
+  > "$folder/times"
+rate=$(awk 'NR == 1 { first = $1 } { last = $1 }
+            END { if (NR == 201) printf "%.3f", 200 / (last - first) }' "$folder/times")
+echo "base_status as seen from outside: ${rate:-nothing} a second"
+awk -v rate="${rate:-0}" 'BEGIN { exit !(rate >= 9.9 && rate <= 10.1) }'
+check "base_status comes 10 times a second, within 1 %"
+
+kill -INT -- "-$demo"
+wait "$demo"
+[[ $? == 0 || $? == 130 ]]
+check "it ends by Ctrl-C"
+sleep 1
+! pgrep -af "$folder/logs|drover-scenario .*--keep"
+check "no process is left"
+[[ -z $(ls -A "$folder/tmp") ]] && ! grep -ls -- "$folder" "/tmp/drover-lab-$EUID"/*/info
+check "no folder is left"
+[[ $failed == 0 ]] || tail -n 40 "$folder/out" | sed 's/^/   | /'
+exit $failed
