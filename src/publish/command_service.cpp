@@ -73,11 +73,9 @@ void CommandService::on_control(std::string_view payload, bool retained, Time no
                           "mqtt_control: " + refusal.feedback_cmd + ": " + refusal.reason});
     return;
   }
-  if (is_duplicate(payload, *request, now)) {
-    out.push_back(LogLine{Notice::Level::info, "start_task came twice and was executed once"});
-    return;
-  }
-  handle(next_id(RequestId::Source::mqtt), std::move(request.value()), now, out);
+  const RequestId id = next_id(RequestId::Source::mqtt);
+  if (is_duplicate(id, payload, *request, now)) return answer_duplicate(id, out);
+  handle(id, std::move(request.value()), now, out);
 }
 
 void CommandService::on_cli(std::uint64_t number, ControlCommand request, Time now, Actions& out) {
@@ -96,17 +94,28 @@ void CommandService::slow_down(std::string_view cmd, Time now, Actions& out) {
 
 /// A broker that delivers "at least once" may deliver a start twice. Two starts of a person with
 /// anything between them (a cancel, the end of the task) are two.
-bool CommandService::is_duplicate(std::string_view payload, const ControlCommand& request,
-                                  Time now) {
+bool CommandService::is_duplicate(RequestId id, std::string_view payload,
+                                  const ControlCommand& request, Time now) {
   if (!std::holds_alternative<StartTaskRequest>(request)) return false;
   const bool again = last_start_ == payload && changes_ == last_start_changes_ &&
                      now - last_start_time_ <= from_s(config_.duplicate_window_s);
   if (!again) {
+    last_start_id_ = id;
+    last_start_refusal_.reset();
     last_start_ = payload;
     last_start_time_ = now;
     last_start_changes_ = changes_ + 1;  // handling it counts as one
   }
   return again;
+}
+
+/// A refused start stays refused, also when what hindered it is over: a late second delivery must
+/// not move a robot whose operator read a refusal. A person who pressed again is told so again.
+void CommandService::answer_duplicate(RequestId id, Actions& out) {
+  if (last_start_refusal_) {
+    return tell(id, Verb::start_task, false, *last_start_refusal_, out);
+  }
+  out.push_back(LogLine{Notice::Level::info, "start_task came twice and was executed once"});
 }
 
 void CommandService::handle(RequestId id, ControlCommand request, Time now, Actions& out) {

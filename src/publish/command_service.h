@@ -121,7 +121,9 @@ class CommandService final {
   std::size_t writes_pending() const;
   RequestId next_id(RequestId::Source source) { return {source, ++last_number_}; }
   void slow_down(std::string_view cmd, Time now, Actions& out);
-  bool is_duplicate(std::string_view payload, const ControlCommand& request, Time now);
+  bool is_duplicate(RequestId id, std::string_view payload, const ControlCommand& request,
+                    Time now);
+  void answer_duplicate(RequestId id, Actions& out);
 
   CommandServiceConfig config_;
   std::vector<std::string> report_;
@@ -136,7 +138,9 @@ class CommandService final {
   Time next_automatic_origin_ = kNever;
   // To recognise a start_task that the broker delivered twice.
   std::uint64_t changes_ = 0;  ///< requests and task ends so far: an equal count is unchanged state
+  RequestId last_start_id_;
   std::string last_start_;
+  std::optional<std::string> last_start_refusal_;  ///< why, when it was refused
   Time last_start_time_ = kNever;
   std::uint64_t last_start_changes_ = 0;
 };

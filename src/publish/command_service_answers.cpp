@@ -31,6 +31,8 @@ void CommandService::send(RequestId id, Time now, decltype(Command::body) body, 
 }
 
 void CommandService::tell(RequestId id, Verb verb, bool ok, std::string_view text, Actions& out) {
+  const bool last_start = id.source == last_start_id_.source && id.number == last_start_id_.number;
+  if (verb == Verb::start_task && !ok && last_start) last_start_refusal_ = text;
   const std::string cmd = ok ? success_cmd(verb) : failure_cmd(verb);
   const std::string_view reason = ok ? std::string_view() : text;
   const std::string_view note = ok ? text : std::string_view();

@@ -1,10 +1,6 @@
-#include "publish/command_service.h"
-
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
-#include "config/located_json.h"
-#include "tests/unit/publish/examples.h"
+#include "tests/unit/publish/command_service_fixture.h"
 
 namespace drover::publish {
 namespace {
@@ -12,85 +8,6 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
-
-constexpr GeodeticPoint kOrigin{23.0, 113.0, 10.0};
-
-store::Track straight(const std::string& name) {
-  store::Track track{name, {}, kOrigin};
-  for (int i = 0; i < 5; ++i) track.points.push_back({113, 23, 0, 0.5 * i, 1, 0, 0});
-  return track;
-}
-
-class CommandServiceTest : public testing::Test {
- protected:
-  CommandServiceTest() { make({}, {{straight("13"), straight("other")}, kOrigin, {}}); }
-
-  void make(const CommandServiceConfig& config, store::StoredState stored) {
-    service_ = std::make_unique<CommandService>(config, std::move(stored));
-    service_->begin(now_, actions_);
-    answer_all_commands();
-    actions_.clear();
-  }
-  /// As an engine that agrees with everything.
-  void answer_all_commands() {
-    for (const Command& command : all<Command>()) event(CommandAccepted{command.id, {}});
-  }
-  void control(const std::string& payload, bool retained = false) {
-    service_->on_control(payload, retained, now_, actions_);
-  }
-  void start(const std::string& name = "13", const std::string& id = "2") {
-    control("{\"cmd_type\":\"task_control\",\"cmd\":\"start_task\",\"name\":\"" + name +
-            "\",\"id\":" + id + ",\"speed\":0.2}");
-  }
-  void save(const std::string& name) {
-    control(
-        "{\"cmd_type\":\"trajectory_control\",\"cmd\":\"save_trajectory\",\"data\":{\"name\":\"" +
-        name +
-        "\",\"data\":[{\"longitude\":113,\"latitude\":23,\"angle\":0,\"x\":1,\"y\":2,\"yaw\":3}]"
-        "}}");
-  }
-  template <class Body>
-  void event(Body body) {
-    service_->on_event({now_, std::move(body)}, actions_);
-  }
-  void reply(const store::StorageJob& job, bool ok, const std::string& reason = "",
-             std::vector<std::string> removed = {}) {
-    service_->on_reply({job.id, ok, reason, std::move(removed)}, now_, actions_);
-  }
-  template <class T>
-  std::vector<T> all() const {
-    std::vector<T> found;
-    for (const Action& action : actions_) {
-      if (const auto* one = std::get_if<T>(&action)) found.push_back(*one);
-    }
-    return found;
-  }
-  template <class T>
-  T only() const {
-    const auto found = all<T>();
-    EXPECT_EQ(found.size(), 1U);
-    return found.empty() ? T{} : found.back();
-  }
-  /// The `cmd` of each feedback so far, with ": reason" or " (note)"; forgets them.
-  std::vector<std::string> feedback() {
-    std::vector<std::string> told;
-    for (const PublishText& message : all<PublishText>()) {
-      if (message.topic != kTopicFeedback) continue;
-      const auto parsed = json::parse(message.text);
-      std::string line = *parsed->root.find("cmd")->text();
-      EXPECT_EQ(*parsed->root.find("cmd_type")->text(), "feedback");
-      if (const auto* reason = parsed->root.find("reason")) line += ": " + *reason->text();
-      if (const auto* note = parsed->root.find("note")) line += " (" + *note->text() + ")";
-      told.push_back(line);
-    }
-    actions_.clear();
-    return told;
-  }
-
-  Time now_ = Time{from_s(100)};
-  Actions actions_;
-  std::unique_ptr<CommandService> service_;
-};
 
 TEST_F(CommandServiceTest, RefusesPointIdsThatAreNotOnTheTrack) {
   for (const char* id : {"0", "-1", "6", "1000000000", "4294967297", "-9223372036854775808"}) {
@@ -325,57 +242,6 @@ TEST_F(CommandServiceTest, KeepsTheOrderOfCancelsAndStarts) {
       EXPECT_GT(commands[i].id.number, commands[i - 1].id.number);
     }
   }
-}
-
-TEST_F(CommandServiceTest, ExecutesAStartThatTheBrokerDeliversTwiceOnce) {
-  start();
-  now_ += from_s(0.5);
-  start();
-  EXPECT_EQ(all<Command>().size(), 1U);
-}
-
-TEST_F(CommandServiceTest, TakesTheSameStartAgainAfterASecondOrAChange) {
-  start();
-  now_ += from_s(1.1);
-  start();
-  EXPECT_EQ(all<Command>().size(), 2U);
-  control(example("cancel_task"));
-  start();
-  EXPECT_EQ(all<Command>().size(), 4U);
-  event(TaskEnded{all<Command>().back().id, TaskEnded::How::success, {}});
-  start();
-  EXPECT_EQ(all<Command>().size(), 5U);
-}
-
-TEST_F(CommandServiceTest, AnswersAFloodWithSlowDownAndNoFloodOfItsOwn) {
-  for (int i = 0; i < 10'000; ++i) {
-    now_ += from_s(1e-4);
-    control(example("get_all_trajectory"));
-  }
-  std::size_t lists = 0;
-  for (const auto& message : all<PublishText>()) lists += message.topic == kTopicTrajectoryData;
-  EXPECT_GE(lists, 29U);
-  EXPECT_LE(lists, 31U);
-  const auto told = feedback();
-  EXPECT_GE(told.size(), 29U);
-  EXPECT_LE(told.size(), 31U);
-  EXPECT_EQ(told.back(), "get_all_trajectory_failse: slow down");
-  now_ += from_s(1);
-  control(example("get_all_trajectory"));
-  EXPECT_EQ(only<PublishText>().topic, kTopicTrajectoryData);
-}
-
-TEST_F(CommandServiceTest, TheCommandLineIsNotHeldUpByAFloodOnTheBroker) {
-  for (int i = 0; i < 100; ++i) control(example("get_all_trajectory"));
-  actions_.clear();
-  service_->on_cli(1, StartTaskRequest{"13", 1, 0.5}, now_, actions_);
-  const Command command = only<Command>();
-  EXPECT_EQ(command.id.source, RequestId::Source::cli);
-  event(CommandAccepted{command.id, "note"});
-  const auto answer = only<Answer>();
-  EXPECT_TRUE(answer.ok);
-  EXPECT_EQ(answer.text, "note");
-  EXPECT_THAT(feedback(), IsEmpty());
 }
 
 TEST_F(CommandServiceTest, TheCommandLineResetsAStop) {
