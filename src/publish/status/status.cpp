@@ -44,6 +44,7 @@ void nav(JsonText& out, const Snapshot& s) {
   out.key("obstacle").boolean(s.nav.obstacle);
   out.key("paused").boolean(s.nav.paused);
   out.key("owner").text(word(s.nav.owner));
+  number(out, "owner_timeout_s", s.nav.owner_timeout_s);
   out.key("track").text(s.nav.track.view());
   out.key("target_id").integer(s.nav.target_id);
   number(out, "cross_track_m", s.nav.cross_track_m);

@@ -1,0 +1,143 @@
+// What droverd writes is what the command line reads: a name that differs shows as "-".
+#include "publish/status/status.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "cli/show.h"
+#include "cli/show_devices.h"
+
+namespace drover::cli {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr Time kNow{100s};
+
+void fill_devices(Snapshot& s) {
+  s.gnss.configured = true;
+  s.gnss.health = SourceState::fresh;
+  s.gnss.position = {23.1496524721, 113.0196377172, 29.237, -5, FixQuality::rtk_fixed, 28, 0.6,
+                     1.0,           0.011,          0.012};
+  s.gnss.position_time = kNow - 50ms;
+  s.gnss.velocity = {0.512, 91.5};
+  s.gnss.heading_deg = 89.8;
+  s.imu.configured = true;
+  s.imu.health = SourceState::fresh;
+  s.imu.time = kNow - 10ms;
+  s.imu.sample.acceleration_mps2 = {0.125, 0.25, 9.75};
+  s.imu.sample.angular_velocity_radps = {0.0021, 0.0032, -0.0075};
+  s.imu.sample.temperature_degC = 31;
+  s.imu.gyro_bias_radps = {0.00119, 0.00281, -0.00726};
+  s.imu.gyro_bias_sigma_radps = 0.00021;
+  s.imu.roll_rad = 0.0125;
+  s.imu.pitch_rad = -0.0375;
+  s.battery.configured = true;
+  s.battery.health = SourceState::fresh;
+  s.battery.time = kNow - 1s;
+  s.battery.sample.voltage_V = 26.51;
+  s.battery.sample.current_A = -1.25;
+  s.battery.sample.soc_percent = 83.5;
+  s.battery.sample.remaining_Ah = 33.4;
+  s.battery.sample.temperature_degC = 22.5;
+  s.battery.sample.mosfet_degC = 24.5;
+  s.battery.sample.min_cell_V = 3.311;
+  s.battery.sample.max_cell_V = 3.317;
+}
+
+Snapshot full_snapshot() {
+  Snapshot s;
+  s.time = kNow;
+  fill_devices(s);
+  AxisSnapshot axis;
+  axis.joint = "front_left";
+  axis.state = AxisState::running;
+  axis.health = SourceState::fresh;
+  axis.motion.position_rad = 12.345;
+  axis.motion.velocity_radps = 3.021;
+  axis.motion.effort_Nm = 1.75;
+  axis.last_motion = kNow - 5ms;
+  axis.inverter_degC = 41;
+  axis.motor_degC = 52;
+  axis.bus_V = 26.3;
+  axis.bus_A = 0.7;
+  (void)s.axes.push_back(axis);
+  LinkSnapshot link;
+  link.name = "can0";
+  link.is_bus = link.up = true;
+  link.reason = "can0 is error-passive";
+  link.received = 4711;
+  link.sent = 815;
+  link.dropped = 3;
+  link.refused = 2;
+  (void)s.links.push_back(link);
+  s.line_configured[0] = s.line_active[0] = true;
+  s.output_configured[0] = s.output_on[0] = true;
+  s.nav.owner = Owner::joint_command;
+  s.nav.owner_timeout_s = 0.1;
+  (void)s.why.push_back("e-stop pressed");
+  return s;
+}
+
+class StatusViews : public testing::Test {
+ protected:
+  StatusViews() {
+    publish::DaemonStatus daemon;
+    daemon.robot = "field";
+    auto document = json::parse(publish::status_json(full_snapshot(), daemon));
+    if (!document) ADD_FAILURE() << document.error().text();
+    if (document) status = document->root;
+  }
+  std::string shown(std::string_view name) const {
+    for (const auto& each : device_views())
+      if (each.name == name) {
+        EXPECT_EQ(missing(each, status), "") << name;
+        return each.show(status);
+      }
+    ADD_FAILURE() << "no view " << name;
+    return {};
+  }
+  static void expect(const std::string& text, std::initializer_list<const char*> parts) {
+    for (const char* part : parts)
+      EXPECT_NE(text.find(part), std::string::npos) << part << " is not in\n" << text;
+  }
+  json::Node status;
+};
+
+TEST_F(StatusViews, ShowTheReceiver) {
+  expect(shown("gnss"), {"rtk fixed", "satellites 28", "hdop 0.60", "corrections 1.0 s old",
+                         "latitude 23.149652472 deg", "longitude 113.019637717 deg",
+                         "altitude 29.237 m", "east 0.011 m", "north 0.012 m", "speed 0.512 m/s",
+                         "course 91.5 deg", "heading 89.80 deg", "age 0.050 s", "fresh"});
+}
+
+TEST_F(StatusViews, ShowTheInertialSensor) {
+  expect(shown("imu"), {"0.125", "9.750", "-0.0075", "-0.00726", "sigma z 0.00021 rad/s",
+                        "roll 0.0125 rad", "pitch -0.0375 rad", "31.0 C", "age 0.010 s", "fresh"});
+}
+
+TEST_F(StatusViews, ShowTheBattery) {
+  expect(shown("bms"), {"83.5 %", "remaining 33.4 Ah", "26.51 V", "-1.25 A", "lowest 3.311 V",
+                        "highest 3.317 V", "cells 22.5 C", "switch 24.5 C", "age 1.000 s"});
+}
+
+TEST_F(StatusViews, ShowBusesAndDrives) {
+  expect(shown("can"), {"can0", "received 4711", "sent 815", "dropped 3", "refused 2",
+                        "can0 is error-passive", "front_left", "running", "12.345 rad",
+                        "3.021 rad/s", "1.75 Nm", "motor 52 C", "inverter 41 C", "bus 26.3 V"});
+}
+
+TEST_F(StatusViews, ShowLinesAndOutputs) {
+  expect(shown("gpio"), {"estop", "ACTIVE"});
+}
+
+TEST_F(StatusViews, ShowTheWholeInShort) {
+  expect(show_status(status), {"field", "e-stop pressed", "can0", "can0 is error-passive"});
+  const auto& nav = *status.find("nav");
+  EXPECT_EQ(*nav.find("owner")->text(), "joint_command");
+  EXPECT_DOUBLE_EQ(nav.find("owner_timeout_s")->number().value_or(0), 0.1);
+}
+
+}  // namespace
+}  // namespace drover::cli
