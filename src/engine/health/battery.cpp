@@ -61,7 +61,13 @@ const BatteryVerdict& BatteryMonitor::update(Time now, const BatterySnapshot& ba
     judge(battery.time, sample);
   }
   // What was last known of a limit stays true while nothing new is heard.
-  if (sample.charger_connected && !old) verdict_.charger = "charging: unplug the charger first";
+  if (sample.charger_connected) {
+    if (old) {
+      verdict_.plugged = "the charger was connected when the battery was last heard";
+    } else {
+      verdict_.charger = "charging: unplug the charger first";
+    }
+  }
   const auto alarm = sample.alarm_text.view();
   if (critical_.holds()) {
     verdict_.critical.format("battery empty: %.0f %%, at least %.0f %% are needed",

@@ -10,7 +10,8 @@ namespace drover::engine {
 /// Each empty when there is nothing to say.
 struct BatteryVerdict {
   Reason charger;   ///< a task ends, and none starts
-  Reason critical;  ///< the same
+  Reason plugged;   ///< no task starts: the charger was connected before the battery fell silent
+  Reason critical;  ///< a task ends, and none starts
   Reason low;       ///< no task starts
   Reason warning;   ///< told only
   Reason silent;    ///< told only: nothing is known

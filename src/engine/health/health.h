@@ -21,7 +21,7 @@ enum class Cause : std::uint8_t {
   guard_silent,
   drive_fault,
   latched,           ///< not a present cause: what stopped the robot before a person acted
-  charger,           ///< connected: must not move
+  charger,           ///< connected, or was when the battery was last heard: must not move
   battery_critical,  ///< empty, too hot, or about to switch off: a task ends
   near_zone,
   bus,       ///< told only: what it does to the drives is their own cause

@@ -67,6 +67,7 @@ Reason Owners::hindrance(const OwnInput& input) const {
   if (!input.health.ready) return "the gateway has just started";
   if (!input.health.stop.empty()) return input.health.stop;
   if (!input.health.end_task.empty()) return input.health.end_task;
+  if (input.health.holds(Cause::charger)) return input.health.text(Cause::charger);
   const std::string_view latched = input.latched.empty() ? latched_.view() : input.latched;
   if (!latched.empty()) {
     Reason why;

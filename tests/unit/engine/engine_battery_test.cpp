@@ -34,6 +34,34 @@ TEST_F(AnEngineWithABattery, RefusesAStartWhileTheChargerIsConnected) {
   expect_no_motion_for_s(1);
 }
 
+TEST_F(AnEngineWithABattery, RefusesEveryMotionWhenItFellSilentAtTheCharger) {
+  sample.charger_connected = true;
+  tell();
+  rig.settle();
+  rig.environment.battery.state = SourceState::stale;
+  rig.run_s(121);
+  const std::string plugged = "the charger was connected when the battery was last heard";
+  rig.start(path, 40, 0.5);
+  rig.tick();
+  EXPECT_EQ(refusal(), plugged);
+  rig.command(FindHeading{});
+  rig.tick();
+  EXPECT_EQ(refusal(), plugged);
+  JointTargets still;
+  (void)still.joints.push_back({0, 0});
+  rig.command(still);
+  rig.tick();
+  EXPECT_FALSE(rig.snapshot().joint_command.active);
+  expect_no_motion_for_s(1);
+  sample.charger_connected = false;
+  tell();
+  rig.environment.battery.state = SourceState::fresh;
+  rig.tick();
+  rig.start(path, 40, 0.5);
+  rig.run_s(2);
+  EXPECT_GT(rig.fastest_command_radps(), 0) << rig.why();
+}
+
 TEST_F(AnEngineWithABattery, FailsATaskWithARampWhenTheChargerIsPluggedIn) {
   drive();
   sample.charger_connected = true;

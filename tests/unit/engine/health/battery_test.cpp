@@ -135,5 +135,19 @@ TEST_F(ABatteryMonitor, KnowsTheChargerFromTheFirstWordToTheLast) {
   EXPECT_TRUE(verdict.charger.empty());
 }
 
+TEST_F(ABatteryMonitor, LetsNoTaskStartAtAPlugThatWasThereWhenItFellSilent) {
+  sample.charger_connected = true;
+  run(1s);
+  EXPECT_TRUE(verdict.plugged.empty());
+  source.state = SourceState::stale;
+  verdict = monitor.update(now + 60s, battery, source);
+  EXPECT_EQ(verdict.plugged, "the charger was connected when the battery was last heard");
+  EXPECT_TRUE(verdict.charger.empty()) << "old knowledge ends no task";
+  source.state = SourceState::fresh;
+  sample.charger_connected = false;
+  run(1s);
+  EXPECT_TRUE(verdict.plugged.empty());
+}
+
 }  // namespace
 }  // namespace drover::engine
