@@ -20,7 +20,8 @@ Commands for a running simulator (drover-sim ctl COMMAND...):
   drive JOINT|all power on|off   drive JOINT|all fault NAME|none
   battery soc P | charger plug|unplug | unplug|plug
   battery well|silent|slow|other_unit|wrong_crc|drip|echo|deaf_echo|exception
-  can BUS slcan TEXT|stall|flow|unplug|plug               truth               quit
+  can BUS slcan TEXT|stall|flow|unplug|plug               lines unplug|plug
+  truth                                                   quit
 
 Examples:
   drover-sim --scenario sim/scenarios/straight.json
@@ -53,7 +54,8 @@ int main(int argc, char** argv) {
   app.add_option("--seed", settings.seed, "source of all randomness")->envname("DROVER_SEED");
   app.add_option("--run-dir", settings.run_folder, "for sockets and serial lines")
       ->capture_default_str();
-  app.add_option("--log-dir", settings.log_folder, "for can.log and truth.csv; none: no logs");
+  app.add_option("--log-dir", settings.log_folder,
+                 "for can.log, truth.csv, lines.log; none: no logs");
   app.add_option("--can-transport", can_transport, "buses as the scenario says, or all as sockets")
       ->check(CLI::IsMember({"socketcan", "unix"}))
       ->capture_default_str();

@@ -6,21 +6,12 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <stdexcept>
 
 namespace drover::sim {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr std::string_view kChipLabel = "drover-sim";
-
-std::string first_line(const fs::path& path) {
-  std::ifstream stream(path);
-  std::string line;
-  std::getline(stream, line);
-  return line;
-}
 
 link::UniqueFd open_or_throw(const fs::path& path, int flags) {
   link::UniqueFd fd(::open(path.c_str(), flags | O_CLOEXEC, 0644));
@@ -28,36 +19,15 @@ link::UniqueFd open_or_throw(const fs::path& path, int flags) {
   return fd;
 }
 
-fs::path find_bank(const std::string& configfs) {
-  std::error_code ignored;
-  for (const auto& chip : fs::directory_iterator(configfs, ignored))
-    for (const auto& bank : fs::directory_iterator(chip.path(), ignored))
-      if (bank.is_directory() && first_line(bank.path() / "label") == kChipLabel)
-        return bank.path();
-  throw std::runtime_error(configfs + ": no gpio-sim chip with the label '" +
-                           std::string(kChipLabel) + "'; run inside sim/lab, or use --lines files");
-}
-
 }  // namespace
 
-LinePort LinePort::gpio_sim(const Scenario& scenario, const std::string& configfs,
-                            const std::string& devices) {
+LinePort LinePort::gpio_sim(const Scenario& scenario, const GpioSimChip& chip) {
   LinePort port;
   port.high_text_ = "pull-up";
   port.low_text_ = "pull-down";
-  const fs::path bank = find_bank(configfs);
-  const fs::path chip = fs::path(devices) / first_line(bank.parent_path() / "dev_name") /
-                        first_line(bank / "chip_name");
-  for (std::size_t i = 0; i < kLineNames; ++i) {
-    if (!scenario.lines[i].wired) continue;
-    std::string offset;
-    for (const auto& line : fs::directory_iterator(bank))
-      if (line.is_directory() && first_line(line.path() / "name") == kLineText[i])
-        offset = line.path().filename().string().substr(std::strlen("line"));
-    if (offset.empty())
-      throw std::runtime_error(bank.string() + ": no line '" + std::string(kLineText[i]) + "'");
-    port.fds_[i] = open_or_throw(chip / ("sim_gpio" + offset) / "pull", O_WRONLY);
-  }
+  for (std::size_t i = 0; i < kLineNames; ++i)
+    if (scenario.lines[i].wired)
+      port.fds_[i] = open_or_throw(chip.line(kLineText[i]) / "pull", O_WRONLY);
   return port;
 }
 

@@ -6,16 +6,15 @@
 #include <string>
 
 #include "link/unique_fd.h"
+#include "sim/robot/gpio_sim.h"
 #include "sim/robot/scenario.h"
 
 namespace drover::sim {
 
 class LinePort {
  public:
-  /// The chip whose bank has the label "drover-sim"; its lines have the names of kLineText.
-  static LinePort gpio_sim(const Scenario& scenario,
-                           const std::string& configfs = "/sys/kernel/config/gpio-sim",
-                           const std::string& devices = "/sys/devices/platform");
+  /// The chip's lines have the names of kLineText. What is set while the chip is away is lost.
+  static LinePort gpio_sim(const Scenario& scenario, const GpioSimChip& chip);
   /// FOLDER/estop and so on hold "0" or "1", rewritten in place.
   static LinePort files(const Scenario& scenario, const std::string& folder);
 

@@ -46,13 +46,17 @@ void TextLog::flush() {
   buffer_.clear();
 }
 
-void append_candump(std::string& line, Time time, std::string_view bus, const CanFrame& frame) {
+void append_stamp(std::string& line, Time time) {
   std::array<char, 48> stamp{};
   const auto ns = time.time_since_epoch().count();
   const int n = std::snprintf(stamp.data(), stamp.size(), "(%lld.%09lld) ",
                               static_cast<long long>(ns / 1'000'000'000),
                               static_cast<long long>(ns % 1'000'000'000));
   line.append(stamp.data(), static_cast<std::size_t>(n));
+}
+
+void append_candump(std::string& line, Time time, std::string_view bus, const CanFrame& frame) {
+  append_stamp(line, time);
   line += bus;
   line += ' ';
   constexpr std::uint32_t kErrorFlag = 0x20000000U;

@@ -28,7 +28,9 @@ class TextLog {
   std::string buffer_;
 };
 
-/// "(12.345678901) can0 00D#00000000": seconds of the monotonic clock, nine digits.
+/// "(12.345678901) ": seconds of the monotonic clock, nine digits.
+void append_stamp(std::string& line, Time time);
+/// "(12.345678901) can0 00D#00000000".
 /// Appends one line; error frames carry candump's error flag in the id.
 void append_candump(std::string& line, Time time, std::string_view bus, const CanFrame& frame);
 

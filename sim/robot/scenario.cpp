@@ -207,6 +207,7 @@ Scenario read_scenario(const nlohmann::json& document, const std::string& folder
   if (top.has("battery")) scenario.battery = read_battery(top.object("battery"), folder);
   read_lines(top, scenario);
   read_zones(top, scenario);
+  scenario.outputs = top.flag("outputs", false);
   scenario.estop_cuts_power = top.flag("estop_cuts_power", false);
   read_events(top, scenario);
   for (const auto* key : {"description", "mission", "player"}) top.ignore(key);

@@ -104,6 +104,7 @@ struct Scenario {
   double zone_near_m = 0.6;  ///< ahead of the bumper
   double zone_far_m = 2.0;
   double zone_width_m = 0.8;
+  bool outputs = false;  ///< the wires of the gateway's outputs are recorded (a gpio-sim chip's)
   bool estop_cuts_power = false;  ///< the pressed button also takes the drives' supply away
   std::vector<Event> events;      ///< by time
 };

@@ -77,9 +77,10 @@ Simulator::Simulator(const SimulatorSettings& settings)
       robot_(make_robot(settings)),
       epoll_(::epoll_create1(EPOLL_CLOEXEC)),
       timer_(::timerfd_create(CLOCK_MONOTONIC, TFD_CLOEXEC | TFD_NONBLOCK)),
-      lines_(settings.line_files
-                 ? LinePort::files(robot_.scenario(), made_folder(settings.run_folder) + "/lines")
-                 : LinePort::gpio_sim(robot_.scenario())),
+      chip_(settings.line_files ? std::nullopt : std::optional<GpioSimChip>(std::in_place)),
+      lines_(chip_
+                 ? LinePort::gpio_sim(robot_.scenario(), *chip_)
+                 : LinePort::files(robot_.scenario(), made_folder(settings.run_folder) + "/lines")),
       can_log_(log_file(settings, "can.log")),
       truth_log_(log_file(settings, "truth.csv"), robot_.scenario()) {
   made_folder(settings_.run_folder);
@@ -95,6 +96,7 @@ Simulator::Simulator(const SimulatorSettings& settings)
   if (scenario.battery)
     battery_.emplace((folder / scenario.battery->port).string(), scenario.battery->baud,
                      scenario.battery->unit);
+  if (scenario.outputs && chip_) outputs_.emplace(log_file(settings_, "lines.log"), *chip_);
   signals_ = block_signals();
   control_.emplace(settings_.run_folder + "/sim.sock", epoll_.get());
   watch(epoll_.get(), timer_.get());
@@ -176,6 +178,7 @@ void Simulator::tick(Time now) {
   robot_.step(now);
   send_can(now);
   write_lines();
+  if (outputs_) outputs_->sample(now);
   exchange_serial(now);
   if (battery_) battery_->pump(now, kTick, *robot_.battery_registers());
   keep_records(now);
@@ -228,6 +231,7 @@ void Simulator::keep_records(Time now) {
   if (now >= next_flush_) {
     can_log_.flush();
     truth_log_.flush();
+    if (outputs_) outputs_->flush();
     measure_clocks();
     next_flush_ = now + kFlushPeriod;
   }
@@ -248,6 +252,7 @@ std::string Simulator::command(std::string_view text) {
   }
   if (text.starts_with("can ")) return command_can(text.substr(4));
   if (text.starts_with("tap ")) return command_tap(text.substr(4));
+  if (text.starts_with("lines ")) return command_lines(text.substr(6));
   for (const std::string_view device : {"gnss ", "imu "})
     for (const std::string_view verb : {"plug", "unplug"})
       if (text.starts_with(device) && text.substr(device.size()) == verb)
@@ -281,6 +286,16 @@ std::string Simulator::command_can(std::string_view text) {
     }
   return "error: say: can BUS slcan TEXT|stall|flow|bus_off|restart|unplug|plug|disconnect, with "
          "a bus of the scenario";
+}
+
+std::string Simulator::command_lines(std::string_view verb) {
+  if (!chip_) return "error: these lines are files";
+  if (verb != "plug" && verb != "unplug") return "error: say plug or unplug";
+  if (!chip_->set_live(verb == "plug")) return "error: the kernel refused";
+  if (verb == "unplug") return "ok";
+  lines_ = LinePort::gpio_sim(robot_.scenario(), *chip_);
+  if (outputs_) outputs_->reopen(*chip_);
+  return "ok";
 }
 
 std::string Simulator::command_plug(std::string_view device, std::string_view verb) {

@@ -12,6 +12,7 @@
 #include "sim/robot/control_socket.h"
 #include "sim/robot/line_port.h"
 #include "sim/robot/log.h"
+#include "sim/robot/output_log.h"
 #include "sim/robot/robot.h"
 #include "sim/robot/serial_port.h"
 
@@ -50,6 +51,7 @@ class Simulator {
   std::string command(std::string_view text);
   std::string command_tap(std::string_view name);
   std::string command_can(std::string_view text);
+  std::string command_lines(std::string_view verb);
   std::string command_plug(std::string_view device, std::string_view verb);
   void on_events(int timeout_ms);
 
@@ -62,7 +64,9 @@ class Simulator {
   std::optional<SerialPort> gnss_;
   std::optional<SerialPort> imu_;
   std::optional<BatteryPort> battery_;
+  std::optional<GpioSimChip> chip_;  // none: the lines are files
   LinePort lines_;
+  std::optional<OutputLog> outputs_;
   CanLog can_log_;
   TruthLog truth_log_;
   std::optional<ControlSocket> control_;

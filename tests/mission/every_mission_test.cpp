@@ -75,7 +75,7 @@ INSTANTIATE_TEST_SUITE_P(Each, EveryMission,
                                          "imu_faults", "battery_faults", "battery_empty",
                                          "outage_on_curve", "receiver_replugged",
                                          "receiver_renamed", "joint_commands", "bus_off",
-                                         "can_replugged"),
+                                         "can_replugged", "chip_replugged", "hang_without_bus"),
                          [](const auto& one) { return std::string(one.param); });
 
 }  // namespace

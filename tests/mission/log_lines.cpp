@@ -117,6 +117,16 @@ EventLine parse_event_line(std::string_view line) {
   return parsed;
 }
 
+LevelLine parse_level_line(std::string_view line) {
+  std::string_view rest = line;
+  LevelLine parsed;
+  parsed.time = take_stamp(rest, line);
+  parsed.name = take_word(rest, line);
+  if (rest != "0" && rest != "1" && rest != "-") fail("no level", line);
+  if (rest != "-") parsed.high = rest == "1";
+  return parsed;
+}
+
 TruthColumns::TruthColumns(std::string_view header) {
   const auto names = split(header);
   count_ = names.size();

@@ -2,6 +2,7 @@
 // wrong.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -26,6 +27,12 @@ struct EventLine {
   Time time = kNever;
   std::string text;
 };
+/// Electrical level of an output's wire from then on; nothing: its chip is away.
+struct LevelLine {
+  Time time = kNever;
+  std::string name;
+  std::optional<bool> high;
+};
 /// Of base_link in the simulator's frame: x east, y north, yaw counter-clockwise from east.
 struct TruthLine {
   Time time = kNever;
@@ -43,6 +50,9 @@ CanLine parse_can_line(std::string_view line);
 MqttLine parse_mqtt_line(std::string_view line);
 /// "(12.345678901) signal 9 to droverd"
 EventLine parse_event_line(std::string_view line);
+
+/// "(12.345000000) lamp 1", or "-" for the level.
+LevelLine parse_level_line(std::string_view line);
 
 /// Finds its columns by the names in the header.
 class TruthColumns final {

@@ -60,6 +60,20 @@ TEST(MissionEventLine, KeepsItsText) {
   EXPECT_EQ(parse_event_line("(1.000000000) signal 9 to droverd").text, "signal 9 to droverd");
 }
 
+TEST(MissionLevelLine, IsRefusedWithoutALevel) {
+  expect_refused(parse_level_line, {"", "(1.000000000) lamp", "(1.000000000) lamp ",
+                                    "(1.000000000) lamp 2", "(1.000000000) lamp 10"});
+}
+
+TEST(MissionLevelLine, GivesNameAndLevelOrThatThereIsNone) {
+  const auto line = parse_level_line("(1.005000000) lamp 1");
+  EXPECT_EQ(line.time.time_since_epoch().count(), 1'005'000'000);
+  EXPECT_EQ(line.name, "lamp");
+  EXPECT_EQ(line.high, true);
+  EXPECT_EQ(parse_level_line("(1.005000000) lamp 0").high, false);
+  EXPECT_EQ(parse_level_line("(1.005000000) lamp -").high, std::nullopt);
+}
+
 TEST(MissionTruth, IsRefusedWithoutItsColumns) {
   EXPECT_THROW(TruthColumns("time_s,x_m,y_m"), std::runtime_error);
 }

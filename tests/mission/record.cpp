@@ -103,6 +103,9 @@ Record read_record(const fs::path& folder, const json& scenario) {
             [&](std::string_view line) { read_mqtt(parse_mqtt_line(line), earth, record); });
   each_line(folder / "events.log",
             [&](std::string_view line) { append(record.events, parse_event_line(line)); });
+  if (scenario.value("outputs", false))
+    each_line(folder / "lines.log",
+              [&](std::string_view line) { append(record.levels, parse_level_line(line)); });
   std::optional<TruthColumns> columns;
   each_line(folder / "truth.csv", [&](std::string_view line) {
     if (columns)
@@ -159,6 +162,19 @@ std::vector<std::string> Record::feedback_words() const {
   std::vector<std::string> words;
   for (const auto& one : feedback) words.push_back(one.cmd);
   return words;
+}
+
+std::vector<LevelLine> Record::changes(const std::string& output, Time begin, Time end) const {
+  std::vector<LevelLine> found;
+  for (const auto& level : levels)
+    if (level.name == output && level.time >= begin && level.time <= end) found.push_back(level);
+  return found;
+}
+
+std::optional<bool> Record::level_at(const std::string& output, Time time) const {
+  const auto until = changes(output, kNever, time);
+  if (until.empty()) missing(*this, output + " was not seen yet");
+  return until.back().high;
 }
 
 TruthLine Record::truth_at(Time time) const {

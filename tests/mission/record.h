@@ -43,6 +43,7 @@ struct Record {
   std::vector<MqttLine> mqtt;
   std::vector<EventLine> events;
   std::vector<TruthLine> truth;
+  std::vector<LevelLine> levels;  ///< of the outputs, where the scenario records them
   // What the lines above mean:
   std::vector<Status> statuses;
   std::vector<Feedback> feedback;
@@ -57,6 +58,10 @@ struct Record {
   /// When the n-th feedback of this kind came. Throws.
   Time answered(const std::string& cmd, std::size_t n = 1) const;
   std::vector<std::string> feedback_words() const;
+  /// An output's changes from `begin` to `end`, both included.
+  std::vector<LevelLine> changes(const std::string& output, Time begin, Time end) const;
+  /// Of an output; nothing: its chip is away. Throws before it was first seen.
+  std::optional<bool> level_at(const std::string& output, Time time) const;
   /// Interpolated between two lines; throws outside of them.
   TruthLine truth_at(Time time) const;
   /// Commands with motion from `begin` to `end`, both included.
@@ -66,7 +71,8 @@ struct Record {
   const Status& first_status(const std::string& word, Time begin = kNever) const;
 };
 
-/// Reads can.log, mqtt.log, events.log and truth.csv. Throws std::runtime_error with file and line.
+/// Reads can.log, mqtt.log, events.log, truth.csv and what else the scenario records. Throws
+/// std::runtime_error with file and line.
 Record read_record(const std::filesystem::path& folder, const nlohmann::json& scenario);
 
 /// The scenario's file and below it the robot it names. Throws std::runtime_error.

@@ -4,26 +4,7 @@
 namespace drover::mission {
 namespace {
 
-constexpr Duration kEstop = 20ms;
 constexpr Duration kGuard = 100ms;
-
-/// The next accepted start after `time`, as its answer came; the end of time when there is none.
-Time next_start(const Record& log, Time time) {
-  for (const auto& one : log.feedback)
-    if (one.time > time && one.cmd == "start_task_success") return one.time;
-  return Time::max();
-}
-
-/// Between `begin` and the next start nothing moves; the operator's own message comes a little
-/// before its answer.
-void expect_rest_until_started(const Record& log, Time begin) {
-  const Time start = next_start(log, begin);
-  EXPECT_THAT(log.moving(begin, start == Time::max() ? start : start - kEstop), testing::IsEmpty());
-}
-
-bool moved_until(const Record& log, Time time) {
-  return !log.moving(time - 100ms, time).empty();
-}
 
 TEST(Estop, StopsEveryWheelCommandWithin20Milliseconds) {
   const Record& log = record("estop");
@@ -64,18 +45,6 @@ TEST(EstopTap, StopsAndEndsTheTaskThoughTheContactIsClosedAgain) {
   const auto& error = log.first_status("NAV_ERROR", tapped);
   EXPECT_LT(error.time - tapped, 200ms);
   EXPECT_NE(error.why.find("e-stop"), std::string::npos) << error.why;
-}
-
-/// The second start was accepted after `gone` ended, and it reached the goal.
-void expect_new_start_succeeds(const Record& log, Time gone) {
-  auto twice = kStarted;
-  twice.insert(twice.end(), {"start_task_success", "start_nav_success"});
-  EXPECT_EQ(log.feedback_words(), twice);
-  EXPECT_GT(next_start(log, log.answered("start_nav_success")), gone);
-  EXPECT_EQ(log.statuses.back().nav, "NAV_SUCCESS");
-  const Time start = next_start(log, gone);
-  const auto& success = log.first_status("NAV_SUCCESS", start);
-  EXPECT_LT(drive_figures(log, start, success.time).goal_m, 0.10);
 }
 
 TEST(Estop, LetsANewStartReachTheGoalAfterItsRelease) {

@@ -48,4 +48,37 @@ inline void expect_nav_stays(const Record& record, const std::string& nav, Time 
   EXPECT_GT(looked, 0U) << "no status from " << seconds(begin) << " to " << seconds(end);
 }
 
+/// From a contact to the wheels.
+inline constexpr Duration kEstop = 20ms;
+
+/// The next accepted start after `time`, as its answer came; the end of time when there is none.
+inline Time next_start(const Record& log, Time time) {
+  for (const auto& one : log.feedback)
+    if (one.time > time && one.cmd == "start_task_success") return one.time;
+  return Time::max();
+}
+
+/// Between `begin` and the next start nothing moves; the operator's own message comes a little
+/// before its answer.
+inline void expect_rest_until_started(const Record& log, Time begin) {
+  const Time start = next_start(log, begin);
+  EXPECT_THAT(log.moving(begin, start == Time::max() ? start : start - kEstop), testing::IsEmpty());
+}
+
+inline bool moved_until(const Record& log, Time time) {
+  return !log.moving(time - 100ms, time).empty();
+}
+
+/// The second start was accepted after `gone` ended, and it reached the goal.
+inline void expect_new_start_succeeds(const Record& log, Time gone) {
+  auto twice = kStarted;
+  twice.insert(twice.end(), {"start_task_success", "start_nav_success"});
+  EXPECT_EQ(log.feedback_words(), twice);
+  EXPECT_GT(next_start(log, log.answered("start_nav_success")), gone);
+  EXPECT_EQ(log.statuses.back().nav, "NAV_SUCCESS");
+  const Time start = next_start(log, gone);
+  const auto& success = log.first_status("NAV_SUCCESS", start);
+  EXPECT_LT(drive_figures(log, start, success.time).goal_m, 0.10);
+}
+
 }  // namespace drover::mission

@@ -23,10 +23,16 @@ bool lamp(Mood mood, Duration age) {
   return false;
 }
 
-/// Two beeps before it moves, a long one when it was stopped.
-bool buzzer(Mood mood, Duration age) {
-  if (mood == Mood::about) {
-    return age < milliseconds(600) && flash(age, milliseconds(300), milliseconds(150));
+bool in_motion(Mood mood) {
+  return mood == Mood::about || mood == Mood::moving;
+}
+
+/// Two beeps when it begins to move, to their end though it moves meanwhile; a long one when it
+/// was stopped.
+bool buzzer(Mood mood, Duration age, Duration motion_age) {
+  if (in_motion(mood)) {
+    return motion_age < milliseconds(600) &&
+           flash(motion_age, milliseconds(300), milliseconds(150));
   }
   return mood == Mood::stopped && age < milliseconds(800);
 }
@@ -46,10 +52,11 @@ const std::array<bool, kOutputCount>& Signals::step(Time now, const Snapshot& sn
                                                     bool armed) {
   const Mood mood = mood_of(snapshot, moving, armed);
   if (since_ == kNever || mood != mood_) since_ = now;
+  if (in_motion(mood) && (motion_since_ == kNever || !in_motion(mood_))) motion_since_ = now;
   mood_ = mood;
   const Duration age = now - since_;
   levels_[static_cast<std::size_t>(Output::lamp)] = lamp(mood, age);
-  levels_[static_cast<std::size_t>(Output::buzzer)] = buzzer(mood, age);
+  levels_[static_cast<std::size_t>(Output::buzzer)] = buzzer(mood, age, now - motion_since_);
   // Only what cuts the drives' power by intention: a base without power may roll down a slope.
   levels_[static_cast<std::size_t>(Output::enable_relay)] = snapshot.nav.owner != Owner::estop;
   return levels_;

@@ -11,8 +11,8 @@ namespace drover::engine {
 enum class Mood : std::uint8_t {
   stopped,  ///< an e-stop is pressed, or a stop is latched: three short flashes, then a pause
   paused,   ///< waits and goes on by itself: four flashes a second
-  about,    ///< a start was accepted, motion is about to begin: light on, two beeps
-  moving,   ///< light on
+  about,    ///< somebody owns the drives, motion is about to begin: light on, two beeps at first
+  moving,   ///< light on, and the beeps to their end
   ready,    ///< one short flash every two seconds
 };
 
@@ -27,6 +27,7 @@ class Signals final {
   std::array<bool, kOutputCount> levels_{};
   Mood mood_ = Mood::ready;
   Time since_ = kNever;
+  Time motion_since_ = kNever;  ///< about to move or moving
 };
 
 }  // namespace drover::engine

@@ -16,6 +16,7 @@
 #include "sim/robot/can_port.h"
 #include "sim/robot/line_port.h"
 #include "sim/robot/log.h"
+#include "sim/robot/output_log.h"
 #include "sim/robot/serial_port.h"
 
 namespace drover::sim {
@@ -40,6 +41,7 @@ class Ports : public testing::Test {
     fs::create_directories(path.parent_path());
     std::ofstream(path) << text;
   }
+  GpioSimChip chip() const { return GpioSimChip({(folder / "config").string(), folder.string()}); }
   std::unique_ptr<link::CanLink> connect() {
     auto opened = link::open_can({"unix:" + (folder / "can0.sock").string(), 64, false});
     EXPECT_TRUE(opened.link) << opened.problem;
@@ -62,16 +64,14 @@ class Ports : public testing::Test {
 };
 
 TEST_F(Ports, RefuseAChipThatIsNotThere) {
-  EXPECT_THROW(LinePort::gpio_sim(scenario, (folder / "none").string(), folder.string()),
-               std::runtime_error);
+  EXPECT_THROW(GpioSimChip({(folder / "none").string(), folder.string()}), std::runtime_error);
 }
 
 TEST_F(Ports, RefuseAChipThatLacksALine) {
   write(folder / "config/robot/dev_name", "gpio-sim.0\n");
   write(folder / "config/robot/bank0/label", "drover-sim\n");
   write(folder / "config/robot/bank0/chip_name", "gpiochip3\n");
-  EXPECT_THROW(LinePort::gpio_sim(scenario, (folder / "config").string(), folder.string()),
-               std::runtime_error);
+  EXPECT_THROW(LinePort::gpio_sim(scenario, chip()), std::runtime_error);
 }
 
 TEST_F(Ports, PullTheLinesOfTheChipWithTheLabel) {
@@ -84,10 +84,34 @@ TEST_F(Ports, PullTheLinesOfTheChipWithTheLabel) {
     write(bank / ("line" + std::to_string(i + 2)) / "name", std::string(kLineText[i]) + "\n");
     write(folder / "gpio-sim.0/gpiochip3" / ("sim_gpio" + std::to_string(i + 2)) / "pull", "");
   }
-  auto port = LinePort::gpio_sim(scenario, (folder / "config").string(), folder.string());
+  auto port = LinePort::gpio_sim(scenario, chip());
   port.set(LineName::zone_far, true);
   EXPECT_EQ(read(folder / "gpio-sim.0/gpiochip3/sim_gpio4/pull"), "pull-up");
   EXPECT_EQ(read(folder / "gpio-sim.0/gpiochip3/sim_gpio2/pull"), "");
+}
+
+TEST_F(Ports, RecordEachChangeOfAnOutputAndThatItsChipIsGone) {
+  const fs::path bank = folder / "config/robot/bank0";
+  const fs::path lines = folder / "gpio-sim.0/gpiochip3";
+  write(folder / "config/robot/dev_name", "gpio-sim.0\n");
+  write(bank / "label", "drover-sim\n");
+  write(bank / "chip_name", "gpiochip3\n");
+  for (std::size_t i = 0; i < kOutputText.size(); ++i) {
+    write(bank / ("line" + std::to_string(i)) / "name", std::string(kOutputText[i]) + "\n");
+    write(lines / ("sim_gpio" + std::to_string(i)) / "value", "0\n");
+  }
+  {
+    OutputLog log((folder / "lines.log").string(), chip());
+    log.sample(Time{std::chrono::milliseconds(1005)});
+    write(lines / "sim_gpio1/value", "1\n");
+    log.sample(Time{std::chrono::milliseconds(1010)});
+    log.sample(Time{std::chrono::milliseconds(1015)});
+    write(lines / "sim_gpio1/value", "");  // as a chip that is gone, nothing can be read
+    log.sample(Time{std::chrono::milliseconds(1020)});
+  }
+  EXPECT_EQ(read(folder / "lines.log"),
+            "(1.005000000) enable_relay 0\n(1.005000000) lamp 0\n(1.005000000) buzzer 0\n"
+            "(1.005000000) watchdog 0\n(1.010000000) lamp 1\n(1.020000000) lamp -\n");
 }
 
 TEST_F(Ports, RewriteALinesFileInPlace) {

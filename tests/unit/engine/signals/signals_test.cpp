@@ -36,6 +36,17 @@ TEST(Signals, WarnWithTwoBeepsBeforeMotion) {
   EXPECT_EQ(pattern(Output::buzzer, {}, false, true, 1), "###...###...........");
   EXPECT_EQ(pattern(Output::lamp, {}, true, true, 1), std::string(20, '#'));
 }
+TEST(Signals, BeepTwiceThoughItMovesMeanwhileAndNotWhenItHalts) {
+  Signals signals;
+  std::string text;
+  for (int i = 0; i < 40; ++i) {
+    const Time now{std::chrono::seconds(5) + i * std::chrono::milliseconds(50)};
+    const bool moving = i > 1 && i != 30;  // it halts for a moment
+    text +=
+        signals.step(now, {}, moving, true)[static_cast<std::size_t>(Output::buzzer)] ? '#' : '.';
+  }
+  EXPECT_EQ(text, "###...###" + std::string(31, '.'));
+}
 TEST(Signals, OfAPauseFlashQuickly) {
   Snapshot snapshot;
   snapshot.nav.paused = true;
