@@ -4,7 +4,7 @@
 set -uo pipefail
 cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../.." || exit 1
 
-folder=$(mktemp -d)
+folder=$(mktemp -d -p "$([[ -w /dev/shm ]] && echo /dev/shm || echo /tmp)")
 demo=
 finish() {
   [[ -z $demo ]] || kill -KILL -- "-$demo" 2> /dev/null
