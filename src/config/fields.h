@@ -154,7 +154,8 @@ void visit(V& v, ProtocolConfig& c) {
 template <class V>
 void visit(V& v, AimrtConfig& c) {
   v.flag("enabled", c.enabled, "publish AimRT's messages on the broker");
-  v.number("rate_Hz", c.rate_Hz, Range{1, 200}, "joint and IMU messages a second; touch has its own pace");
+  v.number("rate_Hz", c.rate_Hz, Range{1, 200},
+           "joint and IMU messages a second; touch has its own pace");
   v.flag("commands", c.commands, "follow joint commands");
   v.integer("max_command_age_ms", c.max_command_age_ms, Range{10, 10000},
             "a joint command with an older time stamp is refused");
