@@ -34,7 +34,7 @@ struct TrackProgress {
 };
 
 /// Why a path cannot be driven; empty when it can. Points are named as the operator counts, from 1;
-/// `target` is an index from 0.
+/// `target` is an index from 0. O(points).
 Reason check_path(const Path& path, std::uint32_t target);
 
 /// Follows a smooth line through the points: curvature ahead of the drives' lag, plus feedback on

@@ -71,6 +71,18 @@ TEST(CheckPath, RefusesATrackOfOnePlaceOnly) {
   EXPECT_EQ(check_path(path_of({{1, 1}, {1, 1}, {1, 1}}), 1).view(),
             "all points of the track are the same");
 }
+TEST(CheckPath, RefusesMoreThan64PointsAtOnePlaceAndNamesThem) {
+  Points points{{0, 0}, {1, 0}};
+  for (int i = 0; i < 64; ++i) points.push_back({2, 0.0009 * (i % 2)});
+  points.push_back({3, 0});
+  EXPECT_EQ(check_path(path_of(points), 0).view(), "");
+  points.insert(points.begin() + 3, {2, 0});
+  EXPECT_EQ(check_path(path_of(points), 0).view(), "points 3 to 67 of the track are one place");
+  points.insert(points.end(), 5000, {3, 0});
+  EXPECT_EQ(check_path(path_of(points), 0).view(), "points 3 to 67 of the track are one place");
+  points.erase(points.begin() + 3, points.begin() + 60);
+  EXPECT_EQ(check_path(path_of(points), 0).view(), "points 11 to 5011 of the track are one place");
+}
 TEST(CheckPath, AcceptsEqualNeighboursAndLongSegments) {
   EXPECT_TRUE(check_path(path_of({{0, 0}, {0, 0}, {999, 0}, {999, 0}}), 0).empty());
 }
