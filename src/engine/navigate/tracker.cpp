@@ -52,7 +52,12 @@ void Tracker::begin(const Path& path, std::uint32_t target, double speed_mps, co
   const double sharp_rad = to_rad(config_.pivot_angle_deg);
   std::size_t first = station_.segment;
   double first_m = 0;
-  while (first > 0 && first_m > -kLookBack_m && corner_rad(route_, first, 0) < sharp_rad) {
+  double tested_m = INFINITY;
+  while (first > 0 && first_m > -kLookBack_m) {
+    if (tested_m - first_m >= kTestSpacing_m) {
+      tested_m = first_m;
+      if (corner_rad(route_, first, 0) >= sharp_rad) break;
+    }
     --first;
     first_m -= route_.segment_m(first);
   }
