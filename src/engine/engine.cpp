@@ -166,6 +166,15 @@ void Engine::Impl::start_task(const RequestId& id, const StartTask& task, Time n
   if (navigator.starting()) owners.on_task_started();
 }
 
+void Engine::Impl::reset_stop(const RequestId& id, Time now) {
+  if (wheel_fault == WheelFault::runaway) {
+    events.push(now, CommandRefused{id, wheels.reason()});
+  } else if (navigator.reset_stop(id, now, owners.at_rest(), !latched().empty(), health.report(),
+                                  events)) {
+    owners.reset();
+  }
+}
+
 Engine::Engine(const EngineConfig& config) {
   for (const auto* side : {&config.base.left, &config.base.right}) {
     for (const AxisId id : *side) {
@@ -194,10 +203,7 @@ void Engine::on_command(const Command& command, Time now) {
   } else if (std::holds_alternative<EngageStop>(command.body)) {
     e.navigator.engage_stop(id, now, e.events);
   } else if (std::holds_alternative<ResetStop>(command.body)) {
-    if (e.navigator.reset_stop(id, now, e.owners.at_rest(), !e.latched().empty(), e.health.report(),
-                               e.events)) {
-      e.owners.reset();
-    }
+    e.reset_stop(id, now);
   } else if (std::holds_alternative<ProposeOrigin>(command.body)) {
     e.propose_origin(id, now);
   } else if (const auto* origin = std::get_if<SetOrigin>(&command.body)) {
@@ -240,14 +246,14 @@ void Engine::step(Time now, const Environment& environment, EngineOutput& out) {
   const std::span<const AxisSnapshot> axes{e.snapshot.axes.data(), e.snapshot.axes.size()};
   e.health.update({now, environment, axes, lines, e.estimate, e.estimator.has_origin(),
                    e.navigator.active(), e.latched(), &e.snapshot.battery});
-  const WheelFault wheels = e.wheels.update(now, dt, axes);
+  e.wheel_fault = e.wheels.update(now, dt, axes);
   const NavOutput wanted =
-      e.navigator.step({now, dt, e.estimate, e.health.report(), wheels, e.wheels.reason(),
+      e.navigator.step({now, dt, e.estimate, e.health.report(), e.wheel_fault, e.wheels.reason(),
                         e.owners.at_rest(), e.owners.refusal()},
                        e.events);
   const Motion& motion =
-      e.owners.step({now, dt, e.estimate, e.health.report(), wheels, e.wheels.reason(), wanted,
-                     e.navigator.software_stop().view()},
+      e.owners.step({now, dt, e.estimate, e.health.report(), e.wheel_fault, e.wheels.reason(),
+                     wanted, e.navigator.software_stop().view()},
                     e.events);
   e.command_axes(motion, out);
   e.navigator.on_commanded(now, out.motion_permitted, e.events);

@@ -27,6 +27,7 @@ struct Engine::Impl {
   }
   void propose_origin(const RequestId& id, Time now);
   void set_origin(const RequestId& id, const GeodeticPoint& origin, Time now);
+  void reset_stop(const RequestId& id, Time now);
   void start_task(const RequestId& id, const StartTask& task, Time now);
   void command_axes(const Motion& motion, EngineOutput& out);
   void command_axis(AxisId id, double velocity_radps, bool run, EngineOutput& out);
@@ -38,6 +39,7 @@ struct Engine::Impl {
   Estimator estimator;
   HealthMonitor health;
   WheelMonitor wheels;
+  WheelFault wheel_fault = WheelFault::none;  ///< of the last step
   Announcer announcer;
   Navigator navigator;
   Owners owners;

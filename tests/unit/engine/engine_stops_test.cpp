@@ -110,7 +110,13 @@ TEST_F(AnEngine, ThatNobodyDrivesTellsAWheelThatTurnsByItself) {
   EXPECT_THAT(rig.why(), HasSubstr("wheel rear_left turns by itself: 3.0 rad/s, commanded 0.0"));
   rig.command(ResetStop{});
   rig.tick();
+  EXPECT_EQ(refusal(), "wheel rear_left turns by itself: 3.0 rad/s, commanded 0.0");
   EXPECT_TRUE(rig.snapshot().stop_latched) << "it turns still";
+  rig.drives[2].by_itself_radps = 0;
+  rig.tick();
+  rig.command(ResetStop{});
+  rig.run_s(1);
+  EXPECT_FALSE(rig.snapshot().stop_latched);
 }
 
 // --- pauses -----------------------------------------------------------------------------------
