@@ -34,7 +34,7 @@ TEST_F(ABattery, IsShownToTheOperatorAndToTheEngineer) {
 TEST_F(ABattery, IsUnknownButKeepsItsLastWordWhateverItsLineDoes) {
   ASSERT_NO_FATAL_FAILURE(start_with_battery());
   // What is wrong in the answers never reaches a value: the state of charge stays.
-  for (const char* fault : {"silent", "wrong_crc", "drip", "slow"}) {
+  for (const char* fault : {"silent", "wrong_crc", "other_unit", "drip", "slow"}) {
     ASSERT_EQ(sim({"battery", fault}), "ok\n");
     ASSERT_TRUE(wait_for_valid(false)) << fault;
     EXPECT_EQ(status_number("bms", "error"), 1);

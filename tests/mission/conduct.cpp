@@ -64,6 +64,24 @@ std::vector<Task> tasks(const Record& record) {
   return found;
 }
 
+/// A person's search for the heading: from the request for as long as the gateway says that it has
+/// the drives, and a ramp.
+std::vector<Task> searches(const Record& record) {
+  constexpr Duration kFirst = 1s;
+  std::vector<Task> found;
+  for (const Time begin : record.all("start drover heading find")) {
+    Task search{begin, begin};
+    for (const auto& status : record.statuses) {
+      if (status.time < begin) continue;
+      const bool has_drives = status.document.at("nav").at("owner") == "manual";
+      if (has_drives) search.end = status.time + kRamp;
+      if (!has_drives && (search.end != begin || status.time > begin + kFirst)) break;
+    }
+    found.push_back(search);
+  }
+  return found;
+}
+
 bool inside(const std::vector<Task>& tasks, Time time) {
   return std::any_of(tasks.begin(), tasks.end(),
                      [time](const Task& task) { return time >= task.begin && time <= task.end; });
@@ -98,6 +116,8 @@ Problems check_motion(const Record& record) {
   auto permitted = list;
   for (const auto& stream : streams(record.joint_commands))
     permitted.push_back({stream.begin, stream.last + kStreamTimeout + kRamp});
+  const auto asked_for = searches(record);
+  permitted.insert(permitted.end(), asked_for.begin(), asked_for.end());
   for (const auto& one : record.moving())
     if (!inside(permitted, one.time))
       add(problems, seconds(one.time) + ": node " + std::to_string(one.wheel.node) +

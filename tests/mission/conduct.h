@@ -19,6 +19,9 @@ Problems check_frames(const Record& record);
 Problems check_form(const Record& record);
 /// base_status: 10.0 Hz to 0.1 while gateway and broker run; back within 2 s of their start.
 Problems check_rate(const Record& record);
+/// /joint_state and /imu_state 50 times a second, /touch_state 10 times, to a hundredth, while
+/// gateway and broker run; the second only while the inertial sensor is heard.
+Problems check_aimrt_rates(const Record& record);
 /// Set points with motion only between an accepted start_task and the end of that task, or while a
 /// stream of joint commands lives and in its ramp; navigation is announced when a task's first goes
 /// out.

@@ -217,6 +217,19 @@ TEST(MissionChecks, FindMotionLongAfterAStreamFellSilent) {
   EXPECT_THAT(check_motion(logs.read()), testing::SizeIs(1));
 }
 
+TEST(MissionChecks, PermitMotionToASearchForTheHeadingWhileItHasTheDrives) {
+  for (const bool asked : {true, false})
+    for (const bool told : {true, false}) {
+      Logs logs;
+      if (asked) logs.tell(50, "start drover heading find");
+      if (told) logs.change(0, 150, [](json& message) { message["nav"]["owner"] = "manual"; });
+      logs.can[45].text = "can0 08D#0100000000000000";
+      EXPECT_THAT(check_motion(logs.read()), testing::SizeIs(asked && told ? 0 : 1));
+      logs.can[190].text = logs.can[45].text;  // long after it
+      EXPECT_THAT(check_motion(logs.read()), testing::SizeIs(asked && told ? 1 : 2));
+    }
+}
+
 TEST(MissionChecks, RefuseARecordWithAJointCommandThatIsNone) {
   Logs logs;
   logs.say(50, std::string(kJointCommandTopic) + " 0 0270620012ff");

@@ -17,6 +17,13 @@ std::string bytes_of_hex(std::string_view digits) {
   return bytes;
 }
 
+/// In protoc's text: the member behind this opening; NaN when there is none.
+double number_after(const std::string& text, const char* opening, const std::string& name) {
+  const auto from = text.find(opening);
+  const auto at = from == std::string::npos ? from : text.find(name, from);
+  return at == std::string::npos ? NAN : std::stod(text.substr(at + name.size()));
+}
+
 class EveryMission : public testing::TestWithParam<const char*> {
  protected:
   const Record& log() const { return record(GetParam()); }
@@ -60,6 +67,16 @@ TEST_P(EveryMission, SendsAimrtPacketsThatProtocReads) {
   for (const char* name : {"front_left", "rear_left", "front_right", "rear_right"})
     EXPECT_THAT(joints, testing::HasSubstr("name: \"" + std::string(name) + "\"\n  position: "));
   EXPECT_THAT(newest("TouchState"), testing::HasSubstr("names: \"bumper\""));
+  const auto imu = newest("ImuState");
+  EXPECT_THAT(imu, testing::HasSubstr("frame_id: \"base_link\""));
+  for (const char* member : {"orientation", "angular_velocity", "linear_acceleration"})
+    EXPECT_THAT(imu, testing::HasSubstr("\n" + std::string(member) + " {\n  x: "));
+  EXPECT_NEAR(number_after(imu, "\nlinear_acceleration {", "  z: "), 9.8, 0.5);
+  EXPECT_NEAR(number_after(imu, "\nangular_velocity {", "  z: "), 0, 0.2) << "it is at rest";
+}
+
+TEST_P(EveryMission, SendsAimrtStatesAtTheirRates) {
+  EXPECT_THAT(check_aimrt_rates(log()), IsEmpty());
 }
 
 TEST_P(EveryMission, IsAtRestAtItsEnd) {
@@ -75,7 +92,8 @@ INSTANTIATE_TEST_SUITE_P(Each, EveryMission,
                                          "imu_faults", "battery_faults", "battery_empty",
                                          "outage_on_curve", "receiver_replugged",
                                          "receiver_renamed", "joint_commands", "bus_off",
-                                         "can_replugged", "chip_replugged", "hang_without_bus"),
+                                         "can_replugged", "chip_replugged", "hang_without_bus",
+                                         "heading_find", "battery_low"),
                          [](const auto& one) { return std::string(one.param); });
 
 }  // namespace
