@@ -205,10 +205,12 @@ rule_driver_folders() {
   done
 }
 
-# Every package that README.md names in an apt-get line is in the list.
+# Every package that a README names in an apt-get line is in the list.
 rule_packages() {
   [[ -e .ci/packages ]] || { echo ".ci/packages:1: missing"; return; }
   [[ -e README.md ]] || { echo "README.md:1: missing"; return; }
+  local readmes
+  mapfile -t readmes < <(files | grep -E '(^|/)README\.md$')
   awk '
     FILENAME == ".ci/packages" { if (NF && $1 !~ /^[#[]/) known[$1] = 1; next }
     /apt(-get)? install/ { on = 1; sub(/.*install/, "") }
@@ -220,7 +222,7 @@ rule_packages() {
         if (words[i] ~ /^[a-z0-9][a-z0-9.+-]+$/ && !(words[i] in known))
           print FILENAME ":" FNR ": " words[i] " is not in .ci/packages"
       if ($0 !~ /\\$/) on = 0
-    }' .ci/packages README.md
+    }' .ci/packages "${readmes[@]}"
   awk 'NF && $1 !~ /^[#[]/ {
     if (seen[$1]++) print FILENAME ":" FNR ": " $1 " stands twice"
     if ($0 !~ /# [^ ]/) print FILENAME ":" FNR ": " $1 ": say what it is used for"
