@@ -30,6 +30,10 @@ constexpr std::size_t slot_of(Stream stream) {
   return kFirstStreamSlot + static_cast<std::size_t>(stream);
 }
 
+constexpr std::uint8_t bus_id(std::size_t slot) {
+  return static_cast<std::uint8_t>(slot);
+}
+
 }  // namespace
 
 ControlLoop::ControlLoop(const config::DroverConfig& config, Gateway& gateway, LinkKeeper& keeper,
@@ -112,19 +116,20 @@ Time ControlLoop::cycle(Time begin, std::uint64_t late) {
   drain_can(begin);
   read_lines(begin);
   watch_guard(begin);
-  take_battery();
+  take_battery(begin);
   Command command;
-  while (exchange_.commands.pop(command)) gateway_.on_command(command, begin);
+  while (exchange_.commands.pop(command)) apply(begin, gateway::CommandGiven{command});
 
   const bool guard_alive = guard_seen_ + guard_stale_ > begin && keeper_.guard_equipped();
-  const auto& out = gateway_.step(begin, guard_alive, guard_has_bus_);
+  apply(begin, gateway::Tick{guard_alive, guard_has_bus_});
+  const auto& out = gateway_.output();
   for (std::size_t bus = 0; bus < gateway_.bus_count(); ++bus) {
     if (!can_[bus] || out.frames[bus].empty()) continue;
     if (!can_[bus]->send(out.frames[bus])) {
       lose(bus, can_[bus]->error(), begin);
     } else {
       const auto& counters = can_[bus]->counters();
-      gateway_.on_sent(bus, counters.sent, counters.send_refused, begin);
+      apply(begin, gateway::FramesSent{bus_id(bus), counters.sent, counters.send_refused});
     }
   }
   for (std::size_t i = 0; i < kStreamCount; ++i) serve_stream(i, out.streams[i], begin);
@@ -150,13 +155,13 @@ void ControlLoop::take_links(Time now) {
     link_state_[slot].up = arrived.opened();
     link_state_[slot].reason = arrived.problem;
     if (!arrived.opened()) {
-      if (slot < kMaxBuses) gateway_.on_bus_lost(slot, arrived.problem);
+      if (slot < kMaxBuses) apply(now, gateway::BusLost{bus_id(slot), arrived.problem});
       continue;
     }
     if (is_stream(slot)) {
       const auto stream = slot - kFirstStreamSlot;
       streams_[stream] = std::move(arrived.serial);
-      gateway_.on_stream_up(static_cast<Stream>(stream), now);
+      apply(now, gateway::StreamUp{static_cast<Stream>(stream)});
     } else if (slot == kOutputsSlot) {
       outputs_ = std::move(arrived.outputs);
       outputs_written_ = kNever;
@@ -164,7 +169,7 @@ void ControlLoop::take_links(Time now) {
       lines_ = std::move(arrived.lines);
     } else {
       can_[slot] = std::move(arrived.can);
-      gateway_.on_bus_up(slot, now);
+      apply(now, gateway::BusUp{bus_id(slot)});
     }
   }
 }
@@ -188,12 +193,12 @@ void ControlLoop::lose(std::size_t slot, int error, Time now) {
     dead.serial = std::move(streams_[slot - kFirstStreamSlot]);
   } else if (slot == kLinesSlot) {
     dead.lines = std::move(lines_);
-    gateway_.on_lines_lost(now);
+    apply(now, gateway::LinesLost{});
   } else if (slot == kOutputsSlot) {
     dead.outputs = std::move(outputs_);
   } else {
     dead.can = std::move(can_[slot]);
-    gateway_.on_bus_lost(slot, dead.problem);
+    apply(now, gateway::BusLost{bus_id(slot), dead.problem});
   }
   (void)keeper_.give_back(dead);
 }
@@ -207,7 +212,7 @@ void ControlLoop::read_stream(std::size_t stream, Time now) {
   link_state_[slot].received += size;
   // The first byte came in before the last one: take the wire's time off.
   const Duration wire = from_s(10.0 * static_cast<double>(size - 1) / stream_baud_[stream]);
-  gateway_.on_bytes(static_cast<Stream>(stream), {buffer.data(), size}, now - wire);
+  apply(now - wire, gateway::BytesHeard{static_cast<Stream>(stream), {buffer.data(), size}});
 }
 
 void ControlLoop::serve_stream(std::size_t stream, const StreamOutput& out, Time now) {
@@ -226,16 +231,22 @@ void ControlLoop::serve_stream(std::size_t stream, const StreamOutput& out, Time
 /// A line in `edged` is told at its other level first: a pulse that is over already counts too.
 void ControlLoop::read_lines(Time now, const std::array<bool, link::kMaxLines>& edged) {
   if (line_count_ == 0) return;
-  if (!lines_) return gateway_.on_lines_lost(now);
+  if (!lines_) return apply(now, gateway::LinesLost{});
   std::array<bool, link::kMaxLines> levels{};
   if (!lines_->read(levels)) return lose(kLinesSlot, lines_->error(), now);
   const bool pulses = std::find(edged.begin(), edged.end(), true) != edged.end();
   if (pulses) {
     auto before = levels;
     for (std::size_t i = 0; i < line_count_; ++i) before[i] = levels[i] != edged[i];
-    gateway_.on_levels({before.data(), line_count_}, now);
+    apply_levels(before, now);
   }
-  gateway_.on_levels({levels.data(), line_count_}, now);
+  apply_levels(levels, now);
+}
+
+void ControlLoop::apply_levels(const std::array<bool, link::kMaxLines>& levels, Time now) {
+  gateway::LevelsRead read;
+  for (std::size_t i = 0; i < line_count_; ++i) (void)read.levels.push_back(levels[i]);
+  apply(now, read);
 }
 
 void ControlLoop::write_outputs(const std::array<bool, kOutputCount>& on, Time now) {
@@ -267,7 +278,8 @@ void ControlLoop::drain_can(Time now) {
       }
       // Somebody has set a clock.
       if (can_[bus]->counters().clamped_stamps != clamped) clocks_measured_ = kNever;
-      for (const auto& received : batch_) gateway_.on_frame(bus, received.frame, received.received);
+      for (const auto& received : batch_)
+        apply(received.received, gateway::FrameHeard{bus_id(bus), received.frame});
       if (batch_.size() < batch_.capacity()) break;
     }
   }
@@ -291,11 +303,11 @@ void ControlLoop::watch_guard(Time now) {
   }
 }
 
-void ControlLoop::take_battery() {
+void ControlLoop::take_battery(Time now) {
   if (battery_ == nullptr) return;
   Measurement sample;
-  while (battery_->samples.pop(sample)) gateway_.on_battery(sample);
-  gateway_.set_battery_health(battery_->state.latest().health);
+  while (battery_->samples.pop(sample)) apply(now, gateway::BatteryMeasured{sample});
+  apply(now, gateway::BatteryHealth{battery_->state.latest().health});
 }
 
 Time ControlLoop::publish(Time now) {

@@ -7,8 +7,8 @@
 #include "drover/event.h"
 #include "drover/spsc_ring.h"
 #include "drover/triple_buffer.h"
+#include "gateway/gateway.h"
 #include "runtime/battery_loop.h"
-#include "runtime/gateway.h"
 #include "runtime/guard_client.h"
 #include "runtime/link_keeper.h"
 #include "runtime/wake.h"
@@ -34,17 +34,24 @@ class ControlLoop final {
   void run(const std::atomic<bool>& stop);
 
  private:
+  /// Nothing reaches the gateway but through here.
+  void apply(const gateway::Input& input) { gateway_.apply(input); }
+  template <class Body>
+  void apply(Time time, const Body& body) {
+    apply(gateway::Input{time, body});
+  }
   void take_links(Time now);
   void lose(std::size_t slot, int error, Time now);
   Time wait(Duration longest);
   void read_stream(std::size_t stream, Time now);
   void serve_stream(std::size_t stream, const StreamOutput& out, Time now);
   void read_lines(Time now, const std::array<bool, link::kMaxLines>& edged = {});
+  void apply_levels(const std::array<bool, link::kMaxLines>& levels, Time now);
   void write_outputs(const std::array<bool, kOutputCount>& on, Time now);
   void drain_can(Time now);
   Time cycle(Time begin, std::uint64_t late);
   void watch_guard(Time now);
-  void take_battery();
+  void take_battery(Time now);
   Time publish(Time now);
   Name slot_name(std::size_t slot) const;
 

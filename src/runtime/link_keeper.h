@@ -13,15 +13,21 @@
 #include "config/config.h"
 #include "drover/fixed_text.h"
 #include "drover/spsc_ring.h"
+#include "gateway/gateway.h"
 #include "link/can_open.h"
 #include "link/lines.h"
 #include "link/outputs.h"
 #include "link/serial_link.h"
-#include "runtime/gateway.h"
 #include "runtime/guard_client.h"
 #include "runtime/wake.h"
 
 namespace drover::runtime {
+
+using gateway::Gateway;
+using gateway::kMaxBuses;
+using gateway::kStreamCount;
+using gateway::Stream;
+using gateway::StreamOutput;
 
 /// Slots: the buses first, then the byte streams, then the digital inputs and outputs.
 inline constexpr std::size_t kFirstStreamSlot = kMaxBuses;

@@ -1,4 +1,4 @@
-// Drivers, engine and gates put together: bytes with a time in, frames, events and a snapshot out.
+// Drivers, engine and gates put together: inputs with a time in, frames, events and a snapshot out.
 // Reads no clock and touches no descriptor, so that live, replay, simulation and tests run the
 // same. After construction it allocates nothing.
 #pragma once
@@ -14,15 +14,10 @@
 #include "drover/registry.h"
 #include "engine/engine.h"
 #include "engine/gate/frame_gate.h"
+#include "gateway/input.h"
 #include "link/can_condition.h"
 
-namespace drover::runtime {
-
-inline constexpr std::size_t kMaxBuses = 4;
-
-/// Devices on byte streams.
-enum class Stream : std::uint8_t { gnss, imu };
-inline constexpr std::size_t kStreamCount = 2;
+namespace drover::gateway {
 
 /// What a stream's driver wants of its line.
 struct StreamOutput {
@@ -41,25 +36,10 @@ class Gateway final {
   /// Throws std::runtime_error naming the key that cannot be.
   explicit Gateway(const config::DroverConfig& config);
 
-  void on_frame(std::size_t bus, const CanFrame& frame, Time received);
-  void on_bytes(Stream stream, std::span<const std::uint8_t> bytes, Time first_byte);
-  /// `levels[i]` belongs to the i-th configured line, in the order of Line.
-  void on_levels(std::span<const bool> levels, Time at);
-  void on_lines_lost(Time at);
-  /// From the battery's own thread.
-  void on_battery(const Measurement& sample) { engine_.on_measurement(sample); }
-  void set_battery_health(const SourceHealth& health) { environment_.battery = health; }
-  void on_bus_up(std::size_t bus, Time now);
-  /// It is gone, or cannot be opened: why. Until on_bus_up.
-  void on_bus_lost(std::size_t bus, const Reason& why);
-  /// After each cycle's frames: how many the link took and refused so far. One that takes none for
-  /// as long as a drive may be silent is as good as gone, though it still hears.
-  void on_sent(std::size_t bus, std::uint64_t sent, std::uint64_t refused, Time now);
-  void on_stream_up(Stream stream, Time now);
-  void on_command(const Command& command, Time now);
-
-  /// One control cycle; the reference stays good until the next call.
-  const CycleOutput& step(Time now, bool guard_alive, bool guard_has_bus);
+  /// The only way in.
+  void apply(const Input& input);
+  /// Of the last Tick; good until the next input.
+  const CycleOutput& output() const { return cycle_; }
   const Snapshot& snapshot() const { return engine_.snapshot(); }
   /// Frames of `bus` that the gate refused so far.
   std::uint64_t refused(std::size_t bus) const;
@@ -87,6 +67,18 @@ class Gateway final {
     std::uint64_t refused = 0;
     Time jammed_since = kNever;
   };
+  void on(const FrameHeard& heard, Time received);
+  void on(const BytesHeard& heard, Time first_byte);
+  void on(const LevelsRead& read, Time at);
+  void on(const LinesLost& lost, Time at);
+  void on(const BatteryMeasured& measured, Time at);
+  void on(const BatteryHealth& health, Time at);
+  void on(const BusUp& up, Time now);
+  void on(const BusLost& lost, Time now);
+  void on(const FramesSent& counts, Time now);
+  void on(const StreamUp& up, Time now);
+  void on(const CommandGiven& given, Time now);
+  void on(const Tick& tick, Time now);
   bool jammed(const Bus& bus, Time now) const;
   void look_at_buses(Time now);
   void absorb(const DriverOut& out);
@@ -111,4 +103,4 @@ class Gateway final {
   bool guard_has_bus_ = false;
 };
 
-}  // namespace drover::runtime
+}  // namespace drover::gateway

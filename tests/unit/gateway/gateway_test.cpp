@@ -1,4 +1,4 @@
-#include "runtime/gateway.h"
+#include "gateway/gateway.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include "config/load.h"
 #include "support/describe.h"
 
-namespace drover::runtime {
+namespace drover::gateway {
 namespace {
 
 using namespace std::chrono_literals;
@@ -28,18 +28,21 @@ constexpr auto kConfig = R"({
 class Bench {
  public:
   Bench() : gateway(config::load_text(kConfig).config) {
-    gateway.on_bus_up(0, now);
+    apply(BusUp{0});
     for (int i = 0; i < 20; ++i) cycle();
   }
+  void apply(const InputBody& body) { gateway.apply({now, body}); }
   void cycle(bool drives_talk = true) {
     now += 5ms;
     if (drives_talk)
       for (const char* frame : {"021#0000000008000000", "029#0000000000000000",
                                 "041#0000000008000000", "049#0000000000000000"})
-        gateway.on_frame(0, test::parse_frame(frame), now);
-    const std::array<bool, 2> released{true, true};
-    gateway.on_levels(released, now);
-    gateway.step(now, true, false);
+        apply(FrameHeard{0, test::parse_frame(frame)});
+    LevelsRead released;
+    (void)released.levels.push_back(true);
+    (void)released.levels.push_back(true);
+    apply(released);
+    apply(Tick{true, false});
   }
   bool told(std::string_view what) const {
     for (const auto& reason : gateway.snapshot().why)
@@ -61,7 +64,7 @@ CanFrame bus_off() {
 TEST(Gateway, StopsForABusThatIsOffBeforeItsDrivesAreSilent) {
   Bench bench;
   EXPECT_FALSE(bench.told("wheel left"));
-  bench.gateway.on_frame(0, bus_off(), bench.now);
+  bench.apply(FrameHeard{0, bus_off()});
   bench.cycle(false);
   EXPECT_TRUE(bench.told("no drive answers (wheel left: can0 is bus-off"));
   bench.cycle();
@@ -70,28 +73,28 @@ TEST(Gateway, StopsForABusThatIsOffBeforeItsDrivesAreSilent) {
 
 TEST(Gateway, TellsOfABusThatIsGoneUntilItIsBack) {
   Bench bench;
-  bench.gateway.on_bus_lost(0, "can0: lost (No such device)");
+  bench.apply(BusLost{0, "can0: lost (No such device)"});
   bench.cycle();
   EXPECT_TRUE(bench.told("wheel left: can0: lost"));
-  bench.gateway.on_bus_up(0, bench.now);
+  bench.apply(BusUp{0});
   bench.cycle();
   EXPECT_FALSE(bench.told("lost"));
 }
 
 TEST(Gateway, TakesABusThatTakesNoFramesForLost) {
   Bench bench;
-  bench.gateway.on_sent(0, 40, 0, bench.now);
+  bench.apply(FramesSent{0, 40, 0});
   for (int i = 1; i <= 19; ++i) {
-    bench.gateway.on_sent(0, 40, static_cast<std::uint64_t>(4 * i), bench.now);
+    bench.apply(FramesSent{0, 40, static_cast<std::uint64_t>(4 * i)});
     bench.cycle();
   }
   EXPECT_FALSE(bench.told("takes no frames")) << "for less than 0.1 s";
   for (int i = 20; i <= 22; ++i) {
-    bench.gateway.on_sent(0, 40, static_cast<std::uint64_t>(4 * i), bench.now);
+    bench.apply(FramesSent{0, 40, static_cast<std::uint64_t>(4 * i)});
     bench.cycle();
   }
   EXPECT_TRUE(bench.told("no drive answers (wheel left: can0 takes no frames"));
-  bench.gateway.on_sent(0, 44, 88, bench.now);
+  bench.apply(FramesSent{0, 44, 88});
   bench.cycle();
   EXPECT_FALSE(bench.told("takes no frames"));
 }
@@ -99,7 +102,7 @@ TEST(Gateway, TakesABusThatTakesNoFramesForLost) {
 TEST(Gateway, ForgivesAShortRefusal) {
   Bench bench;
   for (std::uint64_t i = 0; i < 100; ++i) {
-    bench.gateway.on_sent(0, 40 + i / 10, i, bench.now);  // one frame of eleven goes out
+    bench.apply(FramesSent{0, 40 + i / 10, i});  // one frame of eleven goes out
     bench.cycle();
     EXPECT_FALSE(bench.told("takes no frames"));
   }
@@ -114,4 +117,4 @@ TEST(Gateway, NamesTheDrivesThatNothingStopsWhenFramesCease) {
 }
 
 }  // namespace
-}  // namespace drover::runtime
+}  // namespace drover::gateway

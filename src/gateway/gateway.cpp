@@ -1,8 +1,8 @@
-#include "runtime/gateway.h"
+#include "gateway/gateway.h"
 
 #include <stdexcept>
 
-namespace drover::runtime {
+namespace drover::gateway {
 
 namespace {
 
@@ -66,7 +66,12 @@ void Gateway::emit(const Drive& drive) {
   scratch_.clear();
 }
 
-void Gateway::on_frame(std::size_t bus, const CanFrame& frame, Time received) {
+void Gateway::apply(const Input& input) {
+  std::visit([&](const auto& body) { on(body, input.time); }, input.body);
+}
+
+void Gateway::on(const FrameHeard& heard, Time received) {
+  const auto& [bus, frame] = heard;
   if (frame.error) return buses_[bus].condition.on_error_frame(frame, received);
   buses_[bus].condition.on_frame(received);
   for (const auto& drive : drives_) {
@@ -76,7 +81,8 @@ void Gateway::on_frame(std::size_t bus, const CanFrame& frame, Time received) {
   }
 }
 
-void Gateway::on_bus_up(std::size_t bus, Time now) {
+void Gateway::on(const BusUp& up, Time now) {
+  const std::size_t bus = up.bus;
   buses_[bus].condition = {};
   buses_[bus].lost.clear();
   buses_[bus].jammed_since = kNever;
@@ -84,11 +90,12 @@ void Gateway::on_bus_up(std::size_t bus, Time now) {
     if (drive.bus == bus) drive.driver->on_link_up(now);
 }
 
-void Gateway::on_bus_lost(std::size_t bus, const Reason& why) {
-  buses_[bus].lost = why;
+void Gateway::on(const BusLost& lost, Time) {
+  buses_[lost.bus].lost = lost.why;
 }
 
-void Gateway::on_sent(std::size_t bus, std::uint64_t sent, std::uint64_t refused, Time now) {
+void Gateway::on(const FramesSent& counts, Time now) {
+  const auto& [bus, sent, refused] = counts;
   Bus& it = buses_[bus];
   if (sent != it.sent) {
     it.jammed_since = kNever;
@@ -135,11 +142,12 @@ void Gateway::look_at_buses(Time now) {
   }
 }
 
-void Gateway::on_stream_up(Stream stream, Time now) {
-  if (streams_[index(stream)]) streams_[index(stream)]->on_link_up(now);
+void Gateway::on(const StreamUp& up, Time now) {
+  if (streams_[index(up.stream)]) streams_[index(up.stream)]->on_link_up(now);
 }
 
-void Gateway::on_bytes(Stream stream, std::span<const std::uint8_t> bytes, Time first_byte) {
+void Gateway::on(const BytesHeard& heard, Time first_byte) {
+  const auto& [stream, bytes] = heard;
   if (!streams_[index(stream)]) return;
   streams_[index(stream)]->on_bytes(bytes, first_byte, scratch_);
   absorb_stream(index(stream));
@@ -153,24 +161,33 @@ void Gateway::absorb_stream(std::size_t stream) {
   scratch_.clear();
 }
 
-void Gateway::on_levels(std::span<const bool> levels, Time at) {
+void Gateway::on(const LevelsRead& read, Time at) {
+  const auto& levels = read.levels;
   for (std::size_t i = 0; i < lines_.size() && i < levels.size(); ++i)
     lines_[i]->on_level(levels[i], at, scratch_);
   absorb(scratch_);
   scratch_.clear();
 }
 
-void Gateway::on_lines_lost(Time at) {
+void Gateway::on(const LinesLost&, Time at) {
   for (const auto& line : lines_) line->on_lost(at, scratch_);
   absorb(scratch_);
   scratch_.clear();
 }
 
-void Gateway::on_command(const Command& command, Time now) {
-  engine_.on_command(command, now);
+void Gateway::on(const BatteryMeasured& measured, Time) {
+  engine_.on_measurement(measured.sample);
 }
 
-const CycleOutput& Gateway::step(Time now, bool guard_alive, bool guard_has_bus) {
+void Gateway::on(const BatteryHealth& health, Time) {
+  environment_.battery = health.health;
+}
+
+void Gateway::on(const CommandGiven& given, Time now) {
+  engine_.on_command(given.command, now);
+}
+
+void Gateway::on(const Tick& tick, Time now) {
   for (std::size_t i = 0; i < kStreamCount; ++i) {
     cycle_.streams[i] = {};
     if (!streams_[i]) continue;
@@ -187,12 +204,12 @@ const CycleOutput& Gateway::step(Time now, bool guard_alive, bool guard_has_bus)
   for (std::size_t i = 0; i < drives_.size(); ++i)
     environment_.axes[i] = drives_[i].driver->health(now);
   look_at_buses(now);
-  environment_.guard_alive = guard_alive;
-  environment_.guard_has_bus = guard_has_bus;
+  environment_.guard_alive = tick.guard_alive;
+  environment_.guard_has_bus = tick.guard_has_bus;
 
   engine_.step(now, environment_, cycle_.engine);
   motion_permitted_ = cycle_.engine.motion_permitted;
-  guard_has_bus_ = guard_has_bus;
+  guard_has_bus_ = tick.guard_has_bus;
   for (std::size_t i = 0; i < drives_.size(); ++i) {
     drives_[i].driver->on_command(cycle_.engine.axes[i], now, scratch_);
     drives_[i].driver->on_tick(now, scratch_);
@@ -202,7 +219,6 @@ const CycleOutput& Gateway::step(Time now, bool guard_alive, bool guard_has_bus)
     cycle_.frames[bus] = pending_[bus];
     pending_[bus].clear();
   }
-  return cycle_;
 }
 
 std::uint64_t Gateway::refused(std::size_t bus) const {
@@ -231,4 +247,4 @@ std::vector<CanFrame> Gateway::stop_frames(std::size_t bus) const {
   return frames;
 }
 
-}  // namespace drover::runtime
+}  // namespace drover::gateway

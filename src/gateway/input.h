@@ -1,0 +1,89 @@
+// Everything that reaches the gateway, as one type with a time: who applies the same inputs to the
+// same configuration gets the same outputs, to the bit. That is what a recording holds.
+//
+// A new input is a struct here, a line in the variant, an `on` in the gateway and a pair of lines
+// in input_codec.cpp; what is not in the variant cannot reach the gateway at all.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <variant>
+
+#include "drover/can_frame.h"
+#include "drover/command.h"
+#include "drover/driver.h"
+#include "drover/fixed_text.h"
+#include "drover/fixed_vector.h"
+#include "drover/measurement.h"
+#include "drover/time.h"
+
+namespace drover::gateway {
+
+inline constexpr std::size_t kMaxBuses = 4;
+
+/// Devices on byte streams.
+enum class Stream : std::uint8_t { gnss, imu };
+inline constexpr std::size_t kStreamCount = 2;
+
+/// A frame of a bus; the input's time is when it was received.
+struct FrameHeard {
+  std::uint8_t bus = 0;
+  CanFrame frame;
+};
+/// The input's time is when the first byte came in. The bytes are the caller's, for the call only.
+struct BytesHeard {
+  Stream stream = Stream::gnss;
+  std::span<const std::uint8_t> bytes;
+};
+/// `levels[i]` belongs to the i-th configured line, in the order of Line; true: electrically high.
+struct LevelsRead {
+  FixedVector<bool, kLineCount> levels;
+};
+/// The lines cannot be read.
+struct LinesLost {};
+/// What the battery's driver understood, in a thread of its own.
+struct BatteryMeasured {
+  Measurement sample;
+};
+/// What that driver says of its device.
+struct BatteryHealth {
+  SourceHealth health;
+};
+struct BusUp {
+  std::uint8_t bus = 0;
+};
+/// It is gone, or cannot be opened: why. Until BusUp.
+struct BusLost {
+  std::uint8_t bus = 0;
+  Reason why;
+};
+/// After each cycle's frames: how many the link took and refused so far. One that takes none for
+/// as long as a drive may be silent is as good as gone, though it still hears.
+struct FramesSent {
+  std::uint8_t bus = 0;
+  std::uint64_t sent = 0;
+  std::uint64_t refused = 0;
+};
+struct StreamUp {
+  Stream stream = Stream::gnss;
+};
+struct CommandGiven {
+  Command command;
+};
+/// One control cycle: afterwards the gateway's output is that cycle's.
+struct Tick {
+  bool guard_alive = false;
+  bool guard_has_bus = false;  ///< it sends stop frames; ours are blocked until hand-back
+};
+
+/// The order is the recording's: a new one goes to the end.
+using InputBody =
+    std::variant<FrameHeard, BytesHeard, LevelsRead, LinesLost, BatteryMeasured, BatteryHealth,
+                 BusUp, BusLost, FramesSent, StreamUp, CommandGiven, Tick>;
+
+struct Input {
+  Time time = kNever;
+  InputBody body;
+};
+
+}  // namespace drover::gateway
