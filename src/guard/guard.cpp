@@ -79,17 +79,16 @@ class Guard final {
   void cycle(Time t) {
     const bool was_holding = holding_;
     holding_ = watch_.step(beats(), t);
-    bool in_command = true;
-    if (holding_) {
-      if (!was_holding) tell_of_hold(t);
-      in_command = set_.send() == set_.size();
-    }
+    if (holding_ && !was_holding) set_.begin_hold();
+    if (holding_ && may_hold()) set_.play(t);
     // Drives that nobody can stop are the hardware watchdog's.
-    if (in_command) pulse();
+    if (!holding_ || !may_hold() || set_.in_command(t)) pulse();
     if (shared_ != nullptr) {
       shared_->guard_beats.fetch_add(1, std::memory_order_relaxed);
       shared_->guard_holds.store(holding_ ? 1 : 0, std::memory_order_release);
+      shared_->unsent.store(set_.unsent(), std::memory_order_relaxed);
     }
+    if (holding_ && !was_holding) tell_of_hold(t);
     if (++cycles_ % 20 == 0) ::sd_notify(0, "WATCHDOG=1");
   }
 
@@ -113,7 +112,13 @@ class Guard final {
       std::fprintf(stderr, "drover-guard: droverd's heartbeat is %.0f ms old: ",
                    drover::to_s(watch_.age(t)) * 1e3);
     }
-    std::fprintf(stderr, "stopping the drives (%zu frames each 10 ms)\n", set_.size());
+    std::fprintf(stderr, "stopping %zu axes with %zu messages\n", set_.axes(), set_.messages());
+  }
+
+  bool may_hold() const {
+    if (shared_ == nullptr) return true;
+    const auto may = shared_->may_hold.load(std::memory_order_relaxed);
+    return may != drover::GuardMayHold::released && may != drover::GuardMayHold::cut;
   }
 
   std::uint64_t beats() const {
@@ -166,17 +171,29 @@ class Guard final {
         next_.clear();
         limit_ = std::chrono::milliseconds(message.limit_ms);
         return map_shared(fd);
-      case GuardVerb::descriptor: return fd >= 0 && next_.set_descriptor(message.descriptor, fd);
-      case GuardVerb::stop_frame: return fd < 0 && next_.add(message);
-      case GuardVerb::watch:
-        set_.swap(next_);
-        next_.clear();
-        watch_.begin(beats(), limit_, now());
-        return fd < 0;
+      case GuardVerb::link: return next_.add_link(message, fd);
+      case GuardVerb::axis: return fd < 0 && next_.add_axis(message);
+      case GuardVerb::stop_message: return fd < 0 && next_.add_message(message);
+      case GuardVerb::watch: take_set(); return fd < 0;
       case GuardVerb::hand_back: watch_.hand_back(now()); return fd < 0;
       case GuardVerb::pulse_line: return take_pulse_line(fd);
+      default: return false;
     }
     return false;
+  }
+
+  void take_set() {
+    const bool covers = next_.covers(set_);
+    if (covers) {
+      set_.swap(next_);
+      if (holding_) set_.begin_hold();
+    } else {
+      std::fprintf(stderr, "drover-guard: a new set lacks %s: the old one stays\n",
+                   next_.lacks(set_).data());
+    }
+    next_.clear();
+    if (shared_ != nullptr) shared_->set_refused.store(covers ? 0 : 1, std::memory_order_relaxed);
+    watch_.begin(beats(), limit_, now());
   }
 
   bool take_pulse_line(int fd) {

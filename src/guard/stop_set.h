@@ -1,67 +1,89 @@
 // What the guard sends and where: bytes and descriptors that droverd handed over. The guard knows
-// no protocol; it repeats what it was given.
+// no protocol; it plays what it was given, round after round.
 #pragma once
-
-#include <sys/socket.h>
-#include <unistd.h>
 
 #include <array>
 #include <cstddef>
+#include <string_view>
 
 #include "drover/guard_protocol.h"
+#include "drover/time.h"
 
 namespace drover::guard {
 
 class StopSet final {
  public:
-  StopSet() { descriptors_.fill(-1); }
+  StopSet() = default;
   ~StopSet() { clear(); }
   StopSet(const StopSet&) = delete;
   StopSet& operator=(const StopSet&) = delete;
 
-  void clear() {
-    for (int& fd : descriptors_) {
-      if (fd >= 0) ::close(fd);
-      fd = -1;
-    }
-    count_ = 0;
-  }
-  /// Takes ownership of `fd`; false for an index out of range.
-  bool set_descriptor(std::uint32_t index, int fd) {
-    if (index >= descriptors_.size() || descriptors_[index] >= 0) return false;
-    descriptors_[index] = fd;
-    return true;
-  }
-  bool add(const GuardMessage& message) {
-    if (count_ == frames_.size() || message.size == 0 || message.size > kGuardMaxBytes ||
-        message.descriptor >= descriptors_.size())
-      return false;
-    frames_[count_++] = message;
-    return true;
-  }
-  void swap(StopSet& other) {
-    descriptors_.swap(other.descriptors_);
-    frames_.swap(other.frames_);
-    std::swap(count_, other.count_);
-  }
-  std::size_t size() const { return count_; }
-  /// The ten lines that write. What a full or dead link refuses is sent again next time.
-  std::size_t send() const {
-    std::size_t taken = 0;
-    for (std::size_t i = 0; i < count_; ++i) {
-      const auto& frame = frames_[i];
-      const int fd = descriptors_[frame.descriptor];
-      if (fd < 0) continue;
-      const auto n = ::send(fd, frame.bytes.data(), frame.size, MSG_DONTWAIT | MSG_NOSIGNAL);
-      taken += n == static_cast<ssize_t>(frame.size) ? 1 : 0;
-    }
-    return taken;
-  }
+  void clear();
+  void swap(StopSet& other);
+
+  // All false for what contradicts the set so far; then nothing has changed.
+  /// Takes ownership of `fd` when it returns true.
+  bool add_link(const GuardMessage& message, int fd);
+  bool add_axis(const GuardMessage& message);
+  bool add_message(const GuardMessage& message);
+
+  /// True when each axis of `other` is here as well, on a link with a descriptor.
+  bool covers(const StopSet& other) const;
+  /// The first axis of `other` that is not here; empty when there is none.
+  std::string_view lacks(const StopSet& other) const;
+
+  /// A hold begins: all rounds from the first, at once; what waits in the lines is thrown away.
+  void begin_hold();
+  /// Sends what is due. What a full or dead link refuses is sent again when it is due next.
+  void play(Time now);
+  /// Each axis was reached within its last five periods. True without any axis.
+  bool in_command(Time now) const;
+
+  std::size_t axes() const { return axis_count_; }
+  std::size_t messages() const { return message_count_; }
+  /// Messages that a link did not take.
+  std::uint64_t unsent() const { return unsent_; }
+  /// Of the link with this name, or -1; stays the set's.
+  int descriptor(std::string_view link) const;
+  /// Closes it: it is dead, or somebody wants it for himself.
+  bool let_go(std::string_view link);
 
  private:
-  std::array<int, kGuardMaxDescriptors> descriptors_{};
-  std::array<GuardMessage, kGuardMaxFrames> frames_{};
-  std::size_t count_ = 0;
+  struct Link {
+    int fd = -1;
+    GuardLinkKind kind = GuardLinkKind::can;
+    std::array<char, kGuardNameSize> name{};
+    bool flushed = false;
+    /// The rest of a packet that the line took in part: it goes first.
+    std::array<std::uint8_t, kGuardMaxBytes> rest{};
+    std::size_t rest_size = 0;
+  };
+  struct Axis {
+    std::array<char, kGuardNameSize> name{};
+    std::uint32_t link = 0;
+    std::uint32_t rounds = 1;
+    std::uint32_t round = 0;  ///< the next
+    Duration period{};
+    Time due = kNever;
+    Time reached = kNever;
+  };
+  struct Message {
+    std::uint32_t axis = 0;
+    std::uint32_t round = 0;
+    std::uint32_t size = 0;
+    std::array<std::uint8_t, kGuardMaxBytes> bytes{};
+  };
+  bool has(const Axis& axis) const;
+  static bool send(Link& link, const Message& message);
+  static bool write_packet(Link& link, const Message& message);
+  static std::size_t write_some(Link& link, const std::uint8_t* bytes, std::size_t size);
+
+  std::array<Link, kGuardMaxLinks> links_{};
+  std::array<Axis, kGuardMaxAxes> axes_{};
+  std::array<Message, kGuardMaxMessages> messages_{};
+  std::size_t axis_count_ = 0;
+  std::size_t message_count_ = 0;
+  std::uint64_t unsent_ = 0;
 };
 
 }  // namespace drover::guard

@@ -76,13 +76,14 @@ UniqueFd open_can_descriptor(const CanSettings& settings, std::string& problem) 
   // Options before bind: no frame may come in without its stamp.
   set_option(fd.get(), SOL_SOCKET, SO_TIMESTAMPNS, 1);
   set_option(fd.get(), SOL_SOCKET, SO_RXQ_OVFL, 1);
-  if (settings.error_frames) {
+  if (!settings.hears) ::setsockopt(fd.get(), SOL_CAN_RAW, CAN_RAW_FILTER, nullptr, 0);
+  if (settings.hears && settings.error_frames) {
     set_option(fd.get(), SOL_CAN_RAW, CAN_RAW_ERR_FILTER,
                static_cast<can_err_mask_t>(CAN_ERR_MASK));
   }
   constexpr int kReceiveBytes =
       2 * 1024 * 1024;  // a control thread held up for 100 ms loses nothing
-  set_option(fd.get(), SOL_SOCKET, SO_RCVBUF, kReceiveBytes);
+  if (settings.hears) set_option(fd.get(), SOL_SOCKET, SO_RCVBUF, kReceiveBytes);
   limit_send_buffer(fd.get(), settings.frames_per_cycle);
   sockaddr_can address{};
   address.can_family = AF_CAN;

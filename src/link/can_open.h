@@ -13,6 +13,7 @@ struct CanSettings {
   std::string interface;              ///< "can0" or "unix:/run/x/can0.sock"
   std::size_t frames_per_cycle = 16;  ///< sizes the send buffer: no more than one cycle may wait
   bool error_frames = true;
+  bool hears = true;  ///< false: it is only sent to, and nothing piles up in it
 };
 
 /// A bound, non-blocking descriptor, or a sentence. Used twice: for the daemon and for the guard.

@@ -1,11 +1,15 @@
 #include "runtime/guard_client.h"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/mman.h>
 #include <sys/socket.h>
 #include <sys/un.h>
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <new>
 #include <stdexcept>
@@ -14,6 +18,31 @@
 #include "link/opened.h"
 
 namespace drover::runtime {
+
+namespace {
+
+bool set_name(GuardMessage& message, const std::string& name) {
+  if (name.empty() || name.size() >= message.name.size()) return false;
+  message.name.fill('\0');
+  std::copy(name.begin(), name.end(), message.name.begin());
+  return true;
+}
+
+}  // namespace
+
+GuardedAxis guarded_axis(const std::string& link, const CanFrame& stop) {
+  GuardedAxis axis;
+  std::array<char, 16> id{};
+  std::snprintf(id.data(), id.size(), stop.extended ? "%08X" : "%03X",
+                static_cast<unsigned>(stop.id));
+  axis.name = link + " " + id.data();
+  canfd_frame wire{};
+  const auto size = link::to_wire(stop, wire);
+  std::vector<std::uint8_t> bytes(size);
+  std::memcpy(bytes.data(), &wire, size);
+  axis.rounds = {{bytes}};
+  return axis;
+}
 
 GuardMemory::GuardMemory() : fd_(::memfd_create("drover-guard", MFD_CLOEXEC | MFD_ALLOW_SEALING)) {
   if (!fd_ || ::ftruncate(fd_.get(), sizeof(GuardShared)) != 0 ||
@@ -73,28 +102,46 @@ bool GuardClient::send(const GuardMessage& message, int descriptor) {
   return false;
 }
 
+bool GuardClient::send_link(std::uint32_t index, const GuardedLink& link) {
+  GuardMessage message;
+  message.verb = GuardVerb::link;
+  message.index = index;
+  message.kind = link.kind;
+  return set_name(message, link.name) && send(message, link.descriptor.get());
+}
+
+bool GuardClient::send_axis(std::uint32_t index, std::uint32_t link, const GuardedAxis& axis) {
+  GuardMessage message;
+  message.verb = GuardVerb::axis;
+  message.index = index;
+  message.link = link;
+  message.rounds = static_cast<std::uint32_t>(axis.rounds.size());
+  message.period_ms = static_cast<std::uint32_t>(axis.period.count());
+  if (!set_name(message, axis.name) || !send(message)) return false;
+  message.verb = GuardVerb::stop_message;
+  for (message.round = 0; message.round < axis.rounds.size(); ++message.round) {
+    for (const auto& bytes : axis.rounds[message.round]) {
+      if (bytes.size() > message.bytes.size()) return false;
+      message.size = static_cast<std::uint32_t>(bytes.size());
+      std::copy(bytes.begin(), bytes.end(), message.bytes.begin());
+      if (!send(message)) return false;
+    }
+  }
+  return true;
+}
+
 bool GuardClient::hand_over(std::span<const GuardedLink> links, std::string& problem) {
   if (!connected() && !connect(problem)) return false;
   GuardMessage hello;
   hello.verb = GuardVerb::hello;
   hello.limit_ms = static_cast<std::uint32_t>(limit_ms_);
   bool sent = send(hello, memory_.fd());
+  std::uint32_t axes = 0;
   for (std::uint32_t i = 0; sent && i < links.size(); ++i) {
     if (!links[i].descriptor) continue;
-    GuardMessage message;
-    message.verb = GuardVerb::descriptor;
-    message.descriptor = i;
-    sent = send(message, links[i].descriptor.get());
-    for (const auto& frame : links[i].stop_frames) {
-      if (!sent) break;
-      canfd_frame wire{};
-      GuardMessage stop;
-      stop.verb = GuardVerb::stop_frame;
-      stop.descriptor = i;
-      stop.size = static_cast<std::uint32_t>(link::to_wire(frame, wire));
-      std::memcpy(stop.bytes.data(), &wire, stop.size);
-      sent = send(stop);
-    }
+    sent = send_link(i, links[i]);
+    for (std::size_t k = 0; sent && k < links[i].axes.size(); ++k)
+      sent = send_axis(axes++, i, links[i].axes[k]);
   }
   GuardMessage watch;
   watch.verb = GuardVerb::watch;
@@ -107,6 +154,49 @@ bool GuardClient::give_pulse_line(int line) {
   GuardMessage message;
   message.verb = GuardVerb::pulse_line;
   return connected() && send(message, line);
+}
+
+bool GuardClient::give_relay_line(const std::string& name, int line) {
+  GuardMessage message;
+  message.verb = GuardVerb::relay_line;
+  return connected() && set_name(message, name) && send(message, line);
+}
+
+bool GuardClient::let_go(const std::string& name) {
+  GuardMessage message;
+  message.verb = GuardVerb::let_go;
+  return connected() && set_name(message, name) && send(message);
+}
+
+link::UniqueFd GuardClient::borrow(const std::string& name) {
+  constexpr int kPatience_ms = 100;
+  GuardMessage message;
+  message.verb = GuardVerb::lend;
+  if (!connected() || !set_name(message, name) || !send(message)) return {};
+  pollfd fds{socket_.get(), POLLIN, 0};
+  if (::poll(&fds, 1, kPatience_ms) <= 0) {
+    disconnect();  // its answer, when it comes, would be taken for another one's
+    return {};
+  }
+  GuardMessage answer;
+  iovec vector{&answer, sizeof answer};
+  alignas(cmsghdr) std::array<char, CMSG_SPACE(sizeof(int))> control{};
+  msghdr header{};
+  header.msg_iov = &vector;
+  header.msg_iovlen = 1;
+  header.msg_control = control.data();
+  header.msg_controllen = control.size();
+  const auto n = ::recvmsg(socket_.get(), &header, MSG_CMSG_CLOEXEC | MSG_DONTWAIT);
+  int fd = -1;
+  if (n > 0)
+    if (const auto* c = CMSG_FIRSTHDR(&header); c != nullptr && c->cmsg_type == SCM_RIGHTS)
+      std::memcpy(&fd, CMSG_DATA(c), sizeof fd);
+  link::UniqueFd lent(fd);
+  if (n != sizeof answer || answer.verb != GuardVerb::lend || answer.name != message.name) {
+    disconnect();
+    return {};
+  }
+  return lent;
 }
 
 bool GuardClient::hand_back() {

@@ -1,6 +1,8 @@
 // droverd's side of the guard: hands over descriptors and stop frames, counts the heartbeat.
 #pragma once
 
+#include <chrono>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -11,12 +13,23 @@
 
 namespace drover::runtime {
 
-/// What the guard must do for one link: a descriptor of its own, and the frames that stop its
-/// drives.
-struct GuardedLink {
-  link::UniqueFd descriptor;
-  std::vector<CanFrame> stop_frames;
+/// How one axis is stopped: its rounds of messages are played in turn, a round each period.
+struct GuardedAxis {
+  std::string name;  ///< what it is on the wire: the link's name and its address there
+  std::chrono::milliseconds period{10};
+  std::vector<std::vector<std::vector<std::uint8_t>>> rounds;  ///< messages as they are written
 };
+
+/// What the guard must do for one link.
+struct GuardedLink {
+  std::string name;
+  GuardLinkKind kind = GuardLinkKind::can;
+  link::UniqueFd descriptor;  ///< the guard's own; without one the link is left out
+  std::vector<GuardedAxis> axes;
+};
+
+/// One axis on a CAN bus that is stopped by one frame, again and again.
+GuardedAxis guarded_axis(const std::string& link, const CanFrame& stop);
 
 /// The heartbeats, mapped into both processes. Made once; lives as long as the daemon.
 class GuardMemory final {
@@ -40,6 +53,13 @@ class GuardClient final {
   /// Connects when needed and hands over the whole set. False with a sentence in `problem`.
   bool hand_over(std::span<const GuardedLink> links, std::string& problem);
   bool hand_back();
+  /// A duplicate of what the guard keeps as `name`; nothing when it keeps no such thing. Waits for
+  /// the answer a tenth of a second at most.
+  link::UniqueFd borrow(const std::string& name);
+  /// The guard closes what it keeps as `name`.
+  bool let_go(const std::string& name);
+  /// The enable relay's line: it falls when the last of both programs closes it.
+  bool give_relay_line(const std::string& name, int line);
   /// The handle of the hardware watchdog's line; the guard keeps one of its own.
   bool give_pulse_line(int line);
   /// To be polled for the guard's death; -1 while not connected.
@@ -50,6 +70,8 @@ class GuardClient final {
  private:
   bool connect(std::string& problem);
   bool send(const GuardMessage& message, int descriptor = -1);
+  bool send_link(std::uint32_t index, const GuardedLink& link);
+  bool send_axis(std::uint32_t index, std::uint32_t link, const GuardedAxis& axis);
 
   std::string path_;
   int limit_ms_;

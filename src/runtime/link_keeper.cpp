@@ -164,8 +164,12 @@ void LinkKeeper::supply_guard(Time now) {
   for (std::size_t i = 0; i < links.size(); ++i) {
     if (!slots_[i].open) continue;
     std::string why;
-    links[i].descriptor = link::open_can_descriptor(can_settings(i), why);
-    links[i].stop_frames = stop_frames_[i];
+    links[i].name = config_.buses[i].name;
+    auto settings = can_settings(i);
+    settings.hears = false;
+    links[i].descriptor = link::open_can_descriptor(settings, why);
+    for (const auto& frame : stop_frames_[i])
+      links[i].axes.push_back(guarded_axis(links[i].name, frame));
     if (!links[i].descriptor) missing = "drover-guard cannot have its own way to " + why;
   }
   std::string problem;

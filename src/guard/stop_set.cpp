@@ -1,0 +1,215 @@
+#include "guard/stop_set.h"
+
+#include <fcntl.h>
+#include <sys/socket.h>
+#include <termios.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <utility>
+
+namespace drover::guard {
+
+namespace {
+
+constexpr std::uint32_t kShortestPeriod_ms = 10;
+constexpr std::uint32_t kLongestPeriod_ms = 1000;
+constexpr int kForgivenPeriods = 5;
+/// The guard looks each 10 ms: what is due nearer to this look than to the next goes now.
+constexpr Duration kHalfACycle = std::chrono::milliseconds(5);
+
+/// A name from outside ends within its array.
+bool is_text(const std::array<char, kGuardNameSize>& name) {
+  return name[0] != '\0' && std::find(name.begin(), name.end(), '\0') != name.end();
+}
+std::string_view text(const std::array<char, kGuardNameSize>& name) {
+  return name.data();
+}
+
+/// After one of these the descriptor never works again.
+bool is_dead(int error) {
+  return error == EIO || error == ENXIO || error == ENODEV || error == EBADF || error == EPIPE ||
+         error == ECONNRESET;
+}
+
+/// The flag belongs to the file that both processes share: whoever cleared it must not hold us up.
+bool make_non_blocking(int fd) {
+  const int flags = ::fcntl(fd, F_GETFL);
+  return flags >= 0 && ((flags & O_NONBLOCK) != 0 || ::fcntl(fd, F_SETFL, flags | O_NONBLOCK) == 0);
+}
+
+}  // namespace
+
+void StopSet::clear() {
+  for (auto& link : links_) {
+    if (link.fd >= 0) ::close(link.fd);
+    link = {};
+  }
+  axis_count_ = 0;
+  message_count_ = 0;
+}
+
+void StopSet::swap(StopSet& other) {
+  std::swap(links_, other.links_);
+  std::swap(axes_, other.axes_);
+  std::swap(messages_, other.messages_);
+  std::swap(axis_count_, other.axis_count_);
+  std::swap(message_count_, other.message_count_);
+}
+
+bool StopSet::add_link(const GuardMessage& message, int fd) {
+  if (message.index >= links_.size() || !is_text(message.name) || fd < 0) return false;
+  if (message.kind != GuardLinkKind::can && message.kind != GuardLinkKind::tty) return false;
+  auto& link = links_[message.index];
+  if (link.name[0] != '\0') return false;
+  link.fd = fd;
+  link.kind = message.kind;
+  link.name = message.name;
+  return true;
+}
+
+bool StopSet::add_axis(const GuardMessage& message) {
+  if (message.index != axis_count_ || axis_count_ == axes_.size() || !is_text(message.name))
+    return false;
+  if (message.link >= links_.size() || links_[message.link].fd < 0) return false;
+  if (message.rounds < 1 || message.rounds > kGuardMaxMessages ||
+      message.period_ms < kShortestPeriod_ms || message.period_ms > kLongestPeriod_ms)
+    return false;
+  auto& axis = axes_[axis_count_++];
+  axis = {};
+  axis.name = message.name;
+  axis.link = message.link;
+  axis.rounds = message.rounds;
+  axis.period = std::chrono::milliseconds(message.period_ms);
+  return true;
+}
+
+bool StopSet::add_message(const GuardMessage& message) {
+  if (message.index >= axis_count_ || message_count_ == messages_.size()) return false;
+  if (message.round >= axes_[message.index].rounds || message.size == 0 ||
+      message.size > kGuardMaxBytes)
+    return false;
+  messages_[message_count_++] = {message.index, message.round, message.size, message.bytes};
+  return true;
+}
+
+bool StopSet::has(const Axis& axis) const {
+  for (std::size_t i = 0; i < axis_count_; ++i) {
+    if (text(axes_[i].name) != text(axis.name)) continue;
+    const auto says_something = [i](const Message& m) { return m.axis == i; };
+    return links_[axes_[i].link].fd >= 0 &&
+           std::any_of(messages_.begin(),
+                       messages_.begin() + static_cast<std::ptrdiff_t>(message_count_),
+                       says_something);
+  }
+  return false;
+}
+
+std::string_view StopSet::lacks(const StopSet& other) const {
+  for (std::size_t i = 0; i < other.axis_count_; ++i)
+    if (!has(other.axes_[i])) return text(other.axes_[i].name);
+  return {};
+}
+
+bool StopSet::covers(const StopSet& other) const {
+  return lacks(other).empty();
+}
+
+void StopSet::begin_hold() {
+  for (auto& link : links_) {
+    link.flushed = false;
+    link.rest_size = 0;
+  }
+  for (auto& axis : axes_) {
+    axis.round = 0;
+    axis.due = kNever;
+  }
+}
+
+void StopSet::play(Time now) {
+  for (std::size_t i = 0; i < axis_count_; ++i) {
+    auto& axis = axes_[i];
+    if (now + kHalfACycle < axis.due) continue;
+    axis.due = now - axis.due < axis.period ? axis.due + axis.period : now + axis.period;
+    auto& link = links_[axis.link];
+    bool taken = link.fd >= 0;
+    for (std::size_t m = 0; m < message_count_; ++m) {
+      if (messages_[m].axis != i || messages_[m].round != axis.round) continue;
+      if (!send(link, messages_[m])) {
+        taken = false;
+        ++unsent_;
+      }
+    }
+    if (!taken) continue;  // the same round again: a counter in it must not jump
+    axis.reached = now;
+    axis.round = (axis.round + 1) % axis.rounds;
+  }
+}
+
+bool StopSet::in_command(Time now) const {
+  return std::all_of(
+      axes_.begin(), axes_.begin() + static_cast<std::ptrdiff_t>(axis_count_),
+      [now](const Axis& axis) { return now - axis.reached <= kForgivenPeriods * axis.period; });
+}
+
+/// The lines that write.
+bool StopSet::send(Link& link, const Message& message) {
+  if (link.fd < 0) return false;
+  if (link.kind == GuardLinkKind::tty) return write_packet(link, message);
+  const auto n = ::send(link.fd, message.bytes.data(), message.size, MSG_DONTWAIT | MSG_NOSIGNAL);
+  return n == static_cast<ssize_t>(message.size);
+}
+
+/// A packet that has begun is ended before another one: half a packet would spoil both.
+bool StopSet::write_packet(Link& link, const Message& message) {
+  if (!make_non_blocking(link.fd)) return false;
+  if (!link.flushed) {
+    // A dead daemon's bytes would go first otherwise.
+    ::tcflush(link.fd, TCOFLUSH);
+    link.flushed = true;
+  }
+  if (link.rest_size > 0) {
+    const auto taken = write_some(link, link.rest.data(), link.rest_size);
+    link.rest_size -= taken;
+    std::copy_n(link.rest.begin() + static_cast<std::ptrdiff_t>(taken), link.rest_size,
+                link.rest.begin());
+    if (link.rest_size > 0) return false;
+  }
+  const auto taken = write_some(link, message.bytes.data(), message.size);
+  if (taken == 0) return false;
+  link.rest_size = message.size - taken;
+  std::copy_n(message.bytes.begin() + static_cast<std::ptrdiff_t>(taken), link.rest_size,
+              link.rest.begin());
+  return true;
+}
+
+/// How much the line took.
+std::size_t StopSet::write_some(Link& link, const std::uint8_t* bytes, std::size_t size) {
+  const auto n = ::write(link.fd, bytes, size);
+  if (n >= 0) return static_cast<std::size_t>(n);
+  if (is_dead(errno)) {
+    // Held on to, it would keep the device's name from coming back.
+    ::close(link.fd);
+    link.fd = -1;
+  }
+  return 0;
+}
+
+int StopSet::descriptor(std::string_view name) const {
+  for (const auto& link : links_)
+    if (link.fd >= 0 && text(link.name) == name) return link.fd;
+  return -1;
+}
+
+bool StopSet::let_go(std::string_view name) {
+  for (auto& link : links_) {
+    if (link.fd < 0 || text(link.name) != name) continue;
+    ::close(link.fd);
+    link.fd = -1;
+    return true;
+  }
+  return false;
+}
+
+}  // namespace drover::guard
