@@ -136,7 +136,8 @@ void visit(V& v, MqttConfig& c) {
   v.integer("port", c.port, Range{0, 65535}, "port");
   v.text("client_id", c.client_id, "empty: droverd- and eight random hex digits");
   v.text("username", c.username, "user at the broker");
-  v.text("password_file", c.password_file, "file whose first line is the password");
+  v.text("password_file", c.password_file,
+         "file whose first line is the password; waited for while it is missing");
   v.integer("keepalive_s", c.keepalive_s, Range{5, 60}, "MQTT keepalive");
 }
 

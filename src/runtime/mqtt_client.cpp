@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstring>
 #include <fstream>
+#include <optional>
 #include <stdexcept>
 
 namespace drover::runtime {
@@ -27,11 +28,11 @@ std::string random_client_id() {
   return text;
 }
 
-std::string read_password(const std::string& path) {
+/// Nothing when there is no file, or nothing in it (it is being written).
+std::optional<std::string> read_password(const std::string& path) {
   std::ifstream file(path);
   std::string password;
-  if (!file || !std::getline(file, password))
-    throw std::runtime_error("mqtt.password_file: cannot read " + path);
+  if (!file || !std::getline(file, password)) return std::nullopt;
   return password;
 }
 
@@ -50,11 +51,6 @@ MqttClient::MqttClient(const config::MqttConfig& config,
   client_ = ::mosquitto_new(id.c_str(), true, this);
   if (client_ == nullptr) throw std::runtime_error("mqtt.client_id: not accepted: " + id);
   ::mosquitto_int_option(client_, MOSQ_OPT_TCP_NODELAY, 1);
-  if (!config_.username.empty()) {
-    const auto password =
-        config_.password_file.empty() ? std::string() : read_password(config_.password_file);
-    ::mosquitto_username_pw_set(client_, config_.username.c_str(), password.c_str());
-  }
   ::mosquitto_will_set(client_, kOnlineTopic, 1, "0", kQosAnswers, true);
   ::mosquitto_connect_callback_set(client_, [](mosquitto*, void* self, int code) {
     auto& me = *static_cast<MqttClient*>(self);
@@ -107,11 +103,13 @@ void MqttClient::on_writable() {
 }
 
 void MqttClient::failed(int code) {
+  failed(code == MOSQ_ERR_ERRNO ? std::strerror(errno) : ::mosquitto_strerror(code));
+}
+
+void MqttClient::failed(const std::string& why) {
   const bool was_connected = connected_;
   connected_ = connecting_ = false;
-  std::string text = ::mosquitto_strerror(code);
-  if (code == MOSQ_ERR_ERRNO) text = std::strerror(errno);
-  text = "broker " + config_.host + ":" + std::to_string(config_.port) + ": " + text;
+  const auto text = "broker " + config_.host + ":" + std::to_string(config_.port) + ": " + why;
   if (was_connected || text != last_text_) on_state_(false, text);  // once, not each try
   last_text_ = text;
 }
@@ -128,6 +126,13 @@ void MqttClient::tick(Time now) {
 void MqttClient::connect(Time now) {
   pause_ = std::clamp(pause_ * 2, kFirstBrokerPause, kLongestBrokerPause);
   next_try_ = now + pause_;
+  if (!config_.username.empty()) {
+    // Read at each try: who sets up the broker may write the file after droverd was started.
+    const std::optional<std::string> password =
+        config_.password_file.empty() ? std::string() : read_password(config_.password_file);
+    if (!password) return failed("mqtt.password_file: cannot read " + config_.password_file);
+    ::mosquitto_username_pw_set(client_, config_.username.c_str(), password->c_str());
+  }
   ++connections_;
   const int code =
       ::mosquitto_connect_async(client_, config_.host.c_str(), config_.port, config_.keepalive_s);

@@ -33,7 +33,7 @@ class MqttClient final {
   using OnMessage = std::function<void(const MqttMessage&)>;
   using OnState = std::function<void(bool connected, const std::string& text)>;
 
-  /// Throws std::runtime_error when the password file cannot be read.
+  /// Throws std::runtime_error when the client id is not accepted.
   MqttClient(const config::MqttConfig& config, std::vector<MqttSubscription> subscriptions,
              OnMessage on_message, OnState on_state);
   ~MqttClient();
@@ -60,6 +60,7 @@ class MqttClient final {
  private:
   void connect(Time now);
   void failed(int code);
+  void failed(const std::string& why);
 
   config::MqttConfig config_;
   std::vector<MqttSubscription> subscriptions_;

@@ -22,7 +22,7 @@ namespace drover::runtime {
 
 class PublishLoop final {
  public:
-  /// Throws std::runtime_error when a socket or password file is missing.
+  /// Throws std::runtime_error when its socket cannot be opened.
   PublishLoop(const config::DroverConfig& config, ControlExchange& control,
               StorageExchange& storage, store::StoredState stored);
   void run(const std::atomic<bool>& stop);
