@@ -224,6 +224,9 @@ rule_packages() {
           print FILENAME ":" FNR ": " words[i] " is not in .ci/packages"
       if ($0 !~ /\\$/) on = 0
     }' .ci/packages "${readmes[@]}"
+  awk 'NF && $1 !~ /^[#[]/ { print $1 }' .ci/packages | while read -r package; do
+    grep -qF "\`$package\`" README.md || echo "README.md:1: does not name the package $package"
+  done
   awk 'NF && $1 !~ /^[#[]/ {
     if (seen[$1]++) print FILENAME ":" FNR ": " $1 " stands twice"
     if ($0 !~ /# [^ ]/) print FILENAME ":" FNR ": " $1 ": say what it is used for"
