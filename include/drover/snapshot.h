@@ -120,6 +120,7 @@ struct NavSnapshot {
 struct CycleStats {
   std::uint64_t cycles = 0;
   std::uint64_t overruns = 0;
+  std::uint64_t late_frames = 0;  ///< decided too long ago, or the guard took over: never sent
   Duration longest_step{};
 };
 

@@ -22,6 +22,9 @@ struct Environment {
   /// Health of each drive, by AxisId, and of the receiver, as their drivers judge it.
   std::array<SourceHealth, kMaxAxes> axes{};
   Reason bus;  ///< what is wrong with a CAN bus; empty when all is well
+  /// A part of the daemon hangs, or it is about to end: motion ends with a ramp. Empty: all is
+  /// well.
+  Reason program;
   SourceHealth gnss;
   SourceHealth imu;
   SourceHealth battery;

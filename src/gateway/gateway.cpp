@@ -187,6 +187,10 @@ void Gateway::on(const CommandGiven& given, Time now) {
   engine_.on_command(given.command, now);
 }
 
+void Gateway::on(const ProgramTrouble& trouble, Time) {
+  environment_.program = trouble.why;
+}
+
 void Gateway::on(const Tick& tick, Time now) {
   for (std::size_t i = 0; i < kStreamCount; ++i) {
     cycle_.streams[i] = {};

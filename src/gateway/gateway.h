@@ -79,6 +79,7 @@ class Gateway final {
   void on(const StreamUp& up, Time now);
   void on(const CommandGiven& given, Time now);
   void on(const Tick& tick, Time now);
+  void on(const ProgramTrouble& trouble, Time now);
   bool jammed(const Bus& bus, Time now) const;
   void look_at_buses(Time now);
   void absorb(const DriverOut& out);

@@ -70,6 +70,11 @@ struct StreamUp {
 struct CommandGiven {
   Command command;
 };
+/// A part of the daemon hangs, or it is about to end: why the robot comes to rest and no start is
+/// taken. Empty: no longer.
+struct ProgramTrouble {
+  Reason why;
+};
 /// One control cycle: afterwards the gateway's output is that cycle's.
 struct Tick {
   bool guard_alive = false;
@@ -79,7 +84,7 @@ struct Tick {
 /// The order is the recording's: a new one goes to the end.
 using InputBody =
     std::variant<FrameHeard, BytesHeard, LevelsRead, LinesLost, BatteryMeasured, BatteryHealth,
-                 BusUp, BusLost, FramesSent, StreamUp, CommandGiven, Tick>;
+                 BusUp, BusLost, FramesSent, StreamUp, CommandGiven, Tick, ProgramTrouble>;
 
 struct Input {
   Time time = kNever;

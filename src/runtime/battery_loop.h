@@ -34,7 +34,7 @@ class BatteryLoop final {
   void run(const std::atomic<bool>& stop);
   void wake() const { wake_.notify(); }
   /// Counts at least once in kLongestTurn while the thread lives.
-  std::uint64_t turns() const { return turns_.load(std::memory_order_relaxed); }
+  const std::atomic<std::uint64_t>& turns() const { return turns_; }
 
   /// Opening (1 s), a request (1 s), and room for a machine that is busy.
   static constexpr Duration kLongestTurn = std::chrono::seconds(5);

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "runtime/clock.h"
+#include "runtime/departure.h"
 
 namespace drover::runtime {
 
@@ -117,25 +118,22 @@ Time ControlLoop::cycle(Time begin, std::uint64_t late) {
   read_lines(begin);
   watch_guard(begin);
   take_battery(begin);
-  Command command;
-  while (exchange_.commands.pop(command)) apply(begin, gateway::CommandGiven{command});
+  watch_program(begin);
+  take_commands(begin);
 
   const bool guard_alive = guard_seen_ + guard_stale_ > begin && keeper_.guard_equipped();
   apply(begin, gateway::Tick{guard_alive, guard_has_bus_});
   const auto& out = gateway_.output();
   for (std::size_t bus = 0; bus < gateway_.bus_count(); ++bus) {
-    if (!can_[bus] || out.frames[bus].empty()) continue;
-    if (!can_[bus]->send(out.frames[bus])) {
-      lose(bus, can_[bus]->error(), begin);
-    } else {
-      const auto& counters = can_[bus]->counters();
-      apply(begin, gateway::FramesSent{bus_id(bus), counters.sent, counters.send_refused});
-    }
+    const auto& frames = out.frames[bus];
+    if (can_[bus] && !frames.empty()) send(bus, {frames.begin(), frames.size()}, begin);
   }
   for (std::size_t i = 0; i < kStreamCount; ++i) serve_stream(i, out.streams[i], begin);
   write_outputs(out.engine.outputs, begin);
 
-  guard_.shared().daemon_beats.fetch_add(1, std::memory_order_release);
+  // A daemon that half hangs leaves the robot to the guard, once it is at rest.
+  if (!program_.leaves_to_guard(begin, exchange_.at_rest.load(std::memory_order_relaxed)))
+    guard_.shared().daemon_beats.fetch_add(1, std::memory_order_release);
   exchange_.beats.fetch_add(1, std::memory_order_relaxed);
   for (const auto& event : out.engine.events)
     if (!exchange_.events.push(event)) exchange_.lost_events.fetch_add(1);
@@ -144,6 +142,35 @@ Time ControlLoop::cycle(Time begin, std::uint64_t late) {
   const bool task = gateway_.snapshot().nav.status == NavStatus::run;
   exchange_.at_rest.store(!out.engine.motion_permitted && !task, std::memory_order_release);
   return publish(begin);
+}
+
+void ControlLoop::take_commands(Time now) {
+  intake_.take(exchange_.commands, exchange_.stops, now,
+               [&](const Command& command) { apply(now, gateway::CommandGiven{command}); });
+}
+
+void ControlLoop::watch_program(Time now) {
+  const char* reported = exchange_.trouble.load(std::memory_order_acquire);
+  const auto looks = exchange_.looks.load(std::memory_order_relaxed);
+  if (program_.update(reported, looks, now)) apply(now, gateway::ProgramTrouble{program_.why()});
+}
+
+/// Looks at guard and clock just before the system call: what was decided before a hold-up must
+/// not move wheels that the guard has stopped meanwhile.
+void ControlLoop::send(std::size_t bus, std::span<const CanFrame> frames, Time decided) {
+  auto& can = *can_[bus];
+  while (!frames.empty()) {
+    const auto count = std::min(frames.size(), link::FrameBatch::capacity());
+    const bool holds = guard_.shared().guard_holds.load(std::memory_order_acquire) != 0;
+    if (!may_leave({decided, guard_has_bus_}, {monotonic_now(), holds}, tick_)) {
+      stats_.late_frames += frames.size();
+      break;
+    }
+    if (!can.send(frames.first(count))) return lose(bus, can.error(), decided);
+    frames = frames.subspan(count);
+  }
+  const auto& counters = can.counters();
+  apply(decided, gateway::FramesSent{bus_id(bus), counters.sent, counters.send_refused});
 }
 
 void ControlLoop::take_links(Time now) {
@@ -296,7 +323,7 @@ void ControlLoop::watch_guard(Time now) {
   if (holds && !guard_has_bus_) guard_held_since_ = now;
   guard_has_bus_ = holds;
   const bool at_rest = gateway_.snapshot().nav.status != NavStatus::run;
-  if (holds && at_rest && now - guard_held_since_ > kHandBackAfter &&
+  if (holds && at_rest && !program_.trouble() && now - guard_held_since_ > kHandBackAfter &&
       now - hand_back_asked_ > kHandBackAfter) {
     hand_back_asked_ = now;
     keeper_.request_hand_back();

@@ -9,21 +9,28 @@
 #include "drover/triple_buffer.h"
 #include "gateway/gateway.h"
 #include "runtime/battery_loop.h"
+#include "runtime/command_intake.h"
 #include "runtime/guard_client.h"
 #include "runtime/link_keeper.h"
+#include "runtime/program_watch.h"
 #include "runtime/wake.h"
 
 namespace drover::runtime {
 
-/// What the control thread shares with the publish thread.
+/// What the control thread shares with the publish and the main thread.
 struct ControlExchange {
-  SpscRing<Command, 64> commands;   ///< publish → control
+  CommandRing commands;             ///< publish → control
+  StopRequests stops;               ///< any → control: never full, never behind commands
   SpscRing<Event, 256> events;      ///< control → publish
   TripleBuffer<Snapshot> snapshot;  ///< control → publish
   Wake events_ready;
   std::atomic<std::uint64_t> beats{0};
   std::atomic<bool> at_rest{true};  ///< no task, and no axis is commanded to move
   std::atomic<std::uint64_t> lost_events{0};
+  /// Main → control, of static lifetime: why the robot comes to rest; nullptr while all is well.
+  std::atomic<const char*> trouble{nullptr};
+  /// Counted by the main thread at each look at the others; 0: it has not begun.
+  std::atomic<std::uint64_t> looks{0};
 };
 
 class ControlLoop final {
@@ -50,6 +57,9 @@ class ControlLoop final {
   void write_outputs(const std::array<bool, kOutputCount>& on, Time now);
   void drain_can(Time now);
   Time cycle(Time begin, std::uint64_t late);
+  void take_commands(Time now);
+  void watch_program(Time now);
+  void send(std::size_t bus, std::span<const CanFrame> frames, Time decided);
   void watch_guard(Time now);
   void take_battery(Time now);
   Time publish(Time now);
@@ -83,6 +93,8 @@ class ControlLoop final {
   Time guard_held_since_ = kNever;
   Time hand_back_asked_ = kNever;
   bool guard_has_bus_ = false;
+  CommandIntake intake_;
+  ProgramWatch program_;
   link::FrameBatch batch_;
 };
 

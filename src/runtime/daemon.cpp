@@ -5,9 +5,10 @@
 #include <signal.h>
 #include <sys/file.h>
 #include <sys/stat.h>
-#include <systemd/sd-daemon.h>
+#include <unistd.h>
 
 #include <cerrno>
+#include <optional>
 #include <stdexcept>
 #include <thread>
 
@@ -19,6 +20,9 @@
 #include "runtime/publish_loop.h"
 #include "runtime/realtime.h"
 #include "runtime/storage_loop.h"
+#include "runtime/supervisor.h"
+#include "runtime/systemd_notify.h"
+#include "runtime/worker.h"
 #include "store/posix_files.h"
 
 namespace drover::runtime {
@@ -53,6 +57,8 @@ sigset_t end_signals() {
   return signals;
 }
 
+constexpr Duration kFeedEach = 200ms;  // of systemd's watchdog, which has 1 s
+
 class Daemon final {
  public:
   explicit Daemon(const config::DroverConfig& config)
@@ -69,37 +75,33 @@ class Daemon final {
         publish_(config, control_exchange_, storage_exchange_, storage_.load()) {}
 
   void run() {
-    std::thread keeper([this] { keeper_.run(stop_keeper_); });
-    std::thread storage([this] { run_storage(storage_, storage_exchange_, stop_publish_); });
-    std::thread battery;
-    if (battery_) battery = std::thread([this] { battery_->run(stop_battery_); });
-    std::thread control([this] {
-      if (config_.control.realtime)
-        if (const auto missing = become_real_time(config_.control.priority); !missing.empty())
-          log(LogLevel::warning, missing);
-      control_.run(stop_control_);
-    });
-    std::thread publish([this] { publish_.run(stop_publish_); });
-    ::sd_notify(0, "READY=1");
+    Worker keeper("links", [this] { keeper_.run(stop_keeper_); });
+    Worker storage("storage", [this] { run_storage(storage_, storage_exchange_, stop_publish_); });
+    std::optional<Worker> battery;
+    if (battery_) battery.emplace("battery", [this] { battery_->run(stop_battery_); });
+    Worker control("control", [this] { run_control(); });
+    Worker publish("publish", [this] { publish_.run(stop_publish_); });
+    ready_told_ = systemd_.tell("READY=1");
     log(LogLevel::info, "droverd " DROVER_VERSION " runs");
     for (const auto& caution : gateway_.cautions()) log(LogLevel::warning, caution);
+    watch_threads();
     wait_for_end();
-    ::sd_notify(0, "STOPPING=1");
+    (void)systemd_.tell("STOPPING=1");
     come_to_rest();
     stop_battery_ = true;
     if (battery_) battery_->wake();
     stop_publish_ = true;
     publish_.wake();
     storage_exchange_.jobs_ready.notify();
-    publish.join();
-    storage.join();
+    join(publish, 1s);
+    join(storage, 1s);
     // Until here the guard saw our heartbeat; from here on it keeps the drives at rest by itself.
     stop_control_ = true;
-    control.join();
-    if (battery.joinable()) battery.join();
+    join(control, 1s);
+    if (battery) join(*battery, BatteryLoop::kLongestTurn);
     stop_keeper_ = true;
     keeper_.wake();
-    keeper.join();
+    join(keeper, 1s);
   }
 
  private:
@@ -110,34 +112,70 @@ class Daemon final {
     return frames;
   }
 
-  /// Waits for a signal, and tells systemd each half second that all threads live.
+  void run_control() {
+    if (config_.control.realtime)
+      if (const auto missing = become_real_time(config_.control.priority); !missing.empty())
+        log(LogLevel::warning, missing);
+    control_.run(stop_control_);
+  }
+
+  /// Each with its own limit. Of what persons say, the publish thread hears most: the robot is to
+  /// stop within a second of its last turn.
+  void watch_threads() {
+    supervisor_.watch({"droverd's control thread stands still", &control_exchange_.beats, 1s});
+    supervisor_.watch({"droverd's publish thread stands still", &publish_.turns(), 700ms});
+    supervisor_.watch({"droverd's link thread stands still", &keeper_.turns(), 5s});
+    if (battery_)
+      supervisor_.watch(
+          {"droverd's battery thread stands still", &battery_->turns(), BatteryLoop::kLongestTurn});
+  }
+
+  /// Waits for a signal, and looks ten times a second whether all threads live.
   void wait_for_end() {
     const auto signals = end_signals();
-    std::uint64_t beats = 0;
-    std::uint64_t turns = 0;
-    std::uint64_t battery_turns = 0;
-    int battery_still = 0;
-    for (;;) {
-      const timespec half_second{0, 500'000'000};
-      if (::sigtimedwait(&signals, nullptr, &half_second) > 0) return;
-      const auto new_beats = control_exchange_.beats.load(std::memory_order_relaxed);
-      const auto new_turns = publish_.turns();
-      // The battery's thread may take its time, but not for ever.
-      const auto new_battery = battery_ ? battery_->turns() : 0;
-      battery_still = battery_ && new_battery == battery_turns ? battery_still + 1 : 0;
-      battery_turns = new_battery;
-      const bool battery_lives = battery_still * 500ms < BatteryLoop::kLongestTurn;
-      if (new_beats != beats && new_turns != turns && battery_lives) ::sd_notify(0, "WATCHDOG=1");
-      beats = new_beats;
-      turns = new_turns;
+    const timespec period{0, Supervisor::kPeriod.count()};
+    while (::sigtimedwait(&signals, nullptr, &period) <= 0) look_at_threads(monotonic_now());
+  }
+
+  void look_at_threads(Time now) {
+    control_exchange_.looks.fetch_add(1, std::memory_order_relaxed);
+    const auto* stalled = supervisor_.stalled(now);
+    if (stalled != stalled_) {
+      stalled_ = stalled;
+      stalled_since_ = now;
+      control_exchange_.trouble.store(stalled == nullptr ? nullptr : stalled->trouble,
+                                      std::memory_order_release);
+      if (stalled != nullptr)
+        log(LogLevel::error, std::string(stalled->trouble) + ": the robot stops");
     }
+    if (!ready_told_) ready_told_ = systemd_.tell("READY=1");
+    // Ending us now would cut the orderly stop short, for which the control thread still lives.
+    const bool stopping = !control_exchange_.at_rest.load(std::memory_order_relaxed) &&
+                          now - stalled_since_ < ProgramWatch::kLongestStop;
+    if (now < next_feed_ || (stalled_ != nullptr && !stopping)) return;
+    next_feed_ = now + kFeedEach;
+    (void)systemd_.tell("WATCHDOG=1");
   }
 
   /// A controlled stop: as the operator's cancel, with at most two seconds.
   void come_to_rest() {
-    publish_.request_cancel();
-    for (int i = 0; i < 40 && !control_exchange_.at_rest.load(std::memory_order_relaxed); ++i)
-      std::this_thread::sleep_for(50ms);
+    control_exchange_.stops.ask_cancel();
+    control_exchange_.trouble.store("droverd ends", std::memory_order_release);
+    for (int i = 0; i < 40; ++i) {
+      control_exchange_.looks.fetch_add(1, std::memory_order_relaxed);
+      std::this_thread::sleep_for(50ms);  // the first one lets the control thread hear of it
+      if (control_exchange_.at_rest.load(std::memory_order_relaxed)) return;
+    }
+  }
+
+  /// A thread that does not end must not keep the daemon from it: the guard has the drives, and
+  /// what was acknowledged is on the disk.
+  static void join(Worker& worker, Duration longest) {
+    if (worker.join_within(longest)) return;
+    log(LogLevel::error,
+        std::string("the thread ") + worker.name() + " does not end; ended without");
+    std::this_thread::sleep_for(50ms);  // for the log
+    ::_exit(0);
   }
 
   const config::DroverConfig& config_;
@@ -152,6 +190,12 @@ class Daemon final {
   std::unique_ptr<BatteryLoop> battery_;
   ControlLoop control_;
   PublishLoop publish_;
+  Supervisor supervisor_;
+  SystemdNotify systemd_;
+  bool ready_told_ = false;
+  const WatchedThread* stalled_ = nullptr;
+  Time stalled_since_ = kNever;
+  Time next_feed_ = kNever;
   std::atomic<bool> stop_control_{false};
   std::atomic<bool> stop_publish_{false};
   std::atomic<bool> stop_battery_{false};
@@ -165,6 +209,7 @@ int run_daemon(const config::DroverConfig& config) {
   const auto signals = end_signals();
   ::pthread_sigmask(SIG_BLOCK, &signals, nullptr);  // before any thread, so that all inherit it
   ::signal(SIGPIPE, SIG_IGN);
+  const LogWriter log_writer;  // before any other thread: nobody waits for standard error
   const auto daemon = std::make_unique<Daemon>(config);
   daemon->run();
   log(LogLevel::info, "droverd ends; the robot is at rest");

@@ -57,6 +57,7 @@ bool LinkKeeper::give_back(LinkHandover& lost) {
 
 void LinkKeeper::run(const std::atomic<bool>& stop) {
   while (!stop.load(std::memory_order_relaxed)) {
+    turns_.fetch_add(1, std::memory_order_relaxed);
     const Time now = monotonic_now();
     take_back_lost(now);
     for (std::size_t i = 0; i < kLinkSlots; ++i)
@@ -78,7 +79,7 @@ void LinkKeeper::run(const std::atomic<bool>& stop) {
 }
 
 Duration LinkKeeper::until_next_try(Time now) const {
-  Duration wait = std::chrono::seconds(10);
+  Duration wait = std::chrono::seconds(1);
   for (const auto& slot : slots_)
     if (slot.used && !slot.open) wait = std::min(wait, slot.next_try - now);
   if (guard_set_changed_ || !guard_.connected()) wait = std::min(wait, guard_slot_.next_try - now);

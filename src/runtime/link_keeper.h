@@ -71,6 +71,8 @@ class LinkKeeper final {
   // Keeper thread:
   void run(const std::atomic<bool>& stop);
   void wake() const { wake_.notify(); }
+  /// Counts at least once a second while the thread lives.
+  const std::atomic<std::uint64_t>& turns() const { return turns_; }
 
  private:
   struct Slot {
@@ -96,6 +98,7 @@ class LinkKeeper final {
   SpscRing<LinkHandover, 16> arrivals_;
   SpscRing<LinkHandover, 16> losses_;
   Wake wake_;
+  std::atomic<std::uint64_t> turns_{0};
   std::atomic<bool> hand_back_wanted_{false};
   std::atomic<bool> guard_equipped_{true};
   GuardClient guard_;

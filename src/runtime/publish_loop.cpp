@@ -17,6 +17,8 @@ namespace {
 constexpr Duration kStatusPeriod =
     std::chrono::milliseconds(100);  // base_status: 10 Hz, RTK navigation protocol
 
+constexpr std::size_t kMostAskedStops = 256;
+
 enum Tag : std::uint64_t { kTimer = 1, kBroker, kCli, kEvents, kReplies, kAimrt };
 
 publish::CommandServiceConfig service_config(const config::DroverConfig& config) {
@@ -163,6 +165,7 @@ void PublishLoop::run(const std::atomic<bool>& stop) {
           clear_timer(timer_);
           wall_minus_monotonic_ = wall_minus_monotonic();
           if (broker_) broker_->tick(now);
+          answer_stops(now);  // also when the ring of events was full
           publish_status(now);
           break;
         case kAimrt:
@@ -184,10 +187,6 @@ void PublishLoop::run(const std::atomic<bool>& stop) {
           break;
         default: break;
       }
-      carry_out(actions_);
-    }
-    if (cancel_wanted_.exchange(false, std::memory_order_relaxed)) {
-      service_.on_cli(next_request_++, publish::CancelTaskRequest{}, now, actions_);
       carry_out(actions_);
     }
     turns_.fetch_add(1, std::memory_order_relaxed);
@@ -212,7 +211,12 @@ void PublishLoop::publish_aimrt() {
 
 void PublishLoop::take_events() {
   Event event;
-  while (control_.events.pop(event)) service_.on_event(event, actions_);
+  while (control_.events.pop(event)) {
+    const auto* accepted = std::get_if<CommandAccepted>(&event.body);
+    // In the place where the engine answered, so that operators read answers in order.
+    if (accepted != nullptr && is_stop_request(accepted->id)) answer_stops(event.time);
+    service_.on_event(event, actions_);
+  }
 }
 
 void PublishLoop::take_replies(Time now) {
@@ -244,10 +248,34 @@ void PublishLoop::carry_out(publish::Actions& actions) {
                           monotonic_now(), actions);
       }
     } else if (const auto* command = std::get_if<Command>(&action)) {
-      if (!control_.commands.push(*command)) service_.on_undelivered(*command, actions);
+      deliver(*command, actions);
     }
   }
   actions.clear();
+}
+
+/// Stops go around the ring, which a flood may have filled.
+void PublishLoop::deliver(const Command& command, publish::Actions& actions) {
+  const bool cancel = std::holds_alternative<CancelTask>(command.body);
+  if (!cancel && !std::holds_alternative<EngageStop>(command.body)) {
+    const bool taken = control_.commands.push(QueuedCommand{command, control_.stops.asked()});
+    if (!taken) service_.on_undelivered(command, actions);
+    return;
+  }
+  const auto counts = cancel ? control_.stops.ask_cancel() : control_.stops.ask_stop();
+  asked_stops_.emplace_back(counts, command);
+  if (asked_stops_.size() <= kMostAskedStops) return;
+  // The control thread hangs: the flag stays set for it, the answer does not wait.
+  service_.on_undelivered(asked_stops_.front().second, actions);
+  asked_stops_.pop_front();
+}
+
+void PublishLoop::answer_stops(Time now) {
+  const auto obeyed = control_.stops.obeyed();
+  while (!asked_stops_.empty() && obeyed.include(asked_stops_.front().first)) {
+    service_.on_event({now, CommandAccepted{asked_stops_.front().second.id, {}}}, actions_);
+    asked_stops_.pop_front();
+  }
 }
 
 }  // namespace drover::runtime

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <atomic>
+#include <deque>
 #include <map>
 #include <memory>
 #include <optional>
@@ -28,13 +29,8 @@ class PublishLoop final {
   void run(const std::atomic<bool>& stop);
   /// Wakes the loop so that it sees `stop`.
   void wake() const { control_.events_ready.notify(); }
-  /// From another thread, at the daemon's end: stops the task as its operator would.
-  void request_cancel() {
-    cancel_wanted_.store(true, std::memory_order_relaxed);
-    wake();
-  }
-  /// Counts once a turn: a supervisor sees whether the thread lives.
-  std::uint64_t turns() const { return turns_.load(std::memory_order_relaxed); }
+  /// Counts once a turn, at least ten times a second: a supervisor sees whether the thread lives.
+  const std::atomic<std::uint64_t>& turns() const { return turns_; }
 
  private:
   /// What epoll knows of the broker's connection.
@@ -56,6 +52,8 @@ class PublishLoop final {
   void on_cli_line(CliServer::ClientId client, std::string_view line, Time now);
   std::string cli_reply(std::string_view cmd, const std::string& name);
   void carry_out(publish::Actions& actions);
+  void deliver(const Command& command, publish::Actions& actions);
+  void answer_stops(Time now);
 
   const config::DroverConfig& config_;
   ControlExchange& control_;
@@ -70,13 +68,14 @@ class PublishLoop final {
   BrokerWatch broker_watch_;
   Duration wall_minus_monotonic_{};  ///< ten times a second
   CliServer cli_;
+  /// Stops that the control thread has yet to carry out, oldest first.
+  std::deque<std::pair<StopCounts, Command>> asked_stops_;
   std::map<std::uint64_t, CliServer::ClientId> waiting_;  ///< request number → who asked
   std::uint64_t next_request_ = 1;
   link::UniqueFd epoll_;
   link::UniqueFd timer_;
   link::UniqueFd aimrt_timer_;
   std::atomic<std::uint64_t> turns_{0};
-  std::atomic<bool> cancel_wanted_{false};
 };
 
 }  // namespace drover::runtime

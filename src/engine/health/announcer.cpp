@@ -19,6 +19,7 @@ std::string_view over(Cause cause) {
     case Cause::drive_fault: return "no drive reports a fault";
     case Cause::latched: return "ready for a new start";
     case Cause::charger: return "charger unplugged";
+    case Cause::program: return "all threads of droverd run again";
     case Cause::battery_critical: return "battery good for driving again";
     case Cause::near_zone: return "near zone free";
     case Cause::bus: return "CAN buses good";

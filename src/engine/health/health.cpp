@@ -200,6 +200,12 @@ void HealthMonitor::look_at_battery(const HealthInput& input) {
   told(Cause::battery_silent, verdict.silent);
 }
 
+void HealthMonitor::look_at_program(const Environment& environment) {
+  if (environment.program.empty()) return;
+  hold(Cause::program, environment.program);
+  if (report_.end_task.empty()) report_.end_task = environment.program;
+}
+
 const HealthReport& HealthMonitor::update(const HealthInput& input) {
   // Emptied field by field: the texts are large and most stay unused.
   report_.ready = true;
@@ -214,6 +220,7 @@ const HealthReport& HealthMonitor::update(const HealthInput& input) {
   look_at_imu(input);
   look_at_position(input);
   look_at_battery(input);
+  look_at_program(input.environment);
   if (!input.latched.empty()) {
     Reason text;
     text.format("stopped: %.*s", static_cast<int>(input.latched.view().size()),

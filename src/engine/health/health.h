@@ -23,6 +23,7 @@ enum class Cause : std::uint8_t {
   latched,           ///< not a present cause: what stopped the robot before a person acted
   charger,           ///< connected, or was when the battery was last heard: must not move
   battery_critical,  ///< empty, too hot, or about to switch off: a task ends
+  program,           ///< a part of the daemon hangs, or it ends: a task ends
   near_zone,
   bus,       ///< told only: what it does to the drives is their own cause
   origin,    ///< none set
@@ -35,7 +36,7 @@ enum class Cause : std::uint8_t {
   battery_warning,  ///< told only
   battery_silent,   ///< told only: nothing is known of it
 };
-inline constexpr std::size_t kCauseCount = 21;
+inline constexpr std::size_t kCauseCount = 22;
 
 /// Last known state of the lines: the levels the drivers reported since the last cycle.
 struct LineTable {
@@ -96,6 +97,7 @@ class HealthMonitor final {
   void look_at_imu(const HealthInput& input);
   void look_at_position(const HealthInput& input);
   void look_at_battery(const HealthInput& input);
+  void look_at_program(const Environment& environment);
   bool holds(Cause cause) const { return report_.holds(cause); }
 
   EngineConfig config_;

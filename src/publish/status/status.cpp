@@ -245,6 +245,7 @@ void daemon_part(JsonText& out, const Snapshot& s, const DaemonStatus& daemon) {
   out.key("cycle").open('{');
   out.key("count").integer(static_cast<std::int64_t>(s.cycle.cycles));
   out.key("overruns").integer(static_cast<std::int64_t>(s.cycle.overruns));
+  out.key("late_frames").integer(static_cast<std::int64_t>(s.cycle.late_frames));
   number(out, "longest_step_s", to_s(s.cycle.longest_step));
   out.key("events_lost").integer(static_cast<std::int64_t>(daemon.events_lost));
   out.close('}');

@@ -36,6 +36,21 @@ TEST_F(AnEngine, StopsAtOnceWhenASafetyLineIsLost) {
   rig.line_lost[0] = true;
   expect_stopped_at_once("line e-stop");
 }
+TEST_F(AnEngine, StopsWithARampAndTakesNoStartWhileAPartOfTheDaemonHangs) {
+  drive();
+  rig.environment.program = "droverd's publish thread stands still";
+  rig.tick();
+  EXPECT_GT(rig.fastest_command_radps(), 0) << "a ramp, no jolt";
+  rig.run_s(2);
+  EXPECT_EQ(rig.fastest_command_radps(), 0);
+  EXPECT_EQ(rig.snapshot().nav.status, NavStatus::error);
+  EXPECT_THAT(rig.why(), HasSubstr("droverd's publish thread stands still"));
+  rig.start(path, 40, 0.5);
+  rig.tick();
+  EXPECT_EQ(refusal(), "droverd's publish thread stands still");
+  rig.environment.program.clear();
+  expect_no_motion_for_s(2);
+}
 TEST_F(AnEngine, StopsAtOnceForTheBumper) {
   drive();
   rig.lines[1] = true;
