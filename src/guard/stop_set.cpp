@@ -19,10 +19,6 @@ constexpr int kForgivenPeriods = 5;
 /// The guard looks each 10 ms: what is due nearer to this look than to the next goes now.
 constexpr Duration kHalfACycle = std::chrono::milliseconds(5);
 
-/// A name from outside ends within its array.
-bool is_text(const std::array<char, kGuardNameSize>& name) {
-  return name[0] != '\0' && std::find(name.begin(), name.end(), '\0') != name.end();
-}
 std::string_view text(const std::array<char, kGuardNameSize>& name) {
   return name.data();
 }
@@ -41,13 +37,25 @@ bool make_non_blocking(int fd) {
 
 }  // namespace
 
+bool is_name(const std::array<char, kGuardNameSize>& name) {
+  return name[0] != '\0' && std::find(name.begin(), name.end(), '\0') != name.end();
+}
+
 void StopSet::clear() {
   for (auto& link : links_) {
-    if (link.fd >= 0) ::close(link.fd);
+    close(link);
     link = {};
   }
   axis_count_ = 0;
   message_count_ = 0;
+}
+
+/// The last one who closes a tty waits half a minute for what is in it: it is thrown away before.
+void StopSet::close(Link& link) {
+  if (link.fd < 0) return;
+  if (link.kind == GuardLinkKind::tty) ::tcflush(link.fd, TCOFLUSH);
+  ::close(link.fd);
+  link.fd = -1;
 }
 
 void StopSet::swap(StopSet& other) {
@@ -59,7 +67,7 @@ void StopSet::swap(StopSet& other) {
 }
 
 bool StopSet::add_link(const GuardMessage& message, int fd) {
-  if (message.index >= links_.size() || !is_text(message.name) || fd < 0) return false;
+  if (message.index >= links_.size() || !is_name(message.name)) return false;
   if (message.kind != GuardLinkKind::can && message.kind != GuardLinkKind::tty) return false;
   auto& link = links_[message.index];
   if (link.name[0] != '\0') return false;
@@ -70,9 +78,9 @@ bool StopSet::add_link(const GuardMessage& message, int fd) {
 }
 
 bool StopSet::add_axis(const GuardMessage& message) {
-  if (message.index != axis_count_ || axis_count_ == axes_.size() || !is_text(message.name))
+  if (message.index != axis_count_ || axis_count_ == axes_.size() || !is_name(message.name))
     return false;
-  if (message.link >= links_.size() || links_[message.link].fd < 0) return false;
+  if (message.link >= links_.size() || !is_name(links_[message.link].name)) return false;
   if (message.rounds < 1 || message.rounds > kGuardMaxMessages ||
       message.period_ms < kShortestPeriod_ms || message.period_ms > kLongestPeriod_ms)
     return false;
@@ -189,9 +197,7 @@ std::size_t StopSet::write_some(Link& link, const std::uint8_t* bytes, std::size
   const auto n = ::write(link.fd, bytes, size);
   if (n >= 0) return static_cast<std::size_t>(n);
   if (is_dead(errno)) {
-    // Held on to, it would keep the device's name from coming back.
-    ::close(link.fd);
-    link.fd = -1;
+    close(link);  // held on to, it would keep the device's name from coming back
   }
   return 0;
 }
@@ -202,11 +208,47 @@ int StopSet::descriptor(std::string_view name) const {
   return -1;
 }
 
+std::vector<std::string_view> StopSet::links() const {
+  std::vector<std::string_view> names;
+  for (const auto& link : links_)
+    if (is_name(link.name)) names.push_back(text(link.name));
+  return names;
+}
+
+void StopSet::tell(std::vector<GuardMessage>& words) const {
+  for (std::size_t i = 0; i < links_.size(); ++i) {
+    if (!is_name(links_[i].name)) continue;
+    auto& word = words.emplace_back();
+    word.verb = GuardVerb::link;
+    word.index = static_cast<std::uint32_t>(i);
+    word.kind = links_[i].kind;
+    word.name = links_[i].name;
+  }
+  for (std::size_t i = 0; i < axis_count_; ++i) {
+    const auto& axis = axes_[i];
+    auto& word = words.emplace_back();
+    word.verb = GuardVerb::axis;
+    word.index = static_cast<std::uint32_t>(i);
+    word.link = axis.link;
+    word.rounds = axis.rounds;
+    word.period_ms = static_cast<std::uint32_t>(
+        std::chrono::duration_cast<std::chrono::milliseconds>(axis.period).count());
+    word.name = axis.name;
+  }
+  for (std::size_t i = 0; i < message_count_; ++i) {
+    auto& word = words.emplace_back();
+    word.verb = GuardVerb::stop_message;
+    word.index = messages_[i].axis;
+    word.round = messages_[i].round;
+    word.size = messages_[i].size;
+    word.bytes = messages_[i].bytes;
+  }
+}
+
 bool StopSet::let_go(std::string_view name) {
   for (auto& link : links_) {
     if (link.fd < 0 || text(link.name) != name) continue;
-    ::close(link.fd);
-    link.fd = -1;
+    close(link);
     return true;
   }
   return false;

@@ -5,11 +5,15 @@
 #include <array>
 #include <cstddef>
 #include <string_view>
+#include <vector>
 
 #include "drover/guard_protocol.h"
 #include "drover/time.h"
 
 namespace drover::guard {
+
+/// A name from outside: not empty, and it ends within its array.
+bool is_name(const std::array<char, kGuardNameSize>& name);
 
 class StopSet final {
  public:
@@ -22,7 +26,7 @@ class StopSet final {
   void swap(StopSet& other);
 
   // All false for what contradicts the set so far; then nothing has changed.
-  /// Takes ownership of `fd` when it returns true.
+  /// Takes ownership of `fd` when it returns true; -1: the link is known, and not there.
   bool add_link(const GuardMessage& message, int fd);
   bool add_axis(const GuardMessage& message);
   bool add_message(const GuardMessage& message);
@@ -45,6 +49,10 @@ class StopSet final {
   std::uint64_t unsent() const { return unsent_; }
   /// Of the link with this name, or -1; stays the set's.
   int descriptor(std::string_view link) const;
+  /// The names of all links.
+  std::vector<std::string_view> links() const;
+  /// Appends the messages that make this set, without `hello` and `watch`.
+  void tell(std::vector<GuardMessage>& words) const;
   /// Closes it: it is dead, or somebody wants it for himself.
   bool let_go(std::string_view link);
 
@@ -74,6 +82,7 @@ class StopSet final {
     std::array<std::uint8_t, kGuardMaxBytes> bytes{};
   };
   bool has(const Axis& axis) const;
+  static void close(Link& link);
   static bool send(Link& link, const Message& message);
   static bool write_packet(Link& link, const Message& message);
   static std::size_t write_some(Link& link, const std::uint8_t* bytes, std::size_t size);

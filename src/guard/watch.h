@@ -22,7 +22,8 @@ class Watch final {
     last_step_ = now;
     hear(now);
   }
-  /// The daemon's socket closed: it died, however politely.
+  /// The daemon's socket closed: it died, however politely. Or somebody stops it from outside: it
+  /// has to ask for the bus.
   void lost() { holds_ = watching_; }
   /// The daemon asked for the bus. Refused while its heartbeat is late.
   void hand_back(Time now) {

@@ -1,0 +1,58 @@
+// What outlives the guard's own death, in the service manager's store of descriptors: the stop set
+// (links, and its words in a sealed memory file), the memory with droverd's heartbeat, and whether
+// it held. Never the enable relay's line: it has to fall when both programs are gone.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "drover/guard_protocol.h"
+#include "guard/notify.h"
+#include "guard/stop_set.h"
+
+namespace drover::guard {
+
+/// Written as it changes; zeros when there is nothing to remember. Only the guard has it: droverd,
+/// however broken, cannot write here.
+struct KeptState {
+  std::atomic<std::uint32_t> version;
+  std::atomic<std::uint32_t> holding;
+  std::atomic<std::uint32_t> latched;
+  std::atomic<std::uint32_t> latched_by_uid;
+  std::atomic<GuardMayHold> may_hold;
+};
+
+class Keep final {
+ public:
+  explicit Keep(Notify& notify) : notify_(notify) {}
+
+  /// What a guard before this one left. `limit_ms` and `memory` (a descriptor, -1: none) belong to
+  /// `set`. False when there was no whole set; then all three are as they were.
+  bool restore(std::vector<Kept> kept, StopSet& set, std::uint32_t& limit_ms, int& memory);
+  /// Never nullptr after restore(); without memory for it one that dies with the process.
+  KeptState& state() { return *state_; }
+
+  /// From now on this is what the next guard shall find; step() brings it there.
+  void keep(const StopSet& set, std::uint32_t limit_ms);
+  /// Once a cycle, with what keep() was given. A few datagrams each time: their queue is short, and
+  /// who reads it may be slow. At each moment there is a whole set, old, new or a mixture: a link's
+  /// old descriptor does as well. `memory` stays the caller's.
+  void step(const StopSet& set, int memory);
+
+ private:
+  bool map_state(int fd);
+  bool take_step(const std::string& step, const StopSet& set, int memory);
+
+  Notify& notify_;
+  KeptState own_{};
+  KeptState* state_ = &own_;
+  int state_fd_ = -1;
+  int recipe_ = -1;
+  std::vector<std::string> stored_;  ///< names that are kept now, or may be
+  std::vector<std::string> steps_;   ///< names to be stored anew, then "-name": to be forgotten
+  std::size_t next_step_ = 0;
+};
+
+}  // namespace drover::guard
