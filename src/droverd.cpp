@@ -37,11 +37,15 @@ int main(int argc, char** argv) {
   CLI::App app{"droverd: the gateway of a field robot"};
   std::string file = "/etc/drover/drover.json";
   std::string checked;
+  std::string record;
   bool schema = false;
   bool map_schema = false;
   app.add_option("-c,--config", file, "configuration")->capture_default_str();
   const auto* check_wanted =
       app.add_option("--check", checked, "check a configuration and exit (0 good, 2 not)");
+  app.add_option("--record", record,
+                 "write all that comes in and goes out to this file, for `drover replay`; when it "
+                 "is there, to FILE.1, FILE.2, ...");
   app.add_flag("--schema", schema, "print the configuration's JSON schema and exit");
   app.add_flag("--map-schema", map_schema, "print the JSON schema of a battery's register map");
   app.set_version_flag("--version", DROVER_VERSION);
@@ -50,6 +54,7 @@ int main(int argc, char** argv) {
       "  droverd --check /etc/drover/drover.json\n"
       "  droverd --config robot.json\n"
       "  droverd --schema > drover.schema.json\n"
+      "  droverd --config robot.json --record run.rec\n"
       "Exit codes: 0 ended as asked, 2 wrong arguments or configuration.");
   try {
     app.parse(argc, argv);
@@ -68,7 +73,7 @@ int main(int argc, char** argv) {
   try {
     const auto loaded = drover::config::load_file(file);
     if (!report(loaded, file)) return kBadConfiguration;
-    return drover::runtime::run_daemon(loaded.config);
+    return drover::runtime::run_daemon(loaded, record);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "droverd: %s\n", error.what());
     return kBadConfiguration;

@@ -1,6 +1,7 @@
 // A track prepared for driving: points in the local frame.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,7 @@ struct PathPoint {
 
 /// Built outside the control thread, read-only inside it, given back through an event.
 struct Path {
+  std::uint64_t number = 0;  ///< of this run, from 1: recordings name it
   std::string name;
   std::vector<PathPoint> points;  ///< in the order of the track, ids 1..N
 };

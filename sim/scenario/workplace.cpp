@@ -188,7 +188,9 @@ Program Workplace::program(const std::string& name, const std::string& words) co
   };
   if (broker) add({"-c", private_folder_ + "/mosquitto.conf"});
   if (name == "drover-guard") add({"--socket", guard_socket_});
-  if (name == "droverd") add({"-c", private_folder_ + "/drover.json"});
+  // A restarted one records beside it: droverd.rec.1, ...
+  if (name == "droverd")
+    add({"-c", private_folder_ + "/drover.json", "--record", log_folder_ + "/droverd.rec"});
   if (name == "drover-sim") {
     add({"--scenario", private_folder_ + "/scenario.json", "--seed", std::to_string(settings_.seed),
          "--run-dir", sim_folder_, "--log-dir", log_folder_});

@@ -9,6 +9,7 @@
 #include "cli/devices.h"
 #include "cli/exit_codes.h"
 #include "cli/option_texts.h"
+#include "cli/replay.h"
 #include "cli/show.h"
 #include "config/json_text.h"
 
@@ -133,6 +134,7 @@ int main(int argc, char** argv) {
   status_command->callback([&] { code = status(s); });
 
   drover::cli::add_device_commands(app, s.socket, code);
+  drover::cli::add_replay_command(app, code);
 
   auto* traj = app.add_subcommand("traj", "saved tracks")->require_subcommand(1);
   auto* list = traj->add_subcommand("list", "name, points and length of each");

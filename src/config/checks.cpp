@@ -241,7 +241,10 @@ class Checks final {
     auto& battery = config_.battery;
     if (!battery.configured || has_problem("battery.map")) return;
     if (const auto why = check_modbus_port(battery.port); !why.empty()) add("battery.port", why);
-    auto loaded = load_register_map(find_register_map(battery.map, folder_));
+    auto loaded = loaded_.register_map.empty()
+                      ? load_register_map(find_register_map(battery.map, folder_))
+                      : parse_register_map(loaded_.register_map);
+    loaded_.register_map = std::move(loaded.text);
     if (!loaded.problems.empty())
       add("battery.map", "is no good register map", "see its own problems");
     for (auto& problem : loaded.problems) loaded_.problems.push_back(std::move(problem));

@@ -53,7 +53,7 @@ std::string Problem::text(std::string_view given_file) const {
   return out;
 }
 
-Loaded load_text(std::string_view text, const std::string& folder) {
+Loaded load_text(std::string_view text, const std::string& folder, std::string register_map) {
   const auto document = json::parse(text);
   if (!document) {
     const auto& error = document.error();
@@ -63,6 +63,8 @@ Loaded load_text(std::string_view text, const std::string& folder) {
   if (root.object() == nullptr)
     return one_problem({root.line, root.column, "", "an object is expected", "{ ... }", ""});
   Loaded loaded;
+  loaded.text = text;
+  loaded.register_map = std::move(register_map);
   BaseNames base;
   base.base = &loaded.config.engine.base;
   Reader reader(root, "", loaded.problems);

@@ -23,10 +23,15 @@ struct Problem {
 struct Loaded {
   DroverConfig config;  ///< to be used only when there are no problems
   std::vector<Problem> problems;
+  // As they were read: a recording carries them.
+  std::string text;
+  std::string register_map;  ///< of the battery; empty: none
 };
 
-/// Files that the configuration names are looked for below `folder`.
-Loaded load_text(std::string_view text, const std::string& folder = "");
+/// Files that the configuration names are looked for below `folder`; the battery's register map
+/// only when its text is not given.
+Loaded load_text(std::string_view text, const std::string& folder = "",
+                 std::string register_map = "");
 /// A file that cannot be read is a problem without a place.
 Loaded load_file(const std::string& path);
 

@@ -158,6 +158,7 @@ class Converter final {
 
 LoadedMap parse_register_map(std::string_view text) {
   LoadedMap loaded;
+  loaded.text = text;
   const auto document = json::parse(text);
   if (!document) {
     const auto& error = document.error();

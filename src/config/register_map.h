@@ -11,7 +11,8 @@
 namespace drover::config {
 
 struct LoadedMap {
-  RegisterMap map;  ///< to be used only when there are no problems
+  RegisterMap map;   ///< to be used only when there are no problems
+  std::string text;  ///< as it was read
   std::vector<Problem> problems;
 };
 

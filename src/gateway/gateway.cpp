@@ -40,6 +40,9 @@ Gateway::Gateway(const config::DroverConfig& config)
   if (config.imu.configured)
     streams_[index(Stream::imu)] =
         maker<MakeByteDriver>(config.imu.driver, "imu")(config.imu.options);
+  if (config.battery.configured)
+    battery_ = maker<MakeRegisterDriver>(config.battery.driver, "battery")(
+        config.battery.options, config.battery.registers);
   environment_.gnss_configured = config.gnss.configured;
   environment_.imu_configured = config.imu.configured;
   for (std::size_t i = 0; i < kLineCount; ++i) {
@@ -175,12 +178,21 @@ void Gateway::on(const LinesLost&, Time at) {
   scratch_.clear();
 }
 
-void Gateway::on(const BatteryMeasured& measured, Time) {
-  engine_.on_measurement(measured.sample);
+void Gateway::on(const RegistersRead& read, Time received) {
+  if (!battery_ || read.block >= battery_->blocks().size()) return;
+  if (read.words.size() != battery_->blocks()[read.block].count) return;
+  battery_->on_registers(read.block, read.words, received, scratch_);
+  absorb(scratch_);
+  scratch_.clear();
 }
 
-void Gateway::on(const BatteryHealth& health, Time) {
-  environment_.battery = health.health;
+void Gateway::on(const RegistersFailed& failed, Time at) {
+  if (!battery_ || failed.block >= battery_->blocks().size()) return;
+  battery_->on_failure(failed.block, failed.failure, failed.exception, at);
+}
+
+void Gateway::on(const BatteryUp&, Time at) {
+  if (battery_) battery_->on_link_up(at);
 }
 
 void Gateway::on(const CommandGiven& given, Time now) {
@@ -205,6 +217,7 @@ void Gateway::on(const Tick& tick, Time now) {
   }
   absorb(scratch_);
   scratch_.clear();
+  if (battery_) environment_.battery = battery_->health(now);
   for (std::size_t i = 0; i < drives_.size(); ++i)
     environment_.axes[i] = drives_[i].driver->health(now);
   look_at_buses(now);

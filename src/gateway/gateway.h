@@ -71,8 +71,9 @@ class Gateway final {
   void on(const BytesHeard& heard, Time first_byte);
   void on(const LevelsRead& read, Time at);
   void on(const LinesLost& lost, Time at);
-  void on(const BatteryMeasured& measured, Time at);
-  void on(const BatteryHealth& health, Time at);
+  void on(const RegistersRead& read, Time received);
+  void on(const RegistersFailed& failed, Time at);
+  void on(const BatteryUp& up, Time at);
   void on(const BusUp& up, Time now);
   void on(const BusLost& lost, Time now);
   void on(const FramesSent& counts, Time now);
@@ -89,6 +90,7 @@ class Gateway final {
   engine::Engine engine_;
   std::vector<Drive> drives_;
   std::array<std::unique_ptr<ByteDriver>, kStreamCount> streams_;
+  std::unique_ptr<RegisterDriver> battery_;  ///< nullptr: none
   std::vector<std::unique_ptr<LineDriver>> lines_;
   std::vector<Line> line_ids_;
   std::array<Bus, kMaxBuses> buses_;

@@ -41,14 +41,19 @@ struct LevelsRead {
 };
 /// The lines cannot be read.
 struct LinesLost {};
-/// What the battery's driver understood, in a thread of its own.
-struct BatteryMeasured {
-  Measurement sample;
+/// The battery's answer to the request `block` of its driver, asked in a thread of its own.
+struct RegistersRead {
+  std::uint8_t block = 0;
+  FixedVector<std::uint16_t, 125> words;
 };
-/// What that driver says of its device.
-struct BatteryHealth {
-  SourceHealth health;
+/// The request brought nothing; `exception` is Modbus's of a refusal, else 0.
+struct RegistersFailed {
+  std::uint8_t block = 0;
+  RegisterFailure failure = RegisterFailure::silent;
+  int exception = 0;
 };
+/// The way to the battery was opened.
+struct BatteryUp {};
 struct BusUp {
   std::uint8_t bus = 0;
 };
@@ -82,9 +87,9 @@ struct Tick {
 };
 
 /// The order is the recording's: a new one goes to the end.
-using InputBody =
-    std::variant<FrameHeard, BytesHeard, LevelsRead, LinesLost, BatteryMeasured, BatteryHealth,
-                 BusUp, BusLost, FramesSent, StreamUp, CommandGiven, Tick, ProgramTrouble>;
+using InputBody = std::variant<FrameHeard, BytesHeard, LevelsRead, LinesLost, RegistersRead,
+                               RegistersFailed, BatteryUp, BusUp, BusLost, FramesSent, StreamUp,
+                               CommandGiven, Tick, ProgramTrouble>;
 
 struct Input {
   Time time = kNever;

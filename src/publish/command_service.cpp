@@ -224,7 +224,9 @@ void CommandService::start(RequestId id, const StartTaskRequest& request, Time n
     return tell(id, Verb::start_task, false, *problem, out);
   }
   // The path is the task's own copy: whatever happens to the track, the task drives what it was.
-  paths_.push_back(store::build_path(tracks_.at(request.name), *origin_, config_.antenna));
+  auto path = store::build_path(tracks_.at(request.name), *origin_, config_.antenna);
+  path->number = ++last_path_;
+  paths_.push_back(std::move(path));
   expect(id, Verb::start_task, request.name);
   send(id, now, StartTask{paths_.back().get(), index, request.speed_mps}, out);
 }

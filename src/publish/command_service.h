@@ -132,6 +132,7 @@ class CommandService final {
   std::map<Key, Pending> pending_;
   std::vector<std::unique_ptr<const Path>> paths_;
   std::uint64_t last_number_ = 0;
+  std::uint64_t last_path_ = 0;
   TokenBucket mqtt_bucket_;
   TokenBucket cli_bucket_;
   TokenBucket slow_down_bucket_;  ///< answers to a flood must not be a flood

@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <cstring>
 #include <stdexcept>
+#include <utility>
 
 #include "drover/registry.h"
 #include "runtime/clock.h"
@@ -33,31 +34,28 @@ link::ModbusSettings link_settings(const config::BatteryConfig& config) {
   return settings;
 }
 
-std::unique_ptr<RegisterDriver> make_driver(const config::BatteryConfig& config) {
+std::vector<RegisterBlock> blocks_of(const config::BatteryConfig& config) {
   const auto* entry = find_driver(config.driver);
   const auto* make = entry == nullptr ? nullptr : std::get_if<MakeRegisterDriver>(&entry->make);
   if (make == nullptr)
     throw std::runtime_error("battery: no driver \"" + config.driver + "\" of this kind");
-  return (*make)(config.options, config.registers);
+  const auto driver = (*make)(config.options, config.registers);
+  const auto blocks = driver->blocks();
+  return {blocks.begin(), blocks.end()};
 }
 
 }  // namespace
 
 BatteryLoop::BatteryLoop(const config::BatteryConfig& config, BatteryExchange& exchange)
-    : config_(config), exchange_(exchange), driver_(make_driver(config)) {}
+    : config_(config), exchange_(exchange), blocks_(blocks_of(config)) {}
 
 void BatteryLoop::run(const std::atomic<bool>& stop) {
-  std::uint64_t rounds_told = 0;
   while (!stop.load(std::memory_order_relaxed)) {
     Time now = monotonic_now();
     if (!link_ && now >= next_open_) open(now);
     if (link_ && now >= std::max(next_round_, link_->ready_at())) ask(now);
     now = monotonic_now();
-    publish(now);
-    if (rounds_told == 0 && driver_->health(now).good > 0) {
-      rounds_told = 1;
-      log(LogLevel::info, "battery: answers");
-    }
+    publish();
     turns_.fetch_add(1, std::memory_order_relaxed);
     sleep_until(link_ ? std::max(next_round_, link_->ready_at()) : next_open_, now);
   }
@@ -68,7 +66,7 @@ void BatteryLoop::open(Time now) {
   auto opened = link::open_modbus(link_settings(config_), &monotonic_now);
   now = monotonic_now();
   if (!opened.link) {
-    driver_->on_failure(0, RegisterFailure::link, 0, now);
+    tell(gateway::RegistersFailed{0, RegisterFailure::link, 0}, now);
     return lose(opened.problem, now);
   }
   link_ = std::move(opened.link);
@@ -77,7 +75,7 @@ void BatteryLoop::open(Time now) {
   problem_.clear();
   block_ = 0;
   next_round_ = now;
-  driver_->on_link_up(now);
+  tell(gateway::BatteryUp{}, now);
 }
 
 void BatteryLoop::lose(const std::string& why, Time now) {
@@ -98,38 +96,43 @@ void BatteryLoop::lose(const std::string& why, Time now) {
 void BatteryLoop::ask(Time now) {
   const auto period = from_s(config_.period_s);
   if (block_ == 0) next_round_ = now;
-  const RegisterBlock& block = driver_->blocks()[block_];
-  std::array<std::uint16_t, 125> words{};
-  const std::span<std::uint16_t> part(words.data(), std::min<std::size_t>(block.count, 125));
-  const auto result = link_->read(block, part);
+  const RegisterBlock& block = blocks_[block_];
+  gateway::RegistersRead read;
+  read.block = static_cast<std::uint8_t>(block_);
+  read.words.resize(block.count);
+  const auto result = link_->read(block, read.words);
   now = monotonic_now();
   if (result.good) {
-    out_.clear();
-    driver_->on_registers(block_, part, now, out_);
-    for (const auto& sample : out_.measurements) dropped_ += exchange_.samples.push(sample) ? 0 : 1;
-    if (++block_ == driver_->blocks().size()) {
+    tell(read, now);
+    if (++block_ == blocks_.size()) {
+      if (!std::exchange(answers_, true)) log(LogLevel::info, "battery: answers");
       block_ = 0;
       next_round_ += period;
     }
     return;
   }
-  driver_->on_failure(block_, result.failure, result.exception, now);
+  tell(gateway::RegistersFailed{read.block, result.failure, result.exception}, now);
   block_ = 0;
   next_round_ = now + period;
   if (result.failure == RegisterFailure::link)
     lose(config_.port + ": lost (" + std::strerror(link_->error()) + ")", now);
 }
 
-void BatteryLoop::publish(Time now) {
-  auto& state = exchange_.state.back();
-  state.health = driver_->health(now);
-  state.link.name = "battery";
-  state.link.up = link_ != nullptr;
-  state.link.reason = problem_;
-  state.link.sent = closed_.requests + (link_ ? link_->counters().requests : 0);
-  state.link.received = closed_.answers + (link_ ? link_->counters().answers : 0);
-  state.link.dropped = dropped_ + closed_.late_bytes + (link_ ? link_->counters().late_bytes : 0);
-  exchange_.state.publish();
+/// What finds the ring full is missed like an answer that never came: the driver's data grow old.
+template <class What>
+void BatteryLoop::tell(const What& what, Time at) {
+  dropped_ += exchange_.told.push(BatteryTold{at, what}) ? 0 : 1;
+}
+
+void BatteryLoop::publish() {
+  auto& link = exchange_.link.back();
+  link.name = "battery";
+  link.up = link_ != nullptr;
+  link.reason = problem_;
+  link.sent = closed_.requests + (link_ ? link_->counters().requests : 0);
+  link.received = closed_.answers + (link_ ? link_->counters().answers : 0);
+  link.dropped = dropped_ + closed_.late_bytes + (link_ ? link_->counters().late_bytes : 0);
+  exchange_.link.publish();
 }
 
 void BatteryLoop::sleep_until(Time due, Time now) {
@@ -141,7 +144,7 @@ void BatteryLoop::sleep_until(Time due, Time now) {
   if (link_ && fds[1].revents != 0 && !link_->drain()) {
     // Noticed at once: a device that stays open comes back under another name.
     const Time then = monotonic_now();
-    driver_->on_failure(0, RegisterFailure::link, 0, then);
+    tell(gateway::RegistersFailed{0, RegisterFailure::link, 0}, then);
     lose(config_.port + ": lost (" + std::strerror(link_->error()) + ")", then);
   }
 }

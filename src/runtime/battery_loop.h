@@ -1,30 +1,34 @@
 // The battery's thread: one bus, one device, a round of requests each period. A request may take a
-// second, so nobody waits for it: samples and health go to the control thread through a ring and a
-// triple buffer.
+// second, so nobody waits for it: what came goes to the control thread through a ring, the link's
+// state through a triple buffer. What the registers mean is the gateway's driver's to say.
 #pragma once
 
 #include <atomic>
 #include <memory>
+#include <variant>
+#include <vector>
 
 #include "config/config.h"
 #include "drover/driver.h"
 #include "drover/snapshot.h"
 #include "drover/spsc_ring.h"
 #include "drover/triple_buffer.h"
+#include "gateway/input.h"
 #include "link/modbus_link.h"
 #include "runtime/wake.h"
 
 namespace drover::runtime {
 
-struct BatteryState {
-  SourceHealth health;
-  LinkSnapshot link;
+/// What became of a request, or of the way to the battery.
+struct BatteryTold {
+  Time time = kNever;
+  std::variant<gateway::BatteryUp, gateway::RegistersRead, gateway::RegistersFailed> what;
 };
 
 /// Battery → control.
 struct BatteryExchange {
-  SpscRing<Measurement, 16> samples;
-  TripleBuffer<BatteryState> state;
+  SpscRing<BatteryTold, 16> told;
+  TripleBuffer<LinkSnapshot> link;
 };
 
 class BatteryLoop final {
@@ -43,22 +47,24 @@ class BatteryLoop final {
   void open(Time now);
   void lose(const std::string& why, Time now);
   void ask(Time now);
-  void publish(Time now);
+  template <class What>
+  void tell(const What& what, Time at);
+  void publish();
   void sleep_until(Time due, Time now);
 
   config::BatteryConfig config_;
   BatteryExchange& exchange_;
-  std::unique_ptr<RegisterDriver> driver_;
+  std::vector<RegisterBlock> blocks_;  ///< what the driver asks for, each round
   std::unique_ptr<link::ModbusLink> link_;
   link::ModbusCounters closed_;  ///< of the links before this one
   Wake wake_;
   std::size_t block_ = 0;
+  bool answers_ = false;  ///< it was said once
   Time next_round_ = kNever;
   Time next_open_ = kNever;
   Duration pause_{};
   Reason problem_ = "not opened yet";
   std::uint64_t dropped_ = 0;
-  DriverOut out_;
   std::atomic<std::uint64_t> turns_{0};
 };
 

@@ -117,12 +117,14 @@ Time ControlLoop::cycle(Time begin, std::uint64_t late) {
   drain_can(begin);
   read_lines(begin);
   watch_guard(begin);
-  take_battery(begin);
+  take_battery();
   watch_program(begin);
   take_commands(begin);
 
   const bool guard_alive = guard_seen_ + guard_stale_ > begin && keeper_.guard_equipped();
   apply(begin, gateway::Tick{guard_alive, guard_has_bus_});
+  // Before the events go: who hears that a path is released may delete it.
+  if (exchange_.recorder != nullptr) exchange_.recorder->output(gateway_);
   const auto& out = gateway_.output();
   for (std::size_t bus = 0; bus < gateway_.bus_count(); ++bus) {
     const auto& frames = out.frames[bus];
@@ -330,11 +332,11 @@ void ControlLoop::watch_guard(Time now) {
   }
 }
 
-void ControlLoop::take_battery(Time now) {
+void ControlLoop::take_battery() {
   if (battery_ == nullptr) return;
-  Measurement sample;
-  while (battery_->samples.pop(sample)) apply(now, gateway::BatteryMeasured{sample});
-  apply(now, gateway::BatteryHealth{battery_->state.latest().health});
+  BatteryTold told;
+  while (battery_->told.pop(told))
+    std::visit([&](const auto& what) { apply(told.time, what); }, told.what);
 }
 
 Time ControlLoop::publish(Time now) {
@@ -354,7 +356,7 @@ Time ControlLoop::publish(Time now) {
     }
     (void)snapshot.links.push_back(state);
   }
-  if (battery_ != nullptr) (void)snapshot.links.push_back(battery_->state.latest().link);
+  if (battery_ != nullptr) (void)snapshot.links.push_back(battery_->link.latest());
   const Time end = monotonic_now();
   if (end - now > stats_.longest_step) stats_.longest_step = end - now;
   snapshot.cycle = stats_;

@@ -13,6 +13,7 @@
 #include "runtime/guard_client.h"
 #include "runtime/link_keeper.h"
 #include "runtime/program_watch.h"
+#include "runtime/recorder.h"
 #include "runtime/wake.h"
 
 namespace drover::runtime {
@@ -31,6 +32,7 @@ struct ControlExchange {
   std::atomic<const char*> trouble{nullptr};
   /// Counted by the main thread at each look at the others; 0: it has not begun.
   std::atomic<std::uint64_t> looks{0};
+  Recorder* recorder = nullptr;  ///< control and publish tell it; nullptr: nothing is recorded
 };
 
 class ControlLoop final {
@@ -42,7 +44,10 @@ class ControlLoop final {
 
  private:
   /// Nothing reaches the gateway but through here.
-  void apply(const gateway::Input& input) { gateway_.apply(input); }
+  void apply(const gateway::Input& input) {
+    if (exchange_.recorder != nullptr) exchange_.recorder->input(input);
+    gateway_.apply(input);
+  }
   template <class Body>
   void apply(Time time, const Body& body) {
     apply(gateway::Input{time, body});
@@ -61,7 +66,7 @@ class ControlLoop final {
   void watch_program(Time now);
   void send(std::size_t bus, std::span<const CanFrame> frames, Time decided);
   void watch_guard(Time now);
-  void take_battery(Time now);
+  void take_battery();
   Time publish(Time now);
   Name slot_name(std::size_t slot) const;
 

@@ -61,6 +61,13 @@ constexpr Duration kFeedEach = 200ms;  // of systemd's watchdog, which has 1 s
 
 class Daemon final {
  public:
+  Daemon(const config::Loaded& loaded, const std::string& record) : Daemon(loaded.config) {
+    if (record.empty()) return;
+    recorder_ = std::make_unique<Recorder>(
+        record, gateway::RecordingHeader{DROVER_VERSION, loaded.text, loaded.register_map,
+                                         gateway::field_names(gateway_)});
+    control_exchange_.recorder = recorder_.get();
+  }
   explicit Daemon(const config::DroverConfig& config)
       : config_(config),
         files_(),
@@ -79,6 +86,11 @@ class Daemon final {
     Worker storage("storage", [this] { run_storage(storage_, storage_exchange_, stop_publish_); });
     std::optional<Worker> battery;
     if (battery_) battery.emplace("battery", [this] { battery_->run(stop_battery_); });
+    std::optional<Worker> recorder;
+    if (recorder_) {
+      log(LogLevel::info, "records to " + recorder_->file());
+      recorder.emplace("recorder", [this] { recorder_->run(stop_recorder_); });
+    }
     Worker control("control", [this] { run_control(); });
     Worker publish("publish", [this] { publish_.run(stop_publish_); });
     ready_told_ = systemd_.tell("READY=1");
@@ -99,6 +111,9 @@ class Daemon final {
     stop_control_ = true;
     join(control, 1s);
     if (battery) join(*battery, BatteryLoop::kLongestTurn);
+    stop_recorder_ = true;
+    if (recorder_) recorder_->wake();
+    if (recorder) join(*recorder, 1s);
     stop_keeper_ = true;
     keeper_.wake();
     join(keeper, 1s);
@@ -188,6 +203,7 @@ class Daemon final {
   StorageExchange storage_exchange_;
   BatteryExchange battery_exchange_;
   std::unique_ptr<BatteryLoop> battery_;
+  std::unique_ptr<Recorder> recorder_;  ///< nullptr: nothing is recorded
   ControlLoop control_;
   PublishLoop publish_;
   Supervisor supervisor_;
@@ -200,17 +216,18 @@ class Daemon final {
   std::atomic<bool> stop_publish_{false};
   std::atomic<bool> stop_battery_{false};
   std::atomic<bool> stop_keeper_{false};
+  std::atomic<bool> stop_recorder_{false};
 };
 
 }  // namespace
 
-int run_daemon(const config::DroverConfig& config) {
-  const auto lock = take_lock(config.paths.run);
+int run_daemon(const config::Loaded& loaded, const std::string& record) {
+  const auto lock = take_lock(loaded.config.paths.run);
   const auto signals = end_signals();
   ::pthread_sigmask(SIG_BLOCK, &signals, nullptr);  // before any thread, so that all inherit it
   ::signal(SIGPIPE, SIG_IGN);
   const LogWriter log_writer;  // before any other thread: nobody waits for standard error
-  const auto daemon = std::make_unique<Daemon>(config);
+  const auto daemon = std::make_unique<Daemon>(loaded, record);
   daemon->run();
   log(LogLevel::info, "droverd ends; the robot is at rest");
   return 0;

@@ -3,12 +3,13 @@
 
 #include <string>
 
-#include "config/config.h"
+#include "config/load.h"
 
 namespace drover::runtime {
 
-/// Runs until SIGTERM or SIGINT; returns the exit code. Throws std::runtime_error for what makes a
-/// start impossible (folders, sockets, a second daemon): exit code 2.
-int run_daemon(const config::DroverConfig& config);
+/// Runs until SIGTERM or SIGINT; returns the exit code. `record` is the file of a recording, or
+/// empty. Throws std::runtime_error for what makes a start impossible (folders, sockets, a second
+/// daemon, a recording that cannot be made): exit code 2.
+int run_daemon(const config::Loaded& loaded, const std::string& record);
 
 }  // namespace drover::runtime

@@ -258,6 +258,9 @@ void PublishLoop::carry_out(publish::Actions& actions) {
 void PublishLoop::deliver(const Command& command, publish::Actions& actions) {
   const bool cancel = std::holds_alternative<CancelTask>(command.body);
   if (!cancel && !std::holds_alternative<EngageStop>(command.body)) {
+    const auto* start = std::get_if<StartTask>(&command.body);
+    if (control_.recorder != nullptr && start != nullptr && start->path != nullptr)
+      control_.recorder->path(*start->path);
     const bool taken = control_.commands.push(QueuedCommand{command, control_.stops.asked()});
     if (!taken) service_.on_undelivered(command, actions);
     return;

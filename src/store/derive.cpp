@@ -33,8 +33,8 @@ Track derive(const Track& track, const std::optional<GeodeticPoint>& origin,
   return derived;
 }
 
-std::unique_ptr<const Path> build_path(const Track& track, const GeodeticPoint& origin,
-                                       const AntennaOffset& antenna) {
+std::unique_ptr<Path> build_path(const Track& track, const GeodeticPoint& origin,
+                                 const AntennaOffset& antenna) {
   const Track derived = derive(track, origin, antenna);
   auto path = std::make_unique<Path>();
   path->name = derived.name;

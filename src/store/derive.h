@@ -26,7 +26,7 @@ Track derive(const Track& track, const std::optional<GeodeticPoint>& origin,
              const AntennaOffset& antenna = {});
 
 /// The polyline to drive, in the frame of `origin`. It shares nothing with the track.
-std::unique_ptr<const Path> build_path(const Track& track, const GeodeticPoint& origin,
-                                       const AntennaOffset& antenna = {});
+std::unique_ptr<Path> build_path(const Track& track, const GeodeticPoint& origin,
+                                 const AntennaOffset& antenna = {});
 
 }  // namespace drover::store

@@ -18,7 +18,7 @@ src/gateway      drover/ gateway/ config/ engine/ link/can_condition.h
 src/publish      drover/ publish/ store/ config/located_json.h config/json_text.h
 src/runtime      drover/ runtime/ publish/ store/ config/ link/ engine/ gateway/
 src/guard        drover/ guard/
-src/cli          drover/ cli/ link/unique_fd.h config/ publish/status/names.h
+src/cli          drover/ cli/ gateway/replay.h link/unique_fd.h config/ publish/status/names.h
 src/droverd.cpp  config/ runtime/
 sim/plant        drover/ sim/plant/
 sim/robot        drover/ link/ sim/plant/ sim/robot/ config/register_map.h

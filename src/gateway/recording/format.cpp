@@ -1,0 +1,68 @@
+#include "gateway/recording/format.h"
+
+namespace drover::gateway {
+
+std::vector<std::uint8_t> written(const RecordingHeader& header) {
+  std::size_t room = 1024 + header.configuration.size() + header.register_map.size();
+  for (const auto& field : header.fields) room += field.name.size() + 8;
+  std::vector<std::uint8_t> bytes(room);
+  ByteWriter out(bytes);
+  for (const char c : kRecordingBegins) out.byte(static_cast<std::uint8_t>(c));
+  out.text(header.version);
+  out.text(header.configuration);
+  out.text(header.register_map);
+  out.number(header.fields.size());
+  for (const auto& field : header.fields) {
+    out.byte(static_cast<std::uint8_t>(field.kind));
+    out.text(field.name);
+  }
+  bytes.resize(out.written().size());
+  return bytes;
+}
+
+RecordingHeader read_header(ByteReader& in) {
+  RecordingHeader header;
+  for (const char c : kRecordingBegins)
+    if (in.byte() != static_cast<std::uint8_t>(c)) in.fail();
+  header.version = in.text();
+  header.configuration = in.text();
+  header.register_map = in.text();
+  const auto count = in.below(kMaxFields + 1);
+  for (std::uint64_t i = 0; i < count && in.good(); ++i) {
+    const auto kind = static_cast<FieldKind>(in.byte());
+    if (kind != FieldKind::whole && kind != FieldKind::real && kind != FieldKind::text) in.fail();
+    header.fields.push_back({kind, std::string(in.text())});
+  }
+  return header;
+}
+
+std::vector<std::uint8_t> written(const Path& path) {
+  std::vector<std::uint8_t> bytes(64 + path.name.size() + 16 * path.points.size());
+  ByteWriter out(bytes);
+  out.byte(static_cast<std::uint8_t>(RecordKind::path));
+  out.number(path.number);
+  out.text(path.name);
+  out.number(path.points.size());
+  for (const auto& point : path.points) {
+    out.real(point.x_m);
+    out.real(point.y_m);
+  }
+  bytes.resize(out.written().size());
+  return bytes;
+}
+
+Path read_path(ByteReader& in) {
+  constexpr std::size_t kPointBytes = 16;
+  Path path;
+  path.number = in.number();
+  path.name = in.text();
+  const auto count = in.number();
+  if (count > in.left().size() / kPointBytes) in.fail();
+  for (std::uint64_t i = 0; i < count && in.good(); ++i) {
+    const double x_m = in.real();
+    path.points.push_back({x_m, in.real()});
+  }
+  return path;
+}
+
+}  // namespace drover::gateway

@@ -1,0 +1,285 @@
+#include "gateway/recording/input_codec.h"
+
+#include <string>
+
+#include "gateway/recording/text.h"
+
+namespace drover::gateway {
+
+namespace {
+
+// One `put` and one `get` for each input, in the order of the variant.
+
+void put_frame(const CanFrame& frame, ByteWriter& out) {
+  out.number(frame.id);
+  const unsigned flags = (frame.extended ? 1U : 0U) | (frame.remote ? 2U : 0U) |
+                         (frame.fd ? 4U : 0U) | (frame.error ? 8U : 0U);
+  out.byte(static_cast<std::uint8_t>(flags));
+  out.blob(frame.payload());
+}
+
+CanFrame get_frame(ByteReader& in) {
+  CanFrame frame;
+  frame.id = static_cast<std::uint32_t>(in.below(std::uint64_t{1} << 32U));
+  const auto flags = in.byte();
+  frame.extended = (flags & 1U) != 0;
+  frame.remote = (flags & 2U) != 0;
+  frame.fd = (flags & 4U) != 0;
+  frame.error = (flags & 8U) != 0;
+  const auto data = in.blob();
+  if (data.size() > frame.data.size() || flags > 15U) {
+    in.fail();
+    return {};
+  }
+  frame.len = static_cast<std::uint8_t>(data.size());
+  for (std::size_t i = 0; i < data.size(); ++i) frame.data[i] = data[i];
+  return frame;
+}
+
+std::uint8_t get_bus(ByteReader& in) {
+  return static_cast<std::uint8_t>(in.below(kMaxBuses));
+}
+bool get_flag(ByteReader& in) {
+  return in.below(2) != 0;
+}
+
+void put(const FrameHeard& heard, ByteWriter& out) {
+  out.byte(heard.bus);
+  put_frame(heard.frame, out);
+}
+void get(FrameHeard& heard, ByteReader& in) {
+  heard.bus = get_bus(in);
+  heard.frame = get_frame(in);
+}
+
+void put(const BytesHeard& heard, ByteWriter& out) {
+  out.byte(static_cast<std::uint8_t>(heard.stream));
+  out.blob(heard.bytes);
+}
+void get(BytesHeard& heard, ByteReader& in) {
+  heard.stream = static_cast<Stream>(in.below(kStreamCount));
+  heard.bytes = in.blob();
+}
+
+void put(const LevelsRead& read, ByteWriter& out) {
+  out.number(read.levels.size());
+  for (const bool level : read.levels) out.byte(level ? 1 : 0);
+}
+void get(LevelsRead& read, ByteReader& in) {
+  const auto count = in.below(read.levels.capacity() + 1);
+  for (std::uint64_t i = 0; i < count; ++i) (void)read.levels.push_back(get_flag(in));
+}
+
+void put(const LinesLost&, ByteWriter&) {}
+void get(LinesLost&, ByteReader&) {}
+
+void put(const RegistersRead& read, ByteWriter& out) {
+  out.byte(read.block);
+  out.number(read.words.size());
+  for (const auto word : read.words) out.number(word);
+}
+void get(RegistersRead& read, ByteReader& in) {
+  read.block = in.byte();
+  const auto count = in.below(read.words.capacity() + 1);
+  for (std::uint64_t i = 0; i < count && in.good(); ++i)
+    (void)read.words.push_back(static_cast<std::uint16_t>(in.below(0x10000)));
+}
+
+void put(const RegistersFailed& failed, ByteWriter& out) {
+  out.byte(failed.block);
+  out.byte(static_cast<std::uint8_t>(failed.failure));
+  out.signed_number(failed.exception);
+}
+void get(RegistersFailed& failed, ByteReader& in) {
+  failed.block = in.byte();
+  failed.failure =
+      static_cast<RegisterFailure>(in.below(static_cast<unsigned>(RegisterFailure::link) + 1));
+  failed.exception = static_cast<std::uint8_t>(in.signed_number());
+}
+
+void put(const BatteryUp&, ByteWriter&) {}
+void get(BatteryUp&, ByteReader&) {}
+
+void put(const BusUp& up, ByteWriter& out) {
+  out.byte(up.bus);
+}
+void get(BusUp& up, ByteReader& in) {
+  up.bus = get_bus(in);
+}
+
+void put(const BusLost& lost, ByteWriter& out) {
+  out.byte(lost.bus);
+  out.text(lost.why);
+}
+void get(BusLost& lost, ByteReader& in) {
+  lost.bus = get_bus(in);
+  lost.why.assign(in.text());
+}
+
+void put(const FramesSent& counts, ByteWriter& out) {
+  out.byte(counts.bus);
+  out.number(counts.sent);
+  out.number(counts.refused);
+}
+void get(FramesSent& counts, ByteReader& in) {
+  counts.bus = get_bus(in);
+  counts.sent = in.number();
+  counts.refused = in.number();
+}
+
+void put(const StreamUp& up, ByteWriter& out) {
+  out.byte(static_cast<std::uint8_t>(up.stream));
+}
+void get(StreamUp& up, ByteReader& in) {
+  up.stream = static_cast<Stream>(in.below(kStreamCount));
+}
+
+void put(const Tick& tick, ByteWriter& out) {
+  out.byte(
+      static_cast<std::uint8_t>((tick.guard_alive ? 1U : 0U) | (tick.guard_has_bus ? 2U : 0U)));
+}
+void get(Tick& tick, ByteReader& in) {
+  const auto bits = in.below(4);
+  tick.guard_alive = (bits & 1U) != 0;
+  tick.guard_has_bus = (bits & 2U) != 0;
+}
+
+void put(const ProgramTrouble& trouble, ByteWriter& out) {
+  out.text(trouble.why);
+}
+void get(ProgramTrouble& trouble, ByteReader& in) {
+  trouble.why.assign(in.text());
+}
+
+// Bodies of commands: the same once more.
+
+void put(const std::monostate&, ByteWriter&) {}
+void get(std::monostate&, ByteReader&) {}
+void put(const CancelTask&, ByteWriter&) {}
+void get(CancelTask&, ByteReader&) {}
+void put(const EngageStop&, ByteWriter&) {}
+void get(EngageStop&, ByteReader&) {}
+void put(const ResetStop&, ByteWriter&) {}
+void get(ResetStop&, ByteReader&) {}
+void put(const ProposeOrigin&, ByteWriter&) {}
+void get(ProposeOrigin&, ByteReader&) {}
+void put(const FindHeading&, ByteWriter&) {}
+void get(FindHeading&, ByteReader&) {}
+
+void put(const SetOrigin& set, ByteWriter& out) {
+  out.real(set.origin.latitude_deg);
+  out.real(set.origin.longitude_deg);
+  out.real(set.origin.altitude_m);
+}
+void get(SetOrigin& set, ByteReader& in) {
+  set.origin.latitude_deg = in.real();
+  set.origin.longitude_deg = in.real();
+  set.origin.altitude_m = in.real();
+}
+
+void put(const JointTargets& targets, ByteWriter& out) {
+  out.number(targets.joints.size());
+  for (const auto& joint : targets.joints) {
+    out.byte(joint.axis);
+    out.real(joint.velocity_radps);
+  }
+}
+void get(JointTargets& targets, ByteReader& in) {
+  const auto count = in.below(targets.joints.capacity() + 1);
+  for (std::uint64_t i = 0; i < count && in.good(); ++i) {
+    const auto axis = static_cast<AxisId>(in.below(kMaxAxes));
+    (void)targets.joints.push_back({axis, in.real()});
+  }
+}
+
+void put(const JointTargetsRefused& refused, ByteWriter& out) {
+  out.text(refused.reason);
+}
+void get(JointTargetsRefused& refused, ByteReader& in) {
+  refused.reason.assign(in.text());
+}
+
+/// The path was recorded before, by the thread that made it.
+void put(const StartTask& start, ByteWriter& out) {
+  out.number(start.path == nullptr ? 0 : start.path->number);
+  out.number(start.target);
+  out.real(start.speed_mps);
+}
+void get(StartTask& start, const FindPath& find_path, ByteReader& in) {
+  const auto number = in.number();
+  if (number != 0 && in.good()) {
+    start.path = find_path(number);
+    if (start.path == nullptr) in.fail();
+  }
+  start.target = static_cast<std::uint32_t>(in.below(std::uint64_t{1} << 32U));
+  start.speed_mps = in.real();
+}
+
+void put(const CommandGiven& given, ByteWriter& out) {
+  const auto& command = given.command;
+  out.byte(static_cast<std::uint8_t>(command.id.source));
+  out.number(command.id.number);
+  out.signed_number(command.received.time_since_epoch().count());
+  out.byte(static_cast<std::uint8_t>(command.body.index()));
+  std::visit([&](const auto& body) { put(body, out); }, command.body);
+}
+
+/// Calls `use` with an empty alternative of `Variant`, by its number.
+template <class Variant, std::size_t I = 0, class Use>
+void with_alternative(std::size_t index, Variant& into, const Use& use) {
+  if constexpr (I < std::variant_size_v<Variant>) {
+    if (index == I) return use(into.template emplace<I>());
+    with_alternative<Variant, I + 1>(index, into, use);
+  }
+}
+
+void get(CommandGiven& given, const FindPath& find_path, ByteReader& in) {
+  auto& command = given.command;
+  command.id.source =
+      static_cast<RequestId::Source>(in.below(static_cast<unsigned>(RequestId::Source::aimrt) + 1));
+  command.id.number = in.number();
+  command.received = Time{Duration{in.signed_number()}};
+  const auto index = in.below(std::variant_size_v<decltype(command.body)>);
+  with_alternative(index, command.body, [&](auto& body) {
+    if constexpr (std::is_same_v<std::decay_t<decltype(body)>, StartTask>) {
+      get(body, find_path, in);
+    } else {
+      get(body, in);
+    }
+  });
+}
+
+}  // namespace
+
+void write_frame(const CanFrame& frame, ByteWriter& out) {
+  put_frame(frame, out);
+}
+
+CanFrame read_frame(ByteReader& in) {
+  return get_frame(in);
+}
+
+void write_input(const Input& input, Time before, ByteWriter& out) {
+  out.signed_number((input.time - before).count());
+  std::visit([&](const auto& body) { put(body, out); }, input.body);
+}
+
+Input read_input(std::uint8_t kind, Time before, const FindPath& find_path, ByteReader& in) {
+  Input input;
+  // Unsigned: a damaged number may be as large as it likes.
+  input.time = Time{Duration{
+      static_cast<std::int64_t>(static_cast<std::uint64_t>(before.time_since_epoch().count()) +
+                                static_cast<std::uint64_t>(in.signed_number()))}};
+  if (kind >= kInputKinds) in.fail();
+  if (!in.good()) return input;
+  with_alternative(kind, input.body, [&](auto& body) {
+    if constexpr (std::is_same_v<std::decay_t<decltype(body)>, CommandGiven>) {
+      get(body, find_path, in);
+    } else {
+      get(body, in);
+    }
+  });
+  return input;
+}
+
+}  // namespace drover::gateway

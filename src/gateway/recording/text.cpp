@@ -1,0 +1,165 @@
+#include "gateway/recording/text.h"
+
+#include "gateway/recording/input_codec.h"
+
+namespace drover::gateway {
+
+namespace {
+
+constexpr int size_of(std::string_view text) {
+  return static_cast<int>(text.size());
+}
+
+/// A word, who asked, and a reason.
+Line answer(const char* word, const RequestId& id, std::string_view reason) {
+  Line line;
+  line.format("%s %d/%llu: %.*s", word, static_cast<int>(id.source),
+              static_cast<unsigned long long>(id.number), size_of(reason), reason.data());
+  return line;
+}
+
+Line body_text(const std::monostate&) {
+  return "nothing";
+}
+Line body_text(const CommandAccepted& event) {
+  return answer("accepted", event.id, event.note);
+}
+Line body_text(const CommandRefused& event) {
+  return answer("refused", event.id, event.reason);
+}
+Line body_text(const NavigationStarted& event) {
+  return answer("navigation started", event.id, "");
+}
+Line body_text(const NavigationNotStarted& event) {
+  return answer("navigation not started", event.id, event.reason);
+}
+Line body_text(const TaskEnded& event) {
+  constexpr const char* kHow[] = {"task succeeded", "task cancelled", "task failed"};
+  return answer(kHow[static_cast<std::size_t>(event.how)], event.id, event.reason);
+}
+Line body_text(const OriginProposed& event) {
+  Line place;
+  place.format("%.17g %.17g %.17g", event.origin.latitude_deg, event.origin.longitude_deg,
+               event.origin.altitude_m);
+  return answer("origin proposed", event.id, place);
+}
+/// Its number: an address is another one in each run.
+Line body_text(const PathReleased& event) {
+  Line line;
+  line.format("path %llu released",
+              event.path == nullptr ? 0ULL : static_cast<unsigned long long>(event.path->number));
+  return line;
+}
+Line body_text(const Notice& event) {
+  const auto text = event.text.view();
+  Line line;
+  line.format("notice %d: %.*s", static_cast<int>(event.level), size_of(text), text.data());
+  return line;
+}
+
+std::string number(std::uint64_t value) {
+  return std::to_string(value);
+}
+
+std::string words(const FrameHeard& heard) {
+  return "frame on bus " + number(heard.bus) + ": " + std::string(text_of(heard.frame)) +
+         (heard.frame.error ? " (error frame)" : "");
+}
+std::string words(const BytesHeard& heard) {
+  return (heard.stream == Stream::gnss ? "bytes of gnss: " : "bytes of imu: ") +
+         text_of(heard.bytes);
+}
+std::string words(const LevelsRead& read) {
+  std::string text = "levels:";
+  for (const bool level : read.levels) text += level ? " 1" : " 0";
+  return text;
+}
+std::string words(const LinesLost&) {
+  return "lines lost";
+}
+std::string words(const RegistersRead& read) {
+  std::string text = "registers of block " + number(read.block) + ":";
+  for (const auto word : read.words) text += " " + number(word);
+  return text;
+}
+std::string words(const RegistersFailed& failed) {
+  return "no registers of block " + number(failed.block) + ": failure " +
+         number(static_cast<std::uint64_t>(failed.failure)) + ", exception " +
+         std::to_string(failed.exception);
+}
+std::string words(const BatteryUp&) {
+  return "battery's link up";
+}
+std::string words(const BusUp& up) {
+  return "bus " + number(up.bus) + " up";
+}
+std::string words(const BusLost& lost) {
+  return "bus " + number(lost.bus) + " lost: " + std::string(lost.why);
+}
+std::string words(const FramesSent& counts) {
+  return "bus " + number(counts.bus) + " took " + number(counts.sent) + " frames so far, refused " +
+         number(counts.refused);
+}
+std::string words(const StreamUp& up) {
+  return up.stream == Stream::gnss ? "gnss up" : "imu up";
+}
+std::string words(const Tick& tick) {
+  return std::string("tick") + (tick.guard_alive ? ", guard alive" : ", no guard") +
+         (tick.guard_has_bus ? ", guard has the bus" : "");
+}
+std::string words(const ProgramTrouble& trouble) {
+  return "trouble of the daemon: " + std::string(trouble.why);
+}
+std::string words(const CommandGiven& given) {
+  constexpr const char* kBodies[] = {"nothing",       "start of a task", "cancel",
+                                     "stop",          "reset",           "proposal of an origin",
+                                     "an origin",     "joint targets",   "joint targets refused",
+                                     "heading search"};
+  static_assert(std::size(kBodies) == std::variant_size_v<decltype(Command::body)>);
+  const auto& command = given.command;
+  std::string text = "command " + number(static_cast<std::uint64_t>(command.id.source)) + "/" +
+                     number(command.id.number) + ": " + kBodies[command.body.index()];
+  if (const auto* start = std::get_if<StartTask>(&command.body))
+    text += " on path " + number(start->path == nullptr ? 0 : start->path->number) + " to point " +
+            number(start->target);
+  return text;
+}
+
+}  // namespace
+
+Line text_of(const Event& event) {
+  const Line body = std::visit([](const auto& it) { return body_text(it); }, event.body);
+  const auto text = body.view();
+  Line line;
+  line.format("at %.9f s: %.*s", to_s(event.time), size_of(text), text.data());
+  return line;
+}
+
+Line text_of(const CanFrame& frame) {
+  Line line;
+  char data[2 * 64 + 1] = {};
+  for (std::size_t i = 0; i < frame.len; ++i)
+    std::snprintf(data + 2 * i, 3, "%02X", static_cast<unsigned>(frame.data[i]));
+  line.format(frame.extended ? "%08X#%s%s%s" : "%03X#%s%s%s", frame.id, frame.fd ? "#0" : "",
+              frame.remote ? "R" : "", data);
+  return line;
+}
+
+std::string text_of(std::span<const std::uint8_t> bytes) {
+  constexpr std::size_t kMostShown = 96;
+  std::string text;
+  for (const auto byte : bytes.first(std::min(bytes.size(), kMostShown))) {
+    char pair[3] = {};
+    std::snprintf(pair, sizeof pair, "%02X", static_cast<unsigned>(byte));
+    text += pair;
+  }
+  return text + (bytes.size() > kMostShown ? "..." : "");
+}
+
+std::string text_of(const Input& input) {
+  char time[40] = {};
+  std::snprintf(time, sizeof time, "at %.9f s: ", to_s(input.time));
+  return time + std::visit([](const auto& body) { return words(body); }, input.body);
+}
+
+}  // namespace drover::gateway

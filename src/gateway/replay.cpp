@@ -1,0 +1,293 @@
+#include "gateway/replay.h"
+
+#include <cstdio>
+#include <deque>
+#include <map>
+#include <memory>
+#include <stdexcept>
+
+#include "config/load.h"
+#include "gateway/recording/encoder.h"
+#include "gateway/recording/field_values.h"
+#include "gateway/recording/text.h"
+
+namespace drover::gateway {
+
+namespace {
+
+/// So many inputs are shown before a difference.
+constexpr std::size_t kInputsShown = 8;
+
+std::string shown(FieldKind kind, const FieldValue& value) {
+  if (kind == FieldKind::text) return '"' + value.text + '"';
+  if (kind == FieldKind::whole) return std::to_string(static_cast<std::int64_t>(value.bits));
+  char text[40] = {};
+  std::snprintf(text, sizeof text, "%.17g", std::bit_cast<double>(value.bits));
+  return text;
+}
+
+class Replay final {
+ public:
+  explicit Replay(std::span<const std::uint8_t> file) : in_(file) {}
+
+  Replayed run() {
+    if (!begin()) return result_;
+    while (!in_.left().empty() && !over_) {
+      const auto record = in_.blob();
+      if (!in_.good()) {
+        result_.note = "it ends within a record: droverd was killed, or the disk was full";
+        break;
+      }
+      take(record);
+    }
+    if (!over_) finish(Replayed::Verdict::equal, result_.note);
+    if (!over_ && !ended_ && result_.note.empty())
+      result_.note = "it ends without a last word: droverd was killed";
+    return result_;
+  }
+
+ private:
+  /// An input that was applied, as it was recorded.
+  struct Latest {
+    std::uint8_t kind = 0;
+    Time before;
+    std::span<const std::uint8_t> record;
+  };
+
+  void finish(Replayed::Verdict verdict, std::string note) {
+    result_.verdict = verdict;
+    result_.note = std::move(note);
+  }
+  /// Nothing after it is looked at.
+  void give_up(std::string why) {
+    over_ = true;
+    char place[80] = {};
+    std::snprintf(place, sizeof place, " (equal for %llu cycles until then)",
+                  static_cast<unsigned long long>(result_.cycles));
+    finish(Replayed::Verdict::unusable, std::move(why) + place);
+  }
+
+  bool begin() {
+    RecordingHeader header = read_header(in_);
+    if (!in_.good()) {
+      result_.note = "this is no recording of this program's format";
+      return false;
+    }
+    result_.version = header.version;
+    const auto loaded = config::load_text(header.configuration, "", std::move(header.register_map));
+    if (!loaded.problems.empty()) {
+      result_.note =
+          "its configuration is not understood: " + loaded.problems.front().text("configuration");
+      return false;
+    }
+    try {
+      gateway_ = std::make_unique<Gateway>(loaded.config);
+    } catch (const std::runtime_error& error) {
+      result_.note = error.what();
+      return false;
+    }
+    fields_ = std::move(header.fields);
+    recorded_.resize(fields_.size());
+    match_fields();
+    return true;
+  }
+
+  void match_fields() {
+    std::map<std::string, std::size_t> ours;
+    const auto names = field_names(*gateway_);
+    for (std::size_t i = 0; i < names.size(); ++i) ours[names[i].name] = i;
+    for (const auto& field : fields_) {
+      const auto it = ours.find(field.name);
+      const bool known = it != ours.end() && names[it->second].kind == field.kind;
+      place_.push_back(known ? it->second : kNowhere);
+      if (!known) result_.not_compared.push_back(field.name);
+      if (known) ours.erase(it);
+    }
+    for (const auto& [name, index] : ours) result_.not_compared.push_back(name);
+  }
+
+  void take(std::span<const std::uint8_t> record) {
+    record_ = record;
+    ByteReader in(record);
+    const auto kind = in.byte();
+    if (kind < kInputKinds) return apply(kind, in);
+    switch (static_cast<RecordKind>(kind)) {
+      case RecordKind::output: return compare(in);
+      case RecordKind::path: return keep_path(in);
+      case RecordKind::gap:
+        return give_up("it has a gap: the disk was too slow, and nothing after it was recorded");
+      case RecordKind::end: ended_ = true; return;
+    }
+    give_up("it has a record of an unknown kind");
+  }
+
+  void keep_path(ByteReader& in) {
+    auto path = std::make_unique<Path>(read_path(in));
+    if (!in.done()) return give_up("it has a damaged path");
+    const auto number = path->number;
+    paths_[number] = std::move(path);
+  }
+
+  void apply(std::uint8_t kind, ByteReader& in) {
+    const auto find = [this](std::uint64_t number) -> const Path* {
+      const auto it = paths_.find(number);
+      return it == paths_.end() ? nullptr : it->second.get();
+    };
+    const Input input = read_input(kind, before_, find, in);
+    if (!in.done()) return give_up("it has a damaged input");
+    if (result_.begin == kNever) result_.begin = input.time;
+    result_.end = input.time;
+    ++result_.inputs;
+    latest_.push_back({kind, before_, record_});
+    if (latest_.size() > kInputsShown) latest_.pop_front();
+    before_ = input.time;
+    gateway_->apply(input);
+    if (std::holds_alternative<Tick>(input.body)) {
+      tick_ = input.time;
+      ticked_ = true;
+    }
+  }
+
+  void compare(ByteReader& in) {
+    if (!ticked_) return give_up("it has an output without a cycle");
+    ticked_ = false;
+    differences_.clear();
+    read_fields(in);
+    compare_fields();
+    compare_events(in);
+    compare_frames(in);
+    compare_streams(in);
+    if (!in.done()) return give_up("it has a damaged output");
+    ++result_.cycles;
+    if (!differences_.empty()) return tell_difference();
+    release_paths();
+  }
+
+  void read_fields(ByteReader& in) {
+    std::size_t index = 0;
+    while (const auto distance = in.number()) {
+      if (distance > fields_.size() - index) in.fail();
+      if (!in.good()) return;
+      index += distance;
+      FieldValue& value = recorded_[index - 1];
+      switch (fields_[index - 1].kind) {
+        case FieldKind::text: value.text = in.text(); break;
+        case FieldKind::real: value.bits = in.raw(); break;
+        case FieldKind::whole: value.bits += static_cast<std::uint64_t>(in.signed_number()); break;
+      }
+    }
+  }
+
+  void compare_fields() {
+    FieldValues visitor(replayed_);
+    visit_fields(visitor, *gateway_);
+    for (std::size_t i = 0; i < fields_.size(); ++i) {
+      if (place_[i] == kNowhere || replayed_[place_[i]] == recorded_[i]) continue;
+      differs(fields_[i].name, shown(fields_[i].kind, recorded_[i]),
+              shown(fields_[i].kind, replayed_[place_[i]]));
+    }
+  }
+
+  void compare_events(ByteReader& in) {
+    std::vector<std::string> recorded;
+    const auto count = in.number();
+    for (std::uint64_t i = 0; i < count && in.good(); ++i) recorded.emplace_back(in.text());
+    std::vector<std::string> replayed;
+    for (const auto& event : gateway_->output().engine.events)
+      replayed.emplace_back(text_of(event));
+    compare_lists("events", recorded, replayed);
+  }
+
+  void compare_frames(ByteReader& in) {
+    for (std::size_t bus = 0; bus < gateway_->bus_count(); ++bus) {
+      std::vector<std::string> recorded;
+      const auto count = in.number();
+      for (std::uint64_t i = 0; i < count && in.good(); ++i)
+        recorded.emplace_back(text_of(read_frame(in)));
+      std::vector<std::string> replayed;
+      for (const auto& frame : gateway_->output().frames[bus])
+        replayed.emplace_back(text_of(frame));
+      compare_lists("frames of bus " + std::to_string(bus), recorded, replayed);
+    }
+  }
+
+  void compare_streams(ByteReader& in) {
+    for (std::size_t i = 0; i < kStreamCount; ++i) {
+      const auto& stream = gateway_->output().streams[i];
+      const auto name = static_cast<Stream>(i) == Stream::gnss ? "gnss" : "imu";
+      compare_lists(std::string("bytes for ") + name, {text_of(in.blob())},
+                    {text_of(std::span<const std::uint8_t>(stream.bytes))});
+      compare_lists(std::string("speed for ") + name, {std::to_string(in.number())},
+                    {std::to_string(stream.reopen_baud)});
+    }
+  }
+
+  void compare_lists(const std::string& what, const std::vector<std::string>& recorded,
+                     const std::vector<std::string>& replayed) {
+    const auto at = [](const auto& list, std::size_t i) {
+      return i < list.size() ? list[i] : std::string("none");
+    };
+    for (std::size_t i = 0; i < std::max(recorded.size(), replayed.size()); ++i)
+      if (at(recorded, i) != at(replayed, i))
+        differs(what + "[" + std::to_string(i) + "]", at(recorded, i), at(replayed, i));
+  }
+
+  void differs(std::string what, std::string recorded, std::string replayed) {
+    differences_.push_back(
+        {0, tick_, std::move(what), std::move(recorded), std::move(replayed), 0, {}});
+  }
+
+  void tell_difference() {
+    over_ = true;
+    result_.difference = std::move(differences_.front());
+    result_.difference.cycle = result_.cycles;
+    result_.difference.more = differences_.size() - 1;
+    for (const auto& it : latest_) result_.difference.inputs.push_back(words_of(it));
+    finish(Replayed::Verdict::differs, "");
+  }
+
+  /// Its path may be gone: the number is enough.
+  static std::string words_of(const Latest& it) {
+    Path path;
+    const auto find = [&path](std::uint64_t number) {
+      path.number = number;
+      return &path;
+    };
+    ByteReader in(it.record);
+    in.byte();
+    return text_of(read_input(it.kind, it.before, find, in));
+  }
+
+  void release_paths() {
+    for (const auto& event : gateway_->output().engine.events)
+      if (const auto* released = std::get_if<PathReleased>(&event.body))
+        if (released->path != nullptr) paths_.erase(std::uint64_t{released->path->number});
+  }
+
+  static constexpr std::size_t kNowhere = SIZE_MAX;
+
+  ByteReader in_;
+  Replayed result_;
+  std::map<std::uint64_t, std::unique_ptr<const Path>> paths_;  ///< outlive the gateway
+  std::unique_ptr<Gateway> gateway_;
+  std::vector<FieldName> fields_;   ///< of the recording
+  std::vector<std::size_t> place_;  ///< of each among ours
+  std::vector<FieldValue> recorded_;
+  std::vector<FieldValue> replayed_;
+  std::vector<Difference> differences_;  ///< of this cycle
+  std::deque<Latest> latest_;
+  std::span<const std::uint8_t> record_;  ///< that is being looked at
+  Time before_{};
+  Time tick_ = kNever;
+  bool ticked_ = false;
+  bool ended_ = false;
+  bool over_ = false;
+};
+
+}  // namespace
+
+Replayed replay(std::span<const std::uint8_t> file) {
+  return Replay(file).run();
+}
+
+}  // namespace drover::gateway

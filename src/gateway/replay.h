@@ -1,0 +1,43 @@
+// A recording played again: the same gateway, fed with what was recorded, says the same, to the
+// bit, or it is told where it first does not. Pure: the caller has the file in memory.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "drover/time.h"
+
+namespace drover::gateway {
+
+/// The first output that differs.
+struct Difference {
+  std::uint64_t cycle = 0;  ///< from 1
+  Time time = kNever;       ///< of that cycle
+  std::string what;         ///< `pose.x_m`, `events[0]`, `frames of bus 0 [2]`
+  std::string recorded;
+  std::string replayed;
+  std::size_t more = 0;             ///< others that differ in that cycle
+  std::vector<std::string> inputs;  ///< the last ones before it, the latest last
+};
+
+struct Replayed {
+  enum class Verdict : std::uint8_t { equal, differs, unusable } verdict = Verdict::unusable;
+  /// unusable: why. equal: how it ended when it did not end as asked; empty otherwise.
+  std::string note;
+  std::string version;  ///< of the program that recorded
+  std::uint64_t inputs = 0;
+  std::uint64_t cycles = 0;
+  Time begin = kNever;
+  Time end = kNever;
+  Difference difference;
+  /// Values that only one of recording and program has: they were not compared.
+  std::vector<std::string> not_compared;
+};
+
+/// A recording that ends within a record is one of a daemon that was killed: good until there.
+/// One with a gap is unusable, and it is said how far it was equal.
+Replayed replay(std::span<const std::uint8_t> file);
+
+}  // namespace drover::gateway
