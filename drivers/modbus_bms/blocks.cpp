@@ -31,12 +31,6 @@ std::vector<Piece> pieces_of(const RegisterMap& map) {
   return pieces;
 }
 
-bool has_a_twin(const std::vector<RegisterBlock>& blocks, std::size_t index) {
-  return std::any_of(
-      blocks.begin(), blocks.begin() + static_cast<std::ptrdiff_t>(index),
-      [&](const RegisterBlock& other) { return other.count == blocks[index].count; });
-}
-
 }  // namespace
 
 std::vector<RegisterBlock> plan_blocks(const RegisterMap& map) {
@@ -56,10 +50,6 @@ std::vector<RegisterBlock> plan_blocks(const RegisterMap& map) {
     blocks.push_back({piece.function, static_cast<std::uint16_t>(piece.address),
                       static_cast<std::uint16_t>(piece.registers)});
   }
-  for (std::size_t i = 0; i < blocks.size(); ++i)
-    while (has_a_twin(blocks, i) && blocks[i].count < map.max_count &&
-           blocks[i].address + blocks[i].count * map.stride <= 0xFFFF)
-      ++blocks[i].count;
   return blocks;
 }
 

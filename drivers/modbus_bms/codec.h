@@ -42,9 +42,9 @@ void put_raw(RegisterType type, WordOrder order, double raw, std::uint16_t& firs
 std::string_view field_text(BatteryField field);
 std::string_view field_unit(BatteryField field);
 
-/// What to ask for, in order: spans of the map's fields merged across small holes, no longer than
-/// the device answers. No two have one length where that can be helped: on a serial line nothing
-/// but its length tells to which request a late answer belongs.
+/// What to ask for, in order: the registers that the map declares, merged across the holes that it
+/// declares, no longer than the device answers. Nothing else is asked for: real packs refuse a whole
+/// request for one register that they do not have.
 std::vector<RegisterBlock> plan_blocks(const RegisterMap& map);
 
 }  // namespace drover::modbus_bms

@@ -65,9 +65,9 @@ struct RegisterMap {
   int baud = 9600;          ///< its usual speed
   std::uint8_t stride = 1;  ///< addresses from one register to the next
   std::uint16_t max_count = 125;
-  std::uint16_t max_hole = 16;  ///< registers nobody asked for that may be read along
-  double gap_s = 0.1;           ///< pause between two requests
-  double reply_s = 0.5;         ///< longest wait for a whole answer
+  std::uint16_t max_hole = 0;  ///< longest gap between fields that the device answers, too
+  double gap_s = 0.1;          ///< pause between two requests
+  double reply_s = 0.5;        ///< longest wait for a whole answer
   std::vector<RegisterField> fields;
   std::vector<RegisterAlarm> alarms;
 };

@@ -1,6 +1,7 @@
 #include "cli/recorded.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <istream>
 #include <map>
 #include <memory>
@@ -13,6 +14,7 @@
 #include "cli/measurement.h"
 #include "cli/option_texts.h"
 #include "cli/register_log.h"
+#include "cli/register_rounds.h"
 #include "config/register_map.h"
 #include "drover/registry.h"
 
@@ -188,6 +190,12 @@ int show_frames(std::istream& in, const Recording& recording, std::ostream& out,
   return printer.finish(table->frames(), "frames");
 }
 
+std::string unit_text(std::uint8_t unit) {
+  char text[16];
+  std::snprintf(text, sizeof text, "0x%02X", unsigned{unit});
+  return text;
+}
+
 int show_registers(std::istream& in, const Recording& recording, std::ostream& out,
                    std::ostream& notes) {
   const auto& entry = entry_of(Device::battery, recording.driver);
@@ -195,31 +203,45 @@ int show_registers(std::istream& in, const Recording& recording, std::ostream& o
   const auto loaded = config::load_register_map(config::find_register_map(recording.map, "."));
   for (const auto& problem : loaded.problems) throw WrongUsage(problem.text(problem.file));
   const auto options = options_from(entry.options, recording.options);
-  const auto driver = made(maker<MakeRegisterDriver>(entry), options, loaded.map);
-  RegisterLog log(driver->blocks(), loaded.map.stride);
+  const auto make = maker<MakeRegisterDriver>(entry);
+  const auto whole = made(make, options, loaded.map);
+  RegisterLog log(whole->blocks(), loaded.map.stride);
+  RoundDecoder decoder([&](const RegisterMap& part) { return made(make, options, part); },
+                       loaded.map);
   Printer printer(recording, out, notes);
   DriverOut said;
   Time now{};
-  driver->on_link_up(now);
+  std::optional<std::uint8_t> unit;
   std::string line;
-  for (std::size_t number = 1; std::getline(in, line); ++number) {
+  std::size_t number = 0;
+  std::size_t last_number = 0;
+  const auto show_round = [&](const RegisterImage& round, std::size_t where) {
+    if (round.empty()) return;
+    now += kRound;
+    decoder.decode(round, now, said);
+    printer.print(said, {"line", static_cast<double>(where), 0, ""});
+    said.clear();
+  };
+  while (std::getline(in, line)) {
+    ++number;
     line.resize(std::min(line.size(), line.find('#')));
     if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
     if (const auto problem = log.add(line); !problem.empty()) printer.problem(number, problem);
-    if (!log.complete()) continue;
-    now += kRound;
-    for (std::size_t block = 0; block < driver->blocks().size(); ++block)
-      driver->on_registers(block, log.words(block), now, said);
-    printer.print(said, {"line", static_cast<double>(number), 0, ""});
-    said.clear();
+    if (log.unit() != unit) {
+      unit = log.unit();
+      if (*unit != loaded.map.unit)
+        notes << "line " << number << ": unit " << unit_text(*unit) << " answers; the map's is "
+              << unit_text(loaded.map.unit) << '\n';
+    }
+    show_round(log.take_ended(), last_number);
+    show_round(log.take_complete(), number);
+    last_number = number;
   }
-  const auto health = driver->health(now);
-  printer.add_bad(health.bad);
-  if (const auto never = log.never_seen(); !never.empty()) {
-    notes << "the map also needs register " << never << ", which is not in the recording\n";
-  } else if (!health.reason.empty()) {
-    notes << health.reason.view() << '\n';
-  }
+  show_round(log.take_rest(), last_number);
+  printer.add_bad(decoder.bad(now));
+  if (const auto missing = decoder.missing(); !missing.empty())
+    notes << "not in the recording: " << missing << '\n';
+  if (const auto reason = decoder.reason(now); !reason.empty()) notes << reason << '\n';
   return printer.finish();
 }
 

@@ -26,26 +26,51 @@ std::uint16_t word_at(std::span<const std::uint8_t> bytes, std::size_t at) {
   return static_cast<std::uint16_t>(bytes[at] << 8U | bytes[at + 1]);
 }
 
+/// What a logger writes before and behind the bytes themselves.
+std::string_view without_decoration(std::string_view text) {
+  for (const std::string_view arrow : {">>>", "<<<"})
+    if (const auto at = text.find(arrow); at != std::string_view::npos) text.remove_prefix(at + 3);
+  if (const auto count = text.find('('); count != std::string_view::npos)
+    text = text.substr(0, count);
+  return text;
+}
+
 std::optional<std::vector<std::uint8_t>> parse_bytes(std::string_view text) {
+  constexpr std::string_view kBetween = " \t\r.,:;-|[]{}\"'";
   std::string digits;
-  for (const char c : text)
-    if (std::isspace(static_cast<unsigned char>(c)) == 0) digits += c;
-  if (digits.empty() || digits.size() % 2 != 0) return std::nullopt;
+  while (!text.empty()) {
+    const auto begin = text.find_first_not_of(kBetween);
+    if (begin == std::string_view::npos) break;
+    text.remove_prefix(begin);
+    auto token = text.substr(0, text.find_first_of(kBetween));
+    text.remove_prefix(token.size());
+    const bool prefixed = token.starts_with("0x") || token.starts_with("0X");
+    if (prefixed) token.remove_prefix(2);
+    if (token.size() == 1 && prefixed) digits += '0';
+    if (token.empty() || (token.size() % 2 != 0 && !(prefixed && token.size() == 1)))
+      return std::nullopt;
+    digits += token;
+  }
   std::vector<std::uint8_t> bytes;
-  for (std::size_t i = 0; i < digits.size(); i += 2) {
+  for (std::size_t i = 0; i + 1 < digits.size(); i += 2) {
     const auto byte = from_hex(std::string_view(digits).substr(i, 2));
     if (!byte) return std::nullopt;
     bytes.push_back(static_cast<std::uint8_t>(*byte));
   }
+  if (bytes.empty()) return std::nullopt;
   return bytes;
 }
 
 }  // namespace
 
 std::string RegisterLog::add(std::string_view line) {
-  if (const auto colon = line.find(':'); colon != std::string_view::npos)
-    return add_words(line.substr(0, colon), line.substr(colon + 1));
-  const auto bytes = parse_bytes(line);
+  const auto bare = without_decoration(line);
+  // One colon stands behind an address; several stand between bytes.
+  const auto colon = bare.find(':');
+  if (bare.data() == line.data() && colon != std::string_view::npos &&
+      bare.find(':', colon + 1) == std::string_view::npos)
+    return add_words(bare.substr(0, colon), bare.substr(colon + 1));
+  const auto bytes = parse_bytes(bare);
   return bytes ? add_frame(*bytes) : "neither bytes in hexadecimal nor ADDRESS: WORDS";
 }
 
@@ -65,11 +90,11 @@ std::string RegisterLog::add_words(std::string_view head, std::string_view words
   if (function != 3 && function != 4) return "the function is neither 3 nor 4";
   std::vector<std::uint16_t> values;
   while (!words.empty()) {
-    const auto begin = words.find_first_not_of(" \t\r");
+    const auto begin = words.find_first_not_of(" ,\t\r");
     if (begin == std::string_view::npos) break;
     words.remove_prefix(begin);
-    const auto word = words.substr(0, words.find_first_of(" \t\r"));
-    const auto value = from_hex(word);
+    const auto word = words.substr(0, words.find_first_of(" ,\t\r"));
+    const auto value = from_hex(word.starts_with("0x") ? word.substr(2) : word);
     if (!value || *value > 0xFFFF) return "\"" + json::shown(word, 20) + "\" is no word";
     values.push_back(static_cast<std::uint16_t>(*value));
     words.remove_prefix(word.size());
@@ -86,6 +111,7 @@ std::string RegisterLog::add_frame(const std::vector<std::uint8_t>& bytes) {
     return "wrong checksum";
   const auto function = bytes[1];
   if ((function & 0x80U) != 0) {
+    unit_ = bytes[0];
     request_.reset();
     return "the device refused: exception " + std::to_string(bytes[2]);
   }
@@ -99,6 +125,7 @@ std::string RegisterLog::add_frame(const std::vector<std::uint8_t>& bytes) {
   if (bytes[2] % 2 != 0 || bytes.size() != kReplyFrame + bytes[2]) return "wrong length";
   std::vector<std::uint16_t> words;
   for (std::size_t i = 0; i < count; ++i) words.push_back(word_at(bytes, 3 + 2 * i));
+  unit_ = bytes[0];
   const auto asked = request_;
   request_.reset();
   if (asked) {
@@ -118,46 +145,30 @@ std::string RegisterLog::add_frame(const std::vector<std::uint8_t>& bytes) {
   return "";
 }
 
-RegisterLog::Key RegisterLog::key(const RegisterBlock& block, std::size_t index) const {
-  return {block.function, static_cast<std::uint16_t>(block.address + index * stride_)};
-}
-
 void RegisterLog::store(std::uint8_t function, std::uint16_t address,
                         std::span<const std::uint16_t> words) {
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    const Key at{function, static_cast<std::uint16_t>(address + i * stride_)};
-    image_[at] = words[i];
-    fresh_.insert(at);
+  // The same read again: the master has begun its next round.
+  if (!reads_.insert({function, address, words.size()}).second) {
+    ended_ = std::exchange(round_, {});
+    reads_ = {{function, address, words.size()}};
   }
+  for (std::size_t i = 0; i < words.size(); ++i)
+    round_[{function, static_cast<std::uint16_t>(address + i * stride_)}] = words[i];
 }
 
-bool RegisterLog::complete() {
+bool RegisterLog::complete() const {
   for (const auto& block : blocks_)
     for (std::size_t i = 0; i < block.count; ++i)
-      if (fresh_.count(key(block, i)) == 0) return false;
-  fresh_.clear();
+      if (round_.count(
+              {block.function, static_cast<std::uint16_t>(block.address + i * stride_)}) == 0)
+        return false;
   return true;
 }
 
-std::vector<std::uint16_t> RegisterLog::words(std::size_t block) const {
-  std::vector<std::uint16_t> values;
-  for (std::size_t i = 0; i < blocks_[block].count; ++i)
-    values.push_back(image_.at(key(blocks_[block], i)));
-  return values;
-}
-
-std::string RegisterLog::never_seen() const {
-  for (const auto& block : blocks_) {
-    for (std::size_t i = 0; i < block.count; ++i) {
-      const auto at = key(block, i);
-      if (image_.count(at) != 0) continue;
-      char out[48];
-      std::snprintf(out, sizeof out, "0x%04X (function %u)", static_cast<unsigned>(at.second),
-                    static_cast<unsigned>(at.first));
-      return out;
-    }
-  }
-  return "";
+RegisterImage RegisterLog::take_complete() {
+  if (!complete()) return {};
+  reads_.clear();
+  return std::exchange(round_, {});
 }
 
 }  // namespace drover::cli

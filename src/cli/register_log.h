@@ -8,6 +8,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -15,7 +16,11 @@
 
 namespace drover::cli {
 
-/// Keeps what was read last from each register, whatever blocks the recorded master asked for.
+/// Function and address of a register.
+using RegisterKey = std::pair<std::uint8_t, std::uint16_t>;
+using RegisterImage = std::map<RegisterKey, std::uint16_t>;
+
+/// Collects what a recorded master read, whatever it asked for, round by round.
 ///
 /// A line is one of
 ///   D2 03 06 02 12 74 D7 03 60 BA B1    a reply, its checksum included; which registers it holds
@@ -24,6 +29,7 @@ namespace drover::cli {
 ///   D2 03 00 28 00 03 96 60             a request
 ///   0x0028: 0212 74D7 0360              words from an address on, in hexadecimal; "4/0x0028:"
 ///                                       when they were read with function 4
+/// Bytes may be written as loggers do: ">>> 81.03.00", "D2:03:00", "0xD2, 0x03", with "(8)" behind.
 class RegisterLog final {
  public:
   RegisterLog(std::span<const RegisterBlock> blocks, std::uint8_t stride)
@@ -31,24 +37,29 @@ class RegisterLog final {
 
   /// Empty, or what is wrong with the line.
   std::string add(std::string_view line);
-  /// True once after each round: every register of every block was seen since the last one.
-  bool complete();
-  std::vector<std::uint16_t> words(std::size_t block) const;
-  /// The first register that never came: "0x0039 (function 3)"; empty when all did.
-  std::string never_seen() const;
+  /// The unit that answered last; nothing before the first answer in bytes.
+  std::optional<std::uint8_t> unit() const { return unit_; }
+  /// The registers of a round that the last line has ended by reading something again; else empty.
+  RegisterImage take_ended() { return std::exchange(ended_, {}); }
+  /// The registers of this round, once every register of the map is among them; else empty.
+  RegisterImage take_complete();
+  /// What is left at the end of the recording.
+  RegisterImage take_rest() { return std::exchange(round_, {}); }
 
  private:
-  using Key = std::pair<std::uint8_t, std::uint16_t>;  ///< function and address
+  using Read = std::tuple<std::uint8_t, std::uint16_t, std::size_t>;
   std::string add_frame(const std::vector<std::uint8_t>& bytes);
   std::string add_words(std::string_view head, std::string_view words);
   void store(std::uint8_t function, std::uint16_t address, std::span<const std::uint16_t> words);
-  Key key(const RegisterBlock& block, std::size_t index) const;
+  bool complete() const;
 
   std::span<const RegisterBlock> blocks_;
-  std::set<Key> fresh_;  ///< registers of this round
-  std::map<Key, std::uint16_t> image_;
-  std::optional<RegisterBlock> request_;
   std::uint8_t stride_;
+  RegisterImage ended_;
+  RegisterImage round_;
+  std::set<Read> reads_;  ///< of this round
+  std::optional<RegisterBlock> request_;
+  std::optional<std::uint8_t> unit_;
 };
 
 }  // namespace drover::cli

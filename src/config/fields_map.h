@@ -45,7 +45,7 @@ struct MapFile {
   int function = 3;
   int stride = 1;
   int max_registers = 125;
-  int max_hole = 16;
+  int max_hole = 0;
   double gap_s = 0.1;
   double reply_s = 0.5;
   std::vector<MapField> fields;
@@ -107,7 +107,7 @@ void visit(V& v, MapFile& c) {
             "addresses from one register to the next; 2 where addresses count bytes");
   v.integer("max_registers", c.max_registers, Range{2, 125}, "most in one request");
   v.integer("max_hole", c.max_hole, Range{0, 124},
-            "registers nobody asked for that may be read along");
+            "longest gap between fields whose registers the device answers, too: it is read along");
   v.number("gap_s", c.gap_s, Range{0.005, 2}, "pause before a request");
   v.number("reply_s", c.reply_s, Range{0.05, 1}, "longest wait for a whole answer");
   v.list("fields", c.fields, Count{1, kMostMapFields}, "values", Presence::required);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <sstream>
+#include <vector>
 
 #include "cli/option_texts.h"
 
@@ -133,16 +134,66 @@ TEST(Recordings, OfABusWithoutADriverAreCounted) {
             "line 5: not of the form (SECONDS) BUS ID#DATA\nframes 5, lines not understood 1\n");
 }
 
-TEST(Recordings, OfABatteryTellWhatIsMissing) {
+TEST(Recordings, OfABatteryAreDecodedAsFarAsTheyGoAndTellWhatIsMissing) {
   const auto shown = show("bms",
                           "# voltage only\n"
                           "01 03 12 90 00 02 C1 5E\n"
                           "01 03 04 00 00 CC 79 6E D1\n"
                           "01 03 04 00 00 CC 79 6E D2\n",
                           {.driver = "modbus_bms", .map = kMap});
-  EXPECT_EQ(shown.code, 1);
+  EXPECT_EQ(shown.code, 0);
+  EXPECT_NE(shown.out.find("voltage 52.34 V  current -"), std::string::npos) << shown.out;
   EXPECT_NE(shown.notes.find("line 4: wrong checksum\n"), std::string::npos) << shown.notes;
-  EXPECT_NE(shown.notes.find("the map also needs register 0x"), std::string::npos) << shown.notes;
+  EXPECT_NE(shown.notes.find("not in the recording: "), std::string::npos) << shown.notes;
+  EXPECT_NE(shown.notes.find("current (0x1298)"), std::string::npos) << shown.notes;
+  EXPECT_EQ(shown.notes.find("voltage"), std::string::npos) << shown.notes;
+}
+
+TEST(Recordings, OfABatteryMakeASampleOfEachRoundEvenWhenRoundsHoldLess) {
+  const auto shown = show("bms",
+                          "0x1290: 0000 CC79\n0x1298: FFFF E0C0\n"
+                          "0x1290: 0000 CC7A\n"
+                          "0x1290: 0000 CC7B\n0x1298: FFFF E0C1\n",
+                          {.driver = "modbus_bms", .map = kMap});
+  EXPECT_EQ(shown.notes.find("voltage"), std::string::npos) << shown.notes;
+  std::istringstream lines(shown.out);
+  std::vector<std::string> rounds;
+  for (std::string line; std::getline(lines, line);) rounds.push_back(line);
+  ASSERT_EQ(rounds.size(), 3U) << shown.out;
+  EXPECT_EQ(rounds[0].find("       2  battery"), 0U) << rounds[0];
+  EXPECT_NE(rounds[0].find("current -8.00 A"), std::string::npos) << rounds[0];
+  EXPECT_NE(rounds[1].find("current -  "), std::string::npos) << rounds[1];  // not the old one
+  EXPECT_NE(rounds[2].find("current -8.00 A"), std::string::npos) << rounds[2];
+}
+
+TEST(Recordings, OfABatteryMayBeWrittenAsLoggersWriteBytes) {
+  const Recording daly{.driver = "modbus_bms",
+                       .map = std::string(DROVER_SOURCE_DIR) + "/config/maps/daly_d2.json"};
+  for (const std::string text : {
+           "D2 03 00 28 00 03 96 60\nD2 03 06 02 12 74 D7 03 60 BA B1\n",
+           "d203002800039660\nd20306 021274 d703 60ba b1\n",
+           ">>> D2.03.00.28.00.03.96.60 (8)\n<<< D2.03.06.02.12.74.D7.03.60.BA.B1 (11)\n",
+           "[12:00:01][D][uart_debug:114]: >>> D2:03:00:28:00:03:96:60\n"
+           "[12:00:01][D][uart_debug:114]: <<< D2:03:06:02:12:74:D7:03:60:BA:B1\n",
+           "0xD2, 0x03, 0x00, 0x28, 0x00, 0x03, 0x96, 0x60\n"
+           "{0xD2, 0x3, 0x6, 0x02, 0x12, 0x74, 0xD7, 0x3, 0x60, 0xBA, 0xB1},\n",
+           "0x0028: 0x0212, 0x74D7, 0x0360\n",
+       }) {
+    const auto shown = show("bms", text, daly);
+    EXPECT_NE(shown.out.find("soc percent 86.4  voltage 53.00 V  current -8.90 A"),
+              std::string::npos)
+        << text << shown.notes;
+  }
+}
+
+TEST(Recordings, OfABatterySayThatAnotherUnitAnswersThanTheMapsOne) {
+  const auto shown = show("bms",
+                          ">>> 81.03.00.28.00.03.9A.03\n"
+                          "<<< 51.03.06.02.12.74.D7.03.60.CF.87\n",
+                          {.driver = "modbus_bms",
+                           .map = std::string(DROVER_SOURCE_DIR) + "/config/maps/daly_d2.json"});
+  EXPECT_NE(shown.notes.find("line 2: unit 0x51 answers; the map's is 0xD2\n"), std::string::npos)
+      << shown.notes;
 }
 
 TEST(Recordings, OfABatteryAreDecodedWhicheverBlocksTheMasterRead) {

@@ -166,5 +166,22 @@ TEST(ModbusBlocks, AreMergedAcrossSmallHolesOnlyAndNeverSplitAValue) {
   EXPECT_EQ(blocks[2].address, 20);
 }
 
+// Seplos v3 refuses a read of PIA that goes one register beyond its 17 (exception 2).
+TEST(ModbusBlocks, NeverReachBeyondTheRegistersThatTheMapDeclares) {
+  RegisterMap map;
+  map.fields = {field(BatteryField::voltage_V, 0x1000, 1, 0, 0, 1),
+                field(BatteryField::soc_percent, 0x1005, 1, 0, 0, 1),
+                field(BatteryField::min_cell_V, 0x1100, 1, 0, 0, 1)};
+  map.fields[2].count = 16;
+  const auto blocks = plan_blocks(map);
+  ASSERT_EQ(blocks.size(), 3U);
+  EXPECT_EQ(blocks[0].count, 1);  // no gap is read along that the map does not declare
+  EXPECT_EQ(blocks[1].count, 1);  // and none is made longer to differ from another
+  EXPECT_EQ(blocks[2].count, 16);
+  map.max_hole = 4;
+  EXPECT_EQ(plan_blocks(map).size(), 2U);
+  EXPECT_EQ(plan_blocks(map)[0].count, 6);
+}
+
 }  // namespace
 }  // namespace drover::modbus_bms
