@@ -43,8 +43,8 @@ std::string_view field_text(BatteryField field);
 std::string_view field_unit(BatteryField field);
 
 /// What to ask for, in order: the registers that the map declares, merged across the holes that it
-/// declares, no longer than the device answers. Nothing else is asked for: real packs refuse a whole
-/// request for one register that they do not have.
+/// declares, no longer than the device answers. Nothing else is asked for: real packs refuse a
+/// whole request for one register that they do not have.
 std::vector<RegisterBlock> plan_blocks(const RegisterMap& map);
 
 }  // namespace drover::modbus_bms

@@ -159,8 +159,8 @@ void RegisterLog::store(std::uint8_t function, std::uint16_t address,
 bool RegisterLog::complete() const {
   for (const auto& block : blocks_)
     for (std::size_t i = 0; i < block.count; ++i)
-      if (round_.count(
-              {block.function, static_cast<std::uint16_t>(block.address + i * stride_)}) == 0)
+      if (round_.count({block.function, static_cast<std::uint16_t>(block.address + i * stride_)}) ==
+          0)
         return false;
   return true;
 }

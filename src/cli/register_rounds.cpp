@@ -63,8 +63,8 @@ void RoundDecoder::decode(const RegisterImage& image, Time now, DriverOut& out) 
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     std::vector<std::uint16_t> words;
     for (std::size_t i = 0; i < blocks[b].count; ++i) {
-      const auto at = image.find({blocks[b].function, static_cast<std::uint16_t>(
-                                                          blocks[b].address + i * map_.stride)});
+      const auto at = image.find(
+          {blocks[b].function, static_cast<std::uint16_t>(blocks[b].address + i * map_.stride)});
       words.push_back(at != image.end() ? at->second : 0);  // a gap, which nobody reads
     }
     driver->on_registers(b, words, now, out);

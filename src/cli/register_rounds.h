@@ -1,4 +1,4 @@
-// Decodes rounds of recorded registers through the driver that droverd would use, as far as they go.
+// Decodes rounds of recorded registers, as far as they go, through the driver that droverd uses.
 #pragma once
 
 #include <cstdint>
