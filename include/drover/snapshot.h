@@ -138,6 +138,8 @@ struct LinkSnapshot {
 struct Snapshot {
   Time time = kNever;
   Pose pose;
+  /// For people: the worse of what the wheels and the receiver say; ahead positive.
+  double worst_vx_mps = 0;
   NavSnapshot nav;
   GnssSnapshot gnss;
   ImuSnapshot imu;

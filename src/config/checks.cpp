@@ -72,6 +72,7 @@ class Checks final {
     side("base.left", base.left, config_.engine.base.left);
     side("base.right", base.right, config_.engine.base.right);
     both_sides(base);
+    wheels_only(base);
     unique_lines();
     limits();
     broker();
@@ -164,6 +165,21 @@ class Checks final {
     for (const auto& joint : base.left)
       if (std::find(base.right.begin(), base.right.end(), joint) != base.right.end())
         add("base.right", "the joint \"" + joint + "\" is on both sides");
+  }
+
+  /// Its faults, its silence and its stop would be nobody's.
+  void wheels_only(const BaseNames& base) {
+    if (has_problem("base.")) return;
+    const auto among = [](const std::vector<std::string>& side, const std::string& joint) {
+      return std::find(side.begin(), side.end(), joint) != side.end();
+    };
+    for (std::size_t i = 0; i < config_.drives.size(); ++i) {
+      const auto& joint = config_.drives[i].joint;
+      if (joint.empty() || among(base.left, joint) || among(base.right, joint)) continue;
+      add(item("drives", i) + ".joint",
+          "\"" + joint + "\" is no wheel of the base: joints outside the base are not supported yet",
+          "name it in base.left or base.right, or leave the drive out");
+    }
   }
 
   void unique_lines() {

@@ -161,6 +161,9 @@ void visit(V& v, engine::NavigateConfig& c) {
            "speed of the straight way that shows the heading");
   v.number("find_heading_distance_m", c.find_heading_distance_m, Range{1, 10},
            "longest way that is driven to find the heading");
+  v.number("first_way_m", c.first_way_m, Range{0, 2},
+           "after the start driven at 0.05 m/s with 5 degrees of turn to each side, to see whether "
+           "wheels, gyro and receiver agree; 0: not");
   v.number("arrival_timeout_s", c.arrival_timeout_s, Range{1, 600},
            "creeping near the goal for longer: the task fails");
 }
@@ -175,6 +178,8 @@ void visit(V& v, engine::HealthConfig& c) {
            "longest silence within a stream of joint commands");
   v.number("follow_timeout_s", c.follow_timeout_s, Range{0.1, 10},
            "a wheel that is commanded but does not follow for so long is a fault");
+  v.number("tilt_limit_deg", c.tilt_limit_deg, Range{5, 60},
+           "tilted farther for 0.3 s: the robot stops and holds");
   v.number("battery_stale_s", c.battery_stale_s, Range{2, 120}, "longest silence of the battery");
   v.number("battery_low_percent", c.battery_low_percent, Range{0, 100},
            "below: told, and no task starts");

@@ -98,6 +98,8 @@ struct NavigateConfig {
   double blocked_timeout_s = 2.0;          ///< commanded but not moving for so long: the task fails
   double find_heading_speed_mps = 0.2;     ///< of the straight way that shows the heading
   double find_heading_distance_m = 3.0;    ///< its longest
+  /// Driven slowly, with a little turn, to see whether wheels, gyro and receiver agree; 0: not.
+  double first_way_m = 0.3;
   double arrival_timeout_s = 20.0;  ///< creeping near the goal longer than this: the task fails
 };
 
@@ -108,6 +110,7 @@ struct HealthConfig {
   double line_stale_s = 0.02;
   double joint_command_timeout_s = 0.1;  ///< a stream silent for longer has ended
   double follow_timeout_s = 0.4;  ///< one wheel commanded but not following for so long: failed
+  double tilt_limit_deg = 25.0;   ///< steeper for 0.3 s: stops and holds
   bool guard_required = true;
   double battery_stale_s = 5.0;          ///< of its thread; the driver judges the device
   double battery_low_percent = 20.0;     ///< below: told, and no task starts

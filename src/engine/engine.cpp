@@ -21,7 +21,15 @@ bool valid(const GeodeticPoint& point) {
 }  // namespace
 
 Engine::Impl::Impl(const EngineConfig& c)
-    : config(c), estimator(c.estimate, c.base), health(c), wheels(c), navigator(c), owners(c) {
+    : config(c),
+      estimator(c.estimate, c.base),
+      health(c),
+      wheels(c),
+      rest(c),
+      tilt(c.health),
+      mechanics(c),
+      navigator(c),
+      owners(c) {
   level.fill(true);
   for (const Name& joint : config.joints) {
     AxisSnapshot axis;
@@ -81,14 +89,19 @@ void Engine::Impl::take(const Measurement& m) {
     fix = *position;
     snapshot.gnss.position = *position;
     snapshot.gnss.position_time = m.time;
+    rest.witness().on_position(*position, m.time);
+    mechanics.on_position(*position, m.time);
   } else if (const auto* velocity = std::get_if<GnssVelocity>(&m.value)) {
     snapshot.gnss.velocity = *velocity;
+    rest.witness().on_speed(*velocity, m.time);
   } else if (const auto* heading = std::get_if<GnssHeading>(&m.value)) {
     if (std::isfinite(heading->heading_deg)) baseline_deg = heading->heading_deg;
+    mechanics.on_heading(*heading, m.time);
   } else if (const auto* imu = std::get_if<ImuSample>(&m.value)) {
     if (m.time < snapshot.imu.time) return;
     snapshot.imu.sample = *imu;
     snapshot.imu.time = m.time;
+    if (imu_trusted) watch_imu(*imu, m.time);
   } else if (const auto* sample = std::get_if<BatterySample>(&m.value)) {
     if (m.time < snapshot.battery.time) return;
     snapshot.battery.sample = *sample;
@@ -167,11 +180,20 @@ void Engine::Impl::start_task(const RequestId& id, const StartTask& task, Time n
 }
 
 void Engine::Impl::reset_stop(const RequestId& id, Time now) {
+  const bool far_away =
+      id.source == RequestId::Source::mqtt || id.source == RequestId::Source::aimrt;
   if (wheel_fault == WheelFault::runaway) {
-    events.push(now, CommandRefused{id, wheels.reason()});
+    events.push(now, CommandRefused{id, wheel_reason});
+  } else if (cut_since != kNever && far_away) {
+    events.push(now, CommandRefused{id, "the power was cut: reset it at the robot"});
+  } else if (cut_since != kNever && rest.moves(now)) {
+    events.push(now, CommandRefused{id, "the robot still moves"});
   } else if (navigator.reset_stop(id, now, owners.at_rest(), !latched().empty(), health.report(),
                                   events)) {
     owners.reset();
+    rest.reset();
+    cut_since = kNever;
+    relay_open = false;
   }
 }
 
@@ -244,23 +266,33 @@ void Engine::step(Time now, const Environment& environment, EngineOutput& out) {
   e.imu_trusted = environment.imu.state == SourceState::fresh;
   e.estimate = e.estimator.step(now);
   const std::span<const AxisSnapshot> axes{e.snapshot.axes.data(), e.snapshot.axes.size()};
+  const Reason moved = e.judge_motion(now, dt, lines);
   e.health.update({now, environment, axes, lines, e.estimate, e.estimator.has_origin(),
-                   e.navigator.active(), e.latched(), &e.snapshot.battery});
-  e.wheel_fault = e.wheels.update(now, dt, axes);
-  const NavOutput wanted =
-      e.navigator.step({now, dt, e.estimate, e.health.report(), e.wheel_fault, e.wheels.reason(),
-                        e.owners.at_rest(), e.owners.refusal()},
+                   e.navigator.active(), e.latched(), &e.snapshot.battery, e.tilt.reason(), moved,
+                   e.relay_open});
+  e.watch_wheels(now, dt);
+  const double cap_mps = e.mechanics.speed_cap_mps();
+  NavOutput wanted =
+      e.navigator.step({now, dt, e.estimate, e.health.report(), e.wheel_fault, e.wheel_reason,
+                        e.owners.at_rest(), e.owners.refusal(), cap_mps},
                        e.events);
+  wanted.target = e.mechanics.guide(wanted.target);
   const Motion& motion =
-      e.owners.step({now, dt, e.estimate, e.health.report(), e.wheel_fault, e.wheels.reason(),
-                     wanted, e.navigator.software_stop().view()},
+      e.owners.step({now, dt, e.estimate, e.health.report(), e.wheel_fault, e.wheel_reason, wanted,
+                     cap_mps, e.navigator.software_stop().view()},
                     e.events);
   e.command_axes(motion, out);
+  e.cut_power(now, out);
+  e.motion_asked = out.motion_permitted;
   e.navigator.on_commanded(now, out.motion_permitted, e.events);
   e.announcer.update(now, e.health.report(), e.events);
   e.fill_snapshot(now, environment, e.estimate, motion.owner);
   out.outputs = e.snapshot.output_on =
       e.signals.step(now, e.snapshot, out.motion_permitted, motion.run);
+  if (e.relay_open) {
+    out.outputs[static_cast<std::size_t>(Output::enable_relay)] = false;
+    e.snapshot.output_on = out.outputs;
+  }
   e.events.drain(out.events);
 }
 

@@ -8,6 +8,9 @@
 #include "engine/event_queue.h"
 #include "engine/health/announcer.h"
 #include "engine/health/health.h"
+#include "engine/health/mechanics_check.h"
+#include "engine/health/rest_watch.h"
+#include "engine/health/tilt_watch.h"
 #include "engine/health/wheels.h"
 #include "engine/navigate/navigator.h"
 #include "engine/own/owners.h"
@@ -31,6 +34,11 @@ struct Engine::Impl {
   void start_task(const RequestId& id, const StartTask& task, Time now);
   void command_axes(const Motion& motion, EngineOutput& out);
   void command_axis(AxisId id, double velocity_radps, bool run, EngineOutput& out);
+  void watch_imu(const ImuSample& sample, Time at);
+  Reason judge_motion(Time now, Duration dt, const LineTable& lines);
+  void watch_wheels(Time now, Duration dt);
+  void cut_power(Time now, EngineOutput& out);
+  double worst_speed_mps(Time now) const;
   void fill_imu(const Estimate& located);
   void fill_snapshot(Time now, const Environment& environment, const Estimate& estimate,
                      Owner owner);
@@ -40,6 +48,13 @@ struct Engine::Impl {
   HealthMonitor health;
   WheelMonitor wheels;
   WheelFault wheel_fault = WheelFault::none;  ///< of the last step
+  Reason wheel_reason;                        ///< of that fault
+  RestWatch rest;
+  TiltWatch tilt;
+  MechanicsCheck mechanics;
+  Time cut_since = kNever;    ///< the power is cut since a stop did not work; kNever: it is not
+  bool relay_open = false;    ///< and the drives had time to let go before
+  bool motion_asked = false;  ///< in the last cycle
   Announcer announcer;
   Navigator navigator;
   Owners owners;

@@ -36,6 +36,7 @@ void Engine::Impl::fill_snapshot(Time now, const Environment& environment, const
   snapshot.time = now;
   fill_sources(environment);
   snapshot.pose = located.pose;
+  snapshot.worst_vx_mps = worst_speed_mps(now);
   snapshot.nav = navigator.snapshot(report);
   snapshot.nav.owner = owner;
   snapshot.nav.owner_timeout_s = owners.timeout_s(owner);

@@ -14,6 +14,7 @@ std::string_view over(Cause cause) {
     case Cause::line_lost: return "safety lines readable again";
     case Cause::guard_has_bus: return "the guard gave the drives back";
     case Cause::bumper: return "bumper free";
+    case Cause::tilt: return "the robot stands upright again";
     case Cause::drive_silent: return "all drives answer";
     case Cause::guard_silent: return "the guard answers";
     case Cause::drive_fault: return "no drive reports a fault";
@@ -22,6 +23,7 @@ std::string_view over(Cause cause) {
     case Cause::program: return "all threads of droverd run again";
     case Cause::battery_critical: return "battery good for driving again";
     case Cause::near_zone: return "near zone free";
+    case Cause::moved: return "the robot rests again";
     case Cause::bus: return "CAN buses good";
     case Cause::origin: return "an origin is set";
     case Cause::receiver: return "receiver heard";

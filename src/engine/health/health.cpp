@@ -221,6 +221,11 @@ const HealthReport& HealthMonitor::update(const HealthInput& input) {
   look_at_position(input);
   look_at_battery(input);
   look_at_program(input.environment);
+  if (!input.tilt.empty()) hold(Cause::tilt, input.tilt);
+  if (!input.moved.empty()) {
+    hold(Cause::moved, input.moved);
+    if (report_.no_start.empty()) report_.no_start = input.moved;
+  }
   if (!input.latched.empty()) {
     Reason text;
     text.format("stopped: %.*s", static_cast<int>(input.latched.view().size()),
@@ -230,7 +235,8 @@ const HealthReport& HealthMonitor::update(const HealthInput& input) {
   for (std::size_t i = 0; i < kCauseCount; ++i) {
     const auto cause = static_cast<Cause>(i);
     if (!holds(cause)) continue;
-    const bool stops = cause <= Cause::guard_silent;
+    const bool silenced = cause == Cause::drive_silent && input.power_cut;
+    const bool stops = cause <= Cause::guard_silent && !silenced;
     if (stops && report_.stop.empty()) report_.stop = report_.texts[i];
     if (!report_.why.push_back(report_.texts[i])) break;
   }

@@ -17,6 +17,7 @@ enum class Cause : std::uint8_t {
   line_lost,
   guard_has_bus,
   bumper,
+  tilt,  ///< tilted beyond the limit, or gravity on the wrong axis
   drive_silent,
   guard_silent,
   drive_fault,
@@ -25,6 +26,7 @@ enum class Cause : std::uint8_t {
   battery_critical,  ///< empty, too hot, or about to switch off: a task ends
   program,           ///< a part of the daemon hangs, or it ends: a task ends
   near_zone,
+  moved,     ///< pushed, carried or rolling without a command: no start
   bus,       ///< told only: what it does to the drives is their own cause
   origin,    ///< none set
   receiver,  ///< silent
@@ -36,7 +38,7 @@ enum class Cause : std::uint8_t {
   battery_warning,  ///< told only
   battery_silent,   ///< told only: nothing is known of it
 };
-inline constexpr std::size_t kCauseCount = 22;
+inline constexpr std::size_t kCauseCount = 24;
 
 /// Last known state of the lines: the levels the drivers reported since the last cycle.
 struct LineTable {
@@ -53,6 +55,9 @@ struct HealthInput {
   bool task_active = false;
   const Reason& latched;  ///< empty when nothing is
   const BatterySnapshot* battery = nullptr;
+  Reason tilt{};           ///< why it stands too steep to move; empty when it does not
+  Reason moved{};          ///< what moves it without a command; empty when nothing does
+  bool power_cut = false;  ///< by this gateway: that drives are silent is no news
 };
 
 struct HealthReport {

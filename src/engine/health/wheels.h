@@ -15,6 +15,7 @@ enum class WheelFault : std::uint8_t {
   blocked,        ///< all are commanded and none moves
   not_following,  ///< some move and one does not, or moves the wrong way
   runaway,        ///< one turns much faster than it was told to of late
+  disagrees,      ///< wheels, gyro and receiver tell different ways since the start
 };
 
 /// Compares commands with feedback. It looks at travelled angle, so it needs no tuned lag: a wheel

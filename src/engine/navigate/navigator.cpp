@@ -86,6 +86,12 @@ void Navigator::cancel(const RequestId& id, Time now, EventQueue& events) {
   failed_.clear();
 }
 
+void Navigator::latch(Time now, const Reason& why, EventQueue& events) {
+  software_stop_ = why;
+  events.notice(now, Notice::Level::error, why);
+  if (active()) fail(now, why, events);
+}
+
 void Navigator::engage_stop(const RequestId& id, Time now, EventQueue& events) {
   software_stop_ = "emergency stop of an operator";
   events.push(now, CommandAccepted{id, {}});
@@ -262,12 +268,14 @@ void Navigator::settle_at_goal(const NavInput& input, EventQueue& events) {
   }
 }
 
-double Navigator::speed_cap_mps(const HealthReport& health) const {
+double Navigator::speed_cap_mps(const NavInput& input) const {
+  const HealthReport& health = input.health;
   double cap_mps = speed_mps_;
   if (health.far_zone) cap_mps = std::min(cap_mps, config_.navigate.far_zone_speed_mps);
   const double over = (health.budget_used - kSlowFrom) / (1 - kSlowFrom);
   const double share = 1 - (1 - kSlowest) * std::clamp(over, 0.0, 1.0);
-  return std::min(cap_mps, std::max(share * speed_mps_, config_.limits.min_speed_mps));
+  cap_mps = std::min(cap_mps, std::max(share * speed_mps_, config_.limits.min_speed_mps));
+  return std::min(cap_mps, input.speed_cap_mps);
 }
 
 NavOutput Navigator::run(const NavInput& input, EventQueue& events) {
@@ -291,7 +299,7 @@ NavOutput Navigator::run(const NavInput& input, EventQueue& events) {
     return {{}, active(), Stop::none};  // a ramp as the tracker foresaw it
   }
   const Twist target =
-      tracker_.follow(input.estimate.pose, progress_, speed_cap_mps(input.health), input.dt);
+      tracker_.follow(input.estimate.pose, progress_, speed_cap_mps(input), input.dt);
   return {target, true, Stop::none};
 }
 

@@ -19,6 +19,7 @@ struct NavInput {
   const Reason& wheel_reason;
   bool at_rest = true;                          ///< the target gate commands nothing
   TargetRefusal refusal = TargetRefusal::none;  ///< of the last cycle
+  double speed_cap_mps = 1e9;                   ///< of the first way after the start
 };
 
 struct NavOutput {
@@ -37,6 +38,8 @@ class Navigator final {
   void start(const RequestId& id, const StartTask& task, Time now, const Estimate& estimate,
              bool has_origin, const HealthReport& health, EventQueue& events);
   void cancel(const RequestId& id, Time now, EventQueue& events);
+  /// What did not stop by itself: nothing moves until a person resets it at the robot.
+  void latch(Time now, const Reason& why, EventQueue& events);
   /// A person's emergency stop.
   void engage_stop(const RequestId& id, Time now, EventQueue& events);
   /// `anything`: something is latched, here or elsewhere. True when it was accepted.
@@ -81,7 +84,7 @@ class Navigator final {
   bool stop_at_once(const NavInput& input, EventQueue& events);
   Reason find_failure(const NavInput& input);
   Reason find_position_failure(const Estimate& estimate, const HealthReport& health) const;
-  double speed_cap_mps(const HealthReport& health) const;
+  double speed_cap_mps(const NavInput& input) const;
 
   EngineConfig config_;
   Tracker tracker_;

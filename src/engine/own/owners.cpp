@@ -1,6 +1,8 @@
 // Who moves the base, decided in one place: e-stop, manual, task, joint commands, in that order.
 #include "engine/own/owners.h"
 
+#include <algorithm>
+
 namespace drover::engine {
 namespace {
 
@@ -68,6 +70,7 @@ Reason Owners::hindrance(const OwnInput& input) const {
   if (!input.health.stop.empty()) return input.health.stop;
   if (!input.health.end_task.empty()) return input.health.end_task;
   if (input.health.holds(Cause::charger)) return input.health.text(Cause::charger);
+  if (input.health.holds(Cause::moved)) return input.health.text(Cause::moved);
   const std::string_view latched = input.latched.empty() ? latched_.view() : input.latched;
   if (!latched.empty()) {
     Reason why;
@@ -125,7 +128,8 @@ const Motion& Owners::step(const OwnInput& input, EventQueue& events) {
                        input.wheels != WheelFault::none;
   if (at_once) creep_.end(why_at_once(input), input.now, events);
   if (!input.health.end_task.empty()) creep_.end(input.health.end_task, input.now, events);
-  const Twist creep = creep_.step(input.now, input.dt, input.estimate, input.health, events);
+  Twist creep = creep_.step(input.now, input.dt, input.estimate, input.health, events);
+  creep.vx_mps = std::min(creep.vx_mps, input.speed_cap_mps);
   if (busy_.empty() && creep_.active()) busy_ = "the heading is being looked for";
   const Stop stream_stop = watch_stream(input, at_once);
 
@@ -135,9 +139,10 @@ const Motion& Owners::step(const OwnInput& input, EventQueue& events) {
                     manual ? creep : input.task.target, input.now};
   const Stop twist_stop = at_once ? Stop::immediate : manual ? Stop::none : input.task.stop;
   motion_.twist = twist_gate_.step(input.now, input.dt, {&offer, 1}, twist_stop);
-  const double fastest_radps =
-      max_wheel_mps(config_.base, config_.limits, input.estimate.yaw_slip_factor) /
-      config_.base.wheel_radius_m;
+  const double fastest_mps =
+      std::min(input.speed_cap_mps,
+               max_wheel_mps(config_.base, config_.limits, input.estimate.yaw_slip_factor));
+  const double fastest_radps = fastest_mps / config_.base.wheel_radius_m;
   // One gate moves at a time: the other waits until it has come to rest.
   const Stop joint_stop = at_once                 ? Stop::immediate
                           : twist_gate_.at_rest() ? stream_stop

@@ -18,7 +18,8 @@ struct OwnInput {
   WheelFault wheels = WheelFault::none;
   const Reason& wheel_reason;
   const NavOutput& task;
-  std::string_view latched;  ///< a software stop that a person has to reset; empty: none
+  double speed_cap_mps = 1e9;  ///< of the first way after the start
+  std::string_view latched;    ///< a software stop that a person has to reset; empty: none
 };
 
 /// What the gates let through this cycle.

@@ -148,7 +148,7 @@ std::string BaseStatus::text(const Snapshot& snapshot) {
   out.key("robot").open('{');
   out.key("power").number(power(snapshot));
   out.key("robot_status").integer(robot_status(snapshot));
-  out.key("vx").number(keep(vx_mps_, snapshot.pose.vx_mps));
+  out.key("vx").number(keep(vx_mps_, snapshot.worst_vx_mps));
   out.key("vy").number(0);
   out.key("vz").number(keep(wz_radps_, snapshot.pose.wz_radps)).close('}');
 

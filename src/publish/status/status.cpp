@@ -30,7 +30,7 @@ void pose(JsonText& out, const Snapshot& s) {
   number(out, "x_m", s.pose.x_m);
   number(out, "y_m", s.pose.y_m);
   number(out, "yaw_rad", s.pose.yaw_rad);
-  number(out, "vx_mps", s.pose.vx_mps);
+  number(out, "vx_mps", s.worst_vx_mps);
   number(out, "wz_radps", s.pose.wz_radps);
   number(out, "position_sigma_m", s.pose.position_sigma_m);
   number(out, "yaw_sigma_rad", s.pose.yaw_sigma_rad);

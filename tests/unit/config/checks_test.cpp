@@ -46,6 +46,16 @@ TEST(ConfigurationChecks, RefuseAJointThatNoDriveHas) {
             "f:7:80: base.right: no drive has the joint \"rigth\" (did you mean \"right\"?)\n");
 }
 
+TEST(ConfigurationChecks, RefuseAJointThatIsNoWheelOfTheBase) {
+  const std::string_view right = "{\"joint\": \"right\", ";
+  const std::string_view arm =
+      "{\"joint\": \"arm\", \"driver\": \"odrive\", \"bus\": \"can0\", "
+      "\"options\": {\"node\": 9}}, ";
+  EXPECT_EQ(problems(with(right, std::string(arm) + std::string(right))),
+            "f:5:15: drives[1].joint: \"arm\" is no wheel of the base: joints outside the base are "
+            "not supported yet (name it in base.left or base.right, or leave the drive out)\n");
+}
+
 TEST(ConfigurationChecks, RefuseAJointThatIsThereTwice) {
   EXPECT_EQ(problems(with("[\"right\"]", "[\"right\", \"right\"]")),
             "f:7:80: base.right: the joint \"right\" is there twice\n");

@@ -4,6 +4,8 @@
 #include <array>
 #include <deque>
 #include <memory>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "drover/angle.h"
@@ -25,6 +27,8 @@ inline EngineConfig rig_config() {
   for (const AxisId id : {AxisId{1}, AxisId{3}}) (void)config.base.right.push_back(id);
   config.line_configured = {true, true, true, true};
   config.estimate.antenna_x_m = 0.2;
+  // Its mechanics were proved already; tests of that switch it on.
+  config.navigate.first_way_m = 0;
   return config;
 }
 
@@ -114,8 +118,30 @@ class EngineRig {
   bool no_heading = false;
   bool blocked = false;
   FixQuality quality = FixQuality::rtk_fixed;
+  bool tells_speed = false;     ///< the receiver
+  double speed_noise_mps = 0;   ///< it tells so much at least, now and then
+  bool imu = false;             ///< there is one
+  Vector3 gravity_mps2{0, 0, 9.81};
+  double pitch_radps = 0;  ///< nose down positive
+  /// The base moves so, whatever the drives are asked, while they have power.
+  std::optional<WheelSpeeds> disobeys;
+  /// The base is moved so, with power or without.
+  std::optional<WheelSpeeds> carried;
+  /// What is built otherwise than configured.
+  struct Mechanics {
+    double gear = 1;        ///< the wheels turn so many times faster than the drives tell
+    bool swapped = false;   ///< left and right
+    bool reversed = false;  ///< the left front wheel
+  } mechanics;
   double jump_m = 0;  ///< of the reported position, east
   Time now{std::chrono::seconds(10)};
+  double driven_m = 0;  ///< true way of the base
+
+  /// The relay is closed and a drive is in closed loop.
+  bool has_power() const {
+    return out.outputs[static_cast<std::size_t>(Output::enable_relay)] &&
+           out.axes[0].request != AxisRequest::idle;
+  }
   std::uint64_t asked = 0;
 
  private:
@@ -123,6 +149,7 @@ class EngineRig {
     Time time;
     GnssPosition position;
     GnssHeading heading;
+    GnssVelocity velocity;
   };
 
   /// The drives do what the last cycle asked, the plant turns it into motion.
@@ -131,6 +158,7 @@ class EngineRig {
     for (std::size_t i = 0; i < 4; ++i) {
       Drive& drive = drives[i];
       const AxisCommand& asked_of = out.axes[i];
+      if (asked_of.request == AxisRequest::idle && !drive.fault) drive.state = AxisState::idle;
       if (drive.fault) {
         drive.state = AxisState::fault;
       } else if (drive.state == AxisState::fault) {
@@ -148,13 +176,26 @@ class EngineRig {
     }
     if (blocked) speed = {};
     const double dt_s = to_s(kRigTick);
-    plant.step({0.5 * (speed[0] + speed[2]), 0.5 * (speed[1] + speed[3])}, dt_s);
+    std::array<double, 4> true_speed = speed;
+    for (double& radps : true_speed) radps *= mechanics.gear;
+    if (mechanics.reversed) true_speed[0] = -true_speed[0];
+    WheelSpeeds sides{0.5 * (true_speed[0] + true_speed[2]), 0.5 * (true_speed[1] + true_speed[3])};
+    if (mechanics.swapped) std::swap(sides.left_radps, sides.right_radps);
+    if (disobeys && has_power()) sides = *disobeys;
+    if (carried) sides = *carried;
+    const double before_x_m = plant.truth().x_m;
+    const double before_y_m = plant.truth().y_m;
+    plant.step(sides, dt_s);
+    driven_m += std::hypot(plant.truth().x_m - before_x_m, plant.truth().y_m - before_y_m);
     const Pose seen = plant.estimate();
-    const double turn_mps = 0.5 * config.base.track_m * seen.wz_radps;
+    const double turn_mps =
+        (mechanics.swapped ? -0.5 : 0.5) * config.base.track_m * seen.wz_radps;
     for (std::size_t i = 0; i < 4; ++i) {
       const double rim_mps = seen.vx_mps + (i % 2 == 0 ? -turn_mps : turn_mps);
       Drive& drive = drives[i];
-      const double radps = rim_mps / config.base.wheel_radius_m + drive.by_itself_radps;
+      double radps =
+          rim_mps / config.base.wheel_radius_m / mechanics.gear + drive.by_itself_radps;
+      if (mechanics.reversed) radps = speed[i];  // each wheel tells what it was asked
       if (!drive.stuck) drive.position_rad += radps * dt_s;
       environment.axes[i].state = drive.silent ? SourceState::stale : SourceState::fresh;
       if (drive.silent) continue;
@@ -176,6 +217,7 @@ class EngineRig {
       source.last_good = now;
       measure(now, LineState{static_cast<Line>(i), lines[i]});
     }
+    if (imu) read_imu();
     environment.gnss.state = receiver_silent ? SourceState::stale : SourceState::fresh;
     if (!receiver_silent) environment.gnss.last_good = now;
     if (++ticks_ % 20 == 0) read_receiver();
@@ -184,9 +226,21 @@ class EngineRig {
       if (!receiver_silent) {
         measure(fix.time, fix.position);
         if (!no_heading) measure(fix.time, fix.heading);
+        if (tells_speed) measure(fix.time, fix.velocity);
       }
       fixes_.pop_front();
     }
+  }
+
+  void read_imu() {
+    environment.imu_configured = true;
+    environment.imu.state = SourceState::fresh;
+    environment.imu.last_good = now;
+    ImuSample sample;
+    sample.acceleration_mps2 = gravity_mps2;
+    sample.angular_velocity_radps.y = pitch_radps;
+    sample.angular_velocity_radps.z = plant.truth().wz_radps;
+    measure(now, sample);
   }
 
   void read_receiver() {
@@ -204,6 +258,8 @@ class EngineRig {
     fix.position.hdop = 0.7;
     fix.position.correction_age_s = 1;
     fix.heading.heading_deg = compass_deg_from_yaw_rad(pose.yaw_rad);
+    fix.velocity.speed_mps = std::abs(plant.truth().vx_mps);
+    if (ticks_ % 60 == 0) fix.velocity.speed_mps += speed_noise_mps;
     fixes_.push_back(fix);
   }
 

@@ -134,7 +134,7 @@ TEST(BaseStatus, NeverWritesWhatIsNoNumber) {
   const double bad = std::numeric_limits<double>::quiet_NaN();
   BaseStatus publisher{RtkConfig{}};
   publisher.text(snapshot);
-  snapshot.pose.x_m = snapshot.pose.yaw_rad = snapshot.pose.vx_mps = bad;
+  snapshot.pose.x_m = snapshot.pose.yaw_rad = snapshot.worst_vx_mps = bad;
   snapshot.pose.wz_radps = std::numeric_limits<double>::infinity();
   snapshot.gnss.pose_latitude_deg = snapshot.gnss.pose_longitude_deg = bad;
   const auto ours = parsed(publisher.text(snapshot));

@@ -1,0 +1,85 @@
+// What the engine makes of motion that it did not ask for, and of stops that do not work.
+#include <algorithm>
+#include <cmath>
+
+#include "engine/engine_impl.h"
+
+namespace drover::engine {
+namespace {
+
+/// Drives let go before their supply does: what they brake needs the battery to go to.
+constexpr Duration kLetGo = std::chrono::milliseconds(1500);
+
+}  // namespace
+
+void Engine::Impl::watch_imu(const ImuSample& sample, Time at) {
+  tilt.on_sample(sample, at);
+  const bool zero_known = std::isfinite(estimate.gyro_bias_sigma_radps);
+  const double turn_radps =
+      sample.angular_velocity_radps.z - (zero_known ? estimate.gyro_bias_radps.z : 0.0);
+  rest.witness().on_turn(turn_radps, at);
+  mechanics.on_turn(turn_radps, at);
+}
+
+/// Whether the base rests when it should; what moves it without a command, in words.
+Reason Engine::Impl::judge_motion(Time now, Duration dt, const LineTable& lines) {
+  const std::span<const AxisSnapshot> axes{snapshot.axes.data(), snapshot.axes.size()};
+  const auto estop = static_cast<std::size_t>(Line::estop);
+  RestInput input{.now = now, .dt = dt, .axes = axes};
+  input.power_is_off = config.line_configured[estop] && lines.active[estop];
+  if (estimate.has_heading) input.yaw_rad = estimate.pose.yaw_rad;
+  const RestState state = rest.update(input);
+  if (state == RestState::not_stopping && cut_since == kNever) {
+    cut_since = now;
+    navigator.latch(now, rest.reason(), events);
+  }
+  const bool known = imu_trusted;
+  tilt.update(now, known ? estimate.roll_rad : kAbsent, known ? estimate.pitch_rad : kAbsent);
+  mechanics.step({.now = now,
+                  .dt = dt,
+                  .left_mps = estimate.left_mps,
+                  .right_mps = estimate.right_mps,
+                  .commanded = motion_asked,
+                  .yaw_rad = estimate.has_heading ? estimate.pose.yaw_rad : kAbsent,
+                  .gyro_zero_known = std::isfinite(estimate.gyro_bias_sigma_radps)});
+  return state == RestState::not_stopping ? Reason() : rest.reason();
+}
+
+void Engine::Impl::watch_wheels(Time now, Duration dt) {
+  const std::span<const AxisSnapshot> axes{snapshot.axes.data(), snapshot.axes.size()};
+  wheel_fault = wheels.update(now, dt, axes);
+  wheel_reason = wheels.reason();
+  if (wheel_fault == WheelFault::runaway) rest.expect_stop(now);
+  if (wheel_fault == WheelFault::none && !mechanics.fault().empty()) {
+    wheel_fault = WheelFault::disagrees;
+    wheel_reason = mechanics.fault();
+  }
+}
+
+/// A stop that did not work: the drives let go, then their supply does.
+void Engine::Impl::cut_power(Time now, EngineOutput& out) {
+  if (cut_since == kNever) return;
+  bool off = true;
+  for (const auto* side : {&config.base.left, &config.base.right}) {
+    for (const AxisId id : *side) {
+      out.axes[id] = {AxisRequest::idle, 0};
+      snapshot.axes[id].commanded_velocity_radps = 0;
+      const AxisSnapshot& axis = snapshot.axes[id];
+      const bool holds = axis.state == AxisState::running || axis.state == AxisState::arming;
+      off = off && !(holds && axis.health == SourceState::fresh);
+    }
+  }
+  out.motion_permitted = false;
+  relay_open = relay_open || off || now - cut_since >= kLetGo;
+}
+
+/// Of what wheels and receiver say the faster one: somebody who reads 0 walks up to the robot.
+double Engine::Impl::worst_speed_mps(Time now) const {
+  const double wheels_mps = estimate.pose.vx_mps;
+  const double receiver_mps = rest.witness().speed_mps(now);
+  constexpr double kAlike_mps = 0.2;  // two speeds of one motion, with their noise
+  if (!(receiver_mps > std::abs(wheels_mps) + kAlike_mps)) return wheels_mps;
+  return std::copysign(receiver_mps, wheels_mps);
+}
+
+}  // namespace drover::engine

@@ -1,0 +1,246 @@
+// The first way after the start: wheels, gyro and receiver have to agree on it.
+#include "engine/health/mechanics_check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "drover/angle.h"
+#include "engine/health/ground_way.h"
+
+namespace drover::engine {
+namespace {
+
+constexpr double kFirst_mps = 0.05;
+constexpr double kSpeedUp_s = 1.0;  // a ratio of ten is ten times as fast
+constexpr double kStill_mps = 0.01;
+constexpr double kStill_s = 1.0;
+constexpr Duration kMarkEach = std::chrono::milliseconds(10);
+constexpr double kGyroStale_s = 0.1;
+// Left, right, left again over this way: straight at both ends.
+const double kSwing_rad = to_rad(5.0);
+constexpr double kStraightShare = 1.0 / 12;
+constexpr double kSwingShare = 2.5 / 12;
+// Soil turns a base by itself, and the yaw gain is known within a factor; a wrong sign is twice the
+// turn.
+const double kTurnMargin_rad = to_rad(4.0);
+constexpr double kTurnShare = 0.7;
+// Of ways: slip is less than this, a wrong ratio is at least 2.
+constexpr double kWayRatio = 1.5;
+constexpr double kWaySigmas = 2.5;        // two positions in succession
+constexpr double kWaySigmasAtOnce = 5.0;  // one
+constexpr double kFewestPlaces = 3;
+constexpr double kShortest_m = 0.1;  // of a way that is found too short
+
+double sigma_m(const GnssPosition& position, const EstimateConfig& config) {
+  double sigma = config.sigma_fixed_m;
+  for (const double told_m : {position.sigma_east_m, position.sigma_north_m}) {
+    if (std::isfinite(told_m)) sigma = std::max(sigma, told_m);
+  }
+  return sigma;
+}
+
+}  // namespace
+
+MechanicsCheck::MechanicsCheck(const EngineConfig& config)
+    : config_(config), proved_(!(config.navigate.first_way_m > 0)) {}
+
+void MechanicsCheck::begin() {
+  moving_ = true;
+  began_ = now_;
+  rolled_m_ = 0;
+  last_ = {};
+  marks_.fill({});
+  next_mark_ = 0;
+  heading_turn_rad_ = kAbsent;
+  odd_places_ = 0;
+}
+
+void MechanicsCheck::on_position(const GnssPosition& position, Time at) {
+  const bool usable = position.quality == FixQuality::rtk_fixed &&
+                      std::isfinite(position.latitude_deg) && std::isfinite(position.longitude_deg);
+  if (proved_ || !usable) return;
+  position_ = position;
+  position_at_ = at;
+  fresh_position_ = true;
+  if (moving_ && at >= began_) return;
+  // A running mean of about a second.
+  const double share = 1.0 / std::min(++rest_.places, 10);
+  rest_.north_deg += share * (position.latitude_deg - rest_.north_deg);
+  rest_.east_deg += share * (position.longitude_deg - rest_.east_deg);
+}
+
+void MechanicsCheck::on_heading(const GnssHeading& heading, Time at) {
+  if (proved_ || !std::isfinite(heading.heading_deg)) return;
+  const double yaw_rad = yaw_rad_from_compass_deg(heading.heading_deg);
+  if (!moving_ || at < began_) {
+    const double share = 1.0 / std::min(++rest_.headings, 10);
+    rest_.heading_cos += share * (std::cos(yaw_rad) - rest_.heading_cos);
+    rest_.heading_sin += share * (std::sin(yaw_rad) - rest_.heading_sin);
+    return;
+  }
+  if (rest_.headings == 0) return;
+  heading_turn_rad_ = wrap_rad(yaw_rad - std::atan2(rest_.heading_sin, rest_.heading_cos));
+  heading_at_ = at;
+}
+
+void MechanicsCheck::on_turn(double turn_radps, Time at) {
+  if (proved_ || !std::isfinite(turn_radps)) return;
+  const bool gap = gyro_at_ == kNever || to_s(at - gyro_at_) > kGyroStale_s;
+  if (moving_ && !gap) last_.gyro_rad += turn_radps * std::max(to_s(at - gyro_at_), 0.0);
+  gyro_at_ = at;
+}
+
+void MechanicsCheck::remember(Time now) {
+  last_.at = now;
+  const Mark& before = marks_[(next_mark_ + marks_.size() - 1) % marks_.size()];
+  if (before.at != kNever && now - before.at < kMarkEach) return;
+  marks_[next_mark_] = last_;
+  next_mark_ = (next_mark_ + 1) % marks_.size();
+}
+
+/// What the wheels had done at `at`; nullptr when it is too long ago.
+const MechanicsCheck::Mark* MechanicsCheck::mark_at(Time at) const {
+  const Mark* best = nullptr;
+  for (const Mark& mark : marks_) {
+    if (mark.at == kNever) continue;
+    const auto apart = [at](const Mark& m) { return m.at > at ? m.at - at : at - m.at; };
+    if (best == nullptr || apart(mark) < apart(*best)) best = &mark;
+  }
+  const bool near =
+      best != nullptr && best->at - at < 2 * kMarkEach && at - best->at < 2 * kMarkEach;
+  return near ? best : nullptr;
+}
+
+void MechanicsCheck::say_turn(double by_gyro_rad, double by_wheels_rad) {
+  const bool heading = std::isfinite(heading_turn_rad_);
+  const double by_receiver_rad = heading ? heading_turn_rad_ : 0;
+  if (heading &&
+      std::abs(by_receiver_rad - by_wheels_rad) < std::abs(by_receiver_rad - by_gyro_rad)) {
+    fault_.format(
+        "the gyro turned %+.0f degrees, wheels and receiver %+.0f: is the IMU mounted as "
+        "configured?",
+        to_deg(by_gyro_rad), to_deg(by_wheels_rad));
+  } else {
+    fault_.format(
+        "by its wheels the robot turned %+.0f degrees, by the %s %+.0f: sides swapped, or a wheel "
+        "reversed?",
+        to_deg(by_wheels_rad), heading ? "gyro and receiver" : "gyro", to_deg(by_gyro_rad));
+  }
+}
+
+void MechanicsCheck::compare_turn(const MechanicsInput& input) {
+  const auto apart = [](double other_rad, double wheels_rad) {
+    return std::abs(other_rad - wheels_rad) > kTurnMargin_rad + kTurnShare * std::abs(wheels_rad);
+  };
+  const bool gyro = input.gyro_zero_known && gyro_at_ != kNever &&
+                    std::abs(to_s(input.now - gyro_at_)) < kGyroStale_s;
+  if (gyro) {
+    if (apart(last_.gyro_rad, last_.turn_rad)) say_turn(last_.gyro_rad, last_.turn_rad);
+    return;
+  }
+  const Mark* then = std::isfinite(heading_turn_rad_) ? mark_at(heading_at_) : nullptr;
+  if (then == nullptr || !apart(heading_turn_rad_, then->turn_rad)) return;
+  fault_.format(
+      "by its wheels the robot turned %+.0f degrees, by the receiver %+.0f: sides swapped, or a "
+      "wheel reversed?",
+      to_deg(then->turn_rad), to_deg(heading_turn_rad_));
+}
+
+void MechanicsCheck::compare_way(const Mark& wheels) {
+  GnssPosition from = position_;
+  from.latitude_deg = rest_.north_deg;
+  from.longitude_deg = rest_.east_deg;
+  PathPoint way = ground_way(from, position_);
+  const double turn_rad = std::isfinite(heading_turn_rad_) ? heading_turn_rad_ : wheels.turn_rad;
+  double ahead_m = std::hypot(way.x_m, way.y_m);
+  if (std::isfinite(yaw_rad_)) {
+    const double yaw0_rad = yaw_rad_ - turn_rad;
+    // The antenna swings about the base as it turns.
+    const double ax = config_.estimate.antenna_x_m;
+    const double ay = config_.estimate.antenna_y_m;
+    const auto arm = [&](double yaw) {
+      return PathPoint{ax * std::cos(yaw) - ay * std::sin(yaw),
+                       ax * std::sin(yaw) + ay * std::cos(yaw)};
+    };
+    const PathPoint before = arm(yaw0_rad);
+    const PathPoint after = arm(yaw_rad_);
+    way.x_m -= after.x_m - before.x_m;
+    way.y_m -= after.y_m - before.y_m;
+    ahead_m = way.x_m * std::cos(yaw0_rad) + way.y_m * std::sin(yaw0_rad);
+  }
+  const double rolled_m = wheels.way_m;
+  const double gone_m = std::hypot(way.x_m, way.y_m);
+  const bool back = ahead_m * rolled_m < 0;
+  const double too_much_m = back ? std::abs(ahead_m) : gone_m - kWayRatio * std::abs(rolled_m);
+  const double too_little_m =
+      std::abs(rolled_m) > kShortest_m ? std::abs(rolled_m) - kWayRatio * gone_m : 0.0;
+  const double odd_m = std::max(too_much_m, too_little_m);
+  const double sigma = sigma_m(position_, config_.estimate);
+  odd_places_ = odd_m > kWaySigmas * sigma ? odd_places_ + 1 : 0;
+  if (odd_places_ < 2 && !(odd_m > kWaySigmasAtOnce * sigma)) return;
+  if (back) {
+    fault_.format(
+        "the wheels rolled %+.2f m, the receiver went %+.2f m: drives reversed, or the heading is "
+        "turned round?",
+        rolled_m, ahead_m);
+  } else {
+    fault_.format("the wheels rolled %.2f m, the receiver went %.2f m: %s", std::abs(rolled_m),
+                  gone_m,
+                  too_little_m > too_much_m ? "wheels slip, or gear ratio or wheel radius is wrong?"
+                                            : "gear ratio or wheel radius is wrong?");
+  }
+}
+
+void MechanicsCheck::step(const MechanicsInput& input) {
+  now_ = input.now;
+  if (proved_) return;
+  yaw_rad_ = input.yaw_rad;
+  const double vx_mps = 0.5 * (input.left_mps + input.right_mps);
+  const bool still = !input.commanded && std::abs(input.left_mps) < kStill_mps &&
+                     std::abs(input.right_mps) < kStill_mps;
+  if (!still) still_since_ = kNever;
+  if (still && still_since_ == kNever) still_since_ = input.now;
+  if (moving_ && still && input.now - still_since_ >= from_s(kStill_s)) {
+    moving_ = false;
+    rest_ = {};
+    fault_.clear();
+  }
+  if (!moving_ && input.commanded) begin();
+  if (!moving_) return;
+  const double dt_s = std::max(to_s(input.dt), 0.0);
+  const double gauge_m = config_.base.track_m * config_.base.yaw_slip_factor;
+  last_.way_m += vx_mps * dt_s;
+  last_.turn_rad += (input.right_mps - input.left_mps) / gauge_m * dt_s;
+  rolled_m_ += std::abs(vx_mps) * dt_s;
+  remember(input.now);
+  if (!fault_.empty()) return;
+  compare_turn(input);
+  if (fresh_position_ && fault_.empty() && rest_.places >= kFewestPlaces) {
+    if (const Mark* then = mark_at(position_at_); then != nullptr) compare_way(*then);
+  }
+  fresh_position_ = false;
+  if (fault_.empty() && rolled_m_ >= config_.navigate.first_way_m) proved_ = true;
+}
+
+double MechanicsCheck::speed_cap_mps() const {
+  if (proved_) return std::numeric_limits<double>::infinity();
+  const double age_s = moving_ ? to_s(now_ - began_) : 0.0;
+  return kFirst_mps * std::clamp(age_s / kSpeedUp_s, 0.2, 1.0);
+}
+
+Twist MechanicsCheck::guide(const Twist& wanted) const {
+  if (proved_ || !(wanted.vx_mps > 0)) return wanted;
+  Twist twist = wanted;
+  twist.vx_mps = std::min(wanted.vx_mps, speed_cap_mps());
+  const double share = rolled_m_ / config_.navigate.first_way_m - kStraightShare;
+  double side = 0;  // which way the swing goes now
+  if (share >= 0 && share < 4 * kSwingShare) {
+    side = share < kSwingShare || share >= 3 * kSwingShare ? 1.0 : -1.0;
+  }
+  const double radpm = kSwing_rad / (kSwingShare * config_.navigate.first_way_m);
+  twist.wz_radps = side * radpm * twist.vx_mps;
+  return twist;
+}
+
+}  // namespace drover::engine

@@ -1,0 +1,95 @@
+// The first way after the start is driven slowly, with a little turn: wheels, gyro and receiver
+// have to agree on it. Wrong gear ratios, swapped sides and reversed wheels are found before they
+// hurt.
+#pragma once
+
+#include <array>
+
+#include "drover/measurement.h"
+#include "drover/path.h"
+#include "drover/snapshot.h"
+#include "engine/config.h"
+#include "engine/navigate/tracker.h"
+
+namespace drover::engine {
+
+struct MechanicsInput {
+  Time now = kNever;
+  Duration dt{};
+  double left_mps = 0;  ///< mean rim speeds, as the drives tell them
+  double right_mps = 0;
+  bool commanded = false;        ///< somebody moves the base
+  double yaw_rad = kAbsent;      ///< of the base, absent while unknown
+  bool gyro_zero_known = false;  ///< its bias was learned
+};
+
+/// Ways and turns count from the place where motion began; the receiver's are compared with the
+/// wheels' at the receiver's own instant. What cannot be compared (no RTK fix, no gyro) is not: the
+/// slow way stays.
+class MechanicsCheck final {
+ public:
+  explicit MechanicsCheck(const EngineConfig& config);
+
+  void on_position(const GnssPosition& position, Time at);
+  void on_heading(const GnssHeading& heading, Time at);
+  /// `turn_radps` about the vertical, without the bias.
+  void on_turn(double turn_radps, Time at);
+
+  void step(const MechanicsInput& input);
+  bool proved() const { return proved_; }
+  /// What disagrees; empty when nothing does. Stays until the base rests.
+  const Reason& fault() const { return fault_; }
+  /// How fast anybody may drive now, m/s; infinite once proved.
+  double speed_cap_mps() const;
+  /// What is driven instead of `wanted`: the same way, with a little turn to each side.
+  Twist guide(const Twist& wanted) const;
+
+ private:
+  /// Since the motion began.
+  struct Mark {
+    Time at = kNever;
+    double way_m = 0;     ///< by the wheels, ahead positive
+    double turn_rad = 0;  ///< by the wheels
+    double gyro_rad = 0;
+  };
+  /// The mean of what the receiver said at rest.
+  struct Rest {
+    GnssPosition place;
+    double north_deg = 0;  ///< mean of the latitudes
+    double east_deg = 0;
+    double heading_sin = 0;
+    double heading_cos = 0;
+    int places = 0;
+    int headings = 0;
+  };
+
+  void begin();
+  void remember(Time now);
+  const Mark* mark_at(Time at) const;
+  void compare_turn(const MechanicsInput& input);
+  void compare_way(const Mark& wheels);
+  void say_turn(double by_gyro_rad, double by_wheels_rad);
+
+  EngineConfig config_;
+  bool proved_ = false;
+  bool moving_ = false;
+  Time still_since_ = kNever;
+  Time began_ = kNever;
+  Time now_ = kNever;
+  double yaw_rad_ = kAbsent;
+  double rolled_m_ = 0;  ///< in either direction
+  Mark last_;
+  std::array<Mark, 128> marks_{};
+  std::size_t next_mark_ = 0;
+  Rest rest_;
+  GnssPosition position_;
+  bool fresh_position_ = false;
+  Time position_at_ = kNever;
+  double heading_turn_rad_ = kAbsent;  ///< by the receiver, since the motion began
+  Time heading_at_ = kNever;
+  Time gyro_at_ = kNever;
+  int odd_places_ = 0;  ///< in succession
+  Reason fault_;
+};
+
+}  // namespace drover::engine

@@ -1,0 +1,135 @@
+// What else than the wheels says that the base moves.
+#include "engine/health/motion_witness.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "drover/angle.h"
+#include "engine/health/ground_way.h"
+
+namespace drover::engine {
+namespace {
+
+constexpr double kMoving_mps = 0.2;
+constexpr double kMoving_m = 0.3;
+const double kTurning_radps = to_rad(3.0);
+constexpr double kSigmas = 4.0;
+constexpr double kFresh_s = 0.5;   // receivers tell ten times a second, and once a second at worst
+constexpr double kTurnSmooth_s = 0.1;  // a knock is no turn
+constexpr double kLearned = 0.05;  // share of each new speed
+constexpr double kMostNoise_mps = 0.5;  // what is more, nobody has to call noise
+
+double speed_sigma_mps(FixQuality quality) {
+  switch (quality) {
+    case FixQuality::rtk_fixed: return 0.03;
+    case FixQuality::rtk_float: return 0.15;
+    case FixQuality::dgps:
+    case FixQuality::pps: return 0.3;
+    default: return 0.5;
+  }
+}
+
+double place_sigma_m(const GnssPosition& position, const EstimateConfig& config) {
+  double sigma_m = config.sigma_single_m;
+  if (position.quality == FixQuality::rtk_fixed) sigma_m = config.sigma_fixed_m;
+  if (position.quality == FixQuality::rtk_float) sigma_m = config.sigma_float_m;
+  if (position.quality == FixQuality::dgps) sigma_m = config.sigma_dgps_m;
+  for (const double told_m : {position.sigma_east_m, position.sigma_north_m}) {
+    if (std::isfinite(told_m)) sigma_m = std::max(sigma_m, told_m);
+  }
+  return sigma_m;
+}
+
+void append(Reason& text, const char* format, double value) {
+  Reason part;
+  part.format(format, value);
+  const Reason before = text;
+  text.format("%.*s%s%.*s", static_cast<int>(before.view().size()), before.view().data(),
+              before.empty() ? "" : ", ", static_cast<int>(part.view().size()), part.view().data());
+}
+
+}  // namespace
+
+bool MotionWitness::fresh(Time at, Time now) const {
+  return at != kNever && now - at <= from_s(kFresh_s);
+}
+
+void MotionWitness::on_speed(const GnssVelocity& velocity, Time at) {
+  if (!std::isfinite(velocity.speed_mps)) return;
+  speed_mps_ = std::abs(velocity.speed_mps);
+  speed_at_ = at;
+  if (!rests_) return;
+  const double noise_mps = std::min(speed_mps_, kMostNoise_mps);
+  learned_noise_mps2_ += kLearned * (noise_mps * noise_mps - learned_noise_mps2_);
+}
+
+void MotionWitness::on_position(const GnssPosition& position, Time at) {
+  const bool place = position.quality != FixQuality::none && std::isfinite(position.latitude_deg) &&
+                     std::isfinite(position.longitude_deg);
+  if (!place) return;
+  if (position.quality != position_.quality) learned_noise_mps2_ = 0;
+  position_ = position;
+  position_at_ = at;
+  if (from_at_ == kNever && wanted_from_ != kNever && at >= wanted_from_) {
+    from_ = position;
+    from_at_ = at;
+  }
+}
+
+void MotionWitness::on_turn(double turn_radps, Time at) {
+  if (!std::isfinite(turn_radps)) return;
+  const double dt_s = turn_at_ == kNever ? 1.0 : std::max(to_s(at - turn_at_), 0.0);
+  turn_radps_ += dt_s / (kTurnSmooth_s + dt_s) * (turn_radps - turn_radps_);
+  turn_at_ = at;
+}
+
+void MotionWitness::expect_rest(Time at) {
+  wanted_from_ = at;
+  from_at_ = kNever;
+}
+
+double MotionWitness::speed_noise_mps() const {
+  return std::max(speed_sigma_mps(position_.quality), std::sqrt(learned_noise_mps2_));
+}
+
+double MotionWitness::speed_mps(Time now) const {
+  if (!fresh(speed_at_, now)) return 0;
+  return speed_mps_ > std::max(kMoving_mps, kSigmas * speed_noise_mps()) ? speed_mps_ : 0.0;
+}
+
+PathPoint MotionWitness::way(Time now) const {
+  if (from_at_ == kNever || !fresh(position_at_, now)) return {};
+  return ground_way(from_, position_);
+}
+
+Testimony MotionWitness::hear(Time now) const {
+  Testimony said;
+  if (fresh(speed_at_, now)) {
+    ++said.heard;
+    if (const double speed = speed_mps(now); speed > 0) {
+      ++said.moving;
+      append(said.in_words, "the receiver says %.1f m/s", speed);
+    }
+  }
+  if (fresh(turn_at_, now)) {
+    ++said.heard;
+    if (std::abs(turn_radps_) > kTurning_radps) {
+      ++said.moving;
+      append(said.in_words, "the gyro %.0f deg/s", to_deg(turn_radps_));
+    }
+  }
+  if (from_at_ != kNever && fresh(position_at_, now)) {
+    ++said.heard;
+    const PathPoint gone = way(now);
+    const double gone_m = std::hypot(gone.x_m, gone.y_m);
+    const double noise_m = std::hypot(place_sigma_m(from_, config_.estimate),
+                                      place_sigma_m(position_, config_.estimate));
+    if (gone_m > std::max(kMoving_m, kSigmas * noise_m)) {
+      ++said.moving;
+      append(said.in_words, "the receiver's position went %.1f m", gone_m);
+    }
+  }
+  return said;
+}
+
+}  // namespace drover::engine

@@ -1,0 +1,199 @@
+// Whether the base comes to rest when it is told to, and stays there.
+#include "engine/health/rest_watch.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace drover::engine {
+namespace {
+
+constexpr double kTurns_mps = 0.05;
+constexpr double kRestPatience_s = 0.3;  // drives lag
+constexpr double kMotionHeld_s = 0.05;     // one odd value is no motion
+constexpr double kAlone_s = 1.0;     // a witness without another one
+constexpr double kConfirm_s = 1.0;
+constexpr double kDirection_m = 0.1;
+constexpr Duration kLookAgain = std::chrono::seconds(5);
+
+}  // namespace
+
+RestWatch::RestWatch(const EngineConfig& config) : config_(config), witness_(config) {
+  for (const AxisId id : config.base.left) driven_[id] = true;
+  for (const AxisId id : config.base.right) driven_[id] = true;
+}
+
+void RestWatch::expect_stop(Time now) {
+  ours_ = true;
+  if (state_ == RestState::resting || state_ == RestState::rolling) {
+    state_ = RestState::settling;
+    due_ = now;
+  }
+}
+
+void RestWatch::reset() {
+  if (state_ != RestState::not_stopping) return;
+  state_ = RestState::settling;
+  ours_ = false;
+  quiet_since_ = moves_since_ = alone_since_ = kNever;
+  reason_.clear();
+}
+
+RestWatch::Rims RestWatch::rims(const RestInput& input) const {
+  Rims rims;
+  for (std::size_t i = 0; i < input.axes.size(); ++i) {
+    if (!driven_[i]) continue;
+    const AxisSnapshot& axis = input.axes[i];
+    const double rim_mps = axis.motion.velocity_radps * config_.base.wheel_radius_m;
+    const bool heard = axis.last_motion != kNever && std::isfinite(rim_mps) &&
+                       input.now - axis.last_motion < from_s(config_.health.drive_stale_s);
+    if (!heard) {
+      rims.silent = true;
+    } else if (std::abs(rim_mps) > std::abs(rims.fastest_mps)) {
+      rims.fastest_mps = rim_mps;
+    }
+  }
+  return rims;
+}
+
+/// The fastest rim's command, with its sign.
+double RestWatch::asked_mps(const RestInput& input) const {
+  double asked_mps = 0;
+  for (std::size_t i = 0; i < input.axes.size(); ++i) {
+    if (!driven_[i]) continue;
+    const double mps = input.axes[i].commanded_velocity_radps * config_.base.wheel_radius_m;
+    if (std::abs(mps) > std::abs(asked_mps)) asked_mps = mps;
+  }
+  return asked_mps;
+}
+
+/// Whether the time that a ramp to zero needs is over.
+bool RestWatch::due(const RestInput& input, const Rims& rims) {
+  const double asked_mps = this->asked_mps(input);
+  if (asked_mps != 0) {
+    ours_ = true;
+    direction_ = std::copysign(1.0, asked_mps);
+  }
+  double least_mps = std::abs(asked_mps);
+  // At the start a guard may be slowing it down since before this gateway began.
+  if (!begun_ && !rims.silent) {
+    begun_ = true;
+    least_mps = std::max(least_mps, std::abs(rims.fastest_mps));
+  }
+  expected_mps_ = std::max(
+      least_mps, expected_mps_ - config_.limits.deceleration_mps2 * std::max(to_s(input.dt), 0.0));
+  if (expected_mps_ > 0) {
+    due_ = kNever;
+    return false;
+  }
+  if (due_ == kNever) {
+    due_ = input.now;
+    witness_.expect_rest(input.now);
+    quiet_since_ = moves_since_ = alone_since_ = kNever;
+  }
+  return true;
+}
+
+/// Driven on, rather than rolling down where it stands. Only what shows it counts.
+bool RestWatch::moves_as_commanded(const RestInput& input, const Rims& rims) const {
+  if (std::abs(rims.fastest_mps) > kTurns_mps) return rims.fastest_mps * direction_ > 0;
+  if (!std::isfinite(input.yaw_rad)) return false;
+  const PathPoint way = witness_.way(input.now);
+  const double ahead_m = way.x_m * std::cos(input.yaw_rad) + way.y_m * std::sin(input.yaw_rad);
+  return ahead_m * direction_ > kDirection_m;
+}
+
+bool RestWatch::others_say_so(const Testimony& said, Time now) {
+  const bool alone = said.moving == 1 && said.heard == 1;
+  if (!alone) {
+    alone_since_ = kNever;
+  } else if (alone_since_ == kNever) {
+    alone_since_ = now;
+  }
+  return said.moving >= 2 || (alone && now - alone_since_ >= from_s(kAlone_s));
+}
+
+void RestWatch::tell(const char* what, const Rims& rims, const Testimony& said) {
+  const std::string_view others = said.in_words;
+  const auto size = static_cast<int>(others.size());
+  if (std::abs(rims.fastest_mps) > kTurns_mps) {
+    reason_.format("%s: the wheels turn by %.2f m/s%s%.*s", what, rims.fastest_mps,
+                   others.empty() ? "" : ", ", size, others.data());
+  } else {
+    reason_.format("%s: the wheels %s, but %.*s", what,
+                   rims.silent ? "are silent" : "say that it rests", size, others.data());
+  }
+}
+
+void RestWatch::settle(const RestInput& input, const Rims& rims, const Testimony& said) {
+  state_ = RestState::settling;
+  const bool turns = std::abs(rims.fastest_mps) > kTurns_mps;
+  const bool moves = others_say_so(said, input.now) || turns;
+  if (!moves) moves_since_ = kNever;
+  if (moves && moves_since_ == kNever) moves_since_ = input.now;
+  const bool late = input.now - due_ >= from_s(kRestPatience_s);
+  const bool lasts = moves && input.now - moves_since_ >= from_s(kMotionHeld_s);
+  if (ours_ && late && lasts && !input.power_is_off &&
+      (!input.rolls_unpowered || moves_as_commanded(input, rims))) {
+    state_ = RestState::not_stopping;
+    tell("the robot did not stop", rims, said);
+    return;
+  }
+  if (late && lasts) {
+    tell("the robot moves without a command", rims, said);
+  } else if (!moves) {
+    reason_.clear();
+  }
+  const bool quiet = !turns && !rims.silent && said.moving == 0;
+  if (!quiet) quiet_since_ = kNever;
+  if (quiet && quiet_since_ == kNever) quiet_since_ = input.now;
+  if (quiet && input.now - quiet_since_ >= from_s(kConfirm_s)) {
+    state_ = RestState::resting;
+    ours_ = false;
+  }
+}
+
+void RestWatch::stay(const RestInput& input, const Rims& rims, const Testimony& said) {
+  const bool turns = std::abs(rims.fastest_mps) > kTurns_mps;
+  const bool moves = others_say_so(said, input.now) || turns;
+  if (moves) {
+    state_ = turns ? RestState::rolling : RestState::carried;
+    tell(turns ? "the robot rolls without a command" : "the robot is pushed or carried", rims,
+         said);
+    moves_since_ = input.now;
+    quiet_since_ = kNever;
+    return;
+  }
+  if (quiet_since_ == kNever) quiet_since_ = input.now;
+  if (state_ != RestState::resting && input.now - quiet_since_ < from_s(kConfirm_s)) return;
+  state_ = RestState::resting;
+  reason_.clear();
+  // A receiver's position wanders over the hours.
+  if (input.now - due_ > kLookAgain) {
+    due_ = input.now;
+    witness_.expect_rest(input.now);
+  }
+}
+
+RestState RestWatch::update(const RestInput& input) {
+  const Rims rims = this->rims(input);
+  turning_ = std::abs(rims.fastest_mps) > kTurns_mps;
+  const bool is_due = due(input, rims);
+  if (state_ == RestState::not_stopping) return state_;
+  if (!is_due) {
+    state_ = RestState::driving;
+    reason_.clear();
+  } else {
+    const Testimony said = witness_.hear(input.now);
+    const bool rested = state_ == RestState::resting || state_ == RestState::carried ||
+                        state_ == RestState::rolling;
+    if (rested) {
+      stay(input, rims, said);
+    } else {
+      settle(input, rims, said);
+    }
+  }
+  witness_.set_at_rest(state_ == RestState::resting);
+  return state_;
+}
+
+}  // namespace drover::engine

@@ -1,0 +1,85 @@
+// Whether the base comes to rest when it is told to, and stays there. What does not stop loses its
+// power; what is pushed or carried is told.
+#pragma once
+
+#include <span>
+
+#include "drover/snapshot.h"
+#include "engine/config.h"
+#include "engine/health/motion_witness.h"
+
+namespace drover::engine {
+
+struct RestInput {
+  Time now = kNever;
+  Duration dt{};
+  std::span<const AxisSnapshot> axes;  ///< with the commands of the last cycle
+  bool power_is_off = false;           ///< by the e-stop's own circuit: there is nothing to cut
+  /// Without power it rolls from here: only what drives on may be cut, not what rolls.
+  bool rolls_unpowered = false;
+  double yaw_rad = kAbsent;  ///< of the base, as far as it is known
+};
+
+enum class RestState : std::uint8_t {
+  driving,      ///< something is commanded, or the ramp to zero needs its time
+  settling,     ///< rest is due and not yet confirmed for a second
+  resting,      ///< confirmed
+  carried,      ///< was resting, and moves though the wheels do not show it
+  rolling,      ///< was resting, and the wheels turn without a command
+  not_stopping  ///< did not come to rest: its power has to be cut. Until reset()
+};
+
+/// Rest is due when the speed that was commanded or found at first has been taken back at the
+/// configured deceleration. What still moves 0.3 s later is cut: wheels that turn, or two witnesses
+/// besides wheels that say nothing of it (their encoders may be frozen). After a second of
+/// confirmed rest no motion is ours any more: nothing is cut then, since who pushes the robot or
+/// carries it away must not find it latched.
+class RestWatch final {
+ public:
+  explicit RestWatch(const EngineConfig& config);
+
+  MotionWitness& witness() { return witness_; }
+  const MotionWitness& witness() const { return witness_; }
+
+  RestState update(const RestInput& input);
+  RestState state() const { return state_; }
+  /// Anything says that the base moves now.
+  bool moves(Time now) const { return turning_ || witness_.hear(now).moving > 0; }
+  /// What is wrong, in words; empty when nothing is.
+  const Reason& reason() const { return reason_; }
+  /// A wheel ran away and everything was stopped: rest is due at once, whoever moved it.
+  void expect_stop(Time now);
+  /// A person reset the cut.
+  void reset();
+
+ private:
+  struct Rims {
+    double fastest_mps = 0;  ///< of those that are heard, with its sign
+    bool silent = false;     ///< at least one is not heard
+  };
+  Rims rims(const RestInput& input) const;
+  double asked_mps(const RestInput& input) const;
+  bool due(const RestInput& input, const Rims& rims);
+  bool moves_as_commanded(const RestInput& input, const Rims& rims) const;
+  void settle(const RestInput& input, const Rims& rims, const Testimony& said);
+  void stay(const RestInput& input, const Rims& rims, const Testimony& said);
+  bool others_say_so(const Testimony& said, Time now);
+  void tell(const char* what, const Rims& rims, const Testimony& said);
+
+  EngineConfig config_;
+  std::array<bool, kMaxAxes> driven_{};  ///< axes of the base
+  MotionWitness witness_;
+  RestState state_ = RestState::settling;
+  Reason reason_;
+  bool ours_ = false;     ///< we moved it since it rested last
+  double direction_ = 0;  ///< sign of the last command
+  bool begun_ = false;
+  bool turning_ = false;     ///< the wheels, in the last cycle
+  double expected_mps_ = 0;  ///< how fast it may still be
+  Time due_ = kNever;        ///< since when it should rest
+  Time moves_since_ = kNever;
+  Time alone_since_ = kNever;
+  Time quiet_since_ = kNever;
+};
+
+}  // namespace drover::engine

@@ -1,0 +1,166 @@
+// The first way after the start shows wrong mechanics before they hurt.
+#include "engine_fixture.h"
+
+namespace drover::engine {
+namespace {
+
+using ::testing::HasSubstr;
+
+EngineConfig unproved() {
+  EngineConfig config = rig_config();
+  config.navigate.first_way_m = 0.3;
+  return config;
+}
+
+class ARobotOnItsFirstWay : public ::testing::Test {
+ protected:
+  ARobotOnItsFirstWay() {
+    rig.imu = true;
+    rig.settle();
+    rig.start(path, 40, 0.5);
+  }
+  /// The true way until nothing was commanded any more.
+  double stops_after_m() {
+    const double before_m = rig.driven_m;
+    double last_m = before_m;
+    bool moved = false;
+    for (int i = 0; i < 20 * 200; ++i) {
+      rig.tick();
+      if (rig.fastest_command_radps() > 0) {
+        moved = true;
+        last_m = rig.driven_m;
+      }
+      if (moved && rig.snapshot().nav.status == NavStatus::error) break;
+    }
+    EXPECT_EQ(rig.snapshot().nav.status, NavStatus::error);
+    return last_m - before_m;
+  }
+  std::string ended() const {
+    const auto ends = rig.said<TaskEnded>();
+    return ends.empty() ? "" : std::string(ends[0].reason.view());
+  }
+
+  Path path = straight_path(20);
+  EngineRig rig{unproved()};
+};
+
+TEST_F(ARobotOnItsFirstWay, DrivesSlowlyForThirtyCentimetresAndThenAsAsked) {
+  double fastest_radps = 0;
+  while (rig.driven_m < 0.28) {
+    rig.tick();
+    fastest_radps = std::max(fastest_radps, rig.fastest_command_radps());
+    ASSERT_EQ(rig.snapshot().nav.status, NavStatus::run) << ended();
+  }
+  EXPECT_LT(fastest_radps * 0.165, 0.09);  // the outer wheel of a turn
+  rig.run_s(5);
+  EXPECT_GT(rig.fastest_command_radps() * 0.165, 0.45);
+}
+
+TEST_F(ARobotOnItsFirstWay, TurnsFiveDegreesToEachSideAndStaysOnItsTrack) {
+  double left_rad = 0;
+  double right_rad = 0;
+  while (rig.driven_m < 0.32) {
+    rig.tick();
+    left_rad = std::max(left_rad, rig.plant.truth().yaw_rad);
+    right_rad = std::min(right_rad, rig.plant.truth().yaw_rad);
+    EXPECT_LT(std::abs(rig.plant.truth().y_m), 0.03);
+  }
+  EXPECT_NEAR(to_deg(left_rad), 5, 2);
+  EXPECT_NEAR(to_deg(right_rad), -5, 2);
+}
+
+TEST_F(ARobotOnItsFirstWay, FindsAGearRatioOfTen) {
+  rig.mechanics.gear = 10;
+  EXPECT_LT(stops_after_m(), 0.2);
+  EXPECT_THAT(ended(), HasSubstr("gear ratio"));
+}
+
+TEST_F(ARobotOnItsFirstWay, FindsAGearRatioOfTwo) {
+  rig.mechanics.gear = 2;
+  EXPECT_LT(stops_after_m(), 0.2);
+  EXPECT_THAT(ended(), HasSubstr("gear ratio"));
+}
+
+TEST_F(ARobotOnItsFirstWay, FindsAGearRatioOfAHalf) {
+  rig.mechanics.gear = 0.5;
+  EXPECT_LT(stops_after_m(), 0.2);
+  EXPECT_THAT(ended(), HasSubstr("gear ratio"));
+}
+
+TEST_F(ARobotOnItsFirstWay, FindsSwappedSides) {
+  rig.mechanics.swapped = true;
+  EXPECT_LT(stops_after_m(), 0.2);
+  EXPECT_THAT(ended(), HasSubstr("sides swapped"));
+}
+
+TEST_F(ARobotOnItsFirstWay, FindsAReversedWheel) {
+  rig.mechanics.reversed = true;
+  EXPECT_LT(stops_after_m(), 0.2);
+  EXPECT_THAT(ended(), HasSubstr("wheel reversed"));
+}
+
+TEST_F(ARobotOnItsFirstWay, IsSlowAgainAfterAFailure) {
+  rig.mechanics.swapped = true;
+  stops_after_m();
+  rig.run_s(3);
+  rig.mechanics.swapped = false;
+  rig.start(path, 40, 0.5);
+  rig.run_s(3);
+  EXPECT_GT(rig.fastest_command_radps(), 0.2);
+  EXPECT_LT(rig.fastest_command_radps() * 0.165, 0.09);
+}
+
+TEST_F(ARobotOnItsFirstWay, IsNotSlowInTheNextTask) {
+  while (rig.driven_m < 1) rig.tick();
+  rig.command(CancelTask{});
+  rig.run_s(3);
+  rig.start(path, 40, 0.5);
+  rig.run_s(3);
+  EXPECT_GT(rig.fastest_command_radps() * 0.165, 0.45);
+}
+
+class ARobotWithAnIMU : public AnEngine {
+ protected:
+  ARobotWithAnIMU() { rig.imu = true; }
+  void tilt(double deg, double degps) {
+    rig.gravity_mps2 = {9.81 * std::sin(to_rad(deg)), 0, 9.81 * std::cos(to_rad(deg))};
+    rig.pitch_radps = to_rad(degps);
+    rig.tick();
+  }
+};
+
+TEST_F(ARobotWithAnIMU, ThatIsMountedUpsideDownRefusesAStart) {
+  rig.gravity_mps2 = {0, 0, -9.81};
+  rig.settle();
+  rig.start(path, 40, 0.5);
+  rig.tick();
+  EXPECT_THAT(refusal(), HasSubstr("gravity on the wrong axis"));
+}
+
+TEST_F(ARobotWithAnIMU, ThatIsMountedOnItsSideRefusesAStart) {
+  rig.gravity_mps2 = {0, 9.81, 0};
+  rig.settle();
+  rig.start(path, 40, 0.5);
+  rig.tick();
+  EXPECT_THAT(refusal(), HasSubstr("gravity on the wrong axis"));
+}
+
+TEST_F(ARobotWithAnIMU, StopsAndHoldsWhenItTiltsTooFar) {
+  drive();
+  rig.run_s(2);  // the gyro's zero is learned at rest
+  for (int i = 0; i <= 100; ++i) tilt(0.3 * i, -60);
+  for (int i = 0; i < 80; ++i) tilt(30, 0);
+  EXPECT_EQ(rig.fastest_command_radps(), 0);
+  EXPECT_THAT(rig.why(), HasSubstr("tilted by more than 25 degrees"));
+  EXPECT_NE(rig.out.axes[0].request, AxisRequest::idle);
+}
+
+TEST_F(ARobotWithAnIMU, DrivesUpASlopeOfEightDegrees) {
+  drive();
+  rig.gravity_mps2 = {9.81 * std::sin(to_rad(8)), 0, 9.81 * std::cos(to_rad(8))};
+  rig.run_s(6);
+  EXPECT_GT(rig.fastest_command_radps(), 1) << rig.why();
+}
+
+}  // namespace
+}  // namespace drover::engine

@@ -1,0 +1,198 @@
+// Stops that do not work lose their power; what is pushed or carried is told and no more.
+#include "engine_fixture.h"
+
+namespace drover::engine {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr WheelSpeeds kStraight{3, 3};  // about 0.5 m/s
+constexpr WheelSpeeds kCircle{1, 4};
+
+class ARobotThatShouldRest : public AnEngine {
+ protected:
+  ARobotThatShouldRest() {
+    rig.imu = true;
+    rig.tells_speed = true;
+  }
+  void freeze_encoders() {
+    for (auto& drive : rig.drives) drive.stuck = true;
+  }
+  bool relay() const { return rig.out.outputs[static_cast<std::size_t>(Output::enable_relay)]; }
+  bool lets_go() const { return rig.out.axes[0].request == AxisRequest::idle; }
+  /// Whether the power was cut meanwhile.
+  bool cut_within_s(double seconds) {
+    for (int i = 0; i < static_cast<int>(seconds * 200 + 0.5); ++i) {
+      rig.tick();
+      if (lets_go()) return true;
+    }
+    return false;
+  }
+  void drive_again() {
+    rig.start(path, 40, 0.5);
+    rig.run_s(3);
+    EXPECT_GT(rig.fastest_command_radps(), 1) << rig.why();
+  }
+  void rest_s(double seconds) {
+    rig.run_s(seconds);
+    ASSERT_FALSE(lets_go());
+    ASSERT_TRUE(relay());
+  }
+  std::string told() const {
+    std::string all;
+    for (const Notice& notice : rig.said<Notice>()) all += std::string(notice.text.view()) + "\n";
+    return all;
+  }
+};
+
+TEST_F(ARobotThatShouldRest, LosesItsPowerWhenItCirclesWithFrozenEncodersAfterAStop) {
+  drive();
+  rig.disobeys = kCircle;
+  freeze_encoders();
+  rig.command(EngageStop{});
+  const double before_m = rig.driven_m;
+  ASSERT_TRUE(cut_within_s(2));
+  EXPECT_LT(rig.driven_m - before_m, 0.8);
+  EXPECT_THAT(rig.why(), HasSubstr("did not stop"));
+  EXPECT_THAT(rig.why(), HasSubstr("the receiver says"));
+  EXPECT_TRUE(rig.snapshot().stop_latched);
+  rig.run_s(2);
+  EXPECT_FALSE(relay());
+}
+
+TEST_F(ARobotThatShouldRest, LosesItsPowerWhenItDrivesStraightOnWithFrozenEncoders) {
+  drive();
+  rig.disobeys = kStraight;
+  freeze_encoders();
+  rig.command(CancelTask{});
+  EXPECT_TRUE(cut_within_s(3));
+}
+
+TEST_F(ARobotThatShouldRest, LosesItsPowerWhenItsWheelsGoOn) {
+  drive();
+  rig.disobeys = kStraight;
+  rig.command(CancelTask{});
+  ASSERT_TRUE(cut_within_s(2));
+  EXPECT_THAT(rig.why(), HasSubstr("the wheels turn by 0.5"));
+}
+
+TEST_F(ARobotThatShouldRest, FirstLetsTheDrivesGoAndThenTheRelay) {
+  drive();
+  rig.disobeys = kStraight;
+  rig.command(CancelTask{});
+  ASSERT_TRUE(cut_within_s(2));
+  EXPECT_EQ(rig.fastest_command_radps(), 0);
+  EXPECT_TRUE(relay());
+  rig.run_s(2);
+  EXPECT_FALSE(relay());
+}
+
+TEST_F(ARobotThatShouldRest, StaysCutUntilSomebodyAtTheRobotResetsIt) {
+  drive();
+  rig.disobeys = kStraight;
+  rig.command(CancelTask{});
+  ASSERT_TRUE(cut_within_s(2));
+  rig.run_s(4);
+  rig.command(ResetStop{});  // the rig speaks over MQTT
+  rig.tick();
+  EXPECT_THAT(refusal(), HasSubstr("at the robot"));
+  rig.start(path, 40, 0.5);
+  rig.tick();
+  EXPECT_THAT(refusal(), HasSubstr("reset the stop first"));
+  rig.disobeys.reset();
+  rig.engine->on_command({{RequestId::Source::cli, 99}, rig.now, ResetStop{}}, rig.now);
+  rig.run_s(1);
+  EXPECT_TRUE(relay());
+  EXPECT_FALSE(lets_go());
+  EXPECT_FALSE(rig.snapshot().stop_latched);
+}
+
+TEST_F(ARobotThatShouldRest, IsNotResetWhileItStillMoves) {
+  drive();
+  rig.disobeys = kStraight;
+  rig.command(CancelTask{});
+  ASSERT_TRUE(cut_within_s(2));
+  rig.carried = kStraight;
+  rig.run_s(2);
+  rig.engine->on_command({{RequestId::Source::cli, 99}, rig.now, ResetStop{}}, rig.now);
+  rig.tick();
+  EXPECT_THAT(refusal(), HasSubstr("still moves"));
+}
+
+TEST_F(ARobotThatShouldRest, StopsAsEverWhenAllIsWell) {
+  drive();
+  rig.command(CancelTask{});
+  rest_s(5);
+  drive_again();
+}
+
+TEST_F(ARobotThatShouldRest, IsNotCutByFrozenEncodersAlone) {
+  drive();
+  freeze_encoders();
+  rig.command(EngageStop{});
+  rest_s(30);
+}
+
+TEST_F(ARobotThatShouldRest, IsNotCutByAFloatReceiverThatTellsNoise) {
+  rig.quality = FixQuality::rtk_float;
+  rig.speed_noise_mps = 0.3;
+  rig.settle();
+  rest_s(60);
+}
+
+TEST_F(ARobotThatShouldRest, IsNotCutByAFloatReceiversNoiseAfterADrive) {
+  drive();
+  rig.quality = FixQuality::rtk_float;
+  rig.speed_noise_mps = 0.3;
+  rig.command(CancelTask{});
+  rest_s(30);
+}
+
+TEST_F(ARobotThatShouldRest, ThatIsCarriedAwayIsToldAndNotCut) {
+  drive();
+  rig.command(CancelTask{});
+  rest_s(4);
+  freeze_encoders();
+  rig.carried = kCircle;
+  rest_s(5);
+  EXPECT_THAT(told(), HasSubstr("pushed or carried"));
+  rig.start(path, 40, 0.5);
+  rig.tick();
+  EXPECT_THAT(refusal(), HasSubstr("pushed or carried"));
+  rig.carried.reset();
+  rest_s(5);
+  EXPECT_THAT(rig.why(), ::testing::Not(HasSubstr("carried")));
+}
+
+TEST_F(ARobotThatShouldRest, ThatIsPushedSoThatItsWheelsTurnIsToldAndNotCut) {
+  drive();
+  rig.command(CancelTask{});
+  rest_s(4);
+  rig.carried = WheelSpeeds{1, 1};
+  rest_s(5);
+  EXPECT_THAT(told(), HasSubstr("rolls without a command"));
+  rig.start(path, 40, 0.5);
+  rig.tick();
+  EXPECT_THAT(refusal(), HasSubstr("rolls without a command"));
+}
+
+TEST_F(ARobotThatShouldRest, RefusesAStartWhileItRollsSinceItsBeginning) {
+  rig.carried = WheelSpeeds{1, 1};
+  rig.settle();
+  rig.start(path, 40, 0.5);
+  rig.tick();
+  EXPECT_THAT(refusal(), HasSubstr("without a command"));
+  rest_s(5);
+}
+
+TEST_F(ARobotThatShouldRest, PublishesTheWorseOfTwoSpeeds) {
+  drive();
+  rig.disobeys = WheelSpeeds{20, 20};
+  freeze_encoders();
+  rig.run_s(0.35);
+  EXPECT_GT(rig.snapshot().worst_vx_mps, 2);
+  EXPECT_LT(std::abs(rig.snapshot().pose.vx_mps), 1);
+}
+
+}  // namespace
+}  // namespace drover::engine
