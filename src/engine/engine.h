@@ -21,6 +21,8 @@ struct Environment {
   bool guard_has_bus = false;  ///< the guard sends stop frames; ours are blocked until hand-back
   /// Health of each drive, by AxisId, and of the receiver, as their drivers judge it.
   std::array<SourceHealth, kMaxAxes> axes{};
+  Reason slept;    ///< the computer was suspended: a task ends; empty when it was not
+  Reason foreign;  ///< who else commands the drives; empty when nobody does
   Reason bus;  ///< what is wrong with a CAN bus; empty when all is well
   /// A part of the daemon hangs, or it is about to end: motion ends with a ramp. Empty: all is
   /// well.

@@ -15,6 +15,8 @@ Make maker(const std::string& driver, const std::string& key) {
   return *make;
 }
 
+constexpr Duration kSleepTold = std::chrono::seconds(1);
+
 constexpr std::size_t index(Stream stream) {
   return static_cast<std::size_t>(stream);
 }
@@ -24,7 +26,8 @@ constexpr std::size_t index(Stream stream) {
 Gateway::Gateway(const config::DroverConfig& config)
     : engine_(config.engine),
       bus_count_(config.buses.size()),
-      jammed_after_(from_s(config.engine.health.drive_stale_s)) {
+      jammed_after_(from_s(config.engine.health.drive_stale_s)),
+      guard_required_(config.engine.health.guard_required) {
   if (bus_count_ > kMaxBuses) throw std::runtime_error("buses: too many");
   for (std::size_t bus = 0; bus < bus_count_; ++bus)
     buses_[bus].name = Name(config.buses[bus].name);
@@ -79,8 +82,18 @@ void Gateway::on(const FrameHeard& heard, Time received) {
   buses_[bus].condition.on_frame(received);
   for (const auto& drive : drives_) {
     if (drive.bus != bus) continue;
+    notice_foreign(drive, frame, received);
     drive.driver->on_frame(frame, received, scratch_);
     emit(drive);
+  }
+}
+
+/// A link does not hear what it sent itself. What moves, the driver notices.
+void Gateway::notice_foreign(const Drive& drive, const CanFrame& frame, Time received) {
+  for (const FrameRule& rule : drive.driver->allow_list()) {
+    if (!engine::matches(rule, frame)) continue;
+    if (frame.remote || drive.driver->effect(frame) != FrameEffect::stop) return;
+    return foreign_.on_stop_frame(frame.id, buses_[drive.bus].name.view(), received);
   }
 }
 
@@ -203,6 +216,17 @@ void Gateway::on(const ProgramTrouble& trouble, Time) {
   environment_.program = trouble.why;
 }
 
+/// As if every line had been pulled and plugged again.
+void Gateway::on(const Suspended& slept, Time now) {
+  for (std::size_t bus = 0; bus < bus_count_; ++bus)
+    if (buses_[bus].lost.empty()) on(BusUp{static_cast<std::uint8_t>(bus)}, now);
+  for (std::size_t i = 0; i < kStreamCount; ++i) on(StreamUp{static_cast<Stream>(i)}, now);
+  on(LinesLost{}, now);
+  environment_.battery.state = SourceState::stale;
+  woke_ = now;
+  slept_.format("the computer slept for %.1f s", slept.asleep_s);
+}
+
 void Gateway::on(const Tick& tick, Time now) {
   for (std::size_t i = 0; i < kStreamCount; ++i) {
     cycle_.streams[i] = {};
@@ -221,6 +245,10 @@ void Gateway::on(const Tick& tick, Time now) {
   for (std::size_t i = 0; i < drives_.size(); ++i)
     environment_.axes[i] = drives_[i].driver->health(now);
   look_at_buses(now);
+  foreign_.update(now, tick.guard_has_bus || (guard_required_ && !tick.guard_alive));
+  environment_.foreign = foreign_.reason();
+  environment_.slept = slept_;
+  if (now - woke_ > kSleepTold) slept_.clear();
   environment_.guard_alive = tick.guard_alive;
   environment_.guard_has_bus = tick.guard_has_bus;
 

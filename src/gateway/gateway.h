@@ -14,6 +14,7 @@
 #include "drover/registry.h"
 #include "engine/engine.h"
 #include "engine/gate/frame_gate.h"
+#include "gateway/foreign_watch.h"
 #include "gateway/input.h"
 #include "link/can_condition.h"
 
@@ -79,10 +80,12 @@ class Gateway final {
   void on(const FramesSent& counts, Time now);
   void on(const StreamUp& up, Time now);
   void on(const CommandGiven& given, Time now);
+  void on(const Suspended& slept, Time now);
   void on(const Tick& tick, Time now);
   void on(const ProgramTrouble& trouble, Time now);
   bool jammed(const Bus& bus, Time now) const;
   void look_at_buses(Time now);
+  void notice_foreign(const Drive& drive, const CanFrame& frame, Time received);
   void absorb(const DriverOut& out);
   void absorb_stream(std::size_t stream);
   void emit(const Drive& drive);
@@ -102,6 +105,10 @@ class Gateway final {
   CycleOutput cycle_;
   std::array<FixedVector<CanFrame, 128>, kMaxBuses>
       pending_;  ///< passed the gate, not yet handed out
+  ForeignWatch foreign_;
+  Time woke_ = kNever;
+  Reason slept_;  ///< told for a moment after waking
+  bool guard_required_;
   bool motion_permitted_ = false;
   bool guard_has_bus_ = false;
 };

@@ -80,6 +80,10 @@ struct CommandGiven {
 struct ProgramTrouble {
   Reason why;
 };
+/// The whole computer slept for so long: nothing that was heard before it is true any more.
+struct Suspended {
+  double asleep_s = 0;
+};
 /// One control cycle: afterwards the gateway's output is that cycle's.
 struct Tick {
   bool guard_alive = false;
@@ -89,7 +93,7 @@ struct Tick {
 /// The order is the recording's: a new one goes to the end.
 using InputBody = std::variant<FrameHeard, BytesHeard, LevelsRead, LinesLost, RegistersRead,
                                RegistersFailed, BatteryUp, BusUp, BusLost, FramesSent, StreamUp,
-                               CommandGiven, Tick, ProgramTrouble>;
+                               CommandGiven, Tick, ProgramTrouble, Suspended>;
 
 struct Input {
   Time time = kNever;

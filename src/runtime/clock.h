@@ -22,4 +22,9 @@ inline Duration wall_minus_monotonic() {
   return read_clock(CLOCK_REALTIME) - read_clock(CLOCK_MONOTONIC);
 }
 
+/// How long this computer was suspended since it booted.
+inline Duration asleep_since_boot() {
+  return read_clock(CLOCK_BOOTTIME) - read_clock(CLOCK_MONOTONIC);
+}
+
 }  // namespace drover::runtime

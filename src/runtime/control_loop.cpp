@@ -113,6 +113,7 @@ Time ControlLoop::wait(Duration longest) {
 Time ControlLoop::cycle(Time begin, std::uint64_t late) {
   ++stats_.cycles;
   stats_.overruns += late;
+  watch_sleep(begin);
   take_links(begin);
   drain_can(begin);
   read_lines(begin);
@@ -173,6 +174,15 @@ void ControlLoop::send(std::size_t bus, std::span<const CanFrame> frames, Time d
   }
   const auto& counters = can.counters();
   apply(decided, gateway::FramesSent{bus_id(bus), counters.sent, counters.send_refused});
+}
+
+/// The monotonic clock stands still while the computer sleeps: all that was heard looks young.
+void ControlLoop::watch_sleep(Time now) {
+  constexpr Duration kSleep = 1s;
+  const Duration asleep = asleep_since_boot();
+  const Duration slept = asleep - asleep_;
+  asleep_ = asleep;
+  if (stats_.cycles > 1 && slept > kSleep) apply(now, gateway::Suspended{to_s(slept)});
 }
 
 void ControlLoop::take_links(Time now) {

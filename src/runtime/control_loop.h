@@ -64,6 +64,7 @@ class ControlLoop final {
   Time cycle(Time begin, std::uint64_t late);
   void take_commands(Time now);
   void watch_program(Time now);
+  void watch_sleep(Time now);
   void send(std::size_t bus, std::span<const CanFrame> frames, Time decided);
   void watch_guard(Time now);
   void take_battery();
@@ -100,6 +101,7 @@ class ControlLoop final {
   bool guard_has_bus_ = false;
   CommandIntake intake_;
   ProgramWatch program_;
+  Duration asleep_{};  ///< since the computer booted
   link::FrameBatch batch_;
 };
 

@@ -24,6 +24,7 @@ std::string_view over(Cause cause) {
     case Cause::battery_critical: return "battery good for driving again";
     case Cause::near_zone: return "near zone free";
     case Cause::moved: return "the robot rests again";
+    case Cause::foreign: return "nobody else commands the drives";
     case Cause::bus: return "CAN buses good";
     case Cause::origin: return "an origin is set";
     case Cause::receiver: return "receiver heard";

@@ -201,9 +201,10 @@ void HealthMonitor::look_at_battery(const HealthInput& input) {
 }
 
 void HealthMonitor::look_at_program(const Environment& environment) {
-  if (environment.program.empty()) return;
-  hold(Cause::program, environment.program);
-  if (report_.end_task.empty()) report_.end_task = environment.program;
+  const Reason& why = environment.slept.empty() ? environment.program : environment.slept;
+  if (why.empty()) return;
+  hold(Cause::program, why);
+  if (report_.end_task.empty()) report_.end_task = why;
 }
 
 const HealthReport& HealthMonitor::update(const HealthInput& input) {
@@ -225,6 +226,10 @@ const HealthReport& HealthMonitor::update(const HealthInput& input) {
   if (!input.moved.empty()) {
     hold(Cause::moved, input.moved);
     if (report_.no_start.empty()) report_.no_start = input.moved;
+  }
+  if (const Reason& foreign = input.environment.foreign; !foreign.empty()) {
+    hold(Cause::foreign, foreign);
+    if (report_.no_start.empty()) report_.no_start = foreign;
   }
   if (!input.latched.empty()) {
     Reason text;

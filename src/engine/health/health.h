@@ -27,6 +27,7 @@ enum class Cause : std::uint8_t {
   program,           ///< a part of the daemon hangs, or it ends: a task ends
   near_zone,
   moved,     ///< pushed, carried or rolling without a command: no start
+  foreign,   ///< somebody else commands the drives: no start
   bus,       ///< told only: what it does to the drives is their own cause
   origin,    ///< none set
   receiver,  ///< silent
@@ -38,7 +39,7 @@ enum class Cause : std::uint8_t {
   battery_warning,  ///< told only
   battery_silent,   ///< told only: nothing is known of it
 };
-inline constexpr std::size_t kCauseCount = 24;
+inline constexpr std::size_t kCauseCount = 25;
 
 /// Last known state of the lines: the levels the drivers reported since the last cycle.
 struct LineTable {

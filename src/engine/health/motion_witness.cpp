@@ -14,9 +14,9 @@ constexpr double kMoving_mps = 0.2;
 constexpr double kMoving_m = 0.3;
 const double kTurning_radps = to_rad(3.0);
 constexpr double kSigmas = 4.0;
-constexpr double kFresh_s = 0.5;   // receivers tell ten times a second, and once a second at worst
-constexpr double kTurnSmooth_s = 0.1;  // a knock is no turn
-constexpr double kLearned = 0.05;  // share of each new speed
+constexpr double kFresh_s = 0.5;  // receivers tell ten times a second, and once a second at worst
+constexpr double kTurnSmooth_s = 0.1;   // a knock is no turn
+constexpr double kLearned = 0.05;       // share of each new speed
 constexpr double kMostNoise_mps = 0.5;  // what is more, nobody has to call noise
 
 double speed_sigma_mps(FixQuality quality) {

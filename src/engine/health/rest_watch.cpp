@@ -9,8 +9,8 @@ namespace {
 
 constexpr double kTurns_mps = 0.05;
 constexpr double kRestPatience_s = 0.3;  // drives lag
-constexpr double kMotionHeld_s = 0.05;     // one odd value is no motion
-constexpr double kAlone_s = 1.0;     // a witness without another one
+constexpr double kMotionHeld_s = 0.05;   // one odd value is no motion
+constexpr double kAlone_s = 1.0;         // a witness without another one
 constexpr double kConfirm_s = 1.0;
 constexpr double kDirection_m = 0.1;
 constexpr Duration kLookAgain = std::chrono::seconds(5);

@@ -70,7 +70,9 @@ Reason Owners::hindrance(const OwnInput& input) const {
   if (!input.health.stop.empty()) return input.health.stop;
   if (!input.health.end_task.empty()) return input.health.end_task;
   if (input.health.holds(Cause::charger)) return input.health.text(Cause::charger);
-  if (input.health.holds(Cause::moved)) return input.health.text(Cause::moved);
+  for (const Cause cause : {Cause::moved, Cause::foreign}) {
+    if (input.health.holds(cause)) return input.health.text(cause);
+  }
   const std::string_view latched = input.latched.empty() ? latched_.view() : input.latched;
   if (!latched.empty()) {
     Reason why;

@@ -118,9 +118,9 @@ class EngineRig {
   bool no_heading = false;
   bool blocked = false;
   FixQuality quality = FixQuality::rtk_fixed;
-  bool tells_speed = false;     ///< the receiver
-  double speed_noise_mps = 0;   ///< it tells so much at least, now and then
-  bool imu = false;             ///< there is one
+  bool tells_speed = false;    ///< the receiver
+  double speed_noise_mps = 0;  ///< it tells so much at least, now and then
+  bool imu = false;            ///< there is one
   Vector3 gravity_mps2{0, 0, 9.81};
   double pitch_radps = 0;  ///< nose down positive
   /// The base moves so, whatever the drives are asked, while they have power.
@@ -188,13 +188,11 @@ class EngineRig {
     plant.step(sides, dt_s);
     driven_m += std::hypot(plant.truth().x_m - before_x_m, plant.truth().y_m - before_y_m);
     const Pose seen = plant.estimate();
-    const double turn_mps =
-        (mechanics.swapped ? -0.5 : 0.5) * config.base.track_m * seen.wz_radps;
+    const double turn_mps = (mechanics.swapped ? -0.5 : 0.5) * config.base.track_m * seen.wz_radps;
     for (std::size_t i = 0; i < 4; ++i) {
       const double rim_mps = seen.vx_mps + (i % 2 == 0 ? -turn_mps : turn_mps);
       Drive& drive = drives[i];
-      double radps =
-          rim_mps / config.base.wheel_radius_m / mechanics.gear + drive.by_itself_radps;
+      double radps = rim_mps / config.base.wheel_radius_m / mechanics.gear + drive.by_itself_radps;
       if (mechanics.reversed) radps = speed[i];  // each wheel tells what it was asked
       if (!drive.stuck) drive.position_rad += radps * dt_s;
       environment.axes[i].state = drive.silent ? SourceState::stale : SourceState::fresh;

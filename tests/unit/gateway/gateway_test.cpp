@@ -99,6 +99,40 @@ TEST(Gateway, TakesABusThatTakesNoFramesForLost) {
   EXPECT_FALSE(bench.told("takes no frames"));
 }
 
+TEST(Gateway, NamesWhoElseCommandsItsDrivesThoughTheyOnlySayZero) {
+  Bench bench;
+  for (int i = 0; i < 80; ++i) {
+    bench.apply(FrameHeard{0, test::parse_frame("04D#0000000000000000")});
+    bench.cycle();
+  }
+  EXPECT_TRUE(bench.told("somebody else commands the drives: id 0x04D on can0"));
+  for (int i = 0; i < 250; ++i) bench.cycle();
+  EXPECT_FALSE(bench.told("somebody else"));
+}
+
+TEST(Gateway, TrustsNothingThatWasHeardBeforeTheComputerSlept) {
+  Bench bench;
+  EXPECT_FALSE(bench.told("wheel left"));
+  bench.apply(Suspended{12});
+  bench.apply(Tick{true, false});
+  EXPECT_TRUE(bench.told("the computer slept for 12.0 s"));
+  EXPECT_TRUE(bench.told("no drive answers"));
+  EXPECT_TRUE(bench.told("line e-stop"));
+  for (int i = 0; i < 300; ++i) bench.cycle();
+  EXPECT_FALSE(bench.told("slept"));
+  EXPECT_FALSE(bench.told("no drive answers"));
+}
+
+TEST(Gateway, TakesTheGuardsZerosForTheGuards) {
+  Bench bench;
+  for (int i = 0; i < 200; ++i) {
+    bench.apply(FrameHeard{0, test::parse_frame("04D#0000000000000000")});
+    bench.apply(Tick{true, i < 100});
+    bench.now += 5ms;
+  }
+  EXPECT_FALSE(bench.told("somebody else"));
+}
+
 TEST(Gateway, ForgivesAShortRefusal) {
   Bench bench;
   for (std::uint64_t i = 0; i < 100; ++i) {
