@@ -177,7 +177,8 @@ class Checks final {
       const auto& joint = config_.drives[i].joint;
       if (joint.empty() || among(base.left, joint) || among(base.right, joint)) continue;
       add(item("drives", i) + ".joint",
-          "\"" + joint + "\" is no wheel of the base: joints outside the base are not supported yet",
+          "\"" + joint +
+              "\" is no wheel of the base: joints outside the base are not supported yet",
           "name it in base.left or base.right, or leave the drive out");
     }
   }

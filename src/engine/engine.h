@@ -23,7 +23,7 @@ struct Environment {
   std::array<SourceHealth, kMaxAxes> axes{};
   Reason slept;    ///< the computer was suspended: a task ends; empty when it was not
   Reason foreign;  ///< who else commands the drives; empty when nobody does
-  Reason bus;  ///< what is wrong with a CAN bus; empty when all is well
+  Reason bus;      ///< what is wrong with a CAN bus; empty when all is well
   /// A part of the daemon hangs, or it is about to end: motion ends with a ramp. Empty: all is
   /// well.
   Reason program;

@@ -15,7 +15,7 @@ Make maker(const std::string& driver, const std::string& key) {
   return *make;
 }
 
-constexpr Duration kSleepTold = std::chrono::seconds(1);
+constexpr Duration kSleptTold = std::chrono::seconds(1);
 
 constexpr std::size_t index(Stream stream) {
   return static_cast<std::size_t>(stream);
@@ -224,7 +224,7 @@ void Gateway::on(const Suspended& slept, Time now) {
   on(LinesLost{}, now);
   environment_.battery.state = SourceState::stale;
   woke_ = now;
-  slept_.format("the computer slept for %.1f s", slept.asleep_s);
+  slept_.format("the computer slept for %.1f s", slept.lasted_s);
 }
 
 void Gateway::on(const Tick& tick, Time now) {
@@ -248,7 +248,7 @@ void Gateway::on(const Tick& tick, Time now) {
   foreign_.update(now, tick.guard_has_bus || (guard_required_ && !tick.guard_alive));
   environment_.foreign = foreign_.reason();
   environment_.slept = slept_;
-  if (now - woke_ > kSleepTold) slept_.clear();
+  if (now - woke_ > kSleptTold) slept_.clear();
   environment_.guard_alive = tick.guard_alive;
   environment_.guard_has_bus = tick.guard_has_bus;
 

@@ -82,7 +82,7 @@ struct ProgramTrouble {
 };
 /// The whole computer slept for so long: nothing that was heard before it is true any more.
 struct Suspended {
-  double asleep_s = 0;
+  double lasted_s = 0;
 };
 /// One control cycle: afterwards the gateway's output is that cycle's.
 struct Tick {
