@@ -222,7 +222,7 @@ void Gateway::on(const Suspended& slept, Time now) {
     if (buses_[bus].lost.empty()) on(BusUp{static_cast<std::uint8_t>(bus)}, now);
   for (std::size_t i = 0; i < kStreamCount; ++i) on(StreamUp{static_cast<Stream>(i)}, now);
   on(LinesLost{}, now);
-  environment_.battery.state = SourceState::stale;
+  on(BatteryUp{}, now);
   woke_ = now;
   slept_.format("the computer slept for %.1f s", slept.lasted_s);
 }

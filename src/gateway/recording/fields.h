@@ -221,13 +221,14 @@ void visit_values(V& v, const char* name, const List& list) {
 
 template <class V>
 void visit_fields(V& v, const Snapshot& snapshot) {
-  const auto& [time, pose, nav, gnss, imu, battery, joint_command, axes, line_active, line_health,
-               line_configured, line_source, output_configured, output_on, links, stop_latched,
-               guard_alive, guard_has_bus, origin_set, origin, why, cycle] = snapshot;
+  const auto& [time, pose, worst_vx_mps, nav, gnss, imu, battery, joint_command, axes, line_active,
+               line_health, line_configured, line_source, output_configured, output_on, links,
+               stop_latched, guard_alive, guard_has_bus, origin_set, origin, why, cycle] = snapshot;
   (void)links;  // those two are the loop's
   (void)cycle;
   v.value("time", time);
   v.inside("pose", [&v, &part = pose] { visit_fields(v, part); });
+  v.value("worst_vx_mps", worst_vx_mps);
   v.inside("nav", [&v, &part = nav] { visit_fields(v, part); });
   v.inside("gnss", [&v, &part = gnss] { visit_fields(v, part); });
   v.inside("imu", [&v, &part = imu] { visit_fields(v, part); });

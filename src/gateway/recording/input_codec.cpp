@@ -151,6 +151,13 @@ void get(ProgramTrouble& trouble, ByteReader& in) {
   trouble.why.assign(in.text());
 }
 
+void put(const Suspended& slept, ByteWriter& out) {
+  out.real(slept.lasted_s);
+}
+void get(Suspended& slept, ByteReader& in) {
+  slept.lasted_s = in.real();
+}
+
 // Bodies of commands: the same once more.
 
 void put(const std::monostate&, ByteWriter&) {}

@@ -110,6 +110,9 @@ std::string words(const Tick& tick) {
 std::string words(const ProgramTrouble& trouble) {
   return "trouble of the daemon: " + std::string(trouble.why);
 }
+std::string words(const Suspended& slept) {
+  return "the computer slept for " + std::to_string(slept.lasted_s) + " s";
+}
 std::string words(const CommandGiven& given) {
   constexpr const char* kBodies[] = {"nothing",       "start of a task", "cancel",
                                      "stop",          "reset",           "proposal of an origin",

@@ -57,6 +57,7 @@ struct OneOfEachInput {
     command(ResetStop{});
     add(Tick{true, false});
     add(ProgramTrouble{"droverd ends"});
+    add(Suspended{2.5});
     add(BusLost{0, "can0: lost (No such device)"});
     add(Tick{false, true});
   }
