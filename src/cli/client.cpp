@@ -14,40 +14,39 @@ namespace drover::cli {
 
 namespace {
 
-constexpr int kPatience_s = 10;
-
-std::string why(const std::string& path, int error) {
+std::string why(const std::string& path, int error, int patience_s) {
   if (error == ENOENT || error == ECONNREFUSED)
     return "droverd does not run (no answer at " + path + ")";
   if (error == EACCES)
     return path + ": permission denied; join the group with: usermod -aG drover $USER";
-  if (error == EAGAIN) return "droverd did not answer within " + std::to_string(kPatience_s) + " s";
+  if (error == EAGAIN) return "droverd did not answer within " + std::to_string(patience_s) + " s";
   return path + ": " + std::strerror(error);
 }
 
 }  // namespace
 
-std::string ask(const std::string& socket_path, const std::string& request) {
+std::string ask(const std::string& socket_path, const std::string& request, int patience_s) {
   sockaddr_un address{};
   address.sun_family = AF_UNIX;
   if (socket_path.size() >= sizeof address.sun_path)
     throw NoAnswer{socket_path + ": the socket's path is too long"};
   std::memcpy(address.sun_path, socket_path.c_str(), socket_path.size());
   link::UniqueFd fd(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0));
-  if (::connect(fd.get(), reinterpret_cast<sockaddr*>(&address), sizeof address) != 0)
-    throw NoAnswer{why(socket_path, errno)};
-  const timeval patience{kPatience_s, 0};
+  const timeval patience{patience_s, 0};
   ::setsockopt(fd.get(), SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
+  ::setsockopt(fd.get(), SOL_SOCKET, SO_SNDTIMEO, &patience, sizeof patience);  // connect, too
+  if (::connect(fd.get(), reinterpret_cast<sockaddr*>(&address), sizeof address) != 0)
+    throw NoAnswer{why(socket_path, errno, patience_s)};
   const std::string line = request + "\n";
   if (::send(fd.get(), line.data(), line.size(), MSG_NOSIGNAL) != static_cast<ssize_t>(line.size()))
-    throw NoAnswer{why(socket_path, errno)};
+    throw NoAnswer{why(socket_path, errno, patience_s)};
 
   std::string reply;
   std::array<char, 65536> buffer{};
   while (reply.empty() || reply.back() != '\n') {
     const auto n = ::recv(fd.get(), buffer.data(), buffer.size(), 0);
     if (n < 0 && errno == EINTR) continue;
-    if (n < 0) throw NoAnswer{why(socket_path, errno)};
+    if (n < 0) throw NoAnswer{why(socket_path, errno, patience_s)};
     if (n == 0) throw NoAnswer{"droverd closed the connection"};
     reply.append(buffer.data(), static_cast<std::size_t>(n));
   }

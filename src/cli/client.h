@@ -13,6 +13,6 @@ struct NoAnswer {
 };
 
 /// Sends `request` (one JSON line) and waits for the reply. Throws NoAnswer.
-std::string ask(const std::string& socket_path, const std::string& request);
+std::string ask(const std::string& socket_path, const std::string& request, int patience_s = 10);
 
 }  // namespace drover::cli

@@ -11,6 +11,7 @@
 #include "cli/option_texts.h"
 #include "cli/replay.h"
 #include "cli/show.h"
+#include "cli/stop.h"
 #include "config/json_text.h"
 
 namespace {
@@ -25,6 +26,7 @@ using drover::cli::kUsage;
 
 struct Settings {
   std::string socket = "/run/drover/drover.sock";
+  std::string stop_socket;
   bool json = false;
   bool watch = false;
   std::string name;
@@ -117,6 +119,8 @@ int main(int argc, char** argv) {
   app.add_option("--socket", s.socket, "droverd's socket")
       ->capture_default_str()
       ->envname("DROVER_SOCKET");
+  app.add_option("--stop-socket", s.stop_socket, "drover-guard's (stop.sock beside droverd's)")
+      ->envname("DROVER_STOP_SOCKET");
   app.footer(
       "Exit codes: 0 done, 1 refused (the reason is on stderr), 2 wrong usage, 3 no droverd.\n"
       "Examples:\n"
@@ -169,10 +173,10 @@ int main(int argc, char** argv) {
 
   auto* stop = app.add_subcommand("stop", "emergency stop: zero at once, until `drover reset`");
   stop->add_flag("--json", s.json, "one JSON object");
-  stop->callback([&] { code = run(s, request("stop")); });
+  stop->callback([&] { code = drover::cli::stop({s.socket, s.stop_socket, s.json}); });
   auto* reset = app.add_subcommand("reset", "clear a latched software stop; never starts motion");
   reset->add_flag("--json", s.json, "one JSON object");
-  reset->callback([&] { code = run(s, request("reset")); });
+  reset->callback([&] { code = drover::cli::reset({s.socket, s.stop_socket, s.json}); });
   app.add_subcommand("version", "versions of drover and droverd")->callback([&] {
     print_version(s);
   });

@@ -251,6 +251,7 @@ void Gateway::on(const Tick& tick, Time now) {
   if (now - woke_ > kSleptTold) slept_.clear();
   environment_.guard_alive = tick.guard_alive;
   environment_.guard_has_bus = tick.guard_has_bus;
+  environment_.guard_latched = tick.guard_latched;
 
   engine_.step(now, environment_, cycle_.engine);
   motion_permitted_ = cycle_.engine.motion_permitted;

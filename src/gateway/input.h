@@ -88,6 +88,7 @@ struct Suspended {
 struct Tick {
   bool guard_alive = false;
   bool guard_has_bus = false;  ///< it sends stop frames; ours are blocked until hand-back
+  bool guard_latched = false;  ///< somebody stopped the robot at the guard, until a reset there
 };
 
 /// The order is the recording's: a new one goes to the end.

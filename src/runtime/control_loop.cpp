@@ -123,7 +123,7 @@ Time ControlLoop::cycle(Time begin, std::uint64_t late) {
   take_commands(begin);
 
   const bool guard_alive = guard_seen_ + guard_stale_ > begin && keeper_.guard_equipped();
-  apply(begin, gateway::Tick{guard_alive, guard_has_bus_});
+  apply(begin, gateway::Tick{guard_alive, guard_has_bus_, guard_latched_});
   // Before the events go: who hears that a path is released may delete it.
   if (exchange_.recorder != nullptr) exchange_.recorder->output(gateway_);
   const auto& out = gateway_.output();
@@ -334,9 +334,13 @@ void ControlLoop::watch_guard(Time now) {
   const bool holds = shared.guard_holds.load(std::memory_order_acquire) != 0;
   if (holds && !guard_has_bus_) guard_held_since_ = now;
   guard_has_bus_ = holds;
+  // Who heard a stop first tells the other: this one's outlives a reboot.
+  const bool latched = shared.guard_latched.load(std::memory_order_acquire) != 0;
+  if (latched && !guard_latched_) (void)exchange_.stops.ask_stop();
+  guard_latched_ = latched;
   const bool at_rest = gateway_.snapshot().nav.status != NavStatus::run;
-  if (holds && at_rest && !program_.trouble() && now - guard_held_since_ > kHandBackAfter &&
-      now - hand_back_asked_ > kHandBackAfter) {
+  if (holds && !latched && at_rest && !program_.trouble() &&
+      now - guard_held_since_ > kHandBackAfter && now - hand_back_asked_ > kHandBackAfter) {
     hand_back_asked_ = now;
     keeper_.request_hand_back();
   }

@@ -99,6 +99,7 @@ class ControlLoop final {
   Time guard_held_since_ = kNever;
   Time hand_back_asked_ = kNever;
   bool guard_has_bus_ = false;
+  bool guard_latched_ = false;
   CommandIntake intake_;
   ProgramWatch program_;
   Duration asleep_{};  ///< since the computer booted

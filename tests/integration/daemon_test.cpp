@@ -209,6 +209,29 @@ TEST_F(Daemon, DrivesAgainAfterTheGuardHandedTheBusBack) {
   EXPECT_TRUE(wait_for_status("NAV_SUCCESS"));
 }
 
+TEST_F(Daemon, IsStoppedThroughTheGuardWhileItHangsAndStaysStoppedUntilReset) {
+  ASSERT_NO_FATAL_FAILURE(start_all());
+  ASSERT_NO_FATAL_FAILURE(drive(8));
+  daemon().signal(SIGSTOP);
+  const auto stopped = drover({"stop"});
+  daemon().signal(SIGCONT);
+  EXPECT_EQ(stopped.code, 0) << stopped.text;
+  EXPECT_THAT(stopped.text, HasSubstr("drover-guard stops the robot"));
+  EXPECT_TRUE(wait_until([this] { return at_rest(); }));
+  EXPECT_TRUE(wait_for_status("NAV_ERROR"));
+  EXPECT_TRUE(wait_until([this] {
+    return status_text("nav", "why").find("drover reset") != std::string::npos;
+  })) << status_text("nav", "why");
+  EXPECT_EQ(drover({"task", "start", "row", "--id", "3"}).code, 1);
+  EXPECT_TRUE(at_rest());
+  const auto reset = drover({"reset"});
+  EXPECT_EQ(reset.code, 0) << reset.text;
+  EXPECT_TRUE(wait_until([this] { return drover({"task", "cancel"}).code == 0; }));
+  ASSERT_NO_FATAL_FAILURE(save_track("again", 2));
+  (void)start_until_accepted("again", 5);
+  EXPECT_TRUE(wait_for_status("NAV_SUCCESS"));
+}
+
 TEST_F(Daemon, ComesToRestBeforeItEnds) {
   ASSERT_NO_FATAL_FAILURE(start_all());
   ASSERT_NO_FATAL_FAILURE(drive(8));

@@ -95,7 +95,7 @@ constexpr const char* kDroverFile = R"({
                "wheel_stale_s": 0.5, "imu_stale_s": 0.5},
   "health": {"drive_stale_s": 1, "gnss_stale_s": 2, "imu_stale_s": 2, "line_stale_s": 0.5,
              "joint_command_timeout_s": 1},
-  "guard": {"socket": "@folder@/guard.sock", "limit_ms": 500},
+  "guard": {"socket": "@folder@/run/guard.sock", "limit_ms": 500},
   "mqtt": {"port": @port@, "client_id": "droverd"}
 })";
 
@@ -188,8 +188,9 @@ void RobotRig::start_sim() {
 }
 
 void RobotRig::start_guard() {
-  guard_ = Process({DROVER_GUARD_PROGRAM, "--socket", log("guard.sock")}, log("guard.log"));
-  ASSERT_TRUE(wait_until([this] { return fs::exists(folder_ / "guard.sock"); })) << guard_.output();
+  guard_ = Process({DROVER_GUARD_PROGRAM, "--socket", log("run/guard.sock")}, log("guard.log"));
+  ASSERT_TRUE(wait_until([this] { return fs::exists(folder_ / "run" / "guard.sock"); }))
+      << guard_.output();
 }
 
 void RobotRig::start_daemon() {

@@ -130,8 +130,12 @@ void HealthMonitor::look_at_drives(const HealthInput& input) {
 
 void HealthMonitor::look_at_guard(const Environment& environment) {
   const bool silent = config_.health.guard_required && !environment.guard_alive;
-  report_.guard_ok = !silent && !environment.guard_has_bus;
-  if (environment.guard_has_bus) hold(Cause::guard_has_bus, "the guard stopped the drives");
+  report_.guard_ok = !silent && !environment.guard_has_bus && !environment.guard_latched;
+  if (environment.guard_latched) {
+    hold(Cause::guard_has_bus, "stopped by drover stop at the guard, until drover reset");
+  } else if (environment.guard_has_bus) {
+    hold(Cause::guard_has_bus, "the guard stopped the drives");
+  }
   if (silent) hold(Cause::guard_silent, "the guard does not answer");
   if (!environment.bus.empty()) hold(Cause::bus, environment.bus);
 }

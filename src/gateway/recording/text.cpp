@@ -105,7 +105,8 @@ std::string words(const StreamUp& up) {
 }
 std::string words(const Tick& tick) {
   return std::string("tick") + (tick.guard_alive ? ", guard alive" : ", no guard") +
-         (tick.guard_has_bus ? ", guard has the bus" : "");
+         (tick.guard_has_bus ? ", guard has the bus" : "") +
+         (tick.guard_latched ? ", stopped at the guard" : "");
 }
 std::string words(const ProgramTrouble& trouble) {
   return "trouble of the daemon: " + std::string(trouble.why);

@@ -59,7 +59,7 @@ struct OneOfEachInput {
     add(ProgramTrouble{"droverd ends"});
     add(Suspended{2.5});
     add(BusLost{0, "can0: lost (No such device)"});
-    add(Tick{false, true});
+    add(Tick{false, true, true});
   }
   OneOfEachInput(const OneOfEachInput&) = delete;
   OneOfEachInput& operator=(const OneOfEachInput&) = delete;

@@ -1,0 +1,174 @@
+#include "cli/stop.h"
+
+#include <sys/socket.h>
+#include <sys/time.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <optional>
+#include <utility>
+
+#include "cli/client.h"
+#include "cli/exit_codes.h"
+#include "config/json_text.h"
+#include "config/located_json.h"
+#include "link/unique_fd.h"
+
+namespace drover::cli {
+
+namespace {
+
+/// Who stops a robot does not wait: the guard answers within one cycle of its own, droverd within
+/// a few of the control thread's.
+constexpr timeval kGuardPatience{0, 300'000};
+constexpr int kDaemonPatience_s = 1;
+
+struct Answer {
+  bool obeyed = false;
+  bool heard = false;  ///< it answered
+  std::string why;     ///< not obeyed: a sentence
+};
+
+std::string guard_path(const StopPlaces& places) {
+  if (!places.guard.empty()) return places.guard;
+  return places.daemon.substr(0, places.daemon.rfind('/') + 1) + "stop.sock";
+}
+
+std::string why_no_guard(const std::string& path, int error) {
+  if (error == ENOENT || error == ECONNREFUSED)
+    return "drover-guard does not run (no answer at " + path + ")";
+  if (error == EAGAIN || error == EINPROGRESS) return "drover-guard did not answer";
+  return path + ": " + std::strerror(error);
+}
+
+bool is_true(const json::Node& root, std::string_view key) {
+  const auto* value = root.find(key);
+  return value != nullptr && value->boolean() != nullptr && *value->boolean();
+}
+
+/// The guard's answer to one word, its state; nothing with a sentence in `problem`.
+std::optional<json::Document> ask_guard(const StopPlaces& places, std::string_view word,
+                                        std::string& problem) {
+  const auto path = guard_path(places);
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  if (path.size() >= sizeof address.sun_path) {
+    problem = path + ": the socket's path is too long";
+    return std::nullopt;
+  }
+  std::memcpy(address.sun_path, path.c_str(), path.size());
+  const link::UniqueFd fd(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0));
+  ::setsockopt(fd.get(), SOL_SOCKET, SO_SNDTIMEO, &kGuardPatience, sizeof kGuardPatience);
+  ::setsockopt(fd.get(), SOL_SOCKET, SO_RCVTIMEO, &kGuardPatience, sizeof kGuardPatience);
+  std::array<char, 1024> bytes{};
+  ssize_t n = -1;
+  if (::connect(fd.get(), reinterpret_cast<sockaddr*>(&address), sizeof address) == 0 &&
+      ::send(fd.get(), word.data(), word.size(), MSG_NOSIGNAL) >= 0)
+    n = ::recv(fd.get(), bytes.data(), bytes.size(), 0);
+  if (n < 0) {
+    problem = why_no_guard(path, errno);
+    return std::nullopt;
+  }
+  auto state = json::parse(std::string_view(bytes.data(), static_cast<std::size_t>(n)));
+  if (state) return std::move(*state);
+  problem = "drover-guard's answer is not understood";
+  return std::nullopt;
+}
+
+Answer tell_guard(const StopPlaces& places, std::string_view word) {
+  std::string problem;
+  const auto state = ask_guard(places, word, problem);
+  if (!state) return {false, false, problem};
+  if (is_true(state->root, "latched") != (word == "stop"))
+    return {false, true, "drover-guard did not take it"};
+  const auto* axes = state->root.find("axes");
+  const bool has_axes = axes != nullptr && axes->integer().value_or(0) > 0;
+  if (word == "stop" && !has_axes)
+    return {false, true, "drover-guard permits no motion, but knows no drives to stop"};
+  return {true, true, {}};
+}
+
+bool holds(const StopPlaces& places) {
+  std::string problem;
+  const auto state = ask_guard(places, "state", problem);
+  return state && is_true(state->root, "holds");
+}
+
+Answer tell_daemon(const StopPlaces& places, std::string_view cmd) {
+  try {
+    const auto question = json::JsonText().open('{').key("cmd").text(cmd).close('}').take();
+    const auto reply = json::parse(ask(places.daemon, question, kDaemonPatience_s));
+    if (!reply) return {false, true, "droverd's answer is not understood"};
+    if (is_true(reply->root, "ok")) return {true, true, {}};
+    const auto* reason = reply->root.find("reason");
+    return {false, true,
+            reason != nullptr && reason->text() != nullptr ? *reason->text() : "droverd refused"};
+  } catch (const NoAnswer& no) {
+    return {false, false, no.text};
+  }
+}
+
+void add(json::JsonText& out, std::string_view key, const Answer& answer) {
+  out.key(key).open('{').key("ok").boolean(answer.obeyed);
+  if (!answer.obeyed) out.key("reason").text(answer.why);
+  out.close('}');
+}
+
+/// One line for people or one object for programs.
+void print(const StopPlaces& places, bool done, const Answer& guard, const Answer& daemon,
+           const std::string& words) {
+  if (places.json) {
+    json::JsonText out;
+    out.open('{').key("ok").boolean(done);
+    if (!done) out.key("reason").text(words);
+    add(out, "guard", guard);
+    add(out, "droverd", daemon);
+    std::printf("%s\n", out.close('}').str().c_str());
+  } else if (done) {
+    std::printf("done: %s\n", words.c_str());
+  } else {
+    std::fprintf(stderr, "refused: %s\n", words.c_str());
+  }
+}
+
+/// The guard gives the bus back when droverd asks for it, which takes a moment.
+void wait_for_bus(const StopPlaces& places) {
+  constexpr int kTries = 20;
+  for (int i = 0; i < kTries && holds(places); ++i) ::usleep(50'000);
+}
+
+}  // namespace
+
+int stop(const StopPlaces& places) {
+  const auto guard = tell_guard(places, "stop");
+  const auto daemon = tell_daemon(places, "stop");
+  const bool done = guard.obeyed || daemon.obeyed;
+  std::string words = "drover-guard and droverd stop the robot";
+  if (!guard.obeyed) words = "droverd stops the robot; " + guard.why;
+  if (!daemon.obeyed) words = "drover-guard stops the robot; " + daemon.why;
+  if (!done) words = "nobody stops the robot: " + guard.why + "; " + daemon.why;
+  print(places, done, guard, daemon, words);
+  return done ? kDone : guard.heard || daemon.heard ? kRefused : kNoDaemon;
+}
+
+int reset(const StopPlaces& places) {
+  // The guard first: droverd refuses while somebody else has the bus. It has latched the same stop,
+  // so that its own refusal still keeps the robot where it is.
+  const auto guard = tell_guard(places, "reset");
+  if (guard.obeyed) wait_for_bus(places);
+  const auto daemon = tell_daemon(places, "reset");
+  const bool done = daemon.obeyed && (guard.obeyed || !guard.heard);
+  std::string words = "the stop is over";
+  if (!guard.obeyed) words = (done ? words + "; " : "") + guard.why;
+  if (!daemon.obeyed)
+    words =
+        (guard.obeyed && !daemon.heard ? "only drover-guard's stop is over: " : "") + daemon.why;
+  print(places, done, guard, daemon, words);
+  return done ? kDone : daemon.heard ? kRefused : kNoDaemon;
+}
+
+}  // namespace drover::cli

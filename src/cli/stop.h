@@ -1,0 +1,21 @@
+// `drover stop` and `drover reset`: both programs are told, droverd and drover-guard, so that a
+// stop works whatever hangs in one of them.
+#pragma once
+
+#include <string>
+
+namespace drover::cli {
+
+struct StopPlaces {
+  std::string daemon;  ///< droverd's socket
+  std::string guard;   ///< drover-guard's stop socket; empty: "stop.sock" beside the other
+  bool json = false;
+};
+
+/// Done when either obeyed; says which did and why the other did not. Returns the exit code.
+int stop(const StopPlaces& places);
+/// Both latches end, the guard's first; droverd may refuse, and then keeps its own. Returns the
+/// exit code.
+int reset(const StopPlaces& places);
+
+}  // namespace drover::cli

@@ -1,0 +1,103 @@
+// `drover stop` and `drover reset` against the real guard, with droverd gone or hung.
+#include <gmock/gmock.h>
+#include <sys/socket.h>
+#include <sys/un.h>
+
+#include <array>
+#include <cstring>
+
+#include "integration/guard_rig.h"
+#include "integration/process.h"
+
+namespace drover::test {
+
+namespace {
+
+using namespace std::chrono_literals;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+struct Outcome {
+  int code = -1;
+  std::string text;
+  std::chrono::steady_clock::duration took{};
+};
+
+class GuardAndCommandLine : public GuardRig {
+ protected:
+  Outcome drover(const std::vector<std::string>& words) {
+    std::vector<std::string> all{DROVER_PROGRAM, "--socket", file("drover.sock")};
+    all.insert(all.end(), words.begin(), words.end());
+    const auto begin = std::chrono::steady_clock::now();
+    Process process(all, file(("drover" + std::to_string(++calls_)).c_str()));
+    const auto code = process.wait(10s);
+    return {code.value_or(-1), process.output(), std::chrono::steady_clock::now() - begin};
+  }
+  void supply() {
+    std::vector<runtime::GuardedLink> links;
+    links.push_back(can_link("can0", {0x2D}));
+    hand_over(std::move(links));
+    beat(50ms);
+  }
+  /// Takes connections and answers nobody.
+  link::UniqueFd hung_daemon() {
+    link::UniqueFd fd(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0));
+    sockaddr_un address{};
+    address.sun_family = AF_UNIX;
+    std::strcpy(address.sun_path, file("drover.sock").c_str());
+    EXPECT_EQ(::bind(fd.get(), reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
+    EXPECT_EQ(::listen(fd.get(), 4), 0);
+    return fd;
+  }
+
+ private:
+  int calls_ = 0;
+};
+
+}  // namespace
+
+TEST_F(GuardAndCommandLine, StopWorksWithoutDroverdAndSaysWhoObeyed) {
+  start();
+  supply();
+  const auto stopped = drover({"stop"});
+  EXPECT_EQ(stopped.code, 0) << stopped.text;
+  EXPECT_THAT(stopped.text, HasSubstr("drover-guard stops the robot; droverd does not run"));
+  EXPECT_THAT(frames("can0"), Not(IsEmpty()));
+}
+
+TEST_F(GuardAndCommandLine, StopDoesNotWaitLongForADroverdThatHangs) {
+  start();
+  supply();
+  const auto daemon = hung_daemon();
+  const auto stopped = drover({"stop", "--json"});
+  EXPECT_EQ(stopped.code, 0) << stopped.text;
+  EXPECT_THAT(stopped.text, HasSubstr(R"({"ok":true,"guard":{"ok":true},"droverd":{"ok":false)"));
+  EXPECT_LT(stopped.took, 3s) << "it used to be ten";
+  EXPECT_EQ(shared().guard_latched, 1U);
+}
+
+TEST_F(GuardAndCommandLine, StopFailsWhenNobodyHears) {
+  const auto stopped = drover({"stop"});
+  EXPECT_EQ(stopped.code, 3);
+  EXPECT_THAT(stopped.text, HasSubstr("nobody stops the robot: drover-guard does not run"));
+}
+
+TEST_F(GuardAndCommandLine, StopDoesNotClaimSuccessOfAGuardThatKnowsNoDrives) {
+  start();
+  const auto stopped = drover({"stop"});
+  EXPECT_EQ(stopped.code, 1);
+  EXPECT_THAT(stopped.text, HasSubstr("knows no drives"));
+}
+
+TEST_F(GuardAndCommandLine, ResetSaysThatOnlyTheGuardHeardIt) {
+  start();
+  supply();
+  ASSERT_EQ(drover({"stop"}).code, 0);
+  const auto reset = drover({"reset"});
+  EXPECT_EQ(reset.code, 3);
+  EXPECT_THAT(reset.text, HasSubstr("only drover-guard's stop is over: droverd does not run"));
+  EXPECT_THAT(at_stop_socket("state"), HasSubstr("\"latched\":false"));
+}
+
+}  // namespace drover::test
