@@ -2,8 +2,10 @@
 // recording. Allocates nothing where it gives a Line.
 #pragma once
 
+#include <span>
 #include <string>
 
+#include "drover/can_frame.h"
 #include "drover/event.h"
 #include "gateway/recording/bytes.h"
 
