@@ -14,6 +14,7 @@ constexpr double kAlone_s = 1.0;         // a witness without another one
 constexpr double kConfirm_s = 1.0;
 constexpr double kDirection_m = 0.1;
 constexpr Duration kLookAgain = std::chrono::seconds(5);
+constexpr Duration kLookAgainAfterCut = std::chrono::seconds(2);
 
 }  // namespace
 
@@ -178,7 +179,14 @@ RestState RestWatch::update(const RestInput& input) {
   const Rims rims = this->rims(input);
   turning_ = std::abs(rims.fastest_mps) > kTurns_mps;
   const bool is_due = due(input, rims);
-  if (state_ == RestState::not_stopping) return state_;
+  if (state_ == RestState::not_stopping) {
+    // What it rolled until it came to rest is no motion any more.
+    if (due_ == kNever || input.now - due_ > kLookAgainAfterCut) {
+      due_ = input.now;
+      witness_.expect_rest(input.now);
+    }
+    return state_;
+  }
   if (!is_due) {
     state_ = RestState::driving;
     reason_.clear();

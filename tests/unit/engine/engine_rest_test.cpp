@@ -1,4 +1,7 @@
 // Stops that do not work lose their power; what is pushed or carried is told and no more.
+#include <cstdlib>
+#include <random>
+
 #include "engine_fixture.h"
 
 namespace drover::engine {
@@ -107,6 +110,23 @@ TEST_F(ARobotThatShouldRest, StaysCutUntilSomebodyAtTheRobotResetsIt) {
   EXPECT_FALSE(rig.snapshot().stop_latched);
 }
 
+TEST_F(ARobotThatShouldRest, IsResetThoughItRolledFarBeforeItsRest) {
+  drive();
+  rig.disobeys = WheelSpeeds{12, 12};
+  freeze_encoders();
+  rig.command(EngageStop{});
+  ASSERT_TRUE(cut_within_s(2));
+  rig.carried = WheelSpeeds{6, 6};
+  rig.run_s(2);
+  rig.carried = WheelSpeeds{0, 0};
+  rig.disobeys.reset();
+  for (auto& drive : rig.drives) drive.stuck = false;
+  rig.run_s(4);
+  rig.engine->on_command({{RequestId::Source::cli, 99}, rig.now, ResetStop{}}, rig.now);
+  rig.run_s(1);
+  EXPECT_FALSE(rig.snapshot().stop_latched) << refusal();
+}
+
 TEST_F(ARobotThatShouldRest, IsNotResetWhileItStillMoves) {
   drive();
   rig.disobeys = kStraight;
@@ -183,6 +203,70 @@ TEST_F(ARobotThatShouldRest, RefusesAStartWhileItRollsSinceItsBeginning) {
   rig.tick();
   EXPECT_THAT(refusal(), HasSubstr("without a command"));
   rest_s(5);
+}
+
+/// More of them by DROVER_SEEDS.
+int seeds() {
+  const char* asked = std::getenv("DROVER_SEEDS");
+  return asked == nullptr ? 4 : std::max(1, std::atoi(asked));
+}
+
+TEST(RobotsThatShouldRest, LoseTheirPowerHoweverTheyGoOn) {
+  for (int seed = 1; seed <= seeds(); ++seed) {
+    std::mt19937 random(static_cast<unsigned>(seed));
+    const auto any = [&random](double low, double high) {
+      return low + (high - low) * std::uniform_real_distribution<>()(random);
+    };
+    EngineRig rig;
+    const Path path = straight_path(20);
+    rig.imu = rig.tells_speed = true;
+    rig.settle();
+    rig.start(path, 40, 0.5);
+    rig.run_s(any(1.5, 8));
+    const bool frozen = any(0, 1) < 0.7;
+    const double radps = any(2.5, 12);
+    rig.disobeys = WheelSpeeds{radps, any(0, 1) < 0.5 ? radps : any(0, 0.8) * radps};
+    for (auto& drive : rig.drives) drive.stuck = frozen;
+    rig.command(EngageStop{});
+    const double before_m = rig.driven_m;
+    int ticks = 0;
+    while (rig.out.axes[0].request != AxisRequest::idle && ticks < 1000) {
+      rig.tick();
+      ++ticks;
+    }
+    EXPECT_LT(ticks * 0.005, 2.0) << "seed " << seed << ", " << rig.driven_m - before_m << " m";
+    rig.run_s(2);
+    EXPECT_FALSE(rig.out.outputs[static_cast<std::size_t>(Output::enable_relay)]) << seed;
+  }
+}
+
+TEST(RobotsThatShouldRest, KeepTheirPowerWhoeverPushesThem) {
+  for (int seed = 1; seed <= seeds(); ++seed) {
+    std::mt19937 random(static_cast<unsigned>(seed));
+    const auto any = [&random](double low, double high) {
+      return low + (high - low) * std::uniform_real_distribution<>()(random);
+    };
+    EngineRig rig;
+    const Path path = straight_path(20);
+    rig.imu = any(0, 1) < 0.7;
+    rig.tells_speed = true;
+    rig.settle();
+    rig.start(path, 40, 0.5);
+    rig.run_s(any(1.5, 5));
+    for (auto& drive : rig.drives) drive.stuck = any(0, 1) < 0.5;
+    rig.command(CancelTask{});
+    if (any(0, 1) < 0.5) {
+      rig.quality = FixQuality::rtk_float;
+      rig.speed_noise_mps = 0.3;
+    }
+    rig.run_s(any(2.5, 6));
+    for (auto& drive : rig.drives) drive.stuck = true;
+    rig.carried = WheelSpeeds{any(-9, 9), any(-9, 9)};
+    rig.run_s(any(0.2, 6));
+    rig.carried.reset();
+    rig.run_s(2);
+    EXPECT_NE(rig.out.axes[0].request, AxisRequest::idle) << "seed " << seed << " " << rig.why();
+  }
 }
 
 TEST_F(ARobotThatShouldRest, PublishesTheWorseOfTwoSpeeds) {
