@@ -2,22 +2,18 @@
 #include "publish/command_service.h"
 
 #include <algorithm>
+#include <cstdio>
 
 #include "publish/rtk_navigation/trajectory_data.h"
 
 namespace drover::publish {
 namespace {
 
-/// Shorter than any track with points; longer messages are not worth parsing in a flood.
-constexpr std::size_t kShortMessageBytes = 4096;
+constexpr double kMostStartAge_s = 1.0;
+constexpr double kMostStartLead_s = 0.1;  // two clocks that are set over a network differ by less
 /// No point is written in fewer bytes: saves building a message that will be too long.
 constexpr std::size_t kLeastPointBytes = 60;
 constexpr double kAutomaticOriginRetry_s = 5.0;
-
-bool stops(const ControlCommand& request) {
-  return std::holds_alternative<CancelTaskRequest>(request) ||
-         std::holds_alternative<TerminateRequest>(request);
-}
 
 Verb verb_of(const ControlCommand& request) {
   constexpr Verb kVerbs[] = {Verb::get_all_trajectory, Verb::save_trajectory,
@@ -53,17 +49,32 @@ void CommandService::begin(Time now, Actions& out) {
   send(id, now, SetOrigin{*origin_}, out);
 }
 
-void CommandService::on_control(std::string_view payload, bool retained, Time now, Actions& out) {
-  if (payload.size() > kShortMessageBytes && mqtt_bucket_.empty(now)) {
-    return slow_down("unknown_failse", now, out);
-  }
-  auto request = parse_control(payload, retained, config_.limits);
-  if (request.ok() && stops(*request)) {
+void CommandService::on_control(std::string_view payload, const Arrival& arrival, Time now,
+                                Actions& out) {
+  if (!admit(payload, now, out)) return;
+  on_parsed(payload, parse_control(payload, arrival.retain, config_.limits), arrival, now, out);
+}
+
+bool CommandService::admit(std::string_view payload, Time now, Actions& out) {
+  if (payload.size() <= kShortMessageBytes && may_stop(payload)) return true;
+  if (mqtt_bucket_.take(now)) return true;
+  slow_down(payload, "slow down", now, out);
+  return false;
+}
+
+void CommandService::on_unparsed(std::string_view payload, Time now, Actions& out) {
+  slow_down(payload, "too many large messages at once, slow down", now, out);
+}
+
+void CommandService::on_parsed(std::string_view payload,
+                               Result<ControlCommand, ControlRefusal> request,
+                               const Arrival& arrival, Time now, Actions& out) {
+  if (is_stop(request)) {
     return handle(next_id(RequestId::Source::mqtt), std::move(request.value()), now, out);
   }
-  if (!mqtt_bucket_.take(now)) {
-    return slow_down(request.ok() ? failure_cmd(verb_of(*request)) : request.error().feedback_cmd,
-                     now, out);
+  // It was let in for what it might have been.
+  if (payload.size() <= kShortMessageBytes && may_stop(payload) && !mqtt_bucket_.take(now)) {
+    return slow_down(payload, "slow down", now, out);
   }
   if (!request.ok()) {
     const ControlRefusal& refusal = request.error();
@@ -75,21 +86,55 @@ void CommandService::on_control(std::string_view payload, bool retained, Time no
   }
   const RequestId id = next_id(RequestId::Source::mqtt);
   if (is_duplicate(id, payload, *request, now)) return answer_duplicate(id, out);
+  if (const auto* to_start = std::get_if<StartTaskRequest>(&*request)) {
+    if (const auto why = untimely(*to_start, arrival)) {
+      return tell(id, Verb::start_task, false, *why, out);
+    }
+  }
   handle(id, std::move(request.value()), now, out);
+}
+
+/// A start that was pressed some time ago must not move a robot that nobody looks at any more.
+std::optional<std::string> CommandService::untimely(const StartTaskRequest& request,
+                                                    const Arrival& arrival) const {
+  if (!arrival.late.empty()) return std::string(arrival.late);
+  if (!request.time) {
+    if (!config_.start_needs_time) return std::nullopt;
+    return "'time' is missing: when it was pressed, in seconds or milliseconds since 1970";
+  }
+  const double age_s = to_s(arrival.wall - *request.time);
+  char text[80];
+  if (age_s > kMostStartAge_s) {
+    std::snprintf(text, sizeof text, "it was pressed %.1f s ago, more than 1 s: press again",
+                  age_s);
+    return text;
+  }
+  if (age_s < -kMostStartLead_s) {
+    std::snprintf(text, sizeof text, "its time is %.1f s ahead of the robot's clock", -age_s);
+    return text;
+  }
+  return std::nullopt;
 }
 
 void CommandService::on_cli(std::uint64_t number, ControlCommand request, Time now, Actions& out) {
   const RequestId id{RequestId::Source::cli, number};
-  if (!stops(request) && !cli_bucket_.take(now)) {
+  if (!is_stop(request) && !cli_bucket_.take(now)) {
     out.push_back(Answer{id, false, "slow down"});
     return;
   }
   handle(id, std::move(request), now, out);
 }
 
-void CommandService::slow_down(std::string_view cmd, Time now, Actions& out) {
+/// Parses only what is short, and only as often as it answers.
+void CommandService::slow_down(std::string_view payload, std::string_view why, Time now,
+                               Actions& out) {
   if (!slow_down_bucket_.take(now)) return;
-  out.push_back(PublishText{kTopicFeedback, feedback_text(cmd, "slow down", {})});
+  std::string cmd = failure_cmd("");
+  if (payload.size() <= kShortMessageBytes) {
+    const auto request = parse_control(payload, Retain::no, config_.limits);
+    cmd = request.ok() ? failure_cmd(verb_of(*request)) : request.error().feedback_cmd;
+  }
+  out.push_back(PublishText{kTopicFeedback, feedback_text(cmd, why, {})});
 }
 
 /// A broker that delivers "at least once" may deliver a start twice. Two starts of a person with

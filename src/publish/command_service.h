@@ -17,6 +17,7 @@
 #include "drover/event.h"
 #include "drover/path.h"
 #include "drover/snapshot.h"
+#include "publish/arrival.h"
 #include "publish/rtk_navigation/control.h"
 #include "publish/rtk_navigation/feedback.h"
 #include "publish/token_bucket.h"
@@ -51,6 +52,7 @@ struct CommandServiceConfig {
   bool automatic_origin = true;  ///< the first RTK fixed position becomes the origin if none is
   double max_requests_Hz = 10;   ///< of each source; stopping is never limited
   double request_burst = 20;
+  bool start_needs_time = false;    ///< a start_task without `time` is refused
   double duplicate_window_s = 1.0;  ///< the same start_task again inside it is executed once
   /// A longer trajectory_data is refused: a broker closes the connection on what is over its own
   /// limit (max_packet_size).
@@ -60,14 +62,27 @@ struct CommandServiceConfig {
   ControlLimits limits{};
 };
 
+/// What stops is shorter, and so is most else: it is parsed where it comes in. Anything longer is
+/// parsed where nobody waits for it.
+inline constexpr std::size_t kShortMessageBytes = 4096;
+
 class CommandService final {
  public:
   CommandService(const CommandServiceConfig& config, store::StoredState stored);
 
   /// Once, before anything else: the stored origin goes to the engine, the report to the log.
   void begin(Time now, Actions& out);
-  /// A message on mqtt_control. `retained` is the broker's flag.
-  void on_control(std::string_view payload, bool retained, Time now, Actions& out);
+  /// A message on mqtt_control: admit() and on_parsed() in one.
+  void on_control(std::string_view payload, const Arrival& arrival, Time now, Actions& out);
+  /// Whether it is worth parsing: of a flood, only what may stop the robot is. A refusal is told
+  /// here. Cheap, whatever the message.
+  bool admit(std::string_view payload, Time now, Actions& out);
+  /// What an admitted message says, parsed here or elsewhere; `arrival` is its own.
+  void on_parsed(std::string_view payload, Result<ControlCommand, ControlRefusal> request,
+                 const Arrival& arrival, Time now, Actions& out);
+  /// An admitted message for which the parser has no room.
+  void on_unparsed(std::string_view payload, Time now, Actions& out);
+  const ControlLimits& limits() const { return config_.limits; }
   /// A request of the command line; `number` is the caller's and comes back in the Answer.
   void on_cli(std::uint64_t number, ControlCommand request, Time now, Actions& out);
   void on_reply(const store::StorageReply& reply, Time now, Actions& out);
@@ -120,7 +135,9 @@ class CommandService final {
   bool origin_pending() const;
   std::size_t writes_pending() const;
   RequestId next_id(RequestId::Source source) { return {source, ++last_number_}; }
-  void slow_down(std::string_view cmd, Time now, Actions& out);
+  void slow_down(std::string_view payload, std::string_view why, Time now, Actions& out);
+  std::optional<std::string> untimely(const StartTaskRequest& request,
+                                      const Arrival& arrival) const;
   bool is_duplicate(RequestId id, std::string_view payload, const ControlCommand& request,
                     Time now);
   void answer_duplicate(RequestId id, Actions& out);

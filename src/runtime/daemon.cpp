@@ -79,7 +79,8 @@ class Daemon final {
                      : nullptr),
         control_(config, gateway_, keeper_, guard_, control_exchange_,
                  battery_ ? &battery_exchange_ : nullptr),
-        publish_(config, control_exchange_, storage_exchange_, storage_.load()) {}
+        parser_(publish::ControlLimits{}),
+        publish_(config, control_exchange_, storage_exchange_, parser_, storage_.load()) {}
 
   void run() {
     Worker keeper("links", [this] { keeper_.run(stop_keeper_); });
@@ -91,6 +92,7 @@ class Daemon final {
       log(LogLevel::info, "records to " + recorder_->file());
       recorder.emplace("recorder", [this] { recorder_->run(stop_recorder_); });
     }
+    Worker parser("parser", [this] { parser_.run(stop_publish_); });
     Worker control("control", [this] { run_control(); });
     Worker publish("publish", [this] { publish_.run(stop_publish_); });
     ready_told_ = systemd_.tell("READY=1");
@@ -105,8 +107,10 @@ class Daemon final {
     stop_publish_ = true;
     publish_.wake();
     storage_exchange_.jobs_ready.notify();
+    parser_.wake();
     join(publish, 1s);
     join(storage, 1s);
+    join(parser, 1s);
     // Until here the guard saw our heartbeat; from here on it keeps the drives at rest by itself.
     stop_control_ = true;
     join(control, 1s);
@@ -138,7 +142,9 @@ class Daemon final {
   /// stop within a second of its last turn.
   void watch_threads() {
     supervisor_.watch({"droverd's control thread stands still", &control_exchange_.beats, 1s});
-    supervisor_.watch({"droverd's publish thread stands still", &publish_.turns(), 700ms});
+    supervisor_.watch({"droverd's publish thread stands still", &publish_.turns(), 600ms});
+    supervisor_.watch(
+        {"droverd's parser thread stands still", &parser_.turns(), ParserLoop::kLongestTurn});
     supervisor_.watch({"droverd's link thread stands still", &keeper_.turns(), 5s});
     if (battery_)
       supervisor_.watch(
@@ -205,6 +211,7 @@ class Daemon final {
   std::unique_ptr<BatteryLoop> battery_;
   std::unique_ptr<Recorder> recorder_;  ///< nullptr: nothing is recorded
   ControlLoop control_;
+  ParserLoop parser_;
   PublishLoop publish_;
   Supervisor supervisor_;
   SystemdNotify systemd_;

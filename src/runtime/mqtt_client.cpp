@@ -1,9 +1,12 @@
 #include "runtime/mqtt_client.h"
 
 #include <mosquitto.h>
+#include <mqtt_protocol.h>
+#include <sys/ioctl.h>
 #include <sys/random.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <fstream>
@@ -18,6 +21,10 @@ constexpr Duration kFirstBrokerPause = std::chrono::milliseconds(250);
 constexpr Duration kLongestBrokerPause = std::chrono::seconds(2);
 constexpr int kQosAnswers = 1;
 constexpr const char* kOnlineTopic = "drover/online";
+constexpr std::size_t kMostUnacknowledged = 200;
+/// Packets that are read before others in the loop have their turn.
+constexpr int kMostPackets = 64;
+constexpr int kMqtt31Refused = 1;  // CONNACK of 3.1.1: unacceptable protocol version
 
 std::string random_client_id() {
   std::uint32_t number = 0;
@@ -36,6 +43,10 @@ std::optional<std::string> read_password(const std::string& path) {
   return password;
 }
 
+MqttClient& self(void* object) {
+  return *static_cast<MqttClient*>(object);
+}
+
 }  // namespace
 
 MqttClient::MqttClient(const config::MqttConfig& config,
@@ -51,28 +62,32 @@ MqttClient::MqttClient(const config::MqttConfig& config,
   client_ = ::mosquitto_new(id.c_str(), true, this);
   if (client_ == nullptr) throw std::runtime_error("mqtt.client_id: not accepted: " + id);
   ::mosquitto_int_option(client_, MOSQ_OPT_TCP_NODELAY, 1);
+  speak(MQTT_PROTOCOL_V5);
   ::mosquitto_will_set(client_, kOnlineTopic, 1, "0", kQosAnswers, true);
-  ::mosquitto_connect_callback_set(client_, [](mosquitto*, void* self, int code) {
-    auto& me = *static_cast<MqttClient*>(self);
-    if (code != 0) return me.on_state_(false, ::mosquitto_connack_string(code));
-    me.connected_ = true;
-    me.connecting_ = false;
-    me.pause_ = kFirstBrokerPause;
-    me.last_text_.clear();
-    for (const auto& [topic, qos] : me.subscriptions_)
-      ::mosquitto_subscribe(me.client_, nullptr, topic.c_str(), qos);
-    ::mosquitto_publish(me.client_, nullptr, kOnlineTopic, 1, "1", kQosAnswers, true);
-    me.on_state_(true, "connected to the broker");
+  set_callbacks();
+}
+
+void MqttClient::set_callbacks() {
+  ::mosquitto_connect_callback_set(
+      client_, [](mosquitto*, void* object, int code) { self(object).on_connack(code); });
+  // Of the reasons only a broker's own are worth telling; failed() follows, or the next tick.
+  ::mosquitto_disconnect_callback_set(client_, [](mosquitto*, void* object, int code) {
+    auto& me = self(object);
+    if (code >= MQTT_RC_UNSPECIFIED && me.refusal_.empty())
+      me.refusal_ = ::mosquitto_reason_string(code);
   });
-  ::mosquitto_disconnect_callback_set(client_, [](mosquitto*, void* self, int) {
-    auto& me = *static_cast<MqttClient*>(self);
-    me.connected_ = me.connecting_ = false;
+  ::mosquitto_publish_callback_set(client_, [](mosquitto*, void* object, int message) {
+    self(object).on_acknowledged(message);
   });
   ::mosquitto_message_callback_set(
-      client_, [](mosquitto*, void* self, const mosquitto_message* message) {
+      client_, [](mosquitto*, void* object, const mosquitto_message* message) {
+        auto& me = self(object);
         const std::string_view payload(static_cast<const char*>(message->payload),
                                        static_cast<std::size_t>(message->payloadlen));
-        static_cast<MqttClient*>(self)->on_message_({message->topic, payload, message->retain});
+        // 3.1.1 sets the flag on stored messages only; with 5, those were asked to stay away.
+        const auto flagged =
+            me.version_ == MQTT_PROTOCOL_V5 ? publish::Retain::asked : publish::Retain::stored;
+        me.on_message_({message->topic, payload, message->retain ? flagged : publish::Retain::no});
       });
 }
 
@@ -86,6 +101,47 @@ MqttClient::~MqttClient() {
   ::mosquitto_lib_cleanup();
 }
 
+void MqttClient::speak(int version) {
+  version_ = version;
+  ::mosquitto_int_option(client_, MOSQ_OPT_PROTOCOL_VERSION, version);
+}
+
+void MqttClient::on_connack(int code) {
+  closed_unanswered_ = 0;
+  if (code == 0) return on_connected();
+  if (version_ == MQTT_PROTOCOL_V5 &&
+      (code == MQTT_RC_UNSUPPORTED_PROTOCOL_VERSION || code == kMqtt31Refused)) {
+    speak(MQTT_PROTOCOL_V311);
+    next_try_ = now_;
+    refusal_ = "it knows no MQTT 5";
+    return;
+  }
+  refusal_ = version_ == MQTT_PROTOCOL_V5 ? ::mosquitto_reason_string(code)
+                                          : ::mosquitto_connack_string(code);
+}
+
+void MqttClient::on_connected() {
+  connected_ = true;
+  connecting_ = false;
+  pause_ = kFirstBrokerPause;
+  last_text_.clear();
+  delay_.on_connected(now_);
+  const bool newest = version_ == MQTT_PROTOCOL_V5;
+  for (const auto& [topic, qos] : subscriptions_) {
+    const int options = MQTT_SUB_OPT_RETAIN_AS_PUBLISHED | MQTT_SUB_OPT_SEND_RETAIN_NEVER;
+    ::mosquitto_subscribe_v5(client_, nullptr, topic.c_str(), qos, newest ? options : 0, nullptr);
+  }
+  ::mosquitto_publish(client_, nullptr, kOnlineTopic, 1, "1", kQosAnswers, true);
+  on_state_(true, newest ? "connected to the broker"
+                         : "connected to the broker, which speaks MQTT 3.1.1 only: a start that is "
+                           "published with retain cannot be told from others");
+}
+
+void MqttClient::on_acknowledged(int message) {
+  unacknowledged_.erase(message);
+  delay_.on_acknowledged(message, now_);
+}
+
 int MqttClient::fd() const {
   return ::mosquitto_socket(client_);
 }
@@ -94,16 +150,39 @@ bool MqttClient::wants_write() const {
   return fd() >= 0 && ::mosquitto_want_write(client_);
 }
 
-void MqttClient::on_readable() {
-  if (const int code = ::mosquitto_loop_read(client_, 1); code != MOSQ_ERR_SUCCESS) failed(code);
+void MqttClient::on_readable(Time now) {
+  now_ = now;
+  int waiting = 0;
+  int packets = 0;
+  do {
+    if (const int code = ::mosquitto_loop_read(client_, 1); code != MOSQ_ERR_SUCCESS)
+      return failed(code);
+    waiting = 0;
+  } while (++packets < kMostPackets && fd() >= 0 && ::ioctl(fd(), FIONREAD, &waiting) == 0 &&
+           waiting > 0);
 }
 
-void MqttClient::on_writable() {
+void MqttClient::on_writable(Time now) {
+  now_ = now;
   if (const int code = ::mosquitto_loop_write(client_, 1); code != MOSQ_ERR_SUCCESS) failed(code);
 }
 
 void MqttClient::failed(int code) {
-  failed(code == MOSQ_ERR_ERRNO ? std::strerror(errno) : ::mosquitto_strerror(code));
+  const std::string why = !refusal_.empty()        ? refusal_
+                          : code == MOSQ_ERR_ERRNO ? std::strerror(errno)
+                                                   : ::mosquitto_strerror(code);
+  refusal_.clear();
+  // A broker that knows no MQTT 5 may just close. One that goes down may, too: twice is a habit.
+  const bool unanswered = connecting_ && (code == MOSQ_ERR_CONN_LOST || code == MOSQ_ERR_PROTOCOL ||
+                                          code == MOSQ_ERR_MALFORMED_PACKET);
+  const bool older = version_ != MQTT_PROTOCOL_V5;
+  if (unanswered && ++closed_unanswered_ >= 2) {
+    closed_unanswered_ = 0;
+    speak(older ? MQTT_PROTOCOL_V5 : MQTT_PROTOCOL_V311);
+  } else if (connected_ && older) {
+    speak(MQTT_PROTOCOL_V5);  // it may have been replaced by a newer one
+  }
+  failed(why);
 }
 
 void MqttClient::failed(const std::string& why) {
@@ -115,27 +194,64 @@ void MqttClient::failed(const std::string& why) {
 }
 
 void MqttClient::tick(Time now) {
+  now_ = now;
+  if (auto answer = lookup_.take()) {
+    if (!answer->addresses.empty()) {
+      // The first answer is waited for; a later one is for the next try.
+      if (addresses_.empty()) next_try_ = now;
+      addresses_ = std::move(answer->addresses);
+    } else if (!connected_ && addresses_.empty()) {
+      failed(answer->problem);
+    }
+  }
   if (fd() >= 0) {
-    if (const int code = ::mosquitto_loop_misc(client_); code != MOSQ_ERR_SUCCESS) failed(code);
+    if (const int code = ::mosquitto_loop_misc(client_); code != MOSQ_ERR_SUCCESS)
+      return failed(code);
+    int message = 0;
+    if (connected_ && delay_.due(now) &&
+        ::mosquitto_publish(client_, &message, kOnlineTopic, 1, "1", kQosAnswers, false) ==
+            MOSQ_ERR_SUCCESS)
+      delay_.on_sent(message, now);
     return;
   }
   if (connected_ || connecting_) failed(MOSQ_ERR_CONN_LOST);
   if (now >= next_try_) connect(now);
 }
 
+/// Read at each try: who sets up the broker may write the file after droverd was started.
+bool MqttClient::read_credentials() {
+  if (config_.username.empty()) return true;
+  const std::optional<std::string> password =
+      config_.password_file.empty() ? std::string() : read_password(config_.password_file);
+  if (!password) {
+    failed("mqtt.password_file: cannot read " + config_.password_file);
+    return false;
+  }
+  ::mosquitto_username_pw_set(client_, config_.username.c_str(), password->c_str());
+  return true;
+}
+
+/// Each of the host's addresses in turn; empty while none is known. The library gets no name: it
+/// would wait for the name server.
+std::string MqttClient::next_address() {
+  if (is_numeric(config_.host)) return config_.host;
+  const bool waited = lookup_.under_way();
+  lookup_.ask(config_.host);
+  if (!addresses_.empty()) return addresses_[next_address_++ % addresses_.size()];
+  if (waited) failed("the name server does not answer");
+  return {};
+}
+
 void MqttClient::connect(Time now) {
   pause_ = std::clamp(pause_ * 2, kFirstBrokerPause, kLongestBrokerPause);
   next_try_ = now + pause_;
-  if (!config_.username.empty()) {
-    // Read at each try: who sets up the broker may write the file after droverd was started.
-    const std::optional<std::string> password =
-        config_.password_file.empty() ? std::string() : read_password(config_.password_file);
-    if (!password) return failed("mqtt.password_file: cannot read " + config_.password_file);
-    ::mosquitto_username_pw_set(client_, config_.username.c_str(), password->c_str());
-  }
+  if (!read_credentials()) return;
+  const auto address = next_address();
+  if (address.empty()) return;
   ++connections_;
+  refusal_.clear();
   const int code =
-      ::mosquitto_connect_async(client_, config_.host.c_str(), config_.port, config_.keepalive_s);
+      ::mosquitto_connect_async(client_, address.c_str(), config_.port, config_.keepalive_s);
   if (code == MOSQ_ERR_SUCCESS) {
     connecting_ = true;
   } else {
@@ -153,9 +269,16 @@ bool MqttClient::publish_latest(const char* topic, const std::string& payload) {
 }
 
 bool MqttClient::publish(const char* topic, const std::string& payload, bool retained) {
-  if (!connected_) return false;
-  return ::mosquitto_publish(client_, nullptr, topic, static_cast<int>(payload.size()),
-                             payload.data(), kQosAnswers, retained) == MOSQ_ERR_SUCCESS;
+  if (!connected_ || unacknowledged_.size() >= kMostUnacknowledged) {
+    ++dropped_;
+    return false;
+  }
+  int message = 0;
+  if (::mosquitto_publish(client_, &message, topic, static_cast<int>(payload.size()),
+                          payload.data(), kQosAnswers, retained) != MOSQ_ERR_SUCCESS)
+    return false;
+  unacknowledged_.insert(message);
+  return true;
 }
 
 }  // namespace drover::runtime

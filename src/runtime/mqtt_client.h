@@ -1,17 +1,24 @@
 // The connection to the broker: never blocks, reconnects for ever, drops old telemetry when the
 // broker does not take it. Runs inside the publish thread's loop; libmosquitto gets no thread of
 // its own.
+//
+// It speaks MQTT 5, which tells a message that is to be retained from others and does not bring
+// stored ones; with a broker that refuses it, 3.1.1, and says what is lost.
 #pragma once
 
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "config/config.h"
 #include "drover/time.h"
+#include "publish/arrival.h"
+#include "runtime/broker_delay.h"
+#include "runtime/name_lookup.h"
 
 struct mosquitto;
 
@@ -20,7 +27,7 @@ namespace drover::runtime {
 struct MqttMessage {
   std::string_view topic;
   std::string_view payload;
-  bool retained = false;
+  publish::Retain retain = publish::Retain::no;
 };
 
 struct MqttSubscription {
@@ -46,19 +53,29 @@ class MqttClient final {
   /// How often a connection was tried: tells a new descriptor from an old one of the same number.
   std::uint64_t connections() const { return connections_; }
   bool connected() const { return connected_; }
-  void on_readable();
-  void on_writable();
-  /// A few times a second: keepalive, reconnecting with a growing pause.
+  /// Takes what has come, but not more than what leaves time for others.
+  void on_readable(Time now);
+  void on_writable(Time now);
+  /// A few times a second: keepalive, measuring, reconnecting with a growing pause.
   void tick(Time now);
 
   /// Telemetry: QoS 0, dropped while the last one has not left. True when it was handed over.
   bool publish_latest(const char* topic, const std::string& payload);
-  /// Answers: QoS 1, queued by the library.
+  /// Answers: QoS 1, queued by the library; dropped while many are not acknowledged.
   bool publish(const char* topic, const std::string& payload, bool retained = false);
   std::uint64_t dropped() const { return dropped_; }
+  /// Why nothing that comes now may begin a motion; empty when the broker is prompt.
+  std::string_view late(Time now) const { return delay_.late(now); }
 
  private:
+  void set_callbacks();
   void connect(Time now);
+  bool read_credentials();
+  std::string next_address();
+  void speak(int version);
+  void on_connack(int code);
+  void on_connected();
+  void on_acknowledged(int message);
   void failed(int code);
   void failed(const std::string& why);
 
@@ -67,13 +84,22 @@ class MqttClient final {
   OnMessage on_message_;
   OnState on_state_;
   mosquitto* client_ = nullptr;
+  int version_ = 0;
   bool connected_ = false;
   bool connecting_ = false;
+  int closed_unanswered_ = 0;  ///< connections in a row that ended before the broker said a word
+  std::string refusal_;        ///< the broker's, of the present connection
+  Time now_ = kNever;          ///< for the library's callbacks
   Time next_try_ = kNever;
   Duration pause_{};
   std::string last_text_;
   std::uint64_t connections_ = 0;
   std::uint64_t dropped_ = 0;
+  std::set<int> unacknowledged_;  ///< answers, by the library's number
+  BrokerDelay delay_;
+  NameLookup lookup_;
+  std::vector<std::string> addresses_;  ///< of the host, the last that were told
+  std::size_t next_address_ = 0;
 };
 
 }  // namespace drover::runtime

@@ -17,13 +17,12 @@ namespace {
 constexpr Duration kStatusPeriod =
     std::chrono::milliseconds(100);  // base_status: 10 Hz, RTK navigation protocol
 
-constexpr std::size_t kMostAskedStops = 256;
-
-enum Tag : std::uint64_t { kTimer = 1, kBroker, kCli, kEvents, kReplies, kAimrt };
+enum Tag : std::uint64_t { kTimer = 1, kBroker, kCli, kEvents, kReplies, kAimrt, kParsed };
 
 publish::CommandServiceConfig service_config(const config::DroverConfig& config) {
   publish::CommandServiceConfig service;
   service.zero_based_ids = config.protocol.first_target_id == 0;
+  service.start_needs_time = config.protocol.start_needs_time;
   service.automatic_origin = config.protocol.automatic_origin;
   service.antenna = {config.engine.estimate.antenna_x_m, config.engine.estimate.antenna_y_m};
   return service;
@@ -80,10 +79,11 @@ LogLevel log_level(Notice::Level level) {
 }  // namespace
 
 PublishLoop::PublishLoop(const config::DroverConfig& config, ControlExchange& control,
-                         StorageExchange& storage, store::StoredState stored)
+                         StorageExchange& storage, ParserLoop& parser, store::StoredState stored)
     : config_(config),
       control_(control),
       storage_(storage),
+      parser_(parser),
       service_(service_config(config), std::move(stored)),
       base_status_(rtk_config(config.protocol)),
       started_(monotonic_now()),
@@ -98,6 +98,7 @@ PublishLoop::PublishLoop(const config::DroverConfig& config, ControlExchange& co
   watch(cli_.fd(), kCli);
   watch(control_.events_ready.fd(), kEvents);
   watch(storage_.replies_ready.fd(), kReplies);
+  watch(parser_.replies_ready().fd(), kParsed);
   if (config.mqtt.enabled) connect_broker();
 }
 
@@ -117,15 +118,6 @@ void PublishLoop::connect_broker() {
         broker_text_ = connected ? "" : text;
         log(connected ? LogLevel::info : LogLevel::warning, text);
       });
-}
-
-void PublishLoop::on_message(const MqttMessage& message) {
-  if (message.topic == publish::kTopicControl) {
-    service_.on_control(message.payload, message.retained, monotonic_now(), actions_);
-  } else if (aimrt_ && message.topic == aimrt_->command_topic()) {
-    aimrt_->on_command(message.payload, message.retained, monotonic_now(), wall_minus_monotonic(),
-                       actions_);
-  }
 }
 
 void PublishLoop::watch(int fd, std::uint64_t tag) {
@@ -173,8 +165,8 @@ void PublishLoop::run(const std::atomic<bool>& stop) {
           publish_aimrt();
           break;
         case kBroker:
-          if ((events[i].events & EPOLLOUT) != 0) broker_->on_writable();
-          if ((events[i].events & (EPOLLIN | EPOLLHUP | EPOLLERR)) != 0) broker_->on_readable();
+          if ((events[i].events & EPOLLOUT) != 0) broker_->on_writable(now);
+          if ((events[i].events & (EPOLLIN | EPOLLHUP | EPOLLERR)) != 0) broker_->on_readable(now);
           break;
         case kCli: cli_.on_ready(); break;
         case kEvents:
@@ -184,6 +176,10 @@ void PublishLoop::run(const std::atomic<bool>& stop) {
         case kReplies:
           storage_.replies_ready.clear();
           take_replies(now);
+          break;
+        case kParsed:
+          parser_.replies_ready().clear();
+          take_parsed(now);
           break;
         default: break;
       }
@@ -252,33 +248,6 @@ void PublishLoop::carry_out(publish::Actions& actions) {
     }
   }
   actions.clear();
-}
-
-/// Stops go around the ring, which a flood may have filled.
-void PublishLoop::deliver(const Command& command, publish::Actions& actions) {
-  const bool cancel = std::holds_alternative<CancelTask>(command.body);
-  if (!cancel && !std::holds_alternative<EngageStop>(command.body)) {
-    const auto* start = std::get_if<StartTask>(&command.body);
-    if (control_.recorder != nullptr && start != nullptr && start->path != nullptr)
-      control_.recorder->path(*start->path);
-    const bool taken = control_.commands.push(QueuedCommand{command, control_.stops.asked()});
-    if (!taken) service_.on_undelivered(command, actions);
-    return;
-  }
-  const auto counts = cancel ? control_.stops.ask_cancel() : control_.stops.ask_stop();
-  asked_stops_.emplace_back(counts, command);
-  if (asked_stops_.size() <= kMostAskedStops) return;
-  // The control thread hangs: the flag stays set for it, the answer does not wait.
-  service_.on_undelivered(asked_stops_.front().second, actions);
-  asked_stops_.pop_front();
-}
-
-void PublishLoop::answer_stops(Time now) {
-  const auto obeyed = control_.stops.obeyed();
-  while (!asked_stops_.empty() && obeyed.include(asked_stops_.front().first)) {
-    service_.on_event({now, CommandAccepted{asked_stops_.front().second.id, {}}}, actions_);
-    asked_stops_.pop_front();
-  }
 }
 
 }  // namespace drover::runtime

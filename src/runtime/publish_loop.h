@@ -17,6 +17,7 @@
 #include "runtime/cli_server.h"
 #include "runtime/control_loop.h"
 #include "runtime/mqtt_client.h"
+#include "runtime/parser_loop.h"
 #include "runtime/storage_loop.h"
 
 namespace drover::runtime {
@@ -25,7 +26,7 @@ class PublishLoop final {
  public:
   /// Throws std::runtime_error when its socket cannot be opened.
   PublishLoop(const config::DroverConfig& config, ControlExchange& control,
-              StorageExchange& storage, store::StoredState stored);
+              StorageExchange& storage, ParserLoop& parser, store::StoredState stored);
   void run(const std::atomic<bool>& stop);
   /// Wakes the loop so that it sees `stop`.
   void wake() const { control_.events_ready.notify(); }
@@ -45,6 +46,8 @@ class PublishLoop final {
   void watch_broker();
   void connect_broker();
   void on_message(const MqttMessage& message);
+  void on_control(std::string_view payload, const publish::Arrival& arrival, Time now);
+  void take_parsed(Time now);
   void publish_status(Time now);
   void publish_aimrt();
   void take_events();
@@ -58,6 +61,7 @@ class PublishLoop final {
   const config::DroverConfig& config_;
   ControlExchange& control_;
   StorageExchange& storage_;
+  ParserLoop& parser_;
   publish::CommandService service_;
   publish::BaseStatus base_status_;
   std::optional<publish::aimrt::Channel> aimrt_;  ///< nothing when it is switched off

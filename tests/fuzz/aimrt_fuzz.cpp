@@ -49,7 +49,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   // The corpus' stamps are about one second after the epoch.
   const Time now{from_s(1)};
   Actions actions;
-  channel.on_command(payload, false, now, Duration(0), actions);
+  channel.on_command(payload, {}, now, Duration(0), actions);
   int commands = 0;
   for (const Action& action : actions) {
     const auto* command = std::get_if<Command>(&action);
@@ -62,7 +62,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       require(std::holds_alternative<JointTargets>(command->body));
       check_targets(std::get<JointTargets>(command->body), config.rules.joints.size());
       Actions later;
-      channel.on_command(payload, true, now, Duration(0), later);
+      channel.on_command(payload, {.retain = Retain::stored}, now, Duration(0), later);
       require(std::holds_alternative<JointTargetsRefused>(std::get<Command>(later.back()).body));
     }
   }

@@ -43,11 +43,11 @@ void check_track(const store::Track& track) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view payload(reinterpret_cast<const char*>(data), size);
-  const auto result = parse_control(payload, false);
+  const auto result = parse_control(payload, Retain::no);
   if (!result.ok()) {
     require(!result.error().reason.empty() && result.error().feedback_cmd.ends_with("_failse"));
   } else {
-    require(!parse_control(payload, true).ok());
+    require(!parse_control(payload, Retain::stored).ok());
     if (const auto* save = std::get_if<SaveTrajectory>(&*result)) check_track(save->track);
     if (const auto* start = std::get_if<StartTaskRequest>(&*result)) {
       require(std::isfinite(start->speed_mps));
@@ -57,7 +57,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const GeodeticPoint origin{23, 113, 0};
   CommandService service({}, {{{"13", {{113, 23, 0, 0, 0, 0, 0}}, origin}}, origin, {}});
   Actions actions;
-  service.on_control(payload, false, Time{from_s(1)}, actions);
+  service.on_control(payload, {}, Time{from_s(1)}, actions);
   check_texts(actions);
   int outcomes = 0;
   for (const Action& action : actions) outcomes += std::holds_alternative<LogLine>(action) ? 0 : 1;

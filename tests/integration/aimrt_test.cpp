@@ -57,11 +57,15 @@ TEST_F(AimrtChannel, ShowsJointsAndContactsInTheDocumentsFields) {
 
 TEST_F(AimrtChannel, FollowsNoCommandThatIsNotWhollyGood) {
   ASSERT_NO_FATAL_FAILURE(start_broker());
-  command(R"(joints { name: "front_left" velocity: 1 })", true);  // lies there since some other day
+  // Lies there since some other day, and is not brought.
+  command(R"(joints { name: "front_left" velocity: 1 })", true);
   ASSERT_NO_FATAL_FAILURE(start_sim());
   ASSERT_NO_FATAL_FAILURE(start_guard());
   start_daemon();
   ASSERT_TRUE(wait_for_locate());
+  wait_until_believed();
+  EXPECT_THAT(daemon().output(), Not(HasSubstr("joint command refused")));
+  command(R"(joints { name: "front_left" velocity: 1 })", true);
   EXPECT_TRUE(wait_for_log("joint command refused: a retained message is never followed"));
   command(R"(joints { name: "front_left" velocity: 1 } joints { name: "wing" velocity: 1 })");
   EXPECT_TRUE(wait_for_log("joint command refused: joint 'wing': there is no such joint"));

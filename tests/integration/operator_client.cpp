@@ -6,9 +6,9 @@
 
 namespace drover::test {
 
-OperatorClient::OperatorClient() {
+OperatorClient::OperatorClient(const char* id) {
   ::mosquitto_lib_init();
-  client_ = ::mosquitto_new("operator", true, this);
+  client_ = ::mosquitto_new(id, true, this);
   ::mosquitto_message_callback_set(client_,
                                    [](mosquitto*, void* self, const mosquitto_message* message) {
                                      static_cast<OperatorClient*>(self)->heard_.push_back(
@@ -26,12 +26,16 @@ OperatorClient::~OperatorClient() {
   ::mosquitto_lib_cleanup();
 }
 
-bool OperatorClient::connect(int port) {
+bool OperatorClient::connect(int port, const char* topics) {
   subscribed_ = false;
   if (::mosquitto_connect(client_, "127.0.0.1", port, 60) != MOSQ_ERR_SUCCESS) return false;
-  ::mosquitto_subscribe(client_, nullptr, "#", 1);
+  ::mosquitto_subscribe(client_, nullptr, topics, 1);
   for (int i = 0; i < 100 && !subscribed_; ++i) turn(std::chrono::milliseconds(50));
   return subscribed_;
+}
+
+void OperatorClient::disconnect() {
+  (void)::mosquitto_disconnect(client_);
 }
 
 void OperatorClient::turn(std::chrono::milliseconds time) {

@@ -17,13 +17,14 @@ class OperatorClient final {
     std::string text;
   };
 
-  OperatorClient();
+  explicit OperatorClient(const char* id = "operator");
   ~OperatorClient();
   OperatorClient(const OperatorClient&) = delete;
   OperatorClient& operator=(const OperatorClient&) = delete;
 
-  /// True when the broker took the connection and the subscription to every topic.
-  bool connect(int port);
+  /// True when the broker took the connection and the subscription, by default to every topic.
+  bool connect(int port, const char* topics = "#");
+  void disconnect();
   /// Reads and writes for so long; returns early when something came.
   void turn(std::chrono::milliseconds time);
   void publish(const char* topic, std::string_view text, bool retained = false);

@@ -20,6 +20,7 @@ class Process final {
   Process& operator=(Process&& other) noexcept;
 
   bool running();
+  pid_t pid() const { return pid_; }
   void signal(int number) const;
   /// Exit status, or 128 and the signal's number; nothing when it still runs at the deadline.
   std::optional<int> wait(std::chrono::milliseconds deadline);

@@ -197,6 +197,20 @@ void RobotRig::start_daemon() {
   daemon_ = Process({DROVERD_PROGRAM, "-c", log("drover.json")}, log("droverd.log"));
 }
 
+void RobotRig::start_daemon(const std::string& first, std::vector<std::string> wrapper) {
+  wrapper.insert(
+      wrapper.end(),
+      {"/bin/sh", "-c", first + "; exec " + DROVERD_PROGRAM + " -c " + log("drover.json")});
+  daemon_ = Process(wrapper, log("droverd.log"));
+}
+
+void RobotRig::set_broker_host(const std::string& host) {
+  std::ifstream file(folder_ / "drover.json");
+  const std::string text((std::istreambuf_iterator<char>(file)), {});
+  std::ofstream(folder_ / "drover.json")
+      << filled(text, R"("mqtt": {"port")", R"("mqtt": {"host": ")" + host + R"(", "port")");
+}
+
 void RobotRig::start_all() {
   ASSERT_NO_FATAL_FAILURE(start_broker());
   ASSERT_NO_FATAL_FAILURE(start_sim());

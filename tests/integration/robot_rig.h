@@ -42,6 +42,11 @@ class RobotRig : public testing::Test {
   void start_sim();
   void start_guard();
   void start_daemon();
+  /// After `first`, a line of a shell; the shell itself by `wrapper`. It is replaced by the
+  /// gateway.
+  void start_daemon(const std::string& first, std::vector<std::string> wrapper = {});
+  /// From the next start of the gateway on.
+  void set_broker_host(const std::string& host);
   /// All four, until the robot knows where it is.
   void start_all();
   /// Ends the gateway as systemd would and expects that it ends well.
@@ -53,10 +58,15 @@ class RobotRig : public testing::Test {
   bool wait_for_status(std::string_view nav_status);
   bool wait_for_locate();
 
+  /// In the first second of a connection nothing is followed that begins a motion.
+  void wait_until_believed();
   void control(std::string_view text, bool retained = false);
   /// A straight track ahead of where the robot believes to be, points each half metre.
   void save_track(const std::string& name, double length_m);
   void start_task(const std::string& name, int id, double speed_mps = 0.5);
+  /// As a person who is refused and tries again: the broker was connected just now, say. Returns
+  /// when the accepted one was sent.
+  double start_until_accepted(const std::string& name, int id);
   /// Saves a track of `length_m`, starts it and waits until the robot moves.
   void drive(double length_m);
 
@@ -74,6 +84,7 @@ class RobotRig : public testing::Test {
   static double now_s();
 
   const std::filesystem::path& folder() const { return folder_; }
+  int port() const { return port_; }  ///< the broker's
   Process& broker() { return broker_; }
   Process& simulator() { return sim_; }
   Process& guard() { return guard_; }

@@ -17,6 +17,10 @@ void RobotRig::control(std::string_view text, bool retained) {
   client_.publish("mqtt_control", text, retained);
 }
 
+void RobotRig::wait_until_believed() {
+  (void)wait_until([end = now_s() + 1.5] { return now_s() > end; });
+}
+
 void RobotRig::save_track(const std::string& name, double length_m) {
   constexpr double kMetresPerDegree = 111'320;
   const double x_m = status_number("pose", "x");
@@ -46,10 +50,25 @@ void RobotRig::start_task(const std::string& name, int id, double speed_mps) {
   control(text.str());
 }
 
+double RobotRig::start_until_accepted(const std::string& name, int id) {
+  double sent_s = 0;
+  EXPECT_TRUE(wait_until([&] {
+    sent_s = now_s();
+    const auto before = client_.heard().size();
+    start_task(name, id);
+    if (!wait_until([&] { return !client_.feedback(before).empty(); })) return false;
+    if (client_.feedback(before).front() == "start_task_success") return true;
+    // The same start again within a second counts as one that was delivered twice.
+    (void)wait_until([end = now_s() + 1.2] { return now_s() > end; });
+    return false;
+  }));
+  return sent_s;
+}
+
 void RobotRig::drive(double length_m) {
   ASSERT_NO_FATAL_FAILURE(save_track("row", length_m));
   const auto before = client_.heard().size();
-  start_task("row", static_cast<int>(length_m / 0.5) + 1);
+  (void)start_until_accepted("row", static_cast<int>(length_m / 0.5) + 1);
   ASSERT_TRUE(wait_for_feedback("start_nav_success", before));
   ASSERT_TRUE(wait_until([&] { return true_speed_mps() > 0.1; }));
 }

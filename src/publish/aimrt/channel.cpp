@@ -58,10 +58,11 @@ bool Channel::touch_is_due(const Snapshot& snapshot) {
   return true;
 }
 
-Result<JointTargets, Reason> Channel::judged(std::string_view payload, bool retained,
+Result<JointTargets, Reason> Channel::judged(std::string_view payload, const Arrival& arrival,
                                              Duration wall) {
   // Old by its nature, whatever its stamp.
-  if (retained) return Reason("a retained message is never followed");
+  if (arrival.retain != Retain::no) return Reason("a retained message is never followed");
+  if (!arrival.late.empty()) return Reason(arrival.late);
   const auto packet = decode_packet(payload);
   if (!packet) return Reason(text(packet.error()));
   if (packet->content_type != kProtobuf)
@@ -74,7 +75,7 @@ Result<JointTargets, Reason> Channel::judged(std::string_view payload, bool reta
   return targets;
 }
 
-void Channel::on_command(std::string_view payload, bool retained, Time now,
+void Channel::on_command(std::string_view payload, const Arrival& arrival, Time now,
                          Duration wall_minus_monotonic, Actions& out) {
   Reason reason;
   if (!command_bucket_.take(now)) {
@@ -84,7 +85,7 @@ void Channel::on_command(std::string_view payload, bool retained, Time now,
   }
   Command command{{RequestId::Source::aimrt, ++commands_}, now, {}};
   if (reason.empty()) {
-    const auto targets = judged(payload, retained, now.time_since_epoch() + wall_minus_monotonic);
+    const auto targets = judged(payload, arrival, now.time_since_epoch() + wall_minus_monotonic);
     if (targets) {
       command.body = *targets;
     } else {

@@ -43,12 +43,13 @@ class Channel final {
 
   /// A message on command_topic(): a JointTargets or JointTargetsRefused for the engine, and now
   /// and then a line for the log. `retained` is the broker's flag.
-  void on_command(std::string_view payload, bool retained, Time now, Duration wall_minus_monotonic,
-                  Actions& out);
+  void on_command(std::string_view payload, const Arrival& arrival, Time now,
+                  Duration wall_minus_monotonic, Actions& out);
 
  private:
   bool touch_is_due(const Snapshot& snapshot);
-  Result<JointTargets, Reason> judged(std::string_view payload, bool retained, Duration wall);
+  Result<JointTargets, Reason> judged(std::string_view payload, const Arrival& arrival,
+                                      Duration wall);
 
   std::string joint_state_topic_;
   std::string imu_state_topic_;

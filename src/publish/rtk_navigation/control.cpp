@@ -97,6 +97,18 @@ Reason read_delete(const Node& root, const ControlLimits& limits, ControlCommand
   return reason;
 }
 
+/// Seconds since 1970, or milliseconds as Date.now() gives them: no time is both.
+Reason read_time(const Node& root, std::optional<Duration>& out) {
+  constexpr double kLeast_ms = 1e11;  // 1973; in seconds the year 5138
+  constexpr double kMost_ms = 9e12;   // what a Duration holds
+  if (root.find("time") == nullptr) return std::nullopt;
+  double time = 0;
+  if (auto reason = read_number(root, "time", time)) return reason;
+  if (!(time > 0 && time < kMost_ms)) return "'time' must be seconds or milliseconds since 1970";
+  out = time < kLeast_ms ? from_s(std::min(time, kMost_ms * 1e-3)) : from_s(time * 1e-3);
+  return std::nullopt;
+}
+
 Reason read_start(const Node& root, const ControlLimits& limits, ControlCommand& out) {
   StartTaskRequest request;
   if (auto reason = read_name(root, limits, request.name)) return reason;
@@ -105,6 +117,7 @@ Reason read_start(const Node& root, const ControlLimits& limits, ControlCommand&
   if (!id->integer()) return "'id' must be an integer, not " + std::string(id->kind());
   request.id = *id->integer();
   if (auto reason = read_number(root, "speed", request.speed_mps)) return reason;
+  if (auto reason = read_time(root, request.time)) return reason;
   out = std::move(request);
   return std::nullopt;
 }
@@ -119,6 +132,7 @@ struct Row {
   std::string_view cmd_type;
   std::string_view cmd;
   Read read;
+  bool stops = false;
 };
 
 constexpr std::array kRows = {
@@ -127,9 +141,9 @@ constexpr std::array kRows = {
     Row{"trajectory_control", "delete_trajectory", read_delete},
     Row{"trajectory_control", "delete_all_trajectory", read_nothing<DeleteAllTrajectory>},
     Row{"task_control", "start_task", read_start},
-    Row{"task_control", "cancel_task", read_nothing<CancelTaskRequest>},
+    Row{"task_control", "cancel_task", read_nothing<CancelTaskRequest>, true},
     Row{"task_control", "init_rtk_data", read_nothing<InitRtkData>},
-    Row{"manual_control", "terminate", read_nothing<TerminateRequest>},
+    Row{"manual_control", "terminate", read_nothing<TerminateRequest>, true},
 };
 
 const Row* find_row(std::string_view cmd) {
@@ -156,7 +170,7 @@ std::string failure_cmd(std::string_view cmd) {
   return std::string(usable ? cmd : "unknown") + "_failse";
 }
 
-Result<ControlCommand, ControlRefusal> parse_control(std::string_view payload, bool retained,
+Result<ControlCommand, ControlRefusal> parse_control(std::string_view payload, Retain retain,
                                                      const ControlLimits& limits) {
   const auto parsed = json::parse(payload, {limits.max_bytes, limits.max_depth, limits.max_values});
   if (!parsed.ok()) return ControlRefusal{failure_cmd(""), parsed.error().text()};
@@ -179,11 +193,29 @@ Result<ControlCommand, ControlRefusal> parse_control(std::string_view payload, b
     return refuse("the cmd_type of " + std::string(cmd) + " is " + std::string(row->cmd_type) +
                   ", not " + quoted(cmd_type));
   }
-  if (retained) return refuse("the message was retained by the broker: publish without retain");
+  if (retain == Retain::stored || (retain == Retain::asked && !row->stops))
+    return refuse("the message was retained by the broker: publish without retain");
   if (carries_prototype(root)) return refuse("a member named __proto__ is not accepted");
   ControlCommand command;
   if ((reason = row->read(root, limits, command))) return refuse(*reason);
   return command;
+}
+
+bool is_stop(const ControlCommand& command) {
+  return std::holds_alternative<CancelTaskRequest>(command) ||
+         std::holds_alternative<TerminateRequest>(command);
+}
+
+bool is_stop(const Result<ControlCommand, ControlRefusal>& request) {
+  return request.ok() && is_stop(*request);
+}
+
+bool may_stop(std::string_view payload) {
+  // A letter may be written as an escape; then only the parser knows.
+  if (payload.find('\\') != std::string_view::npos) return true;
+  return std::any_of(kRows.begin(), kRows.end(), [&](const Row& row) {
+    return row.stops && payload.find(row.cmd) != std::string_view::npos;
+  });
 }
 
 }  // namespace drover::publish

@@ -4,11 +4,14 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
 
 #include "drover/result.h"
+#include "drover/time.h"
+#include "publish/arrival.h"
 #include "store/track.h"
 
 namespace drover::publish {
@@ -26,6 +29,8 @@ struct StartTaskRequest {
   std::string name;
   std::int64_t id = 0;   ///< as the operator counts; any integer
   double speed_mps = 0;  ///< finite; range is the engine's
+  /// UTC at which the operator pressed, since 1970; nothing when the message does not tell.
+  std::optional<Duration> time{};
 };
 struct CancelTaskRequest {};
 struct InitRtkData {};
@@ -54,10 +59,19 @@ struct ControlLimits {
 };
 
 /// Accepts exactly the document's messages, comments included; unknown members are ignored. Nothing
-/// is coerced: 1.0 and true are no point id. A message that the broker had retained is refused
-/// whatever it says: nobody sends it now.
-Result<ControlCommand, ControlRefusal> parse_control(std::string_view payload, bool retained,
+/// is coerced: 1.0 and true are no point id. A message that the broker had stored is refused
+/// whatever it says: nobody sends it now. Of those that are to be retained, only what stops is
+/// taken: who presses stop may have forgotten the flag, and a start would come again some day.
+Result<ControlCommand, ControlRefusal> parse_control(std::string_view payload, Retain retain,
                                                      const ControlLimits& limits = {});
+
+/// Whether it is one that stops: never limited, never behind others.
+bool is_stop(const ControlCommand& command);
+bool is_stop(const Result<ControlCommand, ControlRefusal>& request);
+
+/// Whether a message may be one that stops, without parsing it: false is certain. For the middle of
+/// a flood.
+bool may_stop(std::string_view payload);
 
 /// The `cmd` that tells a failure of `cmd`: `<cmd>_failse` when it is a plain short word, otherwise
 /// "unknown_failse".

@@ -35,8 +35,8 @@ class CommandServiceTest : public testing::Test {
   void answer_all_commands() {
     for (const Command& command : all<Command>()) event(CommandAccepted{command.id, {}});
   }
-  void control(const std::string& payload, bool retained = false) {
-    service_->on_control(payload, retained, now_, actions_);
+  void control(const std::string& payload, const Arrival& arrival = {}) {
+    service_->on_control(payload, arrival, now_, actions_);
   }
   void start(const std::string& name = "13", const std::string& id = "2") {
     control("{\"cmd_type\":\"task_control\",\"cmd\":\"start_task\",\"name\":\"" + name +

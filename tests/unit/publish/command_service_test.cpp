@@ -68,7 +68,7 @@ TEST_F(CommandServiceTest, RefusesAStartWhileTheOriginIsBeingSet) {
 
 TEST_F(CommandServiceTest, MalformedAndRetainedMessagesChangeNothing) {
   control("{");
-  control(example("start_task"), true);
+  control(example("start_task"), {.retain = Retain::asked});
   EXPECT_TRUE(all<Command>().empty());
   EXPECT_TRUE(all<store::StorageJob>().empty());
   EXPECT_THAT(feedback(), ElementsAre(HasSubstr("unknown_failse: line 1"),

@@ -20,8 +20,8 @@ class AnAimrtChannel : public testing::Test {
     config_.rules.joints = {"left", "right"};
     channel_.emplace(config_);
   }
-  void give(const std::string& payload, bool retained = false) {
-    channel_->on_command(payload, retained, now_, kWallMinusMonotonic, actions_);
+  void give(const std::string& payload, const Arrival& arrival = {}) {
+    channel_->on_command(payload, arrival, now_, kWallMinusMonotonic, actions_);
   }
   std::uint64_t wall_ns() const {
     return static_cast<std::uint64_t>((now_.time_since_epoch() + kWallMinusMonotonic).count());
@@ -51,7 +51,7 @@ class AnAimrtChannel : public testing::Test {
 };
 
 TEST_F(AnAimrtChannel, NeverFollowsARetainedMessage) {
-  give(in_packet(joint_entry("left", 0, 1)), true);
+  give(in_packet(joint_entry("left", 0, 1)), {.retain = Retain::asked});
   EXPECT_EQ(last_refusal(), "a retained message is never followed");
   EXPECT_TRUE(commands<JointTargets>().empty());
 }

@@ -11,8 +11,8 @@ namespace {
 using testing::HasSubstr;
 
 /// "accepted", or "<feedback cmd>: <reason>".
-std::string answer(std::string_view payload, bool retained = false) {
-  const auto result = parse_control(payload, retained);
+std::string answer(std::string_view payload, Retain retain = Retain::no) {
+  const auto result = parse_control(payload, retain);
   return result.ok() ? "accepted" : result.error().feedback_cmd + ": " + result.error().reason;
 }
 
@@ -42,7 +42,7 @@ TEST(Control, RefusesAPointIdThatIsNoInteger) {
 }
 
 TEST(Control, DoesNotWrapALargePointId) {
-  const auto result = parse_control(start("4294967297"), false);
+  const auto result = parse_control(start("4294967297"), Retain::no);
   ASSERT_TRUE(result.ok());
   EXPECT_EQ(std::get<StartTaskRequest>(*result).id, 4294967297);
 }
@@ -111,7 +111,7 @@ TEST(Control, KeepsPointsThatMakeNoSenseAsTheyCame) {
   const auto result = parse_control(
       save("[{\"longitude\":188.2222333,\"latitude\":91,\"angle\":-1,\"x\":1e6,\"y\":-0,"
            "\"yaw\":230,\"z\":3.141592}]"),
-      false);
+      Retain::no);
   ASSERT_TRUE(result.ok());
   const auto& point = std::get<SaveTrajectory>(*result).track.points.at(0);
   EXPECT_EQ(point.longitude_deg, 188.2222333);
@@ -143,10 +143,44 @@ TEST(Control, RefusesADuplicateKeyInsteadOfTakingTheLast) {
 
 TEST(Control, RefusesARetainedMessage) {
   for (const char* name : {"start_task", "cancel_task", "delete_all_trajectory"}) {
-    EXPECT_EQ(answer(example(name), true),
+    EXPECT_EQ(answer(example(name), Retain::stored),
               std::string(name) +
                   "_failse: the message was retained by the broker: publish without retain");
   }
+}
+
+TEST(Control, OfLiveMessagesThatAreToBeRetainedTakesOnlyWhatStops) {
+  for (const char* name : {"start_task", "delete_all_trajectory", "get_all_trajectory"}) {
+    EXPECT_THAT(answer(example(name), Retain::asked), HasSubstr("publish without retain"));
+  }
+  EXPECT_EQ(answer(example("cancel_task"), Retain::asked), "accepted");
+  EXPECT_EQ(answer("{\"cmd_type\":\"manual_control\",\"cmd\":\"terminate\"}", Retain::asked),
+            "accepted");
+}
+
+TEST(Control, ReadsWhenAStartWasPressedInSecondsAndMilliseconds) {
+  const auto pressed = [](const std::string& time) {
+    return "{\"cmd_type\":\"task_control\",\"cmd\":\"start_task\",\"name\":\"13\",\"id\":1,"
+           "\"speed\":0.5,\"time\":" +
+           time + "}";
+  };
+  using std::chrono::milliseconds;
+  for (const char* time : {"1700000000.25", "1700000000250", "1.70000000025e9"}) {
+    const auto result = parse_control(pressed(time), Retain::no);
+    ASSERT_TRUE(result.ok()) << time;
+    EXPECT_EQ(std::chrono::round<milliseconds>(*std::get<StartTaskRequest>(*result).time),
+              milliseconds(1'700'000'000'250));
+  }
+  for (const char* time : {"0", "-1", "1e300", "\"now\"", "true", "null"})
+    EXPECT_THAT(answer(pressed(time)), HasSubstr("start_task_failse: 'time' must be")) << time;
+  EXPECT_FALSE(std::get<StartTaskRequest>(*parse_control(start("1"), Retain::no)).time);
+}
+
+TEST(Control, TellsWithoutParsingThatAMessageCannotStop) {
+  EXPECT_TRUE(may_stop(example("cancel_task")));
+  EXPECT_TRUE(may_stop("{\"cmd\":\"terminate\""));
+  EXPECT_TRUE(may_stop("{\"cmd\":\"cancel\\u005ftask\"}")) << "an escape may hide it";
+  EXPECT_FALSE(may_stop(example("get_all_trajectory")));
 }
 
 TEST(Control, RefusesACommandUnderAnotherType) {
@@ -165,7 +199,7 @@ TEST(Control, AnswersUnknownCommandsByTheirOwnNameWhereThatIsOne) {
 }
 
 TEST(Control, TakesEveryExampleOfTheDocument) {
-  const auto parsed = [](const char* name) { return parse_control(example(name), false); };
+  const auto parsed = [](const char* name) { return parse_control(example(name), Retain::no); };
   EXPECT_TRUE(std::holds_alternative<GetAllTrajectory>(*parsed("get_all_trajectory")));
   EXPECT_TRUE(std::holds_alternative<DeleteAllTrajectory>(*parsed("delete_all_trajectory")));
   EXPECT_TRUE(std::holds_alternative<CancelTaskRequest>(*parsed("cancel_task")));

@@ -1,0 +1,25 @@
+// How a message of the broker came, beside what it says.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+#include "drover/time.h"
+
+namespace drover::publish {
+
+enum class Retain : std::uint8_t {
+  no,
+  asked,   ///< sent just now, by somebody who wants the broker to keep it
+  stored,  ///< kept by the broker since some other day
+};
+
+struct Arrival {
+  Retain retain = Retain::no;
+  /// Why nothing that comes now may begin a motion: the broker holds messages back. Empty: it is
+  /// prompt.
+  std::string_view late{};
+  Duration wall{};  ///< UTC at which it came, since 1970
+};
+
+}  // namespace drover::publish

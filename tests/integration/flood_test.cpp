@@ -1,0 +1,119 @@
+// Other clients flood the broker and save large tracks; a stop is heard all the same. In real time.
+#include <gmock/gmock.h>
+#include <mosquitto.h>
+
+#include <algorithm>
+#include <atomic>
+#include <thread>
+
+#include "integration/robot_rig.h"
+#include "publish/rtk_navigation/control.h"
+
+namespace drover::test {
+namespace {
+
+/// A client of its own, in a thread of its own, that publishes `text` so many times a second.
+class Publisher final {
+ public:
+  Publisher(int port, std::string text, int each_second, int at_once)
+      : text_(std::move(text)), thread_([this, port, each_second, at_once] {
+          mosquitto* client = ::mosquitto_new(nullptr, true, nullptr);
+          if (::mosquitto_connect(client, "127.0.0.1", port, 60) != MOSQ_ERR_SUCCESS) return;
+          const auto pause = std::chrono::microseconds(1'000'000LL * at_once / each_second);
+          for (auto next = Clock::now(); !stop_; next += pause) {
+            for (int i = 0; i < at_once; ++i)
+              (void)::mosquitto_publish(client, nullptr, "mqtt_control",
+                                        static_cast<int>(text_.size()), text_.data(), 0, false);
+            sent_ += at_once;
+            do {
+              (void)::mosquitto_loop(client, 1, 1);
+            } while (::mosquitto_want_write(client) && !stop_);
+            std::this_thread::sleep_until(next + pause);
+          }
+          ::mosquitto_destroy(client);
+        }) {}
+  ~Publisher() {
+    stop_ = true;
+    thread_.join();
+  }
+  Publisher(const Publisher&) = delete;
+  Publisher& operator=(const Publisher&) = delete;
+  int sent() const { return sent_; }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  std::string text_;
+  std::atomic<bool> stop_{false};
+  std::atomic<int> sent_{0};
+  std::thread thread_;
+};
+
+/// As large as a command may be.
+std::string largest_save() {
+  const std::string point =
+      R"({"longitude":113.0196366456667,"latitude":23.1496524965,"angle":90,"x":1,"y":2,"yaw":0})";
+  std::string text =
+      R"({"cmd_type":"trajectory_control","cmd":"save_trajectory","data":{"name":"large","data":[)";
+  const auto most = publish::ControlLimits{}.max_bytes;
+  const auto points = std::min<std::size_t>((most - text.size() - 8) / (point.size() + 1), 20'000);
+  for (std::size_t i = 0; i < points; ++i) text += (i == 0 ? "" : ",") + point;
+  text += "]}}";
+  text.resize(std::max(text.size(), most - 1), ' ');
+  return text;
+}
+
+class Flood : public RobotRig {
+ protected:
+  /// Seconds until the answer; hears only what is for it, else it would be flooded itself.
+  double cancel() {
+    const auto before = operator_.heard().size();
+    const double asked_s = now_s();
+    operator_.publish("mqtt_control", R"({"cmd_type": "task_control", "cmd": "cancel_task"})");
+    while (now_s() < asked_s + 20) {
+      operator_.turn(std::chrono::milliseconds(5));
+      const auto told = operator_.feedback(before);
+      if (std::find(told.begin(), told.end(), "cancel_task_success") != told.end()) break;
+    }
+    return now_s() - asked_s;
+  }
+  /// The same with the command line, its start included.
+  double stop() {
+    const double asked_s = now_s();
+    EXPECT_EQ(drover({"stop"}).code, 0);
+    return now_s() - asked_s;
+  }
+
+  OperatorClient operator_{"flooded"};
+};
+
+void tell(const char* what, std::vector<double> all_s) {
+  std::sort(all_s.begin(), all_s.end());
+  const double median_s = all_s.at(all_s.size() / 2);
+  std::printf("%s: median %.0f ms, longest %.0f ms\n", what, 1e3 * median_s, 1e3 * all_s.back());
+  EXPECT_LT(median_s, 0.1) << what;
+  EXPECT_LT(all_s.back(), 0.5) << what << ", on a machine that others use, too";
+}
+
+TEST_F(Flood, StopsAreHeardWhileOthersFloodTheBrokerAndSaveLargeTracks) {
+  constexpr int kRounds = 15;
+  ASSERT_NO_FATAL_FAILURE(start_all());
+  client().disconnect();
+  ASSERT_TRUE(operator_.connect(port(), "feedback"));
+  std::vector<double> cancels_s;
+  std::vector<double> stops_s;
+  {
+    const Publisher flood(port(), R"({"cmd_type":"trajectory_control","cmd":"get_all_trajectory"})",
+                          10'000, 100);
+    const Publisher saves(port(), largest_save(), 10, 1);
+    for (int i = 0; i < kRounds; ++i) {
+      cancels_s.push_back(cancel());
+      stops_s.push_back(stop());
+    }
+    std::printf("sent %d of the flood and %d saves\n", flood.sent(), saves.sent());
+  }
+  tell("cancel_task", cancels_s);
+  tell("drover stop", stops_s);
+}
+
+}  // namespace
+}  // namespace drover::test
