@@ -9,6 +9,7 @@
 #include "config/load.h"
 #include "gateway/recording/encoder.h"
 #include "gateway/recording/field_values.h"
+#include "gateway/recording/mathematics.h"
 #include "gateway/recording/text.h"
 
 namespace drover::gateway {
@@ -86,6 +87,7 @@ class Replay final {
       result_.note = error.what();
       return false;
     }
+    result_.other_mathematics = header.mathematics != mathematics_fingerprint();
     fields_ = std::move(header.fields);
     recorded_.resize(fields_.size());
     match_fields();

@@ -32,6 +32,9 @@ struct Replayed {
   Time begin = kNever;
   Time end = kNever;
   Difference difference;
+  /// sin, exp and the others have other last bits here than where it was recorded: that alone may
+  /// make the difference.
+  bool other_mathematics = false;
   /// Values that only one of recording and program has: they were not compared.
   std::vector<std::string> not_compared;
 };

@@ -65,6 +65,7 @@ class Daemon final {
     if (record.empty()) return;
     recorder_ = std::make_unique<Recorder>(
         record, gateway::RecordingHeader{DROVER_VERSION, loaded.text, loaded.register_map,
+                                         gateway::mathematics_fingerprint(),
                                          gateway::field_names(gateway_)});
     control_exchange_.recorder = recorder_.get();
   }

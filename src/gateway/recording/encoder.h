@@ -7,6 +7,7 @@
 
 #include "gateway/gateway.h"
 #include "gateway/recording/format.h"
+#include "gateway/recording/mathematics.h"
 
 namespace drover::gateway {
 

@@ -11,6 +11,7 @@ std::vector<std::uint8_t> written(const RecordingHeader& header) {
   out.text(header.version);
   out.text(header.configuration);
   out.text(header.register_map);
+  out.raw(header.mathematics);
   out.number(header.fields.size());
   for (const auto& field : header.fields) {
     out.byte(static_cast<std::uint8_t>(field.kind));
@@ -27,6 +28,7 @@ RecordingHeader read_header(ByteReader& in) {
   header.version = in.text();
   header.configuration = in.text();
   header.register_map = in.text();
+  header.mathematics = in.raw();
   const auto count = in.below(kMaxFields + 1);
   for (std::uint64_t i = 0; i < count && in.good(); ++i) {
     const auto kind = static_cast<FieldKind>(in.byte());

@@ -38,7 +38,8 @@ struct FieldName {
 struct RecordingHeader {
   std::string version;  ///< of the program
   std::string configuration;
-  std::string register_map;  ///< of the battery; empty: none
+  std::string register_map;       ///< of the battery; empty: none
+  std::uint64_t mathematics = 0;  ///< mathematics_fingerprint() where it was recorded
   std::vector<FieldName> fields;
 };
 

@@ -1,5 +1,6 @@
 #include "gateway/recording/input_codec.h"
 
+#include <algorithm>
 #include <string>
 
 #include "gateway/recording/text.h"
@@ -41,6 +42,18 @@ std::uint8_t get_bus(ByteReader& in) {
 }
 bool get_flag(ByteReader& in) {
   return in.below(2) != 0;
+}
+
+/// A damaged one must not make later arithmetic overflow: no machine runs for a century.
+Time get_time(Time before, ByteReader& in) {
+  constexpr std::uint64_t kCentury = 100ULL * 366 * 24 * 3600 * 1'000'000'000;
+  const auto ns = static_cast<std::uint64_t>(before.time_since_epoch().count()) +
+                  static_cast<std::uint64_t>(in.signed_number());
+  if (ns > kCentury) {
+    in.fail();
+    return before;
+  }
+  return Time{Duration{static_cast<std::int64_t>(ns)}};
 }
 
 void put(const FrameHeard& heard, ByteWriter& out) {
@@ -227,7 +240,8 @@ void put(const CommandGiven& given, ByteWriter& out) {
   const auto& command = given.command;
   out.byte(static_cast<std::uint8_t>(command.id.source));
   out.number(command.id.number);
-  out.signed_number(command.received.time_since_epoch().count());
+  // What nobody received is as old as can be.
+  out.signed_number(std::max(command.received, Time{}).time_since_epoch().count());
   out.byte(static_cast<std::uint8_t>(command.body.index()));
   std::visit([&](const auto& body) { put(body, out); }, command.body);
 }
@@ -246,7 +260,7 @@ void get(CommandGiven& given, const FindPath& find_path, ByteReader& in) {
   command.id.source =
       static_cast<RequestId::Source>(in.below(static_cast<unsigned>(RequestId::Source::aimrt) + 1));
   command.id.number = in.number();
-  command.received = Time{Duration{in.signed_number()}};
+  command.received = get_time(Time{}, in);
   const auto index = in.below(std::variant_size_v<decltype(command.body)>);
   with_alternative(index, command.body, [&](auto& body) {
     if constexpr (std::is_same_v<std::decay_t<decltype(body)>, StartTask>) {
@@ -274,10 +288,7 @@ void write_input(const Input& input, Time before, ByteWriter& out) {
 
 Input read_input(std::uint8_t kind, Time before, const FindPath& find_path, ByteReader& in) {
   Input input;
-  // Unsigned: a damaged number may be as large as it likes.
-  input.time = Time{Duration{
-      static_cast<std::int64_t>(static_cast<std::uint64_t>(before.time_since_epoch().count()) +
-                                static_cast<std::uint64_t>(in.signed_number()))}};
+  input.time = get_time(before, in);
   if (kind >= kInputKinds) in.fail();
   if (!in.good()) return input;
   with_alternative(kind, input.body, [&](auto& body) {

@@ -44,8 +44,8 @@ inline std::string changed(std::string text, const std::string& was, const std::
 class Recording final {
  public:
   Recording(const config::Loaded& loaded, const Gateway& gateway)
-      : bytes_(written(
-            RecordingHeader{"test", loaded.text, loaded.register_map, field_names(gateway)})) {}
+      : bytes_(written(RecordingHeader{"test", loaded.text, loaded.register_map,
+                                       mathematics_fingerprint(), field_names(gateway)})) {}
   void add(std::span<const std::uint8_t> record) {
     std::array<std::uint8_t, 10> length{};
     ByteWriter head(length);
