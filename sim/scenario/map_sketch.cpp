@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 
 #include "drover/angle.h"
 
@@ -55,6 +56,19 @@ std::vector<std::string> MapSketch::rows() const {
     for (const auto& cell : cells) rows.back() += cell;
   }
   return rows;
+}
+
+// The longest of 1, 2, 5, 10, ... that a third of the width holds.
+std::string MapSketch::scale() const {
+  double length_m = 0.1;
+  for (double decade = 0.1; decade < 1e6; decade *= 10)
+    for (const double step : {1.0, 2.0, 5.0})
+      if (step * decade <= cell_m_ * kWidth / 3) length_m = step * decade;
+  // From the one bar to the other.
+  const auto width = static_cast<std::size_t>(std::lround(length_m / cell_m_));
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "| %g m", length_m);
+  return "|" + std::string(width > 1 ? width - 1 : 0, '-') + text.data();
 }
 
 std::string arrow(double yaw_rad) {

@@ -15,6 +15,8 @@ class MapSketch {
   /// `mark` is one character, of any number of bytes. Beyond the edge nothing is drawn.
   void put(const TrackPose& place, const std::string& mark);
   std::vector<std::string> rows() const;
+  /// A bar of a round length with its length: "|--------| 5 m".
+  std::string scale() const;
 
  private:
   double west_m_ = 0;

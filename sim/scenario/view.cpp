@@ -38,6 +38,14 @@ double number_at(const nlohmann::json& object, const char* key) {
 
 }  // namespace
 
+std::string way_left(double distance_m, double speed_mps) {
+  if (!std::isfinite(distance_m)) return "-";
+  constexpr double kStanding_mps = 0.02;
+  auto out = text("%.1f m left", distance_m);
+  if (speed_mps > kStanding_mps) out += text(", about %.0f s", distance_m / speed_mps);
+  return out;
+}
+
 View::View(ViewKind kind, const Mission& mission, const std::string& daemon_socket)
     : kind_(kind), mission_(mission), status_(daemon_socket) {}
 
@@ -52,7 +60,7 @@ Time View::draw(Time now, const RobotReport& report) {
   next_ = now + period(kind_);
   auto shown = kind_ == ViewKind::lines ? line(report) : picture(report);
   if (kind_ == ViewKind::lines && report.heard() && ++lines_ % 10 == 0)
-    shown += "       " + sensors() + "\n       " + wheels() + "\n";
+    shown += "       " + left(report) + "\n       " + sensors() + "\n       " + wheels() + "\n";
   std::fwrite(shown.data(), 1, shown.size(), stdout);
   std::fflush(stdout);
   status_.ask();
@@ -112,6 +120,13 @@ std::string View::sensors() const {
               to_deg(number_at(imu, "roll_rad")), to_deg(number_at(imu, "pitch_rad")));
 }
 
+std::string View::left(const RobotReport& report) const {
+  const auto& status = status_.status();
+  if (report.nav_status() != "NAV_RUN" || !status.is_object() || !status.contains("nav"))
+    return "-";
+  return way_left(number_at(status.at("nav"), "distance_left_m"), report.speed_mps());
+}
+
 std::string View::picture(const RobotReport& report) const {
   MapSketch map(mission_.track);
   for (const auto& [name, place] : obstacles_) map.put(place, "#");
@@ -129,9 +144,11 @@ std::string View::picture(const RobotReport& report) const {
   const auto add = [&out](const std::string& line) { out += line + "\033[K\n"; };
   add(text("%s  %.1f s", mission_.name.c_str(), elapsed_s_));
   for (const auto& row : map.rows()) add(row);
+  add(map.scale() + "    north is up    . track  G goal  # obstacle  ↑ robot");
   add(text("%-11s %-13s %5.2f m/s  turning %6.1f deg/s%s", report.nav_status().c_str(),
            report.locate().c_str(), report.speed_mps(), to_deg(report.turn_radps()),
            report.obstacle() ? "  OBSTACLE" : ""));
+  add("way: " + left(report));
   add(text("%s, position error %.3f m (one sigma)", rtk_word(report.rtk_status()), sigma_m));
   add(wheels());
   add(sensors());

@@ -13,6 +13,9 @@ namespace drover::sim {
 
 enum class ViewKind { none, lines, terminal };
 
+/// "7.3 m left, about 15 s"; without a speed worth the name no time; nothing is "-".
+std::string way_left(double distance_m, double speed_mps);
+
 class View {
  public:
   View(ViewKind kind, const Mission& mission, const std::string& daemon_socket);
@@ -36,6 +39,7 @@ class View {
   std::string picture(const RobotReport& report) const;
   std::string wheels() const;
   std::string sensors() const;
+  std::string left(const RobotReport& report) const;
 
   ViewKind kind_;
   const Mission& mission_;

@@ -1,4 +1,4 @@
-// Both ends of the second console's Unix socket.
+// Both ends of the visitors' Unix socket.
 #include "console.h"
 
 #include <poll.h>
@@ -45,8 +45,12 @@ std::string hello_line() {
 
 }  // namespace
 
-ConsoleServer::ConsoleServer(Fd kernel, const std::string& socket_path)
-    : kernel_(std::move(kernel)), listen_(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
+ConsoleServer::ConsoleServer(std::vector<Fd> kernel_ends, const std::string& socket_path)
+    : listen_(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
+  for (auto& end : kernel_ends) {
+    seats_.emplace_back();
+    seats_.back().kernel = std::move(end);
+  }
   const sockaddr_un address = address_of(socket_path);
   if (::bind(listen_.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0 ||
       ::listen(listen_.get(), 4) != 0) {
@@ -54,49 +58,59 @@ ConsoleServer::ConsoleServer(Fd kernel, const std::string& socket_path)
   }
 }
 
+ConsoleServer::Seat* ConsoleServer::free_seat() {
+  for (const bool left_running : {true, false})
+    for (auto& seat : seats_)
+      if (!seat.visitor.open() && seat.shell_runs == left_running) return &seat;
+  return nullptr;
+}
+
 void ConsoleServer::accept_visitor() {
   Fd fd(::accept4(listen_.get(), nullptr, nullptr, SOCK_CLOEXEC));
   if (!fd.open()) return;
-  if (visitor_.open()) {
-    constexpr char kBusy[] = "somebody else is in this lab\r\n";
-    send_all(fd.get(), kBusy, sizeof kBusy - 1);
+  Seat* seat = free_seat();
+  if (seat == nullptr) {
+    const std::string full = std::to_string(seats_.size()) + " people are in this lab already\r\n";
+    send_all(fd.get(), full.data(), full.size());
     return;
   }
-  visitor_ = std::move(fd);
-  hello_pending_ = true;
-  hello_.clear();
+  seat->visitor = std::move(fd);
+  seat->hello_pending = true;
+  seat->hello.clear();
 }
 
-void ConsoleServer::from_visitor() {
+void ConsoleServer::from_visitor(std::size_t number) {
+  Seat& seat = seats_[number];
   char buffer[4096];
-  const ssize_t n = ::read(visitor_.get(), buffer, sizeof buffer);
-  if (n <= 0) return visitor_.reset();
+  const ssize_t n = ::read(seat.visitor.get(), buffer, sizeof buffer);
+  if (n <= 0) return seat.visitor.reset();
   std::size_t at = 0;
-  while (hello_pending_ && at < static_cast<std::size_t>(n)) {
+  while (seat.hello_pending && at < static_cast<std::size_t>(n)) {
     const char c = buffer[at++];
-    hello_ += c;
+    seat.hello += c;
     if (c != '\n') continue;
-    hello_pending_ = false;
-    if (!shell_runs_) send_all(kernel_.get(), hello_.data(), hello_.size());
+    seat.hello_pending = false;
+    if (!seat.shell_runs) send_all(seat.kernel.get(), seat.hello.data(), seat.hello.size());
     // A running shell shows nothing until asked: an empty line brings its prompt back.
-    if (shell_runs_) send_all(kernel_.get(), "\r", 1);
-    shell_runs_ = true;
+    if (seat.shell_runs) send_all(seat.kernel.get(), "\r", 1);
+    seat.shell_runs = true;
   }
-  send_all(kernel_.get(), buffer + at, static_cast<std::size_t>(n) - at);
+  send_all(seat.kernel.get(), buffer + at, static_cast<std::size_t>(n) - at);
 }
 
-void ConsoleServer::from_kernel() {
+void ConsoleServer::from_kernel(std::size_t number) {
+  Seat& seat = seats_[number];
   char buffer[4096];
-  const ssize_t n = ::read(kernel_.get(), buffer, sizeof buffer);
-  if (n <= 0) return kernel_.reset();
-  if (visitor_.open()) send_all(visitor_.get(), buffer, static_cast<std::size_t>(n));
-  tail_.append(buffer, static_cast<std::size_t>(n));
-  if (tail_.find(kEndMark) != std::string::npos) {
-    shell_runs_ = false;
-    visitor_.reset();
-    tail_.clear();
+  const ssize_t n = ::read(seat.kernel.get(), buffer, sizeof buffer);
+  if (n <= 0) return seat.kernel.reset();
+  if (seat.visitor.open()) send_all(seat.visitor.get(), buffer, static_cast<std::size_t>(n));
+  seat.tail.append(buffer, static_cast<std::size_t>(n));
+  if (seat.tail.find(kEndMark) != std::string::npos) {
+    seat.shell_runs = false;
+    seat.visitor.reset();
+    seat.tail.clear();
   }
-  if (tail_.size() > 64) tail_.erase(0, tail_.size() - 64);
+  if (seat.tail.size() > 64) seat.tail.erase(0, seat.tail.size() - 64);
 }
 
 int attach(const std::string& socket_path) {

@@ -11,8 +11,8 @@ namespace drover::lab {
 namespace {
 
 // Descriptor numbers inside the kernel process, as named on its command line.
-constexpr int kLog = 10, kOut = 11, kErr = 12, kIn = 13, kConsole = 14, kNet = 15;
-constexpr int kFirstFree = 20;
+constexpr int kLog = 10, kOut = 11, kErr = 12, kIn = 13, kNet = 14, kFirstConsole = 15;
+constexpr int kFirstFree = kFirstConsole + kSeats;
 
 // Virtual time begins at 2026-01-01T00:00:00Z in every run.
 constexpr const char* kStart_ns = "1767225600000000000";
@@ -29,7 +29,10 @@ std::vector<std::string> arguments(const Options& options, const std::string& st
       // Nothing feeds the random pool, and the first reader would burn seconds of virtual time:
       // let the seed that the kernel takes from the host at its start count.
       "random.trust_bootloader=on", "random.trust_cpu=on"};
-  if (options.shell) args.push_back("con3=" + fd(kConsole) + "," + fd(kConsole));
+  for (int i = 0; options.shell && i < kSeats; ++i) {
+    const auto end = fd(kFirstConsole + i);
+    args.push_back("con" + std::to_string(3 + i) + "=" + end + "," + end);
+  }
   if (options.host_port >= 0) {
     args.push_back("vec0:transport=fd,fd=" + std::to_string(kNet) + ",vec=0");
   }
@@ -76,7 +79,8 @@ Fd raise(Fd fd) {
 
 KernelEnds start_kernel(const Options& options, const std::string& state_dir, int cpu) {
   KernelEnds ends;
-  Fd out, err, log, in, console, net;
+  Fd out, err, log, in, net;
+  std::vector<Fd> consoles(options.shell ? kSeats : 0);
   auto wire = [](std::pair<Fd, Fd> pair, Fd& ours, Fd& theirs) {
     ours = std::move(pair.first);
     theirs = raise(std::move(pair.second));
@@ -89,7 +93,9 @@ KernelEnds start_kernel(const Options& options, const std::string& state_dir, in
     in = raise(std::move(read_end));
     ends.in = std::move(write_end);
   }
-  if (options.shell) wire(make_socket_pair(SOCK_STREAM), ends.console, console);
+  ends.consoles.resize(consoles.size());
+  for (std::size_t i = 0; i < consoles.size(); ++i)
+    wire(make_socket_pair(SOCK_STREAM), ends.consoles[i], consoles[i]);
   if (options.host_port >= 0) wire(make_socket_pair(SOCK_DGRAM), ends.net, net);
   const Fd log_file(
       ::open((state_dir + "/kernel.log").c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0600));
@@ -99,9 +105,10 @@ KernelEnds start_kernel(const Options& options, const std::string& state_dir, in
   std::vector<char*> argv;
   for (auto& arg : args) argv.push_back(arg.data());
   argv.push_back(nullptr);
-  const std::vector<std::pair<int, int>> moves{{log.get(), kLog},         {out.get(), kOut},
-                                               {err.get(), kErr},         {in.get(), kIn},
-                                               {console.get(), kConsole}, {net.get(), kNet}};
+  std::vector<std::pair<int, int>> moves{
+      {log.get(), kLog}, {out.get(), kOut}, {err.get(), kErr}, {in.get(), kIn}, {net.get(), kNet}};
+  for (std::size_t i = 0; i < consoles.size(); ++i)
+    moves.emplace_back(consoles[i].get(), kFirstConsole + static_cast<int>(i));
   const pid_t parent = ::getpid();
   ends.pid = ::fork();
   if (ends.pid < 0) fail("fork");

@@ -102,7 +102,7 @@ class Session final {
     spools_.emplace_back(std::move(ends_.err), 2, limit);
     log_file_ = Fd(::open(state_.file("kernel.log").c_str(), O_WRONLY | O_APPEND | O_CLOEXEC));
     spools_.emplace_back(std::move(ends_.log), log_file_.get(), 0);
-    if (options.shell) console_.emplace(std::move(ends_.console), state_.file("console"));
+    if (options.shell) console_.emplace(std::move(ends_.consoles), state_.file("console"));
     if (options.host_port >= 0) start_network();
     if (options.interactive) raw_.emplace();
     write_info();
@@ -172,9 +172,12 @@ class Session final {
     const bool wire = net_ && net_->alive();
     const std::size_t net_at = watch(wire ? net_->kernel_fd() : -1, POLLIN);
     watch(wire ? net_->passt_fd() : -1, POLLIN);
-    const std::size_t console_at = watch(console_ ? console_->kernel_fd() : -1, POLLIN);
-    watch(console_ ? console_->visitor_fd() : -1, POLLIN);
-    watch(console_ ? console_->listen_fd() : -1, POLLIN);
+    const std::size_t door_at = watch(console_ ? console_->listen_fd() : -1, POLLIN);
+    const std::size_t seats = console_ ? console_->seats() : 0;
+    for (std::size_t i = 0; i < seats; ++i) {
+      watch(console_->kernel_fd(i), POLLIN);
+      watch(console_->visitor_fd(i), POLLIN);
+    }
     if (::poll(polls_.data(), polls_.size(), wait_ms) < 0) return;
 
     for (std::size_t i = 0; i < spools_.size(); ++i) {
@@ -184,9 +187,11 @@ class Session final {
     if (happened(keys_at)) forward_keys();
     if (happened(net_at)) net_->from_kernel();
     if (happened(net_at + 1)) net_->from_passt();
-    if (happened(console_at)) console_->from_kernel();
-    if (happened(console_at + 1)) console_->from_visitor();
-    if (happened(console_at + 2)) console_->accept_visitor();
+    for (std::size_t i = 0; i < seats; ++i) {
+      if (happened(door_at + 1 + 2 * i)) console_->from_kernel(i);
+      if (happened(door_at + 2 + 2 * i)) console_->from_visitor(i);
+    }
+    if (happened(door_at)) console_->accept_visitor();
     if (happened(signal_at)) on_signal();
     if (spools_[0].broken() && !reader_left_) {
       reader_left_ = true;

@@ -31,6 +31,23 @@ TEST(AMapSketch, HasNorthUpAndEastRight) {
   EXPECT_GT(rows[row_of(rows, "E")].find('E'), rows[row_of(rows, "S")].find('S'));
 }
 
+TEST(AMapSketch, TellsItsScaleInARoundLength) {
+  for (const double length_m : {3.0, 10.0, 40.0, 700.0}) {
+    MapSketch map(make_track({}, {{.straight_m = length_m}}));
+    map.put({0, 0, 0}, "A");
+    map.put({length_m, 0, 0}, "B");
+    const auto rows = map.rows();
+    const auto& row = rows.at(row_of(rows, "A"));
+    const double cell_m = length_m / static_cast<double>(row.rfind('B') - row.find('A'));
+    const auto scale = map.scale();
+    const auto bar = scale.rfind('|') - scale.find('|');
+    const double told_m = std::stod(scale.substr(scale.rfind('|') + 1));
+    EXPECT_NEAR(static_cast<double>(bar) * cell_m, told_m, cell_m) << scale;
+    EXPECT_TRUE(scale.ends_with(" m")) << scale;
+    EXPECT_LT(scale.size(), 40U);
+  }
+}
+
 TEST(AMapSketch, DrawsTheTrackWithoutGaps) {
   const auto rows = MapSketch(make_track({}, {{.straight_m = 10}})).rows();
   const auto& row = rows.at(row_of(rows, "."));
