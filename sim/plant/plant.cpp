@@ -1,4 +1,4 @@
-// Loading, placing and stepping. Names are looked up once; a step allocates nothing.
+// Loading and stepping. Names are looked up once; a step allocates nothing.
 #include <array>
 #include <cmath>
 #include <stdexcept>
@@ -70,15 +70,18 @@ Plant::Plant(const std::string& world_file) : impl_(std::make_unique<Impl>()) {
   const int free_joint = need(m, mjOBJ_JOINT, "base", world_file);
   impl_->base_qpos = m.jnt_qposadr[free_joint];
   impl_->base_qvel = m.jnt_dofadr[free_joint];
-  impl_->bumper = need(m, mjOBJ_GEOM, "bumper", world_file);
-  impl_->front_m = m.geom_pos[3 * impl_->bumper] + m.geom_size[3 * impl_->bumper];
+  impl_->bumper = mj_name2id(&m, mjOBJ_GEOM, "bumper");
+  if (impl_->bumper >= 0)
+    impl_->front_m = m.geom_pos[3 * impl_->bumper] + m.geom_size[3 * impl_->bumper];
   for (int i = 0; i < m.nu; ++i) {
     impl_->joint_ids.push_back(m.actuator_trnid[2 * i]);
     impl_->joints.push_back(name_of(m, mjOBJ_JOINT, m.actuator_trnid[2 * i]));
     impl_->wheels.push_back({m.jnt_bodyid[m.actuator_trnid[2 * i]], -1, Tyre{}});
+    impl_->free_friction.push_back(impl_->friction(impl_->joint_ids.size() - 1));
   }
   for (int geom = 0; geom < m.ngeom; ++geom) {
     const bool of_robot = m.body_rootid[m.geom_bodyid[geom]] == impl_->base;
+    if (of_robot && (m.geom_contype[geom] & kTerrainBit) != 0) impl_->feet.push_back(geom);
     for (auto& wheel : impl_->wheels) {
       if (wheel.body != m.geom_bodyid[geom] || (m.geom_contype[geom] & kTerrainBit) == 0) continue;
       wheel.contact_geom = geom;
@@ -87,6 +90,11 @@ Plant::Plant(const std::string& world_file) : impl_(std::make_unique<Impl>()) {
     if (!of_robot && m.geom_type[geom] == mjGEOM_BOX && (m.geom_contype[geom] & kObstacleBit) != 0)
       impl_->boxes.push_back(geom);
   }
+  for (std::size_t i = 0; i < impl_->wheels.size(); ++i)
+    if (impl_->wheels[i].contact_geom < 0)
+      throw std::runtime_error(world_file + ": the wheel of joint '" + impl_->joints[i] +
+                               "' has no sphere with contype 1 that touches the ground");
+  if (impl_->wheels.empty()) throw std::runtime_error(world_file + ": no motor turns a wheel");
   if (impl_->boxes.size() > kMaxBoxes)
     throw std::runtime_error(world_file + ": more than 64 obstacle boxes");
   place(0, 0, 0);
@@ -113,50 +121,6 @@ std::size_t Plant::joint(std::string_view name) const {
     known += (known.empty() ? "" : ", ") + impl_->joints[i];
   }
   throw std::runtime_error("no joint '" + std::string(name) + "' in the world; it has " + known);
-}
-
-void Plant::place(double x_m, double y_m, double yaw_rad) {
-  const mjModel& m = *impl_->model;
-  mjData& d = *impl_->data;
-  // Obstacles stay where a scenario has put them.
-  const std::vector<mjtNum> mocap(d.mocap_pos, d.mocap_pos + 3 * m.nmocap);
-  mj_resetData(&m, &d);
-  for (std::size_t i = 0; i < mocap.size() && d.time == 0; ++i) d.mocap_pos[i] = mocap[i];
-  mj_kinematics(&m, &d);
-  for (auto& wheel : impl_->wheels) wheel.tyre.reset();
-
-  // A plane through the ground under the wheels: slope along x, slope along y, height.
-  const double c = std::cos(yaw_rad);
-  const double s = std::sin(yaw_rad);
-  double sum_h = 0, sum_hx = 0, sum_hy = 0, sum_xx = 0, sum_yy = 0;
-  for (const int joint : impl_->joint_ids) {
-    const mjtNum* at = m.body_pos + 3 * m.jnt_bodyid[joint];
-    const double h = impl_->ground_m(x_m + c * at[0] - s * at[1], y_m + s * at[0] + c * at[1]);
-    sum_h += h;
-    sum_hx += h * at[0];
-    sum_hy += h * at[1];
-    sum_xx += at[0] * at[0];
-    sum_yy += at[1] * at[1];
-  }
-  const double slope_x = sum_hx / sum_xx;
-  const double slope_y = sum_hy / sum_yy;
-  const double pitch_rad = -std::atan(slope_x);
-  const double roll_rad = std::atan(slope_y);
-  const double z_m = sum_h / static_cast<double>(impl_->joint_ids.size()) +
-                     impl_->radius_m / (std::cos(pitch_rad) * std::cos(roll_rad));
-
-  mjtNum* q = d.qpos + impl_->base_qpos;
-  q[0] = x_m;
-  q[1] = y_m;
-  q[2] = z_m;
-  const double cy = std::cos(yaw_rad / 2), sy = std::sin(yaw_rad / 2);
-  const double cp = std::cos(pitch_rad / 2), sp = std::sin(pitch_rad / 2);
-  const double cr = std::cos(roll_rad / 2), sr = std::sin(roll_rad / 2);
-  q[3] = cr * cp * cy + sr * sp * sy;
-  q[4] = sr * cp * cy - cr * sp * sy;
-  q[5] = cr * sp * cy + sr * cp * sy;
-  q[6] = cr * cp * sy - sr * sp * cy;
-  mj_forward(&m, &d);
 }
 
 void Plant::set_torque(std::size_t joint, double torque_Nm) {
@@ -204,14 +168,10 @@ void Plant::Impl::pull_tyre(Wheel& wheel) {
 }
 
 void Plant::step() {
+  if (impl_->carried) return impl_->carry();
+  impl_->push();
   for (auto& wheel : impl_->wheels) impl_->pull_tyre(wheel);
   mj_step(impl_->model.get(), impl_->data.get());
-}
-
-void Plant::kick(double vx_mps, double vy_mps) {
-  const mjtNum* r = impl_->rotation();
-  mjtNum* v = impl_->data->qvel + impl_->base_qvel;
-  for (int i = 0; i < 3; ++i) v[i] += r[3 * i] * vx_mps + r[3 * i + 1] * vy_mps;
 }
 
 bool Plant::set_obstacle(std::string_view name, double x_m, double y_m) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -56,10 +57,22 @@ class Plant {
   void place(double x_m, double y_m, double yaw_rad);
   /// Torque at a wheel joint until it is set again; positive drives ahead.
   void set_torque(std::size_t joint, double torque_Nm);
+  /// What holds a wheel joint against turning, up to this torque, until it is set again: a brake.
+  void set_holding_torque(std::size_t joint, double torque_Nm);
   /// Advances by one timestep.
   void step();
   /// Adds to the base's velocity, along its own axes: a shove.
   void kick(double vx_mps, double vy_mps);
+  /// A force on the base, along its own axes, until it is set again.
+  void push(double ahead_N, double left_N);
+  struct CarrySpeed {
+    double vx_mps = 0;
+    double vy_mps = 0;
+    double wz_radps = 0;
+  };
+  /// As long as a speed is set the base is moved by somebody else, along the ground and along its
+  /// own axes, and its wheels do not turn; set down it stands still.
+  void carry(const std::optional<CarrySpeed>& speed);
 
   WheelState wheel(std::size_t joint) const;
   BasePose pose() const;

@@ -3,7 +3,9 @@
 
 #include <mujoco/mujoco.h>
 
+#include <array>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -29,23 +31,48 @@ struct Wheel {
   Tyre tyre;
 };
 
+// Dry friction of a joint and how hard the solver insists on it.
+struct Friction {
+  double torque_Nm = 0;
+  std::array<mjtNum, mjNREF> reference{};
+  std::array<mjtNum, mjNIMP> impedance{};
+};
+
+// How the robot stands on the ground at some place.
+struct Footing {
+  double z_m = 0;
+  double pitch_rad = 0;
+  double roll_rad = 0;
+};
+
 struct Plant::Impl {
   std::unique_ptr<mjModel, ModelDeleter> model;
   std::unique_ptr<mjData, DataDeleter> data;
   int base = 0;         // body
   int base_qpos = 0;    // position, quaternion
   int base_qvel = 0;    // linear in the world's axes, angular in the body's
-  int bumper = 0;       // geom
+  int bumper = -1;      // geom; the world may have none
   double front_m = 0;   // the bumper's face in base_link
   double radius_m = 0;  // of the wheels
   std::vector<std::string> joints;
   std::vector<int> joint_ids;
-  std::vector<Wheel> wheels;  // by joint
-  std::vector<int> boxes;     // geoms that a scanner sees
+  std::vector<Wheel> wheels;            // by joint
+  std::vector<Friction> free_friction;  // by joint: of the model, when nothing holds it
+  std::vector<int> boxes;               // geoms that a scanner sees
+  std::vector<int> feet;                // geoms of the robot that touch the ground: wheels, castors
+  std::vector<std::array<double, 2>> feet_m;  // the same in base_link
+  std::array<mjtNum, 3> push_N{};             // along the base's axes
+  std::optional<CarrySpeed> carried;
 
+  Friction friction(std::size_t joint) const;
+  void set_friction(std::size_t joint, const Friction& friction);
   const mjtNum* rotation() const { return data->xmat + 9 * base; }
   int mocap(std::string_view name) const;
   void pull_tyre(Wheel& wheel);
+  void push();
+  void carry();
+  Footing footing(double x_m, double y_m, double yaw_rad) const;
+  void set_pose(double x_m, double y_m, double yaw_rad);
   double ground_m(double x_m, double y_m) const;
   bool set_mocap(std::string_view name, double x_m, double y_m, double z_m);
 };

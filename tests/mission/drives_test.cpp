@@ -24,6 +24,11 @@ TEST(Long, IsDrivenToSuccessCloseToTheTrack) {
   expect_plain_mission("long");
 }
 
+// A robot with the least that one needs: no inertial sensor, no bumper, no battery.
+TEST(TwoWheels, AreDrivenToSuccessCloseToTheTrack) {
+  expect_plain_mission("two_wheels");
+}
+
 TEST(Long, LastsTenMinutes) {
   const Record& log = record("long");
   EXPECT_GE(to_s(log.truth.back().time - log.truth.front().time), 600.0);

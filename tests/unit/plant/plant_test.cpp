@@ -208,6 +208,54 @@ TEST(Plant, TouchesAnObstacleWithItsBumperAndIsHeldByIt) {
   EXPECT_LT(robot.plant.pose().x_m, 2 - 0.25 - 0.45 + 0.02);
 }
 
+TEST(Plant, PutsARobotWithItsWheelsOnOneAxleDown) {
+  Plant plant(std::string(DROVER_SOURCE_DIR) + "/sim/worlds/yard.xml");
+  plant.place(1, 2, 0.5);
+  for (int i = 0; i < 800; ++i) {
+    for (std::size_t joint = 0; joint < 2; ++joint) plant.set_torque(joint, 0.5);
+    plant.step();
+  }
+  const auto pose = plant.pose();
+  EXPECT_GT(std::hypot(pose.x_m - 1, pose.y_m - 2), 0.2);
+  EXPECT_NEAR(pose.yaw_rad, 0.5, 0.01);
+  EXPECT_NEAR(pose.z_m, 0.12, 0.003);
+  EXPECT_NEAR(pose.pitch_rad, 0, 0.01);
+}
+
+/// A world of this robot on a plane; parts may be left out.
+std::string small_world(const std::string& wheels, const std::string& base_parts) {
+  return R"(<mujoco><worldbody><geom type="plane" size="9 9 1" contype="1" conaffinity="1"/>
+    <body name="base" pos="0 0 0.1"><freejoint name="base"/>
+    <geom type="box" size="0.2 0.1 0.05" mass="10" contype="0" conaffinity="0"/>)" +
+         base_parts + wheels + "</body></worldbody>" +
+         R"(<actuator><motor name="wheel" joint="wheel"/></actuator></mujoco>)";
+}
+const std::string kWheel = R"(<body name="wheel" pos="0 0.2 0"><joint name="wheel" axis="0 1 0"/>
+  <geom type="sphere" size="0.1" mass="1" contype="1" conaffinity="1" condim="1"/></body>)";
+
+std::string refusal(const std::string& world) {
+  const auto file = std::filesystem::temp_directory_path() / "drover-plant-test.xml";
+  std::ofstream(file) << world;
+  try {
+    const Plant plant(file.string());
+    return "accepted";
+  } catch (const std::runtime_error& error) {
+    return std::string(error.what()).substr(file.string().size());
+  }
+}
+
+TEST(Plant, NeedsNoBumperInItsWorld) {
+  EXPECT_EQ(refusal(small_world(kWheel, "")), "accepted");
+}
+
+TEST(Plant, NamesTheWheelThatTouchesNoGround) {
+  EXPECT_EQ(refusal(small_world(R"(<body name="wheel" pos="0 0.2 0">
+    <joint name="wheel" axis="0 1 0"/><geom type="sphere" size="0.1" mass="1" contype="0"
+    conaffinity="0"/></body>)",
+                                "")),
+            ": the wheel of joint 'wheel' has no sphere with contype 1 that touches the ground");
+}
+
 TEST(Plant, SeesAnObstacleComeAndGo) {
   Driven robot;
   EXPECT_TRUE(std::isinf(robot.plant.free_distance_m(0.8)));

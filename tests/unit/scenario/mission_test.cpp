@@ -114,7 +114,7 @@ TEST(TheScenarios, AreReadByThePlayerAndByTheSimulator) {
     const auto file = entry.path().string();
     const auto mission = read_mission(load_scenario_document(file));
     EXPECT_EQ(mission.name, entry.path().stem().string());
-    EXPECT_EQ(load_scenario(file).drives.size(), 4U) << file;
+    EXPECT_GE(load_scenario(file).drives.size(), 2U) << file;
     EXPECT_TRUE(std::filesystem::exists(load_scenario(file).world)) << file;
     EXPECT_TRUE(std::filesystem::exists(robot_file_of(file))) << file;
     ++count;
