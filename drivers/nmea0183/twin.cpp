@@ -192,11 +192,15 @@ Solution Nmea0183Twin::solve(Time at) {
   const bool solved = quality_ != FixQuality::none;
   solution.sigma_up_m = solved ? sigma_m_ * kVerticalFactor : kAbsent;
 
-  const double speed_error_mps = speed_sigma_mps_ * noise_.normal();
-  const double across_mps = speed_sigma_mps_ * noise_.normal();
+  const bool noisy = faults_.speed_noise_mps > 0;
+  const double sigma_mps = noisy ? faults_.speed_noise_mps : speed_sigma_mps_;
+  const double speed_error_mps = sigma_mps * noise_.normal();
+  const double across_mps = sigma_mps * noise_.normal();
   const double heading_error_deg = heading_sigma_deg_ * heading_error_.step(elapsed_s, noise_);
   if (solved) {
-    const double speed_mps = std::max(0.0, truth.speed_mps + speed_error_mps);
+    // At rest a receiver tells the length of its noise.
+    const double speed_mps = noisy ? std::hypot(truth.speed_mps + speed_error_mps, across_mps)
+                                   : std::max(0.0, truth.speed_mps + speed_error_mps);
     solution.velocity.speed_mps = speed_mps;
     if (speed_mps >= kCourseNeeds_mps)
       solution.velocity.course_deg =
@@ -301,6 +305,8 @@ bool Nmea0183Twin::set_number(std::string_view name, double value, Time now) {
     faults_.lag = from_s(value * 1e-3);
   } else if (name == "rate" && value >= 0.2 && value <= 20) {
     period_ = from_s(1 / value);
+  } else if (name == "speed_noise" && value >= 0 && value <= 10) {
+    faults_.speed_noise_mps = value;
   } else if (name == "jump") {
     faults_.jump_m = value;
   } else if (name == "drift") {

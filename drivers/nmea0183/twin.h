@@ -30,6 +30,8 @@ std::optional<Utc> parse_utc(std::string_view text);
 ///   rate:<Hz>                epochs a second, 0.2 to 20
 ///   jump:<m>                 the position is that far east of the truth; 0 ends it
 ///   drift:<mm/s>             the position wanders east from now on; 0 ends it
+///   speed_noise:<m/s>        one sigma of the speed along and across, as at rest with a float
+///                            solution among trees; 0 ends it
 ///   stuck                    position and speed stay as they are, time runs on
 ///   corrections_lost         the age of corrections grows, the quality stays
 ///   heading_flip             the heading is turned by 180 degrees
@@ -56,6 +58,7 @@ class Nmea0183Twin final : public GnssTwin {
     double jump_m = 0;
     double drift_mps = 0;
     Time drift_since = kNever;
+    double speed_noise_mps = 0;
     bool stuck = false;
     std::optional<Time> corrections_lost_at;
     bool heading_flip = false;

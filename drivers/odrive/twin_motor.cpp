@@ -53,6 +53,7 @@ void OdriveTwin::move(double dt_s, Shaft& shaft) {
     torque_Nm_ = 0;
   }
   shaft.torque_Nm = torque_Nm_ * sign;
+  shaft.energized = booted_ && state_ == kStateClosedLoop;
 }
 
 void OdriveTwin::heat(double dt_s, const Shaft& shaft) {

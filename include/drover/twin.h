@@ -13,11 +13,13 @@
 namespace drover {
 
 /// The mechanical side of a simulated drive, at the joint. The plant fills in position and
-/// velocity, the twin answers with a torque.
+/// velocity, the twin answers with a torque and says whether its power stage is on: without it the
+/// shaft turns freely, or a holding brake or a worm gear holds it.
 struct Shaft {
   double position_rad = 0;
   double velocity_radps = 0;
   double torque_Nm = 0;
+  bool energized = false;
 };
 
 using TwinFrames = FixedVector<CanFrame, 64>;

@@ -7,14 +7,19 @@
 //   imu STATE                        silent, frozen, saturated, bias:2, ...; well: nothing is wrong
 //   battery soc PERCENT              so much is left
 //   battery charger plug|unplug      and see battery_port.h for the faults of its line
-//   drive JOINT power on|off         supply of one drive; "all" means every drive
+//   drive JOINT power on|off         a drive's own switch; "all", or "a,b": several drives
 //   drive JOINT fault NAME|none      see the drive's README
+//   supply dip SECONDS               the drives' common supply goes for so long
 //   kick VX VY                       a shove along the base's own axes (m/s)
+//   push FX FY SECONDS               somebody pushes with this force along the base's axes (N)
+//   carry DX DY DEGREES SECONDS      it is moved on a trailer, along its axes; no wheel turns
 //   truth                            pose and speed as JSON
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <vector>
 
+#include "drover/angle.h"
 #include "sim/robot/robot.h"
 
 namespace drover::sim {
@@ -39,6 +44,17 @@ std::optional<double> number(std::string_view text) {
   return value;
 }
 
+/// "all", one joint, or several with commas between them.
+bool names(std::string_view list, std::string_view joint) {
+  if (list == "all") return true;
+  for (std::size_t at = 0; at <= list.size();) {
+    const auto end = std::min(list.find(',', at), list.size());
+    if (list.substr(at, end - at) == joint) return true;
+    at = end + 1;
+  }
+  return false;
+}
+
 std::string error(std::string text) {
   return "error: " + std::move(text);
 }
@@ -59,8 +75,7 @@ std::string Robot::command(std::string_view text) {
   };
   if (verb == "estop") {
     const auto answer = force(LineName::estop, words[1], "press", "release");
-    if (answer == "ok" && scenario_.estop_cuts_power)
-      for (auto& drive : drives_) set_power(drive, words[1] == "release");
+    supply_drives();
     return answer;
   }
   if (verb == "bumper") return force(LineName::bumper, words[1], "touch", "free");
@@ -80,6 +95,10 @@ std::string Robot::command(std::string_view text) {
     plant_.kick(*vx_mps, *vy_mps);
     return "ok";
   }
+  const std::span<const std::string_view> rest(words.data() + 1, words.size() - 1);
+  if (verb == "supply") return command_supply(words[1], words[2]);
+  if (verb == "push") return command_push(rest);
+  if (verb == "carry") return command_carry(rest);
   if (verb == "truth") return truth_text();
   return error("unknown command '" + std::string(verb) + "'");
 }
@@ -120,9 +139,34 @@ std::string Robot::command_battery(std::string_view what, std::string_view value
   return "ok";
 }
 
-void Robot::set_power(Drive& drive, bool on) {
-  drive.powered = on;
-  drive.twin->set_power(on, now_);
+std::string Robot::command_supply(std::string_view verb, std::string_view seconds) {
+  const auto lasts_s = number(seconds);
+  if (verb != "dip" || !lasts_s || !(*lasts_s > 0 && *lasts_s <= 60))
+    return error("say: supply dip SECONDS");
+  dip_until_ = now_ + from_s(*lasts_s);
+  supply_drives();
+  return "ok";
+}
+
+std::string Robot::command_push(std::span<const std::string_view> numbers) {
+  const auto ahead_N = number(numbers[0]);
+  const auto left_N = number(numbers[1]);
+  const auto lasts_s = number(numbers[2]);
+  if (!ahead_N || !left_N || !lasts_s || !(*lasts_s > 0)) return error("say: push FX FY SECONDS");
+  plant_.push(*ahead_N, *left_N);
+  push_until_ = now_ + from_s(*lasts_s);
+  return "ok";
+}
+
+std::string Robot::command_carry(std::span<const std::string_view> numbers) {
+  const auto ahead_m = number(numbers[0]);
+  const auto left_m = number(numbers[1]);
+  const auto turn_deg = number(numbers[2]);
+  const auto lasts_s = number(numbers[3]);
+  if (!ahead_m || !left_m || !turn_deg || !lasts_s || !(*lasts_s > 0))
+    return error("say: carry DX DY DEGREES SECONDS");
+  carry_ = Carry{now_, *lasts_s, *ahead_m, *left_m, to_rad(*turn_deg)};
+  return "ok";
 }
 
 std::string Robot::command_drive(std::string_view joint, std::string_view verb,
@@ -130,16 +174,19 @@ std::string Robot::command_drive(std::string_view joint, std::string_view verb,
   const bool power = verb == "power" && (value == "on" || value == "off");
   if (!power && (verb != "fault" || value.empty()))
     return error("say: drive JOINT power on|off, or fault NAME|none");
-  bool found = false;
+  auto left = joint == "all" ? 0 : std::count(joint.begin(), joint.end(), ',') + 1;
+  for (const auto& drive : scenario_.drives)
+    if (joint != "all" && names(joint, drive.joint)) --left;
+  if (left != 0) return error("no drive '" + std::string(joint) + "'");
   for (std::size_t i = 0; i < drives_.size(); ++i) {
-    if (joint != "all" && joint != scenario_.drives[i].joint) continue;
-    found = true;
+    if (!names(joint, scenario_.drives[i].joint)) continue;
     if (power)
-      set_power(drives_[i], value == "on");
+      drives_[i].switched_on = value == "on";
     else if (!drives_[i].twin->set_fault(value == "none" ? "" : value, now_))
       return error("the drive knows no fault '" + std::string(value) + "'");
   }
-  return found ? "ok" : error("no drive '" + std::string(joint) + "'");
+  supply_drives();
+  return "ok";
 }
 
 std::string Robot::truth_text() const {
@@ -149,10 +196,10 @@ std::string Robot::truth_text() const {
       text.data(), text.size(),
       "{\"time_s\":%.9f,\"x_m\":%.6f,\"y_m\":%.6f,\"z_m\":%.6f,\"roll_rad\":%.6f,"
       "\"pitch_rad\":%.6f,\"yaw_rad\":%.6f,\"vx_mps\":%.6f,\"vy_mps\":%.6f,\"wz_radps\":%.6f,"
-      "\"free_ahead_m\":%.3f}",
+      "\"free_ahead_m\":%.3f,\"supply\":%s}",
       to_s(t.time), t.pose.x_m, t.pose.y_m, t.pose.z_m, t.pose.roll_rad, t.pose.pitch_rad,
       t.pose.yaw_rad, t.velocity.vx_mps, t.velocity.vy_mps, t.velocity.wz_radps,
-      std::min(t.free_ahead_m, 999.0));
+      std::min(t.free_ahead_m, 999.0), t.supply ? "true" : "false");
   return {text.data(), static_cast<std::size_t>(n)};
 }
 

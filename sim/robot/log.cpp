@@ -86,7 +86,7 @@ TruthLog::TruthLog(const std::string& path, const Scenario& scenario) : log_(pat
   std::string header = "time_s,x_m,y_m,z_m,roll_rad,pitch_rad,yaw_rad,vx_mps,wz_radps,free_ahead_m";
   for (const auto& drive : scenario.drives)
     header += "," + drive.joint + "_radps," + drive.joint + "_Nm";
-  header += ",imu_ax_mps2,imu_ay_mps2,imu_az_mps2,imu_wx_radps,imu_wy_radps,imu_wz_radps";
+  header += ",imu_ax_mps2,imu_ay_mps2,imu_az_mps2,imu_wx_radps,imu_wy_radps,imu_wz_radps,supply";
   log_.append(header + "\n");
 }
 
@@ -105,8 +105,8 @@ void TruthLog::write(const Robot::Truth& t) {
   }
   const Vector3& a = t.imu.specific_force_mps2;
   const Vector3& w = t.imu.angular_velocity_radps;
-  n = std::snprintf(text.data(), text.size(), ",%.4f,%.4f,%.4f,%.6f,%.6f,%.6f\n", a.x, a.y, a.z,
-                    w.x, w.y, w.z);
+  n = std::snprintf(text.data(), text.size(), ",%.4f,%.4f,%.4f,%.6f,%.6f,%.6f,%d\n", a.x, a.y, a.z,
+                    w.x, w.y, w.z, t.supply ? 1 : 0);
   log_.append({text.data(), static_cast<std::size_t>(n)});
 }
 

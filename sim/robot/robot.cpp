@@ -6,6 +6,14 @@
 #include "drover/angle.h"
 
 namespace drover::sim {
+namespace {
+
+// Of a spring-applied brake: its coil lets go, and its spring presses, after these times.
+constexpr Duration kBrakeReleases = std::chrono::milliseconds(30);
+constexpr Duration kBrakeEngages = std::chrono::milliseconds(50);
+constexpr double kHolding_Nm = 40;  // at the wheel; more than its tyre's grip
+
+}  // namespace
 
 Twins make_twins(const Scenario& scenario, std::uint64_t seed) {
   Twins twins;
@@ -87,6 +95,7 @@ void Robot::step(Time now) {
     sent_[bus].clear();
     sent_[bus].swap(waiting_[bus]);
   }
+  supply_drives();
   sense(now);
   tell_gnss(now);
   imu_size_ = imu_ ? imu_->on_tick(now, truth_.imu, imu_bytes_) : 0;
@@ -167,13 +176,68 @@ void Robot::turn_wheels(Time now, std::vector<std::vector<CanFrame>>& out) {
     const WheelState wheel = plant_.wheel(drive.joint);
     drive.shaft.position_rad = wheel.position_rad;
     drive.shaft.velocity_radps = wheel.velocity_radps;
+    drive.shaft.energized = false;
     frames_.clear();
     drive.twin->on_tick(now, drive.shaft, frames_);
     if (!drive.powered) drive.shaft.torque_Nm = 0;
     if (drive.powered) out[drive.bus].insert(out[drive.bus].end(), frames_.begin(), frames_.end());
     plant_.set_torque(drive.joint, drive.shaft.torque_Nm);
+    hold_wheel(drive, now);
   }
+  move_from_outside(now);
   plant_.step();
+}
+
+// Without supply a drive is silent, and its power stage neither drives nor brakes: what the turning
+// motor gives back has nowhere to go.
+bool Robot::supplied() const {
+  const bool pressed = forced_[static_cast<std::size_t>(LineName::estop)].value_or(false);
+  return (!scenario_.relay_feeds_drives || relay_closed_) &&
+         !(scenario_.estop_cuts_power && pressed) && now_ >= dip_until_;
+}
+
+void Robot::supply_drives() {
+  truth_.supply = supplied();
+  for (auto& drive : drives_) {
+    const bool on = truth_.supply && drive.switched_on;
+    if (on == drive.powered) continue;
+    drive.powered = on;
+    drive.twin->set_power(on, now_);
+  }
+}
+
+void Robot::hold_wheel(Drive& drive, Time now) {
+  if (!scenario_.brake && !scenario_.worm_gear) return;
+  const bool energized = drive.powered && drive.shaft.energized;
+  if (energized != drive.energized || drive.energized_since == kNever) {
+    // A robot that was just switched on has stood with its brakes on.
+    drive.energized_since = drive.energized_since == kNever ? now - kBrakeEngages : now;
+    drive.energized = energized;
+  }
+  const Duration age = now - drive.energized_since;
+  const bool braked = scenario_.brake && (energized ? age < kBrakeReleases : age >= kBrakeEngages);
+  const bool held = braked || (scenario_.worm_gear && !energized);
+  const double holding_Nm = held ? kHolding_Nm : 0;
+  if (holding_Nm != drive.holding_Nm) plant_.set_holding_torque(drive.joint, holding_Nm);
+  drive.holding_Nm = holding_Nm;
+}
+
+void Robot::move_from_outside(Time now) {
+  if (push_until_ != kNever && now >= push_until_) {
+    plant_.push(0, 0);
+    push_until_ = kNever;
+  }
+  if (!carry_) return;
+  const double share = to_s(now - carry_->begin) / carry_->lasts_s;
+  if (share >= 1) {
+    plant_.carry(std::nullopt);
+    carry_.reset();
+    return;
+  }
+  // Begins and ends gently.
+  const double rate = 6 * share * (1 - share) / carry_->lasts_s;
+  plant_.carry(
+      Plant::CarrySpeed{rate * carry_->ahead_m, rate * carry_->left_m, rate * carry_->turn_rad});
 }
 
 bool Robot::active(LineName line) const {

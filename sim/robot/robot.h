@@ -37,6 +37,9 @@ class Robot {
 
   /// A frame on a bus (index into the scenario's), heard by all drives on it.
   void on_frame(std::size_t bus, const CanFrame& frame, Time now);
+  /// The gateway's output enable_relay, as its wire shows it: it counts from the next step on where
+  /// it feeds the drives.
+  void set_relay(bool closed) { relay_closed_ = closed; }
   /// One tick: contacts and outputs as of `now`, then the mechanics from `now` to the next tick.
   void step(Time now);
 
@@ -59,7 +62,8 @@ class Robot {
     BaseVelocity velocity;
     std::vector<Shaft> wheels;  ///< in the order of `drives`
     double free_ahead_m = 0;
-    ImuTruth imu;  ///< at the inertial sensor's place; base_link where there is none
+    bool supply = true;  ///< of the drives: relay, e-stop and dips; not the drives' own switches
+    ImuTruth imu;        ///< at the inertial sensor's place; base_link where there is none
   };
   /// As of the last step's `now`.
   const Truth& truth() const { return truth_; }
@@ -74,7 +78,19 @@ class Robot {
     std::size_t bus = 0;
     std::unique_ptr<CanTwin> twin;
     Shaft shaft;
+    bool switched_on = true;  ///< its own switch
     bool powered = true;
+    /// Since when its power stage has been as it is: a brake follows later.
+    bool energized = false;
+    Time energized_since = kNever;
+    double holding_Nm = 0;
+  };
+  struct Carry {
+    Time begin = kNever;
+    double lasts_s = 0;
+    double ahead_m = 0;
+    double left_m = 0;
+    double turn_rad = 0;
   };
   /// What a scenario forces a contact to; nothing: the mechanics decide.
   using Override = std::optional<bool>;
@@ -83,7 +99,13 @@ class Robot {
   void sense_motion();
   void tell_gnss(Time now);
   void turn_wheels(Time now, std::vector<std::vector<CanFrame>>& out);
-  void set_power(Drive& drive, bool on);
+  bool supplied() const;
+  void supply_drives();
+  void hold_wheel(Drive& drive, Time now);
+  void move_from_outside(Time now);
+  std::string command_supply(std::string_view verb, std::string_view seconds);
+  std::string command_push(std::span<const std::string_view> numbers);
+  std::string command_carry(std::span<const std::string_view> numbers);
   std::string command_gnss(std::string_view state);
   std::string command_imu(std::string_view state);
   std::string command_drive(std::string_view joint, std::string_view verb, std::string_view value);
@@ -113,6 +135,10 @@ class Robot {
   std::array<bool, kLineNames> sensed_{};
   std::array<Override, kLineNames> forced_{};
   Truth truth_;
+  bool relay_closed_ = false;
+  Time dip_until_ = kNever;
+  Time push_until_ = kNever;
+  std::optional<Carry> carry_;
   Time now_{};
   int steps_per_tick_ = 0;
 };

@@ -209,8 +209,11 @@ Scenario read_scenario(const nlohmann::json& document, const std::string& folder
   read_zones(top, scenario);
   scenario.outputs = top.flag("outputs", false);
   scenario.estop_cuts_power = top.flag("estop_cuts_power", false);
+  scenario.relay_feeds_drives = top.flag("relay_feeds_drives", false);
+  scenario.brake = top.flag("brake", false);
+  scenario.worm_gear = top.flag("worm_gear", false);
   read_events(top, scenario);
-  for (const auto* key : {"description", "mission", "player"}) top.ignore(key);
+  for (const auto* key : {"description", "gateway", "mission", "player"}) top.ignore(key);
   top.done();
   return scenario;
 }

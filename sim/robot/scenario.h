@@ -106,13 +106,17 @@ struct Scenario {
   double zone_width_m = 0.8;
   bool outputs = false;  ///< the wires of the gateway's outputs are recorded (a gpio-sim chip's)
   bool estop_cuts_power = false;  ///< the pressed button also takes the drives' supply away
-  std::vector<Event> events;      ///< by time
+  /// The gateway's output enable_relay feeds the drives: open or not driven, they have no supply.
+  bool relay_feeds_drives = false;
+  bool brake = false;         ///< each wheel has a holding brake, released only by its drive
+  bool worm_gear = false;     ///< no wheel can turn its motor
+  std::vector<Event> events;  ///< by time
 };
 
 /// Throws std::runtime_error with one sentence that names the key ("drives[2].bus: ...").
 /// The paths of a world and of a register map are relative to `folder`. Keys that belong to the
-/// scenario's player
-/// ("description", "mission", "player") are left alone; any other unknown key is refused.
+/// scenario's player ("description", "gateway", "mission", "player") are left alone; any other
+/// unknown key is refused.
 Scenario parse_scenario(std::string_view json, const std::string& folder);
 /// The same for a file, which may name its robot: see scenario_file.h.
 Scenario load_scenario(const std::string& file);

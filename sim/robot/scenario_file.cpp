@@ -38,7 +38,25 @@ fs::path resolved(const std::string& file, const fs::path& reference) {
   return (fs::path(file).parent_path() / reference).lexically_normal();
 }
 
+void change_drive(nlohmann::json& document, const std::string& joint,
+                  const nlohmann::json& change) {
+  for (auto& drive : document["drives"]) {
+    if (drive.value("joint", "") != joint) continue;
+    drive.merge_patch(change);
+    return;
+  }
+  throw std::runtime_error("drives." + joint + ": there is no drive of this joint to change");
+}
+
 }  // namespace
+
+void change_document(nlohmann::json& document, nlohmann::json change) {
+  if (const auto drives = change.find("drives"); drives != change.end() && drives->is_object()) {
+    for (const auto& [joint, member] : drives->items()) change_drive(document, joint, member);
+    change.erase(drives);
+  }
+  document.merge_patch(change);
+}
 
 nlohmann::json load_scenario_document(const std::string& file) {
   auto scenario = read_object(file);
@@ -57,7 +75,11 @@ nlohmann::json load_scenario_document(const std::string& file) {
     const auto beside = reference.parent_path() / map.get<std::string>();
     if (fs::exists(resolved(file, beside))) map = beside.string();
   }
-  merged.merge_patch(scenario);
+  try {
+    change_document(merged, std::move(scenario));
+  } catch (const std::exception& error) {
+    throw std::runtime_error(file + ": " + error.what());
+  }
   return merged;
 }
 

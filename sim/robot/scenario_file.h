@@ -9,9 +9,14 @@ namespace drover::sim {
 
 /// Reads FILE. When it has a member "robot" (the path of another document, relative to FILE), the
 /// result is that document with FILE's own members merged over it (RFC 7396: objects member by
-/// member, null removes, everything else replaces). "world" becomes relative to FILE's folder.
-/// Throws std::runtime_error naming the file.
+/// member, null removes, everything else replaces; and see change_document). "world" becomes
+/// relative to FILE's folder. Throws std::runtime_error naming the file.
 nlohmann::json load_scenario_document(const std::string& file);
+
+/// Merges `change` into a robot's or a gateway's document. Its "drives" may be an object: what it
+/// says of a joint is merged into the drive of this joint, {"front_left": {"options": {...}}}.
+/// Throws std::runtime_error when there is no such drive.
+void change_document(nlohmann::json& document, nlohmann::json change);
 
 /// The path of the robot that FILE names, empty when it names none. Throws as above.
 std::string robot_file_of(const std::string& file);

@@ -97,6 +97,13 @@ Simulator::Simulator(const SimulatorSettings& settings)
     battery_.emplace((folder / scenario.battery->port).string(), scenario.battery->baud,
                      scenario.battery->unit);
   if (scenario.outputs && chip_) outputs_.emplace(log_file(settings_, "lines.log"), *chip_);
+  if (scenario.relay_feeds_drives) {
+    if (chip_) {
+      relay_.emplace(*chip_);
+    } else {
+      relay_.emplace(made_folder(settings_.run_folder + "/outputs"));
+    }
+  }
   signals_ = block_signals();
   control_.emplace(settings_.run_folder + "/sim.sock", epoll_.get());
   watch(epoll_.get(), timer_.get());
@@ -174,6 +181,7 @@ void Simulator::tick(Time now) {
                    answer.c_str());
     ++next_event_;
   }
+  if (relay_) robot_.set_relay(relay_->closed());
   exchange_can(now);
   robot_.step(now);
   send_can(now);
@@ -295,6 +303,7 @@ std::string Simulator::command_lines(std::string_view verb) {
   if (verb == "unplug") return "ok";
   lines_ = LinePort::gpio_sim(robot_.scenario(), *chip_);
   if (outputs_) outputs_->reopen(*chip_);
+  if (relay_) relay_->reopen(*chip_);
   return "ok";
 }
 

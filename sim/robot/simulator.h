@@ -13,6 +13,7 @@
 #include "sim/robot/line_port.h"
 #include "sim/robot/log.h"
 #include "sim/robot/output_log.h"
+#include "sim/robot/relay_port.h"
 #include "sim/robot/robot.h"
 #include "sim/robot/serial_port.h"
 
@@ -24,7 +25,8 @@ struct SimulatorSettings {
   std::string run_folder = "/run/drover-sim";
   std::string log_folder;      ///< empty: no logs
   bool can_over_unix = false;  ///< every bus a socket RUN_FOLDER/NAME.sock
-  bool line_files = false;     ///< lines as files below RUN_FOLDER/lines
+  /// Lines as files below RUN_FOLDER/lines; the gateway's outputs below RUN_FOLDER/outputs.
+  bool line_files = false;
 };
 
 class Simulator {
@@ -67,6 +69,7 @@ class Simulator {
   std::optional<GpioSimChip> chip_;  // none: the lines are files
   LinePort lines_;
   std::optional<OutputLog> outputs_;
+  std::optional<RelayPort> relay_;  // none: the drives have their supply without the gateway
   CanLog can_log_;
   TruthLog truth_log_;
   std::optional<ControlSocket> control_;

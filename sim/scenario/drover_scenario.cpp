@@ -17,8 +17,8 @@ using drover::sim::Outcome;
 constexpr const char* kFooter = R"(
 Starts mosquitto, drover-sim, drover-guard and droverd, saves the mission's track, starts it, does
 what the scenario's steps say, and ends with a summary. Logs: can.log, truth.csv, mqtt.log,
-events.log, summary.json, scenario.json, NAME.log of each program, and droverd.rec, all that
-droverd heard and said (drover replay).
+events.log, summary.json, scenario.json, drover.json, NAME.log of each program, and droverd.rec,
+all that droverd heard and said (drover replay).
 
 Exit status: 0 the mission ended as the scenario expects, 1 it ended otherwise, 2 it cannot start,
 3 a program broke, 4 the scenario's time-out, 130 interrupted.

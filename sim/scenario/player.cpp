@@ -17,6 +17,9 @@ namespace {
 
 constexpr Duration kLook = std::chrono::milliseconds(10);
 constexpr Duration kReconnect = std::chrono::milliseconds(50);
+// From all is well to the start: a person reads the status first. A robot that has just been
+// switched on needs it too: at rest it learns how its gyro drifts.
+constexpr Duration kReading = std::chrono::seconds(1);
 constexpr Duration kSecond = std::chrono::seconds(1);
 // Real time: a loaded machine may take long to load a world.
 constexpr Duration kBootTimeout = std::chrono::seconds(60);
@@ -177,6 +180,7 @@ bool Player::turn(Time until) {
   if (t >= until) return false;
   take_steps(t);
   command_joints(t);
+  start_when_ready(t);
   if (t >= next_reconnect_) {
     client_->connect();
     next_reconnect_ = t + kReconnect;
@@ -187,7 +191,7 @@ bool Player::turn(Time until) {
     mqtt_log_.flush();
     next_second_ = t + kSecond;
   }
-  until = std::min({until, next_second_, story_.next(t), commands_.next()});
+  until = std::min({until, next_second_, story_.next(t), commands_.next(), start_at_});
   if (client_->descriptor() < 0) until = std::min(until, next_reconnect_);
   until = std::min(until, view_.draw(t, report_));
   poll_once(until - t);
@@ -276,13 +280,21 @@ void Player::happened(const std::string& event) {
     result_.status = report_.nav_status();
   }
   if (mission_.automatic && event == "ready" && count == 1) save_track();
-  if (mission_.automatic && (event == "saved" || event == "ready")) start_when_ready();
+  if (mission_.automatic && (event == "saved" || event == "ready")) look_whether_ready();
   look_for_end(event);
 }
 
 /// As an operator does: with the track saved and the robot sure of its place.
-void Player::start_when_ready() {
+void Player::look_whether_ready() {
   if (started_ || !story_.has_happened({"saved", 1}) || report_.locate() != "LOCATE_TRUE") return;
+  if (start_at_ == Time::max()) start_at_ = now() + kReading;
+}
+
+void Player::start_when_ready(Time t) {
+  if (t < start_at_) return;
+  start_at_ = Time::max();
+  // Not sure any more: the next "ready" begins anew.
+  if (started_ || report_.locate() != "LOCATE_TRUE") return;
   started_ = true;
   start_task({});
 }

@@ -64,7 +64,8 @@ class Player {
   void start_task(const Action& action);
   void on_message(const MqttMessage& message);
   void happened(const std::string& event);
-  void start_when_ready();
+  void look_whether_ready();
+  void start_when_ready(Time t);
   void look_for_end(const std::string& event);
   void tell(const std::string& text);
 
@@ -87,7 +88,8 @@ class Player {
   Time end_ = Time::max();
   Time next_second_{};
   Time next_reconnect_{};
-  bool started_ = false;  // by itself: `automatic`
+  bool started_ = false;         // by itself: `automatic`
+  Time start_at_ = Time::max();  // when it will, if all is well then
   bool recording_ = true;
   bool interrupted_ = false;
 };

@@ -64,6 +64,16 @@ json read_config(const std::string& scenario_file) {
   return config;
 }
 
+/// What this scenario's gateway is told otherwise than the robot's: a wrong gear ratio, say.
+void change_gateway(json& config, const json& change, const std::string& scenario_file) {
+  if (!change.is_object()) throw std::runtime_error(scenario_file + ": gateway: must be an object");
+  try {
+    change_document(config, change);
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(scenario_file + ": gateway." + error.what());
+  }
+}
+
 bool lab_in_real_time() {
   const auto* lab = std::getenv("DROVER_LAB");
   return lab != nullptr && std::string_view(lab) == "real";
@@ -90,14 +100,18 @@ Workplace::Workplace(const WorkplaceSettings& settings)
   if (log_folder_.empty()) log_folder_ = private_folder_ + "/log";
   fs::create_directories(log_folder_);
   auto config = read_config(settings.scenario_file);
+  if (document_.contains("gateway")) {
+    change_gateway(config, document_["gateway"], settings.scenario_file);
+    document_.erase("gateway");
+  }
   if (settings.native) make_native(config);
   if (settings.native || lab_in_real_time()) widen_ages(config);
-  if (document_["gnss"].value("port", "").starts_with("usb:")) prepare_udev(config);
-  guard_socket_ = config["guard"].value("socket", "/run/drover/guard.sock");
-  daemon_folder_ = config["paths"].value("run", daemon_folder_);
+  if (document_.value("/gnss/port"_json_pointer, "").starts_with("usb:")) prepare_udev(config);
+  guard_socket_ = config.value("/guard/socket"_json_pointer, "/run/drover/guard.sock");
+  daemon_folder_ = config.value("/paths/run"_json_pointer, daemon_folder_);
   fs::create_directories(sim_folder_);
   fs::create_directories(daemon_folder_);
-  fs::create_directories(config["paths"].value("state", daemon_folder_ + "/state"));
+  fs::create_directories(config.value("/paths/state"_json_pointer, std::string("/var/lib/drover")));
   write_files(config);
 }
 
@@ -118,8 +132,8 @@ void Workplace::make_native(json& config) {
   if (config.contains("battery")) config["battery"]["port"] = sim_folder_ + "/battery";
   config["lines"]["chip"] = "files:" + sim_folder_ + "/lines";
   if (config.contains("outputs")) {
-    fs::create_directories(private_folder_ + "/outputs");
-    config["outputs"]["chip"] = "files:" + private_folder_ + "/outputs";
+    fs::create_directories(sim_folder_ + "/outputs");
+    config["outputs"]["chip"] = "files:" + sim_folder_ + "/outputs";
     config["outputs"].erase("watchdog");  // a file cannot be pulsed
   }
   config["guard"]["socket"] = run + "/guard.sock";
@@ -159,8 +173,11 @@ void Workplace::prepare_udev(json& config) {
 }
 
 void Workplace::write_files(const json& config) {
-  write_file(private_folder_ + "/scenario.json", document_.dump(1));
-  write_file(private_folder_ + "/drover.json", config.dump(1));
+  // Beside the logs, too: what was really played.
+  for (const auto& folder : {private_folder_, log_folder_}) {
+    write_file(folder + "/scenario.json", document_.dump(1));
+    write_file(folder + "/drover.json", config.dump(1));
+  }
   std::ostringstream broker;
   broker << "listener " << port_ << (settings_.native ? " 127.0.0.1" : "") << "\n"
          << "allow_anonymous true\n"

@@ -91,7 +91,9 @@ std::string imu_state(const Snapshot& snapshot, const Stamping& stamping) {
 std::array<bool, kLineCount> touched(const Snapshot& snapshot) {
   std::array<bool, kLineCount> lines{};
   for (std::size_t i = 0; i < kLineCount; ++i)
-    lines[i] = snapshot.line_active[i] || snapshot.line_health[i] != SourceState::fresh;
+    // The e-stop is in no message of touch: nothing of it is a change there.
+    lines[i] = static_cast<Line>(i) != Line::estop &&
+               (snapshot.line_active[i] || snapshot.line_health[i] != SourceState::fresh);
   return lines;
 }
 

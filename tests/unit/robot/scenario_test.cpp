@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
 #include <stdexcept>
+
+#include "sim/robot/scenario_file.h"
 
 namespace drover::sim {
 namespace {
@@ -125,6 +128,36 @@ TEST(Scenario, PutsItsEventsInOrder) {
   ASSERT_EQ(scenario.events.size(), 2U);
   EXPECT_EQ(scenario.events[0].command, "a");
   EXPECT_EQ(scenario.events[0].at, std::chrono::milliseconds(500));
+}
+
+TEST(Scenario, HasNoRelayNoBrakeAndNoWormGearUnlessItSaysSo) {
+  const auto plain = parse_scenario(kPlain + "}", "");
+  EXPECT_FALSE(plain.relay_feeds_drives || plain.brake || plain.worm_gear);
+  const auto wired = parse_scenario(
+      kPlain + R"(, "relay_feeds_drives": true, "brake": true, "worm_gear": true})", "");
+  EXPECT_TRUE(wired.relay_feeds_drives && wired.brake && wired.worm_gear);
+}
+
+TEST(Scenario, ChangesOneDriveOfItsRobotByTheJointsName) {
+  auto robot = nlohmann::json::parse(R"({"name": "a", "drives": [
+    {"joint": "left", "options": {"node": 1, "gear_ratio": 10}},
+    {"joint": "right", "options": {"node": 2, "gear_ratio": 10}}]})");
+  change_document(robot,
+                  nlohmann::json::parse(
+                      R"({"name": "b", "drives": {"right": {"options": {"gear_ratio": 5}}}})"));
+  EXPECT_EQ(robot, nlohmann::json::parse(R"({"name": "b", "drives": [
+    {"joint": "left", "options": {"node": 1, "gear_ratio": 10}},
+    {"joint": "right", "options": {"node": 2, "gear_ratio": 5}}]})"));
+}
+
+TEST(Scenario, RefusesToChangeADriveThatIsNotThere) {
+  auto robot = nlohmann::json::parse(R"({"drives": [{"joint": "left"}]})");
+  try {
+    change_document(robot, nlohmann::json::parse(R"({"drives": {"tail": {}}})"));
+    FAIL() << "no exception";
+  } catch (const std::runtime_error& error) {
+    EXPECT_STREQ(error.what(), "drives.tail: there is no drive of this joint to change");
+  }
 }
 
 TEST(Scenario, ReadsAWholeRobotWithComments) {

@@ -284,6 +284,18 @@ TEST_F(NmeaTwin, CanDriftWithAGoodFix) {
   EXPECT_EQ(all<GnssPosition>().back().second.quality, FixQuality::rtk_fixed);
 }
 
+TEST_F(NmeaTwin, CanTellASpeedAtRestThatIsNoise) {
+  speed_mps = 0;
+  EXPECT_FALSE(twin.set_state("speed_noise:-1", now));
+  ASSERT_TRUE(twin.set_state("speed_noise:0.3", now));
+  run(60s);
+  double sum_mps = 0;
+  const auto said = all<GnssVelocity>();
+  for (const auto& one : said) sum_mps += one.second.speed_mps;
+  // The length of two errors of 0.3 m/s.
+  EXPECT_NEAR(sum_mps / static_cast<double>(said.size()), 0.376, 0.03);
+}
+
 TEST_F(NmeaTwin, CanBeStuckWhileItsTimeRuns) {
   run(1s);
   twin.set_state("stuck", now);

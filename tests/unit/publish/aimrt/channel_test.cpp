@@ -187,6 +187,19 @@ TEST_F(AnAimrtChannel, PublishesTouchAtEachChangeAndTenTimesASecond) {
   EXPECT_TRUE(is_published()) << "not to be read is touched";
 }
 
+TEST_F(AnAimrtChannel, PublishesNoTouchForAnEstopAlone) {
+  Snapshot snapshot;
+  snapshot.time = now_;
+  for (const Line line : {Line::bumper, Line::estop})
+    snapshot.line_configured[static_cast<std::size_t>(line)] = true;
+  snapshot.line_health.fill(SourceState::fresh);
+  const auto count = [&] { return channel_->telemetry(snapshot, kWallMinusMonotonic).size(); };
+  const auto with_touch = count();
+  snapshot.line_active[static_cast<std::size_t>(Line::estop)] = true;
+  snapshot.time += std::chrono::milliseconds(20);
+  EXPECT_EQ(count(), with_touch - 1);
+}
+
 TEST_F(AnAimrtChannel, CountsTheMessagesOfEachType) {
   Snapshot snapshot;
   snapshot.time = now_;
