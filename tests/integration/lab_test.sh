@@ -220,6 +220,24 @@ lets_a_visitor_in() {
   grep -q 'inside 42' "$work/visit" && grep -q '^init' "$work/visit"
 }
 
+lets_several_visitors_in() {
+  "$lab" --real-time --shell-socket --timeout 40 -- sleep 35 > /dev/null 2>&1 &
+  local running=$! visitor visitors=()
+  sleep 2
+  for visitor in 1 2; do
+    # The second comes while the first is inside, and sees a shell of its own.
+    { sleep $((2 + visitor)); printf 'echo in""side $((40+%d)) $$\r' $visitor; sleep 4; printf 'exit\r'
+      sleep 1; } | script -qec "'$lab' enter $running" /dev/null > "$work/visit$visitor" &
+    visitors+=($!)
+  done
+  wait "${visitors[@]}"
+  kill "$running"
+  wait "$running"
+  grep -q 'inside 41' "$work/visit1" || return 1
+  grep -q 'inside 42' "$work/visit2" || return 1
+  ! grep -q 'inside 42' "$work/visit1"
+}
+
 status=$(status_of "$lab" --build)
 if [[ $status == 3 ]]; then
   cat "$work/stderr"
@@ -248,5 +266,6 @@ check "repeats itself to the byte" repeats_itself_to_the_byte
 check "keeps logs" keeps_logs
 check "reaches a broker inside from the host" reaches_a_broker_inside
 check "lets a visitor in" lets_a_visitor_in
+check "lets several visitors in" lets_several_visitors_in
 check "leaves nothing behind" leaves_nothing
 exit $failed
