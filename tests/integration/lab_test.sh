@@ -226,7 +226,11 @@ lets_several_visitors_in() {
   sleep 2
   for visitor in 1 2; do
     # The second comes while the first is inside, and sees a shell of its own.
-    { sleep $((2 + visitor)); printf 'echo in""side $((40+%d)) $$\r' $visitor; sleep 4; printf 'exit\r'
+    { sleep $((2 + visitor))
+      # shellcheck disable=SC2016
+      printf 'echo in""side $((40+%d))\r' "$visitor"
+      sleep 4
+      printf 'exit\r'
       sleep 1; } | script -qec "'$lab' enter $running" /dev/null > "$work/visit$visitor" &
     visitors+=($!)
   done
