@@ -6,7 +6,9 @@
 #include <sys/ioctl.h>
 
 #include <algorithm>
+#include <array>
 #include <cstring>
+#include <utility>
 
 #include "link/lines.h"
 #include "link/outputs.h"
@@ -15,24 +17,37 @@ namespace drover::link {
 
 namespace {
 
+/// A line handle of the kernel, and which of the outputs are its lines.
+struct Handle {
+  UniqueFd fd;
+  std::vector<std::size_t> lines;
+};
+
 class GpioOutputs final : public OutputLink {
  public:
-  GpioOutputs(UniqueFd fd, std::size_t count) : fd_(std::move(fd)), count_(count) {}
+  GpioOutputs(Handle own, Handle shared) : handles_{std::move(own), std::move(shared)} {}
   bool write(std::span<const bool> levels) override {
+    for (const auto& handle : handles_)
+      if (handle.fd && !write(handle, levels)) return false;
+    return true;
+  }
+  int error() const override { return error_; }
+  int fd() const override { return handles_[0].fd.get(); }
+  int shared_fd() const override { return handles_[1].fd.get(); }
+
+ private:
+  bool write(const Handle& handle, std::span<const bool> levels) {
     gpio_v2_line_values values{};
-    values.mask = (std::uint64_t{1} << count_) - 1;
-    for (std::size_t i = 0; i < std::min(levels.size(), count_); ++i)
-      if (levels[i]) values.bits |= std::uint64_t{1} << i;
-    if (::ioctl(fd_.get(), GPIO_V2_LINE_SET_VALUES_IOCTL, &values) == 0) return true;
+    values.mask = (std::uint64_t{1} << handle.lines.size()) - 1;
+    for (std::size_t i = 0; i < handle.lines.size(); ++i)
+      if (handle.lines[i] < levels.size() && levels[handle.lines[i]])
+        values.bits |= std::uint64_t{1} << i;
+    if (::ioctl(handle.fd.get(), GPIO_V2_LINE_SET_VALUES_IOCTL, &values) == 0) return true;
     error_ = errno;
     return false;
   }
-  int error() const override { return error_; }
-  int fd() const override { return fd_.get(); }
 
- private:
-  UniqueFd fd_;
-  std::size_t count_;
+  std::array<Handle, 2> handles_;
   int error_ = 0;
 };
 
@@ -93,22 +108,19 @@ int find_line(int chip, const std::string& name) {
   return -1;
 }
 
-Opened<OutputLink> open_gpio(const OutputSettings& settings) {
-  Opened<OutputLink> opened;
-  const UniqueFd chip = find_chip(settings.chip);
-  if (!chip) {
-    opened.problem = "gpio " + settings.chip + ": no chip with this label or name";
-    return opened;
-  }
+/// Requests these lines of the settings; an invalid one with the sentence in `problem`.
+UniqueFd request_lines(int chip, const OutputSettings& settings,
+                       const std::vector<std::size_t>& lines, std::string& problem) {
   gpio_v2_line_request request{};
   std::strncpy(request.consumer, kConsumer, sizeof request.consumer - 1);
   request.config.flags = GPIO_V2_LINE_FLAG_OUTPUT;
   std::uint64_t active_low = 0;
-  for (const auto& line : settings.lines) {
-    const int offset = find_line(chip.get(), line.name);
+  for (const auto index : lines) {
+    const auto& line = settings.lines[index];
+    const int offset = find_line(chip, line.name);
     if (offset < 0) {
-      opened.problem = "gpio " + settings.chip + ": no line named \"" + line.name + "\"";
-      return opened;
+      problem = "gpio " + settings.chip + ": no line named \"" + line.name + "\"";
+      return {};
     }
     if (line.active_low) active_low |= std::uint64_t{1} << request.num_lines;
     request.offsets[request.num_lines++] = static_cast<std::uint32_t>(offset);
@@ -124,11 +136,28 @@ Opened<OutputLink> open_gpio(const OutputSettings& settings) {
     request.config.attrs[1].attr.flags = GPIO_V2_LINE_FLAG_OUTPUT | GPIO_V2_LINE_FLAG_ACTIVE_LOW;
     request.config.attrs[1].mask = active_low;
   }
-  if (::ioctl(chip.get(), GPIO_V2_GET_LINE_IOCTL, &request) != 0) {
-    opened.problem = problem_text("gpio " + settings.chip, "cannot use its outputs", errno);
+  if (::ioctl(chip, GPIO_V2_GET_LINE_IOCTL, &request) == 0) return UniqueFd(request.fd);
+  problem = problem_text("gpio " + settings.chip, "cannot use its outputs", errno);
+  return {};
+}
+
+Opened<OutputLink> open_gpio(const OutputSettings& settings, UniqueFd kept) {
+  Opened<OutputLink> opened;
+  const UniqueFd chip = find_chip(settings.chip);
+  if (!chip) {
+    opened.problem = "gpio " + settings.chip + ": no chip with this label or name";
     return opened;
   }
-  opened.link = std::make_unique<GpioOutputs>(UniqueFd(request.fd), request.num_lines);
+  Handle own;
+  Handle shared{std::move(kept), {}};
+  for (std::size_t i = 0; i < settings.lines.size(); ++i)
+    (static_cast<int>(i) == settings.shared_line ? shared : own).lines.push_back(i);
+  for (auto* handle : {&shared, &own}) {
+    if (handle->fd || handle->lines.empty()) continue;
+    handle->fd = request_lines(chip.get(), settings, handle->lines, opened.problem);
+    if (!handle->fd) return opened;
+  }
+  opened.link = std::make_unique<GpioOutputs>(std::move(own), std::move(shared));
   return opened;
 }
 
@@ -150,8 +179,9 @@ Opened<OutputLink> open_files(const OutputSettings& settings) {
 
 }  // namespace
 
-Opened<OutputLink> open_outputs(const OutputSettings& settings) {
-  return settings.chip.starts_with(kFilesPrefix) ? open_files(settings) : open_gpio(settings);
+Opened<OutputLink> open_outputs(const OutputSettings& settings, UniqueFd shared) {
+  return settings.chip.starts_with(kFilesPrefix) ? open_files(settings)
+                                                 : open_gpio(settings, std::move(shared));
 }
 
 }  // namespace drover::link

@@ -21,9 +21,12 @@ struct OutputLine {
 struct OutputSettings {
   std::string chip;  ///< label or name of the chip, or "files:DIRECTORY"
   std::vector<OutputLine> lines;
+  /// Index of the line with a handle of its own, which another process keeps too; -1: none. It
+  /// falls when the last of both closes it.
+  int shared_line = -1;
 };
 
-/// One request for all lines, held as long as it lives.
+/// Holds the lines as long as it lives.
 class OutputLink {
  public:
   virtual ~OutputLink() = default;
@@ -32,9 +35,12 @@ class OutputLink {
   virtual int error() const = 0;
   /// The kernel's line handle, for the guard; -1 where there is none.
   virtual int fd() const { return -1; }
+  /// That of `shared_line`.
+  virtual int shared_fd() const { return -1; }
 };
 
-/// All lines off at first.
-Opened<OutputLink> open_outputs(const OutputSettings& settings);
+/// All lines off at first; but `shared`, the handle of the shared line when another process kept
+/// it, stays as it is.
+Opened<OutputLink> open_outputs(const OutputSettings& settings, UniqueFd shared = {});
 
 }  // namespace drover::link

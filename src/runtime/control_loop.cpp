@@ -122,7 +122,8 @@ Time ControlLoop::cycle(Time begin, std::uint64_t late) {
   watch_program(begin);
   take_commands(begin);
 
-  const bool guard_alive = guard_seen_ + guard_stale_ > begin && keeper_.guard_equipped();
+  const bool guard_alive = guard_seen_ + guard_stale_ > begin && keeper_.guard_equipped() &&
+                           guard_.shared().set_refused.load(std::memory_order_relaxed) == 0;
   apply(begin, gateway::Tick{guard_alive, guard_has_bus_, guard_latched_});
   // Before the events go: who hears that a path is released may delete it.
   if (exchange_.recorder != nullptr) exchange_.recorder->output(gateway_);

@@ -1,5 +1,6 @@
 #include "runtime/link_keeper.h"
 
+#include <fcntl.h>
 #include <poll.h>
 
 #include <algorithm>
@@ -25,6 +26,19 @@ std::vector<link::OutputLine> output_lines(const config::OutputsConfig& outputs)
   for (const auto& output : outputs.output)
     if (output.configured) lines.push_back({output.name, output.active_low});
   return lines;
+}
+
+/// The place of the enable relay among the output lines; -1: there is none.
+int relay_place(const config::OutputsConfig& outputs) {
+  int place = 0;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(Output::enable_relay); ++i)
+    place += outputs.output[i].configured ? 1 : 0;
+  return outputs.output[static_cast<std::size_t>(Output::enable_relay)].configured ? place : -1;
+}
+/// Under this name the guard keeps the relay's line: another line is another name.
+std::string relay_name(const config::OutputsConfig& outputs) {
+  const auto& relay = outputs.output[static_cast<std::size_t>(Output::enable_relay)];
+  return "relay " + outputs.chip + " " + relay.name + (relay.active_low ? " low" : "");
 }
 
 /// The guard holds the line for as long as it lives; now and then it is looked whether it is free.
@@ -64,6 +78,7 @@ void LinkKeeper::run(const std::atomic<bool>& stop) {
       if (slots_[i].used && !slots_[i].open && now >= slots_[i].next_try) try_open(i, now);
     supply_guard(now);
     supply_watchdog(now);
+    supply_relay();
     if (hand_back_wanted_.exchange(false, std::memory_order_relaxed)) guard_.hand_back();
 
     std::array<pollfd, 2> fds{{{wake_.fd(), POLLIN, 0}, {guard_.fd(), POLLIN | POLLHUP, 0}}};
@@ -73,6 +88,7 @@ void LinkKeeper::run(const std::atomic<bool>& stop) {
     if (guard_.connected() && fds[1].revents != 0) {  // the guard never talks: it went away
       guard_.disconnect();
       guard_set_changed_ = true;
+      relay_given_ = false;
       log(LogLevel::error, "drover-guard is gone: nothing may move until it is back");
     }
   }
@@ -95,6 +111,7 @@ void LinkKeeper::take_back_lost(Time now) {
     slot.pause = {};
     slot.next_try = now;
     if (lost.slot < kMaxBuses) guard_set_changed_ = true;
+    if (lost.slot == kOutputsSlot) forget_relay();
     if (lost.reopen_baud > 0) slot.serial.baud = lost.reopen_baud;
     log(lost.reopen_baud > 0 ? LogLevel::info : LogLevel::error, lost.problem.view());
     lost = {};  // closes: at once, or the device comes back under another name
@@ -109,7 +126,7 @@ link::CanSettings LinkKeeper::can_settings(std::size_t bus) const {
   return settings;
 }
 
-LinkHandover LinkKeeper::open(std::size_t slot, std::string& problem) const {
+LinkHandover LinkKeeper::open(std::size_t slot, std::string& problem) {
   LinkHandover handover;
   handover.slot = slot;
   const auto take = [&problem](auto opened, auto& into) {
@@ -121,12 +138,37 @@ LinkHandover LinkKeeper::open(std::size_t slot, std::string& problem) const {
   } else if (slot == kLinesSlot) {
     take(link::open_lines({config_.lines.chip, line_names(config_.lines)}), handover.lines);
   } else if (slot == kOutputsSlot) {
-    take(link::open_outputs({config_.outputs.chip, output_lines(config_.outputs)}),
-         handover.outputs);
+    take(open_outputs(), handover.outputs);
   } else {
     take(link::open_can(can_settings(slot)), handover.can);
   }
   return handover;
+}
+
+/// The guard may have kept the relay's line closed since before this daemon began: it is taken over
+/// as it is. Opened anew it would fall, and could not be, while the guard has it.
+link::Opened<link::OutputLink> LinkKeeper::open_outputs() {
+  const auto& outputs = config_.outputs;
+  const int place = relay_place(outputs);
+  link::UniqueFd kept;
+  if (place >= 0) kept = guard_.borrow(relay_name(outputs));
+  auto opened = link::open_outputs({outputs.chip, output_lines(outputs), place}, std::move(kept));
+  relay_given_ = false;
+  if (opened.link && opened.link->shared_fd() >= 0)
+    relay_ = link::UniqueFd(::fcntl(opened.link->shared_fd(), F_DUPFD_CLOEXEC, 0));
+  return opened;
+}
+
+/// Both programs hold the line: one dead, it stays; both dead, it falls.
+void LinkKeeper::supply_relay() {
+  if (!relay_ || relay_given_ || !guard_.connected()) return;
+  relay_given_ = guard_.give_relay_line(relay_name(config_.outputs), relay_.get());
+}
+
+/// Its chip is gone: a handle that somebody keeps is dead.
+void LinkKeeper::forget_relay() {
+  relay_.reset();
+  if (relay_place(config_.outputs) >= 0) guard_.let_go(relay_name(config_.outputs));
 }
 
 void LinkKeeper::try_open(std::size_t slot, Time now) {
@@ -160,6 +202,7 @@ void LinkKeeper::failed(std::size_t slot, const std::string& problem, Time now) 
 void LinkKeeper::supply_guard(Time now) {
   const bool supplied = !guard_set_changed_ && guard_.connected();
   if (supplied || now < guard_slot_.next_try) return;
+  if (!guard_.connected()) relay_given_ = false;
   std::vector<GuardedLink> links(config_.buses.size());
   std::string missing;
   for (std::size_t i = 0; i < links.size(); ++i) {

@@ -85,11 +85,14 @@ class LinkKeeper final {
   };
   void take_back_lost(Time now);
   void try_open(std::size_t slot, Time now);
-  LinkHandover open(std::size_t slot, std::string& problem) const;
+  LinkHandover open(std::size_t slot, std::string& problem);
+  link::Opened<link::OutputLink> open_outputs();
   link::CanSettings can_settings(std::size_t bus) const;
   void failed(std::size_t slot, const std::string& problem, Time now);
   void supply_guard(Time now);
   void supply_watchdog(Time now);
+  void supply_relay();
+  void forget_relay();
   Duration until_next_try(Time now) const;
 
   const config::DroverConfig& config_;
@@ -104,7 +107,9 @@ class LinkKeeper final {
   GuardClient guard_;
   Slot guard_slot_;
   bool guard_set_changed_ = true;
-  Slot watchdog_;  ///< of the line that the guard pulses
+  Slot watchdog_;         ///< of the line that the guard pulses
+  link::UniqueFd relay_;  ///< a duplicate of the enable relay's line handle, for the guard
+  bool relay_given_ = false;
 };
 
 }  // namespace drover::runtime

@@ -107,6 +107,14 @@ TEST(KillOnRamp, LeavesTheHardwareWatchdogFedByTheGuard) {
   EXPECT_LE(gap, kPulseGap);
 }
 
+TEST(KillOnRamp, KeepsTheEnableRelayClosed) {
+  const Record& log = record("kill_on_ramp");
+  const Time killed = log.event("signal 9 to droverd");
+  ASSERT_EQ(log.level_at("enable_relay", killed), true);
+  EXPECT_THAT(log.changes("enable_relay", killed, log.event("the end")), testing::IsEmpty())
+      << "the guard has its line until the new gateway takes it back";
+}
+
 TEST(Hang, LeavesTheHardwareWatchdogFedByTheGuardAndIsHeardAfterwards) {
   const Record& log = record("hang");
   EXPECT_LE(longest_gap(log, log.event("event boot#1") + 100ms, log.event("the end")), kPulseGap);

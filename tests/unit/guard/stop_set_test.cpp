@@ -1,0 +1,190 @@
+#include "guard/stop_set.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <cstring>
+
+namespace drover::guard {
+
+namespace {
+
+using namespace std::chrono_literals;
+constexpr Time kStart{std::chrono::seconds(100)};
+
+GuardMessage named(GuardVerb verb, std::uint32_t index, const char* name) {
+  GuardMessage message;
+  message.verb = verb;
+  message.index = index;
+  std::strcpy(message.name.data(), name);
+  return message;
+}
+
+GuardMessage axis(std::uint32_t index, const char* name, std::uint32_t rounds = 1,
+                  std::uint32_t period_ms = 10) {
+  auto message = named(GuardVerb::axis, index, name);
+  message.rounds = rounds;
+  message.period_ms = period_ms;
+  return message;
+}
+
+GuardMessage stop(std::uint32_t index, std::uint32_t round, char byte) {
+  GuardMessage message;
+  message.verb = GuardVerb::stop_message;
+  message.index = index;
+  message.round = round;
+  message.size = 1;
+  message.bytes[0] = static_cast<std::uint8_t>(byte);
+  return message;
+}
+
+class GuardStopSet : public testing::Test {
+ protected:
+  GuardStopSet() {
+    std::array<int, 2> ends{};
+    EXPECT_EQ(::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_NONBLOCK, 0, ends.data()), 0);
+    drives_ = ends[0];
+    link_ = ends[1];
+  }
+  ~GuardStopSet() override { ::close(drives_); }
+  void add_link(StopSet& set) {
+    EXPECT_TRUE(set.add_link(named(GuardVerb::link, 0, "can0"), link_));
+  }
+  /// What the drives got since the last look.
+  std::string heard() const {
+    std::string all;
+    char byte = 0;
+    while (::recv(drives_, &byte, 1, MSG_DONTWAIT) == 1) all += byte;
+    return all;
+  }
+  void play(StopSet& set, Time from, int cycles) const {
+    for (int i = 0; i < cycles; ++i) set.play(from + i * 10ms);
+  }
+  int link() const { return link_; }
+
+ private:
+  int drives_ = -1;
+  int link_ = -1;
+};
+
+}  // namespace
+
+TEST_F(GuardStopSet, PlaysRoundsInTurnEachInItsPeriod) {
+  StopSet set;
+  add_link(set);
+  ASSERT_TRUE(set.add_axis(axis(0, "can0 1", 3, 20)));
+  for (std::uint32_t round = 0; round < 3; ++round)
+    ASSERT_TRUE(set.add_message(stop(0, round, static_cast<char>('a' + round))));
+  set.begin_hold();
+  play(set, kStart, 10);
+  EXPECT_EQ(heard(), "abcab");
+}
+
+TEST_F(GuardStopSet, EachAxisHasItsOwnPeriod) {
+  StopSet set;
+  add_link(set);
+  ASSERT_TRUE(set.add_axis(axis(0, "can0 1", 1, 10)));
+  ASSERT_TRUE(set.add_axis(axis(1, "can0 2", 1, 50)));
+  ASSERT_TRUE(set.add_message(stop(0, 0, '1')));
+  ASSERT_TRUE(set.add_message(stop(1, 0, '2')));
+  set.begin_hold();
+  play(set, kStart, 10);
+  EXPECT_EQ(heard(), "121111121111");
+}
+
+TEST_F(GuardStopSet, BeginsAHoldWithTheFirstRoundAtOnce) {
+  StopSet set;
+  add_link(set);
+  ASSERT_TRUE(set.add_axis(axis(0, "can0 1", 2, 100)));
+  ASSERT_TRUE(set.add_message(stop(0, 0, 'a')));
+  ASSERT_TRUE(set.add_message(stop(0, 1, 'b')));
+  set.begin_hold();
+  play(set, kStart, 1);
+  EXPECT_EQ(heard(), "a");
+  set.begin_hold();
+  play(set, kStart + 20ms, 1);
+  EXPECT_EQ(heard(), "a");
+}
+
+TEST_F(GuardStopSet, IsNotInCommandOfWhatItCannotReach) {
+  StopSet set;
+  add_link(set);
+  ASSERT_TRUE(set.add_axis(axis(0, "can0 1")));
+  ASSERT_TRUE(set.add_message(stop(0, 0, '1')));
+  set.begin_hold();
+  set.play(kStart);
+  EXPECT_TRUE(set.in_command(kStart + 40ms));
+  EXPECT_FALSE(set.in_command(kStart + 60ms));
+  ASSERT_TRUE(set.let_go("can0"));
+  set.play(kStart + 70ms);
+  EXPECT_EQ(set.unsent(), 1U);
+  EXPECT_FALSE(set.in_command(kStart + 70ms));
+}
+
+TEST_F(GuardStopSet, IsCoveredOnlyByEachOfItsAxesWithADescriptorAndAMessage) {
+  StopSet old;
+  add_link(old);
+  ASSERT_TRUE(old.add_axis(axis(0, "can0 1")));
+  ASSERT_TRUE(old.add_message(stop(0, 0, '1')));
+  StopSet other;
+  EXPECT_FALSE(other.covers(old));
+  EXPECT_EQ(other.lacks(old), "can0 1");
+  EXPECT_TRUE(old.covers(other)) << "an empty one is covered by all";
+  ASSERT_TRUE(other.add_link(named(GuardVerb::link, 0, "can0"), ::dup(link())));
+  ASSERT_TRUE(other.add_axis(axis(0, "can0 1")));
+  EXPECT_FALSE(other.covers(old)) << "it would say nothing to it";
+  ASSERT_TRUE(other.add_message(stop(0, 0, '1')));
+  EXPECT_TRUE(other.covers(old));
+  other.let_go("can0");
+  EXPECT_FALSE(other.covers(old)) << "it could not reach it";
+}
+
+TEST_F(GuardStopSet, RefusesWhatContradictsItself) {
+  StopSet set;
+  add_link(set);
+  auto endless = named(GuardVerb::link, 1, "x");
+  endless.name.fill('x');
+  EXPECT_FALSE(set.add_link(endless, -1)) << "a name without an end";
+  EXPECT_FALSE(set.add_link(named(GuardVerb::link, 0, "again"), -1));
+  EXPECT_FALSE(set.add_link(named(GuardVerb::link, kGuardMaxLinks, "x"), -1));
+  EXPECT_FALSE(set.add_axis(axis(1, "can0 1"))) << "the first is 0";
+  EXPECT_FALSE(set.add_axis(axis(0, "")));
+  EXPECT_FALSE(set.add_axis(axis(0, "can0 1", 0)));
+  EXPECT_FALSE(set.add_axis(axis(0, "can0 1", 1, 0))) << "it would flood the bus";
+  EXPECT_FALSE(set.add_message(stop(0, 0, '1'))) << "no axis";
+  ASSERT_TRUE(set.add_axis(axis(0, "can0 1")));
+  EXPECT_FALSE(set.add_message(stop(0, 1, '1'))) << "no such round";
+  auto long_one = stop(0, 0, '1');
+  long_one.size = kGuardMaxBytes + 1;
+  EXPECT_FALSE(set.add_message(long_one));
+}
+
+TEST_F(GuardStopSet, ReadsBackWhatItTells) {
+  StopSet set;
+  add_link(set);
+  ASSERT_TRUE(set.add_axis(axis(0, "can0 1", 2, 30)));
+  ASSERT_TRUE(set.add_message(stop(0, 0, 'a')));
+  ASSERT_TRUE(set.add_message(stop(0, 1, 'b')));
+  std::vector<GuardMessage> words;
+  set.tell(words);
+  StopSet copy;
+  for (const auto& word : words) {
+    if (word.verb == GuardVerb::link) {
+      ASSERT_TRUE(copy.add_link(word, ::dup(link())));
+    }
+    if (word.verb == GuardVerb::axis) {
+      ASSERT_TRUE(copy.add_axis(word));
+    }
+    if (word.verb == GuardVerb::stop_message) {
+      ASSERT_TRUE(copy.add_message(word));
+    }
+  }
+  EXPECT_TRUE(copy.covers(set));
+  copy.begin_hold();
+  play(copy, kStart, 6);
+  EXPECT_EQ(heard(), "ab");
+}
+
+}  // namespace drover::guard
