@@ -105,6 +105,7 @@ TEST_F(GuardKeeps, TheNewestSet) {
   supply({"can0"});
   supply({"can0", "can1"});
   ASSERT_TRUE(beat(10s, [&] { return manager().keeps("link.can1"); }));
+  beat(200ms);  // its words come last
   client().disconnect();
   ASSERT_TRUE(is_stopped("can1"));
   kill();
