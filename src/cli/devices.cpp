@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "cli/exit_codes.h"
+#include "cli/failure.h"
 #include "cli/live.h"
 #include "cli/option_texts.h"
 #include "cli/recorded.h"
@@ -51,10 +52,13 @@ int show(const DeviceView& view, const Command& command) {
     return show_recording(view.name, std::cin, command.recording, std::cout, std::cerr);
   std::ifstream in(command.file, std::ios::binary);
   if (!in) {
-    std::cerr << "drover: " << command.file << ": " << std::strerror(errno) << '\n';
+    tell_failure(command.live.json, "drover", command.file + ": " + std::strerror(errno));
     return kRefused;
   }
-  return show_recording(view.name, in, command.recording, std::cout, std::cerr);
+  const int code = show_recording(view.name, in, command.recording, std::cout, std::cerr);
+  if (code == kRefused && command.live.json)
+    tell_failure(true, "drover", command.file + ": nothing in it could be decoded");
+  return code;
 }
 
 }  // namespace

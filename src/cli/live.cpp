@@ -7,6 +7,7 @@
 
 #include "cli/client.h"
 #include "cli/exit_codes.h"
+#include "cli/failure.h"
 #include "cli/layout.h"
 #include "cli/rates.h"
 
@@ -49,7 +50,7 @@ std::string json_of(const DeviceView& view, const Node& status) {
 int show_live(const DeviceView& view, const LiveSettings& settings) {
   std::deque<Node> past{ask_status(settings.socket)};
   if (const auto why = missing(view, past.front()); !why.empty()) {
-    std::fprintf(stderr, "refused: %s\n", why.c_str());
+    tell_failure(settings.json, "refused", why);
     return kRefused;
   }
   const bool redraw = settings.watch && !settings.json && ::isatty(STDOUT_FILENO) != 0;

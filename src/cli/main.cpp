@@ -2,16 +2,21 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
+#include <span>
 #include <string>
+#include <string_view>
 
 #include "cli/client.h"
 #include "cli/devices.h"
 #include "cli/exit_codes.h"
+#include "cli/failure.h"
 #include "cli/option_texts.h"
 #include "cli/replay.h"
 #include "cli/show.h"
 #include "cli/stop.h"
+#include "cli/verbs.h"
 #include "config/json_text.h"
 
 namespace {
@@ -43,8 +48,8 @@ int run(const Settings& settings, const std::string& request, std::string_view w
   const auto document = drover::json::parse(
       reply, {.max_bytes = std::size_t{64} << 20, .max_depth = 16, .max_values = 10'000'000});
   if (!document) {
-    std::fprintf(stderr, "drover: the answer is not understood: %s\n",
-                 document.error().text().c_str());
+    drover::cli::tell_failure(settings.json, "drover",
+                              "the answer is not understood: " + document.error().text());
     return kNoDaemon;
   }
   const auto& root = document->root;
@@ -123,6 +128,7 @@ int main(int argc, char** argv) {
       ->envname("DROVER_STOP_SOCKET");
   app.footer(
       "Exit codes: 0 done, 1 refused (the reason is on stderr), 2 wrong usage, 3 no droverd.\n"
+      "With --json a failure is {\"ok\":false,\"reason\":...} on standard output.\n"
       "Examples:\n"
       "  drover status --watch\n"
       "  drover status --json\n"
@@ -181,15 +187,25 @@ int main(int argc, char** argv) {
     print_version(s);
   });
 
+  drover::cli::add_examples(app);
+  // What cannot be parsed has not set s.json yet.
+  const std::span<const char* const> arguments(argv + 1, static_cast<std::size_t>(argc - 1));
+  const bool json = std::count(arguments.begin(), arguments.end(), std::string_view("--json")) > 0;
+  if (const auto wrong = drover::cli::unknown_verb(app, arguments); !wrong.empty()) {
+    drover::cli::tell_failure(json, "drover", wrong);
+    return kUsage;
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? kDone : kUsage;
+    if (error.get_exit_code() == 0 || !json) return app.exit(error) == 0 ? kDone : kUsage;
+    drover::cli::tell_failure(json, "drover", error.what());
+    return kUsage;
   } catch (const drover::cli::WrongUsage& wrong) {
-    std::fprintf(stderr, "drover: %s\n", wrong.what());
+    drover::cli::tell_failure(json, "drover", wrong.what());
     return kUsage;
   } catch (const drover::cli::NoAnswer& no) {
-    std::fprintf(stderr, "drover: %s\n", no.text.c_str());
+    drover::cli::tell_failure(json, "drover", no.text);
     return kNoDaemon;
   }
   return code;

@@ -31,30 +31,50 @@ void show_nav(std::string& out, const Node& status) {
   line(out, "located", text(at(nav, "locate")));
 }
 
+/// A source that was never heard has no values, whatever stands in their place.
+bool never_heard(const Node& source) {
+  return text(at(source, "health")) == "never heard";
+}
+
+/// What is said instead of the values: "-  never heard  no line to it".
+std::string nothing_heard(const Node& source) {
+  const auto reason = text(at(source, "reason"));
+  return "-  never heard" + (reason.empty() ? "" : "  " + reason);
+}
+
 void show_place(std::string& out, const Node& status) {
   const auto& pose = at(status, "pose");
-  line(out, "pose",
-       quantity(at(pose, "x_m"), "x %.2f m") + quantity(at(pose, "y_m"), "  y %.2f m") +
-           quantity(at(pose, "yaw_rad"), "  yaw %.3f rad") +
-           quantity(at(pose, "position_sigma_m"), "  +- %.3f m"));
+  // Before the first fix the pose counts from where droverd was started: that is no place.
+  if (at(pose, "position_sigma_m").number().has_value()) {
+    line(out, "pose",
+         quantity(at(pose, "x_m"), "x %.2f m") + quantity(at(pose, "y_m"), "  y %.2f m") +
+             quantity(at(pose, "yaw_rad"), "  yaw %.3f rad") +
+             quantity(at(pose, "position_sigma_m"), "  +- %.3f m"));
+  } else {
+    line(out, "pose", "-");
+  }
   line(out, "speed",
-       quantity(at(pose, "vx_mps"), "%.2f m/s") + quantity(at(pose, "wz_radps"), "  %.2f rad/s"));
+       quantity(at(pose, "vx_mps"), "%.2f m/s") + "  " +
+           quantity(at(pose, "wz_radps"), "%.2f rad/s"));
   const auto& gnss = at(status, "gnss");
+  if (gnss.object() == nullptr) return;
+  if (never_heard(gnss)) return line(out, "gnss", nothing_heard(gnss));
   line(out, "gnss",
-       text(at(gnss, "quality")) + ", " + text(at(gnss, "health")) +
-           quantity(at(gnss, "latitude_deg"), "  %.9f") +
-           quantity(at(gnss, "longitude_deg"), " %.9f") +
-           quantity(at(gnss, "satellites"), "  %.0f satellites") +
-           quantity(at(gnss, "age_s"), "  %.2f s old"));
+       text(at(gnss, "quality")) + ", " + text(at(gnss, "health")) + "  " +
+           quantity(at(gnss, "latitude_deg"), "%.9f") + " " +
+           quantity(at(gnss, "longitude_deg"), "%.9f") +
+           quantity(at(gnss, "satellites"), "  %.0f satellites") + "  " +
+           quantity(at(gnss, "age_s"), "%.2f s old"));
 }
 
 void show_battery(std::string& out, const Node& status) {
   const auto& battery = at(status, "battery");
   if (battery.object() == nullptr) return;
-  std::string value = quantity(at(battery, "soc_percent"), "%.1f %%") +
-                      quantity(at(battery, "voltage_V"), "  %.2f V") +
-                      quantity(at(battery, "current_A"), "  %.1f A") +
-                      quantity(at(battery, "temperature_degC"), "  %.0f C") + "  " +
+  if (never_heard(battery)) return line(out, "battery", nothing_heard(battery));
+  std::string value = quantity(at(battery, "soc_percent"), "%.1f %%") + "  " +
+                      quantity(at(battery, "voltage_V"), "%.2f V") + "  " +
+                      quantity(at(battery, "current_A"), "%.1f A") + "  " +
+                      quantity(at(battery, "temperature_degC"), "%.0f C") + "  " +
                       text(at(battery, "flow")) + "  " + text(at(battery, "health"));
   if (yes(at(battery, "charger_connected"))) value += "  CHARGER";
   for (const auto* key : {"alarm", "reason"})
@@ -66,12 +86,17 @@ void show_axes(std::string& out, const Node& status) {
   const auto* axes = at(status, "axes").list();
   if (axes == nullptr) return;
   for (const auto& axis : *axes) {
-    std::string value = padded(text(at(axis, "joint")), 14) + padded(text(at(axis, "state")), 9) +
-                        quantity(at(axis, "velocity_radps"), "%7.2f rad/s") +
-                        quantity(at(axis, "effort_Nm"), " %7.2f Nm") +
-                        quantity(at(axis, "motor_degC"), "  %.0f C") +
-                        quantity(at(axis, "bus_V"), "  %.1f V") + "  " + text(at(axis, "health"));
-    if (!text(at(axis, "fault")).empty()) value += "  " + text(at(axis, "fault"));
+    std::string value = padded(text(at(axis, "joint")), 14);
+    if (never_heard(axis)) {
+      value += nothing_heard(axis);
+    } else {
+      value += padded(text(at(axis, "state")), 9) +
+               quantity(at(axis, "velocity_radps"), "%7.2f rad/s") + "  " +
+               quantity(at(axis, "effort_Nm"), "%6.2f Nm") + "  " +
+               quantity(at(axis, "motor_degC"), "%.0f C") + "  " +
+               quantity(at(axis, "bus_V"), "%.1f V") + "  " + text(at(axis, "health"));
+      if (!text(at(axis, "fault")).empty()) value += "  " + text(at(axis, "fault"));
+    }
     line(out, &axis == &axes->front() ? "axes" : "", value);
   }
 }
@@ -80,7 +105,11 @@ void show_devices(std::string& out, const Node& status) {
   if (const auto* lines = at(status, "lines").object()) {
     std::string value;
     for (const auto& member : *lines)
-      value += member.key + (yes(at(member.node, "active")) ? " ACTIVE" : " clear") + "  ";
+      value += member.key +
+               (never_heard(member.node)         ? " -"
+                : yes(at(member.node, "active")) ? " ACTIVE"
+                                                 : " clear") +
+               "  ";
     line(out, "lines", value);
   }
   if (const auto* links = at(status, "links").list()) {

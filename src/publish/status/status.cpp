@@ -89,7 +89,7 @@ void gnss(JsonText& out, const Snapshot& s) {
   number(out, "speed_mps", s.gnss.velocity.speed_mps);
   number(out, "course_deg", s.gnss.velocity.course_deg);
   number(out, "heading_deg", s.gnss.heading_deg);
-  out.key("satellites").integer(s.gnss.position.satellites);
+  number(out, "satellites", s.gnss.position_time == kNever ? kAbsent : s.gnss.position.satellites);
   number(out, "hdop", s.gnss.position.hdop);
   number(out, "correction_age_s", s.gnss.position.correction_age_s);
   age(out, "age_s", s.time, s.gnss.position_time);

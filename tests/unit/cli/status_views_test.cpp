@@ -139,5 +139,30 @@ TEST_F(StatusViews, ShowTheWholeInShort) {
   EXPECT_DOUBLE_EQ(nav.find("owner_timeout_s")->number().value_or(0), 0.1);
 }
 
+TEST(StatusInShort, ShowsADashForWhatWasNeverHeardAndNoNumbers) {
+  Snapshot s;
+  s.time = kNow;
+  s.gnss.configured = s.imu.configured = s.battery.configured = true;
+  s.battery.source.reason = "no line to it";
+  AxisSnapshot axis;
+  axis.joint = "front_left";
+  axis.source.reason = "no heartbeat yet";
+  (void)s.axes.push_back(axis);
+  s.line_configured[0] = s.line_active[0] = true;
+  const auto document = json::parse(publish::status_json(s, {}));
+  ASSERT_TRUE(document);
+  const auto text = show_status(document->root);
+  for (const char* part :
+       {"pose      -\n", "gnss      -  never heard\n", "battery   -  never heard  no line to it\n",
+        "front_left    -  never heard  no heartbeat yet\n", "estop -"})
+    EXPECT_NE(text.find(part), std::string::npos) << part << " is not in\n" << text;
+  EXPECT_EQ(text.find("--"), std::string::npos) << text;
+  for (const auto& view : device_views())
+    if (view.name == "gnss") {
+      EXPECT_NE(view.show(document->root).find("satellites -"), std::string::npos)
+          << view.show(document->root);
+    }
+}
+
 }  // namespace
 }  // namespace drover::cli

@@ -28,6 +28,18 @@ TEST(LocatedJson, RefusesWhatIsNoJson) {
   }
 }
 
+TEST(LocatedJson, SaysWhereACommaOrAColonIsMissing) {
+  EXPECT_EQ(refusal("{\n  \"a\": 1\n  \"b\": 2}"),
+            "line 3, column 3: a comma is missing before this");
+  EXPECT_EQ(refusal("{\"a\": {\"b\": 1} // c\n  \"d\": 2}"),
+            "line 2, column 3: a comma is missing before this");
+  EXPECT_EQ(refusal("[1 2]"), "line 1, column 4 ([1]): a comma is missing before this");
+  EXPECT_EQ(refusal("[{} {}]"), "line 1, column 5 ([1]): a comma is missing before this");
+  EXPECT_EQ(refusal("[\"x\"\n true]"), "line 2, column 2 ([1]): a comma is missing before this");
+  EXPECT_NE(refusal("{\"a\" 1}").find("a colon is missing before this"), std::string::npos);
+  EXPECT_EQ(refusal("{} {}").find("comma"), std::string::npos);
+}
+
 TEST(LocatedJson, RefusesADuplicateKeyAndTellsItsPlace) {
   EXPECT_EQ(refusal("{\"a\": {\n  \"x\": 1,\n  \"x\": 2}}"),
             "line 3, column 3 (a.x): this key is there twice");

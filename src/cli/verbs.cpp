@@ -1,0 +1,109 @@
+#include "cli/verbs.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <string_view>
+#include <vector>
+
+#include "config/reader.h"
+
+namespace drover::cli {
+
+namespace {
+
+struct Example {
+  std::string_view verb;
+  std::string_view lines;
+};
+
+constexpr Example kExamples[] = {
+    {"status",
+     "  drover status --watch          # again and again\n"
+     "  drover status --json | jq .status.why"},
+    {"gnss",
+     "  drover gnss --watch\n"
+     "  drover gnss --file receiver.nmea"},
+    {"imu",
+     "  drover imu --watch\n"
+     "  drover imu --file sensor.bin --option baud=9600"},
+    {"bms",
+     "  drover bms\n"
+     "  drover bms --file registers.txt --map daly_d2.json"},
+    {"can",
+     "  drover can --watch\n"
+     "  drover can --file candump.log  # a table of its ids\n"
+     "  drover can --file candump.log --driver odrive --node 3 --option gear_ratio=10"},
+    {"gpio",
+     "  drover gpio --watch\n"
+     "  drover gpio --json"},
+    {"replay", "  drover replay run.rec          # recorded by droverd --record run.rec"},
+    {"traj",
+     "  drover traj list\n"
+     "  drover traj show 'row 7'"},
+    {"traj list",
+     "  drover traj list\n"
+     "  drover traj list --json"},
+    {"traj show", "  drover traj show 'row 7'"},
+    {"traj delete", "  drover traj delete 'row 7'"},
+    {"task",
+     "  drover task start 'row 7' --id 57\n"
+     "  drover task cancel"},
+    {"task start",
+     "  drover task start 'row 7' --id 57 --speed 0.5   # THE ROBOT DRIVES, to point 57\n"
+     "  drover traj show 'row 7'                        # which points it has"},
+    {"task cancel", "  drover task cancel             # a controlled stop"},
+    {"heading", "  drover heading find            # THE ROBOT DRIVES, up to 3 m straight ahead"},
+    {"heading find",
+     "  drover heading find            # THE ROBOT DRIVES, up to 3 m straight ahead"},
+    {"stop",
+     "  drover stop                    # zero at once: droverd and the guard are told\n"
+     "  drover reset                   # after the cause is gone"},
+    {"reset", "  drover reset                   # nothing moves before a new start"},
+    {"release",
+     "  drover release                 # a person may push the robot\n"
+     "  drover release --on-slope      # IT MAY ROLL AWAY"},
+    {"hold", "  drover hold                    # ends drover release"},
+    {"version", "  drover version"},
+};
+
+void add_examples_below(CLI::App& app, const std::string& above) {
+  for (auto* verb : app.get_subcommands({})) {
+    const std::string name = above + verb->get_name();
+    for (const auto& example : kExamples)
+      if (example.verb == name) verb->footer("Examples:\n" + std::string(example.lines));
+    add_examples_below(*verb, name + " ");
+  }
+}
+
+}  // namespace
+
+void add_examples(CLI::App& app) {
+  add_examples_below(app, "");
+}
+
+std::string unknown_verb(const CLI::App& app, std::span<const char* const> arguments) {
+  const CLI::App* level = &app;
+  std::string above;
+  for (std::size_t i = 0; i < arguments.size(); ++i) {
+    const std::string word = arguments[i];
+    const auto* option = level->get_option_no_throw(word);
+    if (option != nullptr && option->get_items_expected_max() > 0) ++i;  // its value is no verb
+    if (word.empty() || word.front() == '-') continue;
+    const auto verbs = level->get_subcommands({});
+    if (verbs.empty()) return {};
+    std::vector<std::string> names;
+    for (const auto* verb : verbs) names.push_back(verb->get_name());
+    const auto found = std::find(names.begin(), names.end(), word);
+    if (found == names.end()) {
+      const auto hint = config::did_you_mean(word, names);
+      std::string all;
+      for (const auto& name : names) all += (all.empty() ? "" : ", ") + name;
+      return "no verb \"" + above + word + "\"; " + (hint.empty() ? "there are " + all : hint);
+    }
+    above += word + " ";
+    level = verbs[static_cast<std::size_t>(found - names.begin())];
+  }
+  return {};
+}
+
+}  // namespace drover::cli

@@ -1,0 +1,20 @@
+// The verbs of the command line as a whole: examples for each, and what to say of an unknown one.
+#pragma once
+
+#include <span>
+#include <string>
+
+namespace CLI {
+class App;
+}
+
+namespace drover::cli {
+
+/// Ends the help of each verb with command lines of its own.
+void add_examples(CLI::App& app);
+
+/// What is wrong with the verbs of a command line, and what may be meant; empty when they are known
+/// or none is given.
+std::string unknown_verb(const CLI::App& app, std::span<const char* const> arguments);
+
+}  // namespace drover::cli

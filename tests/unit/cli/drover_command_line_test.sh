@@ -1,0 +1,69 @@
+#!/usr/bin/env bash
+# What drover says of its command line, and when there is no droverd.
+# usage: drover_command_line_test.sh PATH-OF-DROVER
+set -uo pipefail
+
+drover=$1
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+failed=0
+export DROVER_SOCKET=$work/no-daemon.sock
+
+verdict() {  # STATUS SENTENCE
+  if [[ $1 == 0 ]]; then
+    echo "ok - $2"
+  else
+    echo "not ok - $2:"
+    sed 's/^/  /' "$work/out" "$work/err"
+    failed=1
+  fi
+}
+
+# expect SENTENCE STATUS FILE TEXT ARGUMENTS...: status, and a piece of what goes to out or err.
+expect() {
+  local sentence=$1 status=$2 file=$3 text=$4 got=0
+  shift 4
+  "$drover" "$@" > "$work/out" 2> "$work/err" || got=$?
+  [[ $got == "$status" ]] && grep -qF -- "$text" "$work/$file"
+  verdict $? "$sentence"
+}
+
+# The verbs as the help lists them: "  name   text".
+verbs() { "$drover" "$@" --help | sed -n '/^Subcommands:/,/^$/s/^  \([a-z]*\) .*/\1/p'; }
+
+every_verb_has_an_example() {
+  local verb inner
+  for verb in $(verbs); do
+    "$drover" "$verb" --help > "$work/out" 2> "$work/err"
+    grep -A1 '^Examples:' "$work/out" | grep -qE "^  drover $verb( |\$)"
+    verdict $? "the help of $verb has an example of its own"
+    for inner in $(verbs "$verb"); do
+      "$drover" "$verb" "$inner" --help > "$work/out" 2> "$work/err"
+      grep -A1 '^Examples:' "$work/out" | grep -qE "^  drover $verb $inner( |\$)"
+      verdict $? "the help of $verb $inner has an example of its own"
+    done
+  done
+}
+
+every_verb_has_an_example
+[[ $(verbs | wc -l) -gt 10 ]]
+verdict $? "the help lists the verbs"
+
+expect "an unknown verb is answered with the one that may be meant" 2 err \
+  'no verb "statsu"; did you mean "status"?' statsu
+expect "so is an unknown verb of a verb" 2 err \
+  'no verb "task strat"; did you mean "start"?' task strat 'row 7' --id 1
+expect "a verb that is like none is answered with all" 2 err 'there are ' fly
+expect "the value of --socket is no verb" 3 err 'other.sock' --socket "$work/other.sock" status
+
+expect "without droverd the reason is told" 3 err "no-daemon.sock" status
+expect "and to a program as JSON" 3 out '{"ok":false,"reason":"' status --json
+[[ ! -s $work/err ]]
+verdict $? "and nothing else is said then"
+expect "a device's view says so as JSON, too" 3 out '{"ok":false,"reason":"' gnss --json
+expect "wrong usage is JSON for programs" 2 out '{"ok":false,"reason":"' \
+  task start 'row 7' --json
+expect "an unknown verb is JSON for programs" 2 out '{"ok":false,"reason":"no verb' statsu --json
+expect "a file that is not there is JSON for programs" 1 out '{"ok":false,"reason":"' \
+  gnss --file "$work/none" --json
+exit $failed
