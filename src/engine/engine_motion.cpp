@@ -50,6 +50,12 @@ void Engine::Impl::watch_wheels(Time now, Duration dt) {
   wheel_fault = wheels.update(now, dt, axes);
   wheel_reason = wheels.reason();
   if (wheel_fault == WheelFault::runaway) rest.expect_stop(now);
+  // Wheels that work against each other stand before gyro or receiver can tell.
+  if (wheel_fault == WheelFault::not_following && !mechanics.proved()) {
+    const std::string_view what = wheels.reason();
+    wheel_reason.format("%.*s on the first way: sides swapped, or a wheel reversed?",
+                        static_cast<int>(what.size()), what.data());
+  }
   if (wheel_fault == WheelFault::none && !mechanics.fault().empty()) {
     wheel_fault = WheelFault::disagrees;
     wheel_reason = mechanics.fault();
