@@ -21,10 +21,11 @@ class BrokerDelay final {
   static constexpr Duration kAfter = std::chrono::seconds(1);
   static constexpr Duration kAskEach = std::chrono::milliseconds(200);
 
-  /// A new connection: what the broker held for us while it was away comes now.
-  void on_connected(Time now) {
+  /// A connection that was asked for at `asked`. What a broker that was away, or that answers late,
+  /// held back comes now.
+  void on_connected(Time asked, Time now) {
     waiting_.clear();
-    last_late_ = now;
+    if (connected_ != kNever || now - asked > kLimit) last_late_ = now;
     connected_ = now;
     next_ = now;
   }
@@ -47,7 +48,7 @@ class BrokerDelay final {
       if (now - sent > kLimit) return "the broker is late: it holds messages back; try again";
     if (now - last_late_ >= kAfter) return {};
     return last_late_ == connected_
-               ? "the broker has just been connected, and might tell old messages; try again"
+               ? "the broker has just come back, and might tell old messages; try again"
                : "the broker was late just now; try again";
   }
 

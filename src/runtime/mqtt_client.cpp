@@ -125,7 +125,7 @@ void MqttClient::on_connected() {
   connecting_ = false;
   pause_ = kFirstBrokerPause;
   last_text_.clear();
-  delay_.on_connected(now_);
+  delay_.on_connected(asked_, now_);
   const bool newest = version_ == MQTT_PROTOCOL_V5;
   for (const auto& [topic, qos] : subscriptions_) {
     const int options = MQTT_SUB_OPT_RETAIN_AS_PUBLISHED | MQTT_SUB_OPT_SEND_RETAIN_NEVER;
@@ -249,6 +249,7 @@ void MqttClient::connect(Time now) {
   const auto address = next_address();
   if (address.empty()) return;
   ++connections_;
+  asked_ = now;
   refusal_.clear();
   const int code =
       ::mosquitto_connect_async(client_, address.c_str(), config_.port, config_.keepalive_s);

@@ -90,6 +90,7 @@ class MqttClient final {
   int closed_unanswered_ = 0;  ///< connections in a row that ended before the broker said a word
   std::string refusal_;        ///< the broker's, of the present connection
   Time now_ = kNever;          ///< for the library's callbacks
+  Time asked_ = kNever;        ///< for the present connection
   Time next_try_ = kNever;
   Duration pause_{};
   std::string last_text_;

@@ -58,7 +58,7 @@ class RobotRig : public testing::Test {
   bool wait_for_status(std::string_view nav_status);
   bool wait_for_locate();
 
-  /// In the first second of a connection nothing is followed that begins a motion.
+  /// In the first second after the broker came back nothing is followed that begins a motion.
   void wait_until_believed();
   void control(std::string_view text, bool retained = false);
   /// A straight track ahead of where the robot believes to be, points each half metre.

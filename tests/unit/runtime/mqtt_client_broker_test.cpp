@@ -137,11 +137,27 @@ TEST_F(MqttClientTest, SaysWhyTheBrokerRefusesAndTriesAgain) {
   EXPECT_EQ(broker_.version(), 5);
 }
 
-TEST_F(MqttClientTest, BelievesNoStartInTheFirstSecondOfAConnection) {
+TEST_F(MqttClientTest, BelievesNoStartInTheFirstSecondAfterTheBrokerCameBack) {
   connect();
-  EXPECT_THAT(std::string(client_->late(now_)), HasSubstr("just been connected"));
+  EXPECT_THAT(client_->late(now_), IsEmpty()) << "the first connection brings nothing old";
+  broker_.close();
+  ASSERT_TRUE(turn_until([&] { return broker_.connections == 2; }));
+  turn(50ms);
+  broker_.accept();
+  ASSERT_TRUE(turn_until([&] { return client_->connected(); }));
+  EXPECT_THAT(std::string(client_->late(now_)), HasSubstr("has just come back"));
+  acknowledged_ = broker_.all(Type::kPublish).size() - 1;
   turn_promptly(1100ms);
   EXPECT_THAT(client_->late(now_), IsEmpty());
+}
+
+TEST_F(MqttClientTest, BelievesNoStartAfterABrokerThatTookLongToAnswer) {
+  make();
+  ASSERT_TRUE(wait_for_connect(5));
+  turn(800ms);
+  broker_.accept();
+  ASSERT_TRUE(turn_until([&] { return client_->connected(); }));
+  EXPECT_THAT(std::string(client_->late(now_)), HasSubstr("has just come back"));
 }
 
 TEST_F(MqttClientTest, NoticesByItsOwnMessagesThatTheBrokerHoldsMessagesBack) {
