@@ -87,16 +87,16 @@ TEST_P(EveryMission, IsAtRestAtItsEnd) {
   EXPECT_NEAR(log().truth.back().vx_mps, 0.0, 0.01);
 }
 
-INSTANTIATE_TEST_SUITE_P(Each, EveryMission,
-                         testing::Values("straight_and_uturn", "figure8", "gnss_outage",
-                                         "fix_float_fix", "estop", "estop_tap", "obstacle",
-                                         "broker_restart", "kill_on_ramp", "hang", "long",
-                                         "imu_faults", "battery_faults", "battery_empty",
-                                         "outage_on_curve", "receiver_replugged",
-                                         "receiver_renamed", "joint_commands", "bus_off",
-                                         "can_replugged", "chip_replugged", "hang_without_bus",
-                                         "heading_find", "battery_low"),
-                         [](const auto& one) { return std::string(one.param); });
+INSTANTIATE_TEST_SUITE_P(
+    Each, EveryMission,
+    testing::Values("straight_and_uturn", "figure8", "gnss_outage", "fix_float_fix", "estop",
+                    "estop_tap", "obstacle", "broker_restart", "kill_on_ramp", "hang", "long",
+                    "imu_faults", "battery_faults", "battery_empty", "outage_on_curve",
+                    "receiver_replugged", "receiver_renamed", "joint_commands", "bus_off",
+                    "can_replugged", "chip_replugged", "hang_without_bus", "heading_find",
+                    "battery_low", "runs_on", "carried", "gear_ratio_10", "gear_ratio_2",
+                    "sides_swapped", "wheel_reversed"),
+    [](const auto& one) { return std::string(one.param); });
 
 }  // namespace
 }  // namespace drover::mission
