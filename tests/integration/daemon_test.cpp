@@ -208,8 +208,8 @@ TEST_F(Daemon, IsStoppedThroughTheGuardWhileItHangsAndStaysStoppedUntilReset) {
   EXPECT_TRUE(wait_until([this] { return at_rest(); }));
   EXPECT_TRUE(wait_for_status("NAV_ERROR"));
   EXPECT_TRUE(wait_until([this] {
-    return status_text("nav", "why").find("drover reset") != std::string::npos;
-  })) << status_text("nav", "why");
+    return client().last("base_status").find("until drover reset") != std::string::npos;
+  })) << client().last("base_status");
   EXPECT_EQ(drover({"task", "start", "row", "--id", "3"}).code, 1);
   EXPECT_TRUE(at_rest());
   const auto reset = drover({"reset"});
