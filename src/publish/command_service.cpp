@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "publish/rtk_navigation/trajectory_data.h"
+#include "store/drivable.h"
 
 namespace drover::publish {
 namespace {
@@ -30,6 +31,7 @@ CommandService::CommandService(const CommandServiceConfig& config, store::Stored
     : config_(config),
       report_(std::move(stored.report)),
       origin_(stored.origin),
+      origin_problem_(std::move(stored.origin_problem)),
       mqtt_bucket_(config.max_requests_Hz, config.request_burst),
       cli_bucket_(config.max_requests_Hz, config.request_burst),
       slow_down_bucket_(config.max_requests_Hz, config.request_burst) {
@@ -42,6 +44,7 @@ CommandService::CommandService(const CommandServiceConfig& config, store::Stored
 void CommandService::begin(Time now, Actions& out) {
   for (std::string& line : report_) out.push_back(LogLine{Notice::Level::warning, std::move(line)});
   report_.clear();
+  if (!origin_problem_.empty()) out.push_back(LogLine{Notice::Level::error, origin_problem_});
   if (!origin_) return;
   const RequestId id = next_id(RequestId::Source::internal);
   Pending& pending = expect(id, Verb::init_rtk_data);
@@ -56,6 +59,7 @@ void CommandService::on_control(std::string_view payload, const Arrival& arrival
 }
 
 bool CommandService::admit(std::string_view payload, Time now, Actions& out) {
+  if (payload.empty()) return false;  // how a retained message is taken back: nobody asks
   if (payload.size() <= kShortMessageBytes && may_stop(payload)) return true;
   if (mqtt_bucket_.take(now)) return true;
   slow_down(payload, "slow down", now, out);
@@ -147,6 +151,7 @@ bool CommandService::is_duplicate(RequestId id, std::string_view payload,
   if (!again) {
     last_start_id_ = id;
     last_start_refusal_.reset();
+    last_start_again_ = 0;
     last_start_ = payload;
     last_start_time_ = now;
     last_start_changes_ = changes_ + 1;  // handling it counts as one
@@ -160,7 +165,9 @@ void CommandService::answer_duplicate(RequestId id, Actions& out) {
   if (last_start_refusal_) {
     return tell(id, Verb::start_task, false, *last_start_refusal_, out);
   }
-  out.push_back(LogLine{Notice::Level::info, "start_task came twice and was executed once"});
+  const Pending* first = find(last_start_id_);
+  if (first != nullptr && !first->answered) ++last_start_again_;
+  out.push_back(LogLine{Notice::Level::info, "start_task came twice and counts once"});
 }
 
 void CommandService::handle(RequestId id, ControlCommand request, Time now, Actions& out) {
@@ -251,6 +258,7 @@ std::optional<std::string> CommandService::start_problem(const StartTaskRequest&
   const auto found = tracks_.find(request.name);
   if (found == tracks_.end()) return "there is no track of this name";
   if (origin_pending()) return "the origin is being set, try again";
+  if (!origin_ && !origin_problem_.empty()) return origin_problem_;
   if (!origin_) return "there is no origin yet: it needs a first RTK fixed position";
   const auto count = static_cast<std::int64_t>(found->second.points.size());
   if (count == 0) return "the track has no points";
@@ -270,8 +278,9 @@ void CommandService::start(RequestId id, const StartTaskRequest& request, Time n
   }
   // The path is the task's own copy: whatever happens to the track, the task drives what it was.
   auto path = store::build_path(tracks_.at(request.name), *origin_, config_.antenna);
-  path->number = ++last_path_;
-  paths_.push_back(std::move(path));
+  if (!path) return tell(id, Verb::start_task, false, path.error(), out);
+  paths_.push_back(std::move(path.value()));
+  paths_.back()->number = ++last_path_;
   expect(id, Verb::start_task, request.name);
   send(id, now, StartTask{paths_.back().get(), index, request.speed_mps}, out);
 }
@@ -285,7 +294,8 @@ void CommandService::propose_origin(RequestId id, Time now, Actions& out) {
 }
 
 void CommandService::on_snapshot(const Snapshot& snapshot, Time now, Actions& out) {
-  if (!config_.automatic_origin || origin_ || origin_pending()) return;
+  // Where a stored origin is lost, "here" is not it: the tracks of old would be driven elsewhere.
+  if (!config_.automatic_origin || origin_ || !origin_problem_.empty() || origin_pending()) return;
   const bool fixed = snapshot.gnss.health == SourceState::fresh &&
                      snapshot.gnss.position.quality == FixQuality::rtk_fixed;
   if (!fixed || now < next_automatic_origin_) return;

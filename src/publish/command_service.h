@@ -96,6 +96,8 @@ class CommandService final {
   /// As it would be driven now; nothing when there is none of that name.
   std::optional<store::Track> find_track(const std::string& name) const;
   const std::optional<GeodeticPoint>& origin() const { return origin_; }
+  /// Why a stored origin is lost, until init_rtk_data gives another; empty: it is not.
+  const std::string& origin_problem() const { return origin_problem_; }
   /// Paths that the engine holds; none is left when all tasks are over.
   std::size_t paths_lent() const { return paths_.size(); }
 
@@ -107,6 +109,7 @@ class CommandService final {
     store::Track track;    ///< save_trajectory: becomes the library's when it is stored
     GeodeticPoint origin;  ///< init_rtk_data: once proposed
     bool origin_stored = false;
+    bool answered = false;  ///< start_task: accepted, and start_nav is to come
   };
   using Key = std::pair<RequestId::Source, std::uint64_t>;
 
@@ -146,6 +149,7 @@ class CommandService final {
   std::vector<std::string> report_;
   std::map<std::string, store::Track> tracks_;
   std::optional<GeodeticPoint> origin_;
+  std::string origin_problem_;  ///< why the stored one is lost; empty: it is not
   std::map<Key, Pending> pending_;
   std::vector<std::unique_ptr<const Path>> paths_;
   std::uint64_t last_number_ = 0;
@@ -159,6 +163,7 @@ class CommandService final {
   RequestId last_start_id_;
   std::string last_start_;
   std::optional<std::string> last_start_refusal_;  ///< why, when it was refused
+  std::size_t last_start_again_ = 0;  ///< how often it came again before it was decided
   Time last_start_time_ = kNever;
   std::uint64_t last_start_changes_ = 0;
 };

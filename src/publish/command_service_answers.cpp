@@ -32,7 +32,14 @@ void CommandService::send(RequestId id, Time now, decltype(Command::body) body, 
 
 void CommandService::tell(RequestId id, Verb verb, bool ok, std::string_view text, Actions& out) {
   const bool last_start = id.source == last_start_id_.source && id.number == last_start_id_.number;
-  if (verb == Verb::start_task && !ok && last_start) last_start_refusal_ = text;
+  if (verb == Verb::start_task && last_start) {
+    if (!ok) last_start_refusal_ = text;
+    // Whoever pressed twice before it was decided reads twice that it was refused.
+    for (; last_start_again_ > 0; --last_start_again_) {
+      if (!ok)
+        out.push_back(PublishText{kTopicFeedback, feedback_text(failure_cmd(verb), text, {})});
+    }
+  }
   const std::string cmd = ok ? success_cmd(verb) : failure_cmd(verb);
   const std::string_view reason = ok ? std::string_view() : text;
   const std::string_view note = ok ? text : std::string_view();
@@ -112,9 +119,11 @@ void CommandService::accepted(const CommandAccepted& event, Actions& out) {
   if (pending == nullptr) return;
   switch (pending->verb) {
     case Verb::start_task:  // waits for start_nav
+      pending->answered = true;
       return tell(event.id, Verb::start_task, true, event.note.view(), out);
     case Verb::init_rtk_data:
       origin_ = pending->origin;
+      origin_problem_.clear();
       return finish(event.id, Verb::init_rtk_data, true, event.note.view(), out);
     default: return finish(event.id, pending->verb, true, event.note.view(), out);
   }

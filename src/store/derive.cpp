@@ -33,14 +33,4 @@ Track derive(const Track& track, const std::optional<GeodeticPoint>& origin,
   return derived;
 }
 
-std::unique_ptr<Path> build_path(const Track& track, const GeodeticPoint& origin,
-                                 const AntennaOffset& antenna) {
-  const Track derived = derive(track, origin, antenna);
-  auto path = std::make_unique<Path>();
-  path->name = derived.name;
-  path->points.reserve(derived.points.size());
-  for (const TrackPoint& point : derived.points) path->points.push_back({point.x_m, point.y_m});
-  return path;
-}
-
 }  // namespace drover::store

@@ -1,19 +1,21 @@
 // Tracks in the frame of the origin that is in force now.
 #pragma once
 
-#include <memory>
 #include <optional>
 
+#include "drover/heading.h"
 #include "drover/path.h"
 #include "store/track.h"
 
 namespace drover::store {
 
 /// Where the receiver's reference point is in base_link (REP 103: x ahead, y left), metres:
-/// latitude and longitude of a recorded point are the antenna's, x and y are base_link's.
+/// latitude and longitude of a recorded point are the antenna's, x and y are base_link's. `heading`
+/// is how a point's angle counts.
 struct AntennaOffset {
   double x_m = 0;
   double y_m = 0;
+  HeadingConvention heading = HeadingConvention::clockwise_from_north;
 };
 
 /// True when x and y hold as they were saved: the track was saved under this very origin.
@@ -24,9 +26,5 @@ bool holds_under(const Track& track, const std::optional<GeodeticPoint>& origin)
 /// track is returned as saved. Impossible latitudes give NaN.
 Track derive(const Track& track, const std::optional<GeodeticPoint>& origin,
              const AntennaOffset& antenna = {});
-
-/// The polyline to drive, in the frame of `origin`. It shares nothing with the track.
-std::unique_ptr<Path> build_path(const Track& track, const GeodeticPoint& origin,
-                                 const AntennaOffset& antenna = {});
 
 }  // namespace drover::store

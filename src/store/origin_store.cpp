@@ -1,6 +1,7 @@
 // The origin of the map frame on disk: it survives a restart.
 #include "store/origin_store.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cmath>
 
@@ -10,6 +11,10 @@ namespace {
 constexpr std::string_view kOriginFormat = "drover-origin";
 constexpr int kOriginVersion = 1;
 const std::string kFile = "origin.json";
+constexpr const char* kDamaged =
+    "the stored origin was damaged: put the robot where it was and give init_rtk_data";
+constexpr const char* kUnreadable =
+    "the stored origin cannot be read: mend the disk, or give init_rtk_data where it was";
 
 }  // namespace
 
@@ -42,8 +47,13 @@ OriginStore::OriginStore(Files& files, std::string folder)
 std::optional<GeodeticPoint> OriginStore::load(std::vector<std::string>& report) {
   const std::string path = folder_ + "/" + kFile;
   std::string content;
-  if (const int e = files_.read(path, 65536, content); e != 0) {
-    if (e != ENOENT) report.push_back(failure_text("read", path, e));
+  problem_.clear();
+  if (const int e = files_.read(path, 65536, content); e == ENOENT) {
+    if (damaged_before()) problem_ = kDamaged;
+    return std::nullopt;
+  } else if (e != 0) {
+    problem_ = kUnreadable;
+    report.push_back(failure_text("read", path, e));
     return std::nullopt;
   }
   std::string what = "has no latitude, longitude and altitude";
@@ -55,16 +65,28 @@ std::optional<GeodeticPoint> OriginStore::load(std::vector<std::string>& report)
   } else {
     what = body.error().text;
   }
+  problem_ = kDamaged;
   const auto aside = quarantine(files_, folder_, kFile);
   report.push_back(path + " " + what + "; " +
                    (aside.ok() ? "kept as " + *aside : aside.error().text));
   return std::nullopt;
 }
 
+/// One that was put aside, and nobody has given another since.
+bool OriginStore::damaged_before() {
+  std::vector<std::string> names;
+  if (files_.list(folder_, names) != 0) return false;
+  return std::any_of(names.begin(), names.end(),
+                     [](const std::string& name) { return name.starts_with(kFile + ".bad"); });
+}
+
 std::optional<Failure> OriginStore::save(const GeodeticPoint& origin) {
   json::JsonText body;
   write_origin(body, origin);
-  return write_durably(files_, folder_, kFile, seal(kOriginFormat, kOriginVersion, body.str()));
+  auto failure =
+      write_durably(files_, folder_, kFile, seal(kOriginFormat, kOriginVersion, body.str()));
+  if (!failure) problem_.clear();
+  return failure;
 }
 
 }  // namespace drover::store

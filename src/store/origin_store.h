@@ -25,12 +25,18 @@ class OriginStore final {
 
   /// Nothing when none was ever stored. A file that cannot be used is put aside and reported.
   std::optional<GeodeticPoint> load(std::vector<std::string>& report);
+  /// Why there is none though one was stored, for operators; empty when there is one, or never was.
+  /// Stored tracks belong to the lost one, so a person gives the new one.
+  const std::string& problem() const { return problem_; }
   /// Returns nothing when it is durable.
   std::optional<Failure> save(const GeodeticPoint& origin);
 
  private:
+  bool damaged_before();
+
   Files& files_;
   std::string folder_;
+  std::string problem_;
 };
 
 }  // namespace drover::store

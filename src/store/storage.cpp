@@ -26,6 +26,7 @@ StoredState Storage::load() {
   StoredState state;
   state.tracks = tracks_.load(state.report);
   state.origin = origin_.load(state.report);
+  state.origin_problem = origin_.problem();
   return state;
 }
 

@@ -43,6 +43,7 @@ struct StoredState {
   std::vector<Track> tracks;
   std::optional<GeodeticPoint> origin;
   std::vector<std::string> report;  ///< for the log, a sentence each
+  std::string origin_problem{};     ///< why the stored origin is lost; empty: it is not
 };
 
 /// Owns the state folder's content: `tracks/` and `origin.json`.

@@ -20,7 +20,8 @@ std::string quoted(std::string_view text) {
   return "'" + json::shown(text, 40) + "'";
 }
 
-/// The one rule for names. Control characters would forge lines in logs and listings.
+/// Of any name, also one that is looked up. Control characters would forge lines in logs and
+/// listings.
 Reason name_problem(const std::string& name, const ControlLimits& limits) {
   const auto is_control = [](char c) {
     return static_cast<unsigned char>(c) < 0x20 || static_cast<unsigned char>(c) == 0x7F;
@@ -53,6 +54,34 @@ Reason read_number(const Node& object, std::string_view key, double& out) {
   return std::nullopt;
 }
 
+/// A character that shows as another line or turns the text around it: C1 controls, U+2028 and
+/// U+2029, and the marks of bidirectional text (U+061C, U+200E, U+200F, U+202A to U+202E, U+2066 to
+/// U+2069). `name` is UTF-8.
+bool has_invisible_mark(std::string_view name) {
+  const auto byte = [&](std::size_t i) {
+    return i < name.size() ? static_cast<unsigned char>(name[i]) : 0U;
+  };
+  for (std::size_t i = 0; i < name.size(); ++i) {
+    const unsigned a = byte(i);
+    const unsigned b = byte(i + 1);
+    const unsigned c = byte(i + 2);
+    if (a == 0xC2 && b >= 0x80 && b <= 0x9F) return true;
+    if (a == 0xD8 && b == 0x9C) return true;
+    if (a != 0xE2) continue;
+    const bool general = b == 0x80 && (c == 0x8E || c == 0x8F || (c >= 0xA8 && c <= 0xAE));
+    const bool isolate = b == 0x81 && c >= 0xA6 && c <= 0xA9;
+    if (general || isolate) return true;
+  }
+  return false;
+}
+
+/// Of a new name. One that was stored before this rule can still be driven and deleted.
+Reason new_name_problem(const std::string& name) {
+  if (name.empty()) return "the name is empty";
+  if (has_invisible_mark(name)) return "the name contains an invisible control character";
+  return std::nullopt;
+}
+
 Reason read_name(const Node& object, const ControlLimits& limits, std::string& out) {
   if (auto reason = read_text(object, "name", out)) return reason;
   return name_problem(out, limits);
@@ -75,6 +104,7 @@ Reason read_save(const Node& root, const ControlLimits& limits, ControlCommand& 
   if (data == nullptr || data->object() == nullptr) return "'data' must be an object";
   SaveTrajectory save;
   if (auto reason = read_name(*data, limits, save.track.name)) return reason;
+  if (auto reason = new_name_problem(save.track.name)) return reason;
   const Node* points = data->find("data");
   if (points == nullptr || points->list() == nullptr) return "'data.data' must be a list of points";
   if (points->list()->size() > store::kMaxPointsPerTrack) {
@@ -152,6 +182,37 @@ const Row* find_row(std::string_view cmd) {
   return row == kRows.end() ? nullptr : row;
 }
 
+/// The first `"cmd": "..."` of the outermost object, of a text that is no JSON as a whole: only to
+/// tell whose refusal it is. Empty when there is none before the error shows.
+std::string_view told_cmd(std::string_view text) {
+  int depth = 0;
+  bool is_cmd = false;  // the last text was the key `cmd`, and nothing but a colon came since
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (c == '{' || c == '[') ++depth;
+    if (c == '}' || c == ']') --depth;
+    if (c == '/') {  // a comment may quote a command
+      const bool line = text.substr(i, 2) == "//";
+      if (!line && text.substr(i, 2) != "/*") continue;
+      const auto end = text.find(line ? "\n" : "*/", i + 2);
+      if (end == text.npos) return {};
+      i = line ? end : end + 1;
+      continue;
+    }
+    if (c != '"') {
+      is_cmd = is_cmd && (c == ':' || c == ' ' || c == '\t' || c == '\n' || c == '\r');
+      continue;
+    }
+    const auto begin = i + 1;
+    for (i = begin; i < text.size() && text[i] != '"'; ++i) i += text[i] == '\\' ? 1 : 0;
+    if (i >= text.size()) return {};
+    const auto word = text.substr(begin, i - begin);
+    if (is_cmd) return word;
+    is_cmd = depth == 1 && word == "cmd";
+  }
+  return {};
+}
+
 /// A key that makes a JavaScript client change its own objects: nobody sends it in good faith.
 bool carries_prototype(const Node& root) {
   const Node* data = root.find("data");
@@ -165,15 +226,19 @@ std::string failure_cmd(std::string_view cmd) {
   const auto plain = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
   };
-  const bool usable =
-      !cmd.empty() && cmd.size() <= 40 && std::all_of(cmd.begin(), cmd.end(), plain);
+  // A client that looks for "_success" in an answer must not find what somebody else sent.
+  const bool usable = !cmd.empty() && cmd.size() <= 40 && cmd.find("success") == cmd.npos &&
+                      std::all_of(cmd.begin(), cmd.end(), plain);
   return std::string(usable ? cmd : "unknown") + "_failse";
 }
 
 Result<ControlCommand, ControlRefusal> parse_control(std::string_view payload, Retain retain,
                                                      const ControlLimits& limits) {
   const auto parsed = json::parse(payload, {limits.max_bytes, limits.max_depth, limits.max_values});
-  if (!parsed.ok()) return ControlRefusal{failure_cmd(""), parsed.error().text()};
+  if (!parsed.ok()) {
+    const Row* told = find_row(told_cmd(payload));
+    return ControlRefusal{failure_cmd(told == nullptr ? "" : told->cmd), parsed.error().text()};
+  }
   const Node& root = parsed->root;
   if (root.object() == nullptr) {
     return ControlRefusal{failure_cmd(""),

@@ -59,7 +59,8 @@ struct ControlLimits {
 };
 
 /// Accepts exactly the document's messages, comments included; unknown members are ignored. Nothing
-/// is coerced: 1.0 and true are no point id. A message that the broker had stored is refused
+/// is coerced: 1.0 and true are no point id. A text that is no JSON is refused in the name of the
+/// command that it tells, where it tells one. A message that the broker had stored is refused
 /// whatever it says: nobody sends it now. Of those that are to be retained, only what stops is
 /// taken: who presses stop may have forgotten the flag, and a start would come again some day.
 Result<ControlCommand, ControlRefusal> parse_control(std::string_view payload, Retain retain,
@@ -73,8 +74,8 @@ bool is_stop(const Result<ControlCommand, ControlRefusal>& request);
 /// a flood.
 bool may_stop(std::string_view payload);
 
-/// The `cmd` that tells a failure of `cmd`: `<cmd>_failse` when it is a plain short word, otherwise
-/// "unknown_failse".
+/// The `cmd` that tells a failure of `cmd`: `<cmd>_failse` when it is a plain short word without
+/// "success" in it, otherwise "unknown_failse".
 std::string failure_cmd(std::string_view cmd);
 
 }  // namespace drover::publish

@@ -15,9 +15,11 @@ namespace drover::publish {
 
 inline constexpr GeodeticPoint kOrigin{23.0, 113.0, 10.0};
 
+/// Eastwards, a metre north of the origin, latitude and longitude as they must be there.
 inline store::Track straight(const std::string& name) {
   store::Track track{name, {}, kOrigin};
-  for (int i = 0; i < 5; ++i) track.points.push_back({113, 23, 0, 0.5 * i, 1, 0, 0});
+  for (int i = 0; i < 5; ++i)
+    track.points.push_back({113 + 0.5 * i / 102'510, 23 + 1.0 / 110'750, 90, 0.5 * i, 1, 0, 0});
   return track;
 }
 
@@ -46,7 +48,7 @@ class CommandServiceTest : public testing::Test {
     control(
         "{\"cmd_type\":\"trajectory_control\",\"cmd\":\"save_trajectory\",\"data\":{\"name\":\"" +
         name +
-        "\",\"data\":[{\"longitude\":113,\"latitude\":23,\"angle\":0,\"x\":1,\"y\":2,\"yaw\":3}]"
+        "\",\"data\":[{\"longitude\":113,\"latitude\":23,\"angle\":0,\"x\":0,\"y\":0,\"yaw\":1.57}]"
         "}}");
   }
   template <class Body>

@@ -49,6 +49,15 @@ TEST_F(CommandServiceTest, AnswersAStartThatComesTwiceBeforeItIsDecidedOnce) {
   EXPECT_THAT(feedback(), IsEmpty());
 }
 
+TEST_F(CommandServiceTest, AnswersEachOfTwoEqualStartsThatAreRefused) {
+  start();
+  start();
+  EXPECT_EQ(all<Command>().size(), 1U) << "nothing moves twice";
+  event(CommandRefused{only<Command>().id, "e-stop pressed"});
+  EXPECT_THAT(feedback(), ElementsAre("start_task_failse: e-stop pressed",
+                                      "start_task_failse: e-stop pressed"));
+}
+
 TEST_F(CommandServiceTest, TakesTheSameStartAgainAfterASecondOrAChange) {
   start();
   now_ += from_s(1.1);

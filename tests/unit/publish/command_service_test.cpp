@@ -117,7 +117,7 @@ TEST_F(CommandServiceTest, ARunningTaskKeepsItsPathWhateverBecomesOfItsTrack) {
   reply(only<store::StorageJob>(), true, "", {"13", "other"});
   EXPECT_THAT(service_->tracks(), IsEmpty());
   ASSERT_EQ(path->points.size(), 5U);
-  EXPECT_EQ(path->points[4].x_m, 2.0);
+  EXPECT_NEAR(path->points[4].x_m, 2.0, 0.001);
   event(PathReleased{path});
   EXPECT_EQ(service_->paths_lent(), 0U);
 }
@@ -280,7 +280,7 @@ TEST_F(CommandServiceTest, ANewOriginIsStoredBeforeItIsUsed) {
   EXPECT_EQ(service_->origin()->latitude_deg, 23.01);
   EXPECT_EQ(service_->tracks().size(), 2U) << "it deletes nothing";
   // Tracks of the old origin are derived from latitude and longitude now.
-  EXPECT_NEAR(service_->find_track("13")->points[0].y_m, -1107.5, 1);
+  EXPECT_NEAR(service_->find_track("13")->points[0].y_m, -1106.5, 1);
 }
 
 TEST_F(CommandServiceTest, AnOriginThatCannotBeProposedStoredOrUsedFails) {
@@ -332,6 +332,58 @@ TEST_F(CommandServiceTest, TheFirstFixedPositionBecomesTheOriginWhenThereIsNone)
   EXPECT_EQ(all<Command>().size(), 1U);
   make({.automatic_origin = false}, {});
   service_->on_snapshot(snapshot, now_, actions_);
+  EXPECT_TRUE(actions_.empty());
+}
+
+TEST_F(CommandServiceTest, RefusesATrackWhoseXAndYAreNotWhereItsLatitudesAre) {
+  // Recorded, the origin moved a metre north, saved again: x and y are of the old origin.
+  store::Track moved = straight("13");
+  for (auto& point : moved.points) point.y_m += 1;
+  make({}, {{moved}, kOrigin, {}});
+  start();
+  EXPECT_TRUE(all<Command>().empty());
+  EXPECT_THAT(feedback(), ElementsAre(HasSubstr("start_task_failse: point 1: x, y are 1.00 m away "
+                                                "from its latitude and longitude")));
+  EXPECT_EQ(service_->paths_lent(), 0U);
+}
+
+TEST_F(CommandServiceTest, RefusesATrackOfAnotherContinent) {
+  store::Track far = straight("13");
+  for (auto& point : far.points) point.longitude_deg = 8.5;
+  make({}, {{far}, kOrigin, {}});
+  start();
+  EXPECT_THAT(feedback(), ElementsAre(HasSubstr("start_task_failse: point 1: x, y are ")));
+}
+
+TEST_F(CommandServiceTest, ALostOriginIsToldAndNotReplacedByTheNextPlace) {
+  service_ = std::make_unique<CommandService>(
+      CommandServiceConfig{},
+      store::StoredState{{straight("13")}, {}, {}, "the origin was damaged"});
+  service_->begin(now_, actions_);
+  EXPECT_EQ(only<LogLine>().text, "the origin was damaged");
+  actions_.clear();
+  Snapshot snapshot;
+  snapshot.gnss.health = SourceState::fresh;
+  snapshot.gnss.position.quality = FixQuality::rtk_fixed;
+  service_->on_snapshot(snapshot, now_, actions_);
+  EXPECT_TRUE(actions_.empty());
+  start();
+  EXPECT_THAT(feedback(), ElementsAre("start_task_failse: the origin was damaged"));
+  EXPECT_EQ(service_->origin_problem(), "the origin was damaged");
+
+  control(example("init_rtk_data"));
+  event(OriginProposed{only<Command>().id, kOrigin});
+  reply(only<store::StorageJob>(), true);
+  event(CommandAccepted{all<Command>().back().id, {}});
+  EXPECT_THAT(feedback(), ElementsAre("init_rtk_data_success"));
+  EXPECT_EQ(service_->origin_problem(), "");
+  start();
+  EXPECT_EQ(all<Command>().size(), 1U);
+}
+
+TEST_F(CommandServiceTest, AnEmptyMessageIsNoCommand) {
+  control("", true);
+  control("");
   EXPECT_TRUE(actions_.empty());
 }
 

@@ -215,6 +215,37 @@ TEST(Storage, PutsDamagedFilesAsideAndLoadsTheirNeighbours) {
   EXPECT_FALSE(found.origin.has_value());
 }
 
+TEST(Storage, TellsOfALostOriginUntilAnotherIsGiven) {
+  FaultFiles files;
+  files.put("/state/origin.json", "{\"latitude_deg\": 23}");
+  Storage storage(files, "/state");
+  StoredState found = storage.load();
+  EXPECT_FALSE(found.origin.has_value());
+  EXPECT_THAT(found.origin_problem, HasSubstr("the stored origin was damaged"));
+  found = Storage(files, "/state").load();
+  EXPECT_THAT(found.origin_problem, HasSubstr("init_rtk_data")) << "also after the next start";
+  EXPECT_THAT(found.report, testing::IsEmpty());
+
+  ASSERT_TRUE(storage.run({{}, SaveOrigin{{23.0, 113.0, 1.0}}}).ok);
+  found = Storage(files, "/state").load();
+  EXPECT_TRUE(found.origin.has_value());
+  EXPECT_EQ(found.origin_problem, "");
+}
+
+TEST(Storage, TellsOfAnOriginThatCannotBeRead) {
+  FaultFiles files;
+  files.put("/state/origin.json", std::string(70'000, ' '));
+  const StoredState found = Storage(files, "/state").load();
+  EXPECT_FALSE(found.origin.has_value());
+  EXPECT_THAT(found.origin_problem, HasSubstr("the stored origin cannot be read"));
+  EXPECT_THAT(found.report, ElementsAre(HasSubstr("/state/origin.json")));
+}
+
+TEST(Storage, AnOriginThatNeverWasIsNoProblem) {
+  FaultFiles files;
+  EXPECT_EQ(Storage(files, "/state").load().origin_problem, "");
+}
+
 TEST(Storage, LoadsNoMoreTracksThanItMayHoldAndSaysSo) {
   FaultFiles files;
   for (std::size_t i = 0; i < kMaxTracks + 5; ++i) {

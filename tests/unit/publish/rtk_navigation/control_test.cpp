@@ -52,7 +52,7 @@ TEST(Control, RefusesASpeedThatIsNoNumber) {
     EXPECT_THAT(answer(start("1", speed)), HasSubstr("'speed' must be a number")) << speed;
   }
   for (const char* speed : {"NaN", "Infinity", "-Infinity", "1e999"}) {
-    EXPECT_THAT(answer(start("1", speed)), HasSubstr("unknown_failse")) << speed;
+    EXPECT_THAT(answer(start("1", speed)), HasSubstr("start_task_failse: line 1")) << speed;
   }
 }
 
@@ -70,9 +70,20 @@ TEST(Control, RefusesNamesThatWouldForgeALine) {
   EXPECT_THAT(answer(save("[]", "\"" + std::string(1201, 'x') + "\"")), HasSubstr("longer than"));
 }
 
+TEST(Control, RefusesNewNamesThatAreEmptyOrShowAsSomethingElse) {
+  EXPECT_EQ(answer(save("[]", "\"\"")), "save_trajectory_failse: the name is empty");
+  for (const char* name : {"\"\\u202Etxt\"", "\"a\\u0085b\"", "\"a\\u009b\"", "\"\\u200f\"",
+                           "\"\\u2066x\"", "\"\\u2069\"", "\"\\u061c\"", "\"\\u2028\""}) {
+    EXPECT_EQ(answer(save("[]", name)),
+              "save_trajectory_failse: the name contains an invisible control character")
+        << name;
+    EXPECT_EQ(answer(start("1", "0.5", name)), "accepted") << "an old track may be named so";
+  }
+}
+
 TEST(Control, TakesAnyOtherName) {
-  for (const char* name : {"\"../../etc/passwd\"", "\"园区01\"", "\"\"", "\"CON\"", "\".\"",
-                           "\"%2e%2e\"", "\"-rf\"", "\"\\u202Etxt\"", "\"__proto__\""}) {
+  for (const char* name : {"\"../../etc/passwd\"", "\"园区01\"", "\"CON\"", "\".\"", "\"%2e%2e\"",
+                           "\"-rf\"", "\"__proto__\""}) {
     EXPECT_EQ(answer(save("[]", name)), "accepted") << name;
   }
   EXPECT_EQ(answer(save("[]", "\"" + std::string(300, 'x') + "\"")), "accepted");
@@ -196,6 +207,23 @@ TEST(Control, AnswersUnknownCommandsByTheirOwnNameWhereThatIsOne) {
               HasSubstr("unknown_failse: "));
   EXPECT_EQ(failure_cmd(std::string(41, 'a')), "unknown_failse");
   EXPECT_EQ(failure_cmd(""), "unknown_failse");
+  EXPECT_EQ(failure_cmd("start_task_success"), "unknown_failse") << "no client may read a success";
+  EXPECT_EQ(failure_cmd("start_task_success_failse"), "unknown_failse");
+}
+
+TEST(Control, RefusesABrokenMessageInTheNameOfItsCommandWhereItTellsOne) {
+  const std::string head = R"({"cmd_type": "task_control", "cmd" : "start_task", )";
+  for (const std::string& payload : {head, head + R"("id": 1,})", head + R"("speed": .5})",
+                                     head + R"("id": 01})", R"(/* "cmd": "cancel_task" */)" + head,
+                                     R"({"a": {"cmd": "cancel_task"}, )" + head.substr(1),
+                                     R"({"a\": "x\"y", )" + head.substr(1), start("1") + "}"}) {
+    EXPECT_THAT(answer(payload), HasSubstr("start_task_failse: line 1")) << payload;
+  }
+  for (const char* payload :
+       {R"({"cmd": "start_task_success",})", R"({"cmd")", R"({"cmd": )", R"({"cmd": "start_ta)",
+        R"({"a": {"cmd": "start_task"},})", R"({"cmd": ["start_task",]})", R"(// "cmd": "x")"}) {
+    EXPECT_THAT(answer(payload), HasSubstr("unknown_failse: line 1")) << payload;
+  }
 }
 
 TEST(Control, TakesEveryExampleOfTheDocument) {
