@@ -12,8 +12,10 @@ namespace {
 // systemd does not start again after it (RestartPreventExitStatus=): no retry would help.
 constexpr int kBadConfiguration = 2;
 
-/// False when there are problems; each is a line on stderr.
+/// False when there are problems; each is a line on stderr, as are warnings.
 bool report(const drover::config::Loaded& loaded, const std::string& file) {
+  for (const auto& warning : loaded.warnings)
+    std::fprintf(stderr, "warning: %s\n", warning.text(file).c_str());
   for (const auto& problem : loaded.problems)
     std::fprintf(stderr, "%s\n", problem.text(file).c_str());
   return loaded.problems.empty();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <map>
 #include <variant>
 
@@ -80,6 +81,9 @@ class Checks final {
     battery();
     finish_engine();
     build_drivers();
+    ports();
+    accepted();
+    warnings();
   }
 
  private:
@@ -285,9 +289,68 @@ class Checks final {
       c.engine.output_configured[i] = c.outputs.output[i].configured;
   }
 
+  /// One program opens a serial line; two would take each other's bytes.
+  void ports() {
+    std::map<std::string, std::string> first;
+    const auto port = [&](const std::string& section, bool configured, const std::string& path) {
+      if (!configured || path.empty()) return;
+      const auto plain = std::filesystem::path(path).lexically_normal().string();
+      const auto [it, inserted] = first.emplace(plain, section + ".port");
+      if (!inserted)
+        add(section + ".port",
+            "two devices on one port (" + path + "): the other is " + it->second);
+    };
+    port("gnss", config_.gnss.configured, config_.gnss.port);
+    port("imu", config_.imu.configured, config_.imu.port);
+    port("battery", config_.battery.configured, config_.battery.port);
+  }
+
+  void known_words(const std::string& path, const std::vector<std::string>& words,
+                   const std::vector<std::string>& known) {
+    for (const auto& word : words)
+      if (std::find(known.begin(), known.end(), word) == known.end())
+        add(path, "nothing of the name \"" + word + "\" can be accepted here",
+            did_you_mean(word, known));
+  }
+  void accepted() {
+    for (std::size_t i = 0; i < config_.drives.size(); ++i)
+      known_words(item("drives", i) + ".accept", config_.drives[i].accept, {"no_watchdog"});
+    known_words("accept", config_.accept, {"no_estop", "slow_guard"});
+  }
+
+  void warn(const std::string& path, const std::string& message, const std::string& word) {
+    if (std::find(config_.accept.begin(), config_.accept.end(), word) != config_.accept.end())
+      return;
+    const auto& at = place(root_, path);
+    loaded_.warnings.push_back({at.line, at.column, path, message,
+                                "\"accept\": [\"" + word + "\"] when that is meant", ""});
+  }
+  void warnings() {
+    if (!config_.lines.line[static_cast<std::size_t>(Line::estop)].configured)
+      warn("lines", "there is no e-stop line: only the broker and the command line can stop it",
+           "no_estop");
+    constexpr int kSlowGuard_ms = 200;
+    if (config_.guard.limit_ms > kSlowGuard_ms)
+      warn("guard.limit_ms",
+           "the wheels go on for " + std::to_string(config_.guard.limit_ms) +
+               " ms when droverd dies; up to 200 ms is usual",
+           "slow_guard");
+  }
+
+  /// A drive that nothing stops when the bus is cut is refused, unless a person says that it is so.
+  void look_at_silence(std::size_t i, const CanDriver& driver) {
+    const auto& drive = config_.drives[i];
+    const auto& words = drive.accept;
+    if (driver.silence().stops ||
+        std::find(words.begin(), words.end(), "no_watchdog") != words.end())
+      return;
+    add(item("drives", i) + ".options", std::string(driver.silence().text),
+        "set its watchdog, or \"accept\": [\"no_watchdog\"] when that is meant");
+  }
+
   /// What a driver says about options that do not fit together, it says when it is made.
-  template <class... More>
-  void build(const std::string& path, const std::string& driver, const Options& options,
+  template <class Look, class... More>
+  void build(const std::string& path, const std::string& driver, const Options& options, Look look,
              More... more) {
     if (has_problem(path)) return;
     const auto* entry = find_driver(driver);
@@ -296,7 +359,7 @@ class Checks final {
       std::visit(
           [&](const auto& make) {
             if constexpr (std::is_invocable_v<decltype(make), const Options&, More...>)
-              (void)make(options, more...);
+              look(make(options, more...));
           },
           entry->make);
     } catch (const std::exception& error) {
@@ -304,16 +367,24 @@ class Checks final {
     }
   }
   void build_drivers() {
-    for (std::size_t i = 0; i < config_.drives.size(); ++i)
-      build(item("drives", i), config_.drives[i].driver, config_.drives[i].options, AxisId{0});
-    if (config_.gnss.configured) build("gnss", config_.gnss.driver, config_.gnss.options);
-    if (config_.imu.configured) build("imu", config_.imu.driver, config_.imu.options);
-    if (config_.battery.configured)
-      build("battery", config_.battery.driver, config_.battery.options, config_.battery.registers);
+    const auto nothing = [](const auto&) {};
+    for (std::size_t i = 0; i < config_.drives.size(); ++i) {
+      const auto look = [this, i](const auto& driver) {
+        if constexpr (std::is_convertible_v<decltype(*driver), const CanDriver&>)
+          look_at_silence(i, *driver);
+      };
+      build(item("drives", i), config_.drives[i].driver, config_.drives[i].options, look,
+            AxisId{0});
+    }
+    const auto& c = config_;
+    if (c.gnss.configured) build("gnss", c.gnss.driver, c.gnss.options, nothing);
+    if (c.imu.configured) build("imu", c.imu.driver, c.imu.options, nothing);
+    if (c.battery.configured)
+      build("battery", c.battery.driver, c.battery.options, nothing, c.battery.registers);
     for (std::size_t i = 0; i < kLineCount; ++i) {
       const auto& line = config_.lines.line[i];
       if (line.configured)
-        build("lines." + std::string(kLineKeys[i]), line.driver, line.options,
+        build("lines." + std::string(kLineKeys[i]), line.driver, line.options, nothing,
               static_cast<Line>(i));
     }
   }

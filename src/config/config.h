@@ -32,7 +32,8 @@ struct DriveConfig {
   std::string driver;
   std::string bus;
   Options options;
-  std::size_t bus_index = 0;  ///< resolved from `bus`
+  std::vector<std::string> accept;  ///< by name what is refused otherwise: no_watchdog
+  std::size_t bus_index = 0;        ///< resolved from `bus`
 };
 
 struct GnssConfig {
@@ -140,6 +141,7 @@ struct DroverConfig {
   MqttConfig mqtt;
   ProtocolConfig protocol;
   AimrtConfig aimrt;
+  std::vector<std::string> accept;  ///< by name what is warned of otherwise: no_estop, slow_guard
   engine::EngineConfig engine;
 };
 

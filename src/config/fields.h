@@ -51,6 +51,8 @@ void visit(V& v, DriveConfig& c) {
   v.choice("driver", c.driver, driver_names(Device::drive), "driver", Presence::required);
   v.text("bus", c.bus, "name of the bus it hangs on", Presence::required);
   v.options("options", c.options, c.driver, Device::drive);
+  v.names("accept", c.accept, Count{0, 1},
+          "no_watchdog: this drive goes on for ever when frames cease, and that is known");
 }
 
 template <class V>
@@ -189,6 +191,9 @@ void visit(V& v, DroverConfig& c, BaseNames& base) {
   v.object("mqtt", c.mqtt, "broker");
   v.object("protocol", c.protocol, "choices of the RTK navigation protocol");
   v.object("aimrt", c.aimrt, "AimRT channel");
+  v.names(
+      "accept", c.accept, Count{0, 2},
+      "no_estop: there is no e-stop line; slow_guard: guard.limit_ms is above 200; that is known");
 }
 
 }  // namespace drover::config

@@ -26,6 +26,7 @@ struct Loaded {
   // As they were read: a recording carries them.
   std::string text;
   std::string register_map;  ///< of the battery; empty: none
+  std::vector<Problem> warnings;  ///< what a person should know and may accept by name
 };
 
 /// Files that the configuration names are looked for below `folder`; the battery's register map

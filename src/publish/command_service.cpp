@@ -279,8 +279,8 @@ void CommandService::start(RequestId id, const StartTaskRequest& request, Time n
   // The path is the task's own copy: whatever happens to the track, the task drives what it was.
   auto path = store::build_path(tracks_.at(request.name), *origin_, config_.antenna);
   if (!path) return tell(id, Verb::start_task, false, path.error(), out);
+  path.value()->number = ++last_path_;
   paths_.push_back(std::move(path.value()));
-  paths_.back()->number = ++last_path_;
   expect(id, Verb::start_task, request.name);
   send(id, now, StartTask{paths_.back().get(), index, request.speed_mps}, out);
 }

@@ -152,8 +152,8 @@ std::optional<Disagreement> find_disagreement(const Track& track, const AntennaO
 }
 
 Result<std::unique_ptr<Path>, std::string> build_path(const Track& track,
-                                                            const GeodeticPoint& origin,
-                                                            const AntennaOffset& antenna) {
+                                                      const GeodeticPoint& origin,
+                                                      const AntennaOffset& antenna) {
   const auto wrong = find_disagreement(track, antenna);
   if (wrong) {
     return told_point(wrong->index) + ": x, y are " + metres(wrong->distance_m) +

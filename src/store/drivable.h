@@ -41,7 +41,7 @@ std::optional<Disagreement> find_disagreement(const Track& track, const AntennaO
 /// off by, or are coarser than 2 cm. O(points).
 /// The failure is a sentence with point (as the operator counts, from 1) and distance.
 Result<std::unique_ptr<Path>, std::string> build_path(const Track& track,
-                                                            const GeodeticPoint& origin,
-                                                            const AntennaOffset& antenna = {});
+                                                      const GeodeticPoint& origin,
+                                                      const AntennaOffset& antenna = {});
 
 }  // namespace drover::store

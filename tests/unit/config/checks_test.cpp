@@ -168,5 +168,51 @@ TEST(ConfigurationChecks, ResolveNamesToNumbers) {
   EXPECT_FALSE(engine.line_configured[static_cast<std::size_t>(Line::zone_far)]);
 }
 
+TEST(ConfigurationChecks, RefuseADriveThatNothingStopsUnlessItIsAcceptedByName) {
+  const std::string_view accepted = ", \"accept\": [\"no_watchdog\"]}\n";
+  EXPECT_EQ(
+      problems(with(accepted, "}\n")),
+      "f:5:70: drives[1].options: keeps its last velocity for ever: the drive has no watchdog "
+      "set (set its watchdog, or \"accept\": [\"no_watchdog\"] when that is meant)\n");
+  auto text = with(accepted, "}\n");
+  const std::string_view node = "\"node\": 2";
+  text.replace(text.find(node), node.size(), "\"node\": 2, \"watchdog_timeout_s\": 0.2");
+  EXPECT_EQ(problems(text), "");
+  EXPECT_THAT(
+      problems(with(accepted, ", \"accept\": [\"no_watchdgo\"]}\n")),
+      HasSubstr("drives[1].accept: nothing of the name \"no_watchdgo\" can be accepted here "
+                "(did you mean \"no_watchdog\"?)"));
+}
+
+TEST(ConfigurationChecks, RefuseTwoDevicesOnOnePort) {
+  EXPECT_THAT(problems(with("\"gnss\": {\"port\": \"/dev/drover/gnss\", \"baud\": 115200},",
+                            "\"gnss\": {\"port\": \"/dev/ttyUSB0\", \"baud\": 115200},"
+                            "\"imu\": {\"driver\": \"witmotion\", \"port\": \"/dev//ttyUSB0\"},")),
+              HasSubstr("imu.port: two devices on one port (/dev//ttyUSB0): the other is "
+                        "gnss.port"));
+}
+
+TEST(ConfigurationChecks, WarnOfNoEmergencyStopLineUnlessThatIsAccepted) {
+  EXPECT_EQ(warnings(kGood), "");
+  const auto without = with("\"estop\": {\"line\": \"a\"}, ", "");
+  EXPECT_THAT(warnings(without), HasSubstr("f:10:12: lines: there is no e-stop line"));
+  EXPECT_EQ(problems(without), "");
+  auto accepted = without;
+  accepted.insert(2, "\"accept\": [\"no_estop\"],");
+  EXPECT_EQ(warnings(accepted), "");
+}
+
+TEST(ConfigurationChecks, WarnOfAGuardThatWaitsLongUnlessThatIsAccepted) {
+  const auto slow = [](int limit_ms) {
+    return with("\"mqtt\"",
+                "\"guard\": {\"limit_ms\": " + std::to_string(limit_ms) + "}, \"mqtt\"");
+  };
+  EXPECT_EQ(warnings(slow(200)), "");
+  EXPECT_THAT(warnings(slow(250)), HasSubstr("guard.limit_ms: the wheels go on for 250 ms"));
+  auto accepted = slow(250);
+  accepted.insert(2, "\"accept\": [\"slow_guard\"],");
+  EXPECT_EQ(warnings(accepted), "");
+}
+
 }  // namespace
 }  // namespace drover::config

@@ -14,8 +14,8 @@ namespace drover::config {
 inline constexpr std::string_view kGood = R"({
   "buses": [{"name": "can0", "interface": "can0"}],
   "drives": [
-    {"joint": "left", "driver": "odrive", "bus": "can0", "options": {"node": 1}},
-    {"joint": "right", "driver": "odrive", "bus": "can0", "options": {"node": 2}}
+    {"joint": "left", "driver": "odrive", "bus": "can0", "options": {"node": 1}, "accept": ["no_watchdog"]},
+    {"joint": "right", "driver": "odrive", "bus": "can0", "options": {"node": 2}, "accept": ["no_watchdog"]}
   ],
   "base": {"wheel_radius_m": 0.165, "track_m": 0.6, "left": ["left"], "right": ["right"]},
   "limits": {"max_speed_mps": 0.8},
@@ -34,6 +34,13 @@ inline std::string with(std::string_view piece, std::string_view replacement) {
     return text;
   }
   return text.replace(at, piece.size(), replacement);
+}
+
+/// As problems(), of warnings.
+inline std::string warnings(std::string_view text) {
+  std::string all;
+  for (const auto& warning : load_text(text).warnings) all += warning.text("f") + "\n";
+  return all;
 }
 
 /// All problems, a line each, as droverd prints them for a file called "f".

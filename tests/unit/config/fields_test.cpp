@@ -61,7 +61,8 @@ class Places final {
     add(key, &value, "options");
   }
   template <class T>
-  void names(std::string_view key, T& value, Count, std::string_view text, Presence) {
+  void names(std::string_view key, T& value, Count, std::string_view text,
+             Presence = Presence::optional) {
     add(key, &value, text);
   }
   template <class T>

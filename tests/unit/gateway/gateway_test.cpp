@@ -17,7 +17,8 @@ constexpr auto kConfig = R"({
   "drives": [
     {"joint": "left", "driver": "odrive", "bus": "can0",
      "options": {"node": 1, "watchdog_timeout_s": 0.2}},
-    {"joint": "right", "driver": "odrive", "bus": "can0", "options": {"node": 2}}],
+    {"joint": "right", "driver": "odrive", "bus": "can0", "options": {"node": 2},
+     "accept": ["no_watchdog"]}],
   "base": {"wheel_radius_m": 0.165, "track_m": 0.6, "left": ["left"], "right": ["right"]},
   "gnss": {"port": "/dev/drover/gnss", "baud": 115200},
   "lines": {"chip": "chip0", "estop": {"line": "a"}, "bumper": {"line": "b"}},
@@ -148,6 +149,26 @@ TEST(Gateway, NamesTheDrivesThatNothingStopsWhenFramesCease) {
   ASSERT_EQ(notes.size(), 1U);
   EXPECT_EQ(notes[0],
             "drive right keeps its last velocity for ever: the drive has no watchdog set");
+}
+
+TEST(StreamOutput, GathersWhatADriverSaysUntilTheNextCycle) {
+  StreamOutput waiting;
+  DriverOut said;
+  for (const std::uint8_t byte : {1, 2, 3}) EXPECT_TRUE(said.bytes.push_back(byte));
+  EXPECT_EQ(waiting.add(said), 0U);
+  said.clear();
+  said.reopen_baud = 9600;
+  EXPECT_EQ(waiting.add(said), 0U);
+  EXPECT_EQ(waiting.bytes.size(), 3U);
+  EXPECT_EQ(waiting.reopen_baud, 9600U);
+}
+
+TEST(StreamOutput, CountsTheBytesThatFindNoRoom) {
+  StreamOutput waiting;
+  DriverOut said;
+  for (int i = 0; i < 300; ++i) EXPECT_TRUE(said.bytes.push_back(0x55));
+  EXPECT_EQ(waiting.add(said), 0U);
+  EXPECT_EQ(waiting.add(said), 600U - waiting.bytes.capacity());
 }
 
 }  // namespace
