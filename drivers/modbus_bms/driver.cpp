@@ -14,6 +14,20 @@ constexpr int kToldAfter = 2;
 constexpr double kClearCurrent_A = 1.0;
 constexpr int kContradictions = 3;
 
+/// Of a map without a state register: less than this is the pack's own noise.
+constexpr double kIdleCurrent_A = 0.3;
+
+BatteryFlow flow_of(double current_A) {
+  if (std::isnan(current_A)) return BatteryFlow::unknown;
+  if (std::abs(current_A) < kIdleCurrent_A) return BatteryFlow::idle;
+  return current_A > 0 ? BatteryFlow::charging : BatteryFlow::discharging;
+}
+
+bool tells_flow(const RegisterMap& map) {
+  return std::any_of(map.fields.begin(), map.fields.end(),
+                     [](const RegisterField& f) { return f.field == BatteryField::flow; });
+}
+
 std::string_view exception_text(int exception) {
   switch (exception) {
     case 1: return "illegal function";
@@ -31,7 +45,7 @@ std::string_view exception_text(int exception) {
 }  // namespace
 
 ModbusBmsDriver::ModbusBmsDriver(const Settings& settings, const RegisterMap& map)
-    : settings_(settings), map_(map), blocks_(plan_blocks(map)) {
+    : settings_(settings), map_(map), tells_flow_(tells_flow(map)), blocks_(plan_blocks(map)) {
   if (blocks_.empty()) throw std::runtime_error("the register map asks for nothing");
   std::size_t total = 0;
   for (const RegisterBlock& block : blocks_) total += block.count;
@@ -66,6 +80,7 @@ void ModbusBmsDriver::complete(Time received, DriverOut& out) {
     sample.voltage_V = kAbsent;
     ++bad_;
   }
+  if (!tells_flow_) sample.flow = flow_of(sample.current_A);
   compare_directions(sample);
   judge_charger(sample, received);
   ++good_;

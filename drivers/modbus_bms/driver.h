@@ -41,6 +41,7 @@ class ModbusBmsDriver final : public RegisterDriver {
 
   Settings settings_;
   RegisterMap map_;
+  bool tells_flow_;  ///< the map has a register for it
   std::vector<RegisterBlock> blocks_;
   std::vector<std::uint16_t> words_;
   std::vector<Run> runs_;

@@ -51,6 +51,7 @@ class OdriveDriver final : public CanDriver {
   template <class T>
   void report(const T& value, Time received, DriverOut& out) const;
   AxisStatus status(Time now) const;
+  bool only_unfed() const;
   void report_status(Time now, bool always, DriverOut& out);
 
   // driver.cpp

@@ -212,6 +212,11 @@ AxisStatus OdriveDriver::status(Time now) const {
     return status;
   }
   const bool arming = phase_ == Phase::configuring || phase_ == Phase::arming;
+  if (!fault_ && !arming && only_unfed()) {
+    status.state = AxisState::idle;
+    status.reason = "its watchdog ran out while nobody fed it: cleared at the next start";
+    return status;
+  }
   if (fault_ || (heartbeat_.failed() && !arming)) {
     status.state = AxisState::fault;
     // An old reason of disarming is no news unless something is wrong now.
@@ -246,6 +251,18 @@ AxisStatus OdriveDriver::status(Time now) const {
   return status;
 }
 
+/// A drive that let go because this gateway was not there, and says nothing else, is well.
+bool OdriveDriver::only_unfed() const {
+  constexpr std::uint32_t kWatchdog_0_6 = 0x1000000;
+  constexpr std::uint32_t kWatchdog_0_5 = 0x800;
+  const bool v0_6 = settings_.firmware == Firmware::v0_6;
+  const bool parts = heartbeat_.motor_error || heartbeat_.encoder_error ||
+                     heartbeat_.controller_error || errors_.motor != 0 || errors_.encoder != 0 ||
+                     errors_.controller != 0;
+  return heartbeat_.error == (v0_6 ? kWatchdog_0_6 : kWatchdog_0_5) && !parts &&
+         heartbeat_.state == kStateIdle;
+}
+
 void OdriveDriver::report_status(Time now, bool always, DriverOut& out) {
   const AxisStatus current = status(now);
   const bool changed = !reported_once_ || current.state != reported_.state ||
@@ -261,7 +278,7 @@ SourceHealth OdriveDriver::health(Time now) const {
   SourceHealth health;
   health.last_good = last_good_;
   health.good = good_;
-  health.bad = bad_;
+  health.bad = bad_ + bad_setpoints_;
   if (last_good_ == kNever) {
     health.reason.format("node %u was never heard", static_cast<unsigned>(settings_.node));
     return health;

@@ -41,9 +41,10 @@ enum class SourceState : std::uint8_t { never_heard, fresh, stale };
 struct SourceHealth {
   SourceState state = SourceState::never_heard;
   Time last_good = kNever;
-  std::uint64_t good = 0;  ///< frames or sentences understood
-  std::uint64_t bad = 0;   ///< malformed, wrong checksum, wrong length, absurd values
-  Reason reason;           ///< why it is not fresh, or what is odd; empty when all is well
+  std::uint64_t good = 0;       ///< frames or sentences understood
+  std::uint64_t bad = 0;        ///< malformed, wrong checksum, wrong length, absurd values
+  Reason reason;                ///< why it is not fresh, or what is odd; empty when all is well
+  std::uint64_t overflows = 0;  ///< counted by who empties its DriverOut
 };
 
 /// What the gateway wants of an axis.

@@ -38,6 +38,16 @@ struct SourceSnapshot {
   Reason reason;
   std::uint64_t samples = 0;
   std::uint64_t bad = 0;
+  std::uint64_t overflows = 0;  ///< what the driver had to say and had no room for
+};
+
+/// Measurements that did not get into the estimate, since the start.
+struct EstimatorCounters {
+  std::uint64_t absurd = 0;    ///< not finite, or nothing a robot or receiver can mean
+  std::uint64_t late = 0;      ///< older than max_measurement_delay_s
+  std::uint64_t repeated = 0;  ///< a second one of the same kind and instant
+  std::uint64_t refused = 0;   ///< by the innovation gates
+  std::uint64_t broken = 0;    ///< times the filter lost its numbers and began anew
 };
 
 struct AxisSnapshot {
@@ -58,11 +68,15 @@ struct AxisSnapshot {
 struct GnssSnapshot {
   bool configured = false;
   SourceState health = SourceState::never_heard;
-  SourceSnapshot source;         ///< samples: positions
-  GnssPosition position;         ///< last one, for display
-  Time position_time = kNever;   ///< when it was true
-  GnssVelocity velocity;         ///< last one, for display
-  double heading_deg = kAbsent;  ///< of the vehicle, clockwise from true north
+  SourceSnapshot source;        ///< samples: positions
+  GnssPosition position;        ///< last one, for display
+  Time position_time = kNever;  ///< when it was true
+  GnssVelocity velocity;        ///< last one, for display
+  /// Of the vehicle as the receiver tells it (its baseline's offset taken off), clockwise from true
+  /// north; absent when it never told one.
+  double heading_deg = kAbsent;
+  Time heading_time = kNever;         ///< when that was true
+  double pose_heading_deg = kAbsent;  ///< the fused one, of the pose's own instant; absent: unknown
   /// Antenna position of the pose's own instant, so that pose and rtk belong together.
   double pose_latitude_deg = 0;
   double pose_longitude_deg = 0;
@@ -109,7 +123,7 @@ struct NavSnapshot {
   Name track;
   std::uint32_t target_id = 0;  ///< as the operator counts, 0 when none
   double cross_track_m = 0;     ///< left of the path positive, while a task runs
-  double distance_left_m = 0;
+  double distance_left_m = 0;   ///< to the target; after an error what was left then
   double asked_speed_mps = 0;
   /// How far it could still drive by dead reckoning before the position is too uncertain; absent
   /// while the receiver gives an RTK fix.
@@ -131,8 +145,10 @@ struct LinkSnapshot {
   Reason reason;  ///< why it is not up, or what is wrong with the bus
   std::uint64_t received = 0;
   std::uint64_t sent = 0;
-  std::uint64_t dropped = 0;  ///< receive queue overflow, refused sends
-  std::uint64_t refused = 0;  ///< frames stopped by the gate
+  std::uint64_t dropped = 0;    ///< receive queue overflow, refused sends, no room to send
+  std::uint64_t refused = 0;    ///< frames stopped by the gate
+  std::uint64_t clamped = 0;    ///< CAN: kernel stamps that could not be
+  std::uint64_t malformed = 0;  ///< CAN: datagrams that are no frame
 };
 
 struct Snapshot {
@@ -161,6 +177,8 @@ struct Snapshot {
   /// Why the robot does not move, or may not: the first is the cause. Empty when all is well.
   FixedVector<Reason, 8> why;
   CycleStats cycle;
+  EstimatorCounters estimator;
+  std::uint64_t notices_dropped = 0;  ///< events that found the engine's queue full
 };
 
 }  // namespace drover

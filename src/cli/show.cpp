@@ -28,6 +28,10 @@ void show_nav(std::string& out, const Node& status) {
             quantity(at(nav, "cross_track_m"), "%.3f m beside it");
   }
   line(out, "task", task);
+  std::string owner = text(at(nav, "owner"));
+  if (at(nav, "owner_timeout_s").number())
+    owner += quantity(at(nav, "owner_timeout_s"), ", stops after %.1f s of silence");
+  line(out, "owner", owner);
   line(out, "located", text(at(nav, "locate")));
 }
 
@@ -40,6 +44,22 @@ bool never_heard(const Node& source) {
 std::string nothing_heard(const Node& source) {
   const auto reason = text(at(source, "reason"));
   return "-  never heard" + (reason.empty() ? "" : "  " + reason);
+}
+
+/// Nothing where nobody ever sent one.
+void show_joint_commands(std::string& out, const Node& status) {
+  const auto& commands = at(status, "joint_commands");
+  const auto some = [&](const char* key) {
+    const auto count = at(commands, key).number();
+    return count && *count > 0;
+  };
+  if (!some("accepted") && !some("refused") && !some("unread")) return;
+  std::string value = yes(at(commands, "active")) ? "heard" : "silent";
+  value += quantity(at(commands, "accepted"), ", %.0f followed") +
+           quantity(at(commands, "refused"), ", %.0f refused");
+  if (some("unread")) value += quantity(at(commands, "unread"), ", %.0f of a flood not read");
+  const auto reason = text(at(commands, "reason"));
+  line(out, "joints", reason.empty() ? value : value + ": " + reason);
 }
 
 void show_place(std::string& out, const Node& status) {
@@ -141,6 +161,7 @@ std::string show_status(const Node& status) {
        text(at(status, "robot")) + "  droverd " + text(at(status, "version")) +
            quantity(at(status, "uptime_s"), "  up %.0f s"));
   show_nav(out, status);
+  show_joint_commands(out, status);
   show_why(out, status);
   show_place(out, status);
   show_battery(out, status);

@@ -46,10 +46,13 @@ std::string show_gnss(const Node& status) {
   line(out, "sigma",
        labelled("east", at(gnss, "sigma_east_m"), "%.3f m") + "  " +
            labelled("north", at(gnss, "sigma_north_m"), "%.3f m"));
-  line(out, "motion",
-       labelled("speed", at(gnss, "speed_mps"), "%.3f m/s") + "  " +
-           labelled("course", at(gnss, "course_deg"), "%.1f deg") + "  " +
-           labelled("heading", at(gnss, "heading_deg"), "%.2f deg"));
+  line(
+      out, "motion",
+      labelled("speed", at(gnss, "speed_mps"), "%.3f m/s") + "  " +
+          labelled("course", at(gnss, "course_deg"), "%.1f deg") + "  " +
+          labelled("heading", at(gnss, "heading_deg"), "%.2f deg") +
+          (at(gnss, "heading_age_s").number() ? quantity(at(gnss, "heading_age_s"), " (%.1f s old)")
+                                              : ""));
   show_source(out, gnss);
   return out;
 }

@@ -25,7 +25,7 @@ struct Loaded {
   std::vector<Problem> problems;
   // As they were read: a recording carries them.
   std::string text;
-  std::string register_map;  ///< of the battery; empty: none
+  std::string register_map;       ///< of the battery; empty: none
   std::vector<Problem> warnings;  ///< what a person should know and may accept by name
 };
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "drover/angle.h"
 #include "engine/drive/skid_steer.h"
 #include "engine/engine_impl.h"
 
@@ -95,8 +96,11 @@ void Engine::Impl::take(const Measurement& m) {
     snapshot.gnss.velocity = *velocity;
     rest.witness().on_speed(*velocity, m.time);
   } else if (const auto* heading = std::get_if<GnssHeading>(&m.value)) {
-    if (std::isfinite(heading->heading_deg)) baseline_deg = heading->heading_deg;
     mechanics.on_heading(*heading, m.time);
+    if (!std::isfinite(heading->heading_deg) || m.time < snapshot.gnss.heading_time) return;
+    snapshot.gnss.heading_deg =
+        wrap_deg(heading->heading_deg - config.estimate.heading_baseline_offset_deg);
+    snapshot.gnss.heading_time = m.time;
   } else if (const auto* imu = std::get_if<ImuSample>(&m.value)) {
     if (m.time < snapshot.imu.time) return;
     snapshot.imu.sample = *imu;
@@ -281,6 +285,8 @@ void Engine::step(Time now, const Environment& environment, EngineOutput& out) {
       e.owners.step({now, dt, e.estimate, e.health.report(), e.wheel_fault, e.wheel_reason, wanted,
                      cap_mps, e.navigator.software_stop().view()},
                     e.events);
+  const bool other = motion.owner == Owner::joint_command || motion.owner == Owner::manual;
+  if (other) e.navigator.make_way();
   e.command_axes(motion, out);
   e.cut_power(now, out);
   e.motion_asked = out.motion_permitted;

@@ -65,7 +65,6 @@ struct Engine::Impl {
   Estimate estimate;                     ///< of the last step
   GnssPosition fix;                      ///< the last one
   bool imu_trusted = false;              ///< by its driver, in the last step
-  double baseline_deg = kAbsent;         ///< last measured heading of the antennas
   Time last_step = kNever;
   Snapshot snapshot;
 };

@@ -21,6 +21,7 @@ void Engine::Impl::fill_sources(const Environment& environment) {
   const auto tell = [](SourceSnapshot& source, const SourceHealth& driver) {
     source.reason = driver.reason;
     source.bad = driver.bad;
+    source.overflows = driver.overflows;
   };
   tell(snapshot.gnss.source, environment.gnss);
   tell(snapshot.imu.source, environment.imu);
@@ -50,12 +51,8 @@ void Engine::Impl::fill_snapshot(Time now, const Environment& environment, const
   }
   snapshot.imu.configured = environment.imu_configured;
   snapshot.imu.health = environment.imu.state;
-  if (located.has_heading) {
-    snapshot.gnss.heading_deg = compass_deg_from_yaw_rad(located.pose.yaw_rad);
-  } else if (std::isfinite(baseline_deg)) {
-    snapshot.gnss.heading_deg =
-        wrap_deg(baseline_deg - config.estimate.heading_baseline_offset_deg);
-  }
+  snapshot.gnss.pose_heading_deg =
+      located.has_heading ? compass_deg_from_yaw_rad(located.pose.yaw_rad) : kAbsent;
   if (located.has_position) {
     const GeodeticPoint antenna = estimator.antenna_geodetic(located.pose);
     snapshot.gnss.pose_latitude_deg = antenna.latitude_deg;
@@ -70,6 +67,8 @@ void Engine::Impl::fill_snapshot(Time now, const Environment& environment, const
       now - snapshot.battery.time > from_s(config.health.battery_stale_s)) {
     snapshot.battery.health = SourceState::stale;
   }
+  snapshot.estimator = estimator.counters();
+  snapshot.notices_dropped = events.dropped();
   snapshot.stop_latched = !latched().empty();
   snapshot.guard_alive = environment.guard_alive;
   snapshot.guard_has_bus = environment.guard_has_bus;

@@ -23,6 +23,13 @@ constexpr std::size_t index(Stream stream) {
 
 }  // namespace
 
+std::size_t StreamOutput::add(const DriverOut& out) {
+  std::size_t dropped = 0;
+  for (const auto byte : out.bytes) dropped += bytes.push_back(byte) ? 0 : 1;
+  if (out.reopen_baud != 0) reopen_baud = out.reopen_baud;
+  return dropped;
+}
+
 Gateway::Gateway(const config::DroverConfig& config)
     : engine_(config.engine),
       bus_count_(config.buses.size()),
@@ -57,17 +64,19 @@ Gateway::Gateway(const config::DroverConfig& config)
   }
 }
 
-void Gateway::absorb(const DriverOut& out) {
+void Gateway::absorb(const DriverOut& out, std::uint64_t& overflows) {
   for (const auto& measurement : out.measurements) engine_.on_measurement(measurement);
+  overflows += out.overflows;
 }
 
 /// What a drive wants to say goes through the frame gate, and nowhere around it.
-void Gateway::emit(const Drive& drive) {
-  absorb(scratch_);
+void Gateway::emit(Drive& drive) {
+  absorb(scratch_, drive.overflows);
   for (const auto& frame : scratch_.frames) {
     const auto verdict =
         frame_gate_.admit(drive.bus, frame, *drive.driver, motion_permitted_, guard_has_bus_);
-    if (verdict == engine::FrameVerdict::pass) (void)pending_[drive.bus].push_back(frame);
+    if (verdict == engine::FrameVerdict::pass && !pending_[drive.bus].push_back(frame))
+      ++buses_[drive.bus].no_room;
   }
   scratch_.clear();
 }
@@ -80,7 +89,7 @@ void Gateway::on(const FrameHeard& heard, Time received) {
   const auto& [bus, frame] = heard;
   if (frame.error) return buses_[bus].condition.on_error_frame(frame, received);
   buses_[bus].condition.on_frame(received);
-  for (const auto& drive : drives_) {
+  for (auto& drive : drives_) {
     if (drive.bus != bus) continue;
     notice_foreign(drive, frame, received);
     drive.driver->on_frame(frame, received, scratch_);
@@ -170,10 +179,13 @@ void Gateway::on(const BytesHeard& heard, Time first_byte) {
 }
 
 void Gateway::absorb_stream(std::size_t stream) {
-  absorb(scratch_);
-  auto& out = cycle_.streams[stream];
-  for (const auto byte : scratch_.bytes) (void)out.bytes.push_back(byte);
-  if (scratch_.reopen_baud != 0) out.reopen_baud = scratch_.reopen_baud;
+  absorb(scratch_, stream_overflows_[stream]);
+  bytes_dropped_[stream] += waiting_[stream].add(scratch_);
+  scratch_.clear();
+}
+
+void Gateway::absorb_lines() {
+  absorb(scratch_, line_overflows_);
   scratch_.clear();
 }
 
@@ -181,21 +193,19 @@ void Gateway::on(const LevelsRead& read, Time at) {
   const auto& levels = read.levels;
   for (std::size_t i = 0; i < lines_.size() && i < levels.size(); ++i)
     lines_[i]->on_level(levels[i], at, scratch_);
-  absorb(scratch_);
-  scratch_.clear();
+  absorb_lines();
 }
 
 void Gateway::on(const LinesLost&, Time at) {
   for (const auto& line : lines_) line->on_lost(at, scratch_);
-  absorb(scratch_);
-  scratch_.clear();
+  absorb_lines();
 }
 
 void Gateway::on(const RegistersRead& read, Time received) {
   if (!battery_ || read.block >= battery_->blocks().size()) return;
   if (read.words.size() != battery_->blocks()[read.block].count) return;
   battery_->on_registers(read.block, read.words, received, scratch_);
-  absorb(scratch_);
+  absorb(scratch_, battery_overflows_);
   scratch_.clear();
 }
 
@@ -229,21 +239,31 @@ void Gateway::on(const Suspended& slept, Time now) {
 
 void Gateway::on(const Tick& tick, Time now) {
   for (std::size_t i = 0; i < kStreamCount; ++i) {
-    cycle_.streams[i] = {};
     if (!streams_[i]) continue;
     streams_[i]->on_tick(now, scratch_);
     absorb_stream(i);
-    (i == index(Stream::gnss) ? environment_.gnss : environment_.imu) = streams_[i]->health(now);
+    auto& health = i == index(Stream::gnss) ? environment_.gnss : environment_.imu;
+    health = streams_[i]->health(now);
+    health.overflows = stream_overflows_[i];
+    // What the driver had to say since the last cycle, while bytes came in or now.
+    cycle_.streams[i] = waiting_[i];
+    waiting_[i] = {};
   }
   for (std::size_t i = 0; i < lines_.size(); ++i) {
     lines_[i]->on_tick(now, scratch_);
-    environment_.lines[static_cast<std::size_t>(line_ids_[i])] = lines_[i]->health(now);
+    auto& health = environment_.lines[static_cast<std::size_t>(line_ids_[i])];
+    health = lines_[i]->health(now);
+    health.overflows = line_overflows_;
   }
-  absorb(scratch_);
-  scratch_.clear();
-  if (battery_) environment_.battery = battery_->health(now);
-  for (std::size_t i = 0; i < drives_.size(); ++i)
+  absorb_lines();
+  if (battery_) {
+    environment_.battery = battery_->health(now);
+    environment_.battery.overflows = battery_overflows_;
+  }
+  for (std::size_t i = 0; i < drives_.size(); ++i) {
     environment_.axes[i] = drives_[i].driver->health(now);
+    environment_.axes[i].overflows = drives_[i].overflows;
+  }
   look_at_buses(now);
   foreign_.update(now, tick.guard_has_bus || (guard_required_ && !tick.guard_alive));
   environment_.foreign = foreign_.reason();

@@ -24,6 +24,9 @@ namespace drover::gateway {
 struct StreamOutput {
   FixedVector<std::uint8_t, 512> bytes;  ///< to be written
   std::uint32_t reopen_baud = 0;         ///< not 0: then open the line anew at this speed
+
+  /// Adds what it said in one call. Returns how many bytes found no room.
+  std::size_t add(const DriverOut& out);
 };
 
 struct CycleOutput {
@@ -44,6 +47,12 @@ class Gateway final {
   const Snapshot& snapshot() const { return engine_.snapshot(); }
   /// Frames of `bus` that the gate refused so far.
   std::uint64_t refused(std::size_t bus) const;
+  /// Frames of `bus` that passed the gate and found no room in their cycle, so far.
+  std::uint64_t no_room(std::size_t bus) const { return buses_[bus].no_room; }
+  /// Bytes for a stream that found no room in their cycle, so far.
+  std::uint64_t bytes_dropped(Stream stream) const {
+    return bytes_dropped_[static_cast<std::size_t>(stream)];
+  }
 
   /// What is wrong with it, as its error frames or the system tell; empty when all is well.
   Reason bus_trouble(std::size_t bus, Time now) const;
@@ -59,6 +68,7 @@ class Gateway final {
   struct Drive {
     std::size_t bus = 0;
     std::unique_ptr<CanDriver> driver;
+    std::uint64_t overflows = 0;
   };
   struct Bus {
     Name name;
@@ -66,6 +76,7 @@ class Gateway final {
     Reason lost;
     std::uint64_t sent = 0;
     std::uint64_t refused = 0;
+    std::uint64_t no_room = 0;
     Time jammed_since = kNever;
   };
   void on(const FrameHeard& heard, Time received);
@@ -86,9 +97,10 @@ class Gateway final {
   bool jammed(const Bus& bus, Time now) const;
   void look_at_buses(Time now);
   void notice_foreign(const Drive& drive, const CanFrame& frame, Time received);
-  void absorb(const DriverOut& out);
+  void absorb(const DriverOut& out, std::uint64_t& overflows);
+  void absorb_lines();
   void absorb_stream(std::size_t stream);
-  void emit(const Drive& drive);
+  void emit(Drive& drive);
 
   engine::Engine engine_;
   std::vector<Drive> drives_;
@@ -104,7 +116,12 @@ class Gateway final {
   DriverOut scratch_;
   CycleOutput cycle_;
   std::array<FixedVector<CanFrame, 128>, kMaxBuses>
-      pending_;  ///< passed the gate, not yet handed out
+      pending_;                                     ///< passed the gate, not yet handed out
+  std::array<StreamOutput, kStreamCount> waiting_;  ///< to be written with the next cycle
+  std::array<std::uint64_t, kStreamCount> stream_overflows_{};
+  std::array<std::uint64_t, kStreamCount> bytes_dropped_{};
+  std::uint64_t line_overflows_ = 0;
+  std::uint64_t battery_overflows_ = 0;
   ForeignWatch foreign_;
   Time woke_ = kNever;
   Reason slept_;  ///< told for a moment after waking

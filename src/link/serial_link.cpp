@@ -45,8 +45,9 @@ bool SerialLink::read(std::span<std::uint8_t> buffer, std::size_t& size) {
   return false;
 }
 
-bool SerialLink::write(std::span<const std::uint8_t> bytes) {
+bool SerialLink::write(std::span<const std::uint8_t> bytes, std::size_t& taken) {
   const auto n = ::write(fd_.get(), bytes.data(), bytes.size());
+  taken = n > 0 ? static_cast<std::size_t>(n) : 0;
   if (n >= 0 || errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR) return true;
   error_ = errno;
   return false;

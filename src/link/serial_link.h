@@ -23,7 +23,7 @@ class SerialLink final {
   /// at once, otherwise the device comes back under another name.
   [[nodiscard]] bool read(std::span<std::uint8_t> buffer, std::size_t& size);
   /// Writes what the line takes; the rest is dropped. False when the line hung up.
-  [[nodiscard]] bool write(std::span<const std::uint8_t> bytes);
+  [[nodiscard]] bool write(std::span<const std::uint8_t> bytes, std::size_t& taken);
 
   int fd() const { return fd_.get(); }
   int error() const { return error_; }

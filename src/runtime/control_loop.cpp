@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <stdexcept>
 
@@ -24,6 +25,8 @@ constexpr Duration kGuardCycles = 30ms;
 constexpr Duration kHandBackAfter = 500ms;
 /// The two clocks keep their distance except when somebody sets one.
 constexpr Duration kMeasureClocksEach = 100ms;
+/// Slower is an encoder's noise.
+constexpr double kRolls_mps = 0.02;
 /// Outputs are written when they change, and so often to learn whether their chip is still there.
 constexpr Duration kWriteOutputsEach = 100ms;
 
@@ -144,7 +147,9 @@ Time ControlLoop::cycle(Time begin, std::uint64_t late) {
   if (!out.engine.events.empty()) exchange_.events_ready.notify();
   // After the events: who waits for it may end the thread that tells them.
   const bool task = gateway_.snapshot().nav.status == NavStatus::run;
-  exchange_.at_rest.store(!out.engine.motion_permitted && !task, std::memory_order_release);
+  const bool rolls = std::abs(gateway_.snapshot().pose.vx_mps) > kRolls_mps;
+  exchange_.at_rest.store(!out.engine.motion_permitted && !task && !rolls,
+                          std::memory_order_release);
   return publish(begin);
 }
 
@@ -258,8 +263,13 @@ void ControlLoop::read_stream(std::size_t stream, Time now) {
 void ControlLoop::serve_stream(std::size_t stream, const StreamOutput& out, Time now) {
   if (!streams_[stream]) return;
   const auto slot = kFirstStreamSlot + stream;
-  if (!out.bytes.empty() && !streams_[stream]->write(out.bytes))
-    return lose(slot, streams_[stream]->error(), now);
+  if (!out.bytes.empty()) {
+    std::size_t taken = 0;
+    if (!streams_[stream]->write(out.bytes, taken))
+      return lose(slot, streams_[stream]->error(), now);
+    link_state_[slot].sent += taken;
+    bytes_untaken_[stream] += out.bytes.size() - taken;
+  }
   if (out.reopen_baud == 0) return;
   // Setting a line's speed may block: the keeper does it.
   stream_baud_[stream] = static_cast<int>(out.reopen_baud);
@@ -365,9 +375,15 @@ Time ControlLoop::publish(Time now) {
       const auto& c = can_[slot]->counters();
       state.received = c.received;
       state.sent = c.sent;
-      state.dropped = c.receive_overflows + c.send_refused;
+      state.dropped = c.receive_overflows + c.send_refused + gateway_.no_room(slot);
+      state.clamped = c.clamped_stamps;
+      state.malformed = c.malformed;
       state.refused = gateway_.refused(slot);
       state.reason = gateway_.bus_trouble(slot, now);
+    }
+    if (is_stream(slot)) {
+      const auto stream = slot - kFirstStreamSlot;
+      state.dropped = gateway_.bytes_dropped(static_cast<Stream>(stream)) + bytes_untaken_[stream];
     }
     (void)snapshot.links.push_back(state);
   }

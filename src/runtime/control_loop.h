@@ -26,7 +26,7 @@ struct ControlExchange {
   TripleBuffer<Snapshot> snapshot;  ///< control → publish
   Wake events_ready;
   std::atomic<std::uint64_t> beats{0};
-  std::atomic<bool> at_rest{true};  ///< no task, and no axis is commanded to move
+  std::atomic<bool> at_rest{true};  ///< no task, no axis is commanded to move, and none does
   std::atomic<std::uint64_t> lost_events{0};
   /// Main → control, of static lifetime: why the robot comes to rest; nullptr while all is well.
   std::atomic<const char*> trouble{nullptr};
@@ -83,6 +83,7 @@ class ControlLoop final {
   std::array<std::unique_ptr<link::CanLink>, kMaxBuses> can_;
   std::array<std::unique_ptr<link::SerialLink>, kStreamCount> streams_;
   std::array<int, kStreamCount> stream_baud_{};
+  std::array<std::uint64_t, kStreamCount> bytes_untaken_{};  ///< the line had no room for them
   std::unique_ptr<link::LineLink> lines_;
   std::unique_ptr<link::OutputLink> outputs_;
   std::array<bool, kOutputCount> output_levels_{};

@@ -186,8 +186,9 @@ class Daemon final {
     for (int i = 0; i < 40; ++i) {
       control_exchange_.looks.fetch_add(1, std::memory_order_relaxed);
       std::this_thread::sleep_for(50ms);  // the first one lets the control thread hear of it
-      if (control_exchange_.at_rest.load(std::memory_order_relaxed)) return;
+      if (rests()) return log(LogLevel::info, "the robot is at rest");
     }
+    log(LogLevel::error, "the robot is not at rest: the guard goes on stopping it");
   }
 
   /// A thread that does not end must not keep the daemon from it: the guard has the drives, and
@@ -199,6 +200,7 @@ class Daemon final {
     std::this_thread::sleep_for(50ms);  // for the log
     ::_exit(0);
   }
+  bool rests() const { return control_exchange_.at_rest.load(std::memory_order_relaxed); }
 
   const config::DroverConfig& config_;
   store::PosixFiles files_;
@@ -237,7 +239,7 @@ int run_daemon(const config::Loaded& loaded, const std::string& record) {
   const LogWriter log_writer;  // before any other thread: nobody waits for standard error
   const auto daemon = std::make_unique<Daemon>(loaded, record);
   daemon->run();
-  log(LogLevel::info, "droverd ends; the robot is at rest");
+  log(LogLevel::info, "droverd ends");
   return 0;
 }
 

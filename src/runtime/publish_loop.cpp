@@ -3,10 +3,12 @@
 #include <sys/epoll.h>
 #include <sys/timerfd.h>
 
+#include <algorithm>
 #include <array>
 #include <stdexcept>
 
 #include "config/json_text.h"
+#include "publish/status/seen.h"
 #include "runtime/clock.h"
 #include "runtime/log.h"
 
@@ -19,22 +21,27 @@ constexpr Duration kStatusPeriod =
 
 enum Tag : std::uint64_t { kTimer = 1, kBroker, kCli, kEvents, kReplies, kAimrt, kParsed };
 
+HeadingConvention heading_convention(const config::ProtocolConfig& protocol) {
+  if (protocol.heading == "counterclockwise_from_north")
+    return HeadingConvention::counterclockwise_from_north;
+  if (protocol.heading == "counterclockwise_from_east")
+    return HeadingConvention::counterclockwise_from_east;
+  return HeadingConvention::clockwise_from_north;
+}
+
 publish::CommandServiceConfig service_config(const config::DroverConfig& config) {
   publish::CommandServiceConfig service;
   service.zero_based_ids = config.protocol.first_target_id == 0;
   service.start_needs_time = config.protocol.start_needs_time;
   service.automatic_origin = config.protocol.automatic_origin;
-  service.antenna = {config.engine.estimate.antenna_x_m, config.engine.estimate.antenna_y_m};
+  service.antenna = {config.engine.estimate.antenna_x_m, config.engine.estimate.antenna_y_m,
+                     heading_convention(config.protocol)};
   return service;
 }
 
 publish::RtkConfig rtk_config(const config::ProtocolConfig& protocol) {
-  using publish::HeadingConvention;
   publish::RtkConfig rtk;
-  if (protocol.heading == "counterclockwise_from_north")
-    rtk.heading = HeadingConvention::counterclockwise_from_north;
-  if (protocol.heading == "counterclockwise_from_east")
-    rtk.heading = HeadingConvention::counterclockwise_from_east;
+  rtk.heading = heading_convention(protocol);
   if (protocol.power == "volts") rtk.power = publish::PowerUnit::volts;
   return rtk;
 }
@@ -162,7 +169,7 @@ void PublishLoop::run(const std::atomic<bool>& stop) {
           break;
         case kAimrt:
           clear_timer(aimrt_timer_);
-          publish_aimrt();
+          publish_aimrt(now);
           break;
         case kBroker:
           if ((events[i].events & EPOLLOUT) != 0) broker_->on_writable(now);
@@ -190,17 +197,26 @@ void PublishLoop::run(const std::atomic<bool>& stop) {
 }
 
 void PublishLoop::publish_status(Time now) {
-  const auto& snapshot = control_.snapshot.latest();
-  if (snapshot.time == kNever) return;  // the control thread has not had its first cycle
+  if (control_.snapshot.latest().time == kNever) return;  // no first cycle yet
+  const auto snapshot = seen(now);
   service_.on_snapshot(snapshot, now, actions_);
   if (broker_) {
     broker_->publish_latest(publish::kTopicBaseStatus.data(), base_status_.text(snapshot));
   }
 }
 
-void PublishLoop::publish_aimrt() {
-  const auto& snapshot = control_.snapshot.latest();
-  if (snapshot.time == kNever || !broker_->connected()) return;
+/// Longer than the guard waits before it takes the bus: then nothing of the old is true.
+Snapshot PublishLoop::seen(Time now) {
+  const Duration limit = std::max<Duration>(publish::kSnapshotLimit,
+                                            std::chrono::milliseconds(config_.guard.limit_ms));
+  auto snapshot = publish::as_seen(control_.snapshot.latest(), now, limit);
+  if (!service_.origin_problem().empty()) publish::tell_first(snapshot, service_.origin_problem());
+  return snapshot;
+}
+
+void PublishLoop::publish_aimrt(Time now) {
+  if (control_.snapshot.latest().time == kNever || !broker_->connected()) return;
+  const auto snapshot = seen(now);
   for (const auto& [topic, payload] : aimrt_->telemetry(snapshot, wall_minus_monotonic_))
     broker_->publish_latest(topic->c_str(), payload);
 }

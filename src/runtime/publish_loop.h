@@ -49,7 +49,8 @@ class PublishLoop final {
   void on_control(std::string_view payload, const publish::Arrival& arrival, Time now);
   void take_parsed(Time now);
   void publish_status(Time now);
-  void publish_aimrt();
+  void publish_aimrt(Time now);
+  Snapshot seen(Time now);
   void take_events();
   void take_replies(Time now);
   void on_cli_line(CliServer::ClientId client, std::string_view line, Time now);

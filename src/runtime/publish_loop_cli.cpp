@@ -74,12 +74,13 @@ std::string PublishLoop::cli_reply(std::string_view cmd, const std::string& name
     daemon.robot = config_.robot_name;
     daemon.broker_connected = broker_ && broker_->connected();
     daemon.broker_text = broker_ ? broker_text_ : "not configured";
-    daemon.uptime_s = to_s(monotonic_now() - started_);
+    daemon.now = monotonic_now();
+    daemon.uptime_s = to_s(daemon.now - started_);
     daemon.telemetry_dropped = broker_ ? broker_->dropped() : 0;
+    daemon.joint_commands_unread = aimrt_ ? aimrt_->unread() : 0;
     daemon.events_lost = control_.lost_events.load(std::memory_order_relaxed);
     // The status is an object of its own already.
-    return R"({"ok":true,"status":)" + publish::status_json(control_.snapshot.latest(), daemon) +
-           "}";
+    return R"({"ok":true,"status":)" + publish::status_json(seen(daemon.now), daemon) + "}";
   } else if (cmd == "traj_list") {
     out.key("tracks").open('[');
     for (const auto& [key, track] : service_.tracks()) {

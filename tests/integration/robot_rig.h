@@ -61,7 +61,8 @@ class RobotRig : public testing::Test {
   /// In the first second after the broker came back nothing is followed that begins a motion.
   void wait_until_believed();
   void control(std::string_view text, bool retained = false);
-  /// A straight track ahead of where the robot believes to be, points each half metre.
+  /// A save_trajectory: straight ahead of where the robot believes to be, points each half metre.
+  std::string track_ahead(const std::string& name, double length_m) const;
   void save_track(const std::string& name, double length_m);
   void start_task(const std::string& name, int id, double speed_mps = 0.5);
   /// As a person who is refused and tries again: the broker was connected just now, say. Returns

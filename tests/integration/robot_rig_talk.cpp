@@ -21,7 +21,7 @@ void RobotRig::wait_until_believed() {
   (void)wait_until([end = now_s() + 1.5] { return now_s() > end; });
 }
 
-void RobotRig::save_track(const std::string& name, double length_m) {
+std::string RobotRig::track_ahead(const std::string& name, double length_m) const {
   constexpr double kMetresPerDegree = 111'320;
   const double x_m = status_number("pose", "x");
   const double y_m = status_number("pose", "y");
@@ -38,8 +38,12 @@ void RobotRig::save_track(const std::string& name, double length_m) {
     text.key("x").number(x_m + s_m).key("y").number(y_m).key("yaw").number(0).close('}');
   }
   text.close(']').close('}').close('}');
+  return text.str();
+}
+
+void RobotRig::save_track(const std::string& name, double length_m) {
   const auto before = client_.heard().size();
-  control(text.str());
+  control(track_ahead(name, length_m));
   ASSERT_TRUE(wait_for_feedback("save_trajectory_success", before));
 }
 

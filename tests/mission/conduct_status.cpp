@@ -36,8 +36,8 @@ bool is(const json& value, Kind kind) {
 
 using Keys = std::vector<std::pair<const char*, Kind>>;
 
-// RTK navigation protocol, "状态反馈 base_status"; bms.valid, nav.owner and nav.why are added to
-// it, and nav.metres_left while the position is reckoned without an RTK fix.
+// RTK navigation protocol, "状态反馈 base_status"; bms.valid, robot.valid, nav.owner and nav.why
+// are added to it, and nav.metres_left while the position is reckoned without an RTK fix.
 const std::vector<std::pair<const char*, Keys>> kDocument{
     {"bms",
      {{"current", Kind::number},
@@ -60,7 +60,8 @@ const std::vector<std::pair<const char*, Keys>> kDocument{
       {"robot_status", Kind::integer},
       {"vx", Kind::number},
       {"vy", Kind::number},
-      {"vz", Kind::number}}},
+      {"vz", Kind::number},
+      {"valid", Kind::boolean}}},
     {"rtk",
      {{"angle", Kind::number},
       {"latitude", Kind::number},

@@ -33,7 +33,8 @@ json status(const std::string& nav) {
             "voltage": 0, "valid": false},
     "nav": {"locate": "LOCATE_TRUE", "obstacle": false, "status": "", "owner": "", "why": []},
     "pose": {"x": 0, "y": 0, "yaw": 0},
-    "robot": {"power": 0, "robot_status": 8, "vx": 0, "vy": 0, "vz": 0},
+    "robot": {"power": 0, "robot_status": 8, "vx": 0, "vy": 0, "vz": 0,
+              "valid": true},
     "rtk": {"angle": 90, "latitude": 23, "longitude": 113, "status": 4},
     "sensor": {"imu": false, "laser": false, "robot": true}})");
   document["nav"]["status"] = nav;

@@ -59,9 +59,34 @@ State Estimator::blank() const {
   return state;
 }
 
+/// The base does not move because somebody counts from elsewhere: its place is told anew, with all
+/// that is known of it. North is north in both frames (a kilometre turns it by less than 0.01
+/// degrees).
+State Estimator::carried_over(const State& old, const GeodeticPoint& origin) const {
+  const Pose pose{.x_m = old.belief.mean[kX], .y_m = old.belief.mean[kY], .yaw_rad = 0};
+  LocalFrame there;
+  there.set_origin(origin);
+  const PathPoint place =
+      there.local(frame_.geodetic({pose.x_m, pose.y_m}, frame_.origin().altitude_m));
+  State state = old;
+  state.belief.mean[kX] = place.x_m;
+  state.belief.mean[kY] = place.y_m;
+  // What compares places with earlier ones begins anew.
+  state.gnss.jumps = {};
+  state.heading.jumps = {};
+  state.watch.forget();
+  state.course = {};
+  return state;
+}
+
 void Estimator::set_origin(const GeodeticPoint& origin) {
   replay();
   const State& old = history_.before(history_.size());
+  if (frame_.has_origin() && old.has_position && old.has_heading && !estimate_.disagrees) {
+    history_.restart(carried_over(old, origin));
+    frame_.set_origin(origin);
+    return;
+  }
   State state = blank();
   state.time = old.time;
   state.wheels = old.wheels;

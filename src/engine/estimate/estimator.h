@@ -39,21 +39,13 @@ struct Estimate {
   double gyro_bias_sigma_radps = kAbsent;  ///< of z; absent: none learned yet
 };
 
-/// Measurements that did not get into the estimate, since the start.
-struct EstimatorCounters {
-  std::uint64_t absurd = 0;    ///< not finite, or nothing a robot or receiver can mean
-  std::uint64_t late = 0;      ///< older than max_measurement_delay_s
-  std::uint64_t repeated = 0;  ///< a second one of the same kind and instant
-  std::uint64_t refused = 0;   ///< by the innovation gates
-  std::uint64_t broken = 0;    ///< times the filter lost its numbers and began anew
-};
-
 class Estimator final {
  public:
   Estimator(const EstimateConfig& config, const BaseConfig& base);
 
-  /// Takes an origin; the state is forgotten and found again from the next measurements. Only the
-  /// yaw gain and the wheel scale, which no origin changes, are kept.
+  /// Takes an origin. A known pose is told in its frame at once. One that was not known, or that
+  /// the receiver contradicts, is forgotten and found again from the next measurements; then only
+  /// the yaw gain, the wheel scale and the gyro's errors, which no origin changes, are kept.
   void set_origin(const GeodeticPoint& origin);
   bool has_origin() const;
   const GeodeticPoint& origin() const;
@@ -86,6 +78,7 @@ class Estimator final {
   estimate::WheelInput slot_at(Time slot) const;
   void put_slot(Time slot, const estimate::WheelInput& input);
   estimate::State blank() const;
+  estimate::State carried_over(const estimate::State& old, const GeodeticPoint& origin) const;
   // What a state means, in report.cpp:
   void report(const estimate::State& state, Time now);
   void report_trouble(const estimate::State& state, Time now);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "engine/navigate/navigator_checks.h"
+#include "engine/navigate/path_search.h"
 
 namespace drover::engine {
 namespace {
@@ -51,10 +52,16 @@ void Navigator::start(const RequestId& id, const StartTask& task, Time now,
     return refuse(why);
   }
   if (const Reason why = check_robot(health, has_origin); !why.empty()) return refuse(why);
-  tracker_.begin(*task.path, task.target, speed.speed_mps, estimate.pose);
-  progress_ = tracker_.locate(estimate.pose);
-  const Reason why =
-      check_place(*task.path, task.target, estimate.pose, progress_, config_.navigate);
+  const Pose& pose = estimate.pose;
+  const auto target = static_cast<std::uint32_t>(
+      target_ahead(task.path->points, task.target, {pose.x_m, pose.y_m}, pose.yaw_rad));
+  tracker_.begin(*task.path, target, speed.speed_mps, pose);
+  progress_ = tracker_.locate(pose);
+  // The first point of a loop is reached by who stands there, whichever leg he would leave it by.
+  const bool at_first = target == 0 && is_closed(task.path->points) &&
+                        progress_.distance_to_goal_m <= config_.navigate.goal_tolerance_m;
+  progress_.arrived = progress_.arrived || at_first;
+  const Reason why = check_place(*task.path, target, pose, progress_, config_.navigate);
   if (!why.empty()) {
     tracker_.end();
     return refuse(why);
@@ -90,6 +97,12 @@ void Navigator::latch(Time now, const Reason& why, EventQueue& events) {
   software_stop_ = why;
   events.notice(now, Notice::Level::error, why);
   if (active()) fail(now, why, events);
+}
+
+void Navigator::make_way() {
+  if (active()) return;
+  failed_.clear();
+  status_ = NavStatus::free;
 }
 
 void Navigator::engage_stop(const RequestId& id, Time now, EventQueue& events) {
@@ -319,7 +332,8 @@ NavSnapshot Navigator::snapshot(const HealthReport& health) const {
   nav.track = track_;
   nav.target_id = target_ + 1;
   nav.asked_speed_mps = speed_mps_;
-  if (!active()) return nav;
+  if (status_ == NavStatus::success) return nav;
+  // After an error: what was left when it stopped.
   nav.cross_track_m = progress_.cross_track_m;
   nav.distance_left_m = progress_.distance_left_m;
   return nav;

@@ -40,6 +40,8 @@ class Navigator final {
   void cancel(const RequestId& id, Time now, EventQueue& events);
   /// What did not stop by itself: nothing moves until a person resets it at the robot.
   void latch(Time now, const Reason& why, EventQueue& events);
+  /// Another owner moves the base: how the last task ended is no news any more.
+  void make_way();
   /// A person's emergency stop.
   void engage_stop(const RequestId& id, Time now, EventQueue& events);
   /// `anything`: something is latched, here or elsewhere. True when it was accepted.

@@ -70,14 +70,19 @@ Reason check_place(const Path& path, std::uint32_t target, const Pose& pose,
   }
   if (progress.arrived && progress.distance_to_goal_m <= config.goal_tolerance_m) return reason;
   if (progress.goal_passed) {
-    reason.format("point %llu lies behind the robot (%.1f m)",
-                  static_cast<unsigned long long>(target) + 1, progress.distance_to_goal_m);
+    reason.format(
+        "point %llu lies %.1f m behind the robot: choose a point ahead, or bring the robot "
+        "back to before it",
+        static_cast<unsigned long long>(target) + 1, progress.distance_to_goal_m);
     return reason;
   }
   const double turned_deg = to_deg(std::abs(progress.heading_error_rad));
   if (!(turned_deg <= config.start_angle_deg)) {
-    reason.format("the robot is turned %.0f degrees away from the way to point %llu, allowed %.0f",
-                  turned_deg, static_cast<unsigned long long>(target) + 1, config.start_angle_deg);
+    const char* advice =
+        turned_deg > 90 ? "turn it round, or choose a point ahead of it" : "turn it into the way";
+    reason.format(
+        "the robot is turned %.0f degrees away from the way to point %llu, allowed %.0f: %s",
+        turned_deg, static_cast<unsigned long long>(target) + 1, config.start_angle_deg, advice);
   }
   return reason;
 }

@@ -13,6 +13,7 @@ constexpr double kAsNear_m = 0.1;
 constexpr double kAboutAsTurned_rad = 10 * kPi / 180;
 constexpr double kSameStretch_cos = 0.5;  // within 60 degrees: one leg, not two
 constexpr double kAtTarget_m = 0.5;
+constexpr double kClosed_m = 0.3;
 
 /// The place on a segment nearest to a point. Squares only: this runs for every segment.
 struct Foot {
@@ -105,7 +106,23 @@ PathStart find_start(std::span<const PathPoint> points, std::size_t target, Vect
   }
   if (in_leg && better(leg, best)) best = leg;
   best.start.left_m = best.left_m;
+  best.start.turned_rad = best.turned_rad;
   return best.start;
+}
+
+bool is_closed(std::span<const PathPoint> points) {
+  return points.size() >= 3 && length(vector(points.back()) - vector(points.front())) <= kClosed_m;
+}
+
+std::size_t target_ahead(std::span<const PathPoint> points, std::size_t target, Vector at,
+                         double yaw_rad) {
+  const std::size_t last = points.size() - 1;
+  if (target != 0 && target != last) return target;
+  if (!is_closed(points) || length(vector(points[target]) - at) <= kAsNear_m) return target;
+  const std::size_t other = last - target;
+  const bool behind = find_start(points, target, at, yaw_rad).turned_rad > kPi / 2;
+  const bool ahead = find_start(points, other, at, yaw_rad).turned_rad < kPi / 2;
+  return behind && ahead ? other : target;
 }
 
 }  // namespace drover::engine

@@ -13,6 +13,7 @@ struct PathStart {
   double along_m = 0;       ///< from point `segment`
   double left_m = 0;        ///< along the path to the target
   bool forwards = true;     ///< the target lies towards the end of the list
+  double turned_rad = 0;    ///< of the robot against the way there, 0..pi
 };
 
 /// The point of the path nearest to `at`. Where several legs are about equally near (0.3 m), the
@@ -22,5 +23,15 @@ struct PathStart {
 /// Needs at least two different points.
 PathStart find_start(std::span<const PathPoint> points, std::size_t target, Vector at,
                      double yaw_rad);
+
+/// First and last point are one place (0.3 m).
+bool is_closed(std::span<const PathPoint> points);
+
+/// The point to drive to so that `target` is reached ahead: itself, or on a closed loop the other
+/// end of the list, where that is the same place, the way to `target` lies behind the robot and the
+/// way to the other end ahead. From a robot that stands at the target already (0.1 m) nothing is
+/// driven around.
+std::size_t target_ahead(std::span<const PathPoint> points, std::size_t target, Vector at,
+                         double yaw_rad);
 
 }  // namespace drover::engine

@@ -154,8 +154,9 @@ const Motion& Owners::step(const OwnInput& input, EventQueue& events) {
   motion_.run = !at_once && (motion_.owner == Owner::task || manual ||
                              motion_.owner == Owner::joint_command || !at_rest());
   // A stop ramp is still the motion of the one who drove.
+  if (motion_.owner == Owner::manual || motion_.owner == Owner::task) drove_ = motion_.owner;
   if (motion_.owner == Owner::nobody && !at_rest()) {
-    motion_.owner = motion_.joints ? Owner::joint_command : Owner::task;
+    motion_.owner = motion_.joints ? Owner::joint_command : drove_;
   }
   stream_.announce(input.now, events);
   return motion_;

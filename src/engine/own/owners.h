@@ -77,6 +77,7 @@ class Owners final {
   bool stream_asked_ = false;  ///< the drives were asked to run, at least one cycle ago
   bool stream_ran_ = false;    ///< the drives were seen running since it began
   Reason busy_;                ///< why joint commands cannot be followed; empty: they can
+  Owner drove_ = Owner::task;  ///< who asked for a twist last
   Motion motion_;
 };
 

@@ -44,10 +44,21 @@ void visit_fields(V& v, const NavSnapshot& nav) {
 
 template <class V>
 void visit_fields(V& v, const SourceSnapshot& source) {
-  const auto& [reason, samples, bad] = source;
+  const auto& [reason, samples, bad, overflows] = source;
   v.value("reason", reason);
   v.value("samples", samples);
   v.value("bad", bad);
+  v.value("overflows", overflows);
+}
+
+template <class V>
+void visit_fields(V& v, const EstimatorCounters& counters) {
+  const auto& [absurd, late, repeated, refused, broken] = counters;
+  v.value("absurd", absurd);
+  v.value("late", late);
+  v.value("repeated", repeated);
+  v.value("refused", refused);
+  v.value("broken", broken);
 }
 
 template <class V>
@@ -103,7 +114,7 @@ void visit_fields(V& v, const GnssVelocity& velocity) {
 template <class V>
 void visit_fields(V& v, const GnssSnapshot& gnss) {
   const auto& [configured, health, source, position, position_time, velocity, heading_deg,
-               pose_latitude_deg, pose_longitude_deg] = gnss;
+               heading_time, pose_heading_deg, pose_latitude_deg, pose_longitude_deg] = gnss;
   v.value("configured", configured);
   v.value("health", health);
   v.inside("source", [&v, &part = source] { visit_fields(v, part); });
@@ -111,6 +122,8 @@ void visit_fields(V& v, const GnssSnapshot& gnss) {
   v.value("position_time", position_time);
   v.inside("velocity", [&v, &part = velocity] { visit_fields(v, part); });
   v.value("heading_deg", heading_deg);
+  v.value("heading_time", heading_time);
+  v.value("pose_heading_deg", pose_heading_deg);
   v.value("pose_latitude_deg", pose_latitude_deg);
   v.value("pose_longitude_deg", pose_longitude_deg);
 }
@@ -223,7 +236,8 @@ template <class V>
 void visit_fields(V& v, const Snapshot& snapshot) {
   const auto& [time, pose, worst_vx_mps, nav, gnss, imu, battery, joint_command, axes, line_active,
                line_health, line_configured, line_source, output_configured, output_on, links,
-               stop_latched, guard_alive, guard_has_bus, origin_set, origin, why, cycle] = snapshot;
+               stop_latched, guard_alive, guard_has_bus, origin_set, origin, why, cycle, estimator,
+               notices_dropped] = snapshot;
   (void)links;  // those two are the loop's
   (void)cycle;
   v.value("time", time);
@@ -252,6 +266,8 @@ void visit_fields(V& v, const Snapshot& snapshot) {
   static constexpr Reason kNone;
   for (std::size_t i = 0; i < why.capacity(); ++i)
     v.inside("why", i, [&v, &part = i < why.size() ? why[i] : kNone] { v.value("", part); });
+  v.inside("estimator", [&v, &part = estimator] { visit_fields(v, part); });
+  v.value("notices_dropped", notices_dropped);
 }
 
 /// What the engine wants of the drives and outputs; `events` are told apart.

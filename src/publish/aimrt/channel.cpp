@@ -38,7 +38,10 @@ std::vector<Telemetry> Channel::telemetry(const Snapshot& snapshot, Duration wal
   const auto add = [&packets](const std::string& topic, const std::string& message) {
     packets.push_back({&topic, encode_packet(message)});
   };
-  add(joint_state_topic_, joint_state(snapshot, {wall_minus_monotonic, ++joint_sequence_}));
+  if (const Time at = joint_time(snapshot); at > last_joints_) {
+    last_joints_ = at;
+    add(joint_state_topic_, joint_state(snapshot, {wall_minus_monotonic, ++joint_sequence_}));
+  }
   const auto& imu = snapshot.imu;
   if (imu.configured && imu.health == SourceState::fresh && imu.time > last_imu_) {
     last_imu_ = imu.time;
@@ -80,7 +83,10 @@ void Channel::on_command(std::string_view payload, const Arrival& arrival, Time 
   Reason reason;
   if (!command_bucket_.take(now)) {
     // The engine's ring is for others too: a stop must find room in it.
-    if (!flood_bucket_.take(now)) return;
+    if (!flood_bucket_.take(now)) {
+      ++unread_;
+      return;
+    }
     reason = "too many messages a second, slow down";
   }
   Command command{{RequestId::Source::aimrt, ++commands_}, now, {}};

@@ -37,14 +37,17 @@ class Channel final {
   /// MQTT topic to subscribe to.
   const std::string& command_topic() const { return joint_command_topic_; }
 
-  /// What to publish now. An inertial sample is published once: a sensor that is silent is silent
-  /// here too. Touch where such a line is configured, at each change and ten times a second.
+  /// What to publish now. Joints and an inertial sample are published once each: what is silent, or
+  /// not looked at any more, is silent here too. Touch where such a line is configured, at each
+  /// change and ten times a second.
   std::vector<Telemetry> telemetry(const Snapshot& snapshot, Duration wall_minus_monotonic);
 
   /// A message on command_topic(): a JointTargets or JointTargetsRefused for the engine, and now
   /// and then a line for the log. `retained` is the broker's flag.
   void on_command(std::string_view payload, const Arrival& arrival, Time now,
                   Duration wall_minus_monotonic, Actions& out);
+  /// Messages of a flood that nobody looked at, so far.
+  std::uint64_t unread() const { return unread_; }
 
  private:
   bool touch_is_due(const Snapshot& snapshot);
@@ -59,11 +62,13 @@ class Channel final {
   std::uint64_t joint_sequence_ = 0;
   std::uint64_t imu_sequence_ = 0;
   std::uint64_t touch_sequence_ = 0;
+  Time last_joints_ = kNever;
   Time last_imu_ = kNever;
   Time last_touch_ = kNever;
   std::array<bool, kLineCount> touched_{};
   std::uint64_t last_stamp_ns_ = 0;
   std::uint64_t commands_ = 0;
+  std::uint64_t unread_ = 0;
   TokenBucket command_bucket_;
   TokenBucket flood_bucket_;  ///< a flood is told of, and the telling is no flood
   TokenBucket log_bucket_;

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <utility>
 
+#include "drover/angle.h"
 #include "publish/aimrt/sensor.pb.h"
 
 namespace drover::publish::aimrt {
@@ -31,6 +32,40 @@ void fill(pb::geometry::Vector3& into, const Vector3& v) {
   into.set_z(v.z);
 }
 
+/// A yaw that nobody knows: half a turn either way.
+constexpr double kUnknownYaw_rad = kPi;
+
+double yaw_of(const Quaternion& q) {
+  return std::atan2(2 * (q.w * q.z + q.x * q.y), 1 - 2 * (q.y * q.y + q.z * q.z));
+}
+
+/// `q` turned about the vertical.
+Quaternion turned(const Quaternion& q, double yaw_rad) {
+  const double c = std::cos(yaw_rad / 2);
+  const double s = std::sin(yaw_rad / 2);
+  return {c * q.w - s * q.z, c * q.x - s * q.y, c * q.y + s * q.x, c * q.z + s * q.w};
+}
+
+struct Orientation {
+  Quaternion rotation;
+  double yaw_sigma_rad = kUnknownYaw_rad;
+};
+
+/// Roll and pitch are the sensor's, its yaw counts from anywhere. Where the robot's yaw is known it
+/// is that one, at the sample's instant; otherwise the sensor's, told as unknown.
+Orientation orientation_of(const Snapshot& snapshot) {
+  const auto& q = snapshot.imu.sample.orientation;
+  const Pose& pose = snapshot.pose;
+  if (!std::isfinite(pose.yaw_sigma_rad) || pose.time == kNever) return {q, kUnknownYaw_rad};
+  const double since_s = to_s(pose.time - snapshot.imu.time);
+  const double yaw_rad = pose.yaw_rad - pose.wz_radps * since_s;
+  return {turned(q, wrap_rad(yaw_rad - yaw_of(q))), pose.yaw_sigma_rad};
+}
+
+bool is_heard(const AxisSnapshot& axis) {
+  return axis.health == SourceState::fresh && axis.last_motion != kNever;
+}
+
 /// Appends a 3 x 3 matrix with the variance on its diagonal; zeros when sigma is absent.
 template <class Values>
 void fill_covariance(Values& into, double sigma) {
@@ -38,15 +73,17 @@ void fill_covariance(Values& into, double sigma) {
   for (int i = 0; i < 9; ++i) into.Add(i % 4 == 0 ? variance : 0);
 }
 
-bool is_heard(const AxisSnapshot& axis) {
-  return axis.health == SourceState::fresh && axis.last_motion != kNever;
-}
-
 }  // namespace
+
+Time joint_time(const Snapshot& snapshot) {
+  Time oldest = snapshot.time;
+  for (const auto& axis : snapshot.axes)
+    if (is_heard(axis)) oldest = std::min(oldest, axis.last_motion);
+  return oldest;
+}
 
 std::string joint_state(const Snapshot& snapshot, const Stamping& stamping) {
   pb::sensor::JointState message;
-  Time oldest = snapshot.time;
   for (const auto& axis : snapshot.axes) {
     auto& joint = *message.add_joints();
     joint.set_name(std::string(axis.joint.view()));
@@ -54,9 +91,8 @@ std::string joint_state(const Snapshot& snapshot, const Stamping& stamping) {
     joint.set_position(heard ? axis.motion.position_rad : kAbsent);
     joint.set_velocity(heard ? axis.motion.velocity_radps : kAbsent);
     joint.set_effort(heard ? axis.motion.effort_Nm : kAbsent);
-    if (heard) oldest = std::min(oldest, axis.last_motion);
   }
-  fill(*message.mutable_header(), oldest, kBaseFrame, stamping);
+  fill(*message.mutable_header(), joint_time(snapshot), kBaseFrame, stamping);
   return message.SerializeAsString();
 }
 
@@ -65,10 +101,11 @@ std::string imu_state(const Snapshot& snapshot, const Stamping& stamping) {
   pb::sensor::ImuState message;
   fill(*message.mutable_header(), imu.time, kBaseFrame, stamping);
 
+  const Orientation told = orientation_of(snapshot);
   auto& orientation = *message.mutable_orientation();
   orientation.set_w(1);
   if (imu.sample.has_orientation) {
-    const auto& q = imu.sample.orientation;
+    const Quaternion& q = told.rotation;
     orientation.set_x(q.x);
     orientation.set_y(q.y);
     orientation.set_z(q.z);
@@ -76,7 +113,11 @@ std::string imu_state(const Snapshot& snapshot, const Stamping& stamping) {
   }
   auto& orientation_covariance = *message.mutable_orientation_covariance();
   fill_covariance(orientation_covariance, imu.orientation_sigma_rad);
-  if (!imu.sample.has_orientation) orientation_covariance.Set(0, -1);
+  if (!imu.sample.has_orientation) {
+    orientation_covariance.Set(0, -1);
+  } else if (std::isfinite(imu.orientation_sigma_rad)) {
+    orientation_covariance.Set(8, told.yaw_sigma_rad * told.yaw_sigma_rad);
+  }
 
   const auto& rate = imu.sample.angular_velocity_radps;
   const auto& bias = imu.gyro_bias_radps;

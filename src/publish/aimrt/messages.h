@@ -17,12 +17,18 @@ struct Stamping {
   std::uint64_t sequence = 0;
 };
 
+/// When the joints were so: the oldest heard axis' own time, that of the snapshot when none is
+/// heard.
+Time joint_time(const Snapshot& snapshot);
+
 /// Every driven axis: rad, rad/s, N*m; NaN where the drive does not tell or is not heard. The time
-/// stamp is the oldest heard axis' own, that of the snapshot when none is heard.
+/// stamp is joint_time().
 std::string joint_state(const Snapshot& snapshot, const Stamping& stamping);
 
-/// The inertial sensor's last sample in base_link, the learned gyro bias taken off. Covariances
-/// are diagonal; as in sensor_msgs/Imu they are all 0 when unknown, and the orientation's first is
+/// The inertial sensor's last sample in base_link, the learned gyro bias taken off. Its yaw is the
+/// robot's own, fused one (counter-clockwise from east) with that one's variance; while that is not
+/// known the sensor's, which counts from anywhere, with a variance of pi squared. Covariances are
+/// diagonal; as in sensor_msgs/Imu they are all 0 when unknown, and the orientation's first is
 /// -1 when there is no orientation (which is then the identity).
 std::string imu_state(const Snapshot& snapshot, const Stamping& stamping);
 

@@ -44,15 +44,6 @@ bool active(const Snapshot& snapshot, Line line) {
 
 }  // namespace
 
-double angle_deg_from_compass(HeadingConvention convention, double compass_deg) {
-  switch (convention) {
-    case HeadingConvention::counterclockwise_from_north: return wrap_deg(-compass_deg);
-    case HeadingConvention::counterclockwise_from_east: return wrap_deg(90.0 - compass_deg);
-    case HeadingConvention::clockwise_from_north: break;
-  }
-  return wrap_deg(compass_deg);
-}
-
 int rtk_status(FixQuality quality) {
   switch (quality) {
     case FixQuality::single:
@@ -113,8 +104,9 @@ std::string BaseStatus::text(const Snapshot& snapshot) {
   const bool located = nav.locate == LocateState::good;
   keep(latitude_deg_, located ? gnss.pose_latitude_deg : gnss.position.latitude_deg);
   keep(longitude_deg_, located ? gnss.pose_longitude_deg : gnss.position.longitude_deg);
-  const double compass_deg =
-      located ? compass_deg_from_yaw_rad(snapshot.pose.yaw_rad) : gnss.heading_deg;
+  const double compass_deg = located ? compass_deg_from_yaw_rad(snapshot.pose.yaw_rad)
+                             : std::isfinite(gnss.pose_heading_deg) ? gnss.pose_heading_deg
+                                                                    : gnss.heading_deg;
   keep(angle_deg_, angle_deg_from_compass(config_.heading, compass_deg));
   const bool receiver_fresh = gnss.health == SourceState::fresh;
 
@@ -150,7 +142,8 @@ std::string BaseStatus::text(const Snapshot& snapshot) {
   out.key("robot_status").integer(robot_status(snapshot));
   out.key("vx").number(keep(vx_mps_, snapshot.worst_vx_mps));
   out.key("vy").number(0);
-  out.key("vz").number(keep(wz_radps_, snapshot.pose.wz_radps)).close('}');
+  out.key("vz").number(keep(wz_radps_, snapshot.pose.wz_radps));
+  out.key("valid").boolean(std::isfinite(snapshot.pose.vx_mps)).close('}');
 
   out.key("rtk").open('{');
   out.key("angle").number(angle_deg_);

@@ -7,16 +7,13 @@
 #include <cstdint>
 #include <string>
 
+#include "drover/heading.h"
 #include "drover/snapshot.h"
 
 namespace drover::publish {
 
-/// How the protocol's `angle` counts; makers differ.
-enum class HeadingConvention : std::uint8_t {
-  clockwise_from_north,
-  counterclockwise_from_north,
-  counterclockwise_from_east,
-};
+using drover::angle_deg_from_compass;
+using drover::HeadingConvention;
 
 /// What `robot.power` carries.
 enum class PowerUnit : std::uint8_t { percent, volts };
@@ -34,8 +31,6 @@ int bms_error(const BatterySnapshot& battery);
 /// added while a charger is connected.
 int bms_status(const BatterySnapshot& battery);
 
-/// Degrees [0, 360) in the given convention, of a compass heading (clockwise from true north).
-double angle_deg_from_compass(HeadingConvention convention, double compass_deg);
 /// The document knows 0, 1, 2, 4, 5. PPS counts as single; estimated, manual and simulated
 /// positions are no fix.
 int rtk_status(FixQuality quality);
@@ -48,8 +43,9 @@ class BaseStatus final {
  public:
   explicit BaseStatus(const RtkConfig& config) : config_(config) {}
 
-  /// One message. Added to the document: bms.valid, nav.owner, nav.why (a list of texts, the cause
-  /// first, empty when all is well).
+  /// One message, of a snapshot as it is seen now. Added to the document: bms.valid, robot.valid
+  /// (whether the speeds are of now), nav.owner, nav.why (a list of texts, the cause first, empty
+  /// when all is well).
   std::string text(const Snapshot& snapshot);
 
  private:

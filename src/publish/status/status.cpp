@@ -58,6 +58,7 @@ void source(JsonText& out, const SourceSnapshot& from) {
   out.key("reason").text(from.reason.view());
   out.key("samples").integer(static_cast<std::int64_t>(from.samples));
   out.key("bad").integer(static_cast<std::int64_t>(from.bad));
+  out.key("overflows").integer(static_cast<std::int64_t>(from.overflows));
 }
 
 void vector(JsonText& out, std::string_view key, const Vector3& v) {
@@ -89,6 +90,7 @@ void gnss(JsonText& out, const Snapshot& s) {
   number(out, "speed_mps", s.gnss.velocity.speed_mps);
   number(out, "course_deg", s.gnss.velocity.course_deg);
   number(out, "heading_deg", s.gnss.heading_deg);
+  age(out, "heading_age_s", s.time, s.gnss.heading_time);
   number(out, "satellites", s.gnss.position_time == kNever ? kAbsent : s.gnss.position.satellites);
   number(out, "hdop", s.gnss.position.hdop);
   number(out, "correction_age_s", s.gnss.position.correction_age_s);
@@ -205,6 +207,8 @@ void links(JsonText& out, const Snapshot& s) {
     out.key("sent").integer(static_cast<std::int64_t>(link.sent));
     out.key("dropped").integer(static_cast<std::int64_t>(link.dropped));
     out.key("refused").integer(static_cast<std::int64_t>(link.refused));
+    out.key("clamped").integer(static_cast<std::int64_t>(link.clamped));
+    out.key("malformed").integer(static_cast<std::int64_t>(link.malformed));
     out.close('}');
   }
   out.close(']');
@@ -223,12 +227,27 @@ void origin(JsonText& out, const Snapshot& s) {
   out.close('}');
 }
 
-void joint_commands(JsonText& out, const JointCommandSnapshot& s) {
+void count(JsonText& out, std::string_view key, std::uint64_t value) {
+  out.key(key).integer(static_cast<std::int64_t>(value));
+}
+
+void joint_commands(JsonText& out, const JointCommandSnapshot& s, const DaemonStatus& daemon) {
   out.key("joint_commands").open('{');
   out.key("active").boolean(s.active);
-  out.key("accepted").integer(static_cast<std::int64_t>(s.accepted));
-  out.key("refused").integer(static_cast<std::int64_t>(s.refused));
+  count(out, "accepted", s.accepted);
+  count(out, "refused", s.refused);
+  count(out, "unread", daemon.joint_commands_unread);
   out.key("reason").text(s.reason.view());
+  out.close('}');
+}
+
+void estimator(JsonText& out, const EstimatorCounters& counters) {
+  out.key("estimator").open('{');
+  count(out, "absurd", counters.absurd);
+  count(out, "late", counters.late);
+  count(out, "repeated", counters.repeated);
+  count(out, "refused", counters.refused);
+  count(out, "broken", counters.broken);
   out.close('}');
 }
 
@@ -247,7 +266,8 @@ void daemon_part(JsonText& out, const Snapshot& s, const DaemonStatus& daemon) {
   out.key("overruns").integer(static_cast<std::int64_t>(s.cycle.overruns));
   out.key("late_frames").integer(static_cast<std::int64_t>(s.cycle.late_frames));
   number(out, "longest_step_s", to_s(s.cycle.longest_step));
-  out.key("events_lost").integer(static_cast<std::int64_t>(daemon.events_lost));
+  count(out, "events_lost", daemon.events_lost);
+  count(out, "notices_dropped", s.notices_dropped);
   out.close('}');
 }
 
@@ -260,12 +280,13 @@ std::string status_json(const Snapshot& s, const DaemonStatus& daemon) {
   out.key("version").text(DROVER_VERSION);
   number(out, "uptime_s", daemon.uptime_s);
   number(out, "time_s", to_s(s.time));
+  number(out, "age_s", s.time == kNever ? kAbsent : to_s(daemon.now - s.time));
   out.key("stopped_until_told").boolean(s.stop_latched);
   out.key("why").open('[');
   for (const auto& reason : s.why) out.text(reason.view());
   out.close(']');
   nav(out, s);
-  joint_commands(out, s.joint_command);
+  joint_commands(out, s.joint_command, daemon);
   pose(out, s);
   origin(out, s);
   gnss(out, s);
@@ -275,6 +296,7 @@ std::string status_json(const Snapshot& s, const DaemonStatus& daemon) {
   lines(out, s);
   outputs(out, s);
   links(out, s);
+  estimator(out, s.estimator);
   daemon_part(out, s, daemon);
   out.close('}');
   return out.take();

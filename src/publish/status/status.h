@@ -13,11 +13,14 @@ struct DaemonStatus {
   bool broker_connected = false;
   std::string broker_text;  ///< why it is not connected
   double uptime_s = 0;
+  Time now = kNever;  ///< when it is shown
   std::uint64_t telemetry_dropped = 0;
   std::uint64_t events_lost = 0;
+  std::uint64_t joint_commands_unread = 0;  ///< of a flood
 };
 
-/// Angles in rad and degrees by their names' suffix; absent values are null.
+/// `snapshot` as it is seen now (as_seen). Angles in rad and degrees by their names' suffix; absent
+/// values are null.
 std::string status_json(const Snapshot& snapshot, const DaemonStatus& daemon);
 
 }  // namespace drover::publish

@@ -113,8 +113,9 @@ TEST(Recordings, OfABusAreDecodedForTheNodesThatWereNamed) {
             R"("position_rad":78.53981633974483,"velocity_radps":-20.420352248333657,)"
             R"("effort_Nm":null})"
             "\n"
-            R"({"t_s":1718000000.11,"device":"node 3","kind":"axis_status","state":"fault",)"
-            R"("error_code":"0x1000000","fault":"watchdog expired"})"
+            R"({"t_s":1718000000.11,"device":"node 3","kind":"axis_status","state":"idle",)"
+            R"("error_code":"0x1000000","fault":"its watchdog ran out while nobody fed it: )"
+            R"(cleared at the next start"})"
             "\n");
   EXPECT_NE(shown.notes.find("line 5: not of the form (SECONDS) BUS ID#DATA\n"), std::string::npos);
   EXPECT_NE(shown.notes.find("measurements 3, malformed 1, lines not understood 1\n"),

@@ -23,6 +23,9 @@ void fill_devices(Snapshot& s) {
   s.gnss.position_time = kNow - 50ms;
   s.gnss.velocity = {0.512, 91.5};
   s.gnss.heading_deg = 89.8;
+  s.gnss.heading_time = kNow - 200ms;
+  s.gnss.pose_heading_deg = 12.5;
+  s.gnss.source.overflows = 7;
   s.imu.configured = true;
   s.imu.health = SourceState::fresh;
   s.imu.time = kNow - 10ms;
@@ -74,6 +77,9 @@ Snapshot full_snapshot() {
   (void)s.links.push_back(link);
   s.line_configured[0] = s.line_active[0] = true;
   s.output_configured[0] = s.output_on[0] = true;
+  s.joint_command = {true, 120, 3, "joint 'wing': there is no such joint"};
+  s.estimator = {1, 2, 3, 4, 5};
+  s.notices_dropped = 6;
   s.nav.owner = Owner::joint_command;
   s.nav.owner_timeout_s = 0.1;
   (void)s.why.push_back("e-stop pressed");
@@ -85,6 +91,8 @@ class StatusViews : public testing::Test {
   StatusViews() {
     publish::DaemonStatus daemon;
     daemon.robot = "field";
+    daemon.now = kNow;
+    daemon.joint_commands_unread = 40;
     auto document = json::parse(publish::status_json(full_snapshot(), daemon));
     if (!document) ADD_FAILURE() << document.error().text();
     if (document) status = document->root;
@@ -106,10 +114,11 @@ class StatusViews : public testing::Test {
 };
 
 TEST_F(StatusViews, ShowTheReceiver) {
-  expect(shown("gnss"), {"rtk fixed", "satellites 28", "hdop 0.60", "corrections 1.0 s old",
-                         "latitude 23.149652472 deg", "longitude 113.019637717 deg",
-                         "altitude 29.237 m", "east 0.011 m", "north 0.012 m", "speed 0.512 m/s",
-                         "course 91.5 deg", "heading 89.80 deg", "age 0.050 s", "fresh"});
+  expect(shown("gnss"),
+         {"rtk fixed", "satellites 28", "hdop 0.60", "corrections 1.0 s old",
+          "latitude 23.149652472 deg", "longitude 113.019637717 deg", "altitude 29.237 m",
+          "east 0.011 m", "north 0.012 m", "speed 0.512 m/s", "course 91.5 deg",
+          "heading 89.80 deg (0.2 s old)", "age 0.050 s", "fresh"});
 }
 
 TEST_F(StatusViews, ShowTheInertialSensor) {
@@ -134,6 +143,11 @@ TEST_F(StatusViews, ShowLinesAndOutputs) {
 
 TEST_F(StatusViews, ShowTheWholeInShort) {
   expect(show_status(status), {"field", "e-stop pressed", "can0", "can0 is error-passive"});
+  expect(
+      show_status(status),
+      {"owner     joint_command, stops after 0.1 s of silence",
+       "joints    heard, 120 followed, 3 refused, 40 of a flood not read: joint 'wing': there is "
+       "no such joint"});
   const auto& nav = *status.find("nav");
   EXPECT_EQ(*nav.find("owner")->text(), "joint_command");
   EXPECT_DOUBLE_EQ(nav.find("owner_timeout_s")->number().value_or(0), 0.1);
@@ -162,6 +176,20 @@ TEST(StatusInShort, ShowsADashForWhatWasNeverHeardAndNoNumbers) {
       EXPECT_NE(view.show(document->root).find("satellites -"), std::string::npos)
           << view.show(document->root);
     }
+}
+
+TEST_F(StatusViews, CarryEveryCounter) {
+  const auto count = [this](const char* part, const char* key) {
+    return status.find(part)->find(key)->integer().value_or(-1);
+  };
+  EXPECT_EQ(count("estimator", "absurd"), 1);
+  EXPECT_EQ(count("estimator", "late"), 2);
+  EXPECT_EQ(count("estimator", "repeated"), 3);
+  EXPECT_EQ(count("estimator", "refused"), 4);
+  EXPECT_EQ(count("estimator", "broken"), 5);
+  EXPECT_EQ(count("cycle", "notices_dropped"), 6);
+  EXPECT_EQ(count("gnss", "overflows"), 7);
+  EXPECT_EQ(count("joint_commands", "unread"), 40);
 }
 
 }  // namespace

@@ -14,8 +14,10 @@ namespace drover::config {
 inline constexpr std::string_view kGood = R"({
   "buses": [{"name": "can0", "interface": "can0"}],
   "drives": [
-    {"joint": "left", "driver": "odrive", "bus": "can0", "options": {"node": 1}, "accept": ["no_watchdog"]},
-    {"joint": "right", "driver": "odrive", "bus": "can0", "options": {"node": 2}, "accept": ["no_watchdog"]}
+    {"joint": "left", "driver": "odrive", "bus": "can0", "options": {"node": 1},)"
+                                          R"( "accept": ["no_watchdog"]},
+    {"joint": "right", "driver": "odrive", "bus": "can0", "options": {"node": 2},)"
+                                          R"( "accept": ["no_watchdog"]}
   ],
   "base": {"wheel_radius_m": 0.165, "track_m": 0.6, "left": ["left"], "right": ["right"]},
   "limits": {"max_speed_mps": 0.8},

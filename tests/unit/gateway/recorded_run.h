@@ -16,8 +16,10 @@ inline std::string robot_configuration() {
   return R"({
     "buses": [{"name": "can0", "interface": "can0"}],
     "drives": [
-      {"joint": "left", "driver": "odrive", "bus": "can0", "options": {"node": 1}},
-      {"joint": "right", "driver": "odrive", "bus": "can0", "options": {"node": 2}}],
+      {"joint": "left", "driver": "odrive", "bus": "can0", "options": {"node": 1},
+       "accept": ["no_watchdog"]},
+      {"joint": "right", "driver": "odrive", "bus": "can0", "options": {"node": 2},
+       "accept": ["no_watchdog"]}],
     "base": {"wheel_radius_m": 0.165, "track_m": 0.6, "left": ["left"], "right": ["right"]},
     "limits": {"max_speed_mps": 0.8, "acceleration_mps2": 0.4},
     "gnss": {"port": "/dev/drover/gnss", "baud": 115200},

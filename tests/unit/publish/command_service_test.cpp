@@ -382,7 +382,7 @@ TEST_F(CommandServiceTest, ALostOriginIsToldAndNotReplacedByTheNextPlace) {
 }
 
 TEST_F(CommandServiceTest, AnEmptyMessageIsNoCommand) {
-  control("", true);
+  control("", {.retain = Retain::stored});
   control("");
   EXPECT_TRUE(actions_.empty());
 }

@@ -183,5 +183,16 @@ TEST(ModbusBlocks, NeverReachBeyondTheRegistersThatTheMapDeclares) {
   EXPECT_EQ(plan_blocks(map)[0].count, 6);
 }
 
+TEST_F(ABmsDriver, TellsTheFlowFromTheCurrentWhereTheMapHasNoStateRegister) {
+  map.fields.pop_back();
+  EXPECT_EQ(give({550, 30100, 80}).flow, BatteryFlow::charging);
+  EXPECT_EQ(give({550, 29900, 80}).flow, BatteryFlow::discharging);
+  EXPECT_EQ(give({550, 30002, 80}).flow, BatteryFlow::idle) << "0.2 A";
+  map.fields.erase(map.fields.begin() + 1);
+  map.max_hole = 4;
+  driver.reset();
+  EXPECT_EQ(give({550, 0, 80}).flow, BatteryFlow::unknown) << "no current either";
+}
+
 }  // namespace
 }  // namespace drover::modbus_bms

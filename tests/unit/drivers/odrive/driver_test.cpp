@@ -210,8 +210,9 @@ TEST(OdriveDriver, ClearsErrorsOnceForEachRequest) {
   bench.hear(failed);
   bench.run(100, AxisRequest::rest, 0, failed);
   EXPECT_EQ(bench.count(kClear), 0);
-  EXPECT_EQ(bench.status.state, AxisState::fault);
-  EXPECT_EQ(bench.status.reason, "watchdog expired");
+  EXPECT_EQ(bench.status.state, AxisState::idle) << "nobody fed it: it is well";
+  EXPECT_EQ(bench.status.reason,
+            "its watchdog ran out while nobody fed it: cleared at the next start");
   bench.run(200, AxisRequest::run, 1.0, failed);
   EXPECT_EQ(bench.count(kClear), 1);
   EXPECT_EQ(bench.status.state, AxisState::fault);
@@ -220,6 +221,23 @@ TEST(OdriveDriver, ClearsErrorsOnceForEachRequest) {
   bench.run(200, AxisRequest::run, 1.0, failed);
   EXPECT_EQ(bench.count(kClear), 2);
   EXPECT_EQ(bench.motions(), 0);
+}
+
+TEST(OdriveDriver, TakesAWatchdogThatRanOutBesideAnotherErrorForAFault) {
+  Bench bench;
+  bench.hear("061#0010000101030000");
+  bench.run(10, AxisRequest::rest, 0, "061#0010000101030000");
+  EXPECT_EQ(bench.status.state, AxisState::fault);
+  EXPECT_EQ(bench.status.reason, "current limit violated; watchdog expired");
+}
+
+TEST(OdriveDriver, TellsAnUnfedDriveOfTheOldFirmwareToo) {
+  Bench bench(options().set("firmware", std::string("0.5.6")));
+  bench.hear("061#0008000001000000");
+  bench.run(10, AxisRequest::rest, 0, "061#0008000001000000");
+  EXPECT_EQ(bench.status.state, AxisState::idle);
+  bench.run(20, AxisRequest::rest, 0, "061#0008000001010000");
+  EXPECT_EQ(bench.status.state, AxisState::fault) << "the motor reports an error, too";
 }
 
 TEST(OdriveDriver, RunsAfterAnErrorThatClears) {

@@ -119,6 +119,16 @@ TEST_F(APlaceCheck, RefusesARobotThatIsBadlyTurned) {
 TEST_F(APlaceCheck, RefusesAGoalBehindTheRobot) {
   EXPECT_FALSE(refusal(11, 0, 0).empty());
 }
+TEST_F(APlaceCheck, SaysWhatToDoAboutAGoalBehindTheRobot) {
+  EXPECT_EQ(refusal(5.5, 0, 0, 5),
+            "the robot is turned 180 degrees away from the way to point 6, allowed 30: turn it "
+            "round, or choose a point ahead of it");
+  EXPECT_EQ(
+      refusal(10.5, 0, 0),
+      "point 11 lies 0.5 m behind the robot: choose a point ahead, or bring the robot back to "
+      "before it");
+  EXPECT_THAT(refusal(5, 0, 0.55), HasSubstr("allowed 30: turn it into the way"));
+}
 TEST_F(APlaceCheck, AcceptsARobotNearTheTrackAndRoughlyAlongIt) {
   EXPECT_EQ(refusal(5, 1.9, 0), "");
   EXPECT_EQ(refusal(5, 0, 0.5), "");

@@ -295,5 +295,53 @@ TEST_F(ANavigator, SlowsDownWhenTheErrorBudgetIsNearlySpent) {
   EXPECT_NEAR(run_s(1).target.vx_mps, 0.25, 0.02);
 }
 
+/// A square of 4 m, driven counter-clockwise, that ends where it began.
+Path square() {
+  Path loop;
+  for (int i = 0; i <= 8; ++i) loop.points.push_back({0.5 * i, 0});
+  for (int i = 1; i <= 8; ++i) loop.points.push_back({4, 0.5 * i});
+  for (int i = 1; i <= 8; ++i) loop.points.push_back({4 - 0.5 * i, 4});
+  for (int i = 1; i <= 8; ++i) loop.points.push_back({0, 4 - 0.5 * i});
+  return loop;
+}
+
+TEST_F(ANavigator, ReachesTheFirstPointOfAClosedLoopByDrivingOn) {
+  const Path loop = square();
+  estimate.pose.x_m = 2;
+  start_on(&loop, 0, 0.5);
+  EXPECT_EQ(refusal_text(), "");
+  const auto nav = navigator.snapshot(health);
+  EXPECT_EQ(nav.target_id, 1U);
+  EXPECT_NEAR(nav.distance_left_m, 14, 0.5);
+}
+TEST_F(ANavigator, DrivesBackAlongAClosedLoopWhereTheRobotLooksThatWay) {
+  const Path loop = square();
+  estimate.pose.x_m = 2;
+  estimate.pose.yaw_rad = 3.1;
+  start_on(&loop, 0, 0.5);
+  EXPECT_NEAR(navigator.snapshot(health).distance_left_m, 2, 0.1);
+}
+TEST_F(ANavigator, DrivesNoLapFromThePointWhereItStands) {
+  const Path loop = square();
+  estimate.pose.x_m = 0.02;
+  start_on(&loop, 0, 0.5);
+  EXPECT_EQ(status(), NavStatus::success);
+}
+TEST_F(ANavigator, DoesNotCloseALoopThatIsOpen) {
+  Path loop = square();
+  loop.points.pop_back();
+  estimate.pose.x_m = 2;
+  start_on(&loop, 0, 0.5);
+  EXPECT_THAT(refusal_text(),
+              ::testing::HasSubstr("turned 180 degrees away from the way to point 1"));
+}
+TEST_F(ANavigator, TellsAfterAnErrorHowFarItWasFromItsTarget) {
+  start_and_run();
+  health.end_task = "charger connected";
+  step();
+  EXPECT_EQ(status(), NavStatus::error);
+  EXPECT_NEAR(navigator.snapshot(health).distance_left_m, 8, 0.1);
+}
+
 }  // namespace
 }  // namespace drover::engine

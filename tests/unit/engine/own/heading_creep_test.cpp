@@ -27,6 +27,22 @@ class AHeadingFound : public AnEngine {
   double fastest_mps = 0;
 };
 
+TEST_F(AHeadingFound, IsTheSearchsOwnDoingToItsLastCentimetre) {
+  askew.settle();
+  askew.command(FindHeading{});
+  bool moved = false;
+  for (int i = 0; i < 200 * 40; ++i) {
+    askew.tick();
+    const bool moves = askew.fastest_command_radps() > 0;
+    moved = moved || moves;
+    if (moves) {
+      ASSERT_EQ(askew.snapshot().nav.owner, Owner::manual) << i;
+    }
+  }
+  EXPECT_TRUE(moved);
+  EXPECT_EQ(askew.snapshot().nav.owner, Owner::nobody);
+}
+
 TEST_F(AHeadingFound, IsWhatAStartWaitsFor) {
   askew.settle();
   askew.start(path, 40, 0.5);

@@ -67,6 +67,20 @@ TEST_F(JointCommands, ReachTheDrivesThroughTheLimitsOfSpeedAndAcceleration) {
   const double fastest = max_wheel_mps(rig.config.base, rig.config.limits, 1.0);
   EXPECT_LE(rig.fastest_command_radps() * rig.config.base.wheel_radius_m, 1.2 * fastest);
 }
+TEST_F(JointCommands, EndWhatIsToldOfATaskThatFailed) {
+  drive();
+  rig.guard_has_bus = true;
+  rig.run_s(1);
+  rig.guard_has_bus = false;
+  rig.run_s(1);
+  ASSERT_EQ(rig.snapshot().nav.status, NavStatus::error);
+  ASSERT_TRUE(rig.snapshot().stop_latched);
+  EXPECT_GT(rig.snapshot().nav.distance_left_m, 10);
+  drive_by_joints();
+  EXPECT_EQ(rig.snapshot().nav.status, NavStatus::free);
+  EXPECT_FALSE(rig.snapshot().stop_latched);
+  EXPECT_EQ(rig.why(), "");
+}
 TEST_F(JointCommands, EndInARampWhenTheStreamFallsSilent) {
   drive_by_joints();
   rig.run_s(0.11);

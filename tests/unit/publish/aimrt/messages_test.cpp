@@ -3,6 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstring>
+
+#include "drover/angle.h"
 #include "tests/unit/publish/aimrt/wire.h"
 
 namespace drover::publish::aimrt {
@@ -76,22 +80,50 @@ Snapshot snapshot_with_imu() {
   return snapshot;
 }
 
-std::string diagonal(std::string_view variance) {
+std::string diagonal(std::string_view variance, std::string_view last) {
   const std::string zeros(3 * 8, '\0');
-  return hex("48") + hex(variance) + zeros + hex(variance) + zeros + hex(variance);
+  return hex("48") + hex(variance) + zeros + hex(variance) + zeros + hex(last);
 }
+std::string diagonal(std::string_view variance) {
+  return diagonal(variance, variance);
+}
+constexpr std::string_view kPiSquared = "de45bec93cbd2340";
 
 TEST(AimrtImuState, HasTheDocumentsFieldNumbersAndTheBiasTakenOff) {
   const std::string expected =
       kHeader +
       hex("12 24  09 000000000000e03f  11 000000000000e0bf  19 000000000000e03f"
           "  21 000000000000e0bf") +
-      hex("1a") + diagonal("0000000000001040") +                // 4
+      hex("1a") + diagonal("0000000000001040", kPiSquared) +    // 4, and a yaw from anywhere
       hex("22 12  09 000000000000f03f  19 00000000000000c0") +  // 1, 0, -2
       hex("2a") + diagonal("000000000000f03f") +                // 1
       hex("32 1b  09 000000000000f03f  11 0000000000000040  19 0000000000001040") + hex("3a") +
       diagonal("000000000000d03f");  // 0.25
   EXPECT_EQ(imu_state(snapshot_with_imu(), kStamping), expected);
+}
+
+TEST(AimrtImuState, HasTheRobotsOwnYawWhereItIsKnown) {
+  auto snapshot = snapshot_with_imu();
+  // The sensor's yaw is 105 degrees off; the robot looks north and turns left at 1 rad/s.
+  snapshot.imu.sample.orientation = {std::cos(to_rad(97.5)), 0, 0, std::sin(to_rad(97.5))};
+  snapshot.pose.time = kAt + std::chrono::milliseconds(10);
+  snapshot.pose.yaw_rad = to_rad(90) + 0.01;
+  snapshot.pose.wz_radps = 1;
+  snapshot.pose.yaw_sigma_rad = 0.5;
+  const auto message = imu_state(snapshot, kStamping);
+  const auto number = [&](std::size_t at) {
+    double value = 0;
+    std::memcpy(&value, message.data() + at, sizeof value);
+    return value;
+  };
+  // Key and length, then z and w with their keys: x and y are 0 and left out.
+  const auto begin = kHeader.size() + 2;
+  EXPECT_EQ(message.substr(kHeader.size(), 2), hex("12 12"));
+  EXPECT_NEAR(std::abs(number(begin + 1)), std::sin(to_rad(45)), 1e-12);
+  EXPECT_NEAR(number(begin + 10) / number(begin + 1), 1, 1e-12) << "90 degrees, as at the sample";
+  EXPECT_NE(message.find(hex("1a") + diagonal("0000000000001040", "000000000000d03f")),
+            std::string::npos)
+      << "roll and pitch 4, yaw 0.25";
 }
 
 TEST(AimrtImuState, SaysMinusOneWhereThereIsNoOrientation) {

@@ -91,7 +91,7 @@ TEST(BaseStatus, AddsNothingBesideWhatItDeclares) {
       if (theirs->find(field.key) == nullptr) added.push_back(group.key + "." + field.key);
     }
   }
-  EXPECT_THAT(added, testing::ElementsAre("bms.valid", "nav.owner", "nav.why"));
+  EXPECT_THAT(added, testing::ElementsAre("bms.valid", "nav.owner", "nav.why", "robot.valid"));
 }
 
 TEST(BaseStatus, SaysHowManyMetresAreLeftOnlyWithoutAFix) {

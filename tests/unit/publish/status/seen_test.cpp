@@ -1,0 +1,99 @@
+#include "publish/status/seen.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "config/located_json.h"
+#include "publish/aimrt/messages.h"
+#include "publish/rtk_navigation/base_status.h"
+#include "publish/status/status.h"
+
+namespace drover::publish {
+namespace {
+
+using namespace std::chrono_literals;
+using testing::HasSubstr;
+using testing::Not;
+
+constexpr Time kTaken{100s};
+
+Snapshot driving() {
+  Snapshot s;
+  s.time = kTaken;
+  s.nav.status = NavStatus::run;
+  s.nav.locate = LocateState::good;
+  s.nav.owner = Owner::task;
+  s.pose.x_m = 3;
+  s.pose.vx_mps = 0.5;
+  s.worst_vx_mps = 0.5;
+  s.pose.wz_radps = 0.1;
+  s.gnss.configured = true;
+  s.gnss.health = SourceState::fresh;
+  s.gnss.position.quality = FixQuality::rtk_fixed;
+  s.imu.configured = true;
+  s.imu.health = SourceState::fresh;
+  AxisSnapshot axis;
+  axis.joint = "left";
+  axis.health = SourceState::fresh;
+  axis.state = AxisState::running;
+  axis.motion.velocity_radps = 3;
+  axis.last_motion = kTaken;
+  EXPECT_TRUE(s.axes.push_back(axis));
+  s.line_configured[0] = true;
+  s.line_health[0] = SourceState::fresh;
+  EXPECT_TRUE(s.why.push_back("somebody in the far zone: slowly"));
+  return s;
+}
+
+json::Document base_status(const Snapshot& seen, BaseStatus& writer) {
+  auto parsed = json::parse(writer.text(seen));
+  EXPECT_TRUE(parsed.ok());
+  return std::move(parsed.value());
+}
+
+const json::Node& at(const json::Document& document, const char* group, const char* field) {
+  return *document.root.find(group)->find(field);
+}
+
+TEST(Seen, IsTheSnapshotItselfWhileItIsFresh) {
+  const auto seen = as_seen(driving(), kTaken + kSnapshotLimit);
+  EXPECT_EQ(seen.nav.status, NavStatus::run);
+  EXPECT_EQ(seen.pose.vx_mps, 0.5);
+  EXPECT_EQ(seen.why.size(), 1U);
+}
+
+TEST(Seen, LeavesASnapshotThatWasNeverWrittenAsItIs) {
+  EXPECT_TRUE(as_seen(Snapshot{}, kTaken).why.empty());
+}
+
+TEST(Seen, SaysFirstThatNobodyLooksAnyMore) {
+  const auto seen = as_seen(driving(), kTaken + 2300ms);
+  ASSERT_EQ(seen.why.size(), 2U);
+  EXPECT_EQ(seen.why[0].view(),
+            "the control thread has stood still for 2.3 s: nothing is known of the robot now");
+  EXPECT_EQ(seen.why[1].view(), "somebody in the far zone: slowly");
+}
+
+TEST(Seen, TellsOperatorsAnErrorAndNoSpeedOfThePresent) {
+  BaseStatus writer({});
+  auto document = base_status(driving(), writer);
+  EXPECT_EQ(*at(document, "robot", "valid").boolean(), true);
+  document = base_status(as_seen(driving(), kTaken + 251ms), writer);
+  EXPECT_EQ(*at(document, "nav", "status").text(), "NAV_ERROR");
+  EXPECT_EQ(*at(document, "nav", "locate").text(), "LOCATE_FALSE");
+  EXPECT_EQ(*at(document, "robot", "valid").boolean(), false);
+  EXPECT_EQ(at(document, "robot", "vx").number(), 0.5) << "the last that was known";
+  EXPECT_EQ(at(document, "rtk", "status").number(), 0);
+  for (const char* sensor : {"imu", "laser", "robot"})
+    EXPECT_EQ(*at(document, "sensor", sensor).boolean(), false) << sensor;
+}
+
+TEST(Seen, TellsTheCommandLineThatNothingIsFresh) {
+  const auto text = status_json(as_seen(driving(), kTaken + 6s), {});
+  EXPECT_THAT(text, Not(HasSubstr(R"("fresh")")));
+  EXPECT_THAT(text, HasSubstr(R"("vx_mps":null)"));
+  EXPECT_THAT(text, HasSubstr("stood still for 6.0 s"));
+}
+
+}  // namespace
+}  // namespace drover::publish
