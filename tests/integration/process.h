@@ -22,7 +22,6 @@ class Process final {
   bool running();
   pid_t pid() const { return pid_; }
   void signal(int number) const;
-  pid_t pid() const { return pid_; }
   /// Exit status, or 128 and the signal's number; nothing when it still runs at the deadline.
   std::optional<int> wait(std::chrono::milliseconds deadline);
   std::string output() const;
