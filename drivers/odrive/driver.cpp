@@ -133,7 +133,8 @@ void OdriveDriver::arm(Time now, DriverOut& out) {
       break;
     case ArmingStep::state:
       attempted_ = true;
-      send_setpoint(0, now, true, out);
+      // A wheel that rolls is caught at its own speed.
+      send_setpoint(holding_turnps_, now, true, out);
       out.send(encode_set_axis_state(settings_.node, kStateClosedLoop));
       arming_step_ = ArmingStep::first;
       break;
@@ -141,6 +142,8 @@ void OdriveDriver::arm(Time now, DriverOut& out) {
 }
 
 void OdriveDriver::control(const AxisCommand& command, Time now, DriverOut& out) {
+  const bool holds = command.request == AxisRequest::hold;
+  holding_turnps_ = holds ? motor_turnps(command.velocity_radps) : 0;
   if (last_heartbeat_ == kNever) return;  // never a frame to a node that was not heard
   if (attempts_to_run() && silent(now)) lock("heartbeat ceased while armed");
   if (phase_ == Phase::configuring || phase_ == Phase::arming) {
@@ -182,7 +185,7 @@ void OdriveDriver::control(const AxisCommand& command, Time now, DriverOut& out)
     case Phase::resting:
     case Phase::locked: break;
   }
-  send_setpoint(0, now, false, out);
+  send_setpoint(phase_ == Phase::locked ? 0 : holding_turnps_, now, false, out);
 }
 
 void OdriveDriver::on_command(const AxisCommand& command, Time now, DriverOut& out) {
@@ -190,12 +193,12 @@ void OdriveDriver::on_command(const AxisCommand& command, Time now, DriverOut& o
   if (command.request != request_) {
     const AxisRequest before = request_;
     request_ = command.request;
-    if (request_ == AxisRequest::run) {
+    if (armed_by(request_)) {
       start_arming(now, out);
     } else {
       phase_ = request_ == AxisRequest::idle ? Phase::idling : Phase::resting;
       phase_since_ = now;
-      if (before == AxisRequest::run) {
+      if (armed_by(before)) {
         fault_ = false;
         lock_reason_.clear();
       }
@@ -220,11 +223,21 @@ void OdriveDriver::on_link_up(Time now) {
   effort_at_ = kNever;
   last_turnps_ = 0;
   poller_.restart(now);
-  if (request_ == AxisRequest::run) lock("the link was lost while armed");
+  if (armed_by(request_)) lock("the link was lost while armed");
 }
 
 FrameEffect OdriveDriver::effect(const CanFrame& frame) const {
   return odrive::effect(frame, settings_);
+}
+
+double OdriveDriver::setpoint_radps(const CanFrame& frame) const {
+  const bool velocity =
+      belongs_to(frame, settings_.node) && command_of(frame.id) == cmd::kSetInputVel;
+  const auto pair = velocity && !frame.remote ? decode_floats(frame) : std::nullopt;
+  // With a torque on top it is not the velocity alone that moves the wheel.
+  if (!pair || pair->second != 0.0F) return kAbsent;
+  return static_cast<double>(pair->first) * 2 * std::numbers::pi * settings_.sign /
+         settings_.gear_ratio;
 }
 
 StopRecipe OdriveDriver::stop_recipe() const {

@@ -23,6 +23,7 @@ class OdriveDriver final : public CanDriver {
   SourceHealth health(Time now) const override;
   std::span<const FrameRule> allow_list() const override { return rules_; }
   FrameEffect effect(const CanFrame& frame) const override;
+  double setpoint_radps(const CanFrame& frame) const override;
   StopRecipe stop_recipe() const override;
   SilenceBehaviour silence() const override;
 
@@ -57,6 +58,9 @@ class OdriveDriver final : public CanDriver {
   // driver.cpp
   bool silent(Time now) const;
   bool attempts_to_run() const;
+  bool armed_by(AxisRequest request) const {
+    return request == AxisRequest::run || request == AxisRequest::hold;
+  }
   void start_arming(Time now, DriverOut& out);
   void follow_heartbeat(Time now);
   void lock(std::string_view why);
@@ -89,7 +93,8 @@ class OdriveDriver final : public CanDriver {
   // What is wanted of it.
   Phase phase_ = Phase::resting;
   AxisRequest request_ = AxisRequest::rest;
-  bool commanded_ = false;  ///< since the last tick
+  double holding_turnps_ = 0;  ///< what a hold asks of the motor while it is being armed
+  bool commanded_ = false;     ///< since the last tick
   Time phase_since_ = kNever;
   Time last_attempt_ = kNever;
   bool attempted_ = false;

@@ -14,6 +14,7 @@ struct Bit {
 
 constexpr Bit kAxis_0_5[] = {
     {0x1, "state not allowed now (not calibrated?)"},
+    {0x2, "bus under voltage"},
     {0x40, "motor failed"},
     {0x80, "sensorless estimator failed"},
     {0x100, "encoder failed"},
@@ -127,6 +128,14 @@ class Text {
 };
 
 }  // namespace
+
+bool only_lapsed(const ErrorReport& report, Firmware firmware) {
+  constexpr std::uint32_t kLapses_0_6 = 0x1000000 | 0x200;
+  constexpr std::uint32_t kLapses_0_5 = 0x800 | 0x2;  // 2: bus under voltage
+  const std::uint32_t lapses = firmware == Firmware::v0_6 ? kLapses_0_6 : kLapses_0_5;
+  const bool more = report.motor != 0 || report.encoder != 0 || report.controller != 0;
+  return report.axis != 0 && (report.axis & ~lapses) == 0 && !more;
+}
 
 Reason error_text(const ErrorReport& report, Firmware firmware) {
   Text text;

@@ -21,6 +21,9 @@ struct ErrorReport {
 /// "motor over temperature; watchdog expired", empty when nothing is set. Bits without a name are
 /// given as a number. Source: ODrive firmware 0.5.6 and 0.6 error enumerations.
 Reason error_text(const ErrorReport& report, Firmware firmware);
+/// Whether the drive is sound and only went without set points or supply: its watchdog ran out, or
+/// the bus voltage fell. False when no error is set.
+bool only_lapsed(const ErrorReport& report, Firmware firmware);
 /// Why a requested state was not reached, firmware 0.6; empty for success and busy.
 std::string_view procedure_text(std::uint8_t procedure_result);
 

@@ -219,6 +219,7 @@ AxisStatus OdriveDriver::status(Time now) const {
   }
   if (fault_ || (heartbeat_.failed() && !arming)) {
     status.state = AxisState::fault;
+    status.lapsed = only_lapsed(errors_, settings_.firmware);
     // An old reason of disarming is no news unless something is wrong now.
     if (status.error_code == 0) status.error_code = errors_.disarm_reason;
     if (status.error_code == 0) status.error_code = errors_.motor;
@@ -267,7 +268,7 @@ void OdriveDriver::report_status(Time now, bool always, DriverOut& out) {
   const AxisStatus current = status(now);
   const bool changed = !reported_once_ || current.state != reported_.state ||
                        current.error_code != reported_.error_code ||
-                       !(current.reason == reported_.reason);
+                       current.lapsed != reported_.lapsed || !(current.reason == reported_.reason);
   if (!changed && !always) return;
   reported_once_ = true;
   reported_ = current;

@@ -53,6 +53,13 @@ struct JointTargets {
 struct JointTargetsRefused {
   Reason reason;
 };
+/// Lets the drives go, so that a person can push the robot. Until ArmHold, also over restarts.
+/// Refused while it moves, and on a slope, where it would roll, unless the person says so.
+struct ReleaseHold {
+  bool on_slope = false;
+};
+/// Takes the drives into closed loop and holds the robot where it is; ends a release.
+struct ArmHold {};
 /// Drive straight ahead for a short way, so that a receiver with one antenna shows the heading.
 struct FindHeading {};
 
@@ -60,7 +67,7 @@ struct Command {
   RequestId id;
   Time received = kNever;
   std::variant<std::monostate, StartTask, CancelTask, EngageStop, ResetStop, ProposeOrigin,
-               SetOrigin, JointTargets, JointTargetsRefused, FindHeading>
+               SetOrigin, JointTargets, JointTargetsRefused, FindHeading, ReleaseHold, ArmHold>
       body;
 };
 

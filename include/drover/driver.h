@@ -51,6 +51,10 @@ struct SourceHealth {
 enum class AxisRequest : std::uint8_t {
   rest,  ///< at rest and fed: zero set point; an idle drive is left idle, a running one holds
   run,   ///< arm if needed (zero first), then follow `velocity_radps`
+  /// Closed loop again without any motion of its own: armed like `run`, but at the speed that it
+  /// has now. `velocity_radps` is no more than that, and only falls. A drive that would have to
+  /// turn to find itself stays as it is.
+  hold,
   idle,  ///< zero, then power stage off; only for a person's explicit wish: it may coast
 };
 
@@ -107,6 +111,9 @@ class CanDriver {
   virtual std::span<const FrameRule> allow_list() const = 0;
   /// Only for frames on the allow-list.
   virtual FrameEffect effect(const CanFrame& frame) const = 0;
+  /// The velocity that this frame asks of the joint, rad/s; absent when it asks for none. For the
+  /// gate, which lets a ramp down to zero pass where it lets no other motion pass.
+  virtual double setpoint_radps(const CanFrame&) const { return kAbsent; }
   virtual StopRecipe stop_recipe() const = 0;
   virtual SilenceBehaviour silence() const = 0;
 };

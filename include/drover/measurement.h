@@ -37,6 +37,8 @@ struct AxisStatus {
   AxisState state = AxisState::unknown;
   std::uint64_t error_code = 0;  ///< as the drive sent it
   Reason reason;                 ///< decoded text, empty when there is no error
+  /// A fault that says only that nobody fed the drive, or that its supply dipped: it is sound.
+  bool lapsed = false;
 };
 
 struct AxisTemperature {

@@ -20,6 +20,15 @@ enum class NavStatus : std::uint8_t { free, run, success, error };
 /// Who owns the drives, highest rank first.
 enum class Owner : std::uint8_t { estop, manual, task, joint_command, nobody };
 
+/// Whether the drives keep the robot where it is.
+enum class HoldState : std::uint8_t {
+  idle,      ///< the power stages are off, as after a boot: nothing but mechanics holds it
+  held,      ///< closed loop at zero speed, or driving
+  catching,  ///< it was held, the drives let go, and are being taken back
+  released,  ///< a person let it go
+  lost,      ///< it was held, and could not be held again: a person has to arm it
+};
+
 /// Planar pose and twist in the `map` frame (ENU about the origin), twist in `base_link`.
 struct Pose {
   Time time = kNever;
@@ -55,6 +64,7 @@ struct AxisSnapshot {
   AxisMotion motion;
   AxisState state = AxisState::unknown;
   Reason fault;
+  bool lapsed = false;  ///< that fault is only a want of set points or of supply
   double commanded_velocity_radps = 0;
   double inverter_degC = kAbsent;
   double motor_degC = kAbsent;
@@ -170,6 +180,7 @@ struct Snapshot {
   std::array<bool, kOutputCount> output_on{};
   FixedVector<LinkSnapshot, 10> links;
   bool stop_latched = false;  ///< nothing moves until a person acts
+  HoldState hold = HoldState::idle;
   bool guard_alive = false;
   bool guard_has_bus = false;
   bool origin_set = false;

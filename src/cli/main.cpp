@@ -78,6 +78,17 @@ std::string request(std::string_view cmd) {
   return JsonText().open('{').key("cmd").text(cmd).close('}').take();
 }
 
+std::string release_request(bool on_slope) {
+  return JsonText()
+      .open('{')
+      .key("cmd")
+      .text("release")
+      .key("on_slope")
+      .boolean(on_slope)
+      .close('}')
+      .take();
+}
+
 std::string named_request(std::string_view cmd, const std::string& name) {
   return JsonText().open('{').key("cmd").text(cmd).key("name").text(name).close('}').take();
 }
@@ -183,6 +194,18 @@ int main(int argc, char** argv) {
   auto* reset = app.add_subcommand("reset", "clear a latched software stop; never starts motion");
   reset->add_flag("--json", s.json, "one JSON object");
   reset->callback([&] { code = drover::cli::reset({s.socket, s.stop_socket, s.json}); });
+  bool on_slope = false;
+  auto* release = app.add_subcommand(
+      "release", "let the drives go, so that the robot can be pushed; until `drover hold`");
+  release->add_flag("--on-slope", on_slope, "though it may roll: you hold it");
+  release->add_flag("--json", s.json, "one JSON object");
+  release->footer("Examples:\n  drover release\n  drover release --on-slope");
+  release->callback([&] { code = run(s, release_request(on_slope)); });
+  auto* hold =
+      app.add_subcommand("hold", "take the drives into closed loop: it stands where it is");
+  hold->add_flag("--json", s.json, "one JSON object");
+  hold->footer("Examples:\n  drover hold");
+  hold->callback([&] { code = run(s, request("hold")); });
   app.add_subcommand("version", "versions of drover and droverd")->callback([&] {
     print_version(s);
   });

@@ -145,6 +145,7 @@ void show_devices(std::string& out, const Node& status) {
     }
   }
   const auto& guard = at(status, "guard");
+  if (!text(at(status, "hold")).empty()) line(out, "drives", text(at(status, "hold")));
   line(out, "guard",
        !yes(at(guard, "alive"))    ? "does not answer"
        : yes(at(guard, "has_bus")) ? "holds the drives"

@@ -61,6 +61,11 @@ std::string check_modbus_port(const std::string& port) {
   return good ? "" : "must be tcp:ADDRESS:PORT with an IPv4 address, like tcp:192.168.1.50:502";
 }
 
+engine::HoldBy hold_by(std::string_view word) {
+  if (word == "brake") return engine::HoldBy::brake;
+  return word == "worm_gear" ? engine::HoldBy::worm_gear : engine::HoldBy::level_ground_only;
+}
+
 class Checks final {
  public:
   Checks(const json::Node& root, const std::string& folder, Loaded& loaded)
@@ -74,6 +79,7 @@ class Checks final {
     side("base.right", base.right, config_.engine.base.right);
     both_sides(base);
     wheels_only(base);
+    config_.engine.base.hold = hold_by(base.hold);
     unique_lines();
     limits();
     broker();

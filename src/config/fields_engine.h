@@ -198,6 +198,7 @@ void visit(V& v, engine::HealthConfig& c) {
 /// afterwards.
 struct BaseNames {
   engine::BaseConfig* base = nullptr;
+  std::string hold;
   std::vector<std::string> left;
   std::vector<std::string> right;
 };
@@ -212,6 +213,12 @@ void visit(V& v, BaseNames& c) {
            Presence::required);
   v.number("yaw_slip_factor", c.base->yaw_slip_factor, Range{0.5, 4},
            "how much wider than track_m the base behaves when it turns; refined while driving");
+  v.choice("hold", c.hold, {"brake", "worm_gear", "level_ground_only"},
+           "what keeps the base on a slope when its drives have no power", Presence::required);
+  v.flag("hold_again", c.base->hold_again,
+         "take the drives back after a restart or a dip of their supply; false on blocks");
+  v.number("max_tilt_deg", c.base->max_tilt_deg, Range{1, 45},
+           "level_ground_only: steeper ground refuses a start and ends a task");
   v.names("left", c.left, kSideCount, "joints of the left side", Presence::required);
   v.names("right", c.right, kSideCount, "joints of the right side", Presence::required);
 }

@@ -9,6 +9,13 @@
 
 namespace drover::engine {
 
+/// What keeps the base on a slope when its drives have no power.
+enum class HoldBy : std::uint8_t {
+  brake,              ///< holding brakes that engage without power
+  worm_gear,          ///< gears that cannot be turned from the wheel
+  level_ground_only,  ///< nothing: it rolls
+};
+
 /// Skid-steer base. Axes are indices into the configuration's `drives`.
 struct BaseConfig {
   double wheel_radius_m = 0.165;
@@ -16,6 +23,12 @@ struct BaseConfig {
   /// How much wider than `track_m` the base behaves when it turns, because wheels skid.
   /// The estimate refines it while driving.
   double yaw_slip_factor = 1.0;
+  HoldBy hold = HoldBy::level_ground_only;
+  /// What the drives were holding is held again after a restart or a dip of their supply.
+  bool hold_again = true;
+  /// With level_ground_only steeper ground refuses a start and ends a task. Wheels on firm ground
+  /// roll by themselves from about this on: a twentieth of the weight is what rolling takes.
+  double max_tilt_deg = 3.0;
   FixedVector<AxisId, 8> left;
   FixedVector<AxisId, 8> right;
 };

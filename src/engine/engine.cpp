@@ -30,7 +30,8 @@ Engine::Impl::Impl(const EngineConfig& c)
       tilt(c.health),
       mechanics(c),
       navigator(c),
-      owners(c) {
+      owners(c),
+      hold(c) {
   level.fill(true);
   for (const Name& joint : config.joints) {
     AxisSnapshot axis;
@@ -75,6 +76,7 @@ void Engine::Impl::take(const Measurement& m) {
     if (axis == nullptr) return;
     axis->state = status->state;
     axis->fault = status->reason;
+    axis->lapsed = status->lapsed;
   } else if (const auto* temperature = std::get_if<AxisTemperature>(&m.value)) {
     AxisSnapshot* axis = axis_of(temperature->axis);
     if (axis == nullptr) return;
@@ -174,7 +176,9 @@ void Engine::Impl::command_axes(const Motion& motion, EngineOutput& out) {
 }
 
 void Engine::Impl::start_task(const RequestId& id, const StartTask& task, Time now) {
-  if (const Reason why = owners.hinders_task(); !why.empty()) {
+  Reason why = hold.hindrance();
+  if (why.empty()) why = owners.hinders_task();
+  if (!why.empty()) {
     events.push(now, CommandRefused{id, why});
     if (task.path != nullptr) events.push(now, PathReleased{task.path});
     return;
@@ -188,16 +192,17 @@ void Engine::Impl::reset_stop(const RequestId& id, Time now) {
       id.source == RequestId::Source::mqtt || id.source == RequestId::Source::aimrt;
   if (wheel_fault == WheelFault::runaway) {
     events.push(now, CommandRefused{id, wheel_reason});
-  } else if (cut_since != kNever && far_away) {
+  } else if (power.is_cut() && far_away) {
     events.push(now, CommandRefused{id, "the power was cut: reset it at the robot"});
-  } else if (cut_since != kNever && rest.moves(now)) {
+  } else if (power.is_cut() && rest.moves(now)) {
     events.push(now, CommandRefused{id, "the robot still moves"});
-  } else if (navigator.reset_stop(id, now, owners.at_rest(), !latched().empty(), health.report(),
-                                  events)) {
+  } else if (navigator.reset_stop(id, now, owners.at_rest(), !latched().empty() || power.is_cut(),
+                                  health.report(), events)) {
     owners.reset();
     rest.reset();
     cut_since = kNever;
     relay_open = false;
+    power.reset();
   }
 }
 
@@ -240,6 +245,10 @@ void Engine::on_command(const Command& command, Time now) {
     e.owners.refuse(*refused);
   } else if (std::holds_alternative<FindHeading>(command.body)) {
     e.owners.find_heading(id, e.estimate, e.health.report(), now, e.events);
+  } else if (const auto* release = std::get_if<ReleaseHold>(&command.body)) {
+    e.release_hold(id, *release, now);
+  } else if (std::holds_alternative<ArmHold>(command.body)) {
+    e.arm_hold(id, now);
   } else {
     e.events.push(now, CommandRefused{id, "an empty command"});
   }
@@ -250,6 +259,7 @@ void Engine::step(Time now, const Environment& environment, EngineOutput& out) {
   out.axes = {};
   out.events.clear();
   out.motion_permitted = false;
+  out.slowing_permitted = {};
   const Duration nominal = from_s(1.0 / e.config.tick_Hz);
   const Duration dt =
       e.last_step == kNever ? nominal : std::clamp(now - e.last_step, Duration{0}, kLongestCycle);
@@ -271,9 +281,10 @@ void Engine::step(Time now, const Environment& environment, EngineOutput& out) {
   e.estimate = e.estimator.step(now);
   const std::span<const AxisSnapshot> axes{e.snapshot.axes.data(), e.snapshot.axes.size()};
   const Reason moved = e.judge_motion(now, dt, lines);
+  e.watch_tilt(now);
   e.health.update({now, environment, axes, lines, e.estimate, e.estimator.has_origin(),
                    e.navigator.active(), e.latched(), &e.snapshot.battery, e.tilt.reason(), moved,
-                   e.relay_open});
+                   e.relay_open, &e.steep});
   e.watch_wheels(now, dt);
   const double cap_mps = e.mechanics.speed_cap_mps();
   NavOutput wanted =
@@ -283,22 +294,28 @@ void Engine::step(Time now, const Environment& environment, EngineOutput& out) {
   wanted.target = e.mechanics.guide(wanted.target);
   const Motion& motion =
       e.owners.step({now, dt, e.estimate, e.health.report(), e.wheel_fault, e.wheel_reason, wanted,
-                     cap_mps, e.navigator.software_stop().view()},
+                     cap_mps, e.navigator.software_stop().view(), e.hold.hindrance()},
                     e.events);
   const bool other = motion.owner == Owner::joint_command || motion.owner == Owner::manual;
   if (other) e.navigator.make_way();
+  e.driven = motion.run;
+  e.power.step(now, e.health.report().estop, axes);
+  e.hold.step({now, dt, e.health.report(), axes, motion.run,
+               e.wheel_fault == WheelFault::runaway || e.navigator.run_away(), e.power.is_cut(),
+               environment.guard_has_bus},
+              e.events);
   e.command_axes(motion, out);
+  if (!motion.run || e.power.is_cut()) e.command_hold(out);
   e.cut_power(now, out);
   e.motion_asked = out.motion_permitted;
   e.navigator.on_commanded(now, out.motion_permitted, e.events);
   e.announcer.update(now, e.health.report(), e.events);
   e.fill_snapshot(now, environment, e.estimate, motion.owner);
   out.outputs = e.snapshot.output_on =
-      e.signals.step(now, e.snapshot, out.motion_permitted, motion.run);
-  if (e.relay_open) {
-    out.outputs[static_cast<std::size_t>(Output::enable_relay)] = false;
-    e.snapshot.output_on = out.outputs;
-  }
+      e.signals.step(now, e.snapshot, out.motion_permitted, motion.run,
+                     e.power.closed() && !e.relay_open);
+  out.remembered = {e.navigator.software_stop(), e.navigator.stop_at_robot(), e.power.is_cut(),
+                    e.hold.armed(), e.hold.released(), e.navigator.active()};
   e.events.drain(out.events);
 }
 

@@ -10,6 +10,7 @@
 #include "drover/driver.h"
 #include "drover/event.h"
 #include "drover/fixed_vector.h"
+#include "drover/remembered.h"
 #include "drover/snapshot.h"
 #include "engine/config.h"
 
@@ -42,6 +43,9 @@ struct EngineOutput {
   FixedVector<Event, 64> events;
   /// True while any motion is permitted this cycle; the frame gate refuses motion frames otherwise.
   bool motion_permitted = false;
+  /// By AxisId: nothing else may move it, but a ramp from its present speed to rest is permitted.
+  std::array<bool, kMaxAxes> slowing_permitted{};
+  Remembered remembered;  ///< what is to outlive this program, as of this cycle
 };
 
 class Engine final {
@@ -50,6 +54,8 @@ class Engine final {
   explicit Engine(const EngineConfig& config);
   ~Engine();
 
+  /// Before the first step: what the program before this one left.
+  void recall(const Remembered& remembered, Time now);
   void on_measurement(const Measurement& measurement);
   void on_command(const Command& command, Time now);
   /// One control cycle. `out` is cleared first.

@@ -13,7 +13,9 @@
 #include "engine/health/tilt_watch.h"
 #include "engine/health/wheels.h"
 #include "engine/navigate/navigator.h"
+#include "engine/own/hold.h"
 #include "engine/own/owners.h"
+#include "engine/own/power.h"
 #include "engine/signals/signals.h"
 
 namespace drover::engine {
@@ -33,6 +35,11 @@ struct Engine::Impl {
   void reset_stop(const RequestId& id, Time now);
   void start_task(const RequestId& id, const StartTask& task, Time now);
   void command_axes(const Motion& motion, EngineOutput& out);
+  void command_hold(EngineOutput& out);
+  void release_hold(const RequestId& id, const ReleaseHold& release, Time now);
+  void arm_hold(const RequestId& id, Time now);
+  double tilt_deg() const;
+  void watch_tilt(Time now);
   void command_axis(AxisId id, double velocity_radps, bool run, EngineOutput& out);
   void watch_imu(const ImuSample& sample, Time at);
   Reason judge_motion(Time now, Duration dt, const LineTable& lines);
@@ -58,13 +65,18 @@ struct Engine::Impl {
   Announcer announcer;
   Navigator navigator;
   Owners owners;
+  Hold hold;
+  PowerSwitch power;
   Signals signals;
   EventQueue events;
   std::array<bool, kLineCount> level{};  ///< last reported; active until then
   std::array<bool, kLineCount> pulse{};  ///< was active at some instant since the last step
   Estimate estimate;                     ///< of the last step
   GnssPosition fix;                      ///< the last one
-  bool imu_trusted = false;              ///< by its driver, in the last step
+  Reason steep;                          ///< why this ground is too steep to stop on
+  Time steep_since = kNever;
+  bool driven = false;       ///< an owner had the drives in the last step
+  bool imu_trusted = false;  ///< by its driver, in the last step
   Time last_step = kNever;
   Snapshot snapshot;
 };

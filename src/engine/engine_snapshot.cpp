@@ -70,6 +70,7 @@ void Engine::Impl::fill_snapshot(Time now, const Environment& environment, const
   snapshot.estimator = estimator.counters();
   snapshot.notices_dropped = events.dropped();
   snapshot.stop_latched = !latched().empty();
+  snapshot.hold = hold.state();
   snapshot.guard_alive = environment.guard_alive;
   snapshot.guard_has_bus = environment.guard_has_bus;
   const std::uint32_t latched_bit = 1U << static_cast<unsigned>(Cause::latched);
@@ -80,6 +81,12 @@ void Engine::Impl::fill_snapshot(Time now, const Environment& environment, const
   }
   for (const Reason& reason : report.why) {
     if (!snapshot.why.push_back(reason)) break;
+  }
+  if (power.is_cut()) (void)snapshot.why.push_back("the drives have no power: drover reset");
+  if (hold.state() == HoldState::lost) {
+    (void)snapshot.why.push_back("the drives let go and are not held: drover hold");
+  } else if (const Reason why = hold.hindrance(); !why.empty()) {
+    (void)snapshot.why.push_back(why);
   }
 }
 

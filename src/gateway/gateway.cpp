@@ -69,12 +69,21 @@ void Gateway::absorb(const DriverOut& out, std::uint64_t& overflows) {
   overflows += out.overflows;
 }
 
+/// The speed counts only while the drive is heard: a wheel that nobody sees is not ramped.
+engine::Slowing Gateway::slowing(std::size_t axis) const {
+  const auto& heard = engine_.snapshot().axes[axis];
+  const bool fresh = environment_.axes[axis].state == SourceState::fresh;
+  return {cycle_.engine.slowing_permitted[axis] && fresh, heard.motion.velocity_radps};
+}
+
 /// What a drive wants to say goes through the frame gate, and nowhere around it.
-void Gateway::emit(Drive& drive) {
+void Gateway::emit(std::size_t axis) {
+  Drive& drive = drives_[axis];
   absorb(scratch_, drive.overflows);
+  const engine::Slowing ramp = slowing(axis);
   for (const auto& frame : scratch_.frames) {
     const auto verdict =
-        frame_gate_.admit(drive.bus, frame, *drive.driver, motion_permitted_, guard_has_bus_);
+        frame_gate_.admit(drive.bus, frame, *drive.driver, motion_permitted_, guard_has_bus_, ramp);
     if (verdict == engine::FrameVerdict::pass && !pending_[drive.bus].push_back(frame))
       ++buses_[drive.bus].no_room;
   }
@@ -89,11 +98,11 @@ void Gateway::on(const FrameHeard& heard, Time received) {
   const auto& [bus, frame] = heard;
   if (frame.error) return buses_[bus].condition.on_error_frame(frame, received);
   buses_[bus].condition.on_frame(received);
-  for (auto& drive : drives_) {
-    if (drive.bus != bus) continue;
-    notice_foreign(drive, frame, received);
-    drive.driver->on_frame(frame, received, scratch_);
-    emit(drive);
+  for (std::size_t i = 0; i < drives_.size(); ++i) {
+    if (drives_[i].bus != bus) continue;
+    notice_foreign(drives_[i], frame, received);
+    drives_[i].driver->on_frame(frame, received, scratch_);
+    emit(i);
   }
 }
 
@@ -237,6 +246,10 @@ void Gateway::on(const Suspended& slept, Time now) {
   slept_.format("the computer slept for %.1f s", slept.lasted_s);
 }
 
+void Gateway::on(const Recalled& recalled, Time now) {
+  engine_.recall(recalled.remembered, now);
+}
+
 void Gateway::on(const Tick& tick, Time now) {
   for (std::size_t i = 0; i < kStreamCount; ++i) {
     if (!streams_[i]) continue;
@@ -277,9 +290,10 @@ void Gateway::on(const Tick& tick, Time now) {
   motion_permitted_ = cycle_.engine.motion_permitted;
   guard_has_bus_ = tick.guard_has_bus;
   for (std::size_t i = 0; i < drives_.size(); ++i) {
+    if (!cycle_.engine.slowing_permitted[i]) frame_gate_.end_slowing(*drives_[i].driver);
     drives_[i].driver->on_command(cycle_.engine.axes[i], now, scratch_);
     drives_[i].driver->on_tick(now, scratch_);
-    emit(drives_[i]);
+    emit(i);
   }
   for (std::size_t bus = 0; bus < bus_count_; ++bus) {
     cycle_.frames[bus] = pending_[bus];

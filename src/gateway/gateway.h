@@ -94,13 +94,15 @@ class Gateway final {
   void on(const Suspended& slept, Time now);
   void on(const Tick& tick, Time now);
   void on(const ProgramTrouble& trouble, Time now);
+  void on(const Recalled& recalled, Time now);
   bool jammed(const Bus& bus, Time now) const;
   void look_at_buses(Time now);
   void notice_foreign(const Drive& drive, const CanFrame& frame, Time received);
   void absorb(const DriverOut& out, std::uint64_t& overflows);
   void absorb_lines();
   void absorb_stream(std::size_t stream);
-  void emit(Drive& drive);
+  void emit(std::size_t axis);
+  engine::Slowing slowing(std::size_t axis) const;
 
   engine::Engine engine_;
   std::vector<Drive> drives_;

@@ -15,6 +15,7 @@
 #include "drover/fixed_text.h"
 #include "drover/fixed_vector.h"
 #include "drover/measurement.h"
+#include "drover/remembered.h"
 #include "drover/time.h"
 
 namespace drover::gateway {
@@ -84,6 +85,10 @@ struct ProgramTrouble {
 struct Suspended {
   double lasted_s = 0;
 };
+/// Before the first cycle: what the program before this one left.
+struct Recalled {
+  Remembered remembered;
+};
 /// One control cycle: afterwards the gateway's output is that cycle's.
 struct Tick {
   bool guard_alive = false;
@@ -94,7 +99,7 @@ struct Tick {
 /// The order is the recording's: a new one goes to the end.
 using InputBody = std::variant<FrameHeard, BytesHeard, LevelsRead, LinesLost, RegistersRead,
                                RegistersFailed, BatteryUp, BusUp, BusLost, FramesSent, StreamUp,
-                               CommandGiven, Tick, ProgramTrouble, Suspended>;
+                               CommandGiven, Tick, ProgramTrouble, Suspended, Recalled>;
 
 struct Input {
   Time time = kNever;

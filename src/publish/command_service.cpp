@@ -17,11 +17,11 @@ constexpr std::size_t kLeastPointBytes = 60;
 constexpr double kAutomaticOriginRetry_s = 5.0;
 
 Verb verb_of(const ControlCommand& request) {
-  constexpr Verb kVerbs[] = {Verb::get_all_trajectory, Verb::save_trajectory,
-                             Verb::delete_trajectory,  Verb::delete_all_trajectory,
-                             Verb::start_task,         Verb::cancel_task,
-                             Verb::init_rtk_data,      Verb::terminate,
-                             Verb::reset_stop,         Verb::find_heading};
+  constexpr Verb kVerbs[] = {
+      Verb::get_all_trajectory,    Verb::save_trajectory, Verb::delete_trajectory,
+      Verb::delete_all_trajectory, Verb::start_task,      Verb::cancel_task,
+      Verb::init_rtk_data,         Verb::terminate,       Verb::reset_stop,
+      Verb::find_heading,          Verb::release,         Verb::hold};
   return kVerbs[request.index()];
 }
 
@@ -198,6 +198,12 @@ void CommandService::handle(RequestId id, ControlCommand request, Time now, Acti
   } else if (std::holds_alternative<FindHeadingRequest>(request)) {
     expect(id, Verb::find_heading);
     send(id, now, FindHeading{}, out);
+  } else if (const auto* release = std::get_if<ReleaseRequest>(&request)) {
+    expect(id, Verb::release);
+    send(id, now, ReleaseHold{release->on_slope}, out);
+  } else if (std::holds_alternative<HoldRequest>(request)) {
+    expect(id, Verb::hold);
+    send(id, now, ArmHold{}, out);
   } else if (std::holds_alternative<TerminateRequest>(request)) {
     expect(id, Verb::terminate);
     send(id, now, EngageStop{}, out);

@@ -83,7 +83,7 @@ constexpr const char* kDroverFile = R"({
     {"joint": "rear_right", "driver": "odrive", "bus": "can0",
      "options": {"node": 4, "stale_s": 1, "heartbeat_timeout_s": 1},
      "accept": ["no_watchdog"]}],
-  "base": {"wheel_radius_m": 0.165, "track_m": 0.6, "yaw_slip_factor": 1.69,
+  "base": {"wheel_radius_m": 0.165, "track_m": 0.6, "yaw_slip_factor": 1.69, "hold": "brake",
            "left": ["front_left", "rear_left"], "right": ["front_right", "rear_right"]},
   "gnss": {"port": "@folder@/sim/gnss", "options": {"stale_s": 2}},
   "imu": {"driver": "witmotion", "port": "@folder@/sim/imu",

@@ -82,6 +82,33 @@ std::vector<Task> searches(const Record& record) {
   return found;
 }
 
+/// Ramps to rest of drives that hold the robot again: no faster than it rolls, and only slower.
+class Ramps {
+ public:
+  explicit Ramps(const Record& record) : record_(record) {}
+  /// Set points in the order of their times.
+  bool slows(const Sent& one) {
+    constexpr double kMps_per_turnps = 2 * 3.141592653589793 * 0.165 / 10;  // radius, gear
+    constexpr double kSlip_mps = 0.1;
+    constexpr Duration kNew = 100ms;
+    Sent& last = last_.at(one.wheel.node % last_.size());
+    const bool goes_on = one.time - last.time < kNew;
+    const bool grows = goes_on && std::abs(one.wheel.velocity_turnps) >
+                                      std::abs(last.wheel.velocity_turnps) + 1e-3;
+    last = one;
+    if (record_.truth.empty() || one.time > record_.truth.back().time || one.wheel.torque_Nm != 0)
+      return false;
+    const double rolls_mps = record_.truth_at(one.time).vx_mps;
+    const double asked_mps = one.wheel.velocity_turnps * kMps_per_turnps;
+    return !grows && asked_mps * rolls_mps >= 0 &&
+           std::abs(asked_mps) <= std::abs(rolls_mps) + kSlip_mps;
+  }
+
+ private:
+  const Record& record_;
+  std::array<Sent, 8> last_{};
+};
+
 bool inside(const std::vector<Task>& tasks, Time time) {
   return std::any_of(tasks.begin(), tasks.end(),
                      [time](const Task& task) { return time >= task.begin && time <= task.end; });
@@ -118,8 +145,9 @@ Problems check_motion(const Record& record) {
     permitted.push_back({stream.begin, stream.last + kStreamTimeout + kRamp});
   const auto asked_for = searches(record);
   permitted.insert(permitted.end(), asked_for.begin(), asked_for.end());
+  Ramps ramps(record);
   for (const auto& one : record.moving())
-    if (!inside(permitted, one.time))
+    if (!inside(permitted, one.time) && !ramps.slows(one))
       add(problems, seconds(one.time) + ": node " + std::to_string(one.wheel.node) +
                         " is told to move outside of any task and stream of joint commands");
   for (const auto& one : record.feedback) {

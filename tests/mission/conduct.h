@@ -23,8 +23,8 @@ Problems check_rate(const Record& record);
 /// gateway and broker run; the second only while the inertial sensor is heard.
 Problems check_aimrt_rates(const Record& record);
 /// Set points with motion only between an accepted start_task and the end of that task, or while a
-/// stream of joint commands lives and in its ramp; navigation is announced when a task's first goes
-/// out.
+/// stream of joint commands lives and in its ramp, or while what rolls is brought to rest;
+/// navigation is announced when a task's first goes out.
 Problems check_motion(const Record& record);
 /// pose and rtk of one message are of one instant, and angle and yaw are one heading.
 Problems check_pose(const Record& record);

@@ -2,6 +2,7 @@
 #include "engine/gate/frame_gate.h"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <string>
 
@@ -9,6 +10,9 @@ namespace drover::engine {
 namespace {
 
 constexpr std::uint8_t kClassicLength = 8;
+
+/// Set points travel in single precision.
+constexpr double kRounding = 1 + 1e-6;
 
 bool same_identity(const FrameRule& a, const FrameRule& b) {
   return a.id == b.id && a.extended == b.extended && a.remote == b.remote;
@@ -40,31 +44,52 @@ void FrameGate::add(std::size_t bus, const CanDriver& driver) {
   }
 }
 
+void FrameGate::end_slowing(const CanDriver& driver) {
+  for (Sender& sender : senders_)
+    if (sender.driver == &driver) sender.slowest_radps = std::numeric_limits<double>::infinity();
+}
+
+/// It never makes a wheel faster, and a ramp that has begun only falls.
+bool FrameGate::slows(Sender& sender, const CanFrame& frame, const Slowing& slowing) {
+  const double asked_radps = sender.driver->setpoint_radps(frame);
+  const double size_radps = std::abs(asked_radps);
+  const bool slower = size_radps <= kRounding * std::abs(slowing.measured_radps) &&
+                      size_radps <= kRounding * sender.slowest_radps &&
+                      asked_radps * slowing.measured_radps >= 0;
+  if (slower) sender.slowest_radps = std::min(size_radps, sender.slowest_radps);
+  return slower;  // false for what is not a number
+}
+
 FrameVerdict FrameGate::judge(std::size_t bus, const CanFrame& frame, const CanDriver& from,
-                              bool motion_possible) const {
+                              bool motion_possible, const Slowing& slowing) {
   if (frame.error) return FrameVerdict::refused_not_allowed;
-  const bool known = std::any_of(senders_.begin(), senders_.end(), [&](const Sender& sender) {
-    return sender.bus == bus && sender.driver == &from;
+  auto* const sender = std::find_if(senders_.begin(), senders_.end(), [&](const Sender& each) {
+    return each.bus == bus && each.driver == &from;
   });
-  if (!known) return FrameVerdict::refused_not_allowed;
+  if (sender == senders_.end()) return FrameVerdict::refused_not_allowed;
   const auto rules = from.allow_list();
   const bool listed = std::any_of(rules.begin(), rules.end(),
                                   [&](const FrameRule& rule) { return matches(rule, frame); });
   if (!listed) return FrameVerdict::refused_not_allowed;
   switch (from.effect(frame)) {
-    case FrameEffect::harmless:
-    case FrameEffect::stop: return FrameVerdict::pass;
+    case FrameEffect::stop:
+      if (from.setpoint_radps(frame) == 0) sender->slowest_radps = 0;
+      return FrameVerdict::pass;
+    case FrameEffect::harmless: return FrameVerdict::pass;
     case FrameEffect::motion:
-      return motion_possible ? FrameVerdict::pass : FrameVerdict::refused_motion;
+      return motion_possible || (slowing.permitted && slows(*sender, frame, slowing))
+                 ? FrameVerdict::pass
+                 : FrameVerdict::refused_motion;
     case FrameEffect::forbidden: break;
   }
   return FrameVerdict::refused_not_allowed;
 }
 
 FrameVerdict FrameGate::admit(std::size_t bus, const CanFrame& frame, const CanDriver& from,
-                              bool motion_permitted, bool guard_has_bus) {
+                              bool motion_permitted, bool guard_has_bus, const Slowing& slowing) {
   if (bus >= kMaxBuses) return FrameVerdict::refused_not_allowed;
-  const FrameVerdict verdict = judge(bus, frame, from, motion_permitted && !guard_has_bus);
+  const Slowing allowed{slowing.permitted && !guard_has_bus, slowing.measured_radps};
+  const FrameVerdict verdict = judge(bus, frame, from, motion_permitted && !guard_has_bus, allowed);
   Counts& counts = counts_[bus];
   switch (verdict) {
     case FrameVerdict::pass: ++counts.passed; break;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
 #include "drover/driver.h"
 #include "drover/fixed_vector.h"
@@ -17,6 +18,12 @@ enum class FrameVerdict : std::uint8_t {
   refused_motion,       ///< may move an axis while nothing may, or while the guard has the bus
 };
 
+/// The one motion that needs no owner: a wheel that rolls is brought to rest.
+struct Slowing {
+  bool permitted = false;
+  double measured_radps = 0;  ///< of the joint, fresh
+};
+
 /// Built once from the allow-lists of the drivers; refuses all else. Pure but for its counts.
 class FrameGate final {
  public:
@@ -27,8 +34,13 @@ class FrameGate final {
   void add(std::size_t bus, const CanDriver& driver);
 
   /// `motion_permitted`: EngineOutput::motion_permitted of this cycle.
+  /// `slowing`: of the sender's axis. Then a set point passes that is no faster than the wheel, in
+  /// its direction, and no faster than the one before.
   FrameVerdict admit(std::size_t bus, const CanFrame& frame, const CanDriver& from,
-                     bool motion_permitted, bool guard_has_bus);
+                     bool motion_permitted, bool guard_has_bus, const Slowing& slowing = {});
+
+  /// The next ramp of this drive begins anew.
+  void end_slowing(const CanDriver& driver);
 
   struct Counts {
     std::uint64_t passed = 0;
@@ -42,9 +54,12 @@ class FrameGate final {
   struct Sender {
     std::size_t bus = 0;
     const CanDriver* driver = nullptr;
+    /// Of its last set point while slowing; infinite before the first.
+    double slowest_radps = std::numeric_limits<double>::infinity();
   };
   FrameVerdict judge(std::size_t bus, const CanFrame& frame, const CanDriver& from,
-                     bool motion_possible) const;
+                     bool motion_possible, const Slowing& slowing);
+  static bool slows(Sender& sender, const CanFrame& frame, const Slowing& slowing);
 
   FixedVector<Sender, kMaxAxes> senders_;
   std::array<Counts, kMaxBuses> counts_{};

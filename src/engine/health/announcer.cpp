@@ -19,6 +19,7 @@ std::string_view over(Cause cause) {
     case Cause::guard_silent: return "the guard answers";
     case Cause::drive_fault: return "no drive reports a fault";
     case Cause::latched: return "ready for a new start";
+    case Cause::steep: return "on level ground again";
     case Cause::charger: return "charger unplugged";
     case Cause::program: return "all threads of droverd run again";
     case Cause::battery_critical: return "battery good for driving again";

@@ -188,6 +188,10 @@ void HealthMonitor::look_at_position(const HealthInput& input) {
 void HealthMonitor::look_at_battery(const HealthInput& input) {
   report_.end_task.clear();
   report_.no_start.clear();
+  if (input.steep != nullptr && !input.steep->empty()) {
+    hold(Cause::steep, *input.steep);
+    report_.end_task = *input.steep;
+  }
   if (!config_.battery_configured || input.battery == nullptr) return;
   const BatteryVerdict& verdict =
       battery_.update(input.now, *input.battery, input.environment.battery);
@@ -195,7 +199,8 @@ void HealthMonitor::look_at_battery(const HealthInput& input) {
     if (!text.empty()) hold(cause, text);
     return !text.empty();
   };
-  if (told(Cause::charger, verdict.charger)) report_.end_task = verdict.charger;
+  if (told(Cause::charger, verdict.charger) && report_.end_task.empty())
+    report_.end_task = verdict.charger;
   if (told(Cause::battery_critical, verdict.critical) && report_.end_task.empty())
     report_.end_task = verdict.critical;
   if (told(Cause::battery_low, verdict.low)) report_.no_start = verdict.low;

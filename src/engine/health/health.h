@@ -22,6 +22,7 @@ enum class Cause : std::uint8_t {
   guard_silent,
   drive_fault,
   latched,           ///< not a present cause: what stopped the robot before a person acted
+  steep,             ///< ground on which the base cannot be left without power: a task ends
   charger,           ///< connected, or was when the battery was last heard: must not move
   battery_critical,  ///< empty, too hot, or about to switch off: a task ends
   program,           ///< a part of the daemon hangs, or it ends: a task ends
@@ -39,7 +40,7 @@ enum class Cause : std::uint8_t {
   battery_warning,  ///< told only
   battery_silent,   ///< told only: nothing is known of it
 };
-inline constexpr std::size_t kCauseCount = 25;
+inline constexpr std::size_t kCauseCount = static_cast<std::size_t>(Cause::battery_silent) + 1;
 
 /// Last known state of the lines: the levels the drivers reported since the last cycle.
 struct LineTable {
@@ -59,6 +60,7 @@ struct HealthInput {
   Reason tilt{};           ///< why it stands too steep to move; empty when it does not
   Reason moved{};          ///< what moves it without a command; empty when nothing does
   bool power_cut = false;  ///< by this gateway: that drives are silent is no news
+  const Reason* steep = nullptr;  ///< why the ground is too steep to be left there; empty: it is not
 };
 
 struct HealthReport {

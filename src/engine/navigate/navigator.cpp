@@ -111,19 +111,26 @@ void Navigator::engage_stop(const RequestId& id, Time now, EventQueue& events) {
   if (active()) fail(now, software_stop_, events);
 }
 
+void Navigator::latch_stop(const Reason& why, bool at_robot) {
+  software_stop_ = why;
+  stop_at_robot_ = at_robot;
+}
+
 bool Navigator::reset_stop(const RequestId& id, Time now, bool at_rest, bool anything,
                            const HealthReport& health, EventQueue& events) {
   const Reason why = !health.ready ? Reason("the gateway has just started")
                      : active()    ? Reason("a task runs: cancel it first")
                      : !at_rest    ? Reason("the robot is still stopping")
-                                   : health.stop;
+                     : stop_at_robot_ && id.source != RequestId::Source::cli
+                         ? Reason("this stop is reset at the robot: drover reset")
+                         : health.stop;
   if (!why.empty()) {
     events.push(now, CommandRefused{id, why});
     return false;
   }
   events.push(now, CommandAccepted{id, anything ? Reason() : Reason("nothing was latched")});
   software_stop_.clear();
-  runaway_ = false;
+  stop_at_robot_ = runaway_ = false;
   failed_.clear();
   return true;
 }

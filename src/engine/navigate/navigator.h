@@ -44,6 +44,8 @@ class Navigator final {
   void make_way();
   /// A person's emergency stop.
   void engage_stop(const RequestId& id, Time now, EventQueue& events);
+  /// A stop that outlives its cause until a person resets it; `at_robot`: not over the network.
+  void latch_stop(const Reason& why, bool at_robot);
   /// `anything`: something is latched, here or elsewhere. True when it was accepted.
   bool reset_stop(const RequestId& id, Time now, bool at_rest, bool anything,
                   const HealthReport& health, EventQueue& events);
@@ -56,6 +58,8 @@ class Navigator final {
   bool starting() const { return phase_ == Phase::starting; }
   /// What a person has to act upon before anything moves; empty when nothing.
   const Reason& software_stop() const { return software_stop_; }  ///< a person has to reset it
+  bool stop_at_robot() const { return stop_at_robot_; }
+  bool run_away() const { return runaway_; }
   const Reason& latched() const { return software_stop_.empty() ? failed_ : software_stop_; }
   NavSnapshot snapshot(const HealthReport& health) const;
 
@@ -107,7 +111,8 @@ class Navigator final {
   TrackProgress progress_;
   Reason failed_;
   Reason software_stop_;
-  bool runaway_ = false;  ///< that stop was for a wheel that runs away
+  bool stop_at_robot_ = false;  ///< only there it can be reset
+  bool runaway_ = false;        ///< that stop was for a wheel that runs away
 };
 
 }  // namespace drover::engine

@@ -79,6 +79,7 @@ Reason Owners::hindrance(const OwnInput& input) const {
     why.format("reset the stop first: %.*s", static_cast<int>(latched.size()), latched.data());
     return why;
   }
+  if (!input.not_held.empty()) return input.not_held;
   if (input.task.drives) return "a task owns the drives";
   return {};
 }

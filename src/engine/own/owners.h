@@ -20,6 +20,7 @@ struct OwnInput {
   const NavOutput& task;
   double speed_cap_mps = 1e9;  ///< of the first way after the start
   std::string_view latched;    ///< a software stop that a person has to reset; empty: none
+  Reason not_held = {};        ///< why the drives cannot be had now; empty: they can
 };
 
 /// What the gates let through this cycle.

@@ -49,7 +49,7 @@ Mood mood_of(const Snapshot& snapshot, bool moving, bool armed) {
 }  // namespace
 
 const std::array<bool, kOutputCount>& Signals::step(Time now, const Snapshot& snapshot, bool moving,
-                                                    bool armed) {
+                                                    bool armed, bool power) {
   const Mood mood = mood_of(snapshot, moving, armed);
   if (since_ == kNever || mood != mood_) since_ = now;
   if (in_motion(mood) && (motion_since_ == kNever || !in_motion(mood_))) motion_since_ = now;
@@ -58,7 +58,7 @@ const std::array<bool, kOutputCount>& Signals::step(Time now, const Snapshot& sn
   levels_[static_cast<std::size_t>(Output::lamp)] = lamp(mood, age);
   levels_[static_cast<std::size_t>(Output::buzzer)] = buzzer(mood, age, now - motion_since_);
   // Only what cuts the drives' power by intention: a base without power may roll down a slope.
-  levels_[static_cast<std::size_t>(Output::enable_relay)] = snapshot.nav.owner != Owner::estop;
+  levels_[static_cast<std::size_t>(Output::enable_relay)] = power;
   return levels_;
 }
 

@@ -19,9 +19,10 @@ enum class Mood : std::uint8_t {
 /// Levels as they are to be shown: true is on.
 class Signals final {
  public:
-  /// `moving`: any axis is commanded to move; `armed`: somebody owns the drives.
+  /// `moving`: any axis is commanded to move; `armed`: somebody owns the drives; `power`: the
+  /// drives are to have it.
   const std::array<bool, kOutputCount>& step(Time now, const Snapshot& snapshot, bool moving,
-                                             bool armed);
+                                             bool armed, bool power);
 
  private:
   std::array<bool, kOutputCount> levels_{};

@@ -40,11 +40,17 @@ struct TerminateRequest {};
 struct FindHeadingRequest {};
 /// Clears a latched software stop. The command line's; no message of the protocol gives it.
 struct ResetStopRequest {};
+/// Lets the drives go, so that a person can push the robot. The command line's.
+struct ReleaseRequest {
+  bool on_slope = false;
+};
+/// Takes the drives into closed loop at rest. The command line's.
+struct HoldRequest {};
 
 using ControlCommand =
     std::variant<GetAllTrajectory, SaveTrajectory, DeleteTrajectory, DeleteAllTrajectory,
                  StartTaskRequest, CancelTaskRequest, InitRtkData, TerminateRequest,
-                 ResetStopRequest, FindHeadingRequest>;
+                 ResetStopRequest, FindHeadingRequest, ReleaseRequest, HoldRequest>;
 
 struct ControlRefusal {
   std::string feedback_cmd;  ///< always one that can be published, "unknown_failse" at worst

@@ -6,10 +6,19 @@
 namespace drover::publish {
 
 std::string_view verb_name(Verb verb) {
-  constexpr std::string_view kNames[] = {
-      "get_all_trajectory", "save_trajectory", "delete_trajectory", "delete_all_trajectory",
-      "start_task",         "cancel_task",     "init_rtk_data",     "start_nav",
-      "reset_stop",         "terminate",       "find_heading"};
+  constexpr std::string_view kNames[] = {"get_all_trajectory",
+                                         "save_trajectory",
+                                         "delete_trajectory",
+                                         "delete_all_trajectory",
+                                         "start_task",
+                                         "cancel_task",
+                                         "init_rtk_data",
+                                         "start_nav",
+                                         "reset_stop",
+                                         "terminate",
+                                         "find_heading",
+                                         "release",
+                                         "hold"};
   return kNames[static_cast<std::size_t>(verb)];
 }
 

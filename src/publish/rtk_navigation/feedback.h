@@ -27,6 +27,8 @@ enum class Verb : std::uint8_t {
   reset_stop,    ///< not of this protocol: the command line's
   terminate,     ///< of a later edition
   find_heading,  ///< the command line's
+  release,       ///< the command line's
+  hold,          ///< the command line's
 };
 
 std::string_view verb_name(Verb verb);

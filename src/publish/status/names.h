@@ -38,6 +38,17 @@ constexpr std::string_view word(Owner owner) {
   return "?";
 }
 
+constexpr std::string_view word(HoldState state) {
+  switch (state) {
+    case HoldState::idle: return "not held";
+    case HoldState::held: return "held";
+    case HoldState::catching: return "being taken back";
+    case HoldState::released: return "released";
+    case HoldState::lost: return "lost";
+  }
+  return "?";
+}
+
 constexpr std::string_view word(Line line) {
   switch (line) {
     case Line::estop: return "estop";

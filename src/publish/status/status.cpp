@@ -282,6 +282,7 @@ std::string status_json(const Snapshot& s, const DaemonStatus& daemon) {
   number(out, "time_s", to_s(s.time));
   number(out, "age_s", s.time == kNever ? kAbsent : to_s(daemon.now - s.time));
   out.key("stopped_until_told").boolean(s.stop_latched);
+  out.key("hold").text(word(s.hold));
   out.key("why").open('[');
   for (const auto& reason : s.why) out.text(reason.view());
   out.close(']');

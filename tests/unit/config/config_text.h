@@ -19,7 +19,8 @@ inline constexpr std::string_view kGood = R"({
     {"joint": "right", "driver": "odrive", "bus": "can0", "options": {"node": 2},)"
                                           R"( "accept": ["no_watchdog"]}
   ],
-  "base": {"wheel_radius_m": 0.165, "track_m": 0.6, "left": ["left"], "right": ["right"]},
+  "base": {"wheel_radius_m": 0.165, "track_m": 0.6, "left": ["left"], "right": ["right"],)"
+                         R"( "hold": "brake"},
   "limits": {"max_speed_mps": 0.8},
   "gnss": {"port": "/dev/drover/gnss", "baud": 115200},
   "lines": {"chip": "chip0", "estop": {"line": "a"}, "bumper": {"line": "b"}},

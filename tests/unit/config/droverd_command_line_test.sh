@@ -26,7 +26,7 @@ cat > "$work/bad.json" <<'JSON'
 {
   "buses": [{"name": "can0", "interface": "can0"}],
   "drives": [{"joint": "a", "driver": "odrive", "bus": "can1", "options": {"node": 1}}],
-  "base": {"wheel_radius_mm": 165, "track_m": 0.6, "left": ["a"], "right": ["b"]}
+  "base": {"wheel_radius_mm": 165, "track_m": 0.6, "hold": "brake", "left": ["a"], "right": ["b"]}
 }
 JSON
 

@@ -21,6 +21,12 @@ class Oracle {
     const bool moving = fastest_radps != 0;
     if (!std::isfinite(fastest_radps)) return "a command is not a number";
     if (moving != rig_.out.motion_permitted) return "motion_permitted does not fit the commands";
+    for (std::size_t i = 0; i < 4; ++i) {
+      const double ramp_radps = std::abs(rig_.out.axes[i].velocity_radps);
+      const double wheel_radps = std::abs(rig_.snapshot().axes[i].motion.velocity_radps);
+      if (rig_.out.slowing_permitted[i] && ramp_radps > wheel_radps)
+        return "a wheel is made faster to hold it";
+    }
     if (moving && must_stop()) return "motion while a stop condition holds";
     const bool task = note_events();
     if (!error_.empty()) return error_;

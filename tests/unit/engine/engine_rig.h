@@ -49,6 +49,7 @@ class EngineRig {
     bool refuses = false;  ///< does not arm
     bool stuck = false;    ///< feedback stands still
     bool fault = false;
+    bool lapsed = false;         ///< that fault is only a want of set points
     double by_itself_radps = 0;  ///< the wheel turns so much faster than it is told to
     AxisState state = AxisState::idle;
     AxisRequest asked = AxisRequest::rest;  ///< in the cycle before
@@ -83,10 +84,12 @@ class EngineRig {
     run_s(3);
   }
 
+  /// Of those who drive; a ramp to rest of what has let go is another matter.
   double fastest_command_radps() const {
     double fastest = 0;
-    for (const AxisCommand& axis : out.axes) {
-      fastest = std::max(fastest, std::abs(axis.velocity_radps));
+    for (std::size_t i = 0; i < out.axes.size(); ++i) {
+      if (!out.slowing_permitted[i])
+        fastest = std::max(fastest, std::abs(out.axes[i].velocity_radps));
     }
     return fastest;
   }
@@ -152,6 +155,10 @@ class EngineRig {
     GnssVelocity velocity;
   };
 
+  static bool arms(AxisRequest request) {
+    return request == AxisRequest::run || request == AxisRequest::hold;
+  }
+
   /// The drives do what the last cycle asked, the plant turns it into motion.
   void move() {
     std::array<double, 4> speed{};
@@ -163,14 +170,14 @@ class EngineRig {
         drive.state = AxisState::fault;
       } else if (drive.state == AxisState::fault) {
         drive.state = AxisState::idle;
-      } else if (asked_of.request == AxisRequest::run && drive.asked != AxisRequest::run &&
-                 !drive.refuses) {
+      } else if (arms(asked_of.request) && drive.asked != asked_of.request && !drive.refuses) {
         // Each new request is armed anew, also by a drive that still holds from the last one.
         drive.state = AxisState::arming;
         drive.arming = 40;
       } else if (drive.state == AxisState::arming && --drive.arming <= 0) {
         drive.state = AxisState::running;
       }
+      if (asked_of.request == AxisRequest::idle) drive.state = AxisState::idle;
       drive.asked = asked_of.request;
       if (drive.state == AxisState::running) speed[i] = asked_of.velocity_radps;
     }
@@ -203,7 +210,7 @@ class EngineRig {
       motion.velocity_radps = drive.stuck ? 0 : radps;
       measure(now, motion);
       measure(now, AxisStatus{static_cast<AxisId>(i), drive.state, 0,
-                              drive.fault ? Reason("over temperature") : Reason()});
+                              drive.fault ? Reason("over temperature") : Reason(), drive.lapsed});
     }
   }
 

@@ -19,7 +19,8 @@ constexpr auto kConfig = R"({
      "options": {"node": 1, "watchdog_timeout_s": 0.2}},
     {"joint": "right", "driver": "odrive", "bus": "can0", "options": {"node": 2},
      "accept": ["no_watchdog"]}],
-  "base": {"wheel_radius_m": 0.165, "track_m": 0.6, "left": ["left"], "right": ["right"]},
+  "base": {"wheel_radius_m": 0.165, "track_m": 0.6, "left": ["left"], "right": ["right"],)"
+                         R"( "hold": "brake"},
   "gnss": {"port": "/dev/drover/gnss", "baud": 115200},
   "lines": {"chip": "chip0", "estop": {"line": "a"}, "bumper": {"line": "b"}},
   "mqtt": {"host": "127.0.0.1", "port": 1883}

@@ -234,7 +234,7 @@ TEST_P(CanConformance, StaysDecentThroughRandomHistories) {
     CanBench bench(GetParam());
     AxisCommand command;
     for (int i = 0; i < 600; ++i) {
-      if (random() % 40 == 0) command.request = static_cast<AxisRequest>(random() % 3);
+      if (random() % 40 == 0) command.request = static_cast<AxisRequest>(random() % 4);
       if (random() % 20 == 0) command.velocity_radps = static_cast<double>(random() % 11) - 5.0;
       if (random() % 200 == 0) command.velocity_radps = kAbsent;
       if (random() % 100 == 0) bench.twin->set_power(random() % 2 == 0, bench.now);

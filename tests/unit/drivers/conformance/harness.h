@@ -185,7 +185,8 @@ class CanBench {
       off_list += on_list(driver->allow_list(), frame) ? 0 : 1;
       const FrameEffect effect = driver->effect(frame);
       forbidden += effect == FrameEffect::forbidden ? 1 : 0;
-      motion_at_rest += effect == FrameEffect::motion && command.request != AxisRequest::run;
+      motion_at_rest += effect == FrameEffect::motion && command.request != AxisRequest::run &&
+                        command.request != AxisRequest::hold;
       send(frame);
     }
   }

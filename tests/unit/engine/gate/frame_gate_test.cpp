@@ -32,6 +32,10 @@ class FakeDrive final : public CanDriver {
       default: return FrameEffect::forbidden;
     }
   }
+  /// The second byte, of a stop or a motion.
+  double setpoint_radps(const CanFrame& frame) const override {
+    return frame.data[0] <= 1 ? static_cast<std::int8_t>(frame.data[1]) : kAbsent;
+  }
   StopRecipe stop_recipe() const override { return {}; }
   SilenceBehaviour silence() const override { return {}; }
 
@@ -189,6 +193,40 @@ TEST(FrameGate, RefusesToBeBuiltWithMoreBusesOrDrivesThanItHolds) {
   for (std::uint32_t i = 0; i <= kMaxAxes; ++i) drives.emplace_back(0x100 + 4 * i);
   for (std::size_t i = 0; i < kMaxAxes; ++i) gate.add(0, drives[i]);
   EXPECT_THROW(gate.add(0, drives[kMaxAxes]), std::runtime_error);
+}
+
+/// Nobody may move it, but what rolls may be brought to rest.
+class AFrameGateThatLetsSlowDown : public AFrameGate {
+ protected:
+  FrameVerdict slow(int radps, double measured_radps, bool guard = false) {
+    CanFrame f = frame(radps == 0 ? 0 : 1);
+    f.data[1] = static_cast<std::uint8_t>(radps);
+    return gate.admit(1, f, drive, false, guard, {true, measured_radps});
+  }
+};
+constexpr auto kRefusedMotion = FrameVerdict::refused_motion;
+
+TEST_F(AFrameGateThatLetsSlowDown, LetsARampFromTheMeasuredSpeedPass) {
+  for (const int radps : {20, 15, 15, 3, 0}) EXPECT_EQ(slow(radps, 20), FrameVerdict::pass);
+  gate.end_slowing(drive);
+  for (const int radps : {-20, -15, -1, 0}) EXPECT_EQ(slow(radps, -20), FrameVerdict::pass);
+}
+TEST_F(AFrameGateThatLetsSlowDown, RefusesMoreThanTheWheelHas) {
+  EXPECT_EQ(slow(21, 20), kRefusedMotion);
+  EXPECT_EQ(slow(1, 0), kRefusedMotion);
+  EXPECT_EQ(slow(1, kAbsent), kRefusedMotion);
+}
+TEST_F(AFrameGateThatLetsSlowDown, RefusesToTurnTheOtherWay) {
+  EXPECT_EQ(slow(-5, 20), kRefusedMotion);
+}
+TEST_F(AFrameGateThatLetsSlowDown, RefusesARampThatGrowsAgain) {
+  EXPECT_EQ(slow(10, 20), FrameVerdict::pass);
+  EXPECT_EQ(slow(11, 20), kRefusedMotion);
+  EXPECT_EQ(slow(0, 20), FrameVerdict::pass);
+  EXPECT_EQ(slow(1, 20), kRefusedMotion);
+}
+TEST_F(AFrameGateThatLetsSlowDown, RefusesItWhileTheGuardHasTheBus) {
+  EXPECT_EQ(slow(10, 20, true), kRefusedMotion);
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ std::string pattern(Output output, const Snapshot& snapshot, bool moving, bool a
   std::string text;
   for (int i = 0; i < static_cast<int>(seconds * 20 + 0.5); ++i) {
     const Time now{std::chrono::seconds(5) + i * std::chrono::milliseconds(50)};
-    const auto& levels = signals.step(now, snapshot, moving, armed);
+    const auto& levels = signals.step(now, snapshot, moving, armed, true);
     text += levels[static_cast<std::size_t>(output)] ? '#' : '.';
   }
   return text;
@@ -42,8 +42,9 @@ TEST(Signals, BeepTwiceThoughItMovesMeanwhileAndNotWhenItHalts) {
   for (int i = 0; i < 40; ++i) {
     const Time now{std::chrono::seconds(5) + i * std::chrono::milliseconds(50)};
     const bool moving = i > 1 && i != 30;  // it halts for a moment
-    text +=
-        signals.step(now, {}, moving, true)[static_cast<std::size_t>(Output::buzzer)] ? '#' : '.';
+    text += signals.step(now, {}, moving, true, true)[static_cast<std::size_t>(Output::buzzer)]
+                ? '#'
+                : '.';
   }
   EXPECT_EQ(text, "###...###" + std::string(31, '.'));
 }
@@ -52,13 +53,14 @@ TEST(Signals, OfAPauseFlashQuickly) {
   snapshot.nav.paused = true;
   EXPECT_EQ(pattern(Output::lamp, snapshot, false, true, 0.5), "###..###..");
 }
-TEST(Signals, CutTheDrivesPowerForAnEstopOnly) {
-  Snapshot snapshot;
-  snapshot.nav.owner = Owner::estop;
-  EXPECT_EQ(pattern(Output::enable_relay, snapshot, false, false, 0.2), "....");
-  snapshot.nav.owner = Owner::nobody;
-  snapshot.stop_latched = true;
-  EXPECT_EQ(pattern(Output::enable_relay, snapshot, false, false, 0.2), "####");
+TEST(Signals, ShowOnTheRelayWhetherTheDrivesAreToHavePower) {
+  Signals signals;
+  const auto relay = [&](bool power) {
+    return signals.step(Time{}, {}, false, false,
+                        power)[static_cast<std::size_t>(Output::enable_relay)];
+  };
+  EXPECT_TRUE(relay(true));
+  EXPECT_FALSE(relay(false));
 }
 
 }  // namespace

@@ -1,0 +1,90 @@
+// The engine's part of holding: what a person asks, what is remembered, steep ground.
+#include <cmath>
+
+#include "drover/angle.h"
+#include "engine/engine_impl.h"
+
+namespace drover::engine {
+namespace {
+
+/// A wheel over a stone is no slope.
+constexpr Duration kSteepFor = std::chrono::milliseconds(300);
+constexpr double kPushedWheel_mps = 0.05;
+
+}  // namespace
+
+void Engine::recall(const Remembered& remembered, Time now) {
+  Impl& e = *impl_;
+  if (!remembered.stop.empty()) {
+    e.navigator.latch_stop(remembered.stop, remembered.stop_at_robot);
+    e.events.notice(now, Notice::Level::warning, "a stop from before the start is still latched");
+  }
+  e.power.recall(remembered.power_cut);
+  e.hold.recall(remembered);
+  if (remembered.task) {
+    e.events.notice(now, Notice::Level::warning,
+                    "a task was on its way when the gateway ended: it is not taken up again");
+  }
+}
+
+/// What the ground falls by where the base stands; not a number without an inertial sensor.
+double Engine::Impl::tilt_deg() const {
+  return to_deg(std::acos(std::cos(estimate.roll_rad) * std::cos(estimate.pitch_rad)));
+}
+
+void Engine::Impl::watch_tilt(Time now) {
+  const bool beyond = config.base.hold == HoldBy::level_ground_only && imu_trusted &&
+                      tilt_deg() > config.base.max_tilt_deg;
+  if (!beyond) {
+    steep_since = kNever;
+    steep.clear();
+    return;
+  }
+  if (steep_since == kNever) steep_since = now;
+  if (now - steep_since < kSteepFor) return;
+  steep.format("the ground falls by %.1f degrees; without power this base rolls: allowed %.1f",
+               tilt_deg(), config.base.max_tilt_deg);
+}
+
+void Engine::Impl::release_hold(const RequestId& id, const ReleaseHold& release, Time now) {
+  Reason why;
+  if (navigator.active() || driven || !owners.at_rest()) why = "the robot is being driven";
+  for (const AxisSnapshot& axis : snapshot.axes) {
+    const double rim_mps = std::abs(axis.motion.velocity_radps) * config.base.wheel_radius_m;
+    if (why.empty() && axis.state == AxisState::running && rim_mps > kPushedWheel_mps)
+      why = "the robot moves";
+  }
+  hold.release(id, release, why, imu_trusted ? tilt_deg() : kAbsent, now, events);
+}
+
+void Engine::Impl::arm_hold(const RequestId& id, Time now) {
+  const HealthReport& report = health.report();
+  Reason why;
+  if (!report.ready) {
+    why = "the gateway has just started";
+  } else if (report.estop) {
+    why = "the e-stop is pressed";
+  } else if (power.is_cut()) {
+    why = "the drives have no power: drover reset";
+  } else if (wheel_fault == WheelFault::runaway || navigator.run_away()) {
+    why = "a wheel ran away: drover reset";
+  } else if (driven || navigator.active()) {
+    why = "the robot is being driven, and holds when it stops";
+  } else if (!report.drives_ok) {
+    why = report.text(Cause::drive_silent);
+  }
+  hold.arm(id, why, now, events);
+}
+
+/// At rest, what the hold wants goes over the rest that everybody else asked for.
+void Engine::Impl::command_hold(EngineOutput& out) {
+  for (std::size_t i = 0; i < snapshot.axes.size(); ++i) {
+    const AxisCommand& wanted = hold.command(static_cast<AxisId>(i));
+    if (wanted.request == AxisRequest::rest) continue;
+    out.axes[i] = wanted;
+    out.slowing_permitted[i] = wanted.request == AxisRequest::hold;
+    snapshot.axes[i].commanded_velocity_radps = wanted.velocity_radps;
+  }
+}
+
+}  // namespace drover::engine

@@ -1,0 +1,185 @@
+// What is held again, what a person lets go, and what is remembered over a restart.
+#include <cmath>
+
+#include "engine_fixture.h"
+
+namespace drover::engine {
+namespace {
+
+using ::testing::HasSubstr;
+
+class ARobotThatHolds : public AnEngine {
+ protected:
+  void drive_and_stop() {
+    drive();
+    rig.command(CancelTask{});
+    rig.run_s(3);
+    ASSERT_EQ(rig.snapshot().hold, HoldState::held);
+  }
+  /// Another program takes over; the drives let go meanwhile.
+  void restart(bool drives_idle = true) {
+    const Remembered left = rig.out.remembered;
+    rig.engine = std::make_unique<Engine>(rig.config);
+    rig.engine->recall(left, rig.now);
+    if (drives_idle)
+      for (auto& drive : rig.drives) drive = {};
+    rig.tick();
+    rig.set_origin();
+  }
+  /// The base stands on ground that falls by so much, for one cycle of its inertial sensor.
+  void tick_tilted(double deg) {
+    rig.environment.imu_configured = true;
+    rig.environment.imu.state = SourceState::fresh;
+    rig.environment.imu.last_good = rig.now;
+    Measurement m;
+    m.time = m.received = rig.now;
+    ImuSample sample;
+    sample.has_orientation = true;
+    sample.orientation = {std::cos(to_rad(deg) / 2), 0, std::sin(to_rad(deg) / 2), 0};
+    sample.acceleration_mps2 = {9.81 * std::sin(to_rad(deg)), 0, 9.81 * std::cos(to_rad(deg))};
+    m.value = sample;
+    rig.engine->on_measurement(m);
+    rig.tick();
+  }
+  void tilt_s(double deg, double seconds) {
+    for (int i = 0; i < static_cast<int>(seconds * 200); ++i) tick_tilted(deg);
+  }
+};
+
+TEST_F(ARobotThatHolds, IsHeldAgainAfterARestart) {
+  drive_and_stop();
+  restart();
+  rig.run_s(1);
+  EXPECT_EQ(rig.snapshot().hold, HoldState::held);
+  for (const auto& drive : rig.drives) EXPECT_EQ(drive.state, AxisState::running);
+}
+TEST_F(ARobotThatHolds, IsHeldAgainAfterADipOfItsSupply) {
+  drive_and_stop();
+  for (auto& drive : rig.drives) drive.state = AxisState::idle;
+  rig.tick();
+  rig.tick();
+  EXPECT_EQ(rig.snapshot().hold, HoldState::catching);
+  rig.start(path, 40, 0.5);
+  rig.tick();
+  EXPECT_THAT(refusal(), HasSubstr("being taken back"));
+  rig.run_s(1);
+  EXPECT_EQ(rig.snapshot().hold, HoldState::held);
+}
+TEST_F(ARobotThatHolds, IsNotHeldAgainAfterAnEstop) {
+  drive_and_stop();
+  rig.lines[0] = true;
+  rig.run_s(0.1);
+  rig.lines[0] = false;
+  for (auto& drive : rig.drives) drive.state = AxisState::idle;
+  rig.run_s(1);
+  EXPECT_EQ(rig.drives[0].state, AxisState::idle);
+  restart();
+  rig.run_s(1);
+  EXPECT_EQ(rig.drives[0].state, AxisState::idle);
+  rig.command(ArmHold{});
+  rig.run_s(1);
+  EXPECT_EQ(rig.snapshot().hold, HoldState::held);
+}
+TEST_F(ARobotThatHolds, WasNeverHeldWithoutAPersonWhoArmedIt) {
+  rig.settle();
+  restart(false);
+  rig.run_s(2);
+  EXPECT_EQ(rig.drives[0].state, AxisState::idle);
+  EXPECT_EQ(rig.snapshot().hold, HoldState::idle);
+}
+TEST_F(ARobotThatHolds, IsReleasedByAPersonAndStartsOnlyAfterHold) {
+  drive_and_stop();
+  rig.command(ReleaseHold{});
+  rig.tick();
+  EXPECT_THAT(refusal(), HasSubstr("tilt is not known"));
+  rig.command(ReleaseHold{true});
+  rig.run_s(0.1);
+  EXPECT_EQ(rig.drives[0].state, AxisState::idle);
+  EXPECT_EQ(rig.snapshot().hold, HoldState::released);
+  restart();
+  rig.run_s(3);
+  EXPECT_EQ(rig.snapshot().hold, HoldState::released);
+  rig.start(path, 40, 0.5);
+  rig.tick();
+  EXPECT_EQ(refusal(), "the drives are released: drover hold");
+  rig.command(ArmHold{});
+  rig.run_s(1);
+  EXPECT_EQ(rig.snapshot().hold, HoldState::held);
+}
+TEST_F(ARobotThatHolds, IsNotReleasedWhileItIsDriven) {
+  drive();
+  rig.command(ReleaseHold{true});
+  rig.tick();
+  EXPECT_THAT(refusal(), HasSubstr("is being driven"));
+  EXPECT_EQ(rig.snapshot().nav.status, NavStatus::run);
+}
+TEST_F(ARobotThatHolds, RemembersAStopOverARestartUntilItIsReset) {
+  drive();
+  rig.command(EngageStop{});
+  rig.run_s(1);
+  restart();
+  rig.run_s(3);
+  EXPECT_TRUE(rig.snapshot().stop_latched);
+  EXPECT_THAT(rig.why(), HasSubstr("emergency stop of an operator"));
+  rig.start(path, 40, 0.5);
+  rig.run_s(2);
+  EXPECT_THAT(refusal(), HasSubstr("reset the stop first"));
+  EXPECT_EQ(rig.fastest_command_radps(), 0);
+  rig.command(ResetStop{});
+  rig.tick();
+  EXPECT_FALSE(rig.snapshot().stop_latched);
+  EXPECT_TRUE(rig.out.remembered.stop.empty());
+}
+TEST_F(ARobotThatHolds, ResetsAStopThatIsForTheRobotOnlyThere) {
+  Remembered left;
+  left.stop = "it did not stop";
+  left.stop_at_robot = true;
+  left.power_cut = true;
+  rig.engine->recall(left, rig.now);
+  rig.settle();
+  constexpr auto kRelay = static_cast<std::size_t>(Output::enable_relay);
+  EXPECT_FALSE(rig.out.outputs[kRelay]);
+  rig.command(ResetStop{});  // the rig's commands come over the network
+  rig.tick();
+  EXPECT_THAT(refusal(), HasSubstr("at the robot"));
+  rig.engine->on_command({{RequestId::Source::cli, 1}, rig.now, ResetStop{}}, rig.now);
+  rig.tick();
+  EXPECT_FALSE(rig.snapshot().stop_latched);
+  EXPECT_TRUE(rig.out.outputs[kRelay]);
+}
+TEST_F(ARobotThatHolds, TellsThatATaskWasOnItsWay) {
+  drive();
+  restart();
+  rig.run_s(1);
+  const auto notices = rig.said<Notice>();
+  EXPECT_TRUE(std::any_of(notices.begin(), notices.end(), [](const Notice& notice) {
+    return notice.text.view().find("a task was on its way") != std::string_view::npos;
+  }));
+  EXPECT_EQ(rig.fastest_command_radps(), 0);
+}
+TEST_F(ARobotThatHolds, EndsATaskOnSteepGroundWithARampAndStartsNoneThere) {
+  drive();
+  tilt_s(2, 1);
+  EXPECT_EQ(rig.snapshot().nav.status, NavStatus::run) << rig.why();
+  tilt_s(6, 0.25);
+  EXPECT_EQ(rig.snapshot().nav.status, NavStatus::run) << "a stone is no slope";
+  tilt_s(6, 3);
+  EXPECT_EQ(rig.snapshot().nav.status, NavStatus::error);
+  EXPECT_THAT(rig.why(), HasSubstr("the ground falls by 6.0 degrees"));
+  EXPECT_EQ(rig.snapshot().hold, HoldState::held);
+  rig.start(path, 40, 0.5);
+  rig.tick();
+  EXPECT_THAT(refusal(), HasSubstr("the ground falls by"));
+}
+TEST_F(ARobotThatHolds, WithABrakeStopsForNoSlope) {
+  EngineConfig config = rig_config();
+  config.base.hold = HoldBy::brake;
+  rig.config = config;
+  rig.engine = std::make_unique<Engine>(config);
+  drive();
+  tilt_s(6, 1);
+  EXPECT_EQ(rig.snapshot().nav.status, NavStatus::run) << rig.why();
+}
+
+}  // namespace
+}  // namespace drover::engine

@@ -1,0 +1,63 @@
+#include "engine/own/power.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+
+namespace drover::engine {
+namespace {
+
+using std::chrono::milliseconds;
+
+/// Two drives that run, and the switch of their power.
+struct Powered {
+  Powered() {
+    for (AxisSnapshot& axis : axes) {
+      axis.health = SourceState::fresh;
+      axis.state = AxisState::running;
+    }
+  }
+  bool after_ms(int ms) {
+    for (int i = 0; i < ms; i += 5) power.step(now += milliseconds(5), estop, axes);
+    return power.closed();
+  }
+  PowerSwitch power;
+  std::array<AxisSnapshot, 2> axes{};
+  bool estop = false;
+  Time now{std::chrono::seconds(1)};
+};
+
+TEST(ThePowerSwitch, OpensAtOnceForAnEstopAndClosesAfterIt) {
+  Powered it;
+  EXPECT_TRUE(it.after_ms(5));
+  it.estop = true;
+  EXPECT_FALSE(it.after_ms(5));
+  it.estop = false;
+  EXPECT_TRUE(it.after_ms(5));
+}
+TEST(ThePowerSwitch, OpensOnlyWhenTheDrivesHaveGoneIdle) {
+  Powered it;
+  it.power.cut();
+  EXPECT_TRUE(it.after_ms(500));
+  it.axes[0].state = AxisState::idle;
+  EXPECT_TRUE(it.after_ms(100));
+  it.axes[1].state = AxisState::idle;
+  EXPECT_FALSE(it.after_ms(5));
+}
+TEST(ThePowerSwitch, OpensInTheEndWhenADriveDoesNotGoIdle) {
+  Powered it;
+  it.power.cut();
+  EXPECT_TRUE(it.after_ms(1400));
+  EXPECT_FALSE(it.after_ms(200));
+}
+TEST(ThePowerSwitch, StaysOpenOverARestartUntilItIsReset) {
+  Powered it;
+  it.power.recall(true);
+  for (AxisSnapshot& axis : it.axes) axis.health = SourceState::never_heard;
+  EXPECT_FALSE(it.after_ms(5000));
+  it.power.reset();
+  EXPECT_TRUE(it.after_ms(5));
+}
+
+}  // namespace
+}  // namespace drover::engine
