@@ -311,11 +311,11 @@ void Engine::step(Time now, const Environment& environment, EngineOutput& out) {
   e.navigator.on_commanded(now, out.motion_permitted, e.events);
   e.announcer.update(now, e.health.report(), e.events);
   e.fill_snapshot(now, environment, e.estimate, motion.owner);
-  out.outputs = e.snapshot.output_on =
-      e.signals.step(now, e.snapshot, out.motion_permitted, motion.run,
-                     e.power.closed() && !e.relay_open);
-  out.remembered = {e.navigator.software_stop(), e.navigator.stop_at_robot(), e.power.is_cut(),
-                    e.hold.armed(), e.hold.released(), e.navigator.active()};
+  out.outputs = e.snapshot.output_on = e.signals.step(
+      now, e.snapshot, out.motion_permitted, motion.run, e.power.closed() && !e.relay_open);
+  out.remembered = {
+      e.navigator.software_stop(), e.navigator.stop_at_robot(), e.power.is_cut(), e.hold.armed(),
+      e.hold.released(),           e.navigator.active()};
   e.events.drain(out.events);
 }
 

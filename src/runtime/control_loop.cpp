@@ -23,6 +23,7 @@ using namespace std::chrono_literals;
 constexpr Duration kGuardCycles = 30ms;
 /// The bus is asked back when the robot was at rest and our heartbeat good for this long.
 constexpr Duration kHandBackAfter = 500ms;
+constexpr Duration kHandBackToCatch = 30ms;
 /// The two clocks keep their distance except when somebody sets one.
 constexpr Duration kMeasureClocksEach = 100ms;
 /// Slower is an encoder's noise.
@@ -41,13 +42,14 @@ constexpr std::uint8_t bus_id(std::size_t slot) {
 }  // namespace
 
 ControlLoop::ControlLoop(const config::DroverConfig& config, Gateway& gateway, LinkKeeper& keeper,
-                         const GuardMemory& guard, ControlExchange& exchange,
+                         const GuardMemory& guard, ControlExchange& exchange, KeepsOver keeps,
                          BatteryExchange* battery)
     : config_(config),
       gateway_(gateway),
       keeper_(keeper),
       guard_(guard),
       exchange_(exchange),
+      keeps_(keeps),
       battery_(battery),
       guard_stale_(std::chrono::milliseconds(config.guard.limit_ms) + kGuardCycles),
       tick_(from_s(1 / config.control.tick_Hz)),
@@ -138,6 +140,7 @@ Time ControlLoop::cycle(Time begin, std::uint64_t late) {
   for (std::size_t i = 0; i < kStreamCount; ++i) serve_stream(i, out.streams[i], begin);
   write_outputs(out.engine.outputs, begin);
 
+  keep(out.engine.remembered);
   // A daemon that half hangs leaves the robot to the guard, once it is at rest.
   if (!program_.leaves_to_guard(begin, exchange_.at_rest.load(std::memory_order_relaxed)))
     guard_.shared().daemon_beats.fetch_add(1, std::memory_order_release);
@@ -148,9 +151,27 @@ Time ControlLoop::cycle(Time begin, std::uint64_t late) {
   // After the events: who waits for it may end the thread that tells them.
   const bool task = gateway_.snapshot().nav.status == NavStatus::run;
   const bool rolls = std::abs(gateway_.snapshot().pose.vx_mps) > kRolls_mps;
-  exchange_.at_rest.store(!out.engine.motion_permitted && !task && !rolls,
+  const auto& slowing = out.engine.slowing_permitted;
+  const bool slows = std::find(slowing.begin(), slowing.end(), true) != slowing.end();
+  exchange_.at_rest.store(!out.engine.motion_permitted && !slows && !task && !rolls,
                           std::memory_order_release);
   return publish(begin);
+}
+
+void ControlLoop::recall(const Remembered& remembered) {
+  apply(monotonic_now(), gateway::Recalled{remembered});
+}
+
+/// The guard must know, too, what it may do with drives that nobody commands.
+void ControlLoop::keep(const Remembered& remembered) {
+  const auto may_hold = remembered.released    ? GuardMayHold::released
+                        : remembered.power_cut ? GuardMayHold::cut
+                                               : GuardMayHold::hold;
+  guard_.shared().may_hold.store(may_hold, std::memory_order_release);
+  if (!keeps_.memory.keep(remembered)) return;
+  keeps_.storage.stop.back() = {true, remembered};
+  keeps_.storage.stop.publish();
+  keeps_.storage.jobs_ready.notify();
 }
 
 void ControlLoop::take_commands(Time now) {
@@ -350,8 +371,11 @@ void ControlLoop::watch_guard(Time now) {
   if (latched && !guard_latched_) (void)exchange_.stops.ask_stop();
   guard_latched_ = latched;
   const bool at_rest = gateway_.snapshot().nav.status != NavStatus::run;
-  if (holds && !latched && at_rest && !program_.trouble() &&
-      now - guard_held_since_ > kHandBackAfter && now - hand_back_asked_ > kHandBackAfter) {
+  // A robot that rolls cannot wait: its drives are taken back at their own speed, not under zeros.
+  const bool rolls = gateway_.snapshot().hold == HoldState::catching;
+  const Duration pause = rolls ? kHandBackToCatch : kHandBackAfter;
+  if (holds && !latched && at_rest && !program_.trouble() && now - guard_held_since_ > pause &&
+      now - hand_back_asked_ > pause) {
     hand_back_asked_ = now;
     keeper_.request_hand_back();
   }

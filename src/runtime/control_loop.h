@@ -14,6 +14,8 @@
 #include "runtime/link_keeper.h"
 #include "runtime/program_watch.h"
 #include "runtime/recorder.h"
+#include "runtime/robot_memory.h"
+#include "runtime/storage_loop.h"
 #include "runtime/wake.h"
 
 namespace drover::runtime {
@@ -35,11 +37,19 @@ struct ControlExchange {
   Recorder* recorder = nullptr;  ///< control and publish tell it; nullptr: nothing is recorded
 };
 
+/// Where the control thread keeps what outlives the program.
+struct KeepsOver {
+  RobotMemory& memory;
+  StorageExchange& storage;
+};
+
 class ControlLoop final {
  public:
   ControlLoop(const config::DroverConfig& config, Gateway& gateway, LinkKeeper& keeper,
-              const GuardMemory& guard, ControlExchange& exchange,
+              const GuardMemory& guard, ControlExchange& exchange, KeepsOver keeps,
               BatteryExchange* battery = nullptr);
+  /// Before `run`: what the program before this one left.
+  void recall(const Remembered& remembered);
   void run(const std::atomic<bool>& stop);
 
  private:
@@ -67,6 +77,7 @@ class ControlLoop final {
   void watch_sleep(Time now);
   void send(std::size_t bus, std::span<const CanFrame> frames, Time decided);
   void watch_guard(Time now);
+  void keep(const Remembered& remembered);
   void take_battery();
   Time publish(Time now);
   Name slot_name(std::size_t slot) const;
@@ -76,6 +87,7 @@ class ControlLoop final {
   LinkKeeper& keeper_;
   const GuardMemory& guard_;
   ControlExchange& exchange_;
+  KeepsOver keeps_;
   BatteryExchange* battery_;  ///< nullptr: none
   const Duration guard_stale_;
 

@@ -78,14 +78,20 @@ class Daemon final {
         battery_(config.battery.configured
                      ? std::make_unique<BatteryLoop>(config.battery, battery_exchange_)
                      : nullptr),
-        control_(config, gateway_, keeper_, guard_, control_exchange_,
+        stored_(storage_.load()),
+        memory_(config.paths.run, boot_id(), stored_.report),
+        on_disk_(stored_.stop),
+        control_(config, gateway_, keeper_, guard_, control_exchange_, {memory_, storage_exchange_},
                  battery_ ? &battery_exchange_ : nullptr),
         parser_(publish::ControlLimits{}),
-        publish_(config, control_exchange_, storage_exchange_, parser_, storage_.load()) {}
+        publish_(config, control_exchange_, storage_exchange_, parser_, std::move(stored_)) {
+    control_.recall(recall(memory_, on_disk_));
+  }
 
   void run() {
     Worker keeper("links", [this] { keeper_.run(stop_keeper_); });
-    Worker storage("storage", [this] { run_storage(storage_, storage_exchange_, stop_publish_); });
+    Worker storage("storage",
+                   [this] { run_storage(storage_, storage_exchange_, on_disk_, stop_publish_); });
     std::optional<Worker> battery;
     if (battery_) battery.emplace("battery", [this] { battery_->run(stop_battery_); });
     std::optional<Worker> recorder;
@@ -213,6 +219,9 @@ class Daemon final {
   BatteryExchange battery_exchange_;
   std::unique_ptr<BatteryLoop> battery_;
   std::unique_ptr<Recorder> recorder_;  ///< nullptr: nothing is recorded
+  store::StoredState stored_;           ///< given on to the publish thread
+  RobotMemory memory_;
+  const Remembered on_disk_;
   ControlLoop control_;
   ParserLoop parser_;
   PublishLoop publish_;

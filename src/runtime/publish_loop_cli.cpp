@@ -59,6 +59,12 @@ void PublishLoop::on_cli_line(CliServer::ClientId client, std::string_view line,
   if (cmd == "traj_delete") return request(publish::DeleteTrajectory{name});
   if (cmd == "reset") return request(publish::ResetStopRequest{});
   if (cmd == "stop") return request(publish::TerminateRequest{});
+  if (cmd == "release") {
+    const auto* on_slope = document->root.find("on_slope");
+    const bool* said = on_slope == nullptr ? nullptr : on_slope->boolean();
+    return request(publish::ReleaseRequest{said != nullptr && *said});
+  }
+  if (cmd == "hold") return request(publish::HoldRequest{});
   if (cmd == "heading_find") return request(publish::FindHeadingRequest{});
   cli_.reply(client, cli_reply(cmd, name));
 }

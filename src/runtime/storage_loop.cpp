@@ -2,15 +2,55 @@
 
 #include <poll.h>
 
+#include "runtime/log.h"
+
 namespace drover::runtime {
 
-void run_storage(store::Storage& storage, StorageExchange& exchange,
+namespace {
+
+constexpr int kRetry_ms = 1000;
+
+/// The latched stop goes before everything else, and is tried again until it is durable.
+class StopKeeper final {
+ public:
+  StopKeeper(store::Storage& storage, StorageExchange& exchange, const Remembered& on_disk)
+      : storage_(storage), exchange_(exchange), on_disk_(on_disk) {}
+
+  /// False: it is not on the disk yet.
+  bool save() {
+    const KeptStop& kept = exchange_.stop.latest();
+    const Remembered wanted = store::lasting(kept.remembered);
+    if (!kept.given || wanted == on_disk_) return true;
+    const auto failure = storage_.save_stop(wanted);
+    if (!failure) {
+      on_disk_ = wanted;
+      failed_.clear();
+      return true;
+    }
+    if (failure->text != failed_) log(LogLevel::error, "the stop is not kept: " + failure->text);
+    failed_ = failure->text;
+    return false;
+  }
+
+ private:
+  store::Storage& storage_;
+  StorageExchange& exchange_;
+  Remembered on_disk_;
+  std::string failed_;
+};
+
+}  // namespace
+
+void run_storage(store::Storage& storage, StorageExchange& exchange, Remembered on_disk,
                  const std::atomic<bool>& stop) {
+  StopKeeper stop_keeper(storage, exchange, on_disk);
+  bool kept = true;
   store::StorageJob job;
   while (!stop.load(std::memory_order_relaxed)) {
     pollfd wait{exchange.jobs_ready.fd(), POLLIN, 0};
-    ::poll(&wait, 1, -1);
+    ::poll(&wait, 1, kept ? -1 : kRetry_ms);
     exchange.jobs_ready.clear();
+    kept = stop_keeper.save();
     while (exchange.jobs.pop(job)) {
       const auto reply = storage.run(job);
       job = {};
@@ -18,8 +58,10 @@ void run_storage(store::Storage& storage, StorageExchange& exchange,
       // wake-up.
       while (!exchange.replies.push(reply) && !stop.load()) ::poll(nullptr, 0, 1);
       exchange.replies_ready.notify();
+      kept = stop_keeper.save();
     }
   }
+  (void)stop_keeper.save();
 }
 
 }  // namespace drover::runtime

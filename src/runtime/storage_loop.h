@@ -5,19 +5,29 @@
 #include <atomic>
 
 #include "drover/spsc_ring.h"
+#include "drover/triple_buffer.h"
 #include "runtime/wake.h"
 #include "store/storage.h"
 
 namespace drover::runtime {
 
-/// What the storage thread shares with the publish thread.
+/// What the control thread wants kept on disk; `given` once there is anything.
+struct KeptStop {
+  bool given = false;
+  Remembered remembered;
+};
+
+/// What the storage thread shares with the publish thread, and of the stop with the control thread.
 struct StorageExchange {
   SpscRing<store::StorageJob, 64> jobs;       ///< publish → storage; full: the command is refused
   SpscRing<store::StorageReply, 64> replies;  ///< storage → publish
+  TripleBuffer<KeptStop> stop;                ///< control → storage
   Wake jobs_ready;
   Wake replies_ready;
 };
 
-void run_storage(store::Storage& storage, StorageExchange& exchange, const std::atomic<bool>& stop);
+/// `on_disk`: the stop that is stored already.
+void run_storage(store::Storage& storage, StorageExchange& exchange, Remembered on_disk,
+                 const std::atomic<bool>& stop);
 
 }  // namespace drover::runtime

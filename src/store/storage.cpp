@@ -20,13 +20,16 @@ std::string prepared(Files& files, const std::string& folder) {
 }  // namespace
 
 Storage::Storage(Files& files, const std::string& folder)
-    : tracks_(files, prepared(files, folder) + "/tracks"), origin_(files, folder) {}
+    : tracks_(files, prepared(files, folder) + "/tracks"),
+      origin_(files, folder),
+      stop_(files, folder) {}
 
 StoredState Storage::load() {
   StoredState state;
   state.tracks = tracks_.load(state.report);
   state.origin = origin_.load(state.report);
   state.origin_problem = origin_.problem();
+  state.stop = stop_.load(state.report);
   return state;
 }
 

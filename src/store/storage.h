@@ -10,6 +10,7 @@
 #include "drover/command.h"
 #include "store/files.h"
 #include "store/origin_store.h"
+#include "store/stop_store.h"
 #include "store/track.h"
 #include "store/track_store.h"
 
@@ -42,11 +43,12 @@ struct StorageReply {
 struct StoredState {
   std::vector<Track> tracks;
   std::optional<GeodeticPoint> origin;
+  Remembered stop;                  ///< what outlives a boot
   std::vector<std::string> report;  ///< for the log, a sentence each
   std::string origin_problem{};     ///< why the stored origin is lost; empty: it is not
 };
 
-/// Owns the state folder's content: `tracks/` and `origin.json`.
+/// Owns the state folder's content: `tracks/`, `origin.json` and `stop.json`.
 class Storage final {
  public:
   /// Makes `folder` and its `tracks` when they are missing.
@@ -55,10 +57,13 @@ class Storage final {
 
   StoredState load();
   StorageReply run(const StorageJob& job);
+  /// Returns nothing when it is durable.
+  std::optional<Failure> save_stop(const Remembered& remembered) { return stop_.save(remembered); }
 
  private:
   TrackStore tracks_;
   OriginStore origin_;
+  StopStore stop_;
 };
 
 }  // namespace drover::store

@@ -60,7 +60,8 @@ struct HealthInput {
   Reason tilt{};           ///< why it stands too steep to move; empty when it does not
   Reason moved{};          ///< what moves it without a command; empty when nothing does
   bool power_cut = false;  ///< by this gateway: that drives are silent is no news
-  const Reason* steep = nullptr;  ///< why the ground is too steep to be left there; empty: it is not
+  const Reason* steep =
+      nullptr;  ///< why the ground is too steep to be left there; empty: it is not
 };
 
 struct HealthReport {

@@ -72,12 +72,13 @@ void visit_fields(V& v, const AxisMotion& motion) {
 
 template <class V>
 void visit_fields(V& v, const AxisSnapshot& it) {
-  const auto& [joint, motion, state, fault, commanded_velocity_radps, inverter_degC, motor_degC,
-               bus_V, bus_A, health, source, last_motion] = it;
+  const auto& [joint, motion, state, fault, lapsed, commanded_velocity_radps, inverter_degC,
+               motor_degC, bus_V, bus_A, health, source, last_motion] = it;
   v.value("joint", joint);
   v.inside("motion", [&v, &part = motion] { visit_fields(v, part); });
   v.value("state", state);
   v.value("fault", fault);
+  v.value("lapsed", lapsed);
   v.value("commanded_velocity_radps", commanded_velocity_radps);
   v.value("inverter_degC", inverter_degC);
   v.value("motor_degC", motor_degC);
@@ -236,8 +237,8 @@ template <class V>
 void visit_fields(V& v, const Snapshot& snapshot) {
   const auto& [time, pose, worst_vx_mps, nav, gnss, imu, battery, joint_command, axes, line_active,
                line_health, line_configured, line_source, output_configured, output_on, links,
-               stop_latched, guard_alive, guard_has_bus, origin_set, origin, why, cycle, estimator,
-               notices_dropped] = snapshot;
+               stop_latched, hold, guard_alive, guard_has_bus, origin_set, origin, why, cycle,
+               estimator, notices_dropped] = snapshot;
   (void)links;  // those two are the loop's
   (void)cycle;
   v.value("time", time);
@@ -258,6 +259,7 @@ void visit_fields(V& v, const Snapshot& snapshot) {
   visit_values(v, "output_configured", output_configured);
   visit_values(v, "output_on", output_on);
   v.value("stop_latched", stop_latched);
+  v.value("hold", hold);
   v.value("guard_alive", guard_alive);
   v.value("guard_has_bus", guard_has_bus);
   v.value("origin_set", origin_set);
@@ -273,7 +275,7 @@ void visit_fields(V& v, const Snapshot& snapshot) {
 /// What the engine wants of the drives and outputs; `events` are told apart.
 template <class V>
 void visit_fields(V& v, const engine::EngineOutput& output, std::size_t axis_count) {
-  const auto& [axes, outputs, events, motion_permitted] = output;
+  const auto& [axes, outputs, events, motion_permitted, slowing_permitted, remembered] = output;
   (void)events;
   for (std::size_t i = 0; i < axis_count; ++i) {
     v.inside("commands", i, [&v, &part = axes[i]] {
@@ -284,6 +286,16 @@ void visit_fields(V& v, const engine::EngineOutput& output, std::size_t axis_cou
   }
   visit_values(v, "outputs", outputs);
   v.value("motion_permitted", motion_permitted);
+  visit_values(v, "slowing_permitted", slowing_permitted);
+  v.inside("remembered", [&v, &part = remembered] {
+    const auto& [stop, stop_at_robot, power_cut, holding, released, task] = part;
+    v.value("stop", stop);
+    v.value("stop_at_robot", stop_at_robot);
+    v.value("power_cut", power_cut);
+    v.value("holding", holding);
+    v.value("released", released);
+    v.value("task", task);
+  });
 }
 
 template <class V>

@@ -172,6 +172,18 @@ void get(Suspended& slept, ByteReader& in) {
   slept.lasted_s = in.real();
 }
 
+void put(const Recalled& recalled, ByteWriter& out) {
+  const auto& [stop, stop_at_robot, power_cut, holding, released, task] = recalled.remembered;
+  out.text(stop);
+  for (const bool flag : {stop_at_robot, power_cut, holding, released, task})
+    out.byte(flag ? 1 : 0);
+}
+void get(Recalled& recalled, ByteReader& in) {
+  auto& [stop, stop_at_robot, power_cut, holding, released, task] = recalled.remembered;
+  stop.assign(in.text());
+  for (bool* flag : {&stop_at_robot, &power_cut, &holding, &released, &task}) *flag = get_flag(in);
+}
+
 // Bodies of commands: the same once more.
 
 void put(const std::monostate&, ByteWriter&) {}
@@ -186,6 +198,14 @@ void put(const ProposeOrigin&, ByteWriter&) {}
 void get(ProposeOrigin&, ByteReader&) {}
 void put(const FindHeading&, ByteWriter&) {}
 void get(FindHeading&, ByteReader&) {}
+void put(const ArmHold&, ByteWriter&) {}
+void get(ArmHold&, ByteReader&) {}
+void put(const ReleaseHold& release, ByteWriter& out) {
+  out.byte(release.on_slope ? 1 : 0);
+}
+void get(ReleaseHold& release, ByteReader& in) {
+  release.on_slope = get_flag(in);
+}
 
 void put(const SetOrigin& set, ByteWriter& out) {
   out.real(set.origin.latitude_deg);

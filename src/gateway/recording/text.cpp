@@ -114,11 +114,17 @@ std::string words(const ProgramTrouble& trouble) {
 std::string words(const Suspended& slept) {
   return "the computer slept for " + std::to_string(slept.lasted_s) + " s";
 }
+std::string words(const Recalled& recalled) {
+  const auto& [stop, stop_at_robot, power_cut, holding, released, task] = recalled.remembered;
+  return std::string("recalled:") + (holding ? " held" : "") + (released ? " released" : "") +
+         (power_cut ? " without power" : "") + (task ? " with a task" : "") +
+         (stop_at_robot ? " stopped at the robot: " : " stopped: ") + std::string(stop);
+}
 std::string words(const CommandGiven& given) {
-  constexpr const char* kBodies[] = {"nothing",       "start of a task", "cancel",
-                                     "stop",          "reset",           "proposal of an origin",
-                                     "an origin",     "joint targets",   "joint targets refused",
-                                     "heading search"};
+  constexpr const char* kBodies[] = {"nothing",        "start of a task", "cancel",
+                                     "stop",           "reset",           "proposal of an origin",
+                                     "an origin",      "joint targets",   "joint targets refused",
+                                     "heading search", "release",         "hold"};
   static_assert(std::size(kBodies) == std::variant_size_v<decltype(Command::body)>);
   const auto& command = given.command;
   std::string text = "command " + number(static_cast<std::uint64_t>(command.id.source)) + "/" +

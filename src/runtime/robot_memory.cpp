@@ -1,0 +1,117 @@
+// What the gateway remembers over its own death: a small file in the run folder, mapped.
+#include "runtime/robot_memory.h"
+
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <type_traits>
+
+#include "link/opened.h"
+#include "link/unique_fd.h"
+#include "store/durable_file.h"
+#include "store/stop_store.h"
+
+namespace drover::runtime {
+
+namespace {
+constexpr std::uint64_t kFormat = 0x64726d656d303031;  // "drmem001"
+}  // namespace
+
+static_assert(std::is_trivially_copyable_v<Remembered>);
+
+struct RobotMemory::Record {
+  std::uint64_t format = 0;
+  std::uint64_t sequence = 0;  ///< 0: never written
+  std::array<char, 40> boot{};
+  Remembered remembered;
+  std::uint64_t checksum = 0;  ///< of all bytes before it
+
+  std::uint64_t sum() const {
+    return store::fingerprint({reinterpret_cast<const char*>(this), offsetof(Record, checksum)});
+  }
+};
+
+std::string boot_id() {
+  std::string id;
+  std::ifstream("/proc/sys/kernel/random/boot_id") >> id;
+  return id;
+}
+
+RobotMemory::RobotMemory(const std::string& folder, const std::string& boot_id,
+                         std::vector<std::string>& report)
+    : boot_id_(boot_id.substr(0, std::tuple_size_v<decltype(Record::boot)> - 1)) {
+  const std::string path = folder + "/memory";
+  if (const char* failed = open(path)) {
+    report.push_back(link::problem_text(path, failed, errno) +
+                     ": a latched stop is forgotten when droverd dies");
+    return;
+  }
+  read();
+}
+
+const char* RobotMemory::open(const std::string& path) {
+  link::UniqueFd fd(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0600));
+  if (!fd) return "cannot open";
+  struct stat info {};
+  const auto size = static_cast<off_t>(2 * sizeof(Record));
+  if (::fstat(fd.get(), &info) != 0) return "cannot look at it";
+  // Of another version, or none yet: there is nothing in it for us.
+  if (info.st_size != size && ::ftruncate(fd.get(), 0) != 0) return "cannot empty";
+  // Allocated now: a full disk would be a signal later, in the control thread.
+  if (info.st_size != size && ::posix_fallocate(fd.get(), 0, size) != 0) return "no room";
+  void* memory = ::mmap(nullptr, 2 * sizeof(Record), PROT_READ | PROT_WRITE,
+                        MAP_SHARED | MAP_POPULATE, fd.get(), 0);
+  if (memory == MAP_FAILED) return "cannot map";
+  records_ = static_cast<Record*>(memory);
+  return nullptr;
+}
+
+RobotMemory::~RobotMemory() {
+  if (records_ != nullptr) ::munmap(records_, 2 * sizeof(Record));
+}
+
+void RobotMemory::read() {
+  bool written = false;
+  for (int i = 0; i < 2; ++i) {
+    Record record;
+    std::memcpy(&record, &records_[i], sizeof record);
+    if (record.sequence == 0 && record.format == 0) continue;
+    written = true;
+    const bool whole = record.format == kFormat && record.checksum == record.sum();
+    if (!whole) continue;
+    if (record.sequence <= sequence_) continue;
+    sequence_ = record.sequence;
+    const bool this_boot = boot_id_ == std::string_view(record.boot.data());
+    found_ = this_boot ? std::optional(record.remembered) : std::nullopt;
+  }
+  unreadable_ = written && sequence_ == 0;
+}
+
+bool RobotMemory::keep(const Remembered& now) {
+  if (last_ && *last_ == now) return false;
+  last_ = now;
+  if (records_ == nullptr) return true;
+  Record record;
+  std::memset(static_cast<void*>(&record), 0, sizeof record);
+  record.format = kFormat;
+  record.sequence = ++sequence_;
+  std::memcpy(record.boot.data(), boot_id_.data(), boot_id_.size());
+  record.remembered = now;
+  record.checksum = record.sum();
+  std::memcpy(static_cast<void*>(&records_[sequence_ % 2]), &record, sizeof record);
+  return true;
+}
+
+Remembered recall(const RobotMemory& memory, const Remembered& on_disk) {
+  if (memory.found()) return *memory.found();
+  Remembered known = on_disk;
+  if (memory.unreadable() && known.stop.empty()) known.stop.assign(store::kUnreadableStop);
+  return known;
+}
+
+}  // namespace drover::runtime

@@ -1,0 +1,36 @@
+// The latched stop on disk: it survives a boot of the computer.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "drover/remembered.h"
+#include "store/durable_file.h"
+#include "store/files.h"
+
+namespace drover::store {
+
+/// What is latched when nobody can tell whether something was.
+inline constexpr std::string_view kUnreadableStop = "the stored stop cannot be read: drover reset";
+
+/// That part of `all` that outlives a boot: the stop and the power cut.
+Remembered lasting(const Remembered& all);
+
+class StopStore final {
+ public:
+  /// `files` is borrowed for the lifetime of this object; `folder` exists.
+  StopStore(Files& files, std::string folder);
+
+  /// Nothing is latched when none was ever stored. A file that cannot be read is reported and
+  /// counts as a stop; it stays where it is until the next save.
+  Remembered load(std::vector<std::string>& report) const;
+  /// Returns nothing when it is durable.
+  std::optional<Failure> save(const Remembered& remembered);
+
+ private:
+  Files& files_;
+  std::string folder_;
+};
+
+}  // namespace drover::store

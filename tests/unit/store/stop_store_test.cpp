@@ -1,0 +1,80 @@
+#include "store/stop_store.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/unit/store/fault_files.h"
+
+namespace drover::store {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+Remembered stopped() {
+  Remembered kept;
+  kept.stop = "wheel rear_left runs away: 22.1 rad/s";
+  kept.stop_at_robot = true;
+  kept.power_cut = true;
+  return kept;
+}
+
+struct Stored {
+  Remembered load() {
+    report.clear();
+    return StopStore(files, "state").load(report);
+  }
+  bool save(const Remembered& what) { return !StopStore(files, "state").save(what); }
+  FaultFiles files;
+  std::vector<std::string> report;
+};
+
+TEST(AStopStore, HasNothingAtFirst) {
+  Stored it;
+  EXPECT_EQ(it.load(), Remembered{});
+  EXPECT_TRUE(it.report.empty());
+}
+TEST(AStopStore, KeepsAStopAndItsEnd) {
+  Stored it;
+  ASSERT_TRUE(it.save(stopped()));
+  EXPECT_EQ(it.load(), stopped());
+  ASSERT_TRUE(it.save({}));
+  EXPECT_EQ(it.load(), Remembered{});
+}
+TEST(AStopStore, KeepsOnlyWhatOutlivesABoot) {
+  Remembered all = stopped();
+  all.holding = all.released = all.task = true;
+  EXPECT_EQ(lasting(all), stopped());
+}
+TEST(AStopStore, CountsADamagedFileAsAStopUntilTheNextSave) {
+  Stored it;
+  ASSERT_TRUE(it.save({}));
+  for (const char* damaged : {"", "{", "rubbish"}) {
+    it.files.put("state/stop.json", damaged);
+    EXPECT_EQ(it.load().stop, kUnreadableStop);
+    EXPECT_EQ(it.load().stop, kUnreadableStop) << "still, when it is read once more";
+    EXPECT_THAT(it.report, ElementsAre(HasSubstr("state/stop.json")));
+  }
+  ASSERT_TRUE(it.save({}));
+  EXPECT_EQ(it.load(), Remembered{});
+}
+TEST(AStopStore, KeepsWhatItAcknowledgedWhereverThePowerGoes) {
+  for (int call = 1; call < 12; ++call) {
+    for (const bool half : {false, true}) {
+      Stored it;
+      ASSERT_TRUE(it.save({}));
+      it.files.plan(FaultFiles::Fault::cut_after, call);
+      bool acknowledged = false;
+      try {
+        acknowledged = it.save(stopped());
+      } catch (const PowerCut&) {
+      }
+      it.files.boot_after_cut({half, half});
+      const Remembered found = it.load();
+      EXPECT_TRUE(found == stopped() || (!acknowledged && found == Remembered{})) << call;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace drover::store
