@@ -84,11 +84,10 @@ class Daemon final {
         control_(config, gateway_, keeper_, guard_, control_exchange_, {memory_, storage_exchange_},
                  battery_ ? &battery_exchange_ : nullptr),
         parser_(publish::ControlLimits{}),
-        publish_(config, control_exchange_, storage_exchange_, parser_, std::move(stored_)) {
-    control_.recall(recall(memory_, on_disk_));
-  }
+        publish_(config, control_exchange_, storage_exchange_, parser_, std::move(stored_)) {}
 
   void run() {
+    control_.recall(recall(memory_, on_disk_));
     Worker keeper("links", [this] { keeper_.run(stop_keeper_); });
     Worker storage("storage",
                    [this] { run_storage(storage_, storage_exchange_, on_disk_, stop_publish_); });

@@ -20,7 +20,7 @@ inline constexpr std::string_view kGood = R"({
                                           R"( "accept": ["no_watchdog"]}
   ],
   "base": {"wheel_radius_m": 0.165, "track_m": 0.6, "left": ["left"], "right": ["right"],)"
-                         R"( "hold": "brake"},
+                                          R"( "hold": "brake"},
   "limits": {"max_speed_mps": 0.8},
   "gnss": {"port": "/dev/drover/gnss", "baud": 115200},
   "lines": {"chip": "chip0", "estop": {"line": "a"}, "bumper": {"line": "b"}},
