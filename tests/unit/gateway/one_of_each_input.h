@@ -55,6 +55,8 @@ struct OneOfEachInput {
     command(CancelTask{});
     command(EngageStop{});
     command(ResetStop{});
+    command(ReleaseHold{true});
+    command(ArmHold{});
     add(Tick{true, false});
     add(ProgramTrouble{"droverd ends"});
     add(Suspended{2.5});
