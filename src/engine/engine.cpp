@@ -200,8 +200,6 @@ void Engine::Impl::reset_stop(const RequestId& id, Time now) {
                                   health.report(), events)) {
     owners.reset();
     rest.reset();
-    cut_since = kNever;
-    relay_open = false;
     power.reset();
   }
 }
@@ -284,7 +282,7 @@ void Engine::step(Time now, const Environment& environment, EngineOutput& out) {
   e.watch_tilt(now);
   e.health.update({now, environment, axes, lines, e.estimate, e.estimator.has_origin(),
                    e.navigator.active(), e.latched(), &e.snapshot.battery, e.tilt.reason(), moved,
-                   e.relay_open, &e.steep});
+                   e.power.opened(), &e.steep});
   e.watch_wheels(now, dt);
   const double cap_mps = e.mechanics.speed_cap_mps();
   NavOutput wanted =
@@ -299,20 +297,21 @@ void Engine::step(Time now, const Environment& environment, EngineOutput& out) {
   const bool other = motion.owner == Owner::joint_command || motion.owner == Owner::manual;
   if (other) e.navigator.make_way();
   e.driven = motion.run;
-  e.power.step(now, e.health.report().estop, axes);
+  // What held before a restart keeps its power until the lines have told of themselves.
+  e.power.step(now, e.health.report().estop && !e.hold.waits_for_lines(), axes);
   e.hold.step({now, dt, e.health.report(), axes, motion.run,
                e.wheel_fault == WheelFault::runaway || e.navigator.run_away(), e.power.is_cut(),
                environment.guard_has_bus},
               e.events);
   e.command_axes(motion, out);
   if (!motion.run || e.power.is_cut()) e.command_hold(out);
-  e.cut_power(now, out);
+  e.let_go(out);
   e.motion_asked = out.motion_permitted;
   e.navigator.on_commanded(now, out.motion_permitted, e.events);
   e.announcer.update(now, e.health.report(), e.events);
   e.fill_snapshot(now, environment, e.estimate, motion.owner);
-  out.outputs = e.snapshot.output_on = e.signals.step(
-      now, e.snapshot, out.motion_permitted, motion.run, e.power.closed() && !e.relay_open);
+  out.outputs = e.snapshot.output_on =
+      e.signals.step(now, e.snapshot, out.motion_permitted, motion.run, e.power.closed());
   out.remembered = {
       e.navigator.software_stop(), e.navigator.stop_at_robot(), e.power.is_cut(), e.hold.armed(),
       e.hold.released(),           e.navigator.active()};

@@ -44,7 +44,7 @@ struct Engine::Impl {
   void watch_imu(const ImuSample& sample, Time at);
   Reason judge_motion(Time now, Duration dt, const LineTable& lines);
   void watch_wheels(Time now, Duration dt);
-  void cut_power(Time now, EngineOutput& out);
+  void let_go(EngineOutput& out);
   double worst_speed_mps(Time now) const;
   void fill_imu(const Estimate& located);
   void fill_snapshot(Time now, const Environment& environment, const Estimate& estimate,
@@ -59,8 +59,6 @@ struct Engine::Impl {
   RestWatch rest;
   TiltWatch tilt;
   MechanicsCheck mechanics;
-  Time cut_since = kNever;    ///< the power is cut since a stop did not work; kNever: it is not
-  bool relay_open = false;    ///< and the drives had time to let go before
   bool motion_asked = false;  ///< in the last cycle
   Announcer announcer;
   Navigator navigator;

@@ -5,13 +5,6 @@
 #include "engine/engine_impl.h"
 
 namespace drover::engine {
-namespace {
-
-/// Drives let go before their supply does: what they brake needs the battery to go to.
-constexpr Duration kLetGo = std::chrono::milliseconds(1500);
-
-}  // namespace
-
 void Engine::Impl::watch_imu(const ImuSample& sample, Time at) {
   tilt.on_sample(sample, at);
   const bool zero_known = std::isfinite(estimate.gyro_bias_sigma_radps);
@@ -31,8 +24,7 @@ Reason Engine::Impl::judge_motion(Time now, Duration dt, const LineTable& lines)
   input.rolls_unpowered = !steep.empty() || hold.state() == HoldState::catching;
   if (estimate.has_heading) input.yaw_rad = estimate.pose.yaw_rad;
   const RestState state = rest.update(input);
-  if (state == RestState::not_stopping && cut_since == kNever) {
-    cut_since = now;
+  if (state == RestState::not_stopping && !power.is_cut()) {
     navigator.latch(now, rest.reason(), events);
     navigator.latch_stop(rest.reason(), true);
     power.cut();
@@ -66,21 +58,16 @@ void Engine::Impl::watch_wheels(Time now, Duration dt) {
   }
 }
 
-/// A stop that did not work: the drives let go, then their supply does.
-void Engine::Impl::cut_power(Time now, EngineOutput& out) {
-  if (cut_since == kNever) return;
-  bool off = true;
+/// A stop that did not work: the drives let go before their supply does.
+void Engine::Impl::let_go(EngineOutput& out) {
+  if (!power.is_cut()) return;
   for (const auto* side : {&config.base.left, &config.base.right}) {
     for (const AxisId id : *side) {
       out.axes[id] = {AxisRequest::idle, 0};
       snapshot.axes[id].commanded_velocity_radps = 0;
-      const AxisSnapshot& axis = snapshot.axes[id];
-      const bool holds = axis.state == AxisState::running || axis.state == AxisState::arming;
-      off = off && !(holds && axis.health == SourceState::fresh);
     }
   }
   out.motion_permitted = false;
-  relay_open = relay_open || off || now - cut_since >= kLetGo;
 }
 
 /// Of what wheels and receiver say the faster one: somebody who reads 0 walks up to the robot.

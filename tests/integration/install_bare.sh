@@ -14,21 +14,23 @@ suite=bookworm
 
 skip() { echo "skip - $1"; exit 3; }
 
-# The mirror and the proxy that this machine uses itself.
+# The mirror and the proxy that this machine uses itself; mmdebstrap's own where it has none.
 mirror() {
   local found
   # shellcheck disable=SC2016  # apt's words, not the shell's
   found=$(apt-get indextargets --format '$(RELEASE) $(COMPONENT) $(REPO_URI)' \
     "Created-By: Packages" "Origin: Debian" 2> /dev/null |
     awk -v suite="$suite" '$1 == suite && $2 == "main" { print $3; exit }' || true)
-  echo "${DROVER_DEBIAN_MIRROR:-${found:-http://deb.debian.org/debian}}"
+  echo "${DROVER_DEBIAN_MIRROR:-$found}"
 }
 
 make_root() {
   [[ ! -s $cache/$suite.tar ]] || return 0
-  echo "making a bare Debian ($suite) from $(mirror)"
+  local from
+  from=$(mirror)
+  echo "making a bare Debian ($suite)${from:+ from $from}"
   mmdebstrap --quiet --variant=important --include=sudo,ca-certificates "$suite" \
-    "$cache/$suite.tar.new" "$(mirror)" && mv "$cache/$suite.tar.new" "$cache/$suite.tar"
+    "$cache/$suite.tar.new" ${from:+"$from"} && mv "$cache/$suite.tar.new" "$cache/$suite.tar"
 }
 
 if [[ ${1:-} != --inside ]]; then

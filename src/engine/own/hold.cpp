@@ -17,6 +17,8 @@ constexpr Duration kGuardPatience = milliseconds(300);
 constexpr Duration kReportDelay = milliseconds(50);
 constexpr Duration kLongestAttempt = milliseconds(3000);
 constexpr Duration kRetry = milliseconds(500);
+/// A line counts as active until its contact has held for a while: that is no e-stop yet.
+constexpr Duration kLinesKnownAfter = milliseconds(500);
 constexpr double kReleaseTilt_deg = 2.0;
 
 }  // namespace
@@ -69,6 +71,14 @@ bool Hold::heard(const HoldInput& input, const AxisSnapshot& axis) const {
          input.now - axis.last_motion < from_s(config_.health.drive_stale_s);
 }
 
+bool Hold::estop(const HoldInput& input) {
+  if (begun_ == kNever) begun_ = input.now;
+  const bool pressed = input.health.holds(Cause::estop);
+  const bool clear = !pressed && !input.health.holds(Cause::line_lost);
+  lines_known_ = lines_known_ || clear || input.now - begun_ > kLinesKnownAfter;
+  return pressed && !waits_for_lines();
+}
+
 /// Whether the drives hold, since when they do not, and what ended the holding for good.
 void Hold::keep_time(const HoldInput& input, EventQueue& events) {
   bool all_heard = true;
@@ -78,7 +88,7 @@ void Hold::keep_time(const HoldInput& input, EventQueue& events) {
     armed_ = true;  // a person started it, and that is the arming
     released_ = false;
   }
-  if (input.health.holds(Cause::estop) || input.power_cut || input.run_away || released_) forfeit();
+  if (estop(input) || input.power_cut || input.run_away || released_) forfeit();
   if (!armed_) return;
   if (input.health.drives_running) {
     last_held_ = input.now;

@@ -47,6 +47,8 @@ class Hold final {
   Reason hindrance() const;
   HoldState state() const { return state_; }
   bool released() const { return released_; }
+  /// What was held before a restart waits until an e-stop's line has told of itself.
+  bool waits_for_lines() const { return recalled_ && !lines_known_; }
   /// The drives hold, or are to hold again: for the memory that outlives the program.
   bool armed() const { return armed_; }
 
@@ -58,6 +60,7 @@ class Hold final {
     Time next = kNever;  ///< not before
     double velocity_radps = 0;
   };
+  bool estop(const HoldInput& input);
   void forfeit() { armed_ = asked_ = recalled_ = false; }
   void keep_time(const HoldInput& input, EventQueue& events);
   void take_back(const HoldInput& input, AxisId id);
@@ -76,6 +79,8 @@ class Hold final {
   bool recalled_ = false;  ///< from before a restart; not all drives were heard since
   bool released_ = false;
   bool gave_up_ = false;
+  bool lines_known_ = false;
+  Time begun_ = kNever;
   Time last_held_ = kNever;
   Time wanted_ = kNever;  ///< since when drives are to be taken back
   HoldState state_ = HoldState::idle;

@@ -20,6 +20,8 @@ class PowerSwitch final {
   void step(Time now, bool estop, std::span<const AxisSnapshot> axes);
   /// The drives are to go idle, or have no power.
   bool is_cut() const { return cut_; }
+  /// By that cut the drives have no power any more.
+  bool opened() const { return opened_; }
   /// Level of the relay: true has power.
   bool closed() const { return closed_; }
 

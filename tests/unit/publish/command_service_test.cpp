@@ -358,7 +358,7 @@ TEST_F(CommandServiceTest, RefusesATrackOfAnotherContinent) {
 TEST_F(CommandServiceTest, ALostOriginIsToldAndNotReplacedByTheNextPlace) {
   service_ = std::make_unique<CommandService>(
       CommandServiceConfig{},
-      store::StoredState{{straight("13")}, {}, {}, "the origin was damaged"});
+      store::StoredState{.tracks = {straight("13")}, .origin_problem = "the origin was damaged"});
   service_->begin(now_, actions_);
   EXPECT_EQ(only<LogLine>().text, "the origin was damaged");
   actions_.clear();

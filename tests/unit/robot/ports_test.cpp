@@ -184,7 +184,9 @@ TEST_F(Ports, CarryWhatIsWrittenToADeviceEvenWhileItIsSilent) {
   const auto host = open_line("imu", 115200);
   ASSERT_TRUE(host);
   const std::array<std::uint8_t, 5> command{0xFF, 0xAA, 0x69, 0x88, 0xB5};
-  ASSERT_TRUE(host->write(command));
+  std::size_t taken = 0;
+  ASSERT_TRUE(host->write(command, taken));
+  ASSERT_EQ(taken, command.size());
   std::vector<std::uint8_t> heard;
   for (int i = 0; i < 4; ++i) {
     port.pump("", kTick);
@@ -197,7 +199,8 @@ TEST_F(Ports, TurnEverythingIntoNoiseWhenTheSpeedsDiffer) {
   SerialPort port((folder / "imu").string(), 9600);
   const auto host = open_line("imu", 115200);
   ASSERT_TRUE(host);
-  ASSERT_TRUE(host->write(std::array<std::uint8_t, 5>{0xFF, 0xAA, 0x69, 0x88, 0xB5}));
+  std::size_t taken = 0;
+  ASSERT_TRUE(host->write(std::array<std::uint8_t, 5>{0xFF, 0xAA, 0x69, 0x88, 0xB5}, taken));
   for (int i = 0; i < 20; ++i) {
     port.pump(i == 0 ? "spoken words" : "", kTick);
     if (i == 0) {

@@ -251,5 +251,49 @@ TEST_F(Holding, IsNotReleasedOnASlopeOrWhereTheTiltIsUnknown) {
   EXPECT_EQ(answer(), "yes");
 }
 
+/// A line counts as active until its contact has held for a while.
+class HoldingAfterARestart : public Holding {
+ protected:
+  HoldingAfterARestart() {
+    Remembered remembered;
+    remembered.holding = true;
+    hold.recall(remembered);
+    let_go(0.5);
+    press();
+  }
+  void press() {
+    health.estop = true;
+    health.causes = 1U << static_cast<unsigned>(Cause::estop);
+  }
+  void release() {
+    health.estop = false;
+    health.causes = 0;
+  }
+};
+
+TEST_F(HoldingAfterARestart, WaitsUntilTheEmergencyStopsLineHasToldOfItself) {
+  run_s(0.2);
+  EXPECT_EQ(asked(), AxisRequest::rest);
+  EXPECT_TRUE(hold.waits_for_lines());
+  release();
+  run_s(0.1);
+  EXPECT_EQ(asked(), AxisRequest::hold);
+  EXPECT_FALSE(hold.waits_for_lines());
+}
+TEST_F(HoldingAfterARestart, HoldsNothingWhenTheEmergencyStopIsPressed) {
+  run_s(0.6);
+  EXPECT_FALSE(hold.waits_for_lines());
+  EXPECT_FALSE(hold.armed());
+  release();
+  run_s(1);
+  EXPECT_EQ(asked(), AxisRequest::rest);
+}
+TEST_F(HoldingAfterARestart, DoesNotTakeALineThatIsLostForReleased) {
+  health.causes = 1U << static_cast<unsigned>(Cause::line_lost);
+  run_s(0.1);
+  EXPECT_TRUE(hold.waits_for_lines());
+  EXPECT_EQ(asked(), AxisRequest::rest);
+}
+
 }  // namespace
 }  // namespace drover::engine
