@@ -38,9 +38,11 @@ std::vector<Telemetry> Channel::telemetry(const Snapshot& snapshot, Duration wal
   const auto add = [&packets](const std::string& topic, const std::string& message) {
     packets.push_back({&topic, encode_packet(message)});
   };
-  if (const Time at = joint_time(snapshot); at > last_joints_) {
+  // While a drive is late the cycle's own time: no stamp comes twice. None without a new cycle.
+  const Time heard = joint_time(snapshot);
+  if (const Time at = heard > last_joints_ ? heard : snapshot.time; at > last_joints_) {
     last_joints_ = at;
-    add(joint_state_topic_, joint_state(snapshot, {wall_minus_monotonic, ++joint_sequence_}));
+    add(joint_state_topic_, joint_state(snapshot, at, {wall_minus_monotonic, ++joint_sequence_}));
   }
   const auto& imu = snapshot.imu;
   if (imu.configured && imu.health == SourceState::fresh && imu.time > last_imu_) {

@@ -37,8 +37,8 @@ class Channel final {
   /// MQTT topic to subscribe to.
   const std::string& command_topic() const { return joint_command_topic_; }
 
-  /// What to publish now. Joints and an inertial sample are published once each: what is silent, or
-  /// not looked at any more, is silent here too. Touch where such a line is configured, at each
+  /// What to publish now. Joints once a control cycle at most, an inertial sample once: what is not
+  /// looked at any more is silent here too. Touch where such a line is configured, at each
   /// change and ten times a second.
   std::vector<Telemetry> telemetry(const Snapshot& snapshot, Duration wall_minus_monotonic);
 

@@ -82,7 +82,7 @@ Time joint_time(const Snapshot& snapshot) {
   return oldest;
 }
 
-std::string joint_state(const Snapshot& snapshot, const Stamping& stamping) {
+std::string joint_state(const Snapshot& snapshot, Time at, const Stamping& stamping) {
   pb::sensor::JointState message;
   for (const auto& axis : snapshot.axes) {
     auto& joint = *message.add_joints();
@@ -92,7 +92,7 @@ std::string joint_state(const Snapshot& snapshot, const Stamping& stamping) {
     joint.set_velocity(heard ? axis.motion.velocity_radps : kAbsent);
     joint.set_effort(heard ? axis.motion.effort_Nm : kAbsent);
   }
-  fill(*message.mutable_header(), joint_time(snapshot), kBaseFrame, stamping);
+  fill(*message.mutable_header(), at, kBaseFrame, stamping);
   return message.SerializeAsString();
 }
 

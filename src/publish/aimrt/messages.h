@@ -21,9 +21,9 @@ struct Stamping {
 /// heard.
 Time joint_time(const Snapshot& snapshot);
 
-/// Every driven axis: rad, rad/s, N*m; NaN where the drive does not tell or is not heard. The time
-/// stamp is joint_time().
-std::string joint_state(const Snapshot& snapshot, const Stamping& stamping);
+/// Every driven axis: rad, rad/s, N*m; NaN where the drive does not tell or is not heard. `at` is
+/// what it is stamped with: joint_time(), or a later instant at which nothing newer was known.
+std::string joint_state(const Snapshot& snapshot, Time at, const Stamping& stamping);
 
 /// The inertial sensor's last sample in base_link, the learned gyro bias taken off. Its yaw is the
 /// robot's own, fused one (counter-clockwise from east) with that one's variance; while that is not

@@ -152,18 +152,21 @@ TEST_F(AnAimrtChannel, PublishesAnInertialSampleOnceAndOnlyAFreshOne) {
   EXPECT_EQ(topics(), (std::vector{joints, imu}));
 }
 
-TEST_F(AnAimrtChannel, PublishesAJointStateOnceAndOnlyANewerOne) {
+TEST_F(AnAimrtChannel, StampsNoTwoJointStatesAlikeAndIsSilentWithoutANewCycle) {
   Snapshot snapshot;
   snapshot.time = now_;
   AxisSnapshot axis;
   axis.health = SourceState::fresh;
-  axis.last_motion = now_;
+  axis.last_motion = now_ - std::chrono::milliseconds(5);
   ASSERT_TRUE(snapshot.axes.push_back(axis));
-  EXPECT_EQ(channel_->telemetry(snapshot, kWallMinusMonotonic).size(), 1U);
+  const auto first = channel_->telemetry(snapshot, kWallMinusMonotonic);
+  ASSERT_EQ(first.size(), 1U);
   snapshot.time += std::chrono::milliseconds(20);
-  EXPECT_EQ(channel_->telemetry(snapshot, kWallMinusMonotonic).size(), 0U) << "nothing new heard";
-  snapshot.axes[0].last_motion += std::chrono::milliseconds(10);
-  EXPECT_EQ(channel_->telemetry(snapshot, kWallMinusMonotonic).size(), 1U);
+  const auto late = channel_->telemetry(snapshot, kWallMinusMonotonic);
+  ASSERT_EQ(late.size(), 1U) << "the drive is late, and not yet silent";
+  // The stamp follows the packet's head, the header's key and length and its own key.
+  EXPECT_NE(first[0].payload.substr(0, 24), late[0].payload.substr(0, 24));
+  EXPECT_EQ(channel_->telemetry(snapshot, kWallMinusMonotonic).size(), 0U) << "the same cycle";
 }
 
 TEST_F(AnAimrtChannel, CountsWhatItDoesNotReadOfAFlood) {

@@ -32,7 +32,7 @@ Snapshot snapshot_with_axis(double position, double velocity, double effort) {
 }
 
 TEST(AimrtJointState, HasTheDocumentsFieldNumbers) {
-  EXPECT_EQ(joint_state(snapshot_with_axis(1.5, -2, 0.5), kStamping),
+  EXPECT_EQ(joint_state(snapshot_with_axis(1.5, -2, 0.5), kAt, kStamping),
             kHeader + hex("12 1e  0a 01 61  11 000000000000f83f  19 00000000000000c0"
                           "  21 000000000000e03f"));
 }
@@ -42,10 +42,10 @@ TEST(AimrtJointState, SaysNotANumberForAJointThatIsNotHeard) {
   snapshot.axes[0].health = SourceState::stale;
   const auto unknown = kHeader + hex("12 1e  0a 01 61  11 000000000000f87f  19 000000000000f87f"
                                      "  21 000000000000f87f");
-  EXPECT_EQ(joint_state(snapshot, kStamping), unknown);
+  EXPECT_EQ(joint_state(snapshot, joint_time(snapshot), kStamping), unknown);
   snapshot.axes[0].health = SourceState::fresh;
   snapshot.axes[0].last_motion = kNever;
-  EXPECT_EQ(joint_state(snapshot, kStamping), unknown);
+  EXPECT_EQ(joint_state(snapshot, joint_time(snapshot), kStamping), unknown);
 }
 
 TEST(AimrtJointState, IsStampedWithTheOldestJointThatIsHeard) {
@@ -55,12 +55,13 @@ TEST(AimrtJointState, IsStampedWithTheOldestJointThatIsHeard) {
   lost.health = SourceState::stale;
   lost.last_motion = Time(Duration(1));
   ASSERT_TRUE(snapshot.axes.push_back(lost));
-  EXPECT_EQ(joint_state(snapshot, kStamping).substr(0, kHeader.size()), kHeader);
+  EXPECT_EQ(joint_state(snapshot, joint_time(snapshot), kStamping).substr(0, kHeader.size()),
+            kHeader);
 }
 
 TEST(AimrtJointState, HasNoTimeBeforeTheEpoch) {
   const auto snapshot = snapshot_with_axis(0, 0, 0);
-  EXPECT_EQ(joint_state(snapshot, {Duration(-1000), 0}).substr(0, 13),
+  EXPECT_EQ(joint_state(snapshot, kAt, {Duration(-1000), 0}).substr(0, 13),
             hex("0a 0b 12 09 62 61 73 65 5f 6c 69 6e 6b"));
 }
 
