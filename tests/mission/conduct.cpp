@@ -90,6 +90,7 @@ class Ramps {
   bool slows(const Sent& one) {
     constexpr double kMps_per_turnps = 2 * 3.141592653589793 * 0.165 / 10;  // radius, gear
     constexpr double kSlip_mps = 0.1;
+    constexpr double kStands_mps = 0.02;  // at the end of a ramp the body swings back
     constexpr Duration kNew = 100ms;
     Sent& last = last_.at(one.wheel.node % last_.size());
     const bool goes_on = one.time - last.time < kNew;
@@ -100,8 +101,8 @@ class Ramps {
       return false;
     const double rolls_mps = record_.truth_at(one.time).vx_mps;
     const double asked_mps = one.wheel.velocity_turnps * kMps_per_turnps;
-    return !grows && asked_mps * rolls_mps >= 0 &&
-           std::abs(asked_mps) <= std::abs(rolls_mps) + kSlip_mps;
+    const bool same_way = asked_mps * rolls_mps >= 0 || std::abs(asked_mps) < kStands_mps;
+    return !grows && same_way && std::abs(asked_mps) <= std::abs(rolls_mps) + kSlip_mps;
   }
 
  private:

@@ -31,7 +31,7 @@ Hold::Hold(const EngineConfig& config)
 
 void Hold::recall(const Remembered& remembered) {
   released_ = remembered.released;
-  armed_ = recalled_ = remembered.holding && !released_;
+  armed_ = recalled_ = lines_awaited_ = remembered.holding && !released_;
 }
 
 Reason Hold::hindrance() const {

@@ -48,7 +48,7 @@ class Hold final {
   HoldState state() const { return state_; }
   bool released() const { return released_; }
   /// What was held before a restart waits until an e-stop's line has told of itself.
-  bool waits_for_lines() const { return recalled_ && !lines_known_; }
+  bool waits_for_lines() const { return lines_awaited_ && !lines_known_; }
   /// The drives hold, or are to hold again: for the memory that outlives the program.
   bool armed() const { return armed_; }
 
@@ -79,6 +79,7 @@ class Hold final {
   bool recalled_ = false;  ///< from before a restart; not all drives were heard since
   bool released_ = false;
   bool gave_up_ = false;
+  bool lines_awaited_ = false;  ///< it held before a restart
   bool lines_known_ = false;
   Time begun_ = kNever;
   Time last_held_ = kNever;

@@ -158,6 +158,8 @@ TEST_F(ARobotThatHolds, TellsThatATaskWasOnItsWay) {
   EXPECT_EQ(rig.fastest_command_radps(), 0);
 }
 TEST_F(ARobotThatHolds, EndsATaskOnSteepGroundWithARampAndStartsNoneThere) {
+  rig.config.base.hold = HoldBy::level_ground_only;
+  rig.engine = std::make_unique<Engine>(rig.config);
   drive();
   tilt_s(2, 1);
   EXPECT_EQ(rig.snapshot().nav.status, NavStatus::run) << rig.why();
@@ -172,10 +174,6 @@ TEST_F(ARobotThatHolds, EndsATaskOnSteepGroundWithARampAndStartsNoneThere) {
   EXPECT_THAT(refusal(), HasSubstr("the ground falls by"));
 }
 TEST_F(ARobotThatHolds, WithABrakeStopsForNoSlope) {
-  EngineConfig config = rig_config();
-  config.base.hold = HoldBy::brake;
-  rig.config = config;
-  rig.engine = std::make_unique<Engine>(config);
   drive();
   tilt_s(6, 1);
   EXPECT_EQ(rig.snapshot().nav.status, NavStatus::run) << rig.why();

@@ -27,6 +27,7 @@ inline EngineConfig rig_config() {
   for (const AxisId id : {AxisId{1}, AxisId{3}}) (void)config.base.right.push_back(id);
   config.line_configured = {true, true, true, true};
   config.estimate.antenna_x_m = 0.2;
+  config.base.hold = HoldBy::brake;  // it may stop on any slope
   // Its mechanics were proved already; tests of that switch it on.
   config.navigate.first_way_m = 0;
   return config;

@@ -255,7 +255,8 @@ TEST_F(CommandServiceTest, TheCommandLineResetsAStop) {
 
 TEST_F(CommandServiceTest, AStoredOriginGoesToTheEngineAtStart) {
   service_ = std::make_unique<CommandService>(
-      CommandServiceConfig{}, store::StoredState{{}, kOrigin, {"a file was put aside"}});
+      CommandServiceConfig{},
+      store::StoredState{.origin = kOrigin, .report = {"a file was put aside"}});
   service_->begin(now_, actions_);
   EXPECT_EQ(std::get<SetOrigin>(only<Command>().body).origin.latitude_deg, 23.0);
   EXPECT_EQ(only<LogLine>().text, "a file was put aside");

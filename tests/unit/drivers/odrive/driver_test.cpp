@@ -491,12 +491,12 @@ TEST(OdriveDriver, SaysWhatVelocityAFrameAsksOfTheJoint) {
   EXPECT_TRUE(std::isnan(asked("04D#0000803F00000000")));  // another node
   EXPECT_TRUE(std::isnan(asked(kClosedLoop)));
 }
-TEST(OdriveDriver, SaysWhetherAFaultIsOnlyAWantOfSetPoints) {
+TEST(OdriveDriver, SaysWhetherAFaultIsOnlyAWantOfSupply) {
   Bench bench;
-  bench.hear("061#0000000101000000");
+  bench.hear("061#0002000001000000");
   EXPECT_EQ(bench.status.state, AxisState::fault);
   EXPECT_TRUE(bench.status.lapsed);
-  bench.hear("061#0020000101000000");  // and the motor is too hot
+  bench.hear("061#0022000001000000");  // and the motor is too hot
   EXPECT_FALSE(bench.status.lapsed);
 }
 
