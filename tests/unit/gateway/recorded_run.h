@@ -21,7 +21,7 @@ inline std::string robot_configuration() {
       {"joint": "right", "driver": "odrive", "bus": "can0", "options": {"node": 2},
        "accept": ["no_watchdog"]}],
     "base": {"wheel_radius_m": 0.165, "track_m": 0.6, "left": ["left"], "right": ["right"],)"
-              R"( "hold": "brake"},
+         R"( "hold": "brake"},
     "limits": {"max_speed_mps": 0.8, "acceleration_mps2": 0.4},
     "gnss": {"port": "/dev/drover/gnss", "baud": 115200},
     "imu": {"driver": "witmotion", "port": "/dev/drover/imu", "baud": 115200},

@@ -2,98 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
-#include <string>
-#include <vector>
-
-#include "drivers/odrive/entry.h"
-#include "support/describe.h"
+#include "driver_bench.h"
 
 namespace drover::odrive {
 namespace {
-
-using std::chrono::milliseconds;
-using test::describe;
-using test::parse_frame;
-
-constexpr auto kIdleBeat = "061#0000000001000000";
-constexpr auto kRunningBeat = "061#0000000008000000";
-
-Options options() {
-  return Options(option_table()).set("node", 3.0).set("poll_s", 0.0);
-}
-
-/// The driver alone, with heartbeats given by hand.
-class Bench {
- public:
-  explicit Bench(const Options& values = options()) : driver(read_settings(values), 0) {
-    driver.on_link_up(now);
-  }
-  /// One frame from the drive.
-  void hear(const std::string& frame) {
-    out.clear();
-    driver.on_frame(parse_frame(frame), now, out);
-    note();
-  }
-  /// Cycles of 5 ms; a heartbeat each 100 ms if there is one.
-  void run(int cycles, AxisRequest request, double velocity_radps = 0,
-           const std::string& heartbeat = "") {
-    for (int i = 0; i < cycles; ++i) {
-      now += milliseconds(5);
-      if (!heartbeat.empty() && ++since_beat % 20 == 0) hear(heartbeat);
-      out.clear();
-      driver.on_command({request, velocity_radps}, now, out);
-      driver.on_tick(now, out);
-      note();
-    }
-  }
-  /// In closed loop, following.
-  void arm() {
-    hear(kIdleBeat);
-    run(2, AxisRequest::rest);
-    run(10, AxisRequest::run);
-    hear(kRunningBeat);
-    ASSERT_EQ(status.state, AxisState::running);
-    sent.clear();
-  }
-  int count(const std::string& frame) const {
-    int n = 0;
-    for (const auto& each : sent) n += each == frame ? 1 : 0;
-    return n;
-  }
-  int motions() const {
-    int n = 0;
-    for (const auto& each : sent)
-      n += driver.effect(parse_frame(each)) == FrameEffect::motion ? 1 : 0;
-    return n;
-  }
-
-  Time now{std::chrono::seconds(5)};
-  OdriveDriver driver;
-  DriverOut out;
-  std::vector<std::string> sent;
-  AxisStatus status;
-  int statuses = 0;
-  int since_beat = 0;
-
- private:
-  void note() {
-    for (const CanFrame& frame : out.frames) sent.push_back(describe(frame));
-    for (const Measurement& m : out.measurements) {
-      if (const auto* value = std::get_if<AxisStatus>(&m.value)) {
-        status = *value;
-        ++statuses;
-      }
-    }
-  }
-};
-
-constexpr auto kZero = "06D#0000000000000000";
-constexpr auto kMode = "06B#0200000001000000";
-constexpr auto kClosedLoop = "067#08000000";
-constexpr auto kIdle = "067#01000000";
-constexpr auto kClear = "078#00";
 
 TEST(OdriveDriver, SendsNothingBeforeAHeartbeat) {
   Bench bench;
@@ -458,46 +370,6 @@ TEST(OdriveDriver, DoesNotMindWhoOnlyReads) {
   bench.hear("064#0005010000000000");
   bench.run(20, AxisRequest::run, 1.0);
   EXPECT_EQ(bench.status.state, AxisState::running);
-}
-
-TEST(OdriveDriver, CatchesARollingWheelAtItsOwnSpeed) {
-  Bench bench;
-  bench.hear(kIdleBeat);
-  bench.run(2, AxisRequest::rest);
-  bench.sent.clear();
-  const double one_turnps = 2 * 3.14159265358979;
-  bench.run(10, AxisRequest::hold, one_turnps);
-  constexpr auto kOneTurn = "06D#0000803F00000000";
-  const auto caught = std::find(bench.sent.begin(), bench.sent.end(), kOneTurn);
-  const auto armed = std::find(bench.sent.begin(), bench.sent.end(), kClosedLoop);
-  ASSERT_NE(armed, bench.sent.end());
-  EXPECT_LT(caught, armed);
-  EXPECT_EQ(bench.count(kZero), 0);
-  EXPECT_EQ(bench.status.state, AxisState::arming);
-  bench.hear(kRunningBeat);
-  bench.run(2, AxisRequest::hold, 0);
-  EXPECT_EQ(bench.sent.back(), kZero);
-  EXPECT_EQ(bench.status.state, AxisState::running);
-}
-TEST(OdriveDriver, SaysWhatVelocityAFrameAsksOfTheJoint) {
-  Bench bench;
-  const double one_turnps = 2 * 3.14159265358979;
-  const auto asked = [&](const char* frame) {
-    return bench.driver.setpoint_radps(parse_frame(frame));
-  };
-  EXPECT_NEAR(asked("06D#0000803F00000000"), one_turnps, 1e-6);
-  EXPECT_EQ(asked(kZero), 0);
-  EXPECT_TRUE(std::isnan(asked("06D#0000803F0000803F")));  // a torque on top
-  EXPECT_TRUE(std::isnan(asked("04D#0000803F00000000")));  // another node
-  EXPECT_TRUE(std::isnan(asked(kClosedLoop)));
-}
-TEST(OdriveDriver, SaysWhetherAFaultIsOnlyAWantOfSupply) {
-  Bench bench;
-  bench.hear("061#0002000001000000");
-  EXPECT_EQ(bench.status.state, AxisState::fault);
-  EXPECT_TRUE(bench.status.lapsed);
-  bench.hear("061#0022000001000000");  // and the motor is too hot
-  EXPECT_FALSE(bench.status.lapsed);
 }
 
 }  // namespace
