@@ -95,7 +95,8 @@ INSTANTIATE_TEST_SUITE_P(
                     "receiver_replugged", "receiver_renamed", "joint_commands", "bus_off",
                     "can_replugged", "chip_replugged", "hang_without_bus", "heading_find",
                     "battery_low", "runs_on", "carried", "gear_ratio_10", "gear_ratio_2",
-                    "sides_swapped", "wheel_reversed", "restart_on_ramp", "stop_and_kill"),
+                    "sides_swapped", "wheel_reversed", "restart_on_ramp", "dip_on_ramp",
+                    "stop_and_kill"),
     [](const auto& one) { return std::string(one.param); });
 
 }  // namespace

@@ -60,6 +60,20 @@ TEST(RestartOnRamp, LetsANewStartReachTheGoal) {
   expect_new_start_succeeds(log, log.event("start droverd", 3));
 }
 
+TEST(DipOnRamp, HoldsTheRobotAgainAsSoonAsTheDrivesHaveTheirSupply) {
+  const Record& log = record("dip_on_ramp");
+  const Time dipped = log.event("sim supply dip 0.5");
+  expect_held_again(log, dipped, dipped + 500ms, log.event("start drover release"));
+}
+
+TEST(DipOnRamp, IsNotLetGoOnASlopeByAWordAlone) {
+  const Record& log = record("dip_on_ramp");
+  const Time asked = log.event("start drover release");
+  EXPECT_LT(roll(log, asked, asked + 1900ms).way_m, 0.01);
+  // Drives that had been released would take no start.
+  EXPECT_EQ(log.statuses.back().nav, "NAV_SUCCESS");
+}
+
 TEST(StopAndKill, RefusesAStartUntilTheStopIsReset) {
   const Record& log = record("stop_and_kill");
   const Time stopped = log.event("start drover stop");
