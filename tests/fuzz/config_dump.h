@@ -114,11 +114,21 @@ class Dump final {
   Require require_;
 };
 
+inline std::string word_of(engine::HoldBy hold) {
+  switch (hold) {
+    case engine::HoldBy::brake: return "brake";
+    case engine::HoldBy::worm_gear: return "worm_gear";
+    case engine::HoldBy::level_ground_only: break;
+  }
+  return "level_ground_only";
+}
+
 /// The text that gives `config` again when it is read.
 template <class Require>
 std::string dump(config::DroverConfig config, Require require) {
   config::BaseNames base;
   base.base = &config.engine.base;
+  base.hold = word_of(config.engine.base.hold);
   for (const AxisId axis : config.engine.base.left) base.left.push_back(config.drives[axis].joint);
   for (const AxisId axis : config.engine.base.right)
     base.right.push_back(config.drives[axis].joint);

@@ -22,9 +22,12 @@ void require(bool holds) {
 constexpr auto kRobot = R"({
   "buses": [{"name": "can0", "interface": "can0"}],
   "drives": [
-    {"joint": "left", "driver": "odrive", "bus": "can0", "options": {"node": 1}},
-    {"joint": "right", "driver": "odrive", "bus": "can0", "options": {"node": 2}}],
-  "base": {"wheel_radius_m": 0.165, "track_m": 0.6, "left": ["left"], "right": ["right"]},
+    {"joint": "left", "driver": "odrive", "bus": "can0", "options": {"node": 1},
+     "accept": ["no_watchdog"]},
+    {"joint": "right", "driver": "odrive", "bus": "can0", "options": {"node": 2},
+     "accept": ["no_watchdog"]}],
+  "base": {"wheel_radius_m": 0.165, "track_m": 0.6, "left": ["left"], "right": ["right"],
+           "hold": "brake"},
   "gnss": {"port": "/dev/drover/gnss", "baud": 115200},
   "imu": {"driver": "witmotion", "port": "/dev/drover/imu", "baud": 115200},
   "battery": {"map": "daly_d2.json", "port": "/dev/drover/battery", "baud": 9600,

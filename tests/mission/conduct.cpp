@@ -138,7 +138,7 @@ Problems check_frames(const Record& record) {
   return problems;
 }
 
-Problems check_motion(const Record& record) {
+Problems check_motion(const Record& record, Holding holding) {
   Problems problems;
   const auto list = tasks(record);
   auto permitted = list;
@@ -148,7 +148,7 @@ Problems check_motion(const Record& record) {
   permitted.insert(permitted.end(), asked_for.begin(), asked_for.end());
   Ramps ramps(record);
   for (const auto& one : record.moving())
-    if (!inside(permitted, one.time) && !ramps.slows(one))
+    if (!inside(permitted, one.time) && (holding == Holding::unmoved || !ramps.slows(one)))
       add(problems, seconds(one.time) + ": node " + std::to_string(one.wheel.node) +
                         " is told to move outside of any task and stream of joint commands");
   for (const auto& one : record.feedback) {

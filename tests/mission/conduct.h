@@ -22,10 +22,12 @@ Problems check_rate(const Record& record);
 /// /joint_state and /imu_state 50 times a second, /touch_state 10 times, to a hundredth, while
 /// gateway and broker run; the second only while the inertial sensor is heard.
 Problems check_aimrt_rates(const Record& record);
+/// Whether the mission lets a robot roll that its drives then hold again.
+enum class Holding { unmoved, caught };
 /// Set points with motion only between an accepted start_task and the end of that task, or while a
-/// stream of joint commands lives and in its ramp, or while what rolls is brought to rest;
-/// navigation is announced when a task's first goes out.
-Problems check_motion(const Record& record);
+/// stream of joint commands lives and in its ramp, or, where it is `caught`, while what rolls is
+/// brought to rest; navigation is announced when a task's first goes out.
+Problems check_motion(const Record& record, Holding holding = Holding::unmoved);
 /// pose and rtk of one message are of one instant, and angle and yaw are one heading.
 Problems check_pose(const Record& record);
 /// While it moves, what the robot believes is within `bound_m` of the truth.

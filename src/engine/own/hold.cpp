@@ -20,6 +20,8 @@ constexpr Duration kRetry = milliseconds(500);
 /// A line counts as active until its contact has held for a while: that is no e-stop yet.
 constexpr Duration kLinesKnownAfter = milliseconds(500);
 constexpr double kReleaseTilt_deg = 2.0;
+/// Slower is an encoder's noise.
+constexpr double kTurns_mps = 0.01;
 
 }  // namespace
 
@@ -36,7 +38,9 @@ void Hold::recall(const Remembered& remembered) {
 
 Reason Hold::hindrance() const {
   if (released_) return "the drives are released: drover hold";
-  if (state_ == HoldState::catching) return "the drives are being taken back to hold the robot";
+  // Drives that are not heard have a reason of their own.
+  if (state_ == HoldState::catching && heard_)
+    return "the drives are being taken back to hold the robot";
   return {};
 }
 
@@ -81,9 +85,9 @@ bool Hold::estop(const HoldInput& input) {
 
 /// Whether the drives hold, since when they do not, and what ended the holding for good.
 void Hold::keep_time(const HoldInput& input, EventQueue& events) {
-  bool all_heard = true;
+  heard_ = true;
   for (std::size_t i = 0; i < input.axes.size(); ++i)
-    all_heard = all_heard && (!driven_[i] || heard(input, input.axes[i]));
+    heard_ = heard_ && (!driven_[i] || heard(input, input.axes[i]));
   if (input.driven && input.health.drives_running) {
     armed_ = true;  // a person started it, and that is the arming
     released_ = false;
@@ -96,7 +100,7 @@ void Hold::keep_time(const HoldInput& input, EventQueue& events) {
   } else if (recalled_) {
     // However long the restart took: the time runs from when the drives are there.
     last_held_ = input.now;
-    recalled_ = !all_heard;
+    recalled_ = !heard_;
   } else if (input.now - last_held_ > kHoldsAgainFor) {
     forfeit();
     gave_up_ = true;
@@ -122,7 +126,8 @@ void Hold::begin(const HoldInput& input, const AxisSnapshot& axis, Catch& it) co
   const double measured_radps = axis.motion.velocity_radps;
   // Where another wheel holds already the robot does not roll: this one joins it at rest.
   const bool rolls = !input.guard_has_bus && !others_hold(input);
-  it.velocity_radps = rolls && std::isfinite(measured_radps) ? measured_radps : 0.0;
+  const bool turns = std::abs(measured_radps) * config_.base.wheel_radius_m > kTurns_mps;
+  it.velocity_radps = rolls && turns ? measured_radps : 0.0;
 }
 
 /// Until the drive runs, the lowest speed that the wheel had; from then on a ramp. Never faster

@@ -79,6 +79,7 @@ class Hold final {
   bool recalled_ = false;  ///< from before a restart; not all drives were heard since
   bool released_ = false;
   bool gave_up_ = false;
+  bool heard_ = false;          ///< all drives of the base are, now
   bool lines_awaited_ = false;  ///< it held before a restart
   bool lines_known_ = false;
   Time begun_ = kNever;

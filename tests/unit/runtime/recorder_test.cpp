@@ -21,9 +21,12 @@ using namespace std::chrono_literals;
 constexpr auto kConfig = R"({
   "buses": [{"name": "can0", "interface": "can0"}],
   "drives": [
-    {"joint": "left", "driver": "odrive", "bus": "can0", "options": {"node": 1}},
-    {"joint": "right", "driver": "odrive", "bus": "can0", "options": {"node": 2}}],
-  "base": {"wheel_radius_m": 0.165, "track_m": 0.6, "left": ["left"], "right": ["right"]},
+    {"joint": "left", "driver": "odrive", "bus": "can0", "options": {"node": 1},
+     "accept": ["no_watchdog"]},
+    {"joint": "right", "driver": "odrive", "bus": "can0", "options": {"node": 2},
+     "accept": ["no_watchdog"]}],
+  "base": {"wheel_radius_m": 0.165, "track_m": 0.6, "left": ["left"], "right": ["right"],
+           "hold": "brake"},
   "mqtt": {"host": "127.0.0.1", "port": 1883}
 })";
 
