@@ -12,10 +12,8 @@ namespace {
 // systemd does not start again after it (RestartPreventExitStatus=): no retry would help.
 constexpr int kBadConfiguration = 2;
 
-/// False when there are problems; each is a line on stderr, as are warnings.
+/// False when there are problems; each is a line on stderr.
 bool report(const drover::config::Loaded& loaded, const std::string& file) {
-  for (const auto& warning : loaded.warnings)
-    std::fprintf(stderr, "warning: %s\n", warning.text(file).c_str());
   for (const auto& problem : loaded.problems)
     std::fprintf(stderr, "%s\n", problem.text(file).c_str());
   return loaded.problems.empty();
@@ -23,6 +21,8 @@ bool report(const drover::config::Loaded& loaded, const std::string& file) {
 
 int check(const std::string& file) {
   const auto loaded = drover::config::load_file(file);
+  for (const auto& warning : loaded.warnings)
+    std::fprintf(stderr, "warning: %s\n", warning.text(file).c_str());
   if (!report(loaded, file)) {
     std::fprintf(stderr, "%s: %zu problem%s\n", file.c_str(), loaded.problems.size(),
                  loaded.problems.size() == 1 ? "" : "s");
@@ -75,7 +75,7 @@ int main(int argc, char** argv) {
   try {
     const auto loaded = drover::config::load_file(file);
     if (!report(loaded, file)) return kBadConfiguration;
-    return drover::runtime::run_daemon(loaded, record);
+    return drover::runtime::run_daemon(loaded, file, record);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "droverd: %s\n", error.what());
     return kBadConfiguration;

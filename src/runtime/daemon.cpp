@@ -239,12 +239,13 @@ class Daemon final {
 
 }  // namespace
 
-int run_daemon(const config::Loaded& loaded, const std::string& record) {
+int run_daemon(const config::Loaded& loaded, const std::string& file, const std::string& record) {
   const auto lock = take_lock(loaded.config.paths.run);
   const auto signals = end_signals();
   ::pthread_sigmask(SIG_BLOCK, &signals, nullptr);  // before any thread, so that all inherit it
   ::signal(SIGPIPE, SIG_IGN);
   const LogWriter log_writer;  // before any other thread: nobody waits for standard error
+  for (const auto& warning : loaded.warnings) log(LogLevel::warning, warning.text(file));
   const auto daemon = std::make_unique<Daemon>(loaded, record);
   daemon->run();
   log(LogLevel::info, "droverd ends");
