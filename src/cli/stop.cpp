@@ -74,7 +74,7 @@ std::optional<json::Document> ask_guard(const StopPlaces& places, std::string_vi
     return std::nullopt;
   }
   auto state = json::parse(std::string_view(bytes.data(), static_cast<std::size_t>(n)));
-  if (state) return std::move(*state);
+  if (state.ok()) return std::move(state.value());
   problem = "drover-guard's answer is not understood";
   return std::nullopt;
 }

@@ -92,6 +92,7 @@ std::string unknown_verb(const CLI::App& app, std::span<const char* const> argum
     const auto verbs = level->get_subcommands({});
     if (verbs.empty()) return {};
     std::vector<std::string> names;
+    names.reserve(verbs.size());
     for (const auto* verb : verbs) names.push_back(verb->get_name());
     const auto found = std::find(names.begin(), names.end(), word);
     if (found == names.end()) {

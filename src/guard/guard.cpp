@@ -146,14 +146,14 @@ std::string_view Guard::state() {
   const auto& kept = keep_.state();
   const Time t = now();
   const char* daemon = daemon_ < 0 ? "gone" : watch_.late(t) ? "late" : "alive";
+  const std::uint64_t unsaid = speech_.unsaid() + notify_.unsaid();
   state_text_.format(
       "{\"latched\":%s,\"latched_by_uid\":%u,\"holds\":%s,\"may_hold\":%s,\"axes\":%zu,"
       "\"in_command\":%s,\"droverd\":\"%s\",\"set_refused\":%s,\"unsent\":%llu,\"unsaid\":%llu}",
       kept.latched.load() != 0 ? "true" : "false", kept.latched_by_uid.load(),
       holding_ ? "true" : "false", may_hold() ? "true" : "false", set_.axes(),
       !holding_ || set_.in_command(t) ? "true" : "false", daemon, offered_ ? "true" : "false",
-      static_cast<unsigned long long>(set_.unsent()),
-      static_cast<unsigned long long>(speech_.unsaid() + notify_.unsaid()));
+      static_cast<unsigned long long>(set_.unsent()), static_cast<unsigned long long>(unsaid));
   return state_text_.view();
 }
 
