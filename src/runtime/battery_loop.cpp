@@ -18,8 +18,6 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr Duration kFirstBatteryPause = 500ms;
-constexpr Duration kLongestBatteryPause = 10s;
 /// The longest sleep: the thread shows that it lives.
 constexpr Duration kLongestSleep = 1s;
 
@@ -52,12 +50,12 @@ BatteryLoop::BatteryLoop(const config::BatteryConfig& config, BatteryExchange& e
 void BatteryLoop::run(const std::atomic<bool>& stop) {
   while (!stop.load(std::memory_order_relaxed)) {
     Time now = monotonic_now();
-    if (!link_ && now >= next_open_) open(now);
+    if (!link_ && retry_.due(now)) open(now);
     if (link_ && now >= std::max(next_round_, link_->ready_at())) ask(now);
     now = monotonic_now();
     publish();
     turns_.fetch_add(1, std::memory_order_relaxed);
-    sleep_until(link_ ? std::max(next_round_, link_->ready_at()) : next_open_, now);
+    sleep_until(link_ ? std::max(next_round_, link_->ready_at()) : retry_.next(), now);
   }
   link_.reset();
 }
@@ -70,7 +68,7 @@ void BatteryLoop::open(Time now) {
     return lose(opened.problem, now);
   }
   link_ = std::move(opened.link);
-  pause_ = {};
+  retry_.succeeded();
   if (!problem_.empty()) log(LogLevel::info, "battery: " + config_.port + " is open");
   problem_.clear();
   block_ = 0;
@@ -88,8 +86,7 @@ void BatteryLoop::lose(const std::string& why, Time now) {
     closed_.late_bytes += last.late_bytes;
   }
   link_.reset();
-  pause_ = std::clamp(pause_ * 2, kFirstBatteryPause, kLongestBatteryPause);
-  next_open_ = now + pause_;
+  retry_.tried(now);
 }
 
 /// One block; the round goes on at the next turn.

@@ -15,6 +15,7 @@
 #include "drover/triple_buffer.h"
 #include "gateway/input.h"
 #include "link/modbus_link.h"
+#include "runtime/back_off.h"
 #include "runtime/wake.h"
 
 namespace drover::runtime {
@@ -61,8 +62,7 @@ class BatteryLoop final {
   std::size_t block_ = 0;
   bool answers_ = false;  ///< it was said once
   Time next_round_ = kNever;
-  Time next_open_ = kNever;
-  Duration pause_{};
+  BackOff retry_{std::chrono::milliseconds(500), std::chrono::seconds(10)};
   Reason problem_ = "not opened yet";
   std::uint64_t dropped_ = 0;
   std::atomic<std::uint64_t> turns_{0};

@@ -11,6 +11,7 @@
 #include "runtime/battery_loop.h"
 #include "runtime/command_intake.h"
 #include "runtime/guard_client.h"
+#include "runtime/guard_watch.h"
 #include "runtime/link_keeper.h"
 #include "runtime/program_watch.h"
 #include "runtime/recorder.h"
@@ -89,8 +90,6 @@ class ControlLoop final {
   ControlExchange& exchange_;
   KeepsOver keeps_;
   BatteryExchange* battery_;  ///< nullptr: none
-  const Duration guard_stale_;
-
   const Duration tick_;
   std::array<std::unique_ptr<link::CanLink>, kMaxBuses> can_;
   std::array<std::unique_ptr<link::SerialLink>, kStreamCount> streams_;
@@ -107,12 +106,7 @@ class ControlLoop final {
   Time clocks_measured_ = kNever;
   Duration wall_minus_monotonic_{};
   CycleStats stats_;
-  std::uint64_t guard_beats_ = 0;
-  Time guard_seen_ = kNever;
-  Time guard_held_since_ = kNever;
-  Time hand_back_asked_ = kNever;
-  bool guard_has_bus_ = false;
-  bool guard_latched_ = false;
+  GuardWatch guard_watch_;
   CommandIntake intake_;
   ProgramWatch program_;
   Duration asleep_{};  ///< since the computer booted

@@ -11,10 +11,6 @@
 namespace drover::runtime {
 
 namespace {
-// A device that comes back is there within a second: the pause never grows beyond half of it.
-constexpr Duration kFirstPause = std::chrono::milliseconds(50);
-constexpr Duration kLongestPause = std::chrono::milliseconds(500);
-
 std::vector<std::string> line_names(const config::LinesConfig& lines) {
   std::vector<std::string> names;
   for (const auto& line : lines.line)
@@ -73,9 +69,9 @@ void LinkKeeper::run(const std::atomic<bool>& stop) {
   while (!stop.load(std::memory_order_relaxed)) {
     turns_.fetch_add(1, std::memory_order_relaxed);
     const Time now = monotonic_now();
-    take_back_lost(now);
+    take_back_lost();
     for (std::size_t i = 0; i < kLinkSlots; ++i)
-      if (slots_[i].used && !slots_[i].open && now >= slots_[i].next_try) try_open(i, now);
+      if (slots_[i].used && !slots_[i].open && slots_[i].retry.due(now)) try_open(i, now);
     supply_guard(now);
     supply_watchdog(now);
     supply_relay();
@@ -97,19 +93,19 @@ void LinkKeeper::run(const std::atomic<bool>& stop) {
 Duration LinkKeeper::until_next_try(Time now) const {
   Duration wait = std::chrono::seconds(1);
   for (const auto& slot : slots_)
-    if (slot.used && !slot.open) wait = std::min(wait, slot.next_try - now);
-  if (guard_set_changed_ || !guard_.connected()) wait = std::min(wait, guard_slot_.next_try - now);
-  if (watchdog_.used) wait = std::min(wait, watchdog_.next_try - now);
+    if (slot.used && !slot.open) wait = std::min(wait, slot.retry.next() - now);
+  if (guard_set_changed_ || !guard_.connected())
+    wait = std::min(wait, guard_slot_.retry.next() - now);
+  if (watchdog_.used) wait = std::min(wait, watchdog_try_ - now);
   return std::max(wait, Duration(std::chrono::milliseconds(1)));
 }
 
-void LinkKeeper::take_back_lost(Time now) {
+void LinkKeeper::take_back_lost() {
   LinkHandover lost;
   while (losses_.pop(lost)) {
     auto& slot = slots_[lost.slot];
     slot.open = false;
-    slot.pause = {};
-    slot.next_try = now;
+    slot.retry.try_now();
     if (lost.slot < kMaxBuses) guard_set_changed_ = true;
     if (lost.slot == kOutputsSlot) forget_relay();
     if (lost.reopen_baud > 0) slot.serial.baud = lost.reopen_baud;
@@ -188,8 +184,7 @@ void LinkKeeper::try_open(std::size_t slot, Time now) {
 
 void LinkKeeper::failed(std::size_t slot, const std::string& problem, Time now) {
   auto& s = slots_[slot];
-  s.pause = std::clamp(s.pause * 2, kFirstPause, kLongestPause);
-  s.next_try = now + s.pause;
+  s.retry.tried(now);
   if (problem == s.problem) return;  // said once, not at every try
   s.problem = problem;
   log(LogLevel::warning, problem);
@@ -201,7 +196,7 @@ void LinkKeeper::failed(std::size_t slot, const std::string& problem, Time now) 
 
 void LinkKeeper::supply_guard(Time now) {
   const bool supplied = !guard_set_changed_ && guard_.connected();
-  if (supplied || now < guard_slot_.next_try) return;
+  if (supplied || !guard_slot_.retry.due(now)) return;
   if (!guard_.connected()) relay_given_ = false;
   std::vector<GuardedLink> links(config_.buses.size());
   std::string missing;
@@ -227,18 +222,17 @@ void LinkKeeper::supply_guard(Time now) {
     log(LogLevel::info, "drover-guard watches the drives");
     return;
   }
-  guard_slot_.pause = std::clamp(guard_slot_.pause * 2, kFirstPause, kLongestPause);
-  guard_slot_.next_try = now + guard_slot_.pause;
+  guard_slot_.retry.tried(now);
   if (problem != guard_slot_.problem) log(LogLevel::warning, problem);
   guard_slot_.problem = problem;
 }
 
 void LinkKeeper::supply_watchdog(Time now) {
-  if (!watchdog_.used || !guard_.connected() || now < watchdog_.next_try) {
-    if (watchdog_.next_try <= now) watchdog_.next_try = now + kWatchdogPause;
+  if (!watchdog_.used || !guard_.connected() || now < watchdog_try_) {
+    if (watchdog_try_ <= now) watchdog_try_ = now + kWatchdogPause;
     return;
   }
-  watchdog_.next_try = now + kWatchdogPause;
+  watchdog_try_ = now + kWatchdogPause;
   const auto& line = config_.outputs.watchdog;
   const auto opened = link::open_outputs({config_.outputs.chip, {{line.name, line.active_low}}});
   if (opened.link && opened.link->fd() < 0) {

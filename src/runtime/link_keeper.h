@@ -18,6 +18,7 @@
 #include "link/lines.h"
 #include "link/outputs.h"
 #include "link/serial_link.h"
+#include "runtime/back_off.h"
 #include "runtime/guard_client.h"
 #include "runtime/wake.h"
 
@@ -78,12 +79,12 @@ class LinkKeeper final {
   struct Slot {
     bool used = false;
     bool open = false;
-    Time next_try = kNever;
-    Duration pause{};
+    // A device that comes back is there within a second: the pause never grows beyond half of it.
+    BackOff retry{std::chrono::milliseconds(50), std::chrono::milliseconds(500)};
     std::string problem;
     link::SerialSettings serial;  ///< of a stream
   };
-  void take_back_lost(Time now);
+  void take_back_lost();
   void try_open(std::size_t slot, Time now);
   LinkHandover open(std::size_t slot, std::string& problem);
   link::Opened<link::OutputLink> open_outputs();
@@ -107,8 +108,9 @@ class LinkKeeper final {
   GuardClient guard_;
   Slot guard_slot_;
   bool guard_set_changed_ = true;
-  Slot watchdog_;         ///< of the line that the guard pulses
-  link::UniqueFd relay_;  ///< a duplicate of the enable relay's line handle, for the guard
+  Slot watchdog_;               ///< of the line that the guard pulses
+  Time watchdog_try_ = kNever;  ///< not before
+  link::UniqueFd relay_;        ///< a duplicate of the enable relay's line handle, for the guard
   bool relay_given_ = false;
 };
 

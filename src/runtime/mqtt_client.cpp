@@ -17,8 +17,6 @@ namespace drover::runtime {
 
 namespace {
 
-constexpr Duration kFirstBrokerPause = std::chrono::milliseconds(250);
-constexpr Duration kLongestBrokerPause = std::chrono::seconds(2);
 constexpr int kQosAnswers = 1;
 constexpr const char* kOnlineTopic = "drover/online";
 constexpr std::size_t kMostUnacknowledged = 200;
@@ -112,7 +110,7 @@ void MqttClient::on_connack(int code) {
   if (version_ == MQTT_PROTOCOL_V5 &&
       (code == MQTT_RC_UNSUPPORTED_PROTOCOL_VERSION || code == kMqtt31Refused)) {
     speak(MQTT_PROTOCOL_V311);
-    next_try_ = now_;
+    retry_.try_now();
     refusal_ = "it knows no MQTT 5";
     return;
   }
@@ -123,7 +121,7 @@ void MqttClient::on_connack(int code) {
 void MqttClient::on_connected() {
   connected_ = true;
   connecting_ = false;
-  pause_ = kFirstBrokerPause;
+  retry_.succeeded();
   last_text_.clear();
   delay_.on_connected(asked_, now_);
   const bool newest = version_ == MQTT_PROTOCOL_V5;
@@ -198,7 +196,7 @@ void MqttClient::tick(Time now) {
   if (auto answer = lookup_.take()) {
     if (!answer->addresses.empty()) {
       // The first answer is waited for; a later one is for the next try.
-      if (addresses_.empty()) next_try_ = now;
+      if (addresses_.empty()) retry_.try_now();
       addresses_ = std::move(answer->addresses);
     } else if (!connected_ && addresses_.empty()) {
       failed(answer->problem);
@@ -215,7 +213,7 @@ void MqttClient::tick(Time now) {
     return;
   }
   if (connected_ || connecting_) failed(MOSQ_ERR_CONN_LOST);
-  if (now >= next_try_) connect(now);
+  if (retry_.due(now)) connect(now);
 }
 
 /// Read at each try: who sets up the broker may write the file after droverd was started.
@@ -243,8 +241,7 @@ std::string MqttClient::next_address() {
 }
 
 void MqttClient::connect(Time now) {
-  pause_ = std::clamp(pause_ * 2, kFirstBrokerPause, kLongestBrokerPause);
-  next_try_ = now + pause_;
+  retry_.tried(now);
   if (!read_credentials()) return;
   const auto address = next_address();
   if (address.empty()) return;

@@ -17,6 +17,7 @@
 #include "config/config.h"
 #include "drover/time.h"
 #include "publish/arrival.h"
+#include "runtime/back_off.h"
 #include "runtime/broker_delay.h"
 #include "runtime/name_lookup.h"
 
@@ -91,8 +92,7 @@ class MqttClient final {
   std::string refusal_;        ///< the broker's, of the present connection
   Time now_ = kNever;          ///< for the library's callbacks
   Time asked_ = kNever;        ///< for the present connection
-  Time next_try_ = kNever;
-  Duration pause_{};
+  BackOff retry_{std::chrono::milliseconds(250), std::chrono::seconds(2)};
   std::string last_text_;
   std::uint64_t connections_ = 0;
   std::uint64_t dropped_ = 0;

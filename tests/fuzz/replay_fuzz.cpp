@@ -9,6 +9,7 @@
 #include "config/load.h"
 #include "gateway/recording/encoder.h"
 #include "gateway/replay.h"
+#include "tests/support/small_robot.h"
 
 namespace {
 
@@ -19,25 +20,9 @@ void require(bool holds) {
   if (!holds) std::abort();
 }
 
-constexpr auto kRobot = R"({
-  "buses": [{"name": "can0", "interface": "can0"}],
-  "drives": [
-    {"joint": "left", "driver": "odrive", "bus": "can0", "options": {"node": 1},
-     "accept": ["no_watchdog"]},
-    {"joint": "right", "driver": "odrive", "bus": "can0", "options": {"node": 2},
-     "accept": ["no_watchdog"]}],
-  "base": {"wheel_radius_m": 0.165, "track_m": 0.6, "left": ["left"], "right": ["right"],
-           "hold": "brake"},
-  "gnss": {"port": "/dev/drover/gnss", "baud": 115200},
-  "imu": {"driver": "witmotion", "port": "/dev/drover/imu", "baud": 115200},
-  "battery": {"map": "daly_d2.json", "port": "/dev/drover/battery", "baud": 9600,
-              "options": {"max_voltage_V": 60}},
-  "lines": {"chip": "chip0", "estop": {"line": "a"}, "bumper": {"line": "b"}},
-  "mqtt": {"host": "127.0.0.1", "port": 1883}
-})";
-
 std::vector<std::uint8_t> header() {
-  const auto loaded = config::load_text(kRobot, std::string(DROVER_SOURCE_DIR) + "/config/maps");
+  const auto loaded =
+      config::load_text(test::kSmallRobot, std::string(DROVER_SOURCE_DIR) + "/config/maps");
   require(loaded.problems.empty());
   const Gateway gateway(loaded.config);
   return written(RecordingHeader{"fuzz", loaded.text, loaded.register_map,

@@ -9,6 +9,7 @@
 
 #include "config/load.h"
 #include "gateway/replay.h"
+#include "support/small_robot.h"
 #include "support/temp_folder.h"
 
 namespace drover::runtime {
@@ -18,24 +19,12 @@ using gateway::Replayed;
 using ::testing::HasSubstr;
 using namespace std::chrono_literals;
 
-constexpr auto kConfig = R"({
-  "buses": [{"name": "can0", "interface": "can0"}],
-  "drives": [
-    {"joint": "left", "driver": "odrive", "bus": "can0", "options": {"node": 1},
-     "accept": ["no_watchdog"]},
-    {"joint": "right", "driver": "odrive", "bus": "can0", "options": {"node": 2},
-     "accept": ["no_watchdog"]}],
-  "base": {"wheel_radius_m": 0.165, "track_m": 0.6, "left": ["left"], "right": ["right"],
-           "hold": "brake"},
-  "mqtt": {"host": "127.0.0.1", "port": 1883}
-})";
-
 class ARecorder : public ::testing::Test {
  protected:
   std::string file() const { return folder.path() + "/run.rec"; }
   Recorder start(std::size_t ring_bytes = 1 << 16) {
     return Recorder(file(),
-                    {"test", loaded.text, "", gateway::mathematics_fingerprint(),
+                    {"test", loaded.text, loaded.register_map, gateway::mathematics_fingerprint(),
                      gateway::field_names(gateway)},
                     ring_bytes);
   }
@@ -60,7 +49,8 @@ class ARecorder : public ::testing::Test {
   }
 
   test::TempFolder folder;
-  config::Loaded loaded = config::load_text(kConfig);
+  config::Loaded loaded =
+      config::load_text(test::kSmallRobot, std::string(DROVER_SOURCE_DIR) + "/config/maps");
   gateway::Gateway gateway{loaded.config};
   Time now{100s};
   std::atomic<bool> stop{false};

@@ -1,0 +1,66 @@
+// The control thread's view of the guard: whether it lives, holds the bus, was told to stop; and
+// when the bus is asked back.
+#pragma once
+
+#include <cstdint>
+
+#include "drover/time.h"
+
+namespace drover::runtime {
+
+/// What the guard writes into the shared memory.
+struct GuardSigns {
+  std::uint64_t beats = 0;
+  bool holds = false;    ///< it sends the stop frames itself
+  bool latched = false;  ///< `drover stop` reached it
+};
+
+class GuardWatch final {
+ public:
+  /// The bus is asked back when the robot was at rest and our heartbeat good for this long.
+  static constexpr Duration kHandBackAfter = std::chrono::milliseconds(500);
+  /// A robot that rolls cannot wait: its drives are taken back at their own speed, not under zeros.
+  static constexpr Duration kHandBackToCatch = std::chrono::milliseconds(30);
+  /// The guard's own cycle is 10 ms. It is given what it gives us, and three cycles more; then it
+  /// is not there.
+  static constexpr Duration kCycles = std::chrono::milliseconds(30);
+
+  /// `limit`: what the guard gives the daemon's heartbeat.
+  explicit GuardWatch(Duration limit) : silent_after_(limit + kCycles) {}
+
+  /// Each cycle. True when the guard was told to stop and this program was not yet.
+  bool update(const GuardSigns& signs, Time now) {
+    if (signs.beats != beats_) {
+      beats_ = signs.beats;
+      heard_ = now;
+    }
+    if (signs.holds && !holds_) held_since_ = now;
+    holds_ = signs.holds;
+    const bool newly_latched = signs.latched && !latched_;
+    latched_ = signs.latched;
+    return newly_latched;
+  }
+  bool alive(Time now) const { return heard_ + silent_after_ > now; }
+  bool holds() const { return holds_; }
+  bool latched() const { return latched_; }
+
+  /// True when the bus is to be asked back now; `calm`: no task, and the program is well.
+  bool ask_back(bool calm, bool rolls, Time now) {
+    const Duration pause = rolls ? kHandBackToCatch : kHandBackAfter;
+    if (!holds_ || latched_ || !calm || now - held_since_ <= pause || now - asked_ <= pause)
+      return false;
+    asked_ = now;
+    return true;
+  }
+
+ private:
+  Duration silent_after_;
+  std::uint64_t beats_ = 0;
+  Time heard_ = kNever;
+  Time held_since_ = kNever;
+  Time asked_ = kNever;
+  bool holds_ = false;
+  bool latched_ = false;
+};
+
+}  // namespace drover::runtime
