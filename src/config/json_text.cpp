@@ -114,6 +114,27 @@ JsonText& JsonText::number(double value) {
   return *this;
 }
 
+JsonText& JsonText::number(double value, int decimals) {
+  if (!std::isfinite(value) || std::abs(value) >= 1e15) return number(value);
+  separate();
+  std::array<char, 40> digits{};
+  const auto done = std::to_chars(digits.data(), digits.data() + digits.size(), value,
+                                  std::chars_format::fixed, decimals);
+  std::string_view text(digits.data(), static_cast<std::size_t>(done.ptr - digits.data()));
+  if (text.find('.') != text.npos) {
+    text.remove_suffix(text.size() - 1 - text.find_last_not_of('0'));
+    if (text.ends_with('.')) text.remove_suffix(1);
+  }
+  out_ += text == "-0" ? "0" : text;
+  return *this;
+}
+
+JsonText& JsonText::spelled_number(std::string_view digits) {
+  separate();
+  out_ += digits;
+  return *this;
+}
+
 JsonText& JsonText::null() {
   separate();
   out_ += "null";

@@ -21,6 +21,10 @@ class JsonText {
   /// Shortest digits that give the same double again. JSON has no NaN or infinity: they become 0,
   /// so the caller decides first what stands for "absent".
   JsonText& number(double value);
+  /// Rounded to so many decimals (0 to 15), without the zeros behind; never "-0".
+  JsonText& number(double value, int decimals);
+  /// A number in its own spelling, which is one of JSON's.
+  JsonText& spelled_number(std::string_view digits);
   JsonText& null();
   JsonText& newline();
 

@@ -12,6 +12,19 @@
 namespace drover::publish {
 namespace {
 
+// Decimals of what is published. Finer digits are noise of the arithmetic, and clients show them.
+// Places have more than the receiver can tell: tracks are recorded from them.
+constexpr int kElectric = 2;  // 0.01 A, V, Ah
+constexpr int kPercent = 1;
+constexpr int kWholePercent = 0;
+constexpr int kDegrees_C = 1;
+constexpr int kMetres = 4;
+constexpr int kMetresLeft = 2;
+constexpr int kRadians = 5;
+constexpr int kSpeed = 4;      // m/s, rad/s
+constexpr int kDegrees = 3;    // of the compass
+constexpr int kGeodetic = 10;  // degrees: 0.01 mm
+
 bool drives_healthy(const Snapshot& snapshot) {
   return !snapshot.axes.empty() &&
          std::all_of(snapshot.axes.begin(), snapshot.axes.end(), [](const AxisSnapshot& axis) {
@@ -113,13 +126,13 @@ std::string BaseStatus::text(const Snapshot& snapshot) {
   json::JsonText out;
   out.open('{');
   out.key("bms").open('{');
-  out.key("current").number(keep(current_A_, battery.sample.current_A));
+  out.key("current").number(keep(current_A_, battery.sample.current_A), kElectric);
   out.key("error").integer(bms_error(battery));
-  out.key("remaining_capacity").number(keep(remaining_Ah_, battery.sample.remaining_Ah));
-  out.key("soc").number(keep(soc_percent_, battery.sample.soc_percent));
+  out.key("remaining_capacity").number(keep(remaining_Ah_, battery.sample.remaining_Ah), kElectric);
+  out.key("soc").number(keep(soc_percent_, battery.sample.soc_percent), kPercent);
   out.key("status").integer(bms_status(battery));
-  out.key("tem").number(keep(temperature_degC_, battery.sample.temperature_degC));
-  out.key("voltage").number(keep(voltage_V_, battery.sample.voltage_V));
+  out.key("tem").number(keep(temperature_degC_, battery.sample.temperature_degC), kDegrees_C);
+  out.key("voltage").number(keep(voltage_V_, battery.sample.voltage_V), kElectric);
   out.key("valid").boolean(known(battery)).close('}');
 
   out.key("nav").open('{');
@@ -127,28 +140,29 @@ std::string BaseStatus::text(const Snapshot& snapshot) {
   out.key("obstacle").boolean(nav.obstacle);
   out.key("status").text(spelling(nav.status));
   out.key("owner").text(word(nav.owner));
-  if (std::isfinite(nav.metres_left)) out.key("metres_left").number(nav.metres_left);
+  if (std::isfinite(nav.metres_left)) out.key("metres_left").number(nav.metres_left, kMetresLeft);
   out.key("why").open('[');
   for (const drover::Reason& reason : snapshot.why) out.text(reason.view());
   out.close(']').close('}');
 
   out.key("pose").open('{');
-  out.key("x").number(keep(x_m_, snapshot.pose.x_m));
-  out.key("y").number(keep(y_m_, snapshot.pose.y_m));
-  out.key("yaw").number(keep(yaw_rad_, snapshot.pose.yaw_rad)).close('}');
+  out.key("x").number(keep(x_m_, snapshot.pose.x_m), kMetres);
+  out.key("y").number(keep(y_m_, snapshot.pose.y_m), kMetres);
+  out.key("yaw").number(keep(yaw_rad_, snapshot.pose.yaw_rad), kRadians).close('}');
 
   out.key("robot").open('{');
-  out.key("power").number(power(snapshot));
+  out.key("power").number(power(snapshot),
+                          config_.power == PowerUnit::percent ? kWholePercent : kElectric);
   out.key("robot_status").integer(robot_status(snapshot));
-  out.key("vx").number(keep(vx_mps_, snapshot.worst_vx_mps));
+  out.key("vx").number(keep(vx_mps_, snapshot.worst_vx_mps), kSpeed);
   out.key("vy").number(0);
-  out.key("vz").number(keep(wz_radps_, snapshot.pose.wz_radps));
+  out.key("vz").number(keep(wz_radps_, snapshot.pose.wz_radps), kSpeed);
   out.key("valid").boolean(std::isfinite(snapshot.pose.vx_mps)).close('}');
 
   out.key("rtk").open('{');
-  out.key("angle").number(angle_deg_);
-  out.key("latitude").number(latitude_deg_);
-  out.key("longitude").number(longitude_deg_);
+  out.key("angle").number(angle_deg_ < 359.9995 ? angle_deg_ : 0, kDegrees);
+  out.key("latitude").number(latitude_deg_, kGeodetic);
+  out.key("longitude").number(longitude_deg_, kGeodetic);
   out.key("status").integer(receiver_fresh ? rtk_status(gnss.position.quality) : 0).close('}');
 
   out.key("sensor").open('{');

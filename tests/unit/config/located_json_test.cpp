@@ -175,6 +175,20 @@ TEST(JsonText, WritesNumbersThatReadBackToTheSameBits) {
   }
 }
 
+TEST(JsonText, RoundsToDecimalsWithoutZerosBehind) {
+  const auto written = [](double value, int decimals) {
+    return JsonText().number(value, decimals).take();
+  };
+  EXPECT_EQ(written(-1.199999999999818, 2), "-1.2");
+  EXPECT_EQ(written(67.5001, 0), "68");
+  EXPECT_EQ(written(100, 0), "100");
+  EXPECT_EQ(written(100, 2), "100");
+  EXPECT_EQ(written(-0.0001, 2), "0");
+  EXPECT_EQ(written(113.01964, 4), "113.0196");
+  EXPECT_EQ(written(1e300, 2), "1e+300");
+  EXPECT_EQ(written(std::numeric_limits<double>::quiet_NaN(), 2), "0");
+}
+
 TEST(JsonText, EscapesWhatMustBeAndReplacesWhatIsNoText) {
   JsonText out;
   out.open('{')

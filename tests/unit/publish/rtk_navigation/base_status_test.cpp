@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <numbers>
 
 #include "config/located_json.h"
 #include "publish/rtk_navigation/feedback.h"
@@ -139,16 +140,16 @@ TEST(BaseStatus, NeverWritesWhatIsNoNumber) {
   snapshot.gnss.pose_latitude_deg = snapshot.gnss.pose_longitude_deg = bad;
   const auto ours = parsed(publisher.text(snapshot));
   EXPECT_EQ(at(ours, "pose", "x").number(), 12.5);
-  EXPECT_EQ(at(ours, "rtk", "latitude").number(), 23.1496524965123);
+  EXPECT_EQ(at(ours, "rtk", "latitude").number(), 23.1496524965);
   EXPECT_EQ(at(ours, "rtk", "angle").number(), 90);
 }
 
 TEST(BaseStatus, TakesRtkOfThePosesOwnInstantWhileLocated) {
   const auto ours = status(good_snapshot());
-  EXPECT_EQ(at(ours, "rtk", "latitude").number(), 23.1496524965123);
-  EXPECT_EQ(at(ours, "rtk", "longitude").number(), 113.0196366456667);
+  EXPECT_EQ(at(ours, "rtk", "latitude").number(), 23.1496524965);
+  EXPECT_EQ(at(ours, "rtk", "longitude").number(), 113.0196366457);
   EXPECT_EQ(at(ours, "rtk", "angle").number(), 90);
-  EXPECT_EQ(at(ours, "robot", "vz").number(), 0.004363323129985824);
+  EXPECT_EQ(at(ours, "robot", "vz").number(), 0.0044);
 }
 
 TEST(BaseStatus, TakesTheReceiversLastWordWhenNotLocated) {
@@ -228,6 +229,55 @@ TEST(BaseStatus, PowerIsPercentOrVoltsAsConfigured) {
   snapshot.battery = good_battery();
   EXPECT_EQ(at(status(snapshot), "robot", "power").number(), 68);
   EXPECT_EQ(at(status(snapshot, {.power = PowerUnit::volts}), "robot", "power").number(), 51);
+}
+
+/// What a field is written as.
+std::string written(const std::string& text, const std::string& group, const std::string& field) {
+  const auto at = text.find("\"" + field + "\":", text.find("\"" + group + "\":"));
+  const auto begin = at + field.size() + 3;
+  return text.substr(begin, text.find_first_of(",}", begin) - begin);
+}
+
+TEST(BaseStatus, RoundsEachValueToItsUnit) {
+  Snapshot snapshot = good_snapshot();
+  snapshot.battery = good_battery();
+  snapshot.battery.sample.current_A = -1.199999999999818;
+  snapshot.battery.sample.voltage_V = 51.20000000000001;
+  snapshot.battery.sample.soc_percent = 67.6000001;
+  snapshot.battery.sample.remaining_Ah = 33.999999999;
+  snapshot.battery.sample.temperature_degC = 23.04;
+  snapshot.nav.metres_left = 7.600000001;
+  snapshot.pose.x_m = 12.30000000000002;
+  snapshot.pose.y_m = -1e-9;
+  snapshot.pose.yaw_rad = 3.14159265358979;
+  snapshot.pose.wz_radps = -0.00001;
+  snapshot.worst_vx_mps = 0.49999999999;
+  const auto text = BaseStatus(RtkConfig{}).text(snapshot);
+  const struct {
+    const char* group;
+    const char* field;
+    const char* text;
+  } kExpected[] = {{"bms", "current", "-1.2"},
+                   {"bms", "voltage", "51.2"},
+                   {"bms", "soc", "67.6"},
+                   {"bms", "remaining_capacity", "34"},
+                   {"bms", "tem", "23"},
+                   {"nav", "metres_left", "7.6"},
+                   {"pose", "x", "12.3"},
+                   {"pose", "y", "0"},
+                   {"pose", "yaw", "3.14159"},
+                   {"robot", "power", "68"},
+                   {"robot", "vx", "0.5"},
+                   {"robot", "vz", "0"},
+                   {"rtk", "angle", "270"},
+                   {"rtk", "latitude", "23.1496524965"},
+                   {"rtk", "longitude", "113.0196366457"}};
+  for (const auto& [group, field, expected] : kExpected)
+    EXPECT_EQ(written(text, group, field), expected) << group << "." << field;
+  EXPECT_EQ(written(BaseStatus({.power = PowerUnit::volts}).text(snapshot), "robot", "power"),
+            "51.2");
+  snapshot.pose.yaw_rad = std::numbers::pi / 2 + 1e-7;  // a hair west of north
+  EXPECT_EQ(written(BaseStatus(RtkConfig{}).text(snapshot), "rtk", "angle"), "0");
 }
 
 TEST(BaseStatus, KeepsTheLastOfABatteryThatIsSilentAndMarksItUnknown) {
