@@ -5,19 +5,19 @@
 #include <cmath>
 #include <limits>
 
+#include "drover/bytes.h"
+
 namespace drover::odrive {
 namespace {
 
-static_assert(sizeof(float) == 4 && std::numeric_limits<float>::is_iec559);
-
 void put_u16(CanFrame& frame, std::uint16_t value) {
-  frame.data[frame.len++] = static_cast<std::uint8_t>(value);
-  frame.data[frame.len++] = static_cast<std::uint8_t>(value >> 8U);
+  store_le(frame.data, frame.len, value);
+  frame.len += 2;
 }
 
 void put_u32(CanFrame& frame, std::uint32_t value) {
-  put_u16(frame, static_cast<std::uint16_t>(value));
-  put_u16(frame, static_cast<std::uint16_t>(value >> 16U));
+  store_le(frame.data, frame.len, value);
+  frame.len += 4;
 }
 
 float finite_float(double value) {
@@ -104,7 +104,7 @@ std::optional<FloatPair> decode_floats(const CanFrame& frame) {
 std::optional<SdoValue> decode_tx_sdo(const CanFrame& frame) {
   if (frame.remote || frame.len < 4 || frame.len > 8 || frame.data[0] != 0) return {};
   SdoValue value;
-  value.endpoint = static_cast<std::uint16_t>(frame.data[1] | frame.data[2] << 8U);
+  value.endpoint = load_le<std::uint16_t>(frame.data, 1);
   value.size = frame.len - 4;
   value.raw = read_u32(frame, 4);
   return value;

@@ -6,6 +6,8 @@
 #include <limits>
 #include <numbers>
 
+#include "drover/bytes.h"
+
 namespace drover::odrive {
 namespace {
 
@@ -166,7 +168,7 @@ void OdriveTwin::on_data(const CanFrame& frame, Time now, TwinFrames& out) {
 
 void OdriveTwin::on_sdo(const CanFrame& frame, TwinFrames& out) {
   if (frame.len < 4) return;
-  const auto endpoint = static_cast<std::uint16_t>(frame.data[1] | frame.data[2] << 8U);
+  const auto endpoint = load_le<std::uint16_t>(frame.data, 1);
   const bool enable = endpoint == settings_.watchdog_enable_endpoint && endpoint != 0;
   const bool timeout = endpoint == settings_.watchdog_timeout_endpoint && endpoint != 0;
   if (!enable && !timeout) return;

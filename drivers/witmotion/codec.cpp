@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "drover/angle.h"
+#include "drover/bytes.h"
 
 namespace drover::witmotion {
 namespace {
@@ -35,14 +36,10 @@ class Reader {
  public:
   explicit Reader(std::span<const std::uint8_t> frame) : bytes_(frame.subspan(2)) {}
   std::uint8_t byte(std::size_t i) const { return bytes_[i]; }
-  std::uint16_t unsigned_word(std::size_t i) const {
-    return static_cast<std::uint16_t>(bytes_[2 * i] | bytes_[2 * i + 1] << 8U);
-  }
-  std::int16_t word(std::size_t i) const { return static_cast<std::int16_t>(unsigned_word(i)); }
+  std::uint16_t unsigned_word(std::size_t i) const { return load_le<std::uint16_t>(bytes_, 2 * i); }
+  std::int16_t word(std::size_t i) const { return load_le<std::int16_t>(bytes_, 2 * i); }
   Words words(std::size_t from) const { return {word(from), word(from + 1), word(from + 2)}; }
-  std::uint32_t unsigned_long(std::size_t i) const {
-    return unsigned_word(2 * i) | static_cast<std::uint32_t>(unsigned_word(2 * i + 1)) << 16U;
-  }
+  std::uint32_t unsigned_long(std::size_t i) const { return load_le<std::uint32_t>(bytes_, 4 * i); }
   std::int32_t long_word(std::size_t i) const {
     return static_cast<std::int32_t>(unsigned_long(i));
   }
@@ -148,8 +145,7 @@ bool is_saturated(const Words& words) {
 }
 
 Command write_register(Register address, std::uint16_t value) {
-  return {0xFF, 0xAA, static_cast<std::uint8_t>(address), static_cast<std::uint8_t>(value & 0xFFU),
-          static_cast<std::uint8_t>(value >> 8U)};
+  return {0xFF, 0xAA, static_cast<std::uint8_t>(address), low_byte(value), high_byte(value)};
 }
 Command read_registers(Register first) {
   return write_register(Register::read, static_cast<std::uint8_t>(first));

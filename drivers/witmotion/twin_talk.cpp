@@ -2,6 +2,7 @@
 #include <chrono>
 
 #include "drivers/witmotion/twin.h"
+#include "drover/bytes.h"
 
 namespace drover::witmotion {
 namespace {
@@ -11,21 +12,11 @@ constexpr Duration kBusy = std::chrono::milliseconds(50);
 constexpr Duration kBusySaving = std::chrono::milliseconds(500);
 constexpr auto kFirstDay = std::chrono::sys_days{std::chrono::year{2026} / 6 / 1};
 
-std::uint8_t low(std::uint16_t word) {
-  return static_cast<std::uint8_t>(word & 0xFFU);
-}
-std::uint8_t high(std::uint16_t word) {
-  return static_cast<std::uint8_t>(word >> 8U);
-}
-
 }  // namespace
 
 void WitmotionTwin::say(FrameType type, std::array<std::int16_t, 4> words) {
   std::array<std::uint8_t, kFrameSize> frame{kHeader, static_cast<std::uint8_t>(type)};
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    frame[2 + 2 * i] = low(static_cast<std::uint16_t>(words[i]));
-    frame[3 + 2 * i] = high(static_cast<std::uint16_t>(words[i]));
-  }
+  for (std::size_t i = 0; i < words.size(); ++i) store_le(frame, 2 + 2 * i, words[i]);
   frame.back() = checksum({frame.data(), kFrameSize - 1});
   said_.insert(said_.end(), frame.begin(), frame.end());
 }
@@ -35,8 +26,8 @@ void WitmotionTwin::say_combined() {
   said_.push_back(static_cast<std::uint8_t>(FrameType::combined));
   for (const Words* words : {&readings_.acceleration, &readings_.rate, &readings_.angles}) {
     for (const std::int16_t word : *words) {
-      said_.push_back(low(static_cast<std::uint16_t>(word)));
-      said_.push_back(high(static_cast<std::uint16_t>(word)));
+      said_.push_back(low_byte(static_cast<std::uint16_t>(word)));
+      said_.push_back(high_byte(static_cast<std::uint16_t>(word)));
     }
   }
 }
@@ -109,8 +100,8 @@ void WitmotionTwin::on_bytes(std::span<const std::uint8_t> bytes, Time now) {
 void WitmotionTwin::obey(const Command& command, Time now) {
   if (now < busy_until_ || combined_) return;
   busy_until_ = now + kBusy;
-  const auto value = static_cast<std::uint16_t>(command[3] | command[4] << 8U);
-  if (command[2] == static_cast<std::uint8_t>(Register::read)) return answer(low(value));
+  const auto value = load_le<std::uint16_t>(command, 3);
+  if (command[2] == static_cast<std::uint8_t>(Register::read)) return answer(low_byte(value));
   if (command[2] == static_cast<std::uint8_t>(Register::unlock)) {
     if (value == kUnlock) unlocked_until_ = now + kUnlocked;
     return;

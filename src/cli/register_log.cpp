@@ -5,6 +5,8 @@
 
 #include "cli/hex.h"
 #include "config/located_json.h"
+#include "drover/bytes.h"
+#include "link/modbus_frame.h"
 
 namespace drover::cli {
 
@@ -12,19 +14,6 @@ namespace {
 
 constexpr std::size_t kRequestSize = 8;
 constexpr std::size_t kReplyFrame = 5;  // unit, function, count, two bytes of checksum
-
-std::uint16_t crc16(std::span<const std::uint8_t> bytes) {
-  unsigned crc = 0xFFFF;
-  for (const auto byte : bytes) {
-    crc ^= byte;
-    for (int i = 0; i < 8; ++i) crc = (crc & 1U) != 0 ? (crc >> 1U) ^ 0xA001U : crc >> 1U;
-  }
-  return static_cast<std::uint16_t>(crc);
-}
-
-std::uint16_t word_at(std::span<const std::uint8_t> bytes, std::size_t at) {
-  return static_cast<std::uint16_t>(bytes[at] << 8U | bytes[at + 1]);
-}
 
 /// What a logger writes before and behind the bytes themselves.
 std::string_view without_decoration(std::string_view text) {
@@ -107,8 +96,7 @@ std::string RegisterLog::add_words(std::string_view head, std::string_view words
 std::string RegisterLog::add_frame(const std::vector<std::uint8_t>& bytes) {
   if (bytes.size() < kReplyFrame) return "too short for a frame of Modbus RTU";
   const auto body = std::span(bytes).first(bytes.size() - 2);
-  if (crc16(body) != (bytes[bytes.size() - 2] | bytes[bytes.size() - 1] << 8U))
-    return "wrong checksum";
+  if (link::modbus_crc(body) != load_le<std::uint16_t>(bytes, body.size())) return "wrong checksum";
   const auto function = bytes[1];
   if ((function & 0x80U) != 0) {
     unit_ = bytes[0];
@@ -118,13 +106,14 @@ std::string RegisterLog::add_frame(const std::vector<std::uint8_t>& bytes) {
   if (function != 3 && function != 4) return "not a reading of registers";
   // A reply of that size would hold half a register.
   if (bytes.size() == kRequestSize) {
-    request_ = RegisterBlock{function, word_at(bytes, 2), word_at(bytes, 4)};
+    request_ =
+        RegisterBlock{function, load_be<std::uint16_t>(bytes, 2), load_be<std::uint16_t>(bytes, 4)};
     return "";
   }
   const std::size_t count = bytes[2] / 2U;
   if (bytes[2] % 2 != 0 || bytes.size() != kReplyFrame + bytes[2]) return "wrong length";
   std::vector<std::uint16_t> words;
-  for (std::size_t i = 0; i < count; ++i) words.push_back(word_at(bytes, 3 + 2 * i));
+  for (std::size_t i = 0; i < count; ++i) words.push_back(load_be<std::uint16_t>(bytes, 3 + 2 * i));
   unit_ = bytes[0];
   const auto asked = request_;
   request_.reset();

@@ -3,22 +3,17 @@
 
 #include <algorithm>
 
+#include "drover/bytes.h"
+
 namespace drover::link {
 namespace {
 
 constexpr std::uint8_t kExceptionBit = 0x80;
 constexpr std::size_t kMbapSize = 7;
 
-constexpr std::uint8_t high(unsigned word) {
-  return static_cast<std::uint8_t>(word >> 8U);
-}
-constexpr std::uint8_t low(unsigned word) {
-  return static_cast<std::uint8_t>(word);
-}
-
 bool crc_good(std::span<const std::uint8_t> frame) {
   const std::uint16_t crc = modbus_crc(frame.first(frame.size() - 2));
-  return frame[frame.size() - 2] == low(crc) && frame[frame.size() - 1] == high(crc);
+  return load_le<std::uint16_t>(frame, frame.size() - 2) == crc;
 }
 
 }  // namespace
@@ -36,33 +31,33 @@ std::array<std::uint8_t, kRtuRequestSize> rtu_read_request(std::uint8_t unit,
                                                            const RegisterBlock& block) {
   std::array<std::uint8_t, kRtuRequestSize> frame{unit,
                                                   block.function,
-                                                  high(block.address),
-                                                  low(block.address),
-                                                  high(block.count),
-                                                  low(block.count),
+                                                  high_byte(block.address),
+                                                  low_byte(block.address),
+                                                  high_byte(block.count),
+                                                  low_byte(block.count),
                                                   0,
                                                   0};
   const std::uint16_t crc = modbus_crc({frame.data(), 6});
-  frame[6] = low(crc);
-  frame[7] = high(crc);
+  frame[6] = low_byte(crc);
+  frame[7] = high_byte(crc);
   return frame;
 }
 
 std::array<std::uint8_t, kTcpRequestSize> tcp_read_request(std::uint16_t transaction,
                                                            std::uint8_t unit,
                                                            const RegisterBlock& block) {
-  return {high(transaction),
-          low(transaction),
+  return {high_byte(transaction),
+          low_byte(transaction),
           0,
           0,
           0,
           6,
           unit,
           block.function,
-          high(block.address),
-          low(block.address),
-          high(block.count),
-          low(block.count)};
+          high_byte(block.address),
+          low_byte(block.address),
+          high_byte(block.count),
+          low_byte(block.count)};
 }
 
 FoundAnswer find_rtu_answer(std::span<const std::uint8_t> bytes, std::uint8_t unit,
@@ -77,7 +72,7 @@ FoundAnswer find_rtu_answer(std::span<const std::uint8_t> bytes, std::uint8_t un
     const bool own = rest[0] == unit;
     const bool function = rest.size() > 1 && rest[1] == block.function;
     // The answer before the echo: one may begin like the request.
-    if (function && rest.size() > 2 && rest[2] == low(2U * block.count)) {
+    if (function && rest.size() > 2 && rest[2] == 2U * block.count) {
       if (rest.size() >= whole) {
         const bool good = crc_good(rest.first(whole));
         if (good && own) {
@@ -116,14 +111,14 @@ FoundAnswer find_tcp_answer(std::span<const std::uint8_t> bytes, std::uint16_t t
     const auto rest = bytes.subspan(at);
     found.answer = std::max(found.answer, Answer::incomplete);
     if (rest.size() < kMbapSize) return found;
-    const std::size_t length = static_cast<std::size_t>(rest[4] << 8U | rest[5]);
+    const std::size_t length = load_be<std::uint16_t>(rest, 4);
     if (rest[2] != 0 || rest[3] != 0 || length < 2 || length > 254) {
       found.answer = Answer::damaged;  // no way to know where the next frame begins
       return found;
     }
     if (rest.size() < 6 + length) return found;
     at += 6 + length;
-    if ((rest[0] << 8U | rest[1]) != transaction) continue;
+    if (load_be<std::uint16_t>(rest) != transaction) continue;
     const std::uint8_t function = rest[kMbapSize];
     if (rest[6] != unit) {
       found.answer = Answer::wrong_unit;

@@ -13,6 +13,7 @@
 #include <cerrno>
 #include <cstdlib>
 
+#include "drover/bytes.h"
 #include "link/unique_fd.h"
 
 namespace drover::link {
@@ -155,8 +156,7 @@ ModbusResult ModbusLink::finish(const FoundAnswer& found, std::span<std::uint16_
     case Answer::good: break;
   }
   for (std::size_t i = 0; i < words.size(); ++i) {
-    const std::size_t at = found.data + 2 * i;
-    words[i] = static_cast<std::uint16_t>(bytes_[at] << 8U | bytes_[at + 1]);
+    words[i] = load_be<std::uint16_t>({bytes_.begin(), bytes_.size()}, found.data + 2 * i);
   }
   ++counters_.answers;
   return {true, {}, 0};
