@@ -61,12 +61,26 @@ CommandStreamSpec read_stream(JsonReader reader, const json& raw) {
   return stream;
 }
 
+/// A text, or a list of words and numbers: a number that was drawn can stand there.
+std::string command_text(JsonReader& reader, const json& raw, std::string_view key) {
+  const auto& value = raw.at(std::string(key));
+  if (!value.is_array()) return reader.text(key);
+  reader.ignore(key);
+  std::string text;
+  for (const auto& word : value) {
+    if (!word.is_string() && !word.is_number()) reader.fail(key, "must be words and numbers");
+    text += text.empty() ? "" : " ";
+    text += word.is_string() ? word.get<std::string>() : word.dump();
+  }
+  return text;
+}
+
 /// `raw` is what the reader reads; messages go out as they stand there.
 Action read_action(JsonReader& reader, const json& raw) {
   Action action;
   using Kind = Action::Kind;
   if (reader.has("sim")) {
-    action = {Kind::sim, reader.text("sim")};
+    action = {Kind::sim, command_text(reader, raw, "sim")};
   } else if (reader.has("kill")) {
     action.kind = Kind::kill;
     action.text = program(reader, "kill");

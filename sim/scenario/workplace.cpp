@@ -12,6 +12,7 @@
 #include <string_view>
 
 #include "sim/robot/scenario_file.h"
+#include "sim/scenario/draw.h"
 #include "sim/scenario/mission.h"
 
 namespace drover::sim {
@@ -94,6 +95,7 @@ Workplace::Workplace(const WorkplaceSettings& settings)
       private_folder_(temporary_folder()),
       log_folder_(settings.log_folder) {
   for (const auto& change : settings.changes) set_member(document_, change);
+  draw_mission(document_, settings.seed);
   const auto folder = fs::absolute(fs::path(settings.scenario_file)).parent_path();
   document_["world"] = (folder / document_.value("world", "")).lexically_normal().string();
   make_map_absolute(document_, folder);

@@ -4,33 +4,15 @@
 namespace drover::mission {
 namespace {
 
-/// How the robot rolled between two instants.
-struct Roll {
-  double way_m = 0;
-  double fastest_mps = 0;
-  Time rest = kNever;  ///< from then on it stood
-};
-
-Roll roll(const Record& log, Time begin, Time end) {
-  Roll found;
-  const auto from = log.truth_at(begin);
-  found.rest = begin;
-  for (const auto& line : log.truth) {
-    if (line.time < begin || line.time > end) continue;
-    found.way_m = std::max(found.way_m, std::hypot(line.x_m - from.x_m, line.y_m - from.y_m));
-    found.fastest_mps = std::max(found.fastest_mps, std::abs(line.vx_mps));
-    if (std::abs(line.vx_mps) > 0.01) found.rest = line.time;
-  }
-  return found;
-}
-
 /// Both programs away from `gone` to `back`, and what came of it by `end`.
 void expect_held_again(const Record& log, Time gone, Time back, Time end) {
   ASSERT_GT(log.truth_at(gone).z_m - log.truth.front().z_m, 0.1) << "it is not on the ramp";
   const Roll before = roll(log, gone, back);
   const Roll after = roll(log, back, end);
-  std::printf("  rolled %.2f m, up to %.2f m/s, without anybody; %.2f m in %s from the start on\n",
-              before.way_m, before.fastest_mps, after.way_m, seconds(after.rest - back).c_str());
+  figure("rolled without anybody", before.way_m, "m");
+  figure("rolled until it was held", after.way_m, "m");
+  figure("fastest", after.fastest_mps, "m/s");
+  figure("held after", after.rest - back);
   EXPECT_LT(after.rest - back, 2500ms);
   // At 0.8 m/s^2 from what it had, and before that the time in which programs and drives get ready.
   const double v_mps = after.fastest_mps;
@@ -62,8 +44,14 @@ TEST(RestartOnRamp, LetsANewStartReachTheGoal) {
 
 TEST(DipOnRamp, HoldsTheRobotAgainAsSoonAsTheDrivesHaveTheirSupply) {
   const Record& log = record("dip_on_ramp");
-  const Time dipped = log.event("sim supply dip 0.5");
-  expect_held_again(log, dipped, dipped + 500ms, log.event("start drover release"));
+  const Time dipped = log.event("event dipped#1");
+  const std::string words = "sim supply dip ";
+  const auto dip =
+      std::find_if(log.events.begin(), log.events.end(),
+                   [&words](const EventLine& event) { return event.text.starts_with(words); });
+  ASSERT_NE(dip, log.events.end());
+  const Duration lasts = from_s(std::stod(dip->text.substr(words.size())));
+  expect_held_again(log, dipped, dipped + lasts, log.event("start drover release"));
 }
 
 TEST(DipOnRamp, IsNotLetGoOnASlopeByAWordAlone) {
@@ -78,6 +66,9 @@ TEST(StopAndKill, RefusesAStartUntilTheStopIsReset) {
   const Record& log = record("stop_and_kill");
   const Time stopped = log.event("start drover stop");
   const Time reset = log.event("start drover reset");
+  const auto moving = log.moving(stopped, reset);
+  tell_way_to_rest(log, stopped, reset);
+  figure("last motion after the stop", moving.empty() ? Duration{} : moving.back().time - stopped);
   EXPECT_THAT(log.moving(stopped + 100ms, reset), testing::IsEmpty());
   auto words = kStarted;
   words.insert(words.end(), {"start_task_failse", "start_task_success", "start_nav_success"});

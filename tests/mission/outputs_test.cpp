@@ -67,9 +67,8 @@ TEST(Estop, CutsTheDrivesPowerUntilTheButtonIsReleased) {
   ASSERT_EQ(log.level_at("enable_relay", pressed), true);
   const auto changes = log.changes("enable_relay", pressed, Time::max());
   ASSERT_EQ(changes.size(), 2U) << "off, and on again";
-  std::printf("  enable relay off %s after the button, on %s after its release\n",
-              seconds(changes[0].time - pressed).c_str(),
-              seconds(changes[1].time - released).c_str());
+  figure("relay open after the button", changes[0].time - pressed);
+  figure("relay closed after the release", changes[1].time - released);
   EXPECT_LE(changes[0].time - pressed, kEstop);
   // The contact is believed 0.2 s after its last change (its release_debounce_s); no motion comes
   // of it.
@@ -103,7 +102,7 @@ TEST(KillOnRamp, LeavesTheHardwareWatchdogFedByTheGuard) {
   const Record& log = record("kill_on_ramp");
   const Time begin = log.event("event boot#1") + 100ms;
   const Duration gap = longest_gap(log, begin, log.event("the end"));
-  std::printf("  the longest time between two edges was %s\n", seconds(gap).c_str());
+  figure("longest time between two edges of the watchdog's line", gap);
   EXPECT_LE(gap, kPulseGap);
 }
 

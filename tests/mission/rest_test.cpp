@@ -11,7 +11,8 @@ TEST(RunsOn, LosesItsPowerAndComesToRest) {
   EXPECT_TRUE(log.level_at("enable_relay", stopped).value());
   const auto cuts = log.changes("enable_relay", stopped, stopped + 3s);
   ASSERT_FALSE(cuts.empty()) << "the relay did not fall";
-  std::printf("  relay open %s after the stop\n", seconds(cuts.front().time - stopped).c_str());
+  figure("relay open after the stop", cuts.front().time - stopped);
+  tell_way_to_rest(log, stopped, stopped + 4s);
   EXPECT_NEAR(log.truth_at(stopped + 4s).vx_mps, 0, 0.01);
 }
 

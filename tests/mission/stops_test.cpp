@@ -11,8 +11,8 @@ TEST(Estop, StopsEveryWheelCommandWithin20Milliseconds) {
   const Time pressed = log.event("sim estop press");
   ASSERT_TRUE(moved_until(log, pressed)) << "it did not drive when the button was pressed";
   const auto last = log.moving(pressed, pressed + 2s);
-  std::printf("  last motion %s after the button\n",
-              last.empty() ? "not" : seconds(last.back().time - pressed).c_str());
+  figure("last motion after the button", last.empty() ? Duration{} : last.back().time - pressed);
+  tell_way_to_rest(log, pressed, pressed + 2s);
   EXPECT_THAT(log.moving(pressed + kEstop, pressed + 2s), testing::IsEmpty());
   for (std::uint8_t node = kFirstNode; node <= kLastNode; ++node) {
     std::size_t zeros = 0;
@@ -152,8 +152,8 @@ TEST(BrokerRestart, ReachesTheGoal) {
 void expect_guard(const Record& log, Time gone, Time end) {
   ASSERT_TRUE(moved_until(log, gone)) << "it did not drive when the gateway went";
   const auto last = log.moving(gone, end);
-  std::printf("  last motion %s after it\n",
-              last.empty() ? "none" : seconds(last.back().time - gone).c_str());
+  figure("last motion after it went", last.empty() ? Duration{} : last.back().time - gone);
+  tell_way_to_rest(log, gone, end);
   EXPECT_THAT(log.moving(gone + kGuard, end), testing::IsEmpty());
   for (std::uint8_t node = kFirstNode; node <= kLastNode; ++node) {
     Time before = gone;
@@ -161,9 +161,7 @@ void expect_guard(const Record& log, Time gone, Time end) {
     for (const auto& one : log.sent) {
       if (one.wheel.node != node || one.wheel.moves() || one.time <= gone || one.time > end)
         continue;
-      if (zeros == 0)
-        std::printf("  node %d: first zero %s after it\n", int{node},
-                    seconds(one.time - gone).c_str());
+      if (zeros == 0) figure("the guard's first zero after it went", one.time - gone);
       // The first within the promise, then one each 10 ms.
       EXPECT_LE(one.time - before, zeros == 0 ? kGuard : 15ms) << "at " << seconds(one.time);
       before = one.time;
@@ -197,7 +195,8 @@ TEST(KillOnRamp, HoldsTheRobotOnTheSlope) {
     ahead_m = std::max(ahead_m, way_m);
     back_m = std::max(back_m, ahead_m - way_m);
   }
-  std::printf("  rolled on %.3f m, then back %.3f m\n", ahead_m, back_m);
+  figure("rolled on", ahead_m, "m");
+  figure("rolled back", back_m, "m");
   EXPECT_LE(back_m, 0.05);
   EXPECT_LE(ahead_m, 0.30);
 }

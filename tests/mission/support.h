@@ -3,6 +3,8 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <ostream>
 
@@ -16,6 +18,41 @@ using namespace std::chrono_literals;
 inline void PrintTo(const Sent& sent, std::ostream* out) {
   *out << seconds(sent.time) << " node " << int{sent.wheel.node} << " "
        << sent.wheel.velocity_turnps << " turn/s";
+}
+
+/// What a check measured, as tests/mission/series reads it.
+inline void figure(const char* what, double value, const char* unit) {
+  std::printf("  %s: %.4f %s\n", what, value, unit);
+}
+inline void figure(const char* what, Duration value) {
+  figure(what, to_s(value), "s");
+}
+
+/// How the robot rolled between two instants.
+struct Roll {
+  double way_m = 0;
+  double fastest_mps = 0;
+  Time rest = kNever;  ///< from then on it stood
+};
+
+inline Roll roll(const Record& log, Time begin, Time end) {
+  Roll found;
+  const auto from = log.truth_at(begin);
+  found.rest = begin;
+  for (const auto& line : log.truth) {
+    if (line.time < begin || line.time > end) continue;
+    found.way_m = std::max(found.way_m, std::hypot(line.x_m - from.x_m, line.y_m - from.y_m));
+    found.fastest_mps = std::max(found.fastest_mps, std::abs(line.vx_mps));
+    if (std::abs(line.vx_mps) > 0.01) found.rest = line.time;
+  }
+  return found;
+}
+
+/// Tells way and time to rest after what happened at `begin`, as far as `end`.
+inline void tell_way_to_rest(const Record& log, Time begin, Time end) {
+  const Roll found = roll(log, begin, end);
+  figure("way to rest", found.way_m, "m");
+  figure("time to rest", found.rest - begin);
 }
 
 /// The feedback of a task that starts as it should.

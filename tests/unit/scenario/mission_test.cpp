@@ -10,6 +10,7 @@
 
 #include "sim/robot/scenario.h"
 #include "sim/robot/scenario_file.h"
+#include "sim/scenario/draw.h"
 #include "support/temp_folder.h"
 
 namespace drover::sim {
@@ -54,6 +55,7 @@ TEST(AMission, RefusesWhatItDoesNotKnowAndNamesThePlace) {
                  "joint_commands.velocities_radps.a");
   expect_refused(R"([{"delay_s": -1, "do": {"save": true}}])", "delay_s");
   expect_refused(R"([{"do": [{"save": true}, {"sim": "quit", "x": 1}]}])", "steps[0].do[1].x");
+  expect_refused(R"([{"do": {"sim": ["supply", true]}}])", "steps[0].do.sim");
 }
 
 TEST(AMission, StartsItsTrackWhereTheRobotStandsAndEndsAtTheLastPoint) {
@@ -72,6 +74,7 @@ TEST(AMission, ReadsStepsWithTheirActions) {
     {"name": "n", "after": "start_nav#2", "delay_s": 1.5, "when": {"pitch_rad_below": -0.1},
      "do": [{"kill": "droverd", "signal": "STOP"}, {"publish": {"cmd": "x"}, "retain": true},
             {"publish": "{broken", "topic": "t"}, {"start_task": {"id": 2, "speed_mps": 0.3}},
+            {"sim": ["supply dip", 0.5]},
             {"joint_commands": {"velocities_radps": {"a": 1, "b": "nan"}, "for_s": 2}}]}])");
   const auto mission = read_mission(with);
   ASSERT_EQ(mission.steps.size(), 1U);
@@ -80,14 +83,15 @@ TEST(AMission, ReadsStepsWithTheirActions) {
   EXPECT_EQ(step.delay, std::chrono::milliseconds(1500));
   ASSERT_TRUE(step.when);
   EXPECT_FALSE(step.when->above);
-  ASSERT_EQ(step.actions.size(), 5U);
+  ASSERT_EQ(step.actions.size(), 6U);
   EXPECT_EQ(step.actions[0].signal, SIGSTOP);
   EXPECT_EQ(step.actions[1].text, R"({"cmd":"x"})");
   EXPECT_EQ(step.actions[1].topic, "mqtt_control");
   EXPECT_TRUE(step.actions[1].retain);
   EXPECT_EQ(step.actions[2].text, "{broken");
   EXPECT_EQ(step.actions[3].id, 2U);
-  const auto& stream = step.actions[4].stream;
+  EXPECT_EQ(step.actions[4].text, "supply dip 0.5");
+  const auto& stream = step.actions[5].stream;
   ASSERT_EQ(stream.joints.size(), 2U);
   EXPECT_EQ(stream.joints[0].velocity_radps, 1);
   EXPECT_TRUE(std::isnan(stream.joints[1].velocity_radps));
@@ -112,7 +116,9 @@ TEST(TheScenarios, AreReadByThePlayerAndByTheSimulator) {
   const auto folder = std::filesystem::path(DROVER_SOURCE_DIR) / "sim/scenarios";
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     const auto file = entry.path().string();
-    const auto mission = read_mission(load_scenario_document(file));
+    auto document = load_scenario_document(file);
+    draw_mission(document, 1);
+    const auto mission = read_mission(document);
     EXPECT_EQ(mission.name, entry.path().stem().string());
     EXPECT_GE(load_scenario(file).drives.size(), 2U) << file;
     EXPECT_TRUE(std::filesystem::exists(load_scenario(file).world)) << file;
