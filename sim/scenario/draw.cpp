@@ -4,8 +4,6 @@
 #include <stdexcept>
 #include <string>
 
-#include "drivers/noise.h"
-
 namespace drover::sim {
 namespace {
 
@@ -16,16 +14,21 @@ std::uint64_t number_of(const std::string& place) {
   return hash;
 }
 
+/// The last step of SplitMix64: neighbouring numbers in, unlike ones out.
+std::uint64_t mixed(std::uint64_t bits) {
+  bits = (bits ^ (bits >> 30U)) * 0xBF58476D1CE4E5B9U;
+  bits = (bits ^ (bits >> 27U)) * 0x94D049BB133111EBU;
+  return bits ^ (bits >> 31U);
+}
+
 double drawn(const nlohmann::json& range, const std::string& place, std::uint64_t seed) {
   constexpr double kSteps_per_unit = 1e6;
   const auto& from = range.at("from");
   const auto& to = range.at("to");
   if (!from.is_number() || !to.is_number() || !(from.get<double>() < to.get<double>()))
     throw std::runtime_error(place + ": must go from a number to a higher one");
-  // Neighbouring seeds must not give neighbouring numbers.
-  Random of_seed(seed);
-  Random random(of_seed.bits() ^ number_of(place));
-  const double share = random.uniform();
+  const double share =
+      std::ldexp(static_cast<double>(mixed(mixed(seed) ^ number_of(place)) >> 11U), -53);
   const double value = from.get<double>() + share * (to.get<double>() - from.get<double>());
   return std::round(value * kSteps_per_unit) / kSteps_per_unit;
 }

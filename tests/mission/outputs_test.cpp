@@ -37,8 +37,8 @@ void expect_pulses(const Record& log, const char* output, Time begin, Time end,
   const auto rises = edges(log, output, true, begin, end);
   ASSERT_EQ(rises.size(), ages.size()) << output << " from " << seconds(begin);
   for (std::size_t i = 0; i < ages.size(); ++i) {
-    // 10 ms are a cycle of the gateway.
-    EXPECT_NEAR(to_s(rises[i] - begin), to_s(ages[i]), to_s(10ms + kLook)) << output;
+    // A cycle of the simulator, until a contact is read at all, and 10 ms of the gateway.
+    EXPECT_NEAR(to_s(rises[i] - begin), to_s(ages[i]), to_s(5ms + 10ms + kLook)) << output;
     const auto falls = edges(log, output, false, rises[i], end);
     ASSERT_FALSE(falls.empty()) << output << " stays on from " << seconds(rises[i]);
     EXPECT_NEAR(to_s(falls.front() - rises[i]), to_s(on), to_s(10ms + kLook)) << output;

@@ -58,7 +58,8 @@ void MotionWitness::on_speed(const GnssVelocity& velocity, Time at) {
   if (!std::isfinite(velocity.speed_mps)) return;
   speed_mps_ = std::abs(velocity.speed_mps);
   speed_at_ = at;
-  if (!rests_) return;
+  // Of a fix the noise is known. Taken for noise, a slow motion that grows would never be one.
+  if (!rests_ || position_.quality == FixQuality::rtk_fixed) return;
   const double noise_mps = std::min(speed_mps_, kMostNoise_mps);
   learned_noise_mps2_ += kLearned * (noise_mps * noise_mps - learned_noise_mps2_);
 }

@@ -19,7 +19,7 @@ struct Testimony {
 };
 
 /// Each witness has noise of its own, so one alone proves little. A receiver's speed without an RTK
-/// fix is mostly noise: how much is taken from the kind of fix and learned while the base rests.
+/// fix is mostly noise: how much is learned while the base rests.
 class MotionWitness final {
  public:
   explicit MotionWitness(const EngineConfig& config) : config_(config) {}
