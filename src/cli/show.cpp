@@ -58,6 +58,7 @@ void show_joint_commands(std::string& out, const Node& status) {
   value += quantity(at(commands, "accepted"), ", %.0f followed") +
            quantity(at(commands, "refused"), ", %.0f refused");
   if (some("unread")) value += quantity(at(commands, "unread"), ", %.0f of a flood not read");
+  if (some("of_rivals")) value += quantity(at(commands, "of_rivals"), ", %.0f of a second program");
   const auto reason = text(at(commands, "reason"));
   line(out, "joints", reason.empty() ? value : value + ": " + reason);
 }

@@ -44,6 +44,18 @@ const json::Node& place(const json::Node& root, std::string_view path) {
   return end == path.npos ? *next : place(*next, path.substr(end));
 }
 
+/// Length as AimRT writes a text in a topic: letters, digits, "-_.~" and spaces stay single.
+std::size_t url_bytes(std::string_view text) {
+  std::size_t bytes = 0;
+  for (const char c : text) {
+    const bool letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+    const bool single = letter || (c >= '0' && c <= '9') ||
+                        std::string_view("-_.~ ").find(c) != std::string_view::npos;
+    bytes += single ? 1 : 3;
+  }
+  return bytes;
+}
+
 /// "" when a battery's port is a device or tcp:ADDRESS:PORT. No names: to resolve one may take
 /// longer than anything here waits.
 std::string check_modbus_port(const std::string& port) {
@@ -249,10 +261,12 @@ class Checks final {
                                      {"imu_state", &aimrt.imu_state},
                                      {"touch_state", &aimrt.touch_state},
                                      {"joint_command", &aimrt.joint_command}}) {
-      constexpr std::size_t kLongest = 200;
+      // An MQTT topic of AimRT has at most 255 bytes, and 59 stand around this one.
+      constexpr std::size_t kLongest = 196;
       const auto path = "aimrt." + std::string(key);
       if (topic->empty()) add(path, "is empty");
-      if (topic->size() > kLongest) add(path, "is too long");
+      if (url_bytes(*topic) > kLongest)
+        add(path, "is too long", "at most 196 bytes; / and other signs count three");
     }
   }
 

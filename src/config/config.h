@@ -124,6 +124,14 @@ struct AimrtConfig {
   std::string imu_state = "/imu_state";
   std::string touch_state = "/touch_state";
   std::string joint_command = "/joint_command";
+  // Under whose names of the messages states go out: "document", "aimrt_1x" or "both". Commands
+  // are heard under both.
+  std::string joint_state_names = "document";
+  std::string touch_state_names = "document";
+  // How they are written: "pb" or "json". Commands are read in both.
+  std::string joint_state_content = "pb";
+  std::string imu_state_content = "pb";
+  std::string touch_state_content = "pb";
 };
 
 struct DroverConfig {

@@ -168,6 +168,13 @@ void visit(V& v, AimrtConfig& c) {
   v.text("imu_state", c.imu_state, "channel topic of ImuState");
   v.text("touch_state", c.touch_state, "channel topic of TouchState");
   v.text("joint_command", c.joint_command, "channel topic of JointCommand");
+  v.choice("joint_state_names", c.joint_state_names, {"document", "aimrt_1x", "both"},
+           "JointState (document), JointStateArray (aimrt_1x), or both");
+  v.choice("touch_state_names", c.touch_state_names, {"document", "aimrt_1x", "both"},
+           "TouchState (document), TouchSensorStateArray (aimrt_1x), or both");
+  v.choice("joint_state_content", c.joint_state_content, {"pb", "json"}, "protobuf or JSON");
+  v.choice("imu_state_content", c.imu_state_content, {"pb", "json"}, "protobuf or JSON");
+  v.choice("touch_state_content", c.touch_state_content, {"pb", "json"}, "protobuf or JSON");
 }
 
 template <class V>

@@ -46,6 +46,15 @@ publish::RtkConfig rtk_config(const config::ProtocolConfig& protocol) {
   return rtk;
 }
 
+publish::aimrt::Outlet outlet(const std::string& names, const std::string& content) {
+  using publish::aimrt::Names;
+  publish::aimrt::Outlet outlet;
+  if (names == "aimrt_1x") outlet.names = {Names::aimrt_1x};
+  if (names == "both") outlet.names = {Names::document, Names::aimrt_1x};
+  if (content == "json") outlet.content = publish::aimrt::Content::json;
+  return outlet;
+}
+
 publish::aimrt::ChannelConfig channel_config(const config::DroverConfig& config) {
   const auto& aimrt = config.aimrt;
   publish::aimrt::ChannelConfig channel;
@@ -53,6 +62,10 @@ publish::aimrt::ChannelConfig channel_config(const config::DroverConfig& config)
   channel.imu_state = aimrt.imu_state;
   channel.touch_state = aimrt.touch_state;
   channel.joint_command = aimrt.joint_command;
+  channel.joint_state_outlet = outlet(aimrt.joint_state_names, aimrt.joint_state_content);
+  channel.imu_state_outlet = outlet("document", aimrt.imu_state_content);
+  channel.touch_state_outlet = outlet(aimrt.touch_state_names, aimrt.touch_state_content);
+  channel.silence = from_s(config.engine.health.joint_command_timeout_s);
   channel.rules.max_age = from_s(1e-3 * aimrt.max_command_age_ms);
   for (const auto& drive : config.drives) channel.rules.joints.push_back(drive.joint);
   return channel;
@@ -116,7 +129,8 @@ void PublishLoop::connect_broker() {
     aimrt_.emplace(channel_config(config_));
     aimrt_timer_ = periodic_timer(from_s(1 / config_.aimrt.rate_Hz));
     watch(aimrt_timer_.get(), kAimrt);
-    if (config_.aimrt.commands) subscriptions.push_back({aimrt_->command_topic(), 0});
+    if (config_.aimrt.commands)
+      for (const auto& topic : aimrt_->command_topics()) subscriptions.push_back({topic, 0});
   }
   broker_ = std::make_unique<MqttClient>(
       config_.mqtt, std::move(subscriptions),
@@ -211,6 +225,7 @@ Snapshot PublishLoop::seen(Time now) {
                                             std::chrono::milliseconds(config_.guard.limit_ms));
   auto snapshot = publish::as_seen(control_.snapshot.latest(), now, limit);
   if (!service_.origin_problem().empty()) publish::tell_first(snapshot, service_.origin_problem());
+  if (aimrt_ && !aimrt_->rivals(now).empty()) publish::tell_last(snapshot, aimrt_->rivals(now));
   return snapshot;
 }
 

@@ -83,7 +83,11 @@ std::string PublishLoop::cli_reply(std::string_view cmd, const std::string& name
     daemon.now = monotonic_now();
     daemon.uptime_s = to_s(daemon.now - started_);
     daemon.telemetry_dropped = broker_ ? broker_->dropped() : 0;
-    daemon.joint_commands_unread = aimrt_ ? aimrt_->unread() : 0;
+    if (aimrt_) {
+      daemon.joint_commands_unread = aimrt_->unread();
+      daemon.joint_commands_rivals = aimrt_->rivals(daemon.now);
+      daemon.joint_commands_of_rivals = aimrt_->rivals_refused();
+    }
     daemon.events_lost = control_.lost_events.load(std::memory_order_relaxed);
     // The status is an object of its own already.
     return R"({"ok":true,"status":)" + publish::status_json(seen(daemon.now), daemon) + "}";

@@ -14,8 +14,11 @@ void PublishLoop::on_message(const MqttMessage& message) {
                                  now.time_since_epoch() + wall_minus_monotonic()};
   if (message.topic == publish::kTopicControl) {
     on_control(message.payload, arrival, now);
-  } else if (aimrt_ && message.topic == aimrt_->command_topic()) {
-    aimrt_->on_command(message.payload, arrival, now, arrival.wall - now.time_since_epoch(),
+    return;
+  }
+  const auto names = aimrt_ ? aimrt_->command_names(message.topic) : std::nullopt;
+  if (names) {
+    aimrt_->on_command(*names, message.payload, arrival, now, arrival.wall - now.time_since_epoch(),
                        actions_);
   }
 }

@@ -1,10 +1,11 @@
-// Any bytes as a packet on the joint command topic: no crash, one command or one refusal, and what
-// reaches the engine is finite and of this robot.
+// Any bytes as a packet on the joint command topics, and as the JSON in one: no crash, one command
+// or one refusal, and what reaches the engine is finite and of this robot.
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
+#include <string>
 #include <string_view>
 
 #include "publish/aimrt/channel.h"
@@ -38,18 +39,15 @@ void check_targets(const JointTargets& targets, std::size_t joints) {
   }
 }
 
-}  // namespace
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  const std::string_view payload(reinterpret_cast<const char*>(data), size);
-  check_packet(payload);
+/// The whole way: one command or one refusal in words, and the same for both families' names.
+void check_way(aimrt::Names names, std::string_view payload) {
   aimrt::ChannelConfig config;
   config.rules.joints = {"left", "right"};
   aimrt::Channel channel(config);
   // The corpus' stamps are about one second after the epoch.
   const Time now{from_s(1)};
   Actions actions;
-  channel.on_command(payload, {}, now, Duration(0), actions);
+  channel.on_command(names, payload, {}, now, Duration(0), actions);
   int commands = 0;
   for (const Action& action : actions) {
     const auto* command = std::get_if<Command>(&action);
@@ -62,10 +60,29 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       require(std::holds_alternative<JointTargets>(command->body));
       check_targets(std::get<JointTargets>(command->body), config.rules.joints.size());
       Actions later;
-      channel.on_command(payload, {.retain = Retain::stored}, now, Duration(0), later);
+      channel.on_command(names, payload, {.retain = Retain::stored}, now, Duration(0), later);
       require(std::holds_alternative<JointTargetsRefused>(std::get<Command>(later.back()).body));
     }
   }
   require(commands == 1);
+}
+
+void check_json(std::string_view text) {
+  const auto message = aimrt::decode_joint_command_json(text);
+  if (message) return;
+  require(!message.error().empty());
+  for (const char c : message.error().view()) require(static_cast<unsigned char>(c) >= 0x20);
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string_view payload(reinterpret_cast<const char*>(data), size);
+  check_packet(payload);
+  check_json(payload);
+  const std::string in_json = aimrt::encode_packet(payload, aimrt::Content::json);
+  for (const auto names : {aimrt::Names::document, aimrt::Names::aimrt_1x})
+    for (const std::string_view packet : {payload, std::string_view(in_json)})
+      check_way(names, packet);
   return 0;
 }

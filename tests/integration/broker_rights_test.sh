@@ -65,9 +65,12 @@ dropped() {
 }
 
 channel=pb%3Aaimrt.protocols.sensor
-dropped "/channel/%2Fjoint_command/$channel.JointCommand" droverd operator viewer droverd
-for message in %2Fjoint_state/$channel.JointState %2Fimu_state/$channel.ImuState \
-  %2Ftouch_state/$channel.TouchState; do
+for type in JointCommand JointCommandArray; do
+  dropped "/channel/%2Fjoint_command/$channel.$type" droverd operator viewer droverd
+done
+for message in %2Fjoint_state/$channel.JointState %2Fjoint_state/$channel.JointStateArray \
+  %2Fimu_state/$channel.ImuState \
+  %2Ftouch_state/$channel.TouchState %2Ftouch_state/$channel.TouchSensorStateArray; do
   for reader in operator viewer; do
     dropped "/channel/$message" "$reader" droverd operator viewer
   done

@@ -4,8 +4,6 @@
 
 #include "config/located_json.h"
 #include "publish/aimrt/messages.h"
-#include "publish/aimrt/packet.h"
-#include "publish/aimrt/topic.h"
 
 namespace drover::publish::aimrt {
 
@@ -21,36 +19,70 @@ bool has_touch_lines(const Snapshot& snapshot) {
                      });
 }
 
+/// The message of a packet, whichever way it is written.
+Result<JointCommandMessage, Reason> decoded(const Packet& packet, Names names, Content content) {
+  if (packet.message.size() > kMaxCommandBytes) return Reason("the message is longer than 16 KiB");
+  if (content == Content::json) return decode_joint_command_json(packet.message);
+  auto message = decode_joint_command(packet.message);
+  if (message) return std::move(*message);
+  return Reason("the message is no " + std::string(type_name(Role::joint_command, names)));
+}
+
+std::optional<Content> content_of(std::string_view content_type) {
+  for (const Content content : {Content::pb, Content::json})
+    if (content_type == spelling(content)) return content;
+  return std::nullopt;
+}
+
 }  // namespace
 
+Channel::Topics Channel::topics(const std::string& topic, Role role, const Outlet& outlet) {
+  Topics found{{}, outlet.content};
+  for (const Names names : outlet.names) found.names.push_back(mqtt_topic(topic, role, names));
+  return found;
+}
+
 Channel::Channel(const ChannelConfig& config)
-    : joint_state_topic_(mqtt_topic(config.joint_state, "JointState")),
-      imu_state_topic_(mqtt_topic(config.imu_state, "ImuState")),
-      touch_state_topic_(mqtt_topic(config.touch_state, "TouchState")),
-      joint_command_topic_(mqtt_topic(config.joint_command, "JointCommand")),
+    : joint_state_(topics(config.joint_state, Role::joint_state, config.joint_state_outlet)),
+      imu_state_(topics(config.imu_state, Role::imu_state, config.imu_state_outlet)),
+      touch_state_(topics(config.touch_state, Role::touch_state, config.touch_state_outlet)),
+      command_topics_{mqtt_topic(config.joint_command, Role::joint_command, Names::document),
+                      mqtt_topic(config.joint_command, Role::joint_command, Names::aimrt_1x)},
       rules_(config.rules),
+      writers_(config.silence),
       command_bucket_(config.max_commands_Hz, config.command_burst),
       flood_bucket_(1, 1),
-      log_bucket_(0.2, 3) {}
+      log_bucket_(0.2, 3),
+      rivals_bucket_(0.2, 1) {}
+
+std::optional<Names> Channel::command_names(std::string_view topic) const {
+  for (const Names names : {Names::document, Names::aimrt_1x})
+    if (topic == command_topics_[static_cast<std::size_t>(names)]) return names;
+  return std::nullopt;
+}
 
 std::vector<Telemetry> Channel::telemetry(const Snapshot& snapshot, Duration wall_minus_monotonic) {
   std::vector<Telemetry> packets;
-  const auto add = [&packets](const std::string& topic, const std::string& message) {
-    packets.push_back({&topic, encode_packet(message)});
+  const auto add = [&packets](const Topics& topics, const std::string& message) {
+    for (const auto& topic : topics.names)
+      packets.push_back({&topic, encode_packet(message, topics.content)});
   };
   // While a drive is late the cycle's own time: no stamp comes twice. None without a new cycle.
   const Time heard = joint_time(snapshot);
   if (const Time at = heard > last_joints_ ? heard : snapshot.time; at > last_joints_) {
     last_joints_ = at;
-    add(joint_state_topic_, joint_state(snapshot, at, {wall_minus_monotonic, ++joint_sequence_}));
+    add(joint_state_,
+        joint_state(snapshot, at, {wall_minus_monotonic, ++joint_sequence_}, joint_state_.content));
   }
   const auto& imu = snapshot.imu;
   if (imu.configured && imu.health == SourceState::fresh && imu.time > last_imu_) {
     last_imu_ = imu.time;
-    add(imu_state_topic_, imu_state(snapshot, {wall_minus_monotonic, ++imu_sequence_}));
+    add(imu_state_,
+        imu_state(snapshot, {wall_minus_monotonic, ++imu_sequence_}, imu_state_.content));
   }
   if (touch_is_due(snapshot))
-    add(touch_state_topic_, touch_state(snapshot, {wall_minus_monotonic, ++touch_sequence_}));
+    add(touch_state_,
+        touch_state(snapshot, {wall_minus_monotonic, ++touch_sequence_}, touch_state_.content));
   return packets;
 }
 
@@ -63,24 +95,38 @@ bool Channel::touch_is_due(const Snapshot& snapshot) {
   return true;
 }
 
-Result<JointTargets, Reason> Channel::judged(std::string_view payload, const Arrival& arrival,
-                                             Duration wall) {
+Result<JointTargets, Reason> Channel::judged(Names names, std::string_view payload,
+                                             const Arrival& arrival, Time now, Duration wall) {
   // Old by its nature, whatever its stamp.
   if (arrival.retain != Retain::no) return Reason("a retained message is never followed");
   if (!arrival.late.empty()) return Reason(arrival.late);
   const auto packet = decode_packet(payload);
   if (!packet) return Reason(text(packet.error()));
-  if (packet->content_type != kProtobuf)
-    return Reason("the content type '" + json::shown(packet->content_type, 16) + "' is not pb");
-  if (packet->message.size() > kMaxCommandBytes) return Reason("the message is longer than 16 KiB");
-  const auto message = decode_joint_command(packet->message);
-  if (!message) return Reason("the message is no JointCommand");
-  auto targets = accept_joint_command(*message, rules_, wall, last_stamp_ns_);
-  if (targets && message->stamp_ns != 0) last_stamp_ns_ = message->stamp_ns;
+  const auto content = content_of(packet->content_type);
+  if (!content) {
+    return Reason("the content type '" + json::shown(packet->content_type, 16) +
+                  "' is neither pb nor json");
+  }
+  const auto message = decoded(*packet, names, *content);
+  if (!message) return message.error();
+  return judged(*message,
+                {names, *content, message->stamp_ns, message->sequence, message->frame_id}, now,
+                wall);
+}
+
+Result<JointTargets, Reason> Channel::judged(const JointCommandMessage& message,
+                                             const Writer& writer, Time now, Duration wall) {
+  const bool rests = std::all_of(message.joints.begin(), message.joints.end(),
+                                 [](const auto& joint) { return joint.velocity_radps == 0; });
+  if (auto why = writers_.hindrance(writer, rests, now); !why.empty()) return why;
+  auto targets = accept_joint_command(message, rules_, wall, last_stamp_ns_);
+  if (!targets) return targets;
+  if (message.stamp_ns != 0) last_stamp_ns_ = message.stamp_ns;
+  if (auto why = writers_.take(writer, *targets, now); !why.empty()) return why;
   return targets;
 }
 
-void Channel::on_command(std::string_view payload, const Arrival& arrival, Time now,
+void Channel::on_command(Names names, std::string_view payload, const Arrival& arrival, Time now,
                          Duration wall_minus_monotonic, Actions& out) {
   Reason reason;
   if (!command_bucket_.take(now)) {
@@ -92,8 +138,10 @@ void Channel::on_command(std::string_view payload, const Arrival& arrival, Time 
     reason = "too many messages a second, slow down";
   }
   Command command{{RequestId::Source::aimrt, ++commands_}, now, {}};
+  const auto rivals_before = writers_.refused();
   if (reason.empty()) {
-    const auto targets = judged(payload, arrival, now.time_since_epoch() + wall_minus_monotonic);
+    const auto targets =
+        judged(names, payload, arrival, now, now.time_since_epoch() + wall_minus_monotonic);
     if (targets) {
       command.body = *targets;
     } else {
@@ -102,7 +150,8 @@ void Channel::on_command(std::string_view payload, const Arrival& arrival, Time 
   }
   if (!reason.empty()) {
     command.body = JointTargetsRefused{reason};
-    if (log_bucket_.take(now)) {
+    const bool of_rivals = writers_.refused() != rivals_before;
+    if ((of_rivals ? rivals_bucket_ : log_bucket_).take(now)) {
       out.push_back(
           LogLine{Notice::Level::warning, "joint command refused: " + std::string(reason.view())});
     }

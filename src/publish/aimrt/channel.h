@@ -9,18 +9,31 @@
 #include <vector>
 
 #include "publish/aimrt/joint_command.h"
+#include "publish/aimrt/packet.h"
+#include "publish/aimrt/topic.h"
+#include "publish/aimrt/writers.h"
 #include "publish/command_service.h"
 #include "publish/token_bucket.h"
 
 namespace drover::publish::aimrt {
 
-/// Field names are the configuration file's keys.
+/// How one state goes out: under one family's name of its message or both, written in one way.
+struct Outlet {
+  std::vector<Names> names{Names::document};
+  Content content = Content::pb;
+};
+
+/// Names of topics are the configuration file's keys.
 struct ChannelConfig {
   std::string joint_state = "/joint_state";
   std::string imu_state = "/imu_state";
   std::string touch_state = "/touch_state";
   std::string joint_command = "/joint_command";
+  Outlet joint_state_outlet;
+  Outlet imu_state_outlet;
+  Outlet touch_state_outlet;
   JointCommandRules rules;
+  Duration silence = std::chrono::milliseconds(100);  ///< after which a stream has ended
   double max_commands_Hz = 250;  ///< more are not looked at: 200 a second and what came late
   double command_burst = 50;
 };
@@ -34,30 +47,43 @@ class Channel final {
  public:
   explicit Channel(const ChannelConfig& config);
 
-  /// MQTT topic to subscribe to.
-  const std::string& command_topic() const { return joint_command_topic_; }
+  /// MQTT topics to subscribe to: commands are heard under the names of both families.
+  const std::vector<std::string>& command_topics() const { return command_topics_; }
+  /// Whose names the topic of a message has; nothing when no joint command comes on it.
+  std::optional<Names> command_names(std::string_view topic) const;
 
   /// What to publish now. Joints once a control cycle at most, an inertial sample once: what is not
   /// looked at any more is silent here too. Touch where such a line is configured, at each
   /// change and ten times a second.
   std::vector<Telemetry> telemetry(const Snapshot& snapshot, Duration wall_minus_monotonic);
 
-  /// A message on command_topic(): a JointTargets or JointTargetsRefused for the engine, and now
-  /// and then a line for the log. `retained` is the broker's flag.
-  void on_command(std::string_view payload, const Arrival& arrival, Time now,
+  /// A message under these names: a JointTargets or JointTargetsRefused for the engine, and now
+  /// and then a line for the log. Limits and owner are the same for all names and contents.
+  void on_command(Names names, std::string_view payload, const Arrival& arrival, Time now,
                   Duration wall_minus_monotonic, Actions& out);
   /// Messages of a flood that nobody looked at, so far.
   std::uint64_t unread() const { return unread_; }
+  /// Programs that write at once, and which of them is followed; empty when there is one or none.
+  std::string_view rivals(Time now) const { return writers_.rivals(now); }
+  /// Messages that were refused for that, so far.
+  std::uint64_t rivals_refused() const { return writers_.refused(); }
 
  private:
+  struct Topics {
+    std::vector<std::string> names;  ///< never changed: telemetry points to them
+    Content content;
+  };
+  static Topics topics(const std::string& topic, Role role, const Outlet& outlet);
   bool touch_is_due(const Snapshot& snapshot);
-  Result<JointTargets, Reason> judged(std::string_view payload, const Arrival& arrival,
-                                      Duration wall);
+  Result<JointTargets, Reason> judged(Names names, std::string_view payload, const Arrival& arrival,
+                                      Time now, Duration wall);
+  Result<JointTargets, Reason> judged(const JointCommandMessage& message, const Writer& writer,
+                                      Time now, Duration wall);
 
-  std::string joint_state_topic_;
-  std::string imu_state_topic_;
-  std::string touch_state_topic_;
-  std::string joint_command_topic_;
+  Topics joint_state_;
+  Topics imu_state_;
+  Topics touch_state_;
+  std::vector<std::string> command_topics_;  ///< by Names
   JointCommandRules rules_;
   std::uint64_t joint_sequence_ = 0;
   std::uint64_t imu_sequence_ = 0;
@@ -69,9 +95,11 @@ class Channel final {
   std::uint64_t last_stamp_ns_ = 0;
   std::uint64_t commands_ = 0;
   std::uint64_t unread_ = 0;
+  Writers writers_;
   TokenBucket command_bucket_;
   TokenBucket flood_bucket_;  ///< a flood is told of, and the telling is no flood
   TokenBucket log_bucket_;
+  TokenBucket rivals_bucket_;  ///< other refusals do not drown it
 };
 
 }  // namespace drover::publish::aimrt

@@ -84,6 +84,8 @@ std::optional<JointCommandMessage> decode_joint_command(std::string_view bytes) 
   if (!decoded.ParseFromArray(bytes.data(), static_cast<int>(bytes.size()))) return std::nullopt;
   JointCommandMessage message;
   message.stamp_ns = decoded.header().time_stamp();
+  message.sequence = decoded.header().sequence_num();
+  message.frame_id = decoded.header().frame_id();
   message.joints.reserve(static_cast<std::size_t>(decoded.joints_size()));
   for (const auto& joint : decoded.joints()) {
     message.joints.push_back({joint.name(), joint.position(), joint.velocity(), joint.effort(),

@@ -29,6 +29,8 @@ struct JointCommandEntry {
 
 struct JointCommandMessage {
   std::uint64_t stamp_ns = 0;  ///< wall time; 0: none
+  std::uint64_t sequence = 0;  ///< the program's own count; 0: none
+  std::string frame_id;
   std::vector<JointCommandEntry> joints;
 };
 
@@ -39,6 +41,10 @@ struct JointCommandRules {
 
 /// Protobuf bytes; unknown fields are skipped. Nothing when it is no JointCommand.
 std::optional<JointCommandMessage> decode_joint_command(std::string_view bytes);
+
+/// Protobuf's JSON: both spellings of a field, numbers as texts, null for absent. Refuses, with the
+/// place, unknown fields, keys that come twice and numbers that are none.
+Result<JointCommandMessage, Reason> decode_joint_command_json(std::string_view text);
 
 /// `wall` is now since the epoch, `last_stamp_ns` that of the last message that was accepted, 0
 /// when there is none. Every drive follows a velocity: with stiffness 0 a position has no weight,

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "drover/angle.h"
+#include "publish/aimrt/json_form.h"
 #include "publish/aimrt/sensor.pb.h"
 
 namespace drover::publish::aimrt {
@@ -66,6 +67,11 @@ bool is_heard(const AxisSnapshot& axis) {
   return axis.health == SourceState::fresh && axis.last_motion != kNever;
 }
 
+template <class Message>
+std::string written(const Message& message, Content content) {
+  return content == Content::json ? json_form(message) : message.SerializeAsString();
+}
+
 /// Appends a 3 x 3 matrix with the variance on its diagonal; zeros when sigma is absent.
 template <class Values>
 void fill_covariance(Values& into, double sigma) {
@@ -82,7 +88,8 @@ Time joint_time(const Snapshot& snapshot) {
   return oldest;
 }
 
-std::string joint_state(const Snapshot& snapshot, Time at, const Stamping& stamping) {
+std::string joint_state(const Snapshot& snapshot, Time at, const Stamping& stamping,
+                        Content content) {
   pb::sensor::JointState message;
   for (const auto& axis : snapshot.axes) {
     auto& joint = *message.add_joints();
@@ -93,10 +100,10 @@ std::string joint_state(const Snapshot& snapshot, Time at, const Stamping& stamp
     joint.set_effort(heard ? axis.motion.effort_Nm : kAbsent);
   }
   fill(*message.mutable_header(), at, kBaseFrame, stamping);
-  return message.SerializeAsString();
+  return written(message, content);
 }
 
-std::string imu_state(const Snapshot& snapshot, const Stamping& stamping) {
+std::string imu_state(const Snapshot& snapshot, const Stamping& stamping, Content content) {
   const auto& imu = snapshot.imu;
   pb::sensor::ImuState message;
   fill(*message.mutable_header(), imu.time, kBaseFrame, stamping);
@@ -126,7 +133,7 @@ std::string imu_state(const Snapshot& snapshot, const Stamping& stamping) {
 
   fill(*message.mutable_linear_acceleration(), imu.sample.acceleration_mps2);
   fill_covariance(*message.mutable_linear_acceleration_covariance(), imu.acceleration_sigma_mps2);
-  return message.SerializeAsString();
+  return written(message, content);
 }
 
 std::array<bool, kLineCount> touched(const Snapshot& snapshot) {
@@ -138,7 +145,7 @@ std::array<bool, kLineCount> touched(const Snapshot& snapshot) {
   return lines;
 }
 
-std::string touch_state(const Snapshot& snapshot, const Stamping& stamping) {
+std::string touch_state(const Snapshot& snapshot, const Stamping& stamping, Content content) {
   pb::sensor::TouchState message;
   fill(*message.mutable_header(), snapshot.time, kBaseFrame, stamping);
   const auto lines = touched(snapshot);
@@ -148,7 +155,7 @@ std::string touch_state(const Snapshot& snapshot, const Stamping& stamping) {
     message.add_names(name);
     message.add_states()->add_pressure(lines[i] ? 1 : 0);
   }
-  return message.SerializeAsString();
+  return written(message, content);
 }
 
 }  // namespace drover::publish::aimrt

@@ -1,4 +1,4 @@
-// The snapshot as AimRT messages: serialized protobuf, without the packet around it.
+// The snapshot as AimRT messages: serialized protobuf or JSON, without the packet around it.
 //
 // Field numbers and types: the .proto files beside this one. A message's time stamp is the wall
 // time at which its values were true.
@@ -9,6 +9,7 @@
 #include <string>
 
 #include "drover/snapshot.h"
+#include "publish/aimrt/packet.h"
 
 namespace drover::publish::aimrt {
 
@@ -23,20 +24,23 @@ Time joint_time(const Snapshot& snapshot);
 
 /// Every driven axis: rad, rad/s, N*m; NaN where the drive does not tell or is not heard. `at` is
 /// what it is stamped with: joint_time(), or a later instant at which nothing newer was known.
-std::string joint_state(const Snapshot& snapshot, Time at, const Stamping& stamping);
+std::string joint_state(const Snapshot& snapshot, Time at, const Stamping& stamping,
+                        Content content = Content::pb);
 
 /// The inertial sensor's last sample in base_link, the learned gyro bias taken off. Its yaw is the
 /// robot's own, fused one (counter-clockwise from east) with that one's variance; while that is not
 /// known the sensor's, which counts from anywhere, with a variance of pi squared. Covariances are
 /// diagonal; as in sensor_msgs/Imu they are all 0 when unknown, and the orientation's first is
 /// -1 when there is no orientation (which is then the identity).
-std::string imu_state(const Snapshot& snapshot, const Stamping& stamping);
+std::string imu_state(const Snapshot& snapshot, const Stamping& stamping,
+                      Content content = Content::pb);
 
 /// What the robot takes for touched, by Line: a line that cannot be read is.
 std::array<bool, kLineCount> touched(const Snapshot& snapshot);
 
 /// The configured contacts and zones: "bumper", "zone_far", "zone_near", one pressure each: 1
 /// touched() or occupied, 0 free.
-std::string touch_state(const Snapshot& snapshot, const Stamping& stamping);
+std::string touch_state(const Snapshot& snapshot, const Stamping& stamping,
+                        Content content = Content::pb);
 
 }  // namespace drover::publish::aimrt

@@ -40,11 +40,16 @@ std::string_view text(PacketError error) {
   return "";
 }
 
-std::string encode_packet(std::string_view message) {
+std::string_view spelling(Content content) {
+  return content == Content::pb ? "pb" : "json";
+}
+
+std::string encode_packet(std::string_view message, Content content) {
+  const auto type = spelling(content);
   std::string packet;
-  packet.reserve(2 + kProtobuf.size() + message.size());
-  packet += static_cast<char>(kProtobuf.size());
-  packet += kProtobuf;
+  packet.reserve(2 + type.size() + message.size());
+  packet += static_cast<char>(type.size());
+  packet += type;
   packet += '\0';
   packet += message;
   return packet;

@@ -13,7 +13,9 @@
 
 namespace drover::publish::aimrt {
 
-inline constexpr std::string_view kProtobuf = "pb";
+/// How the message is written. Both stand on the same topic: only the packet tells them apart.
+enum class Content : std::uint8_t { pb, json };
+std::string_view spelling(Content content);
 
 /// Views into the payload that was decoded.
 struct Packet {
@@ -25,8 +27,8 @@ struct Packet {
 enum class PacketError : std::uint8_t { no_content_type, no_context, bad_context };
 std::string_view text(PacketError error);
 
-/// A packet without context around a protobuf message.
-std::string encode_packet(std::string_view message);
+/// A packet without context around a message.
+std::string encode_packet(std::string_view message, Content content = Content::pb);
 /// Any bytes; a length is believed only when so many bytes are there.
 Result<Packet, PacketError> decode_packet(std::string_view payload);
 

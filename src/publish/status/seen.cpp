@@ -31,6 +31,10 @@ void tell_first(Snapshot& snapshot, std::string_view reason) {
   for (const drover::Reason& other : others) room = room && snapshot.why.push_back(other);
 }
 
+void tell_last(Snapshot& snapshot, std::string_view reason) {
+  (void)snapshot.why.push_back(drover::Reason(reason));
+}
+
 Snapshot as_seen(const Snapshot& snapshot, Time now, Duration limit) {
   Snapshot seen = snapshot;
   const bool fresh = snapshot.time == kNever || now - snapshot.time <= limit;

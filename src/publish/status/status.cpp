@@ -237,6 +237,8 @@ void joint_commands(JsonText& out, const JointCommandSnapshot& s, const DaemonSt
   count(out, "accepted", s.accepted);
   count(out, "refused", s.refused);
   count(out, "unread", daemon.joint_commands_unread);
+  count(out, "of_rivals", daemon.joint_commands_of_rivals);
+  out.key("rivals").text(daemon.joint_commands_rivals);
   out.key("reason").text(s.reason.view());
   out.close('}');
 }

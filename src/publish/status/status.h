@@ -16,7 +16,9 @@ struct DaemonStatus {
   Time now = kNever;  ///< when it is shown
   std::uint64_t telemetry_dropped = 0;
   std::uint64_t events_lost = 0;
-  std::uint64_t joint_commands_unread = 0;  ///< of a flood
+  std::uint64_t joint_commands_unread = 0;     ///< of a flood
+  std::string joint_commands_rivals;           ///< programs that write at once now
+  std::uint64_t joint_commands_of_rivals = 0;  ///< refused for that
 };
 
 /// `snapshot` as it is seen now (as_seen). Angles in rad and degrees by their names' suffix; absent

@@ -93,6 +93,8 @@ class StatusViews : public testing::Test {
     daemon.robot = "field";
     daemon.now = kNow;
     daemon.joint_commands_unread = 40;
+    daemon.joint_commands_of_rivals = 7;
+    daemon.joint_commands_rivals = "two programs write";
     auto document = json::parse(publish::status_json(full_snapshot(), daemon));
     if (!document) ADD_FAILURE() << document.error().text();
     if (document) status = document->root;
@@ -146,8 +148,8 @@ TEST_F(StatusViews, ShowTheWholeInShort) {
   expect(
       show_status(status),
       {"owner     joint_command, stops after 0.1 s of silence",
-       "joints    heard, 120 followed, 3 refused, 40 of a flood not read: joint 'wing': there is "
-       "no such joint"});
+       "joints    heard, 120 followed, 3 refused, 40 of a flood not read, 7 of a second program: "
+       "joint 'wing': there is no such joint"});
   const auto& nav = *status.find("nav");
   EXPECT_EQ(*nav.find("owner")->text(), "joint_command");
   EXPECT_DOUBLE_EQ(nav.find("owner_timeout_s")->number().value_or(0), 0.1);
@@ -190,6 +192,8 @@ TEST_F(StatusViews, CarryEveryCounter) {
   EXPECT_EQ(count("cycle", "notices_dropped"), 6);
   EXPECT_EQ(count("gnss", "overflows"), 7);
   EXPECT_EQ(count("joint_commands", "unread"), 40);
+  EXPECT_EQ(count("joint_commands", "of_rivals"), 7);
+  EXPECT_EQ(*status.find("joint_commands")->find("rivals")->text(), "two programs write");
 }
 
 }  // namespace

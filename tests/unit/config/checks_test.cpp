@@ -154,8 +154,23 @@ TEST(ConfigurationChecks, RefuseAChannelTopicWithoutANameOrWithALongOne) {
     return with("1883}", "1883},\n  \"aimrt\": {\"imu_state\": \"" + topic + "\"}");
   };
   EXPECT_EQ(problems(text("")), "f:12:26: aimrt.imu_state: is empty\n");
-  EXPECT_EQ(problems(text(std::string(201, 'x'))), "f:12:26: aimrt.imu_state: is too long\n");
+  const std::string too_long =
+      "f:12:26: aimrt.imu_state: is too long (at most 196 bytes; / and other signs count three)\n";
+  EXPECT_EQ(problems(text(std::string(197, 'x'))), too_long);
+  EXPECT_EQ(problems(text(std::string(66, '/'))), too_long);
+  EXPECT_EQ(problems(text(std::string(196, 'x'))), "");
   EXPECT_EQ(problems(text("/imu")), "");
+}
+
+TEST(ConfigurationChecks, KnowTheNamesAndContentsOfTheChannel) {
+  const auto text = [](const std::string& member) {
+    return with("1883}", "1883},\n  \"aimrt\": {" + member + "}");
+  };
+  EXPECT_EQ(problems(text(R"("joint_state_names": "both", "touch_state_names": "aimrt_1x")")), "");
+  EXPECT_EQ(problems(text(R"("imu_state_content": "json")")), "");
+  EXPECT_NE(problems(text(R"("joint_state_names": "aimrt")")).find("document, aimrt_1x, both"),
+            std::string::npos);
+  EXPECT_NE(problems(text(R"("touch_state_content": "ros2")")).find("pb, json"), std::string::npos);
 }
 
 TEST(ConfigurationChecks, ResolveNamesToNumbers) {

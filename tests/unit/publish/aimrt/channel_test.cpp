@@ -20,8 +20,9 @@ class AnAimrtChannel : public testing::Test {
     config_.rules.joints = {"left", "right"};
     channel_.emplace(config_);
   }
-  void give(const std::string& payload, const Arrival& arrival = {}) {
-    channel_->on_command(payload, arrival, now_, kWallMinusMonotonic, actions_);
+  void give(const std::string& payload, const Arrival& arrival = {},
+            Names names = Names::document) {
+    channel_->on_command(names, payload, arrival, now_, kWallMinusMonotonic, actions_);
   }
   std::uint64_t wall_ns() const {
     return static_cast<std::uint64_t>((now_.time_since_epoch() + kWallMinusMonotonic).count());
@@ -56,13 +57,19 @@ TEST_F(AnAimrtChannel, NeverFollowsARetainedMessage) {
   EXPECT_TRUE(commands<JointTargets>().empty());
 }
 
-TEST_F(AnAimrtChannel, RefusesWhatIsNoProtobufPacket) {
+TEST_F(AnAimrtChannel, RefusesWhatIsNoPacketOfACommand) {
   give("");
   EXPECT_EQ(last_refusal(), "the packet ends inside its content type");
+  give(hex("04 79 61 6d 6c 00 7b 7d"));
+  EXPECT_EQ(last_refusal(), "the content type 'yaml' is neither pb nor json");
   give(hex("04 6a 73 6f 6e 00 7b 7d"));
-  EXPECT_EQ(last_refusal(), "the content type 'json' is not pb");
+  EXPECT_EQ(last_refusal(), "it names no joint");
+  give(hex("04 6a 73 6f 6e 00 7b"));
+  EXPECT_EQ(last_refusal().substr(0, 35), "the JSON is no JointCommand: line 1");
   give(in_packet("x"));
   EXPECT_EQ(last_refusal(), "the message is no JointCommand");
+  give(in_packet("x"), {}, Names::aimrt_1x);
+  EXPECT_EQ(last_refusal(), "the message is no JointCommandArray");
   give(in_packet(std::string(kMaxCommandBytes + 1, '\0')));
   EXPECT_EQ(last_refusal(), "the message is longer than 16 KiB");
   give(in_packet(joint_entry("left", 0, 1) + joint_entry("wing", 0, 1)));
@@ -237,10 +244,95 @@ TEST_F(AnAimrtChannel, CountsTheMessagesOfEachType) {
   EXPECT_EQ(payload.substr(payload.size() - 2), hex("18 02")) << "sequence_num = 3";
 }
 
-TEST_F(AnAimrtChannel, ListensToTheConfiguredTopic) {
+TEST_F(AnAimrtChannel, ListensToTheConfiguredTopicUnderBothNames) {
   config_.joint_command = "/arm/joint command";
-  EXPECT_EQ(Channel(config_).command_topic(),
-            "/channel/%2Farm%2Fjoint+command/pb%3Aaimrt.protocols.sensor.JointCommand");
+  const Channel channel(config_);
+  const std::string topic =
+      "/channel/%2Farm%2Fjoint+command/pb%3Aaimrt.protocols.sensor.JointCommand";
+  EXPECT_EQ(channel.command_topics(), (std::vector{topic, topic + "Array"}));
+  EXPECT_EQ(channel.command_names(topic), Names::document);
+  EXPECT_EQ(channel.command_names(topic + "Array"), Names::aimrt_1x);
+  EXPECT_EQ(channel.command_names(topic + "s"), std::nullopt);
+}
+
+TEST_F(AnAimrtChannel, FollowsEitherFamilyWrittenInEitherWay) {
+  const std::string json = std::string("\x04json\0", 6) + R"({"header":{"time_stamp":")" +
+                           std::to_string(wall_ns()) +
+                           R"("},"joints":[{"name":"right","velocity":0}]})";
+  const auto pb = in_packet(stamp(wall_ns()) + joint_entry("right", 0, 0));
+  std::size_t followed = 0;
+  for (const auto names : {Names::document, Names::aimrt_1x})
+    for (const auto& payload : {json, pb}) {
+      // Each begins anew: the one before is silent, and its stamps are old.
+      channel_.emplace(config_);
+      give(payload, {}, names);
+      EXPECT_EQ(commands<JointTargets>().size(), ++followed) << last_refusal();
+    }
+}
+
+TEST_F(AnAimrtChannel, HasOneLimitForAllNames) {
+  for (int i = 0; i < 1000; ++i) {
+    give(in_packet(joint_entry("left", 0, 0)), {}, Names::document);
+    give(in_packet(joint_entry("left", 0, 0)), {}, Names::aimrt_1x);
+  }
+  EXPECT_GT(channel_->unread(), 1900U);
+}
+
+TEST_F(AnAimrtChannel, FollowsOneOfTwoProgramsAndNamesBothInTheLog) {
+  for (int i = 0; i < 100; ++i) {
+    give(in_packet(joint_entry("left", 0, 1)), {}, Names::document);
+    give(in_packet(joint_entry("left", 0, 2)), {}, Names::aimrt_1x);
+    now_ += std::chrono::milliseconds(20);
+  }
+  const auto targets = commands<JointTargets>();
+  ASSERT_EQ(targets.size(), 100U);
+  for (const auto& each : targets) EXPECT_EQ(each.joints[0].velocity_radps, 1.0);
+  EXPECT_EQ(commands<JointTargetsRefused>().size(), 100U);
+  EXPECT_EQ(channel_->rivals_refused(), 100U);
+  const std::string told =
+      "two programs write joint commands: JointCommand (pb) has the joints, JointCommandArray "
+      "(pb) is refused";
+  EXPECT_EQ(channel_->rivals(now_), told);
+  EXPECT_EQ(log_lines(), 1U);
+  for (const auto& action : actions_)
+    if (const auto* line = std::get_if<LogLine>(&action)) {
+      EXPECT_EQ(line->text, "joint command refused: " + told);
+    }
+}
+
+TEST_F(AnAimrtChannel, NamesTwoProgramsAlsoAmongOtherRefusals) {
+  for (int i = 0; i < 10; ++i) give(in_packet(joint_entry("wing", 0, 1)));
+  const auto before = log_lines();
+  give(in_packet(joint_entry("left", 0, 1)), {}, Names::document);
+  give(in_packet(joint_entry("left", 0, 1)), {}, Names::aimrt_1x);
+  EXPECT_EQ(log_lines(), before + 1);
+}
+
+TEST_F(AnAimrtChannel, IsNotDisturbedByTheStampsOfAProgramThatIsRefused) {
+  const auto ms = [](int count) { return static_cast<std::uint64_t>(count) * 1'000'000; };
+  for (int i = 0; i < 20; ++i) {
+    give(in_packet(stamp(wall_ns()) + joint_entry("left", 0, 1)), {}, Names::document);
+    give(in_packet(stamp(wall_ns() + ms(500)) + joint_entry("left", 0, 2)), {}, Names::aimrt_1x);
+    now_ += std::chrono::milliseconds(20);
+  }
+  EXPECT_EQ(commands<JointTargets>().size(), 20U);
+}
+
+TEST_F(AnAimrtChannel, PublishesUnderTheNamesThatAreConfigured) {
+  Snapshot snapshot;
+  snapshot.time = now_;
+  snapshot.line_configured[static_cast<std::size_t>(Line::bumper)] = true;
+  config_.joint_state_outlet.names = {Names::document, Names::aimrt_1x};
+  config_.touch_state_outlet.names = {Names::aimrt_1x};
+  Channel channel(config_);
+  const auto packets = channel.telemetry(snapshot, kWallMinusMonotonic);
+  ASSERT_EQ(packets.size(), 3U);
+  const std::string joints = "/channel/%2Fjoint_state/pb%3Aaimrt.protocols.sensor.JointState";
+  EXPECT_EQ(*packets[0].topic, joints);
+  EXPECT_EQ(*packets[1].topic, joints + "Array");
+  EXPECT_EQ(packets[0].payload, packets[1].payload);
+  EXPECT_EQ(*packets[2].topic,
+            "/channel/%2Ftouch_state/pb%3Aaimrt.protocols.sensor.TouchSensorStateArray");
 }
 
 }  // namespace

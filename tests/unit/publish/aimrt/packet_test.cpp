@@ -55,9 +55,23 @@ TEST(AimrtPacket, IsWrittenWithoutContext) {
   EXPECT_EQ(encode_packet(""), hex("02 70 62 00"));
 }
 
+TEST(AimrtPacket, TellsThatItsMessageIsJson) {
+  EXPECT_EQ(encode_packet("{}", Content::json), hex("04 6a 73 6f 6e 00 7b 7d"));
+}
+
 TEST(AimrtTopic, IsTheDocumentsExample) {
-  EXPECT_EQ(mqtt_topic("/joint_state", "JointStateArray"),
+  EXPECT_EQ(mqtt_topic("/joint_state", Role::joint_state, Names::aimrt_1x),
             "/channel/%2Fjoint_state/pb%3Aaimrt.protocols.sensor.JointStateArray");
+}
+
+TEST(AimrtTopic, HasTheNamesOfEitherFamily) {
+  const auto name = [](Role role, Names names) { return std::string(type_name(role, names)); };
+  EXPECT_EQ(name(Role::joint_state, Names::document), "JointState");
+  EXPECT_EQ(name(Role::joint_command, Names::document), "JointCommand");
+  EXPECT_EQ(name(Role::joint_command, Names::aimrt_1x), "JointCommandArray");
+  EXPECT_EQ(name(Role::touch_state, Names::document), "TouchState");
+  EXPECT_EQ(name(Role::touch_state, Names::aimrt_1x), "TouchSensorStateArray");
+  EXPECT_EQ(name(Role::imu_state, Names::document), name(Role::imu_state, Names::aimrt_1x));
 }
 
 TEST(AimrtTopic, KeepsFourMarksAndWritesABlankAsPlus) {

@@ -65,6 +65,19 @@ TEST(AimrtPackets, AreReadByProtocWithTheDocumentsFieldNumbers) {
             header("1001000") + "names: \"bumper\"\nstates {\n  pressure: 1\n}\n");
 }
 
+TEST(AimrtPackets, AreReadByProtocWithTheNamesOfAimrt1x) {
+  ChannelConfig config;
+  config.joint_state_outlet.names = config.touch_state_outlet.names = {Names::aimrt_1x};
+  const auto packets = Channel(config).telemetry(full_snapshot(), Duration(1'000'000));
+  ASSERT_EQ(packets.size(), 3U);
+  EXPECT_EQ(protoc_decoded("JointStateArray", message_of_packet(packets[0].payload)),
+            header("1000900") +
+                "joints {\n  name: \"front_left\"\n  position: 12.25\n  velocity: -1.5\n"
+                "  effort: 0.75\n}\n");
+  EXPECT_EQ(protoc_decoded("TouchSensorStateArray", message_of_packet(packets[2].payload)),
+            header("1001000") + "names: \"bumper\"\nstates {\n  pressure: 1\n}\n");
+}
+
 TEST(AimrtPackets, OfProtocAreRead) {
   const auto message = decode_joint_command(protoc_encoded(
       "JointCommand",

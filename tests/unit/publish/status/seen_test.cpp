@@ -95,5 +95,15 @@ TEST(Seen, TellsTheCommandLineThatNothingIsFresh) {
   EXPECT_THAT(text, HasSubstr("stood still for 6.0 s"));
 }
 
+TEST(AReasonToldLast, StandsBehindTheOthersAndDrivesNoneOut) {
+  Snapshot snapshot;
+  (void)snapshot.why.push_back("first");
+  tell_last(snapshot, "last");
+  ASSERT_EQ(snapshot.why.size(), 2U);
+  EXPECT_EQ(snapshot.why[1], "last");
+  for (int i = 0; i < 20; ++i) tell_last(snapshot, "more");
+  EXPECT_EQ(snapshot.why[0], "first");
+}
+
 }  // namespace
 }  // namespace drover::publish

@@ -1,0 +1,114 @@
+#include "publish/aimrt/writers.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "config/located_json.h"
+
+namespace drover::publish::aimrt {
+
+namespace {
+
+constexpr Duration kShownFor = std::chrono::seconds(1);
+constexpr std::uint64_t kMostMissed = 100;  // messages in a row; more is another program's count
+constexpr double kJump_radps = 0.5;
+constexpr double kSame_radps = 0.25;
+
+/// "JointCommandArray (json)", and the frame where there is one.
+std::string shown(const Writer& writer, bool with_frame) {
+  std::string text(type_name(Role::joint_command, writer.names));
+  text += " (" + std::string(spelling(writer.content));
+  if (with_frame) text += ", frame_id '" + json::shown(writer.frame_id, 12) + "'";
+  return text + ")";
+}
+
+std::string both(const Writer& owner, const Writer& other) {
+  const bool same_form = owner.names == other.names && owner.content == other.content;
+  const bool same_frame = owner.frame_id == other.frame_id;
+  if (!same_form || !same_frame) {
+    return "two programs write joint commands: " + shown(owner, !same_frame) + " has the joints, " +
+           shown(other, !same_frame) + " is refused";
+  }
+  const bool stamps = (owner.stamp_ns == 0) != (other.stamp_ns == 0);
+  return "two programs write joint commands as " + shown(owner, false) +
+         (stamps ? ", one with time_stamp and one without" : ", each with its sequence_num") +
+         ": the one that has the joints goes on";
+}
+
+/// The same program's count, or neither counts. `counts`: `last` was not its first message, which
+/// may have had number 0.
+bool continues(std::uint64_t last, bool counts, std::uint64_t next) {
+  if (next == 0) return last == 0;
+  if (last == 0 && counts) return false;
+  return next >= last && next - last <= kMostMissed;
+}
+
+}  // namespace
+
+bool Writers::is_owner(const Writer& writer) const {
+  return owner_ && owner_->names == writer.names && owner_->content == writer.content &&
+         owner_->frame_id == writer.frame_id && (owner_->stamp_ns == 0) == (writer.stamp_ns == 0) &&
+         continues(owner_->sequence, counts_, writer.sequence);
+}
+
+Reason Writers::refuse(std::string why, Time now) {
+  text_ = std::move(why);
+  told_ = now;
+  ++refused_;
+  return Reason(text_);
+}
+
+Reason Writers::hindrance(const Writer& writer, bool rests, Time now) {
+  if (!owner_) return {};
+  if (is_owner(writer)) {
+    // An old message after a newer one that was followed: one program sends in order.
+    const bool late = writer.stamp_ns < owner_->stamp_ns;
+    if (!late || !std::exchange(followed_since_late_, false) || oddities_.take(now)) return {};
+    return refuse("two programs seem to write joint commands as " + shown(writer, false) +
+                      ": their time stamps interleave, the older ones are refused",
+                  now);
+  }
+  if (now - heard_ <= silence_) return refuse(both(*owner_, writer), now);
+  // Else it could drive on in the middle of what the first one began.
+  if (!rests) return "a stream of joint commands begins with velocity 0";
+  return {};
+}
+
+/// Up and down again within three messages: two programs by turns, one of which may be at rest.
+bool Writers::jumps_to_and_fro(const JointTargets& targets) {
+  Velocities now{};
+  for (const auto& joint : targets.joints) now[joint.axis] = joint.velocity_radps;
+  const auto near = [&now](const std::optional<Velocities>& then, std::size_t axis) {
+    return then && std::abs((*then)[axis] - now[axis]) <= kSame_radps;
+  };
+  bool jumps = false;
+  for (std::size_t axis = 0; axis < now.size(); ++axis) {
+    const bool jump = before_[0] && std::abs((*before_[0])[axis] - now[axis]) >= kJump_radps;
+    jumps = jumps || (jump && (near(before_[1], axis) || near(before_[2], axis)));
+  }
+  std::rotate(before_.begin(), before_.end() - 1, before_.end());
+  before_[0] = now;
+  return jumps;
+}
+
+Reason Writers::take(const Writer& writer, const JointTargets& targets, Time now) {
+  const bool goes_on = is_owner(writer);
+  if (!goes_on || now - heard_ > silence_) before_.fill(std::nullopt);
+  counts_ = goes_on;
+  owner_ = writer;
+  heard_ = now;
+  followed_since_late_ = true;
+  // Who counts is told apart by the count.
+  if (jumps_to_and_fro(targets) && writer.sequence == 0 && !oddities_.take(now))
+    mixed_until_ = now + kShownFor;
+  if (now >= mixed_until_) return {};
+  return refuse("two programs seem to write joint commands as " + shown(writer, false) +
+                    ": the velocities jump to and fro, none is followed",
+                now);
+}
+
+std::string_view Writers::rivals(Time now) const {
+  return told_ != kNever && now - told_ <= kShownFor ? std::string_view(text_) : "";
+}
+
+}  // namespace drover::publish::aimrt
