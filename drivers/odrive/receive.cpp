@@ -206,8 +206,10 @@ AxisStatus OdriveDriver::status(Time now) const {
     return status;
   }
   status.error_code = heartbeat_.error;
+  const bool powered = heartbeat_.state != kStateIdle;
   if (fought(now) && !fault_) {
     status.state = AxisState::fault;
+    status.powered = powered;
     status.reason = foreign_text();
     return status;
   }
@@ -219,6 +221,7 @@ AxisStatus OdriveDriver::status(Time now) const {
   }
   if (fault_ || (heartbeat_.failed() && !arming)) {
     status.state = AxisState::fault;
+    status.powered = powered;
     status.lapsed = only_lapsed(errors_, settings_.firmware);
     // An old reason of disarming is no news unless something is wrong now.
     if (status.error_code == 0) status.error_code = errors_.disarm_reason;
@@ -246,6 +249,7 @@ AxisStatus OdriveDriver::status(Time now) const {
   } else if (heartbeat_.state != 0) {
     // Calibrations, homing and the like turn the motor by themselves.
     status.state = AxisState::fault;
+    status.powered = powered;
     status.reason.format("drive is in state %u, neither idle nor closed loop",
                          static_cast<unsigned>(heartbeat_.state));
   }
@@ -268,7 +272,8 @@ void OdriveDriver::report_status(Time now, bool always, DriverOut& out) {
   const AxisStatus current = status(now);
   const bool changed = !reported_once_ || current.state != reported_.state ||
                        current.error_code != reported_.error_code ||
-                       current.lapsed != reported_.lapsed || !(current.reason == reported_.reason);
+                       current.lapsed != reported_.lapsed || current.powered != reported_.powered ||
+                       !(current.reason == reported_.reason);
   if (!changed && !always) return;
   reported_once_ = true;
   reported_ = current;

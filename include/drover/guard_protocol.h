@@ -63,7 +63,7 @@ static_assert(std::is_trivially_copyable_v<GuardMessage>);
 enum class GuardMayHold : std::uint32_t {
   hold = 0,               ///< play the stop recipe
   released = 0x52454C45,  ///< a person released the drives: send nothing
-  cut = 0x43555452,       ///< e-stop or relay took the power, a person has to arm: send nothing
+  cut = 0x43555452,  ///< droverd cut the drives' power, a person has to reset that: send nothing
 };
 
 /// Made by droverd, sealed against shrinking, mapped by both.

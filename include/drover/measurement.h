@@ -39,6 +39,8 @@ struct AxisStatus {
   Reason reason;                 ///< decoded text, empty when there is no error
   /// A fault that says only that nobody fed the drive, or that its supply dipped: it is sound.
   bool lapsed = false;
+  /// Of a fault: the power stage is still on. The motor drives or brakes, and gives energy back.
+  bool powered = false;
 };
 
 struct AxisTemperature {

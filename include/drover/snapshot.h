@@ -64,7 +64,8 @@ struct AxisSnapshot {
   AxisMotion motion;
   AxisState state = AxisState::unknown;
   Reason fault;
-  bool lapsed = false;  ///< that fault is only a want of set points or of supply
+  bool lapsed = false;   ///< that fault is only a want of set points or of supply
+  bool powered = false;  ///< with that fault its power stage is still on
   double commanded_velocity_radps = 0;
   double inverter_degC = kAbsent;
   double motor_degC = kAbsent;

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "drover/checksum.h"
 #include "link/modbus_frame.h"
 
 namespace drover::sim {
@@ -23,7 +24,7 @@ constexpr Duration kDrip = 490ms;
 constexpr Duration kRequestEnds = 50ms;  ///< a request that is not whole by then is forgotten
 
 std::vector<std::uint8_t> sealed(std::vector<std::uint8_t> frame) {
-  const auto crc = link::modbus_crc(frame);
+  const auto crc = modbus_crc(frame);
   frame.push_back(static_cast<std::uint8_t>(crc));
   frame.push_back(static_cast<std::uint8_t>(crc >> 8U));
   return frame;
@@ -104,7 +105,7 @@ void BatteryPort::answer(std::span<const std::uint8_t> request, Time now,
   const auto word = [&](std::size_t at) {
     return static_cast<std::uint16_t>(request[at] << 8U | request[at + 1]);
   };
-  const auto crc = link::modbus_crc(request.first(6));
+  const auto crc = modbus_crc(request.first(6));
   const bool good = request[6] == (crc & 0xFFU) && request[7] == crc >> 8U;
   if (!good || request[0] != unit_ || fault_ == LineFault::silent || fault_ == LineFault::deaf_echo)
     return;

@@ -6,7 +6,7 @@
 #include "cli/hex.h"
 #include "config/located_json.h"
 #include "drover/bytes.h"
-#include "link/modbus_frame.h"
+#include "drover/checksum.h"
 
 namespace drover::cli {
 
@@ -96,7 +96,7 @@ std::string RegisterLog::add_words(std::string_view head, std::string_view words
 std::string RegisterLog::add_frame(const std::vector<std::uint8_t>& bytes) {
   if (bytes.size() < kReplyFrame) return "too short for a frame of Modbus RTU";
   const auto body = std::span(bytes).first(bytes.size() - 2);
-  if (link::modbus_crc(body) != load_le<std::uint16_t>(bytes, body.size())) return "wrong checksum";
+  if (modbus_crc(body) != load_le<std::uint16_t>(bytes, body.size())) return "wrong checksum";
   const auto function = bytes[1];
   if ((function & 0x80U) != 0) {
     unit_ = bytes[0];

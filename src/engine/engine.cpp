@@ -77,6 +77,7 @@ void Engine::Impl::take(const Measurement& m) {
     axis->state = status->state;
     axis->fault = status->reason;
     axis->lapsed = status->lapsed;
+    axis->powered = status->powered;
   } else if (const auto* temperature = std::get_if<AxisTemperature>(&m.value)) {
     AxisSnapshot* axis = axis_of(temperature->axis);
     if (axis == nullptr) return;

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "drover/bytes.h"
+#include "drover/checksum.h"
 
 namespace drover::link {
 namespace {
@@ -17,15 +18,6 @@ bool crc_good(std::span<const std::uint8_t> frame) {
 }
 
 }  // namespace
-
-std::uint16_t modbus_crc(std::span<const std::uint8_t> bytes) {
-  unsigned crc = 0xFFFF;
-  for (const std::uint8_t byte : bytes) {
-    crc ^= byte;
-    for (int i = 0; i < 8; ++i) crc = (crc & 1U) != 0 ? (crc >> 1U) ^ 0xA001U : crc >> 1U;
-  }
-  return static_cast<std::uint16_t>(crc);
-}
 
 std::array<std::uint8_t, kRtuRequestSize> rtu_read_request(std::uint8_t unit,
                                                            const RegisterBlock& block) {

@@ -14,9 +14,6 @@ inline constexpr std::size_t kRtuRequestSize = 8;
 inline constexpr std::size_t kTcpRequestSize = 12;
 using ModbusBytes = FixedVector<std::uint8_t, 512>;
 
-/// Modbus over Serial Line V1.02, 6.2.2: polynomial A001 reflected, start FFFF.
-std::uint16_t modbus_crc(std::span<const std::uint8_t> bytes);
-
 std::array<std::uint8_t, kRtuRequestSize> rtu_read_request(std::uint8_t unit,
                                                            const RegisterBlock& block);
 /// MODBUS Messaging on TCP/IP V1.0b, 3.1.3.

@@ -48,6 +48,7 @@ BatteryLoop::BatteryLoop(const config::BatteryConfig& config, BatteryExchange& e
     : config_(config), exchange_(exchange), blocks_(blocks_of(config)) {}
 
 void BatteryLoop::run(const std::atomic<bool>& stop) {
+  publish();
   while (!stop.load(std::memory_order_relaxed)) {
     Time now = monotonic_now();
     if (!link_ && retry_.due(now)) open(now);

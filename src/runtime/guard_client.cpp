@@ -70,13 +70,12 @@ bool GuardClient::connect(std::string& problem) {
     return false;
   }
   std::memcpy(address.sun_path, path_.c_str(), path_.size());
-  link::UniqueFd fd(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0));
+  // A guard that is stopped must not hold up who supplies it.
+  link::UniqueFd fd(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
   if (!fd || ::connect(fd.get(), reinterpret_cast<sockaddr*>(&address), sizeof address) != 0) {
     problem = link::problem_text("drover-guard at " + path_, "cannot connect", errno);
     return false;
   }
-  // A guard that is stopped must not hold up who supplies it.
-  ::fcntl(fd.get(), F_SETFL, O_NONBLOCK);
   socket_ = std::move(fd);
   return true;
 }

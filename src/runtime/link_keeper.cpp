@@ -85,6 +85,7 @@ void LinkKeeper::run(const std::atomic<bool>& stop) {
       guard_.disconnect();
       guard_set_changed_ = true;
       relay_given_ = false;
+      watchdog_.open = false;
       log(LogLevel::error, "drover-guard is gone: nothing may move until it is back");
     }
   }

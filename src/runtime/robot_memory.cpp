@@ -63,7 +63,10 @@ const char* RobotMemory::open(const std::string& path) {
   // Of another version, or none yet: there is nothing in it for us.
   if (info.st_size != size && ::ftruncate(fd.get(), 0) != 0) return "cannot empty";
   // Allocated now: a full disk would be a signal later, in the control thread.
-  if (info.st_size != size && ::posix_fallocate(fd.get(), 0, size) != 0) return "no room";
+  if (info.st_size != size) {
+    errno = ::posix_fallocate(fd.get(), 0, size);
+    if (errno != 0) return "no room";
+  }
   void* memory = ::mmap(nullptr, 2 * sizeof(Record), PROT_READ | PROT_WRITE,
                         MAP_SHARED | MAP_POPULATE, fd.get(), 0);
   if (memory == MAP_FAILED) return "cannot map";
@@ -109,8 +112,10 @@ bool RobotMemory::keep(const Remembered& now) {
 
 Remembered recall(const RobotMemory& memory, const Remembered& on_disk) {
   if (memory.found()) return *memory.found();
-  Remembered known = on_disk;
-  if (memory.unreadable() && known.stop.empty()) known.stop.assign(store::kUnreadableStop);
+  if (!memory.unreadable()) return on_disk;
+  Remembered known = store::unreadable_stop();
+  if (!on_disk.stop.empty()) known.stop = on_disk.stop;
+  known.power_cut = on_disk.power_cut;
   return known;
 }
 

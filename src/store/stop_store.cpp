@@ -37,6 +37,13 @@ Remembered lasting(const Remembered& all) {
   return kept;
 }
 
+Remembered unreadable_stop() {
+  Remembered unknown;
+  unknown.stop.assign(kUnreadableStop);
+  unknown.stop_at_robot = true;
+  return unknown;
+}
+
 StopStore::StopStore(Files& files, std::string folder)
     : files_(files), folder_(std::move(folder)) {}
 
@@ -59,9 +66,7 @@ Remembered StopStore::load(std::vector<std::string>& report) const {
     }
     report.push_back(path + " " + what);
   }
-  Remembered unknown;
-  unknown.stop.assign(kUnreadableStop);
-  return unknown;
+  return unreadable_stop();
 }
 
 std::optional<Failure> StopStore::save(const Remembered& remembered) {

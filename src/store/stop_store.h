@@ -14,6 +14,9 @@ namespace drover::store {
 /// What is latched when nobody can tell whether something was.
 inline constexpr std::string_view kUnreadableStop = "the stored stop cannot be read: drover reset";
 
+/// Then only who stands at the robot resets it: it may have been such a stop.
+Remembered unreadable_stop();
+
 /// That part of `all` that outlives a boot: the stop and the power cut.
 Remembered lasting(const Remembered& all);
 

@@ -10,6 +10,7 @@
 #include "config/register_map.h"
 #include "drivers/modbus_bms/driver.h"
 #include "drivers/modbus_bms/entry.h"
+#include "drover/checksum.h"
 #include "link/modbus_frame.h"
 
 namespace {
@@ -75,7 +76,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   constexpr RegisterBlock kBlock{3, 0, 19};
   std::vector<std::uint8_t> bytes(data + 1, data + size);
   if ((data[0] & 2U) != 0 && !tcp) {
-    const auto crc = link::modbus_crc(bytes);
+    const auto crc = modbus_crc(bytes);
     bytes.push_back(static_cast<std::uint8_t>(crc));
     bytes.push_back(static_cast<std::uint8_t>(crc >> 8U));
   }

@@ -290,6 +290,20 @@ TEST_F(Guard, SendsNothingToDrivesThatAPersonReleased) {
   EXPECT_THAT(frames("can0"), IsEmpty());
 }
 
+TEST_F(Guard, SendsNothingToDrivesWhosePowerTheDaemonCut) {
+  start();
+  std::vector<runtime::GuardedLink> links;
+  links.push_back(can_link("can0", {0x2D}));
+  hand_over(std::move(links));
+  shared().may_hold = GuardMayHold::cut;
+  daemon_dies_after(50ms);
+  ASSERT_TRUE(wait_until([&] { return shared().guard_holds == 1; }));
+  std::this_thread::sleep_for(50ms);
+  EXPECT_THAT(frames("can0"), IsEmpty());
+  shared().may_hold = GuardMayHold::hold;
+  EXPECT_TRUE(wait_until([&] { return !frames("can0").empty(); })) << "it was that word";
+}
+
 TEST_F(Guard, TheRelaysLineFallsWhenTheLastOfBothIsGone) {
   ServiceManager manager(file("notify"));
   start({.manager = &manager});

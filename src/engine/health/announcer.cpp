@@ -21,7 +21,7 @@ std::string_view over(Cause cause) {
     case Cause::latched: return "ready for a new start";
     case Cause::steep: return "on level ground again";
     case Cause::charger: return "charger unplugged";
-    case Cause::program: return "all threads of droverd run again";
+    case Cause::program: return "droverd runs undisturbed again";
     case Cause::battery_critical: return "battery good for driving again";
     case Cause::near_zone: return "near zone free";
     case Cause::moved: return "the robot rests again";

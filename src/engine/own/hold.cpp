@@ -102,7 +102,9 @@ void Hold::keep_time(const HoldInput& input, EventQueue& events) {
     last_held_ = input.now;
     recalled_ = !heard_;
   } else if (input.now - last_held_ > kHoldsAgainFor) {
+    const bool tried = config_.base.hold_again || asked_;
     forfeit();
+    if (!tried) return;
     gave_up_ = true;
     events.notice(input.now, Notice::Level::error,
                   "the drives let go and could not be held again: drover hold");

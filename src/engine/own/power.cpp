@@ -12,7 +12,7 @@ constexpr Duration kLongestIdling = std::chrono::milliseconds(1500);
 
 bool has_let_go(const AxisSnapshot& axis) {
   return axis.health != SourceState::fresh || axis.state == AxisState::idle ||
-         axis.state == AxisState::fault;
+         (axis.state == AxisState::fault && !axis.powered);
 }
 
 }  // namespace

@@ -72,13 +72,14 @@ void visit_fields(V& v, const AxisMotion& motion) {
 
 template <class V>
 void visit_fields(V& v, const AxisSnapshot& it) {
-  const auto& [joint, motion, state, fault, lapsed, commanded_velocity_radps, inverter_degC,
-               motor_degC, bus_V, bus_A, health, source, last_motion] = it;
+  const auto& [joint, motion, state, fault, lapsed, powered, commanded_velocity_radps,
+               inverter_degC, motor_degC, bus_V, bus_A, health, source, last_motion] = it;
   v.value("joint", joint);
   v.inside("motion", [&v, &part = motion] { visit_fields(v, part); });
   v.value("state", state);
   v.value("fault", fault);
   v.value("lapsed", lapsed);
+  v.value("powered", powered);
   v.value("commanded_velocity_radps", commanded_velocity_radps);
   v.value("inverter_degC", inverter_degC);
   v.value("motor_degC", motor_degC);

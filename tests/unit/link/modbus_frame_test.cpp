@@ -4,6 +4,8 @@
 
 #include <vector>
 
+#include "drover/checksum.h"
+
 namespace drover::link {
 namespace {
 

@@ -17,6 +17,7 @@
 #include <thread>
 #include <vector>
 
+#include "drover/checksum.h"
 #include "link/unique_fd.h"
 
 namespace drover::link {

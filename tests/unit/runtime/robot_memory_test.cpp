@@ -74,6 +74,7 @@ TEST_F(ARobotMemory, ThatCannotBeReadCountsAsAStop) {
   const auto memory = open();
   EXPECT_TRUE(memory.unreadable());
   EXPECT_EQ(recall(memory, {}).stop, store::kUnreadableStop);
+  EXPECT_TRUE(recall(memory, {}).stop_at_robot);
 }
 TEST_F(ARobotMemory, IsBelievedBeforeTheDisk) {
   { open().keep({}); }

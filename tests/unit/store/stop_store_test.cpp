@@ -52,6 +52,7 @@ TEST(AStopStore, CountsADamagedFileAsAStopUntilTheNextSave) {
   for (const char* damaged : {"", "{", "rubbish"}) {
     it.files.put("state/stop.json", damaged);
     EXPECT_EQ(it.load().stop, kUnreadableStop);
+    EXPECT_TRUE(it.load().stop_at_robot) << "it may have been one";
     EXPECT_EQ(it.load().stop, kUnreadableStop) << "still, when it is read once more";
     EXPECT_THAT(it.report, ElementsAre(HasSubstr("state/stop.json")));
   }

@@ -362,6 +362,7 @@ TEST(OdriveDriver, StopsAtOnceWhenSomebodyElseCommandsIt) {
   EXPECT_EQ(bench.motions(), 0);
   EXPECT_EQ(bench.status.state, AxisState::fault);
   EXPECT_EQ(bench.status.reason, "somebody else commands it: id 0x06D on the bus");
+  EXPECT_TRUE(bench.status.powered) << "still in closed loop";
 }
 
 TEST(OdriveDriver, DoesNotMindWhoOnlyReads) {

@@ -192,8 +192,9 @@ TEST_F(Holding, DoesNothingOnBlocksUntilAPersonAsks) {
   hold = Hold(config);
   drive_and_stop();
   let_go(1);
-  run_s(1);
+  run_s(12);
   EXPECT_EQ(asked(), AxisRequest::rest);
+  EXPECT_EQ(hold.state(), HoldState::idle) << "nothing was tried, and nothing has failed";
   hold.arm({}, {}, now, events);
   tick();
   EXPECT_EQ(asked(), AxisRequest::hold);

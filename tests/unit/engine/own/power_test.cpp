@@ -44,6 +44,16 @@ TEST(ThePowerSwitch, OpensOnlyWhenTheDrivesHaveGoneIdle) {
   it.axes[1].state = AxisState::idle;
   EXPECT_FALSE(it.after_ms(5));
 }
+TEST(ThePowerSwitch, WaitsForADriveInFaultOnlyWhileItsPowerStageIsOn) {
+  Powered it;
+  it.axes[0].state = AxisState::idle;
+  it.axes[1].state = AxisState::fault;
+  it.axes[1].powered = true;
+  it.power.cut();
+  EXPECT_TRUE(it.after_ms(500)) << "it brakes: its energy needs the battery";
+  it.axes[1].powered = false;
+  EXPECT_FALSE(it.after_ms(5));
+}
 TEST(ThePowerSwitch, OpensInTheEndWhenADriveDoesNotGoIdle) {
   Powered it;
   it.power.cut();
