@@ -1,0 +1,230 @@
+// Random histories of all commands, restarts among them: nothing speeds up unless somebody who may
+// asked for it, a stop stands until it is reset, and drives that were released are left alone.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+#include <set>
+
+#include "engine_rig.h"
+
+namespace drover::engine {
+namespace {
+
+constexpr double kLongestHeadingSearch_s = 60;
+
+/// What a person knows who saw each command and each answer, and nothing else.
+class Witness {
+ public:
+  explicit Witness(EngineRig& rig) : rig_(rig) {}
+
+  void asks(const decltype(Command::body)& body) {
+    const std::uint64_t id = rig_.asked + 1;
+    if (std::holds_alternative<StartTask>(body)) starts_.insert(id);
+    if (std::holds_alternative<FindHeading>(body)) searches_.insert(id);
+    if (std::holds_alternative<ResetStop>(body)) resets_.insert(id);
+    if (std::holds_alternative<ReleaseHold>(body)) releases_.insert(id);
+    if (std::holds_alternative<ArmHold>(body)) arms_.insert(id);
+    if (std::holds_alternative<EngageStop>(body)) stopped_ = true;
+    const bool ends = std::holds_alternative<CancelTask>(body);
+    if (stopped_ || ends) {
+      search_until_ = kNever;
+      streams_ = false;
+    }
+    if (const auto* targets = std::get_if<JointTargets>(&body)) {
+      const auto zero = [](const JointTarget& t) { return t.velocity_radps == 0; };
+      const auto& joints = targets->joints;
+      // A stream that was ended begins with rest, or not at all.
+      if (!stopped_ && std::all_of(joints.begin(), joints.end(), zero)) streams_ = true;
+      if (streams_) last_target_ = rig_.now;
+    }
+  }
+
+  /// After each tick. Returns what is broken, or nothing.
+  std::string check() {
+    read_answers();
+    const double fastest_radps = rig_.fastest_command_radps();
+    const bool faster = fastest_radps > last_radps_ + 1e-6;
+    last_radps_ = fastest_radps;
+    if (!std::isfinite(fastest_radps)) return "a command is not a number";
+    if ((fastest_radps != 0) != rig_.out.motion_permitted)
+      return "motion_permitted does not fit the commands";
+    if (fastest_radps != 0 && must_rest()) return "motion while a stop condition holds";
+    if (released_ && !left_alone()) return "drives that were released are not left alone";
+    if (faster && stopped_) return "faster after a stop that nobody reset";
+    if (faster && !task_ && !searching() && !streaming()) return "faster, and nobody asked for it";
+    return {};
+  }
+  /// A restart of the program ends all that drove.
+  void restarts() {
+    task_ = streams_ = false;
+    search_until_ = kNever;
+    last_radps_ = 0;
+    seen_ = rig_.log.size();
+  }
+
+ private:
+  bool searching() const { return rig_.now < search_until_; }
+  bool streaming() const {
+    return streams_ &&
+           rig_.now - last_target_ < from_s(rig_.config.health.joint_command_timeout_s) + kRigTick;
+  }
+  bool must_rest() const {
+    const auto silent = [](const auto& drive) { return drive.silent; };
+    const auto lost = [](bool it) { return it; };
+    return rig_.guard_has_bus || !rig_.guard_alive || rig_.lines[0] || rig_.lines[1] ||
+           std::any_of(rig_.drives.begin(), rig_.drives.end(), silent) ||
+           std::any_of(rig_.line_lost.begin(), rig_.line_lost.end(), lost);
+  }
+  bool left_alone() const {
+    const auto& slowing = rig_.out.slowing_permitted;
+    const auto idle = [](const AxisCommand& axis) { return axis.request == AxisRequest::idle; };
+    return std::find(slowing.begin(), slowing.end(), true) == slowing.end() &&
+           std::all_of(rig_.out.axes.begin(), rig_.out.axes.begin() + 4, idle);
+  }
+  void read_answers() {
+    for (; seen_ < rig_.log.size(); ++seen_) {
+      const auto& body = rig_.log[seen_].body;
+      if (std::holds_alternative<TaskEnded>(body) ||
+          std::holds_alternative<NavigationNotStarted>(body))
+        task_ = false;
+      const auto* accepted = std::get_if<CommandAccepted>(&body);
+      if (accepted == nullptr) continue;
+      const auto id = accepted->id.number;
+      task_ = task_ || starts_.count(id) != 0;
+      if (searches_.count(id) != 0) search_until_ = rig_.now + from_s(kLongestHeadingSearch_s);
+      if (resets_.count(id) != 0) stopped_ = false;
+      if (releases_.count(id) != 0) released_ = true;
+      if (arms_.count(id) != 0) released_ = false;
+    }
+  }
+
+  EngineRig& rig_;
+  std::size_t seen_ = 0;
+  std::set<std::uint64_t> starts_, searches_, resets_, releases_, arms_;
+  bool task_ = false;
+  bool stopped_ = false;
+  bool released_ = false;
+  bool streams_ = false;
+  Time last_target_ = kNever;
+  Time search_until_ = kNever;
+  double last_radps_ = 0;
+};
+
+class AnyCommands {
+ public:
+  explicit AnyCommands(std::uint64_t seed) : random_(seed), rig_(rig_config()), witness_(rig_) {
+    rig_.imu = one_in(2);
+    rig_.no_heading = one_in(3);
+  }
+
+  std::string run(int ticks) {
+    rig_.tick();
+    ask(SetOrigin{kRigOrigin});
+    for (int i = 0; i < 200 + ticks; ++i) {
+      if (i > 200 && one_in(20)) command();
+      if (i > 200 && one_in(30)) disturb();
+      if (one_in(60)) heal();
+      if (one_in(400)) restart();
+      if (one_in(4)) stream();
+      rig_.tick();
+      if (auto broken = witness_.check(); !broken.empty()) return broken;
+      moved_ = moved_ || rig_.out.motion_permitted;
+    }
+    return {};
+  }
+  bool moved() const { return moved_; }
+
+ private:
+  bool one_in(unsigned n) { return random_() % n == 0; }
+  void ask(const decltype(Command::body)& body) {
+    witness_.asks(body);
+    rig_.command(body);
+  }
+  void command() {
+    static_assert(std::variant_size_v<decltype(Command::body)> == 12,
+                  "a new command has its place here, and in what the witness knows of it");
+    switch (random_() % 16) {
+      case 0: return ask(CancelTask{});
+      case 1: return ask(EngageStop{});
+      case 2:
+      case 3: return ask(ResetStop{});
+      case 4: return ask(ProposeOrigin{});
+      case 5: return ask(SetOrigin{kRigOrigin});
+      case 6: return ask(JointTargetsRefused{"not understood"});
+      case 7: return ask(FindHeading{});
+      case 8: return ask(ReleaseHold{one_in(2)});
+      case 9:
+      case 10: return ask(ArmHold{});
+      case 11: streams_ = !streams_; return;
+      case 12: streamed_radps_ = one_in(2) ? 0 : 2; return;
+      default: return ask(StartTask{&path_, 20, 0.8});
+    }
+  }
+  void stream() {
+    if (!streams_) return;
+    JointTargets targets;
+    for (AxisId id = 0; id < 4; ++id) (void)targets.joints.push_back({id, streamed_radps_});
+    ask(targets);
+  }
+  void disturb() {
+    switch (random_() % 10) {
+      case 0: rig_.lines[0] = one_in(2); break;
+      case 1: rig_.lines[1] = one_in(2); break;
+      case 2: rig_.line_lost[random_() % kLineCount] = one_in(3); break;
+      case 3: rig_.guard_alive = !one_in(3); break;
+      case 4: rig_.guard_has_bus = one_in(3); break;
+      case 5: rig_.drives[random_() % 4].silent = one_in(2); break;
+      case 6: rig_.drives[random_() % 4].fault = one_in(2); break;
+      case 7: rig_.drives[random_() % 4].state = AxisState::idle; break;
+      case 8: rig_.gravity_mps2 = one_in(2) ? Vector3{4, 0, 8.96} : Vector3{0, 0, 9.81}; break;
+      default: rig_.no_heading = one_in(2); break;
+    }
+  }
+  void heal() {
+    rig_.lines = {};
+    rig_.line_lost = {};
+    rig_.guard_alive = true;
+    rig_.guard_has_bus = false;
+    for (auto& drive : rig_.drives) drive.silent = drive.fault = false;
+    rig_.gravity_mps2 = {0, 0, 9.81};
+  }
+  /// The program died and is back; what it remembered is all that it knows.
+  void restart() {
+    const Remembered remembered = rig_.out.remembered;
+    rig_.engine = std::make_unique<Engine>(rig_.config);
+    rig_.engine->recall(remembered, rig_.now);
+    rig_.out = {};
+    witness_.restarts();
+    ask(SetOrigin{kRigOrigin});
+  }
+
+  std::mt19937_64 random_;
+  EngineRig rig_;
+  Witness witness_;
+  Path path_ = straight_path(10);
+  bool streams_ = false;
+  double streamed_radps_ = 0;
+  bool moved_ = false;
+};
+
+#ifdef DROVER_SANITIZED
+constexpr std::uint64_t kHistories = 50;
+#else
+constexpr std::uint64_t kHistories = 500;
+#endif
+
+TEST(AnyCommands, MoveNothingThatWasStoppedReleasedOrNotAskedFor) {
+  std::uint64_t moved = 0;
+  for (std::uint64_t seed = 1; seed <= kHistories; ++seed) {
+    AnyCommands history(seed);
+    ASSERT_EQ(history.run(1000), "") << "seed " << seed;
+    moved += history.moved() ? 1 : 0;
+  }
+  EXPECT_GT(moved, kHistories / 4) << "histories without motion prove nothing";
+  std::printf("%llu of %llu histories had motion\n", static_cast<unsigned long long>(moved),
+              static_cast<unsigned long long>(kHistories));
+}
+
+}  // namespace
+}  // namespace drover::engine
