@@ -185,7 +185,7 @@ void Workplace::write_files(const json& config) {
          << "allow_anonymous true\n"
          << "persistence false\n"
          << "set_tcp_nodelay true\n"
-         << "max_packet_size 1048576\n"
+         << "max_packet_size 6356992\n"
          // Another user would lose the promise to die with its parent.
          << "user root\n";
   write_file(private_folder_ + "/mosquitto.conf", broker.str());

@@ -1,6 +1,7 @@
 // Writes JSON text: commas, escapes and numbers that read back to the same bits.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -28,6 +29,7 @@ class JsonText {
   JsonText& null();
   JsonText& newline();
 
+  void reserve(std::size_t bytes) { out_.reserve(bytes); }
   const std::string& str() const { return out_; }
   std::string take() { return std::move(out_); }
 

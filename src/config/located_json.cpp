@@ -157,7 +157,7 @@ class Builder {
   bool add(T value, Token token = Token::other) {
     begin_token();
     if (!count_value()) return false;
-    Node node{std::move(value), line_, column_};
+    Node node{std::move(value), line_, column_, static_cast<std::uint32_t>(at_)};
     end_token(token);
     place(std::move(node));
     return true;
@@ -169,7 +169,8 @@ class Builder {
     if (frames_.size() >= limits_.max_depth) {
       return fail("nested deeper than " + std::to_string(limits_.max_depth) + " levels");
     }
-    frames_.push_back({Node{std::move(empty), line_, column_}, {}, 0, 0, {}});
+    Node node{std::move(empty), line_, column_, static_cast<std::uint32_t>(at_)};
+    frames_.push_back({std::move(node), {}, 0, 0, {}});
     end_token(Token::other);
     return true;
   }
@@ -306,6 +307,13 @@ std::optional<double> Node::number() const {
   }
   if (const auto* big = std::get_if<std::uint64_t>(&value)) return static_cast<double>(*big);
   return std::nullopt;
+}
+
+std::string_view Node::spelling(std::string_view text) const {
+  if (!number()) return {};
+  const auto rest = text.substr(begin);
+  const auto* const end = std::find_if_not(rest.begin(), rest.end(), is_number_char);
+  return rest.substr(0, static_cast<std::size_t>(end - rest.begin()));
 }
 
 const Node* Node::find(std::string_view key) const {

@@ -22,6 +22,7 @@ struct Node {
       value;
   std::uint32_t line = 0;    ///< from 1
   std::uint32_t column = 0;  ///< from 1, in characters
+  std::uint32_t begin = 0;   ///< byte of the text at which it begins
 
   bool is_null() const { return std::holds_alternative<std::monostate>(value); }
   const bool* boolean() const { return std::get_if<bool>(&value); }
@@ -33,6 +34,8 @@ struct Node {
   std::optional<std::int64_t> integer() const;
   /// Any number; always finite.
   std::optional<double> number() const;
+  /// A number as it was written in `text`, which this was parsed from; empty for anything else.
+  std::string_view spelling(std::string_view text) const;
   /// Member of an object; nullptr when there is none, or when this is no object.
   const Node* find(std::string_view key) const;
   /// "a text", "an object", ... for messages.

@@ -6,14 +6,13 @@
 
 #include "publish/rtk_navigation/trajectory_data.h"
 #include "store/drivable.h"
+#include "store/point_texts.h"
 
 namespace drover::publish {
 namespace {
 
 constexpr double kMostStartAge_s = 1.0;
 constexpr double kMostStartLead_s = 0.1;  // two clocks that are set over a network differ by less
-/// No point is written in fewer bytes: saves building a message that will be too long.
-constexpr std::size_t kLeastPointBytes = 60;
 constexpr double kAutomaticOriginRetry_s = 5.0;
 
 Verb verb_of(const ControlCommand& request) {
@@ -183,7 +182,7 @@ void CommandService::handle(RequestId id, ControlCommand request, Time now, Acti
   } else if (auto* to_delete = std::get_if<DeleteTrajectory>(&request)) {
     remove(id, std::move(*to_delete), out);
   } else if (std::holds_alternative<DeleteAllTrajectory>(request)) {
-    if (writes_pending() >= config_.max_pending_writes) {
+    if (disk_behind(0)) {
       return tell(id, Verb::delete_all_trajectory, false, "the disk is behind, try again", out);
     }
     expect(id, Verb::delete_all_trajectory);
@@ -215,35 +214,45 @@ void CommandService::handle(RequestId id, ControlCommand request, Time now, Acti
 
 void CommandService::get_all(RequestId id, Actions& out) {
   std::size_t points = 0;
-  std::vector<store::Track> all;
-  for (const auto& [name, track] : tracks_) points += track.points.size();
-  std::string text;
-  if (points * kLeastPointBytes <= config_.max_message_bytes) {
-    for (const auto& [name, track] : tracks_) {
-      all.push_back(store::derive(track, origin_, config_.antenna));
-    }
-    text = trajectory_data_text(all);
+  std::size_t bytes = 2;
+  for (const auto& [name, track] : tracks_) {
+    points += track.points.size();
+    bytes += store::list_bytes(track);
   }
-  if (text.empty() || text.size() > config_.max_message_bytes) {
+  if (bytes > config_.max_message_bytes) {
     return tell(id, Verb::get_all_trajectory, false,
-                "the tracks have " + std::to_string(points) +
-                    " points, more than fit into one message; delete some",
+                "the tracks have " + std::to_string(points) + " points, " + std::to_string(bytes) +
+                    " bytes as a list, and one message carries " +
+                    std::to_string(config_.max_message_bytes) + "; delete some",
                 out);
   }
+  if (bytes_under_way_ > 0 && bytes_under_way_ + bytes > config_.max_message_bytes) {
+    return tell(id, Verb::get_all_trajectory, false,
+                "the broker has not taken the last list yet, try again", out);
+  }
+  TrajectoryList list(bytes);
+  for (const auto& [name, track] : tracks_) {
+    if (store::holds_under(track, origin_)) {
+      list.add(track);
+    } else {
+      list.add(store::derive(track, origin_, config_.antenna));
+    }
+  }
   if (id.source == RequestId::Source::cli) {
-    out.push_back(Answer{id, true, std::move(text)});
+    out.push_back(Answer{id, true, list.take()});
   } else {
-    out.push_back(PublishText{kTopicTrajectoryData, std::move(text)});
+    out.push_back(PublishText{kTopicTrajectoryData, list.take()});
+    bytes_under_way_ += bytes;
   }
 }
 
 void CommandService::save(RequestId id, SaveTrajectory request, Actions& out) {
-  if (writes_pending() >= config_.max_pending_writes) {
+  const std::size_t bytes = store::list_bytes(request.track);
+  if (disk_behind(bytes)) {
     return tell(id, Verb::save_trajectory, false, "the disk is behind, try again", out);
   }
   request.track.origin = origin_;
-  Pending& pending = expect(id, Verb::save_trajectory, request.track.name);
-  pending.track = request.track;
+  expect(id, Verb::save_trajectory, request.track.name).bytes = bytes;
   out.push_back(store::StorageJob{id, store::SaveTrack{std::move(request.track)}});
 }
 
@@ -251,7 +260,7 @@ void CommandService::remove(RequestId id, DeleteTrajectory request, Actions& out
   if (!tracks_.contains(request.name) && !being_written(request.name)) {
     return tell(id, Verb::delete_trajectory, false, "there is no track of this name", out);
   }
-  if (writes_pending() >= config_.max_pending_writes) {
+  if (disk_behind(0)) {
     return tell(id, Verb::delete_trajectory, false, "the disk is behind, try again", out);
   }
   expect(id, Verb::delete_trajectory, request.name);

@@ -54,10 +54,11 @@ struct CommandServiceConfig {
   double request_burst = 20;
   bool start_needs_time = false;    ///< a start_task without `time` is refused
   double duplicate_window_s = 1.0;  ///< the same start_task again inside it is executed once
-  /// A longer trajectory_data is refused: a broker closes the connection on what is over its own
-  /// limit (max_packet_size).
-  std::size_t max_message_bytes = 1'000'000;
-  std::size_t max_pending_writes = 16;  ///< for the disk; each may hold a track
+  /// A longer trajectory_data is refused, and so much of them may be on the way: a broker closes
+  /// the connection on what is over its own limit (max_packet_size).
+  std::size_t max_message_bytes = store::kMaxListBytes;
+  std::size_t max_pending_writes = 16;                   ///< for the disk; each may hold a track
+  std::size_t max_pending_bytes = std::size_t{8} << 20;  ///< of those tracks in a list
   store::AntennaOffset antenna{};
   ControlLimits limits{};
 };
@@ -85,9 +86,13 @@ class CommandService final {
   const ControlLimits& limits() const { return config_.limits; }
   /// A request of the command line; `number` is the caller's and comes back in the Answer.
   void on_cli(std::uint64_t number, ControlCommand request, Time now, Actions& out);
-  void on_reply(const store::StorageReply& reply, Time now, Actions& out);
+  void on_reply(store::StorageReply reply, Time now, Actions& out);
   void on_event(const Event& event, Actions& out);
   void on_snapshot(const Snapshot& snapshot, Time now, Actions& out);
+  /// A message that could not be given to the broker: who asked for a list is told so.
+  void on_unsent(const PublishText& message, std::string_view why, Actions& out);
+  /// How much of what was published the broker has not acknowledged.
+  void set_under_way(std::size_t bytes) { bytes_under_way_ = bytes; }
   /// A Command that found the engine's ring full.
   void on_undelivered(const Command& command, Actions& out);
 
@@ -105,9 +110,9 @@ class CommandService final {
   struct Pending {
     RequestId id;
     Verb verb = Verb::cancel_task;
-    std::string name;      ///< of the track
-    store::Track track;    ///< save_trajectory: becomes the library's when it is stored
-    GeodeticPoint origin;  ///< init_rtk_data: once proposed
+    std::string name;       ///< of the track
+    std::size_t bytes = 0;  ///< save_trajectory: of the list
+    GeodeticPoint origin;   ///< init_rtk_data: once proposed
     bool origin_stored = false;
     bool answered = false;  ///< start_task: accepted, and start_nav is to come
   };
@@ -136,7 +141,8 @@ class CommandService final {
   void release(const Path* path);
   bool being_written(const std::string& name) const;
   bool origin_pending() const;
-  std::size_t writes_pending() const;
+  /// Whether the disk may be asked for one more that holds so many bytes.
+  bool disk_behind(std::size_t bytes) const;
   RequestId next_id(RequestId::Source source) { return {source, ++last_number_}; }
   void slow_down(std::string_view payload, std::string_view why, Time now, Actions& out);
   std::optional<std::string> untimely(const StartTaskRequest& request,
@@ -154,6 +160,7 @@ class CommandService final {
   std::vector<std::unique_ptr<const Path>> paths_;
   std::uint64_t last_number_ = 0;
   std::uint64_t last_path_ = 0;
+  std::size_t bytes_under_way_ = 0;
   TokenBucket mqtt_bucket_;
   TokenBucket cli_bucket_;
   TokenBucket slow_down_bucket_;  ///< answers to a flood must not be a flood

@@ -6,7 +6,7 @@
 namespace drover::publish {
 namespace {
 
-bool writes(Verb verb) {
+bool writes_to_disk(Verb verb) {
   return verb == Verb::save_trajectory || verb == Verb::delete_trajectory ||
          verb == Verb::delete_all_trajectory;
 }
@@ -58,7 +58,7 @@ void CommandService::finish(RequestId id, Verb verb, bool ok, std::string_view t
   forget(id);
 }
 
-void CommandService::on_reply(const store::StorageReply& reply, Time now, Actions& out) {
+void CommandService::on_reply(store::StorageReply reply, Time now, Actions& out) {
   Pending* pending = find(reply.id);
   if (pending == nullptr) {
     // The old origin, written back after the engine refused the new one.
@@ -70,8 +70,8 @@ void CommandService::on_reply(const store::StorageReply& reply, Time now, Action
     pending->origin_stored = true;
     return send(reply.id, now, SetOrigin{pending->origin}, out);
   }
-  if (verb == Verb::save_trajectory && reply.ok) {
-    tracks_.insert_or_assign(pending->name, std::move(pending->track));
+  if (verb == Verb::save_trajectory && reply.ok && reply.track) {
+    tracks_.insert_or_assign(pending->name, std::move(*reply.track));
   } else if (verb == Verb::delete_trajectory && reply.ok) {
     tracks_.erase(pending->name);
   } else if (verb == Verb::delete_all_trajectory) {
@@ -153,7 +153,7 @@ bool CommandService::being_written(const std::string& name) const {
   return std::any_of(pending_.begin(), pending_.end(), [&](const auto& entry) {
     const Pending& pending = entry.second;
     return pending.verb == Verb::delete_all_trajectory ||
-           (writes(pending.verb) && pending.name == name);
+           (writes_to_disk(pending.verb) && pending.name == name);
   });
 }
 
@@ -162,10 +162,21 @@ bool CommandService::origin_pending() const {
                      [](const auto& entry) { return entry.second.verb == Verb::init_rtk_data; });
 }
 
-std::size_t CommandService::writes_pending() const {
-  return static_cast<std::size_t>(
-      std::count_if(pending_.begin(), pending_.end(),
-                    [](const auto& entry) { return writes(entry.second.verb); }));
+bool CommandService::disk_behind(std::size_t bytes) const {
+  std::size_t writes = 0;
+  for (const auto& [key, pending] : pending_) {
+    if (!writes_to_disk(pending.verb)) continue;
+    ++writes;
+    bytes += pending.bytes;
+  }
+  return writes >= config_.max_pending_writes || bytes > config_.max_pending_bytes;
+}
+
+void CommandService::on_unsent(const PublishText& message, std::string_view why, Actions& out) {
+  if (message.topic != kTopicTrajectoryData) return;
+  const std::string cmd = failure_cmd(Verb::get_all_trajectory);
+  out.push_back(PublishText{kTopicFeedback, feedback_text(cmd, why, {})});
+  out.push_back(LogLine{Notice::Level::warning, cmd + ": " + std::string(why)});
 }
 
 }  // namespace drover::publish

@@ -136,7 +136,10 @@ void MqttClient::on_connected() {
 }
 
 void MqttClient::on_acknowledged(int message) {
-  unacknowledged_.erase(message);
+  if (const auto answer = unacknowledged_.find(message); answer != unacknowledged_.end()) {
+    bytes_under_way_ -= answer->second;
+    unacknowledged_.erase(answer);
+  }
   delay_.on_acknowledged(message, now_);
 }
 
@@ -266,17 +269,19 @@ bool MqttClient::publish_latest(const char* topic, const std::string& payload) {
                              payload.data(), 0, false) == MOSQ_ERR_SUCCESS;
 }
 
-bool MqttClient::publish(const char* topic, const std::string& payload, bool retained) {
+std::string_view MqttClient::publish(const char* topic, const std::string& payload, bool retained) {
   if (!connected_ || unacknowledged_.size() >= kMostUnacknowledged) {
     ++dropped_;
-    return false;
+    return connected_ ? "the broker acknowledges nothing" : "the broker is gone";
   }
   int message = 0;
-  if (::mosquitto_publish(client_, &message, topic, static_cast<int>(payload.size()),
-                          payload.data(), kQosAnswers, retained) != MOSQ_ERR_SUCCESS)
-    return false;
-  unacknowledged_.insert(message);
-  return true;
+  const int code = ::mosquitto_publish(client_, &message, topic, static_cast<int>(payload.size()),
+                                       payload.data(), kQosAnswers, retained);
+  if (code == MOSQ_ERR_OVERSIZE_PACKET) return "the broker takes no message of this size";
+  if (code != MOSQ_ERR_SUCCESS) return ::mosquitto_strerror(code);
+  unacknowledged_[message] = payload.size();
+  bytes_under_way_ += payload.size();
+  return {};
 }
 
 }  // namespace drover::runtime

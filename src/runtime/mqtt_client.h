@@ -6,10 +6,11 @@
 // stored ones; with a broker that refuses it, 3.1.1, and says what is lost.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
-#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -62,8 +63,11 @@ class MqttClient final {
 
   /// Telemetry: QoS 0, dropped while the last one has not left. True when it was handed over.
   bool publish_latest(const char* topic, const std::string& payload);
-  /// Answers: QoS 1, queued by the library; dropped while many are not acknowledged.
-  bool publish(const char* topic, const std::string& payload, bool retained = false);
+  /// Answers: QoS 1, queued by the library; dropped while many are not acknowledged. Empty when it
+  /// was taken, otherwise why not.
+  std::string_view publish(const char* topic, const std::string& payload, bool retained = false);
+  /// Of the answers that are not acknowledged.
+  std::size_t bytes_under_way() const { return bytes_under_way_; }
   std::uint64_t dropped() const { return dropped_; }
   /// Why nothing that comes now may begin a motion; empty when the broker is prompt.
   std::string_view late(Time now) const { return delay_.late(now); }
@@ -96,7 +100,8 @@ class MqttClient final {
   std::string last_text_;
   std::uint64_t connections_ = 0;
   std::uint64_t dropped_ = 0;
-  std::set<int> unacknowledged_;  ///< answers, by the library's number
+  std::map<int, std::size_t> unacknowledged_;  ///< sizes of answers, by the library's number
+  std::size_t bytes_under_way_ = 0;
   BrokerDelay delay_;
   NameLookup lookup_;
   std::vector<std::string> addresses_;  ///< of the host, the last that were told

@@ -170,6 +170,7 @@ void PublishLoop::run(const std::atomic<bool>& stop) {
   std::array<epoll_event, 8> events{};
   while (!stop.load(std::memory_order_relaxed)) {
     watch_broker();
+    if (broker_) service_.set_under_way(broker_->bytes_under_way());
     const int n = ::epoll_wait(epoll_.get(), events.data(), events.size(), 1000);
     const Time now = monotonic_now();
     for (int i = 0; i < n; ++i) {
@@ -248,15 +249,22 @@ void PublishLoop::take_events() {
 
 void PublishLoop::take_replies(Time now) {
   store::StorageReply reply;
-  while (storage_.replies.pop(reply)) service_.on_reply(reply, now, actions_);
+  while (storage_.replies.pop(reply)) service_.on_reply(std::move(reply), now, actions_);
+}
+
+void PublishLoop::send(const publish::PublishText& message, publish::Actions& actions) {
+  if (!broker_) return;
+  const auto problem = broker_->publish(std::string(message.topic).c_str(), message.text);
+  if (!problem.empty()) service_.on_unsent(message, problem, actions);
+  service_.set_under_way(broker_->bytes_under_way());
 }
 
 void PublishLoop::carry_out(publish::Actions& actions) {
   // An undelivered command appends its refusal: walk by index.
   for (std::size_t i = 0; i < actions.size(); ++i) {
-    const auto action = std::move(actions[i]);
+    auto action = std::move(actions[i]);
     if (const auto* message = std::get_if<publish::PublishText>(&action)) {
-      if (broker_) broker_->publish(std::string(message->topic).c_str(), message->text);
+      send(*message, actions);
     } else if (const auto* answer = std::get_if<publish::Answer>(&action)) {
       const auto waiting = waiting_.find(answer->id.number);
       if (waiting == waiting_.end()) continue;
@@ -267,8 +275,8 @@ void PublishLoop::carry_out(publish::Actions& actions) {
       waiting_.erase(waiting);
     } else if (const auto* line = std::get_if<publish::LogLine>(&action)) {
       log(log_level(line->level), line->text);
-    } else if (const auto* job = std::get_if<store::StorageJob>(&action)) {
-      if (storage_.jobs.push(*job)) {
+    } else if (auto* job = std::get_if<store::StorageJob>(&action)) {
+      if (storage_.jobs.push(std::move(*job))) {
         storage_.jobs_ready.notify();
       } else {
         service_.on_reply({job->id, false, "the disk is too slow: too many writes wait", {}},

@@ -56,6 +56,7 @@ class PublishLoop final {
   void on_cli_line(CliServer::ClientId client, std::string_view line, Time now);
   std::string cli_reply(std::string_view cmd, const std::string& name);
   void carry_out(publish::Actions& actions);
+  void send(const publish::PublishText& message, publish::Actions& actions);
   void deliver(const Command& command, publish::Actions& actions);
   void answer_stops(Time now);
 

@@ -26,9 +26,14 @@ void PublishLoop::on_message(const MqttMessage& message) {
 /// Stops are carried out at once, everything else in the order in which it came.
 void PublishLoop::on_control(std::string_view payload, const publish::Arrival& arrival, Time now) {
   if (!service_.admit(payload, now, actions_)) return;
+  const auto& limits = service_.limits();
+  if (payload.size() > limits.max_bytes) {  // refused for its size, without a copy
+    return service_.on_parsed(payload, publish::parse_control(payload, arrival.retain, limits),
+                              arrival, now, actions_);
+  }
   const bool is_short = payload.size() <= publish::kShortMessageBytes;
   if (is_short && (!parser_.busy() || publish::may_stop(payload))) {
-    auto request = publish::parse_control(payload, arrival.retain, service_.limits());
+    auto request = publish::parse_control(payload, arrival.retain, limits);
     if (!parser_.busy() || publish::is_stop(request))
       return service_.on_parsed(payload, std::move(request), arrival, now, actions_);
   }

@@ -52,11 +52,10 @@ void run_storage(store::Storage& storage, StorageExchange& exchange, Remembered 
     exchange.jobs_ready.clear();
     kept = stop_keeper.save();
     while (exchange.jobs.pop(job)) {
-      const auto reply = storage.run(job);
-      job = {};
+      auto reply = storage.run(std::move(job));
       // Never lost: as many replies fit as jobs, and the publish thread empties them at every
       // wake-up.
-      while (!exchange.replies.push(reply) && !stop.load()) ::poll(nullptr, 0, 1);
+      while (!exchange.replies.push(std::move(reply)) && !stop.load()) ::poll(nullptr, 0, 1);
       exchange.replies_ready.notify();
       kept = stop_keeper.save();
     }

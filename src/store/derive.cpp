@@ -4,8 +4,9 @@
 #include <GeographicLib/LocalCartesian.hpp>
 #include <cmath>
 
-namespace drover::store {
+#include "store/point_texts.h"
 
+namespace drover::store {
 bool holds_under(const Track& track, const std::optional<GeodeticPoint>& origin) {
   if (!origin) return true;
   return track.origin && track.origin->latitude_deg == origin->latitude_deg &&
@@ -17,6 +18,9 @@ Track derive(const Track& track, const std::optional<GeodeticPoint>& origin,
   Track derived = track;
   if (holds_under(track, origin)) return derived;
   derived.origin = origin;
+  derived.numbers.clear();
+  PointTexts texts(track);
+  PointText text;
   const GeographicLib::LocalCartesian frame(origin->latitude_deg, origin->longitude_deg,
                                             origin->altitude_m);
   for (TrackPoint& point : derived.points) {
@@ -29,6 +33,12 @@ Track derive(const Track& track, const std::optional<GeodeticPoint>& origin,
     const double s = std::sin(point.yaw_rad);
     point.x_m -= c * antenna.x_m - s * antenna.y_m;
     point.y_m -= s * antenna.x_m + c * antenna.y_m;
+    texts.next(text);
+    const std::string x = place_text(point.x_m);
+    const std::string y = place_text(point.y_m);
+    text[kX] = x;
+    text[kY] = y;
+    append_point(derived.numbers, text);
   }
   return derived;
 }

@@ -33,12 +33,13 @@ StoredState Storage::load() {
   return state;
 }
 
-StorageReply Storage::run(const StorageJob& job) {
+StorageReply Storage::run(StorageJob job) {
   StorageReply reply;
   reply.id = job.id;
   std::optional<Failure> failure;
-  if (const auto* save = std::get_if<SaveTrack>(&job.what)) {
+  if (auto* save = std::get_if<SaveTrack>(&job.what)) {
     failure = tracks_.save(save->track);
+    reply.track = std::move(save->track);
   } else if (const auto* one = std::get_if<DeleteTrack>(&job.what)) {
     failure = tracks_.remove(one->name);
   } else if (const auto* origin = std::get_if<SaveOrigin>(&job.what)) {

@@ -37,6 +37,7 @@ struct StorageReply {
   bool ok = false;                   ///< durable
   std::string reason;                ///< why not
   std::vector<std::string> removed;  ///< DeleteAllTracks: names that are gone, also when not ok
+  std::optional<Track> track{};      ///< SaveTrack: given back
 };
 
 /// What was found at start.
@@ -56,7 +57,7 @@ class Storage final {
   Storage(Files& files, const std::string& folder);
 
   StoredState load();
-  StorageReply run(const StorageJob& job);
+  StorageReply run(StorageJob job);
   /// Returns nothing when it is durable.
   std::optional<Failure> save_stop(const Remembered& remembered) { return stop_.save(remembered); }
 

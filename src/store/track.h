@@ -26,11 +26,16 @@ struct Track {
   std::string name;  ///< any text, byte for byte
   std::vector<TrackPoint> points;
   std::optional<GeodeticPoint> origin;  ///< in force when it was saved; absent when there was none
+  /// The points' numbers as they were spelled, as PointTexts reads them. Empty: as PointTexts
+  /// spells them.
+  std::string numbers{};
 };
 
 inline constexpr std::size_t kMaxTracks = 1000;
-inline constexpr std::size_t kMaxPointsPerTrack = 100'000;
-/// Of all tracks together: 28 MB in memory.
-inline constexpr std::size_t kMaxPoints = 500'000;
+/// More than the largest command can carry.
+inline constexpr std::size_t kMaxPointsPerTrack = 40'000;
+/// Of all tracks together, as one list (trajectory_data). Broker and client need three times as
+/// much memory to carry it, and an operator may ask for it at any time.
+inline constexpr std::size_t kMaxListBytes = std::size_t{6} << 20;
 
 }  // namespace drover::store

@@ -1,12 +1,14 @@
 // How a track lies on disk: its file name and its content.
 #include "store/track_file.h"
 
+#include <array>
 #include <cinttypes>
 #include <cstdio>
 
 #include "config/json_text.h"
 #include "config/located_json.h"
 #include "store/origin_store.h"
+#include "store/point_texts.h"
 
 namespace drover::store {
 namespace {
@@ -14,24 +16,26 @@ namespace {
 constexpr std::string_view kTrackFormat = "drover-track";
 constexpr int kTrackVersion = 1;
 constexpr std::size_t kMaxEscaped = 100;
-constexpr std::size_t kNumbersPerPoint = 7;
 
 bool stays(char c) {
   return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
 }
 
 /// A point is a list, in the order of TrackPoint's fields: the file stays small.
-bool read_point(const json::Node& node, TrackPoint& point) {
+bool read_point(const json::Node& node, std::string_view body, Track& track) {
   const auto* items = node.list();
   if (items == nullptr || items->size() != kNumbersPerPoint) return false;
-  double* const fields[kNumbersPerPoint] = {
-      &point.longitude_deg, &point.latitude_deg, &point.angle_deg, &point.x_m,
-      &point.y_m,           &point.yaw_rad,      &point.z_m};
+  PointText text;
+  std::array<double, kNumbersPerPoint> values{};
   for (std::size_t i = 0; i < kNumbersPerPoint; ++i) {
     const auto number = (*items)[i].number();
     if (!number) return false;
-    *fields[i] = *number;
+    values[i] = *number;
+    text[i] = (*items)[i].spelling(body);
   }
+  track.points.push_back(
+      {values[0], values[1], values[2], values[3], values[4], values[5], values[6]});
+  append_point(track.numbers, text);
   return true;
 }
 
@@ -67,10 +71,10 @@ std::string encode_track(const Track& track) {
   body.open('{').key("name").text(track.name).key("origin");
   write_origin(body, track.origin);
   body.key("points").open('[');
-  for (const TrackPoint& point : track.points) {
+  PointTexts texts(track);
+  for (PointText point; texts.next(point);) {
     body.newline().open('[');
-    body.number(point.longitude_deg).number(point.latitude_deg).number(point.angle_deg);
-    body.number(point.x_m).number(point.y_m).number(point.yaw_rad).number(point.z_m);
+    for (const auto number : point) body.spelled_number(number);
     body.close(']');
   }
   body.close(']').close('}');
@@ -98,10 +102,10 @@ Result<Track, Failure> decode_track(std::string_view content) {
     track.origin = read_origin(*origin);
     if (!track.origin) return Failure{"has an origin that is none"};
   }
-  track.points.resize(points->list()->size());
-  for (std::size_t i = 0; i < track.points.size(); ++i) {
-    if (!read_point((*points->list())[i], track.points[i])) {
-      return Failure{"has no seven numbers in point " + std::to_string(i + 1)};
+  track.points.reserve(points->list()->size());
+  for (const json::Node& point : *points->list()) {
+    if (!read_point(point, *body, track)) {
+      return Failure{"has no seven numbers in point " + std::to_string(track.points.size() + 1)};
     }
   }
   return track;

@@ -11,8 +11,8 @@
 namespace drover::store {
 
 inline constexpr std::string_view kTrackEnding = ".json";
-/// Room for kMaxPointsPerTrack points.
-inline constexpr std::size_t kMaxTrackFileBytes = std::size_t{24} << 20;
+/// Room for what the largest command (2 MiB) carries: a file spells no keys.
+inline constexpr std::size_t kMaxTrackFileBytes = (std::size_t{2} << 20) + (std::size_t{1} << 16);
 
 /// A file name for any track name: lower-case letters, digits, `_`, `-` stay, all other bytes
 /// become %xx, so it never leaves its folder and two names never share it by case or normalisation.

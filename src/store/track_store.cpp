@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cerrno>
 
+#include "store/point_texts.h"
 #include "store/track_file.h"
 
 namespace drover::store {
@@ -31,7 +32,7 @@ std::vector<Track> TrackStore::load(std::vector<std::string>& report) {
       continue;
     }
     if (!file.ends_with(kTrackEnding)) continue;
-    if (entries_.size() >= kMaxTracks || points_ >= kMaxPoints) {
+    if (entries_.size() >= kMaxTracks) {
       unread_files_.push_back(file);
       continue;
     }
@@ -47,22 +48,24 @@ std::vector<Track> TrackStore::load(std::vector<std::string>& report) {
       continue;
     }
     auto track = decode_track(content);
+    const std::size_t bytes = track.ok() ? list_bytes(*track) : 0;
     if (!track.ok()) {
       put_aside(file, track.error().text);
     } else if (entries_.contains(track->name)) {
       put_aside(file, "has the name of another track");
-    } else if (points_ + track->points.size() > kMaxPoints) {
+    } else if (bytes_ + bytes > kMaxListBytes) {
       unread_files_.push_back(file);
     } else {
-      points_ += track->points.size();
-      entries_[track->name] = {file, track->points.size()};
+      bytes_ += bytes;
+      entries_[track->name] = {file, bytes};
       tracks.push_back(std::move(track.value()));
     }
   }
   if (!unread_files_.empty()) {
     report.push_back(std::to_string(unread_files_.size()) + " files in " + folder_ +
                      " were not read: unreadable, or more than " + std::to_string(kMaxTracks) +
-                     " tracks or " + std::to_string(kMaxPoints) + " points");
+                     " tracks, or tracks whose list has more than " +
+                     std::to_string(kMaxListBytes) + " bytes");
   }
   return tracks;
 }
@@ -75,12 +78,16 @@ bool TrackStore::taken(const std::string& file) const {
 
 std::optional<Failure> TrackStore::save(const Track& track) {
   const auto known = entries_.find(track.name);
-  const std::size_t before = known == entries_.end() ? 0 : known->second.points;
+  const std::size_t before = known == entries_.end() ? 0 : known->second.bytes;
   if (track.points.size() > kMaxPointsPerTrack) {
     return Failure{"a track has at most " + std::to_string(kMaxPointsPerTrack) + " points"};
   }
-  if (points_ - before + track.points.size() > kMaxPoints) {
-    return Failure{"all tracks together have at most " + std::to_string(kMaxPoints) + " points"};
+  const std::size_t used = bytes_ - before;
+  const std::size_t bytes = list_bytes(track);
+  if (used + bytes > kMaxListBytes) {
+    return Failure{"the list of all tracks would be too long to be read: " + std::to_string(used) +
+                   " bytes are used, this track has " + std::to_string(bytes) + ", the limit is " +
+                   std::to_string(kMaxListBytes) + "; delete some"};
   }
   std::string file;
   if (known != entries_.end()) {
@@ -99,8 +106,8 @@ std::optional<Failure> TrackStore::save(const Track& track) {
     if (known == entries_.end()) files_.remove(path(file));
     return failure;
   }
-  points_ = points_ - before + track.points.size();
-  entries_[track.name] = {file, track.points.size()};
+  bytes_ = used + bytes;
+  entries_[track.name] = {file, bytes};
   return std::nullopt;
 }
 
@@ -118,7 +125,7 @@ std::optional<Failure> TrackStore::remove(const std::string& name) {
   if (const int e = files_.sync_folder(folder_); e != 0) {
     return Failure{failure_text("sync", folder_, e)};
   }
-  points_ -= known->second.points;
+  bytes_ -= known->second.bytes;
   entries_.erase(known);
   return std::nullopt;
 }
@@ -136,7 +143,7 @@ std::optional<Failure> TrackStore::remove_all(std::vector<std::string>& removed)
     return failure ? failure : Failure{failure_text("sync", folder_, e)};
   }
   for (const std::string& name : gone) {
-    points_ -= entries_[name].points;
+    bytes_ -= entries_[name].bytes;
     entries_.erase(name);
   }
   removed = std::move(gone);

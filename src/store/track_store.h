@@ -23,7 +23,8 @@ class TrackStore final {
   /// reported.
   std::vector<Track> load(std::vector<std::string>& report);
 
-  /// Stores or replaces; returns nothing when it is durable.
+  /// Stores or replaces; returns nothing when it is durable. Refused when the list of all tracks
+  /// would have more than kMaxListBytes.
   std::optional<Failure> save(const Track& track);
   /// Returns nothing when the track is durably gone; fails when there is none of that name.
   std::optional<Failure> remove(const std::string& name);
@@ -31,9 +32,10 @@ class TrackStore final {
   std::optional<Failure> remove_all(std::vector<std::string>& removed);
 
  private:
+  static constexpr std::size_t kEmptyListBytes = 2;
   struct Entry {
     std::string file;
-    std::size_t points = 0;
+    std::size_t bytes = 0;  ///< of the list
   };
   bool taken(const std::string& file) const;
   std::optional<Failure> unlink(const std::string& file);
@@ -43,7 +45,7 @@ class TrackStore final {
   std::string folder_;
   std::map<std::string, Entry> entries_;   ///< by track name
   std::vector<std::string> unread_files_;  ///< present but beyond the limits
-  std::size_t points_ = 0;
+  std::size_t bytes_ = kEmptyListBytes;    ///< of the list of all tracks
 };
 
 }  // namespace drover::store

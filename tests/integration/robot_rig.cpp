@@ -45,6 +45,16 @@ int free_port() {
   return ::ntohs(address.sin_port);
 }
 
+/// The lines of the shipped broker file that say how much, not who.
+std::string shipped_broker_limits() {
+  std::ifstream file(DROVER_SOURCE_DIR "/config/mosquitto/drover.conf");
+  std::string limits;
+  for (std::string line; std::getline(file, line);)
+    for (const char* word : {"max_", "memory_", "persist", "set_tcp_"})
+      if (line.starts_with(word)) limits += line + "\n";
+  return limits;
+}
+
 constexpr const char* kMaps = DROVER_SOURCE_DIR "/config/maps";
 
 constexpr const char* kSimFile = R"({
@@ -156,7 +166,8 @@ void RobotRig::write_files() {
       << filled(filled(filled(kDroverFile, "@folder@", folder), "@port@", std::to_string(port_)),
                 "@maps@", kMaps);
   std::ofstream(folder_ / "mosquitto.conf")
-      << "listener " << port_ << " 127.0.0.1\nallow_anonymous true\npersistence false\n";
+      << "listener " << port_ << " 127.0.0.1\nallow_anonymous true\n"
+      << shipped_broker_limits();
 }
 
 bool RobotRig::expect_no_sanitizer_report(const Process& process) const {

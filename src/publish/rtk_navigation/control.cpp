@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "config/located_json.h"
+#include "store/point_texts.h"
 
 namespace drover::publish {
 namespace {
@@ -13,8 +14,13 @@ namespace {
 using json::Node;
 using Reason = std::optional<std::string>;
 
+struct Message {
+  std::string_view text;
+  const Node& root;  ///< of that text
+  const ControlLimits& limits;
+};
 /// Reads one command's members; returns why it cannot.
-using Read = Reason (*)(const Node& root, const ControlLimits& limits, ControlCommand& out);
+using Read = Reason (*)(const Message& message, ControlCommand& out);
 
 std::string quoted(std::string_view text) {
   return "'" + json::shown(text, 40) + "'";
@@ -87,42 +93,52 @@ Reason read_name(const Node& object, const ControlLimits& limits, std::string& o
   return name_problem(out, limits);
 }
 
-Reason read_point(const Node& node, store::TrackPoint& point) {
+/// Appends it to the track, its numbers as they are spelled in `text`.
+Reason read_point(const Node& node, std::string_view text, store::Track& track) {
+  constexpr std::array kKeys = {"longitude", "latitude", "angle", "x", "y", "yaw", "z"};
   if (node.object() == nullptr) return "is no object but " + std::string(node.kind());
-  if (auto reason = read_number(node, "longitude", point.longitude_deg)) return reason;
-  if (auto reason = read_number(node, "latitude", point.latitude_deg)) return reason;
-  if (auto reason = read_number(node, "angle", point.angle_deg)) return reason;
-  if (auto reason = read_number(node, "x", point.x_m)) return reason;
-  if (auto reason = read_number(node, "y", point.y_m)) return reason;
-  if (auto reason = read_number(node, "yaw", point.yaw_rad)) return reason;
-  // save_trajectory has no z, trajectory_data has: a track that was read may be saved again.
-  return node.find("z") == nullptr ? std::nullopt : read_number(node, "z", point.z_m);
+  std::array<double, store::kNumbersPerPoint> values{};
+  store::PointText spelled;
+  spelled.fill("0");
+  for (std::size_t i = 0; i < kKeys.size(); ++i) {
+    // save_trajectory has no z, trajectory_data has: a track that was read may be saved again.
+    const Node* number = node.find(kKeys[i]);
+    if (number == nullptr && i == store::kZ) continue;
+    if (auto reason = read_number(node, kKeys[i], values[i])) return reason;
+    spelled[i] = number->spelling(text);
+  }
+  const auto [longitude_deg, latitude_deg, angle_deg, x_m, y_m, yaw_rad, z_m] = values;
+  track.points.push_back({longitude_deg, latitude_deg, angle_deg, x_m, y_m, yaw_rad, z_m});
+  store::append_point(track.numbers, spelled);
+  return std::nullopt;
 }
 
-Reason read_save(const Node& root, const ControlLimits& limits, ControlCommand& out) {
-  const Node* data = root.find("data");
+Reason read_save(const Message& message, ControlCommand& out) {
+  const Node* data = message.root.find("data");
   if (data == nullptr || data->object() == nullptr) return "'data' must be an object";
   SaveTrajectory save;
-  if (auto reason = read_name(*data, limits, save.track.name)) return reason;
-  if (auto reason = new_name_problem(save.track.name)) return reason;
+  store::Track& track = save.track;
+  if (auto reason = read_name(*data, message.limits, track.name)) return reason;
+  if (auto reason = new_name_problem(track.name)) return reason;
   const Node* points = data->find("data");
   if (points == nullptr || points->list() == nullptr) return "'data.data' must be a list of points";
   if (points->list()->size() > store::kMaxPointsPerTrack) {
     return "a track has at most " + std::to_string(store::kMaxPointsPerTrack) + " points";
   }
-  save.track.points.resize(points->list()->size());
-  for (std::size_t i = 0; i < save.track.points.size(); ++i) {
-    if (auto reason = read_point((*points->list())[i], save.track.points[i])) {
-      return "point " + std::to_string(i + 1) + ": " + *reason;
+  track.points.reserve(points->list()->size());
+  for (const Node& point : *points->list()) {
+    if (auto reason = read_point(point, message.text, track)) {
+      return "point " + std::to_string(track.points.size() + 1) + ": " + *reason;
     }
   }
+  track.numbers.shrink_to_fit();
   out = std::move(save);
   return std::nullopt;
 }
 
-Reason read_delete(const Node& root, const ControlLimits& limits, ControlCommand& out) {
+Reason read_delete(const Message& message, ControlCommand& out) {
   DeleteTrajectory request;
-  auto reason = read_name(root, limits, request.name);
+  auto reason = read_name(message.root, message.limits, request.name);
   out = std::move(request);
   return reason;
 }
@@ -139,9 +155,10 @@ Reason read_time(const Node& root, std::optional<Duration>& out) {
   return std::nullopt;
 }
 
-Reason read_start(const Node& root, const ControlLimits& limits, ControlCommand& out) {
+Reason read_start(const Message& message, ControlCommand& out) {
+  const Node& root = message.root;
   StartTaskRequest request;
-  if (auto reason = read_name(root, limits, request.name)) return reason;
+  if (auto reason = read_name(root, message.limits, request.name)) return reason;
   const Node* id = root.find("id");
   if (id == nullptr) return "'id' is missing";
   if (!id->integer()) return "'id' must be an integer, not " + std::string(id->kind());
@@ -153,7 +170,7 @@ Reason read_start(const Node& root, const ControlLimits& limits, ControlCommand&
 }
 
 template <class Body>
-Reason read_nothing(const Node&, const ControlLimits&, ControlCommand& out) {
+Reason read_nothing(const Message&, ControlCommand& out) {
   out = Body{};
   return std::nullopt;
 }
@@ -262,7 +279,7 @@ Result<ControlCommand, ControlRefusal> parse_control(std::string_view payload, R
     return refuse("the message was retained by the broker: publish without retain");
   if (carries_prototype(root)) return refuse("a member named __proto__ is not accepted");
   ControlCommand command;
-  if ((reason = row->read(root, limits, command))) return refuse(*reason);
+  if ((reason = row->read({payload, root, limits}, command))) return refuse(*reason);
   return command;
 }
 

@@ -58,9 +58,9 @@ struct ControlRefusal {
 };
 
 struct ControlLimits {
-  std::size_t max_bytes = std::size_t{1} << 20;
+  std::size_t max_bytes = std::size_t{2} << 20;
   std::size_t max_depth = 16;
-  std::size_t max_values = 200'000;
+  std::size_t max_values = 300'000;   ///< what so many bytes can hold of points
   std::size_t max_name_bytes = 1200;  ///< 300 characters of the longest kind
 };
 

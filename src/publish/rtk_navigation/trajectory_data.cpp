@@ -1,29 +1,41 @@
 // The `trajectory_data` topic: all tracks in one message.
 #include "publish/rtk_navigation/trajectory_data.h"
 
-#include "config/json_text.h"
+#include "store/point_texts.h"
 
 namespace drover::publish {
 
-std::string trajectory_data_text(std::span<const store::Track> tracks) {
-  json::JsonText out;
-  out.open('[');
-  for (const store::Track& track : tracks) {
-    out.open('{').key("data").open('[');
-    for (const store::TrackPoint& point : track.points) {
-      out.open('{');
-      out.key("angle").number(point.angle_deg);
-      out.key("latitude").number(point.latitude_deg);
-      out.key("longitude").number(point.longitude_deg);
-      out.key("x").number(point.x_m);
-      out.key("y").number(point.y_m);
-      out.key("yaw").number(point.yaw_rad);
-      out.key("z").number(point.z_m);
-      out.close('}');
-    }
-    out.close(']').key("name").text(track.name).close('}');
+TrajectoryList::TrajectoryList(std::size_t bytes) {
+  out_.reserve(bytes);
+  out_.open('[');
+}
+
+void TrajectoryList::add(const store::Track& track) {
+  out_.open('{').key("data").open('[');
+  store::PointTexts texts(track);
+  for (store::PointText point; texts.next(point);) {
+    const auto& [longitude, latitude, angle, x, y, yaw, z] = point;
+    out_.open('{');
+    out_.key("angle").spelled_number(angle);
+    out_.key("latitude").spelled_number(latitude);
+    out_.key("longitude").spelled_number(longitude);
+    out_.key("x").spelled_number(x);
+    out_.key("y").spelled_number(y);
+    out_.key("yaw").spelled_number(yaw);
+    out_.key("z").spelled_number(z);
+    out_.close('}');
   }
-  return out.close(']').str();
+  out_.close(']').key("name").text(track.name).close('}');
+}
+
+std::string TrajectoryList::take() {
+  return out_.close(']').take();
+}
+
+std::string trajectory_data_text(std::span<const store::Track> tracks) {
+  TrajectoryList list(0);
+  for (const store::Track& track : tracks) list.add(track);
+  return list.take();
 }
 
 }  // namespace drover::publish

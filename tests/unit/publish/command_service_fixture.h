@@ -57,7 +57,10 @@ class CommandServiceTest : public testing::Test {
   }
   void reply(const store::StorageJob& job, bool ok, const std::string& reason = "",
              std::vector<std::string> removed = {}) {
-    service_->on_reply({job.id, ok, reason, std::move(removed)}, now_, actions_);
+    const auto* save = std::get_if<store::SaveTrack>(&job.what);
+    service_->on_reply({job.id, ok, reason, std::move(removed),
+                        save != nullptr ? std::optional(save->track) : std::nullopt},
+                       now_, actions_);
   }
   template <class T>
   std::vector<T> all() const {

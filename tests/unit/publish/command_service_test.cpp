@@ -204,6 +204,53 @@ TEST_F(CommandServiceTest, AnswersWithAllTracksByName) {
   EXPECT_EQ(only<PublishText>().text, "[]");
 }
 
+/// A save whose numbers a double would spell otherwise.
+constexpr const char* kSpelledSave =
+    R"({"cmd_type":"trajectory_control","cmd":"save_trajectory","data":{"name":"13","data":[)"
+    R"({"longitude":113.0000000000000001,"latitude":23.0,"angle":9e1,"x":0.00,"y":-0,)"
+    R"("yaw":1.570}]}})";
+
+TEST_F(CommandServiceTest, GivesBackTheNumbersAsTheyCame) {
+  control(kSpelledSave);
+  reply(only<store::StorageJob>(), true);
+  actions_.clear();
+  control(example("get_all_trajectory"));
+  EXPECT_THAT(only<PublishText>().text,
+              HasSubstr(R"({"angle":9e1,"latitude":23.0,"longitude":113.0000000000000001,)"
+                        R"("x":0.00,"y":-0,"yaw":1.570,"z":0})"));
+}
+
+TEST_F(CommandServiceTest, SendsNoListWhileTheBrokerHasNotTakenTheLast) {
+  make({.max_message_bytes = 2000}, {{straight("13")}, kOrigin, {}});
+  control(example("get_all_trajectory"));
+  control(example("get_all_trajectory"));
+  control(example("get_all_trajectory"));
+  control(example("get_all_trajectory"));
+  EXPECT_THAT(feedback(), testing::Contains("get_all_trajectory_failse: the broker has not taken "
+                                            "the last list yet, try again"));
+  service_->set_under_way(0);
+  control(example("get_all_trajectory"));
+  EXPECT_EQ(only<PublishText>().topic, kTopicTrajectoryData);
+}
+
+TEST_F(CommandServiceTest, TellsThatAListCouldNotBeGivenToTheBroker) {
+  service_->on_unsent({kTopicTrajectoryData, "[]"}, "the broker takes no message of this size",
+                      actions_);
+  EXPECT_THAT(feedback(), ElementsAre("get_all_trajectory_failse: the broker takes no message of "
+                                      "this size"));
+  service_->on_unsent({kTopicFeedback, "{}"}, "the broker is gone", actions_);
+  EXPECT_THAT(feedback(), testing::IsEmpty());
+}
+
+TEST_F(CommandServiceTest, RefusesMoreBytesThanTheDiskMayOwe) {
+  make({.max_pending_bytes = 300}, {{}, kOrigin, {}});
+  save("a");
+  save("b");
+  save("c");
+  EXPECT_THAT(feedback(),
+              testing::Contains("save_trajectory_failse: the disk is behind, try again"));
+}
+
 TEST_F(CommandServiceTest, RefusesAListThatTheBrokerWouldNotCarry) {
   make({.max_message_bytes = 300}, {{straight("13")}, kOrigin, {}});
   control(example("get_all_trajectory"));

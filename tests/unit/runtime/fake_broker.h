@@ -78,6 +78,8 @@ class FakeBroker final {
     if (version() == 5) body.push_back('\0');  // no properties
     send(kConnack, 0, body);
   }
+  /// As MQTT 5: no packet may have more than 64 bytes.
+  void accept_small_packets() const { send(kConnack, 0, std::string("\0\0\5\x27\0\0\0\x40", 8)); }
   void publish(const std::string& topic, const std::string& text, bool retain) const {
     std::string body{static_cast<char>(topic.size() >> 8U),
                      static_cast<char>(topic.size() & 0xFFU)};

@@ -184,9 +184,30 @@ TEST_F(MqttClientTest, MeasuresWithAMessageThatEveryListOfRightsLetsItWrite) {
 TEST_F(MqttClientTest, QueuesOnlySoManyAnswersForABrokerThatTakesNone) {
   connect();
   int taken = 0;
-  for (int i = 0; i < 10'000; ++i) taken += client_->publish("feedback", "{}") ? 1 : 0;
+  for (int i = 0; i < 10'000; ++i) taken += client_->publish("feedback", "{}").empty() ? 1 : 0;
   EXPECT_EQ(taken, 200);
   EXPECT_EQ(client_->dropped(), 9'800U);
+}
+
+TEST_F(MqttClientTest, TellsAtOnceWhatTheBrokerWouldNotTake) {
+  make();
+  ASSERT_TRUE(wait_for_connect(5));
+  broker_.accept_small_packets();
+  ASSERT_TRUE(turn_until([&] { return client_->connected(); }));
+  EXPECT_EQ(client_->publish("feedback", std::string(100, ' ')),
+            "the broker takes no message of this size");
+  EXPECT_EQ(client_->publish("feedback", "{}"), "");
+}
+
+TEST_F(MqttClientTest, KnowsHowMuchOfItsAnswersIsStillOnItsWay) {
+  connect();
+  turn_promptly(100ms);
+  EXPECT_EQ(client_->bytes_under_way(), 0U);
+  EXPECT_EQ(client_->publish("trajectory_data", std::string(5000, ' ')), "");
+  EXPECT_EQ(client_->publish("feedback", "{}"), "");
+  EXPECT_EQ(client_->bytes_under_way(), 5002U);
+  turn_promptly(100ms);
+  EXPECT_EQ(client_->bytes_under_way(), 0U);
 }
 
 TEST_F(MqttClientTest, FindsABrokerByItsNameWithoutWaitingForIt) {

@@ -5,6 +5,7 @@
 
 #include <set>
 
+#include "store/point_texts.h"
 #include "store/track_file.h"
 #include "tests/unit/store/fault_files.h"
 
@@ -263,24 +264,65 @@ TEST(Storage, RefusesATrackWithTooManyPoints) {
   FaultFiles files;
   Storage storage(files, "/state");
   Track large{"large", std::vector<TrackPoint>(kMaxPointsPerTrack + 1), {}};
-  EXPECT_THAT(storage.run({{}, SaveTrack{large}}).reason, HasSubstr("at most 100000 points"));
+  EXPECT_THAT(storage.run({{}, SaveTrack{large}}).reason, HasSubstr("at most 40000 points"));
 }
 
-TEST(Storage, ReadsBackTheLargestTrackToTheBit) {
+/// As long as a save of 2 MiB makes it.
+Track large(const std::string& name) {
+  Track track{name, std::vector<TrackPoint>(22'000), {}};
+  for (std::size_t i = 0; i < track.points.size(); ++i) {
+    track.points[i].latitude_deg = 23.1496524965 + 1e-9 * static_cast<double>(i);
+    track.points[i].x_m = -1234.5678901234567 / static_cast<double>(i + 1);
+  }
+  return track;
+}
+
+TEST(Storage, ReadsBackALargeTrackToTheBit) {
   FaultFiles files;
   Storage storage(files, "/state");
-  Track large{"large", std::vector<TrackPoint>(kMaxPointsPerTrack), {}};
-  for (std::size_t i = 0; i < large.points.size(); ++i) {
-    large.points[i].latitude_deg = 23.1496524965 + 1e-9 * static_cast<double>(i);
-    large.points[i].x_m = -1234.5678901234567 / static_cast<double>(i + 1);
-  }
-  ASSERT_TRUE(storage.run({{}, SaveTrack{large}}).ok);
+  const Track track = large("large");
+  ASSERT_TRUE(storage.run({{}, SaveTrack{track}}).ok);
   const auto found = Storage(files, "/state").load();
   ASSERT_EQ(found.tracks.size(), 1U);
-  for (std::size_t i = 0; i < large.points.size(); i += 997) {
-    EXPECT_EQ(found.tracks[0].points[i].latitude_deg, large.points[i].latitude_deg);
-    EXPECT_EQ(found.tracks[0].points[i].x_m, large.points[i].x_m);
+  for (std::size_t i = 0; i < track.points.size(); i += 997) {
+    EXPECT_EQ(found.tracks[0].points[i].latitude_deg, track.points[i].latitude_deg);
+    EXPECT_EQ(found.tracks[0].points[i].x_m, track.points[i].x_m);
   }
+}
+
+TEST(Storage, RefusesWhatWouldMakeTheListOfAllTracksTooLongAndTellsTheNumbers) {
+  FaultFiles files;
+  Storage storage(files, "/state");
+  const std::size_t each = list_bytes(large("a"));
+  ASSERT_GT(3 * each, kMaxListBytes);
+  ASSERT_LE(2 * each, kMaxListBytes);
+  ASSERT_TRUE(storage.run({{}, SaveTrack{large("a")}}).ok);
+  ASSERT_TRUE(storage.run({{}, SaveTrack{large("b")}}).ok);
+  const auto refused = storage.run({{}, SaveTrack{large("c")}});
+  EXPECT_FALSE(refused.ok);
+  for (const std::size_t number : {2 * each + 2, each, kMaxListBytes})
+    EXPECT_THAT(refused.reason, HasSubstr(std::to_string(number)));
+  EXPECT_TRUE(storage.run({{}, SaveTrack{large("b")}}).ok) << "in place of itself";
+  ASSERT_TRUE(storage.run({{}, DeleteTrack{"a"}}).ok);
+  EXPECT_TRUE(storage.run({{}, SaveTrack{large("c")}}).ok) << "there is room again";
+}
+
+TEST(Storage, LoadsNoMoreThanOneListCarriesAndSaysSo) {
+  FaultFiles files;
+  for (const char* name : {"a", "b", "c"})
+    files.put("/state/tracks/" + track_file_name(name), encode_track(large(name)));
+  Storage storage(files, "/state");
+  const StoredState found = storage.load();
+  EXPECT_EQ(found.tracks.size(), 2U);
+  EXPECT_THAT(found.report, ElementsAre(HasSubstr("1 files in /state/tracks were not read")));
+  EXPECT_EQ(files.contents().size(), 3U) << "nothing is thrown away";
+}
+
+TEST(Storage, GivesBackTheTrackThatItWasGiven) {
+  FaultFiles files;
+  const auto reply = Storage(files, "/state").run({{}, SaveTrack{track("a", 7)}});
+  ASSERT_TRUE(reply.track.has_value());
+  EXPECT_EQ(reply.track->points[0].x_m, 7);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "config/located_json.h"
 #include "publish/rtk_navigation/feedback.h"
 #include "publish/rtk_navigation/trajectory_data.h"
+#include "store/point_texts.h"
 #include "tests/unit/publish/examples.h"
 
 namespace drover::publish {
@@ -345,6 +346,17 @@ TEST(TrajectoryData, HasTheDocumentsShapeAndDigits) {
     EXPECT_EQ(our_point.find(field.key)->number(), field.node.number()) << field.key;
   }
   EXPECT_EQ(*(*ours.root.list())[0].find("name")->text(), "test5");
+}
+
+TEST(TrajectoryData, TakesNoMoreBytesThanWereCounted) {
+  store::Track track{"te\"st\n5", {}, {}};
+  track.points.assign(3, {188.2222333, 23.04934955, 30, 322100, 45220, 230, 3.141592});
+  const store::Track tracks[] = {track, {"empty", {}, {}}};
+  const auto counted = store::list_bytes(tracks[0]) + store::list_bytes(tracks[1]) + 2;
+  const auto text = trajectory_data_text(tracks);
+  EXPECT_LE(text.size(), counted);
+  // Counted beyond: room for another origin's x and y, and the last point's and track's comma.
+  EXPECT_EQ(text.size() + 3 * (4 + 5) + 2, counted);
 }
 
 TEST(Feedback, HasTheDocumentsShape) {

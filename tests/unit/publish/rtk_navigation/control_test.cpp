@@ -108,11 +108,11 @@ TEST(Control, RefusesPointsThatAreNone) {
 }
 
 TEST(Control, RefusesMoreThanALimitOfAnything) {
-  EXPECT_THAT(answer(std::string((1U << 20) + 1, ' ')), HasSubstr("bytes"));
+  EXPECT_THAT(answer(std::string((2U << 20) + 1, ' ')), HasSubstr("bytes"));
   EXPECT_THAT(answer(std::string(1'000'000, '[')), HasSubstr("nested deeper"));
   std::string zeros = "[0";
-  for (int i = 0; i < 300'000; ++i) zeros += ",0";
-  EXPECT_THAT(answer(save(zeros + "]")), HasSubstr("more than 200000 values"));
+  for (int i = 0; i < 310'000; ++i) zeros += ",0";
+  EXPECT_THAT(answer(save(zeros + "]")), HasSubstr("more than 300000 values"));
 }
 
 TEST(Control, KeepsPointsThatMakeNoSenseAsTheyCame) {
@@ -129,6 +129,21 @@ TEST(Control, KeepsPointsThatMakeNoSenseAsTheyCame) {
   EXPECT_EQ(point.latitude_deg, 91);
   EXPECT_EQ(point.x_m, 1e6);
   EXPECT_EQ(point.z_m, 3.141592);
+  EXPECT_EQ(std::get<SaveTrajectory>(*result).track.numbers,
+            "188.2222333,91,-1,1e6,-0,230,3.141592,");
+}
+
+TEST(Control, TakesTheLargestSaveWhateverItsPointsLookLike) {
+  const std::string shortest = R"({"longitude":1,"latitude":1,"angle":1,"x":1,"y":1,"yaw":1})";
+  const std::string longest =
+      R"({"longitude":113.0196366456667001,"latitude":23.14965249651234,"angle":359.999999999999,)"
+      R"("x":-1234.567890123456,"y":-1234.567890123456,"yaw":-3.14159265358979,)"
+      R"("z":1.2345678901234})";
+  for (const auto& point : {shortest, longest}) {
+    std::string points = "[" + point;
+    while (points.size() + point.size() + 200 < ControlLimits{}.max_bytes) points += "," + point;
+    EXPECT_EQ(answer(save(points + "]")), "accepted") << point;
+  }
 }
 
 TEST(Control, RefusesHostileText) {
