@@ -142,7 +142,13 @@ void CommandService::refused(RequestId id, std::string_view reason, Actions& out
 
 void CommandService::on_undelivered(const Command& command, Actions& out) {
   if (const auto* start = std::get_if<StartTask>(&command.body)) release(start->path);
-  refused(command.id, "the control loop takes no command now, try again", out);
+  // The flag of a stop is set whatever its answer: who reads this must not believe it was not told.
+  const bool stop = std::holds_alternative<EngageStop>(command.body) ||
+                    std::holds_alternative<CancelTask>(command.body);
+  refused(command.id,
+          stop ? "told the control loop, which has not answered: use the e-stop if it moves"
+               : "the control loop takes no command now, try again",
+          out);
 }
 
 void CommandService::release(const Path* path) {

@@ -131,6 +131,14 @@ TEST_F(CommandServiceTest, TheEngineThatTakesNoCommandIsAFailureToo) {
   EXPECT_EQ(service_->paths_lent(), 0U);
 }
 
+TEST_F(CommandServiceTest, AStopWithoutAnAnswerIsNotCalledUntold) {
+  control(example("cancel_task"));
+  const Command command = only<Command>();
+  actions_.clear();
+  service_->on_undelivered(command, actions_);
+  EXPECT_THAT(feedback(), ElementsAre(HasSubstr("cancel_task_failse: told the control loop")));
+}
+
 TEST_F(CommandServiceTest, AcknowledgesASaveOnlyWhenItIsStored) {
   save("园区01");
   const auto job = only<store::StorageJob>();
