@@ -14,6 +14,8 @@ struct Remembered {
   bool holding = false;        ///< the drives hold the robot, or are to hold it again
   bool released = false;       ///< a person let the drives go, to push the robot
   bool task = false;           ///< a task was on its way
+  /// Wheels, gyro and receiver agreed on a first way, with this configuration.
+  bool mechanics_proved = false;
 
   friend bool operator==(const Remembered&, const Remembered&) = default;
 };

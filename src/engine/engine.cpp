@@ -305,7 +305,7 @@ void Engine::step(Time now, const Environment& environment, EngineOutput& out) {
                environment.guard_has_bus},
               e.events);
   e.command_axes(motion, out);
-  if (!motion.run || e.power.is_cut()) e.command_hold(out);
+  if (!motion.run) e.command_hold(out);
   e.let_go(out);
   e.motion_asked = out.motion_permitted;
   e.navigator.on_commanded(now, out.motion_permitted, e.events);
@@ -314,8 +314,8 @@ void Engine::step(Time now, const Environment& environment, EngineOutput& out) {
   out.outputs = e.snapshot.output_on =
       e.signals.step(now, e.snapshot, out.motion_permitted, motion.run, e.power.closed());
   out.remembered = {
-      e.navigator.software_stop(), e.navigator.stop_at_robot(), e.power.is_cut(), e.hold.armed(),
-      e.hold.released(),           e.navigator.active()};
+      e.navigator.software_stop(), e.navigator.stop_at_robot(), e.power.is_cut(),    e.hold.armed(),
+      e.hold.released(),           e.navigator.active(),        e.mechanics.proved()};
   e.events.drain(out.events);
 }
 

@@ -21,6 +21,7 @@ void Engine::recall(const Remembered& remembered, Time now) {
   }
   e.power.recall(remembered.power_cut);
   e.hold.recall(remembered);
+  if (remembered.mechanics_proved) e.mechanics.recall_proved();
   if (remembered.task) {
     e.events.notice(now, Notice::Level::warning,
                     "a task was on its way when the gateway ended: it is not taken up again");

@@ -20,8 +20,8 @@ Reason Engine::Impl::judge_motion(Time now, Duration dt, const LineTable& lines)
   const auto estop = static_cast<std::size_t>(Line::estop);
   RestInput input{.now = now, .dt = dt, .axes = axes};
   input.power_is_off = config.line_configured[estop] && lines.active[estop];
-  // What is being taken back rolls, and is not driven.
-  input.rolls_unpowered = !steep.empty() || hold.state() == HoldState::catching;
+  input.steep = !steep.empty();
+  input.caught = hold.state() == HoldState::catching;
   if (estimate.has_heading) input.yaw_rad = estimate.pose.yaw_rad;
   const RestState state = rest.update(input);
   if (state == RestState::not_stopping && !power.is_cut()) {
@@ -29,8 +29,8 @@ Reason Engine::Impl::judge_motion(Time now, Duration dt, const LineTable& lines)
     navigator.latch_stop(rest.reason(), true);
     power.cut();
   }
-  const bool known = imu_trusted;
-  tilt.update(now, known ? estimate.roll_rad : kAbsent, known ? estimate.pitch_rad : kAbsent);
+  tilt.update(now, imu_trusted ? estimate.roll_rad : kAbsent,
+              imu_trusted ? estimate.pitch_rad : kAbsent);
   mechanics.step({.now = now,
                   .dt = dt,
                   .left_mps = estimate.left_mps,

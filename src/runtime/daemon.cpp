@@ -61,7 +61,8 @@ constexpr Duration kFeedEach = 200ms;  // of systemd's watchdog, which has 1 s
 
 class Daemon final {
  public:
-  Daemon(const config::Loaded& loaded, const std::string& record) : Daemon(loaded.config) {
+  Daemon(const config::Loaded& loaded, const std::string& record)
+      : Daemon(loaded.config, loaded.text) {
     if (record.empty()) return;
     recorder_ = std::make_unique<Recorder>(
         record, gateway::RecordingHeader{DROVER_VERSION, loaded.text, loaded.register_map,
@@ -69,7 +70,8 @@ class Daemon final {
                                          gateway::field_names(gateway_)});
     control_exchange_.recorder = recorder_.get();
   }
-  explicit Daemon(const config::DroverConfig& config)
+  /// `text`: of the configuration.
+  Daemon(const config::DroverConfig& config, std::string_view text)
       : config_(config),
         files_(),
         storage_(files_, config.paths.state),
@@ -79,7 +81,7 @@ class Daemon final {
                      ? std::make_unique<BatteryLoop>(config.battery, battery_exchange_)
                      : nullptr),
         stored_(storage_.load()),
-        memory_(config.paths.run, boot_id(), stored_.report),
+        memory_(config.paths.run, boot_id(), text, stored_.report),
         on_disk_(stored_.stop),
         control_(config, gateway_, keeper_, guard_, control_exchange_, {memory_, storage_exchange_},
                  battery_ ? &battery_exchange_ : nullptr),

@@ -19,7 +19,7 @@
 namespace drover::runtime {
 
 namespace {
-constexpr std::uint64_t kFormat = 0x64726d656d303031;  // "drmem001"
+constexpr std::uint64_t kFormat = 0x64726d656d303032;  // "drmem002"
 }  // namespace
 
 static_assert(std::is_trivially_copyable_v<Remembered>);
@@ -28,6 +28,7 @@ struct RobotMemory::Record {
   std::uint64_t format = 0;
   std::uint64_t sequence = 0;  ///< 0: never written
   std::array<char, 40> boot{};
+  std::uint64_t configuration = 0;
   Remembered remembered;
   std::uint64_t checksum = 0;  ///< of all bytes before it
 
@@ -43,8 +44,9 @@ std::string boot_id() {
 }
 
 RobotMemory::RobotMemory(const std::string& folder, const std::string& boot_id,
-                         std::vector<std::string>& report)
-    : boot_id_(boot_id.substr(0, std::tuple_size_v<decltype(Record::boot)> - 1)) {
+                         std::string_view configuration, std::vector<std::string>& report)
+    : boot_id_(boot_id.substr(0, std::tuple_size_v<decltype(Record::boot)> - 1)),
+      configuration_(store::fingerprint(configuration)) {
   const std::string path = folder + "/memory";
   if (const char* failed = open(path)) {
     report.push_back(link::problem_text(path, failed, errno) +
@@ -91,6 +93,7 @@ void RobotMemory::read() {
     sequence_ = record.sequence;
     const bool this_boot = boot_id_ == std::string_view(record.boot.data());
     found_ = this_boot ? std::optional(record.remembered) : std::nullopt;
+    if (found_ && record.configuration != configuration_) found_->mechanics_proved = false;
   }
   unreadable_ = written && sequence_ == 0;
 }
@@ -104,6 +107,7 @@ bool RobotMemory::keep(const Remembered& now) {
   record.format = kFormat;
   record.sequence = ++sequence_;
   std::memcpy(record.boot.data(), boot_id_.data(), boot_id_.size());
+  record.configuration = configuration_;
   record.remembered = now;
   record.checksum = record.sum();
   std::memcpy(static_cast<void*>(&records_[sequence_ % 2]), &record, sizeof record);

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "drover/remembered.h"
@@ -16,8 +17,8 @@ namespace drover::runtime {
 class RobotMemory final {
  public:
   /// Opens or makes `folder`/memory. What cannot be used is told in `report`: then the memory is
-  /// only this program's own.
-  RobotMemory(const std::string& folder, const std::string& boot_id,
+  /// only this program's own. `configuration`: its text; what was proved with another one is not.
+  RobotMemory(const std::string& folder, const std::string& boot_id, std::string_view configuration,
               std::vector<std::string>& report);
   ~RobotMemory();
   RobotMemory(const RobotMemory&) = delete;
@@ -39,6 +40,7 @@ class RobotMemory final {
 
   Record* records_ = nullptr;  ///< two; nullptr: no file
   std::string boot_id_;
+  std::uint64_t configuration_ = 0;
   std::uint64_t sequence_ = 0;
   std::optional<Remembered> found_;
   bool unreadable_ = false;

@@ -50,6 +50,7 @@ Status read_status(const MqttLine& line, const Earth& earth) {
   status.obstacle = nav.at("obstacle").get<bool>();
   for (const auto& reason : nav.value("why", json::array()))
     status.why += (status.why.empty() ? "" : "; ") + reason.get<std::string>();
+  status.placed = rtk.at("latitude") != 0 || rtk.at("longitude") != 0;
   status.map = {pose.at("x").get<double>(), pose.at("y").get<double>()};
   status.sim = earth.base(rtk.at("latitude").get<double>(), rtk.at("longitude").get<double>(),
                           pose.at("yaw").get<double>());

@@ -21,9 +21,10 @@ struct Status {
   std::string nav;
   std::string locate;
   bool obstacle = false;
-  std::string why;  ///< all reasons, "; " between them
-  Place map;        ///< pose.x, pose.y
-  Place sim;        ///< of base_link in the simulator's frame, from rtk and pose.yaw
+  std::string why;     ///< all reasons, "; " between them
+  Place map;           ///< pose.x, pose.y
+  bool placed = true;  ///< the receiver has told a position
+  Place sim;           ///< of base_link in the simulator's frame, from rtk and pose.yaw
 };
 
 struct Feedback {

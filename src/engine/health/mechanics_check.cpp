@@ -1,4 +1,4 @@
-// The first way after the start: wheels, gyro and receiver have to agree on it.
+// The first way of a boot or a configuration: wheels, gyro and receiver have to agree on it.
 #include "engine/health/mechanics_check.h"
 
 #include <algorithm>

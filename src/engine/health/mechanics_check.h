@@ -1,6 +1,6 @@
-// The first way after the start is driven slowly, with a little turn: wheels, gyro and receiver
-// have to agree on it. Wrong gear ratios, swapped sides and reversed wheels are found before they
-// hurt.
+// The first way of a boot or a configuration is driven slowly, with a little turn: wheels, gyro and
+// receiver have to agree on it. Wrong gear ratios, swapped sides and reversed wheels are found
+// before they hurt.
 #pragma once
 
 #include <array>
@@ -36,6 +36,8 @@ class MechanicsCheck final {
   void on_turn(double turn_radps, Time at);
 
   void step(const MechanicsInput& input);
+  /// The program before this one proved them, in the same boot with the same configuration.
+  void recall_proved() { proved_ = true; }
   bool proved() const { return proved_; }
   /// What disagrees; empty when nothing does. Stays until the base rests.
   const Reason& fault() const { return fault_; }

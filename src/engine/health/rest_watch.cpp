@@ -70,7 +70,7 @@ double RestWatch::asked_mps(const RestInput& input) const {
 /// Whether the time that a ramp to zero needs is over.
 bool RestWatch::due(const RestInput& input, const Rims& rims) {
   const double asked_mps = this->asked_mps(input);
-  if (asked_mps != 0) {
+  if (asked_mps != 0 && !input.caught) {
     ours_ = true;
     direction_ = std::copysign(1.0, asked_mps);
   }
@@ -134,7 +134,7 @@ void RestWatch::settle(const RestInput& input, const Rims& rims, const Testimony
   const bool late = input.now - due_ >= from_s(kRestPatience_s);
   const bool lasts = moves && input.now - moves_since_ >= from_s(kMotionHeld_s);
   if (ours_ && late && lasts && !input.power_is_off &&
-      (!input.rolls_unpowered || moves_as_commanded(input, rims))) {
+      ((!input.steep && !input.caught) || moves_as_commanded(input, rims))) {
     state_ = RestState::not_stopping;
     tell("the robot did not stop", rims, said);
     return;

@@ -15,8 +15,9 @@ struct RestInput {
   Duration dt{};
   std::span<const AxisSnapshot> axes;  ///< with the commands of the last cycle
   bool power_is_off = false;           ///< by the e-stop's own circuit: there is nothing to cut
-  /// Without power it rolls from here: only what drives on may be cut, not what rolls.
-  bool rolls_unpowered = false;
+  bool steep = false;                  ///< ground on which it rolls without power
+  /// Drives that had let go are being taken back: their commands follow a roll, nobody drives.
+  bool caught = false;
   double yaw_rad = kAbsent;  ///< of the base, as far as it is known
 };
 
@@ -33,7 +34,8 @@ enum class RestState : std::uint8_t {
 /// configured deceleration. What still moves 0.3 s later is cut: wheels that turn, or two witnesses
 /// besides wheels that say nothing of it (their encoders may be frozen). After a second of
 /// confirmed rest no motion is ours any more: nothing is cut then, since who pushes the robot or
-/// carries it away must not find it latched.
+/// carries it away must not find it latched. Where it would only roll without power, or rolls and
+/// is being caught, it is cut when it moves the way that it was driven, and not when it rolls back.
 class RestWatch final {
  public:
   explicit RestWatch(const EngineConfig& config);
@@ -72,7 +74,7 @@ class RestWatch final {
   RestState state_ = RestState::settling;
   Reason reason_;
   bool ours_ = false;     ///< we moved it since it rested last
-  double direction_ = 0;  ///< sign of the last command
+  double direction_ = 0;  ///< sign of the last command of one who drove
   bool begun_ = false;
   bool turning_ = false;     ///< the wheels, in the last cycle
   double expected_mps_ = 0;  ///< how fast it may still be

@@ -178,7 +178,7 @@ void Hold::step(const HoldInput& input, EventQueue& events) {
   } else {
     wanted_ = kNever;
   }
-  if (released_ || input.power_cut) {
+  if (released_) {
     for (std::size_t i = 0; i < input.axes.size(); ++i)
       if (driven_[i]) commands_[i] = {AxisRequest::idle, 0};
   }

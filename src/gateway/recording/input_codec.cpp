@@ -173,15 +173,17 @@ void get(Suspended& slept, ByteReader& in) {
 }
 
 void put(const Recalled& recalled, ByteWriter& out) {
-  const auto& [stop, stop_at_robot, power_cut, holding, released, task] = recalled.remembered;
+  const auto& [stop, stop_at_robot, power_cut, holding, released, task, proved] =
+      recalled.remembered;
   out.text(stop);
-  for (const bool flag : {stop_at_robot, power_cut, holding, released, task})
+  for (const bool flag : {stop_at_robot, power_cut, holding, released, task, proved})
     out.byte(flag ? 1 : 0);
 }
 void get(Recalled& recalled, ByteReader& in) {
-  auto& [stop, stop_at_robot, power_cut, holding, released, task] = recalled.remembered;
+  auto& [stop, stop_at_robot, power_cut, holding, released, task, proved] = recalled.remembered;
   stop.assign(in.text());
-  for (bool* flag : {&stop_at_robot, &power_cut, &holding, &released, &task}) *flag = get_flag(in);
+  for (bool* flag : {&stop_at_robot, &power_cut, &holding, &released, &task, &proved})
+    *flag = get_flag(in);
 }
 
 // Bodies of commands: the same once more.

@@ -115,9 +115,11 @@ std::string words(const Suspended& slept) {
   return "the computer slept for " + std::to_string(slept.lasted_s) + " s";
 }
 std::string words(const Recalled& recalled) {
-  const auto& [stop, stop_at_robot, power_cut, holding, released, task] = recalled.remembered;
+  const auto& [stop, stop_at_robot, power_cut, holding, released, task, proved] =
+      recalled.remembered;
   return std::string("recalled:") + (holding ? " held" : "") + (released ? " released" : "") +
          (power_cut ? " without power" : "") + (task ? " with a task" : "") +
+         (proved ? " with proved mechanics" : "") +
          (stop_at_robot ? " stopped at the robot: " : " stopped: ") + std::string(stop);
 }
 std::string words(const CommandGiven& given) {

@@ -56,6 +56,20 @@ TEST_F(ARobotOnItsFirstWay, DrivesSlowlyForThirtyCentimetresAndThenAsAsked) {
   EXPECT_GT(rig.fastest_command_radps() * 0.165, 0.45);
 }
 
+TEST_F(ARobotOnItsFirstWay, IsNotAskedForAnotherOneAfterARestartOfTheProgram) {
+  rig.run_s(2);
+  EXPECT_FALSE(rig.out.remembered.mechanics_proved);
+  rig.run_s(10);
+  ASSERT_TRUE(rig.out.remembered.mechanics_proved) << ended();
+  const Remembered left = rig.out.remembered;
+  rig.engine = std::make_unique<Engine>(rig.config);
+  rig.engine->recall(left, rig.now);
+  rig.settle();
+  rig.start(path, 40, 0.5);
+  rig.run_s(3);
+  EXPECT_GT(rig.fastest_command_radps() * 0.165, 0.45) << ended();
+}
+
 TEST_F(ARobotOnItsFirstWay, TurnsFiveDegreesToEachSideAndStaysOnItsTrack) {
   double left_rad = 0;
   double right_rad = 0;

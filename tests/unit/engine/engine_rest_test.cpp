@@ -11,6 +11,7 @@ using ::testing::HasSubstr;
 
 constexpr WheelSpeeds kStraight{3, 3};  // about 0.5 m/s
 constexpr WheelSpeeds kCircle{1, 4};
+constexpr WheelSpeeds kRollsBack{-1.5, -1.5};
 
 class ARobotThatShouldRest : public AnEngine {
  protected:
@@ -203,6 +204,59 @@ TEST_F(ARobotThatShouldRest, RefusesAStartWhileItRollsSinceItsBeginning) {
   rig.tick();
   EXPECT_THAT(refusal(), HasSubstr("without a command"));
   rest_s(5);
+}
+
+// Held by nothing but its drives, on ground that falls by 8 degrees.
+class ARobotOnASlope : public ARobotThatShouldRest {
+ protected:
+  ARobotOnASlope() {
+    rig.config.base.hold = HoldBy::level_ground_only;
+    rig.engine = std::make_unique<Engine>(rig.config);
+  }
+  void drive_up() {
+    drive();
+    rig.gravity_mps2 = {9.81 * std::sin(to_rad(8)), 0, 9.81 * std::cos(to_rad(8))};
+  }
+  void stop_on_the_slope() {
+    for (int i = 0; i < 2000 && rig.snapshot().nav.status != NavStatus::error; ++i) rig.tick();
+    ASSERT_THAT(rig.why(), HasSubstr("the ground falls by"));
+  }
+};
+
+TEST_F(ARobotOnASlope, LosesItsPowerWhenItDrivesOn) {
+  drive_up();
+  stop_on_the_slope();
+  rig.disobeys = kStraight;
+  ASSERT_TRUE(cut_within_s(2));
+  EXPECT_THAT(rig.why(), HasSubstr("did not stop"));
+}
+
+TEST_F(ARobotOnASlope, LosesItsPowerWhenItDrivesOnWithFrozenEncoders) {
+  drive_up();
+  freeze_encoders();
+  rig.disobeys = kStraight;
+  EXPECT_TRUE(cut_within_s(4));
+}
+
+TEST_F(ARobotOnASlope, KeepsItsPowerWhenItRollsBack) {
+  drive_up();
+  stop_on_the_slope();
+  rig.carried = kRollsBack;
+  rest_s(5);
+  EXPECT_THAT(told(), HasSubstr("the robot moves without a command"));
+}
+
+TEST_F(ARobotOnASlope, KeepsItsPowerWhenItIsCaughtAndRollsOn) {
+  drive_up();
+  stop_on_the_slope();
+  rig.run_s(0.9);  // its ramp; not yet the second that confirms its rest
+  rig.carried = kRollsBack;
+  rig.run_s(0.2);
+  for (auto& drive : rig.drives) drive.state = AxisState::idle;
+  rig.run_s(0.1);
+  ASSERT_EQ(rig.snapshot().hold, HoldState::catching);
+  rest_s(5);
+  EXPECT_EQ(rig.snapshot().hold, HoldState::held) << "the drives run again, and do not hold it";
 }
 
 /// More of them by DROVER_SEEDS.

@@ -22,8 +22,8 @@ Remembered stopped() {
 
 class ARobotMemory : public ::testing::Test {
  protected:
-  RobotMemory open(const std::string& boot = kBoot) {
-    return RobotMemory(folder.path(), boot, report);
+  RobotMemory open(const std::string& boot = kBoot, const std::string& configuration = "{}") {
+    return RobotMemory(folder.path(), boot, configuration, report);
   }
   /// Damages one byte in the middle of a record, as if it was being written.
   void tear(int record) {
@@ -59,6 +59,13 @@ TEST_F(ARobotMemory, IsNotBelievedAfterABoot) {
   EXPECT_FALSE(memory.found());
   EXPECT_FALSE(memory.unreadable());
 }
+TEST_F(ARobotMemory, ForgetsWithAnotherConfigurationOnlyWhatWasProvedWithThisOne) {
+  Remembered proved = stopped();
+  proved.mechanics_proved = true;
+  { open().keep(proved); }
+  EXPECT_EQ(open().found(), proved);
+  EXPECT_EQ(open(kBoot, R"({"base": {}})").found(), stopped());
+}
 TEST_F(ARobotMemory, HasTheRecordBeforeWhenOneIsTorn) {
   {
     auto memory = open();
@@ -85,7 +92,7 @@ TEST_F(ARobotMemory, LeavesItToTheDiskAfterABoot) {
   EXPECT_EQ(recall(open("another"), stopped()), stopped());
 }
 TEST_F(ARobotMemory, ThatHasNoFolderSaysSoAndWorksForItself) {
-  RobotMemory memory("/nowhere", kBoot, report);
+  RobotMemory memory("/nowhere", kBoot, "{}", report);
   EXPECT_EQ(report.size(), 1U);
   EXPECT_TRUE(memory.keep(stopped()));
 }
