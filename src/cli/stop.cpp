@@ -30,6 +30,7 @@ constexpr int kDaemonPatience_s = 1;
 struct Answer {
   bool obeyed = false;
   bool heard = false;  ///< it answered
+  bool limp = false;   ///< the guard leaves the drives alone: they were released, or have no power
   std::string why;     ///< not obeyed: a sentence
 };
 
@@ -82,14 +83,16 @@ std::optional<json::Document> ask_guard(const StopPlaces& places, std::string_vi
 Answer tell_guard(const StopPlaces& places, std::string_view word) {
   std::string problem;
   const auto state = ask_guard(places, word, problem);
-  if (!state) return {false, false, problem};
+  if (!state) return {false, false, false, problem};
   if (is_true(state->root, "latched") != (word == "stop"))
-    return {false, true, "drover-guard did not take it"};
+    return {false, true, false, "drover-guard did not take it"};
   const auto* axes = state->root.find("axes");
   const bool has_axes = axes != nullptr && axes->integer().value_or(0) > 0;
   if (word == "stop" && !has_axes)
-    return {false, true, "drover-guard permits no motion, but knows no drives to stop"};
-  return {true, true, {}};
+    return {false, true, false, "drover-guard permits no motion, but knows no drives to stop"};
+  const auto* may_hold = state->root.find("may_hold");
+  const bool limp = may_hold != nullptr && !is_true(state->root, "may_hold");
+  return {true, true, limp, {}};
 }
 
 bool holds(const StopPlaces& places) {
@@ -102,13 +105,13 @@ Answer tell_daemon(const StopPlaces& places, std::string_view cmd) {
   try {
     const auto question = json::JsonText().open('{').key("cmd").text(cmd).close('}').take();
     const auto reply = json::parse(ask(places.daemon, question, kDaemonPatience_s));
-    if (!reply) return {false, true, "droverd's answer is not understood"};
-    if (is_true(reply->root, "ok")) return {true, true, {}};
+    if (!reply) return {false, true, false, "droverd's answer is not understood"};
+    if (is_true(reply->root, "ok")) return {true, true, false, {}};
     const auto* reason = reply->root.find("reason");
-    return {false, true,
+    return {false, true, false,
             reason != nullptr && reason->text() != nullptr ? *reason->text() : "droverd refused"};
   } catch (const NoAnswer& no) {
-    return {false, false, no.text};
+    return {false, false, false, no.text};
   }
 }
 
@@ -151,6 +154,11 @@ int stop(const StopPlaces& places) {
   if (!guard.obeyed) words = "droverd stops the robot; " + guard.why;
   if (!daemon.obeyed) words = "drover-guard stops the robot; " + daemon.why;
   if (!done) words = "nobody stops the robot: " + guard.why + "; " + daemon.why;
+  // A latched stop commands nothing to drives that were let go: a robot that rolls rolls on.
+  if (done && guard.limp)
+    words =
+        "nothing may drive the robot, but its drives were released or have no power and hold "
+        "nothing: drover hold";
   print(places, done, guard, daemon, words);
   return done ? kDone : guard.heard || daemon.heard ? kRefused : kNoDaemon;
 }

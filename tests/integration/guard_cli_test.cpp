@@ -77,6 +77,17 @@ TEST_F(GuardAndCommandLine, StopDoesNotWaitLongForADroverdThatHangs) {
   EXPECT_EQ(shared().guard_latched, 1U);
 }
 
+TEST_F(GuardAndCommandLine, StopDoesNotClaimToHoldARobotThatWasReleased) {
+  start();
+  supply();
+  shared().may_hold = GuardMayHold::released;
+  beat(50ms);
+  const auto stopped = drover({"stop"});
+  EXPECT_EQ(stopped.code, 0) << stopped.text;
+  EXPECT_THAT(stopped.text, HasSubstr("its drives were released or have no power and hold nothing: "
+                                      "drover hold"));
+}
+
 TEST_F(GuardAndCommandLine, StopFailsWhenNobodyHears) {
   const auto stopped = drover({"stop"});
   EXPECT_EQ(stopped.code, 3);
