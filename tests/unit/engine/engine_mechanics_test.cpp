@@ -113,6 +113,31 @@ TEST_F(ARobotOnItsFirstWay, FindsAReversedWheel) {
   EXPECT_THAT(ended(), HasSubstr("wheel reversed"));
 }
 
+TEST_F(ARobotOnItsFirstWay, FindsDrivesThatRunBackwards) {
+  rig.mechanics.gear = -1;
+  EXPECT_LT(stops_after_m(), 0.2);
+  EXPECT_THAT(ended(), HasSubstr("drives reversed, or the heading is turned round"));
+}
+
+TEST_F(ARobotOnItsFirstWay, TellsAGyroThatTurnsTheOtherWayFromSwappedSides) {
+  rig.mechanics.gyro = -1;
+  EXPECT_LT(stops_after_m(), 0.2);
+  EXPECT_THAT(ended(), HasSubstr("is the IMU mounted as configured"));
+}
+
+TEST_F(ARobotOnItsFirstWay, FindsSwappedSidesByTheReceiverWhereThereIsNoGyro) {
+  EngineRig without{unproved()};
+  without.settle();
+  without.mechanics.swapped = true;
+  without.start(path, 40, 0.5);
+  for (int i = 0; i < 20 * 200 && without.snapshot().nav.status != NavStatus::error; ++i)
+    without.tick();
+  const auto ends = without.said<TaskEnded>();
+  ASSERT_EQ(ends.size(), 1U);
+  EXPECT_THAT(std::string(ends[0].reason.view()), HasSubstr("by the receiver"));
+  EXPECT_LT(without.driven_m, 0.3);
+}
+
 TEST_F(ARobotOnItsFirstWay, IsSlowAgainAfterAFailure) {
   rig.mechanics.swapped = true;
   stops_after_m();

@@ -136,6 +136,7 @@ class EngineRig {
     double gear = 1;        ///< the wheels turn so many times faster than the drives tell
     bool swapped = false;   ///< left and right
     bool reversed = false;  ///< the left front wheel
+    double gyro = 1;        ///< it tells so many times the turn
   } mechanics;
   double jump_m = 0;  ///< of the reported position, east
   Time now{std::chrono::seconds(10)};
@@ -245,7 +246,7 @@ class EngineRig {
     ImuSample sample;
     sample.acceleration_mps2 = gravity_mps2;
     sample.angular_velocity_radps.y = pitch_radps;
-    sample.angular_velocity_radps.z = plant.truth().wz_radps;
+    sample.angular_velocity_radps.z = mechanics.gyro * plant.truth().wz_radps;
     measure(now, sample);
   }
 
