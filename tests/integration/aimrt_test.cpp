@@ -14,6 +14,32 @@ constexpr const char* kJoints = "/channel/%2Fjoint_state/pb%3Aaimrt.protocols.se
 constexpr const char* kTouch = "/channel/%2Ftouch_state/pb%3Aaimrt.protocols.sensor.TouchState";
 constexpr const char* kCommand =
     "/channel/%2Fjoint_command/pb%3Aaimrt.protocols.sensor.JointCommand";
+// AimRT 1.x's.
+constexpr const char* kJointArray =
+    "/channel/%2Fjoint_state/pb%3Aaimrt.protocols.sensor.JointStateArray";
+constexpr const char* kTouchArray =
+    "/channel/%2Ftouch_state/pb%3Aaimrt.protocols.sensor.TouchSensorStateArray";
+constexpr const char* kCommandArray =
+    "/channel/%2Fjoint_command/pb%3Aaimrt.protocols.sensor.JointCommandArray";
+
+constexpr std::array kRobotJoints{"front_left", "rear_left", "front_right", "rear_right"};
+
+/// One velocity for all joints, as the document's programs write it.
+std::string in_protobuf(const std::string& velocity) {
+  std::string text;
+  for (const char* name : kRobotJoints)
+    text += "joints { name: \"" + std::string(name) + "\" velocity: " + velocity + " } ";
+  return std::string("\x02pb\0", 4) + protoc_encoded("JointCommand", text);
+}
+
+/// The same as AimRT 1.x writes it when it is told to write JSON.
+std::string in_json(const std::string& velocity) {
+  std::string text;
+  for (const char* name : kRobotJoints)
+    text += "joints { name: \"" + std::string(name) + "\" velocity: " + velocity + " } ";
+  return std::string("\x04json\0", 6) +
+         protobuf_json("JointCommandArray", protoc_encoded("JointCommandArray", text));
+}
 
 class AimrtChannel : public RobotRig {
  protected:
@@ -43,7 +69,7 @@ TEST_F(AimrtChannel, ShowsJointsAndContactsInTheDocumentsFields) {
   ASSERT_TRUE(
       wait_until([&] { return decoded(kJoints, "JointState").find("nan") == std::string::npos; }));
   const auto joints = decoded(kJoints, "JointState");
-  for (const char* name : {"front_left", "rear_left", "front_right", "rear_right"})
+  for (const char* name : kRobotJoints)
     EXPECT_THAT(joints, HasSubstr("name: \"" + std::string(name) + "\"")) << joints;
   EXPECT_THAT(joints, HasSubstr("time_stamp: "));
   EXPECT_THAT(joints, Not(HasSubstr("nan"))) << joints;
@@ -82,14 +108,8 @@ TEST_F(AimrtChannel, FollowsNoCommandThatIsNotWhollyGood) {
 
 TEST_F(AimrtChannel, FollowsAStreamOfCommandsUntilItFallsSilent) {
   ASSERT_NO_FATAL_FAILURE(start_all());
-  const auto packet = [](const std::string& velocity) {
-    std::string text;
-    for (const char* name : {"front_left", "rear_left", "front_right", "rear_right"})
-      text += "joints { name: \"" + std::string(name) + "\" velocity: " + velocity + " } ";
-    return std::string("\x02pb\0", 4) + protoc_encoded("JointCommand", text);
-  };
-  const auto rest = packet("0");  // a stream begins at rest
-  const auto slow = packet("1");  // rad/s: 0.165 m/s with this rig's wheels
+  const auto rest = in_protobuf("0");  // a stream begins at rest
+  const auto slow = in_protobuf("1");  // rad/s: 0.165 m/s with this rig's wheels
   const double begun_s = now_s();
   EXPECT_TRUE(wait_until([&] {
     client().publish(kCommand, now_s() < begun_s + 1 ? rest : slow);
@@ -97,6 +117,56 @@ TEST_F(AimrtChannel, FollowsAStreamOfCommandsUntilItFallsSilent) {
   })) << daemon().output();
   EXPECT_TRUE(wait_until([this] { return at_rest(); })) << "nobody commands any more";
   EXPECT_EQ(status_text("nav", "status"), "NAV_FREE");
+}
+
+TEST_F(AimrtChannel, SpeaksWithProgramsOfAimrt1x) {
+  add_section(R"("aimrt": {"joint_state_names": "both", "joint_state_content": "json",
+                           "touch_state_names": "aimrt_1x"})");
+  ASSERT_NO_FATAL_FAILURE(start_all());
+  const auto heard = [this](const char* topic) { return !client().last(topic).empty(); };
+  ASSERT_TRUE(wait_until([&] { return heard(kJoints) && heard(kTouchArray); }));
+  EXPECT_FALSE(heard(kTouch));
+  const auto text = message_of_packet(client().last(kJointArray));
+  const auto joints = protoc_decoded("JointStateArray", protobuf_of_json("JointStateArray", text));
+  for (const char* name : kRobotJoints)
+    EXPECT_THAT(joints, HasSubstr("name: \"" + std::string(name) + "\"")) << text;
+  EXPECT_THAT(joints, HasSubstr("time_stamp: "));
+  EXPECT_THAT(
+      protoc_decoded("TouchSensorStateArray", message_of_packet(client().last(kTouchArray))),
+      HasSubstr("names: \"bumper\"\nnames: \"zone_far\"\n"));
+
+  OperatorClient second("second");
+  ASSERT_TRUE(second.connect(port(), "nothing"));
+  const auto rest = in_json("0");
+  const auto slow = in_json("1");
+  const auto fast = in_protobuf("9");
+  const double begun_s = now_s();
+  const auto command = [&] {
+    client().publish(kCommandArray, now_s() < begun_s + 1 ? rest : slow);
+  };
+  EXPECT_TRUE(wait_until([&] {
+    command();
+    return true_speed_mps() > 0.1;
+  })) << daemon().output();
+  const std::string told =
+      "two programs write joint commands: JointCommandArray (json) has the joints, JointCommand "
+      "(pb) is refused";
+  EXPECT_TRUE(wait_until([&] {
+    command();
+    second.publish(kCommand, fast);
+    return client().last("base_status").find(told) != std::string::npos;
+  })) << daemon().output();
+  EXPECT_TRUE(wait_for_log("joint command refused: " + told));
+  const auto status = drover({"status", "--json"}).text;
+  EXPECT_THAT(status, HasSubstr("\"of_rivals\":"));
+  EXPECT_THAT(status, Not(HasSubstr("\"of_rivals\":0")));
+  EXPECT_THAT(drover({"status"}).text, HasSubstr("of a second program"));
+  stop_daemon();
+  double fastest_turnps = 0;
+  for (const auto& point : set_points_on_the_bus())
+    fastest_turnps = std::max<double>(fastest_turnps, std::abs(point.velocity_turnps));
+  EXPECT_GT(fastest_turnps, 0.5 / (2 * M_PI));
+  EXPECT_LT(fastest_turnps, 1.01 / (2 * M_PI)) << "1 rad/s of a wheel, never 9";
 }
 
 }  // namespace

@@ -229,6 +229,13 @@ void RobotRig::set_broker_host(const std::string& host) {
       << filled(text, R"("mqtt": {"port")", R"("mqtt": {"host": ")" + host + R"(", "port")");
 }
 
+void RobotRig::add_section(const std::string& section) {
+  std::ifstream file(folder_ / "drover.json");
+  std::string text((std::istreambuf_iterator<char>(file)), {});
+  text.insert(text.find(R"("mqtt": {)"), section + ", ");
+  std::ofstream(folder_ / "drover.json") << text;
+}
+
 void RobotRig::start_all() {
   ASSERT_NO_FATAL_FAILURE(start_broker());
   ASSERT_NO_FATAL_FAILURE(start_sim());

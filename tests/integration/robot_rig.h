@@ -47,6 +47,8 @@ class RobotRig : public testing::Test {
   void start_daemon(const std::string& first, std::vector<std::string> wrapper = {});
   /// From the next start of the gateway on.
   void set_broker_host(const std::string& host);
+  /// Into the configuration, like `"aimrt": {"commands": false}`: from the next start on.
+  void add_section(const std::string& section);
   /// All four, until the robot knows where it is.
   void start_all();
   /// Ends the gateway as systemd would and expects that it ends well.
