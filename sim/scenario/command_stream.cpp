@@ -1,7 +1,9 @@
 #include "sim/scenario/command_stream.h"
 
 #include <bit>
+#include <cmath>
 #include <cstdint>
+#include <nlohmann/json.hpp>
 
 namespace drover::sim {
 namespace {
@@ -31,6 +33,11 @@ std::string double_bytes(double value) {
 
 }  // namespace
 
+std::string joint_command_topic(const CommandForm& form) {
+  return std::string("/channel/%2Fjoint_command/pb%3Aaimrt.protocols.sensor.") +
+         (form.aimrt_1x ? "JointCommandArray" : "JointCommand");
+}
+
 std::string joint_command_packet(const std::vector<JointVelocity>& joints) {
   std::string packet("\x02pb\0", 4);
   for (const auto& joint : joints)
@@ -39,8 +46,20 @@ std::string joint_command_packet(const std::vector<JointVelocity>& joints) {
   return packet;
 }
 
+std::string joint_command_json_packet(const std::vector<JointVelocity>& joints) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const auto& joint : joints) {
+    nlohmann::ordered_json item{{"name", joint.joint}, {"velocity", joint.velocity_radps}};
+    if (std::isnan(joint.velocity_radps)) item["velocity"] = "NaN";
+    list.push_back(std::move(item));
+  }
+  return std::string("\x04json\0", 6) + nlohmann::ordered_json{{"joints", list}}.dump();
+}
+
 void CommandStream::begin(const CommandStreamSpec& spec, Time now) {
-  payload_ = joint_command_packet(spec.joints);
+  payload_ =
+      spec.form.json ? joint_command_json_packet(spec.joints) : joint_command_packet(spec.joints);
+  topic_ = joint_command_topic(spec.form);
   period_ = from_s(1 / spec.rate_Hz);
   next_ = now;
   end_ = now + spec.lasts;

@@ -42,7 +42,8 @@ std::size_t parse_id(JsonReader& reader, std::string_view key) {
   return static_cast<std::size_t>(id);
 }
 
-/// {"velocities_radps": {"front_left": 1, "rear_left": "nan"}, "rate_Hz": 50, "for_s": 2}
+/// {"velocities_radps": {"front_left": 1, "rear_left": "nan"}, "rate_Hz": 50, "for_s": 2,
+///  "names": "aimrt_1x", "content": "json"}
 CommandStreamSpec read_stream(JsonReader reader, const json& raw) {
   CommandStreamSpec stream;
   auto joints = reader.object("velocities_radps");
@@ -57,6 +58,12 @@ CommandStreamSpec read_stream(JsonReader reader, const json& raw) {
   const double for_s = reader.number("for_s");
   if (!(for_s > 0 && for_s <= 1e6)) reader.fail("for_s", "must be above 0");
   stream.lasts = from_s(for_s);
+  const auto names = reader.text("names", "document");
+  if (names != "document" && names != "aimrt_1x")
+    reader.fail("names", "must be document or aimrt_1x");
+  const auto content = reader.text("content", "pb");
+  if (content != "pb" && content != "json") reader.fail("content", "must be pb or json");
+  stream.form = {names == "aimrt_1x", content == "json"};
   reader.done();
   return stream;
 }

@@ -23,8 +23,7 @@ void Player::take_steps(Time t) {
 }
 
 void Player::command_joints(Time t) {
-  if (const auto message = commands_.due(t))
-    client_->publish(std::string(kJointCommandTopic), *message, false);
+  if (const auto message = commands_.due(t)) client_->publish(commands_.topic(), *message, false);
   if (commands_.ends(t)) happened("commands_end");
 }
 

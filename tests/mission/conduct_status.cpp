@@ -126,9 +126,12 @@ void judge_interval(const Record& record, const Interval& interval, Problems& pr
 std::string judge_packet(const MqttLine& line) {
   static const std::set<std::string> kTopics{
       "/channel/%2Fjoint_state/pb%3Aaimrt.protocols.sensor.JointState",
+      "/channel/%2Fjoint_state/pb%3Aaimrt.protocols.sensor.JointStateArray",
       "/channel/%2Fimu_state/pb%3Aaimrt.protocols.sensor.ImuState",
       "/channel/%2Ftouch_state/pb%3Aaimrt.protocols.sensor.TouchState"};
-  if (line.topic.ends_with(".JointCommand")) return "";  // a scenario may send nonsense
+  // A scenario may send nonsense.
+  if (line.topic.ends_with(".JointCommand") || line.topic.ends_with(".JointCommandArray"))
+    return "";
   if (!kTopics.contains(line.topic)) return "a topic of no document";
   if (line.retained) return "is retained";
   return line.payload.starts_with("027062000a") ? "" : "is no packet: " + line.payload;

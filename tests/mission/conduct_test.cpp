@@ -211,6 +211,30 @@ TEST(MissionChecks, PermitMotionToAStreamThatBeganAtRestAndIsSound) {
   }
 }
 
+/// The same in JSON under AimRT 1.x's name.
+std::string joint_command_in_json(const std::string& velocity) {
+  std::string hex;
+  for (const char c : R"({"joints":[{"name":"front_left","velocity":)" + velocity + "}]}") {
+    std::array<char, 3> digits{};
+    std::snprintf(digits.data(), digits.size(), "%02x", static_cast<unsigned>(c));
+    hex += digits.data();
+  }
+  return std::string(kJointCommandArrayTopic) + " 0 046a736f6e00" + hex;
+}
+
+TEST(MissionChecks, PermitMotionToAStreamInJsonToo) {
+  for (const auto& [first, then, permitted] : {std::tuple{"0.0", "1.0", true},
+                                               {"0.0", R"("NaN")", true},
+                                               {"1.0", "1.0", false},
+                                               {R"("NaN")", "1.0", false}}) {
+    Logs logs;
+    logs.say(50, joint_command_in_json(first));
+    logs.say(90, joint_command_in_json(then));
+    logs.can[10].text = "can0 08D#0100000000000000";
+    EXPECT_THAT(check_motion(logs.read()), testing::SizeIs(permitted ? 0 : 1)) << first << then;
+  }
+}
+
 TEST(MissionChecks, FindMotionLongAfterAStreamFellSilent) {
   Logs logs;
   logs.say(50, joint_command("front_left", "0000000000000000"));

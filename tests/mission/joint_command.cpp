@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 namespace drover::mission {
@@ -58,6 +59,17 @@ constexpr std::uint64_t kJoint = 2 << 3 | 2;
 constexpr std::uint64_t kName = 1 << 3 | 2;
 constexpr std::uint64_t kVelocity = 3 << 3 | 1;
 
+std::map<std::string, double> velocities_in_json(std::string_view text) {
+  std::map<std::string, double> velocities_radps;
+  const auto message = nlohmann::json::parse(text);
+  for (const auto& joint : message.at("joints")) {
+    const auto& velocity = joint.at("velocity");
+    velocities_radps[joint.at("name").get<std::string>()] =
+        velocity == "NaN" ? NAN : velocity.get<double>();
+  }
+  return velocities_radps;
+}
+
 }  // namespace
 
 bool JointCommandLine::sound() const {
@@ -75,7 +87,10 @@ bool JointCommandLine::rests() const {
 
 JointCommandLine parse_joint_command(Time time, std::string_view hex) {
   constexpr std::string_view kPacket("\x02pb\0", 4);
+  constexpr std::string_view kJsonPacket("\x04json\0", 6);
   const auto bytes = bytes_of_hex(hex);
+  if (bytes.starts_with(kJsonPacket))
+    return {time, velocities_in_json(std::string_view(bytes).substr(kJsonPacket.size()))};
   if (!bytes.starts_with(kPacket)) throw std::runtime_error("is no packet");
   JointCommandLine line{time, {}};
   for (Fields message(std::string_view(bytes).substr(kPacket.size())); !message.end();) {

@@ -1,4 +1,4 @@
-// Joint commands as they stand on the wire: AimRT packets with a protobuf JointCommand, by hand.
+// Joint commands as they stand on the wire: AimRT packets with protobuf, by hand, or JSON.
 //
 // It shares nothing with the gateway's decoder on purpose: an error there must not hide here.
 #pragma once
@@ -12,8 +12,11 @@
 
 namespace drover::mission {
 
+/// Of the document, and of AimRT 1.x.
 inline constexpr std::string_view kJointCommandTopic =
     "/channel/%2Fjoint_command/pb%3Aaimrt.protocols.sensor.JointCommand";
+inline constexpr std::string_view kJointCommandArrayTopic =
+    "/channel/%2Fjoint_command/pb%3Aaimrt.protocols.sensor.JointCommandArray";
 
 struct JointCommandLine {
   Time time = kNever;

@@ -110,13 +110,40 @@ TEST_F(JointCommands, WithAnUnknownJointMoveNothing) {
 TEST_F(JointCommands, ThatTurnToNanEndAsIfTheyWereSilent) {
   const Time bad = step("nan");
   EXPECT_GE(unsound(bad, bad + 1s), 50U);
-  expect_ramp_after(last_of_stream(bad), step("task"));
+  expect_ramp_after(last_of_stream(bad), step("begin_array"));
   EXPECT_THAT(journal(), HasSubstr("joint command refused: joint 'rear_right': velocity is NaN"));
+}
+
+TEST_F(JointCommands, OfAimrt1xInJsonMoveTheBaseAsTheOthersDo) {
+  const Time begin = step("drive_array");
+  EXPECT_FALSE(log.moving(begin, begin + kWay).empty()) << "it does not follow";
+  const Time last = last_of_stream(begin);
+  EXPECT_GT(last, begin + 1900ms);
+  expect_steady(begin + 1s, last);
+  EXPECT_NEAR(log.truth_at(last).vx_mps, 2 * 0.165, 0.03);
+  expect_ramp_after(last, step("task"));
+  for (const auto& line : log.mqtt)
+    if (line.time > begin && line.time < last) {
+      ASSERT_NE(line.topic, kJointCommandTopic);
+    }
+}
+
+TEST_F(JointCommands, AreAnsweredUnderBothNamesOfTheStates) {
+  std::vector<std::string> document;
+  std::vector<std::string> array;
+  for (const auto& line : log.mqtt) {
+    if (line.topic.ends_with(".JointState")) document.push_back(line.payload);
+    if (line.topic.ends_with(".JointStateArray")) array.push_back(line.payload);
+  }
+  ASSERT_GT(array.size(), 1000U);
+  ASSERT_LE(document.size() - array.size(), 1U) << "the last one, when the gateway ends";
+  for (std::size_t i = 0; i < array.size(); ++i)
+    ASSERT_EQ(document[i], array[i]) << "the message " << i + 1;
 }
 
 TEST_F(JointCommands, BesideATaskChangeNothing) {
   const Time begin = step("begin_beside");
-  const Time end = log.event("event commands_end#9");
+  const Time end = log.event("event commands_end#11");
   ASSERT_GT(end - begin, 2s);
   for (const auto& status : log.statuses)
     if (status.time >= begin && status.time <= end) {

@@ -73,7 +73,7 @@ void read_mqtt(MqttLine line, const Earth& earth, Record& record) {
         {line.time, message.at("cmd").get<std::string>(), message.value("reason", "")});
   }
   if (line.topic == "mqtt_control") read_control(line.payload, earth, record);
-  if (line.topic == kJointCommandTopic)
+  if (line.topic == kJointCommandTopic || line.topic == kJointCommandArrayTopic)
     record.joint_commands.push_back(parse_joint_command(line.time, line.payload));
   append(record.mqtt, std::move(line));
 }

@@ -23,6 +23,25 @@ TEST(AJointCommandPacket, SaysWhatWasMeant) {
                 long_name + "\"\n  velocity: nan\n}\n");
 }
 
+TEST(AJointCommandPacket, SaysTheSameInJson) {
+  const std::vector<JointVelocity> joints{{"front_left", -1.5}, {"rear_left", NAN}};
+  const auto bytes = joint_command_json_packet(joints);
+  EXPECT_EQ(bytes.substr(0, 6), std::string("\x04json\0", 6));
+  EXPECT_EQ(test::protobuf_of_json("JointCommandArray", test::message_of_packet(bytes)),
+            test::message_of_packet(joint_command_packet(joints)));
+}
+
+TEST(ACommandStream, GoesToTheTopicOfItsForm) {
+  CommandStream stream;
+  const std::string topic = "/channel/%2Fjoint_command/pb%3Aaimrt.protocols.sensor.JointCommand";
+  stream.begin({{{"a", 1}}, 50, 1s, {}}, kBegin);
+  EXPECT_EQ(stream.topic(), topic);
+  EXPECT_EQ(stream.due(kBegin)->substr(0, 3), "\x02pb");
+  stream.begin({{{"a", 1}}, 50, 1s, {.aimrt_1x = true, .json = true}}, kBegin);
+  EXPECT_EQ(stream.topic(), topic + "Array");
+  EXPECT_EQ(stream.due(kBegin)->substr(0, 5), "\x04json");
+}
+
 TEST(ACommandStream, SendsAtItsRateUntilItsTimeIsOver) {
   CommandStream stream;
   EXPECT_EQ(stream.next(), Time::max());

@@ -53,6 +53,12 @@ TEST(AMission, RefusesWhatItDoesNotKnowAndNamesThePlace) {
   expect_refused(R"([{"do": {"joint_commands": {"velocities_radps": {"a": 1}}}}])", "for_s");
   expect_refused(R"([{"do": {"joint_commands": {"velocities_radps": {"a": "fast"}, "for_s": 1}}}])",
                  "joint_commands.velocities_radps.a");
+  expect_refused(R"([{"do": {"joint_commands": {"velocities_radps": {"a": 1}, "for_s": 1,
+                     "names": "both"}}}])",
+                 "joint_commands.names");
+  expect_refused(R"([{"do": {"joint_commands": {"velocities_radps": {"a": 1}, "for_s": 1,
+                     "content": "ros2"}}}])",
+                 "joint_commands.content");
   expect_refused(R"([{"delay_s": -1, "do": {"save": true}}])", "delay_s");
   expect_refused(R"([{"do": [{"save": true}, {"sim": "quit", "x": 1}]}])", "steps[0].do[1].x");
   expect_refused(R"([{"do": {"sim": ["supply", true]}}])", "steps[0].do.sim");
