@@ -73,7 +73,8 @@ FrameVerdict FrameGate::judge(std::size_t bus, const CanFrame& frame, const CanD
   if (!listed) return FrameVerdict::refused_not_allowed;
   switch (from.effect(frame)) {
     case FrameEffect::stop:
-      if (from.setpoint_radps(frame) == 0) sender->slowest_radps = 0;
+      // The zeros of rest, before anything is caught, are no part of a ramp.
+      if (slowing.permitted && from.setpoint_radps(frame) == 0) sender->slowest_radps = 0;
       return FrameVerdict::pass;
     case FrameEffect::harmless: return FrameVerdict::pass;
     case FrameEffect::motion:

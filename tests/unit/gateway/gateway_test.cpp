@@ -2,9 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "config/load.h"
+#include "drover/bytes.h"
 #include "support/describe.h"
 
 namespace drover::gateway {
@@ -37,9 +42,7 @@ class Bench {
   void cycle(bool drives_talk = true) {
     now += 5ms;
     if (drives_talk)
-      for (const char* frame : {"021#0000000008000000", "029#0000000000000000",
-                                "041#0000000008000000", "049#0000000000000000"})
-        apply(FrameHeard{0, test::parse_frame(frame)});
+      for (const char* frame : said) apply(FrameHeard{0, test::parse_frame(frame)});
     LevelsRead released;
     (void)released.levels.push_back(true);
     (void)released.levels.push_back(true);
@@ -51,9 +54,19 @@ class Bench {
       if (reason.view().find(what) != std::string_view::npos) return true;
     return false;
   }
+  /// Heartbeat and estimates of both drives: in closed loop and at rest.
+  std::array<const char*, 4> said{"021#0000000008000000", "029#0000000000000000",
+                                  "041#0000000008000000", "049#0000000000000000"};
   Time now{100s};
   Gateway gateway;
 };
+
+/// Set_Input_Vel of node 1 in the last cycle, turn/s; nothing when there was none.
+std::optional<float> setpoint_turnps(const Gateway& gateway) {
+  for (const CanFrame& frame : gateway.output().frames[0])
+    if (frame.id == 0x02D && !frame.remote) return load_le_float(frame.data);
+  return std::nullopt;
+}
 
 CanFrame bus_off() {
   CanFrame frame;
@@ -71,6 +84,32 @@ TEST(Gateway, StopsForABusThatIsOffBeforeItsDrivesAreSilent) {
   EXPECT_TRUE(bench.told("no drive answers (wheel left: can0 is bus-off"));
   bench.cycle();
   EXPECT_FALSE(bench.told("bus-off")) << "it hears frames again";
+}
+
+/// At rest the drives hear zeros all the time; those are no part of the ramp.
+TEST(Gateway, SendsTheRampOfAWheelThatItCatches) {
+  Bench bench;
+  // Both idle, and rolling with 1 turn/s.
+  bench.said = {"021#0000000001000000", "029#000000000000803F", "041#0000000001000000",
+                "049#000000000000803F"};
+  for (int i = 0; i < 200; ++i) bench.cycle();
+  bench.apply(CommandGiven{{.id = {}, .received = bench.now, .body = ArmHold{}}});
+  std::vector<float> ramp;
+  for (int i = 0; i < 40; ++i) {
+    bench.cycle();
+    const auto sent = setpoint_turnps(bench.gateway);
+    if (sent) ramp.push_back(*sent);
+    // The drives obey: in closed loop, and as fast as they are told.
+    if (i == 10)
+      bench.said = {"021#0000000008000000", "029#000000000000803F", "041#0000000008000000",
+                    "049#000000000000803F"};
+  }
+  ASSERT_GT(ramp.size(), 5U);
+  EXPECT_FLOAT_EQ(ramp.front(), 1);
+  EXPECT_TRUE(std::is_sorted(ramp.rbegin(), ramp.rend()));
+  EXPECT_GT(ramp.back(), 0);
+  EXPECT_LT(ramp.back(), 1);
+  EXPECT_EQ(bench.gateway.refused(0), 0U);
 }
 
 TEST(Gateway, TellsOfABusThatIsGoneUntilItIsBack) {

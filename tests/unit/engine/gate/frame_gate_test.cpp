@@ -211,6 +211,15 @@ TEST_F(AFrameGateThatLetsSlowDown, LetsARampFromTheMeasuredSpeedPass) {
   gate.end_slowing(drive);
   for (const int radps : {-20, -15, -1, 0}) EXPECT_EQ(slow(radps, -20), FrameVerdict::pass);
 }
+TEST_F(AFrameGateThatLetsSlowDown, TakesTheZerosOfRestForNoRamp) {
+  // The order of a cycle: the ramp is ended, then the drive says zero, as at rest.
+  for (int cycle = 0; cycle < 3; ++cycle) {
+    gate.end_slowing(drive);
+    EXPECT_EQ(admit(frame(0), false), FrameVerdict::pass);
+  }
+  for (const int radps : {20, 15, 0}) EXPECT_EQ(slow(radps, 20), FrameVerdict::pass);
+  EXPECT_EQ(slow(1, 20), kRefusedMotion) << "this zero was the ramp's end";
+}
 TEST_F(AFrameGateThatLetsSlowDown, RefusesMoreThanTheWheelHas) {
   EXPECT_EQ(slow(21, 20), kRefusedMotion);
   EXPECT_EQ(slow(1, 0), kRefusedMotion);
