@@ -10,7 +10,7 @@ namespace drover::publish::aimrt {
 namespace {
 
 constexpr Duration kShownFor = std::chrono::seconds(1);
-constexpr std::uint64_t kMostMissed = 100;  // messages in a row; more is another program's count
+constexpr double kMostMessages_Hz = 1000;  // a count that jumps further is another program's
 constexpr double kJump_radps = 0.5;
 constexpr double kSame_radps = 0.25;
 
@@ -36,11 +36,11 @@ std::string both(const Writer& owner, const Writer& other) {
 }
 
 /// The same program's count, or neither counts. `counts`: `last` was not its first message, which
-/// may have had number 0.
-bool continues(std::uint64_t last, bool counts, std::uint64_t next) {
+/// may have had number 0. `missed`: how many in between may have been lost.
+bool continues(std::uint64_t last, bool counts, std::uint64_t next, std::uint64_t missed) {
   if (next == 0) return last == 0;
   if (last == 0 && counts) return false;
-  return next >= last && next - last <= kMostMissed;
+  return next >= last && next - last <= missed + 1;
 }
 
 }  // namespace
@@ -48,7 +48,8 @@ bool continues(std::uint64_t last, bool counts, std::uint64_t next) {
 bool Writers::is_owner(const Writer& writer) const {
   return owner_ && owner_->names == writer.names && owner_->content == writer.content &&
          owner_->frame_id == writer.frame_id && (owner_->stamp_ns == 0) == (writer.stamp_ns == 0) &&
-         continues(owner_->sequence, counts_, writer.sequence);
+         continues(owner_->sequence, counts_, writer.sequence,
+                   static_cast<std::uint64_t>(kMostMessages_Hz * to_s(silence_)));
 }
 
 Reason Writers::refuse(std::string why, Time now) {
@@ -94,12 +95,15 @@ bool Writers::jumps_to_and_fro(const JointTargets& targets) {
 Reason Writers::take(const Writer& writer, const JointTargets& targets, Time now) {
   const bool goes_on = is_owner(writer);
   if (!goes_on || now - heard_ > silence_) before_.fill(std::nullopt);
+  // Two that began together count alike: each number comes twice, and not from one program.
+  const bool again = goes_on && writer.sequence == owner_->sequence;
+  if (again && writer.stamp_ns != owner_->stamp_ns) counted_twice_ = now;
+  const bool told_apart = writer.sequence != 0 && now - counted_twice_ > kShownFor;
   counts_ = goes_on;
   owner_ = writer;
   heard_ = now;
   followed_since_late_ = true;
-  // Who counts is told apart by the count.
-  if (jumps_to_and_fro(targets) && writer.sequence == 0 && !oddities_.take(now))
+  if (jumps_to_and_fro(targets) && !told_apart && !oddities_.take(now))
     mixed_until_ = now + kShownFor;
   if (now >= mixed_until_) return {};
   return refuse("two programs seem to write joint commands as " + shown(writer, false) +

@@ -57,6 +57,7 @@ class Writers final {
   std::optional<Writer> owner_;  ///< its last message that was followed
   bool counts_ = false;          ///< its second message or a later one
   Time heard_ = kNever;
+  Time counted_twice_ = kNever;  ///< a number with two time stamps
   bool followed_since_late_ = false;
   std::array<std::optional<Velocities>, 3> before_;  ///< the newest first
   /// One program alone is odd now and then, two are all the time.

@@ -63,6 +63,12 @@ TEST_F(TwoPrograms, AreToldApartByTheirCount) {
   EXPECT_THAT(give({}, 2), HasSubstr("each with its sequence_num"));
 }
 
+TEST_F(TwoPrograms, AreToldApartByACountThatJumpsFurtherThanMessagesCanGetLost) {
+  EXPECT_EQ(give({.sequence = 1}, 1), "");
+  EXPECT_EQ(give({.sequence = 102}, 1), "") << "100 are lost in 0.1 s at most";
+  EXPECT_NE(give({.sequence = 204}, 1), "");
+}
+
 TEST_F(TwoPrograms, OneOfWhichCountsAreToldApartWhicheverWasFirst) {
   EXPECT_EQ(give({}, 1), "");
   EXPECT_EQ(give({}, 1), "");
@@ -117,6 +123,15 @@ TEST_F(TwoPrograms, AtUnlikeRatesThatNothingTellsApartAreBothRefused) {
   EXPECT_THAT(rivals(), HasSubstr("none is followed"));
 }
 
+TEST_F(TwoPrograms, ThatCountAlikeAreBothRefusedToo) {
+  std::uint64_t at_ns = 1'000'000'000;
+  for (std::uint64_t i = 1; i < 100; ++i, now_ += 20ms, at_ns += 20'000'000) {
+    (void)give({.stamp_ns = at_ns, .sequence = i}, 3);
+    (void)give({.stamp_ns = at_ns + 1, .sequence = i}, 0);
+  }
+  EXPECT_THAT(rivals(), HasSubstr("none is followed"));
+}
+
 TEST_F(TwoPrograms, OneOfWhichEndsLeaveTheJointsToTheOtherAfterASecond) {
   for (int i = 0; i < 100; ++i, now_ += 20ms) {
     (void)give(document_, 3);
@@ -133,6 +148,7 @@ TEST_F(OneProgram, MayCountFromZeroLoseMessagesOrNotCount) {
   EXPECT_EQ(give({.sequence = 1}, 1), "");
   EXPECT_EQ(give({.sequence = 40}, 1), "");
   EXPECT_EQ(give({.sequence = 40}, 1), "") << "delivered twice: the stamp is for that";
+  EXPECT_EQ(give({.sequence = 140}, 1), "");
   now_ += 1s;
   EXPECT_EQ(give({}, 0), "");
   EXPECT_EQ(give({}, 1), "");
