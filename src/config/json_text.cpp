@@ -1,6 +1,7 @@
 // Writes JSON text: commas, escapes and numbers that read back to the same bits.
 #include "config/json_text.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -70,7 +71,12 @@ JsonText& JsonText::key(std::string_view name) {
 JsonText& JsonText::text(std::string_view value) {
   separate();
   out_ += '"';
+  const auto plain = [](char c) { return c >= 0x20 && c < 0x7F && c != '"' && c != '\\'; };
   while (!value.empty()) {
+    const auto* const end = std::find_if_not(value.begin(), value.end(), plain);
+    out_.append(value.begin(), end);
+    value.remove_prefix(static_cast<std::size_t>(end - value.begin()));
+    if (value.empty()) break;
     const auto c = static_cast<unsigned char>(value.front());
     const std::size_t length = utf8_length(value);
     if (c == '"' || c == '\\') {

@@ -22,6 +22,7 @@ constexpr const char* kOnlineTopic = "drover/online";
 constexpr std::size_t kMostUnacknowledged = 200;
 /// Packets that are read before others in the loop have their turn.
 constexpr int kMostPackets = 64;
+constexpr std::size_t kMostBytes = std::size_t{256} << 10;  // but a packet is never cut
 constexpr int kMqtt31Refused = 1;  // CONNACK of 3.1.1: unacceptable protocol version
 
 std::string random_client_id() {
@@ -82,6 +83,7 @@ void MqttClient::set_callbacks() {
         auto& me = self(object);
         const std::string_view payload(static_cast<const char*>(message->payload),
                                        static_cast<std::size_t>(message->payloadlen));
+        me.bytes_taken_ += payload.size();
         // 3.1.1 sets the flag on stored messages only; with 5, those were asked to stay away.
         const auto flagged =
             me.version_ == MQTT_PROTOCOL_V5 ? publish::Retain::asked : publish::Retain::stored;
@@ -155,12 +157,13 @@ void MqttClient::on_readable(Time now) {
   now_ = now;
   int waiting = 0;
   int packets = 0;
+  bytes_taken_ = 0;
   do {
     if (const int code = ::mosquitto_loop_read(client_, 1); code != MOSQ_ERR_SUCCESS)
       return failed(code);
     waiting = 0;
-  } while (++packets < kMostPackets && fd() >= 0 && ::ioctl(fd(), FIONREAD, &waiting) == 0 &&
-           waiting > 0);
+  } while (++packets < kMostPackets && bytes_taken_ < kMostBytes && fd() >= 0 &&
+           ::ioctl(fd(), FIONREAD, &waiting) == 0 && waiting > 0);
 }
 
 void MqttClient::on_writable(Time now) {

@@ -102,6 +102,7 @@ class MqttClient final {
   std::uint64_t dropped_ = 0;
   std::map<int, std::size_t> unacknowledged_;  ///< sizes of answers, by the library's number
   std::size_t bytes_under_way_ = 0;
+  std::size_t bytes_taken_ = 0;  ///< of messages, in this call of on_readable
   BrokerDelay delay_;
   NameLookup lookup_;
   std::vector<std::string> addresses_;  ///< of the host, the last that were told

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <optional>
 #include <thread>
 
 #include "integration/robot_rig.h"
@@ -65,14 +66,14 @@ std::string largest_save() {
 class Flood : public RobotRig {
  protected:
   /// Seconds until the answer; hears only what is for it, else it would be flooded itself.
-  double cancel() {
+  double ask(const std::string& cmd_type, const std::string& cmd) {
     const auto before = operator_.heard().size();
     const double asked_s = now_s();
-    operator_.publish("mqtt_control", R"({"cmd_type": "task_control", "cmd": "cancel_task"})");
+    operator_.publish("mqtt_control", R"({"cmd_type":")" + cmd_type + R"(","cmd":")" + cmd + "\"}");
     while (now_s() < asked_s + 20) {
       operator_.turn(std::chrono::milliseconds(5));
       const auto told = operator_.feedback(before);
-      if (std::find(told.begin(), told.end(), "cancel_task_success") != told.end()) break;
+      if (std::find(told.begin(), told.end(), cmd + "_success") != told.end()) break;
     }
     return now_s() - asked_s;
   }
@@ -83,36 +84,58 @@ class Flood : public RobotRig {
     return now_s() - asked_s;
   }
 
+  void hear_stops(int flood_each_second);
+
   OperatorClient operator_{"flooded"};
 };
 
 void tell(const char* what, std::vector<double> all_s) {
   std::sort(all_s.begin(), all_s.end());
   const double median_s = all_s.at(all_s.size() / 2);
-  std::printf("%s: median %.0f ms, longest %.0f ms\n", what, 1e3 * median_s, 1e3 * all_s.back());
+  const double most_s = all_s.at(all_s.size() * 9 / 10);
+  std::printf("%s: median %.0f ms, nine of ten %.0f ms, longest %.0f ms\n", what, 1e3 * median_s,
+              1e3 * most_s, 1e3 * all_s.back());
   EXPECT_LT(median_s, 0.1) << what;
   EXPECT_LT(all_s.back(), 0.5) << what << ", on a machine that others use, too";
 }
 
-TEST_F(Flood, StopsAreHeardWhileOthersFloodTheBrokerAndSaveLargeTracks) {
-  constexpr int kRounds = 15;
+/// Ten of the largest saves a second, and a flood beside them or none.
+void Flood::hear_stops(int flood_each_second) {
+  constexpr std::size_t kRounds = 30;
+  constexpr int kSaves = 20;
   ASSERT_NO_FATAL_FAILURE(start_all());
   client().disconnect();
   ASSERT_TRUE(operator_.connect(port(), "feedback"));
   std::vector<double> cancels_s;
+  std::vector<double> terminates_s;
   std::vector<double> stops_s;
   {
-    const Publisher flood(port(), R"({"cmd_type":"trajectory_control","cmd":"get_all_trajectory"})",
-                          10'000, 100);
+    std::optional<Publisher> flood;
+    if (flood_each_second > 0)
+      flood.emplace(port(), R"({"cmd_type":"trajectory_control","cmd":"get_all_trajectory"})",
+                    flood_each_second, 100);
     const Publisher saves(port(), largest_save(), 10, 1);
-    for (int i = 0; i < kRounds; ++i) {
-      cancels_s.push_back(cancel());
+    while (stops_s.size() < kRounds || saves.sent() < kSaves) {
+      cancels_s.push_back(ask("task_control", "cancel_task"));
+      terminates_s.push_back(ask("manual_control", "terminate"));
       stops_s.push_back(stop());
     }
-    std::printf("sent %d of the flood and %d saves\n", flood.sent(), saves.sent());
+    std::printf("sent %d of the flood and %d saves\n", flood ? flood->sent() : 0, saves.sent());
   }
   tell("cancel_task", cancels_s);
+  tell("terminate", terminates_s);
   tell("drover stop", stops_s);
+}
+
+TEST_F(Flood, StopsAreHeardWhileOthersFloodTheBrokerAndSaveLargeTracks) {
+  hear_stops(10'000);
+}
+
+/// None of them is refused for the flood's sake: they are read.
+TEST_F(Flood, StopsAreHeardWhileOthersSaveLargeTracks) {
+  hear_stops(0);
+  const auto told = operator_.feedback();
+  EXPECT_GT(std::count(told.begin(), told.end(), "save_trajectory_success"), 0);
 }
 
 }  // namespace

@@ -9,6 +9,8 @@ namespace drover::test {
 OperatorClient::OperatorClient(const char* id) {
   ::mosquitto_lib_init();
   client_ = ::mosquitto_new(id, true, this);
+  // Otherwise a message waits up to 40 ms for the acknowledgement of the one before.
+  ::mosquitto_int_option(client_, MOSQ_OPT_TCP_NODELAY, 1);
   ::mosquitto_message_callback_set(client_,
                                    [](mosquitto*, void* self, const mosquitto_message* message) {
                                      static_cast<OperatorClient*>(self)->heard_.push_back(

@@ -210,6 +210,15 @@ TEST_F(MqttClientTest, KnowsHowMuchOfItsAnswersIsStillOnItsWay) {
   EXPECT_EQ(client_->bytes_under_way(), 0U);
 }
 
+TEST_F(MqttClientTest, LeavesTimeForOthersBetweenLargeMessages) {
+  connect();
+  const std::string large(40'000, ' ');
+  for (int i = 0; i < 10; ++i) broker_.publish("mqtt_control", large, false);
+  client_->on_readable(now_);
+  EXPECT_LE(heard_.size(), 7U);
+  EXPECT_TRUE(turn_until([&] { return heard_.size() == 10; }));
+}
+
 TEST_F(MqttClientTest, FindsABrokerByItsNameWithoutWaitingForIt) {
   make("localhost");
   const Time before = monotonic_now();
