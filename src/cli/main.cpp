@@ -3,6 +3,9 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <span>
 #include <string>
@@ -113,16 +116,39 @@ int status(const Settings& settings) {
 }
 
 void print_version(const Settings& settings) {
-  std::printf("drover %s\n", DROVER_VERSION);
+  std::string running;
+  std::string problem = "droverd's answer is not understood";
   try {
-    const auto reply = drover::cli::ask(settings.socket, request("version"));
-    const auto document = drover::json::parse(reply);
+    const auto document =
+        drover::json::parse(drover::cli::ask(settings.socket, request("version")));
     const auto* version = document ? document->root.find("version") : nullptr;
-    if (version != nullptr && version->text() != nullptr)
-      std::printf("droverd %s\n", version->text()->c_str());
+    if (version != nullptr && version->text() != nullptr) running = *version->text();
   } catch (const drover::cli::NoAnswer& no) {
-    std::printf("droverd: %s\n", no.text.c_str());
+    problem = no.text;
   }
+  if (settings.json) {
+    JsonText out;
+    out.open('{').key("ok").boolean(true).key("drover").text(DROVER_VERSION);
+    if (!running.empty()) out.key("droverd").text(running);
+    std::printf("%s\n", out.close('}').str().c_str());
+  } else {
+    std::printf("drover %s\n", DROVER_VERSION);
+    if (running.empty()) {
+      std::printf("droverd: %s\n", problem.c_str());
+    } else {
+      std::printf("droverd %s\n", running.c_str());
+    }
+  }
+}
+
+/// The library reads hexadecimals and takes "nan" for a speed: what drives the robot is a plain
+/// number.
+std::string not_a_plain_number(const std::string& text) {
+  double value = 0;
+  const auto* end = text.data() + text.size();
+  const auto read = std::from_chars(text.data(), end, value);
+  const bool plain = read.ec == std::errc() && read.ptr == end && std::isfinite(value);
+  return plain ? "" : "\"" + text + "\" is no number";
 }
 
 }  // namespace
@@ -174,8 +200,12 @@ int main(int argc, char** argv) {
   auto* task = app.add_subcommand("task", "drive a track")->require_subcommand(1);
   auto* start = task->add_subcommand("start", "drive along a track to one of its points");
   start->add_option("name", s.name, "track")->required();
-  start->add_option("--id", s.id, "number of the point to stop at")->required();
-  start->add_option("--speed", s.speed_mps, "m/s")->capture_default_str();
+  start->add_option("--id", s.id, "number of the point to stop at")
+      ->required()
+      ->check(CLI::Range(std::int64_t{0}, std::int64_t{UINT32_MAX}));
+  start->add_option("--speed", s.speed_mps, "m/s")
+      ->capture_default_str()
+      ->check(CLI::Validator(not_a_plain_number, "", "a number"));
   start->add_flag("--json", s.json, "one JSON object");
   start->callback([&] { code = run(s, start_request(s)); });
   auto* cancel = task->add_subcommand("cancel", "stop");
@@ -206,9 +236,9 @@ int main(int argc, char** argv) {
   hold->add_flag("--json", s.json, "one JSON object");
   hold->footer("Examples:\n  drover hold");
   hold->callback([&] { code = run(s, request("hold")); });
-  app.add_subcommand("version", "versions of drover and droverd")->callback([&] {
-    print_version(s);
-  });
+  auto* version = app.add_subcommand("version", "versions of drover and droverd");
+  version->add_flag("--json", s.json, "one JSON object");
+  version->callback([&] { print_version(s); });
 
   drover::cli::add_examples(app);
   // What cannot be parsed has not set s.json yet.
@@ -230,6 +260,11 @@ int main(int argc, char** argv) {
   } catch (const drover::cli::NoAnswer& no) {
     drover::cli::tell_failure(json, "drover", no.text);
     return kNoDaemon;
+  }
+  // A script that writes to a full disk must not take nothing for an answer.
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+    std::fprintf(stderr, "drover: cannot write to standard output\n");
+    return kRefused;
   }
   return code;
 }

@@ -49,8 +49,11 @@ void CommandService::tell(RequestId id, Verb verb, bool ok, std::string_view tex
   } else if (id.source == RequestId::Source::cli && verb != Verb::start_nav) {
     out.push_back(Answer{id, ok, std::string(text)});
   }
+  // The stored origin at the start, or the first one: nobody has commanded it.
+  const bool asked = id.source != RequestId::Source::internal;
+  const std::string what = ok && !asked ? "the origin is in use" : cmd;
   out.push_back(LogLine{ok ? Notice::Level::info : Notice::Level::warning,
-                        text.empty() ? cmd : cmd + ": " + std::string(text)});
+                        text.empty() ? what : what + ": " + std::string(text)});
 }
 
 void CommandService::finish(RequestId id, Verb verb, bool ok, std::string_view text, Actions& out) {

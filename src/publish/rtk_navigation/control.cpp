@@ -251,6 +251,10 @@ std::string failure_cmd(std::string_view cmd) {
 
 Result<ControlCommand, ControlRefusal> parse_control(std::string_view payload, Retain retain,
                                                      const ControlLimits& limits) {
+  // Some platforms' writers begin each text with one: a stop of theirs is a stop.
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  if (payload.starts_with(kByteOrderMark) && may_stop(payload))
+    payload.remove_prefix(kByteOrderMark.size());
   const auto parsed = json::parse(payload, {limits.max_bytes, limits.max_depth, limits.max_values});
   if (!parsed.ok()) {
     const Row* told = find_row(told_cmd(payload));

@@ -66,4 +66,14 @@ expect "wrong usage is JSON for programs" 2 out '{"ok":false,"reason":"' \
 expect "an unknown verb is JSON for programs" 2 out '{"ok":false,"reason":"no verb' statsu --json
 expect "a file that is not there is JSON for programs" 1 out '{"ok":false,"reason":"' \
   gnss --file "$work/none" --json
+expect "a speed is a plain number" 2 err '"nan" is no number' task start x --id 1 --speed nan
+expect "not a hexadecimal one" 2 err '"0x1p-1" is no number' task start x --id 1 --speed 0x1p-1
+expect "a point's number is one that there can be" 2 err "id" \
+  task start x --id 99999999999999999999
+expect "the version is told to programs, too" 0 out '{"ok":true,"drover":"' version --json
+if [[ -w /dev/full ]]; then
+  "$drover" version > /dev/full 2> "$work/err"
+  [[ $? == 1 ]] && grep -q "cannot write to standard output" "$work/err"
+  verdict $? "what cannot be written is a failure"
+fi
 exit $failed

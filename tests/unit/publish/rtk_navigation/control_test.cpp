@@ -160,6 +160,10 @@ TEST(Control, RefusesHostileText) {
   }
 }
 
+TEST(Control, ObeysAStopBehindAByteOrderMark) {
+  EXPECT_EQ(answer("\xEF\xBB\xBF" + example("cancel_task")), "accepted");
+}
+
 TEST(Control, RefusesADuplicateKeyInsteadOfTakingTheLast) {
   EXPECT_THAT(
       answer("{\"cmd_type\":\"task_control\",\"cmd\":\"start_task\",\"name\":\"1\",\"id\":1,"
