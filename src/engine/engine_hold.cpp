@@ -69,6 +69,8 @@ void Engine::Impl::arm_hold(const RequestId& id, Time now) {
     why = "the drives have no power: drover reset";
   } else if (wheel_fault == WheelFault::runaway || navigator.run_away()) {
     why = "a wheel ran away: drover reset";
+  } else if (report.holds(Cause::foreign)) {
+    why = report.text(Cause::foreign);
   } else if (driven || navigator.active()) {
     why = "the robot is being driven, and holds when it stops";
   } else if (!report.drives_ok) {

@@ -98,7 +98,8 @@ INSTANTIATE_TEST_SUITE_P(
                     "can_replugged", "chip_replugged", "hang_without_bus", "heading_find",
                     "battery_low", "runs_on", "carried", "gear_ratio_10", "gear_ratio_2",
                     "sides_swapped", "wheel_reversed", "restart_on_ramp", "dip_on_ramp",
-                    "stop_and_kill"),
+                    "stop_and_kill", "brake_on_ramp", "worm_gear_on_ramp", "rolls_on_ramp",
+                    "runs_on_ramp", "rest_on_ramp"),
     [](const auto& one) { return std::string(one.param); });
 
 }  // namespace

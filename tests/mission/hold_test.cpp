@@ -42,6 +42,36 @@ TEST(RestartOnRamp, LetsANewStartReachTheGoal) {
   expect_new_start_succeeds(log, log.event("start droverd", 3));
 }
 
+/// With nobody there, and without power.
+class HeldWithoutPower : public testing::TestWithParam<const char*> {};
+
+TEST_P(HeldWithoutPower, StandsOnTheSlopeWhileBothProgramsAreDead) {
+  const Record& log = record(GetParam());
+  const Time killed = log.event("signal 9 to droverd");
+  const Time back = log.event("start droverd", 2);
+  ASSERT_GT(log.truth_at(killed).z_m - log.truth.front().z_m, 0.05) << "it is not on the ramp";
+  EXPECT_GT(log.truth_at(killed).vx_mps, 0.3);
+  EXPECT_FALSE(log.level_at("enable_relay", killed + 100ms).value()) << "nobody has its line";
+  const Roll alone = roll(log, killed, back);
+  figure("way until it stood", alone.way_m, "m");
+  EXPECT_LT(alone.way_m, 0.15);
+  EXPECT_LT(roll(log, killed + 600ms, back).way_m, 0.01);
+}
+
+TEST_P(HeldWithoutPower, HasItsPowerAgainAndIsHeldAgainWithoutAJolt) {
+  const Record& log = record(GetParam());
+  const Time back = log.event("start droverd", 2);
+  const Time end = log.event("event cancelled#1");
+  EXPECT_TRUE(log.level_at("enable_relay", end).value());
+  const Roll after = roll(log, back, end);
+  figure("way from the start on", after.way_m, "m");
+  EXPECT_LT(after.way_m, 0.03);
+}
+
+INSTANTIATE_TEST_SUITE_P(Each, HeldWithoutPower,
+                         testing::Values("brake_on_ramp", "worm_gear_on_ramp"),
+                         [](const auto& one) { return std::string(one.param); });
+
 TEST(DipOnRamp, HoldsTheRobotAgainAsSoonAsTheDrivesHaveTheirSupply) {
   const Record& log = record("dip_on_ramp");
   const Time dipped = log.event("event dipped#1");

@@ -48,5 +48,25 @@ INSTANTIATE_TEST_SUITE_P(Each, Mechanics,
                                          WrongMechanics{"wheel_reversed", "wheel reversed"}),
                          [](const auto& one) { return std::string(one.param.mission); });
 
+TEST(ImuUpsideDown, IsNamedAndNothingMoves) {
+  const Record& log = record("imu_upside_down");
+  ASSERT_FALSE(log.feedback.empty());
+  EXPECT_EQ(log.feedback.back().cmd, "start_task_failse");
+  EXPECT_NE(log.feedback.back().reason.find("gravity on the wrong axis"), std::string::npos)
+      << log.feedback.back().reason;
+  EXPECT_TRUE(log.moving().empty());
+}
+
+TEST(StartWhileRolling, IsRefusedAndNothingMoves) {
+  const Record& log = record("start_while_rolling");
+  const Time refused = log.event("event refused#1");
+  EXPECT_GT(log.truth_at(refused).vx_mps, 0.1) << "it does not roll";
+  EXPECT_EQ(log.feedback_words(),
+            (std::vector<std::string>{"save_trajectory_success", "start_task_failse"}));
+  EXPECT_NE(log.feedback.at(1).reason.find("without a command"), std::string::npos)
+      << log.feedback.at(1).reason;
+  EXPECT_TRUE(log.moving().empty());
+}
+
 }  // namespace
 }  // namespace drover::mission

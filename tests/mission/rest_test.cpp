@@ -4,6 +4,14 @@
 namespace drover::mission {
 namespace {
 
+bool told(const Record& log, const char* what, Time begin, Time end) {
+  for (const Status& status : log.statuses) {
+    if (status.time < begin || status.time > end) continue;
+    if (status.why.find(what) != std::string::npos) return true;
+  }
+  return false;
+}
+
 TEST(RunsOn, LosesItsPowerAndComesToRest) {
   const Record& log = record("runs_on");
   const Time stopped = log.event("event stopped#1");
@@ -14,14 +22,6 @@ TEST(RunsOn, LosesItsPowerAndComesToRest) {
   figure("relay open after the stop", cuts.front().time - stopped);
   tell_way_to_rest(log, stopped, stopped + 4s);
   EXPECT_NEAR(log.truth_at(stopped + 4s).vx_mps, 0, 0.01);
-}
-
-bool told(const Record& log, const char* what, Time begin, Time end) {
-  for (const Status& status : log.statuses) {
-    if (status.time < begin || status.time > end) continue;
-    if (status.why.find(what) != std::string::npos) return true;
-  }
-  return false;
 }
 
 TEST(Carried, IsToldRefusesAStartAndCutsNothing) {
@@ -48,6 +48,50 @@ TEST(RunsOn, IsToldAndLatchedUntilAResetAtTheRobot) {
   EXPECT_TRUE(told(log, "did not stop", error.time, Time::max()));
   EXPECT_EQ(log.feedback_words().back(), "start_task_failse");
   EXPECT_TRUE(log.level_at("enable_relay", log.event("event reset#1") + 2s).value());
+}
+
+// On ground that is too steep for a base that only its drives hold, a cut lets it roll.
+TEST(RunsOnRamp, LosesItsPowerBecauseItIsDriven) {
+  const Record& log = record("runs_on_ramp");
+  const auto& error = log.first_status("NAV_ERROR");
+  EXPECT_TRUE(told(log, "the ground falls by", error.time, error.time)) << error.why;
+  const auto cuts = log.changes("enable_relay", error.time, Time::max());
+  ASSERT_EQ(cuts.size(), 1U) << "the relay did not fall";
+  figure("relay open after the stop", cuts.front().time - error.time);
+  figure("way until the relay opened", roll(log, error.time, cuts.front().time).way_m, "m");
+  EXPECT_TRUE(told(log, "did not stop", error.time, Time::max()));
+}
+
+TEST(RollsOnRamp, KeepsItsPowerBecauseItRolls) {
+  const Record& log = record("rolls_on_ramp");
+  const auto& error = log.first_status("NAV_ERROR");
+  EXPECT_TRUE(told(log, "the ground falls by", error.time, error.time)) << error.why;
+  const Time dipped = log.event("event dipped#1");
+  const Roll rolled = roll(log, dipped, log.truth.back().time);
+  figure("way that it rolled back", rolled.way_m, "m");
+  figure("fastest", rolled.fastest_mps, "m/s");
+  EXPECT_GT(rolled.way_m, 0.5) << "it did not roll: this proves nothing";
+  EXPECT_TRUE(told(log, "moves without a command", dipped, Time::max()));
+  EXPECT_FALSE(told(log, "did not stop", kNever, Time::max()));
+  EXPECT_TRUE(log.changes("enable_relay", error.time, Time::max()).empty());
+}
+
+TEST(RestOnRamp, CutsNothingWhateverEncodersReceiverAndPeopleDo) {
+  const Record& log = record("rest_on_ramp");
+  const Time cancelled = log.event("event cancelled#1");
+  ASSERT_GT(log.truth_at(cancelled).z_m - log.truth.front().z_m, 0.05) << "it is not on the ramp";
+  const Roll held = roll(log, cancelled + 1s, log.event("event well#1"));
+  figure("way at rest with frozen encoders", held.way_m, "m");
+  EXPECT_LT(held.way_m, 0.05);
+  const Time pushed = log.event("event pushed#1");
+  figure("way by hand", roll(log, pushed, pushed + 3s).way_m, "m");
+  EXPECT_FALSE(told(log, "did not stop", kNever, Time::max()));
+  EXPECT_TRUE(log.changes("enable_relay", cancelled, Time::max()).empty());
+}
+
+TEST(RestOnRamp, DrivesOnAfterwards) {
+  const Record& log = record("rest_on_ramp");
+  EXPECT_EQ(log.statuses.back().nav, "NAV_SUCCESS");
 }
 
 }  // namespace

@@ -134,7 +134,7 @@ void RestWatch::settle(const RestInput& input, const Rims& rims, const Testimony
   const bool late = input.now - due_ >= from_s(kRestPatience_s);
   const bool lasts = moves && input.now - moves_since_ >= from_s(kMotionHeld_s);
   if (ours_ && late && lasts && !input.power_is_off &&
-      ((!input.steep && !input.caught) || moves_as_commanded(input, rims))) {
+      (!may_roll_ || moves_as_commanded(input, rims))) {
     state_ = RestState::not_stopping;
     tell("the robot did not stop", rims, said);
     return;
@@ -179,6 +179,8 @@ RestState RestWatch::update(const RestInput& input) {
   const Rims rims = this->rims(input);
   turning_ = std::abs(rims.fastest_mps) > kTurns_mps;
   const bool is_due = due(input, rims);
+  // What began to roll on a slope still rolls where the ground is level again.
+  may_roll_ = input.steep || input.caught || (may_roll_ && is_due && state_ != RestState::resting);
   if (state_ == RestState::not_stopping) {
     // What it rolled until it came to rest is no motion any more.
     if (due_ == kNever || input.now - due_ > kLookAgainAfterCut) {

@@ -73,8 +73,9 @@ class RestWatch final {
   MotionWitness witness_;
   RestState state_ = RestState::settling;
   Reason reason_;
-  bool ours_ = false;     ///< we moved it since it rested last
-  double direction_ = 0;  ///< sign of the last command of one who drove
+  bool ours_ = false;      ///< we moved it since it rested last
+  double direction_ = 0;   ///< sign of the last command of one who drove
+  bool may_roll_ = false;  ///< it was steep, or rolled, since rest is due
   bool begun_ = false;
   bool turning_ = false;     ///< the wheels, in the last cycle
   double expected_mps_ = 0;  ///< how fast it may still be

@@ -34,19 +34,20 @@ void TiltWatch::on_sample(const ImuSample& sample, Time at) {
 void TiltWatch::update(Time now, double roll_rad, double pitch_rad) {
   const bool felt = sample_at_ != kNever && now - sample_at_ < from_s(kTiltStale_s) &&
                     std::abs(force_mps2_ - kGravity_mps2) < kShock_mps2;
-  const bool wrong = felt && up_mps2_ < kUpright * kGravity_mps2;
+  // Its driver may reject such a sensor: what was felt last stands, until it feels otherwise.
+  if (felt) wrong_axis_ = up_mps2_ < kUpright * kGravity_mps2;
   const double tilt_rad =
       std::acos(std::clamp(std::cos(roll_rad) * std::cos(pitch_rad), -1.0, 1.0));
   const double limit_rad = to_rad(config_.tilt_limit_deg) * (reason_.empty() ? 1.0 : kBack);
   const bool tilted = std::isfinite(tilt_rad) && tilt_rad > limit_rad;
-  if (!wrong && !tilted) {
+  if (!wrong_axis_ && !tilted) {
     tilted_since_ = kNever;
     reason_.clear();
     return;
   }
   if (tilted_since_ == kNever) tilted_since_ = now;
   if (now - tilted_since_ < from_s(kTiltHeld_s)) return;
-  if (wrong) {
+  if (wrong_axis_) {
     reason_ =
         "the IMU feels gravity on the wrong axis: it is mounted another way than configured, or "
         "the robot lies on its side";

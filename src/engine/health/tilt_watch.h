@@ -26,6 +26,7 @@ class TiltWatch final {
   double up_mps2_ = kAbsent;     ///< along z, smoothed
   double force_mps2_ = kAbsent;  ///< magnitude, smoothed
   Time sample_at_ = kNever;
+  bool wrong_axis_ = false;  ///< gravity, when it was felt last
   Time tilted_since_ = kNever;
   Reason reason_;
 };

@@ -20,8 +20,8 @@ constexpr Duration kRetry = milliseconds(500);
 /// A line counts as active until its contact has held for a while: that is no e-stop yet.
 constexpr Duration kLinesKnownAfter = milliseconds(500);
 constexpr double kReleaseTilt_deg = 2.0;
-/// Slower is an encoder's noise.
-constexpr double kTurns_mps = 0.01;
+/// Slower needs no ramp, and may be what a drive's estimate says while it settles after its boot.
+constexpr double kTurns_mps = 0.05;
 
 }  // namespace
 

@@ -176,6 +176,17 @@ TEST_F(ARobotWithAnIMU, ThatIsMountedUpsideDownRefusesAStart) {
   EXPECT_THAT(refusal(), HasSubstr("gravity on the wrong axis"));
 }
 
+TEST_F(ARobotWithAnIMU, ThatIsMountedUpsideDownIsNamedStillWhenItsDriverRejectsIt) {
+  rig.gravity_mps2 = {0, 0, -9.81};
+  rig.settle();
+  rig.imu = false;
+  rig.environment.imu.state = SourceState::stale;
+  rig.run_s(2);
+  rig.start(path, 40, 0.5);
+  rig.tick();
+  EXPECT_THAT(refusal(), HasSubstr("gravity on the wrong axis"));
+}
+
 TEST_F(ARobotWithAnIMU, ThatIsMountedOnItsSideRefusesAStart) {
   rig.gravity_mps2 = {0, 9.81, 0};
   rig.settle();

@@ -246,6 +246,15 @@ TEST_F(ARobotOnASlope, KeepsItsPowerWhenItRollsBack) {
   EXPECT_THAT(told(), HasSubstr("the robot moves without a command"));
 }
 
+TEST_F(ARobotOnASlope, KeepsItsPowerWhenItRollsDownToLevelGround) {
+  drive_up();
+  stop_on_the_slope();
+  rig.carried = kRollsBack;
+  rest_s(2);
+  rig.gravity_mps2 = {0, 0, 9.81};
+  rest_s(3);
+}
+
 TEST_F(ARobotOnASlope, KeepsItsPowerWhenItIsCaughtAndRollsOn) {
   drive_up();
   stop_on_the_slope();
