@@ -1,0 +1,165 @@
+#include "runtime/control_loop.h"
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <stdlib.h>
+#include <sys/socket.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include <thread>
+
+#include "config/load.h"
+#include "link/can_wire.h"
+#include "runtime/clock.h"
+#include "support/allocation_counter.h"
+#include "support/small_robot.h"
+#include "support/temp_folder.h"
+
+namespace drover::runtime {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// The other end of the bus, as the simulator has it.
+class Bus final {
+ public:
+  explicit Bus(const std::string& path)
+      : listener_(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_NONBLOCK, 0)) {
+    sockaddr_un address{};
+    address.sun_family = AF_UNIX;
+    path.copy(address.sun_path, sizeof address.sun_path - 1);
+    (void)::bind(listener_.get(), reinterpret_cast<sockaddr*>(&address), sizeof address);
+    (void)::listen(listener_.get(), 2);
+  }
+  bool connected() {
+    if (!peer_) peer_ = link::UniqueFd(::accept(listener_.get(), nullptr, nullptr));
+    return static_cast<bool>(peer_);
+  }
+  void put(const CanFrame& frame) const {
+    canfd_frame wire;
+    const auto size = link::to_wire(frame, wire);
+    (void)!::send(peer_.get(), &wire, size, MSG_DONTWAIT | MSG_NOSIGNAL);
+  }
+  /// How many frames came since the last call.
+  int take() const {
+    int frames = 0;
+    for (canfd_frame wire; ::recv(peer_.get(), &wire, sizeof wire, MSG_DONTWAIT) > 0;) ++frames;
+    return frames;
+  }
+  void hang_up() { peer_.reset(); }
+
+ private:
+  link::UniqueFd listener_;
+  link::UniqueFd peer_;
+};
+
+/// The receiver's end of its line.
+class Receiver final {
+ public:
+  Receiver() : fd_(::posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK)) {
+    (void)::grantpt(fd_.get());
+    (void)::unlockpt(fd_.get());
+  }
+  std::string path() const { return ::ptsname(fd_.get()); }
+  void say(std::string_view text) const { (void)!::write(fd_.get(), text.data(), text.size()); }
+
+ private:
+  link::UniqueFd fd_;
+};
+
+std::string replaced(std::string text, const std::string& was, const std::string& is) {
+  return text.replace(text.find(was), was.size(), is);
+}
+
+/// The loop and the thread that opens its links, with wires that a test holds.
+class ControlLoopTest : public testing::Test {
+ protected:
+  ~ControlLoopTest() override {
+    stop_ = true;
+    keeper_.wake();
+    control_thread_.join();
+    keeper_thread_.join();
+  }
+  std::string configuration() const {
+    const auto& folder = folder_.path();
+    auto text = replaced(test::kSmallRobot, R"("interface": "can0")",
+                         R"("interface": "unix:)" + folder + R"(/can0.sock")");
+    text = replaced(text, "/dev/drover/gnss", receiver_.path());
+    text = replaced(text, "/dev/drover/imu", folder + "/no_imu");
+    return replaced(text, R"("mqtt")",
+                    R"("guard": {"socket": ")" + folder + R"(/no_guard"}, "mqtt")");
+  }
+  template <class Done>
+  bool wait_until(Done done) {
+    for (int i = 0; i < 2000; ++i) {
+      if (done()) return true;
+      std::this_thread::sleep_for(5ms);
+    }
+    return false;
+  }
+  std::uint64_t cycles() const { return exchange_.beats.load(); }
+  void wait_for_cycles(std::uint64_t count) {
+    const auto end = cycles() + count;
+    ASSERT_TRUE(wait_until([&] { return cycles() >= end; }));
+  }
+
+  test::TempFolder folder_;
+  Bus bus_{folder_.path() + "/can0.sock"};
+  Receiver receiver_;
+  config::Loaded loaded_ = config::load_text(configuration(), DROVER_SOURCE_DIR "/config/maps");
+  Gateway gateway_{loaded_.config};
+  GuardMemory guard_;
+  LinkKeeper keeper_{loaded_.config, guard_, {gateway_.stop_frames(0)}};
+  std::unique_ptr<ControlExchange> exchange_owner_ = std::make_unique<ControlExchange>();
+  ControlExchange& exchange_ = *exchange_owner_;
+  std::unique_ptr<StorageExchange> storage_ = std::make_unique<StorageExchange>();
+  std::vector<std::string> report_;
+  RobotMemory memory_{folder_.path(), "a boot", loaded_.text, report_};
+  ControlLoop control_{loaded_.config, gateway_, keeper_, guard_, exchange_, {memory_, *storage_}};
+  std::atomic<bool> stop_{false};
+  std::atomic<std::uint64_t> allocations_{0};
+  std::thread keeper_thread_{[this] { keeper_.run(stop_); }};
+  std::thread control_thread_{[this] {
+    const test::AllocationCounter counter;
+    control_.run(stop_);
+    allocations_ = counter.count();
+  }};
+};
+
+TEST_F(ControlLoopTest, AllocatesNothingWhateverComes) {
+  ASSERT_TRUE(wait_until([this] { return bus_.connected(); }));
+  CanFrame heartbeat;
+  heartbeat.id = 0x21;
+  heartbeat.len = 8;
+  const std::string position =
+      "$GNGGA,120000.00,2308.97914,N,11301.17998,E,4,20,0.6,20.0,M,0,M,1,1*";
+  for (int i = 0; i < 50; ++i) {
+    bus_.put(heartbeat);
+    heartbeat.id ^= 0x40;  // the other drive, and the first again
+    receiver_.say(position + "00\r\nnoise\xFF\n");
+    const RequestId id{RequestId::Source::mqtt, static_cast<std::uint64_t>(i + 1)};
+    (void)exchange_.commands.push(QueuedCommand{{id, monotonic_now(), ResetStop{}}, {}});
+    (void)exchange_.commands.push(QueuedCommand{{id, monotonic_now(), ProposeOrigin{}}, {}});
+    if (i % 10 == 0) exchange_.stops.ask_stop();
+    if (i % 10 == 5) exchange_.stops.ask_cancel();
+    wait_for_cycles(1);
+  }
+  EXPECT_GT(bus_.take(), 0) << "it asks the drives";
+  // A bus that is lost and comes back is given away and taken without a new object.
+  bus_.hang_up();
+  ASSERT_TRUE(wait_until([this] { return bus_.connected(); }));
+  wait_for_cycles(20);
+  Event event;
+  int events = 0;
+  while (exchange_.events.pop(event)) ++events;
+  EXPECT_GT(events, 0);
+  stop_ = true;
+  keeper_.wake();
+  control_thread_.join();
+  EXPECT_EQ(allocations_, 0U);
+  control_thread_ = std::thread([] {});
+}
+
+}  // namespace
+}  // namespace drover::runtime
