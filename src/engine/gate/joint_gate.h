@@ -9,25 +9,33 @@
 
 namespace drover::engine {
 
-/// The base's limits, taken to the joints by the wheel radius. What is not permitted becomes a ramp
-/// to zero; an immediate stop is zero at once.
+/// The base's limits hold for the twist that the joints make together, taken by the wheel radius.
+/// What is too fast is scaled, all joints alike, so that the curve stays. What is not permitted
+/// becomes a ramp to zero; an immediate stop is zero at once.
 class JointGate final {
  public:
-  JointGate(const LimitsConfig& limits, double wheel_radius_m);
+  using Velocities = std::array<double, kMaxAxes>;
 
-  /// `wanted_radps` by AxisId. Values that are not numbers count as zero. With any stop but `none`
-  /// nothing is followed.
-  void step(Duration dt, std::span<const double> wanted_radps, double max_radps, Stop stop);
+  JointGate(const BaseConfig& base, const LimitsConfig& limits);
+
+  /// `wanted_radps` by AxisId. Values that are not numbers count as zero. `cap_mps`: no wheel's rim
+  /// is faster. With any stop but `none` nothing is followed.
+  void step(Duration dt, std::span<const double> wanted_radps, double yaw_slip_factor,
+            double cap_mps, Stop stop);
   void reset() { velocities_.fill(0); }
 
   bool at_rest() const;
   /// rad/s by AxisId, to be commanded now.
-  const std::array<double, kMaxAxes>& velocities_radps() const { return velocities_; }
+  const Velocities& velocities_radps() const { return velocities_; }
 
  private:
-  double acceleration_radps2_;
-  double deceleration_radps2_;
-  std::array<double, kMaxAxes> velocities_{};
+  double permitted_share(const Velocities& wanted_radps, double yaw_slip_factor,
+                         double cap_mps) const;
+  void approach(const Velocities& target_radps, double dt_s);
+
+  BaseConfig base_;
+  LimitsConfig limits_;
+  Velocities velocities_{};
 };
 
 }  // namespace drover::engine

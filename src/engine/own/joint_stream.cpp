@@ -12,6 +12,7 @@ using namespace std::chrono_literals;
 // A stream of 200 refused messages a second is one line in the journal.
 constexpr Duration kSameAgain = 1s;
 constexpr Duration kBetweenNews = 200ms;
+constexpr Duration kRestFirst = 300ms;
 
 Reason text_of(const char* what, std::string_view why) {
   Reason text;
@@ -20,6 +21,22 @@ Reason text_of(const char* what, std::string_view why) {
 }
 
 }  // namespace
+
+/// Not shorter than the time between two messages of a stream that is just fast enough to live.
+bool JointStream::rested(Time now) const {
+  return zeros_since_ != kNever && now - last_zero_ <= timeout_ &&
+         now - zeros_since_ >= std::max(kRestFirst, timeout_);
+}
+
+void JointStream::watch_zeros(bool neutral, Time now) {
+  if (!neutral) {
+    zeros_since_ = kNever;
+    return;
+  }
+  const bool goes_on = zeros_since_ != kNever && now - last_zero_ <= timeout_;
+  if (!goes_on) zeros_since_ = now;
+  last_zero_ = now;
+}
 
 void JointStream::take(const JointTargets& targets, std::string_view busy, Time now) {
   std::array<double, kMaxAxes> wanted{};
@@ -30,13 +47,21 @@ void JointStream::take(const JointTargets& targets, std::string_view busy, Time 
     wanted[joint.axis] = joint.velocity_radps;
   }
   const bool neutral = std::all_of(wanted.begin(), wanted.end(), [](double v) { return v == 0; });
+  const bool from_rest = rested(now);
+  watch_zeros(neutral, now);
   if (!busy.empty()) {
     if (following_) end(busy);
     if (!neutral) return reject(busy);
     last_ = now;
     return;
   }
-  if (!following_ && !neutral) return reject("a stream of joint commands begins with velocity 0");
+  if (!neutral && !may_move_ && !(following_ && from_rest)) {
+    Reason why;
+    why.format("a stream of joint commands begins with velocity 0, and nothing else for %.1f s",
+               to_s(std::max(kRestFirst, timeout_)));
+    return reject(why);
+  }
+  may_move_ = may_move_ || !neutral;
   if (!following_) since_ = now;
   following_ = true;
   last_ = now;
@@ -69,7 +94,8 @@ void JointStream::announce(Time now, EventQueue& events) {
 
 void JointStream::end(std::string_view why) {
   if (!following_) return;
-  following_ = false;
+  following_ = may_move_ = false;
+  zeros_since_ = kNever;
   velocities_.fill(0);
   reason_ = why;
   news_ = text_of("joint commands ended: ", why);

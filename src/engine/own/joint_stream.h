@@ -9,8 +9,9 @@
 
 namespace drover::engine {
 
-/// A stream begins with a message whose velocities are all zero, so that a program that was stopped
-/// while it drove does not drive on when the cause is gone; and it ends when it falls silent.
+/// Before anything moves every message has to say zero for a while, so that a program that was
+/// stopped while it drove does not drive on when the cause is gone, not even when another one
+/// writes zeros between. A stream ends when it falls silent.
 class JointStream final {
  public:
   explicit JointStream(Duration timeout) : timeout_(timeout) {}
@@ -36,9 +37,14 @@ class JointStream final {
 
  private:
   void reject(const Reason& why);
+  bool rested(Time now) const;
+  void watch_zeros(bool neutral, Time now);
 
   Duration timeout_;
   bool following_ = false;
+  bool may_move_ = false;  ///< it has shown its rest
+  Time zeros_since_ = kNever;
+  Time last_zero_ = kNever;
   Time last_ = kNever;
   Time since_ = kNever;
   std::array<double, kMaxAxes> velocities_{};

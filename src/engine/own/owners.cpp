@@ -19,10 +19,15 @@ Reason why_at_once(const OwnInput& input) {
 Owners::Owners(const EngineConfig& config)
     : config_(config),
       twist_gate_(config.limits, kOldestTarget),
-      joint_gate_(config.limits, config.base.wheel_radius_m),
+      joint_gate_(config.base, config.limits),
       stream_(from_s(config.health.joint_command_timeout_s)),
       creep_(config.navigate),
       busy_("the gateway has just started") {}
+
+void Owners::take(const JointTargets& targets, Time now) {
+  // What runs may go on, and nothing new begins.
+  stream_.take(targets, busy_.empty() && !stream_.following() ? no_start_ : busy_, now);
+}
 
 double Owners::timeout_s(Owner owner) const {
   switch (owner) {
@@ -40,6 +45,7 @@ void Owners::find_heading(const RequestId& id, const Estimate& estimate, const H
   Reason why = busy_;
   if (why.empty() && (!at_rest() || stream_.wants_motion())) why = "the robot moves";
   if (why.empty() && health.near_zone) why = "obstacle in the near zone";
+  if (why.empty()) why = health.no_start;
   creep_.start(id, why, estimate, health, now, events);
   if (creep_.active()) stream_.end("the heading is being looked for");
 }
@@ -93,7 +99,8 @@ Owner Owners::rank(const OwnInput& input) const {
 }
 
 void Owners::latch(const Reason& why) {
-  if (!stream_.following()) return;
+  // What moves after the end of its stream is still that stream's motion.
+  if (!stream_.following() && joint_gate_.at_rest()) return;
   latched_ = why;
   stream_.end(why);
 }
@@ -127,12 +134,17 @@ Stop Owners::watch_stream(const OwnInput& input, bool at_once) {
 
 const Motion& Owners::step(const OwnInput& input, EventQueue& events) {
   busy_ = hindrance(input);
+  no_start_ = input.health.no_start;
   const bool at_once = input.task.stop == Stop::immediate || !input.health.stop.empty() ||
                        input.wheels != WheelFault::none;
   if (at_once) creep_.end(why_at_once(input), input.now, events);
   if (!input.health.end_task.empty()) creep_.end(input.health.end_task, input.now, events);
   Twist creep = creep_.step(input.now, input.dt, input.estimate, input.health, events);
-  creep.vx_mps = std::min(creep.vx_mps, input.speed_cap_mps);
+  // A task keeps the far zone's speed by itself, so that it slows along its track.
+  const double cap_mps = input.health.far_zone
+                             ? std::min(input.speed_cap_mps, config_.navigate.far_zone_speed_mps)
+                             : input.speed_cap_mps;
+  creep.vx_mps = std::min(creep.vx_mps, cap_mps);
   if (busy_.empty() && creep_.active()) busy_ = "the heading is being looked for";
   const Stop stream_stop = watch_stream(input, at_once);
 
@@ -142,15 +154,12 @@ const Motion& Owners::step(const OwnInput& input, EventQueue& events) {
                     manual ? creep : input.task.target, input.now};
   const Stop twist_stop = at_once ? Stop::immediate : manual ? Stop::none : input.task.stop;
   motion_.twist = twist_gate_.step(input.now, input.dt, {&offer, 1}, twist_stop);
-  const double fastest_mps =
-      std::min(input.speed_cap_mps,
-               max_wheel_mps(config_.base, config_.limits, input.estimate.yaw_slip_factor));
-  const double fastest_radps = fastest_mps / config_.base.wheel_radius_m;
   // One gate moves at a time: the other waits until it has come to rest.
   const Stop joint_stop = at_once                 ? Stop::immediate
                           : twist_gate_.at_rest() ? stream_stop
                                                   : Stop::controlled;
-  joint_gate_.step(input.dt, stream_.velocities_radps(), fastest_radps, joint_stop);
+  joint_gate_.step(input.dt, stream_.velocities_radps(), input.estimate.yaw_slip_factor, cap_mps,
+                   joint_stop);
   motion_.joints = motion_.owner == Owner::joint_command || !joint_gate_.at_rest();
   motion_.run = !at_once && (motion_.owner == Owner::task || manual ||
                              motion_.owner == Owner::joint_command || !at_rest());

@@ -37,7 +37,7 @@ class Owners final {
  public:
   explicit Owners(const EngineConfig& config);
 
-  void take(const JointTargets& targets, Time now) { stream_.take(targets, busy_, now); }
+  void take(const JointTargets& targets, Time now);
   void refuse(const JointTargetsRefused& refused) { stream_.refuse(refused.reason); }
   void find_heading(const RequestId& id, const Estimate& estimate, const HealthReport& health,
                     Time now, EventQueue& events);
@@ -78,6 +78,7 @@ class Owners final {
   bool stream_asked_ = false;  ///< the drives were asked to run, at least one cycle ago
   bool stream_ran_ = false;    ///< the drives were seen running since it began
   Reason busy_;                ///< why joint commands cannot be followed; empty: they can
+  Reason no_start_;            ///< why nothing new may begin; empty: it may
   Owner drove_ = Owner::task;  ///< who asked for a twist last
   Motion motion_;
 };

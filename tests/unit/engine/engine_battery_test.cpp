@@ -94,6 +94,36 @@ TEST_F(AnEngineWithABattery, RefusesAStartWithALowOneAndLetsATaskGoOn) {
   EXPECT_EQ(refusal(), "battery low: 15 %");
 }
 
+TEST_F(AnEngineWithABattery, LetsNothingNewBeginWithALowOneAndAStreamGoOn) {
+  const auto stream_s = [this](double radps, double seconds) {
+    JointTargets targets;
+    for (AxisId id = 0; id < 4; ++id) (void)targets.joints.push_back({id, radps});
+    for (int i = 0; i < static_cast<int>(seconds * 50); ++i) {
+      rig.command(targets);
+      for (int k = 0; k < 4; ++k) rig.tick();
+    }
+  };
+  rig.settle();
+  stream_s(0, 0.5);
+  stream_s(2, 2);
+  sample.soc_percent = 15;
+  for (int i = 0; i < 22; ++i) {
+    tell();
+    stream_s(0.2, 1);
+  }
+  ASSERT_EQ(rig.why(), "battery low: 15 %");
+  EXPECT_GT(rig.fastest_command_radps(), 0) << "what runs goes on";
+  rig.run_s(2);
+  stream_s(0, 0.5);
+  stream_s(2, 1);
+  EXPECT_EQ(rig.fastest_command_radps(), 0);
+  EXPECT_EQ(rig.snapshot().joint_command.reason.view(), "battery low: 15 %");
+  rig.command(FindHeading{});
+  rig.tick();
+  EXPECT_EQ(refusal(), "battery low: 15 %");
+  expect_no_motion_for_s(1);
+}
+
 TEST_F(AnEngineWithABattery, DrivesOnWhenTheBatteryIsSilentAndSaysSo) {
   drive();
   rig.environment.battery.state = SourceState::stale;

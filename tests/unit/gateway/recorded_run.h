@@ -107,11 +107,11 @@ class RobotRun final {
   float turned_ = 0;
 };
 
-/// A second at rest, then off by joint commands.
+/// At rest for a while, then off by joint commands.
 inline RobotRun a_run() {
   RobotRun run;
-  for (int i = 0; i < 200; ++i) run.cycle();
-  run.cycles_with_joints(40, 0);
+  for (int i = 0; i < 170; ++i) run.cycle();
+  run.cycles_with_joints(70, 0);
   run.cycles_with_joints(60, 1.5);
   return run;
 }

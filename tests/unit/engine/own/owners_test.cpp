@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "../engine_fixture.h"
-#include "engine/health/wheels.h"
+#include "engine/drive/skid_steer.h"
 
 namespace drover::engine {
 namespace {
@@ -27,6 +27,17 @@ class JointCommands : public AnOwner {
     JointTargets targets;
     for (AxisId id = 0; id < 4; ++id) (void)targets.joints.push_back({id, radps});
     rig.command(targets);
+  }
+  void send(const std::array<double, 4>& radps) {
+    JointTargets targets;
+    for (AxisId id = 0; id < 4; ++id) (void)targets.joints.push_back({id, radps[id]});
+    rig.command(targets);
+  }
+  /// What the front wheels are commanded, as a motion of a base whose wheels do not slip.
+  Twist commanded() const {
+    const double radius_m = rig.config.base.wheel_radius_m;
+    return twist_from_wheels(rig.config.base, 1.0, rig.out.axes[0].velocity_radps * radius_m,
+                             rig.out.axes[1].velocity_radps * radius_m);
   }
   /// A stream at 50 Hz.
   void stream_s(double radps, double seconds) {
@@ -64,8 +75,30 @@ TEST_F(JointCommands, ReachTheDrivesThroughTheLimitsOfSpeedAndAcceleration) {
   }
   EXPECT_GT(before, 0);
   stream_s(1000, 5);
-  const double fastest = max_wheel_mps(rig.config.base, rig.config.limits, 1.0);
-  EXPECT_LE(rig.fastest_command_radps() * rig.config.base.wheel_radius_m, 1.2 * fastest);
+  EXPECT_NEAR(commanded().vx_mps, rig.config.limits.max_speed_mps, 1e-6);
+}
+TEST_F(JointCommands, KeepTheBaseWithinItsTurnRate) {
+  stream_s(0, 0.5);
+  double fastest_radps = 0;
+  for (int i = 0; i < 200; ++i) {
+    send({-20, 20, -20, 20});
+    rig.tick();
+    fastest_radps = std::max(fastest_radps, std::abs(commanded().wz_radps));
+  }
+  // The estimate of how much the wheels skid has its share in it.
+  EXPECT_NEAR(fastest_radps, rig.config.limits.max_yaw_rate_radps, 0.15);
+}
+TEST_F(JointCommands, SlowDownForSomebodyInTheFarZone) {
+  stream_s(0, 0.5);
+  stream_s(4, 3);
+  ASSERT_GT(commanded().vx_mps, 0.6);
+  rig.lines[static_cast<std::size_t>(Line::zone_far)] = true;
+  stream_s(4, 2);
+  EXPECT_NEAR(commanded().vx_mps, rig.config.navigate.far_zone_speed_mps, 1e-6);
+  EXPECT_EQ(rig.snapshot().nav.owner, Owner::joint_command);
+  rig.lines[static_cast<std::size_t>(Line::zone_far)] = false;
+  stream_s(4, 2);
+  EXPECT_GT(commanded().vx_mps, 0.6);
 }
 TEST_F(JointCommands, EndWhatIsToldOfATaskThatFailed) {
   drive();
@@ -105,6 +138,58 @@ TEST_F(JointCommands, StopAtOnceForAnEstopAndStayStoppedUntilAPersonResets) {
   EXPECT_TRUE(rig.snapshot().stop_latched);
   rig.command(ResetStop{});
   drive_by_joints();
+}
+TEST_F(JointCommands, StayStoppedAfterAnEstopDuringTheRampOfTheirEnd) {
+  drive_by_joints();
+  rig.run_s(0.2);
+  ASSERT_GT(rig.fastest_command_radps(), 0) << "the stream has ended, the ramp has not";
+  rig.lines[0] = true;
+  rig.tick();
+  EXPECT_EQ(rig.fastest_command_radps(), 0);
+  EXPECT_TRUE(rig.snapshot().stop_latched);
+  rig.lines[0] = false;
+  stream_s(0, 1);
+  stream_s(2, 1);
+  EXPECT_EQ(rig.fastest_command_radps(), 0);
+  EXPECT_THAT(reason(), HasSubstr("reset the stop first: e-stop pressed"));
+  rig.command(ResetStop{});
+  drive_by_joints();
+}
+TEST_F(JointCommands, StayStoppedAfterABumperDuringTheRampForAnObstacle) {
+  drive_by_joints();
+  rig.lines[static_cast<std::size_t>(Line::zone_near)] = true;
+  stream_s(2, 0.1);
+  ASSERT_GT(rig.fastest_command_radps(), 0);
+  rig.lines[static_cast<std::size_t>(Line::bumper)] = true;
+  rig.tick();
+  rig.lines = {};
+  stream_s(0, 1);
+  stream_s(2, 1);
+  EXPECT_EQ(rig.fastest_command_radps(), 0);
+  EXPECT_THAT(reason(), HasSubstr("reset the stop first: bumper"));
+}
+TEST_F(JointCommands, AreNotOpenedForAHungProgramByTheZerosOfAnother) {
+  for (int i = 0; i < 100; ++i) {
+    send(0);
+    rig.tick();
+    rig.tick();
+    send(2);
+    rig.tick();
+    rig.tick();
+    ASSERT_EQ(rig.fastest_command_radps(), 0);
+  }
+  EXPECT_THAT(reason(), HasSubstr("velocity 0, and nothing else for 0.3 s"));
+  drive_by_joints();
+}
+TEST_F(JointCommands, MoveNothingAfterZerosThatPaused) {
+  for (int i = 0; i < 3; ++i) {
+    stream_s(0, 0.2);
+    rig.run_s(0.2);
+  }
+  stream_s(0, 0.2);
+  send(2);
+  rig.run_s(0.05);
+  EXPECT_EQ(rig.fastest_command_radps(), 0);
 }
 TEST_F(JointCommands, TellThatAnOperatorsEmergencyStopEndedThem) {
   drive_by_joints();
@@ -228,6 +313,18 @@ TEST_F(FindingTheHeading, DrivesNoFartherThanItMay) {
   EXPECT_EQ(rig.fastest_command_radps(), 0);
   EXPECT_THAT(last_notice(), HasSubstr("no heading"));
   EXPECT_LT(rig.plant.estimate().x_m, rig.config.navigate.find_heading_distance_m + 0.3);
+}
+TEST_F(FindingTheHeading, SlowsDownForSomebodyInTheFarZone) {
+  EngineConfig config = rig_config();
+  config.navigate.find_heading_speed_mps = 0.5;
+  rig = EngineRig(config);
+  settle_without_heading();
+  rig.quality = FixQuality::none;
+  rig.command(FindHeading{});
+  rig.lines[static_cast<std::size_t>(Line::zone_far)] = true;
+  rig.run_s(3);
+  EXPECT_NEAR(rig.fastest_command_radps() * rig.config.base.wheel_radius_m,
+              rig.config.navigate.far_zone_speed_mps, 1e-6);
 }
 TEST_F(FindingTheHeading, TellsThatAnOperatorsEmergencyStopEndedIt) {
   settle_without_heading();
