@@ -4,6 +4,9 @@
 namespace drover::mission {
 namespace {
 
+constexpr double kGear = 10;
+constexpr double kRadius_m = 0.165;
+
 /// Both programs away from `gone` to `back`, and what came of it by `end`.
 void expect_held_again(const Record& log, Time gone, Time back, Time end) {
   ASSERT_GT(log.truth_at(gone).z_m - log.truth.front().z_m, 0.1) << "it is not on the ramp";
@@ -72,16 +75,51 @@ INSTANTIATE_TEST_SUITE_P(Each, HeldWithoutPower,
                          testing::Values("brake_on_ramp", "worm_gear_on_ramp"),
                          [](const auto& one) { return std::string(one.param); });
 
-TEST(DipOnRamp, HoldsTheRobotAgainAsSoonAsTheDrivesHaveTheirSupply) {
-  const Record& log = record("dip_on_ramp");
-  const Time dipped = log.event("event dipped#1");
+/// When the drives had their supply again.
+Time dip_ended(const Record& log) {
   const std::string words = "sim supply dip ";
   const auto dip =
       std::find_if(log.events.begin(), log.events.end(),
                    [&words](const EventLine& event) { return event.text.starts_with(words); });
-  ASSERT_NE(dip, log.events.end());
-  const Duration lasts = from_s(std::stod(dip->text.substr(words.size())));
-  expect_held_again(log, dipped, dipped + lasts, log.event("start drover release"));
+  if (dip == log.events.end()) throw std::runtime_error("no dip");
+  return log.event("event dipped#1") + from_s(std::stod(dip->text.substr(words.size())));
+}
+
+/// The hardest braking of the body from `begin` to `end`, over a tenth of a second.
+double hardest_mps2(const Record& log, Time begin, Time end) {
+  double hardest = 0;
+  for (Time t = begin; t + 100ms <= end; t += 10ms) {
+    const double slower_mps =
+        std::abs(log.truth_at(t).vx_mps) - std::abs(log.truth_at(t + 100ms).vx_mps);
+    hardest = std::max(hardest, slower_mps / 0.1);
+  }
+  return hardest;
+}
+
+TEST(DipOnRamp, HoldsTheRobotAgainAsSoonAsTheDrivesHaveTheirSupply) {
+  const Record& log = record("dip_on_ramp");
+  expect_held_again(log, log.event("event dipped#1"), dip_ended(log),
+                    log.event("start drover release"));
+}
+
+TEST(DipOnRamp, RampsTheWheelsDownFromTheSpeedThatTheyHave) {
+  const Record& log = record("dip_on_ramp");
+  const Time back = dip_ended(log);
+  const Time end = log.event("start drover release");
+  const double fastest_mps = roll(log, back, end).fastest_mps;
+  const auto ramp = log.moving(back, end);
+  double first_mps = 0;
+  for (const auto& one : ramp)
+    first_mps =
+        std::max(first_mps, std::abs(one.wheel.velocity_turnps) / kGear * 2 * M_PI * kRadius_m);
+  figure("fastest", fastest_mps, "m/s");
+  figure("ramp's set points", static_cast<double>(ramp.size()), "");
+  figure("ramp begins with", first_mps, "m/s");
+  figure("hardest braking", hardest_mps2(log, back, end), "m/s2");
+  if (fastest_mps < 0.1) return;  // a short dip: nothing to ramp down
+  ASSERT_FALSE(ramp.empty()) << "no set point of the ramp came to the wire";
+  EXPECT_GT(first_mps, 0.6 * fastest_mps);
+  EXPECT_LT(hardest_mps2(log, back, end), 2.0) << "it is jerked to rest";
 }
 
 TEST(DipOnRamp, IsNotLetGoOnASlopeByAWordAlone) {
