@@ -24,7 +24,7 @@ Exit status: 0 the mission ended as the scenario expects, 1 it ended otherwise, 
 3 a program broke, 4 the scenario's time-out, 130 interrupted.
 
 Examples:
-  sim/lab -- build/sim/scenario/drover-scenario sim/scenarios/figure8.json
+  sim/lab -- build/demo/sim/scenario/drover-scenario sim/scenarios/figure8.json
   drover-scenario --native --view lines sim/scenarios/estop.json
   drover-scenario --native --set mission.speed_mps=0.3 --log-dir /tmp/logs sim/scenarios/demo.json
 )";
@@ -103,6 +103,9 @@ int play(const Options& options) {
   const auto broken = player.broken();
   if (!player.finish() && outcome != Outcome::interrupted) outcome = Outcome::broken;
   summarize(place, mission, player, outcome);
+  if (outcome != Outcome::interrupted)
+    for (const auto& step : player.steps_left())
+      std::fprintf(stderr, "drover-scenario: %s\n", step.c_str());
   if (!broken.empty()) std::fprintf(stderr, "drover-scenario: %s\n", broken.c_str());
   return static_cast<int>(outcome);
 }

@@ -11,6 +11,7 @@
 #include <cstdio>
 #include <ctime>
 #include <filesystem>
+#include <fstream>
 
 namespace drover::sim {
 namespace {
@@ -78,6 +79,15 @@ void append_hex_line(std::string& line, std::string_view bytes) {
     line += kDigits[static_cast<unsigned char>(c) & 0xFU];
   }
   line += '\n';
+}
+
+/// What a program said last is mostly why it ended.
+std::string last_line(const std::string& path) {
+  std::ifstream file(path);
+  std::string last;
+  for (std::string line; std::getline(file, line);)
+    if (!line.empty()) last = line;
+  return last;
 }
 
 std::string how_it_ended(int status) {
@@ -244,7 +254,11 @@ void Player::collect_children() {
     const bool clean = WIFSIGNALED(ended.status)
                            ? WTERMSIG(ended.status) == SIGKILL || WTERMSIG(ended.status) == SIGTERM
                            : WEXITSTATUS(ended.status) == 0 || ended.name == "drover";
-    if (!asked || !clean) broken_ = ended.name + " ended " + how_it_ended(ended.status);
+    if (!asked || !clean) {
+      broken_ = ended.name + " ended " + how_it_ended(ended.status);
+      const auto said = last_line(workplace_.log_folder() + "/" + ended.name + ".log");
+      if (!said.empty()) broken_ += ": " + said;
+    }
     if (asked) happened("exit_" + ended.name);
   }
 }

@@ -46,6 +46,8 @@ class Player {
   const Result& result() const { return result_; }
   /// What broke, empty when nothing did.
   const std::string& broken() const { return broken_; }
+  /// Steps of the mission that never came, in words.
+  std::vector<std::string> steps_left() const { return story_.left(); }
 
  private:
   bool going() const { return !interrupted_ && broken_.empty(); }

@@ -61,4 +61,18 @@ std::vector<const Step*> Story::take_due(Time now, const nlohmann::json& truth) 
   return due;
 }
 
+std::vector<std::string> Story::left() const {
+  std::vector<std::string> left;
+  for (std::size_t i = 0; i < progress_.size(); ++i) {
+    const auto& name = (*steps_)[i].name;
+    const auto& after = (*steps_)[i].after;
+    if (progress_[i].done) continue;
+    const std::string which =
+        "step " + (name.empty() ? std::to_string(i + 1) : "\"" + name + "\"") + " never came: ";
+    left.push_back(which + (has_happened(after) ? "its time or its condition was not there"
+                                                : "\"" + after.name + "\" did not happen"));
+  }
+  return left;
+}
+
 }  // namespace drover::sim

@@ -25,6 +25,8 @@ class Story {
   bool asks_for_truth(Time now) const;
   /// Steps whose time has come, in the mission's order. `truth` is the simulator's answer, or null.
   std::vector<const Step*> take_due(Time now, const nlohmann::json& truth);
+  /// Steps that were not due up to now, in words: a misspelt event never happens.
+  std::vector<std::string> left() const;
 
  private:
   struct Progress {

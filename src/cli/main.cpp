@@ -10,6 +10,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "cli/client.h"
 #include "cli/devices.h"
@@ -154,6 +155,13 @@ std::string not_a_plain_number(const std::string& text) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  // `drover help stop` is what people type first.
+  std::vector<char*> words(argv, argv + argc);
+  static char as_option[] = "--help";
+  if (argc > 1 && std::string_view(argv[1]) == "help") {
+    words.erase(words.begin() + 1);
+    words.push_back(as_option);
+  }
   Settings s;
   int code = kDone;
   CLI::App app{"drover: ask and command droverd"};
@@ -242,14 +250,14 @@ int main(int argc, char** argv) {
 
   drover::cli::add_examples(app);
   // What cannot be parsed has not set s.json yet.
-  const std::span<const char* const> arguments(argv + 1, static_cast<std::size_t>(argc - 1));
+  const auto arguments = std::span<const char* const>(words).subspan(1);
   const bool json = std::count(arguments.begin(), arguments.end(), std::string_view("--json")) > 0;
   if (const auto wrong = drover::cli::unknown_verb(app, arguments); !wrong.empty()) {
     drover::cli::tell_failure(json, "drover", wrong);
     return kUsage;
   }
   try {
-    app.parse(argc, argv);
+    app.parse(static_cast<int>(words.size()), words.data());
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0 || !json) return app.exit(error) == 0 ? kDone : kUsage;
     drover::cli::tell_failure(json, "drover", error.what());

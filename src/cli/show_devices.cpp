@@ -160,7 +160,8 @@ std::string show_gpio(const Node& status) {
     }
   }
   if (const auto* outputs = at(status, "outputs").object())
-    for (const auto& output : *outputs) line(out, output.key, yes(output.node) ? "on" : "off");
+    for (const auto& output : *outputs)
+      line(out, output.key + " ", yes(output.node) ? "on" : "off");
   return out;
 }
 

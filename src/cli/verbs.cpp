@@ -81,6 +81,35 @@ void add_examples(CLI::App& app) {
   add_examples_below(app, "");
 }
 
+namespace {
+
+/// Of a hint for "help" nobody must learn to press "hold": a verb that acts on the robot is only
+/// named for a slip of one letter.
+bool acts_on_the_robot(std::string_view verb) {
+  for (const std::string_view one : {"hold", "release", "reset", "start", "find", "delete"})
+    if (verb == one) return true;
+  return false;
+}
+
+std::string hint_for(const CLI::App& app, const CLI::App& level, const std::string& word,
+                     const std::vector<std::string>& names) {
+  // A verb of a verb, written without the first one.
+  if (&level == &app) {
+    for (const auto* verb : app.get_subcommands({}))
+      for (const auto* inner : verb->get_subcommands({}))
+        if (inner->get_name() == word)
+          return "did you mean \"" + verb->get_name() + " " + word + "\"?";
+  }
+  const auto best = config::nearest(word, names);
+  const auto longer = std::max(word.size(), best.size());
+  const bool slip = best.size() + word.size() > 2 * longer - 2 && best.front() == word.front() &&
+                    best.back() == word.back();
+  if (best.empty() || (acts_on_the_robot(best) && !slip)) return "";
+  return "did you mean \"" + best + "\"?";
+}
+
+}  // namespace
+
 std::string unknown_verb(const CLI::App& app, std::span<const char* const> arguments) {
   const CLI::App* level = &app;
   std::string above;
@@ -96,7 +125,7 @@ std::string unknown_verb(const CLI::App& app, std::span<const char* const> argum
     for (const auto* verb : verbs) names.push_back(verb->get_name());
     const auto found = std::find(names.begin(), names.end(), word);
     if (found == names.end()) {
-      const auto hint = config::did_you_mean(word, names);
+      const auto hint = hint_for(app, *level, word, names);
       std::string all;
       for (const auto& name : names) all += (all.empty() ? "" : ", ") + name;
       return "no verb \"" + above + word + "\"; " + (hint.empty() ? "there are " + all : hint);

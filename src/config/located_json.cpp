@@ -92,6 +92,8 @@ std::string in_other_words(std::string message) {
                      message.find("unexpected '['") != std::string::npos;
   if (value && (ends("; expected '}'") || ends("; expected ']'")))
     return "a comma is missing before this";
+  if (message.find("unexpected '}'; expected string literal") != std::string::npos)
+    return "there is a comma too many before this";
   if (value && ends("; expected ':'")) return "a colon is missing before this";
   return message;
 }

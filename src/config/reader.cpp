@@ -269,6 +269,7 @@ void Reader::option(const OptionSpec& spec, const json::Node& node, Options& int
 void Reader::finish() {
   for (const auto& member : *node_.object()) {
     if (std::find(known_.begin(), known_.end(), member.key) != known_.end()) continue;
+    if (path_.empty() && member.key == "$schema") continue;  // for the editor
     problems_.push_back({member.line, member.column, path_of(member.key), "is no known key",
                          did_you_mean(member.key, known_), ""});
   }

@@ -182,6 +182,7 @@ std::string schema_text() {
   schema["$schema"] = "http://json-schema.org/draft-07/schema#";
   schema["title"] = "Configuration of droverd";
   schema.update(writer.finish());
+  schema["properties"]["$schema"] = {{"type", "string"}, {"description", "for the editor"}};
   return schema.dump(2) + "\n";
 }
 

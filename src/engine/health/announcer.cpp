@@ -14,7 +14,7 @@ std::string_view over(Cause cause) {
     case Cause::line_lost: return "safety lines readable again";
     case Cause::guard_has_bus: return "the guard gave the drives back";
     case Cause::bumper: return "bumper free";
-    case Cause::tilt: return "the robot stands upright again";
+    case Cause::tilt: return "no tilt beyond the limit any more";
     case Cause::drive_silent: return "all drives answer";
     case Cause::guard_silent: return "the guard answers";
     case Cause::drive_fault: return "no drive reports a fault";
@@ -30,7 +30,7 @@ std::string_view over(Cause cause) {
     case Cause::origin: return "an origin is set";
     case Cause::receiver: return "receiver heard";
     case Cause::imu: return "IMU heard";
-    case Cause::sensors: return "wheels, gyro and receiver agree";
+    case Cause::sensors: return "wheels, gyro and receiver do not contradict each other any more";
     case Cause::locate: return "position good";
     case Cause::far_zone: return "far zone free";
     case Cause::battery_low: return "battery charged";

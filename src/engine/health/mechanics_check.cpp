@@ -118,9 +118,10 @@ void MechanicsCheck::say_turn(double by_gyro_rad, double by_wheels_rad) {
   if (heading &&
       std::abs(by_receiver_rad - by_wheels_rad) < std::abs(by_receiver_rad - by_gyro_rad)) {
     fault_.format(
-        "the gyro turned %+.0f degrees, wheels and receiver %+.0f: is the IMU mounted as "
-        "configured?",
-        to_deg(by_gyro_rad), to_deg(by_wheels_rad));
+        "the gyro turned %+.0f degrees, the wheels %+.0f, the receiver %+.0f: is the IMU mounted "
+        "as "
+        "configured, and base.track_m right?",
+        to_deg(by_gyro_rad), to_deg(by_wheels_rad), to_deg(by_receiver_rad));
   } else {
     fault_.format(
         "by its wheels the robot turned %+.0f degrees, by the %s %+.0f: sides swapped, or a wheel "
@@ -181,8 +182,8 @@ void MechanicsCheck::compare_way(const Mark& wheels) {
   if (odd_places_ < 2 && !(odd_m > kWaySigmasAtOnce * sigma)) return;
   if (back) {
     fault_.format(
-        "the wheels rolled %+.2f m, the receiver went %+.2f m: drives reversed, or the heading is "
-        "turned round?",
+        "the wheels rolled %+.2f m, the receiver went %+.2f m: drives reversed, the heading "
+        "turned round, or gear ratio wrong?",
         rolled_m, ahead_m);
   } else {
     fault_.format("the wheels rolled %.2f m, the receiver went %.2f m: %s", std::abs(rolled_m),

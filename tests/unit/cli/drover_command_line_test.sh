@@ -54,6 +54,11 @@ expect "an unknown verb is answered with the one that may be meant" 2 err \
 expect "so is an unknown verb of a verb" 2 err \
   'no verb "task strat"; did you mean "start"?' task strat 'row 7' --id 1
 expect "a verb that is like none is answered with all" 2 err 'there are ' fly
+expect "a slip is told from a word that means another thing" 2 err \
+  'no verb "unhold"; there are ' unhold
+expect "a verb of a verb is told with the first one" 2 err 'did you mean "task cancel"?' cancel
+expect "help is a verb, too" 0 out 'drover stop' help stop
+expect "also alone" 0 out 'Examples:' help
 expect "the value of --socket is no verb" 3 err 'other.sock' --socket "$work/other.sock" status
 
 expect "without droverd the reason is told" 3 err "no-daemon.sock" status

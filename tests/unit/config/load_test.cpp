@@ -17,6 +17,12 @@ TEST(Configuration, TellsAKeyNobodyKnowsWithItsPlaceAndTheLikelyOne) {
             "f:8:3: limit: is no known key (did you mean \"limits\"?)\n");
 }
 
+TEST(Configuration, PassesOverTheEditorsSchema) {
+  std::string text(kGood);
+  text.insert(text.find('{') + 1, R"("$schema": "drover.schema.json",)");
+  EXPECT_TRUE(load_text(text).problems.empty());
+}
+
 TEST(Configuration, RecognisesAWrongOrForgottenUnit) {
   for (const auto* slip : {"max_speed_mmps", "max_speed", "max_speed_kmph", "max_speed_m_s"})
     EXPECT_THAT(problems(with("max_speed_mps", slip)), HasSubstr("did you mean \"max_speed_mps\""))

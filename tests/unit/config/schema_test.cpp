@@ -139,7 +139,8 @@ TEST(Example, ExplainsEverySection) {
   const auto text = read(DROVER_SOURCE_DIR "/config/drover.json");
   const auto schema = Json::parse(schema_text());
   for (const auto& [section, ignored] : schema["properties"].items())
-    EXPECT_THAT(text, testing::HasSubstr("\n  \"" + section + "\":")) << section;
+    if (section != "$schema")  // the editor's own
+      EXPECT_THAT(text, testing::HasSubstr("\n  \"" + section + "\":")) << section;
 }
 
 TEST(Example, StatesTheDefaultsWhereItStatesWhatHasADefault) {

@@ -116,7 +116,7 @@ TEST_F(ARobotOnItsFirstWay, FindsAReversedWheel) {
 TEST_F(ARobotOnItsFirstWay, FindsDrivesThatRunBackwards) {
   rig.mechanics.gear = -1;
   EXPECT_LT(stops_after_m(), 0.2);
-  EXPECT_THAT(ended(), HasSubstr("drives reversed, or the heading is turned round"));
+  EXPECT_THAT(ended(), HasSubstr("drives reversed, the heading turned round"));
 }
 
 TEST_F(ARobotOnItsFirstWay, TellsAGyroThatTurnsTheOtherWayFromSwappedSides) {

@@ -81,5 +81,15 @@ TEST(AStory, HoldsAStepUntilTheConditionIsTrue) {
   EXPECT_FALSE(story.asks_for_truth(at(3)));
 }
 
+TEST(AStory, TellsOfAStepThatNeverCame) {
+  const std::vector<Step> steps{step("estop", "startnav")};
+  Story story(steps);
+  (void)story.happened("start_nav", at(1));
+  EXPECT_EQ(story.left(), Names{"step \"estop\" never came: \"startnav\" did not happen"});
+  (void)story.happened("startnav", at(2));
+  EXPECT_EQ(due(story, 2), Names{"estop"});
+  EXPECT_TRUE(story.left().empty());
+}
+
 }  // namespace
 }  // namespace drover::sim
