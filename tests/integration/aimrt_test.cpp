@@ -108,11 +108,11 @@ TEST_F(AimrtChannel, FollowsNoCommandThatIsNotWhollyGood) {
 
 TEST_F(AimrtChannel, FollowsAStreamOfCommandsUntilItFallsSilent) {
   ASSERT_NO_FATAL_FAILURE(start_all());
-  const auto rest = in_protobuf("0");  // a stream begins at rest
+  const auto rest = in_protobuf("0");  // a stream begins at rest, for as long as it may be silent
   const auto slow = in_protobuf("1");  // rad/s: 0.165 m/s with this rig's wheels
   const double begun_s = now_s();
   EXPECT_TRUE(wait_until([&] {
-    client().publish(kCommand, now_s() < begun_s + 1.5 ? rest : slow);
+    client().publish(kCommand, now_s() < begun_s + 2.5 ? rest : slow);
     return true_speed_mps() > 0.1;
   })) << daemon().output();
   EXPECT_TRUE(wait_until([this] { return at_rest(); })) << "nobody commands any more";
@@ -142,7 +142,7 @@ TEST_F(AimrtChannel, SpeaksWithProgramsOfAimrt1x) {
   const auto fast = in_protobuf("9");
   const double begun_s = now_s();
   const auto command = [&] {
-    client().publish(kCommandArray, now_s() < begun_s + 1.5 ? rest : slow);
+    client().publish(kCommandArray, now_s() < begun_s + 2.5 ? rest : slow);
   };
   EXPECT_TRUE(wait_until([&] {
     command();
