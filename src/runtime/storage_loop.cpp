@@ -55,7 +55,8 @@ void run_storage(store::Storage& storage, StorageExchange& exchange, Remembered 
       auto reply = storage.run(std::move(job));
       // Never lost: as many replies fit as jobs, and the publish thread empties them at every
       // wake-up.
-      while (!exchange.replies.push(std::move(reply)) && !stop.load()) ::poll(nullptr, 0, 1);
+      const auto given = [&] { return exchange.replies.push(std::move(reply)); };
+      while (!given() && !stop.load()) ::poll(nullptr, 0, 1);
       exchange.replies_ready.notify();
       kept = stop_keeper.save();
     }
