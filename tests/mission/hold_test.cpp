@@ -112,10 +112,9 @@ TEST(DipOnRamp, RampsTheWheelsDownFromTheSpeedThatTheyHave) {
   for (const auto& one : ramp)
     first_mps =
         std::max(first_mps, std::abs(one.wheel.velocity_turnps) / kGear * 2 * M_PI * kRadius_m);
-  figure("fastest", fastest_mps, "m/s");
-  figure("ramp's set points", static_cast<double>(ramp.size()), "");
+  figure("set points of the ramp", static_cast<double>(ramp.size()), "frames");
   figure("ramp begins with", first_mps, "m/s");
-  figure("hardest braking", hardest_mps2(log, back, end), "m/s2");
+  figure("hardest braking", hardest_mps2(log, back, end), "m/s/s");
   if (fastest_mps < 0.1) return;  // a short dip: nothing to ramp down
   ASSERT_FALSE(ramp.empty()) << "no set point of the ramp came to the wire";
   EXPECT_GT(first_mps, 0.6 * fastest_mps);
