@@ -8,6 +8,7 @@
 #include "drover/angle.h"
 #include "engine/drive/skid_steer.h"
 #include "engine/engine_impl.h"
+#include "engine/navigate/navigator_checks.h"
 
 namespace drover::engine {
 namespace {
@@ -27,6 +28,7 @@ Engine::Impl::Impl(const EngineConfig& c)
       health(c),
       wheels(c),
       rest(c),
+      place(c.estimate),
       tilt(c.health),
       mechanics(c),
       navigator(c),
@@ -147,6 +149,7 @@ void Engine::Impl::set_origin(const RequestId& id, const GeodeticPoint& origin, 
   } else {
     estimator.set_origin(origin);
     estimate = estimator.step(last_step == kNever ? now : last_step);
+    place.forget();
     snapshot.origin_set = true;
     snapshot.origin = origin;
     events.push(now, CommandAccepted{id, {}});
@@ -179,6 +182,9 @@ void Engine::Impl::command_axes(const Motion& motion, EngineOutput& out) {
 void Engine::Impl::start_task(const RequestId& id, const StartTask& task, Time now) {
   Reason why = hold.hindrance();
   if (why.empty()) why = owners.hinders_task();
+  if (why.empty() && health.report().stop.empty()) why = rest.turns_by_itself();
+  const bool fit = check_robot(health.report(), estimator.has_origin()).empty();
+  if (why.empty() && fit && !navigator.active()) why = place.ask_start(now);
   if (!why.empty()) {
     events.push(now, CommandRefused{id, why});
     if (task.path != nullptr) events.push(now, PathReleased{task.path});
@@ -281,9 +287,11 @@ void Engine::step(Time now, const Environment& environment, EngineOutput& out) {
   const std::span<const AxisSnapshot> axes{e.snapshot.axes.data(), e.snapshot.axes.size()};
   const Reason moved = e.judge_motion(now, dt, lines);
   e.watch_tilt(now);
+  e.place.update(now, e.estimate, e.health.report().drives_ok);
+  if (e.navigator.active()) e.place.told();  // by the end of the task
   e.health.update({now, environment, axes, lines, e.estimate, e.estimator.has_origin(),
                    e.navigator.active(), e.latched(), &e.snapshot.battery, e.tilt.reason(), moved,
-                   e.power.opened(), &e.steep});
+                   e.place.jumped(), e.power.opened(), &e.steep});
   e.watch_wheels(now, dt);
   const double cap_mps = e.mechanics.speed_cap_mps();
   NavOutput wanted =

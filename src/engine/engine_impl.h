@@ -9,6 +9,7 @@
 #include "engine/health/announcer.h"
 #include "engine/health/health.h"
 #include "engine/health/mechanics_check.h"
+#include "engine/health/place_watch.h"
 #include "engine/health/rest_watch.h"
 #include "engine/health/tilt_watch.h"
 #include "engine/health/wheels.h"
@@ -57,6 +58,7 @@ struct Engine::Impl {
   WheelFault wheel_fault = WheelFault::none;  ///< of the last step
   Reason wheel_reason;                        ///< of that fault
   RestWatch rest;
+  PlaceWatch place;
   TiltWatch tilt;
   MechanicsCheck mechanics;
   bool motion_asked = false;  ///< in the last cycle

@@ -5,6 +5,13 @@
 #include "engine/engine_impl.h"
 
 namespace drover::engine {
+namespace {
+
+// Less is what wheels resist; the same from which a person has to answer for a release.
+constexpr double kRollsFrom_deg = 2.0;
+
+}  // namespace
+
 void Engine::Impl::watch_imu(const ImuSample& sample, Time at) {
   tilt.on_sample(sample, at);
   const bool zero_known = std::isfinite(estimate.gyro_bias_sigma_radps);
@@ -20,7 +27,9 @@ Reason Engine::Impl::judge_motion(Time now, Duration dt, const LineTable& lines)
   const auto estop = static_cast<std::size_t>(Line::estop);
   RestInput input{.now = now, .dt = dt, .axes = axes};
   input.power_is_off = config.line_configured[estop] && lines.active[estop];
-  input.steep = !steep.empty();
+  input.rolls_unpowered = !steep.empty() || (config.base.hold == HoldBy::level_ground_only &&
+                                             imu_trusted && tilt_deg() > kRollsFrom_deg);
+  input.released = hold.released();
   input.caught = hold.state() == HoldState::catching;
   if (estimate.has_heading) input.yaw_rad = estimate.pose.yaw_rad;
   const RestState state = rest.update(input);

@@ -32,9 +32,10 @@ TEST(Carried, IsToldRefusesAStartAndCutsNothing) {
       log.feedback_words(),
       (std::vector<std::string>{"save_trajectory_success", "start_task_success",
                                 "start_nav_success", "cancel_task_success", "start_task_failse",
-                                "start_task_success", "start_nav_success"}));
+                                "start_task_failse", "start_task_success", "start_nav_success"}));
   EXPECT_NE(log.feedback[4].reason.find("pushed or carried"), std::string::npos)
       << log.feedback[4].reason;
+  EXPECT_NE(log.feedback[5].reason.find("jumped by"), std::string::npos) << log.feedback[5].reason;
   EXPECT_EQ(log.statuses.back().nav, "NAV_SUCCESS");
   EXPECT_FALSE(told(log, "did not stop", kNever, Time::max()));
   EXPECT_TRUE(log.level_at("enable_relay", log.truth.back().time).value());

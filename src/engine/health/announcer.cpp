@@ -32,6 +32,7 @@ std::string_view over(Cause cause) {
     case Cause::imu: return "IMU heard";
     case Cause::sensors: return "wheels, gyro and receiver do not contradict each other any more";
     case Cause::locate: return "position good";
+    case Cause::jumped: return "a person has confirmed where the robot stands";
     case Cause::far_zone: return "far zone free";
     case Cause::battery_low: return "battery charged";
     case Cause::battery_warning: return "battery without a warning";

@@ -236,6 +236,7 @@ const HealthReport& HealthMonitor::update(const HealthInput& input) {
     hold(Cause::moved, input.moved);
     if (report_.no_start.empty()) report_.no_start = input.moved;
   }
+  if (!input.jumped.empty()) hold(Cause::jumped, input.jumped);
   if (const Reason& foreign = input.environment.foreign; !foreign.empty()) {
     hold(Cause::foreign, foreign);
     if (report_.no_start.empty()) report_.no_start = foreign;

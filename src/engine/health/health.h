@@ -27,13 +27,14 @@ enum class Cause : std::uint8_t {
   battery_critical,  ///< empty, too hot, or about to switch off: a task ends
   program,           ///< a part of the daemon hangs, or it ends: a task ends
   near_zone,
-  moved,     ///< pushed, carried or rolling without a command: no start
+  moved,     ///< pushed, carried or rolling without a command: a task ends and none starts
   foreign,   ///< somebody else commands the drives: no start
   bus,       ///< told only: what it does to the drives is their own cause
   origin,    ///< none set
   receiver,  ///< silent
   imu,       ///< configured and silent, stuck or out of its range
   locate,
+  jumped,   ///< the place changed at rest: a task ends; a start is refused once, to ask a person
   sensors,  ///< contradict each other, and it is made up for
   far_zone,
   battery_low,      ///< no start, a task goes on
@@ -59,6 +60,7 @@ struct HealthInput {
   const BatterySnapshot* battery = nullptr;
   Reason tilt{};           ///< why it stands too steep to move; empty when it does not
   Reason moved{};          ///< what moves it without a command; empty when nothing does
+  Reason jumped{};         ///< what changed its place at rest; empty when nothing did
   bool power_cut = false;  ///< by this gateway: that drives are silent is no news
   const Reason* steep =
       nullptr;  ///< why the ground is too steep to be left there; empty: it is not

@@ -10,7 +10,11 @@ namespace {
 constexpr double kTurns_mps = 0.05;
 constexpr double kRestPatience_s = 0.3;  // drives lag
 constexpr double kMotionHeld_s = 0.05;   // one odd value is no motion
-constexpr double kAlone_s = 1.0;         // a witness without another one
+// Where it would roll away once cut, what swings back when it stops has to be told from driving on.
+constexpr double kMotionHeldOnSlope_s = 0.5;
+// A drive that is being armed swings its wheel to and fro: that is no rolling.
+constexpr double kRollHeld_s = 0.2;
+constexpr double kAlone_s = 1.0;  // a witness without another one
 constexpr double kConfirm_s = 1.0;
 constexpr double kDirection_m = 0.1;
 constexpr Duration kLookAgain = std::chrono::seconds(5);
@@ -68,20 +72,15 @@ double RestWatch::asked_mps(const RestInput& input) const {
 }
 
 /// Whether the time that a ramp to zero needs is over.
-bool RestWatch::due(const RestInput& input, const Rims& rims) {
+bool RestWatch::due(const RestInput& input) {
   const double asked_mps = this->asked_mps(input);
   if (asked_mps != 0 && !input.caught) {
     ours_ = true;
     direction_ = std::copysign(1.0, asked_mps);
   }
-  double least_mps = std::abs(asked_mps);
-  // At the start a guard may be slowing it down since before this gateway began.
-  if (!begun_ && !rims.silent) {
-    begun_ = true;
-    least_mps = std::max(least_mps, std::abs(rims.fastest_mps));
-  }
-  expected_mps_ = std::max(
-      least_mps, expected_mps_ - config_.limits.deceleration_mps2 * std::max(to_s(input.dt), 0.0));
+  const double slower_mps =
+      expected_mps_ - config_.limits.deceleration_mps2 * std::max(to_s(input.dt), 0.0);
+  expected_mps_ = std::max(std::abs(asked_mps), slower_mps);
   if (expected_mps_ > 0) {
     due_ = kNever;
     return false;
@@ -94,6 +93,14 @@ bool RestWatch::due(const RestInput& input, const Rims& rims) {
   return true;
 }
 
+/// Whether taking the power helps: from what we drive, not from what would only roll faster.
+bool RestWatch::may_be_cut(const RestInput& input, const Rims& rims) const {
+  if (!ours_ || input.power_is_off || input.released) return false;
+  if (!may_roll_) return true;
+  return input.now - moves_since_ >= from_s(kMotionHeldOnSlope_s) &&
+         moves_as_commanded(input, rims);
+}
+
 /// Driven on, rather than rolling down where it stands. Only what shows it counts.
 bool RestWatch::moves_as_commanded(const RestInput& input, const Rims& rims) const {
   if (std::abs(rims.fastest_mps) > kTurns_mps) return rims.fastest_mps * direction_ > 0;
@@ -101,6 +108,26 @@ bool RestWatch::moves_as_commanded(const RestInput& input, const Rims& rims) con
   const PathPoint way = witness_.way(input.now);
   const double ahead_m = way.x_m * std::cos(input.yaw_rad) + way.y_m * std::sin(input.yaw_rad);
   return ahead_m * direction_ > kDirection_m;
+}
+
+void RestWatch::watch_wheels(const Rims& rims, Time now) {
+  turning_ = std::abs(rims.fastest_mps) > kTurns_mps;
+  const bool swings = turning_ && rims.fastest_mps * rim_mps_ < 0;
+  if (!turning_ || swings) turns_since_ = kNever;
+  if (turning_ && turns_since_ == kNever) turns_since_ = now;
+  rim_mps_ = rims.fastest_mps;
+}
+
+bool RestWatch::rolls(Time now) const {
+  return turning_ && now - turns_since_ >= from_s(kRollHeld_s);
+}
+
+Reason RestWatch::turns_by_itself() const {
+  Reason why;
+  if (turning_ && !ours_) {
+    why.format("the robot rolls without a command: the wheels turn by %.2f m/s", rim_mps_);
+  }
+  return why;
 }
 
 bool RestWatch::others_say_so(const Testimony& said, Time now) {
@@ -127,24 +154,24 @@ void RestWatch::tell(const char* what, const Rims& rims, const Testimony& said) 
 
 void RestWatch::settle(const RestInput& input, const Rims& rims, const Testimony& said) {
   state_ = RestState::settling;
-  const bool turns = std::abs(rims.fastest_mps) > kTurns_mps;
-  const bool moves = others_say_so(said, input.now) || turns;
+  const bool others = others_say_so(said, input.now);
+  const bool moves = others || turning_;
   if (!moves) moves_since_ = kNever;
   if (moves && moves_since_ == kNever) moves_since_ = input.now;
-  const bool late = input.now - due_ >= from_s(kRestPatience_s);
-  const bool lasts = moves && input.now - moves_since_ >= from_s(kMotionHeld_s);
-  if (ours_ && late && lasts && !input.power_is_off &&
-      (!may_roll_ || moves_as_commanded(input, rims))) {
+  const bool late = input.now - due_ >= from_s(kRestPatience_s) &&
+                    input.now - moves_since_ >= from_s(kMotionHeld_s);
+  if (moves && late && may_be_cut(input, rims)) {
     state_ = RestState::not_stopping;
     tell("the robot did not stop", rims, said);
     return;
   }
-  if (late && lasts) {
+  // What nobody drove has no ramp to come to its end: what a guard slows down is told as well.
+  if (ours_ ? moves && late : others || rolls(input.now)) {
     tell("the robot moves without a command", rims, said);
   } else if (!moves) {
     reason_.clear();
   }
-  const bool quiet = !turns && !rims.silent && said.moving == 0;
+  const bool quiet = !turning_ && !rims.silent && said.moving == 0;
   if (!quiet) quiet_since_ = kNever;
   if (quiet && quiet_since_ == kNever) quiet_since_ = input.now;
   if (quiet && input.now - quiet_since_ >= from_s(kConfirm_s)) {
@@ -154,16 +181,15 @@ void RestWatch::settle(const RestInput& input, const Rims& rims, const Testimony
 }
 
 void RestWatch::stay(const RestInput& input, const Rims& rims, const Testimony& said) {
-  const bool turns = std::abs(rims.fastest_mps) > kTurns_mps;
-  const bool moves = others_say_so(said, input.now) || turns;
-  if (moves) {
-    state_ = turns ? RestState::rolling : RestState::carried;
-    tell(turns ? "the robot rolls without a command" : "the robot is pushed or carried", rims,
+  if (others_say_so(said, input.now) || rolls(input.now)) {
+    state_ = turning_ ? RestState::rolling : RestState::carried;
+    tell(turning_ ? "the robot rolls without a command" : "the robot is pushed or carried", rims,
          said);
     moves_since_ = input.now;
     quiet_since_ = kNever;
     return;
   }
+  if (turning_) quiet_since_ = kNever;
   if (quiet_since_ == kNever) quiet_since_ = input.now;
   if (state_ != RestState::resting && input.now - quiet_since_ < from_s(kConfirm_s)) return;
   state_ = RestState::resting;
@@ -176,11 +202,13 @@ void RestWatch::stay(const RestInput& input, const Rims& rims, const Testimony& 
 }
 
 RestState RestWatch::update(const RestInput& input) {
+  if (input.released) ours_ = false;  // who lets go of the drives is going to push
   const Rims rims = this->rims(input);
-  turning_ = std::abs(rims.fastest_mps) > kTurns_mps;
-  const bool is_due = due(input, rims);
+  watch_wheels(rims, input.now);
+  const bool is_due = due(input);
   // What began to roll on a slope still rolls where the ground is level again.
-  may_roll_ = input.steep || input.caught || (may_roll_ && is_due && state_ != RestState::resting);
+  may_roll_ = input.rolls_unpowered || input.caught ||
+              (may_roll_ && is_due && state_ != RestState::resting);
   if (state_ == RestState::not_stopping) {
     // What it rolled until it came to rest is no motion any more.
     if (due_ == kNever || input.now - due_ > kLookAgainAfterCut) {

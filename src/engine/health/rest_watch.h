@@ -15,7 +15,8 @@ struct RestInput {
   Duration dt{};
   std::span<const AxisSnapshot> axes;  ///< with the commands of the last cycle
   bool power_is_off = false;           ///< by the e-stop's own circuit: there is nothing to cut
-  bool steep = false;                  ///< ground on which it rolls without power
+  bool rolls_unpowered = false;        ///< the ground falls, and nothing but the drives holds it
+  bool released = false;               ///< by a person, who may push it: there is nothing to cut
   /// Drives that had let go are being taken back: their commands follow a roll, nobody drives.
   bool caught = false;
   double yaw_rad = kAbsent;  ///< of the base, as far as it is known
@@ -30,12 +31,13 @@ enum class RestState : std::uint8_t {
   not_stopping  ///< did not come to rest: its power has to be cut. Until reset()
 };
 
-/// Rest is due when the speed that was commanded or found at first has been taken back at the
-/// configured deceleration. What still moves 0.3 s later is cut: wheels that turn, or two witnesses
-/// besides wheels that say nothing of it (their encoders may be frozen). After a second of
-/// confirmed rest no motion is ours any more: nothing is cut then, since who pushes the robot or
-/// carries it away must not find it latched. Where it would only roll without power, or rolls and
-/// is being caught, it is cut when it moves the way that it was driven, and not when it rolls back.
+/// Rest is due when the speed that was commanded has been taken back at the configured
+/// deceleration; what moves before anything was commanded is told. What still moves 0.3 s later
+/// is cut: wheels that turn, or two witnesses besides wheels that say nothing of it (their
+/// encoders may be frozen). After a second of confirmed rest, or when a person released the drives,
+/// no motion is ours any more: nothing is cut then, since who pushes the robot or carries it away
+/// must not find it latched. Where it would only roll without power, or rolls and is being caught,
+/// it is cut when it moves the way that it was driven, and not when it rolls back.
 class RestWatch final {
  public:
   explicit RestWatch(const EngineConfig& config);
@@ -49,6 +51,8 @@ class RestWatch final {
   bool moves(Time now) const { return turning_ || witness_.hear(now).moving > 0; }
   /// What is wrong, in words; empty when nothing is.
   const Reason& reason() const { return reason_; }
+  /// A wheel turns now and nobody drove it, be it only an arming drive's swing: no moment to start.
+  Reason turns_by_itself() const;
   /// A wheel ran away and everything was stopped: rest is due at once, whoever moved it.
   void expect_stop(Time now);
   /// A person reset the cut.
@@ -61,7 +65,10 @@ class RestWatch final {
   };
   Rims rims(const RestInput& input) const;
   double asked_mps(const RestInput& input) const;
-  bool due(const RestInput& input, const Rims& rims);
+  bool due(const RestInput& input);
+  void watch_wheels(const Rims& rims, Time now);
+  bool rolls(Time now) const;
+  bool may_be_cut(const RestInput& input, const Rims& rims) const;
   bool moves_as_commanded(const RestInput& input, const Rims& rims) const;
   void settle(const RestInput& input, const Rims& rims, const Testimony& said);
   void stay(const RestInput& input, const Rims& rims, const Testimony& said);
@@ -73,13 +80,14 @@ class RestWatch final {
   MotionWitness witness_;
   RestState state_ = RestState::settling;
   Reason reason_;
-  bool ours_ = false;      ///< we moved it since it rested last
-  double direction_ = 0;   ///< sign of the last command of one who drove
-  bool may_roll_ = false;  ///< it was steep, or rolled, since rest is due
-  bool begun_ = false;
-  bool turning_ = false;     ///< the wheels, in the last cycle
-  double expected_mps_ = 0;  ///< how fast it may still be
-  Time due_ = kNever;        ///< since when it should rest
+  bool ours_ = false;          ///< we moved it since it rested last
+  double direction_ = 0;       ///< sign of the last command of one who drove
+  bool may_roll_ = false;      ///< it could without power, or was caught, since rest is due
+  bool turning_ = false;       ///< the wheels, in the last cycle
+  double rim_mps_ = 0;         ///< the fastest, then
+  Time turns_since_ = kNever;  ///< in this direction
+  double expected_mps_ = 0;    ///< how fast it may still be
+  Time due_ = kNever;          ///< since when it should rest
   Time moves_since_ = kNever;
   Time alone_since_ = kNever;
   Time quiet_since_ = kNever;

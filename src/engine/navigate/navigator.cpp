@@ -19,6 +19,15 @@ unsigned long long as_counted(std::uint32_t target) {
   return static_cast<unsigned long long>(target) + 1;
 }
 
+Reason find_health_failure(const HealthReport& health) {
+  if (!health.end_task.empty()) return health.end_task;
+  // Nothing goes on from another place than it stopped at.
+  for (const Cause cause : {Cause::moved, Cause::jumped}) {
+    if (health.holds(cause)) return health.text(cause);
+  }
+  return {};
+}
+
 }  // namespace
 
 Navigator::Navigator(const EngineConfig& config)
@@ -199,8 +208,8 @@ NavOutput Navigator::arm(const NavInput& input, EventQueue& events) {
     drives_asked_ = true;
     return {{}, true, Stop::controlled};
   }
-  if (!input.health.end_task.empty()) {
-    fail(input.now, input.health.end_task, events);
+  if (const Reason why = find_health_failure(input.health); !why.empty()) {
+    fail(input.now, why, events);
     return {{}, false, Stop::controlled};
   }
   if (input.health.drives_running) {
@@ -240,7 +249,7 @@ Reason Navigator::find_position_failure(const Estimate& estimate,
 Reason Navigator::find_failure(const NavInput& input) {
   const NavigateConfig& limits = config_.navigate;
   if (input.refusal == TargetRefusal::not_finite) return "the wanted speed was not a number";
-  if (!input.health.end_task.empty()) return input.health.end_task;
+  if (const Reason why = find_health_failure(input.health); !why.empty()) return why;
   if (const Reason why = find_position_failure(input.estimate, input.health); !why.empty()) {
     return why;
   }

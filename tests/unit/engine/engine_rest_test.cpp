@@ -12,6 +12,7 @@ using ::testing::HasSubstr;
 constexpr WheelSpeeds kStraight{3, 3};  // about 0.5 m/s
 constexpr WheelSpeeds kCircle{1, 4};
 constexpr WheelSpeeds kRollsBack{-1.5, -1.5};
+constexpr WheelSpeeds kRollsFast{-10, -10};  // 1.65 m/s
 
 class ARobotThatShouldRest : public AnEngine {
  protected:
@@ -206,6 +207,65 @@ TEST_F(ARobotThatShouldRest, RefusesAStartWhileItRollsSinceItsBeginning) {
   rest_s(5);
 }
 
+TEST_F(ARobotThatShouldRest, RefusesAStartFromTheFirstMomentsOnWhileItRollsFast) {
+  rig.carried = kRollsFast;
+  rig.tick();
+  rig.set_origin();
+  for (int i = 0; i < 60; ++i) {
+    rig.run_s(0.05);
+    rig.start(path, 40, 0.5);
+    rig.tick();
+    ASSERT_NE(rig.snapshot().nav.status, NavStatus::run) << 0.05 * i << " s";
+  }
+  EXPECT_THAT(refusal(), HasSubstr("without a command: the wheels turn by -1.6"));
+  EXPECT_THAT(told(), HasSubstr("without a command: the wheels turn by -1.6"));
+}
+
+TEST_F(ARobotThatShouldRest, EndsAStartWhileWhoseDrivesAreArmedItBeginsToRoll) {
+  rig.settle();
+  for (auto& drive : rig.drives) drive.refuses = true;
+  rig.start(path, 40, 0.5);
+  rig.run_s(0.1);
+  ASSERT_EQ(rig.snapshot().nav.status, NavStatus::run) << rig.why();
+  rig.carried = kRollsBack;
+  rig.run_s(0.4);
+  EXPECT_EQ(rig.snapshot().nav.status, NavStatus::error);
+  ASSERT_EQ(rig.said<NavigationNotStarted>().size(), 1U);
+  EXPECT_THAT(std::string(rig.said<NavigationNotStarted>()[0].reason.view()),
+              HasSubstr("rolls without a command"));
+}
+
+TEST_F(ARobotThatShouldRest, IsNotToldToRollWhenAnArmingDriveSwingsItsWheel) {
+  rig.settle();
+  rig.run_s(1);
+  rig.carried = WheelSpeeds{-1, -1};
+  rig.run_s(0.1);
+  rig.carried = WheelSpeeds{1, 1};
+  rig.run_s(0.15);
+  rig.carried.reset();
+  rig.run_s(2);
+  EXPECT_THAT(told(), ::testing::Not(HasSubstr("without a command")));
+}
+
+TEST_F(ARobotThatShouldRest, KeepsItsPowerWhenSomebodyReleasesAndPushesItHalfASecondAfterAStop) {
+  drive();
+  rig.command(CancelTask{});
+  for (int i = 0; i < 400 && rig.fastest_command_radps() > 0; ++i) rig.tick();
+  rig.run_s(0.5);
+  rig.command(ReleaseHold{true});
+  rig.tick();
+  ASSERT_EQ(rig.snapshot().hold, HoldState::released) << refusal();
+  rig.carried = kStraight;
+  rig.run_s(2);
+  EXPECT_TRUE(relay()) << rig.why();
+  EXPECT_FALSE(rig.snapshot().stop_latched);
+  rig.carried = WheelSpeeds{0.2, 0.2};
+  rig.command(ArmHold{});
+  rig.run_s(3);
+  EXPECT_EQ(rig.snapshot().hold, HoldState::held);
+  EXPECT_FALSE(rig.snapshot().stop_latched) << rig.why();
+}
+
 // Held by nothing but its drives, on ground that falls by 8 degrees.
 class ARobotOnASlope : public ARobotThatShouldRest {
  protected:
@@ -253,6 +313,43 @@ TEST_F(ARobotOnASlope, KeepsItsPowerWhenItRollsDownToLevelGround) {
   rest_s(2);
   rig.gravity_mps2 = {0, 0, 9.81};
   rest_s(3);
+}
+
+// It may stop here (10 degrees are allowed), and would roll all the same without power.
+class ARobotOnASlopeThatIsAllowed : public ARobotOnASlope {
+ protected:
+  ARobotOnASlopeThatIsAllowed() {
+    rig.config.base.max_tilt_deg = 10;
+    rig.engine = std::make_unique<Engine>(rig.config);
+  }
+  void stop() {
+    drive_up();
+    rig.run_s(1);
+    rig.command(CancelTask{});
+    for (int i = 0; i < 400 && rig.fastest_command_radps() > 0; ++i) rig.tick();
+    rig.run_s(0.3);
+  }
+};
+
+TEST_F(ARobotOnASlopeThatIsAllowed, KeepsItsPowerWhenItSwingsBackAfterAStop) {
+  stop();
+  rig.carried = WheelSpeeds{-0.5, -0.5};  // 0.08 m/s
+  rest_s(2);
+  EXPECT_THAT(told(), HasSubstr("the robot moves without a command"));
+}
+
+TEST_F(ARobotOnASlopeThatIsAllowed, KeepsItsPowerWhenItSwingsTheWayThatItDrove) {
+  stop();
+  rig.carried = WheelSpeeds{0.5, 0.5};
+  rest_s(0.3);
+  rig.carried.reset();
+  rest_s(2);
+}
+
+TEST_F(ARobotOnASlopeThatIsAllowed, LosesItsPowerWhenItDrivesOn) {
+  stop();
+  rig.disobeys = kStraight;
+  EXPECT_TRUE(cut_within_s(1.5));
 }
 
 TEST_F(ARobotOnASlope, KeepsItsPowerWhenItIsCaughtAndRollsOn) {

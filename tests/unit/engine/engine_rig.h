@@ -138,7 +138,8 @@ class EngineRig {
     bool reversed = false;  ///< the left front wheel
     double gyro = 1;        ///< it tells so many times the turn
   } mechanics;
-  double jump_m = 0;  ///< of the reported position, east
+  double jump_m = 0;           ///< of the reported position, east
+  double heading_off_deg = 0;  ///< of the reported heading
   Time now{std::chrono::seconds(10)};
   double driven_m = 0;  ///< true way of the base
 
@@ -264,7 +265,7 @@ class EngineRig {
     fix.position.satellites = 20;
     fix.position.hdop = 0.7;
     fix.position.correction_age_s = 1;
-    fix.heading.heading_deg = compass_deg_from_yaw_rad(pose.yaw_rad);
+    fix.heading.heading_deg = wrap_deg(compass_deg_from_yaw_rad(pose.yaw_rad) + heading_off_deg);
     fix.velocity.speed_mps = std::abs(plant.truth().vx_mps);
     if (ticks_ % 60 == 0) fix.velocity.speed_mps += speed_noise_mps;
     fixes_.push_back(fix);

@@ -1,0 +1,90 @@
+// Whether the place changes while the wheels stand.
+#include "engine/health/place_watch.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "drover/angle.h"
+
+namespace drover::engine {
+namespace {
+
+constexpr double kStands_mps = 0.02;
+// More than this, beyond what both places are uncertain by (two sigma each).
+constexpr double kJump_m = 0.1;
+const double kJump_rad = to_rad(5.0);
+constexpr double kBetterKnown = 0.9;
+constexpr Duration kStable = std::chrono::seconds(10);
+
+struct Change {
+  double way_m = 0;
+  double turn_rad = 0;
+  double way_share = 0;   ///< of what is no jump
+  double turn_share = 0;  ///< of what is no jump
+};
+
+Change change(const Pose& from, const Pose& to) {
+  Change it;
+  it.way_m = std::hypot(to.x_m - from.x_m, to.y_m - from.y_m);
+  it.turn_rad = std::abs(wrap_rad(to.yaw_rad - from.yaw_rad));
+  it.way_share = it.way_m / (kJump_m + 2 * std::hypot(from.position_sigma_m, to.position_sigma_m));
+  it.turn_share = it.turn_rad / (kJump_rad + 2 * std::hypot(from.yaw_sigma_rad, to.yaw_sigma_rad));
+  return it;
+}
+
+}  // namespace
+
+void PlaceWatch::update(Time now, const Estimate& estimate, bool heard) {
+  if (!estimate.has_position || !estimate.has_heading) return;
+  const double rim_mps = std::max(std::abs(estimate.left_mps), std::abs(estimate.right_mps));
+  // What rolls out after an e-stop rolls unheard.
+  const bool stands = heard && rim_mps <= kStands_mps;
+  if (!known_ || !stands) {
+    known_ = true;
+    stood_ = at_ = estimate.pose;
+  } else if (!estimate.disagrees && estimate.predicted_error_m <= config_.bound_run_m) {
+    compare(now, estimate.pose);
+  }
+}
+
+void PlaceWatch::compare(Time now, const Pose& pose) {
+  const Change since = change(at_, pose);
+  if (since.way_share > 1 || since.turn_share > 1) {
+    tell(pose);
+    jumped_at_ = now;
+    told_ = false;
+    at_ = pose;
+  } else if (pose.position_sigma_m < kBetterKnown * at_.position_sigma_m) {
+    at_ = pose;
+  }
+}
+
+/// Who was carried went through many places: what counts is how far in all. Who came back was away.
+void PlaceWatch::tell(const Pose& pose) {
+  const Change last = change(at_, pose);
+  const Change all = change(stood_, pose);
+  if (std::max(last.way_share, all.way_share) > std::max(last.turn_share, all.turn_share)) {
+    jumped_.format("the position jumped by %.1f m though no wheel turned",
+                   std::max(last.way_m, all.way_m));
+  } else {
+    jumped_.format("the heading jumped by %.0f degrees though no wheel turned",
+                   to_deg(std::max(last.turn_rad, all.turn_rad)));
+  }
+}
+
+Reason PlaceWatch::ask_start(Time now) {
+  if (jumped_.empty()) return {};
+  const bool stable = now - jumped_at_ >= kStable;
+  if (stable && told_) {
+    jumped_.clear();
+    return {};
+  }
+  told_ = true;
+  Reason why;
+  why.format("%.*s: look where it stands, then start it again%s",
+             static_cast<int>(jumped_.view().size()), jumped_.view().data(),
+             stable ? "" : ", 10 s after the jump at the earliest");
+  return why;
+}
+
+}  // namespace drover::engine

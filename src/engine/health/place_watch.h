@@ -1,0 +1,40 @@
+// Whether the place changes while the wheels stand: a receiver that jumps, or a robot that was
+// carried. Nobody can tell which, so a person has to look before it drives on.
+#pragma once
+
+#include "engine/estimate/estimator.h"
+
+namespace drover::engine {
+
+/// The estimate places itself anew when the receiver insists while the wheels stand. A task that
+/// waits ends by that. Before the next start the new place has to have lasted for 10 s, and a
+/// person has to have been told: by the end of his task, or by a start that was refused.
+class PlaceWatch final {
+ public:
+  explicit PlaceWatch(const EstimateConfig& config) : config_(config) {}
+
+  /// `heard`: all wheels are.
+  void update(Time now, const Estimate& estimate, bool heard);
+  /// Another origin: all places have other numbers.
+  void forget() { known_ = false; }
+  /// A start is asked for. Why not; empty when it may begin: then the new place is believed.
+  Reason ask_start(Time now);
+  /// A person was told by the end of his task.
+  void told() { told_ = true; }
+  /// What jumped, until a start was accepted; empty when nothing did.
+  const Reason& jumped() const { return jumped_; }
+
+ private:
+  void compare(Time now, const Pose& pose);
+  void tell(const Pose& pose);
+
+  EstimateConfig config_;
+  bool known_ = false;
+  Pose stood_;  ///< when a wheel turned last, or better known since
+  Pose at_;     ///< the same, or where it jumped to
+  Reason jumped_;
+  Time jumped_at_ = kNever;
+  bool told_ = false;
+};
+
+}  // namespace drover::engine

@@ -1,0 +1,209 @@
+// Places that change while the wheels stand: in a pause of a task, and before a start.
+#include "engine_fixture.h"
+
+namespace drover::engine {
+namespace {
+
+using ::testing::HasSubstr;
+
+class ARobotWhosePlaceChanges : public AnEngine {
+ protected:
+  ARobotWhosePlaceChanges() {
+    rig.imu = true;
+    rig.tells_speed = true;
+  }
+  void obstacle(bool there) { rig.lines[static_cast<std::size_t>(Line::zone_near)] = there; }
+  void wait_before_an_obstacle() {
+    drive();
+    obstacle(true);
+    rig.run_s(5);
+    ASSERT_TRUE(rig.snapshot().nav.paused) << rig.why();
+  }
+  void expect_failed(const std::string& reason) {
+    ASSERT_EQ(rig.said<TaskEnded>().size(), 1U);
+    EXPECT_EQ(rig.said<TaskEnded>()[0].how, TaskEnded::How::failed);
+    EXPECT_THAT(std::string(rig.said<TaskEnded>()[0].reason.view()), HasSubstr(reason));
+    EXPECT_EQ(rig.snapshot().nav.status, NavStatus::error);
+    obstacle(false);
+    expect_no_motion_for_s(5);
+  }
+  void expect_refused(const std::string& reason) {
+    const std::size_t before = rig.said<CommandRefused>().size();
+    rig.start(path, 40, 0.5);
+    rig.tick();
+    ASSERT_EQ(rig.said<CommandRefused>().size(), before + 1);
+    EXPECT_THAT(refusal(), HasSubstr(reason));
+    expect_no_motion_for_s(0.5);
+  }
+  void expect_drives() {
+    rig.start(path, 40, 0.5);
+    rig.run_s(3);
+    EXPECT_GT(rig.fastest_command_radps(), 1) << rig.why() << refusal();
+  }
+  /// Moved by so much on a trailer; its wheels stand on it.
+  void carry(const WheelSpeeds& speeds, double seconds) {
+    for (auto& drive : rig.drives) drive.stuck = true;
+    rig.carried = speeds;
+    rig.run_s(seconds);
+    rig.carried.reset();
+    for (auto& drive : rig.drives) drive.stuck = false;
+  }
+  std::string told() const {
+    std::string all;
+    for (const Notice& notice : rig.said<Notice>()) all += std::string(notice.text.view()) + "\n";
+    return all;
+  }
+};
+
+TEST_F(ARobotWhosePlaceChanges, GoesOnAfterAPauseInWhichNothingChanged) {
+  wait_before_an_obstacle();
+  rig.run_s(20);
+  obstacle(false);
+  rig.run_s(3);
+  EXPECT_GT(rig.fastest_command_radps(), 1) << rig.why();
+}
+
+class AJumpInAPause : public ARobotWhosePlaceChanges, public testing::WithParamInterface<double> {};
+
+TEST_P(AJumpInAPause, EndsTheTask) {
+  wait_before_an_obstacle();
+  rig.jump_m = GetParam();
+  rig.run_s(3);
+  expect_failed("jumped by");
+}
+
+TEST_P(AJumpInAPause, IsNotDrivenFromWhenTheObstacleGoesAtTheSameTime) {
+  wait_before_an_obstacle();
+  rig.jump_m = GetParam();
+  rig.run_s(0.3);
+  obstacle(false);
+  rig.run_s(4);
+  ASSERT_EQ(rig.said<TaskEnded>().size(), 1U);
+  EXPECT_EQ(rig.said<TaskEnded>()[0].how, TaskEnded::How::failed);
+}
+
+INSTANTIATE_TEST_SUITE_P(OfTheReceiver, AJumpInAPause,
+                         testing::Values(-0.45, 0.3, 0.45, 2, -5, 50));
+
+TEST_F(ARobotWhosePlaceChanges, FailsWhenTheHeadingFlipsInAPause) {
+  wait_before_an_obstacle();
+  rig.heading_off_deg = 180;
+  rig.run_s(5);
+  expect_failed("the heading jumped by 180 degrees though no wheel turned");
+}
+
+TEST_F(ARobotWhosePlaceChanges, FailsWhenItIsCarriedInAPause) {
+  wait_before_an_obstacle();
+  carry({6, 6}, 2);
+  expect_failed("pushed or carried");
+}
+
+TEST_F(ARobotWhosePlaceChanges, FailsWhenItIsCarriedAndTurnedInAPause) {
+  wait_before_an_obstacle();
+  carry({-6, 6}, 1);
+  rig.run_s(3);
+  expect_failed("");
+}
+
+TEST_F(ARobotWhosePlaceChanges, FailsWhenItIsCarriedTooSlowlyToBeTold) {
+  rig.imu = false;
+  rig.tells_speed = false;
+  wait_before_an_obstacle();
+  carry({-1, -1}, 4);  // 0.17 m/s
+  rig.run_s(3);
+  expect_failed("");
+}
+
+TEST_F(ARobotWhosePlaceChanges, FailsWhenItIsPushedInAPauseSoThatItsWheelsTurn) {
+  wait_before_an_obstacle();
+  rig.carried = WheelSpeeds{1, 1};
+  rig.run_s(0.5);
+  rig.carried.reset();
+  expect_failed("the robot rolls without a command");
+}
+
+TEST_F(ARobotWhosePlaceChanges, IsStartedAfterAJumpOnlyByAPersonWhoWasTold) {
+  rig.settle();
+  rig.jump_m = 1.9;
+  rig.run_s(3);
+  EXPECT_EQ(rig.snapshot().nav.locate, LocateState::good) << rig.why();
+  EXPECT_THAT(told(), HasSubstr("the position jumped by 1.9 m though no wheel turned"));
+  expect_refused("jumped by 1.9 m though no wheel turned: look where it stands");
+  rig.run_s(4);
+  expect_refused("10 s after the jump");
+  rig.run_s(4);
+  expect_drives();
+}
+
+TEST_F(ARobotWhosePlaceChanges, IsStartedAtTheSecondAttemptWhenTheJumpWasLongAgo) {
+  rig.settle();
+  rig.jump_m = 0.5;
+  rig.run_s(60);
+  expect_refused("the position jumped by 0.5 m");
+  expect_drives();
+}
+
+TEST_F(ARobotWhosePlaceChanges, IsRefusedWhenItsHeadingJumpedAtRest) {
+  rig.settle();
+  rig.heading_off_deg = 25;
+  rig.run_s(3);
+  expect_refused("the heading jumped by 25 degrees");
+}
+
+TEST_F(ARobotWhosePlaceChanges, IsStartedTenSecondsAfterAJumpThatEndedItsTask) {
+  wait_before_an_obstacle();
+  rig.jump_m = 0.45;
+  rig.run_s(3);
+  expect_failed("jumped by");
+  rig.run_s(6);
+  expect_drives();
+}
+
+TEST_F(ARobotWhosePlaceChanges, IsRefusedAgainWhenItJumpsAgain) {
+  rig.settle();
+  rig.jump_m = 1.9;
+  rig.run_s(12);
+  expect_refused("jumped by 1.9 m");
+  rig.jump_m = 0;
+  rig.run_s(12);
+  expect_refused("jumped by 1.9 m");
+  expect_drives();
+}
+
+TEST_F(ARobotWhosePlaceChanges, IsNotToldToJumpWhenItsFixComesAndGoes) {
+  rig.settle();
+  for (int i = 0; i < 6; ++i) {
+    rig.quality = FixQuality::rtk_float;
+    rig.jump_m = i % 2 == 0 ? 0.4 : -0.4;
+    rig.run_s(10);
+    rig.quality = FixQuality::rtk_fixed;
+    rig.jump_m = 0;
+    rig.run_s(10);
+  }
+  EXPECT_THAT(told(), ::testing::Not(HasSubstr("jumped")));
+  expect_drives();
+}
+
+TEST_F(ARobotWhosePlaceChanges, IsNotToldToJumpWhenItsOriginIsMoved) {
+  rig.settle();
+  rig.command(SetOrigin{{kRigOrigin.latitude_deg + 1e-4, kRigOrigin.longitude_deg, 500}});
+  rig.run_s(5);
+  EXPECT_THAT(told(), ::testing::Not(HasSubstr("jumped")));
+}
+
+TEST_F(ARobotWhosePlaceChanges, IsNotToldToJumpWhenItRollsOutUnheardAfterAnEstop) {
+  drive();
+  rig.lines[static_cast<std::size_t>(Line::estop)] = true;
+  for (auto& drive : rig.drives) drive.silent = true;
+  rig.carried = WheelSpeeds{2, 2};
+  rig.run_s(1);
+  rig.carried.reset();
+  rig.run_s(3);
+  rig.lines[static_cast<std::size_t>(Line::estop)] = false;
+  for (auto& drive : rig.drives) drive.silent = false;
+  rig.run_s(5);
+  EXPECT_THAT(told(), ::testing::Not(HasSubstr("jumped")));
+}
+
+}  // namespace
+}  // namespace drover::engine
