@@ -8,10 +8,12 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <fstream>
 #include <stdexcept>
 #include <string>
 
 #include "drover/angle.h"
+#include "support/temp_folder.h"
 
 namespace drover::sim {
 namespace {
@@ -234,13 +236,14 @@ const std::string kWheel = R"(<body name="wheel" pos="0 0.2 0"><joint name="whee
   <geom type="sphere" size="0.1" mass="1" contype="1" conaffinity="1" condim="1"/></body>)";
 
 std::string refusal(const std::string& world) {
-  const auto file = std::filesystem::temp_directory_path() / "drover-plant-test.xml";
+  const test::TempFolder folder;
+  const std::string file = folder.path() + "/world.xml";
   std::ofstream(file) << world;
   try {
-    const Plant plant(file.string());
+    const Plant plant(file);
     return "accepted";
   } catch (const std::runtime_error& error) {
-    return std::string(error.what()).substr(file.string().size());
+    return std::string(error.what()).substr(file.size());
   }
 }
 
