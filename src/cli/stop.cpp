@@ -138,10 +138,17 @@ void print(const StopPlaces& places, bool done, const Answer& guard, const Answe
   }
 }
 
-/// The guard gives the bus back when droverd asks for it, which takes a moment.
+/// The guard gives the bus back when droverd asks for it, which takes a moment; droverd knows a few
+/// cycles later that it has it.
 void wait_for_bus(const StopPlaces& places) {
-  constexpr int kTries = 20;
-  for (int i = 0; i < kTries && holds(places); ++i) ::usleep(50'000);
+  constexpr int kTries = 40;
+  constexpr useconds_t kBetween_us = 50'000;
+  bool held = false;
+  for (int i = 0; i < kTries && holds(places); ++i) {
+    held = true;
+    ::usleep(kBetween_us);
+  }
+  if (held) ::usleep(kBetween_us);
 }
 
 }  // namespace
