@@ -95,8 +95,9 @@ void tell(const char* what, std::vector<double> all_s) {
   const double most_s = all_s.at(all_s.size() * 9 / 10);
   std::printf("%s: median %.0f ms, nine of ten %.0f ms, longest %.0f ms\n", what, 1e3 * median_s,
               1e3 * most_s, 1e3 * all_s.back());
-  EXPECT_LT(median_s, 0.1) << what;
-  EXPECT_LT(all_s.back(), 0.5) << what << ", on a machine that others use, too";
+  // The promise is one of the programs as they are installed.
+  EXPECT_LT(median_s, 0.1 * deadline_factor()) << what;
+  EXPECT_LT(all_s.back(), 0.5 * deadline_factor()) << what << ", on a machine that others use, too";
 }
 
 /// Ten of the largest saves a second, and a flood beside them or none.

@@ -13,14 +13,18 @@
 
 namespace drover::test {
 
+int deadline_factor() {
+  const char* factor = ::getenv("DROVER_DEADLINE_FACTOR");
+  return factor != nullptr ? std::max(1, std::atoi(factor)) : 1;
+}
+
 namespace {
 
 namespace fs = std::filesystem;
 using std::chrono::milliseconds;
 
 milliseconds deadline() {
-  const char* factor = ::getenv("DROVER_DEADLINE_FACTOR");
-  return milliseconds(20'000) * (factor != nullptr ? std::max(1, std::atoi(factor)) : 1);
+  return milliseconds(20'000) * deadline_factor();
 }
 
 /// In memory where there is such a place: a robot that logs to a busy disk stands still meanwhile.

@@ -21,6 +21,9 @@
 
 namespace drover::test {
 
+/// DROVER_DEADLINE_FACTOR: how many times slower the programs are, say with a sanitizer; 1 without.
+int deadline_factor();
+
 struct CommandResult {
   int code = -1;  ///< -1: it did not end
   std::string text;
