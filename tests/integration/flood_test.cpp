@@ -65,16 +65,20 @@ std::string largest_save() {
 
 class Flood : public RobotRig {
  protected:
+  bool hears(const std::string& answer, std::size_t from) {
+    for (const double end_s = now_s() + 20 * deadline_factor(); now_s() < end_s;) {
+      operator_.turn(std::chrono::milliseconds(5));
+      const auto told = operator_.feedback(from);
+      if (std::find(told.begin(), told.end(), answer) != told.end()) return true;
+    }
+    return false;
+  }
   /// Seconds until the answer; hears only what is for it, else it would be flooded itself.
   double ask(const std::string& cmd_type, const std::string& cmd) {
     const auto before = operator_.heard().size();
     const double asked_s = now_s();
     operator_.publish("mqtt_control", R"({"cmd_type":")" + cmd_type + R"(","cmd":")" + cmd + "\"}");
-    while (now_s() < asked_s + 20) {
-      operator_.turn(std::chrono::milliseconds(5));
-      const auto told = operator_.feedback(before);
-      if (std::find(told.begin(), told.end(), cmd + "_success") != told.end()) break;
-    }
+    EXPECT_TRUE(hears(cmd + "_success", before)) << cmd;
     return now_s() - asked_s;
   }
   /// The same with the command line, its start included.
@@ -95,9 +99,10 @@ void tell(const char* what, std::vector<double> all_s) {
   const double most_s = all_s.at(all_s.size() * 9 / 10);
   std::printf("%s: median %.0f ms, nine of ten %.0f ms, longest %.0f ms\n", what, 1e3 * median_s,
               1e3 * most_s, 1e3 * all_s.back());
-  // The promise is one of the programs as they are installed.
-  EXPECT_LT(median_s, 0.1 * deadline_factor()) << what;
-  EXPECT_LT(all_s.back(), 0.5 * deadline_factor()) << what << ", on a machine that others use, too";
+  // The promise is one of the programs as they are installed: with a sanitizer they are heard.
+  if (deadline_factor() > 1) return;
+  EXPECT_LT(median_s, 0.1) << what;
+  EXPECT_LT(all_s.back(), 0.5) << what << ", on a machine that others use, too";
 }
 
 /// Ten of the largest saves a second, and a flood beside them or none.
@@ -135,8 +140,7 @@ TEST_F(Flood, StopsAreHeardWhileOthersFloodTheBrokerAndSaveLargeTracks) {
 /// None of them is refused for the flood's sake: they are read.
 TEST_F(Flood, StopsAreHeardWhileOthersSaveLargeTracks) {
   hear_stops(0);
-  const auto told = operator_.feedback();
-  EXPECT_GT(std::count(told.begin(), told.end(), "save_trajectory_success"), 0);
+  EXPECT_TRUE(hears("save_trajectory_success", 0));
 }
 
 }  // namespace
