@@ -98,7 +98,7 @@ std::optional<std::uint32_t> decode_u32_error_0_5(const CanFrame& frame) {
 
 std::optional<FloatPair> decode_floats(const CanFrame& frame) {
   if (frame.remote || frame.len != 8) return {};
-  return FloatPair{read_float(frame, 0), read_float(frame, 4)};
+  return FloatPair{load_le_float(frame.data, 0), load_le_float(frame.data, 4)};
 }
 
 std::optional<SdoValue> decode_tx_sdo(const CanFrame& frame) {

@@ -31,7 +31,7 @@ struct Answer {
   bool obeyed = false;
   bool heard = false;  ///< it answered
   bool limp = false;   ///< the guard leaves the drives alone: they were released, or have no power
-  std::string why;     ///< not obeyed: a sentence
+  std::string why = {};  ///< not obeyed: a sentence
 };
 
 std::string guard_path(const StopPlaces& places) {
@@ -83,16 +83,16 @@ std::optional<json::Document> ask_guard(const StopPlaces& places, std::string_vi
 Answer tell_guard(const StopPlaces& places, std::string_view word) {
   std::string problem;
   const auto state = ask_guard(places, word, problem);
-  if (!state) return {false, false, false, problem};
+  if (!state) return {.why = problem};
   if (is_true(state->root, "latched") != (word == "stop"))
-    return {false, true, false, "drover-guard did not take it"};
+    return {.heard = true, .why = "drover-guard did not take it"};
   const auto* axes = state->root.find("axes");
   const bool has_axes = axes != nullptr && axes->integer().value_or(0) > 0;
   if (word == "stop" && !has_axes)
-    return {false, true, false, "drover-guard permits no motion, but knows no drives to stop"};
+    return {.heard = true, .why = "drover-guard permits no motion, but knows no drives to stop"};
   const auto* may_hold = state->root.find("may_hold");
   const bool limp = may_hold != nullptr && !is_true(state->root, "may_hold");
-  return {true, true, limp, {}};
+  return {.obeyed = true, .heard = true, .limp = limp};
 }
 
 bool holds(const StopPlaces& places) {
@@ -105,13 +105,14 @@ Answer tell_daemon(const StopPlaces& places, std::string_view cmd) {
   try {
     const auto question = json::JsonText().open('{').key("cmd").text(cmd).close('}').take();
     const auto reply = json::parse(ask(places.daemon, question, kDaemonPatience_s));
-    if (!reply) return {false, true, false, "droverd's answer is not understood"};
-    if (is_true(reply->root, "ok")) return {true, true, false, {}};
+    if (!reply) return {.heard = true, .why = "droverd's answer is not understood"};
+    if (is_true(reply->root, "ok")) return {.obeyed = true, .heard = true};
     const auto* reason = reply->root.find("reason");
-    return {false, true, false,
-            reason != nullptr && reason->text() != nullptr ? *reason->text() : "droverd refused"};
+    return {.heard = true,
+            .why = reason != nullptr && reason->text() != nullptr ? *reason->text()
+                                                                  : "droverd refused"};
   } catch (const NoAnswer& no) {
-    return {false, false, false, no.text};
+    return {.why = no.text};
   }
 }
 

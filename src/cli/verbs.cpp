@@ -101,11 +101,11 @@ std::string hint_for(const CLI::App& app, const CLI::App& level, const std::stri
           return "did you mean \"" + verb->get_name() + " " + word + "\"?";
   }
   const auto best = config::nearest(word, names);
-  const auto longer = std::max(word.size(), best.size());
-  const bool slip = best.size() + word.size() > 2 * longer - 2 && best.front() == word.front() &&
-                    best.back() == word.back();
-  if (best.empty() || (acts_on_the_robot(best) && !slip)) return "";
-  return "did you mean \"" + best + "\"?";
+  if (best.empty()) return "";
+  const auto [shorter, longer] = std::minmax({word.size(), best.size()});
+  const bool slip =
+      longer - shorter <= 1 && best.front() == word.front() && best.back() == word.back();
+  return acts_on_the_robot(best) && !slip ? "" : config::did_you_mean(word, names);
 }
 
 }  // namespace

@@ -35,9 +35,7 @@ class GuardAndCommandLine : public GuardRig {
     return {code.value_or(-1), process.output(), std::chrono::steady_clock::now() - begin};
   }
   void supply() {
-    std::vector<runtime::GuardedLink> links;
-    links.push_back(can_link("can0", {0x2D}));
-    hand_over(std::move(links));
+    hand_over_one_drive();
     beat(50ms);
   }
   /// Takes connections and answers nobody.

@@ -117,9 +117,7 @@ TEST_F(GuardKeeps, TheNewestSet) {
 TEST_F(GuardKeeps, AWholeSetAtEachMoment) {
   supply({"can0"});
   for (int i = 0; i < 10; ++i) {
-    std::vector<runtime::GuardedLink> links;
-    links.push_back(can_link("can0", {0x2D}));
-    hand_over(std::move(links));
+    hand_over_one_drive();
     beat(std::chrono::milliseconds(5 * i));
     kill();
     client().disconnect();
@@ -154,9 +152,7 @@ TEST_F(GuardKeeps, NothingOfWhatIsNotWhole) {
 TEST_F(GuardKeeps, TryingToLeaveItsThingsUntilTheyAreTaken) {
   ASSERT_TRUE(wait_until([&] { return manager().heard("READY=1"); }));
   manager().stop_reading();
-  std::vector<runtime::GuardedLink> links;
-  links.push_back(can_link("can0", {0x2D}));
-  hand_over(std::move(links));
+  hand_over_one_drive();
   ASSERT_TRUE(beat(5s, [&] { return shared().unsaid > 0; }));
   EXPECT_TRUE(beat(5s, [&] { return manager().keeps("recipe"); })) << "now that it reads again";
 }

@@ -233,6 +233,12 @@ bool GuardRig::hand_over(std::vector<runtime::GuardedLink> links) {
   return done;
 }
 
+bool GuardRig::hand_over_one_drive() {
+  std::vector<runtime::GuardedLink> links;
+  links.push_back(can_link("can0", {0x2D}));
+  return hand_over(std::move(links));
+}
+
 bool GuardRig::beat(std::chrono::milliseconds time, const std::function<bool()>& done) {
   const auto end = Clock::now() + time;
   while (Clock::now() < end) {

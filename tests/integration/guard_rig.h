@@ -68,6 +68,8 @@ class GuardRig : public testing::Test {
   /// Frames that came at the drives' end of `name` since the last look.
   std::vector<unsigned> frames(const std::string& name);
   bool hand_over(std::vector<runtime::GuardedLink> links);
+  /// "can0" with one axis, 0x2D.
+  bool hand_over_one_drive();
   runtime::GuardClient& client() { return *client_; }
   GuardShared& shared() { return memory_->shared(); }
   /// droverd is started again: other memory, another connection.

@@ -85,9 +85,7 @@ TEST_F(Guard, SendsNothingWhileTheHeartbeatIsThere) {
 
 TEST_F(Guard, SendsAlthoughItsStandardErrorIsAFullPipe) {
   start({.standard_error = full_pipe()});
-  std::vector<runtime::GuardedLink> links;
-  links.push_back(can_link("can0", {0x2D}));
-  hand_over(std::move(links));
+  hand_over_one_drive();
   daemon_dies_after(50ms);
   EXPECT_TRUE(is_stopped("can0", 0x2D));
 }
@@ -97,9 +95,7 @@ TEST_F(Guard, GoesOnSendingWhenNobodyReadsItsNotifications) {
   start({.manager = &manager});
   ASSERT_TRUE(wait_until([&] { return manager.heard("READY=1"); }));
   manager.stop_reading();
-  std::vector<runtime::GuardedLink> links;
-  links.push_back(can_link("can0", {0x2D}));
-  hand_over(std::move(links));
+  hand_over_one_drive();
   daemon_dies_after(50ms);
   // Before, the library's call hung after 1.7 s of them.
   for (int i = 0; i < 10; ++i) {
@@ -122,9 +118,7 @@ TEST_F(Guard, StopsOneBusWhileAnotherTakesNothing) {
 
 TEST_F(Guard, AnEmptySetDoesNotEndAHold) {
   start();
-  std::vector<runtime::GuardedLink> links;
-  links.push_back(can_link("can0", {0x2D}));
-  hand_over(std::move(links));
+  hand_over_one_drive();
   daemon_dies_after(50ms);
   ASSERT_TRUE(is_stopped("can0", 0x2D));
 
@@ -145,9 +139,7 @@ TEST_F(Guard, ASmallerSetDoesNotEndAHoldUntilAPersonResetsIt) {
   ASSERT_TRUE(is_stopped("can1", 0x4D));
 
   new_daemon();
-  std::vector<runtime::GuardedLink> fewer;
-  fewer.push_back(can_link("can0", {0x2D}));
-  hand_over(std::move(fewer));
+  hand_over_one_drive();
   EXPECT_TRUE(is_stopped("can1", 0x4D));
   EXPECT_THAT(output(), HasSubstr("can1 04D"));
 
@@ -158,9 +150,7 @@ TEST_F(Guard, ASmallerSetDoesNotEndAHoldUntilAPersonResetsIt) {
 
 TEST_F(Guard, ASetThatCoversTheHeldOneReplacesItWithoutAGap) {
   start();
-  std::vector<runtime::GuardedLink> links;
-  links.push_back(can_link("can0", {0x2D}));
-  hand_over(std::move(links));
+  hand_over_one_drive();
   daemon_dies_after(50ms);
   ASSERT_TRUE(is_stopped("can0", 0x2D));
 
@@ -212,18 +202,14 @@ TEST_F(Guard, ASecondGuardLeavesTheFirstOnesSocketAlone) {
   int status = 0;
   ::waitpid(second, &status, 0);
   EXPECT_EQ(WEXITSTATUS(status), 2);
-  std::vector<runtime::GuardedLink> links;
-  links.push_back(can_link("can0", {0x2D}));
-  hand_over(std::move(links));
+  hand_over_one_drive();
   daemon_dies_after(50ms);
   EXPECT_TRUE(is_stopped("can0", 0x2D));
 }
 
 TEST_F(Guard, StopsAtItsStopSocketWhateverDroverdDoesUntilItIsReset) {
   start();
-  std::vector<runtime::GuardedLink> links;
-  links.push_back(can_link("can0", {0x2D}));
-  hand_over(std::move(links));
+  hand_over_one_drive();
   beat(50ms);
   EXPECT_THAT(at_stop_socket("stop"),
               AllOf(HasSubstr("\"latched\":true"), HasSubstr("\"axes\":1")));
@@ -242,9 +228,7 @@ TEST_F(Guard, StopsAtItsStopSocketWhateverDroverdDoesUntilItIsReset) {
 
 TEST_F(Guard, ItsStopSocketCanDoNothingElse) {
   start();
-  std::vector<runtime::GuardedLink> links;
-  links.push_back(can_link("can0", {0x2D}));
-  hand_over(std::move(links));
+  hand_over_one_drive();
   beat(50ms);
   GuardMessage hand_over_nothing;
   hand_over_nothing.verb = GuardVerb::watch;
@@ -272,9 +256,7 @@ TEST_F(Guard, WhoConnectsAndSaysNothingKeepsNobodyFromStopping) {
 
 TEST_F(Guard, SendsNothingToDrivesThatAPersonReleased) {
   start();
-  std::vector<runtime::GuardedLink> links;
-  links.push_back(can_link("can0", {0x2D}));
-  hand_over(std::move(links));
+  hand_over_one_drive();
   shared().may_hold = GuardMayHold::released;
   daemon_dies_after(50ms);
   ASSERT_TRUE(wait_until([&] { return shared().guard_holds == 1; }));
@@ -283,18 +265,14 @@ TEST_F(Guard, SendsNothingToDrivesThatAPersonReleased) {
 
   // A new daemon that has not said anything yet changes nothing.
   new_daemon();
-  std::vector<runtime::GuardedLink> same;
-  same.push_back(can_link("can0", {0x2D}));
-  hand_over(std::move(same));
+  hand_over_one_drive();
   std::this_thread::sleep_for(50ms);
   EXPECT_THAT(frames("can0"), IsEmpty());
 }
 
 TEST_F(Guard, SendsNothingToDrivesWhosePowerTheDaemonCut) {
   start();
-  std::vector<runtime::GuardedLink> links;
-  links.push_back(can_link("can0", {0x2D}));
-  hand_over(std::move(links));
+  hand_over_one_drive();
   shared().may_hold = GuardMayHold::cut;
   daemon_dies_after(50ms);
   ASSERT_TRUE(wait_until([&] { return shared().guard_holds == 1; }));
@@ -315,9 +293,7 @@ TEST_F(Guard, TheRelaysLineFallsWhenTheLastOfBothIsGone) {
     char byte = 0;
     return ::read(relay.get(), &byte, 1) == 0;
   };
-  std::vector<runtime::GuardedLink> links;
-  links.push_back(can_link("can0", {0x2D}));
-  hand_over(std::move(links));
+  hand_over_one_drive();
   ASSERT_TRUE(client().give_relay_line("gpio17", line[1]));
   EXPECT_FALSE(client().borrow("gpio16")) << "an answer, so that the line has arrived";
   ::close(line[1]);

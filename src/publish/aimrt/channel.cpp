@@ -64,8 +64,8 @@ std::optional<Names> Channel::command_names(std::string_view topic) const {
 std::vector<Telemetry> Channel::telemetry(const Snapshot& snapshot, Duration wall_minus_monotonic) {
   std::vector<Telemetry> packets;
   const auto add = [&packets](const Topics& topics, const std::string& message) {
-    for (const auto& topic : topics.names)
-      packets.push_back({&topic, encode_packet(message, topics.content)});
+    const auto packet = encode_packet(message, topics.content);
+    for (const auto& topic : topics.names) packets.push_back({&topic, packet});
   };
   // While a drive is late the cycle's own time: no stamp comes twice. None without a new cycle.
   const Time heard = joint_time(snapshot);
