@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace drover::engine {
 namespace {
@@ -79,6 +80,10 @@ void WheelMonitor::follow_command(Wheel& wheel, const AxisSnapshot& axis, Time n
   // A guard may be slowing it down since before this gateway began, or somebody pushed it.
   const double found_radps = std::abs(axis.motion.velocity_radps);
   if (!wheel.judged && std::isfinite(found_radps)) asked_radps = std::max(asked_radps, found_radps);
+  // A roll that is caught may be faster than any command: its ramp begins there.
+  if (judged && wheel.let_go) wheel.caught = true;
+  if (!(found_radps > fastest_radps_) || axis.state != AxisState::running) wheel.caught = false;
+  wheel.let_go = heard && axis.state != AxisState::running;
   if (!wheel.judged || asked_radps >= wheel.reach_radps) {
     wheel.reach_radps = asked_radps;
     wheel.reached = now;
@@ -90,8 +95,10 @@ void WheelMonitor::follow_command(Wheel& wheel, const AxisSnapshot& axis, Time n
 
 bool WheelMonitor::runs_away(Wheel& wheel, const AxisSnapshot& axis, Time now, Duration dt) const {
   follow_command(wheel, axis, now, dt);
+  const double most_radps = wheel.caught ? std::numeric_limits<double>::infinity() : fastest_radps_;
+  const bool reached = wheel.judged || wheel.caught;
   const double limit_radps =
-      wheel.judged ? std::min(fastest_radps_, wheel.reach_radps + margin_radps_) : fastest_radps_;
+      reached ? std::min(most_radps, wheel.reach_radps + margin_radps_) : most_radps;
   const bool fast =
       axis.state == AxisState::running && std::abs(axis.motion.velocity_radps) > limit_radps;
   if (!fast) {

@@ -22,6 +22,8 @@ enum class WheelFault : std::uint8_t {
 /// follows when it made a fifth of the commanded way, in the commanded direction. How fast a wheel
 /// may turn follows its command with the delay and the deceleration of a stop; a wheel that is seen
 /// for the first time, again after a silence, or newly in closed loop begins with the speed it has.
+/// No wheel is faster than the highest command, except one that is caught while it rolls: until it
+/// is slower once, only what it began with counts.
 class WheelMonitor final {
  public:
   explicit WheelMonitor(const EngineConfig& config);
@@ -43,6 +45,8 @@ class WheelMonitor final {
     bool judged = false;     ///< heard, and in closed loop, in the cycle before
     double reach_radps = 0;  ///< how fast the commands of late may have made it
     Time reached = kNever;   ///< when a command, or its first speed, last asked for so much
+    bool let_go = false;     ///< heard, and not in closed loop, in the cycle before
+    bool caught = false;     ///< taken into closed loop while it turned faster than any command
     Time fast_since = kNever;
   };
   void watch(Wheel& wheel, const AxisSnapshot& axis, Time now, Duration dt);

@@ -137,7 +137,8 @@ void Hold::begin(const HoldInput& input, const AxisSnapshot& axis, Catch& it) co
 void Hold::follow(const HoldInput& input, const AxisSnapshot& axis, Catch& it) const {
   const bool runs = axis.state == AxisState::running;
   const bool refused = axis.state == AxisState::fault && input.now - it.since > kReportDelay;
-  if (refused || !heard(input, axis) || input.now - it.since > kLongestAttempt) {
+  const bool late = !runs && input.now - it.since > kLongestAttempt;  // a ramp ends by itself
+  if (refused || !heard(input, axis) || late) {
     it = {false, kNever, input.now + kRetry, 0};
     return;
   }

@@ -26,6 +26,20 @@ class ARobotThatHolds : public AnEngine {
     rig.tick();
     rig.set_origin();
   }
+  WheelSpeeds speeds(double mps) const {
+    const double radps = mps / rig.config.base.wheel_radius_m;
+    return {radps, radps};
+  }
+  /// The drives lost their supply until the base rolled by `mps`; ends when they run again.
+  void catch_at(double mps) {
+    for (auto& drive : rig.drives) drive = {.silent = true, .position_rad = drive.position_rad};
+    rig.carried = speeds(mps);
+    rig.run_s(2);
+    for (auto& drive : rig.drives) drive.silent = false;
+    for (int i = 0; i < 100 && rig.drives[0].state != AxisState::running; ++i) rig.tick();
+    ASSERT_EQ(rig.drives[0].state, AxisState::running);
+    rig.carried.reset();
+  }
   /// The base stands on ground that falls by so much, for one cycle of its inertial sensor.
   void tick_tilted(double deg) {
     rig.environment.imu_configured = true;
@@ -64,6 +78,32 @@ TEST_F(ARobotThatHolds, IsHeldAgainAfterADipOfItsSupply) {
   EXPECT_THAT(refusal(), HasSubstr("being taken back"));
   rig.run_s(1);
   EXPECT_EQ(rig.snapshot().hold, HoldState::held);
+}
+TEST_F(ARobotThatHolds, IsRampedDownFromASpeedThatNoCommandMayHave) {
+  drive_and_stop();
+  catch_at(2.4);
+  const double fall_radps =
+      1.001 * rig.config.limits.deceleration_mps2 / rig.config.base.wheel_radius_m * 0.005;
+  double before_radps = rig.out.axes[0].velocity_radps;
+  ASSERT_GT(before_radps * rig.config.base.wheel_radius_m, 2.2);
+  for (int i = 0; i < 800; ++i) {
+    rig.tick();
+    const double asked_radps = rig.out.axes[0].velocity_radps;
+    ASSERT_LE(asked_radps, before_radps);
+    ASSERT_GE(asked_radps, before_radps - fall_radps) << i * 0.005 << " s, " << rig.why();
+    before_radps = asked_radps;
+  }
+  EXPECT_EQ(before_radps, 0);
+  EXPECT_LT(rig.plant.truth().vx_mps, 0.01);
+  EXPECT_EQ(rig.snapshot().hold, HoldState::held) << rig.why();
+}
+TEST_F(ARobotThatHolds, IsLetGoWhenItGetsFasterWhileItIsCaught) {
+  drive_and_stop();
+  catch_at(2.4);
+  rig.carried = speeds(4);
+  rig.run_s(1);
+  EXPECT_THAT(rig.why(), HasSubstr("runs away"));
+  EXPECT_EQ(rig.out.axes[0].velocity_radps, 0);
 }
 TEST_F(ARobotThatHolds, IsNotHeldAgainAfterAnEstop) {
   drive_and_stop();

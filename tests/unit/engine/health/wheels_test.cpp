@@ -44,14 +44,36 @@ class AWheelMonitor : public ::testing::Test {
   double turn_s(double seconds, double radps, double falls_radps2 = 0) {
     for (int i = 1; i <= static_cast<int>(seconds * 200 + 0.5); ++i) {
       const double speed_radps = std::max(radps - i * 0.005 * falls_radps2, 0.0);
-      for (AxisSnapshot& axis : axes) axis.motion.velocity_radps = speed_radps;
+      for (AxisSnapshot& axis : axes) {
+        axis.motion.velocity_radps = speed_radps;
+        axis.motion.position_rad += speed_radps * 0.005;
+      }
       step();
       if (fault != WheelFault::none) return i * 0.005;
     }
     return 0;
   }
+  /// The drives let go while the wheels turn by `mps` at the rim, and run again.
+  void switch_on_at(double mps) {
+    for (AxisSnapshot& axis : axes) axis.state = AxisState::idle;
+    turn_s(0.1, mps / config.base.wheel_radius_m);
+    for (AxisSnapshot& axis : axes) axis.state = AxisState::running;
+    step();
+  }
+  /// Caught at `mps`: the command falls to zero, the wheels by `falls_mps2`.
+  double catch_s(double seconds, double mps, double falls_mps2) {
+    switch_on_at(mps);
+    const double radius_m = config.base.wheel_radius_m;
+    for (int i = 1; i <= static_cast<int>(seconds * 200 + 0.5); ++i) {
+      command(std::max(mps - i * 0.005 * kRampDown_mps2, 0.0) / radius_m);
+      if (turn_s(0.005, std::max(mps - i * 0.005 * falls_mps2, 0.0) / radius_m) > 0)
+        return i * 0.005;
+    }
+    return 0;
+  }
   std::string reason() { return std::string(monitor.reason().view()); }
 
+  static constexpr double kRampDown_mps2 = 0.8;
   EngineConfig config;
   WheelMonitor monitor{config};
   std::array<AxisSnapshot, 4> axes{};
@@ -177,6 +199,33 @@ TEST_F(AWheelMonitor, BeginsWithTheSpeedOfARobotThatIsPushedWhenItsDrivesAreSwit
   EXPECT_EQ(turn_s(2, 4), 0);
   for (AxisSnapshot& axis : axes) axis.state = AxisState::running;
   EXPECT_EQ(turn_s(2, 4, 0.8 / 0.165), 0);
+}
+TEST_F(AWheelMonitor, LetsAWheelBeCaughtFasterThanAnyCommandMayBe) {
+  EXPECT_EQ(catch_s(5, 2.4, kRampDown_mps2), 0) << reason();
+}
+TEST_F(AWheelMonitor, FindsACaughtWheelThatSpeedsUp) {
+  const double found_s = catch_s(3, 2.4, -4);
+  EXPECT_GT(found_s, 0.05);
+  EXPECT_LE(found_s, 0.3);
+  EXPECT_THAT(reason(), HasSubstr("wheel a runs away"));
+}
+TEST_F(AWheelMonitor, FindsACaughtWheelThatDoesNotSlowDown) {
+  const double found_s = catch_s(5, 2.4, 0);
+  EXPECT_GT(found_s, 0.5);
+  EXPECT_LE(found_s, 1.2);
+}
+TEST_F(AWheelMonitor, FindsAWheelThatRunsAwayAgainAfterItWasCaught) {
+  ASSERT_EQ(catch_s(2, 2.4, kRampDown_mps2), 0);
+  command(0);
+  const double found_s = turn_s(1, 2.4 / 0.165);
+  EXPECT_GT(found_s, 0);
+  EXPECT_LE(found_s, 0.15);
+}
+TEST_F(AWheelMonitor, LetsNoWheelBeFasterThatWasNotRollingWhenItsDriveWasSwitchedOn) {
+  switch_on_at(0.5);
+  const double found_s = turn_s(1, 2.4 / 0.165);
+  EXPECT_GT(found_s, 0);
+  EXPECT_LE(found_s, 0.15);
 }
 TEST_F(AWheelMonitor, BelievesNoSpeedOfASilentDrive) {
   command(4);

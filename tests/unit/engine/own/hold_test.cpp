@@ -101,6 +101,22 @@ TEST_F(Holding, TakesBackWhatLetGoAtItsOwnSpeedAndRampsItDown) {
   tick();
   EXPECT_EQ(hold.state(), HoldState::held);
 }
+TEST_F(Holding, TakesTheTimeThatAFastRollNeeds) {
+  drive_and_stop();
+  const double rolls_radps = 4 / config.base.wheel_radius_m;
+  let_go(rolls_radps);
+  tick();
+  for (AxisSnapshot& axis : axes) axis.state = AxisState::running;
+  double took_s = 0;
+  for (double before = rolls_radps; asked() == AxisRequest::hold && took_s < 10; took_s += 0.005) {
+    tick();
+    const double asked_radps = hold.command(0).velocity_radps;
+    ASSERT_GE(asked_radps, before - 0.03) << took_s;
+    before = asked_radps;
+    for (AxisSnapshot& axis : axes) axis.motion.velocity_radps = before;
+  }
+  EXPECT_NEAR(took_s, 5, 0.05);
+}
 TEST_F(Holding, StopsAWheelAtOnceWhereTheOthersHold) {
   drive_and_stop();
   axes[0].state = AxisState::idle;
