@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <ostream>
 
-#include "config/json_text.h"
+#include "json/json_text.h"
 
 namespace drover::cli {
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "config/located_json.h"
+#include "json/located_json.h"
 
 namespace drover::cli {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "config/json_text.h"
+#include "json/json_text.h"
 
 namespace drover::cli {
 

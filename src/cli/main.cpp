@@ -21,7 +21,7 @@
 #include "cli/show.h"
 #include "cli/stop.h"
 #include "cli/verbs.h"
-#include "config/json_text.h"
+#include "json/json_text.h"
 
 namespace {
 

@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <utility>
 
-#include "config/json_text.h"
+#include "json/json_text.h"
 #include "publish/status/names.h"
 
 namespace drover::cli {

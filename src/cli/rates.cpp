@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "cli/layout.h"
-#include "config/json_text.h"
+#include "json/json_text.h"
 
 namespace drover::cli {
 

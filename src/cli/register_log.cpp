@@ -4,9 +4,9 @@
 #include <cstdio>
 
 #include "cli/hex.h"
-#include "config/located_json.h"
 #include "drover/bytes.h"
 #include "drover/checksum.h"
+#include "json/located_json.h"
 
 namespace drover::cli {
 

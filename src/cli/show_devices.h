@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "config/located_json.h"
+#include "json/located_json.h"
 
 namespace drover::cli {
 

@@ -2,7 +2,7 @@
 
 #include <cstdio>
 
-#include "config/json_text.h"
+#include "json/json_text.h"
 
 namespace drover::cli {
 

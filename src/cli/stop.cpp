@@ -14,8 +14,8 @@
 
 #include "cli/client.h"
 #include "cli/exit_codes.h"
-#include "config/json_text.h"
-#include "config/located_json.h"
+#include "json/json_text.h"
+#include "json/located_json.h"
 #include "link/unique_fd.h"
 
 namespace drover::cli {

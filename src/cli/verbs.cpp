@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "config/reader.h"
+#include "text/suggestion.h"
 
 namespace drover::cli {
 
@@ -100,12 +100,12 @@ std::string hint_for(const CLI::App& app, const CLI::App& level, const std::stri
         if (inner->get_name() == word)
           return "did you mean \"" + verb->get_name() + " " + word + "\"?";
   }
-  const auto best = config::nearest(word, names);
+  const auto best = text::nearest(word, names);
   if (best.empty()) return "";
   const auto [shorter, longer] = std::minmax({word.size(), best.size()});
   const bool slip =
       longer - shorter <= 1 && best.front() == word.front() && best.back() == word.back();
-  return acts_on_the_robot(best) && !slip ? "" : config::did_you_mean(word, names);
+  return acts_on_the_robot(best) && !slip ? "" : text::did_you_mean(word, names);
 }
 
 }  // namespace

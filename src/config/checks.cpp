@@ -7,12 +7,17 @@
 #include <map>
 #include <variant>
 
-#include "config/reader.h"
 #include "config/register_map.h"
+#include "text/number.h"
+#include "text/suggestion.h"
+#include "text/url.h"
 
 namespace drover::config {
 
 namespace {
+
+using text::did_you_mean;
+using text::number_text;
 
 constexpr std::array<std::string_view, kLineCount> kLineKeys{"estop", "bumper", "zone_far",
                                                              "zone_near"};
@@ -42,18 +47,6 @@ const json::Node& place(const json::Node& root, std::string_view path) {
   }
   if (next == nullptr) return root;
   return end == path.npos ? *next : place(*next, path.substr(end));
-}
-
-/// Length as AimRT writes a text in a topic: letters, digits, "-_.~" and spaces stay single.
-std::size_t url_bytes(std::string_view text) {
-  std::size_t bytes = 0;
-  for (const char c : text) {
-    const bool letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
-    const bool single = letter || (c >= '0' && c <= '9') ||
-                        std::string_view("-_.~ ").find(c) != std::string_view::npos;
-    bytes += single ? 1 : 3;
-  }
-  return bytes;
 }
 
 /// "" when a battery's port is a device or tcp:ADDRESS:PORT. No names: to resolve one may take
@@ -265,7 +258,7 @@ class Checks final {
       constexpr std::size_t kLongest = 196;
       const auto path = "aimrt." + std::string(key);
       if (topic->empty()) add(path, "is empty");
-      if (url_bytes(*topic) > kLongest)
+      if (text::url_encoded(*topic).size() > kLongest)
         add(path, "is too long", "at most 196 bytes; / and other signs count three");
     }
   }

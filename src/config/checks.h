@@ -3,7 +3,7 @@
 
 #include "config/fields.h"
 #include "config/load.h"
-#include "config/located_json.h"
+#include "json/located_json.h"
 
 namespace drover::config {
 

@@ -8,7 +8,7 @@
 
 #include "config/fields.h"
 #include "config/load.h"
-#include "config/located_json.h"
+#include "json/located_json.h"
 
 namespace drover::config {
 
@@ -82,12 +82,5 @@ class Reader final {
   std::vector<Problem>& problems_;
   std::vector<std::string> known_;
 };
-
-/// "did you mean ...?"; empty when no candidate is near.
-std::string did_you_mean(std::string_view word, const std::vector<std::string>& candidates);
-/// The candidate that `word` most likely was meant to be; empty when none is near.
-std::string nearest(std::string_view word, const std::vector<std::string>& candidates);
-/// "0.5", "200": without trailing zeros.
-std::string number_text(double value);
 
 }  // namespace drover::config

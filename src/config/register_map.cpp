@@ -7,6 +7,7 @@
 
 #include "config/fields_map.h"
 #include "config/reader.h"
+#include "text/suggestion.h"
 
 namespace drover::config {
 
@@ -144,7 +145,8 @@ class Converter final {
     static const std::vector<std::string> kWords{"unknown", "idle", "charging", "discharging"};
     for (const auto& word : from.states) {
       if (std::find(kWords.begin(), kWords.end(), word) == kWords.end())
-        add("fields", index, "states", "\"" + word + "\" is no state", did_you_mean(word, kWords));
+        add("fields", index, "states", "\"" + word + "\" is no state",
+            text::did_you_mean(word, kWords));
       to.flows.push_back(index_of<BatteryFlow>(kWords, word));
     }
   }

@@ -7,7 +7,7 @@
 #include <array>
 #include <stdexcept>
 
-#include "config/json_text.h"
+#include "json/json_text.h"
 #include "publish/status/seen.h"
 #include "runtime/clock.h"
 #include "runtime/log.h"

@@ -1,8 +1,8 @@
 // The command line's requests to the publish thread, and their answers.
 #include <cmath>
 
-#include "config/json_text.h"
-#include "config/located_json.h"
+#include "json/json_text.h"
+#include "json/located_json.h"
 #include "publish/rtk_navigation/trajectory_data.h"
 #include "runtime/clock.h"
 #include "runtime/publish_loop.h"

@@ -7,8 +7,8 @@
 #include <cstdio>
 #include <system_error>
 
-#include "config/json_text.h"
-#include "config/located_json.h"
+#include "json/json_text.h"
+#include "json/located_json.h"
 
 namespace drover::store {
 namespace {

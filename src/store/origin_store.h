@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "config/json_text.h"
-#include "config/located_json.h"
 #include "drover/path.h"
+#include "json/json_text.h"
+#include "json/located_json.h"
 #include "store/durable_file.h"
 #include "store/files.h"
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "config/json_text.h"
+#include "json/json_text.h"
 
 namespace drover::store {
 namespace {

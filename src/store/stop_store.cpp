@@ -3,8 +3,8 @@
 
 #include <cerrno>
 
-#include "config/json_text.h"
-#include "config/located_json.h"
+#include "json/json_text.h"
+#include "json/located_json.h"
 
 namespace drover::store {
 namespace {

@@ -5,8 +5,8 @@
 #include <cinttypes>
 #include <cstdio>
 
-#include "config/json_text.h"
-#include "config/located_json.h"
+#include "json/json_text.h"
+#include "json/located_json.h"
 #include "store/origin_store.h"
 #include "store/point_texts.h"
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "config/fields.h"
-#include "config/json_text.h"
+#include "json/json_text.h"
 
 namespace drover::fuzz {
 

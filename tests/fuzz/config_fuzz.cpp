@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "config/load.h"
-#include "config/located_json.h"
 #include "config/register_map.h"
 #include "drover/registry.h"
+#include "json/located_json.h"
 #include "tests/fuzz/config_dump.h"
 
 namespace {

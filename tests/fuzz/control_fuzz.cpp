@@ -5,8 +5,8 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "config/json_text.h"
-#include "config/located_json.h"
+#include "json/json_text.h"
+#include "json/located_json.h"
 #include "publish/command_service.h"
 #include "publish/rtk_navigation/control.h"
 #include "publish/rtk_navigation/trajectory_data.h"

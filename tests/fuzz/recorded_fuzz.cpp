@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "cli/recorded.h"
-#include "config/located_json.h"
+#include "json/located_json.h"
 
 namespace {
 

@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "config/located_json.h"
 #include "integration/robot_rig.h"
+#include "json/located_json.h"
 
 namespace drover::test {
 namespace {

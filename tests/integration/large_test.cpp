@@ -5,8 +5,8 @@
 #include <fstream>
 #include <optional>
 
-#include "config/located_json.h"
 #include "integration/robot_rig.h"
+#include "json/located_json.h"
 #include "publish/rtk_navigation/control.h"
 #include "store/track.h"
 

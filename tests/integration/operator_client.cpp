@@ -2,7 +2,7 @@
 
 #include <mosquitto.h>
 
-#include "config/located_json.h"
+#include "json/located_json.h"
 
 namespace drover::test {
 

@@ -7,9 +7,9 @@
 #include <fstream>
 #include <limits>
 
-#include "config/json_text.h"
-#include "config/located_json.h"
 #include "integration/robot_rig.h"
+#include "json/json_text.h"
+#include "json/located_json.h"
 
 namespace drover::test {
 

@@ -4,9 +4,9 @@
 
 #include <cmath>
 
-#include "config/located_json.h"
 #include "integration/robot_rig.h"
 #include "integration/thread_freezer.h"
+#include "json/located_json.h"
 
 namespace drover::test {
 namespace {

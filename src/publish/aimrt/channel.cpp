@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "config/located_json.h"
+#include "json/located_json.h"
 #include "publish/aimrt/messages.h"
 
 namespace drover::publish::aimrt {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <utility>
 
-#include "config/located_json.h"
+#include "json/located_json.h"
 #include "publish/aimrt/sensor.pb.h"
 
 namespace drover::publish::aimrt {

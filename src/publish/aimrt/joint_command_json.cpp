@@ -5,7 +5,7 @@
 #include <limits>
 #include <optional>
 
-#include "config/located_json.h"
+#include "json/located_json.h"
 #include "publish/aimrt/joint_command.h"
 
 namespace drover::publish::aimrt {

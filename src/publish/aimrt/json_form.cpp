@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "config/json_text.h"
+#include "json/json_text.h"
 #include "publish/aimrt/sensor.pb.h"
 
 namespace drover::publish::aimrt {

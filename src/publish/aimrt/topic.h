@@ -20,10 +20,6 @@ enum class Names : std::uint8_t {
 /// Type in the package aimrt.protocols.sensor. An ImuState has the same name in both.
 std::string_view type_name(Role role, Names names);
 
-/// AimRT's encoding: letters, digits and "-_.~" stay, a space is '+', every other byte is %XX in
-/// upper case.
-std::string url_encoded(std::string_view text);
-
 /// The MQTT topic of a channel topic ("/joint_state") for a protobuf message.
 std::string mqtt_topic(std::string_view channel_topic, Role role, Names names);
 

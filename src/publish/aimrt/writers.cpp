@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "config/located_json.h"
+#include "json/located_json.h"
 
 namespace drover::publish::aimrt {
 

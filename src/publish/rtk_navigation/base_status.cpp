@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "config/json_text.h"
 #include "drover/angle.h"
+#include "json/json_text.h"
 #include "publish/rtk_navigation/spelling.h"
 #include "publish/status/names.h"
 

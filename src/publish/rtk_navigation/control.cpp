@@ -5,7 +5,7 @@
 #include <array>
 #include <optional>
 
-#include "config/located_json.h"
+#include "json/located_json.h"
 #include "store/point_texts.h"
 
 namespace drover::publish {

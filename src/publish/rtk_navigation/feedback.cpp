@@ -1,7 +1,7 @@
 // The `feedback` topic: which word tells what, and the message around it.
 #include "publish/rtk_navigation/feedback.h"
 
-#include "config/json_text.h"
+#include "json/json_text.h"
 
 namespace drover::publish {
 

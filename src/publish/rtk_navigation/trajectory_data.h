@@ -4,7 +4,7 @@
 #include <span>
 #include <string>
 
-#include "config/json_text.h"
+#include "json/json_text.h"
 #include "store/track.h"
 
 namespace drover::publish {

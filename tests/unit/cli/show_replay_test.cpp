@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "config/located_json.h"
+#include "json/located_json.h"
 
 namespace drover::cli {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "config/located_json.h"
+#include "json/located_json.h"
 #include "publish/command_service.h"
 #include "tests/unit/publish/examples.h"
 

@@ -74,14 +74,5 @@ TEST(AimrtTopic, HasTheNamesOfEitherFamily) {
   EXPECT_EQ(name(Role::imu_state, Names::document), name(Role::imu_state, Names::aimrt_1x));
 }
 
-TEST(AimrtTopic, KeepsFourMarksAndWritesABlankAsPlus) {
-  EXPECT_EQ(url_encoded("aZ09-_.~ /"), "aZ09-_.~+%2F");
-}
-
-TEST(AimrtTopic, WritesEveryOtherByteInUpperCaseHex) {
-  EXPECT_EQ(url_encoded("+#%*左"), "%2B%23%25%2A%E5%B7%A6");
-  EXPECT_EQ(url_encoded(std::string_view("\0\n\x7F", 3)), "%00%0A%7F");
-}
-
 }  // namespace
 }  // namespace drover::publish::aimrt

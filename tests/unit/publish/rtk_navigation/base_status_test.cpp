@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-#include "config/located_json.h"
+#include "json/located_json.h"
 #include "publish/rtk_navigation/feedback.h"
 #include "publish/rtk_navigation/trajectory_data.h"
 #include "store/point_texts.h"

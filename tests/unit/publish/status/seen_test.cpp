@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "config/located_json.h"
+#include "json/located_json.h"
 #include "publish/aimrt/messages.h"
 #include "publish/rtk_navigation/base_status.h"
 #include "publish/status/status.h"

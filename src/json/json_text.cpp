@@ -1,5 +1,5 @@
 // Writes JSON text: commas, escapes and numbers that read back to the same bits.
-#include "config/json_text.h"
+#include "json/json_text.h"
 
 #include <algorithm>
 #include <array>

@@ -1,10 +1,10 @@
-#include "config/located_json.h"
+#include "json/located_json.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
-#include "config/json_text.h"
+#include "json/json_text.h"
 
 namespace drover::json {
 namespace {

@@ -1,5 +1,5 @@
 // Builds the tree from nlohmann's SAX events; a counting iterator tells where each token ended.
-#include "config/located_json.h"
+#include "json/located_json.h"
 
 #include <nlohmann/json.hpp>
 #include <unordered_set>
