@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "json/json_text.h"
-#include "publish/status/names.h"
+#include "publish/names.h"
 
 namespace drover::cli {
 

@@ -165,8 +165,8 @@ void Gateway::look_at_buses(Time now) {
     if (trouble.empty()) continue;
     if (environment_.bus.empty()) environment_.bus = trouble;
     const Bus& it = buses_[bus];
-    const bool cut = !it.lost.empty() || jammed(it, now) ||
-                     it.condition.state() == link::CanCondition::State::off;
+    const bool cut =
+        !it.lost.empty() || jammed(it, now) || it.condition.state() == CanCondition::State::off;
     for (std::size_t i = 0; i < drives_.size(); ++i) {
       SourceHealth& health = environment_.axes[i];
       if (drives_[i].bus != bus || (health.state == SourceState::fresh && !cut)) continue;

@@ -14,9 +14,9 @@
 #include "drover/registry.h"
 #include "engine/engine.h"
 #include "engine/gate/frame_gate.h"
+#include "gateway/can_condition.h"
 #include "gateway/foreign_watch.h"
 #include "gateway/input.h"
-#include "link/can_condition.h"
 
 namespace drover::gateway {
 
@@ -72,7 +72,7 @@ class Gateway final {
   };
   struct Bus {
     Name name;
-    link::CanCondition condition;
+    CanCondition condition;
     Reason lost;
     std::uint64_t sent = 0;
     std::uint64_t refused = 0;

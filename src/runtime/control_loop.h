@@ -4,12 +4,10 @@
 
 #include <atomic>
 
-#include "drover/event.h"
-#include "drover/spsc_ring.h"
-#include "drover/triple_buffer.h"
 #include "gateway/gateway.h"
 #include "runtime/battery_loop.h"
 #include "runtime/command_intake.h"
+#include "runtime/control_exchange.h"
 #include "runtime/guard_client.h"
 #include "runtime/guard_watch.h"
 #include "runtime/link_keeper.h"
@@ -17,26 +15,8 @@
 #include "runtime/recorder.h"
 #include "runtime/robot_memory.h"
 #include "runtime/storage_loop.h"
-#include "runtime/wake.h"
 
 namespace drover::runtime {
-
-/// What the control thread shares with the publish and the main thread.
-struct ControlExchange {
-  CommandRing commands;             ///< publish → control
-  StopRequests stops;               ///< any → control: never full, never behind commands
-  SpscRing<Event, 256> events;      ///< control → publish
-  TripleBuffer<Snapshot> snapshot;  ///< control → publish
-  Wake events_ready;
-  std::atomic<std::uint64_t> beats{0};
-  std::atomic<bool> at_rest{true};  ///< no task, no axis is commanded to move, and none does
-  std::atomic<std::uint64_t> lost_events{0};
-  /// Main → control, of static lifetime: why the robot comes to rest; nullptr while all is well.
-  std::atomic<const char*> trouble{nullptr};
-  /// Counted by the main thread at each look at the others; 0: it has not begun.
-  std::atomic<std::uint64_t> looks{0};
-  Recorder* recorder = nullptr;  ///< control and publish tell it; nullptr: nothing is recorded
-};
 
 /// Where the control thread keeps what outlives the program.
 struct KeepsOver {

@@ -15,7 +15,7 @@
 #include "publish/rtk_navigation/base_status.h"
 #include "publish/status/status.h"
 #include "runtime/cli_server.h"
-#include "runtime/control_loop.h"
+#include "runtime/control_exchange.h"
 #include "runtime/mqtt_client.h"
 #include "runtime/parser_loop.h"
 #include "runtime/storage_loop.h"

@@ -4,24 +4,40 @@
 # shellcheck shell=bash disable=SC2154
 
 # Who may include whom: room, then the prefixes it may include ("<...>" are rule_headers'). A room
-# may have several lines.
+# may have several lines; a folder in it with lines of its own is a room for itself.
 includes_of_rooms() {
   cat << 'TABLE'
 include/drover   drover/
 drivers          drover/ drivers/
 src/engine       drover/ engine/
+src/engine/estimate  drover/ engine/config.h engine/estimate/
+src/engine/signals   drover/ engine/config.h engine/signals/
+src/engine/drive     drover/ engine/config.h engine/drive/
+src/engine/gate      drover/ engine/config.h engine/drive/ engine/gate/
+src/engine/health    drover/ engine/config.h engine/environment.h engine/event_queue.h
+src/engine/health    engine/estimate/ engine/health/
+src/engine/navigate  drover/ engine/config.h engine/event_queue.h
+src/engine/navigate  engine/gate/ engine/health/ engine/navigate/
+src/engine/own       drover/ engine/config.h engine/event_queue.h
+src/engine/own       engine/gate/ engine/health/ engine/navigate/ engine/own/
 src/link         drover/ link/
 src/scene        drover/ scene/
 src/json         drover/ json/
 src/text         drover/ text/
 src/store        drover/ store/ json/
 src/config       drover/ config/ json/ text/ engine/config.h
-src/gateway      drover/ gateway/ config/ engine/ link/can_condition.h
+src/gateway      drover/ gateway/ config/ engine/
 src/publish      drover/ publish/ store/ json/ text/
+src/publish/rtk_navigation  drover/ store/ json/ publish/arrival.h publish/names.h
+src/publish/rtk_navigation  publish/rtk_navigation/
+src/publish/status   drover/ json/ publish/names.h publish/rtk_navigation/spelling.h
+src/publish/status   publish/status/
+src/publish/aimrt    drover/ json/ text/ publish/arrival.h publish/command_service.h
+src/publish/aimrt    publish/token_bucket.h publish/aimrt/
 src/runtime      drover/ runtime/ publish/ store/ json/ config/ link/ engine/ gateway/
 src/guard        drover/ guard/
 src/cli          drover/ cli/ json/ text/ config/register_map.h config/fields_map.h
-src/cli          gateway/replay.h link/unique_fd.h publish/status/names.h
+src/cli          gateway/replay.h link/unique_fd.h publish/names.h
 src/droverd.cpp  config/ runtime/
 sim/plant        drover/ sim/plant/
 sim/robot        drover/ link/ sim/plant/ sim/robot/ config/register_map.h
@@ -41,6 +57,8 @@ rule_include_directions() {
         for (i = 1; i <= n; ++i) {
           m = split(lines[i], w, / +/)
           if (file == w[1] || index(file, w[1] "/") == 1) {
+            if (length(w[1]) < length(room)) continue
+            if (w[1] != room) delete allowed
             room = w[1]
             for (j = 2; j <= m; ++j) allowed[w[j]] = 1
           }

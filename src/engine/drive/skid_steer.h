@@ -3,8 +3,8 @@
 
 #include <array>
 
+#include "drover/twist.h"
 #include "engine/config.h"
-#include "engine/navigate/tracker.h"
 
 namespace drover::engine {
 

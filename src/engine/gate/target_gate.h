@@ -5,8 +5,8 @@
 #include <span>
 
 #include "drover/snapshot.h"
+#include "drover/twist.h"
 #include "engine/config.h"
-#include "engine/navigate/tracker.h"
 
 namespace drover::engine {
 

@@ -4,7 +4,8 @@
 #include <array>
 #include <span>
 
-#include "engine/engine.h"
+#include "drover/snapshot.h"
+#include "engine/environment.h"
 #include "engine/health/battery.h"
 #include "engine/health/locate.h"
 

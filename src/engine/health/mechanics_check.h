@@ -8,8 +8,8 @@
 #include "drover/measurement.h"
 #include "drover/path.h"
 #include "drover/snapshot.h"
+#include "drover/twist.h"
 #include "engine/config.h"
-#include "engine/navigate/tracker.h"
 
 namespace drover::engine {
 

@@ -6,16 +6,11 @@
 #include "drover/path.h"
 #include "drover/snapshot.h"
 #include "drover/time.h"
+#include "drover/twist.h"
 #include "engine/config.h"
 #include "engine/navigate/path_geometry.h"
 
 namespace drover::engine {
-
-/// Twist in base_link (REP 103): m/s ahead, rad/s counter-clockwise.
-struct Twist {
-  double vx_mps = 0;
-  double wz_radps = 0;
-};
 
 /// Where a pose is relative to a path that is driven from its point nearest to the start towards
 /// `target`, forwards or backwards through the list.

@@ -2,9 +2,9 @@
 #pragma once
 
 #include "drover/command.h"
+#include "drover/twist.h"
 #include "engine/event_queue.h"
 #include "engine/health/health.h"
-#include "engine/navigate/tracker.h"
 
 namespace drover::engine {
 

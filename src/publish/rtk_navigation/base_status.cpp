@@ -6,8 +6,8 @@
 
 #include "drover/angle.h"
 #include "json/json_text.h"
+#include "publish/names.h"
 #include "publish/rtk_navigation/spelling.h"
-#include "publish/status/names.h"
 
 namespace drover::publish {
 namespace {

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "json/json_text.h"
+#include "publish/names.h"
 #include "publish/rtk_navigation/spelling.h"
-#include "publish/status/names.h"
 
 namespace drover::publish {
 

@@ -1,9 +1,9 @@
-#include "link/can_condition.h"
+#include "gateway/can_condition.h"
 
 #include <linux/can.h>
 #include <linux/can/error.h>
 
-namespace drover::link {
+namespace drover::gateway {
 namespace {
 
 // Newer than some headers: data[6] and data[7] hold the error counters.
@@ -76,4 +76,4 @@ Reason CanCondition::text(std::string_view bus, Time now) const {
   return out;
 }
 
-}  // namespace drover::link
+}  // namespace drover::gateway

@@ -8,7 +8,7 @@
 #include "drover/fixed_text.h"
 #include "drover/time.h"
 
-namespace drover::link {
+namespace drover::gateway {
 
 /// Pure: frames in, condition out. One for each time an interface is opened.
 class CanCondition final {
@@ -41,4 +41,4 @@ class CanCondition final {
   Time last_error_ = kNever;
 };
 
-}  // namespace drover::link
+}  // namespace drover::gateway

@@ -1,13 +1,13 @@
 // The error frames are those of Linux 6.1's slcan driver, as candump printed them for the adapter's
 // texts sw128096, sp130010, e3acO and sb256256.
-#include "link/can_condition.h"
+#include "gateway/can_condition.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
 
-namespace drover::link {
+namespace drover::gateway {
 namespace {
 
 using namespace std::chrono_literals;
@@ -88,4 +88,4 @@ TEST(CanCondition, DoubtsTheBitRateWhenThereAreOnlyErrors) {
 }
 
 }  // namespace
-}  // namespace drover::link
+}  // namespace drover::gateway

@@ -1,0 +1,33 @@
+// What the engine is told of the world beside measurements and commands.
+#pragma once
+
+#include <array>
+
+#include "drover/driver.h"
+#include "drover/fixed_text.h"
+#include "drover/measurement.h"
+
+namespace drover::engine {
+
+/// What the runtime knows and the engine must not find out itself.
+struct Environment {
+  bool guard_alive = false;
+  bool guard_has_bus = false;  ///< the guard sends stop frames; ours are blocked until hand-back
+  bool guard_latched = false;  ///< somebody stopped the robot at the guard, until a reset there
+  /// Health of each drive, by AxisId, and of the receiver, as their drivers judge it.
+  std::array<SourceHealth, kMaxAxes> axes{};
+  Reason slept;    ///< the computer was suspended: a task ends; empty when it was not
+  Reason foreign;  ///< who else commands the drives; empty when nobody does
+  Reason bus;      ///< what is wrong with a CAN bus; empty when all is well
+  /// A part of the daemon hangs, or it is about to end: motion ends with a ramp. Empty: all is
+  /// well.
+  Reason program;
+  SourceHealth gnss;
+  SourceHealth imu;
+  SourceHealth battery;
+  std::array<SourceHealth, kLineCount> lines{};
+  bool gnss_configured = true;
+  bool imu_configured = false;
+};
+
+}  // namespace drover::engine
