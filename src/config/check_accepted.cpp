@@ -1,0 +1,39 @@
+// What a person may accept by name, and what is told of until somebody does.
+#include <algorithm>
+
+#include "config/check_subjects.h"
+#include "text/suggestion.h"
+
+namespace drover::config {
+namespace {
+
+void known_words(const std::string& path, const std::vector<std::string>& words,
+                 const std::vector<std::string>& known, Findings& found) {
+  for (const auto& word : words)
+    if (std::find(known.begin(), known.end(), word) == known.end())
+      found.add(path, "nothing of the name \"" + word + "\" can be accepted here",
+                text::did_you_mean(word, known));
+}
+
+}  // namespace
+
+void check_accepted(Findings& found) {
+  for (std::size_t i = 0; i < found.config().drives.size(); ++i)
+    known_words(item("drives", i) + ".accept", found.config().drives[i].accept, {"no_watchdog"},
+                found);
+  known_words("accept", found.config().accept, {"no_estop", "slow_guard"}, found);
+}
+
+void warn_of_risks(Findings& found) {
+  if (!found.config().lines.line[static_cast<std::size_t>(Line::estop)].configured)
+    found.warn("lines", "there is no e-stop line: only the broker and the command line can stop it",
+               "no_estop");
+  constexpr int kSlowGuard_ms = 200;
+  if (found.config().guard.limit_ms > kSlowGuard_ms)
+    found.warn("guard.limit_ms",
+               "the wheels go on for " + std::to_string(found.config().guard.limit_ms) +
+                   " ms when droverd dies; up to 200 ms is usual",
+               "slow_guard");
+}
+
+}  // namespace drover::config

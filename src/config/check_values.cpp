@@ -1,0 +1,53 @@
+// Values that contradict each other.
+#include <utility>
+
+#include "config/check_subjects.h"
+#include "text/number.h"
+#include "text/url.h"
+
+namespace drover::config {
+
+void check_limits(Findings& found) {
+  const auto& engine = found.config().engine;
+  if (engine.health.battery_critical_percent > engine.health.battery_low_percent)
+    found.add("health.battery_critical_percent", "is above health.battery_low_percent");
+  if (engine.health.battery_hot_degC > engine.health.battery_too_hot_degC)
+    found.add("health.battery_hot_degC", "is above health.battery_too_hot_degC");
+  if (engine.limits.min_speed_mps > engine.limits.max_speed_mps)
+    found.add("limits.min_speed_mps", "is above limits.max_speed_mps");
+  if (engine.estimate.bound_start_m > engine.estimate.bound_run_m)
+    found.add("estimate.bound_start_m", "is above estimate.bound_run_m",
+              "a task would start and pause at once");
+  constexpr double kBeats = 2.5;  // two lost cycles are no failure
+  const double least_ms = kBeats * 1e3 / found.config().control.tick_Hz;
+  if (found.config().guard.limit_ms < least_ms)
+    found.add("guard.limit_ms",
+              "is shorter than 2.5 control cycles (" + text::number_text(least_ms) + " ms)");
+}
+
+void check_broker(Findings& found) {
+  const bool is_path = found.config().mqtt.host.starts_with('/');
+  if (is_path && found.config().mqtt.port != 0)
+    found.add("mqtt.port", "must be 0 when mqtt.host is the path of a Unix socket");
+  if (!is_path && found.config().mqtt.port == 0 && !found.has_problem("mqtt.port"))
+    found.add("mqtt.port", "is 0, but mqtt.host is no path of a Unix socket", "1883 is usual");
+  if (!found.config().mqtt.password_file.empty() && found.config().mqtt.username.empty())
+    found.add("mqtt.password_file", "is given without mqtt.username");
+}
+
+void check_channel(Findings& found) {
+  const auto& aimrt = found.config().aimrt;
+  for (const auto& [key, topic] : {std::pair{"joint_state", &aimrt.joint_state},
+                                   {"imu_state", &aimrt.imu_state},
+                                   {"touch_state", &aimrt.touch_state},
+                                   {"joint_command", &aimrt.joint_command}}) {
+    // An MQTT topic of AimRT has at most 255 bytes, and 59 stand around this one.
+    constexpr std::size_t kLongest = 196;
+    const auto path = "aimrt." + std::string(key);
+    if (topic->empty()) found.add(path, "is empty");
+    if (text::url_encoded(*topic).size() > kLongest)
+      found.add(path, "is too long", "at most 196 bytes; / and other signs count three");
+  }
+}
+
+}  // namespace drover::config

@@ -1,0 +1,46 @@
+// What the checks of a configuration find, each with its place in the text.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "config/load.h"
+#include "json/located_json.h"
+
+namespace drover::config {
+
+/// Problems and warnings go into `loaded`, whose configuration the checks read and complete.
+class Findings final {
+ public:
+  Findings(const json::Node& root, Loaded& loaded) : root_(root), loaded_(loaded) {}
+
+  DroverConfig& config() { return loaded_.config; }
+  Loaded& loaded() { return loaded_; }
+
+  /// `path` is like "drives[1].options.node".
+  void add(std::string path, std::string message, std::string hint = {});
+  /// Not when a person accepted it by this word.
+  void warn(const std::string& path, const std::string& message, const std::string& word);
+  /// Whether the text says anything of this key.
+  bool given(std::string_view section, std::string_view object, std::string_view key) const;
+  /// Whether something was found already at a path that begins so.
+  bool has_problem(std::string_view path) const;
+
+ private:
+  const json::Node& root_;
+  Loaded& loaded_;
+};
+
+/// "drives[1]"
+std::string item(std::string_view list, std::size_t index);
+
+template <class T, class Get>
+std::vector<std::string> collect(const std::vector<T>& items, Get get) {
+  std::vector<std::string> names;
+  names.reserve(items.size());
+  for (const auto& item : items) names.push_back(get(item));
+  return names;
+}
+
+}  // namespace drover::config
