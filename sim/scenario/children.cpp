@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
+#include <utility>
 
 namespace drover::sim {
 namespace {
@@ -53,6 +54,14 @@ std::string Children::start(const Program& program) {
 bool Children::signal(const std::string& name, int number) {
   const auto child = children_.find(name);
   return child != children_.end() && ::kill(child->second.pid, number) == 0;
+}
+
+std::unique_ptr<HeldThread> Children::hold(const std::string& name,
+                                           const std::string& thread) const {
+  const auto child = children_.find(name);
+  if (child == children_.end()) return nullptr;
+  auto held = std::make_unique<HeldThread>(child->second.pid, thread);
+  return held->held() ? std::move(held) : nullptr;
 }
 
 std::vector<int> Children::descriptors() const {

@@ -4,10 +4,12 @@
 #include <sys/types.h>
 
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "link/unique_fd.h"
+#include "sim/scenario/held_thread.h"
 
 namespace drover::sim {
 
@@ -28,6 +30,8 @@ class Children {
   std::string start(const Program& program);
   /// False: it does not run.
   bool signal(const std::string& name, int number);
+  /// One of its threads stands still while the returned object lives; null: it cannot be held.
+  std::unique_ptr<HeldThread> hold(const std::string& name, const std::string& thread) const;
   bool runs(const std::string& name) const { return children_.contains(name); }
   bool none() const { return children_.empty(); }
 

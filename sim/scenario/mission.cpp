@@ -92,6 +92,11 @@ Action read_action(JsonReader& reader, const json& raw) {
     action.kind = Kind::kill;
     action.text = program(reader, "kill");
     action.signal = parse_signal(reader);
+  } else if (reader.has("freeze")) {
+    action = {Kind::freeze, program(reader, "freeze")};
+    action.thread = reader.text("thread");
+  } else if (reader.has("thaw")) {
+    action = {Kind::thaw, program(reader, "thaw")};
   } else if (reader.has("start")) {
     action = {Kind::start, program(reader, "start")};
   } else if (reader.has("publish")) {
@@ -115,10 +120,10 @@ Action read_action(JsonReader& reader, const json& raw) {
   } else if (reader.flag("save", false)) {
     action.kind = Kind::save;
   } else {
-    reader.fail(
-        "",
-        "must be one of sim, kill, start, publish, cancel, save, start_task, joint_commands, "
-        "cli");
+    reader.fail("",
+                "must be one of sim, kill, freeze, thaw, start, publish, cancel, save, start_task, "
+                "joint_commands, "
+                "cli");
   }
   reader.done();
   return action;

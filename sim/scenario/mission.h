@@ -35,12 +35,25 @@ struct Condition {
 };
 
 struct Action {
-  enum class Kind { sim, kill, start, publish, cancel, save, start_task, cli, joint_commands };
+  enum class Kind {
+    sim,
+    kill,
+    freeze,
+    thaw,
+    start,
+    publish,
+    cancel,
+    save,
+    start_task,
+    cli,
+    joint_commands
+  };
   Kind kind = Kind::sim;
   std::string text{};   ///< command, name of the program, payload, or arguments
   std::string topic{};  ///< publish
   bool retain = false;
   int signal = 0;
+  std::string thread{};             ///< freeze
   std::optional<std::size_t> id{};  ///< start_task
   std::optional<double> speed_mps{};
   CommandStreamSpec stream{};  ///< joint_commands

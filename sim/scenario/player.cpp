@@ -136,6 +136,7 @@ bool Player::finish() {
   recording_ = false;
   interrupted_ = false;
   broken_.clear();
+  frozen_.reset();
   for (const auto* name : {"drover-sim", "droverd", "drover-guard", "udevd", "mosquitto"})
     end_program(name);
   events_log_.flush();

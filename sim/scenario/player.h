@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -78,6 +79,7 @@ class Player {
   TextLog mqtt_log_;
   link::UniqueFd signals_;
   Children children_;
+  std::unique_ptr<HeldThread> frozen_;
   Story story_;
   CommandStream commands_;
   RobotReport report_;

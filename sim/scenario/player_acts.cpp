@@ -41,6 +41,16 @@ void Player::act(const Action& action, Time now) {
       tell("signal " + std::to_string(action.signal) + " to " + action.text);
       if (!children_.signal(action.text, action.signal)) broken_ = action.text + " does not run";
       return;
+    case Kind::freeze:
+      tell("freeze " + action.thread + " of " + action.text);
+      frozen_.reset();  // one at a time
+      frozen_ = children_.hold(action.text, action.thread);
+      if (!frozen_) broken_ = action.text + ": its thread " + action.thread + " cannot be held";
+      return;
+    case Kind::thaw:
+      tell("thaw " + action.text);
+      frozen_.reset();
+      return;
     case Kind::start: return start(action.text);
     case Kind::publish: return publish(action.topic, action.text, action.retain);
     case Kind::cancel:

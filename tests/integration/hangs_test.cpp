@@ -12,9 +12,9 @@
 #include <fstream>
 #include <sstream>
 
-#include "integration/frozen_thread.h"
 #include "integration/robot_rig.h"
 #include "link/unique_fd.h"
+#include "sim/scenario/held_thread.h"
 
 namespace drover::test {
 namespace {
@@ -60,7 +60,7 @@ TEST_F(Hang, APublishThreadThatStandsStillStopsTheRobotWithinASecondAndLeavesItT
   ASSERT_NO_FATAL_FAILURE(start_all());
   ASSERT_NO_FATAL_FAILURE(drive(16));
   ASSERT_TRUE(wait_until([this] { return true_speed_mps() > 0.4; }));
-  FrozenThread publish(daemon().pid(), "publish");
+  sim::HeldThread publish(daemon().pid(), "publish");
   if (!publish.held()) GTEST_SKIP() << "no thread of another process can be held here";
   const double frozen_s = now_s();
   EXPECT_TRUE(wait_until([this] { return at_rest(); }));
@@ -79,7 +79,7 @@ TEST_F(Hang, TheEndIsHeardThoughThePublishThreadStandsStill) {
   ASSERT_NO_FATAL_FAILURE(start_all());
   ASSERT_NO_FATAL_FAILURE(drive(16));
   ASSERT_TRUE(wait_until([this] { return true_speed_mps() > 0.4; }));
-  FrozenThread publish(daemon().pid(), "publish");
+  sim::HeldThread publish(daemon().pid(), "publish");
   if (!publish.held()) GTEST_SKIP() << "no thread of another process can be held here";
   const double asked_s = now_s();
   daemon().signal(SIGTERM);

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "integration/robot_rig.h"
-#include "integration/thread_freezer.h"
 #include "json/located_json.h"
+#include "sim/scenario/held_thread.h"
 
 namespace drover::test {
 namespace {
@@ -21,8 +21,8 @@ TEST_F(Truth, EveryViewSaysThatNobodyLooksWhenTheControlThreadStandsStill) {
   ASSERT_NO_FATAL_FAILURE(start_all());
   ASSERT_NO_FATAL_FAILURE(drive(8));
   EXPECT_EQ(status_text("robot", "valid"), "true");
-  ThreadFreezer control(daemon().pid(), "control");
-  if (!control.frozen()) GTEST_SKIP() << "this system lets nobody hold a thread";
+  sim::HeldThread control(daemon().pid(), "control");
+  if (!control.held()) GTEST_SKIP() << "this system lets nobody hold a thread";
   EXPECT_TRUE(wait_until([this] { return status_text("robot", "valid") == "false"; }));
   EXPECT_EQ(status_text("nav", "status"), "NAV_ERROR");
   EXPECT_EQ(status_text("nav", "locate"), "LOCATE_FALSE");
@@ -33,7 +33,7 @@ TEST_F(Truth, EveryViewSaysThatNobodyLooksWhenTheControlThreadStandsStill) {
   EXPECT_THAT(shown, HasSubstr("the control thread has stood still for"));
   EXPECT_THAT(shown, Not(HasSubstr("fresh")));
   EXPECT_TRUE(wait_until([this] { return at_rest(); })) << "the guard stopped it";
-  control.thaw();
+  control.let_go();
   EXPECT_TRUE(wait_until([this] { return status_text("robot", "valid") == "true"; }));
 }
 

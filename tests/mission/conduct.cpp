@@ -174,6 +174,7 @@ Problems check_truth(const Record& record, double bound_m) {
     for (; sent != record.sent.end() && sent->time <= status.time; ++sent)
       if (sent->wheel.node == kFirstNode) moves = sent->wheel.moves();
     if (!moves || !status.placed || status.time >= record.truth.back().time) continue;
+    if (held_back(record, status.time)) continue;
     ++looked;
     const auto truth = record.truth_at(status.time);
     const double error_m = distance_m({truth.x_m, truth.y_m}, status.sim);
@@ -217,6 +218,7 @@ PoseFigures pose_figures(const Record& record, Time begin, Time end) {
     if (status.time >= record.truth.back().time) break;
     const auto truth = record.truth_at(status.time);
     if (std::abs(truth.vx_mps) < kMoves_mps || !status.placed) continue;
+    if (held_back(record, status.time)) continue;
     const double error_m = distance_m({truth.x_m, truth.y_m}, status.sim);
     const double yaw_rad = status.document.at("pose").at("yaw").get<double>();
     const double error_deg =

@@ -38,8 +38,13 @@ struct Interval {
   Time begin = kNever;
   Time end = kNever;
 };
-/// When gateway and broker both ran, from the record of what was started and stopped.
+/// When gateway and broker both ran, from the record of what was started and stopped; without what
+/// a broker that goes on had held back.
 std::vector<Interval> alive(const Record& record);
+
+/// Messages that piled up while the broker stood still, and come as soon as it goes on: they tell
+/// what was.
+bool held_back(const Record& record, Time time);
 
 /// How the true motion kept to the track from `begin` to `end`.
 struct DriveFigures {

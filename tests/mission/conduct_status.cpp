@@ -14,6 +14,7 @@ using nlohmann::json;
 constexpr std::size_t kEnough = 10;
 constexpr Duration kBack = 2s;
 constexpr Duration kGap = 200ms;
+constexpr Duration kPiledUp = 200ms;
 
 void add(Problems& problems, std::string text) {
   if (problems.size() < kEnough) problems.push_back(std::move(text));
@@ -117,6 +118,8 @@ void judge_interval(const Record& record, const Interval& interval, Problems& pr
       add(problems,
           seconds(times[i]) + ": base_status after a gap of " + seconds(times[i] - times[i - 1]));
   if (interval.end - interval.begin < 5s) return;
+  // What had piled up while one of them stood still comes first, all at once.
+  std::erase_if(times, [&](Time time) { return time < interval.begin + kPiledUp; });
   const double rate_Hz = static_cast<double>(times.size() - 1) / to_s(times.back() - times.front());
   if (!(std::abs(rate_Hz - 10.0) <= 0.1))
     add(problems, "base_status at " + std::to_string(rate_Hz) + " Hz" + where);
@@ -175,17 +178,28 @@ std::vector<Interval> alive(const Record& record) {
   for (const auto& event : record.events) {
     const bool before = gateway && broker;
     const auto says = [&event](const char* text) { return event.text == text; };
-    if (says("start droverd") || says("signal 18 to droverd")) gateway = true;
-    if (says("signal 9 to droverd") || says("signal 15 to droverd") || says("signal 19 to droverd"))
+    if (says("start droverd") || says("signal 18 to droverd") || says("thaw droverd"))
+      gateway = true;
+    if (says("signal 9 to droverd") || says("signal 15 to droverd") ||
+        says("signal 19 to droverd") || says("freeze publish of droverd"))
       gateway = false;
-    if (says("start mosquitto")) broker = true;
-    if (says("signal 9 to mosquitto") || says("signal 15 to mosquitto")) broker = false;
+    if (says("start mosquitto") || says("signal 18 to mosquitto")) broker = true;
+    if (says("signal 9 to mosquitto") || says("signal 15 to mosquitto") ||
+        says("signal 19 to mosquitto"))
+      broker = false;
     if (says("the end")) gateway = broker = false;
     const bool now = gateway && broker;
-    if (now && !before) intervals.push_back({event.time, Time::max()});
+    const Duration old = says("signal 18 to mosquitto") ? kPiledUp : Duration{};
+    if (now && !before) intervals.push_back({event.time + old, Time::max()});
     if (!now && before) intervals.back().end = event.time;
   }
   return intervals;
+}
+
+bool held_back(const Record& record, Time time) {
+  const auto woken = record.all("signal 18 to mosquitto");
+  return std::any_of(woken.begin(), woken.end(),
+                     [=](Time one) { return time >= one && time <= one + kPiledUp; });
 }
 
 Problems check_rate(const Record& record) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <poll.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <csignal>
 #include <filesystem>
@@ -36,6 +37,24 @@ TEST(TheChildren, CannotBeSignalledWhenTheyDoNotRun) {
   const test::TempFolder folder;
   Children children(folder.path());
   EXPECT_FALSE(children.signal("nobody", SIGTERM));
+}
+
+TEST(TheChildren, StandStillInOneThreadForAsLongAsItIsHeld) {
+  const test::TempFolder folder;
+  Children children(folder.path());
+  ASSERT_EQ(children.start({"sleeper", {"/bin/sleep", "1000"}}), "");
+  EXPECT_EQ(children.hold("nobody", "sleep"), nullptr);
+  EXPECT_EQ(children.hold("sleeper", "no such thread"), nullptr);
+  std::unique_ptr<HeldThread> held;
+  for (int i = 0; i < 1000 && held == nullptr; ++i) {
+    held = children.hold("sleeper", "sleep");
+    ::usleep(1000);  // until it has become that program
+  }
+  if (held == nullptr) GTEST_SKIP() << "this system lets nobody hold a thread";
+  EXPECT_TRUE(children.reap().empty());
+  held.reset();
+  EXPECT_TRUE(children.signal("sleeper", SIGTERM));
+  EXPECT_EQ(wait_for_end(children).size(), 1U);
 }
 
 TEST(TheChildren, ThatCannotBeExecutedEndWithStatus127) {

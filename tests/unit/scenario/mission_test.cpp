@@ -48,6 +48,8 @@ TEST(AMission, RefusesWhatItDoesNotKnowAndNamesThePlace) {
   expect_refused(R"([{"do": {"jump": 1}}])", "steps[0].do");
   expect_refused(R"([{"do": {"kill": "init"}}])", "steps[0].do.kill");
   expect_refused(R"([{"do": {"kill": "droverd", "signal": "HUP"}}])", "signal");
+  expect_refused(R"([{"do": {"freeze": "droverd"}}])", "steps[0].do.thread");
+  expect_refused(R"([{"do": {"freeze": "init", "thread": "control"}}])", "steps[0].do.freeze");
   expect_refused(R"([{"when": {"x_above": 1}, "do": {"save": true}}])", "x_above");
   expect_refused(R"([{"do": {"start_task": {"id": 0}}}])", "id");
   expect_refused(R"([{"do": {"joint_commands": {"velocities_radps": {"a": 1}}}}])", "for_s");
@@ -81,6 +83,7 @@ TEST(AMission, ReadsStepsWithTheirActions) {
      "do": [{"kill": "droverd", "signal": "STOP"}, {"publish": {"cmd": "x"}, "retain": true},
             {"publish": "{broken", "topic": "t"}, {"start_task": {"id": 2, "speed_mps": 0.3}},
             {"sim": ["supply dip", 0.5]},
+            {"freeze": "droverd", "thread": "publish"}, {"thaw": "droverd"},
             {"joint_commands": {"velocities_radps": {"a": 1, "b": "nan"}, "for_s": 2}}]}])");
   const auto mission = read_mission(with);
   ASSERT_EQ(mission.steps.size(), 1U);
@@ -89,7 +92,7 @@ TEST(AMission, ReadsStepsWithTheirActions) {
   EXPECT_EQ(step.delay, std::chrono::milliseconds(1500));
   ASSERT_TRUE(step.when);
   EXPECT_FALSE(step.when->above);
-  ASSERT_EQ(step.actions.size(), 6U);
+  ASSERT_EQ(step.actions.size(), 8U);
   EXPECT_EQ(step.actions[0].signal, SIGSTOP);
   EXPECT_EQ(step.actions[1].text, R"({"cmd":"x"})");
   EXPECT_EQ(step.actions[1].topic, "mqtt_control");
@@ -97,7 +100,10 @@ TEST(AMission, ReadsStepsWithTheirActions) {
   EXPECT_EQ(step.actions[2].text, "{broken");
   EXPECT_EQ(step.actions[3].id, 2U);
   EXPECT_EQ(step.actions[4].text, "supply dip 0.5");
-  const auto& stream = step.actions[5].stream;
+  EXPECT_EQ(step.actions[5].text, "droverd");
+  EXPECT_EQ(step.actions[5].thread, "publish");
+  EXPECT_EQ(step.actions[6].kind, Action::Kind::thaw);
+  const auto& stream = step.actions[7].stream;
   ASSERT_EQ(stream.joints.size(), 2U);
   EXPECT_EQ(stream.joints[0].velocity_radps, 1);
   EXPECT_TRUE(std::isnan(stream.joints[1].velocity_radps));

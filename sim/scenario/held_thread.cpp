@@ -1,5 +1,4 @@
-// Holds one thread of another process, while its other threads run on.
-#include "integration/thread_freezer.h"
+#include "sim/scenario/held_thread.h"
 
 #include <sys/ptrace.h>
 #include <sys/wait.h>
@@ -9,7 +8,7 @@
 #include <fstream>
 #include <string>
 
-namespace drover::test {
+namespace drover::sim {
 namespace {
 
 pid_t thread_named(pid_t process, std::string_view name) {
@@ -26,7 +25,7 @@ pid_t thread_named(pid_t process, std::string_view name) {
 
 }  // namespace
 
-ThreadFreezer::ThreadFreezer(pid_t process, std::string_view name) {
+HeldThread::HeldThread(pid_t process, std::string_view name) {
   const pid_t thread = thread_named(process, name);
   if (thread <= 0 || ::ptrace(PTRACE_SEIZE, thread, nullptr, nullptr) != 0) return;
   int status = 0;
@@ -35,13 +34,9 @@ ThreadFreezer::ThreadFreezer(pid_t process, std::string_view name) {
     thread_ = thread;
 }
 
-ThreadFreezer::~ThreadFreezer() {
-  thaw();
-}
-
-void ThreadFreezer::thaw() {
-  if (thread_ > 0) ::ptrace(PTRACE_DETACH, thread_, nullptr, nullptr);
+void HeldThread::let_go() {
+  if (held()) ::ptrace(PTRACE_DETACH, thread_, nullptr, nullptr);
   thread_ = -1;
 }
 
-}  // namespace drover::test
+}  // namespace drover::sim
