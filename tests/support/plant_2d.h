@@ -80,7 +80,7 @@ class Plant2d final {
 class TwistRamp final {
  public:
   explicit TwistRamp(const engine::LimitsConfig& limits) : limits_(limits) {}
-  engine::Twist step(const engine::Twist& wanted, double dt_s) {
+  Twist step(const Twist& wanted, double dt_s) {
     const bool faster = wanted.vx_mps > now_.vx_mps;
     const double most = faster ? limits_.acceleration_mps2 : limits_.deceleration_mps2;
     const double gap_mps = wanted.vx_mps - now_.vx_mps;
@@ -97,7 +97,7 @@ class TwistRamp final {
 
  private:
   engine::LimitsConfig limits_;
-  engine::Twist now_;
+  Twist now_;
   double acceleration_ = 0;
 };
 

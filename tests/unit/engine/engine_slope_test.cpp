@@ -1,0 +1,107 @@
+// On a slope a robot without power would roll away: it loses it only when it drives on.
+#include "engine_rest_fixture.h"
+
+namespace drover::engine {
+namespace {
+
+// Held by nothing but its drives, on ground that falls by 8 degrees.
+class ARobotOnASlope : public ARobotThatShouldRest {
+ protected:
+  ARobotOnASlope() {
+    rig.config.base.hold = HoldBy::level_ground_only;
+    rig.engine = std::make_unique<Engine>(rig.config);
+  }
+  void drive_up() {
+    drive();
+    rig.gravity_mps2 = {9.81 * std::sin(to_rad(8)), 0, 9.81 * std::cos(to_rad(8))};
+  }
+  void stop_on_the_slope() {
+    for (int i = 0; i < 2000 && rig.snapshot().nav.status != NavStatus::error; ++i) rig.tick();
+    ASSERT_THAT(rig.why(), HasSubstr("the ground falls by"));
+  }
+};
+
+TEST_F(ARobotOnASlope, LosesItsPowerWhenItDrivesOn) {
+  drive_up();
+  stop_on_the_slope();
+  rig.disobeys = kStraight;
+  ASSERT_TRUE(cut_within_s(2));
+  EXPECT_THAT(rig.why(), HasSubstr("did not stop"));
+}
+
+TEST_F(ARobotOnASlope, LosesItsPowerWhenItDrivesOnWithFrozenEncoders) {
+  drive_up();
+  freeze_encoders();
+  rig.disobeys = kStraight;
+  EXPECT_TRUE(cut_within_s(4));
+}
+
+TEST_F(ARobotOnASlope, KeepsItsPowerWhenItRollsBack) {
+  drive_up();
+  stop_on_the_slope();
+  rig.carried = kRollsBack;
+  rest_s(5);
+  EXPECT_THAT(told(), HasSubstr("the robot moves without a command"));
+}
+
+TEST_F(ARobotOnASlope, KeepsItsPowerWhenItRollsDownToLevelGround) {
+  drive_up();
+  stop_on_the_slope();
+  rig.carried = kRollsBack;
+  rest_s(2);
+  rig.gravity_mps2 = {0, 0, 9.81};
+  rest_s(3);
+}
+
+// It may stop here (10 degrees are allowed), and would roll all the same without power.
+class ARobotOnASlopeThatIsAllowed : public ARobotOnASlope {
+ protected:
+  ARobotOnASlopeThatIsAllowed() {
+    rig.config.base.max_tilt_deg = 10;
+    rig.engine = std::make_unique<Engine>(rig.config);
+  }
+  void stop() {
+    drive_up();
+    rig.run_s(1);
+    rig.command(CancelTask{});
+    for (int i = 0; i < 400 && rig.fastest_command_radps() > 0; ++i) rig.tick();
+    rig.run_s(0.3);
+  }
+};
+
+TEST_F(ARobotOnASlopeThatIsAllowed, KeepsItsPowerWhenItSwingsBackAfterAStop) {
+  stop();
+  rig.carried = WheelSpeeds{-0.5, -0.5};  // 0.08 m/s
+  rest_s(2);
+  EXPECT_THAT(told(), HasSubstr("the robot moves without a command"));
+}
+
+TEST_F(ARobotOnASlopeThatIsAllowed, KeepsItsPowerWhenItSwingsTheWayThatItDrove) {
+  stop();
+  rig.carried = WheelSpeeds{0.5, 0.5};
+  rest_s(0.3);
+  rig.carried.reset();
+  rest_s(2);
+}
+
+TEST_F(ARobotOnASlopeThatIsAllowed, LosesItsPowerWhenItDrivesOn) {
+  stop();
+  rig.disobeys = kStraight;
+  EXPECT_TRUE(cut_within_s(1.5));
+}
+
+TEST_F(ARobotOnASlope, KeepsItsPowerWhenItIsCaughtAndRollsOn) {
+  drive_up();
+  stop_on_the_slope();
+  rig.run_s(0.9);  // its ramp; not yet the second that confirms its rest
+  rig.carried = kRollsBack;
+  rig.run_s(0.2);
+  for (auto& drive : rig.drives) drive.state = AxisState::idle;
+  rig.run_s(0.1);
+  ASSERT_EQ(rig.snapshot().hold, HoldState::catching);
+  rest_s(5);
+  EXPECT_EQ(rig.snapshot().hold, HoldState::held) << "the drives run again, and do not hold it";
+}
+
+}  // namespace
+}  // namespace drover::engine
