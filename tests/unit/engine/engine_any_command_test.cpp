@@ -6,7 +6,7 @@
 #include <random>
 #include <set>
 
-#include "engine_rig.h"
+#include "engine_breakdowns.h"
 
 namespace drover::engine {
 namespace {
@@ -49,7 +49,7 @@ class Witness {
     if (!std::isfinite(fastest_radps)) return "a command is not a number";
     if ((fastest_radps != 0) != rig_.out.motion_permitted)
       return "motion_permitted does not fit the commands";
-    if (fastest_radps != 0 && must_rest()) return "motion while a stop condition holds";
+    if (fastest_radps != 0 && must_rest(rig_)) return "motion while a stop condition holds";
     if (released_ && !left_alone()) return "drives that were released are not left alone";
     if (faster && stopped_) return "faster after a stop that nobody reset";
     if (faster && !task_ && !searching() && !streaming()) return "faster, and nobody asked for it";
@@ -68,13 +68,6 @@ class Witness {
   bool streaming() const {
     return streams_ &&
            rig_.now - last_target_ < from_s(rig_.config.health.joint_command_timeout_s) + kRigTick;
-  }
-  bool must_rest() const {
-    const auto silent = [](const auto& drive) { return drive.silent; };
-    const auto lost = [](bool it) { return it; };
-    return rig_.guard_has_bus || !rig_.guard_alive || rig_.lines[0] || rig_.lines[1] ||
-           std::any_of(rig_.drives.begin(), rig_.drives.end(), silent) ||
-           std::any_of(rig_.line_lost.begin(), rig_.line_lost.end(), lost);
   }
   bool left_alone() const {
     const auto& slowing = rig_.out.slowing_permitted;
@@ -114,19 +107,19 @@ class Witness {
 class AnyCommands {
  public:
   explicit AnyCommands(std::uint64_t seed) : random_(seed), rig_(rig_config()), witness_(rig_) {
-    rig_.imu = one_in(2);
-    rig_.no_heading = one_in(3);
+    rig_.imu = one_in_(2);
+    rig_.no_heading = one_in_(3);
   }
 
   std::string run(int ticks) {
     rig_.tick();
     ask(SetOrigin{kRigOrigin});
     for (int i = 0; i < 200 + ticks; ++i) {
-      if (i > 200 && one_in(20)) command();
-      if (i > 200 && one_in(30)) disturb();
-      if (one_in(60)) heal();
-      if (one_in(400)) restart();
-      if (one_in(4)) stream();
+      if (i > 200 && one_in_(20)) command();
+      if (i > 200 && one_in_(30)) disturb();
+      if (one_in_(60)) mend_all(rig_);
+      if (one_in_(400)) restart();
+      if (one_in_(4)) stream();
       rig_.tick();
       if (auto broken = witness_.check(); !broken.empty()) return broken;
       moved_ = moved_ || rig_.out.motion_permitted;
@@ -136,7 +129,6 @@ class AnyCommands {
   bool moved() const { return moved_; }
 
  private:
-  bool one_in(unsigned n) { return random_() % n == 0; }
   void ask(const decltype(Command::body)& body) {
     witness_.asks(body);
     rig_.command(body);
@@ -153,11 +145,11 @@ class AnyCommands {
       case 5: return ask(SetOrigin{kRigOrigin});
       case 6: return ask(JointTargetsRefused{"not understood"});
       case 7: return ask(FindHeading{});
-      case 8: return ask(ReleaseHold{one_in(2)});
+      case 8: return ask(ReleaseHold{one_in_(2)});
       case 9:
       case 10: return ask(ArmHold{});
       case 11: streams_ = !streams_; return;
-      case 12: streamed_radps_ = one_in(2) ? 0 : 2; return;
+      case 12: streamed_radps_ = one_in_(2) ? 0 : 2; return;
       default: return ask(StartTask{&path_, 20, 0.8});
     }
   }
@@ -168,26 +160,13 @@ class AnyCommands {
     ask(targets);
   }
   void disturb() {
-    switch (random_() % 10) {
-      case 0: rig_.lines[0] = one_in(2); break;
-      case 1: rig_.lines[1] = one_in(2); break;
-      case 2: rig_.line_lost[random_() % kLineCount] = one_in(3); break;
-      case 3: rig_.guard_alive = !one_in(3); break;
-      case 4: rig_.guard_has_bus = one_in(3); break;
-      case 5: rig_.drives[random_() % 4].silent = one_in(2); break;
-      case 6: rig_.drives[random_() % 4].fault = one_in(2); break;
-      case 7: rig_.drives[random_() % 4].state = AxisState::idle; break;
-      case 8: rig_.gravity_mps2 = one_in(2) ? Vector3{4, 0, 8.96} : Vector3{0, 0, 9.81}; break;
-      default: rig_.no_heading = one_in(2); break;
+    const auto which = static_cast<unsigned>(random_() % (kBreakdowns + 2));
+    if (which < kBreakdowns) return break_or_mend(rig_, which, random_);
+    if (which == kBreakdowns) {
+      rig_.gravity_mps2 = one_in_(2) ? Vector3{4, 0, 8.96} : Vector3{0, 0, 9.81};
+    } else {
+      rig_.no_heading = one_in_(2);
     }
-  }
-  void heal() {
-    rig_.lines = {};
-    rig_.line_lost = {};
-    rig_.guard_alive = true;
-    rig_.guard_has_bus = false;
-    for (auto& drive : rig_.drives) drive.silent = drive.fault = false;
-    rig_.gravity_mps2 = {0, 0, 9.81};
   }
   /// The program died and is back; what it remembered is all that it knows.
   void restart() {
@@ -200,6 +179,7 @@ class AnyCommands {
   }
 
   std::mt19937_64 random_;
+  OneIn one_in_{random_};
   EngineRig rig_;
   Witness witness_;
   Path path_ = straight_path(10);

@@ -5,7 +5,7 @@
 #include <map>
 #include <random>
 
-#include "engine_rig.h"
+#include "engine_breakdowns.h"
 
 namespace drover::engine {
 namespace {
@@ -27,7 +27,7 @@ class Oracle {
       if (rig_.out.slowing_permitted[i] && ramp_radps > wheel_radps)
         return "a wheel is made faster to hold it";
     }
-    if (moving && must_stop()) return "motion while a stop condition holds";
+    if (moving && must_rest(rig_)) return "motion while a stop condition holds";
     const bool task = note_events();
     if (!error_.empty()) return error_;
     // Once a task is over only a ramp may be left, and it only gets slower.
@@ -42,7 +42,7 @@ class Oracle {
       idle_ticks_ = 0;
     }
     if (task && !accepted_ever_) return "a task without a start";
-    if (must_stop() && rig_.snapshot().why.empty()) return "a stop without a reason";
+    if (must_rest(rig_) && rig_.snapshot().why.empty()) return "a stop without a reason";
     last_radps_ = fastest_radps;
     return {};
   }
@@ -55,16 +55,6 @@ class Oracle {
   }
 
  private:
-  bool must_stop() const {
-    if (rig_.guard_has_bus || !rig_.guard_alive) return true;
-    if (rig_.lines[0] || rig_.lines[1]) return true;
-    // A line is lost after its limit, a drive at once by its driver's word.
-    for (const auto& drive : rig_.drives) {
-      if (drive.silent) return true;
-    }
-    return std::any_of(rig_.line_lost.begin(), rig_.line_lost.end(),
-                       [](bool lost) { return lost; });
-  }
   /// Whether a task is on.
   bool note_events() {
     for (; seen_ < rig_.log.size(); ++seen_) {
@@ -124,9 +114,9 @@ class History {
       if (const std::string broken = oracle_.check(); !broken.empty()) return broken;
     }
     for (int i = 0; i < ticks; ++i) {
-      if (one_in(12)) disturb();
-      if (one_in(40)) heal();
-      if (one_in(15)) command();
+      if (one_in_(12)) disturb();
+      if (one_in_(40)) mend_all(rig_);
+      if (one_in_(15)) command();
       rig_.tick();
       if (const std::string broken = oracle_.check(); !broken.empty()) return broken;
       moved_ = moved_ || rig_.out.motion_permitted;
@@ -139,7 +129,6 @@ class History {
   bool moved() const { return moved_; }
 
  private:
-  bool one_in(unsigned n) { return random_() % n == 0; }
   template <class Body>
   void ask(const Body& body) {
     if constexpr (std::is_same_v<Body, StartTask>) oracle_.starts[rig_.asked + 1] = true;
@@ -156,35 +145,20 @@ class History {
     }
   }
   void disturb() {
-    switch (random_() % 14) {
-      case 0: rig_.lines[0] = one_in(2); break;
-      case 1: rig_.lines[1] = one_in(2); break;
-      case 2: rig_.lines[2] = one_in(2); break;
-      case 3: rig_.lines[3] = one_in(2); break;
-      case 4: rig_.line_lost[random_() % kLineCount] = one_in(3); break;
-      case 5: rig_.guard_alive = !one_in(3); break;
-      case 6: rig_.guard_has_bus = one_in(3); break;
-      case 7: rig_.drives[random_() % 4].silent = one_in(2); break;
-      case 8: rig_.drives[random_() % 4].fault = one_in(2); break;
-      case 9: rig_.drives[random_() % 4].state = AxisState::idle; break;
-      case 10: rig_.drives[random_() % 4].refuses = one_in(2); break;
-      case 11: rig_.receiver_silent = one_in(2); break;
-      case 12: rig_.jump_m = one_in(4) ? 5 : 0; break;
-      default: rig_.quality = one_in(2) ? FixQuality::rtk_fixed : FixQuality::single; break;
+    const auto which = static_cast<unsigned>(random_() % (kBreakdowns + 6));
+    if (which < kBreakdowns) return break_or_mend(rig_, which, random_);
+    switch (which - kBreakdowns) {
+      case 0: rig_.lines[2] = one_in_(2); break;
+      case 1: rig_.lines[3] = one_in_(2); break;
+      case 2: rig_.drives[random_() % 4].refuses = one_in_(2); break;
+      case 3: rig_.receiver_silent = one_in_(2); break;
+      case 4: rig_.jump_m = one_in_(4) ? 5 : 0; break;
+      default: rig_.quality = one_in_(2) ? FixQuality::rtk_fixed : FixQuality::single; break;
     }
-  }
-  void heal() {
-    rig_.lines = {};
-    rig_.line_lost = {};
-    rig_.guard_alive = true;
-    rig_.guard_has_bus = false;
-    for (auto& drive : rig_.drives) drive.silent = drive.fault = drive.refuses = false;
-    rig_.receiver_silent = false;
-    rig_.jump_m = 0;
-    rig_.quality = FixQuality::rtk_fixed;
   }
 
   std::mt19937_64 random_;
+  OneIn one_in_{random_};
   EngineRig rig_;
   Oracle oracle_;
   Path path_ = straight_path(10);
