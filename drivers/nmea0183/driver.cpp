@@ -34,7 +34,13 @@ void Nmea0183Driver::on_bytes(std::span<const std::uint8_t> bytes, Time first_by
   last_byte_ = first_byte;
   // A chunk may hold several sentences: the line's pace says when each byte came.
   Time at = first_byte;
-  for (const std::uint8_t byte : bytes) {
+  while (true) {
+    const std::size_t dull = framer_.take_dull(bytes);
+    bytes = bytes.subspan(dull);
+    at += static_cast<Duration::rep>(dull) * byte_time_;
+    if (bytes.empty()) return;
+    const std::uint8_t byte = bytes.front();
+    bytes = bytes.subspan(1);
     if (byte == '$') sentence_first_byte_ = at;
     switch (framer_.push(byte)) {
       case Framer::Event::sentence:

@@ -2,7 +2,9 @@
 #include "drivers/nmea0183/fields.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
+#include <cstdint>
 
 #include "drover/measurement.h"
 
@@ -10,6 +12,12 @@ namespace drover::nmea0183 {
 namespace {
 
 constexpr std::size_t kMaxNumberLength = 20;
+
+// A number of so few digits, and each of these powers, is a double without a rest: their quotient
+// is the double that is nearest to the text, as from_chars would find it.
+constexpr std::size_t kExactDigits = 15;
+constexpr std::array kPowersOfTen{1e0, 1e1, 1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
+                                  1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15};
 
 bool is_digit(char c) {
   return c >= '0' && c <= '9';
@@ -30,15 +38,24 @@ std::optional<double> parse_decimal(std::string_view text) {
   // from_chars alone would also take `nan` and `inf`.
   std::size_t digits = 0;
   std::size_t points = 0;
+  std::size_t decimals = 0;
+  std::uint64_t mantissa = 0;
   for (const char c : rest) {
-    if (is_digit(c))
+    if (is_digit(c)) {
       ++digits;
-    else if (c == '.')
+      decimals += points;
+      mantissa = mantissa * 10 + static_cast<std::uint64_t>(c - '0');
+    } else if (c == '.') {
       ++points;
-    else
+    } else {
       return std::nullopt;
+    }
   }
   if (digits == 0 || points > 1) return std::nullopt;
+  if (digits <= kExactDigits) {
+    const double value = static_cast<double>(mantissa) / kPowersOfTen[decimals];
+    return text.front() == '-' ? -value : value;
+  }
   double value = 0;
   const char* end = text.data() + text.size();
   const auto result = std::from_chars(text.data(), end, value, std::chars_format::fixed);

@@ -1,6 +1,9 @@
 // The framer's state machine; every byte leads to a defined state.
 #include "drivers/nmea0183/framer.h"
 
+#include <algorithm>
+#include <cstring>
+
 namespace drover::nmea0183 {
 namespace {
 
@@ -19,7 +22,30 @@ bool is_reply(std::string_view body) {
   return body.starts_with("command,") || body.starts_with("CONFIG,");
 }
 
+/// Bytes that are a sentence's text and nothing else.
+constexpr auto kText = [] {
+  std::array<bool, 256> text{};
+  for (std::size_t byte = 0x20; byte <= 0x7E; ++byte)
+    text[byte] = byte != '$' && byte != '*' && byte != '#';
+  return text;
+}();
+
 }  // namespace
+
+std::size_t Framer::take_dull(std::span<const std::uint8_t> bytes) {
+  if (state_ == State::checksum) return 0;
+  if (state_ == State::idle)
+    return static_cast<std::size_t>(std::find(bytes.begin(), bytes.end(), '$') - bytes.begin());
+  std::size_t count = 0;
+  for (const std::uint8_t byte : bytes.first(std::min(bytes.size(), kMaxBody - size_))) {
+    if (!kText[byte]) break;
+    sum_ = static_cast<std::uint8_t>(sum_ ^ byte);
+    ++count;
+  }
+  if (count > 0) std::memcpy(&buffer_[size_], bytes.data(), count);
+  size_ += count;
+  return count;
+}
 
 Framer::Event Framer::push(std::uint8_t byte) {
   if (byte == '$') {

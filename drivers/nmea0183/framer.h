@@ -1,9 +1,10 @@
-// Finds NMEA 0183 sentences in a stream of bytes, one byte at a time, whatever lies between them.
+// Finds NMEA 0183 sentences in a stream of bytes, whatever lies between them.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string_view>
 
 namespace drover::nmea0183 {
@@ -22,6 +23,9 @@ class Framer final {
   };
 
   Event push(std::uint8_t byte);
+  /// How many bytes at the beginning of `bytes` lead to nothing but Event::none, and takes them:
+  /// text inside a sentence, or what lies between two. They are most of a stream, and so go fast.
+  std::size_t take_dull(std::span<const std::uint8_t> bytes);
   /// Between `$` and `*`, after Event::sentence and until the next push().
   std::string_view body() const { return {buffer_.data(), size_}; }
   /// Forgets a line that has begun.

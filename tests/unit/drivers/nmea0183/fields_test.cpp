@@ -3,8 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <bit>
+#include <charconv>
 #include <clocale>
 #include <cmath>
+#include <random>
 #include <string>
 
 namespace drover::nmea0183 {
@@ -26,6 +29,25 @@ TEST(NmeaFields, ReadPlainDecimals) {
   EXPECT_EQ(parse_decimal(".5"), 0.5);
   EXPECT_EQ(parse_decimal("5."), 5.0);
   EXPECT_EQ(parse_decimal("007"), 7.0);
+}
+
+// The standard library's reading is the nearest double; ours must be the same to the bit.
+TEST(NmeaFields, ReadDecimalsAsTheStandardLibraryDoes) {
+  std::mt19937 random(1);
+  for (int i = 0; i < 200000; ++i) {
+    std::string text = random() % 4 == 0 ? "-" : "";
+    const auto digits = 1 + random() % 18;
+    const auto point = random() % (digits + 2);
+    for (std::size_t digit = 0; digit < digits; ++digit) {
+      if (digit == point) text += '.';
+      text += static_cast<char>('0' + random() % 10);
+    }
+    double expected = 0;
+    std::from_chars(text.data(), text.data() + text.size(), expected, std::chars_format::fixed);
+    const auto read = parse_decimal(text);
+    ASSERT_TRUE(read) << text;
+    ASSERT_EQ(std::bit_cast<std::uint64_t>(*read), std::bit_cast<std::uint64_t>(expected)) << text;
+  }
 }
 
 TEST(NmeaFields, ReadDecimalsInADecimalCommaLocale) {

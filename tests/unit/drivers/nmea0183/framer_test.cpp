@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <random>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -120,6 +122,46 @@ TEST(NmeaFramer, AcceptsLineFeedAloneReturnAloneAndLowerCase) {
   EXPECT_EQ(
       frame("$GNRMC,103607.00,A,5327.03942,N,10214.42462,W,0.046,,060321,,,A,V*0e\n").bodies.size(),
       1U);
+}
+
+/// What `text` gives when the framer may take the dull bytes at once, in chunks of `chunk`.
+Framed frame_at_once(std::string_view text, std::size_t chunk) {
+  Framer framer;
+  Framed result;
+  const auto bytes = test::bytes(text);
+  for (std::size_t begin = 0; begin < bytes.size(); begin += chunk) {
+    auto rest = std::span(bytes).subspan(begin, std::min(chunk, bytes.size() - begin));
+    while (true) {
+      rest = rest.subspan(framer.take_dull(rest));
+      if (rest.empty()) break;
+      const auto event = framer.push(rest.front());
+      rest = rest.subspan(1);
+      if (event == Framer::Event::sentence) result.bodies.emplace_back(framer.body());
+      result.dropped += event == Framer::Event::dropped ? 1 : 0;
+      result.foreign += event == Framer::Event::foreign ? 1 : 0;
+    }
+  }
+  return result;
+}
+
+TEST(NmeaFramer, FindsTheSameWhetherItTakesBytesAtOnceOrOneByOne) {
+  std::mt19937 random(1);
+  const std::string_view pieces[] = {
+      "$GNHDT,244.28,T*13\r\n", "$GPGGA,1,2*", "\r\n", "#", "$", "*", "command,", "13", "\x80",
+      "text between",           "$A*41\n"};
+  for (int i = 0; i < 2000; ++i) {
+    std::string text;
+    for (auto count = random() % 12; count > 0; --count)
+      text += pieces[random() % std::size(pieces)];
+    if (random() % 50 == 0) text.insert(text.size() / 2, std::string(Framer::kMaxBody, 'x'));
+    const auto expected = frame(text);
+    for (const std::size_t chunk : {std::size_t{1}, std::size_t{7}, std::size_t{4096}}) {
+      const auto framed = frame_at_once(text, chunk);
+      ASSERT_EQ(framed.bodies, expected.bodies) << text;
+      ASSERT_EQ(framed.dropped, expected.dropped) << text;
+      ASSERT_EQ(framed.foreign, expected.foreign) << text;
+    }
+  }
 }
 
 TEST(NmeaFramer, ForgetsALineThatHadBegun) {
