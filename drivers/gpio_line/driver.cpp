@@ -4,6 +4,12 @@
 #include <algorithm>
 
 namespace drover::gpio_line {
+namespace {
+
+/// Nobody has seen it active: it only has to be no bounce. A robot that rolls waits for it.
+constexpr Duration kFirstHold = std::chrono::milliseconds(50);
+
+}  // namespace
 
 void GpioLineDriver::report(bool active, Time at, DriverOut& out) {
   if (reported_ && active == active_) return;
@@ -28,8 +34,11 @@ void GpioLineDriver::on_level(bool high, Time at, DriverOut& out) {
   lost_ = false;
   last_reading_ = at;
   ++readings_;
-  const Duration needed = reading_active ? settings_.active_debounce : settings_.release_debounce;
+  const Duration release =
+      ever_settled_ ? settings_.release_debounce : std::min(settings_.release_debounce, kFirstHold);
+  const Duration needed = reading_active ? settings_.active_debounce : release;
   if (at - level_since_ >= needed) {
+    settled_ = ever_settled_ = true;
     report(reading_active, at, out);
   } else if (!reported_) {
     report(true, at, out);
@@ -39,12 +48,14 @@ void GpioLineDriver::on_level(bool high, Time at, DriverOut& out) {
 void GpioLineDriver::on_lost(Time at, DriverOut& out) {
   if (!lost_) ++losses_;
   lost_ = true;
+  settled_ = false;
   report(true, at, out);
 }
 
 void GpioLineDriver::on_tick(Time now, DriverOut& out) {
-  if (last_reading_ == kNever || lost_ || now - last_reading_ > settings_.stale_after)
-    report(true, now, out);
+  if (last_reading_ != kNever && !lost_ && now - last_reading_ <= settings_.stale_after) return;
+  settled_ = false;
+  report(true, now, out);
 }
 
 SourceHealth GpioLineDriver::health(Time now) const {
@@ -60,9 +71,13 @@ SourceHealth GpioLineDriver::health(Time now) const {
   } else if (now - last_reading_ > settings_.stale_after) {
     health.state = SourceState::stale;
     health.reason.format("the line was not read for %.3f s", to_s(now - last_reading_));
+  } else if (!settled_) {
+    health.state = SourceState::stale;
+    health.reason = "not known yet, its contact has to hold for a moment";
   } else {
     health.state = SourceState::fresh;
   }
+  if (!ever_settled_) health.state = SourceState::never_heard;
   return health;
 }
 

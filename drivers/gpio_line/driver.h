@@ -39,6 +39,8 @@ class GpioLineDriver final : public LineDriver {
   bool reported_ = false;  ///< something was reported at all
   bool active_ = true;     ///< the debounced meaning
   bool lost_ = false;
+  bool settled_ = false;  ///< `active_` comes from readings that held, and is not presumed
+  bool ever_settled_ = false;
   bool level_active_ = true;   ///< of the last reading
   Time level_since_ = kNever;  ///< since when the readings agree with `level_active_`
   Time last_reading_ = kNever;

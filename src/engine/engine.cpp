@@ -41,7 +41,6 @@ Engine::Impl::Impl(const EngineConfig& c)
     if (!snapshot.axes.push_back(axis)) break;
   }
   snapshot.line_configured = config.line_configured;
-  snapshot.line_active = config.line_configured;
   snapshot.output_configured = config.output_configured;
 }
 
@@ -278,7 +277,6 @@ void Engine::step(Time now, const Environment& environment, EngineOutput& out) {
   for (std::size_t i = 0; i < kLineCount; ++i) {
     // Any edge counts: what was active for an instant is active for the cycle.
     lines.active[i] = e.level[i] || e.pulse[i];
-    e.snapshot.line_active[i] = e.config.line_configured[i] && lines.active[i];
     e.snapshot.line_health[i] = environment.lines[i].state;
   }
   e.pulse.fill(false);
@@ -306,8 +304,11 @@ void Engine::step(Time now, const Environment& environment, EngineOutput& out) {
   const bool other = motion.owner == Owner::joint_command || motion.owner == Owner::manual;
   if (other) e.navigator.make_way();
   e.driven = motion.run;
-  // What held before a restart keeps its power until the lines have told of themselves.
-  e.power.step(now, e.health.report().estop && !e.hold.waits_for_lines(), axes);
+  const HealthReport& report = e.health.report();
+  e.power.step(now,
+               {report.estop || !report.estop_known, e.hold.waits_for_lines(),
+                environment.relay_found_closed},
+               axes);
   e.hold.step({now, dt, e.health.report(), axes, motion.run,
                e.wheel_fault == WheelFault::runaway || e.navigator.run_away(), e.power.is_cut(),
                environment.guard_has_bus},
@@ -318,7 +319,7 @@ void Engine::step(Time now, const Environment& environment, EngineOutput& out) {
   e.motion_asked = out.motion_permitted;
   e.navigator.on_commanded(now, out.motion_permitted, e.events);
   e.announcer.update(now, e.health.report(), e.events);
-  e.fill_snapshot(now, environment, e.estimate, motion.owner);
+  e.fill_snapshot(now, environment, lines, e.estimate, motion.owner);
   out.outputs = e.snapshot.output_on =
       e.signals.step(now, e.snapshot, out.motion_permitted, motion.run, e.power.closed());
   out.remembered = {

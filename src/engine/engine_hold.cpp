@@ -65,6 +65,8 @@ void Engine::Impl::arm_hold(const RequestId& id, Time now) {
     why = "the gateway has just started";
   } else if (report.estop) {
     why = "the e-stop is pressed";
+  } else if (!report.estop_known) {
+    why = report.text(Cause::line_lost);
   } else if (power.is_cut()) {
     why = "the drives have no power: drover reset";
   } else if (wheel_fault == WheelFault::runaway || navigator.run_away()) {

@@ -48,8 +48,9 @@ struct Engine::Impl {
   void let_go(EngineOutput& out);
   double worst_speed_mps(Time now) const;
   void fill_imu(const Estimate& located);
-  void fill_snapshot(Time now, const Environment& environment, const Estimate& estimate,
-                     Owner owner);
+  void fill_lines(const LineTable& lines);
+  void fill_snapshot(Time now, const Environment& environment, const LineTable& lines,
+                     const Estimate& estimate, Owner owner);
 
   EngineConfig config;
   Estimator estimator;

@@ -31,11 +31,19 @@ void Engine::Impl::fill_sources(const Environment& environment) {
   for (std::size_t i = 0; i < kLineCount; ++i) tell(snapshot.line_source[i], environment.lines[i]);
 }
 
-void Engine::Impl::fill_snapshot(Time now, const Environment& environment, const Estimate& located,
-                                 Owner owner) {
+void Engine::Impl::fill_lines(const LineTable& lines) {
+  for (std::size_t i = 0; i < kLineCount; ++i) {
+    const bool known = config.line_configured[i] && !health.unknown(static_cast<Line>(i));
+    snapshot.line_active[i] = known && lines.active[i];
+  }
+}
+
+void Engine::Impl::fill_snapshot(Time now, const Environment& environment, const LineTable& lines,
+                                 const Estimate& located, Owner owner) {
   const HealthReport& report = health.report();
   snapshot.time = now;
   fill_sources(environment);
+  fill_lines(lines);
   snapshot.pose = located.pose;
   snapshot.worst_vx_mps = worst_speed_mps(now);
   snapshot.nav = navigator.snapshot(report);

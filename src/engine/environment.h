@@ -14,6 +14,8 @@ struct Environment {
   bool guard_alive = false;
   bool guard_has_bus = false;  ///< the guard sends stop frames; ours are blocked until hand-back
   bool guard_latched = false;  ///< somebody stopped the robot at the guard, until a reset there
+  /// The drives had power when the outputs were opened: another program kept the enable relay.
+  bool relay_found_closed = false;
   /// Health of each drive, by AxisId, and of the receiver, as their drivers judge it.
   std::array<SourceHealth, kMaxAxes> axes{};
   Reason slept;    ///< the computer was suspended: a task ends; empty when it was not

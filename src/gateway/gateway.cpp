@@ -250,6 +250,10 @@ void Gateway::on(const Recalled& recalled, Time now) {
   engine_.recall(recalled.remembered, now);
 }
 
+void Gateway::on(const OutputsUp& up, Time) {
+  environment_.relay_found_closed = up.relay_closed;
+}
+
 void Gateway::on(const Tick& tick, Time now) {
   for (std::size_t i = 0; i < kStreamCount; ++i) {
     if (!streams_[i]) continue;

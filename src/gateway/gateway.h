@@ -95,6 +95,7 @@ class Gateway final {
   void on(const Tick& tick, Time now);
   void on(const ProgramTrouble& trouble, Time now);
   void on(const Recalled& recalled, Time now);
+  void on(const OutputsUp& up, Time now);
   bool jammed(const Bus& bus, Time now) const;
   void look_at_buses(Time now);
   void notice_foreign(const Drive& drive, const CanFrame& frame, Time received);

@@ -89,6 +89,11 @@ struct Suspended {
 struct Recalled {
   Remembered remembered;
 };
+/// The output lines were opened; whether the enable relay was closed then, because another program
+/// had kept it.
+struct OutputsUp {
+  bool relay_closed = false;
+};
 /// One control cycle: afterwards the gateway's output is that cycle's.
 struct Tick {
   bool guard_alive = false;
@@ -99,7 +104,7 @@ struct Tick {
 /// The order is the recording's: a new one goes to the end.
 using InputBody = std::variant<FrameHeard, BytesHeard, LevelsRead, LinesLost, RegistersRead,
                                RegistersFailed, BatteryUp, BusUp, BusLost, FramesSent, StreamUp,
-                               CommandGiven, Tick, ProgramTrouble, Suspended, Recalled>;
+                               CommandGiven, Tick, ProgramTrouble, Suspended, Recalled, OutputsUp>;
 
 struct Input {
   Time time = kNever;

@@ -31,6 +31,17 @@ class GpioOutputs final : public OutputLink {
       if (handle.fd && !write(handle, levels)) return false;
     return true;
   }
+  bool is_on(std::size_t line) const override {
+    for (const auto& handle : handles_) {
+      const auto place = std::find(handle.lines.begin(), handle.lines.end(), line);
+      if (!handle.fd || place == handle.lines.end()) continue;
+      gpio_v2_line_values values{};
+      values.mask = std::uint64_t{1} << (place - handle.lines.begin());
+      return ::ioctl(handle.fd.get(), GPIO_V2_LINE_GET_VALUES_IOCTL, &values) == 0 &&
+             (values.bits & values.mask) != 0;
+    }
+    return false;
+  }
   int error() const override { return error_; }
   int fd() const override { return handles_[0].fd.get(); }
   int shared_fd() const override { return handles_[1].fd.get(); }
@@ -65,6 +76,11 @@ class FileOutputs final : public OutputLink {
       }
     }
     return true;
+  }
+  bool is_on(std::size_t line) const override {
+    char level = 0;
+    return line < files_.size() && ::pread(files_[line].get(), &level, 1, 0) == 1 &&
+           level == (lines_[line].active_low ? '0' : '1');
   }
   int error() const override { return error_; }
 

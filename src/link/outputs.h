@@ -33,6 +33,8 @@ class OutputLink {
   /// `levels` in the order of the settings, true is active. False when the chip is gone.
   [[nodiscard]] virtual bool write(std::span<const bool> levels) = 0;
   virtual int error() const = 0;
+  /// Level of the line with this index in the settings; false when it cannot be told.
+  virtual bool is_on(std::size_t line) const = 0;
   /// The kernel's line handle, for the guard; -1 where there is none.
   virtual int fd() const { return -1; }
   /// That of `shared_line`.

@@ -58,6 +58,9 @@ void ControlLoop::take_links(Time now) {
     } else if (slot == kOutputsSlot) {
       outputs_ = std::move(arrived.outputs);
       outputs_written_ = kNever;
+      // It comes first in the order of Output, and so among the configured ones.
+      static_assert(static_cast<int>(Output::enable_relay) == 0);
+      apply(now, gateway::OutputsUp{config_.engine.output_configured[0] && outputs_->is_on(0)});
     } else if (slot == kLinesSlot) {
       lines_ = std::move(arrived.lines);
     } else {

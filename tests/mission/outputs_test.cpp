@@ -116,6 +116,37 @@ TEST(KillOnRamp, KeepsTheEnableRelayClosedByTheGuardAlone) {
       << "the guard has its line until the new gateway takes it back";
 }
 
+TEST(BrakeOnRamp, ClosesNoRelayWhileAnEstopIsPressedThatNobodySaw) {
+  const Record& log = record("brake_on_ramp");
+  const Time back = log.event("start droverd", 3);
+  const Time released = log.event("sim estop release");
+  ASSERT_EQ(log.level_at("enable_relay", back), false) << "both programs were dead";
+  EXPECT_THAT(log.changes("enable_relay", back, released), testing::IsEmpty());
+  const auto on = edges(log, "enable_relay", true, released, Time::max());
+  ASSERT_EQ(on.size(), 1U);
+  figure("relay closed after the release", on[0] - released);
+  EXPECT_LE(on[0] - released, 230ms);
+}
+
+TEST(BrakeOnRamp, SaysNothingOfLinesThatItDoesNotKnowYet) {
+  const Record& log = record("brake_on_ramp");
+  const Time back = log.event("start droverd", 2);
+  std::size_t looked = 0;
+  std::size_t unknown = 0;
+  for (const auto& status : log.statuses) {
+    if (status.time < back || status.time > back + 1s) continue;
+    ++looked;
+    unknown += status.why.find("not known yet") != std::string::npos ? 1 : 0;
+    for (const char* claim : {"pressed", "touched", "obstacle", "far zone: slowly"})
+      EXPECT_EQ(status.why.find(claim), std::string::npos) << status.why;
+    EXPECT_EQ(status.document.at("robot").at("robot_status").get<int>() & 0b10001, 0);
+    EXPECT_FALSE(status.obstacle);
+  }
+  figure("statuses in the first second", static_cast<double>(looked), "");
+  figure("of them with lines not known", static_cast<double>(unknown), "");
+  EXPECT_GT(looked, 0U);
+}
+
 TEST(Hang, LeavesTheHardwareWatchdogFedByTheGuardAndIsHeardAfterwards) {
   const Record& log = record("hang");
   EXPECT_LE(longest_gap(log, log.event("event boot#1") + 100ms, log.event("the end")), kPulseGap);

@@ -7,6 +7,9 @@
 namespace drover::engine {
 namespace {
 
+/// Chips are opened and contacts settle: in that time a line that tells nothing is no fault yet.
+constexpr Duration kLinesSettle = std::chrono::seconds(1);
+
 template <std::size_t N>
 void put(FixedText<N>& out, const char* before, std::string_view name, std::string_view text) {
   out.format("%s %.*s: %.*s", before, static_cast<int>(name.size()), name.data(),
@@ -39,7 +42,8 @@ void HealthMonitor::hold(Cause cause, const Reason& text) {
 }
 
 void HealthMonitor::look_at_lines(const HealthInput& input) {
-  report_.lines_ok = true;
+  report_.lines_ok = report_.estop_known = true;
+  if (begun_ == kNever) begun_ = input.now;
   for (std::size_t i = 0; i < kLineCount; ++i) {
     if (!config_.line_configured[i]) continue;
     const auto line = static_cast<Line>(i);
@@ -48,17 +52,23 @@ void HealthMonitor::look_at_lines(const HealthInput& input) {
     const bool old = source.last_good != kNever &&
                      input.now - source.last_good > from_s(config_.health.line_stale_s);
     const bool lost = source.state != SourceState::fresh || old;
-    const bool active = input.lines.active[i] || lost;
+    const bool unknown = unknown_[i] =
+        source.state == SourceState::never_heard && input.now - begun_ <= kLinesSettle;
+    // Nothing moves while a line is lost or unknown, but only what is lost is told as active.
+    const bool active = !unknown && (input.lines.active[i] || lost);
     if (lost) {
       Reason text;
       put(text, "line", line_name(line),
-          source.reason.empty() ? std::string_view("not readable") : source.reason.view());
+          unknown                 ? std::string_view("not known yet, just after the start")
+          : source.reason.empty() ? std::string_view("not readable")
+                                  : source.reason.view());
       hold(Cause::line_lost, text);
       report_.lines_ok = false;
     }
     switch (line) {
       case Line::estop:
         report_.estop = active;
+        report_.estop_known = !unknown;
         if (active && !lost) hold(Cause::estop, "e-stop pressed");
         report_.lines_ok = report_.lines_ok && !active;
         break;

@@ -74,7 +74,8 @@ struct HealthReport {
   bool lines_ok = false;        ///< no e-stop, no bumper, no line lost
   bool gnss_ok = false;         ///< the receiver talks
   bool guard_ok = false;        ///< answers, or is not required; and has not taken the bus
-  bool estop = false;
+  bool estop = false;           ///< pressed, or its line is lost
+  bool estop_known = true;      ///< false just after the start: nobody may count on it being free
   bool near_zone = false;
   bool far_zone = false;
   LocateState locate = LocateState::uninit;
@@ -100,6 +101,8 @@ class HealthMonitor final {
   explicit HealthMonitor(const EngineConfig& config);
   const HealthReport& update(const HealthInput& input);
   const HealthReport& report() const { return report_; }
+  /// Just after the start: nothing is known of it, so that it is neither active nor lost.
+  bool unknown(Line line) const { return unknown_[static_cast<std::size_t>(line)]; }
 
  private:
   void hold(Cause cause, const Reason& text);
@@ -117,6 +120,8 @@ class HealthMonitor final {
   LocateMonitor locate_;
   BatteryMonitor battery_;
   HealthReport report_;
+  std::array<bool, kLineCount> unknown_{};
+  Time begun_ = kNever;
 };
 
 /// "e-stop", "bumper", ...

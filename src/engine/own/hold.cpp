@@ -17,7 +17,7 @@ constexpr Duration kGuardPatience = milliseconds(300);
 constexpr Duration kReportDelay = milliseconds(50);
 constexpr Duration kLongestAttempt = milliseconds(3000);
 constexpr Duration kRetry = milliseconds(500);
-/// A line counts as active until its contact has held for a while: that is no e-stop yet.
+/// A line says nothing until its contact has held for a while. Not waited for any longer.
 constexpr Duration kLinesKnownAfter = milliseconds(500);
 constexpr double kReleaseTilt_deg = 2.0;
 /// Slower needs no ramp, and may be what a drive's estimate says while it settles after its boot.
@@ -79,8 +79,8 @@ bool Hold::estop(const HoldInput& input) {
   if (begun_ == kNever) begun_ = input.now;
   const bool pressed = input.health.holds(Cause::estop);
   const bool clear = !pressed && !input.health.holds(Cause::line_lost);
-  lines_known_ = lines_known_ || clear || input.now - begun_ > kLinesKnownAfter;
-  return pressed && !waits_for_lines();
+  lines_known_ = lines_known_ || pressed || clear || input.now - begun_ > kLinesKnownAfter;
+  return pressed;
 }
 
 /// Whether the drives hold, since when they do not, and what ended the holding for good.
@@ -167,8 +167,8 @@ void Hold::step(const HoldInput& input, EventQueue& events) {
   keep_time(input, events);
   commands_ = {};
   const bool all_run = input.health.drives_running;
-  const bool wanted =
-      armed_ && !input.driven && !input.health.estop && (config_.base.hold_again || asked_);
+  const bool free = input.health.estop_known && !input.health.estop;
+  const bool wanted = armed_ && !input.driven && free && (config_.base.hold_again || asked_);
   if (!wanted) catches_ = {};
   const bool catching =
       std::any_of(catches_.begin(), catches_.end(), [](const Catch& it) { return it.active; });
@@ -183,11 +183,11 @@ void Hold::step(const HoldInput& input, EventQueue& events) {
     for (std::size_t i = 0; i < input.axes.size(); ++i)
       if (driven_[i]) commands_[i] = {AxisRequest::idle, 0};
   }
-  state_ = released_                                  ? HoldState::released
-           : wanted_ != kNever && !input.health.estop ? HoldState::catching
-           : all_run                                  ? HoldState::held
-           : gave_up_                                 ? HoldState::lost
-                                                      : HoldState::idle;
+  state_ = released_                   ? HoldState::released
+           : wanted_ != kNever && free ? HoldState::catching
+           : all_run                   ? HoldState::held
+           : gave_up_                  ? HoldState::lost
+                                       : HoldState::idle;
 }
 
 }  // namespace drover::engine

@@ -47,7 +47,8 @@ class Hold final {
   Reason hindrance() const;
   HoldState state() const { return state_; }
   bool released() const { return released_; }
-  /// What was held before a restart waits until an e-stop's line has told of itself.
+  /// What was held before a restart waits until an e-stop's line has told of itself: until then the
+  /// drives' power stays as it was found.
   bool waits_for_lines() const { return lines_awaited_ && !lines_known_; }
   /// The drives hold, or are to hold again: for the memory that outlives the program.
   bool armed() const { return armed_; }

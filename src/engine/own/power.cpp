@@ -17,7 +17,7 @@ bool has_let_go(const AxisSnapshot& axis) {
 
 }  // namespace
 
-void PowerSwitch::step(Time now, bool estop, std::span<const AxisSnapshot> axes) {
+void PowerSwitch::step(Time now, const PowerInput& input, std::span<const AxisSnapshot> axes) {
   if (!cut_) {
     since_ = kNever;
     opened_ = false;
@@ -28,7 +28,7 @@ void PowerSwitch::step(Time now, bool estop, std::span<const AxisSnapshot> axes)
     opened_ = (asked && std::all_of(axes.begin(), axes.end(), has_let_go)) ||
               now - since_ > kLongestIdling;
   }
-  closed_ = !estop && !opened_;
+  closed_ = !opened_ && (input.waits ? input.closed : !input.estop);
 }
 
 }  // namespace drover::engine

@@ -186,6 +186,13 @@ void get(Recalled& recalled, ByteReader& in) {
     *flag = get_flag(in);
 }
 
+void put(const OutputsUp& up, ByteWriter& out) {
+  out.byte(up.relay_closed ? 1 : 0);
+}
+void get(OutputsUp& up, ByteReader& in) {
+  up.relay_closed = get_flag(in);
+}
+
 // Bodies of commands: the same once more.
 
 void put(const std::monostate&, ByteWriter&) {}

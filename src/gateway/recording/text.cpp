@@ -122,6 +122,9 @@ std::string words(const Recalled& recalled) {
          (proved ? " with proved mechanics" : "") +
          (stop_at_robot ? " stopped at the robot: " : " stopped: ") + std::string(stop);
 }
+std::string words(const OutputsUp& up) {
+  return std::string("outputs up, relay ") + (up.relay_closed ? "closed" : "open");
+}
 std::string words(const CommandGiven& given) {
   constexpr const char* kBodies[] = {"nothing",        "start of a task", "cancel",
                                      "stop",           "reset",           "proposal of an origin",

@@ -26,6 +26,15 @@ class ARobotThatHolds : public AnEngine {
     rig.tick();
     rig.set_origin();
   }
+  /// Whether the relay was closed at any time of these seconds.
+  bool has_relay_s(double seconds) {
+    bool closed = false;
+    for (int i = 0; i < static_cast<int>(seconds * 200 + 0.5); ++i) {
+      rig.tick();
+      closed = closed || rig.out.outputs[static_cast<std::size_t>(Output::enable_relay)];
+    }
+    return closed;
+  }
   WheelSpeeds speeds(double mps) const {
     const double radps = mps / rig.config.base.wheel_radius_m;
     return {radps, radps};
@@ -119,6 +128,41 @@ TEST_F(ARobotThatHolds, IsNotHeldAgainAfterAnEstop) {
   rig.command(ArmHold{});
   rig.run_s(1);
   EXPECT_EQ(rig.snapshot().hold, HoldState::held);
+}
+TEST_F(ARobotThatHolds, GetsNoPowerBeforeTheEmergencyStopsLineTells) {
+  drive_and_stop();
+  rig.line_unknown.fill(true);
+  restart();
+  EXPECT_FALSE(has_relay_s(0.35)) << "both programs were dead, and it had fallen";
+  rig.line_unknown.fill(false);
+  EXPECT_TRUE(has_relay_s(0.1));
+  rig.run_s(1);
+  EXPECT_EQ(rig.snapshot().hold, HoldState::held);
+}
+TEST_F(ARobotThatHolds, GetsNoPowerAfterARestartWhileTheEmergencyStopIsPressed) {
+  drive_and_stop();
+  rig.line_unknown.fill(true);
+  restart();
+  EXPECT_FALSE(has_relay_s(0.01));
+  rig.line_unknown.fill(false);
+  rig.lines[0] = true;
+  EXPECT_FALSE(has_relay_s(2));
+  EXPECT_EQ(rig.snapshot().hold, HoldState::idle) << "an e-stop ends the holding";
+}
+TEST_F(ARobotThatHolds, KeepsThePowerThatTheGuardKeptUntilTheLineTells) {
+  drive_and_stop();
+  for (const bool pressed : {false, true}) {
+    rig.line_unknown.fill(true);
+    rig.environment.relay_found_closed = true;
+    restart(false);
+    EXPECT_TRUE(has_relay_s(0.35));
+    EXPECT_EQ(rig.drives[0].state, AxisState::running);
+    rig.line_unknown.fill(false);
+    rig.lines[0] = pressed;
+    rig.tick();
+    rig.tick();
+    EXPECT_EQ(has_relay_s(0.5), !pressed);
+  }
 }
 TEST_F(ARobotThatHolds, WasNeverHeldWithoutAPersonWhoArmedIt) {
   rig.settle();

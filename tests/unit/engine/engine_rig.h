@@ -116,6 +116,7 @@ class EngineRig {
   std::array<Drive, 4> drives;
   std::array<bool, kLineCount> lines{};
   std::array<bool, kLineCount> line_lost{};
+  std::array<bool, kLineCount> line_unknown{};  ///< nothing was ever heard of it
   bool guard_alive = true;
   bool guard_has_bus = false;
   bool receiver_silent = false;
@@ -221,7 +222,8 @@ class EngineRig {
     for (std::size_t i = 0; i < kLineCount; ++i) {
       SourceHealth& source = environment.lines[i];
       source.state = line_lost[i] ? SourceState::stale : SourceState::fresh;
-      if (line_lost[i]) continue;
+      if (line_unknown[i]) source.state = SourceState::never_heard;
+      if (line_lost[i] || line_unknown[i]) continue;
       source.last_good = now;
       measure(now, LineState{static_cast<Line>(i), lines[i]});
     }

@@ -61,6 +61,7 @@ struct OneOfEachInput {
     add(ProgramTrouble{"droverd ends"});
     add(Suspended{2.5});
     add(Recalled{{"emergency stop", true, false, true, false, true, true}});
+    add(OutputsUp{true});
     add(BusLost{0, "can0: lost (No such device)"});
     add(Tick{false, true, true});
   }

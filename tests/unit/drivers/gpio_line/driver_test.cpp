@@ -52,8 +52,8 @@ TEST(GpioLine, RefusesUnknownLevelsAndBadTimes) {
 
 TEST(GpioLine, IsNotReleasedByABounceShorterThanTheDebounce) {
   Bench bench;
-  EXPECT_EQ(bench.read(true), kActive);
-  EXPECT_EQ(bench.read(true, 38), "nothing");  // 190 ms
+  EXPECT_EQ(bench.read(false), kActive);
+  EXPECT_EQ(bench.read(true, 39), "nothing");  // 190 ms
   EXPECT_EQ(bench.read(false), "nothing");
   EXPECT_EQ(bench.read(true, 40), "nothing");
   EXPECT_EQ(bench.read(true), kReleased);
@@ -84,6 +84,35 @@ TEST(GpioLine, IsActiveWhenLostAndNeedsTheWholeReleaseTimeAfterwards) {
   EXPECT_EQ(bench.driver.health(bench.now).reason, "the line cannot be read");
   EXPECT_EQ(bench.read(true, 40), "nothing");
   EXPECT_EQ(bench.read(true), kReleased);
+}
+
+TEST(GpioLine, TellsThatItIsNotKnownBeforeItsContactHasHeld) {
+  Bench bench;
+  bench.driver.on_lost(bench.now, bench.out);
+  EXPECT_EQ(bench.driver.health(bench.now).state, SourceState::never_heard);
+  bench.read(true, 10);
+  EXPECT_EQ(bench.driver.health(bench.now).state, SourceState::never_heard);
+  EXPECT_EQ(bench.driver.health(bench.now).reason,
+            "not known yet, its contact has to hold for a moment");
+  bench.read(true, 2);
+  EXPECT_EQ(bench.driver.health(bench.now).state, SourceState::fresh);
+  EXPECT_TRUE(bench.driver.health(bench.now).reason.empty());
+}
+
+TEST(GpioLine, IsKnownAtOnceWhenItIsActive) {
+  Bench bench;
+  bench.read(false);
+  EXPECT_EQ(bench.driver.health(bench.now).state, SourceState::fresh);
+}
+
+TEST(GpioLine, IsNotFreshAfterALossBeforeItsContactHasHeldAgain) {
+  Bench bench;
+  bench.read(true, 50);
+  bench.driver.on_lost(bench.now, bench.out);
+  bench.read(true, 2);
+  EXPECT_EQ(bench.driver.health(bench.now).state, SourceState::stale);
+  bench.read(true, 41);
+  EXPECT_EQ(bench.driver.health(bench.now).state, SourceState::fresh);
 }
 
 TEST(GpioLine, IsActiveWhenReadingsCease) {

@@ -112,6 +112,19 @@ TEST_F(AHealthMonitor, TakesALostEstopLineForAPressedEstop) {
   line(Line::estop).state = SourceState::stale;
   EXPECT_TRUE(update().estop);
 }
+TEST_F(AHealthMonitor, ClaimsNothingOfALineThatIsNotKnownYetButStops) {
+  lines.active.fill(true);
+  for (SourceHealth& each : environment.lines) each.state = SourceState::never_heard;
+  expect_stop("line e-stop: not known yet, just after the start");
+  const HealthReport& report = update();
+  EXPECT_FALSE(report.estop || report.near_zone || report.far_zone || report.lines_ok);
+  EXPECT_FALSE(report.estop_known);
+  EXPECT_FALSE(report.holds(Cause::estop) || report.holds(Cause::bumper));
+  EXPECT_FALSE(report.holds(Cause::near_zone));
+  now += std::chrono::milliseconds(1100);  // by then it is a fault
+  EXPECT_TRUE(update().estop && update().near_zone);
+  expect_stop("line e-stop: not readable");
+}
 TEST_F(AHealthMonitor, StopsWhenALineWasNotReadForTwentyMilliseconds) {
   line(Line::bumper).last_good = now - std::chrono::milliseconds(20);
   EXPECT_TRUE(update().stop.empty());

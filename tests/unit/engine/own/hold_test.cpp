@@ -268,7 +268,7 @@ TEST_F(Holding, IsNotReleasedOnASlopeOrWhereTheTiltIsUnknown) {
   EXPECT_EQ(answer(), "yes");
 }
 
-/// A line counts as active until its contact has held for a while.
+/// The e-stop's line tells nothing until its contact has held for a while.
 class HoldingAfterARestart : public Holding {
  protected:
   HoldingAfterARestart() {
@@ -276,13 +276,19 @@ class HoldingAfterARestart : public Holding {
     remembered.holding = true;
     hold.recall(remembered);
     let_go(0.5);
-    press();
+    know_nothing();
+  }
+  void know_nothing() {
+    health.estop_known = false;
+    health.causes = 1U << static_cast<unsigned>(Cause::line_lost);
   }
   void press() {
+    health.estop_known = true;
     health.estop = true;
     health.causes = 1U << static_cast<unsigned>(Cause::estop);
   }
   void release() {
+    health.estop_known = true;
     health.estop = false;
     health.causes = 0;
   }
@@ -298,12 +304,20 @@ TEST_F(HoldingAfterARestart, WaitsUntilTheEmergencyStopsLineHasToldOfItself) {
   EXPECT_FALSE(hold.waits_for_lines());
 }
 TEST_F(HoldingAfterARestart, HoldsNothingWhenTheEmergencyStopIsPressed) {
-  run_s(0.6);
+  run_s(0.1);
+  press();
+  tick();
   EXPECT_FALSE(hold.waits_for_lines());
   EXPECT_FALSE(hold.armed());
   release();
   run_s(1);
   EXPECT_EQ(asked(), AxisRequest::rest);
+}
+TEST_F(HoldingAfterARestart, WaitsNotForEverForALineThatTellsNothing) {
+  run_s(0.6);
+  EXPECT_FALSE(hold.waits_for_lines());
+  EXPECT_EQ(asked(), AxisRequest::rest);
+  EXPECT_TRUE(hold.armed()) << "nobody has pressed it";
 }
 TEST_F(HoldingAfterARestart, DoesNotTakeALineThatIsLostForReleased) {
   health.causes = 1U << static_cast<unsigned>(Cause::line_lost);

@@ -18,22 +18,31 @@ struct Powered {
     }
   }
   bool after_ms(int ms) {
-    for (int i = 0; i < ms; i += 5) power.step(now += milliseconds(5), estop, axes);
+    for (int i = 0; i < ms; i += 5) power.step(now += milliseconds(5), input, axes);
     return power.closed();
   }
   PowerSwitch power;
   std::array<AxisSnapshot, 2> axes{};
-  bool estop = false;
+  PowerInput input;
   Time now{std::chrono::seconds(1)};
 };
 
 TEST(ThePowerSwitch, OpensAtOnceForAnEstopAndClosesAfterIt) {
   Powered it;
   EXPECT_TRUE(it.after_ms(5));
-  it.estop = true;
+  it.input.estop = true;
   EXPECT_FALSE(it.after_ms(5));
-  it.estop = false;
+  it.input.estop = false;
   EXPECT_TRUE(it.after_ms(5));
+}
+TEST(ThePowerSwitch, StaysAsItWasFoundWhileTheEmergencyStopsLineIsAwaited) {
+  for (const bool found : {true, false}) {
+    Powered it;
+    it.input = {.estop = true, .waits = true, .closed = found};
+    EXPECT_EQ(it.after_ms(100), found);
+    it.input = {.estop = false, .waits = false, .closed = found};
+    EXPECT_TRUE(it.after_ms(5));
+  }
 }
 TEST(ThePowerSwitch, OpensOnlyWhenTheDrivesHaveGoneIdle) {
   Powered it;
