@@ -3,13 +3,13 @@
 
 #include "drover/angle.h"
 #include "engine/engine_impl.h"
+#include "engine/still.h"
 
 namespace drover::engine {
 namespace {
 
 /// A wheel over a stone is no slope.
 constexpr Duration kSteepFor = std::chrono::milliseconds(300);
-constexpr double kPushedWheel_mps = 0.05;
 
 }  // namespace
 
@@ -52,7 +52,7 @@ void Engine::Impl::release_hold(const RequestId& id, const ReleaseHold& release,
   if (navigator.active() || driven || !owners.at_rest()) why = "the robot is being driven";
   for (const AxisSnapshot& axis : snapshot.axes) {
     const double rim_mps = std::abs(axis.motion.velocity_radps) * config.base.wheel_radius_m;
-    if (why.empty() && axis.state == AxisState::running && rim_mps > kPushedWheel_mps)
+    if (why.empty() && axis.state == AxisState::running && rim_mps > kTurns_mps)
       why = "the robot moves";
   }
   hold.release(id, release, why, imu_trusted ? tilt_deg() : kAbsent, now, events);

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/still.h"
+
 namespace drover::engine::estimate {
 namespace {
 
-// A wheel slower than this is at rest: encoders and speed observers dither by about so much.
-constexpr double kRest_mps = 0.003;
 constexpr Time kFarFuture{Duration{INT64_MAX / 4}};
 
 struct Side {
@@ -36,7 +36,7 @@ WheelMotion Wheels::motion(Time at, Duration stale) const {
   for (std::size_t i = 0; i < kWheels; ++i) {
     if (at - wheels_[i].at > stale) continue;
     sides[i / kWheelsPerSide].add(wheels_[i].rim_mps);
-    rest = rest && std::abs(wheels_[i].rim_mps) < kRest_mps;
+    rest = rest && std::abs(wheels_[i].rim_mps) < kEncoderRest_mps;
   }
   WheelMotion motion;
   motion.known = sides[0].count > 0 && sides[1].count > 0;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/health/heard.h"
+
 namespace drover::engine {
 namespace {
 
@@ -104,7 +106,7 @@ void HealthMonitor::look_at_drives(const HealthInput& input) {
     if (axis.last_motion == kNever || source.state == SourceState::never_heard) {
       put(text, "wheel", axis.joint,
           source.reason.empty() ? std::string_view("never heard") : source.reason.view());
-    } else if (age >= stale || source.state != SourceState::fresh) {
+    } else if (!tells_motion(axis, input.now, stale) || source.state != SourceState::fresh) {
       Reason what;
       what.format("no feedback for %.2f s", to_s(age));
       const bool known = source.state != SourceState::fresh && !source.reason.empty();

@@ -7,13 +7,14 @@
 
 #include "drover/angle.h"
 #include "engine/health/ground_way.h"
+#include "engine/health/place_sigma.h"
+#include "engine/still.h"
 
 namespace drover::engine {
 namespace {
 
 constexpr double kFirst_mps = 0.05;
 constexpr double kSpeedUp_s = 1.0;  // a ratio of ten is ten times as fast
-constexpr double kStill_mps = 0.01;
 constexpr double kStill_s = 1.0;
 constexpr Duration kMarkEach = std::chrono::milliseconds(10);
 constexpr double kGyroStale_s = 0.1;
@@ -31,14 +32,6 @@ constexpr double kWaySigmas = 2.5;        // two positions in succession
 constexpr double kWaySigmasAtOnce = 5.0;  // one
 constexpr double kFewestPlaces = 3;
 constexpr double kShortest_m = 0.1;  // of a way that is found too short
-
-double sigma_m(const GnssPosition& position, const EstimateConfig& config) {
-  double sigma = config.sigma_fixed_m;
-  for (const double told_m : {position.sigma_east_m, position.sigma_north_m}) {
-    if (std::isfinite(told_m)) sigma = std::max(sigma, told_m);
-  }
-  return sigma;
-}
 
 }  // namespace
 
@@ -177,7 +170,7 @@ void MechanicsCheck::compare_way(const Mark& wheels) {
   const double too_little_m =
       std::abs(rolled_m) > kShortest_m ? std::abs(rolled_m) - kWayRatio * gone_m : 0.0;
   const double odd_m = std::max(too_much_m, too_little_m);
-  const double sigma = sigma_m(position_, config_.estimate);
+  const double sigma = place_sigma_m(position_, config_.estimate);
   odd_places_ = odd_m > kWaySigmas * sigma ? odd_places_ + 1 : 0;
   if (odd_places_ < 2 && !(odd_m > kWaySigmasAtOnce * sigma)) return;
   if (back) {

@@ -6,6 +6,7 @@
 
 #include "drover/angle.h"
 #include "engine/health/ground_way.h"
+#include "engine/health/place_sigma.h"
 
 namespace drover::engine {
 namespace {
@@ -27,17 +28,6 @@ double speed_sigma_mps(FixQuality quality) {
     case FixQuality::pps: return 0.3;
     default: return 0.5;
   }
-}
-
-double place_sigma_m(const GnssPosition& position, const EstimateConfig& config) {
-  double sigma_m = config.sigma_single_m;
-  if (position.quality == FixQuality::rtk_fixed) sigma_m = config.sigma_fixed_m;
-  if (position.quality == FixQuality::rtk_float) sigma_m = config.sigma_float_m;
-  if (position.quality == FixQuality::dgps) sigma_m = config.sigma_dgps_m;
-  for (const double told_m : {position.sigma_east_m, position.sigma_north_m}) {
-    if (std::isfinite(told_m)) sigma_m = std::max(sigma_m, told_m);
-  }
-  return sigma_m;
 }
 
 void append(Reason& text, const char* format, double value) {

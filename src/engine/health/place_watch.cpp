@@ -5,11 +5,11 @@
 #include <cmath>
 
 #include "drover/angle.h"
+#include "engine/still.h"
 
 namespace drover::engine {
 namespace {
 
-constexpr double kStands_mps = 0.02;
 // More than this, beyond what both places are uncertain by (two sigma each).
 constexpr double kJump_m = 0.1;
 const double kJump_rad = to_rad(5.0);

@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/health/heard.h"
+#include "engine/still.h"
+
 namespace drover::engine {
 namespace {
 
-constexpr double kTurns_mps = 0.05;
 constexpr double kRestPatience_s = 0.3;  // drives lag
 constexpr double kMotionHeld_s = 0.05;   // one odd value is no motion
 // Where it would roll away once cut, what swings back when it stops has to be told from driving on.
@@ -49,9 +51,8 @@ RestWatch::Rims RestWatch::rims(const RestInput& input) const {
     if (!driven_[i]) continue;
     const AxisSnapshot& axis = input.axes[i];
     const double rim_mps = axis.motion.velocity_radps * config_.base.wheel_radius_m;
-    const bool heard = axis.last_motion != kNever && std::isfinite(rim_mps) &&
-                       input.now - axis.last_motion < from_s(config_.health.drive_stale_s);
-    if (!heard) {
+    const Duration stale = from_s(config_.health.drive_stale_s);
+    if (!tells_motion(axis, input.now, stale) || !std::isfinite(rim_mps)) {
       rims.silent = true;
     } else if (std::abs(rim_mps) > std::abs(rims.fastest_mps)) {
       rims.fastest_mps = rim_mps;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/health/heard.h"
+
 namespace drover::engine {
 namespace {
 
@@ -73,8 +75,7 @@ void WheelMonitor::watch(Wheel& wheel, const AxisSnapshot& axis, Time now, Durat
 /// How fast the wheel may be at most after the commands it had.
 void WheelMonitor::follow_command(Wheel& wheel, const AxisSnapshot& axis, Time now,
                                   Duration dt) const {
-  const bool heard =
-      axis.last_motion != kNever && now - axis.last_motion < from_s(config_.health.drive_stale_s);
+  const bool heard = tells_motion(axis, now, from_s(config_.health.drive_stale_s));
   const bool judged = heard && axis.state == AxisState::running;
   double asked_radps = std::abs(axis.commanded_velocity_radps);
   // A guard may be slowing it down since before this gateway began, or somebody pushed it.

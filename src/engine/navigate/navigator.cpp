@@ -6,14 +6,14 @@
 
 #include "engine/navigate/navigator_checks.h"
 #include "engine/navigate/path_search.h"
+#include "engine/still.h"
 
 namespace drover::engine {
 namespace {
 
 constexpr double kGoalNear_m = 0.5;  // the arrival time-out runs inside this
-constexpr double kStandstill_mps = 0.02;
-constexpr double kSlowFrom = 0.5;  // share of the error budget from which on it slows
-constexpr double kSlowest = 0.5;   // share of the speed that is left when the budget is spent
+constexpr double kSlowFrom = 0.5;    // share of the error budget from which on it slows
+constexpr double kSlowest = 0.5;     // share of the speed that is left when the budget is spent
 
 unsigned long long as_counted(std::uint32_t target) {
   return static_cast<unsigned long long>(target) + 1;
@@ -285,7 +285,7 @@ void Navigator::watch_pauses(const NavInput& input, EventQueue& events) {
 }
 
 void Navigator::settle_at_goal(const NavInput& input, EventQueue& events) {
-  if (!input.at_rest || std::abs(input.estimate.pose.vx_mps) > kStandstill_mps) return;
+  if (!input.at_rest || std::abs(input.estimate.pose.vx_mps) > kStands_mps) return;
   Reason text;
   text.format("%.2f m from point %llu", progress_.distance_to_goal_m, as_counted(target_));
   if (progress_.distance_to_goal_m <= config_.navigate.goal_tolerance_m) {

@@ -7,6 +7,7 @@
 
 #include "drover/angle.h"
 #include "engine/navigate/path_search.h"
+#include "engine/still.h"
 
 namespace drover::engine {
 namespace {
@@ -16,7 +17,6 @@ constexpr double kLookBack_m = 1.0;
 constexpr double kCornerSpread_m = 0.3;  // points this close belong to one corner
 constexpr double kTestSpacing_m = 0.02;  // of points tested for corners, where points are dense
 constexpr double kJoined_m = 0.2;
-constexpr double kAtRest_mps = 0.005;
 
 Vector place(const Pose& pose) {
   return {pose.x_m, pose.y_m};
@@ -142,7 +142,7 @@ TrackProgress Tracker::locate(const Pose& pose) {
   if (!is_last_leg() || left_m > 2 * config_.goal_tolerance_m) return progress;
   progress.goal_passed = left_m <= 0;
   const bool stops_there = left_m <= stop_distance_m(pose.vx_mps);
-  const bool rests_there = std::abs(pose.vx_mps) < kAtRest_mps;
+  const bool rests_there = std::abs(pose.vx_mps) < kAtGoal_mps;
   const bool inside = progress.distance_to_goal_m <= config_.goal_tolerance_m;
   const bool beside = progress.distance_to_goal_m <= 2 * config_.goal_tolerance_m;
   progress.arrived = (inside && (stops_there || rests_there)) || (beside && progress.goal_passed);
@@ -158,8 +158,7 @@ Twist Tracker::follow(const Pose& pose, const TrackProgress&, double speed_cap_m
   if (phase_ == Phase::halt && left_m > config_.goal_tolerance_m) phase_ = Phase::follow;
   if (left_m <= stop_distance_m(pose.vx_mps)) phase_ = Phase::halt;
   if (phase_ == Phase::follow) return steer(pose, cap_mps, dt);
-  const double settled_mps = 4 * kAtRest_mps;
-  if (is_last_leg() || std::abs(pose.vx_mps) > settled_mps) return {};
+  if (is_last_leg() || std::abs(pose.vx_mps) > kStands_mps) return {};
   phase_ = Phase::pivot;
   return pivot(pose);
 }

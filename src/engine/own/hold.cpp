@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/health/heard.h"
+#include "engine/still.h"
+
 namespace drover::engine {
 namespace {
 
@@ -20,8 +23,6 @@ constexpr Duration kRetry = milliseconds(500);
 /// A line says nothing until its contact has held for a while. Not waited for any longer.
 constexpr Duration kLinesKnownAfter = milliseconds(500);
 constexpr double kReleaseTilt_deg = 2.0;
-/// Slower needs no ramp, and may be what a drive's estimate says while it settles after its boot.
-constexpr double kTurns_mps = 0.05;
 
 }  // namespace
 
@@ -71,8 +72,8 @@ void Hold::arm(const RequestId& id, const Reason& hindrance, Time now, EventQueu
 }
 
 bool Hold::heard(const HoldInput& input, const AxisSnapshot& axis) const {
-  return axis.health == SourceState::fresh && axis.last_motion != kNever &&
-         input.now - axis.last_motion < from_s(config_.health.drive_stale_s);
+  return axis.health == SourceState::fresh &&
+         tells_motion(axis, input.now, from_s(config_.health.drive_stale_s));
 }
 
 bool Hold::estop(const HoldInput& input) {
