@@ -14,6 +14,18 @@ Reason why_at_once(const OwnInput& input) {
   return input.health.stop.empty() ? Reason(input.latched) : input.health.stop;
 }
 
+/// What people press, or touch: it stands for them until one of them acts, whoever drove.
+bool stopped_by_people(const HealthReport& health) {
+  return health.holds(Cause::estop) || health.holds(Cause::line_lost) ||
+         health.holds(Cause::bumper);
+}
+
+Reason reset_first(std::string_view stop) {
+  Reason why;
+  why.format("reset the stop first: %.*s", static_cast<int>(stop.size()), stop.data());
+  return why;
+}
+
 }  // namespace
 
 Owners::Owners(const EngineConfig& config)
@@ -25,8 +37,11 @@ Owners::Owners(const EngineConfig& config)
       busy_("the gateway has just started") {}
 
 void Owners::take(const JointTargets& targets, Time now) {
+  Reason busy = busy_;
+  if (busy.empty() && !latched_.empty()) busy = reset_first(latched_);
   // What runs may go on, and nothing new begins.
-  stream_.take(targets, busy_.empty() && !stream_.following() ? no_start_ : busy_, now);
+  if (busy.empty() && !stream_.following()) busy = no_start_;
+  stream_.take(targets, busy, now);
 }
 
 double Owners::timeout_s(Owner owner) const {
@@ -47,7 +62,9 @@ void Owners::find_heading(const RequestId& id, const Estimate& estimate, const H
   if (why.empty() && health.near_zone) why = "obstacle in the near zone";
   if (why.empty()) why = health.no_start;
   creep_.start(id, why, estimate, health, now, events);
-  if (creep_.active()) stream_.end("the heading is being looked for");
+  if (!creep_.active()) return;
+  stream_.end("the heading is being looked for");
+  latched_.clear();  // a person asked for it
 }
 
 void Owners::cancel(Time now, EventQueue& events) {
@@ -79,12 +96,7 @@ Reason Owners::hindrance(const OwnInput& input) const {
   for (const Cause cause : {Cause::moved, Cause::foreign}) {
     if (input.health.holds(cause)) return input.health.text(cause);
   }
-  const std::string_view latched = input.latched.empty() ? latched_.view() : input.latched;
-  if (!latched.empty()) {
-    Reason why;
-    why.format("reset the stop first: %.*s", static_cast<int>(latched.size()), latched.data());
-    return why;
-  }
+  if (!input.latched.empty()) return reset_first(input.latched);
   if (!input.not_held.empty()) return input.not_held;
   if (input.task.drives) return "a task owns the drives";
   return {};
@@ -98,9 +110,12 @@ Owner Owners::rank(const OwnInput& input) const {
   return Owner::nobody;
 }
 
-void Owners::latch(const Reason& why) {
+/// `anyone`: whoever drove, or else only the stream.
+void Owners::latch(const Reason& why, bool anyone) {
   // What moves after the end of its stream is still that stream's motion.
-  if (!stream_.following() && joint_gate_.at_rest()) return;
+  const bool streams = stream_.following() || !joint_gate_.at_rest();
+  const bool drove = motion_.owner == Owner::task || motion_.owner == Owner::manual;
+  if (!streams && !(anyone && drove)) return;
   latched_ = why;
   stream_.end(why);
 }
@@ -108,7 +123,7 @@ void Owners::latch(const Reason& why) {
 /// What ends the stream, and how its motion ends then.
 Stop Owners::watch_stream(const OwnInput& input, bool at_once) {
   stream_.step(input.now);
-  if (at_once) latch(why_at_once(input));
+  if (at_once) latch(why_at_once(input), stopped_by_people(input.health));
   if (!busy_.empty()) stream_.end(busy_);
   if (input.health.near_zone && stream_.wants_motion()) stream_.end("obstacle in the near zone");
   if (!stream_.following()) {
@@ -126,7 +141,7 @@ Stop Owners::watch_stream(const OwnInput& input, bool at_once) {
   }
   const bool late = input.now - stream_.since() > from_s(config_.navigate.start_timeout_s);
   if (stream_ran_ || late) {
-    latch(input.health.not_running);
+    latch(input.health.not_running, false);
     return Stop::immediate;
   }
   return Stop::controlled;  // the drives are being armed

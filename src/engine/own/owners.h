@@ -49,7 +49,7 @@ class Owners final {
   void on_task_started();
   /// A person has seen what stopped the stream.
   void reset() { latched_.clear(); }
-  /// What stopped the stream so that a person has to act before another begins; empty: nothing.
+  /// What stopped the base so that a person has to act before joint commands begin; empty: nothing.
   const Reason& latched() const { return latched_; }
 
   const Motion& step(const OwnInput& input, EventQueue& events);
@@ -67,7 +67,7 @@ class Owners final {
   Owner rank(const OwnInput& input) const;
   Reason hindrance(const OwnInput& input) const;
   Stop watch_stream(const OwnInput& input, bool at_once);
-  void latch(const Reason& why);
+  void latch(const Reason& why, bool anyone);
 
   EngineConfig config_;
   TargetGate twist_gate_;

@@ -52,6 +52,20 @@ class JointCommands : public AnOwner {
     ASSERT_NEAR(rig.out.axes[0].velocity_radps, 2, 1e-9) << reason() << rig.why();
     ASSERT_EQ(rig.snapshot().nav.owner, Owner::joint_command);
   }
+  /// Pressed or touched for an instant.
+  void tap(Line line) {
+    rig.lines[static_cast<std::size_t>(line)] = true;
+    rig.tick();
+    EXPECT_EQ(rig.fastest_command_radps(), 0);
+    rig.lines = {};
+    rig.run_s(1);
+  }
+  void expect_no_joint_moves(const std::string& why) {
+    stream_s(0, 1);
+    stream_s(2, 1);
+    EXPECT_EQ(rig.fastest_command_radps(), 0);
+    EXPECT_THAT(reason(), HasSubstr(why));
+  }
   std::string reason() const { return std::string(rig.snapshot().joint_command.reason.view()); }
 };
 
@@ -167,6 +181,75 @@ TEST_F(JointCommands, StayStoppedAfterABumperDuringTheRampForAnObstacle) {
   stream_s(2, 1);
   EXPECT_EQ(rig.fastest_command_radps(), 0);
   EXPECT_THAT(reason(), HasSubstr("reset the stop first: bumper"));
+}
+TEST_F(JointCommands, StayAtRestAfterAnEstopDuringTheRampOfACancelledTask) {
+  drive();
+  rig.command(CancelTask{});
+  rig.run_s(0.2);
+  ASSERT_GT(rig.fastest_command_radps(), 0) << "the task has ended, the ramp has not";
+  for (const Line line : {Line::estop, Line::bumper}) {
+    tap(line);
+    expect_no_joint_moves("reset the stop first");
+    EXPECT_TRUE(rig.snapshot().stop_latched);
+  }
+  rig.command(ResetStop{});
+  drive_by_joints();
+}
+TEST_F(JointCommands, StayAtRestAfterAnEstopOfATask) {
+  drive();
+  tap(Line::estop);
+  expect_no_joint_moves("reset the stop first: e-stop pressed");
+  rig.command(CancelTask{});
+  drive_by_joints();
+}
+TEST_F(JointCommands, StayAtRestAfterAnEstopOfAHeadingSearchOrOfItsRamp) {
+  for (const bool during_its_ramp : {false, true}) {
+    rig = EngineRig();
+    rig.no_heading = true;
+    rig.settle();
+    rig.command(FindHeading{});
+    rig.run_s(3);
+    ASSERT_EQ(rig.snapshot().nav.owner, Owner::manual);
+    if (during_its_ramp) {
+      rig.command(CancelTask{});
+      rig.run_s(0.1);
+      ASSERT_GT(rig.fastest_command_radps(), 0);
+    }
+    tap(Line::estop);
+    expect_no_joint_moves("reset the stop first: e-stop pressed");
+    rig.command(ResetStop{});
+    drive_by_joints();
+  }
+}
+TEST_F(JointCommands, StayAtRestAfterASoftwareStopDuringTheRampOfACancelledTask) {
+  drive();
+  rig.command(CancelTask{});
+  rig.run_s(0.2);
+  ASSERT_GT(rig.fastest_command_radps(), 0);
+  rig.command(EngageStop{});
+  rig.tick();
+  EXPECT_EQ(rig.fastest_command_radps(), 0);
+  expect_no_joint_moves("reset the stop first: emergency stop of an operator");
+  rig.command(ResetStop{});
+  drive_by_joints();
+}
+TEST_F(JointCommands, LeaveAHeadingSearchToAPersonWhoAsksForItAnew) {
+  rig.no_heading = true;
+  rig.settle();
+  rig.command(FindHeading{});
+  rig.run_s(3);
+  tap(Line::estop);
+  expect_no_joint_moves("reset the stop first: e-stop pressed");
+  rig.command(FindHeading{});
+  rig.run_s(3);
+  EXPECT_EQ(rig.snapshot().nav.owner, Owner::manual);
+  EXPECT_GT(rig.fastest_command_radps(), 0);
+}
+TEST_F(JointCommands, NeedNoResetAfterAnEstopAtRest) {
+  rig.settle();
+  tap(Line::estop);
+  EXPECT_FALSE(rig.snapshot().stop_latched);
+  drive_by_joints();
 }
 TEST_F(JointCommands, AreNotOpenedForAHungProgramByTheZerosOfAnother) {
   for (int i = 0; i < 100; ++i) {
