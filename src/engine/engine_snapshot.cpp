@@ -90,6 +90,8 @@ void Engine::Impl::fill_snapshot(Time now, const Environment& environment, const
   for (const Reason& reason : report.why) {
     if (!snapshot.why.push_back(reason)) break;
   }
+  if (const Reason waits = navigator.waits_for(); !waits.empty())
+    (void)snapshot.why.push_back(waits);
   if (power.is_cut()) (void)snapshot.why.push_back("the drives have no power: drover reset");
   if (hold.state() == HoldState::lost) {
     (void)snapshot.why.push_back("the drives let go and are not held: drover hold");

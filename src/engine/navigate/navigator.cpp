@@ -165,8 +165,16 @@ void Navigator::end(Time now, TaskEnded::How how, const Reason& reason, EventQue
   }
 }
 
+Reason Navigator::waits_for() const {
+  Reason text;
+  if (status_ != NavStatus::error || !latched().empty()) return text;
+  text.format("waits for a new start; the task ended: %.*s", static_cast<int>(ended_.view().size()),
+              ended_.view().data());
+  return text;
+}
+
 void Navigator::fail(Time now, const Reason& reason, EventQueue& events) {
-  failed_ = reason;
+  failed_ = ended_ = reason;
   end(now, TaskEnded::How::failed, reason, events);
 }
 

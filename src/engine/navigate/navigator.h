@@ -61,6 +61,8 @@ class Navigator final {
   bool stop_at_robot() const { return stop_at_robot_; }
   bool run_away() const { return runaway_; }
   const Reason& latched() const { return software_stop_.empty() ? failed_ : software_stop_; }
+  /// After an error that nothing holds any more: what a person has to do; empty when nothing.
+  Reason waits_for() const;
   NavSnapshot snapshot(const HealthReport& health) const;
 
  private:
@@ -110,6 +112,7 @@ class Navigator final {
   Wait lost_;
   TrackProgress progress_;
   Reason failed_;
+  Reason ended_;  ///< why the task ended in an error; outlives a reset
   Reason software_stop_;
   bool stop_at_robot_ = false;  ///< only there it can be reset
   bool runaway_ = false;        ///< that stop was for a wheel that runs away

@@ -23,6 +23,23 @@ TEST_F(AnEngine, IsAtZeroInTheCycleOfAnEstopAndStaysThereWhenItIsReleased) {
   rig.run_s(3);
   EXPECT_EQ(rig.said<NavigationStarted>().size(), 2U) << "only a new start moves it";
 }
+TEST_F(AnEngine, SaysAfterAResetThatItWaitsForANewStart) {
+  drive();
+  rig.command(EngageStop{});
+  rig.run_s(1);
+  EXPECT_EQ(rig.why(), "stopped: emergency stop of an operator");
+  rig.command(ResetStop{});
+  rig.tick();
+  ASSERT_EQ(rig.snapshot().nav.status, NavStatus::error);
+  EXPECT_FALSE(rig.snapshot().stop_latched);
+  EXPECT_EQ(rig.why(), "waits for a new start; the task ended: emergency stop of an operator");
+  rig.start(path, 40, 0.5);
+  rig.run_s(1);
+  EXPECT_EQ(rig.why(), "");
+  rig.command(CancelTask{});
+  rig.run_s(1);
+  EXPECT_EQ(rig.why(), "") << "cancelled, it waits for nothing";
+}
 TEST_F(AnEngine, DoesNotMissAnEstopThatWasPressedForAnInstant) {
   drive();
   Measurement edge;
