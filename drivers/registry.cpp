@@ -25,4 +25,9 @@ const DriverEntry* find_driver(std::string_view name) {
   return nullptr;
 }
 
+const DriverEntry* find_driver(std::string_view name, SlotKind kind) {
+  const DriverEntry* const entry = find_driver(name);
+  return entry != nullptr && entry->kinds.has(kind) ? entry : nullptr;
+}
+
 }  // namespace drover

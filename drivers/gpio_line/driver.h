@@ -23,12 +23,14 @@ struct Settings {
 Settings read_settings(const Options& options, Line line);
 std::span<const OptionSpec> option_table();
 
-class GpioLineDriver final : public LineDriver {
+class GpioLineDriver final : public Device, public LevelFace {
  public:
   explicit GpioLineDriver(const Settings& settings) : settings_(settings) {}
 
   void on_level(bool high, Time at, DriverOut& out) override;
   void on_lost(Time at, DriverOut& out) override;
+  /// The levels themselves tell when the line can be read again.
+  void on_link_up(Time) override {}
   void on_tick(Time now, DriverOut& out) override;
   SourceHealth health(Time now) const override;
 

@@ -37,8 +37,8 @@ const OptionSpec kOptions[] = {
      .text = "without a reading for longer it counts as active (s); four control cycles"},
 };
 
-std::unique_ptr<LineDriver> make(const Options& options, Line line) {
-  return std::make_unique<GpioLineDriver>(read_settings(options, line));
+Made make(const Options& options, const MakeContext& context) {
+  return make_device<GpioLineDriver>(read_settings(options, context.line));
 }
 
 }  // namespace
@@ -74,7 +74,7 @@ const DriverEntry kGpioLineEntry = {
     .name = "gpio_line",
     .folder = "gpio_line",
     .options = gpio_line::kOptions,
-    .device = Device::line,
+    .kinds = {SlotKind::line},
     .make = gpio_line::make,
     .twin_options = {},
     .make_twin = {},

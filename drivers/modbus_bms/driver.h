@@ -22,7 +22,7 @@ Settings read_settings(const Options& options);
 /// One BatterySample a round: all blocks answered, in order. A round with a failure says nothing,
 /// so that no sample is made of old and new registers. Values outside their range are left out of
 /// the sample and counted.
-class ModbusBmsDriver final : public RegisterDriver {
+class ModbusBmsDriver final : public Device, public RegisterFace {
  public:
   /// Throws std::runtime_error when the map asks for nothing.
   ModbusBmsDriver(const Settings& settings, const RegisterMap& map);
@@ -32,6 +32,7 @@ class ModbusBmsDriver final : public RegisterDriver {
                     DriverOut& out) override;
   void on_failure(std::size_t block, RegisterFailure failure, int exception, Time now) override;
   void on_link_up(Time now) override;
+  void on_tick(Time, DriverOut&) override {}
   SourceHealth health(Time now) const override;
 
  private:

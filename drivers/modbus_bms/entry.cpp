@@ -62,8 +62,9 @@ const OptionSpec kTwinOptions[] = {
      .text = "temperature probes"},
 };
 
-std::unique_ptr<RegisterDriver> make(const Options& options, const RegisterMap& map) {
-  return std::make_unique<ModbusBmsDriver>(read_settings(options), map);
+Made make(const Options& options, const MakeContext& context) {
+  if (context.registers == nullptr) throw std::runtime_error("a register map is needed");
+  return make_device<ModbusBmsDriver>(read_settings(options), *context.registers);
 }
 std::unique_ptr<RegisterTwin> make_twin(const Options& options, const RegisterMap& map) {
   return std::make_unique<ModbusBmsTwin>(options, map);
@@ -90,7 +91,7 @@ const DriverEntry kModbusBmsEntry = {
     .name = "modbus_bms",
     .folder = "modbus_bms",
     .options = modbus_bms::kOptions,
-    .device = Device::battery,
+    .kinds = {SlotKind::battery},
     .make = modbus_bms::make,
     .twin_options = modbus_bms::kTwinOptions,
     .make_twin = modbus_bms::make_twin,

@@ -20,7 +20,7 @@ namespace drover::nmea0183 {
 /// first sentence, freed from delays on the way (TimeAnchor), minus the option `latency_s`, the
 /// receiver's own time between measuring and the first byte. Sentences belong to one epoch when
 /// they carry the same UTC; those without UTC (VTG, HDT, THS) belong to the burst they come in.
-class Nmea0183Driver final : public ByteDriver {
+class Nmea0183Driver final : public Device, public ByteFace {
  public:
   /// Throws std::runtime_error when options contradict each other.
   explicit Nmea0183Driver(const Options& options);

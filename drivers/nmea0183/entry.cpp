@@ -103,8 +103,8 @@ const OptionSpec kTwinOptions[] = {
      .text = "geoid above the ellipsoid (m)"},
 };
 
-std::unique_ptr<ByteDriver> make(const Options& options) {
-  return std::make_unique<Nmea0183Driver>(options);
+Made make(const Options& options, const MakeContext&) {
+  return make_device<Nmea0183Driver>(options);
 }
 std::unique_ptr<GnssTwin> make_twin(const Options& options, std::uint64_t seed) {
   return std::make_unique<Nmea0183Twin>(options, seed);
@@ -118,8 +118,8 @@ constinit const DriverEntry kNmea0183Entry{
     .name = "nmea0183",
     .folder = "nmea0183",
     .options = nmea0183::kOptions,
-    .device = Device::gnss,
-    .make = MakeByteDriver{nmea0183::make},
+    .kinds = {SlotKind::gnss},
+    .make = nmea0183::make,
     .twin_options = nmea0183::kTwinOptions,
     .make_twin = MakeGnssTwin{nmea0183::make_twin},
     .summary = "GNSS receiver with NMEA 0183: GGA, RMC, VTG, GST, HDT or THS",

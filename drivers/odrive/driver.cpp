@@ -22,7 +22,8 @@ constexpr Duration kIdleAtLast = milliseconds(1000);
 OdriveDriver::OdriveDriver(const Settings& settings, AxisId axis)
     : settings_(settings),
       axis_(axis),
-      rules_(odrive::allow_list(settings)),
+      hears_{frame_id(settings.node, 0), 0x7E0, false},
+      rules_(rules_of(settings)),
       poller_(settings),
       watchdog_(settings) {
   if (settings.watchdog_timeout_s > 0) {

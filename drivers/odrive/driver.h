@@ -12,7 +12,7 @@
 
 namespace drover::odrive {
 
-class OdriveDriver final : public CanDriver {
+class OdriveDriver final : public Device, public FrameFace, public Actuator {
  public:
   OdriveDriver(const Settings& settings, AxisId axis);
 
@@ -21,7 +21,8 @@ class OdriveDriver final : public CanDriver {
   void on_command(const AxisCommand& command, Time now, DriverOut& out) override;
   void on_link_up(Time now) override;
   SourceHealth health(Time now) const override;
-  std::span<const FrameRule> allow_list() const override { return rules_; }
+  std::span<const FrameFilter> listens() const override { return {&hears_, 1}; }
+  std::span<const FrameRule> rules() const override { return rules_; }
   FrameEffect effect(const CanFrame& frame) const override;
   double setpoint_radps(const CanFrame& frame) const override;
   StopRecipe stop_recipe() const override;
@@ -71,6 +72,7 @@ class OdriveDriver final : public CanDriver {
 
   Settings settings_;
   AxisId axis_;
+  FrameFilter hears_;  ///< all of its node
   RuleList rules_;
   Reason silence_text_;
   Poller poller_;

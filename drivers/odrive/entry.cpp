@@ -77,8 +77,8 @@ const OptionSpec kTwinOptions[] = {
              "state"},
 };
 
-std::unique_ptr<CanDriver> make(const Options& options, AxisId axis) {
-  return std::make_unique<OdriveDriver>(read_settings(options), axis);
+Made make(const Options& options, const MakeContext& context) {
+  return make_device<OdriveDriver>(read_settings(options), context.axis);
 }
 
 std::unique_ptr<CanTwin> make_twin(const Options& options) {
@@ -124,7 +124,7 @@ const DriverEntry kOdriveEntry = {
     .name = "odrive",
     .folder = "odrive",
     .options = odrive::option_table(),
-    .device = Device::drive,
+    .kinds = {SlotKind::drive},
     .make = odrive::make,
     .twin_options = odrive::twin_option_table(),
     .make_twin = odrive::make_twin,

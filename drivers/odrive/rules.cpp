@@ -35,7 +35,7 @@ std::span<const std::uint8_t> error_commands(Firmware firmware) {
   return polled_commands(firmware).first(firmware == Firmware::v0_6 ? 1 : 3);
 }
 
-RuleList allow_list(const Settings& settings) {
+RuleList rules_of(const Settings& settings) {
   RuleList rules;
   const auto add = [&](std::uint8_t command, std::uint8_t min_len, std::uint8_t max_len,
                        bool remote) {

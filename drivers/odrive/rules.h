@@ -9,7 +9,7 @@ namespace drover::odrive {
 using RuleList = FixedVector<FrameRule, 16>;
 
 /// Exactly the ids and lengths that the driver sends with these settings.
-RuleList allow_list(const Settings& settings);
+RuleList rules_of(const Settings& settings);
 /// Judges the payload too: another axis state, another mode, any other parameter is forbidden.
 FrameEffect effect(const CanFrame& frame, const Settings& settings);
 

@@ -18,7 +18,7 @@ namespace drover::witmotion {
 ///
 /// Time. The device stamps nothing that could be used: a sample is as old as the first byte of its
 /// cycle, and times never go back.
-class WitmotionDriver final : public ByteDriver {
+class WitmotionDriver final : public Device, public ByteFace {
  public:
   /// Throws std::runtime_error when options contradict each other.
   explicit WitmotionDriver(const Options& options);

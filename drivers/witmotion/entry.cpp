@@ -129,8 +129,8 @@ const OptionSpec kTwinOptions[] = {
      .text = "what steel near by does to the yaw of nine axes (degrees)"},
 };
 
-std::unique_ptr<ByteDriver> make(const Options& options) {
-  return std::make_unique<WitmotionDriver>(options);
+Made make(const Options& options, const MakeContext&) {
+  return make_device<WitmotionDriver>(options);
 }
 std::unique_ptr<ImuTwin> make_twin(const Options& options, std::uint64_t seed) {
   return std::make_unique<WitmotionTwin>(options, seed);
@@ -144,8 +144,8 @@ constinit const DriverEntry kWitmotionEntry{
     .name = "witmotion",
     .folder = "witmotion",
     .options = witmotion::kOptions,
-    .device = Device::imu,
-    .make = MakeByteDriver{witmotion::make},
+    .kinds = {SlotKind::imu},
+    .make = witmotion::make,
     .twin_options = witmotion::kTwinOptions,
     .make_twin = MakeImuTwin{witmotion::make_twin},
     .summary =

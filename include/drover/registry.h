@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <initializer_list>
 #include <memory>
 #include <span>
 #include <string_view>
@@ -14,26 +15,45 @@
 
 namespace drover {
 
-using MakeCanDriver = std::unique_ptr<CanDriver> (*)(const Options&, AxisId axis);
-using MakeByteDriver = std::unique_ptr<ByteDriver> (*)(const Options&);
-using MakeRegisterDriver = std::unique_ptr<RegisterDriver> (*)(const Options&, const RegisterMap&);
-using MakeLineDriver = std::unique_ptr<LineDriver> (*)(const Options&, Line line);
+/// What a device is to the robot: the section of the configuration that it stands in.
+enum class SlotKind : std::uint8_t { drive, gnss, imu, battery, line };
+
+class SlotKinds {
+ public:
+  constexpr SlotKinds(std::initializer_list<SlotKind> kinds) {
+    for (const SlotKind kind : kinds) bits_ |= 1U << static_cast<unsigned>(kind);
+  }
+  constexpr bool has(SlotKind kind) const {
+    return (bits_ & 1U << static_cast<unsigned>(kind)) != 0;
+  }
+
+ private:
+  unsigned bits_ = 0;
+};
+
+/// What a driver is told of its place, beside its options.
+struct MakeContext {
+  SlotKind kind = SlotKind::drive;
+  AxisId axis = 0;                         ///< of a drive
+  Line line = Line::estop;                 ///< of a line
+  const RegisterMap* registers = nullptr;  ///< of a device whose section names a map; else nullptr
+};
+
+/// Throws std::runtime_error naming the option; only at start-up.
+using MakeDevice = Made (*)(const Options&, const MakeContext&);
+
 using MakeCanTwin = std::unique_ptr<CanTwin> (*)(const Options&);
 /// `seed` is the only source of the twin's randomness.
 using MakeGnssTwin = std::unique_ptr<GnssTwin> (*)(const Options&, std::uint64_t seed);
 using MakeImuTwin = std::unique_ptr<ImuTwin> (*)(const Options&, std::uint64_t seed);
 using MakeRegisterTwin = std::unique_ptr<RegisterTwin> (*)(const Options&, const RegisterMap&);
 
-/// What a driver's device is to the robot: the section of the configuration it may stand in.
-enum class Device : std::uint8_t { drive, gnss, imu, battery, line };
-
-/// Factories throw std::runtime_error naming the option; only at start-up.
 struct DriverEntry {
   std::string_view name;    ///< as written in the configuration
   std::string_view folder;  ///< below drivers/
   std::span<const OptionSpec> options;
-  Device device = Device::drive;
-  std::variant<MakeCanDriver, MakeByteDriver, MakeLineDriver, MakeRegisterDriver> make;
+  SlotKinds kinds;  ///< where it may stand
+  MakeDevice make = nullptr;
   /// Options of the simulated device; its factory gets these and the driver's in one Options.
   std::span<const OptionSpec> twin_options;
   std::variant<std::monostate, MakeCanTwin, MakeGnssTwin, MakeImuTwin, MakeRegisterTwin> make_twin;
@@ -43,5 +63,7 @@ struct DriverEntry {
 std::span<const DriverEntry> driver_registry();
 /// nullptr when there is none of that name.
 const DriverEntry* find_driver(std::string_view name);
+/// The same, and nullptr when it may not stand there.
+const DriverEntry* find_driver(std::string_view name, SlotKind kind);
 
 }  // namespace drover

@@ -61,57 +61,51 @@ class Printer final {
   std::uint64_t bad_ = 0;
 };
 
-template <class Make>
-Make maker(const DriverEntry& entry) {
-  const auto* make = std::get_if<Make>(&entry.make);
-  if (make == nullptr)
-    throw WrongUsage("driver " + std::string(entry.name) + " does not read such recordings");
-  return *make;
-}
-
-/// What a driver refuses of its options is wrong usage here.
-template <class Make, class... Arguments>
-auto made(Make make, const Arguments&... arguments) {
+/// A device that has this face. What its driver refuses of its options is wrong usage here.
+template <class Face>
+Made made(const DriverEntry& entry, Face Made::*face, const Options& options,
+          const MakeContext& context) {
+  Made device;
   try {
-    return make(arguments...);
-  } catch (const WrongUsage&) {
-    throw;
+    device = entry.make(options, context);
   } catch (const std::exception& error) {
     throw WrongUsage(error.what());
   }
+  if (device.*face == nullptr)
+    throw WrongUsage("driver " + std::string(entry.name) + " does not read such recordings");
+  return device;
 }
 
-const DriverEntry& entry_of(Device device, const std::string& name) {
-  const auto* entry = find_driver(name);
-  if (entry != nullptr && entry->device == device) return *entry;
+const DriverEntry& entry_of(SlotKind kind, const std::string& name) {
+  if (const auto* entry = find_driver(name, kind)) return *entry;
   std::string known;
   for (const auto& each : driver_registry())
-    if (each.device == device) known += (known.empty() ? "" : ", ") + std::string(each.name);
+    if (each.kinds.has(kind)) known += (known.empty() ? "" : ", ") + std::string(each.name);
   throw WrongUsage(name.empty() ? "--driver is missing: " + known
                                 : "no driver \"" + name + "\" for this device: " + known);
 }
 
 /// The recording carries no times: its bytes come one after the other at the line's speed.
-int show_bytes(Device device, std::istream& in, const Recording& recording, std::ostream& out,
+int show_bytes(SlotKind kind, std::istream& in, const Recording& recording, std::ostream& out,
                std::ostream& notes) {
-  const auto& entry = entry_of(device, recording.driver);
+  const auto& entry = entry_of(kind, recording.driver);
   const auto options = options_from(entry.options, recording.options);
-  const auto driver = made(maker<MakeByteDriver>(entry), options);
+  const auto driver = made(entry, &Made::bytes, options, {.kind = kind});
   const double baud = options.has("baud") ? options.number("baud") : kUsualBaud;
   const Duration byte_time = from_s(kBitsPerByte / baud);
   Printer printer(recording, out, notes);
   DriverOut said;
   Time now{};
-  driver->on_link_up(now);
+  driver.device->on_link_up(now);
   std::uint64_t offset = 0;
   for (int c = in.get(); c != std::istream::traits_type::eof(); c = in.get()) {
     const auto byte = static_cast<std::uint8_t>(c);
-    driver->on_bytes({&byte, 1}, now, said);
+    driver.bytes->on_bytes({&byte, 1}, now, said);
     printer.print(said, {"byte", static_cast<double>(++offset), 0, ""});
     said.clear();
     now += byte_time;
   }
-  printer.add_bad(driver->health(now).bad);
+  printer.add_bad(driver.device->health(now).bad);
   return printer.finish();
 }
 
@@ -125,15 +119,14 @@ double seconds_of(Time stamp) {
 
 struct DriveNode {
   std::string name;
-  std::unique_ptr<CanDriver> driver;
+  Made made;
 };
 
 std::vector<DriveNode> nodes_of(const Recording& recording) {
-  const auto& entry = entry_of(Device::drive, recording.driver);
-  const auto make = maker<MakeCanDriver>(entry);
+  const auto& entry = entry_of(SlotKind::drive, recording.driver);
   std::vector<DriveNode> nodes;
   const auto add = [&](const std::string& name, const std::vector<std::string>& texts) {
-    nodes.push_back({name, made(make, options_from(entry.options, texts), AxisId{0})});
+    nodes.push_back({name, made(entry, &Made::frames, options_from(entry.options, texts), {})});
   };
   if (recording.nodes.empty()) add("", recording.options);
   for (const int node : recording.nodes) {
@@ -172,15 +165,15 @@ int show_frames(std::istream& in, const Recording& recording, std::ostream& out,
     const double stamp_s = seconds_of(last);
     if (table) table->add(*logged);
     for (const auto& node : nodes) {
-      if (!begun) node.driver->on_link_up(last);
-      if (!logged->frame.error) node.driver->on_frame(logged->frame, last, said);
+      if (!begun) node.made.device->on_link_up(last);
+      if (!logged->frame.error) node.made.frames->on_frame(logged->frame, last, said);
       printer.print(said, {"t_s", stamp_s, 6, node.name});
       said.clear();
     }
     begun = true;
   }
   for (const auto& node : nodes) {
-    const auto health = node.driver->health(last);
+    const auto health = node.made.device->health(last);
     printer.add_bad(health.bad);
     if (!health.reason.empty())
       notes << node.name << (node.name.empty() ? "" : ": ") << health.reason.view() << '\n';
@@ -198,16 +191,17 @@ std::string unit_text(std::uint8_t unit) {
 
 int show_registers(std::istream& in, const Recording& recording, std::ostream& out,
                    std::ostream& notes) {
-  const auto& entry = entry_of(Device::battery, recording.driver);
+  const auto& entry = entry_of(SlotKind::battery, recording.driver);
   if (recording.map.empty()) throw WrongUsage("--map is missing: the file of the registers");
   const auto loaded = config::load_register_map(config::find_register_map(recording.map, "."));
   for (const auto& problem : loaded.problems) throw WrongUsage(problem.text(problem.file));
   const auto options = options_from(entry.options, recording.options);
-  const auto make = maker<MakeRegisterDriver>(entry);
-  const auto whole = made(make, options, loaded.map);
-  RegisterLog log(whole->blocks(), loaded.map.stride);
-  RoundDecoder decoder([&](const RegisterMap& part) { return made(make, options, part); },
-                       loaded.map);
+  const auto make = [&](const RegisterMap& map) {
+    return made(entry, &Made::registers, options, {.kind = SlotKind::battery, .registers = &map});
+  };
+  const auto whole = make(loaded.map);
+  RegisterLog log(whole.registers->blocks(), loaded.map.stride);
+  RoundDecoder decoder(make, loaded.map);
   Printer printer(recording, out, notes);
   DriverOut said;
   Time now{};
@@ -249,8 +243,8 @@ int show_registers(std::istream& in, const Recording& recording, std::ostream& o
 
 int show_recording(std::string_view device, std::istream& in, const Recording& recording,
                    std::ostream& out, std::ostream& notes) {
-  if (device == "gnss") return show_bytes(Device::gnss, in, recording, out, notes);
-  if (device == "imu") return show_bytes(Device::imu, in, recording, out, notes);
+  if (device == "gnss") return show_bytes(SlotKind::gnss, in, recording, out, notes);
+  if (device == "imu") return show_bytes(SlotKind::imu, in, recording, out, notes);
   if (device == "bms") return show_registers(in, recording, out, notes);
   if (device == "can") return show_frames(in, recording, out, notes);
   throw WrongUsage("levels of GPIO lines are not recorded: leave out --file");

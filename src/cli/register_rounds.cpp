@@ -54,12 +54,12 @@ void RoundDecoder::decode(const RegisterImage& image, Time now, DriverOut& out) 
   for (const auto& alarm : map_.alarms) kept.push_back(has(image, alarm.function, alarm.address));
   if (std::all_of(kept.begin(), kept.end(), [](std::size_t count) { return count == 0; })) return;
   auto& driver = drivers_[kept];
-  if (!driver) {
+  if (!driver.device) {
     driver = make_(part_of(map_, image));
-    driver->on_link_up(now);
+    driver.device->on_link_up(now);
   }
-  last_ = driver.get();
-  const auto blocks = driver->blocks();
+  last_ = driver.device.get();
+  const auto blocks = driver.registers->blocks();
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     std::vector<std::uint16_t> words;
     for (std::size_t i = 0; i < blocks[b].count; ++i) {
@@ -67,7 +67,7 @@ void RoundDecoder::decode(const RegisterImage& image, Time now, DriverOut& out) 
           {blocks[b].function, static_cast<std::uint16_t>(blocks[b].address + i * map_.stride)});
       words.push_back(at != image.end() ? at->second : 0);  // a gap, which nobody reads
     }
-    driver->on_registers(b, words, now, out);
+    driver.registers->on_registers(b, words, now, out);
   }
 }
 
@@ -85,7 +85,7 @@ std::string RoundDecoder::missing() const {
 
 std::uint64_t RoundDecoder::bad(Time now) const {
   std::uint64_t bad = 0;
-  for (const auto& [kept, driver] : drivers_) bad += driver->health(now).bad;
+  for (const auto& [kept, driver] : drivers_) bad += driver.device->health(now).bad;
   return bad;
 }
 

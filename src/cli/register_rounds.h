@@ -19,7 +19,7 @@ RegisterMap part_of(const RegisterMap& map, const RegisterImage& image);
 
 class RoundDecoder final {
  public:
-  using Make = std::function<std::unique_ptr<RegisterDriver>(const RegisterMap&)>;
+  using Make = std::function<Made(const RegisterMap&)>;
   RoundDecoder(Make make, const RegisterMap& map);
 
   /// What a round that holds nothing of the map says: nothing.
@@ -35,8 +35,8 @@ class RoundDecoder final {
 
   Make make_;
   RegisterMap map_;
-  std::map<Held, std::unique_ptr<RegisterDriver>> drivers_;  ///< each remembers its own rounds
-  RegisterDriver* last_ = nullptr;
+  std::map<Held, Made> drivers_;  ///< each remembers its own rounds
+  Device* last_ = nullptr;
   std::vector<bool> seen_;  ///< by field
 };
 

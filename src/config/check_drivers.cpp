@@ -2,8 +2,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
-#include <type_traits>
-#include <variant>
 
 #include "config/check_subjects.h"
 #include "config/register_map.h"
@@ -37,7 +35,7 @@ void follow_baud(const std::string& section, int baud, Options& options, Finding
 }
 
 /// A drive that nothing stops when the bus is cut is refused, unless a person says that it is so.
-void look_at_silence(std::size_t i, const CanDriver& driver, Findings& found) {
+void look_at_silence(std::size_t i, const Actuator& driver, Findings& found) {
   const auto& drive = found.config().drives[i];
   const auto& words = drive.accept;
   if (driver.silence().stops || std::find(words.begin(), words.end(), "no_watchdog") != words.end())
@@ -47,21 +45,16 @@ void look_at_silence(std::size_t i, const CanDriver& driver, Findings& found) {
 }
 
 /// What a driver says about options that do not fit together, it says when it is made.
-template <class Look, class... More>
-void build(const std::string& path, const std::string& driver, const Options& options,
-           Findings& found, Look look, More... more) {
-  if (found.has_problem(path)) return;
-  const auto* entry = find_driver(driver);
-  if (entry == nullptr) return;
+Made build(const std::string& path, const std::string& driver, const Options& options,
+           const MakeContext& context, Findings& found) {
+  if (found.has_problem(path)) return {};
+  const auto* entry = find_driver(driver, context.kind);
+  if (entry == nullptr) return {};
   try {
-    std::visit(
-        [&](const auto& make) {
-          if constexpr (std::is_invocable_v<decltype(make), const Options&, More...>)
-            look(make(options, more...));
-        },
-        entry->make);
+    return entry->make(options, context);
   } catch (const std::exception& error) {
     found.add(path + ".options", error.what());
+    return {};
   }
 }
 
@@ -91,25 +84,23 @@ void follow_baud_rates(Findings& found) {
 }
 
 void check_drivers(Findings& found) {
-  const auto nothing = [](const auto&) {};
-  for (std::size_t i = 0; i < found.config().drives.size(); ++i) {
-    const auto look = [&found, i](const auto& driver) {
-      if constexpr (std::is_convertible_v<decltype(*driver), const CanDriver&>)
-        look_at_silence(i, *driver, found);
-    };
-    build(item("drives", i), found.config().drives[i].driver, found.config().drives[i].options,
-          found, look, AxisId{0});
-  }
   const auto& c = found.config();
-  if (c.gnss.configured) build("gnss", c.gnss.driver, c.gnss.options, found, nothing);
-  if (c.imu.configured) build("imu", c.imu.driver, c.imu.options, found, nothing);
+  for (std::size_t i = 0; i < c.drives.size(); ++i) {
+    const auto made = build(item("drives", i), c.drives[i].driver, c.drives[i].options,
+                            {.kind = SlotKind::drive}, found);
+    if (made.actuator != nullptr) look_at_silence(i, *made.actuator, found);
+  }
+  if (c.gnss.configured)
+    build("gnss", c.gnss.driver, c.gnss.options, {.kind = SlotKind::gnss}, found);
+  if (c.imu.configured) build("imu", c.imu.driver, c.imu.options, {.kind = SlotKind::imu}, found);
   if (c.battery.configured)
-    build("battery", c.battery.driver, c.battery.options, found, nothing, c.battery.registers);
+    build("battery", c.battery.driver, c.battery.options,
+          {.kind = SlotKind::battery, .registers = &c.battery.registers}, found);
   for (std::size_t i = 0; i < kLineCount; ++i) {
-    const auto& line = found.config().lines.line[i];
+    const auto& line = c.lines.line[i];
     if (line.configured)
-      build("lines." + std::string(kLineKeys[i]), line.driver, line.options, found, nothing,
-            static_cast<Line>(i));
+      build("lines." + std::string(kLineKeys[i]), line.driver, line.options,
+            {.kind = SlotKind::line, .line = static_cast<Line>(i)}, found);
   }
 }
 

@@ -18,10 +18,10 @@ namespace drover::config {
 inline constexpr std::size_t kMaxBuses = 4;
 
 /// Names of the registered drivers for one kind of device.
-inline std::vector<std::string> driver_names(Device device) {
+inline std::vector<std::string> driver_names(SlotKind kind) {
   std::vector<std::string> names;
   for (const auto& entry : driver_registry())
-    if (entry.device == device) names.emplace_back(entry.name);
+    if (entry.kinds.has(kind)) names.emplace_back(entry.name);
   return names;
 }
 
@@ -48,34 +48,34 @@ void visit(V& v, BusConfig& c) {
 template <class V>
 void visit(V& v, DriveConfig& c) {
   v.text("joint", c.joint, "name of the driven axis", Presence::required);
-  v.choice("driver", c.driver, driver_names(Device::drive), "driver", Presence::required);
+  v.choice("driver", c.driver, driver_names(SlotKind::drive), "driver", Presence::required);
   v.text("bus", c.bus, "name of the bus it hangs on", Presence::required);
-  v.options("options", c.options, c.driver, Device::drive);
+  v.options("options", c.options, c.driver, SlotKind::drive);
   v.names("accept", c.accept, Count{0, 1},
           "no_watchdog: this drive goes on for ever when frames cease, and that is known");
 }
 
 template <class V>
 void visit(V& v, GnssConfig& c) {
-  v.choice("driver", c.driver, driver_names(Device::gnss), "driver");
+  v.choice("driver", c.driver, driver_names(SlotKind::gnss), "driver");
   v.text("port", c.port, "serial line");
   v.integer("baud", c.baud, Range{4800, 921600}, "baud rate");
-  v.options("options", c.options, c.driver, Device::gnss);
+  v.options("options", c.options, c.driver, SlotKind::gnss);
   c.configured = true;
 }
 
 template <class V>
 void visit(V& v, ImuConfig& c) {
-  v.choice("driver", c.driver, driver_names(Device::imu), "driver", Presence::required);
+  v.choice("driver", c.driver, driver_names(SlotKind::imu), "driver", Presence::required);
   v.text("port", c.port, "serial line");
   v.integer("baud", c.baud, Range{4800, 921600}, "baud rate");
-  v.options("options", c.options, c.driver, Device::imu);
+  v.options("options", c.options, c.driver, SlotKind::imu);
   c.configured = true;
 }
 
 template <class V>
 void visit(V& v, BatteryConfig& c) {
-  v.choice("driver", c.driver, driver_names(Device::battery), "driver");
+  v.choice("driver", c.driver, driver_names(SlotKind::battery), "driver");
   v.text("map", c.map,
          "file of the device's registers: beside this file, or one of the installed maps",
          Presence::required);
@@ -84,15 +84,15 @@ void visit(V& v, BatteryConfig& c) {
   v.choice("parity", c.parity, {"none", "even", "odd"}, "parity of the serial line");
   v.integer("unit", c.unit, Range{0, 247}, "Modbus unit; 0: the device's usual one");
   v.number("period_s", c.period_s, Range{0.2, 60}, "how often it is asked");
-  v.options("options", c.options, c.driver, Device::battery);
+  v.options("options", c.options, c.driver, SlotKind::battery);
   c.configured = true;
 }
 
 template <class V>
 void visit(V& v, LineConfig& c) {
   v.text("line", c.name, "name of the line on the chip", Presence::required);
-  v.choice("driver", c.driver, driver_names(Device::line), "driver");
-  v.options("options", c.options, c.driver, Device::line);
+  v.choice("driver", c.driver, driver_names(SlotKind::line), "driver");
+  v.options("options", c.options, c.driver, SlotKind::line);
   c.configured = true;
 }
 

@@ -185,10 +185,10 @@ void Reader::numbers(std::string_view key, std::vector<double>& into, Count coun
 }
 
 void Reader::options(std::string_view key, Options& into, const std::string& driver,
-                     Device device) {
+                     SlotKind kind) {
   known_.emplace_back(key);
-  const auto* entry = find_driver(driver);
-  if (entry == nullptr || entry->device != device) return;
+  const auto* entry = find_driver(driver, kind);
+  if (entry == nullptr) return;
   into = Options(entry->options);
   static const json::Node kEmpty{std::vector<json::Member>{}, 0, 0};
   const auto* given = node_.find(key);

@@ -33,7 +33,7 @@ class Reader final {
                Presence presence = Presence::optional);
   void numbers(std::string_view key, std::vector<double>& into, Count count, Range range,
                std::string_view text, Presence presence = Presence::optional);
-  void options(std::string_view key, Options& into, const std::string& driver, Device device);
+  void options(std::string_view key, Options& into, const std::string& driver, SlotKind kind);
 
   template <class T>
   void object(std::string_view key, T& into, std::string_view text,

@@ -124,10 +124,10 @@ class SchemaWriter final {
   }
   /// The options depend on the driver: one condition for each driver of the shape.
   void options(std::string_view key, const Options&, const std::string& default_driver,
-               Device device) {
+               SlotKind kind) {
     property(key, "object", "options of the driver", Presence::optional);
     for (const auto& entry : driver_registry()) {
-      if (entry.device != device) continue;
+      if (!entry.kinds.has(kind)) continue;
       Json options;
       options["type"] = "object";
       options["additionalProperties"] = false;

@@ -6,13 +6,17 @@ namespace drover::gateway {
 
 namespace {
 
-template <class Make>
-Make maker(const std::string& driver, const std::string& key) {
-  const auto* entry = find_driver(driver);
-  const auto* make = entry == nullptr ? nullptr : std::get_if<Make>(&entry->make);
-  if (make == nullptr)
-    throw std::runtime_error(key + ": no driver \"" + driver + "\" of this kind");
-  return *make;
+/// A device that has the face which its place in the gateway needs.
+template <class Face>
+Made made(const auto& config, const MakeContext& context, Face Made::*face,
+          const std::string& key) {
+  const auto* entry = find_driver(config.driver, context.kind);
+  if (entry == nullptr)
+    throw std::runtime_error(key + ": no driver \"" + config.driver + "\" of this kind");
+  Made device = entry->make(config.options, context);
+  if (device.*face == nullptr)
+    throw std::runtime_error(key + ": \"" + config.driver + "\" does not speak on such a link");
+  return device;
 }
 
 constexpr Duration kSleptTold = std::chrono::seconds(1);
@@ -40,26 +44,27 @@ Gateway::Gateway(const config::DroverConfig& config)
     buses_[bus].name = Name(config.buses[bus].name);
   drives_.reserve(config.drives.size());
   for (const auto& drive : config.drives) {
-    const auto make = maker<MakeCanDriver>(drive.driver, "drives: " + drive.joint);
-    drives_.push_back({drive.bus_index, make(drive.options, static_cast<AxisId>(drives_.size()))});
-    frame_gate_.add(drive.bus_index, *drives_.back().driver);
+    const auto axis = static_cast<AxisId>(drives_.size());
+    drives_.push_back({drive.bus_index, made(drive, {.kind = SlotKind::drive, .axis = axis},
+                                             &Made::actuator, "drives: " + drive.joint)});
+    frame_gate_.add(drive.bus_index, *drives_.back().made.actuator);
   }
   if (config.gnss.configured)
     streams_[index(Stream::gnss)] =
-        maker<MakeByteDriver>(config.gnss.driver, "gnss")(config.gnss.options);
+        made(config.gnss, {.kind = SlotKind::gnss}, &Made::bytes, "gnss");
   if (config.imu.configured)
-    streams_[index(Stream::imu)] =
-        maker<MakeByteDriver>(config.imu.driver, "imu")(config.imu.options);
+    streams_[index(Stream::imu)] = made(config.imu, {.kind = SlotKind::imu}, &Made::bytes, "imu");
   if (config.battery.configured)
-    battery_ = maker<MakeRegisterDriver>(config.battery.driver, "battery")(
-        config.battery.options, config.battery.registers);
+    battery_ =
+        made(config.battery, {.kind = SlotKind::battery, .registers = &config.battery.registers},
+             &Made::registers, "battery");
   environment_.gnss_configured = config.gnss.configured;
   environment_.imu_configured = config.imu.configured;
   for (std::size_t i = 0; i < kLineCount; ++i) {
     const auto& line = config.lines.line[i];
     if (!line.configured) continue;
-    const auto make = maker<MakeLineDriver>(line.driver, "lines: " + line.name);
-    lines_.push_back(make(line.options, static_cast<Line>(i)));
+    lines_.push_back(made(line, {.kind = SlotKind::line, .line = static_cast<Line>(i)},
+                          &Made::levels, "lines: " + line.name));
     line_ids_.push_back(static_cast<Line>(i));
   }
 }
@@ -82,8 +87,8 @@ void Gateway::emit(std::size_t axis) {
   absorb(scratch_, drive.overflows);
   const engine::Slowing ramp = slowing(axis);
   for (const auto& frame : scratch_.frames) {
-    const auto verdict =
-        frame_gate_.admit(drive.bus, frame, *drive.driver, motion_permitted_, guard_has_bus_, ramp);
+    const auto verdict = frame_gate_.admit(drive.bus, frame, *drive.made.actuator,
+                                           motion_permitted_, guard_has_bus_, ramp);
     if (verdict == engine::FrameVerdict::pass && !pending_[drive.bus].push_back(frame))
       ++buses_[drive.bus].no_room;
   }
@@ -101,16 +106,16 @@ void Gateway::on(const FrameHeard& heard, Time received) {
   for (std::size_t i = 0; i < drives_.size(); ++i) {
     if (drives_[i].bus != bus) continue;
     notice_foreign(drives_[i], frame, received);
-    drives_[i].driver->on_frame(frame, received, scratch_);
+    drives_[i].made.frames->on_frame(frame, received, scratch_);
     emit(i);
   }
 }
 
 /// A link does not hear what it sent itself. What moves, the driver notices.
 void Gateway::notice_foreign(const Drive& drive, const CanFrame& frame, Time received) {
-  for (const FrameRule& rule : drive.driver->allow_list()) {
+  for (const FrameRule& rule : drive.made.actuator->rules()) {
     if (!engine::matches(rule, frame)) continue;
-    if (frame.remote || drive.driver->effect(frame) != FrameEffect::stop) return;
+    if (frame.remote || drive.made.actuator->effect(frame) != FrameEffect::stop) return;
     return foreign_.on_stop_frame(frame.id, buses_[drive.bus].name.view(), received);
   }
 }
@@ -121,7 +126,7 @@ void Gateway::on(const BusUp& up, Time now) {
   buses_[bus].lost.clear();
   buses_[bus].jammed_since = kNever;
   for (const auto& drive : drives_)
-    if (drive.bus == bus) drive.driver->on_link_up(now);
+    if (drive.bus == bus) drive.made.device->on_link_up(now);
 }
 
 void Gateway::on(const BusLost& lost, Time) {
@@ -177,13 +182,13 @@ void Gateway::look_at_buses(Time now) {
 }
 
 void Gateway::on(const StreamUp& up, Time now) {
-  if (streams_[index(up.stream)]) streams_[index(up.stream)]->on_link_up(now);
+  if (streams_[index(up.stream)].device) streams_[index(up.stream)].device->on_link_up(now);
 }
 
 void Gateway::on(const BytesHeard& heard, Time first_byte) {
   const auto& [stream, bytes] = heard;
-  if (!streams_[index(stream)]) return;
-  streams_[index(stream)]->on_bytes(bytes, first_byte, scratch_);
+  if (!streams_[index(stream)].device) return;
+  streams_[index(stream)].bytes->on_bytes(bytes, first_byte, scratch_);
   absorb_stream(index(stream));
 }
 
@@ -201,30 +206,30 @@ void Gateway::absorb_lines() {
 void Gateway::on(const LevelsRead& read, Time at) {
   const auto& levels = read.levels;
   for (std::size_t i = 0; i < lines_.size() && i < levels.size(); ++i)
-    lines_[i]->on_level(levels[i], at, scratch_);
+    lines_[i].levels->on_level(levels[i], at, scratch_);
   absorb_lines();
 }
 
 void Gateway::on(const LinesLost&, Time at) {
-  for (const auto& line : lines_) line->on_lost(at, scratch_);
+  for (const auto& line : lines_) line.levels->on_lost(at, scratch_);
   absorb_lines();
 }
 
 void Gateway::on(const RegistersRead& read, Time received) {
-  if (!battery_ || read.block >= battery_->blocks().size()) return;
-  if (read.words.size() != battery_->blocks()[read.block].count) return;
-  battery_->on_registers(read.block, read.words, received, scratch_);
+  if (!battery_.device || read.block >= battery_.registers->blocks().size()) return;
+  if (read.words.size() != battery_.registers->blocks()[read.block].count) return;
+  battery_.registers->on_registers(read.block, read.words, received, scratch_);
   absorb(scratch_, battery_overflows_);
   scratch_.clear();
 }
 
 void Gateway::on(const RegistersFailed& failed, Time at) {
-  if (!battery_ || failed.block >= battery_->blocks().size()) return;
-  battery_->on_failure(failed.block, failed.failure, failed.exception, at);
+  if (!battery_.device || failed.block >= battery_.registers->blocks().size()) return;
+  battery_.registers->on_failure(failed.block, failed.failure, failed.exception, at);
 }
 
 void Gateway::on(const BatteryUp&, Time at) {
-  if (battery_) battery_->on_link_up(at);
+  if (battery_.device) battery_.device->on_link_up(at);
 }
 
 void Gateway::on(const CommandGiven& given, Time now) {
@@ -256,29 +261,29 @@ void Gateway::on(const OutputsUp& up, Time) {
 
 void Gateway::on(const Tick& tick, Time now) {
   for (std::size_t i = 0; i < kStreamCount; ++i) {
-    if (!streams_[i]) continue;
-    streams_[i]->on_tick(now, scratch_);
+    if (!streams_[i].device) continue;
+    streams_[i].device->on_tick(now, scratch_);
     absorb_stream(i);
     auto& health = i == index(Stream::gnss) ? environment_.gnss : environment_.imu;
-    health = streams_[i]->health(now);
+    health = streams_[i].device->health(now);
     health.overflows = stream_overflows_[i];
     // What the driver had to say since the last cycle, while bytes came in or now.
     cycle_.streams[i] = waiting_[i];
     waiting_[i] = {};
   }
   for (std::size_t i = 0; i < lines_.size(); ++i) {
-    lines_[i]->on_tick(now, scratch_);
+    lines_[i].device->on_tick(now, scratch_);
     auto& health = environment_.lines[static_cast<std::size_t>(line_ids_[i])];
-    health = lines_[i]->health(now);
+    health = lines_[i].device->health(now);
     health.overflows = line_overflows_;
   }
   absorb_lines();
-  if (battery_) {
-    environment_.battery = battery_->health(now);
+  if (battery_.device) {
+    environment_.battery = battery_.device->health(now);
     environment_.battery.overflows = battery_overflows_;
   }
   for (std::size_t i = 0; i < drives_.size(); ++i) {
-    environment_.axes[i] = drives_[i].driver->health(now);
+    environment_.axes[i] = drives_[i].made.device->health(now);
     environment_.axes[i].overflows = drives_[i].overflows;
   }
   look_at_buses(now);
@@ -294,9 +299,9 @@ void Gateway::on(const Tick& tick, Time now) {
   motion_permitted_ = cycle_.engine.motion_permitted;
   guard_has_bus_ = tick.guard_has_bus;
   for (std::size_t i = 0; i < drives_.size(); ++i) {
-    if (!cycle_.engine.slowing_permitted[i]) frame_gate_.end_slowing(*drives_[i].driver);
-    drives_[i].driver->on_command(cycle_.engine.axes[i], now, scratch_);
-    drives_[i].driver->on_tick(now, scratch_);
+    if (!cycle_.engine.slowing_permitted[i]) frame_gate_.end_slowing(*drives_[i].made.actuator);
+    drives_[i].made.actuator->on_command(cycle_.engine.axes[i], now, scratch_);
+    drives_[i].made.device->on_tick(now, scratch_);
     emit(i);
   }
   for (std::size_t bus = 0; bus < bus_count_; ++bus) {
@@ -313,7 +318,7 @@ std::uint64_t Gateway::refused(std::size_t bus) const {
 std::vector<std::string> Gateway::cautions() const {
   std::vector<std::string> all;
   for (std::size_t i = 0; i < drives_.size(); ++i) {
-    const auto silence = drives_[i].driver->silence();
+    const auto silence = drives_[i].made.actuator->silence();
     if (silence.stops) continue;
     const auto& joint = engine_.snapshot().axes[i].joint;
     all.push_back("drive " + std::string(joint) + " " + std::string(silence.text));
@@ -325,7 +330,7 @@ std::vector<CanFrame> Gateway::stop_frames(std::size_t bus) const {
   std::vector<CanFrame> frames;
   for (const auto& drive : drives_) {
     if (drive.bus != bus) continue;
-    const auto recipe = drive.driver->stop_recipe();
+    const auto recipe = drive.made.actuator->stop_recipe();
     frames.insert(frames.end(), recipe.frames.begin(), recipe.frames.end());
   }
   return frames;

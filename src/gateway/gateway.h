@@ -67,7 +67,7 @@ class Gateway final {
  private:
   struct Drive {
     std::size_t bus = 0;
-    std::unique_ptr<CanDriver> driver;
+    Made made;
     std::uint64_t overflows = 0;
   };
   struct Bus {
@@ -107,9 +107,9 @@ class Gateway final {
 
   engine::Engine engine_;
   std::vector<Drive> drives_;
-  std::array<std::unique_ptr<ByteDriver>, kStreamCount> streams_;
-  std::unique_ptr<RegisterDriver> battery_;  ///< nullptr: none
-  std::vector<std::unique_ptr<LineDriver>> lines_;
+  std::array<Made, kStreamCount> streams_;
+  Made battery_;
+  std::vector<Made> lines_;
   std::vector<Line> line_ids_;
   std::array<Bus, kMaxBuses> buses_;
   std::size_t bus_count_ = 0;

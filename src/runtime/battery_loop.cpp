@@ -33,12 +33,14 @@ link::ModbusSettings link_settings(const config::BatteryConfig& config) {
 }
 
 std::vector<RegisterBlock> blocks_of(const config::BatteryConfig& config) {
-  const auto* entry = find_driver(config.driver);
-  const auto* make = entry == nullptr ? nullptr : std::get_if<MakeRegisterDriver>(&entry->make);
-  if (make == nullptr)
+  const auto* entry = find_driver(config.driver, SlotKind::battery);
+  if (entry == nullptr)
     throw std::runtime_error("battery: no driver \"" + config.driver + "\" of this kind");
-  const auto driver = (*make)(config.options, config.registers);
-  const auto blocks = driver->blocks();
+  const auto made =
+      entry->make(config.options, {.kind = SlotKind::battery, .registers = &config.registers});
+  if (made.registers == nullptr)
+    throw std::runtime_error("battery: \"" + config.driver + "\" is not asked for registers");
+  const auto blocks = made.registers->blocks();
   return {blocks.begin(), blocks.end()};
 }
 

@@ -18,8 +18,8 @@ inline void require(bool holds) {
 /// Feeds `whole` with all bytes at once and `pieces` with chunks that `choice` selects, both new
 /// and alike, the first byte at `start`; then `check` sees each measurement and `check_same` each
 /// pair.
-template <class Check, class CheckSame>
-void check_chunking(ByteDriver& whole, ByteDriver& pieces, std::span<const std::uint8_t> bytes,
+template <class Driver, class Check, class CheckSame>
+void check_chunking(Driver& whole, Driver& pieces, std::span<const std::uint8_t> bytes,
                     std::uint32_t choice, Time start, double baud, Check check,
                     CheckSame check_same) {
   static DriverOut from_whole;

@@ -53,9 +53,9 @@ class Dump final {
     out_.close(']');
   }
   void options(std::string_view key, const Options& value, const std::string& driver,
-               Device device) {
-    const auto* entry = find_driver(driver);
-    require_(entry != nullptr && entry->device == device);
+               SlotKind kind) {
+    const auto* entry = find_driver(driver, kind);
+    require_(entry != nullptr);
     out_.key(key).open('{');
     for (const auto& spec : entry->options) option(spec, value);
     out_.close('}');

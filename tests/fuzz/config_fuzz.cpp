@@ -93,7 +93,10 @@ void check_blocks(std::span<const RegisterBlock> blocks, const RegisterMap& map)
 void check_driver(const RegisterMap& map) {
   const DriverEntry* entry = find_driver("modbus_bms");
   require(entry != nullptr);
-  const auto driver = std::get<MakeRegisterDriver>(entry->make)(Options(entry->options), map);
+  const auto made =
+      entry->make(Options(entry->options), {.kind = SlotKind::battery, .registers = &map});
+  auto* const driver = made.registers;
+  require(driver != nullptr);
   check_blocks(driver->blocks(), map);
   static DriverOut out;
   constexpr std::uint16_t kWords[] = {0x0000, 0x0001, 0x7FC0, 0x8000, 0xFFFF};

@@ -70,13 +70,13 @@ class Bench {
   explicit Bench(std::uint8_t choice) : v0_6_((choice & 16U) == 0) {
     const DriverEntry* entry = find_driver("odrive");
     require(entry != nullptr);
-    const auto& make = std::get<MakeCanDriver>(entry->make);
-    driver_ = make(options_of(*entry, choice), kAxis);
-    twin_ = make(options_of(*entry, choice), kAxis);
-    const StopRecipe recipe = driver_->stop_recipe();
+    const MakeContext context{.kind = SlotKind::drive, .axis = kAxis};
+    driver_ = entry->make(options_of(*entry, choice), context);
+    twin_ = entry->make(options_of(*entry, choice), context);
+    const StopRecipe recipe = driver_.actuator->stop_recipe();
     require(!recipe.frames.empty());
     for (const CanFrame& frame : recipe.frames) {
-      require(allowed(frame) && driver_->effect(frame) == FrameEffect::stop);
+      require(allowed(frame) && driver_.actuator->effect(frame) == FrameEffect::stop);
     }
   }
 
@@ -86,9 +86,9 @@ class Bench {
     note(frame);
     CanFrame dirty = frame;
     for (std::size_t i = frame.len; i < dirty.data.size(); ++i) dirty.data[i] = 0xC7;
-    static_cast<void>(driver_->effect(frame));
-    call([&](CanDriver& driver, const CanFrame& f,
-             DriverOut& out) { driver.on_frame(f, now_, out); },
+    static_cast<void>(driver_.actuator->effect(frame));
+    call([&](const Made& driver, const CanFrame& f,
+             DriverOut& out) { driver.frames->on_frame(f, now_, out); },
          frame, dirty);
     check_health();
     now_ += std::chrono::microseconds(100);
@@ -98,8 +98,8 @@ class Bench {
     wanted_ = command;
     if (command.request == AxisRequest::run) ++asked_;
     const CanFrame none;
-    call([&](CanDriver& driver, const CanFrame&,
-             DriverOut& out) { driver.on_command(command, now_, out); },
+    call([&](const Made& driver, const CanFrame&,
+             DriverOut& out) { driver.actuator->on_command(command, now_, out); },
          none, none);
     undecided_cycle();
   }
@@ -107,15 +107,16 @@ class Bench {
   /// Nobody decided in it, when it is not the end of one where somebody did.
   void undecided_cycle() {
     const CanFrame none;
-    call([&](CanDriver& driver, const CanFrame&, DriverOut& out) { driver.on_tick(now_, out); },
+    call([&](const Made& driver, const CanFrame&,
+             DriverOut& out) { driver.device->on_tick(now_, out); },
          none, none);
     check_health();
     now_ += std::chrono::milliseconds(5);
   }
 
   void link_up() {
-    driver_->on_link_up(now_);
-    twin_->on_link_up(now_);
+    driver_.device->on_link_up(now_);
+    twin_.device->on_link_up(now_);
     heartbeat_ = kNever;
     estimates_ = kNever;
     check_health();
@@ -128,8 +129,8 @@ class Bench {
     static DriverOut other;
     out.clear();
     other.clear();
-    what(*driver_, clean, out);
-    what(*twin_, dirty, other);
+    what(driver_, clean, out);
+    what(twin_, dirty, other);
     require(out.overflows == 0 && out.bytes.empty() && out.reopen_baud == 0);
     require(out.frames.size() == other.frames.size());
     require(out.measurements.size() == other.measurements.size());
@@ -167,7 +168,7 @@ class Bench {
   }
 
   bool allowed(const CanFrame& frame) const {
-    for (const FrameRule& rule : driver_->allow_list())
+    for (const FrameRule& rule : driver_.actuator->rules())
       if (rule.id == frame.id && rule.extended == frame.extended && rule.remote == frame.remote &&
           frame.len >= rule.min_len && frame.len <= rule.max_len)
         return !frame.fd && !frame.error;
@@ -176,7 +177,7 @@ class Bench {
 
   void check_sent(const CanFrame& frame) const {
     require(allowed(frame) && heartbeat_ != kNever);
-    const FrameEffect effect = driver_->effect(frame);
+    const FrameEffect effect = driver_.actuator->effect(frame);
     require(effect != FrameEffect::forbidden);
     if (frame.remote) return;
     const std::uint8_t command = frame.id & 0x1FU;
@@ -220,8 +221,8 @@ class Bench {
   }
 
   void check_health() const {
-    const SourceHealth health = driver_->health(now_);
-    const SourceHealth other = twin_->health(now_);
+    const SourceHealth health = driver_.device->health(now_);
+    const SourceHealth other = twin_.device->health(now_);
     require(health.state == other.state && health.good == other.good && health.bad == other.bad);
     require(health.good + health.bad <= own_ + asked_ && health.last_good <= now_);
     require((health.state == SourceState::never_heard) == (health.good == 0));
@@ -231,8 +232,8 @@ class Bench {
   }
 
   bool v0_6_;
-  std::unique_ptr<CanDriver> driver_;
-  std::unique_ptr<CanDriver> twin_;
+  Made driver_;
+  Made twin_;
   AxisCommand wanted_;
   Time now_{std::chrono::seconds(100)};
   Time heartbeat_ = kNever;  ///< since the link came up

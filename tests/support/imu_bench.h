@@ -14,9 +14,11 @@ namespace drover::test {
 /// Ticks of 5 ms. Bytes at another speed than the other side's are noise, both ways.
 class ImuBench {
  public:
-  ImuBench(std::unique_ptr<ByteDriver> made_driver, std::unique_ptr<ImuTwin> made_twin,
-           std::uint32_t baud)
-      : driver(std::move(made_driver)), twin(std::move(made_twin)), host_baud(baud) {
+  ImuBench(Made made_driver, std::unique_ptr<ImuTwin> made_twin, std::uint32_t baud)
+      : made(std::move(made_driver)),
+        driver(made.device.get()),
+        twin(std::move(made_twin)),
+        host_baud(baud) {
     truth.specific_force_mps2 = {0, 0, 9.80665};
     driver->on_link_up(now);
   }
@@ -45,7 +47,8 @@ class ImuBench {
     driver->on_link_up(now);
   }
 
-  std::unique_ptr<ByteDriver> driver;
+  Made made;
+  Device* driver;
   std::unique_ptr<ImuTwin> twin;
   std::uint32_t host_baud;
   ImuTruth truth;
@@ -78,8 +81,8 @@ class ImuBench {
     for (std::size_t at = 0; at < size; at += 64) {
       out.clear();
       AllocationCounter counter;
-      driver->on_bytes({bytes.data() + at, std::min<std::size_t>(64, size - at)},
-                       now + byte_time * static_cast<long>(at), out);
+      made.bytes->on_bytes({bytes.data() + at, std::min<std::size_t>(64, size - at)},
+                           now + byte_time * static_cast<long>(at), out);
       allocations += counter.count();
       take();
     }

@@ -27,12 +27,12 @@ bool matches(const FrameRule& rule, const CanFrame& frame) {
          frame.len <= rule.max_len;
 }
 
-void FrameGate::add(std::size_t bus, const CanDriver& driver) {
+void FrameGate::add(std::size_t bus, const Actuator& driver) {
   if (bus >= kMaxBuses) throw std::runtime_error("more CAN buses than the frame gate holds");
   for (const Sender& other : senders_) {
     if (other.bus != bus) continue;
-    for (const FrameRule& mine : driver.allow_list()) {
-      for (const FrameRule& theirs : other.driver->allow_list()) {
+    for (const FrameRule& mine : driver.rules()) {
+      for (const FrameRule& theirs : other.driver->rules()) {
         if (!same_identity(mine, theirs)) continue;
         throw std::runtime_error("two drives of one bus send CAN id " + std::to_string(mine.id) +
                                  ": their node numbers are equal");
@@ -44,7 +44,7 @@ void FrameGate::add(std::size_t bus, const CanDriver& driver) {
   }
 }
 
-void FrameGate::end_slowing(const CanDriver& driver) {
+void FrameGate::end_slowing(const Actuator& driver) {
   for (Sender& sender : senders_)
     if (sender.driver == &driver) sender.slowest_radps = std::numeric_limits<double>::infinity();
 }
@@ -60,14 +60,14 @@ bool FrameGate::slows(Sender& sender, const CanFrame& frame, const Slowing& slow
   return slower;  // false for what is not a number
 }
 
-FrameVerdict FrameGate::judge(std::size_t bus, const CanFrame& frame, const CanDriver& from,
+FrameVerdict FrameGate::judge(std::size_t bus, const CanFrame& frame, const Actuator& from,
                               bool motion_possible, const Slowing& slowing) {
   if (frame.error) return FrameVerdict::refused_not_allowed;
   auto* const sender = std::find_if(senders_.begin(), senders_.end(), [&](const Sender& each) {
     return each.bus == bus && each.driver == &from;
   });
   if (sender == senders_.end()) return FrameVerdict::refused_not_allowed;
-  const auto rules = from.allow_list();
+  const auto rules = from.rules();
   const bool listed = std::any_of(rules.begin(), rules.end(),
                                   [&](const FrameRule& rule) { return matches(rule, frame); });
   if (!listed) return FrameVerdict::refused_not_allowed;
@@ -86,7 +86,7 @@ FrameVerdict FrameGate::judge(std::size_t bus, const CanFrame& frame, const CanD
   return FrameVerdict::refused_not_allowed;
 }
 
-FrameVerdict FrameGate::admit(std::size_t bus, const CanFrame& frame, const CanDriver& from,
+FrameVerdict FrameGate::admit(std::size_t bus, const CanFrame& frame, const Actuator& from,
                               bool motion_permitted, bool guard_has_bus, const Slowing& slowing) {
   if (bus >= kMaxBuses) return FrameVerdict::refused_not_allowed;
   const Slowing allowed{slowing.permitted && !guard_has_bus, slowing.measured_radps};

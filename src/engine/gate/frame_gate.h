@@ -31,16 +31,16 @@ class FrameGate final {
 
   /// At start-up. `driver` must outlive the gate. Throws std::runtime_error when there are too many
   /// drivers or buses, or when two drivers of one bus would send the same frame.
-  void add(std::size_t bus, const CanDriver& driver);
+  void add(std::size_t bus, const Actuator& driver);
 
   /// `motion_permitted`: EngineOutput::motion_permitted of this cycle.
   /// `slowing`: of the sender's axis. Then a set point passes that is no faster than the wheel, in
   /// its direction, and no faster than the one before.
-  FrameVerdict admit(std::size_t bus, const CanFrame& frame, const CanDriver& from,
+  FrameVerdict admit(std::size_t bus, const CanFrame& frame, const Actuator& from,
                      bool motion_permitted, bool guard_has_bus, const Slowing& slowing = {});
 
   /// The next ramp of this drive begins anew.
-  void end_slowing(const CanDriver& driver);
+  void end_slowing(const Actuator& driver);
 
   struct Counts {
     std::uint64_t passed = 0;
@@ -53,11 +53,11 @@ class FrameGate final {
  private:
   struct Sender {
     std::size_t bus = 0;
-    const CanDriver* driver = nullptr;
+    const Actuator* driver = nullptr;
     /// Of its last set point while slowing; infinite before the first.
     double slowest_radps = std::numeric_limits<double>::infinity();
   };
-  FrameVerdict judge(std::size_t bus, const CanFrame& frame, const CanDriver& from,
+  FrameVerdict judge(std::size_t bus, const CanFrame& frame, const Actuator& from,
                      bool motion_possible, const Slowing& slowing);
   static bool slows(Sender& sender, const CanFrame& frame, const Slowing& slowing);
 

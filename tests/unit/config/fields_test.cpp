@@ -57,7 +57,7 @@ class Places final {
         << key << ": the default is no choice";
   }
   template <class T>
-  void options(std::string_view key, T& value, const std::string&, Device) {
+  void options(std::string_view key, T& value, const std::string&, SlotKind) {
     add(key, &value, "options");
   }
   template <class T>

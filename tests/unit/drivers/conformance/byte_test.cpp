@@ -12,9 +12,7 @@ namespace {
 
 class ByteConformance : public ::testing::TestWithParam<Subject> {
  protected:
-  std::unique_ptr<ByteDriver> make() const {
-    return std::get<MakeByteDriver>(GetParam().entry->make)(GetParam().options);
-  }
+  Made make() const { return made_of(*GetParam().entry, GetParam().options); }
   /// Bytes arrive as on a line of 115200 bit/s, whatever the chunks.
   static constexpr Duration kByteTime = std::chrono::nanoseconds(86806);
 
@@ -23,18 +21,19 @@ class ByteConformance : public ::testing::TestWithParam<Subject> {
                       const std::function<std::size_t()>& next_size) const {
     const auto driver = make();
     const Time start{std::chrono::seconds(10)};
-    driver->on_link_up(start);
+    driver.device->on_link_up(start);
     std::string text;
     DriverOut out;
     for (std::size_t at = 0; at < bytes.size();) {
       const std::size_t size = std::min(next_size(), bytes.size() - at);
       out.clear();
-      driver->on_bytes(bytes.subspan(at, size), start + kByteTime * static_cast<long>(at), out);
+      driver.bytes->on_bytes(bytes.subspan(at, size), start + kByteTime * static_cast<long>(at),
+                             out);
       EXPECT_EQ(out.overflows, 0U);
       if (!out.measurements.empty()) text += describe(out) + "; ";
       at += size;
     }
-    const SourceHealth health = driver->health(start);
+    const SourceHealth health = driver.device->health(start);
     return text + std::to_string(health.good) + "/" + std::to_string(health.bad);
   }
 };
@@ -56,8 +55,8 @@ TEST_P(ByteConformance, SurvivesEveryTruncation) {
       for (std::size_t size = 0; size <= one.bytes.size(); ++size) {
         const auto driver = make();
         DriverOut out;
-        driver->on_bytes({one.bytes.data(), size}, Time{std::chrono::seconds(1)}, out);
-        driver->on_tick(Time{std::chrono::seconds(2)}, out);
+        driver.bytes->on_bytes({one.bytes.data(), size}, Time{std::chrono::seconds(1)}, out);
+        driver.device->on_tick(Time{std::chrono::seconds(2)}, out);
         EXPECT_EQ(out.overflows, 0U);
       }
     }
@@ -81,8 +80,8 @@ TEST_P(ByteConformance, SurvivesAHundredThousandRandomBytesAndAllocatesNothing) 
     now += milliseconds(5);
     out.clear();
     AllocationCounter counter;
-    driver->on_bytes(chunk, now, out);
-    driver->on_tick(now, out);
+    driver.bytes->on_bytes(chunk, now, out);
+    driver.device->on_tick(now, out);
     allocations += counter.count();
     ASSERT_EQ(out.overflows, 0U);
   }
@@ -95,8 +94,8 @@ class GnssConformance : public ByteConformance {};
 TEST_P(GnssConformance, IsNeverHeardThenFreshThenStaleAndSaysWhy) {
   const auto driver = make();
   Time now{std::chrono::seconds(100)};
-  driver->on_link_up(now);
-  EXPECT_EQ(driver->health(now).state, SourceState::never_heard);
+  driver.device->on_link_up(now);
+  EXPECT_EQ(driver.device->health(now).state, SourceState::never_heard);
   const auto twin = std::get<MakeGnssTwin>(GetParam().entry->make_twin)(GetParam().options, 1);
   GnssTruth truth;
   truth.latitude_deg = 31.2;
@@ -113,24 +112,24 @@ TEST_P(GnssConformance, IsNeverHeardThenFreshThenStaleAndSaysWhy) {
     std::vector<std::uint8_t> bytes(text.begin(), text.begin() + static_cast<long>(size));
     for (std::size_t at = 0; at < bytes.size(); at += 32) {
       out.clear();
-      driver->on_bytes({bytes.data() + at, std::min<std::size_t>(32, bytes.size() - at)},
-                       now + kByteTime * static_cast<long>(at), out);
+      driver.bytes->on_bytes({bytes.data() + at, std::min<std::size_t>(32, bytes.size() - at)},
+                             now + kByteTime * static_cast<long>(at), out);
       for (const Measurement& m : out.measurements)
         if (const auto* value = std::get_if<GnssPosition>(&m.value)) position = *value;
     }
     out.clear();
-    driver->on_tick(now, out);
+    driver.device->on_tick(now, out);
   }
-  const SourceHealth health = driver->health(now);
+  const SourceHealth health = driver.device->health(now);
   EXPECT_EQ(health.state, SourceState::fresh) << health.reason.view();
   EXPECT_EQ(health.bad, 0U);
   EXPECT_GT(health.good, 100U);
   EXPECT_NEAR(position.latitude_deg, truth.latitude_deg, 1e-4);
   EXPECT_NEAR(position.longitude_deg, truth.longitude_deg, 1e-4);
   now += std::chrono::seconds(3);
-  driver->on_tick(now, out);
-  EXPECT_EQ(driver->health(now).state, SourceState::stale);
-  EXPECT_FALSE(driver->health(now).reason.empty());
+  driver.device->on_tick(now, out);
+  EXPECT_EQ(driver.device->health(now).state, SourceState::stale);
+  EXPECT_FALSE(driver.device->health(now).reason.empty());
 }
 
 /// Sensors of the robot's motion.
@@ -183,28 +182,26 @@ TEST_P(ImuConformance, DoesNotBelieveReadingsThatStandStillOrEndTheirRange) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Registry, ByteConformance, ::testing::ValuesIn(subjects<MakeByteDriver>()),
+INSTANTIATE_TEST_SUITE_P(Registry, ByteConformance, ::testing::ValuesIn(subjects(&Made::bytes)),
                          label_of);
 INSTANTIATE_TEST_SUITE_P(Registry, GnssConformance,
-                         ::testing::ValuesIn(subjects_with_twin<MakeByteDriver, MakeGnssTwin>()),
+                         ::testing::ValuesIn(subjects_with_twin<MakeGnssTwin>(&Made::bytes)),
                          label_of);
 INSTANTIATE_TEST_SUITE_P(Registry, ImuConformance,
-                         ::testing::ValuesIn(subjects_with_twin<MakeByteDriver, MakeImuTwin>()),
+                         ::testing::ValuesIn(subjects_with_twin<MakeImuTwin>(&Made::bytes)),
                          label_of);
 
 class LineConformance : public ::testing::TestWithParam<Subject> {
  protected:
-  std::unique_ptr<LineDriver> make() const {
-    return std::get<MakeLineDriver>(GetParam().entry->make)(GetParam().options, Line::estop);
-  }
+  Made make() const { return made_of(*GetParam().entry, GetParam().options); }
 };
 
 TEST_P(LineConformance, IsActiveUntilItWasRead) {
   const auto driver = make();
   DriverOut out;
-  driver->on_tick(Time{std::chrono::seconds(1)}, out);
+  driver.device->on_tick(Time{std::chrono::seconds(1)}, out);
   EXPECT_EQ(describe(out), "line_state line=estop active=true");
-  EXPECT_EQ(driver->health(Time{std::chrono::seconds(1)}).state, SourceState::never_heard);
+  EXPECT_EQ(driver.device->health(Time{std::chrono::seconds(1)}).state, SourceState::never_heard);
 }
 
 TEST_P(LineConformance, IsReleasedByOneLevelAndActiveWhenLostOrSilent) {
@@ -216,25 +213,25 @@ TEST_P(LineConformance, IsReleasedByOneLevelAndActiveWhenLostOrSilent) {
       Time now{std::chrono::seconds(1)};
       AllocationCounter counter;
       for (int i = 0; i < 400; ++i, now += milliseconds(5)) {
-        driver->on_level(high, now, out);
-        driver->on_tick(now, out);
+        driver.levels->on_level(high, now, out);
+        driver.device->on_tick(now, out);
       }
       EXPECT_EQ(counter.count(), 0U);
       if (describe(out).find("active=false") == std::string::npos) continue;
       ++released;
       out.clear();
-      if (lost) driver->on_lost(now, out);
+      if (lost) driver.levels->on_lost(now, out);
       now += milliseconds(100);
-      driver->on_tick(now, out);
+      driver.device->on_tick(now, out);
       EXPECT_EQ(describe(out), "line_state line=estop active=true");
-      EXPECT_EQ(driver->health(now).state, SourceState::stale);
-      EXPECT_FALSE(driver->health(now).reason.empty());
+      EXPECT_EQ(driver.device->health(now).state, SourceState::stale);
+      EXPECT_FALSE(driver.device->health(now).reason.empty());
     }
     EXPECT_EQ(released, 1) << "exactly one level means that all is well";
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Registry, LineConformance, ::testing::ValuesIn(subjects<MakeLineDriver>()),
+INSTANTIATE_TEST_SUITE_P(Registry, LineConformance, ::testing::ValuesIn(subjects(&Made::levels)),
                          label_of);
 
 }  // namespace

@@ -27,9 +27,9 @@ TEST_P(CanConformance, SendsNothingToANodeThatWasNeverHeard) {
   bench.run(milliseconds(500), kRest);
   bench.run(milliseconds(500), kRun, 1.0);
   for (const CanFrame& frame : bench.sent)
-    EXPECT_EQ(bench.driver->effect(frame), FrameEffect::harmless) << describe(frame);
+    EXPECT_EQ(bench.actuator->effect(frame), FrameEffect::harmless) << describe(frame);
   EXPECT_EQ(bench.status.state, AxisState::unknown);
-  EXPECT_EQ(bench.driver->health(bench.now).state, SourceState::never_heard);
+  EXPECT_EQ(bench.device->health(bench.now).state, SourceState::never_heard);
   expect_decent(bench);
 }
 
@@ -76,18 +76,18 @@ TEST_P(CanConformance, GoesStaleWhenItsDeviceFallsSilent) {
   CanBench bench(GetParam());
   bench.run(milliseconds(500), kRest);
   bench.run(milliseconds(1000), kRun, 1.0);
-  ASSERT_EQ(bench.driver->health(bench.now).state, SourceState::fresh);
-  EXPECT_TRUE(bench.driver->health(bench.now).reason.empty());
+  ASSERT_EQ(bench.device->health(bench.now).state, SourceState::fresh);
+  EXPECT_TRUE(bench.device->health(bench.now).reason.empty());
   bench.twin->set_power(false, bench.now);
   bench.run(milliseconds(105), kRun, 1.0);
-  EXPECT_EQ(bench.driver->health(bench.now).state, SourceState::stale);
-  EXPECT_FALSE(bench.driver->health(bench.now).reason.empty());
+  EXPECT_EQ(bench.device->health(bench.now).state, SourceState::stale);
+  EXPECT_FALSE(bench.device->health(bench.now).reason.empty());
   bench.run(milliseconds(400), kRun, 1.0);
   EXPECT_EQ(bench.status.state, AxisState::unknown);
   bench.sent.clear();
   bench.run(milliseconds(100), kRun, 1.0);
   for (const CanFrame& frame : bench.sent)
-    EXPECT_NE(bench.driver->effect(frame), FrameEffect::motion) << describe(frame);
+    EXPECT_NE(bench.actuator->effect(frame), FrameEffect::motion) << describe(frame);
 }
 
 TEST_P(CanConformance, ArmsAfterAPowerCycleOnlyByANewRequest) {
@@ -102,7 +102,7 @@ TEST_P(CanConformance, ArmsAfterAPowerCycleOnlyByANewRequest) {
   EXPECT_NE(bench.status.state, AxisState::running);
   EXPECT_EQ(bench.shaft.torque_Nm, 0.0);
   for (const CanFrame& frame : bench.sent)
-    EXPECT_NE(bench.driver->effect(frame), FrameEffect::motion) << describe(frame);
+    EXPECT_NE(bench.actuator->effect(frame), FrameEffect::motion) << describe(frame);
   bench.run(milliseconds(100), kRest);
   bench.run(milliseconds(2000), kRun, 1.0);
   EXPECT_EQ(bench.status.state, AxisState::running) << bench.status.reason.view();
@@ -114,11 +114,11 @@ TEST_P(CanConformance, ArmsAfterANewLinkOnlyByANewRequest) {
   CanBench bench(GetParam());
   bench.run(milliseconds(500), kRest);
   bench.run(milliseconds(1000), kRun, 1.0);
-  bench.driver->on_link_up(bench.now);
+  bench.device->on_link_up(bench.now);
   bench.sent.clear();
   bench.run(milliseconds(1000), kRun, 1.0);
   for (const CanFrame& frame : bench.sent)
-    EXPECT_NE(bench.driver->effect(frame), FrameEffect::motion) << describe(frame);
+    EXPECT_NE(bench.actuator->effect(frame), FrameEffect::motion) << describe(frame);
   bench.run(milliseconds(50), kRest);
   bench.run(milliseconds(1500), kRun, 1.0);
   EXPECT_EQ(bench.status.state, AxisState::running) << bench.status.reason.view();
@@ -126,16 +126,16 @@ TEST_P(CanConformance, ArmsAfterANewLinkOnlyByANewRequest) {
 
 TEST_P(CanConformance, SaysHowItStopsAndTheRecipeStopsIt) {
   CanBench bench(GetParam());
-  const StopRecipe recipe = bench.driver->stop_recipe();
+  const StopRecipe recipe = bench.actuator->stop_recipe();
   ASSERT_FALSE(recipe.frames.empty());
   EXPECT_GT(recipe.period, Duration{});
   EXPECT_LE(recipe.period, milliseconds(50));
   for (const CanFrame& frame : recipe.frames) {
-    EXPECT_TRUE(on_list(bench.driver->allow_list(), frame)) << describe(frame);
-    EXPECT_EQ(bench.driver->effect(frame), FrameEffect::stop) << describe(frame);
+    EXPECT_TRUE(on_list(bench.actuator->rules(), frame)) << describe(frame);
+    EXPECT_EQ(bench.actuator->effect(frame), FrameEffect::stop) << describe(frame);
   }
-  EXPECT_FALSE(bench.driver->silence().text.empty());
-  EXPECT_EQ(bench.driver->silence().stops, bench.driver->silence().after > Duration{});
+  EXPECT_FALSE(bench.actuator->silence().text.empty());
+  EXPECT_EQ(bench.actuator->silence().stops, bench.actuator->silence().after > Duration{});
 
   bench.run(milliseconds(500), kRest);
   bench.run(milliseconds(2000), kRun, 3.0);
@@ -168,8 +168,43 @@ TEST_P(CanConformance, IgnoresItsFramesUnderAForeignFlag) {
       EXPECT_TRUE(bench.out.measurements.empty()) << describe(foreign);
     }
   }
-  EXPECT_EQ(bench.driver->health(bench.now).good, 0U);
-  EXPECT_EQ(bench.driver->health(bench.now).bad, 0U);
+  EXPECT_EQ(bench.device->health(bench.now).good, 0U);
+  EXPECT_EQ(bench.device->health(bench.now).bad, 0U);
+}
+
+bool listens_to(const FrameFace& frames, const CanFrame& frame) {
+  const auto filters = frames.listens();
+  return std::any_of(filters.begin(), filters.end(),
+                     [&](const FrameFilter& filter) { return filter.matches(frame); });
+}
+
+/// Else nobody would notice who else commands it.
+TEST_P(CanConformance, ListensToTheFramesThatItIsCommandedBy) {
+  CanBench bench(GetParam());
+  for (const FrameRule& rule : bench.actuator->rules()) {
+    CanFrame frame;
+    frame.id = rule.id;
+    frame.extended = rule.extended;
+    EXPECT_TRUE(listens_to(*bench.frames, frame)) << describe(frame);
+  }
+}
+
+TEST_P(CanConformance, LosesNothingByHearingOnlyWhatItListensTo) {
+  const auto like = golden_frames(*GetParam().entry);
+  std::mt19937 random(11);
+  CanBench bench(GetParam());
+  bench.run(milliseconds(500), kRest);
+  const SourceHealth before = bench.device->health(bench.now);
+  for (int i = 0; i < 20000; ++i) {
+    const CanFrame frame = random_frame(random, like);
+    if (listens_to(*bench.frames, frame)) continue;
+    bench.inject(frame);
+    ASSERT_TRUE(bench.out.measurements.empty()) << describe(frame);
+    ASSERT_TRUE(bench.out.frames.empty()) << describe(frame);
+  }
+  const SourceHealth after = bench.device->health(bench.now);
+  EXPECT_EQ(after.good, before.good);
+  EXPECT_EQ(after.bad, before.bad);
 }
 
 TEST_P(CanConformance, SurvivesEveryTruncation) {
@@ -194,13 +229,13 @@ TEST_P(CanConformance, SurvivesAHundredThousandRandomFrames) {
     if (i % 16 == 0) {
       bench.now += milliseconds(5);
       bench.out.clear();
-      bench.driver->on_command({i % 4096 < 2048 ? kRest : kRun, 1.0}, bench.now, bench.out);
-      bench.driver->on_tick(bench.now, bench.out);
+      bench.actuator->on_command({i % 4096 < 2048 ? kRest : kRun, 1.0}, bench.now, bench.out);
+      bench.device->on_tick(bench.now, bench.out);
       for (const CanFrame& frame : bench.out.frames) {
-        ASSERT_TRUE(on_list(bench.driver->allow_list(), frame)) << describe(frame);
-        ASSERT_NE(bench.driver->effect(frame), FrameEffect::forbidden) << describe(frame);
+        ASSERT_TRUE(on_list(bench.actuator->rules(), frame)) << describe(frame);
+        ASSERT_NE(bench.actuator->effect(frame), FrameEffect::forbidden) << describe(frame);
         if (i % 4096 < 2048) {
-          ASSERT_NE(bench.driver->effect(frame), FrameEffect::motion) << describe(frame);
+          ASSERT_NE(bench.actuator->effect(frame), FrameEffect::motion) << describe(frame);
         }
       }
     }
@@ -218,8 +253,8 @@ TEST_P(CanConformance, JudgesEveryRandomFrameWithoutCallingItAStopThatMoves) {
   bench.driver_alive = false;
   for (int i = 0; i < 20000; ++i) {
     const CanFrame frame = random_frame(random, like);
-    if (!on_list(bench.driver->allow_list(), frame)) continue;
-    const FrameEffect effect = bench.driver->effect(frame);
+    if (!on_list(bench.actuator->rules(), frame)) continue;
+    const FrameEffect effect = bench.actuator->effect(frame);
     if (effect == FrameEffect::motion || effect == FrameEffect::forbidden) continue;
     bench.send(frame);
     bench.step({});
@@ -238,7 +273,7 @@ TEST_P(CanConformance, StaysDecentThroughRandomHistories) {
       if (random() % 20 == 0) command.velocity_radps = static_cast<double>(random() % 11) - 5.0;
       if (random() % 200 == 0) command.velocity_radps = kAbsent;
       if (random() % 100 == 0) bench.twin->set_power(random() % 2 == 0, bench.now);
-      if (random() % 300 == 0) bench.driver->on_link_up(bench.now);
+      if (random() % 300 == 0) bench.device->on_link_up(bench.now);
       if (random() % 100 == 0) bench.twin->set_fault(random() % 2 ? "silent" : "", bench.now);
       bench.step(command);
     }
@@ -260,7 +295,7 @@ TEST_P(CanConformance, GivesTheSameForTheSame) {
   EXPECT_EQ(texts[0], texts[1]);
 }
 
-INSTANTIATE_TEST_SUITE_P(Registry, CanConformance, ::testing::ValuesIn(subjects<MakeCanDriver>()),
+INSTANTIATE_TEST_SUITE_P(Registry, CanConformance, ::testing::ValuesIn(subjects(&Made::actuator)),
                          label_of);
 
 }  // namespace

@@ -10,50 +10,43 @@ namespace {
 
 class GoldenBytes : public ::testing::TestWithParam<Subject> {};
 
-/// The driver behind one face, whatever its shape.
-class AnyDriver {
+/// The device, whatever its faces. One that is asked for registers is made anew for each case: what
+/// was exchanged decides which part of its map it gets.
+class AnyDevice {
  public:
-  AnyDriver(const DriverEntry& entry, const GoldenFile& file) {
-    const Options& options = file.options;
-    if (const auto* make = std::get_if<MakeCanDriver>(&entry.make)) can_ = (*make)(options, 0);
-    if (const auto* make = std::get_if<MakeByteDriver>(&entry.make)) byte_ = (*make)(options);
-    if (const auto* make = std::get_if<MakeRegisterDriver>(&entry.make)) {
-      make_registers_ = *make;
-      options_ = options;
+  AnyDevice(const DriverEntry& entry, const GoldenFile& file) : entry_(entry), file_(file) {
+    if (!file.map.empty()) {
       map_ = read_map(file.map);
+    } else {
+      made_ = made_of(entry, file.options);
     }
   }
-  /// What was exchanged decides which part of its map a register driver gets.
   void prepare(const GoldenCase& one) {
-    if (make_registers_ != nullptr)
-      registers_ = make_registers_(options_, map_inside(map_, read_exchange(one.bytes)));
+    if (!one.is_exchange || file_.map.empty()) return;
+    const auto part = map_inside(map_, read_exchange(one.bytes));
+    made_ = made_of(entry_, file_.options, &part);
   }
   void give(const GoldenCase& one, Time now, DriverOut& out) {
-    if (can_ && one.is_frame) can_->on_frame(one.frame, now, out);
-    if (byte_ && !one.is_frame) byte_->on_bytes(one.bytes, now, out);
-    if (registers_) answer(*registers_, map_.stride, read_exchange(one.bytes), now, out);
+    if (one.is_exchange)
+      return answer(*made_.registers, map_.stride, read_exchange(one.bytes), now, out);
+    if (one.is_frame) return made_.frames->on_frame(one.frame, now, out);
+    made_.bytes->on_bytes(one.bytes, now, out);
   }
   bool fits(const GoldenCase& one) const {
-    if (one.is_exchange) return make_registers_ != nullptr;
-    return one.is_frame ? can_ != nullptr : byte_ != nullptr;
+    if (one.is_exchange) return made_.registers != nullptr;
+    return one.is_frame ? made_.frames != nullptr : made_.bytes != nullptr;
   }
-  SourceHealth health(Time now) const {
-    if (make_registers_ != nullptr) return registers_ ? registers_->health(now) : SourceHealth{};
-    return can_ ? can_->health(now) : byte_->health(now);
-  }
+  SourceHealth health(Time now) const { return made_.device->health(now); }
 
  private:
-  std::unique_ptr<CanDriver> can_;
-  std::unique_ptr<ByteDriver> byte_;
-  MakeRegisterDriver make_registers_ = nullptr;
-  Options options_;
+  const DriverEntry& entry_;
+  const GoldenFile& file_;
   RegisterMap map_;
-  std::unique_ptr<RegisterDriver> registers_;
+  Made made_;
 };
 
-std::string outcome(const GoldenCase& one, AnyDriver& driver, Time now) {
+std::string outcome(const GoldenCase& one, AnyDevice& driver, Time now) {
   DriverOut out;
-  driver.prepare(one);
   const SourceHealth before = driver.health(now);
   driver.give(one, now, out);
   const SourceHealth after = driver.health(now);
@@ -71,9 +64,10 @@ TEST_P(GoldenBytes, MeanWhatTheirFileSays) {
     EXPECT_TRUE(file.has_source) << file.path << ": no \"# source:\"";
     EXPECT_TRUE(file.has_provenance) << file.path << ": no \"# provenance:\"";
     EXPECT_FALSE(file.cases.empty()) << file.path;
-    AnyDriver driver(*GetParam().entry, file);
+    AnyDevice driver(*GetParam().entry, file);
     Time now{std::chrono::seconds(1)};
     for (const GoldenCase& one : file.cases) {
+      driver.prepare(one);
       ASSERT_TRUE(driver.fits(one)) << file.path << ":" << one.line;
       now += milliseconds(10);
       EXPECT_EQ(outcome(one, driver, now), one.expected) << file.path.string() << ":" << one.line;
@@ -84,8 +78,7 @@ TEST_P(GoldenBytes, MeanWhatTheirFileSays) {
 std::vector<Subject> speakers() {
   std::vector<Subject> all;
   for (const DriverEntry& entry : driver_registry())
-    if (!std::holds_alternative<MakeLineDriver>(entry.make))
-      all.push_back({&entry, {}, std::string(entry.name)});
+    if (!has_face(entry, &Made::levels)) all.push_back({&entry, {}, std::string(entry.name)});
   return all;
 }
 

@@ -47,12 +47,26 @@ inline Options example_options(const DriverEntry& entry) {
   return options;
 }
 
-/// All drivers of one shape; each choice of a text option and each flag makes one more subject.
-template <class Make>
-std::vector<Subject> subjects() {
+inline Made made_of(const DriverEntry& entry, const Options& options,
+                    const RegisterMap* registers = nullptr) {
+  return entry.make(options, {.registers = registers});
+}
+
+/// Whether the entry's devices have this face. One is made to see it, of a map that asks for
+/// something.
+template <class Face>
+bool has_face(const DriverEntry& entry, Face Made::*face) {
+  RegisterMap map;
+  map.fields.emplace_back();
+  return made_of(entry, example_options(entry), &map).*face != nullptr;
+}
+
+/// All drivers with one face; each choice of a text option and each flag makes one more subject.
+template <class Face>
+std::vector<Subject> subjects(Face Made::*face) {
   std::vector<Subject> all;
   for (const DriverEntry& entry : driver_registry()) {
-    if (!std::holds_alternative<Make>(entry.make)) continue;
+    if (!has_face(entry, face)) continue;
     const Options plain = example_options(entry);
     all.push_back({&entry, plain, std::string(entry.name)});
     for (const OptionSpec& spec : entry.options) {
@@ -74,9 +88,9 @@ std::vector<Subject> subjects() {
 }
 
 /// Those of them whose twin is of this kind.
-template <class Make, class MakeTwin>
-std::vector<Subject> subjects_with_twin() {
-  std::vector<Subject> all = subjects<Make>();
+template <class MakeTwin, class Face>
+std::vector<Subject> subjects_with_twin(Face Made::*face) {
+  std::vector<Subject> all = subjects(face);
   std::erase_if(all, [](const Subject& subject) {
     return !std::holds_alternative<MakeTwin>(subject.entry->make_twin);
   });
@@ -99,9 +113,12 @@ inline bool on_list(std::span<const FrameRule> rules, const CanFrame& frame) {
 class CanBench {
  public:
   explicit CanBench(const Subject& subject)
-      : driver(std::get<MakeCanDriver>(subject.entry->make)(subject.options, 0)),
+      : made(made_of(*subject.entry, subject.options)),
+        device(made.device.get()),
+        frames(made.frames),
+        actuator(made.actuator),
         twin(std::get<MakeCanTwin>(subject.entry->make_twin)(subject.options)) {
-    driver->on_link_up(now);
+    device->on_link_up(now);
   }
 
   /// Runs with one command; the plant steps at 2.5 ms.
@@ -123,8 +140,8 @@ class CanBench {
     if (!driver_alive) return;
     out.clear();
     AllocationCounter counter;
-    driver->on_command(command, now, out);
-    driver->on_tick(now, out);
+    actuator->on_command(command, now, out);
+    device->on_tick(now, out);
     allocations += counter.count();
     take(command);
   }
@@ -140,13 +157,16 @@ class CanBench {
   void inject(const CanFrame& frame) {
     out.clear();
     AllocationCounter counter;
-    driver->on_frame(frame, now, out);
+    frames->on_frame(frame, now, out);
     allocations += counter.count();
     overflows += out.overflows;
     note();
   }
 
-  std::unique_ptr<CanDriver> driver;
+  Made made;
+  Device* device;
+  FrameFace* frames;
+  Actuator* actuator;
   std::unique_ptr<CanTwin> twin;
   Shaft shaft;
   double load_Nm = 0;
@@ -182,8 +202,8 @@ class CanBench {
     const DriverOut sending = out;
     for (const CanFrame& frame : sending.frames) {
       sent.push_back(frame);
-      off_list += on_list(driver->allow_list(), frame) ? 0 : 1;
-      const FrameEffect effect = driver->effect(frame);
+      off_list += on_list(actuator->rules(), frame) ? 0 : 1;
+      const FrameEffect effect = actuator->effect(frame);
       forbidden += effect == FrameEffect::forbidden ? 1 : 0;
       motion_at_rest += effect == FrameEffect::motion && command.request != AxisRequest::run &&
                         command.request != AxisRequest::hold;

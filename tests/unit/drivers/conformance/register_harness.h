@@ -82,7 +82,7 @@ inline RegisterMap map_inside(const RegisterMap& map, const Exchange& exchange) 
 }
 
 /// Gives the driver the registers it asks for, from the exchange.
-inline void answer(RegisterDriver& driver, int stride, const Exchange& exchange, Time now,
+inline void answer(RegisterFace& driver, int stride, const Exchange& exchange, Time now,
                    DriverOut& out) {
   const auto blocks = driver.blocks();
   const std::span<const std::uint16_t> words(exchange.words);

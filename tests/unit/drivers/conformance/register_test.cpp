@@ -14,22 +14,20 @@ using std::chrono::seconds;
 
 class RegisterConformance : public ::testing::TestWithParam<std::tuple<Subject, std::string>> {
  protected:
-  std::unique_ptr<RegisterDriver> make() const {
-    return std::get<MakeRegisterDriver>(subject().entry->make)(subject().options, map);
-  }
+  Made make() const { return made_of(*subject().entry, subject().options, &map); }
   std::unique_ptr<RegisterTwin> make_twin() const {
     return std::get<MakeRegisterTwin>(subject().entry->make_twin)(subject().options, map);
   }
   const Subject& subject() const { return std::get<0>(GetParam()); }
 
   /// One round against the twin; false when the twin refuses.
-  static bool round(RegisterDriver& driver, const RegisterTwin& twin, Time now, DriverOut& out) {
+  static bool round(const Made& driver, const RegisterTwin& twin, Time now, DriverOut& out) {
     std::array<std::uint16_t, 125> words{};
-    for (std::size_t i = 0; i < driver.blocks().size(); ++i) {
-      const RegisterBlock& block = driver.blocks()[i];
+    for (std::size_t i = 0; i < driver.registers->blocks().size(); ++i) {
+      const RegisterBlock& block = driver.registers->blocks()[i];
       const std::span<std::uint16_t> part(words.data(), block.count);
       if (!twin.read(block.function, block.address, part)) return false;
-      driver.on_registers(i, part, now, out);
+      driver.registers->on_registers(i, part, now, out);
     }
     return true;
   }
@@ -42,8 +40,8 @@ class RegisterConformance : public ::testing::TestWithParam<std::tuple<Subject, 
 TEST_P(RegisterConformance, AsksForNoMoreThanTheDeviceAnswersAndForNoTwoBlocksOfOneLength) {
   const auto driver = make();
   std::set<int> lengths;
-  ASSERT_FALSE(driver->blocks().empty());
-  for (const RegisterBlock& block : driver->blocks()) {
+  ASSERT_FALSE(driver.registers->blocks().empty());
+  for (const RegisterBlock& block : driver.registers->blocks()) {
     EXPECT_GE(block.count, 1);
     EXPECT_LE(block.count, map.max_count);
     EXPECT_TRUE(lengths.insert(block.count).second) << block.count << " registers, twice";
@@ -61,7 +59,7 @@ TEST_P(RegisterConformance, AnswersItsOwnTwin) {
   truth.temperature_degC = 21;
   truth.alarm_bits = 1U << 3U;
   twin->set_truth(truth);
-  ASSERT_TRUE(round(*driver, *twin, now, out));
+  ASSERT_TRUE(round(driver, *twin, now, out));
   ASSERT_EQ(out.measurements.size(), 1U);
   const auto& sample = std::get<BatterySample>(out.measurements[0].value);
   EXPECT_EQ(out.measurements[0].time, now);
@@ -76,42 +74,43 @@ TEST_P(RegisterConformance, AnswersItsOwnTwin) {
   EXPECT_FALSE(sample.charger_connected);
   EXPECT_EQ(sample.alarm_bits, truth.alarm_bits);
   EXPECT_EQ(sample.alarm_text.view(), map.alarms[3].text);
-  EXPECT_EQ(driver->health(now).bad, 0U);
+  EXPECT_EQ(driver.device->health(now).bad, 0U);
 }
 
 TEST_P(RegisterConformance, IsNeverHeardThenFreshThenStaleAndSaysWhy) {
   const auto driver = make();
   const auto twin = make_twin();
   twin->set_truth({26, 0, 50, 40, 20, false, 0});
-  EXPECT_EQ(driver->health(now).state, SourceState::never_heard);
-  EXPECT_FALSE(driver->health(now).reason.empty());
-  ASSERT_TRUE(round(*driver, *twin, now, out));
-  EXPECT_EQ(driver->health(now).state, SourceState::fresh);
-  EXPECT_TRUE(driver->health(now).reason.empty()) << driver->health(now).reason.view();
+  EXPECT_EQ(driver.device->health(now).state, SourceState::never_heard);
+  EXPECT_FALSE(driver.device->health(now).reason.empty());
+  ASSERT_TRUE(round(driver, *twin, now, out));
+  EXPECT_EQ(driver.device->health(now).state, SourceState::fresh);
+  EXPECT_TRUE(driver.device->health(now).reason.empty())
+      << driver.device->health(now).reason.view();
   now += seconds(61);
-  EXPECT_EQ(driver->health(now).state, SourceState::stale);
-  EXPECT_FALSE(driver->health(now).reason.empty());
+  EXPECT_EQ(driver.device->health(now).state, SourceState::stale);
+  EXPECT_FALSE(driver.device->health(now).reason.empty());
 }
 
 TEST_P(RegisterConformance, ReportsNothingOfARoundThatFailed) {
   const auto twin = make_twin();
   twin->set_truth({26, 0, 50, 40, 20, false, 0});
   std::array<std::uint16_t, 125> words{};
-  for (std::size_t failing = 0; failing < make()->blocks().size(); ++failing) {
+  for (std::size_t failing = 0; failing < make().registers->blocks().size(); ++failing) {
     const auto driver = make();
-    for (std::size_t i = 0; i < driver->blocks().size(); ++i) {
-      const RegisterBlock& block = driver->blocks()[i];
+    for (std::size_t i = 0; i < driver.registers->blocks().size(); ++i) {
+      const RegisterBlock& block = driver.registers->blocks()[i];
       const std::span<std::uint16_t> part(words.data(), block.count);
       ASSERT_TRUE(twin->read(block.function, block.address, part));
       if (i == failing) {
-        driver->on_failure(i, RegisterFailure::silent, 0, now);
+        driver.registers->on_failure(i, RegisterFailure::silent, 0, now);
       } else {
-        driver->on_registers(i, part, now, out);
+        driver.registers->on_registers(i, part, now, out);
       }
     }
     EXPECT_EQ(describe(out), "nothing");
-    EXPECT_EQ(driver->health(now).state, SourceState::never_heard);
-    EXPECT_EQ(driver->health(now).bad, 1U);
+    EXPECT_EQ(driver.device->health(now).state, SourceState::never_heard);
+    EXPECT_EQ(driver.device->health(now).bad, 1U);
   }
 }
 
@@ -119,17 +118,18 @@ TEST_P(RegisterConformance, TellsTheSecondFailureInARowAndForgetsItWithTheNextGo
   const auto driver = make();
   const auto twin = make_twin();
   twin->set_truth({26, 0, 50, 40, 20, false, 0});
-  ASSERT_TRUE(round(*driver, *twin, now, out));
+  ASSERT_TRUE(round(driver, *twin, now, out));
   for (const auto failure :
        {RegisterFailure::silent, RegisterFailure::damaged, RegisterFailure::wrong_unit,
         RegisterFailure::refused, RegisterFailure::link}) {
-    driver->on_failure(0, failure, 2, now);
-    EXPECT_TRUE(driver->health(now).reason.empty());
-    driver->on_failure(0, failure, 2, now);
-    EXPECT_FALSE(driver->health(now).reason.empty());
-    EXPECT_EQ(driver->health(now).state, SourceState::fresh);
-    ASSERT_TRUE(round(*driver, *twin, now, out));
-    EXPECT_TRUE(driver->health(now).reason.empty()) << driver->health(now).reason.view();
+    driver.registers->on_failure(0, failure, 2, now);
+    EXPECT_TRUE(driver.device->health(now).reason.empty());
+    driver.registers->on_failure(0, failure, 2, now);
+    EXPECT_FALSE(driver.device->health(now).reason.empty());
+    EXPECT_EQ(driver.device->health(now).state, SourceState::fresh);
+    ASSERT_TRUE(round(driver, *twin, now, out));
+    EXPECT_TRUE(driver.device->health(now).reason.empty())
+        << driver.device->health(now).reason.view();
   }
 }
 
@@ -142,12 +142,13 @@ TEST_P(RegisterConformance, BelievesNoAbsurdValueOfRandomRegistersAndAllocatesNo
     now += seconds(1);
     out.clear();
     AllocationCounter counter;
-    for (std::size_t block = 0; block < driver->blocks().size(); ++block) {
+    for (std::size_t block = 0; block < driver.registers->blocks().size(); ++block) {
       for (auto& word : words)
         word = static_cast<std::uint16_t>(random() % 3 == 0 ? random() : random() % 64);
-      driver->on_registers(block, {words.data(), driver->blocks()[block].count}, now, out);
+      driver.registers->on_registers(block, {words.data(), driver.registers->blocks()[block].count},
+                                     now, out);
     }
-    (void)driver->health(now);
+    (void)driver.device->health(now);
     allocations += counter.count();
     ASSERT_EQ(out.measurements.size(), 1U);
     const auto& sample = std::get<BatterySample>(out.measurements[0].value);
@@ -161,11 +162,11 @@ TEST_P(RegisterConformance, BelievesNoAbsurdValueOfRandomRegistersAndAllocatesNo
     ASSERT_TRUE(inside(sample.max_cell_V, 0.5, 5)) << describe(out);
   }
   EXPECT_EQ(allocations, 0U);
-  EXPECT_GT(driver->health(now).bad, 0U);
+  EXPECT_GT(driver.device->health(now).bad, 0U);
 }
 
 INSTANTIATE_TEST_SUITE_P(Registry, RegisterConformance,
-                         ::testing::Combine(::testing::ValuesIn(subjects<MakeRegisterDriver>()),
+                         ::testing::Combine(::testing::ValuesIn(subjects(&Made::registers)),
                                             ::testing::ValuesIn(map_names())),
                          [](const auto& test) {
                            return std::get<0>(test.param).label + "_" +

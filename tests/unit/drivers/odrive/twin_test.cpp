@@ -91,7 +91,7 @@ TEST(OdriveTwin, IsKeptAliveByTheDriverForAsLongAsItLives) {
 TEST(OdriveWatchdog, IsSetReadBackAndInForce) {
   CanBench bench(subject(with_endpoints));
   start(bench, 3.0);
-  EXPECT_NE(bench.driver->silence().text.find("set and read back"), std::string::npos);
+  EXPECT_NE(bench.actuator->silence().text.find("set and read back"), std::string::npos);
   bench.driver_alive = false;
   bench.run(milliseconds(120), kRest);
   EXPECT_EQ(bench.shaft.torque_Nm, 0.0);
@@ -222,7 +222,7 @@ TEST(OdriveTwin, SilentStillObeys) {
   start(bench, 1.0);
   bench.twin->set_fault("silent", bench.now);
   bench.run(milliseconds(1000), kRun, 1.0);
-  EXPECT_EQ(bench.driver->health(bench.now).state, SourceState::stale);
+  EXPECT_EQ(bench.device->health(bench.now).state, SourceState::stale);
   EXPECT_NEAR(bench.shaft.velocity_radps, 0.0, 0.05) << "the driver's zeros still arrive";
 }
 

@@ -189,7 +189,7 @@ TEST(WitmotionDriver, DropsACycleThatLostItsRateAndGoesOn) {
   const auto before = rig.samples;
   DriverOut out;
   const std::array<std::uint8_t, kFrameSize> lone{0x55, 0x51, 1, 0, 0, 0, 0, 8, 0xf6, 9, 0xae};
-  rig.driver->on_bytes(lone, rig.now + 2ms, out);
+  rig.made.bytes->on_bytes(lone, rig.now + 2ms, out);
   EXPECT_TRUE(out.measurements.empty());
   rig.run(1s);
   EXPECT_EQ(rig.samples, before + 100);

@@ -26,7 +26,7 @@ struct Rig : test::ImuBench {
   explicit Rig(OptionList driver_options = {}, OptionList twin_options = {})
       : Rig(options_with(driver_options), twin_options) {}
   Rig(const Options& options, OptionList twin_options)
-      : ImuBench(std::make_unique<WitmotionDriver>(options), make(options, twin_options),
+      : ImuBench(make_device<WitmotionDriver>(options), make(options, twin_options),
                  static_cast<std::uint32_t>(options.number("baud"))) {}
 
   WitmotionTwin& device() { return static_cast<WitmotionTwin&>(*twin); }
