@@ -4,6 +4,7 @@
 #include <memory>
 #include <stdexcept>
 
+#include "drivers/checked_options.h"
 #include "drivers/gpio_line/driver.h"
 
 namespace drover {
@@ -48,21 +49,13 @@ std::span<const OptionSpec> option_table() {
 }
 
 Settings read_settings(const Options& options, Line line) {
+  const CheckedOptions checked(options, kOptions);
   Settings settings;
   settings.line = line;
-  const std::string& level = options.text("active_level");
-  if (level != "low" && level != "high")
-    throw std::runtime_error("active_level must be \"low\" or \"high\"");
-  settings.active_high = level == "high";
-  const auto seconds = [&](std::string_view name, double at_least_s) {
-    const double value_s = options.number(name);
-    if (!(value_s >= at_least_s && value_s <= 10.0))
-      throw std::runtime_error(std::string(name) + " is out of range");
-    return from_s(value_s);
-  };
-  settings.active_debounce = seconds("active_debounce_s", 0.0);
-  settings.release_debounce = seconds("release_debounce_s", 0.0);
-  settings.stale_after = seconds("stale_s", 0.001);
+  settings.active_high = checked.text("active_level") == "high";
+  settings.active_debounce = checked.seconds("active_debounce_s");
+  settings.release_debounce = checked.seconds("release_debounce_s");
+  settings.stale_after = checked.seconds("stale_s");
   if (line == Line::estop && settings.active_debounce != Duration{})
     throw std::runtime_error("active_debounce_s must be 0: an emergency stop counts at once");
   return settings;

@@ -1,8 +1,7 @@
 // ODrive axes: factories, the simulated drive's options and the line in the registry.
 #include "drivers/odrive/entry.h"
 
-#include <stdexcept>
-
+#include "drivers/checked_options.h"
 #include "drivers/odrive/driver.h"
 #include "drivers/odrive/twin.h"
 
@@ -92,28 +91,23 @@ std::span<const OptionSpec> twin_option_table() {
 }
 
 TwinSettings read_twin_settings(const Options& options) {
-  for (const OptionSpec& spec : kTwinOptions) {
-    if (!(spec.min < spec.max)) continue;
-    const double value = options.number(spec.name);
-    if (!(value >= spec.min && value <= spec.max))
-      throw std::runtime_error(std::string(spec.name) + " is out of range");
-  }
+  const CheckedOptions checked(options, kTwinOptions);
   TwinSettings twin;
-  twin.torque_limit_Nm = options.number("torque_limit_Nm");
-  twin.velocity_gain_Nms_per_rad = options.number("velocity_gain_Nms_per_rad");
-  twin.integrator_gain_Nm_per_rad = options.number("integrator_gain_Nm_per_rad");
-  twin.encoder_counts_per_turn = options.number("encoder_counts_per_turn");
-  twin.motor_time_constant_s = options.number("motor_time_constant_s");
-  twin.estimator_time_constant_s = options.number("estimator_time_constant_s");
-  twin.phase_resistance_ohm = options.number("phase_resistance_ohm");
-  twin.thermal_resistance_KpW = options.number("thermal_resistance_KpW");
-  twin.thermal_capacity_JpK = options.number("thermal_capacity_JpK");
-  twin.ambient_degC = options.number("ambient_degC");
-  twin.motor_limit_degC = options.number("motor_limit_degC");
+  twin.torque_limit_Nm = checked.number("torque_limit_Nm");
+  twin.velocity_gain_Nms_per_rad = checked.number("velocity_gain_Nms_per_rad");
+  twin.integrator_gain_Nm_per_rad = checked.number("integrator_gain_Nm_per_rad");
+  twin.encoder_counts_per_turn = checked.number("encoder_counts_per_turn");
+  twin.motor_time_constant_s = checked.number("motor_time_constant_s");
+  twin.estimator_time_constant_s = checked.number("estimator_time_constant_s");
+  twin.phase_resistance_ohm = checked.number("phase_resistance_ohm");
+  twin.thermal_resistance_KpW = checked.number("thermal_resistance_KpW");
+  twin.thermal_capacity_JpK = checked.number("thermal_capacity_JpK");
+  twin.ambient_degC = checked.number("ambient_degC");
+  twin.motor_limit_degC = checked.number("motor_limit_degC");
   twin.has_thermistor = options.flag("has_thermistor");
-  twin.bus_V = options.number("bus_V");
-  twin.boot_time = from_s(options.number("boot_s"));
-  const double saved_s = options.number("saved_watchdog_s");
+  twin.bus_V = checked.number("bus_V");
+  twin.boot_time = checked.seconds("boot_s");
+  const double saved_s = checked.number("saved_watchdog_s");
   if (saved_s >= 0) twin.saved_watchdog_s = saved_s;
   return twin;
 }

@@ -2,7 +2,8 @@
 #include "drivers/odrive/settings.h"
 
 #include <stdexcept>
-#include <string>
+
+#include "drivers/checked_options.h"
 
 namespace drover::odrive {
 namespace {
@@ -93,20 +94,6 @@ const OptionSpec kOptions[] = {
      .text = "closed loop not reached by then is a fault (s)"},
 };
 
-const OptionSpec& spec_of(std::string_view name) {
-  for (const OptionSpec& spec : kOptions)
-    if (spec.name == name) return spec;
-  throw std::runtime_error("no such option: " + std::string(name));
-}
-
-double checked(const Options& options, std::string_view name) {
-  const OptionSpec& spec = spec_of(name);
-  const double value = options.number(name);
-  if (!(value >= spec.min && value <= spec.max))
-    throw std::runtime_error(std::string(name) + " is out of range");
-  return value;
-}
-
 }  // namespace
 
 std::span<const OptionSpec> option_table() {
@@ -114,23 +101,17 @@ std::span<const OptionSpec> option_table() {
 }
 
 Settings read_settings(const Options& options) {
+  const CheckedOptions checked(options, kOptions);
   Settings settings;
-  settings.node = static_cast<std::uint8_t>(checked(options, "node"));
-  const std::string& firmware = options.text("firmware");
-  if (firmware == "0.6") {
-    settings.firmware = Firmware::v0_6;
-  } else if (firmware == "0.5.6") {
-    settings.firmware = Firmware::v0_5_6;
-  } else {
-    throw std::runtime_error("firmware must be \"0.6\" or \"0.5.6\"");
-  }
-  settings.gear_ratio = checked(options, "gear_ratio");
+  settings.node = static_cast<std::uint8_t>(checked.number("node"));
+  settings.firmware = checked.text("firmware") == "0.6" ? Firmware::v0_6 : Firmware::v0_5_6;
+  settings.gear_ratio = checked.number("gear_ratio");
   settings.sign = options.flag("reversed") ? -1.0 : 1.0;
-  settings.torque_constant_Nm_per_A = checked(options, "torque_constant_Nm_per_A");
-  settings.velocity_limit_turnps = checked(options, "velocity_limit_turnps");
-  settings.watchdog_timeout_s = checked(options, "watchdog_timeout_s");
+  settings.torque_constant_Nm_per_A = checked.number("torque_constant_Nm_per_A");
+  settings.velocity_limit_turnps = checked.number("velocity_limit_turnps");
+  settings.watchdog_timeout_s = checked.number("watchdog_timeout_s");
   const auto endpoint = [&](std::string_view name) {
-    return static_cast<std::uint16_t>(checked(options, name));
+    return static_cast<std::uint16_t>(checked.number(name));
   };
   settings.watchdog_enable_endpoint = endpoint("watchdog_enable_endpoint");
   settings.watchdog_timeout_endpoint = endpoint("watchdog_timeout_endpoint");
@@ -147,11 +128,11 @@ Settings read_settings(const Options& options) {
     throw std::runtime_error("watchdog_timeout_s must be given with the end points");
   if (one && settings.watchdog_enable_endpoint == settings.watchdog_timeout_endpoint)
     throw std::runtime_error("watchdog_timeout_endpoint is the same as watchdog_enable_endpoint");
-  settings.stale_after = from_s(checked(options, "stale_s"));
-  settings.heartbeat_timeout = from_s(checked(options, "heartbeat_timeout_s"));
-  settings.setpoint_period = from_s(checked(options, "setpoint_period_s"));
-  settings.poll_period = from_s(checked(options, "poll_s"));
-  settings.arming_timeout = from_s(checked(options, "arming_timeout_s"));
+  settings.stale_after = checked.seconds("stale_s");
+  settings.heartbeat_timeout = checked.seconds("heartbeat_timeout_s");
+  settings.setpoint_period = checked.seconds("setpoint_period_s");
+  settings.poll_period = checked.seconds("poll_s");
+  settings.arming_timeout = checked.seconds("arming_timeout_s");
   if (settings.watchdog_timeout_s > 0 &&
       settings.watchdog_timeout_s < 2.5 * to_s(settings.setpoint_period))
     throw std::runtime_error("watchdog_timeout_s is shorter than 2.5 set point periods");

@@ -1,0 +1,54 @@
+#include "drivers/checked_options.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace drover {
+namespace {
+
+constexpr std::string_view kLevels[] = {"low", "high"};
+const OptionSpec kTable[] = {
+    {.name = "stale_s", .default_value = 0.5, .min = 0.1, .max = 10.0, .text = "limit"},
+    {.name = "level", .default_value = std::string("low"), .choices = kLevels, .text = "level"},
+    {.name = "label", .default_value = std::string("any"), .text = "any text"},
+};
+
+std::string refusal(const Options& options, std::string_view name) {
+  const CheckedOptions checked(options, kTable);
+  try {
+    if (name == "stale_s") (void)checked.number(name);
+    if (name != "stale_s") (void)checked.text(name);
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(CheckedOptions, AreThoseOfTheTable) {
+  const Options defaults(kTable);
+  const CheckedOptions checked(defaults, kTable);
+  EXPECT_EQ(checked.number("stale_s"), 0.5);
+  EXPECT_EQ(checked.seconds("stale_s"), std::chrono::milliseconds(500));
+  EXPECT_EQ(checked.text("level"), "low");
+  EXPECT_EQ(checked.text("label"), "any");
+}
+
+TEST(CheckedOptions, RefuseANumberOutsideItsRangeOrNone) {
+  for (const double bad : {0.09, 10.1, -1.0, std::numeric_limits<double>::quiet_NaN(),
+                           std::numeric_limits<double>::infinity()}) {
+    EXPECT_EQ(refusal(Options(kTable).set("stale_s", bad), "stale_s"), "stale_s is out of range");
+  }
+}
+
+TEST(CheckedOptions, RefuseATextThatIsNoChoice) {
+  EXPECT_EQ(refusal(Options(kTable).set("level", std::string("up")), "level"),
+            "level must be \"low\" or \"high\"");
+}
+
+TEST(CheckedOptions, RefuseANameThatTheTableDoesNotHave) {
+  EXPECT_EQ(refusal(Options(kTable).set("other", std::string("x")), "other"), "other is no option");
+}
+
+}  // namespace
+}  // namespace drover
