@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "gateway/replay.h"
+#include "gateway/recording/replay.h"
 
 namespace drover::cli {
 

@@ -8,7 +8,7 @@
 
 #include "config/load.h"
 #include "gateway/recording/encoder.h"
-#include "gateway/replay.h"
+#include "gateway/recording/replay.h"
 #include "tests/support/small_robot.h"
 
 namespace {

@@ -37,7 +37,7 @@ src/publish/aimrt    publish/token_bucket.h publish/aimrt/
 src/runtime      drover/ runtime/ publish/ store/ json/ config/ link/ engine/ gateway/
 src/guard        drover/ guard/
 src/cli          drover/ cli/ json/ text/ config/register_map.h config/fields_map.h
-src/cli          gateway/replay.h link/unique_fd.h publish/names.h
+src/cli          gateway/recording/replay.h link/unique_fd.h publish/names.h
 src/droverd.cpp  config/ runtime/
 sim/plant        drover/ sim/plant/
 sim/robot        drover/ link/ sim/plant/ sim/robot/ config/register_map.h

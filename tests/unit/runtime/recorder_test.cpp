@@ -8,7 +8,7 @@
 #include <thread>
 
 #include "config/load.h"
-#include "gateway/replay.h"
+#include "gateway/recording/replay.h"
 #include "support/small_robot.h"
 #include "support/temp_folder.h"
 

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "gateway/recording/text.h"
-#include "one_of_each_input.h"
+#include "tests/unit/gateway/one_of_each_input.h"
 
 namespace drover::gateway {
 namespace {

@@ -1,4 +1,4 @@
-#include "gateway/replay.h"
+#include "gateway/recording/replay.h"
 
 #include <cstdio>
 #include <deque>

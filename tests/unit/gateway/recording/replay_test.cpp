@@ -1,9 +1,9 @@
-#include "gateway/replay.h"
+#include "gateway/recording/replay.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "recorded_run.h"
+#include "tests/unit/gateway/recorded_run.h"
 
 namespace drover::gateway {
 namespace {
