@@ -35,23 +35,6 @@ CanLink::CanLink(UniqueFd fd) : fd_(std::move(fd)), buffers_(std::make_unique<Bu
 
 CanLink::~CanLink() = default;
 
-namespace {
-
-/// The kernel stamps with wall time; a stamp outside the drain's window means that somebody set the
-/// clock in between, so the window's end is believed instead.
-Time monotonic_stamp(const timespec& stamp, const StampWindow& window, std::uint64_t& clamped) {
-  const Duration wall = std::chrono::seconds(stamp.tv_sec) + Duration(stamp.tv_nsec);
-  const Time time{wall - window.wall_minus_monotonic};
-  // One microsecond of slack: the two clocks are read one after the other.
-  if (time > window.now + std::chrono::microseconds(1) || time < window.previous_drain) {
-    ++clamped;
-    return time < window.previous_drain ? window.previous_drain : window.now;
-  }
-  return time > window.now ? window.now : time;
-}
-
-}  // namespace
-
 bool CanLink::receive(const StampWindow& window, FrameBatch& batch) {
   batch.clear();
   auto& b = *buffers_;
@@ -81,7 +64,8 @@ bool CanLink::receive(const StampWindow& window, FrameBatch& batch) {
       if (c->cmsg_type == SO_TIMESTAMPNS) {
         timespec stamp{};
         std::memcpy(&stamp, CMSG_DATA(c), sizeof stamp);
-        received.received = monotonic_stamp(stamp, window, counters_.clamped_stamps);
+        const Duration wall = std::chrono::seconds(stamp.tv_sec) + Duration(stamp.tv_nsec);
+        received.received = monotonic_stamp(wall, window, counters_.clamped_stamps);
       } else if (c->cmsg_type == SO_RXQ_OVFL) {
         std::uint32_t total = 0;
         std::memcpy(&total, CMSG_DATA(c), sizeof total);

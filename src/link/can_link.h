@@ -11,6 +11,7 @@
 #include "drover/can_frame.h"
 #include "drover/fixed_vector.h"
 #include "drover/time.h"
+#include "link/can_stamp.h"
 #include "link/unique_fd.h"
 
 namespace drover::link {
@@ -20,13 +21,6 @@ struct ReceivedFrame {
   Time received = kNever;
 };
 using FrameBatch = FixedVector<ReceivedFrame, 64>;
-
-/// Where the kernel's wall-clock stamps lie on the monotonic line, for one drain.
-struct StampWindow {
-  Time previous_drain = kNever;
-  Time now = kNever;
-  Duration wall_minus_monotonic{};
-};
 
 struct CanCounters {
   std::uint64_t received = 0;

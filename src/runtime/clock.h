@@ -17,9 +17,17 @@ inline Time monotonic_now() {
   return Time{read_clock(CLOCK_MONOTONIC)};
 }
 
-/// What to take off a wall-clock stamp of the kernel to get monotonic time, right now.
+/// What to take off a wall-clock stamp of the kernel to get monotonic time, right now. Who is held
+/// up between the clocks reads them again.
 inline Duration wall_minus_monotonic() {
-  return read_clock(CLOCK_REALTIME) - read_clock(CLOCK_MONOTONIC);
+  constexpr Duration kHeldUp = std::chrono::microseconds(20);
+  Duration before = read_clock(CLOCK_MONOTONIC);
+  for (int attempt = 0;; ++attempt) {
+    const Duration wall = read_clock(CLOCK_REALTIME);
+    const Duration after = read_clock(CLOCK_MONOTONIC);
+    if (after - before < kHeldUp || attempt == 2) return wall - (before + (after - before) / 2);
+    before = after;
+  }
 }
 
 /// How long this computer was suspended since it booted.
