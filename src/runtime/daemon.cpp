@@ -19,6 +19,7 @@
 #include "runtime/log.h"
 #include "runtime/publish_loop.h"
 #include "runtime/realtime.h"
+#include "runtime/stop_listener.h"
 #include "runtime/storage_loop.h"
 #include "runtime/supervisor.h"
 #include "runtime/systemd_notify.h"
@@ -86,7 +87,11 @@ class Daemon final {
         control_(config, gateway_, keeper_, guard_, control_exchange_, {memory_, storage_exchange_},
                  battery_ ? &battery_exchange_ : nullptr),
         parser_(publish::ControlLimits{}),
-        publish_(config, control_exchange_, storage_exchange_, parser_, std::move(stored_)) {}
+        stop_listener_(config.mqtt.enabled
+                           ? std::make_unique<StopListener>(config.mqtt, control_exchange_.stops)
+                           : nullptr),
+        publish_(config, control_exchange_, storage_exchange_, parser_, stop_listener_.get(),
+                 std::move(stored_)) {}
 
   void run() {
     control_.recall(recall(memory_, on_disk_));
@@ -103,6 +108,8 @@ class Daemon final {
     Worker parser("parser", [this] { parser_.run(stop_publish_); });
     Worker control("control", [this] { run_control(); });
     Worker publish("publish", [this] { publish_.run(stop_publish_); });
+    std::optional<Worker> stops;
+    if (stop_listener_) stops.emplace("stops", [this] { stop_listener_->run(stop_publish_); });
     ready_told_ = systemd_.tell("READY=1");
     log(LogLevel::info, "droverd " DROVER_VERSION " runs");
     for (const auto& caution : gateway_.cautions()) log(LogLevel::warning, caution);
@@ -116,7 +123,9 @@ class Daemon final {
     publish_.wake();
     storage_exchange_.jobs_ready.notify();
     parser_.wake();
+    if (stop_listener_) stop_listener_->wake();
     join(publish, 1s);
+    if (stops) join(*stops, 1s);
     join(storage, 1s);
     join(parser, 1s);
     // Until here the guard saw our heartbeat; from here on it keeps the drives at rest by itself.
@@ -153,6 +162,9 @@ class Daemon final {
     supervisor_.watch({"droverd's publish thread stands still", &publish_.turns(), 600ms});
     supervisor_.watch(
         {"droverd's parser thread stands still", &parser_.turns(), ParserLoop::kLongestTurn});
+    if (stop_listener_)
+      supervisor_.watch(
+          {"droverd's thread for stops stands still", &stop_listener_->turns(), 600ms});
     supervisor_.watch({"droverd's link thread stands still", &keeper_.turns(), 5s});
     if (battery_)
       supervisor_.watch(
@@ -225,6 +237,7 @@ class Daemon final {
   const Remembered on_disk_;
   ControlLoop control_;
   ParserLoop parser_;
+  std::unique_ptr<StopListener> stop_listener_;  ///< nullptr: without a broker
   PublishLoop publish_;
   Supervisor supervisor_;
   SystemdNotify systemd_;

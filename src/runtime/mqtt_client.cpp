@@ -50,11 +50,12 @@ MqttClient& self(void* object) {
 
 MqttClient::MqttClient(const config::MqttConfig& config,
                        std::vector<MqttSubscription> subscriptions, OnMessage on_message,
-                       OnState on_state)
+                       OnState on_state, Presence presence)
     : config_(config),
       subscriptions_(std::move(subscriptions)),
       on_message_(std::move(on_message)),
-      on_state_(std::move(on_state)) {
+      on_state_(std::move(on_state)),
+      tells_presence_(presence == Presence::told) {
   ::mosquitto_lib_init();
   const auto id = config_.client_id.empty() ? random_client_id() : config_.client_id;
   // Clean session: a start that was queued while we were away must never be replayed.
@@ -62,7 +63,7 @@ MqttClient::MqttClient(const config::MqttConfig& config,
   if (client_ == nullptr) throw std::runtime_error("mqtt.client_id: not accepted: " + id);
   ::mosquitto_int_option(client_, MOSQ_OPT_TCP_NODELAY, 1);
   speak(MQTT_PROTOCOL_V5);
-  ::mosquitto_will_set(client_, kOnlineTopic, 1, "0", kQosAnswers, true);
+  if (tells_presence_) ::mosquitto_will_set(client_, kOnlineTopic, 1, "0", kQosAnswers, true);
   set_callbacks();
 }
 
@@ -92,7 +93,7 @@ void MqttClient::set_callbacks() {
 }
 
 MqttClient::~MqttClient() {
-  if (connected_) {
+  if (connected_ && tells_presence_) {
     ::mosquitto_publish(client_, nullptr, kOnlineTopic, 1, "0", kQosAnswers, true);
     for (int i = 0; i < 10 && ::mosquitto_want_write(client_); ++i)
       ::mosquitto_loop_write(client_, 1);
@@ -131,7 +132,8 @@ void MqttClient::on_connected() {
     const int options = MQTT_SUB_OPT_RETAIN_AS_PUBLISHED | MQTT_SUB_OPT_SEND_RETAIN_NEVER;
     ::mosquitto_subscribe_v5(client_, nullptr, topic.c_str(), qos, newest ? options : 0, nullptr);
   }
-  ::mosquitto_publish(client_, nullptr, kOnlineTopic, 1, "1", kQosAnswers, true);
+  if (tells_presence_)
+    ::mosquitto_publish(client_, nullptr, kOnlineTopic, 1, "1", kQosAnswers, true);
   on_state_(true, newest ? "connected to the broker"
                          : "connected to the broker, which speaks MQTT 3.1.1 only: a start that is "
                            "published with retain cannot be told from others");
@@ -212,7 +214,7 @@ void MqttClient::tick(Time now) {
     if (const int code = ::mosquitto_loop_misc(client_); code != MOSQ_ERR_SUCCESS)
       return failed(code);
     int message = 0;
-    if (connected_ && delay_.due(now) &&
+    if (connected_ && tells_presence_ && delay_.due(now) &&
         ::mosquitto_publish(client_, &message, kOnlineTopic, 1, "1", kQosAnswers, false) ==
             MOSQ_ERR_SUCCESS)
       delay_.on_sent(message, now);

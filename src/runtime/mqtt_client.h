@@ -41,10 +41,12 @@ class MqttClient final {
  public:
   using OnMessage = std::function<void(const MqttMessage&)>;
   using OnState = std::function<void(bool connected, const std::string& text)>;
+  /// Whether it tells that droverd is there, and measures the broker by that.
+  enum class Presence { told, silent };
 
   /// Throws std::runtime_error when the client id is not accepted.
   MqttClient(const config::MqttConfig& config, std::vector<MqttSubscription> subscriptions,
-             OnMessage on_message, OnState on_state);
+             OnMessage on_message, OnState on_state, Presence presence = Presence::told);
   ~MqttClient();
   MqttClient(const MqttClient&) = delete;
   MqttClient& operator=(const MqttClient&) = delete;
@@ -88,6 +90,7 @@ class MqttClient final {
   std::vector<MqttSubscription> subscriptions_;
   OnMessage on_message_;
   OnState on_state_;
+  bool tells_presence_;
   mosquitto* client_ = nullptr;
   int version_ = 0;
   bool connected_ = false;

@@ -19,7 +19,7 @@ namespace {
 constexpr Duration kStatusPeriod =
     std::chrono::milliseconds(100);  // base_status: 10 Hz, RTK navigation protocol
 
-enum Tag : std::uint64_t { kTimer = 1, kBroker, kCli, kEvents, kReplies, kAimrt, kParsed };
+enum Tag : std::uint64_t { kTimer = 1, kBroker, kCli, kEvents, kReplies, kAimrt, kParsed, kStops };
 
 HeadingConvention heading_convention(const config::ProtocolConfig& protocol) {
   if (protocol.heading == "counterclockwise_from_north")
@@ -99,11 +99,13 @@ LogLevel log_level(Notice::Level level) {
 }  // namespace
 
 PublishLoop::PublishLoop(const config::DroverConfig& config, ControlExchange& control,
-                         StorageExchange& storage, ParserLoop& parser, store::StoredState stored)
+                         StorageExchange& storage, ParserLoop& parser, StopListener* stops,
+                         store::StoredState stored)
     : config_(config),
       control_(control),
       storage_(storage),
       parser_(parser),
+      stops_(stops),
       service_(service_config(config), std::move(stored)),
       base_status_(rtk_config(config.protocol)),
       started_(monotonic_now()),
@@ -119,6 +121,7 @@ PublishLoop::PublishLoop(const config::DroverConfig& config, ControlExchange& co
   watch(control_.events_ready.fd(), kEvents);
   watch(storage_.replies_ready.fd(), kReplies);
   watch(parser_.replies_ready().fd(), kParsed);
+  if (stops_ != nullptr) watch(stops_->heard_ready().fd(), kStops);
   if (config.mqtt.enabled) connect_broker();
 }
 
@@ -179,6 +182,7 @@ void PublishLoop::run(const std::atomic<bool>& stop) {
           clear_timer(timer_);
           wall_minus_monotonic_ = wall_minus_monotonic();
           if (broker_) broker_->tick(now);
+          tell_whether_stops_are_heard(now);
           answer_stops(now);  // also when the ring of events was full
           publish_status(now);
           break;
@@ -202,6 +206,10 @@ void PublishLoop::run(const std::atomic<bool>& stop) {
         case kParsed:
           parser_.replies_ready().clear();
           take_parsed(now);
+          break;
+        case kStops:
+          stops_->heard_ready().clear();
+          take_heard_stops(now);
           break;
         default: break;
       }
@@ -254,6 +262,7 @@ void PublishLoop::take_replies(Time now) {
 
 void PublishLoop::send(const publish::PublishText& message, publish::Actions& actions) {
   if (!broker_) return;
+  if (message.topic == publish::kTopicFeedback && stops_->answer(message.text)) return;
   const auto problem = broker_->publish(std::string(message.topic).c_str(), message.text);
   if (!problem.empty()) service_.on_unsent(message, problem, actions);
   service_.set_under_way(broker_->bytes_under_way());

@@ -16,17 +16,20 @@
 #include "publish/status/status.h"
 #include "runtime/cli_server.h"
 #include "runtime/control_exchange.h"
+#include "runtime/heard_twice.h"
 #include "runtime/mqtt_client.h"
 #include "runtime/parser_loop.h"
+#include "runtime/stop_listener.h"
 #include "runtime/storage_loop.h"
 
 namespace drover::runtime {
 
 class PublishLoop final {
  public:
-  /// Throws std::runtime_error when its socket cannot be opened.
+  /// `stops`: nullptr without a broker. Throws std::runtime_error when its socket cannot be opened.
   PublishLoop(const config::DroverConfig& config, ControlExchange& control,
-              StorageExchange& storage, ParserLoop& parser, store::StoredState stored);
+              StorageExchange& storage, ParserLoop& parser, StopListener* stops,
+              store::StoredState stored);
   void run(const std::atomic<bool>& stop);
   /// Wakes the loop so that it sees `stop`.
   void wake() const { control_.events_ready.notify(); }
@@ -48,6 +51,9 @@ class PublishLoop final {
   void on_message(const MqttMessage& message);
   void on_control(std::string_view payload, const publish::Arrival& arrival, Time now);
   void take_parsed(Time now);
+  void ask_again(const publish::ControlCommand& request);
+  void take_heard_stops(Time now);
+  void tell_whether_stops_are_heard(Time now);
   void publish_status(Time now);
   void publish_aimrt(Time now);
   Snapshot seen(Time now);
@@ -64,6 +70,10 @@ class PublishLoop final {
   ControlExchange& control_;
   StorageExchange& storage_;
   ParserLoop& parser_;
+  StopListener* stops_;
+  HeardTwice heard_twice_;
+  Time stops_heard_ = kNever;  ///< the last time at which they were, or the broker was away
+  bool deaf_told_ = false;
   publish::CommandService service_;
   publish::BaseStatus base_status_;
   std::optional<publish::aimrt::Channel> aimrt_;  ///< nothing when it is switched off

@@ -1,16 +1,22 @@
 // What comes from the broker, and what goes to the control thread because of it.
 #include "runtime/clock.h"
+#include "runtime/log.h"
 #include "runtime/publish_loop.h"
 
 namespace drover::runtime {
 
 namespace {
 constexpr std::size_t kMostAskedStops = 256;
+constexpr std::string_view kOvertaken =
+    "a stop came just now, and may be younger than this; try again";
+constexpr Duration kDeafFor = std::chrono::seconds(5);
 }  // namespace
 
 void PublishLoop::on_message(const MqttMessage& message) {
   const Time now = monotonic_now();
-  const publish::Arrival arrival{message.retain, broker_->late(now),
+  auto late = broker_->late(now);
+  if (late.empty() && heard_twice_.overtook(now)) late = kOvertaken;
+  const publish::Arrival arrival{message.retain, late,
                                  now.time_since_epoch() + wall_minus_monotonic()};
   if (message.topic == publish::kTopicControl) {
     on_control(message.payload, arrival, now);
@@ -34,10 +40,43 @@ void PublishLoop::on_control(std::string_view payload, const publish::Arrival& a
   const bool is_short = payload.size() <= publish::kShortMessageBytes;
   if (is_short && (!parser_.busy() || publish::may_stop(payload))) {
     auto request = publish::parse_control(payload, arrival.retain, limits);
+    if (publish::is_stop(request) && heard_twice_.again(Way::with_others, payload, now))
+      return ask_again(*request);
     if (!parser_.busy() || publish::is_stop(request))
       return service_.on_parsed(payload, std::move(request), arrival, now, actions_);
   }
   if (!parser_.give({std::string(payload), arrival})) service_.on_unparsed(payload, now, actions_);
+}
+
+/// It was answered; that it was carried out then is the more likely, twice is on the safe side.
+void PublishLoop::ask_again(const publish::ControlCommand& request) {
+  if (std::holds_alternative<publish::TerminateRequest>(request)) {
+    (void)control_.stops.ask_stop();
+  } else {
+    (void)control_.stops.ask_cancel();
+  }
+}
+
+void PublishLoop::take_heard_stops(Time now) {
+  HeardStop heard;
+  while (stops_->take(heard)) {
+    if (heard_twice_.again(Way::alone, heard.payload, now)) continue;
+    service_.on_parsed(heard.payload,
+                       publish::parse_control(heard.payload, heard.retain, service_.limits()),
+                       {heard.retain}, now, actions_);
+    carry_out(actions_);
+  }
+}
+
+/// A broker may refuse the second connection and nobody would miss it.
+void PublishLoop::tell_whether_stops_are_heard(Time now) {
+  if (stops_ == nullptr) return;
+  if (stops_->connected() || !broker_->connected() || stops_heard_ == kNever) stops_heard_ = now;
+  const bool deaf = now - stops_heard_ > kDeafFor;
+  if (deaf && !deaf_told_)
+    log(LogLevel::warning,
+        "the broker takes no second connection: beside a flood a stop may come late or not at all");
+  deaf_told_ = deaf;
 }
 
 void PublishLoop::take_parsed(Time now) {

@@ -9,9 +9,12 @@
 
 #include "integration/robot_rig.h"
 #include "publish/rtk_navigation/control.h"
+#include "sim/scenario/held_thread.h"
 
 namespace drover::test {
 namespace {
+
+using namespace std::chrono_literals;
 
 /// A client of its own, in a thread of its own, that publishes `text` so many times a second.
 class Publisher final {
@@ -46,6 +49,36 @@ class Publisher final {
   std::string text_;
   std::atomic<bool> stop_{false};
   std::atomic<int> sent_{0};
+  std::thread thread_;
+};
+
+/// One thread of a child that has a small share of its time only, as on a slow machine.
+class SlowThread final {
+ public:
+  SlowThread(pid_t process, const char* name, std::chrono::milliseconds held,
+             std::chrono::milliseconds runs)
+      : thread_([this, process, name, held, runs] {
+          while (!stop_) {
+            {
+              const sim::HeldThread still(process, name);
+              if (still.held()) ++holds_;
+              std::this_thread::sleep_for(held);
+            }
+            std::this_thread::sleep_for(runs);
+          }
+        }) {}
+  ~SlowThread() {
+    stop_ = true;
+    thread_.join();
+  }
+  SlowThread(const SlowThread&) = delete;
+  SlowThread& operator=(const SlowThread&) = delete;
+  /// How often it was held.
+  int holds() const { return holds_; }
+
+ private:
+  std::atomic<bool> stop_{false};
+  std::atomic<int> holds_{0};
   std::thread thread_;
 };
 
@@ -135,6 +168,43 @@ void Flood::hear_stops(int flood_each_second) {
 
 TEST_F(Flood, StopsAreHeardWhileOthersFloodTheBrokerAndSaveLargeTracks) {
   hear_stops(10'000);
+}
+
+/// Then the broker has more for it than it takes, and drops some of that: a stop among it, were
+/// there no second connection.
+TEST_F(Flood, StopsAreHeardByAGatewayThatCannotKeepUpWithIt) {
+  constexpr int kRounds = 20;
+  ASSERT_NO_FATAL_FAILURE(start_all());
+  client().disconnect();
+  ASSERT_TRUE(operator_.connect(port(), "feedback"));
+  std::vector<double> all_s;
+  {
+    const Publisher flood(port(), R"({"cmd_type":"trajectory_control","cmd":"get_all_trajectory"})",
+                          10'000, 100);
+    const Publisher saves(port(), largest_save(), 10, 1);
+    const SlowThread slow(daemon().pid(), "publish", 19ms, 1ms);
+    const auto drops = [this] {
+      return broker().output().find("being dropped for client droverd.") != std::string::npos;
+    };
+    if (!wait_until([&] { return slow.holds() > 10; }))
+      GTEST_SKIP() << "no thread of another process can be held here";
+    ASSERT_TRUE(wait_until(drops)) << "it does keep up";
+    for (int i = 0; i < kRounds && !HasFailure(); ++i) {
+      all_s.push_back(ask("task_control", "cancel_task"));
+      all_s.push_back(ask("manual_control", "terminate"));
+    }
+  }
+  // They are obeyed by another thread; it is the slow one that answers.
+  EXPECT_LT(*std::max_element(all_s.begin(), all_s.end()), 3.0 * deadline_factor());
+  std::sort(all_s.begin(), all_s.end());
+  std::printf("stops: median %.0f ms, longest %.0f ms\n", 1e3 * all_s.at(all_s.size() / 2),
+              1e3 * all_s.back());
+  // The first connection brings some of them, too, and late: each is answered once.
+  const double end_s = now_s() + 3;
+  while (now_s() < end_s) operator_.turn(5ms);
+  const auto told = operator_.feedback();
+  EXPECT_EQ(std::count(told.begin(), told.end(), "cancel_task_success"), kRounds);
+  EXPECT_EQ(std::count(told.begin(), told.end(), "terminate_success"), kRounds);
 }
 
 /// None of them is refused for the flood's sake: they are read.

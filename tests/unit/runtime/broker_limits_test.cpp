@@ -52,8 +52,9 @@ TEST(BrokerLimits, TheDaemonsMemoryHoldsTheWorstOfEverythingAtOnce) {
   const publish::CommandServiceConfig service;
   const std::size_t tracks = 2 * store::kMaxListBytes;  // spelled, and as numbers
   const std::size_t worst = kAtRest + tracks + kCopies * store::kMaxListBytes +
-                            kCopies * broker("max_packet_size") + ParserLoop::kMostWaitingBytes +
-                            kTree * service.limits.max_bytes + service.max_pending_bytes;
+                            2 * kCopies * broker("max_packet_size") +  // on each connection
+                            ParserLoop::kMostWaitingBytes + kTree * service.limits.max_bytes +
+                            service.max_pending_bytes;
   EXPECT_GE(number("systemd/droverd.service.in", "MemoryMax=") * kMiB, worst) << worst / kMiB;
 }
 

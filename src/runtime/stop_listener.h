@@ -1,0 +1,59 @@
+// A second connection to the broker, in a thread of its own, that hears nothing but stops. The
+// first one may be far behind: it parses, answers and sends lists, and of what waits too long for
+// it the broker drops some, a stop among it. This one throws everything else away as it comes.
+//
+// Answers leave by it, too: on the first, the broker's acknowledgements wait behind the flood, and
+// without them no more than a few answers may be under way.
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <string>
+
+#include "config/config.h"
+#include "drover/spsc_ring.h"
+#include "publish/arrival.h"
+#include "runtime/mqtt_client.h"
+#include "runtime/stop_requests.h"
+#include "runtime/wake.h"
+
+namespace drover::runtime {
+
+/// A stop that was asked for already; its answer is the publish thread's.
+struct HeardStop {
+  std::string payload;
+  publish::Retain retain = publish::Retain::no;
+};
+
+class StopListener final {
+ public:
+  StopListener(const config::MqttConfig& config, StopRequests& stops);
+
+  void run(const std::atomic<bool>& stop);
+  void wake() const { wake_.notify(); }
+  /// Counts several times a second while the thread lives.
+  const std::atomic<std::uint64_t>& turns() const { return turns_; }
+
+  // Publish thread:
+  bool connected() const { return connected_.load(std::memory_order_relaxed); }
+  /// A message for `feedback`. False: not taken, say because the broker is gone.
+  bool answer(const std::string& text);
+  /// Of a flood of stops some are not told here: they were asked for all the same.
+  bool take(HeardStop& heard) { return heard_.pop(heard); }
+  /// Readable when there is one.
+  const Wake& heard_ready() const { return heard_ready_; }
+
+ private:
+  void on_message(const MqttMessage& message);
+
+  StopRequests& stops_;
+  MqttClient broker_;
+  SpscRing<HeardStop, 64> heard_;
+  Wake heard_ready_;
+  SpscRing<std::string, 64> answers_;
+  Wake wake_;
+  std::atomic<bool> connected_{false};
+  std::atomic<std::uint64_t> turns_{0};
+};
+
+}  // namespace drover::runtime
