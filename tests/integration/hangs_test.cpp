@@ -75,6 +75,25 @@ TEST_F(Hang, APublishThreadThatStandsStillStopsTheRobotWithinASecondAndLeavesItT
   EXPECT_LT(slowed_s, 1.0);
 }
 
+TEST_F(Hang, AStopOverMqttIsObeyedThoughThePublishThreadStandsStillAndAnsweredWhenItGoesOn) {
+  ASSERT_NO_FATAL_FAILURE(start_all());
+  ASSERT_NO_FATAL_FAILURE(drive(16));
+  ASSERT_TRUE(wait_until([this] { return true_speed_mps() > 0.4; }));
+  const auto before = client().heard().size();
+  sim::HeldThread publish(daemon().pid(), "publish");
+  if (!publish.held()) GTEST_SKIP() << "no thread of another process can be held here";
+  const double asked_s = now_s();
+  control(R"({"cmd_type": "manual_control", "cmd": "terminate"})");
+  EXPECT_TRUE(wait_until([this] { return at_rest(); }));
+  EXPECT_THAT(client().feedback(before), Not(Contains("terminate_success")));
+  publish.let_go();
+  EXPECT_TRUE(wait_for_feedback("terminate_success", before));
+  const double slowed_s = slowed_after_s(asked_s);
+  std::printf("terminate slowed the robot after %.0f ms\n", 1e3 * slowed_s);
+  EXPECT_GT(slowed_s, 0);
+  EXPECT_LT(slowed_s, 0.4) << "before anybody notices the thread";
+}
+
 TEST_F(Hang, TheEndIsHeardThoughThePublishThreadStandsStill) {
   ASSERT_NO_FATAL_FAILURE(start_all());
   ASSERT_NO_FATAL_FAILURE(drive(16));
