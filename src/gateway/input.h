@@ -20,58 +20,57 @@
 
 namespace drover::gateway {
 
+/// Links and slots are named by their numbers in the gateway's Wiring.
+using LinkId = std::uint8_t;
+using SlotId = std::uint8_t;
+inline constexpr std::uint8_t kNowhere = 0xFF;  ///< no such link or slot
+inline constexpr std::size_t kMaxLinks = 32;
+inline constexpr std::size_t kMaxSlots = 64;
 inline constexpr std::size_t kMaxBuses = 4;
-
-/// Devices on byte streams.
-enum class Stream : std::uint8_t { gnss, imu };
-inline constexpr std::size_t kStreamCount = 2;
+inline constexpr std::size_t kMaxLevels = 16;  ///< of one chip
 
 /// A frame of a bus; the input's time is when it was received.
 struct FrameHeard {
-  std::uint8_t bus = 0;
+  LinkId bus = 0;
   CanFrame frame;
 };
 /// The input's time is when the first byte came in. The bytes are the caller's, for the call only.
 struct BytesHeard {
-  Stream stream = Stream::gnss;
+  LinkId link = 0;
   std::span<const std::uint8_t> bytes;
 };
-/// `levels[i]` belongs to the i-th configured line, in the order of Line; true: electrically high.
+/// `levels[i]` belongs to the i-th slot on the link; true: electrically high.
 struct LevelsRead {
-  FixedVector<bool, kLineCount> levels;
+  LinkId link = 0;
+  FixedVector<bool, kMaxLevels> levels;
 };
-/// The lines cannot be read.
-struct LinesLost {};
-/// The battery's answer to the request `block` of its driver, asked in a thread of its own.
+/// The device's answer to the request `block` of its driver, asked in a thread of its own.
 struct RegistersRead {
+  SlotId slot = 0;
   std::uint8_t block = 0;
   FixedVector<std::uint16_t, 125> words;
 };
 /// The request brought nothing; `exception` is Modbus's of a refusal, else 0.
 struct RegistersFailed {
+  SlotId slot = 0;
   std::uint8_t block = 0;
   RegisterFailure failure = RegisterFailure::silent;
   int exception = 0;
 };
-/// The way to the battery was opened.
-struct BatteryUp {};
-struct BusUp {
-  std::uint8_t bus = 0;
+struct LinkUp {
+  LinkId link = 0;
 };
-/// It is gone, or cannot be opened: why. Until BusUp.
-struct BusLost {
-  std::uint8_t bus = 0;
+/// It is gone, or cannot be opened: why. Until LinkUp, or until levels are read from it.
+struct LinkLost {
+  LinkId link = 0;
   Reason why;
 };
 /// After each cycle's frames: how many the link took and refused so far. One that takes none for
 /// as long as a drive may be silent is as good as gone, though it still hears.
 struct FramesSent {
-  std::uint8_t bus = 0;
+  LinkId bus = 0;
   std::uint64_t sent = 0;
   std::uint64_t refused = 0;
-};
-struct StreamUp {
-  Stream stream = Stream::gnss;
 };
 struct CommandGiven {
   Command command;
@@ -102,9 +101,9 @@ struct Tick {
 };
 
 /// The order is the recording's: a new one goes to the end.
-using InputBody = std::variant<FrameHeard, BytesHeard, LevelsRead, LinesLost, RegistersRead,
-                               RegistersFailed, BatteryUp, BusUp, BusLost, FramesSent, StreamUp,
-                               CommandGiven, Tick, ProgramTrouble, Suspended, Recalled, OutputsUp>;
+using InputBody = std::variant<FrameHeard, BytesHeard, LevelsRead, RegistersRead, RegistersFailed,
+                               LinkUp, LinkLost, FramesSent, CommandGiven, Tick, ProgramTrouble,
+                               Suspended, Recalled, OutputsUp>;
 
 struct Input {
   Time time = kNever;

@@ -5,10 +5,8 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <stdexcept>
 #include <utility>
 
-#include "drover/registry.h"
 #include "runtime/clock.h"
 #include "runtime/log.h"
 
@@ -32,22 +30,17 @@ link::ModbusSettings link_settings(const config::BatteryConfig& config) {
   return settings;
 }
 
-std::vector<RegisterBlock> blocks_of(const config::BatteryConfig& config) {
-  const auto* entry = find_driver(config.driver, SlotKind::battery);
-  if (entry == nullptr)
-    throw std::runtime_error("battery: no driver \"" + config.driver + "\" of this kind");
-  const auto made =
-      entry->make(config.options, {.kind = SlotKind::battery, .registers = &config.registers});
-  if (made.registers == nullptr)
-    throw std::runtime_error("battery: \"" + config.driver + "\" is not asked for registers");
-  const auto blocks = made.registers->blocks();
-  return {blocks.begin(), blocks.end()};
-}
-
 }  // namespace
 
-BatteryLoop::BatteryLoop(const config::BatteryConfig& config, BatteryExchange& exchange)
-    : config_(config), exchange_(exchange), blocks_(blocks_of(config)) {}
+BatteryLoop::BatteryLoop(const config::BatteryConfig& config, const gateway::Wiring& wiring,
+                         BatteryExchange& exchange)
+    : config_(config),
+      exchange_(exchange),
+      slot_(wiring.first(SlotKind::battery)),
+      link_id_(wiring.link_of(SlotKind::battery)) {
+  const auto blocks = wiring.slots[slot_].made.registers->blocks();
+  blocks_.assign(blocks.begin(), blocks.end());
+}
 
 void BatteryLoop::run(const std::atomic<bool>& stop) {
   publish();
@@ -67,7 +60,7 @@ void BatteryLoop::open(Time now) {
   auto opened = link::open_modbus(link_settings(config_), &monotonic_now);
   now = monotonic_now();
   if (!opened.link) {
-    tell(gateway::RegistersFailed{0, RegisterFailure::link, 0}, now);
+    tell(gateway::RegistersFailed{slot_, 0, RegisterFailure::link, 0}, now);
     return lose(opened.problem, now);
   }
   link_ = std::move(opened.link);
@@ -76,7 +69,7 @@ void BatteryLoop::open(Time now) {
   problem_.clear();
   block_ = 0;
   next_round_ = now;
-  tell(gateway::BatteryUp{}, now);
+  tell(gateway::LinkUp{link_id_}, now);
 }
 
 void BatteryLoop::lose(const std::string& why, Time now) {
@@ -98,6 +91,7 @@ void BatteryLoop::ask(Time now) {
   if (block_ == 0) next_round_ = now;
   const RegisterBlock& block = blocks_[block_];
   gateway::RegistersRead read;
+  read.slot = slot_;
   read.block = static_cast<std::uint8_t>(block_);
   read.words.resize(block.count);
   const auto result = link_->read(block, read.words);
@@ -111,7 +105,7 @@ void BatteryLoop::ask(Time now) {
     }
     return;
   }
-  tell(gateway::RegistersFailed{read.block, result.failure, result.exception}, now);
+  tell(gateway::RegistersFailed{slot_, read.block, result.failure, result.exception}, now);
   block_ = 0;
   next_round_ = now + period;
   if (result.failure == RegisterFailure::link)
@@ -144,7 +138,7 @@ void BatteryLoop::sleep_until(Time due, Time now) {
   if (link_ && fds[1].revents != 0 && !link_->drain()) {
     // Noticed at once: a device that stays open comes back under another name.
     const Time then = monotonic_now();
-    tell(gateway::RegistersFailed{0, RegisterFailure::link, 0}, then);
+    tell(gateway::RegistersFailed{slot_, 0, RegisterFailure::link, 0}, then);
     lose(config_.port + ": lost (" + std::strerror(link_->error()) + ")", then);
   }
 }

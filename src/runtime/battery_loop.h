@@ -13,7 +13,7 @@
 #include "drover/snapshot.h"
 #include "drover/spsc_ring.h"
 #include "drover/triple_buffer.h"
-#include "gateway/input.h"
+#include "gateway/slots.h"
 #include "link/modbus_link.h"
 #include "runtime/back_off.h"
 #include "runtime/wake.h"
@@ -23,7 +23,7 @@ namespace drover::runtime {
 /// What became of a request, or of the way to the battery.
 struct BatteryTold {
   Time time = kNever;
-  std::variant<gateway::BatteryUp, gateway::RegistersRead, gateway::RegistersFailed> what;
+  std::variant<gateway::LinkUp, gateway::RegistersRead, gateway::RegistersFailed> what;
 };
 
 /// Battery → control.
@@ -34,8 +34,9 @@ struct BatteryExchange {
 
 class BatteryLoop final {
  public:
-  /// Throws std::runtime_error when the driver cannot be made. Only with a battery configured.
-  BatteryLoop(const config::BatteryConfig& config, BatteryExchange& exchange);
+  /// Only with a battery configured: `wiring` has its slot, whose driver says what to ask for.
+  BatteryLoop(const config::BatteryConfig& config, const gateway::Wiring& wiring,
+              BatteryExchange& exchange);
   void run(const std::atomic<bool>& stop);
   void wake() const { wake_.notify(); }
   /// Counts at least once in kLongestTurn while the thread lives.
@@ -55,6 +56,8 @@ class BatteryLoop final {
 
   config::BatteryConfig config_;
   BatteryExchange& exchange_;
+  gateway::SlotId slot_;
+  gateway::LinkId link_id_;
   std::vector<RegisterBlock> blocks_;  ///< what the driver asks for, each round
   std::unique_ptr<link::ModbusLink> link_;
   link::ModbusCounters closed_;  ///< of the links before this one

@@ -34,6 +34,7 @@ ControlLoop::ControlLoop(const config::DroverConfig& config, Gateway& gateway, L
       guard_watch_(std::chrono::milliseconds(config.guard.limit_ms)) {
   for (const auto& line : config.lines.line) line_count_ += line.configured ? 1 : 0;
   for (std::size_t slot = 0; slot < kLinkSlots; ++slot) {
+    link_ids_[slot] = link_of(slot);
     link_state_[slot].name = slot_name(slot);
     link_state_[slot].is_bus = slot < kMaxBuses;
     link_state_[slot].reason = "not opened yet";
@@ -103,7 +104,7 @@ Time ControlLoop::cycle(Time begin, std::uint64_t late) {
     const auto& frames = out.frames[bus];
     if (can_[bus] && !frames.empty()) send(bus, {frames.begin(), frames.size()}, begin);
   }
-  for (std::size_t i = 0; i < kStreamCount; ++i) serve_stream(i, out.streams[i], begin);
+  for (const auto& stream : out.streams) serve_stream(stream, begin);
   write_outputs(out.engine.outputs, begin);
 
   keep(out.engine.remembered);
@@ -192,7 +193,7 @@ Time ControlLoop::publish(Time now) {
     }
     if (is_stream(slot)) {
       const auto stream = slot - kFirstStreamSlot;
-      state.dropped = gateway_.bytes_dropped(static_cast<Stream>(stream)) + bytes_untaken_[stream];
+      state.dropped = gateway_.bytes_dropped(link_ids_[slot]) + bytes_untaken_[stream];
     }
     (void)snapshot.links.push_back(state);
   }

@@ -47,7 +47,7 @@ class ControlLoop final {
   void lose(std::size_t slot, int error, Time now);
   Time wait(Duration longest);
   void read_stream(std::size_t stream, Time now);
-  void serve_stream(std::size_t stream, const StreamOutput& out, Time now);
+  void serve_stream(const StreamOutput& out, Time now);
   void read_lines(Time now, const std::array<bool, link::kMaxLines>& edged = {});
   void apply_levels(const std::array<bool, link::kMaxLines>& levels, Time now);
   void write_outputs(const std::array<bool, kOutputCount>& on, Time now);
@@ -62,6 +62,7 @@ class ControlLoop final {
   void take_battery();
   Time publish(Time now);
   Name slot_name(std::size_t slot) const;
+  LinkId link_of(std::size_t slot) const;
 
   const config::DroverConfig& config_;
   Gateway& gateway_;
@@ -73,6 +74,7 @@ class ControlLoop final {
   const Duration tick_;
   std::array<std::unique_ptr<link::CanLink>, kMaxBuses> can_;
   std::array<std::unique_ptr<link::SerialLink>, kStreamCount> streams_;
+  std::array<LinkId, kLinkSlots> link_ids_{};  ///< the gateway's number of each
   std::array<int, kStreamCount> stream_baud_{};
   std::array<std::uint64_t, kStreamCount> bytes_untaken_{};  ///< the line had no room for them
   std::unique_ptr<link::LineLink> lines_;

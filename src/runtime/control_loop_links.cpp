@@ -23,9 +23,6 @@ constexpr Duration kWriteOutputsEach = 100ms;
 constexpr std::size_t slot_of(Stream stream) {
   return kFirstStreamSlot + static_cast<std::size_t>(stream);
 }
-constexpr std::uint8_t bus_id(std::size_t slot) {
-  return static_cast<std::uint8_t>(slot);
-}
 
 }  // namespace
 
@@ -41,6 +38,14 @@ Name ControlLoop::slot_name(std::size_t slot) const {
   return slot < config_.buses.size() ? Name(config_.buses[slot].name) : Name();
 }
 
+LinkId ControlLoop::link_of(std::size_t slot) const {
+  const auto& wiring = gateway_.wiring();
+  if (slot == slot_of(Stream::gnss)) return wiring.link_of(SlotKind::gnss);
+  if (slot == slot_of(Stream::imu)) return wiring.link_of(SlotKind::imu);
+  if (slot == kLinesSlot) return wiring.link_of(SlotKind::line);
+  return slot < gateway_.bus_count() ? static_cast<LinkId>(slot) : gateway::kNowhere;
+}
+
 void ControlLoop::take_links(Time now) {
   for (auto& dead : going_back_)
     if (dead.opened()) (void)keeper_.give_back(dead);
@@ -50,13 +55,12 @@ void ControlLoop::take_links(Time now) {
     link_state_[slot].up = arrived.opened();
     link_state_[slot].reason = arrived.problem;
     if (!arrived.opened()) {
-      if (slot < kMaxBuses) apply(now, gateway::BusLost{bus_id(slot), arrived.problem});
+      if (slot < kMaxBuses) apply(now, gateway::LinkLost{link_ids_[slot], arrived.problem});
       continue;
     }
     if (is_stream(slot)) {
-      const auto stream = slot - kFirstStreamSlot;
-      streams_[stream] = std::move(arrived.serial);
-      apply(now, gateway::StreamUp{static_cast<Stream>(stream)});
+      streams_[slot - kFirstStreamSlot] = std::move(arrived.serial);
+      apply(now, gateway::LinkUp{link_ids_[slot]});
     } else if (slot == kOutputsSlot) {
       outputs_ = std::move(arrived.outputs);
       outputs_written_ = kNever;
@@ -67,7 +71,7 @@ void ControlLoop::take_links(Time now) {
       lines_ = std::move(arrived.lines);
     } else {
       can_[slot] = std::move(arrived.can);
-      apply(now, gateway::BusUp{bus_id(slot)});
+      apply(now, gateway::LinkUp{link_ids_[slot]});
     }
   }
 }
@@ -91,12 +95,12 @@ void ControlLoop::lose(std::size_t slot, int error, Time now) {
     dead.serial = std::move(streams_[slot - kFirstStreamSlot]);
   } else if (slot == kLinesSlot) {
     dead.lines = std::move(lines_);
-    apply(now, gateway::LinesLost{});
+    apply(now, gateway::LinkLost{link_ids_[slot], {}});
   } else if (slot == kOutputsSlot) {
     dead.outputs = std::move(outputs_);
   } else {
     dead.can = std::move(can_[slot]);
-    apply(now, gateway::BusLost{bus_id(slot), dead.problem});
+    apply(now, gateway::LinkLost{link_ids_[slot], dead.problem});
   }
   (void)keeper_.give_back(dead);
 }
@@ -110,11 +114,13 @@ void ControlLoop::read_stream(std::size_t stream, Time now) {
   link_state_[slot].received += size;
   // The first byte came in before the last one: take the wire's time off.
   const Duration wire = from_s(10.0 * static_cast<double>(size - 1) / stream_baud_[stream]);
-  apply(now - wire, gateway::BytesHeard{static_cast<Stream>(stream), {buffer.data(), size}});
+  apply(now - wire, gateway::BytesHeard{link_ids_[slot], {buffer.data(), size}});
 }
 
-void ControlLoop::serve_stream(std::size_t stream, const StreamOutput& out, Time now) {
-  if (!streams_[stream]) return;
+void ControlLoop::serve_stream(const StreamOutput& out, Time now) {
+  std::size_t stream = 0;
+  while (stream < kStreamCount && link_ids_[kFirstStreamSlot + stream] != out.link) ++stream;
+  if (stream == kStreamCount || !streams_[stream]) return;
   const auto slot = kFirstStreamSlot + stream;
   if (!out.bytes.empty()) {
     std::size_t taken = 0;
@@ -134,7 +140,7 @@ void ControlLoop::serve_stream(std::size_t stream, const StreamOutput& out, Time
 /// A line in `edged` is told at its other level first: a pulse that is over already counts too.
 void ControlLoop::read_lines(Time now, const std::array<bool, link::kMaxLines>& edged) {
   if (line_count_ == 0) return;
-  if (!lines_) return apply(now, gateway::LinesLost{});
+  if (!lines_) return apply(now, gateway::LinkLost{link_ids_[kLinesSlot], {}});
   std::array<bool, link::kMaxLines> levels{};
   if (!lines_->read(levels)) return lose(kLinesSlot, lines_->error(), now);
   const bool pulses = std::find(edged.begin(), edged.end(), true) != edged.end();
@@ -148,6 +154,7 @@ void ControlLoop::read_lines(Time now, const std::array<bool, link::kMaxLines>& 
 
 void ControlLoop::apply_levels(const std::array<bool, link::kMaxLines>& levels, Time now) {
   gateway::LevelsRead read;
+  read.link = link_ids_[kLinesSlot];
   for (std::size_t i = 0; i < line_count_; ++i) (void)read.levels.push_back(levels[i]);
   apply(now, read);
 }
@@ -187,7 +194,7 @@ void ControlLoop::drain_can(Time now) {
       // Somebody has set a clock.
       if (can_[bus]->counters().clamped_stamps != clamped) clocks_measured_ = kNever;
       for (const auto& received : batch_)
-        apply(received.received, gateway::FrameHeard{bus_id(bus), received.frame});
+        apply(received.received, gateway::FrameHeard{link_ids_[bus], received.frame});
       if (batch_.size() < batch_.capacity()) break;
     }
   }
@@ -208,7 +215,7 @@ void ControlLoop::send(std::size_t bus, std::span<const CanFrame> frames, Time d
     frames = frames.subspan(count);
   }
   const auto& counters = can.counters();
-  apply(decided, gateway::FramesSent{bus_id(bus), counters.sent, counters.send_refused});
+  apply(decided, gateway::FramesSent{link_ids_[bus], counters.sent, counters.send_refused});
 }
 
 void ControlLoop::take_battery() {

@@ -77,9 +77,10 @@ class Daemon final {
         files_(),
         storage_(files_, config.paths.state),
         gateway_(config),
-        keeper_(config, guard_, stop_frames()),
+        keeper_(config, guard_, stops()),
         battery_(config.battery.configured
-                     ? std::make_unique<BatteryLoop>(config.battery, battery_exchange_)
+                     ? std::make_unique<BatteryLoop>(config.battery, gateway_.wiring(),
+                                                     battery_exchange_)
                      : nullptr),
         stored_(storage_.load()),
         memory_(config.paths.run, boot_id(), text, stored_.report),
@@ -141,11 +142,11 @@ class Daemon final {
   }
 
  private:
-  std::vector<std::vector<CanFrame>> stop_frames() const {
-    std::vector<std::vector<CanFrame>> frames;
+  std::vector<std::vector<StopRecipe>> stops() const {
+    std::vector<std::vector<StopRecipe>> recipes;
     for (std::size_t bus = 0; bus < gateway_.bus_count(); ++bus)
-      frames.push_back(gateway_.stop_frames(bus));
-    return frames;
+      recipes.push_back(gateway_.stop_recipes(bus));
+    return recipes;
   }
 
   void run_control() {

@@ -30,17 +30,22 @@ bool set_name(GuardMessage& message, const std::string& name) {
 
 }  // namespace
 
-GuardedAxis guarded_axis(const std::string& link, const CanFrame& stop) {
+GuardedAxis guarded_axis(const std::string& link, const StopRecipe& stop) {
   GuardedAxis axis;
-  std::array<char, 16> id{};
-  std::snprintf(id.data(), id.size(), stop.extended ? "%08X" : "%03X",
-                static_cast<unsigned>(stop.id));
-  axis.name = link + " " + id.data();
-  canfd_frame wire{};
-  const auto size = link::to_wire(stop, wire);
-  std::vector<std::uint8_t> bytes(size);
-  std::memcpy(bytes.data(), &wire, size);
-  axis.rounds = {{bytes}};
+  axis.period = std::chrono::ceil<std::chrono::milliseconds>(stop.period);
+  auto& round = axis.rounds.emplace_back();
+  for (const CanFrame& frame : stop.frames) {
+    if (round.empty()) {
+      std::array<char, 16> id{};
+      std::snprintf(id.data(), id.size(), frame.extended ? "%08X" : "%03X",
+                    static_cast<unsigned>(frame.id));
+      axis.name = link + " " + id.data();
+    }
+    canfd_frame wire{};
+    const auto size = link::to_wire(frame, wire);
+    auto& bytes = round.emplace_back(size);
+    std::memcpy(bytes.data(), &wire, size);
+  }
   return axis;
 }
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "drover/can_frame.h"
+#include "drover/actuator.h"
 #include "drover/guard_protocol.h"
 #include "link/unique_fd.h"
 
@@ -28,8 +28,8 @@ struct GuardedLink {
   std::vector<GuardedAxis> axes;
 };
 
-/// One axis on a CAN bus that is stopped by one frame, again and again.
-GuardedAxis guarded_axis(const std::string& link, const CanFrame& stop);
+/// One axis on a CAN bus. It is known by the id of its first frame.
+GuardedAxis guarded_axis(const std::string& link, const StopRecipe& stop);
 
 /// The heartbeats, mapped into both processes. Made once; lives as long as the daemon.
 class GuardMemory final {

@@ -42,9 +42,9 @@ constexpr Duration kWatchdogPause = std::chrono::seconds(1);
 }  // namespace
 
 LinkKeeper::LinkKeeper(const config::DroverConfig& config, const GuardMemory& memory,
-                       std::vector<std::vector<CanFrame>> stop_frames)
+                       std::vector<std::vector<StopRecipe>> stops)
     : config_(config),
-      stop_frames_(std::move(stop_frames)),
+      stops_(std::move(stops)),
       guard_(config.guard.socket, config.guard.limit_ms, memory) {
   for (std::size_t i = 0; i < config.buses.size(); ++i) slots_[i].used = true;
   const auto use_stream = [this](Stream stream, const auto& settings) {
@@ -119,7 +119,9 @@ link::CanSettings LinkKeeper::can_settings(std::size_t bus) const {
   link::CanSettings settings;
   settings.interface = config_.buses[bus].interface;
   // Two frames an axis and cycle: the set point and a poll.
-  settings.frames_per_cycle = std::max<std::size_t>(2 * stop_frames_[bus].size(), 4);
+  std::size_t frames = 0;
+  for (const auto& stop : stops_[bus]) frames += stop.frames.size();
+  settings.frames_per_cycle = std::max<std::size_t>(2 * frames, 4);
   return settings;
 }
 
@@ -208,8 +210,7 @@ void LinkKeeper::supply_guard(Time now) {
     auto settings = can_settings(i);
     settings.hears = false;
     links[i].descriptor = link::open_can_descriptor(settings, why);
-    for (const auto& frame : stop_frames_[i])
-      links[i].axes.push_back(guarded_axis(links[i].name, frame));
+    for (const auto& stop : stops_[i]) links[i].axes.push_back(guarded_axis(links[i].name, stop));
     if (!links[i].descriptor) missing = "drover-guard cannot have its own way to " + why;
   }
   std::string problem;

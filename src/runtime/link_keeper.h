@@ -26,9 +26,12 @@ namespace drover::runtime {
 
 using gateway::Gateway;
 using gateway::kMaxBuses;
-using gateway::kStreamCount;
-using gateway::Stream;
+using gateway::LinkId;
 using gateway::StreamOutput;
+
+/// Devices on byte streams, as the configuration knows them.
+enum class Stream : std::uint8_t { gnss, imu };
+inline constexpr std::size_t kStreamCount = 2;
 
 /// Slots: the buses first, then the byte streams, then the digital inputs and outputs.
 inline constexpr std::size_t kFirstStreamSlot = kMaxBuses;
@@ -56,7 +59,7 @@ struct LinkHandover {
 class LinkKeeper final {
  public:
   LinkKeeper(const config::DroverConfig& config, const GuardMemory& memory,
-             std::vector<std::vector<CanFrame>> stop_frames);
+             std::vector<std::vector<StopRecipe>> stops);
 
   // Control thread:
   bool take(LinkHandover& arrived) { return arrivals_.pop(arrived); }
@@ -97,7 +100,7 @@ class LinkKeeper final {
   Duration until_next_try(Time now) const;
 
   const config::DroverConfig& config_;
-  std::vector<std::vector<CanFrame>> stop_frames_;  ///< by bus
+  std::vector<std::vector<StopRecipe>> stops_;  ///< by bus
   std::array<Slot, kLinkSlots> slots_{};
   SpscRing<LinkHandover, 16> arrivals_;
   SpscRing<LinkHandover, 16> losses_;

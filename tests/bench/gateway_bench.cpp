@@ -51,7 +51,7 @@ class Robot {
  public:
   explicit Robot(std::size_t drives) : gateway_(robot(drives)), drives_(drives) {
     for (std::size_t bus = 0; bus < gateway_.bus_count(); ++bus)
-      gateway_.apply({now_, BusUp{static_cast<std::uint8_t>(bus)}});
+      gateway_.apply({now_, LinkUp{static_cast<LinkId>(bus)}});
     for (int i = 0; i < 400; ++i) cycle();
   }
   void hear_heartbeat(std::size_t drive) {

@@ -8,6 +8,8 @@ std::vector<std::uint8_t> written(const RecordingHeader& header) {
   std::vector<std::uint8_t> bytes(room);
   ByteWriter out(bytes);
   for (const char c : kRecordingBegins) out.byte(static_cast<std::uint8_t>(c));
+  out.byte(static_cast<std::uint8_t>('0' + header.edition));
+  out.byte('\n');
   out.text(header.version);
   out.text(header.configuration);
   out.text(header.register_map);
@@ -25,6 +27,8 @@ RecordingHeader read_header(ByteReader& in) {
   RecordingHeader header;
   for (const char c : kRecordingBegins)
     if (in.byte() != static_cast<std::uint8_t>(c)) in.fail();
+  header.edition = static_cast<std::uint8_t>(in.byte() - '0');
+  if (header.edition < 1 || header.edition > kEdition || in.byte() != '\n') in.fail();
   header.version = in.text();
   header.configuration = in.text();
   header.register_map = in.text();

@@ -12,12 +12,13 @@
 
 namespace drover::gateway {
 
-inline constexpr std::string_view kRecordingBegins = "drover recording 1\n";
+inline constexpr std::string_view kRecordingBegins = "drover recording ";  ///< "2\n"
+inline constexpr std::uint8_t kEdition = 2;
 inline constexpr std::size_t kMaxFields = 1024;
 /// The longest record: a cycle in which everything is as large as it can be.
 inline constexpr std::size_t kMaxRecord = 128 * 1024;
 
-/// Kinds of records that are no inputs; those count from 0.
+/// Kinds of records that are no inputs; those count from 0. Alike in both editions.
 enum class RecordKind : std::uint8_t {
   output = 200,  ///< of the last Tick
   path = 201,    ///< before the command that names it
@@ -41,6 +42,7 @@ struct RecordingHeader {
   std::string register_map;       ///< of the battery; empty: none
   std::uint64_t mathematics = 0;  ///< mathematics_fingerprint() where it was recorded
   std::vector<FieldName> fields;
+  std::uint8_t edition = kEdition;  ///< 1 is read, too: see first_edition.h
 };
 
 std::vector<std::uint8_t> written(const RecordingHeader& header);

@@ -37,9 +37,6 @@ CanFrame get_frame(ByteReader& in) {
   return frame;
 }
 
-std::uint8_t get_bus(ByteReader& in) {
-  return static_cast<std::uint8_t>(in.below(kMaxBuses));
-}
 bool get_flag(ByteReader& in) {
   return in.below(2) != 0;
 }
@@ -61,37 +58,38 @@ void put(const FrameHeard& heard, ByteWriter& out) {
   put_frame(heard.frame, out);
 }
 void get(FrameHeard& heard, ByteReader& in) {
-  heard.bus = get_bus(in);
+  heard.bus = in.byte();
   heard.frame = get_frame(in);
 }
 
 void put(const BytesHeard& heard, ByteWriter& out) {
-  out.byte(static_cast<std::uint8_t>(heard.stream));
+  out.byte(heard.link);
   out.blob(heard.bytes);
 }
 void get(BytesHeard& heard, ByteReader& in) {
-  heard.stream = static_cast<Stream>(in.below(kStreamCount));
+  heard.link = in.byte();
   heard.bytes = in.blob();
 }
 
 void put(const LevelsRead& read, ByteWriter& out) {
+  out.byte(read.link);
   out.number(read.levels.size());
   for (const bool level : read.levels) out.byte(level ? 1 : 0);
 }
 void get(LevelsRead& read, ByteReader& in) {
+  read.link = in.byte();
   const auto count = in.below(read.levels.capacity() + 1);
   for (std::uint64_t i = 0; i < count; ++i) (void)read.levels.push_back(get_flag(in));
 }
 
-void put(const LinesLost&, ByteWriter&) {}
-void get(LinesLost&, ByteReader&) {}
-
 void put(const RegistersRead& read, ByteWriter& out) {
+  out.byte(read.slot);
   out.byte(read.block);
   out.number(read.words.size());
   for (const auto word : read.words) out.number(word);
 }
 void get(RegistersRead& read, ByteReader& in) {
+  read.slot = in.byte();
   read.block = in.byte();
   const auto count = in.below(read.words.capacity() + 1);
   for (std::uint64_t i = 0; i < count && in.good(); ++i)
@@ -99,33 +97,32 @@ void get(RegistersRead& read, ByteReader& in) {
 }
 
 void put(const RegistersFailed& failed, ByteWriter& out) {
+  out.byte(failed.slot);
   out.byte(failed.block);
   out.byte(static_cast<std::uint8_t>(failed.failure));
   out.signed_number(failed.exception);
 }
 void get(RegistersFailed& failed, ByteReader& in) {
+  failed.slot = in.byte();
   failed.block = in.byte();
   failed.failure =
       static_cast<RegisterFailure>(in.below(static_cast<unsigned>(RegisterFailure::link) + 1));
   failed.exception = static_cast<std::uint8_t>(in.signed_number());
 }
 
-void put(const BatteryUp&, ByteWriter&) {}
-void get(BatteryUp&, ByteReader&) {}
-
-void put(const BusUp& up, ByteWriter& out) {
-  out.byte(up.bus);
+void put(const LinkUp& up, ByteWriter& out) {
+  out.byte(up.link);
 }
-void get(BusUp& up, ByteReader& in) {
-  up.bus = get_bus(in);
+void get(LinkUp& up, ByteReader& in) {
+  up.link = in.byte();
 }
 
-void put(const BusLost& lost, ByteWriter& out) {
-  out.byte(lost.bus);
+void put(const LinkLost& lost, ByteWriter& out) {
+  out.byte(lost.link);
   out.text(lost.why);
 }
-void get(BusLost& lost, ByteReader& in) {
-  lost.bus = get_bus(in);
+void get(LinkLost& lost, ByteReader& in) {
+  lost.link = in.byte();
   lost.why.assign(in.text());
 }
 
@@ -135,16 +132,9 @@ void put(const FramesSent& counts, ByteWriter& out) {
   out.number(counts.refused);
 }
 void get(FramesSent& counts, ByteReader& in) {
-  counts.bus = get_bus(in);
+  counts.bus = in.byte();
   counts.sent = in.number();
   counts.refused = in.number();
-}
-
-void put(const StreamUp& up, ByteWriter& out) {
-  out.byte(static_cast<std::uint8_t>(up.stream));
-}
-void get(StreamUp& up, ByteReader& in) {
-  up.stream = static_cast<Stream>(in.below(kStreamCount));
 }
 
 void put(const Tick& tick, ByteWriter& out) {

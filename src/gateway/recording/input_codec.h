@@ -5,6 +5,7 @@
 
 #include "gateway/input.h"
 #include "gateway/recording/bytes.h"
+#include "gateway/slots.h"
 
 namespace drover::gateway {
 
@@ -23,7 +24,7 @@ using FindPath = std::function<const Path*(std::uint64_t)>;
 /// The reader is bad when it is no such input; bytes of BytesHeard are the reader's own.
 Input read_input(std::uint8_t kind, Time before, const FindPath& find_path, ByteReader& in);
 
-/// For people: `frame can bus 0 021#0000000008000000`.
-std::string text_of(const Input& input);
+/// For people: `at 1.690000128 s: frame on can0: 021#0000000008000000`.
+std::string text_of(const Input& input, const Wiring& wiring);
 
 }  // namespace drover::gateway

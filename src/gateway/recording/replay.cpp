@@ -1,5 +1,6 @@
 #include "gateway/recording/replay.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <deque>
 #include <map>
@@ -9,6 +10,7 @@
 #include "config/load.h"
 #include "gateway/recording/encoder.h"
 #include "gateway/recording/field_values.h"
+#include "gateway/recording/first_edition.h"
 #include "gateway/recording/mathematics.h"
 #include "gateway/recording/text.h"
 
@@ -52,7 +54,7 @@ class Replay final {
   struct Latest {
     std::uint8_t kind = 0;
     Time before;
-    std::span<const std::uint8_t> record;
+    std::vector<std::uint8_t> record;
   };
 
   void finish(Replayed::Verdict verdict, std::string note) {
@@ -88,6 +90,12 @@ class Replay final {
       return false;
     }
     result_.other_mathematics = header.mathematics != mathematics_fingerprint();
+    edition_ = header.edition;
+    if (edition_ == 1) {
+      streams_ = streams_of_first_edition(gateway_->wiring());
+    } else {
+      for (const auto& stream : gateway_->output().streams) streams_.push_back(stream.link);
+    }
     fields_ = std::move(header.fields);
     recorded_.resize(fields_.size());
     match_fields();
@@ -109,10 +117,9 @@ class Replay final {
   }
 
   void take(std::span<const std::uint8_t> record) {
-    record_ = record;
     ByteReader in(record);
     const auto kind = in.byte();
-    if (kind < kInputKinds) return apply(kind, in);
+    if (kind < static_cast<std::uint8_t>(RecordKind::output)) return apply(record);
     switch (static_cast<RecordKind>(kind)) {
       case RecordKind::output: return compare(in);
       case RecordKind::path: return keep_path(in);
@@ -130,17 +137,21 @@ class Replay final {
     paths_[number] = std::move(path);
   }
 
-  void apply(std::uint8_t kind, ByteReader& in) {
+  void apply(std::span<const std::uint8_t> record) {
+    Latest now{0, before_, {record.begin(), record.end()}};
+    if (edition_ == 1) now.record = from_first_edition(record, gateway_->wiring());
+    ByteReader in(now.record);
+    now.kind = in.byte();
     const auto find = [this](std::uint64_t number) -> const Path* {
       const auto it = paths_.find(number);
       return it == paths_.end() ? nullptr : it->second.get();
     };
-    const Input input = read_input(kind, before_, find, in);
+    const Input input = read_input(now.kind, before_, find, in);
     if (!in.done()) return give_up("it has a damaged input");
     if (result_.begin == kNever) result_.begin = input.time;
     result_.end = input.time;
     ++result_.inputs;
-    latest_.push_back({kind, before_, record_});
+    latest_.push_back(std::move(now));  // bytes of the input stay where they are
     if (latest_.size() > kInputsShown) latest_.pop_front();
     before_ = input.time;
     gateway_->apply(input);
@@ -214,12 +225,15 @@ class Replay final {
   }
 
   void compare_streams(ByteReader& in) {
-    for (std::size_t i = 0; i < kStreamCount; ++i) {
-      const auto& stream = gateway_->output().streams[i];
-      const auto name = static_cast<Stream>(i) == Stream::gnss ? "gnss" : "imu";
-      compare_lists(std::string("bytes for ") + name, {text_of(in.blob())},
+    const auto& streams = gateway_->output().streams;
+    for (const LinkId link : streams_) {
+      const auto it = std::find_if(streams.begin(), streams.end(),
+                                   [link](const auto& stream) { return stream.link == link; });
+      const StreamOutput stream = it == streams.end() ? StreamOutput{} : *it;
+      const std::string name(link == kNowhere ? "nobody" : gateway_->wiring().links[link].name);
+      compare_lists("bytes for " + name, {text_of(in.blob())},
                     {text_of(std::span<const std::uint8_t>(stream.bytes))});
-      compare_lists(std::string("speed for ") + name, {std::to_string(in.number())},
+      compare_lists("speed for " + name, {std::to_string(in.number())},
                     {std::to_string(stream.reopen_baud)});
     }
   }
@@ -249,7 +263,7 @@ class Replay final {
   }
 
   /// Its path may be gone: the number is enough.
-  static std::string words_of(const Latest& it) {
+  std::string words_of(const Latest& it) const {
     Path path;
     const auto find = [&path](std::uint64_t number) {
       path.number = number;
@@ -257,7 +271,7 @@ class Replay final {
     };
     ByteReader in(it.record);
     in.byte();
-    return text_of(read_input(it.kind, it.before, find, in));
+    return text_of(read_input(it.kind, it.before, find, in), gateway_->wiring());
   }
 
   void release_paths() {
@@ -272,13 +286,14 @@ class Replay final {
   Replayed result_;
   std::map<std::uint64_t, std::unique_ptr<const Path>> paths_;  ///< outlive the gateway
   std::unique_ptr<Gateway> gateway_;
+  std::uint8_t edition_ = kEdition;
+  std::vector<LinkId> streams_;     ///< whose outputs the recording has
   std::vector<FieldName> fields_;   ///< of the recording
   std::vector<std::size_t> place_;  ///< of each among ours
   std::vector<FieldValue> recorded_;
   std::vector<FieldValue> replayed_;
   std::vector<Difference> differences_;  ///< of this cycle
   std::deque<Latest> latest_;
-  std::span<const std::uint8_t> record_;  ///< that is being looked at
   Time before_{};
   Time tick_ = kNever;
   bool ticked_ = false;

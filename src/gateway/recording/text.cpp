@@ -61,60 +61,58 @@ std::string number(std::uint64_t value) {
   return std::to_string(value);
 }
 
-std::string words(const FrameHeard& heard) {
-  return "frame on bus " + number(heard.bus) + ": " + std::string(text_of(heard.frame)) +
+std::string link_name(const Wiring& wiring, LinkId link) {
+  return link < wiring.links.size() ? std::string(wiring.links[link].name) : "link " + number(link);
+}
+std::string slot_name(const Wiring& wiring, SlotId slot) {
+  return slot < wiring.slots.size() ? std::string(wiring.slots[slot].name) : "slot " + number(slot);
+}
+
+std::string words(const FrameHeard& heard, const Wiring& wiring) {
+  return "frame on " + link_name(wiring, heard.bus) + ": " + std::string(text_of(heard.frame)) +
          (heard.frame.error ? " (error frame)" : "");
 }
-std::string words(const BytesHeard& heard) {
-  return (heard.stream == Stream::gnss ? "bytes of gnss: " : "bytes of imu: ") +
-         text_of(heard.bytes);
+std::string words(const BytesHeard& heard, const Wiring& wiring) {
+  return "bytes on " + link_name(wiring, heard.link) + ": " + text_of(heard.bytes);
 }
-std::string words(const LevelsRead& read) {
-  std::string text = "levels:";
+std::string words(const LevelsRead& read, const Wiring& wiring) {
+  std::string text = "levels of " + link_name(wiring, read.link) + ":";
   for (const bool level : read.levels) text += level ? " 1" : " 0";
   return text;
 }
-std::string words(const LinesLost&) {
-  return "lines lost";
-}
-std::string words(const RegistersRead& read) {
-  std::string text = "registers of block " + number(read.block) + ":";
+std::string words(const RegistersRead& read, const Wiring& wiring) {
+  std::string text =
+      "registers of " + slot_name(wiring, read.slot) + ", block " + number(read.block) + ":";
   for (const auto word : read.words) text += " " + number(word);
   return text;
 }
-std::string words(const RegistersFailed& failed) {
-  return "no registers of block " + number(failed.block) + ": failure " +
-         number(static_cast<std::uint64_t>(failed.failure)) + ", exception " +
+std::string words(const RegistersFailed& failed, const Wiring& wiring) {
+  return "no registers of " + slot_name(wiring, failed.slot) + ", block " + number(failed.block) +
+         ": failure " + number(static_cast<std::uint64_t>(failed.failure)) + ", exception " +
          std::to_string(failed.exception);
 }
-std::string words(const BatteryUp&) {
-  return "battery's link up";
+std::string words(const LinkUp& up, const Wiring& wiring) {
+  return link_name(wiring, up.link) + " up";
 }
-std::string words(const BusUp& up) {
-  return "bus " + number(up.bus) + " up";
+std::string words(const LinkLost& lost, const Wiring& wiring) {
+  return link_name(wiring, lost.link) + " lost: " + std::string(lost.why);
 }
-std::string words(const BusLost& lost) {
-  return "bus " + number(lost.bus) + " lost: " + std::string(lost.why);
+std::string words(const FramesSent& counts, const Wiring& wiring) {
+  return link_name(wiring, counts.bus) + " took " + number(counts.sent) +
+         " frames so far, refused " + number(counts.refused);
 }
-std::string words(const FramesSent& counts) {
-  return "bus " + number(counts.bus) + " took " + number(counts.sent) + " frames so far, refused " +
-         number(counts.refused);
-}
-std::string words(const StreamUp& up) {
-  return up.stream == Stream::gnss ? "gnss up" : "imu up";
-}
-std::string words(const Tick& tick) {
+std::string words(const Tick& tick, const Wiring&) {
   return std::string("tick") + (tick.guard_alive ? ", guard alive" : ", no guard") +
          (tick.guard_has_bus ? ", guard has the bus" : "") +
          (tick.guard_latched ? ", stopped at the guard" : "");
 }
-std::string words(const ProgramTrouble& trouble) {
+std::string words(const ProgramTrouble& trouble, const Wiring&) {
   return "trouble of the daemon: " + std::string(trouble.why);
 }
-std::string words(const Suspended& slept) {
+std::string words(const Suspended& slept, const Wiring&) {
   return "the computer slept for " + std::to_string(slept.lasted_s) + " s";
 }
-std::string words(const Recalled& recalled) {
+std::string words(const Recalled& recalled, const Wiring&) {
   const auto& [stop, stop_at_robot, power_cut, holding, released, task, proved] =
       recalled.remembered;
   return std::string("recalled:") + (holding ? " held" : "") + (released ? " released" : "") +
@@ -122,10 +120,10 @@ std::string words(const Recalled& recalled) {
          (proved ? " with proved mechanics" : "") +
          (stop_at_robot ? " stopped at the robot: " : " stopped: ") + std::string(stop);
 }
-std::string words(const OutputsUp& up) {
+std::string words(const OutputsUp& up, const Wiring&) {
   return std::string("outputs up, relay ") + (up.relay_closed ? "closed" : "open");
 }
-std::string words(const CommandGiven& given) {
+std::string words(const CommandGiven& given, const Wiring&) {
   constexpr const char* kBodies[] = {"nothing",        "start of a task", "cancel",
                                      "stop",           "reset",           "proposal of an origin",
                                      "an origin",      "joint targets",   "joint targets refused",
@@ -171,10 +169,10 @@ std::string text_of(std::span<const std::uint8_t> bytes) {
   return text + (bytes.size() > kMostShown ? "..." : "");
 }
 
-std::string text_of(const Input& input) {
+std::string text_of(const Input& input, const Wiring& wiring) {
   char time[40] = {};
   std::snprintf(time, sizeof time, "at %.9f s: ", to_s(input.time));
-  return time + std::visit([](const auto& body) { return words(body); }, input.body);
+  return time + std::visit([&](const auto& body) { return words(body, wiring); }, input.body);
 }
 
 }  // namespace drover::gateway

@@ -35,7 +35,7 @@ constexpr auto kConfig = R"({
 class Bench {
  public:
   Bench() : gateway(config::load_text(kConfig).config) {
-    apply(BusUp{0});
+    apply(LinkUp{0});
     for (int i = 0; i < 20; ++i) cycle();
   }
   void apply(const InputBody& body) { gateway.apply({now, body}); }
@@ -44,6 +44,7 @@ class Bench {
     if (drives_talk)
       for (const char* frame : said) apply(FrameHeard{0, test::parse_frame(frame)});
     LevelsRead released;
+    released.link = 2;
     (void)released.levels.push_back(true);
     (void)released.levels.push_back(true);
     apply(released);
@@ -114,10 +115,10 @@ TEST(Gateway, SendsTheRampOfAWheelThatItCatches) {
 
 TEST(Gateway, TellsOfABusThatIsGoneUntilItIsBack) {
   Bench bench;
-  bench.apply(BusLost{0, "can0: lost (No such device)"});
+  bench.apply(LinkLost{0, "can0: lost (No such device)"});
   bench.cycle();
   EXPECT_TRUE(bench.told("wheel left: can0: lost"));
-  bench.apply(BusUp{0});
+  bench.apply(LinkUp{0});
   bench.cycle();
   EXPECT_FALSE(bench.told("lost"));
 }
@@ -189,6 +190,67 @@ TEST(Gateway, NamesTheDrivesThatNothingStopsWhenFramesCease) {
   ASSERT_EQ(notes.size(), 1U);
   EXPECT_EQ(notes[0],
             "drive right keeps its last velocity for ever: the drive has no watchdog set");
+}
+
+TEST(Gateway, IgnoresLinksAndSlotsThatThereAreNot) {
+  Bench bench;
+  const auto link = static_cast<LinkId>(bench.gateway.wiring().links.size());
+  const auto slot = static_cast<SlotId>(bench.gateway.wiring().slots.size());
+  for (const std::uint8_t more : {std::uint8_t{0}, std::uint8_t{100}}) {
+    const auto nowhere = static_cast<std::uint8_t>(link + more);
+    bench.apply(FrameHeard{nowhere, bus_off()});
+    bench.apply(FrameHeard{nowhere, test::parse_frame("021#0000000008000000")});
+    bench.apply(BytesHeard{nowhere, {}});
+    LevelsRead levels;
+    levels.link = nowhere;
+    (void)levels.levels.push_back(false);
+    bench.apply(levels);
+    bench.apply(LinkUp{nowhere});
+    bench.apply(LinkLost{nowhere, "gone"});
+    bench.apply(FramesSent{nowhere, 1, 1});
+    RegistersRead read;
+    read.slot = static_cast<SlotId>(slot + more);
+    bench.apply(read);
+    bench.apply(RegistersFailed{read.slot, 0, RegisterFailure::silent, 0});
+  }
+  bench.cycle();
+  EXPECT_FALSE(bench.told("wheel left"));
+  EXPECT_FALSE(bench.told("line"));
+}
+
+/// Bytes on the bus, frames on the stream, levels at the receiver: nobody there hears such a thing.
+TEST(Gateway, IgnoresWhatALinkCannotCarry) {
+  Bench bench;
+  const std::uint8_t byte = 0x24;
+  for (LinkId link = 0; link < bench.gateway.wiring().links.size(); ++link) {
+    if (bench.gateway.wiring().links[link].wire != Wire::bytes)
+      bench.apply(BytesHeard{link, {&byte, 1}});
+    if (bench.gateway.wiring().links[link].wire != Wire::can) {
+      bench.apply(FrameHeard{link, bus_off()});
+      bench.apply(FramesSent{link, 1, 1});
+    }
+    LevelsRead levels;
+    levels.link = link;
+    (void)levels.levels.push_back(false);
+    if (bench.gateway.wiring().links[link].wire != Wire::levels) bench.apply(levels);
+  }
+  for (SlotId slot = 0; slot < bench.gateway.wiring().slots.size(); ++slot) {
+    RegistersRead read;
+    read.slot = slot;
+    bench.apply(read);
+  }
+  bench.cycle();
+  EXPECT_FALSE(bench.told("wheel left"));
+  EXPECT_FALSE(bench.told("line"));
+}
+
+TEST(Gateway, TellsTheGuardHowEachDriveOfABusIsStopped) {
+  Bench bench;
+  const auto recipes = bench.gateway.stop_recipes(0);
+  ASSERT_EQ(recipes.size(), 2U);
+  EXPECT_EQ(recipes[0].frames[0].id, 0x02DU);
+  EXPECT_EQ(recipes[1].frames[0].id, 0x04DU);
+  EXPECT_EQ(recipes[1].period, 10ms);
 }
 
 TEST(StreamOutput, GathersWhatADriverSaysUntilTheNextCycle) {

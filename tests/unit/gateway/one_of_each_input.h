@@ -14,10 +14,10 @@ struct OneOfEachInput {
     path.number = 3;
     path.name = "row";
     path.points = {{0, 0}, {5, 0}};
-    add(BusUp{0});
-    add(StreamUp{Stream::gnss});
-    add(StreamUp{Stream::imu});
-    add(BatteryUp{});
+    add(LinkUp{0});
+    add(LinkUp{1});
+    add(LinkUp{2});
+    add(LinkUp{3});
     add(FrameHeard{0, test::parse_frame("021#0000000008000000")});
     add(FrameHeard{0, test::parse_frame("049#0000004000000000")});
     CanFrame error;
@@ -28,19 +28,21 @@ struct OneOfEachInput {
     CanFrame odd = make_frame(0x18FF1234, {1, 2, 3});
     odd.extended = odd.fd = true;
     add(FrameHeard{0, odd});
-    add(BytesHeard{Stream::gnss, view(sentence)});
-    add(BytesHeard{Stream::imu, view(sensor)});
+    add(BytesHeard{1, view(sentence)});
+    add(BytesHeard{2, view(sensor)});
     LevelsRead levels;
+    levels.link = 4;
     (void)levels.levels.push_back(true);
     (void)levels.levels.push_back(false);
     add(levels);
-    add(LinesLost{});
+    add(LinkLost{4, {}});
     RegistersRead read;
+    read.slot = 4;
     read.words.resize(62);
     for (std::size_t i = 0; i < read.words.size(); ++i)
       read.words[i] = static_cast<std::uint16_t>(700 * i);
     add(read);
-    add(RegistersFailed{1, RegisterFailure::refused, 2});
+    add(RegistersFailed{4, 1, RegisterFailure::refused, 2});
     add(FramesSent{0, 40, 3});
     JointTargets joints;
     (void)joints.joints.push_back({0, 0.0});
@@ -62,7 +64,7 @@ struct OneOfEachInput {
     add(Suspended{2.5});
     add(Recalled{{"emergency stop", true, false, true, false, true, true}});
     add(OutputsUp{true});
-    add(BusLost{0, "can0: lost (No such device)"});
+    add(LinkLost{0, "can0: lost (No such device)"});
     add(Tick{false, true, true});
   }
   OneOfEachInput(const OneOfEachInput&) = delete;

@@ -57,10 +57,10 @@ class RobotRun final {
   static constexpr Duration kTick = std::chrono::milliseconds(5);
 
   RobotRun() {
-    add(BusUp{0});
-    add(StreamUp{Stream::gnss});
-    add(StreamUp{Stream::imu});
-    add(BatteryUp{});
+    add(LinkUp{0});
+    add(LinkUp{1});
+    add(LinkUp{2});
+    add(LinkUp{3});
   }
   void add(const InputBody& body) { inputs.push_back({now, body}); }
   void command(decltype(Command::body) body) {
@@ -85,6 +85,7 @@ class RobotRun final {
       add(FrameHeard{0, estimate});
     }
     LevelsRead released;
+    released.link = 4;
     (void)released.levels.push_back(true);
     (void)released.levels.push_back(true);
     add(released);

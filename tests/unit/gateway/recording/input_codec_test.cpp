@@ -8,6 +8,7 @@
 namespace drover::gateway {
 namespace {
 
+const Wiring kNamed;
 constexpr Time kBefore{std::chrono::seconds(7)};
 
 TEST(InputCodec, GivesBackEachInputAsItWas) {
@@ -22,13 +23,13 @@ TEST(InputCodec, GivesBackEachInputAsItWas) {
       return number == all.path.number ? &all.path : nullptr;
     };
     const Input read = read_input(kind_of(input), kBefore, find, in);
-    EXPECT_TRUE(in.done()) << text_of(input);
+    EXPECT_TRUE(in.done()) << text_of(input, kNamed);
     EXPECT_EQ(read.time, input.time);
-    EXPECT_EQ(text_of(read), text_of(input));
+    EXPECT_EQ(text_of(read, kNamed), text_of(input, kNamed));
     std::array<std::uint8_t, 2048> again{};
     ByteWriter rewritten(again);
     write_input(read, kBefore, rewritten);
-    EXPECT_EQ(buffer, again) << text_of(input);
+    EXPECT_EQ(buffer, again) << text_of(input, kNamed);
   }
 }
 
@@ -42,7 +43,7 @@ TEST(InputCodec, RefusesEachInputThatIsCutShort) {
       ByteReader in(out.written().first(size));
       (void)read_input(
           kind_of(input), kBefore, [&](auto) { return &all.path; }, in);
-      EXPECT_FALSE(in.good()) << text_of(input) << " of " << size << " bytes";
+      EXPECT_FALSE(in.good()) << text_of(input, kNamed) << " of " << size << " bytes";
     }
   }
 }
@@ -50,7 +51,7 @@ TEST(InputCodec, RefusesEachInputThatIsCutShort) {
 TEST(InputCodec, TellsWhatDoesNotFitIntoTheBuffer) {
   std::array<std::uint8_t, 8> buffer{};
   ByteWriter out(buffer);
-  write_input({kBefore, BusLost{0, "can0: lost (No such device)"}}, kBefore, out);
+  write_input({kBefore, LinkLost{0, "can0: lost (No such device)"}}, kBefore, out);
   EXPECT_FALSE(out.good());
 }
 

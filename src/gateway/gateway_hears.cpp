@@ -1,0 +1,106 @@
+// What the links bring to the gateway: to the devices that listen there, and what those say of it.
+#include "gateway/gateway.h"
+
+namespace drover::gateway {
+
+const std::vector<SlotId>& Gateway::slots_on(LinkId link) const {
+  static const std::vector<SlotId> kNone;
+  return link < wiring_.links.size() ? wiring_.links[link].slots : kNone;
+}
+
+void Gateway::on(const FrameHeard& heard, Time received) {
+  const auto& [bus, frame] = heard;
+  if (!is_bus(bus)) return;
+  buses_[bus].on_frame(frame, received);
+  if (frame.error) return;
+  listeners_[bus].each(frame, [&, &frame = frame](SlotId id) {
+    Slot& slot = wiring_.slots[id];
+    if (slot.made.actuator != nullptr) notice_foreign(slot, frame, received);
+    slot.made.frames->on_frame(frame, received, scratch_);
+    take(slot);
+  });
+}
+
+/// A link does not hear what it sent itself. What moves, the driver notices.
+void Gateway::notice_foreign(const Slot& slot, const CanFrame& frame, Time received) {
+  for (const FrameRule& rule : slot.made.actuator->rules()) {
+    if (!engine::matches(rule, frame)) continue;
+    if (frame.remote || slot.made.actuator->effect(frame) != FrameEffect::stop) return;
+    return foreign_.on_stop_frame(frame.id, buses_[slot.link].name(), received);
+  }
+}
+
+void Gateway::on(const BytesHeard& heard, Time first_byte) {
+  for (const SlotId id : slots_on(heard.link)) {
+    Slot& slot = wiring_.slots[id];
+    if (slot.made.bytes == nullptr) continue;
+    slot.made.bytes->on_bytes(heard.bytes, first_byte, scratch_);
+    take(slot);
+  }
+}
+
+void Gateway::on(const LevelsRead& read, Time at) {
+  const auto& slots = slots_on(read.link);
+  for (std::size_t i = 0; i < slots.size() && i < read.levels.size(); ++i) {
+    Slot& slot = wiring_.slots[slots[i]];
+    if (slot.made.levels == nullptr) continue;
+    slot.made.levels->on_level(read.levels[i], at, scratch_);
+    take(slot);
+  }
+}
+
+/// nullptr: it is not asked for such a block.
+Slot* Gateway::asked(SlotId slot, std::size_t block) {
+  if (slot >= wiring_.slots.size()) return nullptr;
+  const auto* const registers = wiring_.slots[slot].made.registers;
+  return registers != nullptr && block < registers->blocks().size() ? &wiring_.slots[slot]
+                                                                    : nullptr;
+}
+
+void Gateway::on(const RegistersRead& read, Time received) {
+  Slot* const slot = asked(read.slot, read.block);
+  if (slot == nullptr) return;
+  if (read.words.size() != slot->made.registers->blocks()[read.block].count) return;
+  slot->made.registers->on_registers(read.block, read.words, received, scratch_);
+  take(*slot);
+}
+
+void Gateway::on(const RegistersFailed& failed, Time at) {
+  if (Slot* const slot = asked(failed.slot, failed.block))
+    slot->made.registers->on_failure(failed.block, failed.failure, failed.exception, at);
+}
+
+void Gateway::on(const LinkUp& up, Time now) {
+  if (is_bus(up.link)) buses_[up.link].on_up();
+  for (const SlotId id : slots_on(up.link)) wiring_.slots[id].made.device->on_link_up(now);
+}
+
+void Gateway::on(const LinkLost& lost, Time now) {
+  if (is_bus(lost.link)) buses_[lost.link].on_lost(lost.why);
+  for (const SlotId id : slots_on(lost.link)) {
+    Slot& slot = wiring_.slots[id];
+    if (slot.made.levels == nullptr) continue;
+    slot.made.levels->on_lost(now, scratch_);
+    take(slot);
+  }
+}
+
+void Gateway::on(const FramesSent& counts, Time now) {
+  if (is_bus(counts.bus)) buses_[counts.bus].on_sent(counts.sent, counts.refused, now);
+}
+
+/// As if every line had been pulled and plugged again.
+void Gateway::on(const Suspended& slept, Time now) {
+  for (std::size_t i = 0; i < wiring_.links.size(); ++i) {
+    const auto link = static_cast<LinkId>(i);
+    if (wiring_.links[i].wire == Wire::levels) {
+      on(LinkLost{link, {}}, now);
+    } else if (!is_bus(i) || !buses_[i].lost()) {
+      on(LinkUp{link}, now);
+    }
+  }
+  woke_ = now;
+  slept_.format("the computer slept for %.1f s", slept.lasted_s);
+}
+
+}  // namespace drover::gateway

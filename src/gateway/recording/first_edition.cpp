@@ -1,0 +1,90 @@
+#include "gateway/recording/first_edition.h"
+
+#include "gateway/recording/bytes.h"
+
+namespace drover::gateway {
+
+namespace {
+
+template <class Body>
+constexpr std::uint8_t kind_now() {
+  return static_cast<std::uint8_t>(InputBody(Body{}).index());
+}
+
+/// What became of a kind of the first edition: its number now, and which number of a link or slot
+/// stands before its members.
+struct Translation {
+  enum class Adds : std::uint8_t {
+    nothing,
+    stream,   ///< instead of the stream's number
+    chip,     ///< the link of the lines
+    lost,     ///< the same, and no reason behind it
+    battery,  ///< its slot
+    line_of_battery,
+  };
+  std::uint8_t kind = 0;
+  Adds adds = Adds::nothing;
+};
+
+using Adds = Translation::Adds;
+
+/// In the order of the first edition.
+const Translation kTranslations[] = {
+    {kind_now<FrameHeard>()},
+    {kind_now<BytesHeard>(), Adds::stream},
+    {kind_now<LevelsRead>(), Adds::chip},
+    {kind_now<LinkLost>(), Adds::lost},  // lines lost
+    {kind_now<RegistersRead>(), Adds::battery},
+    {kind_now<RegistersFailed>(), Adds::battery},
+    {kind_now<LinkUp>(), Adds::line_of_battery},
+    {kind_now<LinkUp>()},    // of a bus
+    {kind_now<LinkLost>()},  // of a bus
+    {kind_now<FramesSent>()},
+    {kind_now<LinkUp>(), Adds::stream},
+    {kind_now<CommandGiven>()},
+    {kind_now<Tick>()},
+    {kind_now<ProgramTrouble>()},
+    {kind_now<Suspended>()},
+    {kind_now<Recalled>()},
+    {kind_now<OutputsUp>()},
+};
+
+}  // namespace
+
+std::vector<LinkId> streams_of_first_edition(const Wiring& wiring) {
+  return {wiring.link_of(SlotKind::gnss), wiring.link_of(SlotKind::imu)};
+}
+
+std::vector<std::uint8_t> from_first_edition(std::span<const std::uint8_t> record,
+                                             const Wiring& wiring) {
+  ByteReader in(record);
+  const auto kind = in.byte();
+  const auto time = in.signed_number();
+  if (!in.good() || kind >= std::size(kTranslations)) return {};
+  const auto& [kind_now, adds] = kTranslations[kind];
+  std::vector<std::uint8_t> buffer(record.size() + 16);
+  ByteWriter out(buffer);
+  out.byte(kind_now);
+  out.signed_number(time);
+  switch (adds) {
+    case Adds::nothing: break;
+    case Adds::stream: {
+      const auto streams = streams_of_first_edition(wiring);
+      out.byte(streams[in.below(streams.size())]);
+      break;
+    }
+    case Adds::chip: out.byte(wiring.link_of(SlotKind::line)); break;
+    case Adds::lost:
+      out.byte(wiring.link_of(SlotKind::line));
+      out.text("");
+      break;
+    case Adds::battery: out.byte(wiring.first(SlotKind::battery)); break;
+    case Adds::line_of_battery: out.byte(wiring.link_of(SlotKind::battery)); break;
+  }
+  out.bytes(in.left());
+  if (!in.good() || !out.good()) return {};
+  buffer.resize(out.written().size());
+  return buffer;
+}
+
+}  // namespace drover::gateway

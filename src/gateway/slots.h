@@ -1,0 +1,64 @@
+// The table of devices, and of the links that they hang on.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "config/config.h"
+#include "drover/driver.h"
+#include "drover/registry.h"
+#include "engine/environment.h"
+#include "gateway/input.h"
+
+namespace drover::gateway {
+
+/// What a link carries.
+enum class Wire : std::uint8_t { can, bytes, registers, levels };
+
+struct Link {
+  Name name;
+  Wire wire = Wire::can;
+  std::vector<SlotId> slots;  ///< in the order of the table
+};
+
+/// One device in its place.
+struct Slot {
+  /// Who asks it: the control thread with all that it hears, or a thread that polls it slowly.
+  enum class Thread : std::uint8_t { control, slow };
+  /// Only the first is made today: the engine has no place yet for what the others say.
+  enum class Role : std::uint8_t {
+    steers,  ///< the engine goes by it
+    spare,   ///< it is there when the one that steers is not
+    told,    ///< told to whoever asks, and nothing more
+  };
+
+  Name name;  ///< as people know it: the joint's, or the section's
+  SlotKind kind = SlotKind::drive;
+  Made made;
+  LinkId link = 0;
+  Thread thread = Thread::control;
+  Role role = Role::steers;
+  AxisId axis = 0;  ///< of what moves something
+  /// Where the engine looks for its health.
+  SourceHealth* health = nullptr;
+  std::uint64_t overflows = 0;  ///< what it said and found no room
+};
+
+/// Links and slots by their numbers. A bus is numbered as in the configuration: the buses come
+/// first. The drives are the first slots.
+struct Wiring {
+  std::vector<Link> links;
+  std::vector<Slot> slots;
+
+  /// The first slot of this kind; kNowhere when there is none.
+  SlotId first(SlotKind kind) const;
+  /// The link that it hangs on; kNowhere when there is none.
+  LinkId link_of(SlotKind kind) const;
+};
+
+/// Everything that is configured; the healths are put into `environment`. Throws
+/// std::runtime_error naming the key that cannot be.
+Wiring wire_up(const config::DroverConfig& config, engine::Environment& environment);
+
+}  // namespace drover::gateway

@@ -1,0 +1,81 @@
+#include "gateway/recording/first_edition.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "gateway/recording/input_codec.h"
+#include "tests/unit/gateway/recorded_run.h"
+
+namespace drover::gateway {
+namespace {
+
+using ::testing::ElementsAre;
+
+/// Links: can0 0, gnss 1, imu 2, battery 3, lines 4. Slots: the battery is 4.
+class FirstEdition : public ::testing::Test {
+ protected:
+  /// What an input was whose record held the kind, 1 s since the one before it, and these bytes.
+  std::string meaning(std::uint8_t kind, std::vector<std::uint8_t> body) {
+    std::vector<std::uint8_t> record(16);
+    ByteWriter out(record);
+    out.byte(kind);
+    out.signed_number(1'000'000'000);
+    out.bytes(body);
+    record.resize(out.written().size());
+    now_ = from_first_edition(record, wiring_);
+    ByteReader in(now_);
+    const auto kind_now = in.byte();
+    const auto input = read_input(
+        kind_now, Time{std::chrono::seconds(7)}, [](auto) { return nullptr; }, in);
+    return in.done() ? text_of(input, wiring_) : "damaged";
+  }
+
+  engine::Environment environment_;
+  Wiring wiring_ = wire_up(load_robot().config, environment_);
+  std::vector<std::uint8_t> now_;
+};
+
+TEST_F(FirstEdition, KnowsAStreamByWhatItWasFor) {
+  EXPECT_EQ(meaning(1, {0, 2, 0x24, 0x47}), "at 8.000000000 s: bytes on gnss: 2447");
+  EXPECT_EQ(meaning(1, {1, 1, 0x55}), "at 8.000000000 s: bytes on imu: 55");
+  EXPECT_EQ(meaning(10, {0}), "at 8.000000000 s: gnss up");
+  EXPECT_EQ(meaning(10, {1}), "at 8.000000000 s: imu up");
+  EXPECT_EQ(meaning(10, {2}), "damaged");
+}
+
+TEST_F(FirstEdition, HadOneChip) {
+  EXPECT_EQ(meaning(2, {2, 1, 0}), "at 8.000000000 s: levels of lines: 1 0");
+  EXPECT_EQ(meaning(3, {}), "at 8.000000000 s: lines lost: ");
+}
+
+TEST_F(FirstEdition, HadOneBattery) {
+  EXPECT_EQ(meaning(4, {1, 2, 7, 9}), "at 8.000000000 s: registers of battery, block 1: 7 9");
+  EXPECT_EQ(meaning(5, {1, 3, 4}),
+            "at 8.000000000 s: no registers of battery, block 1: failure 3, exception 2");
+  EXPECT_EQ(meaning(6, {}), "at 8.000000000 s: battery up");
+}
+
+TEST_F(FirstEdition, NumberedTheBusesAsToday) {
+  EXPECT_EQ(meaning(0, {0, 0x21, 0, 1, 0xAB}), "at 8.000000000 s: frame on can0: 021#AB");
+  EXPECT_EQ(meaning(7, {0}), "at 8.000000000 s: can0 up");
+  EXPECT_EQ(meaning(8, {0, 3, 'o', 'f', 'f'}), "at 8.000000000 s: can0 lost: off");
+  EXPECT_EQ(meaning(9, {0, 40, 3}), "at 8.000000000 s: can0 took 40 frames so far, refused 3");
+}
+
+TEST_F(FirstEdition, HadTheSameOfAllElse) {
+  EXPECT_EQ(meaning(12, {5}), "at 8.000000000 s: tick, guard alive, stopped at the guard");
+  EXPECT_EQ(meaning(13, {2, 'n', 'o'}), "at 8.000000000 s: trouble of the daemon: no");
+  EXPECT_EQ(meaning(16, {1}), "at 8.000000000 s: outputs up, relay closed");
+  EXPECT_EQ(meaning(17, {}), "damaged");
+}
+
+TEST_F(FirstEdition, NamesNoLinkThatIsNotConfigured) {
+  auto config = load_robot().config;
+  config.imu.configured = false;
+  wiring_ = wire_up(config, environment_);
+  EXPECT_EQ(meaning(10, {1}), "at 8.000000000 s: link 255 up");
+  EXPECT_THAT(streams_of_first_edition(wiring_), ElementsAre(1, kNowhere));
+}
+
+}  // namespace
+}  // namespace drover::gateway
