@@ -92,6 +92,17 @@ TEST(Registry, HasNoTwoDriversOfOneNameAndFindsEach) {
   EXPECT_EQ(find_driver("no such driver"), nullptr);
 }
 
+/// What moves something so far does it by frames.
+TEST(Registry, MakesOfEachEntryADeviceWithOneFaceForItsWire) {
+  for (const DriverEntry& entry : driver_registry()) {
+    const int faces = has_face(entry, &Made::frames) + has_face(entry, &Made::bytes) +
+                      has_face(entry, &Made::registers) + has_face(entry, &Made::levels);
+    EXPECT_EQ(faces, 1) << entry.name;
+    EXPECT_EQ(has_face(entry, &Made::actuator), entry.kinds.has(SlotKind::drive)) << entry.name;
+    EXPECT_EQ(find_driver(entry.name, SlotKind::line) != nullptr, entry.kinds.has(SlotKind::line));
+  }
+}
+
 TEST(Registry, EveryOptionHasATextAndADefaultInsideItsRange) {
   for (const DriverEntry& entry : driver_registry()) {
     for (const auto table : {entry.options, entry.twin_options}) {
