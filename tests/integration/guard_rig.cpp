@@ -211,7 +211,9 @@ runtime::GuardedLink GuardRig::can_link(const std::string& name, std::vector<uns
     CanFrame frame;
     frame.id = address;
     frame.len = 8;
-    link.axes.push_back(runtime::guarded_axis(name, frame));
+    StopRecipe stop;
+    static_cast<void>(stop.frames.push_back(frame));
+    link.axes.push_back(runtime::guarded_axis(name, stop));
   }
   return link;
 }
