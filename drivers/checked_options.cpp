@@ -1,6 +1,7 @@
 #include "drivers/checked_options.h"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 namespace drover {
@@ -14,7 +15,8 @@ const OptionSpec& CheckedOptions::spec_of(std::string_view name) const {
 double CheckedOptions::number(std::string_view name) const {
   const OptionSpec& spec = spec_of(name);
   const double value = options_.number(name);
-  if (!(value >= spec.min && value <= spec.max))
+  const bool ranged = spec.min < spec.max;
+  if (!std::isfinite(value) || (ranged && (value < spec.min || value > spec.max)))
     throw std::runtime_error(std::string(name) + " is out of range");
   return value;
 }

@@ -40,7 +40,7 @@ std::string_view text(DriveState state);
 /// Whether the power stage is on, so that the motor drives, brakes or holds.
 bool is_powered(DriveState state);
 
-/// Where a drive shall go. A stop while it runs is a set point or a quick stop, not a goal.
+/// Where a drive shall go. An ordinary stop is a set point of zero while it is enabled.
 enum class DriveGoal : std::uint8_t {
   enabled,     ///< operation enabled
   off,         ///< power stage off: it may coast

@@ -81,6 +81,8 @@ std::optional<CanFrame> SdoClient::on_frame(const CanFrame& frame, Time now) {
 std::optional<CanFrame> SdoClient::on_segment(const SdoAnswer& segment, Time now) {
   if (segment.toggle != toggle_) return give_up(kAbortToggle);
   if (!keep(segment)) return give_up(kAbortMemory);
+  // Or a node that says nothing at length would be listened to for ever.
+  if (segment.data.empty() && !segment.last) return give_up(kAbortCommand);
   if (segment.last) {
     constexpr std::uint32_t kWrongLength = 0x06070010;
     if (announced_ && *announced_ != current_.data.size()) return give_up(kWrongLength);

@@ -45,7 +45,7 @@ void SdoSetup::judge(const SdoOutcome& outcome) {
   }
   silences_ = 0;
   if (outcome.kind == SdoOutcome::Kind::refused) {
-    if (step.may_be_refused) return next_step();
+    if (step.may_be_refused && !written_) return next_step();
     const auto why = abort_text(outcome.code);
     reason_.format("object %04X:%02X cannot be %s: %.*s (%08X)", index, sub,
                    written_ ? "read" : "written", static_cast<int>(why.size()), why.data(),

@@ -37,7 +37,7 @@ void both_sides(const BaseNames& base, Findings& found) {
 
 /// Its faults, its silence and its stop would be nobody's.
 void wheels_only(const BaseNames& base, Findings& found) {
-  if (found.has_problem("base.")) return;
+  if (found.has_problem("base")) return;
   const auto among = [](const std::vector<std::string>& side, const std::string& joint) {
     return std::find(side.begin(), side.end(), joint) != side.end();
   };

@@ -44,8 +44,11 @@ bool Findings::given(std::string_view section, std::string_view object,
 }
 
 bool Findings::has_problem(std::string_view path) const {
-  return std::any_of(loaded_.problems.begin(), loaded_.problems.end(),
-                     [path](const auto& p) { return p.path.starts_with(path); });
+  return std::any_of(loaded_.problems.begin(), loaded_.problems.end(), [path](const auto& p) {
+    if (!p.path.starts_with(path)) return false;
+    const auto rest = std::string_view(p.path).substr(path.size());
+    return rest.empty() || rest.front() == '.' || rest.front() == '[';
+  });
 }
 
 std::string item(std::string_view list, std::size_t index) {

@@ -93,8 +93,8 @@ class CommandService final {
   void on_unsent(const PublishText& message, std::string_view why, Actions& out);
   /// How much of what was published the broker has not acknowledged.
   void set_under_way(std::size_t bytes) { bytes_under_way_ = bytes; }
-  /// A Command that found the engine's ring full.
-  void on_undelivered(const Command& command, Actions& out);
+  /// A Command that found the engine's ring full, or was not to be delivered because of `why`.
+  void on_undelivered(const Command& command, Actions& out, std::string_view why = {});
 
   /// Stored tracks by name.
   const std::map<std::string, store::Track>& tracks() const { return tracks_; }

@@ -143,11 +143,12 @@ void CommandService::refused(RequestId id, std::string_view reason, Actions& out
   finish(id, pending->verb, false, reason, out);
 }
 
-void CommandService::on_undelivered(const Command& command, Actions& out) {
+void CommandService::on_undelivered(const Command& command, Actions& out, std::string_view why) {
   if (const auto* start = std::get_if<StartTask>(&command.body)) release(start->path);
   // The flag of a stop is set whatever its answer: who reads this must not believe it was not told.
   const bool stop = std::holds_alternative<EngageStop>(command.body) ||
                     std::holds_alternative<CancelTask>(command.body);
+  if (!why.empty()) return refused(command.id, why, out);
   refused(command.id,
           stop ? "told the control loop, which has not answered: use the e-stop if it moves"
                : "the control loop takes no command now, try again",

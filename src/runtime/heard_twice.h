@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <deque>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -16,23 +17,35 @@ enum class Way { with_others, alone };
 
 class HeardTwice final {
  public:
-  /// A stop of this text came. True: it came the other way before, and was answered then.
-  bool again(Way way, std::string_view text, Time now) {
+  /// A stop of this text came. When it came the other way before, and was answered then: when that
+  /// was. Alone it is never far behind the others, so what came with them long ago was another one.
+  std::optional<Time> again(Way way, std::string_view text, Time now) {
     std::erase_if(open_, [now](const Heard& one) { return now - one.time > kForgotten; });
     const auto other = std::find_if(open_.begin(), open_.end(), [&](const Heard& one) {
-      return one.way != way && one.text == text;
+      return one.way != way && one.text == text &&
+             (way == Way::with_others || now - one.time <= kBehindOthers);
     });
     if (other != open_.end()) {
+      const Time first = other->time;
       open_.erase(other);
-      return true;
+      return first;
     }
     open_.push_back({way, std::string(text), now});
     if (open_.size() > kMost) open_.pop_front();
-    return false;
+    return std::nullopt;
   }
+  /// Whether a stop came with the others just now whose other self is still to come.
+  bool expects(Time now) const {
+    return std::any_of(open_.begin(), open_.end(), [now](const Heard& one) {
+      return one.way == Way::with_others && now - one.time <= kBehindOthers;
+    });
+  }
+  /// One was heard alone that nobody could keep.
+  void lost(Time now) { lost_ = now; }
   /// Whether a stop was heard alone of late that has not come with the others: whatever comes there
   /// now may have been sent before it.
   bool overtook(Time now) const {
+    if (lost_ != kNever && now - lost_ <= kYounger) return true;
     return std::any_of(open_.begin(), open_.end(), [now](const Heard& one) {
       return one.way == Way::alone && now - one.time <= kYounger;
     });
@@ -42,6 +55,7 @@ class HeardTwice final {
   static constexpr Duration kForgotten = std::chrono::seconds(60);
   /// Longer than a broker may be late unnoticed, see BrokerDelay. The broker may have dropped it.
   static constexpr Duration kYounger = std::chrono::seconds(2);
+  static constexpr Duration kBehindOthers = std::chrono::milliseconds(500);
   static constexpr std::size_t kMost = 256;
 
   struct Heard {
@@ -49,6 +63,7 @@ class HeardTwice final {
     std::string text;
     Time time;
   };
+  Time lost_ = kNever;
   std::deque<Heard> open_;  ///< came one way only so far, oldest first
 };
 

@@ -57,7 +57,9 @@ MqttClient::MqttClient(const config::MqttConfig& config,
       on_state_(std::move(on_state)),
       tells_presence_(presence == Presence::told) {
   ::mosquitto_lib_init();
-  const auto id = config_.client_id.empty() ? random_client_id() : config_.client_id;
+  auto id = config_.client_id.empty() ? random_client_id() : config_.client_id;
+  // The broker lets nobody in twice by one name.
+  if (!tells_presence_) id += "-stop";
   // Clean session: a start that was queued while we were away must never be replayed.
   client_ = ::mosquitto_new(id.c_str(), true, this);
   if (client_ == nullptr) throw std::runtime_error("mqtt.client_id: not accepted: " + id);

@@ -9,6 +9,7 @@
 #include "drover/spsc_ring.h"
 #include "publish/arrival.h"
 #include "publish/rtk_navigation/control.h"
+#include "runtime/stop_requests.h"
 #include "runtime/wake.h"
 
 namespace drover::runtime {
@@ -16,6 +17,7 @@ namespace drover::runtime {
 struct ParseJob {
   std::string payload;
   publish::Arrival arrival;
+  StopCounts before = {};  ///< the stops that were asked for before it came
 };
 
 struct ParseReply {

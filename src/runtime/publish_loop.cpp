@@ -183,6 +183,7 @@ void PublishLoop::run(const std::atomic<bool>& stop) {
           wall_minus_monotonic_ = wall_minus_monotonic();
           if (broker_) broker_->tick(now);
           tell_whether_stops_are_heard(now);
+          send_unsent();
           answer_stops(now);  // also when the ring of events was full
           publish_status(now);
           break;
@@ -266,6 +267,16 @@ void PublishLoop::send(const publish::PublishText& message, publish::Actions& ac
   const auto problem = broker_->publish(std::string(message.topic).c_str(), message.text);
   if (!problem.empty()) service_.on_unsent(message, problem, actions);
   service_.set_under_way(broker_->bytes_under_way());
+}
+
+/// What the second connection could not send after all.
+void PublishLoop::send_unsent() {
+  if (stops_ == nullptr || !broker_) return;
+  for (std::string text; stops_->take_unsent(text);) {
+    const publish::PublishText message{publish::kTopicFeedback, text};
+    const auto problem = broker_->publish(publish::kTopicFeedback.data(), text);
+    if (!problem.empty()) service_.on_unsent(message, problem, actions_);
+  }
 }
 
 void PublishLoop::carry_out(publish::Actions& actions) {

@@ -51,7 +51,10 @@ class PublishLoop final {
   void on_message(const MqttMessage& message);
   void on_control(std::string_view payload, const publish::Arrival& arrival, Time now);
   void take_parsed(Time now);
-  void ask_again(const publish::ControlCommand& request);
+  void ask_again(const publish::ControlCommand& request, Time first);
+  void hear_stops(Time now);
+  bool overtaken(Time now);
+  void await_other_self();
   void take_heard_stops(Time now);
   void tell_whether_stops_are_heard(Time now);
   void publish_status(Time now);
@@ -62,6 +65,7 @@ class PublishLoop final {
   void on_cli_line(CliServer::ClientId client, std::string_view line, Time now);
   std::string cli_reply(std::string_view cmd, const std::string& name);
   void carry_out(publish::Actions& actions);
+  void send_unsent();
   void send(const publish::PublishText& message, publish::Actions& actions);
   void deliver(const Command& command, publish::Actions& actions);
   void answer_stops(Time now);
@@ -72,7 +76,13 @@ class PublishLoop final {
   ParserLoop& parser_;
   StopListener* stops_;
   HeardTwice heard_twice_;
-  Time stops_heard_ = kNever;  ///< the last time at which they were, or the broker was away
+  std::deque<HeardStop> heard_stops_;  ///< heard alone first: to be answered
+  std::uint64_t lost_stops_ = 0;
+  Time last_delivered_ = kNever;  ///< a command that is no stop
+  // Of what is carried out just now, when it is not what the present tells:
+  std::optional<StopCounts> before_;  ///< it waited for the parser since
+  std::optional<StopCounts> asked_;   ///< a stop, and what was asked for with it
+  Time stops_heard_ = kNever;         ///< the last time at which they were, or the broker was away
   bool deaf_told_ = false;
   publish::CommandService service_;
   publish::BaseStatus base_status_;

@@ -1,4 +1,6 @@
 // What comes from the broker, and what goes to the control thread because of it.
+#include <thread>
+
 #include "runtime/clock.h"
 #include "runtime/log.h"
 #include "runtime/publish_loop.h"
@@ -9,13 +11,24 @@ namespace {
 constexpr std::size_t kMostAskedStops = 256;
 constexpr std::string_view kOvertaken =
     "a stop came just now, and may be younger than this; try again";
+constexpr Duration kLongestWait = std::chrono::milliseconds(100);  // a sixth of what the thread may
 constexpr Duration kDeafFor = std::chrono::seconds(5);
+
+bool is_from_broker(const Command& command) {
+  return command.id.source == RequestId::Source::mqtt ||
+         command.id.source == RequestId::Source::aimrt;
+}
+bool begins_motion(const Command& command) {
+  return std::holds_alternative<StartTask>(command.body) ||
+         std::holds_alternative<JointTargets>(command.body) ||
+         std::holds_alternative<FindHeading>(command.body);
+}
 }  // namespace
 
 void PublishLoop::on_message(const MqttMessage& message) {
   const Time now = monotonic_now();
   auto late = broker_->late(now);
-  if (late.empty() && heard_twice_.overtook(now)) late = kOvertaken;
+  if (late.empty() && overtaken(now)) late = kOvertaken;
   const publish::Arrival arrival{message.retain, late,
                                  now.time_since_epoch() + wall_minus_monotonic()};
   if (message.topic == publish::kTopicControl) {
@@ -40,16 +53,22 @@ void PublishLoop::on_control(std::string_view payload, const publish::Arrival& a
   const bool is_short = payload.size() <= publish::kShortMessageBytes;
   if (is_short && (!parser_.busy() || publish::may_stop(payload))) {
     auto request = publish::parse_control(payload, arrival.retain, limits);
-    if (publish::is_stop(request) && heard_twice_.again(Way::with_others, payload, now))
-      return ask_again(*request);
+    if (publish::is_stop(request))
+      if (const auto first = heard_twice_.again(Way::with_others, payload, now))
+        return ask_again(*request, *first);
     if (!parser_.busy() || publish::is_stop(request))
       return service_.on_parsed(payload, std::move(request), arrival, now, actions_);
   }
-  if (!parser_.give({std::string(payload), arrival})) service_.on_unparsed(payload, now, actions_);
+  // A stop that came just before it is asked for now, so that only younger ones count against it.
+  carry_out(actions_);
+  if (!parser_.give({std::string(payload), arrival, control_.stops.asked()}))
+    service_.on_unparsed(payload, now, actions_);
 }
 
-/// It was answered; that it was carried out then is the more likely, twice is on the safe side.
-void PublishLoop::ask_again(const publish::ControlCommand& request) {
+/// It was carried out and answered. Only what was begun since then, by the command line say, may
+/// have been sent before it.
+void PublishLoop::ask_again(const publish::ControlCommand& request, Time first) {
+  if (last_delivered_ == kNever || last_delivered_ < first) return;
   if (std::holds_alternative<publish::TerminateRequest>(request)) {
     (void)control_.stops.ask_stop();
   } else {
@@ -57,14 +76,47 @@ void PublishLoop::ask_again(const publish::ControlCommand& request) {
   }
 }
 
-void PublishLoop::take_heard_stops(Time now) {
+/// Takes over what the second connection heard, so that overtaken() knows of it.
+void PublishLoop::hear_stops(Time now) {
+  if (stops_ == nullptr) return;
   HeardStop heard;
-  while (stops_->take(heard)) {
-    if (heard_twice_.again(Way::alone, heard.payload, now)) continue;
+  while (stops_->take(heard))
+    if (!heard_twice_.again(Way::alone, heard.payload, now))
+      heard_stops_.push_back(std::move(heard));
+  if (const auto lost = stops_->lost(); lost != lost_stops_) {
+    lost_stops_ = lost;
+    heard_twice_.lost(now);
+  }
+}
+
+/// Whether what comes on the first connection may have been sent before a stop that was heard on
+/// the second.
+bool PublishLoop::overtaken(Time now) {
+  hear_stops(now);
+  return (stops_ != nullptr && stops_->knows_more()) || heard_twice_.overtook(now);
+}
+
+/// A stop that came just before a start must not end it when it is heard the second time.
+void PublishLoop::await_other_self() {
+  const Time end = monotonic_now() + kLongestWait;
+  while (stops_ != nullptr && stops_->connected() && monotonic_now() < end) {
+    hear_stops(monotonic_now());
+    if (!heard_twice_.expects(monotonic_now())) return;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+}
+
+void PublishLoop::take_heard_stops(Time now) {
+  hear_stops(now);
+  while (!heard_stops_.empty()) {
+    const HeardStop heard = std::move(heard_stops_.front());
+    heard_stops_.pop_front();
+    asked_ = heard.asked;
     service_.on_parsed(heard.payload,
                        publish::parse_control(heard.payload, heard.retain, service_.limits()),
                        {heard.retain}, now, actions_);
     carry_out(actions_);
+    asked_.reset();
   }
 }
 
@@ -82,9 +134,12 @@ void PublishLoop::tell_whether_stops_are_heard(Time now) {
 void PublishLoop::take_parsed(Time now) {
   ParseReply reply;
   while (parser_.take(reply)) {
+    carry_out(actions_);  // what came before it
+    before_ = reply.job.before;
     service_.on_parsed(reply.job.payload, std::move(*reply.request), reply.job.arrival, now,
                        actions_);
     carry_out(actions_);
+    before_.reset();
   }
 }
 
@@ -92,14 +147,23 @@ void PublishLoop::take_parsed(Time now) {
 void PublishLoop::deliver(const Command& command, publish::Actions& actions) {
   const bool cancel = std::holds_alternative<CancelTask>(command.body);
   if (!cancel && !std::holds_alternative<EngageStop>(command.body)) {
+    if (is_from_broker(command) && begins_motion(command)) await_other_self();
+    // The stops of both connections: those that are not known to be older than this command end it.
+    const auto before = before_.value_or(control_.stops.asked());
+    const Time now = monotonic_now();
+    if (is_from_broker(command) && begins_motion(command) && overtaken(now))
+      return service_.on_undelivered(command, actions, kOvertaken);
+    last_delivered_ = now;
     const auto* start = std::get_if<StartTask>(&command.body);
     if (control_.recorder != nullptr && start != nullptr && start->path != nullptr)
       control_.recorder->path(*start->path);
-    const bool taken = control_.commands.push(QueuedCommand{command, control_.stops.asked()});
+    const bool taken = control_.commands.push(QueuedCommand{command, before});
     if (!taken) service_.on_undelivered(command, actions);
     return;
   }
-  const auto counts = cancel ? control_.stops.ask_cancel() : control_.stops.ask_stop();
+  const auto counts = asked_   ? *asked_
+                      : cancel ? control_.stops.ask_cancel()
+                               : control_.stops.ask_stop();
   asked_stops_.emplace_back(counts, command);
   if (asked_stops_.size() <= kMostAskedStops) return;
   // The control thread hangs: the flag stays set for it, the answer does not wait.

@@ -16,18 +16,12 @@ namespace {
 
 constexpr Duration kTick = std::chrono::milliseconds(200);
 
-/// The broker lets nobody in twice by one name.
-config::MqttConfig second(config::MqttConfig config) {
-  if (!config.client_id.empty()) config.client_id += "-stop";
-  return config;
-}
-
 }  // namespace
 
 StopListener::StopListener(const config::MqttConfig& config, StopRequests& stops)
     : stops_(stops),
       broker_(
-          second(config), {{std::string(publish::kTopicControl), 1}},
+          config, {{std::string(publish::kTopicControl), 1}},
           [this](const MqttMessage& message) { on_message(message); },
           [this](bool connected, const std::string&) { connected_ = connected; },
           MqttClient::Presence::silent) {}
@@ -48,7 +42,8 @@ void StopListener::run(const std::atomic<bool>& stop) {
     if ((polls[1].revents & ~POLLOUT) != 0) broker_.on_readable(now);
     if (polls[0].revents != 0) wake_.clear();
     for (std::string text; answers_.pop(text);)
-      (void)broker_.publish(publish::kTopicFeedback.data(), text);
+      if (!broker_.publish(publish::kTopicFeedback.data(), text).empty())
+        (void)unsent_.push(std::move(text));  // as many as there are answers find room
     turns_.fetch_add(1, std::memory_order_relaxed);
   }
 }
@@ -64,12 +59,13 @@ void StopListener::on_message(const MqttMessage& message) {
   if (text.empty() || text.size() > publish::kShortMessageBytes || !publish::may_stop(text)) return;
   const auto request = publish::parse_control(text, message.retain);
   if (!publish::is_stop(request)) return;
-  if (std::holds_alternative<publish::TerminateRequest>(*request)) {
-    (void)stops_.ask_stop();
-  } else {
-    (void)stops_.ask_cancel();
-  }
-  if (heard_.push(HeardStop{std::string(text), message.retain})) heard_ready_.notify();
+  begun_.fetch_add(1, std::memory_order_release);
+  const auto asked = std::holds_alternative<publish::TerminateRequest>(*request)
+                         ? stops_.ask_stop()
+                         : stops_.ask_cancel();
+  if (!heard_.push(HeardStop{std::string(text), message.retain, asked}))
+    lost_.fetch_add(1, std::memory_order_release);
+  heard_ready_.notify();
 }
 
 }  // namespace drover::runtime

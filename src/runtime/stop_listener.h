@@ -23,6 +23,7 @@ namespace drover::runtime {
 struct HeardStop {
   std::string payload;
   publish::Retain retain = publish::Retain::no;
+  StopCounts asked;  ///< what must be obeyed before it is
 };
 
 class StopListener final {
@@ -38,8 +39,18 @@ class StopListener final {
   bool connected() const { return connected_.load(std::memory_order_relaxed); }
   /// A message for `feedback`. False: not taken, say because the broker is gone.
   bool answer(const std::string& text);
-  /// Of a flood of stops some are not told here: they were asked for all the same.
-  bool take(HeardStop& heard) { return heard_.pop(heard); }
+  /// Answers that could not leave after all.
+  bool take_unsent(std::string& text) { return unsent_.pop(text); }
+  bool take(HeardStop& heard) {
+    const bool taken = heard_.pop(heard);
+    taken_ += taken ? 1U : 0U;
+    return taken;
+  }
+  /// Of a flood of stops some are not told by take(): they were asked for all the same.
+  std::uint64_t lost() const { return lost_.load(std::memory_order_acquire); }
+  /// Whether a stop was, or is about to be, asked for that take() has not told yet. Read it after
+  /// StopRequests::asked(): then each stop that is counted there is known here.
+  bool knows_more() const { return begun_.load(std::memory_order_acquire) != taken_ + lost(); }
   /// Readable when there is one.
   const Wake& heard_ready() const { return heard_ready_; }
 
@@ -50,7 +61,11 @@ class StopListener final {
   MqttClient broker_;
   SpscRing<HeardStop, 64> heard_;
   Wake heard_ready_;
+  std::atomic<std::uint64_t> begun_{0};
+  std::atomic<std::uint64_t> lost_{0};
+  std::uint64_t taken_ = 0;  ///< publish thread's
   SpscRing<std::string, 64> answers_;
+  SpscRing<std::string, 64> unsent_;
   Wake wake_;
   std::atomic<bool> connected_{false};
   std::atomic<std::uint64_t> turns_{0};

@@ -2,6 +2,7 @@
 // all tracks, and what memory they take.
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <fstream>
 #include <optional>
 
@@ -85,6 +86,42 @@ TEST_F(Large, ASaveOfAnySizeIsAnswered) {
   EXPECT_THAT(refused.second, HasSubstr(std::to_string(most)));
   const auto far_beyond = save(2 * most, "c");
   EXPECT_EQ(far_beyond.first, "save_trajectory_failse");
+}
+
+/// The start waits behind the saves for the parser, the cancel goes around it.
+TEST_F(Large, AStartThatACancelOvertookMovesNothing) {
+  ASSERT_NO_FATAL_FAILURE(start_all());
+  save_track("row", 3);
+  wait_until_believed();
+  const auto before = client().heard().size();
+  for (int i = 0; i < 3; ++i)
+    control(save_of(publish::ControlLimits{}.max_bytes, "large" + std::to_string(i)));
+  start_task("row", 5);
+  control(R"({"cmd_type":"task_control","cmd":"cancel_task"})");
+  const auto answered = [&](const char* cmd) {
+    const auto told = client().feedback(before);
+    return std::any_of(told.begin(), told.end(),
+                       [cmd](const auto& one) { return one.starts_with(cmd); });
+  };
+  ASSERT_TRUE(wait_until([&] { return answered("start_task") && answered("cancel_task"); }));
+  double fastest_mps = 0;
+  for (const double end_s = now_s() + 1.5; now_s() < end_s;)
+    fastest_mps = std::max(fastest_mps, std::abs(true_speed_mps()));
+  EXPECT_LT(fastest_mps, 0.02) << "by a start that a cancel came after";
+}
+
+TEST_F(Large, AStartThatComesRightAfterACancelIsNotEndedByIt) {
+  ASSERT_NO_FATAL_FAILURE(start_all());
+  save_track("row", 3);
+  wait_until_believed();
+  for (int i = 0; i < 12; ++i) {
+    control(R"({"cmd_type":"task_control","cmd":"cancel_task"})");
+    start_task("row", 5);
+    ASSERT_TRUE(wait_for_status("NAV_RUN")) << i;
+    const double end_s = now_s() + 0.3;
+    wait_until([&] { return now_s() > end_s; });
+    ASSERT_EQ(status_text("nav", "status"), "NAV_RUN") << i;
+  }
 }
 
 TEST_F(Large, WhateverIsSavedCanBeReadInOneListAndTheUnitsHaveTheMemoryForIt) {

@@ -11,6 +11,7 @@ constexpr std::string_view kLevels[] = {"low", "high"};
 const OptionSpec kTable[] = {
     {.name = "stale_s", .default_value = 0.5, .min = 0.1, .max = 10.0, .text = "limit"},
     {.name = "level", .default_value = std::string("low"), .choices = kLevels, .text = "level"},
+    {.name = "offset_deg", .default_value = 0.0, .text = "any angle"},
     {.name = "label", .default_value = std::string("any"), .text = "any text"},
 };
 
@@ -39,6 +40,11 @@ TEST(CheckedOptions, RefuseANumberOutsideItsRangeOrNone) {
                            std::numeric_limits<double>::infinity()}) {
     EXPECT_EQ(refusal(Options(kTable).set("stale_s", bad), "stale_s"), "stale_s is out of range");
   }
+}
+
+TEST(CheckedOptions, TakeAnyNumberWhereTheTableHasNoRange) {
+  const auto given = Options(kTable).set("offset_deg", -400.0);
+  EXPECT_EQ(CheckedOptions(given, kTable).number("offset_deg"), -400.0);
 }
 
 TEST(CheckedOptions, RefuseATextThatIsNoChoice) {

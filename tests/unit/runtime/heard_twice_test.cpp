@@ -42,6 +42,36 @@ TEST(HeardTwice, DistrustsWhatComesBetweenAStopAndItsOtherSelf) {
   EXPECT_FALSE(heard.overtook(kNow + 1s));
 }
 
+TEST(HeardTwice, TakesNoStopForTheOtherSelfOfOneLongAgo) {
+  HeardTwice heard;
+  EXPECT_FALSE(heard.again(Way::with_others, "stop", kNow)) << "the second connection was away";
+  EXPECT_FALSE(heard.again(Way::alone, "stop", kNow + 10s));
+  EXPECT_TRUE(heard.overtook(kNow + 10s));
+}
+
+TEST(HeardTwice, DistrustsWhatComesAfterAStopThatNobodyCouldKeep) {
+  HeardTwice heard;
+  heard.lost(kNow);
+  EXPECT_TRUE(heard.overtook(kNow + 1s));
+  EXPECT_FALSE(heard.overtook(kNow + 2100ms));
+}
+
+TEST(HeardTwice, ExpectsTheOtherSelfOfAStopThatCameJustNow) {
+  HeardTwice heard;
+  EXPECT_FALSE(heard.expects(kNow));
+  EXPECT_FALSE(heard.again(Way::with_others, "stop", kNow));
+  EXPECT_TRUE(heard.expects(kNow + 100ms));
+  EXPECT_FALSE(heard.expects(kNow + 600ms)) << "the second connection is away";
+  EXPECT_TRUE(heard.again(Way::alone, "stop", kNow + 200ms));
+  EXPECT_FALSE(heard.expects(kNow + 200ms));
+}
+
+TEST(HeardTwice, TellsWhenTheFirstOfBothCame) {
+  HeardTwice heard;
+  EXPECT_FALSE(heard.again(Way::alone, "stop", kNow));
+  EXPECT_EQ(heard.again(Way::with_others, "stop", kNow + 20s), kNow);
+}
+
 TEST(HeardTwice, DistrustsNothingForEverWhenTheBrokerDroppedTheOther) {
   HeardTwice heard;
   EXPECT_FALSE(heard.again(Way::alone, "stop", kNow));

@@ -93,6 +93,12 @@ TEST_F(CanopenSdo, GivesUpAValueThatIsTooLongForIt) {
   EXPECT_FALSE(client.busy());
 }
 
+TEST_F(CanopenSdo, GivesUpANodeThatSendsSegmentsOfNothing) {
+  client.read({0x1008, 0}, at(0));
+  after("582#410810001A000000");
+  EXPECT_EQ(after("582#0E00000000000000"), "602#8008100001000405");
+}
+
 TEST_F(CanopenSdo, GivesUpATextOfAnotherLengthThanAnnounced) {
   client.read({0x1008, 0}, at(0));
   after("582#4108100005000000");
