@@ -229,5 +229,25 @@ TEST(ConfigurationChecks, WarnOfAGuardThatWaitsLongUnlessThatIsAccepted) {
   EXPECT_EQ(warnings(accepted), "");
 }
 
+TEST(Configuration, LooksAtADriveThoughOneWithALongerNumberIsWrong) {
+  std::string drives;
+  std::string left;
+  for (int i = 0; i <= 10; ++i) {
+    const auto joint = "w" + std::to_string(i);
+    const auto node = std::to_string(i == 10 ? 99 : i + 1);
+    drives += (i == 0 ? "" : ",") + (R"({"joint": ")" + joint) +
+              R"(", "driver": "odrive", "bus": "can0", "options": {"node": )" + node + "}" +
+              (i == 1 ? "" : R"(, "accept": ["no_watchdog"])") + "}";
+    if (i > 0) left += (i == 1 ? "\"" : ", \"") + joint + "\"";
+  }
+  const auto text = R"({"buses": [{"name": "can0", "interface": "can0"}], "drives": [)" + drives +
+                    R"(], "base": {"wheel_radius_m": 0.1, "track_m": 0.5, "hold": "brake",
+                    "left": [)" +
+                    left + R"(], "right": ["w0"]}, "accept": ["no_estop"]})";
+  const auto told = problems(text);
+  EXPECT_THAT(told, HasSubstr("drives[10].options.node: is 99"));
+  EXPECT_THAT(told, HasSubstr("drives[1].options: keeps its last velocity for ever"));
+}
+
 }  // namespace
 }  // namespace drover::config
