@@ -6,7 +6,7 @@
 namespace drover {
 
 /// Given to the gateway once, before its first cycle, and kept up to date by it from then on.
-/// A stop and a power cut outlive a boot of the computer; all else ends with it.
+/// A stop, what joint commands wait for and a power cut outlive a boot; all else ends with it.
 struct Remembered {
   Reason stop;                 ///< a latched stop; empty: none
   bool stop_at_robot = false;  ///< that stop can be reset at the robot only, not over the network
@@ -16,6 +16,9 @@ struct Remembered {
   bool task = false;           ///< a task was on its way
   /// Wheels, gyro and receiver agreed on a first way, with this configuration.
   bool mechanics_proved = false;
+  /// What stopped the base so that joint commands wait until a person acts; empty: nothing. A task
+  /// may begin all the same: it is a person's act.
+  Reason joints_wait;
 
   friend bool operator==(const Remembered&, const Remembered&) = default;
 };

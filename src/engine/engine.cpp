@@ -322,9 +322,14 @@ void Engine::step(Time now, const Environment& environment, EngineOutput& out) {
   e.fill_snapshot(now, environment, lines, e.estimate, motion.owner);
   out.outputs = e.snapshot.output_on =
       e.signals.step(now, e.snapshot, out.motion_permitted, motion.run, e.power.closed());
-  out.remembered = {
-      e.navigator.software_stop(), e.navigator.stop_at_robot(), e.power.is_cut(),    e.hold.armed(),
-      e.hold.released(),           e.navigator.active(),        e.mechanics.proved()};
+  out.remembered = {e.navigator.software_stop(),
+                    e.navigator.stop_at_robot(),
+                    e.power.is_cut(),
+                    e.hold.armed(),
+                    e.hold.released(),
+                    e.navigator.active(),
+                    e.mechanics.proved(),
+                    e.owners.latched()};
   e.events.drain(out.events);
 }
 

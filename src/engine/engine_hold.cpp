@@ -19,6 +19,11 @@ void Engine::recall(const Remembered& remembered, Time now) {
     e.navigator.latch_stop(remembered.stop, remembered.stop_at_robot);
     e.events.notice(now, Notice::Level::warning, "a stop from before the start is still latched");
   }
+  e.owners.recall(remembered.joints_wait);
+  if (!remembered.joints_wait.empty()) {
+    e.events.notice(now, Notice::Level::warning,
+                    "joint commands wait for a person, as before the start");
+  }
   e.power.recall(remembered.power_cut);
   e.hold.recall(remembered);
   if (remembered.mechanics_proved) e.mechanics.recall_proved();

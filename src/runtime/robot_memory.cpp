@@ -19,17 +19,40 @@
 namespace drover::runtime {
 
 namespace {
-constexpr std::uint64_t kFormat = 0x64726d656d303032;  // "drmem002"
+
+/// What the layout before this one kept: nothing that joint commands wait for.
+struct RememberedBefore {
+  Reason stop;
+  bool stop_at_robot = false;
+  bool power_cut = false;
+  bool holding = false;
+  bool released = false;
+  bool task = false;
+  bool mechanics_proved = false;
+
+  operator Remembered() const {
+    return {stop, stop_at_robot, power_cut, holding, released, task, mechanics_proved, {}};
+  }
+};
+
+template <class Kept>
+constexpr std::uint64_t kLayout = 0;
+template <>
+constexpr std::uint64_t kLayout<Remembered> = 0x64726d656d303033;  // "drmem003"
+template <>
+constexpr std::uint64_t kLayout<RememberedBefore> = 0x64726d656d303032;  // "drmem002"
+
 }  // namespace
 
-static_assert(std::is_trivially_copyable_v<Remembered>);
-
+template <class Kept>
 struct RobotMemory::Record {
+  static_assert(std::is_trivially_copyable_v<Kept>);
+
   std::uint64_t format = 0;
   std::uint64_t sequence = 0;  ///< 0: never written
   std::array<char, 40> boot{};
   std::uint64_t configuration = 0;
-  Remembered remembered;
+  Kept remembered;
   std::uint64_t checksum = 0;  ///< of all bytes before it
 
   std::uint64_t sum() const {
@@ -45,7 +68,7 @@ std::string boot_id() {
 
 RobotMemory::RobotMemory(const std::string& folder, const std::string& boot_id,
                          std::string_view configuration, std::vector<std::string>& report)
-    : boot_id_(boot_id.substr(0, std::tuple_size_v<decltype(Record::boot)> - 1)),
+    : boot_id_(boot_id.substr(0, std::tuple_size_v<decltype(Record<Remembered>::boot)> - 1)),
       configuration_(store::fingerprint(configuration)) {
   const std::string path = folder + "/memory";
   if (const char* failed = open(path)) {
@@ -53,46 +76,62 @@ RobotMemory::RobotMemory(const std::string& folder, const std::string& boot_id,
                      ": a latched stop is forgotten when droverd dies");
     return;
   }
-  read();
+  if (!found_ && !unreadable_) {
+    read(records_);
+    return;
+  }
+  // Of the version before, and emptied: this program may die before its first cycle.
+  if (unreadable_) {
+    records_[0].format = kLayout<Remembered>;
+  } else {
+    write(*found_);
+  }
 }
 
 const char* RobotMemory::open(const std::string& path) {
   link::UniqueFd fd(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0600));
   if (!fd) return "cannot open";
   struct stat info {};
-  const auto size = static_cast<off_t>(2 * sizeof(Record));
+  const auto size = static_cast<off_t>(2 * sizeof(Record<Remembered>));
   if (::fstat(fd.get(), &info) != 0) return "cannot look at it";
-  // Of another version, or none yet: there is nothing in it for us.
+  std::array<Record<RememberedBefore>, 2> before;
+  if (info.st_size == static_cast<off_t>(sizeof before)) {
+    if (::pread(fd.get(), before.data(), sizeof before, 0) != ssize_t{sizeof before})
+      return "cannot read";
+    read(before.data());
+  }
+  // Of yet another version, or none yet: there is nothing in it for us.
   if (info.st_size != size && ::ftruncate(fd.get(), 0) != 0) return "cannot empty";
   // Allocated now: a full disk would be a signal later, in the control thread.
   if (info.st_size != size) {
     errno = ::posix_fallocate(fd.get(), 0, size);
     if (errno != 0) return "no room";
   }
-  void* memory = ::mmap(nullptr, 2 * sizeof(Record), PROT_READ | PROT_WRITE,
+  void* memory = ::mmap(nullptr, 2 * sizeof(Record<Remembered>), PROT_READ | PROT_WRITE,
                         MAP_SHARED | MAP_POPULATE, fd.get(), 0);
   if (memory == MAP_FAILED) return "cannot map";
-  records_ = static_cast<Record*>(memory);
+  records_ = static_cast<Record<Remembered>*>(memory);
   return nullptr;
 }
 
 RobotMemory::~RobotMemory() {
-  if (records_ != nullptr) ::munmap(records_, 2 * sizeof(Record));
+  if (records_ != nullptr) ::munmap(records_, 2 * sizeof(Record<Remembered>));
 }
 
-void RobotMemory::read() {
+template <class Kept>
+void RobotMemory::read(const Record<Kept>* records) {
   bool written = false;
   for (int i = 0; i < 2; ++i) {
-    Record record;
-    std::memcpy(&record, &records_[i], sizeof record);
+    Record<Kept> record;
+    std::memcpy(static_cast<void*>(&record), &records[i], sizeof record);
     if (record.sequence == 0 && record.format == 0) continue;
     written = true;
-    const bool whole = record.format == kFormat && record.checksum == record.sum();
+    const bool whole = record.format == kLayout<Kept> && record.checksum == record.sum();
     if (!whole) continue;
     if (record.sequence <= sequence_) continue;
     sequence_ = record.sequence;
     const bool this_boot = boot_id_ == std::string_view(record.boot.data());
-    found_ = this_boot ? std::optional(record.remembered) : std::nullopt;
+    found_ = this_boot ? std::optional<Remembered>(record.remembered) : std::nullopt;
     if (found_ && record.configuration != configuration_) found_->mechanics_proved = false;
   }
   unreadable_ = written && sequence_ == 0;
@@ -101,17 +140,20 @@ void RobotMemory::read() {
 bool RobotMemory::keep(const Remembered& now) {
   if (last_ && *last_ == now) return false;
   last_ = now;
-  if (records_ == nullptr) return true;
-  Record record;
+  if (records_ != nullptr) write(now);
+  return true;
+}
+
+void RobotMemory::write(const Remembered& now) {
+  Record<Remembered> record;
   std::memset(static_cast<void*>(&record), 0, sizeof record);
-  record.format = kFormat;
+  record.format = kLayout<Remembered>;
   record.sequence = ++sequence_;
   std::memcpy(record.boot.data(), boot_id_.data(), boot_id_.size());
   record.configuration = configuration_;
   record.remembered = now;
   record.checksum = record.sum();
   std::memcpy(static_cast<void*>(&records_[sequence_ % 2]), &record, sizeof record);
-  return true;
 }
 
 Remembered recall(const RobotMemory& memory, const Remembered& on_disk) {

@@ -10,17 +10,22 @@ namespace drover::store {
 namespace {
 
 constexpr std::string_view kStopFormat = "drover-stop";
-constexpr int kStopVersion = 1;
+constexpr int kStopVersion = 2;
+constexpr int kVersionBefore = 1;  // nothing that joint commands wait for was kept
 const std::string kStopFile = "stop.json";
 
-std::optional<Remembered> read(const json::Node& root) {
+std::optional<Remembered> read(const json::Node& root, int version) {
   const auto* stop = root.find("stop");
   const auto* at_robot = root.find("at_robot");
   const auto* power_cut = root.find("power_cut");
   if (stop == nullptr || stop->text() == nullptr || at_robot == nullptr ||
       at_robot->boolean() == nullptr || power_cut == nullptr || power_cut->boolean() == nullptr)
     return std::nullopt;
+  const auto* joints_wait = root.find("joints_wait");
+  if (version == kStopVersion && (joints_wait == nullptr || joints_wait->text() == nullptr))
+    return std::nullopt;
   Remembered found;
+  if (version == kStopVersion) found.joints_wait.assign(*joints_wait->text());
   found.stop.assign(*stop->text());
   found.stop_at_robot = *at_robot->boolean();
   found.power_cut = *power_cut->boolean();
@@ -34,6 +39,7 @@ Remembered lasting(const Remembered& all) {
   kept.stop = all.stop;
   kept.stop_at_robot = all.stop_at_robot;
   kept.power_cut = all.power_cut;
+  kept.joints_wait = all.joints_wait;
   return kept;
 }
 
@@ -50,16 +56,18 @@ StopStore::StopStore(Files& files, std::string folder)
 Remembered StopStore::load(std::vector<std::string>& report) const {
   const std::string path = folder_ + "/" + kStopFile;
   std::string content;
-  std::string what = "has no stop, at_robot and power_cut";
+  std::string what = "does not tell all of a stop";
   const int error = files_.read(path, 65536, content);
   if (error == ENOENT) return {};
   if (error != 0) {
     report.push_back(failure_text("read", path, error));
   } else {
-    const auto body = unseal(kStopFormat, kStopVersion, content);
+    auto body = unseal(kStopFormat, kVersionBefore, content);
+    const int version = body.ok() ? kVersionBefore : kStopVersion;
+    if (version == kStopVersion) body = unseal(kStopFormat, version, content);
     if (body.ok()) {
       const auto parsed = json::parse(*body);
-      const auto found = parsed.ok() ? read(parsed->root) : std::nullopt;
+      const auto found = parsed.ok() ? read(parsed->root, version) : std::nullopt;
       if (found) return *found;
     } else {
       what = body.error().text;
@@ -73,7 +81,8 @@ std::optional<Failure> StopStore::save(const Remembered& remembered) {
   json::JsonText body;
   body.open('{').key("stop").text(remembered.stop.view());
   body.key("at_robot").boolean(remembered.stop_at_robot);
-  body.key("power_cut").boolean(remembered.power_cut).close('}');
+  body.key("power_cut").boolean(remembered.power_cut);
+  body.key("joints_wait").text(remembered.joints_wait.view()).close('}');
   return write_durably(files_, folder_, kStopFile, seal(kStopFormat, kStopVersion, body.str()));
 }
 

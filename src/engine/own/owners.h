@@ -47,6 +47,8 @@ class Owners final {
   Reason hinders_task() const;
   /// A task begins: forget old motion.
   void on_task_started();
+  /// What stopped the base before this program began, and no person has acted since.
+  void recall(const Reason& stopped_by) { latched_ = stopped_by; }
   /// A person has seen what stopped the stream.
   void reset() { latched_.clear(); }
   /// What stopped the base so that a person has to act before joint commands begin; empty: nothing.

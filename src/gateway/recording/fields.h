@@ -289,7 +289,8 @@ void visit_fields(V& v, const engine::EngineOutput& output, std::size_t axis_cou
   v.value("motion_permitted", motion_permitted);
   visit_values(v, "slowing_permitted", slowing_permitted);
   v.inside("remembered", [&v, &part = remembered] {
-    const auto& [stop, stop_at_robot, power_cut, holding, released, task, proved] = part;
+    const auto& [stop, stop_at_robot, power_cut, holding, released, task, proved, joints_wait] =
+        part;
     v.value("stop", stop);
     v.value("stop_at_robot", stop_at_robot);
     v.value("power_cut", power_cut);
@@ -297,6 +298,7 @@ void visit_fields(V& v, const engine::EngineOutput& output, std::size_t axis_cou
     v.value("released", released);
     v.value("task", task);
     v.value("mechanics_proved", proved);
+    v.value("joints_wait", joints_wait);
   });
 }
 

@@ -11,8 +11,8 @@ constexpr std::uint8_t kind_now() {
   return static_cast<std::uint8_t>(InputBody(Body{}).index());
 }
 
-/// What became of a kind of the first edition: its number now, and which number of a link or slot
-/// stands before its members.
+/// What became of a kind of the first edition: its number now, and what it has to be given: which
+/// number of a link or slot stands before its members, or what it did not tell behind them.
 struct Translation {
   enum class Adds : std::uint8_t {
     nothing,
@@ -21,6 +21,7 @@ struct Translation {
     lost,     ///< the same, and no reason behind it
     battery,  ///< its slot
     line_of_battery,
+    joints_wait,  ///< behind it: for nothing
   };
   std::uint8_t kind = 0;
   Adds adds = Adds::nothing;
@@ -45,7 +46,7 @@ const Translation kTranslations[] = {
     {kind_now<Tick>()},
     {kind_now<ProgramTrouble>()},
     {kind_now<Suspended>()},
-    {kind_now<Recalled>()},
+    {kind_now<Recalled>(), Adds::joints_wait},
     {kind_now<OutputsUp>()},
 };
 
@@ -67,7 +68,8 @@ std::vector<std::uint8_t> from_first_edition(std::span<const std::uint8_t> recor
   out.byte(kind_now);
   out.signed_number(time);
   switch (adds) {
-    case Adds::nothing: break;
+    case Adds::nothing:
+    case Adds::joints_wait: break;
     case Adds::stream: {
       const auto streams = streams_of_first_edition(wiring);
       out.byte(streams[in.below(streams.size())]);
@@ -82,6 +84,7 @@ std::vector<std::uint8_t> from_first_edition(std::span<const std::uint8_t> recor
     case Adds::line_of_battery: out.byte(wiring.link_of(SlotKind::battery)); break;
   }
   out.bytes(in.left());
+  if (adds == Adds::joints_wait) out.text("");
   if (!in.good() || !out.good()) return {};
   buffer.resize(out.written().size());
   return buffer;

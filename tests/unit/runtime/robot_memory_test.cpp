@@ -2,9 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cstddef>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 
+#include "store/durable_file.h"
 #include "store/stop_store.h"
 #include "support/temp_folder.h"
 
@@ -17,8 +21,21 @@ Remembered stopped() {
   Remembered kept;
   kept.stop = "emergency stop of an operator";
   kept.holding = true;
+  kept.joints_wait = "bumper touched";
   return kept;
 }
+/// A record of the layout before this one, which kept nothing that joint commands wait for.
+struct RecordBefore {
+  std::uint64_t format = 0x64726d656d303032;
+  std::uint64_t sequence = 1;
+  std::array<char, 40> boot{};
+  std::uint64_t configuration = store::fingerprint("{}");
+  struct {
+    Reason stop;
+    std::array<bool, 6> flags{};  ///< the third: holding
+  } kept;
+  std::uint64_t checksum = 0;
+};
 
 class ARobotMemory : public ::testing::Test {
  protected:
@@ -32,6 +49,22 @@ class ARobotMemory : public ::testing::Test {
     std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
     file.seekp(static_cast<std::streamoff>(record * size + size / 2));
     file.put('\x7f');
+  }
+  /// What the version before this one left: its stop of an operator, the robot held.
+  void leave_the_layout_before(bool whole) const {
+    std::array<RecordBefore, 2> records;
+    std::memset(static_cast<void*>(records.data()), 0, sizeof records);
+    RecordBefore record;
+    std::memset(static_cast<void*>(&record.kept), 0, sizeof record.kept);
+    std::memcpy(record.boot.data(), kBoot, std::strlen(kBoot));
+    record.kept.stop = "emergency stop of an operator";
+    record.kept.flags[2] = true;
+    record.checksum = store::fingerprint(
+        {reinterpret_cast<const char*>(&record), offsetof(RecordBefore, checksum)});
+    if (!whole) ++record.checksum;
+    std::memcpy(static_cast<void*>(&records[1]), &record, sizeof record);
+    std::ofstream(folder.path() + "/memory", std::ios::binary)
+        .write(reinterpret_cast<const char*>(records.data()), sizeof records);
   }
   test::TempFolder folder;
   std::vector<std::string> report;
@@ -90,6 +123,25 @@ TEST_F(ARobotMemory, IsBelievedBeforeTheDisk) {
 TEST_F(ARobotMemory, LeavesItToTheDiskAfterABoot) {
   { open().keep({}); }
   EXPECT_EQ(recall(open("another"), stopped()), stopped());
+}
+TEST_F(ARobotMemory, OfTheVersionBeforeTellsAllButWhatJointCommandsWaitFor) {
+  leave_the_layout_before(true);
+  Remembered left = stopped();
+  left.joints_wait.clear();
+  EXPECT_EQ(open().found(), left);
+  EXPECT_EQ(open().found(), left) << "still, when that program died before its first cycle";
+  EXPECT_FALSE(open("another").found()) << "after a boot";
+  { EXPECT_TRUE(open().keep(stopped())); }
+  EXPECT_EQ(open().found(), stopped());
+  EXPECT_EQ(report, std::vector<std::string>{});
+}
+TEST_F(ARobotMemory, OfTheVersionBeforeThatCannotBeReadCountsAsAStop) {
+  leave_the_layout_before(false);
+  for (int start = 1; start <= 2; ++start) {
+    const auto memory = open();
+    EXPECT_TRUE(memory.unreadable()) << "start " << start;
+    EXPECT_EQ(recall(memory, {}).stop, store::kUnreadableStop);
+  }
 }
 TEST_F(ARobotMemory, ThatHasNoFolderSaysSoAndWorksForItself) {
   RobotMemory memory("/nowhere", kBoot, "{}", report);

@@ -16,6 +16,7 @@ Remembered stopped() {
   kept.stop = "wheel rear_left runs away: 22.1 rad/s";
   kept.stop_at_robot = true;
   kept.power_cut = true;
+  kept.joints_wait = "bumper touched";
   return kept;
 }
 
@@ -45,6 +46,30 @@ TEST(AStopStore, KeepsOnlyWhatOutlivesABoot) {
   Remembered all = stopped();
   all.holding = all.released = all.task = true;
   EXPECT_EQ(lasting(all), stopped());
+}
+TEST(AStopStore, KeepsWhatJointCommandsWaitForWithoutAStop) {
+  Stored it;
+  Remembered waiting;
+  waiting.joints_wait = "e-stop pressed";
+  ASSERT_TRUE(it.save(waiting));
+  EXPECT_EQ(it.load(), waiting);
+}
+TEST(AStopStore, ReadsAFileOfTheVersionBeforeInWhichJointCommandsWaitForNothing) {
+  Stored it;
+  const std::string body = R"({"stop": "off", "at_robot": false, "power_cut": true})";
+  it.files.put("state/stop.json", seal("drover-stop", 1, body));
+  Remembered left;
+  left.stop = "off";
+  left.power_cut = true;
+  EXPECT_EQ(it.load(), left);
+  EXPECT_TRUE(it.report.empty());
+}
+TEST(AStopStore, CountsAFileOfThisVersionWithoutThatAsAStop) {
+  Stored it;
+  const std::string body = R"({"stop": "", "at_robot": false, "power_cut": false})";
+  it.files.put("state/stop.json", seal("drover-stop", 2, body));
+  EXPECT_EQ(it.load(), unreadable_stop());
+  EXPECT_THAT(it.report, ElementsAre(HasSubstr("does not tell all")));
 }
 TEST(AStopStore, CountsADamagedFileAsAStopUntilTheNextSave) {
   Stored it;

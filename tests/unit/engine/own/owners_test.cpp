@@ -66,6 +66,16 @@ class JointCommands : public AnOwner {
     EXPECT_EQ(rig.fastest_command_radps(), 0);
     EXPECT_THAT(reason(), HasSubstr(why));
   }
+  /// The gateway died and another one is back, with what was remembered; the stream went on.
+  void restart() {
+    const Remembered left = rig.out.remembered;
+    rig.engine = std::make_unique<Engine>(rig.config);
+    rig.engine->recall(left, rig.now);
+    for (auto& drive : rig.drives) drive = {};
+    rig.tick();
+    rig.set_origin();
+    stream_s(0, 0.1);
+  }
   std::string reason() const { return std::string(rig.snapshot().joint_command.reason.view()); }
 };
 
@@ -244,6 +254,39 @@ TEST_F(JointCommands, LeaveAHeadingSearchToAPersonWhoAsksForItAnew) {
   rig.run_s(3);
   EXPECT_EQ(rig.snapshot().nav.owner, Owner::manual);
   EXPECT_GT(rig.fastest_command_radps(), 0);
+}
+TEST_F(JointCommands, StayStoppedAfterAnEstopThoughTheGatewayIsKilled) {
+  drive_by_joints();
+  rig.lines[static_cast<std::size_t>(Line::estop)] = true;
+  rig.tick();
+  restart();
+  rig.lines = {};
+  expect_no_joint_moves("reset the stop first: e-stop pressed");
+  EXPECT_TRUE(rig.snapshot().stop_latched);
+  EXPECT_TRUE(rig.out.remembered.stop.empty()) << "a task may begin";
+  restart();
+  expect_no_joint_moves("reset the stop first: e-stop pressed");
+  rig.command(ResetStop{});
+  drive_by_joints();
+  EXPECT_TRUE(rig.out.remembered.joints_wait.empty());
+}
+TEST_F(JointCommands, StayStoppedAfterABumperOfATaskThoughTheGatewayIsKilled) {
+  drive();
+  tap(Line::bumper);
+  restart();
+  expect_no_joint_moves("reset the stop first: bumper");
+  rig.command(CancelTask{});
+  drive_by_joints();
+}
+TEST_F(JointCommands, LeaveTheDrivesToATaskThatAPersonStartsAfterTheGatewayWasKilled) {
+  drive();
+  tap(Line::bumper);
+  restart();
+  rig.run_s(3);
+  rig.start(path, 40, 0.5);
+  rig.run_s(4);
+  EXPECT_EQ(rig.snapshot().nav.status, NavStatus::run) << rig.why() << refusal();
+  EXPECT_TRUE(rig.out.remembered.joints_wait.empty()) << "a person acted";
 }
 TEST_F(JointCommands, NeedNoResetAfterAnEstopAtRest) {
   rig.settle();

@@ -62,6 +62,11 @@ TEST_F(FirstEdition, NumberedTheBusesAsToday) {
   EXPECT_EQ(meaning(9, {0, 40, 3}), "at 8.000000000 s: can0 took 40 frames so far, refused 3");
 }
 
+TEST_F(FirstEdition, RecalledNothingThatJointCommandsWaitFor) {
+  EXPECT_EQ(meaning(15, {3, 'o', 'f', 'f', 1, 0, 1, 0, 0, 0}),
+            "at 8.000000000 s: recalled: held stopped at the robot: off");
+}
+
 TEST_F(FirstEdition, HadTheSameOfAllElse) {
   EXPECT_EQ(meaning(12, {5}), "at 8.000000000 s: tick, guard alive, stopped at the guard");
   EXPECT_EQ(meaning(13, {2, 'n', 'o'}), "at 8.000000000 s: trouble of the daemon: no");
