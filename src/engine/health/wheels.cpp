@@ -80,15 +80,21 @@ void WheelMonitor::follow_command(Wheel& wheel, const AxisSnapshot& axis, Time n
   double asked_radps = std::abs(axis.commanded_velocity_radps);
   // A guard may be slowing it down since before this gateway began, or somebody pushed it.
   const double found_radps = std::abs(axis.motion.velocity_radps);
-  if (!wheel.judged && std::isfinite(found_radps)) asked_radps = std::max(asked_radps, found_radps);
+  const bool was_caught = wheel.caught;
   // A roll that is caught may be faster than any command: its ramp begins there.
   if (judged && wheel.let_go) wheel.caught = true;
   if (!(found_radps > fastest_radps_) || axis.state != AxisState::running) wheel.caught = false;
   wheel.let_go = heard && axis.state != AxisState::running;
-  if (!wheel.judged || asked_radps >= wheel.reach_radps) {
+  // A caught wheel has no other limit: a silence must not let it begin with a higher speed.
+  const bool stays_caught = was_caught && wheel.caught;
+  const bool begins = !wheel.judged && !stays_caught;
+  if (begins && std::isfinite(found_radps)) asked_radps = std::max(asked_radps, found_radps);
+  if (begins) wheel.began_radps = asked_radps;
+  if (stays_caught) asked_radps = std::min(asked_radps, wheel.began_radps);
+  if (begins || asked_radps >= wheel.reach_radps) {
     wheel.reach_radps = asked_radps;
     wheel.reached = now;
-  } else if (now - wheel.reached >= from_s(kReachHeld_s)) {
+  } else if (wheel.judged && now - wheel.reached >= from_s(kReachHeld_s)) {
     wheel.reach_radps = std::max(asked_radps, wheel.reach_radps - falls_radps2_ * to_s(dt));
   }
   wheel.judged = judged;

@@ -23,7 +23,7 @@ enum class WheelFault : std::uint8_t {
 /// may turn follows its command with the delay and the deceleration of a stop; a wheel that is seen
 /// for the first time, again after a silence, or newly in closed loop begins with the speed it has.
 /// No wheel is faster than the highest command, except one that is caught while it rolls: until it
-/// is slower once, only what it began with counts.
+/// is slower once, only what it began with counts, over a silence, too.
 class WheelMonitor final {
  public:
   explicit WheelMonitor(const EngineConfig& config);
@@ -44,6 +44,7 @@ class WheelMonitor final {
     Time mark = kNever;      ///< when it was last seen to follow
     bool judged = false;     ///< heard, and in closed loop, in the cycle before
     double reach_radps = 0;  ///< how fast the commands of late may have made it
+    double began_radps = 0;  ///< its reach when it was first seen, or caught
     Time reached = kNever;   ///< when a command, or its first speed, last asked for so much
     bool let_go = false;     ///< heard, and not in closed loop, in the cycle before
     bool caught = false;     ///< taken into closed loop while it turned faster than any command

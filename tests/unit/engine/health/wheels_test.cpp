@@ -60,6 +60,13 @@ class AWheelMonitor : public ::testing::Test {
     for (AxisSnapshot& axis : axes) axis.state = AxisState::running;
     step();
   }
+  /// Nothing is heard of the drives.
+  void be_silent_s(double seconds) {
+    for (int i = 0; i < static_cast<int>(seconds * 200 + 0.5) && fault == WheelFault::none; ++i) {
+      now += std::chrono::milliseconds(5);
+      fault = monitor.update(now, std::chrono::milliseconds(5), axes);
+    }
+  }
   /// Caught at `mps`: the command falls to zero, the wheels by `falls_mps2`.
   double catch_s(double seconds, double mps, double falls_mps2) {
     switch_on_at(mps);
@@ -208,6 +215,25 @@ TEST_F(AWheelMonitor, FindsACaughtWheelThatSpeedsUp) {
   EXPECT_GT(found_s, 0.05);
   EXPECT_LE(found_s, 0.3);
   EXPECT_THAT(reason(), HasSubstr("wheel a runs away"));
+}
+TEST_F(AWheelMonitor, FindsACaughtWheelThatIsFasterAfterASilence) {
+  const double limit_mps = max_wheel_mps(config.base, config.limits, 2.5) + 0.3;
+  const double radius_m = config.base.wheel_radius_m;
+  switch_on_at(limit_mps + 1);
+  ASSERT_EQ(turn_s(0.1, (limit_mps + 1) / radius_m), 0) << reason();
+  be_silent_s(0.2);
+  ASSERT_EQ(fault, WheelFault::none) << reason();
+  const double found_s = turn_s(0.2, (limit_mps + 2) / radius_m);
+  EXPECT_GT(found_s, 0);
+  EXPECT_THAT(reason(), HasSubstr("wheel a runs away"));
+}
+TEST_F(AWheelMonitor, LetsACaughtWheelBeSilentWhileItSlowsDown) {
+  const double radius_m = config.base.wheel_radius_m;
+  switch_on_at(2.4);
+  ASSERT_EQ(turn_s(0.1, 2.4 / radius_m), 0) << reason();
+  be_silent_s(2);
+  ASSERT_EQ(fault, WheelFault::none) << "no speed of a silent drive is believed: " << reason();
+  EXPECT_EQ(turn_s(1, 1.5 / radius_m, kRampDown_mps2 / radius_m), 0) << reason();
 }
 TEST_F(AWheelMonitor, FindsACaughtWheelThatDoesNotSlowDown) {
   const double found_s = catch_s(5, 2.4, 0);
