@@ -12,6 +12,7 @@ constexpr std::size_t kMostAskedStops = 256;
 constexpr std::string_view kOvertaken =
     "a stop came just now, and may be younger than this; try again";
 constexpr Duration kLongestWait = std::chrono::milliseconds(100);  // a sixth of what the thread may
+constexpr Duration kNoWait = std::chrono::seconds(1);
 constexpr Duration kDeafFor = std::chrono::seconds(5);
 
 bool is_from_broker(const Command& command) {
@@ -27,16 +28,15 @@ bool begins_motion(const Command& command) {
 
 void PublishLoop::on_message(const MqttMessage& message) {
   const Time now = monotonic_now();
-  auto late = broker_->late(now);
-  if (late.empty() && overtaken(now)) late = kOvertaken;
-  const publish::Arrival arrival{message.retain, late,
-                                 now.time_since_epoch() + wall_minus_monotonic()};
+  publish::Arrival arrival{message.retain, broker_->late(now),
+                           now.time_since_epoch() + wall_minus_monotonic()};
   if (message.topic == publish::kTopicControl) {
     on_control(message.payload, arrival, now);
     return;
   }
   const auto names = aimrt_ ? aimrt_->command_names(message.topic) : std::nullopt;
   if (names) {
+    if (arrival.late.empty() && overtaken(now)) arrival.late = kOvertaken;
     aimrt_->on_command(*names, message.payload, arrival, now, arrival.wall - now.time_since_epoch(),
                        actions_);
   }
@@ -61,8 +61,10 @@ void PublishLoop::on_control(std::string_view payload, const publish::Arrival& a
   }
   // A stop that came just before it is asked for now, so that only younger ones count against it.
   carry_out(actions_);
-  if (!parser_.give({std::string(payload), arrival, control_.stops.asked()}))
-    service_.on_unparsed(payload, now, actions_);
+  await_other_self();
+  ParseJob job{std::string(payload), arrival, control_.stops.asked()};
+  if (job.arrival.late.empty() && overtaken(now)) job.arrival.late = kOvertaken;
+  if (!parser_.give(std::move(job))) service_.on_unparsed(payload, now, actions_);
 }
 
 /// It was carried out and answered. Only what was begun since then, by the command line say, may
@@ -96,14 +98,18 @@ bool PublishLoop::overtaken(Time now) {
   return (stops_ != nullptr && stops_->knows_more()) || heard_twice_.overtook(now);
 }
 
-/// A stop that came just before a start must not end it when it is heard the second time.
+/// A stop that came just before a start must not end it when it is heard the second time. Who waits
+/// in vain does not wait again soon: the second connection is behind.
 void PublishLoop::await_other_self() {
-  const Time end = monotonic_now() + kLongestWait;
-  while (stops_ != nullptr && stops_->connected() && monotonic_now() < end) {
-    hear_stops(monotonic_now());
-    if (!heard_twice_.expects(monotonic_now())) return;
+  const Time begin = monotonic_now();
+  if (stops_ == nullptr || begin < next_wait_) return;
+  for (Time now = begin; stops_->connected(); now = monotonic_now()) {
+    hear_stops(now);
+    if (!heard_twice_.expects(now)) return;
+    if (now - begin >= kLongestWait) break;
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
+  next_wait_ = begin + kNoWait;
 }
 
 void PublishLoop::take_heard_stops(Time now) {
