@@ -29,11 +29,10 @@ PdoSteps steps_of(const Pdo& pdo, std::uint8_t node) {
   if (pdo.inhibit_100us) add({communication, 3}, u16(*pdo.inhibit_100us));
   if (pdo.event_timer_ms) add({communication, 5}, u16(*pdo.event_timer_ms));
   add({mapping, 0}, u8(0));
-  for (std::uint8_t i = 0; i < pdo.objects.size(); ++i) {
-    const auto& [object, bits] = pdo.objects[i];
-    add({mapping, static_cast<std::uint8_t>(i + 1U)},
-        u32(static_cast<std::uint32_t>(object.index) << 16U |
-            static_cast<std::uint32_t>(object.sub) << 8U | bits));
+  std::uint8_t sub = 0;
+  for (const auto& [object, bits] : pdo.objects) {
+    add({mapping, ++sub}, u32(static_cast<std::uint32_t>(object.index) << 16U |
+                              static_cast<std::uint32_t>(object.sub) << 8U | bits));
   }
   add({mapping, 0}, u8(static_cast<std::uint8_t>(pdo.objects.size())));
   add({communication, 1}, u32(id));
