@@ -11,7 +11,8 @@ namespace {
 constexpr std::size_t kMostAskedStops = 256;
 constexpr std::string_view kOvertaken =
     "a stop came just now, and may be younger than this; try again";
-constexpr Duration kLongestWait = std::chrono::milliseconds(100);  // a sixth of what the thread may
+constexpr Duration kLongestWait =
+    std::chrono::milliseconds(250);  // less than half of what the thread may
 constexpr Duration kNoWait = std::chrono::seconds(1);
 constexpr Duration kDeafFor = std::chrono::seconds(5);
 
