@@ -32,7 +32,7 @@ constexpr AbortCode kAbortCodes[] = {
     {0x06040043, "parameters do not agree"},
     {0x06040047, "does not agree inside the device"},
     {0x06060000, "hardware error"},
-    {0x06070010, "wrong length"},
+    {kAbortLength, "wrong length"},
     {0x06070012, "too long"},
     {0x06070013, "too short"},
     {0x06090011, "no such subindex"},

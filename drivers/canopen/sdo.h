@@ -25,6 +25,7 @@ inline constexpr std::uint32_t kAbortToggle = 0x05030000;
 inline constexpr std::uint32_t kAbortTimeout = 0x05040000;
 inline constexpr std::uint32_t kAbortCommand = 0x05040001;
 inline constexpr std::uint32_t kAbortMemory = 0x05040005;
+inline constexpr std::uint32_t kAbortLength = 0x06070010;
 
 /// In words; of an unknown code a sentence that says so.
 std::string_view abort_text(std::uint32_t code);

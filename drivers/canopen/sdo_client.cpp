@@ -84,8 +84,7 @@ std::optional<CanFrame> SdoClient::on_segment(const SdoAnswer& segment, Time now
   // Or a node that says nothing at length would be listened to for ever.
   if (segment.data.empty() && !segment.last) return give_up(kAbortCommand);
   if (segment.last) {
-    constexpr std::uint32_t kWrongLength = 0x06070010;
-    if (announced_ && *announced_ != current_.data.size()) return give_up(kWrongLength);
+    if (announced_ && *announced_ != current_.data.size()) return give_up(kAbortLength);
     end(SdoOutcome::Kind::read);
     return {};
   }

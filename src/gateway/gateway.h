@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -85,7 +86,7 @@ class Gateway final {
   void on(const Suspended& slept, Time now);
   void notice_foreign(const Slot& slot, const CanFrame& frame, Time received);
   bool is_bus(std::size_t link) const { return link < buses_.size(); }
-  const std::vector<SlotId>& slots_on(LinkId link) const;
+  std::span<const SlotId> slots_on(LinkId link) const;
   Slot* asked(SlotId slot, std::size_t block);
 
   // gateway.cpp

@@ -3,9 +3,9 @@
 
 namespace drover::gateway {
 
-const std::vector<SlotId>& Gateway::slots_on(LinkId link) const {
-  static const std::vector<SlotId> kNone;
-  return link < wiring_.links.size() ? wiring_.links[link].slots : kNone;
+std::span<const SlotId> Gateway::slots_on(LinkId link) const {
+  if (link >= wiring_.links.size()) return {};
+  return wiring_.links[link].slots;
 }
 
 void Gateway::on(const FrameHeard& heard, Time received) {
@@ -40,7 +40,7 @@ void Gateway::on(const BytesHeard& heard, Time first_byte) {
 }
 
 void Gateway::on(const LevelsRead& read, Time at) {
-  const auto& slots = slots_on(read.link);
+  const auto slots = slots_on(read.link);
   for (std::size_t i = 0; i < slots.size() && i < read.levels.size(); ++i) {
     Slot& slot = wiring_.slots[slots[i]];
     if (slot.made.levels == nullptr) continue;

@@ -264,6 +264,10 @@ void PublishLoop::take_replies(Time now) {
 void PublishLoop::send(const publish::PublishText& message, publish::Actions& actions) {
   if (!broker_) return;
   if (message.topic == publish::kTopicFeedback && stops_->answer(message.text)) return;
+  send_with_others(message, actions);
+}
+
+void PublishLoop::send_with_others(const publish::PublishText& message, publish::Actions& actions) {
   const auto problem = broker_->publish(std::string(message.topic).c_str(), message.text);
   if (!problem.empty()) service_.on_unsent(message, problem, actions);
   service_.set_under_way(broker_->bytes_under_way());
@@ -272,11 +276,8 @@ void PublishLoop::send(const publish::PublishText& message, publish::Actions& ac
 /// What the second connection could not send after all.
 void PublishLoop::send_unsent() {
   if (stops_ == nullptr || !broker_) return;
-  for (std::string text; stops_->take_unsent(text);) {
-    const publish::PublishText message{publish::kTopicFeedback, text};
-    const auto problem = broker_->publish(publish::kTopicFeedback.data(), text);
-    if (!problem.empty()) service_.on_unsent(message, problem, actions_);
-  }
+  for (std::string text; stops_->take_unsent(text);)
+    send_with_others({publish::kTopicFeedback, text}, actions_);
 }
 
 void PublishLoop::carry_out(publish::Actions& actions) {

@@ -65,6 +65,7 @@ class PublishLoop final {
   void on_cli_line(CliServer::ClientId client, std::string_view line, Time now);
   std::string cli_reply(std::string_view cmd, const std::string& name);
   void carry_out(publish::Actions& actions);
+  void send_with_others(const publish::PublishText& message, publish::Actions& actions);
   void send_unsent();
   void send(const publish::PublishText& message, publish::Actions& actions);
   void deliver(const Command& command, publish::Actions& actions);

@@ -72,11 +72,7 @@ void PublishLoop::on_control(std::string_view payload, const publish::Arrival& a
 /// have been sent before it.
 void PublishLoop::ask_again(const publish::ControlCommand& request, Time first) {
   if (last_delivered_ == kNever || last_delivered_ < first) return;
-  if (std::holds_alternative<publish::TerminateRequest>(request)) {
-    (void)control_.stops.ask_stop();
-  } else {
-    (void)control_.stops.ask_cancel();
-  }
+  (void)ask(control_.stops, request);
 }
 
 /// Takes over what the second connection heard, so that overtaken() knows of it.

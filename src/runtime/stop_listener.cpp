@@ -18,6 +18,11 @@ constexpr Duration kTick = std::chrono::milliseconds(200);
 
 }  // namespace
 
+StopCounts ask(StopRequests& stops, const publish::ControlCommand& stop) {
+  return std::holds_alternative<publish::TerminateRequest>(stop) ? stops.ask_stop()
+                                                                 : stops.ask_cancel();
+}
+
 StopListener::StopListener(const config::MqttConfig& config, StopRequests& stops)
     : stops_(stops),
       broker_(
@@ -60,9 +65,7 @@ void StopListener::on_message(const MqttMessage& message) {
   const auto request = publish::parse_control(text, message.retain);
   if (!publish::is_stop(request)) return;
   begun_.fetch_add(1, std::memory_order_release);
-  const auto asked = std::holds_alternative<publish::TerminateRequest>(*request)
-                         ? stops_.ask_stop()
-                         : stops_.ask_cancel();
+  const auto asked = ask(stops_, *request);
   if (!heard_.push(HeardStop{std::string(text), message.retain, asked}))
     lost_.fetch_add(1, std::memory_order_release);
   heard_ready_.notify();

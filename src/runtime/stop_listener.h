@@ -13,6 +13,7 @@
 #include "config/config.h"
 #include "drover/spsc_ring.h"
 #include "publish/arrival.h"
+#include "publish/rtk_navigation/control.h"
 #include "runtime/mqtt_client.h"
 #include "runtime/stop_requests.h"
 #include "runtime/wake.h"
@@ -25,6 +26,9 @@ struct HeardStop {
   publish::Retain retain = publish::Retain::no;
   StopCounts asked;  ///< what must be obeyed before it is
 };
+
+/// Asks for what a stop means: zero at once for a terminate, a ramp for a cancel.
+StopCounts ask(StopRequests& stops, const publish::ControlCommand& stop);
 
 class StopListener final {
  public:

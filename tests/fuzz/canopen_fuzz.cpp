@@ -16,32 +16,16 @@
 #include "drivers/canopen/emcy.h"
 #include "drivers/canopen/nmt.h"
 #include "drivers/canopen/sdo_client.h"
+#include "tests/fuzz/input.h"
 
 namespace {
 
 using namespace drover;
 using namespace drover::canopen;
+using namespace drover::fuzz;
 
 constexpr std::uint8_t kNode = 5;
 constexpr Duration kPatience = std::chrono::milliseconds(200);
-
-/// What comes in, read to its end and zero beyond.
-class Input {
- public:
-  explicit Input(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
-  bool more() const { return at_ < bytes_.size(); }
-  std::uint8_t byte() { return more() ? bytes_[at_++] : std::uint8_t{0}; }
-  std::uint16_t word() { return static_cast<std::uint16_t>(byte() | byte() << 8U); }
-
- private:
-  std::span<const std::uint8_t> bytes_;
-  std::size_t at_ = 0;
-};
-
-void read_data(Input& input, CanFrame& frame) {
-  frame.len = input.byte() % (frame.data.size() + 1);
-  for (std::uint8_t i = 0; i < frame.len && input.more(); ++i) frame.data[i] = input.byte();
-}
 
 void expect(bool true_sentence) {
   if (!true_sentence) std::abort();
@@ -79,22 +63,17 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   Time now{};
   while (input.more()) {
     const std::uint8_t kind = input.byte();
-    CanFrame frame;
     switch (kind & 3U) {
-      case 0:
-        frame.id = 0x580U + kNode;
-        read_data(input, frame);
-        hear(client, frame, now);
+      case 0: {
+        CanFrame answer;
+        answer.id = 0x580U + kNode;
+        read_data(input, answer);
+        hear(client, answer, now);
         break;
+      }
       case 1: {
-        frame.id = input.word();
-        const std::uint8_t flags = input.byte();
-        frame.extended = (flags & 1U) != 0;
-        frame.remote = (flags & 2U) != 0;
-        frame.fd = (flags & 4U) != 0;
-        frame.error = (flags & 8U) != 0;
-        read_data(input, frame);
-        hear(client, frame, now);
+        const std::uint32_t id = input.word();
+        hear(client, read_frame(input, id), now);
         break;
       }
       case 2: {

@@ -9,50 +9,21 @@
 //   6     cycles at rest, or idle when the command id is odd
 //   7     a pause of 5 ms times a byte; then, by two bits of the command id, the link comes back
 //         and a cycle passes in which nobody decides
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 
+#include "tests/fuzz/input.h"
 #include "tests/fuzz/odrive_bench.h"
 
 namespace {
 
 using namespace std::chrono_literals;
 using namespace drover;
+using namespace drover::fuzz;
 
 constexpr std::size_t kMaxInput = 512;
 constexpr int kMaxCycles = 150;  // longer than every time-out
-
-/// What comes in, read to its end and zero beyond.
-class Input {
- public:
-  explicit Input(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
-  bool more() const { return at_ < bytes_.size(); }
-  std::uint8_t byte() { return more() ? bytes_[at_++] : std::uint8_t{0}; }
-  float real() {
-    std::uint32_t bits = 0;
-    for (int i = 0; i < 4; ++i) bits |= static_cast<std::uint32_t>(byte()) << (8 * i);
-    return std::bit_cast<float>(bits);
-  }
-
- private:
-  std::span<const std::uint8_t> bytes_;
-  std::size_t at_ = 0;
-};
-
-CanFrame read_frame(Input& input, std::uint32_t id) {
-  CanFrame frame;
-  const std::uint8_t flags = input.byte();
-  frame.id = id;
-  frame.extended = (flags & 1U) != 0;
-  frame.remote = (flags & 2U) != 0;
-  frame.fd = (flags & 4U) != 0;
-  frame.error = (flags & 8U) != 0;
-  frame.len = input.byte() % (frame.data.size() + 1);
-  for (std::uint8_t i = 0; i < frame.len && input.more(); ++i) frame.data[i] = input.byte();
-  return frame;
-}
 
 }  // namespace
 
