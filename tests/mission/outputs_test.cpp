@@ -152,9 +152,10 @@ TEST(Hang, LeavesTheHardwareWatchdogFedByTheGuardAndIsHeardAfterwards) {
   EXPECT_LE(longest_gap(log, log.event("event boot#1") + 100ms, log.event("the end")), kPulseGap);
   const Time hung = log.event("signal 19 to droverd");
   const Time woken = log.event("signal 18 to droverd");
+  // The player writes the signal down after it has sent it, and droverd may be quicker than that.
   for (const char* output : {"enable_relay", "lamp", "buzzer"})
-    EXPECT_THAT(log.changes(output, hung, woken), testing::IsEmpty()) << output;
-  expect_pulses(log, "buzzer", woken, woken + 3s, {0ms}, 800ms);
+    EXPECT_THAT(log.changes(output, hung, woken - 1ms), testing::IsEmpty()) << output;
+  expect_pulses(log, "buzzer", woken - 1ms, woken + 3s, {0ms}, 800ms);
 }
 
 TEST(HangWithoutBus, LeavesTheDrivesToTheHardwareWatchdogAlone) {

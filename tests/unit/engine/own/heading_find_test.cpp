@@ -1,0 +1,75 @@
+// The straight way that finds the heading.
+#include "owners_fixture.h"
+
+namespace drover::engine {
+namespace {
+
+class FindingTheHeading : public AnOwner {
+ protected:
+  void settle_without_heading() {
+    rig.no_heading = true;
+    rig.settle();
+    ASSERT_EQ(rig.snapshot().nav.locate, LocateState::uninit);
+  }
+  std::string last_notice() const { return std::string(rig.said<Notice>().back().text.view()); }
+};
+
+TEST_F(FindingTheHeading, IsRefusedWhenItIsKnown) {
+  rig.settle();
+  rig.command(FindHeading{});
+  rig.run_s(1);
+  EXPECT_EQ(rig.fastest_command_radps(), 0);
+  EXPECT_THAT(std::string(rig.said<CommandRefused>().back().reason.view()), HasSubstr("known"));
+}
+TEST_F(FindingTheHeading, DrivesNoFartherThanItMay) {
+  settle_without_heading();
+  rig.quality = FixQuality::none;  // nothing will ever show it
+  rig.command(FindHeading{});
+  rig.run_s(3);
+  EXPECT_EQ(rig.snapshot().nav.owner, Owner::manual);
+  EXPECT_GT(rig.fastest_command_radps(), 0);
+  rig.run_s(40);
+  EXPECT_EQ(rig.fastest_command_radps(), 0);
+  EXPECT_THAT(last_notice(), HasSubstr("no heading"));
+  EXPECT_LT(rig.plant.estimate().x_m, rig.config.navigate.find_heading_distance_m + 0.3);
+}
+TEST_F(FindingTheHeading, SlowsDownForSomebodyInTheFarZone) {
+  EngineConfig config = rig_config();
+  config.navigate.find_heading_speed_mps = 0.5;
+  rig = EngineRig(config);
+  settle_without_heading();
+  rig.quality = FixQuality::none;
+  rig.command(FindHeading{});
+  rig.lines[static_cast<std::size_t>(Line::zone_far)] = true;
+  rig.run_s(3);
+  EXPECT_NEAR(rig.fastest_command_radps() * rig.config.base.wheel_radius_m,
+              rig.config.navigate.far_zone_speed_mps, 1e-6);
+}
+TEST_F(FindingTheHeading, TellsThatAnOperatorsEmergencyStopEndedIt) {
+  settle_without_heading();
+  rig.command(FindHeading{});
+  rig.run_s(2);
+  ASSERT_GT(rig.fastest_command_radps(), 0);
+  rig.command(EngageStop{});
+  rig.tick();
+  EXPECT_EQ(rig.fastest_command_radps(), 0);
+  EXPECT_EQ(told("no heading: emergency stop of an operator"), 1);
+}
+TEST_F(FindingTheHeading, EndsWithACancelAndWithAnEstop) {
+  settle_without_heading();
+  rig.command(FindHeading{});
+  rig.run_s(2);
+  rig.command(CancelTask{});
+  rig.run_s(1.5);
+  EXPECT_EQ(rig.fastest_command_radps(), 0);
+  rig.command(FindHeading{});
+  rig.run_s(2);
+  rig.lines[0] = true;
+  rig.tick();
+  EXPECT_EQ(rig.fastest_command_radps(), 0);
+  rig.lines[0] = false;
+  expect_no_motion_for_s(2);
+}
+
+}  // namespace
+}  // namespace drover::engine
