@@ -142,7 +142,7 @@ void OdriveDriver::arm(Time now, DriverOut& out) {
   }
 }
 
-void OdriveDriver::control(const AxisCommand& command, Time now, DriverOut& out) {
+void OdriveDriver::control(const Setpoint& command, Time now, DriverOut& out) {
   const bool holds = command.request == AxisRequest::hold;
   holding_turnps_ = holds ? motor_turnps(command.velocity_radps) : 0;
   if (last_heartbeat_ == kNever) return;  // never a frame to a node that was not heard
@@ -189,7 +189,11 @@ void OdriveDriver::control(const AxisCommand& command, Time now, DriverOut& out)
   send_setpoint(phase_ == Phase::locked ? 0 : holding_turnps_, now, false, out);
 }
 
-void OdriveDriver::on_command(const AxisCommand& command, Time now, DriverOut& out) {
+void OdriveDriver::on_setpoints(std::span<const Setpoint> wanted, Time now, DriverOut& out) {
+  if (!wanted.empty()) take(wanted.front(), now, out);
+}
+
+void OdriveDriver::take(const Setpoint& command, Time now, DriverOut& out) {
   commanded_ = true;
   if (command.request != request_) {
     const AxisRequest before = request_;
@@ -210,7 +214,7 @@ void OdriveDriver::on_command(const AxisCommand& command, Time now, DriverOut& o
 
 void OdriveDriver::on_tick(Time now, DriverOut& out) {
   // Nobody decided this cycle: zero, as at rest.
-  if (!commanded_) control(AxisCommand{}, now, out);
+  if (!commanded_) control(Setpoint{}, now, out);
   commanded_ = false;
   if (last_heartbeat_ != kNever) poller_.on_tick(now, out);
   report_status(now, false, out);

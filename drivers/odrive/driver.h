@@ -12,16 +12,19 @@
 
 namespace drover::odrive {
 
+inline constexpr Channel kChannels[] = {{"axis"}};
+
 class OdriveDriver final : public Device, public FrameFace, public Actuator {
  public:
   OdriveDriver(const Settings& settings, AxisId axis);
 
   void on_frame(const CanFrame& frame, Time received, DriverOut& out) override;
   void on_tick(Time now, DriverOut& out) override;
-  void on_command(const AxisCommand& command, Time now, DriverOut& out) override;
+  void on_setpoints(std::span<const Setpoint> wanted, Time now, DriverOut& out) override;
   void on_link_up(Time now) override;
   SourceHealth health(Time now) const override;
   std::span<const FrameFilter> listens() const override { return {&hears_, 1}; }
+  std::span<const Channel> channels() const override { return kChannels; }
   std::span<const FrameRule> rules() const override { return rules_; }
   FrameEffect effect(const CanFrame& frame) const override;
   double setpoint_radps(const CanFrame& frame) const override;
@@ -68,7 +71,8 @@ class OdriveDriver final : public Device, public FrameFace, public Actuator {
   double motor_turnps(double velocity_radps);
   void send_setpoint(double turnps, Time now, bool at_once, DriverOut& out);
   void arm(Time now, DriverOut& out);
-  void control(const AxisCommand& command, Time now, DriverOut& out);
+  void take(const Setpoint& command, Time now, DriverOut& out);
+  void control(const Setpoint& command, Time now, DriverOut& out);
 
   Settings settings_;
   AxisId axis_;

@@ -77,7 +77,7 @@ const OptionSpec kTwinOptions[] = {
 };
 
 Made make(const Options& options, const MakeContext& context) {
-  return make_device<OdriveDriver>(read_settings(options), context.axis);
+  return make_device<OdriveDriver>(read_settings(options), context.axis(0));
 }
 
 std::unique_ptr<CanTwin> make_twin(const Options& options) {
@@ -119,6 +119,7 @@ const DriverEntry kOdriveEntry = {
     .folder = "odrive",
     .options = odrive::option_table(),
     .kinds = {SlotKind::drive},
+    .channels = odrive::kChannels,
     .make = odrive::make,
     .twin_options = odrive::twin_option_table(),
     .make_twin = odrive::make_twin,

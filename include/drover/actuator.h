@@ -10,10 +10,24 @@
 #include "drover/fixed_vector.h"
 #include "drover/measurement.h"
 #include "drover/time.h"
+#include "drover/twist.h"
 
 namespace drover {
 
-/// What the gateway wants of an axis.
+inline constexpr std::size_t kMaxChannels = 16;
+
+/// What a channel is told: how fast its joint shall turn, or how the whole base shall move.
+enum class ChannelMode : std::uint8_t { velocity, twist };
+
+/// One thing that a device moves.
+struct Channel {
+  std::string_view name;  ///< within the device: "left", "1", "base"
+  ChannelMode mode = ChannelMode::velocity;
+  /// False: it arms and stops only together with the device's other channels.
+  bool alone = true;
+};
+
+/// What the gateway wants of a joint, or of a base.
 enum class AxisRequest : std::uint8_t {
   rest,  ///< at rest and fed: zero set point; an idle drive is left idle, a running one holds
   run,   ///< arm if needed (zero first), then follow `velocity_radps`
@@ -24,9 +38,17 @@ enum class AxisRequest : std::uint8_t {
   idle,  ///< zero, then power stage off; only for a person's explicit wish: it may coast
 };
 
+/// What a joint is to do.
 struct AxisCommand {
   AxisRequest request = AxisRequest::rest;
   double velocity_radps = 0;  ///< at the joint
+};
+
+/// What a channel is to do: `velocity_radps` or `twist`, as its mode says.
+struct Setpoint {
+  AxisRequest request = AxisRequest::rest;
+  double velocity_radps = 0;  ///< at the joint
+  Twist twist;                ///< of the base
 };
 
 /// What a frame does to the machine, for the gate.
@@ -61,11 +83,14 @@ struct SilenceBehaviour {
   std::string_view text;  ///< for operators: "disarms after 0.1 s (watchdog)"
 };
 
-/// One axis.
+/// One or more channels behind one address.
 class Actuator {
  public:
-  /// The gate's decision for this cycle; before Device::on_tick.
-  virtual void on_command(const AxisCommand& command, Time now, DriverOut& out) = 0;
+  /// Constant from construction on: those of its DriverEntry.
+  virtual std::span<const Channel> channels() const = 0;
+  /// The gate's decision for this cycle, one for each channel in their order; before
+  /// Device::on_tick.
+  virtual void on_setpoints(std::span<const Setpoint> wanted, Time now, DriverOut& out) = 0;
   /// All that it may send.
   virtual std::span<const FrameRule> rules() const = 0;
   /// Only for frames that follow a rule.

@@ -36,7 +36,7 @@ class Device {
   virtual ~Device() = default;
   /// The link came (back): the device may have been power-cycled meanwhile.
   virtual void on_link_up(Time now) = 0;
-  /// Once a control cycle; an actuator's comes after Actuator::on_command.
+  /// Once a control cycle; an actuator's comes after Actuator::on_setpoints.
   virtual void on_tick(Time now, DriverOut& out) = 0;
   virtual SourceHealth health(Time now) const = 0;
 };

@@ -34,9 +34,16 @@ class SlotKinds {
 /// What a driver is told of its place, beside its options.
 struct MakeContext {
   SlotKind kind = SlotKind::drive;
-  AxisId axis = 0;                         ///< of a drive
+  /// Of what moves something: its joints, by channel.
+  FixedVector<AxisId, kMaxChannels> axes = {};
   Line line = Line::estop;                 ///< of a line
   const RegisterMap* registers = nullptr;  ///< of a device whose section names a map; else nullptr
+
+  /// The joint of a channel. Who only looks what a driver is like names none: then they count from
+  /// 0.
+  AxisId axis(std::size_t channel) const {
+    return channel < axes.size() ? axes[channel] : static_cast<AxisId>(channel);
+  }
 };
 
 /// Throws std::runtime_error naming the option; only at start-up.
@@ -53,6 +60,8 @@ struct DriverEntry {
   std::string_view folder;  ///< below drivers/
   std::span<const OptionSpec> options;
   SlotKinds kinds;  ///< where it may stand
+  /// What its devices move, in the order in which they are told. Empty: nothing.
+  std::span<const Channel> channels = {};
   MakeDevice make = nullptr;
   /// Options of the simulated device; its factory gets these and the driver's in one Options.
   std::span<const OptionSpec> twin_options;

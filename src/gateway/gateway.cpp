@@ -74,9 +74,10 @@ void Gateway::send(Slot& slot) {
 
 /// The speed counts only while the drive is heard: a wheel that nobody sees is not ramped.
 engine::Slowing Gateway::slowing(const Slot& slot) const {
-  const auto& heard = engine_.snapshot().axes[slot.axis];
-  const bool fresh = slot.health->state == SourceState::fresh;
-  return {cycle_.engine.slowing_permitted[slot.axis] && fresh, heard.motion.velocity_radps};
+  const AxisId axis = slot.axes[0];
+  const auto& heard = engine_.snapshot().axes[axis];
+  const bool fresh = slot.health.state == SourceState::fresh;
+  return {cycle_.engine.slowing_permitted[axis] && fresh, heard.motion.velocity_radps};
 }
 
 void Gateway::on(const CommandGiven& given, Time now) {
@@ -98,6 +99,7 @@ void Gateway::on(const OutputsUp& up, Time) {
 void Gateway::on(const Tick& tick, Time now) {
   listen_to_devices(now);
   look_at_buses(now);
+  tell_health();
   foreign_.update(now, tick.guard_has_bus || (guard_required_ && !tick.guard_alive));
   environment_.foreign = foreign_.reason();
   environment_.slept = slept_;
@@ -120,8 +122,8 @@ void Gateway::listen_to_devices(Time now) {
       slot.made.device->on_tick(now, scratch_);
       take(slot);
     }
-    *slot.health = slot.made.device->health(now);
-    slot.health->overflows = slot.overflows;
+    slot.health = slot.made.device->health(now);
+    slot.health.overflows = slot.overflows;
   }
 }
 
@@ -135,7 +137,7 @@ void Gateway::look_at_buses(Time now) {
     if (environment_.bus.empty()) environment_.bus = trouble;
     const bool cut = buses_[bus].cut(now);
     for (const SlotId id : wiring_.links[bus].slots) {
-      SourceHealth& health = *wiring_.slots[id].health;
+      SourceHealth& health = wiring_.slots[id].health;
       if (health.state == SourceState::fresh && !cut) continue;
       if (health.state == SourceState::fresh) health.state = SourceState::stale;
       health.reason = trouble;
@@ -143,11 +145,22 @@ void Gateway::look_at_buses(Time now) {
   }
 }
 
+void Gateway::tell_health() {
+  for (const Slot& slot : wiring_.slots)
+    for (SourceHealth* const to : slot.tells_health) *to = slot.health;
+}
+
 void Gateway::command_actuators(Time now) {
+  FixedVector<Setpoint, kMaxChannels> wanted;
   for (Slot& slot : wiring_.slots) {
     if (slot.made.actuator == nullptr) continue;
-    if (!cycle_.engine.slowing_permitted[slot.axis]) frame_gate_.end_slowing(*slot.made.actuator);
-    slot.made.actuator->on_command(cycle_.engine.axes[slot.axis], now, scratch_);
+    wanted.clear();
+    for (const AxisId axis : slot.axes) {
+      if (!cycle_.engine.slowing_permitted[axis]) frame_gate_.end_slowing(*slot.made.actuator);
+      const AxisCommand& command = cycle_.engine.axes[axis];
+      (void)wanted.push_back({command.request, command.velocity_radps, {}});
+    }
+    slot.made.actuator->on_setpoints({wanted.data(), wanted.size()}, now, scratch_);
     slot.made.device->on_tick(now, scratch_);
     take(slot);
   }
@@ -183,8 +196,7 @@ std::vector<std::string> Gateway::cautions() const {
     if (slot.made.actuator == nullptr) continue;
     const auto silence = slot.made.actuator->silence();
     if (silence.stops) continue;
-    const auto& joint = engine_.snapshot().axes[slot.axis].joint;
-    all.push_back("drive " + std::string(joint) + " " + std::string(silence.text));
+    all.push_back("drive " + std::string(slot.name) + " " + std::string(silence.text));
   }
   return all;
 }

@@ -97,6 +97,7 @@ class Gateway final {
   void on(const Tick& tick, Time now);
   void listen_to_devices(Time now);
   void look_at_buses(Time now);
+  void tell_health();
   void command_actuators(Time now);
   void hand_out();
   void take(Slot& slot);

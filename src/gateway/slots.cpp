@@ -41,14 +41,18 @@ class Builder final {
     slot.kind = context.kind;
     slot.made = entry->make(config.options, context);
     slot.link = link;
-    slot.axis = context.axis;
-    slot.health = &health_of(context);
+    slot.axes = context.axes;
+    tell_health(slot, context);
     const Wire wire = wiring_.links[link].wire;
     if (wire == Wire::registers) slot.thread = Slot::Thread::slow;
     if (!speaks(slot.made, wire))
       throw std::runtime_error(key + ": driver \"" + config.driver + "\" is for another wire");
     if ((context.kind == SlotKind::drive) != (slot.made.actuator != nullptr))
       throw std::runtime_error(key + ": driver \"" + config.driver + "\" is for no such device");
+    if (slot.made.actuator != nullptr && slot.made.actuator->channels().size() != slot.axes.size())
+      throw std::runtime_error(key + ": driver \"" + config.driver + "\" moves " +
+                               std::to_string(slot.made.actuator->channels().size()) +
+                               " joints, and " + std::to_string(slot.axes.size()) + " are named");
     wiring_.links[link].slots.push_back(static_cast<SlotId>(wiring_.slots.size()));
     wiring_.slots.push_back(std::move(slot));
   }
@@ -56,15 +60,18 @@ class Builder final {
   Wiring built() { return std::move(wiring_); }
 
  private:
-  SourceHealth& health_of(const MakeContext& context) {
+  void tell_health(Slot& slot, const MakeContext& context) {
+    const auto tell = [&slot](SourceHealth& to) { (void)slot.tells_health.push_back(&to); };
     switch (context.kind) {
-      case SlotKind::drive: return environment_.axes.at(context.axis);
-      case SlotKind::gnss: return environment_.gnss;
-      case SlotKind::imu: return environment_.imu;
-      case SlotKind::battery: return environment_.battery;
-      case SlotKind::line: break;
+      case SlotKind::drive:
+        for (const AxisId axis : context.axes) tell(environment_.axes.at(axis));
+        return;
+      case SlotKind::gnss: return tell(environment_.gnss);
+      case SlotKind::imu: return tell(environment_.imu);
+      case SlotKind::battery: return tell(environment_.battery);
+      case SlotKind::line:
+        return tell(environment_.lines.at(static_cast<std::size_t>(context.line)));
     }
-    return environment_.lines.at(static_cast<std::size_t>(context.line));
   }
 
   engine::Environment& environment_;
@@ -90,8 +97,10 @@ Wiring wire_up(const config::DroverConfig& config, engine::Environment& environm
   for (const auto& bus : config.buses) build.link(bus.name, Wire::can);
   for (std::size_t i = 0; i < config.drives.size(); ++i) {
     const auto& drive = config.drives[i];
-    build.slot(drive.joint, static_cast<LinkId>(drive.bus_index), drive,
-               {.kind = SlotKind::drive, .axis = static_cast<AxisId>(i)}, "drives: " + drive.joint);
+    MakeContext context{.kind = SlotKind::drive};
+    (void)context.axes.push_back(static_cast<AxisId>(i));
+    build.slot(drive.joint, static_cast<LinkId>(drive.bus_index), drive, context,
+               "drives: " + drive.joint);
   }
   if (config.gnss.configured)
     build.slot("gnss", build.link("gnss", Wire::bytes), config.gnss, {.kind = SlotKind::gnss},

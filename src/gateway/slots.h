@@ -39,9 +39,10 @@ struct Slot {
   LinkId link = 0;
   Thread thread = Thread::control;
   Role role = Role::steers;
-  AxisId axis = 0;  ///< of what moves something
-  /// Where the engine looks for its health.
-  SourceHealth* health = nullptr;
+  FixedVector<AxisId, kMaxChannels> axes;  ///< of what moves something: its joints, by channel
+  SourceHealth health;                     ///< as of the last cycle
+  /// Where the engine looks for it.
+  FixedVector<SourceHealth*, kMaxChannels> tells_health;
   std::uint64_t overflows = 0;  ///< what it said and found no room
 };
 

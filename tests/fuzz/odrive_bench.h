@@ -70,7 +70,8 @@ class Bench {
   explicit Bench(std::uint8_t choice) : v0_6_((choice & 16U) == 0) {
     const DriverEntry* entry = find_driver("odrive");
     require(entry != nullptr);
-    const MakeContext context{.kind = SlotKind::drive, .axis = kAxis};
+    MakeContext context{.kind = SlotKind::drive};
+    require(context.axes.push_back(kAxis));
     driver_ = entry->make(options_of(*entry, choice), context);
     twin_ = entry->make(options_of(*entry, choice), context);
     const StopRecipe recipe = driver_.actuator->stop_recipe();
@@ -94,13 +95,15 @@ class Bench {
     now_ += std::chrono::microseconds(100);
   }
 
-  void cycle(const AxisCommand& command) {
+  void cycle(const Setpoint& command) {
     wanted_ = command;
     if (command.request == AxisRequest::run) ++asked_;
     const CanFrame none;
-    call([&](const Made& driver, const CanFrame&,
-             DriverOut& out) { driver.actuator->on_command(command, now_, out); },
-         none, none);
+    call(
+        [&](const Made& driver, const CanFrame&, DriverOut& out) {
+          driver.actuator->on_setpoints({&command, 1}, now_, out);
+        },
+        none, none);
     undecided_cycle();
   }
 
@@ -234,7 +237,7 @@ class Bench {
   bool v0_6_;
   Made driver_;
   Made twin_;
-  AxisCommand wanted_;
+  Setpoint wanted_;
   Time now_{std::chrono::seconds(100)};
   Time heartbeat_ = kNever;  ///< since the link came up
   Time estimates_ = kNever;

@@ -32,13 +32,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   Input input({data + 1, size - 1});
   fuzz::Bench bench(data[0]);
   int cycles = 0;
-  const auto repeat = [&](int times, const AxisCommand& command) {
+  const auto repeat = [&](int times, const Setpoint& command) {
     for (int i = 0; i < times && cycles < kMaxCycles; ++i, ++cycles) bench.cycle(command);
   };
   while (input.more()) {
     const std::uint8_t step = input.byte();
     const std::uint8_t upper = step >> 3U;
-    AxisCommand command;
+    Setpoint command;
     switch (step & 7U) {
       case 4: {
         const std::uint32_t low = input.byte();

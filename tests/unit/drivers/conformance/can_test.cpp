@@ -13,7 +13,7 @@ class CanConformance : public ::testing::TestWithParam<Subject> {
     EXPECT_EQ(bench.off_list, 0) << "sent outside its own allow-list";
     EXPECT_EQ(bench.forbidden, 0) << "sent what it calls forbidden itself";
     EXPECT_EQ(bench.motion_at_rest, 0) << "sent motion while asked to rest";
-    EXPECT_EQ(bench.allocations, 0U) << "allocated memory in on_frame, on_command or on_tick";
+    EXPECT_EQ(bench.allocations, 0U) << "allocated memory in on_frame, on_setpoints or on_tick";
     EXPECT_EQ(bench.overflows, 0U);
   }
 };
@@ -31,6 +31,19 @@ TEST_P(CanConformance, SendsNothingToANodeThatWasNeverHeard) {
   EXPECT_EQ(bench.status.state, AxisState::unknown);
   EXPECT_EQ(bench.device->health(bench.now).state, SourceState::never_heard);
   expect_decent(bench);
+}
+
+TEST_P(CanConformance, NamesTheChannelsThatItsEntryNames) {
+  CanBench bench(GetParam());
+  const auto made = bench.actuator->channels();
+  const auto named = GetParam().entry->channels;
+  ASSERT_EQ(made.size(), named.size());
+  ASSERT_FALSE(made.empty());
+  for (std::size_t i = 0; i < made.size(); ++i) {
+    EXPECT_EQ(made[i].name, named[i].name);
+    EXPECT_EQ(made[i].mode, named[i].mode);
+    EXPECT_EQ(made[i].alone, named[i].alone);
+  }
 }
 
 TEST_P(CanConformance, NeverArmsByItselfWhileAtRest) {
@@ -229,7 +242,8 @@ TEST_P(CanConformance, SurvivesAHundredThousandRandomFrames) {
     if (i % 16 == 0) {
       bench.now += milliseconds(5);
       bench.out.clear();
-      bench.actuator->on_command({i % 4096 < 2048 ? kRest : kRun, 1.0}, bench.now, bench.out);
+      bench.actuator->on_setpoints(bench.to_all({i % 4096 < 2048 ? kRest : kRun, 1.0}), bench.now,
+                                   bench.out);
       bench.device->on_tick(bench.now, bench.out);
       for (const CanFrame& frame : bench.out.frames) {
         ASSERT_TRUE(on_list(bench.actuator->rules(), frame)) << describe(frame);
@@ -267,7 +281,7 @@ TEST_P(CanConformance, StaysDecentThroughRandomHistories) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     std::mt19937 random(seed);
     CanBench bench(GetParam());
-    AxisCommand command;
+    Setpoint command;
     for (int i = 0; i < 600; ++i) {
       if (random() % 40 == 0) command.request = static_cast<AxisRequest>(random() % 4);
       if (random() % 20 == 0) command.velocity_radps = static_cast<double>(random() % 11) - 5.0;

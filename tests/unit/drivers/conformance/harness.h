@@ -126,7 +126,7 @@ class CanBench {
     for (const Time end = now + time; now < end;) step({request, velocity_radps});
   }
 
-  void step(const AxisCommand& command) {
+  void step(const Setpoint& command) {
     for (int i = 0; i < 2; ++i) {
       now += std::chrono::microseconds(2500);
       twin_frames.clear();
@@ -140,10 +140,17 @@ class CanBench {
     if (!driver_alive) return;
     out.clear();
     AllocationCounter counter;
-    actuator->on_command(command, now, out);
+    actuator->on_setpoints(to_all(command), now, out);
     device->on_tick(now, out);
     allocations += counter.count();
     take(command);
+  }
+
+  /// Every channel is told the same.
+  std::span<const Setpoint> to_all(const Setpoint& command) {
+    wanted.clear();
+    for (std::size_t i = 0; i < actuator->channels().size(); ++i) (void)wanted.push_back(command);
+    return {wanted.data(), wanted.size()};
   }
 
   /// Straight to the twin, as the guard does.
@@ -174,6 +181,7 @@ class CanBench {
   double friction_Nms_per_rad = 0.2;
   bool driver_alive = true;
   Time now{std::chrono::seconds(1)};
+  FixedVector<Setpoint, kMaxChannels> wanted;
   DriverOut out;
   TwinFrames twin_frames;
   std::vector<CanFrame> sent;
@@ -196,7 +204,7 @@ class CanBench {
       if (const auto* value = std::get_if<AxisMotion>(&m.value)) motion = *value;
     }
   }
-  void take(const AxisCommand& command) {
+  void take(const Setpoint& command) {
     note();
     overflows += out.overflows;
     const DriverOut sending = out;

@@ -42,7 +42,8 @@ class Bench {
       now += milliseconds(5);
       if (!heartbeat.empty() && ++since_beat % 20 == 0) hear(heartbeat);
       out.clear();
-      driver.on_command({request, velocity_radps}, now, out);
+      const Setpoint wanted[] = {{request, velocity_radps}};
+      driver.on_setpoints(wanted, now, out);
       driver.on_tick(now, out);
       note();
     }

@@ -301,7 +301,8 @@ TEST(OdriveDriver, KeepsItsDistanceBetweenSetPointsButStopsAtOnce) {
   const auto step = [&](double velocity_radps) {
     bench.now += milliseconds(1);
     bench.out.clear();
-    bench.driver.on_command({AxisRequest::run, velocity_radps}, bench.now, bench.out);
+    const Setpoint wanted[] = {{AxisRequest::run, velocity_radps}};
+    bench.driver.on_setpoints(wanted, bench.now, bench.out);
     bench.driver.on_tick(bench.now, bench.out);
     return bench.out.frames.size();
   };

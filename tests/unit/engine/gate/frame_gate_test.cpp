@@ -10,13 +10,16 @@ namespace {
 
 /// Sends 0x10 (8 bytes; first byte: 0 stop, 1 motion, 2 harmless, else forbidden), 0x11 as a remote
 /// frame, and 0x12 extended.
+constexpr Channel kOne{"axis"};
+
 class FakeDrive final : public Actuator {
  public:
   explicit FakeDrive(std::uint32_t base = 0x10, std::uint8_t max_len = 8)
       : rules_{{base, false, false, 8, max_len},
                {base + 1, false, true, 0, 0},
                {base + 2, true, false, 1, 4}} {}
-  void on_command(const AxisCommand&, Time, DriverOut&) override {}
+  std::span<const Channel> channels() const override { return {&kOne, 1}; }
+  void on_setpoints(std::span<const Setpoint>, Time, DriverOut&) override {}
   std::span<const FrameRule> rules() const override { return rules_; }
   FrameEffect effect(const CanFrame& frame) const override {
     if (frame.remote || frame.extended) return FrameEffect::harmless;
