@@ -9,4 +9,15 @@ struct Twist {
   double wz_radps = 0;
 };
 
+/// What a base says of its motion, by its wheels or by itself, in its own axes: m/s along its x,
+/// rad/s about its z, which is not the vertical on a slope. Nothing that was learned is in it.
+struct BodyMotion {
+  Twist twist;
+  /// Of an error that keeps its sign for about a second: (m/s)^2, (rad/s)^2.
+  double vx_var = 0;
+  double wz_var = 0;
+  bool known = false;     ///< false: part of it is silent, the base may do anything
+  bool standing = false;  ///< known, and all that turns is at rest
+};
+
 }  // namespace drover

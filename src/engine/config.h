@@ -16,8 +16,15 @@ enum class HoldBy : std::uint8_t {
   level_ground_only,  ///< nothing: it rolls
 };
 
-/// Skid-steer base. Axes are indices into the configuration's `drives`.
+/// How a base moves: src/engine/base has what follows from it.
+enum class BaseKind : std::uint8_t {
+  skid_steer,    ///< wheels of two sides, which skid in a turn
+  differential,  ///< two wheels on one axle, which do not
+};
+
+/// The base. Axes are indices into the configuration's `drives`.
 struct BaseConfig {
+  BaseKind kind = BaseKind::skid_steer;
   double wheel_radius_m = 0.165;
   double track_m = 0.60;  ///< between the centres of the left and right wheels
   /// How much wider than `track_m` the base behaves when it turns, because wheels skid.

@@ -6,7 +6,6 @@
 #include <stdexcept>
 
 #include "drover/angle.h"
-#include "engine/drive/skid_steer.h"
 #include "engine/engine_impl.h"
 #include "engine/navigate/navigator_checks.h"
 
@@ -24,6 +23,7 @@ bool valid(const GeodeticPoint& point) {
 
 Engine::Impl::Impl(const EngineConfig& c)
     : config(c),
+      base(kinematics_of(c.base)),
       estimator(c.estimate, c.base),
       health(c),
       wheels(c),
@@ -171,11 +171,12 @@ void Engine::Impl::command_axes(const Motion& motion, EngineOutput& out) {
     }
     return;
   }
-  const double slip = estimate.yaw_slip_factor;
-  const WheelSpeeds speeds = wheels_from_twist(config.base, slip, motion.twist,
-                                               max_wheel_mps(config.base, config.limits, slip));
-  for (const AxisId id : config.base.left) command_axis(id, speeds.left_radps, motion.run, out);
-  for (const AxisId id : config.base.right) command_axis(id, speeds.right_radps, motion.run, out);
+  const Learned learned{estimate.yaw_slip_factor};
+  const JointVelocities radps =
+      setpoints(base, motion.twist, learned, max_rim_mps(base, config.limits, learned));
+  const JointSet joints = joints_of(base);
+  for (std::size_t i = 0; i < snapshot.axes.size(); ++i)
+    if (joints[i]) command_axis(static_cast<AxisId>(i), radps[i], motion.run, out);
 }
 
 void Engine::Impl::start_task(const RequestId& id, const StartTask& task, Time now) {
@@ -211,13 +212,8 @@ void Engine::Impl::reset_stop(const RequestId& id, Time now) {
 }
 
 Engine::Engine(const EngineConfig& config) {
-  for (const auto* side : {&config.base.left, &config.base.right}) {
-    for (const AxisId id : *side) {
-      if (id >= config.joints.size()) {
-        throw std::invalid_argument("the base names an axis that is not among the drives");
-      }
-    }
-  }
+  if (joints_needed(config.base) > config.joints.size())
+    throw std::invalid_argument("the base names an axis that is not among the drives");
   impl_ = std::make_unique<Impl>(config);
 }
 

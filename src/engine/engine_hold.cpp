@@ -56,9 +56,8 @@ void Engine::Impl::release_hold(const RequestId& id, const ReleaseHold& release,
   Reason why;
   if (navigator.active() || driven || !owners.at_rest()) why = "the robot is being driven";
   for (const AxisSnapshot& axis : snapshot.axes) {
-    const double rim_mps = std::abs(axis.motion.velocity_radps) * config.base.wheel_radius_m;
-    if (why.empty() && axis.state == AxisState::running && rim_mps > kTurns_mps)
-      why = "the robot moves";
+    const bool turns = rim_mps(base, std::abs(axis.motion.velocity_radps)) > kTurns_mps;
+    if (why.empty() && axis.state == AxisState::running && turns) why = "the robot moves";
   }
   hold.release(id, release, why, imu_trusted ? tilt_deg() : kAbsent, now, events);
 }

@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "engine/base/kinematics.h"
 #include "engine/engine.h"
 #include "engine/estimate/estimator.h"
 #include "engine/event_queue.h"
@@ -53,6 +54,7 @@ struct Engine::Impl {
                      const Estimate& estimate, Owner owner);
 
   EngineConfig config;
+  Kinematics base;
   Estimator estimator;
   HealthMonitor health;
   WheelMonitor wheels;

@@ -42,8 +42,8 @@ Reason Engine::Impl::judge_motion(Time now, Duration dt, const LineTable& lines)
               imu_trusted ? estimate.pitch_rad : kAbsent);
   mechanics.step({.now = now,
                   .dt = dt,
-                  .left_mps = estimate.left_mps,
-                  .right_mps = estimate.right_mps,
+                  .body = estimate.body.twist,
+                  .fastest_mps = estimate.fastest_mps,
                   .commanded = motion_asked,
                   .yaw_rad = estimate.has_heading ? estimate.pose.yaw_rad : kAbsent,
                   .gyro_zero_known = std::isfinite(estimate.gyro_bias_sigma_radps)});
@@ -70,11 +70,11 @@ void Engine::Impl::watch_wheels(Time now, Duration dt) {
 /// A stop that did not work: the drives let go before their supply does.
 void Engine::Impl::let_go(EngineOutput& out) {
   if (!power.is_cut()) return;
-  for (const auto* side : {&config.base.left, &config.base.right}) {
-    for (const AxisId id : *side) {
-      out.axes[id] = {AxisRequest::idle, 0};
-      snapshot.axes[id].commanded_velocity_radps = 0;
-    }
+  const JointSet joints = joints_of(base);
+  for (std::size_t i = 0; i < snapshot.axes.size(); ++i) {
+    if (!joints[i]) continue;
+    out.axes[i] = {AxisRequest::idle, 0};
+    snapshot.axes[i].commanded_velocity_radps = 0;
   }
   out.motion_permitted = false;
 }

@@ -10,16 +10,16 @@ includes_of_rooms() {
 include/drover   drover/
 drivers          drover/ drivers/
 src/engine       drover/ engine/
-src/engine/estimate  drover/ engine/config.h engine/still.h engine/estimate/
+src/engine/estimate  drover/ engine/config.h engine/still.h engine/base/ engine/estimate/
 src/engine/signals   drover/ engine/config.h engine/signals/
-src/engine/drive     drover/ engine/config.h engine/drive/
-src/engine/gate      drover/ engine/config.h engine/drive/ engine/gate/
+src/engine/base      drover/ engine/config.h engine/still.h engine/base/
+src/engine/gate      drover/ engine/config.h engine/base/ engine/gate/
 src/engine/health    drover/ engine/config.h engine/environment.h engine/event_queue.h
-src/engine/health    engine/still.h engine/estimate/ engine/health/
+src/engine/health    engine/still.h engine/base/ engine/estimate/ engine/health/
 src/engine/navigate  drover/ engine/config.h engine/event_queue.h engine/still.h
 src/engine/navigate  engine/gate/ engine/health/ engine/navigate/
 src/engine/own       drover/ engine/config.h engine/event_queue.h engine/still.h
-src/engine/own       engine/gate/ engine/health/ engine/navigate/ engine/own/
+src/engine/own       engine/base/ engine/gate/ engine/health/ engine/navigate/ engine/own/
 src/link         drover/ link/
 src/scene        drover/ scene/
 src/json         drover/ json/

@@ -9,8 +9,8 @@
 
 #include "drover/angle.h"
 #include "drover/snapshot.h"
+#include "engine/base/two_sides.h"
 #include "engine/config.h"
-#include "engine/drive/skid_steer.h"
 
 namespace drover::test {
 

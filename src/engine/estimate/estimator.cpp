@@ -26,11 +26,11 @@ constexpr double kGyroReturn_radps = 0.001;
 constexpr std::array<std::size_t, 4> kCarried{kGain, kScale, kGyroBias, kGyroScale};
 
 /// On a slope the base gets on less than its wheels roll.
-WheelMotion level_motion(const State& state, WheelMotion motion, Duration imu_stale) {
+BodyMotion level_motion(const State& state, BodyMotion motion, Duration imu_stale) {
   if (!state.gyro.fresh(state.time, imu_stale)) return motion;
   const double level = std::cos(state.gyro.pitch_rad);
-  motion.left_mps *= level;
-  motion.right_mps *= level;
+  motion.twist.vx_mps *= level;
+  motion.twist.wz_radps *= level;
   return motion;
 }
 
@@ -42,7 +42,9 @@ Time next_stale(const GyroTrack& gyro, Time now, Duration stale) {
 
 Estimator::Estimator(const EstimateConfig& config, const BaseConfig& base)
     : config_(config),
-      base_(base),
+      base_(kinematics_of(base)),
+      joints_(joints_of(base_)),
+      first_gain_(1.0 / base.yaw_slip_factor),
       wheel_stale_(from_s(config.wheel_stale_s)),
       imu_stale_(from_s(config.imu_stale_s)),
       max_delay_(from_s(config.max_measurement_delay_s)),
@@ -52,7 +54,7 @@ Estimator::Estimator(const EstimateConfig& config, const BaseConfig& base)
 
 State Estimator::blank() const {
   State state;
-  state.belief.reset(kGain, 1.0 / base_.yaw_slip_factor, config_.yaw_slip_sigma);
+  state.belief.reset(kGain, first_gain_, config_.yaw_slip_sigma);
   state.belief.reset(kScale, 1.0, config_.wheel_scale_sigma);
   state.belief.reset(kGyroBias, 0.0, config_.imu_gyro_bias_sigma_radps);
   state.belief.reset(kGyroScale, 1.0, config_.imu_gyro_scale_sigma);
@@ -89,7 +91,7 @@ void Estimator::set_origin(const GeodeticPoint& origin) {
   }
   State state = blank();
   state.time = old.time;
-  state.wheels = old.wheels;
+  state.told = old.told;
   state.standing_since = old.standing_since;
   state.refused = old.refused;
   state.broken = old.broken;
@@ -136,7 +138,7 @@ void Estimator::on_measurement(const Measurement& measurement) {
                         : std::min(measurement.time, measurement.received);
   // A GNSS velocity is not used: it is the same carrier phase as the position, and later.
   if (const auto* motion = std::get_if<AxisMotion>(&measurement.value)) {
-    on_wheel(*motion, time);
+    on_joint(*motion, time);
   } else if (const auto* imu = std::get_if<ImuSample>(&measurement.value)) {
     on_imu(*imu, time);
   } else if (const auto* position = std::get_if<GnssPosition>(&measurement.value)) {
@@ -146,19 +148,17 @@ void Estimator::on_measurement(const Measurement& measurement) {
   }
 }
 
-void Estimator::on_wheel(const AxisMotion& motion, Time time) {
-  const std::size_t wheel = wheel_of(base_, motion.axis);
-  if (wheel == kWheels) return;
-  const double rim_mps = motion.velocity_radps * base_.wheel_radius_m;
-  if (!(std::abs(rim_mps) <= kFastestRim_mps)) {
+void Estimator::on_joint(const AxisMotion& motion, Time time) {
+  if (motion.axis >= kMaxAxes || !joints_[motion.axis]) return;
+  if (!(std::abs(rim_mps(base_, motion.velocity_radps)) <= kFastestRim_mps)) {
     ++counters_.absurd;
     return;
   }
   const Time slot = time - time.time_since_epoch() % kSlot;
   if (too_old(slot)) return;
-  WheelInput input = slot_at(slot);
-  input.present = static_cast<std::uint16_t>(input.present | 1U << wheel);
-  input.rim_mps[wheel] = rim_mps;
+  MotionInput input = slot_at(slot);
+  input.present.set(motion.axis);
+  input.joints_radps[motion.axis] = motion.velocity_radps;
   put_slot(slot, input);
 }
 
@@ -171,18 +171,18 @@ void Estimator::on_imu(const ImuSample& sample, Time time) {
     case ImuIntake::Verdict::taken: break;
   }
   if (!imu_.finished() || imu_.finished()->slot < history_.base().time) return;
-  WheelInput input = slot_at(imu_.finished()->slot);
+  MotionInput input = slot_at(imu_.finished()->slot);
   input.turn = imu_.finished()->rate;
   put_slot(imu_.finished()->slot, input);
 }
 
 /// What is known of a slot so far.
-WheelInput Estimator::slot_at(Time slot) const {
+MotionInput Estimator::slot_at(Time slot) const {
   const std::size_t i = history_.find(slot, 0);
-  return i < history_.size() ? *std::get_if<WheelInput>(&history_.at(i).input) : WheelInput{};
+  return i < history_.size() ? *std::get_if<MotionInput>(&history_.at(i).input) : MotionInput{};
 }
 
-void Estimator::put_slot(Time slot, const WheelInput& input) {
+void Estimator::put_slot(Time slot, const MotionInput& input) {
   const std::size_t i = history_.find(slot, 0);
   if (i == history_.size()) return insert(slot, input);
   history_.at(i).input = input;
@@ -270,22 +270,22 @@ void Estimator::advance(State& state, Time to) const {
   // After a long silence of everything, coarser steps: bounded work matters more there.
   const Duration longest = std::max(kLongestStep, (to - state.time) / 256);
   while (state.time < to) {
-    WheelMotion motion =
-        level_motion(state, state.wheels.motion(state.time, wheel_stale_), imu_stale_);
-    motion.slip_mps = state.watch.slip_mps();
-    const GyroMotion gyro = motion_of(state.gyro, state.belief, motion, state.time, config_);
-    if (!motion.standing || gyro.pushed) {
+    BodyMotion body = body_motion(base_, state.told, state.time, wheel_stale_);
+    body = level_motion(state, body, imu_stale_);
+    body.vx_var += square(state.watch.slip_mps());
+    const GyroMotion gyro = motion_of(state.gyro, state.belief, body, state.time, config_);
+    if (!body.standing || gyro.pushed) {
       state.standing_since = kNever;
     } else if (state.standing_since == kNever) {
       state.standing_since = state.time;
     }
     const Time until =
-        std::min({to, state.time + longest, state.wheels.next_stale(state.time, wheel_stale_),
+        std::min({to, state.time + longest, next_stale(state.told, state.time, wheel_stale_),
                   next_stale(state.gyro, state.time, imu_stale_)});
     const double dt_s = to_s(until - state.time);
-    reckon(state, motion, gyro, dt_s);
+    reckon(state, body, gyro, dt_s);
     state.time = until;
-    follow_turn(state.gyro, state.belief, motion, state.time, dt_s, config_, base_.track_m);
+    follow_turn(state.gyro, state.belief, body, state.time, dt_s, config_, pull_radpm(base_));
     if (state.belief.covariance[kYaw][kYaw] > kLostYaw_rad * kLostYaw_rad) {
       state.has_heading = false;
       state.belief.reset(kYaw, state.belief.mean[kYaw], kLostYaw_rad);
@@ -294,22 +294,22 @@ void Estimator::advance(State& state, Time to) const {
 }
 
 /// Predicts, and tells those who compare the way with the receiver's.
-void Estimator::reckon(State& state, const WheelMotion& motion, const GyroMotion& gyro,
+void Estimator::reckon(State& state, const BodyMotion& body, const GyroMotion& gyro,
                        double dt_s) const {
   Belief& belief = state.belief;
   const double x_m = belief.mean[kX];
   const double y_m = belief.mean[kY];
-  predict(belief, motion, dt_s, state.has_heading, state.gnss.sigma_x_m, state.gnss.sigma_y_m,
-          config_, base_.track_m, gyro);
-  if (!motion.known || gyro.pushed) {
+  predict(belief, body, dt_s, state.has_heading, state.gnss.sigma_x_m, state.gnss.sigma_y_m,
+          config_, gyro);
+  if (!body.known || gyro.pushed) {
     state.watch.forget();
     state.course = {};
     return;
   }
-  const double way_m = belief.mean[kScale] * (motion.left_mps + motion.right_mps) / 2 * dt_s;
+  const double way_m = belief.mean[kScale] * body.twist.vx_mps * dt_s;
   const double turn_rad =
       gyro.known ? belief.mean[kGyroScale] * (gyro.rate_radps - belief.mean[kGyroBias]) * dt_s
-                 : belief.mean[kGain] * (motion.right_mps - motion.left_mps) / base_.track_m * dt_s;
+                 : belief.mean[kGain] * body.twist.wz_radps * dt_s;
   if (state.has_heading) {
     state.watch.advance(belief.mean[kX] - x_m, belief.mean[kY] - y_m, std::abs(way_m),
                         std::abs(turn_rad));
@@ -318,9 +318,9 @@ void Estimator::reckon(State& state, const WheelMotion& motion, const GyroMotion
   }
 }
 
-void Estimator::take_rates(State& state, const WheelInput& input) const {
-  for (std::size_t i = 0; i < kWheels; ++i) {
-    if ((input.present >> i & 1U) != 0) state.wheels.set(i, input.rim_mps[i], state.time);
+void Estimator::take_rates(State& state, const MotionInput& input) const {
+  for (std::size_t i = 0; i < kMaxAxes; ++i) {
+    if (input.present[i]) state.told.joints[i] = {input.joints_radps[i], state.time};
   }
   if (!input.turn) return;
   GyroTrack& gyro = state.gyro;
@@ -334,19 +334,19 @@ void Estimator::take_rates(State& state, const WheelInput& input) const {
 }
 
 void Estimator::take(State& state, const Input& input) const {
-  if (const auto* wheels = std::get_if<WheelInput>(&input)) {
+  if (const auto* wheels = std::get_if<MotionInput>(&input)) {
     take_rates(state, *wheels);
   } else if (const auto* yaw = std::get_if<YawInput>(&input)) {
     hear_heading(state.gyro, yaw->yaw_rad, state.time);
     apply_heading(state, yaw->yaw_rad, config_);
   } else if (const auto* position = std::get_if<AntennaPosition>(&input)) {
-    const WheelMotion motion = state.wheels.motion(state.time, wheel_stale_);
-    apply(state, *position, (motion.left_mps + motion.right_mps) / 2, config_);
+    const BodyMotion body = body_motion(base_, state.told, state.time, wheel_stale_);
+    apply(state, *position, body.twist.vx_mps, config_);
   }
   if (state.belief.finite()) return;
   State fresh = blank();
   fresh.time = state.time;
-  fresh.wheels = state.wheels;
+  fresh.told = state.told;
   fresh.refused = state.refused;
   fresh.broken = state.broken + 1;
   state = fresh;
@@ -360,7 +360,7 @@ const Estimate& Estimator::step(Time now) {
   // Keeps the newest state near, so that a silence does not make every step longer.
   const Time newest = history_.before(history_.size()).time;
   if (newest != kNever && now - newest > kLongestStep) {
-    insert(now, WheelInput{});
+    insert(now, MotionInput{});
     replay();
   }
   State state = history_.before(history_.size());

@@ -9,6 +9,7 @@
 #include "drover/measurement.h"
 #include "drover/path.h"
 #include "drover/snapshot.h"
+#include "engine/base/kinematics.h"
 #include "engine/config.h"
 #include "engine/estimate/history.h"
 #include "engine/estimate/imu_intake.h"
@@ -22,12 +23,12 @@ struct Estimate {
   Pose pose;                           ///< predicted to the asked time
   double predicted_error_m = kAbsent;  ///< two sigma of the larger horizontal axis
   double yaw_error_rad = kAbsent;      ///< two sigma
-  double left_mps = 0;                 ///< mean rim speed of the left wheels
-  double right_mps = 0;
-  double yaw_slip_factor = 1.0;  ///< as refined
-  Reason reason;                 ///< why it is not good; empty when it is
-  bool disagrees = false;        ///< GNSS and odometry contradict each other beyond the gate
-  bool slipping = false;         ///< the wheels roll another way than the base moves
+  BodyMotion body;                     ///< as the base tells it, nothing learned applied
+  double fastest_mps = 0;              ///< of its wheels on the ground, by that motion
+  double yaw_slip_factor = 1.0;        ///< as refined
+  Reason reason;                       ///< why it is not good; empty when it is
+  bool disagrees = false;              ///< GNSS and odometry contradict each other beyond the gate
+  bool slipping = false;               ///< the wheels roll another way than the base moves
   /// What was noticed and is made up for, so far: slipping wheels, a gyro that is not believed.
   Reason notice;
   /// How far it could still drive by dead reckoning; absent with an RTK fix, or without a place.
@@ -62,7 +63,7 @@ class Estimator final {
   EstimatorCounters counters() const;
 
  private:
-  void on_wheel(const AxisMotion& motion, Time time);
+  void on_joint(const AxisMotion& motion, Time time);
   void on_imu(const ImuSample& sample, Time time);
   void on_position(const GnssPosition& position, Time time);
   void on_heading(const GnssHeading& heading, Time time);
@@ -71,12 +72,12 @@ class Estimator final {
   void clamp_future(Time now);
   void replay();
   void advance(estimate::State& state, Time to) const;
-  void reckon(estimate::State& state, const estimate::WheelMotion& motion,
-              const estimate::GyroMotion& gyro, double dt_s) const;
+  void reckon(estimate::State& state, const BodyMotion& body, const estimate::GyroMotion& gyro,
+              double dt_s) const;
   void take(estimate::State& state, const estimate::Input& input) const;
-  void take_rates(estimate::State& state, const estimate::WheelInput& input) const;
-  estimate::WheelInput slot_at(Time slot) const;
-  void put_slot(Time slot, const estimate::WheelInput& input);
+  void take_rates(estimate::State& state, const estimate::MotionInput& input) const;
+  estimate::MotionInput slot_at(Time slot) const;
+  void put_slot(Time slot, const estimate::MotionInput& input);
   estimate::State blank() const;
   estimate::State carried_over(const estimate::State& old, const GeodeticPoint& origin) const;
   // What a state means, in report.cpp:
@@ -86,7 +87,9 @@ class Estimator final {
   double reach_m(const estimate::State& state, Time now) const;
 
   EstimateConfig config_;
-  BaseConfig base_;
+  Kinematics base_;
+  JointSet joints_;
+  double first_gain_;  ///< of the turn, before anything was learned
   Duration wheel_stale_;
   Duration imu_stale_;
   Duration max_delay_;

@@ -15,7 +15,7 @@ constexpr double kUnknownTurn_rad = 0.3;
 // What a standing base still does: tyres settle, soil gives. Per square root of second.
 constexpr double kStanding_m = 0.0005;
 constexpr double kStanding_rad = 0.0002;
-// Wheels of one side that contradict each other do so for about this long with the same sign.
+// What wheels that contradict each other, or slip, get wrong keeps its sign for about this long.
 constexpr double kSpreadTime_s = 1.0;
 // What a gyro's non-linearity and its tilt add to a turn, per square root of radian.
 constexpr double kGyroTurn_rad = 0.002;
@@ -134,14 +134,15 @@ Turn turn_of_gyro(Belief& belief, const GyroMotion& gyro, double dt_s,
       .variance = square(config.imu_gyro_noise_rad) * dt_s + square(kGyroTurn_rad) * std::abs(rad)};
 }
 
-Turn turn_of_wheels(const Belief& belief, double rim_turn_rad, double metres,
-                    double spread_variance, double track_m, const EstimateConfig& config) {
-  const double rad = belief.mean[kGain] * rim_turn_rad;
+Turn turn_of_body(const Belief& belief, const BodyMotion& body, double dt_s, double metres,
+                  const EstimateConfig& config) {
+  const double told_rad = body.twist.wz_radps * dt_s;
+  const double rad = belief.mean[kGain] * told_rad;
   return {.rad = rad,
-          .by_gain = rim_turn_rad,
+          .by_gain = told_rad,
           .variance = square(config.odometry_yaw_rad) * metres +
                       square(config.turning_yaw_rad) * std::abs(rad) +
-                      spread_variance / square(track_m)};
+                      body.wz_var * kSpreadTime_s * dt_s};
 }
 
 /// Turns the yaw; what x and y depend on must have been carried before.
@@ -159,15 +160,15 @@ void apply_turn(Belief& belief, const Turn& turn) {
 
 }  // namespace
 
-void predict(Belief& belief, const WheelMotion& wheels, double dt_s, bool heading_known,
+void predict(Belief& belief, const BodyMotion& body, double dt_s, bool heading_known,
              double bias_sigma_x_m, double bias_sigma_y_m, const EstimateConfig& config,
-             double track_m, const GyroMotion& gyro) {
+             const GyroMotion& gyro) {
   if (!(dt_s > 0)) return;
   Vector& x = belief.mean;
   Matrix& p = belief.covariance;
   fade_bias(belief, dt_s, config.gnss_correlation_s, bias_sigma_x_m, bias_sigma_y_m);
 
-  if (!wheels.known || gyro.pushed) {
+  if (!body.known || gyro.pushed) {
     p[kX][kX] += square(kUnknownMotion_m) * dt_s;
     p[kY][kY] += square(kUnknownMotion_m) * dt_s;
     if (gyro.known) {
@@ -177,20 +178,18 @@ void predict(Belief& belief, const WheelMotion& wheels, double dt_s, bool headin
     }
     return;
   }
-  const double rim_mps = (wheels.left_mps + wheels.right_mps) / 2;
-  const double rim_turn_rad = (wheels.right_mps - wheels.left_mps) / track_m * dt_s;
-  const double way_m = x[kScale] * rim_mps * dt_s;
+  const double told_m = body.twist.vx_mps * dt_s;
+  const double way_m = x[kScale] * body.twist.vx_mps * dt_s;
   const double metres = std::abs(way_m);
-  const double spread_variance = square(wheels.spread_mps) * kSpreadTime_s * dt_s;
+  const double way_variance = body.vx_var * kSpreadTime_s * dt_s;
 
   if (!heading_known) {
-    p[kX][kX] = square(std::sqrt(p[kX][kX]) + metres) + spread_variance;
-    p[kY][kY] = square(std::sqrt(p[kY][kY]) + metres) + spread_variance;
+    p[kX][kX] = square(std::sqrt(p[kX][kX]) + metres) + way_variance;
+    p[kY][kY] = square(std::sqrt(p[kY][kY]) + metres) + way_variance;
     return;
   }
-  const Turn turn =
-      gyro.known ? turn_of_gyro(belief, gyro, dt_s, config)
-                 : turn_of_wheels(belief, rim_turn_rad, metres, spread_variance, track_m, config);
+  const Turn turn = gyro.known ? turn_of_gyro(belief, gyro, dt_s, config)
+                               : turn_of_body(belief, body, dt_s, metres, config);
   const double middle_rad = x[kYaw] + turn.rad / 2;
   const double c = std::cos(middle_rad);
   const double s = std::sin(middle_rad);
@@ -199,18 +198,15 @@ void predict(Belief& belief, const WheelMotion& wheels, double dt_s, bool headin
 
   // x and y first: their derivatives use the yaw before the turn. That half a gyro's error of this
   // short step bends its chord is left out.
-  add_rows<3>(
-      p, kX,
-      {{{kYaw, -way_m * s}, {kGain, -way_m * s * turn.by_gain / 2}, {kScale, rim_mps * dt_s * c}}});
-  add_rows<3>(
-      p, kY,
-      {{{kYaw, way_m * c}, {kGain, way_m * c * turn.by_gain / 2}, {kScale, rim_mps * dt_s * s}}});
+  add_rows<3>(p, kX,
+              {{{kYaw, -way_m * s}, {kGain, -way_m * s * turn.by_gain / 2}, {kScale, told_m * c}}});
+  add_rows<3>(p, kY,
+              {{{kYaw, way_m * c}, {kGain, way_m * c * turn.by_gain / 2}, {kScale, told_m * s}}});
   apply_turn(belief, turn);
 
   const double radians = std::abs(turn.rad);
   const double shift = square(config.turning_shift_m) * radians + square(kStanding_m) * dt_s;
-  const double along = square(config.odometry_along_m) * metres + spread_variance +
-                       square(wheels.slip_mps) * kSpreadTime_s * dt_s;
+  const double along = square(config.odometry_along_m) * metres + way_variance;
   const double across = square(config.odometry_across_m) * metres;
   p[kX][kX] += along * c * c + across * s * s + shift;
   p[kY][kY] += along * s * s + across * c * c + shift;

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 
+#include "drover/twist.h"
 #include "engine/config.h"
 
 namespace drover::engine::estimate {
@@ -18,8 +19,8 @@ enum : std::size_t {
   kX,          ///< base_link in `map`, m
   kY,          ///< m
   kYaw,        ///< rad
-  kGain,       ///< true yaw rate over the one that `track_m` gives: 1 / yaw_slip_factor
-  kScale,      ///< true speed over the one that `wheel_radius_m` gives
+  kGain,       ///< true yaw rate over the one that the base tells: 1 / yaw_slip_factor
+  kScale,      ///< true speed over the one that the base tells
   kBiasX,      ///< slowly changing error of the GNSS position, m
   kBiasY,      ///< m
   kGyroBias,   ///< what the gyro says of a base that does not turn, rad/s
@@ -29,16 +30,6 @@ enum : std::size_t {
 
 using Vector = std::array<double, kStates>;
 using Matrix = std::array<Vector, kStates>;
-
-/// What the wheels say about an interval.
-struct WheelMotion {
-  double left_mps = 0;
-  double right_mps = 0;
-  double spread_mps = 0;  ///< how much the wheels of one side contradict each other
-  bool known = false;     ///< false: a whole side is silent, the base may do anything
-  bool standing = false;  ///< known, and every wheel is at rest
-  double slip_mps = 0;    ///< how wrong the speed may be, because wheels were seen to slip
-};
 
 /// What the gyro says about an interval. Without it the wheels tell the turn.
 struct GyroMotion {
@@ -67,12 +58,12 @@ struct Belief {
 /// Two sigma of the larger horizontal axis, m.
 double two_sigma_position_m(const Belief& belief);
 
-/// Moves the belief over `dt_s` (short: some 20 ms) by the wheels. `heading_known` false: the
-/// position stays and its uncertainty grows by the distance. `bias_sigma` is the stationary sigma
-/// of the GNSS error, m. With a gyro the turn is the gyro's, and the wheels' gain has no part in
-/// it.
-void predict(Belief& belief, const WheelMotion& wheels, double dt_s, bool heading_known,
+/// Moves the belief over `dt_s` (short: some 20 ms) by the motion that the base tells.
+/// `heading_known` false: the position stays and its uncertainty grows by the distance.
+/// `bias_sigma` is the stationary sigma of the GNSS error, m. With a gyro the turn is the gyro's,
+/// and the wheels' gain has no part in it.
+void predict(Belief& belief, const BodyMotion& body, double dt_s, bool heading_known,
              double bias_sigma_x_m, double bias_sigma_y_m, const EstimateConfig& config,
-             double track_m, const GyroMotion& gyro = {});
+             const GyroMotion& gyro = {});
 
 }  // namespace drover::engine::estimate

@@ -11,9 +11,8 @@ namespace {
 constexpr double kSlice_s = 0.1;
 constexpr double kMemory_s = 2.0;  // over which turns are compared
 constexpr double kGate = 3.5;      // sigmas of that comparison
-// Systematic errors of the comparison: tyres of unequal pressure bend a straight, and the gain of a
-// skidding base differs between a wide curve and a turn on the spot.
-constexpr double kTyreShare = 0.005;
+// A systematic error of it: the gain of a skidding base differs between a wide curve and a turn on
+// the spot.
 constexpr double kGainShare = 0.15;
 // A gyro that shakes differently when the motors run has another bias by about this.
 constexpr double kBiasFloor_radps = 0.0001;
@@ -83,11 +82,10 @@ void learn_at_rest(GyroTrack& gyro, Belief& belief, Time now, const EstimateConf
 }
 
 /// How far the sums may be apart, squared, when nothing is wrong.
-double permitted_rad2(const GyroTrack& gyro, const Belief& belief, double track_m) {
+double permitted_rad2(const GyroTrack& gyro, const Belief& belief, double pull_radpm) {
   const Matrix& p = belief.covariance;
   return gyro.white_rad2 + square(kGainShare * gyro.wheel_turn_rad) +
-         square(kTyreShare / track_m * gyro.recent_way_m) +
-         p[kGyroBias][kGyroBias] * square(gyro.recent_s) +
+         square(pull_radpm * gyro.recent_way_m) + p[kGyroBias][kGyroBias] * square(gyro.recent_s) +
          p[kGyroScale][kGyroScale] * square(gyro.wheel_turn_rad);
 }
 
@@ -186,7 +184,7 @@ void learn_gain(GyroTrack& gyro, Belief& belief, double gyro_rad, double apart_r
 }
 
 void compare(GyroTrack& gyro, Belief& belief, Time now, const EstimateConfig& config,
-             double track_m) {
+             double pull_radpm) {
   const bool doubted = gyro.trouble == TurnTrouble::gyro;
   const double gyro_rad =
       belief.mean[kGyroScale] * (gyro.turned_rad - bias_of(gyro, belief) * gyro.slice_s);
@@ -202,7 +200,7 @@ void compare(GyroTrack& gyro, Belief& belief, Time now, const EstimateConfig& co
   gyro.recent_way_m = keep * gyro.recent_way_m + gyro.way_m;
   gyro.recent_s = keep * gyro.recent_s + gyro.slice_s;
   const bool agrees =
-      square(gyro.apart_rad) <= square(kGate) * permitted_rad2(gyro, belief, track_m);
+      square(gyro.apart_rad) <= square(kGate) * permitted_rad2(gyro, belief, pull_radpm);
   if (doubted) return watch_doubted(gyro, belief, apart_rad, agrees, now);
   if (agrees) {
     gyro.trouble = TurnTrouble::none;
@@ -216,13 +214,13 @@ void compare(GyroTrack& gyro, Belief& belief, Time now, const EstimateConfig& co
 
 }  // namespace
 
-GyroMotion motion_of(const GyroTrack& gyro, const Belief& belief, const WheelMotion& wheels,
-                     Time now, const EstimateConfig& config) {
+GyroMotion motion_of(const GyroTrack& gyro, const Belief& belief, const BodyMotion& body, Time now,
+                     const EstimateConfig& config) {
   GyroMotion motion;
   if (!gyro.believed() || !gyro.fresh(now, from_s(config.imu_stale_s))) return motion;
   motion.rate_radps = gyro.rate_radps;
   motion.known = true;
-  if (!wheels.standing) return motion;
+  if (!body.standing) return motion;
   // Standing wheels hold the heading better than a gyro, as long as nobody lifts them.
   const double threshold_radps =
       pushed_radps(belief) + 4 * config.imu_gyro_noise_rad / std::sqrt(kSlice_s);
@@ -232,9 +230,9 @@ GyroMotion motion_of(const GyroTrack& gyro, const Belief& belief, const WheelMot
   return motion;
 }
 
-void follow_turn(GyroTrack& gyro, Belief& belief, const WheelMotion& wheels, Time now, double dt_s,
-                 const EstimateConfig& config, double track_m) {
-  if (!gyro.fresh(now, from_s(config.imu_stale_s)) || !wheels.known) {
+void follow_turn(GyroTrack& gyro, Belief& belief, const BodyMotion& body, Time now, double dt_s,
+                 const EstimateConfig& config, double pull_radpm) {
+  if (!gyro.fresh(now, from_s(config.imu_stale_s)) || !body.known) {
     forget_slice(gyro);
     forget_recent(gyro);
     gyro.heard = kNever;
@@ -243,20 +241,20 @@ void follow_turn(GyroTrack& gyro, Belief& belief, const WheelMotion& wheels, Tim
     gyro.contested_since = kNever;
     return;
   }
-  const double rim_rad = (wheels.right_mps - wheels.left_mps) / track_m * dt_s;
+  const double rim_rad = body.twist.wz_radps * dt_s;
   gyro.gyro_since_rad += belief.mean[kGyroScale] * (gyro.rate_radps - bias_of(gyro, belief)) * dt_s;
   gyro.wheels_since_rad += belief.mean[kGain] * rim_rad;
   gyro.slice_s += dt_s;
   gyro.turned_rad += gyro.rate_radps * dt_s;
   gyro.rim_rad += rim_rad;
-  gyro.way_m += std::abs(belief.mean[kScale] * (wheels.left_mps + wheels.right_mps) / 2) * dt_s;
-  gyro.stood = gyro.stood && wheels.standing;
+  gyro.way_m += std::abs(belief.mean[kScale] * body.twist.vx_mps) * dt_s;
+  gyro.stood = gyro.stood && body.standing;
   if (gyro.slice_s < kSlice_s) return;
   if (gyro.stood && gyro.trouble != TurnTrouble::gyro) {
     forget_recent(gyro);
     learn_at_rest(gyro, belief, now, config);
   } else {
-    compare(gyro, belief, now, config, track_m);
+    compare(gyro, belief, now, config, pull_radpm);
   }
   forget_slice(gyro);
 }

@@ -64,13 +64,13 @@ struct GyroTrack {
 };
 
 /// What the prediction is to use of it at `now`.
-GyroMotion motion_of(const GyroTrack& gyro, const Belief& belief, const WheelMotion& wheels,
-                     Time now, const EstimateConfig& config);
+GyroMotion motion_of(const GyroTrack& gyro, const Belief& belief, const BodyMotion& body, Time now,
+                     const EstimateConfig& config);
 
 /// Sums up `dt_s` of motion that ended at `now`, and judges each finished slice. Corrects the
-/// belief.
-void follow_turn(GyroTrack& gyro, Belief& belief, const WheelMotion& wheels, Time now, double dt_s,
-                 const EstimateConfig& config, double track_m);
+/// belief. `pull_radpm`: of the base, see pull_radpm().
+void follow_turn(GyroTrack& gyro, Belief& belief, const BodyMotion& body, Time now, double dt_s,
+                 const EstimateConfig& config, double pull_radpm);
 
 /// A heading of the receiver, whether the estimate believes it or not.
 void hear_heading(GyroTrack& gyro, double yaw_rad, Time at);

@@ -14,13 +14,12 @@
 
 namespace drover::engine::estimate {
 
-/// Rim speeds that became known within one slot of time, and the turn that began in it.
-struct WheelInput {
-  std::uint16_t present = 0;  ///< bit per wheel
-  std::array<double, kWheels> rim_mps{};
+/// What the base told of its motion within one slot of time, and the turn that began in it.
+struct MotionInput {
+  JointSet present;
+  std::array<double, kMaxAxes> joints_radps{};
   std::optional<TurnRate> turn;
 };
-static_assert(kWheels <= 16);
 
 struct YawInput {
   double yaw_rad = 0;
@@ -28,7 +27,7 @@ struct YawInput {
 
 /// In the order in which inputs of one instant are applied: a position needs the heading of its
 /// own epoch for the lever arm.
-using Input = std::variant<WheelInput, YawInput, AntennaPosition>;
+using Input = std::variant<MotionInput, YawInput, AntennaPosition>;
 
 struct Entry {
   Time time = kNever;

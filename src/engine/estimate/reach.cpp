@@ -21,13 +21,14 @@ double used_share(const Belief& belief, const EstimateConfig& config) {
 
 }  // namespace
 
-double metres_left(Belief belief, WheelMotion wheels, GyroMotion gyro, double bias_sigma_x_m,
-                   double bias_sigma_y_m, const EstimateConfig& config, double track_m) {
-  if (!wheels.known || gyro.pushed || used_share(belief, config) >= 1) return 0;
-  double speed_mps = std::abs(belief.mean[kScale] * (wheels.left_mps + wheels.right_mps) / 2);
+double metres_left(Belief belief, BodyMotion body, GyroMotion gyro, double bias_sigma_x_m,
+                   double bias_sigma_y_m, const EstimateConfig& config) {
+  if (!body.known || gyro.pushed || used_share(belief, config) >= 1) return 0;
+  double speed_mps = std::abs(belief.mean[kScale] * body.twist.vx_mps);
   if (speed_mps < kIdle_mps / 4) {  // it stands or turns on the spot
-    wheels.left_mps = wheels.right_mps = speed_mps = kIdle_mps;
-    wheels.standing = false;
+    speed_mps = kIdle_mps;
+    body.twist = {kIdle_mps, 0};
+    body.standing = false;
     gyro.rate_radps = belief.mean[kGyroBias];
   }
   // Each step longer than the one before: a few suffice for a near bound and for a far one.
@@ -35,8 +36,7 @@ double metres_left(Belief belief, WheelMotion wheels, GyroMotion gyro, double bi
   double step_m = kFirst_m;
   double used = used_share(belief, config);
   for (int i = 0; i < kSteps; ++i) {
-    predict(belief, wheels, step_m / speed_mps, true, bias_sigma_x_m, bias_sigma_y_m, config,
-            track_m, gyro);
+    predict(belief, body, step_m / speed_mps, true, bias_sigma_x_m, bias_sigma_y_m, config, gyro);
     const double next = used_share(belief, config);
     if (next >= 1) return left_m + step_m * (1 - used) / (next - used);
     used = next;

@@ -9,7 +9,7 @@ namespace drover::engine::estimate {
 
 /// Metres at the present kind of driving (slowly straight ahead when it stands) until two
 /// sigma reach bound_run_m or bound_yaw_deg; not more than about 100.
-double metres_left(Belief belief, WheelMotion wheels, GyroMotion gyro, double bias_sigma_x_m,
-                   double bias_sigma_y_m, const EstimateConfig& config, double track_m);
+double metres_left(Belief belief, BodyMotion body, GyroMotion gyro, double bias_sigma_x_m,
+                   double bias_sigma_y_m, const EstimateConfig& config);
 
 }  // namespace drover::engine::estimate

@@ -22,7 +22,7 @@ constexpr Duration kContradicted = std::chrono::milliseconds(300);
 
 void Estimator::report(const State& state, Time now) {
   const Belief& belief = state.belief;
-  const WheelMotion motion = state.wheels.motion(now, wheel_stale_);
+  const BodyMotion body = body_motion(base_, state.told, now, wheel_stale_);
   Estimate& e = estimate_;
   e.has_position = state.has_position;
   e.has_heading = state.has_heading;
@@ -30,14 +30,14 @@ void Estimator::report(const State& state, Time now) {
   e.pose.x_m = belief.mean[kX];
   e.pose.y_m = belief.mean[kY];
   e.pose.yaw_rad = belief.mean[kYaw];
-  e.pose.vx_mps = belief.mean[kScale] * (motion.left_mps + motion.right_mps) / 2;
-  const GyroMotion gyro = motion_of(state.gyro, belief, motion, now, config_);
-  e.gyro_used = gyro.known || (motion.standing && state.gyro.fresh(now, imu_stale_));
+  e.pose.vx_mps = belief.mean[kScale] * body.twist.vx_mps;
+  const GyroMotion gyro = motion_of(state.gyro, belief, body, now, config_);
+  e.gyro_used = gyro.known || (body.standing && state.gyro.fresh(now, imu_stale_));
   e.pose.wz_radps = gyro.known
                         ? belief.mean[kGyroScale] * (gyro.rate_radps - belief.mean[kGyroBias])
-                        : belief.mean[kGain] * (motion.right_mps - motion.left_mps) / base_.track_m;
-  e.left_mps = motion.left_mps;
-  e.right_mps = motion.right_mps;
+                        : belief.mean[kGain] * body.twist.wz_radps;
+  e.body = body;
+  e.fastest_mps = fastest_mps(base_, body.twist);
   e.yaw_slip_factor = 1.0 / belief.mean[kGain];
 
   const double two_sigma_m = two_sigma_position_m(belief);
@@ -88,7 +88,7 @@ void Estimator::report_trouble(const State& state, Time now) {
     e.reason = "no position yet";
   } else if (!state.has_heading) {
     e.reason = "no heading";
-  } else if (!state.wheels.motion(now, wheel_stale_).known) {
+  } else if (!body_motion(base_, state.told, now, wheel_stale_).known) {
     e.reason = "wheels are silent";
   } else {
     e.reason.clear();
@@ -138,13 +138,12 @@ void Estimator::report_imu(const State& state, Time now) {
 double Estimator::reach_m(const State& state, Time now) const {
   const bool rtk = state.gnss.fixed != kNever && now - state.gnss.fixed < kFixed;
   if (rtk || !state.has_position || !state.has_heading) return kAbsent;
-  const WheelMotion motion = state.wheels.motion(now, wheel_stale_);
-  GyroMotion gyro = motion_of(state.gyro, state.belief, motion, now, config_);
+  const BodyMotion body = body_motion(base_, state.told, now, wheel_stale_);
+  GyroMotion gyro = motion_of(state.gyro, state.belief, body, now, config_);
   // Standing wheels hold the heading themselves; driving on, the gyro would.
   gyro.known = state.gyro.believed() && state.gyro.fresh(now, imu_stale_);
   gyro.rate_radps = state.gyro.rate_radps;
-  return metres_left(state.belief, motion, gyro, state.gnss.sigma_x_m, state.gnss.sigma_y_m,
-                     config_, base_.track_m);
+  return metres_left(state.belief, body, gyro, state.gnss.sigma_x_m, state.gnss.sigma_y_m, config_);
 }
 
 }  // namespace drover::engine

@@ -6,12 +6,12 @@
 
 #include "drover/measurement.h"
 #include "drover/time.h"
+#include "engine/base/kinematics.h"
 #include "engine/estimate/course.h"
 #include "engine/estimate/filter.h"
 #include "engine/estimate/gyro_track.h"
 #include "engine/estimate/jump_watch.h"
 #include "engine/estimate/motion_watch.h"
-#include "engine/estimate/wheels.h"
 
 namespace drover::engine::estimate {
 
@@ -47,7 +47,7 @@ struct State {
   bool has_position = false;
   bool has_heading = false;
   Belief belief;
-  Wheels wheels;
+  Told told;
   Time standing_since = kNever;  ///< kNever while the base moves or may move
   GnssTrack gnss;
   HeadingTrack heading;

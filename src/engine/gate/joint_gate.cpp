@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/drive/skid_steer.h"
-
 namespace drover::engine {
 namespace {
 
@@ -14,41 +12,30 @@ constexpr double kRest_radps = 1e-9;
 }  // namespace
 
 JointGate::JointGate(const BaseConfig& base, const LimitsConfig& limits)
-    : base_(base), limits_(limits) {}
+    : base_(kinematics_of(base)), limits_(limits) {}
 
-/// Which part of the wanted velocities keeps within the limits; 0 when nothing does. Each wheel on
-/// the left makes a twist with each on the right, and the worst one counts: wheels of one side that
-/// work against each other hide nothing.
+/// Which part of the wanted velocities keeps within the limits; 0 when nothing does.
 double JointGate::permitted_share(const Velocities& wanted_radps, double yaw_slip_factor,
                                   double cap_mps) const {
-  double rim_mps = 0;
+  double fastest_mps = 0;
   for (const double wanted : wanted_radps)
-    rim_mps = std::max(rim_mps, std::abs(wanted) * base_.wheel_radius_m);
-  double speed_mps = 0;
-  double turn_radps = 0;
-  for (const AxisId left : base_.left) {
-    for (const AxisId right : base_.right) {
-      const Twist twist =
-          twist_from_wheels(base_, yaw_slip_factor, wanted_radps[left] * base_.wheel_radius_m,
-                            wanted_radps[right] * base_.wheel_radius_m);
-      speed_mps = std::max(speed_mps, std::abs(twist.vx_mps));
-      turn_radps = std::max(turn_radps, std::abs(twist.wz_radps));
-    }
-  }
+    fastest_mps = std::max(fastest_mps, rim_mps(base_, std::abs(wanted)));
+  const Twist twist = largest_twist(base_, wanted_radps, {yaw_slip_factor});
   const auto within = [](double limit, double value) {
     if (value == 0) return 1.0;
     return limit > 0 ? std::min(limit / value, 1.0) : 0.0;
   };
-  const double share = std::min({within(cap_mps, rim_mps), within(limits_.max_speed_mps, speed_mps),
-                                 within(limits_.max_yaw_rate_radps, turn_radps)});
+  const double share =
+      std::min({within(cap_mps, fastest_mps), within(limits_.max_speed_mps, twist.vx_mps),
+                within(limits_.max_yaw_rate_radps, twist.wz_radps)});
   return yaw_slip_factor > 0 && std::isfinite(share) ? share : 0;
 }
 
 /// All joints arrive together: on the straight line between two twists within the limits there is
 /// none beyond them.
 void JointGate::approach(const Velocities& target_radps, double dt_s) {
-  const double faster_radps = limits_.acceleration_mps2 * dt_s / base_.wheel_radius_m;
-  const double slower_radps = limits_.deceleration_mps2 * dt_s / base_.wheel_radius_m;
+  const double faster_radps = joint_radps(base_, limits_.acceleration_mps2 * dt_s);
+  const double slower_radps = joint_radps(base_, limits_.deceleration_mps2 * dt_s);
   double share = 1;
   for (std::size_t i = 0; i < velocities_.size(); ++i) {
     const double now = velocities_[i];

@@ -4,17 +4,17 @@
 #include <array>
 #include <span>
 
-#include "engine/config.h"
+#include "engine/base/kinematics.h"
 #include "engine/gate/target_gate.h"
 
 namespace drover::engine {
 
-/// The base's limits hold for the twist that the joints make together, taken by the wheel radius.
+/// The base's limits hold for the twist that the joints make together, as its kinematics make it.
 /// What is too fast is scaled, all joints alike, so that the curve stays. What is not permitted
 /// becomes a ramp to zero; an immediate stop is zero at once.
 class JointGate final {
  public:
-  using Velocities = std::array<double, kMaxAxes>;
+  using Velocities = JointVelocities;
 
   JointGate(const BaseConfig& base, const LimitsConfig& limits);
 
@@ -33,7 +33,7 @@ class JointGate final {
                          double cap_mps) const;
   void approach(const Velocities& target_radps, double dt_s);
 
-  BaseConfig base_;
+  Kinematics base_;
   LimitsConfig limits_;
   Velocities velocities_{};
 };

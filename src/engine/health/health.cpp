@@ -31,10 +31,10 @@ std::string_view line_name(Line line) {
 }
 
 HealthMonitor::HealthMonitor(const EngineConfig& config)
-    : config_(config), locate_(config.estimate), battery_(config.health) {
-  for (const AxisId id : config.base.left) driven_[id] = true;
-  for (const AxisId id : config.base.right) driven_[id] = true;
-}
+    : config_(config),
+      driven_(joints_of(kinematics_of(config.base))),
+      locate_(config.estimate),
+      battery_(config.health) {}
 
 void HealthMonitor::hold(Cause cause, const Reason& text) {
   const auto index = static_cast<std::size_t>(cause);

@@ -116,7 +116,7 @@ class HealthMonitor final {
   bool holds(Cause cause) const { return report_.holds(cause); }
 
   EngineConfig config_;
-  std::array<bool, kMaxAxes> driven_{};  ///< axes of the base
+  JointSet driven_;  ///< axes of the base
   LocateMonitor locate_;
   BatteryMonitor battery_;
   HealthReport report_;

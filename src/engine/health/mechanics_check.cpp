@@ -190,9 +190,7 @@ void MechanicsCheck::step(const MechanicsInput& input) {
   now_ = input.now;
   if (proved_) return;
   yaw_rad_ = input.yaw_rad;
-  const double vx_mps = 0.5 * (input.left_mps + input.right_mps);
-  const bool still = !input.commanded && std::abs(input.left_mps) < kStill_mps &&
-                     std::abs(input.right_mps) < kStill_mps;
+  const bool still = !input.commanded && input.fastest_mps < kStill_mps;
   if (!still) still_since_ = kNever;
   if (still && still_since_ == kNever) still_since_ = input.now;
   if (moving_ && still && input.now - still_since_ >= from_s(kStill_s)) {
@@ -203,10 +201,9 @@ void MechanicsCheck::step(const MechanicsInput& input) {
   if (!moving_ && input.commanded) begin();
   if (!moving_) return;
   const double dt_s = std::max(to_s(input.dt), 0.0);
-  const double gauge_m = config_.base.track_m * config_.base.yaw_slip_factor;
-  last_.way_m += vx_mps * dt_s;
-  last_.turn_rad += (input.right_mps - input.left_mps) / gauge_m * dt_s;
-  rolled_m_ += std::abs(vx_mps) * dt_s;
+  last_.way_m += input.body.vx_mps * dt_s;
+  last_.turn_rad += input.body.wz_radps / config_.base.yaw_slip_factor * dt_s;
+  rolled_m_ += std::abs(input.body.vx_mps) * dt_s;
   remember(input.now);
   if (!fault_.empty()) return;
   compare_turn(input);

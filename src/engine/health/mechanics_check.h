@@ -16,8 +16,8 @@ namespace drover::engine {
 struct MechanicsInput {
   Time now = kNever;
   Duration dt{};
-  double left_mps = 0;  ///< mean rim speeds, as the drives tell them
-  double right_mps = 0;
+  Twist body;                    ///< as the base tells it
+  double fastest_mps = 0;        ///< of its wheels on the ground, by that motion
   bool commanded = false;        ///< somebody moves the base
   double yaw_rad = kAbsent;      ///< of the base, absent while unknown
   bool gyro_zero_known = false;  ///< its bias was learned

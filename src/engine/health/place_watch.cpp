@@ -36,9 +36,8 @@ Change change(const Pose& from, const Pose& to) {
 
 void PlaceWatch::update(Time now, const Estimate& estimate, bool heard) {
   if (!estimate.has_position || !estimate.has_heading) return;
-  const double rim_mps = std::max(std::abs(estimate.left_mps), std::abs(estimate.right_mps));
   // What rolls out after an e-stop rolls unheard.
-  const bool stands = heard && rim_mps <= kStands_mps;
+  const bool stands = heard && estimate.fastest_mps <= kStands_mps;
   if (!known_ || !stands) {
     known_ = true;
     stood_ = at_ = estimate.pose;

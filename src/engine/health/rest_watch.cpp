@@ -24,10 +24,11 @@ constexpr Duration kLookAgainAfterCut = std::chrono::seconds(2);
 
 }  // namespace
 
-RestWatch::RestWatch(const EngineConfig& config) : config_(config), witness_(config) {
-  for (const AxisId id : config.base.left) driven_[id] = true;
-  for (const AxisId id : config.base.right) driven_[id] = true;
-}
+RestWatch::RestWatch(const EngineConfig& config)
+    : config_(config),
+      base_(kinematics_of(config.base)),
+      driven_(joints_of(base_)),
+      witness_(config) {}
 
 void RestWatch::expect_stop(Time now) {
   ours_ = true;
@@ -50,12 +51,12 @@ RestWatch::Rims RestWatch::rims(const RestInput& input) const {
   for (std::size_t i = 0; i < input.axes.size(); ++i) {
     if (!driven_[i]) continue;
     const AxisSnapshot& axis = input.axes[i];
-    const double rim_mps = axis.motion.velocity_radps * config_.base.wheel_radius_m;
+    const double mps = rim_mps(base_, axis.motion.velocity_radps);
     const Duration stale = from_s(config_.health.drive_stale_s);
-    if (!tells_motion(axis, input.now, stale) || !std::isfinite(rim_mps)) {
+    if (!tells_motion(axis, input.now, stale) || !std::isfinite(mps)) {
       rims.silent = true;
-    } else if (std::abs(rim_mps) > std::abs(rims.fastest_mps)) {
-      rims.fastest_mps = rim_mps;
+    } else if (std::abs(mps) > std::abs(rims.fastest_mps)) {
+      rims.fastest_mps = mps;
     }
   }
   return rims;
@@ -66,7 +67,7 @@ double RestWatch::asked_mps(const RestInput& input) const {
   double asked_mps = 0;
   for (std::size_t i = 0; i < input.axes.size(); ++i) {
     if (!driven_[i]) continue;
-    const double mps = input.axes[i].commanded_velocity_radps * config_.base.wheel_radius_m;
+    const double mps = rim_mps(base_, input.axes[i].commanded_velocity_radps);
     if (std::abs(mps) > std::abs(asked_mps)) asked_mps = mps;
   }
   return asked_mps;

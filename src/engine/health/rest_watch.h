@@ -5,6 +5,7 @@
 #include <span>
 
 #include "drover/snapshot.h"
+#include "engine/base/kinematics.h"
 #include "engine/config.h"
 #include "engine/health/motion_witness.h"
 
@@ -76,7 +77,8 @@ class RestWatch final {
   void tell(const char* what, const Rims& rims, const Testimony& said);
 
   EngineConfig config_;
-  std::array<bool, kMaxAxes> driven_{};  ///< axes of the base
+  Kinematics base_;
+  JointSet driven_;
   MotionWitness witness_;
   RestState state_ = RestState::settling;
   Reason reason_;

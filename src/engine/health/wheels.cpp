@@ -20,18 +20,14 @@ constexpr double kHighestSlip = 2.5;  // the estimate never goes so far
 
 }  // namespace
 
-double max_wheel_mps(const BaseConfig& base, const LimitsConfig& limits, double yaw_slip_factor) {
-  return limits.max_speed_mps + 0.5 * base.track_m * yaw_slip_factor * limits.max_yaw_rate_radps;
-}
-
 WheelMonitor::WheelMonitor(const EngineConfig& config)
     : config_(config),
-      judged_radps_(kJudgedShare * config.limits.max_speed_mps / config.base.wheel_radius_m),
-      fastest_radps_(
-          (max_wheel_mps(config.base, config.limits, kHighestSlip) + kRunawayMargin_mps) /
-          config.base.wheel_radius_m),
-      margin_radps_(kRunawayMargin_mps / config.base.wheel_radius_m),
-      falls_radps2_(config.limits.deceleration_mps2 / config.base.wheel_radius_m) {}
+      base_(kinematics_of(config.base)),
+      judged_radps_(joint_radps(base_, kJudgedShare * config.limits.max_speed_mps)),
+      fastest_radps_(joint_radps(
+          base_, max_rim_mps(base_, config.limits, {kHighestSlip}) + kRunawayMargin_mps)),
+      margin_radps_(joint_radps(base_, kRunawayMargin_mps)),
+      falls_radps2_(joint_radps(base_, config.limits.deceleration_mps2)) {}
 
 void WheelMonitor::reset() {
   wheels_ = {};

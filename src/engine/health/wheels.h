@@ -5,6 +5,7 @@
 #include <span>
 
 #include "drover/snapshot.h"
+#include "engine/base/kinematics.h"
 #include "engine/config.h"
 
 namespace drover::engine {
@@ -56,6 +57,7 @@ class WheelMonitor final {
   void tell_runaway(const AxisSnapshot& axis);
 
   EngineConfig config_;
+  Kinematics base_;
   double judged_radps_;   ///< slower commands are not judged
   double fastest_radps_;  ///< no command is faster
   double margin_radps_;   ///< faster than told by more than this: it runs away
@@ -63,8 +65,5 @@ class WheelMonitor final {
   std::array<Wheel, kMaxAxes> wheels_{};
   Reason reason_;
 };
-
-/// Rim speed that no wheel is commanded beyond: full speed in the tightest permitted turn, m/s.
-double max_wheel_mps(const BaseConfig& base, const LimitsConfig& limits, double yaw_slip_factor);
 
 }  // namespace drover::engine

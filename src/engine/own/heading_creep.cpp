@@ -57,7 +57,7 @@ Twist HeadingCreep::step(Time now, Duration dt, const Estimate& estimate,
     }
     return {};
   }
-  driven_m_ += 0.5 * std::abs(estimate.left_mps + estimate.right_mps) * to_s(dt);
+  driven_m_ += std::abs(estimate.body.twist.vx_mps) * to_s(dt);
   if (driven_m_ > config_.find_heading_distance_m) {
     end("the way did not show it", now, events);
   } else if (now - began_ > from_s(timeout_s())) {

@@ -27,10 +27,10 @@ constexpr double kReleaseTilt_deg = 2.0;
 }  // namespace
 
 Hold::Hold(const EngineConfig& config)
-    : config_(config), falls_radps2_(config.limits.deceleration_mps2 / config.base.wheel_radius_m) {
-  for (const AxisId id : config.base.left) driven_[id] = true;
-  for (const AxisId id : config.base.right) driven_[id] = true;
-}
+    : config_(config),
+      base_(kinematics_of(config.base)),
+      driven_(joints_of(base_)),
+      falls_radps2_(joint_radps(base_, config.limits.deceleration_mps2)) {}
 
 void Hold::recall(const Remembered& remembered) {
   released_ = remembered.released;
@@ -129,7 +129,7 @@ void Hold::begin(const HoldInput& input, const AxisSnapshot& axis, Catch& it) co
   const double measured_radps = axis.motion.velocity_radps;
   // Where another wheel holds already the robot does not roll: this one joins it at rest.
   const bool rolls = !input.guard_has_bus && !others_hold(input);
-  const bool turns = std::abs(measured_radps) * config_.base.wheel_radius_m > kTurns_mps;
+  const bool turns = rim_mps(base_, std::abs(measured_radps)) > kTurns_mps;
   it.velocity_radps = rolls && turns ? measured_radps : 0.0;
 }
 

@@ -8,6 +8,7 @@
 #include "drover/driver.h"
 #include "drover/remembered.h"
 #include "drover/snapshot.h"
+#include "engine/base/kinematics.h"
 #include "engine/event_queue.h"
 #include "engine/health/health.h"
 
@@ -71,8 +72,9 @@ class Hold final {
   bool heard(const HoldInput& input, const AxisSnapshot& axis) const;
 
   EngineConfig config_;
+  Kinematics base_;
+  JointSet driven_;
   double falls_radps2_;
-  std::array<bool, kMaxAxes> driven_{};  ///< axes of the base
   std::array<Catch, kMaxAxes> catches_{};
   std::array<AxisCommand, kMaxAxes> commands_{};
   bool armed_ = false;     ///< by a person, and nothing since ended it

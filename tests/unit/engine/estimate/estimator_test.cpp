@@ -244,7 +244,7 @@ TEST(Estimator, LeavesOutOneSilentWheelOfASide) {
     rig.tick(0.5, 0.5);
   }
   EXPECT_TRUE(rig.last.reason.empty()) << rig.last.reason.view();
-  EXPECT_NEAR(rig.last.left_mps, 0.5, 0.01);
+  EXPECT_NEAR(rig.last.body.twist.vx_mps, 0.5, 0.01);
   EXPECT_NEAR(rig.last.pose.vx_mps, 0.5, 0.02);
 }
 

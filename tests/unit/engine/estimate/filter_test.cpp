@@ -21,8 +21,8 @@ Belief start() {
   return belief;
 }
 
-WheelMotion rolling(double left_mps, double right_mps) {
-  return {.left_mps = left_mps, .right_mps = right_mps, .known = true};
+BodyMotion moving_by(double vx_mps, double wz_radps) {
+  return {.twist = {vx_mps, wz_radps}, .known = true};
 }
 
 TEST(Filter, NoticesThatItLostItsNumbers) {
@@ -37,13 +37,13 @@ TEST(Filter, NoticesThatItLostItsNumbers) {
 
 TEST(Filter, DoesNotPredictBackwards) {
   Belief belief = start();
-  predict(belief, rolling(1, 1), -0.01, true, 0, 0, {}, 0.6);
+  predict(belief, moving_by(1, 0), -0.01, true, 0, 0, {});
   EXPECT_EQ(belief.mean[kX], 1);
 }
 
 TEST(Filter, DrivesAnArcOfTheRightLength) {
   Belief belief = start();
-  for (int i = 0; i < 1000; ++i) predict(belief, rolling(0.4, 0.6), 0.01, true, 0, 0, {}, 0.6);
+  for (int i = 0; i < 1000; ++i) predict(belief, moving_by(0.5, 0.2 / 0.6), 0.01, true, 0, 0, {});
   const double turn = 0.8 * 0.2 / 0.6 * 10;
   const double radius = 5.0 / turn;
   EXPECT_NEAR(belief.mean[kYaw], wrap_rad(0.4 + turn), 1e-9);
@@ -64,8 +64,8 @@ TEST(Filter, CarriesUncertaintyAsTheNumbersWouldMove) {
     Belief shifted = belief;
     shifted.mean[i] += kShift;
     for (int n = 0; n < 100; ++n) {
-      predict(belief, rolling(0.3, 0.6), 0.01, true, 0, 0, quiet, 0.6);
-      predict(shifted, rolling(0.3, 0.6), 0.01, true, 0, 0, quiet, 0.6);
+      predict(belief, moving_by(0.45, 0.5), 0.01, true, 0, 0, quiet);
+      predict(shifted, moving_by(0.45, 0.5), 0.01, true, 0, 0, quiet);
     }
     for (const std::size_t k : {std::size_t{kX}, std::size_t{kY}, std::size_t{kYaw}}) {
       const double moved = (shifted.mean[k] - belief.mean[k]) / kShift;
@@ -77,11 +77,11 @@ TEST(Filter, CarriesUncertaintyAsTheNumbersWouldMove) {
 TEST(Filter, GrowsWithTheWayAndNotWithTheTimeItStands) {
   Belief standing = start();
   Belief moving = start();
-  WheelMotion rest = rolling(0, 0);
+  BodyMotion rest = moving_by(0, 0);
   rest.standing = true;
   for (int i = 0; i < 6000; ++i) {
-    predict(standing, rest, 0.01, true, 0, 0, {}, 0.6);
-    predict(moving, rolling(0.5, 0.5), 0.01, true, 0, 0, {}, 0.6);
+    predict(standing, rest, 0.01, true, 0, 0, {});
+    predict(moving, moving_by(0.5, 0), 0.01, true, 0, 0, {});
   }
   EXPECT_LT(two_sigma_position_m(standing), 0.105);
   EXPECT_GT(two_sigma_position_m(moving), 0.5);
@@ -100,10 +100,10 @@ TEST(Filter, CorrectsByTheUsualGain) {
 TEST(Filter, WidensByWheelsThatContradictEachOther) {
   Belief agree = start();
   Belief differ = start();
-  WheelMotion motion = rolling(0.5, 0.5);
-  predict(agree, motion, 0.02, true, 0, 0, {}, 0.6);
-  motion.spread_mps = 0.3;
-  predict(differ, motion, 0.02, true, 0, 0, {}, 0.6);
+  BodyMotion motion = moving_by(0.5, 0);
+  predict(agree, motion, 0.02, true, 0, 0, {});
+  motion.vx_var = 0.3 * 0.3;
+  predict(differ, motion, 0.02, true, 0, 0, {});
   EXPECT_GT(differ.covariance[kX][kX], agree.covariance[kX][kX] + 1e-3);
 }
 

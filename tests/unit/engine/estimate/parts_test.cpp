@@ -15,50 +15,12 @@ namespace {
 using std::chrono::milliseconds;
 constexpr Time kStart{std::chrono::seconds(50)};
 
-TEST(Wheels, KnowNothingWhenASideIsSilent) {
-  Wheels wheels;
-  wheels.set(0, 0.5, kStart);
-  EXPECT_FALSE(wheels.motion(kStart, milliseconds(100)).known);
-  wheels.set(kWheelsPerSide, 0.5, kStart);
-  EXPECT_TRUE(wheels.motion(kStart + milliseconds(100), milliseconds(100)).known);
-  EXPECT_FALSE(wheels.motion(kStart + milliseconds(101), milliseconds(100)).known);
-}
-
-TEST(Wheels, TakeDitherForRest) {
-  Wheels wheels;
-  wheels.set(0, 0.001, kStart);
-  wheels.set(kWheelsPerSide, -0.002, kStart);
-  EXPECT_TRUE(wheels.motion(kStart, milliseconds(100)).standing);
-  EXPECT_EQ(wheels.motion(kStart, milliseconds(100)).left_mps, 0);
-  wheels.set(kWheelsPerSide, -0.02, kStart);
-  EXPECT_FALSE(wheels.motion(kStart, milliseconds(100)).standing);
-}
-
-TEST(Wheels, AverageASideAndSayHowFarItIsApart) {
-  Wheels wheels;
-  wheels.set(0, 0.4, kStart);
-  wheels.set(1, 0.6, kStart);
-  wheels.set(kWheelsPerSide, 0.5, kStart);
-  const WheelMotion motion = wheels.motion(kStart, milliseconds(100));
-  EXPECT_NEAR(motion.left_mps, 0.5, 1e-12);
-  EXPECT_NEAR(motion.spread_mps, 0.1, 1e-12);
-}
-
-TEST(Wheels, AreFoundByTheirAxis) {
-  BaseConfig base;
-  (void)base.left.push_back(3);
-  (void)base.right.push_back(7);
-  EXPECT_EQ(wheel_of(base, 3), 0U);
-  EXPECT_EQ(wheel_of(base, 7), kWheelsPerSide);
-  EXPECT_EQ(wheel_of(base, 1), kWheels);
-}
-
 TEST(History, SortsByTimeThenKind) {
   auto history = std::make_unique<History>();
   history->insert(kStart, AntennaPosition{});
   history->insert(kStart, YawInput{});
   history->insert(kStart - milliseconds(5), AntennaPosition{});
-  history->insert(kStart, WheelInput{});
+  history->insert(kStart, MotionInput{});
   ASSERT_EQ(history->size(), 4U);
   EXPECT_EQ(history->at(0).time, kStart - milliseconds(5));
   for (std::size_t i = 1; i < 4; ++i) EXPECT_EQ(history->at(i).input.index(), i - 1);
@@ -71,7 +33,7 @@ TEST(History, KnowsFromWhereToApplyAgain) {
   for (int i = 0; i < 10; ++i) history->insert(kStart + milliseconds(i), YawInput{});
   history->mark_clean();
   EXPECT_EQ(history->dirty(), 10U);
-  history->insert(kStart + milliseconds(3), WheelInput{});
+  history->insert(kStart + milliseconds(3), MotionInput{});
   EXPECT_EQ(history->dirty(), 3U);
   history->drop_oldest();
   EXPECT_EQ(history->dirty(), 2U);

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "engine/drive/skid_steer.h"
+#include "engine/base/kinematics.h"
 
 namespace drover::engine {
 namespace {
@@ -34,7 +34,7 @@ class AJointGate : public ::testing::Test {
   }
   double radps(std::size_t joint) const { return gate.velocities_radps()[joint]; }
   Twist twist(std::size_t left, std::size_t right) const {
-    return twist_from_wheels(base, 1.0, radps(left) * base.wheel_radius_m,
+    return twist_from_wheels(sides_of(base), 1.0, radps(left) * base.wheel_radius_m,
                              radps(right) * base.wheel_radius_m);
   }
 

@@ -217,7 +217,7 @@ TEST_F(AWheelMonitor, FindsACaughtWheelThatSpeedsUp) {
   EXPECT_THAT(reason(), HasSubstr("wheel a runs away"));
 }
 TEST_F(AWheelMonitor, FindsACaughtWheelThatIsFasterAfterASilence) {
-  const double limit_mps = max_wheel_mps(config.base, config.limits, 2.5) + 0.3;
+  const double limit_mps = max_rim_mps(kinematics_of(config.base), config.limits, {2.5}) + 0.3;
   const double radius_m = config.base.wheel_radius_m;
   switch_on_at(limit_mps + 1);
   ASSERT_EQ(turn_s(0.1, (limit_mps + 1) / radius_m), 0) << reason();

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "drover/angle.h"
-#include "engine/drive/skid_steer.h"
+#include "engine/base/kinematics.h"
 #include "engine/navigate/tracker.h"
 #include "support/plant_2d.h"
 
@@ -150,7 +150,7 @@ inline Drive drive(const Path& path, std::uint32_t target, const DriveSetup& set
     const Twist twist = gate.step(wanted, kTick_s);
     yaw_changes_radps += std::abs(twist.wz_radps - last_radps);
     last_radps = twist.wz_radps;
-    plant.step(wheels_from_twist(base, 1.0, twist, 1.5), kTick_s);
+    plant.step(wheels_from_twist(sides_of(base), 1.0, twist, 1.5), kTick_s);
     result.driven_m += plant.truth().vx_mps * kTick_s;
     result.fastest_mps = std::max(result.fastest_mps, plant.truth().vx_mps);
     result.most_lateral_mps2 =

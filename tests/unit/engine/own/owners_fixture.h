@@ -7,7 +7,7 @@
 #include <string>
 
 #include "../engine_fixture.h"
-#include "engine/drive/skid_steer.h"
+#include "engine/base/kinematics.h"
 
 namespace drover::engine {
 
@@ -39,7 +39,8 @@ class JointCommands : public AnOwner {
   /// What the front wheels are commanded, as a motion of a base whose wheels do not slip.
   Twist commanded() const {
     const double radius_m = rig.config.base.wheel_radius_m;
-    return twist_from_wheels(rig.config.base, 1.0, rig.out.axes[0].velocity_radps * radius_m,
+    return twist_from_wheels(sides_of(rig.config.base), 1.0,
+                             rig.out.axes[0].velocity_radps * radius_m,
                              rig.out.axes[1].velocity_radps * radius_m);
   }
   /// A stream at 50 Hz.

@@ -1,0 +1,94 @@
+#include "engine/base/kinematics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+namespace drover::engine {
+namespace {
+
+// Tyres of two sides, worn and loaded unlike each other.
+constexpr double kTyreShare = 0.005;
+constexpr Time kFarFuture{Duration{INT64_MAX / 4}};
+
+const TwoSides& sides_of(const Kinematics& base) {
+  return std::visit([](const auto& kind) -> const TwoSides& { return kind.sides; }, base);
+}
+
+}  // namespace
+
+TwoSides sides_of(const BaseConfig& base) {
+  return {base.wheel_radius_m, base.track_m, base.left, base.right};
+}
+
+Kinematics kinematics_of(const BaseConfig& base) {
+  switch (base.kind) {
+    case BaseKind::differential: return Differential{sides_of(base)};
+    case BaseKind::skid_steer: break;
+  }
+  return SkidSteer{sides_of(base)};
+}
+
+std::size_t joints_needed(const BaseConfig& base) {
+  std::size_t needed = 0;
+  for (const auto* side : {&base.left, &base.right})
+    for (const AxisId id : *side) needed = std::max(needed, std::size_t{id} + 1);
+  return needed;
+}
+
+JointSet joints_of(const Kinematics& base) {
+  const TwoSides& sides = sides_of(base);
+  JointSet joints;
+  for (const auto* side : {&sides.left, &sides.right})
+    for (const AxisId id : *side) joints.set(id);
+  return joints;
+}
+
+JointVelocities setpoints(const Kinematics& base, const Twist& twist, const Learned& learned,
+                          double max_rim_mps) {
+  const TwoSides& sides = sides_of(base);
+  const WheelSpeeds speeds = wheels_from_twist(sides, learned.yaw_slip_factor, twist, max_rim_mps);
+  JointVelocities radps{};
+  for (const AxisId id : sides.left) radps[id] = speeds.left_radps;
+  for (const AxisId id : sides.right) radps[id] = speeds.right_radps;
+  return radps;
+}
+
+Twist largest_twist(const Kinematics& base, const JointVelocities& radps, const Learned& learned) {
+  return largest_twist(sides_of(base), learned.yaw_slip_factor, radps);
+}
+
+BodyMotion body_motion(const Kinematics& base, const Told& told, Time at, Duration stale) {
+  return body_motion(sides_of(base), told.joints, at, stale);
+}
+
+Time next_stale(const Told& told, Time at, Duration stale) {
+  Time next = kFarFuture;
+  for (const JointMotion& joint : told.joints) {
+    if (at - joint.at <= stale) next = std::min(next, joint.at + stale + Duration{1});
+  }
+  return next;
+}
+
+double rim_mps(const Kinematics& base, double radps) {
+  return radps * sides_of(base).wheel_radius_m;
+}
+
+double joint_radps(const Kinematics& base, double rim_mps) {
+  return rim_mps / sides_of(base).wheel_radius_m;
+}
+
+double pull_radpm(const Kinematics& base) {
+  return kTyreShare / sides_of(base).track_m;
+}
+
+double fastest_mps(const Kinematics& base, const Twist& twist) {
+  return std::abs(twist.vx_mps) + sides_of(base).track_m / 2 * std::abs(twist.wz_radps);
+}
+
+double max_rim_mps(const Kinematics& base, const LimitsConfig& limits, const Learned& learned) {
+  return limits.max_speed_mps +
+         0.5 * sides_of(base).track_m * learned.yaw_slip_factor * limits.max_yaw_rate_radps;
+}
+
+}  // namespace drover::engine

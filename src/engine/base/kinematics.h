@@ -1,0 +1,73 @@
+// What the engine knows of the way a base moves: everybody else asks here. A new kind of base is
+// one more alternative and its answers.
+#pragma once
+
+#include <bitset>
+#include <variant>
+
+#include "engine/base/two_sides.h"
+#include "engine/config.h"
+
+namespace drover::engine {
+
+/// Wheels that skid sideways when the base turns: how much they do is learned while it drives.
+struct SkidSteer {
+  TwoSides sides;
+};
+/// Wheels on one axle, which turn without skidding.
+struct Differential {
+  TwoSides sides;
+};
+using Kinematics = std::variant<SkidSteer, Differential>;
+
+TwoSides sides_of(const BaseConfig& base);
+Kinematics kinematics_of(const BaseConfig& base);
+
+/// How many joints there have to be, so that all that the base names exist.
+std::size_t joints_needed(const BaseConfig& base);
+
+/// The joints that move the base, by AxisId.
+using JointSet = std::bitset<kMaxAxes>;
+JointSet joints_of(const Kinematics& base);
+
+/// What the estimator has learned of the base and the inverse has to make up for.
+struct Learned {
+  double yaw_slip_factor = 1;  ///< how much wider than its track the base behaves in a turn
+};
+
+/// rad/s by AxisId; zero for joints that do not belong to the base.
+using JointVelocities = std::array<double, kMaxAxes>;
+
+/// What the joints have to do for a twist of base_link. No rim is faster than `max_rim_mps`: all
+/// are scaled then, so that the curvature stays. At rest when a number is not finite, or when the
+/// limit permits no motion.
+JointVelocities setpoints(const Kinematics& base, const Twist& twist, const Learned& learned,
+                          double max_rim_mps);
+
+/// The most that joints at these velocities can make of the base: both numbers positive.
+Twist largest_twist(const Kinematics& base, const JointVelocities& radps, const Learned& learned);
+
+/// The last that a base told of its motion.
+struct Told {
+  JointMotions joints;
+};
+/// What the base did at `at`, by what it told until then. What is older than `stale` says nothing.
+BodyMotion body_motion(const Kinematics& base, const Told& told, Time at, Duration stale);
+/// The next instant after `at` when something that counts now will have gone stale, or the far
+/// future.
+Time next_stale(const Told& told, Time at, Duration stale);
+
+/// Speed over ground of a joint's rim, and back.
+double rim_mps(const Kinematics& base, double radps);
+double joint_radps(const Kinematics& base, double rim_mps);
+
+/// How much the base may turn on its way though it tells of no turn, because one side pulls, rad/m.
+double pull_radpm(const Kinematics& base);
+
+/// The fastest wheel on the ground in such a motion, m/s.
+double fastest_mps(const Kinematics& base, const Twist& twist);
+
+/// Rim speed that no joint is commanded beyond: full speed in the tightest permitted turn, m/s.
+double max_rim_mps(const Kinematics& base, const LimitsConfig& limits, const Learned& learned);
+
+}  // namespace drover::engine
