@@ -40,8 +40,9 @@ TEST_P(ABaseOnWheels, CommandsItsOwnJointsOnly) {
   const JointVelocities radps = setpoints(base, {0.5, 1.0}, {1.0}, 2.0);
   EXPECT_NEAR(radps[3], 1.0, 1e-12);
   EXPECT_NEAR(radps[7], 4.0, 1e-12);
-  for (std::size_t i = 0; i < radps.size(); ++i)
-    if (i != 3 && i != 7) EXPECT_EQ(radps[i], 0) << i;
+  for (std::size_t i = 0; i < radps.size(); ++i) {
+    EXPECT_EQ(radps[i] != 0, i == 3 || i == 7) << i;
+  }
 }
 
 TEST_P(ABaseOnWheels, DoesWhatItsSetPointsWereFor) {
