@@ -60,6 +60,7 @@ class GuardRig : public testing::Test {
   void start(const Start& how);
   void start() { start(Start{}); }
   void kill();
+  pid_t pid() const { return pid_; }
   /// Exit status, or -1 while it runs at the deadline.
   int wait_for_end();
 

@@ -5,6 +5,7 @@ set -uo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 lab=$root/sim/lab
+build=$(readlink -m "${DROVER_BUILD:-$root/build}")
 work=$(mktemp -d)
 # Only the main shell cleans up, not a child that is killed between fork and exec.
 trap '[[ $BASHPID != "$$" ]] || rm -rf "$work"' EXIT
@@ -242,6 +243,11 @@ lets_several_visitors_in() {
   ! grep -q 'inside 42' "$work/visit1"
 }
 
+gives_the_guard_sockets_that_hear_nothing() {
+  "$lab" --timeout 60 -- "$build/tests/integration/integration_guard" \
+    --gtest_filter='GuardInTheLab.*' --gtest_brief=1
+}
+
 status=$(status_of "$lab" --build)
 if [[ $status == 3 ]]; then
   cat "$work/stderr"
@@ -268,6 +274,7 @@ check "makes no CAN when told" makes_no_can_when_told
 check "shows GPIO edges" shows_gpio_edges
 check "repeats itself to the byte" repeats_itself_to_the_byte
 check "keeps logs" keeps_logs
+check "gives the guard CAN sockets that hear nothing" gives_the_guard_sockets_that_hear_nothing
 check "reaches a broker inside from the host" reaches_a_broker_inside
 check "lets a visitor in" lets_a_visitor_in
 check "lets several visitors in" lets_several_visitors_in

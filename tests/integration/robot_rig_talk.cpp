@@ -113,8 +113,8 @@ std::vector<SetPoint> RobotRig::set_points_on_the_bus() {
     SetPoint point;
     unsigned id = 0;
     unsigned b[4]{};
-    if (std::sscanf(line.c_str(), "(%lf) can0 %3x#%2x%2x%2x%2x", &point.time_s, &id, &b[0], &b[1],
-                    &b[2], &b[3]) != 6 ||
+    if (std::sscanf(line.c_str(), "(%lf) can%u %3x#%2x%2x%2x%2x", &point.time_s, &point.bus, &id,
+                    &b[0], &b[1], &b[2], &b[3]) != 7 ||
         (id & 0x1FU) != kSetInputVel)
       continue;
     const std::uint32_t bits = b[0] | b[1] << 8U | b[2] << 16U | b[3] << 24U;

@@ -1,0 +1,110 @@
+// The guard's own CAN sockets, on a real CAN interface: lab_test.sh runs this in the lab's kernel.
+#include <linux/can.h>
+#include <linux/can/raw.h>
+#include <net/if.h>
+#include <sys/socket.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "integration/guard_rig.h"
+#include "integration/process.h"
+
+namespace drover::test {
+namespace {
+
+/// droverd with two drives on can0 and can1, and nothing else.
+constexpr const char* kDroverFile = R"({
+  "paths": {"state": "@/state", "run": "@/run"},
+  "buses": [{"name": "one", "interface": "can0"}, {"name": "two", "interface": "can1"}],
+  "drives": [
+    {"joint": "left", "driver": "odrive", "bus": "one", "options": {"node": 0},
+     "accept": ["no_watchdog"]},
+    {"joint": "right", "driver": "odrive", "bus": "two", "options": {"node": 1},
+     "accept": ["no_watchdog"]}],
+  "base": {"wheel_radius_m": 0.1, "track_m": 0.4, "hold": "level_ground_only", "hold_again": false,
+           "left": ["left"], "right": ["right"]},
+  "guard": {"socket": "@/guard.sock"},
+  "mqtt": {"enabled": false},
+  "accept": ["no_estop"]
+})";
+
+class GuardInTheLab : public GuardRig {
+ protected:
+  void start_daemon() {
+    const auto folder = std::filesystem::path(file("guard.sock")).parent_path().string();
+    std::string text(kDroverFile);
+    for (auto at = text.find('@'); at != std::string::npos; at = text.find('@', at))
+      text.replace(at, 1, folder);
+    std::ofstream(file("drover.json")) << text;
+    std::filesystem::create_directories(folder + "/run");
+    daemon_ = Process({DROVERD_PROGRAM, "-c", file("drover.json")}, file("droverd.log"));
+    ASSERT_TRUE(wait_until([this] {
+      return daemon_.output().find("drover-guard watches the drives") != std::string::npos;
+    })) << daemon_.output();
+  }
+  /// Copies of all CAN sockets that the guard has.
+  std::vector<link::UniqueFd> can_sockets_of_the_guard() const {
+    const link::UniqueFd process(static_cast<int>(::syscall(SYS_pidfd_open, pid(), 0)));
+    std::vector<link::UniqueFd> sockets;
+    const auto folder = "/proc/" + std::to_string(pid()) + "/fd";
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+      const int number = std::stoi(entry.path().filename().string());
+      link::UniqueFd fd(static_cast<int>(::syscall(SYS_pidfd_getfd, process.get(), number, 0)));
+      int domain = 0;
+      socklen_t size = sizeof domain;
+      if (fd && ::getsockopt(fd.get(), SOL_SOCKET, SO_DOMAIN, &domain, &size) == 0 &&
+          domain == PF_CAN)
+        sockets.push_back(std::move(fd));
+    }
+    return sockets;
+  }
+  /// Somebody else's frames, with each kind of identifier that there is.
+  static void talk_on(const char* interface) {
+    const link::UniqueFd fd(::socket(PF_CAN, SOCK_RAW | SOCK_CLOEXEC, CAN_RAW));
+    sockaddr_can address{};
+    address.can_family = AF_CAN;
+    address.can_ifindex = static_cast<int>(::if_nametoindex(interface));
+    ASSERT_EQ(::bind(fd.get(), reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
+    for (const canid_t id : {0x001U, 0x00DU, 0x123U | CAN_RTR_FLAG, 0x1F334455U | CAN_EFF_FLAG}) {
+      can_frame frame{};
+      frame.can_id = id;
+      ASSERT_EQ(::write(fd.get(), &frame, sizeof frame), ssize_t{sizeof frame});
+    }
+  }
+
+ private:
+  Process daemon_;
+};
+
+TEST_F(GuardInTheLab, HasCanSocketsWithAnEmptyFilterInWhichNothingPilesUp) {
+  ASSERT_NE(::if_nametoindex("can1"), 0U) << "this test needs the lab: see lab_test.sh";
+  start();
+  ASSERT_NO_FATAL_FAILURE(start_daemon());
+  const auto sockets = can_sockets_of_the_guard();
+  ASSERT_EQ(sockets.size(), 2U) << "one for each bus";
+  for (const char* interface : {"can0", "can1"}) ASSERT_NO_FATAL_FAILURE(talk_on(interface));
+  for (const auto& socket : sockets) {
+    std::array<can_filter, 8> filters{};
+    socklen_t size = sizeof filters;
+    ASSERT_EQ(::getsockopt(socket.get(), SOL_CAN_RAW, CAN_RAW_FILTER, filters.data(), &size), 0);
+    EXPECT_EQ(size, 0U) << "it hears something";
+    can_err_mask_t errors = 0;
+    size = sizeof errors;
+    ASSERT_EQ(::getsockopt(socket.get(), SOL_CAN_RAW, CAN_RAW_ERR_FILTER, &errors, &size), 0);
+    EXPECT_EQ(errors, 0U) << "it hears error frames";
+    can_frame frame{};
+    EXPECT_EQ(::recv(socket.get(), &frame, sizeof frame, MSG_PEEK | MSG_DONTWAIT), -1)
+        << "a frame waits in it that nobody reads";
+    EXPECT_EQ(errno, EAGAIN);
+  }
+}
+
+}  // namespace
+}  // namespace drover::test
