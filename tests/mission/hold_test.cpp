@@ -6,6 +6,7 @@ namespace {
 
 constexpr double kGear = 10;
 constexpr double kRadius_m = 0.165;
+constexpr double kDeceleration_mps2 = 0.8;  // limits.deceleration_mps2, default
 
 /// Both programs away from `gone` to `back`, and what came of it by `end`.
 void expect_held_again(const Record& log, Time gone, Time back, Time end) {
@@ -127,6 +128,49 @@ TEST(DipOnRamp, IsNotLetGoOnASlopeByAWordAlone) {
   EXPECT_LT(roll(log, asked, asked + 1900ms).way_m, 0.01);
   // Drives that had been released would take no start.
   EXPECT_EQ(log.statuses.back().nav, "NAV_SUCCESS");
+}
+
+TEST(LongDipOnRamp, CatchesARobotThatRollsFastByARampWithinTheLimit) {
+  const Record& log = record("long_dip_on_ramp");
+  const Time back = dip_ended(log);
+  const Time end = log.truth.back().time;
+  const Roll after = roll(log, back, end);
+  const double hardest = hardest_mps2(log, back, end);
+  figure("rolled without power", roll(log, log.event("event dipped#1"), back).way_m, "m");
+  figure("rolled until it was held", after.way_m, "m");
+  figure("fastest", after.fastest_mps, "m/s");
+  figure("hardest braking", hardest, "m/s/s");
+  figure("held after", after.rest - back);
+  EXPECT_GT(after.fastest_mps, 1.5) << "it does not roll fast enough to show anything";
+  const auto ramp = log.moving(back, end);
+  ASSERT_FALSE(ramp.empty()) << "no set point of the ramp came to the wire";
+  double first_mps = 0;
+  for (const auto& one : ramp)
+    first_mps =
+        std::max(first_mps, std::abs(one.wheel.velocity_turnps) / kGear * 2 * M_PI * kRadius_m);
+  figure("ramp begins with", first_mps, "m/s");
+  EXPECT_GT(first_mps, 0.8 * after.fastest_mps);
+  const auto fastest = std::max_element(log.truth.begin(), log.truth.end(),
+                                        [](const TruthLine& one, const TruthLine& other) {
+                                          return std::abs(one.vx_mps) < std::abs(other.vx_mps);
+                                        });
+  const double mean_mps2 = after.fastest_mps / to_s(after.rest - fastest->time);
+  figure("mean braking", mean_mps2, "m/s/s");
+  EXPECT_LT(mean_mps2, 1.1 * kDeceleration_mps2);
+  // Over a tenth of a second, while the wheels' controllers take over and the slope ends.
+  EXPECT_LT(hardest, 1.6 * kDeceleration_mps2) << "it is jerked to rest";
+  EXPECT_GT(end - after.rest, 1s) << "it is not held";
+}
+
+TEST(LongDipOnRamp, TakesTheWheelsThatItCatchesForNoRunaway) {
+  const Record& log = record("long_dip_on_ramp");
+  const Time dipped = log.event("event dipped#1");
+  for (const auto& status : log.statuses) {
+    if (status.time < dipped) continue;
+    for (const char* claim : {"runs away", "ran away", "by itself", "did not stop"})
+      EXPECT_EQ(status.why.find(claim), std::string::npos) << seconds(status.time) << status.why;
+  }
+  EXPECT_EQ(log.statuses.back().nav, "NAV_FREE");
 }
 
 TEST(StopAndKill, RefusesAStartUntilTheStopIsReset) {
