@@ -231,11 +231,16 @@ void OdriveDriver::on_link_up(Time now) {
   if (armed_by(request_)) lock("the link was lost while armed");
 }
 
-FrameEffect OdriveDriver::effect(const CanFrame& frame) const {
-  return odrive::effect(frame, settings_);
+Effect OdriveDriver::effect(const Message& message, Time) const {
+  const CanFrame* const frame = message.frame();
+  if (frame == nullptr) return {};
+  const FrameEffect kind = odrive::effect(*frame, settings_);
+  return {kind, kind == FrameEffect::motion ? channel_bit(0) : ChannelMask{0}};
 }
 
-double OdriveDriver::setpoint_radps(const CanFrame& frame) const {
+double OdriveDriver::setpoint_radps(const Message& message, std::size_t) const {
+  if (message.frame() == nullptr) return kAbsent;
+  const CanFrame& frame = *message.frame();
   const bool velocity =
       belongs_to(frame, settings_.node) && command_of(frame.id) == cmd::kSetInputVel;
   const auto pair = velocity && !frame.remote ? decode_floats(frame) : std::nullopt;
@@ -247,10 +252,12 @@ double OdriveDriver::setpoint_radps(const CanFrame& frame) const {
 
 StopRecipe OdriveDriver::stop_recipe() const {
   StopRecipe recipe;
-  static_cast<void>(recipe.frames.push_back(encode_set_input_vel(settings_.node, 0)));
+  StopRound zero;
+  static_cast<void>(zero.frames.push_back(encode_set_input_vel(settings_.node, 0)));
+  static_cast<void>(recipe.rounds.push_back(zero));
   recipe.period = milliseconds(10);
   // Closed loop at zero holds on a slope, and the frames keep the watchdog from letting go.
-  recipe.holds = true;
+  recipe.ends = StopEnds::holds;
   return recipe;
 }
 

@@ -26,8 +26,8 @@ class OdriveDriver final : public Device, public FrameFace, public Actuator {
   std::span<const FrameFilter> listens() const override { return {&hears_, 1}; }
   std::span<const Channel> channels() const override { return kChannels; }
   std::span<const FrameRule> rules() const override { return rules_; }
-  FrameEffect effect(const CanFrame& frame) const override;
-  double setpoint_radps(const CanFrame& frame) const override;
+  Effect effect(const Message& message, Time now) const override;
+  double setpoint_radps(const Message& message, std::size_t channel) const override;
   StopRecipe stop_recipe() const override;
   SilenceBehaviour silence() const override;
 

@@ -56,7 +56,7 @@ void OdriveDriver::on_foreign(const CanFrame& frame, Time received) {
   constexpr std::uint8_t kReads = 0;
   const bool reads =
       command_of(frame.id) == cmd::kRxSdo && frame.len > 0 && frame.data[0] == kReads;
-  if (reads || effect(frame) == FrameEffect::stop) return;
+  if (reads || odrive::effect(frame, settings_) == FrameEffect::stop) return;
   foreign_id_ = frame.id;
   foreign_at_ = received;
   if (attempts_to_run()) lock(foreign_text().view());

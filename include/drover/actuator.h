@@ -9,6 +9,7 @@
 #include "drover/driver_out.h"
 #include "drover/fixed_vector.h"
 #include "drover/measurement.h"
+#include "drover/message.h"
 #include "drover/time.h"
 #include "drover/twist.h"
 
@@ -48,15 +49,27 @@ struct AxisCommand {
 struct Setpoint {
   AxisRequest request = AxisRequest::rest;
   double velocity_radps = 0;  ///< at the joint
-  Twist twist;                ///< of the base
+  Twist twist{};              ///< of the base
 };
 
-/// What a frame does to the machine, for the gate.
+/// What a message does to the machine, for the gate.
 enum class FrameEffect : std::uint8_t {
   harmless,   ///< reads, configuration the driver may set, arming with a zero set point
-  stop,       ///< brings or keeps the axis at rest
-  motion,     ///< may move the axis
+  stop,       ///< brings or keeps its channels at rest
+  motion,     ///< may move some
   forbidden,  ///< must never leave, whatever asks: another state, a new node id, a save to flash
+};
+
+/// A bit for each channel.
+using ChannelMask = std::uint16_t;
+inline constexpr ChannelMask kAllChannels = 0xFFFF;
+constexpr ChannelMask channel_bit(std::size_t channel) {
+  return static_cast<ChannelMask>(1U << channel);
+}
+
+struct Effect {
+  FrameEffect kind = FrameEffect::forbidden;
+  ChannelMask moves = 0;  ///< of motion: the channels that it may move; each must be permitted
 };
 
 /// One frame that may leave: anything that matches no rule is refused by the gate.
@@ -66,14 +79,31 @@ struct FrameRule {
   bool remote = false;
   std::uint8_t min_len = 0;
   std::uint8_t max_len = 8;
+  /// Other devices of the bus send it too (NMT, SYNC): what is in it tells whom it means. Then it
+  /// must be shared by all of them.
+  bool shared = false;
 };
 
-/// How a device is brought to rest and kept there, by somebody who knows nothing of it:
-/// send all frames each `period`, for ever.
-struct StopRecipe {
+/// How a stop ends that is played for ever.
+enum class StopEnds : std::uint8_t {
+  coasts,  ///< the power stage is off, or will be
+  damps,   ///< braked, and it creeps on a slope
+  holds,   ///< at rest, on a slope too
+};
+
+/// Sent at once. On a CAN bus frames, on a byte stream packets.
+struct StopRound {
   FixedVector<CanFrame, 4> frames;
+  FixedVector<Packet, 4> packets;
+};
+
+/// How a device is brought to rest and kept there, by somebody who knows nothing of it: a round
+/// each period, and after the last the first again, for ever. A counter or a checksum needs
+/// several.
+struct StopRecipe {
+  FixedVector<StopRound, 16> rounds;
   Duration period = std::chrono::milliseconds(10);  ///< the guard's shortest is 10 ms
-  bool holds = false;  ///< true: holds on a slope; false: coasts when the recipe is followed
+  StopEnds ends = StopEnds::coasts;
 };
 
 /// What the device does by itself when frames cease.
@@ -91,13 +121,17 @@ class Actuator {
   /// The gate's decision for this cycle, one for each channel in their order; before
   /// Device::on_tick.
   virtual void on_setpoints(std::span<const Setpoint> wanted, Time now, DriverOut& out) = 0;
-  /// All that it may send.
+  /// On a CAN bus: all that it may send.
   virtual std::span<const FrameRule> rules() const = 0;
-  /// Only for frames that follow a rule.
-  virtual FrameEffect effect(const CanFrame& frame) const = 0;
-  /// The velocity that this frame asks of the joint, rad/s; absent when it asks for none. For the
-  /// gate, which lets a ramp down to zero pass where it lets no other motion pass.
-  virtual double setpoint_radps(const CanFrame&) const { return kAbsent; }
+  /// Of frames that follow a rule, and of packets: of those nothing else is looked at, so that a
+  /// packet which is not whole, or that is none of its own, is forbidden. May go by what the device
+  /// said last.
+  virtual Effect effect(const Message& message, Time now) const = 0;
+  /// The velocity that this message asks of a channel's joint, rad/s; absent when it asks for none.
+  /// For the gate, which lets a ramp down to zero pass where it lets no other motion pass.
+  virtual double setpoint_radps(const Message&, std::size_t /*channel*/) const { return kAbsent; }
+  /// The most that it sends in one cycle, reads with it: what is more would grow old in a queue.
+  virtual std::size_t messages_per_cycle() const { return 2; }
   virtual StopRecipe stop_recipe() const = 0;
   virtual SilenceBehaviour silence() const = 0;
 

@@ -15,6 +15,13 @@ std::size_t StreamOutput::add(const DriverOut& out) {
   return dropped;
 }
 
+/// Half a packet would spoil the next one too.
+std::size_t StreamOutput::add(const Packet& packet) {
+  if (bytes.capacity() - bytes.size() < packet.size()) return packet.size();
+  for (const auto byte : packet) (void)bytes.push_back(byte);
+  return 0;
+}
+
 Gateway::Gateway(const config::DroverConfig& config)
     : engine_(config.engine),
       wiring_(wire_up(config, environment_)),
@@ -33,7 +40,14 @@ Gateway::Gateway(const config::DroverConfig& config)
         if (made.actuator != nullptr) frame_gate_.add(i, *made.actuator);
       }
     } else if (link.wire == Wire::bytes) {
-      streams_.push_back({{static_cast<LinkId>(i), {}, 0}, 0});
+      StreamOutput waiting{static_cast<LinkId>(i), {}, 0, false};
+      for (const SlotId id : link.slots) {
+        const Actuator* const actuator = wiring_.slots[id].made.actuator;
+        if (actuator == nullptr) continue;
+        waiting.moves = true;
+        frame_gate_.add(i, *actuator);
+      }
+      streams_.push_back({waiting, 0});
       cycle_.streams.push_back(streams_.back().waiting);
     }
   }
@@ -44,40 +58,63 @@ void Gateway::apply(const Input& input) {
 }
 
 /// What the device said in the last call.
-void Gateway::take(Slot& slot) {
+void Gateway::take(Slot& slot, Time now) {
   for (const auto& measurement : scratch_.measurements) engine_.on_measurement(measurement);
   slot.overflows += scratch_.overflows;
   if (is_bus(slot.link)) {
-    send(slot);
+    send(slot, now);
   } else {
-    for (Stream& stream : streams_)
-      if (stream.waiting.link == slot.link) stream.dropped += stream.waiting.add(scratch_);
+    write(slot, now);
   }
   scratch_.clear();
 }
 
 /// What a device wants to send goes through the frame gate, and nowhere around it.
-void Gateway::send(Slot& slot) {
+void Gateway::send(Slot& slot, Time now) {
   if (scratch_.frames.empty()) return;
   if (slot.made.actuator == nullptr) {
     without_rules_[slot.link] += scratch_.frames.size();
     return;
   }
-  const engine::Slowing ramp = slowing(slot);
+  const engine::Permission permitted = permission(slot);
   for (const auto& frame : scratch_.frames) {
-    const auto verdict = frame_gate_.admit(slot.link, frame, *slot.made.actuator, motion_permitted_,
-                                           guard_has_bus_, ramp);
+    const auto verdict = frame_gate_.admit(slot.link, frame, *slot.made.actuator, permitted, now);
     if (verdict == engine::FrameVerdict::pass && !pending_[slot.link].push_back(frame))
       ++no_room_[slot.link];
   }
 }
 
-/// The speed counts only while the drive is heard: a wheel that nobody sees is not ramped.
-engine::Slowing Gateway::slowing(const Slot& slot) const {
-  const AxisId axis = slot.axes[0];
-  const auto& heard = engine_.snapshot().axes[axis];
+/// What moves nothing may write what it likes; what moves something only what the gate has seen.
+void Gateway::write(Slot& slot, Time now) {
+  for (Stream& stream : streams_) {
+    if (stream.waiting.link != slot.link) continue;
+    if (slot.made.actuator == nullptr) {
+      stream.dropped += stream.waiting.add(scratch_);
+      without_rules_[slot.link] += scratch_.packets.size();
+      return;
+    }
+    without_rules_[slot.link] += scratch_.bytes.size();
+    if (scratch_.reopen_baud != 0) stream.waiting.reopen_baud = scratch_.reopen_baud;
+    const engine::Permission permitted = permission(slot);
+    for (const Packet& packet : scratch_.packets) {
+      const auto verdict =
+          frame_gate_.admit(slot.link, packet, *slot.made.actuator, permitted, now);
+      if (verdict == engine::FrameVerdict::pass) stream.dropped += stream.waiting.add(packet);
+    }
+  }
+}
+
+/// A speed counts only while the drive is heard: a wheel that nobody sees is not ramped.
+engine::Permission Gateway::permission(const Slot& slot) {
   const bool fresh = slot.health.state == SourceState::fresh;
-  return {cycle_.engine.slowing_permitted[axis] && fresh, heard.motion.velocity_radps};
+  slowing_.clear();
+  for (const AxisId axis : slot.axes) {
+    const double measured_radps = engine_.snapshot().axes[axis].motion.velocity_radps;
+    (void)slowing_.push_back({cycle_.engine.slowing_permitted[axis] && fresh, measured_radps});
+  }
+  return {motion_permitted_ ? kAllChannels : ChannelMask{0},
+          guard_has_bus_,
+          {slowing_.data(), slowing_.size()}};
 }
 
 void Gateway::on(const CommandGiven& given, Time now) {
@@ -120,7 +157,7 @@ void Gateway::listen_to_devices(Time now) {
   for (Slot& slot : wiring_.slots) {
     if (slot.made.actuator == nullptr) {
       slot.made.device->on_tick(now, scratch_);
-      take(slot);
+      take(slot, now);
     }
     slot.health = slot.made.device->health(now);
     slot.health.overflows = slot.overflows;
@@ -155,14 +192,16 @@ void Gateway::command_actuators(Time now) {
   for (Slot& slot : wiring_.slots) {
     if (slot.made.actuator == nullptr) continue;
     wanted.clear();
-    for (const AxisId axis : slot.axes) {
-      if (!cycle_.engine.slowing_permitted[axis]) frame_gate_.end_slowing(*slot.made.actuator);
+    for (std::size_t channel = 0; channel < slot.axes.size(); ++channel) {
+      const AxisId axis = slot.axes[channel];
+      if (!cycle_.engine.slowing_permitted[axis])
+        frame_gate_.end_slowing(*slot.made.actuator, channel);
       const AxisCommand& command = cycle_.engine.axes[axis];
       (void)wanted.push_back({command.request, command.velocity_radps, {}});
     }
     slot.made.actuator->on_setpoints({wanted.data(), wanted.size()}, now, scratch_);
     slot.made.device->on_tick(now, scratch_);
-    take(slot);
+    take(slot, now);
   }
 }
 
@@ -175,13 +214,13 @@ void Gateway::hand_out() {
   for (std::size_t i = 0; i < streams_.size(); ++i) {
     StreamOutput& waiting = streams_[i].waiting;
     cycle_.streams[i] = waiting;
-    waiting = {waiting.link, {}, 0};
+    waiting = {waiting.link, {}, 0, waiting.moves};
   }
 }
 
-std::uint64_t Gateway::refused(std::size_t bus) const {
-  const auto& counts = frame_gate_.counts(bus);
-  return counts.not_allowed + counts.motion + without_rules_[bus];
+std::uint64_t Gateway::refused(std::size_t link) const {
+  const auto& counts = frame_gate_.counts(link);
+  return counts.not_allowed + counts.motion + without_rules_[link];
 }
 
 std::uint64_t Gateway::bytes_dropped(LinkId link) const {
@@ -201,12 +240,15 @@ std::vector<std::string> Gateway::cautions() const {
   return all;
 }
 
-std::vector<StopRecipe> Gateway::stop_recipes(std::size_t bus) const {
-  std::vector<StopRecipe> recipes;
-  for (const SlotId id : wiring_.links[bus].slots)
-    if (const Actuator* const actuator = wiring_.slots[id].made.actuator)
-      recipes.push_back(actuator->stop_recipe());
-  return recipes;
+std::vector<LinkDuty> Gateway::duties() const {
+  std::vector<LinkDuty> all(wiring_.links.size());
+  for (const Slot& slot : wiring_.slots) {
+    if (slot.made.actuator == nullptr) continue;
+    LinkDuty& duty = all[slot.link];
+    duty.stops.push_back(slot.made.actuator->stop_recipe());
+    duty.messages_per_cycle += slot.made.actuator->messages_per_cycle();
+  }
+  return all;
 }
 
 }  // namespace drover::gateway

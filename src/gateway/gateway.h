@@ -25,9 +25,19 @@ struct StreamOutput {
   LinkId link = kNowhere;
   FixedVector<std::uint8_t, 512> bytes;  ///< to be written
   std::uint32_t reopen_baud = 0;         ///< not 0: then open the line anew at this speed
+  /// Somebody on it moves something: nothing leaves while the guard has it.
+  bool moves = false;
 
-  /// Adds what a driver said in one call. Returns how many bytes found no room.
+  /// Adds what a driver that moves nothing said in one call. Returns how many bytes found no room.
   std::size_t add(const DriverOut& out);
+  /// Adds it whole, or nothing. Returns how many bytes found no room.
+  std::size_t add(const Packet& packet);
+};
+
+/// What the drives on a link need of those who serve it.
+struct LinkDuty {
+  std::vector<StopRecipe> stops;       ///< for the guard
+  std::size_t messages_per_cycle = 0;  ///< the most that they send
 };
 
 struct CycleOutput {
@@ -52,8 +62,9 @@ class Gateway final {
   const Wiring& wiring() const { return wiring_; }
 
   std::size_t bus_count() const { return buses_.size(); }
-  /// Frames of `bus` that the gate refused so far.
-  std::uint64_t refused(std::size_t bus) const;
+  /// What the gate refused so far of what was to leave on `link`: frames, packets, bytes that
+  /// belong to none.
+  std::uint64_t refused(std::size_t link) const;
   /// Frames of `bus` that passed the gate and found no room in their cycle, so far.
   std::uint64_t no_room(std::size_t bus) const { return no_room_[bus]; }
   /// Bytes for a byte stream that found no room in their cycle, so far.
@@ -64,8 +75,8 @@ class Gateway final {
 
   /// What a person should know of the configured drives: those that go on when frames cease.
   std::vector<std::string> cautions() const;
-  /// For the guard: how each drive on `bus` is stopped.
-  std::vector<StopRecipe> stop_recipes(std::size_t bus) const;
+  /// What each link's drives need of those who serve it, by LinkId.
+  std::vector<LinkDuty> duties() const;
 
  private:
   /// Gathers until the next cycle what is to be written.
@@ -100,9 +111,10 @@ class Gateway final {
   void tell_health();
   void command_actuators(Time now);
   void hand_out();
-  void take(Slot& slot);
-  void send(Slot& slot);
-  engine::Slowing slowing(const Slot& slot) const;
+  void take(Slot& slot, Time now);
+  void send(Slot& slot, Time now);
+  void write(Slot& slot, Time now);
+  engine::Permission permission(const Slot& slot);
 
   engine::Engine engine_;
   engine::Environment environment_;
@@ -116,7 +128,9 @@ class Gateway final {
   std::array<FixedVector<CanFrame, 128>, kMaxBuses>
       pending_;  ///< passed the gate, not yet handed out
   std::array<std::uint64_t, kMaxBuses> no_room_{};
-  std::array<std::uint64_t, kMaxBuses> without_rules_{};  ///< frames of what moves nothing
+  /// By link: frames of what moves nothing, free bytes of what moves something.
+  std::array<std::uint64_t, kMaxLinks> without_rules_{};
+  FixedVector<engine::Slowing, kMaxChannels> slowing_;  ///< of the one that sends
   ForeignWatch foreign_;
   Time woke_ = kNever;
   Reason slept_;  ///< told for a moment after waking

@@ -17,7 +17,7 @@ void Gateway::on(const FrameHeard& heard, Time received) {
     Slot& slot = wiring_.slots[id];
     if (slot.made.actuator != nullptr) notice_foreign(slot, frame, received);
     slot.made.frames->on_frame(frame, received, scratch_);
-    take(slot);
+    take(slot, received);
   });
 }
 
@@ -25,7 +25,8 @@ void Gateway::on(const FrameHeard& heard, Time received) {
 void Gateway::notice_foreign(const Slot& slot, const CanFrame& frame, Time received) {
   for (const FrameRule& rule : slot.made.actuator->rules()) {
     if (!engine::matches(rule, frame)) continue;
-    if (frame.remote || slot.made.actuator->effect(frame) != FrameEffect::stop) return;
+    if (frame.remote || slot.made.actuator->effect(frame, received).kind != FrameEffect::stop)
+      return;
     return foreign_.on_stop_frame(frame.id, buses_[slot.link].name(), received);
   }
 }
@@ -35,7 +36,7 @@ void Gateway::on(const BytesHeard& heard, Time first_byte) {
     Slot& slot = wiring_.slots[id];
     if (slot.made.bytes == nullptr) continue;
     slot.made.bytes->on_bytes(heard.bytes, first_byte, scratch_);
-    take(slot);
+    take(slot, first_byte);
   }
 }
 
@@ -45,7 +46,7 @@ void Gateway::on(const LevelsRead& read, Time at) {
     Slot& slot = wiring_.slots[slots[i]];
     if (slot.made.levels == nullptr) continue;
     slot.made.levels->on_level(read.levels[i], at, scratch_);
-    take(slot);
+    take(slot, at);
   }
 }
 
@@ -62,7 +63,7 @@ void Gateway::on(const RegistersRead& read, Time received) {
   if (slot == nullptr) return;
   if (read.words.size() != slot->made.registers->blocks()[read.block].count) return;
   slot->made.registers->on_registers(read.block, read.words, received, scratch_);
-  take(*slot);
+  take(*slot, received);
 }
 
 void Gateway::on(const RegistersFailed& failed, Time at) {
@@ -81,7 +82,7 @@ void Gateway::on(const LinkLost& lost, Time now) {
     Slot& slot = wiring_.slots[id];
     if (slot.made.levels == nullptr) continue;
     slot.made.levels->on_lost(now, scratch_);
-    take(slot);
+    take(slot, now);
   }
 }
 

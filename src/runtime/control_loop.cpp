@@ -194,6 +194,7 @@ Time ControlLoop::publish(Time now) {
     if (is_stream(slot)) {
       const auto stream = slot - kFirstStreamSlot;
       state.dropped = gateway_.bytes_dropped(link_ids_[slot]) + bytes_untaken_[stream];
+      state.refused = gateway_.refused(link_ids_[slot]);
     }
     (void)snapshot.links.push_back(state);
   }

@@ -56,6 +56,7 @@ class ControlLoop final {
   void take_commands(Time now);
   void watch_program(Time now);
   void watch_sleep(Time now);
+  bool still_may_leave(Time decided) const;
   void send(std::size_t bus, std::span<const CanFrame> frames, Time decided);
   void watch_guard(Time now);
   void keep(const Remembered& remembered);

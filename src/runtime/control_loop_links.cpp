@@ -122,7 +122,9 @@ void ControlLoop::serve_stream(const StreamOutput& out, Time now) {
   while (stream < kStreamCount && link_ids_[kFirstStreamSlot + stream] != out.link) ++stream;
   if (stream == kStreamCount || !streams_[stream]) return;
   const auto slot = kFirstStreamSlot + stream;
-  if (!out.bytes.empty()) {
+  const bool leaves = !out.moves || still_may_leave(now);
+  if (!leaves) bytes_untaken_[stream] += out.bytes.size();
+  if (leaves && !out.bytes.empty()) {
     std::size_t taken = 0;
     if (!streams_[stream]->write(out.bytes, taken))
       return lose(slot, streams_[stream]->error(), now);
@@ -202,12 +204,16 @@ void ControlLoop::drain_can(Time now) {
 
 /// Looks at guard and clock just before the system call: what was decided before a hold-up must
 /// not move wheels that the guard has stopped meanwhile.
+bool ControlLoop::still_may_leave(Time decided) const {
+  const bool holds = guard_.shared().guard_holds.load(std::memory_order_acquire) != 0;
+  return may_leave({decided, guard_watch_.holds()}, {monotonic_now(), holds}, tick_);
+}
+
 void ControlLoop::send(std::size_t bus, std::span<const CanFrame> frames, Time decided) {
   auto& can = *can_[bus];
   while (!frames.empty()) {
     const auto count = std::min(frames.size(), link::FrameBatch::capacity());
-    const bool holds = guard_.shared().guard_holds.load(std::memory_order_acquire) != 0;
-    if (!may_leave({decided, guard_watch_.holds()}, {monotonic_now(), holds}, tick_)) {
+    if (!still_may_leave(decided)) {
       stats_.late_frames += frames.size();
       break;
     }

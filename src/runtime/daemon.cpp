@@ -77,7 +77,7 @@ class Daemon final {
         files_(),
         storage_(files_, config.paths.state),
         gateway_(config),
-        keeper_(config, guard_, stops()),
+        keeper_(config, guard_, gateway_.duties()),
         battery_(config.battery.configured
                      ? std::make_unique<BatteryLoop>(config.battery, gateway_.wiring(),
                                                      battery_exchange_)
@@ -142,13 +142,6 @@ class Daemon final {
   }
 
  private:
-  std::vector<std::vector<StopRecipe>> stops() const {
-    std::vector<std::vector<StopRecipe>> recipes;
-    for (std::size_t bus = 0; bus < gateway_.bus_count(); ++bus)
-      recipes.push_back(gateway_.stop_recipes(bus));
-    return recipes;
-  }
-
   void run_control() {
     if (config_.control.realtime)
       if (const auto missing = become_real_time(config_.control.priority); !missing.empty())

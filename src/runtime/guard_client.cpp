@@ -28,23 +28,30 @@ bool set_name(GuardMessage& message, const std::string& name) {
   return true;
 }
 
+std::string address_of(const CanFrame& frame) {
+  std::array<char, 16> text{};
+  std::snprintf(text.data(), text.size(), frame.extended ? " %08X" : " %03X",
+                static_cast<unsigned>(frame.id));
+  return text.data();
+}
+
 }  // namespace
 
 GuardedAxis guarded_axis(const std::string& link, const StopRecipe& stop) {
   GuardedAxis axis;
+  axis.name = link;
   axis.period = std::chrono::ceil<std::chrono::milliseconds>(stop.period);
-  auto& round = axis.rounds.emplace_back();
-  for (const CanFrame& frame : stop.frames) {
-    if (round.empty()) {
-      std::array<char, 16> id{};
-      std::snprintf(id.data(), id.size(), frame.extended ? "%08X" : "%03X",
-                    static_cast<unsigned>(frame.id));
-      axis.name = link + " " + id.data();
+  if (!stop.rounds.empty() && !stop.rounds[0].frames.empty())
+    axis.name += address_of(stop.rounds[0].frames[0]);
+  for (const StopRound& from : stop.rounds) {
+    auto& round = axis.rounds.emplace_back();
+    for (const CanFrame& frame : from.frames) {
+      canfd_frame wire{};
+      const auto size = link::to_wire(frame, wire);
+      auto& bytes = round.emplace_back(size);
+      std::memcpy(bytes.data(), &wire, size);
     }
-    canfd_frame wire{};
-    const auto size = link::to_wire(frame, wire);
-    auto& bytes = round.emplace_back(size);
-    std::memcpy(bytes.data(), &wire, size);
+    for (const Packet& packet : from.packets) round.emplace_back(packet.begin(), packet.end());
   }
   return axis;
 }

@@ -28,7 +28,7 @@ struct GuardedLink {
   std::vector<GuardedAxis> axes;
 };
 
-/// One axis on a CAN bus. It is known by the id of its first frame.
+/// One device. On a CAN bus it is known by the id of its first frame, on a tty by the line.
 GuardedAxis guarded_axis(const std::string& link, const StopRecipe& stop);
 
 /// The heartbeats, mapped into both processes. Made once; lives as long as the daemon.

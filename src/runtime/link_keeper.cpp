@@ -42,9 +42,9 @@ constexpr Duration kWatchdogPause = std::chrono::seconds(1);
 }  // namespace
 
 LinkKeeper::LinkKeeper(const config::DroverConfig& config, const GuardMemory& memory,
-                       std::vector<std::vector<StopRecipe>> stops)
+                       std::vector<gateway::LinkDuty> duties)
     : config_(config),
-      stops_(std::move(stops)),
+      duties_(std::move(duties)),
       guard_(config.guard.socket, config.guard.limit_ms, memory) {
   for (std::size_t i = 0; i < config.buses.size(); ++i) slots_[i].used = true;
   const auto use_stream = [this](Stream stream, const auto& settings) {
@@ -118,10 +118,7 @@ void LinkKeeper::take_back_lost() {
 link::CanSettings LinkKeeper::can_settings(std::size_t bus) const {
   link::CanSettings settings;
   settings.interface = config_.buses[bus].interface;
-  // Two frames an axis and cycle: the set point and a poll.
-  std::size_t frames = 0;
-  for (const auto& stop : stops_[bus]) frames += stop.frames.size();
-  settings.frames_per_cycle = std::max<std::size_t>(2 * frames, 4);
+  settings.frames_per_cycle = std::max<std::size_t>(duties_[bus].messages_per_cycle, 4);
   return settings;
 }
 
@@ -210,7 +207,8 @@ void LinkKeeper::supply_guard(Time now) {
     auto settings = can_settings(i);
     settings.hears = false;
     links[i].descriptor = link::open_can_descriptor(settings, why);
-    for (const auto& stop : stops_[i]) links[i].axes.push_back(guarded_axis(links[i].name, stop));
+    for (const auto& stop : duties_[i].stops)
+      links[i].axes.push_back(guarded_axis(links[i].name, stop));
     if (!links[i].descriptor) missing = "drover-guard cannot have its own way to " + why;
   }
   std::string problem;

@@ -59,7 +59,7 @@ struct LinkHandover {
 class LinkKeeper final {
  public:
   LinkKeeper(const config::DroverConfig& config, const GuardMemory& memory,
-             std::vector<std::vector<StopRecipe>> stops);
+             std::vector<gateway::LinkDuty> duties);
 
   // Control thread:
   bool take(LinkHandover& arrived) { return arrivals_.pop(arrived); }
@@ -100,7 +100,7 @@ class LinkKeeper final {
   Duration until_next_try(Time now) const;
 
   const config::DroverConfig& config_;
-  std::vector<std::vector<StopRecipe>> stops_;  ///< by bus
+  std::vector<gateway::LinkDuty> duties_;  ///< by the gateway's links
   std::array<Slot, kLinkSlots> slots_{};
   SpscRing<LinkHandover, 16> arrivals_;
   SpscRing<LinkHandover, 16> losses_;

@@ -75,9 +75,9 @@ class Bench {
     driver_ = entry->make(options_of(*entry, choice), context);
     twin_ = entry->make(options_of(*entry, choice), context);
     const StopRecipe recipe = driver_.actuator->stop_recipe();
-    require(!recipe.frames.empty());
-    for (const CanFrame& frame : recipe.frames) {
-      require(allowed(frame) && driver_.actuator->effect(frame) == FrameEffect::stop);
+    require(recipe.rounds.size() == 1 && !recipe.rounds[0].frames.empty());
+    for (const CanFrame& frame : recipe.rounds[0].frames) {
+      require(allowed(frame) && driver_.actuator->effect(frame, now_).kind == FrameEffect::stop);
     }
   }
 
@@ -87,7 +87,7 @@ class Bench {
     note(frame);
     CanFrame dirty = frame;
     for (std::size_t i = frame.len; i < dirty.data.size(); ++i) dirty.data[i] = 0xC7;
-    static_cast<void>(driver_.actuator->effect(frame));
+    static_cast<void>(driver_.actuator->effect(frame, now_));
     call([&](const Made& driver, const CanFrame& f,
              DriverOut& out) { driver.frames->on_frame(f, now_, out); },
          frame, dirty);
@@ -134,7 +134,7 @@ class Bench {
     other.clear();
     what(driver_, clean, out);
     what(twin_, dirty, other);
-    require(out.overflows == 0 && out.bytes.empty() && out.reopen_baud == 0);
+    require(out.overflows == 0 && out.bytes.empty() && out.packets.empty() && out.reopen_baud == 0);
     require(out.frames.size() == other.frames.size());
     require(out.measurements.size() == other.measurements.size());
     for (std::size_t i = 0; i < out.frames.size(); ++i) {
@@ -180,7 +180,7 @@ class Bench {
 
   void check_sent(const CanFrame& frame) const {
     require(allowed(frame) && heartbeat_ != kNever);
-    const FrameEffect effect = driver_.actuator->effect(frame);
+    const FrameEffect effect = driver_.actuator->effect(frame, now_).kind;
     require(effect != FrameEffect::forbidden);
     if (frame.remote) return;
     const std::uint8_t command = frame.id & 0x1FU;

@@ -211,8 +211,10 @@ runtime::GuardedLink GuardRig::can_link(const std::string& name, std::vector<uns
     CanFrame frame;
     frame.id = address;
     frame.len = 8;
+    StopRound round;
+    static_cast<void>(round.frames.push_back(frame));
     StopRecipe stop;
-    static_cast<void>(stop.frames.push_back(frame));
+    static_cast<void>(stop.rounds.push_back(round));
     link.axes.push_back(runtime::guarded_axis(name, stop));
   }
   return link;

@@ -1,10 +1,10 @@
-// The second gate: which frames may leave on which bus.
+// The second gate: which messages may leave on which link.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
+#include <span>
 
 #include "drover/driver.h"
 #include "drover/fixed_vector.h"
@@ -14,8 +14,8 @@ namespace drover::engine {
 
 enum class FrameVerdict : std::uint8_t {
   pass,
-  refused_not_allowed,  ///< not on the sender's list for this bus, or a forbidden effect
-  refused_motion,       ///< may move an axis while nothing may, or while the guard has the bus
+  refused_not_allowed,  ///< not on the sender's list for this link, or a forbidden effect
+  refused_motion,       ///< may move a channel that may not, or while the guard has the link
 };
 
 /// The one motion that needs no owner: a wheel that rolls is brought to rest.
@@ -24,45 +24,57 @@ struct Slowing {
   double measured_radps = 0;  ///< of the joint, fresh
 };
 
+/// What the sender may do in this cycle.
+struct Permission {
+  ChannelMask motion = 0;  ///< the channels that may be moved
+  bool guard_has_bus = false;
+  std::span<const Slowing> slowing = {};  ///< by channel; none: nothing is slowed
+};
+
 /// Built once from the allow-lists of the drivers; refuses all else. Pure but for its counts.
 class FrameGate final {
  public:
-  static constexpr std::size_t kMaxBuses = 8;
+  static constexpr std::size_t kMaxLinks = 32;
 
   /// At start-up. `driver` must outlive the gate. Throws std::runtime_error when there are too many
-  /// drivers or buses, or when two drivers of one bus would send the same frame.
-  void add(std::size_t bus, const Actuator& driver);
+  /// drivers or links, or when two drivers of one bus would send the same frame and do not share
+  /// it.
+  void add(std::size_t link, const Actuator& driver);
 
-  /// `motion_permitted`: EngineOutput::motion_permitted of this cycle.
-  /// `slowing`: of the sender's axis. Then a set point passes that is no faster than the wheel, in
-  /// its direction, and no faster than the one before.
-  FrameVerdict admit(std::size_t bus, const CanFrame& frame, const Actuator& from,
-                     bool motion_permitted, bool guard_has_bus, const Slowing& slowing = {});
+  /// While a channel is slowed, a set point passes that is no faster than its wheel, in its
+  /// direction, and no faster than the one before.
+  FrameVerdict admit(std::size_t link, const Message& message, const Actuator& from,
+                     const Permission& permission, Time now);
 
-  /// The next ramp of this drive begins anew.
-  void end_slowing(const Actuator& driver);
+  /// The next ramp of this channel begins anew.
+  void end_slowing(const Actuator& driver, std::size_t channel);
 
   struct Counts {
     std::uint64_t passed = 0;
     std::uint64_t not_allowed = 0;
     std::uint64_t motion = 0;
   };
-  /// Of one bus; what was asked of a bus that does not exist is counted on none.
-  const Counts& counts(std::size_t bus) const { return counts_.at(bus); }
+  /// Of one link; what was asked of a link that does not exist is counted on none.
+  const Counts& counts(std::size_t link) const { return counts_.at(link); }
 
  private:
   struct Sender {
-    std::size_t bus = 0;
+    std::size_t link = 0;
     const Actuator* driver = nullptr;
-    /// Of its last set point while slowing; infinite before the first.
-    double slowest_radps = std::numeric_limits<double>::infinity();
   };
-  FrameVerdict judge(std::size_t bus, const CanFrame& frame, const Actuator& from,
-                     bool motion_possible, const Slowing& slowing);
-  static bool slows(Sender& sender, const CanFrame& frame, const Slowing& slowing);
+  /// By channel: the size of the last set point while slowing; infinite before the first.
+  using Slowest = std::array<double, kMaxChannels>;
+
+  std::size_t place_of(const Actuator& driver) const;
+  FrameVerdict judge(std::size_t link, const Message& message, const Actuator& from,
+                     const Permission& permission, Time now);
+  bool may_move(std::size_t sender, const Message& message, ChannelMask moves,
+                const Permission& permission);
+  void note_zeros(std::size_t sender, const Message& message, const Permission& permission);
 
   FixedVector<Sender, kMaxAxes> senders_;
-  std::array<Counts, kMaxBuses> counts_{};
+  std::array<Slowest, kMaxAxes> slowest_radps_{};  ///< by sender
+  std::array<Counts, kMaxLinks> counts_{};
 };
 
 /// Whether a frame is what a rule describes: id, kind and length.

@@ -246,11 +246,24 @@ TEST(Gateway, IgnoresWhatALinkCannotCarry) {
 
 TEST(Gateway, TellsTheGuardHowEachDriveOfABusIsStopped) {
   Bench bench;
-  const auto recipes = bench.gateway.stop_recipes(0);
+  const auto duties = bench.gateway.duties();
+  ASSERT_EQ(duties.size(), bench.gateway.wiring().links.size());
+  EXPECT_EQ(duties[0].messages_per_cycle, 4U);
+  const auto& recipes = duties[0].stops;
   ASSERT_EQ(recipes.size(), 2U);
-  EXPECT_EQ(recipes[0].frames[0].id, 0x02DU);
-  EXPECT_EQ(recipes[1].frames[0].id, 0x04DU);
+  EXPECT_EQ(recipes[0].rounds[0].frames[0].id, 0x02DU);
+  EXPECT_EQ(recipes[1].rounds[0].frames[0].id, 0x04DU);
   EXPECT_EQ(recipes[1].period, 10ms);
+}
+
+TEST(StreamOutput, TakesAPacketWholeOrNotAtAll) {
+  StreamOutput waiting;
+  Packet packet;
+  packet.resize(kMaxPacket);
+  std::size_t dropped = 0;
+  for (int i = 0; i < 8; ++i) dropped += waiting.add(packet);
+  EXPECT_EQ(dropped, kMaxPacket);
+  EXPECT_EQ(waiting.bytes.size(), 7 * kMaxPacket);
 }
 
 TEST(StreamOutput, GathersWhatADriverSaysUntilTheNextCycle) {

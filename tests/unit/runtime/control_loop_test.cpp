@@ -110,7 +110,7 @@ class ControlLoopTest : public testing::Test {
   config::Loaded loaded_ = config::load_text(configuration(), DROVER_SOURCE_DIR "/config/maps");
   Gateway gateway_{loaded_.config};
   GuardMemory guard_;
-  LinkKeeper keeper_{loaded_.config, guard_, {gateway_.stop_recipes(0)}};
+  LinkKeeper keeper_{loaded_.config, guard_, gateway_.duties()};
   std::unique_ptr<ControlExchange> exchange_owner_ = std::make_unique<ControlExchange>();
   ControlExchange& exchange_ = *exchange_owner_;
   std::unique_ptr<StorageExchange> storage_ = std::make_unique<StorageExchange>();

@@ -9,8 +9,10 @@ namespace {
 using namespace std::chrono_literals;
 
 StopRecipe recipe(std::initializer_list<CanFrame> frames) {
+  StopRound round;
+  for (const CanFrame& frame : frames) EXPECT_TRUE(round.frames.push_back(frame));
   StopRecipe stop;
-  for (const CanFrame& frame : frames) EXPECT_TRUE(stop.frames.push_back(frame));
+  EXPECT_TRUE(stop.rounds.push_back(round));
   return stop;
 }
 
@@ -28,6 +30,22 @@ TEST(GuardedAxis, IsStoppedAtThePaceOfItsRecipe) {
   EXPECT_EQ(guarded_axis("can0", stop).period, 10ms);
   stop.period = 25ms;
   EXPECT_EQ(guarded_axis("can0", stop).period, 25ms);
+}
+
+TEST(GuardedAxis, IsStoppedByEachRoundOfPacketsOnATty) {
+  StopRecipe stop;
+  for (const std::uint8_t count : {0, 1}) {
+    StopRound round;
+    Packet packet;
+    for (const std::uint8_t byte : {std::uint8_t{0x55}, count}) EXPECT_TRUE(packet.push_back(byte));
+    EXPECT_TRUE(round.packets.push_back(packet));
+    EXPECT_TRUE(stop.rounds.push_back(round));
+  }
+  const auto axis = guarded_axis("chassis", stop);
+  EXPECT_EQ(axis.name, "chassis");
+  ASSERT_EQ(axis.rounds.size(), 2U);
+  EXPECT_EQ(axis.rounds[0][0], (std::vector<std::uint8_t>{0x55, 0}));
+  EXPECT_EQ(axis.rounds[1][0], (std::vector<std::uint8_t>{0x55, 1}));
 }
 
 TEST(GuardedAxis, IsKnownByItsLongId) {

@@ -27,7 +27,7 @@ TEST_P(CanConformance, SendsNothingToANodeThatWasNeverHeard) {
   bench.run(milliseconds(500), kRest);
   bench.run(milliseconds(500), kRun, 1.0);
   for (const CanFrame& frame : bench.sent)
-    EXPECT_EQ(bench.actuator->effect(frame), FrameEffect::harmless) << describe(frame);
+    EXPECT_EQ(bench.effect_of(frame), FrameEffect::harmless) << describe(frame);
   EXPECT_EQ(bench.status.state, AxisState::unknown);
   EXPECT_EQ(bench.device->health(bench.now).state, SourceState::never_heard);
   expect_decent(bench);
@@ -100,7 +100,7 @@ TEST_P(CanConformance, GoesStaleWhenItsDeviceFallsSilent) {
   bench.sent.clear();
   bench.run(milliseconds(100), kRun, 1.0);
   for (const CanFrame& frame : bench.sent)
-    EXPECT_NE(bench.actuator->effect(frame), FrameEffect::motion) << describe(frame);
+    EXPECT_NE(bench.effect_of(frame), FrameEffect::motion) << describe(frame);
 }
 
 TEST_P(CanConformance, ArmsAfterAPowerCycleOnlyByANewRequest) {
@@ -115,7 +115,7 @@ TEST_P(CanConformance, ArmsAfterAPowerCycleOnlyByANewRequest) {
   EXPECT_NE(bench.status.state, AxisState::running);
   EXPECT_EQ(bench.shaft.torque_Nm, 0.0);
   for (const CanFrame& frame : bench.sent)
-    EXPECT_NE(bench.actuator->effect(frame), FrameEffect::motion) << describe(frame);
+    EXPECT_NE(bench.effect_of(frame), FrameEffect::motion) << describe(frame);
   bench.run(milliseconds(100), kRest);
   bench.run(milliseconds(2000), kRun, 1.0);
   EXPECT_EQ(bench.status.state, AxisState::running) << bench.status.reason.view();
@@ -131,7 +131,7 @@ TEST_P(CanConformance, ArmsAfterANewLinkOnlyByANewRequest) {
   bench.sent.clear();
   bench.run(milliseconds(1000), kRun, 1.0);
   for (const CanFrame& frame : bench.sent)
-    EXPECT_NE(bench.actuator->effect(frame), FrameEffect::motion) << describe(frame);
+    EXPECT_NE(bench.effect_of(frame), FrameEffect::motion) << describe(frame);
   bench.run(milliseconds(50), kRest);
   bench.run(milliseconds(1500), kRun, 1.0);
   EXPECT_EQ(bench.status.state, AxisState::running) << bench.status.reason.view();
@@ -140,12 +140,16 @@ TEST_P(CanConformance, ArmsAfterANewLinkOnlyByANewRequest) {
 TEST_P(CanConformance, SaysHowItStopsAndTheRecipeStopsIt) {
   CanBench bench(GetParam());
   const StopRecipe recipe = bench.actuator->stop_recipe();
-  ASSERT_FALSE(recipe.frames.empty());
+  ASSERT_FALSE(recipe.rounds.empty());
   EXPECT_GT(recipe.period, Duration{});
   EXPECT_LE(recipe.period, milliseconds(50));
-  for (const CanFrame& frame : recipe.frames) {
-    EXPECT_TRUE(on_list(bench.actuator->rules(), frame)) << describe(frame);
-    EXPECT_EQ(bench.actuator->effect(frame), FrameEffect::stop) << describe(frame);
+  for (const StopRound& round : recipe.rounds) {
+    EXPECT_FALSE(round.frames.empty());
+    EXPECT_TRUE(round.packets.empty());
+    for (const CanFrame& frame : round.frames) {
+      EXPECT_TRUE(on_list(bench.actuator->rules(), frame)) << describe(frame);
+      EXPECT_EQ(bench.effect_of(frame), FrameEffect::stop) << describe(frame);
+    }
   }
   EXPECT_FALSE(bench.actuator->silence().text.empty());
   EXPECT_EQ(bench.actuator->silence().stops, bench.actuator->silence().after > Duration{});
@@ -155,13 +159,15 @@ TEST_P(CanConformance, SaysHowItStopsAndTheRecipeStopsIt) {
   ASSERT_NEAR(bench.shaft.velocity_radps, 3.0, 0.3);
   bench.driver_alive = false;  // from here on somebody who knows only the recipe
   Time next = bench.now;
+  std::size_t rounds = 0;
   for (int i = 0; i < 200; ++i) {
-    for (; next <= bench.now; next += recipe.period)
-      for (const CanFrame& frame : recipe.frames) bench.send(frame);
+    for (; next <= bench.now; next += recipe.period, ++rounds)
+      for (const CanFrame& frame : recipe.rounds[rounds % recipe.rounds.size()].frames)
+        bench.send(frame);
     bench.step({});
   }
   EXPECT_NEAR(bench.shaft.velocity_radps, 0.0, 0.05);
-  if (recipe.holds) {
+  if (recipe.ends == StopEnds::holds) {
     EXPECT_NE(bench.shaft.torque_Nm, 0.0) << "let go instead of holding";
   }
 }
@@ -247,9 +253,9 @@ TEST_P(CanConformance, SurvivesAHundredThousandRandomFrames) {
       bench.device->on_tick(bench.now, bench.out);
       for (const CanFrame& frame : bench.out.frames) {
         ASSERT_TRUE(on_list(bench.actuator->rules(), frame)) << describe(frame);
-        ASSERT_NE(bench.actuator->effect(frame), FrameEffect::forbidden) << describe(frame);
+        ASSERT_NE(bench.effect_of(frame), FrameEffect::forbidden) << describe(frame);
         if (i % 4096 < 2048) {
-          ASSERT_NE(bench.actuator->effect(frame), FrameEffect::motion) << describe(frame);
+          ASSERT_NE(bench.effect_of(frame), FrameEffect::motion) << describe(frame);
         }
       }
     }
@@ -268,7 +274,7 @@ TEST_P(CanConformance, JudgesEveryRandomFrameWithoutCallingItAStopThatMoves) {
   for (int i = 0; i < 20000; ++i) {
     const CanFrame frame = random_frame(random, like);
     if (!on_list(bench.actuator->rules(), frame)) continue;
-    const FrameEffect effect = bench.actuator->effect(frame);
+    const FrameEffect effect = bench.effect_of(frame);
     if (effect == FrameEffect::motion || effect == FrameEffect::forbidden) continue;
     bench.send(frame);
     bench.step({});

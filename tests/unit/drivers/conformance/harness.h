@@ -146,6 +146,8 @@ class CanBench {
     take(command);
   }
 
+  FrameEffect effect_of(const CanFrame& frame) const { return actuator->effect(frame, now).kind; }
+
   /// Every channel is told the same.
   std::span<const Setpoint> to_all(const Setpoint& command) {
     wanted.clear();
@@ -211,7 +213,7 @@ class CanBench {
     for (const CanFrame& frame : sending.frames) {
       sent.push_back(frame);
       off_list += on_list(actuator->rules(), frame) ? 0 : 1;
-      const FrameEffect effect = actuator->effect(frame);
+      const FrameEffect effect = effect_of(frame);
       forbidden += effect == FrameEffect::forbidden ? 1 : 0;
       motion_at_rest += effect == FrameEffect::motion && command.request != AxisRequest::run &&
                         command.request != AxisRequest::hold;

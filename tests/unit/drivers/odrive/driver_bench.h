@@ -65,7 +65,7 @@ class Bench {
   int motions() const {
     int n = 0;
     for (const auto& each : sent)
-      n += driver.effect(parse_frame(each)) == FrameEffect::motion ? 1 : 0;
+      n += driver.effect(parse_frame(each), now).kind == FrameEffect::motion ? 1 : 0;
     return n;
   }
 

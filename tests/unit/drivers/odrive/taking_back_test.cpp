@@ -29,7 +29,7 @@ TEST(OdriveDriver, SaysWhatVelocityAFrameAsksOfTheJoint) {
   Bench bench;
   const double one_turnps = 2 * 3.14159265358979;
   const auto asked = [&](const char* frame) {
-    return bench.driver.setpoint_radps(parse_frame(frame));
+    return bench.driver.setpoint_radps(parse_frame(frame), 0);
   };
   EXPECT_NEAR(asked("06D#0000803F00000000"), one_turnps, 1e-6);
   EXPECT_EQ(asked(kZero), 0);

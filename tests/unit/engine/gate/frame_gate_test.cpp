@@ -21,18 +21,20 @@ class FakeDrive final : public Actuator {
   std::span<const Channel> channels() const override { return {&kOne, 1}; }
   void on_setpoints(std::span<const Setpoint>, Time, DriverOut&) override {}
   std::span<const FrameRule> rules() const override { return rules_; }
-  FrameEffect effect(const CanFrame& frame) const override {
-    if (frame.remote || frame.extended) return FrameEffect::harmless;
+  Effect effect(const Message& message, Time) const override {
+    const CanFrame& frame = *message.frame();
+    if (frame.remote || frame.extended) return {FrameEffect::harmless, 0};
     switch (frame.data[0]) {
-      case 0: return FrameEffect::stop;
-      case 1: return FrameEffect::motion;
-      case 2: return FrameEffect::harmless;
-      case 0xFF: return static_cast<FrameEffect>(77);
-      default: return FrameEffect::forbidden;
+      case 0: return {FrameEffect::stop, 0};
+      case 1: return {FrameEffect::motion, 1};
+      case 2: return {FrameEffect::harmless, 0};
+      case 0xFF: return {static_cast<FrameEffect>(77), 0};
+      default: return {FrameEffect::forbidden, 0};
     }
   }
   /// The second byte, of a stop or a motion.
-  double setpoint_radps(const CanFrame& frame) const override {
+  double setpoint_radps(const Message& message, std::size_t) const override {
+    const CanFrame& frame = *message.frame();
     return frame.data[0] <= 1 ? static_cast<std::int8_t>(frame.data[1]) : kAbsent;
   }
   StopRecipe stop_recipe() const override { return {}; }
@@ -46,6 +48,10 @@ CanFrame frame(std::uint8_t first) {
   return make_frame(0x10, {first, 0, 0, 0, 0, 0, 0, 0});
 }
 
+Permission permission(bool motion, bool guard = false) {
+  return {motion ? kAllChannels : ChannelMask{0}, guard, {}};
+}
+
 class AFrameGate : public ::testing::Test {
  protected:
   AFrameGate() {
@@ -53,7 +59,7 @@ class AFrameGate : public ::testing::Test {
     gate.add(1, other);
   }
   FrameVerdict admit(const CanFrame& f, bool motion = true, bool guard = false) {
-    return gate.admit(1, f, drive, motion, guard);
+    return gate.admit(1, f, drive, permission(motion, guard), Time{});
   }
   FakeDrive drive;
   FakeDrive other{0x20};
@@ -72,16 +78,17 @@ TEST_F(AFrameGate, RefusesTheIdOfAnotherDriveOfTheBus) {
   CanFrame f = frame(0);
   f.id = 0x20;
   EXPECT_EQ(admit(f), kNotAllowed);
-  EXPECT_EQ(gate.admit(1, f, other, true, false), FrameVerdict::pass);
+  EXPECT_EQ(gate.admit(1, f, other, permission(true), Time{}), FrameVerdict::pass);
 }
 TEST_F(AFrameGate, RefusesADriveOnABusItDoesNotHangOn) {
-  EXPECT_EQ(gate.admit(0, frame(0), drive, true, false), kNotAllowed);
+  EXPECT_EQ(gate.admit(0, frame(0), drive, permission(true), Time{}), kNotAllowed);
 }
 TEST_F(AFrameGate, RefusesASenderItWasNotToldOf) {
-  EXPECT_EQ(gate.admit(1, frame(0), stranger, true, false), kNotAllowed);
+  EXPECT_EQ(gate.admit(1, frame(0), stranger, permission(true), Time{}), kNotAllowed);
 }
 TEST_F(AFrameGate, RefusesABusThatDoesNotExist) {
-  EXPECT_EQ(gate.admit(FrameGate::kMaxBuses, frame(0), drive, true, false), kNotAllowed);
+  EXPECT_EQ(gate.admit(FrameGate::kMaxLinks, frame(0), drive, permission(true), Time{}),
+            kNotAllowed);
 }
 TEST_F(AFrameGate, RefusesTheExtendedTwinOfAStandardId) {
   CanFrame f = frame(0);
@@ -156,12 +163,13 @@ TEST_F(AFrameGate, CountsWhatItDoesOnEachBus) {
   EXPECT_EQ(gate.counts(0).passed, 0U);
 }
 TEST_F(AFrameGate, RefusesEveryIdOfEveryBusThatNobodyListed) {
-  for (std::size_t bus = 0; bus < FrameGate::kMaxBuses; ++bus) {
+  for (std::size_t bus = 0; bus < FrameGate::kMaxLinks; ++bus) {
     for (std::uint32_t id = 0; id < 0x800; ++id) {
       CanFrame f = frame(0);
       f.id = id;
       const bool listed = bus == 1 && id == 0x10;
-      EXPECT_EQ(gate.admit(bus, f, drive, true, false) == FrameVerdict::pass, listed) << id;
+      EXPECT_EQ(gate.admit(bus, f, drive, permission(true), Time{}) == FrameVerdict::pass, listed)
+          << id;
     }
   }
 }
@@ -171,10 +179,10 @@ TEST(FrameGate, PassesFdFramesUnderARuleForMoreThanEightBytes) {
   FrameGate gate;
   gate.add(0, fd_drive);
   CanFrame f = frame(0);
-  EXPECT_EQ(gate.admit(0, f, fd_drive, true, false), kNotAllowed);
+  EXPECT_EQ(gate.admit(0, f, fd_drive, permission(true), Time{}), kNotAllowed);
   f.fd = true;
   f.len = 16;
-  EXPECT_EQ(gate.admit(0, f, fd_drive, true, false), FrameVerdict::pass);
+  EXPECT_EQ(gate.admit(0, f, fd_drive, permission(true), Time{}), FrameVerdict::pass);
 }
 TEST(FrameGate, RefusesToBeBuiltWithTwoDrivesOfOneNumberOnOneBus) {
   const FakeDrive a;
@@ -187,7 +195,7 @@ TEST(FrameGate, RefusesToBeBuiltWithTwoDrivesOfOneNumberOnOneBus) {
 TEST(FrameGate, RefusesToBeBuiltWithMoreBusesOrDrivesThanItHolds) {
   FrameGate gate;
   const FakeDrive one;
-  EXPECT_THROW(gate.add(FrameGate::kMaxBuses, one), std::runtime_error);
+  EXPECT_THROW(gate.add(FrameGate::kMaxLinks, one), std::runtime_error);
   std::vector<FakeDrive> drives;
   for (std::uint32_t i = 0; i <= kMaxAxes; ++i) drives.emplace_back(0x100 + 4 * i);
   for (std::size_t i = 0; i < kMaxAxes; ++i) gate.add(0, drives[i]);
@@ -200,20 +208,21 @@ class AFrameGateThatLetsSlowDown : public AFrameGate {
   FrameVerdict slow(int radps, double measured_radps, bool guard = false) {
     CanFrame f = frame(radps == 0 ? 0 : 1);
     f.data[1] = static_cast<std::uint8_t>(radps);
-    return gate.admit(1, f, drive, false, guard, {true, measured_radps});
+    const Slowing slowing[] = {{true, measured_radps}};
+    return gate.admit(1, f, drive, {0, guard, slowing}, Time{});
   }
 };
 constexpr auto kRefusedMotion = FrameVerdict::refused_motion;
 
 TEST_F(AFrameGateThatLetsSlowDown, LetsARampFromTheMeasuredSpeedPass) {
   for (const int radps : {20, 15, 15, 3, 0}) EXPECT_EQ(slow(radps, 20), FrameVerdict::pass);
-  gate.end_slowing(drive);
+  gate.end_slowing(drive, 0);
   for (const int radps : {-20, -15, -1, 0}) EXPECT_EQ(slow(radps, -20), FrameVerdict::pass);
 }
 TEST_F(AFrameGateThatLetsSlowDown, TakesTheZerosOfRestForNoRamp) {
   // The order of a cycle: the ramp is ended, then the drive says zero, as at rest.
   for (int cycle = 0; cycle < 3; ++cycle) {
-    gate.end_slowing(drive);
+    gate.end_slowing(drive, 0);
     EXPECT_EQ(admit(frame(0), false), FrameVerdict::pass);
   }
   for (const int radps : {20, 15, 0}) EXPECT_EQ(slow(radps, 20), FrameVerdict::pass);
