@@ -1,5 +1,7 @@
 #include "sim/robot/json_reader.h"
 
+#include "text/suggestion.h"
+
 namespace drover::sim {
 namespace {
 
@@ -56,8 +58,9 @@ const nlohmann::json* JsonReader::find(std::string_view key) {
 
 const nlohmann::json& JsonReader::need(std::string_view key) {
   const auto* value = find(key);
-  if (value == nullptr) fail(key, "is missing");
-  return *value;
+  if (value != nullptr) return *value;
+  const auto near = text::nearest(key, keys());
+  fail(key, near.empty() ? "is missing" : "is missing (is \"" + near + "\" meant to be it?)");
 }
 
 bool JsonReader::has(std::string_view key) {

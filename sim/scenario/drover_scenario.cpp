@@ -102,6 +102,8 @@ int play(const Options& options) {
   }
   const auto broken = player.broken();
   if (!player.finish() && outcome != Outcome::interrupted) outcome = Outcome::broken;
+  // A stop that never came would prove nothing.
+  if (outcome == Outcome::as_expected && !player.steps_left().empty()) outcome = Outcome::otherwise;
   summarize(place, mission, player, outcome);
   if (outcome != Outcome::interrupted)
     for (const auto& step : player.steps_left())

@@ -2,6 +2,7 @@
 
 #include <csignal>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <stdexcept>
@@ -9,6 +10,7 @@
 
 #include "drover/angle.h"
 #include "sim/robot/json_reader.h"
+#include "text/suggestion.h"
 
 namespace drover::sim {
 namespace {
@@ -17,6 +19,24 @@ using nlohmann::json;
 
 constexpr std::array<std::string_view, 4> kPrograms{"mosquitto", "drover-sim", "drover-guard",
                                                     "droverd"};
+/// What the player tells of, beside a mission's own steps and the ends of programs; see mission.h.
+constexpr std::array<std::string_view, 17> kEvents{"boot",
+                                                   "ready",
+                                                   "locate_false",
+                                                   "saved",
+                                                   "save_failed",
+                                                   "start_task",
+                                                   "start_nav",
+                                                   "start_nav_failed",
+                                                   "nav_success",
+                                                   "nav_error",
+                                                   "obstacle",
+                                                   "obstacle_gone",
+                                                   "cancelled",
+                                                   "broker_lost",
+                                                   "broker_back",
+                                                   "commands_end",
+                                                   "start_task_failed"};
 constexpr std::array<std::string_view, 9> kTruthValues{
     "x_m", "y_m", "z_m", "roll_rad", "pitch_rad", "yaw_rad", "vx_mps", "wz_radps", "free_ahead_m"};
 
@@ -162,6 +182,8 @@ Step read_step(JsonReader& reader, const json& raw) {
 
 Shape read_shape(JsonReader& reader) {
   Shape shape;
+  if (!reader.has("straight_m") && !reader.has("turn_deg"))
+    reader.fail("", "must have straight_m, or turn_deg and radius_m");
   if (reader.has("straight_m")) {
     shape.straight_m = reader.number("straight_m");
     if (!(shape.straight_m > 0)) reader.fail("straight_m", "must be above 0");
@@ -191,10 +213,29 @@ void read_places(JsonReader& top, Mission& mission) {
   mission.antenna = {antenna.number("x_m", 0), antenna.number("y_m", 0)};
 }
 
+/// What may be followed: a misspelt event would never happen, and its step never be played.
+std::vector<std::string> followable(const std::vector<Step>& steps) {
+  std::vector<std::string> names(kEvents.begin(), kEvents.end());
+  names.emplace_back("exit_drover");
+  for (const auto program : kPrograms) names.push_back("exit_" + std::string(program));
+  for (const auto& step : steps)
+    if (!step.name.empty()) names.push_back(step.name);
+  return names;
+}
+
+void check_event(const JsonReader& reader, const EventName& event,
+                 const std::vector<std::string>& known) {
+  if (std::find(known.begin(), known.end(), event.name) != known.end()) return;
+  const auto meant = text::did_you_mean(event.name, known);
+  reader.fail("after", "there is no event and no step of the name \"" + event.name + "\"" +
+                           (meant.empty() ? "" : " (" + meant + ")"));
+}
+
 void read_end(JsonReader& reader, Mission& mission) {
   if (!reader.has("end")) return;
   auto end = reader.object("end");
   mission.end_after = parse_event_name(end.text("after"));
+  check_event(end, *mission.end_after, followable(mission.steps));
   mission.end_delay = from_s(end.number("delay_s", 1));
   end.done();
 }
@@ -231,6 +272,9 @@ Mission read_mission(const json& document) {
     auto items = reader.list("steps");
     for (std::size_t i = 0; i < items.size(); ++i)
       mission.steps.push_back(read_step(items[i], raw[i]));
+    const auto known = followable(mission.steps);
+    for (std::size_t i = 0; i < items.size(); ++i)
+      check_event(items[i], mission.steps[i].after, known);
   }
   read_end(reader, mission);
   mission.timeout = from_s(reader.number("timeout_s", to_s(mission.timeout)));

@@ -16,6 +16,7 @@
 namespace drover::sim {
 namespace {
 
+constexpr const char* kCommandLine = "drover";
 constexpr Duration kLook = std::chrono::milliseconds(10);
 constexpr Duration kReconnect = std::chrono::milliseconds(50);
 // From all is well to the start: a person reads the status first. A robot that has just been
@@ -178,6 +179,10 @@ void Player::wait_for(const std::string& what, const std::function<bool()>& is_t
 
 void Player::start(const std::string& name, const std::string& words) {
   if (!going()) return;
+  if (name == kCommandLine && children_.runs(name)) {
+    calls_.push_back(words);  // one after the other, as a person types them
+    return;
+  }
   const auto problem = children_.start(workplace_.program(name, words));
   killed_.erase(name);
   tell("start " + name + (words.empty() ? "" : " " + words) +
@@ -250,17 +255,22 @@ void Player::poll_once(Duration wait) {
 void Player::collect_children() {
   for (const auto& ended : children_.reap()) {
     tell("end of " + ended.name + " " + how_it_ended(ended.status));
-    const bool asked = killed_.contains(ended.name) || ended.name == "drover";
+    const bool asked = killed_.contains(ended.name) || ended.name == kCommandLine;
     // A program that was asked to end, not killed, must do so cleanly.
     const bool clean = WIFSIGNALED(ended.status)
                            ? WTERMSIG(ended.status) == SIGKILL || WTERMSIG(ended.status) == SIGTERM
-                           : WEXITSTATUS(ended.status) == 0 || ended.name == "drover";
+                           : WEXITSTATUS(ended.status) == 0 || ended.name == kCommandLine;
     if (!asked || !clean) {
       broken_ = ended.name + " ended " + how_it_ended(ended.status);
       const auto said = last_line(workplace_.log_folder() + "/" + ended.name + ".log");
       if (!said.empty()) broken_ += ": " + said;
     }
     if (asked) happened("exit_" + ended.name);
+    if (ended.name == kCommandLine && !calls_.empty()) {
+      const std::string words = std::move(calls_.front());
+      calls_.pop_front();
+      start(kCommandLine, words);
+    }
   }
 }
 

@@ -1,6 +1,7 @@
 // Plays a scenario: supervisor of the programs, operator, recorder.
 #pragma once
 
+#include <deque>
 #include <map>
 #include <memory>
 #include <optional>
@@ -85,8 +86,9 @@ class Player {
   RobotReport report_;
   std::optional<OperatorClient> client_;
   bool was_subscribed_ = false;
-  std::set<std::string> killed_;  // whose end was asked for
-  std::string broken_;            // what ended by itself
+  std::deque<std::string> calls_;  // of the command line, that wait for the one before
+  std::set<std::string> killed_;   // whose end was asked for
+  std::string broken_;             // what ended by itself
   Result result_;
   Time boot_{};
   Time end_ = Time::max();

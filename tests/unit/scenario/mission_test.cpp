@@ -66,6 +66,31 @@ TEST(AMission, RefusesWhatItDoesNotKnowAndNamesThePlace) {
   expect_refused(R"([{"do": {"sim": ["supply", true]}}])", "steps[0].do.sim");
 }
 
+TEST(AMission, RefusesAStepAfterWhatNeverHappens) {
+  expect_refused(
+      R"([{"after": "readdy", "do": {"cli": "stop"}}])",
+      "mission.steps[0].after: there is no event and no step of the name \"readdy\" (did "
+      "you mean \"ready\"?)");
+  auto ends = document();
+  ends["mission"]["end"] = {{"after", "nav_succes"}};
+  EXPECT_NE(refusal(ends).find("mission.end.after"), std::string::npos) << refusal(ends);
+  auto follows = document();
+  follows["mission"]["steps"] = json::parse(R"([
+    {"after": "pressed", "do": {"cli": "reset"}}, {"after": "exit_drover", "do": {"save": true}},
+    {"name": "pressed", "after": "start_nav#2", "do": {"sim": "estop press"}}])");
+  EXPECT_EQ(refusal(follows), "accepted");
+}
+
+TEST(AMission, NamesTheKeyThatWasMeant) {
+  auto track = document();
+  track["mission"]["trak"] = track["mission"]["track"];
+  track["mission"].erase("track");
+  EXPECT_EQ(refusal(track), "mission.track: is missing (is \"trak\" meant to be it?)");
+  auto shape = document();
+  shape["mission"]["track"] = json::parse(R"([{"straight": 3}])");
+  EXPECT_NE(refusal(shape).find("straight_m, or turn_deg and radius_m"), std::string::npos);
+}
+
 TEST(AMission, StartsItsTrackWhereTheRobotStandsAndEndsAtTheLastPoint) {
   const auto mission = read_mission(document());
   ASSERT_EQ(mission.track.size(), 5U);

@@ -3,6 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
 #include "tests/unit/publish/examples.h"
 
 namespace drover::publish {
@@ -279,6 +284,32 @@ TEST(Control, RefusesTheExamplesOfWhatTheRobotPublishes) {
 TEST(Control, IgnoresMembersOfNewerClients) {
   EXPECT_EQ(answer("{\"cmd_type\":\"task_control\",\"cmd\":\"cancel_task\",\"new\":[{}]}"),
             "accepted");
+}
+
+/// What stands between the lines ```json and ```, by blocks.
+std::vector<std::string> json_blocks(const std::string& file) {
+  std::ifstream stream(std::string(DROVER_SOURCE_DIR) + "/" + file);
+  std::vector<std::string> blocks;
+  bool inside = false;
+  for (std::string line; std::getline(stream, line);) {
+    if (line.starts_with("```")) {
+      inside = line == "```json";
+      if (inside) blocks.emplace_back();
+    } else if (inside) {
+      blocks.back() += line + "\n";
+    }
+  }
+  return blocks;
+}
+
+TEST(TheReadme, ShowsMessagesThatAreAccepted) {
+  const auto blocks = json_blocks("src/publish/README.md");
+  ASSERT_EQ(blocks.size(), 2U);
+  EXPECT_EQ(answer(blocks[0]), "accepted");
+  std::istringstream lines(blocks[1]);
+  int count = 0;
+  for (std::string line; std::getline(lines, line); ++count) EXPECT_EQ(answer(line), "accepted");
+  EXPECT_EQ(count, 7);
 }
 
 }  // namespace
