@@ -100,6 +100,7 @@ void Engine::Impl::take(const Measurement& m) {
     snapshot.gnss.velocity = *velocity;
     rest.witness().on_speed(*velocity, m.time);
   } else if (const auto* heading = std::get_if<GnssHeading>(&m.value)) {
+    rest.witness().on_heading(*heading, m.time);
     mechanics.on_heading(*heading, m.time);
     if (!std::isfinite(heading->heading_deg) || m.time < snapshot.gnss.heading_time) return;
     snapshot.gnss.heading_deg =

@@ -14,6 +14,7 @@ namespace {
 constexpr double kMoving_mps = 0.2;
 constexpr double kMoving_m = 0.3;
 const double kTurning_radps = to_rad(3.0);
+const double kTurned_rad = to_rad(5.0);
 constexpr double kSigmas = 4.0;
 constexpr double kFresh_s = 0.5;  // receivers tell ten times a second, and once a second at worst
 constexpr double kTurnSmooth_s = 0.1;   // a knock is no turn
@@ -74,9 +75,22 @@ void MotionWitness::on_turn(double turn_radps, Time at) {
   turn_at_ = at;
 }
 
-void MotionWitness::expect_rest(Time at) {
+void MotionWitness::on_heading(const GnssHeading& heading, Time at) {
+  if (!std::isfinite(heading.heading_deg) || (heading_at_ != kNever && at < heading_at_)) return;
+  if (turned_from_ != kNever) {
+    turned_rad_ -= wrap_rad(to_rad(heading.heading_deg - heading_deg_));  // a compass turns right
+  } else if (wanted_from_ != kNever && at >= wanted_from_) {
+    turned_from_ = at;
+    turned_rad_ = 0;
+  }
+  heading_deg_ = heading.heading_deg;
+  heading_at_ = at;
+}
+
+void MotionWitness::expect_rest(Time at, double turn) {
   wanted_from_ = at;
-  from_at_ = kNever;
+  from_at_ = turned_from_ = kNever;
+  commanded_turn_ = turn;
 }
 
 double MotionWitness::speed_noise_mps() const {
@@ -91,6 +105,24 @@ double MotionWitness::speed_mps(Time now) const {
 PathPoint MotionWitness::way(Time now) const {
   if (from_at_ == kNever || !fresh(position_at_, now)) return {};
   return ground_way(from_, position_);
+}
+
+bool MotionWitness::went(Time now) const {
+  const PathPoint gone = way(now);
+  const double noise_m = std::hypot(place_sigma_m(from_, config_.estimate),
+                                    place_sigma_m(position_, config_.estimate));
+  return std::hypot(gone.x_m, gone.y_m) > std::max(kMoving_m, kSigmas * noise_m);
+}
+
+bool MotionWitness::turns_on(Time now) const {
+  if (!fresh(turn_at_, now) || !fresh(heading_at_, now) || turned_from_ == kNever) return false;
+  const double noise_rad = std::hypot(1.0, 1.0) * to_rad(config_.estimate.heading_sigma_deg);
+  return turn_radps_ * commanded_turn_ > kTurning_radps &&
+         turned_rad_ * commanded_turn_ > std::max(kTurned_rad, kSigmas * noise_rad);
+}
+
+bool MotionWitness::spins_on(Time now) const {
+  return turns_on(now) && !went(now) && speed_mps(now) == 0;
 }
 
 Testimony MotionWitness::hear(Time now) const {
@@ -111,14 +143,16 @@ Testimony MotionWitness::hear(Time now) const {
   }
   if (from_at_ != kNever && fresh(position_at_, now)) {
     ++said.heard;
-    const PathPoint gone = way(now);
-    const double gone_m = std::hypot(gone.x_m, gone.y_m);
-    const double noise_m = std::hypot(place_sigma_m(from_, config_.estimate),
-                                      place_sigma_m(position_, config_.estimate));
-    if (gone_m > std::max(kMoving_m, kSigmas * noise_m)) {
+    if (went(now)) {
+      const PathPoint gone = way(now);
       ++said.moving;
-      append(said.in_words, "the receiver's position went %.1f m", gone_m);
+      append(said.in_words, "the receiver's position went %.1f m", std::hypot(gone.x_m, gone.y_m));
     }
+  }
+  if (turns_on(now)) {  // silent otherwise: it does not speak for itself
+    ++said.heard;
+    ++said.moving;
+    append(said.in_words, "the receiver's heading turned by %.0f deg", to_deg(turned_rad_));
   }
   return said;
 }

@@ -1,5 +1,5 @@
-// What else than the wheels says that the base moves: the receiver's speed, the gyro, and the way
-// between the receiver's positions.
+// What else than the wheels says that the base moves: the receiver's speed, the gyro, the way
+// between the receiver's positions, and the heading of a receiver with two antennas.
 #pragma once
 
 #include <array>
@@ -19,7 +19,8 @@ struct Testimony {
 };
 
 /// Each witness has noise of its own, so one alone proves little. A receiver's speed without an RTK
-/// fix is mostly noise: how much is learned while the base rests.
+/// fix is mostly noise: how much is learned while the base rests. A heading may jump with the
+/// position of the same receiver: it only bears out what the gyro says.
 class MotionWitness final {
  public:
   explicit MotionWitness(const EngineConfig& config) : config_(config) {}
@@ -28,9 +29,11 @@ class MotionWitness final {
   void on_position(const GnssPosition& position, Time at);
   /// `turn_radps` about the vertical, without the bias.
   void on_turn(double turn_radps, Time at);
+  void on_heading(const GnssHeading& heading, Time at);
 
-  /// From `at` on the base should rest: the way counts from the next position.
-  void expect_rest(Time at);
+  /// From `at` on the base should rest: the way counts from the next position, the turn from the
+  /// next heading. `turn` is the sign of the turn that was commanded, 0 for none.
+  void expect_rest(Time at, double turn);
   /// While the base rests, what the receiver's speed says is noise.
   void set_at_rest(bool rests) { rests_ = rests; }
 
@@ -39,8 +42,13 @@ class MotionWitness final {
   double speed_mps(Time now) const;
   /// From where rest was expected, m; x east, y north. Zero without a position.
   PathPoint way(Time now) const;
+  /// Gyro and heading say that it goes on turning as it was commanded, and nothing that it goes
+  /// anywhere: who rolls away does.
+  bool spins_on(Time now) const;
 
  private:
+  bool went(Time now) const;
+  bool turns_on(Time now) const;
   double speed_noise_mps() const;
   bool fresh(Time at, Time now) const;
 
@@ -56,6 +64,11 @@ class MotionWitness final {
   Time position_at_ = kNever;
   double turn_radps_ = 0;  ///< smoothed
   Time turn_at_ = kNever;
+  double commanded_turn_ = 0;  ///< its sign, before rest was expected
+  double heading_deg_ = kAbsent;
+  Time heading_at_ = kNever;
+  double turned_rad_ = 0;  ///< left positive, by headings, since rest was expected
+  Time turned_from_ = kNever;
 };
 
 }  // namespace drover::engine

@@ -19,6 +19,7 @@ constexpr double kRollHeld_s = 0.2;
 constexpr double kAlone_s = 1.0;  // a witness without another one
 constexpr double kConfirm_s = 1.0;
 constexpr double kDirection_m = 0.1;
+constexpr double kOnTheSpot = 0.25;  // what goes by less of its turn goes neither ahead nor back
 constexpr Duration kLookAgain = std::chrono::seconds(5);
 constexpr Duration kLookAgainAfterCut = std::chrono::seconds(2);
 
@@ -48,6 +49,7 @@ void RestWatch::reset() {
 
 RestWatch::Rims RestWatch::rims(const RestInput& input) const {
   Rims rims;
+  Told told;
   for (std::size_t i = 0; i < input.axes.size(); ++i) {
     if (!driven_[i]) continue;
     const AxisSnapshot& axis = input.axes[i];
@@ -55,30 +57,46 @@ RestWatch::Rims RestWatch::rims(const RestInput& input) const {
     const Duration stale = from_s(config_.health.drive_stale_s);
     if (!tells_motion(axis, input.now, stale) || !std::isfinite(mps)) {
       rims.silent = true;
-    } else if (std::abs(mps) > std::abs(rims.fastest_mps)) {
-      rims.fastest_mps = mps;
+      continue;
     }
+    told.joints[i] = {axis.motion.velocity_radps, input.now};
+    if (std::abs(mps) > std::abs(rims.fastest_mps)) rims.fastest_mps = mps;
   }
+  set_direction(rims, told, input.now);
   return rims;
 }
 
-/// The fastest rim's command, with its sign.
-double RestWatch::asked_mps(const RestInput& input) const {
-  double asked_mps = 0;
+RestWatch::Rims RestWatch::asked(const RestInput& input) const {
+  Rims asked;
+  Told told;
   for (std::size_t i = 0; i < input.axes.size(); ++i) {
     if (!driven_[i]) continue;
+    told.joints[i] = {input.axes[i].commanded_velocity_radps, input.now};
     const double mps = rim_mps(base_, input.axes[i].commanded_velocity_radps);
-    if (std::abs(mps) > std::abs(asked_mps)) asked_mps = mps;
+    if (std::abs(mps) > std::abs(asked.fastest_mps)) asked.fastest_mps = mps;
   }
-  return asked_mps;
+  set_direction(asked, told, input.now);
+  return asked;
+}
+
+void RestWatch::set_direction(Rims& rims, const Told& told, Time now) const {
+  const BodyMotion body = body_motion(base_, told, now, Duration::zero());
+  if (!body.known) return;
+  const double goes_mps = fastest_mps(base_, {body.twist.vx_mps, 0});
+  const double turns_mps = fastest_mps(base_, {0, body.twist.wz_radps});
+  if (goes_mps > kOnTheSpot * turns_mps) rims.ahead = std::copysign(1.0, body.twist.vx_mps);
+  if (turns_mps > goes_mps) rims.turn = std::copysign(1.0, body.twist.wz_radps);
 }
 
 /// Whether the time that a ramp to zero needs is over.
 bool RestWatch::due(const RestInput& input) {
-  const double asked_mps = this->asked_mps(input);
+  const Rims asked = this->asked(input);
+  const double asked_mps = asked.fastest_mps;
   if (asked_mps != 0 && !input.caught) {
     ours_ = true;
-    direction_ = std::copysign(1.0, asked_mps);
+    const bool told = asked.ahead != 0 || asked.turn != 0;  // the end of a ramp counts as standing
+    direction_ = told ? asked.ahead : direction_;
+    turn_ = told ? asked.turn : turn_;
   }
   const double slower_mps =
       expected_mps_ - config_.limits.deceleration_mps2 * std::max(to_s(input.dt), 0.0);
@@ -89,7 +107,7 @@ bool RestWatch::due(const RestInput& input) {
   }
   if (due_ == kNever) {
     due_ = input.now;
-    witness_.expect_rest(input.now);
+    witness_.expect_rest(input.now, turn_);
     quiet_since_ = moves_since_ = alone_since_ = kNever;
   }
   return true;
@@ -105,7 +123,9 @@ bool RestWatch::may_be_cut(const RestInput& input, const Rims& rims) const {
 
 /// Driven on, rather than rolling down where it stands. Only what shows it counts.
 bool RestWatch::moves_as_commanded(const RestInput& input, const Rims& rims) const {
-  if (std::abs(rims.fastest_mps) > kTurns_mps) return rims.fastest_mps * direction_ > 0;
+  if (std::abs(rims.fastest_mps) > kTurns_mps)
+    return rims.fastest_mps * direction_ > 0 || rims.turn * turn_ > 0;
+  if (witness_.spins_on(input.now)) return true;
   if (!std::isfinite(input.yaw_rad)) return false;
   const PathPoint way = witness_.way(input.now);
   const double ahead_m = way.x_m * std::cos(input.yaw_rad) + way.y_m * std::sin(input.yaw_rad);
@@ -199,7 +219,7 @@ void RestWatch::stay(const RestInput& input, const Rims& rims, const Testimony& 
   // A receiver's position wanders over the hours.
   if (input.now - due_ > kLookAgain) {
     due_ = input.now;
-    witness_.expect_rest(input.now);
+    witness_.expect_rest(input.now, turn_);
   }
 }
 
@@ -215,7 +235,7 @@ RestState RestWatch::update(const RestInput& input) {
     // What it rolled until it came to rest is no motion any more.
     if (due_ == kNever || input.now - due_ > kLookAgainAfterCut) {
       due_ = input.now;
-      witness_.expect_rest(input.now);
+      witness_.expect_rest(input.now, turn_);
     }
     return state_;
   }

@@ -38,7 +38,8 @@ enum class RestState : std::uint8_t {
 /// encoders may be frozen). After a second of confirmed rest, or when a person released the drives,
 /// no motion is ours any more: nothing is cut then, since who pushes the robot or carries it away
 /// must not find it latched. Where it would only roll without power, or rolls and is being caught,
-/// it is cut when it moves the way that it was driven, and not when it rolls back.
+/// it is cut when it moves the way that it was driven, or turns on the spot so, and not when it
+/// rolls back.
 class RestWatch final {
  public:
   explicit RestWatch(const EngineConfig& config);
@@ -62,10 +63,13 @@ class RestWatch final {
  private:
   struct Rims {
     double fastest_mps = 0;  ///< of those that are heard, with its sign
+    double ahead = 0;        ///< sign of the way of the base; 0: it turns on the spot
+    double turn = 0;         ///< of its turn, left positive; 0: it goes more than it turns
     bool silent = false;     ///< at least one is not heard
   };
   Rims rims(const RestInput& input) const;
-  double asked_mps(const RestInput& input) const;
+  Rims asked(const RestInput& input) const;
+  void set_direction(Rims& rims, const Told& told, Time now) const;
   bool due(const RestInput& input);
   void watch_wheels(const Rims& rims, Time now);
   bool rolls(Time now) const;
@@ -83,7 +87,8 @@ class RestWatch final {
   RestState state_ = RestState::settling;
   Reason reason_;
   bool ours_ = false;          ///< we moved it since it rested last
-  double direction_ = 0;       ///< sign of the last command of one who drove
+  double direction_ = 0;       ///< Rims::ahead of the last command of one who drove
+  double turn_ = 0;            ///< Rims::turn of it
   bool may_roll_ = false;      ///< it could without power, or was caught, since rest is due
   bool turning_ = false;       ///< the wheels, in the last cycle
   double rim_mps_ = 0;         ///< the fastest, then

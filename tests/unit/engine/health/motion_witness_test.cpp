@@ -32,7 +32,7 @@ class AMotionWitness : public testing::Test {
 TEST_F(AMotionWitness, SeesAMotionThatBeginsSlowlyWithAFix) {
   position_.latitude_deg = 48;
   position_.longitude_deg = 11;
-  witness_.expect_rest(now_);
+  witness_.expect_rest(now_, 0);
   witness_.set_at_rest(true);
   for (int i = 0; i < 100; ++i) tell(0.01, FixQuality::rtk_fixed);
   EXPECT_EQ(moving(), 0);
