@@ -32,7 +32,7 @@ struct CommandResult {
 /// A velocity set point on the bus.
 struct SetPoint {
   double time_s = 0;  ///< of the monotonic clock
-  unsigned bus = 0;    ///< 0: can0
+  unsigned bus = 0;   ///< 0: can0
   unsigned node = 0;
   float velocity_turnps = 0;
 };
