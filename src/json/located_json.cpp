@@ -103,6 +103,11 @@ class Builder {
   Builder(std::string_view text, const Limits& limits) : text_(text), limits_(limits) {}
 
   std::size_t* count() { return &consumed_; }
+  JsonError refuse_nul(std::size_t at) {
+    advance(at);
+    (void)fail("contains a NUL byte");
+    return take_error();
+  }
   JsonError take_error() { return std::move(error_); }
   Document take_document() { return {std::move(root_)}; }
 
@@ -287,8 +292,8 @@ Result<Document, JsonError> parse(std::string_view text, const Limits& limits) {
   }
   if (text.starts_with("\xEF\xBB\xBF")) return JsonError{1, 1, "", "starts with a byte order mark"};
   // The backend takes a NUL byte for the end and would not see what follows.
-  if (text.find('\0') != text.npos) return JsonError{1, 1, "", "contains a NUL byte"};
   Builder builder(text, limits);
+  if (const auto nul = text.find('\0'); nul != text.npos) return builder.refuse_nul(nul);
   const CountingIterator first(text.data(), builder.count());
   const CountingIterator last(text.data() + text.size(), builder.count());
   if (!Backend::sax_parse(first, last, &builder, Backend::input_format_t::json, true, true)) {

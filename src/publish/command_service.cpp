@@ -203,11 +203,11 @@ void CommandService::handle(RequestId id, ControlCommand request, Time now, Acti
   } else if (std::holds_alternative<HoldRequest>(request)) {
     expect(id, Verb::hold);
     send(id, now, ArmHold{}, out);
-  } else if (std::holds_alternative<TerminateRequest>(request)) {
-    expect(id, Verb::terminate);
+  } else if (auto* terminate = std::get_if<TerminateRequest>(&request)) {
+    expect(id, Verb::terminate).note = std::move(terminate->note);
     send(id, now, EngageStop{}, out);
-  } else {
-    expect(id, Verb::cancel_task);
+  } else if (auto* cancel = std::get_if<CancelTaskRequest>(&request)) {
+    expect(id, Verb::cancel_task).note = std::move(cancel->note);
     send(id, now, CancelTask{}, out);
   }
 }

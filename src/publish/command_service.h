@@ -111,6 +111,7 @@ class CommandService final {
     RequestId id;
     Verb verb = Verb::cancel_task;
     std::string name;       ///< of the track
+    std::string note;       ///< goes with the success
     std::size_t bytes = 0;  ///< save_trajectory: of the list
     GeodeticPoint origin;   ///< init_rtk_data: once proposed
     bool origin_stored = false;

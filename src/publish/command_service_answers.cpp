@@ -128,7 +128,10 @@ void CommandService::accepted(const CommandAccepted& event, Actions& out) {
       origin_ = pending->origin;
       origin_problem_.clear();
       return finish(event.id, Verb::init_rtk_data, true, event.note.view(), out);
-    default: return finish(event.id, pending->verb, true, event.note.view(), out);
+    default: {
+      const std::string own = std::move(pending->note);
+      return finish(event.id, pending->verb, true, own.empty() ? event.note.view() : own, out);
+    }
   }
 }
 

@@ -123,7 +123,11 @@ std::string told_point(std::size_t index) {
 
 std::string metres(double value) {
   char text[32];
-  std::snprintf(text, sizeof text, value < 1000 ? "%.2f m" : "%.0f m", value);
+  std::snprintf(text, sizeof text,
+                value < 1000  ? "%.2f m"
+                : value < 1e6 ? "%.0f m"
+                              : "%.3g m",
+                value);
   return text;
 }
 

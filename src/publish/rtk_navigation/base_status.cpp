@@ -76,7 +76,7 @@ int robot_status(const Snapshot& snapshot) {
   const bool hard = active(snapshot, Line::estop);
   const bool bumper = active(snapshot, Line::bumper);
   return kRemoteOffline | (hard ? kHardEstop : 0) | (bumper ? kFrontBumper : 0) |
-         (snapshot.stop_latched && !hard ? kSoftEstop : 0);
+         (snapshot.stop_latched ? kSoftEstop : 0);
 }
 
 double BaseStatus::keep(double& last, double value) {

@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 
 #include "json/located_json.h"
+#include "publish/rtk_navigation/told_command.h"
+#include "publish/rtk_navigation/track_name.h"
 #include "store/point_texts.h"
 
 namespace drover::publish {
@@ -24,21 +27,6 @@ using Read = Reason (*)(const Message& message, ControlCommand& out);
 
 std::string quoted(std::string_view text) {
   return "'" + json::shown(text, 40) + "'";
-}
-
-/// Of any name, also one that is looked up. Control characters would forge lines in logs and
-/// listings.
-Reason name_problem(const std::string& name, const ControlLimits& limits) {
-  const auto is_control = [](char c) {
-    return static_cast<unsigned char>(c) < 0x20 || static_cast<unsigned char>(c) == 0x7F;
-  };
-  if (std::any_of(name.begin(), name.end(), is_control)) {
-    return "the name contains a control character";
-  }
-  if (name.size() > limits.max_name_bytes) {
-    return "the name is longer than " + std::to_string(limits.max_name_bytes) + " bytes";
-  }
-  return std::nullopt;
 }
 
 Reason read_text(const Node& object, std::string_view key, std::string& out) {
@@ -60,37 +48,9 @@ Reason read_number(const Node& object, std::string_view key, double& out) {
   return std::nullopt;
 }
 
-/// A character that shows as another line or turns the text around it: C1 controls, U+2028 and
-/// U+2029, and the marks of bidirectional text (U+061C, U+200E, U+200F, U+202A to U+202E, U+2066 to
-/// U+2069). `name` is UTF-8.
-bool has_invisible_mark(std::string_view name) {
-  const auto byte = [&](std::size_t i) {
-    return i < name.size() ? static_cast<unsigned char>(name[i]) : 0U;
-  };
-  for (std::size_t i = 0; i < name.size(); ++i) {
-    const unsigned a = byte(i);
-    const unsigned b = byte(i + 1);
-    const unsigned c = byte(i + 2);
-    if (a == 0xC2 && b >= 0x80 && b <= 0x9F) return true;
-    if (a == 0xD8 && b == 0x9C) return true;
-    if (a != 0xE2) continue;
-    const bool general = b == 0x80 && (c == 0x8E || c == 0x8F || (c >= 0xA8 && c <= 0xAE));
-    const bool isolate = b == 0x81 && c >= 0xA6 && c <= 0xA9;
-    if (general || isolate) return true;
-  }
-  return false;
-}
-
-/// Of a new name. One that was stored before this rule can still be driven and deleted.
-Reason new_name_problem(const std::string& name) {
-  if (name.empty()) return "the name is empty";
-  if (has_invisible_mark(name)) return "the name contains an invisible control character";
-  return std::nullopt;
-}
-
 Reason read_name(const Node& object, const ControlLimits& limits, std::string& out) {
   if (auto reason = read_text(object, "name", out)) return reason;
-  return name_problem(out, limits);
+  return name_problem(out, limits.max_name_bytes);
 }
 
 /// Appends it to the track, its numbers as they are spelled in `text`.
@@ -155,14 +115,28 @@ Reason read_time(const Node& root, std::optional<Duration>& out) {
   return std::nullopt;
 }
 
+/// Programs that know no integers send 2.0.
+Reason read_id(const Message& message, std::int64_t& out) {
+  constexpr double kMost = 1e15;  // a double tells all integers up to here apart
+  const Node* id = message.root.find("id");
+  if (id == nullptr) return "'id' is missing";
+  const double number = id->number().value_or(0.5);
+  if (id->integer()) {
+    out = *id->integer();
+  } else if (std::abs(number) <= kMost && std::trunc(number) == number) {
+    out = static_cast<std::int64_t>(number);
+  } else {
+    return "'id' must be an integer, not " +
+           (id->number() ? json::shown(id->spelling(message.text), 40) : std::string(id->kind()));
+  }
+  return std::nullopt;
+}
+
 Reason read_start(const Message& message, ControlCommand& out) {
   const Node& root = message.root;
   StartTaskRequest request;
   if (auto reason = read_name(root, message.limits, request.name)) return reason;
-  const Node* id = root.find("id");
-  if (id == nullptr) return "'id' is missing";
-  if (!id->integer()) return "'id' must be an integer, not " + std::string(id->kind());
-  request.id = *id->integer();
+  if (auto reason = read_id(message, request.id)) return reason;
   if (auto reason = read_number(root, "speed", request.speed_mps)) return reason;
   if (auto reason = read_time(root, request.time)) return reason;
   out = std::move(request);
@@ -199,35 +173,27 @@ const Row* find_row(std::string_view cmd) {
   return row == kRows.end() ? nullptr : row;
 }
 
-/// The first `"cmd": "..."` of the outermost object, of a text that is no JSON as a whole: only to
-/// tell whose refusal it is. Empty when there is none before the error shows.
-std::string_view told_cmd(std::string_view text) {
-  int depth = 0;
-  bool is_cmd = false;  // the last text was the key `cmd`, and nothing but a colon came since
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const char c = text[i];
-    if (c == '{' || c == '[') ++depth;
-    if (c == '}' || c == ']') --depth;
-    if (c == '/') {  // a comment may quote a command
-      const bool line = text.substr(i, 2) == "//";
-      if (!line && text.substr(i, 2) != "/*") continue;
-      const auto end = text.find(line ? "\n" : "*/", i + 2);
-      if (end == text.npos) return {};
-      i = line ? end : end + 1;
-      continue;
-    }
-    if (c != '"') {
-      is_cmd = is_cmd && (c == ':' || c == ' ' || c == '\t' || c == '\n' || c == '\r');
-      continue;
-    }
-    const auto begin = i + 1;
-    for (i = begin; i < text.size() && text[i] != '"'; ++i) i += text[i] == '\\' ? 1 : 0;
-    if (i >= text.size()) return {};
-    const auto word = text.substr(begin, i - begin);
-    if (is_cmd) return word;
-    is_cmd = depth == 1 && word == "cmd";
+/// A text that is nothing but a word, in quotes or not.
+std::string_view lone_word(std::string_view text) {
+  constexpr std::string_view kAround = " \t\r\n\"'";
+  const auto first = text.find_first_not_of(kAround);
+  if (first == text.npos) return {};
+  return text.substr(first, text.find_last_not_of(kAround) - first + 1);
+}
+
+/// The stop that is told, however badly: nobody writes one by mistake, and who stops a robot must
+/// not be asked for commas.
+const Row* told_stop(std::string_view text) {
+  const auto stop = [](std::string_view cmd) {
+    const Row* row = find_row(cmd);
+    return row != nullptr && row->stops ? row : nullptr;
+  };
+  if (const Row* row = stop(lone_word(text))) return row;
+  ToldCommands told(text);
+  for (auto cmd = told.next(); !cmd.empty(); cmd = told.next()) {
+    if (const Row* row = stop(cmd)) return row;
   }
-  return {};
+  return nullptr;
 }
 
 /// A key that makes a JavaScript client change its own objects: nobody sends it in good faith.
@@ -235,6 +201,27 @@ bool carries_prototype(const Node& root) {
   const Node* data = root.find("data");
   return root.find("__proto__") != nullptr ||
          (data != nullptr && data->find("__proto__") != nullptr);
+}
+
+/// Of what stands around a command's own members. `row`: that of `cmd`, nullptr when it is unknown.
+Reason address_problem(const Node& root, const std::string& cmd, const Row* row) {
+  std::string cmd_type;
+  if (auto reason = read_text(root, "cmd_type", cmd_type)) return reason;
+  if (row == nullptr) return "there is no command " + quoted(cmd);
+  if (row->cmd_type != cmd_type) {
+    return "the cmd_type of " + cmd + " is " + std::string(row->cmd_type) + ", not " +
+           quoted(cmd_type);
+  }
+  if (carries_prototype(root)) return "a member named __proto__ is not accepted";
+  return std::nullopt;
+}
+
+constexpr const char* kRetained = "the message was retained by the broker: publish without retain";
+
+ControlCommand as_stop(const Row& row, const std::string& problem) {
+  std::string note = "obeyed, though the message is wrong: " + problem;
+  if (row.cmd == "terminate") return TerminateRequest{std::move(note)};
+  return CancelTaskRequest{std::move(note)};
 }
 
 }  // namespace
@@ -251,39 +238,41 @@ std::string failure_cmd(std::string_view cmd) {
 
 Result<ControlCommand, ControlRefusal> parse_control(std::string_view payload, Retain retain,
                                                      const ControlLimits& limits) {
+  payload = without_end_of_string(payload);
   // Some platforms' writers begin each text with one: a stop of theirs is a stop.
   constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
   if (payload.starts_with(kByteOrderMark) && may_stop(payload))
     payload.remove_prefix(kByteOrderMark.size());
-  const auto parsed = json::parse(payload, {limits.max_bytes, limits.max_depth, limits.max_values});
-  if (!parsed.ok()) {
-    const Row* told = find_row(told_cmd(payload));
-    return ControlRefusal{failure_cmd(told == nullptr ? "" : told->cmd), parsed.error().text()};
-  }
-  const Node& root = parsed->root;
-  if (root.object() == nullptr) {
-    return ControlRefusal{failure_cmd(""),
-                          "a command is an object, not " + std::string(root.kind())};
-  }
-  std::string cmd;
-  std::string cmd_type;
-  Reason reason = read_text(root, "cmd", cmd);
-  const auto refuse = [&](std::string why) {
+  const auto refuse = [](std::string_view cmd, std::string why) {
     return ControlRefusal{failure_cmd(cmd), std::move(why)};
   };
-  if (!reason) reason = read_text(root, "cmd_type", cmd_type);
-  if (reason) return refuse(*reason);
-  const Row* row = find_row(cmd);
-  if (row == nullptr) return refuse("there is no command " + quoted(cmd));
-  if (row->cmd_type != cmd_type) {
-    return refuse("the cmd_type of " + std::string(cmd) + " is " + std::string(row->cmd_type) +
-                  ", not " + quoted(cmd_type));
+  const auto refuse_form = [&](std::string_view cmd,
+                               const std::string& why) -> Result<ControlCommand, ControlRefusal> {
+    const Row* row = told_stop(payload);
+    if (row == nullptr) return refuse(cmd, why);
+    if (retain == Retain::stored) return refuse(row->cmd, kRetained);
+    return as_stop(*row, why);
+  };
+  const auto parsed = json::parse(payload, {limits.max_bytes, limits.max_depth, limits.max_values});
+  if (!parsed.ok()) {
+    const Row* told = find_row(ToldCommands(payload).next());
+    return refuse_form(told == nullptr ? "" : told->cmd, parsed.error().text());
   }
-  if (retain == Retain::stored || (retain == Retain::asked && !row->stops))
-    return refuse("the message was retained by the broker: publish without retain");
-  if (carries_prototype(root)) return refuse("a member named __proto__ is not accepted");
+  const Node& root = parsed->root;
+  if (root.object() == nullptr)
+    return refuse_form("", "a command is an object, not " + std::string(root.kind()));
+  std::string cmd;
+  if (auto reason = read_text(root, "cmd", cmd)) return refuse(cmd, *reason);
+  const Row* row = find_row(cmd);
+  const bool stops = row != nullptr && row->stops;
+  if (stops && retain == Retain::stored) return refuse(cmd, kRetained);
+  if (auto reason = address_problem(root, cmd, row)) {
+    if (stops) return as_stop(*row, *reason);
+    return refuse(cmd, *reason);
+  }
+  if (retain != Retain::no && !stops) return refuse(cmd, kRetained);
   ControlCommand command;
-  if ((reason = row->read({payload, root, limits}, command))) return refuse(*reason);
+  if (auto reason = row->read({payload, root, limits}, command)) return refuse(cmd, *reason);
   return command;
 }
 

@@ -32,10 +32,14 @@ struct StartTaskRequest {
   /// UTC at which the operator pressed, since 1970; nothing when the message does not tell.
   std::optional<Duration> time{};
 };
-struct CancelTaskRequest {};
+struct CancelTaskRequest {
+  std::string note{};  ///< what is wrong with the message, though it is obeyed
+};
 struct InitRtkData {};
 /// A later edition's emergency stop (`manual_control`, `terminate`).
-struct TerminateRequest {};
+struct TerminateRequest {
+  std::string note{};  ///< as above
+};
 /// A short straight way that shows the heading. The command line's.
 struct FindHeadingRequest {};
 /// Clears a latched software stop. The command line's; no message of the protocol gives it.
@@ -65,10 +69,11 @@ struct ControlLimits {
 };
 
 /// Accepts exactly the document's messages, comments included; unknown members are ignored. Nothing
-/// is coerced: 1.0 and true are no point id. A text that is no JSON is refused in the name of the
-/// command that it tells, where it tells one. A message that the broker had stored is refused
-/// whatever it says: nobody sends it now. Of those that are to be retained, only what stops is
-/// taken: who presses stop may have forgotten the flag, and a start would come again some day.
+/// is coerced: 1.9 and true are no point id (2.0 is 2). A text that is no JSON is refused in the
+/// name of the command that it tells, where it tells one. But what tells a stop stops, whatever is
+/// wrong with it otherwise: the request's note says what. A message that the broker had stored is
+/// refused whatever it says: nobody sends it now. Of those that are to be retained, only what stops
+/// is taken: who presses stop may have forgotten the flag, and a start would come again some day.
 Result<ControlCommand, ControlRefusal> parse_control(std::string_view payload, Retain retain,
                                                      const ControlLimits& limits = {});
 

@@ -33,6 +33,7 @@ TEST(LocatedJson, SaysWhereACommaOrAColonIsMissing) {
             "line 3, column 3: a comma is missing before this");
   EXPECT_EQ(refusal("{\"a\": {\"b\": 1} // c\n  \"d\": 2}"),
             "line 2, column 3: a comma is missing before this");
+  EXPECT_EQ(refusal(std::string_view("{\n  \0", 5)), "line 2, column 3: contains a NUL byte");
   EXPECT_EQ(refusal("[1 2]"), "line 1, column 4 ([1]): a comma is missing before this");
   EXPECT_EQ(refusal("[{} {}]"), "line 1, column 5 ([1]): a comma is missing before this");
   EXPECT_EQ(refusal("[\"x\"\n true]"), "line 2, column 2 ([1]): a comma is missing before this");

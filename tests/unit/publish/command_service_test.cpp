@@ -158,6 +158,16 @@ TEST_F(CommandServiceTest, TerminateIsAnEmergencyStop) {
   EXPECT_THAT(feedback(), ElementsAre("terminate_success"));
 }
 
+TEST_F(CommandServiceTest, AStopOfABadFormGoesToTheEngineAndIsToldWhatIsWrong) {
+  control(R"({"cmd":"cancel_task","cmd_type":"manual_control"})");
+  const Command command = only<Command>();
+  EXPECT_TRUE(std::holds_alternative<CancelTask>(command.body));
+  event(CommandAccepted{command.id, {}});
+  EXPECT_THAT(feedback(),
+              ElementsAre("cancel_task_success (obeyed, though the message is wrong: the cmd_type "
+                          "of cancel_task is task_control, not 'manual_control')"));
+}
+
 TEST_F(CommandServiceTest, KeepsTheOrderOfCancelsAndStarts) {
   for (int i = 0; i < 9; ++i) {
     control(example("cancel_task"));

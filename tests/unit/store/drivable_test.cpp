@@ -78,6 +78,14 @@ TEST(Drivable, RefusesATrackThatWasRecordedUnderAnotherOriginThanItWasSavedUnder
             "they recorded before the origin was set?");
 }
 
+TEST(Drivable, TellsADistanceOfAnySizeInFewDigitsAndWithItsUnit) {
+  Track track = recorded();
+  track.points[0].x_m = 1e308;
+  EXPECT_THAT(refusal(track), HasSubstr("point 1: x, y are 1e+308 m away from"));
+  track.points[0].x_m = 123456.7;
+  EXPECT_THAT(refusal(track), HasSubstr("point 1: x, y are 123417 m away from"));
+}
+
 TEST(Drivable, NamesTheFirstPointThatDoesNotFit) {
   Track track = recorded();
   track.points[6].x_m += 0.1;

@@ -193,7 +193,7 @@ TEST(BaseStatus, PublishesStopsAsTheChassisStatusBits) {
   EXPECT_EQ(robot_status(snapshot), 8) << "a line that is not configured says nothing";
   snapshot.line_configured[estop] = true;
   snapshot.stop_latched = true;
-  EXPECT_EQ(robot_status(snapshot), 8 + 1);
+  EXPECT_EQ(robot_status(snapshot), 8 + 1 + 4) << "it stays stopped when the button is released";
   snapshot.line_active[estop] = false;
   EXPECT_EQ(robot_status(snapshot), 8 + 4);
   snapshot.line_configured[bumper] = snapshot.line_active[bumper] = true;
