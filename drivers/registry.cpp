@@ -8,13 +8,15 @@
 #include "drivers/nmea0183/entry.h"
 #include "drivers/odrive/entry.h"
 #include "drivers/witmotion/entry.h"
+#include "drivers/zlac8015d/entry.h"
 
 namespace drover {
 
 std::span<const DriverEntry> driver_registry() {
   // Filled at the first call: the entries live in other files, whose order of start is not ours.
   static const std::array kTable{
-      kOdriveEntry, kGpioLineEntry, kNmea0183Entry, kModbusBmsEntry, kWitmotionEntry,
+      kOdriveEntry,    kGpioLineEntry,  kNmea0183Entry,
+      kModbusBmsEntry, kWitmotionEntry, kZlac8015dEntry,
   };
   return kTable;
 }

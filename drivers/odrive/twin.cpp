@@ -241,7 +241,8 @@ void OdriveTwin::send_cyclic(Time now, TwinFrames& out) {
   }
 }
 
-void OdriveTwin::on_tick(Time now, Shaft& shaft, TwinFrames& out) {
+void OdriveTwin::on_tick(Time now, std::span<Shaft> shafts, TwinFrames& out) {
+  Shaft& shaft = shafts.front();
   const double dt_s = last_tick_ == kNever ? 0.0 : to_s(now - last_tick_);
   last_tick_ = now;
   if (powered_ && !booted_ && now >= (boot_at_ == kNever ? now : boot_at_)) boot(now);

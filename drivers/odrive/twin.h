@@ -39,7 +39,7 @@ class OdriveTwin final : public CanTwin {
   OdriveTwin(const Settings& settings, const TwinSettings& twin);
 
   void on_frame(const CanFrame& frame, Time now, TwinFrames& out) override;
-  void on_tick(Time now, Shaft& shaft, TwinFrames& out) override;
+  void on_tick(Time now, std::span<Shaft> shafts, TwinFrames& out) override;
   void set_power(bool on, Time now) override;
   /// Known: "over_temperature" (stays hot until cleared), "stuck_encoder", "wrong_sign" (motor and
   /// encoder mounted the other way round), "silent" (sends nothing, still obeys),

@@ -28,9 +28,9 @@ class CanTwin {
  public:
   virtual ~CanTwin() = default;
   virtual void on_frame(const CanFrame& frame, Time now, TwinFrames& out) = 0;
-  /// Advances to `now` (monotonic, called at the plant's step): updates the torque, sends what is
-  /// due.
-  virtual void on_tick(Time now, Shaft& shaft, TwinFrames& out) = 0;
+  /// Advances to `now` (monotonic, called at the plant's step): updates the torques, sends what is
+  /// due. `shafts` by the driver's channels.
+  virtual void on_tick(Time now, std::span<Shaft> shafts, TwinFrames& out) = 0;
   /// Supply on or off; off forgets everything that is not in the device's flash.
   virtual void set_power(bool on, Time now) = 0;
   /// Injects a named fault ("over_temperature", "stuck_encoder", "silent", ...) or clears all ("").

@@ -178,7 +178,7 @@ void Robot::turn_wheels(Time now, std::vector<std::vector<CanFrame>>& out) {
     drive.shaft.velocity_radps = wheel.velocity_radps;
     drive.shaft.energized = false;
     frames_.clear();
-    drive.twin->on_tick(now, drive.shaft, frames_);
+    drive.twin->on_tick(now, {&drive.shaft, 1}, frames_);
     if (!drive.powered) drive.shaft.torque_Nm = 0;
     if (drive.powered) out[drive.bus].insert(out[drive.bus].end(), frames_.begin(), frames_.end());
     plant_.set_torque(drive.joint, drive.shaft.torque_Nm);

@@ -59,6 +59,9 @@ DriveSpec read_drive(JsonReader& reader, const Scenario& scenario) {
   DriveSpec drive;
   drive.joint = reader.text("joint");
   drive.driver = &find_twin(reader, reader.text("driver"), kCanTwin);
+  if (drive.driver->channels.size() > 1)
+    reader.fail("driver", "'" + std::string(drive.driver->name) +
+                              "' moves several joints: a robot here has a drive for each");
   const auto bus = reader.text("bus");
   const auto at = std::find_if(scenario.buses.begin(), scenario.buses.end(),
                                [&bus](const BusSpec& spec) { return spec.name == bus; });

@@ -79,7 +79,7 @@ TEST(ConfigurationChecks, RefuseAJointNameThatDoesNotFit) {
 TEST(ConfigurationChecks, RefuseAChoiceThatDoesNotExist) {
   EXPECT_EQ(problems(with("\"driver\": \"odrive\", \"bus\": \"can0\", \"options\": {\"node\": 2}",
                           "\"driver\": \"odriv\", \"bus\": \"can0\", \"options\": {\"node\": 2}")),
-            "f:5:34: drives[1].driver: \"odriv\" is not one of: odrive"
+            "f:5:34: drives[1].driver: \"odriv\" is not one of: odrive, zlac8015d"
             " (did you mean \"odrive\"?)\n");
   EXPECT_THAT(problems(with("\"node\": 2", "\"node\": 2, \"firmware\": \"0.5\"")),
               HasSubstr("drives[1].options.firmware: \"0.5\" is not one of: 0.6, 0.5.6"));

@@ -21,7 +21,8 @@ class FakeDrive final : public CanTwin {
     armed_ = true;
     (void)out.push_back(make_frame(id_ + 0x100, {frame.data[0]}));
   }
-  void on_tick(Time now, Shaft& shaft, TwinFrames& out) override {
+  void on_tick(Time now, std::span<Shaft> shafts, TwinFrames& out) override {
+    Shaft& shaft = shafts.front();
     shaft.torque_Nm = torque_Nm_;
     shaft.energized = armed_;
     (void)out.push_back(

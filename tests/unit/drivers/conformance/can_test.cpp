@@ -72,6 +72,22 @@ TEST_P(CanConformance, ReachesRunningAndFollowsTheVelocity) {
   expect_decent(bench);
 }
 
+/// Each with a speed of its own, or each turns the other's wheel.
+TEST_P(CanConformance, TurnsEachChannelAsItIsTold) {
+  CanBench bench(GetParam());
+  bench.run(milliseconds(800), kRest);
+  bench.run(milliseconds(1000), kRun, 0.0);
+  const std::size_t count = bench.actuator->channels().size();
+  for (int i = 0; i < 300; ++i) {
+    bench.step({kRun, 0.0}, [](std::size_t channel) { return 1.0 + static_cast<double>(channel); });
+  }
+  for (std::size_t channel = 0; channel < count; ++channel) {
+    const double told_radps = 1.0 + static_cast<double>(channel);
+    EXPECT_NEAR(bench.shafts[channel].velocity_radps, told_radps, 0.1 * told_radps) << channel;
+    EXPECT_NEAR(bench.motions[channel].velocity_radps, told_radps, 0.1 * told_radps) << channel;
+  }
+}
+
 TEST_P(CanConformance, StopsAtRestAndHoldsAgainstALoad) {
   CanBench bench(GetParam());
   bench.run(milliseconds(500), kRest);

@@ -117,7 +117,9 @@ class CanBench {
         device(made.device.get()),
         frames(made.frames),
         actuator(made.actuator),
-        twin(std::get<MakeCanTwin>(subject.entry->make_twin)(subject.options)) {
+        twin(std::get<MakeCanTwin>(subject.entry->make_twin)(subject.options)),
+        shaft(shafts[0]) {
+    shafts.resize(actuator->channels().size());
     device->on_link_up(now);
   }
 
@@ -127,20 +129,24 @@ class CanBench {
   }
 
   void step(const Setpoint& command) {
+    step(command, [&](std::size_t) { return command.velocity_radps; });
+  }
+  /// `velocity_radps` of each channel.
+  template <class Velocity>
+  void step(const Setpoint& command, Velocity velocity_radps) {
     for (int i = 0; i < 2; ++i) {
       now += std::chrono::microseconds(2500);
       twin_frames.clear();
-      twin->on_tick(now, shaft, twin_frames);
+      twin->on_tick(now, {shafts.data(), shafts.size()}, twin_frames);
       to_driver();
-      shaft.velocity_radps +=
-          0.0025 / inertia_kgm2 *
-          (shaft.torque_Nm + load_Nm - friction_Nms_per_rad * shaft.velocity_radps);
-      shaft.position_rad += 0.0025 * shaft.velocity_radps;
+      for (Shaft& each : shafts) move(each);
     }
     if (!driver_alive) return;
     out.clear();
     AllocationCounter counter;
-    actuator->on_setpoints(to_all(command), now, out);
+    static_cast<void>(to_all(command));
+    for (std::size_t i = 0; i < wanted.size(); ++i) wanted[i].velocity_radps = velocity_radps(i);
+    actuator->on_setpoints({wanted.data(), wanted.size()}, now, out);
     device->on_tick(now, out);
     allocations += counter.count();
     take(command);
@@ -177,7 +183,8 @@ class CanBench {
   FrameFace* frames;
   Actuator* actuator;
   std::unique_ptr<CanTwin> twin;
-  Shaft shaft;
+  FixedVector<Shaft, kMaxChannels> shafts;  ///< by channel
+  Shaft& shaft;                             ///< of the first
   double load_Nm = 0;
   double inertia_kgm2 = 0.4;
   double friction_Nms_per_rad = 0.2;
@@ -188,7 +195,8 @@ class CanBench {
   TwinFrames twin_frames;
   std::vector<CanFrame> sent;
   AxisStatus status;
-  AxisMotion motion;
+  AxisMotion motion;  ///< of the first channel
+  std::array<AxisMotion, kMaxChannels> motions{};
   int off_list = 0;
   int forbidden = 0;
   int motion_at_rest = 0;
@@ -200,10 +208,18 @@ class CanBench {
     if (!driver_alive) return;
     for (const CanFrame& frame : twin_frames) inject(frame);
   }
+  void move(Shaft& each) const {
+    each.velocity_radps += 0.0025 / inertia_kgm2 *
+                           (each.torque_Nm + load_Nm - friction_Nms_per_rad * each.velocity_radps);
+    each.position_rad += 0.0025 * each.velocity_radps;
+  }
   void note() {
     for (const Measurement& m : out.measurements) {
       if (const auto* value = std::get_if<AxisStatus>(&m.value)) status = *value;
-      if (const auto* value = std::get_if<AxisMotion>(&m.value)) motion = *value;
+      if (const auto* value = std::get_if<AxisMotion>(&m.value)) {
+        motions[value->axis] = *value;
+        if (value->axis == 0) motion = *value;
+      }
     }
   }
   void take(const Setpoint& command) {

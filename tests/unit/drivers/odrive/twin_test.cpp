@@ -269,7 +269,7 @@ TEST(OdriveTwin, SendsItsCyclicFramesAtTheDrivesRates) {
   for (int i = 0; i < 800; ++i) {
     bench.now += std::chrono::microseconds(2500);
     bench.twin_frames.clear();
-    bench.twin->on_tick(bench.now, bench.shaft, bench.twin_frames);
+    bench.twin->on_tick(bench.now, {&bench.shaft, 1}, bench.twin_frames);
     for (const CanFrame& frame : bench.twin_frames) {
       heartbeats += frame.id == 0x061 ? 1 : 0;
       estimates += frame.id == 0x069 ? 1 : 0;

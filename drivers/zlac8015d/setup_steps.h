@@ -1,0 +1,14 @@
+// What is written into a ZLAC8015D each time it starts, or is found started.
+#pragma once
+
+#include "drivers/canopen/setup.h"
+#include "drivers/zlac8015d/settings.h"
+
+namespace drover::zlac8015d {
+
+using StepList = FixedVector<canopen::SdoStep, 64>;
+
+/// Targets of zero first: one that a dead gateway left is still in the drive.
+StepList steps_of(const Settings& settings);
+
+}  // namespace drover::zlac8015d

@@ -1,0 +1,304 @@
+// The simulated node: its dictionary, its process data and its states.
+#include "drivers/zlac8015d/twin.h"
+
+#include <algorithm>
+#include <charconv>
+
+#include "drover/bytes.h"
+
+namespace drover::zlac8015d {
+namespace {
+
+using canopen::DriveState;
+using canopen::NodeState;
+using canopen::Object;
+
+constexpr std::uint32_t kNoObject = 0x06020000;
+constexpr std::uint32_t kReadOnly = 0x06010002;
+constexpr std::uint32_t kInvalidPdo = 0x80000000;
+constexpr std::uint32_t kIdBits = 0x7FF;
+constexpr Duration kPdoUnit = std::chrono::microseconds(500);
+constexpr std::uint16_t kOverTemperature = 0x0400;
+
+/// Objects of the drive with the maker's defaults; those of the PDOs come with the loop below.
+constexpr struct {
+  Object object;
+  canopen::SdoNumber value;
+} kDefaults[] = {
+    {{kHeartbeatTime, 0}, canopen::u16(0)},
+    {{kSilenceTime, 0}, canopen::u16(0)},
+    {{kSynchronous, 0}, canopen::u16(0)},
+    {{kDriverParameters, 5}, canopen::u16(1)},
+    {{canopen::kControlword, 0}, canopen::u16(0)},
+    {{canopen::kQuickStopOption, 0}, canopen::u16(5)},
+    {{canopen::kMode, 0}, canopen::u8(0)},
+    {{canopen::kTargetVelocity, 1}, canopen::i32(0)},
+    {{canopen::kTargetVelocity, 2}, canopen::i32(0)},
+    {{kAccelerationTime, 1}, canopen::u32(500)},
+    {{kAccelerationTime, 2}, canopen::u32(500)},
+    {{kDecelerationTime, 1}, canopen::u32(500)},
+    {{kDecelerationTime, 2}, canopen::u32(500)},
+};
+
+constexpr std::uint16_t kMeasured[] = {canopen::kStatusword, canopen::kErrorCode,
+                                       canopen::kVelocityActual, canopen::kPositionActual};
+
+bool is_measured(std::uint16_t index) {
+  return std::find(std::begin(kMeasured), std::end(kMeasured), index) != std::end(kMeasured);
+}
+
+CanFrame answer(std::uint8_t node, std::uint8_t command, Object object, std::uint32_t value) {
+  CanFrame frame = canopen::encode_sdo_write(node, object, canopen::u32(value));
+  frame.id = 0x580U + node;
+  frame.data[0] = command;
+  return frame;
+}
+
+}  // namespace
+
+Zlac8015dTwin::Zlac8015dTwin(const Settings& settings, const TwinSettings& twin)
+    : settings_(settings), twin_(twin) {}
+
+void Zlac8015dTwin::boot(Time now, TwinFrames& out) {
+  booted_ = true;
+  state_ = NodeState::pre_operational;
+  drive_ = DriveState::switch_on_disabled;
+  controlword_ = 0;
+  error_ = 0;
+  wheels_ = {};
+  dictionary_.clear();
+  const auto add = [this](Object object, canopen::SdoNumber value) {
+    static_cast<void>(dictionary_.push_back({object, value}));
+  };
+  for (const auto& each : kDefaults) add(each.object, each.value);
+  for (std::uint16_t pdo = 0; pdo < 4; ++pdo) {
+    for (const bool sends : {false, true}) {
+      const auto communication = static_cast<std::uint16_t>((sends ? 0x1800U : 0x1400U) + pdo);
+      const auto mapping = static_cast<std::uint16_t>((sends ? 0x1A00U : 0x1600U) + pdo);
+      add({communication, 1}, canopen::u32(kInvalidPdo));
+      add({communication, 2}, canopen::u8(254));
+      if (sends) add({communication, 5}, canopen::u16(0));
+      for (std::uint8_t sub = 0; sub <= 2; ++sub)
+        add({mapping, sub}, sub == 0 ? canopen::u8(0) : canopen::u32(0));
+    }
+  }
+  last_fed_ = next_heartbeat_ = now;
+  next_pdo_.fill(now);
+  send(canopen::encode_heartbeat(settings_.node, NodeState::boot_up), out);
+}
+
+void Zlac8015dTwin::set_power(bool on, Time now) {
+  if (on == powered_) return;
+  powered_ = on;
+  booted_ = false;
+  boot_at_ = on ? now + twin_.boot_time : kNever;
+}
+
+bool Zlac8015dTwin::set_fault(std::string_view name, Time) {
+  constexpr std::string_view kError = "error:";
+  if (name.empty()) {
+    silent_ = false;
+  } else if (name == "silent") {
+    silent_ = true;
+  } else if (name == "over_temperature") {
+    fail(kOverTemperature);
+  } else if (name == "leaves_enabled") {
+    drive_ = DriveState::switch_on_disabled;
+  } else if (name.substr(0, kError.size()) == kError) {
+    std::uint16_t bits = 0;
+    const char* const end = name.data() + name.size();
+    const auto result = std::from_chars(name.data() + kError.size(), end, bits, 16);
+    if (result.ec != std::errc() || result.ptr != end || bits == 0) return false;
+    fail(bits);
+  } else {
+    return false;
+  }
+  return true;
+}
+
+void Zlac8015dTwin::fail(std::uint16_t error) {
+  error_ |= error;
+  drive_ = DriveState::fault;
+}
+
+void Zlac8015dTwin::send(const CanFrame& frame, TwinFrames& out) const {
+  if (!silent_) static_cast<void>(out.push_back(frame));
+}
+
+const Zlac8015dTwin::Entry* Zlac8015dTwin::find(Object object) const {
+  const auto* const it = std::find_if(dictionary_.begin(), dictionary_.end(),
+                                      [&](const Entry& each) { return each.object == object; });
+  return it == dictionary_.end() ? nullptr : it;
+}
+
+std::uint32_t Zlac8015dTwin::stored(std::uint16_t index, std::uint8_t sub) const {
+  const Entry* const entry = find({index, sub});
+  return entry == nullptr ? 0 : entry->value.bits;
+}
+
+std::uint16_t Zlac8015dTwin::statusword() const {
+  switch (drive_) {
+    case DriveState::ready_to_switch_on: return 0x0021;
+    case DriveState::switched_on: return 0x0023;
+    case DriveState::operation_enabled: return 0x0027;
+    case DriveState::quick_stop_active: return 0x0007;
+    case DriveState::fault: return 0x0028;
+    default: return 0x0020;
+  }
+}
+
+std::uint32_t Zlac8015dTwin::read(Object object) const {
+  const std::size_t wheel = object.sub == 2 ? kRight : kLeft;
+  const double turns = wheels_[wheel].position_rad / 6.283185307179586 * settings_.gear_ratio;
+  const double rpm = wheels_[wheel].measured_radps * 9.549296585513721 * settings_.gear_ratio;
+  switch (object.index) {
+    case canopen::kStatusword: return statusword() * 0x10001U;
+    case canopen::kErrorCode: return error_;
+    case canopen::kVelocityActual:
+      return static_cast<std::uint32_t>(static_cast<std::int32_t>(rpm * 10));
+    case canopen::kPositionActual:
+      return static_cast<std::uint32_t>(
+          static_cast<std::int32_t>(turns * settings_.counts_per_turn));
+    default: return stored(object.index, object.sub);
+  }
+}
+
+void Zlac8015dTwin::write(Object object, std::uint32_t bits, Time now) {
+  for (Entry& entry : dictionary_)
+    if (entry.object == object) entry.value.bits = bits;
+  if (object.index == canopen::kControlword) on_controlword(static_cast<std::uint16_t>(bits));
+  if (object.index != canopen::kTargetVelocity) return;
+  wheels_[object.sub == 2 ? kRight : kLeft].target = static_cast<std::int32_t>(bits);
+  last_fed_ = now;
+}
+
+void Zlac8015dTwin::on_controlword(std::uint16_t word) {
+  const std::uint16_t before = controlword_;
+  controlword_ = word;
+  if (drive_ == DriveState::fault) {
+    const bool edge = (word & canopen::kFaultReset) != 0 && (before & canopen::kFaultReset) == 0;
+    if (edge) error_ = 0, drive_ = DriveState::switch_on_disabled;
+    return;
+  }
+  const auto from = [this](DriveState state) { return drive_ == state; };
+  switch (word & 0x0FU) {
+    case canopen::kShutdown: drive_ = DriveState::ready_to_switch_on; break;
+    case canopen::kSwitchOn:
+      if (!from(DriveState::switch_on_disabled)) drive_ = DriveState::switched_on;
+      break;
+    case canopen::kEnableOperation:
+      if (from(DriveState::switched_on) || from(DriveState::quick_stop_active))
+        drive_ = DriveState::operation_enabled;
+      break;
+    case canopen::kQuickStop:
+      if (from(DriveState::operation_enabled)) drive_ = DriveState::quick_stop_active;
+      break;
+    default: drive_ = DriveState::switch_on_disabled; break;
+  }
+}
+
+void Zlac8015dTwin::on_nmt(std::uint8_t command) {
+  switch (static_cast<canopen::NmtCommand>(command)) {
+    case canopen::NmtCommand::operational: state_ = NodeState::operational; break;
+    case canopen::NmtCommand::stop: state_ = NodeState::stopped; break;
+    case canopen::NmtCommand::pre_operational: state_ = NodeState::pre_operational; break;
+    case canopen::NmtCommand::reset_node:
+    case canopen::NmtCommand::reset_communication: booted_ = false; break;
+  }
+}
+
+void Zlac8015dTwin::on_frame(const CanFrame& frame, Time now, TwinFrames& out) {
+  if (!booted_ || frame.extended || frame.remote || frame.fd || frame.error) return;
+  if (frame.id == 0) {
+    const bool meant = frame.len == 2 && (frame.data[1] == settings_.node || frame.data[1] == 0);
+    if (meant) on_nmt(frame.data[0]);
+    return;
+  }
+  if (frame.id == id_of(Cob::sdo_request, settings_.node) && state_ != NodeState::stopped)
+    return on_sdo(frame, now, out);
+  for (std::uint16_t pdo = 0; pdo < 4; ++pdo) {
+    const std::uint32_t id = stored(static_cast<std::uint16_t>(0x1400U + pdo), 1);
+    if ((id & kInvalidPdo) == 0 && (id & kIdBits) == frame.id) on_pdo(pdo, frame, now);
+  }
+}
+
+void Zlac8015dTwin::on_sdo(const CanFrame& frame, Time now, TwinFrames& out) {
+  if (frame.len != 8) return;
+  const Object object{load_le<std::uint16_t>(frame.data, 1), frame.data[3]};
+  const Entry* const entry = find(object);
+  const std::uint8_t command = frame.data[0];
+  const auto say = [&](std::uint8_t how, std::uint32_t value) {
+    send(answer(settings_.node, how, object, value), out);
+  };
+  if (command == 0x80) return;
+  if (entry == nullptr && !is_measured(object.index)) return say(0x80, kNoObject);
+  const auto size = entry == nullptr ? 4U : static_cast<unsigned>(entry->value.size);
+  if (command == 0x40)
+    return say(static_cast<std::uint8_t>(0x43U | (4U - size) << 2U), read(object));
+  if (entry == nullptr) return say(0x80, kReadOnly);
+  if (command != (0x23U | (4U - size) << 2U)) return say(0x80, canopen::kAbortLength);
+  write(object, load_le<std::uint32_t>(frame.data, 4), now);
+  say(0x60, 0);
+}
+
+void Zlac8015dTwin::on_pdo(std::uint16_t number, const CanFrame& frame, Time now) {
+  if (state_ != NodeState::operational) return;
+  const auto mapping = static_cast<std::uint16_t>(0x1600U + number);
+  std::size_t at = 0;
+  for (std::uint8_t sub = 1; sub <= stored(mapping, 0); ++sub) {
+    const std::uint32_t mapped = stored(mapping, sub);
+    const std::size_t size = (mapped & 0xFFU) / 8;
+    if (at + size > frame.len) return;
+    const Object object{static_cast<std::uint16_t>(mapped >> 16U),
+                        static_cast<std::uint8_t>(mapped >> 8U & 0xFFU)};
+    write(
+        object,
+        size == 2 ? load_le<std::uint16_t>(frame.data, at) : load_le<std::uint32_t>(frame.data, at),
+        now);
+    at += size;
+  }
+}
+
+void Zlac8015dTwin::send_pdo(std::uint16_t number, TwinFrames& out) const {
+  const auto mapping = static_cast<std::uint16_t>(0x1A00U + number);
+  CanFrame frame = make_frame(stored(static_cast<std::uint16_t>(0x1800U + number), 1) & kIdBits);
+  for (std::uint8_t sub = 1; sub <= stored(mapping, 0); ++sub) {
+    const std::uint32_t mapped = stored(mapping, sub);
+    store_le(frame.data, frame.len,
+             read({static_cast<std::uint16_t>(mapped >> 16U),
+                   static_cast<std::uint8_t>(mapped >> 8U & 0xFFU)}));
+    frame.len = static_cast<std::uint8_t>(frame.len + 4);
+  }
+  send(frame, out);
+}
+
+void Zlac8015dTwin::send_cyclic(Time now, TwinFrames& out) {
+  const auto due = [now](Time& next, Duration period) {
+    if (period <= Duration{} || now < next) return false;
+    // A plant that was held up catches up without a burst.
+    next = now - next >= 2 * period ? now + period : next + period;
+    return true;
+  };
+  if (due(next_heartbeat_, std::chrono::milliseconds(stored(kHeartbeatTime, 0))))
+    send(canopen::encode_heartbeat(settings_.node, state_), out);
+  if (state_ != NodeState::operational) return;
+  for (std::uint16_t pdo = 0; pdo < 4; ++pdo) {
+    const auto communication = static_cast<std::uint16_t>(0x1800U + pdo);
+    if ((stored(communication, 1) & kInvalidPdo) == 0 &&
+        due(next_pdo_[pdo], kPdoUnit * stored(communication, 5)))
+      send_pdo(pdo, out);
+  }
+}
+
+void Zlac8015dTwin::on_tick(Time now, std::span<Shaft> shafts, TwinFrames& out) {
+  const double dt_s = last_tick_ == kNever ? 0.0 : to_s(now - last_tick_);
+  last_tick_ = now;
+  if (powered_ && !booted_ && now >= (boot_at_ == kNever ? now : boot_at_)) boot(now, out);
+  const auto silence = std::chrono::milliseconds(stored(kSilenceTime, 0));
+  if (booted_ && silence.count() > 0 && now - last_fed_ > silence)
+    for (Wheel& wheel : wheels_) wheel.target = 0;
+  move(dt_s, shafts);
+  if (booted_) send_cyclic(now, out);
+}
+
+}  // namespace drover::zlac8015d

@@ -1,0 +1,164 @@
+// What is a ZLAC8015D's own, beside what the conformance suite asks of every drive.
+#include <gtest/gtest.h>
+
+#include "drivers/zlac8015d/driver.h"
+#include "support/describe.h"
+#include "unit/drivers/conformance/harness.h"
+
+namespace drover::zlac8015d {
+namespace {
+
+using std::chrono::milliseconds;
+using test::describe;
+using test::parse_frame;
+
+constexpr auto kRun = AxisRequest::run;
+constexpr auto kRest = AxisRequest::rest;
+
+const Settings kSettings = read_settings(Options(option_table()));
+
+/// The registry's driver beside its twin.
+struct Bench : test::CanBench {
+  Bench() : CanBench(subject()) {}
+  static test::Subject subject() {
+    const DriverEntry* const entry = find_driver("zlac8015d");
+    return {entry, test::example_options(*entry), "zlac8015d"};
+  }
+  void arm() {
+    run(milliseconds(800), kRest);
+    run(milliseconds(500), kRun, 0.0);
+    ASSERT_EQ(status.state, AxisState::running) << status.reason.view();
+  }
+  bool has_sent(const std::string& frame) const {
+    return std::any_of(sent.begin(), sent.end(),
+                       [&](const CanFrame& each) { return describe(each) == frame; });
+  }
+};
+
+FrameEffect effect_of(const std::string& frame, const Pair& target = {}) {
+  return effect(parse_frame(frame), kSettings, steps_of(kSettings), target).kind;
+}
+
+TEST(Zlac8015dCodec, ReadsTheMakersExamples) {
+  EXPECT_EQ(decode_pair(parse_frame("281#1AFCFFFFEA030000"), Cob::velocities, 1),
+            (Pair{-998, 1002}));
+  EXPECT_EQ(describe(encode_targets(1, {100, -100})), "301#640000009CFFFFFF");
+  EXPECT_EQ(describe(encode_controlword(1, 0x0F)), "201#0F00");
+}
+
+TEST(Zlac8015dCodec, TakesTheWorseOfBothWheels) {
+  const auto state = [](const std::string& frame) {
+    return drive_state(*decode_status(parse_frame(frame), 1));
+  };
+  using canopen::DriveState;
+  EXPECT_EQ(state("181#2700270000000000"), DriveState::operation_enabled);
+  EXPECT_EQ(state("181#2700230000000000"), DriveState::switched_on);
+  EXPECT_EQ(state("181#2000270000000000"), DriveState::switch_on_disabled);
+  EXPECT_EQ(state("181#2700280004000000"), DriveState::fault);
+  EXPECT_EQ(state("181#0700270000000000"), DriveState::quick_stop_active);
+  EXPECT_EQ(error_text(*decode_status(parse_frame("181#2700280001000400"), 1)), "over-current");
+}
+
+TEST(Zlac8015dRules, ForbidWhatWritesFlashOrMeansAnotherNode) {
+  for (const char* const frame :
+       {"601#2B10200001000000", "601#2B09200001000000", "601#2B05200003000000",
+        "601#2B0A200002000000", "601#2310100173617665", "601#23FF600164000000", "000#0100",
+        "000#8101", "000#8001", "000#0102", "201#1F00", "601#2B40600000000000"})
+    EXPECT_EQ(effect_of(frame), FrameEffect::forbidden) << frame;
+}
+
+TEST(Zlac8015dRules, NameTheWheelThatMoves) {
+  EXPECT_EQ(effect_of("301#0000000000000000"), FrameEffect::stop);
+  const auto moves = [](const char* frame) {
+    return effect(parse_frame(frame), kSettings, steps_of(kSettings), {}).moves;
+  };
+  EXPECT_EQ(moves("301#6400000000000000"), channel_bit(kLeft));
+  EXPECT_EQ(moves("301#0000000064000000"), channel_bit(kRight));
+  EXPECT_EQ(moves("301#6400000064000000"), channel_bit(kLeft) | channel_bit(kRight));
+}
+
+TEST(Zlac8015dRules, EnablingMovesWhatATargetLeftInTheDrive) {
+  EXPECT_EQ(effect_of("201#0F00"), FrameEffect::harmless);
+  EXPECT_EQ(effect_of("201#0F00", {100, 0}), FrameEffect::motion);
+}
+
+TEST(Zlac8015d, WritesTargetsOfZeroBeforeAnythingElse) {
+  Bench bench;
+  bench.run(milliseconds(800), kRest);
+  std::vector<std::string> writes;
+  for (const CanFrame& frame : bench.sent)
+    if (frame.id == 0x601 && frame.data[0] != kSdoRead) writes.push_back(describe(frame));
+  ASSERT_GT(writes.size(), 3U);
+  EXPECT_EQ(writes[0], "601#23FF600100000000");
+  EXPECT_EQ(writes[1], "601#23FF600200000000");
+  EXPECT_EQ(writes[2], "601#2B002000C8000000") << "its time-out, as in the maker's example";
+  EXPECT_TRUE(bench.has_sent("000#0101"));
+}
+
+TEST(Zlac8015d, BelievesNoProcessDataBeforeItsSetUp) {
+  Bench bench;
+  bench.inject(parse_frame("701#05"));
+  bench.inject(parse_frame("181#2700270000000000"));
+  bench.inject(parse_frame("281#1AFCFFFFEA030000"));
+  EXPECT_TRUE(bench.out.measurements.empty());
+  EXPECT_NE(bench.status.state, AxisState::running);
+}
+
+TEST(Zlac8015d, SetsUpANodeThatWasRestartedAndStaysAtRest) {
+  Bench bench;
+  bench.arm();
+  bench.run(milliseconds(300), kRun, 2.0);
+  bench.inject(parse_frame("701#00"));
+  bench.sent.clear();
+  bench.run(milliseconds(2000), kRun, 2.0);
+  EXPECT_TRUE(bench.has_sent("601#2B002000C8000000"));
+  EXPECT_EQ(bench.status.state, AxisState::fault);
+  EXPECT_EQ(bench.status.reason, "the drive was restarted while armed");
+}
+
+TEST(Zlac8015d, StopsByItselfWhenTargetsCease) {
+  Bench bench;
+  bench.arm();
+  bench.run(milliseconds(1000), kRun, 3.0);
+  bench.driver_alive = false;
+  for (int i = 0; i < 400; ++i) bench.step({kRun, 3.0});
+  EXPECT_NEAR(bench.shafts[kLeft].velocity_radps, 0, 0.02);
+  EXPECT_NEAR(bench.shafts[kRight].velocity_radps, 0, 0.02);
+}
+
+TEST(Zlac8015d, AFaultOfOneWheelIsAFaultOfBoth) {
+  Bench bench;
+  bench.arm();
+  ASSERT_TRUE(bench.twin->set_fault("over_temperature", bench.now));
+  bench.run(milliseconds(100), kRun, 1.0);
+  EXPECT_EQ(bench.status.state, AxisState::fault);
+  EXPECT_EQ(bench.status.reason, "drive reports a fault: motor too hot");
+  EXPECT_FALSE(bench.shafts[kRight].energized);
+}
+
+TEST(Zlac8015d, SaysWhichObjectIsRefused) {
+  Zlac8015dDriver driver(kSettings, {0, 1});
+  const Time now{std::chrono::seconds(5)};
+  DriverOut out;
+  driver.on_link_up(now);
+  driver.on_frame(parse_frame("581#4360410000000000"), now, out);  // it is there
+  driver.on_tick(now, out);
+  driver.on_frame(parse_frame("581#80FF600100000206"), now, out);
+  EXPECT_EQ(driver.health(now).state, SourceState::stale);
+  EXPECT_EQ(driver.health(now).reason,
+            "object 60FF:01 cannot be written: no such object (06020000)");
+}
+
+TEST(Zlac8015d, SomebodyElsesTargetsAreAFault) {
+  Bench bench;
+  bench.arm();
+  bench.inject(parse_frame("301#0000000000000000"));  // the guard's
+  bench.run(milliseconds(20), kRun, 1.0);
+  EXPECT_EQ(bench.status.state, AxisState::running);
+  bench.inject(parse_frame("301#6400000064000000"));
+  bench.run(milliseconds(20), kRun, 1.0);
+  EXPECT_EQ(bench.status.state, AxisState::fault);
+}
+
+}  // namespace
+}  // namespace drover::zlac8015d
