@@ -32,12 +32,16 @@ Twist twist_from_wheels(const TwoSides& sides, double yaw_slip_factor, double le
 
 namespace {
 
+/// What a silent wheel may turn otherwise than its neighbours, on ground that holds them unlike.
+constexpr double kUnheardShare = 0.1;
+
 /// What the wheels of one side say.
 struct Side {
   double sum_mps = 0;
   double low_mps = 0;
   double high_mps = 0;
   int count = 0;
+  bool silent = false;  ///< at least one is
   bool rest = true;
 
   void add(double rim_mps) {
@@ -48,7 +52,10 @@ struct Side {
     ++count;
   }
   double mean_mps() const { return sum_mps / count; }
-  double spread_mps() const { return (high_mps - low_mps) / 2; }
+  double spread_mps() const {
+    const double heard_mps = (high_mps - low_mps) / 2;
+    return silent ? std::max(heard_mps, kUnheardShare * std::abs(mean_mps())) : heard_mps;
+  }
 };
 
 Side side_of(const FixedVector<AxisId, 8>& wheels, double wheel_radius_m,
@@ -56,7 +63,11 @@ Side side_of(const FixedVector<AxisId, 8>& wheels, double wheel_radius_m,
   Side side;
   for (const AxisId id : wheels) {
     const JointMotion& wheel = joints[id];
-    if (at - wheel.at <= stale) side.add(wheel.velocity_radps * wheel_radius_m);
+    if (at - wheel.at <= stale) {
+      side.add(wheel.velocity_radps * wheel_radius_m);
+    } else {
+      side.silent = true;
+    }
   }
   return side;
 }

@@ -39,8 +39,8 @@ struct JointMotion {
 using JointMotions = std::array<JointMotion, kMaxAxes>;  ///< by AxisId
 
 /// The motion at `at`. A wheel that has been silent for longer than `stale` is left out; a side
-/// with no wheel left makes the motion unknown. Wheels of a side that contradict each other make it
-/// uncertain.
+/// with no wheel left makes the motion unknown. Wheels of a side that contradict each other, or of
+/// which one is silent, make it uncertain.
 BodyMotion body_motion(const TwoSides& sides, const JointMotions& joints, Time at, Duration stale);
 
 /// The largest speed ahead and the largest turn that any wheel on the left makes with any on the

@@ -25,12 +25,14 @@ constexpr double kGyroReturn_radps = 0.001;
 // No place changes these.
 constexpr std::array<std::size_t, 4> kCarried{kGain, kScale, kGyroBias, kGyroScale};
 
-/// On a slope the base gets on less than its wheels roll.
+/// The map is level and the ground may not be: of the way only what is horizontal counts. The turn
+/// goes about the base's own z; on ground that is even under the base, and so turns it neither
+/// about x nor y, it is this much about the vertical: more facing up or down, less across.
 BodyMotion level_motion(const State& state, BodyMotion motion, Duration imu_stale) {
   if (!state.gyro.fresh(state.time, imu_stale)) return motion;
   const double level = std::cos(state.gyro.pitch_rad);
   motion.twist.vx_mps *= level;
-  motion.twist.wz_radps *= level;
+  motion.twist.wz_radps *= std::cos(state.gyro.roll_rad) / level;
   return motion;
 }
 

@@ -115,12 +115,21 @@ TEST_F(WheelsOfTwoSides, TakeDitherForRest) {
 TEST_F(WheelsOfTwoSides, AverageASideAndSayHowFarItIsApart) {
   tell(0, 0.4);
   tell(1, 0.6);
-  tell(2, 0.5);
-  tell(3, 0.5);
+  for (const AxisId id : {AxisId{2}, AxisId{3}}) tell(id, 0.5);
   EXPECT_NEAR(motion().twist.vx_mps, 0.5, 1e-12);
   EXPECT_NEAR(motion().twist.wz_radps, 0, 1e-12);
   EXPECT_NEAR(motion().vx_var, 0.1 * 0.1, 1e-12);
   EXPECT_NEAR(motion().wz_var, 0.1 * 0.1 / (0.6 * 0.6), 1e-12);
+}
+
+TEST_F(WheelsOfTwoSides, KnowLessWhenOneOfASideIsSilent) {
+  for (const AxisId id : {AxisId{0}, AxisId{1}, AxisId{2}}) tell(id, 0.5);
+  EXPECT_TRUE(motion().known);
+  EXPECT_NEAR(motion().twist.vx_mps, 0.5, 1e-12);
+  EXPECT_GT(motion().vx_var, 0);
+  EXPECT_GT(motion().wz_var, 0);
+  tell(3, 0.5);
+  EXPECT_NEAR(motion().vx_var, 0, 1e-12);
 }
 
 TEST_F(WheelsOfTwoSides, TurnByTheirDifference) {

@@ -39,6 +39,8 @@ struct World {
   double turn_grip = 1.0;  ///< share of the turn
   double pitch_rad = 0.0;  ///< of the ground under the base
   double roll_rad = 0.0;
+  /// Of even ground that rises to the east: pitch and roll follow from the heading then.
+  double slope_rad = 0.0;
   // The inertial sensor, 100 a second. Off unless a test turns it on.
   bool imu = false;
   bool imu_frozen = false;
@@ -147,11 +149,22 @@ class Rig {
   }
 
  private:
+  void lie_on_slope() {
+    if (world.slope_rad == 0) return;
+    world.pitch_rad = -std::atan(std::tan(world.slope_rad) * std::cos(yaw_rad));
+    world.roll_rad = -std::asin(std::sin(world.slope_rad) * std::sin(yaw_rad));
+  }
+  /// Turn about the vertical for a turn about the base's z, on even ground.
+  double upright() const {
+    if (world.slope_rad == 0) return 1.0;
+    return std::cos(world.roll_rad) / std::cos(world.pitch_rad);
+  }
   void move(double left_mps, double right_mps) {
+    lie_on_slope();
     const double level = world.grip * std::cos(world.pitch_rad);
     const double way = level * world.scale * (left_mps + right_mps) / 2 * kTick_s;
-    const double turn =
-        world.turn_grip * (right_mps - left_mps) / config_.base.track_m / world.slip * kTick_s;
+    const double turn = world.turn_grip * (right_mps - left_mps) / config_.base.track_m /
+                        world.slip * upright() * kTick_s;
     const double d = world.disturbance;
     const double root_way = std::sqrt(std::abs(way));
     const double along = way + d * 0.01 * root_way * normal();
@@ -176,10 +189,13 @@ class Rig {
       const double cp = std::cos(world.pitch_rad);
       const double sr = std::sin(world.roll_rad);
       const double cr = std::cos(world.roll_rad);
+      // Even ground turns the base about its own z, ground like a cone about the vertical.
+      const bool even = world.slope_rad != 0;
+      const Vector3 axis = even ? Vector3{0, 0, 1 / upright()} : Vector3{-sp, sr * cp, cr * cp};
       imu_.angular_velocity_radps = {
-          .x = -0.004 - sp * rate_radps + noise * imu_normal(),
-          .y = 0.006 + sr * cp * rate_radps + noise * imu_normal(),
-          .z = bias + world.gyro_scale * cr * cp * rate_radps + noise * imu_normal()};
+          .x = -0.004 + axis.x * rate_radps + noise * imu_normal(),
+          .y = 0.006 + axis.y * rate_radps + noise * imu_normal(),
+          .z = bias + world.gyro_scale * axis.z * rate_radps + noise * imu_normal()};
       imu_.acceleration_mps2 = {.x = -9.81 * sp + 0.05 * imu_normal(),
                                 .y = 9.81 * cp * sr + 0.05 * imu_normal(),
                                 .z = 9.81 * cp * cr + 0.05 * imu_normal()};
