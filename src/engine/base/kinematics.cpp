@@ -9,6 +9,15 @@ namespace {
 
 // Tyres of two sides, worn and loaded unlike each other.
 constexpr double kTyreShare = 0.005;
+// The gain of a skidding base differs between a wide curve and a turn on the spot.
+constexpr double kSkiddingShare = 0.15;
+constexpr double kRollingShare = 0.03;
+// Wheels that roll in a turn: the gain is known as well as track and radii were measured, and
+// stays; the base turns about the middle of its axle.
+constexpr double kRollingGain = 0.03;       // one sigma
+constexpr double kRollingGainWalk = 0.003;  // per square root of radian
+constexpr double kRollingShift_m = 0.005;   // per square root of radian
+constexpr double kRollingTurn_rad = 0.01;   // per square root of radian
 constexpr Time kFarFuture{Duration{INT64_MAX / 4}};
 
 const TwoSides& sides_of(const Kinematics& base) {
@@ -78,8 +87,19 @@ double joint_radps(const Kinematics& base, double rim_mps) {
   return rim_mps / sides_of(base).wheel_radius_m;
 }
 
-double pull_radpm(const Kinematics& base) {
-  return kTyreShare / sides_of(base).track_m;
+EstimateConfig tuned(const Kinematics& base, const EstimateConfig& config) {
+  EstimateConfig own = config;
+  if (!std::holds_alternative<Differential>(base)) return own;
+  own.yaw_slip_sigma = std::min(own.yaw_slip_sigma, kRollingGain);
+  own.yaw_slip_walk = std::min(own.yaw_slip_walk, kRollingGainWalk);
+  own.turning_shift_m = std::min(own.turning_shift_m, kRollingShift_m);
+  own.turning_yaw_rad = std::min(own.turning_yaw_rad, kRollingTurn_rad);
+  return own;
+}
+
+TurnErrors turn_errors(const Kinematics& base) {
+  const bool rolls = std::holds_alternative<Differential>(base);
+  return {kTyreShare / sides_of(base).track_m, rolls ? kRollingShare : kSkiddingShare};
 }
 
 double fastest_mps(const Kinematics& base, const Twist& twist) {

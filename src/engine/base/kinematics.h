@@ -61,8 +61,16 @@ Time next_stale(const Told& told, Time at, Duration stale);
 double rim_mps(const Kinematics& base, double radps);
 double joint_radps(const Kinematics& base, double rim_mps);
 
-/// How much the base may turn on its way though it tells of no turn, because one side pulls, rad/m.
-double pull_radpm(const Kinematics& base);
+/// What the kinematics know of their own errors, put in place of what holds for a base that skids.
+/// A configuration that asks for less keeps it.
+EstimateConfig tuned(const Kinematics& base, const EstimateConfig& config);
+
+/// What a turn that the base tells of gets wrong for seconds.
+struct TurnErrors {
+  double pull_radpm = 0;  ///< turned on the way without a word, because one side pulls
+  double share = 0;       ///< of the turn, between a wide curve and a turn on the spot
+};
+TurnErrors turn_errors(const Kinematics& base);
 
 /// The fastest wheel on the ground in such a motion, m/s.
 double fastest_mps(const Kinematics& base, const Twist& twist);

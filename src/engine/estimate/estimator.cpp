@@ -43,7 +43,7 @@ Time next_stale(const GyroTrack& gyro, Time now, Duration stale) {
 }  // namespace
 
 Estimator::Estimator(const EstimateConfig& config, const BaseConfig& base)
-    : config_(config),
+    : config_(tuned(kinematics_of(base), config)),
       base_(kinematics_of(base)),
       joints_(joints_of(base_)),
       first_gain_(1.0 / base.yaw_slip_factor),
@@ -287,7 +287,7 @@ void Estimator::advance(State& state, Time to) const {
     const double dt_s = to_s(until - state.time);
     reckon(state, body, gyro, dt_s);
     state.time = until;
-    follow_turn(state.gyro, state.belief, body, state.time, dt_s, config_, pull_radpm(base_));
+    follow_turn(state.gyro, state.belief, body, state.time, dt_s, config_, turn_errors(base_));
     if (state.belief.covariance[kYaw][kYaw] > kLostYaw_rad * kLostYaw_rad) {
       state.has_heading = false;
       state.belief.reset(kYaw, state.belief.mean[kYaw], kLostYaw_rad);

@@ -11,9 +11,6 @@ namespace {
 constexpr double kSlice_s = 0.1;
 constexpr double kMemory_s = 2.0;  // over which turns are compared
 constexpr double kGate = 3.5;      // sigmas of that comparison
-// A systematic error of it: the gain of a skidding base differs between a wide curve and a turn on
-// the spot.
-constexpr double kGainShare = 0.15;
 // A gyro that shakes differently when the motors run has another bias by about this.
 constexpr double kBiasFloor_radps = 0.0001;
 constexpr double kRestNoise_radps = 0.0003;
@@ -82,10 +79,11 @@ void learn_at_rest(GyroTrack& gyro, Belief& belief, Time now, const EstimateConf
 }
 
 /// How far the sums may be apart, squared, when nothing is wrong.
-double permitted_rad2(const GyroTrack& gyro, const Belief& belief, double pull_radpm) {
+double permitted_rad2(const GyroTrack& gyro, const Belief& belief, const TurnErrors& errors) {
   const Matrix& p = belief.covariance;
-  return gyro.white_rad2 + square(kGainShare * gyro.wheel_turn_rad) +
-         square(pull_radpm * gyro.recent_way_m) + p[kGyroBias][kGyroBias] * square(gyro.recent_s) +
+  return gyro.white_rad2 + square(errors.share * gyro.wheel_turn_rad) +
+         square(errors.pull_radpm * gyro.recent_way_m) +
+         p[kGyroBias][kGyroBias] * square(gyro.recent_s) +
          p[kGyroScale][kGyroScale] * square(gyro.wheel_turn_rad);
 }
 
@@ -184,7 +182,7 @@ void learn_gain(GyroTrack& gyro, Belief& belief, double gyro_rad, double apart_r
 }
 
 void compare(GyroTrack& gyro, Belief& belief, Time now, const EstimateConfig& config,
-             double pull_radpm) {
+             const TurnErrors& errors) {
   const bool doubted = gyro.trouble == TurnTrouble::gyro;
   const double gyro_rad =
       belief.mean[kGyroScale] * (gyro.turned_rad - bias_of(gyro, belief) * gyro.slice_s);
@@ -200,7 +198,7 @@ void compare(GyroTrack& gyro, Belief& belief, Time now, const EstimateConfig& co
   gyro.recent_way_m = keep * gyro.recent_way_m + gyro.way_m;
   gyro.recent_s = keep * gyro.recent_s + gyro.slice_s;
   const bool agrees =
-      square(gyro.apart_rad) <= square(kGate) * permitted_rad2(gyro, belief, pull_radpm);
+      square(gyro.apart_rad) <= square(kGate) * permitted_rad2(gyro, belief, errors);
   if (doubted) return watch_doubted(gyro, belief, apart_rad, agrees, now);
   if (agrees) {
     gyro.trouble = TurnTrouble::none;
@@ -231,7 +229,7 @@ GyroMotion motion_of(const GyroTrack& gyro, const Belief& belief, const BodyMoti
 }
 
 void follow_turn(GyroTrack& gyro, Belief& belief, const BodyMotion& body, Time now, double dt_s,
-                 const EstimateConfig& config, double pull_radpm) {
+                 const EstimateConfig& config, const TurnErrors& errors) {
   if (!gyro.fresh(now, from_s(config.imu_stale_s)) || !body.known) {
     forget_slice(gyro);
     forget_recent(gyro);
@@ -254,7 +252,7 @@ void follow_turn(GyroTrack& gyro, Belief& belief, const BodyMotion& body, Time n
     forget_recent(gyro);
     learn_at_rest(gyro, belief, now, config);
   } else {
-    compare(gyro, belief, now, config, pull_radpm);
+    compare(gyro, belief, now, config, errors);
   }
   forget_slice(gyro);
 }

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "drover/time.h"
+#include "engine/base/kinematics.h"
 #include "engine/config.h"
 #include "engine/estimate/filter.h"
 #include "engine/estimate/jump_watch.h"
@@ -68,9 +69,9 @@ GyroMotion motion_of(const GyroTrack& gyro, const Belief& belief, const BodyMoti
                      const EstimateConfig& config);
 
 /// Sums up `dt_s` of motion that ended at `now`, and judges each finished slice. Corrects the
-/// belief. `pull_radpm`: of the base, see pull_radpm().
+/// belief.
 void follow_turn(GyroTrack& gyro, Belief& belief, const BodyMotion& body, Time now, double dt_s,
-                 const EstimateConfig& config, double pull_radpm);
+                 const EstimateConfig& config, const TurnErrors& errors);
 
 /// A heading of the receiver, whether the estimate believes it or not.
 void hear_heading(GyroTrack& gyro, double yaw_rad, Time at);

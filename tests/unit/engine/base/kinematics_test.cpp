@@ -73,6 +73,22 @@ TEST_P(ABaseOnWheels, SaysWhenWhatItToldWillBeStale) {
   EXPECT_FALSE(body_motion(base, told, next, kStale).known);
 }
 
+TEST(Differential, KnowsItsTurnBetterThanABaseThatSkids) {
+  const EstimateConfig config;
+  const EstimateConfig skids = tuned(kinematics_of(config_of(BaseKind::skid_steer)), config);
+  const EstimateConfig rolls = tuned(kinematics_of(config_of(BaseKind::differential)), config);
+  EXPECT_EQ(skids.yaw_slip_sigma, 0.3);
+  EXPECT_LE(rolls.yaw_slip_sigma, 0.05);
+  EXPECT_LT(rolls.turning_yaw_rad, skids.turning_yaw_rad);
+}
+
+TEST(Differential, LeavesASmallerNumberOfTheConfigurationAlone) {
+  EstimateConfig config;
+  config.yaw_slip_sigma = 0.001;
+  const Kinematics base = kinematics_of(config_of(BaseKind::differential));
+  EXPECT_EQ(tuned(base, config).yaw_slip_sigma, 0.001);
+}
+
 INSTANTIATE_TEST_SUITE_P(OfEveryKind, ABaseOnWheels,
                          ::testing::Values(BaseKind::skid_steer, BaseKind::differential));
 
