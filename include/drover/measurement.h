@@ -7,6 +7,7 @@
 
 #include "drover/fixed_text.h"
 #include "drover/time.h"
+#include "drover/twist.h"
 
 namespace drover {
 
@@ -162,7 +163,7 @@ struct Measurement {
   Time time = kNever;      ///< when it was true
   Time received = kNever;  ///< when the bytes came in
   std::variant<std::monostate, AxisMotion, AxisStatus, AxisTemperature, AxisSupply, GnssPosition,
-               GnssVelocity, GnssHeading, LineState, ImuSample, BatterySample>
+               GnssVelocity, GnssHeading, LineState, ImuSample, BatterySample, BodyMotion>
       value;
 };
 

@@ -183,6 +183,13 @@ void visit(V& v, const BatterySample& m) {
   v.words("alarm", m.alarm_text.view());
 }
 template <class V>
+void visit(V& v, const BodyMotion& m) {
+  v.number("vx_mps", m.twist.vx_mps, 3);
+  v.number("wz_radps", m.twist.wz_radps, 4);
+  v.flag("known", m.known);
+  v.flag("standing", m.standing);
+}
+template <class V>
 void visit(V&, const std::monostate&) {}
 
 struct Kind {
@@ -197,6 +204,7 @@ struct Kind {
   std::string_view operator()(const LineState&) const { return "line_state"; }
   std::string_view operator()(const ImuSample&) const { return "imu_sample"; }
   std::string_view operator()(const BatterySample&) const { return "battery"; }
+  std::string_view operator()(const BodyMotion&) const { return "body_motion"; }
 };
 
 }  // namespace

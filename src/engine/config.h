@@ -20,6 +20,7 @@ enum class HoldBy : std::uint8_t {
 enum class BaseKind : std::uint8_t {
   skid_steer,    ///< wheels of two sides, which skid in a turn
   differential,  ///< two wheels on one axle, which do not
+  twist,         ///< a device that takes a twist and tells one: it has no joints
 };
 
 /// The base. Axes are indices into the configuration's `drives`.

@@ -40,13 +40,19 @@ Engine::Impl::Impl(const EngineConfig& c)
     axis.joint = joint;
     if (!snapshot.axes.push_back(axis)) break;
   }
+  axes = {snapshot.axes.data(), snapshot.axes.size()};
+  if (takes_twist(base)) {
+    edges[0].joint = "left";
+    edges[1].joint = "right";
+    axes = edges;
+  }
   snapshot.line_configured = config.line_configured;
   snapshot.output_configured = config.output_configured;
 }
 
 void Engine::Impl::count(const Measurement& m) {
   if (const auto* motion = std::get_if<AxisMotion>(&m.value)) {
-    if (motion->axis < snapshot.axes.size()) ++snapshot.axes[motion->axis].source.samples;
+    if (motion->axis < axes.size()) ++axes[motion->axis].source.samples;
   } else if (const auto* line = std::get_if<LineState>(&m.value)) {
     const auto index = static_cast<std::size_t>(line->line);
     if (index < kLineCount) ++snapshot.line_source[index].samples;
@@ -64,7 +70,7 @@ void Engine::Impl::take(const Measurement& m) {
   // What a stuck or silent sensor's driver still hands on is not believed.
   if (imu_trusted || !std::holds_alternative<ImuSample>(m.value)) estimator.on_measurement(m);
   const auto axis_of = [this](AxisId id) -> AxisSnapshot* {
-    return id < snapshot.axes.size() ? &snapshot.axes[id] : nullptr;
+    return id < axes.size() ? &axes[id] : nullptr;
   };
   if (const auto* motion = std::get_if<AxisMotion>(&m.value)) {
     AxisSnapshot* axis = axis_of(motion->axis);
@@ -72,13 +78,18 @@ void Engine::Impl::take(const Measurement& m) {
     if (axis == nullptr || m.time < axis->last_motion) return;
     axis->motion = *motion;
     axis->last_motion = m.time;
+  } else if (const auto* body = std::get_if<BodyMotion>(&m.value)) {
+    take_body(*body, m.time);
   } else if (const auto* status = std::get_if<AxisStatus>(&m.value)) {
     AxisSnapshot* axis = axis_of(status->axis);
     if (axis == nullptr) return;
-    axis->state = status->state;
-    axis->fault = status->reason;
-    axis->lapsed = status->lapsed;
-    axis->powered = status->powered;
+    // One device moves both edges.
+    for (AxisSnapshot& one : takes_twist(base) ? axes : axes.subspan(status->axis, 1)) {
+      one.state = status->state;
+      one.fault = status->reason;
+      one.lapsed = status->lapsed;
+      one.powered = status->powered;
+    }
   } else if (const auto* temperature = std::get_if<AxisTemperature>(&m.value)) {
     AxisSnapshot* axis = axis_of(temperature->axis);
     if (axis == nullptr) return;
@@ -160,14 +171,14 @@ void Engine::Impl::command_axis(AxisId id, double velocity_radps, bool run, Engi
   AxisCommand& command = out.axes[id];
   command.request = run ? AxisRequest::run : AxisRequest::rest;
   command.velocity_radps = run && std::isfinite(velocity_radps) ? velocity_radps : 0.0;
-  snapshot.axes[id].commanded_velocity_radps = command.velocity_radps;
+  axes[id].commanded_velocity_radps = command.velocity_radps;
   out.motion_permitted = out.motion_permitted || command.velocity_radps != 0;
 }
 
 void Engine::Impl::command_axes(const Motion& motion, EngineOutput& out) {
   if (motion.joints) {
     const auto& velocities_radps = owners.joint_velocities_radps();
-    for (std::size_t i = 0; i < snapshot.axes.size(); ++i) {
+    for (std::size_t i = 0; i < axes.size(); ++i) {
       command_axis(static_cast<AxisId>(i), velocities_radps[i], motion.run, out);
     }
     return;
@@ -176,7 +187,7 @@ void Engine::Impl::command_axes(const Motion& motion, EngineOutput& out) {
   const JointVelocities radps =
       setpoints(base, motion.twist, learned, max_rim_mps(base, config.limits, learned));
   const JointSet joints = joints_of(base);
-  for (std::size_t i = 0; i < snapshot.axes.size(); ++i)
+  for (std::size_t i = 0; i < axes.size(); ++i)
     if (joints[i]) command_axis(static_cast<AxisId>(i), radps[i], motion.run, out);
 }
 
@@ -258,6 +269,7 @@ void Engine::on_command(const Command& command, Time now) {
 void Engine::step(Time now, const Environment& environment, EngineOutput& out) {
   Impl& e = *impl_;
   out.axes = {};
+  out.base = {};
   out.events.clear();
   out.motion_permitted = false;
   out.slowing_permitted = {};
@@ -265,10 +277,10 @@ void Engine::step(Time now, const Environment& environment, EngineOutput& out) {
   const Duration dt =
       e.last_step == kNever ? nominal : std::clamp(now - e.last_step, Duration{0}, kLongestCycle);
   e.last_step = now;
-  for (std::size_t i = 0; i < e.snapshot.axes.size(); ++i) {
-    AxisSnapshot& axis = e.snapshot.axes[i];
+  for (std::size_t i = 0; i < e.axes.size(); ++i) {
+    AxisSnapshot& axis = e.axes[i];
     axis.last_motion = std::min(axis.last_motion, now);  // a time to come must not hide a silence
-    axis.health = environment.axes[i].state;
+    axis.health = environment.axes[takes_twist(e.base) ? 0 : i].state;
   }
   LineTable lines;
   for (std::size_t i = 0; i < kLineCount; ++i) {
@@ -279,7 +291,7 @@ void Engine::step(Time now, const Environment& environment, EngineOutput& out) {
   e.pulse.fill(false);
   e.imu_trusted = environment.imu.state == SourceState::fresh;
   e.estimate = e.estimator.step(now);
-  const std::span<const AxisSnapshot> axes{e.snapshot.axes.data(), e.snapshot.axes.size()};
+  const std::span<const AxisSnapshot> axes = e.axes;
   const Reason moved = e.judge_motion(now, dt, lines);
   e.watch_tilt(now);
   e.place.update(now, e.estimate, e.health.report().drives_ok);
@@ -313,6 +325,7 @@ void Engine::step(Time now, const Environment& environment, EngineOutput& out) {
   e.command_axes(motion, out);
   if (!motion.run) e.command_hold(out);
   e.let_go(out);
+  if (takes_twist(e.base)) e.command_base(out);
   e.motion_asked = out.motion_permitted;
   e.navigator.on_commanded(now, out.motion_permitted, e.events);
   e.announcer.update(now, e.health.report(), e.events);

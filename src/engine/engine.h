@@ -12,13 +12,23 @@
 #include "drover/fixed_vector.h"
 #include "drover/remembered.h"
 #include "drover/snapshot.h"
+#include "drover/twist.h"
 #include "engine/config.h"
 #include "engine/environment.h"
 
 namespace drover::engine {
 
+/// What a base that takes a twist is to do now.
+struct BaseCommand {
+  AxisRequest request = AxisRequest::rest;
+  Twist twist;  ///< with `hold`: as it moves now, and falling
+};
+
 struct EngineOutput {
   std::array<AxisCommand, kMaxAxes> axes{};
+  /// Of a base that takes a twist, which has no axes: its device is axis 0 in AxisStatus,
+  /// Environment::axes and slowing_permitted.
+  BaseCommand base;
   std::array<bool, kOutputCount> outputs{};  ///< by Output, true is on
   FixedVector<Event, 64> events;
   /// True while any motion is permitted this cycle; the frame gate refuses motion frames otherwise.

@@ -55,7 +55,7 @@ void Engine::Impl::watch_tilt(Time now) {
 void Engine::Impl::release_hold(const RequestId& id, const ReleaseHold& release, Time now) {
   Reason why;
   if (navigator.active() || driven || !owners.at_rest()) why = "the robot is being driven";
-  for (const AxisSnapshot& axis : snapshot.axes) {
+  for (const AxisSnapshot& axis : axes) {
     const bool turns = rim_mps(base, std::abs(axis.motion.velocity_radps)) > kTurns_mps;
     if (why.empty() && axis.state == AxisState::running && turns) why = "the robot moves";
   }
@@ -87,12 +87,12 @@ void Engine::Impl::arm_hold(const RequestId& id, Time now) {
 
 /// At rest, what the hold wants goes over the rest that everybody else asked for.
 void Engine::Impl::command_hold(EngineOutput& out) {
-  for (std::size_t i = 0; i < snapshot.axes.size(); ++i) {
+  for (std::size_t i = 0; i < axes.size(); ++i) {
     const AxisCommand& wanted = hold.command(static_cast<AxisId>(i));
     if (wanted.request == AxisRequest::rest) continue;
     out.axes[i] = wanted;
     out.slowing_permitted[i] = wanted.request == AxisRequest::hold;
-    snapshot.axes[i].commanded_velocity_radps = wanted.velocity_radps;
+    axes[i].commanded_velocity_radps = wanted.velocity_radps;
   }
 }
 

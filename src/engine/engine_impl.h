@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 
 #include "engine/base/kinematics.h"
 #include "engine/engine.h"
@@ -38,6 +39,8 @@ struct Engine::Impl {
   void start_task(const RequestId& id, const StartTask& task, Time now);
   void command_axes(const Motion& motion, EngineOutput& out);
   void command_hold(EngineOutput& out);
+  void take_body(const BodyMotion& body, Time time);
+  void command_base(EngineOutput& out);
   void release_hold(const RequestId& id, const ReleaseHold& release, Time now);
   void arm_hold(const RequestId& id, Time now);
   double tilt_deg() const;
@@ -82,6 +85,10 @@ struct Engine::Impl {
   bool imu_trusted = false;  ///< by its driver, in the last step
   Time last_step = kNever;
   Snapshot snapshot;
+  /// Edges of a base that takes a twist.
+  std::array<AxisSnapshot, 2> edges;
+  /// All that is watched and commanded: the joints, or those edges.
+  std::span<AxisSnapshot> axes;
 };
 
 }  // namespace drover::engine

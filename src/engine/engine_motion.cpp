@@ -23,7 +23,6 @@ void Engine::Impl::watch_imu(const ImuSample& sample, Time at) {
 
 /// Whether the base rests when it should; what moves it without a command, in words.
 Reason Engine::Impl::judge_motion(Time now, Duration dt, const LineTable& lines) {
-  const std::span<const AxisSnapshot> axes{snapshot.axes.data(), snapshot.axes.size()};
   const auto estop = static_cast<std::size_t>(Line::estop);
   RestInput input{.now = now, .dt = dt, .axes = axes};
   input.power_is_off = config.line_configured[estop] && lines.active[estop];
@@ -51,7 +50,6 @@ Reason Engine::Impl::judge_motion(Time now, Duration dt, const LineTable& lines)
 }
 
 void Engine::Impl::watch_wheels(Time now, Duration dt) {
-  const std::span<const AxisSnapshot> axes{snapshot.axes.data(), snapshot.axes.size()};
   wheel_fault = wheels.update(now, dt, axes);
   wheel_reason = wheels.reason();
   if (wheel_fault == WheelFault::runaway) rest.expect_stop(now);
@@ -71,10 +69,10 @@ void Engine::Impl::watch_wheels(Time now, Duration dt) {
 void Engine::Impl::let_go(EngineOutput& out) {
   if (!power.is_cut()) return;
   const JointSet joints = joints_of(base);
-  for (std::size_t i = 0; i < snapshot.axes.size(); ++i) {
+  for (std::size_t i = 0; i < axes.size(); ++i) {
     if (!joints[i]) continue;
     out.axes[i] = {AxisRequest::idle, 0};
-    snapshot.axes[i].commanded_velocity_radps = 0;
+    axes[i].commanded_velocity_radps = 0;
   }
   out.motion_permitted = false;
 }

@@ -165,6 +165,14 @@ struct Describe {
     if (!m.alarm_text.empty()) line.word("alarm", '"' + std::string(m.alarm_text.view()) + '"');
     return line.text();
   }
+  std::string operator()(const BodyMotion& m) const {
+    return Line("body_motion")
+        .number("vx_mps", m.twist.vx_mps)
+        .number("wz_radps", m.twist.wz_radps)
+        .word("known", m.known ? "true" : "false")
+        .word("standing", m.standing ? "true" : "false")
+        .text();
+  }
 };
 
 int nibble(char c) {

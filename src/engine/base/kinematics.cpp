@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
+
+#include "engine/still.h"
 
 namespace drover::engine {
 namespace {
@@ -24,6 +27,20 @@ const TwoSides& sides_of(const Kinematics& base) {
   return std::visit([](const auto& kind) -> const TwoSides& { return kind.sides; }, base);
 }
 
+TwoSides edges(double width_m) {
+  TwoSides sides{.wheel_radius_m = 1.0, .track_m = width_m};
+  (void)sides.left.push_back(0);
+  (void)sides.right.push_back(1);
+  return sides;
+}
+
+/// What is as slow as an encoder at rest is rest, as for wheels.
+BodyMotion at_rest(const Kinematics& base, BodyMotion motion) {
+  motion.standing = motion.known && fastest_mps(base, motion.twist) < kEncoderRest_mps;
+  if (motion.standing || !motion.known) motion.twist = {};
+  return motion;
+}
+
 }  // namespace
 
 TwoSides sides_of(const BaseConfig& base) {
@@ -33,13 +50,35 @@ TwoSides sides_of(const BaseConfig& base) {
 Kinematics kinematics_of(const BaseConfig& base) {
   switch (base.kind) {
     case BaseKind::differential: return Differential{sides_of(base)};
+    case BaseKind::twist: return TwistBase{edges(base.track_m)};
     case BaseKind::skid_steer: break;
   }
   return SkidSteer{sides_of(base)};
 }
 
+bool takes_twist(const Kinematics& base) {
+  return std::holds_alternative<TwistBase>(base);
+}
+
+const char* joint_word(const Kinematics& base) {
+  return takes_twist(base) ? "the base," : "wheel";
+}
+
+const char* joint_unit(const Kinematics& base) {
+  return takes_twist(base) ? "m/s" : "rad/s";  // the radius of an edge is a metre
+}
+
+JointVelocities edges_of(const Kinematics& base, const Twist& twist) {
+  return setpoints(base, twist, {}, std::numeric_limits<double>::infinity());
+}
+
+Twist twist_of_edges(const Kinematics& base, const JointVelocities& mps) {
+  return twist_from_wheels(sides_of(base), 1.0, mps[0], mps[1]);
+}
+
 std::size_t joints_needed(const BaseConfig& base) {
   std::size_t needed = 0;
+  if (base.kind == BaseKind::twist) return needed;
   for (const auto* side : {&base.left, &base.right})
     for (const AxisId id : *side) needed = std::max(needed, std::size_t{id} + 1);
   return needed;
@@ -68,6 +107,8 @@ Twist largest_twist(const Kinematics& base, const JointVelocities& radps, const 
 }
 
 BodyMotion body_motion(const Kinematics& base, const Told& told, Time at, Duration stale) {
+  if (takes_twist(base))
+    return at - told.body_at <= stale ? at_rest(base, told.body) : BodyMotion{};
   return body_motion(sides_of(base), told.joints, at, stale);
 }
 
@@ -76,6 +117,7 @@ Time next_stale(const Told& told, Time at, Duration stale) {
   for (const JointMotion& joint : told.joints) {
     if (at - joint.at <= stale) next = std::min(next, joint.at + stale + Duration{1});
   }
+  if (at - told.body_at <= stale) next = std::min(next, told.body_at + stale + Duration{1});
   return next;
 }
 

@@ -18,10 +18,22 @@ struct SkidSteer {
 struct Differential {
   TwoSides sides;
 };
-using Kinematics = std::variant<SkidSteer, Differential>;
+/// A device that takes a twist and tells one: how it does it is its own affair. Its left and right
+/// edge stand for wheels, so that whoever watches wheels watches them, too: joints 0 and 1, whose
+/// radius is a metre, and which nobody outside the engine sees.
+struct TwistBase {
+  TwoSides sides;
+};
+using Kinematics = std::variant<SkidSteer, Differential, TwistBase>;
 
 TwoSides sides_of(const BaseConfig& base);
 Kinematics kinematics_of(const BaseConfig& base);
+
+/// It is told a twist, and has no joints that anybody sees.
+bool takes_twist(const Kinematics& base);
+/// How to name one of its joints before its own name, and the unit of its velocity, for people.
+const char* joint_word(const Kinematics& base);
+const char* joint_unit(const Kinematics& base);
 
 /// How many joints there have to be, so that all that the base names exist.
 std::size_t joints_needed(const BaseConfig& base);
@@ -44,12 +56,19 @@ using JointVelocities = std::array<double, kMaxAxes>;
 JointVelocities setpoints(const Kinematics& base, const Twist& twist, const Learned& learned,
                           double max_rim_mps);
 
+/// What the edges of a base that takes a twist do in such a motion, m/s; and the twist that they
+/// make together.
+JointVelocities edges_of(const Kinematics& base, const Twist& twist);
+Twist twist_of_edges(const Kinematics& base, const JointVelocities& mps);
+
 /// The most that joints at these velocities can make of the base: both numbers positive.
 Twist largest_twist(const Kinematics& base, const JointVelocities& radps, const Learned& learned);
 
-/// The last that a base told of its motion.
+/// The last that a base told of its motion: by its joints, or by itself.
 struct Told {
   JointMotions joints;
+  BodyMotion body;
+  Time body_at = kNever;
 };
 /// What the base did at `at`, by what it told until then. What is older than `stale` says nothing.
 BodyMotion body_motion(const Kinematics& base, const Told& told, Time at, Duration stale);

@@ -141,6 +141,8 @@ void Estimator::on_measurement(const Measurement& measurement) {
   // A GNSS velocity is not used: it is the same carrier phase as the position, and later.
   if (const auto* motion = std::get_if<AxisMotion>(&measurement.value)) {
     on_joint(*motion, time);
+  } else if (const auto* body = std::get_if<BodyMotion>(&measurement.value)) {
+    on_body(*body, time);
   } else if (const auto* imu = std::get_if<ImuSample>(&measurement.value)) {
     on_imu(*imu, time);
   } else if (const auto* position = std::get_if<GnssPosition>(&measurement.value)) {
@@ -161,6 +163,21 @@ void Estimator::on_joint(const AxisMotion& motion, Time time) {
   MotionInput input = slot_at(slot);
   input.present.set(motion.axis);
   input.joints_radps[motion.axis] = motion.velocity_radps;
+  put_slot(slot, input);
+}
+
+void Estimator::on_body(const BodyMotion& body, Time time) {
+  if (!takes_twist(base_)) return;
+  const bool sane = fastest_mps(base_, body.twist) <= kFastestRim_mps && body.vx_var >= 0 &&
+                    body.wz_var >= 0 && std::isfinite(body.vx_var + body.wz_var);
+  if (!sane) {
+    ++counters_.absurd;
+    return;
+  }
+  const Time slot = time - time.time_since_epoch() % kSlot;
+  if (too_old(slot)) return;
+  MotionInput input = slot_at(slot);
+  input.body = body;
   put_slot(slot, input);
 }
 
@@ -323,6 +340,10 @@ void Estimator::reckon(State& state, const BodyMotion& body, const GyroMotion& g
 void Estimator::take_rates(State& state, const MotionInput& input) const {
   for (std::size_t i = 0; i < kMaxAxes; ++i) {
     if (input.present[i]) state.told.joints[i] = {input.joints_radps[i], state.time};
+  }
+  if (input.body) {
+    state.told.body = *input.body;
+    state.told.body_at = state.time;
   }
   if (!input.turn) return;
   GyroTrack& gyro = state.gyro;

@@ -64,6 +64,7 @@ class Estimator final {
 
  private:
   void on_joint(const AxisMotion& motion, Time time);
+  void on_body(const BodyMotion& body, Time time);
   void on_imu(const ImuSample& sample, Time time);
   void on_position(const GnssPosition& position, Time time);
   void on_heading(const GnssHeading& heading, Time time);

@@ -18,6 +18,7 @@ namespace drover::engine::estimate {
 struct MotionInput {
   JointSet present;
   std::array<double, kMaxAxes> joints_radps{};
+  std::optional<BodyMotion> body;
   std::optional<TurnRate> turn;
 };
 

@@ -32,7 +32,8 @@ std::string_view line_name(Line line) {
 
 HealthMonitor::HealthMonitor(const EngineConfig& config)
     : config_(config),
-      driven_(joints_of(kinematics_of(config.base))),
+      base_(kinematics_of(config.base)),
+      driven_(joints_of(base_)),
       locate_(config.estimate),
       battery_(config.health) {}
 
@@ -100,30 +101,30 @@ void HealthMonitor::look_at_drives(const HealthInput& input) {
     if (!driven_[i]) continue;
     ++driven;
     const AxisSnapshot& axis = input.axes[i];
-    const SourceHealth& source = input.environment.axes[i];
+    const SourceHealth& source = input.environment.axes[takes_twist(base_) ? 0 : i];
     const Duration age = input.now - axis.last_motion;
     Reason text;
     if (axis.last_motion == kNever || source.state == SourceState::never_heard) {
-      put(text, "wheel", axis.joint,
+      put(text, joint_word(base_), axis.joint,
           source.reason.empty() ? std::string_view("never heard") : source.reason.view());
     } else if (!tells_motion(axis, input.now, stale) || source.state != SourceState::fresh) {
       Reason what;
       what.format("no feedback for %.2f s", to_s(age));
       const bool known = source.state != SourceState::fresh && !source.reason.empty();
-      put(text, "wheel", axis.joint, known ? source.reason.view() : what.view());
+      put(text, joint_word(base_), axis.joint, known ? source.reason.view() : what.view());
     }
     if (!text.empty()) {
       ++silent;
       hold(Cause::drive_silent, text);
     } else if (axis.state == AxisState::fault) {
-      put(text, "wheel", axis.joint,
+      put(text, joint_word(base_), axis.joint,
           axis.fault.empty() ? std::string_view("fault") : axis.fault.view());
       hold(Cause::drive_fault, text);
     }
     report_.drives_ok = report_.drives_ok && text.empty();
     if (!text.empty() || axis.state != AxisState::running) {
       report_.drives_running = false;
-      if (text.empty()) put(text, "wheel", axis.joint, "the drive is not in closed loop");
+      if (text.empty()) put(text, joint_word(base_), axis.joint, "the drive is not in closed loop");
       if (report_.not_running.empty()) report_.not_running = text;
     }
   }

@@ -116,7 +116,8 @@ class HealthMonitor final {
   bool holds(Cause cause) const { return report_.holds(cause); }
 
   EngineConfig config_;
-  JointSet driven_;  ///< axes of the base
+  Kinematics base_;
+  JointSet driven_;
   LocateMonitor locate_;
   BatteryMonitor battery_;
   HealthReport report_;

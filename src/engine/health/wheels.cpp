@@ -115,12 +115,13 @@ bool WheelMonitor::runs_away(Wheel& wheel, const AxisSnapshot& axis, Time now, D
 void WheelMonitor::tell_runaway(const AxisSnapshot& axis) {
   const auto size = static_cast<int>(axis.joint.view().size());
   const char* joint = axis.joint.view().data();
+  const char* word = joint_word(base_);
   const double radps = axis.motion.velocity_radps;
   if (std::abs(radps) > fastest_radps_) {
-    reason_.format("wheel %.*s runs away: %.1f rad/s", size, joint, radps);
+    reason_.format("%s %.*s runs away: %.1f %s", word, size, joint, radps, joint_unit(base_));
   } else {
-    reason_.format("wheel %.*s turns by itself: %.1f rad/s, commanded %.1f", size, joint, radps,
-                   axis.commanded_velocity_radps);
+    reason_.format("%s %.*s turns by itself: %.1f %s, commanded %.1f", word, size, joint, radps,
+                   joint_unit(base_), axis.commanded_velocity_radps);
   }
 }
 
@@ -155,8 +156,8 @@ WheelFault WheelMonitor::update(Time now, Duration dt, std::span<const AxisSnaps
   const bool others_follow = shortest <= from_s(1.5 * kWindow_s);
   if (longest >= from_s(config_.health.follow_timeout_s) && others_follow) {
     const std::string_view joint = behind->joint;
-    reason_.format("wheel %.*s does not follow its command", static_cast<int>(joint.size()),
-                   joint.data());
+    reason_.format("%s %.*s does not follow its command", joint_word(base_),
+                   static_cast<int>(joint.size()), joint.data());
     return WheelFault::not_following;
   }
   return WheelFault::none;

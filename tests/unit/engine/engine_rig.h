@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "drover/angle.h"
+#include "engine/base/kinematics.h"
 #include "engine/engine.h"
 #include "engine/estimate/estimator.h"
 #include "support/plant_2d.h"
@@ -146,8 +147,9 @@ class EngineRig {
 
   /// The relay is closed and a drive is in closed loop.
   bool has_power() const {
+    const bool twist = config.base.kind == BaseKind::twist;
     return out.outputs[static_cast<std::size_t>(Output::enable_relay)] &&
-           out.axes[0].request != AxisRequest::idle;
+           (twist ? out.base.request : out.axes[0].request) != AxisRequest::idle;
   }
   std::uint64_t asked = 0;
 
@@ -163,27 +165,47 @@ class EngineRig {
     return request == AxisRequest::run || request == AxisRequest::hold;
   }
 
+  static void ask(Drive& drive, AxisRequest request) {
+    if (request == AxisRequest::idle && !drive.fault) drive.state = AxisState::idle;
+    if (drive.fault) {
+      drive.state = AxisState::fault;
+    } else if (drive.state == AxisState::fault) {
+      drive.state = AxisState::idle;
+    } else if (arms(request) && drive.asked != request && !drive.refuses) {
+      // Each new request is armed anew, also by a drive that still holds from the last one.
+      drive.state = AxisState::arming;
+      drive.arming = 40;
+    } else if (drive.state == AxisState::arming && --drive.arming <= 0) {
+      drive.state = AxisState::running;
+    }
+    if (request == AxisRequest::idle) drive.state = AxisState::idle;
+    drive.asked = request;
+  }
+
+  /// The device of a base that takes a twist does what the last cycle asked, and tells its motion.
+  void move_base() {
+    Drive& device = drives[0];
+    ask(device, out.base.request);
+    const bool obeys = device.state == AxisState::running && !blocked;
+    const TwoSides sides = sides_of(config.base);
+    WheelSpeeds speeds = wheels_from_twist(sides, 1, obeys ? out.base.twist : Twist{}, 10);
+    if (disobeys && has_power()) speeds = *disobeys;
+    plant.step(speeds, to_s(kRigTick));
+    environment.axes[0].state = device.silent ? SourceState::stale : SourceState::fresh;
+    if (device.silent) return;
+    const Pose seen = plant.estimate();
+    measure(now, BodyMotion{.twist = {seen.vx_mps, seen.wz_radps}, .known = true});
+    measure(now, AxisStatus{0, device.state, 0,
+                            device.fault ? Reason("over temperature") : Reason(), device.lapsed});
+  }
+
   /// The drives do what the last cycle asked, the plant turns it into motion.
   void move() {
+    if (config.base.kind == BaseKind::twist) return move_base();
     std::array<double, 4> speed{};
     for (std::size_t i = 0; i < 4; ++i) {
-      Drive& drive = drives[i];
-      const AxisCommand& asked_of = out.axes[i];
-      if (asked_of.request == AxisRequest::idle && !drive.fault) drive.state = AxisState::idle;
-      if (drive.fault) {
-        drive.state = AxisState::fault;
-      } else if (drive.state == AxisState::fault) {
-        drive.state = AxisState::idle;
-      } else if (arms(asked_of.request) && drive.asked != asked_of.request && !drive.refuses) {
-        // Each new request is armed anew, also by a drive that still holds from the last one.
-        drive.state = AxisState::arming;
-        drive.arming = 40;
-      } else if (drive.state == AxisState::arming && --drive.arming <= 0) {
-        drive.state = AxisState::running;
-      }
-      if (asked_of.request == AxisRequest::idle) drive.state = AxisState::idle;
-      drive.asked = asked_of.request;
-      if (drive.state == AxisState::running) speed[i] = asked_of.velocity_radps;
+      ask(drives[i], out.axes[i].request);
+      if (drives[i].state == AxisState::running) speed[i] = out.axes[i].velocity_radps;
     }
     if (blocked) speed = {};
     const double dt_s = to_s(kRigTick);

@@ -1,0 +1,128 @@
+// The engine with a base that takes a twist and tells one: no joints, and the same watches.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "engine_rig.h"
+
+namespace drover::engine {
+namespace {
+
+using ::testing::HasSubstr;
+
+EngineConfig twist_config() {
+  EngineConfig config = rig_config();
+  config.joints.clear();
+  config.base.kind = BaseKind::twist;
+  config.base.left.clear();
+  config.base.right.clear();
+  return config;
+}
+
+class ABaseThatTakesATwist : public ::testing::Test {
+ protected:
+  void drive() {
+    rig.settle();
+    rig.start(path, path_end, 0.5);
+    rig.run_s(4);
+    ASSERT_EQ(rig.snapshot().nav.status, NavStatus::run) << rig.why();
+    ASSERT_GT(rig.out.base.twist.vx_mps, 0.4);
+    ASSERT_TRUE(rig.out.motion_permitted);
+  }
+  bool at_rest() const {
+    return rig.out.base.twist.vx_mps == 0 && rig.out.base.twist.wz_radps == 0;
+  }
+
+  Path path = straight_path(6);
+  std::uint32_t path_end = 12;
+  EngineRig rig{twist_config()};
+};
+
+TEST_F(ABaseThatTakesATwist, DrivesATrackToItsEnd) {
+  drive();
+  for (int i = 0; i < 30 && rig.snapshot().nav.status == NavStatus::run; ++i) rig.run_s(1);
+  EXPECT_EQ(rig.snapshot().nav.status, NavStatus::success) << rig.why();
+  EXPECT_NEAR(rig.plant.truth().x_m, 6, 0.15);
+  EXPECT_NEAR(rig.plant.truth().y_m, 0, 0.1);
+}
+
+TEST_F(ABaseThatTakesATwist, ShowsAndCommandsNoJoint) {
+  drive();
+  EXPECT_TRUE(rig.snapshot().axes.empty());
+  EXPECT_NEAR(rig.snapshot().pose.vx_mps, 0.5, 0.1);
+  for (const AxisCommand& axis : rig.out.axes) {
+    EXPECT_EQ(axis.request, AxisRequest::rest);
+    EXPECT_EQ(axis.velocity_radps, 0);
+  }
+}
+
+TEST_F(ABaseThatTakesATwist, StandsAtOnceWhenItsDeviceIsSilent) {
+  drive();
+  rig.drives[0].silent = true;
+  rig.tick();
+  EXPECT_TRUE(at_rest());
+  EXPECT_FALSE(rig.out.motion_permitted);
+  EXPECT_THAT(rig.why(), HasSubstr("the base, left"));
+}
+
+TEST_F(ABaseThatTakesATwist, StandsAtOnceWhenItsDeviceHasAFault) {
+  drive();
+  rig.drives[0].fault = true;
+  rig.run_s(0.02);
+  EXPECT_TRUE(at_rest());
+  EXPECT_THAT(rig.why(), HasSubstr("over temperature"));
+}
+
+TEST_F(ABaseThatTakesATwist, IsFoundBlocked) {
+  drive();
+  rig.blocked = true;
+  rig.run_s(4);
+  EXPECT_TRUE(at_rest());
+  EXPECT_EQ(rig.snapshot().nav.status, NavStatus::error);
+  EXPECT_THAT(rig.why(), HasSubstr("blocked"));
+}
+
+TEST_F(ABaseThatTakesATwist, IsFoundRunningAway) {
+  drive();
+  rig.disobeys = WheelSpeeds{15, 15};
+  rig.run_s(0.4);
+  EXPECT_TRUE(at_rest());
+  EXPECT_THAT(rig.why(), HasSubstr("the base, left"));
+  EXPECT_THAT(rig.why(), HasSubstr("m/s"));
+}
+
+TEST_F(ABaseThatTakesATwist, LosesItsPowerWhenItDoesNotStop) {
+  drive();
+  rig.command(CancelTask{});
+  rig.disobeys = WheelSpeeds{2, 2};
+  rig.run_s(3);
+  EXPECT_EQ(rig.out.base.request, AxisRequest::idle);
+  EXPECT_FALSE(rig.out.outputs[static_cast<std::size_t>(Output::enable_relay)]);
+}
+
+TEST_F(ABaseThatTakesATwist, IsHeldAgainAfterADipOfItsSupply) {
+  drive();
+  rig.command(CancelTask{});
+  rig.run_s(3);
+  ASSERT_EQ(rig.snapshot().hold, HoldState::held);
+  rig.drives[0].state = AxisState::idle;
+  rig.run_s(0.02);
+  EXPECT_EQ(rig.out.base.request, AxisRequest::hold);
+  EXPECT_TRUE(at_rest());
+  rig.run_s(1);
+  EXPECT_EQ(rig.snapshot().hold, HoldState::held);
+}
+
+TEST_F(ABaseThatTakesATwist, IsLetGoWhenAPersonReleasesIt) {
+  drive();
+  rig.command(CancelTask{});
+  rig.run_s(3);
+  rig.command(ReleaseHold{.on_slope = true});
+  rig.run_s(0.1);
+  EXPECT_EQ(rig.out.base.request, AxisRequest::idle);
+}
+
+}  // namespace
+}  // namespace drover::engine
