@@ -276,13 +276,22 @@ void visit_fields(V& v, const Snapshot& snapshot) {
 /// What the engine wants of the drives and outputs; `events` are told apart.
 template <class V>
 void visit_fields(V& v, const engine::EngineOutput& output, std::size_t axis_count) {
-  const auto& [axes, outputs, events, motion_permitted, slowing_permitted, remembered] = output;
+  const auto& [axes, base, outputs, events, motion_permitted, slowing_permitted, remembered] =
+      output;
   (void)events;
   for (std::size_t i = 0; i < axis_count; ++i) {
     v.inside("commands", i, [&v, &part = axes[i]] {
       const auto& [request, velocity_radps] = part;
       v.value("request", request);
       v.value("velocity_radps", velocity_radps);
+    });
+  }
+  if (axis_count == 0) {  // a base that takes a twist has none
+    v.inside("base", [&v, &part = base] {
+      const auto& [request, twist] = part;
+      v.value("request", request);
+      v.value("vx_mps", twist.vx_mps);
+      v.value("wz_radps", twist.wz_radps);
     });
   }
   visit_values(v, "outputs", outputs);
