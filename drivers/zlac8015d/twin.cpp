@@ -19,6 +19,7 @@ constexpr std::uint32_t kInvalidPdo = 0x80000000;
 constexpr std::uint32_t kIdBits = 0x7FF;
 constexpr Duration kPdoUnit = std::chrono::microseconds(500);
 constexpr std::uint16_t kOverTemperature = 0x0400;
+constexpr std::uint8_t kMostMapped = 2;  ///< objects in a PDO
 
 /// Objects of the drive with the maker's defaults; those of the PDOs come with the loop below.
 constexpr struct {
@@ -78,7 +79,7 @@ void Zlac8015dTwin::boot(Time now, TwinFrames& out) {
       add({communication, 1}, canopen::u32(kInvalidPdo));
       add({communication, 2}, canopen::u8(254));
       if (sends) add({communication, 5}, canopen::u16(0));
-      for (std::uint8_t sub = 0; sub <= 2; ++sub)
+      for (std::uint8_t sub = 0; sub <= kMostMapped; ++sub)
         add({mapping, sub}, sub == 0 ? canopen::u8(0) : canopen::u32(0));
     }
   }
@@ -134,6 +135,11 @@ const Zlac8015dTwin::Entry* Zlac8015dTwin::find(Object object) const {
 std::uint32_t Zlac8015dTwin::stored(std::uint16_t index, std::uint8_t sub) const {
   const Entry* const entry = find({index, sub});
   return entry == nullptr ? 0 : entry->value.bits;
+}
+
+/// No more than its dictionary has room for.
+std::uint8_t Zlac8015dTwin::mapped_count(std::uint16_t mapping) const {
+  return static_cast<std::uint8_t>(std::min<std::uint32_t>(stored(mapping, 0), kMostMapped));
 }
 
 std::uint16_t Zlac8015dTwin::statusword() const {
@@ -245,7 +251,7 @@ void Zlac8015dTwin::on_pdo(std::uint16_t number, const CanFrame& frame, Time now
   if (state_ != NodeState::operational) return;
   const auto mapping = static_cast<std::uint16_t>(0x1600U + number);
   std::size_t at = 0;
-  for (std::uint8_t sub = 1; sub <= stored(mapping, 0); ++sub) {
+  for (std::uint8_t sub = 1; sub <= mapped_count(mapping); ++sub) {
     const std::uint32_t mapped = stored(mapping, sub);
     const std::size_t size = (mapped & 0xFFU) / 8;
     if (at + size > frame.len) return;
@@ -262,7 +268,7 @@ void Zlac8015dTwin::on_pdo(std::uint16_t number, const CanFrame& frame, Time now
 void Zlac8015dTwin::send_pdo(std::uint16_t number, TwinFrames& out) const {
   const auto mapping = static_cast<std::uint16_t>(0x1A00U + number);
   CanFrame frame = make_frame(stored(static_cast<std::uint16_t>(0x1800U + number), 1) & kIdBits);
-  for (std::uint8_t sub = 1; sub <= stored(mapping, 0); ++sub) {
+  for (std::uint8_t sub = 1; sub <= mapped_count(mapping); ++sub) {
     const std::uint32_t mapped = stored(mapping, sub);
     store_le(frame.data, frame.len,
              read({static_cast<std::uint16_t>(mapped >> 16U),

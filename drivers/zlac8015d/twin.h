@@ -56,6 +56,7 @@ class Zlac8015dTwin final : public CanTwin {
   std::uint32_t read(canopen::Object object) const;
   const Entry* find(canopen::Object object) const;
   std::uint32_t stored(std::uint16_t index, std::uint8_t sub) const;
+  std::uint8_t mapped_count(std::uint16_t mapping) const;
   void on_controlword(std::uint16_t word);
   void fail(std::uint16_t error);
   std::uint16_t statusword() const;
