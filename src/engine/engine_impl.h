@@ -15,6 +15,7 @@
 #include "engine/health/rest_watch.h"
 #include "engine/health/tilt_watch.h"
 #include "engine/health/wheels.h"
+#include "engine/health/worst_speed.h"
 #include "engine/navigate/navigator.h"
 #include "engine/own/hold.h"
 #include "engine/own/owners.h"
@@ -50,7 +51,7 @@ struct Engine::Impl {
   Reason judge_motion(Time now, Duration dt, const LineTable& lines);
   void watch_wheels(Time now, Duration dt);
   void let_go(EngineOutput& out);
-  double worst_speed_mps(Time now) const;
+  void fill_speed(Time now);
   void fill_imu(const Estimate& located);
   void fill_lines(const LineTable& lines);
   void fill_snapshot(Time now, const Environment& environment, const LineTable& lines,
@@ -64,6 +65,7 @@ struct Engine::Impl {
   WheelFault wheel_fault = WheelFault::none;  ///< of the last step
   Reason wheel_reason;                        ///< of that fault
   RestWatch rest;
+  WorstSpeed worst_speed;
   PlaceWatch place;
   TiltWatch tilt;
   MechanicsCheck mechanics;

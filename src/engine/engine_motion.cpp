@@ -77,13 +77,13 @@ void Engine::Impl::let_go(EngineOutput& out) {
   out.motion_permitted = false;
 }
 
-/// Of what wheels and receiver say the faster one: somebody who reads 0 walks up to the robot.
-double Engine::Impl::worst_speed_mps(Time now) const {
-  const double wheels_mps = estimate.pose.vx_mps;
-  const double receiver_mps = rest.witness().speed_mps(now);
-  constexpr double kAlike_mps = 0.2;  // two speeds of one motion, with their noise
-  if (!(receiver_mps > std::abs(wheels_mps) + kAlike_mps)) return wheels_mps;
-  return std::copysign(receiver_mps, wheels_mps);
+void Engine::Impl::fill_speed(Time now) {
+  snapshot.worst_vx_mps = worst_speed.update({.now = now,
+                                              .wheels_mps = estimate.pose.vx_mps,
+                                              .fastest_rim_mps = estimate.fastest_mps,
+                                              .receiver_mps = rest.witness().speed_mps(now),
+                                              .receiver_at = rest.witness().speed_at(),
+                                              .direction = rest.direction()});
 }
 
 }  // namespace drover::engine

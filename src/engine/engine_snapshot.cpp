@@ -45,18 +45,21 @@ void Engine::Impl::fill_snapshot(Time now, const Environment& environment, const
   fill_sources(environment);
   fill_lines(lines);
   snapshot.pose = located.pose;
-  snapshot.worst_vx_mps = worst_speed_mps(now);
+  fill_speed(now);
   snapshot.nav = navigator.snapshot(report);
   snapshot.nav.owner = owner;
   snapshot.nav.owner_timeout_s = owners.timeout_s(owner);
   snapshot.joint_command = owners.joint_command();
   snapshot.gnss.configured = environment.gnss_configured;
-  snapshot.nav.metres_left = located.metres_left;
   fill_imu(located);
   snapshot.gnss.health = report.gnss_ok ? environment.gnss.state : SourceState::stale;
   if (environment.gnss.state == SourceState::never_heard) {
     snapshot.gnss.health = SourceState::never_heard;
   }
+  const bool fixed = snapshot.gnss.health == SourceState::fresh &&
+                     snapshot.gnss.position.quality == FixQuality::rtk_fixed;
+  // Nobody reckons beside a fix, though the estimator believes a new one only after a while.
+  snapshot.nav.metres_left = fixed ? kAbsent : located.metres_left;
   snapshot.imu.configured = environment.imu_configured;
   snapshot.imu.health = environment.imu.state;
   snapshot.gnss.pose_heading_deg =

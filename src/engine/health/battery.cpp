@@ -27,18 +27,49 @@ void BatteryMonitor::Limit::update(bool known, bool beyond, Time now, Duration o
   since_ = kNever;
 }
 
+/// A value that is not known is beyond nothing.
+BatteryMonitor::Beyond BatteryMonitor::beyond(const BatterySample& sample) const {
+  Beyond is;
+  is.low = sample.soc_percent < config_.battery_low_percent;
+  is.critical = sample.soc_percent < config_.battery_critical_percent;
+  is.hot = sample.temperature_degC > config_.battery_hot_degC;
+  is.too_hot = sample.temperature_degC > config_.battery_too_hot_degC;
+  is.apart = sample.max_cell_V - sample.min_cell_V > config_.battery_cell_spread_V;
+  is.alarm = sample.alarm == BatteryAlarm::critical;
+  return is;
+}
+
 void BatteryMonitor::judge(Time now, const BatterySample& sample) {
   const Duration hold = from_s(config_.battery_hold_s);
-  const auto limit = [&](Limit& which, double value, bool beyond) {
-    which.update(!std::isnan(value), beyond, now, hold, hold);
+  const auto limit = [&](Limit& which, double value, bool is_beyond) {
+    which.update(!std::isnan(value), is_beyond, now, hold, hold);
   };
-  const double spread_V = sample.max_cell_V - sample.min_cell_V;
-  limit(low_, sample.soc_percent, sample.soc_percent < config_.battery_low_percent);
-  limit(critical_, sample.soc_percent, sample.soc_percent < config_.battery_critical_percent);
-  limit(hot_, sample.temperature_degC, sample.temperature_degC > config_.battery_hot_degC);
-  limit(too_hot_, sample.temperature_degC, sample.temperature_degC > config_.battery_too_hot_degC);
-  limit(apart_, spread_V, spread_V > config_.battery_cell_spread_V);
-  alarm_.update(true, sample.alarm == BatteryAlarm::critical, now, kAlarmOn, hold);
+  const Beyond is = beyond(sample);
+  limit(low_, sample.soc_percent, is.low);
+  limit(critical_, sample.soc_percent, is.critical);
+  limit(hot_, sample.temperature_degC, is.hot);
+  limit(too_hot_, sample.temperature_degC, is.too_hot);
+  limit(apart_, sample.max_cell_V - sample.min_cell_V, is.apart);
+  alarm_.update(true, is.alarm, now, kAlarmOn, hold);
+}
+
+/// Empty when it is neither.
+Reason BatteryMonitor::empty_or_broken(const BatterySample& sample, const Beyond& beyond) const {
+  Reason why;
+  const auto alarm = sample.alarm_text.view();
+  if (beyond.critical) {
+    why.format("battery empty: %.0f %%, at least %.0f %% are needed", sample.soc_percent,
+               config_.battery_critical_percent);
+  } else if (beyond.alarm) {
+    why.format("battery: %.*s", static_cast<int>(alarm.empty() ? 5 : alarm.size()),
+               alarm.empty() ? "alarm" : alarm.data());
+  } else if (beyond.too_hot) {
+    why.format("battery too hot: %.0f C", sample.temperature_degC);
+  } else if (beyond.apart) {
+    why.format("battery cells too far apart: %.2f V to %.2f V", sample.min_cell_V,
+               sample.max_cell_V);
+  }
+  return why;
 }
 
 const BatteryVerdict& BatteryMonitor::update(Time now, const BatterySnapshot& battery,
@@ -68,19 +99,16 @@ const BatteryVerdict& BatteryMonitor::update(Time now, const BatterySnapshot& ba
       verdict_.charger = "charging: unplug the charger first";
     }
   }
+  const Beyond held{.critical = critical_.holds(),
+                    .too_hot = too_hot_.holds(),
+                    .apart = apart_.holds(),
+                    .alarm = alarm_.holds()};
+  verdict_.critical = empty_or_broken(sample, held);
+  const Beyond is = beyond(sample);
+  verdict_.present = empty_or_broken(sample, is);
+  if (verdict_.present.empty() && is.low)
+    verdict_.present.format("battery low: %.0f %%", sample.soc_percent);
   const auto alarm = sample.alarm_text.view();
-  if (critical_.holds()) {
-    verdict_.critical.format("battery empty: %.0f %%, at least %.0f %% are needed",
-                             sample.soc_percent, config_.battery_critical_percent);
-  } else if (alarm_.holds()) {
-    verdict_.critical.format("battery: %.*s", static_cast<int>(alarm.empty() ? 5 : alarm.size()),
-                             alarm.empty() ? "alarm" : alarm.data());
-  } else if (too_hot_.holds()) {
-    verdict_.critical.format("battery too hot: %.0f C", sample.temperature_degC);
-  } else if (apart_.holds()) {
-    verdict_.critical.format("battery cells too far apart: %.2f V to %.2f V", sample.min_cell_V,
-                             sample.max_cell_V);
-  }
   if (low_.holds() && !critical_.holds())
     verdict_.low.format("battery low: %.0f %%", sample.soc_percent);
   if (sample.alarm == BatteryAlarm::warning) {

@@ -13,13 +13,15 @@ struct BatteryVerdict {
   Reason plugged;   ///< no task starts: the charger was connected before the battery fell silent
   Reason critical;  ///< a task ends, and none starts
   Reason low;       ///< no task starts
+  Reason present;   ///< no task starts: the last value is beyond a limit, for however short a time
   Reason warning;   ///< told only
   Reason silent;    ///< told only: nothing is known
 };
 
 /// Limits count when a value was beyond them without a break for health.battery_hold_s, and no
 /// longer when it was back for as long: a sag under load is no empty battery. The first sample
-/// counts at once, so that no task starts on an empty one.
+/// counts at once, so that no task starts on an empty one. A start is judged by the last value: a
+/// robot at rest has no sag.
 class BatteryMonitor final {
  public:
   explicit BatteryMonitor(const HealthConfig& config) : config_(config) {}
@@ -40,6 +42,17 @@ class BatteryMonitor final {
   };
 
   void judge(Time now, const BatterySample& sample);
+  /// What is beyond its limit.
+  struct Beyond {
+    bool low = false;
+    bool critical = false;
+    bool hot = false;
+    bool too_hot = false;
+    bool apart = false;
+    bool alarm = false;
+  };
+  Beyond beyond(const BatterySample& sample) const;
+  Reason empty_or_broken(const BatterySample& sample, const Beyond& beyond) const;
 
   HealthConfig config_;
   BatteryVerdict verdict_;

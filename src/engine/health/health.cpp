@@ -216,6 +216,7 @@ void HealthMonitor::look_at_battery(const HealthInput& input) {
     report_.end_task = verdict.charger;
   if (told(Cause::battery_critical, verdict.critical) && report_.end_task.empty())
     report_.end_task = verdict.critical;
+  if (!verdict.present.empty()) report_.no_start = verdict.present;
   if (told(Cause::battery_low, verdict.low)) report_.no_start = verdict.low;
   if (told(Cause::charger, verdict.plugged)) report_.no_start = verdict.plugged;
   told(Cause::battery_warning, verdict.warning);

@@ -39,7 +39,7 @@ LocateState LocateMonitor::update(const Estimate& estimate, bool has_origin, boo
     reason_ = estimate.reason;
     if (reason_.empty()) reason_ = "position disagrees with odometry";
   } else if (!(error_m <= share * bound_m)) {
-    reason_.format("position uncertain by %.2f m, allowed %.2f m", error_m, bound_m);
+    reason_.format("position uncertain by %.3f m, allowed %.3f m", error_m, share * bound_m);
   } else if (!(error_rad <= share * bound_rad)) {
     reason_.format("heading uncertain by %.1f degrees, allowed %.1f", to_deg(error_rad),
                    config_.bound_yaw_deg);

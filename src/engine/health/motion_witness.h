@@ -40,6 +40,7 @@ class MotionWitness final {
   Testimony hear(Time now) const;
   /// The receiver's speed when it is fresh and no noise, else 0, m/s.
   double speed_mps(Time now) const;
+  Time speed_at() const { return speed_at_; }  ///< when it was measured
   /// From where rest was expected, m; x east, y north. Zero without a position.
   PathPoint way(Time now) const;
   /// Gyro and heading say that it goes on turning as it was commanded, and nothing that it goes

@@ -49,6 +49,8 @@ class RestWatch final {
 
   RestState update(const RestInput& input);
   RestState state() const { return state_; }
+  /// Sign in which it was driven last; 0 before.
+  double direction() const { return direction_; }
   /// Anything says that the base moves now.
   bool moves(Time now) const { return turning_ || witness_.hear(now).moving > 0; }
   /// What is wrong, in words; empty when nothing is.

@@ -94,6 +94,30 @@ TEST_F(AnEngineWithABattery, RefusesAStartWithALowOneAndLetsATaskGoOn) {
   EXPECT_EQ(refusal(), "battery low: 15 %");
 }
 
+TEST_F(AnEngineWithABattery, RefusesAStartWithOneThatIsEmptyJustNow) {
+  rig.settle();
+  for (const auto& [percent, reason] :
+       {std::pair{5.0, "battery empty: 5 %, at least 10 % are needed"},
+        std::pair{15.0, "battery low: 15 %"}}) {
+    sample.soc_percent = percent;
+    tell();
+    rig.tick();
+    EXPECT_EQ(rig.why(), "") << "it may be a sag";
+    rig.start(path, 40, 0.5);
+    rig.tick();
+    EXPECT_EQ(refusal(), reason);
+  }
+  expect_no_motion_for_s(1);
+}
+
+TEST_F(AnEngineWithABattery, LetsATaskGoOnThroughASag) {
+  drive();
+  sample.soc_percent = 3;
+  tell();
+  rig.run_s(5);
+  EXPECT_EQ(rig.snapshot().nav.status, NavStatus::run);
+}
+
 TEST_F(AnEngineWithABattery, LetsNothingNewBeginWithALowOneAndAStreamGoOn) {
   const auto stream_s = [this](double radps, double seconds) {
     JointTargets targets;

@@ -133,6 +133,18 @@ TEST_F(ARobotThatShouldRest, PublishesTheWorseOfTwoSpeeds) {
   EXPECT_LT(std::abs(rig.snapshot().pose.vx_mps), 1);
 }
 
+TEST_F(ARobotThatShouldRest, DoesNotPublishTheSpeedBeforeAStopAsTheSpeedAfterIt) {
+  drive();
+  rig.run_s(3);
+  ASSERT_GT(rig.snapshot().worst_vx_mps, 0.4);
+  rig.command(EngageStop{});
+  for (int i = 0; i < 200; ++i) {
+    rig.tick();
+    const auto& seen = rig.snapshot();
+    ASSERT_NEAR(seen.worst_vx_mps, seen.pose.vx_mps, 1e-9) << 5 * i << " ms after the stop";
+  }
+}
+
 TEST(RobotsThatShouldRest, LoseTheirPowerHoweverTheyGoOn) {
   for (int seed = 1; seed <= seeds(); ++seed) {
     Any any(seed);

@@ -62,7 +62,7 @@ TEST_F(ALocateMonitor, IsLostBeyondTheBoundOfTheHeading) {
 TEST_F(ALocateMonitor, HasATighterBoundBeforeATaskThanDuringOne) {
   estimate.predicted_error_m = 0.2;
   EXPECT_EQ(update(false), LocateState::lost);
-  EXPECT_THAT(reason(), HasSubstr("0.20 m, allowed 0.10 m"));
+  EXPECT_THAT(reason(), HasSubstr("0.200 m, allowed 0.080 m"));
   EXPECT_EQ(update(true), LocateState::good);
   estimate.predicted_error_m = 0.31;
   EXPECT_EQ(update(true), LocateState::lost);
