@@ -15,7 +15,11 @@ using test::parse_frame;
 constexpr auto kRun = AxisRequest::run;
 constexpr auto kRest = AxisRequest::rest;
 
-const Settings kSettings = read_settings(Options(option_table()));
+/// Made when it is asked for: the table of options is filled at the program's start.
+const Settings& settings() {
+  static const Settings all = read_settings(Options(option_table()));
+  return all;
+}
 
 /// The registry's driver beside its twin.
 struct Bench : test::CanBench {
@@ -36,7 +40,7 @@ struct Bench : test::CanBench {
 };
 
 FrameEffect effect_of(const std::string& frame, const Pair& target = {}) {
-  return effect(parse_frame(frame), kSettings, steps_of(kSettings), target).kind;
+  return effect(parse_frame(frame), settings(), steps_of(settings()), target).kind;
 }
 
 TEST(Zlac8015dCodec, ReadsTheMakersExamples) {
@@ -70,7 +74,7 @@ TEST(Zlac8015dRules, ForbidWhatWritesFlashOrMeansAnotherNode) {
 TEST(Zlac8015dRules, NameTheWheelThatMoves) {
   EXPECT_EQ(effect_of("301#0000000000000000"), FrameEffect::stop);
   const auto moves = [](const char* frame) {
-    return effect(parse_frame(frame), kSettings, steps_of(kSettings), {}).moves;
+    return effect(parse_frame(frame), settings(), steps_of(settings()), {}).moves;
   };
   EXPECT_EQ(moves("301#6400000000000000"), channel_bit(kLeft));
   EXPECT_EQ(moves("301#0000000064000000"), channel_bit(kRight));
@@ -137,7 +141,7 @@ TEST(Zlac8015d, AFaultOfOneWheelIsAFaultOfBoth) {
 }
 
 TEST(Zlac8015d, SaysWhichObjectIsRefused) {
-  Zlac8015dDriver driver(kSettings, {0, 1});
+  Zlac8015dDriver driver(settings(), {0, 1});
   const Time now{std::chrono::seconds(5)};
   DriverOut out;
   driver.on_link_up(now);
