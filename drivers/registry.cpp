@@ -29,7 +29,7 @@ const DriverEntry* find_driver(std::string_view name) {
 
 const DriverEntry* find_driver(std::string_view name, SlotKind kind) {
   const DriverEntry* const entry = find_driver(name);
-  return entry != nullptr && entry->kinds.has(kind) ? entry : nullptr;
+  return entry != nullptr && entry->kind == kind ? entry : nullptr;
 }
 
 }  // namespace drover

@@ -12,10 +12,14 @@ namespace {
 // systemd does not start again after it (RestartPreventExitStatus=): no retry would help.
 constexpr int kBadConfiguration = 2;
 
-/// False when there are problems; each is a line on stderr.
+/// False when there are problems; each is a line on stderr. Behind them the new text of old
+/// sections.
 bool report(const drover::config::Loaded& loaded, const std::string& file) {
   for (const auto& problem : loaded.problems)
     std::fprintf(stderr, "%s\n", problem.text(file).c_str());
+  if (!loaded.new_sections.empty())
+    std::fprintf(stderr, "%s: put this in their stead:\n%s\n", file.c_str(),
+                 loaded.new_sections.c_str());
   return loaded.problems.empty();
 }
 
@@ -28,8 +32,9 @@ int check(const std::string& file) {
                  loaded.problems.size() == 1 ? "" : "s");
     return kBadConfiguration;
   }
-  std::printf("%s: good: %zu bus(es), %zu drive(s)\n", file.c_str(), loaded.config.buses.size(),
-              loaded.config.drives.size());
+  const auto& config = loaded.config;
+  std::printf("%s: good: %zu link(s), %zu device(s), %zu joint(s)\n", file.c_str(),
+              config.links.size(), config.devices.size(), config.engine.joints.size());
   return 0;
 }
 

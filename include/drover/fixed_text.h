@@ -13,6 +13,7 @@ namespace drover {
 template <std::size_t N>
 class FixedText {
  public:
+  static constexpr std::size_t capacity() { return N; }
   FixedText() = default;
   FixedText(std::string_view text) { assign(text); }
   FixedText(const char* text) { assign(text); }

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <initializer_list>
 #include <memory>
 #include <span>
 #include <string_view>
@@ -15,21 +14,11 @@
 
 namespace drover {
 
-/// What a device is to the robot: the section of the configuration that it stands in.
+/// What a device is to the robot.
 enum class SlotKind : std::uint8_t { drive, gnss, imu, battery, line };
 
-class SlotKinds {
- public:
-  constexpr SlotKinds(std::initializer_list<SlotKind> kinds) {
-    for (const SlotKind kind : kinds) bits_ |= 1U << static_cast<unsigned>(kind);
-  }
-  constexpr bool has(SlotKind kind) const {
-    return (bits_ & 1U << static_cast<unsigned>(kind)) != 0;
-  }
-
- private:
-  unsigned bits_ = 0;
-};
+/// What a link carries, and so which face a device on it has.
+enum class Wire : std::uint8_t { can, bytes, registers, levels };
 
 /// What a driver is told of its place, beside its options.
 struct MakeContext {
@@ -37,7 +26,7 @@ struct MakeContext {
   /// Of what moves something: its joints, by channel.
   FixedVector<AxisId, kMaxChannels> axes = {};
   Line line = Line::estop;                 ///< of a line
-  const RegisterMap* registers = nullptr;  ///< of a device whose section names a map; else nullptr
+  const RegisterMap* registers = nullptr;  ///< of a device that names a map; else nullptr
 
   /// The joint of a channel. Who only looks what a driver is like names none: then they count from
   /// 0.
@@ -59,7 +48,8 @@ struct DriverEntry {
   std::string_view name;    ///< as written in the configuration
   std::string_view folder;  ///< below drivers/
   std::span<const OptionSpec> options;
-  SlotKinds kinds;  ///< where it may stand
+  SlotKind kind = SlotKind::drive;  ///< what its device is to the robot
+  Wire wire = Wire::can;            ///< what it hangs on
   /// What its devices move, in the order in which they are told. Empty: nothing.
   std::span<const Channel> channels = {};
   MakeDevice make = nullptr;
@@ -72,7 +62,7 @@ struct DriverEntry {
 std::span<const DriverEntry> driver_registry();
 /// nullptr when there is none of that name.
 const DriverEntry* find_driver(std::string_view name);
-/// The same, and nullptr when it may not stand there.
+/// The same, and nullptr when its device is something else.
 const DriverEntry* find_driver(std::string_view name, SlotKind kind);
 
 }  // namespace drover

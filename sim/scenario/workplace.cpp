@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "drover/registry.h"
 #include "sim/robot/scenario_file.h"
 #include "sim/scenario/draw.h"
 #include "sim/scenario/mission.h"
@@ -20,6 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
+using nlohmann::ordered_json;
 
 constexpr const char* kUdevd = "/lib/systemd/systemd-udevd";
 
@@ -43,15 +45,20 @@ int free_port() {
   return ntohs(address.sin_port);
 }
 
-/// The battery's register map, when it stands below `folder`.
-void make_map_absolute(json& document, const fs::path& folder) {
-  if (!document.contains("battery") || !document["battery"].contains("map")) return;
-  const auto path = folder / document["battery"].value("map", "");
-  if (fs::exists(path)) document["battery"]["map"] = path.lexically_normal().string();
+/// A battery's register map, when it stands below `folder`.
+template <class Json>
+void make_map_absolute(Json& battery, const fs::path& folder) {
+  if (!battery.is_object() || !battery.contains("map")) return;
+  const auto path = folder / battery.value("map", "");
+  if (fs::exists(path)) battery["map"] = path.lexically_normal().string();
+}
+
+bool is_kind(const ordered_json& device, SlotKind kind) {
+  return find_driver(device.value("driver", ""), kind) != nullptr;
 }
 
 /// droverd's configuration stands beside the robot: field.json, field.drover.json.
-json read_config(const std::string& scenario_file) {
+ordered_json read_config(const std::string& scenario_file) {
   auto robot = robot_file_of(scenario_file);
   if (robot.empty())
     throw std::runtime_error(scenario_file +
@@ -59,20 +66,22 @@ json read_config(const std::string& scenario_file) {
   const auto file = fs::path(robot).replace_extension(".drover.json").string();
   std::ifstream stream(file);
   if (!stream) throw std::runtime_error(file + ": cannot open");
-  auto config = json::parse(stream, nullptr, false, true);
+  auto config = ordered_json::parse(stream, nullptr, false, true);
   if (!config.is_object()) throw std::runtime_error(file + ": is no JSON object");
-  make_map_absolute(config, fs::absolute(file).parent_path());
+  for (auto& device : config["devices"])
+    make_map_absolute(device, fs::absolute(file).parent_path());
   return config;
 }
 
 /// What this scenario's gateway is told otherwise than the robot's: a wrong gear ratio, say.
-void change_gateway(json& config, const json& change, const std::string& scenario_file) {
+void change_gateway(ordered_json& config, const json& change, const std::string& scenario_file) {
   if (!change.is_object()) throw std::runtime_error(scenario_file + ": gateway: must be an object");
-  try {
-    change_document(config, change);
-  } catch (const std::runtime_error& error) {
-    throw std::runtime_error(scenario_file + ": gateway." + error.what());
-  }
+  if (change.contains("devices"))
+    for (const auto& [name, ignored] : change["devices"].items())
+      if (!config["devices"].contains(name))
+        throw std::runtime_error(scenario_file + ": gateway.devices." + name +
+                                 ": there is no such device to change");
+  config.merge_patch(ordered_json(change));
 }
 
 bool lab_in_real_time() {
@@ -98,7 +107,7 @@ Workplace::Workplace(const WorkplaceSettings& settings)
   draw_mission(document_, settings.seed);
   const auto folder = fs::absolute(fs::path(settings.scenario_file)).parent_path();
   document_["world"] = (folder / document_.value("world", "")).lexically_normal().string();
-  make_map_absolute(document_, folder);
+  if (document_.contains("battery")) make_map_absolute(document_["battery"], folder);
   if (log_folder_.empty()) log_folder_ = private_folder_ + "/log";
   fs::create_directories(log_folder_);
   auto config = read_config(settings.scenario_file);
@@ -122,20 +131,22 @@ Workplace::~Workplace() {
   fs::remove_all(private_folder_, ignored);
 }
 
-void Workplace::make_native(json& config) {
+void Workplace::make_native(ordered_json& config) {
   port_ = free_port();
   sim_folder_ = private_folder_ + "/sim";
   const auto run = private_folder_ + "/run";
   config["paths"] = {{"run", run}, {"state", private_folder_ + "/state"}};
-  for (auto& bus : config["buses"])
-    bus["interface"] = "unix:" + sim_folder_ + "/" + bus.value("name", "") + ".sock";
-  config["gnss"]["port"] = sim_folder_ + "/gnss";
-  if (config.contains("imu")) config["imu"]["port"] = sim_folder_ + "/imu";
-  if (config.contains("battery")) config["battery"]["port"] = sim_folder_ + "/battery";
-  config["lines"]["chip"] = "files:" + sim_folder_ + "/lines";
+  for (auto& [name, link] : config["links"].items()) {
+    if (link.contains("can")) link["can"] = "unix:" + sim_folder_ + "/" + name + ".sock";
+    if (link.contains("gpio")) link["gpio"] = "files:" + sim_folder_ + "/lines";
+    for (const char* port : {"serial", "modbus"})
+      if (link.contains(port))
+        link[port] = sim_folder_ + "/" + fs::path(link.value(port, "")).filename().string();
+  }
   if (config.contains("outputs")) {
     fs::create_directories(sim_folder_ + "/outputs");
-    config["outputs"]["chip"] = "files:" + sim_folder_ + "/outputs";
+    config["links"]["outputs"] = {{"gpio", "files:" + sim_folder_ + "/outputs"}};
+    config["outputs"]["link"] = "outputs";
     config["outputs"].erase("watchdog");  // a file cannot be pulsed
   }
   config["guard"]["socket"] = run + "/guard.sock";
@@ -145,15 +156,17 @@ void Workplace::make_native(json& config) {
 
 /// Where the clock is the host's, robot and gateway share its hold-ups: a desktop lets a process
 /// sleep 0.2 s longer than it asked for. A robot's ages are for a machine of its own.
-void Workplace::widen_ages(json& config) {
-  for (auto* drives : {&config["drives"], &document_["drives"]})
-    for (auto& drive : *drives) drive["options"]["watchdog_timeout_s"] = 2;
-  for (auto& drive : config["drives"])
-    drive["options"].update({{"stale_s", 1}, {"heartbeat_timeout_s", 1}});
-  for (const char* device : {"gnss", "imu"})
-    if (config.contains(device)) config[device]["options"]["stale_s"] = 2;
-  for (const char* line : {"estop", "bumper", "zone_far", "zone_near"})
-    if (config["lines"].contains(line)) config["lines"][line]["options"]["stale_s"] = 0.5;
+void Workplace::widen_ages(ordered_json& config) {
+  for (auto& drive : document_["drives"]) drive["options"]["watchdog_timeout_s"] = 2;
+  for (auto& device : config["devices"]) {
+    const auto widen = [&device](SlotKind kind, const ordered_json& options) {
+      if (is_kind(device, kind)) device["options"].update(options);
+    };
+    widen(SlotKind::drive, {{"watchdog_timeout_s", 2}, {"stale_s", 1}, {"heartbeat_timeout_s", 1}});
+    widen(SlotKind::gnss, {{"stale_s", 2}});
+    widen(SlotKind::imu, {{"stale_s", 2}});
+    widen(SlotKind::line, {{"stale_s", 0.5}});
+  }
   config["health"].update(
       {{"drive_stale_s", 1}, {"gnss_stale_s", 2}, {"imu_stale_s", 2}, {"line_stale_s", 0.5}});
   config["estimate"].update({{"wheel_stale_s", 0.5}, {"imu_stale_s", 0.5}});
@@ -161,7 +174,7 @@ void Workplace::widen_ages(json& config) {
 }
 
 /// A udevd of our own would rename the host's devices: only the lab has none.
-void Workplace::prepare_udev(json& config) {
+void Workplace::prepare_udev(ordered_json& config) {
   if (settings_.native || std::getenv("DROVER_LAB") == nullptr)
     throw std::runtime_error("a receiver on USB needs the lab");
   if (!fs::exists(kUdevd))
@@ -171,10 +184,12 @@ void Workplace::prepare_udev(json& config) {
   const fs::path rules("/run/udev/rules.d");
   fs::create_directories(rules);
   fs::copy_file(udev_rules_, rules / fs::path(udev_rules_).filename());
-  config["gnss"]["port"] = "/dev/drover/gnss";
+  for (const auto& device : config["devices"])
+    if (is_kind(device, SlotKind::gnss))
+      config["links"][device.value("link", "")]["serial"] = "/dev/drover/gnss";
 }
 
-void Workplace::write_files(const json& config) {
+void Workplace::write_files(const ordered_json& config) {
   // Beside the logs, too: what was really played.
   for (const auto& folder : {private_folder_, log_folder_}) {
     write_file(folder + "/scenario.json", document_.dump(1));

@@ -42,10 +42,11 @@ class Workplace {
   Program program(const std::string& name, const std::string& words = {}) const;
 
  private:
-  void widen_ages(nlohmann::json& config);
-  void make_native(nlohmann::json& config);
-  void prepare_udev(nlohmann::json& config);
-  void write_files(const nlohmann::json& config);
+  // The gateway's configuration keeps the order of its tables.
+  void widen_ages(nlohmann::ordered_json& config);
+  void make_native(nlohmann::ordered_json& config);
+  void prepare_udev(nlohmann::ordered_json& config);
+  void write_files(const nlohmann::ordered_json& config);
 
   WorkplaceSettings settings_;
   nlohmann::json document_;

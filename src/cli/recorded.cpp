@@ -80,7 +80,7 @@ const DriverEntry& entry_of(SlotKind kind, const std::string& name) {
   if (const auto* entry = find_driver(name, kind)) return *entry;
   std::string known;
   for (const auto& each : driver_registry())
-    if (each.kinds.has(kind)) known += (known.empty() ? "" : ", ") + std::string(each.name);
+    if (each.kind == kind) known += (known.empty() ? "" : ", ") + std::string(each.name);
   throw WrongUsage(name.empty() ? "--driver is missing: " + known
                                 : "no driver \"" + name + "\" for this device: " + known);
 }

@@ -172,11 +172,11 @@ constexpr std::string_view kCanParts[] = {"axes", "links"};
 constexpr std::string_view kGpioParts[] = {"lines", "outputs"};
 
 constexpr std::array kViews{
-    DeviceView{"gnss", "gnss", kGnssParts, show_gnss},
-    DeviceView{"imu", "imu", kImuParts, show_imu},
+    DeviceView{"gnss", "receiver", kGnssParts, show_gnss},
+    DeviceView{"imu", "inertial sensor", kImuParts, show_imu},
     DeviceView{"bms", "battery", kBmsParts, show_bms},
-    DeviceView{"can", "drives", kCanParts, show_can},
-    DeviceView{"gpio", "lines", kGpioParts, show_gpio},
+    DeviceView{"can", "drive", kCanParts, show_can},
+    DeviceView{"gpio", "digital input or output", kGpioParts, show_gpio},
 };
 
 }  // namespace
@@ -198,8 +198,7 @@ std::string missing(const DeviceView& view, const Node& status) {
   }
   if (!told) return "this droverd does not tell of " + std::string(view.name) + ": it is older";
   if (!none) return "";
-  return "not configured: there is no \"" + std::string(view.section) +
-         "\" in droverd's configuration";
+  return "not configured: there is no " + std::string(view.device) + " in droverd's configuration";
 }
 
 }  // namespace drover::cli

@@ -11,7 +11,7 @@ namespace drover::cli {
 
 struct DeviceView {
   std::string_view name;                    ///< of the command
-  std::string_view section;                 ///< of the configuration
+  std::string_view device;                  ///< what it shows, for people
   std::span<const std::string_view> parts;  ///< members of the status that it shows
   /// Several lines; the status has its rates already.
   std::string (*show)(const json::Node& status);

@@ -18,15 +18,15 @@ void known_words(const std::string& path, const std::vector<std::string>& words,
 }  // namespace
 
 void check_accepted(Findings& found) {
-  for (std::size_t i = 0; i < found.config().drives.size(); ++i)
-    known_words(item("drives", i) + ".accept", found.config().drives[i].accept, {"no_watchdog"},
-                found);
+  for (const auto& device : found.config().devices)
+    known_words(device_path(device, "accept"), device.accept, {"no_watchdog"}, found);
   known_words("accept", found.config().accept, {"no_estop", "slow_guard"}, found);
 }
 
 void warn_of_risks(Findings& found) {
-  if (!found.config().lines.line[static_cast<std::size_t>(Line::estop)].configured)
-    found.warn("lines", "there is no e-stop line: only the broker and the command line can stop it",
+  if (!found.config().engine.line_configured[static_cast<std::size_t>(Line::estop)])
+    found.warn("devices",
+               "there is no e-stop line: only the broker and the command line can stop it",
                "no_estop");
   constexpr int kSlowGuard_ms = 200;
   if (found.config().guard.limit_ms > kSlowGuard_ms)

@@ -7,18 +7,34 @@
 namespace drover::config {
 namespace {
 
+std::vector<std::string> joint_names(const DroverConfig& config) {
+  std::vector<std::string> names;
+  for (const auto& device : config.devices)
+    for (const auto& joint : device.joints) names.push_back(joint.name);
+  return names;
+}
+
 engine::HoldBy hold_by(std::string_view word) {
   if (word == "brake") return engine::HoldBy::brake;
   return word == "worm_gear" ? engine::HoldBy::worm_gear : engine::HoldBy::level_ground_only;
 }
 
+/// Whether it may be the joint of a device whose driver nobody knows.
+bool is_of_no_driver(const std::string& joint, const DroverConfig& config) {
+  return std::any_of(config.devices.begin(), config.devices.end(), [&](const auto& device) {
+    return device.name == joint && find_driver(device.driver) == nullptr;
+  });
+}
+
 void side(const std::string& path, const std::vector<std::string>& joints,
           FixedVector<AxisId, 8>& into, Findings& found) {
-  const auto known = collect(found.config().drives, [](const auto& d) { return d.joint; });
+  const auto known = joint_names(found.config());
   for (const auto& joint : joints) {
     const auto it = std::find(known.begin(), known.end(), joint);
     if (it == known.end()) {
-      found.add(path, "no drive has the joint \"" + joint + "\"", text::did_you_mean(joint, known));
+      if (is_of_no_driver(joint, found.config())) continue;  // told already
+      found.add(path, "no device has the joint \"" + joint + "\"",
+                text::did_you_mean(joint, known));
       continue;
     }
     const auto axis = static_cast<AxisId>(it - known.begin());
@@ -32,22 +48,23 @@ void side(const std::string& path, const std::vector<std::string>& joints,
 void both_sides(const BaseNames& base, Findings& found) {
   for (const auto& joint : base.left)
     if (std::find(base.right.begin(), base.right.end(), joint) != base.right.end())
-      found.add("base.right", "the joint \"" + joint + "\" is on both sides");
+      found.add("groups.base.right", "the joint \"" + joint + "\" is on both sides");
 }
 
 /// Its faults, its silence and its stop would be nobody's.
 void wheels_only(const BaseNames& base, Findings& found) {
-  if (found.has_problem("base")) return;
+  if (found.has_problem("groups.base")) return;
   const auto among = [](const std::vector<std::string>& side, const std::string& joint) {
     return std::find(side.begin(), side.end(), joint) != side.end();
   };
-  for (std::size_t i = 0; i < found.config().drives.size(); ++i) {
-    const auto& joint = found.config().drives[i].joint;
-    if (joint.empty() || among(base.left, joint) || among(base.right, joint)) continue;
-    found.add(
-        item("drives", i) + ".joint",
-        "\"" + joint + "\" is no wheel of the base: joints outside the base are not supported yet",
-        "name it in base.left or base.right, or leave the drive out");
+  for (const auto& device : found.config().devices) {
+    for (const auto& joint : device.joints) {
+      if (among(base.left, joint.name) || among(base.right, joint.name)) continue;
+      found.add(device_path(device),
+                "\"" + joint.name +
+                    "\" is no wheel of the base: joints outside the base are not supported yet",
+                "name it in groups.base.left or groups.base.right, or leave the device out");
+    }
   }
 }
 
@@ -55,11 +72,13 @@ void wheels_only(const BaseNames& base, Findings& found) {
 
 void check_base(const BaseNames& base, Findings& found) {
   auto& resolved = found.config().engine.base;
-  side("base.left", base.left, resolved.left, found);
-  side("base.right", base.right, resolved.right, found);
+  side("groups.base.left", base.left, resolved.left, found);
+  side("groups.base.right", base.right, resolved.right, found);
   both_sides(base, found);
   wheels_only(base, found);
   resolved.hold = hold_by(base.hold);
+  resolved.kind =
+      base.kind == "differential" ? engine::BaseKind::differential : engine::BaseKind::skid_steer;
 }
 
 }  // namespace drover::config

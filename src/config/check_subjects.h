@@ -1,7 +1,6 @@
 // The checks that span several keys, by subject; checks.cpp says in which order.
 #pragma once
 
-#include <array>
 #include <string>
 #include <string_view>
 
@@ -10,15 +9,18 @@
 
 namespace drover::config {
 
-inline constexpr std::array<std::string_view, kLineCount> kLineKeys{"estop", "bumper", "zone_far",
-                                                                    "zone_near"};
+// The tables: names that refer to each other, and what two may not share.
+void check_links(Findings& found);    ///< fills in wires and usual speeds
+void check_devices(Findings& found);  ///< fills in kinds and links
+void check_joints(Findings& found);   ///< fills in the joints and their axes
+void check_lines(Findings& found);    ///< fills in the outputs' chip
+void check_use_of_links(Findings& found);
+/// nullptr, and told at `path`: there is none of that name.
+const LinkConfig* find_link(const std::string& name, const std::string& path, Findings& found);
+/// "a CAN bus", "a serial line", ...
+std::string_view words(Wire wire);
 
-// Names that refer to each other, and what two may not share.
-void check_drive_names(Findings& found);  ///< fills in the bus of each drive
-void check_lines(Findings& found);
-void check_ports(Findings& found);
-
-/// The wheels; fills in their axes and what holds the base.
+/// The wheels; fills in their axes, what kind the base is and what holds it.
 void check_base(const BaseNames& base, Findings& found);
 
 // Values that contradict each other.
@@ -28,7 +30,7 @@ void check_channel(Findings& found);
 
 // The devices: what only their drivers know.
 /// Fills in the registers; a map is looked for below `folder`.
-void check_battery(const std::string& folder, Findings& found);
+void check_batteries(const std::string& folder, Findings& found);
 /// The driver places each byte in time by the pace at which the line is really opened.
 void follow_baud_rates(Findings& found);
 void check_drivers(Findings& found);

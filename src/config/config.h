@@ -1,12 +1,15 @@
 // The whole configuration as plain values; each field is a key of drover.json.
 #pragma once
 
+#include <array>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "drover/measurement.h"
 #include "drover/options.h"
 #include "drover/register_map.h"
+#include "drover/registry.h"
 #include "engine/config.h"
 
 namespace drover::config {
@@ -22,60 +25,54 @@ struct ControlConfig {
   int priority = 50;
 };
 
-struct BusConfig {
-  std::string name;
-  std::string interface;  ///< "can0", or "unix:PATH" for a socket that carries the same frames
-};
-
-struct DriveConfig {
-  std::string joint;
-  std::string driver;
-  std::string bus;
-  Options options;
-  std::vector<std::string> accept;  ///< by name what is refused otherwise: no_watchdog
-  std::size_t bus_index = 0;        ///< resolved from `bus`
-};
-
-struct GnssConfig {
-  bool configured = false;
-  std::string driver = "nmea0183";
-  std::string port = "/dev/drover/gnss";
-  int baud = 115200;
-  Options options;
-};
-
-struct ImuConfig {
-  bool configured = false;
-  std::string driver;
-  std::string port = "/dev/drover/imu";
-  int baud = 115200;
-  Options options;
-};
-
-struct BatteryConfig {
-  bool configured = false;
-  std::string driver = "modbus_bms";
-  std::string map;                           ///< file of the device's registers
-  std::string port = "/dev/drover/battery";  ///< serial line, or "tcp:ADDRESS:PORT"
-  int baud = 0;                              ///< 0: as the map says
+/// A way to devices. One of four addresses is given, and says what the link carries.
+struct LinkConfig {
+  std::string can;     ///< "can0", or "unix:PATH" for a socket that carries the same frames
+  std::string serial;  ///< path of the line
+  std::string modbus;  ///< path of the line, or "tcp:ADDRESS:PORT"
+  std::string gpio;    ///< label or name of the chip, or "files:DIRECTORY"
+  int baud = 0;        ///< 0: as is usual; then filled in
   std::string parity = "none";
-  int unit = 0;  ///< 0: as the map says
-  double period_s = 1.0;
+  std::string name;       ///< its key in the table
+  Wire wire = Wire::can;  ///< follows from the address
+};
+
+/// Whichever of the four is given.
+const std::string& address(const LinkConfig& link);
+
+/// An axis of a device that moves something.
+struct JointConfig {
+  std::string channel;            ///< of the device; may be left out when it has one
+  std::string name;               ///< its key in the table
+  std::size_t channel_index = 0;  ///< in the order of the driver's
+};
+
+struct DeviceConfig {
+  std::string driver;
+  std::string link;
   Options options;
+  // Of a drive:
+  std::vector<JointConfig> joints;  ///< none given: one, with the device's name; then filled in
+  std::vector<std::string> accept;  ///< by name what is refused otherwise: no_watchdog
+  // Of what is asked for registers:
+  std::string map;  ///< file of the device's registers
+  int unit = 0;     ///< 0: as the map says; then filled in
+  double period_s = 1.0;
+  // Of a digital input:
+  std::string line;  ///< its name on the chip
+  std::string is;    ///< which of the robot's lines it is
+
+  std::string name;  ///< its key in the table
+  // Follows from other keys:
+  SlotKind kind = SlotKind::drive;
+  std::size_t link_index = 0;
+  AxisId first_axis = 0;  ///< of its joints, which are numbered through all devices
   RegisterMap registers;  ///< read from `map`
 };
 
-struct LineConfig {
-  bool configured = false;
-  std::string driver = "gpio_line";
-  std::string name;  ///< line name on the chip
-  Options options;
-};
-
-struct LinesConfig {
-  std::string chip;                         ///< label or name of the chip, or "files:DIRECTORY"
-  std::array<LineConfig, kLineCount> line;  ///< by Line
-};
+/// The robot's lines, as they are written: by Line.
+inline constexpr std::array<std::string_view, kLineCount> kLineKeys{"estop", "bumper", "zone_far",
+                                                                    "zone_near"};
 
 struct OutputConfig {
   bool configured = false;
@@ -84,9 +81,10 @@ struct OutputConfig {
 };
 
 struct OutputsConfig {
-  std::string chip;                               ///< as LinesConfig's
+  std::string link;                               ///< a chip
   std::array<OutputConfig, kOutputCount> output;  ///< by Output
   OutputConfig watchdog;                          ///< pulsed by the guard for a hardware watchdog
+  std::string chip;                               ///< address of the link
 };
 
 struct GuardConfig {
@@ -138,12 +136,8 @@ struct DroverConfig {
   std::string robot_name = "drover";
   PathsConfig paths;
   ControlConfig control;
-  std::vector<BusConfig> buses;
-  std::vector<DriveConfig> drives;
-  GnssConfig gnss;
-  ImuConfig imu;
-  BatteryConfig battery;
-  LinesConfig lines;
+  std::vector<LinkConfig> links;      ///< in the order of the file
+  std::vector<DeviceConfig> devices;  ///< in the order of the file
   OutputsConfig outputs;
   GuardConfig guard;
   MqttConfig mqtt;
@@ -152,5 +146,12 @@ struct DroverConfig {
   std::vector<std::string> accept;  ///< by name what is warned of otherwise: no_estop, slow_guard
   engine::EngineConfig engine;
 };
+
+/// The first device of this kind; nullptr: there is none.
+const DeviceConfig* first(const DroverConfig& config, SlotKind kind);
+/// Which of the robot's lines a digital input is.
+Line line_of(const DeviceConfig& device);
+/// What its driver is told of its place.
+MakeContext context_of(const DeviceConfig& device);
 
 }  // namespace drover::config

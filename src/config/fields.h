@@ -1,7 +1,7 @@
 // The configuration's keys: name, place, range and meaning of each, in one table per object.
 //
 // The same tables read drover.json, write its JSON schema and so cannot disagree. A visitor has
-// number, integer, flag, text, object, list, names, point and options.
+// number, integer, flag, text, choice, object, list, table, names, options and keys_of_kind.
 #pragma once
 
 #include <cstdint>
@@ -17,13 +17,33 @@ namespace drover::config {
 /// As many as the runtime has room for.
 inline constexpr std::size_t kMaxBuses = 4;
 
-/// Names of the registered drivers for one kind of device.
-inline std::vector<std::string> driver_names(SlotKind kind) {
+/// As many as the status has room for, beside the outputs.
+inline constexpr std::size_t kMaxLinks = 9;
+inline constexpr std::size_t kMaxDevices = 32;
+
+/// Names of all drivers.
+inline std::vector<std::string> driver_names() {
   std::vector<std::string> names;
-  for (const auto& entry : driver_registry())
-    if (entry.kinds.has(kind)) names.emplace_back(entry.name);
+  for (const auto& entry : driver_registry()) names.emplace_back(entry.name);
   return names;
 }
+
+/// A key that only devices of one kind have.
+struct KindKey {
+  std::string_view key;
+  SlotKind kind = SlotKind::drive;
+  Presence presence = Presence::optional;
+};
+
+inline constexpr KindKey kKindKeys[] = {
+    {"joints", SlotKind::drive, Presence::optional},
+    {"accept", SlotKind::drive, Presence::optional},
+    {"map", SlotKind::battery, Presence::required},
+    {"unit", SlotKind::battery, Presence::optional},
+    {"period_s", SlotKind::battery, Presence::optional},
+    {"line", SlotKind::line, Presence::required},
+    {"is", SlotKind::line, Presence::required},
+};
 
 template <class V>
 void visit(V& v, PathsConfig& c) {
@@ -39,70 +59,50 @@ void visit(V& v, ControlConfig& c) {
 }
 
 template <class V>
-void visit(V& v, BusConfig& c) {
-  v.text("name", c.name, "how drives refer to it", Presence::required);
-  v.text("interface", c.interface, "SocketCAN interface, or unix:PATH of a socket with CAN frames",
-         Presence::required);
+void visit(V& v, LinkConfig& c) {
+  v.text("can", c.can, "SocketCAN interface, or unix:PATH of a socket with CAN frames",
+         Presence::alternative);
+  v.text("serial", c.serial, "serial line", Presence::alternative);
+  v.text("modbus", c.modbus, "serial line, or tcp:ADDRESS:PORT with an IPv4 address",
+         Presence::alternative);
+  v.text("gpio", c.gpio, "label or name of a GPIO chip, or files:DIRECTORY", Presence::alternative);
+  v.integer("baud", c.baud, Range{0, 921600},
+            "of a serial line; 0: 115200, and on modbus as the device's map says");
+  v.choice("parity", c.parity, {"none", "even", "odd"}, "of a serial line with modbus");
 }
 
 template <class V>
-void visit(V& v, DriveConfig& c) {
-  v.text("joint", c.joint, "name of the driven axis", Presence::required);
-  v.choice("driver", c.driver, driver_names(SlotKind::drive), "driver", Presence::required);
-  v.text("bus", c.bus, "name of the bus it hangs on", Presence::required);
-  v.options("options", c.options, c.driver, SlotKind::drive);
+void visit(V& v, JointConfig& c) {
+  v.text("channel", c.channel, "which of the device's axes; left out when it has one");
+}
+
+template <class V>
+void visit(V& v, DeviceConfig& c) {
+  v.choice("driver", c.driver, driver_names(), "driver", Presence::required);
+  v.text("link", c.link, "name of the link it hangs on", Presence::required);
+  v.options("options", c.options, c.driver);
+  v.table("joints", c.joints, Count{1, kMaxChannels},
+          "axes by name; left out: one, with the device's name");
   v.names("accept", c.accept, Count{0, 1},
           "no_watchdog: this drive goes on for ever when frames cease, and that is known");
-}
-
-template <class V>
-void visit(V& v, GnssConfig& c) {
-  v.choice("driver", c.driver, driver_names(SlotKind::gnss), "driver");
-  v.text("port", c.port, "serial line");
-  v.integer("baud", c.baud, Range{4800, 921600}, "baud rate");
-  v.options("options", c.options, c.driver, SlotKind::gnss);
-  c.configured = true;
-}
-
-template <class V>
-void visit(V& v, ImuConfig& c) {
-  v.choice("driver", c.driver, driver_names(SlotKind::imu), "driver", Presence::required);
-  v.text("port", c.port, "serial line");
-  v.integer("baud", c.baud, Range{4800, 921600}, "baud rate");
-  v.options("options", c.options, c.driver, SlotKind::imu);
-  c.configured = true;
-}
-
-template <class V>
-void visit(V& v, BatteryConfig& c) {
-  v.choice("driver", c.driver, driver_names(SlotKind::battery), "driver");
   v.text("map", c.map,
-         "file of the device's registers: beside this file, or one of the installed maps",
-         Presence::required);
-  v.text("port", c.port, "serial line, or tcp:ADDRESS:PORT with an IPv4 address");
-  v.integer("baud", c.baud, Range{0, 921600}, "baud rate; 0: the device's usual one");
-  v.choice("parity", c.parity, {"none", "even", "odd"}, "parity of the serial line");
+         "file of the device's registers: beside this file, or one of the installed maps");
   v.integer("unit", c.unit, Range{0, 247}, "Modbus unit; 0: the device's usual one");
   v.number("period_s", c.period_s, Range{0.2, 60}, "how often it is asked");
-  v.options("options", c.options, c.driver, SlotKind::battery);
-  c.configured = true;
+  v.text("line", c.line, "name of the line on the chip");
+  v.choice("is", c.is, {kLineKeys.begin(), kLineKeys.end()},
+           "emergency stop, bumper, far zone (slows) or near zone (stops)");
+  v.keys_of_kind(c.driver);
 }
 
-template <class V>
-void visit(V& v, LineConfig& c) {
-  v.text("line", c.name, "name of the line on the chip", Presence::required);
-  v.choice("driver", c.driver, driver_names(SlotKind::line), "driver");
-  v.options("options", c.options, c.driver, SlotKind::line);
-  c.configured = true;
-}
+/// What the groups of joints refer to by name.
+struct GroupNames {
+  BaseNames base;
+};
 
 template <class V>
-void visit(V& v, LinesConfig& c) {
-  v.text("chip", c.chip, "label or name of the GPIO chip, or files:DIRECTORY", Presence::required);
-  v.object("estop", c.line[static_cast<std::size_t>(Line::estop)], "emergency stop");
-  v.object("bumper", c.line[static_cast<std::size_t>(Line::bumper)], "bumper");
-  v.object("zone_far", c.line[static_cast<std::size_t>(Line::zone_far)], "far zone: slows");
-  v.object("zone_near", c.line[static_cast<std::size_t>(Line::zone_near)], "near zone: stops");
+void visit(V& v, GroupNames& c) {
+  v.object("base", c.base, "the vehicle", Presence::required);
 }
 
 template <class V>
@@ -114,7 +114,7 @@ void visit(V& v, OutputConfig& c) {
 
 template <class V>
 void visit(V& v, OutputsConfig& c) {
-  v.text("chip", c.chip, "label or name of the GPIO chip, or files:DIRECTORY", Presence::required);
+  v.text("link", c.link, "name of the link to their chip", Presence::required);
   v.object("enable_relay", c.output[static_cast<std::size_t>(Output::enable_relay)],
            "power of the drives: off while an e-stop is pressed");
   v.object("lamp", c.output[static_cast<std::size_t>(Output::lamp)], "state, for people near it");
@@ -178,17 +178,13 @@ void visit(V& v, AimrtConfig& c) {
 }
 
 template <class V>
-void visit(V& v, DroverConfig& c, BaseNames& base) {
+void visit(V& v, DroverConfig& c, GroupNames& groups) {
   v.text("robot", c.robot_name, "name of this robot");
   v.object("paths", c.paths, "folders");
   v.object("control", c.control, "control thread");
-  v.list("buses", c.buses, Count{1, kMaxBuses}, "CAN buses", Presence::required);
-  v.list("drives", c.drives, Count{1, kMaxAxes}, "driven axes, in order", Presence::required);
-  v.object("base", base, "the vehicle", Presence::required);
-  v.object("gnss", c.gnss, "RTK receiver");
-  v.object("imu", c.imu, "inertial sensor");
-  v.object("battery", c.battery, "battery management system over Modbus");
-  v.object("lines", c.lines, "digital inputs");
+  v.table("links", c.links, Count{1, kMaxLinks}, "ways to devices, by name", Presence::required);
+  v.table("devices", c.devices, Count{1, kMaxDevices}, "devices, by name", Presence::required);
+  v.object("groups", groups, "what the joints are parts of", Presence::required);
   v.object("limits", c.engine.limits, "limits of motion");
   v.object("estimate", c.engine.estimate, "fusion");
   v.object("navigate", c.engine.navigate, "tasks");

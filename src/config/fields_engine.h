@@ -20,7 +20,11 @@ struct Count {
   std::size_t min = 0;
   std::size_t max = 0;
 };
-enum class Presence : std::uint8_t { optional, required };
+enum class Presence : std::uint8_t {
+  optional,
+  required,
+  alternative,  ///< one of the keys of an object that are marked so is required
+};
 
 template <class V>
 void visit(V& v, engine::LimitsConfig& c) {
@@ -198,6 +202,7 @@ void visit(V& v, engine::HealthConfig& c) {
 /// afterwards.
 struct BaseNames {
   engine::BaseConfig* base = nullptr;
+  std::string kind;
   std::string hold;
   std::vector<std::string> left;
   std::vector<std::string> right;
@@ -207,6 +212,9 @@ inline constexpr Count kSideCount{1, decltype(engine::BaseConfig::left)::capacit
 
 template <class V>
 void visit(V& v, BaseNames& c) {
+  v.choice("kind", c.kind, {"skid_steer", "differential"},
+           "skid_steer: several wheels on a side; differential: one, which turns without skidding",
+           Presence::required);
   v.number("wheel_radius_m", c.base->wheel_radius_m, Range{0.01, 2}, "wheel radius",
            Presence::required);
   v.number("track_m", c.base->track_m, Range{0.05, 5}, "between left and right wheels",

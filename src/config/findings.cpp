@@ -5,25 +5,42 @@
 namespace drover::config {
 namespace {
 
-/// The value at a path like "drives[1].options.node", or as much of the way as is there.
-const json::Node& place(const json::Node& root, std::string_view path) {
-  const auto end = path.find_first_of(".[", 1);
-  const auto step = path.substr(0, end);
-  const json::Node* next = nullptr;
-  if (step.starts_with('[')) {
-    const auto index = static_cast<std::size_t>(std::stoul(std::string(step.substr(1))));
-    if (root.list() != nullptr && index < root.list()->size()) next = &(*root.list())[index];
-  } else {
-    next = root.find(step.starts_with('.') ? step.substr(1) : step);
+/// The member whose key `path` begins with. Names are the user's own and may hold dots: the
+/// longest.
+const json::Member* member_of(const json::Node& node, std::string_view path) {
+  const json::Member* longest = nullptr;
+  if (node.object() == nullptr) return nullptr;
+  for (const auto& member : *node.object()) {
+    if (!path.starts_with(member.key)) continue;
+    const auto rest = path.substr(member.key.size());
+    if (!rest.empty() && rest.front() != '.' && rest.front() != '[') continue;
+    if (longest == nullptr || member.key.size() > longest->key.size()) longest = &member;
   }
-  if (next == nullptr) return root;
-  return end == path.npos ? *next : place(*next, path.substr(end));
+  return longest;
+}
+
+/// The value at a path like "devices.imu.options.rate_Hz", or as much of the way as is there; what
+/// is left of the path is what is not there.
+const json::Node& place(const json::Node& root, std::string_view& path) {
+  if (path.empty()) return root;
+  if (path.starts_with('[')) {
+    const auto index = static_cast<std::size_t>(std::stoul(std::string(path.substr(1))));
+    if (root.list() == nullptr || index >= root.list()->size()) return root;
+    path.remove_prefix(std::min(path.size(), path.find(']') + 1));
+    return place((*root.list())[index], path);
+  }
+  const auto step = path.substr(path.starts_with('.') ? 1 : 0);
+  const auto* member = member_of(root, step);
+  if (member == nullptr) return root;
+  path = step.substr(member->key.size());
+  return place(member->node, path);
 }
 
 }  // namespace
 
 void Findings::add(std::string path, std::string message, std::string hint) {
-  const auto& at = place(root_, path);
+  std::string_view rest = path;
+  const auto& at = place(root_, rest);
   loaded_.problems.push_back(
       {at.line, at.column, std::move(path), std::move(message), std::move(hint), ""});
 }
@@ -31,16 +48,15 @@ void Findings::add(std::string path, std::string message, std::string hint) {
 void Findings::warn(const std::string& path, const std::string& message, const std::string& word) {
   const auto& accepted = loaded_.config.accept;
   if (std::find(accepted.begin(), accepted.end(), word) != accepted.end()) return;
-  const auto& at = place(root_, path);
+  std::string_view rest = path;
+  const auto& at = place(root_, rest);
   loaded_.warnings.push_back(
       {at.line, at.column, path, message, "\"accept\": [\"" + word + "\"] when that is meant", ""});
 }
 
-bool Findings::given(std::string_view section, std::string_view object,
-                     std::string_view key) const {
-  const auto* outer = root_.find(section);
-  const auto* inner = outer != nullptr ? outer->find(object) : nullptr;
-  return inner != nullptr && inner->find(key) != nullptr;
+bool Findings::given(std::string_view path) const {
+  (void)place(root_, path);
+  return path.empty();
 }
 
 bool Findings::has_problem(std::string_view path) const {
@@ -51,8 +67,12 @@ bool Findings::has_problem(std::string_view path) const {
   });
 }
 
-std::string item(std::string_view list, std::size_t index) {
-  return std::string(list) + "[" + std::to_string(index) + "]";
+std::string device_path(const DeviceConfig& device, std::string_view key) {
+  return "devices." + device.name + (key.empty() ? "" : "." + std::string(key));
+}
+
+std::string link_path(const LinkConfig& link, std::string_view key) {
+  return "links." + link.name + (key.empty() ? "" : "." + std::string(key));
 }
 
 }  // namespace drover::config

@@ -18,12 +18,12 @@ class Findings final {
   DroverConfig& config() { return loaded_.config; }
   Loaded& loaded() { return loaded_; }
 
-  /// `path` is like "drives[1].options.node".
+  /// `path` is like "devices.left.options.node".
   void add(std::string path, std::string message, std::string hint = {});
   /// Not when a person accepted it by this word.
   void warn(const std::string& path, const std::string& message, const std::string& word);
   /// Whether the text says anything of this key.
-  bool given(std::string_view section, std::string_view object, std::string_view key) const;
+  bool given(std::string_view path) const;
   /// Whether something was found already at a path that begins so.
   bool has_problem(std::string_view path) const;
 
@@ -32,8 +32,9 @@ class Findings final {
   Loaded& loaded_;
 };
 
-/// "drives[1]"
-std::string item(std::string_view list, std::size_t index);
+/// "devices.left.options.node"; without a key the device's own.
+std::string device_path(const DeviceConfig& device, std::string_view key = {});
+std::string link_path(const LinkConfig& link, std::string_view key = {});
 
 template <class T, class Get>
 std::vector<std::string> collect(const std::vector<T>& items, Get get) {

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "config/checks.h"
+#include "config/old_sections.h"
 #include "config/reader.h"
 
 namespace drover::config {
@@ -32,6 +33,21 @@ int read_file(const std::string& path, std::string& text) {
   }
   ::close(fd);
   return error;
+}
+
+void sort(std::vector<Problem>& problems) {
+  std::stable_sort(problems.begin(), problems.end(), [](const Problem& a, const Problem& b) {
+    return std::pair(a.line, a.column) < std::pair(b.line, b.column);
+  });
+}
+
+/// What was found in sections that have today's form and are whole.
+void keep_what_stays(std::vector<Problem>& problems) {
+  std::erase_if(problems, [](const Problem& problem) {
+    const auto section = problem.path.substr(0, problem.path.find('.'));
+    return section == "links" || section == "devices" || section == "groups" ||
+           section == "outputs" || is_old_section(section);
+  });
 }
 
 Loaded one_problem(Problem problem) {
@@ -65,16 +81,20 @@ Loaded load_text(std::string_view text, const std::string& folder, std::string r
   Loaded loaded;
   loaded.text = text;
   loaded.register_map = std::move(register_map);
-  BaseNames base;
-  base.base = &loaded.config.engine.base;
+  GroupNames groups;
+  groups.base.base = &loaded.config.engine.base;
   Reader reader(root, "", loaded.problems);
-  visit(reader, loaded.config, base);
+  visit(reader, loaded.config, groups);
   reader.finish();
-  check_and_resolve(root, base, folder, loaded);
-  std::stable_sort(loaded.problems.begin(), loaded.problems.end(),
-                   [](const Problem& a, const Problem& b) {
-                     return std::pair(a.line, a.column) < std::pair(b.line, b.column);
-                   });
+  if (auto old = find_old_sections(root); !old.problems.empty()) {
+    keep_what_stays(loaded.problems);
+    for (auto& problem : old.problems) loaded.problems.push_back(std::move(problem));
+    loaded.new_sections = std::move(old.sections);
+    sort(loaded.problems);
+    return loaded;
+  }
+  check_and_resolve(root, groups, folder, loaded);
+  sort(loaded.problems);
   return loaded;
 }
 

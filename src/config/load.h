@@ -12,11 +12,11 @@ namespace drover::config {
 struct Problem {
   std::size_t line = 0;  ///< from 1; 0 when it has no place
   std::size_t column = 0;
-  std::string path;  ///< "drives[1].options.node"
+  std::string path;  ///< "devices.left.options.node"
   std::string message;
   std::string suggestion;  ///< empty when there is none
   std::string file;        ///< empty: the configuration; otherwise the register map it names
-  /// "drover.json:12:7: drives[1].options.node: ... (did you mean ...?)"
+  /// "drover.json:12:7: devices.left.options.node: ... (did you mean ...?)"
   std::string text(std::string_view given_file) const;
 };
 
@@ -27,6 +27,8 @@ struct Loaded {
   std::string text;
   std::string register_map;       ///< of the battery; empty: none
   std::vector<Problem> warnings;  ///< what a person should know and may accept by name
+  /// When it has sections of the first form, which are problems: the same in today's form.
+  std::string new_sections;
 };
 
 /// Files that the configuration names are looked for below `folder`; the battery's register map

@@ -56,6 +56,7 @@ const json::Node* Reader::find(std::string_view key, Presence presence, std::str
   const auto* node = node_.find(key);
   if (node == nullptr && presence == Presence::required)
     add(node_, path_of(key), "is missing", std::string(text));
+  if (presence == Presence::alternative) alternatives_.emplace_back(key);
   return node;
 }
 
@@ -65,13 +66,40 @@ void Reader::wrong_type(const json::Node& node, std::string_view key, std::strin
       right_type(node, expected));
 }
 
-void Reader::check_count(const json::Node& list, std::string_view key, Count count) {
-  const auto size = list.list()->size();
+void Reader::check_count(const json::Node& node, std::string_view key, Count count) {
+  const auto size = node.list() != nullptr ? node.list()->size() : node.object()->size();
   if (size < count.min)
-    add(list, path_of(key), "has " + counted(size) + ", but needs at least " + counted(count.min));
+    add(node, path_of(key), "has " + counted(size) + ", but needs at least " + counted(count.min));
   if (size > count.max)
-    add(list, path_of(key),
+    add(node, path_of(key),
         "has " + counted(size) + ", but may have at most " + counted(count.max));
+}
+
+/// People read it in the status and in the log.
+void Reader::check_name(const json::Member& member, const std::string& path) {
+  const auto& name = member.key;
+  const auto told = [&](const char* message) {
+    problems_.push_back({member.line, member.column, path, message, "", ""});
+  };
+  const auto is_control = [](unsigned char c) { return c < 0x20 || c == 0x7F; };
+  if (name.empty()) {
+    told("the name is empty");
+  } else if (std::any_of(name.begin(), name.end(), is_control)) {
+    told("the name holds a control character");
+  } else if (Name(name).view() != name) {
+    told("the name is too long");
+  }
+}
+
+void Reader::check_alternatives() {
+  std::vector<std::string> given;
+  for (const auto& key : alternatives_)
+    if (node_.find(key) != nullptr) given.push_back(key);
+  if (!alternatives_.empty() && given.empty())
+    add(node_, path_, "has none of: " + joined(alternatives_));
+  for (std::size_t i = 1; i < given.size(); ++i)
+    add(*node_.find(given[i]), path_of(given[i]), "is given beside " + given[0],
+        "one of: " + joined(alternatives_));
 }
 
 void Reader::out_of_range(const json::Node& node, std::string_view key, Range range) {
@@ -116,7 +144,7 @@ void Reader::text(std::string_view key, std::string& into, std::string_view what
   if (node->text() == nullptr) return wrong_type(*node, key, "a text");
   if (node->text()->find('\0') != std::string::npos)
     return add(*node, path_of(key), "holds a NUL character");
-  if (presence == Presence::required && node->text()->empty())
+  if (presence != Presence::optional && node->text()->empty())
     return add(*node, path_of(key), "is empty", std::string(what));
   into = *node->text();
 }
@@ -184,10 +212,9 @@ void Reader::numbers(std::string_view key, std::vector<double>& into, Count coun
   }
 }
 
-void Reader::options(std::string_view key, Options& into, const std::string& driver,
-                     SlotKind kind) {
+void Reader::options(std::string_view key, Options& into, const std::string& driver) {
   known_.emplace_back(key);
-  const auto* entry = find_driver(driver, kind);
+  const auto* entry = find_driver(driver);
   if (entry == nullptr) return;
   into = Options(entry->options);
   static const json::Node kEmpty{std::vector<json::Member>{}, 0, 0};
@@ -204,6 +231,21 @@ void Reader::options(std::string_view key, Options& into, const std::string& dri
     if (value != nullptr) inner.option(spec, *value, into);
   }
   inner.finish();
+}
+
+void Reader::keys_of_kind(const std::string& driver) {
+  const auto* entry = find_driver(driver);
+  if (entry == nullptr) return;
+  for (const auto& [key, kind, presence] : kKindKeys) {
+    const auto* node = node_.find(key);
+    if (kind != entry->kind && node != nullptr)
+      add(*node, path_of(key), "is of no use to " + driver, "leave it out");
+    if (kind != entry->kind || presence == Presence::optional) continue;
+    if (node == nullptr)
+      add(node_, path_of(key), "is missing", driver + " needs it");
+    else if (node->text() != nullptr && node->text()->empty())
+      add(*node, path_of(key), "is empty");
+  }
 }
 
 void Reader::option(const OptionSpec& spec, const json::Node& node, Options& into) {
@@ -229,6 +271,7 @@ void Reader::option(const OptionSpec& spec, const json::Node& node, Options& int
 }
 
 void Reader::finish() {
+  check_alternatives();
   for (const auto& member : *node_.object()) {
     if (std::find(known_.begin(), known_.end(), member.key) != known_.end()) continue;
     if (path_.empty() && member.key == "$schema") continue;  // for the editor

@@ -33,7 +33,9 @@ class Reader final {
                Presence presence = Presence::optional);
   void numbers(std::string_view key, std::vector<double>& into, Count count, Range range,
                std::string_view text, Presence presence = Presence::optional);
-  void options(std::string_view key, Options& into, const std::string& driver, SlotKind kind);
+  void options(std::string_view key, Options& into, const std::string& driver);
+  /// The keys that only some kinds of device have: this driver's are there, the others' are not.
+  void keys_of_kind(const std::string& driver);
 
   template <class T>
   void object(std::string_view key, T& into, std::string_view text,
@@ -64,6 +66,29 @@ class Reader final {
       inner.finish();
     }
   }
+  /// An object whose keys are names of the user's own; `into` keeps the order of the file.
+  template <class T>
+  void table(std::string_view key, std::vector<T>& into, Count count, std::string_view text,
+             Presence presence = Presence::optional) {
+    const auto* node = find(key, presence, text);
+    if (node == nullptr) return;
+    if (node->object() == nullptr) return wrong_type(*node, key, "an object");
+    check_count(*node, key, count);
+    for (const auto& member : *node->object()) {
+      const auto path = path_of(key) + "." + member.key;
+      check_name(member, path);
+      into.emplace_back();
+      into.back().name = member.key;
+      if (member.node.object() == nullptr) {
+        add(member.node, path,
+            "is " + std::string(member.node.kind()) + ", but an object is expected");
+        continue;
+      }
+      Reader inner(member.node, path, problems_);
+      visit(inner, into.back());
+      inner.finish();
+    }
+  }
   /// Reports the members that nobody asked for.
   void finish();
 
@@ -72,7 +97,10 @@ class Reader final {
   std::string path_of(std::string_view key) const;
   void wrong_type(const json::Node& node, std::string_view key, std::string_view expected);
   void out_of_range(const json::Node& node, std::string_view key, Range range);
-  void check_count(const json::Node& list, std::string_view key, Count count);
+  /// Of a list or an object.
+  void check_count(const json::Node& node, std::string_view key, Count count);
+  void check_name(const json::Member& member, const std::string& path);
+  void check_alternatives();
   void add(const json::Node& place, std::string path, std::string message,
            std::string suggestion = {});
   void option(const OptionSpec& spec, const json::Node& node, Options& into);
@@ -81,6 +109,7 @@ class Reader final {
   std::string path_;
   std::vector<Problem>& problems_;
   std::vector<std::string> known_;
+  std::vector<std::string> alternatives_;
 };
 
 }  // namespace drover::config

@@ -1,4 +1,5 @@
 // Writes the JSON schema from the tables in fields.h.
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -63,6 +64,11 @@ class SchemaWriter final {
   void text(std::string_view key, const std::string& value, std::string_view text,
             Presence presence = Presence::optional) {
     auto& p = property(key, "string", text, presence);
+    if (presence == Presence::alternative) {
+      Json alternative;
+      alternative["required"] = {std::string(key)};
+      schema_["oneOf"].push_back(alternative);
+    }
     if (presence == Presence::optional) {
       p["default"] = value;
     } else {
@@ -73,7 +79,9 @@ class SchemaWriter final {
               const std::vector<std::string>& choices, std::string_view text,
               Presence presence = Presence::optional) {
     this->text(key, value, text, presence);
-    schema_["properties"][std::string(key)]["enum"] = choices;
+    auto& p = schema_["properties"][std::string(key)];
+    if (std::find(choices.begin(), choices.end(), value) == choices.end()) p.erase("default");
+    p["enum"] = choices;
   }
   void names(std::string_view key, const std::vector<std::string>&, Count count,
              std::string_view text, Presence presence = Presence::optional) {
@@ -122,12 +130,24 @@ class SchemaWriter final {
     schema["items"] = inner.finish();
     insert(key, schema, text, presence);
   }
-  /// The options depend on the driver: one condition for each driver of the shape.
-  void options(std::string_view key, const Options&, const std::string& default_driver,
-               SlotKind kind) {
+  template <class T>
+  void table(std::string_view key, const std::vector<T>&, Count count, std::string_view text,
+             Presence presence = Presence::optional) {
+    SchemaWriter inner;
+    T item;
+    visit(inner, item);
+    Json schema;
+    schema["type"] = "object";
+    schema["minProperties"] = count.min;
+    schema["maxProperties"] = count.max;
+    schema["propertyNames"] = {{"minLength", 1}, {"maxLength", Name::capacity()}};
+    schema["additionalProperties"] = inner.finish();
+    insert(key, schema, text, presence);
+  }
+  /// They depend on the driver.
+  void options(std::string_view key, const Options&, const std::string&) {
     property(key, "object", "options of the driver", Presence::optional);
     for (const auto& entry : driver_registry()) {
-      if (!entry.kinds.has(kind)) continue;
       Json options;
       options["type"] = "object";
       options["additionalProperties"] = false;
@@ -136,13 +156,22 @@ class SchemaWriter final {
         options["properties"][std::string(spec.name)] = option_schema(spec);
         if (spec.required) options["required"].push_back(std::string(spec.name));
       }
-      Json condition;
-      condition["if"]["properties"]["driver"]["const"] = std::string(entry.name);
-      // Without a "driver" the default one is meant.
-      if (entry.name != default_driver) condition["if"]["required"] = {"driver"};
-      condition["then"]["properties"][std::string(key)] = options;
-      if (options.contains("required")) condition["then"]["required"] = {std::string(key)};
-      schema_["allOf"].push_back(condition);
+      auto& then = of_driver(entry.name)["then"];
+      then["properties"][std::string(key)] = options;
+      if (options.contains("required")) then["required"].push_back(std::string(key));
+    }
+  }
+  void keys_of_kind(const std::string&) {
+    for (const auto& entry : driver_registry()) {
+      auto& then = of_driver(entry.name)["then"];
+      for (const auto& [key, kind, presence] : kKindKeys) {
+        if (kind != entry.kind) {
+          then["properties"][std::string(key)] = false;
+        } else if (presence == Presence::required) {
+          then["required"].push_back(std::string(key));
+          then["properties"][std::string(key)] = {{"minLength", 1}};
+        }
+      }
     }
   }
   Json finish() {
@@ -154,6 +183,16 @@ class SchemaWriter final {
   }
 
  private:
+  /// What holds when this is the driver: one condition for each.
+  Json& of_driver(std::string_view driver) {
+    auto& all = schema_["allOf"];
+    for (auto& condition : all)
+      if (condition["if"]["properties"]["driver"]["const"] == driver) return condition;
+    Json condition;
+    condition["if"]["properties"]["driver"]["const"] = std::string(driver);
+    all.push_back(condition);
+    return all.back();
+  }
   Json& property(std::string_view key, const char* type, std::string_view text, Presence presence) {
     Json schema;
     schema["type"] = type;
@@ -174,10 +213,10 @@ class SchemaWriter final {
 
 std::string schema_text() {
   DroverConfig config;
-  BaseNames base;
-  base.base = &config.engine.base;
+  GroupNames groups;
+  groups.base.base = &config.engine.base;
   SchemaWriter writer;
-  visit(writer, config, base);
+  visit(writer, config, groups);
   Json schema;
   schema["$schema"] = "http://json-schema.org/draft-07/schema#";
   schema["title"] = "Configuration of droverd";

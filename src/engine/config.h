@@ -23,7 +23,7 @@ enum class BaseKind : std::uint8_t {
   twist,         ///< a device that takes a twist and tells one: it has no joints
 };
 
-/// The base. Axes are indices into the configuration's `drives`.
+/// The base. Axes are indices into the configuration's joints.
 struct BaseConfig {
   BaseKind kind = BaseKind::skid_steer;
   double wheel_radius_m = 0.165;

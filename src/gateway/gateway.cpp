@@ -26,8 +26,8 @@ Gateway::Gateway(const config::DroverConfig& config)
     : engine_(config.engine),
       wiring_(wire_up(config, environment_)),
       guard_required_(config.engine.health.guard_required) {
-  environment_.gnss_configured = config.gnss.configured;
-  environment_.imu_configured = config.imu.configured;
+  environment_.gnss_configured = config::first(config, SlotKind::gnss) != nullptr;
+  environment_.imu_configured = config::first(config, SlotKind::imu) != nullptr;
   const Duration jammed_after = from_s(config.engine.health.drive_stale_s);
   for (std::size_t i = 0; i < wiring_.links.size(); ++i) {
     const Link& link = wiring_.links[i];

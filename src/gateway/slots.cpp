@@ -19,41 +19,58 @@ bool speaks(const Made& made, Wire wire) {
   return false;
 }
 
+/// A bus and a serial line under their own names. A chip has two ways, and this is the one in. Of
+/// what is polled people know the device.
+std::string shown_name(const config::DroverConfig& config, const config::LinkConfig& link) {
+  if (link.wire == Wire::levels) {
+    const auto chips = std::count_if(config.links.begin(), config.links.end(),
+                                     [](const auto& each) { return each.wire == Wire::levels; });
+    return chips == 1 ? "lines" : link.name;
+  }
+  if (link.wire == Wire::registers)
+    for (const auto& device : config.devices)
+      if (device.link == link.name) return device.name;
+  return link.name;
+}
+
 class Builder final {
  public:
-  explicit Builder(engine::Environment& environment) : environment_(environment) {}
+  Builder(const config::DroverConfig& config, engine::Environment& environment)
+      : config_(config), environment_(environment), numbers_(config.links.size(), kNowhere) {}
 
-  LinkId link(std::string_view name, Wire wire) {
+  void link(std::size_t place) {
+    const auto& link = config_.links[place];
     if (wiring_.links.size() == kMaxLinks) throw std::runtime_error("too many links");
-    wiring_.links.push_back({Name(name), wire, {}});
-    return static_cast<LinkId>(wiring_.links.size() - 1);
+    numbers_[place] = static_cast<LinkId>(wiring_.links.size());
+    wiring_.links.push_back({Name(shown_name(config_, link)), link.wire, {}, place});
   }
 
-  /// `config` is the section that names the driver and its options, `key` where it stands.
-  void slot(std::string_view name, LinkId link, const auto& config, const MakeContext& context,
-            const std::string& key) {
-    const auto* const entry = find_driver(config.driver, context.kind);
+  void slot(std::size_t place) {
+    const auto& device = config_.devices[place];
+    const auto key = "devices." + device.name;
+    const auto* const entry = find_driver(device.driver, device.kind);
     if (entry == nullptr)
-      throw std::runtime_error(key + ": no driver \"" + config.driver + "\" of this kind");
+      throw std::runtime_error(key + ": no driver \"" + device.driver + "\" of this kind");
     if (wiring_.slots.size() == kMaxSlots) throw std::runtime_error("too many devices");
+    const MakeContext context = config::context_of(device);
     Slot slot;
-    slot.name = Name(name);
-    slot.kind = context.kind;
-    slot.made = entry->make(config.options, context);
-    slot.link = link;
+    slot.name = Name(device.name);
+    slot.kind = device.kind;
+    slot.made = entry->make(device.options, context);
+    slot.link = numbers_.at(device.link_index);
     slot.axes = context.axes;
+    slot.place = place;
     tell_health(slot, context);
-    const Wire wire = wiring_.links[link].wire;
-    if (wire == Wire::registers) slot.thread = Slot::Thread::slow;
-    if (!speaks(slot.made, wire))
-      throw std::runtime_error(key + ": driver \"" + config.driver + "\" is for another wire");
-    if ((context.kind == SlotKind::drive) != (slot.made.actuator != nullptr))
-      throw std::runtime_error(key + ": driver \"" + config.driver + "\" is for no such device");
-    if (slot.made.actuator != nullptr && slot.made.actuator->channels().size() != slot.axes.size())
-      throw std::runtime_error(key + ": driver \"" + config.driver + "\" moves " +
-                               std::to_string(slot.made.actuator->channels().size()) +
-                               " joints, and " + std::to_string(slot.axes.size()) + " are named");
-    wiring_.links[link].slots.push_back(static_cast<SlotId>(wiring_.slots.size()));
+    Link& link = wiring_.links[slot.link];
+    if (link.wire == Wire::registers) slot.thread = Slot::Thread::slow;
+    if (!speaks(slot.made, link.wire))
+      throw std::runtime_error(key + ": driver \"" + device.driver + "\" is for another wire");
+    const auto* const actuator = slot.made.actuator;
+    if (actuator != nullptr && actuator->channels().size() != slot.axes.size())
+      throw std::runtime_error(key + ": driver \"" + device.driver + "\" moves " +
+                               std::to_string(actuator->channels().size()) + " joints, and " +
+                               std::to_string(slot.axes.size()) + " are named");
+    link.slots.push_back(static_cast<SlotId>(wiring_.slots.size()));
     wiring_.slots.push_back(std::move(slot));
   }
 
@@ -74,51 +91,33 @@ class Builder final {
     }
   }
 
+  const config::DroverConfig& config_;
   engine::Environment& environment_;
+  std::vector<LinkId> numbers_;  ///< by the place in the configuration
   Wiring wiring_;
 };
 
+bool has_devices(const config::DroverConfig& config, std::size_t place) {
+  return std::any_of(config.devices.begin(), config.devices.end(),
+                     [place](const auto& device) { return device.link_index == place; });
+}
+
 }  // namespace
 
-SlotId Wiring::first(SlotKind kind) const {
-  const auto it = std::find_if(slots.begin(), slots.end(),
-                               [kind](const Slot& slot) { return slot.kind == kind; });
-  return it == slots.end() ? kNowhere : static_cast<SlotId>(it - slots.begin());
-}
-
-LinkId Wiring::link_of(SlotKind kind) const {
-  const SlotId slot = first(kind);
-  return slot == kNowhere ? kNowhere : slots[slot].link;
-}
-
 Wiring wire_up(const config::DroverConfig& config, engine::Environment& environment) {
-  Builder build(environment);
-  if (config.buses.size() > kMaxBuses) throw std::runtime_error("buses: too many");
-  for (const auto& bus : config.buses) build.link(bus.name, Wire::can);
-  for (std::size_t i = 0; i < config.drives.size(); ++i) {
-    const auto& drive = config.drives[i];
-    MakeContext context{.kind = SlotKind::drive};
-    (void)context.axes.push_back(static_cast<AxisId>(i));
-    build.slot(drive.joint, static_cast<LinkId>(drive.bus_index), drive, context,
-               "drives: " + drive.joint);
-  }
-  if (config.gnss.configured)
-    build.slot("gnss", build.link("gnss", Wire::bytes), config.gnss, {.kind = SlotKind::gnss},
-               "gnss");
-  if (config.imu.configured)
-    build.slot("imu", build.link("imu", Wire::bytes), config.imu, {.kind = SlotKind::imu}, "imu");
-  if (config.battery.configured)
-    build.slot("battery", build.link("battery", Wire::registers), config.battery,
-               {.kind = SlotKind::battery, .registers = &config.battery.registers}, "battery");
-  LinkId chip = kNowhere;
-  for (std::size_t i = 0; i < kLineCount; ++i) {
-    const auto& line = config.lines.line[i];
-    if (!line.configured) continue;
-    if (chip == kNowhere) chip = build.link("lines", Wire::levels);
-    build.slot(line.name, chip, line,
-               {.kind = SlotKind::line, .line = static_cast<drover::Line>(i)},
-               "lines: " + line.name);
-  }
+  Builder build(config, environment);
+  const auto links = [&](bool buses) {
+    for (std::size_t i = 0; i < config.links.size(); ++i)
+      if ((config.links[i].wire == Wire::can) == buses && has_devices(config, i)) build.link(i);
+  };
+  const auto slots = [&](bool drives) {
+    for (std::size_t i = 0; i < config.devices.size(); ++i)
+      if ((config.devices[i].kind == SlotKind::drive) == drives) build.slot(i);
+  };
+  links(true);
+  links(false);
+  slots(true);
+  slots(false);
   return build.built();
 }
 

@@ -13,13 +13,11 @@
 
 namespace drover::gateway {
 
-/// What a link carries.
-enum class Wire : std::uint8_t { can, bytes, registers, levels };
-
 struct Link {
-  Name name;
+  Name name;  ///< as people know it
   Wire wire = Wire::can;
   std::vector<SlotId> slots;  ///< in the order of the table
+  std::size_t place = 0;      ///< in the configuration's table
 };
 
 /// One device in its place.
@@ -33,7 +31,7 @@ struct Slot {
     told,    ///< told to whoever asks, and nothing more
   };
 
-  Name name;  ///< as people know it: the joint's, or the section's
+  Name name;
   SlotKind kind = SlotKind::drive;
   Made made;
   LinkId link = 0;
@@ -43,22 +41,18 @@ struct Slot {
   SourceHealth health;                     ///< as of the last cycle
   /// Where the engine looks for it.
   FixedVector<SourceHealth*, kMaxChannels> tells_health;
+  std::size_t place = 0;        ///< in the configuration's table
   std::uint64_t overflows = 0;  ///< what it said and found no room
 };
 
-/// Links and slots by their numbers. A bus is numbered as in the configuration: the buses come
-/// first. The drives are the first slots.
+/// Links and slots by their numbers, which follow the order of the configuration's tables; but the
+/// buses are the first links, and the drives the first slots.
 struct Wiring {
   std::vector<Link> links;
   std::vector<Slot> slots;
-
-  /// The first slot of this kind; kNowhere when there is none.
-  SlotId first(SlotKind kind) const;
-  /// The link that it hangs on; kNowhere when there is none.
-  LinkId link_of(SlotKind kind) const;
 };
 
-/// Everything that is configured; the healths are put into `environment`. Throws
+/// Everything on which a device hangs; the healths are put into `environment`. Throws
 /// std::runtime_error naming the key that cannot be.
 Wiring wire_up(const config::DroverConfig& config, engine::Environment& environment);
 

@@ -19,25 +19,34 @@ using namespace std::chrono_literals;
 /// The longest sleep: the thread shows that it lives.
 constexpr Duration kLongestSleep = 1s;
 
-link::ModbusSettings link_settings(const config::BatteryConfig& config) {
+link::ModbusSettings link_settings(const config::LinkConfig& link,
+                                   const config::DeviceConfig& device) {
   link::ModbusSettings settings;
-  settings.port = config.port;
-  settings.baud = config.baud;
-  settings.parity = config.parity == "even" ? 'E' : config.parity == "odd" ? 'O' : 'N';
-  settings.unit = static_cast<std::uint8_t>(config.unit);
-  settings.gap_s = config.registers.gap_s;
-  settings.reply_s = config.registers.reply_s;
+  settings.port = link.modbus;
+  settings.baud = link.baud;
+  settings.parity = link.parity == "even" ? 'E' : link.parity == "odd" ? 'O' : 'N';
+  settings.unit = static_cast<std::uint8_t>(device.unit);
+  settings.gap_s = device.registers.gap_s;
+  settings.reply_s = device.registers.reply_s;
   return settings;
+}
+
+const config::DeviceConfig& device_of(const config::DroverConfig& config,
+                                      const gateway::Slot& slot) {
+  return config.devices[slot.place];
 }
 
 }  // namespace
 
-BatteryLoop::BatteryLoop(const config::BatteryConfig& config, const gateway::Wiring& wiring,
-                         BatteryExchange& exchange)
-    : config_(config),
-      exchange_(exchange),
-      slot_(wiring.first(SlotKind::battery)),
-      link_id_(wiring.link_of(SlotKind::battery)) {
+BatteryLoop::BatteryLoop(const config::DroverConfig& config, const gateway::Wiring& wiring,
+                         gateway::SlotId slot, BatteryExchange& exchange)
+    : exchange_(exchange),
+      slot_(slot),
+      link_id_(wiring.slots[slot].link),
+      name_(wiring.links[link_id_].name),
+      period_(from_s(device_of(config, wiring.slots[slot]).period_s)),
+      settings_(link_settings(config.links[wiring.links[link_id_].place],
+                              device_of(config, wiring.slots[slot]))) {
   const auto blocks = wiring.slots[slot_].made.registers->blocks();
   blocks_.assign(blocks.begin(), blocks.end());
 }
@@ -57,7 +66,7 @@ void BatteryLoop::run(const std::atomic<bool>& stop) {
 }
 
 void BatteryLoop::open(Time now) {
-  auto opened = link::open_modbus(link_settings(config_), &monotonic_now);
+  auto opened = link::open_modbus(settings_, &monotonic_now);
   now = monotonic_now();
   if (!opened.link) {
     tell(gateway::RegistersFailed{slot_, 0, RegisterFailure::link, 0}, now);
@@ -65,15 +74,19 @@ void BatteryLoop::open(Time now) {
   }
   link_ = std::move(opened.link);
   retry_.succeeded();
-  if (!problem_.empty()) log(LogLevel::info, "battery: " + config_.port + " is open");
+  if (!problem_.empty()) log(LogLevel::info, said(settings_.port + " is open"));
   problem_.clear();
   block_ = 0;
   next_round_ = now;
   tell(gateway::LinkUp{link_id_}, now);
 }
 
+std::string BatteryLoop::said(const std::string& text) const {
+  return std::string(name_) + ": " + text;
+}
+
 void BatteryLoop::lose(const std::string& why, Time now) {
-  if (problem_.view() != why) log(LogLevel::warning, "battery: " + why);
+  if (problem_.view() != why) log(LogLevel::warning, said(why));
   problem_.assign(why);
   if (link_) {
     const auto& last = link_->counters();
@@ -87,7 +100,6 @@ void BatteryLoop::lose(const std::string& why, Time now) {
 
 /// One block; the round goes on at the next turn.
 void BatteryLoop::ask(Time now) {
-  const auto period = from_s(config_.period_s);
   if (block_ == 0) next_round_ = now;
   const RegisterBlock& block = blocks_[block_];
   gateway::RegistersRead read;
@@ -99,17 +111,17 @@ void BatteryLoop::ask(Time now) {
   if (result.good) {
     tell(read, now);
     if (++block_ == blocks_.size()) {
-      if (!std::exchange(answers_, true)) log(LogLevel::info, "battery: answers");
+      if (!std::exchange(answers_, true)) log(LogLevel::info, said("answers"));
       block_ = 0;
-      next_round_ += period;
+      next_round_ += period_;
     }
     return;
   }
   tell(gateway::RegistersFailed{slot_, read.block, result.failure, result.exception}, now);
   block_ = 0;
-  next_round_ = now + period;
+  next_round_ = now + period_;
   if (result.failure == RegisterFailure::link)
-    lose(config_.port + ": lost (" + std::strerror(link_->error()) + ")", now);
+    lose(settings_.port + ": lost (" + std::strerror(link_->error()) + ")", now);
 }
 
 /// What finds the ring full is missed like an answer that never came: the driver's data grow old.
@@ -120,7 +132,7 @@ void BatteryLoop::tell(const What& what, Time at) {
 
 void BatteryLoop::publish() {
   auto& link = exchange_.link.back();
-  link.name = "battery";
+  link.name = name_;
   link.up = link_ != nullptr;
   link.reason = problem_;
   link.sent = closed_.requests + (link_ ? link_->counters().requests : 0);
@@ -139,7 +151,7 @@ void BatteryLoop::sleep_until(Time due, Time now) {
     // Noticed at once: a device that stays open comes back under another name.
     const Time then = monotonic_now();
     tell(gateway::RegistersFailed{slot_, 0, RegisterFailure::link, 0}, then);
-    lose(config_.port + ": lost (" + std::strerror(link_->error()) + ")", then);
+    lose(settings_.port + ": lost (" + std::strerror(link_->error()) + ")", then);
   }
 }
 

@@ -34,9 +34,9 @@ struct BatteryExchange {
 
 class BatteryLoop final {
  public:
-  /// Only with a battery configured: `wiring` has its slot, whose driver says what to ask for.
-  BatteryLoop(const config::BatteryConfig& config, const gateway::Wiring& wiring,
-              BatteryExchange& exchange);
+  /// `slot` is the battery's in `wiring`; its driver says what to ask for.
+  BatteryLoop(const config::DroverConfig& config, const gateway::Wiring& wiring,
+              gateway::SlotId slot, BatteryExchange& exchange);
   void run(const std::atomic<bool>& stop);
   void wake() const { wake_.notify(); }
   /// Counts at least once in kLongestTurn while the thread lives.
@@ -48,16 +48,19 @@ class BatteryLoop final {
  private:
   void open(Time now);
   void lose(const std::string& why, Time now);
+  std::string said(const std::string& text) const;  ///< under its name
   void ask(Time now);
   template <class What>
   void tell(const What& what, Time at);
   void publish();
   void sleep_until(Time due, Time now);
 
-  config::BatteryConfig config_;
   BatteryExchange& exchange_;
-  gateway::SlotId slot_;
-  gateway::LinkId link_id_;
+  const gateway::SlotId slot_;
+  const gateway::LinkId link_id_;
+  const Name name_;
+  const Duration period_;
+  const link::ModbusSettings settings_;
   std::vector<RegisterBlock> blocks_;  ///< what the driver asks for, each round
   std::unique_ptr<link::ModbusLink> link_;
   link::ModbusCounters closed_;  ///< of the links before this one

@@ -1,6 +1,5 @@
 #include "runtime/control_loop.h"
 
-#include <poll.h>
 #include <sys/prctl.h>
 
 #include <algorithm>
@@ -30,15 +29,20 @@ ControlLoop::ControlLoop(const config::DroverConfig& config, Gateway& gateway, L
       keeps_(keeps),
       battery_(battery),
       tick_(from_s(1 / config.control.tick_Hz)),
-      stream_baud_{config.gnss.baud, config.imu.baud},
+      open_(gateway.wiring().links.size()),
       guard_watch_(std::chrono::milliseconds(config.guard.limit_ms)) {
-  for (const auto& line : config.lines.line) line_count_ += line.configured ? 1 : 0;
-  for (std::size_t slot = 0; slot < kLinkSlots; ++slot) {
-    link_ids_[slot] = link_of(slot);
-    link_state_[slot].name = slot_name(slot);
-    link_state_[slot].is_bus = slot < kMaxBuses;
-    link_state_[slot].reason = "not opened yet";
+  const auto& links = gateway.wiring().links;
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    if (links[i].wire == Wire::registers) continue;  // the thread that polls it tells of it
+    link_state_[i].name = links[i].name;
+    link_state_[i].is_bus = links[i].wire == Wire::can;
+    open_[i].baud = config.links[links[i].place].baud;
   }
+  const auto& outputs = config.engine.output_configured;
+  if (std::find(outputs.begin(), outputs.end(), true) != outputs.end())
+    link_state_[kOutputsSlot].name = "outputs";
+  for (auto& state : link_state_) state.reason = "not opened yet";
+  wait_.reserve(links.size() * (1 + link::kMaxLines));
 }
 
 /// The wait ends at the tick's time or with bytes and edges, which are worth a wake-up at once. Of
@@ -59,26 +63,35 @@ void ControlLoop::run(const std::atomic<bool>& stop) {
 }
 
 Time ControlLoop::wait(Duration longest) {
-  std::array<pollfd, kStreamCount + link::kMaxLines> fds{};
-  for (std::size_t i = 0; i < kStreamCount; ++i)
-    fds[i] = {streams_[i] ? streams_[i]->fd() : -1, POLLIN, 0};
-  std::size_t count = kStreamCount;
-  if (lines_)
-    for (const int fd : lines_->edge_fds()) fds[count++] = {fd, POLLIN, 0};
-  const timespec time{static_cast<time_t>(longest / 1s), static_cast<long>((longest % 1s).count())};
-  const int ready = ::ppoll(fds.data(), count, &time, nullptr);
-  const Time now = monotonic_now();
-  if (ready <= 0) return now;
-  const auto is_ready = [](const pollfd& fd) { return fd.revents != 0; };
-  for (std::size_t i = 0; i < kStreamCount; ++i)
-    if (is_ready(fds[i])) read_stream(i, now);
-  if (std::any_of(fds.begin() + kStreamCount, fds.begin() + static_cast<std::ptrdiff_t>(count),
-                  is_ready)) {
-    std::array<bool, link::kMaxLines> edged{};
-    lines_->drain_edges(edged);
-    read_lines(now, edged);
+  wait_.clear();
+  for (const auto& link : open_) {
+    if (link.serial) wait_.push_back({link.serial->fd(), POLLIN, 0});
+    if (link.lines)
+      for (const int fd : link.lines->edge_fds()) wait_.push_back({fd, POLLIN, 0});
   }
+  const timespec time{static_cast<time_t>(longest / 1s), static_cast<long>((longest % 1s).count())};
+  const int ready = ::ppoll(wait_.data(), wait_.size(), &time, nullptr);
+  const Time now = monotonic_now();
+  if (ready > 0) hear_ready(now);
   return now;
+}
+
+/// In the order in which `wait` put them down: what is lost here is not looked for again.
+void ControlLoop::hear_ready(Time now) {
+  auto fd = wait_.cbegin();
+  for (std::size_t i = 0; i < open_.size(); ++i) {
+    if (open_[i].serial) {
+      if ((fd++)->revents != 0) read_stream(i, now);
+    } else if (open_[i].lines) {
+      const auto end = fd + static_cast<std::ptrdiff_t>(open_[i].lines->edge_fds().size());
+      const bool edges = std::any_of(fd, end, [](const pollfd& each) { return each.revents != 0; });
+      fd = end;
+      if (!edges) continue;
+      std::array<bool, link::kMaxLines> edged{};
+      open_[i].lines->drain_edges(edged);
+      read_lines(i, now, edged);
+    }
+  }
 }
 
 /// Returns the time at its end.
@@ -88,7 +101,8 @@ Time ControlLoop::cycle(Time begin, std::uint64_t late) {
   watch_sleep(begin);
   take_links(begin);
   drain_can(begin);
-  read_lines(begin);
+  for (std::size_t link = 0; link < open_.size(); ++link)
+    if (wire_of(link) == Wire::levels) read_lines(link, begin);
   watch_guard(begin);
   take_battery();
   watch_program(begin);
@@ -102,7 +116,7 @@ Time ControlLoop::cycle(Time begin, std::uint64_t late) {
   const auto& out = gateway_.output();
   for (std::size_t bus = 0; bus < gateway_.bus_count(); ++bus) {
     const auto& frames = out.frames[bus];
-    if (can_[bus] && !frames.empty()) send(bus, {frames.begin(), frames.size()}, begin);
+    if (open_[bus].can && !frames.empty()) send(bus, {frames.begin(), frames.size()}, begin);
   }
   for (const auto& stream : out.streams) serve_stream(stream, begin);
   write_outputs(out.engine.outputs, begin);
@@ -181,8 +195,8 @@ Time ControlLoop::publish(Time now) {
   for (std::size_t slot = 0; slot < kLinkSlots; ++slot) {
     auto& state = link_state_[slot];
     if (state.name.empty()) continue;
-    if (slot < kMaxBuses && can_[slot]) {
-      const auto& c = can_[slot]->counters();
+    if (state.is_bus && open_[slot].can) {
+      const auto& c = open_[slot].can->counters();
       state.received = c.received;
       state.sent = c.sent;
       state.dropped = c.receive_overflows + c.send_refused + gateway_.no_room(slot);
@@ -191,10 +205,10 @@ Time ControlLoop::publish(Time now) {
       state.refused = gateway_.refused(slot);
       state.reason = gateway_.bus_trouble(slot, now);
     }
-    if (is_stream(slot)) {
-      const auto stream = slot - kFirstStreamSlot;
-      state.dropped = gateway_.bytes_dropped(link_ids_[slot]) + bytes_untaken_[stream];
-      state.refused = gateway_.refused(link_ids_[slot]);
+    if (slot < open_.size() && wire_of(slot) == Wire::bytes) {
+      const auto link = static_cast<LinkId>(slot);
+      state.dropped = gateway_.bytes_dropped(link) + open_[slot].bytes_untaken;
+      state.refused = gateway_.refused(link);
     }
     (void)snapshot.links.push_back(state);
   }

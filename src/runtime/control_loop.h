@@ -2,7 +2,10 @@
 // bytes and edges wake it at once. After start it takes no lock, allocates nothing, logs nothing.
 #pragma once
 
+#include <poll.h>
+
 #include <atomic>
+#include <vector>
 
 #include "gateway/gateway.h"
 #include "runtime/battery_loop.h"
@@ -46,10 +49,11 @@ class ControlLoop final {
   void take_links(Time now);
   void lose(std::size_t slot, int error, Time now);
   Time wait(Duration longest);
-  void read_stream(std::size_t stream, Time now);
+  void hear_ready(Time now);
+  void read_stream(std::size_t link, Time now);
   void serve_stream(const StreamOutput& out, Time now);
-  void read_lines(Time now, const std::array<bool, link::kMaxLines>& edged = {});
-  void apply_levels(const std::array<bool, link::kMaxLines>& levels, Time now);
+  void read_lines(std::size_t link, Time now, const std::array<bool, link::kMaxLines>& edged = {});
+  void apply_levels(std::size_t link, const std::array<bool, link::kMaxLines>& levels, Time now);
   void write_outputs(const std::array<bool, kOutputCount>& on, Time now);
   void drain_can(Time now);
   Time cycle(Time begin, std::uint64_t late);
@@ -62,8 +66,10 @@ class ControlLoop final {
   void keep(const Remembered& remembered);
   void take_battery();
   Time publish(Time now);
-  Name slot_name(std::size_t slot) const;
-  LinkId link_of(std::size_t slot) const;
+  Wire wire_of(std::size_t link) const { return gateway_.wiring().links[link].wire; }
+  std::size_t line_count(std::size_t link) const {
+    return gateway_.wiring().links[link].slots.size();
+  }
 
   const config::DroverConfig& config_;
   Gateway& gateway_;
@@ -73,18 +79,21 @@ class ControlLoop final {
   KeepsOver keeps_;
   BatteryExchange* battery_;  ///< nullptr: none
   const Duration tick_;
-  std::array<std::unique_ptr<link::CanLink>, kMaxBuses> can_;
-  std::array<std::unique_ptr<link::SerialLink>, kStreamCount> streams_;
-  std::array<LinkId, kLinkSlots> link_ids_{};  ///< the gateway's number of each
-  std::array<int, kStreamCount> stream_baud_{};
-  std::array<std::uint64_t, kStreamCount> bytes_untaken_{};  ///< the line had no room for them
-  std::unique_ptr<link::LineLink> lines_;
+  /// A link of the gateway; which pointer is set follows its wire.
+  struct Open {
+    std::unique_ptr<link::CanLink> can;
+    std::unique_ptr<link::SerialLink> serial;
+    std::unique_ptr<link::LineLink> lines;
+    int baud = 0;
+    std::uint64_t bytes_untaken = 0;  ///< the line had no room for them
+  };
+  std::vector<Open> open_;    ///< by the gateway's numbers
+  std::vector<pollfd> wait_;  ///< room for all that wakes
   std::unique_ptr<link::OutputLink> outputs_;
   std::array<bool, kOutputCount> output_levels_{};
   Time outputs_written_ = kNever;
   std::array<LinkHandover, kLinkSlots> going_back_;  ///< dead links that the keeper has yet to take
   std::array<LinkSnapshot, kLinkSlots> link_state_;
-  std::size_t line_count_ = 0;
   Time previous_drain_ = kNever;
   Time clocks_measured_ = kNever;
   Duration wall_minus_monotonic_{};

@@ -20,31 +20,7 @@ constexpr Duration kClockStep = 1ms;
 /// Outputs are written when they change, and so often to learn whether their chip is still there.
 constexpr Duration kWriteOutputsEach = 100ms;
 
-constexpr std::size_t slot_of(Stream stream) {
-  return kFirstStreamSlot + static_cast<std::size_t>(stream);
-}
-
 }  // namespace
-
-Name ControlLoop::slot_name(std::size_t slot) const {
-  if (slot == slot_of(Stream::gnss)) return config_.gnss.configured ? Name("gnss") : Name();
-  if (slot == slot_of(Stream::imu)) return config_.imu.configured ? Name("imu") : Name();
-  if (slot == kLinesSlot) return line_count_ > 0 ? Name("lines") : Name();
-  if (slot == kOutputsSlot) {
-    const auto& outputs = config_.engine.output_configured;
-    return std::find(outputs.begin(), outputs.end(), true) != outputs.end() ? Name("outputs")
-                                                                            : Name();
-  }
-  return slot < config_.buses.size() ? Name(config_.buses[slot].name) : Name();
-}
-
-LinkId ControlLoop::link_of(std::size_t slot) const {
-  const auto& wiring = gateway_.wiring();
-  if (slot == slot_of(Stream::gnss)) return wiring.link_of(SlotKind::gnss);
-  if (slot == slot_of(Stream::imu)) return wiring.link_of(SlotKind::imu);
-  if (slot == kLinesSlot) return wiring.link_of(SlotKind::line);
-  return slot < gateway_.bus_count() ? static_cast<LinkId>(slot) : gateway::kNowhere;
-}
 
 void ControlLoop::take_links(Time now) {
   for (auto& dead : going_back_)
@@ -54,25 +30,25 @@ void ControlLoop::take_links(Time now) {
     const auto slot = arrived.slot;
     link_state_[slot].up = arrived.opened();
     link_state_[slot].reason = arrived.problem;
-    if (!arrived.opened()) {
-      if (slot < kMaxBuses) apply(now, gateway::LinkLost{link_ids_[slot], arrived.problem});
-      continue;
-    }
-    if (is_stream(slot)) {
-      streams_[slot - kFirstStreamSlot] = std::move(arrived.serial);
-      apply(now, gateway::LinkUp{link_ids_[slot]});
-    } else if (slot == kOutputsSlot) {
+    if (slot == kOutputsSlot) {
+      if (!arrived.opened()) continue;
       outputs_ = std::move(arrived.outputs);
       outputs_written_ = kNever;
       // It comes first in the order of Output, and so among the configured ones.
       static_assert(static_cast<int>(Output::enable_relay) == 0);
       apply(now, gateway::OutputsUp{config_.engine.output_configured[0] && outputs_->is_on(0)});
-    } else if (slot == kLinesSlot) {
-      lines_ = std::move(arrived.lines);
-    } else {
-      can_[slot] = std::move(arrived.can);
-      apply(now, gateway::LinkUp{link_ids_[slot]});
+      continue;
     }
+    const auto link = static_cast<LinkId>(slot);
+    if (!arrived.opened()) {
+      if (wire_of(slot) == Wire::can) apply(now, gateway::LinkLost{link, arrived.problem});
+      continue;
+    }
+    open_[slot].can = std::move(arrived.can);
+    open_[slot].serial = std::move(arrived.serial);
+    open_[slot].lines = std::move(arrived.lines);
+    // Lines tell by their levels that they are there.
+    if (wire_of(slot) != Wire::levels) apply(now, gateway::LinkUp{link});
   }
 }
 
@@ -91,73 +67,70 @@ void ControlLoop::lose(std::size_t slot, int error, Time now) {
   link_state_[slot].up = false;
   link_state_[slot].reason = dead.problem;
   // Not waited for any more: a descriptor that hung up is always ready and would spin the loop.
-  if (is_stream(slot)) {
-    dead.serial = std::move(streams_[slot - kFirstStreamSlot]);
-  } else if (slot == kLinesSlot) {
-    dead.lines = std::move(lines_);
-    apply(now, gateway::LinkLost{link_ids_[slot], {}});
-  } else if (slot == kOutputsSlot) {
+  if (slot == kOutputsSlot) {
     dead.outputs = std::move(outputs_);
   } else {
-    dead.can = std::move(can_[slot]);
-    apply(now, gateway::LinkLost{link_ids_[slot], dead.problem});
+    auto& link = open_[slot];
+    dead.can = std::move(link.can);
+    dead.serial = std::move(link.serial);
+    dead.lines = std::move(link.lines);
+    const auto why = wire_of(slot) == Wire::can ? dead.problem : Reason();
+    if (wire_of(slot) != Wire::bytes) apply(now, gateway::LinkLost{static_cast<LinkId>(slot), why});
   }
   (void)keeper_.give_back(dead);
 }
 
-void ControlLoop::read_stream(std::size_t stream, Time now) {
-  const auto slot = kFirstStreamSlot + stream;
+void ControlLoop::read_stream(std::size_t link, Time now) {
+  auto& [can, serial, lines, baud, untaken] = open_[link];
   std::array<std::uint8_t, 1024> buffer{};
   std::size_t size = 0;
-  if (!streams_[stream]->read(buffer, size)) return lose(slot, streams_[stream]->error(), now);
+  if (!serial->read(buffer, size)) return lose(link, serial->error(), now);
   if (size == 0) return;
-  link_state_[slot].received += size;
+  link_state_[link].received += size;
   // The first byte came in before the last one: take the wire's time off.
-  const Duration wire = from_s(10.0 * static_cast<double>(size - 1) / stream_baud_[stream]);
-  apply(now - wire, gateway::BytesHeard{link_ids_[slot], {buffer.data(), size}});
+  const Duration wire = from_s(10.0 * static_cast<double>(size - 1) / baud);
+  apply(now - wire, gateway::BytesHeard{static_cast<LinkId>(link), {buffer.data(), size}});
 }
 
 void ControlLoop::serve_stream(const StreamOutput& out, Time now) {
-  std::size_t stream = 0;
-  while (stream < kStreamCount && link_ids_[kFirstStreamSlot + stream] != out.link) ++stream;
-  if (stream == kStreamCount || !streams_[stream]) return;
-  const auto slot = kFirstStreamSlot + stream;
+  auto& link = open_[out.link];
+  if (!link.serial) return;
   const bool leaves = !out.moves || still_may_leave(now);
-  if (!leaves) bytes_untaken_[stream] += out.bytes.size();
+  if (!leaves) link.bytes_untaken += out.bytes.size();
   if (leaves && !out.bytes.empty()) {
     std::size_t taken = 0;
-    if (!streams_[stream]->write(out.bytes, taken))
-      return lose(slot, streams_[stream]->error(), now);
-    link_state_[slot].sent += taken;
-    bytes_untaken_[stream] += out.bytes.size() - taken;
+    if (!link.serial->write(out.bytes, taken)) return lose(out.link, link.serial->error(), now);
+    link_state_[out.link].sent += taken;
+    link.bytes_untaken += out.bytes.size() - taken;
   }
   if (out.reopen_baud == 0) return;
   // Setting a line's speed may block: the keeper does it.
-  stream_baud_[stream] = static_cast<int>(out.reopen_baud);
-  auto& dead = going_back_[slot];
-  dead.reopen_baud = stream_baud_[stream];
-  lose(slot, 0, now);
+  link.baud = static_cast<int>(out.reopen_baud);
+  going_back_[out.link].reopen_baud = link.baud;
+  lose(out.link, 0, now);
 }
 
 /// A line in `edged` is told at its other level first: a pulse that is over already counts too.
-void ControlLoop::read_lines(Time now, const std::array<bool, link::kMaxLines>& edged) {
-  if (line_count_ == 0) return;
-  if (!lines_) return apply(now, gateway::LinkLost{link_ids_[kLinesSlot], {}});
+void ControlLoop::read_lines(std::size_t link, Time now,
+                             const std::array<bool, link::kMaxLines>& edged) {
+  const auto& lines = open_[link].lines;
+  if (!lines) return apply(now, gateway::LinkLost{static_cast<LinkId>(link), {}});
   std::array<bool, link::kMaxLines> levels{};
-  if (!lines_->read(levels)) return lose(kLinesSlot, lines_->error(), now);
+  if (!lines->read(levels)) return lose(link, lines->error(), now);
   const bool pulses = std::find(edged.begin(), edged.end(), true) != edged.end();
   if (pulses) {
     auto before = levels;
-    for (std::size_t i = 0; i < line_count_; ++i) before[i] = levels[i] != edged[i];
-    apply_levels(before, now);
+    for (std::size_t i = 0; i < line_count(link); ++i) before[i] = levels[i] != edged[i];
+    apply_levels(link, before, now);
   }
-  apply_levels(levels, now);
+  apply_levels(link, levels, now);
 }
 
-void ControlLoop::apply_levels(const std::array<bool, link::kMaxLines>& levels, Time now) {
+void ControlLoop::apply_levels(std::size_t link, const std::array<bool, link::kMaxLines>& levels,
+                               Time now) {
   gateway::LevelsRead read;
-  read.link = link_ids_[kLinesSlot];
-  for (std::size_t i = 0; i < line_count_; ++i) (void)read.levels.push_back(levels[i]);
+  read.link = static_cast<LinkId>(link);
+  for (std::size_t i = 0; i < line_count(link); ++i) (void)read.levels.push_back(levels[i]);
   apply(now, read);
 }
 
@@ -187,16 +160,17 @@ void ControlLoop::drain_can(Time now) {
   previous_drain_ = now;
   constexpr int kMostBatches = 64;  // a babbling bus must not hold the cycle for ever
   for (std::size_t bus = 0; bus < gateway_.bus_count(); ++bus) {
-    for (int i = 0; i < kMostBatches && can_[bus]; ++i) {
-      const auto clamped = can_[bus]->counters().clamped_stamps;
-      if (!can_[bus]->receive(window, batch_)) {
-        lose(bus, can_[bus]->error(), now);
+    const auto& can = open_[bus].can;
+    for (int i = 0; i < kMostBatches && can; ++i) {
+      const auto clamped = can->counters().clamped_stamps;
+      if (!can->receive(window, batch_)) {
+        lose(bus, can->error(), now);
         break;
       }
       // Somebody has set a clock.
-      if (can_[bus]->counters().clamped_stamps != clamped) clocks_measured_ = kNever;
+      if (can->counters().clamped_stamps != clamped) clocks_measured_ = kNever;
       for (const auto& received : batch_)
-        apply(received.received, gateway::FrameHeard{link_ids_[bus], received.frame});
+        apply(received.received, gateway::FrameHeard{static_cast<LinkId>(bus), received.frame});
       if (batch_.size() < batch_.capacity()) break;
     }
   }
@@ -210,7 +184,7 @@ bool ControlLoop::still_may_leave(Time decided) const {
 }
 
 void ControlLoop::send(std::size_t bus, std::span<const CanFrame> frames, Time decided) {
-  auto& can = *can_[bus];
+  auto& can = *open_[bus].can;
   while (!frames.empty()) {
     const auto count = std::min(frames.size(), link::FrameBatch::capacity());
     if (!still_may_leave(decided)) {
@@ -221,7 +195,8 @@ void ControlLoop::send(std::size_t bus, std::span<const CanFrame> frames, Time d
     frames = frames.subspan(count);
   }
   const auto& counters = can.counters();
-  apply(decided, gateway::FramesSent{link_ids_[bus], counters.sent, counters.send_refused});
+  apply(decided,
+        gateway::FramesSent{static_cast<LinkId>(bus), counters.sent, counters.send_refused});
 }
 
 void ControlLoop::take_battery() {

@@ -77,11 +77,8 @@ class Daemon final {
         files_(),
         storage_(files_, config.paths.state),
         gateway_(config),
-        keeper_(config, guard_, gateway_.duties()),
-        battery_(config.battery.configured
-                     ? std::make_unique<BatteryLoop>(config.battery, gateway_.wiring(),
-                                                     battery_exchange_)
-                     : nullptr),
+        keeper_(config, gateway_.wiring(), guard_, gateway_.duties()),
+        battery_(slow_thread()),
         stored_(storage_.load()),
         memory_(config.paths.run, boot_id(), text, stored_.report),
         on_disk_(stored_.stop),
@@ -142,6 +139,16 @@ class Daemon final {
   }
 
  private:
+  /// nullptr: nothing is polled.
+  std::unique_ptr<BatteryLoop> slow_thread() {
+    const auto& slots = gateway_.wiring().slots;
+    for (std::size_t i = 0; i < slots.size(); ++i)
+      if (slots[i].thread == gateway::Slot::Thread::slow)
+        return std::make_unique<BatteryLoop>(config_, gateway_.wiring(),
+                                             static_cast<gateway::SlotId>(i), battery_exchange_);
+    return nullptr;
+  }
+
   void run_control() {
     if (config_.control.realtime)
       if (const auto missing = become_real_time(config_.control.priority); !missing.empty())

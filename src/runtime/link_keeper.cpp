@@ -11,12 +11,6 @@
 namespace drover::runtime {
 
 namespace {
-std::vector<std::string> line_names(const config::LinesConfig& lines) {
-  std::vector<std::string> names;
-  for (const auto& line : lines.line)
-    if (line.configured) names.push_back(line.name);
-  return names;
-}
 std::vector<link::OutputLine> output_lines(const config::OutputsConfig& outputs) {
   std::vector<link::OutputLine> lines;
   for (const auto& output : outputs.output)
@@ -41,22 +35,35 @@ std::string relay_name(const config::OutputsConfig& outputs) {
 constexpr Duration kWatchdogPause = std::chrono::seconds(1);
 }  // namespace
 
-LinkKeeper::LinkKeeper(const config::DroverConfig& config, const GuardMemory& memory,
-                       std::vector<gateway::LinkDuty> duties)
+LinkKeeper::LinkKeeper(const config::DroverConfig& config, const Wiring& wiring,
+                       const GuardMemory& memory, std::vector<gateway::LinkDuty> duties)
     : config_(config),
+      wiring_(wiring),
       duties_(std::move(duties)),
       guard_(config.guard.socket, config.guard.limit_ms, memory) {
-  for (std::size_t i = 0; i < config.buses.size(); ++i) slots_[i].used = true;
-  const auto use_stream = [this](Stream stream, const auto& settings) {
-    auto& slot = slots_[kFirstStreamSlot + static_cast<std::size_t>(stream)];
-    slot.used = settings.configured;
-    slot.serial = {settings.port, settings.baud};
-  };
-  use_stream(Stream::gnss, config.gnss);
-  use_stream(Stream::imu, config.imu);
-  slots_[kLinesSlot].used = !line_names(config.lines).empty();
+  for (std::size_t i = 0; i < wiring.links.size(); ++i) {
+    slots_[i].used = wiring.links[i].wire != Wire::registers;
+    slots_[i].baud = settings_of(i).baud;
+  }
   slots_[kOutputsSlot].used = !output_lines(config.outputs).empty();
   watchdog_.used = config.outputs.watchdog.configured;
+}
+
+const config::LinkConfig& LinkKeeper::settings_of(std::size_t slot) const {
+  return config_.links[wiring_.links[slot].place];
+}
+
+std::size_t LinkKeeper::bus_count() const {
+  std::size_t count = 0;
+  while (is_bus(count)) ++count;
+  return count;
+}
+
+std::vector<std::string> LinkKeeper::line_names(std::size_t slot) const {
+  std::vector<std::string> names;
+  for (const auto id : wiring_.links[slot].slots)
+    names.push_back(config_.devices[wiring_.slots[id].place].line);
+  return names;
 }
 
 bool LinkKeeper::give_back(LinkHandover& lost) {
@@ -107,9 +114,9 @@ void LinkKeeper::take_back_lost() {
     auto& slot = slots_[lost.slot];
     slot.open = false;
     slot.retry.try_now();
-    if (lost.slot < kMaxBuses) guard_set_changed_ = true;
+    if (is_bus(lost.slot)) guard_set_changed_ = true;
     if (lost.slot == kOutputsSlot) forget_relay();
-    if (lost.reopen_baud > 0) slot.serial.baud = lost.reopen_baud;
+    if (lost.reopen_baud > 0) slot.baud = lost.reopen_baud;
     log(lost.reopen_baud > 0 ? LogLevel::info : LogLevel::error, lost.problem.view());
     lost = {};  // closes: at once, or the device comes back under another name
   }
@@ -117,7 +124,7 @@ void LinkKeeper::take_back_lost() {
 
 link::CanSettings LinkKeeper::can_settings(std::size_t bus) const {
   link::CanSettings settings;
-  settings.interface = config_.buses[bus].interface;
+  settings.interface = settings_of(bus).can;
   settings.frames_per_cycle = std::max<std::size_t>(duties_[bus].messages_per_cycle, 4);
   return settings;
 }
@@ -129,14 +136,19 @@ LinkHandover LinkKeeper::open(std::size_t slot, std::string& problem) {
     into = std::move(opened.link);
     problem = std::move(opened.problem);
   };
-  if (is_stream(slot)) {
-    take(link::open_serial(slots_[slot].serial), handover.serial);
-  } else if (slot == kLinesSlot) {
-    take(link::open_lines({config_.lines.chip, line_names(config_.lines)}), handover.lines);
-  } else if (slot == kOutputsSlot) {
+  if (slot == kOutputsSlot) {
     take(open_outputs(), handover.outputs);
-  } else {
-    take(link::open_can(can_settings(slot)), handover.can);
+    return handover;
+  }
+  switch (wiring_.links[slot].wire) {
+    case Wire::can: take(link::open_can(can_settings(slot)), handover.can); break;
+    case Wire::bytes:
+      take(link::open_serial({settings_of(slot).serial, slots_[slot].baud}), handover.serial);
+      break;
+    case Wire::levels:
+      take(link::open_lines({settings_of(slot).gpio, line_names(slot)}), handover.lines);
+      break;
+    case Wire::registers: break;
   }
   return handover;
 }
@@ -174,11 +186,10 @@ void LinkKeeper::try_open(std::size_t slot, Time now) {
   if (!arrivals_.push(std::move(handover))) return failed(slot, "the control thread is busy", now);
   slots_[slot].open = true;
   slots_[slot].problem.clear();
-  if (slot < kMaxBuses) guard_set_changed_ = true;
-  const auto name = is_stream(slot)        ? slots_[slot].serial.path
-                    : slot == kLinesSlot   ? "gpio " + config_.lines.chip
-                    : slot == kOutputsSlot ? "gpio " + config_.outputs.chip + " (outputs)"
-                                           : config_.buses[slot].interface;
+  if (is_bus(slot)) guard_set_changed_ = true;
+  const auto name = slot == kOutputsSlot ? "gpio " + config_.outputs.chip + " (outputs)"
+                    : wiring_.links[slot].wire == Wire::levels ? "gpio " + settings_of(slot).gpio
+                                                               : config::address(settings_of(slot));
   log(LogLevel::info, name + ": open");
 }
 
@@ -198,12 +209,12 @@ void LinkKeeper::supply_guard(Time now) {
   const bool supplied = !guard_set_changed_ && guard_.connected();
   if (supplied || !guard_slot_.retry.due(now)) return;
   if (!guard_.connected()) relay_given_ = false;
-  std::vector<GuardedLink> links(config_.buses.size());
+  std::vector<GuardedLink> links(bus_count());
   std::string missing;
   for (std::size_t i = 0; i < links.size(); ++i) {
     if (!slots_[i].open) continue;
     std::string why;
-    links[i].name = config_.buses[i].name;
+    links[i].name = wiring_.links[i].name;
     auto settings = can_settings(i);
     settings.hears = false;
     links[i].descriptor = link::open_can_descriptor(settings, why);

@@ -28,19 +28,12 @@ using gateway::Gateway;
 using gateway::kMaxBuses;
 using gateway::LinkId;
 using gateway::StreamOutput;
+using gateway::Wiring;
 
-/// Devices on byte streams, as the configuration knows them.
-enum class Stream : std::uint8_t { gnss, imu };
-inline constexpr std::size_t kStreamCount = 2;
-
-/// Slots: the buses first, then the byte streams, then the digital inputs and outputs.
-inline constexpr std::size_t kFirstStreamSlot = kMaxBuses;
-inline constexpr std::size_t kLinesSlot = kFirstStreamSlot + kStreamCount;
-inline constexpr std::size_t kOutputsSlot = kLinesSlot + 1;
+/// Slots: the gateway's links by their numbers, and behind them the outputs' chip. What is polled
+/// is opened by the thread that polls it, and has no use for its slot.
+inline constexpr std::size_t kOutputsSlot = gateway::kMaxLinks;
 inline constexpr std::size_t kLinkSlots = kOutputsSlot + 1;
-constexpr bool is_stream(std::size_t slot) {
-  return slot >= kFirstStreamSlot && slot < kLinesSlot;
-}
 
 /// A link on its way between the keeper and the control thread; which pointer is set follows the
 /// slot.
@@ -58,7 +51,7 @@ struct LinkHandover {
 
 class LinkKeeper final {
  public:
-  LinkKeeper(const config::DroverConfig& config, const GuardMemory& memory,
+  LinkKeeper(const config::DroverConfig& config, const Wiring& wiring, const GuardMemory& memory,
              std::vector<gateway::LinkDuty> duties);
 
   // Control thread:
@@ -85,12 +78,18 @@ class LinkKeeper final {
     // A device that comes back is there within a second: the pause never grows beyond half of it.
     BackOff retry{std::chrono::milliseconds(50), std::chrono::milliseconds(500)};
     std::string problem;
-    link::SerialSettings serial;  ///< of a stream
+    int baud = 0;  ///< of a stream
   };
+  const config::LinkConfig& settings_of(std::size_t slot) const;
+  bool is_bus(std::size_t slot) const {
+    return slot < wiring_.links.size() && wiring_.links[slot].wire == Wire::can;
+  }
   void take_back_lost();
   void try_open(std::size_t slot, Time now);
   LinkHandover open(std::size_t slot, std::string& problem);
   link::Opened<link::OutputLink> open_outputs();
+  std::vector<std::string> line_names(std::size_t slot) const;
+  std::size_t bus_count() const;  ///< they are the first links
   link::CanSettings can_settings(std::size_t bus) const;
   void failed(std::size_t slot, const std::string& problem, Time now);
   void supply_guard(Time now);
@@ -100,6 +99,7 @@ class LinkKeeper final {
   Duration until_next_try(Time now) const;
 
   const config::DroverConfig& config_;
+  const Wiring& wiring_;
   std::vector<gateway::LinkDuty> duties_;  ///< by the gateway's links
   std::array<Slot, kLinkSlots> slots_{};
   SpscRing<LinkHandover, 16> arrivals_;

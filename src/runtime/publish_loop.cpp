@@ -67,7 +67,7 @@ publish::aimrt::ChannelConfig channel_config(const config::DroverConfig& config)
   channel.touch_state_outlet = outlet(aimrt.touch_state_names, aimrt.touch_state_content);
   channel.silence = from_s(config.engine.health.joint_command_timeout_s);
   channel.rules.max_age = from_s(1e-3 * aimrt.max_command_age_ms);
-  for (const auto& drive : config.drives) channel.rules.joints.push_back(drive.joint);
+  for (const auto& joint : config.engine.joints) channel.rules.joints.emplace_back(joint.view());
   return channel;
 }
 

@@ -27,16 +27,17 @@ std::string configuration(std::size_t drives) {
   for (std::size_t i = 0; i < drives; ++i) {
     const auto bus = "can" + std::to_string(i / 4);
     const auto joint = "wheel" + std::to_string(i);
-    if (i % 4 == 0) add(buses, R"({"name": ")" + bus + R"(", "interface": ")" + bus + R"("})");
-    add(axes, R"({"joint": ")" + joint + R"(", "driver": "odrive", "bus": ")" + bus +
+    if (i % 4 == 0) add(buses, R"(")" + bus + R"(": {"can": ")" + bus + R"("})");
+    add(axes, R"(")" + joint + R"(": {"driver": "odrive", "link": ")" + bus +
                   R"(", "options": {"node": )" + std::to_string(i + 1) +
                   R"(}, "accept": ["no_watchdog"]})");
     add(i % 2 == 0 ? left : right, '"' + joint + '"');
   }
-  return R"({"buses": [)" + buses + R"(], "drives": [)" + axes +
-         R"(], "base": {"wheel_radius_m": 0.165, "track_m": 0.6, "hold": "brake", "left": [)" +
-         left + R"(], "right": [)" + right + R"(]}, "accept": ["no_estop"],
-         "gnss": {"port": "/dev/drover/gnss"},
+  return R"({"links": {)" + buses + R"(, "gnss": {"serial": "/dev/drover/gnss"}}, "devices": {)" +
+         axes + R"(, "gnss": {"driver": "nmea0183", "link": "gnss"}},
+         "groups": {"base": {"kind": "skid_steer", "wheel_radius_m": 0.165, "track_m": 0.6,
+                             "hold": "brake", "left": [)" +
+         left + R"(], "right": [)" + right + R"(]}}, "accept": ["no_estop"],
          "mqtt": {"host": "127.0.0.1", "port": 1883}})";
 }
 

@@ -21,11 +21,13 @@ class Dump final {
 
   void number(std::string_view key, double value, config::Range range, std::string_view,
               config::Presence = config::Presence::optional) {
+    if (!is_of_this_kind(key)) return;
     require_(value >= range.min && value <= range.max);
     put_number(key, value);
   }
   void integer(std::string_view key, int value, config::Range range, std::string_view,
                config::Presence = config::Presence::optional) {
+    if (!is_of_this_kind(key) || (is_link_ && value == 0)) return;
     require_(value >= range.min && value <= range.max);
     out_.key(key).integer(value);
   }
@@ -35,6 +37,9 @@ class Dump final {
   }
   void text(std::string_view key, const std::string& value, std::string_view,
             config::Presence presence = config::Presence::optional) {
+    if (presence == config::Presence::alternative) is_link_ = true;
+    if (!is_of_this_kind(key) || (presence == config::Presence::alternative && value.empty()))
+      return;
     require_(presence == config::Presence::optional || !value.empty());
     // Everything that uses a text takes it for a C string.
     require_(value.find('\0') == std::string::npos);
@@ -42,20 +47,22 @@ class Dump final {
   }
   void choice(std::string_view key, const std::string& value, const std::vector<std::string>& all,
               std::string_view, config::Presence = config::Presence::optional) {
+    if (!is_of_this_kind(key) || (is_link_ && value == "none")) return;
     require_(std::find(all.begin(), all.end(), value) != all.end());
     out_.key(key).text(value);
   }
   void names(std::string_view key, const std::vector<std::string>& value, config::Count count,
              std::string_view, config::Presence = config::Presence::optional) {
+    if (!is_of_this_kind(key)) return;
     require_(value.size() >= count.min && value.size() <= count.max);
     out_.key(key).open('[');
     for (const auto& name : value) out_.text(name);
     out_.close(']');
   }
-  void options(std::string_view key, const Options& value, const std::string& driver,
-               SlotKind kind) {
-    const auto* entry = find_driver(driver, kind);
+  void options(std::string_view key, const Options& value, const std::string& driver) {
+    const auto* entry = find_driver(driver);
     require_(entry != nullptr);
+    driver_ = entry;
     out_.key(key).open('{');
     for (const auto& spec : entry->options) option(spec, value);
     out_.close('}');
@@ -67,7 +74,7 @@ class Dump final {
     if constexpr (requires { value.configured; })
       if (!value.configured) return;
     if constexpr (requires { value.chip; })
-      if (value.chip.empty()) return;
+      if (value.link.empty()) return;
     out_.key(key);
     Dump inner(out_, require_);
     config::visit(inner, value);
@@ -85,9 +92,30 @@ class Dump final {
     }
     out_.close(']');
   }
+  template <class T>
+  void table(std::string_view key, const std::vector<T>& values, config::Count count,
+             std::string_view, config::Presence = config::Presence::optional) {
+    if (!is_of_this_kind(key)) return;
+    require_(values.size() >= count.min && values.size() <= count.max);
+    out_.key(key).open('{');
+    for (T value : values) {
+      out_.key(value.name);
+      Dump inner(out_, require_);
+      config::visit(inner, value);
+      inner.finish();
+    }
+    out_.close('}');
+  }
+  void keys_of_kind(const std::string&) {}
   void finish() { out_.close('}'); }
 
  private:
+  /// What a device of another kind may not have.
+  bool is_of_this_kind(std::string_view key) const {
+    for (const auto& each : config::kKindKeys)
+      if (driver_ != nullptr && each.key == key && each.kind != driver_->kind) return false;
+    return true;
+  }
   void put_number(std::string_view key, double value) {
     require_(std::isfinite(value));
     out_.key(key).number(value + 0.0);  // -0 would come back as 0
@@ -112,6 +140,8 @@ class Dump final {
 
   json::JsonText& out_;
   Require require_;
+  const DriverEntry* driver_ = nullptr;  ///< of a device
+  bool is_link_ = false;                 ///< what is as usual is left out: not every link has it
 };
 
 inline std::string word_of(engine::HoldBy hold) {
@@ -126,15 +156,18 @@ inline std::string word_of(engine::HoldBy hold) {
 /// The text that gives `config` again when it is read.
 template <class Require>
 std::string dump(config::DroverConfig config, Require require) {
-  config::BaseNames base;
+  config::GroupNames groups;
+  auto& base = groups.base;
   base.base = &config.engine.base;
+  base.kind =
+      config.engine.base.kind == engine::BaseKind::skid_steer ? "skid_steer" : "differential";
   base.hold = word_of(config.engine.base.hold);
-  for (const AxisId axis : config.engine.base.left) base.left.push_back(config.drives[axis].joint);
-  for (const AxisId axis : config.engine.base.right)
-    base.right.push_back(config.drives[axis].joint);
+  for (const auto& [axes, names] :
+       {std::pair{&config.engine.base.left, &base.left}, {&config.engine.base.right, &base.right}})
+    for (const AxisId axis : *axes) names->emplace_back(config.engine.joints[axis].view());
   json::JsonText out;
   Dump writer(out, require);
-  config::visit(writer, config, base);
+  config::visit(writer, config, groups);
   writer.finish();
   return out.take();
 }

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "config/load.h"
+#include "config/old_sections.h"
 #include "config/register_map.h"
 #include "drover/registry.h"
 #include "json/located_json.h"
@@ -66,14 +67,24 @@ void check_problems(std::string_view text, const std::vector<config::Problem>& p
 
 /// A file of the machine is nothing that an input may name.
 bool names_a_path(const json::Node& root) {
-  const auto* battery = root.find("battery");
-  const auto* map = battery != nullptr ? battery->find("map") : nullptr;
-  return map != nullptr && map->text() != nullptr && map->text()->find('/') != std::string::npos;
+  const auto* devices = root.find("devices");
+  if (devices == nullptr || devices->object() == nullptr) return false;
+  for (const auto& device : *devices->object()) {
+    const auto* map = device.node.find("map");
+    if (map != nullptr && map->text() != nullptr && map->text()->find('/') != std::string::npos)
+      return true;
+  }
+  return false;
 }
 
 void check_config(std::string_view text, bool is_object) {
   const auto loaded = config::load_text(text, kMapFolder);
   check_problems(text, loaded.problems, is_object);
+  if (!loaded.new_sections.empty()) {
+    // The text in their stead has none of them.
+    const auto today = config::in_todays_form(text);
+    require(config::load_text(today, kMapFolder, "{}").new_sections.empty());
+  }
   if (!loaded.problems.empty()) return;
   const std::string written = fuzz::dump(loaded.config, require);
   const auto again = config::load_text(written, kMapFolder);

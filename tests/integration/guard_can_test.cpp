@@ -22,14 +22,15 @@ namespace {
 /// droverd with two drives on can0 and can1, and nothing else.
 constexpr const char* kDroverFile = R"({
   "paths": {"state": "@/state", "run": "@/run"},
-  "buses": [{"name": "one", "interface": "can0"}, {"name": "two", "interface": "can1"}],
-  "drives": [
-    {"joint": "left", "driver": "odrive", "bus": "one", "options": {"node": 0},
-     "accept": ["no_watchdog"]},
-    {"joint": "right", "driver": "odrive", "bus": "two", "options": {"node": 1},
-     "accept": ["no_watchdog"]}],
-  "base": {"wheel_radius_m": 0.1, "track_m": 0.4, "hold": "level_ground_only", "hold_again": false,
-           "left": ["left"], "right": ["right"]},
+  "links": {"one": {"can": "can0"}, "two": {"can": "can1"}},
+  "devices": {
+    "left": {"driver": "odrive", "link": "one", "options": {"node": 0},
+             "accept": ["no_watchdog"]},
+    "right": {"driver": "odrive", "link": "two", "options": {"node": 1},
+              "accept": ["no_watchdog"]}},
+  "groups": {"base": {"kind": "differential", "wheel_radius_m": 0.1, "track_m": 0.4,
+                      "hold": "level_ground_only", "hold_again": false,
+                      "left": ["left"], "right": ["right"]}},
   "guard": {"socket": "@/guard.sock"},
   "mqtt": {"enabled": false},
   "accept": ["no_estop"]

@@ -1,5 +1,7 @@
 #include "gateway/recording/first_edition.h"
 
+#include <algorithm>
+
 #include "gateway/recording/bytes.h"
 
 namespace drover::gateway {
@@ -50,10 +52,22 @@ const Translation kTranslations[] = {
     {kind_now<OutputsUp>()},
 };
 
+/// The slot of this kind; kNowhere when there is none.
+SlotId slot_of(const Wiring& wiring, SlotKind kind) {
+  const auto it = std::find_if(wiring.slots.begin(), wiring.slots.end(),
+                               [kind](const Slot& slot) { return slot.kind == kind; });
+  return it == wiring.slots.end() ? kNowhere : static_cast<SlotId>(it - wiring.slots.begin());
+}
+
+LinkId link_of(const Wiring& wiring, SlotKind kind) {
+  const SlotId slot = slot_of(wiring, kind);
+  return slot == kNowhere ? kNowhere : wiring.slots[slot].link;
+}
+
 }  // namespace
 
 std::vector<LinkId> streams_of_first_edition(const Wiring& wiring) {
-  return {wiring.link_of(SlotKind::gnss), wiring.link_of(SlotKind::imu)};
+  return {link_of(wiring, SlotKind::gnss), link_of(wiring, SlotKind::imu)};
 }
 
 std::vector<std::uint8_t> from_first_edition(std::span<const std::uint8_t> record,
@@ -75,13 +89,13 @@ std::vector<std::uint8_t> from_first_edition(std::span<const std::uint8_t> recor
       out.byte(streams[in.below(streams.size())]);
       break;
     }
-    case Adds::chip: out.byte(wiring.link_of(SlotKind::line)); break;
+    case Adds::chip: out.byte(link_of(wiring, SlotKind::line)); break;
     case Adds::lost:
-      out.byte(wiring.link_of(SlotKind::line));
+      out.byte(link_of(wiring, SlotKind::line));
       out.text("");
       break;
-    case Adds::battery: out.byte(wiring.first(SlotKind::battery)); break;
-    case Adds::line_of_battery: out.byte(wiring.link_of(SlotKind::battery)); break;
+    case Adds::battery: out.byte(slot_of(wiring, SlotKind::battery)); break;
+    case Adds::line_of_battery: out.byte(link_of(wiring, SlotKind::battery)); break;
   }
   out.bytes(in.left());
   if (adds == Adds::joints_wait) out.text("");

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "config/load.h"
+#include "config/old_sections.h"
 #include "gateway/recording/encoder.h"
 #include "gateway/recording/field_values.h"
 #include "gateway/recording/first_edition.h"
@@ -77,7 +78,8 @@ class Replay final {
       return false;
     }
     result_.version = header.version;
-    const auto loaded = config::load_text(header.configuration, "", std::move(header.register_map));
+    const auto loaded = config::load_text(config::in_todays_form(header.configuration), "",
+                                          std::move(header.register_map));
     if (!loaded.problems.empty()) {
       result_.note =
           "its configuration is not understood: " + loaded.problems.front().text("configuration");

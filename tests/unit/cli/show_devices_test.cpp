@@ -24,14 +24,14 @@ std::string shown(std::string_view name, std::string_view status) {
   return view(name).show(parsed(status));
 }
 
-TEST(DeviceViews, TellWhichSectionIsNotConfigured) {
+TEST(DeviceViews, TellWhatIsNotConfigured) {
   const auto none = parsed(R"({"gnss":null,"links":[{"name":"gnss"}],"axes":[],"lines":{}})");
   EXPECT_EQ(missing(view("gnss"), none),
-            "not configured: there is no \"gnss\" in droverd's configuration");
+            "not configured: there is no receiver in droverd's configuration");
   EXPECT_EQ(missing(view("can"), none),
-            "not configured: there is no \"drives\" in droverd's configuration");
+            "not configured: there is no drive in droverd's configuration");
   EXPECT_EQ(missing(view("gpio"), none),
-            "not configured: there is no \"lines\" in droverd's configuration");
+            "not configured: there is no digital input or output in droverd's configuration");
   EXPECT_EQ(missing(view("imu"), none), "this droverd does not tell of imu: it is older");
   EXPECT_EQ(missing(view("imu"), parsed(R"({"imu":{"age_s":null}})")), "");
 }

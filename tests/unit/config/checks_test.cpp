@@ -10,109 +10,201 @@ namespace {
 
 using testing::HasSubstr;
 
-TEST(ConfigurationChecks, RefuseTwoDrivesWithOneAddress) {
-  EXPECT_EQ(problems(with("\"node\": 2", "\"node\": 1")),
-            "f:5:79: drives[1].options.node: two drives have one address (can0, odrive node 1):"
-            " the other is drives[0].options.node\n");
+TEST(ConfigurationChecks, RefuseTwoDevicesWithOneAddress) {
+  EXPECT_EQ(
+      problems(with("\"node\": 2", "\"node\": 1")),
+      "f:6:71: devices.right.options.node: two devices have one address (can0, odrive node 1):"
+      " the other is devices.left.options.node\n");
 }
 
 TEST(ConfigurationChecks, AllowOneAddressOnTwoBuses) {
-  auto text = with("\"interface\": \"can0\"}",
-                   "\"interface\": \"can0\"}, {\"name\": \"can1\", \"interface\": \"can1\"}");
-  const std::string_view old = "\"bus\": \"can0\", \"options\": {\"node\": 2}";
-  text.replace(text.find(old), old.size(), "\"bus\": \"can1\", \"options\": {\"node\": 1}");
+  auto text = with("{\"can\": \"can0\"}", "{\"can\": \"can0\"}, \"can1\": {\"can\": \"can1\"}");
+  const std::string_view old = "\"link\": \"can0\", \"options\": {\"node\": 2}";
+  text.replace(text.find(old), old.size(), "\"link\": \"can1\", \"options\": {\"node\": 1}");
   EXPECT_EQ(problems(text), "");
-  EXPECT_EQ(load_text(text).config.drives[1].bus_index, 1u);
+  EXPECT_EQ(load_text(text).config.devices[1].link_index, 1u);
 }
 
-TEST(ConfigurationChecks, RefuseABusThatDoesNotExist) {
-  EXPECT_EQ(problems(with("\"bus\": \"can0\", \"options\": {\"node\": 2}",
-                          "\"bus\": \"cna0\", \"options\": {\"node\": 2}")),
-            "f:5:51: drives[1].bus: there is no bus named \"cna0\" (did you mean \"can0\"?)\n");
+TEST(ConfigurationChecks, RefuseALinkThatDoesNotExist) {
+  EXPECT_EQ(
+      problems(with("\"link\": \"can0\", \"options\": {\"node\": 2}",
+                    "\"link\": \"cna0\", \"options\": {\"node\": 2}")),
+      "f:6:43: devices.right.link: there is no link named \"cna0\" (did you mean \"can0\"?)\n");
 }
 
-TEST(ConfigurationChecks, RefuseANameThatIsUsedTwice) {
-  EXPECT_THAT(problems(with("\"joint\": \"right\"", "\"joint\": \"left\"")),
-              HasSubstr("f:5:15: drives[1].joint: \"left\" is used by drives[0].joint already\n"));
-  EXPECT_EQ(problems(with("\"interface\": \"can0\"}",
-                          "\"interface\": \"can0\"}, {\"name\": \"b\", \"interface\": \"can0\"}")),
-            "f:2:79: buses[1].interface: \"can0\" is used by buses[0].interface already\n");
+TEST(ConfigurationChecks, RefuseALinkOfTheWrongWire) {
+  EXPECT_EQ(
+      problems(with("\"link\": \"can0\", \"options\": {\"node\": 2}",
+                    "\"link\": \"gnss\", \"options\": {\"node\": 2}")),
+      "f:6:43: devices.right.link: \"gnss\" is a serial line, but odrive hangs on a CAN bus\n");
+  EXPECT_EQ(
+      problems(with("\"nmea0183\", \"link\": \"gnss\"", "\"nmea0183\", \"link\": \"can0\"")),
+      "f:7:44: devices.gnss.link: \"can0\" is a CAN bus, but nmea0183 hangs on a serial line\n");
+}
+
+TEST(ConfigurationChecks, RefuseALinkOfNoKindOrOfTwo) {
+  EXPECT_EQ(problems(with("{\"can\": \"can0\"}", "{}")),
+            "f:2:21: links.can0: has none of: can, serial, modbus, gpio\n");
+  EXPECT_EQ(problems(with("{\"can\": \"can0\"}", "{\"can\": \"can0\", \"gpio\": \"b\"}")),
+            "f:2:45: links.can0.gpio: is given beside can (one of: can, serial, modbus, gpio)\n");
+}
+
+TEST(ConfigurationChecks, RefuseALinkThatNoDeviceHangsOn) {
+  EXPECT_EQ(
+      problems(with("{\"can\": \"can0\"}", "{\"can\": \"can0\"}, \"b\": {\"can\": \"can1\"}")),
+      "f:2:43: links.b: no device hangs on it (leave it out)\n");
+  // One that the outputs' chip hangs on is used.
+  EXPECT_EQ(problems(with("\"limits\"", "\"outputs\": {\"link\": \"panel\"}, \"limits\"")), "");
+}
+
+TEST(ConfigurationChecks, RefuseASpeedWhereALinkHasNone) {
+  EXPECT_EQ(problems(with("{\"can\": \"can0\"}", "{\"can\": \"can0\", \"baud\": 500000}")),
+            "f:2:45: links.can0.baud: is of no use on a CAN bus (leave it out)\n");
+  EXPECT_EQ(problems(with("115200", "115200, \"parity\": \"even\"")),
+            "f:3:78: links.gnss.parity: is of no use on a serial line (leave it out)\n");
+}
+
+TEST(ConfigurationChecks, RefuseWhatIsUsedTwice) {
+  EXPECT_EQ(problems(with("\"left\": {\"driver\"", "\"right\": {\"driver\"")),
+            "f:6:5: devices.right: this key is there twice\n");
+  EXPECT_THAT(
+      problems(with("{\"can\": \"can0\"}", "{\"can\": \"can0\"}, \"b\": {\"can\": \"can0\"}")),
+      HasSubstr("f:2:51: links.b.can: \"can0\" is used by links.can0.can already\n"));
   EXPECT_EQ(problems(with("\"line\": \"b\"", "\"line\": \"a\"")),
-            "f:10:73: lines.bumper.line: \"a\" is used by lines.estop.line already\n");
+            "f:9:64: devices.bumper.line: \"a\" is used by devices.estop.line already\n");
+  EXPECT_EQ(problems(with("\"is\": \"bumper\"", "\"is\": \"estop\"")),
+            "f:9:75: devices.bumper.is: \"estop\" is used by devices.estop.is already\n");
 }
 
-TEST(ConfigurationChecks, RefuseAJointThatNoDriveHas) {
-  EXPECT_EQ(problems(with("[\"right\"]", "[\"rigth\"]")),
-            "f:7:80: base.right: no drive has the joint \"rigth\" (did you mean \"right\"?)\n");
+TEST(ConfigurationChecks, RefuseAnOutputOnALineThatIsAnInput) {
+  EXPECT_THAT(
+      problems(with("\"limits\"",
+                    "\"outputs\": {\"link\": \"panel\", \"lamp\": {\"line\": \"b\"}}, \"limits\"")),
+      HasSubstr("outputs.lamp.line: \"b\" is used by devices.bumper.line already\n"));
+  EXPECT_THAT(
+      problems(with("\"limits\"", "\"outputs\": {\"link\": \"gnss\"}, \"limits\"")),
+      HasSubstr("outputs.link: \"gnss\" is a serial line, but outputs are lines of a GPIO chip\n"));
+}
+
+TEST(ConfigurationChecks, NameAJointAfterItsDeviceUnlessItIsNamed) {
+  EXPECT_EQ(load_text(kGood).config.engine.joints[1], "right");
+  auto text =
+      with("\"options\": {\"node\": 2}", "\"joints\": {\"r\": {}}, \"options\": {\"node\": 2}");
+  text.replace(text.find("[\"right\"]"), 9, "[\"r\"]");
+  EXPECT_EQ(problems(text), "");
+  EXPECT_EQ(load_text(text).config.engine.joints[1], "r");
+  EXPECT_THAT(
+      problems(with("\"options\": {\"node\": 2}",
+                    "\"joints\": {\"r\": {\"channel\": \"left\"}}, \"options\": {\"node\": 2}")),
+      HasSubstr("devices.right.joints.r.channel: there is no such channel (one of: axis)"));
+  EXPECT_THAT(problems(with("\"options\": {\"node\": 2}",
+                            "\"joints\": {\"r\": {}, \"s\": {}}, \"options\": {\"node\": 2}")),
+              HasSubstr("devices.right.joints.s.channel: \"axis\" is the joint \"r\" already\n"));
+  EXPECT_THAT(problems(with("\"options\": {\"node\": 2}",
+                            "\"joints\": {\"left\": {}}, \"options\": {\"node\": 2}")),
+              HasSubstr("devices.right.joints.left: \"left\" is used by devices.left already\n"));
+}
+
+TEST(ConfigurationChecks, RefuseAKeyOfAnotherKindOfDevice) {
+  EXPECT_EQ(problems(with("\"link\": \"gnss\"}", "\"link\": \"gnss\", \"line\": \"a\"}")),
+            "f:7:60: devices.gnss.line: is of no use to nmea0183 (leave it out)\n");
+  EXPECT_EQ(problems(with("\"line\": \"b\", \"is\": \"bumper\"", "\"is\": \"bumper\"")),
+            "f:9:15: devices.bumper.line: is missing (gpio_line needs it)\n");
+}
+
+TEST(ConfigurationChecks, RefuseASecondOfWhatTheEstimateGoesBy) {
+  auto text = with("\"gnss\": {\"driver\": \"nmea0183\", \"link\": \"gnss\"},",
+                   "\"gnss\": {\"driver\": \"nmea0183\", \"link\": \"gnss\"},\n"
+                   "\"rear\": {\"driver\": \"nmea0183\", \"link\": \"gnss\"},");
+  EXPECT_THAT(
+      problems(text),
+      HasSubstr("devices.rear: a second receiver beside devices.gnss is not supported yet"));
+  EXPECT_THAT(problems(text), HasSubstr("devices.rear.link: \"gnss\" is a serial line, and "
+                                        "devices.gnss hangs on it\n"));
+}
+
+TEST(ConfigurationChecks, RefuseAJointThatNoDeviceHas) {
+  EXPECT_THAT(
+      problems(with("[\"right\"]", "[\"rigth\"]")),
+      HasSubstr(
+          "groups.base.right: no device has the joint \"rigth\" (did you mean \"right\"?)\n"));
 }
 
 TEST(ConfigurationChecks, RefuseAJointThatIsNoWheelOfTheBase) {
-  const std::string_view right = "{\"joint\": \"right\", ";
-  const std::string_view arm =
-      "{\"joint\": \"arm\", \"driver\": \"odrive\", \"bus\": \"can0\", "
-      "\"options\": {\"node\": 9}}, ";
-  EXPECT_EQ(problems(with(right, std::string(arm) + std::string(right))),
-            "f:5:15: drives[1].joint: \"arm\" is no wheel of the base: joints outside the base are "
-            "not supported yet (name it in base.left or base.right, or leave the drive out)\n");
+  EXPECT_EQ(problems(with(
+                "\"gnss\": {\"driver\"",
+                "\"arm\": {\"driver\": \"odrive\", \"link\": \"can0\", \"options\": {\"node\": 9},"
+                " \"accept\": [\"no_watchdog\"]},\n\"gnss\": {\"driver\"")),
+            "f:7:12: devices.arm: \"arm\" is no wheel of the base: joints outside the base are "
+            "not supported yet (name it in groups.base.left or groups.base.right, or leave the "
+            "device out)\n");
 }
 
 TEST(ConfigurationChecks, RefuseAJointThatIsThereTwice) {
-  EXPECT_EQ(problems(with("[\"right\"]", "[\"right\", \"right\"]")),
-            "f:7:80: base.right: the joint \"right\" is there twice\n");
+  EXPECT_THAT(problems(with("[\"right\"]", "[\"right\", \"right\"]")),
+              HasSubstr("groups.base.right: the joint \"right\" is there twice\n"));
 }
 
 TEST(ConfigurationChecks, RefuseAJointOnBothSides) {
-  EXPECT_EQ(problems(with("[\"right\"]", "[\"right\", \"left\"]")),
-            "f:7:80: base.right: the joint \"left\" is on both sides\n");
+  EXPECT_THAT(problems(with("[\"right\"]", "[\"right\", \"left\"]")),
+              HasSubstr("groups.base.right: the joint \"left\" is on both sides\n"));
 }
 
-TEST(ConfigurationChecks, RefuseAJointNameThatDoesNotFit) {
+TEST(ConfigurationChecks, RefuseANameThatCannotBeOne) {
   const std::string longest(48, 'x');
   const auto named = [](const std::string& name) {
-    auto text = with("\"joint\": \"right\"", "\"joint\": \"" + name + "\"");
+    auto text = with("\"right\": {\"driver\"", "\"" + name + "\": {\"driver\"");
     return text.replace(text.find("[\"right\"]"), 9, "[\"" + name + "\"]");
   };
   EXPECT_EQ(problems(named(longest)), "");
-  EXPECT_EQ(problems(named(longest + "x")), "f:5:15: drives[1].joint: is too long\n");
+  EXPECT_EQ(problems(named("a.b")), "");
+  EXPECT_EQ(problems(named(longest + "x")),
+            "f:6:5: devices." + longest + "x: the name is too long\n");
+  EXPECT_EQ(problems(named("")), "f:6:5: devices.: the name is empty\n");
+  EXPECT_EQ(problems(named("a\\u0007")), "f:6:5: devices.a?: the name holds a control character\n");
+}
+
+TEST(ConfigurationChecks, FindThePlaceOfANameWithADot) {
+  auto text = with("\"right\": {\"driver\"", "\"left.options\": {\"driver\"");
+  text.replace(text.find("[\"right\"]"), 9, "[\"left.options\"]");
+  text.replace(text.find("\"node\": 2"), 9, "\"node\": 1");
+  EXPECT_THAT(problems(text), HasSubstr("f:6:78: devices.left.options.options.node: two devices"));
 }
 
 TEST(ConfigurationChecks, RefuseAChoiceThatDoesNotExist) {
-  EXPECT_EQ(problems(with("\"driver\": \"odrive\", \"bus\": \"can0\", \"options\": {\"node\": 2}",
-                          "\"driver\": \"odriv\", \"bus\": \"can0\", \"options\": {\"node\": 2}")),
-            "f:5:34: drives[1].driver: \"odriv\" is not one of: odrive, zlac8015d"
-            " (did you mean \"odrive\"?)\n");
+  EXPECT_EQ(problems(with("\"driver\": \"odrive\", \"link\": \"can0\", \"options\": {\"node\": 2}",
+                          "\"driver\": \"odriv\", \"link\": \"can0\", \"options\": {\"node\": 2}")),
+            "f:6:25: devices.right.driver: \"odriv\" is not one of: odrive, gpio_line, nmea0183, "
+            "modbus_bms, witmotion, zlac8015d (did you mean \"odrive\"?)\n");
   EXPECT_THAT(problems(with("\"node\": 2", "\"node\": 2, \"firmware\": \"0.5\"")),
-              HasSubstr("drives[1].options.firmware: \"0.5\" is not one of: 0.6, 0.5.6"));
-}
-
-TEST(ConfigurationChecks, RefuseADriverOfAnotherKindOfLink) {
-  EXPECT_THAT(problems(with("\"port\": \"/dev", "\"driver\": \"odrive\", \"port\": \"/dev")),
-              HasSubstr("gnss.driver: \"odrive\" is not one of: nmea0183"));
+              HasSubstr("devices.right.options.firmware: \"0.5\" is not one of: 0.6, 0.5.6"));
 }
 
 TEST(ConfigurationChecks, RefuseOptionsOfTheDriver) {
   EXPECT_EQ(problems(with("\"node\": 2", "\"node\": 2.5")),
-            "f:5:79: drives[1].options.node: is a number, but a whole number is expected"
+            "f:6:71: devices.right.options.node: is a number, but a whole number is expected"
             " (write it without a fraction)\n");
   EXPECT_EQ(problems(with("\"node\": 2", "\"node\": 63")),
-            "f:5:79: drives[1].options.node: is 63, but must be between 0 and 62\n");
-  EXPECT_EQ(problems(with("\"node\": 2", "\"node\": 2, \"reversed\": 1")),
-            "f:5:94: drives[1].options.reversed: is an integer, but true or false is expected\n");
+            "f:6:71: devices.right.options.node: is 63, but must be between 0 and 62\n");
+  EXPECT_EQ(
+      problems(with("\"node\": 2", "\"node\": 2, \"reversed\": 1")),
+      "f:6:86: devices.right.options.reversed: is an integer, but true or false is expected\n");
   EXPECT_EQ(problems(with("{\"node\": 2}", "3")),
-            "f:5:70: drives[1].options: is an integer, but an object is expected\n");
+            "f:6:62: devices.right.options: is an integer, but an object is expected\n");
 }
 
 TEST(ConfigurationChecks, RefuseOptionsThatDoNotFitTogether) {
-  EXPECT_EQ(problems(with("\"node\": 2", "\"node\": 2, \"watchdog_enable_endpoint\": 5")),
-            "f:5:70: drives[1].options: watchdog_enable_endpoint and watchdog_timeout_endpoint are"
-            " given together or not at all\n");
-  EXPECT_THAT(problems(with("{\"line\": \"a\"}",
-                            "{\"line\": \"a\", \"options\": {\"active_debounce_s\": 0.1}}")),
-              HasSubstr("lines.estop.options: active_debounce_s must be 0"));
+  EXPECT_EQ(
+      problems(with("\"node\": 2", "\"node\": 2, \"watchdog_enable_endpoint\": 5")),
+      "f:6:62: devices.right.options: watchdog_enable_endpoint and watchdog_timeout_endpoint are"
+      " given together or not at all\n");
+  EXPECT_THAT(problems(with("\"line\": \"a\"",
+                            "\"line\": \"a\", \"options\": {\"active_debounce_s\": 0.1}")),
+              HasSubstr("devices.estop.options: active_debounce_s must be 0"));
 }
 
 TEST(ConfigurationChecks, FillInTheDefaultsOfOptions) {
-  const auto options = load_text(kGood).config.drives[0].options;
+  const auto options = load_text(kGood).config.devices[0].options;
   EXPECT_EQ(options.text("firmware"), "0.6");
   EXPECT_EQ(options.number("gear_ratio"), 1);
   EXPECT_FALSE(options.flag("reversed"));
@@ -121,41 +213,42 @@ TEST(ConfigurationChecks, FillInTheDefaultsOfOptions) {
 TEST(ConfigurationChecks, GiveTheReceiversDriverTheBaudRateOfThePort) {
   const auto text = with("115200", "57600");
   EXPECT_EQ(problems(text), "");
-  EXPECT_EQ(load_text(text).config.gnss.options.number("baud"), 57600);
-  EXPECT_EQ(problems(with("115200", "57600, \"options\": {\"baud\": 9600}")),
-            "f:9:75: gnss.options.baud: differs from gnss.baud"
-            " (leave it out: it follows gnss.baud)\n");
+  EXPECT_EQ(load_text(text).config.devices[2].options.number("baud"), 57600);
+  EXPECT_EQ(
+      problems(with("\"link\": \"gnss\"", "\"link\": \"gnss\", \"options\": {\"baud\": 9600}")),
+      "f:7:72: devices.gnss.options.baud: differs from links.gnss.baud"
+      " (leave it out: it follows links.gnss.baud)\n");
 }
 
 TEST(ConfigurationChecks, RefuseLimitsThatContradictEachOther) {
   EXPECT_EQ(problems(with("0.8", "0.1, \"min_speed_mps\": 0.2")),
-            "f:8:53: limits.min_speed_mps: is above limits.max_speed_mps\n");
+            "f:12:53: limits.min_speed_mps: is above limits.max_speed_mps\n");
   EXPECT_EQ(problems(with("\"limits\"", "\"estimate\": {\"bound_start_m\": 0.5},\n  \"limits\"")),
-            "f:8:33: estimate.bound_start_m: is above estimate.bound_run_m"
+            "f:12:33: estimate.bound_start_m: is above estimate.bound_run_m"
             " (a task would start and pause at once)\n");
   EXPECT_EQ(problems(with("\"limits\"",
                           "\"control\": {\"tick_Hz\": 50},\n"
                           "  \"guard\": {\"limit_ms\": 49},\n  \"limits\"")),
-            "f:9:25: guard.limit_ms: is shorter than 2.5 control cycles (50 ms)\n");
+            "f:13:25: guard.limit_ms: is shorter than 2.5 control cycles (50 ms)\n");
 }
 
 TEST(ConfigurationChecks, RefuseABrokerThatIsHalfASocketAndHalfANetworkAddress) {
   EXPECT_EQ(problems(with("127.0.0.1", "/run/mosquitto/drover.sock")),
-            "f:11:58: mqtt.port: must be 0 when mqtt.host is the path of a Unix socket\n");
+            "f:13:58: mqtt.port: must be 0 when mqtt.host is the path of a Unix socket\n");
   EXPECT_EQ(problems(with("1883", "0")),
-            "f:11:41: mqtt.port: is 0, but mqtt.host is no path of a Unix socket"
+            "f:13:41: mqtt.port: is 0, but mqtt.host is no path of a Unix socket"
             " (1883 is usual)\n");
   EXPECT_EQ(problems(with("1883", "1883, \"password_file\": \"/p\"")),
-            "f:11:64: mqtt.password_file: is given without mqtt.username\n");
+            "f:13:64: mqtt.password_file: is given without mqtt.username\n");
 }
 
 TEST(ConfigurationChecks, RefuseAChannelTopicWithoutANameOrWithALongOne) {
   const auto text = [](const std::string& topic) {
     return with("1883}", "1883},\n  \"aimrt\": {\"imu_state\": \"" + topic + "\"}");
   };
-  EXPECT_EQ(problems(text("")), "f:12:26: aimrt.imu_state: is empty\n");
+  EXPECT_EQ(problems(text("")), "f:14:26: aimrt.imu_state: is empty\n");
   const std::string too_long =
-      "f:12:26: aimrt.imu_state: is too long (at most 196 bytes; / and other signs count three)\n";
+      "f:14:26: aimrt.imu_state: is too long (at most 196 bytes; / and other signs count three)\n";
   EXPECT_EQ(problems(text(std::string(197, 'x'))), too_long);
   EXPECT_EQ(problems(text(std::string(66, '/'))), too_long);
   EXPECT_EQ(problems(text(std::string(196, 'x'))), "");
@@ -184,33 +277,34 @@ TEST(ConfigurationChecks, ResolveNamesToNumbers) {
 }
 
 TEST(ConfigurationChecks, RefuseADriveThatNothingStopsUnlessItIsAcceptedByName) {
-  const std::string_view accepted = ", \"accept\": [\"no_watchdog\"]}\n";
+  const std::string_view accepted = ", \"accept\": [\"no_watchdog\"]},\n    \"gnss\"";
   EXPECT_EQ(
-      problems(with(accepted, "}\n")),
-      "f:5:70: drives[1].options: keeps its last velocity for ever: the drive has no watchdog "
+      problems(with(accepted, "},\n    \"gnss\"")),
+      "f:6:62: devices.right.options: keeps its last velocity for ever: the drive has no watchdog "
       "set (set its watchdog, or \"accept\": [\"no_watchdog\"] when that is meant)\n");
-  auto text = with(accepted, "}\n");
+  auto text = with(accepted, "},\n    \"gnss\"");
   const std::string_view node = "\"node\": 2";
   text.replace(text.find(node), node.size(), "\"node\": 2, \"watchdog_timeout_s\": 0.2");
   EXPECT_EQ(problems(text), "");
   EXPECT_THAT(
-      problems(with(accepted, ", \"accept\": [\"no_watchdgo\"]}\n")),
-      HasSubstr("drives[1].accept: nothing of the name \"no_watchdgo\" can be accepted here "
+      problems(with(accepted, ", \"accept\": [\"no_watchdgo\"]},\n    \"gnss\"")),
+      HasSubstr("devices.right.accept: nothing of the name \"no_watchdgo\" can be accepted here "
                 "(did you mean \"no_watchdog\"?)"));
 }
 
-TEST(ConfigurationChecks, RefuseTwoDevicesOnOnePort) {
-  EXPECT_THAT(problems(with("\"gnss\": {\"port\": \"/dev/drover/gnss\", \"baud\": 115200},",
-                            "\"gnss\": {\"port\": \"/dev/ttyUSB0\", \"baud\": 115200},"
-                            "\"imu\": {\"driver\": \"witmotion\", \"port\": \"/dev//ttyUSB0\"},")),
-              HasSubstr("imu.port: two devices on one port (/dev//ttyUSB0): the other is "
-                        "gnss.port"));
+TEST(ConfigurationChecks, RefuseTwoLinksOnOnePort) {
+  EXPECT_THAT(
+      problems(with("\"panel\"", "\"imu\": {\"serial\": \"/dev//drover/gnss\"}, \"panel\"")),
+      HasSubstr("links.imu.serial: \"/dev//drover/gnss\" is used by links.gnss.serial already"));
 }
 
 TEST(ConfigurationChecks, WarnOfNoEmergencyStopLineUnlessThatIsAccepted) {
   EXPECT_EQ(warnings(kGood), "");
-  const auto without = with("\"estop\": {\"line\": \"a\"}, ", "");
-  EXPECT_THAT(warnings(without), HasSubstr("f:10:12: lines: there is no e-stop line"));
+  const auto without = with(
+      "    \"estop\": {\"driver\": \"gpio_line\", \"link\": \"panel\", \"line\": \"a\", \"is\": "
+      "\"estop\"},\n",
+      "");
+  EXPECT_THAT(warnings(without), HasSubstr("f:4:14: devices: there is no e-stop line"));
   EXPECT_EQ(problems(without), "");
   auto accepted = without;
   accepted.insert(2, "\"accept\": [\"no_estop\"],");
@@ -235,18 +329,18 @@ TEST(Configuration, LooksAtADriveThoughOneWithALongerNumberIsWrong) {
   for (int i = 0; i <= 10; ++i) {
     const auto joint = "w" + std::to_string(i);
     const auto node = std::to_string(i == 10 ? 99 : i + 1);
-    drives += (i == 0 ? "" : ",") + (R"({"joint": ")" + joint) +
-              R"(", "driver": "odrive", "bus": "can0", "options": {"node": )" + node + "}" +
+    drives += (i == 0 ? "\"" : ",\"") + joint +
+              R"(": {"driver": "odrive", "link": "can0", "options": {"node": )" + node + "}" +
               (i == 1 ? "" : R"(, "accept": ["no_watchdog"])") + "}";
     if (i > 0) left += (i == 1 ? "\"" : ", \"") + joint + "\"";
   }
-  const auto text = R"({"buses": [{"name": "can0", "interface": "can0"}], "drives": [)" + drives +
-                    R"(], "base": {"wheel_radius_m": 0.1, "track_m": 0.5, "hold": "brake",
-                    "left": [)" +
-                    left + R"(], "right": ["w0"]}, "accept": ["no_estop"]})";
+  const auto text = R"({"links": {"can0": {"can": "can0"}}, "devices": {)" + drives +
+                    R"(}, "groups": {"base": {"kind": "skid_steer", "wheel_radius_m": 0.1,
+                    "track_m": 0.5, "hold": "brake", "left": [)" +
+                    left + R"(], "right": ["w0"]}}, "accept": ["no_estop"]})";
   const auto told = problems(text);
-  EXPECT_THAT(told, HasSubstr("drives[10].options.node: is 99"));
-  EXPECT_THAT(told, HasSubstr("drives[1].options: keeps its last velocity for ever"));
+  EXPECT_THAT(told, HasSubstr("devices.w10.options.node: is 99"));
+  EXPECT_THAT(told, HasSubstr("devices.w1.options: keeps its last velocity for ever"));
 }
 
 }  // namespace

@@ -12,18 +12,21 @@ namespace drover::config {
 
 /// Line 1 is the brace; a test names lines, so do not shift them.
 inline constexpr std::string_view kGood = R"({
-  "buses": [{"name": "can0", "interface": "can0"}],
-  "drives": [
-    {"joint": "left", "driver": "odrive", "bus": "can0", "options": {"node": 1},)"
+  "links": {"can0": {"can": "can0"},
+            "gnss": {"serial": "/dev/drover/gnss", "baud": 115200}, "panel": {"gpio": "chip0"}},
+  "devices": {
+    "left": {"driver": "odrive", "link": "can0", "options": {"node": 1},)"
                                           R"( "accept": ["no_watchdog"]},
-    {"joint": "right", "driver": "odrive", "bus": "can0", "options": {"node": 2},)"
-                                          R"( "accept": ["no_watchdog"]}
-  ],
-  "base": {"wheel_radius_m": 0.165, "track_m": 0.6, "left": ["left"], "right": ["right"],)"
-                                          R"( "hold": "brake"},
+    "right": {"driver": "odrive", "link": "can0", "options": {"node": 2},)"
+                                          R"( "accept": ["no_watchdog"]},
+    "gnss": {"driver": "nmea0183", "link": "gnss"},
+    "estop": {"driver": "gpio_line", "link": "panel", "line": "a", "is": "estop"},
+    "bumper": {"driver": "gpio_line", "link": "panel", "line": "b", "is": "bumper"}
+  },
+  "groups": {"base": {"kind": "skid_steer", "wheel_radius_m": 0.165, "track_m": 0.6,)"
+                                          R"( "left": ["left"], "right": ["right"],)"
+                                          R"( "hold": "brake"}},
   "limits": {"max_speed_mps": 0.8},
-  "gnss": {"port": "/dev/drover/gnss", "baud": 115200},
-  "lines": {"chip": "chip0", "estop": {"line": "a"}, "bumper": {"line": "b"}},
   "mqtt": {"host": "127.0.0.1", "port": 1883}
 }
 )";

@@ -24,9 +24,10 @@ expect() {
 
 cat > "$work/bad.json" <<'JSON'
 {
-  "buses": [{"name": "can0", "interface": "can0"}],
-  "drives": [{"joint": "a", "driver": "odrive", "bus": "can1", "options": {"node": 1}}],
-  "base": {"wheel_radius_mm": 165, "track_m": 0.6, "hold": "brake", "left": ["a"], "right": ["b"]}
+  "links": {"can0": {"can": "can0"}},
+  "devices": {"a": {"driver": "odrive", "link": "can1", "options": {"node": 1}}},
+  "groups": {"base": {"kind": "skid_steer", "wheel_radius_mm": 165, "track_m": 0.6,
+                      "hold": "brake", "left": ["a"], "right": ["b"]}}
 }
 JSON
 
@@ -37,12 +38,16 @@ expect "a file that is not there ends with 2" 2 \
 expect "an empty name is a file that is not there" 2 "cannot be read" --check ""
 expect "a bad file ends with 2" 2 "4 problems" --check "$work/bad.json"
 expect "a problem has file, line, column, path and suggestion" 2 \
-  "$work/bad.json:4:12: base.wheel_radius_mm: is no known key (did you mean \"wheel_radius_m\"?)" \
+  "bad.json:4:45: groups.base.wheel_radius_mm: is no known key (did you mean \"wheel_radius_m\"?)" \
   --check "$work/bad.json"
 expect "starting with a bad file ends with 2 and says the same" 2 \
-  "$work/bad.json:3:56: drives[0].bus: there is no bus named \"can1\"" --config "$work/bad.json"
-expect "the example is good" 0 "good: 1 bus(es), 4 drive(s)" \
+  "$work/bad.json:3:49: devices.a.link: there is no link named \"can1\"" --config "$work/bad.json"
+expect "the example is good" 0 "good: 5 link(s), 11 device(s), 4 joint(s)" \
   --check "$(dirname "$0")/../../../config/drover.json"
+printf '{"buses": [{"name": "can7", "interface": "can7"}]}\n' > "$work/old.json"
+expect "an old section is refused" 2 "old.json:1:2: buses: is no key any more" \
+  --check "$work/old.json"
+expect "and its new text is printed" 2 '"can7": {"can": "can7"}' --check "$work/old.json"
 expect "the schema is printed" 0 "json-schema.org/draft-07" --schema
 expect "the version is printed" 0 "." --version
 expect "the help is printed" 0 "--check" --help

@@ -52,12 +52,12 @@ class Places final {
   void choice(std::string_view key, std::string& value, const std::vector<std::string>& choices,
               std::string_view text, Presence presence = Presence::optional) {
     add(key, &value, text);
-    if (presence == Presence::required) return;
+    if (presence == Presence::required || value.empty()) return;  // it has no default
     EXPECT_EQ(std::count(choices.begin(), choices.end(), value), 1)
         << key << ": the default is no choice";
   }
   template <class T>
-  void options(std::string_view key, T& value, const std::string&, SlotKind) {
+  void options(std::string_view key, T& value, const std::string&) {
     add(key, &value, "options");
   }
   template <class T>
@@ -69,6 +69,12 @@ class Places final {
   void list(std::string_view key, T& value, Count, std::string_view text, Presence) {
     add(key, &value, text);
   }
+  template <class T>
+  void table(std::string_view key, T& value, Count, std::string_view text,
+             Presence = Presence::optional) {
+    add(key, &value, text);
+  }
+  void keys_of_kind(const std::string&) {}
   template <class T>
   void object(std::string_view key, T& value, std::string_view text,
               Presence = Presence::optional) {
@@ -129,11 +135,9 @@ TEST(Fields, OfTheEngineAreAllKeys) {
 TEST(Fields, OfTheDaemonAreAllKeys) {
   expect_complete<PathsConfig>();
   expect_complete<ControlConfig>();
-  expect_complete<BusConfig>();
-  expect_complete<DriveConfig>(1);    // bus_index
-  expect_complete<GnssConfig>(1);     // configured
-  expect_complete<BatteryConfig>(2);  // configured, registers
-  expect_complete<LineConfig>(1);     // configured
+  expect_complete<LinkConfig>(2);    // name, wire
+  expect_complete<JointConfig>(2);   // name, channel_index
+  expect_complete<DeviceConfig>(5);  // name, kind, link_index, first_axis, registers
   expect_complete<GuardConfig>();
   expect_complete<MqttConfig>();
   expect_complete<ProtocolConfig>();
@@ -150,17 +154,12 @@ TEST(Fields, OfTheBaseAreAllKeys) {
 
 TEST(Fields, OfTheWholeAreAllKeysOrSections) {
   DroverConfig config;
-  BaseNames base;
-  base.base = &config.engine.base;
+  GroupNames groups;
   Places places;
-  visit(places, config, base);
-  // The engine's five parts are sections of their own, and its struct is none; what else it holds
-  // follows from other keys.
+  visit(places, config, groups);
+  // The engine's four parts and the groups are sections of their own, and its struct is none; what
+  // else it holds follows from other keys.
   EXPECT_EQ(places.count(), field_count<DroverConfig>() - 1 + 5);
-}
-
-TEST(Fields, OfEachLineOfTheRobotAreKeys) {
-  EXPECT_EQ(key_count<LinesConfig>(), 1 + kLineCount);
 }
 
 }  // namespace

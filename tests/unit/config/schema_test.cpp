@@ -65,24 +65,28 @@ TEST(Schema, AndTheReaderRefuseTheSame) {
            {"1883", "65536"},
            {"1883", "-1"},
            {"\"track_m\": 0.6, ", ""},  // missing
-           {"\"joint\": \"left\", ", ""},
-           {"\"chip\": \"chip0\", ", ""},
+           {"\"kind\": \"skid_steer\", ", ""},
+           {"\"gpio\": \"chip0\"", ""},
+           {"\"line\": \"b\", ", ""},
+           {"\"link\": \"gnss\"}", "\"link\": \"gnss\", \"map\": \"m\"}"},  // of another kind
+           {"\"gpio\": \"chip0\"", "\"gpio\": \"chip0\", \"can\": \"can1\""},
+           {"\"bumper\": {", "\"\": {"},  // names
+           {"\"bumper\": {", "\"a name that is much longer than a name may be in here\": {"},
+           {"\"is\": \"bumper\"", "\"is\": \"bumpr\""},
            {", \"options\": {\"node\": 1}", ""},
            {"\"chip0\"", "\"\""},  // empty
            {"[\"right\"]", "[]"},
-           {"{\"joint\": \"left\", \"driver\": \"odrive\"",
-            "{\"joint\": \"left\", \"driver\": \"odriv\""},  // choices
-           {"\"port\": \"/dev", "\"driver\": \"odrive\", \"port\": \"/dev"},
+           {"\"left\": {\"driver\": \"odrive\"", "\"left\": {\"driver\": \"odriv\""},  // choices
            {"1883}", "1883}, \"protocol\": {\"power\": \"watt\"}"},
            {"\"node\": 1", "\"nod\": 1"},  // options of drivers
            {"\"node\": 1", "\"node\": 63"},
            {"\"node\": 1", "\"node\": 1.5"},
            {"\"node\": 1", "\"node\": 1, \"firmware\": \"0.4\""},
            {"\"node\": 1", "\"node\": 1, \"reversed\": 1"},
-           {"115200", "115200, \"options\": {\"node\": 1}"},
-           {"115200", "115200, \"options\": {\"latency_s\": 2}"},
-           {"{\"line\": \"a\"}", "{\"line\": \"a\", \"options\": {\"active_level\": \"up\"}}"},
-           {"\"estop\"", "\"estopp\""},
+           {"\"link\": \"gnss\"", "\"link\": \"gnss\", \"options\": {\"node\": 1}"},
+           {"\"link\": \"gnss\"", "\"link\": \"gnss\", \"options\": {\"latency_s\": 2}"},
+           {"\"line\": \"a\"", "\"line\": \"a\", \"options\": {\"active_level\": \"up\"}"},
+           {"{\"can\": \"can0\"}", "{\"cna\": \"can0\"}"},
        }) {
     const auto text = with(piece, replacement);
     EXPECT_NE(problems(text), "") << piece << " -> " << replacement;
@@ -96,11 +100,11 @@ TEST(Schema, AndTheReaderAcceptTheSame) {
        std::initializer_list<std::pair<const char*, const char*>>{
            {"0.8", "5"},
            {"0.8", "0.05"},
-           {"\"gnss\": {\"port\"", "\"gnss\": {\"driver\": \"nmea0183\", \"port\""},
+           {"\"left\": {\"driver\"", "\"left\": {\"joints\": {\"left\": {}}, \"driver\""},
            {"\"node\": 1", "\"node\": 0, \"firmware\": \"0.5.6\", \"gear_ratio\": 8"},
-           {"115200", "115200, \"options\": {\"latency_s\": 0.1}"},
-           {"{\"line\": \"a\"}", "{\"line\": \"a\", \"options\": {\"active_level\": \"high\"}}"},
-           {"{\"line\": \"a\"}", "{\"line\": \"a\", \"driver\": \"gpio_line\"}"},
+           {"\"link\": \"gnss\"", "\"link\": \"gnss\", \"options\": {\"latency_s\": 0.1}"},
+           {"\"line\": \"a\"", "\"line\": \"a\", \"options\": {\"active_level\": \"high\"}"},
+           {"115200", "0"},
        }) {
     const auto text = with(piece, replacement);
     EXPECT_EQ(problems(text), "") << piece << " -> " << replacement;

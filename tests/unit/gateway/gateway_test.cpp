@@ -18,16 +18,18 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr auto kConfig = R"({
-  "buses": [{"name": "can0", "interface": "can0"}],
-  "drives": [
-    {"joint": "left", "driver": "odrive", "bus": "can0",
-     "options": {"node": 1, "watchdog_timeout_s": 0.2}},
-    {"joint": "right", "driver": "odrive", "bus": "can0", "options": {"node": 2},
-     "accept": ["no_watchdog"]}],
-  "base": {"wheel_radius_m": 0.165, "track_m": 0.6, "left": ["left"], "right": ["right"],)"
-                         R"( "hold": "brake"},
-  "gnss": {"port": "/dev/drover/gnss", "baud": 115200},
-  "lines": {"chip": "chip0", "estop": {"line": "a"}, "bumper": {"line": "b"}},
+  "links": {"can0": {"can": "can0"}, "gnss": {"serial": "/dev/drover/gnss"},
+            "panel": {"gpio": "chip0"}},
+  "devices": {
+    "left": {"driver": "odrive", "link": "can0",
+             "options": {"node": 1, "watchdog_timeout_s": 0.2}},
+    "right": {"driver": "odrive", "link": "can0", "options": {"node": 2},
+              "accept": ["no_watchdog"]},
+    "gnss": {"driver": "nmea0183", "link": "gnss"},
+    "estop": {"driver": "gpio_line", "link": "panel", "line": "a", "is": "estop"},
+    "bumper": {"driver": "gpio_line", "link": "panel", "line": "b", "is": "bumper"}},
+  "groups": {"base": {"kind": "skid_steer", "wheel_radius_m": 0.165, "track_m": 0.6,
+                      "left": ["left"], "right": ["right"], "hold": "brake"}},
   "mqtt": {"host": "127.0.0.1", "port": 1883}
 })";
 

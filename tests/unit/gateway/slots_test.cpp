@@ -19,21 +19,20 @@ TEST(Wiring, HasTheBusesFirstAndAPlaceForEachDevice) {
   EXPECT_THAT(links, ElementsAre("can0", "gnss", "imu", "battery", "lines"));
   std::vector<std::string> slots;
   for (const Slot& slot : wiring.slots) slots.emplace_back(slot.name);
-  EXPECT_THAT(slots, ElementsAre("left", "right", "gnss", "imu", "battery", "a", "b"));
+  EXPECT_THAT(slots, ElementsAre("left", "right", "gnss", "imu", "battery", "estop", "bumper"));
   EXPECT_THAT(wiring.links[0].slots, ElementsAre(0, 1));
   EXPECT_THAT(wiring.links[4].slots, ElementsAre(5, 6));
-  EXPECT_EQ(wiring.link_of(SlotKind::imu), 2);
-  EXPECT_EQ(wiring.first(SlotKind::battery), 4);
 }
 
 TEST(Wiring, TellsEachDevicesHealthWhereTheEngineLooks) {
   engine::Environment environment;
   const Wiring wiring = wire_up(load_robot().config, environment);
-  EXPECT_EQ(wiring.slots[1].health, &environment.axes[1]);
-  EXPECT_EQ(wiring.slots[wiring.first(SlotKind::gnss)].health, &environment.gnss);
-  EXPECT_EQ(wiring.slots[wiring.first(SlotKind::imu)].health, &environment.imu);
-  EXPECT_EQ(wiring.slots[wiring.first(SlotKind::battery)].health, &environment.battery);
-  EXPECT_EQ(wiring.slots[6].health, &environment.lines[static_cast<std::size_t>(Line::bumper)]);
+  EXPECT_EQ(wiring.slots[1].tells_health[0], &environment.axes[1]);
+  EXPECT_EQ(wiring.slots[2].tells_health[0], &environment.gnss);
+  EXPECT_EQ(wiring.slots[3].tells_health[0], &environment.imu);
+  EXPECT_EQ(wiring.slots[4].tells_health[0], &environment.battery);
+  EXPECT_EQ(wiring.slots[6].tells_health[0],
+            &environment.lines[static_cast<std::size_t>(Line::bumper)]);
 }
 
 TEST(Wiring, GivesTheSlowThreadWhatIsPolled) {
@@ -43,25 +42,30 @@ TEST(Wiring, GivesTheSlowThreadWhatIsPolled) {
     EXPECT_EQ(slot.thread == Slot::Thread::slow, slot.kind == SlotKind::battery);
 }
 
-TEST(Wiring, SaysWhenThereIsNoSuchDevice) {
-  auto config = load_robot().config;
-  config.imu.configured = false;
+TEST(Wiring, PutsBusesAndDrivesFirstWhereverTheyStand) {
+  auto text = changed(robot_configuration(), R"(    "can0": {"can": "can0"},)", "");
+  text = changed(text, R"("panel": {"gpio": "chip0"})",
+                 R"("panel": {"gpio": "chip0"}, "can0": {"can": "can0"})");
+  const std::string gnss = R"(    "gnss": {"driver": "nmea0183", "link": "gnss"},)";
+  text = changed(changed(text, gnss, ""), R"("devices": {)", R"("devices": {)" + gnss);
   engine::Environment environment;
-  const Wiring wiring = wire_up(config, environment);
-  EXPECT_EQ(wiring.first(SlotKind::imu), kNowhere);
-  EXPECT_EQ(wiring.link_of(SlotKind::imu), kNowhere);
-  EXPECT_EQ(wiring.link_of(SlotKind::line), 3) << "the others close up";
+  const auto loaded = load_robot(text);
+  ASSERT_TRUE(loaded.problems.empty());
+  const Wiring wiring = wire_up(loaded.config, environment);
+  EXPECT_EQ(wiring.links[0].name, "can0");
+  EXPECT_EQ(wiring.slots[0].name, "left");
+  EXPECT_EQ(wiring.slots[2].name, "gnss");
 }
 
 TEST(Wiring, RefusesADriverOfAnotherKindNamingItsPlace) {
   auto config = load_robot().config;
-  config.drives[1].driver = "nmea0183";
+  config.devices[1].driver = "nmea0183";
   engine::Environment environment;
   try {
     wire_up(config, environment);
     FAIL();
   } catch (const std::runtime_error& error) {
-    EXPECT_THAT(error.what(), HasSubstr("drives: right: no driver \"nmea0183\" of this kind"));
+    EXPECT_THAT(error.what(), HasSubstr("devices.right: no driver \"nmea0183\" of this kind"));
   }
 }
 

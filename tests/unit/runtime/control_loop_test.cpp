@@ -83,8 +83,8 @@ class ControlLoopTest : public testing::Test {
   }
   std::string configuration() const {
     const auto& folder = folder_.path();
-    auto text = replaced(test::kSmallRobot, R"("interface": "can0")",
-                         R"("interface": "unix:)" + folder + R"(/can0.sock")");
+    auto text = replaced(test::kSmallRobot, R"("can": "can0")",
+                         R"("can": "unix:)" + folder + R"(/can0.sock")");
     text = replaced(text, "/dev/drover/gnss", receiver_.path());
     text = replaced(text, "/dev/drover/imu", folder + "/no_imu");
     return replaced(text, R"("mqtt")",
@@ -110,7 +110,7 @@ class ControlLoopTest : public testing::Test {
   config::Loaded loaded_ = config::load_text(configuration(), DROVER_SOURCE_DIR "/config/maps");
   Gateway gateway_{loaded_.config};
   GuardMemory guard_;
-  LinkKeeper keeper_{loaded_.config, guard_, gateway_.duties()};
+  LinkKeeper keeper_{loaded_.config, gateway_.wiring(), guard_, gateway_.duties()};
   std::unique_ptr<ControlExchange> exchange_owner_ = std::make_unique<ControlExchange>();
   ControlExchange& exchange_ = *exchange_owner_;
   std::unique_ptr<StorageExchange> storage_ = std::make_unique<StorageExchange>();

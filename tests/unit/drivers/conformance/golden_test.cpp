@@ -98,8 +98,12 @@ TEST(Registry, MakesOfEachEntryADeviceWithOneFaceForItsWire) {
     const int faces = has_face(entry, &Made::frames) + has_face(entry, &Made::bytes) +
                       has_face(entry, &Made::registers) + has_face(entry, &Made::levels);
     EXPECT_EQ(faces, 1) << entry.name;
-    EXPECT_EQ(has_face(entry, &Made::actuator), entry.kinds.has(SlotKind::drive)) << entry.name;
-    EXPECT_EQ(find_driver(entry.name, SlotKind::line) != nullptr, entry.kinds.has(SlotKind::line));
+    EXPECT_EQ(has_face(entry, &Made::frames), entry.wire == Wire::can) << entry.name;
+    EXPECT_EQ(has_face(entry, &Made::bytes), entry.wire == Wire::bytes) << entry.name;
+    EXPECT_EQ(has_face(entry, &Made::registers), entry.wire == Wire::registers) << entry.name;
+    EXPECT_EQ(has_face(entry, &Made::levels), entry.wire == Wire::levels) << entry.name;
+    EXPECT_EQ(has_face(entry, &Made::actuator), entry.kind == SlotKind::drive) << entry.name;
+    EXPECT_EQ(find_driver(entry.name, SlotKind::line) != nullptr, entry.kind == SlotKind::line);
   }
 }
 

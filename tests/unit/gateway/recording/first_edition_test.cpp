@@ -76,7 +76,7 @@ TEST_F(FirstEdition, HadTheSameOfAllElse) {
 
 TEST_F(FirstEdition, NamesNoLinkThatIsNotConfigured) {
   auto config = load_robot().config;
-  config.imu.configured = false;
+  std::erase_if(config.devices, [](const auto& device) { return device.name == "imu"; });
   wiring_ = wire_up(config, environment_);
   EXPECT_EQ(meaning(10, {1}), "at 8.000000000 s: link 255 up");
   EXPECT_THAT(streams_of_first_edition(wiring_), ElementsAre(1, kNowhere));

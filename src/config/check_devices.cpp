@@ -1,0 +1,169 @@
+// The devices: each on a link of its wire, and what two may not share.
+#include <algorithm>
+#include <array>
+#include <map>
+#include <span>
+
+#include "config/check_subjects.h"
+#include "config/taken.h"
+#include "text/number.h"
+
+namespace drover::config {
+namespace {
+
+/// A serial line has one device; to ask several on one Modbus line has no place yet.
+void check_company(const DeviceConfig& device, const LinkConfig& link,
+                   std::map<std::string, std::string>& first, Findings& found) {
+  if (link.wire != Wire::bytes && link.wire != Wire::registers) return;
+  const auto [it, inserted] = first.emplace(link.name, device_path(device));
+  if (inserted) return;
+  const auto path = device_path(device, "link");
+  if (link.wire == Wire::bytes) {
+    found.add(path, "\"" + link.name + "\" is a serial line, and " + it->second + " hangs on it");
+  } else {
+    found.add(path, it->second + " hangs on \"" + link.name +
+                        "\": two devices on one Modbus line are not supported yet");
+  }
+}
+
+void hang(DeviceConfig& device, std::map<std::string, std::string>& first, Findings& found) {
+  const auto path = device_path(device, "link");
+  const auto* link = find_link(device.link, path, found);
+  if (link == nullptr || found.has_problem(link_path(*link))) return;
+  device.link_index = static_cast<std::size_t>(link - found.config().links.data());
+  const auto* entry = find_driver(device.driver);
+  if (entry == nullptr) return;
+  if (entry->wire == link->wire) return check_company(device, *link, first, found);
+  found.add(path, "\"" + link->name + "\" is " + std::string(words(link->wire)) + ", but " +
+                      device.driver + " hangs on " + std::string(words(entry->wire)));
+}
+
+/// The estimate goes by one of each, and what the others say has no place yet.
+void one_of_each(Findings& found) {
+  constexpr std::array<std::pair<SlotKind, const char*>, 3> kKinds{
+      {{SlotKind::gnss, "receiver"},
+       {SlotKind::imu, "inertial sensor"},
+       {SlotKind::battery, "battery"}}};
+  for (const auto& [kind, word] : kKinds) {
+    const DeviceConfig* one = nullptr;
+    for (const auto& device : found.config().devices) {
+      if (find_driver(device.driver, kind) == nullptr) continue;
+      if (one != nullptr)
+        found.add(device_path(device),
+                  "a second " + std::string(word) + " beside " + device_path(*one) +
+                      " is not supported yet",
+                  "leave one of them out");
+      else
+        one = &device;
+    }
+  }
+}
+
+void addresses(Findings& found) {
+  std::map<std::string, std::string> first;
+  for (const auto& device : found.config().devices) {
+    if (!device.options.has("node")) continue;
+    const auto path = device_path(device, "options.node");
+    const auto address = device.link + ", " + device.driver + " node " +
+                         text::number_text(device.options.number("node"));
+    const auto [it, inserted] = first.emplace(address, path);
+    if (!inserted)
+      found.add(path, "two devices have one address (" + address + "): the other is " + it->second);
+  }
+}
+
+std::string names_of(std::span<const Channel> channels) {
+  std::string names;
+  for (const auto& channel : channels)
+    names += (names.empty() ? "" : ", ") + std::string(channel.name);
+  return names;
+}
+
+/// The channels of a device by the joints that name them: each by one.
+void name_channels(DeviceConfig& device, std::span<const Channel> channels, Findings& found) {
+  std::vector<const JointConfig*> by(channels.size());
+  for (auto& joint : device.joints) {
+    const auto path = device_path(device, "joints." + joint.name);
+    if (joint.channel.empty() && channels.size() == 1) joint.channel = channels[0].name;
+    const auto it = std::find_if(channels.begin(), channels.end(),
+                                 [&](const auto& each) { return each.name == joint.channel; });
+    if (it == channels.end()) {
+      const auto what = joint.channel.empty() ? "names no channel" : "there is no such channel";
+      found.add(path + ".channel", what, "one of: " + names_of(channels));
+      continue;
+    }
+    joint.channel_index = static_cast<std::size_t>(it - channels.begin());
+    auto& first = by[joint.channel_index];
+    if (first != nullptr)
+      found.add(path + ".channel",
+                "\"" + joint.channel + "\" is the joint \"" + first->name + "\" already");
+    first = &joint;
+  }
+  for (std::size_t i = 0; i < channels.size(); ++i)
+    if (by[i] == nullptr && !found.has_problem(device_path(device, "joints")))
+      found.add(device_path(device, "joints"),
+                "no joint is the channel \"" + std::string(channels[i].name) + "\"",
+                device.driver + " moves: " + names_of(channels));
+}
+
+}  // namespace
+
+void check_devices(Findings& found) {
+  std::map<std::string, std::string> first;
+  for (auto& device : found.config().devices) {
+    if (const auto* entry = find_driver(device.driver)) device.kind = entry->kind;
+    hang(device, first, found);
+  }
+  one_of_each(found);
+  addresses(found);
+}
+
+void check_joints(Findings& found) {
+  Taken taken(found);
+  std::size_t axes = 0;
+  for (auto& device : found.config().devices) {
+    const auto* entry = find_driver(device.driver, SlotKind::drive);
+    if (entry == nullptr) continue;
+    for (const auto& joint : device.joints)
+      taken.take(joint.name, device_path(device, "joints." + joint.name));
+    if (device.joints.empty() && entry->channels.size() == 1) {
+      device.joints.push_back({"", device.name});
+      taken.take(device.name, device_path(device));
+    }
+    name_channels(device, entry->channels, found);
+    device.first_axis = static_cast<AxisId>(axes);
+    axes += device.joints.size();
+    if (axes > kMaxAxes)
+      found.add(device_path(device),
+                "is one joint too many: there may be " + std::to_string(kMaxAxes));
+  }
+}
+
+void check_lines(Findings& found) {
+  auto& config = found.config();
+  Taken lines(found);
+  Taken kinds(found);
+  const auto line = [&](const std::string& link, const std::string& name, const std::string& path) {
+    lines.take(link + " " + name, path, name);
+  };
+  for (const auto& device : config.devices) {
+    if (device.kind != SlotKind::line) continue;
+    line(device.link, device.line, device_path(device, "line"));
+    kinds.take(device.is, device_path(device, "is"));
+  }
+  auto& outputs = config.outputs;
+  if (!found.given("outputs")) return;
+  const auto* link = find_link(outputs.link, "outputs.link", found);
+  if (link != nullptr && link->wire != Wire::levels)
+    found.add("outputs.link", "\"" + link->name + "\" is " + std::string(words(link->wire)) +
+                                  ", but outputs are lines of " + std::string(words(Wire::levels)));
+  if (link != nullptr) outputs.chip = link->gpio;
+  const auto output = [&](const std::string& key, const OutputConfig& one) {
+    if (one.configured) line(outputs.link, one.name, "outputs." + key + ".line");
+  };
+  constexpr std::array<const char*, kOutputCount> kKeys{"enable_relay", "lamp", "buzzer"};
+  for (std::size_t i = 0; i < kOutputCount; ++i) output(kKeys[i], outputs.output[i]);
+  output("watchdog", outputs.watchdog);
+}
+
+}  // namespace drover::config

@@ -1,0 +1,131 @@
+// The links: what each carries, and what two may not share.
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+
+#include "config/check_subjects.h"
+#include "config/taken.h"
+#include "text/suggestion.h"
+
+namespace drover::config {
+namespace {
+
+constexpr int kUsualBaud = 115200;
+constexpr int kLeastBaud = 4800;
+
+/// "" when it is a device or tcp:ADDRESS:PORT. No names: to resolve one may take longer than
+/// anything here waits.
+std::string check_modbus_port(const std::string& port) {
+  if (!port.starts_with("tcp:")) return "";
+  unsigned a = 0;
+  unsigned b = 0;
+  unsigned c = 0;
+  unsigned d = 0;
+  unsigned number = 0;
+  int used = 0;
+  const int got =
+      std::sscanf(port.c_str(), "tcp:%3u.%3u.%3u.%3u:%5u%n", &a, &b, &c, &d, &number, &used);
+  const bool good = got == 5 && static_cast<std::size_t>(used) == port.size() &&
+                    std::max({a, b, c, d}) <= 255 && number >= 1 && number <= 65535;
+  return good ? "" : "must be tcp:ADDRESS:PORT with an IPv4 address, like tcp:192.168.1.50:502";
+}
+
+Wire wire_of(const LinkConfig& link) {
+  if (!link.serial.empty()) return Wire::bytes;
+  if (!link.modbus.empty()) return Wire::registers;
+  return link.gpio.empty() ? Wire::can : Wire::levels;
+}
+
+/// The key that says which kind of link it is.
+std::string kind_key(Wire wire) {
+  switch (wire) {
+    case Wire::can: return "can";
+    case Wire::bytes: return "serial";
+    case Wire::registers: return "modbus";
+    case Wire::levels: break;
+  }
+  return "gpio";
+}
+
+/// Speed and parity are of the lines that have them.
+void check_pace(LinkConfig& link, Findings& found) {
+  const auto refuse = [&](std::string_view key) {
+    if (found.given(link_path(link, key)))
+      found.add(link_path(link, key), "is of no use on " + std::string(words(link.wire)),
+                "leave it out");
+  };
+  if (link.wire != Wire::registers) refuse("parity");
+  if (link.wire == Wire::can || link.wire == Wire::levels) refuse("baud");
+  if (link.wire != Wire::bytes) return;
+  if (link.baud == 0) link.baud = kUsualBaud;
+  if (link.baud < kLeastBaud)
+    found.add(link_path(link, "baud"), "is " + std::to_string(link.baud) +
+                                           ", but must be at least " + std::to_string(kLeastBaud));
+}
+
+/// One program opens a line; two devices would take each other's bytes.
+void check_addresses(Findings& found) {
+  Taken taken(found);
+  for (const auto& link : found.config().links) {
+    const auto& written = address(link);
+    const bool is_port = link.wire == Wire::bytes || link.wire == Wire::registers;
+    const auto plain = is_port
+                           ? "port " + std::filesystem::path(written).lexically_normal().string()
+                           : kind_key(link.wire) + " " + written;
+    taken.take(plain, link_path(link, kind_key(link.wire)), written);
+  }
+}
+
+}  // namespace
+
+std::string_view words(Wire wire) {
+  switch (wire) {
+    case Wire::can: return "a CAN bus";
+    case Wire::bytes: return "a serial line";
+    case Wire::registers: return "a Modbus line";
+    case Wire::levels: break;
+  }
+  return "a GPIO chip";
+}
+
+void check_links(Findings& found) {
+  std::size_t buses = 0;
+  for (auto& link : found.config().links) {
+    link.wire = wire_of(link);
+    if (address(link).empty()) continue;  // told already
+    check_pace(link, found);
+    if (const auto why = check_modbus_port(link.modbus); !why.empty())
+      found.add(link_path(link, "modbus"), why);
+    if (link.wire == Wire::can && ++buses == kMaxBuses + 1)
+      found.add(link_path(link),
+                "is one CAN bus too many: there may be " + std::to_string(kMaxBuses));
+  }
+  check_addresses(found);
+}
+
+void check_use_of_links(Findings& found) {
+  const auto& config = found.config();
+  if (found.has_problem("outputs.link")) return;
+  for (const auto& device : config.devices)
+    if (found.has_problem(device_path(device, "link"))) return;  // it may be meant
+  if (config.devices.empty()) return;
+  for (const auto& link : config.links) {
+    const bool used = config.outputs.link == link.name ||
+                      std::any_of(config.devices.begin(), config.devices.end(),
+                                  [&link](const auto& device) { return device.link == link.name; });
+    if (!used) found.add(link_path(link), "no device hangs on it", "leave it out");
+  }
+}
+
+const LinkConfig* find_link(const std::string& name, const std::string& path, Findings& found) {
+  const auto& links = found.config().links;
+  const auto it = std::find_if(links.begin(), links.end(),
+                               [&name](const auto& link) { return link.name == name; });
+  if (it != links.end()) return &*it;
+  const auto names = collect(links, [](const auto& link) { return link.name; });
+  if (!found.has_problem(path))
+    found.add(path, "there is no link named \"" + name + "\"", text::did_you_mean(name, names));
+  return nullptr;
+}
+
+}  // namespace drover::config
