@@ -289,6 +289,7 @@ void Engine::step(Time now, const Environment& environment, EngineOutput& out) {
     e.snapshot.line_health[i] = environment.lines[i].state;
   }
   e.pulse.fill(false);
+  e.has_imu = environment.imu_configured;
   e.imu_trusted = environment.imu.state == SourceState::fresh;
   e.estimate = e.estimator.step(now);
   const std::span<const AxisSnapshot> axes = e.axes;

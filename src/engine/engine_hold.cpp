@@ -10,6 +10,8 @@ namespace {
 
 /// A wheel over a stone is no slope.
 constexpr Duration kSteepFor = std::chrono::milliseconds(300);
+/// An inertial sensor that is silent for a moment leaves the ground as it was.
+constexpr Duration kTiltUnknownFor = std::chrono::seconds(1);
 
 }  // namespace
 
@@ -38,10 +40,18 @@ double Engine::Impl::tilt_deg() const {
   return to_deg(std::acos(std::cos(estimate.roll_rad) * std::cos(estimate.pitch_rad)));
 }
 
+/// Steep ground stays so until the inertial sensor says otherwise: when it falls silent nobody
+/// knows, and what nobody knows is not level. A robot without one was accepted as it is.
 void Engine::Impl::watch_tilt(Time now) {
-  const bool beyond = config.base.hold == HoldBy::level_ground_only && imu_trusted &&
-                      tilt_deg() > config.base.max_tilt_deg;
-  if (!beyond) {
+  if (config.base.hold != HoldBy::level_ground_only || !has_imu) return;
+  if (imu_trusted || tilt_known_at == kNever) tilt_known_at = now;
+  if (!imu_trusted) {
+    steep_since = kNever;
+    if (steep.empty() && now - tilt_known_at >= kTiltUnknownFor)
+      steep = "nobody knows how steep the ground is: no inertial sensor is heard";
+    return;
+  }
+  if (tilt_deg() <= config.base.max_tilt_deg) {
     steep_since = kNever;
     steep.clear();
     return;

@@ -84,7 +84,10 @@ struct Engine::Impl {
   Reason steep;                          ///< why this ground is too steep to stop on
   Time steep_since = kNever;
   bool driven = false;       ///< an owner had the drives in the last step
+  bool has_imu = false;      ///< configured
   bool imu_trusted = false;  ///< by its driver, in the last step
+  Time tilt_known_at = kNever;
+  bool slopes = false;  ///< the ground fell when that was known last
   Time last_step = kNever;
   Snapshot snapshot;
   /// Edges of a base that takes a twist.

@@ -26,8 +26,9 @@ Reason Engine::Impl::judge_motion(Time now, Duration dt, const LineTable& lines)
   const auto estop = static_cast<std::size_t>(Line::estop);
   RestInput input{.now = now, .dt = dt, .axes = axes};
   input.power_is_off = config.line_configured[estop] && lines.active[estop];
-  input.rolls_unpowered = !steep.empty() || (config.base.hold == HoldBy::level_ground_only &&
-                                             imu_trusted && tilt_deg() > kRollsFrom_deg);
+  if (imu_trusted) slopes = tilt_deg() > kRollsFrom_deg;
+  input.rolls_unpowered =
+      !steep.empty() || (config.base.hold == HoldBy::level_ground_only && slopes);
   input.released = hold.released();
   input.caught = hold.state() == HoldState::catching;
   if (estimate.has_heading) input.yaw_rad = estimate.pose.yaw_rad;
@@ -46,6 +47,8 @@ Reason Engine::Impl::judge_motion(Time now, Duration dt, const LineTable& lines)
                   .commanded = motion_asked,
                   .yaw_rad = estimate.has_heading ? estimate.pose.yaw_rad : kAbsent,
                   .gyro_zero_known = std::isfinite(estimate.gyro_bias_sigma_radps)});
+  // What did not stop is latched, in words of its own, and "rests again" only when it does.
+  if (state == RestState::not_stopping && rest.moves(now)) return "the robot still moves";
   return state == RestState::not_stopping ? Reason() : rest.reason();
 }
 

@@ -127,7 +127,10 @@ void RobotMemory::read(const Record<Kept>* records) {
     if (record.sequence == 0 && record.format == 0) continue;
     written = true;
     const bool whole = record.format == kLayout<Kept> && record.checksum == record.sum();
-    if (!whole) continue;
+    if (!whole) {
+      damaged_ = true;
+      continue;
+    }
     if (record.sequence <= sequence_) continue;
     sequence_ = record.sequence;
     const bool this_boot = boot_id_ == std::string_view(record.boot.data());
@@ -157,11 +160,18 @@ void RobotMemory::write(const Remembered& now) {
 }
 
 Remembered recall(const RobotMemory& memory, const Remembered& on_disk) {
-  if (memory.found()) return *memory.found();
-  if (!memory.unreadable()) return on_disk;
+  if (memory.found() && !memory.damaged()) return *memory.found();
+  if (!memory.found() && !memory.unreadable()) return on_disk;
+  // What is damaged may have been the newest: nobody knows that there was no stop.
   Remembered known = store::unreadable_stop();
-  if (!on_disk.stop.empty()) known.stop = on_disk.stop;
-  known.power_cut = on_disk.power_cut;
+  const Remembered older = memory.found().value_or(Remembered{});
+  for (const Remembered* kept : {&older, &on_disk}) {
+    if (!kept->stop.empty()) known.stop = kept->stop;
+    if (!kept->joints_wait.empty()) known.joints_wait = kept->joints_wait;
+    known.power_cut = known.power_cut || kept->power_cut;
+    known.released = known.released || kept->released;
+    known.task = known.task || kept->task;
+  }
   return known;
 }
 

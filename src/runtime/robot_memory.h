@@ -28,6 +28,8 @@ class RobotMemory final {
   const std::optional<Remembered>& found() const { return found_; }
   /// There was something in the same boot, but no record is whole.
   bool unreadable() const { return unreadable_; }
+  /// One record is not whole, and it may be the newest.
+  bool damaged() const { return damaged_; }
 
   /// Control thread: writes when something changed. True when it did.
   bool keep(const Remembered& now);
@@ -48,6 +50,7 @@ class RobotMemory final {
   std::uint64_t sequence_ = 0;
   std::optional<Remembered> found_;
   bool unreadable_ = false;
+  bool damaged_ = false;
   std::optional<Remembered> last_;
 };
 

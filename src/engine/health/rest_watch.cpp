@@ -59,6 +59,7 @@ RestWatch::Rims RestWatch::rims(const RestInput& input) const {
       rims.silent = true;
       continue;
     }
+    if (axis.state == AxisState::running) rims.driven = true;
     told.joints[i] = {axis.motion.velocity_radps, input.now};
     if (std::abs(mps) > std::abs(rims.fastest_mps)) rims.fastest_mps = mps;
   }
@@ -117,7 +118,8 @@ bool RestWatch::due(const RestInput& input) {
 bool RestWatch::may_be_cut(const RestInput& input, const Rims& rims) const {
   if (!ours_ || input.power_is_off || input.released) return false;
   if (!may_roll_) return true;
-  return input.now - moves_since_ >= from_s(kMotionHeldOnSlope_s) &&
+  // Drives that do not run drive nothing: it rolls, and they are to catch it.
+  return rims.driven && input.now - moves_since_ >= from_s(kMotionHeldOnSlope_s) &&
          moves_as_commanded(input, rims);
 }
 

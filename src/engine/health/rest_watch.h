@@ -38,8 +38,8 @@ enum class RestState : std::uint8_t {
 /// encoders may be frozen). After a second of confirmed rest, or when a person released the drives,
 /// no motion is ours any more: nothing is cut then, since who pushes the robot or carries it away
 /// must not find it latched. Where it would only roll without power, or rolls and is being caught,
-/// it is cut when it moves the way that it was driven, or turns on the spot so, and not when it
-/// rolls back.
+/// it is cut when a drive in closed loop moves it the way that it was driven, or turns it on the spot
+/// so, and not when it rolls back, or when no drive runs.
 class RestWatch final {
  public:
   explicit RestWatch(const EngineConfig& config);
@@ -68,6 +68,7 @@ class RestWatch final {
     double ahead = 0;        ///< sign of the way of the base; 0: it turns on the spot
     double turn = 0;         ///< of its turn, left positive; 0: it goes more than it turns
     bool silent = false;     ///< at least one is not heard
+    bool driven = false;     ///< at least one is heard in closed loop
   };
   Rims rims(const RestInput& input) const;
   Rims asked(const RestInput& input) const;

@@ -38,6 +38,11 @@ void TiltWatch::update(Time now, double roll_rad, double pitch_rad) {
   if (felt) wrong_axis_ = up_mps2_ < kUpright * kGravity_mps2;
   const double tilt_rad =
       std::acos(std::clamp(std::cos(roll_rad) * std::cos(pitch_rad), -1.0, 1.0));
+  // A tilt that is not known any more leaves the verdict as it was.
+  if (!std::isfinite(tilt_rad) && !wrong_axis_) {
+    tilted_since_ = kNever;
+    return;
+  }
   const double limit_rad = to_rad(config_.tilt_limit_deg) * (reason_.empty() ? 1.0 : kBack);
   const bool tilted = std::isfinite(tilt_rad) && tilt_rad > limit_rad;
   if (!wrong_axis_ && !tilted) {

@@ -99,6 +99,8 @@ Reason Owners::hindrance(const OwnInput& input) const {
   if (!input.latched.empty()) return reset_first(input.latched);
   if (!input.not_held.empty()) return input.not_held;
   if (input.task.drives) return "a task owns the drives";
+  // One gate moves at a time: what a stream asked would hide a ramp, and then go on with it.
+  if (!twist_gate_.at_rest()) return "the robot comes to rest";
   return {};
 }
 

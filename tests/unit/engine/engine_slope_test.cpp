@@ -90,6 +90,63 @@ TEST_F(ARobotOnASlopeThatIsAllowed, LosesItsPowerWhenItDrivesOn) {
   EXPECT_TRUE(cut_within_s(1.5));
 }
 
+// Driving down, what rolls goes the way that it was driven.
+TEST_F(ARobotOnASlopeThatIsAllowed, IsCaughtAndNotCutWhenItsDrivesLoseTheirSupplyOnTheWayDown) {
+  drive_up();
+  for (auto& drive : rig.drives) drive = {.silent = true, .position_rad = drive.position_rad};
+  rig.carried = WheelSpeeds{6, 6};
+  rest_s(1.5);
+  for (auto& drive : rig.drives) drive.silent = false;
+  for (int i = 0; i < 200 && rig.drives[0].state != AxisState::running; ++i) rig.tick();
+  rig.carried.reset();
+  rest_s(5);
+  EXPECT_EQ(rig.snapshot().hold, HoldState::held);
+}
+
+TEST_F(ARobotOnASlopeThatIsAllowed, IsNotCutWhenItsDrivesLoseTheirSupplyAtItsRest) {
+  stop();
+  for (auto& drive : rig.drives) drive = {.silent = true, .position_rad = drive.position_rad};
+  rig.carried = WheelSpeeds{6, 6};
+  rest_s(1.5);
+  for (auto& drive : rig.drives) drive.silent = false;
+  rest_s(0.1);
+  rig.carried.reset();
+  rest_s(5);
+}
+
+// A slope does not end where the inertial sensor ends.
+TEST_F(ARobotOnASlopeThatIsAllowed, KeepsItsPowerWhenItSwingsBackAndTheImuIsSilent) {
+  stop();
+  rig.imu = false;
+  rig.environment.imu.state = SourceState::stale;
+  rest_s(0.5);
+  rig.carried = WheelSpeeds{-0.5, -0.5};
+  rest_s(2);
+}
+
+TEST_F(ARobotOnASlope, IsNotOnLevelGroundBecauseItsImuFellSilent) {
+  drive_up();
+  stop_on_the_slope();
+  rig.imu = false;
+  rig.environment.imu.state = SourceState::stale;
+  rest_s(3);
+  EXPECT_THAT(told(), testing::Not(HasSubstr("on level ground again")));
+  rig.start(path, 40, 0.5);
+  rig.tick();
+  EXPECT_THAT(refusal(), HasSubstr("the ground falls by"));
+}
+
+TEST_F(ARobotOnASlope, StopsWhenNobodyKnowsHowSteepTheGroundIs) {
+  drive();
+  rig.imu = false;
+  rig.environment.imu.state = SourceState::stale;
+  rig.run_s(0.8);
+  EXPECT_EQ(rig.snapshot().nav.status, NavStatus::run) << rig.why();
+  rig.run_s(2);
+  EXPECT_EQ(rig.snapshot().nav.status, NavStatus::error);
+  EXPECT_THAT(rig.why(), HasSubstr("how steep the ground is"));
+}
+
 TEST_F(ARobotOnASlope, KeepsItsPowerWhenItIsCaughtAndRollsOn) {
   drive_up();
   stop_on_the_slope();

@@ -116,6 +116,35 @@ TEST_F(ARobotMemory, ThatCannotBeReadCountsAsAStop) {
   EXPECT_EQ(recall(memory, {}).stop, store::kUnreadableStop);
   EXPECT_TRUE(recall(memory, {}).stop_at_robot);
 }
+TEST_F(ARobotMemory, OfWhichTheNewestIsDamagedCountsAsAStopWithAllThatIsKnownBesides) {
+  Remembered older;
+  older.released = true;
+  Remembered on_disk;
+  on_disk.stop = "the robot did not stop";
+  on_disk.power_cut = true;
+  {
+    auto memory = open();
+    memory.keep(older);  // record 1
+    memory.keep({});     // record 0
+  }
+  tear(0);
+  const Remembered known = recall(open(), on_disk);
+  EXPECT_EQ(known.stop, on_disk.stop);
+  EXPECT_TRUE(known.stop_at_robot);
+  EXPECT_TRUE(known.power_cut);
+  EXPECT_TRUE(known.released);
+  EXPECT_EQ(recall(open(), {}).stop, store::kUnreadableStop);
+}
+TEST_F(ARobotMemory, IsWholeAgainAfterItsNextRecord) {
+  {
+    auto memory = open();
+    memory.keep(stopped());
+    memory.keep({});
+  }
+  tear(0);
+  { open().keep({}); }
+  EXPECT_EQ(recall(open(), stopped()), Remembered{});
+}
 TEST_F(ARobotMemory, IsBelievedBeforeTheDisk) {
   { open().keep({}); }
   EXPECT_EQ(recall(open(), stopped()), Remembered{});

@@ -90,6 +90,25 @@ TEST_F(JointCommands, AreNotOpenedForAHungProgramByTheZerosOfAnother) {
   EXPECT_THAT(reason(), HasSubstr("velocity 0, and nothing else for 0.3 s"));
   drive_by_joints();
 }
+TEST_F(JointCommands, OfZerosDoNotHideTheRampOfAnotherAndGoOnWithItLater) {
+  drive();
+  rig.run_s(3);
+  const double driven_radps = rig.fastest_command_radps();
+  ASSERT_GT(driven_radps, 1);
+  rig.command(CancelTask{});
+  const double step_radps =
+      rig.config.limits.deceleration_mps2 / rig.config.base.wheel_radius_m / 200;
+  double before = driven_radps;
+  for (int i = 0; i < 600; ++i) {
+    if (i % 4 == 0 && i < 120) send(0);
+    rig.tick();
+    const double now = rig.fastest_command_radps();
+    ASSERT_LE(now, before + 1e-9) << "cycle " << i;
+    ASSERT_GE(now, before - 2 * step_radps) << "cycle " << i;
+    before = now;
+  }
+  EXPECT_EQ(before, 0);
+}
 TEST_F(JointCommands, MoveNothingAfterZerosThatPaused) {
   for (int i = 0; i < 3; ++i) {
     stream_s(0, 0.2);
