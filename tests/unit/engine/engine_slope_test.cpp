@@ -67,6 +67,10 @@ class ARobotOnASlopeThatIsAllowed : public ARobotOnASlope {
     for (int i = 0; i < 400 && rig.fastest_command_radps() > 0; ++i) rig.tick();
     rig.run_s(0.3);
   }
+  /// The drives boot idle.
+  void supply_comes_back() {
+    for (auto& drive : rig.drives) drive = {.position_rad = drive.position_rad};
+  }
 };
 
 TEST_F(ARobotOnASlopeThatIsAllowed, KeepsItsPowerWhenItSwingsBackAfterAStop) {
@@ -96,7 +100,7 @@ TEST_F(ARobotOnASlopeThatIsAllowed, IsCaughtAndNotCutWhenItsDrivesLoseTheirSuppl
   for (auto& drive : rig.drives) drive = {.silent = true, .position_rad = drive.position_rad};
   rig.carried = WheelSpeeds{6, 6};
   rest_s(1.5);
-  for (auto& drive : rig.drives) drive.silent = false;
+  supply_comes_back();
   for (int i = 0; i < 200 && rig.drives[0].state != AxisState::running; ++i) rig.tick();
   rig.carried.reset();
   rest_s(5);
@@ -108,7 +112,7 @@ TEST_F(ARobotOnASlopeThatIsAllowed, IsNotCutWhenItsDrivesLoseTheirSupplyAtItsRes
   for (auto& drive : rig.drives) drive = {.silent = true, .position_rad = drive.position_rad};
   rig.carried = WheelSpeeds{6, 6};
   rest_s(1.5);
-  for (auto& drive : rig.drives) drive.silent = false;
+  supply_comes_back();
   rest_s(0.1);
   rig.carried.reset();
   rest_s(5);
