@@ -20,7 +20,7 @@ void known_words(const std::string& path, const std::vector<std::string>& words,
 void check_accepted(Findings& found) {
   for (const auto& device : found.config().devices)
     known_words(device_path(device, "accept"), device.accept, {"no_watchdog"}, found);
-  known_words("accept", found.config().accept, {"no_estop", "slow_guard"}, found);
+  known_words("accept", found.config().accept, {"no_estop", "slow_guard", "no_tilt"}, found);
 }
 
 void warn_of_risks(Findings& found) {
@@ -28,6 +28,14 @@ void warn_of_risks(Findings& found) {
     found.warn("devices",
                "there is no e-stop line: only the broker and the command line can stop it",
                "no_estop");
+  const auto& devices = found.config().devices;
+  const bool has_imu = std::any_of(devices.begin(), devices.end(),
+                                   [](const auto& device) { return device.kind == SlotKind::imu; });
+  if (!has_imu && found.config().engine.base.hold == engine::HoldBy::level_ground_only)
+    found.warn("groups.base.hold",
+               "without an inertial sensor nothing tells how steep the ground is: max_tilt_deg "
+               "stops nothing",
+               "no_tilt");
   constexpr int kSlowGuard_ms = 200;
   if (found.config().guard.limit_ms > kSlowGuard_ms)
     found.warn("guard.limit_ms",

@@ -17,9 +17,23 @@ void follow_baud(DeviceConfig& device, const LinkConfig& link, Findings& found) 
   device.options.set("baud", static_cast<double>(link.baud));
 }
 
+/// A drive whose time-out ends before the guard speaks lets go, and the guard's zeros hold nothing.
+void look_at_guard(const DeviceConfig& device, const SilenceBehaviour& silence, Findings& found) {
+  constexpr int kGuardsCycles_ms = 20;
+  const auto& guard = found.config().guard;
+  const Duration takes_over = std::chrono::milliseconds(guard.limit_ms + kGuardsCycles_ms);
+  if (!guard.required || !silence.stops || silence.after > takes_over) return;
+  found.add(device_path(device, "options"),
+            "the drive lets go before drover-guard takes over when droverd dies: " +
+                std::string(silence.text) + ", and the guard needs up to " +
+                std::to_string(guard.limit_ms + kGuardsCycles_ms) + " ms",
+            "a longer time-out of the drive, or a smaller guard.limit_ms");
+}
+
 /// A drive that nothing stops when the bus is cut is refused, unless a person says that it is so.
 void look_at_silence(const DeviceConfig& device, const Actuator& driver, Findings& found) {
   const auto& words = device.accept;
+  look_at_guard(device, driver.silence(), found);
   if (driver.silence().stops || std::find(words.begin(), words.end(), "no_watchdog") != words.end())
     return;
   found.add(device_path(device, "options"), std::string(driver.silence().text),

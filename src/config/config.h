@@ -143,7 +143,8 @@ struct DroverConfig {
   MqttConfig mqtt;
   ProtocolConfig protocol;
   AimrtConfig aimrt;
-  std::vector<std::string> accept;  ///< by name what is warned of otherwise: no_estop, slow_guard
+  std::vector<std::string>
+      accept;  ///< by name what is warned of otherwise: no_estop, slow_guard, no_tilt
   engine::EngineConfig engine;
 };
 

@@ -311,6 +311,36 @@ TEST(ConfigurationChecks, WarnOfNoEmergencyStopLineUnlessThatIsAccepted) {
   EXPECT_EQ(warnings(accepted), "");
 }
 
+TEST(ConfigurationChecks, WarnOfGroundWhoseSlopeNobodyTellsUnlessThatIsAccepted) {
+  auto text = with(R"("hold": "brake")", R"("hold": "level_ground_only")");
+  EXPECT_THAT(warnings(text), HasSubstr("groups.base.hold: without an inertial sensor"));
+  EXPECT_EQ(problems(text), "");
+  auto accepted = text;
+  accepted.insert(2, "\"accept\": [\"no_tilt\"],");
+  EXPECT_EQ(warnings(accepted), "");
+  const std::string_view gnss = R"("gnss": {"driver": "nmea0183", "link": "gnss"},)";
+  text.replace(text.find(gnss), gnss.size(),
+               std::string(gnss) + R"("imu": {"driver": "witmotion", "link": "imu"},)");
+  const std::string_view panel = R"("panel": {"gpio")";
+  text.replace(text.find(panel), panel.size(),
+               R"("imu": {"serial": "/dev/drover/imu"}, "panel": {"gpio")");
+  EXPECT_EQ(problems(text), "");
+  EXPECT_EQ(warnings(text), "");
+}
+
+TEST(ConfigurationChecks, RefuseADriveThatLetsGoBeforeTheGuardTakesOver) {
+  const auto watchdog = [](const char* seconds) {
+    return with(R"("options": {"node": 1})",
+                std::string(R"("options": {"node": 1, "watchdog_timeout_s": )") + seconds + "}");
+  };
+  EXPECT_EQ(problems(watchdog("0.08")), "");
+  EXPECT_THAT(problems(watchdog("0.06")),
+              HasSubstr("devices.left.options: the drive lets go before drover-guard takes over"));
+  auto alone = watchdog("0.06");
+  alone.insert(2, R"("guard": {"required": false},)");
+  EXPECT_EQ(problems(alone), "");
+}
+
 TEST(ConfigurationChecks, WarnOfAGuardThatWaitsLongUnlessThatIsAccepted) {
   const auto slow = [](int limit_ms) {
     return with("\"mqtt\"",
