@@ -40,8 +40,8 @@ src/cli          drover/ cli/ json/ text/ config/register_map.h config/fields_ma
 src/cli          gateway/recording/replay.h link/unique_fd.h publish/names.h
 src/droverd.cpp  config/ runtime/
 sim/plant        drover/ sim/plant/
-sim/robot        drover/ link/ sim/plant/ sim/robot/ config/register_map.h
-sim/scenario     drover/ link/ sim/robot/ sim/scenario/
+sim/robot        drover/ link/ text/ sim/plant/ sim/robot/ config/register_map.h
+sim/scenario     drover/ link/ text/ sim/robot/ sim/scenario/
 TABLE
 }
 

@@ -38,8 +38,8 @@ enum class RestState : std::uint8_t {
 /// encoders may be frozen). After a second of confirmed rest, or when a person released the drives,
 /// no motion is ours any more: nothing is cut then, since who pushes the robot or carries it away
 /// must not find it latched. Where it would only roll without power, or rolls and is being caught,
-/// it is cut when a drive in closed loop moves it the way that it was driven, or turns it on the spot
-/// so, and not when it rolls back, or when no drive runs.
+/// it is cut when a drive in closed loop moves it the way that it was driven, or turns it on the
+/// spot so, and not when it rolls back, or when no drive runs.
 class RestWatch final {
  public:
   explicit RestWatch(const EngineConfig& config);

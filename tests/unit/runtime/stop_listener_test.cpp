@@ -78,7 +78,7 @@ TEST_F(StopListenerTest, AsksForEachStopByItselfAndTellsWhichItHeard) {
 TEST_F(StopListenerTest, ThrowsAwayWhateverElseComes) {
   ASSERT_NO_FATAL_FAILURE(connect());
   const std::string large(100'000, 'x');
-  for (const char* text : {kList, kStart, "", "cancel_task", "{", large.c_str()}) publish(text);
+  for (const char* text : {kList, kStart, "", "cancel", "{", large.c_str()}) publish(text);
   publish(kCancel);
   ASSERT_TRUE(turn_until([&] { return stops_.asked().cancels > 0; }));
   EXPECT_EQ(stops_.asked().cancels, 1U);
