@@ -85,7 +85,7 @@ void visit_odometry(V& v, engine::EstimateConfig& c) {
   v.number("turning_yaw_rad", c.turning_yaw_rad, Range{0, 1},
            "one sigma of the heading, per square root of radian turned");
   v.number("yaw_slip_sigma", c.yaw_slip_sigma, Range{0.001, 1},
-           "one sigma of 1 / base.yaw_slip_factor at the start");
+           "one sigma of 1 / groups.base.yaw_slip_factor at the start");
   v.number("yaw_slip_walk", c.yaw_slip_walk, Range{0, 1},
            "how much it changes, per square root of radian turned");
   v.number("wheel_scale_sigma", c.wheel_scale_sigma, Range{0.0001, 0.5},

@@ -112,8 +112,7 @@ void MechanicsCheck::say_turn(double by_gyro_rad, double by_wheels_rad) {
       std::abs(by_receiver_rad - by_wheels_rad) < std::abs(by_receiver_rad - by_gyro_rad)) {
     fault_.format(
         "the gyro turned %+.0f degrees, the wheels %+.0f, the receiver %+.0f: is the IMU mounted "
-        "as "
-        "configured, and base.track_m right?",
+        "as configured, and groups.base.track_m right?",
         to_deg(by_gyro_rad), to_deg(by_wheels_rad), to_deg(by_receiver_rad));
   } else {
     fault_.format(
