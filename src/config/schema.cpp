@@ -64,16 +64,15 @@ class SchemaWriter final {
   void text(std::string_view key, const std::string& value, std::string_view text,
             Presence presence = Presence::optional) {
     auto& p = property(key, "string", text, presence);
-    if (presence == Presence::alternative) {
-      Json alternative;
-      alternative["required"] = {std::string(key)};
-      schema_["oneOf"].push_back(alternative);
-    }
     if (presence == Presence::optional) {
       p["default"] = value;
     } else {
       p["minLength"] = 1;
     }
+    if (presence != Presence::alternative) return;
+    Json alternative;
+    alternative["required"] = {std::string(key)};
+    schema_["oneOf"].push_back(alternative);  // moves the properties
   }
   void choice(std::string_view key, const std::string& value,
               const std::vector<std::string>& choices, std::string_view text,

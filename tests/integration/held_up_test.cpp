@@ -68,16 +68,14 @@ class HeldUp : public RobotRig {
     change("sim.json", R"("can": {"can0": {"kind": "unix"}})",
            R"("can": {"can0": {"kind": "unix"}, "can1": {"kind": "unix"}})");
     const auto bus = folder().string() + "/sim/can";
-    change("drover.json", R"({"name": "can0", "interface": "unix:)" + bus + R"(0.sock"})",
-           R"({"name": "can0", "interface": "unix:)" + bus + R"(0.sock"},
-              {"name": "can1", "interface": "unix:)" +
-               bus + R"(1.sock"})");
-    for (const char* file : {"sim.json", "drover.json"})
-      for (const char* joint : {"front_right", "rear_right"}) {
-        const std::string drive =
-            std::string(R"({"joint": ")") + joint + R"(", "driver": "odrive")";
-        change(file, drive + R"(, "bus": "can0")", drive + R"(, "bus": "can1")");
-      }
+    const auto first = R"("can0": {"can": "unix:)" + bus + R"(0.sock"})";
+    change("drover.json", first, first + R"(, "can1": {"can": "unix:)" + bus + R"(1.sock"})");
+    for (const std::string joint : {"front_right", "rear_right"}) {
+      const auto simulated = R"({"joint": ")" + joint + R"(", "driver": "odrive", "bus": ")";
+      change("sim.json", simulated + "can0", simulated + "can1");
+      const auto configured = "\"" + joint + R"(": {"driver": "odrive", "link": ")";
+      change("drover.json", configured + "can0", configured + "can1");
+    }
   }
   /// The one that decides and sends.
   pid_t control_thread() {

@@ -22,6 +22,7 @@ constexpr double kFarthest_m = 100000.0;  // from the origin: another place, not
 // A sensor that was away comes back with another bias.
 constexpr Duration kGyroAway = std::chrono::seconds(1);
 constexpr double kGyroReturn_radps = 0.001;
+constexpr double kStands = 0.5;  // cosine of a pitch of 60 degrees
 // No place changes these.
 constexpr std::array<std::size_t, 4> kCarried{kGain, kScale, kGyroBias, kGyroScale};
 
@@ -32,7 +33,8 @@ BodyMotion level_motion(const State& state, BodyMotion motion, Duration imu_stal
   if (!state.gyro.fresh(state.time, imu_stale)) return motion;
   const double level = std::cos(state.gyro.pitch_rad);
   motion.twist.vx_mps *= level;
-  motion.twist.wz_radps *= std::cos(state.gyro.roll_rad) / level;
+  // A robot that tips over tells nothing of a turn about the vertical.
+  if (level > kStands) motion.twist.wz_radps *= std::cos(state.gyro.roll_rad) / level;
   return motion;
 }
 

@@ -42,7 +42,7 @@ LocateState LocateMonitor::update(const Estimate& estimate, bool has_origin, boo
     reason_.format("position uncertain by %.3f m, allowed %.3f m", error_m, share * bound_m);
   } else if (!(error_rad <= share * bound_rad)) {
     reason_.format("heading uncertain by %.1f degrees, allowed %.1f", to_deg(error_rad),
-                   config_.bound_yaw_deg);
+                   to_deg(share * bound_rad));
   } else {
     used_ = std::max(error_m / bound_m, error_rad / bound_rad);
     return state_ = LocateState::good;

@@ -5,6 +5,8 @@
 
 #include <limits>
 
+#include "drover/angle.h"
+
 namespace drover::engine {
 namespace {
 
@@ -66,6 +68,11 @@ TEST_F(ALocateMonitor, HasATighterBoundBeforeATaskThanDuringOne) {
   EXPECT_EQ(update(true), LocateState::good);
   estimate.predicted_error_m = 0.31;
   EXPECT_EQ(update(true), LocateState::lost);
+}
+TEST_F(ALocateMonitor, TellsTheBoundOfTheHeadingThatCounts) {
+  estimate.yaw_error_rad = to_rad(0.9 * EstimateConfig{}.bound_yaw_deg);
+  EXPECT_EQ(update(false), LocateState::lost);
+  EXPECT_THAT(reason(), HasSubstr("heading uncertain by 4.5 degrees, allowed 4.0"));
 }
 TEST_F(ALocateMonitor, DoesNotFlapAtTheBound) {
   estimate.predicted_error_m = 0.29;
