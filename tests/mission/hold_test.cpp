@@ -173,6 +173,24 @@ TEST(LongDipOnRamp, TakesTheWheelsThatItCatchesForNoRunaway) {
   EXPECT_EQ(log.statuses.back().nav, "NAV_FREE");
 }
 
+// The way that it rolls is the way that it was driven, and no drive runs: there is nothing to cut.
+TEST(DipDownOnRamp, IsCaughtAndNotCutOnItsWayDown) {
+  const Record& log = record("dip_down_on_ramp");
+  const Time dipped = log.event("event dipped#1");
+  const Time end = log.truth.back().time;
+  const Roll rolled = roll(log, dipped, end);
+  figure("rolled until it was held", rolled.way_m, "m");
+  figure("fastest", rolled.fastest_mps, "m/s");
+  EXPECT_GT(rolled.fastest_mps, 1.0) << "it does not roll fast enough to show anything";
+  EXPECT_LT(rolled.way_m, 8);
+  EXPECT_GT(end - rolled.rest, 1s) << "it is not held";
+  EXPECT_THAT(log.changes("enable_relay", dipped, end), testing::IsEmpty());
+  for (const auto& status : log.statuses) {
+    if (status.time < dipped) continue;
+    EXPECT_EQ(status.why.find("did not stop"), std::string::npos) << status.why;
+  }
+}
+
 TEST(StopAndKill, RefusesAStartUntilTheStopIsReset) {
   const Record& log = record("stop_and_kill");
   const Time stopped = log.event("start drover stop");

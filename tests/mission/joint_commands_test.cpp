@@ -161,5 +161,23 @@ TEST_F(JointCommands, BesideATaskChangeNothing) {
   EXPECT_THAT(journal(), HasSubstr("joint command refused: a task owns the drives"));
 }
 
+TEST(CancelUnderZeros, RampsDownOnceAndStays) {
+  const Record& log = record("cancel_under_zeros");
+  const Time stopped = log.event("event stopped#1");
+  const double v_mps = log.truth_at(stopped).vx_mps;
+  EXPECT_GT(v_mps, 0.7);
+  // At 0.8 m/s^2, with what cycle and drives need.
+  const Time still = stopped + from_s(v_mps / 0.8) + 250ms;
+  figure("last motion after the cancel", log.moving(stopped, Time::max()).back().time - stopped);
+  EXPECT_THAT(log.moving(still, Time::max()), testing::IsEmpty());
+  const double after_mps = log.truth_at(stopped + 400ms).vx_mps;
+  figure("0.4 s after the cancel", after_mps, "m/s");
+  EXPECT_GT(after_mps, v_mps - 0.8 * 0.4 - 0.05) << "it is jerked to rest";
+  for (const auto& line : log.truth) {
+    if (line.time < still + 300ms) continue;
+    ASSERT_LT(std::abs(line.vx_mps), 0.02) << seconds(line.time);
+  }
+}
+
 }  // namespace
 }  // namespace drover::mission
