@@ -198,12 +198,12 @@ void OdriveDriver::take(const Setpoint& command, Time now, DriverOut& out) {
   if (command.request != request_) {
     const AxisRequest before = request_;
     request_ = command.request;
-    if (armed_by(request_)) {
+    if (arms(request_)) {
       start_arming(now, out);
     } else {
       phase_ = request_ == AxisRequest::idle ? Phase::idling : Phase::resting;
       phase_since_ = now;
-      if (armed_by(before)) {
+      if (arms(before)) {
         fault_ = false;
         lock_reason_.clear();
       }
@@ -228,7 +228,7 @@ void OdriveDriver::on_link_up(Time now) {
   effort_at_ = kNever;
   last_turnps_ = 0;
   poller_.restart(now);
-  if (armed_by(request_)) lock("the link was lost while armed");
+  if (arms(request_)) lock("the link was lost while armed");
 }
 
 Effect OdriveDriver::effect(const Message& message, Time) const {

@@ -5,6 +5,7 @@
 // was heard, because they feed the drive's watchdog and a drive that expires coasts.
 #pragma once
 
+#include "drivers/drives.h"
 #include "drivers/odrive/errors.h"
 #include "drivers/odrive/poller.h"
 #include "drivers/odrive/watchdog_setup.h"
@@ -47,14 +48,10 @@ class OdriveDriver final : public Device, public FrameFace, public Actuator {
   // receive.cpp
   bool on_reply(std::uint8_t command, const CanFrame& frame, Time received, DriverOut& out);
   void on_foreign(const CanFrame& frame, Time received);
-  bool fought(Time now) const;
-  Reason foreign_text() const;
   bool on_heartbeat(const CanFrame& frame, Time received, DriverOut& out);
   bool on_estimates(const CanFrame& frame, Time received, DriverOut& out);
   bool on_errors(std::uint8_t command, const CanFrame& frame);
   bool on_effort(const CanFrame& frame, double Nm_per_unit, Time received);
-  template <class T>
-  void report(const T& value, Time received, DriverOut& out) const;
   AxisStatus status(Time now) const;
   bool only_unfed() const;
   void report_status(Time now, bool always, DriverOut& out);
@@ -62,9 +59,6 @@ class OdriveDriver final : public Device, public FrameFace, public Actuator {
   // driver.cpp
   bool silent(Time now) const;
   bool attempts_to_run() const;
-  bool armed_by(AxisRequest request) const {
-    return request == AxisRequest::run || request == AxisRequest::hold;
-  }
   void start_arming(Time now, DriverOut& out);
   void follow_heartbeat(Time now);
   void lock(std::string_view why);
@@ -93,8 +87,7 @@ class OdriveDriver final : public Device, public FrameFace, public Actuator {
   Time effort_at_ = kNever;
   std::uint64_t good_ = 0;
   std::uint64_t bad_ = 0;
-  std::uint32_t foreign_id_ = 0;
-  Time foreign_at_ = kNever;
+  ForeignCommand foreign_;
 
   // What is wanted of it.
   Phase phase_ = Phase::resting;
@@ -113,8 +106,7 @@ class OdriveDriver final : public Device, public FrameFace, public Actuator {
   double last_turnps_ = 0;
   std::uint64_t bad_setpoints_ = 0;
 
-  AxisStatus reported_;
-  bool reported_once_ = false;
+  ToldStatus told_;
 };
 
 }  // namespace drover::odrive

@@ -9,7 +9,6 @@ namespace drover::odrive {
 namespace {
 
 using std::chrono::milliseconds;
-constexpr Duration kForeignShown = milliseconds(1000);
 
 double finite_or_absent(float value) {
   return std::isfinite(value) ? static_cast<double>(value) : kAbsent;
@@ -31,15 +30,6 @@ bool is_master_command(std::uint8_t command, Firmware firmware) {
 
 }  // namespace
 
-template <class T>
-void OdriveDriver::report(const T& value, Time received, DriverOut& out) const {
-  Measurement m;
-  m.time = received;  // the drive stamps nothing
-  m.received = received;
-  m.value = value;
-  out.report(m);
-}
-
 void OdriveDriver::on_frame(const CanFrame& frame, Time received, DriverOut& out) {
   if (!belongs_to(frame, settings_.node) || frame.remote) return;
   const std::uint8_t command = command_of(frame.id);
@@ -57,20 +47,8 @@ void OdriveDriver::on_foreign(const CanFrame& frame, Time received) {
   const bool reads =
       command_of(frame.id) == cmd::kRxSdo && frame.len > 0 && frame.data[0] == kReads;
   if (reads || odrive::effect(frame, settings_) == FrameEffect::stop) return;
-  foreign_id_ = frame.id;
-  foreign_at_ = received;
-  if (attempts_to_run()) lock(foreign_text().view());
-}
-
-bool OdriveDriver::fought(Time now) const {
-  return foreign_at_ != kNever && now - foreign_at_ <= kForeignShown;
-}
-
-Reason OdriveDriver::foreign_text() const {
-  Reason text;
-  text.format("somebody else commands it: id 0x%03X on the bus",
-              static_cast<unsigned>(foreign_id_));
-  return text;
+  foreign_.on_frame(frame.id, received);
+  if (attempts_to_run()) lock(foreign_.text().view());
 }
 
 /// False when the frame is not as documented; frames that nobody asked for are fine.
@@ -106,7 +84,7 @@ bool OdriveDriver::on_reply(std::uint8_t command, const CanFrame& frame, Time re
       const auto pair = decode_floats(frame);
       understood = pair.has_value();
       if (pair)
-        report(
+        report_heard(
             AxisTemperature{axis_, finite_or_absent(pair->first), finite_or_absent(pair->second)},
             received, out);
       break;
@@ -115,8 +93,9 @@ bool OdriveDriver::on_reply(std::uint8_t command, const CanFrame& frame, Time re
       const auto pair = decode_floats(frame);
       understood = pair.has_value();
       if (pair)
-        report(AxisSupply{axis_, finite_or_absent(pair->first), finite_or_absent(pair->second)},
-               received, out);
+        report_heard(
+            AxisSupply{axis_, finite_or_absent(pair->first), finite_or_absent(pair->second)},
+            received, out);
       break;
     }
     default: return true;
@@ -161,7 +140,7 @@ bool OdriveDriver::on_estimates(const CanFrame& frame, Time received, DriverOut&
   if (effort_at_ != kNever && received - effort_at_ <= lifetime) motion.effort_Nm = effort_Nm_;
   last_estimates_ = received;
   velocity_radps_ = motion.velocity_radps;
-  report(motion, received, out);
+  report_heard(motion, received, out);
   return true;
 }
 
@@ -207,10 +186,10 @@ AxisStatus OdriveDriver::status(Time now) const {
   }
   status.error_code = heartbeat_.error;
   const bool powered = heartbeat_.state != kStateIdle;
-  if (fought(now) && !fault_) {
+  if (foreign_.is_shown(now) && !fault_) {
     status.state = AxisState::fault;
     status.powered = powered;
-    status.reason = foreign_text();
+    status.reason = foreign_.text();
     return status;
   }
   const bool arming = phase_ == Phase::configuring || phase_ == Phase::arming;
@@ -270,14 +249,8 @@ bool OdriveDriver::only_unfed() const {
 
 void OdriveDriver::report_status(Time now, bool always, DriverOut& out) {
   const AxisStatus current = status(now);
-  const bool changed = !reported_once_ || current.state != reported_.state ||
-                       current.error_code != reported_.error_code ||
-                       current.lapsed != reported_.lapsed || current.powered != reported_.powered ||
-                       !(current.reason == reported_.reason);
-  if (!changed && !always) return;
-  reported_once_ = true;
-  reported_ = current;
-  report(current, now, out);
+  if (!told_.is_due(current, always)) return;
+  report_heard(current, now, out);
 }
 
 SourceHealth OdriveDriver::health(Time now) const {
@@ -300,7 +273,7 @@ SourceHealth OdriveDriver::health(Time now) const {
     health.reason.format("no encoder estimates for %.2f s", to_s(now - last_estimates_));
   } else {
     health.state = SourceState::fresh;
-    if (fought(now)) health.reason = foreign_text();
+    if (foreign_.is_shown(now)) health.reason = foreign_.text();
   }
   return health;
 }

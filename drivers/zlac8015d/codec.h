@@ -36,6 +36,7 @@ enum class Cob : std::uint32_t {
   positions = 0x380,    ///< i32, counts, left and right
   controlword = 0x200,  ///< u16, for both wheels
   targets = 0x300,      ///< i32, left and right
+  sdo_answer = 0x580,
   sdo_request = 0x600,
   heartbeat = 0x700,
 };

@@ -19,10 +19,6 @@ constexpr double kSlow_radps = 0.1;
 constexpr Duration kIdleAtLast = milliseconds(1000);
 constexpr std::uint32_t kNodeBits = 0x7F;
 
-bool arms(AxisRequest request) {
-  return request == AxisRequest::run || request == AxisRequest::hold;
-}
-
 /// One controlword is for both wheels: what both ask for, else rest.
 AxisRequest common(std::span<const Setpoint> wanted) {
   bool all_run = true;

@@ -8,6 +8,7 @@
 
 #include "drivers/canopen/emcy.h"
 #include "drivers/canopen/nmt.h"
+#include "drivers/drives.h"
 #include "drivers/zlac8015d/rules.h"
 #include "drover/driver.h"
 
@@ -51,14 +52,10 @@ class Zlac8015dDriver final : public Device, public FrameFace, public Actuator {
   void on_heartbeat(canopen::NodeState state, Time received);
   void on_status(const Status& status, Time received);
   void report_motion(const Pair& speeds, Time received, DriverOut& out);
-  template <class T>
-  void report(const T& value, Time received, DriverOut& out) const;
   AxisStatus status(Time now) const;
   AxisState state_of_drive() const;
   Reason fault_text() const;
   void report_status(Time now, bool always, DriverOut& out);
-  bool fought(Time now) const;
-  Reason foreign_text() const;
 
   // driver.cpp
   bool silent(Time now) const;
@@ -100,8 +97,7 @@ class Zlac8015dDriver final : public Device, public FrameFace, public Actuator {
   std::uint64_t good_ = 0;
   std::uint64_t bad_ = 0;
   std::uint64_t bad_setpoints_ = 0;
-  std::uint32_t foreign_id_ = 0;
-  Time foreign_at_ = kNever;
+  ForeignCommand foreign_;
 
   // What is wanted of it.
   Phase phase_ = Phase::resting;
@@ -116,8 +112,7 @@ class Zlac8015dDriver final : public Device, public FrameFace, public Actuator {
   Pair target_{};
   Time last_targets_ = kNever;
 
-  AxisStatus reported_;
-  bool reported_once_ = false;
+  ToldStatus told_;
 };
 
 }  // namespace drover::zlac8015d

@@ -9,20 +9,10 @@ namespace drover::zlac8015d {
 namespace {
 
 using canopen::DriveState;
-constexpr Duration kForeignShown = std::chrono::milliseconds(1000);
 constexpr double kRpmPerStep = 0.1;  ///< of what it reports, whatever the targets' resolution
 constexpr std::uint8_t kEveryNode = 0;
 
 }  // namespace
-
-template <class T>
-void Zlac8015dDriver::report(const T& value, Time received, DriverOut& out) const {
-  Measurement m;
-  m.time = received;  // the drive stamps nothing
-  m.received = received;
-  m.value = value;
-  out.report(m);
-}
 
 void Zlac8015dDriver::on_frame(const CanFrame& frame, Time received, DriverOut& out) {
   if (!is_plain(frame)) return;
@@ -33,7 +23,7 @@ void Zlac8015dDriver::on_frame(const CanFrame& frame, Time received, DriverOut& 
                    frame.id == id_of(Cob::status, settings_.node) ||
                    frame.id == id_of(Cob::velocities, settings_.node) ||
                    frame.id == id_of(Cob::positions, settings_.node) ||
-                   frame.id == 0x580U + settings_.node ||
+                   frame.id == id_of(Cob::sdo_answer, settings_.node) ||
                    frame.id == id_of(Cob::heartbeat, settings_.node);
   if (!own) return;
   if (on_reply(frame, received, out)) {
@@ -52,20 +42,8 @@ void Zlac8015dDriver::on_foreign(const CanFrame& frame, Time received) {
     return;
   if (frame.id == id_of(Cob::sdo_request, settings_.node) && frame.data[0] == kSdoRead) return;
   if (effect(frame, received).kind == FrameEffect::stop) return;
-  foreign_id_ = frame.id;
-  foreign_at_ = received;
-  if (attempts_to_run()) lock(foreign_text().view());
-}
-
-bool Zlac8015dDriver::fought(Time now) const {
-  return foreign_at_ != kNever && now - foreign_at_ <= kForeignShown;
-}
-
-Reason Zlac8015dDriver::foreign_text() const {
-  Reason text;
-  text.format("somebody else commands it: id 0x%03X on the bus",
-              static_cast<unsigned>(foreign_id_));
-  return text;
+  foreign_.on_frame(frame.id, received);
+  if (attempts_to_run()) lock(foreign_.text().view());
 }
 
 /// False when the frame is not as documented.
@@ -77,7 +55,7 @@ bool Zlac8015dDriver::on_reply(const CanFrame& frame, Time received, DriverOut& 
     report_status(received, true, out);
     return true;
   }
-  if (frame.id == 0x580U + settings_.node) {
+  if (frame.id == id_of(Cob::sdo_answer, settings_.node)) {
     if (!canopen::decode_sdo_answer(frame, settings_.node)) return false;
     last_alive_ = received;
     if (link_ == Link::silent) begin_setup(received);
@@ -150,7 +128,7 @@ void Zlac8015dDriver::report_motion(const Pair& speeds, Time received, DriverOut
                             settings_.sign[wheel] /
                             (settings_.counts_per_turn * settings_.gear_ratio);
     velocity_radps_[wheel] = motion.velocity_radps;
-    report(motion, received, out);
+    report_heard(motion, received, out);
   }
 }
 
@@ -189,10 +167,10 @@ AxisStatus Zlac8015dDriver::status(Time now) const {
   status.powered = known && canopen::is_powered(drive_state(status_));
   const Reason text = known ? fault_text() : Reason();
   const bool failed = known && state_of_drive() == AxisState::fault && phase_ != Phase::arming;
-  if (fault_ || fought(now) || failed) {
+  if (fault_ || foreign_.is_shown(now) || failed) {
     status.state = AxisState::fault;
-    if (!fault_ && fought(now)) {
-      status.reason = foreign_text();
+    if (!fault_ && foreign_.is_shown(now)) {
+      status.reason = foreign_.text();
     } else if (!fault_) {
       status.reason = text.empty() ? Reason("fault without a code") : text;
     } else if (text.empty()) {
@@ -218,16 +196,10 @@ AxisStatus Zlac8015dDriver::status(Time now) const {
 
 void Zlac8015dDriver::report_status(Time now, bool always, DriverOut& out) {
   AxisStatus current = status(now);
-  const bool changed = !reported_once_ || current.state != reported_.state ||
-                       current.error_code != reported_.error_code ||
-                       current.powered != reported_.powered ||
-                       !(current.reason == reported_.reason);
-  if (!changed && !always) return;
-  reported_once_ = true;
-  reported_ = current;
+  if (!told_.is_due(current, always)) return;
   for (const AxisId axis : axes_) {
     current.axis = axis;
-    report(current, now, out);
+    report_heard(current, now, out);
   }
 }
 
@@ -251,7 +223,7 @@ SourceHealth Zlac8015dDriver::health(Time now) const {
     health.reason = "heartbeats but no velocities";
   } else {
     health.state = SourceState::fresh;
-    if (fought(now)) health.reason = foreign_text();
+    if (foreign_.is_shown(now)) health.reason = foreign_.text();
   }
   return health;
 }

@@ -50,7 +50,7 @@ bool is_measured(std::uint16_t index) {
 
 CanFrame answer(std::uint8_t node, std::uint8_t command, Object object, std::uint32_t value) {
   CanFrame frame = canopen::encode_sdo_write(node, object, canopen::u32(value));
-  frame.id = 0x580U + node;
+  frame.id = id_of(Cob::sdo_answer, node);
   frame.data[0] = command;
   return frame;
 }

@@ -289,12 +289,11 @@ void Engine::step(Time now, const Environment& environment, EngineOutput& out) {
     e.snapshot.line_health[i] = environment.lines[i].state;
   }
   e.pulse.fill(false);
-  e.has_imu = environment.imu_configured;
   e.imu_trusted = environment.imu.state == SourceState::fresh;
   e.estimate = e.estimator.step(now);
   const std::span<const AxisSnapshot> axes = e.axes;
   const Reason moved = e.judge_motion(now, dt, lines);
-  e.watch_tilt(now);
+  e.watch_tilt(now, environment.imu_configured);
   e.place.update(now, e.estimate, e.health.report().drives_ok);
   if (e.navigator.active()) e.place.told();  // by the end of the task
   e.health.update({now, environment, axes, lines, e.estimate, e.estimator.has_origin(),

@@ -37,21 +37,24 @@ void Engine::recall(const Remembered& remembered, Time now) {
 
 /// What the ground falls by where the base stands; not a number without an inertial sensor.
 double Engine::Impl::tilt_deg() const {
+  if (!imu_trusted) return kAbsent;
   return to_deg(std::acos(std::cos(estimate.roll_rad) * std::cos(estimate.pitch_rad)));
 }
 
 /// Steep ground stays so until the inertial sensor says otherwise: when it falls silent nobody
 /// knows, and what nobody knows is not level. A robot without one was accepted as it is.
-void Engine::Impl::watch_tilt(Time now) {
+void Engine::Impl::watch_tilt(Time now, bool has_imu) {
   if (config.base.hold != HoldBy::level_ground_only || !has_imu) return;
-  if (imu_trusted || tilt_known_at == kNever) tilt_known_at = now;
-  if (!imu_trusted) {
+  const double falls_deg = tilt_deg();
+  const bool known = std::isfinite(falls_deg);
+  if (known || tilt_known_at == kNever) tilt_known_at = now;
+  if (!known) {
     steep_since = kNever;
     if (steep.empty() && now - tilt_known_at >= kTiltUnknownFor)
       steep = "nobody knows how steep the ground is: no inertial sensor is heard";
     return;
   }
-  if (tilt_deg() <= config.base.max_tilt_deg) {
+  if (falls_deg <= config.base.max_tilt_deg) {
     steep_since = kNever;
     steep.clear();
     return;
@@ -59,7 +62,7 @@ void Engine::Impl::watch_tilt(Time now) {
   if (steep_since == kNever) steep_since = now;
   if (now - steep_since < kSteepFor) return;
   steep.format("the ground falls by %.1f degrees; without power this base rolls: allowed %.1f",
-               tilt_deg(), config.base.max_tilt_deg);
+               falls_deg, config.base.max_tilt_deg);
 }
 
 void Engine::Impl::release_hold(const RequestId& id, const ReleaseHold& release, Time now) {
@@ -69,7 +72,7 @@ void Engine::Impl::release_hold(const RequestId& id, const ReleaseHold& release,
     const bool turns = rim_mps(base, std::abs(axis.motion.velocity_radps)) > kTurns_mps;
     if (why.empty() && axis.state == AxisState::running && turns) why = "the robot moves";
   }
-  hold.release(id, release, why, imu_trusted ? tilt_deg() : kAbsent, now, events);
+  hold.release(id, release, why, tilt_deg(), now, events);
 }
 
 void Engine::Impl::arm_hold(const RequestId& id, Time now) {

@@ -45,7 +45,7 @@ struct Engine::Impl {
   void release_hold(const RequestId& id, const ReleaseHold& release, Time now);
   void arm_hold(const RequestId& id, Time now);
   double tilt_deg() const;
-  void watch_tilt(Time now);
+  void watch_tilt(Time now, bool has_imu);
   void command_axis(AxisId id, double velocity_radps, bool run, EngineOutput& out);
   void watch_imu(const ImuSample& sample, Time at);
   Reason judge_motion(Time now, Duration dt, const LineTable& lines);
@@ -84,7 +84,6 @@ struct Engine::Impl {
   Reason steep;                          ///< why this ground is too steep to stop on
   Time steep_since = kNever;
   bool driven = false;       ///< an owner had the drives in the last step
-  bool has_imu = false;      ///< configured
   bool imu_trusted = false;  ///< by its driver, in the last step
   Time tilt_known_at = kNever;
   bool slopes = false;  ///< the ground fell when that was known last

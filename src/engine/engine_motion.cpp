@@ -26,7 +26,8 @@ Reason Engine::Impl::judge_motion(Time now, Duration dt, const LineTable& lines)
   const auto estop = static_cast<std::size_t>(Line::estop);
   RestInput input{.now = now, .dt = dt, .axes = axes};
   input.power_is_off = config.line_configured[estop] && lines.active[estop];
-  if (imu_trusted) slopes = tilt_deg() > kRollsFrom_deg;
+  const double falls_deg = tilt_deg();
+  if (std::isfinite(falls_deg)) slopes = falls_deg > kRollsFrom_deg;
   input.rolls_unpowered =
       !steep.empty() || (config.base.hold == HoldBy::level_ground_only && slopes);
   input.released = hold.released();
@@ -48,8 +49,8 @@ Reason Engine::Impl::judge_motion(Time now, Duration dt, const LineTable& lines)
                   .yaw_rad = estimate.has_heading ? estimate.pose.yaw_rad : kAbsent,
                   .gyro_zero_known = std::isfinite(estimate.gyro_bias_sigma_radps)});
   // What did not stop is latched, in words of its own, and "rests again" only when it does.
-  if (state == RestState::not_stopping && rest.moves(now)) return "the robot still moves";
-  return state == RestState::not_stopping ? Reason() : rest.reason();
+  if (state != RestState::not_stopping) return rest.reason();
+  return rest.moves(now) ? Reason("the robot still moves") : Reason();
 }
 
 void Engine::Impl::watch_wheels(Time now, Duration dt) {

@@ -24,19 +24,12 @@ struct Link {
 struct Slot {
   /// Who asks it: the control thread with all that it hears, or a thread that polls it slowly.
   enum class Thread : std::uint8_t { control, slow };
-  /// Only the first is made today: the engine has no place yet for what the others say.
-  enum class Role : std::uint8_t {
-    steers,  ///< the engine goes by it
-    spare,   ///< it is there when the one that steers is not
-    told,    ///< told to whoever asks, and nothing more
-  };
 
   Name name;
   SlotKind kind = SlotKind::drive;
   Made made;
   LinkId link = 0;
   Thread thread = Thread::control;
-  Role role = Role::steers;
   FixedVector<AxisId, kMaxChannels> axes;  ///< of what moves something: its joints, by channel
   SourceHealth health;                     ///< as of the last cycle
   /// Where the engine looks for it.

@@ -44,7 +44,7 @@ void TiltWatch::update(Time now, double roll_rad, double pitch_rad) {
     return;
   }
   const double limit_rad = to_rad(config_.tilt_limit_deg) * (reason_.empty() ? 1.0 : kBack);
-  const bool tilted = std::isfinite(tilt_rad) && tilt_rad > limit_rad;
+  const bool tilted = tilt_rad > limit_rad;
   if (!wrong_axis_ && !tilted) {
     tilted_since_ = kNever;
     reason_.clear();
