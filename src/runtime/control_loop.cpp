@@ -110,7 +110,7 @@ Time ControlLoop::cycle(Time begin, std::uint64_t late) {
 
   const bool guard_alive = guard_watch_.alive(begin) && keeper_.guard_equipped() &&
                            guard_.shared().set_refused.load(std::memory_order_relaxed) == 0;
-  apply(begin, gateway::Tick{guard_alive, guard_watch_.holds(), guard_watch_.latched()});
+  apply(begin, gateway::Tick{guard_alive, guard_watch_.holds(begin), guard_watch_.latched()});
   // Before the events go: who hears that a path is released may delete it.
   if (exchange_.recorder != nullptr) exchange_.recorder->output(gateway_);
   const auto& out = gateway_.output();
@@ -175,13 +175,16 @@ void ControlLoop::watch_sleep(Time now) {
   if (stats_.cycles > 1 && slept > kSleep) apply(now, gateway::Suspended{to_s(slept)});
 }
 
-void ControlLoop::watch_guard(Time now) {
+GuardSigns ControlLoop::guard_signs() const {
   const auto& shared = guard_.shared();
-  const GuardSigns signs{shared.guard_beats.load(std::memory_order_acquire),
-                         shared.guard_holds.load(std::memory_order_acquire) != 0,
-                         shared.guard_latched.load(std::memory_order_acquire) != 0};
+  return {shared.guard_beats.load(std::memory_order_acquire),
+          shared.guard_holds.load(std::memory_order_acquire) != 0,
+          shared.guard_latched.load(std::memory_order_acquire) != 0};
+}
+
+void ControlLoop::watch_guard(Time now) {
   // Who heard a stop first tells the other: this one's outlives a reboot.
-  if (guard_watch_.update(signs, now)) (void)exchange_.stops.ask_stop();
+  if (guard_watch_.update(guard_signs(), now)) (void)exchange_.stops.ask_stop();
   const auto& robot = gateway_.snapshot();
   const bool calm = robot.nav.status != NavStatus::run && !program_.trouble();
   if (guard_watch_.ask_back(calm, robot.hold == HoldState::catching, now))

@@ -62,6 +62,7 @@ class ControlLoop final {
   void watch_sleep(Time now);
   bool still_may_leave(Time decided) const;
   void send(std::size_t bus, std::span<const CanFrame> frames, Time decided);
+  GuardSigns guard_signs() const;
   void watch_guard(Time now);
   void keep(const Remembered& remembered);
   void take_battery();

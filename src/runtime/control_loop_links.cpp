@@ -179,8 +179,9 @@ void ControlLoop::drain_can(Time now) {
 /// Looks at guard and clock just before the system call: what was decided before a hold-up must
 /// not move wheels that the guard has stopped meanwhile.
 bool ControlLoop::still_may_leave(Time decided) const {
-  const bool holds = guard_.shared().guard_holds.load(std::memory_order_acquire) != 0;
-  return may_leave({decided, guard_watch_.holds()}, {monotonic_now(), holds}, tick_);
+  const Time now = monotonic_now();
+  return may_leave({decided, guard_watch_.holds(decided)},
+                   {now, guard_watch_.holds(guard_signs(), now)}, tick_);
 }
 
 void ControlLoop::send(std::size_t bus, std::span<const CanFrame> frames, Time decided) {

@@ -41,14 +41,19 @@ class GuardWatch final {
     return newly_latched;
   }
   bool alive(Time now) const { return heard_ + silent_after_ > now; }
-  bool holds() const { return holds_; }
+  /// A guard that is gone sends nothing more, whatever it wrote last: then the drives are ours.
+  bool holds(Time now) const { return holds_ && alive(now); }
+  /// The same by what it writes at this moment: one that was frozen and goes on is back.
+  bool holds(const GuardSigns& signs, Time now) const {
+    return signs.holds && (signs.beats != beats_ || alive(now));
+  }
   bool latched() const { return latched_; }
 
   /// True when the bus is to be asked back now; `calm`: no task, and the program is well.
   bool ask_back(bool calm, bool rolls, Time now) {
     const Duration pause = rolls ? kHandBackToCatch : kHandBackAfter;
-    if (!holds_ || latched_ || !calm || now - held_since_ <= pause || now - asked_ <= pause)
-      return false;
+    if (!holds(now) || latched_ || !calm) return false;
+    if (now - held_since_ <= pause || now - asked_ <= pause) return false;
     asked_ = now;
     return true;
   }

@@ -191,6 +191,22 @@ TEST(DipDownOnRamp, IsCaughtAndNotCutOnItsWayDown) {
   }
 }
 
+// The guard's last word was that it has the bus.
+TEST(GuardDiesOnRamp, LeavesARobotThatRollsToTheProgramThatIsBack) {
+  const Record& log = record("guard_dies_on_ramp");
+  const Time back = log.event("event goes_on#1");
+  const Time end = log.truth.back().time;
+  const Roll after = roll(log, back, end);
+  const double hardest = hardest_mps2(log, back, end);
+  figure("rolled until it was held", after.way_m, "m");
+  figure("fastest", after.fastest_mps, "m/s");
+  figure("hardest braking", hardest, "m/s/s");
+  EXPECT_GT(after.fastest_mps, 0.5) << "it does not roll fast enough to show anything";
+  EXPECT_LT(hardest, 2 * kDeceleration_mps2) << "it is jerked to rest";
+  EXPECT_LT(after.way_m, after.fastest_mps * after.fastest_mps / (2 * 0.8) + 0.3);
+  EXPECT_GT(end - after.rest, 1s) << "it is not held";
+}
+
 TEST(StopAndKill, RefusesAStartUntilTheStopIsReset) {
   const Record& log = record("stop_and_kill");
   const Time stopped = log.event("start drover stop");

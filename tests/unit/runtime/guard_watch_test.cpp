@@ -14,6 +14,7 @@ class AGuardWatch : public ::testing::Test {
     bool asked = false;
     for (const Time end = now + time; now < end;) {
       now += 5ms;
+      if (guard_lives) ++signs.beats;
       (void)watch.update(signs, now);
       asked |= watch.ask_back(calm, rolls, now);
     }
@@ -25,6 +26,7 @@ class AGuardWatch : public ::testing::Test {
   }
 
   Time now{100s};
+  bool guard_lives = true;
   GuardSigns signs;
   GuardWatch watch{50ms};
 };
@@ -34,6 +36,7 @@ TEST_F(AGuardWatch, KnowsNoGuardThatWasNeverHeard) {
 }
 
 TEST_F(AGuardWatch, GivesTheGuardWhatItGivesTheDaemonAndThreeCyclesMore) {
+  guard_lives = false;
   beat();
   pass(75ms);
   EXPECT_TRUE(watch.alive(now));
@@ -41,6 +44,27 @@ TEST_F(AGuardWatch, GivesTheGuardWhatItGivesTheDaemonAndThreeCyclesMore) {
   EXPECT_FALSE(watch.alive(now));
   beat();
   EXPECT_TRUE(watch.alive(now));
+}
+
+TEST_F(AGuardWatch, DoesNotBelieveForEverThatADeadGuardHoldsTheBus) {
+  guard_lives = false;
+  signs.holds = true;
+  beat();
+  pass(75ms);
+  EXPECT_TRUE(watch.holds(now));
+  pass(5ms);
+  EXPECT_FALSE(watch.holds(now)) << "nobody sends anything then";
+  EXPECT_FALSE(pass(2s)) << "who is gone is not asked";
+}
+
+TEST_F(AGuardWatch, TakesAGuardThatGoesOnForWhatItIsAtOnce) {
+  guard_lives = false;
+  signs.holds = true;
+  beat();
+  pass(1s);
+  EXPECT_FALSE(watch.holds(signs, now));
+  ++signs.beats;
+  EXPECT_TRUE(watch.holds(signs, now)) << "before the next cycle looks at it";
 }
 
 TEST_F(AGuardWatch, AsksTheBusBackAfterHalfASecondAndAgainWhenItIsNotGiven) {
