@@ -153,6 +153,9 @@ void show_devices(std::string& out, const Node& status) {
                                    : "watches");
   const auto& broker = at(status, "broker");
   line(out, "broker", yes(at(broker, "connected")) ? "connected" : text(at(broker, "reason")));
+  const auto not_kept = text(at(at(status, "storage"), "reason"));
+  if (!not_kept.empty())
+    line(out, "storage", "the stop will be FORGOTTEN over a boot: " + not_kept);
 }
 
 }  // namespace

@@ -89,6 +89,7 @@ std::string PublishLoop::cli_reply(std::string_view cmd, const std::string& name
       daemon.joint_commands_of_rivals = aimrt_->rivals_refused();
     }
     daemon.events_lost = control_.lost_events.load(std::memory_order_relaxed);
+    daemon.stop_trouble = storage_.stop_trouble.latest().view();
     // The status is an object of its own already.
     return R"({"ok":true,"status":)" + publish::status_json(seen(daemon.now), daemon) + "}";
   } else if (cmd == "traj_list") {

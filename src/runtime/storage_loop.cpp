@@ -22,17 +22,24 @@ class StopKeeper final {
     const Remembered wanted = store::lasting(kept.remembered);
     if (!kept.given || wanted == on_disk_) return true;
     const auto failure = storage_.save_stop(wanted);
-    if (!failure) {
-      on_disk_ = wanted;
-      failed_.clear();
-      return true;
-    }
-    if (failure->text != failed_) log(LogLevel::error, "the stop is not kept: " + failure->text);
-    failed_ = failure->text;
-    return false;
+    const std::string trouble = failure ? failure->text : "";
+    if (trouble != failed_) tell(trouble);
+    failed_ = trouble;
+    if (!failure) on_disk_ = wanted;
+    return !failure;
   }
 
  private:
+  void tell(const std::string& trouble) {
+    exchange_.stop_trouble.back().assign(trouble);
+    exchange_.stop_trouble.publish();
+    if (trouble.empty()) {
+      log(LogLevel::info, "the stop is kept again");
+    } else {
+      log(LogLevel::error, "the stop is not kept: " + trouble);
+    }
+  }
+
   store::Storage& storage_;
   StorageExchange& exchange_;
   Remembered on_disk_;
@@ -43,6 +50,7 @@ class StopKeeper final {
 
 void run_storage(store::Storage& storage, StorageExchange& exchange, Remembered on_disk,
                  const std::atomic<bool>& stop) {
+  storage.keep_room_for_stop();
   StopKeeper stop_keeper(storage, exchange, on_disk);
   bool kept = true;
   store::StorageJob job;

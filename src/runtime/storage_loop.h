@@ -22,6 +22,7 @@ struct StorageExchange {
   SpscRing<store::StorageJob, 64> jobs;       ///< publish → storage; full: the command is refused
   SpscRing<store::StorageReply, 64> replies;  ///< storage → publish
   TripleBuffer<KeptStop> stop;                ///< control → storage
+  TripleBuffer<Reason> stop_trouble;          ///< storage → publish: why it is not on the disk
   Wake jobs_ready;
   Wake replies_ready;
 };

@@ -13,6 +13,8 @@ constexpr std::string_view kStopFormat = "drover-stop";
 constexpr int kStopVersion = 2;
 constexpr int kVersionBefore = 1;  // nothing that joint commands wait for was kept
 const std::string kStopFile = "stop.json";
+const std::string kRoomFile = "stop.room";  // given up for a stop when the disk is full
+constexpr std::size_t kRoom = 16384;        // bytes: a stop and its folder's entry, in any blocks
 
 std::optional<Remembered> read(const json::Node& root, int version) {
   const auto* stop = root.find("stop");
@@ -77,7 +79,21 @@ Remembered StopStore::load(std::vector<std::string>& report) const {
   return unreadable_stop();
 }
 
+void StopStore::keep_room() {
+  if (!has_room_) has_room_ = !write_durably(files_, folder_, kRoomFile, std::string(kRoom, ' '));
+}
+
 std::optional<Failure> StopStore::save(const Remembered& remembered) {
+  auto failure = write(remembered);
+  if (failure && files_.remove(folder_ + "/" + kRoomFile) == 0) {
+    has_room_ = false;
+    failure = write(remembered);
+  }
+  if (!failure) keep_room();
+  return failure;
+}
+
+std::optional<Failure> StopStore::write(const Remembered& remembered) {
   json::JsonText body;
   body.open('{').key("stop").text(remembered.stop.view());
   body.key("at_robot").boolean(remembered.stop_at_robot);

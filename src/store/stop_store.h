@@ -28,12 +28,17 @@ class StopStore final {
   /// Nothing is latched when none was ever stored. A file that cannot be read is reported and
   /// counts as a stop; it stays where it is until the next save.
   Remembered load(std::vector<std::string>& report) const;
+  /// Keeps room for a save on a disk that others fill. Tried again with every save.
+  void keep_room();
   /// Returns nothing when it is durable.
   std::optional<Failure> save(const Remembered& remembered);
 
  private:
+  std::optional<Failure> write(const Remembered& remembered);
+
   Files& files_;
   std::string folder_;
+  bool has_room_ = false;
 };
 
 }  // namespace drover::store

@@ -49,7 +49,7 @@ struct StoredState {
   std::string origin_problem{};     ///< why the stored origin is lost; empty: it is not
 };
 
-/// Owns the state folder's content: `tracks/`, `origin.json` and `stop.json`.
+/// Owns the state folder's content: `tracks/`, `origin.json`, `stop.json` and `stop.room`.
 class Storage final {
  public:
   /// Makes `folder` and its `tracks` when they are missing.
@@ -59,6 +59,7 @@ class Storage final {
   StoredState load();
   StorageReply run(StorageJob job);
   /// Returns nothing when it is durable.
+  void keep_room_for_stop() { stop_.keep_room(); }
   std::optional<Failure> save_stop(const Remembered& remembered) { return stop_.save(remembered); }
 
  private:

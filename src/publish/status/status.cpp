@@ -263,6 +263,10 @@ void daemon_part(JsonText& out, const Snapshot& s, const DaemonStatus& daemon) {
   out.key("reason").text(daemon.broker_text);
   out.key("dropped").integer(static_cast<std::int64_t>(daemon.telemetry_dropped));
   out.close('}');
+  out.key("storage").open('{');
+  out.key("stop_kept").boolean(daemon.stop_trouble.empty());
+  out.key("reason").text(daemon.stop_trouble);
+  out.close('}');
   out.key("cycle").open('{');
   out.key("count").integer(static_cast<std::int64_t>(s.cycle.cycles));
   out.key("overruns").integer(static_cast<std::int64_t>(s.cycle.overruns));

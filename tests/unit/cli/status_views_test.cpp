@@ -155,6 +155,19 @@ TEST_F(StatusViews, ShowTheWholeInShort) {
   EXPECT_DOUBLE_EQ(nav.find("owner_timeout_s")->number().value_or(0), 0.1);
 }
 
+TEST(StatusInShort, TellsOfAStopThatABootWouldForget) {
+  const auto shown = [](const char* trouble) {
+    publish::DaemonStatus daemon;
+    daemon.stop_trouble = trouble;
+    const auto document = json::parse(publish::status_json(full_snapshot(), daemon));
+    return document ? show_status(document->root) : document.error().text();
+  };
+  EXPECT_NE(shown("cannot write /x: Read-only file system")
+                .find("FORGOTTEN over a boot: cannot write /x: Read-only file system"),
+            std::string::npos);
+  EXPECT_EQ(shown("").find("FORGOTTEN"), std::string::npos);
+}
+
 TEST(StatusInShort, ShowsADashForWhatWasNeverHeardAndNoNumbers) {
   Snapshot s;
   s.time = kNow;

@@ -14,7 +14,7 @@ namespace drover::store {
 
 struct PowerCut {};
 
-class FaultFiles final : public Files {
+class FaultFiles : public Files {
  public:
   enum class Fault { none, fail, cut_before, cut_after };
   /// What reached the disk of that which was never synced.

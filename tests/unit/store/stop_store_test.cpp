@@ -20,6 +20,21 @@ Remembered stopped() {
   return kept;
 }
 
+/// Somebody fills every block that is let go of, but those of one file wait for it.
+struct FullDisk final : FaultFiles {
+  int write(int descriptor, std::string_view content) override {
+    const bool room = !full || removed == "state/stop.room";
+    return room ? FaultFiles::write(descriptor, content) : ENOSPC;
+  }
+  int remove(const std::string& path) override {
+    const int error = FaultFiles::remove(path);
+    if (error == 0 && !path.ends_with(kTemporaryEnding)) removed = path;
+    return error;
+  }
+  bool full = false;
+  std::string removed;
+};
+
 struct Stored {
   Remembered load() {
     report.clear();
@@ -83,6 +98,37 @@ TEST(AStopStore, CountsADamagedFileAsAStopUntilTheNextSave) {
   }
   ASSERT_TRUE(it.save({}));
   EXPECT_EQ(it.load(), Remembered{});
+}
+TEST(AStopStore, HasRoomForAStopOnADiskThatOthersFilled) {
+  FullDisk disk;
+  StopStore store(disk, "state");
+  store.keep_room();
+  disk.full = true;
+  EXPECT_FALSE(store.save(stopped()).has_value());
+  std::vector<std::string> report;
+  EXPECT_EQ(store.load(report), stopped());
+  EXPECT_THAT(report, testing::IsEmpty());
+}
+TEST(AStopStore, TellsThatAStopIsNotKeptWhereThereIsNoRoom) {
+  FullDisk disk;
+  disk.full = true;
+  StopStore store(disk, "state");
+  store.keep_room();
+  const auto failure = store.save(stopped());
+  ASSERT_TRUE(failure.has_value());
+  EXPECT_THAT(failure->text, HasSubstr("No space left"));
+}
+TEST(AStopStore, TakesItsRoomAgainWhenThereIsSome) {
+  FullDisk disk;
+  StopStore store(disk, "state");
+  store.keep_room();
+  disk.full = true;
+  ASSERT_FALSE(store.save(stopped()).has_value());
+  disk.full = false;
+  ASSERT_FALSE(store.save({}).has_value());
+  disk.full = true;
+  disk.removed.clear();
+  EXPECT_FALSE(store.save(stopped()).has_value()) << "it has none left";
 }
 TEST(AStopStore, KeepsWhatItAcknowledgedWhereverThePowerGoes) {
   for (int call = 1; call < 12; ++call) {
