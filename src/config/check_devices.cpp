@@ -11,19 +11,14 @@
 namespace drover::config {
 namespace {
 
-/// A serial line has one device; to ask several on one Modbus line has no place yet.
+/// A serial line has one device; on a Modbus line they have addresses.
 void check_company(const DeviceConfig& device, const LinkConfig& link,
                    std::map<std::string, std::string>& first, Findings& found) {
-  if (link.wire != Wire::bytes && link.wire != Wire::registers) return;
+  if (link.wire != Wire::bytes) return;
   const auto [it, inserted] = first.emplace(link.name, device_path(device));
   if (inserted) return;
-  const auto path = device_path(device, "link");
-  if (link.wire == Wire::bytes) {
-    found.add(path, "\"" + link.name + "\" is a serial line, and " + it->second + " hangs on it");
-  } else {
-    found.add(path, it->second + " hangs on \"" + link.name +
-                        "\": two devices on one Modbus line are not supported yet");
-  }
+  found.add(device_path(device, "link"),
+            "\"" + link.name + "\" is a serial line, and " + it->second + " hangs on it");
 }
 
 void hang(DeviceConfig& device, std::map<std::string, std::string>& first, Findings& found) {

@@ -4,6 +4,7 @@
 
 #include "config/check_subjects.h"
 #include "config/register_map.h"
+#include "config/taken.h"
 
 namespace drover::config {
 namespace {
@@ -52,27 +53,81 @@ Made build(const DeviceConfig& device, Findings& found) {
   }
 }
 
-void read_map(DeviceConfig& device, const std::string& folder, Findings& found) {
-  const auto path = device_path(device, "map");
-  if (found.has_problem(path)) return;
-  auto loaded = found.loaded().register_map.empty()
-                    ? load_register_map(find_register_map(device.map, folder))
-                    : parse_register_map(found.loaded().register_map);
-  found.loaded().register_map = std::move(loaded.text);
-  if (!loaded.problems.empty()) found.add(path, "is no good register map", "see its own problems");
-  for (auto& problem : loaded.problems) found.loaded().problems.push_back(std::move(problem));
-  device.registers = std::move(loaded.map);
-  if (device.unit == 0) device.unit = device.registers.unit;
-  auto& link = found.config().links;
-  if (device.link_index < link.size() && link[device.link_index].baud == 0)
-    link[device.link_index].baud = device.registers.baud;
+/// The register maps that devices name, each read once.
+class Maps final {
+ public:
+  Maps(const std::string& folder, Findings& found)
+      : folder_(folder), found_(found), given_(!found.loaded().register_map.empty()) {
+    if (!given_) return;
+    std::string_view left = found.loaded().register_map;
+    for (auto end = left.find(kMapsEnd); end != left.npos; end = left.find(kMapsEnd)) {
+      texts_.emplace_back(left.substr(0, end));
+      left.remove_prefix(end + 1);
+    }
+    texts_.emplace_back(left);
+  }
+
+  RegisterMap read(const DeviceConfig& device) {
+    const auto path = device_path(device, "map");
+    const auto known = std::find(names_.begin(), names_.end(), device.map);
+    if (known != names_.end()) return maps_[static_cast<std::size_t>(known - names_.begin())];
+    const auto place = names_.size();
+    auto loaded = !given_ ? load_register_map(find_register_map(device.map, folder_))
+                          : parse_register_map(place < texts_.size() ? texts_[place] : "");
+    if (!given_) texts_.push_back(std::move(loaded.text));
+    if (!loaded.problems.empty())
+      found_.add(path, "is no good register map", "see its own problems");
+    for (auto& problem : loaded.problems) found_.loaded().problems.push_back(std::move(problem));
+    names_.push_back(device.map);
+    return maps_.emplace_back(std::move(loaded.map));
+  }
+
+  std::string joined() const {
+    std::string all;
+    for (const auto& text : texts_)
+      all += (&text == texts_.data() ? "" : std::string(1, kMapsEnd)) + text;
+    return all;
+  }
+
+ private:
+  const std::string& folder_;
+  Findings& found_;
+  const bool given_;
+  std::vector<std::string> texts_;
+  std::vector<std::string> names_;
+  std::vector<RegisterMap> maps_;
+};
+
+/// Units of one line are told apart by their addresses, and speak at one pace.
+void share_line(const DeviceConfig& device, Taken& taken, Findings& found) {
+  auto& links = found.config().links;
+  if (device.link_index >= links.size() || found.has_problem(device_path(device, "link"))) return;
+  auto& link = links[device.link_index];
+  if (link.wire != Wire::registers) return;
+  const auto unit = "unit " + std::to_string(device.unit) + " of " + link.name;
+  taken.take(unit, device_path(device, "unit"));
+  if (link.baud == 0) {
+    link.baud = device.registers.baud;
+  } else if (link.baud != device.registers.baud && !found.given(link_path(link, "baud"))) {
+    found.add(link_path(link),
+              "its devices are usually asked at " + std::to_string(link.baud) + " and at " +
+                  std::to_string(device.registers.baud) + " baud",
+              "set both to one speed, and write it here as baud");
+  }
 }
 
 }  // namespace
 
 void check_batteries(const std::string& folder, Findings& found) {
-  for (auto& device : found.config().devices)
-    if (device.kind == SlotKind::battery) read_map(device, folder, found);
+  Maps maps(folder, found);
+  Taken units(found);
+  for (auto& device : found.config().devices) {
+    if (device.kind != SlotKind::battery || found.has_problem(device_path(device, "map"))) continue;
+    device.registers = maps.read(device);
+    if (device.unit == 0) device.unit = device.registers.unit;
+    share_line(device, units, found);
+  }
+  found.loaded().register_map = maps.joined();
 }
 
 void follow_baud_rates(Findings& found) {

@@ -25,14 +25,19 @@ struct Loaded {
   std::vector<Problem> problems;
   // As they were read: a recording carries them.
   std::string text;
-  std::string register_map;       ///< of the battery; empty: none
+  /// Of the batteries, in the order in which they are named first, kMapsEnd between them; empty:
+  /// none.
+  std::string register_map;
   std::vector<Problem> warnings;  ///< what a person should know and may accept by name
   /// When it has sections of the first form, which are problems: the same in today's form.
   std::string new_sections;
 };
 
-/// Files that the configuration names are looked for below `folder`; the battery's register map
-/// only when its text is not given.
+/// Between the texts of register maps; in JSON it stands nowhere.
+inline constexpr char kMapsEnd = '\x1e';
+
+/// Files that the configuration names are looked for below `folder`; register maps only when their
+/// texts are not given.
 Loaded load_text(std::string_view text, const std::string& folder = "",
                  std::string register_map = "");
 /// A file that cannot be read is a problem without a place.

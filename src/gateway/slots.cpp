@@ -20,17 +20,20 @@ bool speaks(const Made& made, Wire wire) {
 }
 
 /// A bus and a serial line under their own names. A chip has two ways, and this is the one in. Of
-/// what is polled people know the device.
+/// what is polled people know the device, when it is alone.
 std::string shown_name(const config::DroverConfig& config, const config::LinkConfig& link) {
   if (link.wire == Wire::levels) {
     const auto chips = std::count_if(config.links.begin(), config.links.end(),
                                      [](const auto& each) { return each.wire == Wire::levels; });
     return chips == 1 ? "lines" : link.name;
   }
-  if (link.wire == Wire::registers)
-    for (const auto& device : config.devices)
-      if (device.link == link.name) return device.name;
-  return link.name;
+  const config::DeviceConfig* only = nullptr;
+  for (const auto& device : config.devices) {
+    if (device.link != link.name || link.wire != Wire::registers) continue;
+    if (only != nullptr) return link.name;
+    only = &device;
+  }
+  return only == nullptr ? link.name : only->name;
 }
 
 class Builder final {

@@ -29,6 +29,11 @@ constexpr int kMostDoublings = 2;
 /// without a word.
 constexpr int kTcpMostUnanswered = 3;
 
+/// In which an answer to the last of so many unanswered requests may still come.
+Duration settle(int unanswered) {
+  return kFirstSettle * (1 << std::min(unanswered - 1, kMostDoublings));
+}
+
 /// libmodbus takes any other rate for 9600 without a word.
 constexpr int kModbusBaudRates[] = {1200,  2400,   4800,   9600,   19200, 38400,
                                     57600, 115200, 230400, 460800, 921600};
@@ -46,11 +51,14 @@ void ModbusLink::Closer::operator()(_modbus* context) const {
 
 ModbusLink::ModbusLink(Context context, const ModbusSettings& settings, NowFunction now)
     : context_(std::move(context)),
-      settings_(settings),
       now_(now),
       fd_(modbus_get_socket(context_.get())),
       tcp_(settings.port.starts_with("tcp:")),
-      ready_at_(now() + from_s(settings.gap_s)) {}
+      used_(now()) {}
+
+Time ModbusLink::ready_at(const ModbusUnit& unit) const {
+  return std::max(used_ + from_s(unit.gap_s), owed_[unit.address].until);
+}
 
 bool ModbusLink::send(std::span<const std::uint8_t> bytes) {
   // Never more than a dozen bytes into an empty queue: less than all means that nobody takes them.
@@ -86,20 +94,21 @@ bool ModbusLink::drain() {
   const bool there = receive();
   if (!bytes_.empty()) {
     counters_.late_bytes += bytes_.size();
-    const Duration quiet = unanswered_ > 0 && !tcp_
-                               ? kFirstSettle * (1 << std::min(unanswered_ - 1, kMostDoublings))
-                               : from_s(settings_.gap_s);
-    ready_at_ = std::max(ready_at_, now_() + quiet);
+    used_ = now_();
+    for (Owed& owed : owed_)
+      if (owed.unanswered > 0 && !tcp_)
+        owed.until = std::max(owed.until, used_ + settle(owed.unanswered));
   }
   return there;
 }
 
-FoundAnswer ModbusLink::look(const RegisterBlock& block) const {
-  return tcp_ ? find_tcp_answer(bytes_, transaction_, settings_.unit, block)
-              : find_rtu_answer(bytes_, settings_.unit, block);
+FoundAnswer ModbusLink::look(const ModbusUnit& unit, const RegisterBlock& block) const {
+  return tcp_ ? find_tcp_answer(bytes_, transaction_, unit.address, block)
+              : find_rtu_answer(bytes_, unit.address, block);
 }
 
-ModbusResult ModbusLink::read(const RegisterBlock& block, std::span<std::uint16_t> words) {
+ModbusResult ModbusLink::read(const ModbusUnit& unit, const RegisterBlock& block,
+                              std::span<std::uint16_t> words) {
   const ModbusResult gone{false, RegisterFailure::link, 0};
   if (words.size() != block.count || block.count < 1 || block.count > 125)
     return {false, RegisterFailure::damaged, 0};
@@ -108,9 +117,9 @@ ModbusResult ModbusLink::read(const RegisterBlock& block, std::span<std::uint16_
   ++counters_.requests;
   ++transaction_;
   const Time begin = now_();
-  const Time deadline = begin + std::min(from_s(settings_.reply_s), kLongestReply);
-  const bool sent = tcp_ ? send(tcp_read_request(transaction_, settings_.unit, block))
-                         : send(rtu_read_request(settings_.unit, block));
+  const Time deadline = begin + std::min(from_s(unit.reply_s), kLongestReply);
+  const bool sent = tcp_ ? send(tcp_read_request(transaction_, unit.address, block))
+                         : send(rtu_read_request(unit.address, block));
   if (!sent) return gone;
   FoundAnswer found;
   for (Time now = begin; now < deadline; now = now_()) {
@@ -121,7 +130,7 @@ ModbusResult ModbusLink::read(const RegisterBlock& block, std::span<std::uint16_
     if (n == 0) break;
     if (n < 0) continue;  // a signal
     if (!receive()) return gone;
-    found = look(block);
+    found = look(unit, block);
     if (found.answer == Answer::good || found.answer == Answer::exception) break;
     if (tcp_ && found.answer == Answer::damaged) break;
   }
@@ -129,7 +138,11 @@ ModbusResult ModbusLink::read(const RegisterBlock& block, std::span<std::uint16_
   const ModbusResult result = finish(found, words);
   const bool answered = result.good || result.failure == RegisterFailure::refused;
   unanswered_ = answered ? 0 : unanswered_ + 1;
-  postpone(now_());
+  used_ = now_();
+  Owed& owed = owed_[unit.address];
+  owed = {answered ? 0 : owed.unanswered + 1, kNever};
+  // Over TCP a late answer has another transaction: nothing to wait for.
+  if (!answered && !tcp_) owed.until = used_ + settle(owed.unanswered);
   // What is left of a broken frame has no end on a stream.
   const bool lost_step = found.answer == Answer::damaged || found.answer == Answer::incomplete;
   if (tcp_ && !answered && (lost_step || unanswered_ >= kTcpMostUnanswered)) {
@@ -137,13 +150,6 @@ ModbusResult ModbusLink::read(const RegisterBlock& block, std::span<std::uint16_
     return gone;
   }
   return result;
-}
-
-void ModbusLink::postpone(Time now) {
-  ready_at_ = now + from_s(settings_.gap_s);
-  // Over TCP a late answer has another transaction: nothing to wait for.
-  if (unanswered_ > 0 && !tcp_)
-    ready_at_ = now + kFirstSettle * (1 << std::min(unanswered_ - 1, kMostDoublings));
 }
 
 ModbusResult ModbusLink::finish(const FoundAnswer& found, std::span<std::uint16_t> words) {

@@ -1,4 +1,4 @@
-// A line or connection to a Modbus device, one request at a time, each inside its own deadline.
+// A line or connection to Modbus devices, one request at a time, each inside its own deadline.
 //
 // libmodbus opens and closes it. Requests and answers are framed here, because what libmodbus 3.1.6
 // does with them must not reach a value: each byte of an answer starts its byte time-out anew, so
@@ -6,6 +6,7 @@
 // TCP all have transaction 0; the unit of an answer over TCP is not looked at.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <span>
 #include <string>
@@ -26,8 +27,12 @@ struct ModbusSettings {
   std::string port;  ///< serial line, or "tcp:ADDRESS:PORT"
   int baud = 9600;
   char parity = 'N';  ///< 'N', 'E', 'O'
-  std::uint8_t unit = 1;
-  double gap_s = 0.1;    ///< silence before a request
+};
+
+/// One of the devices on it.
+struct ModbusUnit {
+  std::uint8_t address = 1;
+  double gap_s = 0.1;    ///< silence on the line before a request
   double reply_s = 0.5;  ///< longest wait for a whole answer, at most 1 s
 };
 
@@ -54,13 +59,15 @@ class ModbusLink final {
 
   ModbusLink(Context context, const ModbusSettings& settings, NowFunction now);
 
-  /// Asks and waits for the whole answer, at most `reply_s`. After RegisterFailure::link the line
-  /// is gone: close it. `words` has the block's count.
-  ModbusResult read(const RegisterBlock& block, std::span<std::uint16_t> words);
-  /// The next request may leave then: after the gap, and after a request without an answer only
-  /// when no late one can come any more. That pause doubles with each such request in a row, from
-  /// 1 s to 4 s, and begins anew with each late byte.
-  Time ready_at() const { return ready_at_; }
+  /// Asks the unit and waits for the whole answer, at most `reply_s`. After RegisterFailure::link
+  /// the line is gone: close it. `words` has the block's count.
+  ModbusResult read(const ModbusUnit& unit, const RegisterBlock& block,
+                    std::span<std::uint16_t> words);
+  /// The next request to this unit may leave then: after the gap, and after a request that it left
+  /// without an answer only when no late one can come any more. That pause doubles with each such
+  /// request in a row, from 1 s to 4 s, and begins anew with each late byte. Other units need not
+  /// wait for it: a late answer has its sender's address.
+  Time ready_at(const ModbusUnit& unit) const;
   /// To be called when the descriptor is readable and nothing is asked: late bytes and noise are
   /// thrown away. False: the line is gone.
   bool drain();
@@ -75,17 +82,21 @@ class ModbusLink final {
   /// Appends what is there; false: the line is gone.
   bool receive();
   ModbusResult finish(const FoundAnswer& found, std::span<std::uint16_t> words);
-  FoundAnswer look(const RegisterBlock& block) const;
-  void postpone(Time now);
+  FoundAnswer look(const ModbusUnit& unit, const RegisterBlock& block) const;
+  /// Late answers to requests that were given up.
+  struct Owed {
+    int unanswered = 0;  ///< requests in a row
+    Time until = kNever;
+  };
 
   Context context_;
-  ModbusSettings settings_;
   NowFunction now_;
   int fd_;
   bool tcp_;
   std::uint16_t transaction_ = 0;
-  int unanswered_ = 0;  ///< requests in a row
-  Time ready_at_ = kNever;
+  int unanswered_ = 0;            ///< requests in a row, whoever was asked
+  Time used_ = kNever;            ///< when somebody spoke last
+  std::array<Owed, 256> owed_{};  ///< by address
   ModbusBytes bytes_;
   ModbusCounters counters_;
   int error_ = 0;

@@ -19,36 +19,45 @@ using namespace std::chrono_literals;
 /// The longest sleep: the thread shows that it lives.
 constexpr Duration kLongestSleep = 1s;
 
-link::ModbusSettings link_settings(const config::LinkConfig& link,
-                                   const config::DeviceConfig& device) {
+link::ModbusSettings link_settings(const config::LinkConfig& link) {
   link::ModbusSettings settings;
   settings.port = link.modbus;
   settings.baud = link.baud;
   settings.parity = link.parity == "even" ? 'E' : link.parity == "odd" ? 'O' : 'N';
-  settings.unit = static_cast<std::uint8_t>(device.unit);
-  settings.gap_s = device.registers.gap_s;
-  settings.reply_s = device.registers.reply_s;
   return settings;
-}
-
-const config::DeviceConfig& device_of(const config::DroverConfig& config,
-                                      const gateway::Slot& slot) {
-  return config.devices[slot.place];
 }
 
 }  // namespace
 
 BatteryLoop::BatteryLoop(const config::DroverConfig& config, const gateway::Wiring& wiring,
-                         gateway::SlotId slot, BatteryExchange& exchange)
+                         gateway::LinkId link, BatteryExchange& exchange)
     : exchange_(exchange),
-      slot_(slot),
-      link_id_(wiring.slots[slot].link),
-      name_(wiring.links[link_id_].name),
-      period_(from_s(device_of(config, wiring.slots[slot]).period_s)),
-      settings_(link_settings(config.links[wiring.links[link_id_].place],
-                              device_of(config, wiring.slots[slot]))) {
-  const auto blocks = wiring.slots[slot_].made.registers->blocks();
-  blocks_.assign(blocks.begin(), blocks.end());
+      link_id_(link),
+      name_(wiring.links[link].name),
+      settings_(link_settings(config.links[wiring.links[link].place])) {
+  for (const gateway::SlotId id : wiring.links[link].slots) {
+    const auto& slot = wiring.slots[id];
+    const auto& device = config.devices[slot.place];
+    Unit unit;
+    unit.slot = id;
+    unit.name = slot.name;
+    unit.period = from_s(device.period_s);
+    unit.modbus = {static_cast<std::uint8_t>(device.unit), device.registers.gap_s,
+                   device.registers.reply_s};
+    const auto blocks = slot.made.registers->blocks();
+    unit.blocks.assign(blocks.begin(), blocks.end());
+    units_.push_back(std::move(unit));
+  }
+}
+
+Time BatteryLoop::due(const Unit& unit) const {
+  return std::max(unit.next_round, link_->ready_at(unit.modbus));
+}
+
+/// Who waits longest; so one that is silent and one that answers have their turns.
+BatteryLoop::Unit& BatteryLoop::next_unit() {
+  return *std::min_element(units_.begin(), units_.end(),
+                           [this](const Unit& a, const Unit& b) { return due(a) < due(b); });
 }
 
 void BatteryLoop::run(const std::atomic<bool>& stop) {
@@ -56,11 +65,12 @@ void BatteryLoop::run(const std::atomic<bool>& stop) {
   while (!stop.load(std::memory_order_relaxed)) {
     Time now = monotonic_now();
     if (!link_ && retry_.due(now)) open(now);
-    if (link_ && now >= std::max(next_round_, link_->ready_at())) ask(now);
+    if (link_)
+      if (Unit& unit = next_unit(); now >= due(unit)) ask(unit, now);
     now = monotonic_now();
     publish();
     turns_.fetch_add(1, std::memory_order_relaxed);
-    sleep_until(link_ ? std::max(next_round_, link_->ready_at()) : retry_.next(), now);
+    sleep_until(link_ ? due(next_unit()) : retry_.next(), now);
   }
   link_.reset();
 }
@@ -69,24 +79,31 @@ void BatteryLoop::open(Time now) {
   auto opened = link::open_modbus(settings_, &monotonic_now);
   now = monotonic_now();
   if (!opened.link) {
-    tell(gateway::RegistersFailed{slot_, 0, RegisterFailure::link, 0}, now);
+    tell_lost(now);
     return lose(opened.problem, now);
   }
   link_ = std::move(opened.link);
   retry_.succeeded();
-  if (!problem_.empty()) log(LogLevel::info, said(settings_.port + " is open"));
+  if (!problem_.empty()) log(LogLevel::info, said(name_, settings_.port + " is open"));
   problem_.clear();
-  block_ = 0;
-  next_round_ = now;
+  for (Unit& unit : units_) {
+    unit.block = 0;
+    unit.next_round = now;
+  }
   tell(gateway::LinkUp{link_id_}, now);
 }
 
-std::string BatteryLoop::said(const std::string& text) const {
-  return std::string(name_) + ": " + text;
+std::string BatteryLoop::said(const Name& name, const std::string& text) const {
+  return std::string(name) + ": " + text;
+}
+
+void BatteryLoop::tell_lost(Time now) {
+  for (const Unit& unit : units_)
+    tell(gateway::RegistersFailed{unit.slot, 0, RegisterFailure::link, 0}, now);
 }
 
 void BatteryLoop::lose(const std::string& why, Time now) {
-  if (problem_.view() != why) log(LogLevel::warning, said(why));
+  if (problem_.view() != why) log(LogLevel::warning, said(name_, why));
   problem_.assign(why);
   if (link_) {
     const auto& last = link_->counters();
@@ -99,29 +116,31 @@ void BatteryLoop::lose(const std::string& why, Time now) {
 }
 
 /// One block; the round goes on at the next turn.
-void BatteryLoop::ask(Time now) {
-  if (block_ == 0) next_round_ = now;
-  const RegisterBlock& block = blocks_[block_];
+void BatteryLoop::ask(Unit& unit, Time now) {
+  if (unit.block == 0) unit.next_round = now;
+  const RegisterBlock& block = unit.blocks[unit.block];
   gateway::RegistersRead read;
-  read.slot = slot_;
-  read.block = static_cast<std::uint8_t>(block_);
+  read.slot = unit.slot;
+  read.block = static_cast<std::uint8_t>(unit.block);
   read.words.resize(block.count);
-  const auto result = link_->read(block, read.words);
+  const auto result = link_->read(unit.modbus, block, read.words);
   now = monotonic_now();
   if (result.good) {
     tell(read, now);
-    if (++block_ == blocks_.size()) {
-      if (!std::exchange(answers_, true)) log(LogLevel::info, said("answers"));
-      block_ = 0;
-      next_round_ += period_;
+    if (++unit.block == unit.blocks.size()) {
+      if (!std::exchange(unit.answers, true)) log(LogLevel::info, said(unit.name, "answers"));
+      unit.block = 0;
+      unit.next_round += unit.period;
     }
     return;
   }
-  tell(gateway::RegistersFailed{slot_, read.block, result.failure, result.exception}, now);
-  block_ = 0;
-  next_round_ = now + period_;
-  if (result.failure == RegisterFailure::link)
-    lose(settings_.port + ": lost (" + std::strerror(link_->error()) + ")", now);
+  unit.block = 0;
+  unit.next_round = now + unit.period;
+  if (result.failure == RegisterFailure::link) {
+    tell_lost(now);
+    return lose(settings_.port + ": lost (" + std::strerror(link_->error()) + ")", now);
+  }
+  tell(gateway::RegistersFailed{unit.slot, read.block, result.failure, result.exception}, now);
 }
 
 /// What finds the ring full is missed like an answer that never came: the driver's data grow old.
@@ -150,9 +169,21 @@ void BatteryLoop::sleep_until(Time due, Time now) {
   if (link_ && fds[1].revents != 0 && !link_->drain()) {
     // Noticed at once: a device that stays open comes back under another name.
     const Time then = monotonic_now();
-    tell(gateway::RegistersFailed{slot_, 0, RegisterFailure::link, 0}, then);
+    tell_lost(then);
     lose(settings_.port + ": lost (" + std::strerror(link_->error()) + ")", then);
   }
+}
+
+std::vector<std::unique_ptr<SlowLink>> slow_links(const config::DroverConfig& config,
+                                                  const gateway::Wiring& wiring) {
+  std::vector<std::unique_ptr<SlowLink>> all;
+  for (std::size_t i = 0; i < wiring.links.size(); ++i) {
+    if (wiring.links[i].wire != Wire::registers) continue;
+    auto& link = *all.emplace_back(std::make_unique<SlowLink>());
+    link.loop = std::make_unique<BatteryLoop>(config, wiring, static_cast<gateway::LinkId>(i),
+                                              link.exchange);
+  }
+  return all;
 }
 
 }  // namespace drover::runtime

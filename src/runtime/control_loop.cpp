@@ -20,14 +20,14 @@ constexpr double kRolls_mps = 0.02;
 
 ControlLoop::ControlLoop(const config::DroverConfig& config, Gateway& gateway, LinkKeeper& keeper,
                          const GuardMemory& guard, ControlExchange& exchange, KeepsOver keeps,
-                         BatteryExchange* battery)
+                         std::span<const std::unique_ptr<SlowLink>> slow)
     : config_(config),
       gateway_(gateway),
       keeper_(keeper),
       guard_(guard),
       exchange_(exchange),
       keeps_(keeps),
-      battery_(battery),
+      slow_(slow),
       tick_(from_s(1 / config.control.tick_Hz)),
       open_(gateway.wiring().links.size()),
       guard_watch_(std::chrono::milliseconds(config.guard.limit_ms)) {
@@ -104,7 +104,7 @@ Time ControlLoop::cycle(Time begin, std::uint64_t late) {
   for (std::size_t link = 0; link < open_.size(); ++link)
     if (wire_of(link) == Wire::levels) read_lines(link, begin);
   watch_guard(begin);
-  take_battery();
+  take_slow_links();
   watch_program(begin);
   take_commands(begin);
 
@@ -215,7 +215,7 @@ Time ControlLoop::publish(Time now) {
     }
     (void)snapshot.links.push_back(state);
   }
-  if (battery_ != nullptr) (void)snapshot.links.push_back(battery_->link.latest());
+  for (const auto& slow : slow_) (void)snapshot.links.push_back(slow->exchange.link.latest());
   const Time end = monotonic_now();
   if (end - now > stats_.longest_step) stats_.longest_step = end - now;
   snapshot.cycle = stats_;

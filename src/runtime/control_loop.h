@@ -5,6 +5,8 @@
 #include <poll.h>
 
 #include <atomic>
+#include <memory>
+#include <span>
 #include <vector>
 
 #include "gateway/gateway.h"
@@ -31,7 +33,7 @@ class ControlLoop final {
  public:
   ControlLoop(const config::DroverConfig& config, Gateway& gateway, LinkKeeper& keeper,
               const GuardMemory& guard, ControlExchange& exchange, KeepsOver keeps,
-              BatteryExchange* battery = nullptr);
+              std::span<const std::unique_ptr<SlowLink>> slow = {});
   /// Before `run`: what the program before this one left.
   void recall(const Remembered& remembered);
   void run(const std::atomic<bool>& stop);
@@ -65,7 +67,7 @@ class ControlLoop final {
   GuardSigns guard_signs() const;
   void watch_guard(Time now);
   void keep(const Remembered& remembered);
-  void take_battery();
+  void take_slow_links();
   Time publish(Time now);
   Wire wire_of(std::size_t link) const { return gateway_.wiring().links[link].wire; }
   std::size_t line_count(std::size_t link) const {
@@ -78,7 +80,7 @@ class ControlLoop final {
   const GuardMemory& guard_;
   ControlExchange& exchange_;
   KeepsOver keeps_;
-  BatteryExchange* battery_;  ///< nullptr: none
+  std::span<const std::unique_ptr<SlowLink>> slow_;  ///< with threads of their own
   const Duration tick_;
   /// A link of the gateway; which pointer is set follows its wire.
   struct Open {

@@ -200,11 +200,11 @@ void ControlLoop::send(std::size_t bus, std::span<const CanFrame> frames, Time d
         gateway::FramesSent{static_cast<LinkId>(bus), counters.sent, counters.send_refused});
 }
 
-void ControlLoop::take_battery() {
-  if (battery_ == nullptr) return;
+void ControlLoop::take_slow_links() {
   BatteryTold told;
-  while (battery_->told.pop(told))
-    std::visit([&](const auto& what) { apply(told.time, what); }, told.what);
+  for (const auto& slow : slow_)
+    while (slow->exchange.told.pop(told))
+      std::visit([&](const auto& what) { apply(told.time, what); }, told.what);
 }
 
 }  // namespace drover::runtime

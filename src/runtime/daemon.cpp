@@ -78,12 +78,12 @@ class Daemon final {
         storage_(files_, config.paths.state),
         gateway_(config),
         keeper_(config, gateway_.wiring(), guard_, gateway_.duties()),
-        battery_(slow_thread()),
+        slow_(slow_links(config, gateway_.wiring())),
         stored_(storage_.load()),
         memory_(config.paths.run, boot_id(), text, stored_.report),
         on_disk_(stored_.stop),
         control_(config, gateway_, keeper_, guard_, control_exchange_, {memory_, storage_exchange_},
-                 battery_ ? &battery_exchange_ : nullptr),
+                 slow_),
         parser_(publish::ControlLimits{}),
         stop_listener_(config.mqtt.enabled
                            ? std::make_unique<StopListener>(config.mqtt, control_exchange_.stops)
@@ -96,8 +96,10 @@ class Daemon final {
     Worker keeper("links", [this] { keeper_.run(stop_keeper_); });
     Worker storage("storage",
                    [this] { run_storage(storage_, storage_exchange_, on_disk_, stop_publish_); });
-    std::optional<Worker> battery;
-    if (battery_) battery.emplace("battery", [this] { battery_->run(stop_battery_); });
+    std::vector<std::unique_ptr<Worker>> slow;
+    for (const auto& link : slow_)
+      slow.push_back(std::make_unique<Worker>(
+          "battery", [this, loop = link->loop.get()] { loop->run(stop_battery_); }));
     std::optional<Worker> recorder;
     if (recorder_) {
       log(LogLevel::info, "records to " + recorder_->file());
@@ -116,7 +118,7 @@ class Daemon final {
     (void)systemd_.tell("STOPPING=1");
     come_to_rest();
     stop_battery_ = true;
-    if (battery_) battery_->wake();
+    for (const auto& link : slow_) link->loop->wake();
     stop_publish_ = true;
     publish_.wake();
     storage_exchange_.jobs_ready.notify();
@@ -129,7 +131,7 @@ class Daemon final {
     // Until here the guard saw our heartbeat; from here on it keeps the drives at rest by itself.
     stop_control_ = true;
     join(control, 1s);
-    if (battery) join(*battery, BatteryLoop::kLongestTurn);
+    for (const auto& worker : slow) join(*worker, BatteryLoop::kLongestTurn);
     stop_recorder_ = true;
     if (recorder_) recorder_->wake();
     if (recorder) join(*recorder, 1s);
@@ -139,16 +141,6 @@ class Daemon final {
   }
 
  private:
-  /// nullptr: nothing is polled.
-  std::unique_ptr<BatteryLoop> slow_thread() {
-    const auto& slots = gateway_.wiring().slots;
-    for (std::size_t i = 0; i < slots.size(); ++i)
-      if (slots[i].thread == gateway::Slot::Thread::slow)
-        return std::make_unique<BatteryLoop>(config_, gateway_.wiring(),
-                                             static_cast<gateway::SlotId>(i), battery_exchange_);
-    return nullptr;
-  }
-
   void run_control() {
     if (config_.control.realtime)
       if (const auto missing = become_real_time(config_.control.priority); !missing.empty())
@@ -167,9 +159,9 @@ class Daemon final {
       supervisor_.watch(
           {"droverd's thread for stops stands still", &stop_listener_->turns(), 600ms});
     supervisor_.watch({"droverd's link thread stands still", &keeper_.turns(), 5s});
-    if (battery_)
-      supervisor_.watch(
-          {"droverd's battery thread stands still", &battery_->turns(), BatteryLoop::kLongestTurn});
+    for (const auto& link : slow_)
+      supervisor_.watch({"droverd's battery thread stands still", &link->loop->turns(),
+                         BatteryLoop::kLongestTurn});
   }
 
   /// Waits for a signal, and looks ten times a second whether all threads live.
@@ -230,10 +222,9 @@ class Daemon final {
   LinkKeeper keeper_;
   ControlExchange control_exchange_;
   StorageExchange storage_exchange_;
-  BatteryExchange battery_exchange_;
-  std::unique_ptr<BatteryLoop> battery_;
-  std::unique_ptr<Recorder> recorder_;  ///< nullptr: nothing is recorded
-  store::StoredState stored_;           ///< given on to the publish thread
+  const std::vector<std::unique_ptr<SlowLink>> slow_;  ///< Modbus lines
+  std::unique_ptr<Recorder> recorder_;                 ///< nullptr: nothing is recorded
+  store::StoredState stored_;                          ///< given on to the publish thread
   RobotMemory memory_;
   const Remembered on_disk_;
   ControlLoop control_;

@@ -26,7 +26,7 @@ class Supervisor final {
   /// How often to look; the limits of persons' threads leave a second less this and a cycle.
   static constexpr Duration kPeriod = std::chrono::milliseconds(100);
 
-  /// At most eight; the row must outlive the supervisor's use.
+  /// At most sixteen; the row must outlive the supervisor's use.
   void watch(const WatchedThread& thread) { (void)rows_.push_back({thread, 0, kNever}); }
 
   /// The first that stands still beyond its limit. Whoever was held up himself judges nobody: the
@@ -39,7 +39,7 @@ class Supervisor final {
     std::uint64_t turns = 0;
     Time moved = kNever;
   };
-  FixedVector<Row, 8> rows_;
+  FixedVector<Row, 16> rows_;
   Time looked_ = kNever;
 };
 

@@ -39,7 +39,7 @@ struct FieldName {
 struct RecordingHeader {
   std::string version;  ///< of the program
   std::string configuration;
-  std::string register_map;       ///< of the battery; empty: none
+  std::string register_map;       ///< of the batteries, as config::Loaded has it; empty: none
   std::uint64_t mathematics = 0;  ///< mathematics_fingerprint() where it was recorded
   std::vector<FieldName> fields;
   std::uint8_t edition = kEdition;  ///< 1 is read, too: see first_edition.h

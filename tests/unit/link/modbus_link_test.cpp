@@ -108,12 +108,11 @@ class Device {
 class AModbusLine : public ::testing::Test {
  protected:
   static constexpr RegisterBlock kBlock{3, 0x28, 10};
+  static constexpr ModbusUnit kUnit{0xD2, 0.01, 0.3};
+  static constexpr ModbusUnit kOther{0xD3, 0.01, 0.3};
   ModbusSettings settings() const {
     ModbusSettings s;
     s.port = device.path;
-    s.unit = 0xD2;
-    s.gap_s = 0.01;
-    s.reply_s = 0.3;
     return s;
   }
   void open() {
@@ -122,16 +121,17 @@ class AModbusLine : public ::testing::Test {
     ASSERT_NE(opened.link, nullptr) << opened.problem;
     link = std::move(opened.link);
   }
-  ModbusResult ask(const RegisterBlock& block = kBlock) {
+  ModbusResult ask(const ModbusUnit& unit = kUnit) {
+    constexpr RegisterBlock block = kBlock;
     // As the loop does: what comes when nothing is asked is thrown away.
-    while (now() < link->ready_at()) {
+    while (now() < link->ready_at(unit)) {
       pollfd line{link->fd(), POLLIN, 0};
       if (::poll(&line, 1, 2) > 0) {
         EXPECT_TRUE(link->drain());
       }
     }
     words.assign(block.count, 0xAAAA);
-    return link->read(block, words);
+    return link->read(unit, block, words);
   }
 
   // What the device's thread looks at outlives it.
@@ -222,6 +222,38 @@ TEST_F(AModbusLine, BelievesNoLateAnswer) {
   EXPECT_GT(link->counters().late_bytes, 0U);
 }
 
+TEST_F(AModbusLine, LetsASilentUnitCostTheOtherNoMoreThanItsWait) {
+  device.start([](Device& d, const Bytes& request) {
+    if (request[0] == 0xD2) d.send(answer_to(0xD2, kBlock, 5));
+  });
+  open();
+  for (int i = 0; i < 3; ++i) {
+    const Time before = now();
+    EXPECT_EQ(ask(kOther).failure, RegisterFailure::silent);
+    ASSERT_TRUE(ask().good);
+    EXPECT_EQ(words.front(), 5);
+    if (i == 0) {
+      EXPECT_LT(to_s(now() - before), 0.45);
+    }
+    EXPECT_GT(to_s(link->ready_at(kOther) - now()), 0.5) << "a late answer may still come";
+    EXPECT_LT(to_s(link->ready_at(kUnit) - now()), 0.02);
+  }
+}
+
+TEST_F(AModbusLine, TakesNoUnitsLateAnswerForTheOthers) {
+  // The second unit answers 0.4 s after it was asked: when the first is being waited for.
+  device.start([](Device& d, const Bytes& request) {
+    if (request[0] == 0xD2) {
+      d.send(answer_to(0xD3, kBlock, 9));
+      d.send(answer_to(0xD2, kBlock, 5));
+    }
+  });
+  open();
+  EXPECT_EQ(ask(kOther).failure, RegisterFailure::silent);
+  ASSERT_TRUE(ask().good);
+  EXPECT_EQ(words.front(), 5);
+}
+
 TEST_F(AModbusLine, DropsItsOwnEcho) {
   device.start([&](Device& d, const Bytes& request) {
     d.send(request);
@@ -241,7 +273,7 @@ TEST_F(AModbusLine, NoticesThatItIsGone) {
   EXPECT_FALSE(link->drain());
   EXPECT_NE(link->error(), 0);
   words.assign(kBlock.count, 0);
-  EXPECT_EQ(link->read(kBlock, words).failure, RegisterFailure::link);
+  EXPECT_EQ(link->read(kUnit, kBlock, words).failure, RegisterFailure::link);
 }
 
 /// libmodbus' own server on the loopback.
@@ -286,18 +318,17 @@ TEST(ModbusOverTcp, BringsRegistersAndExceptionsAndNoticesTheEnd) {
   Server server(2);
   ModbusSettings settings;
   settings.port = server.port;
-  settings.unit = 255;
-  settings.reply_s = 1;
+  const ModbusUnit unit{255, 0.1, 1};
   auto opened = open_modbus(settings, &now);
   ASSERT_NE(opened.link, nullptr) << opened.problem;
   std::array<std::uint16_t, 4> words{};
-  wait_until(opened.link->ready_at());
-  ASSERT_TRUE(opened.link->read({3, 20, 4}, words).good);
+  wait_until(opened.link->ready_at(unit));
+  ASSERT_TRUE(opened.link->read(unit, {3, 20, 4}, words).good);
   EXPECT_EQ(words[3], 1023);
-  const auto refused = opened.link->read({3, 98, 4}, words);
+  const auto refused = opened.link->read(unit, {3, 98, 4}, words);
   EXPECT_EQ(refused.failure, RegisterFailure::refused);
   EXPECT_EQ(refused.exception, 2);
-  EXPECT_EQ(opened.link->read({3, 20, 4}, words).failure, RegisterFailure::link);
+  EXPECT_EQ(opened.link->read(unit, {3, 20, 4}, words).failure, RegisterFailure::link);
 }
 
 }  // namespace
