@@ -47,6 +47,10 @@ bool MotionWitness::fresh(Time at, Time now) const {
 
 void MotionWitness::on_speed(const GnssVelocity& velocity, Time at) {
   if (!std::isfinite(velocity.speed_mps)) return;
+  if (speed_at_ == kNever || at > speed_at_) {
+    speed_before_mps_ = speed_mps_;
+    speed_before_at_ = speed_at_;
+  }
   speed_mps_ = std::abs(velocity.speed_mps);
   speed_at_ = at;
   // Of a fix the noise is known. Taken for noise, a slow motion that grows would never be one.
@@ -60,6 +64,10 @@ void MotionWitness::on_position(const GnssPosition& position, Time at) {
                      std::isfinite(position.longitude_deg);
   if (!place) return;
   if (position.quality != position_.quality) learned_noise_mps2_ = 0;
+  if (position_at_ == kNever || at > position_at_) {
+    position_before_ = position_;
+    position_before_at_ = position_at_;
+  }
   position_ = position;
   position_at_ = at;
   if (from_at_ == kNever && wanted_from_ != kNever && at >= wanted_from_) {
@@ -100,6 +108,24 @@ double MotionWitness::speed_noise_mps() const {
 double MotionWitness::speed_mps(Time now) const {
   if (!fresh(speed_at_, now)) return 0;
   return speed_mps_ > std::max(kMoving_mps, kSigmas * speed_noise_mps()) ? speed_mps_ : 0.0;
+}
+
+PathPoint MotionWitness::last_step() const {
+  if (position_before_at_ == kNever) return {};
+  return ground_way(position_before_, position_);
+}
+
+double MotionWitness::proven_speed_mps(Time now) const {
+  const bool two = fresh(speed_at_, now) && fresh(speed_before_at_, speed_at_) &&
+                   fresh(position_at_, now) && fresh(position_before_at_, position_at_);
+  if (!two) return 0;
+  const double speed_mps = std::min(speed_mps_, speed_before_mps_);
+  const PathPoint step = last_step();
+  const double noise_m = std::hypot(place_sigma_m(position_before_, config_.estimate),
+                                    place_sigma_m(position_, config_.estimate));
+  const double told_m = speed_mps * to_s(position_at_ - position_before_at_);
+  const bool borne_out = std::hypot(step.x_m, step.y_m) > std::max(told_m / 2, kSigmas * noise_m);
+  return borne_out && speed_mps > kSigmas * speed_noise_mps() ? speed_mps : 0.0;
 }
 
 PathPoint MotionWitness::way(Time now) const {

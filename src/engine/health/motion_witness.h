@@ -41,6 +41,11 @@ class MotionWitness final {
   /// The receiver's speed when it is fresh and no noise, else 0, m/s.
   double speed_mps(Time now) const;
   Time speed_at() const { return speed_at_; }  ///< when it was measured
+  /// The lesser of the receiver's last two speeds when its last two positions bear it out, else 0:
+  /// two witnesses in a tenth of a second, but only of what is fast.
+  double proven_speed_mps(Time now) const;
+  /// From the receiver's last but one position to its last, m; x east, y north.
+  PathPoint last_step() const;
   /// From where rest was expected, m; x east, y north. Zero without a position.
   PathPoint way(Time now) const;
   /// Gyro and heading say that it goes on turning as it was commanded, and nothing that it goes
@@ -56,6 +61,8 @@ class MotionWitness final {
   EngineConfig config_;
   double speed_mps_ = kAbsent;
   Time speed_at_ = kNever;
+  double speed_before_mps_ = kAbsent;
+  Time speed_before_at_ = kNever;
   bool rests_ = false;
   double learned_noise_mps2_ = 0;  ///< squared, of this kind of fix
   GnssPosition from_;              ///< where rest began
@@ -63,6 +70,8 @@ class MotionWitness final {
   Time wanted_from_ = kNever;
   GnssPosition position_;
   Time position_at_ = kNever;
+  GnssPosition position_before_;
+  Time position_before_at_ = kNever;
   double turn_radps_ = 0;  ///< smoothed
   Time turn_at_ = kNever;
   double commanded_turn_ = 0;  ///< its sign, before rest was expected

@@ -16,7 +16,8 @@ constexpr double kMotionHeld_s = 0.05;   // one odd value is no motion
 constexpr double kMotionHeldOnSlope_s = 0.5;
 // A drive that is being armed swings its wheel to and fro: that is no rolling.
 constexpr double kRollHeld_s = 0.2;
-constexpr double kAlone_s = 1.0;  // a witness without another one
+constexpr double kBolts_mps = 0.5;  // over the limit, and over what the wheels explain
+constexpr double kAlone_s = 1.0;    // a witness without another one
 constexpr double kConfirm_s = 1.0;
 constexpr double kDirection_m = 0.1;
 constexpr double kOnTheSpot = 0.25;  // what goes by less of its turn goes neither ahead nor back
@@ -134,6 +135,19 @@ bool RestWatch::moves_as_commanded(const RestInput& input, const Rims& rims) con
   return ahead_m * direction_ > kDirection_m;
 }
 
+/// Before any rest is due. On a slope only the way that it was driven: it may slide down there.
+bool RestWatch::bolts(const RestInput& input, const Rims& rims) const {
+  if (!ours_ || input.power_is_off || input.released || input.caught || !rims.driven) return false;
+  const double explained_mps =
+      std::max({config_.limits.max_speed_mps, expected_mps_, std::abs(rims.fastest_mps)});
+  if (witness_.proven_speed_mps(input.now) <= explained_mps + kBolts_mps) return false;
+  if (!may_roll_) return true;
+  if (!std::isfinite(input.yaw_rad)) return false;
+  const PathPoint step = witness_.last_step();
+  const double ahead_m = step.x_m * std::cos(input.yaw_rad) + step.y_m * std::sin(input.yaw_rad);
+  return ahead_m * direction_ > 0;
+}
+
 void RestWatch::watch_wheels(const Rims& rims, Time now) {
   turning_ = std::abs(rims.fastest_mps) > kTurns_mps;
   const bool swings = turning_ && rims.fastest_mps * rim_mps_ < 0;
@@ -241,7 +255,10 @@ RestState RestWatch::update(const RestInput& input) {
     }
     return state_;
   }
-  if (!is_due) {
+  if (bolts(input, rims)) {
+    state_ = RestState::not_stopping;
+    tell("the robot runs away", rims, witness_.hear(input.now));
+  } else if (!is_due) {
     state_ = RestState::driving;
     reason_.clear();
   } else {

@@ -32,14 +32,16 @@ enum class RestState : std::uint8_t {
   not_stopping  ///< did not come to rest: its power has to be cut. Until reset()
 };
 
-/// Rest is due when the speed that was commanded has been taken back at the configured
-/// deceleration; what moves before anything was commanded is told. What still moves 0.3 s later
-/// is cut: wheels that turn, or two witnesses besides wheels that say nothing of it (their
-/// encoders may be frozen). After a second of confirmed rest, or when a person released the drives,
-/// no motion is ours any more: nothing is cut then, since who pushes the robot or carries it away
-/// must not find it latched. Where it would only roll without power, or rolls and is being caught,
-/// it is cut when a drive in closed loop moves it the way that it was driven, or turns it on the
-/// spot so, and not when it rolls back, or when no drive runs.
+/// What is faster than it was ever allowed to be, and its wheels do not show it, is cut at once:
+/// drives with frozen encoders push with all that they have. Else rest is due when the speed that
+/// was commanded has been taken back at the configured deceleration; what moves before anything was
+/// commanded is told. What still moves 0.3 s later is cut: wheels that turn, or two witnesses
+/// besides wheels that say nothing of it (their encoders may be frozen). After a second of
+/// confirmed rest, or when a person released the drives, no motion is ours any more: nothing is cut
+/// then, since who pushes the robot or carries it away must not find it latched. Where it would
+/// only roll without power, or rolls and is being caught, it is cut when a drive in closed loop
+/// moves it the way that it was driven, or turns it on the spot so, and not when it rolls back, or
+/// when no drive runs.
 class RestWatch final {
  public:
   explicit RestWatch(const EngineConfig& config);
@@ -76,6 +78,7 @@ class RestWatch final {
   bool due(const RestInput& input);
   void watch_wheels(const Rims& rims, Time now);
   bool rolls(Time now) const;
+  bool bolts(const RestInput& input, const Rims& rims) const;
   bool may_be_cut(const RestInput& input, const Rims& rims) const;
   bool moves_as_commanded(const RestInput& input, const Rims& rims) const;
   void settle(const RestInput& input, const Rims& rims, const Testimony& said);

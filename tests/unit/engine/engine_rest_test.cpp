@@ -95,6 +95,35 @@ TEST_F(ARobotThatShouldRest, IsNotResetWhileItStillMoves) {
   EXPECT_THAT(refusal(), HasSubstr("still moves"));
 }
 
+// Drives whose encoders are frozen push with all that they have.
+TEST_F(ARobotThatShouldRest, LosesItsPowerAtOnceWhenItIsFasterThanItMayBeAndItsWheelsDoNotShowIt) {
+  drive();
+  freeze_encoders();
+  rig.disobeys = WheelSpeeds{12, 12};  // 2 m/s
+  const double before_m = rig.driven_m;
+  ASSERT_TRUE(cut_within_s(0.5));
+  EXPECT_LT(rig.driven_m - before_m, 0.8);
+  EXPECT_THAT(rig.why(), HasSubstr("runs away"));
+  EXPECT_THAT(rig.why(), HasSubstr("the receiver says 1."));
+  EXPECT_TRUE(rig.snapshot().stop_latched);
+}
+
+TEST_F(ARobotThatShouldRest, IsNotCutWhileItDrivesForAReceiverThatJumpsOrTellsOneWildSpeed) {
+  drive();
+  rig.jump_m = 3;
+  EXPECT_FALSE(cut_within_s(0.5));
+  rig.jump_m = 0;
+  rig.speed_noise_mps = 3;
+  EXPECT_FALSE(cut_within_s(1)) << rig.why();
+}
+
+TEST_F(ARobotThatShouldRest, IsNotCutForWheelsThatSlipAtAllowedSpeeds) {
+  drive();
+  freeze_encoders();
+  rig.disobeys = WheelSpeeds{6, 6};  // 1 m/s
+  EXPECT_FALSE(cut_within_s(0.4)) << rig.why();
+}
+
 TEST_F(ARobotThatShouldRest, StopsAsEverWhenAllIsWell) {
   drive();
   rig.command(CancelTask{});
