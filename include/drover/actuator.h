@@ -106,11 +106,12 @@ struct StopRecipe {
   StopEnds ends = StopEnds::coasts;
 };
 
-/// What the device does by itself when frames cease.
+/// What the device does by itself when messages cease.
 struct SilenceBehaviour {
-  bool stops = false;     ///< a time-out of its own is set by this driver
-  Duration after{};       ///< that time-out
-  std::string_view text;  ///< for operators: "disarms after 0.1 s (watchdog)"
+  bool stops = false;                ///< a time-out of its own is set by this driver
+  Duration after{};                  ///< that time-out
+  std::string_view text;             ///< for operators: "disarms after 0.1 s (watchdog)"
+  StopEnds ends = StopEnds::coasts;  ///< how that stop ends
 };
 
 /// One or more channels behind one address.

@@ -39,6 +39,7 @@ struct MakeContext {
 using MakeDevice = Made (*)(const Options&, const MakeContext&);
 
 using MakeCanTwin = std::unique_ptr<CanTwin> (*)(const Options&);
+using MakeByteDriveTwin = std::unique_ptr<ByteDriveTwin> (*)(const Options&);
 /// `seed` is the only source of the twin's randomness.
 using MakeGnssTwin = std::unique_ptr<GnssTwin> (*)(const Options&, std::uint64_t seed);
 using MakeImuTwin = std::unique_ptr<ImuTwin> (*)(const Options&, std::uint64_t seed);
@@ -55,8 +56,12 @@ struct DriverEntry {
   MakeDevice make = nullptr;
   /// Options of the simulated device; its factory gets these and the driver's in one Options.
   std::span<const OptionSpec> twin_options;
-  std::variant<std::monostate, MakeCanTwin, MakeGnssTwin, MakeImuTwin, MakeRegisterTwin> make_twin;
+  std::variant<std::monostate, MakeCanTwin, MakeGnssTwin, MakeImuTwin, MakeRegisterTwin,
+               MakeByteDriveTwin>
+      make_twin;
   std::string_view summary;  ///< one line for people
+  /// Shafts that the simulated device turns, in the order of its README. 0: one for each channel.
+  std::size_t twin_shafts = 0;
 };
 
 std::span<const DriverEntry> driver_registry();

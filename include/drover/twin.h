@@ -24,18 +24,33 @@ struct Shaft {
 
 using TwinFrames = FixedVector<CanFrame, 64>;
 
-class CanTwin {
+/// What every simulated drive has beside its wire.
+class DriveTwin {
  public:
-  virtual ~CanTwin() = default;
-  virtual void on_frame(const CanFrame& frame, Time now, TwinFrames& out) = 0;
-  /// Advances to `now` (monotonic, called at the plant's step): updates the torques, sends what is
-  /// due. `shafts` by the driver's channels.
-  virtual void on_tick(Time now, std::span<Shaft> shafts, TwinFrames& out) = 0;
+  virtual ~DriveTwin() = default;
   /// Supply on or off; off forgets everything that is not in the device's flash.
   virtual void set_power(bool on, Time now) = 0;
   /// Injects a named fault ("over_temperature", "stuck_encoder", "silent", ...) or clears all ("").
   /// Returns false when the twin does not know it.
   virtual bool set_fault(std::string_view name, Time now) = 0;
+};
+
+class CanTwin : public DriveTwin {
+ public:
+  virtual void on_frame(const CanFrame& frame, Time now, TwinFrames& out) = 0;
+  /// Advances to `now` (monotonic, called at the plant's step): updates the torques, sends what is
+  /// due. `shafts` by the driver's channels, or as its entry's `twin_shafts` says.
+  virtual void on_tick(Time now, std::span<Shaft> shafts, TwinFrames& out) = 0;
+};
+
+/// The same on a byte stream.
+class ByteDriveTwin : public DriveTwin {
+ public:
+  /// What was written to it, as fast as its line carries it, cut anywhere.
+  virtual void on_bytes(std::span<const std::uint8_t> bytes, Time now) = 0;
+  /// As CanTwin::on_tick. Writes the bytes that are due into `out`, which the caller paces, and
+  /// returns their number.
+  virtual std::size_t on_tick(Time now, std::span<Shaft> shafts, std::span<char> out) = 0;
 };
 
 /// What a simulated receiver knows of the world.

@@ -7,8 +7,10 @@
 //   imu STATE                        silent, frozen, saturated, bias:2, ...; well: nothing is wrong
 //   battery soc PERCENT              so much is left
 //   battery charger plug|unplug      and see battery_port.h for the faults of its line
-//   drive JOINT power on|off         a drive's own switch; "all", or "a,b": several drives
-//   drive JOINT fault NAME|none      see the drive's README
+//   drive NAME power on|off          a drive's own switch; NAME: its own, or a joint's, or "a,b",
+//   or
+//                                    "all"
+//   drive NAME fault NAME|none       see the drive's README
 //   supply dip SECONDS               the drives' common supply goes for so long
 //   kick VX VY                       a shove along the base's own axes (m/s)
 //   push FX FY SECONDS               somebody pushes with this force along the base's axes (N)
@@ -44,17 +46,6 @@ std::optional<double> number(std::string_view text) {
   return value;
 }
 
-/// "all", one joint, or several with commas between them.
-bool names(std::string_view list, std::string_view joint) {
-  if (list == "all") return true;
-  for (std::size_t at = 0; at <= list.size();) {
-    const auto end = std::min(list.find(',', at), list.size());
-    if (list.substr(at, end - at) == joint) return true;
-    at = end + 1;
-  }
-  return false;
-}
-
 std::string error(std::string text) {
   return "error: " + std::move(text);
 }
@@ -87,7 +78,7 @@ std::string Robot::command(std::string_view text) {
   if (verb == "gnss") return command_gnss(words[1]);
   if (verb == "imu") return command_imu(words[1]);
   if (verb == "battery") return command_battery(words[1], words[2]);
-  if (verb == "drive") return command_drive(words[1], words[2], words[3]);
+  if (verb == "drive") return drives_.command(words[1], words[2], words[3], now_);
   if (verb == "kick") {
     const auto vx_mps = number(words[1]);
     const auto vy_mps = number(words[2]);
@@ -166,26 +157,6 @@ std::string Robot::command_carry(std::span<const std::string_view> numbers) {
   if (!ahead_m || !left_m || !turn_deg || !lasts_s || !(*lasts_s > 0))
     return error("say: carry DX DY DEGREES SECONDS");
   carry_ = Carry{now_, *lasts_s, *ahead_m, *left_m, to_rad(*turn_deg)};
-  return "ok";
-}
-
-std::string Robot::command_drive(std::string_view joint, std::string_view verb,
-                                 std::string_view value) {
-  const bool power = verb == "power" && (value == "on" || value == "off");
-  if (!power && (verb != "fault" || value.empty()))
-    return error("say: drive JOINT power on|off, or fault NAME|none");
-  auto left = joint == "all" ? 0 : std::count(joint.begin(), joint.end(), ',') + 1;
-  for (const auto& drive : scenario_.drives)
-    if (joint != "all" && names(joint, drive.joint)) --left;
-  if (left != 0) return error("no drive '" + std::string(joint) + "'");
-  for (std::size_t i = 0; i < drives_.size(); ++i) {
-    if (!names(joint, scenario_.drives[i].joint)) continue;
-    if (power)
-      drives_[i].switched_on = value == "on";
-    else if (!drives_[i].twin->set_fault(value == "none" ? "" : value, now_))
-      return error("the drive knows no fault '" + std::string(value) + "'");
-  }
-  supply_drives();
   return "ok";
 }
 

@@ -17,7 +17,7 @@ Commands for a running simulator (drover-sim ctl COMMAND...):
   tap estop|bumper|zone_...      (an instant only)
   obstacle NAME X Y|remove       gnss STATE|unplug|plug   kick VX VY
   imu STATE|well|unplug|plug     (silent, frozen, saturated, bias:2, restart, ...)
-  drive JOINT|all power on|off   drive JOINT|all fault NAME|none
+  drive NAME|all power on|off    drive NAME|all fault NAME|none     drive NAME unplug|plug
   battery soc P | charger plug|unplug | unplug|plug
   battery well|silent|slow|other_unit|wrong_crc|drip|echo|deaf_echo|exception
   can BUS slcan TEXT|stall|flow|unplug|plug               lines unplug|plug

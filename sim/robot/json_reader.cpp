@@ -87,6 +87,17 @@ std::string JsonReader::text(std::string_view key, std::string_view fallback) {
   return has(key) ? text(key) : std::string(fallback);
 }
 
+std::vector<std::string> JsonReader::texts(std::string_view key) {
+  const auto& value = need(key);
+  if (!value.is_array() || value.empty()) fail(key, "must be a list of texts");
+  std::vector<std::string> texts;
+  for (const auto& item : value) {
+    if (!item.is_string()) fail(key, "must be a list of texts");
+    texts.push_back(item.get<std::string>());
+  }
+  return texts;
+}
+
 bool JsonReader::flag(std::string_view key, bool fallback) {
   if (!has(key)) return fallback;
   const auto& value = need(key);

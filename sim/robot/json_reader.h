@@ -26,6 +26,7 @@ class JsonReader {
   double number(std::string_view key);
   std::string text(std::string_view key, std::string_view fallback);
   std::string text(std::string_view key);
+  std::vector<std::string> texts(std::string_view key);
   bool flag(std::string_view key, bool fallback);
   JsonReader object(std::string_view key);
   std::vector<JsonReader> list(std::string_view key);

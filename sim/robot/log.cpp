@@ -85,7 +85,7 @@ void CanLog::write(Time time, std::string_view bus, const CanFrame& frame) {
 TruthLog::TruthLog(const std::string& path, const Scenario& scenario) : log_(path) {
   std::string header = "time_s,x_m,y_m,z_m,roll_rad,pitch_rad,yaw_rad,vx_mps,wz_radps,free_ahead_m";
   for (const auto& drive : scenario.drives)
-    header += "," + drive.joint + "_radps," + drive.joint + "_Nm";
+    for (const auto& joint : drive.joints) header += "," + joint + "_radps," + joint + "_Nm";
   header += ",imu_ax_mps2,imu_ay_mps2,imu_az_mps2,imu_wx_radps,imu_wy_radps,imu_wz_radps,supply";
   log_.append(header + "\n");
 }

@@ -48,7 +48,7 @@ class CanLog {
 };
 
 /// CSV with a header line: time_s, x_m, y_m, z_m, roll_rad, pitch_rad, yaw_rad, vx_mps, wz_radps,
-/// free_ahead_m, velocity and torque of each drive, and what a perfect inertial sensor would tell.
+/// free_ahead_m, velocity and torque of each joint, and what a perfect inertial sensor would tell.
 class TruthLog {
  public:
   TruthLog(const std::string& path, const Scenario& scenario);

@@ -6,24 +6,9 @@
 #include "drover/angle.h"
 
 namespace drover::sim {
-namespace {
-
-// Of a spring-applied brake: its coil lets go, and its spring presses, after these times.
-constexpr Duration kBrakeReleases = std::chrono::milliseconds(30);
-constexpr Duration kBrakeEngages = std::chrono::milliseconds(50);
-constexpr double kHolding_Nm = 40;  // at the wheel; more than its tyre's grip
-
-}  // namespace
-
 Twins make_twins(const Scenario& scenario, std::uint64_t seed) {
   Twins twins;
-  for (const auto& drive : scenario.drives) {
-    try {
-      twins.drives.push_back(std::get<MakeCanTwin>(drive.driver->make_twin)(drive.options));
-    } catch (const std::exception& error) {
-      throw std::runtime_error("drive '" + drive.joint + "': " + error.what());
-    }
-  }
+  twins.drives = make_drive_twins(scenario);
   if (scenario.gnss) {
     const auto make = std::get<MakeGnssTwin>(scenario.gnss->driver->make_twin);
     try {
@@ -53,54 +38,43 @@ Robot::Robot(const Scenario& scenario, Twins twins)
       plant_(scenario.world),
       earth_(scenario.origin_latitude_deg, scenario.origin_longitude_deg,
              scenario.origin_altitude_m),
+      drives_(scenario, std::move(twins.drives), plant_),
       gnss_(std::move(twins.gnss)),
       imu_(std::move(twins.imu)),
-      battery_twin_(std::move(twins.battery)),
-      sent_(scenario.buses.size()),
-      waiting_(scenario.buses.size()) {
-  if (twins.drives.size() != scenario.drives.size())
-    throw std::runtime_error("the scenario's drives and their twins differ in number");
+      battery_twin_(std::move(twins.battery)) {
   const double steps = to_s(kTick) / plant_.timestep_s();
   steps_per_tick_ = static_cast<int>(std::lround(steps));
   if (steps_per_tick_ < 1 || std::abs(steps - steps_per_tick_) > 1e-9)
     throw std::runtime_error(scenario.world + ": the timestep must divide 5 ms");
-  for (std::size_t i = 0; i < scenario.drives.size(); ++i) {
-    Drive drive;
-    drive.joint = plant_.joint(scenario.drives[i].joint);
-    drive.bus = scenario.drives[i].bus;
-    drive.twin = std::move(twins.drives[i]);
-    drives_.push_back(std::move(drive));
-  }
   if (battery_twin_) battery_.emplace(scenario.battery ? scenario.battery->model : BatteryModel{});
-  truth_.wheels.resize(drives_.size());
+  drives_.tell_wheels(plant_, truth_.wheels);
   plant_.place(scenario.start_x_m, scenario.start_y_m, to_rad(scenario.start_yaw_deg));
 }
 
 void Robot::on_frame(std::size_t bus, const CanFrame& frame, Time now) {
-  if (frame.error) return;
   now_ = now;
-  for (auto& drive : drives_) {
-    if (drive.bus != bus || !drive.powered) continue;
-    frames_.clear();
-    drive.twin->on_frame(frame, now, frames_);
-    waiting_[bus].insert(waiting_[bus].end(), frames_.begin(), frames_.end());
-  }
+  drives_.on_frame(bus, frame, now);
+}
+
+void Robot::on_drive_bytes(std::size_t drive, std::span<const std::uint8_t> bytes, Time now) {
+  drives_.on_bytes(drive, bytes, now);
 }
 
 // Answers to what came in and the first mechanical step's frames leave with this tick; frames that
 // fall due at a later mechanical step leave with the next one.
 void Robot::step(Time now) {
   now_ = now;
-  for (std::size_t bus = 0; bus < sent_.size(); ++bus) {
-    sent_[bus].clear();
-    sent_[bus].swap(waiting_[bus]);
-  }
+  drives_.begin_tick();
   supply_drives();
   sense(now);
   tell_gnss(now);
   imu_size_ = imu_ ? imu_->on_tick(now, truth_.imu, imu_bytes_) : 0;
-  for (int i = 0; i < steps_per_tick_; ++i)
-    turn_wheels(now + kTick * i / steps_per_tick_, i == 0 ? sent_ : waiting_);
+  for (int i = 0; i < steps_per_tick_; ++i) {
+    const Time at = now + kTick * i / steps_per_tick_;
+    drives_.turn(at, i == 0, plant_);
+    move_from_outside(at);
+    plant_.step();
+  }
   use_battery();
 }
 
@@ -119,10 +93,7 @@ void Robot::sense(Time now) {
   truth_.pose = plant_.pose();
   truth_.velocity = plant_.velocity();
   truth_.free_ahead_m = plant_.free_distance_m(scenario_.zone_width_m);
-  for (std::size_t i = 0; i < drives_.size(); ++i) {
-    const WheelState wheel = plant_.wheel(drives_[i].joint);
-    truth_.wheels[i] = {wheel.position_rad, wheel.velocity_radps, drives_[i].shaft.torque_Nm};
-  }
+  drives_.tell_wheels(plant_, truth_.wheels);
   sense_motion();
   const auto set = [this](LineName line, bool value) {
     sensed_[static_cast<std::size_t>(line)] = value;
@@ -171,25 +142,7 @@ void Robot::tell_gnss(Time now) {
   gnss_size_ = gnss_->on_tick(now, truth, gnss_bytes_);
 }
 
-void Robot::turn_wheels(Time now, std::vector<std::vector<CanFrame>>& out) {
-  for (auto& drive : drives_) {
-    const WheelState wheel = plant_.wheel(drive.joint);
-    drive.shaft.position_rad = wheel.position_rad;
-    drive.shaft.velocity_radps = wheel.velocity_radps;
-    drive.shaft.energized = false;
-    frames_.clear();
-    drive.twin->on_tick(now, {&drive.shaft, 1}, frames_);
-    if (!drive.powered) drive.shaft.torque_Nm = 0;
-    if (drive.powered) out[drive.bus].insert(out[drive.bus].end(), frames_.begin(), frames_.end());
-    plant_.set_torque(drive.joint, drive.shaft.torque_Nm);
-    hold_wheel(drive, now);
-  }
-  move_from_outside(now);
-  plant_.step();
-}
-
-// Without supply a drive is silent, and its power stage neither drives nor brakes: what the turning
-// motor gives back has nowhere to go.
+// Without supply a drive is silent, and its power stage neither drives nor brakes.
 bool Robot::supplied() const {
   const bool pressed = forced_[static_cast<std::size_t>(LineName::estop)].value_or(false);
   return (!scenario_.relay_feeds_drives || relay_closed_) &&
@@ -198,28 +151,7 @@ bool Robot::supplied() const {
 
 void Robot::supply_drives() {
   truth_.supply = supplied();
-  for (auto& drive : drives_) {
-    const bool on = truth_.supply && drive.switched_on;
-    if (on == drive.powered) continue;
-    drive.powered = on;
-    drive.twin->set_power(on, now_);
-  }
-}
-
-void Robot::hold_wheel(Drive& drive, Time now) {
-  if (!scenario_.brake && !scenario_.worm_gear) return;
-  const bool energized = drive.powered && drive.shaft.energized;
-  if (energized != drive.energized || drive.energized_since == kNever) {
-    // A robot that was just switched on has stood with its brakes on.
-    drive.energized_since = drive.energized_since == kNever ? now - kBrakeEngages : now;
-    drive.energized = energized;
-  }
-  const Duration age = now - drive.energized_since;
-  const bool braked = scenario_.brake && (energized ? age < kBrakeReleases : age >= kBrakeEngages);
-  const bool held = braked || (scenario_.worm_gear && !energized);
-  const double holding_Nm = held ? kHolding_Nm : 0;
-  if (holding_Nm != drive.holding_Nm) plant_.set_holding_torque(drive.joint, holding_Nm);
-  drive.holding_Nm = holding_Nm;
+  drives_.set_supply(truth_.supply, now_);
 }
 
 void Robot::move_from_outside(Time now) {

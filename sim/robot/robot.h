@@ -13,6 +13,7 @@
 
 #include "drover/twin.h"
 #include "sim/plant/plant.h"
+#include "sim/robot/drives.h"
 #include "sim/robot/scenario.h"
 
 namespace drover::sim {
@@ -20,12 +21,12 @@ namespace drover::sim {
 inline constexpr Duration kTick = std::chrono::milliseconds(5);
 
 struct Twins {
-  std::vector<std::unique_ptr<CanTwin>> drives;  ///< in the scenario's order
-  std::unique_ptr<GnssTwin> gnss;                ///< nullptr: none
-  std::unique_ptr<ImuTwin> imu;                  ///< nullptr: none
-  std::unique_ptr<RegisterTwin> battery;         ///< nullptr: none
+  std::vector<AnyDriveTwin> drives;       ///< in the scenario's order
+  std::unique_ptr<GnssTwin> gnss;         ///< nullptr: none
+  std::unique_ptr<ImuTwin> imu;           ///< nullptr: none
+  std::unique_ptr<RegisterTwin> battery;  ///< nullptr: none
 };
-/// From the registry. Throws std::runtime_error naming the drive and its option.
+/// From the registry. Throws std::runtime_error naming the device and its option.
 Twins make_twins(const Scenario& scenario, std::uint64_t seed);
 
 /// No descriptors, no clock: equal calls give equal frames, bytes and levels, to the bit.
@@ -37,14 +38,18 @@ class Robot {
 
   /// A frame on a bus (index into the scenario's), heard by all drives on it.
   void on_frame(std::size_t bus, const CanFrame& frame, Time now);
+  /// What was written to a drive's serial line (index into the scenario's drives).
+  void on_drive_bytes(std::size_t drive, std::span<const std::uint8_t> bytes, Time now);
   /// The gateway's output enable_relay, as its wire shows it: it counts from the next step on where
   /// it feeds the drives.
   void set_relay(bool closed) { relay_closed_ = closed; }
   /// One tick: contacts and outputs as of `now`, then the mechanics from `now` to the next tick.
   void step(Time now);
 
-  /// What the drives send at this tick. Cleared by the next step.
-  const std::vector<CanFrame>& frames(std::size_t bus) const { return sent_[bus]; }
+  /// What the drives on a bus send at this tick. Cleared by the next step.
+  const std::vector<CanFrame>& frames(std::size_t bus) const { return drives_.frames(bus); }
+  /// What a drive on a serial line said at this tick, not yet paced.
+  std::string_view drive_bytes(std::size_t drive) const { return drives_.bytes(drive); }
   /// What the receiver said at this tick, not yet paced.
   std::string_view gnss_bytes() const { return {gnss_bytes_.data(), gnss_size_}; }
   /// The same of the inertial sensor, at its own speed; and what was written to it.
@@ -60,7 +65,7 @@ class Robot {
     Time time = kNever;
     BasePose pose;
     BaseVelocity velocity;
-    std::vector<Shaft> wheels;  ///< in the order of `drives`
+    std::vector<Shaft> wheels;  ///< in the order of `drives` and their joints
     double free_ahead_m = 0;
     bool supply = true;  ///< of the drives: relay, e-stop and dips; not the drives' own switches
     ImuTruth imu;        ///< at the inertial sensor's place; base_link where there is none
@@ -73,18 +78,6 @@ class Robot {
   std::string command(std::string_view text);
 
  private:
-  struct Drive {
-    std::size_t joint = 0;
-    std::size_t bus = 0;
-    std::unique_ptr<CanTwin> twin;
-    Shaft shaft;
-    bool switched_on = true;  ///< its own switch
-    bool powered = true;
-    /// Since when its power stage has been as it is: a brake follows later.
-    bool energized = false;
-    Time energized_since = kNever;
-    double holding_Nm = 0;
-  };
   struct Carry {
     Time begin = kNever;
     double lasts_s = 0;
@@ -98,17 +91,14 @@ class Robot {
   void sense(Time now);
   void sense_motion();
   void tell_gnss(Time now);
-  void turn_wheels(Time now, std::vector<std::vector<CanFrame>>& out);
   bool supplied() const;
   void supply_drives();
-  void hold_wheel(Drive& drive, Time now);
   void move_from_outside(Time now);
   std::string command_supply(std::string_view verb, std::string_view seconds);
   std::string command_push(std::span<const std::string_view> numbers);
   std::string command_carry(std::span<const std::string_view> numbers);
   std::string command_gnss(std::string_view state);
   std::string command_imu(std::string_view state);
-  std::string command_drive(std::string_view joint, std::string_view verb, std::string_view value);
   std::string command_obstacle(std::string_view name, std::string_view x, std::string_view y);
   void use_battery();
   std::string command_battery(std::string_view what, std::string_view value);
@@ -118,15 +108,12 @@ class Robot {
   Scenario scenario_;
   Plant plant_;
   GeographicLib::LocalCartesian earth_;
-  std::vector<Drive> drives_;
+  Drives drives_;
   std::unique_ptr<GnssTwin> gnss_;
   std::unique_ptr<ImuTwin> imu_;
   std::unique_ptr<RegisterTwin> battery_twin_;
   std::optional<Battery> battery_;
   Time next_battery_ = kNever;
-  std::vector<std::vector<CanFrame>> sent_;     // by bus: for this tick
-  std::vector<std::vector<CanFrame>> waiting_;  // by bus: for the next one
-  TwinFrames frames_;                           // of one call
   std::array<char, 8192> gnss_bytes_{};
   std::size_t gnss_size_ = 0;
   std::array<char, 1024> imu_bytes_{};

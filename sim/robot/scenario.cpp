@@ -5,34 +5,11 @@
 #include <stdexcept>
 
 #include "config/register_map.h"
-#include "sim/robot/json_reader.h"
+#include "sim/robot/device_reader.h"
 #include "sim/robot/scenario_file.h"
 
 namespace drover::sim {
 namespace {
-
-const DriverEntry& find_twin(const JsonReader& reader, const std::string& name,
-                             std::size_t twin_kind) {
-  std::string known;
-  for (const auto& entry : driver_registry()) {
-    if (entry.make_twin.index() != twin_kind) continue;
-    if (entry.name == name) return entry;
-    known += (known.empty() ? "" : ", ") + std::string(entry.name);
-  }
-  reader.fail("driver", "no simulated '" + name +
-                            "' of this kind; there is: " + (known.empty() ? "none" : known));
-}
-
-// Indices of the alternatives of DriverEntry::make_twin.
-constexpr std::size_t kCanTwin = 1;
-constexpr std::size_t kGnssTwin = 2;
-constexpr std::size_t kImuTwin = 3;
-constexpr std::size_t kRegisterTwin = 4;
-
-void read_options(JsonReader& reader, const DriverEntry& entry, Options& options) {
-  reader.options("options", entry.options, options);
-  reader.options("twin", entry.twin_options, options);
-}
 
 CanKind read_kind(JsonReader& reader) {
   const auto kind = reader.text("kind");
@@ -55,35 +32,9 @@ void read_buses(JsonReader& top, Scenario& scenario) {
   }
 }
 
-DriveSpec read_drive(JsonReader& reader, const Scenario& scenario) {
-  DriveSpec drive;
-  drive.joint = reader.text("joint");
-  drive.driver = &find_twin(reader, reader.text("driver"), kCanTwin);
-  if (drive.driver->channels.size() > 1)
-    reader.fail("driver", "'" + std::string(drive.driver->name) +
-                              "' moves several joints: a robot here has a drive for each");
-  const auto bus = reader.text("bus");
-  const auto at = std::find_if(scenario.buses.begin(), scenario.buses.end(),
-                               [&bus](const BusSpec& spec) { return spec.name == bus; });
-  if (at == scenario.buses.end()) reader.fail("bus", "'" + bus + "' is not in 'can'");
-  drive.bus = static_cast<std::size_t>(at - scenario.buses.begin());
-  read_options(reader, *drive.driver, drive.options);
-  reader.done();
-  for (const auto& other : scenario.drives)
-    if (other.joint == drive.joint)
-      reader.fail("joint", "'" + drive.joint + "' has a drive already");
-  return drive;
-}
-
-int read_baud(JsonReader& reader, int otherwise) {
-  const double baud = reader.number("baud", otherwise);
-  if (!(baud >= 4800 && baud <= 4'000'000)) reader.fail("baud", "must be from 4800 to 4000000");
-  return static_cast<int>(baud);
-}
-
 GnssSpec read_gnss(JsonReader reader) {
   GnssSpec gnss;
-  gnss.driver = &find_twin(reader, reader.text("driver", "nmea0183"), kGnssTwin);
+  gnss.driver = &find_twin<MakeGnssTwin>(reader, reader.text("driver", "nmea0183"));
   gnss.port = reader.text("port", gnss.port);
   gnss.baud = read_baud(reader, gnss.baud);
   if (reader.has("antenna")) {
@@ -101,7 +52,7 @@ GnssSpec read_gnss(JsonReader reader) {
 
 ImuSpec read_imu(JsonReader reader) {
   ImuSpec imu;
-  imu.driver = &find_twin(reader, reader.text("driver", "witmotion"), kImuTwin);
+  imu.driver = &find_twin<MakeImuTwin>(reader, reader.text("driver", "witmotion"));
   imu.port = reader.text("port", imu.port);
   imu.baud = read_baud(reader, imu.baud);
   if (reader.has("place")) {
@@ -119,7 +70,7 @@ ImuSpec read_imu(JsonReader reader) {
 
 BatterySpec read_battery(JsonReader reader, const std::string& folder) {
   BatterySpec battery;
-  battery.driver = &find_twin(reader, reader.text("driver", "modbus_bms"), kRegisterTwin);
+  battery.driver = &find_twin<MakeRegisterTwin>(reader, reader.text("driver", "modbus_bms"));
   const auto file = config::find_register_map(reader.text("map"), folder);
   auto loaded = config::load_register_map(file);
   for (const auto& problem : loaded.problems) reader.fail("map", problem.text(file));
@@ -222,6 +173,11 @@ Scenario read_scenario(const nlohmann::json& document, const std::string& folder
 }
 
 }  // namespace
+
+bool DriveSpec::is_called(std::string_view text) const {
+  return (!name.empty() && name == text) ||
+         std::find(joints.begin(), joints.end(), text) != joints.end();
+}
 
 Scenario parse_scenario(std::string_view json, const std::string& folder) {
   return read_scenario(parse_json(json), folder);

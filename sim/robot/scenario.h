@@ -27,11 +27,22 @@ struct BusSpec {
   CanKind kind = CanKind::vcan;
 };
 
+/// A device's end of a serial line.
+struct SerialSpec {
+  std::string port = "base";  ///< as a receiver's
+  int baud = 115200;
+};
+
 struct DriveSpec {
-  std::string joint;  ///< of the world
+  std::string name;                 ///< beside its joints' names; may be empty
+  std::vector<std::string> joints;  ///< of the world, in the order of the driver's channels
   const DriverEntry* driver = nullptr;
-  std::size_t bus = 0;  ///< index into `buses`
-  Options options;      ///< the driver's and the twin's
+  std::size_t bus = 0;               ///< on CAN: index into `buses`
+  std::optional<SerialSpec> serial;  ///< not on CAN
+  Options options;                   ///< the driver's and the twin's
+
+  /// By its own name, or by that of any of its joints.
+  bool is_called(std::string_view text) const;
 };
 
 struct GnssSpec {

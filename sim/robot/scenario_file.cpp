@@ -1,5 +1,6 @@
 #include "sim/robot/scenario_file.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -38,21 +39,27 @@ fs::path resolved(const std::string& file, const fs::path& reference) {
   return (fs::path(file).parent_path() / reference).lexically_normal();
 }
 
-void change_drive(nlohmann::json& document, const std::string& joint,
-                  const nlohmann::json& change) {
+bool is_called(const nlohmann::json& drive, const std::string& name) {
+  if (drive.value("joint", "") == name || drive.value("name", "") == name) return true;
+  const auto joints = drive.find("joints");
+  return joints != drive.end() && joints->is_array() &&
+         std::find(joints->begin(), joints->end(), name) != joints->end();
+}
+
+void change_drive(nlohmann::json& document, const std::string& name, const nlohmann::json& change) {
   for (auto& drive : document["drives"]) {
-    if (drive.value("joint", "") != joint) continue;
+    if (!is_called(drive, name)) continue;
     drive.merge_patch(change);
     return;
   }
-  throw std::runtime_error("drives." + joint + ": there is no drive of this joint to change");
+  throw std::runtime_error("drives." + name + ": there is no drive of this joint to change");
 }
 
 }  // namespace
 
 void change_document(nlohmann::json& document, nlohmann::json change) {
   if (const auto drives = change.find("drives"); drives != change.end() && drives->is_object()) {
-    for (const auto& [joint, member] : drives->items()) change_drive(document, joint, member);
+    for (const auto& [name, member] : drives->items()) change_drive(document, name, member);
     change.erase(drives);
   }
   document.merge_patch(change);

@@ -14,8 +14,8 @@ namespace drover::sim {
 nlohmann::json load_scenario_document(const std::string& file);
 
 /// Merges `change` into a robot's or a gateway's document. Its "drives" may be an object: what it
-/// says of a joint is merged into the drive of this joint, {"front_left": {"options": {...}}}.
-/// Throws std::runtime_error when there is no such drive.
+/// says of a joint, or of a drive's own name, is merged into that drive, {"front_left": {"options":
+/// {...}}}. Throws std::runtime_error when there is no such drive.
 void change_document(nlohmann::json& document, nlohmann::json change);
 
 /// The path of the robot that FILE names, empty when it names none. Throws as above.

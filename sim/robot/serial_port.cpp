@@ -55,7 +55,7 @@ std::size_t BaudPacer::take(std::size_t waiting, Duration tick) {
 }
 
 SerialPort::SerialPort(const std::string& link_path, int baud)
-    : link_path_(link_path), pacer_(baud) {
+    : link_path_(link_path), pacer_(baud), hears_(baud) {
   constexpr std::string_view kUsb = "usb:";
   if (link_path.starts_with(kUsb)) usb_.emplace(link_path.substr(kUsb.size()));
   plug();
@@ -98,25 +98,46 @@ char SerialPort::noise() {
 void SerialPort::set_baud(int baud) {
   if (baud != pacer_.baud()) ticks_since_look_ = kTicksBetweenLooks;
   pacer_.set_baud(baud);
+  hears_.set_baud(baud);
 }
 
-void SerialPort::look() {
-  ticks_since_look_ = 0;
+/// Takes at most `limit` bytes of what was written. False: nobody has the line open.
+bool SerialPort::hear(std::size_t limit) {
   std::array<std::uint8_t, 512> bytes{};
-  ssize_t n = 0;
-  while ((n = ::read(line_.get(), bytes.data(), bytes.size())) > 0)
+  while (limit > 0) {
+    const auto n = ::read(line_.get(), bytes.data(), std::min(limit, bytes.size()));
+    if (n < 0 && errno == EAGAIN) break;
+    if (n <= 0) return false;
     heard_.insert(heard_.end(), bytes.begin(), bytes.begin() + n);
-  // EIO: nobody has it open.
-  listening_ = n < 0 && errno == EAGAIN && (!usb_ || UsbGadget::is_taken(line_.get()));
-  if (!listening_) return;
-  const int host = usb_ ? 0 : host_baud(line_.get());
-  speeds_agree_ = host == 0 || host == pacer_.baud();
+    limit -= static_cast<std::size_t>(n);
+  }
+  return !usb_ || UsbGadget::is_taken(line_.get());
+}
+
+void SerialPort::blur() {
   if (speeds_agree_) return;
   for (auto& byte : heard_) byte = static_cast<std::uint8_t>(noise());
 }
 
-void SerialPort::pump(std::string_view said, Duration tick) {
+void SerialPort::look() {
+  ticks_since_look_ = 0;
+  if (!listens_) listening_ = hear(SIZE_MAX);
+  if (!listening_) return;
+  const int host = usb_ ? 0 : host_baud(line_.get());
+  speeds_agree_ = host == 0 || host == pacer_.baud();
+  if (!listens_) blur();
+}
+
+void SerialPort::listen(Duration tick) {
+  listens_ = true;
   heard_.clear();
+  if (!plugged()) return;
+  listening_ = hear(hears_.take(SIZE_MAX, tick));
+  blur();
+}
+
+void SerialPort::pump(std::string_view said, Duration tick) {
+  if (!listens_) heard_.clear();
   if (!plugged()) return;
   const bool lost_for_ever = !listening_ && !said.empty();
   if (++ticks_since_look_ >= kTicksBetweenLooks || lost_for_ever) look();

@@ -44,8 +44,11 @@ class SerialPort {
   /// Queues what the device says and sends one tick's worth; hears what was written to it. A line
   /// that nobody has open loses its bytes, as a real one does.
   void pump(std::string_view said, Duration tick);
-  /// What was written to the device, found by the last pump().
+  /// What was written to the device, found by the last pump() or listen().
   std::span<const std::uint8_t> heard() const { return heard_; }
+  /// Before pump(), each tick, for a device that is commanded: pump() hears only now and then. No
+  /// faster than the line carries it: what is more waits in the writer's queue.
+  void listen(Duration tick);
   /// The device's own speed.
   void set_baud(int baud);
   /// Pulls the plug: the reader's descriptor hangs up and the link is gone.
@@ -59,6 +62,8 @@ class SerialPort {
 
  private:
   link::UniqueFd linked_terminal();
+  bool hear(std::size_t limit);
+  void blur();
   void look();
   char noise();
 
@@ -66,8 +71,10 @@ class SerialPort {
   std::optional<UsbGadget> usb_;
   link::UniqueFd line_;  ///< the device's end
   BaudPacer pacer_;
+  BaudPacer hears_;
   std::string queue_;
   std::vector<std::uint8_t> heard_;
+  bool listens_ = false;  ///< each tick
   int ticks_since_look_ = 0;
   bool listening_ = false;
   bool speeds_agree_ = true;

@@ -88,11 +88,15 @@ Simulator::Simulator(const SimulatorSettings& settings)
   // Before the signals are blocked, which a child (`ip`) would inherit.
   for (const auto& bus : scenario.buses) buses_.push_back(make_port(bus, settings_));
   const std::filesystem::path folder(settings_.run_folder);
-  if (scenario.gnss) {
-    const auto& port = scenario.gnss->port;
-    gnss_.emplace(port.starts_with("usb:") ? port : (folder / port).string(), scenario.gnss->baud);
-  }
-  if (scenario.imu) imu_.emplace((folder / scenario.imu->port).string(), scenario.imu->baud);
+  const auto place = [&folder](const std::string& port) {
+    return port.starts_with("usb:") ? port : (folder / port).string();
+  };
+  for (const auto& drive : scenario.drives)
+    drive_lines_.push_back(
+        drive.serial ? std::make_unique<SerialPort>(place(drive.serial->port), drive.serial->baud)
+                     : nullptr);
+  if (scenario.gnss) gnss_.emplace(place(scenario.gnss->port), scenario.gnss->baud);
+  if (scenario.imu) imu_.emplace(place(scenario.imu->port), scenario.imu->baud);
   if (scenario.battery)
     battery_.emplace((folder / scenario.battery->port).string(), scenario.battery->baud,
                      scenario.battery->unit);
@@ -183,6 +187,7 @@ void Simulator::tick(Time now) {
   }
   if (relay_) robot_.set_relay(relay_->closed());
   exchange_can(now);
+  hear_drives(now);
   robot_.step(now);
   send_can(now);
   write_lines();
@@ -215,7 +220,17 @@ void Simulator::send_can(Time now) {
   }
 }
 
+void Simulator::hear_drives(Time now) {
+  for (std::size_t i = 0; i < drive_lines_.size(); ++i) {
+    if (!drive_lines_[i]) continue;
+    drive_lines_[i]->listen(kTick);
+    robot_.on_drive_bytes(i, drive_lines_[i]->heard(), now);
+  }
+}
+
 void Simulator::exchange_serial(Time now) {
+  for (std::size_t i = 0; i < drive_lines_.size(); ++i)
+    if (drive_lines_[i]) drive_lines_[i]->pump(robot_.drive_bytes(i), kTick);
   // What is written to a receiver does not concern this one.
   if (gnss_) gnss_->pump(robot_.gnss_bytes(), kTick);
   if (!imu_) return;
@@ -265,6 +280,11 @@ std::string Simulator::command(std::string_view text) {
     for (const std::string_view verb : {"plug", "unplug"})
       if (text.starts_with(device) && text.substr(device.size()) == verb)
         return command_plug(device.substr(0, device.size() - 1), verb);
+  std::string_view verb;
+  if (SerialPort* const line = drive_line(text, verb); line != nullptr) {
+    verb == "plug" ? line->plug() : line->unplug();
+    return "ok";
+  }
   constexpr std::string_view kBattery = "battery ";
   if (battery_ && text.starts_with(kBattery)) {
     const auto what = text.substr(kBattery.size());
@@ -307,6 +327,20 @@ std::string Simulator::command_lines(std::string_view verb) {
   return "ok";
 }
 
+/// The line that "drive NAME plug" or "drive NAME unplug" speaks of; nullptr: something else is
+/// said.
+SerialPort* Simulator::drive_line(std::string_view text, std::string_view& verb) {
+  constexpr std::string_view kDrive = "drive ";
+  const auto space = text.rfind(' ');
+  if (!text.starts_with(kDrive) || space < kDrive.size()) return nullptr;
+  verb = text.substr(space + 1);
+  if (verb != "plug" && verb != "unplug") return nullptr;
+  const auto name = text.substr(kDrive.size(), space - kDrive.size());
+  for (std::size_t i = 0; i < drive_lines_.size(); ++i)
+    if (robot_.scenario().drives[i].is_called(name)) return drive_lines_[i].get();
+  return nullptr;
+}
+
 std::string Simulator::command_plug(std::string_view device, std::string_view verb) {
   auto& port = device == "imu" ? imu_ : gnss_;
   if (!port) return "error: the scenario has no such device";
@@ -323,6 +357,8 @@ std::string Simulator::summary() const {
   std::uint64_t can_dropped = 0;
   for (const auto& bus : buses_) can_dropped += bus->dropped();
   std::array<char, 256> text{};
+  std::uint64_t serial_dropped = (gnss_ ? gnss_->dropped() : 0) + (imu_ ? imu_->dropped() : 0);
+  for (const auto& line : drive_lines_) serial_dropped += line ? line->dropped() : 0;
   const int n = std::snprintf(
       text.data(), text.size(),
       "%llu ticks (%llu left out), CAN frames %llu in, %llu out, %llu dropped, serial bytes "
@@ -330,8 +366,7 @@ std::string Simulator::summary() const {
       static_cast<unsigned long long>(ticks_), static_cast<unsigned long long>(left_out_),
       static_cast<unsigned long long>(frames_in_), static_cast<unsigned long long>(frames_out_),
       static_cast<unsigned long long>(can_dropped),
-      static_cast<unsigned long long>((gnss_ ? gnss_->dropped() : 0) +
-                                      (imu_ ? imu_->dropped() : 0)));
+      static_cast<unsigned long long>(serial_dropped));
   return {text.data(), static_cast<std::size_t>(n)};
 }
 

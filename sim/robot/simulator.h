@@ -50,11 +50,13 @@ class Simulator {
   void keep_records(Time now);
   void measure_clocks();
   void exchange_serial(Time now);
+  void hear_drives(Time now);
   std::string command(std::string_view text);
   std::string command_tap(std::string_view name);
   std::string command_can(std::string_view text);
   std::string command_lines(std::string_view verb);
   std::string command_plug(std::string_view device, std::string_view verb);
+  SerialPort* drive_line(std::string_view text, std::string_view& verb);
   void on_events(int timeout_ms);
 
   SimulatorSettings settings_;
@@ -63,6 +65,7 @@ class Simulator {
   link::UniqueFd timer_;
   link::UniqueFd signals_;
   std::vector<std::unique_ptr<CanPort>> buses_;
+  std::vector<std::unique_ptr<SerialPort>> drive_lines_;  // by drive; nullptr: it hangs on a bus
   std::optional<SerialPort> gnss_;
   std::optional<SerialPort> imu_;
   std::optional<BatteryPort> battery_;

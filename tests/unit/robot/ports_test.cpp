@@ -244,6 +244,26 @@ TEST_F(Ports, RefuseADeviceOnUsbThatIsNoneOrWhoseIdsAreIncomplete) {
     EXPECT_THROW(SerialPort(path, 9600), std::runtime_error);
 }
 
+TEST_F(Ports, HearWhatACommandedDeviceIsToldAtEachTickNoFasterThanItsLine) {
+  SerialPort port((folder / "base").string(), 9600);
+  auto line = open_line("base", 9600);
+  ASSERT_TRUE(line);
+  const std::array<std::uint8_t, 24> told{};  // 25 ms of this line
+  std::size_t taken = 0;
+  ASSERT_TRUE(line->write(told, taken));
+  std::size_t heard = 0;
+  for (int i = 0; i < 4; ++i) {
+    port.listen(kTick);
+    EXPECT_LE(port.heard().size(), 5U);
+    heard += port.heard().size();
+    port.pump(i == 0 ? "ok" : "", kTick);
+  }
+  EXPECT_EQ(heard, 19U);
+  port.listen(kTick);
+  EXPECT_EQ(heard + port.heard().size(), told.size());
+  EXPECT_EQ(received(*line), "ok");
+}
+
 TEST(BaudPacer, LetsBytesGoAtTheLinesPace) {
   BaudPacer pacer(115200);
   std::size_t waiting = 388;

@@ -72,7 +72,7 @@ class RobotTest : public testing::Test {
     scenario.origin_longitude_deg = 13;
     scenario.buses = {{"can0", CanKind::vcan}, {"can1", CanKind::vcan}};
     for (const auto* joint : {"front_left", "front_right", "rear_left", "rear_right"})
-      scenario.drives.push_back({joint, nullptr, 0, {}});
+      scenario.drives.emplace_back().joints = {joint};
     scenario.gnss.emplace();
     scenario.gnss->antenna_x_m = 1;
   }

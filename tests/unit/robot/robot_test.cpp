@@ -9,7 +9,7 @@ using testing::HasSubstr;
 using testing::StartsWith;
 
 TEST_F(RobotTest, RefusesAJointThatTheWorldDoesNotHave) {
-  scenario.drives[2].joint = "tail";
+  scenario.drives[2].joints = {"tail"};
   EXPECT_THROW(make(), std::runtime_error);
 }
 

@@ -88,6 +88,42 @@ TEST(Scenario, RefusesTwoDrivesOfOneJoint) {
       "drives[1].joint: 'a' has a drive already");
 }
 
+/// The message with which these members of a drive on can0 are refused.
+std::string drive_refusal(const std::string& members) {
+  return refusal(R"(, "can": {"can0": {"kind": "vcan"}}, "drives": [)" + members + "]");
+}
+
+TEST(Scenario, RefusesADriveWithAnotherNumberOfJointsThanItsDriverTurns) {
+  EXPECT_EQ(drive_refusal(R"({"joint": "a", "driver": "zlac8015d", "bus": "can0"})"),
+            "drives[0].joints: 'zlac8015d' turns 2, here are 1");
+  EXPECT_EQ(drive_refusal(R"({"joints": ["a", "b"], "driver": "odrive", "bus": "can0"})"),
+            "drives[0].joints: 'odrive' turns 1, here are 2");
+  EXPECT_EQ(drive_refusal(R"({"joint": "a", "joints": ["a"], "driver": "odrive", "bus": "can0"})"),
+            "drives[0].joints: say either 'joint' or 'joints'");
+  EXPECT_EQ(drive_refusal(R"({"joints": [], "driver": "odrive", "bus": "can0"})"),
+            "drives[0].joints: must be a list of texts");
+}
+
+TEST(Scenario, RefusesAJointOrANameThatAnotherDriveHas) {
+  const std::string pair =
+      R"({"joints": ["a", "b"], "name": "pair", "driver": "zlac8015d", "bus": "can0",
+          "options": {"node": 1}})";
+  const auto second = [&pair](const std::string& members) {
+    return drive_refusal(
+        pair + R"(, {"driver": "odrive", "bus": "can0", "options": {"node": 1}, )" + members + "}");
+  };
+  EXPECT_EQ(second(R"("joint": "b")"), "drives[1].joint: 'b' has a drive already");
+  EXPECT_EQ(second(R"("joint": "pair")"), "drives[1].joint: 'pair' has a drive already");
+  EXPECT_EQ(second(R"("joint": "c", "name": "a")"), "drives[1].name: 'a' is another drive's");
+  EXPECT_EQ(drive_refusal(R"({"joints": ["a", "a"], "driver": "zlac8015d", "bus": "can0"})"),
+            "drives[0].joints: 'a' stands there twice");
+}
+
+TEST(Scenario, RefusesADriveOnAnotherWireThanItsDrivers) {
+  EXPECT_EQ(drive_refusal(R"({"joint": "a", "driver": "odrive", "serial": {}})"),
+            "drives[0].serial: 'odrive' hangs on a CAN bus");
+}
+
 TEST(Scenario, RefusesALevelThatIsNone) {
   EXPECT_EQ(refusal(R"(, "lines": {"estop": "closed"})"),
             "lines.estop: must be the active level, low or high, or unwired");
@@ -150,6 +186,15 @@ TEST(Scenario, ChangesOneDriveOfItsRobotByTheJointsName) {
     {"joint": "right", "options": {"node": 2, "gear_ratio": 5}}]})"));
 }
 
+TEST(Scenario, ChangesADriveOfTwoJointsByAnyOfItsNames) {
+  for (const char* name : {"left", "right", "wheels"}) {
+    auto robot = nlohmann::json::parse(R"({"drives": [
+      {"name": "wheels", "joints": ["left", "right"], "options": {"node": 1}}]})");
+    change_document(robot, {{"drives", {{name, {{"options", {{"node", 3}}}}}}}});
+    EXPECT_EQ(robot["drives"][0]["options"]["node"], 3) << name;
+  }
+}
+
 TEST(Scenario, RefusesToChangeADriveThatIsNotThere) {
   auto robot = nlohmann::json::parse(R"({"drives": [{"joint": "left"}]})");
   try {
@@ -163,14 +208,17 @@ TEST(Scenario, RefusesToChangeADriveThatIsNotThere) {
 TEST(Scenario, ReadsAWholeRobotWithComments) {
   const auto scenario = parse_scenario(kPlain + R"(, // the buses
     "can": {"can0": {"kind": "slcan"}},
-    "drives": [{"joint": "front_left", "driver": "odrive", "bus": "can0", "options": {"node": 5}}],
+    "drives": [{"joint": "front_left", "driver": "odrive", "bus": "can0", "options": {"node": 5}},
+               {"joints": ["l", "r"], "driver": "zlac8015d", "bus": "can0"}],
     "gnss": {"baud": 38400, "antenna": {"z_m": 0.8, "heading_offset_deg": 90}},
     "imu": {"baud": 230400, "place": {"z_m": 0.2}, "options": {"mount_yaw_deg": -90},
             "twin": {"bias_sigma_dps": 1}},
     "player": {"anything": [1]}})",
                                        "");
   EXPECT_EQ(scenario.buses[0].kind, CanKind::slcan);
-  ASSERT_EQ(scenario.drives.size(), 1U);
+  ASSERT_EQ(scenario.drives.size(), 2U);
+  EXPECT_EQ(scenario.drives[1].joints, (std::vector<std::string>{"l", "r"}));
+  EXPECT_FALSE(scenario.drives[1].serial);
   EXPECT_EQ(scenario.drives[0].options.number("node"), 5);
   ASSERT_TRUE(scenario.gnss);
   EXPECT_EQ(scenario.gnss->baud, 38400);

@@ -1,0 +1,27 @@
+#include "sim/robot/device_reader.h"
+
+namespace drover::sim {
+
+const DriverEntry& find_twin(const JsonReader& reader, const std::string& name, IsTwin fits) {
+  std::string known;
+  for (const auto& entry : driver_registry()) {
+    if (!fits(entry)) continue;
+    if (entry.name == name) return entry;
+    known += (known.empty() ? "" : ", ") + std::string(entry.name);
+  }
+  reader.fail("driver", "no simulated '" + name +
+                            "' of this kind; there is: " + (known.empty() ? "none" : known));
+}
+
+void read_options(JsonReader& reader, const DriverEntry& entry, Options& options) {
+  reader.options("options", entry.options, options);
+  reader.options("twin", entry.twin_options, options);
+}
+
+int read_baud(JsonReader& reader, int otherwise) {
+  const double baud = reader.number("baud", otherwise);
+  if (!(baud >= 4800 && baud <= 4'000'000)) reader.fail("baud", "must be from 4800 to 4000000");
+  return static_cast<int>(baud);
+}
+
+}  // namespace drover::sim
