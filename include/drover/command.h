@@ -25,6 +25,8 @@ struct StartTask {
   const Path* path = nullptr;
   std::uint32_t target = 0;
   double speed_mps = 0;
+  /// A stop that was asked for after it is obeyed already: refused.
+  bool overtaken = false;
 };
 /// Always stops; success also when nothing runs.
 struct CancelTask {};

@@ -192,7 +192,9 @@ void Engine::Impl::command_axes(const Motion& motion, EngineOutput& out) {
 }
 
 void Engine::Impl::start_task(const RequestId& id, const StartTask& task, Time now) {
-  Reason why = hold.hindrance();
+  Reason why;
+  if (task.overtaken) why = "a stop came after it";
+  if (why.empty()) why = hold.hindrance();
   if (why.empty()) why = owners.hinders_task();
   if (why.empty() && health.report().stop.empty()) why = rest.turns_by_itself();
   const bool fit = check_robot(health.report(), estimator.has_origin()).empty();

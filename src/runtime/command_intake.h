@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
 
 #include "drover/command.h"
 #include "drover/spsc_ring.h"
@@ -17,10 +18,18 @@ struct QueuedCommand {
 };
 using CommandRing = SpscRing<QueuedCommand, 64>;
 
-/// The control thread's own requests are answered under this number: nobody waits for it.
-inline constexpr RequestId kStopRequest{RequestId::Source::internal, 0};
-constexpr bool is_stop_request(const RequestId& id) {
-  return id.source == kStopRequest.source && id.number == kStopRequest.number;
+inline constexpr std::uint64_t kStopMark = std::uint64_t{1} << 62U;  // fits a signed one, too
+
+/// The control thread's own requests are answered under a number that tells which stops are obeyed
+/// with it: so each is answered in its place among starts.
+constexpr RequestId stop_request(const StopCounts& obeyed) {
+  return {RequestId::Source::internal,
+          kStopMark | (obeyed.cancels & 0x3FFFFFFFU) << 32U | (obeyed.stops & 0xFFFFFFFFU)};
+}
+/// Nothing when the request was another one's.
+constexpr std::optional<StopCounts> obeyed_with(const RequestId& id) {
+  if (id.source != RequestId::Source::internal || (id.number & kStopMark) == 0) return std::nullopt;
+  return StopCounts{(id.number & ~kStopMark) >> 32U, id.number & 0xFFFFFFFFU};
 }
 
 class CommandIntake final {
@@ -32,9 +41,13 @@ class CommandIntake final {
     QueuedCommand queued;
     for (std::size_t i = 0; i < kMostEachCycle && ring.pop(queued); ++i) {
       stop(queued.before, now, obey);
+      // A start that waited here while a stop overtook it is none any more; what else begins a
+      // motion must not outlive that stop.
+      const bool overtaken = !queued.before.include(obeyed_);
+      auto* const start = std::get_if<StartTask>(&queued.command.body);
+      if (start != nullptr) start->overtaken = overtaken;
       obey(queued.command);
-      // A start that waited here while a stop overtook it must not outlive that stop.
-      if (!queued.before.include(obeyed_)) repeat(queued.before, now, obey);
+      if (overtaken && start == nullptr) repeat(queued.before, now, obey);
     }
     stop(requests.asked(), now, obey);
     requests.set_obeyed(obeyed_);
@@ -45,15 +58,18 @@ class CommandIntake final {
 
   template <class Obey>
   void stop(const StopCounts& asked, Time now, Obey& obey) {
-    if (asked.stops > obeyed_.stops) obey(Command{kStopRequest, now, EngageStop{}});
-    if (asked.cancels > obeyed_.cancels) obey(Command{kStopRequest, now, CancelTask{}});
+    const StopCounts before = obeyed_;
     obeyed_.stops = std::max(obeyed_.stops, asked.stops);
     obeyed_.cancels = std::max(obeyed_.cancels, asked.cancels);
+    const RequestId id = stop_request(obeyed_);
+    if (asked.stops > before.stops) obey(Command{id, now, EngageStop{}});
+    if (asked.cancels > before.cancels) obey(Command{id, now, CancelTask{}});
   }
   template <class Obey>
   void repeat(const StopCounts& before, Time now, Obey& obey) const {
-    if (obeyed_.stops > before.stops) obey(Command{kStopRequest, now, EngageStop{}});
-    if (obeyed_.cancels > before.cancels) obey(Command{kStopRequest, now, CancelTask{}});
+    const RequestId id = stop_request(obeyed_);
+    if (obeyed_.stops > before.stops) obey(Command{id, now, EngageStop{}});
+    if (obeyed_.cancels > before.cancels) obey(Command{id, now, CancelTask{}});
   }
 
   StopCounts obeyed_;

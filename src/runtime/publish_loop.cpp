@@ -184,7 +184,9 @@ void PublishLoop::run(const std::atomic<bool>& stop) {
           if (broker_) broker_->tick(now);
           tell_whether_stops_are_heard(now);
           send_unsent();
-          answer_stops(now);  // also when the ring of events was full
+          // Also when the ring of events was full; what comes in its place has had the time for it.
+          answer_stops(obeyed_stops_, now);
+          obeyed_stops_ = control_.stops.obeyed();
           publish_status(now);
           break;
         case kAimrt:
@@ -251,7 +253,11 @@ void PublishLoop::take_events() {
   while (control_.events.pop(event)) {
     const auto* accepted = std::get_if<CommandAccepted>(&event.body);
     // In the place where the engine answered, so that operators read answers in order.
-    if (accepted != nullptr && is_stop_request(accepted->id)) answer_stops(event.time);
+    const auto obeyed = accepted != nullptr ? obeyed_with(accepted->id) : std::nullopt;
+    if (obeyed) {
+      told_stops_ = *obeyed;
+      answer_stops(told_stops_, event.time);
+    }
     service_.on_event(event, actions_);
   }
 }

@@ -69,7 +69,7 @@ class PublishLoop final {
   void send_unsent();
   void send(const publish::PublishText& message, publish::Actions& actions);
   void deliver(const Command& command, publish::Actions& actions);
-  void answer_stops(Time now);
+  void answer_stops(const StopCounts& obeyed, Time now);
 
   const config::DroverConfig& config_;
   ControlExchange& control_;
@@ -98,6 +98,8 @@ class PublishLoop final {
   CliServer cli_;
   /// Stops that the control thread has yet to carry out, oldest first.
   std::deque<std::pair<StopCounts, Command>> asked_stops_;
+  StopCounts told_stops_;                                 ///< by the engine's events so far
+  StopCounts obeyed_stops_;                               ///< 0.1 s ago, whether told or not
   std::map<std::uint64_t, CliServer::ClientId> waiting_;  ///< request number → who asked
   std::uint64_t next_request_ = 1;
   link::UniqueFd epoll_;

@@ -28,6 +28,9 @@ bool begins_motion(const Command& command) {
 }  // namespace
 
 void PublishLoop::on_message(const MqttMessage& message) {
+  // What came before it is delivered first: a start must be judged while the stop behind it still
+  // counts as one that overtook it, and a stop be asked for before what comes next.
+  carry_out(actions_);
   const Time now = monotonic_now();
   publish::Arrival arrival{message.retain, broker_->late(now),
                            now.time_since_epoch() + wall_minus_monotonic()};
@@ -60,8 +63,6 @@ void PublishLoop::on_control(std::string_view payload, const publish::Arrival& a
     if (!parser_.busy() || publish::is_stop(request))
       return service_.on_parsed(payload, std::move(request), arrival, now, actions_);
   }
-  // A stop that came just before it is asked for now, so that only younger ones count against it.
-  carry_out(actions_);
   await_other_self();
   ParseJob job{std::string(payload), arrival, control_.stops.asked()};
   if (job.arrival.late.empty() && overtaken(now)) job.arrival.late = kOvertaken;
@@ -121,6 +122,7 @@ void PublishLoop::take_heard_stops(Time now) {
     carry_out(actions_);
     asked_.reset();
   }
+  answer_stops(told_stops_, now);  // those that were obeyed before they came to here
 }
 
 /// A broker may refuse the second connection and nobody would miss it.
@@ -174,8 +176,7 @@ void PublishLoop::deliver(const Command& command, publish::Actions& actions) {
   asked_stops_.pop_front();
 }
 
-void PublishLoop::answer_stops(Time now) {
-  const auto obeyed = control_.stops.obeyed();
+void PublishLoop::answer_stops(const StopCounts& obeyed, Time now) {
   while (!asked_stops_.empty() && obeyed.include(asked_stops_.front().first)) {
     service_.on_event({now, CommandAccepted{asked_stops_.front().second.id, {}}}, actions_);
     asked_stops_.pop_front();

@@ -110,6 +110,32 @@ TEST_F(Large, AStartThatACancelOvertookMovesNothing) {
   EXPECT_LT(fastest_mps, 0.02) << "by a start that a cancel came after";
 }
 
+/// Whatever is decided of each: nobody reads a start's success after that of the cancel behind it.
+TEST_F(Large, StartsAndCancelsThatComeAtOnceAreAnsweredInTheirOrder) {
+  ASSERT_NO_FATAL_FAILURE(start_all());
+  save_track("row", 3);
+  wait_until_believed();
+  for (int i = 0; i < 10; ++i) {
+    const auto before = client().heard().size();
+    for (int k = 0; k < 2; ++k) {
+      start_task("row", 5);
+      control(R"({"cmd_type":"task_control","cmd":"cancel_task"})");
+    }
+    const auto told = [&] {
+      std::string order;
+      for (const auto& one : client().feedback(before)) {
+        if (one.starts_with("start_task"))
+          order += one.starts_with("start_task_success") ? 'S' : 's';
+        if (one.starts_with("cancel_task_success")) order += 'C';
+      }
+      return order;
+    };
+    ASSERT_TRUE(wait_until([&] { return told().size() == 4; })) << i << ": " << told();
+    EXPECT_NE(told().back(), 'S') << i << ": " << told();
+    EXPECT_EQ(told().find("CCS"), std::string::npos) << i << ": " << told();
+  }
+}
+
 TEST_F(Large, AStartThatComesRightAfterACancelIsNotEndedByIt) {
   ASSERT_NO_FATAL_FAILURE(start_all());
   save_track("row", 3);

@@ -242,10 +242,13 @@ void get(JointTargetsRefused& refused, ByteReader& in) {
   refused.reason.assign(in.text());
 }
 
+/// Above the target in its number.
+constexpr std::uint64_t kOvertaken = std::uint64_t{1} << 32U;
+
 /// The path was recorded before, by the thread that made it.
 void put(const StartTask& start, ByteWriter& out) {
   out.number(start.path == nullptr ? 0 : start.path->number);
-  out.number(start.target);
+  out.number(start.target | (start.overtaken ? kOvertaken : 0));
   out.real(start.speed_mps);
 }
 void get(StartTask& start, const FindPath& find_path, ByteReader& in) {
@@ -254,7 +257,9 @@ void get(StartTask& start, const FindPath& find_path, ByteReader& in) {
     start.path = find_path(number);
     if (start.path == nullptr) in.fail();
   }
-  start.target = static_cast<std::uint32_t>(in.below(std::uint64_t{1} << 32U));
+  const auto target = in.below(2 * kOvertaken);
+  start.target = static_cast<std::uint32_t>(target % kOvertaken);
+  start.overtaken = target >= kOvertaken;
   start.speed_mps = in.real();
 }
 

@@ -23,6 +23,14 @@ TEST_F(AnEngine, IsAtZeroInTheCycleOfAnEstopAndStaysThereWhenItIsReleased) {
   rig.run_s(3);
   EXPECT_EQ(rig.said<NavigationStarted>().size(), 2U) << "only a new start moves it";
 }
+TEST_F(AnEngine, TakesAStartForNoneThatAStopCameAfter) {
+  rig.settle();
+  rig.command(StartTask{&path, 40, 0.5, true});
+  rig.run_s(1);
+  EXPECT_EQ(refusal(), "a stop came after it");
+  EXPECT_EQ(rig.said<PathReleased>().size(), 1U);
+  EXPECT_EQ(rig.fastest_command_radps(), 0);
+}
 TEST_F(AnEngine, SaysAfterAResetThatItWaitsForANewStart) {
   drive();
   rig.command(EngageStop{});

@@ -17,9 +17,11 @@ class CommandIntakeTest : public testing::Test {
   std::vector<std::string> cycle() {
     std::vector<std::string> obeyed;
     intake_.take(*ring_, stops_, Time{}, [&](const Command& command) {
-      obeyed.emplace_back(std::holds_alternative<StartTask>(command.body)    ? "start"
-                          : std::holds_alternative<CancelTask>(command.body) ? "cancel"
-                                                                             : "stop");
+      const auto* const start = std::get_if<StartTask>(&command.body);
+      obeyed.emplace_back(start != nullptr ? (start->overtaken ? "no start" : "start")
+                          : std::holds_alternative<FindHeading>(command.body) ? "search"
+                          : std::holds_alternative<CancelTask>(command.body)  ? "cancel"
+                                                                              : "stop");
     });
     return obeyed;
   }
@@ -51,12 +53,36 @@ TEST_F(CommandIntakeTest, TakesManyStopsOfOneCycleAsOne) {
   EXPECT_TRUE(stops_.obeyed().include(stops_.asked()));
 }
 
-TEST_F(CommandIntakeTest, StopsAStartAgainThatAStopHasOvertaken) {
+TEST_F(CommandIntakeTest, TakesAStartThatAStopHasOvertakenForNone) {
   const auto before = stops_.asked();
   stops_.ask_cancel();
   EXPECT_THAT(cycle(), ElementsAre("cancel"));
   ASSERT_TRUE(ring_->push(QueuedCommand{{{}, {}, StartTask{}}, before}));
-  EXPECT_THAT(cycle(), ElementsAre("start", "cancel"));
+  ASSERT_TRUE(start());
+  EXPECT_THAT(cycle(), ElementsAre("no start", "start"));
+}
+
+TEST_F(CommandIntakeTest, StopsAnotherMotionAgainThatAStopHasOvertaken) {
+  const auto before = stops_.asked();
+  stops_.ask_cancel();
+  EXPECT_THAT(cycle(), ElementsAre("cancel"));
+  ASSERT_TRUE(ring_->push(QueuedCommand{{{}, {}, FindHeading{}}, before}));
+  EXPECT_THAT(cycle(), ElementsAre("search", "cancel"));
+}
+
+TEST_F(CommandIntakeTest, TellsWithEachStopWhichOnesAreObeyedWithIt) {
+  stops_.ask_stop();
+  const auto first = stops_.ask_cancel();
+  ASSERT_TRUE(start());
+  const auto second = stops_.ask_cancel();
+  std::vector<std::optional<StopCounts>> obeyed;
+  intake_.take(*ring_, stops_, Time{},
+               [&](const Command& command) { obeyed.push_back(obeyed_with(command.id)); });
+  ASSERT_EQ(obeyed.size(), 4U) << "stop, cancel, start, cancel";
+  EXPECT_TRUE(obeyed[1]->include(first));
+  EXPECT_FALSE(obeyed[1]->include(second)) << "or it would be answered before the start";
+  EXPECT_FALSE(obeyed[2]) << "a start answers no stop";
+  EXPECT_TRUE(obeyed[3]->include(second));
 }
 
 TEST_F(CommandIntakeTest, LosesNoStopThatAnyThreadAsksFor) {

@@ -113,7 +113,8 @@ TEST(Replay, KnowsAPathByItsNumber) {
   path.number = 7;
   path.name = "row";
   path.points = {{0, 0}, {5, 0}};
-  run.command(StartTask{&path, 1, 0.5});  // refused, and given back: there is no position
+  run.command(StartTask{&path, 1, 0.5, true});  // a stop came after it
+  run.command(StartTask{&path, 1, 0.5});        // refused, and given back: there is no position
   run.cycle();
   const auto loaded = load_robot();
   Gateway gateway(loaded.config);
