@@ -131,6 +131,11 @@ class Actuator {
   /// The velocity that this message asks of a channel's joint, rad/s; absent when it asks for none.
   /// For the gate, which lets a ramp down to zero pass where it lets no other motion pass.
   virtual double setpoint_radps(const Message&, std::size_t /*channel*/) const { return kAbsent; }
+  /// The same of a channel that takes a twist, as it stands on the wire. A driver rounds towards
+  /// rest: what asks for more than was measured is no ramp.
+  virtual Twist setpoint_twist(const Message&, std::size_t /*channel*/) const {
+    return {kAbsent, kAbsent};
+  }
   /// The most that it sends in one cycle, reads with it: what is more would grow old in a queue.
   virtual std::size_t messages_per_cycle() const { return 2; }
   virtual StopRecipe stop_recipe() const = 0;

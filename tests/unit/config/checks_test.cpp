@@ -8,7 +8,10 @@
 namespace drover::config {
 namespace {
 
+using testing::AllOf;
+using testing::EndsWith;
 using testing::HasSubstr;
+using testing::StartsWith;
 
 TEST(ConfigurationChecks, RefuseTwoDevicesWithOneAddress) {
   EXPECT_EQ(
@@ -172,10 +175,12 @@ TEST(ConfigurationChecks, FindThePlaceOfANameWithADot) {
 }
 
 TEST(ConfigurationChecks, RefuseAChoiceThatDoesNotExist) {
-  EXPECT_EQ(problems(with("\"driver\": \"odrive\", \"link\": \"can0\", \"options\": {\"node\": 2}",
-                          "\"driver\": \"odriv\", \"link\": \"can0\", \"options\": {\"node\": 2}")),
-            "f:6:25: devices.right.driver: \"odriv\" is not one of: odrive, gpio_line, nmea0183, "
-            "modbus_bms, witmotion, zlac8015d (did you mean \"odrive\"?)\n");
+  EXPECT_THAT(
+      problems(with("\"driver\": \"odrive\", \"link\": \"can0\", \"options\": {\"node\": 2}",
+                    "\"driver\": \"odriv\", \"link\": \"can0\", \"options\": {\"node\": 2}")),
+      AllOf(
+          StartsWith("f:6:25: devices.right.driver: \"odriv\" is not one of: odrive, gpio_line, "),
+          EndsWith(" (did you mean \"odrive\"?)\n")));
   EXPECT_THAT(problems(with("\"node\": 2", "\"node\": 2, \"firmware\": \"0.5\"")),
               HasSubstr("devices.right.options.firmware: \"0.5\" is not one of: 0.6, 0.5.6"));
 }

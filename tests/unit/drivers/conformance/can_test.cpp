@@ -1,4 +1,5 @@
-// What every CAN drive must do, whoever made it.
+// What every CAN drive that is told velocities must do, whoever made it, and what everything on CAN
+// that moves must.
 #include <gtest/gtest.h>
 
 #include "support/describe.h"
@@ -18,6 +19,9 @@ class CanConformance : public ::testing::TestWithParam<Subject> {
   }
 };
 
+/// Whatever it is told.
+class CanWire : public CanConformance {};
+
 constexpr auto kRun = AxisRequest::run;
 constexpr auto kRest = AxisRequest::rest;
 
@@ -33,7 +37,7 @@ TEST_P(CanConformance, SendsNothingToANodeThatWasNeverHeard) {
   expect_decent(bench);
 }
 
-TEST_P(CanConformance, NamesTheChannelsThatItsEntryNames) {
+TEST_P(CanWire, NamesTheChannelsThatItsEntryNames) {
   CanBench bench(GetParam());
   const auto made = bench.actuator->channels();
   const auto named = GetParam().entry->channels;
@@ -188,7 +192,7 @@ TEST_P(CanConformance, SaysHowItStopsAndTheRecipeStopsIt) {
   }
 }
 
-TEST_P(CanConformance, IgnoresItsFramesUnderAForeignFlag) {
+TEST_P(CanWire, IgnoresItsFramesUnderAForeignFlag) {
   CanBench bench(GetParam());
   for (CanFrame frame : golden_frames(*GetParam().entry)) {
     for (int i = 0; i < 3; ++i) {
@@ -214,7 +218,7 @@ bool listens_to(const FrameFace& frames, const CanFrame& frame) {
 }
 
 /// Else nobody would notice who else commands it.
-TEST_P(CanConformance, ListensToTheFramesThatItIsCommandedBy) {
+TEST_P(CanWire, ListensToTheFramesThatItIsCommandedBy) {
   CanBench bench(GetParam());
   for (const FrameRule& rule : bench.actuator->rules()) {
     CanFrame frame;
@@ -224,7 +228,7 @@ TEST_P(CanConformance, ListensToTheFramesThatItIsCommandedBy) {
   }
 }
 
-TEST_P(CanConformance, LosesNothingByHearingOnlyWhatItListensTo) {
+TEST_P(CanWire, LosesNothingByHearingOnlyWhatItListensTo) {
   const auto like = golden_frames(*GetParam().entry);
   std::mt19937 random(11);
   CanBench bench(GetParam());
@@ -242,7 +246,7 @@ TEST_P(CanConformance, LosesNothingByHearingOnlyWhatItListensTo) {
   EXPECT_EQ(after.bad, before.bad);
 }
 
-TEST_P(CanConformance, SurvivesEveryTruncation) {
+TEST_P(CanWire, SurvivesEveryTruncation) {
   CanBench bench(GetParam());
   for (CanFrame frame : golden_frames(*GetParam().entry)) {
     for (std::uint8_t len = 0; len <= frame.len; ++len) {
@@ -255,7 +259,7 @@ TEST_P(CanConformance, SurvivesEveryTruncation) {
   expect_decent(bench);
 }
 
-TEST_P(CanConformance, SurvivesAHundredThousandRandomFrames) {
+TEST_P(CanWire, SurvivesAHundredThousandRandomFrames) {
   const auto like = golden_frames(*GetParam().entry);
   std::mt19937 random(20250101);
   CanBench bench(GetParam());
@@ -331,8 +335,13 @@ TEST_P(CanConformance, GivesTheSameForTheSame) {
   EXPECT_EQ(texts[0], texts[1]);
 }
 
-INSTANTIATE_TEST_SUITE_P(Registry, CanConformance, ::testing::ValuesIn(subjects(&Made::actuator)),
-                         label_of);
+std::vector<Subject> movers() {
+  return subjects_with_twin<MakeCanTwin>(&Made::actuator);
+}
+
+INSTANTIATE_TEST_SUITE_P(Registry, CanConformance,
+                         ::testing::ValuesIn(told(ChannelMode::velocity, movers())), label_of);
+INSTANTIATE_TEST_SUITE_P(Registry, CanWire, ::testing::ValuesIn(movers()), label_of);
 
 }  // namespace
 }  // namespace drover::test

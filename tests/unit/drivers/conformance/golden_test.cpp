@@ -92,7 +92,6 @@ TEST(Registry, HasNoTwoDriversOfOneNameAndFindsEach) {
   EXPECT_EQ(find_driver("no such driver"), nullptr);
 }
 
-/// What moves something so far does it by frames.
 TEST(Registry, MakesOfEachEntryADeviceWithOneFaceForItsWire) {
   for (const DriverEntry& entry : driver_registry()) {
     const int faces = has_face(entry, &Made::frames) + has_face(entry, &Made::bytes) +

@@ -97,6 +97,19 @@ std::vector<Subject> subjects_with_twin(Face Made::*face) {
   return all;
 }
 
+/// Those that are told `mode`.
+inline std::vector<Subject> told(ChannelMode mode, std::vector<Subject> all) {
+  std::erase_if(all, [&](const Subject& subject) {
+    return subject.entry->channels.empty() || subject.entry->channels[0].mode != mode;
+  });
+  return all;
+}
+
+/// What its twin turns.
+inline std::size_t shafts_of(const DriverEntry& entry) {
+  return entry.twin_shafts != 0 ? entry.twin_shafts : entry.channels.size();
+}
+
 inline std::string label_of(const ::testing::TestParamInfo<Subject>& info) {
   return info.param.label;
 }
@@ -119,7 +132,7 @@ class CanBench {
         actuator(made.actuator),
         twin(std::get<MakeCanTwin>(subject.entry->make_twin)(subject.options)),
         shaft(shafts[0]) {
-    shafts.resize(actuator->channels().size());
+    shafts.resize(shafts_of(*subject.entry));
     device->on_link_up(now);
   }
 

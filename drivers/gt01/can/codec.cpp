@@ -1,4 +1,4 @@
-#include "drivers/gt01/can_codec.h"
+#include "drivers/gt01/can/codec.h"
 
 #include <algorithm>
 #include <initializer_list>
@@ -18,6 +18,12 @@ constexpr std::uint8_t kVersion = 0x31;
 
 double thousandth(std::span<const std::uint8_t> bytes, std::size_t at) {
   return load_le<std::int16_t>(bytes, at) / 1000.0;
+}
+/// In the table's layout a speed whose low byte is the head reads as another command: a millimetre
+/// a second less.
+std::int16_t unmistakable(std::int16_t speed) {
+  const bool mistaken = (static_cast<std::uint16_t>(speed) & 0xFFU) == kHead;
+  return static_cast<std::int16_t>(mistaken ? speed - (speed > 0 ? 1 : -1) : speed);
 }
 double tenth(std::span<const std::uint8_t> bytes, std::size_t at) {
   return load_le<std::int16_t>(bytes, at) / 10.0;
@@ -77,7 +83,8 @@ CanFrame motion(const Twist& twist, TwistLayout layout) {
   const bool head = layout == TwistLayout::example;
   CanFrame frame = head ? command({kHead, kTwist}, 8) : command({}, 8);
   const std::size_t at = head ? 2 : 0;
-  store_le(std::span<std::uint8_t>(frame.data), at, thousandths(twist.vx_mps));
+  const std::int16_t speed = thousandths(twist.vx_mps);
+  store_le(std::span<std::uint8_t>(frame.data), at, head ? speed : unmistakable(speed));
   store_le(std::span<std::uint8_t>(frame.data), at + 2, thousandths(twist.wz_radps));
   return frame;
 }
@@ -94,7 +101,7 @@ std::optional<Twist> asked_twist(const CanFrame& frame, TwistLayout layout) {
   if (!is_plain(frame) || frame.id != kCommandId || frame.len != 8) return std::nullopt;
   const std::span<const std::uint8_t> data(frame.data.data(), frame.len);
   const bool head = layout == TwistLayout::example;
-  if (head && (data[0] != kHead || data[1] != kTwist)) return std::nullopt;
+  if (head ? data[0] != kHead || data[1] != kTwist : data[0] == kHead) return std::nullopt;
   const std::size_t at = head ? 2 : 0;
   return Twist{thousandth(data, at), thousandth(data, at + 2)};
 }

@@ -1,4 +1,4 @@
-#include "drivers/gt01/serial_codec.h"
+#include "drivers/gt01/serial/codec.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "drivers/gt01/framer.h"
+#include "drivers/gt01/serial/framer.h"
 
 namespace drover::gt01::serial {
 namespace {
@@ -121,9 +121,11 @@ TEST(Gt01Serial, FindsEveryPacketInAnyChunksBetweenNoise) {
       const std::size_t size = std::min<std::size_t>(1 + random() % 40, stream.size() - at);
       framer.push(
           {stream.data() + at, size},
-          [&](const Report& report) {
-            uploads += std::holds_alternative<Upload>(report) ? 1 : 0;
-            chassis += std::holds_alternative<Chassis>(report) ? 1 : 0;
+          [&](std::span<const std::uint8_t> packet) {
+            const auto report = decode(packet);
+            ASSERT_TRUE(report);
+            uploads += std::holds_alternative<Upload>(*report) ? 1 : 0;
+            chassis += std::holds_alternative<Chassis>(*report) ? 1 : 0;
           },
           [] {});
       at += size;
@@ -140,12 +142,12 @@ TEST(Gt01Serial, StandsAnyBytes) {
   for (auto& byte : bytes) byte = random() % 3 == 0 ? 0xED : static_cast<std::uint8_t>(random());
   std::size_t dropped = 0;
   framer.push(
-      bytes, [](const Report&) {}, [&] { ++dropped; });
+      bytes, [](std::span<const std::uint8_t>) {}, [&] { ++dropped; });
   EXPECT_GT(dropped, 0U);
   framer.reset();
   int found = 0;
   framer.push(
-      kChassis, [&](const Report&) { ++found; }, [] {});
+      kChassis, [&](std::span<const std::uint8_t>) { ++found; }, [] {});
   EXPECT_EQ(found, 1);
 }
 

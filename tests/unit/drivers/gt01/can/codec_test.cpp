@@ -1,7 +1,8 @@
-#include "drivers/gt01/can_codec.h"
+#include "drivers/gt01/can/codec.h"
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 #include <random>
 #include <string>
@@ -47,13 +48,36 @@ TEST(Gt01Can, WritesTheSoftwaresEmergencyStopAndItsEnd) {
 
 TEST(Gt01Can, ReadsBackWhatItAsks) {
   for (const auto layout : {TwistLayout::example, TwistLayout::table}) {
-    const auto asked = asked_twist(motion({0.257, -0.5}, layout), layout);
+    const auto asked = asked_twist(motion({0.255, -0.5}, layout), layout);
     ASSERT_TRUE(asked);
-    EXPECT_DOUBLE_EQ(asked->vx_mps, 0.257);
+    EXPECT_DOUBLE_EQ(asked->vx_mps, 0.255);
     EXPECT_DOUBLE_EQ(asked->wz_radps, -0.5);
   }
   EXPECT_FALSE(asked_twist(estop(false)));
   EXPECT_FALSE(asked_twist(frame(1, {0x01, 0x64, 0, 0xC8, 0, 0, 0}))) << "wheel speeds";
+}
+
+/// A speed whose low byte is 01 would be "emergency stop", "docking", or who knows what.
+TEST(Gt01Can, SaysInTheTablesLayoutNoSpeedThatReadsAsAnotherCommand) {
+  for (int mmps = -2000; mmps <= 2000; ++mmps) {
+    const CanFrame said = motion({mmps / 1000.0, 0.015}, TwistLayout::table);
+    EXPECT_NE(said.data[0], 0x01) << mmps;
+    const auto asked = asked_twist(said, TwistLayout::table);
+    ASSERT_TRUE(asked) << mmps;
+    EXPECT_LE(std::abs(asked->vx_mps), std::abs(mmps / 1000.0));
+    EXPECT_NEAR(asked->vx_mps, mmps / 1000.0, 0.0011);
+  }
+  EXPECT_FALSE(asked_twist(estop(true), TwistLayout::table));
+  EXPECT_FALSE(asked_twist(frame(1, {0x01, 0x0F, 0, 0, 0, 0, 0, 0}), TwistLayout::table));
+}
+
+TEST(Gt01Can, AsksForNoMoreThanItIsTold) {
+  for (const double speed_mps : {0.0129, -0.0129, 0.5706, 0.0009}) {
+    const auto asked = asked_twist(motion({speed_mps, speed_mps}));
+    EXPECT_LE(std::abs(asked->vx_mps), std::abs(speed_mps));
+    EXPECT_LE(std::abs(asked->wz_radps), std::abs(speed_mps));
+  }
+  EXPECT_DOUBLE_EQ(asked_twist(motion({0.57, 0}))->vx_mps, 0.57);
 }
 
 TEST(Gt01Can, AsksForRestWhereItIsGivenNoNumberAndForTheMostWhereForTooMuch) {

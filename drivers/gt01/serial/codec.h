@@ -12,7 +12,7 @@
 #include <span>
 #include <variant>
 
-#include "drover/fixed_vector.h"
+#include "drover/message.h"
 #include "drover/twist.h"
 
 namespace drover::gt01::serial {
@@ -22,8 +22,8 @@ inline constexpr std::uint8_t kTail[2] = {0xBD, 0xBC};
 /// What stands before a packet's data, and behind it.
 inline constexpr std::size_t kBeforeData = 6;
 inline constexpr std::size_t kAfterData = 4;
-inline constexpr std::size_t kMaxPacket = 64;
-using Packet = FixedVector<std::uint8_t, kMaxPacket>;
+/// No packet of the documents is longer than half of it.
+inline constexpr std::size_t kLongest = 64;
 
 namespace id {
 inline constexpr std::uint8_t kUploadSwitch = 0x01;  ///< turns the upload off: never to be sent
@@ -82,8 +82,13 @@ std::uint16_t checksum(std::span<const std::uint8_t> bytes);
 std::size_t packet_size(std::span<const std::uint8_t> begin);
 /// Absent unless it is one whole packet with its head, tail, sum, and data as long as its id says.
 std::optional<Report> decode(std::span<const std::uint8_t> packet);
+/// One whole packet with its head, tail and sum.
+bool is_whole(std::span<const std::uint8_t> packet);
 
-/// Drive so. Beyond what a packet can say (32.767 m/s) it says the most; what is no number is rest.
+/// A whole packet of this id; `data` of at most kLongest - kBeforeData - kAfterData bytes.
+Packet compose(std::uint16_t sequence, std::uint8_t id, std::span<const std::uint8_t> data);
+/// Drive so: the speed in whole mm/s, never more than asked. Beyond what a packet can say
+/// (32.767 m/s) it says the most; what is no number is rest.
 Packet motion(std::uint16_t sequence, const Twist& twist);
 /// The software's own emergency stop; `on` false ends it.
 Packet estop(std::uint16_t sequence, bool on);

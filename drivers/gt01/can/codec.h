@@ -81,7 +81,8 @@ const char* motor_fault(unsigned bit);
 /// the table's layout a speed whose low byte is 01 reads as another command.
 enum class TwistLayout : std::uint8_t { example, table };
 
-/// Drive so. Beyond what a frame can say (32.767 m/s) it says the most; what is no number is rest.
+/// Drive so: in whole thousandths, never more than asked. Beyond what a frame can say (32.767 m/s)
+/// it says the most; what is no number is rest.
 CanFrame motion(const Twist& twist, TwistLayout layout = TwistLayout::example);
 /// The software's own emergency stop; `on` false ends it.
 CanFrame estop(bool on);

@@ -1,4 +1,4 @@
-#include "drivers/gt01/framer.h"
+#include "drivers/gt01/serial/framer.h"
 
 #include <algorithm>
 
@@ -19,9 +19,11 @@ Framer::Look Framer::examine() {
   const std::span<const std::uint8_t> all(buffer_.data(), size_);
   const std::size_t size = packet_size(all);
   if (size != 0 && size_ < size) return Look::wait;
-  report_ = size == 0 ? std::nullopt : decode(all.first(size));
-  drop(report_ ? size : 1);
-  return report_ ? Look::packet : Look::bad;
+  const bool whole = size != 0 && is_whole(all.first(size));
+  packet_.clear();
+  for (std::size_t i = 0; whole && i < size; ++i) (void)packet_.push_back(buffer_[i]);
+  drop(whole ? size : 1);
+  return whole ? Look::packet : Look::bad;
 }
 
 }  // namespace drover::gt01::serial

@@ -1,4 +1,4 @@
-#include "drivers/gt01/serial_codec.h"
+#include "drivers/gt01/serial/codec.h"
 
 #include <algorithm>
 #include <bit>
@@ -21,24 +21,9 @@ double metres(std::int16_t millimetres) {
   return millimetres / 1000.0;
 }
 
-Packet packet(std::uint16_t sequence, std::uint8_t id, std::span<const std::uint8_t> data) {
-  Packet out;
-  out.resize(kBeforeData + data.size() + kAfterData);
-  std::span<std::uint8_t> bytes = out;
-  std::copy(std::begin(kHead), std::end(kHead), bytes.begin());
-  store_le(bytes, 2, sequence);
-  bytes[4] = id;
-  bytes[5] = static_cast<std::uint8_t>(bytes.size());
-  std::copy(data.begin(), data.end(), bytes.begin() + kBeforeData);
-  const std::size_t end = kBeforeData + data.size();
-  store_le(bytes, end, checksum(bytes.first(end)));
-  std::copy(std::begin(kTail), std::end(kTail), bytes.begin() + end + 2);
-  return out;
-}
-
 /// Its data; absent when it is no whole packet.
 std::optional<std::span<const std::uint8_t>> data_of(std::span<const std::uint8_t> packet) {
-  if (packet.size() < kBeforeData + kAfterData || packet.size() > kMaxPacket) return std::nullopt;
+  if (packet.size() < kBeforeData + kAfterData || packet.size() > kLongest) return std::nullopt;
   if (packet_size(packet) != packet.size()) return std::nullopt;
   const std::size_t end = packet.size() - kAfterData;
   if (!std::equal(std::begin(kTail), std::end(kTail), packet.end() - 2)) return std::nullopt;
@@ -79,7 +64,11 @@ std::size_t packet_size(std::span<const std::uint8_t> begin) {
   if (begin.size() < kBeforeData || begin[0] != kHead[0] || begin[1] != kHead[1]) return 0;
   if (begin[4] == id::kChassis) return kBeforeData + kChassisData + kAfterData;
   const std::size_t size = begin[5];
-  return size < kBeforeData + kAfterData || size > kMaxPacket ? 0 : size;
+  return size < kBeforeData + kAfterData || size > kLongest ? 0 : size;
+}
+
+bool is_whole(std::span<const std::uint8_t> packet) {
+  return data_of(packet).has_value();
 }
 
 std::optional<Report> decode(std::span<const std::uint8_t> packet) {
@@ -92,19 +81,34 @@ std::optional<Report> decode(std::span<const std::uint8_t> packet) {
   }
 }
 
+Packet compose(std::uint16_t sequence, std::uint8_t id, std::span<const std::uint8_t> data) {
+  Packet out;
+  out.resize(kBeforeData + data.size() + kAfterData);
+  std::span<std::uint8_t> bytes = out;
+  std::copy(std::begin(kHead), std::end(kHead), bytes.begin());
+  store_le(bytes, 2, sequence);
+  bytes[4] = id;
+  bytes[5] = static_cast<std::uint8_t>(bytes.size());
+  std::copy(data.begin(), data.end(), bytes.begin() + kBeforeData);
+  const std::size_t end = kBeforeData + data.size();
+  store_le(bytes, end, checksum(bytes.first(end)));
+  std::copy(std::begin(kTail), std::end(kTail), bytes.begin() + end + 2);
+  return out;
+}
+
 Packet motion(std::uint16_t sequence, const Twist& twist) {
   std::array<std::uint8_t, kMotionData> data{};
   store_le(data, 0, kTwistMode);
   store_le(data, 2, thousandths(twist.vx_mps));
   const auto turn = std::isfinite(twist.wz_radps) ? static_cast<float>(twist.wz_radps) : 0.0F;
   store_le(data, 4, std::bit_cast<std::uint32_t>(turn));
-  return packet(sequence, id::kMotion, data);
+  return compose(sequence, id::kMotion, data);
 }
 
 Packet estop(std::uint16_t sequence, bool on) {
   std::array<std::uint8_t, 2> data{};
   store_le<std::uint16_t>(data, 0, on ? 1 : 0);
-  return packet(sequence, id::kEstop, data);
+  return compose(sequence, id::kEstop, data);
 }
 
 std::optional<Twist> asked_twist(std::span<const std::uint8_t> packet) {

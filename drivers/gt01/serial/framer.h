@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <span>
 
-#include "drivers/gt01/serial_codec.h"
+#include "drivers/gt01/serial/codec.h"
 
 namespace drover::gt01::serial {
 
@@ -13,8 +13,8 @@ namespace drover::gt01::serial {
 /// no more: the next packet may begin inside them.
 class Framer final {
  public:
-  /// Calls `found(report)` for each packet that ends in these bytes, `dropped()` for what began as
-  /// one and is none.
+  /// Calls `found(packet)` for each whole packet that ends in these bytes, `dropped()` for what
+  /// began as one and is none.
   template <class Found, class Dropped>
   void push(std::span<const std::uint8_t> bytes, Found found, Dropped dropped) {
     for (const std::uint8_t byte : bytes) {
@@ -23,7 +23,7 @@ class Framer final {
         const Look look = examine();
         if (look == Look::wait) break;
         if (look == Look::packet)
-          found(*report_);
+          found(std::span<const std::uint8_t>(packet_));
         else if (look == Look::bad)
           dropped();
       }
@@ -37,9 +37,9 @@ class Framer final {
   Look examine();
   void drop(std::size_t count);
 
-  std::array<std::uint8_t, kMaxPacket> buffer_{};
+  std::array<std::uint8_t, kLongest> buffer_{};
   std::size_t size_ = 0;
-  std::optional<Report> report_;
+  FixedVector<std::uint8_t, kLongest> packet_;
 };
 
 }  // namespace drover::gt01::serial

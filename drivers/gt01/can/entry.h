@@ -1,0 +1,10 @@
+// The CAN chassis' line for the registry.
+#pragma once
+
+#include "drover/registry.h"
+
+namespace drover {
+
+extern const DriverEntry kGt01CanEntry;
+
+}  // namespace drover

@@ -1,0 +1,174 @@
+// What is a chassis' own on either wire, beside what is asked of everything that takes a twist.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "drivers/gt01/can/codec.h"
+#include "drivers/gt01/serial/codec.h"
+#include "unit/drivers/conformance/twist_harness.h"
+
+namespace drover::gt01 {
+namespace {
+
+using std::chrono::milliseconds;
+using ::testing::HasSubstr;
+
+constexpr auto kRun = AxisRequest::run;
+constexpr auto kRest = AxisRequest::rest;
+
+class AChassis : public ::testing::TestWithParam<const char*> {
+ protected:
+  static test::Subject subject() {
+    const DriverEntry* const entry = find_driver(GetParam());
+    return {entry, test::example_options(*entry), GetParam()};
+  }
+  bool on_can() const { return bench.can != nullptr; }
+  std::string reason() const { return std::string(bench.status.reason.view()); }
+  void drive() {
+    bench.run(milliseconds(1500), kRest);
+    bench.run(milliseconds(2000), kRun, {0.5, 0});
+    ASSERT_NEAR(bench.motion.twist.vx_mps, 0.5, 0.04);
+  }
+  void expect_told_nothing_that_moves() {
+    bench.sent.clear();
+    bench.run(milliseconds(500), kRun, {0.5, 0});
+    for (const auto& one : bench.sent)
+      EXPECT_EQ(bench.effect_of(one), FrameEffect::stop) << test::text_of(one);
+  }
+
+  test::TwistBench bench{subject()};
+};
+
+TEST_P(AChassis, IsCommandedNoMoreThanFiftyTimesASecond) {
+  drive();
+  bench.sent.clear();
+  bench.run(milliseconds(1000), kRun, {0.5, 0});
+  EXPECT_NEAR(static_cast<double>(bench.sent.size()), 50, 1);
+}
+
+TEST_P(AChassis, StandsAfterAStopOfItsOwnUntilANewRequest) {
+  for (const auto& [fault, words] : {std::pair{"estop", "emergency stop button"},
+                                     {"soft_estop", "by software"},
+                                     {"bumper", "bumper was touched"}}) {
+    SCOPED_TRACE(fault);
+    bench.set_fault("");
+    bench.run(milliseconds(1500), kRest);
+    drive();
+    bench.set_fault(fault);
+    bench.run(milliseconds(100), kRun, {0.5, 0});
+    EXPECT_EQ(bench.status.state, AxisState::fault);
+    EXPECT_THAT(reason(), HasSubstr(words));
+    expect_told_nothing_that_moves();
+    bench.set_fault("");
+    bench.run(milliseconds(3000), kRun, {0.5, 0});
+    EXPECT_EQ(bench.status.state, AxisState::fault) << "whoever asked has not asked anew";
+    EXPECT_LT(bench.fastest_radps(), 0.05);
+  }
+}
+
+TEST_P(AChassis, IsGivenUpWhenItsRemoteControlTakesItOver) {
+  drive();
+  bench.set_fault("remote");
+  bench.run(milliseconds(1500), kRun, {0.5, 0});
+  EXPECT_EQ(bench.status.state, AxisState::fault);
+  EXPECT_THAT(reason(), HasSubstr("the remote control has"));
+  expect_told_nothing_that_moves();
+  bench.set_fault("");
+  bench.run(milliseconds(1000), kRun, {0.5, 0});
+  EXPECT_LT(bench.fastest_radps(), 0.05) << "given back it remembers no twist";
+}
+
+TEST_P(AChassis, IsNotInCommandWhenItIsToldToMoveAndStands) {
+  bench.run(milliseconds(1500), kRest);
+  bench.set_fault("deaf");
+  bench.run(milliseconds(1200), kRun, {0.5, 0});
+  EXPECT_EQ(bench.status.state, AxisState::fault);
+  EXPECT_THAT(reason(),
+              HasSubstr(on_can() ? "does not let the host command it" : "not in command"));
+  expect_told_nothing_that_moves();
+}
+
+TEST_P(AChassis, NamesWhatIsWrongWithItsDrives) {
+  bench.run(milliseconds(1500), kRest);
+  bench.set_fault("over_current");
+  bench.run(milliseconds(200), kRest);
+  EXPECT_EQ(bench.status.state, AxisState::fault);
+  EXPECT_THAT(reason(), HasSubstr(on_can() ? "left motor: overcurrent" : "front left drive"));
+}
+
+/// Whatever else the wire knows: another state, a switch, an end of an emergency stop.
+TEST_P(AChassis, IsNeverToldAnythingButTwists) {
+  const auto is_forbidden = [&](const test::Sent& one) {
+    return bench.effect_of(one) == FrameEffect::forbidden;
+  };
+  if (on_can()) {
+    for (const bool on : {true, false}) EXPECT_TRUE(is_forbidden(can::estop(on)));
+    EXPECT_TRUE(is_forbidden(can::ask_version()));
+    // Wheel speeds: 15 mm/s on the left would end the emergency stop.
+    CanFrame wheels;
+    wheels.id = can::kCommandId;
+    wheels.len = 8;
+    wheels.data = {0x01, 0x0F, 0x00, 0x0F, 0x00};
+    EXPECT_TRUE(is_forbidden(wheels));
+    // A twist with something behind it.
+    CanFrame more = can::motion({});
+    more.data[7] = 1;
+    EXPECT_TRUE(is_forbidden(more));
+    return;
+  }
+  for (const bool on : {true, false}) EXPECT_TRUE(is_forbidden(serial::estop(1, on)));
+  const std::uint8_t off[2] = {0, 0};
+  for (const int id : {0x01, 0x05, 0x06, 0x07, 0xB0, 0xB1})
+    EXPECT_TRUE(is_forbidden(serial::compose(1, static_cast<std::uint8_t>(id), off))) << id;
+  // Wheel speeds, and half a packet.
+  const std::uint8_t wheels[8] = {1, 0, 0xC8, 0, 0xC1};
+  EXPECT_TRUE(is_forbidden(serial::compose(1, serial::id::kMotion, wheels)));
+  Packet half = serial::motion(1, {});
+  half.resize(half.size() - 1);
+  EXPECT_TRUE(is_forbidden(half));
+}
+
+TEST_P(AChassis, ScalesWhatItIsToldAndTells) {
+  test::Subject scaled = subject();
+  scaled.options.set("speed_scale", 1.25).set("turn_scale", 0.8);
+  test::TwistBench other(scaled);
+  other.run(milliseconds(1500), kRest);
+  other.run(milliseconds(2000), kRun, {0.5, 0.4});
+  EXPECT_NEAR(other.motion.twist.vx_mps, 0.5, 0.04);
+  EXPECT_NEAR(other.motion.twist.wz_radps, 0.4, 0.04);
+  const Twist said = other.actuator->setpoint_twist(test::message_of(other.sent.back()), 0);
+  EXPECT_NEAR(said.vx_mps, 0.5, 0.002);
+  EXPECT_NEAR(said.wz_radps, 0.4, 0.002);
+}
+
+INSTANTIATE_TEST_SUITE_P(Wires, AChassis, ::testing::Values("gt01_serial", "gt01_can"),
+                         [](const auto& info) { return std::string(info.param); });
+
+/// Two of three sums are wrong: what is left is enough to stop by, and is told.
+TEST(Gt01SerialDriver, CountsWrongSumsAndGoesStaleWhenTooFewPacketsAreLeft) {
+  const DriverEntry* const entry = find_driver("gt01_serial");
+  test::TwistBench bench({entry, test::example_options(*entry), "gt01_serial"});
+  bench.run(milliseconds(1500), kRest);
+  const auto before = bench.device->health(bench.now);
+  bench.set_fault("bad_sums");
+  bench.run(milliseconds(3000), kRest);
+  const auto after = bench.device->health(bench.now);
+  EXPECT_GT(after.bad, before.bad + 50);
+  EXPECT_EQ(after.state, SourceState::fresh) << "one packet in 60 ms";
+}
+
+TEST(Gt01CanDriver, IsGivenUpWhenSomebodyElseCommandsIt) {
+  const DriverEntry* const entry = find_driver("gt01_can");
+  test::TwistBench bench({entry, test::example_options(*entry), "gt01_can"});
+  bench.run(milliseconds(1500), kRest);
+  bench.run(milliseconds(1000), kRun, {0.5, 0});
+  bench.made.frames->on_frame(can::motion({}), bench.now, bench.out);
+  bench.run(milliseconds(50), kRun, {0.5, 0});
+  EXPECT_EQ(bench.status.state, AxisState::running) << "the guard's zeros are welcome";
+  bench.made.frames->on_frame(can::motion({0.1, 0}), bench.now, bench.out);
+  bench.run(milliseconds(50), kRun, {0.5, 0});
+  EXPECT_EQ(bench.status.state, AxisState::fault);
+  EXPECT_THAT(std::string(bench.status.reason.view()), HasSubstr("somebody else commands it"));
+}
+
+}  // namespace
+}  // namespace drover::gt01
