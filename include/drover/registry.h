@@ -64,6 +64,11 @@ struct DriverEntry {
   std::size_t twin_shafts = 0;
 };
 
+/// Its devices are told how the whole base shall move, and so have no joints.
+inline bool takes_twist(const DriverEntry& entry) {
+  return !entry.channels.empty() && entry.channels[0].mode == ChannelMode::twist;
+}
+
 std::span<const DriverEntry> driver_registry();
 /// nullptr when there is none of that name.
 const DriverEntry* find_driver(std::string_view name);

@@ -10,6 +10,7 @@
 #include "drover/measurement.h"
 #include "drover/path.h"
 #include "drover/time.h"
+#include "drover/twist.h"
 
 namespace drover {
 
@@ -69,6 +70,20 @@ struct AxisSnapshot {
   double commanded_velocity_radps = 0;
   double inverter_degC = kAbsent;
   double motor_degC = kAbsent;
+  double bus_V = kAbsent;
+  double bus_A = kAbsent;
+  SourceState health = SourceState::never_heard;
+  SourceSnapshot source;  ///< samples: motions
+  Time last_motion = kNever;
+};
+
+/// A base that takes a twist, as its device tells of itself. It has no axes.
+struct BaseSnapshot {
+  bool configured = false;
+  Twist measured{kAbsent, kAbsent};
+  AxisState state = AxisState::unknown;
+  Reason fault;
+  Twist commanded;
   double bus_V = kAbsent;
   double bus_A = kAbsent;
   SourceState health = SourceState::never_heard;
@@ -173,6 +188,7 @@ struct Snapshot {
   BatterySnapshot battery;
   JointCommandSnapshot joint_command;
   FixedVector<AxisSnapshot, kMaxAxes> axes;
+  BaseSnapshot base;
   std::array<bool, kLineCount> line_active{};
   std::array<SourceState, kLineCount> line_health{};
   std::array<bool, kLineCount> line_configured{};

@@ -88,7 +88,7 @@ void write(json::JsonText& out, const Node& node) {
 void add_rates(Node& status, const Node& before) {
   const double now_s = number(at(status, "time_s"));
   const double before_s = number(at(before, "time_s"));
-  for (const auto* device : {"gnss", "imu", "battery"})
+  for (const auto* device : {"gnss", "imu", "battery", "base"})
     if (auto* node = find(status, device))
       add_sample_rate(*node, at(before, device), now_s, before_s);
   if (auto* axes = find(status, "axes"); axes != nullptr && axes->list() != nullptr)

@@ -122,6 +122,22 @@ void show_axes(std::string& out, const Node& status) {
   }
 }
 
+/// One that takes a twist.
+void show_base(std::string& out, const Node& status) {
+  const auto& base = at(status, "base");
+  if (base.object() == nullptr) return;
+  std::string value;
+  if (never_heard(base)) {
+    value = nothing_heard(base);
+  } else {
+    value = padded(text(at(base, "state")), 9) + quantity(at(base, "vx_mps"), "%6.2f m/s") + "  " +
+            quantity(at(base, "wz_radps"), "%6.2f rad/s") + "  " +
+            quantity(at(base, "bus_V"), "%.1f V") + "  " + text(at(base, "health"));
+    if (!text(at(base, "fault")).empty()) value += "  " + text(at(base, "fault"));
+  }
+  line(out, "base", value);
+}
+
 void show_devices(std::string& out, const Node& status) {
   if (const auto* lines = at(status, "lines").object()) {
     std::string value;
@@ -171,6 +187,7 @@ std::string show_status(const Node& status) {
   show_place(out, status);
   show_battery(out, status);
   show_axes(out, status);
+  show_base(out, status);
   show_devices(out, status);
   return out;
 }

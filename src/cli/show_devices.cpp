@@ -108,6 +108,25 @@ std::string counter(const Node& link, const std::string& key) {
          ")  ";
 }
 
+/// One that takes a twist.
+void show_whole_base(std::string& out, const Node& status) {
+  const auto& base = at(status, "base");
+  if (base.object() == nullptr) return;
+  wide(out, "base",
+       padded(text(at(base, "state")), 9) + quantity(at(base, "vx_mps"), "%7.3f m/s") + "  " +
+           quantity(at(base, "wz_radps"), "%7.3f rad/s") + "  commanded " +
+           quantity(at(base, "commanded_vx_mps"), "%.3f m/s") + " " +
+           quantity(at(base, "commanded_wz_radps"), "%.3f rad/s") + "  " +
+           labelled("bus", at(base, "bus_V"), "%.1f V") + " " +
+           quantity(at(base, "bus_A"), "%.1f A"));
+  std::string more = quantity(at(base, "rate_Hz"), "%.1f Hz") + "  " +
+                     labelled("age", at(base, "age_s"), "%.3f s") + "  " +
+                     labelled("bad", at(base, "bad"), "%.0f") + "  " + text(at(base, "health"));
+  for (const auto* key : {"fault", "reason"})
+    if (!text(at(base, key)).empty()) more += "  " + text(at(base, key));
+  wide(out, "", more);
+}
+
 std::string show_can(const Node& status) {
   std::string out;
   if (const auto* links = at(status, "links").list()) {
@@ -119,6 +138,7 @@ std::string show_can(const Node& status) {
                text(at(link, "reason")));
     }
   }
+  show_whole_base(out, status);
   const auto* axes = at(status, "axes").list();
   if (axes == nullptr) return out;
   for (const auto& axis : *axes) {
@@ -168,7 +188,7 @@ std::string show_gpio(const Node& status) {
 constexpr std::string_view kGnssParts[] = {"gnss"};
 constexpr std::string_view kImuParts[] = {"imu"};
 constexpr std::string_view kBmsParts[] = {"battery"};
-constexpr std::string_view kCanParts[] = {"axes", "links"};
+constexpr std::string_view kCanParts[] = {"axes", "base", "links"};
 constexpr std::string_view kGpioParts[] = {"lines", "outputs"};
 
 constexpr std::array kViews{

@@ -1,4 +1,4 @@
-// The base's wheels are drives, each on one side.
+// The base: its wheels are drives, each on one side, or one device takes its twist.
 #include <algorithm>
 
 #include "config/check_subjects.h"
@@ -19,11 +19,21 @@ engine::HoldBy hold_by(std::string_view word) {
   return word == "worm_gear" ? engine::HoldBy::worm_gear : engine::HoldBy::level_ground_only;
 }
 
+engine::BaseKind base_kind(std::string_view word) {
+  if (word == kTwistKind) return engine::BaseKind::twist;
+  return word == "differential" ? engine::BaseKind::differential : engine::BaseKind::skid_steer;
+}
+
 /// Whether it may be the joint of a device whose driver nobody knows.
 bool is_of_no_driver(const std::string& joint, const DroverConfig& config) {
   return std::any_of(config.devices.begin(), config.devices.end(), [&](const auto& device) {
     return device.name == joint && find_driver(device.driver) == nullptr;
   });
+}
+
+bool is_told_twists(const DeviceConfig& device) {
+  const auto* const entry = find_driver(device.driver);
+  return entry != nullptr && takes_twist(*entry);
 }
 
 void side(const std::string& path, const std::vector<std::string>& joints,
@@ -52,10 +62,11 @@ void both_sides(const BaseNames& base, Findings& found) {
 }
 
 /// Its faults, its silence and its stop would be nobody's.
-void wheels_only(const BaseNames& base, Findings& found) {
+void nothing_else_moves(const BaseNames& base, Findings& found) {
   if (found.has_problem("groups.base")) return;
-  const auto among = [](const std::vector<std::string>& side, const std::string& joint) {
-    return std::find(side.begin(), side.end(), joint) != side.end();
+  const bool has_wheels = base.kind != kTwistKind;
+  const auto among = [&](const std::vector<std::string>& side, const std::string& joint) {
+    return has_wheels && std::find(side.begin(), side.end(), joint) != side.end();
   };
   for (const auto& device : found.config().devices) {
     for (const auto& joint : device.joints) {
@@ -63,8 +74,37 @@ void wheels_only(const BaseNames& base, Findings& found) {
       found.add(device_path(device),
                 "\"" + joint.name +
                     "\" is no wheel of the base: joints outside the base are not supported yet",
-                "name it in groups.base.left or groups.base.right, or leave the device out");
+                has_wheels ? "name it in groups.base.left or groups.base.right, or leave the "
+                             "device out"
+                           : "leave the device out");
     }
+    if (!is_told_twists(device) || device.name == base.device) continue;
+    found.add(device_path(device), "it takes a twist, and is not the device of the base",
+              has_wheels ? "\"kind\": \"twist\", \"device\": \"" + device.name + "\" in groups.base"
+                         : "leave the device out");
+  }
+}
+
+void wheels(const BaseNames& base, Findings& found) {
+  auto& resolved = found.config().engine.base;
+  side("groups.base.left", base.left, resolved.left, found);
+  side("groups.base.right", base.right, resolved.right, found);
+  both_sides(base, found);
+}
+
+void twist_device(const BaseNames& base, Findings& found) {
+  constexpr auto kPath = "groups.base.device";
+  if (base.device.empty()) return;  // told by the reader
+  const auto& devices = found.config().devices;
+  const auto it = std::find_if(devices.begin(), devices.end(),
+                               [&](const auto& device) { return device.name == base.device; });
+  if (it == devices.end()) {
+    const auto names = collect(devices, [](const auto& device) { return device.name; });
+    found.add(kPath, "there is no device \"" + base.device + "\"",
+              text::did_you_mean(base.device, names));
+  } else if (find_driver(it->driver) != nullptr && !is_told_twists(*it)) {
+    found.add(kPath, "\"" + base.device + "\" takes no twist: it is a " + it->driver,
+              "a base of another kind names the joints of its wheels");
   }
 }
 
@@ -72,13 +112,13 @@ void wheels_only(const BaseNames& base, Findings& found) {
 
 void check_base(const BaseNames& base, Findings& found) {
   auto& resolved = found.config().engine.base;
-  side("groups.base.left", base.left, resolved.left, found);
-  side("groups.base.right", base.right, resolved.right, found);
-  both_sides(base, found);
-  wheels_only(base, found);
+  if (base.kind == kTwistKind)
+    twist_device(base, found);
+  else
+    wheels(base, found);
+  nothing_else_moves(base, found);
   resolved.hold = hold_by(base.hold);
-  resolved.kind =
-      base.kind == "differential" ? engine::BaseKind::differential : engine::BaseKind::skid_steer;
+  resolved.kind = base_kind(base.kind);
 }
 
 }  // namespace drover::config

@@ -119,6 +119,10 @@ void check_joints(Findings& found) {
   for (auto& device : found.config().devices) {
     const auto* entry = find_driver(device.driver, SlotKind::drive);
     if (entry == nullptr) continue;
+    if (takes_twist(*entry)) {
+      device.joints.clear();  // told by the reader
+      continue;
+    }
     for (const auto& joint : device.joints)
       taken.take(joint.name, device_path(device, "joints." + joint.name));
     if (device.joints.empty() && entry->channels.size() == 1) {

@@ -20,7 +20,8 @@ const LinkConfig* find_link(const std::string& name, const std::string& path, Fi
 /// "a CAN bus", "a serial line", ...
 std::string_view words(Wire wire);
 
-/// The wheels; fills in their axes, what kind the base is and what holds it.
+/// The wheels, or the device that takes the twist; fills in their axes, what kind the base is and
+/// what holds it.
 void check_base(const BaseNames& base, Findings& found);
 
 // Values that contradict each other.

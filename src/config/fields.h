@@ -1,7 +1,8 @@
 // The configuration's keys: name, place, range and meaning of each, in one table per object.
 //
 // The same tables read drover.json, write its JSON schema and so cannot disagree. A visitor has
-// number, integer, flag, text, choice, object, list, table, names, options and keys_of_kind.
+// number, integer, flag, text, choice, object, list, table, names, options, keys_of_kind and
+// keys_of_base.
 #pragma once
 
 #include <cstdint>
@@ -44,6 +45,10 @@ inline constexpr KindKey kKindKeys[] = {
     {"line", SlotKind::line, Presence::required},
     {"is", SlotKind::line, Presence::required},
 };
+
+inline bool has_key(const DriverEntry& entry, const KindKey& key) {
+  return key.kind == entry.kind && !(key.key == "joints" && takes_twist(entry));
+}
 
 template <class V>
 void visit(V& v, PathsConfig& c) {
@@ -195,9 +200,8 @@ void visit(V& v, DroverConfig& c, GroupNames& groups) {
   v.object("protocol", c.protocol, "choices of the RTK navigation protocol");
   v.object("aimrt", c.aimrt, "AimRT channel");
   v.names("accept", c.accept, Count{0, 3},
-          "no_estop: there is no e-stop line; slow_guard: guard.limit_ms is above 200; no_tilt: "
-          "nothing "
-          "tells how steep the ground is; that is known");
+          "no_estop: there is no e-stop line; slow_guard: guard.limit_ms is above 200; "
+          "no_tilt: nothing tells how steep the ground is; that is known");
 }
 
 }  // namespace drover::config

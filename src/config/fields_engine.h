@@ -3,7 +3,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/config.h"
@@ -24,6 +26,7 @@ enum class Presence : std::uint8_t {
   optional,
   required,
   alternative,  ///< one of the keys of an object that are marked so is required
+  of_kind,      ///< required by some kinds and refused by others: the object's own table says
 };
 
 template <class V>
@@ -206,17 +209,32 @@ struct BaseNames {
   std::string hold;
   std::vector<std::string> left;
   std::vector<std::string> right;
+  std::string device;
 };
+
+/// As `kind` is written.
+inline constexpr std::string_view kBaseKinds[] = {"skid_steer", "differential", "twist"};
+inline constexpr std::string_view kTwistKind = kBaseKinds[2];
+
+/// A key that a base with wheels needs, or else one that takes a twist; the other has no use for
+/// it.
+struct BaseKey {
+  std::string_view key;
+  bool of_twist = false;
+};
+inline constexpr BaseKey kBaseKeys[] = {
+    {"wheel_radius_m", false}, {"left", false}, {"right", false}, {"device", true}};
 
 inline constexpr Count kSideCount{1, decltype(engine::BaseConfig::left)::capacity()};
 
 template <class V>
 void visit(V& v, BaseNames& c) {
-  v.choice("kind", c.kind, {"skid_steer", "differential"},
-           "skid_steer: several wheels on a side; differential: one, which turns without skidding",
+  v.choice("kind", c.kind, {std::begin(kBaseKinds), std::end(kBaseKinds)},
+           "skid_steer: several wheels on a side; differential: one, which turns without skidding; "
+           "twist: a device that is told how the whole base shall move",
            Presence::required);
   v.number("wheel_radius_m", c.base->wheel_radius_m, Range{0.01, 2}, "wheel radius",
-           Presence::required);
+           Presence::of_kind);
   v.number("track_m", c.base->track_m, Range{0.05, 5}, "between left and right wheels",
            Presence::required);
   v.number("yaw_slip_factor", c.base->yaw_slip_factor, Range{0.5, 4},
@@ -227,8 +245,10 @@ void visit(V& v, BaseNames& c) {
          "take the drives back after a restart or a dip of their supply; false on blocks");
   v.number("max_tilt_deg", c.base->max_tilt_deg, Range{1, 45},
            "level_ground_only: steeper ground refuses a start and ends a task");
-  v.names("left", c.left, kSideCount, "joints of the left side", Presence::required);
-  v.names("right", c.right, kSideCount, "joints of the right side", Presence::required);
+  v.names("left", c.left, kSideCount, "joints of the left side", Presence::of_kind);
+  v.names("right", c.right, kSideCount, "joints of the right side", Presence::of_kind);
+  v.text("device", c.device, "name of the device that takes the twist", Presence::of_kind);
+  v.keys_of_base(c.kind);
 }
 
 }  // namespace drover::config

@@ -144,7 +144,7 @@ void Reader::text(std::string_view key, std::string& into, std::string_view what
   if (node->text() == nullptr) return wrong_type(*node, key, "a text");
   if (node->text()->find('\0') != std::string::npos)
     return add(*node, path_of(key), "holds a NUL character");
-  if (presence != Presence::optional && node->text()->empty())
+  if (presence != Presence::optional && presence != Presence::of_kind && node->text()->empty())
     return add(*node, path_of(key), "is empty", std::string(what));
   into = *node->text();
 }
@@ -236,16 +236,25 @@ void Reader::options(std::string_view key, Options& into, const std::string& dri
 void Reader::keys_of_kind(const std::string& driver) {
   const auto* entry = find_driver(driver);
   if (entry == nullptr) return;
-  for (const auto& [key, kind, presence] : kKindKeys) {
-    const auto* node = node_.find(key);
-    if (kind != entry->kind && node != nullptr)
-      add(*node, path_of(key), "is of no use to " + driver, "leave it out");
-    if (kind != entry->kind || presence == Presence::optional) continue;
-    if (node == nullptr)
-      add(node_, path_of(key), "is missing", driver + " needs it");
-    else if (node->text() != nullptr && node->text()->empty())
-      add(*node, path_of(key), "is empty");
-  }
+  for (const auto& each : kKindKeys)
+    key_of_kind(each.key, has_key(*entry, each), each.presence == Presence::required, driver);
+}
+
+void Reader::keys_of_base(const std::string& kind) {
+  if (std::find(std::begin(kBaseKinds), std::end(kBaseKinds), kind) == std::end(kBaseKinds)) return;
+  for (const auto& each : kBaseKeys)
+    key_of_kind(each.key, each.of_twist == (kind == kTwistKind), true,
+                "a base of kind \"" + kind + "\"");
+}
+
+void Reader::key_of_kind(std::string_view key, bool has, bool needs, const std::string& whose) {
+  const auto* node = node_.find(key);
+  if (!has && node != nullptr) add(*node, path_of(key), "is of no use to " + whose, "leave it out");
+  if (!has || !needs) return;
+  if (node == nullptr)
+    add(node_, path_of(key), "is missing", whose + " needs it");
+  else if (node->text() != nullptr && node->text()->empty())
+    add(*node, path_of(key), "is empty");
 }
 
 void Reader::option(const OptionSpec& spec, const json::Node& node, Options& into) {

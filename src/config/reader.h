@@ -36,6 +36,8 @@ class Reader final {
   void options(std::string_view key, Options& into, const std::string& driver);
   /// The keys that only some kinds of device have: this driver's are there, the others' are not.
   void keys_of_kind(const std::string& driver);
+  /// The same of the base: what a base with wheels needs, and what one that takes a twist.
+  void keys_of_base(const std::string& kind);
 
   template <class T>
   void object(std::string_view key, T& into, std::string_view text,
@@ -104,6 +106,7 @@ class Reader final {
   void add(const json::Node& place, std::string path, std::string message,
            std::string suggestion = {});
   void option(const OptionSpec& spec, const json::Node& node, Options& into);
+  void key_of_kind(std::string_view key, bool has, bool needs, const std::string& whose);
 
   const json::Node& node_;
   std::string path_;

@@ -155,20 +155,32 @@ class SchemaWriter final {
         options["properties"][std::string(spec.name)] = option_schema(spec);
         if (spec.required) options["required"].push_back(std::string(spec.name));
       }
-      auto& then = of_driver(entry.name)["then"];
+      auto& then = where("driver", entry.name)["then"];
       then["properties"][std::string(key)] = options;
       if (options.contains("required")) then["required"].push_back(std::string(key));
     }
   }
   void keys_of_kind(const std::string&) {
     for (const auto& entry : driver_registry()) {
-      auto& then = of_driver(entry.name)["then"];
-      for (const auto& [key, kind, presence] : kKindKeys) {
-        if (kind != entry.kind) {
-          then["properties"][std::string(key)] = false;
-        } else if (presence == Presence::required) {
+      auto& then = where("driver", entry.name)["then"];
+      for (const auto& each : kKindKeys) {
+        if (!has_key(entry, each)) {
+          then["properties"][std::string(each.key)] = false;
+        } else if (each.presence == Presence::required) {
+          then["required"].push_back(std::string(each.key));
+          then["properties"][std::string(each.key)] = {{"minLength", 1}};
+        }
+      }
+    }
+  }
+  void keys_of_base(const std::string&) {
+    for (const auto kind : kBaseKinds) {
+      auto& then = where("kind", kind)["then"];
+      for (const auto& [key, of_twist] : kBaseKeys) {
+        if (of_twist == (kind == kTwistKind)) {
           then["required"].push_back(std::string(key));
-          then["properties"][std::string(key)] = {{"minLength", 1}};
+        } else {
+          then["properties"][std::string(key)] = false;
         }
       }
     }
@@ -182,13 +194,13 @@ class SchemaWriter final {
   }
 
  private:
-  /// What holds when this is the driver: one condition for each.
-  Json& of_driver(std::string_view driver) {
+  /// What holds where this key has this value: one condition for each.
+  Json& where(const char* key, std::string_view value) {
     auto& all = schema_["allOf"];
     for (auto& condition : all)
-      if (condition["if"]["properties"]["driver"]["const"] == driver) return condition;
+      if (condition["if"]["properties"][key]["const"] == value) return condition;
     Json condition;
-    condition["if"]["properties"]["driver"]["const"] = std::string(driver);
+    condition["if"]["properties"][key]["const"] = std::string(value);
     all.push_back(condition);
     return all.back();
   }

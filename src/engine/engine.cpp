@@ -254,7 +254,10 @@ void Engine::on_command(const Command& command, Time now) {
   } else if (const auto* origin = std::get_if<SetOrigin>(&command.body)) {
     e.set_origin(id, origin->origin, now);
   } else if (const auto* targets = std::get_if<JointTargets>(&command.body)) {
-    e.owners.take(*targets, now);
+    if (takes_twist(e.base))
+      e.owners.refuse({"this robot has no joints: its base takes a twist"});
+    else
+      e.owners.take(*targets, now);
   } else if (const auto* refused = std::get_if<JointTargetsRefused>(&command.body)) {
     e.owners.refuse(*refused);
   } else if (std::holds_alternative<FindHeading>(command.body)) {
@@ -332,6 +335,7 @@ void Engine::step(Time now, const Environment& environment, EngineOutput& out) {
   e.navigator.on_commanded(now, out.motion_permitted, e.events);
   e.announcer.update(now, e.health.report(), e.events);
   e.fill_snapshot(now, environment, lines, e.estimate, motion.owner);
+  if (takes_twist(e.base)) e.fill_base(environment, out.base);
   out.outputs = e.snapshot.output_on =
       e.signals.step(now, e.snapshot, out.motion_permitted, motion.run, e.power.closed());
   out.remembered = {e.navigator.software_stop(),

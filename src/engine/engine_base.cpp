@@ -1,19 +1,47 @@
 // The engine's part for a base that takes a twist: inside it has two edges, outside one command.
+#include <algorithm>
 #include <cmath>
 
 #include "engine/engine_impl.h"
 
 namespace drover::engine {
+namespace {
+
+/// Nearer to rest, or as it is.
+double no_more_than(double wanted, double measured) {
+  return std::copysign(std::min(std::abs(wanted), wanted * measured > 0 ? std::abs(measured) : 0.0),
+                       wanted);
+}
+
+}  // namespace
 
 void Engine::Impl::take_body(const BodyMotion& body, Time time) {
   const bool sane = std::isfinite(body.twist.vx_mps) && std::isfinite(body.twist.wz_radps);
   if (!takes_twist(base) || !body.known || !sane) return;
+  ++edges[0].source.samples;
+  if (time < edges[0].last_motion) return;
+  told = body.twist;
   const JointVelocities mps = edges_of(base, body.twist);
   for (std::size_t i = 0; i < edges.size(); ++i) {
-    if (time < edges[i].last_motion) return;
     edges[i].motion.velocity_radps = mps[i];
     edges[i].last_motion = time;
   }
+}
+
+void Engine::Impl::fill_base(const Environment& environment, const BaseCommand& command) {
+  const AxisSnapshot& device = edges[0];
+  BaseSnapshot& s = snapshot.base;
+  s.configured = true;
+  s.measured = told;
+  s.state = device.state;
+  s.fault = device.fault;
+  s.commanded = command.twist;
+  s.bus_V = device.bus_V;
+  s.bus_A = device.bus_A;
+  s.health = device.health;
+  s.source = {environment.axes[0].reason, device.source.samples, environment.axes[0].bad,
+              environment.axes[0].overflows};
+  s.last_motion = device.last_motion;
 }
 
 /// What was decided for the edges, said to the device that moves both.
@@ -25,6 +53,11 @@ void Engine::Impl::command_base(EngineOutput& out) {
     out.axes[i] = {};
   }
   out.base.twist = twist_of_edges(base, mps);
+  // Edges that are caught one by one may make a turn that it does not make.
+  if (out.base.request == AxisRequest::hold) {
+    out.base.twist.vx_mps = no_more_than(out.base.twist.vx_mps, told.vx_mps);
+    out.base.twist.wz_radps = no_more_than(out.base.twist.wz_radps, told.wz_radps);
+  }
   out.slowing_permitted[0] = out.slowing_permitted[0] || out.slowing_permitted[1];
   out.slowing_permitted[1] = false;
 }

@@ -1,4 +1,4 @@
-// What the engine is made of; its two files share it and nobody else includes it.
+// What the engine is made of; the files engine*.cpp share it and nobody else includes it.
 #pragma once
 
 #include <array>
@@ -42,6 +42,7 @@ struct Engine::Impl {
   void command_hold(EngineOutput& out);
   void take_body(const BodyMotion& body, Time time);
   void command_base(EngineOutput& out);
+  void fill_base(const Environment& environment, const BaseCommand& command);
   void release_hold(const RequestId& id, const ReleaseHold& release, Time now);
   void arm_hold(const RequestId& id, Time now);
   double tilt_deg() const;
@@ -91,6 +92,7 @@ struct Engine::Impl {
   Snapshot snapshot;
   /// Edges of a base that takes a twist.
   std::array<AxisSnapshot, 2> edges;
+  Twist told{kAbsent, kAbsent};  ///< by that base, last
   /// All that is watched and commanded: the joints, or those edges.
   std::span<AxisSnapshot> axes;
 };

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/words.h"
 #include "engine/engine_impl.h"
 
 namespace drover::engine {
@@ -60,8 +61,8 @@ void Engine::Impl::watch_wheels(Time now, Duration dt) {
   // Wheels that work against each other stand before gyro or receiver can tell.
   if (wheel_fault == WheelFault::not_following && !mechanics.proved()) {
     const std::string_view what = wheels.reason();
-    wheel_reason.format("%.*s on the first way: sides swapped, or a wheel reversed?",
-                        static_cast<int>(what.size()), what.data());
+    wheel_reason.format("%.*s on the first way: %s", static_cast<int>(what.size()), what.data(),
+                        words_of(base).on_first_way);
   }
   if (wheel_fault == WheelFault::none && !mechanics.fault().empty()) {
     wheel_fault = WheelFault::disagrees;

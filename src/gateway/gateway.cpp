@@ -108,9 +108,14 @@ void Gateway::write(Slot& slot, Time now) {
 engine::Permission Gateway::permission(const Slot& slot) {
   const bool fresh = slot.health.state == SourceState::fresh;
   slowing_.clear();
+  const Snapshot& robot = engine_.snapshot();
   for (const AxisId axis : slot.axes) {
-    const double measured_radps = engine_.snapshot().axes[axis].motion.velocity_radps;
-    (void)slowing_.push_back({cycle_.engine.slowing_permitted[axis] && fresh, measured_radps});
+    engine::Slowing slowing{cycle_.engine.slowing_permitted[axis] && fresh};
+    if (slot.takes_twist)
+      slowing.measured = robot.base.measured;
+    else
+      slowing.measured_radps = robot.axes[axis].motion.velocity_radps;
+    (void)slowing_.push_back(slowing);
   }
   return {motion_permitted_ ? kAllChannels : ChannelMask{0},
           guard_has_bus_,
@@ -197,7 +202,10 @@ void Gateway::command_actuators(Time now) {
       if (!cycle_.engine.slowing_permitted[axis])
         frame_gate_.end_slowing(*slot.made.actuator, channel);
       const AxisCommand& command = cycle_.engine.axes[axis];
-      (void)wanted.push_back({command.request, command.velocity_radps, {}});
+      const engine::BaseCommand& base = cycle_.engine.base;
+      (void)wanted.push_back(slot.takes_twist
+                                 ? Setpoint{base.request, 0, base.twist}
+                                 : Setpoint{command.request, command.velocity_radps, {}});
     }
     slot.made.actuator->on_setpoints({wanted.data(), wanted.size()}, now, scratch_);
     slot.made.device->on_tick(now, scratch_);
@@ -235,7 +243,8 @@ std::vector<std::string> Gateway::cautions() const {
     if (slot.made.actuator == nullptr) continue;
     const auto silence = slot.made.actuator->silence();
     if (silence.stops) continue;
-    all.push_back("drive " + std::string(slot.name) + " " + std::string(silence.text));
+    all.push_back((slot.takes_twist ? "the base, " : "drive ") + std::string(slot.name) + " " +
+                  std::string(silence.text));
   }
   return all;
 }

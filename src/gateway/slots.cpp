@@ -62,6 +62,8 @@ class Builder final {
     slot.made = entry->make(device.options, context);
     slot.link = numbers_.at(device.link_index);
     slot.axes = context.axes;
+    slot.takes_twist = drover::takes_twist(*entry);
+    if (slot.takes_twist) (void)slot.axes.push_back(0);
     slot.place = place;
     tell_health(slot, context);
     Link& link = wiring_.links[slot.link];
@@ -84,7 +86,7 @@ class Builder final {
     const auto tell = [&slot](SourceHealth& to) { (void)slot.tells_health.push_back(&to); };
     switch (context.kind) {
       case SlotKind::drive:
-        for (const AxisId axis : context.axes) tell(environment_.axes.at(axis));
+        for (const AxisId axis : slot.axes) tell(environment_.axes.at(axis));
         return;
       case SlotKind::gnss: return tell(environment_.gnss);
       case SlotKind::imu: return tell(environment_.imu);

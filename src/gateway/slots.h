@@ -30,8 +30,10 @@ struct Slot {
   Made made;
   LinkId link = 0;
   Thread thread = Thread::control;
-  FixedVector<AxisId, kMaxChannels> axes;  ///< of what moves something: its joints, by channel
-  SourceHealth health;                     ///< as of the last cycle
+  /// Of what moves something: its joints, by channel. What takes the base's twist is axis 0.
+  FixedVector<AxisId, kMaxChannels> axes;
+  bool takes_twist = false;  ///< its one channel is the base
+  SourceHealth health;       ///< as of the last cycle
   /// Where the engine looks for it.
   FixedVector<SourceHealth*, kMaxChannels> tells_health;
   std::size_t place = 0;        ///< in the configuration's table

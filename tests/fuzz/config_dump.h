@@ -49,6 +49,7 @@ class Dump final {
               std::string_view, config::Presence = config::Presence::optional) {
     if (!is_of_this_kind(key) || (is_link_ && value == "none")) return;
     require_(std::find(all.begin(), all.end(), value) != all.end());
+    if (key == "kind") base_kind_ = value;
     out_.key(key).text(value);
   }
   void names(std::string_view key, const std::vector<std::string>& value, config::Count count,
@@ -107,13 +108,17 @@ class Dump final {
     out_.close('}');
   }
   void keys_of_kind(const std::string&) {}
+  void keys_of_base(const std::string&) {}
   void finish() { out_.close('}'); }
 
  private:
-  /// What a device of another kind may not have.
+  /// What a device or a base of another kind may not have.
   bool is_of_this_kind(std::string_view key) const {
     for (const auto& each : config::kKindKeys)
-      if (driver_ != nullptr && each.key == key && each.kind != driver_->kind) return false;
+      if (driver_ != nullptr && each.key == key && !config::has_key(*driver_, each)) return false;
+    const bool twist = base_kind_ == config::kTwistKind;
+    for (const auto& each : config::kBaseKeys)
+      if (!base_kind_.empty() && each.key == key && each.of_twist != twist) return false;
     return true;
   }
   void put_number(std::string_view key, double value) {
@@ -141,6 +146,7 @@ class Dump final {
   json::JsonText& out_;
   Require require_;
   const DriverEntry* driver_ = nullptr;  ///< of a device
+  std::string base_kind_;                ///< of the base
   bool is_link_ = false;                 ///< what is as usual is left out: not every link has it
 };
 
@@ -159,8 +165,10 @@ std::string dump(config::DroverConfig config, Require require) {
   config::GroupNames groups;
   auto& base = groups.base;
   base.base = &config.engine.base;
-  base.kind =
-      config.engine.base.kind == engine::BaseKind::skid_steer ? "skid_steer" : "differential";
+  base.kind = config::kBaseKinds[static_cast<std::size_t>(config.engine.base.kind)];
+  for (const auto& device : config.devices)
+    if (const auto* entry = find_driver(device.driver); entry && takes_twist(*entry))
+      base.device = device.name;
   base.hold = word_of(config.engine.base.hold);
   for (const auto& [axes, names] :
        {std::pair{&config.engine.base.left, &base.left}, {&config.engine.base.right, &base.right}})

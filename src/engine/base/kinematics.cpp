@@ -60,10 +60,6 @@ bool takes_twist(const Kinematics& base) {
   return std::holds_alternative<TwistBase>(base);
 }
 
-const char* joint_word(const Kinematics& base) {
-  return takes_twist(base) ? "the base," : "wheel";
-}
-
 const char* joint_unit(const Kinematics& base) {
   return takes_twist(base) ? "m/s" : "rad/s";  // the radius of an edge is a metre
 }

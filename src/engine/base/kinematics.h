@@ -31,8 +31,7 @@ Kinematics kinematics_of(const BaseConfig& base);
 
 /// It is told a twist, and has no joints that anybody sees.
 bool takes_twist(const Kinematics& base);
-/// How to name one of its joints before its own name, and the unit of its velocity, for people.
-const char* joint_word(const Kinematics& base);
+/// The unit of a joint's velocity, for people.
 const char* joint_unit(const Kinematics& base);
 
 /// How many joints there have to be, so that all that the base names exist.

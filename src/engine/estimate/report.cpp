@@ -89,7 +89,7 @@ void Estimator::report_trouble(const State& state, Time now) {
   } else if (!state.has_heading) {
     e.reason = "no heading";
   } else if (!body_motion(base_, state.told, now, wheel_stale_).known) {
-    e.reason = "wheels are silent";
+    e.reason = takes_twist(base_) ? "the base is silent" : "wheels are silent";
   } else {
     e.reason.clear();
   }

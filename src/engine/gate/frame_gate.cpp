@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -21,6 +22,14 @@ bool same_identity(const FrameRule& a, const FrameRule& b) {
   return a.id == b.id && a.extended == b.extended && a.remote == b.remote;
 }
 
+/// As candump and data sheets write it.
+std::string hex(const FrameRule& rule) {
+  std::array<char, 16> text{};
+  std::snprintf(text.data(), text.size(), rule.extended ? "0x%08X" : "0x%03X",
+                static_cast<unsigned>(rule.id));
+  return text.data();
+}
+
 bool listed(const Message& message, const Actuator& from) {
   if (message.frame() == nullptr) return true;  // a packet is judged by what is in it alone
   const CanFrame& frame = *message.frame();
@@ -30,17 +39,13 @@ bool listed(const Message& message, const Actuator& from) {
                      [&](const FrameRule& rule) { return matches(rule, frame); });
 }
 
-/// No faster than the wheel, in its direction, and than the set point before.
-bool is_slower(double asked_radps, const Slowing& slowing, double slowest_radps) {
-  const double size_radps = std::abs(asked_radps);
-  return size_radps <= kRounding * std::abs(slowing.measured_radps) &&
-         size_radps <= kRounding * slowest_radps &&
-         asked_radps * slowing.measured_radps >= 0;  // false for what is not a number
-}
-
 bool is_slowed(const Permission& permission, std::size_t channel) {
   return !permission.guard_has_bus && channel < permission.slowing.size() &&
          permission.slowing[channel].permitted;
+}
+
+bool takes_twist(const Actuator& driver, std::size_t channel) {
+  return driver.channels()[channel].mode == ChannelMode::twist;
 }
 
 }  // namespace
@@ -59,12 +64,12 @@ void FrameGate::add(std::size_t link, const Actuator& driver) {
     for (const FrameRule& mine : driver.rules()) {
       for (const FrameRule& theirs : other.driver->rules()) {
         if (!same_identity(mine, theirs) || (mine.shared && theirs.shared)) continue;
-        throw std::runtime_error("two drives of one bus send CAN id " + std::to_string(mine.id) +
+        throw std::runtime_error("two drives of one bus send CAN id " + hex(mine) +
                                  ": their node numbers are equal");
       }
     }
   }
-  slowest_radps_[std::min(senders_.size(), kMaxAxes - 1)].fill(kNoRamp);
+  slowest_[std::min(senders_.size(), kMaxAxes - 1)].fill({kNoRamp, kNoRamp});
   if (!senders_.push_back({link, &driver})) {
     throw std::runtime_error("more drives than the frame gate holds");
   }
@@ -79,41 +84,72 @@ std::size_t FrameGate::place_of(const Actuator& driver) const {
 
 void FrameGate::end_slowing(const Actuator& driver, std::size_t channel) {
   const std::size_t place = place_of(driver);
-  if (place < senders_.size() && channel < kMaxChannels) slowest_radps_[place][channel] = kNoRamp;
+  if (place < senders_.size() && channel < kMaxChannels)
+    slowest_[place][channel] = {kNoRamp, kNoRamp};
+}
+
+FrameGate::Parts FrameGate::asked_of(const Actuator& driver, const Message& message,
+                                     std::size_t channel) {
+  if (!takes_twist(driver, channel)) return {driver.setpoint_radps(message, channel), 0};
+  const Twist asked = driver.setpoint_twist(message, channel);
+  return {asked.vx_mps, asked.wz_radps};
+}
+
+/// No faster than the wheel or the base, in its direction, and than the set point before. False for
+/// what is not a number.
+bool FrameGate::is_slower(const Parts& asked, const Actuator& driver, std::size_t channel,
+                          const Slowing& slowing, const Parts& slowest) {
+  const Parts measured = takes_twist(driver, channel)
+                             ? Parts{slowing.measured.vx_mps, slowing.measured.wz_radps}
+                             : Parts{slowing.measured_radps, 0};
+  for (std::size_t i = 0; i < asked.size(); ++i) {
+    const double size = std::abs(asked[i]);
+    const bool slower = size <= kRounding * std::abs(measured[i]) &&
+                        size <= kRounding * slowest[i] && asked[i] * measured[i] >= 0;
+    if (!slower && asked[i] != 0) return false;
+  }
+  return true;
+}
+
+/// The next set point of a ramp is no faster.
+void FrameGate::note(std::size_t sender, std::size_t channel, const Parts& asked) {
+  Parts& slowest = slowest_[sender][channel];
+  for (std::size_t i = 0; i < asked.size(); ++i)
+    slowest[i] = std::min(std::abs(asked[i]), slowest[i]);
 }
 
 /// Each channel is permitted, or slowed: a ramp that has begun only falls.
 bool FrameGate::may_move(std::size_t sender, const Message& message, ChannelMask moves,
                          const Permission& permission) {
   const Actuator& driver = *senders_[sender].driver;
-  Slowest asked_radps{};
+  std::array<Parts, kMaxChannels> asked{};
   ChannelMask slowed = 0;
   for (std::size_t channel = 0; channel < driver.channels().size(); ++channel) {
     const ChannelMask bit = channel_bit(channel);
     if ((moves & bit) == 0) continue;
     if ((permission.motion & bit) != 0 && !permission.guard_has_bus) continue;
     if (!is_slowed(permission, channel)) return false;
-    asked_radps[channel] = driver.setpoint_radps(message, channel);
-    if (!is_slower(asked_radps[channel], permission.slowing[channel],
-                   slowest_radps_[sender][channel]))
+    asked[channel] = asked_of(driver, message, channel);
+    if (!is_slower(asked[channel], driver, channel, permission.slowing[channel],
+                   slowest_[sender][channel]))
       return false;
     slowed |= bit;
   }
-  for (std::size_t channel = 0; slowed != 0 && channel < kMaxChannels; ++channel) {
-    double& slowest = slowest_radps_[sender][channel];
-    if ((slowed & channel_bit(channel)) != 0)
-      slowest = std::min(std::abs(asked_radps[channel]), slowest);
-  }
+  for (std::size_t channel = 0; slowed != 0 && channel < kMaxChannels; ++channel)
+    if ((slowed & channel_bit(channel)) != 0) note(sender, channel, asked[channel]);
+  note_zeros(sender, message, permission);
   return true;
 }
 
-/// The zeros of rest, before anything is caught, are no part of a ramp.
+/// What is asked to rest ends its ramp there, be it by a stop or beside a motion of the others.
 void FrameGate::note_zeros(std::size_t sender, const Message& message,
                            const Permission& permission) {
-  for (std::size_t channel = 0; channel < permission.slowing.size(); ++channel)
-    if (is_slowed(permission, channel) &&
-        senders_[sender].driver->setpoint_radps(message, channel) == 0)
-      slowest_radps_[sender][channel] = 0;
+  const Actuator& driver = *senders_[sender].driver;
+  for (std::size_t channel = 0; channel < driver.channels().size(); ++channel) {
+    if (!is_slowed(permission, channel)) continue;
+    const Parts asked = asked_of(driver, message, channel);
+    if (asked == Parts{}) note(sender, channel, asked);
+  }
 }
 
 FrameVerdict FrameGate::judge(std::size_t link, const Message& message, const Actuator& from,

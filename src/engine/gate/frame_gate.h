@@ -18,10 +18,11 @@ enum class FrameVerdict : std::uint8_t {
   refused_motion,       ///< may move a channel that may not, or while the guard has the link
 };
 
-/// The one motion that needs no owner: a wheel that rolls is brought to rest.
+/// The one motion that needs no owner: a wheel or a base that rolls is brought to rest.
 struct Slowing {
   bool permitted = false;
   double measured_radps = 0;  ///< of the joint, fresh
+  Twist measured{};           ///< of the base, of a channel that takes a twist
 };
 
 /// What the sender may do in this cycle.
@@ -42,7 +43,7 @@ class FrameGate final {
   void add(std::size_t link, const Actuator& driver);
 
   /// While a channel is slowed, a set point passes that is no faster than its wheel, in its
-  /// direction, and no faster than the one before.
+  /// direction, and no faster than the one before; of a twist both its parts are.
   FrameVerdict admit(std::size_t link, const Message& message, const Actuator& from,
                      const Permission& permission, Time now);
 
@@ -62,18 +63,24 @@ class FrameGate final {
     std::size_t link = 0;
     const Actuator* driver = nullptr;
   };
+  /// What is asked of a channel: a joint's velocity and nothing, or a twist's both parts.
+  using Parts = std::array<double, 2>;
   /// By channel: the size of the last set point while slowing; infinite before the first.
-  using Slowest = std::array<double, kMaxChannels>;
+  using Slowest = std::array<Parts, kMaxChannels>;
 
+  static Parts asked_of(const Actuator& driver, const Message& message, std::size_t channel);
+  static bool is_slower(const Parts& asked, const Actuator& driver, std::size_t channel,
+                        const Slowing& slowing, const Parts& slowest);
   std::size_t place_of(const Actuator& driver) const;
   FrameVerdict judge(std::size_t link, const Message& message, const Actuator& from,
                      const Permission& permission, Time now);
   bool may_move(std::size_t sender, const Message& message, ChannelMask moves,
                 const Permission& permission);
   void note_zeros(std::size_t sender, const Message& message, const Permission& permission);
+  void note(std::size_t sender, std::size_t channel, const Parts& asked);
 
   FixedVector<Sender, kMaxAxes> senders_;
-  std::array<Slowest, kMaxAxes> slowest_radps_{};  ///< by sender
+  std::array<Slowest, kMaxAxes> slowest_{};  ///< by sender
   std::array<Counts, kMaxLinks> counts_{};
 };
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/words.h"
 #include "engine/health/heard.h"
 
 namespace drover::engine {
@@ -12,8 +13,12 @@ namespace {
 /// Chips are opened and contacts settle: in that time a line that tells nothing is no fault yet.
 constexpr Duration kLinesSettle = std::chrono::seconds(1);
 
-template <std::size_t N>
-void put(FixedText<N>& out, const char* before, std::string_view name, std::string_view text) {
+void put(Reason& out, std::string_view name, std::string_view text) {
+  out.format("%.*s: %.*s", static_cast<int>(name.size()), name.data(),
+             static_cast<int>(text.size()), text.data());
+}
+
+void put(Reason& out, const char* before, std::string_view name, std::string_view text) {
   out.format("%s %.*s: %.*s", before, static_cast<int>(name.size()), name.data(),
              static_cast<int>(text.size()), text.data());
 }
@@ -103,35 +108,35 @@ void HealthMonitor::look_at_drives(const HealthInput& input) {
     const AxisSnapshot& axis = input.axes[i];
     const SourceHealth& source = input.environment.axes[takes_twist(base_) ? 0 : i];
     const Duration age = input.now - axis.last_motion;
+    const auto joint = joint_text(base_, axis.joint);
     Reason text;
     if (axis.last_motion == kNever || source.state == SourceState::never_heard) {
-      put(text, joint_word(base_), axis.joint,
+      put(text, joint,
           source.reason.empty() ? std::string_view("never heard") : source.reason.view());
     } else if (!tells_motion(axis, input.now, stale) || source.state != SourceState::fresh) {
       Reason what;
       what.format("no feedback for %.2f s", to_s(age));
       const bool known = source.state != SourceState::fresh && !source.reason.empty();
-      put(text, joint_word(base_), axis.joint, known ? source.reason.view() : what.view());
+      put(text, joint, known ? source.reason.view() : what.view());
     }
     if (!text.empty()) {
       ++silent;
       hold(Cause::drive_silent, text);
     } else if (axis.state == AxisState::fault) {
-      put(text, joint_word(base_), axis.joint,
-          axis.fault.empty() ? std::string_view("fault") : axis.fault.view());
+      put(text, joint, axis.fault.empty() ? std::string_view("fault") : axis.fault.view());
       hold(Cause::drive_fault, text);
     }
     report_.drives_ok = report_.drives_ok && text.empty();
     if (!text.empty() || axis.state != AxisState::running) {
       report_.drives_running = false;
-      if (text.empty()) put(text, joint_word(base_), axis.joint, "the drive is not in closed loop");
+      if (text.empty()) put(text, joint, "the drive is not in closed loop");
       if (report_.not_running.empty()) report_.not_running = text;
     }
   }
   if (driven == 0) {
     report_.drives_ok = report_.drives_running = false;
     hold(Cause::drive_silent, "no drives are configured");
-  } else if (silent == driven && driven > 1) {
+  } else if (silent == driven && driven > 1 && !takes_twist(base_)) {
     // The first is named all the same: its text carries the driver's or link's own reason.
     Reason all;
     const auto& first = report_.texts[static_cast<std::size_t>(Cause::drive_silent)];

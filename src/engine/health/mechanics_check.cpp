@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "drover/angle.h"
+#include "engine/base/words.h"
 #include "engine/health/ground_way.h"
 #include "engine/health/place_sigma.h"
 #include "engine/still.h"
@@ -36,7 +37,9 @@ constexpr double kShortest_m = 0.1;  // of a way that is found too short
 }  // namespace
 
 MechanicsCheck::MechanicsCheck(const EngineConfig& config)
-    : config_(config), proved_(!(config.navigate.first_way_m > 0)) {}
+    : config_(config),
+      words_(&words_of(kinematics_of(config.base))),
+      proved_(!(config.navigate.first_way_m > 0)) {}
 
 void MechanicsCheck::begin() {
   moving_ = true;
@@ -111,14 +114,13 @@ void MechanicsCheck::say_turn(double by_gyro_rad, double by_wheels_rad) {
   if (heading &&
       std::abs(by_receiver_rad - by_wheels_rad) < std::abs(by_receiver_rad - by_gyro_rad)) {
     fault_.format(
-        "the gyro turned %+.0f degrees, the wheels %+.0f, the receiver %+.0f: is the IMU mounted "
+        "the gyro turned %+.0f degrees, %s %+.0f, the receiver %+.0f: is the IMU mounted "
         "as configured, and groups.base.track_m right?",
-        to_deg(by_gyro_rad), to_deg(by_wheels_rad), to_deg(by_receiver_rad));
+        to_deg(by_gyro_rad), words_->wheels, to_deg(by_wheels_rad), to_deg(by_receiver_rad));
   } else {
-    fault_.format(
-        "by its wheels the robot turned %+.0f degrees, by the %s %+.0f: sides swapped, or a wheel "
-        "reversed?",
-        to_deg(by_wheels_rad), heading ? "gyro and receiver" : "gyro", to_deg(by_gyro_rad));
+    fault_.format("%s the robot turned %+.0f degrees, by the %s %+.0f: %s", words_->by,
+                  to_deg(by_wheels_rad), heading ? "gyro and receiver" : "gyro",
+                  to_deg(by_gyro_rad), words_->wrong_turn);
   }
 }
 
@@ -134,10 +136,8 @@ void MechanicsCheck::compare_turn(const MechanicsInput& input) {
   }
   const Mark* then = std::isfinite(heading_turn_rad_) ? mark_at(heading_at_) : nullptr;
   if (then == nullptr || !apart(heading_turn_rad_, then->turn_rad)) return;
-  fault_.format(
-      "by its wheels the robot turned %+.0f degrees, by the receiver %+.0f: sides swapped, or a "
-      "wheel reversed?",
-      to_deg(then->turn_rad), to_deg(heading_turn_rad_));
+  fault_.format("%s the robot turned %+.0f degrees, by the receiver %+.0f: %s", words_->by,
+                to_deg(then->turn_rad), to_deg(heading_turn_rad_), words_->wrong_turn);
 }
 
 void MechanicsCheck::compare_way(const Mark& wheels) {
@@ -173,15 +173,11 @@ void MechanicsCheck::compare_way(const Mark& wheels) {
   odd_places_ = odd_m > kWaySigmas * sigma ? odd_places_ + 1 : 0;
   if (odd_places_ < 2 && !(odd_m > kWaySigmasAtOnce * sigma)) return;
   if (back) {
-    fault_.format(
-        "the wheels rolled %+.2f m, the receiver went %+.2f m: drives reversed, the heading "
-        "turned round, or gear ratio wrong?",
-        rolled_m, ahead_m);
+    fault_.format("%s %+.2f m, the receiver went %+.2f m: %s", words_->rolled, rolled_m, ahead_m,
+                  words_->wrong_way);
   } else {
-    fault_.format("the wheels rolled %.2f m, the receiver went %.2f m: %s", std::abs(rolled_m),
-                  gone_m,
-                  too_little_m > too_much_m ? "wheels slip, or gear ratio or wheel radius is wrong?"
-                                            : "gear ratio or wheel radius is wrong?");
+    fault_.format("%s %.2f m, the receiver went %.2f m: %s", words_->rolled, std::abs(rolled_m),
+                  gone_m, too_little_m > too_much_m ? words_->short_way : words_->long_way);
   }
 }
 

@@ -13,6 +13,8 @@
 
 namespace drover::engine {
 
+struct BaseWords;
+
 struct MechanicsInput {
   Time now = kNever;
   Duration dt{};
@@ -73,6 +75,7 @@ class MechanicsCheck final {
   void say_turn(double by_gyro_rad, double by_wheels_rad);
 
   EngineConfig config_;
+  const BaseWords* words_;
   bool proved_ = false;
   bool moving_ = false;
   Time still_since_ = kNever;

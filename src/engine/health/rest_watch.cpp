@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/words.h"
 #include "engine/health/heard.h"
 #include "engine/still.h"
 
@@ -163,7 +164,7 @@ bool RestWatch::rolls(Time now) const {
 Reason RestWatch::turns_by_itself() const {
   Reason why;
   if (turning_ && !ours_) {
-    why.format("the robot rolls without a command: the wheels turn by %.2f m/s", rim_mps_);
+    why.format("the robot rolls without a command: %s %.2f m/s", words_of(base_).turn_by, rim_mps_);
   }
   return why;
 }
@@ -182,11 +183,12 @@ void RestWatch::tell(const char* what, const Rims& rims, const Testimony& said) 
   const std::string_view others = said.in_words;
   const auto size = static_cast<int>(others.size());
   if (std::abs(rims.fastest_mps) > kTurns_mps) {
-    reason_.format("%s: the wheels turn by %.2f m/s%s%.*s", what, rims.fastest_mps,
+    reason_.format("%s: %s %.2f m/s%s%.*s", what, words_of(base_).turn_by, rims.fastest_mps,
                    others.empty() ? "" : ", ", size, others.data());
   } else {
-    reason_.format("%s: the wheels %s, but %.*s", what,
-                   rims.silent ? "are silent" : "say that it rests", size, others.data());
+    const BaseWords& words = words_of(base_);
+    reason_.format("%s: %s, but %.*s", what, rims.silent ? words.are_silent : words.tell_rest, size,
+                   others.data());
   }
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/base/words.h"
 #include "engine/health/heard.h"
 
 namespace drover::engine {
@@ -113,15 +114,15 @@ bool WheelMonitor::runs_away(Wheel& wheel, const AxisSnapshot& axis, Time now, D
 }
 
 void WheelMonitor::tell_runaway(const AxisSnapshot& axis) {
-  const auto size = static_cast<int>(axis.joint.view().size());
-  const char* joint = axis.joint.view().data();
-  const char* word = joint_word(base_);
+  const auto joint = joint_text(base_, axis.joint);
+  const auto size = static_cast<int>(joint.view().size());
+  const char* unit = joint_unit(base_);
   const double radps = axis.motion.velocity_radps;
   if (std::abs(radps) > fastest_radps_) {
-    reason_.format("%s %.*s runs away: %.1f %s", word, size, joint, radps, joint_unit(base_));
+    reason_.format("%.*s runs away: %.1f %s", size, joint.view().data(), radps, unit);
   } else {
-    reason_.format("%s %.*s turns by itself: %.1f %s, commanded %.1f", word, size, joint, radps,
-                   joint_unit(base_), axis.commanded_velocity_radps);
+    reason_.format("%.*s turns by itself: %.1f %s, commanded %.1f", size, joint.view().data(),
+                   radps, unit, axis.commanded_velocity_radps);
   }
 }
 
@@ -149,15 +150,15 @@ WheelFault WheelMonitor::update(Time now, Duration dt, std::span<const AxisSnaps
   }
   if (judged == 0) return WheelFault::none;
   if (shortest >= from_s(config_.navigate.blocked_timeout_s)) {
-    reason_.format("blocked: the wheels do not move for %.1f s", to_s(shortest));
+    reason_.format("blocked: %s for %.1f s", words_of(base_).do_not_move, to_s(shortest));
     return WheelFault::blocked;
   }
   // Only beside one that does follow now; when all stand, the robot is about to be blocked.
   const bool others_follow = shortest <= from_s(1.5 * kWindow_s);
   if (longest >= from_s(config_.health.follow_timeout_s) && others_follow) {
-    const std::string_view joint = behind->joint;
-    reason_.format("%s %.*s does not follow its command", joint_word(base_),
-                   static_cast<int>(joint.size()), joint.data());
+    const auto joint = joint_text(base_, behind->joint);
+    reason_.format("%.*s does not follow its command", static_cast<int>(joint.view().size()),
+                   joint.view().data());
     return WheelFault::not_following;
   }
   return WheelFault::none;

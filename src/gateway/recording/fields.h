@@ -235,11 +235,29 @@ void visit_values(V& v, const char* name, const List& list) {
 }
 
 template <class V>
+void visit_fields(V& v, const BaseSnapshot& base) {
+  const auto& [configured, measured, state, fault, commanded, bus_V, bus_A, health, source,
+               last_motion] = base;
+  (void)configured;
+  v.value("vx_mps", measured.vx_mps);
+  v.value("wz_radps", measured.wz_radps);
+  v.value("state", state);
+  v.value("fault", fault);
+  v.value("commanded_vx_mps", commanded.vx_mps);
+  v.value("commanded_wz_radps", commanded.wz_radps);
+  v.value("bus_V", bus_V);
+  v.value("bus_A", bus_A);
+  v.value("health", health);
+  v.inside("source", [&v, &part = source] { visit_fields(v, part); });
+  v.value("last_motion", last_motion);
+}
+
+template <class V>
 void visit_fields(V& v, const Snapshot& snapshot) {
-  const auto& [time, pose, worst_vx_mps, nav, gnss, imu, battery, joint_command, axes, line_active,
-               line_health, line_configured, line_source, output_configured, output_on, links,
-               stop_latched, hold, guard_alive, guard_has_bus, origin_set, origin, why, cycle,
-               estimator, notices_dropped] = snapshot;
+  const auto& [time, pose, worst_vx_mps, nav, gnss, imu, battery, joint_command, axes, base,
+               line_active, line_health, line_configured, line_source, output_configured, output_on,
+               links, stop_latched, hold, guard_alive, guard_has_bus, origin_set, origin, why,
+               cycle, estimator, notices_dropped] = snapshot;
   (void)links;  // those two are the loop's
   (void)cycle;
   v.value("time", time);
@@ -252,6 +270,8 @@ void visit_fields(V& v, const Snapshot& snapshot) {
   v.inside("joint_command", [&v, &part = joint_command] { visit_fields(v, part); });
   for (std::size_t i = 0; i < axes.size(); ++i)
     v.inside("axes", i, [&v, &part = axes[i]] { visit_fields(v, part); });
+  // It is there or not from the start on: a recording numbers its fields.
+  if (base.configured) v.inside("base", [&v, &part = base] { visit_fields(v, part); });
   visit_values(v, "line_active", line_active);
   visit_values(v, "line_health", line_health);
   visit_values(v, "line_configured", line_configured);

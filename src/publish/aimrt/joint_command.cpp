@@ -99,6 +99,7 @@ Result<JointTargets, Reason> accept_joint_command(const JointCommandMessage& mes
                                                   std::uint64_t last_stamp_ns) {
   Reason reason = stamp_problem(message.stamp_ns, rules.max_age, wall, last_stamp_ns);
   if (!reason.empty()) return reason;
+  if (rules.joints.empty()) return Reason("this robot has no joints: its base takes a twist");
   if (message.joints.empty()) return Reason("it names no joint");
   if (message.joints.size() > rules.joints.size()) {
     reason.format("it names %zu joints, this robot has %zu", message.joints.size(),

@@ -26,6 +26,8 @@ constexpr int kDegrees = 3;    // of the compass
 constexpr int kGeodetic = 10;  // degrees: 0.01 mm
 
 bool drives_healthy(const Snapshot& snapshot) {
+  if (const BaseSnapshot& base = snapshot.base; base.configured)
+    return base.health == SourceState::fresh && base.state != AxisState::fault;
   return !snapshot.axes.empty() &&
          std::all_of(snapshot.axes.begin(), snapshot.axes.end(), [](const AxisSnapshot& axis) {
            return axis.health == SourceState::fresh && axis.state != AxisState::fault;
@@ -103,7 +105,7 @@ double BaseStatus::power(const Snapshot& snapshot) {
   if (config_.power == PowerUnit::percent) return soc_percent_;
   if (known(snapshot.battery)) return keep(bus_V_, snapshot.battery.sample.voltage_V);
   // Without a battery that answers the drives know the voltage; the lowest is the one that matters.
-  double lowest_V = kAbsent;
+  double lowest_V = snapshot.base.bus_V;
   for (const AxisSnapshot& axis : snapshot.axes) lowest_V = std::fmin(lowest_V, axis.bus_V);
   return keep(bus_V_, lowest_V);
 }

@@ -19,6 +19,7 @@ void forget_motion(Snapshot& s) {
     axis.motion.effort_Nm = kAbsent;
     axis.commanded_velocity_radps = kAbsent;
   }
+  s.base.measured = s.base.commanded = {kAbsent, kAbsent};
   s.joint_command.active = false;
 }
 
@@ -48,6 +49,7 @@ Snapshot as_seen(const Snapshot& snapshot, Time now, Duration limit) {
   source(seen.imu.health, seen.imu.source);
   source(seen.battery.health, seen.battery.source);
   for (AxisSnapshot& axis : seen.axes) source(axis.health, axis.source);
+  source(seen.base.health, seen.base.source);
   for (std::size_t i = 0; i < kLineCount; ++i) source(seen.line_health[i], seen.line_source[i]);
   forget_motion(seen);
   seen.nav.status = NavStatus::error;

@@ -173,6 +173,28 @@ void axes(JsonText& out, const Snapshot& s) {
   out.close(']');
 }
 
+/// A base that takes a twist.
+void base(JsonText& out, const Snapshot& s) {
+  out.key("base");
+  if (!s.base.configured) {
+    out.null();
+    return;
+  }
+  out.open('{');
+  out.key("state").text(word(s.base.state));
+  out.key("health").text(word(s.base.health));
+  out.key("fault").text(s.base.fault.view());
+  number(out, "vx_mps", s.base.measured.vx_mps);
+  number(out, "wz_radps", s.base.measured.wz_radps);
+  number(out, "commanded_vx_mps", s.base.commanded.vx_mps);
+  number(out, "commanded_wz_radps", s.base.commanded.wz_radps);
+  number(out, "bus_V", s.base.bus_V);
+  number(out, "bus_A", s.base.bus_A);
+  age(out, "age_s", s.time, s.base.last_motion);
+  source(out, s.base.source);
+  out.close('}');
+}
+
 void lines(JsonText& out, const Snapshot& s) {
   out.key("lines").open('{');
   for (std::size_t i = 0; i < kLineCount; ++i) {
@@ -300,6 +322,7 @@ std::string status_json(const Snapshot& s, const DaemonStatus& daemon) {
   imu(out, s);
   battery(out, s);
   axes(out, s);
+  base(out, s);
   lines(out, s);
   outputs(out, s);
   links(out, s);

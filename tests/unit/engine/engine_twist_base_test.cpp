@@ -64,7 +64,7 @@ TEST_F(ABaseThatTakesATwist, StandsAtOnceWhenItsDeviceIsSilent) {
   rig.tick();
   EXPECT_TRUE(at_rest());
   EXPECT_FALSE(rig.out.motion_permitted);
-  EXPECT_THAT(rig.why(), HasSubstr("the base, left"));
+  EXPECT_THAT(rig.why(), HasSubstr("the base: no feedback"));
 }
 
 TEST_F(ABaseThatTakesATwist, StandsAtOnceWhenItsDeviceHasAFault) {
@@ -89,7 +89,7 @@ TEST_F(ABaseThatTakesATwist, IsFoundRunningAway) {
   rig.disobeys = WheelSpeeds{15, 15};
   rig.run_s(0.4);
   EXPECT_TRUE(at_rest());
-  EXPECT_THAT(rig.why(), HasSubstr("the base, left"));
+  EXPECT_THAT(rig.why(), HasSubstr("the base runs away"));
   EXPECT_THAT(rig.why(), HasSubstr("m/s"));
 }
 

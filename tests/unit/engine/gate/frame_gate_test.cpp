@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <stdexcept>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace drover::engine {
@@ -12,7 +14,7 @@ namespace {
 /// frame, and 0x12 extended.
 constexpr Channel kOne{"axis"};
 
-class FakeDrive final : public Actuator {
+class FakeDrive : public Actuator {
  public:
   explicit FakeDrive(std::uint32_t base = 0x10, std::uint8_t max_len = 8)
       : rules_{{base, false, false, 8, max_len},
@@ -244,6 +246,97 @@ TEST_F(AFrameGateThatLetsSlowDown, RefusesARampThatGrowsAgain) {
 }
 TEST_F(AFrameGateThatLetsSlowDown, RefusesItWhileTheGuardHasTheBus) {
   EXPECT_EQ(slow(10, 20, true), kRefusedMotion);
+}
+
+/// Two joints in one frame, or a base: bytes 1 and 2 are what is asked.
+constexpr Channel kTwo[] = {{"left"}, {"right"}};
+constexpr Channel kBase{"base", ChannelMode::twist};
+
+class FakePair : public FakeDrive {
+ public:
+  std::span<const Channel> channels() const override { return kTwo; }
+  Effect effect(const Message& message, Time now) const override {
+    const Effect one = FakeDrive::effect(message, now);
+    return one.kind == FrameEffect::motion ? Effect{one.kind, 3} : one;
+  }
+  double setpoint_radps(const Message& message, std::size_t channel) const override {
+    return static_cast<std::int8_t>(message.frame()->data[1 + channel]);
+  }
+};
+
+class FakeBase final : public FakePair {
+ public:
+  std::span<const Channel> channels() const override { return {&kBase, 1}; }
+  Effect effect(const Message& message, Time now) const override {
+    return FakeDrive::effect(message, now);
+  }
+  Twist setpoint_twist(const Message& message, std::size_t) const override {
+    return {setpoint_radps(message, 0), setpoint_radps(message, 1)};
+  }
+};
+
+CanFrame both(int first, int second) {
+  CanFrame f = frame(first == 0 && second == 0 ? 0 : 1);
+  f.data[1] = static_cast<std::uint8_t>(first);
+  f.data[2] = static_cast<std::uint8_t>(second);
+  return f;
+}
+
+TEST(AFrameGateWithTwoJointsInAFrame, TakesAZeroBesideAMotionForTheEndOfThatRamp) {
+  FrameGate gate;
+  const FakePair drive;
+  gate.add(0, drive);
+  const Slowing slowing[] = {{true, 20}, {true, 20}};
+  const auto slow = [&](int left, int right) {
+    return gate.admit(0, both(left, right), drive, {0, false, slowing}, Time{});
+  };
+  EXPECT_EQ(slow(20, 10), FrameVerdict::pass);
+  EXPECT_EQ(slow(15, 0), FrameVerdict::pass);
+  EXPECT_EQ(slow(15, 1), kRefusedMotion);
+  EXPECT_EQ(slow(10, 0), FrameVerdict::pass);
+}
+
+class AFrameGateOfABase : public ::testing::Test {
+ protected:
+  AFrameGateOfABase() { gate.add(0, base); }
+  FrameVerdict slow(int vx, int wz, const Twist& measured) {
+    const Slowing slowing[] = {{true, 0, measured}};
+    return gate.admit(0, both(vx, wz), base, {0, false, slowing}, Time{});
+  }
+  FakeBase base;
+  FrameGate gate;
+};
+
+TEST_F(AFrameGateOfABase, LetsARampOfBothPartsPass) {
+  for (const auto& [vx, wz] : {std::pair{20, -10}, {15, -10}, {15, -3}, {0, -3}, {0, 0}})
+    EXPECT_EQ(slow(vx, wz, {20, -10}), FrameVerdict::pass) << vx << ' ' << wz;
+  EXPECT_EQ(slow(0, -1, {20, -10}), kRefusedMotion) << "it has come to rest";
+  gate.end_slowing(base, 0);
+  EXPECT_EQ(slow(0, -1, {20, -10}), FrameVerdict::pass);
+}
+TEST_F(AFrameGateOfABase, RefusesAPartThatGrows) {
+  EXPECT_EQ(slow(20, -5, {20, -10}), FrameVerdict::pass);
+  EXPECT_EQ(slow(15, -6, {20, -10}), kRefusedMotion);
+  EXPECT_EQ(slow(21, -5, {30, -10}), kRefusedMotion);
+}
+TEST_F(AFrameGateOfABase, RefusesAPartThatTheBaseDoesNotHave) {
+  EXPECT_EQ(slow(20, 1, {20, 0}), kRefusedMotion);
+  EXPECT_EQ(slow(20, 5, {20, -10}), kRefusedMotion);
+  EXPECT_EQ(slow(21, 0, {20, 0}), kRefusedMotion);
+  EXPECT_EQ(slow(1, 0, {kAbsent, kAbsent}), kRefusedMotion);
+}
+
+TEST(FrameGate, NamesAnIdAsDataSheetsDo) {
+  FrameGate gate;
+  const FakeDrive one{0x20};
+  const FakeDrive other{0x20};
+  gate.add(0, one);
+  try {
+    gate.add(0, other);
+    FAIL() << "two drives send the same frame";
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find("0x020"), std::string::npos) << error.what();
+  }
 }
 
 }  // namespace
