@@ -2,16 +2,18 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <span>
 
 #include "config/check_subjects.h"
 #include "config/taken.h"
+#include "drover/baud.h"
 #include "text/suggestion.h"
 
 namespace drover::config {
 namespace {
 
 constexpr int kUsualBaud = 115200;
-constexpr int kLeastBaud = 4800;
+constexpr std::size_t kLongestInterface = 15;  // the kernel's, without the zero at its end
 
 /// "" when it is a device or tcp:ADDRESS:PORT. No names: to resolve one may take longer than
 /// anything here waits.
@@ -47,6 +49,14 @@ std::string kind_key(Wire wire) {
   return "gpio";
 }
 
+void check_baud(const LinkConfig& link, std::span<const int> known, Findings& found) {
+  if (std::find(known.begin(), known.end(), link.baud) != known.end()) return;
+  std::string all;
+  for (const int baud : known) all += (all.empty() ? "" : ", ") + std::to_string(baud);
+  found.add(link_path(link, "baud"),
+            "is " + std::to_string(link.baud) + ", but a line has one of " + all);
+}
+
 /// Speed and parity are of the lines that have them.
 void check_pace(LinkConfig& link, Findings& found) {
   const auto refuse = [&](std::string_view key) {
@@ -56,11 +66,20 @@ void check_pace(LinkConfig& link, Findings& found) {
   };
   if (link.wire != Wire::registers) refuse("parity");
   if (link.wire == Wire::can || link.wire == Wire::levels) refuse("baud");
-  if (link.wire != Wire::bytes) return;
-  if (link.baud == 0) link.baud = kUsualBaud;
-  if (link.baud < kLeastBaud)
-    found.add(link_path(link, "baud"), "is " + std::to_string(link.baud) +
-                                           ", but must be at least " + std::to_string(kLeastBaud));
+  if (link.wire == Wire::bytes) {
+    if (link.baud == 0) link.baud = kUsualBaud;
+    check_baud(link, kSerialBauds, found);
+  } else if (link.wire == Wire::registers && link.baud != 0) {
+    check_baud(link, kModbusBauds, found);
+  }
+}
+
+/// Longer ones the kernel cuts, or refuses when it is too late.
+void check_interface(const LinkConfig& link, Findings& found) {
+  if (link.can.starts_with("unix:") || link.can.size() <= kLongestInterface) return;
+  found.add(link_path(link, "can"), "\"" + link.can +
+                                        "\" is no name of an interface: they have up to " +
+                                        std::to_string(kLongestInterface) + " characters");
 }
 
 /// One program opens a line; two devices would take each other's bytes.
@@ -94,6 +113,7 @@ void check_links(Findings& found) {
     link.wire = wire_of(link);
     if (address(link).empty()) continue;  // told already
     check_pace(link, found);
+    check_interface(link, found);
     if (const auto why = check_modbus_port(link.modbus); !why.empty())
       found.add(link_path(link, "modbus"), why);
     if (link.wire == Wire::can && ++buses == kMaxBuses + 1)

@@ -13,6 +13,7 @@
 #include <cerrno>
 #include <cstdlib>
 
+#include "drover/baud.h"
 #include "drover/bytes.h"
 #include "link/unique_fd.h"
 
@@ -33,10 +34,6 @@ constexpr int kTcpMostUnanswered = 3;
 Duration settle(int unanswered) {
   return kFirstSettle * (1 << std::min(unanswered - 1, kMostDoublings));
 }
-
-/// libmodbus takes any other rate for 9600 without a word.
-constexpr int kModbusBaudRates[] = {1200,  2400,   4800,   9600,   19200, 38400,
-                                    57600, 115200, 230400, 460800, 921600};
 
 }  // namespace
 
@@ -196,8 +193,8 @@ bool descriptors_left() {
 
 Opened<ModbusLink> open_modbus(const ModbusSettings& settings, NowFunction now) {
   const bool tcp = settings.port.starts_with("tcp:");
-  if (!tcp && std::find(std::begin(kModbusBaudRates), std::end(kModbusBaudRates), settings.baud) ==
-                  std::end(kModbusBaudRates)) {
+  if (!tcp &&
+      std::find(kModbusBauds.begin(), kModbusBauds.end(), settings.baud) == kModbusBauds.end()) {
     Opened<ModbusLink> opened;
     opened.problem =
         settings.port + ": baud rate " + std::to_string(settings.baud) + " is not supported";

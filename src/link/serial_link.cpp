@@ -5,18 +5,18 @@
 #include <sys/ioctl.h>
 #include <termios.h>
 
+#include <algorithm>
+
+#include "drover/baud.h"
+
 namespace drover::link {
 
 namespace {
 
-struct BaudRate {
-  int baud;
-  speed_t code;
-};
-constexpr BaudRate kBaudRates[] = {
-    {4800, B4800},     {9600, B9600},     {19200, B19200},   {38400, B38400},   {57600, B57600},
-    {115200, B115200}, {230400, B230400}, {460800, B460800}, {921600, B921600},
-};
+/// In the order of kSerialBauds.
+constexpr speed_t kCodes[] = {B4800,   B9600,   B19200,  B38400, B57600,
+                              B115200, B230400, B460800, B921600};
+static_assert(std::size(kCodes) == kSerialBauds.size());
 
 bool make_raw(int fd, speed_t speed) {
   termios settings{};
@@ -56,10 +56,8 @@ bool SerialLink::write(std::span<const std::uint8_t> bytes, std::size_t& taken) 
 Opened<SerialLink> open_serial(const SerialSettings& settings) {
   Opened<SerialLink> opened;
   const auto& path = settings.path;
-  const BaudRate* rate = nullptr;
-  for (const auto& candidate : kBaudRates)
-    if (candidate.baud == settings.baud) rate = &candidate;
-  if (rate == nullptr) {
+  const auto* const rate = std::find(kSerialBauds.begin(), kSerialBauds.end(), settings.baud);
+  if (rate == kSerialBauds.end()) {
     opened.problem = path + ": baud rate " + std::to_string(settings.baud) + " is not supported";
     return opened;
   }
@@ -73,7 +71,7 @@ Opened<SerialLink> open_serial(const SerialSettings& settings) {
     return opened;
   }
   ::ioctl(fd.get(), TIOCEXCL);
-  if (!make_raw(fd.get(), rate->code)) {
+  if (!make_raw(fd.get(), kCodes[rate - kSerialBauds.begin()])) {
     opened.problem = problem_text(path, "is no serial line", errno);
     return opened;
   }

@@ -35,6 +35,18 @@ TEST(ConfigurationChecks, RefuseALinkThatDoesNotExist) {
       "f:6:43: devices.right.link: there is no link named \"cna0\" (did you mean \"can0\"?)\n");
 }
 
+TEST(ConfigurationChecks, RefuseASpeedThatNoLineHas) {
+  EXPECT_THAT(problems(with("115200", "115201")),
+              HasSubstr("links.gnss.baud: is 115201, but a line has one of 4800, 9600"));
+}
+
+TEST(ConfigurationChecks, RefuseAnInterfaceThatTheKernelCannotName) {
+  EXPECT_THAT(
+      problems(with("{\"can\": \"can0\"}", "{\"can\": \"can0_of_the_left_side\"}")),
+      HasSubstr("links.can0.can: \"can0_of_the_left_side\" is no name of an interface: they "
+                "have up to 15 characters"));
+}
+
 TEST(ConfigurationChecks, RefuseALinkOfTheWrongWire) {
   EXPECT_EQ(
       problems(with("\"link\": \"can0\", \"options\": {\"node\": 2}",

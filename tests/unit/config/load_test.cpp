@@ -137,7 +137,8 @@ TEST(Configuration, TellsAllProblemsAtOnceInTheOrderOfTheFile) {
   text.replace(text.find("115200"), 6, "1");
   text.replace(text.find("1883"), 4, "70000");
   EXPECT_EQ(problems(text),
-            "f:3:60: links.gnss.baud: is 1, but must be at least 4800\n"
+            "f:3:60: links.gnss.baud: is 1, but a line has one of 4800, 9600, 19200, 38400, 57600, "
+            "115200, 230400, 460800, 921600\n"
             "f:6:62: devices.right.options.node: is missing (node id of the axis on the bus, 0 to "
             "62 (63 is the broadcast))\n"
             "f:6:63: devices.right.options.nod: is no known key (did you mean \"node\"?)\n"
