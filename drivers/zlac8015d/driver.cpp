@@ -44,8 +44,9 @@ Zlac8015dDriver::Zlac8015dDriver(const Settings& settings, std::array<AxisId, kW
       steps_(steps_of(settings)),
       setup_(settings.node, {steps_.data(), steps_.size()}) {
   if (settings.silence_ms > 0) {
-    silence_text_.format("stops after %.3f s (its time-out, set and read back at each start)",
-                         settings.silence_ms / 1000.0);
+    silence_text_.format(
+        "stops and holds after %.3f s (its time-out, set and read back at each start)",
+        settings.silence_ms / 1000.0);
   } else {
     silence_text_ = "keeps its last velocity for ever: silence_ms is 0";
   }
@@ -269,6 +270,7 @@ SilenceBehaviour Zlac8015dDriver::silence() const {
   behaviour.stops = settings_.silence_ms > 0;
   behaviour.after = milliseconds(settings_.silence_ms);
   behaviour.text = silence_text_.view();
+  behaviour.ends = StopEnds::holds;
   return behaviour;
 }
 

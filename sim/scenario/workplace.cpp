@@ -4,9 +4,11 @@
 #include <netinet/in.h>
 #include <sys/socket.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <span>
 #include <sstream>
 #include <stdexcept>
 #include <string_view>
@@ -51,6 +53,36 @@ void make_map_absolute(Json& battery, const fs::path& folder) {
   if (!battery.is_object() || !battery.contains("map")) return;
   const auto path = folder / battery.value("map", "");
   if (fs::exists(path)) battery["map"] = path.lexically_normal().string();
+}
+
+struct WideOption {
+  SlotKind kind;
+  std::string_view name;
+  json value;
+};
+/// Of drives themselves: when they stop without being told.
+const WideOption kTimeOuts[] = {
+    {SlotKind::drive, "watchdog_timeout_s", 2},
+    {SlotKind::drive, "silence_ms", 2000},
+};
+/// Of the gateway's drivers.
+const WideOption kAges[] = {{SlotKind::drive, "stale_s", 1},
+                            {SlotKind::drive, "heartbeat_timeout_s", 1},
+                            {SlotKind::gnss, "stale_s", 2},
+                            {SlotKind::imu, "stale_s", 2},
+                            {SlotKind::line, "stale_s", 0.5}};
+
+/// Those that the device's driver has.
+template <class Json>
+void widen_options(Json& device, std::span<const WideOption> wide) {
+  const auto* const driver = find_driver(device.value("driver", ""));
+  if (driver == nullptr) return;
+  for (const auto& one : wide) {
+    const bool has =
+        driver->kind == one.kind && std::any_of(driver->options.begin(), driver->options.end(),
+                                                [&](const auto& o) { return o.name == one.name; });
+    if (has) device["options"][std::string(one.name)] = one.value;
+  }
 }
 
 bool is_kind(const ordered_json& device, SlotKind kind) {
@@ -157,15 +189,10 @@ void Workplace::make_native(ordered_json& config) {
 /// Where the clock is the host's, robot and gateway share its hold-ups: a desktop lets a process
 /// sleep 0.2 s longer than it asked for. A robot's ages are for a machine of its own.
 void Workplace::widen_ages(ordered_json& config) {
-  for (auto& drive : document_["drives"]) drive["options"]["watchdog_timeout_s"] = 2;
+  for (auto& drive : document_["drives"]) widen_options(drive, kTimeOuts);
   for (auto& device : config["devices"]) {
-    const auto widen = [&device](SlotKind kind, const ordered_json& options) {
-      if (is_kind(device, kind)) device["options"].update(options);
-    };
-    widen(SlotKind::drive, {{"watchdog_timeout_s", 2}, {"stale_s", 1}, {"heartbeat_timeout_s", 1}});
-    widen(SlotKind::gnss, {{"stale_s", 2}});
-    widen(SlotKind::imu, {{"stale_s", 2}});
-    widen(SlotKind::line, {{"stale_s", 0.5}});
+    widen_options(device, kTimeOuts);
+    widen_options(device, kAges);
   }
   config["health"].update(
       {{"drive_stale_s", 1}, {"gnss_stale_s", 2}, {"imu_stale_s", 2}, {"line_stale_s", 0.5}});

@@ -18,16 +18,20 @@ void follow_baud(DeviceConfig& device, const LinkConfig& link, Findings& found) 
   device.options.set("baud", static_cast<double>(link.baud));
 }
 
-/// A drive whose time-out ends before the guard speaks lets go, and the guard's zeros hold nothing.
+/// A drive whose time-out ends before the guard speaks is at rest without it, and the guard's zeros
+/// hold nothing that let go. One that holds by itself may be as early as it likes.
 void look_at_guard(const DeviceConfig& device, const SilenceBehaviour& silence, Findings& found) {
   constexpr int kGuardsCycles_ms = 20;
   const auto& guard = found.config().guard;
   const Duration takes_over = std::chrono::milliseconds(guard.limit_ms + kGuardsCycles_ms);
   if (!guard.required || !silence.stops || silence.after > takes_over) return;
+  if (silence.ends == StopEnds::holds) return;
+  const char* const ends = silence.ends == StopEnds::coasts ? "lets go" : "only brakes";
   found.add(device_path(device, "options"),
-            "the drive lets go before drover-guard takes over when droverd dies: " +
-                std::string(silence.text) + ", and the guard needs up to " +
-                std::to_string(guard.limit_ms + kGuardsCycles_ms) + " ms",
+            "the drive " + std::string(ends) +
+                " before drover-guard takes over when droverd dies: " + std::string(silence.text) +
+                ", and the guard needs up to " + std::to_string(guard.limit_ms + kGuardsCycles_ms) +
+                " ms",
             "a longer time-out of the drive, or a smaller guard.limit_ms");
 }
 

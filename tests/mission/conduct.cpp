@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "mission/wire_zlac8015d.h"
+
 namespace drover::mission {
 namespace {
 
@@ -88,7 +90,6 @@ class Ramps {
   explicit Ramps(const Record& record) : record_(record) {}
   /// Set points in the order of their times.
   bool slows(const Sent& one) {
-    constexpr double kMps_per_turnps = 2 * 3.141592653589793 * 0.165 / 10;  // radius, gear
     constexpr double kSlip_mps = 0.1;
     constexpr double kStands_mps = 0.02;  // at the end of a ramp the body swings back
     constexpr Duration kNew = 100ms;
@@ -100,7 +101,7 @@ class Ramps {
     if (record_.truth.empty() || one.time > record_.truth.back().time || one.wheel.torque_Nm != 0)
       return false;
     const double rolls_mps = record_.truth_at(one.time).vx_mps;
-    const double asked_mps = one.wheel.velocity_turnps * kMps_per_turnps;
+    const double asked_mps = one.wheel.velocity_turnps * record_.mps_per_turnps;
     const bool same_way = asked_mps * rolls_mps >= 0 || std::abs(asked_mps) < kStands_mps;
     return !grows && same_way && std::abs(asked_mps) <= std::abs(rolls_mps) + kSlip_mps;
   }
@@ -131,7 +132,8 @@ Problems check_frames(const Record& record) {
   std::size_t number = 0;
   for (const auto& line : record.can) {
     ++number;
-    const auto why = line.bus == "can0" ? forbidden(line.frame) : "no bus of this robot";
+    const auto judge = record.maker == Maker::odrive ? forbidden : zlac8015d::forbidden;
+    const auto why = line.bus == "can0" ? judge(line.frame) : "no bus of this robot";
     if (!why.empty()) add(problems, "can.log:" + std::to_string(number) + ": " + why);
   }
   if (record.sent.empty()) add(problems, "no set point was ever sent");

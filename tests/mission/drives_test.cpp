@@ -29,6 +29,11 @@ TEST(TwoWheels, AreDrivenToSuccessCloseToTheTrack) {
   expect_plain_mission("two_wheels");
 }
 
+// Both wheels behind one node.
+TEST(Zlac8015d, IsDrivenToSuccessCloseToTheTrack) {
+  expect_plain_mission("zlac8015d");
+}
+
 TEST(Long, LastsTenMinutes) {
   const Record& log = record("long");
   EXPECT_GE(to_s(log.truth.back().time - log.truth.front().time), 600.0);

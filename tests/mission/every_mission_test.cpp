@@ -35,7 +35,7 @@ TEST_P(EveryMission, SendsNoFrameThatIsNotOnTheList) {
 
 TEST_P(EveryMission, MovesNothingOutsideOfATaskOrAStream) {
   const bool caught = std::string_view(GetParam()).ends_with("_on_ramp") &&
-                      std::string_view(GetParam()) != "kill_on_ramp";
+                      !std::string_view(GetParam()).ends_with("kill_on_ramp");
   EXPECT_THAT(check_motion(log(), caught ? Holding::caught : Holding::unmoved), IsEmpty());
 }
 
@@ -68,8 +68,8 @@ TEST_P(EveryMission, SendsAimrtPacketsThatProtocReads) {
   // While it moved: a drive that lost its supply counts from zero again, and zeros are left out.
   const auto moving = log().moving();
   const auto joints = newest("JointState", moving.empty() ? Time::max() : moving.back().time);
-  for (const char* name : {"front_left", "rear_left", "front_right", "rear_right"})
-    EXPECT_THAT(joints, testing::HasSubstr("name: \"" + std::string(name) + "\"\n  position: "));
+  for (const auto& name : log().joints)
+    EXPECT_THAT(joints, testing::HasSubstr("name: \"" + name + "\"\n  position: "));
   EXPECT_THAT(newest("TouchState"), testing::HasSubstr("names: \"bumper\""));
   const auto imu = newest("ImuState");
   EXPECT_THAT(imu, testing::HasSubstr("frame_id: \"base_link\""));
@@ -102,7 +102,7 @@ INSTANTIATE_TEST_SUITE_P(
                     "stop_and_kill", "brake_on_ramp", "worm_gear_on_ramp", "rolls_on_ramp",
                     "runs_on_ramp", "rest_on_ramp", "stop_while_hung", "frozen_broker",
                     "joint_obstacle", "long_dip_on_ramp", "dip_down_on_ramp", "cancel_under_zeros",
-                    "guard_dies_on_ramp"),
+                    "guard_dies_on_ramp", "zlac8015d"),
     [](const auto& one) { return std::string(one.param); });
 
 }  // namespace

@@ -9,6 +9,8 @@
 #include <map>
 #include <stdexcept>
 
+#include "mission/wire_zlac8015d.h"
+
 namespace drover::mission {
 namespace {
 
@@ -88,16 +90,39 @@ json read_json(const fs::path& file) {
   throw std::runtime_error(record.folder.string() + ": " + what);
 }
 
+/// What its drives are like.
+void read_drives(const json& scenario, Record& record) {
+  constexpr double kTurn = 2 * M_PI;
+  record.mps_per_turnps = kTurn * 0.165 / 10;
+  for (const auto& drive : scenario.value("drives", json::array())) {
+    if (drive.value("driver", "") == "zlac8015d") {
+      record.maker = Maker::zlac8015d;
+      record.mps_per_turnps = kTurn * 0.085;
+    }
+    if (drive.contains("joint")) record.joints.push_back(drive.at("joint"));
+    for (const auto& joint : drive.value("joints", json::array())) record.joints.push_back(joint);
+  }
+}
+
+void read_set_points(const CanLine& line, Record& record) {
+  if (record.maker == Maker::odrive) {
+    if (const auto wheel = wheel_command(line.frame)) record.sent.push_back({line.time, *wheel});
+  } else if (const auto targets = zlac8015d::targets_turnps(line.frame)) {
+    for (std::uint8_t i = 0; i < targets->size(); ++i)
+      record.sent.push_back({line.time, {static_cast<std::uint8_t>(i + 1), (*targets)[i], 0}});
+  }
+}
+
 }  // namespace
 
 Record read_record(const fs::path& folder, const json& scenario) {
   Record record;
   record.folder = folder;
+  read_drives(scenario, record);
   const Earth earth(scenario);
   each_line(folder / "can.log", [&](std::string_view line) {
     auto parsed = parse_can_line(line);
-    if (const auto wheel = wheel_command(parsed.frame))
-      record.sent.push_back({parsed.time, *wheel});
+    read_set_points(parsed, record);
     append(record.can, std::move(parsed));
   });
   each_line(folder / "mqtt.log",

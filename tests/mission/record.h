@@ -38,8 +38,14 @@ struct Sent {
   WheelCommand wheel;
 };
 
+/// Whose drives they are.
+enum class Maker { odrive, zlac8015d };
+
 struct Record {
   std::filesystem::path folder;
+  Maker maker = Maker::odrive;
+  std::vector<std::string> joints;  ///< of the drives, in their order
+  double mps_per_turnps = 0;        ///< way of a wheel in a motor's turn
   std::vector<CanLine> can;
   std::vector<MqttLine> mqtt;
   std::vector<EventLine> events;
@@ -48,7 +54,8 @@ struct Record {
   // What the lines above mean:
   std::vector<Status> statuses;
   std::vector<Feedback> feedback;
-  std::vector<Sent> sent;  ///< every Set_Input_Vel on the bus, whoever sent it
+  /// Every set point on the bus, whoever sent it. Of a ZLAC8015D the wheels are nodes 1 and 2.
+  std::vector<Sent> sent;
   std::vector<JointCommandLine> joint_commands;
   std::vector<Place> track;   ///< of the last save_trajectory, in the simulator's frame
   std::size_t target_id = 0;  ///< of the last start_task, from 1

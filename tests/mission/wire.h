@@ -16,7 +16,7 @@ namespace drover::mission {
 inline constexpr std::uint8_t kFirstNode = 1;
 inline constexpr std::uint8_t kLastNode = 4;
 
-/// A Set_Input_Vel frame.
+/// A Set_Input_Vel frame; or one wheel's share of what another maker's frame says.
 struct WheelCommand {
   std::uint8_t node = 0;
   float velocity_turnps = 0;

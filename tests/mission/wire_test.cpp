@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "mission/log_lines.h"
+#include "mission/wire_zlac8015d.h"
 
 namespace drover::mission {
 namespace {
@@ -60,6 +61,42 @@ TEST(MissionWire, ReadsNodeAndVelocity) {
   EXPECT_EQ(wheel->velocity_turnps, -2.0F);
   EXPECT_FALSE(wheel_command(frame("06D#R")));
   EXPECT_FALSE(wheel_command(frame("069#000000C000000000")));
+}
+
+TEST(MissionWire, RefusesWhatAZlac8015dMustNeverBeTold) {
+  for (const char* text : {
+           "000#8101",              // a reset of the node
+           "000#0100",              // a start of all nodes
+           "201#1F00",              // a bit that means nothing here
+           "201#0F",                // half a word
+           "302#0000000000000000",  // another node
+           "301#00000000",          // one wheel only
+           "601#2B10200001000000",  // a save to flash
+           "601#2B0A200002000000",  // a node id
+           "601#23FF600164000000",  // a target that moves, past the gate of process data
+           "601#2B40600000000000",  // a controlword beside the process data
+           "281#R",
+       })
+    EXPECT_FALSE(zlac8015d::forbidden(frame(text)).empty()) << text;
+}
+
+TEST(MissionWire, LetsThroughWhatAZlac8015dSaysAndNeeds) {
+  for (const char* text :
+       {"000#0101", "201#0F00", "301#6400000064000000", "601#4041600000000000",
+        "601#2B002000C8000000", "601#23FF600100000000", "601#230116022002FF60",
+        "581#6000200000000000", "701#05", "181#2700270000000000", "281#1AFCFFFFEA030000"})
+    EXPECT_EQ(zlac8015d::forbidden(frame(text)), "") << text;
+}
+
+TEST(MissionWire, ReadsBothWheelsOfAZlac8015dAsTheyDriveAhead) {
+  const auto ahead = zlac8015d::targets_turnps(frame("301#58020000A8FDFFFF"));
+  ASSERT_TRUE(ahead);
+  EXPECT_EQ((*ahead)[0], 1.0F);
+  EXPECT_EQ((*ahead)[1], 1.0F);
+  const auto zero = zlac8015d::targets_turnps(frame("301#0000000000000000"));
+  EXPECT_FALSE((WheelCommand{1, (*zero)[1], 0}.moves()));
+  EXPECT_TRUE(zlac8015d::is_zero_by_service(frame("601#23FF600200000000")));
+  EXPECT_FALSE(zlac8015d::is_zero_by_service(frame("601#23FF600201000000")));
 }
 
 }  // namespace

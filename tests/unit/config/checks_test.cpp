@@ -358,6 +358,17 @@ TEST(ConfigurationChecks, RefuseADriveThatLetsGoBeforeTheGuardTakesOver) {
   EXPECT_EQ(problems(alone), "");
 }
 
+// It is at rest before the guard speaks, and holds there.
+TEST(ConfigurationChecks, AllowADriveThatHoldsBeforeTheGuardTakesOver) {
+  std::string text(kGood);
+  const auto from = text.find("    \"left\": {");
+  text.replace(from, text.find("    \"gnss\": {", from) - from,
+               R"("wheels": {"driver": "zlac8015d", "link": "can0", "options": {"silence_ms": 40},
+    "joints": {"left": {"channel": "left"}, "right": {"channel": "right"}}},
+)");
+  EXPECT_EQ(problems(text), "");
+}
+
 TEST(ConfigurationChecks, WarnOfAGuardThatWaitsLongUnlessThatIsAccepted) {
   const auto slow = [](int limit_ms) {
     return with("\"mqtt\"",

@@ -139,6 +139,19 @@ TEST(RegisterMapSchema, AcceptsTheMapsThatComeAlongAndRefusesASlip) {
   }
 }
 
+TEST(Example, OfTwoHubMotorsIsOneDeviceWithTwoJoints) {
+  const auto folder = std::string(DROVER_SOURCE_DIR "/config/examples");
+  const auto loaded = load_text(read(folder + "/two_hub_motors.json"), folder);
+  EXPECT_THAT(loaded.problems, testing::IsEmpty());
+  EXPECT_THAT(loaded.warnings, testing::IsEmpty());
+  const auto& config = loaded.config;
+  ASSERT_EQ(config.engine.joints.size(), 2U);
+  EXPECT_EQ(config.devices[0].name, "wheels");
+  EXPECT_EQ(config.devices[0].joints.size(), 2U);
+  EXPECT_EQ(config.engine.base.left.size(), 1U);
+  EXPECT_EQ(config.engine.base.right.size(), 1U);
+}
+
 TEST(Example, ExplainsEverySection) {
   const auto text = read(DROVER_SOURCE_DIR "/config/drover.json");
   const auto schema = Json::parse(schema_text());
