@@ -20,7 +20,8 @@ void known_words(const std::string& path, const std::vector<std::string>& words,
 void check_accepted(Findings& found) {
   for (const auto& device : found.config().devices)
     known_words(device_path(device, "accept"), device.accept, {"no_watchdog"}, found);
-  known_words("accept", found.config().accept, {"no_estop", "slow_guard", "no_tilt"}, found);
+  known_words("accept", found.config().accept, {"no_estop", "slow_guard", "no_tilt", "no_soc"},
+              found);
 }
 
 void warn_of_risks(Findings& found) {
@@ -36,6 +37,16 @@ void warn_of_risks(Findings& found) {
                "without an inertial sensor nothing tells how steep the ground is: max_tilt_deg "
                "stops nothing",
                "no_tilt");
+  for (const auto& device : devices) {
+    const auto& fields = device.registers.fields;
+    const bool has_charge = std::any_of(fields.begin(), fields.end(), [](const auto& field) {
+      return field.field == BatteryField::soc_percent;
+    });
+    if (!fields.empty() && !has_charge)
+      found.warn(device_path(device, "map"),
+                 "tells no soc: an empty battery is not noticed, and no task ends for it",
+                 "no_soc");
+  }
   constexpr int kSlowGuard_ms = 200;
   if (found.config().guard.limit_ms > kSlowGuard_ms)
     found.warn("guard.limit_ms",

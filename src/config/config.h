@@ -143,8 +143,7 @@ struct DroverConfig {
   MqttConfig mqtt;
   ProtocolConfig protocol;
   AimrtConfig aimrt;
-  std::vector<std::string>
-      accept;  ///< by name what is warned of otherwise: no_estop, slow_guard, no_tilt
+  std::vector<std::string> accept;  ///< by name what is warned of otherwise, see warn_of_risks()
   engine::EngineConfig engine;
 };
 

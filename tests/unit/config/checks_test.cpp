@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 #include "unit/config/config_text.h"
 
 namespace drover::config {
@@ -325,6 +327,19 @@ TEST(ConfigurationChecks, WarnOfNoEmergencyStopLineUnlessThatIsAccepted) {
   EXPECT_EQ(problems(without), "");
   auto accepted = without;
   accepted.insert(2, "\"accept\": [\"no_estop\"],");
+  EXPECT_EQ(warnings(accepted), "");
+}
+
+TEST(ConfigurationChecks, WarnOfABatteryWhoseChargeNobodyTellsUnlessThatIsAccepted) {
+  const auto map = testing::TempDir() + "no_soc.json";
+  std::ofstream(map) << R"({"name": "m", "source": "s", "fields": [{"field": "voltage", "address": 1}]})";
+  auto text = with("\"panel\"", "\"bms\": {\"modbus\": \"/dev/bms\"}, \"panel\"");
+  text.insert(text.find("    \"estop\""),
+              R"("pack": {"driver": "modbus_bms", "link": "bms", "map": ")" + map + "\"},\n");
+  EXPECT_EQ(problems(text), "");
+  EXPECT_THAT(warnings(text), HasSubstr("devices.pack.map: tells no soc"));
+  auto accepted = text;
+  accepted.insert(2, "\"accept\": [\"no_soc\"],");
   EXPECT_EQ(warnings(accepted), "");
 }
 
