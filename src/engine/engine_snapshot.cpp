@@ -84,10 +84,9 @@ void Engine::Impl::fill_snapshot(Time now, const Environment& environment, const
   snapshot.hold = hold.state();
   snapshot.guard_alive = environment.guard_alive;
   snapshot.guard_has_bus = environment.guard_has_bus;
-  const std::uint32_t latched_bit = 1U << static_cast<unsigned>(Cause::latched);
   snapshot.why.clear();
   // Latched in this very cycle by what is no lasting cause: health will tell from the next on.
-  if (snapshot.stop_latched && (report.causes & latched_bit) == 0 && report.stop.empty()) {
+  if (snapshot.stop_latched && !report.holds(Cause::latched) && report.stop.empty()) {
     (void)snapshot.why.push_back(latched());
   }
   for (const Reason& reason : report.why) {

@@ -45,7 +45,7 @@ HealthMonitor::HealthMonitor(const EngineConfig& config)
 void HealthMonitor::hold(Cause cause, const Reason& text) {
   const auto index = static_cast<std::size_t>(cause);
   if (holds(cause)) return;  // the first of a kind speaks for all
-  report_.causes |= 1U << index;
+  report_.causes |= bit(cause);
   report_.texts[index] = text;
 }
 
@@ -204,35 +204,51 @@ void HealthMonitor::look_at_position(const HealthInput& input) {
 }
 
 void HealthMonitor::look_at_battery(const HealthInput& input) {
-  report_.end_task.clear();
-  report_.no_start.clear();
-  if (input.steep != nullptr && !input.steep->empty()) {
-    hold(Cause::steep, *input.steep);
-    report_.end_task = *input.steep;
-  }
   if (!config_.battery_configured || input.battery == nullptr) return;
   const BatteryVerdict& verdict =
       battery_.update(input.now, *input.battery, input.environment.battery);
-  const auto told = [this](Cause cause, const Reason& text) {
+  const auto tell = [this](Cause cause, const Reason& text) {
     if (!text.empty()) hold(cause, text);
-    return !text.empty();
   };
-  if (told(Cause::charger, verdict.charger) && report_.end_task.empty())
-    report_.end_task = verdict.charger;
-  if (told(Cause::battery_critical, verdict.critical) && report_.end_task.empty())
-    report_.end_task = verdict.critical;
-  if (!verdict.present.empty()) report_.no_start = verdict.present;
-  if (told(Cause::battery_low, verdict.low)) report_.no_start = verdict.low;
-  if (told(Cause::charger, verdict.plugged)) report_.no_start = verdict.plugged;
-  told(Cause::battery_warning, verdict.warning);
-  told(Cause::battery_silent, verdict.silent);
+  tell(Cause::charger, verdict.charger);
+  tell(Cause::charger_unknown, verdict.plugged);
+  tell(Cause::battery_critical, verdict.critical);
+  tell(Cause::battery_low, verdict.low);
+  tell(Cause::battery_warning, verdict.warning);
+  tell(Cause::battery_silent, verdict.silent);
+  report_.no_start = verdict.present;
 }
 
 void HealthMonitor::look_at_program(const Environment& environment) {
   const Reason& why = environment.slept.empty() ? environment.program : environment.slept;
-  if (why.empty()) return;
-  hold(Cause::program, why);
-  if (report_.end_task.empty()) report_.end_task = why;
+  if (!why.empty()) hold(Cause::program, why);
+  if (!environment.foreign.empty()) hold(Cause::foreign, environment.foreign);
+}
+
+/// The ground, and what moved it.
+void HealthMonitor::look_at_place(const HealthInput& input) {
+  if (!input.tilt.empty()) hold(Cause::tilt, input.tilt);
+  if (input.steep != nullptr && !input.steep->empty()) hold(Cause::steep, *input.steep);
+  if (!input.moved.empty()) hold(Cause::moved, input.moved);
+  if (!input.jumped.empty()) hold(Cause::jumped, input.jumped);
+}
+
+/// What the causes do that hold, by their table.
+void HealthMonitor::conclude(bool power_cut) {
+  const auto first = [](Reason& out, bool does, const Reason& text) {
+    if (does && out.empty()) out = text;
+  };
+  for (const CauseRow& row : kCauses) {
+    if (!holds(row.cause)) continue;
+    const Reason& text = report_.text(row.cause);
+    const bool silenced = row.cause == Cause::drive_silent && power_cut;
+    first(report_.stop, row.stops && !silenced, text);
+    first(report_.end_task, row.ends_task, text);
+    first(report_.end_wait, row.ends_wait, text);
+    first(report_.no_start, row.refuses_task, text);
+    first(report_.end_stream, row.ends_stream, text);
+    (void)report_.why.push_back(text);  // as many as find room: the cause is the first
+  }
 }
 
 const HealthReport& HealthMonitor::update(const HealthInput& input) {
@@ -241,6 +257,10 @@ const HealthReport& HealthMonitor::update(const HealthInput& input) {
   report_.estop = report_.near_zone = report_.far_zone = false;
   report_.causes = 0;
   report_.stop.clear();
+  report_.end_task.clear();
+  report_.end_wait.clear();
+  report_.no_start.clear();
+  report_.end_stream.clear();
   report_.not_running.clear();
   report_.why.clear();
   look_at_lines(input);
@@ -250,30 +270,14 @@ const HealthReport& HealthMonitor::update(const HealthInput& input) {
   look_at_position(input);
   look_at_battery(input);
   look_at_program(input.environment);
-  if (!input.tilt.empty()) hold(Cause::tilt, input.tilt);
-  if (!input.moved.empty()) {
-    hold(Cause::moved, input.moved);
-    if (report_.no_start.empty()) report_.no_start = input.moved;
-  }
-  if (!input.jumped.empty()) hold(Cause::jumped, input.jumped);
-  if (const Reason& foreign = input.environment.foreign; !foreign.empty()) {
-    hold(Cause::foreign, foreign);
-    if (report_.no_start.empty()) report_.no_start = foreign;
-  }
+  look_at_place(input);
   if (!input.latched.empty()) {
     Reason text;
     text.format("stopped: %.*s", static_cast<int>(input.latched.view().size()),
                 input.latched.view().data());
     hold(Cause::latched, text);
   }
-  for (std::size_t i = 0; i < kCauseCount; ++i) {
-    const auto cause = static_cast<Cause>(i);
-    if (!holds(cause)) continue;
-    const bool silenced = cause == Cause::drive_silent && input.power_cut;
-    const bool stops = cause <= Cause::guard_silent && !silenced;
-    if (stops && report_.stop.empty()) report_.stop = report_.texts[i];
-    if (!report_.why.push_back(report_.texts[i])) break;
-  }
+  conclude(input.power_cut);
   return report_;
 }
 

@@ -7,42 +7,10 @@
 #include "drover/snapshot.h"
 #include "engine/environment.h"
 #include "engine/health/battery.h"
+#include "engine/health/causes.h"
 #include "engine/health/locate.h"
 
 namespace drover::engine {
-
-/// Everything that can be wrong, the more causal the earlier: an e-stop cuts the drives' power, so
-/// silent drives come after it.
-enum class Cause : std::uint8_t {
-  estop,
-  line_lost,
-  guard_has_bus,
-  bumper,
-  tilt,  ///< tilted beyond the limit, or gravity on the wrong axis
-  drive_silent,
-  guard_silent,
-  drive_fault,
-  latched,           ///< not a present cause: what stopped the robot before a person acted
-  steep,             ///< ground on which the base cannot be left without power: a task ends
-  charger,           ///< connected, or was when the battery was last heard: must not move
-  battery_critical,  ///< empty, too hot, or about to switch off: a task ends
-  program,           ///< a part of the daemon hangs, or it ends: a task ends
-  near_zone,
-  moved,     ///< pushed, carried or rolling without a command: a task ends and none starts
-  foreign,   ///< somebody else commands the drives: no start
-  bus,       ///< told only: what it does to the drives is their own cause
-  origin,    ///< none set
-  receiver,  ///< silent
-  imu,       ///< configured and silent, stuck or out of its range
-  locate,
-  jumped,   ///< the place changed at rest: a task ends; a start is refused once, to ask a person
-  sensors,  ///< contradict each other, and it is made up for
-  far_zone,
-  battery_low,      ///< no start, a task goes on
-  battery_warning,  ///< told only
-  battery_silent,   ///< told only: nothing is known of it
-};
-inline constexpr std::size_t kCauseCount = static_cast<std::size_t>(Cause::battery_silent) + 1;
 
 /// Last known state of the lines: the levels the drivers reported since the last cycle.
 struct LineTable {
@@ -86,13 +54,16 @@ struct HealthReport {
   /// may clear it. Empty when all run.
   Reason not_running;
   Reason locate_reason;
-  Reason end_task;  ///< a task ends with a ramp and none starts: why; empty when there is nothing
-  Reason no_start;  ///< a task goes on but none starts: why; empty when there is nothing
+  // The first cause that does it (see CauseRow); empty when none does.
+  Reason end_task;
+  Reason end_wait;
+  Reason no_start;  ///< also what no cause is yet: see BatteryVerdict::present
+  Reason end_stream;
   FixedVector<Reason, 8> why;             ///< the cause first
   std::uint32_t causes = 0;               ///< bits by Cause
   std::array<Reason, kCauseCount> texts;  ///< by Cause, for causes that hold
 
-  bool holds(Cause cause) const { return (causes >> static_cast<unsigned>(cause) & 1U) != 0; }
+  bool holds(Cause cause) const { return (causes & bit(cause)) != 0; }
   const Reason& text(Cause cause) const { return texts[static_cast<std::size_t>(cause)]; }
 };
 
@@ -113,6 +84,8 @@ class HealthMonitor final {
   void look_at_position(const HealthInput& input);
   void look_at_battery(const HealthInput& input);
   void look_at_program(const Environment& environment);
+  void look_at_place(const HealthInput& input);
+  void conclude(bool power_cut);
   bool holds(Cause cause) const { return report_.holds(cause); }
 
   EngineConfig config_;

@@ -19,13 +19,9 @@ unsigned long long as_counted(std::uint32_t target) {
   return static_cast<unsigned long long>(target) + 1;
 }
 
+/// Nothing goes on from another place than it stopped at.
 Reason find_health_failure(const HealthReport& health) {
-  if (!health.end_task.empty()) return health.end_task;
-  // Nothing goes on from another place than it stopped at.
-  for (const Cause cause : {Cause::moved, Cause::jumped}) {
-    if (health.holds(cause)) return health.text(cause);
-  }
-  return {};
+  return health.end_task.empty() ? health.end_wait : health.end_task;
 }
 
 }  // namespace

@@ -92,10 +92,7 @@ Reason Owners::hindrance(const OwnInput& input) const {
   if (!input.health.ready) return "the gateway has just started";
   if (!input.health.stop.empty()) return input.health.stop;
   if (!input.health.end_task.empty()) return input.health.end_task;
-  if (input.health.holds(Cause::charger)) return input.health.text(Cause::charger);
-  for (const Cause cause : {Cause::moved, Cause::foreign}) {
-    if (input.health.holds(cause)) return input.health.text(cause);
-  }
+  if (!input.health.end_stream.empty()) return input.health.end_stream;
   if (!input.latched.empty()) return reset_first(input.latched);
   if (!input.not_held.empty()) return input.not_held;
   if (input.task.drives) return "a task owns the drives";
