@@ -186,10 +186,16 @@ void OdriveDriver::control(const Setpoint& command, Time now, DriverOut& out) {
     case Phase::resting:
     case Phase::locked: break;
   }
-  send_setpoint(phase_ == Phase::locked ? 0 : holding_turnps_, now, false, out);
+  if (has_room(out)) send_setpoint(phase_ == Phase::locked ? 0 : holding_turnps_, now, false, out);
+}
+
+/// Of this cycle: what is more than its share would be lost on the bus.
+bool OdriveDriver::has_room(const DriverOut& out) const {
+  return out.frames.size() < before_ + messages_per_cycle();
 }
 
 void OdriveDriver::on_setpoints(std::span<const Setpoint> wanted, Time now, DriverOut& out) {
+  before_ = out.frames.size();
   if (!wanted.empty()) take(wanted.front(), now, out);
 }
 
@@ -214,9 +220,12 @@ void OdriveDriver::take(const Setpoint& command, Time now, DriverOut& out) {
 
 void OdriveDriver::on_tick(Time now, DriverOut& out) {
   // Nobody decided this cycle: zero, as at rest.
-  if (!commanded_) control(Setpoint{}, now, out);
+  if (!commanded_) {
+    before_ = out.frames.size();
+    control(Setpoint{}, now, out);
+  }
   commanded_ = false;
-  if (last_heartbeat_ != kNever) poller_.on_tick(now, out);
+  if (last_heartbeat_ != kNever && has_room(out)) poller_.on_tick(now, out);
   report_status(now, false, out);
 }
 

@@ -63,6 +63,7 @@ class OdriveDriver final : public Device, public FrameFace, public Actuator {
   void follow_heartbeat(Time now);
   void lock(std::string_view why);
   double motor_turnps(double velocity_radps);
+  bool has_room(const DriverOut& out) const;
   void send_setpoint(double turnps, Time now, bool at_once, DriverOut& out);
   void arm(Time now, DriverOut& out);
   void take(const Setpoint& command, Time now, DriverOut& out);
@@ -94,6 +95,7 @@ class OdriveDriver final : public Device, public FrameFace, public Actuator {
   AxisRequest request_ = AxisRequest::rest;
   double holding_turnps_ = 0;  ///< what a hold asks of the motor while it is being armed
   bool commanded_ = false;     ///< since the last tick
+  std::size_t before_ = 0;     ///< frames of others in this cycle's output
   Time phase_since_ = kNever;
   Time last_attempt_ = kNever;
   bool attempted_ = false;

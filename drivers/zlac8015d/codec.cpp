@@ -84,6 +84,11 @@ DriveState drive_state(const Status& status) {
   return std::min(a, b);  // the order of the steps
 }
 
+bool is_powered(const Status& status) {
+  return std::any_of(status.statuswords.begin(), status.statuswords.end(),
+                     [](std::uint16_t word) { return canopen::is_powered(wheel_state(word)); });
+}
+
 bool external_estop(const Status& status) {
   return ((status.statuswords[0] | status.statuswords[1]) & kExternalEstop) != 0;
 }

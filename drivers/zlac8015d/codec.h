@@ -74,6 +74,8 @@ std::optional<std::uint16_t> decode_controlword(const CanFrame& frame, std::uint
 canopen::DriveState wheel_state(std::uint16_t statusword);
 /// Of both: a fault of one is a fault, and a step is done when both have done it.
 canopen::DriveState drive_state(const Status& status);
+/// The power stage of either wheel is on.
+bool is_powered(const Status& status);
 /// The input on the drive's own connector is pressed.
 bool external_estop(const Status& status);
 /// The worst error of both wheels in words; empty: none.

@@ -19,19 +19,41 @@ constexpr double kSlow_radps = 0.1;
 constexpr Duration kIdleAtLast = milliseconds(1000);
 constexpr std::uint32_t kNodeBits = 0x7F;
 
-/// One controlword is for both wheels: what both ask for, else rest.
+/// One controlword is for both wheels: what both ask for. While one is caught the other may be at
+/// rest already: it holds at zero, and the catch goes on.
 AxisRequest common(std::span<const Setpoint> wanted) {
-  bool all_run = true;
-  bool all_arm = true;
-  bool all_idle = true;
-  for (const Setpoint& each : wanted) {
-    all_run = all_run && each.request == AxisRequest::run;
-    all_arm = all_arm && arms(each.request);
-    all_idle = all_idle && each.request == AxisRequest::idle;
+  const auto all = [wanted](auto fits) {
+    return std::all_of(wanted.begin(), wanted.end(),
+                       [&](const Setpoint& each) { return fits(each.request); });
+  };
+  const auto is = [](AxisRequest request) {
+    return [request](AxisRequest each) { return each == request; };
+  };
+  if (all(is(AxisRequest::run))) return AxisRequest::run;
+  if (all(is(AxisRequest::idle))) return AxisRequest::idle;
+  if (all(is(AxisRequest::rest))) return AxisRequest::rest;
+  const bool held = all(arms);
+  const bool caught =
+      all([](AxisRequest each) { return each == AxisRequest::hold || each == AxisRequest::rest; });
+  return held || caught ? AxisRequest::hold : AxisRequest::rest;
+}
+
+/// Enabled at zero it holds. The node's service channel is asked beside the PDO, which a node that
+/// was restarted does not take; one question in two rounds, as it answers one at a time.
+StopRecipe recipe_of(std::uint8_t node) {
+  StopRecipe recipe;
+  for (const std::uint8_t sub : kSubs) {
+    StopRound zero;
+    static_cast<void>(zero.frames.push_back(encode_targets(node, {})));
+    static_cast<void>(recipe.rounds.push_back(zero));
+    StopRound question;
+    static_cast<void>(question.frames.push_back(
+        canopen::encode_sdo_write(node, {canopen::kTargetVelocity, sub}, canopen::i32(0))));
+    static_cast<void>(recipe.rounds.push_back(question));
   }
-  if (all_run) return AxisRequest::run;
-  if (all_arm) return AxisRequest::hold;
-  return all_idle ? AxisRequest::idle : AxisRequest::rest;
+  recipe.period = milliseconds(10);
+  recipe.ends = StopEnds::holds;
+  return recipe;
 }
 
 }  // namespace
@@ -42,7 +64,8 @@ Zlac8015dDriver::Zlac8015dDriver(const Settings& settings, std::array<AxisId, kW
       hears_{{{0x000, 0x7FF, false}, {settings.node, kNodeBits, false}}},
       rules_(rules_of(settings)),
       steps_(steps_of(settings)),
-      setup_(settings.node, {steps_.data(), steps_.size()}) {
+      setup_(settings.node, {steps_.data(), steps_.size()}),
+      recipe_(recipe_of(settings.node)) {
   if (settings.silence_ms > 0) {
     silence_text_.format(
         "stops and holds after %.3f s (its time-out, set and read back at each start)",
@@ -149,7 +172,8 @@ Pair Zlac8015dDriver::targets_of(std::span<const Setpoint> wanted, AxisRequest r
   Pair targets{};
   if (!arms(request)) return targets;
   for (std::size_t wheel = 0; wheel < kWheels && wheel < wanted.size(); ++wheel)
-    targets[wheel] = target_of(wheel, wanted[wheel].velocity_radps);
+    if (arms(wanted[wheel].request))
+      targets[wheel] = target_of(wheel, wanted[wheel].velocity_radps);
   return targets;
 }
 
@@ -245,24 +269,6 @@ double Zlac8015dDriver::setpoint_radps(const Message& message, std::size_t chann
     targets = target_;
   if (!targets) return kAbsent;
   return radps_of(channel, static_cast<double>((*targets)[channel]) / settings_.steps_per_rpm);
-}
-
-/// Enabled at zero it holds. The node's service channel is asked beside the PDO, which a node that
-/// was restarted does not take; one question in two rounds, as it answers one at a time.
-StopRecipe Zlac8015dDriver::stop_recipe() const {
-  StopRecipe recipe;
-  for (const std::uint8_t sub : kSubs) {
-    StopRound zero;
-    static_cast<void>(zero.frames.push_back(encode_targets(settings_.node, {})));
-    static_cast<void>(recipe.rounds.push_back(zero));
-    StopRound question;
-    static_cast<void>(question.frames.push_back(canopen::encode_sdo_write(
-        settings_.node, {canopen::kTargetVelocity, sub}, canopen::i32(0))));
-    static_cast<void>(recipe.rounds.push_back(question));
-  }
-  recipe.period = milliseconds(10);
-  recipe.ends = StopEnds::holds;
-  return recipe;
 }
 
 SilenceBehaviour Zlac8015dDriver::silence() const {

@@ -32,7 +32,7 @@ class Zlac8015dDriver final : public Device, public FrameFace, public Actuator {
   Effect effect(const Message& message, Time now) const override;
   double setpoint_radps(const Message& message, std::size_t channel) const override;
   std::size_t messages_per_cycle() const override { return 3; }
-  StopRecipe stop_recipe() const override;
+  StopRecipe stop_recipe() const override { return recipe_; }
   SilenceBehaviour silence() const override;
 
  private:
@@ -79,6 +79,7 @@ class Zlac8015dDriver final : public Device, public FrameFace, public Actuator {
   RuleList rules_;
   StepList steps_;
   canopen::SdoSetup setup_;
+  StopRecipe recipe_;
   Reason silence_text_;
 
   // What the node said.

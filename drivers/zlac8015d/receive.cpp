@@ -34,14 +34,15 @@ void Zlac8015dDriver::on_frame(const CanFrame& frame, Time received, DriverOut& 
   }
 }
 
-/// The guard's zeros are welcome, and so is who only reads; whoever sends anything else fights with
-/// this gateway.
+/// The guard's frames are welcome, and so is who only reads; whoever sends anything else fights
+/// with this gateway, though it is a stop: one that releases lets the robot roll.
 void Zlac8015dDriver::on_foreign(const CanFrame& frame, Time received) {
   if (frame.id == 0 &&
       (frame.len < 2 || (frame.data[1] != settings_.node && frame.data[1] != kEveryNode)))
     return;
   if (frame.id == id_of(Cob::sdo_request, settings_.node) && frame.data[0] == kSdoRead) return;
-  if (effect(frame, received).kind == FrameEffect::stop) return;
+  for (const StopRound& round : recipe_.rounds)
+    if (std::find(round.frames.begin(), round.frames.end(), frame) != round.frames.end()) return;
   foreign_.on_frame(frame.id, received);
   if (attempts_to_run()) lock(foreign_.text().view());
 }
@@ -164,7 +165,7 @@ AxisStatus Zlac8015dDriver::status(Time now) const {
   status.error_code = known ? static_cast<std::uint64_t>(status_.errors[0]) |
                                   static_cast<std::uint64_t>(status_.errors[1]) << 16U
                             : 0;
-  status.powered = known && canopen::is_powered(drive_state(status_));
+  status.powered = known && is_powered(status_);
   const Reason text = known ? fault_text() : Reason();
   const bool failed = known && state_of_drive() == AxisState::fault && phase_ != Phase::arming;
   if (fault_ || foreign_.is_shown(now) || failed) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <numbers>
 
 #include "drover/bytes.h"
 
@@ -13,15 +14,26 @@ using canopen::DriveState;
 using canopen::NodeState;
 using canopen::Object;
 
+// CiA 301: abort codes of the service channel; bits of a PDO's id, objects 1400 and 1800.
 constexpr std::uint32_t kNoObject = 0x06020000;
 constexpr std::uint32_t kReadOnly = 0x06010002;
 constexpr std::uint32_t kInvalidPdo = 0x80000000;
 constexpr std::uint32_t kIdBits = 0x7FF;
+constexpr std::uint8_t kByEvent = 254;   ///< transmission type; the maker's know 254 and 255 only
+constexpr std::uint8_t kMostMapped = 2;  ///< objects in a PDO: of four bytes, as all that is mapped
+// "ZLAC8015D CANopen Communication Routine V1.07": its example of an event timer, and 603F.
 constexpr Duration kPdoUnit = std::chrono::microseconds(500);
+constexpr std::uint16_t kOverCurrent = 0x0004;
 constexpr std::uint16_t kOverTemperature = 0x0400;
-constexpr std::uint8_t kMostMapped = 2;  ///< objects in a PDO
+// Of the same: what 6041 shows in each state, which is what 6040 asked for.
+constexpr std::uint16_t kNoEstop = 0x0020;
 
-/// Objects of the drive with the maker's defaults; those of the PDOs come with the loop below.
+constexpr double kTurn_rad = 2 * std::numbers::pi;
+constexpr double kRpmPerRadps = 60 / kTurn_rad;
+constexpr double kStepsPerRpm = 10;  ///< of 606C, whatever 2026:05 says of targets
+
+/// Objects of the drive with the maker's defaults (the dictionary of the same routine); those of
+/// the PDOs come with the loop below.
 constexpr struct {
   Object object;
   canopen::SdoNumber value;
@@ -55,6 +67,34 @@ CanFrame answer(std::uint8_t node, std::uint8_t command, Object object, std::uin
   return frame;
 }
 
+/// Of one wheel.
+std::uint16_t statusword(DriveState drive) {
+  switch (drive) {
+    case DriveState::ready_to_switch_on: return kNoEstop | 0x01;
+    case DriveState::switched_on: return kNoEstop | 0x03;
+    case DriveState::operation_enabled: return kNoEstop | 0x07;
+    case DriveState::quick_stop_active: return 0x07;
+    case DriveState::fault: return kNoEstop | 0x08;
+    default: return kNoEstop;
+  }
+}
+
+/// Where a wheel goes from here by a controlword; faults apart.
+DriveState next_state(DriveState from, std::uint16_t word) {
+  switch (word & 0x0FU) {
+    case canopen::kShutdown: return DriveState::ready_to_switch_on;
+    case canopen::kSwitchOn:
+      return from == DriveState::switch_on_disabled ? from : DriveState::switched_on;
+    case canopen::kEnableOperation: {
+      const bool may = from == DriveState::switched_on || from == DriveState::quick_stop_active;
+      return may ? DriveState::operation_enabled : from;
+    }
+    case canopen::kQuickStop:
+      return from == DriveState::operation_enabled ? DriveState::quick_stop_active : from;
+    default: return DriveState::switch_on_disabled;
+  }
+}
+
 }  // namespace
 
 Zlac8015dTwin::Zlac8015dTwin(const Settings& settings, const TwinSettings& twin)
@@ -63,9 +103,7 @@ Zlac8015dTwin::Zlac8015dTwin(const Settings& settings, const TwinSettings& twin)
 void Zlac8015dTwin::boot(Time now, TwinFrames& out) {
   booted_ = true;
   state_ = NodeState::pre_operational;
-  drive_ = DriveState::switch_on_disabled;
   controlword_ = 0;
-  error_ = 0;
   wheels_ = {};
   dictionary_.clear();
   const auto add = [this](Object object, canopen::SdoNumber value) {
@@ -77,7 +115,7 @@ void Zlac8015dTwin::boot(Time now, TwinFrames& out) {
       const auto communication = static_cast<std::uint16_t>((sends ? 0x1800U : 0x1400U) + pdo);
       const auto mapping = static_cast<std::uint16_t>((sends ? 0x1A00U : 0x1600U) + pdo);
       add({communication, 1}, canopen::u32(kInvalidPdo));
-      add({communication, 2}, canopen::u8(254));
+      add({communication, 2}, canopen::u8(kByEvent));
       if (sends) add({communication, 5}, canopen::u16(0));
       for (std::uint8_t sub = 0; sub <= kMostMapped; ++sub)
         add({mapping, sub}, sub == 0 ? canopen::u8(0) : canopen::u32(0));
@@ -102,24 +140,28 @@ bool Zlac8015dTwin::set_fault(std::string_view name, Time) {
   } else if (name == "silent") {
     silent_ = true;
   } else if (name == "over_temperature") {
-    fail(kOverTemperature);
+    fail(kLeft, kOverTemperature);
+  } else if (name == "over_current") {
+    fail(kRight, kOverCurrent);
   } else if (name == "leaves_enabled") {
-    drive_ = DriveState::switch_on_disabled;
+    wheels_[kRight].drive = DriveState::switch_on_disabled;
   } else if (name.substr(0, kError.size()) == kError) {
-    std::uint16_t bits = 0;
+    std::uint32_t bits = 0;
     const char* const end = name.data() + name.size();
     const auto result = std::from_chars(name.data() + kError.size(), end, bits, 16);
     if (result.ec != std::errc() || result.ptr != end || bits == 0) return false;
-    fail(bits);
+    for (std::size_t wheel = 0; wheel < kWheels; ++wheel)
+      fail(wheel, static_cast<std::uint16_t>(bits >> 16U * wheel));
   } else {
     return false;
   }
   return true;
 }
 
-void Zlac8015dTwin::fail(std::uint16_t error) {
-  error_ |= error;
-  drive_ = DriveState::fault;
+void Zlac8015dTwin::fail(std::size_t wheel, std::uint16_t error) {
+  if (error == 0) return;
+  wheels_[wheel].error |= error;
+  wheels_[wheel].drive = DriveState::fault;
 }
 
 void Zlac8015dTwin::send(const CanFrame& frame, TwinFrames& out) const {
@@ -142,29 +184,20 @@ std::uint8_t Zlac8015dTwin::mapped_count(std::uint16_t mapping) const {
   return static_cast<std::uint8_t>(std::min<std::uint32_t>(stored(mapping, 0), kMostMapped));
 }
 
-std::uint16_t Zlac8015dTwin::statusword() const {
-  switch (drive_) {
-    case DriveState::ready_to_switch_on: return 0x0021;
-    case DriveState::switched_on: return 0x0023;
-    case DriveState::operation_enabled: return 0x0027;
-    case DriveState::quick_stop_active: return 0x0007;
-    case DriveState::fault: return 0x0028;
-    default: return 0x0020;
-  }
-}
-
 std::uint32_t Zlac8015dTwin::read(Object object) const {
   const std::size_t wheel = object.sub == 2 ? kRight : kLeft;
-  const double turns = wheels_[wheel].position_rad / 6.283185307179586 * settings_.gear_ratio;
-  const double rpm = wheels_[wheel].measured_radps * 9.549296585513721 * settings_.gear_ratio;
+  const Wheel& one = wheels_[wheel];
+  const double turns = one.position_rad / kTurn_rad * settings_.gear_ratio;
+  const double rpm = one.measured_radps * kRpmPerRadps * settings_.gear_ratio;
+  const auto signed_bits = [](double value) {
+    return static_cast<std::uint32_t>(static_cast<std::int32_t>(value));
+  };
   switch (object.index) {
-    case canopen::kStatusword: return statusword() * 0x10001U;
-    case canopen::kErrorCode: return error_;
-    case canopen::kVelocityActual:
-      return static_cast<std::uint32_t>(static_cast<std::int32_t>(rpm * 10));
-    case canopen::kPositionActual:
-      return static_cast<std::uint32_t>(
-          static_cast<std::int32_t>(turns * settings_.counts_per_turn));
+    case canopen::kStatusword:
+      return statusword(wheels_[kLeft].drive) | statusword(wheels_[kRight].drive) * 0x10000U;
+    case canopen::kErrorCode: return wheels_[kLeft].error | wheels_[kRight].error * 0x10000U;
+    case canopen::kVelocityActual: return signed_bits(rpm * kStepsPerRpm);
+    case canopen::kPositionActual: return signed_bits(turns * settings_.counts_per_turn);
     default: return stored(object.index, object.sub);
   }
 }
@@ -178,28 +211,18 @@ void Zlac8015dTwin::write(Object object, std::uint32_t bits, Time now) {
   last_fed_ = now;
 }
 
+/// One word is for both wheels.
 void Zlac8015dTwin::on_controlword(std::uint16_t word) {
-  const std::uint16_t before = controlword_;
+  const bool resets =
+      (word & canopen::kFaultReset) != 0 && (controlword_ & canopen::kFaultReset) == 0;
   controlword_ = word;
-  if (drive_ == DriveState::fault) {
-    const bool edge = (word & canopen::kFaultReset) != 0 && (before & canopen::kFaultReset) == 0;
-    if (edge) error_ = 0, drive_ = DriveState::switch_on_disabled;
-    return;
-  }
-  const auto from = [this](DriveState state) { return drive_ == state; };
-  switch (word & 0x0FU) {
-    case canopen::kShutdown: drive_ = DriveState::ready_to_switch_on; break;
-    case canopen::kSwitchOn:
-      if (!from(DriveState::switch_on_disabled)) drive_ = DriveState::switched_on;
-      break;
-    case canopen::kEnableOperation:
-      if (from(DriveState::switched_on) || from(DriveState::quick_stop_active))
-        drive_ = DriveState::operation_enabled;
-      break;
-    case canopen::kQuickStop:
-      if (from(DriveState::operation_enabled)) drive_ = DriveState::quick_stop_active;
-      break;
-    default: drive_ = DriveState::switch_on_disabled; break;
+  for (Wheel& wheel : wheels_) {
+    if (wheel.drive != DriveState::fault) {
+      wheel.drive = next_state(wheel.drive, word);
+    } else if (resets) {
+      wheel.error = 0;
+      wheel.drive = DriveState::switch_on_disabled;
+    }
   }
 }
 

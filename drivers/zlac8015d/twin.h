@@ -11,7 +11,8 @@
 
 namespace drover::zlac8015d {
 
-/// The simulated device's own numbers, at the joint.
+/// The simulated device's own numbers, at the joint. The maker tells none of them: they are of the
+/// size that hub motors of 6.5 to 10 inches need.
 struct TwinSettings {
   double torque_limit_Nm = 30;
   double velocity_gain_Nms_per_rad = 8;
@@ -29,8 +30,10 @@ class Zlac8015dTwin final : public CanTwin {
   void on_frame(const CanFrame& frame, Time now, TwinFrames& out) override;
   void on_tick(Time now, std::span<Shaft> shafts, TwinFrames& out) override;
   void set_power(bool on, Time now) override;
-  /// Known: "over_temperature" (of the left motor), "silent" (sends nothing, still obeys),
-  /// "leaves_enabled" (once, without an error), "error:<hex>" (those bits of 603F).
+  /// Known: "over_temperature" (of the left motor), "over_current" (of the right one), "silent"
+  /// (sends nothing, still obeys), "leaves_enabled" (the right wheel alone, once, without an
+  /// error), "error:<hex>" (object 603F: the low half is the left wheel's). The other wheel goes
+  /// on.
   bool set_fault(std::string_view name, Time now) override;
 
  private:
@@ -39,6 +42,8 @@ class Zlac8015dTwin final : public CanTwin {
     canopen::SdoNumber value;
   };
   struct Wheel {
+    canopen::DriveState drive = canopen::DriveState::switch_on_disabled;
+    std::uint16_t error = 0;  ///< bits of 603F
     std::int32_t target = 0;  ///< as it was sent
     double ramped_rpm = 0;
     double measured_radps = 0;  ///< of the joint, as the motor turns
@@ -58,8 +63,7 @@ class Zlac8015dTwin final : public CanTwin {
   std::uint32_t stored(std::uint16_t index, std::uint8_t sub) const;
   std::uint8_t mapped_count(std::uint16_t mapping) const;
   void on_controlword(std::uint16_t word);
-  void fail(std::uint16_t error);
-  std::uint16_t statusword() const;
+  void fail(std::size_t wheel, std::uint16_t error);
   void send_cyclic(Time now, TwinFrames& out);
   void move(double dt_s, std::span<Shaft> shafts);
   double torque_of(std::size_t wheel, double dt_s);
@@ -75,9 +79,7 @@ class Zlac8015dTwin final : public CanTwin {
   std::array<Time, 4> next_pdo_{};
   Time last_fed_ = kNever;
   canopen::NodeState state_ = canopen::NodeState::boot_up;
-  canopen::DriveState drive_ = canopen::DriveState::switch_on_disabled;
   std::uint16_t controlword_ = 0;
-  std::uint16_t error_ = 0;
   FixedVector<Entry, 96> dictionary_;
   std::array<Wheel, kWheels> wheels_;
 };

@@ -16,7 +16,7 @@ constexpr double kRadpsPerRpm = 2 * std::numbers::pi / 60;
 
 double Zlac8015dTwin::torque_of(std::size_t wheel, double dt_s) {
   Wheel& w = wheels_[wheel];
-  const bool follows = drive_ == canopen::DriveState::operation_enabled &&
+  const bool follows = w.drive == canopen::DriveState::operation_enabled &&
                        stored(canopen::kMode, 0) == kVelocityMode;
   const double asked_rpm =
       follows ? w.target / std::max(1.0, static_cast<double>(stored(kDriverParameters, 5))) : 0.0;
@@ -35,10 +35,10 @@ double Zlac8015dTwin::torque_of(std::size_t wheel, double dt_s) {
 }
 
 void Zlac8015dTwin::move(double dt_s, std::span<Shaft> shafts) {
-  const bool energized = booted_ && canopen::is_powered(drive_);
   for (std::size_t wheel = 0; wheel < kWheels && wheel < shafts.size(); ++wheel) {
     Wheel& w = wheels_[wheel];
     Shaft& shaft = shafts[wheel];
+    const bool energized = booted_ && canopen::is_powered(w.drive);
     const double sign = settings_.sign[wheel];
     if (!booted_) w.power_on_rad = shaft.position_rad * sign;
     w.position_rad = shaft.position_rad * sign - w.power_on_rad;

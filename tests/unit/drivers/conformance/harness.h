@@ -213,6 +213,7 @@ class CanBench {
   int off_list = 0;
   int forbidden = 0;
   int motion_at_rest = 0;
+  std::size_t most_frames = 0;  ///< in a cycle
   std::uint64_t allocations = 0;
   std::uint64_t overflows = 0;
 
@@ -239,6 +240,7 @@ class CanBench {
     note();
     overflows += out.overflows;
     const DriverOut sending = out;
+    most_frames = std::max(most_frames, sending.frames.size());
     for (const CanFrame& frame : sending.frames) {
       sent.push_back(frame);
       off_list += on_list(actuator->rules(), frame) ? 0 : 1;

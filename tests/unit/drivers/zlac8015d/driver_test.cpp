@@ -130,14 +130,63 @@ TEST(Zlac8015d, StopsByItselfWhenTargetsCease) {
   EXPECT_NEAR(bench.shafts[kRight].velocity_radps, 0, 0.02);
 }
 
-TEST(Zlac8015d, AFaultOfOneWheelIsAFaultOfBoth) {
+/// The other one has its power still, and would go on.
+TEST(Zlac8015d, AFaultOfOneWheelStopsBoth) {
+  for (const auto& [fault, text] : {std::pair{"over_temperature", "motor too hot"},
+                                    {"over_current", "over-current"},
+                                    {"leaves_enabled", ""}}) {
+    Bench bench;
+    bench.arm();
+    bench.run(milliseconds(1000), kRun, 3.0);
+    ASSERT_TRUE(bench.twin->set_fault(fault, bench.now));
+    bench.sent.clear();
+    bench.run(milliseconds(100), kRun, 3.0);
+    EXPECT_EQ(bench.status.state, AxisState::fault);
+    EXPECT_TRUE(bench.status.powered) << "of the other wheel";
+    EXPECT_NE(bench.status.reason.view().find(text), std::string_view::npos)
+        << bench.status.reason.view();
+    EXPECT_EQ(describe(bench.sent.back()), "301#0000000000000000");
+    bench.run(milliseconds(1500), kRun, 3.0);
+    const std::size_t well = fault == std::string_view("over_temperature") ? kRight : kLeft;
+    EXPECT_TRUE(bench.shafts[well].energized) << fault;
+    EXPECT_NEAR(bench.shafts[well].velocity_radps, 0, 0.02) << fault;
+    EXPECT_FALSE(bench.shafts[1 - well].energized) << fault;
+  }
+}
+
+TEST(Zlac8015d, CatchesAWheelOnThoughTheOtherIsAtRestAlready) {
   Bench bench;
   bench.arm();
-  ASSERT_TRUE(bench.twin->set_fault("over_temperature", bench.now));
-  bench.run(milliseconds(100), kRun, 1.0);
-  EXPECT_EQ(bench.status.state, AxisState::fault);
-  EXPECT_EQ(bench.status.reason, "drive reports a fault: motor too hot");
-  EXPECT_FALSE(bench.shafts[kRight].energized);
+  const Setpoint wanted[] = {{AxisRequest::hold, 2.0, {}}, {AxisRequest::rest, 0, {}}};
+  bench.out.clear();
+  bench.actuator->on_setpoints(wanted, bench.now, bench.out);
+  ASSERT_FALSE(bench.out.frames.empty());
+  EXPECT_EQ(describe(bench.out.frames[0]), "301#BE00000000000000");
+  const Setpoint done[] = {{AxisRequest::rest, 0, {}}, {AxisRequest::rest, 0, {}}};
+  bench.out.clear();
+  bench.actuator->on_setpoints(done, bench.now, bench.out);
+  EXPECT_EQ(describe(bench.out.frames[0]), "301#0000000000000000");
+}
+
+/// A node that came back takes no process data: the guard asks its service channel as well.
+TEST(Zlac8015d, IsStoppedByEachHalfOfItsRecipe) {
+  for (const std::uint32_t half : {0x301U, 0x601U}) {
+    test::Subject without_time_out = Bench::subject();
+    without_time_out.options.set("silence_ms", 0.0);
+    test::CanBench bench(without_time_out);
+    bench.run(milliseconds(800), kRest);
+    bench.run(milliseconds(1500), kRun, 3.0);
+    ASSERT_NEAR(bench.shafts[kRight].velocity_radps, 3.0, 0.1);
+    bench.driver_alive = false;
+    for (int i = 0; i < 300; ++i) {
+      for (const StopRound& round : bench.actuator->stop_recipe().rounds)
+        for (const CanFrame& frame : round.frames)
+          if (frame.id == half) bench.send(frame);
+      bench.step({});
+    }
+    EXPECT_NEAR(bench.shafts[kLeft].velocity_radps, 0, 0.05) << half;
+    EXPECT_NEAR(bench.shafts[kRight].velocity_radps, 0, 0.05) << half;
+  }
 }
 
 TEST(Zlac8015d, SaysWhichObjectIsRefused) {
@@ -162,6 +211,23 @@ TEST(Zlac8015d, SomebodyElsesTargetsAreAFault) {
   bench.inject(parse_frame("301#6400000064000000"));
   bench.run(milliseconds(20), kRun, 1.0);
   EXPECT_EQ(bench.status.state, AxisState::fault);
+}
+
+/// What the guard never sends, though it stops: it releases, and the robot rolls.
+TEST(Zlac8015d, SomebodyElsesReleaseOrQuickStopIsAFaultToo) {
+  for (const char* const frame : {"201#0000", "201#0200"}) {
+    Bench bench;
+    bench.arm();
+    for (const StopRound& round : bench.actuator->stop_recipe().rounds)
+      for (const CanFrame& guards : round.frames) bench.inject(guards);
+    bench.run(milliseconds(20), kRun, 1.0);
+    ASSERT_EQ(bench.status.state, AxisState::running) << "the guard's are welcome";
+    bench.inject(parse_frame(frame));
+    bench.run(milliseconds(20), kRun, 1.0);
+    EXPECT_EQ(bench.status.state, AxisState::fault) << frame;
+    EXPECT_NE(bench.status.reason.view().find("somebody else"), std::string_view::npos)
+        << bench.status.reason.view();
+  }
 }
 
 }  // namespace
