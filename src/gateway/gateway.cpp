@@ -93,8 +93,8 @@ void Gateway::write(Slot& slot, Time now) {
       without_rules_[slot.link] += scratch_.packets.size();
       return;
     }
-    without_rules_[slot.link] += scratch_.bytes.size();
-    if (scratch_.reopen_baud != 0) stream.waiting.reopen_baud = scratch_.reopen_baud;
+    // The guard has the same open file: at another speed its stops would be noise.
+    without_rules_[slot.link] += scratch_.bytes.size() + (scratch_.reopen_baud != 0 ? 1 : 0);
     const engine::Permission permitted = permission(slot);
     for (const Packet& packet : scratch_.packets) {
       const auto verdict =
@@ -221,6 +221,8 @@ void Gateway::hand_out() {
   }
   for (std::size_t i = 0; i < streams_.size(); ++i) {
     StreamOutput& waiting = streams_[i].waiting;
+    // The guard writes whole packets there; even a stop of ours could fall into one of them.
+    if (waiting.moves && guard_has_bus_) waiting.bytes.clear();
     cycle_.streams[i] = waiting;
     waiting = {waiting.link, {}, 0, waiting.moves};
   }

@@ -57,6 +57,11 @@ void Guard::cycle(Time t) {
   ++cycles_;
   if (!ready_told_) ready_told_ = notify_.say("READY=1");
   if (cycles_ % kCyclesToWatchdog == 0) notify_.say("WATCHDOG=1");
+  if (set_.died() != died_) {  // a store that keeps it open would keep its name taken as well
+    died_ = set_.died();
+    keep_.keep(set_, limit_ms_);
+    speech_.say("drover-guard: a line is gone, and closed");
+  }
   keep_.step(set_, memory_);
 }
 

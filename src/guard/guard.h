@@ -80,6 +80,7 @@ class Guard final : public StopListener {
   int relay_line_ = -1;
   std::array<char, kGuardNameSize> relay_name_{};
 
+  std::uint64_t died_ = 0;  ///< lines, as told
   std::uint64_t cycles_ = 0;
   bool ready_told_ = false;
   FixedText<400> state_text_;

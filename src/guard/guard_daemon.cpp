@@ -150,7 +150,7 @@ void Guard::lend(const GuardMessage& message) {
 bool Guard::let_go(const GuardMessage& message) {
   if (!is_name(message.name)) return false;
   if (relay_line_ >= 0 && message.name == relay_name_) ::close(std::exchange(relay_line_, -1));
-  set_.let_go(message.name.data());
+  if (set_.let_go(message.name.data())) keep_.keep(set_, limit_ms_);
   return true;
 }
 

@@ -198,6 +198,7 @@ std::size_t StopSet::write_some(Link& link, const std::uint8_t* bytes, std::size
   if (n >= 0) return static_cast<std::size_t>(n);
   if (is_dead(errno)) {
     close(link);  // held on to, it would keep the device's name from coming back
+    ++died_;
   }
   return 0;
 }

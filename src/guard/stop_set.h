@@ -55,6 +55,8 @@ class StopSet final {
   void tell(std::vector<GuardMessage>& words) const;
   /// Closes it: it is dead, or somebody wants it for himself.
   bool let_go(std::string_view link);
+  /// Links that were found dead, and closed, so far.
+  std::uint64_t died() const { return died_; }
 
  private:
   struct Link {
@@ -83,9 +85,9 @@ class StopSet final {
   };
   bool has(const Axis& axis) const;
   static void close(Link& link);
-  static bool send(Link& link, const Message& message);
-  static bool write_packet(Link& link, const Message& message);
-  static std::size_t write_some(Link& link, const std::uint8_t* bytes, std::size_t size);
+  bool send(Link& link, const Message& message);
+  bool write_packet(Link& link, const Message& message);
+  std::size_t write_some(Link& link, const std::uint8_t* bytes, std::size_t size);
 
   std::array<Link, kGuardMaxLinks> links_{};
   std::array<Axis, kGuardMaxAxes> axes_{};
@@ -93,6 +95,7 @@ class StopSet final {
   std::size_t axis_count_ = 0;
   std::size_t message_count_ = 0;
   std::uint64_t unsent_ = 0;
+  std::uint64_t died_ = 0;
 };
 
 }  // namespace drover::guard

@@ -3,9 +3,11 @@
 #include <fcntl.h>
 #include <sys/file.h>
 #include <sys/ioctl.h>
+#include <sys/stat.h>
 #include <termios.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "drover/baud.h"
 
@@ -18,7 +20,7 @@ constexpr speed_t kCodes[] = {B4800,   B9600,   B19200,  B38400, B57600,
                               B115200, B230400, B460800, B921600};
 static_assert(std::size(kCodes) == kSerialBauds.size());
 
-bool make_raw(int fd, speed_t speed) {
+bool make_raw(int fd, speed_t speed, int thrown_away) {
   termios settings{};
   if (::tcgetattr(fd, &settings) != 0) return false;
   ::cfmakeraw(&settings);
@@ -28,7 +30,22 @@ bool make_raw(int fd, speed_t speed) {
   settings.c_cc[VTIME] = 0;
   if (::cfsetspeed(&settings, speed) != 0) return false;
   if (::tcsetattr(fd, TCSANOW, &settings) != 0) return false;
-  return ::tcflush(fd, TCIOFLUSH) == 0;
+  return ::tcflush(fd, thrown_away) == 0;
+}
+
+/// Nothing: nobody has heard of it.
+std::optional<speed_t> code_of(int baud) {
+  const auto* const rate = std::find(kSerialBauds.begin(), kSerialBauds.end(), baud);
+  if (rate == kSerialBauds.end()) return std::nullopt;
+  return kCodes[rate - kSerialBauds.begin()];
+}
+
+/// The path leads to the device that `fd` has open.
+bool is_at(const std::string& path, int fd) {
+  struct stat open {};
+  struct stat named {};
+  return ::fstat(fd, &open) == 0 && ::stat(path.c_str(), &named) == 0 && S_ISCHR(open.st_mode) &&
+         S_ISCHR(named.st_mode) && open.st_rdev == named.st_rdev;
 }
 
 }  // namespace
@@ -53,11 +70,27 @@ bool SerialLink::write(std::span<const std::uint8_t> bytes, std::size_t& taken) 
   return false;
 }
 
+UniqueFd SerialLink::duplicate() const {
+  return UniqueFd(::fcntl(fd_.get(), F_DUPFD_CLOEXEC, 0));
+}
+
+/// What waits to be read is of before; what waits to be written may be somebody's stop.
+Opened<SerialLink> adopt_serial(const SerialSettings& settings, UniqueFd kept) {
+  Opened<SerialLink> opened;
+  const auto speed = code_of(settings.baud);
+  if (!kept || !speed || !is_at(settings.path, kept.get())) return opened;
+  const int flags = ::fcntl(kept.get(), F_GETFL);
+  if (flags < 0 || ::fcntl(kept.get(), F_SETFL, flags | O_NONBLOCK) != 0) return opened;
+  if (!make_raw(kept.get(), *speed, TCIFLUSH)) return opened;
+  opened.link = std::make_unique<SerialLink>(std::move(kept));
+  return opened;
+}
+
 Opened<SerialLink> open_serial(const SerialSettings& settings) {
   Opened<SerialLink> opened;
   const auto& path = settings.path;
-  const auto* const rate = std::find(kSerialBauds.begin(), kSerialBauds.end(), settings.baud);
-  if (rate == kSerialBauds.end()) {
+  const auto speed = code_of(settings.baud);
+  if (!speed) {
     opened.problem = path + ": baud rate " + std::to_string(settings.baud) + " is not supported";
     return opened;
   }
@@ -71,7 +104,7 @@ Opened<SerialLink> open_serial(const SerialSettings& settings) {
     return opened;
   }
   ::ioctl(fd.get(), TIOCEXCL);
-  if (!make_raw(fd.get(), kCodes[rate - kSerialBauds.begin()])) {
+  if (!make_raw(fd.get(), *speed, TCIOFLUSH)) {
     opened.problem = problem_text(path, "is no serial line", errno);
     return opened;
   }

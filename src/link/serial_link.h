@@ -27,6 +27,8 @@ class SerialLink final {
 
   int fd() const { return fd_.get(); }
   int error() const { return error_; }
+  /// Of the same open file, for who else is to stop what hangs on it; a second opening is refused.
+  UniqueFd duplicate() const;
 
  private:
   UniqueFd fd_;
@@ -36,5 +38,8 @@ class SerialLink final {
 /// Raw before the first read (a fresh line echoes and would feed the receiver its own words),
 /// exclusive, without control of a modem's lines on close.
 Opened<SerialLink> open_serial(const SerialSettings& settings);
+/// The same of a line that somebody kept open, without throwing away what he wrote. No link, and no
+/// problem: it is dead, or not the line of this path (any more), and the path has to be opened.
+Opened<SerialLink> adopt_serial(const SerialSettings& settings, UniqueFd kept);
 
 }  // namespace drover::link

@@ -50,6 +50,11 @@ class GuardClient final {
  public:
   GuardClient(std::string socket_path, int limit_ms, const GuardMemory& memory);
 
+  /// Connects when needed.
+  bool reach() {
+    std::string problem;
+    return connected() || connect(problem);
+  }
   /// Connects when needed and hands over the whole set. False with a sentence in `problem`.
   bool hand_over(std::span<const GuardedLink> links, std::string& problem);
   bool hand_back();

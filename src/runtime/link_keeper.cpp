@@ -53,12 +53,6 @@ const config::LinkConfig& LinkKeeper::settings_of(std::size_t slot) const {
   return config_.links[wiring_.links[slot].place];
 }
 
-std::size_t LinkKeeper::bus_count() const {
-  std::size_t count = 0;
-  while (is_bus(count)) ++count;
-  return count;
-}
-
 std::vector<std::string> LinkKeeper::line_names(std::size_t slot) const {
   std::vector<std::string> names;
   for (const auto id : wiring_.links[slot].slots)
@@ -114,7 +108,8 @@ void LinkKeeper::take_back_lost() {
     auto& slot = slots_[lost.slot];
     slot.open = false;
     slot.retry.try_now();
-    if (is_bus(lost.slot)) guard_set_changed_ = true;
+    if (is_guarded(lost.slot)) guard_set_changed_ = true;
+    if (is_guarded_tty(lost.slot)) forget_tty(lost.slot);
     if (lost.slot == kOutputsSlot) forget_relay();
     if (lost.reopen_baud > 0) slot.baud = lost.reopen_baud;
     log(lost.reopen_baud > 0 ? LogLevel::info : LogLevel::error, lost.problem.view());
@@ -142,9 +137,7 @@ LinkHandover LinkKeeper::open(std::size_t slot, std::string& problem) {
   }
   switch (wiring_.links[slot].wire) {
     case Wire::can: take(link::open_can(can_settings(slot)), handover.can); break;
-    case Wire::bytes:
-      take(link::open_serial({settings_of(slot).serial, slots_[slot].baud}), handover.serial);
-      break;
+    case Wire::bytes: take(open_stream(slot), handover.serial); break;
     case Wire::levels:
       take(link::open_lines({settings_of(slot).gpio, line_names(slot)}), handover.lines);
       break;
@@ -167,6 +160,31 @@ link::Opened<link::OutputLink> LinkKeeper::open_outputs() {
   return opened;
 }
 
+/// A tty has one open file, which both programs share. The guard may have kept it since before this
+/// daemon began: opened anew it would be busy.
+link::Opened<link::SerialLink> LinkKeeper::open_stream(std::size_t slot) {
+  const link::SerialSettings settings{settings_of(slot).serial, slots_[slot].baud};
+  if (!is_guarded_tty(slot)) return link::open_serial(settings);
+  const std::string name(wiring_.links[slot].name);
+  link::Opened<link::SerialLink> opened;
+  if (auto kept = guard_.reach() ? guard_.borrow(name) : link::UniqueFd()) {
+    opened = link::adopt_serial(settings, std::move(kept));
+    if (opened.link)
+      log(LogLevel::info, settings.path + ": taken back from drover-guard");
+    else
+      guard_.let_go(name);
+  }
+  if (!opened.link) opened = link::open_serial(settings);
+  if (opened.link) slots_[slot].tty = opened.link->duplicate();
+  return opened;
+}
+
+/// It is dead. Whoever holds on to it keeps its name from coming back.
+void LinkKeeper::forget_tty(std::size_t slot) {
+  slots_[slot].tty.reset();
+  guard_.let_go(std::string(wiring_.links[slot].name));
+}
+
 /// Both programs hold the line: one dead, it stays; both dead, it falls.
 void LinkKeeper::supply_relay() {
   if (!relay_ || relay_given_ || !guard_.connected()) return;
@@ -186,7 +204,7 @@ void LinkKeeper::try_open(std::size_t slot, Time now) {
   if (!arrivals_.push(std::move(handover))) return failed(slot, "the control thread is busy", now);
   slots_[slot].open = true;
   slots_[slot].problem.clear();
-  if (is_bus(slot)) guard_set_changed_ = true;
+  if (is_guarded(slot)) guard_set_changed_ = true;
   const auto name = slot == kOutputsSlot ? "gpio " + config_.outputs.chip + " (outputs)"
                     : wiring_.links[slot].wire == Wire::levels ? "gpio " + settings_of(slot).gpio
                                                                : config::address(settings_of(slot));
@@ -205,22 +223,37 @@ void LinkKeeper::failed(std::size_t slot, const std::string& problem, Time now) 
   (void)arrivals_.push(std::move(report));
 }
 
+/// What the guard needs of an open link.
+GuardedLink LinkKeeper::guarded_link(std::size_t slot, std::string& missing) const {
+  GuardedLink link;
+  link.name = wiring_.links[slot].name;
+  for (const auto& stop : duties_[slot].stops) link.axes.push_back(guarded_axis(link.name, stop));
+  std::string why;
+  if (is_bus(slot)) {
+    auto settings = can_settings(slot);
+    settings.hears = false;
+    link.descriptor = link::open_can_descriptor(settings, why);
+  } else {
+    link.kind = GuardLinkKind::tty;
+    link.descriptor = link::UniqueFd(::fcntl(slots_[slot].tty.get(), F_DUPFD_CLOEXEC, 0));
+    if (!link.descriptor) why = link.name;
+  }
+  if (!link.descriptor) missing = "drover-guard cannot have its own way to " + why;
+  return link;
+}
+
 void LinkKeeper::supply_guard(Time now) {
   const bool supplied = !guard_set_changed_ && guard_.connected();
   if (supplied || !guard_slot_.retry.due(now)) return;
   if (!guard_.connected()) relay_given_ = false;
-  std::vector<GuardedLink> links(bus_count());
+  std::vector<GuardedLink> links;
   std::string missing;
-  for (std::size_t i = 0; i < links.size(); ++i) {
-    if (!slots_[i].open) continue;
-    std::string why;
-    links[i].name = wiring_.links[i].name;
-    auto settings = can_settings(i);
-    settings.hears = false;
-    links[i].descriptor = link::open_can_descriptor(settings, why);
-    for (const auto& stop : duties_[i].stops)
-      links[i].axes.push_back(guarded_axis(links[i].name, stop));
-    if (!links[i].descriptor) missing = "drover-guard cannot have its own way to " + why;
+  std::string watched;
+  for (std::size_t i = 0; i < wiring_.links.size(); ++i) {
+    if (!is_guarded(i) && !is_bus(i)) continue;
+    links.push_back(slots_[i].open ? guarded_link(i, missing) : GuardedLink{});
+    if (links.back().descriptor && is_guarded(i))
+      watched += (watched.empty() ? "" : ", ") + links.back().name;
   }
   std::string problem;
   // What there is goes over at once; what is missing keeps the robot from moving.
@@ -230,7 +263,8 @@ void LinkKeeper::supply_guard(Time now) {
   if (handed_over && missing.empty()) {
     guard_set_changed_ = false;
     guard_slot_ = {};
-    log(LogLevel::info, "drover-guard watches the drives");
+    log(LogLevel::info, watched.empty() ? "drover-guard has no line yet on which to stop anything"
+                                        : "drover-guard watches the drives (" + watched + ")");
     return;
   }
   guard_slot_.retry.tried(now);

@@ -79,23 +79,34 @@ class LinkKeeper final {
     BackOff retry{std::chrono::milliseconds(50), std::chrono::milliseconds(500)};
     std::string problem;
     int baud = 0;  ///< of a stream
+    /// Of a stream on which something moves: a duplicate of the open file, for the guard.
+    link::UniqueFd tty;
   };
   const config::LinkConfig& settings_of(std::size_t slot) const;
   bool is_bus(std::size_t slot) const {
     return slot < wiring_.links.size() && wiring_.links[slot].wire == Wire::can;
   }
+  /// Something on it moves: the guard has its own way to it, to stop it.
+  bool is_guarded(std::size_t slot) const {
+    return slot < wiring_.links.size() && !duties_[slot].stops.empty();
+  }
+  bool is_guarded_tty(std::size_t slot) const {
+    return is_guarded(slot) && wiring_.links[slot].wire == Wire::bytes;
+  }
   void take_back_lost();
   void try_open(std::size_t slot, Time now);
   LinkHandover open(std::size_t slot, std::string& problem);
   link::Opened<link::OutputLink> open_outputs();
+  link::Opened<link::SerialLink> open_stream(std::size_t slot);
+  GuardedLink guarded_link(std::size_t slot, std::string& missing) const;
   std::vector<std::string> line_names(std::size_t slot) const;
-  std::size_t bus_count() const;  ///< they are the first links
   link::CanSettings can_settings(std::size_t bus) const;
   void failed(std::size_t slot, const std::string& problem, Time now);
   void supply_guard(Time now);
   void supply_watchdog(Time now);
   void supply_relay();
   void forget_relay();
+  void forget_tty(std::size_t slot);
   Duration until_next_try(Time now) const;
 
   const config::DroverConfig& config_;

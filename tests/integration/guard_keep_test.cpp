@@ -136,6 +136,16 @@ TEST_F(GuardKeeps, StoppingTheOtherBusWhenOneDescriptorWasLost) {
   EXPECT_TRUE(is_stopped("can1"));
 }
 
+TEST_F(GuardKeeps, NothingOfALineThatIsLetGo) {
+  supply({"can0", "can1"});
+  ASSERT_TRUE(beat(10s, [&] { return manager().keeps("link.can1"); }));
+  beat(200ms);  // all of it is there
+  ASSERT_TRUE(client().let_go("can1"));
+  EXPECT_TRUE(beat(10s, [&] { return !manager().keeps("link.can1"); }))
+      << "kept open, its name would stay taken";
+  EXPECT_TRUE(beat(10s, [&] { return manager().keeps("link.can0"); }));
+}
+
 TEST_F(GuardKeeps, NothingOfWhatIsNotWhole) {
   supply({"can0"});
   client().disconnect();

@@ -332,7 +332,8 @@ TEST(ConfigurationChecks, WarnOfNoEmergencyStopLineUnlessThatIsAccepted) {
 
 TEST(ConfigurationChecks, WarnOfABatteryWhoseChargeNobodyTellsUnlessThatIsAccepted) {
   const auto map = testing::TempDir() + "no_soc.json";
-  std::ofstream(map) << R"({"name": "m", "source": "s", "fields": [{"field": "voltage", "address": 1}]})";
+  std::ofstream(map) << R"({"name": "m", "source": "s",)"
+                        R"( "fields": [{"field": "voltage", "address": 1}]})";
   auto text = with("\"panel\"", "\"bms\": {\"modbus\": \"/dev/bms\"}, \"panel\"");
   text.insert(text.find("    \"estop\""),
               R"("pack": {"driver": "modbus_bms", "link": "bms", "map": ")" + map + "\"},\n");

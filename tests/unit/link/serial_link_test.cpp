@@ -43,6 +43,38 @@ TEST(OpenSerial, RefusesALineThatAnotherProgramUses) {
   EXPECT_EQ(open_serial({pty.path, 115200}).link, nullptr);
 }
 
+TEST(AdoptSerial, TakesTheOpenFileThatASecondOpeningCannotHave) {
+  Pty pty;
+  auto first = open_serial({pty.path, 115200});
+  ASSERT_NE(first.link, nullptr) << first.problem;
+  auto kept = first.link->duplicate();
+  ASSERT_EQ(::write(kept.get(), "stop", 4), 4);
+  ASSERT_EQ(::write(pty.master.get(), "old", 3), 3);
+  first.link.reset();
+  ASSERT_EQ(open_serial({pty.path, 115200}).link, nullptr) << "somebody has it";
+  const auto adopted = adopt_serial({pty.path, 115200}, std::move(kept));
+  ASSERT_NE(adopted.link, nullptr);
+  std::array<char, 16> heard{};
+  EXPECT_EQ(::read(pty.master.get(), heard.data(), heard.size()), 4) << "what was written stays";
+  std::array<std::uint8_t, 16> buffer{};
+  std::size_t size = 0;
+  ASSERT_TRUE(adopted.link->read(buffer, size));
+  EXPECT_EQ(size, 0U) << "what was said before is old";
+}
+
+TEST(AdoptSerial, LeavesWhatIsDeadOrAnotherLine) {
+  Pty pty;
+  Pty other;
+  const auto keep = [](const Pty& of) { return open_serial({of.path, 115200}).link->duplicate(); };
+  EXPECT_EQ(adopt_serial({other.path, 115200}, keep(pty)).link, nullptr) << "another line";
+  EXPECT_EQ(adopt_serial({"/no/such/line", 115200}, keep(pty)).link, nullptr);
+  EXPECT_EQ(adopt_serial({pty.path, 115200}, UniqueFd()).link, nullptr);
+  auto dead = keep(pty);
+  const auto path = pty.path;
+  pty.master.reset();
+  EXPECT_EQ(adopt_serial({path, 115200}, std::move(dead)).link, nullptr) << "hung up";
+}
+
 TEST(SerialLink, IsRawAndDoesNotEcho) {
   Pty pty;
   const auto opened = open_serial({pty.path, 115200});

@@ -56,8 +56,10 @@ TEST(ABaseOfWheels, HasNoUseForADeviceThatTakesATwist) {
   std::string text = wheels;
   const std::string chassis = R"("chassis": {"driver": "crawler", "link": "chassis"},)";
   text.insert(text.find(chassis) + chassis.size(), R"(
-    "l": {"driver": "odrive", "link": "can0", "options": {"node": 1}, "accept": ["no_watchdog"]},
-    "r": {"driver": "odrive", "link": "can0", "options": {"node": 2}, "accept": ["no_watchdog"]},)");
+    "l": {"driver": "odrive", "link": "can0",
+          "options": {"node": 1}, "accept": ["no_watchdog"]},
+    "r": {"driver": "odrive", "link": "can0",
+          "options": {"node": 2}, "accept": ["no_watchdog"]},)");
   text.insert(text.find(R"("chassis": {"serial")"), R"("can0": {"can": "can0"}, )");
   EXPECT_THAT(problems(text),
               HasSubstr("devices.chassis: it takes a twist, and is not the device of the base "

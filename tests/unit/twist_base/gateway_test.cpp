@@ -37,7 +37,7 @@ class Bench {
     released.link = 2;
     (void)released.levels.push_back(true);
     apply(released);
-    apply(Tick{true, false});
+    apply(Tick{true, guard_holds});
     sent.clear();
     const auto& bytes = gateway.output().streams.at(0).bytes;
     for (std::size_t i = 0; i + test::crawler::kSize <= bytes.size(); i += test::crawler::kSize)
@@ -63,6 +63,7 @@ class Bench {
   Twist twist;
   bool talks = true;
   bool obeys = true;
+  bool guard_holds = false;
 };
 
 TEST(ATwistBaseAtTheGateway, IsToldToRestEachCycle) {
@@ -162,6 +163,18 @@ TEST(ATwistBaseAtTheGateway, HandsTheGuardItsPacketsAndTellsWhatGoesOn) {
           .config);
   ASSERT_EQ(careless.cautions().size(), 1U);
   EXPECT_EQ(careless.cautions()[0], "the base, chassis goes on for ever as it was told last");
+}
+
+TEST(ATwistBaseAtTheGateway, IsToldNothingWhileTheGuardHasItsLine) {
+  Bench bench;
+  bench.guard_holds = true;
+  for (int i = 0; i < 20; ++i) {
+    bench.run(1);
+    EXPECT_TRUE(bench.gateway.output().streams[0].bytes.empty()) << "not even to rest";
+  }
+  bench.guard_holds = false;
+  bench.run(1);
+  EXPECT_EQ(bench.sent.size(), 1U);
 }
 
 TEST(ATwistBaseInTheStatus, StandsInPlaceOfAxes) {
