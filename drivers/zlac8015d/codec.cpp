@@ -95,11 +95,21 @@ bool external_estop(const Status& status) {
 
 Reason error_text(const Status& status) {
   const auto errors = static_cast<std::uint16_t>(status.errors[0] | status.errors[1]);
-  for (const auto& error : kErrors)
-    if ((errors & error.bit) != 0) return Reason(error.text);
+  if (errors == 0) return {};
+  const auto* const known =
+      std::find_if(std::begin(kErrors), std::end(kErrors),
+                   [&](const auto& each) { return (errors & each.bit) != 0; });
   Reason text;
-  if (errors != 0) text.format("error 0x%04X", static_cast<unsigned>(errors));
-  return text;
+  if (known == std::end(kErrors))
+    text.format("error 0x%04X", static_cast<unsigned>(errors));
+  else
+    text = Reason(known->text);
+  // Nobody knows which half is whose: a person looks at both.
+  if ((status.errors[0] == 0) == (status.errors[1] == 0)) return text;
+  Reason one;
+  one.format("%.*s, of the left or the right motor", static_cast<int>(text.view().size()),
+             text.view().data());
+  return one;
 }
 
 }  // namespace drover::zlac8015d

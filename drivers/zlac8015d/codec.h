@@ -78,7 +78,7 @@ canopen::DriveState drive_state(const Status& status);
 bool is_powered(const Status& status);
 /// The input on the drive's own connector is pressed.
 bool external_estop(const Status& status);
-/// The worst error of both wheels in words; empty: none.
+/// The worst error of both wheels in words, and whether only one has any; empty: none.
 Reason error_text(const Status& status);
 
 }  // namespace drover::zlac8015d

@@ -102,7 +102,8 @@ INSTANTIATE_TEST_SUITE_P(
                     "stop_and_kill", "brake_on_ramp", "worm_gear_on_ramp", "rolls_on_ramp",
                     "runs_on_ramp", "rest_on_ramp", "stop_while_hung", "frozen_broker",
                     "joint_obstacle", "long_dip_on_ramp", "dip_down_on_ramp", "cancel_under_zeros",
-                    "guard_dies_on_ramp", "zlac8015d"),
+                    "guard_dies_on_ramp", "zlac8015d", "zlac8015d_kill_on_ramp",
+                    "zlac8015d_over_current", "zlac8015d_dip_on_ramp"),
     [](const auto& one) { return std::string(one.param); });
 
 }  // namespace

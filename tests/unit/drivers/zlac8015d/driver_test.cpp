@@ -61,6 +61,11 @@ TEST(Zlac8015dCodec, TakesTheWorseOfBothWheels) {
   EXPECT_EQ(state("181#2700280004000000"), DriveState::fault);
   EXPECT_EQ(state("181#0700270000000000"), DriveState::quick_stop_active);
   EXPECT_EQ(error_text(*decode_status(parse_frame("181#2700280001000400"), 1)), "over-current");
+  EXPECT_EQ(error_text(*decode_status(parse_frame("181#2700280000000400"), 1)),
+            "over-current, of the left or the right motor");
+  EXPECT_EQ(error_text(*decode_status(parse_frame("181#2800270000100000"), 1)),
+            "error 0x1000, of the left or the right motor");
+  EXPECT_TRUE(error_text(*decode_status(parse_frame("181#2700270000000000"), 1)).empty());
 }
 
 TEST(Zlac8015dRules, ForbidWhatWritesFlashOrMeansAnotherNode) {
