@@ -165,6 +165,9 @@ struct Measurement {
   std::variant<std::monostate, AxisMotion, AxisStatus, AxisTemperature, AxisSupply, GnssPosition,
                GnssVelocity, GnssHeading, LineState, ImuSample, BatterySample, BodyMotion>
       value;
+  /// Which receiver, inertial sensor or battery says so: its number among its kind, in the order of
+  /// the configuration. The gateway's to set.
+  std::uint8_t source = 0;
 };
 
 }  // namespace drover

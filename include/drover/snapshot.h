@@ -3,12 +3,14 @@
 
 #include <array>
 #include <cstdint>
+#include <variant>
 
 #include "drover/driver.h"
 #include "drover/fixed_text.h"
 #include "drover/fixed_vector.h"
 #include "drover/measurement.h"
 #include "drover/path.h"
+#include "drover/role.h"
 #include "drover/time.h"
 #include "drover/twist.h"
 
@@ -124,6 +126,19 @@ struct ImuSnapshot {
   double acceleration_sigma_mps2 = kAbsent;
 };
 
+/// A receiver, inertial sensor or battery, whatever it is for; `GnssSnapshot`, `ImuSnapshot` and
+/// `BatterySnapshot` are of the one that the robot goes by.
+struct SensorSnapshot {
+  SensorKind kind = SensorKind::receiver;
+  Name name;
+  Role role = Role::steers;
+  bool in_use = false;  ///< the robot goes by it now; of batteries by several
+  SourceState health = SourceState::never_heard;
+  SourceSnapshot source;  ///< samples: positions, samples of the inertial sensor, answers
+  Time time = kNever;     ///< of the last one
+  std::variant<std::monostate, GnssPosition, BatterySample> last;
+};
+
 struct BatterySnapshot {
   bool configured = false;
   SourceState health = SourceState::never_heard;
@@ -186,6 +201,7 @@ struct Snapshot {
   GnssSnapshot gnss;
   ImuSnapshot imu;
   BatterySnapshot battery;
+  FixedVector<SensorSnapshot, kMaxSensors> sensors;  ///< by kind, in the configuration's order
   JointCommandSnapshot joint_command;
   FixedVector<AxisSnapshot, kMaxAxes> axes;
   BaseSnapshot base;

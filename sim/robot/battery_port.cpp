@@ -32,8 +32,8 @@ std::vector<std::uint8_t> sealed(std::vector<std::uint8_t> frame) {
 
 }  // namespace
 
-BatteryPort::BatteryPort(const std::string& link_path, int baud, std::uint8_t unit)
-    : link_path_(link_path), unit_(unit), pacer_(baud) {
+BatteryPort::BatteryPort(const std::string& link_path, int baud)
+    : link_path_(link_path), pacer_(baud) {
   plug();
 }
 
@@ -51,7 +51,7 @@ void BatteryPort::plug() {
     throw std::runtime_error(link_path_ + ": cannot link: " + std::strerror(errno));
 }
 
-std::string BatteryPort::command(std::string_view word) {
+std::string BatteryPort::command(std::string_view word, std::size_t device) {
   if (word == "plug") {
     plug();
     return "ok";
@@ -67,22 +67,22 @@ std::string BatteryPort::command(std::string_view word) {
   if (it == kWords.end())
     return "error: say: battery soc P, charger plug|unplug, unplug, plug, well, silent, slow, "
            "other_unit, wrong_crc, drip, echo, deaf_echo or exception";
-  fault_ = static_cast<LineFault>(it - kWords.begin());
+  units_.at(device).fault = static_cast<LineFault>(it - kWords.begin());
   answers_.clear();
   return "ok";
 }
 
-void BatteryPort::pump(Time now, Duration tick, const RegisterTwin& device) {
+void BatteryPort::pump(Time now, Duration tick) {
   if (!pty_) return;
   // A system call for each tick is dear where they are slow.
   if (now >= next_look_) {
     next_look_ = now + kLook;
-    take(now, device);
+    take(now);
   }
   send(now, tick);
 }
 
-void BatteryPort::take(Time now, const RegisterTwin& device) {
+void BatteryPort::take(Time now) {
   std::array<std::uint8_t, 256> chunk{};
   const auto n = ::read(pty_->master.get(), chunk.data(), chunk.size());
   if (n <= 0) {
@@ -92,29 +92,38 @@ void BatteryPort::take(Time now, const RegisterTwin& device) {
   heard_.insert(heard_.end(), chunk.begin(), chunk.begin() + n);
   heard_at_ = now;
   while (heard_.size() >= link::kRtuRequestSize) {
-    answer({heard_.data(), link::kRtuRequestSize}, now, device);
+    answer({heard_.data(), link::kRtuRequestSize}, now);
     heard_.erase(heard_.begin(), heard_.begin() + link::kRtuRequestSize);
   }
 }
 
-void BatteryPort::answer(std::span<const std::uint8_t> request, Time now,
-                         const RegisterTwin& device) {
+void BatteryPort::answer(std::span<const std::uint8_t> request, Time now) {
   ++requests_;
-  const bool echoes = fault_ == LineFault::echo || fault_ == LineFault::deaf_echo;
-  if (echoes) answers_.push_back({now, {request.begin(), request.end()}});
+  // The adapter's own fault, whoever is asked.
+  const auto echo = [](const Unit& unit) {
+    return unit.fault == LineFault::echo || unit.fault == LineFault::deaf_echo;
+  };
+  if (std::any_of(units_.begin(), units_.end(), echo))
+    answers_.push_back({now, {request.begin(), request.end()}});
+  for (const Unit& unit : units_)
+    if (request[0] == unit.address) return answer(unit, request, now);
+}
+
+void BatteryPort::answer(const Unit& asked, std::span<const std::uint8_t> request, Time now) {
+  const LineFault fault = asked.fault;
   const auto word = [&](std::size_t at) {
     return static_cast<std::uint16_t>(request[at] << 8U | request[at + 1]);
   };
   const auto crc = modbus_crc(request.first(6));
   const bool good = request[6] == (crc & 0xFFU) && request[7] == crc >> 8U;
-  if (!good || request[0] != unit_ || fault_ == LineFault::silent || fault_ == LineFault::deaf_echo)
-    return;
+  if (!good || fault == LineFault::silent || fault == LineFault::deaf_echo) return;
   std::array<std::uint16_t, 125> registers{};
   const std::uint16_t count = word(4);
-  const std::uint8_t unit = fault_ == LineFault::other_unit ? unit_ + 1 : unit_;
+  const auto unit =
+      static_cast<std::uint8_t>(asked.address + (fault == LineFault::other_unit ? 1 : 0));
   std::vector<std::uint8_t> frame{unit, request[1]};
-  if (fault_ == LineFault::exception || count < 1 || count > registers.size() ||
-      !device.read(request[1], word(2), {registers.data(), count})) {
+  if (fault == LineFault::exception || count < 1 || count > registers.size() ||
+      !asked.device->read(request[1], word(2), {registers.data(), count})) {
     frame[1] |= 0x80;
     frame.push_back(2);
   } else {
@@ -125,15 +134,16 @@ void BatteryPort::answer(std::span<const std::uint8_t> request, Time now,
     }
   }
   frame = sealed(std::move(frame));
-  if (fault_ == LineFault::wrong_crc) frame.back() ^= 0x55;
-  answers_.push_back({now + (fault_ == LineFault::slow ? kSlow : kThinking), std::move(frame)});
+  if (fault == LineFault::wrong_crc) frame.back() ^= 0x55;
+  answers_.push_back({now + (fault == LineFault::slow ? kSlow : kThinking), std::move(frame),
+                      fault == LineFault::drip});
 }
 
 void BatteryPort::send(Time now, Duration tick) {
   if (answers_.empty() || now < answers_.front().due) return;
   auto& bytes = answers_.front().bytes;
   std::size_t size = 0;
-  if (fault_ == LineFault::drip) {
+  if (answers_.front().drips) {
     if (now < next_drip_) return;
     next_drip_ = now + kDrip;
     size = 1;

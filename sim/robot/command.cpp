@@ -7,6 +7,7 @@
 //   imu STATE                        silent, frozen, saturated, bias:2, ...; well: nothing is wrong
 //   battery soc PERCENT              so much is left
 //   battery charger plug|unplug      and see battery_port.h for the faults of its line
+//   gnss NAME STATE, imu NAME STATE, battery NAME soc PERCENT, ...: a further one of its kind
 //   drive NAME power on|off          a drive's own switch; NAME: its own, or a joint's, or "a,b",
 //   or
 //                                    "all"
@@ -75,6 +76,8 @@ std::string Robot::command(std::string_view text) {
   if (verb == "zone" && words[1] == "far")
     return force(LineName::zone_far, words[2], "occupied", "free");
   if (verb == "obstacle") return command_obstacle(words[1], words[2], words[3]);
+  // A further one has a name, the first of its kind goes without.
+  if (auto answer = more_.command(verb, words[1], words[2], words[3], now_)) return *answer;
   if (verb == "gnss") return command_gnss(words[1]);
   if (verb == "imu") return command_imu(words[1]);
   if (verb == "battery") return command_battery(words[1], words[2]);

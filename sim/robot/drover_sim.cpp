@@ -20,6 +20,7 @@ Commands for a running simulator (drover-sim ctl COMMAND...):
   drive NAME|all power on|off    drive NAME|all fault NAME|none     drive NAME unplug|plug
   battery soc P | charger plug|unplug | unplug|plug
   battery well|silent|slow|other_unit|wrong_crc|drip|echo|deaf_echo|exception
+  gnss|imu|battery NAME ...      the same of a further device of that name
   can BUS slcan TEXT|stall|flow|unplug|plug               lines unplug|plug
   truth                                                   quit
 

@@ -8,6 +8,7 @@
 namespace drover::sim {
 Twins make_twins(const Scenario& scenario, std::uint64_t seed) {
   Twins twins;
+  twins.seed = seed;
   twins.drives = make_drive_twins(scenario);
   if (scenario.gnss) {
     const auto make = std::get<MakeGnssTwin>(scenario.gnss->driver->make_twin);
@@ -41,7 +42,8 @@ Robot::Robot(const Scenario& scenario, Twins twins)
       drives_(scenario, std::move(twins.drives), plant_),
       gnss_(std::move(twins.gnss)),
       imu_(std::move(twins.imu)),
-      battery_twin_(std::move(twins.battery)) {
+      battery_twin_(std::move(twins.battery)),
+      more_(scenario.more, twins.seed) {
   const double steps = to_s(kTick) / plant_.timestep_s();
   steps_per_tick_ = static_cast<int>(std::lround(steps));
   if (steps_per_tick_ < 1 || std::abs(steps - steps_per_tick_) > 1e-9)
@@ -69,6 +71,7 @@ void Robot::step(Time now) {
   sense(now);
   tell_gnss(now);
   imu_size_ = imu_ ? imu_->on_tick(now, truth_.imu, imu_bytes_) : 0;
+  more_.step(now, plant_, earth_, battery_power_W());
   for (int i = 0; i < steps_per_tick_; ++i) {
     const Time at = now + kTick * i / steps_per_tick_;
     drives_.turn(at, i == 0, plant_);
@@ -78,11 +81,16 @@ void Robot::step(Time now) {
   use_battery();
 }
 
-void Robot::use_battery() {
-  if (!battery_) return;
+/// Packs in parallel share what the wheels take.
+double Robot::battery_power_W() const {
   double wheels_W = 0;
   for (const Shaft& wheel : truth_.wheels) wheels_W += wheel.torque_Nm * wheel.velocity_radps;
-  battery_->step(to_s(kTick), wheels_W);
+  return wheels_W / static_cast<double>(more_.batteries() + 1);
+}
+
+void Robot::use_battery() {
+  if (!battery_) return;
+  battery_->step(to_s(kTick), battery_power_W());
   if (now_ < next_battery_) return;
   next_battery_ = now_ + std::chrono::milliseconds(100);
   battery_twin_->set_truth(battery_->truth());
@@ -103,23 +111,10 @@ void Robot::sense(Time now) {
   set(LineName::zone_near, truth_.free_ahead_m < scenario_.zone_near_m);
 }
 
-// The specific force is the change of the sensor's velocity over the last tick, which averages what
-// happened in it as a sensor's filter does, and gravity.
 void Robot::sense_motion() {
-  constexpr double kGravity_mps2 = 9.80665;
   Plant::Vector place;
   if (scenario_.imu) place = {scenario_.imu->x_m, scenario_.imu->y_m, scenario_.imu->z_m};
-  const auto velocity = plant_.point_velocity_mps(place);
-  const auto before = sensor_velocity_mps_.value_or(velocity);
-  sensor_velocity_mps_ = velocity;
-  const double tick_s = to_s(kTick);
-  const auto force =
-      plant_.in_base_axes({(velocity.x - before.x) / tick_s, (velocity.y - before.y) / tick_s,
-                           (velocity.z - before.z) / tick_s + kGravity_mps2});
-  truth_.imu.specific_force_mps2 = {force.x, force.y, force.z};
-  truth_.imu.angular_velocity_radps = {truth_.velocity.wx_radps, truth_.velocity.wy_radps,
-                                       truth_.velocity.wz_radps};
-  truth_.imu.orientation = plant_.orientation();
+  truth_.imu = imu_truth(plant_, place, sensor_velocity_mps_);
 }
 
 void Robot::on_imu_bytes(std::span<const std::uint8_t> bytes, Time now) {
@@ -129,17 +124,7 @@ void Robot::on_imu_bytes(std::span<const std::uint8_t> bytes, Time now) {
 void Robot::tell_gnss(Time now) {
   gnss_size_ = 0;
   if (!gnss_) return;
-  const auto& spec = *scenario_.gnss;
-  const Plant::Vector arm{spec.antenna_x_m, spec.antenna_y_m, spec.antenna_z_m};
-  const auto at = plant_.point_m(arm);
-  const auto speed = plant_.point_velocity_mps(arm);
-  GnssTruth truth;
-  earth_.Reverse(at.x, at.y, at.z, truth.latitude_deg, truth.longitude_deg, truth.altitude_m);
-  truth.heading_deg =
-      wrap_deg(compass_deg_from_yaw_rad(truth_.pose.yaw_rad) + spec.heading_offset_deg);
-  truth.speed_mps = std::hypot(speed.x, speed.y);
-  truth.course_deg = compass_deg_from_yaw_rad(std::atan2(speed.y, speed.x));
-  gnss_size_ = gnss_->on_tick(now, truth, gnss_bytes_);
+  gnss_size_ = gnss_->on_tick(now, gnss_truth(plant_, earth_, *scenario_.gnss), gnss_bytes_);
 }
 
 // Without supply a drive is silent, and its power stage neither drives nor brakes.

@@ -14,6 +14,7 @@
 #include "drover/twin.h"
 #include "sim/plant/plant.h"
 #include "sim/robot/drives.h"
+#include "sim/robot/more_devices.h"
 #include "sim/robot/scenario.h"
 
 namespace drover::sim {
@@ -25,6 +26,7 @@ struct Twins {
   std::unique_ptr<GnssTwin> gnss;         ///< nullptr: none
   std::unique_ptr<ImuTwin> imu;           ///< nullptr: none
   std::unique_ptr<RegisterTwin> battery;  ///< nullptr: none
+  std::uint64_t seed = 1;                 ///< of the further devices, which the robot makes
 };
 /// From the registry. Throws std::runtime_error naming the device and its option.
 Twins make_twins(const Scenario& scenario, std::uint64_t seed);
@@ -58,6 +60,8 @@ class Robot {
   void on_imu_bytes(std::span<const std::uint8_t> bytes, Time now);
   /// The battery's registers; nullptr: none.
   const RegisterTwin* battery_registers() const { return battery_twin_.get(); }
+  /// Further devices, in the scenario's order.
+  MoreDevices& more() { return more_; }
   /// Electrical level.
   bool line_high(LineName line) const;
 
@@ -101,6 +105,7 @@ class Robot {
   std::string command_imu(std::string_view state);
   std::string command_obstacle(std::string_view name, std::string_view x, std::string_view y);
   void use_battery();
+  double battery_power_W() const;
   std::string command_battery(std::string_view what, std::string_view value);
   std::string truth_text() const;
   bool active(LineName line) const;
@@ -113,6 +118,7 @@ class Robot {
   std::unique_ptr<ImuTwin> imu_;
   std::unique_ptr<RegisterTwin> battery_twin_;
   std::optional<Battery> battery_;
+  MoreDevices more_;
   Time next_battery_ = kNever;
   std::array<char, 8192> gnss_bytes_{};
   std::size_t gnss_size_ = 0;

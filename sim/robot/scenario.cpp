@@ -91,6 +91,31 @@ BatterySpec read_battery(JsonReader reader, const std::string& folder) {
   return battery;
 }
 
+/// "more": {"gnss_rear": {"is": "gnss", ...}}, with the keys that the first of the kind has.
+void read_more(JsonReader& top, const std::string& folder, Scenario& scenario) {
+  if (!top.has("more")) return;
+  auto more = top.object("more");
+  for (const auto& name : more.keys()) {
+    auto reader = more.object(name);
+    const auto is = reader.text("is");
+    MoreSpec spec;
+    spec.name = name;
+    if (name == "gnss" || name == "imu" || name == "battery")
+      more.fail(name, "is the name of the first of its kind");
+    if (is == "gnss") {
+      spec.gnss = read_gnss(reader);
+    } else if (is == "imu") {
+      spec.imu = read_imu(reader);
+    } else if (is == "battery") {
+      spec.battery = read_battery(reader, folder);
+    } else {
+      reader.fail("is", "must be gnss, imu or battery");
+    }
+    scenario.more.push_back(std::move(spec));
+  }
+  more.done();
+}
+
 void read_lines(JsonReader& top, Scenario& scenario) {
   if (!top.has("lines")) return;
   auto lines = top.object("lines");
@@ -159,6 +184,7 @@ Scenario read_scenario(const nlohmann::json& document, const std::string& folder
   if (top.has("gnss")) scenario.gnss = read_gnss(top.object("gnss"));
   if (top.has("imu")) scenario.imu = read_imu(top.object("imu"));
   if (top.has("battery")) scenario.battery = read_battery(top.object("battery"), folder);
+  read_more(top, folder, scenario);
   read_lines(top, scenario);
   read_zones(top, scenario);
   scenario.outputs = top.flag("outputs", false);

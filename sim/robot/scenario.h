@@ -80,6 +80,16 @@ struct BatterySpec {
   BatteryModel model;
 };
 
+/// One more of a kind: one of the three is there.
+struct MoreSpec {
+  std::string name;
+  std::optional<GnssSpec> gnss;
+  std::optional<ImuSpec> imu;
+  std::optional<BatterySpec> battery;
+
+  std::string_view kind() const { return gnss ? "gnss" : imu ? "imu" : "battery"; }
+};
+
 enum class LineName : std::uint8_t { estop, bumper, zone_far, zone_near };
 inline constexpr std::size_t kLineNames = 4;
 inline constexpr std::array<std::string_view, kLineNames> kLineText{"estop", "bumper", "zone_far",
@@ -111,6 +121,7 @@ struct Scenario {
   std::optional<GnssSpec> gnss;
   std::optional<ImuSpec> imu;
   std::optional<BatterySpec> battery;
+  std::vector<MoreSpec> more;  ///< in the order of the alphabet
   std::array<LineSpec, kLineNames> lines;
   double zone_near_m = 0.6;  ///< ahead of the bumper
   double zone_far_m = 2.0;

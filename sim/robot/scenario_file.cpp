@@ -76,12 +76,16 @@ nlohmann::json load_scenario_document(const std::string& file) {
     throw std::runtime_error(robot_file + ": robot: a robot cannot name another robot");
   if (const auto world = merged.find("world"); world != merged.end() && world->is_string())
     *world = (reference.parent_path() / world->get<std::string>()).string();
-  // One of the installed maps has no folder.
-  if (merged.contains("battery") && merged["battery"].contains("map")) {
-    auto& map = merged["battery"]["map"];
+  const auto find_map = [&](nlohmann::json& device) {
+    if (!device.is_object() || !device.contains("map") || !device["map"].is_string()) return;
+    auto& map = device["map"];
     const auto beside = reference.parent_path() / map.get<std::string>();
+    // One of the installed maps has no folder.
     if (fs::exists(resolved(file, beside))) map = beside.string();
-  }
+  };
+  if (merged.contains("battery")) find_map(merged["battery"]);
+  if (merged.contains("more") && merged["more"].is_object())
+    for (auto& device : merged["more"]) find_map(device);
   try {
     change_document(merged, std::move(scenario));
   } catch (const std::exception& error) {

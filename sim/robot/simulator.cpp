@@ -97,9 +97,14 @@ Simulator::Simulator(const SimulatorSettings& settings)
                      : nullptr);
   if (scenario.gnss) gnss_.emplace(place(scenario.gnss->port), scenario.gnss->baud);
   if (scenario.imu) imu_.emplace(place(scenario.imu->port), scenario.imu->baud);
-  if (scenario.battery)
-    battery_.emplace((folder / scenario.battery->port).string(), scenario.battery->baud,
-                     scenario.battery->unit);
+  if (scenario.battery) (void)battery_line(*scenario.battery, *robot_.battery_registers());
+  for (std::size_t i = 0; i < scenario.more.size(); ++i) {
+    const auto& [name, gnss, imu, battery] = scenario.more[i];
+    auto& line = more_lines_.emplace_back();
+    if (gnss) line = std::make_unique<SerialPort>(place(gnss->port), gnss->baud);
+    if (imu) line = std::make_unique<SerialPort>(place(imu->port), imu->baud);
+    if (battery) (void)battery_line(*battery, *robot_.more().registers(i));
+  }
   if (scenario.outputs && chip_) outputs_.emplace(log_file(settings_, "lines.log"), *chip_);
   if (scenario.relay_feeds_drives) {
     if (chip_) {
@@ -113,6 +118,17 @@ Simulator::Simulator(const SimulatorSettings& settings)
   watch(epoll_.get(), timer_.get());
   watch(epoll_.get(), signals_.get());
   for (const auto& bus : buses_) watch(epoll_.get(), bus->descriptor(), kOnce);
+}
+
+/// Batteries with one port hang on one line.
+BatteryPort& Simulator::battery_line(const BatterySpec& spec, const RegisterTwin& device) {
+  const auto path = (std::filesystem::path(settings_.run_folder) / spec.port).string();
+  auto it = std::find_if(batteries_.begin(), batteries_.end(),
+                         [&path](const auto& line) { return line->path() == path; });
+  if (it == batteries_.end())
+    it = batteries_.insert(batteries_.end(), std::make_unique<BatteryPort>(path, spec.baud));
+  (*it)->add(spec.unit, device);
+  return **it;
 }
 
 Simulator::~Simulator() {
@@ -193,7 +209,7 @@ void Simulator::tick(Time now) {
   write_lines();
   if (outputs_) outputs_->sample(now);
   exchange_serial(now);
-  if (battery_) battery_->pump(now, kTick, *robot_.battery_registers());
+  for (const auto& line : batteries_) line->pump(now, kTick);
   keep_records(now);
   previous_ = now;
 }
@@ -233,6 +249,12 @@ void Simulator::exchange_serial(Time now) {
     if (drive_lines_[i]) drive_lines_[i]->pump(robot_.drive_bytes(i), kTick);
   // What is written to a receiver does not concern this one.
   if (gnss_) gnss_->pump(robot_.gnss_bytes(), kTick);
+  for (std::size_t i = 0; i < more_lines_.size(); ++i) {
+    if (!more_lines_[i]) continue;
+    if (const int baud = robot_.more().baud(i); baud != 0) more_lines_[i]->set_baud(baud);
+    more_lines_[i]->pump(robot_.more().bytes(i), kTick);
+    robot_.more().on_bytes(i, more_lines_[i]->heard(), now);
+  }
   if (!imu_) return;
   imu_->set_baud(robot_.imu_baud());
   imu_->pump(robot_.imu_bytes(), kTick);
@@ -285,10 +307,12 @@ std::string Simulator::command(std::string_view text) {
     verb == "plug" ? line->plug() : line->unplug();
     return "ok";
   }
+  if (auto answer = command_more(text); !answer.empty()) return answer;
   constexpr std::string_view kBattery = "battery ";
-  if (battery_ && text.starts_with(kBattery)) {
+  if (robot_.battery_registers() != nullptr && text.starts_with(kBattery)) {
     const auto what = text.substr(kBattery.size());
-    if (!what.starts_with("soc") && !what.starts_with("charger")) return battery_->command(what);
+    if (!what.starts_with("soc") && !what.starts_with("charger"))
+      return batteries_.front()->command(what);
   }
   return robot_.command(text);
 }
@@ -341,6 +365,37 @@ SerialPort* Simulator::drive_line(std::string_view text, std::string_view& verb)
   return nullptr;
 }
 
+/// "gnss NAME plug", "battery NAME silent": of the lines of further devices; empty: something else
+/// is said.
+std::string Simulator::command_more(std::string_view text) {
+  const auto& more = robot_.scenario().more;
+  std::vector<std::size_t> on_line(batteries_.size());  // devices so far
+  const auto line_of = [&](const BatterySpec& spec) {
+    const auto path = (std::filesystem::path(settings_.run_folder) / spec.port).string();
+    std::size_t i = 0;
+    while (batteries_[i]->path() != path) ++i;
+    return i;
+  };
+  if (const auto& first = robot_.scenario().battery) ++on_line[line_of(*first)];
+  for (std::size_t i = 0; i < more.size(); ++i) {
+    const auto begin = std::string(more[i].kind()) + " " + more[i].name + " ";
+    const std::size_t line = more[i].battery ? line_of(*more[i].battery) : 0;
+    const std::size_t place = more[i].battery ? on_line[line]++ : 0;
+    if (!text.starts_with(begin)) continue;
+    const auto what = text.substr(begin.size());
+    if (more[i].battery && !what.starts_with("soc") && !what.starts_with("charger"))
+      return batteries_[line]->command(what, place);
+    if (!more_lines_[i] || (what != "plug" && what != "unplug")) return {};
+    if (what == "unplug") {
+      more_lines_[i]->unplug();
+      return "ok";
+    }
+    more_lines_[i]->plug();
+    return more[i].imu ? robot_.command(begin + "restart") : "ok";
+  }
+  return {};
+}
+
 std::string Simulator::command_plug(std::string_view device, std::string_view verb) {
   auto& port = device == "imu" ? imu_ : gnss_;
   if (!port) return "error: the scenario has no such device";
@@ -358,6 +413,7 @@ std::string Simulator::summary() const {
   for (const auto& bus : buses_) can_dropped += bus->dropped();
   std::array<char, 256> text{};
   std::uint64_t serial_dropped = (gnss_ ? gnss_->dropped() : 0) + (imu_ ? imu_->dropped() : 0);
+  for (const auto& line : more_lines_) serial_dropped += line ? line->dropped() : 0;
   for (const auto& line : drive_lines_) serial_dropped += line ? line->dropped() : 0;
   const int n = std::snprintf(
       text.data(), text.size(),

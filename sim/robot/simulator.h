@@ -55,6 +55,8 @@ class Simulator {
   std::string command_tap(std::string_view name);
   std::string command_can(std::string_view text);
   std::string command_lines(std::string_view verb);
+  BatteryPort& battery_line(const BatterySpec& spec, const RegisterTwin& device);
+  std::string command_more(std::string_view text);
   std::string command_plug(std::string_view device, std::string_view verb);
   SerialPort* drive_line(std::string_view text, std::string_view& verb);
   void on_events(int timeout_ms);
@@ -68,8 +70,9 @@ class Simulator {
   std::vector<std::unique_ptr<SerialPort>> drive_lines_;  // by drive; nullptr: it hangs on a bus
   std::optional<SerialPort> gnss_;
   std::optional<SerialPort> imu_;
-  std::optional<BatteryPort> battery_;
-  std::optional<GpioSimChip> chip_;  // none: the lines are files
+  std::vector<std::unique_ptr<BatteryPort>> batteries_;  ///< the first battery's, and others
+  std::vector<std::unique_ptr<SerialPort>> more_lines_;  ///< of further devices; nullptr: batteries
+  std::optional<GpioSimChip> chip_;                      // none: the lines are files
   LinePort lines_;
   std::optional<OutputLog> outputs_;
   std::optional<RelayPort> relay_;  // none: the drives have their supply without the gateway

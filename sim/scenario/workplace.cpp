@@ -140,6 +140,8 @@ Workplace::Workplace(const WorkplaceSettings& settings)
   const auto folder = fs::absolute(fs::path(settings.scenario_file)).parent_path();
   document_["world"] = (folder / document_.value("world", "")).lexically_normal().string();
   if (document_.contains("battery")) make_map_absolute(document_["battery"], folder);
+  if (document_.contains("more") && document_["more"].is_object())
+    for (auto& device : document_["more"]) make_map_absolute(device, folder);
   if (log_folder_.empty()) log_folder_ = private_folder_ + "/log";
   fs::create_directories(log_folder_);
   auto config = read_config(settings.scenario_file);

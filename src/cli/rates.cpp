@@ -91,6 +91,9 @@ void add_rates(Node& status, const Node& before) {
   for (const auto* device : {"gnss", "imu", "battery", "base"})
     if (auto* node = find(status, device))
       add_sample_rate(*node, at(before, device), now_s, before_s);
+  if (auto* sensors = find(status, "sensors"); sensors != nullptr && sensors->list() != nullptr)
+    for (auto& sensor : std::get<std::vector<Node>>(sensors->value))
+      add_sample_rate(sensor, same(at(before, "sensors"), sensor, "name"), now_s, before_s);
   if (auto* axes = find(status, "axes"); axes != nullptr && axes->list() != nullptr)
     for (auto& axis : std::get<std::vector<Node>>(axes->value))
       add_sample_rate(axis, same(at(before, "axes"), axis, "joint"), now_s, before_s);

@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "cli/layout.h"
+#include "cli/show_sensors.h"
 
 namespace drover::cli {
 
@@ -103,6 +104,11 @@ void show_battery(std::string& out, const Node& status) {
   line(out, "battery", value);
 }
 
+/// Where there are several of a kind, which of them the lines above are of.
+void show_others(std::string& out, const Node& status) {
+  for (const auto* kind : {"gnss", "imu", "battery"}) out += show_sensors(status, kind);
+}
+
 void show_axes(std::string& out, const Node& status) {
   const auto* axes = at(status, "axes").list();
   if (axes == nullptr) return;
@@ -186,6 +192,7 @@ std::string show_status(const Node& status) {
   show_why(out, status);
   show_place(out, status);
   show_battery(out, status);
+  show_others(out, status);
   show_axes(out, status);
   show_base(out, status);
   show_devices(out, status);

@@ -3,6 +3,7 @@
 #include <array>
 
 #include "cli/layout.h"
+#include "cli/show_sensors.h"
 
 namespace drover::cli {
 
@@ -54,7 +55,7 @@ std::string show_gnss(const Node& status) {
           (at(gnss, "heading_age_s").number() ? quantity(at(gnss, "heading_age_s"), " (%.1f s old)")
                                               : ""));
   show_source(out, gnss);
-  return out;
+  return out + show_sensors(status, "gnss");
 }
 
 std::string show_imu(const Node& status) {
@@ -72,7 +73,7 @@ std::string show_imu(const Node& status) {
        labelled("temperature", at(imu, "temperature_degC"), "%.1f C") +
            (yes(at(imu, "saturated")) ? "  SATURATED" : ""));
   show_source(out, imu);
-  return out;
+  return out + show_sensors(status, "imu");
 }
 
 std::string show_bms(const Node& status) {
@@ -94,7 +95,7 @@ std::string show_bms(const Node& status) {
            labelled("switch", at(battery, "mosfet_degC"), "%.1f C"));
   line(out, "alarm", text(at(battery, "alarm")).empty() ? "none" : text(at(battery, "alarm")));
   show_source(out, battery);
-  return out;
+  return out + show_sensors(status, "battery");
 }
 
 /// A line whose label is a joint's name.
@@ -185,9 +186,9 @@ std::string show_gpio(const Node& status) {
   return out;
 }
 
-constexpr std::string_view kGnssParts[] = {"gnss"};
-constexpr std::string_view kImuParts[] = {"imu"};
-constexpr std::string_view kBmsParts[] = {"battery"};
+constexpr std::string_view kGnssParts[] = {"gnss", "sensors"};
+constexpr std::string_view kImuParts[] = {"imu", "sensors"};
+constexpr std::string_view kBmsParts[] = {"battery", "sensors"};
 constexpr std::string_view kCanParts[] = {"axes", "base", "links"};
 constexpr std::string_view kGpioParts[] = {"lines", "outputs"};
 
@@ -210,8 +211,8 @@ std::string missing(const DeviceView& view, const Node& status) {
   bool none = true;
   for (const auto name : view.parts) {
     const auto* part = status.find(name);
-    // Links are the receiver's and the lines' too.
-    if (part == nullptr || name == "links") continue;
+    // These are of other devices, too.
+    if (part == nullptr || name == "links" || name == "sensors") continue;
     told = true;
     none = none && (part->is_null() || (part->object() != nullptr && part->object()->empty()) ||
                     (part->list() != nullptr && part->list()->empty()));

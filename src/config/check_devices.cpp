@@ -33,27 +33,6 @@ void hang(DeviceConfig& device, std::map<std::string, std::string>& first, Findi
                       device.driver + " hangs on " + std::string(words(entry->wire)));
 }
 
-/// The estimate goes by one of each, and what the others say has no place yet.
-void one_of_each(Findings& found) {
-  constexpr std::array<std::pair<SlotKind, const char*>, 3> kKinds{
-      {{SlotKind::gnss, "receiver"},
-       {SlotKind::imu, "inertial sensor"},
-       {SlotKind::battery, "battery"}}};
-  for (const auto& [kind, word] : kKinds) {
-    const DeviceConfig* one = nullptr;
-    for (const auto& device : found.config().devices) {
-      if (find_driver(device.driver, kind) == nullptr) continue;
-      if (one != nullptr)
-        found.add(device_path(device),
-                  "a second " + std::string(word) + " beside " + device_path(*one) +
-                      " is not supported yet",
-                  "leave one of them out");
-      else
-        one = &device;
-    }
-  }
-}
-
 void addresses(Findings& found) {
   std::map<std::string, std::string> first;
   for (const auto& device : found.config().devices) {
@@ -109,7 +88,7 @@ void check_devices(Findings& found) {
     if (const auto* entry = find_driver(device.driver)) device.kind = entry->kind;
     hang(device, first, found);
   }
-  one_of_each(found);
+  check_roles(found);
   addresses(found);
 }
 

@@ -12,8 +12,11 @@ namespace drover::config {
 // The tables: names that refer to each other, and what two may not share.
 void check_links(Findings& found);    ///< fills in wires and usual speeds
 void check_devices(Findings& found);  ///< fills in kinds and links
-void check_joints(Findings& found);   ///< fills in the joints and their axes
-void check_lines(Findings& found);    ///< fills in the outputs' chip
+/// Of receivers, inertial sensors and batteries; fills in their roles and antennas.
+void check_roles(Findings& found);
+engine::SensorList sensors_of(const DroverConfig& config, SlotKind kind);
+void check_joints(Findings& found);  ///< fills in the joints and their axes
+void check_lines(Findings& found);   ///< fills in the outputs' chip
 void check_use_of_links(Findings& found);
 /// nullptr, and told at `path`: there is none of that name.
 const LinkConfig* find_link(const std::string& name, const std::string& path, Findings& found);

@@ -10,6 +10,9 @@ void finish_engine(DroverConfig& c) {
   c.engine.tick_Hz = c.control.tick_Hz;
   c.engine.health.guard_required = c.guard.required;
   c.engine.battery_configured = first(c, SlotKind::battery) != nullptr;
+  c.engine.receivers = sensors_of(c, SlotKind::gnss);
+  c.engine.imus = sensors_of(c, SlotKind::imu);
+  c.engine.batteries = sensors_of(c, SlotKind::battery);
   for (const auto& device : c.devices) {
     for (const auto& joint : device.joints) (void)c.engine.joints.push_back(Name(joint.name));
     if (device.kind == SlotKind::line)

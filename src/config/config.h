@@ -61,6 +61,13 @@ struct DeviceConfig {
   // Of a digital input:
   std::string line;  ///< its name on the chip
   std::string is;    ///< which of the robot's lines it is
+  // Of a receiver, an inertial sensor or a battery:
+  std::string role;  ///< "steers", "spare" or "told"; left out: then filled in
+  // Of a receiver; what is left out is as in `estimate`:
+  double antenna_x_m = 0;
+  double antenna_y_m = 0;
+  double antenna_z_m = 0;
+  double heading_baseline_offset_deg = 0;
 
   std::string name;  ///< its key in the table
   // Follows from other keys:

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <initializer_list>
 #include <string>
 #include <vector>
 
@@ -29,25 +30,38 @@ inline std::vector<std::string> driver_names() {
   return names;
 }
 
-/// A key that only devices of one kind have.
+/// A key that only devices of some kinds have.
 struct KindKey {
   std::string_view key;
-  SlotKind kind = SlotKind::drive;
+  unsigned kinds = 0;  ///< bits by SlotKind
   Presence presence = Presence::optional;
+
+  bool fits(SlotKind kind) const { return (kinds >> static_cast<unsigned>(kind) & 1U) != 0; }
 };
 
+constexpr unsigned kinds(std::initializer_list<SlotKind> all) {
+  unsigned bits = 0;
+  for (const SlotKind kind : all) bits |= 1U << static_cast<unsigned>(kind);
+  return bits;
+}
+
 inline constexpr KindKey kKindKeys[] = {
-    {"joints", SlotKind::drive, Presence::optional},
-    {"accept", SlotKind::drive, Presence::optional},
-    {"map", SlotKind::battery, Presence::required},
-    {"unit", SlotKind::battery, Presence::optional},
-    {"period_s", SlotKind::battery, Presence::optional},
-    {"line", SlotKind::line, Presence::required},
-    {"is", SlotKind::line, Presence::required},
+    {"joints", kinds({SlotKind::drive}), Presence::optional},
+    {"accept", kinds({SlotKind::drive}), Presence::optional},
+    {"map", kinds({SlotKind::battery}), Presence::required},
+    {"unit", kinds({SlotKind::battery}), Presence::optional},
+    {"period_s", kinds({SlotKind::battery}), Presence::optional},
+    {"line", kinds({SlotKind::line}), Presence::required},
+    {"is", kinds({SlotKind::line}), Presence::required},
+    {"role", kinds({SlotKind::gnss, SlotKind::imu, SlotKind::battery}), Presence::optional},
+    {"antenna_x_m", kinds({SlotKind::gnss}), Presence::optional},
+    {"antenna_y_m", kinds({SlotKind::gnss}), Presence::optional},
+    {"antenna_z_m", kinds({SlotKind::gnss}), Presence::optional},
+    {"heading_baseline_offset_deg", kinds({SlotKind::gnss}), Presence::optional},
 };
 
 inline bool has_key(const DriverEntry& entry, const KindKey& key) {
-  return key.kind == entry.kind && !(key.key == "joints" && takes_twist(entry));
+  return key.fits(entry.kind) && !(key.key == "joints" && takes_twist(entry));
 }
 
 template <class V>
@@ -97,6 +111,11 @@ void visit(V& v, DeviceConfig& c) {
   v.text("line", c.line, "name of the line on the chip");
   v.choice("is", c.is, {kLineKeys.begin(), kLineKeys.end()},
            "emergency stop, bumper, far zone (slows) or near zone (stops)");
+  v.choice(
+      "role", c.role, {"steers", "spare", "told"},
+      "the robot goes by it; takes over when that is not well; only shown. The first of a kind "
+      "steers unless it says otherwise");
+  visit_antenna(v, c, Presence::inherited);
   v.keys_of_kind(c.driver);
 }
 

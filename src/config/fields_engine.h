@@ -27,6 +27,7 @@ enum class Presence : std::uint8_t {
   required,
   alternative,  ///< one of the keys of an object that are marked so is required
   of_kind,      ///< required by some kinds and refused by others: the object's own table says
+  inherited,    ///< left out, it has another key's value
 };
 
 template <class V>
@@ -42,14 +43,20 @@ void visit(V& v, engine::LimitsConfig& c) {
   v.number("yaw_acceleration_radps2", c.yaw_acceleration_radps2, Range{0.1, 20}, "change of turn");
 }
 
+/// Of a receiver, whoever has them.
+template <class V, class C>
+void visit_antenna(V& v, C& c, Presence presence) {
+  v.number("antenna_x_m", c.antenna_x_m, Range{-10, 10}, "antenna ahead of base_link", presence);
+  v.number("antenna_y_m", c.antenna_y_m, Range{-10, 10}, "antenna left of base_link", presence);
+  v.number("antenna_z_m", c.antenna_z_m, Range{-10, 10},
+           "antenna above base_link; without an inertial sensor it has no effect", presence);
+  v.number("heading_baseline_offset_deg", c.heading_baseline_offset_deg, Range{-360, 360},
+           "antenna line from ahead, clockwise", presence);
+}
+
 template <class V>
 void visit_gnss(V& v, engine::EstimateConfig& c) {
-  v.number("antenna_x_m", c.antenna_x_m, Range{-10, 10}, "antenna ahead of base_link");
-  v.number("antenna_y_m", c.antenna_y_m, Range{-10, 10}, "antenna left of base_link");
-  v.number("antenna_z_m", c.antenna_z_m, Range{-10, 10},
-           "antenna above base_link; without an inertial sensor it has no effect");
-  v.number("heading_baseline_offset_deg", c.heading_baseline_offset_deg, Range{-360, 360},
-           "antenna line from ahead, clockwise");
+  visit_antenna(v, c, Presence::optional);
   v.number("heading_sigma_deg", c.heading_sigma_deg, Range{0.05, 20}, "one sigma of the heading");
   v.number("heading_correlation_s", c.heading_correlation_s, Range{0.001, 60},
            "how long a heading error stays the same");

@@ -6,6 +6,7 @@
 #include "drover/fixed_text.h"
 #include "drover/fixed_vector.h"
 #include "drover/measurement.h"
+#include "drover/role.h"
 
 namespace drover::engine {
 
@@ -51,12 +52,22 @@ struct LimitsConfig {
   double yaw_acceleration_radps2 = 1.5;
 };
 
+/// Where a receiver's antenna is, in base_link, and its line of two antennas.
+struct AntennaConfig {
+  double x_m = 0.0;
+  double y_m = 0.0;
+  double z_m = 0.0;
+  double heading_baseline_offset_deg = 0.0;
+};
+
 struct EstimateConfig {
-  // Antenna (reference point of the receiver's position) in base_link, REP 103: x ahead, y left.
+  // Antenna (reference point of the receiver's position) in base_link, REP 103: x ahead, y left; of
+  // the receiver that steers.
   double antenna_x_m = 0.0;
   double antenna_y_m = 0.0;
   double antenna_z_m = 0.0;
-  double heading_baseline_offset_deg = 0.0;  ///< of the antenna line from ahead, clockwise
+  double heading_baseline_offset_deg = 0.0;         ///< of the antenna line from ahead, clockwise
+  FixedVector<AntennaConfig, kMaxOfKind> antennas;  ///< of each receiver; empty: all have that
   double heading_sigma_deg = 0.5;
   double max_correction_age_s = 30.0;  ///< an older RTK fix counts as float
   // The predicted error (two sigma, larger axis) inside which the position counts as good.
@@ -142,6 +153,20 @@ struct HealthConfig {
   double battery_hold_s = 20.0;          ///< so long beyond, or back, before it counts
 };
 
+/// One of several receivers, inertial sensors or batteries.
+struct SensorConfig {
+  Name name;
+  Role role = Role::steers;
+};
+using SensorList = FixedVector<SensorConfig, kMaxOfKind>;
+
+/// The antenna of that receiver; kMaxOfKind: of the one that steers.
+inline AntennaConfig antenna_of(const EstimateConfig& config, std::size_t receiver) {
+  if (receiver < config.antennas.size()) return config.antennas[receiver];
+  return {config.antenna_x_m, config.antenna_y_m, config.antenna_z_m,
+          config.heading_baseline_offset_deg};
+}
+
 struct EngineConfig {
   BaseConfig base;
   LimitsConfig limits;
@@ -152,6 +177,10 @@ struct EngineConfig {
   std::array<bool, kLineCount> line_configured{};      ///< by Line
   std::array<bool, kOutputCount> output_configured{};  ///< by Output
   bool battery_configured = false;
+  // In the configuration's order, which numbers them; empty: one without a name, if any.
+  SensorList receivers;
+  SensorList imus;
+  SensorList batteries;
   double tick_Hz = 200.0;
 };
 

@@ -25,6 +25,7 @@ Engine::Impl::Impl(const EngineConfig& c)
     : config(c),
       base(kinematics_of(c.base)),
       estimator(c.estimate, c.base),
+      sensors(c),
       health(c),
       wheels(c),
       rest(c),
@@ -46,6 +47,7 @@ Engine::Impl::Impl(const EngineConfig& c)
     edges[1].joint = "right";
     axes = edges;
   }
+  sensors.fill(snapshot, {});
   snapshot.line_configured = config.line_configured;
   snapshot.output_configured = config.output_configured;
 }
@@ -56,19 +58,20 @@ void Engine::Impl::count(const Measurement& m) {
   } else if (const auto* line = std::get_if<LineState>(&m.value)) {
     const auto index = static_cast<std::size_t>(line->line);
     if (index < kLineCount) ++snapshot.line_source[index].samples;
-  } else if (std::holds_alternative<GnssPosition>(m.value)) {
-    ++snapshot.gnss.source.samples;
-  } else if (std::holds_alternative<ImuSample>(m.value)) {
-    ++snapshot.imu.source.samples;
-  } else if (std::holds_alternative<BatterySample>(m.value)) {
-    ++snapshot.battery.source.samples;
   }
 }
 
 void Engine::Impl::take(const Measurement& m) {
   count(m);
-  // What a stuck or silent sensor's driver still hands on is not believed.
-  if (imu_trusted || !std::holds_alternative<ImuSample>(m.value)) estimator.on_measurement(m);
+  const bool in_use = sensors.take(m, estimator);
+  // What a stuck or silent sensor's driver still hands on is not believed. Of those that are not in
+  // use the zeros are learned.
+  if (std::holds_alternative<ImuSample>(m.value)) {
+    if (m.source < kMaxOfKind && sensors.imu_trusted(m.source)) estimator.on_measurement(m);
+  } else if (in_use) {
+    estimator.on_measurement(m);
+  }
+  if (!in_use) return;
   const auto axis_of = [this](AxisId id) -> AxisSnapshot* {
     return id < axes.size() ? &axes[id] : nullptr;
   };
@@ -114,18 +117,14 @@ void Engine::Impl::take(const Measurement& m) {
     rest.witness().on_heading(*heading, m.time);
     mechanics.on_heading(*heading, m.time);
     if (!std::isfinite(heading->heading_deg) || m.time < snapshot.gnss.heading_time) return;
-    snapshot.gnss.heading_deg =
-        wrap_deg(heading->heading_deg - config.estimate.heading_baseline_offset_deg);
+    snapshot.gnss.heading_deg = wrap_deg(
+        heading->heading_deg - antenna_of(config.estimate, m.source).heading_baseline_offset_deg);
     snapshot.gnss.heading_time = m.time;
   } else if (const auto* imu = std::get_if<ImuSample>(&m.value)) {
     if (m.time < snapshot.imu.time) return;
     snapshot.imu.sample = *imu;
     snapshot.imu.time = m.time;
-    if (imu_trusted) watch_imu(*imu, m.time);
-  } else if (const auto* sample = std::get_if<BatterySample>(&m.value)) {
-    if (m.time < snapshot.battery.time) return;
-    snapshot.battery.sample = *sample;
-    snapshot.battery.time = m.time;
+    if (imu_trusted()) watch_imu(*imu, m.time);
   } else if (const auto* line = std::get_if<LineState>(&m.value)) {
     const auto index = static_cast<std::size_t>(line->line);
     if (index >= kLineCount) return;
@@ -294,7 +293,7 @@ void Engine::step(Time now, const Environment& environment, EngineOutput& out) {
     e.snapshot.line_health[i] = environment.lines[i].state;
   }
   e.pulse.fill(false);
-  e.imu_trusted = environment.imu.state == SourceState::fresh;
+  e.choose_sensors(now, environment);
   e.estimate = e.estimator.step(now);
   const std::span<const AxisSnapshot> axes = e.axes;
   const Reason moved = e.judge_motion(now, dt, lines);
@@ -302,7 +301,7 @@ void Engine::step(Time now, const Environment& environment, EngineOutput& out) {
   e.place.update(now, e.estimate, e.health.report().drives_ok);
   if (e.navigator.active()) e.place.told();  // by the end of the task
   e.health.update({now, environment, axes, lines, e.estimate, e.estimator.has_origin(),
-                   e.navigator.active(), e.latched(), &e.snapshot.battery, e.tilt.reason(), moved,
+                   e.navigator.active(), e.latched(), &e.sensors, e.tilt.reason(), moved,
                    e.place.jumped(), e.power.opened(), &e.steep});
   e.watch_wheels(now, dt);
   const double cap_mps = e.mechanics.speed_cap_mps();

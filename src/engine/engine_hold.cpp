@@ -37,7 +37,7 @@ void Engine::recall(const Remembered& remembered, Time now) {
 
 /// What the ground falls by where the base stands; not a number without an inertial sensor.
 double Engine::Impl::tilt_deg() const {
-  if (!imu_trusted) return kAbsent;
+  if (!imu_trusted()) return kAbsent;
   return to_deg(std::acos(std::cos(estimate.roll_rad) * std::cos(estimate.pitch_rad)));
 }
 

@@ -20,6 +20,7 @@
 #include "engine/own/hold.h"
 #include "engine/own/owners.h"
 #include "engine/own/power.h"
+#include "engine/sensors/sensors.h"
 #include "engine/signals/signals.h"
 
 namespace drover::engine {
@@ -49,6 +50,8 @@ struct Engine::Impl {
   void watch_tilt(Time now, bool has_imu);
   void command_axis(AxisId id, double velocity_radps, bool run, EngineOutput& out);
   void watch_imu(const ImuSample& sample, Time at);
+  void choose_sensors(Time now, const Environment& environment);
+  bool imu_trusted() const { return sensors.imu_trusted(sensors.imu()); }
   Reason judge_motion(Time now, Duration dt, const LineTable& lines);
   void watch_wheels(Time now, Duration dt);
   void let_go(EngineOutput& out);
@@ -61,6 +64,7 @@ struct Engine::Impl {
   EngineConfig config;
   Kinematics base;
   Estimator estimator;
+  Sensors sensors;
   HealthMonitor health;
   WheelMonitor wheels;
   WheelFault wheel_fault = WheelFault::none;  ///< of the last step
@@ -84,8 +88,7 @@ struct Engine::Impl {
   GnssPosition fix;                      ///< the last one
   Reason steep;                          ///< why this ground is too steep to stop on
   Time steep_since = kNever;
-  bool driven = false;       ///< an owner had the drives in the last step
-  bool imu_trusted = false;  ///< by its driver, in the last step
+  bool driven = false;  ///< an owner had the drives in the last step
   Time tilt_known_at = kNever;
   bool slopes = false;  ///< the ground fell when that was known last
   Time last_step = kNever;

@@ -4,6 +4,7 @@
 
 #include "engine/base/words.h"
 #include "engine/engine_impl.h"
+#include "engine/still.h"
 
 namespace drover::engine {
 namespace {
@@ -12,6 +13,25 @@ namespace {
 constexpr double kRollsFrom_deg = 2.0;
 
 }  // namespace
+
+/// Whoever speaks of the robot's motion: what he says is not compared with what another one said.
+void Engine::Impl::choose_sensors(Time now, const Environment& environment) {
+  const bool stands = !motion_asked && !driven && estimate.fastest_mps <= kStands_mps;
+  const HandOver change = sensors.update(now, environment, estimator, stands);
+  if (change.imu) {
+    estimator.use_imu(sensors.imu());
+    snapshot.imu.time = kNever;
+  }
+  if (!change.receiver) return;
+  rest.witness().forget_receiver();
+  mechanics.forget_receiver(antenna_of(config.estimate, sensors.receiver()));
+  fix = sensors.position();
+  snapshot.gnss.position = fix;
+  snapshot.gnss.position_time = sensors.position_at();
+  snapshot.gnss.velocity = {};
+  snapshot.gnss.heading_deg = kAbsent;
+  snapshot.gnss.heading_time = kNever;
+}
 
 void Engine::Impl::watch_imu(const ImuSample& sample, Time at) {
   tilt.on_sample(sample, at);
@@ -40,8 +60,8 @@ Reason Engine::Impl::judge_motion(Time now, Duration dt, const LineTable& lines)
     navigator.latch_stop(rest.reason(), true);
     power.cut();
   }
-  tilt.update(now, imu_trusted ? estimate.roll_rad : kAbsent,
-              imu_trusted ? estimate.pitch_rad : kAbsent);
+  tilt.update(now, imu_trusted() ? estimate.roll_rad : kAbsent,
+              imu_trusted() ? estimate.pitch_rad : kAbsent);
   mechanics.step({.now = now,
                   .dt = dt,
                   .body = estimate.body.twist,

@@ -23,9 +23,16 @@ void Engine::Impl::fill_sources(const Environment& environment) {
     source.bad = driver.bad;
     source.overflows = driver.overflows;
   };
-  tell(snapshot.gnss.source, environment.gnss);
-  tell(snapshot.imu.source, environment.imu);
-  tell(snapshot.battery.source, environment.battery);
+  const std::size_t battery = sensors.battery_shown();
+  tell(snapshot.gnss.source, environment.gnss[sensors.receiver()]);
+  tell(snapshot.imu.source, environment.imu[sensors.imu()]);
+  tell(snapshot.battery.source, environment.battery[battery]);
+  snapshot.gnss.source.samples = sensors.samples(SensorKind::receiver, sensors.receiver());
+  snapshot.imu.source.samples = sensors.samples(SensorKind::imu, sensors.imu());
+  snapshot.battery.source.samples = sensors.samples(SensorKind::battery, battery);
+  snapshot.battery.sample = sensors.batteries()[battery].sample;
+  snapshot.battery.time = sensors.batteries()[battery].time;
+  sensors.fill(snapshot, environment);
   for (std::size_t i = 0; i < snapshot.axes.size(); ++i)
     tell(snapshot.axes[i].source, environment.axes[i]);
   for (std::size_t i = 0; i < kLineCount; ++i) tell(snapshot.line_source[i], environment.lines[i]);
@@ -52,8 +59,9 @@ void Engine::Impl::fill_snapshot(Time now, const Environment& environment, const
   snapshot.joint_command = owners.joint_command();
   snapshot.gnss.configured = environment.gnss_configured;
   fill_imu(located);
-  snapshot.gnss.health = report.gnss_ok ? environment.gnss.state : SourceState::stale;
-  if (environment.gnss.state == SourceState::never_heard) {
+  const SourceState receiver = environment.gnss[sensors.receiver()].state;
+  snapshot.gnss.health = report.gnss_ok ? receiver : SourceState::stale;
+  if (receiver == SourceState::never_heard) {
     snapshot.gnss.health = SourceState::never_heard;
   }
   const bool fixed = snapshot.gnss.health == SourceState::fresh &&
@@ -61,7 +69,7 @@ void Engine::Impl::fill_snapshot(Time now, const Environment& environment, const
   // Nobody reckons beside a fix, though the estimator believes a new one only after a while.
   snapshot.nav.metres_left = fixed ? kAbsent : located.metres_left;
   snapshot.imu.configured = environment.imu_configured;
-  snapshot.imu.health = environment.imu.state;
+  snapshot.imu.health = environment.imu[sensors.imu()].state;
   snapshot.gnss.pose_heading_deg =
       located.has_heading ? compass_deg_from_yaw_rad(located.pose.yaw_rad) : kAbsent;
   if (located.has_position) {
@@ -73,7 +81,7 @@ void Engine::Impl::fill_snapshot(Time now, const Environment& environment, const
     snapshot.gnss.pose_longitude_deg = fix.longitude_deg;
   }
   snapshot.battery.configured = config.battery_configured;
-  snapshot.battery.health = environment.battery.state;
+  snapshot.battery.health = environment.battery[sensors.battery_shown()].state;
   if (snapshot.battery.time != kNever &&
       now - snapshot.battery.time > from_s(config.health.battery_stale_s)) {
     snapshot.battery.health = SourceState::stale;

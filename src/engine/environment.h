@@ -6,6 +6,7 @@
 #include "drover/driver.h"
 #include "drover/fixed_text.h"
 #include "drover/measurement.h"
+#include "drover/role.h"
 
 namespace drover::engine {
 
@@ -16,7 +17,7 @@ struct Environment {
   bool guard_latched = false;  ///< somebody stopped the robot at the guard, until a reset there
   /// The drives had power when the outputs were opened: another program kept the enable relay.
   bool relay_found_closed = false;
-  /// Health of each drive, by AxisId, and of the receiver, as their drivers judge it.
+  /// Health of each drive, by AxisId, as its driver judges it.
   std::array<SourceHealth, kMaxAxes> axes{};
   Reason slept;    ///< the computer was suspended: a task ends; empty when it was not
   Reason foreign;  ///< who else commands the drives; empty when nobody does
@@ -24,9 +25,10 @@ struct Environment {
   /// A part of the daemon hangs, or it is about to end: motion ends with a ramp. Empty: all is
   /// well.
   Reason program;
-  SourceHealth gnss;
-  SourceHealth imu;
-  SourceHealth battery;
+  // By the number of their kind.
+  std::array<SourceHealth, kMaxOfKind> gnss{};
+  std::array<SourceHealth, kMaxOfKind> imu{};
+  std::array<SourceHealth, kMaxOfKind> battery{};
   std::array<SourceHealth, kLineCount> lines{};
   bool gnss_configured = true;
   bool imu_configured = false;

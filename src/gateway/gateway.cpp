@@ -59,7 +59,10 @@ void Gateway::apply(const Input& input) {
 
 /// What the device said in the last call.
 void Gateway::take(Slot& slot, Time now) {
-  for (const auto& measurement : scratch_.measurements) engine_.on_measurement(measurement);
+  for (auto& measurement : scratch_.measurements) {
+    measurement.source = slot.source;
+    engine_.on_measurement(measurement);
+  }
   slot.overflows += scratch_.overflows;
   if (is_bus(slot.link)) {
     send(slot, now);

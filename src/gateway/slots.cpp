@@ -1,6 +1,7 @@
 #include "gateway/slots.h"
 
 #include <algorithm>
+#include <array>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -65,6 +66,7 @@ class Builder final {
     slot.takes_twist = drover::takes_twist(*entry);
     if (slot.takes_twist) (void)slot.axes.push_back(0);
     slot.place = place;
+    slot.source = of_kind_[static_cast<std::size_t>(slot.kind)]++;
     tell_health(slot, context);
     Link& link = wiring_.links[slot.link];
     if (link.wire == Wire::registers) slot.thread = Slot::Thread::slow;
@@ -88,9 +90,9 @@ class Builder final {
       case SlotKind::drive:
         for (const AxisId axis : slot.axes) tell(environment_.axes.at(axis));
         return;
-      case SlotKind::gnss: return tell(environment_.gnss);
-      case SlotKind::imu: return tell(environment_.imu);
-      case SlotKind::battery: return tell(environment_.battery);
+      case SlotKind::gnss: return tell(environment_.gnss.at(slot.source));
+      case SlotKind::imu: return tell(environment_.imu.at(slot.source));
+      case SlotKind::battery: return tell(environment_.battery.at(slot.source));
       case SlotKind::line:
         return tell(environment_.lines.at(static_cast<std::size_t>(context.line)));
     }
@@ -98,7 +100,8 @@ class Builder final {
 
   const config::DroverConfig& config_;
   engine::Environment& environment_;
-  std::vector<LinkId> numbers_;  ///< by the place in the configuration
+  std::vector<LinkId> numbers_;            ///< by the place in the configuration
+  std::array<std::uint8_t, 8> of_kind_{};  ///< slots so far, by SlotKind
   Wiring wiring_;
 };
 

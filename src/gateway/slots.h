@@ -27,6 +27,8 @@ struct Slot {
 
   Name name;
   SlotKind kind = SlotKind::drive;
+  std::uint8_t source =
+      0;  ///< of receivers, inertial sensors and batteries: its number of its kind
   Made made;
   LinkId link = 0;
   Thread thread = Thread::control;

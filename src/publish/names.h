@@ -7,6 +7,24 @@
 
 namespace drover::publish {
 
+constexpr std::string_view word(SensorKind kind) {
+  switch (kind) {
+    case SensorKind::receiver: return "gnss";
+    case SensorKind::imu: return "imu";
+    case SensorKind::battery: return "battery";
+  }
+  return "?";
+}
+
+constexpr std::string_view word(Role role) {
+  switch (role) {
+    case Role::steers: return "steers";
+    case Role::spare: return "spare";
+    case Role::told: return "told";
+  }
+  return "?";
+}
+
 constexpr std::string_view word(SourceState state) {
   switch (state) {
     case SourceState::never_heard: return "never heard";

@@ -103,7 +103,7 @@ INSTANTIATE_TEST_SUITE_P(
                     "runs_on_ramp", "rest_on_ramp", "stop_while_hung", "frozen_broker",
                     "joint_obstacle", "long_dip_on_ramp", "dip_down_on_ramp", "cancel_under_zeros",
                     "guard_dies_on_ramp", "zlac8015d", "zlac8015d_kill_on_ramp",
-                    "zlac8015d_over_current", "zlac8015d_dip_on_ramp"),
+                    "zlac8015d_over_current", "zlac8015d_dip_on_ramp", "one_of_each_dies"),
     [](const auto& one) { return std::string(one.param); });
 
 }  // namespace

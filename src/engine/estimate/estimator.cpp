@@ -22,7 +22,10 @@ constexpr double kFarthest_m = 100000.0;  // from the origin: another place, not
 // A sensor that was away comes back with another bias.
 constexpr Duration kGyroAway = std::chrono::seconds(1);
 constexpr double kGyroReturn_radps = 0.001;
-constexpr double kStands = 0.5;  // cosine of a pitch of 60 degrees
+constexpr std::size_t kOutward =
+    kMaxOfKind;                      // whoever is in use: the antenna that others count from
+constexpr double kInstant_s = 0.05;  // how well the instants of two receivers are known
+constexpr double kStands = 0.5;      // cosine of a pitch of 60 degrees
 // No place changes these.
 constexpr std::array<std::size_t, 4> kCarried{kGain, kScale, kGyroBias, kGyroScale};
 
@@ -52,7 +55,8 @@ Estimator::Estimator(const EstimateConfig& config, const BaseConfig& base)
       wheel_stale_(from_s(config.wheel_stale_s)),
       imu_stale_(from_s(config.imu_stale_s)),
       max_delay_(from_s(config.max_measurement_delay_s)),
-      imu_(kSlot) {
+      imus_{ImuIntake(kSlot), ImuIntake(kSlot), ImuIntake(kSlot), ImuIntake(kSlot)} {
+  static_assert(kMaxOfKind == 4);
   history_.restart(blank());
 }
 
@@ -121,7 +125,7 @@ GeodeticPoint Estimator::antenna_geodetic(const Pose& pose) const {
   const double c = std::cos(pose.yaw_rad);
   const double s = std::sin(pose.yaw_rad);
   // Of a level base, whatever the ground: the same pose is found again from a stored position.
-  const LeverArm arm = lever_arm(0, 0, config_);
+  const LeverArm arm = lever_arm(0, 0, antenna_of(config_, kOutward));
   return frame_.geodetic({.x_m = pose.x_m + arm.ahead_m * c - arm.left_m * s,
                           .y_m = pose.y_m + arm.ahead_m * s + arm.left_m * c},
                          altitude_m_);
@@ -146,11 +150,11 @@ void Estimator::on_measurement(const Measurement& measurement) {
   } else if (const auto* body = std::get_if<BodyMotion>(&measurement.value)) {
     on_body(*body, time);
   } else if (const auto* imu = std::get_if<ImuSample>(&measurement.value)) {
-    on_imu(*imu, time);
+    on_imu(*imu, measurement.source, time);
   } else if (const auto* position = std::get_if<GnssPosition>(&measurement.value)) {
-    on_position(*position, time);
+    on_position(*position, measurement.source, time);
   } else if (const auto* heading = std::get_if<GnssHeading>(&measurement.value)) {
-    on_heading(*heading, time);
+    on_heading(*heading, measurement.source, time);
   }
 }
 
@@ -183,18 +187,21 @@ void Estimator::on_body(const BodyMotion& body, Time time) {
   put_slot(slot, input);
 }
 
-void Estimator::on_imu(const ImuSample& sample, Time time) {
-  if (too_old(time)) return;
+void Estimator::on_imu(const ImuSample& sample, std::uint8_t source, Time time) {
+  if (source >= imus_.size() || too_old(time)) return;
+  ImuIntake& imu = imus_[source];
   const bool standing = history_.before(history_.dirty()).standing_since != kNever;
-  switch (imu_.take(sample, time, standing, estimate_.pose.vx_mps)) {
+  switch (imu.take(sample, time, standing, estimate_.pose.vx_mps)) {
     case ImuIntake::Verdict::absurd: ++counters_.absurd; return;
     case ImuIntake::Verdict::repeated: ++counters_.repeated; return;
     case ImuIntake::Verdict::taken: break;
   }
-  if (!imu_.finished() || imu_.finished()->slot < history_.base().time) return;
-  MotionInput input = slot_at(imu_.finished()->slot);
-  input.turn = imu_.finished()->rate;
-  put_slot(imu_.finished()->slot, input);
+  if (source != imu_in_use_) return;  // it learns its zero and its tilt until it is needed
+  if (!imu.finished() || imu.finished()->slot < history_.base().time) return;
+  MotionInput input = slot_at(imu.finished()->slot);
+  input.turn = imu.finished()->rate;
+  input.turn->source = source;
+  put_slot(imu.finished()->slot, input);
 }
 
 /// What is known of a slot so far.
@@ -210,9 +217,10 @@ void Estimator::put_slot(Time slot, const MotionInput& input) {
   history_.mark_dirty(i);
 }
 
-void Estimator::on_position(const GnssPosition& position, Time time) {
+void Estimator::on_position(const GnssPosition& position, std::uint8_t receiver, Time time) {
   if (!frame_.has_origin()) return;
   AntennaPosition antenna;
+  antenna.receiver = receiver;
   antenna.quality = class_of(position, config_);
   if (antenna.quality == GnssClass::none) return;
   const double altitude_m = position.altitude_msl_m + position.undulation_m;
@@ -234,12 +242,45 @@ void Estimator::on_position(const GnssPosition& position, Time time) {
   insert(time, antenna);
 }
 
-void Estimator::on_heading(const GnssHeading& heading, Time time) {
+void Estimator::on_heading(const GnssHeading& heading, std::uint8_t receiver, Time time) {
   if (!(std::abs(heading.heading_deg) <= 360)) {
     ++counters_.absurd;
     return;
   }
-  insert(time, YawInput{yaw_of_baseline_rad(heading.heading_deg, config_)});
+  insert(time, YawInput{yaw_of_baseline_rad(heading.heading_deg, antenna_of(config_, receiver)),
+                        receiver});
+}
+
+/// The estimate is taken back to the instant of the position, by its speed.
+Apart Estimator::apart(const GnssPosition& position, std::uint8_t receiver, Time time) const {
+  Apart apart;
+  const GnssClass quality = class_of(position, config_);
+  const Pose& pose = estimate_.pose;
+  if (!frame_.has_origin() || !estimate_.has_position || !estimate_.has_heading ||
+      quality == GnssClass::none || estimate_.disagrees)
+    return apart;
+  const PathPoint there =
+      frame_.local({.latitude_deg = position.latitude_deg,
+                    .longitude_deg = position.longitude_deg,
+                    .altitude_m = position.altitude_msl_m + position.undulation_m});
+  const bool tilted = std::isfinite(estimate_.roll_rad);
+  const LeverArm arm = lever_arm(tilted ? estimate_.roll_rad : 0, tilted ? estimate_.pitch_rad : 0,
+                                 antenna_of(config_, receiver));
+  const double age_s = to_s(pose.time - time);
+  const double yaw_rad = pose.yaw_rad - pose.wz_radps * age_s;
+  const double ahead_m = arm.ahead_m - pose.vx_mps * age_s;
+  const double c = std::cos(yaw_rad);
+  const double s = std::sin(yaw_rad);
+  apart.known = true;
+  apart.m = std::hypot(there.x_m - pose.x_m - ahead_m * c + arm.left_m * s,
+                       there.y_m - pose.y_m - ahead_m * s - arm.left_m * c);
+  const double own_m = std::max(sigma_m(quality, position.sigma_east_m, config_),
+                                sigma_m(quality, position.sigma_north_m, config_));
+  apart.permitted_m =
+      config_.gate_sigma * std::hypot(own_m, pose.position_sigma_m,
+                                      std::hypot(arm.ahead_m, arm.left_m) * pose.yaw_sigma_rad) +
+      std::abs(pose.vx_mps) * kInstant_s;
+  return apart;
 }
 
 bool Estimator::too_old(Time time) {
@@ -339,6 +380,20 @@ void Estimator::reckon(State& state, const BodyMotion& body, const GyroMotion& g
   }
 }
 
+/// Another sensor has another zero and another scale; of its zero it is known what it showed at
+/// rest.
+void Estimator::hand_over_gyro(State& state, const TurnRate& turn) const {
+  const bool known = std::isfinite(turn.rest_bias_sigma);
+  GyroTrack gyro;
+  gyro.source = turn.source;
+  gyro.learned_s = known ? 1 : 0;
+  state.gyro = gyro;
+  state.belief.reset(kGyroBias, known ? turn.rest_bias_radps : 0.0,
+                     known ? std::hypot(turn.rest_bias_sigma, kGyroReturn_radps)
+                           : config_.imu_gyro_bias_sigma_radps);
+  state.belief.reset(kGyroScale, 1.0, config_.imu_gyro_scale_sigma);
+}
+
 void Estimator::take_rates(State& state, const MotionInput& input) const {
   for (std::size_t i = 0; i < kMaxAxes; ++i) {
     if (input.present[i]) state.told.joints[i] = {input.joints_radps[i], state.time};
@@ -349,6 +404,7 @@ void Estimator::take_rates(State& state, const MotionInput& input) const {
   }
   if (!input.turn) return;
   GyroTrack& gyro = state.gyro;
+  if (input.turn->source != gyro.source) hand_over_gyro(state, *input.turn);
   if (gyro.at != kNever && state.time - gyro.at > kGyroAway) {
     state.belief.floor_variance(kGyroBias, kGyroReturn_radps * kGyroReturn_radps);
   }
@@ -362,6 +418,11 @@ void Estimator::take(State& state, const Input& input) const {
   if (const auto* wheels = std::get_if<MotionInput>(&input)) {
     take_rates(state, *wheels);
   } else if (const auto* yaw = std::get_if<YawInput>(&input)) {
+    if (yaw->receiver != state.heading.receiver) {  // its line is mounted with an error of its own
+      state.heading = {};
+      state.heading.receiver = yaw->receiver;
+      state.gyro.heard = kNever;
+    }
     hear_heading(state.gyro, yaw->yaw_rad, state.time);
     apply_heading(state, yaw->yaw_rad, config_);
   } else if (const auto* position = std::get_if<AntennaPosition>(&input)) {

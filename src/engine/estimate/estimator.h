@@ -4,6 +4,7 @@
 // goes in where it belongs and what came after is applied again. Fixed size, no allocation.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "drover/measurement.h"
@@ -40,6 +41,13 @@ struct Estimate {
   double gyro_bias_sigma_radps = kAbsent;  ///< of z; absent: none learned yet
 };
 
+/// How far what a receiver says is from the estimate.
+struct Apart {
+  bool known = false;
+  double m = 0;
+  double permitted_m = 0;  ///< by what both are uncertain
+};
+
 class Estimator final {
  public:
   Estimator(const EstimateConfig& config, const BaseConfig& base);
@@ -57,6 +65,12 @@ class Estimator final {
   PathPoint local(const GeodeticPoint& point) const;
 
   void on_measurement(const Measurement& measurement);  ///< what it does not use is ignored
+  /// From here on the turn is this sensor's; the others only learn their zeros. Receivers need no
+  /// such word: a position that comes is used.
+  void use_imu(std::size_t source) { imu_in_use_ = source; }
+  const estimate::ImuIntake& imu(std::size_t source) const { return imus_[source]; }
+  /// Of a receiver that is not in use.
+  Apart apart(const GnssPosition& position, std::uint8_t receiver, Time time) const;
   /// Advances to `now` (monotonic) and returns the state there.
   const Estimate& step(Time now);
 
@@ -65,9 +79,9 @@ class Estimator final {
  private:
   void on_joint(const AxisMotion& motion, Time time);
   void on_body(const BodyMotion& body, Time time);
-  void on_imu(const ImuSample& sample, Time time);
-  void on_position(const GnssPosition& position, Time time);
-  void on_heading(const GnssHeading& heading, Time time);
+  void on_imu(const ImuSample& sample, std::uint8_t source, Time time);
+  void on_position(const GnssPosition& position, std::uint8_t receiver, Time time);
+  void on_heading(const GnssHeading& heading, std::uint8_t receiver, Time time);
   void insert(Time time, const estimate::Input& input);
   bool too_old(Time time);
   void clamp_future(Time now);
@@ -77,6 +91,7 @@ class Estimator final {
               double dt_s) const;
   void take(estimate::State& state, const estimate::Input& input) const;
   void take_rates(estimate::State& state, const estimate::MotionInput& input) const;
+  void hand_over_gyro(estimate::State& state, const estimate::TurnRate& turn) const;
   estimate::MotionInput slot_at(Time slot) const;
   void put_slot(Time slot, const estimate::MotionInput& input);
   estimate::State blank() const;
@@ -96,7 +111,8 @@ class Estimator final {
   Duration max_delay_;
   estimate::LocalFrame frame_;
   estimate::History history_;
-  estimate::ImuIntake imu_;
+  std::array<estimate::ImuIntake, kMaxOfKind> imus_;
+  std::size_t imu_in_use_ = 0;
   double altitude_m_ = kAbsent;  ///< of the antenna, above the ellipsoid
   Time reach_at_ = kNever;       ///< when metres_left was computed last
   Time now_ = kNever;            ///< of the last step

@@ -22,8 +22,9 @@ enum class TurnTrouble : std::uint8_t {
 };
 
 struct GyroTrack {
-  double rate_radps = 0;  ///< the latest about the vertical, as measured
-  Time at = kNever;       ///< when it was measured; kNever: none that can be used
+  std::uint8_t source = 0;  ///< which sensor
+  double rate_radps = 0;    ///< the latest about the vertical, as measured
+  Time at = kNever;         ///< when it was measured; kNever: none that can be used
   double roll_rad = 0;
   double pitch_rad = 0;
 

@@ -24,6 +24,7 @@ struct MotionInput {
 
 struct YawInput {
   double yaw_rad = 0;
+  std::uint8_t receiver = 0;  ///< whose
 };
 
 /// In the order in which inputs of one instant are applied: a position needs the heading of its

@@ -26,6 +26,17 @@ bool plausible(const ImuSample& sample) {
 
 }  // namespace
 
+TurnRate ImuIntake::turn(double radps) const {
+  TurnRate turn;
+  turn.radps = radps;
+  turn.rest_bias_radps = bias_.bias_radps().z;
+  turn.rest_bias_sigma = bias_.sigma_radps();
+  turn.roll_rad = tilt_.roll_rad();
+  turn.pitch_rad = tilt_.pitch_rad();
+  turn.saturated = saturated_;
+  return turn;
+}
+
 ImuIntake::Verdict ImuIntake::take(const ImuSample& sample, Time at, bool standing,
                                    double speed_mps) {
   finished_.reset();
@@ -39,6 +50,7 @@ ImuIntake::Verdict ImuIntake::take(const ImuSample& sample, Time at, bool standi
     bias_.update(sample.angular_velocity_radps, at, standing);
   }
   const Vector3& rate = sample.angular_velocity_radps;
+  turn_radps_ = rate.z - bias.z;
   const double radps =
       tilt_.vertical_radps({.x = rate.x - bias.x, .y = rate.y - bias.y, .z = rate.z});
   const Time slot = at - at.time_since_epoch() % slot_;
@@ -46,16 +58,14 @@ ImuIntake::Verdict ImuIntake::take(const ImuSample& sample, Time at, bool standi
     from_ = slot;
     turned_rad_ = radps * to_s(at - slot);
     saturated_ = sample.saturated;
-    finished_ = TurnSlot{slot, {radps, tilt_.roll_rad(), tilt_.pitch_rad(), saturated_}};
+    finished_ = TurnSlot{slot, turn(radps)};
   } else {
     // What belongs to the slot that has begun is carried over into the next sum.
     const double over_rad = slot > from_ ? radps * to_s(at - std::max(slot, last_)) : 0.0;
     turned_rad_ += radps * to_s(at - last_) - over_rad;
     saturated_ = saturated_ || sample.saturated;
     if (slot > from_) {
-      finished_ = TurnSlot{
-          from_,
-          {turned_rad_ / to_s(slot - from_), tilt_.roll_rad(), tilt_.pitch_rad(), saturated_}};
+      finished_ = TurnSlot{from_, turn(turned_rad_ / to_s(slot - from_))};
       from_ = slot;
       turned_rad_ = over_rad;
       saturated_ = sample.saturated;

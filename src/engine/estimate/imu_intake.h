@@ -2,6 +2,7 @@
 // time, roll and pitch, and the bias at rest. Refuses what no sensor can mean.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 
 #include "drover/measurement.h"
@@ -12,7 +13,10 @@ namespace drover::engine::estimate {
 
 /// How the base turns from one slot of time until the next such entry.
 struct TurnRate {
-  double radps = 0;  ///< about the vertical, bias not removed
+  double radps = 0;                  ///< about the vertical, bias not removed
+  std::uint8_t source = 0;           ///< which sensor
+  double rest_bias_radps = 0;        ///< of the z axis, as learned at rest
+  double rest_bias_sigma = kAbsent;  ///< rad/s; absent: none learned yet
   double roll_rad = 0;
   double pitch_rad = 0;
   bool saturated = false;  ///< the truth is larger
@@ -35,14 +39,20 @@ class ImuIntake final {
   /// turn stays the same however the slots cut it.
   const std::optional<TurnSlot>& finished() const { return finished_; }
   const RestBias& bias() const { return bias_; }
+  const Tilt& tilt() const { return tilt_; }
+  /// The last rate about the base's z axis, without the bias that was learned at rest, rad/s.
+  double turn_radps() const { return turn_radps_; }
 
  private:
+  TurnRate turn(double radps) const;
+
   Duration slot_;
   Tilt tilt_;
   RestBias bias_;
   Time last_ = kNever;
   Time from_ = kNever;     ///< slot in which the present sum began
   double turned_rad_ = 0;  ///< since then
+  double turn_radps_ = 0;
   bool saturated_ = false;
   std::optional<TurnSlot> finished_;
 };

@@ -63,6 +63,18 @@ AntennaPosition follow_quality(State& state, const AntennaPosition& position,
   return used;
 }
 
+/// Another receiver has errors of its own. Where the base is stays as it was: what the new one says
+/// must fit to that, as anything that it says later.
+void hand_over(State& state, std::uint8_t receiver) {
+  GnssTrack& gnss = state.gnss;
+  gnss.receiver = receiver;
+  gnss.quality = GnssClass::none;
+  gnss.improved = kNever;
+  gnss.jumps = {};
+  state.watch.forget();
+  state.course = {};
+}
+
 void place(State& state, const AntennaPosition& position, double arm_x_m, double arm_y_m,
            double extra_variance) {
   const double sigma_x = std::sqrt(square(position.sigma_x_m) + extra_variance);
@@ -87,12 +99,13 @@ struct TiltedArm {
 /// While the sensor of the tilt is silent the antenna may be as far out as it was last.
 TiltedArm tilted_arm(const State& state, const EstimateConfig& config) {
   const GyroTrack& gyro = state.gyro;
-  const double z2 = square(config.antenna_z_m);
+  const AntennaConfig antenna = antenna_of(config, state.gnss.receiver);
+  const double z2 = square(antenna.z_m);
   if (gyro.fresh(state.time, from_s(config.imu_stale_s))) {
-    return {lever_arm(gyro.roll_rad, gyro.pitch_rad, config),
+    return {lever_arm(gyro.roll_rad, gyro.pitch_rad, antenna),
             z2 * square(to_rad(config.imu_orientation_sigma_deg))};
   }
-  return {lever_arm(0, 0, config), z2 * (square(gyro.roll_rad) + square(gyro.pitch_rad))};
+  return {lever_arm(0, 0, antenna), z2 * (square(gyro.roll_rad) + square(gyro.pitch_rad))};
 }
 
 /// A base with one antenna finds its heading while it drives.
@@ -167,16 +180,15 @@ double sigma_m(GnssClass quality, double gst_sigma_m, const EstimateConfig& conf
   return config.gnss_inflation * (worse ? gst_sigma_m : floor);
 }
 
-LeverArm lever_arm(double roll_rad, double pitch_rad, const EstimateConfig& config) {
-  const double over_m =
-      config.antenna_y_m * std::sin(roll_rad) + config.antenna_z_m * std::cos(roll_rad);
-  return {
-      .ahead_m = config.antenna_x_m * std::cos(pitch_rad) + over_m * std::sin(pitch_rad),
-      .left_m = config.antenna_y_m * std::cos(roll_rad) - config.antenna_z_m * std::sin(roll_rad)};
+LeverArm lever_arm(double roll_rad, double pitch_rad, const AntennaConfig& antenna) {
+  const double over_m = antenna.y_m * std::sin(roll_rad) + antenna.z_m * std::cos(roll_rad);
+  return {.ahead_m = antenna.x_m * std::cos(pitch_rad) + over_m * std::sin(pitch_rad),
+          .left_m = antenna.y_m * std::cos(roll_rad) - antenna.z_m * std::sin(roll_rad)};
 }
 
 void apply(State& state, const AntennaPosition& measured, double speed_mps,
            const EstimateConfig& config) {
+  if (measured.receiver != state.gnss.receiver) hand_over(state, measured.receiver);
   const AntennaPosition position = follow_quality(state, measured, config);
   Belief& belief = state.belief;
   const TiltedArm tilted = tilted_arm(state, config);

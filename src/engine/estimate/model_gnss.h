@@ -13,6 +13,7 @@ struct AntennaPosition {
   GnssClass quality = GnssClass::none;
   double sigma_x_m = 0;
   double sigma_y_m = 0;
+  std::uint8_t receiver = 0;  ///< whose
 };
 
 /// The class whose error a quality has. Dead reckoning of the receiver, manual input and its
@@ -25,7 +26,7 @@ double floor_sigma_m(GnssClass quality, const EstimateConfig& config);
 double sigma_m(GnssClass quality, double gst_sigma_m, const EstimateConfig& config);
 
 /// Where the antenna is over base_link, in horizontal axes of a base that is tilted like this.
-LeverArm lever_arm(double roll_rad, double pitch_rad, const EstimateConfig& config);
+LeverArm lever_arm(double roll_rad, double pitch_rad, const AntennaConfig& antenna);
 
 /// Applies the position to a state that stands at the position's own time.
 void apply(State& state, const AntennaPosition& measured, double speed_mps,

@@ -21,8 +21,8 @@ void place(State& state, double yaw_rad, double sigma_rad) {
 
 }  // namespace
 
-double yaw_of_baseline_rad(double heading_deg, const EstimateConfig& config) {
-  return yaw_rad_from_compass_deg(heading_deg - config.heading_baseline_offset_deg);
+double yaw_of_baseline_rad(double heading_deg, const AntennaConfig& antenna) {
+  return yaw_rad_from_compass_deg(heading_deg - antenna.heading_baseline_offset_deg);
 }
 
 void apply_heading(State& state, double yaw_rad, const EstimateConfig& config) {

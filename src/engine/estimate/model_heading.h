@@ -7,7 +7,7 @@
 namespace drover::engine::estimate {
 
 /// Yaw of base_link, rad, for a baseline that points `heading_deg` clockwise from true north.
-double yaw_of_baseline_rad(double heading_deg, const EstimateConfig& config);
+double yaw_of_baseline_rad(double heading_deg, const AntennaConfig& antenna);
 
 /// Applies the yaw to a state that stands at the measurement's own time.
 void apply_heading(State& state, double yaw_rad, const EstimateConfig& config);

@@ -128,7 +128,8 @@ void Estimator::report_imu(const State& state, Time now) {
   const bool fresh = gyro.fresh(now, imu_stale_);
   e.roll_rad = fresh ? gyro.roll_rad : kAbsent;
   e.pitch_rad = fresh ? gyro.pitch_rad : kAbsent;
-  if (imu_.bias().known()) e.gyro_bias_radps = imu_.bias().bias_radps();
+  const RestBias& at_rest = imus_[imu_in_use_].bias();
+  if (at_rest.known()) e.gyro_bias_radps = at_rest.bias_radps();
   if (gyro.learned_s > 0) {
     e.gyro_bias_radps.z = state.belief.mean[kGyroBias];
     e.gyro_bias_sigma_radps = std::sqrt(state.belief.covariance[kGyroBias][kGyroBias]);

@@ -20,6 +20,7 @@ namespace drover::engine::estimate {
 enum class GnssClass : std::uint8_t { none, fixed, floating, dgps, single };
 
 struct GnssTrack {
+  std::uint8_t receiver = 0;  ///< whose positions these are
   GnssClass quality = GnssClass::none;
   double sigma_x_m = 0;  ///< of the class, or of GST when that is larger
   double sigma_y_m = 0;
@@ -33,6 +34,7 @@ struct GnssTrack {
 };
 
 struct HeadingTrack {
+  std::uint8_t receiver = 0;  ///< whose headings these are
   Time last = kNever;
   JumpWatch jumps;
   double place_rad = 0;

@@ -11,6 +11,18 @@ constexpr Duration kAlarmOn = std::chrono::milliseconds(500);
 
 }  // namespace
 
+template <class... Values>
+Reason BatteryMonitor::said(const char* format, Values... values) const {
+  Reason what;
+  what.format(format, values...);
+  const std::string_view name = name_.view();
+  const std::string_view rest = what.view();
+  Reason all;
+  all.format("%.*s%.*s", static_cast<int>(name.size()), name.data(), static_cast<int>(rest.size()),
+             rest.data());
+  return all;
+}
+
 void BatteryMonitor::Limit::update(bool known, bool beyond, Time now, Duration on, Duration off) {
   if (!known) return;
   if (!begun_) {
@@ -58,16 +70,15 @@ Reason BatteryMonitor::empty_or_broken(const BatterySample& sample, const Beyond
   Reason why;
   const auto alarm = sample.alarm_text.view();
   if (beyond.critical) {
-    why.format("battery empty: %.0f %%, at least %.0f %% are needed", sample.soc_percent,
+    why = said(" empty: %.0f %%, at least %.0f %% are needed", sample.soc_percent,
                config_.battery_critical_percent);
   } else if (beyond.alarm) {
-    why.format("battery: %.*s", static_cast<int>(alarm.empty() ? 5 : alarm.size()),
+    why = said(": %.*s", static_cast<int>(alarm.empty() ? 5 : alarm.size()),
                alarm.empty() ? "alarm" : alarm.data());
   } else if (beyond.too_hot) {
-    why.format("battery too hot: %.0f C", sample.temperature_degC);
+    why = said(" too hot: %.0f C", sample.temperature_degC);
   } else if (beyond.apart) {
-    why.format("battery cells too far apart: %.2f V to %.2f V", sample.min_cell_V,
-               sample.max_cell_V);
+    why = said(" cells too far apart: %.2f V to %.2f V", sample.min_cell_V, sample.max_cell_V);
   }
   return why;
 }
@@ -78,12 +89,12 @@ const BatteryVerdict& BatteryMonitor::update(Time now, const BatterySnapshot& ba
   const bool old = battery.time != kNever && now - battery.time > from_s(config_.battery_stale_s);
   if (battery.time == kNever || source.state != SourceState::fresh || old) {
     const Reason& why = source.reason;
-    verdict_.silent.format("battery unknown: %.*s", static_cast<int>(why.view().size()),
-                           why.view().data());
-    if (why.empty()) verdict_.silent = "battery unknown: no answer";
+    verdict_.silent =
+        said(" unknown: %.*s", static_cast<int>(why.view().size()), why.view().data());
+    if (why.empty()) verdict_.silent = said(" unknown: no answer");
   } else if (!source.reason.empty()) {
-    verdict_.silent.format("battery: %.*s", static_cast<int>(source.reason.view().size()),
-                           source.reason.view().data());
+    verdict_.silent =
+        said(": %.*s", static_cast<int>(source.reason.view().size()), source.reason.view().data());
   }
   if (battery.time == kNever) return verdict_;
   const BatterySample& sample = battery.sample;
@@ -107,14 +118,13 @@ const BatteryVerdict& BatteryMonitor::update(Time now, const BatterySnapshot& ba
   const Beyond is = beyond(sample);
   verdict_.present = empty_or_broken(sample, is);
   if (verdict_.present.empty() && is.low)
-    verdict_.present.format("battery low: %.0f %%", sample.soc_percent);
+    verdict_.present = said(" low: %.0f %%", sample.soc_percent);
   const auto alarm = sample.alarm_text.view();
-  if (low_.holds() && !critical_.holds())
-    verdict_.low.format("battery low: %.0f %%", sample.soc_percent);
+  if (low_.holds() && !critical_.holds()) verdict_.low = said(" low: %.0f %%", sample.soc_percent);
   if (sample.alarm == BatteryAlarm::warning) {
-    verdict_.warning.format("battery: %.*s", static_cast<int>(alarm.size()), alarm.data());
+    verdict_.warning = said(": %.*s", static_cast<int>(alarm.size()), alarm.data());
   } else if (hot_.holds() && !too_hot_.holds()) {
-    verdict_.warning.format("battery hot: %.0f C", sample.temperature_degC);
+    verdict_.warning = said(" hot: %.0f C", sample.temperature_degC);
   }
   return verdict_;
 }

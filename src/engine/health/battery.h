@@ -24,7 +24,9 @@ struct BatteryVerdict {
 /// robot at rest has no sag.
 class BatteryMonitor final {
  public:
-  explicit BatteryMonitor(const HealthConfig& config) : config_(config) {}
+  /// `name` begins its texts.
+  explicit BatteryMonitor(const HealthConfig& config, const Name& name = "battery")
+      : config_(config), name_(name) {}
   const BatteryVerdict& update(Time now, const BatterySnapshot& battery,
                                const SourceHealth& source);
 
@@ -54,7 +56,12 @@ class BatteryMonitor final {
   Beyond beyond(const BatterySample& sample) const;
   Reason empty_or_broken(const BatterySample& sample, const Beyond& beyond) const;
 
+  /// "battery empty: 8 %"
+  template <class... Values>
+  Reason said(const char* format, Values... values) const;
+
   HealthConfig config_;
+  Name name_;
   BatteryVerdict verdict_;
   Limit low_;
   Limit critical_;

@@ -31,6 +31,7 @@ enum class Cause : std::uint8_t {
   origin,    ///< none set
   receiver,  ///< silent
   imu,       ///< configured and silent, stuck or out of its range
+  spare,     ///< a spare is in use, or could not be
   locate,
   jumped,   ///< the place changed at rest; a start is refused once, to ask a person
   sensors,  ///< contradict each other, and it is made up for
@@ -97,6 +98,8 @@ inline constexpr std::array<CauseRow, kCauseCount> kCauses{{
    .over = "receiver heard"},
   {.cause = Cause::imu,
    .over = "IMU heard"},
+  {.cause = Cause::spare,
+   .over = "what steers is in use, and its spares could be"},
   {.cause = Cause::locate,
    .over = "position good"},
   {.cause = Cause::jumped, .ends_wait = true,

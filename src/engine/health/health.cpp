@@ -39,8 +39,12 @@ HealthMonitor::HealthMonitor(const EngineConfig& config)
     : config_(config),
       base_(kinematics_of(config.base)),
       driven_(joints_of(base_)),
-      locate_(config.estimate),
-      battery_(config.health) {}
+      locate_(config.estimate) {
+  // With several, each speaks in its own name.
+  for (std::size_t i = 0; i < std::max<std::size_t>(1, config.batteries.size()); ++i)
+    batteries_.emplace_back(
+        config.health, config.batteries.size() > 1 ? config.batteries[i].name : Name("battery"));
+}
 
 void HealthMonitor::hold(Cause cause, const Reason& text) {
   const auto index = static_cast<std::size_t>(cause);
@@ -159,22 +163,32 @@ void HealthMonitor::look_at_guard(const Environment& environment) {
 }
 
 void HealthMonitor::look_at_imu(const HealthInput& input) {
-  const SourceHealth& imu = input.environment.imu;
+  const SourceHealth& imu =
+      input.environment.imu[input.sensors != nullptr ? input.sensors->imu() : 0];
+  const Name name = input.sensors != nullptr ? input.sensors->imu_name("IMU") : Name("IMU");
+  const auto called = static_cast<int>(name.view().size());
   const Duration age = input.now - imu.last_good;
   const bool old = imu.last_good != kNever && age > from_s(config_.health.imu_stale_s);
   if (!input.environment.imu_configured || (imu.state == SourceState::fresh && !old)) return;
   Reason text;
   if (imu.last_good == kNever) {
-    text = imu.reason.empty() ? Reason("IMU never heard") : Reason();
+    if (imu.reason.empty()) text.format("%.*s never heard", called, name.view().data());
   } else if (old) {
-    text.format("IMU silent for %.1f s", to_s(age));
+    text.format("%.*s silent for %.1f s", called, name.view().data(), to_s(age));
   }
-  if (text.empty()) put(text, "sensor", "IMU", imu.reason.empty() ? "stale" : imu.reason.view());
+  if (text.empty())
+    put(text, "sensor", name.view(), imu.reason.empty() ? "stale" : imu.reason.view());
   hold(Cause::imu, text);
 }
 
 void HealthMonitor::look_at_position(const HealthInput& input) {
-  const SourceHealth& gnss = input.environment.gnss;
+  const SourceHealth& gnss =
+      input.environment.gnss[input.sensors != nullptr ? input.sensors->receiver() : 0];
+  const Name name = input.sensors != nullptr ? input.sensors->receiver_name("GNSS") : Name("GNSS");
+  Name spaced;  // where there are several, the name of the one in use
+  if (config_.receivers.size() > 1)
+    spaced.format("%.*s ", static_cast<int>(name.view().size()), name.view().data());
+  const auto called = static_cast<int>(spaced.view().size());
   const bool old =
       gnss.last_good != kNever && input.now - gnss.last_good > from_s(config_.health.gnss_stale_s);
   report_.gnss_ok =
@@ -182,11 +196,12 @@ void HealthMonitor::look_at_position(const HealthInput& input) {
   if (!report_.gnss_ok) {
     Reason text;
     if (!gnss.reason.empty()) {
-      put(text, "receiver", "GNSS", gnss.reason);
+      put(text, "receiver", name.view(), gnss.reason);
     } else if (gnss.last_good == kNever) {
-      text = "receiver never heard";
+      text.format("receiver %.*snever heard", called, spaced.view().data());
     } else {
-      text.format("receiver silent for %.1f s", to_s(input.now - gnss.last_good));
+      text.format("receiver %.*ssilent for %.1f s", called, spaced.view().data(),
+                  to_s(input.now - gnss.last_good));
     }
     hold(Cause::receiver, text);
   }
@@ -204,9 +219,28 @@ void HealthMonitor::look_at_position(const HealthInput& input) {
 }
 
 void HealthMonitor::look_at_battery(const HealthInput& input) {
-  if (!config_.battery_configured || input.battery == nullptr) return;
-  const BatteryVerdict& verdict =
-      battery_.update(input.now, *input.battery, input.environment.battery);
+  if (!config_.battery_configured || input.sensors == nullptr) return;
+  const auto samples = input.sensors->batteries();
+  std::size_t counted = 0;
+  std::size_t silent = 0;
+  for (std::size_t i = 0; i < batteries_.size(); ++i) {
+    const BatteryVerdict& verdict =
+        batteries_[i].update(input.now, samples[i], input.environment.battery[i]);
+    if (!input.sensors->battery_counts(i)) continue;
+    ++counted;
+    silent += verdict.silent.empty() ? 0 : 1;
+    look_at_one_battery(verdict);
+  }
+  if (silent < 2 || silent < counted) return;
+  // The first is named all the same, as with drives.
+  Reason& text = report_.texts[static_cast<std::size_t>(Cause::battery_silent)];
+  const Reason first = text;
+  text.format("no battery is heard (%.*s)", static_cast<int>(first.view().size()),
+              first.view().data());
+}
+
+/// Of several that count the worst decides: each may end a task, and each may forbid a start.
+void HealthMonitor::look_at_one_battery(const BatteryVerdict& verdict) {
   const auto tell = [this](Cause cause, const Reason& text) {
     if (!text.empty()) hold(cause, text);
   };
@@ -216,7 +250,7 @@ void HealthMonitor::look_at_battery(const HealthInput& input) {
   tell(Cause::battery_low, verdict.low);
   tell(Cause::battery_warning, verdict.warning);
   tell(Cause::battery_silent, verdict.silent);
-  report_.no_start = verdict.present;
+  if (report_.no_start.empty()) report_.no_start = verdict.present;
 }
 
 void HealthMonitor::look_at_program(const Environment& environment) {
@@ -267,6 +301,8 @@ const HealthReport& HealthMonitor::update(const HealthInput& input) {
   look_at_guard(input.environment);
   look_at_drives(input);
   look_at_imu(input);
+  if (input.sensors != nullptr && !input.sensors->caution().empty())
+    hold(Cause::spare, input.sensors->caution());
   look_at_position(input);
   look_at_battery(input);
   look_at_program(input.environment);

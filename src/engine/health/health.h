@@ -3,12 +3,14 @@
 
 #include <array>
 #include <span>
+#include <vector>
 
 #include "drover/snapshot.h"
 #include "engine/environment.h"
 #include "engine/health/battery.h"
 #include "engine/health/causes.h"
 #include "engine/health/locate.h"
+#include "engine/sensors/sensors.h"
 
 namespace drover::engine {
 
@@ -25,12 +27,12 @@ struct HealthInput {
   const Estimate& estimate;
   bool has_origin = false;
   bool task_active = false;
-  const Reason& latched;  ///< empty when nothing is
-  const BatterySnapshot* battery = nullptr;
-  Reason tilt{};           ///< why it stands too steep to move; empty when it does not
-  Reason moved{};          ///< what moves it without a command; empty when nothing does
-  Reason jumped{};         ///< what changed its place at rest; empty when nothing did
-  bool power_cut = false;  ///< by this gateway: that drives are silent is no news
+  const Reason& latched;             ///< empty when nothing is
+  const Sensors* sensors = nullptr;  ///< nullptr: one of each, and no battery
+  Reason tilt{};                     ///< why it stands too steep to move; empty when it does not
+  Reason moved{};                    ///< what moves it without a command; empty when nothing does
+  Reason jumped{};                   ///< what changed its place at rest; empty when nothing did
+  bool power_cut = false;            ///< by this gateway: that drives are silent is no news
   const Reason* steep =
       nullptr;  ///< why the ground is too steep to be left there; empty: it is not
 };
@@ -83,6 +85,7 @@ class HealthMonitor final {
   void look_at_imu(const HealthInput& input);
   void look_at_position(const HealthInput& input);
   void look_at_battery(const HealthInput& input);
+  void look_at_one_battery(const BatteryVerdict& verdict);
   void look_at_program(const Environment& environment);
   void look_at_place(const HealthInput& input);
   void conclude(bool power_cut);
@@ -92,7 +95,7 @@ class HealthMonitor final {
   Kinematics base_;
   JointSet driven_;
   LocateMonitor locate_;
-  BatteryMonitor battery_;
+  std::vector<BatteryMonitor> batteries_;  ///< by number
   HealthReport report_;
   std::array<bool, kLineCount> unknown_{};
   Time begun_ = kNever;

@@ -39,7 +39,8 @@ constexpr double kShortest_m = 0.1;  // of a way that is found too short
 MechanicsCheck::MechanicsCheck(const EngineConfig& config)
     : config_(config),
       words_(&words_of(kinematics_of(config.base))),
-      proved_(!(config.navigate.first_way_m > 0)) {}
+      proved_(!(config.navigate.first_way_m > 0)),
+      antenna_(antenna_of(config.estimate, kMaxOfKind)) {}
 
 void MechanicsCheck::begin() {
   moving_ = true;
@@ -85,6 +86,15 @@ void MechanicsCheck::on_turn(double turn_radps, Time at) {
   const bool gap = gyro_at_ == kNever || to_s(at - gyro_at_) > kGyroStale_s;
   if (moving_ && !gap) last_.gyro_rad += turn_radps * std::max(to_s(at - gyro_at_), 0.0);
   gyro_at_ = at;
+}
+
+void MechanicsCheck::forget_receiver(const AntennaConfig& antenna) {
+  antenna_ = antenna;
+  rest_ = {};
+  fresh_position_ = false;
+  heading_turn_rad_ = kAbsent;
+  heading_at_ = kNever;
+  odd_places_ = 0;
 }
 
 void MechanicsCheck::remember(Time now) {
@@ -150,8 +160,8 @@ void MechanicsCheck::compare_way(const Mark& wheels) {
   if (std::isfinite(yaw_rad_)) {
     const double yaw0_rad = yaw_rad_ - turn_rad;
     // The antenna swings about the base as it turns.
-    const double ax = config_.estimate.antenna_x_m;
-    const double ay = config_.estimate.antenna_y_m;
+    const double ax = antenna_.x_m;
+    const double ay = antenna_.y_m;
     const auto arm = [&](double yaw) {
       return PathPoint{ax * std::cos(yaw) - ay * std::sin(yaw),
                        ax * std::sin(yaw) + ay * std::cos(yaw)};

@@ -37,6 +37,8 @@ class MechanicsCheck final {
   /// `turn_radps` about the vertical, without the bias.
   void on_turn(double turn_radps, Time at);
 
+  /// Another receiver speaks from now on, from there. Of this motion it compares nothing any more.
+  void forget_receiver(const AntennaConfig& antenna);
   void step(const MechanicsInput& input);
   /// The program before this one proved them, in the same boot with the same configuration.
   void recall_proved() { proved_ = true; }
@@ -93,6 +95,7 @@ class MechanicsCheck final {
   double heading_turn_rad_ = kAbsent;  ///< by the receiver, since the motion began
   Time heading_at_ = kNever;
   Time gyro_at_ = kNever;
+  AntennaConfig antenna_;
   int odd_places_ = 0;  ///< in succession
   Reason fault_;
 };

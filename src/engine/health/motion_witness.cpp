@@ -101,6 +101,12 @@ void MotionWitness::expect_rest(Time at, double turn) {
   commanded_turn_ = turn;
 }
 
+void MotionWitness::forget_receiver() {
+  speed_at_ = position_at_ = heading_at_ = kNever;
+  from_at_ = turned_from_ = kNever;
+  learned_noise_mps2_ = 0;
+}
+
 double MotionWitness::speed_noise_mps() const {
   return std::max(speed_sigma_mps(position_.quality), std::sqrt(learned_noise_mps2_));
 }

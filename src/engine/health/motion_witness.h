@@ -34,6 +34,8 @@ class MotionWitness final {
   /// From `at` on the base should rest: the way counts from the next position, the turn from the
   /// next heading. `turn` is the sign of the turn that was commanded, 0 for none.
   void expect_rest(Time at, double turn);
+  /// Another receiver speaks from now on: its places and headings are no way from the other's.
+  void forget_receiver();
   /// While the base rests, what the receiver's speed says is noise.
   void set_at_rest(bool rests) { rests_ = rests; }
 

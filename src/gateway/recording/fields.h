@@ -212,6 +212,23 @@ void visit_fields(V& v, const BatterySnapshot& battery) {
 }
 
 template <class V>
+void visit_fields(V& v, const SensorSnapshot& sensor) {
+  const auto& [kind, name, role, in_use, health, source, time, last] = sensor;
+  v.value("kind", kind);
+  v.value("name", name);
+  v.value("role", role);
+  v.value("in_use", in_use);
+  v.value("health", health);
+  v.inside("source", [&v, &part = source] { visit_fields(v, part); });
+  v.value("time", time);
+  // Its kind does not change, and so not what it has.
+  if (const auto* position = std::get_if<GnssPosition>(&last))
+    v.inside("position", [&v, position] { visit_fields(v, *position); });
+  if (const auto* sample = std::get_if<BatterySample>(&last))
+    v.inside("battery", [&v, sample] { visit_fields(v, *sample); });
+}
+
+template <class V>
 void visit_fields(V& v, const JointCommandSnapshot& stream) {
   const auto& [active, accepted, refused, reason] = stream;
   v.value("active", active);
@@ -254,10 +271,10 @@ void visit_fields(V& v, const BaseSnapshot& base) {
 
 template <class V>
 void visit_fields(V& v, const Snapshot& snapshot) {
-  const auto& [time, pose, worst_vx_mps, nav, gnss, imu, battery, joint_command, axes, base,
-               line_active, line_health, line_configured, line_source, output_configured, output_on,
-               links, stop_latched, hold, guard_alive, guard_has_bus, origin_set, origin, why,
-               cycle, estimator, notices_dropped] = snapshot;
+  const auto& [time, pose, worst_vx_mps, nav, gnss, imu, battery, sensors, joint_command, axes,
+               base, line_active, line_health, line_configured, line_source, output_configured,
+               output_on, links, stop_latched, hold, guard_alive, guard_has_bus, origin_set, origin,
+               why, cycle, estimator, notices_dropped] = snapshot;
   (void)links;  // those two are the loop's
   (void)cycle;
   v.value("time", time);
@@ -267,6 +284,8 @@ void visit_fields(V& v, const Snapshot& snapshot) {
   v.inside("gnss", [&v, &part = gnss] { visit_fields(v, part); });
   v.inside("imu", [&v, &part = imu] { visit_fields(v, part); });
   v.inside("battery", [&v, &part = battery] { visit_fields(v, part); });
+  for (std::size_t i = 0; i < sensors.size(); ++i)
+    v.inside("sensors", i, [&v, &part = sensors[i]] { visit_fields(v, part); });
   v.inside("joint_command", [&v, &part = joint_command] { visit_fields(v, part); });
   for (std::size_t i = 0; i < axes.size(); ++i)
     v.inside("axes", i, [&v, &part = axes[i]] { visit_fields(v, part); });

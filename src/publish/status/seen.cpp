@@ -48,6 +48,7 @@ Snapshot as_seen(const Snapshot& snapshot, Time now, Duration limit) {
   source(seen.gnss.health, seen.gnss.source);
   source(seen.imu.health, seen.imu.source);
   source(seen.battery.health, seen.battery.source);
+  for (SensorSnapshot& sensor : seen.sensors) source(sensor.health, sensor.source);
   for (AxisSnapshot& axis : seen.axes) source(axis.health, axis.source);
   source(seen.base.health, seen.base.source);
   for (std::size_t i = 0; i < kLineCount; ++i) source(seen.line_health[i], seen.line_source[i]);

@@ -150,6 +150,39 @@ void battery(JsonText& out, const Snapshot& s) {
   out.close('}');
 }
 
+/// All of them, also those whose values stand under "gnss", "imu" and "battery".
+void sensors(JsonText& out, const Snapshot& s) {
+  out.key("sensors").open('[');
+  for (const auto& sensor : s.sensors) {
+    out.open('{');
+    out.key("kind").text(word(sensor.kind));
+    out.key("name").text(sensor.name.view());
+    out.key("role").text(word(sensor.role));
+    out.key("in_use").boolean(sensor.in_use);
+    out.key("health").text(word(sensor.health));
+    const bool heard = sensor.time != kNever;
+    if (const auto* position = std::get_if<GnssPosition>(&sensor.last)) {
+      out.key("quality").text(word(position->quality));
+      number(out, "latitude_deg", position->latitude_deg);
+      number(out, "longitude_deg", position->longitude_deg);
+      number(out, "satellites", heard ? position->satellites : kAbsent);
+      number(out, "correction_age_s", position->correction_age_s);
+    }
+    if (const auto* sample = std::get_if<BatterySample>(&sensor.last)) {
+      number(out, "soc_percent", sample->soc_percent);
+      number(out, "voltage_V", sample->voltage_V);
+      number(out, "current_A", sample->current_A);
+      number(out, "temperature_degC", sample->temperature_degC);
+      out.key("charger_connected").boolean(sample->charger_connected);
+      out.key("alarm").text(sample->alarm_text.view());
+    }
+    age(out, "age_s", s.time, sensor.time);
+    source(out, sensor.source);
+    out.close('}');
+  }
+  out.close(']');
+}
+
 void axes(JsonText& out, const Snapshot& s) {
   out.key("axes").open('[');
   for (const auto& axis : s.axes) {
@@ -320,6 +353,7 @@ std::string status_json(const Snapshot& s, const DaemonStatus& daemon) {
   origin(out, s);
   gnss(out, s);
   imu(out, s);
+  sensors(out, s);
   battery(out, s);
   axes(out, s);
   base(out, s);

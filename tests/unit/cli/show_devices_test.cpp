@@ -1,5 +1,6 @@
 #include "cli/show_devices.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "cli/rates.h"
@@ -90,6 +91,23 @@ TEST(DeviceViews, ShowTheBattery) {
             "alarm     cell voltage low\n"
             "rate      -  age 0.500 s  samples 7  bad 0\n"
             "health    fresh\n");
+}
+
+TEST(DeviceViews, ShowAllOfAKindWhereThereAreSeveral) {
+  const std::string sensors =
+      R"("sensors":[
+      {"kind":"imu","name":"imu","role":"steers","in_use":true,"health":"fresh"},
+      {"kind":"battery","name":"left","role":"steers","in_use":true,"health":"fresh",
+       "soc_percent":84,"voltage_V":26.4,"current_A":-2,"age_s":0.5,"reason":""},
+      {"kind":"battery","name":"right","role":"spare","in_use":false,"health":"never heard",
+       "soc_percent":null,"age_s":null,"reason":"no answer"}])";
+  EXPECT_THAT(
+      shown("bms", R"({"battery":{"health":"fresh"},)" + sensors + "}"),
+      testing::HasSubstr("battery   left            steers IN USE  84.0 %  26.40 V  "
+                         "-2.0 A  fresh  0.50 s old\n"
+                         "          right           spare          never heard  no answer\n"));
+  EXPECT_THAT(shown("imu", R"({"imu":{"health":"fresh"},)" + sensors + "}"),
+              testing::Not(testing::HasSubstr("steers")));
 }
 
 TEST(DeviceViews, ShowBusesAndDrivesButNoOtherLinks) {

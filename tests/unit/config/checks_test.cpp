@@ -129,13 +129,10 @@ TEST(ConfigurationChecks, RefuseAKeyOfAnotherKindOfDevice) {
             "f:9:15: devices.bumper.line: is missing (gpio_line needs it)\n");
 }
 
-TEST(ConfigurationChecks, RefuseASecondOfWhatTheEstimateGoesBy) {
-  auto text = with("\"gnss\": {\"driver\": \"nmea0183\", \"link\": \"gnss\"},",
-                   "\"gnss\": {\"driver\": \"nmea0183\", \"link\": \"gnss\"},\n"
-                   "\"rear\": {\"driver\": \"nmea0183\", \"link\": \"gnss\"},");
-  EXPECT_THAT(
-      problems(text),
-      HasSubstr("devices.rear: a second receiver beside devices.gnss is not supported yet"));
+TEST(ConfigurationChecks, RefuseASecondDeviceOnASerialLine) {
+  const auto text = with("\"gnss\": {\"driver\": \"nmea0183\", \"link\": \"gnss\"},",
+                         "\"gnss\": {\"driver\": \"nmea0183\", \"link\": \"gnss\"},\n"
+                         "\"rear\": {\"driver\": \"nmea0183\", \"link\": \"gnss\"},");
   EXPECT_THAT(problems(text), HasSubstr("devices.rear.link: \"gnss\" is a serial line, and "
                                         "devices.gnss hangs on it\n"));
 }

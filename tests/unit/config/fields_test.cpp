@@ -128,7 +128,7 @@ TEST(Fields, AreCounted) {
 
 TEST(Fields, OfTheEngineAreAllKeys) {
   expect_complete<engine::LimitsConfig>();
-  expect_complete<engine::EstimateConfig>();
+  expect_complete<engine::EstimateConfig>(1);  // antennas are of the devices
   expect_complete<engine::NavigateConfig>();
   expect_complete<engine::HealthConfig>(1);  // guard_required is guard.required
 }

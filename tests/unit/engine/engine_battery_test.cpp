@@ -11,7 +11,7 @@ class AnEngineWithABattery : public AnEngine {
     config.battery_configured = true;
     config.health.battery_stale_s = 120;
     rig = EngineRig(config);
-    rig.environment.battery.state = SourceState::fresh;
+    rig.environment.battery[0].state = SourceState::fresh;
     sample.soc_percent = 70;
     tell();
   }
@@ -38,7 +38,7 @@ TEST_F(AnEngineWithABattery, RefusesEveryMotionWhenItFellSilentAtTheCharger) {
   sample.charger_connected = true;
   tell();
   rig.settle();
-  rig.environment.battery.state = SourceState::stale;
+  rig.environment.battery[0].state = SourceState::stale;
   rig.run_s(121);
   const std::string plugged = "the charger was connected when the battery was last heard";
   rig.start(path, 40, 0.5);
@@ -55,7 +55,7 @@ TEST_F(AnEngineWithABattery, RefusesEveryMotionWhenItFellSilentAtTheCharger) {
   expect_no_motion_for_s(1);
   sample.charger_connected = false;
   tell();
-  rig.environment.battery.state = SourceState::fresh;
+  rig.environment.battery[0].state = SourceState::fresh;
   rig.tick();
   rig.start(path, 40, 0.5);
   rig.run_s(2);
@@ -150,8 +150,8 @@ TEST_F(AnEngineWithABattery, LetsNothingNewBeginWithALowOneAndAStreamGoOn) {
 
 TEST_F(AnEngineWithABattery, DrivesOnWhenTheBatteryIsSilentAndSaysSo) {
   drive();
-  rig.environment.battery.state = SourceState::stale;
-  rig.environment.battery.reason = "no answer";
+  rig.environment.battery[0].state = SourceState::stale;
+  rig.environment.battery[0].reason = "no answer";
   rig.run_s(5);
   EXPECT_EQ(rig.snapshot().nav.status, NavStatus::run);
   EXPECT_EQ(rig.why(), "battery unknown: no answer");

@@ -52,8 +52,8 @@ class ARobotThatHolds : public AnEngine {
   /// The base stands on ground that falls by so much, for one cycle of its inertial sensor.
   void tick_tilted(double deg) {
     rig.environment.imu_configured = true;
-    rig.environment.imu.state = SourceState::fresh;
-    rig.environment.imu.last_good = rig.now;
+    rig.environment.imu[0].state = SourceState::fresh;
+    rig.environment.imu[0].last_good = rig.now;
     Measurement m;
     m.time = m.received = rig.now;
     ImuSample sample;

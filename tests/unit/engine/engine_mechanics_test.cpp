@@ -180,7 +180,7 @@ TEST_F(ARobotWithAnIMU, ThatIsMountedUpsideDownIsNamedStillWhenItsDriverRejectsI
   rig.gravity_mps2 = {0, 0, -9.81};
   rig.settle();
   rig.imu = false;
-  rig.environment.imu.state = SourceState::stale;
+  rig.environment.imu[0].state = SourceState::stale;
   rig.run_s(2);
   rig.start(path, 40, 0.5);
   rig.tick();

@@ -250,8 +250,8 @@ class EngineRig {
       measure(now, LineState{static_cast<Line>(i), lines[i]});
     }
     if (imu) read_imu();
-    environment.gnss.state = receiver_silent ? SourceState::stale : SourceState::fresh;
-    if (!receiver_silent) environment.gnss.last_good = now;
+    environment.gnss[0].state = receiver_silent ? SourceState::stale : SourceState::fresh;
+    if (!receiver_silent) environment.gnss[0].last_good = now;
     if (++ticks_ % 20 == 0) read_receiver();
     while (!fixes_.empty() && now - fixes_.front().time >= std::chrono::milliseconds(80)) {
       const Fix& fix = fixes_.front();
@@ -266,8 +266,8 @@ class EngineRig {
 
   void read_imu() {
     environment.imu_configured = true;
-    environment.imu.state = SourceState::fresh;
-    environment.imu.last_good = now;
+    environment.imu[0].state = SourceState::fresh;
+    environment.imu[0].last_good = now;
     ImuSample sample;
     sample.acceleration_mps2 = gravity_mps2;
     sample.angular_velocity_radps.y = pitch_radps;

@@ -122,7 +122,7 @@ TEST_F(ARobotOnASlopeThatIsAllowed, IsNotCutWhenItsDrivesLoseTheirSupplyAtItsRes
 TEST_F(ARobotOnASlopeThatIsAllowed, KeepsItsPowerWhenItSwingsBackAndTheImuIsSilent) {
   stop();
   rig.imu = false;
-  rig.environment.imu.state = SourceState::stale;
+  rig.environment.imu[0].state = SourceState::stale;
   rest_s(0.5);
   rig.carried = WheelSpeeds{-0.5, -0.5};
   rest_s(2);
@@ -132,7 +132,7 @@ TEST_F(ARobotOnASlope, IsNotOnLevelGroundBecauseItsImuFellSilent) {
   drive_up();
   stop_on_the_slope();
   rig.imu = false;
-  rig.environment.imu.state = SourceState::stale;
+  rig.environment.imu[0].state = SourceState::stale;
   rest_s(3);
   EXPECT_THAT(told(), testing::Not(HasSubstr("on level ground again")));
   rig.start(path, 40, 0.5);
@@ -143,7 +143,7 @@ TEST_F(ARobotOnASlope, IsNotOnLevelGroundBecauseItsImuFellSilent) {
 TEST_F(ARobotOnASlope, StopsWhenNobodyKnowsHowSteepTheGroundIs) {
   drive();
   rig.imu = false;
-  rig.environment.imu.state = SourceState::stale;
+  rig.environment.imu[0].state = SourceState::stale;
   rig.run_s(0.8);
   EXPECT_EQ(rig.snapshot().nav.status, NavStatus::run) << rig.why();
   rig.run_s(2);

@@ -343,7 +343,7 @@ TEST_F(AnEngine, ShowsTheLatestSampleOfTheInertialSensorAndItsHealth) {
   rig.tick();
   EXPECT_FALSE(rig.snapshot().imu.configured);
   rig.environment.imu_configured = true;
-  rig.environment.imu.state = SourceState::fresh;
+  rig.environment.imu[0].state = SourceState::fresh;
   ImuSample sample;
   sample.angular_velocity_radps.z = 0.25;
   const Time at = rig.now - std::chrono::milliseconds(3);

@@ -22,6 +22,26 @@ TEST(Gateway, AllocatesNothingWhateverReachesIt) {
   EXPECT_EQ(counter.count(), 0U);
 }
 
+TEST(Gateway, AllocatesNothingWithTwoOfEach) {
+  const auto loaded =
+      config::load_file(DROVER_SOURCE_DIR "/sim/robots/field_two_of_each.drover.json");
+  ASSERT_TRUE(loaded.problems.empty());
+  Gateway gateway(loaded.config);
+  RecordEncoder encoder;
+  ASSERT_EQ(gateway.snapshot().sensors.size(), 6U);
+  test::AllocationCounter counter;
+  Time now{std::chrono::seconds(100)};
+  std::size_t bytes = 0;
+  for (int i = 0; i < 4000; ++i, now += std::chrono::milliseconds(5)) {
+    for (LinkId link = 0; link < gateway.wiring().links.size(); ++link)
+      if (i % 400 == 0) gateway.apply({now, LinkUp{link}});
+    gateway.apply({now, Tick{true, false, false}});
+    bytes += encoder.output(gateway).size();
+  }
+  EXPECT_EQ(counter.count(), 0U);
+  EXPECT_GT(bytes, 0U);
+}
+
 TEST(RecordEncoder, AllocatesNothing) {
   Gateway gateway(load_robot().config);
   RecordEncoder encoder;

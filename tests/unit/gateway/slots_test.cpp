@@ -28,9 +28,9 @@ TEST(Wiring, TellsEachDevicesHealthWhereTheEngineLooks) {
   engine::Environment environment;
   const Wiring wiring = wire_up(load_robot().config, environment);
   EXPECT_EQ(wiring.slots[1].tells_health[0], &environment.axes[1]);
-  EXPECT_EQ(wiring.slots[2].tells_health[0], &environment.gnss);
-  EXPECT_EQ(wiring.slots[3].tells_health[0], &environment.imu);
-  EXPECT_EQ(wiring.slots[4].tells_health[0], &environment.battery);
+  EXPECT_EQ(wiring.slots[2].tells_health[0], &environment.gnss[0]);
+  EXPECT_EQ(wiring.slots[3].tells_health[0], &environment.imu[0]);
+  EXPECT_EQ(wiring.slots[4].tells_health[0], &environment.battery[0]);
   EXPECT_EQ(wiring.slots[6].tells_health[0],
             &environment.lines[static_cast<std::size_t>(Line::bumper)]);
 }

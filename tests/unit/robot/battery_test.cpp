@@ -49,13 +49,14 @@ class ABatteryPort : public ::testing::Test {
     twin->set_truth({26, -3, 55, 40, 21, false, 0});
     link_path =
         std::filesystem::temp_directory_path() / ("drover-battery-" + std::to_string(::getpid()));
-    port.emplace(link_path.string(), 9600, 210);
+    port.emplace(link_path.string(), 9600);
+    port->add(210, *twin);
     open();
   }
   void open() { line = link::UniqueFd(::open(link_path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK)); }
   /// What came back in so many seconds of the simulation.
-  std::vector<std::uint8_t> ask(double seconds = 1) {
-    const auto request = link::rtu_read_request(210, kBlock);
+  std::vector<std::uint8_t> ask(double seconds = 1, std::uint8_t unit = 210) {
+    const auto request = link::rtu_read_request(unit, kBlock);
     EXPECT_EQ(::write(line.get(), request.data(), request.size()), 8);
     return listen(seconds);
   }
@@ -63,7 +64,7 @@ class ABatteryPort : public ::testing::Test {
     std::vector<std::uint8_t> heard;
     for (int i = 0; i < seconds * 200; ++i) {
       now += 5ms;
-      port->pump(now, 5ms, *twin);
+      port->pump(now, 5ms);
       std::array<std::uint8_t, 64> chunk{};
       const auto n = ::read(line.get(), chunk.data(), chunk.size());
       if (n > 0) heard.insert(heard.end(), chunk.begin(), chunk.begin() + n);
@@ -98,6 +99,14 @@ TEST_F(ABatteryPort, AnswersAndDoesEverythingWrongThatItIsToldTo) {
   EXPECT_EQ(port->command("well"), "ok");
   EXPECT_EQ(kind(ask()), link::Answer::good);
   EXPECT_TRUE(port->command("broken").starts_with("error"));
+}
+
+TEST_F(ABatteryPort, HasAFaultForEachOfItsUnits) {
+  port->add(211, *twin);
+  EXPECT_EQ(link::find_rtu_answer(ask(1, 211), 211, kBlock).answer, link::Answer::good);
+  EXPECT_EQ(port->command("silent", 1), "ok");
+  EXPECT_EQ(ask(1, 211).size(), 0U);
+  EXPECT_EQ(kind(ask()), link::Answer::good);
 }
 
 TEST_F(ABatteryPort, DripsAByteEach490Milliseconds) {

@@ -42,6 +42,28 @@ TEST(Scenario, RefusesAScenarioWithoutAWorld) {
   EXPECT_THROW((void)parse_scenario("{}", ""), std::runtime_error);
 }
 
+TEST(Scenario, HasFurtherDevicesByName) {
+  const auto scenario =
+      parse_scenario(kPlain + R"(, "gnss": {}, "more": {
+        "gnss_rear": {"is": "gnss", "port": "rear", "antenna": {"x_m": -1}},
+        "imu_rear": {"is": "imu", "options": {"mount_yaw_deg": 90}},
+        "pack": {"is": "battery", "map": ")" +
+                         DROVER_SOURCE_DIR + R"(/config/maps/daly_d2.json", "unit": 7}}})",
+                     "/w");
+  ASSERT_EQ(scenario.more.size(), 3U);
+  EXPECT_EQ(scenario.more[0].name, "gnss_rear");
+  EXPECT_EQ(scenario.more[0].gnss->antenna_x_m, -1);
+  EXPECT_EQ(scenario.more[1].kind(), "imu");
+  EXPECT_EQ(scenario.more[2].battery->unit, 7);
+}
+
+TEST(Scenario, RefusesFurtherDevicesOfNoKindOrOfAKindsOwnName) {
+  EXPECT_EQ(refusal(R"(, "more": {"a": {"is": "lidar"}})"),
+            "more.a.is: must be gnss, imu or battery");
+  EXPECT_EQ(refusal(R"(, "more": {"gnss": {"is": "gnss"}})"),
+            "more.gnss: is the name of the first of its kind");
+}
+
 TEST(Scenario, RefusesAWrongType) {
   EXPECT_EQ(refusal(R"(, "start": {"x_m": "1"})"), "start.x_m: must be a number");
   EXPECT_EQ(refusal(R"(, "estop_cuts_power": 1)"), "estop_cuts_power: must be true or false");

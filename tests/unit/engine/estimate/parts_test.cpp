@@ -155,13 +155,13 @@ TEST(GnssModel, LearnsNothingFromHearingTheFirstPositionAgain) {
 
 // Source of the pairs: heading 90, offset 0 -> 0; 0, 0 -> 90; 270, 90 -> -90; 359.9, 180 -> -89.9.
 TEST(HeadingModel, TurnsACompassBaselineIntoYaw) {
-  EstimateConfig config;
-  EXPECT_NEAR(to_deg(yaw_of_baseline_rad(90, config)), 0, 1e-9);
-  EXPECT_NEAR(to_deg(yaw_of_baseline_rad(0, config)), 90, 1e-9);
-  config.heading_baseline_offset_deg = 90;
-  EXPECT_NEAR(to_deg(yaw_of_baseline_rad(270, config)), -90, 1e-9);
-  config.heading_baseline_offset_deg = 180;
-  EXPECT_NEAR(to_deg(yaw_of_baseline_rad(359.9, config)), -89.9, 1e-9);
+  AntennaConfig antenna;
+  EXPECT_NEAR(to_deg(yaw_of_baseline_rad(90, antenna)), 0, 1e-9);
+  EXPECT_NEAR(to_deg(yaw_of_baseline_rad(0, antenna)), 90, 1e-9);
+  antenna.heading_baseline_offset_deg = 90;
+  EXPECT_NEAR(to_deg(yaw_of_baseline_rad(270, antenna)), -90, 1e-9);
+  antenna.heading_baseline_offset_deg = 180;
+  EXPECT_NEAR(to_deg(yaw_of_baseline_rad(359.9, antenna)), -89.9, 1e-9);
 }
 
 TEST(HeadingModel, WeighsABurstLikeOne) {

@@ -30,8 +30,8 @@ class AHealthMonitor : public ::testing::Test {
       line.last_good = now;
     }
     environment.guard_alive = true;
-    environment.gnss.state = SourceState::fresh;
-    environment.gnss.last_good = now;
+    environment.gnss[0].state = SourceState::fresh;
+    environment.gnss[0].last_good = now;
     lines.active = {};
     estimate.has_position = estimate.has_heading = true;
     estimate.predicted_error_m = 0.03;
@@ -67,11 +67,11 @@ class AHealthMonitor : public ::testing::Test {
 TEST_F(AHealthMonitor, SaysHowLongTheImuHasBeenSilent) {
   environment.imu_configured = true;
   EXPECT_EQ(first_why(), "IMU never heard");
-  environment.imu.state = SourceState::fresh;
-  environment.imu.last_good = now - std::chrono::milliseconds(300);
+  environment.imu[0].state = SourceState::fresh;
+  environment.imu[0].last_good = now - std::chrono::milliseconds(300);
   EXPECT_EQ(first_why(), "");
   EXPECT_LT(update().budget_used, 1);
-  environment.imu.last_good = now - std::chrono::milliseconds(310);
+  environment.imu[0].last_good = now - std::chrono::milliseconds(310);
   EXPECT_EQ(first_why(), "IMU silent for 0.3 s");
   EXPECT_TRUE(update().stop.empty());  // it goes on by the wheels,
   EXPECT_EQ(update().budget_used, 1);  // slowly
@@ -80,7 +80,7 @@ TEST_F(AHealthMonitor, SaysHowLongTheImuHasBeenSilent) {
 }
 TEST_F(AHealthMonitor, SaysWhatIsWrongWithAnImuThatTalks) {
   environment.imu_configured = true;
-  environment.imu = {.state = SourceState::stale, .last_good = now, .reason = "frozen"};
+  environment.imu[0] = {.state = SourceState::stale, .last_good = now, .reason = "frozen"};
   EXPECT_EQ(first_why(), "sensor IMU: frozen");
 }
 TEST_F(AHealthMonitor, PassesOnThatSensorsContradictEachOther) {
@@ -224,7 +224,7 @@ TEST_F(AHealthMonitor, PutsPresentCausesBeforeLatchedOnes) {
   EXPECT_EQ(first_why(), "e-stop pressed");
 }
 TEST_F(AHealthMonitor, TellsTheReceiversSilence) {
-  environment.gnss.last_good = now - std::chrono::milliseconds(1200);
+  environment.gnss[0].last_good = now - std::chrono::milliseconds(1200);
   EXPECT_EQ(first_why(), "receiver silent for 1.2 s");
   EXPECT_FALSE(update().gnss_ok);
   EXPECT_TRUE(update().stop.empty()) << "wheels carry the position for a while";
@@ -269,7 +269,7 @@ class AnAnnouncer : public AHealthMonitor {
     now += time;
     for (auto& l : environment.lines) l.last_good = now;
     for (auto& axis : axes) axis.last_motion = now;
-    environment.gnss.last_good = now;
+    environment.gnss[0].last_good = now;
   }
   Announcer announcer;
   EventQueue events;
