@@ -82,6 +82,21 @@ void CanLog::write(Time time, std::string_view bus, const CanFrame& frame) {
   log_.append(line_);
 }
 
+void SerialLog::write(Time time, std::string_view port, std::span<const std::uint8_t> bytes) {
+  if (!log_.on() || bytes.empty()) return;
+  constexpr const char* kDigits = "0123456789ABCDEF";
+  line_.clear();
+  append_stamp(line_, time);
+  line_.append(port);
+  line_ += ' ';
+  for (const std::uint8_t byte : bytes) {
+    line_ += kDigits[byte >> 4U];
+    line_ += kDigits[byte & 0xFU];
+  }
+  line_ += '\n';
+  log_.append(line_);
+}
+
 TruthLog::TruthLog(const std::string& path, const Scenario& scenario) : log_(path) {
   std::string header = "time_s,x_m,y_m,z_m,roll_rad,pitch_rad,yaw_rad,vx_mps,wz_radps,free_ahead_m";
   for (const auto& drive : scenario.drives)

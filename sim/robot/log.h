@@ -1,6 +1,8 @@
 // The simulator's records: every frame as `candump -L` writes it, and the robot's true motion.
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -45,6 +47,19 @@ class CanLog {
   TextLog log_;
   std::string line_;
   Time last_ = kNever;
+};
+
+/// What was written to serial drives, as their lines carried it: "(12.345678901) base EDDE0000...",
+/// one line a tick, cut anywhere.
+class SerialLog {
+ public:
+  explicit SerialLog(const std::string& path) : log_(path) {}
+  void write(Time time, std::string_view port, std::span<const std::uint8_t> bytes);
+  void flush() { log_.flush(); }
+
+ private:
+  TextLog log_;
+  std::string line_;
 };
 
 /// CSV with a header line: time_s, x_m, y_m, z_m, roll_rad, pitch_rad, yaw_rad, vx_mps, wz_radps,

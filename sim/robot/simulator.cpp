@@ -70,6 +70,11 @@ void watch(int epoll, int fd, std::uint32_t events = EPOLLIN) {
   ::epoll_ctl(epoll, EPOLL_CTL_ADD, fd, &event);
 }
 
+bool has_serial_drive(const Scenario& scenario) {
+  return std::any_of(scenario.drives.begin(), scenario.drives.end(),
+                     [](const DriveSpec& drive) { return drive.serial.has_value(); });
+}
+
 }  // namespace
 
 Simulator::Simulator(const SimulatorSettings& settings)
@@ -82,6 +87,7 @@ Simulator::Simulator(const SimulatorSettings& settings)
                  ? LinePort::gpio_sim(robot_.scenario(), *chip_)
                  : LinePort::files(robot_.scenario(), made_folder(settings.run_folder) + "/lines")),
       can_log_(log_file(settings, "can.log")),
+      serial_log_(has_serial_drive(robot_.scenario()) ? log_file(settings, "serial.log") : ""),
       truth_log_(log_file(settings, "truth.csv"), robot_.scenario()) {
   made_folder(settings_.run_folder);
   const auto& scenario = robot_.scenario();
@@ -162,6 +168,7 @@ void Simulator::run() {
     for (; expired_ > 0 && !quit_; --expired_, next += kTick) tick(next);
   }
   can_log_.flush();
+  serial_log_.flush();
   truth_log_.flush();
 }
 
@@ -241,6 +248,7 @@ void Simulator::hear_drives(Time now) {
     if (!drive_lines_[i]) continue;
     drive_lines_[i]->listen(kTick);
     robot_.on_drive_bytes(i, drive_lines_[i]->heard(), now);
+    serial_log_.write(now, robot_.scenario().drives[i].serial->port, drive_lines_[i]->heard());
   }
 }
 
@@ -275,6 +283,7 @@ void Simulator::keep_records(Time now) {
   }
   if (now >= next_flush_) {
     can_log_.flush();
+    serial_log_.flush();
     truth_log_.flush();
     if (outputs_) outputs_->flush();
     measure_clocks();

@@ -77,6 +77,7 @@ class Simulator {
   std::optional<OutputLog> outputs_;
   std::optional<RelayPort> relay_;  // none: the drives have their supply without the gateway
   CanLog can_log_;
+  SerialLog serial_log_;  // none where no drive hangs on a serial line
   TruthLog truth_log_;
   std::optional<ControlSocket> control_;
   std::vector<link::ReceivedFrame> received_;

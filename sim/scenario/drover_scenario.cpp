@@ -138,6 +138,8 @@ int main(int argc, char** argv) {
   app.add_option("--set", place.changes, "change the scenario: mission.speed_mps=0.3");
   app.add_flag("--keep", options.keep, "after the mission, leave all running until Ctrl-C");
   app.add_flag("--native", place.native, "without CAN and GPIO of the kernel: sockets and files");
+  app.add_flag("--own-ages", place.own_ages,
+               "in real time, too, wait no longer than the robot does before a device is silent");
   CLI11_PARSE(app, argc, argv);
   try {
     return play(options);

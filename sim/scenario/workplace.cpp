@@ -68,6 +68,7 @@ const WideOption kTimeOuts[] = {
 /// Of the gateway's drivers.
 const WideOption kAges[] = {{SlotKind::drive, "stale_s", 1},
                             {SlotKind::drive, "heartbeat_timeout_s", 1},
+                            {SlotKind::drive, "gone_s", 1},
                             {SlotKind::gnss, "stale_s", 2},
                             {SlotKind::imu, "stale_s", 2},
                             {SlotKind::line, "stale_s", 0.5}};
@@ -150,7 +151,7 @@ Workplace::Workplace(const WorkplaceSettings& settings)
     document_.erase("gateway");
   }
   if (settings.native) make_native(config);
-  if (settings.native || lab_in_real_time()) widen_ages(config);
+  if ((settings.native || lab_in_real_time()) && !settings.own_ages) widen_ages(config);
   if (document_.value("/gnss/port"_json_pointer, "").starts_with("usb:")) prepare_udev(config);
   guard_socket_ = config.value("/guard/socket"_json_pointer, "/run/drover/guard.sock");
   daemon_folder_ = config.value("/paths/run"_json_pointer, daemon_folder_);

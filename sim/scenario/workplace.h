@@ -16,6 +16,8 @@ struct WorkplaceSettings {
   std::uint64_t seed = 1;
   std::string log_folder;  ///< empty: a temporary one
   std::string program_folder;
+  /// In real time, too, the robot's own ages: on a machine that has nothing else to do.
+  bool own_ages = false;
   bool native = false;  ///< no CAN interfaces, no gpio-sim: sockets and files in a private folder
 };
 

@@ -43,6 +43,7 @@ Engine::Impl::Impl(const EngineConfig& c)
   }
   axes = {snapshot.axes.data(), snapshot.axes.size()};
   if (takes_twist(base)) {
+    snapshot.base.configured = true;  // from the first on: a recording's fields are the same
     edges[0].joint = "left";
     edges[1].joint = "right";
     axes = edges;
@@ -296,7 +297,7 @@ void Engine::step(Time now, const Environment& environment, EngineOutput& out) {
   e.choose_sensors(now, environment);
   e.estimate = e.estimator.step(now);
   const std::span<const AxisSnapshot> axes = e.axes;
-  const Reason moved = e.judge_motion(now, dt, lines);
+  const Reason moved = e.judge_motion(now, dt, lines, environment);
   e.watch_tilt(now, environment.imu_configured);
   e.place.update(now, e.estimate, e.health.report().drives_ok);
   if (e.navigator.active()) e.place.told();  // by the end of the task

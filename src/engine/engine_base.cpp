@@ -31,7 +31,6 @@ void Engine::Impl::take_body(const BodyMotion& body, Time time) {
 void Engine::Impl::fill_base(const Environment& environment, const BaseCommand& command) {
   const AxisSnapshot& device = edges[0];
   BaseSnapshot& s = snapshot.base;
-  s.configured = true;
   s.measured = told;
   s.state = device.state;
   s.fault = device.fault;

@@ -52,7 +52,8 @@ struct Engine::Impl {
   void watch_imu(const ImuSample& sample, Time at);
   void choose_sensors(Time now, const Environment& environment);
   bool imu_trusted() const { return sensors.imu_trusted(sensors.imu()); }
-  Reason judge_motion(Time now, Duration dt, const LineTable& lines);
+  Reason judge_motion(Time now, Duration dt, const LineTable& lines,
+                      const Environment& environment);
   void watch_wheels(Time now, Duration dt);
   void let_go(EngineOutput& out);
   void fill_speed(Time now);

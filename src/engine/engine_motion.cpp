@@ -43,7 +43,8 @@ void Engine::Impl::watch_imu(const ImuSample& sample, Time at) {
 }
 
 /// Whether the base rests when it should; what moves it without a command, in words.
-Reason Engine::Impl::judge_motion(Time now, Duration dt, const LineTable& lines) {
+Reason Engine::Impl::judge_motion(Time now, Duration dt, const LineTable& lines,
+                                  const Environment& environment) {
   const auto estop = static_cast<std::size_t>(Line::estop);
   RestInput input{.now = now, .dt = dt, .axes = axes};
   input.power_is_off = config.line_configured[estop] && lines.active[estop];
@@ -52,6 +53,7 @@ Reason Engine::Impl::judge_motion(Time now, Duration dt, const LineTable& lines)
   input.rolls_unpowered =
       !steep.empty() || (config.base.hold == HoldBy::level_ground_only && slopes);
   input.released = hold.released();
+  input.drives_on_in_silence = environment.drives_on_in_silence;
   input.caught = hold.state() == HoldState::catching;
   if (estimate.has_heading) input.yaw_rad = estimate.pose.yaw_rad;
   const RestState state = rest.update(input);

@@ -19,6 +19,8 @@ struct Environment {
   bool relay_found_closed = false;
   /// Health of each drive, by AxisId, as its driver judges it.
   std::array<SourceHealth, kMaxAxes> axes{};
+  /// A drive keeps its last command when it is no longer reached.
+  bool drives_on_in_silence = false;
   Reason slept;    ///< the computer was suspended: a task ends; empty when it was not
   Reason foreign;  ///< who else commands the drives; empty when nobody does
   Reason bus;      ///< what is wrong with a CAN bus; empty when all is well

@@ -120,11 +120,12 @@ Record read_record(const fs::path& folder, const json& scenario) {
   record.folder = folder;
   read_drives(scenario, record);
   const Earth earth(scenario);
-  each_line(folder / "can.log", [&](std::string_view line) {
+  const auto read_can = [&](std::string_view line) {
     auto parsed = parse_can_line(line);
     read_set_points(parsed, record);
     append(record.can, std::move(parsed));
-  });
+  };
+  if (scenario.contains("can")) each_line(folder / "can.log", read_can);  // it may have no bus
   each_line(folder / "mqtt.log",
             [&](std::string_view line) { read_mqtt(parse_mqtt_line(line), earth, record); });
   each_line(folder / "events.log",

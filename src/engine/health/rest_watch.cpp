@@ -59,6 +59,7 @@ RestWatch::Rims RestWatch::rims(const RestInput& input) const {
     const Duration stale = from_s(config_.health.drive_stale_s);
     if (!tells_motion(axis, input.now, stale) || !std::isfinite(mps)) {
       rims.silent = true;
+      if (input.drives_on_in_silence) rims.driven = true;
       continue;
     }
     if (axis.state == AxisState::running) rims.driven = true;
@@ -82,8 +83,23 @@ RestWatch::Rims RestWatch::asked(const RestInput& input) const {
   return asked;
 }
 
+/// Of what joints tell or are told; the edges of a base that takes a twist stand for its own word.
+BodyMotion RestWatch::motion_of(const Told& told, Time now) const {
+  if (!takes_twist(base_)) return body_motion(base_, told, now, Duration::zero());
+  BodyMotion body;
+  JointVelocities mps{};
+  body.known = true;
+  for (std::size_t i = 0; i < driven_.size(); ++i) {
+    if (!driven_[i]) continue;
+    body.known = body.known && told.joints[i].at == now;
+    mps[i] = told.joints[i].velocity_radps;
+  }
+  body.twist = twist_of_edges(base_, mps);
+  return body;
+}
+
 void RestWatch::set_direction(Rims& rims, const Told& told, Time now) const {
-  const BodyMotion body = body_motion(base_, told, now, Duration::zero());
+  const BodyMotion body = motion_of(told, now);
   if (!body.known) return;
   const double goes_mps = fastest_mps(base_, {body.twist.vx_mps, 0});
   const double turns_mps = fastest_mps(base_, {0, body.twist.wz_radps});

@@ -20,7 +20,8 @@ struct RestInput {
   bool released = false;               ///< by a person, who may push it: there is nothing to cut
   /// Drives that had let go are being taken back: their commands follow a roll, nobody drives.
   bool caught = false;
-  double yaw_rad = kAbsent;  ///< of the base, as far as it is known
+  bool drives_on_in_silence = false;  ///< a drive that says nothing keeps its last command
+  double yaw_rad = kAbsent;           ///< of the base, as far as it is known
 };
 
 enum class RestState : std::uint8_t {
@@ -74,6 +75,7 @@ class RestWatch final {
   };
   Rims rims(const RestInput& input) const;
   Rims asked(const RestInput& input) const;
+  BodyMotion motion_of(const Told& told, Time now) const;
   void set_direction(Rims& rims, const Told& told, Time now) const;
   bool due(const RestInput& input);
   void watch_wheels(const Rims& rims, Time now);

@@ -326,7 +326,7 @@ void visit_fields(V& v, const engine::EngineOutput& output, std::size_t axis_cou
     });
   }
   if (axis_count == 0) {  // a base that takes a twist has none
-    v.inside("base", [&v, &part = base] {
+    v.inside("command", [&v, &part = base] {
       const auto& [request, twist] = part;
       v.value("request", request);
       v.value("vx_mps", twist.vx_mps);

@@ -36,6 +36,22 @@ TEST_F(ARobotOnASlope, LosesItsPowerWhenItDrivesOnWithFrozenEncoders) {
   EXPECT_TRUE(cut_within_s(4));
 }
 
+/// A cable is torn: what keeps its last command drives on, and says nothing of it.
+TEST_F(ARobotOnASlope, LosesItsPowerWhenItsDrivesFallSilentAndGoOn) {
+  drive_up();
+  rig.environment.drives_on_in_silence = true;
+  for (auto& drive : rig.drives) drive.silent = true;
+  rig.disobeys = kStraight;
+  EXPECT_TRUE(cut_within_s(4));
+}
+
+TEST_F(ARobotOnASlope, KeepsItsPowerWhenItsDrivesFallSilentAndStopByThemselves) {
+  drive_up();
+  for (auto& drive : rig.drives) drive.silent = true;
+  rig.disobeys = kStraight;
+  EXPECT_FALSE(cut_within_s(4)) << "they have let go: it rolls, whoever has the power";
+}
+
 TEST_F(ARobotOnASlope, KeepsItsPowerWhenItRollsBack) {
   drive_up();
   stop_on_the_slope();

@@ -102,6 +102,16 @@ TEST_F(ABaseThatTakesATwist, LosesItsPowerWhenItDoesNotStop) {
   EXPECT_FALSE(rig.out.outputs[static_cast<std::size_t>(Output::enable_relay)]);
 }
 
+/// Its cable is torn, and it keeps its last twist: nobody reaches it, and it tells nothing.
+TEST_F(ABaseThatTakesATwist, LosesItsPowerWhenItFallsSilentAndDrivesOn) {
+  rig.environment.drives_on_in_silence = true;
+  drive();
+  rig.drives[0].silent = true;
+  rig.disobeys = WheelSpeeds{2, 2};
+  rig.run_s(4);
+  EXPECT_FALSE(rig.out.outputs[static_cast<std::size_t>(Output::enable_relay)]);
+}
+
 TEST_F(ABaseThatTakesATwist, IsHeldAgainAfterADipOfItsSupply) {
   drive();
   rig.command(CancelTask{});
