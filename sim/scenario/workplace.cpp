@@ -66,12 +66,10 @@ const WideOption kTimeOuts[] = {
     {SlotKind::drive, "silence_ms", 2000},
 };
 /// Of the gateway's drivers.
-const WideOption kAges[] = {{SlotKind::drive, "stale_s", 1},
-                            {SlotKind::drive, "heartbeat_timeout_s", 1},
-                            {SlotKind::drive, "gone_s", 1},
-                            {SlotKind::gnss, "stale_s", 2},
-                            {SlotKind::imu, "stale_s", 2},
-                            {SlotKind::line, "stale_s", 0.5}};
+const WideOption kAges[] = {
+    {SlotKind::drive, "stale_s", 1}, {SlotKind::drive, "heartbeat_timeout_s", 1},
+    {SlotKind::drive, "gone_s", 1},  {SlotKind::gnss, "stale_s", 2},
+    {SlotKind::imu, "stale_s", 2},   {SlotKind::line, "stale_s", 0.5}};
 
 /// Those that the device's driver has.
 template <class Json>

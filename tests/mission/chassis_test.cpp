@@ -38,7 +38,8 @@ std::optional<Asked> read_twist(const std::vector<std::uint8_t>& b, std::size_t 
   unsigned sum = 0;
   for (std::size_t i = 0; i < 14; ++i) sum += b[at + i];
   if ((sum & 0xFFFFU) != word(14)) return std::nullopt;
-  const auto bits = static_cast<std::uint32_t>(word(10)) | static_cast<std::uint32_t>(word(12)) << 16U;
+  const auto bits = static_cast<std::uint32_t>(word(10)) | static_cast<std::uint32_t>(word(12))
+                                                               << 16U;
   Asked asked;
   asked.sequence = word(2);
   asked.vx_mps = static_cast<std::int16_t>(word(8)) / 1000.0;
@@ -85,8 +86,8 @@ void expect_drive_on_a_chassis(const char* name) {
   expect_nav_stays(log, "NAV_RUN", log.answered("start_nav_success"),
                    log.first_status("NAV_SUCCESS").time - 1ms);
   expect_good_drive(log);
-  const auto pose = pose_figures(log, log.answered("start_nav_success"),
-                                 log.first_status("NAV_SUCCESS").time);
+  const auto pose =
+      pose_figures(log, log.answered("start_nav_success"), log.first_status("NAV_SUCCESS").time);
   figure("pose error at most", pose.max_m, "m");
   EXPECT_LE(pose.max_m, 0.30);
 }
