@@ -20,6 +20,9 @@ struct TwinSettings {
   Duration boot_time{};
 };
 
+/// In the ids of objects 1400 and 1800: the PDO is off (CiA 301).
+inline constexpr std::uint32_t kInvalidPdo = 0x80000000;
+
 TwinSettings read_twin_settings(const Options& options);
 std::span<const OptionSpec> twin_option_table();
 
