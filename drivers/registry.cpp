@@ -3,9 +3,11 @@
 
 #include <array>
 
+#include "drivers/agilex_v2/entry.h"
 #include "drivers/gpio_line/entry.h"
 #include "drivers/gt01/can/entry.h"
 #include "drivers/gt01/serial/entry.h"
+#include "drivers/hipnuc_can/entry.h"
 #include "drivers/modbus_bms/entry.h"
 #include "drivers/nmea0183/entry.h"
 #include "drivers/odrive/entry.h"
@@ -17,8 +19,8 @@ namespace drover {
 std::span<const DriverEntry> driver_registry() {
   // Filled at the first call: the entries live in other files, whose order of start is not ours.
   static const std::array kTable{
-      kOdriveEntry,    kGpioLineEntry,  kNmea0183Entry,   kModbusBmsEntry,
-      kWitmotionEntry, kZlac8015dEntry, kGt01SerialEntry, kGt01CanEntry,
+      kOdriveEntry,    kGpioLineEntry,   kNmea0183Entry, kModbusBmsEntry, kWitmotionEntry,
+      kZlac8015dEntry, kGt01SerialEntry, kGt01CanEntry,  kAgilexV2Entry,  kHipnucCanEntry,
   };
   return kTable;
 }

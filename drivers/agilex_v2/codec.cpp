@@ -1,0 +1,86 @@
+#include "drivers/agilex_v2/codec.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "drover/bytes.h"
+
+namespace drover::agilex_v2 {
+namespace {
+
+constexpr std::uint8_t kWholeFrame = 8;
+
+std::int16_t thousandths(double value) {
+  if (!std::isfinite(value)) return 0;
+  // 0.57 is a hair less than 570 thousandths as a double: it shall not become 569.
+  constexpr double kHair = 1 + 1e-9;
+  constexpr double kMost = std::numeric_limits<std::int16_t>::max();
+  return static_cast<std::int16_t>(std::clamp(std::trunc(value * 1000 * kHair), -kMost, kMost));
+}
+
+double from_thousandths(const CanFrame& frame, std::size_t at) {
+  return load_be<std::int16_t>(frame.payload(), at) * 0.001;
+}
+
+CanFrame twist_frame(std::uint32_t id, const Twist& twist) {
+  const auto ahead = static_cast<std::uint16_t>(thousandths(twist.vx_mps));
+  const auto left = static_cast<std::uint16_t>(thousandths(twist.wz_radps));
+  return make_frame(
+      id, {high_byte(ahead), low_byte(ahead), high_byte(left), low_byte(left), 0, 0, 0, 0});
+}
+
+}  // namespace
+
+std::optional<SystemState> read_system_state(const CanFrame& frame) {
+  if (frame.len != kWholeFrame || frame.data[0] > 2 || frame.data[1] > 3) return {};
+  return SystemState{static_cast<Vehicle>(frame.data[0]), static_cast<Mode>(frame.data[1]),
+                     load_be<std::uint16_t>(frame.payload(), 2) * 0.1,
+                     load_be<std::uint16_t>(frame.payload(), 4)};
+}
+
+CanFrame system_state_frame(const SystemState& state, std::uint8_t count) {
+  const auto tenths_V = static_cast<std::uint16_t>(std::lround(state.battery_V * 10));
+  return make_frame(kSystemStateId,
+                    {static_cast<std::uint8_t>(state.vehicle),
+                     static_cast<std::uint8_t>(state.mode), high_byte(tenths_V), low_byte(tenths_V),
+                     high_byte(state.error), low_byte(state.error), 0, count});
+}
+
+std::optional<Twist> read_motion(const CanFrame& frame) {
+  if (frame.len != kWholeFrame) return {};
+  return Twist{from_thousandths(frame, 0), from_thousandths(frame, 2)};
+}
+
+CanFrame motion_frame(const Twist& twist) {
+  return twist_frame(kMotionId, twist);
+}
+
+CanFrame motion_command(const Twist& twist) {
+  return twist_frame(kMotionCommandId, twist);
+}
+
+std::optional<Twist> read_motion_command(const CanFrame& frame) {
+  if (frame.id != kMotionCommandId || frame.len != kWholeFrame) return {};
+  if (load_be<std::uint32_t>(frame.payload(), 4) != 0) return {};
+  return Twist{from_thousandths(frame, 0), from_thousandths(frame, 2)};
+}
+
+CanFrame mode_command(Mode mode) {
+  return make_frame(kModeCommandId, {static_cast<std::uint8_t>(mode)});
+}
+
+std::optional<Mode> read_mode_command(const CanFrame& frame) {
+  if (frame.id != kModeCommandId || frame.len != 1 || frame.data[0] > 1) return {};
+  return static_cast<Mode>(frame.data[0]);
+}
+
+std::string_view error_text(std::uint16_t error) {
+  // The worst first. Bits that the Scout's manual does not name mean other things on other chassis.
+  if ((error & 0x0100U) != 0) return "battery voltage too low";
+  if ((error & 0x0200U) != 0) return "battery voltage low";
+  if ((error & 0x0400U) != 0) return "its remote control is lost";
+  return {};
+}
+
+}  // namespace drover::agilex_v2

@@ -1,0 +1,52 @@
+// Frames of the AgileX protocol v2: 11-bit ids, highest byte first, no checksum.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+#include "drover/can_frame.h"
+#include "drover/twist.h"
+
+namespace drover::agilex_v2 {
+
+inline constexpr std::uint32_t kMotionCommandId = 0x111;
+inline constexpr std::uint32_t kSystemStateId = 0x211;
+inline constexpr std::uint32_t kMotionId = 0x221;
+inline constexpr std::uint32_t kModeCommandId = 0x421;
+/// System state of protocol v1; v2 has no such id.
+inline constexpr std::uint32_t kV1SystemStateId = 0x151;
+
+enum class Vehicle : std::uint8_t { well = 0, estop = 1, exception = 2 };
+
+/// As a Scout numbers them; on other chassis only 1 means the same.
+enum class Mode : std::uint8_t { standby = 0, can = 1, serial = 2, remote = 3 };
+
+struct SystemState {
+  Vehicle vehicle = Vehicle::well;
+  Mode mode = Mode::standby;
+  double battery_V = 0;
+  std::uint16_t error = 0;
+};
+
+/// Absent: too short, or a state or a mode that a Scout does not have.
+std::optional<SystemState> read_system_state(const CanFrame& frame);
+CanFrame system_state_frame(const SystemState& state, std::uint8_t count);
+
+/// What the wheels do. Absent: too short.
+std::optional<Twist> read_motion(const CanFrame& frame);
+CanFrame motion_frame(const Twist& twist);
+
+/// Rounded towards rest to whole mm/s and thousandths of rad/s.
+CanFrame motion_command(const Twist& twist);
+/// Absent: another length, or a sideways speed or a steering angle in it, which a Scout has not.
+std::optional<Twist> read_motion_command(const CanFrame& frame);
+
+CanFrame mode_command(Mode mode);
+/// Absent: another length, or neither standby nor CAN.
+std::optional<Mode> read_mode_command(const CanFrame& frame);
+
+/// The error word in words; empty: no bit of a Scout's is set in it.
+std::string_view error_text(std::uint16_t error);
+
+}  // namespace drover::agilex_v2

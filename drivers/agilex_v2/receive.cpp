@@ -1,0 +1,170 @@
+// What it says of itself.
+#include <algorithm>
+#include <cmath>
+
+#include "drivers/agilex_v2/driver.h"
+
+namespace drover::agilex_v2 {
+namespace {
+
+using std::chrono::milliseconds;
+
+/// It comes each 20 ms.
+constexpr Duration kMotionStale = milliseconds(100);
+/// It comes each 100 ms.
+constexpr Duration kStateStale = milliseconds(350);
+constexpr Duration kV1Remembered = std::chrono::seconds(1);
+
+/// A skid-steered base slips: of its speed a few per cent, of its turning much more.
+constexpr double kLeastSigma_mps = 0.02;
+constexpr double kSlipAhead = 0.05;
+constexpr double kLeastSigma_radps = 0.03;
+constexpr double kSlipTurning = 0.3;
+
+/// Of a base whose wheels are held its last digit may flicker.
+constexpr double kStill_mps = 0.0025;
+constexpr double kStill_radps = 0.0055;
+
+double square(double value) {
+  return value * value;
+}
+
+bool stands(const Twist& twist) {
+  return std::abs(twist.vx_mps) < kStill_mps && std::abs(twist.wz_radps) < kStill_radps;
+}
+
+BodyMotion body_motion(const Twist& twist) {
+  return {.twist = twist,
+          .vx_var = square(kLeastSigma_mps) + square(kSlipAhead * twist.vx_mps),
+          .wz_var = square(kLeastSigma_radps) + square(kSlipTurning * twist.wz_radps),
+          .known = true,
+          .standing = stands(twist)};
+}
+
+Reason missing(const char* what, Time last, Time now) {
+  Reason reason;
+  if (last == kNever) {
+    reason.format("no %s so far", what);
+  } else {
+    reason.format("no %s for %.1f s", what, to_s(now - last));
+  }
+  return reason;
+}
+
+}  // namespace
+
+std::span<const FrameFilter> AgilexV2Driver::listens() const {
+  static constexpr std::array kListens{
+      FrameFilter{kSystemStateId}, FrameFilter{kMotionId},        FrameFilter{kMotionCommandId},
+      FrameFilter{kModeCommandId}, FrameFilter{kV1SystemStateId},
+  };
+  return kListens;
+}
+
+void AgilexV2Driver::on_frame(const CanFrame& frame, Time received, DriverOut& out) {
+  if (frame.extended || frame.remote || frame.fd || frame.error) return;
+  if (frame.id == kV1SystemStateId) {
+    last_v1_ = received;
+  } else if (frame.id == kSystemStateId) {
+    if (const auto state = read_system_state(frame)) {
+      hear_state(*state, received, out);
+    } else {
+      ++bad_;
+    }
+  } else if (frame.id == kMotionId) {
+    if (const auto twist = read_motion(frame)) {
+      hear_motion(*twist, received, out);
+    } else {
+      ++bad_;
+    }
+  }
+}
+
+void AgilexV2Driver::hear_state(const SystemState& state, Time received, DriverOut& out) {
+  ++good_;
+  state_ = state;
+  state_known_ = true;
+  last_state_ = received;
+  out.report({received, received, AxisSupply{.axis = axis_, .bus_V = state.battery_V}});
+}
+
+void AgilexV2Driver::hear_motion(const Twist& twist, Time received, DriverOut& out) {
+  ++good_;
+  motion_ = twist;
+  last_motion_ = received;
+  motion_told_ = true;
+  out.report({received, received, body_motion(twist)});
+}
+
+void AgilexV2Driver::on_tick(Time now, DriverOut& out) {
+  out.report({now, now, status(now)});
+  if (motion_told_ && now - last_motion_ > kMotionStale) {
+    motion_told_ = false;
+    out.report({now, now, BodyMotion{}});
+  }
+}
+
+bool AgilexV2Driver::talks(Time now) const {
+  return now - last_motion_ <= kMotionStale && now - last_state_ <= kStateStale;
+}
+
+bool AgilexV2Driver::at_rest(Time now) const {
+  return now - last_motion_ <= kMotionStale && stands(motion_);
+}
+
+AxisState AgilexV2Driver::mode_state() const {
+  if (state_.mode == Mode::can) return AxisState::running;
+  const bool wanted = request_ == AxisRequest::run || request_ == AxisRequest::hold;
+  return wanted && !held_off_ ? AxisState::arming : AxisState::idle;
+}
+
+AxisStatus AgilexV2Driver::status(Time now) const {
+  AxisStatus status;
+  status.axis = axis_;
+  if (!state_known_ || !talks(now)) {
+    status.reason = ever_heard() ? "the chassis is silent" : "the chassis was never heard";
+    return status;
+  }
+  status.error_code = state_.error;
+  status.state = AxisState::fault;
+  if (state_.vehicle == Vehicle::estop) {
+    status.reason = "the chassis' emergency stop is pressed";
+  } else if (state_.vehicle == Vehicle::exception) {
+    const std::string_view text = error_text(state_.error);
+    status.reason.format("the chassis reports a fault, error %04X%s%.*s", state_.error,
+                         text.empty() ? "" : ": ", static_cast<int>(text.size()), text.data());
+  } else if (state_.mode == Mode::remote) {
+    status.powered = true;
+    status.reason = "its remote control drives the chassis: switch it off, or to command mode";
+  } else if (state_.mode == Mode::serial) {
+    status.powered = true;
+    status.reason = "the chassis is commanded over its serial line: unplug that";
+  } else {
+    status.state = mode_state();
+    if (status.state == AxisState::idle && held_off_)
+      status.reason = "the chassis fell back to standby: a new start switches it to CAN again";
+  }
+  return status;
+}
+
+SourceHealth AgilexV2Driver::health(Time now) const {
+  SourceHealth health;
+  health.last_good = std::max(last_motion_, last_state_);
+  health.good = good_;
+  health.bad = bad_;
+  if (now - last_v1_ < kV1Remembered) {
+    health.reason = "speaks AgileX protocol v1 (0x151 heard): this driver is for v2";
+  } else if (!ever_heard()) {
+    health.reason = "never heard: is the chassis on, and the bus at 500 kbit/s?";
+  } else if (now - last_motion_ > kMotionStale) {
+    health.reason = missing("motion (0x221)", last_motion_, now);
+  } else if (now - last_state_ > kStateStale) {
+    health.reason = missing("state (0x211)", last_state_, now);
+  } else {
+    health.reason = error_text(state_.error);
+  }
+  if (ever_heard()) health.state = talks(now) ? SourceState::fresh : SourceState::stale;
+  return health;
+}
+
+}  // namespace drover::agilex_v2

@@ -1,0 +1,158 @@
+#include "drivers/agilex_v2/twin.h"
+
+#include <algorithm>
+
+namespace drover::agilex_v2 {
+namespace {
+
+using std::chrono::milliseconds;
+
+constexpr double kFull_V = 26.5;
+constexpr double kNearlyEmpty_V = 22.4;
+constexpr Duration kBoot = milliseconds(500);
+constexpr Duration kProtection = milliseconds(500);
+constexpr Duration kStatePeriod = milliseconds(100);
+constexpr Duration kMotionPeriod = milliseconds(20);
+
+/// What turns the gears and motors along when they are not driven.
+constexpr double kGearDrag_Nms_per_rad = 1;
+constexpr double kProportional_Nms_per_rad = 30;
+constexpr double kIntegral_Nm_per_rad = 60;
+
+constexpr std::array kTwinOptions{
+    OptionSpec{.name = "wheel_radius_m",
+               .default_value = 0.165,
+               .min = 0.02,
+               .max = 1,
+               .text = "Radius of the simulated wheels"},
+    OptionSpec{.name = "track_m",
+               .default_value = 0.583,
+               .min = 0.1,
+               .max = 3,
+               .text = "How far the simulated left and right wheels are apart, as the chassis "
+                       "reckons its turning"},
+    OptionSpec{.name = "max_torque_Nm",
+               .default_value = 60.0,
+               .min = 1,
+               .max = 1000,
+               .text = "Most torque of the simulated motors of one side"},
+};
+
+}  // namespace
+
+std::span<const OptionSpec> twin_option_table() {
+  return kTwinOptions;
+}
+
+AgilexV2Twin::AgilexV2Twin(const Options& options)
+    : wheel_radius_m_(options.number("wheel_radius_m")),
+      track_m_(options.number("track_m")),
+      max_torque_Nm_(options.number("max_torque_Nm")) {
+  state_.battery_V = kFull_V;
+}
+
+void AgilexV2Twin::set_power(bool on, Time now) {
+  if (on == powered_) return;
+  powered_ = on;
+  booted_ = now + kBoot;
+  state_.mode = Mode::standby;
+  last_asked_ = kNever;
+}
+
+bool AgilexV2Twin::set_fault(std::string_view name, Time) {
+  const bool was_remote = state_.mode == Mode::remote;
+  if (name == "silent") {
+    silent_ = true;
+  } else if (name == "estop") {
+    state_.vehicle = Vehicle::estop;
+  } else if (name == "exception") {
+    state_.vehicle = Vehicle::exception;
+  } else if (name == "remote") {
+    state_.mode = Mode::remote;
+  } else if (name == "low_battery") {
+    state_.battery_V = kNearlyEmpty_V;
+    state_.error = 0x0200;
+  } else if (name.empty()) {
+    silent_ = false;
+    state_ = {.mode = was_remote ? Mode::standby : state_.mode, .battery_V = kFull_V};
+  } else {
+    return false;
+  }
+  return true;
+}
+
+bool AgilexV2Twin::awake(Time now) const {
+  return powered_ && now >= booted_;
+}
+
+void AgilexV2Twin::on_frame(const CanFrame& frame, Time now, TwinFrames&) {
+  if (!awake(now) || frame.extended || frame.remote || frame.fd) return;
+  if (const auto mode = read_mode_command(frame); mode && state_.mode != Mode::remote) {
+    if (*mode != state_.mode) last_asked_ = kNever;
+    state_.mode = *mode;
+  }
+  const auto twist = read_motion_command(frame);
+  if (!twist || state_.mode != Mode::can) return;
+  asked_ = *twist;
+  last_asked_ = now;
+}
+
+void AgilexV2Twin::on_tick(Time now, std::span<Shaft> shafts, TwinFrames& out) {
+  const double dt_s = last_tick_ == kNever ? 0 : to_s(now - last_tick_);
+  last_tick_ = now;
+  // What standby does with the motors nobody wrote down: here it lets go, the worse of both.
+  const bool drives = awake(now) && state_.mode != Mode::standby;
+  if (drives) {
+    turn(shafts, obeyed(now), dt_s);
+  } else {
+    let_go(shafts);
+  }
+  if (awake(now) && !silent_) tell(shafts, now, out);
+}
+
+Twist AgilexV2Twin::obeyed(Time now) const {
+  const bool fed = now - last_asked_ <= kProtection;
+  if (state_.mode != Mode::can || state_.vehicle != Vehicle::well || !fed) return {};
+  return asked_;
+}
+
+double AgilexV2Twin::Servo::torque_Nm(double error_radps, double dt_s, double most_Nm) {
+  effort_Nm = std::clamp(effort_Nm + kIntegral_Nm_per_rad * error_radps * dt_s, -most_Nm, most_Nm);
+  return std::clamp(kProportional_Nms_per_rad * error_radps + effort_Nm, -most_Nm, most_Nm);
+}
+
+void AgilexV2Twin::turn(std::span<Shaft> shafts, const Twist& twist, double dt_s) {
+  for (std::size_t i = 0; i < servos_.size() && i < shafts.size(); ++i) {
+    const double side = i == 0 ? -1 : 1;
+    const double asked_radps =
+        (twist.vx_mps + side * twist.wz_radps * track_m_ / 2) / wheel_radius_m_;
+    shafts[i].torque_Nm =
+        servos_[i].torque_Nm(asked_radps - shafts[i].velocity_radps, dt_s, max_torque_Nm_);
+    shafts[i].energized = true;
+  }
+}
+
+void AgilexV2Twin::let_go(std::span<Shaft> shafts) {
+  servos_ = {};
+  for (Shaft& shaft : shafts) {
+    shaft.torque_Nm = -kGearDrag_Nms_per_rad * shaft.velocity_radps;
+    shaft.energized = false;
+  }
+}
+
+void AgilexV2Twin::tell(std::span<const Shaft> shafts, Time now, TwinFrames& out) {
+  if (shafts.size() < 2) return;
+  if (now >= next_motion_) {
+    next_motion_ = now + kMotionPeriod;
+    const double left_mps = shafts[0].velocity_radps * wheel_radius_m_;
+    const double right_mps = shafts[1].velocity_radps * wheel_radius_m_;
+    (void)out.push_back(
+        motion_frame({(left_mps + right_mps) / 2, (right_mps - left_mps) / track_m_}));
+  }
+  if (now >= next_state_) {
+    next_state_ = now + kStatePeriod;
+    (void)out.push_back(system_state_frame(state_, count_++));
+  }
+}
+
+}  // namespace drover::agilex_v2

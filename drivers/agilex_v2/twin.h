@@ -1,0 +1,54 @@
+// A simulated Scout: two shafts, left and right, each what the wheels of its side turn together.
+#pragma once
+
+#include <array>
+
+#include "drivers/agilex_v2/codec.h"
+#include "drover/options.h"
+#include "drover/twin.h"
+
+namespace drover::agilex_v2 {
+
+std::span<const OptionSpec> twin_option_table();
+
+class AgilexV2Twin final : public CanTwin {
+ public:
+  explicit AgilexV2Twin(const Options& options);
+
+  void set_power(bool on, Time now) override;
+  /// "silent", "estop", "exception", "remote" (a person takes it over), "low_battery".
+  bool set_fault(std::string_view name, Time now) override;
+  void on_frame(const CanFrame& frame, Time now, TwinFrames& out) override;
+  void on_tick(Time now, std::span<Shaft> shafts, TwinFrames& out) override;
+
+ private:
+  /// Turns at its speed, with a memory of how much torque that takes, so that it holds on a slope.
+  struct Servo {
+    double effort_Nm = 0;
+    double torque_Nm(double error_radps, double dt_s, double most_Nm);
+  };
+
+  bool awake(Time now) const;
+  Twist obeyed(Time now) const;
+  void turn(std::span<Shaft> shafts, const Twist& twist, double dt_s);
+  void let_go(std::span<Shaft> shafts);
+  void tell(std::span<const Shaft> shafts, Time now, TwinFrames& out);
+
+  double wheel_radius_m_;
+  double track_m_;
+  double max_torque_Nm_;
+
+  bool powered_ = true;
+  bool silent_ = false;
+  Time booted_ = kNever;
+  Time last_tick_ = kNever;
+  SystemState state_;
+  Twist asked_;
+  Time last_asked_ = kNever;
+  std::array<Servo, 2> servos_;
+  Time next_state_ = kNever;
+  Time next_motion_ = kNever;
+  std::uint8_t count_ = 0;
+};
+
+}  // namespace drover::agilex_v2

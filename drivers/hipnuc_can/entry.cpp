@@ -1,0 +1,86 @@
+#include "drivers/hipnuc_can/entry.h"
+
+#include <array>
+
+#include "drivers/checked_options.h"
+#include "drivers/hipnuc_can/driver.h"
+#include "drivers/hipnuc_can/rotation.h"
+
+namespace drover {
+namespace {
+
+using namespace hipnuc_can;
+
+constexpr std::array<std::string_view, 2> kDialects{"j1939", "canopen"};
+
+const std::array kOptions{
+    OptionSpec{.name = "frames",
+               .default_value = std::string("j1939"),
+               .choices = kDialects,
+               .text = "which frames it is set to send: after J1939 (29-bit ids) or after CANopen"},
+    OptionSpec{.name = "node",
+               .default_value = 8.0,
+               .min = 1,
+               .max = 127,
+               .integer = true,
+               .text = "its node, or source address; 8 from the factory"},
+    OptionSpec{.name = "rate_Hz",
+               .default_value = 100.0,
+               .min = 1,
+               .max = 500,
+               .text = "samples a second that it is set to send: accelerations and rates that come "
+                       "within 0.4 of a period are one sample"},
+    OptionSpec{.name = "stale_s",
+               .default_value = 0.1,
+               .min = 0.02,
+               .max = 5,
+               .text = "without a whole sample for longer the source is stale (s)"},
+    OptionSpec{.name = "mount_roll_deg",
+               .default_value = 0.0,
+               .min = -180,
+               .max = 180,
+               .text = "attitude of the sensor's axes in base_link, order Z, Y, X (degrees)"},
+    OptionSpec{.name = "mount_pitch_deg",
+               .default_value = 0.0,
+               .min = -90,
+               .max = 90,
+               .text = "the same: positive turns its x axis down"},
+    OptionSpec{.name = "mount_yaw_deg",
+               .default_value = 0.0,
+               .min = -180,
+               .max = 180,
+               .text = "the same: -90 when its Y points ahead and its X to the right"},
+};
+
+Settings read_settings(const Options& given) {
+  const CheckedOptions options(given, kOptions);
+  Settings settings;
+  settings.address.dialect =
+      options.text("frames") == "canopen" ? Dialect::canopen : Dialect::j1939;
+  settings.address.node = static_cast<std::uint8_t>(options.number("node"));
+  settings.pair_window = from_s(0.4 / options.number("rate_Hz"));
+  settings.stale = options.seconds("stale_s");
+  settings.mount = from_degrees(options.number("mount_roll_deg"), options.number("mount_pitch_deg"),
+                                options.number("mount_yaw_deg"));
+  return settings;
+}
+
+Made make(const Options& options, const MakeContext&) {
+  return make_device<HipnucCanDriver>(read_settings(options));
+}
+
+}  // namespace
+
+const DriverEntry kHipnucCanEntry{
+    .name = "hipnuc_can",
+    .folder = "hipnuc_can",
+    .options = kOptions,
+    .kind = SlotKind::imu,
+    .wire = Wire::can,
+    .make = make,
+    .twin_options = {},
+    .make_twin = {},
+    .summary = "HiPNUC inertial sensor on CAN, frames after J1939 or CANopen",
+};
+
+}  // namespace drover

@@ -1,0 +1,64 @@
+// A Scout's driver under any frames, requests and gaps. What must hold: at rest nothing moves it,
+// and what it sends is on its own list and not forbidden.
+#include <algorithm>
+#include <cstdlib>
+
+#include "drivers/agilex_v2/driver.h"
+#include "tests/fuzz/input.h"
+
+namespace drover {
+namespace {
+
+constexpr std::array<std::uint32_t, 6> kIds{0x111, 0x151, 0x211, 0x221, 0x421, 0x311};
+
+double part_of(std::uint8_t byte) {
+  return byte == 0xFF ? kAbsent : (byte - 127) * 0.01;
+}
+
+bool on_list(const Actuator& actuator, const CanFrame& frame) {
+  const auto rules = actuator.rules();
+  return std::any_of(rules.begin(), rules.end(), [&](const FrameRule& rule) {
+    return rule.id == frame.id && !frame.extended && frame.len >= rule.min_len &&
+           frame.len <= rule.max_len;
+  });
+}
+
+void judge(const agilex_v2::AgilexV2Driver& driver, const Setpoint& setpoint, Time now,
+           const DriverOut& out) {
+  const bool rests = setpoint.request == AxisRequest::rest || setpoint.request == AxisRequest::idle;
+  if (out.overflows != 0 || out.frames.size() > driver.messages_per_cycle()) std::abort();
+  for (const CanFrame& frame : out.frames) {
+    const FrameEffect effect = driver.effect(frame, now).kind;
+    if (!on_list(driver, frame) || effect == FrameEffect::forbidden) std::abort();
+    if (rests && effect == FrameEffect::motion) std::abort();
+  }
+}
+
+}  // namespace
+}  // namespace drover
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace drover;
+  fuzz::Input input({data, size});
+  agilex_v2::AgilexV2Driver driver(0);
+  Time now{std::chrono::seconds(1)};
+  DriverOut out;
+  while (input.more()) {
+    out.clear();
+    now += std::chrono::milliseconds(input.byte());
+    const std::uint8_t what = input.byte();
+    if (what < 0x80) {
+      driver.on_frame(fuzz::read_frame(input, kIds[what % kIds.size()]), now, out);
+    } else if (what == 0xFF) {
+      driver.on_link_up(now);
+    } else {
+      const Setpoint setpoint{
+          static_cast<AxisRequest>(what % 4), 0, {part_of(input.byte()), part_of(input.byte())}};
+      driver.on_setpoints({&setpoint, 1}, now, out);
+      driver.on_tick(now, out);
+      judge(driver, setpoint, now, out);
+    }
+    (void)driver.health(now);
+  }
+  return 0;
+}

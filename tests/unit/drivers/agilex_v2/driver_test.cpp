@@ -1,0 +1,180 @@
+// What a Scout has that other bases have not: a mode that others may take away.
+#include "drivers/agilex_v2/driver.h"
+
+#include <gtest/gtest.h>
+
+#include "drivers/agilex_v2/twin.h"
+
+namespace drover::agilex_v2 {
+namespace {
+
+using std::chrono::milliseconds;
+constexpr auto kRun = AxisRequest::run;
+constexpr auto kRest = AxisRequest::rest;
+
+/// 10 ms cycles; its shafts turn as they are pushed.
+struct Bench {
+  void run(Duration time, AxisRequest request, const Twist& twist = {}) {
+    for (const Time end = now + time; now < end;) cycle({request, 0, twist});
+  }
+  void cycle(const Setpoint& setpoint) {
+    DriverOut out = hear();
+    driver.on_setpoints({&setpoint, 1}, now, out);
+    driver.on_tick(now, out);
+    for (const Measurement& each : out.measurements) {
+      if (const auto* value = std::get_if<AxisStatus>(&each.value)) status = *value;
+      if (const auto* value = std::get_if<BodyMotion>(&each.value)) motion = *value;
+      if (const auto* value = std::get_if<AxisSupply>(&each.value)) supply = *value;
+    }
+    TwinFrames frames;
+    for (const CanFrame& frame : out.frames) {
+      last = frame;
+      moved += driver.effect(frame, now).kind == FrameEffect::motion ? 1 : 0;
+      twin.on_frame(frame, now, frames);
+    }
+    sent += static_cast<int>(out.frames.size());
+  }
+  /// A cycle in which nothing is commanded.
+  DriverOut hear() {
+    now += milliseconds(10);
+    TwinFrames frames;
+    twin.on_tick(now, shafts, frames);
+    for (Shaft& shaft : shafts) shaft.velocity_radps += 0.02 * shaft.torque_Nm;
+    DriverOut out;
+    for (const CanFrame& frame : frames) driver.on_frame(frame, now, out);
+    return out;
+  }
+  void drive() {
+    run(milliseconds(1000), kRest);
+    run(milliseconds(2000), kRun, {0.5, 0});
+    ASSERT_EQ(status.state, AxisState::running) << status.reason.view();
+    ASSERT_NEAR(motion.twist.vx_mps, 0.5, 0.02);
+  }
+  std::string_view reason() const { return status.reason.view(); }
+
+  AgilexV2Driver driver{0};
+  AgilexV2Twin twin{Options(twin_option_table())};
+  std::array<Shaft, 2> shafts{};
+  Time now{std::chrono::seconds(1)};
+  AxisStatus status;
+  BodyMotion motion;
+  AxisSupply supply;
+  CanFrame last;
+  int sent = 0;
+  int moved = 0;
+};
+
+TEST(AgilexV2, IsLeftAloneInStandbyAndTellsItsBattery) {
+  Bench bench;
+  bench.run(milliseconds(1000), kRest);
+  EXPECT_EQ(bench.status.state, AxisState::idle);
+  EXPECT_EQ(bench.sent, 0);
+  EXPECT_NEAR(bench.supply.bus_V, 26.5, 1e-9);
+}
+
+TEST(AgilexV2, IsToldZeroBeforeItIsSwitchedToCan) {
+  Bench bench;
+  bench.run(milliseconds(1000), kRest);
+  bench.cycle({kRun, 0, {0.5, 0}});
+  EXPECT_EQ(bench.sent, 2);
+  EXPECT_EQ(bench.moved, 0);
+  EXPECT_EQ(bench.last, make_frame(kModeCommandId, {1}));
+  EXPECT_EQ(bench.status.state, AxisState::arming);
+}
+
+TEST(AgilexV2, DoesNotGoOnAfterARemoteControlHadIt) {
+  Bench bench;
+  bench.drive();
+  bench.twin.set_fault("remote", bench.now);
+  bench.run(milliseconds(300), kRun, {0.5, 0});
+  EXPECT_EQ(bench.status.state, AxisState::fault);
+  EXPECT_NE(bench.reason().find("remote control"), std::string_view::npos) << bench.reason();
+  bench.twin.set_fault("", bench.now);
+  bench.moved = 0;
+  bench.run(milliseconds(2000), kRun, {0.5, 0});
+  EXPECT_EQ(bench.moved, 0);
+  EXPECT_EQ(bench.status.state, AxisState::idle);
+  EXPECT_FALSE(bench.reason().empty());
+  bench.run(milliseconds(50), kRest);
+  bench.run(milliseconds(2000), kRun, {0.5, 0});
+  EXPECT_NEAR(bench.motion.twist.vx_mps, 0.5, 0.02);
+}
+
+TEST(AgilexV2, DoesNotGoOnWhenItsEmergencyStopIsReleased) {
+  Bench bench;
+  bench.drive();
+  bench.twin.set_fault("estop", bench.now);
+  bench.run(milliseconds(1000), kRun, {0.5, 0});
+  EXPECT_EQ(bench.status.state, AxisState::fault);
+  EXPECT_TRUE(bench.motion.standing);
+  bench.twin.set_fault("", bench.now);
+  bench.moved = 0;
+  bench.run(milliseconds(2000), kRun, {0.5, 0});
+  EXPECT_EQ(bench.moved, 0) << "though it stayed in CAN mode";
+}
+
+/// A base that stayed in its mode would follow the first command after the gap.
+TEST(AgilexV2, GetsZerosFirstAfterAGapOfItsCommands) {
+  Bench bench;
+  bench.drive();
+  for (int i = 0; i < 45; ++i) bench.hear();
+  bench.moved = 0;
+  bench.run(milliseconds(190), kRun, {0.5, 0});
+  EXPECT_EQ(bench.moved, 0);
+  bench.run(milliseconds(100), kRun, {0.5, 0});
+  EXPECT_GT(bench.moved, 0);
+}
+
+TEST(AgilexV2, IsTakenBackToHoldAfterASupplyDip) {
+  Bench bench;
+  bench.drive();
+  bench.run(milliseconds(500), kRest);
+  bench.twin.set_power(false, bench.now);
+  bench.run(milliseconds(300), AxisRequest::hold);
+  bench.twin.set_power(true, bench.now);
+  bench.run(milliseconds(1500), AxisRequest::hold);
+  EXPECT_EQ(bench.status.state, AxisState::running) << bench.reason();
+}
+
+TEST(AgilexV2, LetsGoOnlyAtRest) {
+  Bench bench;
+  bench.drive();
+  bench.cycle({AxisRequest::idle, 0, {}});
+  EXPECT_EQ(bench.last, motion_command({})) << "zero while it moves";
+  bench.run(milliseconds(2000), AxisRequest::idle);
+  EXPECT_EQ(bench.status.state, AxisState::idle);
+  EXPECT_FALSE(bench.shafts[0].energized);
+}
+
+TEST(AgilexV2, TellsALowBatteryAndGoesOn) {
+  Bench bench;
+  bench.drive();
+  bench.twin.set_fault("low_battery", bench.now);
+  bench.run(milliseconds(500), kRun, {0.5, 0});
+  EXPECT_EQ(bench.status.state, AxisState::running);
+  EXPECT_EQ(bench.driver.health(bench.now).reason, "battery voltage low");
+}
+
+TEST(AgilexV2, NamesAChassisOfTheWrongProtocol) {
+  Bench bench;
+  DriverOut out;
+  bench.driver.on_frame(make_frame(kV1SystemStateId, {0, 1, 1, 9, 0, 0, 0, 0}), bench.now, out);
+  EXPECT_NE(bench.driver.health(bench.now).reason.view().find("protocol v1"),
+            std::string_view::npos);
+}
+
+TEST(AgilexV2, ForbidsWhatIsNotAScoutsAndRoundsTowardsRest) {
+  const AgilexV2Driver driver(0);
+  const Time now{std::chrono::seconds(1)};
+  EXPECT_EQ(driver.effect(make_frame(kMotionCommandId, {0, 0, 0, 0, 0, 1, 0, 0}), now).kind,
+            FrameEffect::forbidden);
+  EXPECT_EQ(driver.effect(make_frame(kModeCommandId, {2}), now).kind, FrameEffect::forbidden);
+  EXPECT_EQ(driver.effect(make_frame(0x431, {0xAA}), now).kind, FrameEffect::forbidden);
+  EXPECT_EQ(motion_command({0.57, -0.0019}),
+            make_frame(kMotionCommandId, {0x02, 0x3A, 0xFF, 0xFF, 0, 0, 0, 0}));
+  EXPECT_EQ(motion_command({kAbsent, 1e9}),
+            make_frame(kMotionCommandId, {0, 0, 0x7F, 0xFF, 0, 0, 0, 0}));
+}
+
+}  // namespace
+}  // namespace drover::agilex_v2

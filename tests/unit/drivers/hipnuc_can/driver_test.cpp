@@ -1,0 +1,131 @@
+// A HiPNUC sensor beside its twin.
+#include "drivers/hipnuc_can/driver.h"
+
+#include <gtest/gtest.h>
+
+#include "drivers/hipnuc_can/entry.h"
+#include "drivers/hipnuc_can/rotation.h"
+#include "drivers/hipnuc_can/twin.h"
+
+namespace drover::hipnuc_can {
+namespace {
+
+using std::chrono::milliseconds;
+
+/// 1 ms steps.
+struct Bench {
+  explicit Bench(Dialect dialect) {
+    settings.address.dialect = dialect;
+    settings.mount = from_degrees(10, -20, -90);
+  }
+  void run(Duration time) {
+    for (const Time end = now + time; now < end; now += milliseconds(1)) {
+      TwinFrames frames;
+      twin.on_tick(now, truth, frames);
+      for (const CanFrame& frame : frames) hear(frame);
+    }
+  }
+  void hear(const CanFrame& frame) {
+    DriverOut out;
+    driver.on_frame(frame, now, out);
+    for (const Measurement& each : out.measurements) {
+      last = each;
+      sample = std::get<ImuSample>(each.value);
+      ++samples;
+    }
+  }
+  Settings settings;
+  ImuTruth truth{.specific_force_mps2 = {0.5, -1, 9.7},
+                 .angular_velocity_radps = {0.1, -0.2, 0.9},
+                 .orientation = from_degrees(3, 4, 70)};
+  HipnucCanTwin twin{settings};
+  HipnucCanDriver driver{settings};
+  Time now{std::chrono::seconds(1)};
+  Measurement last;
+  ImuSample sample;
+  int samples = 0;
+};
+
+Bench bench_of(Dialect dialect) {
+  Bench bench(dialect);
+  bench.twin = HipnucCanTwin(bench.settings);
+  bench.driver = HipnucCanDriver(bench.settings);
+  bench.twin.on_frame(make_frame(0, {1, 8}));
+  return bench;
+}
+
+class HipnucCan : public ::testing::TestWithParam<Dialect> {};
+
+TEST_P(HipnucCan, TellsTheMotionOfItsTwinInTheAxesOfTheRobot) {
+  Bench bench = bench_of(GetParam());
+  bench.run(milliseconds(500));
+  EXPECT_EQ(bench.samples, 50);
+  EXPECT_NEAR(bench.sample.acceleration_mps2.x, 0.5, 0.02);
+  EXPECT_NEAR(bench.sample.acceleration_mps2.y, -1, 0.02);
+  EXPECT_NEAR(bench.sample.acceleration_mps2.z, 9.7, 0.02);
+  EXPECT_NEAR(bench.sample.angular_velocity_radps.x, 0.1, 0.002);
+  EXPECT_NEAR(bench.sample.angular_velocity_radps.y, -0.2, 0.002);
+  EXPECT_NEAR(bench.sample.angular_velocity_radps.z, 0.9, 0.002);
+  ASSERT_TRUE(bench.sample.has_orientation);
+  EXPECT_NEAR(bench.sample.orientation.w, bench.truth.orientation.w, 2e-4);
+  EXPECT_NEAR(bench.sample.orientation.z, bench.truth.orientation.z, 2e-4);
+  EXPECT_FALSE(bench.sample.saturated);
+}
+
+TEST_P(HipnucCan, IsNeverHeardThenFreshThenStaleAndSaysWhy) {
+  Bench bench = bench_of(GetParam());
+  EXPECT_EQ(bench.driver.health(bench.now).state, SourceState::never_heard);
+  EXPECT_FALSE(bench.driver.health(bench.now).reason.empty());
+  bench.run(milliseconds(100));
+  EXPECT_EQ(bench.driver.health(bench.now).state, SourceState::fresh);
+  EXPECT_TRUE(bench.driver.health(bench.now).reason.empty());
+  bench.twin.set_state("silent");
+  bench.run(milliseconds(200));
+  EXPECT_EQ(bench.driver.health(bench.now).state, SourceState::stale);
+  EXPECT_FALSE(bench.driver.health(bench.now).reason.empty());
+}
+
+TEST_P(HipnucCan, NamesTheHalfThatIsMissing) {
+  Bench bench = bench_of(GetParam());
+  bench.run(milliseconds(100));
+  const int before = bench.samples;
+  bench.twin.set_state("no_rates");
+  bench.run(milliseconds(200));
+  EXPECT_EQ(bench.samples, before);
+  EXPECT_NE(bench.driver.health(bench.now).reason.view().find("no rates"), std::string_view::npos);
+}
+
+INSTANTIATE_TEST_SUITE_P(Dialects, HipnucCan, ::testing::Values(Dialect::j1939, Dialect::canopen));
+
+/// Else a single lost frame would pair each half with that of the next sample for ever.
+TEST(HipnucCanPairs, AreNotMadeAcrossSamples) {
+  Bench bench = bench_of(Dialect::j1939);
+  const CanFrame acceleration = acceleration_frame(bench.settings.address, {0, 0, 9.81});
+  const CanFrame rates = rates_frame(bench.settings.address, {0, 0, 1});
+  bench.hear(rates);  // its accelerations were lost
+  for (int i = 0; i < 3; ++i) {
+    bench.now += milliseconds(10);
+    bench.hear(acceleration);
+    EXPECT_EQ(bench.samples, i);
+    bench.now += std::chrono::microseconds(300);
+    bench.hear(rates);
+    EXPECT_EQ(bench.samples, i + 1);
+    EXPECT_EQ(bench.last.received - bench.last.time, std::chrono::microseconds(300));
+  }
+}
+
+TEST(HipnucCanTwin, WithCanopenFramesIsSilentUntilItIsStarted) {
+  Bench bench(Dialect::canopen);
+  bench.twin = HipnucCanTwin(bench.settings);
+  bench.run(milliseconds(100));
+  EXPECT_EQ(bench.samples, 0);
+}
+
+TEST(HipnucCanEntry, RefusesAnOptionOutsideItsRange) {
+  Options options(kHipnucCanEntry.options);
+  options.set("node", 128.0);
+  EXPECT_THROW(kHipnucCanEntry.make(options, {}), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace drover::hipnuc_can
