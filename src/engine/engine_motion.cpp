@@ -105,12 +105,13 @@ void Engine::Impl::let_go(EngineOutput& out) {
 }
 
 void Engine::Impl::fill_speed(Time now) {
-  snapshot.worst_vx_mps = worst_speed.update({.now = now,
-                                              .wheels_mps = estimate.pose.vx_mps,
-                                              .fastest_rim_mps = estimate.fastest_mps,
-                                              .receiver_mps = rest.witness().speed_mps(now),
-                                              .receiver_at = rest.witness().speed_at(),
-                                              .direction = rest.direction()});
+  snapshot.worst_vx_mps =
+      worst_speed.update({.now = now,
+                          .wheels_mps = estimate.body.known ? estimate.pose.vx_mps : kAbsent,
+                          .fastest_rim_mps = estimate.fastest_mps,
+                          .receiver_mps = rest.witness().speed_mps(now),
+                          .receiver_at = rest.witness().speed_at(),
+                          .direction = rest.direction()});
 }
 
 }  // namespace drover::engine

@@ -159,7 +159,7 @@ std::string BaseStatus::text(const Snapshot& snapshot) {
   out.key("vx").number(keep(vx_mps_, snapshot.worst_vx_mps), kSpeed);
   out.key("vy").number(0);
   out.key("vz").number(keep(wz_radps_, snapshot.pose.wz_radps), kSpeed);
-  out.key("valid").boolean(std::isfinite(snapshot.pose.vx_mps)).close('}');
+  out.key("valid").boolean(std::isfinite(snapshot.worst_vx_mps)).close('}');
 
   out.key("rtk").open('{');
   out.key("angle").number(angle_deg_ < 359.9995 ? angle_deg_ : 0, kDegrees);

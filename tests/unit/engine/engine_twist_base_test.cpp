@@ -134,5 +134,24 @@ TEST_F(ABaseThatTakesATwist, IsLetGoWhenAPersonReleasesIt) {
   EXPECT_EQ(rig.out.base.request, AxisRequest::idle);
 }
 
+TEST(ABaseThatTakesATwistOnASlope, LosesItsPowerWhenItDrivesOn) {
+  EngineConfig config = twist_config();
+  config.base.hold = HoldBy::level_ground_only;
+  EngineRig rig{config};
+  rig.imu = true;
+  const Path path = straight_path(6);
+  rig.settle();
+  rig.start(path, 12, 0.5);
+  rig.run_s(4);
+  ASSERT_GT(rig.out.base.twist.vx_mps, 0.4) << rig.why();
+  rig.gravity_mps2 = {9.81 * std::sin(to_rad(8)), 0, 9.81 * std::cos(to_rad(8))};
+  for (int i = 0; i < 2000 && rig.snapshot().nav.status != NavStatus::error; ++i) rig.tick();
+  ASSERT_THAT(rig.why(), HasSubstr("the ground falls by"));
+  rig.disobeys = WheelSpeeds{0.5, 0.5};
+  for (int i = 0; i < 400 && rig.out.base.request != AxisRequest::idle; ++i) rig.tick();
+  EXPECT_EQ(rig.out.base.request, AxisRequest::idle);
+  EXPECT_THAT(rig.why(), HasSubstr("did not stop: the base says"));
+}
+
 }  // namespace
 }  // namespace drover::engine
