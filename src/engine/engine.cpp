@@ -247,6 +247,7 @@ void Engine::on_command(const Command& command, Time now) {
     e.owners.cancel(now, e.events);
   } else if (std::holds_alternative<EngageStop>(command.body)) {
     e.navigator.engage_stop(id, now, e.events);
+    e.rest.on_stop_asked();
   } else if (std::holds_alternative<ResetStop>(command.body)) {
     e.reset_stop(id, now);
   } else if (std::holds_alternative<ProposeOrigin>(command.body)) {

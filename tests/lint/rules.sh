@@ -15,7 +15,7 @@ src/engine/signals   drover/ engine/config.h engine/signals/
 src/engine/base      drover/ engine/config.h engine/still.h engine/base/
 src/engine/gate      drover/ engine/config.h engine/base/ engine/gate/
 src/engine/health    drover/ engine/config.h engine/environment.h engine/event_queue.h
-src/engine/health    engine/still.h engine/base/ engine/estimate/ engine/health/
+src/engine/health    engine/still.h engine/base/ engine/estimate/ engine/health/ engine/sensors/
 src/engine/navigate  drover/ engine/config.h engine/event_queue.h engine/still.h
 src/engine/navigate  engine/gate/ engine/health/ engine/navigate/
 src/engine/own       drover/ engine/config.h engine/event_queue.h engine/still.h

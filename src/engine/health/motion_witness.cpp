@@ -116,22 +116,17 @@ double MotionWitness::speed_mps(Time now) const {
   return speed_mps_ > std::max(kMoving_mps, kSigmas * speed_noise_mps()) ? speed_mps_ : 0.0;
 }
 
-PathPoint MotionWitness::last_step() const {
-  if (position_before_at_ == kNever) return {};
-  return ground_way(position_before_, position_);
-}
-
 double MotionWitness::proven_speed_mps(Time now) const {
   const bool two = fresh(speed_at_, now) && fresh(speed_before_at_, speed_at_) &&
                    fresh(position_at_, now) && fresh(position_before_at_, position_at_);
   if (!two) return 0;
   const double speed_mps = std::min(speed_mps_, speed_before_mps_);
-  const PathPoint step = last_step();
+  const PathPoint step = ground_way(position_before_, position_);
   const double noise_m = std::hypot(place_sigma_m(position_before_, config_.estimate),
                                     place_sigma_m(position_, config_.estimate));
-  const double told_m = speed_mps * to_s(position_at_ - position_before_at_);
-  const bool borne_out = std::hypot(step.x_m, step.y_m) > std::max(told_m / 2, kSigmas * noise_m);
-  return borne_out && speed_mps > kSigmas * speed_noise_mps() ? speed_mps : 0.0;
+  const double went_m = std::hypot(step.x_m, step.y_m);
+  if (went_m <= kSigmas * noise_m || speed_mps <= kSigmas * speed_noise_mps()) return 0;
+  return std::min(speed_mps, went_m / to_s(position_at_ - position_before_at_));
 }
 
 PathPoint MotionWitness::way(Time now) const {

@@ -43,11 +43,9 @@ class MotionWitness final {
   /// The receiver's speed when it is fresh and no noise, else 0, m/s.
   double speed_mps(Time now) const;
   Time speed_at() const { return speed_at_; }  ///< when it was measured
-  /// The lesser of the receiver's last two speeds when its last two positions bear it out, else 0:
-  /// two witnesses in a tenth of a second, but only of what is fast.
+  /// The least of the receiver's last two speeds and of what lies between its last two positions:
+  /// two witnesses in a tenth of a second, but only of what is fast. 0 when noise could be it.
   double proven_speed_mps(Time now) const;
-  /// From the receiver's last but one position to its last, m; x east, y north.
-  PathPoint last_step() const;
   /// From where rest was expected, m; x east, y north. Zero without a position.
   PathPoint way(Time now) const;
   /// Gyro and heading say that it goes on turning as it was commanded, and nothing that it goes

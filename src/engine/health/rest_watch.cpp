@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "engine/base/words.h"
 #include "engine/health/heard.h"
@@ -147,22 +148,19 @@ bool RestWatch::moves_as_commanded(const RestInput& input, const Rims& rims) con
     return rims.fastest_mps * direction_ > 0 || rims.turn * turn_ > 0;
   if (witness_.spins_on(input.now)) return true;
   if (!std::isfinite(input.yaw_rad)) return false;
+  // What is silent and keeps a command of a program before this one: nobody knows which.
+  if (input.drives_on_in_silence && rims.silent && direction_ == 0 && turn_ == 0) return true;
   const PathPoint way = witness_.way(input.now);
   const double ahead_m = way.x_m * std::cos(input.yaw_rad) + way.y_m * std::sin(input.yaw_rad);
   return ahead_m * direction_ > kDirection_m;
 }
 
-/// Before any rest is due. On a slope only the way that it was driven: it may slide down there.
+/// Before any rest is due. Not where it would only roll without power, and may slide down.
 bool RestWatch::bolts(const RestInput& input, const Rims& rims) const {
   if (!ours_ || input.power_is_off || input.released || input.caught || !rims.driven) return false;
   const double explained_mps =
       std::max({config_.limits.max_speed_mps, expected_mps_, std::abs(rims.fastest_mps)});
-  if (witness_.proven_speed_mps(input.now) <= explained_mps + kBolts_mps) return false;
-  if (!may_roll_) return true;
-  if (!std::isfinite(input.yaw_rad)) return false;
-  const PathPoint step = witness_.last_step();
-  const double ahead_m = step.x_m * std::cos(input.yaw_rad) + step.y_m * std::sin(input.yaw_rad);
-  return ahead_m * direction_ > 0;
+  return !may_roll_ && witness_.proven_speed_mps(input.now) > explained_mps + kBolts_mps;
 }
 
 void RestWatch::watch_wheels(const Rims& rims, Time now) {
@@ -260,6 +258,9 @@ void RestWatch::stay(const RestInput& input, const Rims& rims, const Testimony& 
 RestState RestWatch::update(const RestInput& input) {
   if (input.released) ours_ = false;  // who lets go of the drives is going to push
   const Rims rims = this->rims(input);
+  // A silent base may still do what a program before this one asked for.
+  if (input.drives_on_in_silence && rims.silent) ours_ = true;
+  if (std::exchange(stop_asked_, false) && rims.driven) expect_stop(input.now);
   watch_wheels(rims, input.now);
   const bool is_due = due(input);
   // What began to roll on a slope still rolls where the ground is level again.

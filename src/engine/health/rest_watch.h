@@ -60,6 +60,8 @@ class RestWatch final {
   const Reason& reason() const { return reason_; }
   /// A wheel turns now and nobody drove it, be it only an arming drive's swing: no moment to start.
   Reason turns_by_itself() const;
+  /// A person asked for a stop: what still drives then is ours, whoever commanded it.
+  void on_stop_asked() { stop_asked_ = true; }
   /// A wheel ran away and everything was stopped: rest is due at once, whoever moved it.
   void expect_stop(Time now);
   /// A person reset the cut.
@@ -94,6 +96,7 @@ class RestWatch final {
   MotionWitness witness_;
   RestState state_ = RestState::settling;
   Reason reason_;
+  bool stop_asked_ = false;    ///< since the last cycle
   bool ours_ = false;          ///< we moved it since it rested last
   double direction_ = 0;       ///< Rims::ahead of the last command of one who drove
   double turn_ = 0;            ///< Rims::turn of it

@@ -117,6 +117,23 @@ TEST_F(ARobotThatShouldRest, IsNotCutWhileItDrivesForAReceiverThatJumpsOrTellsOn
   EXPECT_FALSE(cut_within_s(1)) << rig.why();
 }
 
+TEST_F(ARobotThatShouldRest, IsNotCutForAReceiverWhoseSpeedsAreWild) {
+  drive();
+  rig.speed_noise_mps = 3;
+  EXPECT_FALSE(cut_within_s(20)) << rig.why();
+}
+
+TEST_F(ARobotThatShouldRest, LosesItsPowerWhenAPersonStopsWhatSomebodyElseDrives) {
+  drive();
+  rig.command(CancelTask{});
+  rest_s(5);
+  rig.disobeys = WheelSpeeds{1, 1};  // too slow for a wheel that runs away
+  rest_s(3);
+  EXPECT_THAT(told(), HasSubstr("rolls without a command"));
+  rig.command(EngageStop{});
+  EXPECT_TRUE(cut_within_s(2)) << rig.why();
+}
+
 TEST_F(ARobotThatShouldRest, IsNotCutForWheelsThatSlipAtAllowedSpeeds) {
   drive();
   freeze_encoders();

@@ -112,6 +112,19 @@ TEST_F(ABaseThatTakesATwist, LosesItsPowerWhenItFallsSilentAndDrivesOn) {
   EXPECT_FALSE(rig.out.outputs[static_cast<std::size_t>(Output::enable_relay)]);
 }
 
+/// This program has just begun: nobody knows what the one before it asked for.
+TEST_F(ABaseThatTakesATwist, LosesItsPowerWhenItIsFoundSilentAndMoving) {
+  rig.environment.drives_on_in_silence = true;
+  rig.imu = rig.tells_speed = true;
+  rig.drives[0].silent = true;
+  rig.disobeys = WheelSpeeds{2, 2};
+  rig.run_s(5);
+  std::string told;
+  for (const Reason& why : rig.snapshot().why) told += std::string(why.view()) + "; ";
+  EXPECT_THAT(told, HasSubstr("the robot did not stop: the base is silent"));
+  EXPECT_FALSE(rig.out.outputs[static_cast<std::size_t>(Output::enable_relay)]);
+}
+
 TEST_F(ABaseThatTakesATwist, IsHeldAgainAfterADipOfItsSupply) {
   drive();
   rig.command(CancelTask{});
