@@ -16,8 +16,8 @@ constexpr Duration kMotionPeriod = milliseconds(20);
 
 /// What turns the gears and motors along when they are not driven.
 constexpr double kGearDrag_Nms_per_rad = 1;
-constexpr double kProportional_Nms_per_rad = 30;
-constexpr double kIntegral_Nm_per_rad = 60;
+constexpr double kProportional_Nms_per_rad = 6;
+constexpr double kIntegral_Nm_per_rad = 30;
 
 constexpr std::array kTwinOptions{
     OptionSpec{.name = "wheel_radius_m",
