@@ -20,6 +20,7 @@ constexpr double kMotionHeldOnSlope_s = 0.5;
 constexpr double kRollHeld_s = 0.2;
 constexpr double kBolts_mps = 0.5;  // over the limit, and over what the wheels explain
 constexpr double kAlone_s = 1.0;    // a witness without another one
+constexpr double kSilent_s = 1.0;   // where nothing else can tell
 constexpr double kConfirm_s = 1.0;
 constexpr double kDirection_m = 0.1;
 constexpr double kOnTheSpot = 0.25;  // what goes by less of its turn goes neither ahead nor back
@@ -163,6 +164,13 @@ bool RestWatch::bolts(const RestInput& input, const Rims& rims) const {
   return !may_roll_ && witness_.proven_speed_mps(input.now) > explained_mps + kBolts_mps;
 }
 
+/// A silent base that keeps its last command, and that was not at rest: witnesses see no slow
+/// motion, and some robots have none.
+bool RestWatch::may_drive_on(const RestInput& input, const Rims& rims) const {
+  return input.drives_on_in_silence && rims.silent && keeps_on_ && !input.power_is_off &&
+         !input.released && input.now - due_ >= from_s(kSilent_s);
+}
+
 void RestWatch::watch_wheels(const Rims& rims, Time now) {
   turning_ = std::abs(rims.fastest_mps) > kTurns_mps;
   const bool swings = turning_ && rims.fastest_mps * rim_mps_ < 0;
@@ -201,7 +209,8 @@ void RestWatch::tell(const char* what, const Rims& rims, const Testimony& said) 
                    others.empty() ? "" : ", ", size, others.data());
   } else {
     const BaseWords& words = words_of(base_);
-    reason_.format("%s: %s, but %.*s", what, rims.silent ? words.are_silent : words.tell_rest, size,
+    const char* quiet = rims.silent ? words.are_silent : words.tell_rest;
+    reason_.format("%s: %s%s%.*s", what, quiet, others.empty() ? "" : ", but ", size,
                    others.data());
   }
 }
@@ -217,6 +226,11 @@ void RestWatch::settle(const RestInput& input, const Rims& rims, const Testimony
   if (moves && late && may_be_cut(input, rims)) {
     state_ = RestState::not_stopping;
     tell("the robot did not stop", rims, said);
+    return;
+  }
+  if (may_drive_on(input, rims)) {
+    state_ = RestState::not_stopping;
+    tell("the robot cannot be stopped", rims, said);
     return;
   }
   // What nobody drove has no ramp to come to its end: what a guard slows down is told as well.
@@ -259,8 +273,11 @@ RestState RestWatch::update(const RestInput& input) {
   if (input.released) ours_ = false;  // who lets go of the drives is going to push
   const Rims rims = this->rims(input);
   // A silent base may still do what a program before this one asked for.
+  const bool stop_asked = std::exchange(stop_asked_, false);
   if (input.drives_on_in_silence && rims.silent) ours_ = true;
-  if (std::exchange(stop_asked_, false) && rims.driven) expect_stop(input.now);
+  if (stop_asked && rims.driven) expect_stop(input.now);
+  if (!rims.silent || stop_asked)
+    keeps_on_ = rims.silent || expected_mps_ > 0 || std::abs(rims.fastest_mps) > kTurns_mps;
   watch_wheels(rims, input.now);
   const bool is_due = due(input);
   // What began to roll on a slope still rolls where the ground is level again.

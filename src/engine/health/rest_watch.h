@@ -83,6 +83,7 @@ class RestWatch final {
   void watch_wheels(const Rims& rims, Time now);
   bool rolls(Time now) const;
   bool bolts(const RestInput& input, const Rims& rims) const;
+  bool may_drive_on(const RestInput& input, const Rims& rims) const;
   bool may_be_cut(const RestInput& input, const Rims& rims) const;
   bool moves_as_commanded(const RestInput& input, const Rims& rims) const;
   void settle(const RestInput& input, const Rims& rims, const Testimony& said);
@@ -97,6 +98,7 @@ class RestWatch final {
   RestState state_ = RestState::settling;
   Reason reason_;
   bool stop_asked_ = false;    ///< since the last cycle
+  bool keeps_on_ = false;      ///< what it does in silence may be a command that moves it
   bool ours_ = false;          ///< we moved it since it rested last
   double direction_ = 0;       ///< Rims::ahead of the last command of one who drove
   double turn_ = 0;            ///< Rims::turn of it

@@ -112,6 +112,28 @@ TEST_F(ABaseThatTakesATwist, LosesItsPowerWhenItFallsSilentAndDrivesOn) {
   EXPECT_FALSE(rig.out.outputs[static_cast<std::size_t>(Output::enable_relay)]);
 }
 
+/// 0.1 m/s are too slow for any witness.
+TEST_F(ABaseThatTakesATwist, LosesItsPowerWhenItFallsSilentWhileItMovesThoughNobodySeesIt) {
+  rig.environment.drives_on_in_silence = true;
+  drive();
+  rig.drives[0].silent = true;
+  rig.run_s(4);
+  EXPECT_FALSE(rig.out.outputs[static_cast<std::size_t>(Output::enable_relay)]);
+}
+
+TEST_F(ABaseThatTakesATwist, KeepsItsPowerWhenItFallsSilentAtRestUntilAPersonStopsIt) {
+  rig.environment.drives_on_in_silence = true;
+  drive();
+  rig.command(CancelTask{});
+  rig.run_s(4);
+  rig.drives[0].silent = true;
+  rig.run_s(10);
+  EXPECT_TRUE(rig.out.outputs[static_cast<std::size_t>(Output::enable_relay)]);
+  rig.command(EngageStop{});
+  rig.run_s(2);
+  EXPECT_FALSE(rig.out.outputs[static_cast<std::size_t>(Output::enable_relay)]);
+}
+
 /// This program has just begun: nobody knows what the one before it asked for.
 TEST_F(ABaseThatTakesATwist, LosesItsPowerWhenItIsFoundSilentAndMoving) {
   rig.environment.drives_on_in_silence = true;
