@@ -333,6 +333,7 @@ void Engine::step(Time now, const Environment& environment, EngineOutput& out) {
   e.let_go(out);
   if (takes_twist(e.base)) e.command_base(out);
   e.motion_asked = out.motion_permitted;
+  out.unsettled = (e.rest.drives_on() || e.power.is_cut()) && !e.power.opened();
   e.navigator.on_commanded(now, out.motion_permitted, e.events);
   e.announcer.update(now, e.health.report(), e.events);
   e.fill_snapshot(now, environment, lines, e.estimate, motion.owner);

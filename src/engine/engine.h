@@ -35,6 +35,9 @@ struct EngineOutput {
   bool motion_permitted = false;
   /// By AxisId: nothing else may move it, but a ramp from its present speed to rest is permitted.
   std::array<bool, kMaxAxes> slowing_permitted{};
+  /// What is commanded to rest may not be there yet: its power is being cut, or it is silent and
+  /// may go on.
+  bool unsettled = false;
   Remembered remembered;  ///< what is to outlive this program, as of this cycle
 };
 

@@ -72,6 +72,7 @@ void Engine::Impl::release_hold(const RequestId& id, const ReleaseHold& release,
     const bool turns = rim_mps(base, std::abs(axis.motion.velocity_radps)) > kTurns_mps;
     if (why.empty() && axis.state == AxisState::running && turns) why = "the robot moves";
   }
+  if (why.empty() && rest.may_drive_on()) why = "the base is silent: nothing reaches it";
   hold.release(id, release, why, tilt_deg(), now, events);
 }
 

@@ -60,6 +60,11 @@ void ControlLoop::run(const std::atomic<bool>& stop) {
     }
     now = wait(std::max(Duration::zero(), next - now));
   }
+  // Nobody would take the last step of a cut: the guard keeps the relay as it finds it.
+  const auto& last = gateway_.output().engine;
+  auto outputs = last.outputs;
+  outputs[static_cast<std::size_t>(Output::enable_relay)] &= !last.unsettled;
+  write_outputs(outputs, now);
 }
 
 Time ControlLoop::wait(Duration longest) {
@@ -134,8 +139,8 @@ Time ControlLoop::cycle(Time begin, std::uint64_t late) {
   const bool rolls = std::abs(gateway_.snapshot().pose.vx_mps) > kRolls_mps;
   const auto& slowing = out.engine.slowing_permitted;
   const bool slows = std::find(slowing.begin(), slowing.end(), true) != slowing.end();
-  exchange_.at_rest.store(!out.engine.motion_permitted && !slows && !task && !rolls,
-                          std::memory_order_release);
+  const bool moves = out.engine.motion_permitted || slows || task || rolls;
+  exchange_.at_rest.store(!moves && !out.engine.unsettled, std::memory_order_release);
   return publish(begin);
 }
 

@@ -18,6 +18,7 @@ using testing::IsEmpty;
 using testing::Not;
 
 const auto kScenario = json::parse(R"({
+  "can": {"can0": {"kind": "vcan"}},
   "origin": {"latitude_deg": 23.0, "longitude_deg": 113.0, "altitude_m": 20},
   "gnss": {"antenna": {"x_m": 0, "y_m": 0}}})");
 

@@ -46,7 +46,9 @@ TEST(RunsOn, IsToldAndLatchedUntilAResetAtTheRobot) {
   const Record& log = record("runs_on");
   const auto& error = log.first_status("NAV_ERROR");
   EXPECT_LT(error.time - log.event("event stopped#1"), 300ms);
-  EXPECT_TRUE(told(log, "did not stop", error.time, Time::max()));
+  // It is faster than it may be before the time for a stop is over, or after it.
+  EXPECT_TRUE(told(log, "did not stop", error.time, Time::max()) ||
+              told(log, "runs away", error.time, Time::max()));
   EXPECT_EQ(log.feedback_words().back(), "start_task_failse");
   EXPECT_TRUE(log.level_at("enable_relay", log.event("event reset#1") + 2s).value());
 }

@@ -21,6 +21,7 @@ constexpr double kRollHeld_s = 0.2;
 constexpr double kBolts_mps = 0.5;  // over the limit, and over what the wheels explain
 constexpr double kAlone_s = 1.0;    // a witness without another one
 constexpr double kSilent_s = 1.0;   // where nothing else can tell
+constexpr double kBegins_s = 2.5;   // a base that has its supply again, with a margin
 constexpr double kConfirm_s = 1.0;
 constexpr double kDirection_m = 0.1;
 constexpr double kOnTheSpot = 0.25;  // what goes by less of its turn goes neither ahead nor back
@@ -46,7 +47,7 @@ void RestWatch::expect_stop(Time now) {
 void RestWatch::reset() {
   if (state_ != RestState::not_stopping) return;
   state_ = RestState::settling;
-  ours_ = false;
+  ours_ = keeps_on_ = false;  // what had no power begins anew
   quiet_since_ = moves_since_ = alone_since_ = kNever;
   reason_.clear();
 }
@@ -61,7 +62,6 @@ RestWatch::Rims RestWatch::rims(const RestInput& input) const {
     const Duration stale = from_s(config_.health.drive_stale_s);
     if (!tells_motion(axis, input.now, stale) || !std::isfinite(mps)) {
       rims.silent = true;
-      if (input.drives_on_in_silence) rims.driven = true;
       continue;
     }
     if (axis.state == AxisState::running) rims.driven = true;
@@ -149,8 +149,6 @@ bool RestWatch::moves_as_commanded(const RestInput& input, const Rims& rims) con
     return rims.fastest_mps * direction_ > 0 || rims.turn * turn_ > 0;
   if (witness_.spins_on(input.now)) return true;
   if (!std::isfinite(input.yaw_rad)) return false;
-  // What is silent and keeps a command of a program before this one: nobody knows which.
-  if (input.drives_on_in_silence && rims.silent && direction_ == 0 && turn_ == 0) return true;
   const PathPoint way = witness_.way(input.now);
   const double ahead_m = way.x_m * std::cos(input.yaw_rad) + way.y_m * std::sin(input.yaw_rad);
   return ahead_m * direction_ > kDirection_m;
@@ -164,11 +162,30 @@ bool RestWatch::bolts(const RestInput& input, const Rims& rims) const {
   return !may_roll_ && witness_.proven_speed_mps(input.now) > explained_mps + kBolts_mps;
 }
 
-/// A silent base that keeps its last command, and that was not at rest: witnesses see no slow
-/// motion, and some robots have none.
-bool RestWatch::may_drive_on(const RestInput& input, const Rims& rims) const {
-  return input.drives_on_in_silence && rims.silent && keeps_on_ && !input.power_is_off &&
-         !input.released && input.now - due_ >= from_s(kSilent_s);
+/// A silent base that keeps its last command, and was not at rest or is seen to move: witnesses see
+/// no slow motion, and some robots have none. On a slope it may as well have lost its supply, and
+/// be caught when it has it again: it is given the time to begin.
+bool RestWatch::cannot_be_stopped(const RestInput& input) const {
+  if (!unheard_ || !ours_ || input.power_is_off || input.released) return false;
+  const Duration patience = from_s(on_slope_ ? kBegins_s : kSilent_s);
+  const bool seen = moves_since_ != kNever && input.now - moves_since_ >= patience;
+  return (keeps_on_ || seen) && input.now - due_ >= patience;
+}
+
+void RestWatch::watch_silence(const RestInput& input, const Rims& rims) {
+  const bool stop_asked = std::exchange(stop_asked_, false);
+  const bool was_unheard = std::exchange(unheard_, input.drives_on_in_silence && rims.silent);
+  heard_ = heard_ || !rims.silent;
+  // A relay that this program has closed feeds a base that has forgotten everything.
+  if (unheard_ && (heard_ || input.found_powered)) ours_ = true;
+  if (stop_asked && (rims.driven || unheard_)) expect_stop(input.now);
+  if (stop_asked && unheard_) keeps_on_ = true;
+  if (unheard_) return;
+  keeps_on_ = expected_mps_ > 0 || std::abs(rims.fastest_mps) > kTurns_mps;
+  if (!was_unheard) return;
+  // It is heard again, and has the time for a ramp from what it has.
+  expected_mps_ = std::max(expected_mps_, std::abs(rims.fastest_mps));
+  moves_since_ = kNever;
 }
 
 void RestWatch::watch_wheels(const Rims& rims, Time now) {
@@ -228,7 +245,7 @@ void RestWatch::settle(const RestInput& input, const Rims& rims, const Testimony
     tell("the robot did not stop", rims, said);
     return;
   }
-  if (may_drive_on(input, rims)) {
+  if (cannot_be_stopped(input)) {
     state_ = RestState::not_stopping;
     tell("the robot cannot be stopped", rims, said);
     return;
@@ -272,17 +289,13 @@ void RestWatch::stay(const RestInput& input, const Rims& rims, const Testimony& 
 RestState RestWatch::update(const RestInput& input) {
   if (input.released) ours_ = false;  // who lets go of the drives is going to push
   const Rims rims = this->rims(input);
-  // A silent base may still do what a program before this one asked for.
-  const bool stop_asked = std::exchange(stop_asked_, false);
-  if (input.drives_on_in_silence && rims.silent) ours_ = true;
-  if (stop_asked && rims.driven) expect_stop(input.now);
-  if (!rims.silent || stop_asked)
-    keeps_on_ = rims.silent || expected_mps_ > 0 || std::abs(rims.fastest_mps) > kTurns_mps;
+  watch_silence(input, rims);
   watch_wheels(rims, input.now);
   const bool is_due = due(input);
   // What began to roll on a slope still rolls where the ground is level again.
-  may_roll_ = input.rolls_unpowered || input.caught ||
-              (may_roll_ && is_due && state_ != RestState::resting);
+  const bool goes_on = is_due && state_ != RestState::resting;
+  on_slope_ = input.rolls_unpowered || (on_slope_ && goes_on);
+  may_roll_ = on_slope_ || input.caught || (may_roll_ && goes_on);
   if (state_ == RestState::not_stopping) {
     // What it rolled until it came to rest is no motion any more.
     if (due_ == kNever || input.now - due_ > kLookAgainAfterCut) {

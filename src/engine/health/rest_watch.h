@@ -21,6 +21,7 @@ struct RestInput {
   /// Drives that had let go are being taken back: their commands follow a roll, nobody drives.
   bool caught = false;
   bool drives_on_in_silence = false;  ///< a drive that says nothing keeps its last command
+  bool found_powered = false;         ///< it may have one of the program before this one
   double yaw_rad = kAbsent;           ///< of the base, as far as it is known
 };
 
@@ -54,6 +55,10 @@ class RestWatch final {
   RestState state() const { return state_; }
   /// Sign in which it was driven last; 0 before.
   double direction() const { return direction_; }
+  /// What is silent may go on by a command that it has: nothing but its power stops it.
+  bool may_drive_on() const { return unheard_ && ours_; }
+  /// And it was not at rest when it fell silent, or nobody knows.
+  bool drives_on() const { return may_drive_on() && keeps_on_; }
   /// Anything says that the base moves now.
   bool moves(Time now) const { return turning_ || witness_.hear(now).moving > 0; }
   /// What is wrong, in words; empty when nothing is.
@@ -83,7 +88,8 @@ class RestWatch final {
   void watch_wheels(const Rims& rims, Time now);
   bool rolls(Time now) const;
   bool bolts(const RestInput& input, const Rims& rims) const;
-  bool may_drive_on(const RestInput& input, const Rims& rims) const;
+  bool cannot_be_stopped(const RestInput& input) const;
+  void watch_silence(const RestInput& input, const Rims& rims);
   bool may_be_cut(const RestInput& input, const Rims& rims) const;
   bool moves_as_commanded(const RestInput& input, const Rims& rims) const;
   void settle(const RestInput& input, const Rims& rims, const Testimony& said);
@@ -98,10 +104,13 @@ class RestWatch final {
   RestState state_ = RestState::settling;
   Reason reason_;
   bool stop_asked_ = false;    ///< since the last cycle
-  bool keeps_on_ = false;      ///< what it does in silence may be a command that moves it
+  bool heard_ = false;         ///< the base, since this program began
+  bool unheard_ = false;       ///< now, and it keeps its last command
+  bool keeps_on_ = false;      ///< that command may be one that moves it
   bool ours_ = false;          ///< we moved it since it rested last
   double direction_ = 0;       ///< Rims::ahead of the last command of one who drove
   double turn_ = 0;            ///< Rims::turn of it
+  bool on_slope_ = false;      ///< it could roll without power, since rest is due
   bool may_roll_ = false;      ///< it could without power, or was caught, since rest is due
   bool turning_ = false;       ///< the wheels, in the last cycle
   double rim_mps_ = 0;         ///< the fastest, then

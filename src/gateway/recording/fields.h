@@ -315,8 +315,8 @@ void visit_fields(V& v, const Snapshot& snapshot) {
 /// What the engine wants of the drives and outputs; `events` are told apart.
 template <class V>
 void visit_fields(V& v, const engine::EngineOutput& output, std::size_t axis_count) {
-  const auto& [axes, base, outputs, events, motion_permitted, slowing_permitted, remembered] =
-      output;
+  const auto& [axes, base, outputs, events, motion_permitted, slowing_permitted, unsettled,
+               remembered] = output;
   (void)events;
   for (std::size_t i = 0; i < axis_count; ++i) {
     v.inside("commands", i, [&v, &part = axes[i]] {
@@ -336,6 +336,7 @@ void visit_fields(V& v, const engine::EngineOutput& output, std::size_t axis_cou
   visit_values(v, "outputs", outputs);
   v.value("motion_permitted", motion_permitted);
   visit_values(v, "slowing_permitted", slowing_permitted);
+  v.value("unsettled", unsettled);
   v.inside("remembered", [&v, &part = remembered] {
     const auto& [stop, stop_at_robot, power_cut, holding, released, task, proved, joints_wait] =
         part;

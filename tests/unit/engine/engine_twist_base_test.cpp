@@ -130,13 +130,25 @@ TEST_F(ABaseThatTakesATwist, KeepsItsPowerWhenItFallsSilentAtRestUntilAPersonSto
   rig.run_s(10);
   EXPECT_TRUE(rig.out.outputs[static_cast<std::size_t>(Output::enable_relay)]);
   rig.command(EngageStop{});
-  rig.run_s(2);
+  rig.run_s(3);
   EXPECT_FALSE(rig.out.outputs[static_cast<std::size_t>(Output::enable_relay)]);
+}
+
+/// It was without power: its last command is forgotten, and it takes a while to begin.
+TEST_F(ABaseThatTakesATwist, HasItsPowerAgainAfterAResetThoughItIsStillSilent) {
+  rig.environment.drives_on_in_silence = true;
+  drive();
+  rig.drives[0].silent = true;
+  rig.run_s(6);
+  ASSERT_FALSE(rig.out.outputs[static_cast<std::size_t>(Output::enable_relay)]);
+  rig.engine->on_command({{RequestId::Source::cli, 99}, rig.now, ResetStop{}}, rig.now);
+  rig.run_s(5);
+  EXPECT_TRUE(rig.out.outputs[static_cast<std::size_t>(Output::enable_relay)]) << rig.why();
 }
 
 /// This program has just begun: nobody knows what the one before it asked for.
 TEST_F(ABaseThatTakesATwist, LosesItsPowerWhenItIsFoundSilentAndMoving) {
-  rig.environment.drives_on_in_silence = true;
+  rig.environment.drives_on_in_silence = rig.environment.relay_found_closed = true;
   rig.imu = rig.tells_speed = true;
   rig.drives[0].silent = true;
   rig.disobeys = WheelSpeeds{2, 2};
@@ -186,6 +198,45 @@ TEST(ABaseThatTakesATwistOnASlope, LosesItsPowerWhenItDrivesOn) {
   for (int i = 0; i < 400 && rig.out.base.request != AxisRequest::idle; ++i) rig.tick();
   EXPECT_EQ(rig.out.base.request, AxisRequest::idle);
   EXPECT_THAT(rig.why(), HasSubstr("did not stop: the base says"));
+}
+
+/// Its supply is away for longer than a witness needs, and it rolls: it is heard again, and brakes.
+TEST(ABaseThatTakesATwistOnASlope, KeepsItsPowerWhenItIsSilentUntilItHasItsSupplyAgain) {
+  EngineConfig config = twist_config();
+  config.base.hold = HoldBy::level_ground_only;
+  EngineRig rig{config};
+  rig.environment.drives_on_in_silence = true;
+  rig.imu = rig.tells_speed = true;
+  const Path path = straight_path(6);
+  rig.settle();
+  rig.start(path, 12, 0.5);
+  rig.run_s(4);
+  ASSERT_GT(rig.out.base.twist.vx_mps, 0.4) << rig.why();
+  rig.gravity_mps2 = {9.81 * std::sin(to_rad(8)), 0, 9.81 * std::cos(to_rad(8))};
+  rig.run_s(0.5);
+  rig.drives[0].silent = true;
+  rig.disobeys = WheelSpeeds{4, 4};  // 0.66 m/s
+  rig.run_s(1.6);
+  rig.drives[0].silent = false;
+  rig.drives[0].state = AxisState::idle;
+  rig.run_s(0.5);
+  rig.disobeys.reset();
+  rig.run_s(5);
+  EXPECT_TRUE(rig.out.outputs[static_cast<std::size_t>(Output::enable_relay)]) << rig.why();
+}
+
+/// Both programs were away, and the relay with them: what is silent has yet to begin.
+TEST(ABaseThatTakesATwistOnASlope, KeepsItsPowerWhileItBeginsAfterARestart) {
+  EngineConfig config = twist_config();
+  config.base.hold = HoldBy::level_ground_only;
+  EngineRig rig{config};
+  rig.environment.drives_on_in_silence = true;
+  rig.imu = rig.tells_speed = true;
+  rig.gravity_mps2 = {9.81 * std::sin(to_rad(8)), 0, 9.81 * std::cos(to_rad(8))};
+  rig.drives[0].silent = true;
+  rig.disobeys = WheelSpeeds{-4, -4};
+  rig.run_s(4);
+  EXPECT_TRUE(rig.out.outputs[static_cast<std::size_t>(Output::enable_relay)]) << rig.why();
 }
 
 }  // namespace
