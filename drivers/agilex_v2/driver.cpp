@@ -14,10 +14,6 @@ constexpr Duration kGap = milliseconds(400);
 /// Two of its states long: then its mode is one from after the gap.
 constexpr Duration kZerosAfterGap = milliseconds(200);
 
-bool arms(AxisRequest request) {
-  return request == AxisRequest::run || request == AxisRequest::hold;
-}
-
 bool is_zero(const Twist& twist) {
   return twist.vx_mps == 0 && twist.wz_radps == 0;
 }
@@ -112,7 +108,7 @@ StopRecipe AgilexV2Driver::stop_recipe() const {
   recipe.rounds[0].frames.resize(1);
   recipe.rounds[0].frames[0] = motion_command({});
   recipe.period = milliseconds(20);
-  recipe.ends = StopEnds::holds;
+  recipe.ends = StopEnds::damps;  // that zero holds on a slope is nowhere said
   return recipe;
 }
 
@@ -120,7 +116,7 @@ SilenceBehaviour AgilexV2Driver::silence() const {
   return {.stops = true,
           .after = milliseconds(500),
           .text = "drives at zero speed after 0.5 s (communication protection)",
-          .ends = StopEnds::holds};
+          .ends = StopEnds::damps};
 }
 
 }  // namespace drover::agilex_v2

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "drivers/agilex_v2/codec.h"
+#include "drivers/drives.h"
 #include "drover/driver.h"
 
 namespace drover::agilex_v2 {
@@ -58,6 +59,7 @@ class AgilexV2Driver final : public Device, public FrameFace, public Actuator {
   AxisRequest request_ = AxisRequest::rest;
   bool in_command_ = false;  ///< it was in CAN mode since this request began
   bool held_off_ = false;    ///< and is no more: it moves again by a new request only
+  ForeignCommand foreign_;
   Time last_command_ = kNever;
   Time last_mode_command_ = kNever;
   Time zero_until_ = kNever;

@@ -77,6 +77,10 @@ void AgilexV2Driver::on_frame(const CanFrame& frame, Time received, DriverOut& o
     } else {
       ++bad_;
     }
+  } else if (effect(frame, received).kind != FrameEffect::stop) {
+    // Its own ids of commands: somebody else drives it, and it goes on by a new request only.
+    foreign_.on_frame(frame.id, received);
+    held_off_ = held_off_ || request_ == AxisRequest::run;
   }
 }
 
@@ -139,6 +143,9 @@ AxisStatus AgilexV2Driver::status(Time now) const {
   } else if (state_.mode == Mode::serial) {
     status.powered = true;
     status.reason = "the chassis is commanded over its serial line: unplug that";
+  } else if (foreign_.is_shown(now)) {
+    status.powered = true;
+    status.reason = foreign_.text();
   } else {
     status.state = mode_state();
     if (status.state == AxisState::idle && held_off_)

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "drivers/hipnuc_can/rotation.h"
+#include "drivers/rotation.h"
 
 namespace drover::hipnuc_can {
 namespace {
@@ -75,7 +75,7 @@ void HipnucCanDriver::report_pair(Time received, DriverOut& out) {
   sample.temperature_degC = temperature_degC_;
   if (received - last_orientation_ <= kOrientationStale) {
     sample.has_orientation = true;
-    sample.orientation = orientation_ * inverse(settings_.mount);
+    sample.orientation = orientation_ * conjugate(settings_.mount);
   }
   // It has no clock of its own in these frames: the first half came when it was true.
   const Time taken = std::min(acceleration_.received, rates_.received);

@@ -4,7 +4,7 @@
 
 #include "drivers/checked_options.h"
 #include "drivers/hipnuc_can/driver.h"
-#include "drivers/hipnuc_can/rotation.h"
+#include "drivers/rotation.h"
 
 namespace drover {
 namespace {

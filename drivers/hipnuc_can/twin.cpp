@@ -1,6 +1,6 @@
 #include "drivers/hipnuc_can/twin.h"
 
-#include "drivers/hipnuc_can/rotation.h"
+#include "drivers/rotation.h"
 
 namespace drover::hipnuc_can {
 namespace {
@@ -20,7 +20,7 @@ void HipnucCanTwin::on_tick(Time now, const ImuTruth& truth, TwinFrames& out) {
   const bool speaks = started_ || settings_.address.dialect == Dialect::j1939;
   if (silent_ || !speaks || now < next_) return;
   next_ = now + kPeriod;
-  const Quaternion to_sensor = inverse(settings_.mount);
+  const Quaternion to_sensor = conjugate(settings_.mount);
   const Vector3 acceleration_mps2 = rotate(to_sensor, truth.specific_force_mps2);
   const Vector3 rates_radps = rotate(to_sensor, truth.angular_velocity_radps);
   (void)out.push_back(acceleration_frame(settings_.address, acceleration_mps2));

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "drivers/witmotion/rotation.h"
+#include "drivers/rotation.h"
 #include "drover/angle.h"
 
 namespace drover::witmotion {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <optional>
 
-#include "drivers/witmotion/rotation.h"
+#include "drivers/rotation.h"
 #include "drover/angle.h"
 
 namespace drover::witmotion {

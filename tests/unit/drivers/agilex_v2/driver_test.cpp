@@ -100,6 +100,29 @@ TEST(AgilexV2, DoesNotGoOnAfterARemoteControlHadIt) {
   EXPECT_NEAR(bench.motion.twist.vx_mps, 0.5, 0.02);
 }
 
+TEST(AgilexV2, StopsAndNamesSomebodyElseWhoDrivesIt) {
+  Bench it;
+  it.drive();
+  DriverOut out;
+  it.driver.on_frame(motion_command({0.3, 0}), it.now, out);
+  it.run(milliseconds(20), kRun, {0.5, 0});
+  EXPECT_EQ(it.status.state, AxisState::fault);
+  EXPECT_EQ(it.reason(), "somebody else commands it: id 0x111 on the bus");
+  const int moved = it.moved;
+  it.run(milliseconds(5000), kRun, {0.5, 0});
+  EXPECT_EQ(it.moved, moved) << "it goes on by a new request only";
+  EXPECT_NE(it.status.state, AxisState::fault);
+}
+
+TEST(AgilexV2, TakesTheGuardsZerosForNoStrangers) {
+  Bench it;
+  it.drive();
+  DriverOut out;
+  it.driver.on_frame(motion_command({}), it.now, out);
+  it.run(milliseconds(20), kRun, {0.5, 0});
+  EXPECT_EQ(it.status.state, AxisState::running);
+}
+
 TEST(AgilexV2, DoesNotGoOnWhenItsEmergencyStopIsReleased) {
   Bench bench;
   bench.drive();

@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "drivers/hipnuc_can/entry.h"
-#include "drivers/hipnuc_can/rotation.h"
 #include "drivers/hipnuc_can/twin.h"
+#include "drivers/rotation.h"
 
 namespace drover::hipnuc_can {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "drivers/witmotion/rotation.h"
+#include "drivers/rotation.h"
 #include "drover/angle.h"
 #include "unit/drivers/witmotion/rig.h"
 

@@ -1,11 +1,13 @@
-// Quaternions and the mounting of a sensor: rotations as products, without matrices.
+// Quaternions and the mounting of a sensor, for drivers of sensors: rotations as products, without
+// matrices.
 #pragma once
 
 #include <cmath>
 
+#include "drover/angle.h"
 #include "drover/measurement.h"
 
-namespace drover::witmotion {
+namespace drover {
 
 inline Quaternion operator*(const Quaternion& a, const Quaternion& b) {
   return {
@@ -29,6 +31,9 @@ inline Quaternion from_angles(double roll_rad, double pitch_rad, double yaw_rad)
   const Quaternion roll{std::cos(roll_rad / 2), std::sin(roll_rad / 2), 0, 0};
   return about_z(yaw_rad) * pitch * roll;
 }
+inline Quaternion from_degrees(double roll_deg, double pitch_deg, double yaw_deg) {
+  return from_angles(to_rad(roll_deg), to_rad(pitch_deg), to_rad(yaw_deg));
+}
 inline double length(const Vector3& v) {
   return std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z);
 }
@@ -40,4 +45,4 @@ inline Quaternion normalised(const Quaternion& q) {
   return {q.w / n, q.x / n, q.y / n, q.z / n};
 }
 
-}  // namespace drover::witmotion
+}  // namespace drover
