@@ -115,15 +115,18 @@ std::string BaseStatus::text(const Snapshot& snapshot) {
   const NavSnapshot& nav = snapshot.nav;
   const GnssSnapshot& gnss = snapshot.gnss;
   // Clients record tracks from these messages, so pose and rtk are of one instant where there is a
-  // good pose; otherwise the receiver's last word.
+  // good pose; otherwise the receiver's word while it is heard. A silent one's last word is older
+  // than what was told.
   const bool located = nav.locate == LocateState::good;
-  keep(latitude_deg_, located ? gnss.pose_latitude_deg : gnss.position.latitude_deg);
-  keep(longitude_deg_, located ? gnss.pose_longitude_deg : gnss.position.longitude_deg);
+  const bool receiver_fresh = gnss.health == SourceState::fresh;
+  if (located || receiver_fresh) {
+    keep(latitude_deg_, located ? gnss.pose_latitude_deg : gnss.position.latitude_deg);
+    keep(longitude_deg_, located ? gnss.pose_longitude_deg : gnss.position.longitude_deg);
+  }
   const double compass_deg = located ? compass_deg_from_yaw_rad(snapshot.pose.yaw_rad)
                              : std::isfinite(gnss.pose_heading_deg) ? gnss.pose_heading_deg
                                                                     : gnss.heading_deg;
   keep(angle_deg_, angle_deg_from_compass(config_.heading, compass_deg));
-  const bool receiver_fresh = gnss.health == SourceState::fresh;
 
   json::JsonText out;
   out.open('{');

@@ -162,6 +162,18 @@ TEST(BaseStatus, TakesTheReceiversLastWordWhenNotLocated) {
   EXPECT_EQ(at(ours, "rtk", "angle").number(), 45);
 }
 
+// The robot went on by dead reckoning since the receiver spoke last.
+TEST(BaseStatus, KeepsTheLastPoseWhenTheReceiverIsSilentAndThePlaceIsLost) {
+  BaseStatus publisher{RtkConfig{}};
+  Snapshot snapshot = good_snapshot();
+  publisher.text(snapshot);
+  snapshot.gnss.health = SourceState::stale;
+  snapshot.nav.locate = LocateState::lost;
+  const auto lost = parsed(publisher.text(snapshot));
+  EXPECT_EQ(at(lost, "rtk", "latitude").number(), 23.1496524965);
+  EXPECT_EQ(at(lost, "rtk", "longitude").number(), 113.0196366457);
+}
+
 TEST(BaseStatus, ASilentReceiverHasNoFix) {
   Snapshot snapshot = good_snapshot();
   snapshot.gnss.health = SourceState::stale;
