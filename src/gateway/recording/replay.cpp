@@ -276,10 +276,13 @@ class Replay final {
     return text_of(read_input(it.kind, it.before, find, in), gateway_->wiring());
   }
 
+  /// A recording may have given one path to two tasks of a cycle.
   void release_paths() {
+    std::vector<std::uint64_t> released;
     for (const auto& event : gateway_->output().engine.events)
-      if (const auto* released = std::get_if<PathReleased>(&event.body))
-        if (released->path != nullptr) paths_.erase(std::uint64_t{released->path->number});
+      if (const auto* gone = std::get_if<PathReleased>(&event.body); gone && gone->path != nullptr)
+        released.push_back(gone->path->number);
+    for (const auto number : released) paths_.erase(number);
   }
 
   static constexpr std::size_t kNowhere = SIZE_MAX;
