@@ -1,23 +1,14 @@
 #include "drivers/agilex_v2/codec.h"
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "drivers/thousandths.h"
 #include "drover/bytes.h"
 
 namespace drover::agilex_v2 {
 namespace {
 
 constexpr std::uint8_t kWholeFrame = 8;
-
-std::int16_t thousandths(double value) {
-  if (!std::isfinite(value)) return 0;
-  // 0.57 is a hair less than 570 thousandths as a double: it shall not become 569.
-  constexpr double kHair = 1 + 1e-9;
-  constexpr double kMost = std::numeric_limits<std::int16_t>::max();
-  return static_cast<std::int16_t>(std::clamp(std::trunc(value * 1000 * kHair), -kMost, kMost));
-}
 
 double from_thousandths(const CanFrame& frame, std::size_t at) {
   return load_be<std::int16_t>(frame.payload(), at) * 0.001;

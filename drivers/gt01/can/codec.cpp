@@ -5,7 +5,7 @@
 #include <iterator>
 #include <span>
 
-#include "drivers/gt01/thousandths.h"
+#include "drivers/thousandths.h"
 #include "drover/bytes.h"
 
 namespace drover::gt01::can {

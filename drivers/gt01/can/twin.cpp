@@ -1,6 +1,6 @@
 #include "drivers/gt01/can/twin.h"
 
-#include "drivers/gt01/thousandths.h"
+#include "drivers/thousandths.h"
 #include "drover/bytes.h"
 
 namespace drover::gt01::can {

@@ -4,7 +4,7 @@
 #include <bit>
 #include <cmath>
 
-#include "drivers/gt01/thousandths.h"
+#include "drivers/thousandths.h"
 #include "drover/bytes.h"
 
 namespace drover::gt01::serial {

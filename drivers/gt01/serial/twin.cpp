@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "drivers/gt01/thousandths.h"
+#include "drivers/thousandths.h"
 #include "drover/bytes.h"
 
 namespace drover::gt01::serial {

@@ -134,9 +134,14 @@ bool RestWatch::due(const RestInput& input) {
   return true;
 }
 
+/// There is power to take, and what moves the base may be a command of ours.
+bool RestWatch::is_driven_by_us(const RestInput& input) const {
+  return ours_ && !input.power_is_off && !input.released;
+}
+
 /// Whether taking the power helps: from what we drive, not from what would only roll faster.
 bool RestWatch::may_be_cut(const RestInput& input, const Rims& rims) const {
-  if (!ours_ || input.power_is_off || input.released) return false;
+  if (!is_driven_by_us(input)) return false;
   if (!may_roll_) return true;
   // Drives that do not run drive nothing: it rolls, and they are to catch it.
   return rims.driven && input.now - moves_since_ >= from_s(kMotionHeldOnSlope_s) &&
@@ -156,17 +161,17 @@ bool RestWatch::moves_as_commanded(const RestInput& input, const Rims& rims) con
 
 /// Before any rest is due. Not where it would only roll without power, and may slide down.
 bool RestWatch::bolts(const RestInput& input, const Rims& rims) const {
-  if (!ours_ || input.power_is_off || input.released || input.caught || !rims.driven) return false;
+  if (!is_driven_by_us(input) || may_roll_ || !rims.driven) return false;
   const double explained_mps =
       std::max({config_.limits.max_speed_mps, expected_mps_, std::abs(rims.fastest_mps)});
-  return !may_roll_ && witness_.proven_speed_mps(input.now) > explained_mps + kBolts_mps;
+  return witness_.proven_speed_mps(input.now) > explained_mps + kBolts_mps;
 }
 
 /// A silent base that keeps its last command, and was not at rest or is seen to move: witnesses see
 /// no slow motion, and some robots have none. On a slope it may as well have lost its supply, and
 /// be caught when it has it again: it is given the time to begin.
 bool RestWatch::cannot_be_stopped(const RestInput& input) const {
-  if (!unheard_ || !ours_ || input.power_is_off || input.released) return false;
+  if (!unheard_ || !is_driven_by_us(input)) return false;
   const Duration patience = from_s(on_slope_ ? kBegins_s : kSilent_s);
   const bool seen = moves_since_ != kNever && input.now - moves_since_ >= patience;
   return (keeps_on_ || seen) && input.now - due_ >= patience;
@@ -240,14 +245,10 @@ void RestWatch::settle(const RestInput& input, const Rims& rims, const Testimony
   if (moves && moves_since_ == kNever) moves_since_ = input.now;
   const bool late = input.now - due_ >= from_s(kRestPatience_s) &&
                     input.now - moves_since_ >= from_s(kMotionHeld_s);
-  if (moves && late && may_be_cut(input, rims)) {
+  const bool did_not_stop = moves && late && may_be_cut(input, rims);
+  if (did_not_stop || cannot_be_stopped(input)) {
     state_ = RestState::not_stopping;
-    tell("the robot did not stop", rims, said);
-    return;
-  }
-  if (cannot_be_stopped(input)) {
-    state_ = RestState::not_stopping;
-    tell("the robot cannot be stopped", rims, said);
+    tell(did_not_stop ? "the robot did not stop" : "the robot cannot be stopped", rims, said);
     return;
   }
   // What nobody drove has no ramp to come to its end: what a guard slows down is told as well.

@@ -90,6 +90,7 @@ class RestWatch final {
   bool bolts(const RestInput& input, const Rims& rims) const;
   bool cannot_be_stopped(const RestInput& input) const;
   void watch_silence(const RestInput& input, const Rims& rims);
+  bool is_driven_by_us(const RestInput& input) const;
   bool may_be_cut(const RestInput& input, const Rims& rims) const;
   bool moves_as_commanded(const RestInput& input, const Rims& rims) const;
   void settle(const RestInput& input, const Rims& rims, const Testimony& said);

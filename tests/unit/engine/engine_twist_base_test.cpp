@@ -23,6 +23,7 @@ EngineConfig twist_config() {
 
 class ABaseThatTakesATwist : public ::testing::Test {
  protected:
+  explicit ABaseThatTakesATwist(const EngineConfig& config = twist_config()) : rig(config) {}
   void drive() {
     rig.settle();
     rig.start(path, path_end, 0.5);
@@ -31,13 +32,14 @@ class ABaseThatTakesATwist : public ::testing::Test {
     ASSERT_GT(rig.out.base.twist.vx_mps, 0.4);
     ASSERT_TRUE(rig.out.motion_permitted);
   }
+  bool has_power() const { return rig.out.outputs[static_cast<std::size_t>(Output::enable_relay)]; }
   bool at_rest() const {
     return rig.out.base.twist.vx_mps == 0 && rig.out.base.twist.wz_radps == 0;
   }
 
   Path path = straight_path(6);
   std::uint32_t path_end = 12;
-  EngineRig rig{twist_config()};
+  EngineRig rig;
 };
 
 TEST_F(ABaseThatTakesATwist, DrivesATrackToItsEnd) {
@@ -99,7 +101,7 @@ TEST_F(ABaseThatTakesATwist, LosesItsPowerWhenItDoesNotStop) {
   rig.disobeys = WheelSpeeds{2, 2};
   rig.run_s(3);
   EXPECT_EQ(rig.out.base.request, AxisRequest::idle);
-  EXPECT_FALSE(rig.out.outputs[static_cast<std::size_t>(Output::enable_relay)]);
+  EXPECT_FALSE(has_power());
 }
 
 /// Its cable is torn, and it keeps its last twist: nobody reaches it, and it tells nothing.
@@ -109,16 +111,16 @@ TEST_F(ABaseThatTakesATwist, LosesItsPowerWhenItFallsSilentAndDrivesOn) {
   rig.drives[0].silent = true;
   rig.disobeys = WheelSpeeds{2, 2};
   rig.run_s(4);
-  EXPECT_FALSE(rig.out.outputs[static_cast<std::size_t>(Output::enable_relay)]);
+  EXPECT_FALSE(has_power());
 }
 
-/// 0.1 m/s are too slow for any witness.
+/// No witness sees it, and a slow motion none would.
 TEST_F(ABaseThatTakesATwist, LosesItsPowerWhenItFallsSilentWhileItMovesThoughNobodySeesIt) {
   rig.environment.drives_on_in_silence = true;
   drive();
   rig.drives[0].silent = true;
   rig.run_s(4);
-  EXPECT_FALSE(rig.out.outputs[static_cast<std::size_t>(Output::enable_relay)]);
+  EXPECT_FALSE(has_power());
 }
 
 TEST_F(ABaseThatTakesATwist, KeepsItsPowerWhenItFallsSilentAtRestUntilAPersonStopsIt) {
@@ -128,10 +130,10 @@ TEST_F(ABaseThatTakesATwist, KeepsItsPowerWhenItFallsSilentAtRestUntilAPersonSto
   rig.run_s(4);
   rig.drives[0].silent = true;
   rig.run_s(10);
-  EXPECT_TRUE(rig.out.outputs[static_cast<std::size_t>(Output::enable_relay)]);
+  EXPECT_TRUE(has_power());
   rig.command(EngageStop{});
   rig.run_s(3);
-  EXPECT_FALSE(rig.out.outputs[static_cast<std::size_t>(Output::enable_relay)]);
+  EXPECT_FALSE(has_power());
 }
 
 /// It was without power: its last command is forgotten, and it takes a while to begin.
@@ -140,10 +142,10 @@ TEST_F(ABaseThatTakesATwist, HasItsPowerAgainAfterAResetThoughItIsStillSilent) {
   drive();
   rig.drives[0].silent = true;
   rig.run_s(6);
-  ASSERT_FALSE(rig.out.outputs[static_cast<std::size_t>(Output::enable_relay)]);
+  ASSERT_FALSE(has_power());
   rig.engine->on_command({{RequestId::Source::cli, 99}, rig.now, ResetStop{}}, rig.now);
   rig.run_s(5);
-  EXPECT_TRUE(rig.out.outputs[static_cast<std::size_t>(Output::enable_relay)]) << rig.why();
+  EXPECT_TRUE(has_power()) << rig.why();
 }
 
 /// This program has just begun: nobody knows what the one before it asked for.
@@ -156,7 +158,7 @@ TEST_F(ABaseThatTakesATwist, LosesItsPowerWhenItIsFoundSilentAndMoving) {
   std::string told;
   for (const Reason& why : rig.snapshot().why) told += std::string(why.view()) + "; ";
   EXPECT_THAT(told, HasSubstr("the robot did not stop: the base is silent"));
-  EXPECT_FALSE(rig.out.outputs[static_cast<std::size_t>(Output::enable_relay)]);
+  EXPECT_FALSE(has_power());
 }
 
 TEST_F(ABaseThatTakesATwist, IsHeldAgainAfterADipOfItsSupply) {
@@ -181,17 +183,23 @@ TEST_F(ABaseThatTakesATwist, IsLetGoWhenAPersonReleasesIt) {
   EXPECT_EQ(rig.out.base.request, AxisRequest::idle);
 }
 
-TEST(ABaseThatTakesATwistOnASlope, LosesItsPowerWhenItDrivesOn) {
-  EngineConfig config = twist_config();
-  config.base.hold = HoldBy::level_ground_only;
-  EngineRig rig{config};
-  rig.imu = true;
-  const Path path = straight_path(6);
-  rig.settle();
-  rig.start(path, 12, 0.5);
-  rig.run_s(4);
-  ASSERT_GT(rig.out.base.twist.vx_mps, 0.4) << rig.why();
-  rig.gravity_mps2 = {9.81 * std::sin(to_rad(8)), 0, 9.81 * std::cos(to_rad(8))};
+/// Nothing but its device holds it.
+class ABaseThatTakesATwistOnASlope : public ABaseThatTakesATwist {
+ protected:
+  ABaseThatTakesATwistOnASlope() : ABaseThatTakesATwist(held_by_its_device()) { rig.imu = true; }
+  void tilt() { rig.gravity_mps2 = {9.81 * std::sin(to_rad(8)), 0, 9.81 * std::cos(to_rad(8))}; }
+
+ private:
+  static EngineConfig held_by_its_device() {
+    EngineConfig config = twist_config();
+    config.base.hold = HoldBy::level_ground_only;
+    return config;
+  }
+};
+
+TEST_F(ABaseThatTakesATwistOnASlope, LosesItsPowerWhenItDrivesOn) {
+  drive();
+  tilt();
   for (int i = 0; i < 2000 && rig.snapshot().nav.status != NavStatus::error; ++i) rig.tick();
   ASSERT_THAT(rig.why(), HasSubstr("the ground falls by"));
   rig.disobeys = WheelSpeeds{0.5, 0.5};
@@ -201,18 +209,11 @@ TEST(ABaseThatTakesATwistOnASlope, LosesItsPowerWhenItDrivesOn) {
 }
 
 /// Its supply is away for longer than a witness needs, and it rolls: it is heard again, and brakes.
-TEST(ABaseThatTakesATwistOnASlope, KeepsItsPowerWhenItIsSilentUntilItHasItsSupplyAgain) {
-  EngineConfig config = twist_config();
-  config.base.hold = HoldBy::level_ground_only;
-  EngineRig rig{config};
+TEST_F(ABaseThatTakesATwistOnASlope, KeepsItsPowerWhenItIsSilentUntilItHasItsSupplyAgain) {
   rig.environment.drives_on_in_silence = true;
-  rig.imu = rig.tells_speed = true;
-  const Path path = straight_path(6);
-  rig.settle();
-  rig.start(path, 12, 0.5);
-  rig.run_s(4);
-  ASSERT_GT(rig.out.base.twist.vx_mps, 0.4) << rig.why();
-  rig.gravity_mps2 = {9.81 * std::sin(to_rad(8)), 0, 9.81 * std::cos(to_rad(8))};
+  rig.tells_speed = true;
+  drive();
+  tilt();
   rig.run_s(0.5);
   rig.drives[0].silent = true;
   rig.disobeys = WheelSpeeds{4, 4};  // 0.66 m/s
@@ -222,21 +223,18 @@ TEST(ABaseThatTakesATwistOnASlope, KeepsItsPowerWhenItIsSilentUntilItHasItsSuppl
   rig.run_s(0.5);
   rig.disobeys.reset();
   rig.run_s(5);
-  EXPECT_TRUE(rig.out.outputs[static_cast<std::size_t>(Output::enable_relay)]) << rig.why();
+  EXPECT_TRUE(has_power()) << rig.why();
 }
 
 /// Both programs were away, and the relay with them: what is silent has yet to begin.
-TEST(ABaseThatTakesATwistOnASlope, KeepsItsPowerWhileItBeginsAfterARestart) {
-  EngineConfig config = twist_config();
-  config.base.hold = HoldBy::level_ground_only;
-  EngineRig rig{config};
+TEST_F(ABaseThatTakesATwistOnASlope, KeepsItsPowerWhileItBeginsAfterARestart) {
   rig.environment.drives_on_in_silence = true;
-  rig.imu = rig.tells_speed = true;
-  rig.gravity_mps2 = {9.81 * std::sin(to_rad(8)), 0, 9.81 * std::cos(to_rad(8))};
+  rig.tells_speed = true;
+  tilt();
   rig.drives[0].silent = true;
   rig.disobeys = WheelSpeeds{-4, -4};
   rig.run_s(4);
-  EXPECT_TRUE(rig.out.outputs[static_cast<std::size_t>(Output::enable_relay)]) << rig.why();
+  EXPECT_TRUE(has_power()) << rig.why();
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// How both wires say a speed: whole millimetres, or thousandths of a radian, a second.
+// How chassis say a speed on their wires: whole millimetres, or thousandths of a radian, a second.
 #pragma once
 
 #include <algorithm>
@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <limits>
 
-namespace drover::gt01 {
+namespace drover {
 
 /// Towards zero: a ramp down to rest never asks for more than it was told. Beyond what fits the
 /// most that does; what is no number is 0.
@@ -18,4 +18,4 @@ inline std::int16_t thousandths(double value) {
   return static_cast<std::int16_t>(std::copysign(std::min(size, kMost), value));
 }
 
-}  // namespace drover::gt01
+}  // namespace drover
