@@ -14,6 +14,7 @@
 
 #include "cli/client.h"
 #include "cli/exit_codes.h"
+#include "cli/unheard_drives.h"
 #include "json/json_text.h"
 #include "json/located_json.h"
 #include "link/unique_fd.h"
@@ -116,6 +117,18 @@ Answer tell_daemon(const StopPlaces& places, std::string_view cmd) {
   }
 }
 
+/// What droverd does not hear of the drives; empty also when it does not answer.
+std::string unheard(const StopPlaces& places) {
+  try {
+    const auto question = json::JsonText().open('{').key("cmd").text("status").close('}').take();
+    const auto reply = json::parse(ask(places.daemon, question, kDaemonPatience_s));
+    const auto* status = reply ? reply->root.find("status") : nullptr;
+    return status == nullptr ? std::string() : unheard_drives(*status);
+  } catch (const NoAnswer&) {
+    return {};
+  }
+}
+
 void add(json::JsonText& out, std::string_view key, const Answer& answer) {
   out.key(key).open('{').key("ok").boolean(answer.obeyed);
   if (!answer.obeyed) out.key("reason").text(answer.why);
@@ -157,7 +170,7 @@ void wait_for_bus(const StopPlaces& places) {
 int stop(const StopPlaces& places) {
   const auto guard = tell_guard(places, "stop");
   const auto daemon = tell_daemon(places, "stop");
-  const bool done = guard.obeyed || daemon.obeyed;
+  bool done = guard.obeyed || daemon.obeyed;
   std::string words = "drover-guard and droverd stop the robot";
   if (!guard.obeyed) words = "droverd stops the robot; " + guard.why;
   if (!daemon.obeyed) words = "drover-guard stops the robot; " + daemon.why;
@@ -167,6 +180,13 @@ int stop(const StopPlaces& places) {
     words =
         "nothing may drive the robot, but its drives were released or have no power and hold "
         "nothing: drover hold";
+  // A stop that a drive may not have heard is no stop yet: some keep the last command for ever.
+  const auto missing = daemon.obeyed ? unheard(places) : std::string();
+  if (!missing.empty()) {
+    done = false;
+    words += ", but nothing is heard from " + missing +
+             ": whether the robot stops is not known; press the emergency stop";
+  }
   print(places, done, guard, daemon, words);
   return done ? kDone : guard.heard || daemon.heard ? kRefused : kNoDaemon;
 }

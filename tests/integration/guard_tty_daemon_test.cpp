@@ -133,8 +133,23 @@ class ChassisOnATty : public GuardRig {
     });
   }
 
+  /// The command line's exit status; the chassis lives meanwhile.
+  int drover(const std::vector<std::string>& words) {
+    std::vector<std::string> all{DROVER_PROGRAM, "--socket", file("run/drover.sock")};
+    all.insert(all.end(), words.begin(), words.end());
+    Process process(all, file("drover.log"));
+    std::optional<int> code;
+    static_cast<void>(live_until([&] {
+      code = process.wait(0s);
+      return code.has_value();
+    }));
+    drover_said = process.output();
+    return code.value_or(-1);
+  }
+
   Process daemon;
   std::vector<Heard> heard;
+  std::string drover_said;
 
  private:
   void hear() {
@@ -209,6 +224,18 @@ TEST_F(ChassisOnATty, IsLetGoOfByBothWhenItsLineIsPulledAndOpenedAgain) {
   ASSERT_TRUE(is_open()) << "the guard has it";
   kill();
   EXPECT_FALSE(is_open());
+}
+
+TEST_F(ChassisOnATty, IsNotSaidToStopWhileItsLineIsPulled) {
+  start_daemon();
+  ASSERT_TRUE(is_equipped()) << said();
+  live_for(300ms);
+  EXPECT_EQ(drover({"stop"}), 0) << drover_said;
+  unplug();
+  ASSERT_TRUE(live_until([this] { return said().find("lost") != std::string::npos; })) << said();
+  live_for(500ms);
+  EXPECT_EQ(drover({"stop"}), 1) << drover_said;
+  EXPECT_THAT(drover_said, HasSubstr("but nothing is heard from the base: whether the robot stops"));
 }
 
 TEST_F(ChassisOnATty, GetsANewGuardWhenTheFirstOneDies) {

@@ -213,6 +213,7 @@ rule_no_machine_paths() {
     [[ -s $file && $file != tests/fuzz/corpus/* && $file != */golden/* ]] || continue
     grep -qI . "$file" || echo "$file:1: a binary file"
   done
+  files | grep -E '\.(orig|rej|bak)$|~$' | sed 's|$|:1: left over by an editor or a patch|' || true
 }
 
 # What several drivers share has a folder, too, and no line in the registry.
