@@ -100,10 +100,11 @@ struct GnssSnapshot {
   GnssPosition position;        ///< last one, for display
   Time position_time = kNever;  ///< when it was true
   GnssVelocity velocity;        ///< last one, for display
-  /// Of the vehicle as the receiver tells it (its baseline's offset taken off), clockwise from true
-  /// north; absent when it never told one.
-  double heading_deg = kAbsent;
-  Time heading_time = kNever;         ///< when that was true
+  /// Of its antennas' baseline, as the receiver tells it, clockwise from true north; absent when it
+  /// never told one.
+  double receiver_heading_deg = kAbsent;
+  double heading_deg = kAbsent;       ///< of the vehicle: that less the baseline's mounting
+  Time heading_time = kNever;         ///< when both were true
   double pose_heading_deg = kAbsent;  ///< the fused one, of the pose's own instant; absent: unknown
   /// Antenna position of the pose's own instant, so that pose and rtk belong together.
   double pose_latitude_deg = 0;

@@ -42,7 +42,15 @@ void CanTable::print(std::ostream& out, bool json) const {
     const auto name = hex(id, extended ? 8 : 3);
     if (json) {
       json::JsonText text;
-      text.open('{').key("bus").text(bus).key("id").text(name).key("error").boolean(error);
+      text.open('{')
+          .key("ok")
+          .boolean(true)
+          .key("bus")
+          .text(bus)
+          .key("id")
+          .text(name)
+          .key("error")
+          .boolean(error);
       text.key("frames").integer(static_cast<std::int64_t>(row.count)).key("rate_Hz");
       if (paced) {
         text.number(rate_Hz);

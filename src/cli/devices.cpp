@@ -31,7 +31,7 @@ constexpr Texts kTexts[] = {
     {"bms", "battery: charge, voltage, current, cells, alarms",
      "recorded registers, a line each: a frame of Modbus RTU in hexadecimal with its checksum, as "
      "loggers write it (requests tell which registers an answer holds), or ADDRESS: WORDS, as in "
-     "0x0028: 0212 74D7 (4/0x0028: when function 4 read them); # begins a comment",
+     "0x0028: 0212 74D7 or 40: 0212 74D7 (4/0x0028: when function 4 read them); # begins a comment",
      "modbus_bms"},
     {"can", "buses and drives: counts, rates, state, motion, temperatures, faults",
      "log of candump -l; without --driver a table of its ids", ""},

@@ -38,7 +38,8 @@ double time_s(const Node& status) {
 std::string json_of(const DeviceView& view, const Node& status) {
   Node out;
   std::vector<json::Member> members;
-  for (const auto* key : {"time_s"}) members.push_back({key, 0, 0, at(status, key)});
+  members.push_back({"ok", 0, 0, Node{.value = true}});
+  members.push_back({"time_s", 0, 0, at(status, "time_s")});
   for (const auto part : view.parts)
     if (const auto* node = status.find(part)) members.push_back({std::string(part), 0, 0, *node});
   out.value = std::move(members);

@@ -224,7 +224,7 @@ std::string measurement_text(const Measurement& measurement, const Place& place)
 
 std::string measurement_json(const Measurement& measurement, const Place& place) {
   json::JsonText out;
-  out.open('{').key(place.key);
+  out.open('{').key("ok").boolean(true).key(place.key);
   if (place.decimals == 0) {
     out.integer(static_cast<std::int64_t>(place.value));
   } else {

@@ -1,7 +1,6 @@
 #include "cli/register_log.h"
 
-#include <cctype>
-#include <cstdio>
+#include <charconv>
 
 #include "cli/hex.h"
 #include "drover/bytes.h"
@@ -50,6 +49,25 @@ std::optional<std::vector<std::uint8_t>> parse_bytes(std::string_view text) {
   return bytes;
 }
 
+std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view kBlank = " \t";
+  const auto begin = text.find_first_not_of(kBlank);
+  if (begin == std::string_view::npos) return {};
+  return text.substr(begin, text.find_last_not_of(kBlank) - begin + 1);
+}
+
+/// Hexadecimal behind 0x, else decimal. "0028" is either, and nobody guesses which.
+std::optional<std::uint16_t> address_of(std::string_view text) {
+  const bool hexadecimal = text.starts_with("0x") || text.starts_with("0X");
+  if (hexadecimal) text.remove_prefix(2);
+  if (!hexadecimal && text.size() > 1 && text.front() == '0') return std::nullopt;
+  std::uint16_t address = 0;
+  const auto* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, address, hexadecimal ? 16 : 10);
+  if (error != std::errc() || stop != end) return std::nullopt;
+  return address;
+}
+
 }  // namespace
 
 std::string RegisterLog::add(std::string_view line) {
@@ -64,19 +82,18 @@ std::string RegisterLog::add(std::string_view line) {
 }
 
 std::string RegisterLog::add_words(std::string_view head, std::string_view words) {
-  unsigned function = 3;
-  unsigned address = 0;
-  int used = 0;
-  const std::string where(head);
-  const bool with_function =
-      std::sscanf(where.c_str(), " %u/%x %n", &function, &address, &used) == 2;
-  if (!with_function) {
-    function = 3;
-    if (std::sscanf(where.c_str(), " %x %n", &address, &used) != 1)
-      return "no address before the colon";
+  head = trimmed(head);
+  std::uint8_t function = 3;
+  if (const auto slash = head.find('/'); slash != std::string_view::npos) {
+    const auto said = trimmed(head.substr(0, slash));
+    if (said != "3" && said != "4") return "the function is neither 3 nor 4";
+    function = said == "3" ? 3 : 4;
+    head = trimmed(head.substr(slash + 1));
   }
-  if (static_cast<std::size_t>(used) != where.size() || address > 0xFFFF) return "no such address";
-  if (function != 3 && function != 4) return "the function is neither 3 nor 4";
+  if (head.empty()) return "no address before the colon";
+  const auto address = address_of(head);
+  if (!address)
+    return "\"" + json::shown(head, 20) + "\" is no address: 40 is decimal, 0x28 is hexadecimal";
   std::vector<std::uint16_t> values;
   while (!words.empty()) {
     const auto begin = words.find_first_not_of(" ,\t\r");
@@ -89,7 +106,7 @@ std::string RegisterLog::add_words(std::string_view head, std::string_view words
     words.remove_prefix(word.size());
   }
   if (values.empty()) return "no words behind the colon";
-  store(static_cast<std::uint8_t>(function), static_cast<std::uint16_t>(address), values);
+  store(function, *address, values);
   return "";
 }
 

@@ -27,8 +27,8 @@ using RegisterImage = std::map<RegisterKey, std::uint16_t>;
 ///                                       is told by the request in the line before, or else by its
 ///                                       length, when one block of the map has that length
 ///   D2 03 00 28 00 03 96 60             a request
-///   0x0028: 0212 74D7 0360              words from an address on, in hexadecimal; "4/0x0028:"
-///                                       when they were read with function 4
+///   0x0028: 0212 74D7 0360              words in hexadecimal from an address on, which is decimal
+///                                       without 0x; "4/0x0028:" when function 4 read them
 /// Bytes may be written as loggers do: ">>> 81.03.00", "D2:03:00", "0xD2, 0x03", with "(8)" behind.
 class RegisterLog final {
  public:

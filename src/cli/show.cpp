@@ -174,7 +174,10 @@ void show_devices(std::string& out, const Node& status) {
        : yes(at(guard, "has_bus")) ? "holds the drives"
                                    : "watches");
   const auto& broker = at(status, "broker");
-  line(out, "broker", yes(at(broker, "connected")) ? "connected" : text(at(broker, "reason")));
+  std::string link = yes(at(broker, "connected")) ? "connected" : text(at(broker, "reason"));
+  if (at(broker, "answers_lost").number().value_or(0) > 0)
+    link += quantity(at(broker, "answers_lost"), "  %.0f ANSWERS LOST");
+  line(out, "broker", link);
   const auto not_kept = text(at(at(status, "storage"), "reason"));
   if (!not_kept.empty())
     line(out, "storage", "the stop will be FORGOTTEN over a boot: " + not_kept);

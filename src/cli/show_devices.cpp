@@ -47,13 +47,14 @@ std::string show_gnss(const Node& status) {
   line(out, "sigma",
        labelled("east", at(gnss, "sigma_east_m"), "%.3f m") + "  " +
            labelled("north", at(gnss, "sigma_north_m"), "%.3f m"));
-  line(
-      out, "motion",
-      labelled("speed", at(gnss, "speed_mps"), "%.3f m/s") + "  " +
-          labelled("course", at(gnss, "course_deg"), "%.1f deg") + "  " +
-          labelled("heading", at(gnss, "heading_deg"), "%.2f deg") +
-          (at(gnss, "heading_age_s").number() ? quantity(at(gnss, "heading_age_s"), " (%.1f s old)")
-                                              : ""));
+  line(out, "motion",
+       labelled("speed", at(gnss, "speed_mps"), "%.3f m/s") + "  " +
+           labelled("course", at(gnss, "course_deg"), "%.1f deg"));
+  const bool told = at(gnss, "heading_age_s").number().has_value();
+  line(out, "heading",
+       labelled("as received", at(gnss, "receiver_heading_deg"), "%.2f deg") +
+           (told ? quantity(at(gnss, "heading_age_s"), " (%.1f s old)") : "") + "  " +
+           labelled("robot's, less the mounting", at(gnss, "heading_deg"), "%.2f deg"));
   show_source(out, gnss);
   return out + show_sensors(status, "gnss");
 }

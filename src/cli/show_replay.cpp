@@ -35,6 +35,14 @@ constexpr auto kOtherMathematics =
     "make a difference; if it was recorded in the lab, or on a CPU without FMA, try again with\n"
     "  GLIBC_TUNABLES=glibc.cpu.hwcaps=-FMA,-FMA4,-AVX2\n";
 
+/// What a program reads of every verb that has not done what was asked.
+std::string reason(const Replayed& it) {
+  if (it.verdict == Replayed::Verdict::unusable) return it.note;
+  return formatted("differs in cycle %llu: ",
+                   static_cast<unsigned long long>(it.difference.cycle)) +
+         it.difference.what;
+}
+
 std::string show_difference(const Replayed& it) {
   const auto& d = it.difference;
   std::string out =
@@ -51,7 +59,10 @@ std::string show_difference(const Replayed& it) {
 
 std::string replay_json(const Replayed& it) {
   json::JsonText out;
-  out.open('{').key("verdict").text(word(it.verdict)).key("note").text(it.note);
+  const bool equal = it.verdict == Replayed::Verdict::equal;
+  out.open('{').key("ok").boolean(equal);
+  if (!equal) out.key("reason").text(reason(it));
+  out.key("verdict").text(word(it.verdict)).key("note").text(it.note);
   out.key("recorded_by").text(it.version).key("seconds").number(seconds(it));
   out.key("inputs").integer(static_cast<std::int64_t>(it.inputs));
   out.key("cycles").integer(static_cast<std::int64_t>(it.cycles));

@@ -118,6 +118,7 @@ void Engine::Impl::take(const Measurement& m) {
     rest.witness().on_heading(*heading, m.time);
     mechanics.on_heading(*heading, m.time);
     if (!std::isfinite(heading->heading_deg) || m.time < snapshot.gnss.heading_time) return;
+    snapshot.gnss.receiver_heading_deg = heading->heading_deg;
     snapshot.gnss.heading_deg = wrap_deg(
         heading->heading_deg - antenna_of(config.estimate, m.source).heading_baseline_offset_deg);
     snapshot.gnss.heading_time = m.time;

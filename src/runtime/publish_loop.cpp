@@ -275,7 +275,10 @@ void PublishLoop::send(const publish::PublishText& message, publish::Actions& ac
 
 void PublishLoop::send_with_others(const publish::PublishText& message, publish::Actions& actions) {
   const auto problem = broker_->publish(std::string(message.topic).c_str(), message.text);
-  if (!problem.empty()) service_.on_unsent(message, problem, actions);
+  if (!problem.empty()) {
+    if (message.topic == publish::kTopicFeedback) ++lost_answers_;
+    service_.on_unsent(message, problem, actions);
+  }
   service_.set_under_way(broker_->bytes_under_way());
 }
 

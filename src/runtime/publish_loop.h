@@ -79,8 +79,9 @@ class PublishLoop final {
   HeardTwice heard_twice_;
   std::deque<HeardStop> heard_stops_;  ///< heard alone first: to be answered
   std::uint64_t lost_stops_ = 0;
-  Time next_wait_ = kNever;       ///< for the other self of a stop, not before
-  Time last_delivered_ = kNever;  ///< a command that is no stop
+  std::uint64_t lost_answers_ = 0;  ///< that neither connection takes
+  Time next_wait_ = kNever;         ///< for the other self of a stop, not before
+  Time last_delivered_ = kNever;    ///< a command that is no stop
   // Of what is carried out just now, when it is not what the present tells:
   std::optional<StopCounts> before_;  ///< it waited for the parser since
   std::optional<StopCounts> asked_;   ///< a stop, and what was asked for with it

@@ -83,6 +83,7 @@ std::string PublishLoop::cli_reply(std::string_view cmd, const std::string& name
     daemon.now = monotonic_now();
     daemon.uptime_s = to_s(daemon.now - started_);
     daemon.telemetry_dropped = broker_ ? broker_->dropped() : 0;
+    daemon.answers_lost = lost_answers_ + (stops_ != nullptr ? stops_->lost_answers() : 0);
     if (aimrt_) {
       daemon.joint_commands_unread = aimrt_->unread();
       daemon.joint_commands_rivals = aimrt_->rivals(daemon.now);

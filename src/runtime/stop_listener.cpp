@@ -47,8 +47,9 @@ void StopListener::run(const std::atomic<bool>& stop) {
     if ((polls[1].revents & ~POLLOUT) != 0) broker_.on_readable(now);
     if (polls[0].revents != 0) wake_.clear();
     for (std::string text; answers_.pop(text);)
-      if (!broker_.publish(publish::kTopicFeedback.data(), text).empty())
-        (void)unsent_.push(std::move(text));  // as many as there are answers find room
+      if (!broker_.publish(publish::kTopicFeedback.data(), text).empty() &&
+          !unsent_.push(std::move(text)))
+        lost_answers_.fetch_add(1, std::memory_order_relaxed);
     turns_.fetch_add(1, std::memory_order_relaxed);
   }
 }

@@ -45,6 +45,8 @@ class StopListener final {
   bool answer(const std::string& text);
   /// Answers that could not leave after all.
   bool take_unsent(std::string& text) { return unsent_.pop(text); }
+  /// Answers that found no room to be given back: nobody gets them.
+  std::uint64_t lost_answers() const { return lost_answers_.load(std::memory_order_relaxed); }
   bool take(HeardStop& heard) {
     const bool taken = heard_.pop(heard);
     taken_ += taken ? 1U : 0U;
@@ -70,6 +72,7 @@ class StopListener final {
   std::uint64_t taken_ = 0;  ///< publish thread's
   SpscRing<std::string, 64> answers_;
   SpscRing<std::string, 64> unsent_;
+  std::atomic<std::uint64_t> lost_answers_{0};
   Wake wake_;
   std::atomic<bool> connected_{false};
   std::atomic<std::uint64_t> turns_{0};

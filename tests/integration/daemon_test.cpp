@@ -262,6 +262,8 @@ TEST_F(Daemon, AnswersTheCommandLineWithoutABroker) {
   const auto status = drover({"status", "--json"});
   EXPECT_EQ(status.code, 0);
   EXPECT_TRUE(json::parse(status.text).ok()) << status.text;
+  for (const char* device : {"gnss", "imu", "bms", "can", "gpio"})
+    EXPECT_THAT(drover({device, "--json"}).text, testing::StartsWith(R"({"ok":true,)")) << device;
   EXPECT_THAT(drover({"status"}).text, HasSubstr("front_left"));
   EXPECT_THAT(drover({"traj", "list"}).text, HasSubstr("row"));
   EXPECT_EQ(drover({"traj", "show", "row"}).code, 0);

@@ -115,14 +115,16 @@ void visit_fields(V& v, const GnssVelocity& velocity) {
 
 template <class V>
 void visit_fields(V& v, const GnssSnapshot& gnss) {
-  const auto& [configured, health, source, position, position_time, velocity, heading_deg,
-               heading_time, pose_heading_deg, pose_latitude_deg, pose_longitude_deg] = gnss;
+  const auto& [configured, health, source, position, position_time, velocity, receiver_heading_deg,
+               heading_deg, heading_time, pose_heading_deg, pose_latitude_deg, pose_longitude_deg] =
+      gnss;
   v.value("configured", configured);
   v.value("health", health);
   v.inside("source", [&v, &part = source] { visit_fields(v, part); });
   v.inside("position", [&v, &part = position] { visit_fields(v, part); });
   v.value("position_time", position_time);
   v.inside("velocity", [&v, &part = velocity] { visit_fields(v, part); });
+  v.value("receiver_heading_deg", receiver_heading_deg);
   v.value("heading_deg", heading_deg);
   v.value("heading_time", heading_time);
   v.value("pose_heading_deg", pose_heading_deg);

@@ -89,6 +89,7 @@ void gnss(JsonText& out, const Snapshot& s) {
   number(out, "sigma_north_m", s.gnss.position.sigma_north_m);
   number(out, "speed_mps", s.gnss.velocity.speed_mps);
   number(out, "course_deg", s.gnss.velocity.course_deg);
+  number(out, "receiver_heading_deg", s.gnss.receiver_heading_deg);
   number(out, "heading_deg", s.gnss.heading_deg);
   age(out, "heading_age_s", s.time, s.gnss.heading_time);
   number(out, "satellites", s.gnss.position_time == kNever ? kAbsent : s.gnss.position.satellites);
@@ -316,7 +317,8 @@ void daemon_part(JsonText& out, const Snapshot& s, const DaemonStatus& daemon) {
   out.key("broker").open('{');
   out.key("connected").boolean(daemon.broker_connected);
   out.key("reason").text(daemon.broker_text);
-  out.key("dropped").integer(static_cast<std::int64_t>(daemon.telemetry_dropped));
+  count(out, "dropped", daemon.telemetry_dropped);
+  count(out, "answers_lost", daemon.answers_lost);
   out.close('}');
   out.key("storage").open('{');
   out.key("stop_kept").boolean(daemon.stop_trouble.empty());

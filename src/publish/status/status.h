@@ -15,6 +15,7 @@ struct DaemonStatus {
   double uptime_s = 0;
   Time now = kNever;  ///< when it is shown
   std::uint64_t telemetry_dropped = 0;
+  std::uint64_t answers_lost = 0;  ///< on `feedback`: no connection to the broker took them
   std::uint64_t events_lost = 0;
   std::string stop_trouble;                    ///< why a stop would be forgotten over a boot
   std::uint64_t joint_commands_unread = 0;     ///< of a flood

@@ -105,18 +105,19 @@ TEST(Recordings, OfABusAreDecodedForTheNodesThatWereNamed) {
   const auto shown =
       show("can", kFrames, {.driver = "odrive", .nodes = {3, 4}, .bus = "can0", .json = true});
   EXPECT_EQ(shown.code, 0);
-  EXPECT_EQ(shown.out,
-            R"({"t_s":1.718e+09,"device":"node 3","kind":"axis_status","state":"running",)"
-            R"("error_code":"0x0","fault":""})"
-            "\n"
-            R"({"t_s":1718000000.01,"device":"node 3","kind":"axis_motion",)"
-            R"("position_rad":78.53981633974483,"velocity_radps":-20.420352248333657,)"
-            R"("effort_Nm":null})"
-            "\n"
-            R"({"t_s":1718000000.11,"device":"node 3","kind":"axis_status","state":"idle",)"
-            R"("error_code":"0x1000000","fault":"its watchdog ran out while nobody fed it: )"
-            R"(cleared at the next start"})"
-            "\n");
+  EXPECT_EQ(
+      shown.out,
+      R"({"ok":true,"t_s":1.718e+09,"device":"node 3","kind":"axis_status","state":"running",)"
+      R"("error_code":"0x0","fault":""})"
+      "\n"
+      R"({"ok":true,"t_s":1718000000.01,"device":"node 3","kind":"axis_motion",)"
+      R"("position_rad":78.53981633974483,"velocity_radps":-20.420352248333657,)"
+      R"("effort_Nm":null})"
+      "\n"
+      R"({"ok":true,"t_s":1718000000.11,"device":"node 3","kind":"axis_status","state":"idle",)"
+      R"("error_code":"0x1000000","fault":"its watchdog ran out while nobody fed it: )"
+      R"(cleared at the next start"})"
+      "\n");
   EXPECT_NE(shown.notes.find("line 5: not of the form (SECONDS) BUS ID#DATA\n"), std::string::npos);
   EXPECT_NE(shown.notes.find("measurements 3, malformed 1, lines not understood 1\n"),
             std::string::npos)
@@ -133,6 +134,15 @@ TEST(Recordings, OfABusWithoutADriverAreCounted) {
             "can1      069              1             -      8  00004841000050C0\n");
   EXPECT_EQ(shown.notes,
             "line 5: not of the form (SECONDS) BUS ID#DATA\nframes 5, lines not understood 1\n");
+}
+
+TEST(Recordings, TellAProgramInEachObjectThatItIsWell) {
+  const auto shown = show("can", kFrames, {.json = true});
+  std::istringstream lines(shown.out);
+  int rows = 0;
+  for (std::string line; std::getline(lines, line); ++rows)
+    EXPECT_EQ(line.find(R"({"ok":true,"bus":)"), 0U) << line;
+  EXPECT_EQ(rows, 3);
 }
 
 TEST(Recordings, OfABatteryAreDecodedAsFarAsTheyGoAndTellWhatIsMissing) {
@@ -185,6 +195,27 @@ TEST(Recordings, OfABatteryMayBeWrittenAsLoggersWriteBytes) {
               std::string::npos)
         << text << shown.notes;
   }
+}
+
+TEST(Recordings, OfABatteryHaveAddressesInDecimalOrHexadecimalAsTheirManualHas) {
+  const Recording daly{.driver = "modbus_bms",
+                       .map = std::string(DROVER_SOURCE_DIR) + "/config/maps/daly_d2.json"};
+  for (const std::string head : {"0x28", "0x0028", "40", "3/40", "3/0x28", " 40 "}) {
+    const auto shown = show("bms", head + ": 0212 74D7 0360\n", daly);
+    EXPECT_NE(shown.out.find("voltage 53.00 V  current -8.90 A"), std::string::npos)
+        << head << shown.notes;
+  }
+  // Which of the two is meant must not be guessed.
+  for (const std::string head : {"0028", "A0", "28h", "0x"}) {
+    const auto shown = show("bms", head + ": 0212 74D7 0360\n", daly);
+    EXPECT_NE(shown.notes.find("line 1: \"" + head +
+                               "\" is no address: 40 is decimal, 0x28 is hexadecimal\n"),
+              std::string::npos)
+        << head << shown.notes;
+  }
+  const auto beyond = show("bms", "65536: 0212\n", daly);
+  EXPECT_NE(beyond.notes.find("line 1: \"65536\" is no address"), std::string::npos)
+      << beyond.notes;
 }
 
 TEST(Recordings, OfABatterySayThatAnotherUnitAnswersThanTheMapsOne) {

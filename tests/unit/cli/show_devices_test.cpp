@@ -52,14 +52,16 @@ TEST(DeviceViews, ShowAbsentValuesAsADashAndNeverAsZero) {
 TEST(DeviceViews, ShowTheReceiver) {
   EXPECT_EQ(shown("gnss", R"({"gnss":{"health":"fresh","quality":"rtk fixed",
       "latitude_deg":42.8333333333,"longitude_deg":-76.5,"altitude_msl_m":100,"sigma_east_m":0.01,
-      "sigma_north_m":0.012,"speed_mps":0.5,"course_deg":null,"heading_deg":90.25,
-      "heading_age_s":0.14,"satellites":20,
+      "sigma_north_m":0.012,"speed_mps":0.5,"course_deg":null,
+      "receiver_heading_deg":180.25,"heading_deg":90.25,"heading_age_s":0.14,"satellites":20,
       "hdop":0.7,"correction_age_s":0.8,"age_s":0.08,"samples":120,"bad":3,"rate_Hz":10,
       "reason":"odd"}})"),
             "quality   rtk fixed  satellites 20  hdop 0.70  corrections 0.8 s old\n"
             "position  latitude 42.833333333 deg  longitude -76.500000000 deg  altitude 100.000 m\n"
             "sigma     east 0.010 m  north 0.012 m\n"
-            "motion    speed 0.500 m/s  course -  heading 90.25 deg (0.1 s old)\n"
+            "motion    speed 0.500 m/s  course -\n"
+            "heading   as received 180.25 deg (0.1 s old)  "
+            "robot's, less the mounting 90.25 deg\n"
             "rate      10.0 Hz  age 0.080 s  samples 120  bad 3\n"
             "health    fresh\n"
             "          odd\n");

@@ -68,6 +68,9 @@ TEST(ShowReplay, IsOneJsonObject) {
     const auto document = json::parse(replay_json(it));
     ASSERT_TRUE(document) << replay_json(it);
     EXPECT_NE(document->root.find("verdict"), nullptr);
+    const bool equal = it.verdict == Replayed::Verdict::equal;
+    EXPECT_EQ(*document->root.find("ok")->boolean(), equal);
+    EXPECT_EQ(document->root.find("reason") == nullptr, equal);
     EXPECT_EQ(document->root.find("difference") != nullptr,
               it.verdict == Replayed::Verdict::differs);
   }

@@ -22,6 +22,7 @@ void fill_devices(Snapshot& s) {
                      1.0,           0.011,          0.012};
   s.gnss.position_time = kNow - 50ms;
   s.gnss.velocity = {0.512, 91.5};
+  s.gnss.receiver_heading_deg = 179.8;
   s.gnss.heading_deg = 89.8;
   s.gnss.heading_time = kNow - 200ms;
   s.gnss.pose_heading_deg = 12.5;
@@ -116,11 +117,11 @@ class StatusViews : public testing::Test {
 };
 
 TEST_F(StatusViews, ShowTheReceiver) {
-  expect(shown("gnss"),
-         {"rtk fixed", "satellites 28", "hdop 0.60", "corrections 1.0 s old",
-          "latitude 23.149652472 deg", "longitude 113.019637717 deg", "altitude 29.237 m",
-          "east 0.011 m", "north 0.012 m", "speed 0.512 m/s", "course 91.5 deg",
-          "heading 89.80 deg (0.2 s old)", "age 0.050 s", "fresh"});
+  expect(shown("gnss"), {"rtk fixed", "satellites 28", "hdop 0.60", "corrections 1.0 s old",
+                         "latitude 23.149652472 deg", "longitude 113.019637717 deg",
+                         "altitude 29.237 m", "east 0.011 m", "north 0.012 m", "speed 0.512 m/s",
+                         "course 91.5 deg", "as received 179.80 deg (0.2 s old)",
+                         "robot's, less the mounting 89.80 deg", "age 0.050 s", "fresh"});
 }
 
 TEST_F(StatusViews, ShowTheInertialSensor) {
@@ -166,6 +167,18 @@ TEST(StatusInShort, TellsOfAStopThatABootWouldForget) {
                 .find("FORGOTTEN over a boot: cannot write /x: Read-only file system"),
             std::string::npos);
   EXPECT_EQ(shown("").find("FORGOTTEN"), std::string::npos);
+}
+
+TEST(StatusInShort, CountsAnswersThatNobodyGot) {
+  const auto shown = [](std::uint64_t lost) {
+    publish::DaemonStatus daemon;
+    daemon.broker_connected = true;
+    daemon.answers_lost = lost;
+    const auto document = json::parse(publish::status_json(full_snapshot(), daemon));
+    return document ? show_status(document->root) : document.error().text();
+  };
+  EXPECT_NE(shown(4).find("broker    connected  4 ANSWERS LOST\n"), std::string::npos);
+  EXPECT_NE(shown(0).find("broker    connected\n"), std::string::npos);
 }
 
 TEST(StatusInShort, ShowsADashForWhatWasNeverHeardAndNoNumbers) {

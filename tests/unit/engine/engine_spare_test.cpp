@@ -93,7 +93,11 @@ TEST_F(AnEngineWithTwoReceivers, DrivesOnWithTheSpareAndTellsIt) {
   EXPECT_EQ(rig.snapshot().nav.status, NavStatus::run) << rig.why();
   EXPECT_EQ(rig.why(), "front gives nothing to go by: rear steers in its place");
   EXPECT_EQ(rig.snapshot().gnss.health, SourceState::fresh);
-  EXPECT_NEAR(rig.snapshot().gnss.heading_deg, rig.snapshot().gnss.pose_heading_deg, 1);
+  const GnssSnapshot& gnss = rig.snapshot().gnss;
+  EXPECT_NEAR(gnss.heading_deg, gnss.pose_heading_deg, 1);
+  EXPECT_EQ(wrap_deg(gnss.receiver_heading_deg - kThere.heading_baseline_offset_deg),
+            gnss.heading_deg)
+      << "beside it what the receiver itself says of its antennas";
   run_s(40);
   EXPECT_EQ(rig.snapshot().nav.status, NavStatus::success) << rig.why();
 }

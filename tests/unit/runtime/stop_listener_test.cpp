@@ -118,6 +118,24 @@ TEST_F(StopListenerTest, TellsAnswersAndTakesNoneWhileTheBrokerIsGone) {
   EXPECT_FALSE(listener_->answer("late"));
 }
 
+TEST_F(StopListenerTest, CountsAnswersThatItCanNeitherSendNorGiveBack) {
+  ASSERT_NO_FATAL_FAILURE(connect());
+  std::uint64_t given = 0;
+  ASSERT_TRUE(turn_until([&] {  // a broker that acknowledges nothing, and nobody takes them back
+    for (int i = 0; i < 10; ++i) given += listener_->answer("an answer") ? 1U : 0U;
+    return listener_->lost_answers() >= 5;
+  }));
+  std::uint64_t sent = 0;
+  std::uint64_t back = 0;
+  EXPECT_TRUE(turn_until([&] {
+    const auto told = broker_.all(Type::kPublish);
+    for (; sent < told.size(); ++sent) broker_.acknowledge(told[sent]);
+    for (std::string text; listener_->take_unsent(text);) ++back;
+    return sent + back + listener_->lost_answers() == given;
+  })) << given
+      << " = " << sent << " + " << back << " + " << listener_->lost_answers();
+}
+
 TEST_F(StopListenerTest, ComesBackWhenItsConnectionBroke) {
   ASSERT_NO_FATAL_FAILURE(connect());
   broker_.close();
