@@ -32,8 +32,8 @@ Engine::Impl::Impl(const EngineConfig& c)
       place(c.estimate),
       tilt(c.health),
       mechanics(c),
-      navigator(c),
-      owners(c),
+      navigator(c, latch),
+      owners(c, latch),
       hold(c) {
   level.fill(true);
   for (const Name& joint : config.joints) {
@@ -209,21 +209,26 @@ void Engine::Impl::start_task(const RequestId& id, const StartTask& task, Time n
   if (navigator.starting()) owners.on_task_started();
 }
 
+void Engine::Impl::engage_stop(const RequestId& id, Time now) {
+  latch.set(Latched::asked, "emergency stop of an operator");
+  events.push(now, CommandAccepted{id, {}});
+  navigator.stop(now, events);
+  rest.on_stop_asked();
+}
+
 void Engine::Impl::reset_stop(const RequestId& id, Time now) {
-  const bool far_away =
-      id.source == RequestId::Source::mqtt || id.source == RequestId::Source::aimrt;
-  if (wheel_fault == WheelFault::runaway) {
-    events.push(now, CommandRefused{id, wheel_reason});
-  } else if (power.is_cut() && far_away) {
-    events.push(now, CommandRefused{id, "the power was cut: reset it at the robot"});
-  } else if (power.is_cut() && rest.moves(now)) {
-    events.push(now, CommandRefused{id, "the robot still moves"});
-  } else if (navigator.reset_stop(id, now, owners.at_rest(), !latched().empty() || power.is_cut(),
-                                  health.report(), events)) {
-    owners.reset();
-    rest.reset();
-    power.reset();
-  }
+  const bool runs_away = wheel_fault == WheelFault::runaway;
+  const Reason why = latch.refuses({.by = id.source,
+                                    .runs_away = runs_away ? wheel_reason : Reason(),
+                                    .moves = rest.moves(now),
+                                    .task_active = navigator.active(),
+                                    .at_rest = owners.at_rest(),
+                                    .health = health.report()});
+  if (!why.empty()) return events.push(now, CommandRefused{id, why});
+  const bool anything = !latch.why().empty() || latch.power_cut();
+  events.push(now, CommandAccepted{id, anything ? Reason() : Reason("nothing was latched")});
+  latch.reset(Act::reset);
+  rest.reset();
 }
 
 Engine::Engine(const EngineConfig& config) {
@@ -246,9 +251,9 @@ void Engine::on_command(const Command& command, Time now) {
   } else if (std::holds_alternative<CancelTask>(command.body)) {
     e.navigator.cancel(id, now, e.events);
     e.owners.cancel(now, e.events);
+    e.latch.reset(Act::cancel);
   } else if (std::holds_alternative<EngageStop>(command.body)) {
-    e.navigator.engage_stop(id, now, e.events);
-    e.rest.on_stop_asked();
+    e.engage_stop(id, now);
   } else if (std::holds_alternative<ResetStop>(command.body)) {
     e.reset_stop(id, now);
   } else if (std::holds_alternative<ProposeOrigin>(command.body)) {
@@ -304,8 +309,8 @@ void Engine::step(Time now, const Environment& environment, EngineOutput& out) {
   e.place.update(now, e.estimate, e.health.report().drives_ok);
   if (e.navigator.active()) e.place.told();  // by the end of the task
   e.health.update({now, environment, axes, lines, e.estimate, e.estimator.has_origin(),
-                   e.navigator.active(), e.latched(), &e.sensors, e.tilt.reason(), moved,
-                   e.place.jumped(), e.power.opened(), &e.steep});
+                   e.navigator.active(), e.latch.why(), &e.sensors, e.tilt.reason(), moved,
+                   e.place.jumped(), e.latch.power_cut() && e.power.opened(), &e.steep});
   e.watch_wheels(now, dt);
   const double cap_mps = e.mechanics.speed_cap_mps();
   NavOutput wanted =
@@ -313,42 +318,37 @@ void Engine::step(Time now, const Environment& environment, EngineOutput& out) {
                         e.owners.at_rest(), e.owners.refusal(), cap_mps},
                        e.events);
   wanted.target = e.mechanics.guide(wanted.target);
-  const Motion& motion =
-      e.owners.step({now, dt, e.estimate, e.health.report(), e.wheel_fault, e.wheel_reason, wanted,
-                     cap_mps, e.navigator.software_stop().view(), e.hold.hindrance()},
-                    e.events);
+  const Motion& motion = e.owners.step({now, dt, e.estimate, e.health.report(), e.wheel_fault,
+                                        e.wheel_reason, wanted, cap_mps, e.hold.hindrance()},
+                                       e.events);
   const bool other = motion.owner == Owner::joint_command || motion.owner == Owner::manual;
   if (other) e.navigator.make_way();
   e.driven = motion.run;
   const HealthReport& report = e.health.report();
   e.power.step(now,
-               {report.estop || !report.estop_known, e.hold.waits_for_lines(),
+               {e.latch.power_cut(), report.estop || !report.estop_known, e.hold.waits_for_lines(),
                 environment.relay_found_closed},
                axes);
-  e.hold.step({now, dt, e.health.report(), axes, motion.run,
-               e.wheel_fault == WheelFault::runaway || e.navigator.run_away(), e.power.is_cut(),
-               environment.guard_has_bus},
+  e.hold.step({now, dt, e.health.report(), axes, motion.run, e.latch.ran_away(),
+               e.latch.power_cut(), environment.guard_has_bus},
               e.events);
   e.command_axes(motion, out);
   if (!motion.run) e.command_hold(out);
   e.let_go(out);
   if (takes_twist(e.base)) e.command_base(out);
   e.motion_asked = out.motion_permitted;
-  out.unsettled = (e.rest.drives_on() || e.power.is_cut()) && !e.power.opened();
+  out.unsettled = (e.rest.drives_on() || e.latch.power_cut()) && !e.power.opened();
   e.navigator.on_commanded(now, out.motion_permitted, e.events);
   e.announcer.update(now, e.health.report(), e.events);
   e.fill_snapshot(now, environment, lines, e.estimate, motion.owner);
   if (takes_twist(e.base)) e.fill_base(environment, out.base);
   out.outputs = e.snapshot.output_on =
       e.signals.step(now, e.snapshot, out.motion_permitted, motion.run, e.power.closed());
-  out.remembered = {e.navigator.software_stop(),
-                    e.navigator.stop_at_robot(),
-                    e.power.is_cut(),
-                    e.hold.armed(),
-                    e.hold.released(),
-                    e.navigator.active(),
-                    e.mechanics.proved(),
-                    e.owners.latched()};
+  e.latch.remember(out.remembered);
+  out.remembered.holding = e.hold.armed();
+  out.remembered.released = e.hold.released();
+  out.remembered.task = e.navigator.active();
+  out.remembered.mechanics_proved = e.mechanics.proved();
   e.events.drain(out.events);
 }
 

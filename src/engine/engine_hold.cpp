@@ -17,11 +17,9 @@ constexpr Duration kTiltUnknownFor = std::chrono::seconds(1);
 
 void Engine::recall(const Remembered& remembered, Time now) {
   Impl& e = *impl_;
-  if (!remembered.stop.empty()) {
-    e.navigator.latch_stop(remembered.stop, remembered.stop_at_robot);
+  e.latch.recall(remembered);
+  if (!remembered.stop.empty())
     e.events.notice(now, Notice::Level::warning, "a stop from before the start is still latched");
-  }
-  e.owners.recall(remembered.joints_wait);
   if (!remembered.joints_wait.empty()) {
     e.events.notice(now, Notice::Level::warning,
                     "joint commands wait for a person, as before the start");
@@ -85,9 +83,9 @@ void Engine::Impl::arm_hold(const RequestId& id, Time now) {
     why = "the e-stop is pressed";
   } else if (!report.estop_known) {
     why = report.text(Cause::line_lost);
-  } else if (power.is_cut()) {
+  } else if (latch.power_cut()) {
     why = "the drives have no power: drover reset";
-  } else if (wheel_fault == WheelFault::runaway || navigator.run_away()) {
+  } else if (latch.ran_away()) {
     why = "a wheel ran away: drover reset";
   } else if (report.holds(Cause::foreign)) {
     why = report.text(Cause::foreign);

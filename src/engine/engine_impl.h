@@ -10,6 +10,7 @@
 #include "engine/event_queue.h"
 #include "engine/health/announcer.h"
 #include "engine/health/health.h"
+#include "engine/health/latch.h"
 #include "engine/health/mechanics_check.h"
 #include "engine/health/place_watch.h"
 #include "engine/health/rest_watch.h"
@@ -31,12 +32,9 @@ struct Engine::Impl {
   void take(const Measurement& m);
   void count(const Measurement& m);
   void fill_sources(const Environment& environment);
-  /// What a person has to act upon before anything moves; empty when nothing.
-  const Reason& latched() const {
-    return navigator.latched().empty() ? owners.latched() : navigator.latched();
-  }
   void propose_origin(const RequestId& id, Time now);
   void set_origin(const RequestId& id, const GeodeticPoint& origin, Time now);
+  void engage_stop(const RequestId& id, Time now);
   void reset_stop(const RequestId& id, Time now);
   void start_task(const RequestId& id, const StartTask& task, Time now);
   void command_axes(const Motion& motion, EngineOutput& out);
@@ -77,6 +75,7 @@ struct Engine::Impl {
   MechanicsCheck mechanics;
   bool motion_asked = false;  ///< in the last cycle
   Announcer announcer;
+  Latch latch;
   Navigator navigator;
   Owners owners;
   Hold hold;

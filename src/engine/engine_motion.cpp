@@ -58,10 +58,10 @@ Reason Engine::Impl::judge_motion(Time now, Duration dt, const LineTable& lines,
   input.caught = hold.state() == HoldState::catching;
   if (estimate.has_heading) input.yaw_rad = estimate.pose.yaw_rad;
   const RestState state = rest.update(input);
-  if (state == RestState::not_stopping && !power.is_cut()) {
-    navigator.latch(now, rest.reason(), events);
-    navigator.latch_stop(rest.reason(), true);
-    power.cut();
+  if (state == RestState::not_stopping && !latch.power_cut()) {
+    latch.set(Latched::did_not_stop, rest.reason());
+    events.notice(now, Notice::Level::error, rest.reason());
+    navigator.stop(now, events);
   }
   tilt.update(now, imu_trusted() ? estimate.roll_rad : kAbsent,
               imu_trusted() ? estimate.pitch_rad : kAbsent);
@@ -80,7 +80,10 @@ Reason Engine::Impl::judge_motion(Time now, Duration dt, const LineTable& lines,
 void Engine::Impl::watch_wheels(Time now, Duration dt) {
   wheel_fault = wheels.update(now, dt, axes);
   wheel_reason = wheels.reason();
-  if (wheel_fault == WheelFault::runaway) rest.expect_stop(now);
+  if (wheel_fault == WheelFault::runaway) {
+    latch.set(Latched::ran_away, wheel_reason);
+    rest.expect_stop(now);
+  }
   // Wheels that work against each other stand before gyro or receiver can tell.
   if (wheel_fault == WheelFault::not_following && !mechanics.proved()) {
     const std::string_view what = wheels.reason();
@@ -95,7 +98,7 @@ void Engine::Impl::watch_wheels(Time now, Duration dt) {
 
 /// A stop that did not work: the drives let go before their supply does.
 void Engine::Impl::let_go(EngineOutput& out) {
-  if (!power.is_cut()) return;
+  if (!latch.power_cut()) return;
   const JointSet joints = joints_of(base);
   for (std::size_t i = 0; i < axes.size(); ++i) {
     if (!joints[i]) continue;

@@ -88,21 +88,21 @@ void Engine::Impl::fill_snapshot(Time now, const Environment& environment, const
   }
   snapshot.estimator = estimator.counters();
   snapshot.notices_dropped = events.dropped();
-  snapshot.stop_latched = !latched().empty();
+  snapshot.stop_latched = !latch.why().empty();
   snapshot.hold = hold.state();
   snapshot.guard_alive = environment.guard_alive;
   snapshot.guard_has_bus = environment.guard_has_bus;
   snapshot.why.clear();
   // Latched in this very cycle by what is no lasting cause: health will tell from the next on.
   if (snapshot.stop_latched && !report.holds(Cause::latched) && report.stop.empty()) {
-    (void)snapshot.why.push_back(latched());
+    (void)snapshot.why.push_back(latch.why());
   }
   for (const Reason& reason : report.why) {
     if (!snapshot.why.push_back(reason)) break;
   }
   if (const Reason waits = navigator.waits_for(); !waits.empty())
     (void)snapshot.why.push_back(waits);
-  if (power.is_cut()) (void)snapshot.why.push_back("the drives have no power: drover reset");
+  if (latch.power_cut()) (void)snapshot.why.push_back("the drives have no power: drover reset");
   if (hold.state() == HoldState::lost) {
     (void)snapshot.why.push_back("the drives let go and are not held: drover hold");
   } else if (const Reason why = hold.hindrance(); !why.empty()) {

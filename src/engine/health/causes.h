@@ -50,19 +50,20 @@ struct CauseRow {
   bool ends_wait = false;     ///< a task that waits ends
   bool refuses_task = false;  ///< no task starts; one that runs goes on
   bool ends_stream = false;   ///< joint commands are not followed
+  bool by_people = false;     ///< pressed or touched: joint commands wait for one, whoever drove
   bool severe = false;        ///< an error, not a warning
   std::string_view over;      ///< said when it holds no more
 };
 
 // clang-format off
 inline constexpr std::array<CauseRow, kCauseCount> kCauses{{
-  {.cause = Cause::estop, .stops = true, .severe = true,
+  {.cause = Cause::estop, .stops = true, .by_people = true, .severe = true,
    .over = "e-stop released"},
-  {.cause = Cause::line_lost, .stops = true, .severe = true,
+  {.cause = Cause::line_lost, .stops = true, .by_people = true, .severe = true,
    .over = "safety lines readable again"},
   {.cause = Cause::guard_has_bus, .stops = true, .severe = true,
    .over = "the guard gave the drives back"},
-  {.cause = Cause::bumper, .stops = true, .severe = true,
+  {.cause = Cause::bumper, .stops = true, .by_people = true, .severe = true,
    .over = "bumper free"},
   {.cause = Cause::tilt, .stops = true, .severe = true,
    .over = "no tilt beyond the limit any more"},
@@ -128,5 +129,12 @@ static_assert(kCauseCount <= 32, "HealthReport has a bit for each");
 constexpr std::uint32_t bit(Cause cause) {
   return std::uint32_t{1} << static_cast<unsigned>(cause);
 }
+
+inline constexpr std::uint32_t kByPeople = [] {
+  std::uint32_t bits = 0;
+  for (const CauseRow& row : kCauses)
+    if (row.by_people) bits |= bit(row.cause);
+  return bits;
+}();
 
 }  // namespace drover::engine

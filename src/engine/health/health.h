@@ -66,6 +66,7 @@ struct HealthReport {
   std::array<Reason, kCauseCount> texts;  ///< by Cause, for causes that hold
 
   bool holds(Cause cause) const { return (causes & bit(cause)) != 0; }
+  bool holds_any(std::uint32_t bits) const { return (causes & bits) != 0; }
   const Reason& text(Cause cause) const { return texts[static_cast<std::size_t>(cause)]; }
 };
 

@@ -26,8 +26,8 @@ Reason find_health_failure(const HealthReport& health) {
 
 }  // namespace
 
-Navigator::Navigator(const EngineConfig& config)
-    : config_(config), tracker_(config.navigate, config.limits) {}
+Navigator::Navigator(const EngineConfig& config, Latch& latch)
+    : config_(config), latch_(latch), tracker_(config.navigate, config.limits) {}
 
 void Navigator::Wait::update(bool bad, Time now, Duration resume_after) {
   if (bad) {
@@ -50,12 +50,7 @@ void Navigator::start(const RequestId& id, const StartTask& task, Time now,
   if (const Reason why = check_path(*task.path, task.target); !why.empty()) return refuse(why);
   const SpeedCheck speed = check_speed(task.speed_mps, config_.limits);
   if (!speed.refusal.empty()) return refuse(speed.refusal);
-  if (!software_stop_.empty()) {
-    Reason why;
-    why.format("reset the stop first: %.*s", static_cast<int>(software_stop_.view().size()),
-               software_stop_.view().data());
-    return refuse(why);
-  }
+  if (const Reason why = latch_.hinders_all(); !why.empty()) return refuse(why);
   if (const Reason why = check_robot(health, has_origin); !why.empty()) return refuse(why);
   const Pose& pose = estimate.pose;
   const auto target = static_cast<std::uint32_t>(
@@ -81,7 +76,7 @@ void Navigator::start(const RequestId& id, const StartTask& task, Time now,
   goal_near_since_ = kNever;
   begun_ = stopping_at_goal_ = drives_asked_ = false;
   obstacle_ = lost_ = {};
-  failed_.clear();
+  latch_.reset(Act::begin);
   phase_ = Phase::starting;
   status_ = NavStatus::run;
   if (progress_.arrived && progress_.distance_to_goal_m <= config_.navigate.goal_tolerance_m) {
@@ -95,49 +90,16 @@ void Navigator::cancel(const RequestId& id, Time now, EventQueue& events) {
     end(now, TaskEnded::How::cancelled, "cancelled", events);
   }
   status_ = NavStatus::free;
-  failed_.clear();
-}
-
-void Navigator::latch(Time now, const Reason& why, EventQueue& events) {
-  software_stop_ = why;
-  events.notice(now, Notice::Level::error, why);
-  if (active()) fail(now, why, events);
 }
 
 void Navigator::make_way() {
   if (active()) return;
-  failed_.clear();
+  latch_.reset(Act::begin);
   status_ = NavStatus::free;
 }
 
-void Navigator::engage_stop(const RequestId& id, Time now, EventQueue& events) {
-  software_stop_ = "emergency stop of an operator";
-  events.push(now, CommandAccepted{id, {}});
-  if (active()) fail(now, software_stop_, events);
-}
-
-void Navigator::latch_stop(const Reason& why, bool at_robot) {
-  software_stop_ = why;
-  stop_at_robot_ = at_robot;
-}
-
-bool Navigator::reset_stop(const RequestId& id, Time now, bool at_rest, bool anything,
-                           const HealthReport& health, EventQueue& events) {
-  const Reason why = !health.ready ? Reason("the gateway has just started")
-                     : active()    ? Reason("a task runs: cancel it first")
-                     : !at_rest    ? Reason("the robot is still stopping")
-                     : stop_at_robot_ && id.source != RequestId::Source::cli
-                         ? Reason("this stop is reset at the robot: drover reset")
-                         : health.stop;
-  if (!why.empty()) {
-    events.push(now, CommandRefused{id, why});
-    return false;
-  }
-  events.push(now, CommandAccepted{id, anything ? Reason() : Reason("nothing was latched")});
-  software_stop_.clear();
-  stop_at_robot_ = runaway_ = false;
-  failed_.clear();
-  return true;
+void Navigator::stop(Time now, EventQueue& events) {
+  if (active()) fail(now, latch_.stop(), events);
 }
 
 void Navigator::end(Time now, TaskEnded::How how, const Reason& reason, EventQueue& events) {
@@ -163,14 +125,15 @@ void Navigator::end(Time now, TaskEnded::How how, const Reason& reason, EventQue
 
 Reason Navigator::waits_for() const {
   Reason text;
-  if (status_ != NavStatus::error || !latched().empty()) return text;
+  if (status_ != NavStatus::error || !latch_.stop().empty() || !latch_.task().empty()) return text;
   text.format("waits for a new start; the task ended: %.*s", static_cast<int>(ended_.view().size()),
               ended_.view().data());
   return text;
 }
 
 void Navigator::fail(Time now, const Reason& reason, EventQueue& events) {
-  failed_ = ended_ = reason;
+  ended_ = reason;
+  latch_.set(Latched::task_failed, reason);
   end(now, TaskEnded::How::failed, reason, events);
 }
 
@@ -178,14 +141,11 @@ void Navigator::fail(Time now, const Reason& reason, EventQueue& events) {
 bool Navigator::stop_at_once(const NavInput& input, EventQueue& events) {
   Reason why;
   if (input.wheels == WheelFault::runaway) {
-    // Its speed changes all the time; what was told first stays.
-    if (!runaway_) software_stop_ = input.wheel_reason;
-    runaway_ = true;
-    why = software_stop_;
+    why = latch_.stop();
   } else if (!input.health.stop.empty()) {
     why = input.health.stop;
-  } else if (!software_stop_.empty()) {
-    why = software_stop_;
+  } else if (!latch_.stop().empty()) {
+    why = latch_.stop();
   } else if (phase_ == Phase::running || phase_ == Phase::paused) {
     why = !input.health.drives_running ? input.health.not_running : input.wheel_reason;
   }

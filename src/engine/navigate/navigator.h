@@ -4,6 +4,7 @@
 #include "engine/event_queue.h"
 #include "engine/gate/target_gate.h"
 #include "engine/health/health.h"
+#include "engine/health/latch.h"
 #include "engine/health/wheels.h"
 #include "engine/navigate/tracker.h"
 
@@ -33,22 +34,16 @@ struct NavOutput {
 /// then one TaskEnded, or exactly one NavigationNotStarted.
 class Navigator final {
  public:
-  explicit Navigator(const EngineConfig& config);
+  /// A task that fails is latched there, and what is latched there hinders a start.
+  Navigator(const EngineConfig& config, Latch& latch);
 
   void start(const RequestId& id, const StartTask& task, Time now, const Estimate& estimate,
              bool has_origin, const HealthReport& health, EventQueue& events);
   void cancel(const RequestId& id, Time now, EventQueue& events);
-  /// What did not stop by itself: nothing moves until a person resets it at the robot.
-  void latch(Time now, const Reason& why, EventQueue& events);
   /// Another owner moves the base: how the last task ended is no news any more.
   void make_way();
-  /// A person's emergency stop.
-  void engage_stop(const RequestId& id, Time now, EventQueue& events);
-  /// A stop that outlives its cause until a person resets it; `at_robot`: not over the network.
-  void latch_stop(const Reason& why, bool at_robot);
-  /// `anything`: something is latched, here or elsewhere. True when it was accepted.
-  bool reset_stop(const RequestId& id, Time now, bool at_rest, bool anything,
-                  const HealthReport& health, EventQueue& events);
+  /// A stop was latched: the task fails.
+  void stop(Time now, EventQueue& events);
 
   NavOutput step(const NavInput& input, EventQueue& events);
   /// After the gate: the first motion commanded begins the navigation.
@@ -56,11 +51,6 @@ class Navigator final {
 
   bool active() const { return phase_ != Phase::idle; }
   bool starting() const { return phase_ == Phase::starting; }
-  /// What a person has to act upon before anything moves; empty when nothing.
-  const Reason& software_stop() const { return software_stop_; }  ///< a person has to reset it
-  bool stop_at_robot() const { return stop_at_robot_; }
-  bool run_away() const { return runaway_; }
-  const Reason& latched() const { return software_stop_.empty() ? failed_ : software_stop_; }
   /// After an error that nothing holds any more: what a person has to do; empty when nothing.
   Reason waits_for() const;
   NavSnapshot snapshot(const HealthReport& health) const;
@@ -95,6 +85,7 @@ class Navigator final {
   double speed_cap_mps(const NavInput& input) const;
 
   EngineConfig config_;
+  Latch& latch_;
   Tracker tracker_;
   Phase phase_ = Phase::idle;
   NavStatus status_ = NavStatus::free;
@@ -111,11 +102,7 @@ class Navigator final {
   Wait obstacle_;
   Wait lost_;
   TrackProgress progress_;
-  Reason failed_;
   Reason ended_;  ///< why the task ended in an error; outlives a reset
-  Reason software_stop_;
-  bool stop_at_robot_ = false;  ///< only there it can be reset
-  bool runaway_ = false;        ///< that stop was for a wheel that runs away
 };
 
 }  // namespace drover::engine

@@ -8,28 +8,11 @@ namespace {
 
 constexpr Duration kOldestTarget = std::chrono::milliseconds(100);
 
-/// Why everything stops without a ramp.
-Reason why_at_once(const OwnInput& input) {
-  if (input.wheels != WheelFault::none) return input.wheel_reason;
-  return input.health.stop.empty() ? Reason(input.latched) : input.health.stop;
-}
-
-/// What people press, or touch: it stands for them until one of them acts, whoever drove.
-bool stopped_by_people(const HealthReport& health) {
-  return health.holds(Cause::estop) || health.holds(Cause::line_lost) ||
-         health.holds(Cause::bumper);
-}
-
-Reason reset_first(std::string_view stop) {
-  Reason why;
-  why.format("reset the stop first: %.*s", static_cast<int>(stop.size()), stop.data());
-  return why;
-}
-
 }  // namespace
 
-Owners::Owners(const EngineConfig& config)
+Owners::Owners(const EngineConfig& config, Latch& latch)
     : config_(config),
+      latch_(latch),
       twist_gate_(config.limits, kOldestTarget),
       joint_gate_(config.base, config.limits),
       stream_(from_s(config.health.joint_command_timeout_s)),
@@ -38,7 +21,7 @@ Owners::Owners(const EngineConfig& config)
 
 void Owners::take(const JointTargets& targets, Time now) {
   Reason busy = busy_;
-  if (busy.empty() && !latched_.empty()) busy = reset_first(latched_);
+  if (busy.empty()) busy = latch_.hinders_joints();
   // What runs may go on, and nothing new begins.
   if (busy.empty() && !stream_.following()) busy = no_start_;
   stream_.take(targets, busy, now);
@@ -64,13 +47,12 @@ void Owners::find_heading(const RequestId& id, const Estimate& estimate, const H
   creep_.start(id, why, estimate, health, now, events);
   if (!creep_.active()) return;
   stream_.end("the heading is being looked for");
-  latched_.clear();  // a person asked for it
+  latch_.reset(Act::take);
 }
 
 void Owners::cancel(Time now, EventQueue& events) {
   creep_.end("cancelled", now, events);
   stream_.end("cancelled");
-  latched_.clear();
 }
 
 Reason Owners::hinders_task() const {
@@ -83,7 +65,7 @@ Reason Owners::hinders_task() const {
 
 void Owners::on_task_started() {
   stream_.end("a task owns the drives");
-  latched_.clear();
+  latch_.reset(Act::take);
   if (at_rest()) twist_gate_.reset();
 }
 
@@ -93,7 +75,7 @@ Reason Owners::hindrance(const OwnInput& input) const {
   if (!input.health.stop.empty()) return input.health.stop;
   if (!input.health.end_task.empty()) return input.health.end_task;
   if (!input.health.end_stream.empty()) return input.health.end_stream;
-  if (!input.latched.empty()) return reset_first(input.latched);
+  if (const Reason why = latch_.hinders_all(); !why.empty()) return why;
   if (!input.not_held.empty()) return input.not_held;
   if (input.task.drives) return "a task owns the drives";
   // One gate moves at a time: what a stream asked would hide a ramp, and then go on with it.
@@ -109,20 +91,26 @@ Owner Owners::rank(const OwnInput& input) const {
   return Owner::nobody;
 }
 
+/// Why everything stops without a ramp.
+Reason Owners::why_at_once(const OwnInput& input) const {
+  if (input.wheels != WheelFault::none) return input.wheel_reason;
+  return input.health.stop.empty() ? latch_.stop() : input.health.stop;
+}
+
 /// `anyone`: whoever drove, or else only the stream.
 void Owners::latch(const Reason& why, bool anyone) {
   // What moves after the end of its stream is still that stream's motion.
   const bool streams = stream_.following() || !joint_gate_.at_rest();
   const bool drove = motion_.owner == Owner::task || motion_.owner == Owner::manual;
   if (!streams && !(anyone && drove)) return;
-  latched_ = why;
+  latch_.set(Latched::stream_stopped, why);
   stream_.end(why);
 }
 
 /// What ends the stream, and how its motion ends then.
 Stop Owners::watch_stream(const OwnInput& input, bool at_once) {
   stream_.step(input.now);
-  if (at_once) latch(why_at_once(input), stopped_by_people(input.health));
+  if (at_once) latch(why_at_once(input), input.health.holds_any(kByPeople));
   if (!busy_.empty()) stream_.end(busy_);
   if (input.health.near_zone && stream_.wants_motion()) stream_.end("obstacle in the near zone");
   if (!stream_.following()) {

@@ -3,6 +3,7 @@
 
 #include "engine/gate/joint_gate.h"
 #include "engine/gate/target_gate.h"
+#include "engine/health/latch.h"
 #include "engine/health/wheels.h"
 #include "engine/navigate/navigator.h"
 #include "engine/own/heading_creep.h"
@@ -19,7 +20,6 @@ struct OwnInput {
   const Reason& wheel_reason;
   const NavOutput& task;
   double speed_cap_mps = 1e9;  ///< of the first way after the start
-  std::string_view latched;    ///< a software stop that a person has to reset; empty: none
   Reason not_held = {};        ///< why the drives cannot be had now; empty: they can
 };
 
@@ -35,7 +35,8 @@ struct Motion {
 /// higher one is active, and takes nothing over: it has to begin anew.
 class Owners final {
  public:
-  explicit Owners(const EngineConfig& config);
+  /// A stop of joint commands is latched there, and what is latched there hinders them.
+  Owners(const EngineConfig& config, Latch& latch);
 
   void take(const JointTargets& targets, Time now);
   void refuse(const JointTargetsRefused& refused) { stream_.refuse(refused.reason); }
@@ -47,12 +48,6 @@ class Owners final {
   Reason hinders_task() const;
   /// A task begins: forget old motion.
   void on_task_started();
-  /// What stopped the base before this program began, and no person has acted since.
-  void recall(const Reason& stopped_by) { latched_ = stopped_by; }
-  /// A person has seen what stopped the stream.
-  void reset() { latched_.clear(); }
-  /// What stopped the base so that a person has to act before joint commands begin; empty: nothing.
-  const Reason& latched() const { return latched_; }
 
   const Motion& step(const OwnInput& input, EventQueue& events);
 
@@ -69,14 +64,15 @@ class Owners final {
   Owner rank(const OwnInput& input) const;
   Reason hindrance(const OwnInput& input) const;
   Stop watch_stream(const OwnInput& input, bool at_once);
+  Reason why_at_once(const OwnInput& input) const;
   void latch(const Reason& why, bool anyone);
 
   EngineConfig config_;
+  Latch& latch_;
   TargetGate twist_gate_;
   JointGate joint_gate_;
   JointStream stream_;
   HeadingCreep creep_;
-  Reason latched_;
   bool stream_asked_ = false;  ///< the drives were asked to run, at least one cycle ago
   bool stream_ran_ = false;    ///< the drives were seen running since it began
   Reason busy_;                ///< why joint commands cannot be followed; empty: they can

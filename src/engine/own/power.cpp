@@ -18,7 +18,7 @@ bool has_let_go(const AxisSnapshot& axis) {
 }  // namespace
 
 void PowerSwitch::step(Time now, const PowerInput& input, std::span<const AxisSnapshot> axes) {
-  if (!cut_) {
+  if (!input.cut) {
     since_ = kNever;
     opened_ = false;
   } else if (!opened_) {

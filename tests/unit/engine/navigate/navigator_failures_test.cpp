@@ -126,7 +126,7 @@ TEST_F(ANavigator, TakesANewStartOnceTheCauseIsGone) {
   health.stop.clear();
   start();
   EXPECT_EQ(status(), NavStatus::run);
-  EXPECT_TRUE(navigator.latched().empty());
+  EXPECT_TRUE(latch.why().empty());
   EXPECT_EQ(step().target.vx_mps, 0) << "the drives have yet to hear of it";
   EXPECT_GT(step().target.vx_mps, 0);
 }
@@ -147,32 +147,14 @@ TEST_F(ANavigator, LatchesASoftwareStopThatOnlyAResetClears) {
   start();
   EXPECT_EQ(refusal_text(), "reset the stop first: wheel a runs away");
   cancel();
-  EXPECT_FALSE(navigator.latched().empty());
-  navigator.reset_stop(next_id(), now, true, !navigator.latched().empty(), health, events);
-  drain();
-  EXPECT_TRUE(navigator.latched().empty());
+  latch.reset(Act::cancel);
+  EXPECT_FALSE(latch.why().empty());
+  ASSERT_EQ(latch.refuses({.task_active = navigator.active(), .health = health}), "");
+  latch.reset(Act::reset);
+  EXPECT_TRUE(latch.why().empty());
   EXPECT_FALSE(step().drives) << "a reset never starts motion";
   start();
   EXPECT_EQ(status(), NavStatus::run);
 }
-TEST_F(ANavigator, RefusesAResetWhileTheCausePersistsOrTheRobotMoves) {
-  navigator.reset_stop(next_id(), now, false, !navigator.latched().empty(), health, events);
-  drain();
-  EXPECT_EQ(refusal_text(), "the robot is still stopping");
-  health.stop = "e-stop pressed";
-  navigator.reset_stop(next_id(), now, true, !navigator.latched().empty(), health, events);
-  drain();
-  EXPECT_EQ(refusal_text(), "e-stop pressed");
-  health.stop.clear();
-  start_and_run();
-  navigator.reset_stop(next_id(), now, true, !navigator.latched().empty(), health, events);
-  drain();
-  EXPECT_EQ(refusal_text(), "a task runs: cancel it first");
-  health.ready = false;
-  navigator.reset_stop(next_id(), now, true, !navigator.latched().empty(), health, events);
-  drain();
-  EXPECT_EQ(said<CommandRefused>().size(), 4U);
-}
-
 }  // namespace
 }  // namespace drover::engine

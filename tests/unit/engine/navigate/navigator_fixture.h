@@ -56,6 +56,7 @@ class ANavigator : public ::testing::Test {
   }
   NavOutput step() {
     now += std::chrono::milliseconds(5);
+    if (wheels == WheelFault::runaway) latch.set(Latched::ran_away, wheel_reason);
     const NavOutput out = navigator.step({now, std::chrono::milliseconds(5), estimate, health,
                                           wheels, wheel_reason, at_rest, refusal},
                                          events);
@@ -86,12 +87,13 @@ class ANavigator : public ::testing::Test {
     EXPECT_THAT(std::string(said<TaskEnded>()[0].reason.view()), ::testing::HasSubstr(reason));
     EXPECT_EQ(status(), NavStatus::error);
     EXPECT_EQ(said<PathReleased>().size(), 1U);
-    EXPECT_THAT(std::string(navigator.latched().view()), ::testing::HasSubstr(reason));
+    EXPECT_THAT(std::string(latch.why().view()), ::testing::HasSubstr(reason));
     EXPECT_FALSE(step().drives);
   }
 
   EngineConfig config;
-  Navigator navigator{config};
+  Latch latch;
+  Navigator navigator{config, latch};
   EventQueue events;
   std::vector<Event> log;
   Path path;

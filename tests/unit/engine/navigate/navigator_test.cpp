@@ -149,7 +149,7 @@ TEST_F(ANavigator, SucceedsOnlyWhenItRestsAtTheGoal) {
   ASSERT_EQ(said<TaskEnded>().size(), 1U);
   EXPECT_EQ(said<TaskEnded>()[0].how, How::success);
   EXPECT_EQ(status(), NavStatus::success);
-  EXPECT_TRUE(navigator.latched().empty());
+  EXPECT_TRUE(latch.why().empty());
   run_s(5);
   EXPECT_EQ(status(), NavStatus::success) << "stays until the next command";
 }

@@ -46,7 +46,7 @@ TEST(ThePowerSwitch, StaysAsItWasFoundWhileTheEmergencyStopsLineIsAwaited) {
 }
 TEST(ThePowerSwitch, OpensOnlyWhenTheDrivesHaveGoneIdle) {
   Powered it;
-  it.power.cut();
+  it.input.cut = true;
   EXPECT_TRUE(it.after_ms(500));
   it.axes[0].state = AxisState::idle;
   EXPECT_TRUE(it.after_ms(100));
@@ -58,23 +58,24 @@ TEST(ThePowerSwitch, WaitsForADriveInFaultOnlyWhileItsPowerStageIsOn) {
   it.axes[0].state = AxisState::idle;
   it.axes[1].state = AxisState::fault;
   it.axes[1].powered = true;
-  it.power.cut();
+  it.input.cut = true;
   EXPECT_TRUE(it.after_ms(500)) << "it brakes: its energy needs the battery";
   it.axes[1].powered = false;
   EXPECT_FALSE(it.after_ms(5));
 }
 TEST(ThePowerSwitch, OpensInTheEndWhenADriveDoesNotGoIdle) {
   Powered it;
-  it.power.cut();
+  it.input.cut = true;
   EXPECT_TRUE(it.after_ms(1400));
   EXPECT_FALSE(it.after_ms(200));
 }
 TEST(ThePowerSwitch, StaysOpenOverARestartUntilItIsReset) {
   Powered it;
   it.power.recall(true);
+  it.input.cut = true;
   for (AxisSnapshot& axis : it.axes) axis.health = SourceState::never_heard;
   EXPECT_FALSE(it.after_ms(5000));
-  it.power.reset();
+  it.input.cut = false;
   EXPECT_TRUE(it.after_ms(5));
 }
 
