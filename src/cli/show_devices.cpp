@@ -4,6 +4,7 @@
 
 #include "cli/layout.h"
 #include "cli/show_sensors.h"
+#include "cli/shown_text.h"
 
 namespace drover::cli {
 
@@ -11,50 +12,37 @@ namespace {
 
 using json::Node;
 
-std::string vector(const Node& node, const char* format, std::string_view unit) {
-  static const Node kNothing;
-  const auto* list = node.list();
-  std::string out;
-  for (std::size_t i = 0; i < 3; ++i) {
-    out += std::string(1, "xyz"[i]) + " ";
-    out += quantity(list != nullptr && i < list->size() ? (*list)[i] : kNothing, format) + "  ";
-  }
-  return out + std::string(unit);
-}
-
 /// Pace, age and counts: the same of every device.
 void show_source(std::string& out, const Node& device) {
   line(out, "rate",
-       quantity(at(device, "rate_Hz"), "%.1f Hz") + "  " +
-           labelled("age", at(device, "age_s"), "%.3f s") + "  " +
-           labelled("samples", at(device, "samples"), "%.0f") + "  " +
-           labelled("bad", at(device, "bad"), "%.0f"));
+       said(device, "rate_Hz") + "  " + said("age", device, "age_s") + "  " +
+           said("samples", device, "samples") + "  " + said("bad", device, "bad"));
   line(out, "health", text(at(device, "health")));
   if (!text(at(device, "reason")).empty()) line(out, "", text(at(device, "reason")));
+}
+
+/// How long ago, behind a value that came then.
+std::string old(const Node& device, std::string_view name) {
+  return at(device, name).number() ? said(device, name) + " old" : "-";
 }
 
 std::string show_gnss(const Node& status) {
   const auto& gnss = at(status, "gnss");
   std::string out;
   line(out, "quality",
-       text(at(gnss, "quality")) + "  " + labelled("satellites", at(gnss, "satellites"), "%.0f") +
-           "  " + labelled("hdop", at(gnss, "hdop"), "%.2f") + "  " +
-           labelled("corrections", at(gnss, "correction_age_s"), "%.1f s old"));
+       text(at(gnss, "quality")) + "  " + said("satellites", gnss, "satellites") + "  " +
+           said("hdop", gnss, "hdop") + "  corrections " + old(gnss, "correction_age_s"));
   line(out, "position",
-       labelled("latitude", at(gnss, "latitude_deg"), "%.9f deg") + "  " +
-           labelled("longitude", at(gnss, "longitude_deg"), "%.9f deg") + "  " +
-           labelled("altitude", at(gnss, "altitude_msl_m"), "%.3f m"));
+       said("latitude", gnss, "latitude_deg") + "  " + said("longitude", gnss, "longitude_deg") +
+           "  " + said("altitude", gnss, "altitude_msl_m"));
   line(out, "sigma",
-       labelled("east", at(gnss, "sigma_east_m"), "%.3f m") + "  " +
-           labelled("north", at(gnss, "sigma_north_m"), "%.3f m"));
-  line(out, "motion",
-       labelled("speed", at(gnss, "speed_mps"), "%.3f m/s") + "  " +
-           labelled("course", at(gnss, "course_deg"), "%.1f deg"));
+       said("east", gnss, "sigma_east_m") + "  " + said("north", gnss, "sigma_north_m"));
+  line(out, "motion", said("speed", gnss, "speed_mps") + "  " + said("course", gnss, "course_deg"));
   const bool told = at(gnss, "heading_age_s").number().has_value();
   line(out, "heading",
-       labelled("as received", at(gnss, "receiver_heading_deg"), "%.2f deg") +
-           (told ? quantity(at(gnss, "heading_age_s"), " (%.1f s old)") : "") + "  " +
-           labelled("robot's, less the mounting", at(gnss, "heading_deg"), "%.2f deg"));
+       said("as received", gnss, "receiver_heading_deg") +
+           (told ? " (" + old(gnss, "heading_age_s") + ")" : "") + "  " +
+           said("robot's, less the mounting", gnss, "heading_deg"));
   show_source(out, gnss);
   return out + show_sensors(status, "gnss");
 }
@@ -62,16 +50,13 @@ std::string show_gnss(const Node& status) {
 std::string show_imu(const Node& status) {
   const auto& imu = at(status, "imu");
   std::string out;
-  line(out, "accel", vector(at(imu, "acceleration_mps2"), "%8.3f", "m/s2"));
-  line(out, "gyro", vector(at(imu, "angular_velocity_radps"), "%8.4f", "rad/s"));
+  line(out, "accel", said_vector(imu, "acceleration_mps2"));
+  line(out, "gyro", said_vector(imu, "angular_velocity_radps"));
   line(out, "bias",
-       vector(at(imu, "gyro_bias_radps"), "%8.5f", "rad/s") + "  " +
-           labelled("sigma z", at(imu, "gyro_bias_sigma_radps"), "%.5f rad/s"));
-  line(out, "attitude",
-       labelled("roll", at(imu, "roll_rad"), "%.4f rad") + "  " +
-           labelled("pitch", at(imu, "pitch_rad"), "%.4f rad"));
+       said_vector(imu, "gyro_bias_radps") + "  " + said("sigma z", imu, "gyro_bias_sigma_radps"));
+  line(out, "attitude", said("roll", imu, "roll_rad") + "  " + said("pitch", imu, "pitch_rad"));
   line(out, "chip",
-       labelled("temperature", at(imu, "temperature_degC"), "%.1f C") +
+       said("temperature", imu, "temperature_degC") +
            (yes(at(imu, "saturated")) ? "  SATURATED" : ""));
   show_source(out, imu);
   return out + show_sensors(status, "imu");
@@ -81,19 +66,14 @@ std::string show_bms(const Node& status) {
   const auto& battery = at(status, "battery");
   std::string out;
   line(out, "charge",
-       quantity(at(battery, "soc_percent"), "%.1f %%") + "  " +
-           labelled("remaining", at(battery, "remaining_Ah"), "%.1f Ah") + "  " +
+       said(battery, "soc_percent") + "  " + said("remaining", battery, "remaining_Ah") + "  " +
            text(at(battery, "flow")) +
            (yes(at(battery, "charger_connected")) ? "  CHARGER CONNECTED" : ""));
-  line(out, "pack",
-       quantity(at(battery, "voltage_V"), "%.2f V") + "  " +
-           quantity(at(battery, "current_A"), "%.2f A") + " into it");
+  line(out, "pack", said(battery, "voltage_V") + "  " + said(battery, "current_A") + " into it");
   line(out, "cells",
-       labelled("lowest", at(battery, "min_cell_V"), "%.3f V") + "  " +
-           labelled("highest", at(battery, "max_cell_V"), "%.3f V"));
+       said("lowest", battery, "min_cell_V") + "  " + said("highest", battery, "max_cell_V"));
   line(out, "warmth",
-       labelled("cells", at(battery, "temperature_degC"), "%.1f C") + "  " +
-           labelled("switch", at(battery, "mosfet_degC"), "%.1f C"));
+       said("cells", battery, "temperature_degC") + "  " + said("switch", battery, "mosfet_degC"));
   line(out, "alarm", text(at(battery, "alarm")).empty() ? "none" : text(at(battery, "alarm")));
   show_source(out, battery);
   return out + show_sensors(status, "battery");

@@ -4,8 +4,16 @@
 #include <string_view>
 
 #include "drover/snapshot.h"
+#include "publish/rtk_navigation/spelling.h"
 
 namespace drover::publish {
+
+constexpr std::string_view word(NavStatus status) {
+  return spelling(status);
+}
+constexpr std::string_view word(LocateState state) {
+  return spelling(state);
+}
 
 constexpr std::string_view word(SensorKind kind) {
   switch (kind) {

@@ -235,7 +235,8 @@ TEST_F(ChassisOnATty, IsNotSaidToStopWhileItsLineIsPulled) {
   ASSERT_TRUE(live_until([this] { return said().find("lost") != std::string::npos; })) << said();
   live_for(500ms);
   EXPECT_EQ(drover({"stop"}), 1) << drover_said;
-  EXPECT_THAT(drover_said, HasSubstr("but nothing is heard from the base: whether the robot stops"));
+  EXPECT_THAT(drover_said,
+              HasSubstr("but nothing is heard from the base: whether the robot stops"));
 }
 
 TEST_F(ChassisOnATty, GetsANewGuardWhenTheFirstOneDies) {

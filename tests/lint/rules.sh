@@ -31,13 +31,13 @@ src/publish      drover/ publish/ store/ json/ text/
 src/publish/rtk_navigation  drover/ store/ json/ publish/arrival.h publish/names.h
 src/publish/rtk_navigation  publish/rtk_navigation/
 src/publish/status   drover/ json/ publish/names.h publish/rtk_navigation/spelling.h
-src/publish/status   publish/status/
+src/publish/status   publish/shown_json.h publish/status/
 src/publish/aimrt    drover/ json/ text/ publish/arrival.h publish/command_service.h
 src/publish/aimrt    publish/token_bucket.h publish/aimrt/
 src/runtime      drover/ runtime/ publish/ store/ json/ config/ link/ engine/ gateway/
 src/guard        drover/ guard/
 src/cli          drover/ cli/ json/ text/ config/register_map.h config/fields_map.h
-src/cli          gateway/recording/replay.h link/unique_fd.h publish/names.h
+src/cli          gateway/recording/replay.h link/unique_fd.h publish/names.h publish/shown_json.h
 src/droverd.cpp  config/ runtime/
 sim/plant        drover/ sim/plant/
 sim/robot        drover/ link/ text/ sim/plant/ sim/robot/ config/register_map.h

@@ -43,7 +43,7 @@ class FieldNames final {
  public:
   explicit FieldNames(std::vector<FieldName>& into) : into_(into) {}
   template <class T>
-  void value(const char* name, const T&) {
+  void value(const char* name, const T&, const Shown& = {}) {
     into_.push_back({kind_of_value<T>(), prefix_ + name});
   }
   template <class Visit>
@@ -70,7 +70,7 @@ class FieldValues final {
  public:
   explicit FieldValues(std::vector<FieldValue>& into) : into_(into) {}
   template <class T>
-  void value(const char*, const T& value) {
+  void value(const char*, const T& value, const Shown& = {}) {
     FieldValue& field = next();
     if constexpr (kind_of_value<T>() == FieldKind::text) {
       field.text = std::string_view(value);
@@ -103,7 +103,7 @@ class FieldChanges final {
  public:
   FieldChanges(std::span<std::uint64_t> last, ByteWriter& out) : last_(last), out_(out) {}
   template <class T>
-  void value(const char*, const T& value) {
+  void value(const char*, const T& value, const Shown& = {}) {
     if (index_ == last_.size()) return out_.fail();
     std::uint64_t& last = last_[index_++];
     if constexpr (kind_of_value<T>() == FieldKind::text) {

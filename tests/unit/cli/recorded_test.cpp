@@ -191,8 +191,7 @@ TEST(Recordings, OfABatteryMayBeWrittenAsLoggersWriteBytes) {
            "0x0028: 0x0212, 0x74D7, 0x0360\n",
        }) {
     const auto shown = show("bms", text, daly);
-    EXPECT_NE(shown.out.find("soc percent 86.4  voltage 53.00 V  current -8.90 A"),
-              std::string::npos)
+    EXPECT_NE(shown.out.find("soc 86.4 %  voltage 53.00 V  current -8.90 A"), std::string::npos)
         << text << shown.notes;
   }
 }
@@ -240,7 +239,7 @@ TEST(Recordings, OfABatteryAreDecodedWhicheverBlocksTheMasterRead) {
                           {.driver = "modbus_bms",
                            .map = std::string(DROVER_SOURCE_DIR) + "/config/maps/daly_d2.json"});
   EXPECT_EQ(shown.out,
-            "       2  battery  soc percent 90.0  voltage 14.00 V  current 3.00 A  "
+            "       2  battery  soc 90.0 %  voltage 14.00 V  current 3.00 A  "
             "remaining 345.6 Ah  temperature 23.0 C  mosfet -  min cell 4.127 V  "
             "max cell 4.157 V  flow idle  charger connected no  alarm -\n")
       << shown.notes;
