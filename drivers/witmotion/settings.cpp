@@ -1,9 +1,11 @@
 // Which settings of the device an operator's options mean.
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 
 #include "drivers/witmotion/framer.h"
 #include "drivers/witmotion/setup.h"
+#include "drover/baud.h"
 
 namespace drover::witmotion {
 namespace {
@@ -30,6 +32,31 @@ int bits_in(std::uint16_t content) {
   return count;
 }
 
+std::string text_of(double number) {
+  auto text = std::to_string(number);
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.ends_with('.')) text.pop_back();
+  return text;
+}
+
+/// The line cannot carry what is wanted: which speed can, and how much this one does.
+std::string too_slow(const Options& options, double needed_baud) {
+  const double baud = options.number("baud");
+  const double wanted_Hz = options.number("rate_Hz");
+  double fits_Hz = 0;
+  for (std::uint16_t code = 1; const auto each_Hz = rate_Hz(code); ++code)
+    if (*each_Hz * needed_baud <= wanted_Hz * baud) fits_Hz = *each_Hz;
+  // The fastest carries all that can be wanted.
+  const auto* const carries =
+      std::lower_bound(kSerialBauds.begin(), kSerialBauds.end() - 1, needed_baud);
+  const bool sets_it = options.flag("configure") && !is_combined(options);
+  return "baud is " + text_of(baud) + ", but rate_Hz " + text_of(wanted_Hz) + " needs " +
+         std::to_string(*carries) + " or more: " +
+         (sets_it ? "droverd sets the sensor to the speed that stands here"
+                  : "set the sensor to it, too") +
+         "; or a rate_Hz of " + text_of(fits_Hz) + " and less";
+}
+
 }  // namespace
 
 Settings wanted_settings(const Options& options) {
@@ -44,8 +71,7 @@ Settings wanted_settings(const Options& options) {
                                             : static_cast<double>(kFrameSize) * bits_in(content);
   const double needed_baud = bytes * kBitsPerByte * wanted_Hz / kFullestLine;
   if (needed_baud > options.number("baud"))
-    throw std::runtime_error("what is wanted rate_Hz times a second needs a baud rate of " +
-                             std::to_string(static_cast<int>(needed_baud)) + " and more");
+    throw std::runtime_error(too_slow(options, needed_baud));
   const double bandwidth_Hz = options.number("bandwidth_Hz");
   const auto algorithm =
       options.flag("use_magnetic_yaw") ? Algorithm::nine_axis : Algorithm::six_axis;

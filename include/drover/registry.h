@@ -51,6 +51,8 @@ struct DriverEntry {
   std::span<const OptionSpec> options;
   SlotKind kind = SlotKind::drive;  ///< what its device is to the robot
   Wire wire = Wire::can;            ///< what it hangs on
+  /// Speeds at which it speaks on a serial line, usual one first. Empty: any.
+  std::span<const int> bauds = {};
   /// What its devices move, in the order in which they are told. Empty: nothing.
   std::span<const Channel> channels = {};
   MakeDevice make = nullptr;

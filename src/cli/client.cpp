@@ -18,7 +18,9 @@ std::string why(const std::string& path, int error, int patience_s) {
   if (error == ENOENT || error == ECONNREFUSED)
     return "droverd does not run (no answer at " + path + ")";
   if (error == EACCES)
-    return path + ": permission denied; join the group with: usermod -aG drover $USER";
+    return path +
+           ": droverd answers only root and members of the group drover: run this with sudo, or "
+           "join with: sudo usermod -a -G drover \"$USER\" (from the next login on)";
   if (error == EAGAIN) return "droverd did not answer within " + std::to_string(patience_s) + " s";
   return path + ": " + std::strerror(error);
 }

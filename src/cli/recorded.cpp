@@ -193,6 +193,10 @@ int show_registers(std::istream& in, const Recording& recording, std::ostream& o
                    std::ostream& notes) {
   const auto& entry = entry_of(SlotKind::battery, recording.driver);
   if (recording.map.empty()) throw WrongUsage("--map is missing: the file of the registers");
+  if (const auto missing = config::missing_register_map(recording.map, ".");
+      !missing.message.empty())
+    throw WrongUsage("--map: there is no \"" + recording.map + "\" here, nor an installed map" +
+                     (missing.hint.empty() ? "" : " (" + missing.hint + ")"));
   const auto loaded = config::load_register_map(config::find_register_map(recording.map, "."));
   for (const auto& problem : loaded.problems) throw WrongUsage(problem.text(problem.file));
   const auto options = options_from(entry.options, recording.options);

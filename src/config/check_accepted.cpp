@@ -7,21 +7,65 @@
 namespace drover::config {
 namespace {
 
+const std::vector<std::string> kOfADrive{"no_watchdog"};
+const std::vector<std::string> kAtTheTop{"no_estop", "slow_guard", "no_tilt", "no_soc", "no_relay"};
+
+bool is_one_of(const std::vector<std::string>& words, const std::string& word) {
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+/// `elsewhere` are words of the other list, which stands at `there`.
 void known_words(const std::string& path, const std::vector<std::string>& words,
-                 const std::vector<std::string>& known, Findings& found) {
-  for (const auto& word : words)
-    if (std::find(known.begin(), known.end(), word) == known.end())
+                 const std::vector<std::string>& known, const std::vector<std::string>& elsewhere,
+                 const std::string& there, Findings& found) {
+  for (const auto& word : words) {
+    if (is_one_of(known, word)) continue;
+    if (is_one_of(elsewhere, word))
+      found.add(path, "\"" + word + "\" is not accepted here",
+                "write it into the \"accept\" " + there);
+    else
       found.add(path, "nothing of the name \"" + word + "\" can be accepted here",
                 text::did_you_mean(word, known));
+  }
+}
+
+/// What only a relay in its supply stops when its line is cut.
+void warn_of_what_goes_on(Findings& found) {
+  const auto& devices = found.config().devices;
+  const auto goes_on = [](const auto& device) { return device.goes_on_in_silence; };
+  const auto first = std::find_if(devices.begin(), devices.end(), goes_on);
+  const auto others = std::count_if(devices.begin(), devices.end(), goes_on) - 1;
+  const std::string so_do_others = others == 0 ? ""
+                                   : others == 1
+                                       ? ", and so does 1 other"
+                                       : ", and so do " + std::to_string(others) + " others";
+  found.warn(device_path(*first, "accept"),
+             "it goes on for ever when its line is cut" + so_do_others +
+                 "; there is no outputs.enable_relay, so nothing of this gateway stops it then",
+             "no_relay", "an enable_relay in its supply");
+}
+
+void warn_of_no_relay(Findings& found) {
+  const auto& config = found.config();
+  if (config.outputs.output[static_cast<std::size_t>(Output::enable_relay)].configured) return;
+  const auto& devices = config.devices;
+  if (std::any_of(devices.begin(), devices.end(),
+                  [](const auto& device) { return device.goes_on_in_silence; }))
+    return warn_of_what_goes_on(found);
+  if (config.engine.base.hold == engine::HoldBy::level_ground_only)
+    found.warn("groups.base.hold",
+               "where a stop does not work the drives let go and then the enable relay opens, but "
+               "there is no outputs.enable_relay: drives that do not listen keep their power",
+               "no_relay", "an enable_relay in their supply");
 }
 
 }  // namespace
 
 void check_accepted(Findings& found) {
   for (const auto& device : found.config().devices)
-    known_words(device_path(device, "accept"), device.accept, {"no_watchdog"}, found);
-  known_words("accept", found.config().accept, {"no_estop", "slow_guard", "no_tilt", "no_soc"},
-              found);
+    known_words(device_path(device, "accept"), device.accept, kOfADrive, kAtTheTop,
+                "at the top of the file", found);
+  known_words("accept", found.config().accept, kAtTheTop, kOfADrive, "of the drive", found);
 }
 
 void warn_of_risks(Findings& found) {
@@ -37,6 +81,7 @@ void warn_of_risks(Findings& found) {
                "without an inertial sensor nothing tells how steep the ground is: max_tilt_deg "
                "stops nothing",
                "no_tilt");
+  warn_of_no_relay(found);
   for (const auto& device : devices) {
     const auto& fields = device.registers.fields;
     const bool has_charge = std::any_of(fields.begin(), fields.end(), [](const auto& field) {

@@ -24,8 +24,9 @@ void check_company(const DeviceConfig& device, const LinkConfig& link,
 void hang(DeviceConfig& device, std::map<std::string, std::string>& first, Findings& found) {
   const auto path = device_path(device, "link");
   const auto* link = find_link(device.link, path, found);
-  if (link == nullptr || found.has_problem(link_path(*link))) return;
+  if (link == nullptr) return;
   device.link_index = static_cast<std::size_t>(link - found.config().links.data());
+  if (found.has_problem(link_path(*link))) return;
   const auto* entry = find_driver(device.driver);
   if (entry == nullptr) return;
   if (entry->wire == link->wire) return check_company(device, *link, first, found);
@@ -132,7 +133,7 @@ void check_lines(Findings& found) {
   auto& outputs = config.outputs;
   if (!found.given("outputs")) return;
   const auto* link = find_link(outputs.link, "outputs.link", found);
-  if (link != nullptr && link->wire != Wire::levels)
+  if (link != nullptr && link->wire != Wire::levels && !found.has_problem(link_path(*link)))
     found.add("outputs.link", "\"" + link->name + "\" is " + std::string(words(link->wire)) +
                                   ", but outputs are lines of " + std::string(words(Wire::levels)));
   if (link != nullptr) outputs.chip = link->gpio;

@@ -45,14 +45,47 @@ void look_at_silence(const DeviceConfig& device, const Actuator& driver, Finding
             "set its watchdog, or \"accept\": [\"no_watchdog\"] when that is meant");
 }
 
+/// Of what moves something: at another speed nobody hears it, and it hears no stop.
+void look_at_speed(const DeviceConfig& device, Findings& found) {
+  const auto* entry = find_driver(device.driver);
+  const auto& links = found.config().links;
+  if (entry == nullptr || entry->bauds.empty() || device.link_index >= links.size()) return;
+  const auto& link = links[device.link_index];
+  const auto path = link_path(link, "baud");
+  if (link.wire != Wire::bytes || found.has_problem(device_path(device, "link")) ||
+      found.has_problem(path))
+    return;
+  const auto& known = entry->bauds;
+  if (std::find(known.begin(), known.end(), link.baud) != known.end()) return;
+  std::string all;
+  for (const int baud : known) all += (all.empty() ? "" : ", ") + std::to_string(baud);
+  found.add(path,
+            "is " + std::to_string(link.baud) + ", but " + device_path(device) + " (" +
+                device.driver + ") speaks at " + all,
+            known.size() == 1 && known[0] == kUsualBaud ? "write that, or leave it out" : "");
+}
+
+/// A driver begins with the option's name. Its speed stands at its link.
+void refuse_options(const DeviceConfig& device, const LinkConfig* link, std::string_view why,
+                    Findings& found) {
+  constexpr std::string_view kSpeed = "baud ";
+  if (link != nullptr && why.starts_with(kSpeed))
+    found.add(link_path(*link, "baud"), std::string(why.substr(kSpeed.size())));
+  else
+    found.add(device_path(device, "options"), std::string(why));
+}
+
 /// What a driver says about options that do not fit together, it says when it is made.
 Made build(const DeviceConfig& device, Findings& found) {
   const auto* entry = find_driver(device.driver);
   if (entry == nullptr || found.has_problem(device_path(device))) return {};
+  const auto& links = found.config().links;
+  const auto* link = device.link_index < links.size() ? &links[device.link_index] : nullptr;
+  if (link != nullptr && found.has_problem(link_path(*link))) return {};  // options follow it
   try {
     return entry->make(device.options, context_of(device));
   } catch (const std::exception& error) {
-    found.add(device_path(device, "options"), error.what());
+    refuse_options(device, link, error.what(), found);
     return {};
   }
 }
@@ -76,6 +109,11 @@ class Maps final {
     const auto known = std::find(names_.begin(), names_.end(), device.map);
     if (known != names_.end()) return maps_[static_cast<std::size_t>(known - names_.begin())];
     const auto place = names_.size();
+    if (const auto missing = given_ ? MissingMap{} : missing_register_map(device.map, folder_);
+        !missing.message.empty()) {
+      found_.add(path, missing.message, missing.hint);
+      return {};
+    }
     auto loaded = !given_ ? load_register_map(find_register_map(device.map, folder_))
                           : parse_register_map(place < texts_.size() ? texts_[place] : "");
     if (!given_) texts_.push_back(std::move(loaded.text));
@@ -128,6 +166,7 @@ void check_batteries(const std::string& folder, Findings& found) {
   for (auto& device : found.config().devices) {
     if (device.kind != SlotKind::battery || found.has_problem(device_path(device, "map"))) continue;
     device.registers = maps.read(device);
+    if (found.has_problem(device_path(device, "map"))) continue;
     if (device.unit == 0) device.unit = device.registers.unit;
     share_line(device, units, found);
   }
@@ -142,9 +181,12 @@ void follow_baud_rates(Findings& found) {
 }
 
 void check_drivers(Findings& found) {
-  for (const auto& device : found.config().devices) {
+  for (auto& device : found.config().devices) {
+    look_at_speed(device, found);
     const auto made = build(device, found);
-    if (made.actuator != nullptr) look_at_silence(device, *made.actuator, found);
+    if (made.actuator == nullptr) continue;
+    device.goes_on_in_silence = !made.actuator->silence().stops;
+    look_at_silence(device, *made.actuator, found);
   }
 }
 

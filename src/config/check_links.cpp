@@ -12,7 +12,6 @@
 namespace drover::config {
 namespace {
 
-constexpr int kUsualBaud = 115200;
 constexpr std::size_t kLongestInterface = 15;  // the kernel's, without the zero at its end
 
 /// "" when it is a device or tcp:ADDRESS:PORT. No names: to resolve one may take longer than
@@ -74,6 +73,18 @@ void check_pace(LinkConfig& link, Findings& found) {
   }
 }
 
+/// A relative one would be looked for in whichever folder droverd works.
+void check_port(const LinkConfig& link, std::string_view key, const std::string& port,
+                Findings& found) {
+  if (port.empty() || port.starts_with('/') || port.starts_with("tcp:")) return;
+  const auto whole = (port.starts_with("dev/") ? "/" : "/dev/") + port;
+  const bool is_slip = port.starts_with("dev/") || port.starts_with("tty");
+  found.add(
+      link_path(link, key),
+      "\"" + port + "\" is no absolute path: it would be looked for in droverd's working folder",
+      is_slip ? "did you mean \"" + whole + "\"?" : "a path like \"/dev/ttyUSB0\"");
+}
+
 /// Longer ones the kernel cuts, or refuses when it is too late.
 void check_interface(const LinkConfig& link, Findings& found) {
   if (link.can.starts_with("unix:") || link.can.size() <= kLongestInterface) return;
@@ -114,6 +125,8 @@ void check_links(Findings& found) {
     if (address(link).empty()) continue;  // told already
     check_pace(link, found);
     check_interface(link, found);
+    check_port(link, "serial", link.serial, found);
+    check_port(link, "modbus", link.modbus, found);
     if (const auto why = check_modbus_port(link.modbus); !why.empty())
       found.add(link_path(link, "modbus"), why);
     if (link.wire == Wire::can && ++buses == kMaxBuses + 1)

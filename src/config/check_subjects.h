@@ -9,6 +9,9 @@
 
 namespace drover::config {
 
+/// Of a serial line that says nothing.
+inline constexpr int kUsualBaud = 115200;
+
 // The tables: names that refer to each other, and what two may not share.
 void check_links(Findings& found);    ///< fills in wires and usual speeds
 void check_devices(Findings& found);  ///< fills in kinds and links

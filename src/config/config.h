@@ -74,6 +74,8 @@ struct DeviceConfig {
   SlotKind kind = SlotKind::drive;
   std::size_t link_index = 0;
   AxisId first_axis = 0;  ///< of its joints, which are numbered through all devices
+  /// It moves something, and goes on as it was told last when messages cease.
+  bool goes_on_in_silence = false;
   RegisterMap registers;  ///< read from `map`
 };
 

@@ -218,10 +218,10 @@ void visit(V& v, DroverConfig& c, GroupNames& groups) {
   v.object("mqtt", c.mqtt, "broker");
   v.object("protocol", c.protocol, "choices of the RTK navigation protocol");
   v.object("aimrt", c.aimrt, "AimRT channel");
-  v.names("accept", c.accept, Count{0, 4},
+  v.names("accept", c.accept, Count{0, 5},
           "no_estop: there is no e-stop line; slow_guard: guard.limit_ms is above 200; no_tilt: "
-          "nothing tells how steep the ground is; no_soc: no battery tells its charge; that is "
-          "known");
+          "nothing tells how steep the ground is; no_soc: no battery tells its charge; no_relay: "
+          "nothing takes the power from drives that do not stop; that is known");
 }
 
 }  // namespace drover::config

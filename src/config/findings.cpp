@@ -45,13 +45,15 @@ void Findings::add(std::string path, std::string message, std::string hint) {
       {at.line, at.column, std::move(path), std::move(message), std::move(hint), ""});
 }
 
-void Findings::warn(const std::string& path, const std::string& message, const std::string& word) {
+void Findings::warn(const std::string& path, const std::string& message, const std::string& word,
+                    const std::string& mend) {
   const auto& accepted = loaded_.config.accept;
   if (std::find(accepted.begin(), accepted.end(), word) != accepted.end()) return;
   std::string_view rest = path;
   const auto& at = place(root_, rest);
-  loaded_.warnings.push_back(
-      {at.line, at.column, path, message, "\"accept\": [\"" + word + "\"] when that is meant", ""});
+  const auto hint = (mend.empty() ? "" : mend + ", or ") + "\"accept\": [\"" + word +
+                    "\"] at the top of the file when that is meant";
+  loaded_.warnings.push_back({at.line, at.column, path, message, hint, ""});
 }
 
 bool Findings::given(std::string_view path) const {

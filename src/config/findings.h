@@ -20,8 +20,9 @@ class Findings final {
 
   /// `path` is like "devices.left.options.node".
   void add(std::string path, std::string message, std::string hint = {});
-  /// Not when a person accepted it by this word.
-  void warn(const std::string& path, const std::string& message, const std::string& word);
+  /// Not when a person accepted it by this word. `mend` is what may be done instead.
+  void warn(const std::string& path, const std::string& message, const std::string& word,
+            const std::string& mend = {});
   /// Whether the text says anything of this key.
   bool given(std::string_view path) const;
   /// Whether something was found already at a path that begins so.

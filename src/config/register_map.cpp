@@ -206,4 +206,32 @@ std::string find_register_map(const std::string& map, const std::string& folder)
   return beside.lexically_normal().string();
 }
 
+namespace {
+
+std::vector<std::string> installed_maps() {
+  namespace fs = std::filesystem;
+  std::vector<std::string> names;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(fs::path(DROVER_DATA_FOLDER) / "maps", ignored))
+    if (entry.path().extension() == ".json") names.push_back(entry.path().filename().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+}  // namespace
+
+MissingMap missing_register_map(const std::string& map, const std::string& folder) {
+  namespace fs = std::filesystem;
+  std::error_code ignored;
+  if (fs::exists(find_register_map(map, folder), ignored)) return {};
+  if (fs::path(map).is_absolute()) return {"there is no file \"" + map + "\"", ""};
+  const auto installed = installed_maps();
+  auto hint = text::did_you_mean(fs::path(map).filename().string(), installed);
+  if (hint.empty())
+    for (const auto& name : installed) hint += (hint.empty() ? "installed are: " : ", ") + name;
+  return {"there is no \"" + map + "\" beside this file, nor among the installed maps in " +
+              std::string(DROVER_DATA_FOLDER) + "/maps",
+          hint.empty() ? "none are installed there" : hint};
+}
+
 }  // namespace drover::config

@@ -24,6 +24,14 @@ LoadedMap load_register_map(const std::string& path);
 /// else one of the installed maps. The first when none is there.
 std::string find_register_map(const std::string& map, const std::string& folder);
 
+/// Why there is no such map, and what there is instead.
+struct MissingMap {
+  std::string message;  ///< empty: it is there
+  std::string hint;
+  std::string text() const { return hint.empty() ? message : message + " (" + hint + ")"; }
+};
+MissingMap missing_register_map(const std::string& map, const std::string& folder);
+
 /// JSON schema (draft 7) of a map file, from the same tables.
 std::string register_map_schema_text();
 

@@ -4,6 +4,8 @@
 #include <nlohmann/json.hpp>
 #include <unordered_set>
 
+#include "json/slips.h"
+
 namespace drover::json {
 namespace {
 
@@ -80,24 +82,6 @@ std::string plain_message(std::string_view what) {
   return message;
 }
 
-/// The backend says what it had hoped for; people look for what they left out.
-std::string in_other_words(std::string message) {
-  const auto ends = [&message](std::string_view end) { return message.ends_with(end); };
-  const bool value = message.find("unexpected string literal") != std::string::npos ||
-                     message.find("unexpected number literal") != std::string::npos ||
-                     message.find("unexpected true literal") != std::string::npos ||
-                     message.find("unexpected false literal") != std::string::npos ||
-                     message.find("unexpected null literal") != std::string::npos ||
-                     message.find("unexpected '{'") != std::string::npos ||
-                     message.find("unexpected '['") != std::string::npos;
-  if (value && (ends("; expected '}'") || ends("; expected ']'")))
-    return "a comma is missing before this";
-  if (message.find("unexpected '}'; expected string literal") != std::string::npos)
-    return "there is a comma too many before this";
-  if (value && ends("; expected ':'")) return "a colon is missing before this";
-  return message;
-}
-
 class Builder {
  public:
   Builder(std::string_view text, const Limits& limits) : text_(text), limits_(limits) {}
@@ -147,6 +131,8 @@ class Builder {
   bool parse_error(std::size_t position, const std::string&, const std::exception& error) {
     const std::size_t last_read = std::min(position > 0 ? position - 1 : 0, text_.size());
     advance(std::max(at_, std::min(skip_to_token(text_, at_), last_read)));
+    const bool inside = !frames_.empty();
+    if (auto slip = slip_at(text_, at_, inside); !slip.empty()) return fail(std::move(slip));
     return fail(in_other_words(plain_message(error.what())));
   }
 

@@ -142,6 +142,8 @@ class Crawler final : public Device, public ByteFace, public Actuator {
 constexpr OptionSpec kOptions[] = {
     {.name = "stops", .default_value = true, .text = "by itself, when nobody speaks to it"}};
 
+constexpr int kBauds[] = {115200};
+
 Made make(const Options& options, const MakeContext&) {
   return make_device<Crawler>(options.flag("stops"));
 }
@@ -153,6 +155,7 @@ const DriverEntry kCrawlerEntry{.name = "crawler",
                                 .options = kOptions,
                                 .kind = SlotKind::drive,
                                 .wire = Wire::bytes,
+                                .bauds = kBauds,
                                 .channels = {&kBase, 1},
                                 .make = make,
                                 .twin_options = {},

@@ -8,6 +8,8 @@ namespace drover {
 namespace gt01::serial {
 namespace {
 
+constexpr int kBauds[] = {115200};
+
 Made make(const Options& options, const MakeContext& context) {
   return make_device<Gt01SerialDriver>(read_settings(options, option_table()), context.axis(0));
 }
@@ -26,6 +28,7 @@ const DriverEntry kGt01SerialEntry = {
     .options = gt01::serial::option_table(),
     .kind = SlotKind::drive,
     .wire = Wire::bytes,
+    .bauds = gt01::serial::kBauds,
     .channels = gt01::kChannels,
     .make = gt01::serial::make,
     .twin_options = gt01::chassis_option_table(),

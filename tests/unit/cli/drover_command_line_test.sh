@@ -76,6 +76,17 @@ expect "not a hexadecimal one" 2 err '"0x1p-1" is no number' task start x --id 1
 expect "a point's number is one that there can be" 2 err "id" \
   task start x --id 99999999999999999999
 expect "the version is told to programs, too" 0 out '{"ok":true,"drover":"' version --json
+# Root may look into any folder: somebody else asks then.
+as_a_user=()
+[[ $(id -u) == 0 ]] && as_a_user=(setpriv --reuid 65534 --regid 65534 --clear-groups)
+mkdir -m 0700 "$work/closed"
+[[ $(id -u) == 0 ]] || chmod 0 "$work/closed"
+chmod a+rx "$work"
+if "${as_a_user[@]}" "$drover" version > "$work/out" 2> "$work/err"; then
+  "${as_a_user[@]}" "$drover" --socket "$work/closed/cli.sock" status > "$work/out" 2> "$work/err"
+  [[ $? == 3 ]] && grep -qF 'run this with sudo, or join with: sudo usermod -a -G drover' "$work/err"
+  verdict $? "who may not ask is told how to become one who may"
+fi
 if [[ -w /dev/full ]]; then
   "$drover" version > /dev/full 2> "$work/err"
   [[ $? == 1 ]] && grep -q "cannot write to standard output" "$work/err"

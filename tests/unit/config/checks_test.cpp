@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 
 #include "unit/config/config_text.h"
@@ -42,6 +43,19 @@ TEST(ConfigurationChecks, RefuseASpeedThatNoLineHas) {
               HasSubstr("links.gnss.baud: is 115201, but a line has one of 4800, 9600"));
 }
 
+TEST(ConfigurationChecks, RefuseALineThatIsNoWholePath) {
+  const auto serial = [](const std::string& port) {
+    return problems(with("\"/dev/drover/gnss\"", "\"" + port + "\""));
+  };
+  EXPECT_EQ(serial("ttyUSB0"),
+            "f:3:32: links.gnss.serial: \"ttyUSB0\" is no absolute path: it would be looked for in "
+            "droverd's working folder (did you mean \"/dev/ttyUSB0\"?)\n");
+  EXPECT_THAT(serial("dev/drover/gnss"), HasSubstr("(did you mean \"/dev/drover/gnss\"?)"));
+  EXPECT_THAT(serial("./gnss"), HasSubstr("(a path like \"/dev/ttyUSB0\")"));
+  auto text = with("\"panel\"", "\"bms\": {\"modbus\": \"ttyS1\"}, \"panel\"");
+  EXPECT_THAT(problems(text), HasSubstr("links.bms.modbus: \"ttyS1\" is no absolute path"));
+}
+
 TEST(ConfigurationChecks, RefuseAnInterfaceThatTheKernelCannotName) {
   EXPECT_THAT(
       problems(with("{\"can\": \"can0\"}", "{\"can\": \"can0_of_the_left_side\"}")),
@@ -71,7 +85,10 @@ TEST(ConfigurationChecks, RefuseALinkThatNoDeviceHangsOn) {
       problems(with("{\"can\": \"can0\"}", "{\"can\": \"can0\"}, \"b\": {\"can\": \"can1\"}")),
       "f:2:43: links.b: no device hangs on it (leave it out)\n");
   // One that the outputs' chip hangs on is used.
-  EXPECT_EQ(problems(with("\"limits\"", "\"outputs\": {\"link\": \"panel\"}, \"limits\"")), "");
+  auto text = with("\"gpio\": \"chip0\"}", "\"gpio\": \"chip0\"}, \"b\": {\"gpio\": \"chip1\"}");
+  const std::string_view outputs = "\"outputs\": {\"link\": \"panel\"";
+  text.replace(text.find(outputs), outputs.size(), "\"outputs\": {\"link\": \"b\"");
+  EXPECT_EQ(problems(text), "");
 }
 
 TEST(ConfigurationChecks, RefuseASpeedWhereALinkHasNone) {
@@ -94,12 +111,12 @@ TEST(ConfigurationChecks, RefuseWhatIsUsedTwice) {
 }
 
 TEST(ConfigurationChecks, RefuseAnOutputOnALineThatIsAnInput) {
+  EXPECT_THAT(problems(with("{\"link\": \"panel\", \"enable_relay\"",
+                            "{\"link\": \"panel\", \"lamp\": {\"line\": \"b\"}, \"enable_relay\"")),
+              HasSubstr("outputs.lamp.line: \"b\" is used by devices.bumper.line already\n"));
   EXPECT_THAT(
-      problems(with("\"limits\"",
-                    "\"outputs\": {\"link\": \"panel\", \"lamp\": {\"line\": \"b\"}}, \"limits\"")),
-      HasSubstr("outputs.lamp.line: \"b\" is used by devices.bumper.line already\n"));
-  EXPECT_THAT(
-      problems(with("\"limits\"", "\"outputs\": {\"link\": \"gnss\"}, \"limits\"")),
+      problems(
+          with("{\"link\": \"panel\", \"enable_relay\"", "{\"link\": \"gnss\", \"enable_relay\"")),
       HasSubstr("outputs.link: \"gnss\" is a serial line, but outputs are lines of a GPIO chip\n"));
 }
 
@@ -314,6 +331,25 @@ TEST(ConfigurationChecks, RefuseTwoLinksOnOnePort) {
       HasSubstr("links.imu.serial: \"/dev//drover/gnss\" is used by links.gnss.serial already"));
 }
 
+TEST(ConfigurationChecks, PointAtTheSpeedOfALineThatIsTooSlowForItsSensor) {
+  const auto imu = [](const std::string& baud) {
+    auto text = with("\"panel\"",
+                     R"("imu": {"serial": "/dev/drover/imu", "baud": )" + baud + "}, \"panel\"");
+    return problems(text.insert(text.find("    \"estop\""),
+                                R"("imu": {"driver": "witmotion", "link": "imu"},)"));
+  };
+  EXPECT_EQ(imu("115200"), "");
+  EXPECT_EQ(imu("9600"),
+            "f:3:114: links.imu.baud: is 9600, but rate_Hz 100 needs 38400 or more: droverd sets "
+            "the sensor to the speed that stands here; or a rate_Hz of 20 and less\n");
+  // What is wrong by itself is told alone.
+  EXPECT_THAT(imu("9601"), AllOf(StartsWith("f:3:114: links.imu.baud: is 9601, but a line has"),
+                                 testing::Not(HasSubstr("devices.imu"))));
+  EXPECT_EQ(imu("\"9600\""),
+            "f:3:114: links.imu.baud: is a text, but a whole number is expected (write it without "
+            "quotes)\n");
+}
+
 TEST(ConfigurationChecks, WarnOfNoEmergencyStopLineUnlessThatIsAccepted) {
   EXPECT_EQ(warnings(kGood), "");
   const auto without = with(
@@ -341,6 +377,23 @@ TEST(ConfigurationChecks, WarnOfABatteryWhoseChargeNobodyTellsUnlessThatIsAccept
   EXPECT_EQ(warnings(accepted), "");
 }
 
+TEST(ConfigurationChecks, SayWhereTheyLookedForAMapThatIsNotThere) {
+  const auto with_map = [](const std::string& map) {
+    auto text = with("\"panel\"", "\"bms\": {\"modbus\": \"/dev/bms\"}, \"panel\"");
+    return text.insert(
+        text.find("    \"estop\""),
+        R"("pack": {"driver": "modbus_bms", "link": "bms", "map": ")" + map + "\"},\n");
+  };
+  const auto told = problems(with_map("maps/none_of_mine.json"));
+  EXPECT_THAT(told, StartsWith("f:8:56: devices.pack.map: there is no \"maps/none_of_mine.json\" "
+                               "beside this file, nor among the installed maps in /"));
+  EXPECT_THAT(told, testing::AnyOf(HasSubstr("(installed are: "), HasSubstr("(did you mean "),
+                                   HasSubstr("(none are installed there)")));
+  EXPECT_EQ(std::count(told.begin(), told.end(), '\n'), 1) << told;
+  EXPECT_EQ(problems(with_map("/no/such/map.json")),
+            "f:8:56: devices.pack.map: there is no file \"/no/such/map.json\"\n");
+}
+
 TEST(ConfigurationChecks, WarnOfGroundWhoseSlopeNobodyTellsUnlessThatIsAccepted) {
   auto text = with(R"("hold": "brake")", R"("hold": "level_ground_only")");
   EXPECT_THAT(warnings(text), HasSubstr("groups.base.hold: without an inertial sensor"));
@@ -356,6 +409,50 @@ TEST(ConfigurationChecks, WarnOfGroundWhoseSlopeNobodyTellsUnlessThatIsAccepted)
                R"("imu": {"serial": "/dev/drover/imu"}, "panel": {"gpio")");
   EXPECT_EQ(problems(text), "");
   EXPECT_EQ(warnings(text), "");
+}
+
+TEST(ConfigurationChecks, WarnOfADriveThatOnlyARelayStopsWhenThereIsNone) {
+  const auto without = with(R"(, "enable_relay": {"line": "r"})", "");
+  EXPECT_EQ(problems(without), "");
+  EXPECT_EQ(warnings(without),
+            "f:5:84: devices.left.accept: it goes on for ever when its line is cut, and so does 1 "
+            "other; there is no outputs.enable_relay, so nothing of this gateway stops it then (an "
+            "enable_relay in its supply, or \"accept\": [\"no_relay\"] at the top of the file when "
+            "that is meant)\n");
+  auto accepted = without;
+  accepted.insert(2, "\"accept\": [\"no_relay\"],");
+  EXPECT_EQ(warnings(accepted), "");
+}
+
+TEST(ConfigurationChecks, WarnOfABaseThatOnlyItsDrivesHoldWhenNoRelayTakesTheirPower) {
+  auto text = with(R"(, "enable_relay": {"line": "r"})", "");
+  for (int side = 0; side < 2; ++side) {
+    const std::string_view accepted = R"(}, "accept": ["no_watchdog"]},)";
+    text.replace(text.find(accepted), accepted.size(), R"(, "watchdog_timeout_s": 0.2}},)");
+  }
+  EXPECT_EQ(problems(text), "");
+  EXPECT_EQ(warnings(text), "");
+  text.replace(text.find("\"brake\""), 7, "\"level_ground_only\"");
+  text.insert(2, "\"accept\": [\"no_tilt\"],");
+  EXPECT_THAT(warnings(text),
+              AllOf(StartsWith("f:11:"),
+                    HasSubstr("groups.base.hold: where a stop does not work the drives let go and "
+                              "then the enable relay opens, but there is no outputs.enable_relay: "
+                              "drives that do not listen keep their power (")));
+  text.replace(text.find("no_tilt\""), 8, "no_tilt\", \"no_relay\"");
+  EXPECT_EQ(warnings(text), "");
+}
+
+TEST(ConfigurationChecks, PointAtTheTopForWhatIsAcceptedThere) {
+  EXPECT_THAT(problems(with("\"no_watchdog\"", "\"no_watchdog\", \"no_relay\"")),
+              HasSubstr("devices.left.accept: \"no_relay\" is not accepted here (write it into the "
+                        "\"accept\" at the top of the file)"));
+  auto text = std::string(kGood);
+  text.insert(2, "\"accept\": [\"no_watchdog\"],");
+  EXPECT_THAT(
+      problems(text),
+      HasSubstr("accept: \"no_watchdog\" is not accepted here (write it into the \"accept\" "
+                "of the drive)"));
 }
 
 TEST(ConfigurationChecks, RefuseADriveThatLetsGoBeforeTheGuardTakesOver) {

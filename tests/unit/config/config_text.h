@@ -22,7 +22,7 @@ inline constexpr std::string_view kGood = R"({
     "gnss": {"driver": "nmea0183", "link": "gnss"},
     "estop": {"driver": "gpio_line", "link": "panel", "line": "a", "is": "estop"},
     "bumper": {"driver": "gpio_line", "link": "panel", "line": "b", "is": "bumper"}
-  },
+  }, "outputs": {"link": "panel", "enable_relay": {"line": "r"}},
   "groups": {"base": {"kind": "skid_steer", "wheel_radius_m": 0.165, "track_m": 0.6,)"
                                           R"( "left": ["left"], "right": ["right"],)"
                                           R"( "hold": "brake"}},

@@ -136,9 +136,10 @@ TEST(Fields, OfTheEngineAreAllKeys) {
 TEST(Fields, OfTheDaemonAreAllKeys) {
   expect_complete<PathsConfig>();
   expect_complete<ControlConfig>();
-  expect_complete<LinkConfig>(2);    // name, wire
-  expect_complete<JointConfig>(2);   // name, channel_index
-  expect_complete<DeviceConfig>(5);  // name, kind, link_index, first_axis, registers
+  expect_complete<LinkConfig>(2);   // name, wire
+  expect_complete<JointConfig>(2);  // name, channel_index
+  // name, kind, link_index, first_axis, goes_on_in_silence, registers
+  expect_complete<DeviceConfig>(6);
   expect_complete<GuardConfig>();
   expect_complete<MqttConfig>();
   expect_complete<ProtocolConfig>();

@@ -41,6 +41,41 @@ TEST(LocatedJson, SaysWhereACommaOrAColonIsMissing) {
   EXPECT_EQ(refusal("{} {}").find("comma"), std::string::npos);
 }
 
+TEST(LocatedJson, SaysThatACommaIsTooMany) {
+  EXPECT_EQ(refusal("{\"a\": 1,}"), "line 1, column 9: there is a comma too many before this");
+  EXPECT_EQ(refusal("[1,]"), "line 1, column 4 ([1]): there is a comma too many before this");
+  EXPECT_EQ(refusal("[1,,2]"), "line 1, column 4 ([1]): there is a comma too many before this");
+  EXPECT_EQ(refusal("{\"a\": 1,, \"b\": 2}"),
+            "line 1, column 9: there is a comma too many before this");
+  EXPECT_EQ(refusal("[,1]"), "line 1, column 2 ([0]): there is a comma too many before this");
+}
+
+// What people write who come from shell, Python and YAML.
+TEST(LocatedJson, SaysHowAWordThatIsNoJsonIsWritten) {
+  const auto tells = [](std::string_view text, std::string_view piece) {
+    EXPECT_NE(refusal(text).find(piece), std::string::npos) << refusal(text);
+  };
+  EXPECT_EQ(refusal("{\n# left\n}"),
+            "line 2, column 1: '#' begins no comment: // does, and /* ... */");
+  tells("# first\n{}", "line 1, column 1: '#' begins no comment");
+  tells("{\"a\": 1 # left\n}", "line 1, column 9");
+  tells("{\"a\": 1 # left\n}", "'#' begins no comment");
+  EXPECT_EQ(refusal("{\"a\": True}"), "line 1, column 7 (a): it is written true, in small letters");
+  EXPECT_EQ(refusal("[False]"), "line 1, column 2 ([0]): it is written false, in small letters");
+  EXPECT_EQ(refusal("[NULL]"), "line 1, column 2 ([0]): it is written null, in small letters");
+  EXPECT_EQ(refusal("[None]"), "line 1, column 2 ([0]): it is written null");
+  EXPECT_EQ(refusal("{\"a\": yes}"), "line 1, column 7 (a): \"yes\" needs quotes, or is it true?");
+  EXPECT_EQ(refusal("{\"a\": off}"), "line 1, column 7 (a): \"off\" needs quotes, or is it false?");
+  EXPECT_EQ(refusal("{'a': 1}"), "line 1, column 2: texts and keys stand in \"double quotes\"");
+  EXPECT_EQ(refusal("{\"a\": 'b'}"),
+            "line 1, column 7 (a): texts and keys stand in \"double quotes\"");
+  EXPECT_EQ(refusal("{a: 1}"), "line 1, column 2: \"a\" needs quotes");
+  EXPECT_EQ(refusal("{\"a\": can0}"), "line 1, column 7 (a): \"can0\" needs quotes");
+  EXPECT_EQ(refusal("[.5]"), "line 1, column 2 ([0]): a number begins with a digit, as 0.5 does");
+  EXPECT_EQ(refusal("[+1]"), "line 1, column 2 ([0]): a number has no + before it");
+  EXPECT_EQ(refusal("[0x28]"), "line 1, column 3 ([1]): a hexadecimal number stands in quotes");
+}
+
 TEST(LocatedJson, RefusesADuplicateKeyAndTellsItsPlace) {
   EXPECT_EQ(refusal("{\"a\": {\n  \"x\": 1,\n  \"x\": 2}}"),
             "line 3, column 3 (a.x): this key is there twice");

@@ -17,6 +17,13 @@ TEST(Suggestion, FindsAForgottenUnit) {
   EXPECT_EQ(nearest("max_speed", kKeys), "max_speed_mps");
 }
 
+TEST(Suggestion, DoesNotMindCapitals) {
+  EXPECT_EQ(nearest("PORT", kKeys), "port");
+  EXPECT_EQ(nearest("Max_Speed", kKeys), "max_speed_mps");
+  EXPECT_EQ(nearest("ZLAC8015D", {"odrive", "zlac8015d"}), "zlac8015d");
+  EXPECT_EQ(nearest("gt01", {"GT01_can"}), "GT01_can");
+}
+
 TEST(Suggestion, SaysNothingWhenNothingIsNear) {
   EXPECT_EQ(nearest("wheel_radius", kKeys), "");
   EXPECT_EQ(did_you_mean("wheel_radius", kKeys), "");

@@ -72,5 +72,34 @@ TEST(ABaseThatTakesATwist, IsRefusedWhenNothingStopsItInSilence) {
               HasSubstr("devices.chassis.options: goes on for ever as it was told last"));
 }
 
+TEST(ABaseThatTakesATwist, HasALineOfASpeedThatItSpeaks) {
+  EXPECT_EQ(
+      problems(crawler_with(R"("/dev/drover/chassis")", R"("/dev/drover/chassis", "baud": 9600)")),
+      "f:2:66: links.chassis.baud: is 9600, but devices.chassis (crawler) speaks at 115200 "
+      "(write that, or leave it out)\n");
+  EXPECT_EQ(problems(crawler_with(R"("/dev/drover/chassis")",
+                                  R"("/dev/drover/chassis", "baud": 115200)")),
+            "");
+}
+
+TEST(ABaseThatTakesATwist, IsWarnedOfWhenOnlyARelayStopsItAndThereIsNone) {
+  const auto warnings = [](std::string_view text) {
+    std::string all;
+    for (const auto& warning : load_text(text).warnings) all += warning.text("f") + "\n";
+    return all;
+  };
+  EXPECT_EQ(warnings(test::kCrawlerRobot), "");
+  auto text = crawler_with(R"("link": "chassis"})",
+                           R"("link": "chassis", "options": {"stops": false},
+      "accept": ["no_watchdog"]})");
+  EXPECT_EQ(problems(text), "");
+  EXPECT_THAT(warnings(text), HasSubstr("f:6:17: devices.chassis.accept: it goes on for ever when "
+                                        "its line is cut; there is no outputs.enable_relay"));
+  text.replace(text.rfind('}'), 1,
+               R"(, "outputs": {"link": "panel", "enable_relay": {"line": "r"}}})");
+  EXPECT_EQ(problems(text), "");
+  EXPECT_EQ(warnings(text), "");
+}
+
 }  // namespace
 }  // namespace drover::config
