@@ -11,7 +11,7 @@
 namespace drover::hipnuc_can {
 namespace {
 
-constexpr double kGravity_mps2 = 9.80665;
+constexpr double kMostCounts = std::numeric_limits<std::int16_t>::max();
 constexpr double kQuaternionUnit = 1e-4;
 constexpr double kTemperatureUnit_degC = 0.01;
 
@@ -41,13 +41,12 @@ double rate_unit_radps(Dialect dialect) {
   return to_rad(dialect == Dialect::canopen ? 0.1 : 0.061035);
 }
 
-bool at_the_end(std::int16_t raw) {
-  return raw == std::numeric_limits<std::int16_t>::max() ||
-         raw == std::numeric_limits<std::int16_t>::min();
-}
-
-std::optional<Triple> read_triple(const CanFrame& frame, double unit) {
+std::optional<Triple> read_triple(const CanFrame& frame, double unit, double range) {
   if (frame.len < 6) return {};
+  // A channel that clips need not reach the very last count.
+  constexpr double kNearly = 0.998;
+  const double end = kNearly * std::min(range / unit, kMostCounts);
+  const auto at_the_end = [end](std::int16_t raw) { return std::abs(raw) >= end; };
   const auto x = load_le<std::int16_t>(frame.payload(), 0);
   const auto y = load_le<std::int16_t>(frame.payload(), 2);
   const auto z = load_le<std::int16_t>(frame.payload(), 4);
@@ -56,8 +55,7 @@ std::optional<Triple> read_triple(const CanFrame& frame, double unit) {
 
 std::int16_t in_units(double value, double unit) {
   constexpr double kLeast = std::numeric_limits<std::int16_t>::min();
-  constexpr double kMost = std::numeric_limits<std::int16_t>::max();
-  return static_cast<std::int16_t>(std::clamp(std::round(value / unit), kLeast, kMost));
+  return static_cast<std::int16_t>(std::clamp(std::round(value / unit), kLeast, kMostCounts));
 }
 
 CanFrame frame_of(const Address& address, Content content, std::uint8_t len) {
@@ -110,12 +108,12 @@ std::optional<Content> content_of(const Address& address, const CanFrame& frame)
   return {};
 }
 
-std::optional<Triple> read_acceleration(Dialect dialect, const CanFrame& frame) {
-  return read_triple(frame, acceleration_unit_mps2(dialect));
+std::optional<Triple> read_acceleration(Dialect dialect, const CanFrame& frame, double range_mps2) {
+  return read_triple(frame, acceleration_unit_mps2(dialect), range_mps2);
 }
 
-std::optional<Triple> read_rates(Dialect dialect, const CanFrame& frame) {
-  return read_triple(frame, rate_unit_radps(dialect));
+std::optional<Triple> read_rates(Dialect dialect, const CanFrame& frame, double range_radps) {
+  return read_triple(frame, rate_unit_radps(dialect), range_radps);
 }
 
 std::optional<Quaternion> read_quaternion(const CanFrame& frame) {

@@ -11,6 +11,8 @@
 
 namespace drover::hipnuc_can {
 
+inline constexpr double kGravity_mps2 = 9.80665;  ///< what the device calls 1 g
+
 enum class Dialect : std::uint8_t { canopen, j1939 };
 
 /// What a frame holds.
@@ -31,13 +33,13 @@ std::uint32_t id_of(const Address& address, Content content);
 
 struct Triple {
   Vector3 value;
-  bool saturated = false;  ///< at the end of the numbers
+  bool saturated = false;  ///< at the end of the sensor's range, or of the numbers
 };
 
-/// m/s^2 in the sensor's axes. Absent: too short.
-std::optional<Triple> read_acceleration(Dialect dialect, const CanFrame& frame);
-/// rad/s. Absent: too short.
-std::optional<Triple> read_rates(Dialect dialect, const CanFrame& frame);
+/// m/s^2 in the sensor's axes, which measures up to `range_mps2`. Absent: too short.
+std::optional<Triple> read_acceleration(Dialect dialect, const CanFrame& frame, double range_mps2);
+/// rad/s, up to `range_radps`. Absent: too short.
+std::optional<Triple> read_rates(Dialect dialect, const CanFrame& frame, double range_radps);
 /// Of unit length. Absent: too short, or nothing like a rotation.
 std::optional<Quaternion> read_quaternion(const CanFrame& frame);
 /// Absent: too short.

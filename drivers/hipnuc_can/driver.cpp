@@ -11,6 +11,7 @@ using std::chrono::milliseconds;
 
 /// Older than a few samples it is another attitude.
 constexpr Duration kOrientationStale = milliseconds(50);
+constexpr Duration kTellFor = milliseconds(1000);
 
 }  // namespace
 
@@ -29,8 +30,11 @@ void HipnucCanDriver::on_frame(const CanFrame& frame, Time received, DriverOut& 
   const Dialect dialect = settings_.address.dialect;
   switch (*content) {
     case Content::acceleration:
-      return take(acceleration_, read_acceleration(dialect, frame), received, out);
-    case Content::rates: return take(rates_, read_rates(dialect, frame), received, out);
+      return take(acceleration_,
+                  read_acceleration(dialect, frame, settings_.acceleration_range_mps2), received,
+                  out);
+    case Content::rates:
+      return take(rates_, read_rates(dialect, frame, settings_.rate_range_radps), received, out);
     case Content::quaternion:
       if (const auto orientation = read_quaternion(frame)) {
         ++good_;
@@ -72,6 +76,8 @@ void HipnucCanDriver::report_pair(Time received, DriverOut& out) {
   sample.acceleration_mps2 = rotate(settings_.mount, acceleration_.triple.value);
   sample.angular_velocity_radps = rotate(settings_.mount, rates_.triple.value);
   sample.saturated = acceleration_.triple.saturated || rates_.triple.saturated;
+  // One that stands at its end tells nothing: another sensor has to take over.
+  (sample.saturated ? last_saturated_ : last_good_) = received;
   sample.temperature_degC = temperature_degC_;
   if (received - last_orientation_ <= kOrientationStale) {
     sample.has_orientation = true;
@@ -84,15 +90,21 @@ void HipnucCanDriver::report_pair(Time received, DriverOut& out) {
 
 SourceHealth HipnucCanDriver::health(Time now) const {
   SourceHealth health{.state = SourceState::fresh,
-                      .last_good = last_sample_,
+                      .last_good = last_good_,
                       .good = good_,
                       .bad = bad_,
                       .reason = {}};
-  if (now - last_sample_ <= settings_.stale) return health;
-  health.state = last_sample_ == kNever ? SourceState::never_heard : SourceState::stale;
+  if (now - last_good_ <= settings_.stale) {
+    if (now - last_saturated_ <= kTellFor)
+      health.reason = "acceleration or rate was at the end of its range";
+    return health;
+  }
+  health.state = last_good_ == kNever ? SourceState::never_heard : SourceState::stale;
   const bool accelerations = now - acceleration_.received <= settings_.stale;
   const bool rates = now - rates_.received <= settings_.stale;
-  if (accelerations && rates) {
+  if (now - last_saturated_ <= settings_.stale) {
+    health.reason = "acceleration or rate is at the end of its range";
+  } else if (accelerations && rates) {
     health.reason = "accelerations and rates do not come together: is their output rate the same?";
   } else if (accelerations) {
     health.reason = "accelerations come, but no rates: switch their output on";

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "drivers/hipnuc_can/codec.h"
+#include "drover/angle.h"
 #include "drover/driver.h"
 
 namespace drover::hipnuc_can {
@@ -9,6 +10,9 @@ namespace drover::hipnuc_can {
 struct Settings {
   Address address;
   Quaternion mount;  ///< of the sensor in base_link
+  /// What it measures, as its data sheet says.
+  double acceleration_range_mps2 = 16 * kGravity_mps2;
+  double rate_range_radps = to_rad(2000);
   /// Both halves of a sample leave the sensor back to back: what is further apart is of two
   /// samples.
   Duration pair_window = std::chrono::milliseconds(4);
@@ -44,7 +48,9 @@ class HipnucCanDriver final : public Device, public FrameFace {
   Quaternion orientation_;
   Time last_orientation_ = kNever;
   double temperature_degC_ = kAbsent;
-  Time last_sample_ = kNever;
+  Time last_sample_ = kNever;  ///< good or not
+  Time last_good_ = kNever;
+  Time last_saturated_ = kNever;
   std::uint64_t good_ = 0;
   std::uint64_t bad_ = 0;
 };

@@ -35,6 +35,17 @@ const std::array kOptions{
                .min = 0.02,
                .max = 5,
                .text = "without a whole sample for longer the source is stale (s)"},
+    OptionSpec{.name = "acceleration_range_g",
+               .default_value = 16.0,
+               .min = 1,
+               .max = 100,
+               .text = "what it measures, as its data sheet says: a reading at the end is no "
+                       "measurement (g)"},
+    OptionSpec{.name = "rate_range_dps",
+               .default_value = 2000.0,
+               .min = 50,
+               .max = 4000,
+               .text = "the same of its rates (degrees a second)"},
     OptionSpec{.name = "mount_roll_deg",
                .default_value = 0.0,
                .min = -180,
@@ -60,6 +71,8 @@ Settings read_settings(const Options& given) {
   settings.address.node = static_cast<std::uint8_t>(options.number("node"));
   settings.pair_window = from_s(0.4 / options.number("rate_Hz"));
   settings.stale = options.seconds("stale_s");
+  settings.acceleration_range_mps2 = options.number("acceleration_range_g") * kGravity_mps2;
+  settings.rate_range_radps = to_rad(options.number("rate_range_dps"));
   settings.mount = from_degrees(options.number("mount_roll_deg"), options.number("mount_pitch_deg"),
                                 options.number("mount_yaw_deg"));
   return settings;

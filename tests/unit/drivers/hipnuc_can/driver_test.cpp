@@ -6,6 +6,7 @@
 #include "drivers/hipnuc_can/entry.h"
 #include "drivers/hipnuc_can/twin.h"
 #include "drivers/rotation.h"
+#include "drover/angle.h"
 
 namespace drover::hipnuc_can {
 namespace {
@@ -93,6 +94,27 @@ TEST_P(HipnucCan, NamesTheHalfThatIsMissing) {
   bench.run(milliseconds(200));
   EXPECT_EQ(bench.samples, before);
   EXPECT_NE(bench.driver.health(bench.now).reason.view().find("no rates"), std::string_view::npos);
+}
+
+/// After CANopen the sensor's range ends long before the numbers do.
+TEST_P(HipnucCan, AtTheEndOfItsRangeIsToldAndSoonStale) {
+  const Vector3 turning_radps{0, 0, to_rad(-2000)};
+  const Vector3 pushed_mps2{16 * kGravity_mps2, 0, 9.8};
+  for (const bool turns : {true, false}) {
+    Bench bench = bench_of(GetParam());
+    bench.run(milliseconds(100));
+    const Quaternion to_base = bench.settings.mount;
+    (turns ? bench.truth.angular_velocity_radps : bench.truth.specific_force_mps2) =
+        rotate(to_base, turns ? turning_radps : pushed_mps2);
+    const int before = bench.samples;
+    bench.run(milliseconds(200));
+    EXPECT_GT(bench.samples, before + 15);
+    EXPECT_TRUE(bench.sample.saturated);
+    const SourceHealth health = bench.driver.health(bench.now);
+    EXPECT_EQ(health.state, SourceState::stale) << "another one has to take over";
+    EXPECT_NE(health.reason.view().find("at the end of its range"), std::string_view::npos)
+        << health.reason.view();
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Dialects, HipnucCan, ::testing::Values(Dialect::j1939, Dialect::canopen));
