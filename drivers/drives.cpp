@@ -1,5 +1,7 @@
 #include "drivers/drives.h"
 
+#include <algorithm>
+
 namespace drover {
 namespace {
 
@@ -15,6 +17,59 @@ bool ToldStatus::is_due(const AxisStatus& current, bool always) {
   told_once_ = true;
   told_ = current;
   return true;
+}
+
+Reason silent_text(std::string_view what, Time last, Time now) {
+  Reason text;
+  const int size = static_cast<int>(what.size());
+  if (last == kNever) {
+    text.format("%.*s since the link came up", size, what.data());
+  } else {
+    text.format("%.*s for %.2f s", size, what.data(), to_s(now - last));
+  }
+  return text;
+}
+
+Reason silent_text(std::string_view what, Duration limit) {
+  Reason text;
+  text.format("%.*s for more than %.1f s", static_cast<int>(what.size()), what.data(), to_s(limit));
+  return text;
+}
+
+Reason joined(const Reason& lost, const Reason& why) {
+  if (lost.empty() || why.empty()) return lost.empty() ? why : lost;
+  Reason text;
+  text.format("%.*s: %.*s", static_cast<int>(lost.view().size()), lost.view().data(),
+              static_cast<int>(why.view().size()), why.view().data());
+  return text;
+}
+
+SourceHealth Heard::health(Time now, std::string_view never, std::string_view what,
+                           Duration limit) const {
+  SourceHealth health;
+  health.last_good = last_good;
+  health.good = good;
+  health.bad = bad;
+  if (last_good == kNever) {
+    health.reason.assign(never);
+  } else if (last_alive == kNever || now - last_alive > limit) {
+    return stale(health, silent_text(what, last_alive, now));
+  } else {
+    health.state = SourceState::fresh;
+  }
+  return health;
+}
+
+SourceHealth stale(SourceHealth health, const Reason& reason) {
+  health.state = SourceState::stale;
+  health.reason = reason;
+  return health;
+}
+
+bool is_of_recipe(const CanFrame& frame, const StopRecipe& recipe) {
+  return std::any_of(recipe.rounds.begin(), recipe.rounds.end(), [&](const StopRound& round) {
+    return std::find(round.frames.begin(), round.frames.end(), frame) != round.frames.end();
+  });
 }
 
 bool ForeignCommand::is_shown(Time now) const {

@@ -14,11 +14,19 @@ constexpr Duration kGap = milliseconds(400);
 /// Two of its states long: then its mode is one from after the gap.
 constexpr Duration kZerosAfterGap = milliseconds(200);
 
-bool is_zero(const Twist& twist) {
-  return twist.vx_mps == 0 && twist.wz_radps == 0;
+StopRecipe zeros() {
+  StopRecipe recipe;
+  recipe.rounds.resize(1);
+  recipe.rounds[0].frames.resize(1);
+  recipe.rounds[0].frames[0] = motion_command({});
+  recipe.period = milliseconds(20);
+  recipe.ends = StopEnds::damps;  // that zero holds on a slope is nowhere said
+  return recipe;
 }
 
 }  // namespace
+
+AgilexV2Driver::AgilexV2Driver(AxisId axis) : axis_(axis), recipe_(zeros()) {}
 
 void AgilexV2Driver::on_link_up(Time) {
   state_known_ = false;
@@ -100,16 +108,6 @@ Twist AgilexV2Driver::setpoint_twist(const Message& message, std::size_t channel
   if (const CanFrame* frame = message.frame(); frame != nullptr && channel == 0)
     if (const auto twist = read_motion_command(*frame)) return *twist;
   return {kAbsent, kAbsent};
-}
-
-StopRecipe AgilexV2Driver::stop_recipe() const {
-  StopRecipe recipe;
-  recipe.rounds.resize(1);
-  recipe.rounds[0].frames.resize(1);
-  recipe.rounds[0].frames[0] = motion_command({});
-  recipe.period = milliseconds(20);
-  recipe.ends = StopEnds::damps;  // that zero holds on a slope is nowhere said
-  return recipe;
 }
 
 SilenceBehaviour AgilexV2Driver::silence() const {

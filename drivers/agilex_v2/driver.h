@@ -15,7 +15,7 @@ inline constexpr std::array kChannels{Channel{"base", ChannelMode::twist}};
 
 class AgilexV2Driver final : public Device, public FrameFace, public Actuator {
  public:
-  explicit AgilexV2Driver(AxisId axis) : axis_(axis) {}
+  explicit AgilexV2Driver(AxisId axis);
 
   void on_link_up(Time now) override;
   void on_tick(Time now, DriverOut& out) override;
@@ -29,12 +29,13 @@ class AgilexV2Driver final : public Device, public FrameFace, public Actuator {
   std::span<const FrameRule> rules() const override;
   Effect effect(const Message& message, Time now) const override;
   Twist setpoint_twist(const Message& message, std::size_t channel) const override;
-  StopRecipe stop_recipe() const override;
+  StopRecipe stop_recipe() const override { return recipe_; }
   SilenceBehaviour silence() const override;
 
  private:
   bool ever_heard() const { return last_state_ != kNever || last_motion_ != kNever; }
-  bool talks(Time now) const;
+  bool talks(Time now) const { return missing(now).empty(); }
+  std::string_view missing(Time now) const;
   AxisStatus status(Time now) const;
   AxisState mode_state() const;
   void hear_state(const SystemState& state, Time received, DriverOut& out);
@@ -46,6 +47,7 @@ class AgilexV2Driver final : public Device, public FrameFace, public Actuator {
   void ask_for(Mode mode, Time now, DriverOut& out);
 
   AxisId axis_;
+  StopRecipe recipe_;
   SystemState state_;
   Twist motion_;
   Time last_state_ = kNever;
@@ -63,6 +65,7 @@ class AgilexV2Driver final : public Device, public FrameFace, public Actuator {
   Time last_command_ = kNever;
   Time last_mode_command_ = kNever;
   Time zero_until_ = kNever;
+  ToldStatus told_;
 };
 
 }  // namespace drover::agilex_v2

@@ -41,16 +41,6 @@ BodyMotion body_motion(const Twist& twist) {
           .standing = stands(twist)};
 }
 
-Reason missing(const char* what, Time last, Time now) {
-  Reason reason;
-  if (last == kNever) {
-    reason.format("no %s so far", what);
-  } else {
-    reason.format("no %s for %.1f s", what, to_s(now - last));
-  }
-  return reason;
-}
-
 }  // namespace
 
 std::span<const FrameFilter> AgilexV2Driver::listens() const {
@@ -62,7 +52,7 @@ std::span<const FrameFilter> AgilexV2Driver::listens() const {
 }
 
 void AgilexV2Driver::on_frame(const CanFrame& frame, Time received, DriverOut& out) {
-  if (frame.extended || frame.remote || frame.fd || frame.error) return;
+  if (!frame.is_plain()) return;
   if (frame.id == kV1SystemStateId) {
     last_v1_ = received;
   } else if (frame.id == kSystemStateId) {
@@ -77,7 +67,7 @@ void AgilexV2Driver::on_frame(const CanFrame& frame, Time received, DriverOut& o
     } else {
       ++bad_;
     }
-  } else if (effect(frame, received).kind != FrameEffect::stop) {
+  } else if (!is_of_recipe(frame, recipe_)) {
     // Its own ids of commands: somebody else drives it, and it goes on by a new request only.
     foreign_.on_frame(frame.id, received);
     held_off_ = held_off_ || request_ == AxisRequest::run;
@@ -101,15 +91,19 @@ void AgilexV2Driver::hear_motion(const Twist& twist, Time received, DriverOut& o
 }
 
 void AgilexV2Driver::on_tick(Time now, DriverOut& out) {
-  out.report({now, now, status(now)});
+  const AxisStatus current = status(now);
+  if (told_.is_due(current, false)) report_heard(current, now, out);
   if (motion_told_ && now - last_motion_ > kMotionStale) {
     motion_told_ = false;
     out.report({now, now, BodyMotion{}});
   }
 }
 
-bool AgilexV2Driver::talks(Time now) const {
-  return now - last_motion_ <= kMotionStale && now - last_state_ <= kStateStale;
+/// What does not come; empty: it says all that it should.
+std::string_view AgilexV2Driver::missing(Time now) const {
+  if (now - last_motion_ > kMotionStale) return "no motion (0x221)";
+  if (now - last_state_ > kStateStale) return "no state (0x211)";
+  return {};
 }
 
 bool AgilexV2Driver::at_rest(Time now) const {
@@ -126,7 +120,8 @@ AxisStatus AgilexV2Driver::status(Time now) const {
   AxisStatus status;
   status.axis = axis_;
   if (!state_known_ || !talks(now)) {
-    status.reason = ever_heard() ? "the chassis is silent" : "the chassis was never heard";
+    status.reason = "the chassis was never heard";
+    if (ever_heard()) status.reason.assign(talks(now) ? "no state (0x211)" : missing(now));
     return status;
   }
   status.error_code = state_.error;
@@ -164,9 +159,9 @@ SourceHealth AgilexV2Driver::health(Time now) const {
   } else if (!ever_heard()) {
     health.reason = "never heard: is the chassis on, and the bus at 500 kbit/s?";
   } else if (now - last_motion_ > kMotionStale) {
-    health.reason = missing("motion (0x221)", last_motion_, now);
-  } else if (now - last_state_ > kStateStale) {
-    health.reason = missing("state (0x211)", last_state_, now);
+    health.reason = silent_text(missing(now), last_motion_, now);
+  } else if (!talks(now)) {
+    health.reason = silent_text(missing(now), last_state_, now);
   } else {
     health.reason = error_text(state_.error);
   }

@@ -86,7 +86,7 @@ bool AgilexV2Twin::awake(Time now) const {
 }
 
 void AgilexV2Twin::on_frame(const CanFrame& frame, Time now, TwinFrames&) {
-  if (!awake(now) || frame.extended || frame.remote || frame.fd) return;
+  if (!awake(now) || !frame.is_plain()) return;
   if (const auto mode = read_mode_command(frame); mode && state_.mode != Mode::remote) {
     if (*mode != state_.mode) last_asked_ = kNever;
     state_.mode = *mode;

@@ -56,7 +56,7 @@ constexpr Meaning kMeanings[] = {
 }  // namespace
 
 std::optional<Emergency> decode_emergency(const CanFrame& frame, std::uint8_t node) {
-  if (frame.extended || frame.remote || frame.error || frame.fd || frame.len != 8) return {};
+  if (!frame.is_plain() || frame.len != 8) return {};
   // 080 by itself is SYNC.
   if (node == 0 || frame.id != kEmergencyBase + node) return {};
   Emergency emergency;

@@ -18,7 +18,7 @@ CanFrame encode_heartbeat(std::uint8_t node, NodeState state) {
 }
 
 std::optional<Heartbeat> decode_heartbeat(const CanFrame& frame) {
-  if (frame.extended || frame.remote || frame.error || frame.fd || frame.len != 1) return {};
+  if (!frame.is_plain() || frame.len != 1) return {};
   if (frame.id <= kHeartbeatBase || frame.id > kHeartbeatBase + kLastNode) return {};
   const auto node = static_cast<std::uint8_t>(frame.id - kHeartbeatBase);
   // Bit 7 toggles in the answers of the older node guarding; in a heartbeat it is 0.

@@ -120,7 +120,7 @@ CanFrame encode_sdo_abort(std::uint8_t node, Object object, std::uint32_t code) 
 }
 
 std::optional<SdoAnswer> decode_sdo_answer(const CanFrame& frame, std::uint8_t node) {
-  if (frame.extended || frame.remote || frame.error || frame.fd) return {};
+  if (!frame.is_plain()) return {};
   if (frame.id != kAnswerBase + node || frame.len == 0 || frame.len > 8) return {};
   const std::uint8_t command = frame.data[0];
   if ((command & 0xE0U) == 0x00U) return decode_segment(frame);

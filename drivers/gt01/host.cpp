@@ -22,10 +22,6 @@ constexpr Duration kIdleAtLast = milliseconds(1000);
 /// Its wheels half a metre apart: what one of them gets wrong turns the base by so much.
 constexpr double kTrack_m = 0.5;
 
-bool is_zero(const Twist& twist) {
-  return twist.vx_mps == 0 && twist.wz_radps == 0;
-}
-
 bool beyond(const Twist& twist, double speed_mps, double turn_radps) {
   return std::abs(twist.vx_mps) >= speed_mps || std::abs(twist.wz_radps) >= turn_radps;
 }
@@ -59,8 +55,7 @@ Effect effect_of(const std::optional<Twist>& asked) {
 }
 
 void Host::on_link_up(Time now) {
-  last_heard_ = last_motion_ = kNever;
-  condition_known_ = false;
+  heard_.last_alive = last_motion_ = condition_.at = kNever;
   sent_ = {};
   ignored_since_ = kNever;
   phase_since_ = now;
@@ -68,13 +63,12 @@ void Host::on_link_up(Time now) {
 }
 
 void Host::on_good(Time received) {
-  ++good_;
-  last_good_ = last_heard_ = received;
+  ++heard_.good;
+  heard_.last_good = heard_.last_alive = received;
 }
 
 void Host::on_condition(const Condition& condition, Time received, DriverOut& out) {
   condition_ = condition;
-  condition_known_ = true;
   report_status(received, out);
 }
 
@@ -93,7 +87,7 @@ void Host::on_supply(double voltage_V, Time received, DriverOut& out) {
   if (voltage_V == voltage_V_) return;
   voltage_V_ = voltage_V;
   AxisSupply supply;
-  supply.axis = axis;
+  supply.axis = axis_;
   supply.bus_V = voltage_V;
   report_heard(supply, received, out);
 }
@@ -120,7 +114,14 @@ Twist Host::told_of(const Twist& wanted) {
 }
 
 bool Host::gone(Time now) const {
-  return last_heard_ == kNever || now - last_heard_ > settings_.gone_after;
+  return heard_.last_alive == kNever || now - heard_.last_alive > settings_.gone_after;
+}
+
+/// While only one of them comes nobody knows who pressed what, or where it goes.
+Host::Missing Host::missing(Duration limit, Time now) const {
+  if (now - condition_.at > limit) return {words_.state, condition_.at};
+  if (now - last_motion_ > limit) return {words_.motion, last_motion_};
+  return {};
 }
 
 void Host::lock(std::string_view why) {
@@ -156,11 +157,14 @@ void Host::follow(Time now) {
   if (gone(now)) {
     lock(phase_ == Phase::arming ? "asked to run while the chassis was silent"
                                  : "the chassis fell silent while it was commanded");
+  } else if (const Missing part = missing(settings_.gone_after, now); !part.what.empty()) {
+    const bool waits = phase_ == Phase::arming && now - phase_since_ <= settings_.obeys_within;
+    if (!waits) lock(silent_text(part.what, settings_.gone_after).view());
   } else if (const Reason why = trouble(now); !why.empty()) {
     lock(why.view());
   } else if (phase_ == Phase::running && !condition_.obeys) {
     lock("the chassis no longer obeys the host");
-  } else if (phase_ == Phase::arming && condition_known_ && condition_.obeys) {
+  } else if (phase_ == Phase::arming && condition_.obeys) {
     phase_ = Phase::running;
   } else if (phase_ == Phase::arming && now - phase_since_ > settings_.obeys_within) {
     lock("the chassis does not let the host command it: is its remote control on?");
@@ -183,7 +187,7 @@ void Host::watch_obedience(Time now) {
 /// A silent chassis may still hear, and one that somebody else has may keep the last twist until it
 /// is given back: that one is zero. One that waits for somebody to command it is left alone.
 bool Host::feeds(Time now) const {
-  if (last_heard_ == kNever) return false;
+  if (heard_.last_alive == kNever) return false;
   if (!is_zero(sent_)) return true;
   if (phase_ == Phase::idling)
     return beyond(measured_, kDriven_mps, kDriven_radps) && now - phase_since_ <= kIdleAtLast;
@@ -206,6 +210,14 @@ std::optional<Twist> Host::on_tick(Time now) {
   return asked;
 }
 
+/// No frame lets go of it: one that was told zero since it was asked to, or stands, has done what
+/// it can. Whether it obeys shows in its speed.
+bool Host::has_let_go() const {
+  const bool told = last_sent_ != kNever && last_sent_ >= phase_since_;
+  return phase_ == Phase::idling && is_zero(sent_) &&
+         (told || !beyond(measured_, kDriven_mps, kDriven_radps));
+}
+
 /// Why it cannot be commanded.
 Reason Host::trouble(Time now) const {
   if (foreign_.is_shown(now)) return foreign_.text();
@@ -218,13 +230,17 @@ Reason Host::trouble(Time now) const {
 
 AxisStatus Host::status(Time now) const {
   AxisStatus status;
-  status.axis = axis;
-  if (last_heard_ == kNever || !condition_known_) {
+  status.axis = axis_;
+  if (heard_.last_alive == kNever) {
     status.reason = "the chassis was not heard yet";
     return status;
   }
   if (gone(now)) {
-    status.reason.format("nothing heard for more than %.1f s", to_s(settings_.gone_after));
+    status.reason = silent_text("nothing heard", settings_.gone_after);
+    return status;
+  }
+  if (const Missing part = missing(settings_.gone_after, now); !part.what.empty()) {
+    status.reason = silent_text(part.what, settings_.gone_after);
     return status;
   }
   status.error_code = condition_.bits;
@@ -236,7 +252,7 @@ AxisStatus Host::status(Time now) const {
   } else if (phase_ == Phase::arming) {
     status.state = AxisState::arming;
   } else {
-    status.state = condition_.obeys ? AxisState::running : AxisState::idle;
+    status.state = condition_.obeys && !has_let_go() ? AxisState::running : AxisState::idle;
   }
   return status;
 }
@@ -247,26 +263,13 @@ void Host::report_status(Time now, DriverOut& out) {
 }
 
 SourceHealth Host::health(Time now) const {
-  SourceHealth health;
-  health.last_good = last_good_;
-  health.good = good_;
-  health.bad = bad_ + bad_setpoints_;
-  if (last_good_ == kNever) {
-    health.reason = "the chassis was never heard";
-    return health;
-  }
-  health.state = SourceState::stale;
-  if (last_heard_ == kNever) {
-    health.reason = "nothing heard since the link came up";
-  } else if (now - last_heard_ > settings_.stale_after) {
-    health.reason.format("nothing heard for %.2f s", to_s(now - last_heard_));
-  } else if (!condition_known_ || last_motion_ == kNever ||
-             now - last_motion_ > settings_.stale_after) {
-    health.reason = "it talks, and does not tell its speed and state";
-  } else {
-    health.state = SourceState::fresh;
-    if (foreign_.is_shown(now)) health.reason = foreign_.text();
-  }
+  SourceHealth health =
+      heard_.health(now, "the chassis was never heard", "nothing heard", settings_.stale_after);
+  health.bad += bad_setpoints_;
+  if (health.state != SourceState::fresh) return health;
+  const Missing part = missing(settings_.stale_after, now);
+  if (!part.what.empty()) return stale(health, silent_text(part.what, part.last, now));
+  if (foreign_.is_shown(now)) health.reason = foreign_.text();
   return health;
 }
 

@@ -19,6 +19,7 @@ inline constexpr Channel kChannels[] = {{"base", ChannelMode::twist, true}};
 
 /// What a chassis said last of itself.
 struct Condition {
+  Time at = kNever;        ///< when it said so
   bool obeys = true;       ///< false: it says that it waits for somebody to command it
   bool remote_on = false;  ///< somebody may take it over, or already has
   std::uint64_t bits = 0;  ///< of what is wrong, as it sent them
@@ -26,9 +27,16 @@ struct Condition {
   bool powered = true;     ///< of a trouble: its motors still have power
 };
 
+/// What its wire calls what it tells, for operators.
+struct Words {
+  std::string_view motion;  ///< "no speed (0x10)"
+  std::string_view state;
+};
+
 class Host final {
  public:
-  explicit Host(const Settings& settings) : settings_(settings) {}
+  Host(const Settings& settings, AxisId axis, const Words& words)
+      : settings_(settings), axis_(axis), words_(words) {}
 
   void on_link_up(Time now);
   void on_condition(const Condition& condition, Time received, DriverOut& out);
@@ -38,7 +46,7 @@ class Host final {
   /// Somebody else's command on the wire.
   void on_foreign(std::uint32_t id, Time received);
   void on_good(Time received);
-  void on_bad() { ++bad_; }
+  void on_bad() { ++heard_.bad; }
 
   void on_setpoints(std::span<const Setpoint> wanted, Time now);
   /// What is to be sent now, as the wire says it.
@@ -48,13 +56,19 @@ class Host final {
 
   /// From the wire's numbers to true ones.
   Twist true_of(const Twist& told) const;
-  AxisId axis = 0;
 
  private:
   enum class Phase : std::uint8_t { resting, arming, running, locked, idling };
 
   bool attempts_to_run() const { return phase_ == Phase::arming || phase_ == Phase::running; }
   bool gone(Time now) const;
+  /// Of its speed and its state the one that ceased, as `words_` name it.
+  struct Missing {
+    std::string_view what;  ///< empty: both come
+    Time last = kNever;
+  };
+  Missing missing(Duration limit, Time now) const;
+  bool has_let_go() const;
   void lock(std::string_view why);
   void take(AxisRequest request, Time now);
   void follow(Time now);
@@ -66,17 +80,15 @@ class Host final {
   AxisStatus status(Time now) const;
 
   Settings settings_;
+  AxisId axis_;
+  Words words_;
 
   // What it said.
   Condition condition_;
-  bool condition_known_ = false;
   Twist measured_;
   Time last_motion_ = kNever;
-  Time last_heard_ = kNever;  ///< since the link came up
-  Time last_good_ = kNever;
+  Heard heard_;
   double voltage_V_ = kAbsent;
-  std::uint64_t good_ = 0;
-  std::uint64_t bad_ = 0;
   std::uint64_t bad_setpoints_ = 0;
   ForeignCommand foreign_;
 

@@ -17,6 +17,17 @@ constexpr Duration kClearTime = milliseconds(250);
 constexpr double kSlow_radps = 0.1;
 constexpr Duration kIdleAtLast = milliseconds(1000);
 
+StopRecipe recipe_of(std::uint8_t node) {
+  StopRecipe recipe;
+  StopRound zero;
+  static_cast<void>(zero.frames.push_back(encode_set_input_vel(node, 0)));
+  static_cast<void>(recipe.rounds.push_back(zero));
+  recipe.period = milliseconds(10);
+  // Closed loop at zero holds on a slope, and the frames keep the watchdog from letting go.
+  recipe.ends = StopEnds::holds;
+  return recipe;
+}
+
 }  // namespace
 
 OdriveDriver::OdriveDriver(const Settings& settings, AxisId axis)
@@ -24,6 +35,7 @@ OdriveDriver::OdriveDriver(const Settings& settings, AxisId axis)
       axis_(axis),
       hears_{frame_id(settings.node, 0), 0x7E0, false},
       rules_(rules_of(settings)),
+      recipe_(recipe_of(settings.node)),
       poller_(settings),
       watchdog_(settings) {
   if (settings.watchdog_timeout_s > 0) {
@@ -36,7 +48,7 @@ OdriveDriver::OdriveDriver(const Settings& settings, AxisId axis)
 }
 
 bool OdriveDriver::silent(Time now) const {
-  return last_heartbeat_ == kNever || now - last_heartbeat_ > settings_.heartbeat_timeout;
+  return heard_.last_alive == kNever || now - heard_.last_alive > settings_.heartbeat_timeout;
 }
 
 bool OdriveDriver::attempts_to_run() const {
@@ -145,7 +157,7 @@ void OdriveDriver::arm(Time now, DriverOut& out) {
 void OdriveDriver::control(const Setpoint& command, Time now, DriverOut& out) {
   const bool holds = command.request == AxisRequest::hold;
   holding_turnps_ = holds ? motor_turnps(command.velocity_radps) : 0;
-  if (last_heartbeat_ == kNever) return;  // never a frame to a node that was not heard
+  if (heard_.last_alive == kNever) return;  // never a frame to a node that was not heard
   if (attempts_to_run() && silent(now)) lock("heartbeat ceased while armed");
   if (phase_ == Phase::configuring || phase_ == Phase::arming) {
     if (now - phase_since_ > settings_.arming_timeout) {
@@ -225,12 +237,12 @@ void OdriveDriver::on_tick(Time now, DriverOut& out) {
     control(Setpoint{}, now, out);
   }
   commanded_ = false;
-  if (last_heartbeat_ != kNever && has_room(out)) poller_.on_tick(now, out);
+  if (heard_.last_alive != kNever && has_room(out)) poller_.on_tick(now, out);
   report_status(now, false, out);
 }
 
 void OdriveDriver::on_link_up(Time now) {
-  last_heartbeat_ = kNever;
+  heard_.last_alive = kNever;
   last_estimates_ = kNever;
   heartbeat_ = {};
   errors_ = {};
@@ -257,17 +269,6 @@ double OdriveDriver::setpoint_radps(const Message& message, std::size_t) const {
   if (!pair || pair->second != 0.0F) return kAbsent;
   return static_cast<double>(pair->first) * 2 * std::numbers::pi * settings_.sign /
          settings_.gear_ratio;
-}
-
-StopRecipe OdriveDriver::stop_recipe() const {
-  StopRecipe recipe;
-  StopRound zero;
-  static_cast<void>(zero.frames.push_back(encode_set_input_vel(settings_.node, 0)));
-  static_cast<void>(recipe.rounds.push_back(zero));
-  recipe.period = milliseconds(10);
-  // Closed loop at zero holds on a slope, and the frames keep the watchdog from letting go.
-  recipe.ends = StopEnds::holds;
-  return recipe;
 }
 
 SilenceBehaviour OdriveDriver::silence() const {

@@ -29,7 +29,7 @@ class OdriveDriver final : public Device, public FrameFace, public Actuator {
   std::span<const FrameRule> rules() const override { return rules_; }
   Effect effect(const Message& message, Time now) const override;
   double setpoint_radps(const Message& message, std::size_t channel) const override;
-  StopRecipe stop_recipe() const override;
+  StopRecipe stop_recipe() const override { return recipe_; }
   SilenceBehaviour silence() const override;
 
   /// Set points that were not numbers (sent as zero) or beyond the limit (clamped).
@@ -73,21 +73,19 @@ class OdriveDriver final : public Device, public FrameFace, public Actuator {
   AxisId axis_;
   FrameFilter hears_;  ///< all of its node
   RuleList rules_;
+  StopRecipe recipe_;
   Reason silence_text_;
   Poller poller_;
   WatchdogSetup watchdog_;
 
   // What the drive said.
-  Time last_heartbeat_ = kNever;  ///< since the link came up
+  Heard heard_;  ///< alive: its heartbeat
   Time last_estimates_ = kNever;
-  Time last_good_ = kNever;
   Heartbeat heartbeat_;
   ErrorReport errors_;
   double velocity_radps_ = 0;
   double effort_Nm_ = kAbsent;
   Time effort_at_ = kNever;
-  std::uint64_t good_ = 0;
-  std::uint64_t bad_ = 0;
   ForeignCommand foreign_;
 
   // What is wanted of it.

@@ -37,16 +37,15 @@ void OdriveDriver::on_frame(const CanFrame& frame, Time received, DriverOut& out
     on_foreign(frame, received);
     return;
   }
-  if (!on_reply(command, frame, received, out)) ++bad_;
+  if (!on_reply(command, frame, received, out)) ++heard_.bad;
 }
 
-/// The guard's zeros are welcome, and so is who only reads; whoever sends anything else fights with
-/// this gateway.
+/// Who only reads is welcome.
 void OdriveDriver::on_foreign(const CanFrame& frame, Time received) {
   constexpr std::uint8_t kReads = 0;
   const bool reads =
       command_of(frame.id) == cmd::kRxSdo && frame.len > 0 && frame.data[0] == kReads;
-  if (reads || odrive::effect(frame, settings_) == FrameEffect::stop) return;
+  if (reads || is_of_recipe(frame, recipe_)) return;
   foreign_.on_frame(frame.id, received);
   if (attempts_to_run()) lock(foreign_.text().view());
 }
@@ -101,8 +100,8 @@ bool OdriveDriver::on_reply(std::uint8_t command, const CanFrame& frame, Time re
     default: return true;
   }
   if (understood) {
-    ++good_;
-    last_good_ = received;
+    ++heard_.good;
+    heard_.last_good = received;
   }
   return understood;
 }
@@ -111,14 +110,14 @@ bool OdriveDriver::on_heartbeat(const CanFrame& frame, Time received, DriverOut&
   const auto heartbeat = decode_heartbeat(frame, settings_.firmware);
   if (!heartbeat) return false;
   const bool gap =
-      last_heartbeat_ != kNever && received - last_heartbeat_ > settings_.heartbeat_timeout;
-  if (last_heartbeat_ == kNever || gap) {
+      heard_.last_alive != kNever && received - heard_.last_alive > settings_.heartbeat_timeout;
+  if (heard_.last_alive == kNever || gap) {
     poller_.restart(received);
     if (attempts_to_run()) lock("heartbeat ceased while armed");
     if (gap) errors_ = {};
   }
   const bool failed_before = heartbeat_.failed();
-  last_heartbeat_ = received;
+  heard_.last_alive = received;
   heartbeat_ = *heartbeat;
   errors_.axis = heartbeat->error;
   if (heartbeat->failed() && !failed_before) poller_.hurry();
@@ -176,12 +175,12 @@ bool OdriveDriver::on_effort(const CanFrame& frame, double Nm_per_unit, Time rec
 AxisStatus OdriveDriver::status(Time now) const {
   AxisStatus status;
   status.axis = axis_;
-  if (last_heartbeat_ == kNever) {
+  if (heard_.last_alive == kNever) {
     status.reason = "no heartbeat yet";
     return status;
   }
   if (silent(now)) {
-    status.reason.format("no heartbeat for more than %.1f s", to_s(settings_.heartbeat_timeout));
+    status.reason = silent_text("no heartbeat", settings_.heartbeat_timeout);
     return status;
   }
   status.error_code = heartbeat_.error;
@@ -206,16 +205,8 @@ AxisStatus OdriveDriver::status(Time now) const {
     if (status.error_code == 0) status.error_code = errors_.disarm_reason;
     if (status.error_code == 0) status.error_code = errors_.motor;
     const Reason text = error_text(errors_, settings_.firmware);
-    if (!fault_) {
-      status.reason = text.empty() ? Reason("error flag without a code") : text;
-    } else if (text.empty()) {
-      status.reason = lock_reason_;
-    } else {
-      const auto a = lock_reason_.view();
-      const auto b = text.view();
-      status.reason.format("%.*s: %.*s", static_cast<int>(a.size()), a.data(),
-                           static_cast<int>(b.size()), b.data());
-    }
+    status.reason = joined(fault_ ? lock_reason_ : Reason(), text);
+    if (status.reason.empty()) status.reason = "error flag without a code";
     return status;
   }
   status.reason = lock_reason_;
@@ -254,27 +245,17 @@ void OdriveDriver::report_status(Time now, bool always, DriverOut& out) {
 }
 
 SourceHealth OdriveDriver::health(Time now) const {
-  SourceHealth health;
-  health.last_good = last_good_;
-  health.good = good_;
-  health.bad = bad_ + bad_setpoints_;
-  if (last_good_ == kNever) {
-    health.reason.format("node %u was never heard", static_cast<unsigned>(settings_.node));
-    return health;
-  }
-  health.state = SourceState::stale;
-  if (last_heartbeat_ == kNever) {
-    health.reason = "no heartbeat since the link came up";
-  } else if (silent(now)) {
-    health.reason.format("no heartbeat for %.2f s", to_s(now - last_heartbeat_));
-  } else if (last_estimates_ == kNever) {
-    health.reason = "heartbeats but no encoder estimates: are they sent cyclically (10 ms)?";
-  } else if (now - last_estimates_ > settings_.stale_after) {
-    health.reason.format("no encoder estimates for %.2f s", to_s(now - last_estimates_));
-  } else {
-    health.state = SourceState::fresh;
-    if (foreign_.is_shown(now)) health.reason = foreign_.text();
-  }
+  Reason never;
+  never.format("node %u was never heard", static_cast<unsigned>(settings_.node));
+  SourceHealth health =
+      heard_.health(now, never.view(), "no heartbeat", settings_.heartbeat_timeout);
+  health.bad += bad_setpoints_;
+  if (health.state != SourceState::fresh) return health;
+  if (last_estimates_ == kNever)
+    return stale(health, "heartbeats but no encoder estimates: are they sent cyclically (10 ms)?");
+  if (now - last_estimates_ > settings_.stale_after)
+    return stale(health, silent_text("no encoder estimates", last_estimates_, now));
+  if (foreign_.is_shown(now)) health.reason = foreign_.text();
   return health;
 }
 

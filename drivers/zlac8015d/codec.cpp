@@ -32,7 +32,7 @@ constexpr ErrorBit kErrors[] = {
 };
 
 bool is(const CanFrame& frame, Cob cob, std::uint8_t node, std::uint8_t len) {
-  return is_plain(frame) && frame.id == id_of(cob, node) && frame.len == len;
+  return frame.is_plain() && frame.id == id_of(cob, node) && frame.len == len;
 }
 
 }  // namespace

@@ -47,11 +47,6 @@ constexpr std::uint32_t id_of(Cob cob, std::uint8_t node) {
 inline constexpr std::uint8_t kSubs[] = {1, 2};  ///< of an object: left, right
 inline constexpr std::uint8_t kSdoRead = 0x40;
 
-/// Neither extended nor remote nor FD nor an error.
-constexpr bool is_plain(const CanFrame& frame) {
-  return !frame.extended && !frame.remote && !frame.fd && !frame.error;
-}
-
 using Pair = std::array<std::int32_t, kWheels>;
 
 CanFrame encode_controlword(std::uint8_t node, std::uint16_t controlword);

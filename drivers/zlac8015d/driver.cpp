@@ -66,6 +66,7 @@ Zlac8015dDriver::Zlac8015dDriver(const Settings& settings, std::array<AxisId, kW
       steps_(steps_of(settings)),
       setup_(settings.node, {steps_.data(), steps_.size()}),
       recipe_(recipe_of(settings.node)) {
+  no_status_.format("no status (%03X)", static_cast<unsigned>(id_of(Cob::status, settings.node)));
   if (settings.silence_ms > 0) {
     silence_text_.format(
         "stops and holds after %.3f s (its time-out, set and read back at each start)",
@@ -76,7 +77,12 @@ Zlac8015dDriver::Zlac8015dDriver(const Settings& settings, std::array<AxisId, kW
 }
 
 bool Zlac8015dDriver::silent(Time now) const {
-  return last_alive_ == kNever || now - last_alive_ > settings_.heartbeat_timeout;
+  return heard_.last_alive == kNever || now - heard_.last_alive > settings_.heartbeat_timeout;
+}
+
+/// Its heartbeat and its speeds say nothing of a fault, or of the emergency stop on its connector.
+bool Zlac8015dDriver::lacks_status(Duration limit, Time now) const {
+  return link_ == Link::ready && now - last_status_ > limit;
 }
 
 void Zlac8015dDriver::lock(std::string_view why) {
@@ -85,10 +91,13 @@ void Zlac8015dDriver::lock(std::string_view why) {
   lock_reason_.assign(why);
 }
 
+/// Whatever was known may be of before a loss of its power.
 void Zlac8015dDriver::begin_setup(Time now) {
   link_ = Link::setting_up;
   link_since_ = now;
   setup_.begin();
+  status_ = {};
+  target_ = {};
   last_speeds_ = last_status_ = kNever;
   positions_known_ = false;
   emergency_ = 0;
@@ -101,6 +110,8 @@ void Zlac8015dDriver::keep_link(Time now, DriverOut& out) {
     next_question_ = now;
     if (attempts_to_run()) lock("heartbeat ceased while armed");
   }
+  if (phase_ == Phase::running && lacks_status(settings_.heartbeat_timeout, now))
+    lock(silent_text(no_status_.view(), settings_.heartbeat_timeout).view());
   if (link_ == Link::setting_up && setup_.failed() && now - link_since_ > kSetUpAgain)
     begin_setup(now);
   switch (link_) {
@@ -247,7 +258,7 @@ void Zlac8015dDriver::on_tick(Time now, DriverOut& out) {
 }
 
 void Zlac8015dDriver::on_link_up(Time now) {
-  last_alive_ = last_speeds_ = last_status_ = kNever;
+  heard_.last_alive = last_speeds_ = last_status_ = kNever;
   link_ = Link::silent;
   next_question_ = now;
   status_ = {};

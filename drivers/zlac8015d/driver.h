@@ -59,6 +59,7 @@ class Zlac8015dDriver final : public Device, public FrameFace, public Actuator {
 
   // driver.cpp
   bool silent(Time now) const;
+  bool lacks_status(Duration limit, Time now) const;
   bool attempts_to_run() const { return phase_ == Phase::arming || phase_ == Phase::running; }
   void lock(std::string_view why);
   void begin_setup(Time now);
@@ -81,22 +82,20 @@ class Zlac8015dDriver final : public Device, public FrameFace, public Actuator {
   canopen::SdoSetup setup_;
   StopRecipe recipe_;
   Reason silence_text_;
+  Reason no_status_;
 
   // What the node said.
   Link link_ = Link::silent;
   Time link_since_ = kNever;
   Time next_question_ = kNever;
-  Time last_alive_ = kNever;  ///< since the link came up
+  Heard heard_;
   Time last_speeds_ = kNever;
   Time last_status_ = kNever;
-  Time last_good_ = kNever;
   Status status_;
   Pair positions_{};
   bool positions_known_ = false;
   std::array<double, kWheels> velocity_radps_{};
   std::uint16_t emergency_ = 0;
-  std::uint64_t good_ = 0;
-  std::uint64_t bad_ = 0;
   std::uint64_t bad_setpoints_ = 0;
   ForeignCommand foreign_;
 

@@ -15,7 +15,7 @@ constexpr std::uint8_t kEveryNode = 0;
 }  // namespace
 
 void Zlac8015dDriver::on_frame(const CanFrame& frame, Time received, DriverOut& out) {
-  if (!is_plain(frame)) return;
+  if (!frame.is_plain()) return;
   const bool commands = std::any_of(rules_.begin(), rules_.end(),
                                     [&](const FrameRule& rule) { return rule.id == frame.id; });
   if (commands) return on_foreign(frame, received);
@@ -27,22 +27,20 @@ void Zlac8015dDriver::on_frame(const CanFrame& frame, Time received, DriverOut& 
                    frame.id == id_of(Cob::heartbeat, settings_.node);
   if (!own) return;
   if (on_reply(frame, received, out)) {
-    ++good_;
-    last_good_ = received;
+    ++heard_.good;
+    heard_.last_good = received;
   } else {
-    ++bad_;
+    ++heard_.bad;
   }
 }
 
-/// The guard's frames are welcome, and so is who only reads; whoever sends anything else fights
-/// with this gateway, though it is a stop: one that releases lets the robot roll.
+/// Who only reads is welcome.
 void Zlac8015dDriver::on_foreign(const CanFrame& frame, Time received) {
   if (frame.id == 0 &&
       (frame.len < 2 || (frame.data[1] != settings_.node && frame.data[1] != kEveryNode)))
     return;
   if (frame.id == id_of(Cob::sdo_request, settings_.node) && frame.data[0] == kSdoRead) return;
-  for (const StopRound& round : recipe_.rounds)
-    if (std::find(round.frames.begin(), round.frames.end(), frame) != round.frames.end()) return;
+  if (is_of_recipe(frame, recipe_)) return;
   foreign_.on_frame(frame.id, received);
   if (attempts_to_run()) lock(foreign_.text().view());
 }
@@ -58,7 +56,7 @@ bool Zlac8015dDriver::on_reply(const CanFrame& frame, Time received, DriverOut& 
   }
   if (frame.id == id_of(Cob::sdo_answer, settings_.node)) {
     if (!canopen::decode_sdo_answer(frame, settings_.node)) return false;
-    last_alive_ = received;
+    heard_.last_alive = received;
     if (link_ == Link::silent) begin_setup(received);
     if (link_ == Link::setting_up)
       if (const auto next = setup_.on_frame(frame, received)) out.send(*next);
@@ -95,14 +93,10 @@ bool Zlac8015dDriver::on_reply(const CanFrame& frame, Time received, DriverOut& 
 
 /// A boot-up while it was there: it lost its power, and all that was set.
 void Zlac8015dDriver::on_heartbeat(canopen::NodeState state, Time received) {
-  last_alive_ = received;
+  heard_.last_alive = received;
   const bool booted = state == canopen::NodeState::boot_up;
   if (booted && attempts_to_run()) lock("the drive was restarted while armed");
-  if (booted || link_ == Link::silent) {
-    status_ = {};
-    target_ = {};
-    return begin_setup(received);
-  }
+  if (booted || link_ == Link::silent) return begin_setup(received);
   const bool operational = state == canopen::NodeState::operational;
   if (link_ == Link::starting && operational) link_ = Link::ready;
   if (link_ == Link::ready && !operational) {
@@ -153,12 +147,16 @@ Reason Zlac8015dDriver::fault_text() const {
 /// Of both wheels: one controlword is for both.
 AxisStatus Zlac8015dDriver::status(Time now) const {
   AxisStatus status;
-  if (last_alive_ == kNever) {
+  if (heard_.last_alive == kNever) {
     status.reason = "the node was not heard yet";
     return status;
   }
   if (silent(now)) {
-    status.reason.format("nothing heard for more than %.1f s", to_s(settings_.heartbeat_timeout));
+    status.reason = silent_text("nothing heard", settings_.heartbeat_timeout);
+    return status;
+  }
+  if (last_status_ != kNever && lacks_status(settings_.heartbeat_timeout, now)) {
+    status.reason = silent_text(no_status_.view(), settings_.heartbeat_timeout);
     return status;
   }
   const bool known = link_ == Link::ready && last_status_ != kNever;
@@ -172,15 +170,9 @@ AxisStatus Zlac8015dDriver::status(Time now) const {
     status.state = AxisState::fault;
     if (!fault_ && foreign_.is_shown(now)) {
       status.reason = foreign_.text();
-    } else if (!fault_) {
-      status.reason = text.empty() ? Reason("fault without a code") : text;
-    } else if (text.empty()) {
-      status.reason = lock_reason_;
     } else {
-      const auto a = lock_reason_.view();
-      const auto b = text.view();
-      status.reason.format("%.*s: %.*s", static_cast<int>(a.size()), a.data(),
-                           static_cast<int>(b.size()), b.data());
+      status.reason = joined(fault_ ? lock_reason_ : Reason(), text);
+      if (status.reason.empty()) status.reason = "fault without a code";
     }
     return status;
   }
@@ -205,27 +197,19 @@ void Zlac8015dDriver::report_status(Time now, bool always, DriverOut& out) {
 }
 
 SourceHealth Zlac8015dDriver::health(Time now) const {
-  SourceHealth health;
-  health.last_good = last_good_;
-  health.good = good_;
-  health.bad = bad_ + bad_setpoints_;
-  if (last_good_ == kNever) {
-    health.reason.format("node %u was never heard", static_cast<unsigned>(settings_.node));
-    return health;
-  }
-  health.state = SourceState::stale;
-  if (last_alive_ == kNever) {
-    health.reason = "nothing heard since the link came up";
-  } else if (silent(now)) {
-    health.reason.format("nothing heard for %.2f s", to_s(now - last_alive_));
-  } else if (link_ != Link::ready) {
-    health.reason = setup_.failed() ? setup_.reason() : Reason("is being set up");
-  } else if (last_speeds_ == kNever || now - last_speeds_ > settings_.stale_after) {
-    health.reason = "heartbeats but no velocities";
-  } else {
-    health.state = SourceState::fresh;
-    if (foreign_.is_shown(now)) health.reason = foreign_.text();
-  }
+  Reason never;
+  never.format("node %u was never heard", static_cast<unsigned>(settings_.node));
+  SourceHealth health =
+      heard_.health(now, never.view(), "nothing heard", settings_.heartbeat_timeout);
+  health.bad += bad_setpoints_;
+  if (health.state != SourceState::fresh) return health;
+  if (link_ != Link::ready)
+    return stale(health, setup_.failed() ? setup_.reason() : Reason("is being set up"));
+  if (now - last_speeds_ > settings_.stale_after)
+    return stale(health, "heartbeats but no velocities");
+  if (lacks_status(settings_.stale_after, now))
+    return stale(health, silent_text(no_status_.view(), last_status_, now));
+  if (foreign_.is_shown(now)) health.reason = foreign_.text();
   return health;
 }
 

@@ -74,7 +74,7 @@ Effect effect(const CanFrame& frame, const Settings& settings, const StepList& s
   if (const auto speeds = decode_pair(frame, Cob::targets, settings.node))
     return effect_of_speeds(*speeds);
   const bool sdo =
-      frame.id == id_of(Cob::sdo_request, settings.node) && frame.len == 8 && is_plain(frame);
+      frame.id == id_of(Cob::sdo_request, settings.node) && frame.len == 8 && frame.is_plain();
   return sdo ? effect_of_sdo(frame, settings, steps) : kForbidden;
 }
 

@@ -34,7 +34,7 @@ CanFrame answer(std::uint8_t node, std::uint8_t command, Object object, std::uin
 }  // namespace
 
 void Zlac8015dTwin::on_frame(const CanFrame& frame, Time now, TwinFrames& out) {
-  if (!booted_ || frame.extended || frame.remote || frame.fd || frame.error) return;
+  if (!booted_ || !frame.is_plain()) return;
   if (frame.id == 0) {
     const bool meant = frame.len == 2 && (frame.data[1] == settings_.node || frame.data[1] == 0);
     if (meant) on_nmt(frame.data[0]);

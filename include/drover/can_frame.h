@@ -17,6 +17,8 @@ struct CanFrame {
   std::uint8_t len = 0;
   std::array<std::uint8_t, 64> data{};
 
+  /// Neither extended nor remote nor FD nor an error: all that devices with 11-bit ids say.
+  constexpr bool is_plain() const { return !extended && !remote && !fd && !error; }
   std::span<const std::uint8_t> payload() const { return {data.data(), len}; }
   friend bool operator==(const CanFrame& a, const CanFrame& b) {
     if (a.id != b.id || a.extended != b.extended || a.remote != b.remote || a.fd != b.fd ||

@@ -9,6 +9,11 @@ struct Twist {
   double wz_radps = 0;
 };
 
+/// At rest, or told to be.
+constexpr bool is_zero(const Twist& twist) {
+  return twist.vx_mps == 0 && twist.wz_radps == 0;
+}
+
 /// What a base says of its motion, by its wheels or by itself, in its own axes: m/s along its x,
 /// rad/s about its z, which is not the vertical on a slope. Nothing that was learned is in it.
 struct BodyMotion {

@@ -37,14 +37,10 @@ CanFrame command(std::initializer_list<std::uint8_t> bytes, std::uint8_t size) {
   return frame;
 }
 
-bool is_plain(const CanFrame& frame) {
-  return !frame.extended && !frame.remote && !frame.fd && !frame.error;
-}
-
 }  // namespace
 
 std::optional<Report> decode(const CanFrame& frame) {
-  if (!is_plain(frame)) return std::nullopt;
+  if (!frame.is_plain()) return std::nullopt;
   const std::span<const std::uint8_t> data(frame.data.data(), frame.len);
   // The manual prints only the bytes that mean something; frames may be filled up to eight.
   const auto at_least = [&](std::size_t size) { return data.size() >= size && data.size() <= 8; };
@@ -98,7 +94,7 @@ CanFrame ask_version() {
 }
 
 std::optional<Twist> asked_twist(const CanFrame& frame, TwistLayout layout) {
-  if (!is_plain(frame) || frame.id != kCommandId || frame.len != 8) return std::nullopt;
+  if (!frame.is_plain() || frame.id != kCommandId || frame.len != 8) return std::nullopt;
   const std::span<const std::uint8_t> data(frame.data.data(), frame.len);
   const bool head = layout == TwistLayout::example;
   if (head ? data[0] != kHead || data[1] != kTwist : data[0] == kHead) return std::nullopt;

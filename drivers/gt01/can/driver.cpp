@@ -19,6 +19,7 @@ constexpr double kSigma_mps = 0.002;
 /// stops.
 constexpr double kSilence_s = 1.0;
 constexpr unsigned kFaultBits = 16;
+constexpr Words kWords{.motion = "no speed (0x10)", .state = "no state (0x20)"};
 
 struct Trouble {
   std::uint8_t bit;
@@ -61,6 +62,15 @@ Reason trouble_of(const State& state, const MotorFaults& faults) {
   return {};
 }
 
+StopRecipe recipe_of(const Settings& settings, TwistLayout layout) {
+  StopRecipe recipe;
+  StopRound zero;
+  static_cast<void>(zero.frames.push_back(motion({}, layout)));
+  static_cast<void>(recipe.rounds.push_back(zero));
+  recipe.ends = ends_of(settings);
+  return recipe;
+}
+
 }  // namespace
 
 std::span<const OptionSpec> option_table() {
@@ -85,9 +95,11 @@ TwistLayout read_layout(const Options& options) {
 }
 
 Gt01CanDriver::Gt01CanDriver(const Settings& settings, TwistLayout layout, AxisId axis)
-    : settings_(settings), layout_(layout), host_(settings), silence_text_(silence_text(settings)) {
-  host_.axis = axis;
-}
+    : settings_(settings),
+      layout_(layout),
+      host_(settings, axis, kWords),
+      recipe_(recipe_of(settings, layout)),
+      silence_text_(silence_text(settings)) {}
 
 std::span<const FrameFilter> Gt01CanDriver::listens() const {
   return kHears;
@@ -106,6 +118,7 @@ void Gt01CanDriver::on_link_up(Time now) {
 void Gt01CanDriver::tell_condition(Time received, DriverOut& out) {
   if (!state_) return;
   Condition condition;
+  condition.at = state_at_;
   condition.obeys = state_->mode == static_cast<std::uint8_t>(Mode::host);
   condition.remote_on = (state_->status & status::kRemoteOffline) == 0;
   condition.bits = static_cast<std::uint64_t>(state_->status & ~status::kRemoteOffline) |
@@ -118,10 +131,9 @@ void Gt01CanDriver::tell_condition(Time received, DriverOut& out) {
 }
 
 void Gt01CanDriver::on_frame(const CanFrame& frame, Time received, DriverOut& out) {
-  if (frame.extended || frame.remote || frame.fd || frame.error) return;
+  if (!frame.is_plain()) return;
   if (frame.id == kCommandId) {
-    // The guard's zeros are welcome.
-    if (effect(frame, received).kind != FrameEffect::stop) host_.on_foreign(frame.id, received);
+    if (!is_of_recipe(frame, recipe_)) host_.on_foreign(frame.id, received);
     return;
   }
   const bool own = std::any_of(std::begin(kHears), std::end(kHears),
@@ -134,6 +146,7 @@ void Gt01CanDriver::on_frame(const CanFrame& frame, Time received, DriverOut& ou
     host_.on_motion(motion->twist, kSigma_mps, received, out);
   } else if (const auto* state = std::get_if<State>(&*report)) {
     state_ = *state;
+    state_at_ = received;
     host_.on_supply(state->voltage_V, received, out);
     tell_condition(received, out);
   } else if (const auto* faults = std::get_if<MotorFaults>(&*report)) {
@@ -166,15 +179,6 @@ Twist Gt01CanDriver::setpoint_twist(const Message& message, std::size_t) const {
 
 Effect Gt01CanDriver::effect(const Message& message, Time) const {
   return effect_of(asked(message));
-}
-
-StopRecipe Gt01CanDriver::stop_recipe() const {
-  StopRecipe recipe;
-  StopRound zero;
-  static_cast<void>(zero.frames.push_back(motion({}, layout_)));
-  static_cast<void>(recipe.rounds.push_back(zero));
-  recipe.ends = ends_of(settings_);
-  return recipe;
 }
 
 }  // namespace drover::gt01::can

@@ -25,7 +25,7 @@ class Gt01CanDriver final : public Device, public FrameFace, public Actuator {
   Effect effect(const Message& message, Time now) const override;
   Twist setpoint_twist(const Message& message, std::size_t channel) const override;
   std::size_t messages_per_cycle() const override { return 1; }
-  StopRecipe stop_recipe() const override;
+  StopRecipe stop_recipe() const override { return recipe_; }
   SilenceBehaviour silence() const override { return silence_of(settings_, silence_text_.view()); }
 
  private:
@@ -35,8 +35,10 @@ class Gt01CanDriver final : public Device, public FrameFace, public Actuator {
   Settings settings_;
   TwistLayout layout_;
   Host host_;
+  StopRecipe recipe_;
   Reason silence_text_;
   std::optional<State> state_;  ///< since the link came up
+  Time state_at_ = kNever;
   MotorFaults motor_faults_;
 };
 

@@ -21,8 +21,8 @@ constexpr std::uint8_t kSoftEstopCommand = 0x0F;
 void Gt01CanTwin::on_frame(const CanFrame& frame, Time now, TwinFrames&) {
   if (!chassis_.is_up()) return;
   if (const auto twist = asked_twist(frame, layout_)) return chassis_.on_twist(*twist, now);
-  const bool command = frame.id == kCommandId && !frame.extended && !frame.remote && !frame.fd &&
-                       !frame.error && frame.len >= 3 && frame.data[0] == kCommandHead;
+  const bool command =
+      frame.is_plain() && frame.id == kCommandId && frame.len >= 3 && frame.data[0] == kCommandHead;
   if (command && frame.data[1] == kSoftEstopCommand) chassis_.on_soft_estop(frame.data[2] == 1);
 }
 

@@ -11,6 +11,8 @@ namespace {
 /// What it tells is whole millimetres a second.
 constexpr double kStep_mps = 0.002;
 constexpr std::uint16_t kStopPackets = 16;
+/// Both are in one packet.
+constexpr Words kWords{.motion = "no upload (0x81)", .state = "no upload (0x81)"};
 
 struct Trouble {
   std::uint16_t bit;
@@ -32,8 +34,9 @@ constexpr Trouble kTroubles[] = {
     {status::kDockingOn, words::kDocking},
 };
 
-Condition condition_of(const Upload& upload) {
+Condition condition_of(const Upload& upload, Time received) {
   Condition condition;
+  condition.at = received;
   condition.remote_on = (upload.status & status::kRemoteOffline) == 0;
   condition.bits = static_cast<std::uint16_t>(upload.status & ~status::kRemoteOffline);
   const auto* const found =
@@ -60,9 +63,7 @@ std::span<const OptionSpec> option_table() {
 }
 
 Gt01SerialDriver::Gt01SerialDriver(const Settings& settings, AxisId axis)
-    : settings_(settings), host_(settings), silence_text_(silence_text(settings)) {
-  host_.axis = axis;
-}
+    : settings_(settings), host_(settings, axis, kWords), silence_text_(silence_text(settings)) {}
 
 void Gt01SerialDriver::on_link_up(Time now) {
   framer_.reset();
@@ -72,7 +73,7 @@ void Gt01SerialDriver::on_link_up(Time now) {
 void Gt01SerialDriver::on_upload(const Upload& upload, Time received, DriverOut& out) {
   host_.on_motion(upload.twist, sigma_mps(upload), received, out);
   host_.on_supply(upload.voltage_V, received, out);
-  host_.on_condition(condition_of(upload), received, out);
+  host_.on_condition(condition_of(upload, received), received, out);
 }
 
 void Gt01SerialDriver::on_bytes(std::span<const std::uint8_t> bytes, Time first_byte,

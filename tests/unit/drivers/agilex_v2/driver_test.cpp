@@ -114,6 +114,17 @@ TEST(AgilexV2, StopsAndNamesSomebodyElseWhoDrivesIt) {
   EXPECT_NE(it.status.state, AxisState::fault);
 }
 
+/// The guard never sends it, though it stops: it may let go, and the robot rolls.
+TEST(AgilexV2, StopsAndNamesSomebodyElseWhoSwitchesItToStandby) {
+  Bench it;
+  it.drive();
+  DriverOut out;
+  it.driver.on_frame(mode_command(Mode::standby), it.now, out);
+  it.run(milliseconds(20), kRun, {0.5, 0});
+  EXPECT_EQ(it.status.state, AxisState::fault);
+  EXPECT_EQ(it.reason(), "somebody else commands it: id 0x421 on the bus");
+}
+
 TEST(AgilexV2, TakesTheGuardsZerosForNoStrangers) {
   Bench it;
   it.drive();

@@ -208,6 +208,39 @@ TEST_P(CanConformance, SaysHowItStopsAndTheRecipeStopsIt) {
   EXPECT_NEAR(bench.shaft.position_rad, before_rad, 0.05 / 0.165) << "let go instead of holding";
 }
 
+/// A frame that comes all the time, and without which it does not begin, is one without which it
+/// does not go on: a speed that still comes says nothing of a fault.
+TEST_P(CanConformance, GoesStaleWhenOneOfTheFramesThatItNeedsCeases) {
+  const auto drive = [](CanBench& bench) {
+    bench.run(milliseconds(1000), kRest);
+    bench.run(milliseconds(1000), kRun, 3.0);
+  };
+  CanBench whole(GetParam());
+  drive(whole);
+  ASSERT_EQ(whole.status.state, AxisState::running);
+  whole.ids.clear();
+  whole.run(milliseconds(300), kRun, 3.0);
+  for (const std::uint32_t id : whole.ids) {
+    SCOPED_TRACE("frame " + std::to_string(id));
+    CanBench without(GetParam());
+    without.lost = id;
+    drive(without);
+    if (without.status.state == AxisState::running) continue;
+    CanBench bench(GetParam());
+    drive(bench);
+    bench.lost = id;
+    bench.run(milliseconds(600), kRun, 3.0);
+    EXPECT_EQ(bench.device->health(bench.now).state, SourceState::stale);
+    EXPECT_FALSE(bench.device->health(bench.now).reason.empty());
+    EXPECT_NE(bench.status.state, AxisState::running);
+    EXPECT_FALSE(bench.status.reason.empty());
+    bench.sent.clear();
+    bench.run(milliseconds(100), kRun, 3.0);
+    for (const CanFrame& frame : bench.sent)
+      EXPECT_NE(bench.effect_of(frame), FrameEffect::motion) << describe(frame);
+  }
+}
+
 TEST_P(CanWire, IgnoresItsFramesUnderAForeignFlag) {
   CanBench bench(GetParam());
   for (CanFrame frame : golden_frames(*GetParam().entry)) {

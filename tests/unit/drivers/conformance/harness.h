@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <cctype>
+#include <optional>
 #include <ostream>
 #include <random>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -202,6 +204,8 @@ class CanBench {
   double inertia_kgm2 = 0.4;
   double friction_Nms_per_rad = 0.2;
   bool driver_alive = true;
+  std::set<std::uint32_t> ids;        ///< of what the twin said
+  std::optional<std::uint32_t> lost;  ///< of them the one that does not reach the driver
   Time now{std::chrono::seconds(1)};
   FixedVector<Setpoint, kMaxChannels> wanted;
   DriverOut out;
@@ -220,7 +224,10 @@ class CanBench {
  private:
   void to_driver() {
     if (!driver_alive) return;
-    for (const CanFrame& frame : twin_frames) inject(frame);
+    for (const CanFrame& frame : twin_frames) {
+      ids.insert(frame.id);
+      if (frame.id != lost) inject(frame);
+    }
   }
   void move(Shaft& each) const {
     each.velocity_radps += 0.0025 / inertia_kgm2 *

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cmath>
+#include <optional>
+#include <set>
 #include <variant>
 
 #include "unit/drivers/conformance/harness.h"
@@ -99,6 +101,8 @@ class TwistBench {
   FixedVector<Shaft, kMaxChannels> shafts;
   double load_Nm = 0;  ///< on each shaft
   bool driver_alive = true;
+  std::set<std::uint32_t> ids;        ///< of what the twin said
+  std::optional<std::uint32_t> lost;  ///< of them the one that does not reach the driver
   Time now{std::chrono::seconds(1)};
   DriverOut out;
   std::vector<Sent> sent;
@@ -140,6 +144,8 @@ class TwistBench {
   void hear_frames() {
     if (!driver_alive) return;
     for (const CanFrame& frame : frames) {
+      ids.insert(frame.id);
+      if (frame.id == lost) continue;
       out.clear();
       AllocationCounter counter;
       made.frames->on_frame(frame, now, out);

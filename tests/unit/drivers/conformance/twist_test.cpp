@@ -66,6 +66,20 @@ TEST_P(TwistConformance, StandsWhileNobodyAsksItToMove) {
   expect_decent(bench);
 }
 
+/// Whether it lets go or was told zero for good: `idle` is what the power waits for.
+TEST_P(TwistConformance, IsIdleWhenItIsAskedToBeAndRunsAgainWhenItIsAskedTo) {
+  TwistBench bench(GetParam());
+  drive(bench);
+  bench.run(milliseconds(1500), kRest);
+  bench.sent.clear();
+  bench.run(milliseconds(1000), AxisRequest::idle);
+  EXPECT_EQ(bench.status.state, AxisState::idle) << bench.status.reason.view();
+  expect_no_motion(bench);
+  bench.run(milliseconds(1000), kRun);
+  EXPECT_EQ(bench.status.state, AxisState::running) << bench.status.reason.view();
+  expect_decent(bench);
+}
+
 TEST_P(TwistConformance, FollowsTheTwistAndTellsIt) {
   TwistBench bench(GetParam());
   drive(bench);
@@ -135,6 +149,41 @@ TEST_P(TwistConformance, GoesStaleWhenItsDeviceFallsSilent) {
   bench.sent.clear();
   bench.run(milliseconds(100), kRun, {0.5, 0});
   expect_no_motion(bench);
+}
+
+/// A frame without which it does not begin is one without which it does not go on: a motion that
+/// still comes says nothing of the button that a person pressed.
+TEST_P(TwistConformance, IsGivenUpWhenOneOfTheFramesThatItNeedsCeases) {
+  TwistBench whole(GetParam());
+  drive(whole);
+  int needed = 0;
+  for (const std::uint32_t id : whole.ids) {
+    SCOPED_TRACE("frame " + std::to_string(id));
+    TwistBench without(GetParam());
+    without.lost = id;
+    without.run(milliseconds(2000), kRest);
+    without.run(milliseconds(1000), kRun);
+    const bool fresh = without.device->health(without.now).state == SourceState::fresh;
+    if (fresh && without.status.state == AxisState::running) continue;
+    ++needed;
+    TwistBench bench(GetParam());
+    drive(bench);
+    bench.lost = id;
+    bench.run(milliseconds(600), kRun, {0.5, 0});
+    EXPECT_EQ(bench.device->health(bench.now).state, SourceState::stale);
+    EXPECT_FALSE(bench.device->health(bench.now).reason.empty());
+    EXPECT_EQ(bench.status.state, AxisState::unknown);
+    EXPECT_FALSE(bench.status.reason.empty());
+    bench.sent.clear();
+    bench.run(milliseconds(100), kRun, {0.5, 0});
+    bench.lost.reset();
+    bench.run(milliseconds(1500), kRun, {0.5, 0});
+    expect_no_motion(bench);
+    EXPECT_LT(bench.fastest_radps(), kStill_radps) << "it moves again by a new request only";
+  }
+  if (GetParam().entry->wire == Wire::can) {
+    EXPECT_GE(needed, 1);
+  }
 }
 
 TEST_P(TwistConformance, MovesAfterAPowerCycleOnlyByANewRequest) {

@@ -95,6 +95,18 @@ TEST_P(AChassis, NamesWhatIsWrongWithItsDrives) {
   EXPECT_THAT(reason(), HasSubstr(on_can() ? "left motor: overcurrent" : "front left drive"));
 }
 
+/// No frame lets go of it: told zero is all that it can be told, and nobody waits for more before
+/// its power is taken.
+TEST_P(AChassis, HasLetGoOnceItWasToldZeroThoughItDrivesOn) {
+  drive();
+  bench.set_fault("deaf");
+  bench.run(milliseconds(500), kRest);
+  ASSERT_GT(bench.motion.twist.vx_mps, 0.4) << "it does not hear";
+  EXPECT_EQ(bench.status.state, AxisState::running);
+  bench.run(milliseconds(40), AxisRequest::idle);
+  EXPECT_EQ(bench.status.state, AxisState::idle);
+}
+
 /// Whatever else the wire knows: another state, a switch, an end of an emergency stop.
 TEST_P(AChassis, IsNeverToldAnythingButTwists) {
   const auto is_forbidden = [&](const test::Sent& one) {
@@ -154,6 +166,23 @@ TEST(Gt01SerialDriver, CountsWrongSumsAndGoesStaleWhenTooFewPacketsAreLeft) {
   const auto after = bench.device->health(bench.now);
   EXPECT_GT(after.bad, before.bad + 50);
   EXPECT_EQ(after.state, SourceState::fresh) << "one packet in 60 ms";
+}
+
+/// Its speed comes on, and its motors' faults; who pressed what nobody knows any more.
+TEST(Gt01CanDriver, NamesTheStateThatCeased) {
+  const DriverEntry* const entry = find_driver("gt01_can");
+  test::TwistBench bench({entry, test::example_options(*entry), "gt01_can"});
+  bench.run(milliseconds(1500), kRest);
+  bench.run(milliseconds(1000), kRun, {0.5, 0});
+  bench.lost = 0x20;
+  bench.run(milliseconds(150), kRun, {0.5, 0});
+  EXPECT_EQ(bench.device->health(bench.now).state, SourceState::stale);
+  EXPECT_THAT(std::string(bench.device->health(bench.now).reason.view()),
+              HasSubstr("no state (0x20) for 0.1"));
+  bench.set_fault("bumper");
+  bench.run(milliseconds(250), kRun, {0.5, 0});
+  EXPECT_EQ(bench.status.state, AxisState::unknown);
+  EXPECT_THAT(std::string(bench.status.reason.view()), HasSubstr("no state (0x20) for"));
 }
 
 TEST(Gt01CanDriver, IsGivenUpWhenSomebodyElseCommandsIt) {

@@ -366,6 +366,20 @@ TEST(OdriveDriver, StopsAtOnceWhenSomebodyElseCommandsIt) {
   EXPECT_TRUE(bench.status.powered) << "still in closed loop";
 }
 
+/// The guard never sends it, though it stops: it lets go, and the robot rolls.
+TEST(OdriveDriver, SomebodyElsesIdleIsAFault) {
+  Bench bench;
+  bench.arm();
+  bench.run(10, AxisRequest::run, 1.0);
+  bench.hear(kZero);
+  bench.run(1, AxisRequest::run, 1.0);
+  ASSERT_EQ(bench.status.state, AxisState::running) << "the guard's is welcome";
+  bench.hear(kIdle);
+  bench.run(1, AxisRequest::run, 1.0);
+  EXPECT_EQ(bench.status.state, AxisState::fault);
+  EXPECT_EQ(bench.status.reason, "somebody else commands it: id 0x067 on the bus");
+}
+
 TEST(OdriveDriver, DoesNotMindWhoOnlyReads) {
   Bench bench;
   bench.arm();

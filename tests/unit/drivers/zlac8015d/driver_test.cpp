@@ -125,6 +125,37 @@ TEST(Zlac8015d, SetsUpANodeThatWasRestartedAndStaysAtRest) {
   EXPECT_EQ(bench.status.reason, "the drive was restarted while armed");
 }
 
+/// Without it nobody would see a fault, or the emergency stop on the drive's own connector.
+TEST(Zlac8015d, IsGivenUpWhenItsStatusCeasesThoughItsSpeedsCome) {
+  Bench bench;
+  bench.arm();
+  bench.run(milliseconds(300), kRun, 2.0);
+  bench.lost = id_of(Cob::status, 1);
+  bench.run(milliseconds(150), kRun, 2.0);
+  EXPECT_EQ(bench.device->health(bench.now).state, SourceState::stale);
+  EXPECT_EQ(bench.device->health(bench.now).reason.view().substr(0, 15), "no status (181)");
+  bench.run(milliseconds(250), kRun, 2.0);
+  EXPECT_EQ(bench.status.state, AxisState::unknown);
+  EXPECT_EQ(bench.status.reason.view().substr(0, 15), "no status (181)");
+  EXPECT_EQ(describe(bench.sent.back()), "301#0000000000000000");
+  bench.lost.reset();
+  bench.run(milliseconds(500), kRun, 2.0);
+  EXPECT_EQ(bench.status.state, AxisState::fault) << "it runs again by a new request only";
+}
+
+/// It may have lost its power meanwhile, whatever it answers first.
+TEST(Zlac8015d, ForgetsItsTargetsAndItsStatusWhenItAnswersAfterASilence) {
+  Bench bench;
+  bench.arm();
+  bench.run(milliseconds(300), kRun, 2.0);
+  bench.twin->set_power(false, bench.now);
+  bench.run(milliseconds(500), kRun, 2.0);
+  bench.run(milliseconds(20), kRest);
+  ASSERT_EQ(bench.status.state, AxisState::unknown);
+  bench.inject(parse_frame("581#4B41600000000000"));
+  EXPECT_EQ(bench.effect_of(parse_frame("201#0F00")), FrameEffect::harmless);
+}
+
 TEST(Zlac8015d, StopsByItselfWhenTargetsCease) {
   Bench bench;
   bench.arm();
