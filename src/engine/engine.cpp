@@ -34,7 +34,7 @@ Engine::Impl::Impl(const EngineConfig& c)
       mechanics(c),
       navigator(c, latch),
       owners(c, latch),
-      hold(c) {
+      arming(c) {
   level.fill(true);
   for (const Name& joint : config.joints) {
     AxisSnapshot axis;
@@ -168,34 +168,27 @@ void Engine::Impl::set_origin(const RequestId& id, const GeodeticPoint& origin, 
   }
 }
 
-void Engine::Impl::command_axis(AxisId id, double velocity_radps, bool run, EngineOutput& out) {
-  AxisCommand& command = out.axes[id];
-  command.request = run ? AxisRequest::run : AxisRequest::rest;
-  command.velocity_radps = run && std::isfinite(velocity_radps) ? velocity_radps : 0.0;
-  axes[id].commanded_velocity_radps = command.velocity_radps;
-  out.motion_permitted = out.motion_permitted || command.velocity_radps != 0;
-}
-
+/// What the drives were let do; how fast they run is their owner's word.
 void Engine::Impl::command_axes(const Motion& motion, EngineOutput& out) {
-  if (motion.joints) {
-    const auto& velocities_radps = owners.joint_velocities_radps();
-    for (std::size_t i = 0; i < axes.size(); ++i) {
-      command_axis(static_cast<AxisId>(i), velocities_radps[i], motion.run, out);
-    }
-    return;
-  }
   const Learned learned{estimate.yaw_slip_factor};
   const JointVelocities radps =
-      setpoints(base, motion.twist, learned, max_rim_mps(base, config.limits, learned));
-  const JointSet joints = joints_of(base);
-  for (std::size_t i = 0; i < axes.size(); ++i)
-    if (joints[i]) command_axis(static_cast<AxisId>(i), radps[i], motion.run, out);
+      motion.joints
+          ? owners.joint_velocities_radps()
+          : setpoints(base, motion.twist, learned, max_rim_mps(base, config.limits, learned));
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    AxisCommand& command = out.axes[i] = arming.command(static_cast<AxisId>(i));
+    const bool runs = command.request == AxisRequest::run;
+    if (runs && std::isfinite(radps[i])) command.velocity_radps = radps[i];
+    axes[i].commanded_velocity_radps = command.velocity_radps;
+    out.motion_permitted = out.motion_permitted || (runs && command.velocity_radps != 0);
+    out.slowing_permitted[i] = command.request == AxisRequest::hold;
+  }
 }
 
 void Engine::Impl::start_task(const RequestId& id, const StartTask& task, Time now) {
   Reason why;
   if (task.overtaken) why = "a stop came after it";
-  if (why.empty()) why = hold.hindrance();
+  if (why.empty()) why = arming.hindrance();
   if (why.empty()) why = owners.hinders_task();
   if (why.empty() && health.report().stop.empty()) why = rest.turns_by_itself();
   const bool fit = check_robot(health.report(), estimator.has_origin()).empty();
@@ -319,22 +312,19 @@ void Engine::step(Time now, const Environment& environment, EngineOutput& out) {
                        e.events);
   wanted.target = e.mechanics.guide(wanted.target);
   const Motion& motion = e.owners.step({now, dt, e.estimate, e.health.report(), e.wheel_fault,
-                                        e.wheel_reason, wanted, cap_mps, e.hold.hindrance()},
+                                        e.wheel_reason, wanted, cap_mps, e.arming.hindrance()},
                                        e.events);
   const bool other = motion.owner == Owner::joint_command || motion.owner == Owner::manual;
   if (other) e.navigator.make_way();
-  e.driven = motion.run;
   const HealthReport& report = e.health.report();
   e.power.step(now,
-               {e.latch.power_cut(), report.estop || !report.estop_known, e.hold.waits_for_lines(),
-                environment.relay_found_closed},
+               {e.latch.power_cut(), report.estop || !report.estop_known,
+                e.arming.waits_for_lines(), environment.relay_found_closed},
                axes);
-  e.hold.step({now, dt, e.health.report(), axes, motion.run, e.latch.ran_away(),
-               e.latch.power_cut(), environment.guard_has_bus},
-              e.events);
+  e.arming.step({now, dt, e.health.report(), axes, motion.drives(), e.latch.ran_away(),
+                 e.latch.power_cut(), environment.guard_has_bus, motion.joints},
+                e.events);
   e.command_axes(motion, out);
-  if (!motion.run) e.command_hold(out);
-  e.let_go(out);
   if (takes_twist(e.base)) e.command_base(out);
   e.motion_asked = out.motion_permitted;
   out.unsettled = (e.rest.drives_on() || e.latch.power_cut()) && !e.power.opened();
@@ -343,10 +333,10 @@ void Engine::step(Time now, const Environment& environment, EngineOutput& out) {
   e.fill_snapshot(now, environment, lines, e.estimate, motion.owner);
   if (takes_twist(e.base)) e.fill_base(environment, out.base);
   out.outputs = e.snapshot.output_on =
-      e.signals.step(now, e.snapshot, out.motion_permitted, motion.run, e.power.closed());
+      e.signals.step(now, e.snapshot, out.motion_permitted, motion.drives(), e.power.closed());
   e.latch.remember(out.remembered);
-  out.remembered.holding = e.hold.armed();
-  out.remembered.released = e.hold.released();
+  out.remembered.holding = e.arming.armed();
+  out.remembered.released = e.arming.released();
   out.remembered.task = e.navigator.active();
   out.remembered.mechanics_proved = e.mechanics.proved();
   e.events.drain(out.events);

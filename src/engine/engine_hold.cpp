@@ -3,7 +3,7 @@
 
 #include "drover/angle.h"
 #include "engine/engine_impl.h"
-#include "engine/still.h"
+#include "engine/own/arming_checks.h"
 
 namespace drover::engine {
 namespace {
@@ -25,7 +25,7 @@ void Engine::recall(const Remembered& remembered, Time now) {
                     "joint commands wait for a person, as before the start");
   }
   e.power.recall(remembered.power_cut);
-  e.hold.recall(remembered);
+  e.arming.recall(remembered);
   if (remembered.mechanics_proved) e.mechanics.recall_proved();
   if (remembered.task) {
     e.events.notice(now, Notice::Level::warning,
@@ -64,48 +64,14 @@ void Engine::Impl::watch_tilt(Time now, bool has_imu) {
 }
 
 void Engine::Impl::release_hold(const RequestId& id, const ReleaseHold& release, Time now) {
-  Reason why;
-  if (navigator.active() || driven || !owners.at_rest()) why = "the robot is being driven";
-  for (const AxisSnapshot& axis : axes) {
-    const bool turns = rim_mps(base, std::abs(axis.motion.velocity_radps)) > kTurns_mps;
-    if (why.empty() && axis.state == AxisState::running && turns) why = "the robot moves";
-  }
-  if (why.empty() && rest.may_drive_on()) why = "the base is silent: nothing reaches it";
-  hold.release(id, release, why, tilt_deg(), now, events);
+  const bool moved = navigator.active() || arming.driven() || !owners.at_rest();
+  const Reason why = check_release(axes, base, moved, rest.may_drive_on());
+  arming.release(id, release, why, tilt_deg(), now, events);
 }
 
 void Engine::Impl::arm_hold(const RequestId& id, Time now) {
-  const HealthReport& report = health.report();
-  Reason why;
-  if (!report.ready) {
-    why = "the gateway has just started";
-  } else if (report.estop) {
-    why = "the e-stop is pressed";
-  } else if (!report.estop_known) {
-    why = report.text(Cause::line_lost);
-  } else if (latch.power_cut()) {
-    why = "the drives have no power: drover reset";
-  } else if (latch.ran_away()) {
-    why = "a wheel ran away: drover reset";
-  } else if (report.holds(Cause::foreign)) {
-    why = report.text(Cause::foreign);
-  } else if (driven || navigator.active()) {
-    why = "the robot is being driven, and holds when it stops";
-  } else if (!report.drives_ok) {
-    why = report.text(Cause::drive_silent);
-  }
-  hold.arm(id, why, now, events);
-}
-
-/// At rest, what the hold wants goes over the rest that everybody else asked for.
-void Engine::Impl::command_hold(EngineOutput& out) {
-  for (std::size_t i = 0; i < axes.size(); ++i) {
-    const AxisCommand& wanted = hold.command(static_cast<AxisId>(i));
-    if (wanted.request == AxisRequest::rest) continue;
-    out.axes[i] = wanted;
-    out.slowing_permitted[i] = wanted.request == AxisRequest::hold;
-    axes[i].commanded_velocity_radps = wanted.velocity_radps;
-  }
+  const bool moved = navigator.active() || arming.driven();
+  arming.arm(id, check_arm(health.report(), latch, moved), now, events);
 }
 
 }  // namespace drover::engine

@@ -18,7 +18,7 @@
 #include "engine/health/wheels.h"
 #include "engine/health/worst_speed.h"
 #include "engine/navigate/navigator.h"
-#include "engine/own/hold.h"
+#include "engine/own/arming.h"
 #include "engine/own/owners.h"
 #include "engine/own/power.h"
 #include "engine/sensors/sensors.h"
@@ -38,7 +38,6 @@ struct Engine::Impl {
   void reset_stop(const RequestId& id, Time now);
   void start_task(const RequestId& id, const StartTask& task, Time now);
   void command_axes(const Motion& motion, EngineOutput& out);
-  void command_hold(EngineOutput& out);
   void take_body(const BodyMotion& body, Time time);
   void command_base(EngineOutput& out);
   void fill_base(const Environment& environment, const BaseCommand& command);
@@ -46,14 +45,12 @@ struct Engine::Impl {
   void arm_hold(const RequestId& id, Time now);
   double tilt_deg() const;
   void watch_tilt(Time now, bool has_imu);
-  void command_axis(AxisId id, double velocity_radps, bool run, EngineOutput& out);
   void watch_imu(const ImuSample& sample, Time at);
   void choose_sensors(Time now, const Environment& environment);
   bool imu_trusted() const { return sensors.imu_trusted(sensors.imu()); }
   Reason judge_motion(Time now, Duration dt, const LineTable& lines,
                       const Environment& environment);
   void watch_wheels(Time now, Duration dt);
-  void let_go(EngineOutput& out);
   void fill_speed(Time now);
   void fill_imu(const Estimate& located);
   void fill_lines(const LineTable& lines);
@@ -78,7 +75,7 @@ struct Engine::Impl {
   Latch latch;
   Navigator navigator;
   Owners owners;
-  Hold hold;
+  Arming arming;
   PowerSwitch power;
   Signals signals;
   EventQueue events;
@@ -88,7 +85,6 @@ struct Engine::Impl {
   GnssPosition fix;                      ///< the last one
   Reason steep;                          ///< why this ground is too steep to stop on
   Time steep_since = kNever;
-  bool driven = false;  ///< an owner had the drives in the last step
   Time tilt_known_at = kNever;
   bool slopes = false;  ///< the ground fell when that was known last
   Time last_step = kNever;

@@ -16,7 +16,7 @@ constexpr double kRollsFrom_deg = 2.0;
 
 /// Whoever speaks of the robot's motion: what he says is not compared with what another one said.
 void Engine::Impl::choose_sensors(Time now, const Environment& environment) {
-  const bool stands = !motion_asked && !driven && estimate.fastest_mps <= kStands_mps;
+  const bool stands = !motion_asked && !arming.driven() && estimate.fastest_mps <= kStands_mps;
   const HandOver change = sensors.update(now, environment, estimator, stands);
   if (change.imu) {
     estimator.use_imu(sensors.imu());
@@ -52,10 +52,10 @@ Reason Engine::Impl::judge_motion(Time now, Duration dt, const LineTable& lines,
   if (std::isfinite(falls_deg)) slopes = falls_deg > kRollsFrom_deg;
   input.rolls_unpowered =
       !steep.empty() || (config.base.hold == HoldBy::level_ground_only && slopes);
-  input.released = hold.released();
+  input.released = arming.released();
   input.drives_on_in_silence = environment.drives_on_in_silence;
   input.found_powered = environment.relay_found_closed;
-  input.caught = hold.state() == HoldState::catching;
+  input.caught = arming.state() == HoldState::catching;
   if (estimate.has_heading) input.yaw_rad = estimate.pose.yaw_rad;
   const RestState state = rest.update(input);
   if (state == RestState::not_stopping && !latch.power_cut()) {
@@ -94,18 +94,6 @@ void Engine::Impl::watch_wheels(Time now, Duration dt) {
     wheel_fault = WheelFault::disagrees;
     wheel_reason = mechanics.fault();
   }
-}
-
-/// A stop that did not work: the drives let go before their supply does.
-void Engine::Impl::let_go(EngineOutput& out) {
-  if (!latch.power_cut()) return;
-  const JointSet joints = joints_of(base);
-  for (std::size_t i = 0; i < axes.size(); ++i) {
-    if (!joints[i]) continue;
-    out.axes[i] = {AxisRequest::idle, 0};
-    axes[i].commanded_velocity_radps = 0;
-  }
-  out.motion_permitted = false;
 }
 
 void Engine::Impl::fill_speed(Time now) {

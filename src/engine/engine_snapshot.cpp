@@ -89,7 +89,7 @@ void Engine::Impl::fill_snapshot(Time now, const Environment& environment, const
   snapshot.estimator = estimator.counters();
   snapshot.notices_dropped = events.dropped();
   snapshot.stop_latched = !latch.why().empty();
-  snapshot.hold = hold.state();
+  snapshot.hold = arming.state();
   snapshot.guard_alive = environment.guard_alive;
   snapshot.guard_has_bus = environment.guard_has_bus;
   snapshot.why.clear();
@@ -103,9 +103,9 @@ void Engine::Impl::fill_snapshot(Time now, const Environment& environment, const
   if (const Reason waits = navigator.waits_for(); !waits.empty())
     (void)snapshot.why.push_back(waits);
   if (latch.power_cut()) (void)snapshot.why.push_back("the drives have no power: drover reset");
-  if (hold.state() == HoldState::lost) {
+  if (arming.state() == HoldState::lost) {
     (void)snapshot.why.push_back("the drives let go and are not held: drover hold");
-  } else if (const Reason why = hold.hindrance(); !why.empty()) {
+  } else if (const Reason why = arming.hindrance(); !why.empty()) {
     (void)snapshot.why.push_back(why);
   }
 }

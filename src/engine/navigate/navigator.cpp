@@ -74,7 +74,8 @@ void Navigator::start(const RequestId& id, const StartTask& task, Time now,
   speed_mps_ = speed.speed_mps;
   accepted_ = now;
   goal_near_since_ = kNever;
-  begun_ = stopping_at_goal_ = drives_asked_ = false;
+  begun_ = stopping_at_goal_ = false;
+  drives_.begin();
   obstacle_ = lost_ = {};
   latch_.reset(Act::begin);
   phase_ = Phase::starting;
@@ -166,21 +167,18 @@ NavOutput Navigator::step(const NavInput& input, EventQueue& events) {
 }
 
 NavOutput Navigator::arm(const NavInput& input, EventQueue& events) {
-  // A drive that still holds from the last task reports that it runs, and arms anew for this one:
-  // what was reported before it heard of the request says nothing.
-  if (!drives_asked_) {
-    drives_asked_ = true;
-    return {{}, true, Stop::controlled};
-  }
+  const bool late = input.now - accepted_ > from_s(config_.navigate.start_timeout_s);
+  const Drives drives = drives_.look(input.health.drives_running, late);
+  if (drives == Drives::asked) return {{}, true, Stop::controlled};
   if (const Reason why = find_health_failure(input.health); !why.empty()) {
     fail(input.now, why, events);
     return {{}, false, Stop::controlled};
   }
-  if (input.health.drives_running) {
+  if (drives == Drives::armed) {
     phase_ = Phase::running;
     return run(input, events);
   }
-  if (input.now - accepted_ > from_s(config_.navigate.start_timeout_s)) {
+  if (drives == Drives::late) {
     fail(input.now, input.health.not_running, events);
     return {{}, false, Stop::immediate};
   }

@@ -3,6 +3,7 @@
 
 #include "engine/event_queue.h"
 #include "engine/gate/target_gate.h"
+#include "engine/health/arm_wait.h"
 #include "engine/health/health.h"
 #include "engine/health/latch.h"
 #include "engine/health/wheels.h"
@@ -96,7 +97,7 @@ class Navigator final {
   double speed_mps_ = 0;
   bool begun_ = false;  ///< NavigationStarted was said
   bool stopping_at_goal_ = false;
-  bool drives_asked_ = false;  ///< to run, at least one cycle ago
+  ArmWait drives_;
   Time accepted_ = kNever;
   Time goal_near_since_ = kNever;
   Wait obstacle_;

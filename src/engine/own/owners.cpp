@@ -114,24 +114,19 @@ Stop Owners::watch_stream(const OwnInput& input, bool at_once) {
   if (!busy_.empty()) stream_.end(busy_);
   if (input.health.near_zone && stream_.wants_motion()) stream_.end("obstacle in the near zone");
   if (!stream_.following()) {
-    stream_asked_ = stream_ran_ = false;
+    stream_drives_.begin();
     return Stop::controlled;
-  }
-  // A drive that still holds from earlier reports that it runs, and arms anew for this stream.
-  if (!stream_asked_) {
-    stream_asked_ = true;
-    return Stop::controlled;
-  }
-  if (input.health.drives_running) {
-    stream_ran_ = true;
-    return Stop::none;
   }
   const bool late = input.now - stream_.since() > from_s(config_.navigate.start_timeout_s);
-  if (stream_ran_ || late) {
-    latch(input.health.not_running, false);
-    return Stop::immediate;
+  switch (stream_drives_.look(input.health.drives_running, late)) {
+    case Drives::asked:
+    case Drives::arming: return Stop::controlled;
+    case Drives::armed: return Stop::none;
+    case Drives::late:
+    case Drives::lost: break;
   }
-  return Stop::controlled;  // the drives are being armed
+  latch(input.health.not_running, false);
+  return Stop::immediate;
 }
 
 const Motion& Owners::step(const OwnInput& input, EventQueue& events) {
@@ -163,8 +158,7 @@ const Motion& Owners::step(const OwnInput& input, EventQueue& events) {
   joint_gate_.step(input.dt, stream_.velocities_radps(), input.estimate.yaw_slip_factor, cap_mps,
                    joint_stop);
   motion_.joints = motion_.owner == Owner::joint_command || !joint_gate_.at_rest();
-  motion_.run = !at_once && (motion_.owner == Owner::task || manual ||
-                             motion_.owner == Owner::joint_command || !at_rest());
+  motion_.at_once = at_once;
   // A stop ramp is still the motion of the one who drove.
   if (motion_.owner == Owner::manual || motion_.owner == Owner::task) drove_ = motion_.owner;
   if (motion_.owner == Owner::nobody && !at_rest()) {

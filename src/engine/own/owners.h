@@ -3,6 +3,7 @@
 
 #include "engine/gate/joint_gate.h"
 #include "engine/gate/target_gate.h"
+#include "engine/health/arm_wait.h"
 #include "engine/health/latch.h"
 #include "engine/health/wheels.h"
 #include "engine/navigate/navigator.h"
@@ -26,9 +27,11 @@ struct OwnInput {
 /// What the gates let through this cycle.
 struct Motion {
   Owner owner = Owner::nobody;
-  bool run = false;     ///< axes are to run (armed, if at rest)
-  bool joints = false;  ///< single joints are commanded, otherwise `twist`
+  bool at_once = false;  ///< it was stopped, without a ramp
+  bool joints = false;   ///< single joints are commanded, otherwise `twist`
   Twist twist;
+  /// The drives are to run for him, also while they ramp down.
+  bool drives() const { return !at_once && owner != Owner::nobody && owner != Owner::estop; }
 };
 
 /// The owners below the task, both gates, and the rank among all. A lower owner is refused while a
@@ -73,8 +76,7 @@ class Owners final {
   JointGate joint_gate_;
   JointStream stream_;
   HeadingCreep creep_;
-  bool stream_asked_ = false;  ///< the drives were asked to run, at least one cycle ago
-  bool stream_ran_ = false;    ///< the drives were seen running since it began
+  ArmWait stream_drives_;
   Reason busy_;                ///< why joint commands cannot be followed; empty: they can
   Reason no_start_;            ///< why nothing new may begin; empty: it may
   Owner drove_ = Owner::task;  ///< who asked for a twist last

@@ -1,4 +1,4 @@
-#include "engine/own/hold.h"
+#include "engine/own/arming.h"
 
 #include <gtest/gtest.h>
 
@@ -27,7 +27,8 @@ class Holding : public ::testing::Test {
       if (axis.state != AxisState::running || axis.health != SourceState::fresh)
         health.drives_running = false;
     }
-    hold.step({now, kRigTick, health, axes, driven, run_away, power_cut, guard_has_bus}, events);
+    hold.step({now, kRigTick, health, axes, driven, run_away, power_cut, guard_has_bus, joints},
+              events);
   }
   void run_s(double seconds) {
     for (int i = 0; i < static_cast<int>(seconds * 200 + 0.5); ++i) tick();
@@ -58,7 +59,7 @@ class Holding : public ::testing::Test {
   }
 
   EngineConfig config = rig_config();
-  Hold hold;
+  Arming hold;
   std::array<AxisSnapshot, 4> axes{};
   HealthReport health;
   EventQueue events;
@@ -66,9 +67,29 @@ class Holding : public ::testing::Test {
   bool run_away = false;
   bool power_cut = false;
   bool guard_has_bus = false;
+  bool joints = false;
   Time now{std::chrono::seconds(50)};
 };
 
+TEST_F(Holding, ArmsWhatAnOwnerMovesAndLeavesTheRestAlone) {
+  config.base.left = config.base.right = {};
+  (void)config.base.left.push_back(0);
+  (void)config.base.right.push_back(1);
+  hold = Arming(config);
+  driven = true;
+  tick();
+  EXPECT_EQ(hold.command(1).request, AxisRequest::run);
+  EXPECT_EQ(hold.command(2).request, AxisRequest::rest) << "no joint of the base";
+  joints = true;
+  tick();
+  EXPECT_EQ(hold.command(2).request, AxisRequest::run) << "he commands single joints";
+  EXPECT_TRUE(hold.driven());
+}
+TEST_F(Holding, LetsGoOfWhatHasItsPowerCutWhoeverDrives) {
+  driven = power_cut = true;
+  tick();
+  EXPECT_EQ(asked(), AxisRequest::idle);
+}
 TEST_F(Holding, LeavesDrivesAloneThatNobodyEverArmed) {
   let_go(1);
   run_s(1);
@@ -205,7 +226,7 @@ TEST_F(Holding, LeavesADriveWithAFaultOfItsOwnToAPerson) {
 }
 TEST_F(Holding, DoesNothingOnBlocksUntilAPersonAsks) {
   config.base.hold_again = false;
-  hold = Hold(config);
+  hold = Arming(config);
   drive_and_stop();
   let_go(1);
   run_s(12);
@@ -248,7 +269,7 @@ TEST_F(Holding, IsReleasedOnLevelGroundAndStaysSoOverARestart) {
   Remembered kept;
   kept.released = hold.released();
   kept.holding = hold.armed();
-  hold = Hold(config);
+  hold = Arming(config);
   hold.recall(kept);
   run_s(1);
   EXPECT_EQ(asked(), AxisRequest::idle);

@@ -1,4 +1,4 @@
-// Keeps the robot where it is: what the drives were holding is held again when they let go.
+// Which drives are armed, held, let go or left as they are: decided here, and nowhere else.
 #pragma once
 
 #include <array>
@@ -11,27 +11,31 @@
 #include "engine/base/kinematics.h"
 #include "engine/event_queue.h"
 #include "engine/health/health.h"
+#include "engine/own/take_back.h"
 
 namespace drover::engine {
 
-struct HoldInput {
+struct ArmingInput {
   Time now = kNever;
   Duration dt{};
   const HealthReport& health;
   std::span<const AxisSnapshot> axes;
-  bool driven = false;    ///< an owner has the drives: what they do is its own
+  bool driven = false;    ///< an owner moves the robot, or brings it to rest
   bool run_away = false;  ///< a wheel does not obey its drive: that drive is not armed again
   bool power_cut = false;
   bool guard_has_bus = false;
+  bool joints = false;  ///< that owner commands single joints, also such as are not the base's
 };
 
-/// Drives that were armed by a person and lose their closed loop (a restart of the gateway, a dip
-/// of their supply) are armed again at once, at the speed that they have, and ramped down to rest.
-/// It tries for 10 s from when they last held, or were first heard after a restart. After an
-/// e-stop, a release, a power cut or a boot nothing is armed until a person does.
-class Hold final {
+/// Nobody else commands a drive armed, held or idle: the table is in README.md. Drives that were
+/// armed by a person and lose their closed loop (a restart of the gateway, a dip of their supply)
+/// are armed again at once, at the speed that they have, and ramped down to rest.
+/// It tries to hold again for 10 s from when they last held, or were first heard after a restart.
+/// After an e-stop, a release, a power cut or a boot nothing is armed until a person does: he
+/// starts what moves the robot, or arms it where it stands.
+class Arming final {
  public:
-  explicit Hold(const EngineConfig& config);
+  explicit Arming(const EngineConfig& config);
 
   /// Before the first cycle: what the program before this one left.
   void recall(const Remembered& remembered);
@@ -40,10 +44,12 @@ class Hold final {
                double tilt_deg, Time now, EventQueue& events);
   void arm(const RequestId& id, const Reason& hindrance, Time now, EventQueue& events);
 
-  void step(const HoldInput& input, EventQueue& events);
+  void step(const ArmingInput& input, EventQueue& events);
 
-  /// What this axis is to do now; `rest` where there is nothing to be done.
+  /// What this axis is to do now; where it runs, how fast is its owner's.
   const AxisCommand& command(AxisId axis) const { return commands_[axis]; }
+  /// An owner has the drives.
+  bool driven() const { return has_owner_; }
   /// Why nobody may drive now; empty: they may.
   Reason hindrance() const;
   HoldState state() const { return state_; }
@@ -55,28 +61,17 @@ class Hold final {
   bool armed() const { return armed_; }
 
  private:
-  /// One attempt to take an axis back.
-  struct Catch {
-    bool active = false;
-    Time since = kNever;
-    Time next = kNever;  ///< not before
-    double velocity_radps = 0;
-  };
-  bool estop(const HoldInput& input);
+  bool estop(const ArmingInput& input);
   void forfeit() { armed_ = asked_ = recalled_ = false; }
-  void keep_time(const HoldInput& input, EventQueue& events);
-  void take_back(const HoldInput& input, AxisId id);
-  void begin(const HoldInput& input, const AxisSnapshot& axis, Catch& it) const;
-  void follow(const HoldInput& input, const AxisSnapshot& axis, Catch& it) const;
-  bool others_hold(const HoldInput& input) const;
-  bool heard(const HoldInput& input, const AxisSnapshot& axis) const;
+  void keep_time(const ArmingInput& input, EventQueue& events);
+  void take_back(const ArmingInput& input, bool wanted);
+  AxisCommand decide(const ArmingInput& input, AxisId id) const;
 
   EngineConfig config_;
-  Kinematics base_;
   JointSet driven_;
-  double falls_radps2_;
-  std::array<Catch, kMaxAxes> catches_{};
+  TakeBack take_back_;
   std::array<AxisCommand, kMaxAxes> commands_{};
+  bool has_owner_ = false;
   bool armed_ = false;     ///< by a person, and nothing since ended it
   bool asked_ = false;     ///< by a person with ArmHold, and they do not run yet
   bool recalled_ = false;  ///< from before a restart; not all drives were heard since

@@ -1,0 +1,34 @@
+// Whether a person may arm the drives where they stand, or let them go: each refusal with its
+// reason.
+#include "engine/own/arming_checks.h"
+
+#include <cmath>
+
+#include "engine/still.h"
+
+namespace drover::engine {
+
+Reason check_arm(const HealthReport& health, const Latch& latch, bool driven) {
+  if (!health.ready) return "the gateway has just started";
+  if (health.estop) return "the e-stop is pressed";
+  if (!health.estop_known) return health.text(Cause::line_lost);
+  if (latch.power_cut()) return "the drives have no power: drover reset";
+  if (latch.ran_away()) return "a wheel ran away: drover reset";
+  if (health.holds(Cause::foreign)) return health.text(Cause::foreign);
+  if (driven) return "the robot is being driven, and holds when it stops";
+  if (!health.drives_ok) return health.text(Cause::drive_silent);
+  return {};
+}
+
+Reason check_release(std::span<const AxisSnapshot> axes, const Kinematics& base, bool driven,
+                     bool unreachable) {
+  if (driven) return "the robot is being driven";
+  for (const AxisSnapshot& axis : axes) {
+    const bool turns = rim_mps(base, std::abs(axis.motion.velocity_radps)) > kTurns_mps;
+    if (axis.state == AxisState::running && turns) return "the robot moves";
+  }
+  if (unreachable) return "the base is silent: nothing reaches it";
+  return {};
+}
+
+}  // namespace drover::engine
