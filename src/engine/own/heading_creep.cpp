@@ -24,6 +24,7 @@ void HeadingCreep::start(const RequestId& id, std::string_view hindrance, const 
   active_ = true;
   began_ = now;
   driven_m_ = 0;
+  drives_.begin();
   Reason note;
   note.format("drives at most %.1f m straight ahead", config_.find_heading_distance_m);
   events.push(now, CommandAccepted{id, note});
@@ -51,11 +52,13 @@ Twist HeadingCreep::step(Time now, Duration dt, const Estimate& estimate,
     end("obstacle in the near zone", now, events);
     return {};
   }
-  if (!health.drives_running) {
-    if (driven_m_ > 0 || now - began_ > from_s(config_.start_timeout_s)) {
-      end(health.not_running, now, events);
-    }
-    return {};
+  const bool late = now - began_ > from_s(config_.start_timeout_s);
+  switch (drives_.look(health.drives_running, late)) {
+    case Drives::armed: break;
+    case Drives::asked:
+    case Drives::arming: return {};
+    case Drives::late:
+    case Drives::lost: end(health.not_running, now, events); return {};
   }
   driven_m_ += std::abs(estimate.body.twist.vx_mps) * to_s(dt);
   if (driven_m_ > config_.find_heading_distance_m) {

@@ -4,6 +4,7 @@
 #include "drover/command.h"
 #include "drover/twist.h"
 #include "engine/event_queue.h"
+#include "engine/health/arm_wait.h"
 #include "engine/health/health.h"
 
 namespace drover::engine {
@@ -28,6 +29,7 @@ class HeadingCreep final {
  private:
   NavigateConfig config_;
   bool active_ = false;
+  ArmWait drives_;
   Time began_ = kNever;
   double driven_m_ = 0;
 };

@@ -33,6 +33,18 @@ TEST_F(FindingTheHeading, DrivesNoFartherThanItMay) {
   EXPECT_THAT(last_notice(), HasSubstr("no heading"));
   EXPECT_LT(rig.plant.estimate().x_m, rig.config.navigate.find_heading_distance_m + 0.3);
 }
+TEST_F(FindingTheHeading, WaitsForDrivesThatHeldFromBeforeThoughAnEncoderTrembles) {
+  settle_without_heading();
+  for (auto& drive : rig.drives) drive.state = AxisState::running;
+  rig.drives[0].by_itself_radps = 0.05;
+  rig.run_s(1);
+  rig.command(FindHeading{});
+  rig.tick();
+  EXPECT_EQ(rig.fastest_command_radps(), 0) << "the drives have yet to hear of it";
+  rig.run_s(1);
+  EXPECT_EQ(rig.snapshot().nav.owner, Owner::manual) << last_notice();
+  EXPECT_GT(rig.fastest_command_radps(), 0);
+}
 TEST_F(FindingTheHeading, SlowsDownForSomebodyInTheFarZone) {
   EngineConfig config = rig_config();
   config.navigate.find_heading_speed_mps = 0.5;
