@@ -265,6 +265,8 @@ void Host::report_status(Time now, DriverOut& out) {
 SourceHealth Host::health(Time now) const {
   SourceHealth health =
       heard_.health(now, "the chassis was never heard", "nothing heard", settings_.stale_after);
+  if (health.state == SourceState::never_heard && health.bad > 0)
+    health.reason = "bytes, but no message of the chassis: its speed, or another device?";
   health.bad += bad_setpoints_;
   if (health.state != SourceState::fresh) return health;
   const Missing part = missing(settings_.stale_after, now);

@@ -36,7 +36,7 @@ void Nmea0183Driver::explain_silence(Time now, Reason& reason) const {
   if (last_byte_ == kNever) {
     reason = "no data from the receiver";
   } else if (noise && now - noise_since_ >= kNoSentence) {
-    reason = "bytes but no sentence: baud?";
+    reason = "bytes but no sentence: baud, or another device?";
   } else if (now - last_byte_ > stale_) {
     reason.format("receiver silent for %.1f s", to_s(now - last_byte_));
   } else if (now - last_repeat_ <= stale_) {

@@ -33,7 +33,7 @@ void WitmotionDriver::explain_silence(Time now, Reason& reason) const {
   if (last_byte_ == kNever) {
     reason = "no data from the inertial sensor";
   } else if (talks && noise_since_ != kNever && now - noise_since_ >= kNoFrame) {
-    reason.format("bytes but no frame at %u: baud?", setup_.line_baud());
+    reason.format("bytes but no frame at %u: baud, or another device?", setup_.line_baud());
   } else if (now - last_byte_ > stale_) {
     reason.format("inertial sensor silent for %.1f s", to_s(now - last_byte_));
   } else if (gravity_.wrong_axis()) {

@@ -71,7 +71,10 @@ ImuSpec read_imu(JsonReader reader) {
 BatterySpec read_battery(JsonReader reader, const std::string& folder) {
   BatterySpec battery;
   battery.driver = &find_twin<MakeRegisterTwin>(reader, reader.text("driver", "modbus_bms"));
-  const auto file = config::find_register_map(reader.text("map"), folder);
+  const auto map = reader.text("map");
+  if (const auto missing = config::missing_register_map(map, folder); !missing.message.empty())
+    reader.fail("map", missing.text());
+  const auto file = config::find_register_map(map, folder);
   auto loaded = config::load_register_map(file);
   for (const auto& problem : loaded.problems) reader.fail("map", problem.text(file));
   battery.map = std::move(loaded.map);

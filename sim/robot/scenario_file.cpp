@@ -55,7 +55,26 @@ void change_drive(nlohmann::json& document, const std::string& name, const nlohm
   throw std::runtime_error("drives." + name + ": there is no drive of this joint to change");
 }
 
+/// Two changes one after the other as one. `null` is kept: it removes what the change is made to.
+void add_change(nlohmann::json& into, const nlohmann::json& change) {
+  if (!into.is_object() || !change.is_object()) {
+    into = change;
+    return;
+  }
+  for (const auto& [key, value] : change.items()) add_change(into[key], value);
+}
+
 }  // namespace
+
+std::string map_file(const std::string& map, const fs::path& folder) {
+  const auto beside = fs::absolute(folder) / map;
+  if (fs::exists(beside)) return beside.lexically_normal().string();
+  for (auto above = beside.parent_path(); above.has_relative_path(); above = above.parent_path()) {
+    const auto of_the_clone = above / "config" / "maps" / map;
+    if (fs::exists(of_the_clone)) return of_the_clone.string();
+  }
+  return "";
+}
 
 void change_document(nlohmann::json& document, nlohmann::json change) {
   if (const auto drives = change.find("drives"); drives != change.end() && drives->is_object()) {
@@ -78,14 +97,18 @@ nlohmann::json load_scenario_document(const std::string& file) {
     *world = (reference.parent_path() / world->get<std::string>()).string();
   const auto find_map = [&](nlohmann::json& device) {
     if (!device.is_object() || !device.contains("map") || !device["map"].is_string()) return;
-    auto& map = device["map"];
-    const auto beside = reference.parent_path() / map.get<std::string>();
     // One of the installed maps has no folder.
-    if (fs::exists(resolved(file, beside))) map = beside.string();
+    const auto found = map_file(device["map"], fs::path(robot_file).parent_path());
+    if (!found.empty()) device["map"] = found;
   };
   if (merged.contains("battery")) find_map(merged["battery"]);
   if (merged.contains("more") && merged["more"].is_object())
     for (auto& device : merged["more"]) find_map(device);
+  // What it removes it removes from the gateway's file.
+  if (const auto gateway = scenario.find("gateway"); gateway != scenario.end()) {
+    add_change(merged["gateway"], *gateway);
+    scenario.erase(gateway);
+  }
   try {
     change_document(merged, std::move(scenario));
   } catch (const std::exception& error) {

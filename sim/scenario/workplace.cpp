@@ -13,6 +13,7 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "config/register_map.h"
 #include "drover/registry.h"
 #include "sim/robot/scenario_file.h"
 #include "sim/scenario/draw.h"
@@ -47,12 +48,18 @@ int free_port() {
   return ntohs(address.sin_port);
 }
 
-/// A battery's register map, when it stands below `folder`.
+/// The register map of the battery at `place`. Throws when there is none of that name: the file
+/// that the robot's simulator and gateway read is another, and gone when somebody looks.
 template <class Json>
-void make_map_absolute(Json& battery, const fs::path& folder) {
-  if (!battery.is_object() || !battery.contains("map")) return;
-  const auto path = folder / battery.value("map", "");
-  if (fs::exists(path)) battery["map"] = path.lexically_normal().string();
+void make_map_absolute(Json& battery, const fs::path& folder, const std::string& place) {
+  if (!battery.is_object() || !battery.contains("map") || !battery["map"].is_string()) return;
+  const std::string map = battery["map"];
+  if (const auto found = map_file(map, folder); !found.empty()) {
+    battery["map"] = found;
+  } else if (const auto missing = config::missing_register_map(map, folder.string());
+             !missing.message.empty()) {
+    throw std::runtime_error(place + ".map: " + missing.text());
+  }
 }
 
 struct WideOption {
@@ -99,8 +106,8 @@ ordered_json read_config(const std::string& scenario_file) {
   if (!stream) throw std::runtime_error(file + ": cannot open");
   auto config = ordered_json::parse(stream, nullptr, false, true);
   if (!config.is_object()) throw std::runtime_error(file + ": is no JSON object");
-  for (auto& device : config["devices"])
-    make_map_absolute(device, fs::absolute(file).parent_path());
+  for (const auto& [name, device] : config["devices"].items())
+    make_map_absolute(device, fs::absolute(file).parent_path(), file + ": devices." + name);
   return config;
 }
 
@@ -138,9 +145,12 @@ Workplace::Workplace(const WorkplaceSettings& settings)
   draw_mission(document_, settings.seed);
   const auto folder = fs::absolute(fs::path(settings.scenario_file)).parent_path();
   document_["world"] = (folder / document_.value("world", "")).lexically_normal().string();
-  if (document_.contains("battery")) make_map_absolute(document_["battery"], folder);
+  const auto& file = settings.scenario_file;
+  if (document_.contains("battery"))
+    make_map_absolute(document_["battery"], folder, file + ": battery");
   if (document_.contains("more") && document_["more"].is_object())
-    for (auto& device : document_["more"]) make_map_absolute(device, folder);
+    for (const auto& [name, device] : document_["more"].items())
+      make_map_absolute(device, folder, file + ": more." + name);
   if (log_folder_.empty()) log_folder_ = private_folder_ + "/log";
   fs::create_directories(log_folder_);
   auto config = read_config(settings.scenario_file);

@@ -30,8 +30,9 @@ void show_nav(std::string& out, const Node& status) {
   }
   line(out, "task", task);
   std::string owner = text(at(nav, "owner"));
-  if (at(nav, "owner_timeout_s").number())
-    owner += quantity(at(nav, "owner_timeout_s"), ", stops after %.1f s of silence");
+  // Of the others nobody sends messages: their time-out is the gateway's own.
+  if (owner == "joint_command" && at(nav, "owner_timeout_s").number())
+    owner += quantity(at(nav, "owner_timeout_s"), ", stops %.1f s after its last message");
   line(out, "owner", owner);
   line(out, "located", text(at(nav, "locate")));
 }

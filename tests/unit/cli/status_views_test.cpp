@@ -148,12 +148,20 @@ TEST_F(StatusViews, ShowTheWholeInShort) {
   expect(show_status(status), {"field", "e-stop pressed", "can0", "can0 is error-passive"});
   expect(
       show_status(status),
-      {"owner     joint_command, stops after 0.1 s of silence",
+      {"owner     joint_command, stops 0.1 s after its last message",
        "joints    heard, 120 followed, 3 refused, 40 of a flood not read, 7 of a second program: "
        "joint 'wing': there is no such joint"});
   const auto& nav = *status.find("nav");
   EXPECT_EQ(*nav.find("owner")->text(), "joint_command");
   EXPECT_DOUBLE_EQ(nav.find("owner_timeout_s")->number().value_or(0), 0.1);
+}
+
+TEST(StatusInShort, SaysNothingOfTheSilenceOfATask) {
+  Snapshot s;
+  s.nav.owner = Owner::task;
+  s.nav.owner_timeout_s = 0.1;
+  const auto text = show_status(json::parse(publish::status_json(s, {}))->root);
+  EXPECT_NE(text.find("owner     task\n"), std::string::npos) << text;
 }
 
 TEST(StatusInShort, TellsOfAStopThatABootWouldForget) {

@@ -187,6 +187,28 @@ TEST_F(ARobotFile, MustBeThereAndMustNotNameAnother) {
   EXPECT_THROW(load_scenario_document((folder_ / "a/s.json").string()), std::runtime_error);
 }
 
+TEST_F(ARobotFile, KeepsWhatTheScenarioRemovesFromItsGateway) {
+  write("b/r.json", R"({"world": "w.xml"})");
+  write("a/s.json", R"({"robot": "../b/r.json",
+    "gateway": {"outputs": null, "devices": {"imu": null}}})");
+  const auto merged = load_scenario_document((folder_ / "a/s.json").string());
+  ASSERT_TRUE(merged["gateway"].contains("outputs")) << merged;
+  EXPECT_TRUE(merged["gateway"]["outputs"].is_null());
+  EXPECT_TRUE(merged["gateway"]["devices"]["imu"].is_null());
+}
+
+TEST_F(ARobotFile, NamesAMapBesideItOrOneOfTheClones) {
+  write("b/r.json", R"({"world": "w.xml", "battery": {"map": "m.json"},
+    "more": {"second": {"is": "battery", "map": "jk.json"}, "third": {"map": "none.json"}}})");
+  write("b/m.json", "{}");
+  write("config/maps/jk.json", "{}");
+  write("a/s.json", R"({"robot": "../b/r.json"})");
+  const auto merged = load_scenario_document((folder_ / "a/s.json").string());
+  EXPECT_EQ(merged["battery"]["map"], (folder_ / "b/m.json").string());
+  EXPECT_EQ(merged["more"]["second"]["map"], (folder_ / "config/maps/jk.json").string());
+  EXPECT_EQ(merged["more"]["third"]["map"], "none.json") << "it may be an installed one";
+}
+
 TEST_F(ARobotFile, LiesBelowTheScenariosOwnMembers) {
   write("b/r.json", R"({"world": "w.xml", "gnss": {"baud": 9600, "port": "p"}, "can": {"a": 1}})");
   write("a/s.json", R"({"robot": "../b/r.json", "gnss": {"baud": 4800}, "can": null})");

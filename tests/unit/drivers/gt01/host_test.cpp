@@ -45,6 +45,18 @@ TEST_P(AChassis, IsCommandedNoMoreThanFiftyTimesASecond) {
   EXPECT_NEAR(static_cast<double>(bench.sent.size()), 50, 1);
 }
 
+TEST(AChassisOnASerialLine, AsksForTheSpeedOfALineOfBytesWithoutAMessage) {
+  const DriverEntry* const entry = find_driver("gt01_serial");
+  test::TwistBench bench({entry, test::example_options(*entry), "gt01_serial"});
+  const Packet packet = serial::motion(0, {});
+  std::vector<std::uint8_t> bytes(packet.begin(), packet.end());
+  EXPECT_EQ(bench.device->health(bench.now).reason, "the chassis was never heard");
+  bytes.back() ^= 0xFFU;
+  bench.made.bytes->on_bytes(bytes, bench.now, bench.out);
+  EXPECT_EQ(bench.device->health(bench.now).reason,
+            "bytes, but no message of the chassis: its speed, or another device?");
+}
+
 TEST_P(AChassis, StandsAfterAStopOfItsOwnUntilANewRequest) {
   for (const auto& [fault, words] : {std::pair{"estop", "emergency stop button"},
                                      {"soft_estop", "by software"},

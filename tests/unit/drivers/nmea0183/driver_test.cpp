@@ -249,7 +249,7 @@ TEST_F(NmeaDriver, SaysThatThereIsNoDataYet) {
 TEST_F(NmeaDriver, AsksForTheBaudWhenBytesMakeNoSentenceForTwoSeconds) {
   for (int i = 0; i <= 21; ++i) feed(std::string(8, '\x80'), at(i * 100ms));
   EXPECT_EQ(why(at(1990ms)), "bytes but no good sentence");
-  EXPECT_EQ(why(at(2100ms)), "bytes but no sentence: baud?");
+  EXPECT_EQ(why(at(2100ms)), "bytes but no sentence: baud, or another device?");
   EXPECT_EQ(driver.health(at(2100ms)).state, SourceState::never_heard);
 }
 

@@ -180,7 +180,7 @@ TEST(WitmotionDriver, AsksForTheBaudWithinTwoSecondsOfBytesWithoutAFrame) {
   Rig rig({{"configure", false}}, {{"factory", true}});
   rig.run(2s);
   EXPECT_EQ(rig.state(), SourceState::never_heard);
-  EXPECT_EQ(rig.reason(), "bytes but no frame at 115200: baud?");
+  EXPECT_EQ(rig.reason(), "bytes but no frame at 115200: baud, or another device?");
 }
 
 TEST(WitmotionDriver, DropsACycleThatLostItsRateAndGoesOn) {
