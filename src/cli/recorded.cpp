@@ -7,6 +7,8 @@
 #include <memory>
 #include <optional>
 #include <ostream>
+#include <string>
+#include <vector>
 
 #include "cli/can_table.h"
 #include "cli/candump.h"
@@ -17,6 +19,7 @@
 #include "cli/register_rounds.h"
 #include "config/register_map.h"
 #include "drover/registry.h"
+#include "text/suggestion.h"
 
 namespace drover::cli {
 
@@ -78,11 +81,17 @@ Made made(const DriverEntry& entry, Face Made::*face, const Options& options,
 
 const DriverEntry& entry_of(SlotKind kind, const std::string& name) {
   if (const auto* entry = find_driver(name, kind)) return *entry;
+  std::vector<std::string> names;
   std::string known;
-  for (const auto& each : driver_registry())
-    if (each.kind == kind) known += (known.empty() ? "" : ", ") + std::string(each.name);
-  throw WrongUsage(name.empty() ? "--driver is missing: " + known
-                                : "no driver \"" + name + "\" for this device: " + known);
+  for (const auto& each : driver_registry()) {
+    if (each.kind != kind) continue;
+    known += (known.empty() ? "" : ", ") + std::string(each.name);
+    names.emplace_back(each.name);
+  }
+  if (name.empty()) throw WrongUsage("--driver is missing: " + known);
+  const auto meant = text::did_you_mean(name, names);
+  throw WrongUsage("no driver \"" + name + "\" for this device: " + known +
+                   (meant.empty() ? "" : " (" + meant + ")"));
 }
 
 /// The recording carries no times: its bytes come one after the other at the line's speed.

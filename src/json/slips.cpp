@@ -29,7 +29,7 @@ std::string slip_of_word(std::string_view word) {
   if (low == "none" || low == "nil") return "it is written null";
   for (const std::string_view known : {"true", "false", "null"})
     if (low == known) return "it is written " + low + ", in small letters";
-  const auto quoted = "\"" + shown(word, 40) + "\" needs quotes";
+  auto quoted = "\"" + shown(word, 40) + "\" needs quotes";
   if (low == "yes" || low == "on") return quoted + ", or is it true?";
   if (low == "no" || low == "off") return quoted + ", or is it false?";
   return quoted;

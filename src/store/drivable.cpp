@@ -162,7 +162,7 @@ Result<std::unique_ptr<Path>, std::string> build_path(const Track& track,
   if (wrong) {
     return told_point(wrong->index) + ": x, y are " + metres(wrong->distance_m) +
            " away from its latitude and longitude, allowed " + metres(wrong->allowed_m) +
-           ": were they recorded before the origin was set?";
+           ": were they recorded before the origin was set, or with the antenna elsewhere?";
   }
   const Frame now(origin);
   const std::optional<Frame> then =

@@ -49,6 +49,8 @@ TEST(Recordings, RefuseWhatNoDriverCanRead) {
   EXPECT_EQ(usage_error("gpio", {}), "levels of GPIO lines are not recorded: leave out --file");
   EXPECT_EQ(usage_error("gnss", {.driver = "odrive"}),
             "no driver \"odrive\" for this device: nmea0183");
+  EXPECT_EQ(usage_error("gnss", {.driver = "NMEA"}),
+            "no driver \"NMEA\" for this device: nmea0183 (did you mean \"nmea0183\"?)");
   EXPECT_EQ(usage_error("bms", {.driver = "modbus_bms"}),
             "--map is missing: the file of the registers");
   EXPECT_EQ(usage_error("can", {.driver = "odrive"}), "the driver needs --option node=VALUE");

@@ -75,7 +75,7 @@ TEST(Drivable, RefusesATrackThatWasRecordedUnderAnotherOriginThanItWasSavedUnder
   track.origin = kOld;
   EXPECT_EQ(refusal(track),
             "point 1: x, y are 110.74 m away from its latitude and longitude, allowed 0.05 m: were "
-            "they recorded before the origin was set?");
+            "they recorded before the origin was set, or with the antenna elsewhere?");
 }
 
 TEST(Drivable, TellsADistanceOfAnySizeInFewDigitsAndWithItsUnit) {

@@ -1,0 +1,117 @@
+// What is warned of until a person accepts it by name.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "unit/config/config_text.h"
+
+namespace drover::config {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+TEST(ConfigurationChecks, WarnOfNoEmergencyStopLineUnlessThatIsAccepted) {
+  EXPECT_EQ(warnings(kGood), "");
+  const auto without = with(
+      "    \"estop\": {\"driver\": \"gpio_line\", \"link\": \"panel\", \"line\": \"a\", \"is\": "
+      "\"estop\"},\n",
+      "");
+  EXPECT_THAT(warnings(without), HasSubstr("f:4:14: devices: there is no e-stop line"));
+  EXPECT_EQ(problems(without), "");
+  auto accepted = without;
+  accepted.insert(2, "\"accept\": [\"no_estop\"],");
+  EXPECT_EQ(warnings(accepted), "");
+}
+
+TEST(ConfigurationChecks, WarnOfABatteryWhoseChargeNobodyTellsUnlessThatIsAccepted) {
+  const auto map = testing::TempDir() + "no_soc.json";
+  std::ofstream(map) << R"({"name": "m", "source": "s",)"
+                        R"( "fields": [{"field": "voltage", "address": 1}]})";
+  auto text = with("\"panel\"", "\"bms\": {\"modbus\": \"/dev/bms\"}, \"panel\"");
+  text.insert(text.find("    \"estop\""),
+              R"("pack": {"driver": "modbus_bms", "link": "bms", "map": ")" + map + "\"},\n");
+  EXPECT_EQ(problems(text), "");
+  EXPECT_THAT(warnings(text), HasSubstr("devices.pack.map: tells no soc"));
+  auto accepted = text;
+  accepted.insert(2, "\"accept\": [\"no_soc\"],");
+  EXPECT_EQ(warnings(accepted), "");
+}
+
+TEST(ConfigurationChecks, WarnOfGroundWhoseSlopeNobodyTellsUnlessThatIsAccepted) {
+  auto text = with(R"("hold": "brake")", R"("hold": "level_ground_only")");
+  EXPECT_THAT(warnings(text), HasSubstr("groups.base.hold: without an inertial sensor"));
+  EXPECT_EQ(problems(text), "");
+  auto accepted = text;
+  accepted.insert(2, "\"accept\": [\"no_tilt\"],");
+  EXPECT_EQ(warnings(accepted), "");
+  const std::string_view gnss = R"("gnss": {"driver": "nmea0183", "link": "gnss"},)";
+  text.replace(text.find(gnss), gnss.size(),
+               std::string(gnss) + R"("imu": {"driver": "witmotion", "link": "imu"},)");
+  const std::string_view panel = R"("panel": {"gpio")";
+  text.replace(text.find(panel), panel.size(),
+               R"("imu": {"serial": "/dev/drover/imu"}, "panel": {"gpio")");
+  EXPECT_EQ(problems(text), "");
+  EXPECT_EQ(warnings(text), "");
+}
+
+TEST(ConfigurationChecks, WarnOfADriveThatOnlyARelayStopsWhenThereIsNone) {
+  const auto without = with(R"(, "enable_relay": {"line": "r"})", "");
+  EXPECT_EQ(problems(without), "");
+  EXPECT_EQ(warnings(without),
+            "f:5:84: devices.left.accept: it goes on for ever when its line is cut, and so does 1 "
+            "other; there is no outputs.enable_relay, so nothing of this gateway stops it then (an "
+            "enable_relay in its supply, or \"accept\": [\"no_relay\"] at the top of the file when "
+            "that is meant)\n");
+  auto accepted = without;
+  accepted.insert(2, "\"accept\": [\"no_relay\"],");
+  EXPECT_EQ(warnings(accepted), "");
+}
+
+TEST(ConfigurationChecks, WarnOfABaseThatOnlyItsDrivesHoldWhenNoRelayTakesTheirPower) {
+  auto text = with(R"(, "enable_relay": {"line": "r"})", "");
+  for (int side = 0; side < 2; ++side) {
+    const std::string_view accepted = R"(}, "accept": ["no_watchdog"]},)";
+    text.replace(text.find(accepted), accepted.size(), R"(, "watchdog_timeout_s": 0.2}},)");
+  }
+  EXPECT_EQ(problems(text), "");
+  EXPECT_EQ(warnings(text), "");
+  text.replace(text.find("\"brake\""), 7, "\"level_ground_only\"");
+  text.insert(2, "\"accept\": [\"no_tilt\"],");
+  EXPECT_THAT(warnings(text),
+              AllOf(StartsWith("f:11:"),
+                    HasSubstr("groups.base.hold: where a stop does not work the drives let go and "
+                              "then the enable relay opens, but there is no outputs.enable_relay: "
+                              "drives that do not listen keep their power (")));
+  text.replace(text.find("no_tilt\""), 8, "no_tilt\", \"no_relay\"");
+  EXPECT_EQ(warnings(text), "");
+}
+
+TEST(ConfigurationChecks, PointAtTheTopForWhatIsAcceptedThere) {
+  EXPECT_THAT(problems(with("\"no_watchdog\"", "\"no_watchdog\", \"no_relay\"")),
+              HasSubstr("devices.left.accept: \"no_relay\" is not accepted here (write it into the "
+                        "\"accept\" at the top of the file)"));
+  auto text = std::string(kGood);
+  text.insert(2, "\"accept\": [\"no_watchdog\"],");
+  EXPECT_THAT(
+      problems(text),
+      HasSubstr("accept: \"no_watchdog\" is not accepted here (write it into the \"accept\" "
+                "of the drive)"));
+}
+
+TEST(ConfigurationChecks, WarnOfAGuardThatWaitsLongUnlessThatIsAccepted) {
+  const auto slow = [](int limit_ms) {
+    return with("\"mqtt\"",
+                "\"guard\": {\"limit_ms\": " + std::to_string(limit_ms) + "}, \"mqtt\"");
+  };
+  EXPECT_EQ(warnings(slow(200)), "");
+  EXPECT_THAT(warnings(slow(250)), HasSubstr("guard.limit_ms: the wheels go on for 250 ms"));
+  auto accepted = slow(250);
+  accepted.insert(2, "\"accept\": [\"slow_guard\"],");
+  EXPECT_EQ(warnings(accepted), "");
+}
+
+}  // namespace
+}  // namespace drover::config
