@@ -44,6 +44,11 @@ void Arming::release(const RequestId& id, const ReleaseHold& release, const Reas
   released_ = true;
   gave_up_ = false;
   forfeit();
+  // What a chassis that takes a twist does then is its own.
+  if (config_.base.kind == BaseKind::twist)
+    return events.push(now, CommandAccepted{id,
+                                            "nothing is commanded any more, and it can roll; a "
+                                            "chassis that does not let go is pushed switched off"});
   events.push(now, CommandAccepted{id, "the drives let go: the robot can be pushed, and can roll"});
 }
 

@@ -181,6 +181,10 @@ TEST_F(ABaseThatTakesATwist, IsLetGoWhenAPersonReleasesIt) {
   rig.command(ReleaseHold{.on_slope = true});
   rig.run_s(0.1);
   EXPECT_EQ(rig.out.base.request, AxisRequest::idle);
+  // Some chassis only stand at zero then: it is not said that it can be pushed.
+  EXPECT_THAT(std::string(rig.said<CommandAccepted>().back().note.view()),
+              ::testing::AllOf(HasSubstr("nothing is commanded any more, and it can roll"),
+                               ::testing::Not(HasSubstr("let go: "))));
 }
 
 /// Nothing but its device holds it.
