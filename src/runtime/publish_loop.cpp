@@ -11,65 +11,25 @@
 #include "publish/status/seen.h"
 #include "runtime/clock.h"
 #include "runtime/log.h"
+#include "runtime/outlets.h"
 
 namespace drover::runtime {
 
 namespace {
 
-constexpr Duration kStatusPeriod =
-    std::chrono::milliseconds(100);  // base_status: 10 Hz, RTK navigation protocol
+constexpr Duration kTenth = std::chrono::milliseconds(100);
 
-enum Tag : std::uint64_t { kTimer = 1, kBroker, kCli, kEvents, kReplies, kAimrt, kParsed, kStops };
-
-HeadingConvention heading_convention(const config::ProtocolConfig& protocol) {
-  if (protocol.heading == "counterclockwise_from_north")
-    return HeadingConvention::counterclockwise_from_north;
-  if (protocol.heading == "counterclockwise_from_east")
-    return HeadingConvention::counterclockwise_from_east;
-  return HeadingConvention::clockwise_from_north;
-}
-
-publish::CommandServiceConfig service_config(const config::DroverConfig& config) {
-  publish::CommandServiceConfig service;
-  service.zero_based_ids = config.protocol.first_target_id == 0;
-  service.start_needs_time = config.protocol.start_needs_time;
-  service.automatic_origin = config.protocol.automatic_origin;
-  service.antenna = {config.engine.estimate.antenna_x_m, config.engine.estimate.antenna_y_m,
-                     heading_convention(config.protocol)};
-  return service;
-}
-
-publish::RtkConfig rtk_config(const config::ProtocolConfig& protocol) {
-  publish::RtkConfig rtk;
-  rtk.heading = heading_convention(protocol);
-  if (protocol.power == "volts") rtk.power = publish::PowerUnit::volts;
-  return rtk;
-}
-
-publish::aimrt::Outlet outlet(const std::string& names, const std::string& content) {
-  using publish::aimrt::Names;
-  publish::aimrt::Outlet outlet;
-  if (names == "aimrt_1x") outlet.names = {Names::aimrt_1x};
-  if (names == "both") outlet.names = {Names::document, Names::aimrt_1x};
-  if (content == "json") outlet.content = publish::aimrt::Content::json;
-  return outlet;
-}
-
-publish::aimrt::ChannelConfig channel_config(const config::DroverConfig& config) {
-  const auto& aimrt = config.aimrt;
-  publish::aimrt::ChannelConfig channel;
-  channel.joint_state = aimrt.joint_state;
-  channel.imu_state = aimrt.imu_state;
-  channel.touch_state = aimrt.touch_state;
-  channel.joint_command = aimrt.joint_command;
-  channel.joint_state_outlet = outlet(aimrt.joint_state_names, aimrt.joint_state_content);
-  channel.imu_state_outlet = outlet("document", aimrt.imu_state_content);
-  channel.touch_state_outlet = outlet(aimrt.touch_state_names, aimrt.touch_state_content);
-  channel.silence = from_s(config.engine.health.joint_command_timeout_s);
-  channel.rules.max_age = from_s(1e-3 * aimrt.max_command_age_ms);
-  for (const auto& joint : config.engine.joints) channel.rules.joints.emplace_back(joint.view());
-  return channel;
-}
+/// From kOutlets on: the timers of the outlets.
+enum Tag : std::uint64_t {
+  kTimer = 1,
+  kBroker,
+  kCli,
+  kEvents,
+  kReplies,
+  kParsed,
+  kStops,
+  kOutlets
+};
 
 /// A timer that is readable so often a second.
 link::UniqueFd periodic_timer(Duration period) {
@@ -107,14 +67,13 @@ PublishLoop::PublishLoop(const config::DroverConfig& config, ControlExchange& co
       parser_(parser),
       stops_(stops),
       service_(service_config(config), std::move(stored)),
-      base_status_(rtk_config(config.protocol)),
       started_(monotonic_now()),
       cli_(config.paths.run + "/drover.sock",
            [this](CliServer::ClientId client, std::string_view line) {
              on_cli_line(client, line, monotonic_now());
            }),
       epoll_(::epoll_create1(EPOLL_CLOEXEC)),
-      timer_(periodic_timer(kStatusPeriod)) {
+      timer_(periodic_timer(kTenth)) {
   if (!epoll_) throw std::runtime_error("the publish thread's epoll cannot be made");
   watch(timer_.get(), kTimer);
   watch(cli_.fd(), kCli);
@@ -122,19 +81,20 @@ PublishLoop::PublishLoop(const config::DroverConfig& config, ControlExchange& co
   watch(storage_.replies_ready.fd(), kReplies);
   watch(parser_.replies_ready().fd(), kParsed);
   if (stops_ != nullptr) watch(stops_->heard_ready().fd(), kStops);
+  for (auto& outlet : make_outlets(config, service_)) add(std::move(outlet));
   if (config.mqtt.enabled) connect_broker();
 }
 
+void PublishLoop::add(std::unique_ptr<publish::Outlet> outlet) {
+  auto timer = periodic_timer(outlet->period());
+  watch(timer.get(), kOutlets + outlets_.size());
+  outlets_.push_back({std::move(outlet), std::move(timer)});
+}
+
 void PublishLoop::connect_broker() {
-  // QoS 0 for the stream: what did not arrive is not worth sending twice.
-  std::vector<MqttSubscription> subscriptions{{std::string(publish::kTopicControl), 1}};
-  if (config_.aimrt.enabled) {
-    aimrt_.emplace(channel_config(config_));
-    aimrt_timer_ = periodic_timer(from_s(1 / config_.aimrt.rate_Hz));
-    watch(aimrt_timer_.get(), kAimrt);
-    if (config_.aimrt.commands)
-      for (const auto& topic : aimrt_->command_topics()) subscriptions.push_back({topic, 0});
-  }
+  std::vector<MqttSubscription> subscriptions;
+  for (const auto& each : outlets_)
+    for (const auto& topic : each.outlet->wants()) subscriptions.push_back({topic.name, topic.qos});
   broker_ = std::make_unique<MqttClient>(
       config_.mqtt, std::move(subscriptions),
       [this](const MqttMessage& message) { on_message(message); },
@@ -180,18 +140,7 @@ void PublishLoop::run(const std::atomic<bool>& stop) {
       switch (events[i].data.u64) {
         case kTimer:
           clear_timer(timer_);
-          wall_minus_monotonic_ = wall_minus_monotonic();
-          if (broker_) broker_->tick(now);
-          tell_whether_stops_are_heard(now);
-          send_unsent();
-          // Also when the ring of events was full; what comes in its place has had the time for it.
-          answer_stops(obeyed_stops_, now);
-          obeyed_stops_ = control_.stops.obeyed();
-          publish_status(now);
-          break;
-        case kAimrt:
-          clear_timer(aimrt_timer_);
-          publish_aimrt(now);
+          each_tenth(now);
           break;
         case kBroker:
           if ((events[i].events & EPOLLOUT) != 0) broker_->on_writable(now);
@@ -214,7 +163,11 @@ void PublishLoop::run(const std::atomic<bool>& stop) {
           stops_->heard_ready().clear();
           take_heard_stops(now);
           break;
-        default: break;
+        default: {
+          TimedOutlet& due = outlets_.at(events[i].data.u64 - kOutlets);
+          clear_timer(due.timer);
+          tell(*due.outlet, now);
+        }
       }
       carry_out(actions_);
     }
@@ -222,13 +175,22 @@ void PublishLoop::run(const std::atomic<bool>& stop) {
   }
 }
 
-void PublishLoop::publish_status(Time now) {
+void PublishLoop::each_tenth(Time now) {
+  wall_minus_monotonic_ = wall_minus_monotonic();
+  if (broker_) broker_->tick(now);
+  tell_whether_stops_are_heard(now);
+  send_unsent();
+  // Also when the ring of events was full; what comes in its place has had the time for it.
+  answer_stops(obeyed_stops_, now);
+  obeyed_stops_ = control_.stops.obeyed();
+}
+
+void PublishLoop::tell(publish::Outlet& outlet, Time now) {
   if (control_.snapshot.latest().time == kNever) return;  // no first cycle yet
-  const auto snapshot = seen(now);
-  service_.on_snapshot(snapshot, now, actions_);
-  if (broker_) {
-    broker_->publish_latest(publish::kTopicBaseStatus.data(), base_status_.text(snapshot));
-  }
+  if (outlet.needs_broker() && !(broker_ && broker_->connected())) return;
+  const auto messages = outlet.on_snapshot(seen(now), {now, wall_minus_monotonic_}, actions_);
+  if (!broker_) return;
+  for (const auto& [topic, payload] : messages) broker_->publish_latest(topic, payload);
 }
 
 /// Longer than the guard waits before it takes the bus: then nothing of the old is true.
@@ -237,15 +199,10 @@ Snapshot PublishLoop::seen(Time now) {
                                             std::chrono::milliseconds(config_.guard.limit_ms));
   auto snapshot = publish::as_seen(control_.snapshot.latest(), now, limit);
   if (!service_.origin_problem().empty()) publish::tell_first(snapshot, service_.origin_problem());
-  if (aimrt_ && !aimrt_->rivals(now).empty()) publish::tell_last(snapshot, aimrt_->rivals(now));
+  for (const auto& each : outlets_)
+    if (const auto trouble = each.outlet->trouble(now); !trouble.empty())
+      publish::tell_last(snapshot, trouble);
   return snapshot;
-}
-
-void PublishLoop::publish_aimrt(Time now) {
-  if (control_.snapshot.latest().time == kNever || !broker_->connected()) return;
-  const auto snapshot = seen(now);
-  for (const auto& [topic, payload] : aimrt_->telemetry(snapshot, wall_minus_monotonic_))
-    broker_->publish_latest(topic->c_str(), payload);
 }
 
 void PublishLoop::take_events() {
@@ -258,7 +215,7 @@ void PublishLoop::take_events() {
       told_stops_ = *obeyed;
       answer_stops(told_stops_, event.time);
     }
-    service_.on_event(event, actions_);
+    for (const auto& each : outlets_) each.outlet->on_event(event, actions_);
   }
 }
 

@@ -8,12 +8,11 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "config/config.h"
-#include "publish/aimrt/channel.h"
 #include "publish/command_service.h"
-#include "publish/rtk_navigation/base_status.h"
-#include "publish/status/status.h"
+#include "publish/outlet.h"
 #include "runtime/cli_server.h"
 #include "runtime/control_exchange.h"
 #include "runtime/heard_twice.h"
@@ -45,7 +44,14 @@ class PublishLoop final {
     bool operator==(const BrokerWatch&) const = default;
   };
 
+  /// With the timer of its rate.
+  struct TimedOutlet {
+    std::unique_ptr<publish::Outlet> outlet;
+    link::UniqueFd timer;
+  };
+
   void watch(int fd, std::uint64_t tag);
+  void add(std::unique_ptr<publish::Outlet> outlet);
   void watch_broker();
   void connect_broker();
   void on_message(const MqttMessage& message);
@@ -57,8 +63,8 @@ class PublishLoop final {
   void await_other_self();
   void take_heard_stops(Time now);
   void tell_whether_stops_are_heard(Time now);
-  void publish_status(Time now);
-  void publish_aimrt(Time now);
+  void each_tenth(Time now);
+  void tell(publish::Outlet& outlet, Time now);
   Snapshot seen(Time now);
   void take_events();
   void take_replies(Time now);
@@ -88,9 +94,8 @@ class PublishLoop final {
   Time stops_heard_ = kNever;         ///< the last time at which they were, or the broker was away
   bool deaf_told_ = false;
   publish::CommandService service_;
-  publish::BaseStatus base_status_;
-  std::optional<publish::aimrt::Channel> aimrt_;  ///< nothing when it is switched off
   publish::Actions actions_;
+  std::vector<TimedOutlet> outlets_;
   Time started_;
   std::string broker_text_;
   std::unique_ptr<MqttClient> broker_;
@@ -105,7 +110,6 @@ class PublishLoop final {
   std::uint64_t next_request_ = 1;
   link::UniqueFd epoll_;
   link::UniqueFd timer_;
-  link::UniqueFd aimrt_timer_;
   std::atomic<std::uint64_t> turns_{0};
 };
 

@@ -84,11 +84,7 @@ std::string PublishLoop::cli_reply(std::string_view cmd, const std::string& name
     daemon.uptime_s = to_s(daemon.now - started_);
     daemon.telemetry_dropped = broker_ ? broker_->dropped() : 0;
     daemon.answers_lost = lost_answers_ + (stops_ != nullptr ? stops_->lost_answers() : 0);
-    if (aimrt_) {
-      daemon.joint_commands_unread = aimrt_->unread();
-      daemon.joint_commands_rivals = aimrt_->rivals(daemon.now);
-      daemon.joint_commands_of_rivals = aimrt_->rivals_refused();
-    }
+    for (const auto& each : outlets_) each.outlet->count(daemon);
     daemon.events_lost = control_.lost_events.load(std::memory_order_relaxed);
     daemon.stop_trouble = storage_.stop_trouble.latest().view();
     // The status is an object of its own already.

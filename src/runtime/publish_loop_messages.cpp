@@ -38,12 +38,9 @@ void PublishLoop::on_message(const MqttMessage& message) {
     on_control(message.payload, arrival, now);
     return;
   }
-  const auto names = aimrt_ ? aimrt_->command_names(message.topic) : std::nullopt;
-  if (names) {
-    if (arrival.late.empty() && overtaken(now)) arrival.late = kOvertaken;
-    aimrt_->on_command(*names, message.payload, arrival, now, arrival.wall - now.time_since_epoch(),
-                       actions_);
-  }
+  if (arrival.late.empty() && overtaken(now)) arrival.late = kOvertaken;
+  for (const auto& each : outlets_)
+    if (each.outlet->on_message(message.topic, message.payload, arrival, now, actions_)) return;
 }
 
 /// Stops are carried out at once, everything else in the order in which it came.

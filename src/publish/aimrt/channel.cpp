@@ -36,16 +36,16 @@ std::optional<Content> content_of(std::string_view content_type) {
 
 }  // namespace
 
-Channel::Topics Channel::topics(const std::string& topic, Role role, const Outlet& outlet) {
-  Topics found{{}, outlet.content};
-  for (const Names names : outlet.names) found.names.push_back(mqtt_topic(topic, role, names));
+Channel::Topics Channel::topics(const std::string& topic, Role role, const Wording& wording) {
+  Topics found{{}, wording.content};
+  for (const Names names : wording.names) found.names.push_back(mqtt_topic(topic, role, names));
   return found;
 }
 
 Channel::Channel(const ChannelConfig& config)
-    : joint_state_(topics(config.joint_state, Role::joint_state, config.joint_state_outlet)),
-      imu_state_(topics(config.imu_state, Role::imu_state, config.imu_state_outlet)),
-      touch_state_(topics(config.touch_state, Role::touch_state, config.touch_state_outlet)),
+    : joint_state_(topics(config.joint_state, Role::joint_state, config.joint_state_wording)),
+      imu_state_(topics(config.imu_state, Role::imu_state, config.imu_state_wording)),
+      touch_state_(topics(config.touch_state, Role::touch_state, config.touch_state_wording)),
       command_topics_{mqtt_topic(config.joint_command, Role::joint_command, Names::document),
                       mqtt_topic(config.joint_command, Role::joint_command, Names::aimrt_1x)},
       rules_(config.rules),

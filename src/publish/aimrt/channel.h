@@ -18,7 +18,7 @@
 namespace drover::publish::aimrt {
 
 /// How one state goes out: under one family's name of its message or both, written in one way.
-struct Outlet {
+struct Wording {
   std::vector<Names> names{Names::document};
   Content content = Content::pb;
 };
@@ -29,9 +29,9 @@ struct ChannelConfig {
   std::string imu_state = "/imu_state";
   std::string touch_state = "/touch_state";
   std::string joint_command = "/joint_command";
-  Outlet joint_state_outlet;
-  Outlet imu_state_outlet;
-  Outlet touch_state_outlet;
+  Wording joint_state_wording;
+  Wording imu_state_wording;
+  Wording touch_state_wording;
   JointCommandRules rules;
   Duration silence = std::chrono::milliseconds(100);  ///< after which a stream has ended
   double max_commands_Hz = 250;  ///< more are not looked at: 200 a second and what came late
@@ -73,7 +73,7 @@ class Channel final {
     std::vector<std::string> names;  ///< never changed: telemetry points to them
     Content content;
   };
-  static Topics topics(const std::string& topic, Role role, const Outlet& outlet);
+  static Topics topics(const std::string& topic, Role role, const Wording& wording);
   bool touch_is_due(const Snapshot& snapshot);
   Result<JointTargets, Reason> judged(Names names, std::string_view payload, const Arrival& arrival,
                                       Time now, Duration wall);

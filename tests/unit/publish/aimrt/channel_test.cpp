@@ -322,8 +322,8 @@ TEST_F(AnAimrtChannel, PublishesUnderTheNamesThatAreConfigured) {
   Snapshot snapshot;
   snapshot.time = now_;
   snapshot.line_configured[static_cast<std::size_t>(Line::bumper)] = true;
-  config_.joint_state_outlet.names = {Names::document, Names::aimrt_1x};
-  config_.touch_state_outlet.names = {Names::aimrt_1x};
+  config_.joint_state_wording.names = {Names::document, Names::aimrt_1x};
+  config_.touch_state_wording.names = {Names::aimrt_1x};
   Channel channel(config_);
   const auto packets = channel.telemetry(snapshot, kWallMinusMonotonic);
   ASSERT_EQ(packets.size(), 3U);

@@ -105,7 +105,7 @@ TEST(AimrtJson, OfTouchIsWhatAimrtWrites) {
 
 TEST(AimrtJson, GoesOutInThePacketThatNamesIt) {
   ChannelConfig config;
-  config.joint_state_outlet.content = Content::json;
+  config.joint_state_wording.content = Content::json;
   Channel channel(config);
   const auto packets =
       channel.telemetry(snapshot_with_axis(1, 2, 3), kStamping.wall_minus_monotonic);

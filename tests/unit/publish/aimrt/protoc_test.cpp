@@ -67,7 +67,7 @@ TEST(AimrtPackets, AreReadByProtocWithTheDocumentsFieldNumbers) {
 
 TEST(AimrtPackets, AreReadByProtocWithTheNamesOfAimrt1x) {
   ChannelConfig config;
-  config.joint_state_outlet.names = config.touch_state_outlet.names = {Names::aimrt_1x};
+  config.joint_state_wording.names = config.touch_state_wording.names = {Names::aimrt_1x};
   const auto packets = Channel(config).telemetry(full_snapshot(), Duration(1'000'000));
   ASSERT_EQ(packets.size(), 3U);
   EXPECT_EQ(protoc_decoded("JointStateArray", message_of_packet(packets[0].payload)),

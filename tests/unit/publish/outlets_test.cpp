@@ -1,0 +1,87 @@
+#include <gmock/gmock.h>
+
+#include "json/located_json.h"
+#include "publish/aimrt_outlet.h"
+#include "publish/rtk_outlet.h"
+
+namespace drover::publish {
+namespace {
+
+using namespace std::chrono_literals;
+using testing::IsEmpty;
+
+constexpr Moment kMoment{Time{100s}, 400'000h};
+
+Snapshot standing() {
+  Snapshot s;
+  s.time = kMoment.now;
+  AxisSnapshot axis;
+  axis.joint = "left";
+  axis.last_motion = kMoment.now;
+  EXPECT_TRUE(s.axes.push_back(axis));
+  return s;
+}
+
+class Outlets : public testing::Test {
+ protected:
+  static aimrt::ChannelConfig channel() {
+    aimrt::ChannelConfig config;
+    config.rules.joints = {"left"};
+    return config;
+  }
+  CommandService service_{{}, {}};
+  RtkOutlet rtk_{{}, service_};
+  AimrtOutlet aimrt_{channel(), 50, true};
+  Actions actions_;
+};
+
+TEST_F(Outlets, WantTheirOwnTopicsOnly) {
+  ASSERT_EQ(rtk_.wants().size(), 1U);
+  EXPECT_EQ(rtk_.wants()[0].name, "mqtt_control");
+  EXPECT_EQ(rtk_.wants()[0].qos, 1);
+  ASSERT_FALSE(aimrt_.wants().empty());
+  for (const auto& topic : aimrt_.wants()) {
+    EXPECT_EQ(topic.qos, 0) << "what did not arrive is not worth sending twice";
+    EXPECT_FALSE(rtk_.on_message(topic.name, "{}", {}, kMoment.now, actions_));
+    EXPECT_TRUE(aimrt_.on_message(topic.name, "{}", {}, kMoment.now, actions_));
+  }
+  EXPECT_FALSE(aimrt_.on_message("mqtt_control", "{}", {}, kMoment.now, actions_));
+}
+
+TEST_F(Outlets, OfAimrtHearNothingWhereJointCommandsAreSwitchedOff) {
+  EXPECT_THAT(AimrtOutlet(channel(), 50, false).wants(), IsEmpty());
+}
+
+TEST_F(Outlets, HaveRatesOfTheirOwn) {
+  EXPECT_EQ(rtk_.period(), 100ms);
+  EXPECT_EQ(aimrt_.period(), 20ms);
+  EXPECT_FALSE(rtk_.needs_broker()) << "the command line's requests look at the robot, too";
+  EXPECT_TRUE(aimrt_.needs_broker());
+}
+
+TEST_F(Outlets, TellTheRobotsStateOnTheirTopics) {
+  const auto told = rtk_.on_snapshot(standing(), kMoment, actions_);
+  ASSERT_EQ(told.size(), 1U);
+  EXPECT_STREQ(told[0].topic, "base_status");
+  EXPECT_TRUE(json::parse(told[0].payload).ok());
+  const auto joints = aimrt_.on_snapshot(standing(), kMoment, actions_);
+  ASSERT_EQ(joints.size(), 1U);
+  EXPECT_EQ(std::string(joints[0].topic).rfind("/channel/%2Fjoint_state/", 0), 0U);
+  EXPECT_THAT(aimrt_.on_snapshot(standing(), kMoment, actions_), IsEmpty())
+      << "one message for a control cycle";
+}
+
+TEST_F(Outlets, AddTheirCountersToTheStatus) {
+  const auto topic = aimrt_.wants().front().name;
+  for (int i = 0; i < 80; ++i) (void)aimrt_.on_message(topic, "x", {}, kMoment.now, actions_);
+  DaemonStatus status;
+  status.now = kMoment.now;
+  rtk_.count(status);
+  EXPECT_EQ(status.joint_commands_unread, 0U);
+  aimrt_.count(status);
+  EXPECT_GT(status.joint_commands_unread, 20U) << "of a flood most are not looked at";
+  EXPECT_TRUE(aimrt_.trouble(kMoment.now).empty());
+}
+
+}  // namespace
+}  // namespace drover::publish
