@@ -66,6 +66,7 @@ PublishLoop::PublishLoop(const config::DroverConfig& config, ControlExchange& co
       storage_(storage),
       parser_(parser),
       stops_(stops),
+      stop_order_(stops),
       service_(service_config(config), std::move(stored)),
       started_(monotonic_now()),
       cli_(config.paths.run + "/drover.sock",

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <atomic>
-#include <deque>
 #include <map>
 #include <memory>
 #include <optional>
@@ -15,10 +14,10 @@
 #include "publish/outlet.h"
 #include "runtime/cli_server.h"
 #include "runtime/control_exchange.h"
-#include "runtime/heard_twice.h"
 #include "runtime/mqtt_client.h"
 #include "runtime/parser_loop.h"
 #include "runtime/stop_listener.h"
+#include "runtime/stop_order.h"
 #include "runtime/storage_loop.h"
 
 namespace drover::runtime {
@@ -58,8 +57,6 @@ class PublishLoop final {
   void on_control(std::string_view payload, const publish::Arrival& arrival, Time now);
   void take_parsed(Time now);
   void ask_again(const publish::ControlCommand& request, Time first);
-  void hear_stops(Time now);
-  bool overtaken(Time now);
   void await_other_self();
   void take_heard_stops(Time now);
   void tell_whether_stops_are_heard(Time now);
@@ -82,17 +79,13 @@ class PublishLoop final {
   StorageExchange& storage_;
   ParserLoop& parser_;
   StopListener* stops_;
-  HeardTwice heard_twice_;
-  std::deque<HeardStop> heard_stops_;  ///< heard alone first: to be answered
-  std::uint64_t lost_stops_ = 0;
+  StopOrder stop_order_;
   std::uint64_t lost_answers_ = 0;  ///< that neither connection takes
   Time next_wait_ = kNever;         ///< for the other self of a stop, not before
   Time last_delivered_ = kNever;    ///< a command that is no stop
   // Of what is carried out just now, when it is not what the present tells:
   std::optional<StopCounts> before_;  ///< it waited for the parser since
   std::optional<StopCounts> asked_;   ///< a stop, and what was asked for with it
-  Time stops_heard_ = kNever;         ///< the last time at which they were, or the broker was away
-  bool deaf_told_ = false;
   publish::CommandService service_;
   publish::Actions actions_;
   std::vector<TimedOutlet> outlets_;
@@ -102,8 +95,6 @@ class PublishLoop final {
   BrokerWatch broker_watch_;
   Duration wall_minus_monotonic_{};  ///< ten times a second
   CliServer cli_;
-  /// Stops that the control thread has yet to carry out, oldest first.
-  std::deque<std::pair<StopCounts, Command>> asked_stops_;
   StopCounts told_stops_;                                 ///< by the engine's events so far
   StopCounts obeyed_stops_;                               ///< 0.1 s ago, whether told or not
   std::map<std::uint64_t, CliServer::ClientId> waiting_;  ///< request number → who asked

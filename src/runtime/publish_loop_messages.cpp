@@ -8,13 +8,11 @@
 namespace drover::runtime {
 
 namespace {
-constexpr std::size_t kMostAskedStops = 256;
 constexpr std::string_view kOvertaken =
     "a stop came just now, and may be younger than this; try again";
 constexpr Duration kLongestWait =
     std::chrono::milliseconds(250);  // less than half of what the thread may
 constexpr Duration kNoWait = std::chrono::seconds(1);
-constexpr Duration kDeafFor = std::chrono::seconds(5);
 
 bool is_from_broker(const Command& command) {
   return command.id.source == RequestId::Source::mqtt ||
@@ -38,7 +36,7 @@ void PublishLoop::on_message(const MqttMessage& message) {
     on_control(message.payload, arrival, now);
     return;
   }
-  if (arrival.late.empty() && overtaken(now)) arrival.late = kOvertaken;
+  if (arrival.late.empty() && stop_order_.overtaken(now)) arrival.late = kOvertaken;
   for (const auto& each : outlets_)
     if (each.outlet->on_message(message.topic, message.payload, arrival, now, actions_)) return;
 }
@@ -55,14 +53,14 @@ void PublishLoop::on_control(std::string_view payload, const publish::Arrival& a
   if (is_short && (!parser_.busy() || publish::may_stop(payload))) {
     auto request = publish::parse_control(payload, arrival.retain, limits);
     if (publish::is_stop(request))
-      if (const auto first = heard_twice_.again(Way::with_others, payload, now))
+      if (const auto first = stop_order_.heard_before(payload, now))
         return ask_again(*request, *first);
     if (!parser_.busy() || publish::is_stop(request))
       return service_.on_parsed(payload, std::move(request), arrival, now, actions_);
   }
   await_other_self();
   ParseJob job{std::string(payload), arrival, control_.stops.asked()};
-  if (job.arrival.late.empty() && overtaken(now)) job.arrival.late = kOvertaken;
+  if (job.arrival.late.empty() && stop_order_.overtaken(now)) job.arrival.late = kOvertaken;
   if (!parser_.give(std::move(job))) service_.on_unparsed(payload, now, actions_);
 }
 
@@ -73,45 +71,22 @@ void PublishLoop::ask_again(const publish::ControlCommand& request, Time first) 
   (void)ask(control_.stops, request);
 }
 
-/// Takes over what the second connection heard, so that overtaken() knows of it.
-void PublishLoop::hear_stops(Time now) {
-  if (stops_ == nullptr) return;
-  HeardStop heard;
-  while (stops_->take(heard))
-    if (!heard_twice_.again(Way::alone, heard.payload, now))
-      heard_stops_.push_back(std::move(heard));
-  if (const auto lost = stops_->lost(); lost != lost_stops_) {
-    lost_stops_ = lost;
-    heard_twice_.lost(now);
-  }
-}
-
-/// Whether what comes on the first connection may have been sent before a stop that was heard on
-/// the second.
-bool PublishLoop::overtaken(Time now) {
-  hear_stops(now);
-  return (stops_ != nullptr && stops_->knows_more()) || heard_twice_.overtook(now);
-}
-
 /// A stop that came just before a start must not end it when it is heard the second time. Who waits
 /// in vain does not wait again soon: the second connection is behind.
 void PublishLoop::await_other_self() {
   const Time begin = monotonic_now();
   if (stops_ == nullptr || begin < next_wait_) return;
-  for (Time now = begin; stops_->connected(); now = monotonic_now()) {
-    hear_stops(now);
-    if (!heard_twice_.expects(now)) return;
-    if (now - begin >= kLongestWait) break;
+  for (Time now = begin; now - begin < kLongestWait; now = monotonic_now()) {
+    if (!stop_order_.expects_other_self(now)) return;
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
   next_wait_ = begin + kNoWait;
 }
 
 void PublishLoop::take_heard_stops(Time now) {
-  hear_stops(now);
-  while (!heard_stops_.empty()) {
-    const HeardStop heard = std::move(heard_stops_.front());
-    heard_stops_.pop_front();
+  stop_order_.hear(now);
+  while (const auto next = stop_order_.next_heard()) {
+    const HeardStop& heard = *next;
     asked_ = heard.asked;
     service_.on_parsed(heard.payload,
                        publish::parse_control(heard.payload, heard.retain, service_.limits()),
@@ -124,13 +99,9 @@ void PublishLoop::take_heard_stops(Time now) {
 
 /// A broker may refuse the second connection and nobody would miss it.
 void PublishLoop::tell_whether_stops_are_heard(Time now) {
-  if (stops_ == nullptr) return;
-  if (stops_->connected() || !broker_->connected() || stops_heard_ == kNever) stops_heard_ = now;
-  const bool deaf = now - stops_heard_ > kDeafFor;
-  if (deaf && !deaf_told_)
+  if (stop_order_.became_deaf(broker_ && broker_->connected(), now))
     log(LogLevel::warning,
         "the broker takes no second connection: beside a flood a stop may come late or not at all");
-  deaf_told_ = deaf;
 }
 
 void PublishLoop::take_parsed(Time now) {
@@ -153,7 +124,7 @@ void PublishLoop::deliver(const Command& command, publish::Actions& actions) {
     // The stops of both connections: those that are not known to be older than this command end it.
     const auto before = before_.value_or(control_.stops.asked());
     const Time now = monotonic_now();
-    if (is_from_broker(command) && begins_motion(command) && overtaken(now))
+    if (is_from_broker(command) && begins_motion(command) && stop_order_.overtaken(now))
       return service_.on_undelivered(command, actions, kOvertaken);
     last_delivered_ = now;
     const auto* start = std::get_if<StartTask>(&command.body);
@@ -166,18 +137,13 @@ void PublishLoop::deliver(const Command& command, publish::Actions& actions) {
   const auto counts = asked_   ? *asked_
                       : cancel ? control_.stops.ask_cancel()
                                : control_.stops.ask_stop();
-  asked_stops_.emplace_back(counts, command);
-  if (asked_stops_.size() <= kMostAskedStops) return;
-  // The control thread hangs: the flag stays set for it, the answer does not wait.
-  service_.on_undelivered(asked_stops_.front().second, actions);
-  asked_stops_.pop_front();
+  if (const auto unanswered = stop_order_.asked(counts, command))
+    service_.on_undelivered(*unanswered, actions);
 }
 
 void PublishLoop::answer_stops(const StopCounts& obeyed, Time now) {
-  while (!asked_stops_.empty() && obeyed.include(asked_stops_.front().first)) {
-    service_.on_event({now, CommandAccepted{asked_stops_.front().second.id, {}}}, actions_);
-    asked_stops_.pop_front();
-  }
+  while (const auto id = stop_order_.next_obeyed(obeyed))
+    service_.on_event({now, CommandAccepted{*id, {}}}, actions_);
 }
 
 }  // namespace drover::runtime

@@ -15,22 +15,16 @@
 #include "publish/arrival.h"
 #include "publish/rtk_navigation/control.h"
 #include "runtime/mqtt_client.h"
+#include "runtime/stop_order.h"
 #include "runtime/stop_requests.h"
 #include "runtime/wake.h"
 
 namespace drover::runtime {
 
-/// A stop that was asked for already; its answer is the publish thread's.
-struct HeardStop {
-  std::string payload;
-  publish::Retain retain = publish::Retain::no;
-  StopCounts asked;  ///< what must be obeyed before it is
-};
-
 /// Asks for what a stop means: zero at once for a terminate, a ramp for a cancel.
 StopCounts ask(StopRequests& stops, const publish::ControlCommand& stop);
 
-class StopListener final {
+class StopListener final : public HearsStops {
  public:
   StopListener(const config::MqttConfig& config, StopRequests& stops);
 
@@ -40,23 +34,22 @@ class StopListener final {
   const std::atomic<std::uint64_t>& turns() const { return turns_; }
 
   // Publish thread:
-  bool connected() const { return connected_.load(std::memory_order_relaxed); }
+  bool connected() const override { return connected_.load(std::memory_order_relaxed); }
   /// A message for `feedback`. False: not taken, say because the broker is gone.
   bool answer(const std::string& text);
   /// Answers that could not leave after all.
   bool take_unsent(std::string& text) { return unsent_.pop(text); }
   /// Answers that found no room to be given back: nobody gets them.
   std::uint64_t lost_answers() const { return lost_answers_.load(std::memory_order_relaxed); }
-  bool take(HeardStop& heard) {
+  bool take(HeardStop& heard) override {
     const bool taken = heard_.pop(heard);
     taken_ += taken ? 1U : 0U;
     return taken;
   }
-  /// Of a flood of stops some are not told by take(): they were asked for all the same.
-  std::uint64_t lost() const { return lost_.load(std::memory_order_acquire); }
-  /// Whether a stop was, or is about to be, asked for that take() has not told yet. Read it after
-  /// StopRequests::asked(): then each stop that is counted there is known here.
-  bool knows_more() const { return begun_.load(std::memory_order_acquire) != taken_ + lost(); }
+  std::uint64_t lost() const override { return lost_.load(std::memory_order_acquire); }
+  bool knows_more() const override {
+    return begun_.load(std::memory_order_acquire) != taken_ + lost();
+  }
   /// Readable when there is one.
   const Wake& heard_ready() const { return heard_ready_; }
 
