@@ -24,8 +24,8 @@ enum class ResetBy : std::uint8_t {
 };
 
 struct LatchRow {
-  Latched what;
-  ResetBy by;
+  Latched what{};
+  ResetBy by{};
   bool cuts_power = false;
 };
 
