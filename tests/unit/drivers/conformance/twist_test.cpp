@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "support/describe.h"
+#include "unit/drivers/conformance/seal.h"
 #include "unit/drivers/conformance/twist_harness.h"
 
 namespace drover::test {
@@ -268,19 +269,27 @@ TEST_P(TwistConformance, CallsNothingAStopThatMovesTheTwin) {
   const std::vector<Sent> like(bench.sent.end() - 20, bench.sent.end());
   bench.driver_alive = false;
   std::mt19937 random(7);
+  int sent = 0;
+  int motions = 0;
   for (int i = 0; i < 20000; ++i) {
     Sent one = like[random() % like.size()];
-    if (auto* frame = std::get_if<CanFrame>(&one))
+    if (auto* frame = std::get_if<CanFrame>(&one)) {
       frame->data[random() % 8] = static_cast<std::uint8_t>(random());
-    else
-      std::get<Packet>(one)[random() % std::get<Packet>(one).size()] =
-          static_cast<std::uint8_t>(random());
+    } else {
+      Packet& packet = std::get<Packet>(one);
+      packet[random() % packet.size()] = static_cast<std::uint8_t>(random());
+      ASSERT_TRUE(seal(bench.entry, packet)) << "seal.h has to know how its packets end";
+    }
     const FrameEffect effect = bench.effect_of(one);
+    motions += effect == FrameEffect::motion ? 1 : 0;
     if (effect == FrameEffect::motion || effect == FrameEffect::forbidden) continue;
+    ++sent;
     bench.send(one);
     bench.step({});
     ASSERT_LT(bench.fastest_radps(), kStill_radps) << text_of(one);
   }
+  EXPECT_GT(sent, 50);
+  EXPECT_GT(motions, 1000) << "else no mutant was whole enough to be judged";
 }
 
 TEST_P(TwistConformance, StaysDecentThroughRandomHistories) {
