@@ -6,6 +6,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "config/register_map.h"
 #include "sim/robot/json_reader.h"
 
 namespace drover::sim {
@@ -74,6 +75,11 @@ std::string map_file(const std::string& map, const fs::path& folder) {
     if (fs::exists(of_the_clone)) return of_the_clone.string();
   }
   return "";
+}
+
+std::string why_no_map(const std::string& map, const fs::path& folder) {
+  const auto missing = config::missing_register_map(map, folder.string());
+  return missing.message.empty() ? "" : missing.text();
 }
 
 void change_document(nlohmann::json& document, nlohmann::json change) {

@@ -23,6 +23,9 @@ void change_document(nlohmann::json& document, nlohmann::json change);
 /// `folder` is in a clone. Empty: neither; it may be an installed one.
 std::string map_file(const std::string& map, const std::filesystem::path& folder);
 
+/// Why there is no such map, installed ones looked through too; empty: there is one.
+std::string why_no_map(const std::string& map, const std::filesystem::path& folder);
+
 /// The path of the robot that FILE names, empty when it names none. Throws as above.
 std::string robot_file_of(const std::string& file);
 

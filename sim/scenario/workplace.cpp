@@ -13,7 +13,6 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "config/register_map.h"
 #include "drover/registry.h"
 #include "sim/robot/scenario_file.h"
 #include "sim/scenario/draw.h"
@@ -56,9 +55,8 @@ void make_map_absolute(Json& battery, const fs::path& folder, const std::string&
   const std::string map = battery["map"];
   if (const auto found = map_file(map, folder); !found.empty()) {
     battery["map"] = found;
-  } else if (const auto missing = config::missing_register_map(map, folder.string());
-             !missing.message.empty()) {
-    throw std::runtime_error(place + ".map: " + missing.text());
+  } else if (const auto why = why_no_map(map, folder); !why.empty()) {
+    throw std::runtime_error(place + ".map: " + why);
   }
 }
 

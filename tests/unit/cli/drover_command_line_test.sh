@@ -84,7 +84,8 @@ mkdir -m 0700 "$work/closed"
 chmod a+rx "$work"
 if "${as_a_user[@]}" "$drover" version > "$work/out" 2> "$work/err"; then
   "${as_a_user[@]}" "$drover" --socket "$work/closed/cli.sock" status > "$work/out" 2> "$work/err"
-  [[ $? == 3 ]] && grep -qF 'run this with sudo, or join with: sudo usermod -a -G drover' "$work/err"
+  [[ $? == 3 ]] &&
+    grep -qF 'run this with sudo, or join with: sudo usermod -a -G drover' "$work/err"
   verdict $? "who may not ask is told how to become one who may"
 fi
 if [[ -w /dev/full ]]; then
