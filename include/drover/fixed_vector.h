@@ -3,21 +3,45 @@
 
 #include <array>
 #include <cstddef>
+#include <memory>
 #include <span>
+#include <type_traits>
 
 namespace drover {
 
+/// To make, clear and copy one costs what is in it, not what could be: beyond size() there are no
+/// values, and nothing is there to be read.
 template <class T, std::size_t N>
 class FixedVector {
+  static_assert(std::is_trivially_destructible_v<T>, "clear() only forgets");
+
  public:
+  FixedVector() {}  // NOLINT(modernize-use-equals-default): the items stay as they are
+  FixedVector(const FixedVector& other) : size_(other.size_) {
+    std::uninitialized_copy_n(other.items_.data(), size_, items_.data());
+  }
+  FixedVector& operator=(const FixedVector& other) {
+    if (this == &other) return *this;
+    size_ = other.size_;
+    std::uninitialized_copy_n(other.items_.data(), size_, items_.data());
+    return *this;
+  }
+  ~FixedVector() = default;
+
   /// Appends; returns false and changes nothing when full.
   [[nodiscard]] bool push_back(const T& value) {
     if (size_ == N) return false;
-    items_[size_++] = value;
+    std::construct_at(items_.data() + size_, value);
+    ++size_;
     return true;
   }
   void clear() { size_ = 0; }
-  void resize(std::size_t size) { size_ = size < N ? size : N; }
+  /// What is new is T{}.
+  void resize(std::size_t size) {
+    if (size > N) size = N;
+    for (; size_ < size; ++size_) std::construct_at(items_.data() + size_);
+    size_ = size;
+  }
   std::size_t size() const { return size_; }
   bool empty() const { return size_ == 0; }
   bool full() const { return size_ == N; }
@@ -36,7 +60,10 @@ class FixedVector {
   operator std::span<T>() { return {items_.data(), size_}; }
 
  private:
-  std::array<T, N> items_{};
+  // The only member of a union is not begun with its owner.
+  union {
+    std::array<T, N> items_;
+  };
   std::size_t size_ = 0;
 };
 

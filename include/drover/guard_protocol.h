@@ -16,8 +16,8 @@ namespace drover {
 
 inline constexpr std::uint32_t kGuardVersion = 2;
 inline constexpr std::size_t kGuardMaxLinks = 8;
-inline constexpr std::size_t kGuardMaxAxes = 32;
-inline constexpr std::size_t kGuardMaxMessages = 256;
+inline constexpr std::size_t kGuardMaxAxes = 64;
+inline constexpr std::size_t kGuardMaxMessages = 512;
 inline constexpr std::size_t kGuardMaxBytes = 128;  ///< a CAN FD frame has 72
 inline constexpr std::size_t kGuardNameSize = 96;   ///< with the zero at its end
 

@@ -12,7 +12,7 @@
 namespace drover {
 
 inline constexpr double kAbsent = std::numeric_limits<double>::quiet_NaN();
-inline constexpr std::size_t kMaxAxes = 16;
+inline constexpr std::size_t kMaxAxes = 64;
 
 /// Index of a driven axis (joint), in the order of the configuration's `drives`.
 using AxisId = std::uint8_t;

@@ -180,6 +180,8 @@ struct CycleStats {
   Duration longest_step{};
 };
 
+inline constexpr std::size_t kMaxShownLinks = 18;
+
 struct LinkSnapshot {
   Name name;
   bool is_bus = false;  ///< a CAN bus; otherwise a serial line, the GPIO chip, ...
@@ -212,7 +214,7 @@ struct Snapshot {
   std::array<SourceSnapshot, kLineCount> line_source{};  ///< samples: changes
   std::array<bool, kOutputCount> output_configured{};
   std::array<bool, kOutputCount> output_on{};
-  FixedVector<LinkSnapshot, 10> links;
+  FixedVector<LinkSnapshot, kMaxShownLinks> links;
   bool stop_latched = false;  ///< nothing moves until a person acts
   HoldState hold = HoldState::idle;
   bool guard_alive = false;

@@ -37,7 +37,7 @@ bool is_told_twists(const DeviceConfig& device) {
 }
 
 void side(const std::string& path, const std::vector<std::string>& joints,
-          FixedVector<AxisId, 8>& into, Findings& found) {
+          FixedVector<AxisId, engine::kMaxSide>& into, Findings& found) {
   const auto known = joint_names(found.config());
   for (const auto& joint : joints) {
     const auto it = std::find(known.begin(), known.end(), joint);

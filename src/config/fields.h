@@ -17,11 +17,11 @@
 namespace drover::config {
 
 /// As many as the runtime has room for.
-inline constexpr std::size_t kMaxBuses = 4;
+inline constexpr std::size_t kMaxBuses = 8;
 
 /// As many as the status has room for, beside the outputs.
-inline constexpr std::size_t kMaxLinks = 9;
-inline constexpr std::size_t kMaxDevices = 32;
+inline constexpr std::size_t kMaxLinks = 17;
+inline constexpr std::size_t kMaxDevices = 80;
 
 /// Names of all drivers.
 inline std::vector<std::string> driver_names() {

@@ -24,6 +24,9 @@ enum class BaseKind : std::uint8_t {
   twist,         ///< a device that takes a twist and tells one: it has no joints
 };
 
+/// Driven wheels of one side.
+inline constexpr std::size_t kMaxSide = kMaxAxes / 2;
+
 /// The base. Axes are indices into the configuration's joints.
 struct BaseConfig {
   BaseKind kind = BaseKind::skid_steer;
@@ -38,8 +41,8 @@ struct BaseConfig {
   /// With level_ground_only steeper ground refuses a start and ends a task. Wheels on firm ground
   /// roll by themselves from about this on: a twentieth of the weight is what rolling takes.
   double max_tilt_deg = 3.0;
-  FixedVector<AxisId, 8> left;
-  FixedVector<AxisId, 8> right;
+  FixedVector<AxisId, kMaxSide> left;
+  FixedVector<AxisId, kMaxSide> right;
 };
 
 struct LimitsConfig {

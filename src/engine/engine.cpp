@@ -171,10 +171,11 @@ void Engine::Impl::set_origin(const RequestId& id, const GeodeticPoint& origin, 
 /// What the drives were let do; how fast they run is their owner's word.
 void Engine::Impl::command_axes(const Motion& motion, EngineOutput& out) {
   const Learned learned{estimate.yaw_slip_factor};
-  const JointVelocities radps =
+  JointVelocities radps =
       motion.joints
           ? owners.joint_velocities_radps()
           : setpoints(base, motion.twist, learned, max_rim_mps(base, config.limits, learned));
+  radps.resize(axes.size());
   for (std::size_t i = 0; i < axes.size(); ++i) {
     AxisCommand& command = out.axes[i] = arming.command(static_cast<AxisId>(i));
     const bool runs = command.request == AxisRequest::run;
@@ -273,11 +274,11 @@ void Engine::on_command(const Command& command, Time now) {
 
 void Engine::step(Time now, const Environment& environment, EngineOutput& out) {
   Impl& e = *impl_;
-  out.axes = {};
+  std::fill_n(out.axes.begin(), e.axes.size(), AxisCommand{});
   out.base = {};
   out.events.clear();
   out.motion_permitted = false;
-  out.slowing_permitted = {};
+  std::fill_n(out.slowing_permitted.begin(), e.axes.size(), false);
   const Duration nominal = from_s(1.0 / e.config.tick_Hz);
   const Duration dt =
       e.last_step == kNever ? nominal : std::clamp(now - e.last_step, Duration{0}, kLongestCycle);

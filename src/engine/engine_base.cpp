@@ -45,7 +45,8 @@ void Engine::Impl::fill_base(const Environment& environment, const BaseCommand& 
 
 /// What was decided for the edges, said to the device that moves both.
 void Engine::Impl::command_base(EngineOutput& out) {
-  JointVelocities mps{};
+  JointVelocities mps;
+  mps.resize(edges.size());
   for (std::size_t i = 0; i < edges.size(); ++i) {
     mps[i] = out.axes[i].velocity_radps;
     if (out.axes[i].request != AxisRequest::rest) out.base.request = out.axes[i].request;

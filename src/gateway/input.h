@@ -25,8 +25,8 @@ using LinkId = std::uint8_t;
 using SlotId = std::uint8_t;
 inline constexpr std::uint8_t kNowhere = 0xFF;  ///< no such link or slot
 inline constexpr std::size_t kMaxLinks = 32;
-inline constexpr std::size_t kMaxSlots = 64;
-inline constexpr std::size_t kMaxBuses = 4;
+inline constexpr std::size_t kMaxSlots = 96;
+inline constexpr std::size_t kMaxBuses = 8;
 inline constexpr std::size_t kMaxLevels = 16;  ///< of one chip
 
 /// A frame of a bus; the input's time is when it was received.

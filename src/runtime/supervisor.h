@@ -39,7 +39,7 @@ class Supervisor final {
     std::uint64_t turns = 0;
     Time moved = kNever;
   };
-  FixedVector<Row, 16> rows_;
+  FixedVector<Row, 24> rows_;
   Time looked_ = kNever;
 };
 

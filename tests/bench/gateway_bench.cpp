@@ -1,6 +1,7 @@
 // What one frame and one control cycle cost in the gateway, with few drives and with many.
 #include <benchmark/benchmark.h>
 
+#include "drover/triple_buffer.h"
 #include "tests/bench/bench_robot.h"
 
 namespace drover::gateway {
@@ -15,7 +16,7 @@ void frame(benchmark::State& state) {
     drive = drive + 1 < drives ? drive + 1 : 0;
   }
 }
-BENCHMARK(frame)->Arg(4)->Arg(16);
+BENCHMARK(frame)->Arg(4)->Arg(16)->Arg(64);
 
 /// All drives heard, then the tick.
 void cycle(benchmark::State& state) {
@@ -23,7 +24,19 @@ void cycle(benchmark::State& state) {
   for ([[maybe_unused]] auto each : state) robot.cycle();
   benchmark::DoNotOptimize(robot.gateway().snapshot().time);
 }
-BENCHMARK(cycle)->Arg(4)->Arg(16);
+BENCHMARK(cycle)->Arg(4)->Arg(16)->Arg(64);
+
+/// What a publisher's copy of the state costs.
+void snapshot(benchmark::State& state) {
+  Robot robot(static_cast<std::size_t>(state.range(0)));
+  TripleBuffer<Snapshot> buffer;
+  for ([[maybe_unused]] auto each : state) {
+    buffer.back() = robot.gateway().snapshot();
+    buffer.publish();
+  }
+  benchmark::DoNotOptimize(buffer.latest().time);
+}
+BENCHMARK(snapshot)->Arg(4)->Arg(64);
 
 }  // namespace
 }  // namespace drover::gateway

@@ -28,7 +28,9 @@ const TwoSides& sides_of(const Kinematics& base) {
 }
 
 TwoSides edges(double width_m) {
-  TwoSides sides{.wheel_radius_m = 1.0, .track_m = width_m};
+  TwoSides sides;
+  sides.wheel_radius_m = 1.0;
+  sides.track_m = width_m;
   (void)sides.left.push_back(0);
   (void)sides.right.push_back(1);
   return sides;
@@ -92,7 +94,9 @@ JointVelocities setpoints(const Kinematics& base, const Twist& twist, const Lear
                           double max_rim_mps) {
   const TwoSides& sides = sides_of(base);
   const WheelSpeeds speeds = wheels_from_twist(sides, learned.yaw_slip_factor, twist, max_rim_mps);
-  JointVelocities radps{};
+  JointVelocities radps;
+  for (const auto* side : {&sides.left, &sides.right})
+    for (const AxisId id : *side) radps.resize(std::max(radps.size(), std::size_t{id} + 1));
   for (const AxisId id : sides.left) radps[id] = speeds.left_radps;
   for (const AxisId id : sides.right) radps[id] = speeds.right_radps;
   return radps;

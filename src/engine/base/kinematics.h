@@ -46,8 +46,8 @@ struct Learned {
   double yaw_slip_factor = 1;  ///< how much wider than its track the base behaves in a turn
 };
 
-/// rad/s by AxisId; zero for joints that do not belong to the base.
-using JointVelocities = std::array<double, kMaxAxes>;
+/// rad/s by AxisId; zero for joints that do not belong to the base, and none behind its last.
+using JointVelocities = FixedVector<double, kMaxAxes>;
 
 /// What the joints have to do for a twist of base_link. No rim is faster than `max_rim_mps`: all
 /// are scaled then, so that the curvature stays. At rest when a number is not finite, or when the

@@ -1,7 +1,10 @@
 #include "engine/base/two_sides.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+#include <span>
 
 #include "engine/still.h"
 
@@ -34,6 +37,7 @@ namespace {
 
 /// What a silent wheel may turn otherwise than its neighbours, on ground that holds them unlike.
 constexpr double kUnheardShare = 0.1;
+constexpr double kFar = std::numeric_limits<double>::infinity();
 
 /// What the wheels of one side say.
 struct Side {
@@ -58,13 +62,12 @@ struct Side {
   }
 };
 
-Side side_of(const FixedVector<AxisId, 8>& wheels, double wheel_radius_m,
-             const JointMotions& joints, Time at, Duration stale) {
+Side side_of(std::span<const AxisId> wheels, double wheel_radius_m, const JointMotions& joints,
+             Time at, Duration stale) {
   Side side;
   for (const AxisId id : wheels) {
-    const JointMotion& wheel = joints[id];
-    if (at - wheel.at <= stale) {
-      side.add(wheel.velocity_radps * wheel_radius_m);
+    if (id < joints.size() && at - joints[id].at <= stale) {
+      side.add(joints[id].velocity_radps * wheel_radius_m);
     } else {
       side.silent = true;
     }
@@ -89,14 +92,23 @@ BodyMotion body_motion(const TwoSides& sides, const JointMotions& joints, Time a
   return motion;
 }
 
-Twist largest_twist(const TwoSides& sides, double yaw_slip_factor,
-                    const std::array<double, kMaxAxes>& radps) {
+Twist largest_twist(const TwoSides& sides, double yaw_slip_factor, std::span<const double> radps) {
   Twist largest;
-  for (const AxisId left : sides.left) {
-    for (const AxisId right : sides.right) {
-      const Twist twist =
-          twist_from_wheels(sides, yaw_slip_factor, radps[left] * sides.wheel_radius_m,
-                            radps[right] * sides.wheel_radius_m);
+  if (sides.left.empty() || sides.right.empty()) return largest;
+  // What is largest is made by the outermost of each side: no need to try all pairs.
+  const auto ends = [&](std::span<const AxisId> wheels) {
+    std::array<double, 2> mps{kFar, -kFar};
+    for (const AxisId id : wheels) {
+      const double rim_mps = radps[id] * sides.wheel_radius_m;
+      mps = {std::min(mps[0], rim_mps), std::max(mps[1], rim_mps)};
+    }
+    return mps;
+  };
+  const auto lefts_mps = ends(sides.left);
+  const auto rights_mps = ends(sides.right);
+  for (const double left_mps : lefts_mps) {
+    for (const double right_mps : rights_mps) {
+      const Twist twist = twist_from_wheels(sides, yaw_slip_factor, left_mps, right_mps);
       largest.vx_mps = std::max(largest.vx_mps, std::abs(twist.vx_mps));
       largest.wz_radps = std::max(largest.wz_radps, std::abs(twist.wz_radps));
     }

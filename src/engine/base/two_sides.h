@@ -1,12 +1,13 @@
 // Driven wheels on two sides: what a twist asks of them, and what they say of the motion.
 #pragma once
 
-#include <array>
+#include <span>
 
 #include "drover/fixed_vector.h"
 #include "drover/measurement.h"
 #include "drover/time.h"
 #include "drover/twist.h"
+#include "engine/config.h"
 
 namespace drover::engine {
 
@@ -14,8 +15,8 @@ namespace drover::engine {
 struct TwoSides {
   double wheel_radius_m = 0;
   double track_m = 0;  ///< between the centres of the left and right wheels
-  FixedVector<AxisId, 8> left;
-  FixedVector<AxisId, 8> right;
+  FixedVector<AxisId, kMaxSide> left;
+  FixedVector<AxisId, kMaxSide> right;
 };
 
 /// Joint velocities (rad/s) of left and right wheels for a twist of base_link. When a wheel would
@@ -36,7 +37,8 @@ struct JointMotion {
   double velocity_radps = 0;
   Time at = kNever;
 };
-using JointMotions = std::array<JointMotion, kMaxAxes>;  ///< by AxisId
+/// By AxisId; those beyond its size told nothing.
+using JointMotions = FixedVector<JointMotion, kMaxAxes>;
 
 /// The motion at `at`. A wheel that has been silent for longer than `stale` is left out; a side
 /// with no wheel left makes the motion unknown. Wheels of a side that contradict each other, or of
@@ -45,7 +47,6 @@ BodyMotion body_motion(const TwoSides& sides, const JointMotions& joints, Time a
 
 /// The largest speed ahead and the largest turn that any wheel on the left makes with any on the
 /// right: wheels of one side that work against each other hide nothing. `radps` by AxisId.
-Twist largest_twist(const TwoSides& sides, double yaw_slip_factor,
-                    const std::array<double, kMaxAxes>& radps);
+Twist largest_twist(const TwoSides& sides, double yaw_slip_factor, std::span<const double> radps);
 
 }  // namespace drover::engine

@@ -51,6 +51,7 @@ Estimator::Estimator(const EstimateConfig& config, const BaseConfig& base)
     : config_(tuned(kinematics_of(base), config)),
       base_(kinematics_of(base)),
       joints_(joints_of(base_)),
+      joint_count_(joints_needed(base)),
       first_gain_(1.0 / base.yaw_slip_factor),
       wheel_stale_(from_s(config.wheel_stale_s)),
       imu_stale_(from_s(config.imu_stale_s)),
@@ -159,17 +160,18 @@ void Estimator::on_measurement(const Measurement& measurement) {
 }
 
 void Estimator::on_joint(const AxisMotion& motion, Time time) {
-  if (motion.axis >= kMaxAxes || !joints_[motion.axis]) return;
+  if (motion.axis >= joint_count_ || !joints_[motion.axis]) return;
   if (!(std::abs(rim_mps(base_, motion.velocity_radps)) <= kFastestRim_mps)) {
     ++counters_.absurd;
     return;
   }
   const Time slot = time - time.time_since_epoch() % kSlot;
   if (too_old(slot)) return;
-  MotionInput input = slot_at(slot);
-  input.present.set(motion.axis);
-  input.joints_radps[motion.axis] = motion.velocity_radps;
-  put_slot(slot, input);
+  edit_slot(slot, [&](MotionInput& input) {
+    input.joints_radps.resize(joint_count_);
+    input.present.set(motion.axis);
+    input.joints_radps[motion.axis] = motion.velocity_radps;
+  });
 }
 
 void Estimator::on_body(const BodyMotion& body, Time time) {
@@ -182,9 +184,7 @@ void Estimator::on_body(const BodyMotion& body, Time time) {
   }
   const Time slot = time - time.time_since_epoch() % kSlot;
   if (too_old(slot)) return;
-  MotionInput input = slot_at(slot);
-  input.body = body;
-  put_slot(slot, input);
+  edit_slot(slot, [&](MotionInput& input) { input.body = body; });
 }
 
 void Estimator::on_imu(const ImuSample& sample, std::uint8_t source, Time time) {
@@ -198,23 +198,23 @@ void Estimator::on_imu(const ImuSample& sample, std::uint8_t source, Time time) 
   }
   if (source != imu_in_use_) return;  // it learns its zero and its tilt until it is needed
   if (!imu.finished() || imu.finished()->slot < history_.base().time) return;
-  MotionInput input = slot_at(imu.finished()->slot);
-  input.turn = imu.finished()->rate;
-  input.turn->source = source;
-  put_slot(imu.finished()->slot, input);
+  edit_slot(imu.finished()->slot, [&](MotionInput& input) {
+    input.turn = imu.finished()->rate;
+    input.turn->source = source;
+  });
 }
 
-/// What is known of a slot so far.
-MotionInput Estimator::slot_at(Time slot) const {
+/// To what is known of a slot so far; in its place, because every frame of every joint does it.
+template <class Edit>
+void Estimator::edit_slot(Time slot, const Edit& edit) {
   const std::size_t i = history_.find(slot, 0);
-  return i < history_.size() ? *std::get_if<MotionInput>(&history_.at(i).input) : MotionInput{};
-}
-
-void Estimator::put_slot(Time slot, const MotionInput& input) {
-  const std::size_t i = history_.find(slot, 0);
-  if (i == history_.size()) return insert(slot, input);
-  history_.at(i).input = input;
-  history_.mark_dirty(i);
+  if (i < history_.size()) {
+    edit(*std::get_if<MotionInput>(&history_.at(i).input));
+    return history_.mark_dirty(i);
+  }
+  MotionInput input;
+  edit(input);
+  insert(slot, input);
 }
 
 void Estimator::on_position(const GnssPosition& position, std::uint8_t receiver, Time time) {
@@ -395,7 +395,8 @@ void Estimator::hand_over_gyro(State& state, const TurnRate& turn) const {
 }
 
 void Estimator::take_rates(State& state, const MotionInput& input) const {
-  for (std::size_t i = 0; i < kMaxAxes; ++i) {
+  if (input.present.any()) state.told.joints.resize(joint_count_);
+  for (std::size_t i = 0; i < input.joints_radps.size(); ++i) {
     if (input.present[i]) state.told.joints[i] = {input.joints_radps[i], state.time};
   }
   if (input.body) {

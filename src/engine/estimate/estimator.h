@@ -92,8 +92,8 @@ class Estimator final {
   void take(estimate::State& state, const estimate::Input& input) const;
   void take_rates(estimate::State& state, const estimate::MotionInput& input) const;
   void hand_over_gyro(estimate::State& state, const estimate::TurnRate& turn) const;
-  estimate::MotionInput slot_at(Time slot) const;
-  void put_slot(Time slot, const estimate::MotionInput& input);
+  template <class Edit>
+  void edit_slot(Time slot, const Edit& edit);
   estimate::State blank() const;
   estimate::State carried_over(const estimate::State& old, const GeodeticPoint& origin) const;
   // What a state means, in report.cpp:
@@ -105,7 +105,8 @@ class Estimator final {
   EstimateConfig config_;
   Kinematics base_;
   JointSet joints_;
-  double first_gain_;  ///< of the turn, before anything was learned
+  std::size_t joint_count_;  ///< the last one's number, and one
+  double first_gain_;        ///< of the turn, before anything was learned
   Duration wheel_stale_;
   Duration imu_stale_;
   Duration max_delay_;

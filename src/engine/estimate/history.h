@@ -17,7 +17,7 @@ namespace drover::engine::estimate {
 /// What the base told of its motion within one slot of time, and the turn that began in it.
 struct MotionInput {
   JointSet present;
-  std::array<double, kMaxAxes> joints_radps{};
+  FixedVector<double, kMaxAxes> joints_radps;  ///< by AxisId, of those present
   std::optional<BodyMotion> body;
   std::optional<TurnRate> turn;
 };

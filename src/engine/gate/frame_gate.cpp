@@ -77,9 +77,12 @@ void FrameGate::add(std::size_t link, const Actuator& driver) {
 
 /// senders_.size(): it was never told of it.
 std::size_t FrameGate::place_of(const Actuator& driver) const {
-  const auto* const it = std::find_if(senders_.begin(), senders_.end(),
-                                      [&](const Sender& each) { return each.driver == &driver; });
-  return static_cast<std::size_t>(it - senders_.begin());
+  const auto is = [&](const Sender& each) { return each.driver == &driver; };
+  // They speak in turn: it is the one of before, or the next.
+  for (const std::size_t guess : {asked_, asked_ + 1})
+    if (guess < senders_.size() && is(senders_[guess])) return asked_ = guess;
+  const auto* const it = std::find_if(senders_.begin(), senders_.end(), is);
+  return asked_ = static_cast<std::size_t>(it - senders_.begin());
 }
 
 void FrameGate::end_slowing(const Actuator& driver, std::size_t channel) {

@@ -80,6 +80,7 @@ class FrameGate final {
   void note(std::size_t sender, std::size_t channel, const Parts& asked);
 
   FixedVector<Sender, kMaxAxes> senders_;
+  mutable std::size_t asked_ = 0;            ///< whose place was looked for last
   std::array<Slowest, kMaxAxes> slowest_{};  ///< by sender
   std::array<Counts, kMaxLinks> counts_{};
 };

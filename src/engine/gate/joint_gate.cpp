@@ -12,7 +12,9 @@ constexpr double kRest_radps = 1e-9;
 }  // namespace
 
 JointGate::JointGate(const BaseConfig& base, const LimitsConfig& limits)
-    : base_(kinematics_of(base)), limits_(limits) {}
+    : base_(kinematics_of(base)), limits_(limits) {
+  velocities_.resize(joints_needed(base));
+}
 
 /// Which part of the wanted velocities keeps within the limits; 0 when nothing does.
 double JointGate::permitted_share(const Velocities& wanted_radps, double yaw_slip_factor,
@@ -58,7 +60,8 @@ void JointGate::approach(const Velocities& target_radps, double dt_s) {
 void JointGate::step(Duration dt, std::span<const double> wanted_radps, double yaw_slip_factor,
                      double cap_mps, Stop stop) {
   if (stop == Stop::immediate) return reset();
-  Velocities target{};
+  Velocities target;
+  target.resize(velocities_.size());
   if (stop == Stop::none) {
     for (std::size_t i = 0; i < target.size() && i < wanted_radps.size(); ++i)
       if (std::isfinite(wanted_radps[i])) target[i] = wanted_radps[i];

@@ -1,7 +1,7 @@
 // The gate of single joints: limits of speed and acceleration between joint commands and drives.
 #pragma once
 
-#include <array>
+#include <algorithm>
 #include <span>
 
 #include "engine/base/kinematics.h"
@@ -22,7 +22,7 @@ class JointGate final {
   /// is faster. With any stop but `none` nothing is followed.
   void step(Duration dt, std::span<const double> wanted_radps, double yaw_slip_factor,
             double cap_mps, Stop stop);
-  void reset() { velocities_.fill(0); }
+  void reset() { std::fill(velocities_.begin(), velocities_.end(), 0.0); }
 
   bool at_rest() const;
   /// rad/s by AxisId, to be commanded now.
@@ -35,7 +35,7 @@ class JointGate final {
 
   Kinematics base_;
   LimitsConfig limits_;
-  Velocities velocities_{};
+  Velocities velocities_;
 };
 
 }  // namespace drover::engine

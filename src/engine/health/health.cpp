@@ -111,13 +111,16 @@ void HealthMonitor::look_at_drives(const HealthInput& input) {
     ++driven;
     const AxisSnapshot& axis = input.axes[i];
     const SourceHealth& source = input.environment.axes[takes_twist(base_) ? 0 : i];
+    const bool heard = axis.last_motion != kNever && source.state == SourceState::fresh &&
+                       tells_motion(axis, input.now, stale);
+    if (heard && axis.state == AxisState::running) continue;  // no words for what is well
     const Duration age = input.now - axis.last_motion;
     const auto joint = joint_text(base_, axis.joint);
     Reason text;
     if (axis.last_motion == kNever || source.state == SourceState::never_heard) {
       put(text, joint,
           source.reason.empty() ? std::string_view("never heard") : source.reason.view());
-    } else if (!tells_motion(axis, input.now, stale) || source.state != SourceState::fresh) {
+    } else if (!heard) {
       Reason what;
       what.format("no feedback for %.2f s", to_s(age));
       const bool known = source.state != SourceState::fresh && !source.reason.empty();

@@ -55,6 +55,7 @@ void RestWatch::reset() {
 RestWatch::Rims RestWatch::rims(const RestInput& input) const {
   Rims rims;
   Told told;
+  told.joints.resize(input.axes.size());
   for (std::size_t i = 0; i < input.axes.size(); ++i) {
     if (!driven_[i]) continue;
     const AxisSnapshot& axis = input.axes[i];
@@ -75,6 +76,7 @@ RestWatch::Rims RestWatch::rims(const RestInput& input) const {
 RestWatch::Rims RestWatch::asked(const RestInput& input) const {
   Rims asked;
   Told told;
+  told.joints.resize(input.axes.size());
   for (std::size_t i = 0; i < input.axes.size(); ++i) {
     if (!driven_[i]) continue;
     told.joints[i] = {input.axes[i].commanded_velocity_radps, input.now};
@@ -89,9 +91,10 @@ RestWatch::Rims RestWatch::asked(const RestInput& input) const {
 BodyMotion RestWatch::motion_of(const Told& told, Time now) const {
   if (!takes_twist(base_)) return body_motion(base_, told, now, Duration::zero());
   BodyMotion body;
-  JointVelocities mps{};
+  JointVelocities mps;
+  mps.resize(told.joints.size());
   body.known = true;
-  for (std::size_t i = 0; i < driven_.size(); ++i) {
+  for (std::size_t i = 0; i < told.joints.size(); ++i) {
     if (!driven_[i]) continue;
     body.known = body.known && told.joints[i].at == now;
     mps[i] = told.joints[i].velocity_radps;

@@ -39,11 +39,12 @@ void JointStream::watch_zeros(bool neutral, Time now) {
 }
 
 void JointStream::take(const JointTargets& targets, std::string_view busy, Time now) {
-  std::array<double, kMaxAxes> wanted{};
+  JointVelocities wanted;
   for (const JointTarget& joint : targets.joints) {
     if (joint.axis >= kMaxAxes || !std::isfinite(joint.velocity_radps)) {
       return reject("a joint or a velocity that cannot be");
     }
+    wanted.resize(std::max(wanted.size(), std::size_t{joint.axis} + 1));
     wanted[joint.axis] = joint.velocity_radps;
   }
   const bool neutral = std::all_of(wanted.begin(), wanted.end(), [](double v) { return v == 0; });
@@ -96,7 +97,7 @@ void JointStream::end(std::string_view why) {
   if (!following_) return;
   following_ = may_move_ = false;
   zeros_since_ = kNever;
-  velocities_.fill(0);
+  velocities_.clear();
   reason_ = why;
   news_ = text_of("joint commands ended: ", why);
 }

@@ -1,10 +1,9 @@
 // The stream of joint commands: when it may begin, what it asks for now, when it has ended.
 #pragma once
 
-#include <array>
-
 #include "drover/command.h"
 #include "drover/snapshot.h"
+#include "engine/base/kinematics.h"
 #include "engine/event_queue.h"
 
 namespace drover::engine {
@@ -31,8 +30,9 @@ class JointStream final {
   bool wants_motion() const;
   Time last() const { return last_; }
   Time since() const { return since_; }  ///< when it began
-  /// rad/s by AxisId; zero for joints that the last message did not name.
-  const std::array<double, kMaxAxes>& velocities_radps() const { return velocities_; }
+  /// rad/s by AxisId; zero for joints that the last message did not name, and none behind the
+  /// last that it did.
+  const JointVelocities& velocities_radps() const { return velocities_; }
   JointCommandSnapshot snapshot() const { return {following_, accepted_, refused_, reason_}; }
 
  private:
@@ -47,7 +47,7 @@ class JointStream final {
   Time last_zero_ = kNever;
   Time last_ = kNever;
   Time since_ = kNever;
-  std::array<double, kMaxAxes> velocities_{};
+  JointVelocities velocities_;
   std::uint64_t accepted_ = 0;
   std::uint64_t refused_ = 0;
   Reason reason_;

@@ -56,9 +56,7 @@ class Owners final {
 
   bool at_rest() const { return twist_gate_.at_rest() && joint_gate_.at_rest(); }
   TargetRefusal refusal() const { return twist_gate_.refusal(); }
-  const std::array<double, kMaxAxes>& joint_velocities_radps() const {
-    return joint_gate_.velocities_radps();
-  }
+  const JointVelocities& joint_velocities_radps() const { return joint_gate_.velocities_radps(); }
   JointCommandSnapshot joint_command() const { return stream_.snapshot(); }
   /// Silence after which that owner's motion ends, s; absent when there is no such time.
   double timeout_s(Owner owner) const;

@@ -25,6 +25,14 @@ bool has_place(const GnssPosition& position) {
   }
 }
 
+bool is_of_a_sensor(const Measurement& m) {
+  return std::holds_alternative<GnssPosition>(m.value) ||
+         std::holds_alternative<GnssVelocity>(m.value) ||
+         std::holds_alternative<GnssHeading>(m.value) ||
+         std::holds_alternative<ImuSample>(m.value) ||
+         std::holds_alternative<BatterySample>(m.value);
+}
+
 std::uint64_t& count(std::array<std::array<std::uint64_t, kMaxOfKind>, 3>& samples, SensorKind kind,
                      std::size_t which) {
   return samples[static_cast<std::size_t>(kind)][which];
@@ -44,6 +52,7 @@ Sensors::Sensors(const EngineConfig& config)
 }
 
 bool Sensors::take(const Measurement& m, const Estimator& estimator) {
+  if (!is_of_a_sensor(m)) return true;  // there may be more drives than sensors of a kind
   const std::size_t source = m.source;
   if (source >= kMaxOfKind) return false;
   if (const auto* position = std::get_if<GnssPosition>(&m.value)) {

@@ -3,6 +3,9 @@
 // here stands the whole, in the order in which a recording numbers it.
 #pragma once
 
+#include <algorithm>
+#include <span>
+
 #include "drover/describe_snapshot.h"
 #include "gateway/gateway.h"
 
@@ -57,6 +60,8 @@ void visit_fields(V& v, const Snapshot& snapshot) {
   v.value("notices_dropped", notices_dropped);
 }
 
+inline constexpr std::size_t kFewestSlowed = 16;
+
 /// What the engine wants of the drives and outputs; `events` are told apart.
 template <class V>
 void visit_fields(V& v, const engine::EngineOutput& output, std::size_t axis_count) {
@@ -80,7 +85,9 @@ void visit_fields(V& v, const engine::EngineOutput& output, std::size_t axis_cou
   }
   visit_values(v, "outputs", outputs);
   v.value("motion_permitted", motion_permitted);
-  visit_values(v, "slowing_permitted", slowing_permitted);
+  // So many at the least were always there.
+  visit_values(v, "slowing_permitted",
+               std::span(slowing_permitted).first(std::max(axis_count, kFewestSlowed)));
   v.value("unsettled", unsettled);
   v.inside("remembered", [&v, &part = remembered] {
     const auto& [stop, stop_at_robot, power_cut, holding, released, task, proved, joints_wait] =

@@ -14,7 +14,7 @@ namespace drover::gateway {
 
 inline constexpr std::string_view kRecordingBegins = "drover recording ";  ///< "2\n"
 inline constexpr std::uint8_t kEdition = 2;
-inline constexpr std::size_t kMaxFields = 1024;
+inline constexpr std::size_t kMaxFields = 4096;
 /// The longest record: a cycle in which everything is as large as it can be.
 inline constexpr std::size_t kMaxRecord = 128 * 1024;
 

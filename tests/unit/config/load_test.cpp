@@ -120,15 +120,15 @@ TEST(Configuration, RefusesTooManyOrTooFewEntries) {
   EXPECT_THAT(problems(with("[\"right\"]", "[]")),
               HasSubstr("groups.base.right: has 0 entries, but needs at least 1 entry\n"));
   std::string links;
-  for (int i = 1; i < 5; ++i) {
+  for (int i = 1; i < 9; ++i) {
     const auto name = "\"can" + std::to_string(i) + "\"";
     links += ", " + name + ": {\"can\": " + name + "}";
   }
   EXPECT_THAT(problems(with("{\"can\": \"can0\"}", "{\"can\": \"can0\"}" + links)),
-              HasSubstr("links.can4: is one CAN bus too many: there may be 4\n"));
-  for (int i = 0; i < 8; ++i) links += ", \"l" + std::to_string(i) + "\": {\"gpio\": \"x\"}";
+              HasSubstr("links.can8: is one CAN bus too many: there may be 8\n"));
+  for (int i = 0; i < 12; ++i) links += ", \"l" + std::to_string(i) + "\": {\"gpio\": \"x\"}";
   EXPECT_THAT(problems(with("{\"can\": \"can0\"}", "{\"can\": \"can0\"}" + links)),
-              HasSubstr("f:2:12: links: has 15 entries, but may have at most 9 entries\n"));
+              HasSubstr("f:2:12: links: has 23 entries, but may have at most 17 entries\n"));
 }
 
 TEST(Configuration, TellsAllProblemsAtOnceInTheOrderOfTheFile) {

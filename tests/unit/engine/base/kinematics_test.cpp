@@ -49,6 +49,7 @@ TEST_P(ABaseOnWheels, DoesWhatItsSetPointsWereFor) {
   const Twist wanted{0.3, -0.7};
   const JointVelocities radps = setpoints(base, wanted, {1.4}, 2.0);
   Told told;
+  told.joints.resize(radps.size());
   for (std::size_t i = 0; i < radps.size(); ++i) told.joints[i] = {radps[i], kStart};
   const BodyMotion got = body_motion(base, told, kStart, kStale);
   EXPECT_NEAR(got.twist.vx_mps, wanted.vx_mps, 1e-12);
@@ -66,6 +67,7 @@ TEST_P(ABaseOnWheels, NamesTheFastestWheel) {
 TEST_P(ABaseOnWheels, SaysWhenWhatItToldWillBeStale) {
   Told told;
   EXPECT_GT(next_stale(told, kStart, kStale), kStart + std::chrono::hours(1));
+  told.joints.resize(8);
   told.joints[3] = {1, kStart - milliseconds(40)};
   told.joints[7] = {1, kStart - milliseconds(10)};
   const Time next = next_stale(told, kStart, kStale);

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 namespace drover::engine {
@@ -87,6 +88,7 @@ class WheelsOfTwoSides : public ::testing::Test {
     for (const AxisId id : {AxisId{2}, AxisId{3}}) (void)sides.right.push_back(id);
   }
   void tell(AxisId id, double rim_mps, Time at = kStart) {
+    joints.resize(4);
     joints[id] = {rim_mps / sides.wheel_radius_m, at};
   }
   BodyMotion motion(Time at = kStart) const { return body_motion(sides, joints, at, kStale); }
@@ -139,7 +141,7 @@ TEST_F(WheelsOfTwoSides, TurnByTheirDifference) {
 }
 
 TEST_F(WheelsOfTwoSides, HideNothingWhenOneSideWorksAgainstItself) {
-  const Twist twist = largest_twist(sides, 1.0, {1.0, -1.0, 1.0, 1.0});
+  const Twist twist = largest_twist(sides, 1.0, std::array{1.0, -1.0, 1.0, 1.0});
   EXPECT_NEAR(twist.vx_mps, 0.2, 1e-12);
   EXPECT_NEAR(twist.wz_radps, 0.4 / 0.6, 1e-12);
 }
