@@ -80,7 +80,7 @@ class StopOrder final {
   std::optional<Command> asked(const StopCounts& counts, const Command& stop) {
     asked_.emplace_back(counts, stop);
     if (asked_.size() <= kMostAsked) return std::nullopt;
-    auto oldest = std::move(asked_.front().second);
+    const Command oldest = asked_.front().second;
     asked_.pop_front();
     return oldest;
   }
