@@ -300,7 +300,7 @@ void Engine::step(Time now, const Environment& environment, EngineOutput& out) {
   const std::span<const AxisSnapshot> axes = e.axes;
   const Reason moved = e.judge_motion(now, dt, lines, environment);
   e.watch_tilt(now, environment.imu_configured);
-  e.place.update(now, e.estimate, e.health.report().drives_ok);
+  e.place.update(now, e.estimate, e.rest.hears_wheels());
   if (e.navigator.active()) e.place.told();  // by the end of the task
   e.health.update({now, environment, axes, lines, e.estimate, e.estimator.has_origin(),
                    e.navigator.active(), e.latch.why(), &e.sensors, e.tilt.reason(), moved,

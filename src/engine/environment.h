@@ -21,6 +21,7 @@ struct Environment {
   std::array<SourceHealth, kMaxAxes> axes{};
   /// A drive keeps its last command when it is no longer reached.
   bool drives_on_in_silence = false;
+  bool stop_creeps = false;  ///< a drive that is told to stand only brakes: on a slope it creeps
   Reason slept;    ///< the computer was suspended: a task ends; empty when it was not
   Reason foreign;  ///< who else commands the drives; empty when nobody does
   Reason bus;      ///< what is wrong with a CAN bus; empty when all is well

@@ -29,9 +29,12 @@ Gateway::Gateway(const config::DroverConfig& config)
   environment_.gnss_configured = config::first(config, SlotKind::gnss) != nullptr;
   environment_.imu_configured = config::first(config, SlotKind::imu) != nullptr;
   const Duration jammed_after = from_s(config.engine.health.drive_stale_s);
-  for (const Slot& slot : wiring_.slots)
-    if (slot.made.actuator != nullptr && !slot.made.actuator->silence().stops)
-      environment_.drives_on_in_silence = true;
+  for (const Slot& slot : wiring_.slots) {
+    const Actuator* const actuator = slot.made.actuator;
+    if (actuator == nullptr) continue;
+    environment_.drives_on_in_silence |= !actuator->silence().stops;
+    environment_.stop_creeps |= actuator->stop_recipe().ends != StopEnds::holds;
+  }
   for (std::size_t i = 0; i < wiring_.links.size(); ++i) {
     const Link& link = wiring_.links[i];
     if (link.wire == Wire::can) {

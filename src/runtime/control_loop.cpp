@@ -136,7 +136,10 @@ Time ControlLoop::cycle(Time begin, std::uint64_t late) {
   if (!out.engine.events.empty()) exchange_.events_ready.notify();
   // After the events: who waits for it may end the thread that tells them.
   const bool task = gateway_.snapshot().nav.status == NavStatus::run;
-  const bool rolls = std::abs(gateway_.snapshot().pose.vx_mps) > kRolls_mps;
+  // What was moving when its wheels were heard last may be moving still.
+  if (const double vx_mps = gateway_.snapshot().worst_vx_mps; std::isfinite(vx_mps))
+    last_vx_mps_ = vx_mps;
+  const bool rolls = std::abs(last_vx_mps_) > kRolls_mps;
   const auto& slowing = out.engine.slowing_permitted;
   const bool slows = std::find(slowing.begin(), slowing.end(), true) != slowing.end();
   const bool moves = out.engine.motion_permitted || slows || task || rolls;

@@ -104,7 +104,8 @@ class ControlLoop final {
   GuardWatch guard_watch_;
   CommandIntake intake_;
   ProgramWatch program_;
-  Duration asleep_{};  ///< since the computer booted
+  double last_vx_mps_ = 0;  ///< of the base, when somebody knew it
+  Duration asleep_{};       ///< since the computer booted
   link::FrameBatch batch_;
 };
 

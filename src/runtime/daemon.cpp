@@ -128,7 +128,7 @@ class Daemon final {
     if (stops) join(*stops, 1s);
     join(storage, 1s);
     join(parser, 1s);
-    // Until here the guard saw our heartbeat; from here on it keeps the drives at rest by itself.
+    // From here on the guard sees no heartbeat, if it still does: it keeps the drives at rest.
     stop_control_ = true;
     join(control, 1s);
     for (const auto& worker : slow) join(*worker, BatteryLoop::kLongestTurn);
@@ -192,10 +192,11 @@ class Daemon final {
   }
 
   /// A controlled stop: as the operator's cancel, with at most two seconds.
+  /// Longer than a base on a slope is given to begin again after a dip of its supply.
   void come_to_rest() {
     control_exchange_.stops.ask_cancel();
     control_exchange_.trouble.store("droverd ends", std::memory_order_release);
-    for (int i = 0; i < 40; ++i) {
+    for (int i = 0; i < 70; ++i) {
       control_exchange_.looks.fetch_add(1, std::memory_order_relaxed);
       std::this_thread::sleep_for(50ms);  // the first one lets the control thread hear of it
       if (rests()) return log(LogLevel::info, "the robot is at rest");

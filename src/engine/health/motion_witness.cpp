@@ -17,6 +17,11 @@ const double kTurning_radps = to_rad(3.0);
 const double kTurned_rad = to_rad(5.0);
 constexpr double kSigmas = 4.0;
 constexpr double kFresh_s = 0.5;  // receivers tell ten times a second, and once a second at worst
+constexpr Duration kApart = std::chrono::milliseconds(90);
+constexpr Duration kStandsFor = std::chrono::seconds(1);
+constexpr double kStands_m = 0.06;        // four sigma of two fixes
+constexpr double kSpeedAtRest_mps = 0.1;  // three sigma
+constexpr Duration kStoodLately = std::chrono::milliseconds(1200);
 constexpr double kTurnSmooth_s = 0.1;   // a knock is no turn
 constexpr double kLearned = 0.05;       // share of each new speed
 constexpr double kMostNoise_mps = 0.5;  // what is more, nobody has to call noise
@@ -70,10 +75,35 @@ void MotionWitness::on_position(const GnssPosition& position, Time at) {
   }
   position_ = position;
   position_at_ = at;
+  watch_stand(position, at);
   if (from_at_ == kNever && wanted_from_ != kNever && at >= wanted_from_) {
     from_ = position;
     from_at_ = at;
   }
+}
+
+void MotionWitness::watch_stand(const GnssPosition& position, Time at) {
+  if (position.quality != FixQuality::rtk_fixed) {
+    places_.fill({});
+    return;
+  }
+  const Place* before = nullptr;  // the youngest that is old enough
+  for (const Place& each : places_) {
+    if (each.at == kNever || at - each.at < kStandsFor || at - each.at > 2 * kStandsFor) continue;
+    if (before == nullptr || each.at > before->at) before = &each;
+  }
+  if (before != nullptr && fresh(speed_at_, at) && speed_mps_ < kSpeedAtRest_mps) {
+    const PathPoint way = ground_way(before->position, position);
+    if (std::hypot(way.x_m, way.y_m) < kStands_m) stood_at_ = at;
+  }
+  const Place& last = places_[(next_place_ + places_.size() - 1) % places_.size()];
+  if (last.at != kNever && at - last.at < kApart) return;
+  places_[next_place_] = {position, at};
+  next_place_ = (next_place_ + 1) % places_.size();
+}
+
+bool MotionWitness::stands(Time now) const {
+  return stood_at_ != kNever && now - stood_at_ <= kStoodLately;
 }
 
 void MotionWitness::on_turn(double turn_radps, Time at) {
@@ -105,6 +135,7 @@ void MotionWitness::forget_receiver() {
   speed_at_ = position_at_ = heading_at_ = kNever;
   from_at_ = turned_from_ = kNever;
   learned_noise_mps2_ = 0;
+  places_.fill({});
 }
 
 double MotionWitness::speed_noise_mps() const {

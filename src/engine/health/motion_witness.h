@@ -51,8 +51,16 @@ class MotionWitness final {
   /// Gyro and heading say that it goes on turning as it was commanded, and nothing that it goes
   /// anywhere: who rolls away does.
   bool spins_on(Time now) const;
+  /// A receiver with an RTK fix showed a moment ago that it stood for a second: neither speed nor
+  /// way. What goes slower than 6 cm/s does not show.
+  bool stands(Time now) const;
 
  private:
+  struct Place {
+    GnssPosition position;
+    Time at = kNever;
+  };
+  void watch_stand(const GnssPosition& position, Time at);
   bool went(Time now) const;
   bool turns_on(Time now) const;
   double speed_noise_mps() const;
@@ -72,6 +80,9 @@ class MotionWitness final {
   Time position_at_ = kNever;
   GnssPosition position_before_;
   Time position_before_at_ = kNever;
+  std::array<Place, 16> places_;  ///< a ring, a tenth of a second apart at least
+  std::size_t next_place_ = 0;
+  Time stood_at_ = kNever;
   double turn_radps_ = 0;  ///< smoothed
   Time turn_at_ = kNever;
   double commanded_turn_ = 0;  ///< its sign, before rest was expected

@@ -13,7 +13,7 @@ class PlaceWatch final {
  public:
   explicit PlaceWatch(const EstimateConfig& config) : config_(config) {}
 
-  /// `heard`: all wheels are.
+  /// `heard`: wheels are. One that stands is enough: a base does not go without it.
   void update(Time now, const Estimate& estimate, bool heard);
   /// Another origin: all places have other numbers.
   void forget() { known_ = false; }

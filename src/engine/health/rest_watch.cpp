@@ -22,105 +22,53 @@ constexpr double kBolts_mps = 0.5;  // over the limit, and over what the wheels 
 constexpr double kAlone_s = 1.0;    // a witness without another one
 constexpr double kSilent_s = 1.0;   // where nothing else can tell
 constexpr double kBegins_s = 2.5;   // a base that has its supply again, with a margin
+constexpr Duration kCaughtUntil = std::chrono::seconds(10);  // as long as drives are taken back
+constexpr double kFaster_mps = 0.3;
+constexpr double kSlower_mps = 0.05;
+constexpr double kRolled_m = 0.3;
 constexpr double kConfirm_s = 1.0;
+constexpr double kCreeps_m = 0.1;
+// Of the speed that it had: what is slower has braked.
+constexpr double kHasBraked = 0.5;
 constexpr double kDirection_m = 0.1;
-constexpr double kOnTheSpot = 0.25;  // what goes by less of its turn goes neither ahead nor back
 constexpr Duration kLookAgain = std::chrono::seconds(5);
 constexpr Duration kLookAgainAfterCut = std::chrono::seconds(2);
 
 }  // namespace
 
 RestWatch::RestWatch(const EngineConfig& config)
-    : config_(config),
-      base_(kinematics_of(config.base)),
-      driven_(joints_of(base_)),
-      witness_(config) {}
+    : config_(config), rims_(config), witness_(config) {}
 
 void RestWatch::expect_stop(Time now) {
   ours_ = true;
-  if (state_ == RestState::resting || state_ == RestState::rolling) {
-    state_ = RestState::settling;
-    due_ = now;
-  }
+  const bool rested =
+      state_ == RestState::resting || state_ == RestState::carried || state_ == RestState::rolling;
+  if (!rested) return;
+  state_ = RestState::settling;
+  due_ = now;
+  moves_since_ = alone_since_ = kNever;
 }
 
 void RestWatch::reset() {
   if (state_ != RestState::not_stopping) return;
   state_ = RestState::settling;
-  ours_ = keeps_on_ = false;  // what had no power begins anew
+  ours_ = false;  // what had no power begins anew
+  silence_.reset();
   quiet_since_ = moves_since_ = alone_since_ = kNever;
   reason_.clear();
 }
 
-RestWatch::Rims RestWatch::rims(const RestInput& input) const {
-  Rims rims;
-  Told told;
-  told.joints.resize(input.axes.size());
-  for (std::size_t i = 0; i < input.axes.size(); ++i) {
-    if (!driven_[i]) continue;
-    const AxisSnapshot& axis = input.axes[i];
-    const double mps = rim_mps(base_, axis.motion.velocity_radps);
-    const Duration stale = from_s(config_.health.drive_stale_s);
-    if (!tells_motion(axis, input.now, stale) || !std::isfinite(mps)) {
-      rims.silent = true;
-      continue;
-    }
-    if (axis.state == AxisState::running) rims.driven = true;
-    told.joints[i] = {axis.motion.velocity_radps, input.now};
-    if (std::abs(mps) > std::abs(rims.fastest_mps)) rims.fastest_mps = mps;
-  }
-  set_direction(rims, told, input.now);
-  return rims;
-}
-
-RestWatch::Rims RestWatch::asked(const RestInput& input) const {
-  Rims asked;
-  Told told;
-  told.joints.resize(input.axes.size());
-  for (std::size_t i = 0; i < input.axes.size(); ++i) {
-    if (!driven_[i]) continue;
-    told.joints[i] = {input.axes[i].commanded_velocity_radps, input.now};
-    const double mps = rim_mps(base_, input.axes[i].commanded_velocity_radps);
-    if (std::abs(mps) > std::abs(asked.fastest_mps)) asked.fastest_mps = mps;
-  }
-  set_direction(asked, told, input.now);
-  return asked;
-}
-
-/// Of what joints tell or are told; the edges of a base that takes a twist stand for its own word.
-BodyMotion RestWatch::motion_of(const Told& told, Time now) const {
-  if (!takes_twist(base_)) return body_motion(base_, told, now, Duration::zero());
-  BodyMotion body;
-  JointVelocities mps;
-  mps.resize(told.joints.size());
-  body.known = true;
-  for (std::size_t i = 0; i < told.joints.size(); ++i) {
-    if (!driven_[i]) continue;
-    body.known = body.known && told.joints[i].at == now;
-    mps[i] = told.joints[i].velocity_radps;
-  }
-  body.twist = twist_of_edges(base_, mps);
-  return body;
-}
-
-void RestWatch::set_direction(Rims& rims, const Told& told, Time now) const {
-  const BodyMotion body = motion_of(told, now);
-  if (!body.known) return;
-  const double goes_mps = fastest_mps(base_, {body.twist.vx_mps, 0});
-  const double turns_mps = fastest_mps(base_, {0, body.twist.wz_radps});
-  if (goes_mps > kOnTheSpot * turns_mps) rims.ahead = std::copysign(1.0, body.twist.vx_mps);
-  if (turns_mps > goes_mps) rims.turn = std::copysign(1.0, body.twist.wz_radps);
-}
-
 /// Whether the time that a ramp to zero needs is over.
 bool RestWatch::due(const RestInput& input) {
-  const Rims asked = this->asked(input);
+  const RimMotion asked = rims_.asked(input.axes, input.now);
   const double asked_mps = asked.fastest_mps;
   if (asked_mps != 0 && !input.caught) {
     ours_ = true;
     const bool told = asked.ahead != 0 || asked.turn != 0;  // the end of a ramp counts as standing
     direction_ = told ? asked.ahead : direction_;
     turn_ = told ? asked.turn : turn_;
+    if (state_ != RestState::driving && state_ != RestState::settling) drove_mps_ = 0;
+    drove_mps_ = std::max(drove_mps_, std::abs(asked_mps));
   }
   const double slower_mps =
       expected_mps_ - config_.limits.deceleration_mps2 * std::max(to_s(input.dt), 0.0);
@@ -133,6 +81,8 @@ bool RestWatch::due(const RestInput& input) {
     due_ = input.now;
     witness_.expect_rest(input.now, turn_);
     quiet_since_ = moves_since_ = alone_since_ = kNever;
+    creeps_since_ = ours_ ? input.now : kNever;
+    crept_m_ = 0;
   }
   return true;
 }
@@ -143,65 +93,117 @@ bool RestWatch::is_driven_by_us(const RestInput& input) const {
 }
 
 /// Whether taking the power helps: from what we drive, not from what would only roll faster.
-bool RestWatch::may_be_cut(const RestInput& input, const Rims& rims) const {
+bool RestWatch::may_be_cut(const RestInput& input, const RimMotion& rims) const {
   if (!is_driven_by_us(input)) return false;
   if (!may_roll_) return true;
   // Drives that do not run drive nothing: it rolls, and they are to catch it.
-  return rims.driven && input.now - moves_since_ >= from_s(kMotionHeldOnSlope_s) &&
+  const Time since = std::max(moves_since_, drives_on_since_);
+  return rims.driven && input.now - since >= from_s(kMotionHeldOnSlope_s) &&
          moves_as_commanded(input, rims);
 }
 
 /// Driven on, rather than rolling down where it stands. Only what shows it counts.
-bool RestWatch::moves_as_commanded(const RestInput& input, const Rims& rims) const {
-  if (std::abs(rims.fastest_mps) > kTurns_mps)
+bool RestWatch::moves_as_commanded(const RestInput& input, const RimMotion& rims) const {
+  if (witness_.stands(input.now)) return false;  // its encoders are frozen, then
+  if (std::abs(rims.fastest_mps) > kTurns_mps) {
+    if (input.stop_creeps && std::abs(rims.fastest_mps) < kHasBraked * drove_mps_) return false;
     return rims.fastest_mps * direction_ > 0 || rims.turn * turn_ > 0;
+  }
   if (witness_.spins_on(input.now)) return true;
   if (!std::isfinite(input.yaw_rad)) return false;
+  return ahead_m(input) * direction_ > kDirection_m;
+}
+
+/// By the receiver, since rest is due.
+double RestWatch::ahead_m(const RestInput& input) const {
   const PathPoint way = witness_.way(input.now);
-  const double ahead_m = way.x_m * std::cos(input.yaw_rad) + way.y_m * std::sin(input.yaw_rad);
-  return ahead_m * direction_ > kDirection_m;
+  return way.x_m * std::cos(input.yaw_rad) + way.y_m * std::sin(input.yaw_rad);
 }
 
 /// Before any rest is due. Not where it would only roll without power, and may slide down.
-bool RestWatch::bolts(const RestInput& input, const Rims& rims) const {
+bool RestWatch::bolts(const RestInput& input, const RimMotion& rims) const {
   if (!is_driven_by_us(input) || may_roll_ || !rims.driven) return false;
   const double explained_mps =
       std::max({config_.limits.max_speed_mps, expected_mps_, std::abs(rims.fastest_mps)});
   return witness_.proven_speed_mps(input.now) > explained_mps + kBolts_mps;
 }
 
+/// Too slow for anything else that watches: a base that no longer hears, near its goal. Where it is
+/// level, and only on from the last command: who pushes it later must not find it latched.
+bool RestWatch::creeps_on(const RestInput& input, const RimMotion& rims) {
+  if (creeps_since_ == kNever) return false;
+  const double since_s = to_s(input.now - creeps_since_) - kRestPatience_s;
+  if (since_s < 0) return false;
+  crept_m_ += rims.fastest_mps * std::max(to_s(input.dt), 0.0);
+  const bool stood = since_s > kConfirm_s && std::abs(crept_m_) < kStands_mps * since_s;
+  const bool held = rims.driven && !rims.silent && !input.power_is_off && !input.released;
+  if (stood || !held || may_roll_) creeps_since_ = kNever;
+  return creeps_since_ != kNever && std::abs(crept_m_) > kCreeps_m;
+}
+
+/// Its supply is away: faster than it was ever driven, or back.
+bool RestWatch::is_seen_to_roll(const RestInput& input) const {
+  if (witness_.speed_mps(input.now) > drove_mps_ + kFaster_mps) return true;
+  if (!std::isfinite(input.yaw_rad)) return false;
+  return ahead_m(input) * direction_ < -kRolled_m;
+}
+
 /// A silent base that keeps its last command, and was not at rest or is seen to move: witnesses see
 /// no slow motion, and some robots have none. On a slope it may as well have lost its supply, and
-/// be caught when it has it again: it is given the time to begin.
-bool RestWatch::cannot_be_stopped(const RestInput& input) const {
-  if (!unheard_ || !is_driven_by_us(input)) return false;
-  const Duration patience = from_s(on_slope_ ? kBegins_s : kSilent_s);
+/// be caught when it has it again: it is given the time to begin, and the longer one when it is
+/// seen to roll. What is seen to stand there must not be set in motion.
+bool RestWatch::cannot_be_stopped(const RestInput& input) {
+  spared_ = false;
+  if (!silence_.unheard() || !is_driven_by_us(input)) return false;
+  const bool stands = witness_.stands(input.now);
+  const bool may_begin = on_slope_ || stands || !silence_.ever_heard();
+  const Duration patience = from_s(may_begin ? kBegins_s : kSilent_s);
+  const Duration waited = input.now - due_;
+  if (waited < patience) return false;
+  spared_ = on_slope_ &&
+            (witness_.stands(input.now) || (is_seen_to_roll(input) && waited < kCaughtUntil));
   const bool seen = moves_since_ != kNever && input.now - moves_since_ >= patience;
-  return (keeps_on_ || seen) && input.now - due_ >= patience;
+  return (silence_.keeps_on() || seen) && !spared_;
 }
 
-void RestWatch::watch_silence(const RestInput& input, const Rims& rims) {
+void RestWatch::watch_silence(const RestInput& input, const RimMotion& rims) {
   const bool stop_asked = std::exchange(stop_asked_, false);
-  const bool was_unheard = std::exchange(unheard_, input.drives_on_in_silence && rims.silent);
-  heard_ = heard_ || !rims.silent;
+  // Wheels that are heard tell of those that are not, or gyro and receiver do.
+  const bool silent = input.drives_on_in_silence && !rims.heard && rims.silent &&
+                      !input.power_is_off && !input.released;
+  const bool stop_now = silence_.update({.now = input.now,
+                                         .silent = silent,
+                                         .found_powered = input.found_powered,
+                                         .stop_asked = stop_asked,
+                                         .rests = state_ == RestState::resting,
+                                         .slope = input.rolls_unpowered,
+                                         .fastest_mps = rims.fastest_mps,
+                                         .asked = expected_mps_ > 0});
   // A relay that this program has closed feeds a base that has forgotten everything.
-  if (unheard_ && (heard_ || input.found_powered)) ours_ = true;
-  if (stop_asked && (rims.driven || unheard_)) expect_stop(input.now);
-  if (stop_asked && unheard_) keeps_on_ = true;
-  if (unheard_) return;
-  keeps_on_ = expected_mps_ > 0 || std::abs(rims.fastest_mps) > kTurns_mps;
-  if (!was_unheard) return;
-  // It is heard again, and has the time for a ramp from what it has.
+  if (silence_.has_a_command()) ours_ = true;
+  if (stop_now || (stop_asked && !silent && rims.driven)) expect_stop(input.now);
+  if (!silence_.is_back()) return;
   expected_mps_ = std::max(expected_mps_, std::abs(rims.fastest_mps));
-  moves_since_ = kNever;
+  moves_since_ = quiet_since_ = kNever;
 }
 
-void RestWatch::watch_wheels(const Rims& rims, Time now) {
+void RestWatch::watch_wheels(const RimMotion& rims, Time now) {
   turning_ = std::abs(rims.fastest_mps) > kTurns_mps;
   const bool swings = turning_ && rims.fastest_mps * rim_mps_ < 0;
   if (!turning_ || swings) turns_since_ = kNever;
   if (turning_ && turns_since_ == kNever) turns_since_ = now;
   rim_mps_ = rims.fastest_mps;
+}
+
+/// What rolled while no drive ran is given the time in which it gets slower.
+void RestWatch::watch_braking(const RimMotion& rims, bool is_due, Time now) {
+  const double mps = std::abs(rims.fastest_mps);
+  if (!rims.driven) {
+    drives_on_since_ = kNever;
+  } else if (drives_on_since_ == kNever || !is_due || mps < slowest_mps_ - kSlower_mps) {
+    drives_on_since_ = now;
+    slowest_mps_ = mps;
+  }
 }
 
 bool RestWatch::rolls(Time now) const {
@@ -211,13 +213,18 @@ bool RestWatch::rolls(Time now) const {
 Reason RestWatch::turns_by_itself() const {
   Reason why;
   if (turning_ && !ours_) {
-    why.format("the robot rolls without a command: %s %.2f m/s", words_of(base_).turn_by, rim_mps_);
+    why.format("the robot rolls without a command: %s %.2f m/s", words_of(rims_.base()).turn_by,
+               rim_mps_);
   }
   return why;
 }
 
-bool RestWatch::others_say_so(const Testimony& said, Time now) {
-  const bool alone = said.moving == 1 && said.heard == 1;
+bool RestWatch::others_say_so(const RestInput& input, const RimMotion& rims,
+                              const Testimony& said) {
+  const Time now = input.now;
+  // A wheel of several that is not heard turns the base: the gyro alone sees it.
+  const bool part = input.drives_on_in_silence && rims.heard && rims.silent;
+  const bool alone = said.moving == 1 && (said.heard == 1 || part);
   if (!alone) {
     alone_since_ = kNever;
   } else if (alone_since_ == kNever) {
@@ -226,23 +233,23 @@ bool RestWatch::others_say_so(const Testimony& said, Time now) {
   return said.moving >= 2 || (alone && now - alone_since_ >= from_s(kAlone_s));
 }
 
-void RestWatch::tell(const char* what, const Rims& rims, const Testimony& said) {
+void RestWatch::tell(const char* what, const RimMotion& rims, const Testimony& said) {
   const std::string_view others = said.in_words;
   const auto size = static_cast<int>(others.size());
   if (std::abs(rims.fastest_mps) > kTurns_mps) {
-    reason_.format("%s: %s %.2f m/s%s%.*s", what, words_of(base_).turn_by, rims.fastest_mps,
+    reason_.format("%s: %s %.2f m/s%s%.*s", what, words_of(rims_.base()).turn_by, rims.fastest_mps,
                    others.empty() ? "" : ", ", size, others.data());
   } else {
-    const BaseWords& words = words_of(base_);
+    const BaseWords& words = words_of(rims_.base());
     const char* quiet = rims.silent ? words.are_silent : words.tell_rest;
     reason_.format("%s: %s%s%.*s", what, quiet, others.empty() ? "" : ", but ", size,
                    others.data());
   }
 }
 
-void RestWatch::settle(const RestInput& input, const Rims& rims, const Testimony& said) {
+void RestWatch::settle(const RestInput& input, const RimMotion& rims, const Testimony& said) {
   state_ = RestState::settling;
-  const bool others = others_say_so(said, input.now);
+  const bool others = others_say_so(input, rims, said);
   const bool moves = others || turning_;
   if (!moves) moves_since_ = kNever;
   if (moves && moves_since_ == kNever) moves_since_ = input.now;
@@ -269,8 +276,8 @@ void RestWatch::settle(const RestInput& input, const Rims& rims, const Testimony
   }
 }
 
-void RestWatch::stay(const RestInput& input, const Rims& rims, const Testimony& said) {
-  if (others_say_so(said, input.now) || rolls(input.now)) {
+void RestWatch::stay(const RestInput& input, const RimMotion& rims, const Testimony& said) {
+  if (others_say_so(input, rims, said) || rolls(input.now)) {
     state_ = turning_ ? RestState::rolling : RestState::carried;
     tell(turning_ ? "the robot rolls without a command" : "the robot is pushed or carried", rims,
          said);
@@ -280,9 +287,12 @@ void RestWatch::stay(const RestInput& input, const Rims& rims, const Testimony& 
   }
   if (turning_) quiet_since_ = kNever;
   if (quiet_since_ == kNever) quiet_since_ = input.now;
-  if (state_ != RestState::resting && input.now - quiet_since_ < from_s(kConfirm_s)) return;
+  const bool quiet = input.now - quiet_since_ >= from_s(kConfirm_s);
+  if (state_ != RestState::resting && !quiet) return;
   state_ = RestState::resting;
   reason_.clear();
+  if (quiet && !silence_.unheard())
+    ours_ = false;  // it was silent for a moment, and stood all the same
   // A receiver's position wanders over the hours.
   if (input.now - due_ > kLookAgain) {
     due_ = input.now;
@@ -292,14 +302,20 @@ void RestWatch::stay(const RestInput& input, const Rims& rims, const Testimony& 
 
 RestState RestWatch::update(const RestInput& input) {
   if (input.released) ours_ = false;  // who lets go of the drives is going to push
-  const Rims rims = this->rims(input);
+  RimMotion rims = rims_.told(input.axes, input.now);
+  // Its drives may refuse us and turn all the same.
+  rims.driven = rims.driven || (input.foreign && rims.heard);
+  hears_wheels_ = rims.heard;
   watch_silence(input, rims);
   watch_wheels(rims, input.now);
   const bool is_due = due(input);
+  watch_braking(rims, is_due, input.now);
   // What began to roll on a slope still rolls where the ground is level again.
   const bool goes_on = is_due && state_ != RestState::resting;
   on_slope_ = input.rolls_unpowered || (on_slope_ && goes_on);
-  may_roll_ = on_slope_ || input.caught || (may_roll_ && goes_on);
+  // Taken back, too, is a drive of several that is silent: only wheels that turn are caught.
+  const bool caught = input.caught && !input.foreign && (turning_ || !rims.heard);
+  may_roll_ = on_slope_ || caught || (may_roll_ && goes_on && !input.foreign);
   if (state_ == RestState::not_stopping) {
     // What it rolled until it came to rest is no motion any more.
     if (due_ == kNever || input.now - due_ > kLookAgainAfterCut) {
@@ -308,9 +324,10 @@ RestState RestWatch::update(const RestInput& input) {
     }
     return state_;
   }
-  if (bolts(input, rims)) {
+  const bool creeps = is_due && creeps_on(input, rims);
+  if (creeps || bolts(input, rims)) {
     state_ = RestState::not_stopping;
-    tell("the robot runs away", rims, witness_.hear(input.now));
+    tell(creeps ? "the robot did not stop" : "the robot runs away", rims, witness_.hear(input.now));
   } else if (!is_due) {
     state_ = RestState::driving;
     reason_.clear();

@@ -5,9 +5,10 @@
 #include <span>
 
 #include "drover/snapshot.h"
-#include "engine/base/kinematics.h"
 #include "engine/config.h"
 #include "engine/health/motion_witness.h"
+#include "engine/health/rim_motion.h"
+#include "engine/health/silent_base.h"
 
 namespace drover::engine {
 
@@ -21,7 +22,9 @@ struct RestInput {
   /// Drives that had let go are being taken back: their commands follow a roll, nobody drives.
   bool caught = false;
   bool drives_on_in_silence = false;  ///< a drive that says nothing keeps its last command
+  bool stop_creeps = false;           ///< told to stand it only brakes, on a slope
   bool found_powered = false;         ///< it may have one of the program before this one
+  bool foreign = false;               ///< somebody else commands the drives
   double yaw_rad = kAbsent;           ///< of the base, as far as it is known
 };
 
@@ -40,10 +43,11 @@ enum class RestState : std::uint8_t {
 /// commanded is told. What still moves 0.3 s later is cut: wheels that turn, or two witnesses
 /// besides wheels that say nothing of it (their encoders may be frozen). After a second of
 /// confirmed rest, or when a person released the drives, no motion is ours any more: nothing is cut
-/// then, since who pushes the robot or carries it away must not find it latched. Where it would
-/// only roll without power, or rolls and is being caught, it is cut when a drive in closed loop
-/// moves it the way that it was driven, or turns it on the spot so, and not when it rolls back, or
-/// when no drive runs.
+/// then, since who pushes the robot or carries it away must not find it latched, unless a person
+/// asks for a stop while it moves. Where it would only roll without power, or rolls and is being
+/// caught, it is cut when a drive in closed loop moves it the way that it was driven, or turns it
+/// on the spot so, and not when it rolls back, when no drive runs, or when it is slow where drives
+/// creep. On level ground it is cut, too, when it creeps on by itself from its last command.
 class RestWatch final {
  public:
   explicit RestWatch(const EngineConfig& config);
@@ -56,11 +60,12 @@ class RestWatch final {
   /// Sign in which it was driven last; 0 before.
   double direction() const { return direction_; }
   /// What is silent may go on by a command that it has: nothing but its power stops it.
-  bool may_drive_on() const { return unheard_ && ours_; }
+  bool may_drive_on() const { return silence_.unheard() && ours_; }
   /// And it was not at rest when it fell silent, or nobody knows.
-  bool drives_on() const { return may_drive_on() && keeps_on_; }
+  bool drives_on() const { return may_drive_on() && silence_.keeps_on() && !spared_; }
   /// Anything says that the base moves now.
   bool moves(Time now) const { return turning_ || witness_.hear(now).moving > 0; }
+  bool hears_wheels() const { return hears_wheels_; }
   /// What is wrong, in words; empty when nothing is.
   const Reason& reason() const { return reason_; }
   /// A wheel turns now and nobody drove it, be it only an arming drive's swing: no moment to start.
@@ -73,52 +78,49 @@ class RestWatch final {
   void reset();
 
  private:
-  struct Rims {
-    double fastest_mps = 0;  ///< of those that are heard, with its sign
-    double ahead = 0;        ///< sign of the way of the base; 0: it turns on the spot
-    double turn = 0;         ///< of its turn, left positive; 0: it goes more than it turns
-    bool silent = false;     ///< at least one is not heard
-    bool driven = false;     ///< at least one is heard in closed loop
-  };
-  Rims rims(const RestInput& input) const;
-  Rims asked(const RestInput& input) const;
-  BodyMotion motion_of(const Told& told, Time now) const;
-  void set_direction(Rims& rims, const Told& told, Time now) const;
   bool due(const RestInput& input);
-  void watch_wheels(const Rims& rims, Time now);
+  void watch_wheels(const RimMotion& rims, Time now);
+  void watch_braking(const RimMotion& rims, bool is_due, Time now);
   bool rolls(Time now) const;
-  bool bolts(const RestInput& input, const Rims& rims) const;
-  bool cannot_be_stopped(const RestInput& input) const;
-  void watch_silence(const RestInput& input, const Rims& rims);
+  bool bolts(const RestInput& input, const RimMotion& rims) const;
+  bool creeps_on(const RestInput& input, const RimMotion& rims);
+  bool cannot_be_stopped(const RestInput& input);
+  double ahead_m(const RestInput& input) const;
+  bool is_seen_to_roll(const RestInput& input) const;
+  void watch_silence(const RestInput& input, const RimMotion& rims);
   bool is_driven_by_us(const RestInput& input) const;
-  bool may_be_cut(const RestInput& input, const Rims& rims) const;
-  bool moves_as_commanded(const RestInput& input, const Rims& rims) const;
-  void settle(const RestInput& input, const Rims& rims, const Testimony& said);
-  void stay(const RestInput& input, const Rims& rims, const Testimony& said);
-  bool others_say_so(const Testimony& said, Time now);
-  void tell(const char* what, const Rims& rims, const Testimony& said);
+  bool may_be_cut(const RestInput& input, const RimMotion& rims) const;
+  bool moves_as_commanded(const RestInput& input, const RimMotion& rims) const;
+  void settle(const RestInput& input, const RimMotion& rims, const Testimony& said);
+  void stay(const RestInput& input, const RimMotion& rims, const Testimony& said);
+  bool others_say_so(const RestInput& input, const RimMotion& rims, const Testimony& said);
+  void tell(const char* what, const RimMotion& rims, const Testimony& said);
 
   EngineConfig config_;
-  Kinematics base_;
-  JointSet driven_;
+  RimReader rims_;
   MotionWitness witness_;
+  SilentBase silence_;
   RestState state_ = RestState::settling;
   Reason reason_;
-  bool stop_asked_ = false;    ///< since the last cycle
-  bool heard_ = false;         ///< the base, since this program began
-  bool unheard_ = false;       ///< now, and it keeps its last command
-  bool keeps_on_ = false;      ///< that command may be one that moves it
-  bool ours_ = false;          ///< we moved it since it rested last
-  double direction_ = 0;       ///< Rims::ahead of the last command of one who drove
-  double turn_ = 0;            ///< Rims::turn of it
-  bool on_slope_ = false;      ///< it could roll without power, since rest is due
-  bool may_roll_ = false;      ///< it could without power, or was caught, since rest is due
-  bool turning_ = false;       ///< the wheels, in the last cycle
-  double rim_mps_ = 0;         ///< the fastest, then
-  Time turns_since_ = kNever;  ///< in this direction
-  double expected_mps_ = 0;    ///< how fast it may still be
-  Time due_ = kNever;          ///< since when it should rest
+  bool stop_asked_ = false;  ///< since the last cycle
+  bool ours_ = false;        ///< we moved it since it rested last
+  double direction_ = 0;     ///< RimMotion::ahead of the last command of one who drove
+  double turn_ = 0;          ///< RimMotion::turn of it
+  double drove_mps_ = 0;     ///< the fastest that was asked of a rim, since it rested last before
+  double crept_m_ = 0;       ///< the way of the fastest rim since it should rest
+  Time creeps_since_ = kNever;  ///< since when it should rest from a command of ours
+  bool on_slope_ = false;       ///< it could roll without power, since rest is due
+  bool may_roll_ = false;       ///< it could without power, or was caught, since rest is due
+  bool hears_wheels_ = false;  ///< at least one, in the last cycle
+  bool spared_ = false;         ///< silent on a slope: it stands, or rolls and may be caught yet
+  bool turning_ = false;        ///< the wheels, in the last cycle
+  double rim_mps_ = 0;          ///< the fastest, then
+  Time turns_since_ = kNever;   ///< in this direction
+  double expected_mps_ = 0;     ///< how fast it may still be
+  Time due_ = kNever;           ///< since when it should rest
   Time moves_since_ = kNever;
+  Time drives_on_since_ = kNever;  ///< in closed loop, and gets no slower
+  double slowest_mps_ = 0;
   Time alone_since_ = kNever;
   Time quiet_since_ = kNever;
 };

@@ -134,6 +134,59 @@ TEST_F(ARobotThatShouldRest, LosesItsPowerWhenAPersonStopsWhatSomebodyElseDrives
   EXPECT_TRUE(cut_within_s(2)) << rig.why();
 }
 
+TEST_F(ARobotThatShouldRest, LosesItsPowerWhenAPersonStopsWhatItsFrozenEncodersDoNotShow) {
+  drive();
+  rig.command(CancelTask{});
+  rest_s(5);
+  freeze_encoders();
+  rig.disobeys = kStraight;
+  rest_s(3);
+  EXPECT_THAT(told(), HasSubstr("pushed or carried"));
+  rig.command(EngageStop{});
+  EXPECT_TRUE(cut_within_s(2)) << rig.why();
+}
+
+/// Drives without a time-out of their own: the one that is silent might go on, and is seen not to.
+TEST_F(ARobotThatShouldRest, IsNotCutWhenOneDriveOfFourIsSilentAndTheOthersHoldIt) {
+  rig.environment.drives_on_in_silence = true;
+  drive();
+  rig.drives[0].silent = true;
+  rest_s(10);
+  EXPECT_EQ(rig.fastest_command_radps(), 0);
+  rig.command(EngageStop{});
+  rest_s(10);
+}
+
+TEST_F(ARobotThatShouldRest, LosesItsPowerWhenOneDriveIsSilentAndTheRobotTurns) {
+  rig.environment.drives_on_in_silence = true;
+  drive();
+  for (auto& drive : rig.drives) drive.stuck = true;
+  rig.drives[0].silent = true;
+  rig.disobeys = WheelSpeeds{1, -1};
+  EXPECT_TRUE(cut_within_s(4)) << rig.why();
+}
+
+/// Its drives refuse us since another program commands them.
+TEST_F(ARobotThatShouldRest, LosesItsPowerWhenAnotherProgramDrivesIt) {
+  drive();
+  rig.environment.foreign = "somebody else commands front_left";
+  for (auto& drive : rig.drives) drive.fault = true;
+  rig.disobeys = kStraight;
+  EXPECT_TRUE(cut_within_s(4)) << rig.why();
+}
+
+TEST_F(ARobotThatShouldRest, LosesItsPowerWhenAPersonStopsWhatAnotherProgramDrives) {
+  drive();
+  rig.command(CancelTask{});
+  rest_s(5);
+  rig.environment.foreign = "somebody else commands front_left";
+  for (auto& drive : rig.drives) drive.fault = true;
+  rig.disobeys = WheelSpeeds{-2, -2};
+  rest_s(3);
+  rig.command(EngageStop{});
+  EXPECT_TRUE(cut_within_s(3)) << rig.why();
+}
+
 TEST_F(ARobotThatShouldRest, IsNotCutForWheelsThatSlipAtAllowedSpeeds) {
   drive();
   freeze_encoders();

@@ -131,6 +131,8 @@ class EngineRig {
   double pitch_radps = 0;  ///< nose down positive
   /// The base moves so, whatever the drives are asked, while they have power.
   std::optional<WheelSpeeds> disobeys;
+  /// A base that takes a twist tells this speed, whatever it does.
+  std::optional<double> tells_mps;
   /// The base is moved so, with power or without.
   std::optional<WheelSpeeds> carried;
   /// What is built otherwise than configured.
@@ -194,7 +196,9 @@ class EngineRig {
     environment.axes[0].state = device.silent ? SourceState::stale : SourceState::fresh;
     if (device.silent) return;
     const Pose seen = plant.estimate();
-    measure(now, BodyMotion{.twist = {seen.vx_mps, seen.wz_radps}, .known = true});
+    Twist told = device.stuck ? Twist{} : Twist{seen.vx_mps, seen.wz_radps};
+    if (tells_mps) told.vx_mps = *tells_mps;
+    measure(now, BodyMotion{.twist = told, .known = true});
     measure(now, AxisStatus{0, device.state, 0,
                             device.fault ? Reason("over temperature") : Reason(), device.lapsed});
   }

@@ -37,6 +37,12 @@ class ABaseThatTakesATwist : public ::testing::Test {
     return rig.out.base.twist.vx_mps == 0 && rig.out.base.twist.wz_radps == 0;
   }
 
+  std::string told() const {
+    std::string all;
+    for (const Reason& why : rig.snapshot().why) all += std::string(why.view()) + "; ";
+    return all;
+  }
+
   Path path = straight_path(6);
   std::uint32_t path_end = 12;
   EngineRig rig;
@@ -136,6 +142,49 @@ TEST_F(ABaseThatTakesATwist, KeepsItsPowerWhenItFallsSilentAtRestUntilAPersonSto
   EXPECT_FALSE(has_power());
 }
 
+/// The witnesses say so before anybody presses the stop.
+TEST_F(ABaseThatTakesATwist, LosesItsPowerWhenAPersonStopsItWhileItDrivesByItselfAndIsSilent) {
+  rig.environment.drives_on_in_silence = rig.tells_speed = true;
+  drive();
+  rig.command(CancelTask{});
+  rig.run_s(4);
+  rig.drives[0].silent = true;
+  rig.run_s(1);
+  rig.disobeys = WheelSpeeds{2, 2};
+  rig.run_s(3);
+  ASSERT_THAT(told(), HasSubstr("pushed or carried"));
+  ASSERT_TRUE(has_power());
+  rig.command(EngageStop{});
+  rig.run_s(3);
+  EXPECT_FALSE(has_power());
+}
+
+TEST_F(ABaseThatTakesATwist, IsNotCutWhenItIsCarriedAfterAMomentOfSilence) {
+  rig.environment.drives_on_in_silence = rig.tells_speed = true;
+  drive();
+  rig.command(CancelTask{});
+  rig.run_s(4);
+  rig.drives[0].silent = true;
+  rig.run_s(0.2);
+  rig.drives[0].silent = false;
+  rig.run_s(2);
+  rig.disobeys = WheelSpeeds{15, 15};  // 2.5 m/s
+  rig.drives[0].stuck = true;
+  rig.run_s(3);
+  EXPECT_THAT(told(), HasSubstr("pushed or carried"));
+  EXPECT_TRUE(has_power());
+}
+
+/// It hears no more, in the last centimetres before a goal.
+TEST_F(ABaseThatTakesATwist, LosesItsPowerWhenItCreepsOnThoughItShouldStand) {
+  drive();
+  rig.command(CancelTask{});
+  rig.disobeys = WheelSpeeds{0.25, 0.25};  // 0.04 m/s
+  rig.run_s(8);
+  EXPECT_THAT(rig.why(), HasSubstr("did not stop"));
+  EXPECT_FALSE(has_power());
+}
+
 /// It was without power: its last command is forgotten, and it takes a while to begin.
 TEST_F(ABaseThatTakesATwist, HasItsPowerAgainAfterAResetThoughItIsStillSilent) {
   rig.environment.drives_on_in_silence = true;
@@ -155,9 +204,27 @@ TEST_F(ABaseThatTakesATwist, LosesItsPowerWhenItIsFoundSilentAndMoving) {
   rig.drives[0].silent = true;
   rig.disobeys = WheelSpeeds{2, 2};
   rig.run_s(5);
-  std::string told;
-  for (const Reason& why : rig.snapshot().why) told += std::string(why.view()) + "; ";
-  EXPECT_THAT(told, HasSubstr("the robot did not stop: the base is silent"));
+  EXPECT_THAT(told(), HasSubstr("the robot did not stop: the base is silent"));
+  EXPECT_FALSE(has_power());
+}
+
+/// Slow, and no fix: nobody sees it move.
+TEST_F(ABaseThatTakesATwist, LosesItsPowerWhenItIsFoundSilentWithARelayThatWasKeptClosed) {
+  rig.environment.drives_on_in_silence = rig.environment.relay_found_closed = true;
+  rig.drives[0].silent = true;
+  rig.run_s(5);
+  EXPECT_FALSE(has_power());
+}
+
+TEST_F(ABaseThatTakesATwist, LosesItsPowerWhenItDrivesOnThoughItsContactFlickers) {
+  rig.environment.drives_on_in_silence = true;
+  drive();
+  rig.command(CancelTask{});
+  rig.disobeys = WheelSpeeds{3, 3};
+  for (int i = 0; i < 6; ++i) {
+    rig.drives[0].silent = i % 2 == 0;
+    rig.run_s(0.5);
+  }
   EXPECT_FALSE(has_power());
 }
 
@@ -225,6 +292,108 @@ TEST_F(ABaseThatTakesATwistOnASlope, KeepsItsPowerWhenItIsSilentUntilItHasItsSup
   rig.drives[0].silent = false;
   rig.drives[0].state = AxisState::idle;
   rig.run_s(0.5);
+  rig.disobeys.reset();
+  rig.run_s(5);
+  EXPECT_TRUE(has_power()) << rig.why();
+}
+
+/// Only its own brake holds it there: a stop must not set in motion what stands.
+TEST_F(ABaseThatTakesATwistOnASlope, KeepsItsPowerWhenItFallsSilentAtRestAndAPersonStopsIt) {
+  rig.environment.drives_on_in_silence = rig.tells_speed = true;
+  drive();
+  tilt();
+  rig.run_s(5);
+  rig.drives[0].silent = true;
+  rig.run_s(3);
+  rig.command(EngageStop{});
+  rig.run_s(10);
+  EXPECT_TRUE(has_power()) << rig.why();
+  rig.disobeys = WheelSpeeds{3, 3};
+  rig.run_s(6);
+  EXPECT_FALSE(has_power()) << "it stood, and drives now";
+}
+
+TEST_F(ABaseThatTakesATwistOnASlope, KeepsItsPowerWhenItBrakesAndCreeps) {
+  rig.environment.stop_creeps = true;
+  drive();
+  tilt();
+  rig.run_s(0.8);
+  rig.disobeys = WheelSpeeds{0.6, 0.6};  // 0.1 m/s
+  rig.run_s(20);
+  EXPECT_TRUE(has_power()) << rig.why();
+  EXPECT_THAT(told(), HasSubstr("moves without a command"));
+}
+
+TEST_F(ABaseThatTakesATwistOnASlope, LosesItsPowerWhenItDoesNotBrake) {
+  rig.environment.stop_creeps = true;
+  drive();
+  tilt();
+  rig.run_s(0.3);
+  rig.disobeys = WheelSpeeds{2, 2};
+  rig.run_s(4);
+  EXPECT_FALSE(has_power()) << rig.why();
+}
+
+/// It hears and brakes, and only its answers are lost: the receiver sees that it stands.
+TEST_F(ABaseThatTakesATwistOnASlope, KeepsItsPowerWhenItFallsSilentAndIsSeenToStand) {
+  rig.environment.drives_on_in_silence = rig.tells_speed = true;
+  drive();
+  tilt();
+  rig.run_s(0.2);
+  rig.drives[0].silent = true;
+  rig.run_s(20);
+  EXPECT_TRUE(has_power()) << rig.why();
+}
+
+TEST_F(ABaseThatTakesATwistOnASlope, LosesItsPowerWhenItFallsSilentAndDrivesOn) {
+  rig.environment.drives_on_in_silence = rig.tells_speed = true;
+  drive();
+  tilt();
+  rig.run_s(0.2);
+  rig.drives[0].silent = true;
+  rig.disobeys = WheelSpeeds{0.6, 0.6};  // 0.1 m/s
+  rig.run_s(5);
+  EXPECT_FALSE(has_power()) << rig.why();
+}
+
+/// Its computer begins again, which may take longer than a second or two: it rolls meanwhile.
+TEST_F(ABaseThatTakesATwistOnASlope, KeepsItsPowerForTenSecondsWhileItIsSilentAndRolls) {
+  rig.environment.drives_on_in_silence = rig.tells_speed = true;
+  drive();
+  tilt();
+  rig.run_s(0.2);
+  rig.drives[0].silent = true;
+  rig.disobeys = WheelSpeeds{7, 7};  // 1.2 m/s
+  rig.run_s(7);
+  EXPECT_TRUE(has_power()) << rig.why();
+  rig.run_s(6);
+  EXPECT_FALSE(has_power()) << "nobody will catch it any more";
+}
+
+TEST_F(ABaseThatTakesATwistOnASlope, KeepsItsPowerWhenItsSpeedIsFrozenAndItIsSeenToStand) {
+  rig.tells_speed = true;
+  drive();
+  tilt();
+  rig.run_s(0.1);
+  rig.disobeys = WheelSpeeds{0, 0};
+  rig.tells_mps = 0.5;
+  rig.run_s(10);
+  EXPECT_TRUE(has_power()) << rig.why();
+}
+
+/// Its own button let it roll, and was let go: it brakes from then on.
+TEST_F(ABaseThatTakesATwistOnASlope, KeepsItsPowerWhenItRolledWithoutADriveAndBrakesNow) {
+  rig.tells_speed = true;
+  drive();
+  tilt();
+  rig.run_s(0.1);
+  rig.drives[0].fault = true;
+  rig.drives[0].state = AxisState::fault;
+  rig.disobeys = WheelSpeeds{6, 6};
+  rig.run_s(1.5);
+  rig.drives[0].fault = false;
+  rig.drives[0].state = AxisState::running;
+  rig.run_s(0.3);
   rig.disobeys.reset();
   rig.run_s(5);
   EXPECT_TRUE(has_power()) << rig.why();
