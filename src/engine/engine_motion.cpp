@@ -56,7 +56,6 @@ Reason Engine::Impl::judge_motion(Time now, Duration dt, const LineTable& lines,
   input.drives_on_in_silence = environment.drives_on_in_silence;
   input.stop_creeps = environment.stop_creeps;
   input.found_powered = environment.relay_found_closed;
-  input.foreign = !environment.foreign.empty();
   input.caught = arming.state() == HoldState::catching;
   if (estimate.has_heading) input.yaw_rad = estimate.pose.yaw_rad;
   const RestState state = rest.update(input);

@@ -152,7 +152,7 @@ link::Opened<link::OutputLink> LinkKeeper::open_outputs() {
   const auto& outputs = config_.outputs;
   const int place = relay_place(outputs);
   link::UniqueFd kept;
-  if (place >= 0) kept = guard_.borrow(relay_name(outputs));
+  if (place >= 0 && guard_.reach()) kept = guard_.borrow(relay_name(outputs));
   auto opened = link::open_outputs({outputs.chip, output_lines(outputs), place}, std::move(kept));
   relay_given_ = false;
   if (opened.link && opened.link->shared_fd() >= 0)

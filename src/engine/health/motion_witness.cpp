@@ -103,7 +103,13 @@ void MotionWitness::watch_stand(const GnssPosition& position, Time at) {
 }
 
 bool MotionWitness::stands(Time now) const {
-  return stood_at_ != kNever && now - stood_at_ <= kStoodLately;
+  const bool turns = fresh(turn_at_, now) && std::abs(turn_radps_) > kTurning_radps;
+  return !turns && stood_at_ != kNever && now - stood_at_ <= kStoodLately;
+}
+
+bool MotionWitness::is_slower(double speed_mps, Time now) const {
+  const bool fixed = position_.quality == FixQuality::rtk_fixed && fresh(position_at_, now);
+  return fixed && fresh(speed_at_, now) && speed_mps_ < speed_mps;
 }
 
 void MotionWitness::on_turn(double turn_radps, Time at) {

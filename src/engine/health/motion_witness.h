@@ -52,8 +52,10 @@ class MotionWitness final {
   /// anywhere: who rolls away does.
   bool spins_on(Time now) const;
   /// A receiver with an RTK fix showed a moment ago that it stood for a second: neither speed nor
-  /// way. What goes slower than 6 cm/s does not show.
+  /// way; and the gyro shows no turn. What goes slower than 6 cm/s does not show.
   bool stands(Time now) const;
+  /// A receiver with an RTK fix says that it is slower than this, m/s.
+  bool is_slower(double speed_mps, Time now) const;
 
  private:
   struct Place {

@@ -25,6 +25,7 @@ constexpr double kBegins_s = 2.5;   // a base that has its supply again, with a 
 constexpr Duration kCaughtUntil = std::chrono::seconds(10);  // as long as drives are taken back
 constexpr double kFaster_mps = 0.3;
 constexpr double kSlower_mps = 0.05;
+constexpr double kSteady_s = 1.0;
 constexpr double kRolled_m = 0.3;
 constexpr double kConfirm_s = 1.0;
 constexpr double kCreeps_m = 0.1;
@@ -96,6 +97,8 @@ bool RestWatch::is_driven_by_us(const RestInput& input) const {
 bool RestWatch::may_be_cut(const RestInput& input, const RimMotion& rims) const {
   if (!is_driven_by_us(input)) return false;
   if (!may_roll_) return true;
+  // Caught on level ground it gets slower: what does not is driven, by another program say.
+  if (!on_slope_) return input.now - std::max(moves_since_, steady_since_) >= from_s(kSteady_s);
   // Drives that do not run drive nothing: it rolls, and they are to catch it.
   const Time since = std::max(moves_since_, drives_on_since_);
   return rims.driven && input.now - since >= from_s(kMotionHeldOnSlope_s) &&
@@ -104,14 +107,17 @@ bool RestWatch::may_be_cut(const RestInput& input, const RimMotion& rims) const 
 
 /// Driven on, rather than rolling down where it stands. Only what shows it counts.
 bool RestWatch::moves_as_commanded(const RestInput& input, const RimMotion& rims) const {
-  if (witness_.stands(input.now)) return false;  // its encoders are frozen, then
-  if (std::abs(rims.fastest_mps) > kTurns_mps) {
+  const bool turns = std::abs(rims.fastest_mps) > kTurns_mps;
+  if (!turns && witness_.spins_on(input.now)) return true;
+  // Frozen encoders may tell the last speed for ever.
+  const double half_mps = kHasBraked * std::abs(rims.fastest_mps);
+  const bool goes = rims.ahead != 0 || !turns;
+  if (goes && (witness_.stands(input.now) || witness_.is_slower(half_mps, input.now))) return false;
+  if (turns) {
     if (input.stop_creeps && std::abs(rims.fastest_mps) < kHasBraked * drove_mps_) return false;
     return rims.fastest_mps * direction_ > 0 || rims.turn * turn_ > 0;
   }
-  if (witness_.spins_on(input.now)) return true;
-  if (!std::isfinite(input.yaw_rad)) return false;
-  return ahead_m(input) * direction_ > kDirection_m;
+  return std::isfinite(input.yaw_rad) && ahead_m(input) * direction_ > kDirection_m;
 }
 
 /// By the receiver, since rest is due.
@@ -173,6 +179,7 @@ void RestWatch::watch_silence(const RestInput& input, const RimMotion& rims) {
                       !input.power_is_off && !input.released;
   const bool stop_now = silence_.update({.now = input.now,
                                          .silent = silent,
+                                         .heard = rims.heard,
                                          .found_powered = input.found_powered,
                                          .stop_asked = stop_asked,
                                          .rests = state_ == RestState::resting,
@@ -181,7 +188,7 @@ void RestWatch::watch_silence(const RestInput& input, const RimMotion& rims) {
                                          .asked = expected_mps_ > 0});
   // A relay that this program has closed feeds a base that has forgotten everything.
   if (silence_.has_a_command()) ours_ = true;
-  if (stop_now || (stop_asked && !silent && rims.driven)) expect_stop(input.now);
+  if (stop_now || (stop_asked && !silent && (rims.driven || turning_))) expect_stop(input.now);
   if (!silence_.is_back()) return;
   expected_mps_ = std::max(expected_mps_, std::abs(rims.fastest_mps));
   moves_since_ = quiet_since_ = kNever;
@@ -198,12 +205,12 @@ void RestWatch::watch_wheels(const RimMotion& rims, Time now) {
 /// What rolled while no drive ran is given the time in which it gets slower.
 void RestWatch::watch_braking(const RimMotion& rims, bool is_due, Time now) {
   const double mps = std::abs(rims.fastest_mps);
-  if (!rims.driven) {
-    drives_on_since_ = kNever;
-  } else if (drives_on_since_ == kNever || !is_due || mps < slowest_mps_ - kSlower_mps) {
-    drives_on_since_ = now;
+  const bool begins = rims.driven && drives_on_since_ == kNever;
+  if (begins || !is_due || steady_since_ == kNever || mps < slowest_mps_ - kSlower_mps) {
+    steady_since_ = now;
     slowest_mps_ = mps;
   }
+  drives_on_since_ = rims.driven ? steady_since_ : kNever;
 }
 
 bool RestWatch::rolls(Time now) const {
@@ -302,9 +309,7 @@ void RestWatch::stay(const RestInput& input, const RimMotion& rims, const Testim
 
 RestState RestWatch::update(const RestInput& input) {
   if (input.released) ours_ = false;  // who lets go of the drives is going to push
-  RimMotion rims = rims_.told(input.axes, input.now);
-  // Its drives may refuse us and turn all the same.
-  rims.driven = rims.driven || (input.foreign && rims.heard);
+  const RimMotion rims = rims_.told(input.axes, input.now);
   hears_wheels_ = rims.heard;
   watch_silence(input, rims);
   watch_wheels(rims, input.now);
@@ -314,8 +319,8 @@ RestState RestWatch::update(const RestInput& input) {
   const bool goes_on = is_due && state_ != RestState::resting;
   on_slope_ = input.rolls_unpowered || (on_slope_ && goes_on);
   // Taken back, too, is a drive of several that is silent: only wheels that turn are caught.
-  const bool caught = input.caught && !input.foreign && (turning_ || !rims.heard);
-  may_roll_ = on_slope_ || caught || (may_roll_ && goes_on && !input.foreign);
+  const bool caught = input.caught && (turning_ || !rims.heard);
+  may_roll_ = on_slope_ || caught || (may_roll_ && goes_on);
   if (state_ == RestState::not_stopping) {
     // What it rolled until it came to rest is no motion any more.
     if (due_ == kNever || input.now - due_ > kLookAgainAfterCut) {

@@ -24,7 +24,6 @@ struct RestInput {
   bool drives_on_in_silence = false;  ///< a drive that says nothing keeps its last command
   bool stop_creeps = false;           ///< told to stand it only brakes, on a slope
   bool found_powered = false;         ///< it may have one of the program before this one
-  bool foreign = false;               ///< somebody else commands the drives
   double yaw_rad = kAbsent;           ///< of the base, as far as it is known
 };
 
@@ -111,7 +110,7 @@ class RestWatch final {
   Time creeps_since_ = kNever;  ///< since when it should rest from a command of ours
   bool on_slope_ = false;       ///< it could roll without power, since rest is due
   bool may_roll_ = false;       ///< it could without power, or was caught, since rest is due
-  bool hears_wheels_ = false;  ///< at least one, in the last cycle
+  bool hears_wheels_ = false;   ///< at least one, in the last cycle
   bool spared_ = false;         ///< silent on a slope: it stands, or rolls and may be caught yet
   bool turning_ = false;        ///< the wheels, in the last cycle
   double rim_mps_ = 0;          ///< the fastest, then
@@ -120,6 +119,7 @@ class RestWatch final {
   Time due_ = kNever;           ///< since when it should rest
   Time moves_since_ = kNever;
   Time drives_on_since_ = kNever;  ///< in closed loop, and gets no slower
+  Time steady_since_ = kNever;     ///< the wheels got no slower
   double slowest_mps_ = 0;
   Time alone_since_ = kNever;
   Time quiet_since_ = kNever;

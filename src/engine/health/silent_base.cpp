@@ -19,11 +19,12 @@ bool SilentBase::update(const SilenceInput& input) {
   found_powered_ = input.found_powered;
   back_ = false;
   if (!unheard_) {
+    stop_stands_ = keeps_on_ = false;
+    if (!input.heard) return false;  // it has no power, and forgets
     back_ = was_unheard && (!heard_ || std::abs(input.fastest_mps - heard_mps_) > kOther_mps);
     heard_ = true;
     heard_mps_ = input.fastest_mps;
     keeps_on_ = input.asked || std::abs(input.fastest_mps) > kTurns_mps;
-    stop_stands_ = false;
     return false;
   }
   if (!was_unheard) stood_ = input.rests;

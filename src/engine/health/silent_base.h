@@ -7,7 +7,8 @@ namespace drover::engine {
 
 struct SilenceInput {
   Time now = kNever;
-  bool silent = false;         ///< nothing is heard of it, and it has power
+  bool silent = false;  ///< nothing is heard of it, and it has power
+  bool heard = false;
   bool found_powered = false;  ///< it may have a command of the program before this one
   bool stop_asked = false;     ///< by a person, since the last cycle
   bool rests = false;          ///< it was confirmed to rest

@@ -169,7 +169,6 @@ TEST_F(ARobotThatShouldRest, LosesItsPowerWhenOneDriveIsSilentAndTheRobotTurns) 
 /// Its drives refuse us since another program commands them.
 TEST_F(ARobotThatShouldRest, LosesItsPowerWhenAnotherProgramDrivesIt) {
   drive();
-  rig.environment.foreign = "somebody else commands front_left";
   for (auto& drive : rig.drives) drive.fault = true;
   rig.disobeys = kStraight;
   EXPECT_TRUE(cut_within_s(4)) << rig.why();
@@ -179,7 +178,6 @@ TEST_F(ARobotThatShouldRest, LosesItsPowerWhenAPersonStopsWhatAnotherProgramDriv
   drive();
   rig.command(CancelTask{});
   rest_s(5);
-  rig.environment.foreign = "somebody else commands front_left";
   for (auto& drive : rig.drives) drive.fault = true;
   rig.disobeys = WheelSpeeds{-2, -2};
   rest_s(3);

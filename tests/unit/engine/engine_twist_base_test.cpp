@@ -211,7 +211,10 @@ TEST_F(ABaseThatTakesATwist, LosesItsPowerWhenItIsFoundSilentAndMoving) {
 /// Slow, and no fix: nobody sees it move.
 TEST_F(ABaseThatTakesATwist, LosesItsPowerWhenItIsFoundSilentWithARelayThatWasKeptClosed) {
   rig.environment.drives_on_in_silence = rig.environment.relay_found_closed = true;
+  rig.environment.lines[static_cast<std::size_t>(Line::estop)] = {};  // not heard yet
   rig.drives[0].silent = true;
+  rig.run_s(0.1);
+  rig.environment.lines[static_cast<std::size_t>(Line::estop)].state = SourceState::fresh;
   rig.run_s(5);
   EXPECT_FALSE(has_power());
 }
