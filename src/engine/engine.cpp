@@ -171,10 +171,9 @@ void Engine::Impl::set_origin(const RequestId& id, const GeodeticPoint& origin, 
 /// What the drives were let do; how fast they run is their owner's word.
 void Engine::Impl::command_axes(const Motion& motion, EngineOutput& out) {
   const Learned learned{estimate.yaw_slip_factor};
-  JointVelocities radps =
-      motion.joints
-          ? owners.joint_velocities_radps()
-          : setpoints(base, motion.twist, learned, max_rim_mps(base, config.limits, learned));
+  JointVelocities radps = motion.joints ? owners.joint_velocities_radps()
+                                        : setpoints(base, motion.twist, learned,
+                                                    max_rim_mps(base, config.limits, learned));
   radps.resize(axes.size());
   for (std::size_t i = 0; i < axes.size(); ++i) {
     AxisCommand& command = out.axes[i] = arming.command(static_cast<AxisId>(i));

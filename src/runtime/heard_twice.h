@@ -34,6 +34,10 @@ class HeardTwice final {
     if (open_.size() > kMost) open_.pop_front();
     return std::nullopt;
   }
+  /// The connection with all others is a new one: what was heard alone before will not come there.
+  void begin_anew() {
+    std::erase_if(open_, [](const Heard& one) { return one.way == Way::alone; });
+  }
   /// Whether a stop came with the others just now whose other self is still to come.
   bool expects(Time now) const {
     return std::any_of(open_.begin(), open_.end(), [now](const Heard& one) {

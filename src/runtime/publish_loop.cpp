@@ -118,6 +118,7 @@ void PublishLoop::watch_broker() {
   if (fd < 0) return;
   const BrokerWatch wanted{fd, broker_->connections(), broker_->wants_write()};
   if (wanted == broker_watch_) return;
+  if (wanted.connection != broker_watch_.connection) stop_order_.begin_anew(monotonic_now());
   broker_watch_ = wanted;
   epoll_event event{};
   event.events = EPOLLIN | (wanted.writing ? EPOLLOUT : 0U);

@@ -67,6 +67,12 @@ class StopOrder final {
       heard_twice_.lost(now);
     }
   }
+  /// The connection with all other messages is a new one: what was heard alone until now was lost
+  /// there.
+  void begin_anew(Time now) {
+    hear(now);
+    heard_twice_.begin_anew();
+  }
   /// The next one of those that came alone first: to be answered.
   std::optional<HeardStop> next_heard() {
     if (heard_.empty()) return std::nullopt;

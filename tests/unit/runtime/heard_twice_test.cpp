@@ -33,6 +33,16 @@ TEST(HeardTwice, ForgetsWhatNeverCameTheOtherWay) {
   EXPECT_FALSE(heard.again(Way::with_others, "stop", kNow + 61s));
 }
 
+TEST(HeardTwice, WaitsForNothingThatWasLostWithTheConnection) {
+  HeardTwice heard;
+  EXPECT_FALSE(heard.again(Way::alone, "stop", kNow)) << "the first connection was away";
+  heard.begin_anew();
+  EXPECT_FALSE(heard.again(Way::alone, "stop", kNow + 5s));
+  EXPECT_TRUE(heard.again(Way::with_others, "stop", kNow + 5s));
+  EXPECT_FALSE(heard.overtook(kNow + 6s));
+  EXPECT_FALSE(heard.again(Way::with_others, "stop", kNow + 10s)) << "it wants an answer";
+}
+
 TEST(HeardTwice, DistrustsWhatComesBetweenAStopAndItsOtherSelf) {
   HeardTwice heard;
   EXPECT_FALSE(heard.overtook(kNow));

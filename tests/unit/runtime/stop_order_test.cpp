@@ -53,6 +53,17 @@ TEST_F(AStopOrder, GivesEachStopThatWasHeardAloneFirstToBeAnsweredOnce) {
   EXPECT_FALSE(order_.heard_before("cancel", kNow + 300ms)) << "a second press is another stop";
 }
 
+TEST_F(AStopOrder, WaitsForNothingThatWasLostWithTheConnection) {
+  hear_alone("cancel");
+  EXPECT_TRUE(next_heard(kNow));
+  order_.begin_anew(kNow + 1s);
+  hear_alone("cancel");
+  EXPECT_TRUE(next_heard(kNow + 5s));
+  EXPECT_TRUE(order_.heard_before("cancel", kNow + 5s));
+  EXPECT_FALSE(order_.overtaken(kNow + 6s)) << "a start is younger";
+  EXPECT_FALSE(order_.heard_before("cancel", kNow + 10s)) << "it wants an answer";
+}
+
 TEST_F(AStopOrder, DoesNotAnswerAgainWhatCameWithTheOthersFirst) {
   EXPECT_FALSE(order_.heard_before("cancel", kNow));
   EXPECT_TRUE(order_.expects_other_self(kNow));
