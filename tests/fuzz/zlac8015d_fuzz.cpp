@@ -98,7 +98,7 @@ class Bench {
     for (const FrameRule& rule : driver_.rules())
       listed =
           listed || (rule.id == sent.id && sent.len >= rule.min_len && sent.len <= rule.max_len);
-    require(listed && is_plain(sent));
+    require(listed && sent.is_plain());
     const Effect effect = driver_.effect(sent, now_);
     require(effect.kind != FrameEffect::forbidden);
     require(effect.kind != FrameEffect::motion || (runs_ && effect.moves != 0));

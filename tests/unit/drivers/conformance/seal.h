@@ -14,7 +14,7 @@ namespace drover::test {
 inline bool seal(const DriverEntry& entry, Packet& packet) {
   if (entry.name != "gt01_serial") return false;
   namespace wire = gt01::serial;
-  const std::span<const std::uint8_t> bytes = packet;
+  const std::span<const std::uint8_t> bytes(packet.data(), packet.size());
   const auto data =
       bytes.subspan(wire::kBeforeData, bytes.size() - wire::kBeforeData - wire::kAfterData);
   packet = wire::compose(load_le<std::uint16_t>(bytes, 2), bytes[4], data);

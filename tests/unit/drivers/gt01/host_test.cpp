@@ -165,7 +165,7 @@ TEST_P(AChassis, ScalesWhatItIsToldAndTells) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Wires, AChassis, ::testing::Values("gt01_serial", "gt01_can"),
-                         [](const auto& info) { return std::string(info.param); });
+                         [](const auto& wire) { return std::string(wire.param); });
 
 /// Two of three sums are wrong: what is left is enough to stop by, and is told.
 TEST(Gt01SerialDriver, CountsWrongSumsAndGoesStaleWhenTooFewPacketsAreLeft) {
