@@ -9,6 +9,7 @@
 #include <array>
 #include <ctime>
 #include <string>
+#include <thread>
 
 #include "engine/gate/frame_gate.h"
 #include "link/can_link.h"
@@ -120,6 +121,50 @@ void receive_whole(benchmark::State& state) {
   check(batch.size() == kBatch, state);
 }
 BENCHMARK(receive_whole)->UseManualTime()->Iterations(kRounds);
+
+/// At 8000 frames a second, drained on the tick: what a tick brings, after a tick of rest.
+constexpr std::size_t kPaced = 40;
+constexpr int kPacedRounds = 100;
+
+template <class Work>
+void each_tick(benchmark::State& state, Robot& robot, const Bus& bus, const Work& work) {
+  Batch sent(kPaced);
+  each_batch(
+      state, kPaced,
+      [&] {
+        robot.cycle();
+        for (std::size_t i = 0; i < kPaced; ++i) sent.put(i, robot.encoder(i % 4));
+        check(sent.send(bus.far.get()) == int{kPaced}, state);
+        std::this_thread::sleep_for(kTick);
+      },
+      work);
+}
+
+void paced_bare(benchmark::State& state) {
+  Bus bus;
+  Robot robot(4);
+  Batch heard(kBatch);
+  std::uint64_t sum = 0;
+  each_tick(state, robot, bus, [&] {
+    check(heard.receive(bus.near.get()) == int{kPaced}, state);
+    for (std::size_t i = 0; i < kPaced; ++i) sum += heard.frames[i].can_id;
+  });
+  benchmark::DoNotOptimize(sum);
+}
+BENCHMARK(paced_bare)->UseManualTime()->Iterations(kPacedRounds);
+
+void paced_whole(benchmark::State& state) {
+  Bus bus;
+  Robot robot(4);
+  link::CanLink link(std::move(bus.near));
+  link::FrameBatch batch;
+  each_tick(state, robot, bus, [&] {
+    check(link.receive({robot.now() - kTick, robot.now()}, batch), state);
+    for (const auto& received : batch) robot.hear(0, received.frame);
+  });
+  check(batch.size() == kPaced, state);
+}
+BENCHMARK(paced_whole)->UseManualTime()->Iterations(kPacedRounds);
 
 void send_bare(benchmark::State& state) {
   Bus bus;

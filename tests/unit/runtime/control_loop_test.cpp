@@ -1,72 +1,20 @@
 #include "runtime/control_loop.h"
 
-#include <fcntl.h>
 #include <gtest/gtest.h>
-#include <stdlib.h>
-#include <sys/socket.h>
-#include <sys/un.h>
-#include <unistd.h>
 
 #include <thread>
 
 #include "config/load.h"
-#include "link/can_wire.h"
 #include "runtime/clock.h"
 #include "support/allocation_counter.h"
 #include "support/small_robot.h"
 #include "support/temp_folder.h"
+#include "support/wires.h"
 
 namespace drover::runtime {
 namespace {
 
 using namespace std::chrono_literals;
-
-/// The other end of the bus, as the simulator has it.
-class Bus final {
- public:
-  explicit Bus(const std::string& path)
-      : listener_(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_NONBLOCK, 0)) {
-    sockaddr_un address{};
-    address.sun_family = AF_UNIX;
-    path.copy(address.sun_path, sizeof address.sun_path - 1);
-    (void)::bind(listener_.get(), reinterpret_cast<sockaddr*>(&address), sizeof address);
-    (void)::listen(listener_.get(), 2);
-  }
-  bool connected() {
-    if (!peer_) peer_ = link::UniqueFd(::accept(listener_.get(), nullptr, nullptr));
-    return static_cast<bool>(peer_);
-  }
-  void put(const CanFrame& frame) const {
-    canfd_frame wire;
-    const auto size = link::to_wire(frame, wire);
-    (void)!::send(peer_.get(), &wire, size, MSG_DONTWAIT | MSG_NOSIGNAL);
-  }
-  /// How many frames came since the last call.
-  int take() const {
-    int frames = 0;
-    for (canfd_frame wire; ::recv(peer_.get(), &wire, sizeof wire, MSG_DONTWAIT) > 0;) ++frames;
-    return frames;
-  }
-  void hang_up() { peer_.reset(); }
-
- private:
-  link::UniqueFd listener_;
-  link::UniqueFd peer_;
-};
-
-/// The receiver's end of its line.
-class Receiver final {
- public:
-  Receiver() : fd_(::posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK)) {
-    (void)::grantpt(fd_.get());
-    (void)::unlockpt(fd_.get());
-  }
-  std::string path() const { return ::ptsname(fd_.get()); }
-  void say(std::string_view text) const { (void)!::write(fd_.get(), text.data(), text.size()); }
-
- private:
-  link::UniqueFd fd_;
-};
 
 std::string replaced(std::string text, const std::string& was, const std::string& is) {
   return text.replace(text.find(was), was.size(), is);
@@ -105,8 +53,8 @@ class ControlLoopTest : public testing::Test {
   }
 
   test::TempFolder folder_;
-  Bus bus_{folder_.path() + "/can0.sock"};
-  Receiver receiver_;
+  test::Bus bus_{folder_.path() + "/can0.sock"};
+  test::Tty receiver_;
   config::Loaded loaded_ = config::load_text(configuration(), DROVER_SOURCE_DIR "/config/maps");
   Gateway gateway_{loaded_.config};
   GuardMemory guard_;
