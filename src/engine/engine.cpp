@@ -1,4 +1,4 @@
-// The engine: health, estimate, navigate, drive and gate, in the order of a cycle.
+// The engine: what a cycle does, in its order.
 #include "engine/engine.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // The engine: measurements and commands in, one snapshot, axis commands and events out.
 // Pure and deterministic: equal inputs give equal outputs, to the bit. No descriptor, clock or
-// allocation after construction. Stages, each a folder: health, estimate, navigate, drive, gate.
+// allocation after construction. Each stage has a folder; Engine::step has their order.
 #pragma once
 
 #include <array>

@@ -26,7 +26,7 @@ Guard::Guard(int daemon_listener, int stop_listener, uid_t daemon_uid, Speech& s
       notify_(notify),
       keep_(notify) {}
 
-/// One clock reading and one wait a cycle: it is to cost a small board nothing.
+/// Two clock readings and one wait a cycle: it is to cost a small board nothing.
 void Guard::run() {
   Time next = now();
   for (;;) {

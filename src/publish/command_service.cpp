@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <iterator>
+#include <variant>
 
 #include "publish/rtk_navigation/trajectory_data.h"
 #include "store/drivable.h"
@@ -21,6 +23,7 @@ Verb verb_of(const ControlCommand& request) {
       Verb::delete_all_trajectory, Verb::start_task,      Verb::cancel_task,
       Verb::init_rtk_data,         Verb::terminate,       Verb::reset_stop,
       Verb::find_heading,          Verb::release,         Verb::hold};
+  static_assert(std::size(kVerbs) == std::variant_size_v<ControlCommand>);
   return kVerbs[request.index()];
 }
 

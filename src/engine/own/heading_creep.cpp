@@ -4,6 +4,11 @@
 #include <cmath>
 
 namespace drover::engine {
+namespace {
+
+constexpr double kLag_s = 0.2;
+
+}  // namespace
 
 double HeadingCreep::timeout_s() const {
   return config_.start_timeout_s +
@@ -61,7 +66,10 @@ Twist HeadingCreep::step(Time now, Duration dt, const Estimate& estimate,
     case Drives::lost: end(health.not_running, now, events); return {};
   }
   driven_m_ += std::abs(estimate.body.twist.vx_mps) * to_s(dt);
-  if (driven_m_ > config_.find_heading_distance_m) {
+  // The way that the ramp to zero takes, and what drives lag behind it, count as well.
+  const double vx_mps = std::abs(estimate.body.twist.vx_mps);
+  const double rolls_on_m = vx_mps * vx_mps / (2 * deceleration_mps2_) + vx_mps * kLag_s;
+  if (driven_m_ + rolls_on_m > config_.find_heading_distance_m) {
     end("the way did not show it", now, events);
   } else if (now - began_ > from_s(timeout_s())) {
     end("the robot did not move", now, events);

@@ -12,7 +12,8 @@ namespace drover::engine {
 /// Straight ahead, slowly, until the estimate has a heading; asked for by a person, who watches.
 class HeadingCreep final {
  public:
-  explicit HeadingCreep(const NavigateConfig& config) : config_(config) {}
+  explicit HeadingCreep(const EngineConfig& config)
+      : config_(config.navigate), deceleration_mps2_(config.limits.deceleration_mps2) {}
 
   /// `hindrance`: why nothing may move now; empty: it may.
   void start(const RequestId& id, std::string_view hindrance, const Estimate& estimate,
@@ -28,6 +29,7 @@ class HeadingCreep final {
 
  private:
   NavigateConfig config_;
+  double deceleration_mps2_;
   bool active_ = false;
   ArmWait drives_;
   Time began_ = kNever;

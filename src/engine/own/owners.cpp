@@ -16,7 +16,7 @@ Owners::Owners(const EngineConfig& config, Latch& latch)
       twist_gate_(config.limits, kOldestTarget),
       joint_gate_(config.base, config.limits),
       stream_(from_s(config.health.joint_command_timeout_s)),
-      creep_(config.navigate),
+      creep_(config),
       busy_("the gateway has just started") {}
 
 void Owners::take(const JointTargets& targets, Time now) {

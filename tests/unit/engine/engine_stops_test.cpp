@@ -76,6 +76,28 @@ TEST_F(AnEngine, StopsWithARampAndTakesNoStartWhileAPartOfTheDaemonHangs) {
   rig.environment.program.clear();
   expect_no_motion_for_s(2);
 }
+TEST_F(AnEngine, StopsATaskWhenTheComputerSlept) {
+  drive();
+  rig.environment.slept = "the computer slept for 12 s";
+  rig.tick();
+  rig.environment.slept.clear();
+  rig.run_s(2);
+  EXPECT_EQ(rig.fastest_command_radps(), 0);
+  EXPECT_EQ(rig.snapshot().nav.status, NavStatus::error);
+  expect_no_motion_for_s(2);
+}
+TEST_F(AnEngine, TakesNoStartWhileSomebodyElseCommandsTheDrives) {
+  rig.settle();
+  rig.environment.foreign = "somebody else commands front_left on can0";
+  rig.run_s(0.1);
+  rig.start(path, 40, 0.5);
+  rig.tick();
+  EXPECT_EQ(refusal(), "somebody else commands front_left on can0");
+  expect_no_motion_for_s(2);
+  rig.environment.foreign.clear();
+  rig.run_s(0.1);
+  drive();
+}
 TEST_F(AnEngine, StopsAtOnceForTheBumper) {
   drive();
   rig.lines[1] = true;
