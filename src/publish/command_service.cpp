@@ -15,6 +15,8 @@ namespace {
 
 constexpr double kMostStartAge_s = 1.0;
 constexpr double kMostStartLead_s = 0.1;  // two clocks that are set over a network differ by less
+// As long as a broker may hold a start back without being called late; and some more.
+constexpr Duration kBrokerLateUnnoticed = std::chrono::milliseconds(600);
 constexpr double kAutomaticOriginRetry_s = 5.0;
 
 Verb verb_of(const ControlCommand& request) {
@@ -93,7 +95,7 @@ void CommandService::on_parsed(std::string_view payload,
   const RequestId id = next_id(RequestId::Source::mqtt);
   if (is_duplicate(id, payload, *request, now)) return answer_duplicate(id, out);
   if (const auto* to_start = std::get_if<StartTaskRequest>(&*request)) {
-    if (const auto why = untimely(*to_start, arrival)) {
+    if (const auto why = untimely(*to_start, arrival, now)) {
       return tell(id, Verb::start_task, false, *why, out);
     }
   }
@@ -102,8 +104,10 @@ void CommandService::on_parsed(std::string_view payload,
 
 /// A start that was pressed some time ago must not move a robot that nobody looks at any more.
 std::optional<std::string> CommandService::untimely(const StartTaskRequest& request,
-                                                    const Arrival& arrival) const {
+                                                    const Arrival& arrival, Time now) const {
   if (!arrival.late.empty()) return std::string(arrival.late);
+  if (last_cli_stop_ != kNever && now - last_cli_stop_ < kBrokerLateUnnoticed)
+    return "a stop came by the command line just now, and may be younger than this; try again";
   if (!request.time) {
     if (!config_.start_needs_time) return std::nullopt;
     return "'time' is missing: when it was pressed, in seconds or milliseconds since 1970";
@@ -128,6 +132,7 @@ void CommandService::on_cli(std::uint64_t number, ControlCommand request, Time n
     out.push_back(Answer{id, false, "slow down"});
     return;
   }
+  if (is_stop(request)) last_cli_stop_ = now;
   handle(id, std::move(request), now, out);
 }
 

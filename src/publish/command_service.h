@@ -146,8 +146,8 @@ class CommandService final {
   bool disk_behind(std::size_t bytes) const;
   RequestId next_id(RequestId::Source source) { return {source, ++last_number_}; }
   void slow_down(std::string_view payload, std::string_view why, Time now, Actions& out);
-  std::optional<std::string> untimely(const StartTaskRequest& request,
-                                      const Arrival& arrival) const;
+  std::optional<std::string> untimely(const StartTaskRequest& request, const Arrival& arrival,
+                                      Time now) const;
   bool is_duplicate(RequestId id, std::string_view payload, const ControlCommand& request,
                     Time now);
   void answer_duplicate(RequestId id, Actions& out);
@@ -173,6 +173,7 @@ class CommandService final {
   std::optional<std::string> last_start_refusal_;  ///< why, when it was refused
   std::size_t last_start_again_ = 0;  ///< how often it came again before it was decided
   Time last_start_time_ = kNever;
+  Time last_cli_stop_ = kNever;
   std::uint64_t last_start_changes_ = 0;
 };
 

@@ -32,6 +32,19 @@ TEST_F(AnArrival, RefusesAStartWhileTheBrokerHoldsMessagesBackButObeysAStop) {
   EXPECT_EQ(all<Command>().size(), 1U);
 }
 
+/// The broker may have held it back, and the last word was the stop.
+TEST_F(AnArrival, RefusesAStartJustAfterAStopOfTheCommandLine) {
+  service_->on_cli(7, CancelTaskRequest{}, now_, actions_);
+  actions_.clear();
+  now_ += 500ms;
+  start();
+  EXPECT_TRUE(all<Command>().empty());
+  EXPECT_THAT(feedback(), ElementsAre(HasSubstr("a stop came by the command line just now")));
+  now_ += 2s;
+  start();
+  EXPECT_EQ(all<Command>().size(), 1U);
+}
+
 TEST_F(AnArrival, ObeysALiveStopThatIsToBeRetainedButNotAStoredOne) {
   control(example("cancel_task"), {.retain = Retain::asked});
   EXPECT_EQ(all<Command>().size(), 1U);
