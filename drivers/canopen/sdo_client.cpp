@@ -104,7 +104,7 @@ void SdoClient::forget() {
 }
 
 std::optional<SdoOutcome> SdoClient::take_outcome() {
-  const auto outcome = outcome_;
+  auto outcome = outcome_;
   outcome_.reset();
   return outcome;
 }

@@ -1,5 +1,6 @@
 // Answers: what the engine and the disk say, and who hears of it.
 #include <algorithm>
+#include <utility>
 
 #include "publish/command_service.h"
 
@@ -27,7 +28,7 @@ CommandService::Pending* CommandService::find(RequestId id) {
 }
 
 void CommandService::send(RequestId id, Time now, decltype(Command::body) body, Actions& out) {
-  out.push_back(Command{id, now, body});
+  out.push_back(Command{id, now, std::move(body)});
 }
 
 void CommandService::tell(RequestId id, Verb verb, bool ok, std::string_view text, Actions& out) {

@@ -141,11 +141,10 @@ void Navigator::fail(Time now, const Reason& reason, EventQueue& events) {
 /// What leaves no time for a ramp, and what no task survives.
 bool Navigator::stop_at_once(const NavInput& input, EventQueue& events) {
   Reason why;
-  if (input.wheels == WheelFault::runaway) {
-    why = latch_.stop();
-  } else if (!input.health.stop.empty()) {
+  const bool ran_away = input.wheels == WheelFault::runaway;
+  if (!ran_away && !input.health.stop.empty()) {
     why = input.health.stop;
-  } else if (!latch_.stop().empty()) {
+  } else if (ran_away || !latch_.stop().empty()) {
     why = latch_.stop();
   } else if (phase_ == Phase::running || phase_ == Phase::paused) {
     why = !input.health.drives_running ? input.health.not_running : input.wheel_reason;
