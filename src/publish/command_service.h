@@ -10,13 +10,13 @@
 #include <string>
 #include <string_view>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include "drover/command.h"
 #include "drover/event.h"
 #include "drover/path.h"
 #include "drover/snapshot.h"
+#include "publish/actions.h"
 #include "publish/arrival.h"
 #include "publish/rtk_navigation/control.h"
 #include "publish/rtk_navigation/feedback.h"
@@ -25,26 +25,6 @@
 #include "store/storage.h"
 
 namespace drover::publish {
-
-/// Publish on the broker, not retained.
-struct PublishText {
-  std::string_view topic;
-  std::string text;
-};
-/// To the command line; `text` is the reason of a failure or the note of a success.
-struct Answer {
-  RequestId id;
-  bool ok = false;
-  std::string text;
-};
-struct LogLine {
-  Notice::Level level = Notice::Level::info;
-  std::string text;
-};
-
-/// A StorageJob goes to the storage thread, a Command to the engine.
-using Action = std::variant<PublishText, Answer, LogLine, store::StorageJob, Command>;
-using Actions = std::vector<Action>;
 
 /// Field names are the configuration file's keys.
 struct CommandServiceConfig {

@@ -13,8 +13,8 @@
 #include "drover/event.h"
 #include "drover/snapshot.h"
 #include "drover/time.h"
+#include "publish/actions.h"
 #include "publish/arrival.h"
-#include "publish/command_service.h"
 #include "publish/status/status.h"
 
 namespace drover::publish {
@@ -41,20 +41,29 @@ class Outlet {
  public:
   virtual ~Outlet() = default;
 
-  /// How often on_snapshot() is called.
-  virtual Duration period() const = 0;
+  /// How often on_snapshot() is called; zero: never.
+  virtual Duration period() const { return Duration::zero(); }
   /// Nothing is asked of it while the broker is away.
   virtual bool needs_broker() const { return true; }
   virtual std::vector<WantedTopic> wants() const { return {}; }
 
   /// What is told now of the robot as it is seen (as_seen).
-  virtual std::vector<OutMessage> on_snapshot(const Snapshot& seen, const Moment& moment,
-                                              Actions& out) = 0;
+  virtual std::vector<OutMessage> on_snapshot(const Snapshot& /*seen*/, const Moment& /*moment*/,
+                                              Actions& /*out*/) {
+    return {};
+  }
   /// A message of the broker. False: the topic is another one's.
   virtual bool on_message(std::string_view /*topic*/, std::string_view /*payload*/,
                           const Arrival& /*arrival*/, Time /*now*/, Actions& /*out*/) {
     return false;
   }
+  /// A line of a client of the daemon's socket; the Reply comes now or later. False: as above.
+  virtual bool on_line(ClientId /*client*/, std::string_view /*line*/, Time /*now*/,
+                       Actions& /*out*/) {
+    return false;
+  }
+  /// Of a request that came in by a line. False: it was another one's.
+  virtual bool on_answer(const Answer& /*answer*/, Actions& /*out*/) { return false; }
   /// Each of the engine's, in their order.
   virtual void on_event(const Event& /*event*/, Actions& /*out*/) {}
 

@@ -3,6 +3,7 @@
 // stops overtake everything else (runtime).
 #pragma once
 
+#include "publish/command_service.h"
 #include "publish/outlet.h"
 #include "publish/rtk_navigation/base_status.h"
 

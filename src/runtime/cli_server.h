@@ -12,12 +12,13 @@
 
 #include "drover/time.h"
 #include "link/unique_fd.h"
+#include "publish/actions.h"
 
 namespace drover::runtime {
 
 class CliServer final {
  public:
-  using ClientId = std::uint64_t;
+  using ClientId = publish::ClientId;
   using OnRequest = std::function<void(ClientId, std::string_view line)>;
 
   /// Listens at `path` (mode 0660). Throws std::runtime_error with the path and the reason.

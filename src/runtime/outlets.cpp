@@ -1,6 +1,7 @@
 #include "runtime/outlets.h"
 
 #include "publish/aimrt_outlet.h"
+#include "publish/cli_outlet.h"
 #include "publish/rtk_outlet.h"
 
 namespace drover::runtime {
@@ -59,10 +60,12 @@ publish::CommandServiceConfig service_config(const config::DroverConfig& config)
   return service;
 }
 
-std::vector<std::unique_ptr<publish::Outlet>> make_outlets(const config::DroverConfig& config,
-                                                           publish::CommandService& service) {
+std::vector<std::unique_ptr<publish::Outlet>> make_outlets(
+    const config::DroverConfig& config, publish::CommandService& service,
+    std::function<std::string(Time)> status) {
   std::vector<std::unique_ptr<publish::Outlet>> outlets;
   outlets.push_back(std::make_unique<publish::RtkOutlet>(rtk_config(config.protocol), service));
+  outlets.push_back(std::make_unique<publish::CliOutlet>(service, std::move(status)));
   if (config.mqtt.enabled && config.aimrt.enabled)
     outlets.push_back(std::make_unique<publish::AimrtOutlet>(
         channel_config(config), config.aimrt.rate_Hz, config.aimrt.commands));

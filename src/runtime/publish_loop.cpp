@@ -7,7 +7,6 @@
 #include <array>
 #include <stdexcept>
 
-#include "json/json_text.h"
 #include "publish/status/seen.h"
 #include "runtime/clock.h"
 #include "runtime/log.h"
@@ -70,9 +69,7 @@ PublishLoop::PublishLoop(const config::DroverConfig& config, ControlExchange& co
       service_(service_config(config), std::move(stored)),
       started_(monotonic_now()),
       cli_(config.paths.run + "/drover.sock",
-           [this](CliServer::ClientId client, std::string_view line) {
-             on_cli_line(client, line, monotonic_now());
-           }),
+           [this](publish::ClientId client, std::string_view line) { on_line(client, line); }),
       epoll_(::epoll_create1(EPOLL_CLOEXEC)),
       timer_(periodic_timer(kTenth)) {
   if (!epoll_) throw std::runtime_error("the publish thread's epoll cannot be made");
@@ -82,13 +79,17 @@ PublishLoop::PublishLoop(const config::DroverConfig& config, ControlExchange& co
   watch(storage_.replies_ready.fd(), kReplies);
   watch(parser_.replies_ready().fd(), kParsed);
   if (stops_ != nullptr) watch(stops_->heard_ready().fd(), kStops);
-  for (auto& outlet : make_outlets(config, service_)) add(std::move(outlet));
+  for (auto& outlet : make_outlets(config, service_, [this](Time now) { return status_text(now); }))
+    add(std::move(outlet));
   if (config.mqtt.enabled) connect_broker();
 }
 
 void PublishLoop::add(std::unique_ptr<publish::Outlet> outlet) {
-  auto timer = periodic_timer(outlet->period());
-  watch(timer.get(), kOutlets + outlets_.size());
+  link::UniqueFd timer;
+  if (outlet->period() > Duration::zero()) {
+    timer = periodic_timer(outlet->period());
+    watch(timer.get(), kOutlets + outlets_.size());
+  }
   outlets_.push_back({std::move(outlet), std::move(timer)});
 }
 
@@ -207,6 +208,28 @@ Snapshot PublishLoop::seen(Time now) {
   return snapshot;
 }
 
+std::string PublishLoop::status_text(Time now) {
+  publish::DaemonStatus daemon;
+  daemon.robot = config_.robot_name;
+  daemon.broker_connected = broker_ && broker_->connected();
+  daemon.broker_text = broker_ ? broker_text_ : "not configured";
+  daemon.now = now;
+  daemon.uptime_s = to_s(now - started_);
+  daemon.telemetry_dropped = broker_ ? broker_->dropped() : 0;
+  daemon.answers_lost = lost_answers_ + (stops_ != nullptr ? stops_->lost_answers() : 0);
+  for (const auto& each : outlets_) each.outlet->count(daemon);
+  daemon.events_lost = control_.lost_events.load(std::memory_order_relaxed);
+  daemon.stop_trouble = storage_.stop_trouble.latest().view();
+  return publish::status_json(seen(now), daemon);
+}
+
+/// At once: a stop must not wait for what else woke the thread.
+void PublishLoop::on_line(publish::ClientId client, std::string_view line) {
+  for (const auto& each : outlets_)
+    if (each.outlet->on_line(client, line, monotonic_now(), actions_)) break;
+  carry_out(actions_);
+}
+
 void PublishLoop::take_events() {
   Event event;
   while (control_.events.pop(event)) {
@@ -255,13 +278,10 @@ void PublishLoop::carry_out(publish::Actions& actions) {
     if (const auto* message = std::get_if<publish::PublishText>(&action)) {
       send(*message, actions);
     } else if (const auto* answer = std::get_if<publish::Answer>(&action)) {
-      const auto waiting = waiting_.find(answer->id.number);
-      if (waiting == waiting_.end()) continue;
-      json::JsonText reply;
-      reply.open('{').key("ok").boolean(answer->ok);
-      reply.key(answer->ok ? "note" : "reason").text(answer->text).close('}');
-      cli_.reply(waiting->second, reply.take());
-      waiting_.erase(waiting);
+      for (const auto& each : outlets_)
+        if (each.outlet->on_answer(*answer, actions)) break;
+    } else if (const auto* reply = std::get_if<publish::Reply>(&action)) {
+      cli_.reply(reply->client, reply->line);
     } else if (const auto* line = std::get_if<publish::LogLine>(&action)) {
       log(log_level(line->level), line->text);
     } else if (auto* job = std::get_if<store::StorageJob>(&action)) {

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <atomic>
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -65,8 +64,8 @@ class PublishLoop final {
   Snapshot seen(Time now);
   void take_events();
   void take_replies(Time now);
-  void on_cli_line(CliServer::ClientId client, std::string_view line, Time now);
-  std::string cli_reply(std::string_view cmd, const std::string& name);
+  void on_line(publish::ClientId client, std::string_view line);
+  std::string status_text(Time now);
   void carry_out(publish::Actions& actions);
   void send_with_others(const publish::PublishText& message, publish::Actions& actions);
   void send_unsent();
@@ -95,10 +94,8 @@ class PublishLoop final {
   BrokerWatch broker_watch_;
   Duration wall_minus_monotonic_{};  ///< ten times a second
   CliServer cli_;
-  StopCounts told_stops_;                                 ///< by the engine's events so far
-  StopCounts obeyed_stops_;                               ///< 0.1 s ago, whether told or not
-  std::map<std::uint64_t, CliServer::ClientId> waiting_;  ///< request number → who asked
-  std::uint64_t next_request_ = 1;
+  StopCounts told_stops_;    ///< by the engine's events so far
+  StopCounts obeyed_stops_;  ///< 0.1 s ago, whether told or not
   link::UniqueFd epoll_;
   link::UniqueFd timer_;
   std::atomic<std::uint64_t> turns_{0};

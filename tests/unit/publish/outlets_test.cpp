@@ -2,6 +2,7 @@
 
 #include "json/located_json.h"
 #include "publish/aimrt_outlet.h"
+#include "publish/cli_outlet.h"
 #include "publish/rtk_outlet.h"
 
 namespace drover::publish {
@@ -32,7 +33,17 @@ class Outlets : public testing::Test {
   CommandService service_{{}, {}};
   RtkOutlet rtk_{{}, service_};
   AimrtOutlet aimrt_{channel(), 50, true};
+  CliOutlet cli_{service_, [](Time) { return std::string(R"({"robot":"field"})"); }};
   Actions actions_;
+
+  /// What a client of the command line is told at once; empty: nothing yet.
+  std::string reply_to(std::string_view line) {
+    actions_.clear();
+    EXPECT_TRUE(cli_.on_line(7, line, kMoment.now, actions_));
+    for (const Action& action : actions_)
+      if (const auto* reply = std::get_if<Reply>(&action)) return reply->line;
+    return {};
+  }
 };
 
 TEST_F(Outlets, WantTheirOwnTopicsOnly) {
@@ -57,6 +68,7 @@ TEST_F(Outlets, HaveRatesOfTheirOwn) {
   EXPECT_EQ(aimrt_.period(), 20ms);
   EXPECT_FALSE(rtk_.needs_broker()) << "the command line's requests look at the robot, too";
   EXPECT_TRUE(aimrt_.needs_broker());
+  EXPECT_EQ(cli_.period(), 0ms) << "it is asked";
 }
 
 TEST_F(Outlets, TellTheRobotsStateOnTheirTopics) {
@@ -69,6 +81,34 @@ TEST_F(Outlets, TellTheRobotsStateOnTheirTopics) {
   EXPECT_EQ(std::string(joints[0].topic).rfind("/channel/%2Fjoint_state/", 0), 0U);
   EXPECT_THAT(aimrt_.on_snapshot(standing(), kMoment, actions_), IsEmpty())
       << "one message for a control cycle";
+}
+
+TEST_F(Outlets, OfTheCommandLineAnswerQuestionsAtOnce) {
+  EXPECT_EQ(reply_to(R"({"cmd":"status"})"), R"({"ok":true,"status":{"robot":"field"}})");
+  EXPECT_EQ(reply_to(R"({"cmd":"traj_list"})"), R"({"ok":true,"tracks":[]})");
+  EXPECT_THAT(reply_to(R"({"cmd":"traj_show","name":"a"})"), testing::HasSubstr("no track named"));
+  EXPECT_THAT(reply_to(R"({"cmd":"dance"})"), testing::HasSubstr("unknown request \\\"dance"));
+  EXPECT_THAT(reply_to("{"), testing::HasSubstr("not understood"));
+  EXPECT_THAT(reply_to(R"({"cmd":"task_start","name":"a","id":1})"),
+              testing::HasSubstr("speed is missing"));
+}
+
+TEST_F(Outlets, OfTheCommandLineTellTheClientWhatBecameOfItsRequest) {
+  EXPECT_EQ(reply_to(R"({"cmd":"task_cancel"})"), "") << "the engine has not decided yet";
+  const Command* command = nullptr;
+  for (const Action& action : actions_)
+    if (const auto* it = std::get_if<Command>(&action)) command = it;
+  ASSERT_NE(command, nullptr);
+  Actions out;
+  const Answer answer{command->id, false, "no task is under way"};
+  EXPECT_TRUE(cli_.on_answer(answer, out));
+  ASSERT_EQ(out.size(), 1U);
+  const auto* reply = std::get_if<Reply>(out.data());
+  ASSERT_NE(reply, nullptr);
+  EXPECT_EQ(reply->client, 7U);
+  EXPECT_EQ(reply->line, R"({"ok":false,"reason":"no task is under way"})");
+  EXPECT_FALSE(cli_.on_answer(answer, out)) << "once";
+  EXPECT_FALSE(rtk_.on_line(7, R"({"cmd":"status"})", kMoment.now, out));
 }
 
 TEST_F(Outlets, AddTheirCountersToTheStatus) {

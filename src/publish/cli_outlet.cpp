@@ -1,0 +1,120 @@
+#include "publish/cli_outlet.h"
+
+#include <cmath>
+#include <optional>
+
+#include "json/json_text.h"
+#include "json/located_json.h"
+#include "publish/rtk_navigation/trajectory_data.h"
+
+namespace drover::publish {
+namespace {
+
+std::string reply_of(bool ok, std::string_view text) {
+  json::JsonText reply;
+  reply.open('{').key("ok").boolean(ok);
+  reply.key(ok ? "note" : "reason").text(text).close('}');
+  return reply.take();
+}
+
+std::string refusal(std::string_view reason) {
+  return reply_of(false, reason);
+}
+
+double length_m(const store::Track& track) {
+  double length = 0;
+  for (std::size_t i = 1; i < track.points.size(); ++i)
+    length += std::hypot(track.points[i].x_m - track.points[i - 1].x_m,
+                         track.points[i].y_m - track.points[i - 1].y_m);
+  return length;
+}
+
+std::string text_of(const json::Node& request, std::string_view key) {
+  const auto* node = request.find(key);
+  return node != nullptr && node->text() != nullptr ? *node->text() : std::string();
+}
+
+bool is_true(const json::Node& request, std::string_view key) {
+  const auto* node = request.find(key);
+  const bool* said = node == nullptr ? nullptr : node->boolean();
+  return said != nullptr && *said;
+}
+
+/// What the service is asked for; nothing: it is a question.
+std::optional<ControlCommand> command_of(std::string_view cmd, const std::string& name,
+                                         const json::Node& request) {
+  if (cmd == "task_cancel") return CancelTaskRequest{};
+  if (cmd == "traj_delete") return DeleteTrajectory{name};
+  if (cmd == "reset") return ResetStopRequest{};
+  if (cmd == "stop") return TerminateRequest{};
+  if (cmd == "release") return ReleaseRequest{is_true(request, "on_slope")};
+  if (cmd == "hold") return HoldRequest{};
+  if (cmd == "heading_find") return FindHeadingRequest{};
+  return std::nullopt;
+}
+
+}  // namespace
+
+bool CliOutlet::on_line(ClientId client, std::string_view line, Time now, Actions& out) {
+  const auto reply = [&](std::string text) {
+    out.emplace_back(Reply{client, std::move(text)});
+    return true;
+  };
+  const auto document =
+      json::parse(line, {.max_bytes = 64 * 1024, .max_depth = 4, .max_values = 64});
+  if (!document) return reply(refusal("not understood: " + document.error().text()));
+  const json::Node& request = document->root;
+  const auto cmd = text_of(request, "cmd");
+  const auto name = text_of(request, "name");
+  auto command = command_of(cmd, name, request);
+  if (cmd == "task_start") {
+    const auto* id = request.find("id");
+    const auto* speed = request.find("speed");
+    if (id == nullptr || !id->integer() || speed == nullptr || !speed->number())
+      return reply(refusal("id (a whole number) or speed is missing"));
+    command = StartTaskRequest{name, *id->integer(), *speed->number()};
+  }
+  if (!command) return reply(at_once(cmd, name, now));
+  const auto number = next_request_++;
+  waiting_[number] = client;
+  service_.on_cli(number, std::move(*command), now, out);
+  return true;
+}
+
+bool CliOutlet::on_answer(const Answer& answer, Actions& out) {
+  const auto waiting = waiting_.find(answer.id.number);
+  if (waiting == waiting_.end()) return false;
+  out.emplace_back(Reply{waiting->second, reply_of(answer.ok, answer.text)});
+  waiting_.erase(waiting);
+  return true;
+}
+
+/// Questions that are answered from what is at hand.
+std::string CliOutlet::at_once(std::string_view cmd, const std::string& name, Time now) const {
+  // Status and track are objects of their own already.
+  if (cmd == "status") return R"({"ok":true,"status":)" + status_(now) + "}";
+  if (cmd == "traj_show") {
+    const auto track = service_.find_track(name);
+    if (!track) return refusal("there is no track named \"" + name + "\"");
+    const auto list = trajectory_data_text({&*track, 1});
+    return R"({"ok":true,"track":)" + list.substr(1, list.size() - 2) + "}";
+  }
+  json::JsonText out;
+  out.open('{').key("ok").boolean(true);
+  if (cmd == "version") {
+    out.key("version").text(DROVER_VERSION);
+  } else if (cmd == "traj_list") {
+    out.key("tracks").open('[');
+    for (const auto& [key, track] : service_.tracks()) {
+      out.open('{').key("name").text(key);
+      out.key("points").integer(static_cast<std::int64_t>(track.points.size()));
+      out.key("length_m").number(length_m(track)).close('}');
+    }
+    out.close(']');
+  } else {
+    return refusal("unknown request \"" + std::string(cmd) + "\"");
+  }
+  return out.close('}').take();
+}
+
+}  // namespace drover::publish
