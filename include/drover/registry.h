@@ -43,6 +43,7 @@ using MakeByteDriveTwin = std::unique_ptr<ByteDriveTwin> (*)(const Options&);
 /// `seed` is the only source of the twin's randomness.
 using MakeGnssTwin = std::unique_ptr<GnssTwin> (*)(const Options&, std::uint64_t seed);
 using MakeImuTwin = std::unique_ptr<ImuTwin> (*)(const Options&, std::uint64_t seed);
+using MakeCanImuTwin = std::unique_ptr<CanImuTwin> (*)(const Options&, std::uint64_t seed);
 using MakeRegisterTwin = std::unique_ptr<RegisterTwin> (*)(const Options&, const RegisterMap&);
 
 struct DriverEntry {
@@ -59,7 +60,7 @@ struct DriverEntry {
   /// Options of the simulated device; its factory gets these and the driver's in one Options.
   std::span<const OptionSpec> twin_options;
   std::variant<std::monostate, MakeCanTwin, MakeGnssTwin, MakeImuTwin, MakeRegisterTwin,
-               MakeByteDriveTwin>
+               MakeByteDriveTwin, MakeCanImuTwin>
       make_twin;
   std::string_view summary;  ///< one line for people
   /// Shafts that the simulated device turns, in the order of its README. 0: one for each channel.

@@ -90,8 +90,20 @@ class ImuTwin {
   virtual void on_bytes(std::span<const std::uint8_t> bytes, Time now) = 0;
   /// Speed of its line now; bytes at another speed are noise to it and from it.
   virtual std::uint32_t baud() const = 0;
-  /// Scenario event: "silent", "frozen", "saturated", "bias:<degrees a second about z>", "" (well).
-  /// Returns false when unknown.
+  /// Scenario event: "silent", "frozen", "saturated", "bias:<degrees a second about z>", "restart"
+  /// (its supply was away), "" (well). Returns false when unknown.
+  virtual bool set_state(std::string_view name, Time now) = 0;
+};
+
+/// The same on a CAN bus.
+class CanImuTwin {
+ public:
+  virtual ~CanImuTwin() = default;
+  /// Whatever is sent on its bus; what it answers goes into `out`.
+  virtual void on_frame(const CanFrame& frame, Time now, TwinFrames& out) = 0;
+  /// Call at each tick of the plant; sends what is due.
+  virtual void on_tick(Time now, const ImuTruth& truth, TwinFrames& out) = 0;
+  /// As ImuTwin's, as far as its README names them.
   virtual bool set_state(std::string_view name, Time now) = 0;
 };
 
