@@ -1,9 +1,11 @@
 #include "drivers/hipnuc_can/entry.h"
 
 #include <array>
+#include <memory>
 
 #include "drivers/checked_options.h"
 #include "drivers/hipnuc_can/driver.h"
+#include "drivers/hipnuc_can/twin.h"
 #include "drivers/rotation.h"
 
 namespace drover {
@@ -63,6 +65,35 @@ const std::array kOptions{
                .text = "the same: -90 when its Y points ahead and its X to the right"},
 };
 
+// Of an ordinary sensor of this kind: as its data sheet says, or worse.
+const std::array kTwinOptions{
+    OptionSpec{.name = "rate_sigma_dps",
+               .default_value = 0.05,
+               .min = 0,
+               .max = 10,
+               .text = "one sigma of the noise of each rate (degrees a second)"},
+    OptionSpec{.name = "bias_sigma_dps",
+               .default_value = 0.3,
+               .min = 0,
+               .max = 10,
+               .text = "one sigma of the bias of each rate (degrees a second)"},
+    OptionSpec{.name = "acceleration_sigma_mps2",
+               .default_value = 0.02,
+               .min = 0,
+               .max = 10,
+               .text = "one sigma of the noise of each acceleration (m/s2)"},
+    OptionSpec{.name = "acceleration_bias_sigma_mps2",
+               .default_value = 0.05,
+               .min = 0,
+               .max = 5,
+               .text = "one sigma of the bias of each acceleration (m/s2)"},
+    OptionSpec{.name = "attitude_sigma_deg",
+               .default_value = 0.05,
+               .min = 0,
+               .max = 10,
+               .text = "one sigma of the device's own roll and pitch (degrees)"},
+};
+
 Settings read_settings(const Options& given) {
   const CheckedOptions options(given, kOptions);
   Settings settings;
@@ -82,6 +113,18 @@ Made make(const Options& options, const MakeContext&) {
   return make_device<HipnucCanDriver>(read_settings(options));
 }
 
+/// It has the options of both.
+std::unique_ptr<CanImuTwin> make_twin(const Options& options, std::uint64_t seed) {
+  TwinSettings own;
+  own.period = from_s(1 / options.number("rate_Hz"));
+  own.rate_sigma_radps = to_rad(options.number("rate_sigma_dps"));
+  own.rate_bias_sigma_radps = to_rad(options.number("bias_sigma_dps"));
+  own.acceleration_sigma_mps2 = options.number("acceleration_sigma_mps2");
+  own.acceleration_bias_sigma_mps2 = options.number("acceleration_bias_sigma_mps2");
+  own.attitude_sigma_rad = to_rad(options.number("attitude_sigma_deg"));
+  return std::make_unique<HipnucCanTwin>(read_settings(options), own, seed);
+}
+
 }  // namespace
 
 const DriverEntry kHipnucCanEntry{
@@ -91,8 +134,8 @@ const DriverEntry kHipnucCanEntry{
     .kind = SlotKind::imu,
     .wire = Wire::can,
     .make = make,
-    .twin_options = {},
-    .make_twin = {},
+    .twin_options = kTwinOptions,
+    .make_twin = MakeCanImuTwin{make_twin},
     .summary = "HiPNUC inertial sensor on CAN, frames after J1939 or CANopen",
 };
 

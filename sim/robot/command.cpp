@@ -4,7 +4,9 @@
 //   zone near|far occupied|free      the same for the scanner's zones
 //   obstacle NAME X Y|remove         a movable box of the world, centred at X, Y (m)
 //   gnss STATE                       see drover/twin.h: fix, float, single, none, silent, ...
-//   imu STATE                        silent, frozen, saturated, bias:2, ...; well: nothing is wrong
+//   imu STATE                        silent, frozen, saturated, bias:2, ...; well: nothing is
+//   wrong;
+//                                    of one on a bus also unplug, plug
 //   battery soc PERCENT              so much is left
 //   battery charger plug|unplug      and see battery_port.h for the faults of its line
 //   gnss NAME STATE, imu NAME STATE, battery NAME soc PERCENT, ...: a further one of its kind
@@ -113,9 +115,10 @@ std::string Robot::command_gnss(std::string_view state) {
 }
 
 std::string Robot::command_imu(std::string_view state) {
-  if (!imu_) return error("the scenario has no inertial sensor");
+  if (!imu_ && !can_imu_) return error("the scenario has no inertial sensor");
   if (state.empty()) return error("say: imu STATE, or imu well");
-  return imu_->set_state(state == "well" ? "" : state, now_)
+  return (can_imu_ ? can_imu_->command(state, now_)
+                   : imu_->set_state(state == "well" ? "" : state, now_))
              ? "ok"
              : error("no state '" + std::string(state) + "' of an inertial sensor");
 }

@@ -1,5 +1,7 @@
 #include "sim/robot/device_reader.h"
 
+#include <algorithm>
+
 namespace drover::sim {
 
 const DriverEntry& find_twin(const JsonReader& reader, const std::string& name, IsTwin fits) {
@@ -22,6 +24,14 @@ int read_baud(JsonReader& reader, int otherwise) {
   const double baud = reader.number("baud", otherwise);
   if (!(baud >= 4800 && baud <= 4'000'000)) reader.fail("baud", "must be from 4800 to 4000000");
   return static_cast<int>(baud);
+}
+
+std::size_t read_bus(JsonReader& reader, const Scenario& scenario) {
+  const auto bus = reader.text("bus");
+  const auto at = std::find_if(scenario.buses.begin(), scenario.buses.end(),
+                               [&bus](const BusSpec& spec) { return spec.name == bus; });
+  if (at == scenario.buses.end()) reader.fail("bus", "'" + bus + "' is not in 'can'");
+  return static_cast<std::size_t>(at - scenario.buses.begin());
 }
 
 }  // namespace drover::sim

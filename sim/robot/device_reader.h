@@ -25,6 +25,9 @@ const DriverEntry& find_twin(const JsonReader& reader, const std::string& name) 
 void read_options(JsonReader& reader, const DriverEntry& entry, Options& options);
 int read_baud(JsonReader& reader, int otherwise);
 
+/// "bus": index into the scenario's.
+std::size_t read_bus(JsonReader& reader, const Scenario& scenario);
+
 /// One of "drives". `scenario` has its buses and the drives before this one.
 DriveSpec read_drive(JsonReader& reader, const Scenario& scenario);
 

@@ -33,14 +33,6 @@ std::size_t shafts_of(const DriverEntry& driver) {
   return driver.twin_shafts != 0 ? driver.twin_shafts : driver.channels.size();
 }
 
-std::size_t read_bus(JsonReader& reader, const Scenario& scenario) {
-  const auto bus = reader.text("bus");
-  const auto at = std::find_if(scenario.buses.begin(), scenario.buses.end(),
-                               [&bus](const BusSpec& spec) { return spec.name == bus; });
-  if (at == scenario.buses.end()) reader.fail("bus", "'" + bus + "' is not in 'can'");
-  return static_cast<std::size_t>(at - scenario.buses.begin());
-}
-
 SerialSpec read_serial(JsonReader reader, const Scenario& scenario) {
   SerialSpec serial;
   serial.port = reader.text("port", serial.port);

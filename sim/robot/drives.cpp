@@ -81,6 +81,10 @@ void Drives::on_frame(std::size_t bus, const CanFrame& frame, Time now) {
   }
 }
 
+void Drives::send_too(std::size_t bus, std::span<const CanFrame> frames) {
+  sent_[bus].insert(sent_[bus].end(), frames.begin(), frames.end());
+}
+
 void Drives::on_bytes(std::size_t drive, std::span<const std::uint8_t> bytes, Time now) {
   const auto* const twin = std::get_if<std::unique_ptr<ByteDriveTwin>>(&drives_[drive].twin);
   if (twin != nullptr && drives_[drive].powered && !bytes.empty()) (*twin)->on_bytes(bytes, now);

@@ -40,6 +40,9 @@ class Drives {
   /// leaves with this tick, later things with the next one.
   void turn(Time now, bool first, Plant& plant);
 
+  /// What another device on a bus says: it leaves with this tick.
+  void send_too(std::size_t bus, std::span<const CanFrame> frames);
+
   /// At this tick; on a serial line not yet paced.
   const std::vector<CanFrame>& frames(std::size_t bus) const { return sent_[bus]; }
   std::string_view bytes(std::size_t drive) const { return drives_[drive].sent; }

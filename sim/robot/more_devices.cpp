@@ -54,7 +54,11 @@ MoreDevices::MoreDevices(const std::vector<MoreSpec>& specs, std::uint64_t seed)
       if (spec.gnss)
         device.gnss =
             std::get<MakeGnssTwin>(spec.gnss->driver->make_twin)(spec.gnss->options, own_seed);
-      if (spec.imu)
+      if (spec.imu && spec.imu->bus)
+        device.can_imu.emplace(
+            std::get<MakeCanImuTwin>(spec.imu->driver->make_twin)(spec.imu->options, own_seed),
+            *spec.imu->bus);
+      else if (spec.imu)
         device.imu =
             std::get<MakeImuTwin>(spec.imu->driver->make_twin)(spec.imu->options, own_seed);
       if (spec.battery) {
@@ -81,10 +85,13 @@ void MoreDevices::step(Time now, const Plant& plant, const GeographicLib::LocalC
     const MoreSpec& spec = device.spec;
     if (device.gnss)
       device.size = device.gnss->on_tick(now, gnss_truth(plant, earth, *spec.gnss), device.bytes);
-    if (device.imu) {
+    if (spec.imu) {
       const Plant::Vector place{spec.imu->x_m, spec.imu->y_m, spec.imu->z_m};
-      device.size =
-          device.imu->on_tick(now, imu_truth(plant, place, device.velocity_mps), device.bytes);
+      const ImuTruth truth = imu_truth(plant, place, device.velocity_mps);
+      if (device.can_imu)
+        device.can_imu->step(now, truth);
+      else
+        device.size = device.imu->on_tick(now, truth, device.bytes);
     }
     if (!device.battery) continue;
     device.battery->step(0.005, wheels_W);
@@ -102,6 +109,16 @@ void MoreDevices::on_bytes(std::size_t i, std::span<const std::uint8_t> bytes, T
   if (devices_[i].imu && !bytes.empty()) devices_[i].imu->on_bytes(bytes, now);
 }
 
+void MoreDevices::on_frame(std::size_t bus, const CanFrame& frame, Time now) {
+  for (Device& device : devices_)
+    if (device.can_imu) device.can_imu->on_frame(bus, frame, now);
+}
+
+void MoreDevices::send(Drives& drives) const {
+  for (const Device& device : devices_)
+    if (device.can_imu) drives.send_too(device.can_imu->bus(), device.can_imu->frames());
+}
+
 std::optional<std::string> MoreDevices::command(std::string_view kind, std::string_view name,
                                                 std::string_view what, std::string_view value,
                                                 Time now) {
@@ -111,6 +128,7 @@ std::optional<std::string> MoreDevices::command(std::string_view kind, std::stri
   if (it == devices_.end()) return std::nullopt;
   if (it->gnss && it->gnss->set_state(what, now)) return "ok";
   if (it->imu && it->imu->set_state(what == "well" ? "" : what, now)) return "ok";
+  if (it->can_imu && it->can_imu->command(what, now)) return "ok";
   if (it->battery) {
     double percent = -1;
     const auto end = value.data() + value.size();

@@ -14,6 +14,8 @@
 
 #include "drover/twin.h"
 #include "sim/plant/plant.h"
+#include "sim/robot/can_imu.h"
+#include "sim/robot/drives.h"
 #include "sim/robot/scenario.h"
 
 namespace drover::sim {
@@ -42,6 +44,10 @@ class MoreDevices {
   }
   int baud(std::size_t i) const;  ///< at which an inertial sensor speaks now; 0: as the line
   void on_bytes(std::size_t i, std::span<const std::uint8_t> bytes, Time now);
+  /// A frame on a bus (index into the scenario's).
+  void on_frame(std::size_t bus, const CanFrame& frame, Time now);
+  /// What those on buses said at this tick, beside the drives.
+  void send(Drives& drives) const;
   const RegisterTwin* registers(std::size_t i) const { return devices_[i].registers.get(); }
 
   /// "gnss NAME STATE", "imu NAME STATE|well", "battery NAME soc P", "battery NAME charger plug".
@@ -54,6 +60,7 @@ class MoreDevices {
     MoreSpec spec;
     std::unique_ptr<GnssTwin> gnss;
     std::unique_ptr<ImuTwin> imu;
+    std::optional<CanImu> can_imu;  ///< in place of `imu`
     std::unique_ptr<RegisterTwin> registers;
     std::optional<Battery> battery;
     Time next_battery = kNever;

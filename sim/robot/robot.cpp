@@ -19,10 +19,14 @@ Twins make_twins(const Scenario& scenario, std::uint64_t seed) {
     }
   }
   if (scenario.imu) {
-    const auto make = std::get<MakeImuTwin>(scenario.imu->driver->make_twin);
+    const DriverEntry& driver = *scenario.imu->driver;
+    const Options& options = scenario.imu->options;
+    const std::uint64_t own_seed = seed ^ 0x696D75U;  // another stream than the receiver's
     try {
-      // Another stream of noise than the receiver's.
-      twins.imu = make(scenario.imu->options, seed ^ 0x696D75U);
+      if (const auto* on_can = std::get_if<MakeCanImuTwin>(&driver.make_twin))
+        twins.can_imu = (*on_can)(options, own_seed);
+      else
+        twins.imu = std::get<MakeImuTwin>(driver.make_twin)(options, own_seed);
     } catch (const std::exception& error) {
       throw std::runtime_error(std::string("imu: ") + error.what());
     }
@@ -48,6 +52,7 @@ Robot::Robot(const Scenario& scenario, Twins twins)
   steps_per_tick_ = static_cast<int>(std::lround(steps));
   if (steps_per_tick_ < 1 || std::abs(steps - steps_per_tick_) > 1e-9)
     throw std::runtime_error(scenario.world + ": the timestep must divide 5 ms");
+  if (twins.can_imu) can_imu_.emplace(std::move(twins.can_imu), scenario.imu->bus.value());
   if (battery_twin_) battery_.emplace(scenario.battery ? scenario.battery->model : BatteryModel{});
   drives_.tell_wheels(plant_, truth_.wheels);
   plant_.place(scenario.start_x_m, scenario.start_y_m, to_rad(scenario.start_yaw_deg));
@@ -56,6 +61,8 @@ Robot::Robot(const Scenario& scenario, Twins twins)
 void Robot::on_frame(std::size_t bus, const CanFrame& frame, Time now) {
   now_ = now;
   drives_.on_frame(bus, frame, now);
+  if (can_imu_) can_imu_->on_frame(bus, frame, now);
+  more_.on_frame(bus, frame, now);
 }
 
 void Robot::on_drive_bytes(std::size_t drive, std::span<const std::uint8_t> bytes, Time now) {
@@ -72,6 +79,11 @@ void Robot::step(Time now) {
   tell_gnss(now);
   imu_size_ = imu_ ? imu_->on_tick(now, truth_.imu, imu_bytes_) : 0;
   more_.step(now, plant_, earth_, battery_power_W());
+  if (can_imu_) {
+    can_imu_->step(now, truth_.imu);
+    drives_.send_too(can_imu_->bus(), can_imu_->frames());
+  }
+  more_.send(drives_);
   for (int i = 0; i < steps_per_tick_; ++i) {
     const Time at = now + kTick * i / steps_per_tick_;
     drives_.turn(at, i == 0, plant_);

@@ -13,6 +13,7 @@
 
 #include "drover/twin.h"
 #include "sim/plant/plant.h"
+#include "sim/robot/can_imu.h"
 #include "sim/robot/drives.h"
 #include "sim/robot/more_devices.h"
 #include "sim/robot/scenario.h"
@@ -25,6 +26,7 @@ struct Twins {
   std::vector<AnyDriveTwin> drives;       ///< in the scenario's order
   std::unique_ptr<GnssTwin> gnss;         ///< nullptr: none
   std::unique_ptr<ImuTwin> imu;           ///< nullptr: none
+  std::unique_ptr<CanImuTwin> can_imu;    ///< in place of `imu`; nullptr: none
   std::unique_ptr<RegisterTwin> battery;  ///< nullptr: none
   std::uint64_t seed = 1;                 ///< of the further devices, which the robot makes
 };
@@ -38,7 +40,7 @@ class Robot {
   /// receiver.
   Robot(const Scenario& scenario, Twins twins);
 
-  /// A frame on a bus (index into the scenario's), heard by all drives on it.
+  /// A frame on a bus (index into the scenario's), heard by all that hangs on it.
   void on_frame(std::size_t bus, const CanFrame& frame, Time now);
   /// What was written to a drive's serial line (index into the scenario's drives).
   void on_drive_bytes(std::size_t drive, std::span<const std::uint8_t> bytes, Time now);
@@ -48,7 +50,7 @@ class Robot {
   /// One tick: contacts and outputs as of `now`, then the mechanics from `now` to the next tick.
   void step(Time now);
 
-  /// What the drives on a bus send at this tick. Cleared by the next step.
+  /// What the devices on a bus send at this tick. Cleared by the next step.
   const std::vector<CanFrame>& frames(std::size_t bus) const { return drives_.frames(bus); }
   /// What a drive on a serial line said at this tick, not yet paced.
   std::string_view drive_bytes(std::size_t drive) const { return drives_.bytes(drive); }
@@ -116,6 +118,7 @@ class Robot {
   Drives drives_;
   std::unique_ptr<GnssTwin> gnss_;
   std::unique_ptr<ImuTwin> imu_;
+  std::optional<CanImu> can_imu_;
   std::unique_ptr<RegisterTwin> battery_twin_;
   std::optional<Battery> battery_;
   MoreDevices more_;

@@ -50,11 +50,21 @@ GnssSpec read_gnss(JsonReader reader) {
   return gnss;
 }
 
-ImuSpec read_imu(JsonReader reader) {
+/// `scenario` has its buses.
+ImuSpec read_imu(JsonReader reader, const Scenario& scenario) {
   ImuSpec imu;
-  imu.driver = &find_twin<MakeImuTwin>(reader, reader.text("driver", "witmotion"));
-  imu.port = reader.text("port", imu.port);
-  imu.baud = read_baud(reader, imu.baud);
+  const auto driver = reader.text("driver", "witmotion");
+  imu.driver = &find_twin<MakeImuTwin, MakeCanImuTwin>(reader, driver);
+  const bool on_can = std::holds_alternative<MakeCanImuTwin>(imu.driver->make_twin);
+  for (const auto* key : {"bus", "port", "baud"})
+    if (reader.has(key) && (std::string_view(key) == "bus") != on_can)
+      reader.fail(key, "'" + driver + "' hangs on " + (on_can ? "a CAN bus" : "a serial line"));
+  if (on_can) {
+    imu.bus = read_bus(reader, scenario);
+  } else {
+    imu.port = reader.text("port", imu.port);
+    imu.baud = read_baud(reader, imu.baud);
+  }
   if (reader.has("place")) {
     auto place = reader.object("place");
     imu.x_m = place.number("x_m", 0);
@@ -63,7 +73,7 @@ ImuSpec read_imu(JsonReader reader) {
     place.done();
   }
   read_options(reader, *imu.driver, imu.options);
-  imu.options.set("baud", static_cast<double>(imu.baud));
+  if (!on_can) imu.options.set("baud", static_cast<double>(imu.baud));
   reader.done();
   return imu;
 }
@@ -108,7 +118,7 @@ void read_more(JsonReader& top, const std::string& folder, Scenario& scenario) {
     if (is == "gnss") {
       spec.gnss = read_gnss(reader);
     } else if (is == "imu") {
-      spec.imu = read_imu(reader);
+      spec.imu = read_imu(reader, scenario);
     } else if (is == "battery") {
       spec.battery = read_battery(reader, folder);
     } else {
@@ -185,7 +195,7 @@ Scenario read_scenario(const nlohmann::json& document, const std::string& folder
   if (top.has("drives"))
     for (auto& drive : top.list("drives")) scenario.drives.push_back(read_drive(drive, scenario));
   if (top.has("gnss")) scenario.gnss = read_gnss(top.object("gnss"));
-  if (top.has("imu")) scenario.imu = read_imu(top.object("imu"));
+  if (top.has("imu")) scenario.imu = read_imu(top.object("imu"), scenario);
   if (top.has("battery")) scenario.battery = read_battery(top.object("battery"), folder);
   read_more(top, folder, scenario);
   read_lines(top, scenario);

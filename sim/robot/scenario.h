@@ -61,7 +61,8 @@ struct GnssSpec {
 
 struct ImuSpec {
   const DriverEntry* driver = nullptr;
-  std::string port = "imu";  ///< as the receiver's
+  std::optional<std::size_t> bus;  ///< on CAN: index into `buses`; else on a serial line
+  std::string port = "imu";        ///< as the receiver's
   int baud = 115200;
   Options options;  ///< with the attitude in which it is mounted
   // Place in base_link.

@@ -102,13 +102,14 @@ Simulator::Simulator(const SimulatorSettings& settings)
         drive.serial ? std::make_unique<SerialPort>(place(drive.serial->port), drive.serial->baud)
                      : nullptr);
   if (scenario.gnss) gnss_.emplace(place(scenario.gnss->port), scenario.gnss->baud);
-  if (scenario.imu) imu_.emplace(place(scenario.imu->port), scenario.imu->baud);
+  if (scenario.imu && !scenario.imu->bus)
+    imu_.emplace(place(scenario.imu->port), scenario.imu->baud);
   if (scenario.battery) (void)battery_line(*scenario.battery, *robot_.battery_registers());
   for (std::size_t i = 0; i < scenario.more.size(); ++i) {
     const auto& [name, gnss, imu, battery] = scenario.more[i];
     auto& line = more_lines_.emplace_back();
     if (gnss) line = std::make_unique<SerialPort>(place(gnss->port), gnss->baud);
-    if (imu) line = std::make_unique<SerialPort>(place(imu->port), imu->baud);
+    if (imu && !imu->bus) line = std::make_unique<SerialPort>(place(imu->port), imu->baud);
     if (battery) (void)battery_line(*battery, *robot_.more().registers(i));
   }
   if (scenario.outputs && chip_) outputs_.emplace(log_file(settings_, "lines.log"), *chip_);
@@ -407,7 +408,8 @@ std::string Simulator::command_more(std::string_view text) {
 
 std::string Simulator::command_plug(std::string_view device, std::string_view verb) {
   auto& port = device == "imu" ? imu_ : gnss_;
-  if (!port) return "error: the scenario has no such device";
+  // Not there, or on a bus.
+  if (!port) return robot_.command(std::string(device) + " " + std::string(verb));
   if (verb == "unplug") {
     port->unplug();
     return "ok";

@@ -69,10 +69,11 @@ class Simulator {
   std::vector<std::unique_ptr<CanPort>> buses_;
   std::vector<std::unique_ptr<SerialPort>> drive_lines_;  // by drive; nullptr: it hangs on a bus
   std::optional<SerialPort> gnss_;
-  std::optional<SerialPort> imu_;
+  std::optional<SerialPort> imu_;  // none: there is no inertial sensor, or it hangs on a bus
   std::vector<std::unique_ptr<BatteryPort>> batteries_;  ///< the first battery's, and others
-  std::vector<std::unique_ptr<SerialPort>> more_lines_;  ///< of further devices; nullptr: batteries
-  std::optional<GpioSimChip> chip_;                      // none: the lines are files
+  /// Of further devices; nullptr: batteries, and what hangs on a bus.
+  std::vector<std::unique_ptr<SerialPort>> more_lines_;
+  std::optional<GpioSimChip> chip_;  // none: the lines are files
   LinePort lines_;
   std::optional<OutputLog> outputs_;
   std::optional<RelayPort> relay_;  // none: the drives have their supply without the gateway

@@ -64,6 +64,22 @@ struct FakeSensor final : ImuTwin {
   ImuTruth* last;
 };
 
+/// On a bus: tells once a tick how fast it turns, in mrad/s, and answers what it hears.
+struct FakeCanSensor final : CanImuTwin {
+  void on_frame(const CanFrame& frame, Time, TwinFrames& out) override {
+    if (frame.id == 0x600) (void)out.push_back(make_frame(0x580));
+  }
+  void on_tick(Time, const ImuTruth& truth, TwinFrames& out) override {
+    const auto turn = static_cast<std::int8_t>(1000 * truth.angular_velocity_radps.z);
+    (void)out.push_back(make_frame(0x188, {static_cast<std::uint8_t>(turn)}));
+  }
+  bool set_state(std::string_view name, Time) override {
+    restarts += name == "restart" ? 1 : 0;
+    return name.empty() || name == "silent" || name == "restart";
+  }
+  int restarts = 0;
+};
+
 class RobotTest : public testing::Test {
  protected:
   RobotTest() {
@@ -81,7 +97,13 @@ class RobotTest : public testing::Test {
     for (std::uint32_t i = 0; i < scenario.drives.size(); ++i)
       twins.drives.push_back(std::make_unique<FakeDrive>(i + 1));
     twins.gnss = std::make_unique<FakeReceiver>(&seen);
-    if (scenario.imu) twins.imu = std::make_unique<FakeSensor>(&felt);
+    if (scenario.imu && scenario.imu->bus) {
+      auto sensor = std::make_unique<FakeCanSensor>();
+      on_can = sensor.get();
+      twins.can_imu = std::move(sensor);
+    } else if (scenario.imu) {
+      twins.imu = std::make_unique<FakeSensor>(&felt);
+    }
     return {scenario, std::move(twins)};
   }
   void run(Robot& robot, Duration time) {
@@ -90,6 +112,7 @@ class RobotTest : public testing::Test {
   Scenario scenario;
   GnssTruth seen;
   ImuTruth felt;
+  FakeCanSensor* on_can = nullptr;
   Time now{std::chrono::seconds(100)};
 };
 

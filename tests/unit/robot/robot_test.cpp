@@ -130,6 +130,56 @@ TEST_F(RobotTest, PassesStatesOfTheInertialSensorOn) {
   EXPECT_THAT(robot.command("imu tired"), StartsWith("error: "));
 }
 
+/// The ids of what is sent on a bus.
+std::vector<std::uint32_t> ids_of(const std::vector<CanFrame>& frames) {
+  std::vector<std::uint32_t> ids;
+  ids.reserve(frames.size());
+  for (const CanFrame& frame : frames) ids.push_back(frame.id);
+  return ids;
+}
+
+TEST_F(RobotTest, LetsAnInertialSensorSpeakAndHearOnItsBusAlone) {
+  scenario.imu.emplace();
+  scenario.imu->bus = 1;
+  auto robot = make();
+  robot.on_frame(1, make_frame(0x600), now);
+  robot.on_frame(0, make_frame(0x600), now);
+  robot.step(now);
+  EXPECT_THAT(ids_of(robot.frames(1)), testing::ElementsAre(0x580, 0x188));
+  EXPECT_EQ(robot.frames(0).size(), 4U) << "the drives";
+  EXPECT_TRUE(robot.imu_bytes().empty());
+  robot.step(now + kTick);
+  EXPECT_THAT(ids_of(robot.frames(1)), testing::ElementsAre(0x188)) << "it answered once";
+  EXPECT_EQ(robot.command("imu silent"), "ok");
+  EXPECT_EQ(robot.command("imu well"), "ok");
+  EXPECT_THAT(robot.command("imu tired"), StartsWith("error: "));
+}
+
+TEST_F(RobotTest, SharesABusBetweenDrivesAndAnInertialSensor) {
+  scenario.imu.emplace();
+  scenario.imu->bus = 0;
+  auto robot = make();
+  robot.step(now);
+  EXPECT_EQ(robot.frames(0).size(), 5U);
+  EXPECT_THAT(ids_of(robot.frames(0)), testing::Contains(0x188));
+}
+
+TEST_F(RobotTest, HearsNothingOfASensorThatIsUnpluggedFromItsBusAndRestartsItWhenItIsBack) {
+  scenario.imu.emplace();
+  scenario.imu->bus = 1;
+  auto robot = make();
+  robot.on_frame(1, make_frame(0x600), now);
+  EXPECT_EQ(robot.command("imu unplug"), "ok");
+  robot.on_frame(1, make_frame(0x600), now);
+  robot.step(now);
+  EXPECT_TRUE(robot.frames(1).empty());
+  EXPECT_EQ(on_can->restarts, 0);
+  EXPECT_EQ(robot.command("imu plug"), "ok");
+  EXPECT_EQ(on_can->restarts, 1);
+  robot.step(now + kTick);
+  EXPECT_THAT(ids_of(robot.frames(1)), testing::ElementsAre(0x188));
+}
+
 TEST_F(RobotTest, PullsTheLineOfAPressedButtonLow) {
   auto robot = make();
   EXPECT_TRUE(robot.line_high(LineName::estop));

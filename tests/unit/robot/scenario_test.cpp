@@ -57,6 +57,33 @@ TEST(Scenario, HasFurtherDevicesByName) {
   EXPECT_EQ(scenario.more[2].battery->unit, 7);
 }
 
+TEST(Scenario, HangsInertialSensorsOnBuses) {
+  const auto scenario = parse_scenario(kPlain + R"(,
+    "can": {"can0": {"kind": "vcan"}, "can1": {"kind": "vcan"}},
+    "imu": {"driver": "hipnuc_can", "bus": "can1", "options": {"node": 9, "mount_yaw_deg": 90},
+            "twin": {"bias_sigma_dps": 1}},
+    "more": {"imu_rear": {"is": "imu", "driver": "hipnuc_can", "bus": "can0"}}})",
+                                       "/w");
+  EXPECT_EQ(scenario.imu->bus, 1U);
+  EXPECT_EQ(scenario.imu->options.number("node"), 9);
+  EXPECT_EQ(scenario.imu->options.number("bias_sigma_dps"), 1);
+  EXPECT_EQ(scenario.more[0].imu->bus, 0U);
+}
+
+TEST(Scenario, RefusesAnInertialSensorOnTheWrongWire) {
+  EXPECT_EQ(refusal(R"(, "imu": {"driver": "hipnuc_can", "bus": "can7"})"),
+            "imu.bus: 'can7' is not in 'can'");
+  EXPECT_EQ(refusal(R"(, "imu": {"driver": "hipnuc_can", "port": "imu"})"),
+            "imu.port: 'hipnuc_can' hangs on a CAN bus");
+  EXPECT_EQ(refusal(R"(, "imu": {"driver": "hipnuc_can", "baud": 9600})"),
+            "imu.baud: 'hipnuc_can' hangs on a CAN bus");
+  EXPECT_EQ(refusal(R"(, "can": {"can0": {"kind": "vcan"}}, "imu": {"bus": "can0"})"),
+            "imu.bus: 'witmotion' hangs on a serial line");
+  EXPECT_EQ(refusal(R"(, "imu": {"driver": "odrive"})")
+                .find("imu.driver: no simulated 'odrive' of this kind; there is: "),
+            0U);
+}
+
 TEST(Scenario, RefusesFurtherDevicesOfNoKindOrOfAKindsOwnName) {
   EXPECT_EQ(refusal(R"(, "more": {"a": {"is": "lidar"}})"),
             "more.a.is: must be gnss, imu or battery");

@@ -31,7 +31,10 @@ class SimulatorTest : public testing::Test {
       "can": {"can0": {"kind": "vcan"}},
       "drives": [{"joint": "front_left", "driver": "odrive", "bus": "can0",
                   "options": {"node": 0}}],
-      "gnss": {}})";
+      "gnss": {},
+      "imu": {"driver": "hipnuc_can", "bus": "can0"},
+      "more": {"imu_rear": {"is": "imu", "driver": "hipnuc_can", "bus": "can0",
+                            "options": {"node": 9}}}})";
     settings.scenario_file = (folder / "scenario.json").string();
     settings.run_folder = (folder / "run").string();
     settings.log_folder = (folder / "log").string();
@@ -68,7 +71,10 @@ TEST_F(SimulatorTest, AnswersOnItsWiresUntilItIsToldToQuit) {
   EXPECT_THAT(ask(socket, "truth"), HasSubstr("\"x_m\":"));
   EXPECT_EQ(ask(socket, "estop press"), "ok");
   EXPECT_TRUE(fs::is_symlink(folder / "run/gnss"));
-  EXPECT_THAT(ask(socket, "imu unplug"), StartsWith("error: "));
+  for (const auto* sensor : {"imu", "imu imu_rear"})  // on the bus
+    for (const auto* what : {" unplug", " plug", " silent", " well"})
+      EXPECT_EQ(ask(socket, sensor + std::string(what)), "ok") << sensor << what;
+  EXPECT_THAT(ask(socket, "imu imu_front unplug"), StartsWith("error: "));
   EXPECT_EQ(ask(socket, "gnss unplug"), "ok");
   EXPECT_FALSE(fs::is_symlink(folder / "run/gnss"));
   EXPECT_EQ(ask(socket, "gnss plug"), "ok");
@@ -77,6 +83,8 @@ TEST_F(SimulatorTest, AnswersOnItsWiresUntilItIsToldToQuit) {
   loop.join();
   EXPECT_THAT(simulator.summary(), HasSubstr(" ticks"));
   EXPECT_THAT(read("log/can.log"), HasSubstr(") can0 001#"));
+  EXPECT_THAT(read("log/can.log"), HasSubstr(") can0 0CFF3408#"));
+  EXPECT_THAT(read("log/can.log"), HasSubstr(") can0 0CFF3709#"));
   EXPECT_THAT(read("log/truth.csv"), StartsWith("time_s,x_m,y_m"));
 }
 
