@@ -80,18 +80,6 @@ Line read_line(const Record& log) {
   return line;
 }
 
-void expect_drive_on_a_chassis(const char* name) {
-  const Record& log = record(name);
-  EXPECT_EQ(log.feedback_words(), kStarted);
-  expect_nav_stays(log, "NAV_RUN", log.answered("start_nav_success"),
-                   log.first_status("NAV_SUCCESS").time - 1ms);
-  expect_good_drive(log);
-  const auto pose =
-      pose_figures(log, log.answered("start_nav_success"), log.first_status("NAV_SUCCESS").time);
-  figure("pose error at most", pose.max_m, "m");
-  EXPECT_LE(pose.max_m, 0.30);
-}
-
 TEST(Gt01, IsDrivenToSuccessCloseToTheTrack) {
   expect_drive_on_a_chassis("gt01");
 }
@@ -130,32 +118,6 @@ TEST(Gt01Can, HearsNothingButTwists) {
     ASSERT_EQ(line.frame.data[6] | line.frame.data[7], 0);
   }
   EXPECT_GT(told, 500U);
-}
-
-TEST(AgilexV2, IsDrivenToSuccessCloseToTheTrack) {
-  expect_drive_on_a_chassis("agilex_v2");
-}
-
-/// 0x111: v in mm/s and w in mrad/s, both big-endian, then zeros; 0x421: CAN mode, or standby.
-TEST(AgilexV2, HearsTwistsAndItsModeAndStandsBeforeAndAfterTheTask) {
-  const Record& log = record("agilex_v2");
-  const Time begin = log.answered("start_task_success");
-  const Time end = log.first_status("NAV_SUCCESS").time + 200ms;
-  std::size_t told = 0;
-  for (const CanLine& line : log.can) {
-    const auto& data = line.frame.data;
-    if (line.frame.id == 0x421) {
-      ASSERT_EQ(line.frame.len, 1);
-      ASSERT_LE(data[0], 1);
-    }
-    if (line.frame.id != 0x111) continue;
-    ++told;
-    ASSERT_EQ(line.frame.len, 8);
-    ASSERT_EQ(data[4] | data[5] | data[6] | data[7], 0);
-    const bool moves = (data[0] | data[1] | data[2] | data[3]) != 0;
-    EXPECT_TRUE(!moves || (line.time > begin - 100ms && line.time < end)) << seconds(line.time);
-  }
-  EXPECT_GT(told, 1000U);
 }
 
 TEST(Gt01Kill, IsBroughtToRestByTheGuardsPackets) {

@@ -85,6 +85,19 @@ inline void expect_nav_stays(const Record& record, const std::string& nav, Time 
   EXPECT_GT(looked, 0U) << "no status from " << seconds(begin) << " to " << seconds(end);
 }
 
+/// A base of kind twist drives its task to the end.
+inline void expect_drive_on_a_chassis(const char* name) {
+  const Record& log = record(name);
+  EXPECT_EQ(log.feedback_words(), kStarted);
+  expect_nav_stays(log, "NAV_RUN", log.answered("start_nav_success"),
+                   log.first_status("NAV_SUCCESS").time - 1ms);
+  expect_good_drive(log);
+  const auto pose =
+      pose_figures(log, log.answered("start_nav_success"), log.first_status("NAV_SUCCESS").time);
+  figure("pose error at most", pose.max_m, "m");
+  EXPECT_LE(pose.max_m, 0.30);
+}
+
 /// From a contact to the wheels.
 inline constexpr Duration kEstop = 20ms;
 
