@@ -18,6 +18,9 @@ struct RequestId {
   std::uint64_t number = 0;
 };
 
+/// As long as a broker may hold a command back without being called late; and some more.
+inline constexpr Duration kBrokerLateUnnoticed = std::chrono::milliseconds(600);
+
 /// Drive along `path` from where the robot is to point `target` (index from 0) and stop there.
 /// The engine takes the path, and gives it back in a PathReleased event whatever becomes of the
 /// task.

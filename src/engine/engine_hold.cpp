@@ -27,6 +27,7 @@ void Engine::recall(const Remembered& remembered, Time now) {
   e.power.recall(remembered.power_cut);
   e.arming.recall(remembered);
   if (remembered.mechanics_proved) e.mechanics.recall_proved();
+  if (remembered.at_rest) e.rest.recall_at_rest();
   if (remembered.task) {
     e.events.notice(now, Notice::Level::warning,
                     "a task was on its way when the gateway ended: it is not taken up again");
@@ -65,7 +66,7 @@ void Engine::Impl::watch_tilt(Time now, bool has_imu) {
 
 void Engine::Impl::release_hold(const RequestId& id, const ReleaseHold& release, Time now) {
   const bool moved = navigator.active() || arming.driven() || !owners.at_rest();
-  const Reason why = check_release(axes, base, moved, rest.may_drive_on());
+  const Reason why = check_release(axes, base, moved, rest.may_drive_on(), slopes);
   arming.release(id, release, why, tilt_deg(), now, events);
 }
 

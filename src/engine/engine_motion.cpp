@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "drover/angle.h"
 #include "engine/base/words.h"
 #include "engine/engine_impl.h"
 #include "engine/still.h"
@@ -11,6 +12,7 @@ namespace {
 
 // Less is what wheels resist; the same from which a person has to answer for a release.
 constexpr double kRollsFrom_deg = 2.0;
+constexpr double kCreepsFrom_deg = 1.0;  // of that along its way
 
 }  // namespace
 
@@ -49,9 +51,14 @@ Reason Engine::Impl::judge_motion(Time now, Duration dt, const LineTable& lines,
   RestInput input{.now = now, .dt = dt, .axes = axes};
   input.power_is_off = config.line_configured[estop] && lines.active[estop];
   const double falls_deg = tilt_deg();
-  if (std::isfinite(falls_deg)) slopes = falls_deg > kRollsFrom_deg;
+  if (std::isfinite(falls_deg)) {
+    slopes = falls_deg > kRollsFrom_deg;
+    const double ahead_deg = to_deg(estimate.pitch_rad);  // nose down is positive
+    falls_ahead = std::abs(ahead_deg) > kCreepsFrom_deg ? std::copysign(1.0, ahead_deg) : 0;
+  }
   input.rolls_unpowered =
       !steep.empty() || (config.base.hold == HoldBy::level_ground_only && slopes);
+  input.falls_ahead = falls_ahead;
   input.released = arming.released();
   input.drives_on_in_silence = environment.drives_on_in_silence;
   input.stop_creeps = environment.stop_creeps;

@@ -15,8 +15,6 @@ namespace {
 
 constexpr double kMostStartAge_s = 1.0;
 constexpr double kMostStartLead_s = 0.1;  // two clocks that are set over a network differ by less
-// As long as a broker may hold a start back without being called late; and some more.
-constexpr Duration kBrokerLateUnnoticed = std::chrono::milliseconds(600);
 constexpr double kAutomaticOriginRetry_s = 5.0;
 
 Verb verb_of(const ControlCommand& request) {

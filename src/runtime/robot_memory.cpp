@@ -29,18 +29,23 @@ struct RememberedBefore {
   bool released = false;
   bool task = false;
   bool mechanics_proved = false;
+  Reason joints_wait;
 
   operator Remembered() const {
-    return {stop, stop_at_robot, power_cut, holding, released, task, mechanics_proved, {}};
+    return {stop, stop_at_robot,    power_cut,   holding, released,
+            task, mechanics_proved, joints_wait, false};
   }
 };
 
 template <class Kept>
 constexpr std::uint64_t kLayout = 0;
 template <>
-constexpr std::uint64_t kLayout<Remembered> = 0x64726d656d303033;  // "drmem003"
+constexpr std::uint64_t kLayout<Remembered> = 0x64726d656d303034;  // "drmem004"
 template <>
-constexpr std::uint64_t kLayout<RememberedBefore> = 0x64726d656d303032;  // "drmem002"
+constexpr std::uint64_t kLayout<RememberedBefore> = 0x64726d656d303033;  // "drmem003"
+
+// The file's size tells the layout.
+static_assert(sizeof(Remembered) != sizeof(RememberedBefore));
 
 }  // namespace
 

@@ -19,9 +19,13 @@ constexpr double kSigmas = 4.0;
 constexpr double kFresh_s = 0.5;  // receivers tell ten times a second, and once a second at worst
 constexpr Duration kApart = std::chrono::milliseconds(90);
 constexpr Duration kStandsFor = std::chrono::seconds(1);
+constexpr Duration kStoodFor = std::chrono::seconds(3);
 constexpr double kStands_m = 0.06;        // four sigma of two fixes
 constexpr double kSpeedAtRest_mps = 0.1;  // three sigma
-constexpr Duration kStoodLately = std::chrono::milliseconds(1200);
+constexpr Duration kStoodLately = std::chrono::milliseconds(1500);
+// What a receiver's speed and way may differ by: noise, and how the speed changes in a second.
+constexpr double kApart_mps = 0.1;
+constexpr double kApartShare = 0.25;
 constexpr double kTurnSmooth_s = 0.1;   // a knock is no turn
 constexpr double kLearned = 0.05;       // share of each new speed
 constexpr double kMostNoise_mps = 0.5;  // what is more, nobody has to call noise
@@ -75,26 +79,45 @@ void MotionWitness::on_position(const GnssPosition& position, Time at) {
   }
   position_ = position;
   position_at_ = at;
-  watch_stand(position, at);
+  keep_place(position, at);
   if (from_at_ == kNever && wanted_from_ != kNever && at >= wanted_from_) {
     from_ = position;
     from_at_ = at;
   }
 }
 
-void MotionWitness::watch_stand(const GnssPosition& position, Time at) {
-  if (position.quality != FixQuality::rtk_fixed) {
-    places_.fill({});
-    return;
-  }
-  const Place* before = nullptr;  // the youngest that is old enough
+/// The youngest that is so old, and not much older; nullptr: none.
+const MotionWitness::Place* MotionWitness::place_before(Time at, Duration age) const {
+  const Place* before = nullptr;
   for (const Place& each : places_) {
-    if (each.at == kNever || at - each.at < kStandsFor || at - each.at > 2 * kStandsFor) continue;
+    if (each.at == kNever || at - each.at < age || at - each.at > age + kStandsFor) continue;
     if (before == nullptr || each.at > before->at) before = &each;
   }
-  if (before != nullptr && fresh(speed_at_, at) && speed_mps_ < kSpeedAtRest_mps) {
-    const PathPoint way = ground_way(before->position, position);
-    if (std::hypot(way.x_m, way.y_m) < kStands_m) stood_at_ = at;
+  return before;
+}
+
+void MotionWitness::keep_place(const GnssPosition& position, Time at) {
+  if (position.quality != FixQuality::rtk_fixed) {
+    places_.fill({});
+    one_motion_ = kNever;
+    return;
+  }
+  const auto length_m = [](const PathPoint& way) { return std::hypot(way.x_m, way.y_m); };
+  // A receiver may tell once a second, and its speed after its place.
+  const bool speaks = speed_at_ != kNever && at - speed_at_ <= kStoodLately;
+  bool one = false;
+  if (const Place* before = place_before(at, kStandsFor); before != nullptr && speaks) {
+    way_ = ground_way(before->position, position);
+    if (length_m(way_) < kStands_m && speed_mps_ < kSpeedAtRest_mps) stands_at_ = at;
+    const double mps = length_m(way_) / to_s(at - before->at);
+    one = mps > kMoving_mps && std::abs(speed_mps_ - mps) < kApart_mps + kApartShare * mps;
+  }
+  if (!one) one_motion_ = kNever;
+  if (one && one_motion_ == kNever) one_motion_ = at;
+  const Place* long_before = place_before(at, kStoodFor);
+  if (long_before != nullptr && speaks && speed_mps_ < kSpeedAtRest_mps &&
+      length_m(ground_way(long_before->position, position)) < kStands_m) {
+    stood_at_ = at;
   }
   const Place& last = places_[(next_place_ + places_.size() - 1) % places_.size()];
   if (last.at != kNever && at - last.at < kApart) return;
@@ -102,9 +125,22 @@ void MotionWitness::watch_stand(const GnssPosition& position, Time at) {
   next_place_ = (next_place_ + 1) % places_.size();
 }
 
+bool MotionWitness::turns(Time now) const {
+  return fresh(turn_at_, now) && std::abs(turn_radps_) > kTurning_radps;
+}
+
 bool MotionWitness::stands(Time now) const {
-  const bool turns = fresh(turn_at_, now) && std::abs(turn_radps_) > kTurning_radps;
-  return !turns && stood_at_ != kNever && now - stood_at_ <= kStoodLately;
+  return !turns(now) && stands_at_ != kNever && now - stands_at_ <= kStoodLately;
+}
+
+bool MotionWitness::stood(Time now) const {
+  return stands(now) && stood_at_ != kNever && now - stood_at_ <= kStoodLately;
+}
+
+PathPoint MotionWitness::proven_way(Time now) const {
+  const bool proven = one_motion_ != kNever && fresh(position_at_, now) && fresh(speed_at_, now) &&
+                      now - one_motion_ >= kStandsFor;
+  return proven ? way_ : PathPoint{};
 }
 
 bool MotionWitness::is_slower(double speed_mps, Time now) const {
@@ -142,6 +178,7 @@ void MotionWitness::forget_receiver() {
   from_at_ = turned_from_ = kNever;
   learned_noise_mps2_ = 0;
   places_.fill({});
+  one_motion_ = kNever;
 }
 
 double MotionWitness::speed_noise_mps() const {
@@ -200,7 +237,7 @@ Testimony MotionWitness::hear(Time now) const {
   }
   if (fresh(turn_at_, now)) {
     ++said.heard;
-    if (std::abs(turn_radps_) > kTurning_radps) {
+    if (turns(now)) {
       ++said.moving;
       append(said.in_words, "the gyro %.0f deg/s", to_deg(turn_radps_));
     }

@@ -54,15 +54,24 @@ class MotionWitness final {
   /// A receiver with an RTK fix showed a moment ago that it stood for a second: neither speed nor
   /// way; and the gyro shows no turn. What goes slower than 6 cm/s does not show.
   bool stands(Time now) const;
+  /// The same over three seconds, and now: what is slower than 2 cm/s does not show.
+  bool stood(Time now) const;
   /// A receiver with an RTK fix says that it is slower than this, m/s.
   bool is_slower(double speed_mps, Time now) const;
+  /// The gyro shows a turn.
+  bool turns(Time now) const;
+  /// Its way in the last second, m; x east, y north. Zero unless a receiver with an RTK fix has
+  /// said one motion for a second by its speeds and by its places: one that has lost its way
+  /// contradicts itself.
+  PathPoint proven_way(Time now) const;
 
  private:
   struct Place {
     GnssPosition position;
     Time at = kNever;
   };
-  void watch_stand(const GnssPosition& position, Time at);
+  void keep_place(const GnssPosition& position, Time at);
+  const Place* place_before(Time at, Duration age) const;
   bool went(Time now) const;
   bool turns_on(Time now) const;
   double speed_noise_mps() const;
@@ -82,10 +91,13 @@ class MotionWitness final {
   Time position_at_ = kNever;
   GnssPosition position_before_;
   Time position_before_at_ = kNever;
-  std::array<Place, 16> places_;  ///< a ring, a tenth of a second apart at least
+  std::array<Place, 48> places_;  ///< a ring, a tenth of a second apart at least
   std::size_t next_place_ = 0;
+  Time stands_at_ = kNever;
   Time stood_at_ = kNever;
-  double turn_radps_ = 0;  ///< smoothed
+  PathPoint way_;             ///< in the last second
+  Time one_motion_ = kNever;  ///< since when speeds and places say one
+  double turn_radps_ = 0;     ///< smoothed
   Time turn_at_ = kNever;
   double commanded_turn_ = 0;  ///< its sign, before rest was expected
   double heading_deg_ = kAbsent;

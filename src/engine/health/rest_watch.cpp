@@ -16,22 +16,21 @@ constexpr double kRestPatience_s = 0.3;  // drives lag
 constexpr double kMotionHeld_s = 0.05;   // one odd value is no motion
 // Where it would roll away once cut, what swings back when it stops has to be told from driving on.
 constexpr double kMotionHeldOnSlope_s = 0.5;
-// A drive that is being armed swings its wheel to and fro: that is no rolling.
-constexpr double kRollHeld_s = 0.2;
 constexpr double kBolts_mps = 0.5;  // over the limit, and over what the wheels explain
 constexpr double kAlone_s = 1.0;    // a witness without another one
 constexpr double kSilent_s = 1.0;   // where nothing else can tell
 constexpr double kBegins_s = 2.5;   // a base that has its supply again, with a margin
 constexpr Duration kCaughtUntil = std::chrono::seconds(10);  // as long as drives are taken back
 constexpr double kFaster_mps = 0.3;
-constexpr double kSlower_mps = 0.05;
 constexpr double kSteady_s = 1.0;
 constexpr double kRolled_m = 0.3;
 constexpr double kConfirm_s = 1.0;
-constexpr double kCreeps_m = 0.1;
 // Of the speed that it had: what is slower has braked.
 constexpr double kHasBraked = 0.5;
-constexpr double kDirection_m = 0.1;
+constexpr double kCreepsAtMost_mps = 0.2;  // however slowly it was driven before
+constexpr double kAlong = 0.87;            // of its way: within 30 degrees of the heading
+// A second shows whether it stands. So long after a stop has to be looked at for longer.
+constexpr Duration kLookTwice = std::chrono::seconds(6);
 constexpr Duration kLookAgain = std::chrono::seconds(5);
 constexpr Duration kLookAgainAfterCut = std::chrono::seconds(2);
 
@@ -42,18 +41,22 @@ RestWatch::RestWatch(const EngineConfig& config)
 
 void RestWatch::expect_stop(Time now) {
   ours_ = true;
-  const bool rested =
-      state_ == RestState::resting || state_ == RestState::carried || state_ == RestState::rolling;
-  if (!rested) return;
+  creep_.begin(now);
+  if (!has_rested()) return;
   state_ = RestState::settling;
-  due_ = now;
+  due_ = should_rest_since_ = now;
   moves_since_ = alone_since_ = kNever;
+}
+
+bool RestWatch::has_rested() const {
+  return state_ == RestState::resting || state_ == RestState::carried ||
+         state_ == RestState::rolling;
 }
 
 void RestWatch::reset() {
   if (state_ != RestState::not_stopping) return;
   state_ = RestState::settling;
-  ours_ = false;  // what had no power begins anew
+  ours_ = inherited_ = false;  // what had no power begins anew
   silence_.reset();
   quiet_since_ = moves_since_ = alone_since_ = kNever;
   reason_.clear();
@@ -79,12 +82,14 @@ bool RestWatch::due(const RestInput& input) {
     return false;
   }
   if (due_ == kNever) {
-    due_ = input.now;
+    due_ = should_rest_since_ = input.now;
     witness_.expect_rest(input.now, turn_);
     quiet_since_ = moves_since_ = alone_since_ = kNever;
-    creeps_since_ = ours_ ? input.now : kNever;
-    crept_m_ = 0;
+    seen_mps_ = 0;
+    creep_.end();
+    if (ours_) creep_.begin(input.now);
   }
+  if (seen_mps_ == 0) seen_mps_ = witness_.speed_mps(input.now);
   return true;
 }
 
@@ -95,12 +100,15 @@ bool RestWatch::is_driven_by_us(const RestInput& input) const {
 
 /// Whether taking the power helps: from what we drive, not from what would only roll faster.
 bool RestWatch::may_be_cut(const RestInput& input, const RimMotion& rims) const {
-  if (!is_driven_by_us(input)) return false;
-  if (!may_roll_) return true;
-  // Caught on level ground it gets slower: what does not is driven, by another program say.
-  if (!on_slope_) return input.now - std::max(moves_since_, steady_since_) >= from_s(kSteady_s);
+  // Wheels that run by what the program before this one said, and nothing else shows it.
+  const bool inherits = inherited_ && !ours_ && history_.turns() && rims.driven;
+  if ((!ours_ && !inherits) || input.power_is_off || input.released) return false;
+  if (!may_roll_ && !inherits) return true;
+  // Caught on level ground, or slowed down by a guard, it gets slower: what does not is driven.
+  if (!on_slope_)
+    return input.now - std::max(moves_since_, history_.steady_since()) >= from_s(kSteady_s);
   // Drives that do not run drive nothing: it rolls, and they are to catch it.
-  const Time since = std::max(moves_since_, drives_on_since_);
+  const Time since = std::max(moves_since_, history_.driven_since());
   return rims.driven && input.now - since >= from_s(kMotionHeldOnSlope_s) &&
          moves_as_commanded(input, rims);
 }
@@ -112,12 +120,37 @@ bool RestWatch::moves_as_commanded(const RestInput& input, const RimMotion& rims
   // Frozen encoders may tell the last speed for ever.
   const double half_mps = kHasBraked * std::abs(rims.fastest_mps);
   const bool goes = rims.ahead != 0 || !turns;
-  if (goes && (witness_.stands(input.now) || witness_.is_slower(half_mps, input.now))) return false;
+  if (goes && (is_seen_to_stand(input.now) || witness_.is_slower(half_mps, input.now)))
+    return false;
   if (turns) {
-    if (input.stop_creeps && std::abs(rims.fastest_mps) < kHasBraked * drove_mps_) return false;
-    return rims.fastest_mps * direction_ > 0 || rims.turn * turn_ > 0;
+    if (creeps_down(input, rims.ahead, std::abs(rims.fastest_mps))) return false;
+    // The program before this one may have driven it any way.
+    const bool unknown = direction_ == 0 && turn_ == 0;
+    const bool up = rims.ahead * input.falls_ahead < 0;
+    return unknown || up || rims.fastest_mps * direction_ > 0 || rims.turn * turn_ > 0;
   }
-  return std::isfinite(input.yaw_rad) && ahead_m(input) * direction_ > kDirection_m;
+  // Speed and place are one device's: it counts where it does not contradict itself.
+  const PathPoint way = witness_.proven_way(input.now);
+  const double ahead_m = way.x_m * std::cos(input.yaw_rad) + way.y_m * std::sin(input.yaw_rad);
+  return ahead_m * direction_ > kAlong * std::hypot(way.x_m, way.y_m);
+}
+
+/// Told to stand it only brakes, and the ground falls there: slow as it is, a cut lets it go.
+bool RestWatch::creeps_down(const RestInput& input, double ahead, double mps) const {
+  return input.stop_creeps && ahead * input.falls_ahead > 0 &&
+         mps < std::max(kHasBraked * drove_mps_, kCreepsAtMost_mps);
+}
+
+/// By a receiver with a fix. What goes by 5 cm in a second passes for standing at first.
+bool RestWatch::is_seen_to_stand(Time now) const {
+  return witness_.stood(now) || (witness_.stands(now) && now - should_rest_since_ < kLookTwice);
+}
+
+/// By the wheels, or by two devices, or by one that does not contradict itself.
+bool RestWatch::is_seen_to_go(const RestInput& input) const {
+  const PathPoint way = witness_.proven_way(input.now);
+  const bool turns = witness_.turns(input.now) && witness_.hear(input.now).moving >= 2;
+  return history_.turns() || turns || way.x_m != 0 || way.y_m != 0;
 }
 
 /// By the receiver, since rest is due.
@@ -134,22 +167,22 @@ bool RestWatch::bolts(const RestInput& input, const RimMotion& rims) const {
   return witness_.proven_speed_mps(input.now) > explained_mps + kBolts_mps;
 }
 
-/// Too slow for anything else that watches: a base that no longer hears, near its goal. Where it is
-/// level, and only on from the last command: who pushes it later must not find it latched.
 bool RestWatch::creeps_on(const RestInput& input, const RimMotion& rims) {
-  if (creeps_since_ == kNever) return false;
-  const double since_s = to_s(input.now - creeps_since_) - kRestPatience_s;
-  if (since_s < 0) return false;
-  crept_m_ += rims.fastest_mps * std::max(to_s(input.dt), 0.0);
-  const bool stood = since_s > kConfirm_s && std::abs(crept_m_) < kStands_mps * since_s;
-  const bool held = rims.driven && !rims.silent && !input.power_is_off && !input.released;
-  if (stood || !held || may_roll_) creeps_since_ = kNever;
-  return creeps_since_ != kNever && std::abs(crept_m_) > kCreeps_m;
+  return creep_.update({.now = input.now,
+                        .dt = input.dt,
+                        .power = !input.power_is_off && !input.released,
+                        .may_roll = may_roll_,
+                        .may_slide = may_roll_ && direction_ * input.falls_ahead >= 0,
+                        .seen_to_stand = is_seen_to_stand(input.now)},
+                       rims);
 }
 
-/// Its supply is away: faster than it was ever driven, or back.
+/// Its supply is away: faster than it was ever driven, or back; and not up. How fast the program
+/// before this one drove it is not known.
 bool RestWatch::is_seen_to_roll(const RestInput& input) const {
-  if (witness_.speed_mps(input.now) > drove_mps_ + kFaster_mps) return true;
+  if (ahead_m(input) * input.falls_ahead < 0) return false;
+  const double drove_mps = input.found_powered ? std::max(drove_mps_, seen_mps_) : drove_mps_;
+  if (witness_.speed_mps(input.now) > drove_mps + kFaster_mps) return true;
   if (!std::isfinite(input.yaw_rad)) return false;
   return ahead_m(input) * direction_ < -kRolled_m;
 }
@@ -161,13 +194,15 @@ bool RestWatch::is_seen_to_roll(const RestInput& input) const {
 bool RestWatch::cannot_be_stopped(const RestInput& input) {
   spared_ = false;
   if (!silence_.unheard() || !is_driven_by_us(input)) return false;
-  const bool stands = witness_.stands(input.now);
+  const bool stands = is_seen_to_stand(input.now);
   const bool may_begin = on_slope_ || stands || !silence_.ever_heard();
   const Duration patience = from_s(may_begin ? kBegins_s : kSilent_s);
   const Duration waited = input.now - due_;
   if (waited < patience) return false;
-  spared_ = on_slope_ &&
-            (witness_.stands(input.now) || (is_seen_to_roll(input) && waited < kCaughtUntil));
+  const bool may_be_caught = is_seen_to_roll(input) && waited < kCaughtUntil;
+  const bool slow = witness_.is_slower(kCreepsAtMost_mps, input.now);
+  const bool creeps = slow && creeps_down(input, ahead_m(input), 0);
+  spared_ = on_slope_ && (stands || creeps || may_be_caught);
   const bool seen = moves_since_ != kNever && input.now - moves_since_ >= patience;
   return (silence_.keeps_on() || seen) && !spared_;
 }
@@ -177,51 +212,29 @@ void RestWatch::watch_silence(const RestInput& input, const RimMotion& rims) {
   // Wheels that are heard tell of those that are not, or gyro and receiver do.
   const bool silent = input.drives_on_in_silence && !rims.heard && rims.silent &&
                       !input.power_is_off && !input.released;
-  const bool stop_now = silence_.update({.now = input.now,
-                                         .silent = silent,
+  const bool stop_now = silence_.update({.silent = silent,
                                          .heard = rims.heard,
                                          .found_powered = input.found_powered,
                                          .stop_asked = stop_asked,
                                          .rests = state_ == RestState::resting,
+                                         .moves = is_seen_to_go(input),
                                          .slope = input.rolls_unpowered,
                                          .fastest_mps = rims.fastest_mps,
                                          .asked = expected_mps_ > 0});
   // A relay that this program has closed feeds a base that has forgotten everything.
   if (silence_.has_a_command()) ours_ = true;
-  if (stop_now || (stop_asked && !silent && (rims.driven || turning_))) expect_stop(input.now);
+  if (stop_now || (stop_asked && !silent && (rims.driven || history_.turns())))
+    expect_stop(input.now);
   if (!silence_.is_back()) return;
   expected_mps_ = std::max(expected_mps_, std::abs(rims.fastest_mps));
   moves_since_ = quiet_since_ = kNever;
 }
 
-void RestWatch::watch_wheels(const RimMotion& rims, Time now) {
-  turning_ = std::abs(rims.fastest_mps) > kTurns_mps;
-  const bool swings = turning_ && rims.fastest_mps * rim_mps_ < 0;
-  if (!turning_ || swings) turns_since_ = kNever;
-  if (turning_ && turns_since_ == kNever) turns_since_ = now;
-  rim_mps_ = rims.fastest_mps;
-}
-
-/// What rolled while no drive ran is given the time in which it gets slower.
-void RestWatch::watch_braking(const RimMotion& rims, bool is_due, Time now) {
-  const double mps = std::abs(rims.fastest_mps);
-  const bool begins = rims.driven && drives_on_since_ == kNever;
-  if (begins || !is_due || steady_since_ == kNever || mps < slowest_mps_ - kSlower_mps) {
-    steady_since_ = now;
-    slowest_mps_ = mps;
-  }
-  drives_on_since_ = rims.driven ? steady_since_ : kNever;
-}
-
-bool RestWatch::rolls(Time now) const {
-  return turning_ && now - turns_since_ >= from_s(kRollHeld_s);
-}
-
 Reason RestWatch::turns_by_itself() const {
   Reason why;
-  if (turning_ && !ours_) {
+  if (history_.turns() && !ours_) {
     why.format("the robot rolls without a command: %s %.2f m/s", words_of(rims_.base()).turn_by,
-               rim_mps_);
+               history_.mps());
   }
   return why;
 }
@@ -231,7 +244,7 @@ bool RestWatch::others_say_so(const RestInput& input, const RimMotion& rims,
   const Time now = input.now;
   // A wheel of several that is not heard turns the base: the gyro alone sees it.
   const bool part = input.drives_on_in_silence && rims.heard && rims.silent;
-  const bool alone = said.moving == 1 && (said.heard == 1 || part);
+  const bool alone = said.moving == 1 && (said.heard == 1 || (part && witness_.turns(now)));
   if (!alone) {
     alone_since_ = kNever;
   } else if (alone_since_ == kNever) {
@@ -257,7 +270,7 @@ void RestWatch::tell(const char* what, const RimMotion& rims, const Testimony& s
 void RestWatch::settle(const RestInput& input, const RimMotion& rims, const Testimony& said) {
   state_ = RestState::settling;
   const bool others = others_say_so(input, rims, said);
-  const bool moves = others || turning_;
+  const bool moves = others || history_.turns();
   if (!moves) moves_since_ = kNever;
   if (moves && moves_since_ == kNever) moves_since_ = input.now;
   const bool late = input.now - due_ >= from_s(kRestPatience_s) &&
@@ -269,30 +282,32 @@ void RestWatch::settle(const RestInput& input, const RimMotion& rims, const Test
     return;
   }
   // What nobody drove has no ramp to come to its end: what a guard slows down is told as well.
-  if (ours_ ? moves && late : others || rolls(input.now)) {
+  if (ours_ ? moves && late : others || history_.rolls(input.now)) {
     tell("the robot moves without a command", rims, said);
   } else if (!moves) {
     reason_.clear();
   }
-  const bool quiet = !turning_ && !rims.silent && said.moving == 0;
+  // What stands in silence where it could roll brakes by itself, and may go on doing so.
+  const bool seen = silence_.unheard() && on_slope_ && witness_.stood(input.now);
+  const bool quiet = !history_.turns() && (!rims.silent || seen) && said.moving == 0;
   if (!quiet) quiet_since_ = kNever;
   if (quiet && quiet_since_ == kNever) quiet_since_ = input.now;
   if (quiet && input.now - quiet_since_ >= from_s(kConfirm_s)) {
     state_ = RestState::resting;
-    ours_ = false;
+    ours_ = inherited_ = false;
   }
 }
 
 void RestWatch::stay(const RestInput& input, const RimMotion& rims, const Testimony& said) {
-  if (others_say_so(input, rims, said) || rolls(input.now)) {
-    state_ = turning_ ? RestState::rolling : RestState::carried;
-    tell(turning_ ? "the robot rolls without a command" : "the robot is pushed or carried", rims,
-         said);
+  if (others_say_so(input, rims, said) || history_.rolls(input.now)) {
+    state_ = history_.turns() ? RestState::rolling : RestState::carried;
+    tell(history_.turns() ? "the robot rolls without a command" : "the robot is pushed or carried",
+         rims, said);
     moves_since_ = input.now;
     quiet_since_ = kNever;
     return;
   }
-  if (turning_) quiet_since_ = kNever;
+  if (history_.turns()) quiet_since_ = kNever;
   if (quiet_since_ == kNever) quiet_since_ = input.now;
   const bool quiet = input.now - quiet_since_ >= from_s(kConfirm_s);
   if (state_ != RestState::resting && !quiet) return;
@@ -308,18 +323,19 @@ void RestWatch::stay(const RestInput& input, const RimMotion& rims, const Testim
 }
 
 RestState RestWatch::update(const RestInput& input) {
-  if (input.released) ours_ = false;  // who lets go of the drives is going to push
+  if (!std::exchange(began_, true)) inherited_ = input.found_powered;
+  if (input.released) ours_ = inherited_ = false;  // who lets go of the drives is going to push
   const RimMotion rims = rims_.told(input.axes, input.now);
   hears_wheels_ = rims.heard;
   watch_silence(input, rims);
-  watch_wheels(rims, input.now);
+  history_.turn(rims, input.now);
   const bool is_due = due(input);
-  watch_braking(rims, is_due, input.now);
+  history_.brake(rims, is_due, input.now);
   // What began to roll on a slope still rolls where the ground is level again.
   const bool goes_on = is_due && state_ != RestState::resting;
   on_slope_ = input.rolls_unpowered || (on_slope_ && goes_on);
   // Taken back, too, is a drive of several that is silent: only wheels that turn are caught.
-  const bool caught = input.caught && (turning_ || !rims.heard);
+  const bool caught = input.caught && (history_.turns() || !rims.heard);
   may_roll_ = on_slope_ || caught || (may_roll_ && goes_on);
   if (state_ == RestState::not_stopping) {
     // What it rolled until it came to rest is no motion any more.
@@ -338,9 +354,7 @@ RestState RestWatch::update(const RestInput& input) {
     reason_.clear();
   } else {
     const Testimony said = witness_.hear(input.now);
-    const bool rested = state_ == RestState::resting || state_ == RestState::carried ||
-                        state_ == RestState::rolling;
-    if (rested) {
+    if (has_rested()) {
       stay(input, rims, said);
     } else {
       settle(input, rims, said);

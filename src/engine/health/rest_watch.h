@@ -6,7 +6,9 @@
 
 #include "drover/snapshot.h"
 #include "engine/config.h"
+#include "engine/health/creep_watch.h"
 #include "engine/health/motion_witness.h"
+#include "engine/health/rim_history.h"
 #include "engine/health/rim_motion.h"
 #include "engine/health/silent_base.h"
 
@@ -24,7 +26,8 @@ struct RestInput {
   bool drives_on_in_silence = false;  ///< a drive that says nothing keeps its last command
   bool stop_creeps = false;           ///< told to stand it only brakes, on a slope
   bool found_powered = false;         ///< it may have one of the program before this one
-  double yaw_rad = kAbsent;           ///< of the base, as far as it is known
+  double falls_ahead = 0;    ///< sign of the way on which the ground falls, 0: of none, or unknown
+  double yaw_rad = kAbsent;  ///< of the base, as far as it is known
 };
 
 enum class RestState : std::uint8_t {
@@ -39,14 +42,16 @@ enum class RestState : std::uint8_t {
 /// What is faster than it was ever allowed to be, and its wheels do not show it, is cut at once:
 /// drives with frozen encoders push with all that they have. Else rest is due when the speed that
 /// was commanded has been taken back at the configured deceleration; what moves before anything was
-/// commanded is told. What still moves 0.3 s later is cut: wheels that turn, or two witnesses
-/// besides wheels that say nothing of it (their encoders may be frozen). After a second of
-/// confirmed rest, or when a person released the drives, no motion is ours any more: nothing is cut
-/// then, since who pushes the robot or carries it away must not find it latched, unless a person
-/// asks for a stop while it moves. Where it would only roll without power, or rolls and is being
-/// caught, it is cut when a drive in closed loop moves it the way that it was driven, or turns it
-/// on the spot so, and not when it rolls back, when no drive runs, or when it is slow where drives
-/// creep. On level ground it is cut, too, when it creeps on by itself from its last command.
+/// commanded is told, but for drives that run on by what the program before this one said. What
+/// still moves 0.3 s later is cut: wheels that turn, or two witnesses besides wheels that say
+/// nothing of it (their encoders may be frozen). After a second of confirmed rest, or when a person
+/// released the drives, no motion is ours any more: nothing is cut then, since who pushes the robot
+/// or carries it away must not find it latched, unless a person asks for a stop while it moves.
+///
+/// Where it would only roll without power, or rolls and is being caught, a cut is the lesser evil
+/// only for what a drive in closed loop moves the way that it was driven, or up, or turns on the
+/// spot so. Not for what rolls back, where no drive runs, for what creeps down, nor for what one
+/// device says alone that contradicts itself. README.md has the rules in tables.
 class RestWatch final {
  public:
   explicit RestWatch(const EngineConfig& config);
@@ -63,12 +68,14 @@ class RestWatch final {
   /// And it was not at rest when it fell silent, or nobody knows.
   bool drives_on() const { return may_drive_on() && silence_.keeps_on() && !spared_; }
   /// Anything says that the base moves now.
-  bool moves(Time now) const { return turning_ || witness_.hear(now).moving > 0; }
+  bool moves(Time now) const { return history_.turns() || witness_.hear(now).moving > 0; }
   bool hears_wheels() const { return hears_wheels_; }
   /// What is wrong, in words; empty when nothing is.
   const Reason& reason() const { return reason_; }
   /// A wheel turns now and nobody drove it, be it only an arming drive's swing: no moment to start.
   Reason turns_by_itself() const;
+  /// The program before this one knew the base at rest.
+  void recall_at_rest() { silence_.recall_at_rest(); }
   /// A person asked for a stop: what still drives then is ours, whoever commanded it.
   void on_stop_asked() { stop_asked_ = true; }
   /// A wheel ran away and everything was stopped: rest is due at once, whoever moved it.
@@ -78,13 +85,14 @@ class RestWatch final {
 
  private:
   bool due(const RestInput& input);
-  void watch_wheels(const RimMotion& rims, Time now);
-  void watch_braking(const RimMotion& rims, bool is_due, Time now);
-  bool rolls(Time now) const;
   bool bolts(const RestInput& input, const RimMotion& rims) const;
   bool creeps_on(const RestInput& input, const RimMotion& rims);
   bool cannot_be_stopped(const RestInput& input);
   double ahead_m(const RestInput& input) const;
+  bool has_rested() const;
+  bool is_seen_to_stand(Time now) const;
+  bool is_seen_to_go(const RestInput& input) const;
+  bool creeps_down(const RestInput& input, double ahead, double mps) const;
   bool is_seen_to_roll(const RestInput& input) const;
   void watch_silence(const RestInput& input, const RimMotion& rims);
   bool is_driven_by_us(const RestInput& input) const;
@@ -97,30 +105,28 @@ class RestWatch final {
 
   EngineConfig config_;
   RimReader rims_;
+  RimHistory history_;
   MotionWitness witness_;
   SilentBase silence_;
+  CreepWatch creep_;
   RestState state_ = RestState::settling;
   Reason reason_;
   bool stop_asked_ = false;  ///< since the last cycle
   bool ours_ = false;        ///< we moved it since it rested last
-  double direction_ = 0;     ///< RimMotion::ahead of the last command of one who drove
-  double turn_ = 0;          ///< RimMotion::turn of it
-  double drove_mps_ = 0;     ///< the fastest that was asked of a rim, since it rested last before
-  double crept_m_ = 0;       ///< the way of the fastest rim since it should rest
-  Time creeps_since_ = kNever;  ///< since when it should rest from a command of ours
-  bool on_slope_ = false;       ///< it could roll without power, since rest is due
-  bool may_roll_ = false;       ///< it could without power, or was caught, since rest is due
-  bool hears_wheels_ = false;   ///< at least one, in the last cycle
-  bool spared_ = false;         ///< silent on a slope: it stands, or rolls and may be caught yet
-  bool turning_ = false;        ///< the wheels, in the last cycle
-  double rim_mps_ = 0;          ///< the fastest, then
-  Time turns_since_ = kNever;   ///< in this direction
-  double expected_mps_ = 0;     ///< how fast it may still be
-  Time due_ = kNever;           ///< since when it should rest
+  bool inherited_ = false;   ///< the program before this one may have, and it has not rested yet
+  bool began_ = false;
+  double direction_ = 0;  ///< RimMotion::ahead of the last command of one who drove
+  double turn_ = 0;       ///< RimMotion::turn of it
+  double drove_mps_ = 0;  ///< the fastest that was asked of a rim, since it rested last before
+  Time should_rest_since_ = kNever;
+  bool on_slope_ = false;      ///< it could roll without power, since rest is due
+  bool may_roll_ = false;      ///< it could without power, or was caught, since rest is due
+  bool hears_wheels_ = false;  ///< at least one, in the last cycle
+  double seen_mps_ = 0;        ///< what the receiver said first since rest is due
+  bool spared_ = false;        ///< silent on a slope: it stands, creeps, or may be caught yet
+  double expected_mps_ = 0;    ///< how fast it may still be
+  Time due_ = kNever;          ///< since when it should rest
   Time moves_since_ = kNever;
-  Time drives_on_since_ = kNever;  ///< in closed loop, and gets no slower
-  Time steady_since_ = kNever;     ///< the wheels got no slower
-  double slowest_mps_ = 0;
   Time alone_since_ = kNever;
   Time quiet_since_ = kNever;
 };

@@ -16,7 +16,7 @@ constexpr double kOther_mps = 0.1;
 
 bool SilentBase::update(const SilenceInput& input) {
   const bool was_unheard = std::exchange(unheard_, input.silent);
-  found_powered_ = input.found_powered;
+  has_a_command_ = unheard_ && (heard_ || input.found_powered);
   back_ = false;
   if (!unheard_) {
     stop_stands_ = keeps_on_ = false;
@@ -27,10 +27,11 @@ bool SilentBase::update(const SilenceInput& input) {
     keeps_on_ = input.asked || std::abs(input.fastest_mps) > kTurns_mps;
     return false;
   }
-  if (!was_unheard) stood_ = input.rests;
-  if (!heard_ && found_powered_) keeps_on_ = true;
-  // What stood when it fell silent brakes by itself: where it would roll, a stop must not move it.
-  const bool stands = stood_ && input.slope && input.rests;
+  stood_ = input.rests || (stood_ && (was_unheard || !heard_));
+  // What stands in silence brakes by itself: where it would roll, a stop must not move it.
+  const bool stands = input.slope && stood_ && !input.moves;
+  if (stands) keeps_on_ = false;
+  if (!heard_ && input.found_powered && !stood_) keeps_on_ = true;
   stop_stands_ = stop_stands_ || input.stop_asked;
   const bool stop_now = stop_stands_ && !stands && (input.stop_asked || !keeps_on_);
   keeps_on_ = keeps_on_ || stop_now;

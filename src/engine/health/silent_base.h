@@ -1,17 +1,15 @@
 // A base that keeps its last command when nobody reaches it, and of which nothing is heard.
 #pragma once
 
-#include "drover/time.h"
-
 namespace drover::engine {
 
 struct SilenceInput {
-  Time now = kNever;
   bool silent = false;  ///< nothing is heard of it, and it has power
   bool heard = false;
   bool found_powered = false;  ///< it may have a command of the program before this one
   bool stop_asked = false;     ///< by a person, since the last cycle
-  bool rests = false;          ///< it was confirmed to rest
+  bool rests = false;          ///< it is confirmed to rest, by itself or by who sees it
+  bool moves = false;          ///< and it is seen to move beyond doubt
   bool slope = false;          ///< it would roll without power
   double fastest_mps = 0;      ///< of its rims, by its own word
   bool asked = false;          ///< the ramp to zero of the last command is not over
@@ -22,6 +20,8 @@ class SilentBase final {
  public:
   /// True when a person's stop holds for it, too.
   bool update(const SilenceInput& input);
+  /// Before the first update(): the program before this one knew it at rest.
+  void recall_at_rest() { stood_ = true; }
   void reset() { keeps_on_ = stop_stands_ = false; }
 
   bool unheard() const { return unheard_; }
@@ -29,16 +29,16 @@ class SilentBase final {
   /// Its last command may be one that moves it.
   bool keeps_on() const { return unheard_ && keeps_on_; }
   /// Some command of ours, or of the program before this one, may be in it.
-  bool has_a_command() const { return unheard_ && (heard_ || found_powered_); }
+  bool has_a_command() const { return has_a_command_; }
   /// It is heard again, with another speed than before: it was away, and needs a ramp.
   bool is_back() const { return back_; }
 
  private:
   bool heard_ = false;    ///< since this program began
   bool unheard_ = false;  ///< now
-  bool found_powered_ = false;
+  bool has_a_command_ = false;
   bool keeps_on_ = false;
-  bool stood_ = false;        ///< it was at rest when it fell silent
+  bool stood_ = false;        ///< it was at rest when it fell silent, or since then
   bool stop_stands_ = false;  ///< asked by a person, and it is silent since then
   bool back_ = false;
   double heard_mps_ = 0;  ///< what it said last

@@ -21,10 +21,12 @@ Reason check_arm(const HealthReport& health, const Latch& latch, bool driven) {
 }
 
 Reason check_release(std::span<const AxisSnapshot> axes, const Kinematics& base, bool driven,
-                     bool unreachable) {
+                     bool unreachable, bool slopes) {
   if (driven) return "the robot is being driven";
   for (const AxisSnapshot& axis : axes) {
-    const bool turns = rim_mps(base, std::abs(axis.motion.velocity_radps)) > kTurns_mps;
+    // On a slope what only brakes creeps, and who lets it go answers for that.
+    const double still_mps = slopes ? kTurns_mps : kStands_mps;
+    const bool turns = rim_mps(base, std::abs(axis.motion.velocity_radps)) > still_mps;
     if (axis.state == AxisState::running && turns) return "the robot moves";
   }
   if (unreachable) return "the base is silent: nothing reaches it";

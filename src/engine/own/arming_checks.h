@@ -13,8 +13,9 @@ namespace drover::engine {
 /// `driven`: the robot is, or a task is on its way. Empty: they may be armed.
 Reason check_arm(const HealthReport& health, const Latch& latch, bool driven);
 
-/// `unreachable`: what is silent may go on by a command that it has. Empty: they may let go.
+/// `unreachable`: what is silent may go on by a command that it has. `slopes`: so does the ground.
+/// Empty: they may let go.
 Reason check_release(std::span<const AxisSnapshot> axes, const Kinematics& base, bool driven,
-                     bool unreachable);
+                     bool unreachable, bool slopes);
 
 }  // namespace drover::engine

@@ -90,8 +90,8 @@ void visit_fields(V& v, const engine::EngineOutput& output, std::size_t axis_cou
                std::span(slowing_permitted).first(std::max(axis_count, kFewestSlowed)));
   v.value("unsettled", unsettled);
   v.inside("remembered", [&v, &part = remembered] {
-    const auto& [stop, stop_at_robot, power_cut, holding, released, task, proved, joints_wait] =
-        part;
+    const auto& [stop, stop_at_robot, power_cut, holding, released, task, proved, joints_wait,
+                 at_rest] = part;
     v.value("stop", stop);
     v.value("stop_at_robot", stop_at_robot);
     v.value("power_cut", power_cut);
@@ -100,6 +100,7 @@ void visit_fields(V& v, const engine::EngineOutput& output, std::size_t axis_cou
     v.value("task", task);
     v.value("mechanics_proved", proved);
     v.value("joints_wait", joints_wait);
+    v.value("at_rest", at_rest);
   });
 }
 

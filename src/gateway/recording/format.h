@@ -12,13 +12,13 @@
 
 namespace drover::gateway {
 
-inline constexpr std::string_view kRecordingBegins = "drover recording ";  ///< "2\n"
-inline constexpr std::uint8_t kEdition = 2;
+inline constexpr std::string_view kRecordingBegins = "drover recording ";  ///< "3\n"
+inline constexpr std::uint8_t kEdition = 3;
 inline constexpr std::size_t kMaxFields = 4096;
 /// The longest record: a cycle in which everything is as large as it can be.
 inline constexpr std::size_t kMaxRecord = 128 * 1024;
 
-/// Kinds of records that are no inputs; those count from 0. Alike in both editions.
+/// Kinds of records that are no inputs; those count from 0. Alike in all editions.
 enum class RecordKind : std::uint8_t {
   output = 200,  ///< of the last Tick
   path = 201,    ///< before the command that names it
@@ -42,7 +42,7 @@ struct RecordingHeader {
   std::string register_map;       ///< of the batteries, as config::Loaded has it; empty: none
   std::uint64_t mathematics = 0;  ///< mathematics_fingerprint() where it was recorded
   std::vector<FieldName> fields;
-  std::uint8_t edition = kEdition;  ///< 1 is read, too: see first_edition.h
+  std::uint8_t edition = kEdition;  ///< earlier ones are read, too: see earlier_editions.h
 };
 
 std::vector<std::uint8_t> written(const RecordingHeader& header);

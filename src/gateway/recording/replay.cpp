@@ -9,9 +9,9 @@
 
 #include "config/load.h"
 #include "config/old_sections.h"
+#include "gateway/recording/earlier_editions.h"
 #include "gateway/recording/encoder.h"
 #include "gateway/recording/field_values.h"
-#include "gateway/recording/first_edition.h"
 #include "gateway/recording/mathematics.h"
 #include "gateway/recording/text.h"
 
@@ -142,6 +142,7 @@ class Replay final {
   void apply(std::span<const std::uint8_t> record) {
     Latest now{0, before_, {record.begin(), record.end()}};
     if (edition_ == 1) now.record = from_first_edition(record, gateway_->wiring());
+    if (edition_ == 2) now.record = from_second_edition(record);
     ByteReader in(now.record);
     now.kind = in.byte();
     const auto find = [this](std::uint64_t number) -> const Path* {

@@ -113,11 +113,11 @@ std::string words(const Suspended& slept, const Wiring&) {
   return "the computer slept for " + std::to_string(slept.lasted_s) + " s";
 }
 std::string words(const Recalled& recalled, const Wiring&) {
-  const auto& [stop, stop_at_robot, power_cut, holding, released, task, proved, joints_wait] =
-      recalled.remembered;
-  return std::string("recalled:") + (holding ? " held" : "") + (released ? " released" : "") +
-         (power_cut ? " without power" : "") + (task ? " with a task" : "") +
-         (proved ? " with proved mechanics" : "") +
+  const auto& [stop, stop_at_robot, power_cut, holding, released, task, proved, joints_wait,
+               at_rest] = recalled.remembered;
+  return std::string("recalled:") + (at_rest ? " at rest" : "") + (holding ? " held" : "") +
+         (released ? " released" : "") + (power_cut ? " without power" : "") +
+         (task ? " with a task" : "") + (proved ? " with proved mechanics" : "") +
          (joints_wait.empty() ? "" : " joint commands wait: " + std::string(joints_wait) + ",") +
          (stop_at_robot ? " stopped at the robot: " : " stopped: ") + std::string(stop);
 }

@@ -31,6 +31,21 @@ TEST_F(AnEngine, TakesAStartForNoneThatAStopCameAfter) {
   EXPECT_EQ(rig.said<PathReleased>().size(), 1U);
   EXPECT_EQ(rig.fastest_command_radps(), 0);
 }
+/// A broker may hold a message back for so long unnoticed.
+TEST_F(AnEngine, TakesAStartThatMayBeOlderThanTheEndOfAStopForNone) {
+  rig.settle();
+  rig.lines[1] = true;
+  rig.run_s(0.1);
+  rig.lines[1] = false;
+  rig.run_s(0.4);
+  rig.start(path, 40, 0.5);
+  rig.run_s(1);
+  EXPECT_THAT(refusal(), HasSubstr("this may be older; press again"));
+  EXPECT_EQ(rig.fastest_command_radps(), 0);
+  rig.start(path, 40, 0.5);
+  rig.run_s(1);
+  EXPECT_EQ(rig.said<NavigationStarted>().size(), 1U);
+}
 TEST_F(AnEngine, SaysAfterAResetThatItWaitsForANewStart) {
   drive();
   rig.command(EngageStop{});

@@ -2,51 +2,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <string>
 
-#include "engine_rig.h"
+#include "engine_twist_fixture.h"
 
 namespace drover::engine {
 namespace {
 
 using ::testing::HasSubstr;
-
-EngineConfig twist_config() {
-  EngineConfig config = rig_config();
-  config.joints.clear();
-  config.base.kind = BaseKind::twist;
-  config.base.left.clear();
-  config.base.right.clear();
-  return config;
-}
-
-class ABaseThatTakesATwist : public ::testing::Test {
- protected:
-  explicit ABaseThatTakesATwist(const EngineConfig& config = twist_config()) : rig(config) {}
-  void drive() {
-    rig.settle();
-    rig.start(path, path_end, 0.5);
-    rig.run_s(4);
-    ASSERT_EQ(rig.snapshot().nav.status, NavStatus::run) << rig.why();
-    ASSERT_GT(rig.out.base.twist.vx_mps, 0.4);
-    ASSERT_TRUE(rig.out.motion_permitted);
-  }
-  bool has_power() const { return rig.out.outputs[static_cast<std::size_t>(Output::enable_relay)]; }
-  bool at_rest() const {
-    return rig.out.base.twist.vx_mps == 0 && rig.out.base.twist.wz_radps == 0;
-  }
-
-  std::string told() const {
-    std::string all;
-    for (const Reason& why : rig.snapshot().why) all += std::string(why.view()) + "; ";
-    return all;
-  }
-
-  Path path = straight_path(6);
-  std::uint32_t path_end = 12;
-  EngineRig rig;
-};
 
 TEST_F(ABaseThatTakesATwist, DrivesATrackToItsEnd) {
   drive();
@@ -185,6 +148,22 @@ TEST_F(ABaseThatTakesATwist, LosesItsPowerWhenItCreepsOnThoughItShouldStand) {
   EXPECT_FALSE(has_power());
 }
 
+TEST_F(ABaseThatTakesATwist, LosesItsPowerWhenItCreepsOnThroughALooseContactAndAStop) {
+  rig.environment.drives_on_in_silence = true;
+  drive();
+  rig.command(CancelTask{});
+  rig.disobeys = WheelSpeeds{0.17, 0.17};  // 0.028 m/s
+  rig.run_s(1.2);
+  rig.drives[0].silent = true;
+  rig.run_s(0.2);
+  rig.drives[0].silent = false;
+  rig.run_s(1);
+  rig.command(EngageStop{});
+  rig.run_s(8);
+  EXPECT_THAT(rig.why(), HasSubstr("did not stop"));
+  EXPECT_FALSE(has_power());
+}
+
 /// It was without power: its last command is forgotten, and it takes a while to begin.
 TEST_F(ABaseThatTakesATwist, HasItsPowerAgainAfterAResetThoughItIsStillSilent) {
   rig.environment.drives_on_in_silence = true;
@@ -217,6 +196,48 @@ TEST_F(ABaseThatTakesATwist, LosesItsPowerWhenItIsFoundSilentWithARelayThatWasKe
   rig.environment.lines[static_cast<std::size_t>(Line::estop)].state = SourceState::fresh;
   rig.run_s(5);
   EXPECT_FALSE(has_power());
+}
+
+/// It no longer hears, and the program that drove it was killed.
+TEST_F(ABaseThatTakesATwist, LosesItsPowerWhenItIsFoundDrivingOn) {
+  rig.environment.relay_found_closed = true;
+  rig.settle();
+  ASSERT_TRUE(has_power());
+  EngineRig again(twist_config());
+  again.environment.relay_found_closed = true;
+  again.drives[0].state = AxisState::running;
+  again.disobeys = WheelSpeeds{1.5, 1.5};
+  again.run_s(4);
+  EXPECT_FALSE(again.has_power()) << again.why();
+}
+
+/// A guard slows it down meanwhile.
+TEST_F(ABaseThatTakesATwist, KeepsItsPowerWhenItIsFoundSlowingDown) {
+  rig.environment.relay_found_closed = true;
+  rig.drives[0].state = AxisState::running;
+  rig.guard_has_bus = rig.drives[0].silent = true;
+  rig.disobeys = WheelSpeeds{4, 4};
+  rig.run_s(0.05);
+  rig.drives[0].silent = false;
+  for (int i = 0; i < 16; ++i) {
+    rig.disobeys = WheelSpeeds{4 - 0.25 * i, 4 - 0.25 * i};
+    rig.run_s(0.05);
+  }
+  rig.guard_has_bus = false;
+  rig.disobeys.reset();
+  rig.run_s(5);
+  EXPECT_TRUE(has_power()) << rig.why();
+}
+
+TEST_F(ABaseThatTakesATwist, IsNotReleasedWhileItCreepsOn) {
+  drive();
+  rig.command(CancelTask{});
+  rig.run_s(2);
+  rig.disobeys = WheelSpeeds{0.27, 0.27};  // 0.045 m/s
+  rig.run_s(0.2);
+  rig.command(ReleaseHold{});
+  rig.tick();
+  EXPECT_NE(rig.snapshot().hold, HoldState::released);
 }
 
 TEST_F(ABaseThatTakesATwist, LosesItsPowerWhenItDrivesOnThoughItsContactFlickers) {
@@ -255,162 +276,6 @@ TEST_F(ABaseThatTakesATwist, IsLetGoWhenAPersonReleasesIt) {
   EXPECT_THAT(std::string(rig.said<CommandAccepted>().back().note.view()),
               ::testing::AllOf(HasSubstr("nothing is commanded any more, and it can roll"),
                                ::testing::Not(HasSubstr("let go: "))));
-}
-
-/// Nothing but its device holds it.
-class ABaseThatTakesATwistOnASlope : public ABaseThatTakesATwist {
- protected:
-  ABaseThatTakesATwistOnASlope() : ABaseThatTakesATwist(held_by_its_device()) { rig.imu = true; }
-  void tilt() { rig.gravity_mps2 = {9.81 * std::sin(to_rad(8)), 0, 9.81 * std::cos(to_rad(8))}; }
-
- private:
-  static EngineConfig held_by_its_device() {
-    EngineConfig config = twist_config();
-    config.base.hold = HoldBy::level_ground_only;
-    return config;
-  }
-};
-
-TEST_F(ABaseThatTakesATwistOnASlope, LosesItsPowerWhenItDrivesOn) {
-  drive();
-  tilt();
-  for (int i = 0; i < 2000 && rig.snapshot().nav.status != NavStatus::error; ++i) rig.tick();
-  ASSERT_THAT(rig.why(), HasSubstr("the ground falls by"));
-  rig.disobeys = WheelSpeeds{0.5, 0.5};
-  for (int i = 0; i < 400 && rig.out.base.request != AxisRequest::idle; ++i) rig.tick();
-  EXPECT_EQ(rig.out.base.request, AxisRequest::idle);
-  EXPECT_THAT(rig.why(), HasSubstr("did not stop: the base says"));
-}
-
-/// Its supply is away for longer than a witness needs, and it rolls: it is heard again, and brakes.
-TEST_F(ABaseThatTakesATwistOnASlope, KeepsItsPowerWhenItIsSilentUntilItHasItsSupplyAgain) {
-  rig.environment.drives_on_in_silence = true;
-  rig.tells_speed = true;
-  drive();
-  tilt();
-  rig.run_s(0.5);
-  rig.drives[0].silent = true;
-  rig.disobeys = WheelSpeeds{4, 4};  // 0.66 m/s
-  rig.run_s(1.6);
-  rig.drives[0].silent = false;
-  rig.drives[0].state = AxisState::idle;
-  rig.run_s(0.5);
-  rig.disobeys.reset();
-  rig.run_s(5);
-  EXPECT_TRUE(has_power()) << rig.why();
-}
-
-/// Only its own brake holds it there: a stop must not set in motion what stands.
-TEST_F(ABaseThatTakesATwistOnASlope, KeepsItsPowerWhenItFallsSilentAtRestAndAPersonStopsIt) {
-  rig.environment.drives_on_in_silence = rig.tells_speed = true;
-  drive();
-  tilt();
-  rig.run_s(5);
-  rig.drives[0].silent = true;
-  rig.run_s(3);
-  rig.command(EngageStop{});
-  rig.run_s(10);
-  EXPECT_TRUE(has_power()) << rig.why();
-  rig.disobeys = WheelSpeeds{3, 3};
-  rig.run_s(6);
-  EXPECT_FALSE(has_power()) << "it stood, and drives now";
-}
-
-TEST_F(ABaseThatTakesATwistOnASlope, KeepsItsPowerWhenItBrakesAndCreeps) {
-  rig.environment.stop_creeps = true;
-  drive();
-  tilt();
-  rig.run_s(0.8);
-  rig.disobeys = WheelSpeeds{0.6, 0.6};  // 0.1 m/s
-  rig.run_s(20);
-  EXPECT_TRUE(has_power()) << rig.why();
-  EXPECT_THAT(told(), HasSubstr("moves without a command"));
-}
-
-TEST_F(ABaseThatTakesATwistOnASlope, LosesItsPowerWhenItDoesNotBrake) {
-  rig.environment.stop_creeps = true;
-  drive();
-  tilt();
-  rig.run_s(0.3);
-  rig.disobeys = WheelSpeeds{2, 2};
-  rig.run_s(4);
-  EXPECT_FALSE(has_power()) << rig.why();
-}
-
-/// It hears and brakes, and only its answers are lost: the receiver sees that it stands.
-TEST_F(ABaseThatTakesATwistOnASlope, KeepsItsPowerWhenItFallsSilentAndIsSeenToStand) {
-  rig.environment.drives_on_in_silence = rig.tells_speed = true;
-  drive();
-  tilt();
-  rig.run_s(0.2);
-  rig.drives[0].silent = true;
-  rig.run_s(20);
-  EXPECT_TRUE(has_power()) << rig.why();
-}
-
-TEST_F(ABaseThatTakesATwistOnASlope, LosesItsPowerWhenItFallsSilentAndDrivesOn) {
-  rig.environment.drives_on_in_silence = rig.tells_speed = true;
-  drive();
-  tilt();
-  rig.run_s(0.2);
-  rig.drives[0].silent = true;
-  rig.disobeys = WheelSpeeds{0.6, 0.6};  // 0.1 m/s
-  rig.run_s(5);
-  EXPECT_FALSE(has_power()) << rig.why();
-}
-
-/// Its computer begins again, which may take longer than a second or two: it rolls meanwhile.
-TEST_F(ABaseThatTakesATwistOnASlope, KeepsItsPowerForTenSecondsWhileItIsSilentAndRolls) {
-  rig.environment.drives_on_in_silence = rig.tells_speed = true;
-  drive();
-  tilt();
-  rig.run_s(0.2);
-  rig.drives[0].silent = true;
-  rig.disobeys = WheelSpeeds{7, 7};  // 1.2 m/s
-  rig.run_s(7);
-  EXPECT_TRUE(has_power()) << rig.why();
-  rig.run_s(6);
-  EXPECT_FALSE(has_power()) << "nobody will catch it any more";
-}
-
-TEST_F(ABaseThatTakesATwistOnASlope, KeepsItsPowerWhenItsSpeedIsFrozenAndItIsSeenToStand) {
-  rig.tells_speed = true;
-  drive();
-  tilt();
-  rig.run_s(0.1);
-  rig.disobeys = WheelSpeeds{0, 0};
-  rig.tells_mps = 0.5;
-  rig.run_s(10);
-  EXPECT_TRUE(has_power()) << rig.why();
-}
-
-/// Its own button let it roll, and was let go: it brakes from then on.
-TEST_F(ABaseThatTakesATwistOnASlope, KeepsItsPowerWhenItRolledWithoutADriveAndBrakesNow) {
-  rig.tells_speed = true;
-  drive();
-  tilt();
-  rig.run_s(0.1);
-  rig.drives[0].fault = true;
-  rig.drives[0].state = AxisState::fault;
-  rig.disobeys = WheelSpeeds{6, 6};
-  rig.run_s(1.5);
-  rig.drives[0].fault = false;
-  rig.drives[0].state = AxisState::running;
-  rig.run_s(0.3);
-  rig.disobeys.reset();
-  rig.run_s(5);
-  EXPECT_TRUE(has_power()) << rig.why();
-}
-
-/// Both programs were away, and the relay with them: what is silent has yet to begin.
-TEST_F(ABaseThatTakesATwistOnASlope, KeepsItsPowerWhileItBeginsAfterARestart) {
-  rig.environment.drives_on_in_silence = true;
-  rig.tells_speed = true;
-  tilt();
-  rig.drives[0].silent = true;
-  rig.disobeys = WheelSpeeds{-4, -4};
-  rig.run_s(4);
-  EXPECT_TRUE(has_power()) << rig.why();
 }
 
 }  // namespace

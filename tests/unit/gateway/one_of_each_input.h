@@ -62,7 +62,7 @@ struct OneOfEachInput {
     add(Tick{true, false});
     add(ProgramTrouble{"droverd ends"});
     add(Suspended{2.5});
-    add(Recalled{{"emergency stop", true, false, true, false, true, true, "bumper touched"}});
+    add(Recalled{{"emergency stop", true, false, true, false, true, true, "bumper touched", true}});
     add(OutputsUp{true});
     add(LinkLost{0, "can0: lost (No such device)"});
     add(Tick{false, true, true});

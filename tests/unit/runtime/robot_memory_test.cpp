@@ -24,15 +24,16 @@ Remembered stopped() {
   kept.joints_wait = "bumper touched";
   return kept;
 }
-/// A record of the layout before this one, which kept nothing that joint commands wait for.
+/// A record of the layout before this one, which did not know whether the robot was at rest.
 struct RecordBefore {
-  std::uint64_t format = 0x64726d656d303032;
+  std::uint64_t format = 0x64726d656d303033;
   std::uint64_t sequence = 1;
   std::array<char, 40> boot{};
   std::uint64_t configuration = store::fingerprint("{}");
   struct {
     Reason stop;
     std::array<bool, 6> flags{};  ///< the third: holding
+    Reason joints_wait;
   } kept;
   std::uint64_t checksum = 0;
 };

@@ -11,12 +11,18 @@ using namespace std::chrono_literals;
 
 class AMotionWitness : public testing::Test {
  protected:
+  AMotionWitness() {
+    position_.latitude_deg = 48;
+    position_.longitude_deg = 11;
+  }
   /// Ten times a second, as a receiver tells it, with the way that comes of the speed.
-  void tell(double speed_mps, FixQuality quality) {
+  void tell(double speed_mps, FixQuality quality) { tell(speed_mps, speed_mps, quality); }
+  /// Its places go by `way_mps`, whatever its speed is.
+  void tell(double speed_mps, double way_mps, FixQuality quality = FixQuality::rtk_fixed) {
     now_ += 100ms;
     constexpr double kMetresPerDegree = 111195;
     position_.quality = quality;
-    position_.latitude_deg += speed_mps * 0.1 / kMetresPerDegree;
+    position_.latitude_deg += way_mps * 0.1 / kMetresPerDegree;
     witness_.on_position(position_, now_);
     GnssVelocity velocity;
     velocity.speed_mps = speed_mps;
@@ -30,8 +36,6 @@ class AMotionWitness : public testing::Test {
 };
 
 TEST_F(AMotionWitness, SeesAMotionThatBeginsSlowlyWithAFix) {
-  position_.latitude_deg = 48;
-  position_.longitude_deg = 11;
   witness_.expect_rest(now_, 0);
   witness_.set_at_rest(true);
   for (int i = 0; i < 100; ++i) tell(0.01, FixQuality::rtk_fixed);
@@ -41,12 +45,45 @@ TEST_F(AMotionWitness, SeesAMotionThatBeginsSlowlyWithAFix) {
 }
 
 TEST_F(AMotionWitness, LearnsTheNoiseOfAFloatSolutionWhileItRests) {
-  position_.latitude_deg = 48;
-  position_.longitude_deg = 11;
   witness_.set_at_rest(true);
   for (int i = 0; i < 100; ++i) tell(i % 2 == 0 ? 0.3 : 0.1, FixQuality::rtk_float);
   tell(0.7, FixQuality::rtk_float);
   EXPECT_EQ(moving(), 0);
+}
+
+TEST_F(AMotionWitness, TellsStandingFromFiveCentimetresASecondWhenItMayLookForThreeSeconds) {
+  for (int i = 0; i < 15; ++i) tell(0.05, 0.05);
+  EXPECT_TRUE(witness_.stands(now_)) << "in a second it is as little as noise";
+  for (int i = 0; i < 40; ++i) tell(0.05, 0.05);
+  EXPECT_FALSE(witness_.stood(now_));
+  for (int i = 0; i < 35; ++i) tell(0.01, 0.01);
+  EXPECT_TRUE(witness_.stood(now_));
+  tell(0.01, 0.01, FixQuality::rtk_float);
+  now_ += 2s;
+  EXPECT_FALSE(witness_.stood(now_)) << "nobody looks any more";
+}
+
+TEST_F(AMotionWitness, SeesAReceiverStandThatTellsOnceASecond) {
+  for (int i = 0; i < 3; ++i) {
+    now_ += 900ms;
+    tell(0, 0);
+  }
+  EXPECT_TRUE(witness_.stands(now_));
+}
+
+TEST_F(AMotionWitness, BelievesAWayThatSpeedAndPlacesTellTogetherForASecond) {
+  for (int i = 0; i < 18; ++i) tell(0.5, 0.5);
+  EXPECT_EQ(witness_.proven_way(now_).y_m, 0);
+  for (int i = 0; i < 6; ++i) tell(0.5, 0.5);
+  EXPECT_NEAR(witness_.proven_way(now_).y_m, 0.5, 0.02);
+  EXPECT_NEAR(witness_.proven_way(now_).x_m, 0, 0.02);
+}
+
+TEST_F(AMotionWitness, BelievesNoWayOfAReceiverThatContradictsItself) {
+  for (int i = 0; i < 100; ++i) {
+    tell(i % 3 == 0 ? 1.4 : 0.2, 0.8);
+    EXPECT_EQ(witness_.proven_way(now_).y_m, 0) << i;
+  }
 }
 
 }  // namespace

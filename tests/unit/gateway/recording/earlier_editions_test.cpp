@@ -1,4 +1,4 @@
-#include "gateway/recording/first_edition.h"
+#include "gateway/recording/earlier_editions.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -65,6 +65,26 @@ TEST_F(FirstEdition, NumberedTheBusesAsToday) {
 TEST_F(FirstEdition, RecalledNothingThatJointCommandsWaitFor) {
   EXPECT_EQ(meaning(15, {3, 'o', 'f', 'f', 1, 0, 1, 0, 0, 0}),
             "at 8.000000000 s: recalled: held stopped at the robot: off");
+}
+
+TEST(SecondEdition, DidNotRememberWhetherTheRobotWasAtRest) {
+  engine::Environment environment;
+  const Wiring wiring = wire_up(load_robot().config, environment);
+  std::vector<std::uint8_t> record(64);
+  ByteWriter out(record);
+  out.byte(static_cast<std::uint8_t>(InputBody(Recalled{}).index()));
+  out.signed_number(1'000'000'000);
+  out.text("off");
+  for (const bool flag : {true, false, true, false, false, false}) out.byte(flag ? 1 : 0);
+  out.text("");
+  record.resize(out.written().size());
+  const auto now = from_second_edition(record);
+  ByteReader in(now);
+  const auto kind = in.byte();
+  const auto input = read_input(
+      kind, Time{std::chrono::seconds(7)}, [](auto) { return nullptr; }, in);
+  ASSERT_TRUE(in.done());
+  EXPECT_EQ(text_of(input, wiring), "at 8.000000000 s: recalled: held stopped at the robot: off");
 }
 
 TEST_F(FirstEdition, HadTheSameOfAllElse) {

@@ -1,4 +1,4 @@
-#include "gateway/recording/first_edition.h"
+#include "gateway/recording/earlier_editions.h"
 
 #include <algorithm>
 
@@ -23,7 +23,7 @@ struct Translation {
     lost,     ///< the same, and no reason behind it
     battery,  ///< its slot
     line_of_battery,
-    joints_wait,  ///< behind it: for nothing
+    memory,  ///< behind it: joint commands wait for nothing, and it is not known to rest
   };
   std::uint8_t kind = 0;
   Adds adds = Adds::nothing;
@@ -48,7 +48,7 @@ const Translation kTranslations[] = {
     {kind_now<Tick>()},
     {kind_now<ProgramTrouble>()},
     {kind_now<Suspended>()},
-    {kind_now<Recalled>(), Adds::joints_wait},
+    {kind_now<Recalled>(), Adds::memory},
     {kind_now<OutputsUp>()},
 };
 
@@ -83,7 +83,7 @@ std::vector<std::uint8_t> from_first_edition(std::span<const std::uint8_t> recor
   out.signed_number(time);
   switch (adds) {
     case Adds::nothing:
-    case Adds::joints_wait: break;
+    case Adds::memory: break;
     case Adds::stream: {
       const auto streams = streams_of_first_edition(wiring);
       out.byte(streams[in.below(streams.size())]);
@@ -98,10 +98,19 @@ std::vector<std::uint8_t> from_first_edition(std::span<const std::uint8_t> recor
     case Adds::line_of_battery: out.byte(link_of(wiring, SlotKind::battery)); break;
   }
   out.bytes(in.left());
-  if (adds == Adds::joints_wait) out.text("");
+  if (adds == Adds::memory) {
+    out.text("");
+    out.byte(0);
+  }
   if (!in.good() || !out.good()) return {};
   buffer.resize(out.written().size());
   return buffer;
+}
+
+std::vector<std::uint8_t> from_second_edition(std::span<const std::uint8_t> record) {
+  std::vector<std::uint8_t> now(record.begin(), record.end());
+  if (!now.empty() && now.front() == kind_now<Recalled>()) now.push_back(0);
+  return now;
 }
 
 }  // namespace drover::gateway

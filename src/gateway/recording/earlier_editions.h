@@ -1,5 +1,6 @@
-// Recordings of the first edition, which named one receiver, one sensor, one battery and one chip
-// by their kind and not by number: their inputs, as the second edition writes them.
+// Recordings of earlier editions: their inputs, as they are written today. The first named one
+// receiver, one sensor, one battery and one chip by their kind and not by number; the first two did
+// not tell whether a robot that was remembered was at rest.
 #pragma once
 
 #include <cstdint>
@@ -10,9 +11,12 @@
 
 namespace drover::gateway {
 
-/// The record of an input in the second edition; empty when it is none of the first.
+/// The record of an input of the first edition as it is written today; empty when it is none.
 std::vector<std::uint8_t> from_first_edition(std::span<const std::uint8_t> record,
                                              const Wiring& wiring);
+
+/// The same of the second.
+std::vector<std::uint8_t> from_second_edition(std::span<const std::uint8_t> record);
 
 /// The byte streams of an output in the first edition, in their order; kNowhere: not configured.
 std::vector<LinkId> streams_of_first_edition(const Wiring& wiring);

@@ -1,0 +1,31 @@
+// Whether a base creeps on from its last command, too slowly for anything else that watches.
+#pragma once
+
+#include "engine/health/rim_motion.h"
+
+namespace drover::engine {
+
+struct CreepInput {
+  Time now = kNever;
+  Duration dt{};
+  bool power = true;       ///< there is some, and no person has released the drives
+  bool may_roll = false;   ///< without power; what is faster is judged by more than its wheels
+  bool may_slide = false;  ///< and what it does may be the slope's doing
+  bool seen_to_stand = false;
+};
+
+/// From when it should rest, and only until it has stood: who pushes it later must not find it
+/// latched.
+class CreepWatch final {
+ public:
+  void begin(Time now);
+  void end() { since_ = kNever; }
+  /// True when it went 0.1 m by its wheels, never slower than 2 cm/s.
+  bool update(const CreepInput& input, const RimMotion& rims);
+
+ private:
+  Time since_ = kNever;
+  double way_m_ = 0;  ///< of the fastest rim
+};
+
+}  // namespace drover::engine

@@ -1,0 +1,34 @@
+// How the driven wheels have turned lately: since when they turn, and whether they get slower.
+#pragma once
+
+#include "engine/health/rim_motion.h"
+
+namespace drover::engine {
+
+class RimHistory final {
+ public:
+  /// First in each cycle.
+  void turn(const RimMotion& rims, Time now);
+  /// `is_due`: they should rest.
+  void brake(const RimMotion& rims, bool is_due, Time now);
+
+  bool turns() const { return turns_; }
+  /// Of the fastest, with its sign.
+  double mps() const { return mps_; }
+  /// They turn one way for longer than a drive swings its wheel while it is being armed.
+  bool rolls(Time now) const;
+  /// Since when they get no slower though they should rest.
+  Time steady_since() const { return steady_since_; }
+  /// The same while a drive is in closed loop: what rolled before is given the time to get slower.
+  Time driven_since() const { return driven_since_; }
+
+ private:
+  bool turns_ = false;
+  double mps_ = 0;
+  Time turns_since_ = kNever;  ///< in this direction
+  Time steady_since_ = kNever;
+  double slowest_mps_ = 0;
+  Time driven_since_ = kNever;
+};
+
+}  // namespace drover::engine

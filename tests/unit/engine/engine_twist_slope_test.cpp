@@ -1,0 +1,283 @@
+// Where it could roll: what takes the power from a base that takes a twist, and what must not.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "engine_twist_fixture.h"
+
+namespace drover::engine {
+namespace {
+
+using ::testing::HasSubstr;
+
+TEST_F(ABaseThatTakesATwistOnASlope, LosesItsPowerWhenItDrivesOn) {
+  drive();
+  tilt();
+  for (int i = 0; i < 2000 && rig.snapshot().nav.status != NavStatus::error; ++i) rig.tick();
+  ASSERT_THAT(rig.why(), HasSubstr("the ground falls by"));
+  rig.disobeys = WheelSpeeds{0.5, 0.5};
+  for (int i = 0; i < 400 && rig.out.base.request != AxisRequest::idle; ++i) rig.tick();
+  EXPECT_EQ(rig.out.base.request, AxisRequest::idle);
+  EXPECT_THAT(rig.why(), HasSubstr("did not stop: the base says"));
+}
+
+/// Its supply is away for longer than a witness needs, and it rolls: it is heard again, and brakes.
+TEST_F(ABaseThatTakesATwistOnASlope, KeepsItsPowerWhenItIsSilentUntilItHasItsSupplyAgain) {
+  rig.environment.drives_on_in_silence = true;
+  rig.tells_speed = true;
+  drive();
+  tilt();
+  rig.run_s(0.5);
+  rig.drives[0].silent = true;
+  rig.disobeys = WheelSpeeds{4, 4};  // 0.66 m/s
+  rig.run_s(1.6);
+  rig.drives[0].silent = false;
+  rig.drives[0].state = AxisState::idle;
+  rig.run_s(0.5);
+  rig.disobeys.reset();
+  rig.run_s(5);
+  EXPECT_TRUE(has_power()) << rig.why();
+}
+
+/// Only its own brake holds it there: a stop must not set in motion what stands.
+TEST_F(ABaseThatTakesATwistOnASlope, KeepsItsPowerWhenItFallsSilentAtRestAndAPersonStopsIt) {
+  rig.environment.drives_on_in_silence = rig.tells_speed = true;
+  drive();
+  tilt();
+  rig.run_s(5);
+  rig.drives[0].silent = true;
+  rig.run_s(3);
+  rig.command(EngageStop{});
+  rig.run_s(10);
+  EXPECT_TRUE(has_power()) << rig.why();
+  rig.disobeys = WheelSpeeds{3, 3};
+  rig.run_s(6);
+  EXPECT_FALSE(has_power()) << "it stood, and drives now";
+}
+
+TEST_F(ABaseThatTakesATwistOnASlope, KeepsItsPowerWhenItBrakesAndCreeps) {
+  rig.environment.stop_creeps = true;
+  drive();
+  tilt_down();
+  rig.run_s(0.8);
+  rig.disobeys = WheelSpeeds{0.6, 0.6};  // 0.1 m/s
+  rig.run_s(20);
+  EXPECT_TRUE(has_power()) << rig.why();
+  EXPECT_THAT(told(), HasSubstr("moves without a command"));
+}
+
+TEST_F(ABaseThatTakesATwistOnASlope, LosesItsPowerWhenItDoesNotBrake) {
+  rig.environment.stop_creeps = true;
+  drive();
+  tilt();
+  rig.run_s(0.3);
+  rig.disobeys = WheelSpeeds{2, 2};
+  rig.run_s(4);
+  EXPECT_FALSE(has_power()) << rig.why();
+}
+
+/// It hears and brakes, and only its answers are lost: the receiver sees that it stands.
+TEST_F(ABaseThatTakesATwistOnASlope, KeepsItsPowerWhenItFallsSilentAndIsSeenToStand) {
+  rig.environment.drives_on_in_silence = rig.tells_speed = true;
+  drive();
+  tilt();
+  rig.run_s(0.2);
+  rig.drives[0].silent = true;
+  rig.run_s(20);
+  EXPECT_TRUE(has_power()) << rig.why();
+}
+
+TEST_F(ABaseThatTakesATwistOnASlope, LosesItsPowerWhenItFallsSilentAndDrivesOn) {
+  rig.environment.drives_on_in_silence = rig.tells_speed = true;
+  drive();
+  tilt();
+  rig.run_s(0.2);
+  rig.drives[0].silent = true;
+  rig.disobeys = WheelSpeeds{0.6, 0.6};  // 0.1 m/s
+  rig.run_s(5);
+  EXPECT_FALSE(has_power()) << rig.why();
+}
+
+/// Its computer begins again, which may take longer than a second or two: it rolls meanwhile.
+TEST_F(ABaseThatTakesATwistOnASlope, KeepsItsPowerForTenSecondsWhileItIsSilentAndRolls) {
+  rig.environment.drives_on_in_silence = rig.tells_speed = true;
+  drive();
+  tilt_down();
+  rig.run_s(0.2);
+  rig.drives[0].silent = true;
+  rig.disobeys = WheelSpeeds{7, 7};  // 1.2 m/s
+  rig.run_s(7);
+  EXPECT_TRUE(has_power()) << rig.why();
+  rig.run_s(6);
+  EXPECT_FALSE(has_power()) << "nobody will catch it any more";
+}
+
+TEST_F(ABaseThatTakesATwistOnASlope, KeepsItsPowerWhenItsSpeedIsFrozenAndItIsSeenToStand) {
+  rig.tells_speed = true;
+  drive();
+  tilt();
+  rig.run_s(0.1);
+  rig.disobeys = WheelSpeeds{0, 0};
+  rig.tells_mps = 0.5;
+  rig.run_s(10);
+  EXPECT_TRUE(has_power()) << rig.why();
+}
+
+/// Its own button let it roll, and was let go: it brakes from then on.
+TEST_F(ABaseThatTakesATwistOnASlope, KeepsItsPowerWhenItRolledWithoutADriveAndBrakesNow) {
+  rig.tells_speed = true;
+  drive();
+  tilt();
+  rig.run_s(0.1);
+  rig.drives[0].fault = true;
+  rig.drives[0].state = AxisState::fault;
+  rig.disobeys = WheelSpeeds{6, 6};
+  rig.run_s(1.5);
+  rig.drives[0].fault = false;
+  rig.drives[0].state = AxisState::running;
+  rig.run_s(0.3);
+  rig.disobeys.reset();
+  rig.run_s(5);
+  EXPECT_TRUE(has_power()) << rig.why();
+}
+
+/// Both programs were away, and the relay with them: what is silent has yet to begin.
+TEST_F(ABaseThatTakesATwistOnASlope, KeepsItsPowerWhileItBeginsAfterARestart) {
+  rig.environment.drives_on_in_silence = true;
+  rig.tells_speed = true;
+  tilt();
+  rig.drives[0].silent = true;
+  rig.disobeys = WheelSpeeds{-4, -4};
+  rig.run_s(4);
+  EXPECT_TRUE(has_power()) << rig.why();
+}
+
+/// Slower than half of what it was driven with; but nothing creeps up.
+TEST_F(ABaseThatTakesATwistOnASlope, LosesItsPowerWhenItGoesUpThoughItOnlyBrakes) {
+  rig.environment.stop_creeps = true;
+  drive();
+  tilt();
+  rig.run_s(0.3);
+  rig.disobeys = WheelSpeeds{1.4, 1.4};  // 0.23 m/s
+  rig.run_s(4);
+  EXPECT_FALSE(has_power()) << rig.why();
+}
+
+/// It no longer hears, in the last centimetres.
+TEST_F(ABaseThatTakesATwistOnASlope, LosesItsPowerWhenItCreepsUp) {
+  rig.environment.stop_creeps = rig.tells_speed = true;
+  drive();
+  tilt();
+  rig.run_s(0.6);
+  rig.disobeys = WheelSpeeds{0.27, 0.27};  // 0.045 m/s
+  rig.run_s(10);
+  EXPECT_FALSE(has_power()) << rig.why();
+}
+
+TEST_F(ABaseThatTakesATwistOnASlope, KeepsItsPowerWhenItCreepsAsFastAsItWasDriven) {
+  rig.environment.stop_creeps = rig.tells_speed = true;
+  rig.settle();
+  rig.start(path, path_end, 0.1);
+  rig.run_s(6);
+  tilt_down();
+  rig.disobeys = WheelSpeeds{0.5, 0.5};  // 0.08 m/s
+  rig.run_s(10);
+  EXPECT_TRUE(has_power()) << rig.why();
+}
+
+/// The receiver sees it stand, and then an everyday thing happens to the receiver.
+TEST_F(ABaseThatTakesATwistOnASlope, KeepsItsPowerWhenItStoodInSilenceAndNobodySeesItAnyMore) {
+  rig.environment.drives_on_in_silence = rig.tells_speed = true;
+  drive();
+  tilt_down();
+  rig.run_s(0.2);
+  rig.drives[0].silent = true;
+  rig.run_s(8);
+  ASSERT_TRUE(has_power()) << rig.why();
+  rig.quality = FixQuality::rtk_float;
+  rig.run_s(20);
+  EXPECT_TRUE(has_power()) << rig.why();
+  rig.command(EngageStop{});
+  rig.run_s(10);
+  EXPECT_TRUE(has_power()) << rig.why();
+}
+
+/// As it is driven on its first way: five centimetres in a second pass for standing, at first.
+TEST_F(ABaseThatTakesATwistOnASlope, LosesItsPowerWhenItIsSilentAndGoesAsSlowlyAsItMay) {
+  rig.environment.drives_on_in_silence = rig.tells_speed = true;
+  rig.settle();
+  rig.start(path, path_end, 0.1);
+  rig.run_s(6);
+  tilt();
+  rig.run_s(0.2);
+  rig.drives[0].silent = true;
+  rig.disobeys = WheelSpeeds{0.29, 0.29};  // 0.048 m/s
+  rig.run_s(12);
+  EXPECT_FALSE(has_power()) << rig.why();
+}
+
+/// It was cut once, for two statements of one device.
+TEST_F(ABaseThatTakesATwistOnASlope, KeepsItsPowerWhenItsReceiverAloneGoesAstray) {
+  rig.tells_speed = true;
+  drive();
+  tilt_down();
+  rig.run_s(5);
+  rig.jump_m = 3;
+  rig.speed_noise_mps = 0.8;
+  rig.run_s(3);
+  rig.command(EngageStop{});
+  for (int i = 0; i < 100; ++i) {
+    rig.jump_m += 0.1;  // and drifts
+    rig.run_s(0.1);
+  }
+  EXPECT_TRUE(has_power()) << rig.why();
+}
+
+TEST_F(ABaseThatTakesATwistOnASlope, KeepsItsPowerWhenItsReceiverGoesAstrayWhileItDrives) {
+  rig.tells_speed = true;
+  drive();
+  tilt_down();
+  rig.speed_noise_mps = 0.8;
+  for (int i = 0; i < 100; ++i) {
+    rig.jump_m += 0.08;
+    rig.run_s(0.1);
+  }
+  EXPECT_TRUE(has_power()) << rig.why();
+}
+
+/// Its encoder is frozen, and the receiver tells of it with one voice.
+TEST_F(ABaseThatTakesATwistOnASlope, LosesItsPowerWhenItIsSeenToDriveOn) {
+  rig.tells_speed = true;
+  drive();
+  tilt_down();
+  rig.run_s(0.1);
+  rig.drives[0].stuck = true;
+  rig.disobeys = WheelSpeeds{2.5, 2.5};
+  rig.run_s(5);
+  EXPECT_FALSE(has_power()) << rig.why();
+}
+
+/// A daemon was killed, and its guard kept the relay: nobody knows how fast it was driven.
+TEST_F(ABaseThatTakesATwistOnASlope, LosesItsPowerWhenItIsFoundSilentAndGoesUp) {
+  rig.environment.drives_on_in_silence = rig.environment.relay_found_closed = true;
+  rig.tells_speed = true;
+  tilt();
+  rig.drives[0].silent = true;
+  rig.disobeys = WheelSpeeds{3, 3};
+  rig.run_s(4);
+  EXPECT_FALSE(has_power()) << rig.why();
+}
+
+TEST_F(ABaseThatTakesATwistOnASlope, KeepsItsPowerAfterARestartWhenItWasKnownToRest) {
+  rig.environment.drives_on_in_silence = rig.environment.relay_found_closed = true;
+  rig.quality = FixQuality::rtk_float;
+  Remembered held;
+  held.holding = held.at_rest = true;
+  rig.engine->recall(held, rig.now);
+  tilt();
+  rig.drives[0].silent = true;
+  rig.run_s(10);
+  EXPECT_TRUE(has_power()) << rig.why();
+}
+
+}  // namespace
+}  // namespace drover::engine
