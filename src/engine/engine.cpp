@@ -189,9 +189,11 @@ void Engine::Impl::start_task(const RequestId& id, const StartTask& task, Time n
   Reason why;
   if (task.overtaken) why = "a stop came after it";
   // A broker that is late by less than what shows may have had it since before.
+  const HealthReport& report = health.report();
+  const bool over = report.stop.empty() && !report.holds(Cause::drive_fault);
   const bool older = id.source == RequestId::Source::mqtt && stopped_at != kNever &&
                      now - stopped_at < kBrokerLateUnnoticed;
-  if (why.empty() && older && health.report().stop.empty())
+  if (why.empty() && over && older)
     why = "the robot was stopped until just now, and this may be older; press again";
   if (why.empty()) why = arming.hindrance();
   if (why.empty()) why = owners.hinders_task();
@@ -304,12 +306,13 @@ void Engine::step(Time now, const Environment& environment, EngineOutput& out) {
   const std::span<const AxisSnapshot> axes = e.axes;
   const Reason moved = e.judge_motion(now, dt, lines, environment);
   e.watch_tilt(now, environment.imu_configured);
-  e.place.update(now, e.estimate, e.rest.hears_wheels());
+  e.place.update(now, dt, e.estimate, e.rest.hears_wheels());
   if (e.navigator.active()) e.place.told();  // by the end of the task
   e.health.update({now, environment, axes, lines, e.estimate, e.estimator.has_origin(),
                    e.navigator.active(), e.latch.why(), &e.sensors, e.tilt.reason(), moved,
                    e.place.jumped(), e.latch.power_cut() && e.power.opened(), &e.steep});
-  if (!e.health.report().stop.empty()) e.stopped_at = now;
+  const HealthReport& health = e.health.report();
+  if (!health.stop.empty() || health.holds(Cause::drive_fault)) e.stopped_at = now;
   e.watch_wheels(now, dt);
   const double cap_mps = e.mechanics.speed_cap_mps();
   NavOutput wanted =

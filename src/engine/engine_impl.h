@@ -86,8 +86,8 @@ struct Engine::Impl {
   Reason steep;                          ///< why this ground is too steep to stop on
   Time steep_since = kNever;
   Time tilt_known_at = kNever;
-  bool slopes = false;     ///< the ground fell when that was known last
-  double falls_ahead = 0;  ///< sign of the way on which it did
+  bool slopes = false;       ///< the ground fell when that was known last
+  double falls_ahead = 0;    ///< the sine of how it did on the way ahead
   Time stopped_at = kNever;  ///< last: nothing could move then
   Time last_step = kNever;
   Snapshot snapshot;

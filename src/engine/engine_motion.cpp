@@ -54,7 +54,7 @@ Reason Engine::Impl::judge_motion(Time now, Duration dt, const LineTable& lines,
   if (std::isfinite(falls_deg)) {
     slopes = falls_deg > kRollsFrom_deg;
     const double ahead_deg = to_deg(estimate.pitch_rad);  // nose down is positive
-    falls_ahead = std::abs(ahead_deg) > kCreepsFrom_deg ? std::copysign(1.0, ahead_deg) : 0;
+    falls_ahead = std::abs(ahead_deg) > kCreepsFrom_deg ? std::sin(estimate.pitch_rad) : 0;
   }
   input.rolls_unpowered =
       !steep.empty() || (config.base.hold == HoldBy::level_ground_only && slopes);

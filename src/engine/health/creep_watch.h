@@ -10,7 +10,7 @@ struct CreepInput {
   Duration dt{};
   bool power = true;       ///< there is some, and no person has released the drives
   bool may_roll = false;   ///< without power; what is faster is judged by more than its wheels
-  bool may_slide = false;  ///< and what it does may be the slope's doing
+  double falls_ahead = 0;  ///< as RestInput has it
   bool seen_to_stand = false;
 };
 

@@ -195,7 +195,7 @@ void MechanicsCheck::step(const MechanicsInput& input) {
   now_ = input.now;
   if (proved_) return;
   yaw_rad_ = input.yaw_rad;
-  const bool still = !input.commanded && input.fastest_mps < kStill_mps;
+  const bool still = !input.commanded && input.fastest_mps < kStands_mps;
   if (!still) still_since_ = kNever;
   if (still && still_since_ == kNever) still_since_ = input.now;
   if (moving_ && still && input.now - still_since_ >= from_s(kStill_s)) {

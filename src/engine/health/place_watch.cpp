@@ -34,27 +34,45 @@ Change change(const Pose& from, const Pose& to) {
 
 }  // namespace
 
-void PlaceWatch::update(Time now, const Estimate& estimate, bool heard) {
+void PlaceWatch::update(Time now, Duration dt, const Estimate& estimate, bool heard) {
   if (!estimate.has_position || !estimate.has_heading) return;
   // What rolls out after an e-stop rolls unheard.
   const bool stands = heard && estimate.fastest_mps <= kStands_mps;
   if (!known_ || !stands) {
     known_ = true;
     stood_ = at_ = estimate.pose;
-  } else if (!estimate.disagrees && estimate.predicted_error_m <= config_.bound_run_m) {
+    crept_x_m_ = crept_y_m_ = 0;
+    return;
+  }
+  if (estimate.body.known) {
+    const double way_m = estimate.body.twist.vx_mps * std::max(to_s(dt), 0.0);
+    crept_x_m_ += way_m * std::cos(estimate.pose.yaw_rad);
+    crept_y_m_ += way_m * std::sin(estimate.pose.yaw_rad);
+  }
+  if (!estimate.disagrees && estimate.predicted_error_m <= config_.bound_run_m) {
     compare(now, estimate.pose);
   }
 }
 
+Pose PlaceWatch::crept(const Pose& from) const {
+  Pose to = from;
+  to.x_m += crept_x_m_;
+  to.y_m += crept_y_m_;
+  return to;
+}
+
 void PlaceWatch::compare(Time now, const Pose& pose) {
   const Change since = change(at_, pose);
-  if (since.way_share > 1 || since.turn_share > 1) {
+  const double way_share = std::min(since.way_share, change(crept(at_), pose).way_share);
+  if (way_share > 1 || since.turn_share > 1) {
     tell(pose);
     jumped_at_ = now;
     told_ = false;
     at_ = pose;
+    crept_x_m_ = crept_y_m_ = 0;
   } else if (pose.position_sigma_m < kBetterKnown * at_.position_sigma_m) {
     at_ = pose;
+    crept_x_m_ = crept_y_m_ = 0;
   }
 }
 

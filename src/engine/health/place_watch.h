@@ -14,7 +14,8 @@ class PlaceWatch final {
   explicit PlaceWatch(const EstimateConfig& config) : config_(config) {}
 
   /// `heard`: wheels are. One that stands is enough: a base does not go without it.
-  void update(Time now, const Estimate& estimate, bool heard);
+  /// What the wheels tell though it stands, creeping down a slope, is no jump.
+  void update(Time now, Duration dt, const Estimate& estimate, bool heard);
   /// Another origin: all places have other numbers.
   void forget() { known_ = false; }
   /// A start is asked for. Why not; empty when it may begin: then the new place is believed.
@@ -26,12 +27,15 @@ class PlaceWatch final {
 
  private:
   void compare(Time now, const Pose& pose);
+  Pose crept(const Pose& from) const;
   void tell(const Pose& pose);
 
   EstimateConfig config_;
   bool known_ = false;
-  Pose stood_;  ///< when a wheel turned last, or better known since
-  Pose at_;     ///< the same, or where it jumped to
+  Pose stood_;            ///< when a wheel turned last, or better known since
+  Pose at_;               ///< the same, or where it jumped to
+  double crept_x_m_ = 0;  ///< since it stands, by its wheels
+  double crept_y_m_ = 0;
   Reason jumped_;
   Time jumped_at_ = kNever;
   bool told_ = false;

@@ -27,8 +27,11 @@ constexpr double kRolled_m = 0.3;
 constexpr double kConfirm_s = 1.0;
 // Of the speed that it had: what is slower has braked.
 constexpr double kHasBraked = 0.5;
-constexpr double kCreepsAtMost_mps = 0.2;  // however slowly it was driven before
-constexpr double kAlong = 0.87;            // of its way: within 30 degrees of the heading
+// Of the sine of the slope, whose doing it is however fast it was driven: 0.2 m/s on 15 %.
+constexpr double kCreeps_mps = 1.35;
+constexpr double kCreepsUnheard_mps = 0.1;                  // it may as well be driven so slowly
+constexpr Duration kCreptLately = std::chrono::seconds(1);  // one speed of a receiver is noise
+constexpr double kAlong = 0.87;  // of its way: within 30 degrees of the heading
 // A second shows whether it stands. So long after a stop has to be looked at for longer.
 constexpr Duration kLookTwice = std::chrono::seconds(6);
 constexpr Duration kLookAgain = std::chrono::seconds(5);
@@ -86,6 +89,7 @@ bool RestWatch::due(const RestInput& input) {
     witness_.expect_rest(input.now, turn_);
     quiet_since_ = moves_since_ = alone_since_ = kNever;
     seen_mps_ = 0;
+    crept_at_ = kNever;
     creep_.end();
     if (ours_) creep_.begin(input.now);
   }
@@ -138,7 +142,7 @@ bool RestWatch::moves_as_commanded(const RestInput& input, const RimMotion& rims
 /// Told to stand it only brakes, and the ground falls there: slow as it is, a cut lets it go.
 bool RestWatch::creeps_down(const RestInput& input, double ahead, double mps) const {
   return input.stop_creeps && ahead * input.falls_ahead > 0 &&
-         mps < std::max(kHasBraked * drove_mps_, kCreepsAtMost_mps);
+         mps < kCreeps_mps * std::abs(input.falls_ahead);
 }
 
 /// By a receiver with a fix. What goes by 5 cm in a second passes for standing at first.
@@ -172,7 +176,7 @@ bool RestWatch::creeps_on(const RestInput& input, const RimMotion& rims) {
                         .dt = input.dt,
                         .power = !input.power_is_off && !input.released,
                         .may_roll = may_roll_,
-                        .may_slide = may_roll_ && direction_ * input.falls_ahead >= 0,
+                        .falls_ahead = input.falls_ahead,
                         .seen_to_stand = is_seen_to_stand(input.now)},
                        rims);
 }
@@ -194,14 +198,16 @@ bool RestWatch::is_seen_to_roll(const RestInput& input) const {
 bool RestWatch::cannot_be_stopped(const RestInput& input) {
   spared_ = false;
   if (!silence_.unheard() || !is_driven_by_us(input)) return false;
+  const double creep_mps = std::min(kHasBraked * drove_mps_, kCreepsUnheard_mps);
+  if (creeps_down(input, ahead_m(input), 0) && witness_.is_slower(creep_mps, input.now))
+    crept_at_ = input.now;
   const bool stands = is_seen_to_stand(input.now);
   const bool may_begin = on_slope_ || stands || !silence_.ever_heard();
   const Duration patience = from_s(may_begin ? kBegins_s : kSilent_s);
   const Duration waited = input.now - due_;
   if (waited < patience) return false;
   const bool may_be_caught = is_seen_to_roll(input) && waited < kCaughtUntil;
-  const bool slow = witness_.is_slower(kCreepsAtMost_mps, input.now);
-  const bool creeps = slow && creeps_down(input, ahead_m(input), 0);
+  const bool creeps = crept_at_ != kNever && input.now - crept_at_ < kCreptLately;
   spared_ = on_slope_ && (stands || creeps || may_be_caught);
   const bool seen = moves_since_ != kNever && input.now - moves_since_ >= patience;
   return (silence_.keeps_on() || seen) && !spared_;

@@ -26,7 +26,7 @@ struct RestInput {
   bool drives_on_in_silence = false;  ///< a drive that says nothing keeps its last command
   bool stop_creeps = false;           ///< told to stand it only brakes, on a slope
   bool found_powered = false;         ///< it may have one of the program before this one
-  double falls_ahead = 0;    ///< sign of the way on which the ground falls, 0: of none, or unknown
+  double falls_ahead = 0;  ///< sine of how the ground falls on its way ahead; 0: hardly, or unknown
   double yaw_rad = kAbsent;  ///< of the base, as far as it is known
 };
 
@@ -122,6 +122,7 @@ class RestWatch final {
   bool on_slope_ = false;      ///< it could roll without power, since rest is due
   bool may_roll_ = false;      ///< it could without power, or was caught, since rest is due
   bool hears_wheels_ = false;  ///< at least one, in the last cycle
+  Time crept_at_ = kNever;     ///< silent, when the receiver last saw it go down slowly
   double seen_mps_ = 0;        ///< what the receiver said first since rest is due
   bool spared_ = false;        ///< silent on a slope: it stands, creeps, or may be caught yet
   double expected_mps_ = 0;    ///< how fast it may still be

@@ -27,13 +27,17 @@ bool SilentBase::update(const SilenceInput& input) {
     keeps_on_ = input.asked || std::abs(input.fastest_mps) > kTurns_mps;
     return false;
   }
+  const bool knows_rest = !was_unheard && !heard_ && stood_;
+  if (!was_unheard) suspect_ = heard_ ? keeps_on_ : input.found_powered && !knows_rest;
   stood_ = input.rests || (stood_ && (was_unheard || !heard_));
   // What stands in silence brakes by itself: where it would roll, a stop must not move it.
   const bool stands = input.slope && stood_ && !input.moves;
   if (stands) keeps_on_ = false;
   if (!heard_ && input.found_powered && !stood_) keeps_on_ = true;
   stop_stands_ = stop_stands_ || input.stop_asked;
-  const bool stop_now = stop_stands_ && !stands && (input.stop_asked || !keeps_on_);
+  // What stood because something was in its way drives on.
+  const bool goes_on = suspect_ && stood_ && input.moves;
+  const bool stop_now = (stop_stands_ || goes_on) && !stands && (input.stop_asked || !keeps_on_);
   keeps_on_ = keeps_on_ || stop_now;
   return stop_now;
 }

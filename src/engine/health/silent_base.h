@@ -38,6 +38,7 @@ class SilentBase final {
   bool unheard_ = false;  ///< now
   bool has_a_command_ = false;
   bool keeps_on_ = false;
+  bool suspect_ = false;      ///< it was not at rest when it fell silent, or nobody knows
   bool stood_ = false;        ///< it was at rest when it fell silent, or since then
   bool stop_stands_ = false;  ///< asked by a person, and it is silent since then
   bool back_ = false;

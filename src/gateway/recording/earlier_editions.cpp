@@ -108,9 +108,9 @@ std::vector<std::uint8_t> from_first_edition(std::span<const std::uint8_t> recor
 }
 
 std::vector<std::uint8_t> from_second_edition(std::span<const std::uint8_t> record) {
-  std::vector<std::uint8_t> now(record.begin(), record.end());
-  if (!now.empty() && now.front() == kind_now<Recalled>()) now.push_back(0);
-  return now;
+  std::vector<std::uint8_t> today(record.begin(), record.end());
+  if (!today.empty() && today.front() == kind_now<Recalled>()) today.push_back(0);
+  return today;
 }
 
 }  // namespace drover::gateway

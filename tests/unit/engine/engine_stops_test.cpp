@@ -46,6 +46,18 @@ TEST_F(AnEngine, TakesAStartThatMayBeOlderThanTheEndOfAStopForNone) {
   rig.run_s(1);
   EXPECT_EQ(rig.said<NavigationStarted>().size(), 1U);
 }
+/// A chassis tells of its own e-stop as of a fault.
+TEST_F(AnEngine, TakesAStartThatMayBeOlderThanTheEndOfAFaultForNone) {
+  rig.settle();
+  for (auto& drive : rig.drives) drive.fault = true;
+  rig.run_s(0.1);
+  for (auto& drive : rig.drives) drive.fault = false;
+  rig.run_s(0.2);
+  rig.start(path, 40, 0.5);
+  rig.run_s(1);
+  EXPECT_THAT(refusal(), HasSubstr("this may be older; press again"));
+  EXPECT_EQ(rig.fastest_command_radps(), 0);
+}
 TEST_F(AnEngine, SaysAfterAResetThatItWaitsForANewStart) {
   drive();
   rig.command(EngageStop{});

@@ -58,7 +58,10 @@ TEST_F(ABaseThatTakesATwistOnASlope, KeepsItsPowerWhenItBrakesAndCreeps) {
   rig.environment.stop_creeps = true;
   drive();
   tilt_down();
-  rig.run_s(0.8);
+  rig.pitch_radps = to_rad(80);  // for a tenth of a second: it drove over the edge
+  rig.run_s(0.1);
+  rig.pitch_radps = 0;
+  rig.run_s(0.7);
   rig.disobeys = WheelSpeeds{0.6, 0.6};  // 0.1 m/s
   rig.run_s(20);
   EXPECT_TRUE(has_power()) << rig.why();
@@ -277,6 +280,82 @@ TEST_F(ABaseThatTakesATwistOnASlope, KeepsItsPowerAfterARestartWhenItWasKnownToR
   rig.drives[0].silent = true;
   rig.run_s(10);
   EXPECT_TRUE(has_power()) << rig.why();
+}
+
+/// Softer than others: told zero on its way up, it creeps back.
+TEST_F(ABaseThatTakesATwistOnASlope, KeepsItsPowerWhenItCreepsBackDown) {
+  rig.environment.stop_creeps = rig.tells_speed = true;
+  drive();
+  tilt();
+  rig.run_s(0.7);
+  rig.disobeys = WheelSpeeds{-0.2, -0.2};  // 0.033 m/s
+  rig.run_s(15);
+  EXPECT_TRUE(has_power()) << rig.why();
+}
+
+/// It no longer hears; the ground falls to its side.
+TEST_F(ABaseThatTakesATwistOnASlope, LosesItsPowerWhenItCreepsAcross) {
+  rig.environment.stop_creeps = rig.tells_speed = true;
+  drive();
+  rig.gravity_mps2 = {0, 9.81 * std::sin(to_rad(8)), 9.81 * std::cos(to_rad(8))};
+  rig.run_s(0.7);
+  rig.disobeys = WheelSpeeds{0.21, 0.21};  // 0.035 m/s
+  rig.run_s(12);
+  EXPECT_FALSE(has_power()) << rig.why();
+}
+
+TEST_F(ABaseThatTakesATwistOnASlope, LosesItsPowerWhenItStoodInSilenceForSomebodyInItsWay) {
+  rig.environment.drives_on_in_silence = rig.tells_speed = true;
+  drive();
+  tilt();
+  rig.run_s(0.1);
+  rig.drives[0].silent = true;
+  rig.disobeys = WheelSpeeds{0, 0};
+  rig.run_s(8);
+  ASSERT_TRUE(has_power()) << rig.why();
+  rig.disobeys = WheelSpeeds{3, 3};
+  rig.run_s(5);
+  EXPECT_FALSE(has_power()) << rig.why();
+}
+
+TEST_F(ABaseThatTakesATwistOnASlope, LosesItsPowerWhenItIsSilentAndGoesDownAsItWasDriven) {
+  rig.environment.drives_on_in_silence = rig.environment.stop_creeps = rig.tells_speed = true;
+  rig.settle();
+  rig.start(path, path_end, 0.15);
+  rig.run_s(6);
+  tilt_down();
+  rig.run_s(0.1);
+  rig.drives[0].silent = true;
+  rig.disobeys = WheelSpeeds{0.9, 0.9};  // 0.15 m/s
+  rig.run_s(6);
+  EXPECT_FALSE(has_power()) << rig.why();
+}
+
+TEST_F(ABaseThatTakesATwistOnASlope, KeepsItsPowerWhenItIsSilentAndCreepsDown) {
+  rig.environment.drives_on_in_silence = rig.environment.stop_creeps = rig.tells_speed = true;
+  drive();
+  tilt_down();
+  rig.run_s(0.5);
+  rig.drives[0].silent = true;
+  rig.disobeys = WheelSpeeds{0.5, 0.5};  // 0.08 m/s
+  rig.speed_noise_mps = 0.15;
+  rig.run_s(20);
+  EXPECT_TRUE(has_power()) << rig.why();
+}
+
+/// As it tells: that is no jump, and the next start is taken.
+TEST_F(ABaseThatTakesATwistOnASlope, IsStartedAgainAfterItCreptForAWhile) {
+  rig.environment.stop_creeps = rig.tells_speed = true;
+  drive();
+  rig.command(CancelTask{});
+  rises_by(2.5);
+  rig.run_s(1);
+  rig.disobeys = WheelSpeeds{-0.08, -0.08};  // 0.013 m/s
+  rig.run_s(30);
+  rig.disobeys.reset();
+  rig.start(path, path_end, 0.5);
+  rig.run_s(2);
+  EXPECT_EQ(rig.snapshot().nav.status, NavStatus::run) << rig.why();
 }
 
 }  // namespace
