@@ -51,6 +51,7 @@ Reason Engine::Impl::judge_motion(Time now, Duration dt, const LineTable& lines,
   RestInput input{.now = now, .dt = dt, .axes = axes};
   input.power_is_off = config.line_configured[estop] && lines.active[estop];
   const double falls_deg = tilt_deg();
+  falls_ahead = kAbsent;
   if (std::isfinite(falls_deg)) {
     slopes = falls_deg > kRollsFrom_deg;
     const double ahead_deg = to_deg(estimate.pitch_rad);  // nose down is positive

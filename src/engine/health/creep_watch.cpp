@@ -26,7 +26,7 @@ bool CreepWatch::update(const CreepInput& input, const RimMotion& rims) {
   if (since_s < 0 || rims.silent) return false;
   way_m_ += rims.fastest_mps * std::max(to_s(input.dt), 0.0);
   // What goes down may be the slope's doing, and what is fast is judged by more than its wheels.
-  const bool down = rims.ahead * input.falls_ahead > 0;
+  const bool down = goes_down(rims.ahead, input.falls_ahead);
   if (input.may_roll && (down || std::abs(rims.fastest_mps) > kTurns_mps)) way_m_ = 0;
   const bool stood = since_s > kConfirm_s && std::abs(way_m_) < kStands_mps * since_s;
   if (stood || !input.power || !rims.driven) end();

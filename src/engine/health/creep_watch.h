@@ -5,12 +5,17 @@
 
 namespace drover::engine {
 
+/// What goes `ahead` (a sign, 0: on the spot) goes the way that the ground falls, or may.
+inline bool goes_down(double ahead, double falls_ahead) {
+  return ahead != 0 && !(ahead * falls_ahead <= 0);
+}
+
 struct CreepInput {
   Time now = kNever;
   Duration dt{};
-  bool power = true;       ///< there is some, and no person has released the drives
-  bool may_roll = false;   ///< without power; what is faster is judged by more than its wheels
-  double falls_ahead = 0;  ///< as RestInput has it
+  bool power = true;      ///< there is some, and no person has released the drives
+  bool may_roll = false;  ///< without power; what is faster is judged by more than its wheels
+  double falls_ahead = kAbsent;  ///< as RestInput has it
   bool seen_to_stand = false;
 };
 

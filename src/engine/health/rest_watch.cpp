@@ -29,6 +29,7 @@ constexpr double kConfirm_s = 1.0;
 constexpr double kHasBraked = 0.5;
 // Of the sine of the slope, whose doing it is however fast it was driven: 0.2 m/s on 15 %.
 constexpr double kCreeps_mps = 1.35;
+constexpr double kCreepsUnknown_mps = 0.2;                  // where nobody knows how steep it is
 constexpr double kCreepsUnheard_mps = 0.1;                  // it may as well be driven so slowly
 constexpr Duration kCreptLately = std::chrono::seconds(1);  // one speed of a receiver is noise
 constexpr double kAlong = 0.87;  // of its way: within 30 degrees of the heading
@@ -41,6 +42,11 @@ constexpr Duration kLookAgainAfterCut = std::chrono::seconds(2);
 
 RestWatch::RestWatch(const EngineConfig& config)
     : config_(config), rims_(config), witness_(config) {}
+
+void RestWatch::recall_at_rest() {
+  silence_.recall_at_rest();
+  knows_rest_ = true;
+}
 
 void RestWatch::expect_stop(Time now) {
   ours_ = true;
@@ -141,8 +147,9 @@ bool RestWatch::moves_as_commanded(const RestInput& input, const RimMotion& rims
 
 /// Told to stand it only brakes, and the ground falls there: slow as it is, a cut lets it go.
 bool RestWatch::creeps_down(const RestInput& input, double ahead, double mps) const {
-  return input.stop_creeps && ahead * input.falls_ahead > 0 &&
-         mps < kCreeps_mps * std::abs(input.falls_ahead);
+  const bool known = std::isfinite(input.falls_ahead);
+  const double most_mps = known ? kCreeps_mps * std::abs(input.falls_ahead) : kCreepsUnknown_mps;
+  return input.stop_creeps && goes_down(ahead, input.falls_ahead) && mps < most_mps;
 }
 
 /// By a receiver with a fix. What goes by 5 cm in a second passes for standing at first.
@@ -329,7 +336,7 @@ void RestWatch::stay(const RestInput& input, const RimMotion& rims, const Testim
 }
 
 RestState RestWatch::update(const RestInput& input) {
-  if (!std::exchange(began_, true)) inherited_ = input.found_powered;
+  if (!std::exchange(began_, true)) inherited_ = input.found_powered && !knows_rest_;
   if (input.released) ours_ = inherited_ = false;  // who lets go of the drives is going to push
   const RimMotion rims = rims_.told(input.axes, input.now);
   hears_wheels_ = rims.heard;

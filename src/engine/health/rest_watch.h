@@ -26,7 +26,8 @@ struct RestInput {
   bool drives_on_in_silence = false;  ///< a drive that says nothing keeps its last command
   bool stop_creeps = false;           ///< told to stand it only brakes, on a slope
   bool found_powered = false;         ///< it may have one of the program before this one
-  double falls_ahead = 0;  ///< sine of how the ground falls on its way ahead; 0: hardly, or unknown
+  /// Sine of how the ground falls on its way ahead; 0: hardly. Absent: unknown.
+  double falls_ahead = kAbsent;
   double yaw_rad = kAbsent;  ///< of the base, as far as it is known
 };
 
@@ -75,7 +76,7 @@ class RestWatch final {
   /// A wheel turns now and nobody drove it, be it only an arming drive's swing: no moment to start.
   Reason turns_by_itself() const;
   /// The program before this one knew the base at rest.
-  void recall_at_rest() { silence_.recall_at_rest(); }
+  void recall_at_rest();
   /// A person asked for a stop: what still drives then is ours, whoever commanded it.
   void on_stop_asked() { stop_asked_ = true; }
   /// A wheel ran away and everything was stopped: rest is due at once, whoever moved it.
@@ -114,6 +115,7 @@ class RestWatch final {
   bool stop_asked_ = false;  ///< since the last cycle
   bool ours_ = false;        ///< we moved it since it rested last
   bool inherited_ = false;   ///< the program before this one may have, and it has not rested yet
+  bool knows_rest_ = false;  ///< it remembered the base at rest
   bool began_ = false;
   double direction_ = 0;  ///< RimMotion::ahead of the last command of one who drove
   double turn_ = 0;       ///< RimMotion::turn of it

@@ -211,6 +211,18 @@ TEST_F(ABaseThatTakesATwist, LosesItsPowerWhenItIsFoundDrivingOn) {
   EXPECT_FALSE(again.has_power()) << again.why();
 }
 
+/// A person pushes it meanwhile.
+TEST_F(ABaseThatTakesATwist, KeepsItsPowerWhenItIsFoundMovingAndWasKnownToRest) {
+  rig.environment.relay_found_closed = true;
+  Remembered held;
+  held.holding = held.at_rest = true;
+  rig.engine->recall(held, rig.now);
+  rig.drives[0].state = AxisState::running;
+  rig.disobeys = WheelSpeeds{1.5, 1.5};
+  rig.run_s(4);
+  EXPECT_TRUE(has_power()) << rig.why();
+}
+
 /// A guard slows it down meanwhile.
 TEST_F(ABaseThatTakesATwist, KeepsItsPowerWhenItIsFoundSlowingDown) {
   rig.environment.relay_found_closed = true;

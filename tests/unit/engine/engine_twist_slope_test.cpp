@@ -358,5 +358,17 @@ TEST_F(ABaseThatTakesATwistOnASlope, IsStartedAgainAfterItCreptForAWhile) {
   EXPECT_EQ(rig.snapshot().nav.status, NavStatus::run) << rig.why();
 }
 
+/// Just before it reached the edge.
+TEST_F(ABaseThatTakesATwistOnASlope, KeepsItsPowerWhenItCreepsAndItsImuFellSilent) {
+  rig.environment.stop_creeps = rig.tells_speed = true;
+  drive();
+  rig.imu = false;
+  rig.environment.imu[0].state = SourceState::stale;
+  rig.run_s(1.6);
+  rig.disobeys = WheelSpeeds{0.5, 0.5};  // 0.08 m/s
+  rig.run_s(10);
+  EXPECT_TRUE(has_power()) << rig.why();
+}
+
 }  // namespace
 }  // namespace drover::engine
