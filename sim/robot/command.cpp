@@ -4,15 +4,12 @@
 //   zone near|far occupied|free      the same for the scanner's zones
 //   obstacle NAME X Y|remove         a movable box of the world, centred at X, Y (m)
 //   gnss STATE                       see drover/twin.h: fix, float, single, none, silent, ...
-//   imu STATE                        silent, frozen, saturated, bias:2, ...; well: nothing is
-//   wrong;
+//   imu STATE                        silent, frozen, saturated, bias:2, ...; well: all is good;
 //                                    of one on a bus also unplug, plug
 //   battery soc PERCENT              so much is left
 //   battery charger plug|unplug      and see battery_port.h for the faults of its line
 //   gnss NAME STATE, imu NAME STATE, battery NAME soc PERCENT, ...: a further one of its kind
-//   drive NAME power on|off          a drive's own switch; NAME: its own, or a joint's, or "a,b",
-//   or
-//                                    "all"
+//   drive NAME power on|off          a drive's own switch; NAME: its own, a joint's, "a,b" or "all"
 //   drive NAME fault NAME|none       see the drive's README
 //   supply dip SECONDS               the drives' common supply goes for so long
 //   kick VX VY                       a shove along the base's own axes (m/s)

@@ -189,11 +189,9 @@ void Engine::Impl::start_task(const RequestId& id, const StartTask& task, Time n
   Reason why;
   if (task.overtaken) why = "a stop came after it";
   // A broker that is late by less than what shows may have had it since before.
-  const HealthReport& report = health.report();
-  const bool over = report.stop.empty() && !report.holds(Cause::drive_fault);
   const bool older = id.source == RequestId::Source::mqtt && stopped_at != kNever &&
                      now - stopped_at < kBrokerLateUnnoticed;
-  if (why.empty() && over && older)
+  if (why.empty() && older && !health.report().nothing_moves())
     why = "the robot was stopped until just now, and this may be older; press again";
   if (why.empty()) why = arming.hindrance();
   if (why.empty()) why = owners.hinders_task();
@@ -311,8 +309,7 @@ void Engine::step(Time now, const Environment& environment, EngineOutput& out) {
   e.health.update({now, environment, axes, lines, e.estimate, e.estimator.has_origin(),
                    e.navigator.active(), e.latch.why(), &e.sensors, e.tilt.reason(), moved,
                    e.place.jumped(), e.latch.power_cut() && e.power.opened(), &e.steep});
-  const HealthReport& health = e.health.report();
-  if (!health.stop.empty() || health.holds(Cause::drive_fault)) e.stopped_at = now;
+  if (e.health.report().nothing_moves()) e.stopped_at = now;
   e.watch_wheels(now, dt);
   const double cap_mps = e.mechanics.speed_cap_mps();
   NavOutput wanted =
@@ -348,7 +345,7 @@ void Engine::step(Time now, const Environment& environment, EngineOutput& out) {
   out.remembered.released = e.arming.released();
   out.remembered.task = e.navigator.active();
   out.remembered.mechanics_proved = e.mechanics.proved();
-  out.remembered.at_rest = e.rest.state() == RestState::resting;
+  out.remembered.at_rest = e.rest.knows_rest();
   e.events.drain(out.events);
 }
 

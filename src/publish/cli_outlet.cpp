@@ -40,7 +40,8 @@ bool is_true(const json::Node& request, std::string_view key) {
   return said != nullptr && *said;
 }
 
-/// What the service is asked for; nothing: it is a question.
+/// What the service is asked for, but for a start, which has numbers that may be missing. Nothing:
+/// it is a question.
 std::optional<ControlCommand> command_of(std::string_view cmd, const std::string& name,
                                          const json::Node& request) {
   if (cmd == "task_cancel") return CancelTaskRequest{};
@@ -82,6 +83,7 @@ bool CliOutlet::on_line(ClientId client, std::string_view line, Time now, Action
 }
 
 bool CliOutlet::on_answer(const Answer& answer, Actions& out) {
+  if (answer.id.source != RequestId::Source::cli) return false;
   const auto waiting = waiting_.find(answer.id.number);
   if (waiting == waiting_.end()) return false;
   out.emplace_back(Reply{waiting->second, reply_of(answer.ok, answer.text)});

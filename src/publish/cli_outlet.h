@@ -10,6 +10,7 @@
 
 namespace drover::publish {
 
+/// Takes every line, also to refuse it: the last of the outlets.
 class CliOutlet final : public Outlet {
  public:
   /// `status`: the whole state as it is seen at that time, one JSON object (status_json).

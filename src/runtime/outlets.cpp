@@ -65,10 +65,10 @@ std::vector<std::unique_ptr<publish::Outlet>> make_outlets(
     std::function<std::string(Time)> status) {
   std::vector<std::unique_ptr<publish::Outlet>> outlets;
   outlets.push_back(std::make_unique<publish::RtkOutlet>(rtk_config(config.protocol), service));
-  outlets.push_back(std::make_unique<publish::CliOutlet>(service, std::move(status)));
   if (config.mqtt.enabled && config.aimrt.enabled)
     outlets.push_back(std::make_unique<publish::AimrtOutlet>(
         channel_config(config), config.aimrt.rate_Hz, config.aimrt.commands));
+  outlets.push_back(std::make_unique<publish::CliOutlet>(service, std::move(status)));
   return outlets;
 }
 

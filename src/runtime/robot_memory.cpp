@@ -20,7 +20,7 @@ namespace drover::runtime {
 
 namespace {
 
-/// What the layout before this one kept: nothing that joint commands wait for.
+/// What the layout before this one kept: not whether the robot was at rest.
 struct RememberedBefore {
   Reason stop;
   bool stop_at_robot = false;

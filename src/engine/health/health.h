@@ -66,6 +66,8 @@ struct HealthReport {
   std::array<Reason, kCauseCount> texts;  ///< by Cause, for causes that hold
 
   bool holds(Cause cause) const { return (causes & bit(cause)) != 0; }
+  /// Nothing could be commanded to move, whoever asks; a start may clear a drive's fault first.
+  bool nothing_moves() const { return !stop.empty() || holds(Cause::drive_fault); }
   bool holds_any(std::uint32_t bits) const { return (causes & bits) != 0; }
   const Reason& text(Cause cause) const { return texts[static_cast<std::size_t>(cause)]; }
 };

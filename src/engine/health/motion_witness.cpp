@@ -107,9 +107,9 @@ void MotionWitness::keep_place(const GnssPosition& position, Time at) {
   const bool speaks = speed_at_ != kNever && at - speed_at_ <= kStoodLately;
   bool one = false;
   if (const Place* before = place_before(at, kStandsFor); before != nullptr && speaks) {
-    way_ = ground_way(before->position, position);
-    if (length_m(way_) < kStands_m && speed_mps_ < kSpeedAtRest_mps) stands_at_ = at;
-    const double mps = length_m(way_) / to_s(at - before->at);
+    last_second_ = ground_way(before->position, position);
+    if (length_m(last_second_) < kStands_m && speed_mps_ < kSpeedAtRest_mps) stands_at_ = at;
+    const double mps = length_m(last_second_) / to_s(at - before->at);
     one = mps > kMoving_mps && std::abs(speed_mps_ - mps) < kApart_mps + kApartShare * mps;
   }
   if (!one) one_motion_ = kNever;
@@ -137,10 +137,10 @@ bool MotionWitness::stood(Time now) const {
   return stands(now) && stood_at_ != kNever && now - stood_at_ <= kStoodLately;
 }
 
-PathPoint MotionWitness::proven_way(Time now) const {
+std::optional<PathPoint> MotionWitness::proven_way(Time now) const {
   const bool proven = one_motion_ != kNever && fresh(position_at_, now) && fresh(speed_at_, now) &&
                       now - one_motion_ >= kStandsFor;
-  return proven ? way_ : PathPoint{};
+  return proven ? std::optional(last_second_) : std::nullopt;
 }
 
 bool MotionWitness::is_slower(double speed_mps, Time now) const {
@@ -178,7 +178,7 @@ void MotionWitness::forget_receiver() {
   from_at_ = turned_from_ = kNever;
   learned_noise_mps2_ = 0;
   places_.fill({});
-  one_motion_ = kNever;
+  one_motion_ = stands_at_ = stood_at_ = kNever;
 }
 
 double MotionWitness::speed_noise_mps() const {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include "drover/measurement.h"
 #include "drover/path.h"
@@ -60,10 +61,10 @@ class MotionWitness final {
   bool is_slower(double speed_mps, Time now) const;
   /// The gyro shows a turn.
   bool turns(Time now) const;
-  /// Its way in the last second, m; x east, y north. Zero unless a receiver with an RTK fix has
+  /// Its way in the last second, m; x east, y north. Nothing unless a receiver with an RTK fix has
   /// said one motion for a second by its speeds and by its places: one that has lost its way
   /// contradicts itself.
-  PathPoint proven_way(Time now) const;
+  std::optional<PathPoint> proven_way(Time now) const;
 
  private:
   struct Place {
@@ -95,7 +96,7 @@ class MotionWitness final {
   std::size_t next_place_ = 0;
   Time stands_at_ = kNever;
   Time stood_at_ = kNever;
-  PathPoint way_;             ///< in the last second
+  PathPoint last_second_;     ///< in the last second
   Time one_motion_ = kNever;  ///< since when speeds and places say one
   double turn_radps_ = 0;     ///< smoothed
   Time turn_at_ = kNever;

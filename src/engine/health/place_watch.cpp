@@ -32,6 +32,10 @@ Change change(const Pose& from, const Pose& to) {
   return it;
 }
 
+const Change& lesser_way(const Change& a, const Change& b) {
+  return b.way_share < a.way_share ? b : a;
+}
+
 }  // namespace
 
 void PlaceWatch::update(Time now, Duration dt, const Estimate& estimate, bool heard) {
@@ -40,7 +44,7 @@ void PlaceWatch::update(Time now, Duration dt, const Estimate& estimate, bool he
   const bool stands = heard && estimate.fastest_mps <= kStands_mps;
   if (!known_ || !stands) {
     known_ = true;
-    stood_ = at_ = estimate.pose;
+    seen_ = rested_ = {estimate.pose, estimate.pose};
     crept_x_m_ = crept_y_m_ = 0;
     return;
   }
@@ -49,37 +53,35 @@ void PlaceWatch::update(Time now, Duration dt, const Estimate& estimate, bool he
     crept_x_m_ += way_m * std::cos(estimate.pose.yaw_rad);
     crept_y_m_ += way_m * std::sin(estimate.pose.yaw_rad);
   }
-  if (!estimate.disagrees && estimate.predicted_error_m <= config_.bound_run_m) {
+  if (!estimate.disagrees && estimate.predicted_error_m <= config_.bound_run_m)
     compare(now, estimate.pose);
-  }
 }
 
-Pose PlaceWatch::crept(const Pose& from) const {
-  Pose to = from;
-  to.x_m += crept_x_m_;
-  to.y_m += crept_y_m_;
-  return to;
+Pose PlaceWatch::without_creep(Pose pose) const {
+  pose.x_m -= crept_x_m_;
+  pose.y_m -= crept_y_m_;
+  return pose;
 }
 
 void PlaceWatch::compare(Time now, const Pose& pose) {
-  const Change since = change(at_, pose);
-  const double way_share = std::min(since.way_share, change(crept(at_), pose).way_share);
-  if (way_share > 1 || since.turn_share > 1) {
+  const Pose rested = without_creep(pose);
+  const Change since = lesser_way(change(seen_.at, pose), change(rested_.at, rested));
+  const bool jumped = since.way_share > 1 || since.turn_share > 1;
+  if (jumped) {
     tell(pose);
     jumped_at_ = now;
     told_ = false;
-    at_ = pose;
-    crept_x_m_ = crept_y_m_ = 0;
-  } else if (pose.position_sigma_m < kBetterKnown * at_.position_sigma_m) {
-    at_ = pose;
-    crept_x_m_ = crept_y_m_ = 0;
   }
+  if (!jumped && pose.position_sigma_m >= kBetterKnown * seen_.at.position_sigma_m) return;
+  seen_.at = pose;
+  rested_.at = rested;
 }
 
 /// Who was carried went through many places: what counts is how far in all. Who came back was away.
 void PlaceWatch::tell(const Pose& pose) {
-  const Change last = change(at_, pose);
-  const Change all = change(stood_, pose);
+  const Pose rested = without_creep(pose);
+  const Change last = lesser_way(change(seen_.at, pose), change(rested_.at, rested));
+  const Change all = lesser_way(change(seen_.stood, pose), change(rested_.stood, rested));
   if (std::max(last.way_share, all.way_share) > std::max(last.turn_share, all.turn_share)) {
     jumped_.format("the position jumped by %.1f m though no wheel turned",
                    std::max(last.way_m, all.way_m));

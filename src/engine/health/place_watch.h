@@ -26,14 +26,19 @@ class PlaceWatch final {
   const Reason& jumped() const { return jumped_; }
 
  private:
+  /// As the receiver sees it, or less what the wheels tell that it crept.
+  struct Places {
+    Pose stood;  ///< when a wheel turned last, or better known since
+    Pose at;     ///< the same, or where it jumped to
+  };
+  Pose without_creep(Pose pose) const;
   void compare(Time now, const Pose& pose);
-  Pose crept(const Pose& from) const;
   void tell(const Pose& pose);
 
   EstimateConfig config_;
   bool known_ = false;
-  Pose stood_;            ///< when a wheel turned last, or better known since
-  Pose at_;               ///< the same, or where it jumped to
+  Places seen_;
+  Places rested_;         ///< without what it crept: the nearer of the two counts
   double crept_x_m_ = 0;  ///< since it stands, by its wheels
   double crept_y_m_ = 0;
   Reason jumped_;

@@ -38,6 +38,16 @@ constexpr Duration kLookTwice = std::chrono::seconds(6);
 constexpr Duration kLookAgain = std::chrono::seconds(5);
 constexpr Duration kLookAgainAfterCut = std::chrono::seconds(2);
 
+/// Of the way; absent without a heading.
+double along(const PathPoint& way, double yaw_rad) {
+  return way.x_m * std::cos(yaw_rad) + way.y_m * std::sin(yaw_rad);
+}
+
+/// There is some to take, and no person has let the drives go.
+bool has_power(const RestInput& input) {
+  return !input.power_is_off && !input.released;
+}
+
 }  // namespace
 
 RestWatch::RestWatch(const EngineConfig& config)
@@ -50,7 +60,7 @@ void RestWatch::recall_at_rest() {
 
 void RestWatch::expect_stop(Time now) {
   ours_ = true;
-  creep_.begin(now);
+  if (!creep_.under_way()) creep_.begin(now);
   if (!has_rested()) return;
   state_ = RestState::settling;
   due_ = should_rest_since_ = now;
@@ -67,6 +77,7 @@ void RestWatch::reset() {
   state_ = RestState::settling;
   ours_ = inherited_ = false;  // what had no power begins anew
   silence_.reset();
+  creep_.end();
   quiet_since_ = moves_since_ = alone_since_ = kNever;
   reason_.clear();
 }
@@ -105,21 +116,21 @@ bool RestWatch::due(const RestInput& input) {
 
 /// There is power to take, and what moves the base may be a command of ours.
 bool RestWatch::is_driven_by_us(const RestInput& input) const {
-  return ours_ && !input.power_is_off && !input.released;
+  return ours_ && has_power(input);
 }
 
 /// Whether taking the power helps: from what we drive, not from what would only roll faster.
 bool RestWatch::may_be_cut(const RestInput& input, const RimMotion& rims) const {
   // Wheels that run by what the program before this one said, and nothing else shows it.
   const bool inherits = inherited_ && !ours_ && history_.turns() && rims.driven;
-  if ((!ours_ && !inherits) || input.power_is_off || input.released) return false;
+  if ((!ours_ && !inherits) || !has_power(input)) return false;
   if (!may_roll_ && !inherits) return true;
   // Caught on level ground, or slowed down by a guard, it gets slower: what does not is driven.
   if (!on_slope_)
     return input.now - std::max(moves_since_, history_.steady_since()) >= from_s(kSteady_s);
   // Drives that do not run drive nothing: it rolls, and they are to catch it.
-  const Time since = std::max(moves_since_, history_.driven_since());
-  return rims.driven && input.now - since >= from_s(kMotionHeldOnSlope_s) &&
+  const Time since = std::max(moves_since_, history_.drives_on_since());
+  return rims.driven && input.now - since >= from_s(inherits ? kSteady_s : kMotionHeldOnSlope_s) &&
          moves_as_commanded(input, rims);
 }
 
@@ -135,14 +146,13 @@ bool RestWatch::moves_as_commanded(const RestInput& input, const RimMotion& rims
   if (turns) {
     if (creeps_down(input, rims.ahead, std::abs(rims.fastest_mps))) return false;
     // The program before this one may have driven it any way.
-    const bool unknown = direction_ == 0 && turn_ == 0;
+    const bool unknown = inherited_ && direction_ == 0 && turn_ == 0;
     const bool up = rims.ahead * input.falls_ahead < 0;
     return unknown || up || rims.fastest_mps * direction_ > 0 || rims.turn * turn_ > 0;
   }
   // Speed and place are one device's: it counts where it does not contradict itself.
-  const PathPoint way = witness_.proven_way(input.now);
-  const double ahead_m = way.x_m * std::cos(input.yaw_rad) + way.y_m * std::sin(input.yaw_rad);
-  return ahead_m * direction_ > kAlong * std::hypot(way.x_m, way.y_m);
+  const auto way = witness_.proven_way(input.now);
+  return way && along(*way, input.yaw_rad) * direction_ > kAlong * std::hypot(way->x_m, way->y_m);
 }
 
 /// Told to stand it only brakes, and the ground falls there: slow as it is, a cut lets it go.
@@ -159,15 +169,13 @@ bool RestWatch::is_seen_to_stand(Time now) const {
 
 /// By the wheels, or by two devices, or by one that does not contradict itself.
 bool RestWatch::is_seen_to_go(const RestInput& input) const {
-  const PathPoint way = witness_.proven_way(input.now);
   const bool turns = witness_.turns(input.now) && witness_.hear(input.now).moving >= 2;
-  return history_.turns() || turns || way.x_m != 0 || way.y_m != 0;
+  return history_.turns() || turns || witness_.proven_way(input.now);
 }
 
 /// By the receiver, since rest is due.
 double RestWatch::ahead_m(const RestInput& input) const {
-  const PathPoint way = witness_.way(input.now);
-  return way.x_m * std::cos(input.yaw_rad) + way.y_m * std::sin(input.yaw_rad);
+  return along(witness_.way(input.now), input.yaw_rad);
 }
 
 /// Before any rest is due. Not where it would only roll without power, and may slide down.
@@ -181,7 +189,7 @@ bool RestWatch::bolts(const RestInput& input, const RimMotion& rims) const {
 bool RestWatch::creeps_on(const RestInput& input, const RimMotion& rims) {
   return creep_.update({.now = input.now,
                         .dt = input.dt,
-                        .power = !input.power_is_off && !input.released,
+                        .power = has_power(input),
                         .may_roll = may_roll_,
                         .falls_ahead = input.falls_ahead,
                         .seen_to_stand = is_seen_to_stand(input.now)},
@@ -192,7 +200,7 @@ bool RestWatch::creeps_on(const RestInput& input, const RimMotion& rims) {
 /// before this one drove it is not known.
 bool RestWatch::is_seen_to_roll(const RestInput& input) const {
   if (ahead_m(input) * input.falls_ahead < 0) return false;
-  const double drove_mps = input.found_powered ? std::max(drove_mps_, seen_mps_) : drove_mps_;
+  const double drove_mps = inherited_ ? std::max(drove_mps_, seen_mps_) : drove_mps_;
   if (witness_.speed_mps(input.now) > drove_mps + kFaster_mps) return true;
   if (!std::isfinite(input.yaw_rad)) return false;
   return ahead_m(input) * direction_ < -kRolled_m;
@@ -341,9 +349,9 @@ RestState RestWatch::update(const RestInput& input) {
   const RimMotion rims = rims_.told(input.axes, input.now);
   hears_wheels_ = rims.heard;
   watch_silence(input, rims);
-  history_.turn(rims, input.now);
+  history_.note_turning(rims, input.now);
   const bool is_due = due(input);
-  history_.brake(rims, is_due, input.now);
+  history_.note_braking(rims, is_due, input.now);
   // What began to roll on a slope still rolls where the ground is level again.
   const bool goes_on = is_due && state_ != RestState::resting;
   on_slope_ = input.rolls_unpowered || (on_slope_ && goes_on);

@@ -62,6 +62,8 @@ class RestWatch final {
 
   RestState update(const RestInput& input);
   RestState state() const { return state_; }
+  /// Confirmed, and not of what may only be held up.
+  bool knows_rest() const { return state_ == RestState::resting && !silence_.suspect(); }
   /// Sign in which it was driven last; 0 before.
   double direction() const { return direction_; }
   /// What is silent may go on by a command that it has: nothing but its power stops it.
@@ -120,15 +122,15 @@ class RestWatch final {
   double direction_ = 0;  ///< RimMotion::ahead of the last command of one who drove
   double turn_ = 0;       ///< RimMotion::turn of it
   double drove_mps_ = 0;  ///< the fastest that was asked of a rim, since it rested last before
-  Time should_rest_since_ = kNever;
-  bool on_slope_ = false;      ///< it could roll without power, since rest is due
-  bool may_roll_ = false;      ///< it could without power, or was caught, since rest is due
-  bool hears_wheels_ = false;  ///< at least one, in the last cycle
-  Time crept_at_ = kNever;     ///< silent, when the receiver last saw it go down slowly
-  double seen_mps_ = 0;        ///< what the receiver said first since rest is due
-  bool spared_ = false;        ///< silent on a slope: it stands, creeps, or may be caught yet
-  double expected_mps_ = 0;    ///< how fast it may still be
-  Time due_ = kNever;          ///< since when it should rest
+  Time should_rest_since_ = kNever;  ///< as due_, which moves on while it rests
+  bool on_slope_ = false;            ///< it could roll without power, since rest is due
+  bool may_roll_ = false;            ///< it could without power, or was caught, since rest is due
+  bool hears_wheels_ = false;        ///< at least one, in the last cycle
+  Time crept_at_ = kNever;           ///< silent, when the receiver last saw it go down slowly
+  double seen_mps_ = 0;              ///< what the receiver said first since rest is due
+  bool spared_ = false;              ///< silent on a slope: it stands, creeps, or may be caught yet
+  double expected_mps_ = 0;          ///< how fast it may still be
+  Time due_ = kNever;                ///< since when it should rest
   Time moves_since_ = kNever;
   Time alone_since_ = kNever;
   Time quiet_since_ = kNever;

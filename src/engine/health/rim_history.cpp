@@ -13,7 +13,7 @@ constexpr double kSlower_mps = 0.05;
 
 }  // namespace
 
-void RimHistory::turn(const RimMotion& rims, Time now) {
+void RimHistory::note_turning(const RimMotion& rims, Time now) {
   turns_ = std::abs(rims.fastest_mps) > kTurns_mps;
   const bool swings = turns_ && rims.fastest_mps * mps_ < 0;
   if (!turns_ || swings) turns_since_ = kNever;
@@ -21,14 +21,14 @@ void RimHistory::turn(const RimMotion& rims, Time now) {
   mps_ = rims.fastest_mps;
 }
 
-void RimHistory::brake(const RimMotion& rims, bool is_due, Time now) {
+void RimHistory::note_braking(const RimMotion& rims, bool is_due, Time now) {
   const double mps = std::abs(rims.fastest_mps);
-  const bool begins = rims.driven && driven_since_ == kNever;
+  const bool begins = rims.driven && drives_on_since_ == kNever;
   if (begins || !is_due || steady_since_ == kNever || mps < slowest_mps_ - kSlower_mps) {
     steady_since_ = now;
     slowest_mps_ = mps;
   }
-  driven_since_ = rims.driven ? steady_since_ : kNever;
+  drives_on_since_ = rims.driven ? steady_since_ : kNever;
 }
 
 bool RimHistory::rolls(Time now) const {

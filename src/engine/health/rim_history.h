@@ -7,10 +7,10 @@ namespace drover::engine {
 
 class RimHistory final {
  public:
-  /// First in each cycle.
-  void turn(const RimMotion& rims, Time now);
-  /// `is_due`: they should rest.
-  void brake(const RimMotion& rims, bool is_due, Time now);
+  /// Once in each cycle, before what asks whether they turn now.
+  void note_turning(const RimMotion& rims, Time now);
+  /// After it; `is_due`: they should rest.
+  void note_braking(const RimMotion& rims, bool is_due, Time now);
 
   bool turns() const { return turns_; }
   /// Of the fastest, with its sign.
@@ -20,7 +20,7 @@ class RimHistory final {
   /// Since when they get no slower though they should rest.
   Time steady_since() const { return steady_since_; }
   /// The same while a drive is in closed loop: what rolled before is given the time to get slower.
-  Time driven_since() const { return driven_since_; }
+  Time drives_on_since() const { return drives_on_since_; }
 
  private:
   bool turns_ = false;
@@ -28,7 +28,7 @@ class RimHistory final {
   Time turns_since_ = kNever;  ///< in this direction
   Time steady_since_ = kNever;
   double slowest_mps_ = 0;
-  Time driven_since_ = kNever;
+  Time drives_on_since_ = kNever;
 };
 
 }  // namespace drover::engine

@@ -27,8 +27,7 @@ bool SilentBase::update(const SilenceInput& input) {
     keeps_on_ = input.asked || std::abs(input.fastest_mps) > kTurns_mps;
     return false;
   }
-  const bool knows_rest = !was_unheard && !heard_ && stood_;
-  if (!was_unheard) suspect_ = heard_ ? keeps_on_ : input.found_powered && !knows_rest;
+  if (!was_unheard) suspect_ = heard_ ? keeps_on_ : input.found_powered && !stood_;
   stood_ = input.rests || (stood_ && (was_unheard || !heard_));
   // What stands in silence brakes by itself: where it would roll, a stop must not move it.
   const bool stands = input.slope && stood_ && !input.moves;

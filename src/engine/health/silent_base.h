@@ -22,10 +22,12 @@ class SilentBase final {
   bool update(const SilenceInput& input);
   /// Before the first update(): the program before this one knew it at rest.
   void recall_at_rest() { stood_ = true; }
-  void reset() { keeps_on_ = stop_stands_ = false; }
+  void reset() { keeps_on_ = stop_stands_ = suspect_ = false; }
 
   bool unheard() const { return unheard_; }
   bool ever_heard() const { return heard_; }
+  /// It was not at rest when it fell silent, or nobody knows: what stands may be held up.
+  bool suspect() const { return unheard_ && suspect_; }
   /// Its last command may be one that moves it.
   bool keeps_on() const { return unheard_ && keeps_on_; }
   /// Some command of ours, or of the program before this one, may be in it.

@@ -52,6 +52,13 @@ class ABaseThatTakesATwistOnASlope : public ABaseThatTakesATwist {
   ABaseThatTakesATwistOnASlope() : ABaseThatTakesATwist(held_by_its_device()) { rig.imu = true; }
   void tilt() { rises_by(8); }
   void tilt_down() { rises_by(-8); }
+  /// The same, and the gyro tells it: at once it is known how steep it is.
+  void go_over_the_edge() {
+    tilt_down();
+    rig.pitch_radps = to_rad(80);
+    rig.run_s(0.1);
+    rig.pitch_radps = 0;
+  }
   void rises_by(double ahead_deg) {
     const double rad = to_rad(ahead_deg);
     rig.gravity_mps2 = {9.81 * std::sin(rad), 0, 9.81 * std::cos(rad)};

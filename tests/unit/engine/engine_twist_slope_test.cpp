@@ -57,10 +57,7 @@ TEST_F(ABaseThatTakesATwistOnASlope, KeepsItsPowerWhenItFallsSilentAtRestAndAPer
 TEST_F(ABaseThatTakesATwistOnASlope, KeepsItsPowerWhenItBrakesAndCreeps) {
   rig.environment.stop_creeps = true;
   drive();
-  tilt_down();
-  rig.pitch_radps = to_rad(80);  // for a tenth of a second: it drove over the edge
-  rig.run_s(0.1);
-  rig.pitch_radps = 0;
+  go_over_the_edge();
   rig.run_s(0.7);
   rig.disobeys = WheelSpeeds{0.6, 0.6};  // 0.1 m/s
   rig.run_s(20);
@@ -71,9 +68,9 @@ TEST_F(ABaseThatTakesATwistOnASlope, KeepsItsPowerWhenItBrakesAndCreeps) {
 TEST_F(ABaseThatTakesATwistOnASlope, LosesItsPowerWhenItDoesNotBrake) {
   rig.environment.stop_creeps = true;
   drive();
-  tilt();
-  rig.run_s(0.3);
-  rig.disobeys = WheelSpeeds{2, 2};
+  go_over_the_edge();
+  rig.run_s(0.2);
+  rig.disobeys = WheelSpeeds{2, 2};  // 0.33 m/s
   rig.run_s(4);
   EXPECT_FALSE(has_power()) << rig.why();
 }
@@ -266,7 +263,10 @@ TEST_F(ABaseThatTakesATwistOnASlope, LosesItsPowerWhenItIsFoundSilentAndGoesUp) 
   tilt();
   rig.drives[0].silent = true;
   rig.disobeys = WheelSpeeds{3, 3};
-  rig.run_s(4);
+  rig.run_s(1);
+  ASSERT_TRUE(has_power()) << rig.why();
+  rig.run_s(3);
+  EXPECT_THAT(told(), HasSubstr("cannot be stopped"));
   EXPECT_FALSE(has_power()) << rig.why();
 }
 
@@ -368,6 +368,56 @@ TEST_F(ABaseThatTakesATwistOnASlope, KeepsItsPowerWhenItCreepsAndItsImuFellSilen
   rig.disobeys = WheelSpeeds{0.5, 0.5};  // 0.08 m/s
   rig.run_s(10);
   EXPECT_TRUE(has_power()) << rig.why();
+}
+
+/// Each later task of the same program, too.
+TEST_F(ABaseThatTakesATwistOnASlope, KeepsItsPowerForTenSecondsThoughItsRelayWasFoundClosed) {
+  rig.environment.relay_found_closed = true;
+  rig.environment.drives_on_in_silence = true;
+  rig.tells_speed = true;
+  drive();
+  tilt_down();
+  rig.run_s(0.2);
+  rig.drives[0].silent = true;
+  rig.disobeys = WheelSpeeds{7, 7};  // 1.2 m/s
+  rig.run_s(7);
+  EXPECT_TRUE(has_power()) << rig.why();
+}
+
+/// Nobody drove it: a person's stop must not let it go.
+TEST_F(ABaseThatTakesATwistOnASlope, KeepsItsPowerWhenItSlipsDownAndAPersonStopsIt) {
+  rig.settle();
+  go_over_the_edge();
+  rig.drives[0].state = AxisState::running;
+  rig.disobeys = WheelSpeeds{1, 1};
+  rig.run_s(1);
+  rig.command(EngageStop{});
+  rig.run_s(4);
+  EXPECT_TRUE(has_power()) << told();
+}
+
+TEST_F(ABaseThatTakesATwistOnASlope, RemembersThatItRestsButNotThatItIsHeldUp) {
+  rig.environment.drives_on_in_silence = rig.tells_speed = true;
+  drive();
+  EXPECT_FALSE(rig.out.remembered.at_rest);
+  tilt();
+  rig.run_s(6);
+  EXPECT_TRUE(rig.out.remembered.at_rest);
+  rig.drives[0].silent = true;
+  rig.run_s(8);
+  EXPECT_TRUE(rig.out.remembered.at_rest) << "it rested when it fell silent";
+}
+
+TEST_F(ABaseThatTakesATwistOnASlope, IsNotRememberedAtRestWhenItFellSilentInMotion) {
+  rig.environment.drives_on_in_silence = rig.tells_speed = true;
+  drive();
+  tilt();
+  rig.run_s(0.1);
+  rig.drives[0].silent = true;
+  rig.disobeys = WheelSpeeds{0, 0};
+  rig.run_s(8);
+  ASSERT_TRUE(has_power()) << rig.why();
+  EXPECT_FALSE(rig.out.remembered.at_rest);
 }
 
 }  // namespace
