@@ -224,10 +224,10 @@ TEST_F(ABaseThatTakesATwist, KeepsItsPowerWhenItIsFoundSlowingDown) {
   rig.drives[0].state = AxisState::running;
   rig.guard_has_bus = rig.drives[0].silent = true;
   rig.disobeys = WheelSpeeds{4, 4};
-  rig.run_s(0.05);
+  rig.run_s(1);  // it has that speed when it is heard
   rig.drives[0].silent = false;
-  for (int i = 0; i < 16; ++i) {
-    rig.disobeys = WheelSpeeds{4 - 0.25 * i, 4 - 0.25 * i};
+  for (int i = 0; i < 26; ++i) {  // for longer than what gets no slower is given
+    rig.disobeys = WheelSpeeds{4 - 0.15 * i, 4 - 0.15 * i};
     rig.run_s(0.05);
   }
   rig.guard_has_bus = false;
