@@ -103,6 +103,10 @@ TEST_P(CanImuConformance, DoesNotBelieveReadingsAtTheEndOfTheirRange) {
 
 TEST_P(CanImuConformance, IsFreshAgainAfterItsSupplyWasAway) {
   bench.run(std::chrono::seconds(2));
+  ASSERT_TRUE(bench.twin->set_state("silent", bench.now));
+  bench.run(std::chrono::seconds(3));
+  ASSERT_EQ(bench.health().state, SourceState::stale);
+  ASSERT_TRUE(bench.twin->set_state("", bench.now));
   ASSERT_TRUE(bench.twin->set_state("restart", bench.now));
   bench.start();
   bench.run(std::chrono::seconds(2));
