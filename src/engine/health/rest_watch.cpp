@@ -243,7 +243,7 @@ void RestWatch::watch_silence(const RestInput& input, const RimMotion& rims) {
                                          .fastest_mps = rims.fastest_mps,
                                          .asked = expected_mps_ > 0});
   // A relay that this program has closed feeds a base that has forgotten everything.
-  if (silence_.has_a_command()) ours_ = true;
+  if (silence_.has_a_command() && !silence_.was_found_at_rest()) ours_ = true;
   if (stop_now || (stop_asked && !silent && (rims.driven || history_.turns())))
     expect_stop(input.now);
   if (!silence_.is_back()) return;

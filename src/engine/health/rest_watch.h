@@ -67,7 +67,7 @@ class RestWatch final {
   /// Sign in which it was driven last; 0 before.
   double direction() const { return direction_; }
   /// What is silent may go on by a command that it has: nothing but its power stops it.
-  bool may_drive_on() const { return silence_.unheard() && ours_; }
+  bool may_drive_on() const { return silence_.unheard() && (ours_ || silence_.has_a_command()); }
   /// And it was not at rest when it fell silent, or nobody knows.
   bool drives_on() const { return may_drive_on() && silence_.keeps_on() && !spared_; }
   /// Anything says that the base moves now.

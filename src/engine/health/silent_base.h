@@ -32,6 +32,8 @@ class SilentBase final {
   bool keeps_on() const { return unheard_ && keeps_on_; }
   /// Some command of ours, or of the program before this one, may be in it.
   bool has_a_command() const { return has_a_command_; }
+  /// None that moved it: the program before this one knew it at rest, and it was not heard since.
+  bool was_found_at_rest() const { return !heard_ && stood_; }
   /// It is heard again, with another speed than before: it was away, and needs a ramp.
   bool is_back() const { return back_; }
 

@@ -208,12 +208,15 @@ TEST_F(ABaseThatTakesATwist, LosesItsPowerWhenItIsFoundDrivingOn) {
 
 /// A person pushes it meanwhile.
 TEST_F(ABaseThatTakesATwist, KeepsItsPowerWhenItIsFoundMovingAndWasKnownToRest) {
-  rig.environment.relay_found_closed = true;
+  rig.environment.relay_found_closed = rig.environment.drives_on_in_silence = true;
   Remembered held;
   held.holding = held.at_rest = true;
   rig.engine->recall(held, rig.now);
   rig.drives[0].state = AxisState::running;
+  rig.drives[0].silent = true;  // not heard yet
   rig.disobeys = WheelSpeeds{1.5, 1.5};
+  rig.run_s(0.3);
+  rig.drives[0].silent = false;
   rig.run_s(4);
   EXPECT_TRUE(has_power()) << rig.why();
 }
