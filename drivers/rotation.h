@@ -34,6 +34,13 @@ inline Quaternion from_angles(double roll_rad, double pitch_rad, double yaw_rad)
 inline Quaternion from_degrees(double roll_deg, double pitch_deg, double yaw_deg) {
   return from_angles(to_rad(roll_deg), to_rad(pitch_deg), to_rad(yaw_deg));
 }
+/// About the parent's z, rad.
+inline double yaw_of(const Quaternion& q) {
+  return std::atan2(2 * (q.w * q.z + q.x * q.y), 1 - 2 * (q.y * q.y + q.z * q.z));
+}
+inline Vector3 operator+(const Vector3& a, const Vector3& b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
 inline double length(const Vector3& v) {
   return std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z);
 }

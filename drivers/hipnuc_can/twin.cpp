@@ -1,35 +1,14 @@
 #include "drivers/hipnuc_can/twin.h"
 
-#include <charconv>
 #include <cmath>
-#include <optional>
 
 #include "drivers/rotation.h"
+#include "drivers/twin_states.h"
 
 namespace drover::hipnuc_can {
 namespace {
 
 constexpr std::uint8_t kNmtStart = 1;
-
-Vector3 operator+(const Vector3& a, const Vector3& b) {
-  return {a.x + b.x, a.y + b.y, a.z + b.z};
-}
-
-double yaw_of(const Quaternion& q) {
-  return std::atan2(2 * (q.w * q.z + q.x * q.y), 1 - 2 * (q.y * q.y + q.z * q.z));
-}
-
-/// "bias:2"
-std::optional<double> bias_dps(std::string_view text) {
-  constexpr std::string_view kBias = "bias:";
-  if (!text.starts_with(kBias)) return std::nullopt;
-  text.remove_prefix(kBias.size());
-  double value = 0;
-  const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (result.ec != std::errc{} || result.ptr != text.data() + text.size() || !std::isfinite(value))
-    return std::nullopt;
-  return value;
-}
 
 }  // namespace
 
@@ -88,7 +67,7 @@ bool HipnucCanTwin::set_state(std::string_view name, Time now) {
     next_ = now;
     return true;
   }
-  const auto bias = bias_dps(name);
+  const auto bias = number_after(name, "bias");
   Fault fault = Fault::none;
   if (name == "silent") {
     fault = Fault::silent;

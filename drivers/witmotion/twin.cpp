@@ -2,11 +2,10 @@
 #include "drivers/witmotion/twin.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <optional>
 
 #include "drivers/rotation.h"
+#include "drivers/twin_states.h"
 #include "drover/angle.h"
 
 namespace drover::witmotion {
@@ -24,9 +23,6 @@ std::int16_t to_word(double share_of_range) {
 Words to_words(const Vector3& v, double range) {
   return {to_word(v.x / range), to_word(v.y / range), to_word(v.z / range)};
 }
-Vector3 operator+(const Vector3& a, const Vector3& b) {
-  return {a.x + b.x, a.y + b.y, a.z + b.z};
-}
 
 struct EulerAngles {
   double roll_rad;
@@ -35,19 +31,7 @@ struct EulerAngles {
 };
 EulerAngles angles_of(const Quaternion& q) {
   return {std::atan2(2 * (q.w * q.x + q.y * q.z), 1 - 2 * (q.x * q.x + q.y * q.y)),
-          std::asin(std::clamp(2 * (q.w * q.y - q.z * q.x), -1.0, 1.0)),
-          std::atan2(2 * (q.w * q.z + q.x * q.y), 1 - 2 * (q.y * q.y + q.z * q.z))};
-}
-
-/// "name:number".
-std::optional<double> number_after(std::string_view text, std::string_view name) {
-  if (!text.starts_with(name) || text.substr(name.size(), 1) != ":") return std::nullopt;
-  text.remove_prefix(name.size() + 1);
-  double value = 0;
-  const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (result.ec != std::errc{} || result.ptr != text.data() + text.size() || !std::isfinite(value))
-    return std::nullopt;
-  return value;
+          std::asin(std::clamp(2 * (q.w * q.y - q.z * q.x), -1.0, 1.0)), yaw_of(q)};
 }
 
 }  // namespace

@@ -86,9 +86,8 @@ struct Engine::Impl {
   Reason steep;                          ///< why this ground is too steep to stop on
   Time steep_since = kNever;
   Time tilt_known_at = kNever;
-  bool slopes = false;           ///< the ground fell when that was known last
-  double falls_ahead = kAbsent;  ///< the sine of how it does on the way ahead
-  Time stopped_at = kNever;      ///< last: nothing could move then
+  bool slopes = false;       ///< the ground fell when that was known last
+  Time stopped_at = kNever;  ///< last: nothing could move then
   Time last_step = kNever;
   Snapshot snapshot;
   /// Edges of a base that takes a twist.

@@ -51,15 +51,13 @@ Reason Engine::Impl::judge_motion(Time now, Duration dt, const LineTable& lines,
   RestInput input{.now = now, .dt = dt, .axes = axes};
   input.power_is_off = config.line_configured[estop] && lines.active[estop];
   const double falls_deg = tilt_deg();
-  falls_ahead = kAbsent;
   if (std::isfinite(falls_deg)) {
     slopes = falls_deg > kRollsFrom_deg;
     const double ahead_deg = to_deg(estimate.pitch_rad);  // nose down is positive
-    falls_ahead = std::abs(ahead_deg) > kCreepsFrom_deg ? std::sin(estimate.pitch_rad) : 0;
+    input.falls_ahead = std::abs(ahead_deg) > kCreepsFrom_deg ? std::sin(estimate.pitch_rad) : 0;
   }
   input.rolls_unpowered =
       !steep.empty() || (config.base.hold == HoldBy::level_ground_only && slopes);
-  input.falls_ahead = falls_ahead;
   input.released = arming.released();
   input.drives_on_in_silence = environment.drives_on_in_silence;
   input.stop_creeps = environment.stop_creeps;

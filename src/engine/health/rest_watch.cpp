@@ -53,11 +53,6 @@ bool has_power(const RestInput& input) {
 RestWatch::RestWatch(const EngineConfig& config)
     : config_(config), rims_(config), witness_(config) {}
 
-void RestWatch::recall_at_rest() {
-  silence_.recall_at_rest();
-  knows_rest_ = true;
-}
-
 void RestWatch::expect_stop(Time now) {
   ours_ = true;
   if (!creep_.under_way()) creep_.begin(now);
@@ -344,7 +339,8 @@ void RestWatch::stay(const RestInput& input, const RimMotion& rims, const Testim
 }
 
 RestState RestWatch::update(const RestInput& input) {
-  if (!std::exchange(began_, true)) inherited_ = input.found_powered && !knows_rest_;
+  if (!std::exchange(began_, true))
+    inherited_ = input.found_powered && !silence_.was_found_at_rest();
   if (input.released) ours_ = inherited_ = false;  // who lets go of the drives is going to push
   const RimMotion rims = rims_.told(input.axes, input.now);
   hears_wheels_ = rims.heard;

@@ -78,7 +78,7 @@ class RestWatch final {
   /// A wheel turns now and nobody drove it, be it only an arming drive's swing: no moment to start.
   Reason turns_by_itself() const;
   /// The program before this one knew the base at rest.
-  void recall_at_rest();
+  void recall_at_rest() { silence_.recall_at_rest(); }
   /// A person asked for a stop: what still drives then is ours, whoever commanded it.
   void on_stop_asked() { stop_asked_ = true; }
   /// A wheel ran away and everything was stopped: rest is due at once, whoever moved it.
@@ -117,7 +117,6 @@ class RestWatch final {
   bool stop_asked_ = false;  ///< since the last cycle
   bool ours_ = false;        ///< we moved it since it rested last
   bool inherited_ = false;   ///< the program before this one may have, and it has not rested yet
-  bool knows_rest_ = false;  ///< it remembered the base at rest
   bool began_ = false;
   double direction_ = 0;  ///< RimMotion::ahead of the last command of one who drove
   double turn_ = 0;       ///< RimMotion::turn of it
