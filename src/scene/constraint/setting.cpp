@@ -1,0 +1,24 @@
+#include "scene/constraint/setting.h"
+
+#include "scene/message/frames.h"
+#include "scene/world/rigid.h"
+
+namespace drover::scene {
+
+std::optional<Pose> link_in_map(const Setting& setting, std::string_view link) {
+  const auto on_base = link_on_base(setting.robot, link);
+  if (!on_base) return std::nullopt;
+  const Pose2& base = setting.state.base;
+  const Tilt tilt = setting.state.tilt.value_or(Tilt{});
+  return rigid::product(
+      Pose{{base.x_m, base.y_m, 0},
+           rigid::from_roll_pitch_yaw(tilt.roll_rad, tilt.pitch_rad, base.yaw_rad)},
+      *on_base);
+}
+
+std::optional<Pose> frame_of(const Setting& setting, std::string_view frame_id) {
+  if (is_global_frame(frame_id)) return upright(setting.their_map);
+  return link_in_map(setting, frame_id);
+}
+
+}  // namespace drover::scene

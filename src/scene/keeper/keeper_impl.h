@@ -1,0 +1,57 @@
+// What the Keeper keeps; the look along a whole track goes by the same.
+#pragma once
+
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "scene/constraint/setting.h"
+#include "scene/constraint/verdict.h"
+#include "scene/keeper/keeper.h"
+#include "scene/world/pose_history.h"
+
+namespace drover::scene {
+
+struct Keeper::Impl {
+  explicit Impl(KeeperSettings given) : settings(std::move(given)) {}
+
+  // What happened; each counts the number up.
+  void change();
+  /// After the world took it.
+  void on_object(const CollisionObject& message, Applied& applied);
+  void place_all();
+  void place_zones();
+  void find_problem();
+  void move_map(const Viewpoint& viewpoint);
+
+  // By the last viewpoint.
+  Pose2 pose() const;
+  double position_sigma_m() const;
+  double yaw_sigma_rad() const;
+  Steering steering() const;
+  /// Which constraint does not hold there; nothing known of tilt and joints when they are not
+  /// measured.
+  std::optional<Verdict> broken() const;
+  Terms terms() const;
+
+  KeeperSettings settings;
+  World world;
+  std::vector<Zone> zones;
+  PoseHistory poses;
+  Surroundings around;
+  std::optional<Viewpoint> viewpoint;
+  std::optional<sensor::FieldView> sensors;
+  bool zones_told = false;
+  bool scene_told = false;
+  std::string zones_problem;
+  std::string scene_problem;
+  bool origin_is_bad = false;
+  std::set<std::string, std::less<>> changed_objects;
+  std::set<std::string, std::less<>> changed_sets;
+};
+
+/// "constraint yard.position_constraints[0] (base_link) does not hold: 0.200 m outside".
+Reason in_words(const Verdict& broken);
+
+}  // namespace drover::scene

@@ -1,0 +1,170 @@
+// Where the robot is, and what is free about it.
+#include <algorithm>
+#include <cmath>
+
+#include "scene/constraint/evaluate.h"
+#include "scene/keeper/keeper_impl.h"
+#include "scene/keeper/track_check_impl.h"
+#include "scene/keeper/way_line.h"
+#include "scene/look/with_sensor.h"
+#include "scene/plane/track_line.h"
+#include "scene/world/map_change.h"
+
+namespace drover::scene {
+namespace {
+
+constexpr double kDrives_mps = 0.01;
+constexpr double kAtCorner_m = 0.05;
+
+/// What it does; at rest what it is asked to do.
+Twist looked_along(const Viewpoint& from) {
+  const bool drives = std::abs(from.commanded.vx_mps) > kDrives_mps;
+  return drives || !std::isfinite(from.commanded.vx_mps) ? from.commanded : from.asked;
+}
+
+/// Ahead since then, as fast as it is or is told to be: a field was seen a moment before the pose.
+double driven_m(const Viewpoint& from, Time since) {
+  if (since == kNever || !(since < from.t)) return 0;
+  double fastest_mps = 0;
+  for (const double vx_mps : {from.pose.vx_mps, from.commanded.vx_mps})
+    if (std::isfinite(vx_mps)) fastest_mps = std::max(fastest_mps, vx_mps);
+  return fastest_mps * to_s(from.t - since);
+}
+
+/// The track goes on the way that the robot looks.
+bool is_ahead(const WayLine& line, double yaw_rad, double pivot_rad) {
+  const TrackLine track(line.points, pivot_rad);
+  if (track.empty()) return true;
+  const TrackLine::Leg* leg = &track.legs().front();
+  for (const TrackLine::Leg& next : track.legs())
+    if (track.first_m(next) <= line.from_m + kAtCorner_m) leg = &next;
+  const double off_rad = wrap_rad(track.place(*leg, line.from_m).yaw_rad - yaw_rad);
+  return !(std::abs(off_rad) >= pivot_rad);
+}
+
+}  // namespace
+
+Pose2 Keeper::Impl::pose() const {
+  if (!viewpoint) return {kAbsent, kAbsent, kAbsent};
+  const drover::Pose& pose = viewpoint->pose;
+  return {pose.x_m, pose.y_m,
+          is_heading(pose.yaw_rad, pose.yaw_sigma_rad) ? pose.yaw_rad : kAbsent};
+}
+
+double Keeper::Impl::position_sigma_m() const {
+  return viewpoint ? viewpoint->pose.position_sigma_m : kAbsent;
+}
+
+double Keeper::Impl::yaw_sigma_rad() const {
+  return viewpoint ? viewpoint->pose.yaw_sigma_rad : kAbsent;
+}
+
+Steering Keeper::Impl::steering() const {
+  const double vx_mps = viewpoint ? std::abs(viewpoint->commanded.vx_mps) : 0;
+  const double lookahead_m = settings.lookahead_s * (std::isfinite(vx_mps) ? vx_mps : 0);
+  return {settings.pivot_rad, std::max(lookahead_m, settings.min_lookahead_m)};
+}
+
+Terms Keeper::Impl::terms() const {
+  Terms terms;
+  terms.extent.margin_m = settings.look.sigmas * position_sigma_m();
+  return terms;
+}
+
+std::optional<Verdict> Keeper::Impl::broken() const {
+  if (world.constraints().empty()) return std::nullopt;
+  RobotState state;
+  state.base = pose();
+  if (viewpoint && std::isfinite(viewpoint->roll_rad) && std::isfinite(viewpoint->pitch_rad))
+    state.tilt = Tilt{viewpoint->roll_rad, viewpoint->pitch_rad};
+  for (std::size_t i = 0; viewpoint && i < settings.joints.size(); ++i) {
+    const bool told = i < viewpoint->joint_rad.size();
+    state.joints.push_back({.name = settings.joints[i],
+                            .position = told ? viewpoint->joint_rad[i] : kAbsent,
+                            .velocity = kAbsent});
+  }
+  return heaviest_broken(world, settings.robot, state, terms());
+}
+
+Reason in_words(const Verdict& broken) {
+  constexpr std::size_t kShownWhich = 72;
+  const FixedText<kShownWhich> which(broken.which);
+  Reason words;
+  words.format("constraint %.*s does not hold: %s", static_cast<int>(which.view().size()),
+               which.view().data(), broken.why.c_str());
+  return words;
+}
+
+void Keeper::Impl::move_map(const Viewpoint& from) {
+  if (!from.origin_set) return;
+  const bool was_bad = origin_is_bad;
+  origin_is_bad = !is_origin(from.origin);
+  if (origin_is_bad) {
+    if (!was_bad) change();
+    return;
+  }
+  if (world.origin() && same_origin(*world.origin(), from.origin)) {
+    if (was_bad) change();
+    return;
+  }
+  world.move_origin(from.origin);
+  poses.clear();
+  place_all();
+}
+
+void Keeper::see(const Viewpoint& from) {
+  Impl& impl = *impl_;
+  // Poses of another place are no help to place what was seen from there.
+  if (!impl.viewpoint || impl.viewpoint->place != from.place) impl.poses.clear();
+  impl.move_map(from);
+  impl.viewpoint = from;
+  const double sigma_m = impl.position_sigma_m();
+  if (position_problem(impl.pose(), sigma_m).empty())
+    impl.poses.add(from.t, impl.pose(), sigma_m, std::isfinite(impl.pose().yaw_rad));
+}
+
+void Keeper::set_sensors(const std::optional<sensor::FieldView>& view) {
+  impl_->sensors = view;
+}
+
+Clearance Keeper::look(const Path* path) const {
+  const Impl& impl = *impl_;
+  Clearance found;
+  if (!impl.viewpoint) {
+    found.scene = impl.around.number;
+    found.unknown = "the robot was not heard yet";
+    return found;
+  }
+  const Viewpoint& seen = *impl.viewpoint;
+  Standpoint from;
+  from.t = seen.t;
+  from.pose = impl.pose();
+  from.position_sigma_m = impl.position_sigma_m();
+  from.yaw_sigma_rad = impl.yaw_sigma_rad();
+  from.twist = looked_along(seen);
+  std::optional<WayLine> line;
+  if (seen.way.path != 0 && path != nullptr && path->number == seen.way.path) {
+    from.path = path->number;
+    line = line_about(*path, seen.way, impl.settings.look.along_m);
+  }
+  if (line) {
+    from.line = line->points;
+    from.line_from_m = line->from_m;
+    from.line_ends = line->ends;
+  }
+  LookSettings look_settings = impl.settings.look;
+  look_settings.steering = impl.steering();
+  found = scene::look(impl.around, look_settings, from);
+  if (found.unknown.empty())
+    if (const auto broken = impl.broken()) found.broken = in_words(*broken);
+  if (!impl.sensors) return found;
+  SensorTerms terms{impl.settings.look.margin_m, true, driven_m(seen, impl.sensors->since)};
+  if (line) terms.track_ahead = is_ahead(*line, from.pose.yaw_rad, impl.settings.pivot_rad);
+  return with_sensor(found, *impl.sensors, terms);
+}
+
+std::unique_ptr<TrackCheck> Keeper::check(const Path& path, std::uint32_t target) const {
+  return std::make_unique<TrackCheck>(std::make_unique<TrackCheck::Impl>(*impl_, path, target));
+}
+
+}  // namespace drover::scene

@@ -1,0 +1,34 @@
+// A look along a whole track, part by part.
+#pragma once
+
+#include <optional>
+
+#include "scene/keeper/keeper_impl.h"
+#include "scene/keeper/way_line.h"
+
+namespace drover::scene {
+
+struct TrackCheck::Impl {
+  Impl(const Keeper::Impl& given, const Path& track, std::uint32_t target);
+
+  bool advance();
+  /// Why there is nothing to look along; empty: there is.
+  Reason find_problem(std::uint32_t target) const;
+  /// Before it drives off: what holds at this moment only.
+  void look_here();
+  void look_along_part();
+  double part_m() const;
+  void end(std::size_t point, double way_m, std::string_view what);
+
+  const Keeper::Impl& keeper;
+  const Path& path;
+  std::uint64_t number = 0;
+  bool begun = false;
+  bool done = false;
+  std::optional<TrackOffence> offence;
+  WayLeft way;       ///< of the part that comes next
+  Pose2 pose;        ///< there
+  double way_m = 0;  ///< until there
+};
+
+}  // namespace drover::scene

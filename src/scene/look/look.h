@@ -1,0 +1,54 @@
+// What is free about the robot: objects, keep-out and keep-in zones against its footprint, along
+// its track, along its present curve ahead and back, and turning on the spot.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "drover/clearance.h"
+#include "drover/fixed_text.h"
+#include "drover/twist.h"
+#include "scene/look/surroundings.h"
+#include "scene/plane/piece.h"
+#include "scene/plane/steps.h"
+
+namespace drover::scene {
+
+struct LookSettings {
+  std::vector<Point2> footprint;  ///< convex, in base_link
+  double margin_m = 0.1;          ///< around it
+  double sigmas = 2;              ///< of the position, around that
+  double ahead_m = 3;             ///< how far to look along the curve, each way
+  double along_m = 10;            ///< and along the track
+  Steering steering;
+};
+
+/// Where the robot was at `t`, and what it does.
+struct Standpoint {
+  Time t = kNever;
+  Pose2 pose;
+  double position_sigma_m = 0;  ///< absent or not finite: the position is not known
+  double yaw_sigma_rad = 0;     ///< likewise the heading
+  Twist twist;                  ///< whose curve is looked along; at rest it looks straight ahead
+  std::uint64_t path = 0;       ///< 0: no track
+  /// Of the track what is near and ahead, in the order of travel.
+  std::span<const Point2> line;
+  double line_from_m = 0;  ///< the robot is about there on it (1 m), as arc length
+  bool line_ends = true;   ///< its last point is the goal: beyond it nothing is driven
+};
+
+/// What was not looked at is not free: a way ends with what was asked to look at, but that of a
+/// track that ends before, with nothing in between, is free for ever. Where nothing is placed and
+/// nothing constrained, no position is needed. Without a heading, on no track, it says how far the
+/// robot may go in any direction, and turn: what a search for the heading needs.
+Clearance look(const Surroundings& around, const LookSettings& settings, const Standpoint& from);
+
+/// Nothing can be said by a position like this one; empty: it is one.
+Reason position_problem(const Pose2& pose, double position_sigma_m);
+/// The robot knows which way it looks.
+bool is_heading(double yaw_rad, double yaw_sigma_rad);
+/// Footprint with its margin and the position's error.
+Piece body_of(const LookSettings& settings, double position_sigma_m);
+
+}  // namespace drover::scene

@@ -1,0 +1,25 @@
+#include "scene/world/words.h"
+
+#include <cmath>
+
+#include "drover/fixed_text.h"
+
+namespace drover::scene::words {
+
+std::string number(double value, int decimals) {
+  const double step = std::pow(10.0, -decimals);
+  FixedText<64> text;
+  text.format("%.*f", decimals, std::abs(value) < step / 2 ? 0.0 : value);
+  return std::string(text.view());
+}
+
+std::string quoted(std::string_view name) {
+  FixedText<64> shown(name);
+  std::string out = "\"";
+  for (const char c : shown.view())
+    out += static_cast<unsigned char>(c) < 0x20 || c == 0x7F ? '?' : c;
+  out += shown.view().size() < name.size() ? "...\"" : "\"";
+  return out;
+}
+
+}  // namespace drover::scene::words

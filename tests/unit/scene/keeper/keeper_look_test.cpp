@@ -1,0 +1,228 @@
+// What the Keeper answers, by where the robot is and where it goes.
+#include "tests/unit/scene/keeper/fixture.h"
+
+namespace drover::scene {
+namespace {
+
+using testing::HasSubstr;
+
+TEST_F(AKeeper, LooksAlongTheTrackFromWhereTheRobotIs) {
+  const Path path = row(20);
+  apply(box("near", 7, 0));
+  from.pose.x_m = 3.4;
+  on(path, 3, 0.4, 20);
+  const Clearance found = look(&path);
+  EXPECT_EQ(found.path, 3U);
+  EXPECT_NEAR(found.along_m, 6.9 - 3.4 - 0.6, 0.02) << "not from the track's beginning";
+  EXPECT_THAT(text(found.first), HasSubstr("near is in the way, 2.9"));
+  EXPECT_THAT(text(found.first), HasSubstr("along the track"));
+}
+
+TEST_F(AKeeper, LooksAlongATrackThatIsDrivenFromItsEnd) {
+  const Path path = row(20);
+  apply(box("behind", 1, 0));
+  from.pose.x_m = 5.5;
+  from.pose.yaw_rad = kPi;
+  on(path, 6, 0.5, 0, false);
+  EXPECT_NEAR(look(&path).along_m, 5.5 - 1.1 - 0.6, 0.02);
+  on(path, 6, 0.5, 4, false);
+  EXPECT_EQ(look(&path).along_m, kEndless) << "it ends before";
+}
+
+TEST_F(AKeeper, IsNotHeldUpByWhatIsBehindTheGoal) {
+  const Path path = row(20);
+  apply(box("wall", 8.75, 0));
+  on(path, 0, 0, 8);
+  EXPECT_EQ(look(&path).along_m, kEndless);
+  on(path, 0, 0, 9);
+  EXPECT_LT(look(&path).along_m, 8.1);
+}
+
+TEST_F(AKeeper, LooksNoFartherAlongTheTrackThanItWasAskedTo) {
+  const Path path = row(200);
+  on(path, 0, 0, 200);
+  EXPECT_NEAR(look(&path).along_m, 10, 1e-6);
+  apply(box("far", 100, 50));
+  EXPECT_NEAR(look(&path).along_m, 10, 1e-6);
+}
+
+TEST_F(AKeeper, AnswersForNoTrackThatItWasNotGiven) {
+  Path path = row(20);
+  apply(box("box1", 7, 0));
+  on(path, 0, 0, 20);
+  EXPECT_EQ(look(nullptr).path, 0U);
+  EXPECT_EQ(text(look(nullptr).unknown), "");
+  path.number = 4;
+  EXPECT_EQ(look(&path).path, 0U);
+  EXPECT_EQ(look(&path).along_m, 0);
+}
+
+TEST_F(AKeeper, SaysNothingOfAPlaceThatIsNotOnTheTrack) {
+  const Path path = row(20);
+  apply(box("box1", 7, 0));
+  for (const WayLeft& way :
+       {WayLeft{3, true, 20, 21, 0}, WayLeft{3, true, 21, 0, 0}, WayLeft{3, true, 5, 6, 0},
+        WayLeft{3, false, 6, 5, 0}, WayLeft{3, true, 20, 0, NAN}}) {
+    from.way = way;
+    EXPECT_THAT(text(look(&path).unknown), HasSubstr("track"));
+    EXPECT_EQ(look(&path).along_m, 0);
+  }
+}
+
+TEST_F(AKeeper, LooksAlongTheCurveThatIsDrivenOrAskedFor) {
+  from.commanded = {0.5, 0.35};
+  from.asked = {0.5, -0.35};
+  EXPECT_EQ(look().twist.wz_radps, 0.35);
+  from.commanded = {};
+  EXPECT_EQ(look().twist.wz_radps, -0.35);
+  from.asked = {-0.3, 0};
+  apply(box("behind", -2, 0));
+  EXPECT_THAT(text(look().first), HasSubstr("behind"));
+  from.commanded = {NAN, 0};
+  EXPECT_FALSE(look().unknown.empty());
+}
+
+TEST_F(AKeeper, NeedsNoPlaceWhereNothingIsPlaced) {
+  from.pose.position_sigma_m = from.pose.yaw_sigma_rad = kAbsent;
+  from.origin_set = false;
+  const Clearance found = look();
+  EXPECT_EQ(text(found.unknown), "");
+  EXPECT_DOUBLE_EQ(found.ahead_m, 3);
+  EXPECT_EQ(found.left_rad, kEndless);
+  apply(box("box1", 20, 0));
+  EXPECT_THAT(text(look().unknown), HasSubstr("where the robot is"));
+  keeper.clear();
+  EXPECT_EQ(text(look().unknown), "");
+  Constraints set;
+  set.name = "row";
+  set.joint_constraints = {{"base/y", 0, 1, 1, 0}};
+  ASSERT_EQ(apply(set), "done");
+  EXPECT_THAT(text(look().unknown), HasSubstr("where the robot is"));
+}
+
+TEST_F(AKeeper, SaysHowFarItIsFreeAllAroundWithoutAHeading) {
+  apply(box("box1", 0, 3));
+  from.pose.yaw_sigma_rad = kAbsent;
+  const double reach_m = std::hypot(0.5, 0.35) + 0.1;
+  const Clearance found = look();
+  EXPECT_EQ(text(found.unknown), "");
+  EXPECT_NEAR(found.ahead_m, 2.9 - reach_m, kResolution_m + 1e-9);
+  EXPECT_DOUBLE_EQ(found.back_m, found.ahead_m);
+  EXPECT_EQ(found.left_rad, kEndless);
+  EXPECT_EQ(found.right_rad, kEndless);
+  EXPECT_THAT(text(found.first), HasSubstr("box1 is in the way, 2.1"));
+  const Path path = row(20);
+  on(path, 0, 0, 20);
+  EXPECT_THAT(text(look(&path).unknown), HasSubstr("which way"));
+}
+
+Constraints fence(double half_m) {
+  Constraints set;
+  set.name = "yard";
+  PositionConstraint inside;
+  inside.header.frame_id = "map";
+  inside.link_name = "base_link";
+  inside.constraint_region.primitives = {{SolidPrimitive::BOX, {2 * half_m, 2 * half_m, 2}}};
+  inside.constraint_region.primitive_poses = {{}};
+  set.position_constraints = {inside};
+  return set;
+}
+
+TEST_F(AKeeper, NamesTheConstraintThatDoesNotHold) {
+  ASSERT_EQ(apply(fence(2)), "done");
+  EXPECT_EQ(text(look().broken), "");
+  from.pose.x_m = 2.5;
+  EXPECT_EQ(text(look().broken),
+            "constraint yard.position_constraints[0] (base_link) does not hold: 0.500 m outside of "
+            "its region");
+  EXPECT_EQ(text(look().unknown), "");
+}
+
+TEST_F(AKeeper, TakesTwiceThePositionsSigmaForAConstraintsMargin) {
+  ASSERT_EQ(apply(fence(2)), "done");
+  from.pose.x_m = 1.8;
+  EXPECT_EQ(text(look().broken), "");
+  from.pose.position_sigma_m = 0.15;
+  EXPECT_THAT(text(look().broken), HasSubstr("0.1"));
+}
+
+TEST_F(AKeeper, JudgesTheTiltThatIsMeasuredAndNoOther) {
+  Constraints set;
+  set.name = "level";
+  OrientationConstraint level;
+  level.header.frame_id = "map";
+  level.link_name = "base_link";
+  level.absolute_x_axis_tolerance = level.absolute_y_axis_tolerance = 0.2;
+  level.absolute_z_axis_tolerance = 4;
+  set.orientation_constraints = {level};
+  ASSERT_EQ(apply(set), "done");
+  EXPECT_THAT(text(look().broken), HasSubstr("roll and pitch are not measured"));
+  from.roll_rad = from.pitch_rad = 0.05;
+  EXPECT_EQ(text(look().broken), "");
+  from.pitch_rad = 0.3;
+  EXPECT_THAT(text(look().broken), HasSubstr("level.orientation_constraints[0]"));
+}
+
+TEST_F(AKeeper, KnowsJointsByTheirNames) {
+  Constraints set;
+  set.name = "arm";
+  set.joint_constraints = {{"arm", 0, 0.5, 0.5, 0}, {"left", 0, 0.5, 0.5, 9}};
+  ASSERT_EQ(apply(set), "done");
+  EXPECT_THAT(text(look().broken), HasSubstr("its position is not known"));
+  from.joint_rad.resize(3);
+  EXPECT_EQ(text(look().broken), "");
+  from.joint_rad[2] = 0.7;
+  EXPECT_THAT(text(look().broken), HasSubstr("arm.joint_constraints[0] (arm)"));
+  from.joint_rad[0] = 0.6;
+  EXPECT_THAT(text(look().broken), HasSubstr("(left)")) << "it weighs more";
+}
+
+sensor::FieldView seen_at(double free_m) {
+  sensor::FieldView view;
+  view.field.blocked = true;
+  view.field.unknown = false;
+  view.field.free_m = free_m;
+  return view;
+}
+
+TEST_F(AKeeper, IsStoppedByWhatAScannerSees) {
+  keeper.set_sensors(seen_at(1.5));
+  EXPECT_DOUBLE_EQ(look().ahead_m, 1.4);
+  EXPECT_DOUBLE_EQ(look().back_m, 3);
+  keeper.set_sensors(sensor::view({}, from.t));
+  EXPECT_THAT(text(look().unknown), HasSubstr("scanner"));
+  EXPECT_EQ(look().back_m, 0);
+  keeper.set_sensors(std::nullopt);
+  EXPECT_DOUBLE_EQ(look().ahead_m, 3);
+}
+
+TEST_F(AKeeper, TakesOffWhatItDroveSinceTheScannerSaw) {
+  sensor::FieldView view = seen_at(1.5);
+  view.since = from.t - std::chrono::milliseconds(200);
+  keeper.set_sensors(view);
+  from.commanded = {0.5, 0};
+  EXPECT_DOUBLE_EQ(look().ahead_m, 1.3);
+  from.pose.vx_mps = 0.8;  // it is faster still
+  EXPECT_DOUBLE_EQ(look().ahead_m, 1.24);
+  from.pose.vx_mps = -0.5;
+  from.commanded = {-0.5, 0};
+  EXPECT_DOUBLE_EQ(look().ahead_m, 1.4);
+}
+
+TEST_F(AKeeper, BoundsATrackByAScannerOnlyWhereItGoesOnAhead) {
+  Path path;
+  path.number = 3;
+  path.points = {{-5, 0}, {0, 0}, {0, 5}};
+  keeper.set_sensors(seen_at(1.5));
+  on(path, 0, 3, 2);
+  from.pose.x_m = -2;
+  EXPECT_DOUBLE_EQ(look(&path).along_m, 1.4);
+  // At the corner it turns on the spot, away from what it sees.
+  from.pose.x_m = 0;
+  on(path, 1, 0, 2);
+  EXPECT_EQ(look(&path).along_m, kEndless);
+  EXPECT_DOUBLE_EQ(look(&path).ahead_m, 1.4);
+}
+
+}  // namespace
+}  // namespace drover::scene
