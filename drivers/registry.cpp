@@ -8,6 +8,7 @@
 #include "drivers/gt01/can/entry.h"
 #include "drivers/gt01/serial/entry.h"
 #include "drivers/hipnuc_can/entry.h"
+#include "drivers/ld06/entry.h"
 #include "drivers/modbus_bms/entry.h"
 #include "drivers/nmea0183/entry.h"
 #include "drivers/odrive/entry.h"
@@ -19,8 +20,9 @@ namespace drover {
 std::span<const DriverEntry> driver_registry() {
   // Filled at the first call: the entries live in other files, whose order of start is not ours.
   static const std::array kTable{
-      kOdriveEntry,    kGpioLineEntry,   kNmea0183Entry, kModbusBmsEntry, kWitmotionEntry,
-      kZlac8015dEntry, kGt01SerialEntry, kGt01CanEntry,  kAgilexV2Entry,  kHipnucCanEntry,
+      kOdriveEntry,    kGpioLineEntry,  kNmea0183Entry,   kModbusBmsEntry,
+      kWitmotionEntry, kZlac8015dEntry, kGt01SerialEntry, kGt01CanEntry,
+      kAgilexV2Entry,  kHipnucCanEntry, kLd06Entry,
   };
   return kTable;
 }

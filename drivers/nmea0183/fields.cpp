@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cstdint>
 
+#include "drivers/nmea0183/block.h"
 #include "drover/measurement.h"
 
 namespace drover::nmea0183 {
@@ -29,51 +30,73 @@ int two_digits(std::string_view text) {
   return (text[0] - '0') * 10 + (text[1] - '0');
 }
 
+/// The number that eight characters are, when all of them are digits: three steps that join
+/// neighbours, of one digit, of two, of four.
+bool eight_digits(const char* text, std::uint64_t& number) {
+  constexpr std::uint64_t kEach = 0x0101010101010101;
+  std::uint64_t x = load_eight(text);
+  const std::uint64_t high = kEach * 0xF0;
+  if ((x & high) != kEach * '0' || ((x + kEach * 6) & high) != kEach * '0') return false;
+  x -= kEach * '0';
+  x = (x * 10 + (x >> 8U)) & 0x00FF00FF00FF00FF;
+  x = (x * 100 + (x >> 16U)) & 0x0000FFFF0000FFFF;
+  number = (x * 10000 + (x >> 32U)) & 0xFFFFFFFF;
+  return true;
+}
+
+/// Behind the last digit; the number grows by them.
+const char* take_digits(const char* at, const char* end, std::uint64_t& number) {
+  for (; at != end; ++at) {
+    const unsigned digit = static_cast<unsigned char>(*at) - unsigned{'0'};
+    if (digit > 9) break;
+    number = number * 10 + digit;
+  }
+  return at;
+}
+
 }  // namespace
 
 std::optional<double> parse_decimal(std::string_view text) {
   if (text.empty() || text.size() > kMaxNumberLength) return std::nullopt;
-  std::string_view rest = text;
-  if (rest.front() == '-') rest.remove_prefix(1);
+  const char* at = text.data();
+  const char* end = at + text.size();
+  if (*at == '-') ++at;
   // from_chars alone would also take `nan` and `inf`.
-  std::size_t digits = 0;
-  std::size_t points = 0;
-  std::size_t decimals = 0;
   std::uint64_t mantissa = 0;
-  for (const char c : rest) {
-    if (is_digit(c)) {
-      ++digits;
-      decimals += points;
-      mantissa = mantissa * 10 + static_cast<std::uint64_t>(c - '0');
-    } else if (c == '.') {
-      ++points;
-    } else {
-      return std::nullopt;
-    }
+  const char* begin = at;
+  at = take_digits(at, end, mantissa);
+  auto digits = static_cast<std::size_t>(at - begin);
+  std::size_t decimals = 0;
+  if (at != end && *at == '.') {
+    begin = ++at;
+    // Positions have eight of them and more.
+    for (std::uint64_t eight = 0; end - at >= 8 && eight_digits(at, eight); at += 8)
+      mantissa = mantissa * 100'000'000 + eight;
+    at = take_digits(at, end, mantissa);
+    decimals = static_cast<std::size_t>(at - begin);
+    digits += decimals;
   }
-  if (digits == 0 || points > 1) return std::nullopt;
+  if (at != end || digits == 0) return std::nullopt;
   if (digits <= kExactDigits) {
     const double value = static_cast<double>(mantissa) / kPowersOfTen[decimals];
     return text.front() == '-' ? -value : value;
   }
   double value = 0;
-  const char* end = text.data() + text.size();
   const auto result = std::from_chars(text.data(), end, value, std::chars_format::fixed);
   if (result.ec != std::errc{} || result.ptr != end) return std::nullopt;
   return value;
 }
 
-FieldReader::FieldReader(std::string_view body) {
-  while (size_ < kMaxFields) {
-    const std::size_t comma = body.find(',');
-    fields_[size_++] = body.substr(0, comma);
-    if (comma == std::string_view::npos) break;
-    body.remove_prefix(comma + 1);
-  }
-}
-
-std::string_view FieldReader::text(std::size_t i) const {
-  return i < size_ ? fields_[i] : std::string_view{};
+FieldReader::FieldReader(std::string_view body) : body_(body) {
+  const auto end_at = [this](std::size_t comma) {
+    if (size_ < kMaxFields) begins_[++size_] = static_cast<std::uint32_t>(comma + 1);
+  };
+  std::size_t at = 0;
+  for (; body.size() - at >= kBlock && size_ < kMaxFields; at += kBlock)
+    each_mark(load_block(&body[at]) == ',', [&](std::size_t comma) { end_at(at + comma); });
+  for (; at < body.size(); ++at)
+    if (body[at] == ',') end_at(at);
+  end_at(body.size());
 }
 
 double FieldReader::fail_absent() {
@@ -128,10 +151,11 @@ double FieldReader::angle_deg(std::size_t i, std::size_t degree_digits, double l
   const auto whole = field.substr(0, field.find('.'));
   if (hemisphere == '\0' || whole.size() != degree_digits + 2 || !all_digits(whole))
     return fail_absent();
-  const auto degrees = parse_decimal(field.substr(0, degree_digits));
+  int degrees = 0;
+  for (const char c : whole.substr(0, degree_digits)) degrees = degrees * 10 + (c - '0');
   const auto minutes = parse_decimal(field.substr(degree_digits));
-  if (!degrees || !minutes || *minutes >= 60.0) return fail_absent();
-  const double angle = *degrees + *minutes / 60.0;
+  if (!minutes || *minutes >= 60.0) return fail_absent();
+  const double angle = degrees + *minutes / 60.0;
   if (angle > limit_deg) return fail_absent();
   return hemisphere == hemispheres[0] ? angle : -angle;
 }
@@ -163,8 +187,9 @@ std::optional<Duration> FieldReader::time_of_day(std::size_t i) {
     return std::nullopt;
   }
   std::int64_t nanoseconds = 0;
-  for (std::size_t digit = 1; digit < 10; ++digit)
-    nanoseconds = nanoseconds * 10 + (digit < fraction.size() ? fraction[digit] - '0' : 0);
+  std::int64_t unit_ns = 100'000'000;
+  for (std::size_t digit = 1; digit < fraction.size(); ++digit, unit_ns /= 10)
+    nanoseconds += unit_ns * (fraction[digit] - '0');
   return std::chrono::hours(hour) + std::chrono::minutes(minute) + std::chrono::seconds(second) +
          Duration(nanoseconds);
 }

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string_view>
 
@@ -22,7 +23,10 @@ class FieldReader final {
   void fail() { ok_ = false; }
 
   /// Empty when the sentence has no such field.
-  std::string_view text(std::size_t i) const;
+  std::string_view text(std::size_t i) const {
+    if (i >= size_) return {};
+    return {body_.data() + begins_[i], begins_[i + 1] - 1 - begins_[i]};
+  }
   /// One letter, '\0' when the field is empty, '?' (and a failure) when it is longer.
   char letter(std::size_t i);
   /// Fails when the field is neither empty nor `unit`.
@@ -47,7 +51,9 @@ class FieldReader final {
                    std::string_view hemispheres);
   double fail_absent();
 
-  std::array<std::string_view, kMaxFields> fields_{};
+  std::string_view body_;
+  /// Where each begins; the one after the last begins behind the comma that would end it.
+  std::array<std::uint32_t, kMaxFields + 1> begins_{};
   std::size_t size_ = 0;
   bool ok_ = true;
 };

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "drivers/nmea0183/block.h"
+
 namespace drover::nmea0183 {
 namespace {
 
@@ -30,18 +32,29 @@ constexpr auto kText = [] {
   return text;
 }();
 
+/// What is no such byte.
+Block marks_of(Block bytes) {
+  return (bytes < 0x20) | (bytes == 0x7F) | (bytes == '$') | (bytes == '*') | (bytes == '#');
+}
+
 }  // namespace
 
 std::size_t Framer::take_dull(std::span<const std::uint8_t> bytes) {
   if (state_ == State::checksum) return 0;
   if (state_ == State::idle)
     return static_cast<std::size_t>(std::find(bytes.begin(), bytes.end(), '$') - bytes.begin());
+  bytes = bytes.first(std::min(bytes.size(), kMaxBody - size_));
   std::size_t count = 0;
-  for (const std::uint8_t byte : bytes.first(std::min(bytes.size(), kMaxBody - size_))) {
-    if (!kText[byte]) break;
-    sum_ = static_cast<std::uint8_t>(sum_ ^ byte);
-    ++count;
+  Block sums{};
+  std::size_t dull = kBlock;
+  for (; dull == kBlock && bytes.size() - count >= kBlock; count += dull) {
+    const Block text = load_block(&bytes[count]);
+    dull = before_first(marks_of(text));
+    sums ^= text & first_of_block(dull);
   }
+  sum_ = static_cast<std::uint8_t>(sum_ ^ folded(sums));
+  for (; dull == kBlock && count < bytes.size() && kText[bytes[count]]; ++count)
+    sum_ = static_cast<std::uint8_t>(sum_ ^ bytes[count]);
   if (count > 0) std::memcpy(&buffer_[size_], bytes.data(), count);
   size_ += count;
   return count;

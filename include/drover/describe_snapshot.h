@@ -38,6 +38,22 @@ void describe(V& v, const NavSnapshot& nav) {
 }
 
 template <class V>
+void describe(V& v, const ClearanceSnapshot& clearance) {
+  const auto& [configured, time, ahead_m, back_m, left_rad, right_rad, along_m, first, unknown,
+               broken] = clearance;
+  (void)configured;  // there is none where it is not
+  v.value("time", time, {.decimals = 3, .as = "age_s"});
+  v.value("ahead_m", ahead_m, {.decimals = 2});
+  v.value("back_m", back_m, {.decimals = 2});
+  v.value("left_rad", left_rad, {.decimals = 3});
+  v.value("right_rad", right_rad, {.decimals = 3});
+  v.value("along_m", along_m, {.decimals = 2});
+  v.value("first", first, {});
+  v.value("unknown", unknown, {});
+  v.value("broken", broken, {});
+}
+
+template <class V>
 void describe(V& v, const SourceSnapshot& source) {
   const auto& [reason, samples, bad, overflows] = source;
   v.value("reason", reason, {});
@@ -171,6 +187,18 @@ void describe(V& v, const SensorSnapshot& sensor) {
     describe_measured(v, "position", time, [&v, position] { describe(v, *position); });
   if (const auto* sample = std::get_if<BatterySample>(&last))
     describe_measured(v, "battery", time, [&v, sample] { describe(v, *sample); });
+}
+
+template <class V>
+void describe(V& v, const ScannerSnapshot& scanner) {
+  const auto& [name, health, source, time, turn_Hz, points, returns] = scanner;
+  v.value("name", name, {});
+  v.value("health", health, {});
+  v.inside("source", [&v, &part = source] { describe(v, part); });
+  v.value("time", time, {.decimals = 3, .as = "age_s"});
+  v.value("turn_Hz", turn_Hz, {.decimals = 1});
+  v.value("points", points, {});
+  v.value("returns", returns, {});
 }
 
 template <class V>

@@ -1,9 +1,9 @@
 // The driver seam: pure codecs and state machines between a wire and measurements.
 //
-// A driver is a Device with one face for its wire (frames, bytes, registers or levels) and, if it
-// moves something, the Actuator face. It does no I/O, reads no clock, starts no thread, and after
-// construction allocates nothing and throws nothing. Everything it has to say goes into a
-// DriverOut.
+// A driver is a Device with one face for its wire (frames, bytes, registers, levels, or the bytes
+// of a scanner) and, if it moves something, the Actuator face. It does no I/O, reads no clock,
+// starts no thread, and after construction allocates nothing and throws nothing. Everything it has
+// to say goes into a DriverOut.
 #pragma once
 
 #include <cstdint>
@@ -15,6 +15,7 @@
 #include "drover/can_frame.h"
 #include "drover/driver_out.h"
 #include "drover/fixed_text.h"
+#include "drover/scan.h"
 #include "drover/time.h"
 
 namespace drover {
@@ -129,6 +130,7 @@ struct Made {
   ByteFace* bytes = nullptr;
   RegisterFace* registers = nullptr;
   LevelFace* levels = nullptr;
+  ScanFace* scans = nullptr;
   Actuator* actuator = nullptr;
 };
 
@@ -141,6 +143,7 @@ Made make_device(Arguments&&... arguments) {
   if constexpr (std::is_base_of_v<ByteFace, Driver>) made.bytes = driver.get();
   if constexpr (std::is_base_of_v<RegisterFace, Driver>) made.registers = driver.get();
   if constexpr (std::is_base_of_v<LevelFace, Driver>) made.levels = driver.get();
+  if constexpr (std::is_base_of_v<ScanFace, Driver>) made.scans = driver.get();
   if constexpr (std::is_base_of_v<Actuator, Driver>) made.actuator = driver.get();
   made.device = std::move(driver);
   return made;

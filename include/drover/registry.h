@@ -15,7 +15,7 @@
 namespace drover {
 
 /// What a device is to the robot.
-enum class SlotKind : std::uint8_t { drive, gnss, imu, battery, line };
+enum class SlotKind : std::uint8_t { drive, gnss, imu, battery, line, scanner };
 
 /// What a link carries, and so which face a device on it has.
 enum class Wire : std::uint8_t { can, bytes, registers, levels };
@@ -44,6 +44,7 @@ using MakeByteDriveTwin = std::unique_ptr<ByteDriveTwin> (*)(const Options&);
 using MakeGnssTwin = std::unique_ptr<GnssTwin> (*)(const Options&, std::uint64_t seed);
 using MakeImuTwin = std::unique_ptr<ImuTwin> (*)(const Options&, std::uint64_t seed);
 using MakeCanImuTwin = std::unique_ptr<CanImuTwin> (*)(const Options&, std::uint64_t seed);
+using MakeScannerTwin = std::unique_ptr<ScannerTwin> (*)(const Options&, std::uint64_t seed);
 using MakeRegisterTwin = std::unique_ptr<RegisterTwin> (*)(const Options&, const RegisterMap&);
 
 struct DriverEntry {
@@ -60,7 +61,7 @@ struct DriverEntry {
   /// Options of the simulated device; its factory gets these and the driver's in one Options.
   std::span<const OptionSpec> twin_options;
   std::variant<std::monostate, MakeCanTwin, MakeGnssTwin, MakeImuTwin, MakeRegisterTwin,
-               MakeByteDriveTwin, MakeCanImuTwin>
+               MakeByteDriveTwin, MakeCanImuTwin, MakeScannerTwin>
       make_twin;
   std::string_view summary;  ///< one line for people
   /// Shafts that the simulated device turns, in the order of its README. 0: one for each channel.

@@ -140,6 +140,17 @@ struct SensorSnapshot {
   std::variant<std::monostate, GnssPosition, BatterySample> last;
 };
 
+/// A scanner, as its own thread tells of it.
+struct ScannerSnapshot {
+  Name name;
+  SourceState health = SourceState::never_heard;
+  SourceSnapshot source;     ///< samples: turns
+  Time time = kNever;        ///< end of the last turn
+  double turn_Hz = kAbsent;  ///< of that one, as the device tells it
+  std::uint32_t points = 0;  ///< of that turn, and those of them in which something was seen
+  std::uint32_t returns = 0;
+};
+
 struct BatterySnapshot {
   bool configured = false;
   SourceState health = SourceState::never_heard;
@@ -154,6 +165,21 @@ struct JointCommandSnapshot {
   std::uint64_t accepted = 0;
   std::uint64_t refused = 0;
   Reason reason;  ///< of the last refusal; empty when the last message was followed
+};
+
+/// How far the robot may go before it would touch something, by whoever looks around.
+struct ClearanceSnapshot {
+  bool configured = false;
+  Time time = kNever;  ///< of the pose that it is for
+  // Absent: not known.
+  double ahead_m = kAbsent;    ///< along the curve that it drives, or would drive
+  double back_m = kAbsent;     ///< along the same one
+  double left_rad = kAbsent;   ///< turning on the spot, counter-clockwise; at most half a turn
+  double right_rad = kAbsent;  ///< likewise, clockwise
+  double along_m = kAbsent;    ///< on the task's track, at most to its goal; absent without a task
+  Reason first;                ///< what is met first, and how far away; empty: nothing near
+  Reason unknown;              ///< why nothing is known; empty: it is
+  Reason broken;               ///< which constraint does not hold; empty: all do
 };
 
 struct NavSnapshot {
@@ -205,9 +231,12 @@ struct Snapshot {
   ImuSnapshot imu;
   BatterySnapshot battery;
   FixedVector<SensorSnapshot, kMaxSensors> sensors;  ///< by kind, in the configuration's order
+  /// Not the gateway's: told by who shows it, of threads that the control thread does not hear.
+  FixedVector<ScannerSnapshot, kMaxOfKind> scanners;
   JointCommandSnapshot joint_command;
   FixedVector<AxisSnapshot, kMaxAxes> axes;
   BaseSnapshot base;
+  ClearanceSnapshot clearance;
   std::array<bool, kLineCount> line_active{};
   std::array<SourceState, kLineCount> line_health{};
   std::array<bool, kLineCount> line_configured{};

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string_view>
 
@@ -104,6 +105,22 @@ class CanImuTwin {
   /// Call at each tick of the plant; sends what is due.
   virtual void on_tick(Time now, const ImuTruth& truth, TwinFrames& out) = 0;
   /// As ImuTwin's, as far as its README names them.
+  virtual bool set_state(std::string_view name, Time now) = 0;
+};
+
+/// What a simulated scanner knows of the world: the range to what is in a direction, seen from
+/// above, counter-clockwise from the sensor's x (rad), in metres. 0, infinite or not a number:
+/// nothing.
+using RangeOf = std::function<double(double bearing_rad)>;
+
+class ScannerTwin {
+ public:
+  virtual ~ScannerTwin() = default;
+  /// Call at each plant step; appends the bytes that are due to `out`, which the caller paces.
+  /// Beams are measured with the world of this call. Returns the number appended.
+  virtual std::size_t on_tick(Time now, const RangeOf& range_of, std::span<char> out) = 0;
+  /// Scenario event: "covered" (its lens), "sun" (most beams do not come back), "frozen", "dirty",
+  /// "silent", "" (well), and what else its README names. Returns false when unknown.
   virtual bool set_state(std::string_view name, Time now) = 0;
 };
 

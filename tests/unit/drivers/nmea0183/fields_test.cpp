@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <charconv>
 #include <clocale>
@@ -114,6 +115,36 @@ TEST(NmeaFields, WrapDirectionsThatWereRoundedUp) {
   FieldReader beyond("360.01");
   EXPECT_TRUE(std::isnan(beyond.direction_deg(0)));
   EXPECT_FALSE(beyond.ok());
+}
+
+TEST(NmeaFields, AreFoundWhereverTheirCommasStand) {
+  std::mt19937 random(3);
+  for (int i = 0; i < 3000; ++i) {
+    std::string body;
+    for (auto count = random() % 70; count > 0; --count)
+      body += random() % 4 == 0 ? ',' : random() % 9 == 0 ? '\xAC' : 'x';
+    const FieldReader fields(body);
+    std::size_t begin = 0;
+    for (std::size_t field = 0; field < fields.size(); ++field) {
+      const std::size_t end = std::min(body.find(',', begin), body.size());
+      ASSERT_EQ(fields.text(field), body.substr(begin, end - begin)) << body << ' ' << field;
+      begin = end + 1;
+    }
+    ASSERT_TRUE(fields.size() == 32 || begin == body.size() + 1) << body;
+  }
+}
+
+TEST(NmeaFields, ReadEightDecimalsAtOnceOnlyWhereAllAreDigits) {
+  EXPECT_EQ(parse_decimal("0.12345678"), 0.12345678);
+  EXPECT_EQ(parse_decimal("59.99999999"), 59.99999999);
+  EXPECT_EQ(parse_decimal("1.0000000000000001"), 1.0000000000000001);
+  EXPECT_EQ(parse_decimal("-0.00000001"), -0.00000001);
+  for (int place = 2; place < 10; ++place)
+    for (const char wrong : {'/', ':', '.', ' ', '-', '\x00', '\x80', '\xB0', '\xFF', 'e'}) {
+      std::string text = "0.12345678";
+      text[static_cast<std::size_t>(place)] = wrong;
+      EXPECT_FALSE(parse_decimal(text)) << text;
+    }
 }
 
 TEST(NmeaFields, IgnoreFieldsBeyondTheirNumber) {

@@ -164,6 +164,44 @@ TEST(NmeaFramer, FindsTheSameWhetherItTakesBytesAtOnceOrOneByOne) {
   }
 }
 
+/// Sixteen bytes are looked at in one step: a mark is found at each place in them.
+TEST(NmeaFramer, StopsAtEachMarkWhereverItStands) {
+  for (std::size_t before = 0; before <= 40; ++before) {
+    for (const int mark :
+         std::vector<int>{'$', '*', '#', '\r', '\n', 0, 0x1F, 0x7F, 0x80, 0xA4, 0xFF}) {
+      Framer framer;
+      framer.push('$');
+      std::string text;
+      for (std::size_t i = 0; i < before; ++i)
+        text += static_cast<char>(i % 3 == 0 ? ' ' : i % 3 == 1 ? '~' : '%');
+      text += static_cast<char>(mark);
+      text += "5,6,7,8,9,0,1,2,3,4";
+      ASSERT_EQ(framer.take_dull(test::bytes(text)), before) << mark;
+    }
+  }
+}
+
+TEST(NmeaFramer, AddsUpTheSameWhereverALineIsCut) {
+  std::string text = "GNGGA,";
+  while (text.size() < 60) text += static_cast<char>(' ' + text.size() * 7 % 90);
+  std::erase_if(text, [](char c) { return c == '$' || c == '*' || c == '#'; });
+  const std::string whole_line = line(text);
+  const auto whole = test::bytes(whole_line);
+  for (std::size_t cut = 1; cut < whole.size(); ++cut) {
+    Framer framer;
+    int found = 0;
+    for (const auto part : {std::span(whole).first(cut), std::span(whole).subspan(cut)}) {
+      for (std::size_t at = 0; at < part.size();) {
+        at += framer.take_dull(part.subspan(at));
+        if (at == part.size()) break;
+        if (framer.push(part[at++]) == Framer::Event::sentence) ++found;
+      }
+    }
+    ASSERT_EQ(found, 1) << "cut at " << cut;
+    ASSERT_EQ(framer.body(), text);
+  }
+}
+
 TEST(NmeaFramer, ForgetsALineThatHadBegun) {
   Framer framer;
   for (const std::uint8_t byte : test::bytes("$GNHDT,244.28,T*1")) framer.push(byte);
