@@ -2,6 +2,7 @@
 #include "store/storage.h"
 
 #include <stdexcept>
+#include <utility>
 
 namespace drover::store {
 namespace {
@@ -17,25 +18,52 @@ std::string prepared(Files& files, const std::string& folder) {
   return folder;
 }
 
+std::vector<NamedText> written(const std::vector<SceneText>& texts) {
+  std::vector<NamedText> all;
+  all.reserve(texts.size());
+  for (const SceneText& text : texts)
+    all.push_back({text.kind, text.name, text.arrived_s, text.text->get()});
+  return all;
+}
+
 }  // namespace
+
+StoredFor stored_for(const StorageJob& job) {
+  const bool of_scene =
+      std::holds_alternative<SaveScene>(job.what) || std::holds_alternative<AcceptLoss>(job.what) ||
+      std::holds_alternative<SaveZone>(job.what) || std::holds_alternative<DeleteZone>(job.what) ||
+      std::holds_alternative<ForgetUnreadableZones>(job.what);
+  return of_scene ? StoredFor::scene : StoredFor::tracks;
+}
 
 Storage::Storage(Files& files, const std::string& folder)
     : tracks_(files, prepared(files, folder) + "/tracks"),
       origin_(files, folder),
-      stop_(files, folder) {}
+      stop_(files, folder),
+      scene_(files, folder),
+      zones_(files, folder) {}
 
-StoredState Storage::load() {
+StoredState Storage::load(const std::optional<SceneAge>& scene) {
   StoredState state;
   state.tracks = tracks_.load(state.report);
   state.origin = origin_.load(state.report);
   state.origin_problem = origin_.problem();
   state.stop = stop_.load(state.report);
+  if (!scene) return state;
+  StoredScene found;
+  found.texts = scene_.load(scene->wall_s, scene->max_age_s, state.report);
+  found.problem = scene_.problem();
+  zones_.load();
+  found.zones = zones_.zones();
+  found.zones_problem = zones_.problem();
+  state.scene = std::make_shared<const StoredScene>(std::move(found));
   return state;
 }
 
 StorageReply Storage::run(StorageJob job) {
   StorageReply reply;
   reply.id = job.id;
+  reply.whose = stored_for(job);
   std::optional<Failure> failure;
   if (auto* save = std::get_if<SaveTrack>(&job.what)) {
     failure = tracks_.save(save->track);
@@ -44,6 +72,16 @@ StorageReply Storage::run(StorageJob job) {
     failure = tracks_.remove(one->name);
   } else if (const auto* origin = std::get_if<SaveOrigin>(&job.what)) {
     failure = origin_.save(origin->origin);
+  } else if (const auto* scene = std::get_if<SaveScene>(&job.what)) {
+    failure = scene_.save(written(scene->texts));
+  } else if (const auto* loss = std::get_if<AcceptLoss>(&job.what)) {
+    failure = scene_.accept_loss(written(loss->texts));
+  } else if (auto* zone = std::get_if<SaveZone>(&job.what)) {
+    failure = zones_.save(zone->name, std::move(zone->text), zone->wall_s);
+  } else if (const auto* gone = std::get_if<DeleteZone>(&job.what)) {
+    failure = zones_.remove(gone->name);
+  } else if (std::holds_alternative<ForgetUnreadableZones>(job.what)) {
+    failure = zones_.forget_unreadable();
   } else {
     failure = tracks_.remove_all(reply.removed);
   }

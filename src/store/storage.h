@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -10,9 +11,12 @@
 #include "drover/command.h"
 #include "store/files.h"
 #include "store/origin_store.h"
+#include "store/scene_store.h"
+#include "store/scene_text.h"
 #include "store/stop_store.h"
 #include "store/track.h"
 #include "store/track_store.h"
+#include "store/zone_store.h"
 
 namespace drover::store {
 
@@ -27,10 +31,34 @@ struct SaveOrigin {
   GeodeticPoint origin;
 };
 
+/// All of the scene: what is not in it is gone.
+struct SaveScene {
+  std::vector<SceneText> texts;
+};
+/// A person gives up what was stored and cannot be read; the scene is `texts`.
+struct AcceptLoss {
+  std::vector<SceneText> texts;
+};
+struct SaveZone {
+  std::string name;
+  std::string text;
+  double wall_s = 0;  ///< since the epoch, of its import
+};
+struct DeleteZone {
+  std::string name;
+};
+struct ForgetUnreadableZones {};
+
 struct StorageJob {
   RequestId id;
-  std::variant<SaveTrack, DeleteTrack, DeleteAllTracks, SaveOrigin> what;
+  std::variant<SaveTrack, DeleteTrack, DeleteAllTracks, SaveOrigin, SaveScene, AcceptLoss, SaveZone,
+               DeleteZone, ForgetUnreadableZones>
+      what;
 };
+
+/// Whose answer it is: numbers of requests are each one's own.
+enum class StoredFor : std::uint8_t { tracks, scene };
+StoredFor stored_for(const StorageJob& job);
 
 struct StorageReply {
   RequestId id;
@@ -38,25 +66,43 @@ struct StorageReply {
   std::string reason;                ///< why not
   std::vector<std::string> removed;  ///< DeleteAllTracks: names that are gone, also when not ok
   std::optional<Track> track{};      ///< SaveTrack: given back
+  StoredFor whose = StoredFor::tracks;
+};
+
+/// The scene is wanted, too; by it objects grow old.
+struct SceneAge {
+  double wall_s = 0;                  ///< now, since the epoch
+  std::optional<double> max_age_s{};  ///< of objects; nothing: none is too old
+};
+
+/// Texts that the store does not understand.
+struct StoredScene {
+  std::vector<NamedText> texts;  ///< objects and constraints
+  std::string problem;           ///< what of it is lost; empty: nothing is
+  std::vector<NamedText> zones;
+  std::string zones_problem;  ///< why they are not known; empty: these are all
 };
 
 /// What was found at start.
 struct StoredState {
   std::vector<Track> tracks;
   std::optional<GeodeticPoint> origin;
-  Remembered stop;                  ///< what outlives a boot
-  std::vector<std::string> report;  ///< for the log, a sentence each
-  std::string origin_problem{};     ///< why the stored origin is lost; empty: it is not
+  Remembered stop;                             ///< what outlives a boot
+  std::vector<std::string> report;             ///< for the log, a sentence each
+  std::string origin_problem{};                ///< why the stored origin is lost; empty: it is not
+  std::shared_ptr<const StoredScene> scene{};  ///< nullptr: it was not asked for
 };
 
-/// Owns the state folder's content: `tracks/`, `origin.json`, `stop.json` and `stop.room`.
+/// Owns the state folder's content: `tracks/`, `origin.json`, `stop.json`, `stop.room`,
+/// `scene.texts` and `zones.texts`.
 class Storage final {
  public:
   /// Makes `folder` and its `tracks` when they are missing.
   /// @throws std::runtime_error with folder and reason; start-up only
   Storage(Files& files, const std::string& folder);
 
-  StoredState load();
+  /// `scene`: nothing leaves the scene's files as they are.
+  StoredState load(const std::optional<SceneAge>& scene = {});
   StorageReply run(StorageJob job);
   /// Returns nothing when it is durable.
   void keep_room_for_stop() { stop_.keep_room(); }
@@ -66,6 +112,8 @@ class Storage final {
   TrackStore tracks_;
   OriginStore origin_;
   StopStore stop_;
+  SceneStore scene_;
+  ZoneStore zones_;
 };
 
 }  // namespace drover::store

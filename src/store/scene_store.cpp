@@ -1,0 +1,70 @@
+// The scene's objects and constraints on disk, as texts of whoever understands them.
+#include "store/scene_store.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace drover::store {
+namespace {
+
+/// Stands among the texts as long as a person does not know of it; its text is the problem.
+constexpr std::string_view kLossKind = "loss";
+
+bool is_loss(const NamedText& text) {
+  return text.kind == kLossKind;
+}
+
+bool is_of_the_scene(const NamedText& text) {
+  return text.kind == kObjectKind || text.kind == kConstraintKind;
+}
+
+}  // namespace
+
+SceneStore::SceneStore(Files& files, std::string folder)
+    : files_(files), folder_(std::move(folder)) {}
+
+std::vector<NamedText> SceneStore::load(double wall_s, std::optional<double> max_age_s,
+                                        std::vector<std::string>& report) {
+  auto found = load_named_texts(files_, folder_, kSceneFile);
+  remove_leftovers(files_, folder_, kSceneFile);
+  problem_.clear();
+  if (!found.problem.empty()) {
+    problem_ = "the stored scene is lost: " + found.problem;
+    const auto aside = quarantine(files_, folder_, std::string(kSceneFile.file));
+    report.push_back(found.problem + "; " +
+                     (aside.ok() ? "kept as " + *aside : aside.error().text));
+    return {};
+  }
+  auto& texts = found.texts;
+  const auto loss = std::find_if(texts.begin(), texts.end(), is_loss);
+  if (loss != texts.end()) {
+    problem_ = loss->text;
+    texts.erase(loss);
+  } else if (!found.is_there && has_damaged_before(files_, folder_, kSceneFile)) {
+    problem_ = "the stored scene was damaged and is lost";
+  }
+  const auto is_old = [&](const NamedText& text) {
+    return max_age_s && text.kind == kObjectKind && wall_s - text.arrived_s > *max_age_s;
+  };
+  if (const auto old = std::erase_if(texts, is_old); old > 0)
+    report.push_back("objects of the stored scene that were too old: " + std::to_string(old));
+  return std::move(texts);
+}
+
+std::optional<Failure> SceneStore::save(const std::vector<NamedText>& texts) {
+  if (!std::all_of(texts.begin(), texts.end(), is_of_the_scene))
+    return Failure{"a scene has objects and constraints only"};
+  if (problem_.empty()) return save_named_texts(files_, folder_, kSceneFile, texts);
+  auto all = texts;
+  all.push_back({std::string(kLossKind), "", 0, problem_});
+  return save_named_texts(files_, folder_, kSceneFile, all);
+}
+
+std::optional<Failure> SceneStore::accept_loss(const std::vector<NamedText>& texts) {
+  const std::string before = std::exchange(problem_, {});
+  auto failure = save(texts);
+  if (failure) problem_ = before;
+  return failure;
+}
+
+}  // namespace drover::store

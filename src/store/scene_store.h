@@ -1,0 +1,45 @@
+// The scene's objects and constraints on disk, as texts of whoever understands them.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "store/named_texts.h"
+
+namespace drover::store {
+
+inline constexpr NamedTextsFile kSceneFile{"scene.texts", "drover-scene", 2000,
+                                           std::size_t{16} << 20};
+/// The kinds that a scene's texts have. Only objects grow old.
+inline constexpr std::string_view kObjectKind = "object";
+inline constexpr std::string_view kConstraintKind = "constraint";
+
+/// Belongs to the storage thread: each call may block as long as the disk does.
+class SceneStore final {
+ public:
+  /// `files` is borrowed for the lifetime of this object; `folder` exists.
+  SceneStore(Files& files, std::string folder);
+
+  /// What was stored, without the objects that arrived more than `max_age_s` before `wall_s`: only
+  /// here they grow old, never while the program runs. What arrived later than `wall_s` is kept:
+  /// the clock is wrong. A file that cannot be used is put aside; `report` gets a sentence of that
+  /// and of what was left out.
+  std::vector<NamedText> load(double wall_s, std::optional<double> max_age_s,
+                              std::vector<std::string>& report);
+  /// Why something that was stored is not known any more, for operators; empty: nothing is. It
+  /// outlives restarts and saves.
+  const std::string& problem() const { return problem_; }
+
+  /// Replaces all. Returns nothing when it is durable. Each has one of the two kinds.
+  std::optional<Failure> save(const std::vector<NamedText>& texts);
+  /// A person knows that something is lost. The scene is `texts` now.
+  std::optional<Failure> accept_loss(const std::vector<NamedText>& texts);
+
+ private:
+  Files& files_;
+  std::string folder_;
+  std::string problem_;
+};
+
+}  // namespace drover::store

@@ -1,0 +1,62 @@
+// The zones on disk, as texts of whoever draws them. What cannot be read is a fence nobody knows.
+#include "store/zone_store.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace drover::store {
+namespace {
+
+const std::string kZoneKind = "zone";
+
+}  // namespace
+
+ZoneStore::ZoneStore(Files& files, std::string folder)
+    : files_(files), folder_(std::move(folder)) {}
+
+void ZoneStore::load() {
+  auto found = load_named_texts(files_, folder_, kZonesFile);
+  remove_leftovers(files_, folder_, kZonesFile);
+  problem_.clear();
+  zones_ = std::move(found.texts);
+  if (!found.problem.empty()) {
+    problem_ = "the stored zones are not known: " + found.problem +
+               (found.is_damaged ? "; forget them and import them again" : "; mend the disk");
+  }
+}
+
+std::optional<Failure> ZoneStore::save(const std::string& name, std::string text, double wall_s) {
+  auto zones = zones_;
+  const auto known = std::find_if(zones.begin(), zones.end(),
+                                  [&](const NamedText& zone) { return zone.name == name; });
+  if (known != zones.end()) zones.erase(known);
+  zones.push_back({kZoneKind, name, wall_s, std::move(text)});
+  return replace(std::move(zones));
+}
+
+std::optional<Failure> ZoneStore::remove(const std::string& name) {
+  if (!problem_.empty()) return Failure{problem_};
+  auto zones = zones_;
+  if (std::erase_if(zones, [&](const NamedText& zone) { return zone.name == name; }) == 0)
+    return Failure{"there is no zone of this name"};
+  return replace(std::move(zones));
+}
+
+std::optional<Failure> ZoneStore::replace(std::vector<NamedText> zones) {
+  if (!problem_.empty()) return Failure{problem_};
+  auto failure = save_named_texts(files_, folder_, kZonesFile, zones);
+  if (!failure) zones_ = std::move(zones);
+  return failure;
+}
+
+std::optional<Failure> ZoneStore::forget_unreadable() {
+  if (problem_.empty()) return Failure{"the stored zones can be read: delete them one by one"};
+  const auto aside = quarantine(files_, folder_, std::string(kZonesFile.file));
+  if (!aside.ok()) return aside.error();
+  if (auto failure = save_named_texts(files_, folder_, kZonesFile, {})) return failure;
+  problem_.clear();
+  zones_.clear();
+  return std::nullopt;
+}
+
+}  // namespace drover::store
