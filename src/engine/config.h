@@ -138,6 +138,21 @@ struct NavigateConfig {
   double arrival_timeout_s = 20.0;  ///< creeping near the goal longer than this: the task fails
 };
 
+/// How fast the robot may be towards what is in its way. Only with
+/// EngineConfig::clearance_required.
+struct ClearanceConfig {
+  double reaction_s = 0.28;  ///< sensor, scene, cycle and drives, one after the other
+  double max_age_s = 0.1;    ///< with an older answer nothing moves,
+  double silent_s = 0.25;    ///< and after so long nobody looks around any more
+  /// How far beside what was looked along the base may come to be: of the margin that the answers
+  /// keep about it, the most that is left for curves that change.
+  double beside_m = 0.05;
+  double reach_m = 0.6;   ///< of its farthest corner from the middle of its axles
+  double again_m = 0.05;  ///< so much freer than at the least, or 0.4 m in all, and
+  double again_s = 1.0;   ///< so long, before what was blocked is free again
+  double wait_s = 3.0;    ///< a task that is not answered for so long ends
+};
+
 struct HealthConfig {
   double drive_stale_s = 0.1;
   double gnss_stale_s = 0.3;
@@ -176,6 +191,8 @@ struct EngineConfig {
   EstimateConfig estimate;
   NavigateConfig navigate;
   HealthConfig health;
+  ClearanceConfig clearance;
+  bool clearance_required = false;  ///< somebody looks around, and nothing moves without his word
   FixedVector<Name, kMaxAxes> joints;                  ///< names, by AxisId
   std::array<bool, kLineCount> line_configured{};      ///< by Line
   std::array<bool, kOutputCount> output_configured{};  ///< by Output

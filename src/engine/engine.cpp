@@ -32,6 +32,7 @@ Engine::Impl::Impl(const EngineConfig& c)
       place(c.estimate),
       tilt(c.health),
       mechanics(c),
+      clearance(c.clearance, c.limits, c.clearance_required),
       navigator(c, latch),
       owners(c, latch),
       arming(c) {
@@ -49,6 +50,7 @@ Engine::Impl::Impl(const EngineConfig& c)
     axes = edges;
   }
   sensors.fill(snapshot, {});
+  snapshot.clearance.configured = config.clearance_required;
   snapshot.line_configured = config.line_configured;
   snapshot.output_configured = config.output_configured;
 }
@@ -162,6 +164,7 @@ void Engine::Impl::set_origin(const RequestId& id, const GeodeticPoint& origin, 
     estimator.set_origin(origin);
     estimate = estimator.step(last_step == kNever ? now : last_step);
     place.forget();
+    place_count.another();
     snapshot.origin_set = true;
     snapshot.origin = origin;
     events.push(now, CommandAccepted{id, {}});
@@ -185,7 +188,8 @@ void Engine::Impl::command_axes(const Motion& motion, EngineOutput& out) {
   }
 }
 
-void Engine::Impl::start_task(const RequestId& id, const StartTask& task, Time now) {
+void Engine::Impl::start_task(const Command& command, const StartTask& task, Time now) {
+  const RequestId& id = command.id;
   Reason why;
   if (task.overtaken) why = "a stop came after it";
   // A broker that is late by less than what shows may have had it since before.
@@ -193,6 +197,11 @@ void Engine::Impl::start_task(const RequestId& id, const StartTask& task, Time n
                      now - stopped_at < kBrokerLateUnnoticed;
   if (why.empty() && older && !health.report().nothing_moves())
     why = "the robot was stopped until just now, and this may be older; press again";
+  // It may have waited until its track was looked along.
+  const bool stopped_since =
+      command.received != kNever && stopped_at != kNever && stopped_at > command.received;
+  if (why.empty() && stopped_since && !health.report().nothing_moves())
+    why = "the robot was stopped after this was asked for; press again";
   if (why.empty()) why = arming.hindrance();
   if (why.empty()) why = owners.hinders_task();
   if (why.empty() && health.report().stop.empty()) why = rest.turns_by_itself();
@@ -245,7 +254,7 @@ void Engine::on_command(const Command& command, Time now) {
   Impl& e = *impl_;
   const RequestId& id = command.id;
   if (const auto* task = std::get_if<StartTask>(&command.body)) {
-    e.start_task(id, *task, now);
+    e.start_task(command, *task, now);
   } else if (std::holds_alternative<CancelTask>(command.body)) {
     e.navigator.cancel(id, now, e.events);
     e.owners.cancel(now, e.events);
@@ -306,20 +315,37 @@ void Engine::step(Time now, const Environment& environment, EngineOutput& out) {
   e.watch_tilt(now, environment.imu_configured);
   e.place.update(now, dt, e.estimate, e.rest.hears_wheels());
   if (e.navigator.active()) e.place.told();  // by the end of the task
+  e.place_count.update(e.estimate, dt, e.place.jumped_at());
+  const Pose& pose = e.estimate.pose;
+  e.clearance.update({now,
+                      {.twist = {pose.vx_mps, pose.wz_radps}, .known = e.estimate.body.known},
+                      e.navigator.path_number(),
+                      e.commanded,
+                      e.asked,
+                      e.by_joints ? e.half_track_m() : 0});
   e.health.update({now, environment, axes, lines, e.estimate, e.estimator.has_origin(),
                    e.navigator.active(), e.latch.why(), &e.sensors, e.tilt.reason(), moved,
-                   e.place.jumped(), e.latch.power_cut() && e.power.opened(), &e.steep});
+                   e.place.jumped(), e.latch.power_cut() && e.power.opened(), e.clearance.blocked(),
+                   e.clearance.unknown(), e.clearance.broken(), &e.steep});
   if (e.health.report().nothing_moves()) e.stopped_at = now;
   e.watch_wheels(now, dt);
   const double cap_mps = e.mechanics.speed_cap_mps();
-  NavOutput wanted =
-      e.navigator.step({now, dt, e.estimate, e.health.report(), e.wheel_fault, e.wheel_reason,
-                        e.owners.at_rest(), e.owners.refusal(), cap_mps},
-                       e.events);
-  wanted.target = e.mechanics.guide(wanted.target);
-  const Motion& motion = e.owners.step({now, dt, e.estimate, e.health.report(), e.wheel_fault,
-                                        e.wheel_reason, wanted, cap_mps, e.arming.hindrance()},
-                                       e.events);
+  NavOutput wanted = e.navigator.step(
+      {now, dt, e.estimate, e.health.report(), e.wheel_fault, e.wheel_reason, e.owners.at_rest(),
+       e.owners.refusal(), cap_mps, e.clearance.caps().along_mps, e.clearance.unasked()},
+      e.events);
+  wanted.target = e.clearance.limit(e.mechanics.guide(wanted.target));
+  const Learned learned{e.estimate.yaw_slip_factor};
+  const Twist stream = twist_of(e.base, e.owners.stream_radps(), learned);
+  const Motion& motion = e.owners.step(
+      {now, dt, e.estimate, e.health.report(), e.wheel_fault, e.wheel_reason, wanted, cap_mps,
+       e.arming.hindrance(), stream, e.clearance.caps().ahead_mps,
+       e.clearance.rim_cap_mps(stream, e.config.base.track_m / 2), e.clearance.too_near()},
+      e.events);
+  e.commanded =
+      motion.joints ? twist_of(e.base, e.owners.joint_velocities_radps(), learned) : motion.twist;
+  e.asked = motion.asked;
+  e.by_joints = motion.joints;
   const bool other = motion.owner == Owner::joint_command || motion.owner == Owner::manual;
   if (other) e.navigator.make_way();
   const HealthReport& report = e.health.report();
@@ -338,6 +364,7 @@ void Engine::step(Time now, const Environment& environment, EngineOutput& out) {
   e.announcer.update(now, e.health.report(), e.events);
   e.fill_snapshot(now, environment, lines, e.estimate, motion.owner);
   if (takes_twist(e.base)) e.fill_base(environment, out.base);
+  e.fill_viewpoint();
   out.outputs = e.snapshot.output_on =
       e.signals.step(now, e.snapshot, out.motion_permitted, motion.drives(), e.power.closed());
   e.latch.remember(out.remembered);
@@ -347,6 +374,10 @@ void Engine::step(Time now, const Environment& environment, EngineOutput& out) {
   out.remembered.mechanics_proved = e.mechanics.proved();
   out.remembered.at_rest = e.rest.knows_rest();
   e.events.drain(out.events);
+}
+
+void Engine::on_clearance(const Clearance& found) {
+  impl_->clearance.on_clearance(found);
 }
 
 const Snapshot& Engine::snapshot() const {

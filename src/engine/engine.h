@@ -6,6 +6,7 @@
 #include <array>
 #include <memory>
 
+#include "drover/clearance.h"
 #include "drover/command.h"
 #include "drover/driver.h"
 #include "drover/event.h"
@@ -13,6 +14,7 @@
 #include "drover/remembered.h"
 #include "drover/snapshot.h"
 #include "drover/twist.h"
+#include "drover/viewpoint.h"
 #include "engine/config.h"
 #include "engine/environment.h"
 
@@ -51,10 +53,14 @@ class Engine final {
   void recall(const Remembered& remembered, Time now);
   void on_measurement(const Measurement& measurement);
   void on_command(const Command& command, Time now);
+  /// Somebody looked around. Without EngineConfig::clearance_required it changes nothing.
+  void on_clearance(const Clearance& found);
   /// One control cycle. `out` is cleared first.
   void step(Time now, const Environment& environment, EngineOutput& out);
   /// The engine's part of the snapshot (links and cycle statistics are the runtime's).
   const Snapshot& snapshot() const;
+  /// For whoever looks around; of the last step.
+  const Viewpoint& viewpoint() const;
 
  private:
   struct Impl;

@@ -5,8 +5,10 @@
 #include <span>
 
 #include "engine/base/kinematics.h"
+#include "engine/clearance/clearance_watch.h"
 #include "engine/engine.h"
 #include "engine/estimate/estimator.h"
+#include "engine/estimate/place_count.h"
 #include "engine/event_queue.h"
 #include "engine/health/announcer.h"
 #include "engine/health/health.h"
@@ -36,7 +38,7 @@ struct Engine::Impl {
   void set_origin(const RequestId& id, const GeodeticPoint& origin, Time now);
   void engage_stop(const RequestId& id, Time now);
   void reset_stop(const RequestId& id, Time now);
-  void start_task(const RequestId& id, const StartTask& task, Time now);
+  void start_task(const Command& command, const StartTask& task, Time now);
   void command_axes(const Motion& motion, EngineOutput& out);
   void take_body(const BodyMotion& body, Time time);
   void command_base(EngineOutput& out);
@@ -44,6 +46,8 @@ struct Engine::Impl {
   void release_hold(const RequestId& id, const ReleaseHold& release, Time now);
   void arm_hold(const RequestId& id, Time now);
   double tilt_deg() const;
+  /// As the base turns: its track is wider than it is.
+  double half_track_m() const { return config.base.track_m / 2 * estimate.yaw_slip_factor; }
   void watch_tilt(Time now, bool has_imu);
   void watch_imu(const ImuSample& sample, Time at);
   void choose_sensors(Time now, const Environment& environment);
@@ -51,7 +55,9 @@ struct Engine::Impl {
   Reason judge_motion(Time now, Duration dt, const LineTable& lines,
                       const Environment& environment);
   void watch_wheels(Time now, Duration dt);
+  void fill_clearance();
   void fill_speed(Time now);
+  void fill_viewpoint();
   void fill_imu(const Estimate& located);
   void fill_lines(const LineTable& lines);
   void fill_snapshot(Time now, const Environment& environment, const LineTable& lines,
@@ -68,8 +74,13 @@ struct Engine::Impl {
   RestWatch rest;
   WorstSpeed worst_speed;
   PlaceWatch place;
+  PlaceCount place_count;
   TiltWatch tilt;
   MechanicsCheck mechanics;
+  ClearanceWatch clearance;
+  Twist commanded;            ///< in the last cycle; of single joints what they make of it
+  bool by_joints = false;     ///< and of those it is
+  Twist asked;                ///< likewise, by its owner, before anything bounded it
   bool motion_asked = false;  ///< in the last cycle
   Announcer announcer;
   Latch latch;
@@ -90,6 +101,7 @@ struct Engine::Impl {
   Time stopped_at = kNever;  ///< last: nothing could move then
   Time last_step = kNever;
   Snapshot snapshot;
+  Viewpoint view;
   /// Edges of a base that takes a twist.
   std::array<AxisSnapshot, 2> edges;
   Twist told{kAbsent, kAbsent};  ///< by that base, last

@@ -1,4 +1,5 @@
 // The engine's part of the snapshot, at the end of each cycle.
+#include <algorithm>
 #include <cmath>
 
 #include "drover/angle.h"
@@ -45,6 +46,23 @@ void Engine::Impl::fill_lines(const LineTable& lines) {
   }
 }
 
+void Engine::Impl::fill_clearance() {
+  ClearanceSnapshot& s = snapshot.clearance;
+  const Clearance& found = clearance.found();
+  s.configured = true;
+  s.time = found.t;
+  s.first = found.first;
+  s.unknown = clearance.unknown();
+  s.broken = clearance.broken();
+  const bool known = s.unknown.empty();
+  s.ahead_m = known ? found.ahead_m : kAbsent;
+  s.back_m = known ? found.back_m : kAbsent;
+  s.left_rad = known ? std::min(found.left_rad, kPi) : kAbsent;
+  s.right_rad = known ? std::min(found.right_rad, kPi) : kAbsent;
+  const bool on_track = known && navigator.active() && found.path == navigator.path_number();
+  s.along_m = on_track ? std::min(found.along_m, snapshot.nav.distance_left_m) : kAbsent;
+}
+
 void Engine::Impl::fill_snapshot(Time now, const Environment& environment, const LineTable& lines,
                                  const Estimate& located, Owner owner) {
   const HealthReport& report = health.report();
@@ -56,6 +74,7 @@ void Engine::Impl::fill_snapshot(Time now, const Environment& environment, const
   snapshot.nav = navigator.snapshot(report);
   snapshot.nav.owner = owner;
   snapshot.nav.owner_timeout_s = owners.timeout_s(owner);
+  if (config.clearance_required) fill_clearance();
   snapshot.joint_command = owners.joint_command();
   snapshot.gnss.configured = environment.gnss_configured;
   fill_imu(located);

@@ -147,6 +147,10 @@ void Gateway::on(const OutputsUp& up, Time) {
   environment_.relay_found_closed = up.relay_closed;
 }
 
+void Gateway::on(const ClearanceFound& found, Time) {
+  engine_.on_clearance(found.clearance);
+}
+
 void Gateway::on(const Tick& tick, Time now) {
   listen_to_devices(now);
   look_at_buses(now);

@@ -58,6 +58,7 @@ class Gateway final {
   /// Of the last Tick; good until the next input.
   const CycleOutput& output() const { return cycle_; }
   const Snapshot& snapshot() const { return engine_.snapshot(); }
+  const Viewpoint& viewpoint() const { return engine_.viewpoint(); }
   /// The numbers that inputs and outputs name.
   const Wiring& wiring() const { return wiring_; }
 
@@ -105,6 +106,7 @@ class Gateway final {
   void on(const ProgramTrouble& trouble, Time now);
   void on(const Recalled& recalled, Time now);
   void on(const OutputsUp& up, Time now);
+  void on(const ClearanceFound& found, Time now);
   void on(const Tick& tick, Time now);
   void listen_to_devices(Time now);
   void look_at_buses(Time now);

@@ -10,6 +10,7 @@
 #include <variant>
 
 #include "drover/can_frame.h"
+#include "drover/clearance.h"
 #include "drover/command.h"
 #include "drover/driver.h"
 #include "drover/fixed_text.h"
@@ -93,6 +94,10 @@ struct Recalled {
 struct OutputsUp {
   bool relay_closed = false;
 };
+/// Somebody looked around the robot.
+struct ClearanceFound {
+  Clearance clearance;
+};
 /// One control cycle: afterwards the gateway's output is that cycle's.
 struct Tick {
   bool guard_alive = false;
@@ -103,7 +108,7 @@ struct Tick {
 /// The order is the recording's: a new one goes to the end.
 using InputBody = std::variant<FrameHeard, BytesHeard, LevelsRead, RegistersRead, RegistersFailed,
                                LinkUp, LinkLost, FramesSent, CommandGiven, Tick, ProgramTrouble,
-                               Suspended, Recalled, OutputsUp>;
+                               Suspended, Recalled, OutputsUp, ClearanceFound>;
 
 struct Input {
   Time time = kNever;

@@ -95,6 +95,7 @@ class Builder final {
       case SlotKind::battery: return tell(environment_.battery.at(slot.source));
       case SlotKind::line:
         return tell(environment_.lines.at(static_cast<std::size_t>(context.line)));
+      case SlotKind::scanner: return;  // has no slot
     }
   }
 
@@ -105,9 +106,15 @@ class Builder final {
   Wiring wiring_;
 };
 
+/// A scanner's bytes go past the gateway: they and their line are the scene's.
+bool is_heard(const config::DeviceConfig& device) {
+  return device.kind != SlotKind::scanner;
+}
+
 bool has_devices(const config::DroverConfig& config, std::size_t place) {
-  return std::any_of(config.devices.begin(), config.devices.end(),
-                     [place](const auto& device) { return device.link_index == place; });
+  return std::any_of(config.devices.begin(), config.devices.end(), [place](const auto& device) {
+    return device.link_index == place && is_heard(device);
+  });
 }
 
 }  // namespace
@@ -120,7 +127,8 @@ Wiring wire_up(const config::DroverConfig& config, engine::Environment& environm
   };
   const auto slots = [&](bool drives) {
     for (std::size_t i = 0; i < config.devices.size(); ++i)
-      if ((config.devices[i].kind == SlotKind::drive) == drives) build.slot(i);
+      if (is_heard(config.devices[i]) && (config.devices[i].kind == SlotKind::drive) == drives)
+        build.slot(i);
   };
   links(true);
   links(false);

@@ -49,7 +49,7 @@ struct Wiring {
   std::vector<Slot> slots;
 };
 
-/// Everything on which a device hangs; the healths are put into `environment`. Throws
+/// Everything on which a device hangs, but scanners; the healths are put into `environment`. Throws
 /// std::runtime_error naming the key that cannot be.
 Wiring wire_up(const config::DroverConfig& config, engine::Environment& environment);
 

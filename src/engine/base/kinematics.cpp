@@ -106,6 +106,18 @@ Twist largest_twist(const Kinematics& base, const JointVelocities& radps, const 
   return largest_twist(sides_of(base), learned.yaw_slip_factor, radps);
 }
 
+Twist twist_of(const Kinematics& base, const JointVelocities& radps, const Learned& learned) {
+  const TwoSides& sides = sides_of(base);
+  const auto mean_mps = [&](std::span<const AxisId> wheels) {
+    double sum_radps = 0;
+    for (const AxisId id : wheels) sum_radps += id < radps.size() ? radps[id] : 0.0;
+    return sum_radps * sides.wheel_radius_m / static_cast<double>(wheels.size());
+  };
+  if (sides.left.empty() || sides.right.empty()) return {};
+  return twist_from_wheels(sides, learned.yaw_slip_factor, mean_mps(sides.left),
+                           mean_mps(sides.right));
+}
+
 BodyMotion body_motion(const Kinematics& base, const Told& told, Time at, Duration stale) {
   if (takes_twist(base))
     return at - told.body_at <= stale ? at_rest(base, told.body) : BodyMotion{};

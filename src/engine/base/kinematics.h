@@ -63,6 +63,9 @@ Twist twist_of_edges(const Kinematics& base, const JointVelocities& mps);
 /// The most that joints at these velocities can make of the base: both numbers positive.
 Twist largest_twist(const Kinematics& base, const JointVelocities& radps, const Learned& learned);
 
+/// The twist that joints at these velocities make: of each side the mean.
+Twist twist_of(const Kinematics& base, const JointVelocities& radps, const Learned& learned);
+
 /// The last that a base told of its motion: by its joints, or by itself.
 struct Told {
   JointMotions joints;

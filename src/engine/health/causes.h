@@ -25,13 +25,15 @@ enum class Cause : std::uint8_t {
   battery_critical,  ///< empty, too hot, or about to switch off
   program,           ///< a part of the daemon hangs, or it ends
   near_zone,
-  moved,     ///< pushed, carried or rolling without a command
-  foreign,   ///< somebody else commands the drives
-  bus,       ///< what it does to the drives is their own cause
-  origin,    ///< none set
-  receiver,  ///< silent
-  imu,       ///< configured and silent, stuck or out of its range
-  spare,     ///< a spare is in use, or could not be
+  surroundings,  ///< what is around the robot is not known
+  constraint,    ///< one of those that were set does not hold where the robot is
+  moved,         ///< pushed, carried or rolling without a command
+  foreign,       ///< somebody else commands the drives
+  bus,           ///< what it does to the drives is their own cause
+  origin,        ///< none set
+  receiver,      ///< silent
+  imu,           ///< configured and silent, stuck or out of its range
+  spare,         ///< a spare is in use, or could not be
   locate,
   jumped,   ///< the place changed at rest; a start is refused once, to ask a person
   sensors,  ///< contradict each other, and it is made up for
@@ -87,6 +89,10 @@ inline constexpr std::array<CauseRow, kCauseCount> kCauses{{
    .over = "droverd runs undisturbed again"},
   {.cause = Cause::near_zone,
    .over = "near zone free"},
+  {.cause = Cause::surroundings, .refuses_task = true, .ends_stream = true,
+   .over = "what is around the robot is known again"},
+  {.cause = Cause::constraint, .refuses_task = true, .ends_stream = true,
+   .over = "all constraints hold again"},
   {.cause = Cause::moved, .ends_wait = true, .refuses_task = true, .ends_stream = true,
    .over = "the robot rests again"},
   {.cause = Cause::foreign, .refuses_task = true, .ends_stream = true,

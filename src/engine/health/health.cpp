@@ -288,10 +288,19 @@ void HealthMonitor::conclude(bool power_cut) {
   }
 }
 
+void HealthMonitor::look_at_surroundings(const HealthInput& input) {
+  if (!input.unseen.empty()) hold(Cause::surroundings, input.unseen);
+  if (!input.broken.empty()) hold(Cause::constraint, input.broken);
+  if (input.in_the_way.empty()) return;
+  report_.in_the_way = !report_.near_zone;
+  report_.near_zone = true;
+  hold(Cause::near_zone, input.in_the_way);
+}
+
 const HealthReport& HealthMonitor::update(const HealthInput& input) {
   // Emptied field by field: the texts are large and most stay unused.
   report_.ready = true;
-  report_.estop = report_.near_zone = report_.far_zone = false;
+  report_.estop = report_.near_zone = report_.in_the_way = report_.far_zone = false;
   report_.causes = 0;
   report_.stop.clear();
   report_.end_task.clear();
@@ -310,6 +319,7 @@ const HealthReport& HealthMonitor::update(const HealthInput& input) {
   look_at_battery(input);
   look_at_program(input.environment);
   look_at_place(input);
+  look_at_surroundings(input);
   if (!input.latched.empty()) {
     Reason text;
     text.format("stopped: %.*s", static_cast<int>(input.latched.view().size()),

@@ -33,6 +33,9 @@ struct HealthInput {
   Reason moved{};                    ///< what moves it without a command; empty when nothing does
   Reason jumped{};                   ///< what changed its place at rest; empty when nothing did
   bool power_cut = false;            ///< by this gateway: that drives are silent is no news
+  Reason in_the_way{};               ///< as ClearanceWatch::blocked
+  Reason unseen{};                   ///< as ClearanceWatch::unknown
+  Reason broken{};                   ///< as ClearanceWatch::broken
   const Reason* steep =
       nullptr;  ///< why the ground is too steep to be left there; empty: it is not
 };
@@ -46,7 +49,8 @@ struct HealthReport {
   bool guard_ok = false;        ///< answers, or is not required; and has not taken the bus
   bool estop = false;           ///< pressed, or its line is lost
   bool estop_known = true;      ///< false just after the start: nobody may count on it being free
-  bool near_zone = false;
+  bool near_zone = false;       ///< of the scanner, or something else is in the way
+  bool in_the_way = false;      ///< something was seen there, and the scanner's zone is free
   bool far_zone = false;
   LocateState locate = LocateState::uninit;
   double budget_used = 1;  ///< of the permitted position error
@@ -70,6 +74,10 @@ struct HealthReport {
   bool nothing_moves() const { return !stop.empty() || holds(Cause::drive_fault); }
   bool holds_any(std::uint32_t bits) const { return (causes & bits) != 0; }
   const Reason& text(Cause cause) const { return texts[static_cast<std::size_t>(cause)]; }
+  /// What stands in the near zone or in the way.
+  Reason obstacle() const {
+    return holds(Cause::near_zone) ? text(Cause::near_zone) : Reason("obstacle in the near zone");
+  }
 };
 
 class HealthMonitor final {
@@ -91,6 +99,7 @@ class HealthMonitor final {
   void look_at_one_battery(const BatteryVerdict& verdict);
   void look_at_program(const Environment& environment);
   void look_at_place(const HealthInput& input);
+  void look_at_surroundings(const HealthInput& input);
   void conclude(bool power_cut);
   bool holds(Cause cause) const { return report_.holds(cause); }
 

@@ -22,6 +22,8 @@ class PlaceWatch final {
   Reason ask_start(Time now);
   /// A person was told by the end of his task.
   void told() { told_ = true; }
+  /// Last; kNever: it did not.
+  Time jumped_at() const { return jumped_at_; }
   /// What jumped, until a start was accepted; empty when nothing did.
   const Reason& jumped() const { return jumped_; }
 

@@ -62,8 +62,11 @@ class RestWatch final {
 
   RestState update(const RestInput& input);
   RestState state() const { return state_; }
-  /// Confirmed, and not of what may only be held up.
-  bool knows_rest() const { return state_ == RestState::resting && !silence_.suspect(); }
+  /// Confirmed, and not of what may only be held up; or it was, and who moves it since is a person.
+  bool knows_rest() const {
+    const bool pushed = has_rested() && !ours_ && !silence_.unheard();
+    return (state_ == RestState::resting || pushed) && !silence_.suspect();
+  }
   /// Sign in which it was driven last; 0 before.
   double direction() const { return direction_; }
   /// What is silent may go on by a command that it has: nothing but its power stops it.

@@ -29,10 +29,11 @@ Reason find_health_failure(const HealthReport& health) {
 Navigator::Navigator(const EngineConfig& config, Latch& latch)
     : config_(config), latch_(latch), tracker_(config.navigate, config.limits) {}
 
-void Navigator::Wait::update(bool bad, Time now, Duration resume_after) {
+void Navigator::Wait::update(bool bad, Time now, Duration after) {
   if (bad) {
     if (since == kNever) since = now;
     last_bad = now;
+    resume_after = after;
   } else if (since != kNever && now - last_bad >= resume_after) {
     since = kNever;
   }
@@ -76,7 +77,7 @@ void Navigator::start(const RequestId& id, const StartTask& task, Time now,
   goal_near_since_ = kNever;
   begun_ = stopping_at_goal_ = false;
   drives_.begin();
-  obstacle_ = lost_ = {};
+  obstacle_ = constraint_ = lost_ = unasked_ = {};
   latch_.reset(Act::begin);
   phase_ = Phase::starting;
   status_ = NavStatus::run;
@@ -215,8 +216,14 @@ Reason Navigator::find_failure(const NavInput& input) {
     return why;
   }
   Reason why;
-  if (obstacle_.longer_than(limits.obstacle_timeout_s, input.now)) {
+  if (unasked_.longer_than(config_.clearance.wait_s, input.now)) {
+    why = input.unasked;
+  } else if (obstacle_.longer_than(limits.obstacle_timeout_s, input.now)) {
     why.format("an obstacle blocked the way for %.0f s", limits.obstacle_timeout_s);
+  } else if (constraint_.longer_than(limits.obstacle_timeout_s, input.now)) {
+    const std::string_view which = input.health.text(Cause::constraint).view();
+    why.format("for %.0f s: %.*s", limits.obstacle_timeout_s, static_cast<int>(which.size()),
+               which.data());
   } else if (lost_.longer_than(limits.locate_timeout_s, input.now)) {
     why.format("localisation was lost for %.0f s", limits.locate_timeout_s);
   } else if (goal_near_since_ != kNever &&
@@ -229,15 +236,24 @@ Reason Navigator::find_failure(const NavInput& input) {
 
 void Navigator::watch_pauses(const NavInput& input, EventQueue& events) {
   const Duration resume_after = from_s(config_.navigate.resume_after_s);
-  obstacle_.update(input.health.near_zone, input.now, resume_after);
+  const bool unseen = input.health.holds(Cause::surroundings);
+  const bool broken = input.health.holds(Cause::constraint);
+  // Of what is seen ClearanceWatch says only after a while that it is away.
+  const bool zone = input.health.near_zone && !input.health.in_the_way;
+  obstacle_.update(input.health.near_zone || unseen, input.now,
+                   zone || unseen ? resume_after : Duration{});
+  constraint_.update(broken, input.now, Duration{});
+  unasked_.update(!input.unasked.empty(), input.now, Duration{});
   lost_.update(input.health.locate != LocateState::good, input.now, resume_after);
-  const bool wait = obstacle_.holds() || lost_.holds();
+  const bool wait = waits();
   if (wait && phase_ == Phase::running) {
     phase_ = Phase::paused;
     Reason text;
-    const std::string_view what =
-        obstacle_.holds() ? "obstacle in the near zone" : input.health.locate_reason.view();
-    text.format("paused: %.*s", static_cast<int>(what.size()), what.data());
+    const Reason& what = broken                   ? input.health.text(Cause::constraint)
+                         : !obstacle_.holds()     ? input.health.locate_reason
+                         : input.health.near_zone ? input.health.text(Cause::near_zone)
+                                                  : input.health.text(Cause::surroundings);
+    text.format("paused: %.*s", static_cast<int>(what.view().size()), what.view().data());
     events.notice(input.now, Notice::Level::warning, text);
   } else if (!wait && phase_ == Phase::paused) {
     phase_ = Phase::running;
@@ -268,6 +284,12 @@ double Navigator::speed_cap_mps(const NavInput& input) const {
   return std::min(cap_mps, input.speed_cap_mps);
 }
 
+/// At rest only, before what is in its way: where its track goes from here is looked at then, too.
+Twist Navigator::asked(const NavInput& input) {
+  if (lost_.holds() || stopping_at_goal_) return {};
+  return tracker_.follow(input.estimate.pose, progress_, speed_cap_mps(input), input.dt);
+}
+
 NavOutput Navigator::run(const NavInput& input, EventQueue& events) {
   const bool located = input.health.locate == LocateState::good;
   if (located) progress_ = tracker_.locate(input.estimate.pose);
@@ -276,9 +298,11 @@ NavOutput Navigator::run(const NavInput& input, EventQueue& events) {
     return {{}, false, Stop::controlled};
   }
   watch_pauses(input, events);
-  if (phase_ == Phase::paused) {
+  // What holds it up at its goal holds up nothing any more.
+  const bool there = progress_.arrived && !lost_.holds() && !constraint_.holds();
+  if (phase_ == Phase::paused && !there) {
     if (goal_near_since_ != kNever) goal_near_since_ = input.now;  // waiting is not creeping
-    return {{}, true, Stop::controlled};
+    return {{}, true, Stop::controlled, asked(input)};
   }
   if (goal_near_since_ == kNever && progress_.distance_left_m < kGoalNear_m) {
     goal_near_since_ = input.now;
@@ -288,9 +312,17 @@ NavOutput Navigator::run(const NavInput& input, EventQueue& events) {
     settle_at_goal(input, events);
     return {{}, active(), Stop::none};  // a ramp as the tracker foresaw it
   }
-  const Twist target =
-      tracker_.follow(input.estimate.pose, progress_, speed_cap_mps(input), input.dt);
-  return {target, true, Stop::none};
+  if (!(input.along_cap_mps > 0)) return {{}, true, Stop::controlled, asked(input)};
+  const double cap_mps = std::min(speed_cap_mps(input), input.along_cap_mps);
+  const Twist target = tracker_.follow(input.estimate.pose, progress_, cap_mps, input.dt);
+  return {target, true, Stop::none, target};
+}
+
+WayLeft Navigator::way() const {
+  if (path_ == nullptr) return {};
+  WayLeft way = tracker_.way();
+  way.path = path_->number;
+  return way;
 }
 
 void Navigator::on_commanded(Time now, bool moving, EventQueue& events) {

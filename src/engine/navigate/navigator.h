@@ -22,12 +22,15 @@ struct NavInput {
   bool at_rest = true;                          ///< the target gate commands nothing
   TargetRefusal refusal = TargetRefusal::none;  ///< of the last cycle
   double speed_cap_mps = 1e9;                   ///< of the first way after the start
+  double along_cap_mps = 1e9;                   ///< of what is free along the track
+  Reason unasked{};                             ///< as ClearanceWatch::unasked
 };
 
 struct NavOutput {
   Twist target;
   bool drives = false;  ///< there is a task: axes are to run (armed, if at rest)
   Stop stop = Stop::controlled;
+  Twist asked{};  ///< what it would do if nothing were in the way
 };
 
 /// Nothing moves but between an accepted StartTask and the end of that task. Each StartTask is
@@ -51,6 +54,9 @@ class Navigator final {
   void on_commanded(Time now, bool moving, EventQueue& events);
 
   bool active() const { return phase_ != Phase::idle; }
+  /// Of the task's track; 0: there is no task.
+  std::uint64_t path_number() const { return path_ == nullptr ? 0 : path_->number; }
+  WayLeft way() const;
   bool starting() const { return phase_ == Phase::starting; }
   /// After an error that nothing holds any more: what a person has to do; empty when nothing.
   Reason waits_for() const;
@@ -67,7 +73,9 @@ class Navigator final {
   struct Wait {
     Time since = kNever;  ///< kNever: not waiting
     Time last_bad = kNever;
-    void update(bool bad, Time now, Duration resume_after);
+    Duration resume_after{};
+    /// `after`: of health before it ends, by what is bad now.
+    void update(bool bad, Time now, Duration after);
     bool holds() const { return since != kNever; }
     bool longer_than(double limit_s, Time now) const {
       return holds() && now - since > from_s(limit_s);
@@ -84,6 +92,8 @@ class Navigator final {
   Reason find_failure(const NavInput& input);
   Reason find_position_failure(const Estimate& estimate, const HealthReport& health) const;
   double speed_cap_mps(const NavInput& input) const;
+  bool waits() const { return obstacle_.holds() || constraint_.holds() || lost_.holds(); }
+  Twist asked(const NavInput& input);
 
   EngineConfig config_;
   Latch& latch_;
@@ -101,7 +111,9 @@ class Navigator final {
   Time accepted_ = kNever;
   Time goal_near_since_ = kNever;
   Wait obstacle_;
+  Wait constraint_;
   Wait lost_;
+  Wait unasked_;
   TrackProgress progress_;
   Reason ended_;  ///< why the task ended in an error; outlives a reset
 };

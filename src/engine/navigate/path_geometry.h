@@ -51,9 +51,12 @@ class Route final {
         forwards_(forwards) {}
   std::size_t size() const { return size_; }
   Vector point(std::size_t k) const {
-    const PathPoint& p = points_[forwards_ ? k : points_.size() - 1 - k];
+    const PathPoint& p = points_[index(k)];
     return {p.x_m, p.y_m};
   }
+  /// Of the list, of that point.
+  std::size_t index(std::size_t k) const { return forwards_ ? k : points_.size() - 1 - k; }
+  bool forwards() const { return forwards_; }
   double segment_m(std::size_t k) const { return length(point(k + 1) - point(k)); }
 
  private:

@@ -77,6 +77,16 @@ void Tracker::end() {
   route_ = {};
 }
 
+WayLeft Tracker::way() const {
+  WayLeft way;
+  if (!active_) return way;
+  way.forwards = route_.forwards();
+  way.target = static_cast<std::uint32_t>(route_.index(route_.size() - 1));
+  way.segment = static_cast<std::uint32_t>(route_.index(station_.segment));
+  way.along_m = std::clamp(s_m_ - station_.start_m, 0.0, route_.segment_m(station_.segment));
+  return way;
+}
+
 void Tracker::enter_leg(std::size_t first, double first_m) {
   const std::size_t last = route_.size() - 1;
   const Vector fallback = unit(route_.point(last) - route_.point(first), {1, 0});

@@ -7,6 +7,7 @@
 #include "drover/snapshot.h"
 #include "drover/time.h"
 #include "drover/twist.h"
+#include "drover/viewpoint.h"
 #include "engine/config.h"
 #include "engine/navigate/path_geometry.h"
 
@@ -43,6 +44,8 @@ class Tracker final {
   void begin(const Path& path, std::uint32_t target, double speed_mps, const Pose& pose);
   void end();
   bool active() const { return active_; }
+  /// What is left of the path, by the last `locate`; without the path's number.
+  WayLeft way() const;
 
   /// Progress at a pose. The search looks only near the last place, so a track that crosses itself
   /// or comes back close to itself stays on its leg. Call each cycle, also while paused.

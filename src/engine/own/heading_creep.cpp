@@ -54,7 +54,12 @@ Twist HeadingCreep::step(Time now, Duration dt, const Estimate& estimate,
     return {};
   }
   if (health.near_zone) {
-    end("obstacle in the near zone", now, events);
+    end(health.obstacle(), now, events);
+    return {};
+  }
+  for (const Cause cause : {Cause::constraint, Cause::surroundings}) {
+    if (!health.holds(cause)) continue;
+    end(health.text(cause), now, events);
     return {};
   }
   const bool late = now - began_ > from_s(config_.start_timeout_s);

@@ -42,7 +42,7 @@ void Owners::find_heading(const RequestId& id, const Estimate& estimate, const H
                           Time now, EventQueue& events) {
   Reason why = busy_;
   if (why.empty() && (!at_rest() || stream_.wants_motion())) why = "the robot moves";
-  if (why.empty() && health.near_zone) why = "obstacle in the near zone";
+  if (why.empty() && health.near_zone) why = health.obstacle();
   if (why.empty()) why = health.no_start;
   creep_.start(id, why, estimate, health, now, events);
   if (!creep_.active()) return;
@@ -91,6 +91,17 @@ Owner Owners::rank(const OwnInput& input) const {
   return Owner::nobody;
 }
 
+Twist Owners::asked(const OwnInput& input, const Twist& creep) const {
+  switch (motion_.owner) {
+    case Owner::manual: return creep;
+    case Owner::task: return input.task.asked;
+    case Owner::joint_command: return input.stream;
+    case Owner::estop:
+    case Owner::nobody: break;
+  }
+  return {};
+}
+
 /// Why everything stops without a ramp.
 Reason Owners::why_at_once(const OwnInput& input) const {
   if (input.wheels != WheelFault::none) return input.wheel_reason;
@@ -112,7 +123,7 @@ Stop Owners::watch_stream(const OwnInput& input, bool at_once) {
   stream_.step(input.now);
   if (at_once) latch(why_at_once(input), input.health.holds_any(kByPeople));
   if (!busy_.empty()) stream_.end(busy_);
-  if (input.health.near_zone && stream_.wants_motion()) stream_.end("obstacle in the near zone");
+  if (input.health.near_zone && stream_.wants_motion()) stream_.end(input.health.obstacle());
   if (!stream_.following()) {
     stream_drives_.begin();
     return Stop::controlled;
@@ -141,22 +152,25 @@ const Motion& Owners::step(const OwnInput& input, EventQueue& events) {
   const double cap_mps = input.health.far_zone
                              ? std::min(input.speed_cap_mps, config_.navigate.far_zone_speed_mps)
                              : input.speed_cap_mps;
-  creep.vx_mps = std::min(creep.vx_mps, cap_mps);
+  const Twist search = creep;
+  creep.vx_mps = std::min({creep.vx_mps, cap_mps, input.ahead_cap_mps});
   if (busy_.empty() && creep_.active()) busy_ = "the heading is being looked for";
   const Stop stream_stop = watch_stream(input, at_once);
 
   motion_.owner = rank(input);
+  motion_.asked = asked(input, search);
   const bool manual = motion_.owner == Owner::manual;
   const Offer offer{motion_.owner == Owner::joint_command ? Owner::nobody : motion_.owner,
                     manual ? creep : input.task.target, input.now};
-  const Stop twist_stop = at_once ? Stop::immediate : manual ? Stop::none : input.task.stop;
+  const bool no_ramp = at_once || input.too_near;
+  const Stop twist_stop = no_ramp ? Stop::immediate : manual ? Stop::none : input.task.stop;
   motion_.twist = twist_gate_.step(input.now, input.dt, {&offer, 1}, twist_stop);
   // One gate moves at a time: the other waits until it has come to rest.
-  const Stop joint_stop = at_once                 ? Stop::immediate
+  const Stop joint_stop = no_ramp                 ? Stop::immediate
                           : twist_gate_.at_rest() ? stream_stop
                                                   : Stop::controlled;
-  joint_gate_.step(input.dt, stream_.velocities_radps(), input.estimate.yaw_slip_factor, cap_mps,
-                   joint_stop);
+  joint_gate_.step(input.dt, stream_.velocities_radps(), input.estimate.yaw_slip_factor,
+                   std::min(cap_mps, input.rim_cap_mps), joint_stop);
   motion_.joints = motion_.owner == Owner::joint_command || !joint_gate_.at_rest();
   motion_.at_once = at_once;
   // A stop ramp is still the motion of the one who drove.

@@ -22,6 +22,10 @@ struct OwnInput {
   const NavOutput& task;
   double speed_cap_mps = 1e9;  ///< of the first way after the start
   Reason not_held = {};        ///< why the drives cannot be had now; empty: they can
+  Twist stream = {};           ///< what `stream_radps` make of the base
+  double ahead_cap_mps = 1e9;  ///< of what is free straight ahead
+  double rim_cap_mps = 1e9;    ///< of what is free where the stream goes
+  bool too_near = false;       ///< something came into the way where no ramp ends before it
 };
 
 /// What the gates let through this cycle.
@@ -30,6 +34,7 @@ struct Motion {
   bool at_once = false;  ///< it was stopped, without a ramp
   bool joints = false;   ///< single joints are commanded, otherwise `twist`
   Twist twist;
+  Twist asked;  ///< by its owner, before anything bounded it
   /// The drives are to run for him, also while they ramp down.
   bool drives() const { return !at_once && owner != Owner::nobody && owner != Owner::estop; }
 };
@@ -57,6 +62,8 @@ class Owners final {
   bool at_rest() const { return twist_gate_.at_rest() && joint_gate_.at_rest(); }
   TargetRefusal refusal() const { return twist_gate_.refusal(); }
   const JointVelocities& joint_velocities_radps() const { return joint_gate_.velocities_radps(); }
+  /// What the stream of joint commands asks for now, rad/s by AxisId.
+  const JointVelocities& stream_radps() const { return stream_.velocities_radps(); }
   JointCommandSnapshot joint_command() const { return stream_.snapshot(); }
   /// Silence after which that owner's motion ends, s; absent when there is no such time.
   double timeout_s(Owner owner) const;
@@ -65,6 +72,7 @@ class Owners final {
   Owner rank(const OwnInput& input) const;
   Reason hindrance(const OwnInput& input) const;
   Stop watch_stream(const OwnInput& input, bool at_once);
+  Twist asked(const OwnInput& input, const Twist& creep) const;
   Reason why_at_once(const OwnInput& input) const;
   void latch(const Reason& why, bool anyone);
 

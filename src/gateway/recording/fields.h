@@ -19,12 +19,13 @@ void visit_values(V& v, const char* name, const List& list) {
 
 template <class V>
 void visit_fields(V& v, const Snapshot& snapshot) {
-  const auto& [time, pose, worst_vx_mps, nav, gnss, imu, battery, sensors, joint_command, axes,
-               base, line_active, line_health, line_configured, line_source, output_configured,
-               output_on, links, stop_latched, hold, guard_alive, guard_has_bus, origin_set, origin,
-               why, cycle, estimator, notices_dropped] = snapshot;
+  const auto& [time, pose, worst_vx_mps, nav, gnss, imu, battery, sensors, scanners, joint_command,
+               axes, base, clearance, line_active, line_health, line_configured, line_source,
+               output_configured, output_on, links, stop_latched, hold, guard_alive, guard_has_bus,
+               origin_set, origin, why, cycle, estimator, notices_dropped] = snapshot;
   (void)links;  // those two are the loop's
   (void)cycle;
+  (void)scanners;  // and the gateway hears none
   v.value("time", time);
   v.inside("pose", [&v, &part = pose] { describe(v, part); });
   v.value("worst_vx_mps", worst_vx_mps);
@@ -39,6 +40,7 @@ void visit_fields(V& v, const Snapshot& snapshot) {
     v.inside("axes", i, [&v, &part = axes[i]] { describe(v, part); });
   // It is there or not from the start on: a recording numbers its fields.
   if (base.configured) v.inside("base", [&v, &part = base] { describe(v, part); });
+  if (clearance.configured) v.inside("clearance", [&v, &part = clearance] { describe(v, part); });
   visit_values(v, "line_active", line_active);
   visit_values(v, "line_health", line_health);
   visit_values(v, "line_configured", line_configured);

@@ -124,6 +124,17 @@ std::string words(const Recalled& recalled, const Wiring&) {
 std::string words(const OutputsUp& up, const Wiring&) {
   return std::string("outputs up, relay ") + (up.relay_closed ? "closed" : "open");
 }
+std::string words(const ClearanceFound& found, const Wiring&) {
+  const Clearance& clearance = found.clearance;
+  std::string text =
+      "surroundings " + number(clearance.scene) + ", track " + number(clearance.path) +
+      ": free along it " + std::to_string(clearance.along_m) + " m, ahead " +
+      std::to_string(clearance.ahead_m) + " m, back " + std::to_string(clearance.back_m) + " m";
+  if (!clearance.first.empty()) text += ", " + std::string(clearance.first);
+  if (!clearance.unknown.empty()) text += ", not known: " + std::string(clearance.unknown);
+  if (!clearance.broken.empty()) text += ", broken: " + std::string(clearance.broken);
+  return text;
+}
 std::string words(const CommandGiven& given, const Wiring&) {
   constexpr const char* kBodies[] = {"nothing",        "start of a task", "cancel",
                                      "stop",           "reset",           "proposal of an origin",

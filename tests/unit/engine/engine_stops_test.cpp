@@ -46,6 +46,19 @@ TEST_F(AnEngine, TakesAStartThatMayBeOlderThanTheEndOfAStopForNone) {
   rig.run_s(1);
   EXPECT_EQ(rig.said<NavigationStarted>().size(), 1U);
 }
+/// It waited until its track was looked along.
+TEST_F(AnEngine, TakesAStartThatTheRobotWasStoppedAfterForNone) {
+  rig.settle();
+  const Time asked = rig.now;
+  rig.lines[1] = true;
+  rig.run_s(0.1);
+  rig.lines[1] = false;
+  rig.run_s(2);
+  rig.engine->on_command({{RequestId::Source::cli, 77}, asked, StartTask{&path, 40, 0.5}}, rig.now);
+  rig.run_s(1);
+  EXPECT_EQ(refusal(), "the robot was stopped after this was asked for; press again");
+  EXPECT_EQ(rig.fastest_command_radps(), 0);
+}
 /// A chassis tells of its own e-stop as of a fault.
 TEST_F(AnEngine, TakesAStartThatMayBeOlderThanTheEndOfAFaultForNone) {
   rig.settle();

@@ -221,6 +221,19 @@ TEST_F(ABaseThatTakesATwist, KeepsItsPowerWhenItIsFoundMovingAndWasKnownToRest) 
   EXPECT_TRUE(has_power()) << rig.why();
 }
 
+/// The program that begins while somebody pushes must not take him for the one before it.
+TEST_F(ABaseThatTakesATwist, IsRememberedAtRestWhileAPersonPushesItButNotWhileItDrives) {
+  drive();
+  EXPECT_FALSE(rig.out.remembered.at_rest);
+  rig.command(CancelTask{});
+  rig.run_s(4);
+  ASSERT_TRUE(rig.out.remembered.at_rest);
+  rig.disobeys = WheelSpeeds{1.5, 1.5};
+  rig.run_s(2);
+  EXPECT_THAT(told(), HasSubstr("without a command"));
+  EXPECT_TRUE(rig.out.remembered.at_rest);
+}
+
 /// A guard slows it down meanwhile.
 TEST_F(ABaseThatTakesATwist, KeepsItsPowerWhenItIsFoundSlowingDown) {
   rig.environment.relay_found_closed = true;

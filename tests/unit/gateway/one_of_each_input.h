@@ -1,6 +1,7 @@
 // Every kind of input, and every kind of command, at least once.
 #pragma once
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -64,6 +65,19 @@ struct OneOfEachInput {
     add(Suspended{2.5});
     add(Recalled{{"emergency stop", true, false, true, false, true, true, "bumper touched", true}});
     add(OutputsUp{true});
+    add(ClearanceFound{{Time{std::chrono::milliseconds(40)},
+                        7,
+                        3,
+                        {0.5, -0.1},
+                        INFINITY,
+                        3,
+                        1.5,
+                        0.25,
+                        2,
+                        "box1",
+                        "blind",
+                        "the fence of field_north"}});
+    add(ClearanceFound{});
     add(LinkLost{0, "can0: lost (No such device)"});
     add(Tick{false, true, true});
   }

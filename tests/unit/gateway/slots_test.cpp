@@ -42,6 +42,24 @@ TEST(Wiring, GivesTheSlowThreadWhatIsPolled) {
     EXPECT_EQ(slot.thread == Slot::Thread::slow, slot.kind == SlotKind::battery);
 }
 
+TEST(Wiring, LeavesAScannerAndItsLineToTheScene) {
+  auto text = changed(robot_configuration(), R"("gnss": {"serial")",
+                      R"("lidar": {"serial": "/dev/drover/lidar"}, "gnss": {"serial")");
+  text = changed(text, R"("gnss": {"driver")",
+                 R"("lidar": {"driver": "ld06", "link": "lidar"}, "gnss": {"driver")");
+  text = changed(text, R"("limits": {)",
+                 R"("scene": {"footprint": [{"x_m": 0.5, "y_m": 0.35}, {"x_m": -0.5, "y_m": 0.35},
+      {"x_m": -0.5, "y_m": -0.35}, {"x_m": 0.5, "y_m": -0.35}]}, "limits": {)");
+  const auto loaded = load_robot(text);
+  ASSERT_TRUE(loaded.problems.empty()) << loaded.problems.front().text("robot");
+  engine::Environment environment;
+  const Wiring wiring = wire_up(loaded.config, environment);
+  for (const Link& link : wiring.links) EXPECT_NE(link.name, "lidar");
+  for (const Slot& slot : wiring.slots) EXPECT_NE(slot.name, "lidar");
+  EXPECT_EQ(wiring.slots[2].name, "gnss");
+  EXPECT_EQ(wiring.links[wiring.slots[2].link].name, "gnss");
+}
+
 TEST(Wiring, PutsBusesAndDrivesFirstWhereverTheyStand) {
   auto text = changed(robot_configuration(), R"(    "can0": {"can": "can0"},)", "");
   text = changed(text, R"("panel": {"gpio": "chip0"})",

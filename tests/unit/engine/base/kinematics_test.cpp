@@ -57,6 +57,15 @@ TEST_P(ABaseOnWheels, DoesWhatItsSetPointsWereFor) {
   EXPECT_NEAR(largest_twist(base, radps, {1.4}).wz_radps, 0.7, 1e-12);
 }
 
+TEST_P(ABaseOnWheels, TellsTheTwistThatItsJointsMakeAndThatOfNone) {
+  const Twist asked{-0.4, 0.3};
+  const JointVelocities radps = setpoints(base, asked, {1.4}, 10);
+  const Twist made = twist_of(base, radps, {1.4});
+  EXPECT_NEAR(made.vx_mps, asked.vx_mps, 1e-12);
+  EXPECT_NEAR(made.wz_radps, asked.wz_radps, 1e-12);
+  EXPECT_TRUE(is_zero(twist_of(base, JointVelocities{}, {1.4})));
+}
+
 TEST_P(ABaseOnWheels, NamesTheFastestWheel) {
   const Twist twist{0.3, -0.7};
   const JointVelocities radps = setpoints(base, twist, {1.0}, 2.0);

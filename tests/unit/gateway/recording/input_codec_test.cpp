@@ -33,6 +33,28 @@ TEST(InputCodec, GivesBackEachInputAsItWas) {
   }
 }
 
+/// It permits nothing, and a replay must not take it for one of the first instant.
+TEST(InputCodec, GivesBackAClearanceOfNoTimeAsOne) {
+  Clearance unknown;
+  unknown.unknown = "nothing was looked at yet";
+  unknown.broken = "the fence of field_north";
+  for (const Time t : {kNever, Time{}, kBefore}) {
+    unknown.t = t;
+    std::array<std::uint8_t, 512> buffer{};
+    ByteWriter out(buffer);
+    write_input({kBefore, ClearanceFound{unknown}}, kBefore, out);
+    ASSERT_TRUE(out.good());
+    ByteReader in(out.written());
+    const Input read = read_input(
+        kind_of({kBefore, ClearanceFound{}}), kBefore, [](auto) { return nullptr; }, in);
+    ASSERT_TRUE(in.done());
+    const auto& found = std::get<ClearanceFound>(read.body).clearance;
+    EXPECT_EQ(found.t, t);
+    EXPECT_EQ(found.broken, unknown.broken);
+    EXPECT_EQ(found.unknown, unknown.unknown);
+  }
+}
+
 TEST(InputCodec, RefusesEachInputThatIsCutShort) {
   OneOfEachInput all;
   for (const auto& input : all.inputs) {

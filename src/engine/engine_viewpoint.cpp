@@ -1,0 +1,29 @@
+// What somebody who looks around has to know of the robot, at the end of each cycle.
+#include "engine/engine_impl.h"
+
+namespace drover::engine {
+
+void Engine::Impl::fill_viewpoint() {
+  view.t = estimate.pose.time;
+  view.pose = estimate.pose;
+  // Where the receiver contradicts the wheels, that counts too.
+  view.pose.position_sigma_m = estimate.has_position ? estimate.predicted_error_m / 2 : kAbsent;
+  view.place = place_count.number();
+  view.origin_set = estimator.has_origin();
+  if (view.origin_set) view.origin = estimator.origin();
+  view.commanded = commanded;
+  view.asked = asked;
+  view.way = navigator.way();
+  const bool level_known = imu_trusted();
+  view.roll_rad = level_known ? estimate.roll_rad : kAbsent;
+  view.pitch_rad = level_known ? estimate.pitch_rad : kAbsent;
+  view.joint_rad.resize(snapshot.axes.size());
+  for (std::size_t i = 0; i < snapshot.axes.size(); ++i)
+    view.joint_rad[i] = snapshot.axes[i].motion.position_rad;
+}
+
+const Viewpoint& Engine::viewpoint() const {
+  return impl_->view;
+}
+
+}  // namespace drover::engine

@@ -1,0 +1,446 @@
+// The whole engine in front of a wall, by what somebody says who looks around.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "engine/clearance/stop_chain.h"
+#include "engine_rig.h"
+
+namespace drover::engine {
+namespace {
+
+using testing::HasSubstr;
+
+EngineConfig looking() {
+  EngineConfig config = rig_config();
+  config.clearance_required = true;
+  return config;
+}
+
+/// At the origin, on a track of 6 m along x; the answers come 20 times a second, 35 ms old.
+class InFrontOfAWall : public testing::Test {
+ protected:
+  InFrontOfAWall() {
+    path.number = 5;
+    tick();
+    rig.set_origin();
+    run_s(3);
+  }
+  void tick() {
+    if (answers && count++ % 10 == 0) {
+      Clearance found;
+      found.t = rig.now - std::chrono::milliseconds(35);
+      found.path = task_path;
+      const Viewpoint& view = rig.engine->viewpoint();
+      found.twist = is_zero(view.commanded) ? view.asked : view.commanded;
+      const double left_m = std::max(0.0, wall_m - rig.plant.truth().x_m);
+      constexpr double kFree = std::numeric_limits<double>::infinity();
+      found.ahead_m = std::min({left_m, ahead_m, 3.0});
+      found.along_m = wall_m > 6 ? kFree : left_m;  // behind its goal
+      found.back_m = 3;
+      found.left_rad = found.right_rad = turns ? kFree : 0;
+      if (left_m < 3) found.first.format("box1 is in the way, %.2f m ahead", left_m);
+      found.broken = broken;
+      rig.engine->on_clearance(found);
+    }
+    rig.tick();
+  }
+  void turn_wheels(double radps) {
+    JointTargets targets;
+    for (AxisId id = 0; id < 4; ++id) (void)targets.joints.push_back({id, radps});
+    rig.command(targets);
+  }
+  void stream_s(double radps, double seconds) {
+    for (int i = 0; i < static_cast<int>(seconds * 200 + 0.5); ++i) {
+      if (i % 4 == 0) turn_wheels(radps);
+      tick();
+    }
+  }
+  /// For so long, at that speed and turn.
+  void curve_s(double seconds, double vx_mps, double wz_radps) {
+    for (int i = 0; i < static_cast<int>(seconds * 200 + 0.5); ++i) {
+      if (count % 4 == 0) {
+        const JointVelocities radps =
+            setpoints(kinematics_of(looking().base), {vx_mps, wz_radps}, Learned{1.0}, 100);
+        JointTargets targets;
+        for (AxisId id = 0; id < 4; ++id) (void)targets.joints.push_back({id, radps[id]});
+        rig.command(targets);
+      }
+      tick();
+    }
+  }
+  void run_s(double seconds) {
+    for (int i = 0; i < static_cast<int>(seconds * 200 + 0.5); ++i) tick();
+  }
+  void start(double speed_mps = 0.8) {
+    task_path = path.number;
+    rig.start(path, 12, speed_mps);
+  }
+  double gap_m() const { return wall_m - rig.plant.truth().x_m; }
+  double speed_mps() const { return std::abs(rig.plant.truth().vx_mps); }
+  bool told(const char* what) const {
+    for (const Reason& why : rig.snapshot().why)
+      if (why.view().find(what) != std::string_view::npos) return true;
+    return false;
+  }
+
+  bool announced(const char* what) const {
+    const auto notices = rig.said<Notice>();
+    return std::any_of(notices.begin(), notices.end(), [what](const Notice& notice) {
+      return notice.text.view().find(what) != std::string_view::npos;
+    });
+  }
+
+  Path path = straight_path(6);
+  EngineRig rig{looking()};
+  double ahead_m = 100;  ///< on whatever curve
+  double wall_m = 100;   ///< where the footprint with its margin would touch it
+  std::uint64_t task_path = 0;
+  bool answers = true;
+  bool turns = true;  ///< nothing hinders a turn on the spot
+  Reason broken;
+  int count = 0;
+};
+
+TEST_F(InFrontOfAWall, DrivesToItsGoalWhereNothingIsInTheWay) {
+  start();
+  run_s(14);
+  EXPECT_EQ(rig.snapshot().nav.status, NavStatus::success) << rig.why();
+}
+
+TEST_F(InFrontOfAWall, StandsBeforeItAndGoesOnWhenItIsAway) {
+  wall_m = 3;
+  start();
+  run_s(14);
+  EXPECT_EQ(rig.snapshot().nav.status, NavStatus::run) << rig.why();
+  EXPECT_TRUE(rig.snapshot().nav.obstacle);
+  EXPECT_TRUE(told("box1")) << rig.why();
+  EXPECT_LT(speed_mps(), 0.005);
+  EXPECT_GE(gap_m(), 0);
+  EXPECT_LE(gap_m(), 0.3);
+  wall_m = 100;
+  run_s(0.9);
+  EXPECT_LT(speed_mps(), 0.005) << "it left less than a second ago";
+  run_s(10);
+  EXPECT_EQ(rig.snapshot().nav.status, NavStatus::success) << rig.why();
+}
+
+TEST_F(InFrontOfAWall, StopsWithoutARampBeforeWhatNoRampEndsBefore) {
+  start();
+  run_s(5);
+  ASSERT_GT(speed_mps(), 0.7) << rig.why();
+  wall_m = rig.plant.truth().x_m + 0.4;
+  run_s(0.1);
+  EXPECT_TRUE(is_zero(rig.engine->viewpoint().commanded));
+  EXPECT_EQ(rig.snapshot().nav.status, NavStatus::run) << rig.why();
+  wall_m = 100;
+  run_s(12);
+  EXPECT_EQ(rig.snapshot().nav.status, NavStatus::success) << rig.why();
+}
+
+TEST_F(InFrontOfAWall, StaysWhereItWasStoppedWithoutARamp) {
+  start();
+  run_s(5);
+  wall_m = rig.plant.truth().x_m + 0.4;
+  run_s(3);
+  EXPECT_GT(gap_m(), 0.06) << "it would have come nearer with a ramp";
+  EXPECT_LE(gap_m(), 0.4);
+  const double stood_m = gap_m();
+  run_s(5);
+  EXPECT_NEAR(gap_m(), stood_m, 0.001);
+  EXPECT_TRUE(rig.snapshot().nav.obstacle);
+}
+
+TEST_F(InFrontOfAWall, StopsAStreamWithoutARampLikewise) {
+  stream_s(0, 0.6);
+  stream_s(4, 5);
+  ASSERT_GT(speed_mps(), 0.5) << rig.why();
+  wall_m = rig.plant.truth().x_m + 0.2;
+  stream_s(4, 0.1);
+  EXPECT_TRUE(is_zero(rig.engine->viewpoint().commanded));
+  EXPECT_TRUE(announced("box1"));
+}
+
+/// The outer wheels brake with all that is permitted, the middle of the base with less.
+TEST_F(InFrontOfAWall, StopsAStreamInACurveBeforeWhatAppears) {
+  for (const double left_m : {0.45, 0.5, 0.55, 0.6, 0.7, 0.9}) {
+    stream_s(0, 0.6);
+    wall_m = 1000;
+    curve_s(3, 0.6, 0.6);
+    ASSERT_GT(speed_mps(), 0.5) << rig.why();
+    double way_m = 0;
+    for (int i = 0; i < 1000; ++i) {
+      ahead_m = std::max(0.0, left_m - way_m);
+      curve_s(0.005, 0.6, 0.6);
+      way_m += 0.005 * speed_mps();
+    }
+    EXPECT_LT(speed_mps(), 0.005);
+    EXPECT_LT(way_m, left_m);
+    ahead_m = 100;
+    run_s(3);
+  }
+}
+
+TEST_F(InFrontOfAWall, HasArrivedWhereItsGoalIsReachedThoughItMayNotGoOn) {
+  start();
+  run_s(2);
+  wall_m = 5.95;
+  run_s(20);
+  EXPECT_EQ(rig.snapshot().nav.status, NavStatus::success) << rig.why();
+}
+
+TEST_F(InFrontOfAWall, KeepsItsRampBeforeWhatItSawInTime) {
+  wall_m = 3;
+  start();
+  double last_mps = 0;
+  for (int i = 0; i < 14 * 200; ++i) {
+    tick();
+    const double mps = rig.engine->viewpoint().commanded.vx_mps;
+    EXPECT_GT(mps, last_mps - 0.0041) << i;  // 0.8 m/s^2 in 5 ms
+    last_mps = mps;
+  }
+}
+
+TEST_F(InFrontOfAWall, IsNeverFasterThanWhatCanStopBeforeIt) {
+  wall_m = 3;
+  start();
+  for (int i = 0; i < 14 * 200; ++i) {
+    tick();
+    // As a ramp to zero brakes, without a time to react.
+    const double brakes_m = speed_mps() * speed_mps() / (2 * rig.config.limits.deceleration_mps2);
+    ASSERT_LE(brakes_m, std::max(gap_m(), 0.0) + 1e-6) << "at " << gap_m() << " m";
+  }
+}
+
+TEST_F(InFrontOfAWall, StopsForOneThatAppearsBeyondItsStoppingWay) {
+  start();
+  run_s(5);
+  ASSERT_GT(speed_mps(), 0.7);
+  wall_m = rig.plant.truth().x_m + stop_way(0.8, {0.28, 0.8}) + 0.05;
+  run_s(4);
+  EXPECT_LT(speed_mps(), 0.005);
+  EXPECT_GE(gap_m(), 0);
+}
+
+TEST_F(InFrontOfAWall, WaitsForAnAnswerAboutItsTrackAndGivesUp) {
+  start();
+  task_path = 4;  // the answers are about the one before
+  run_s(2);
+  EXPECT_EQ(rig.snapshot().nav.status, NavStatus::run) << rig.why();
+  EXPECT_LT(std::abs(rig.plant.truth().x_m), 0.001);
+  run_s(2);
+  EXPECT_EQ(rig.snapshot().nav.status, NavStatus::error);
+  EXPECT_TRUE(told("this track was not looked at")) << rig.why();
+}
+
+TEST_F(InFrontOfAWall, StopsWhenNobodyLooksAnyMore) {
+  start();
+  run_s(5);
+  ASSERT_GT(speed_mps(), 0.7);
+  answers = false;
+  run_s(2);
+  EXPECT_LT(speed_mps(), 0.005);
+  EXPECT_EQ(rig.snapshot().nav.status, NavStatus::run);
+  EXPECT_TRUE(told("was looked at")) << rig.why();
+  answers = true;
+  run_s(12);
+  EXPECT_EQ(rig.snapshot().nav.status, NavStatus::success) << rig.why();
+}
+
+TEST_F(InFrontOfAWall, StartsNothingWhileNobodyLooks) {
+  answers = false;
+  run_s(0.5);
+  start();
+  run_s(0.1);
+  ASSERT_FALSE(rig.said<CommandRefused>().empty());
+  EXPECT_THAT(std::string(rig.said<CommandRefused>().back().reason.view()), HasSubstr("looked at"));
+}
+
+TEST_F(InFrontOfAWall, FollowsNoJointCommandsIntoIt) {
+  wall_m = 1;
+  stream_s(0, 0.6);
+  stream_s(4, 7.4);  // 0.66 m/s
+  EXPECT_GT(rig.plant.truth().x_m, 0.3) << "it never moved: this proves nothing";
+  EXPECT_LT(speed_mps(), 0.005);
+  EXPECT_GE(gap_m(), 0);
+}
+
+/// It was driven to the wall, and its driver lets go, then reverses.
+TEST_F(InFrontOfAWall, LetsJointCommandsDriveAwayFromIt) {
+  wall_m = 1;
+  stream_s(0, 0.6);
+  stream_s(4, 8);
+  ASSERT_LT(gap_m(), 0.05);
+  EXPECT_TRUE(announced("joint commands ended: box1"));
+  stream_s(0, 0.6);
+  EXPECT_FALSE(rig.snapshot().nav.obstacle);
+  const double before_m = rig.plant.truth().x_m;
+  stream_s(-2, 2);
+  EXPECT_LT(rig.plant.truth().x_m, before_m - 0.3);
+  stream_s(0, 1);
+  const double stood_m = rig.plant.truth().x_m;
+  wall_m = stood_m + 0.01;
+  stream_s(0, 0.6);
+  stream_s(2, 1);
+  EXPECT_NEAR(rig.plant.truth().x_m, stood_m, 0.001) << "towards it is not away from it";
+}
+
+TEST_F(InFrontOfAWall, DrivesToAGoalWithAWallHalfAMetreBehindItAsWithoutOne) {
+  const auto seconds = [&] {
+    for (int i = 0; i < 20 * 200; ++i) {
+      tick();
+      EXPECT_FALSE(rig.snapshot().nav.obstacle) << "at " << gap_m() << " m";
+      if (rig.snapshot().nav.status != NavStatus::run) return i / 200.0;
+    }
+    return 20.0;
+  };
+  wall_m = 6.5;
+  start();
+  const double with_wall_s = seconds();
+  EXPECT_EQ(rig.snapshot().nav.status, NavStatus::success) << rig.why();
+  EXPECT_LT(with_wall_s, 12);
+}
+
+TEST_F(InFrontOfAWall, DrivesOnAfterALateAnswer) {
+  start();
+  run_s(5);
+  ASSERT_GT(speed_mps(), 0.7);
+  answers = false;
+  run_s(0.15);
+  answers = true;
+  count = 0;
+  run_s(0.2);
+  EXPECT_GT(speed_mps(), 0.6);
+  run_s(0.5);
+  EXPECT_GT(speed_mps(), 0.7);
+  EXPECT_FALSE(rig.snapshot().nav.paused);
+}
+
+TEST_F(InFrontOfAWall, GoesOnASecondAfterItLeft) {
+  wall_m = 3;
+  start();
+  run_s(14);
+  ASSERT_LT(speed_mps(), 0.005);
+  wall_m = 100;
+  run_s(1.5);
+  EXPECT_GT(speed_mps(), 0.05);
+}
+
+/// Each answer names it anew, with its distance.
+TEST_F(InFrontOfAWall, TellsWhatIsFreeAndWhatIsInItsWay) {
+  wall_m = 3;
+  start();
+  run_s(14);
+  const ClearanceSnapshot& free = rig.snapshot().clearance;
+  EXPECT_TRUE(free.configured);
+  EXPECT_LT(rig.now - free.time, std::chrono::milliseconds(100));
+  EXPECT_NEAR(free.ahead_m, gap_m(), 0.01);
+  EXPECT_NEAR(free.along_m, gap_m(), 0.01);
+  EXPECT_EQ(free.back_m, 3);
+  EXPECT_DOUBLE_EQ(free.left_rad, kPi);
+  EXPECT_TRUE(free.unknown.empty());
+  EXPECT_TRUE(told(std::string(free.first.view()).c_str())) << rig.why();
+  answers = false;
+  run_s(1);
+  EXPECT_FALSE(std::isfinite(free.ahead_m));
+  EXPECT_FALSE(free.unknown.empty());
+}
+
+TEST_F(InFrontOfAWall, StandsWhileAConstraintIsBroken) {
+  start();
+  run_s(5);
+  ASSERT_GT(speed_mps(), 0.7);
+  broken = "the fence of field_north: 0.20 m outside";
+  run_s(3);
+  EXPECT_LT(speed_mps(), 0.005);
+  EXPECT_EQ(rig.snapshot().nav.status, NavStatus::run);
+  EXPECT_TRUE(rig.snapshot().nav.paused);
+  EXPECT_FALSE(rig.snapshot().nav.obstacle);
+  EXPECT_TRUE(told("field_north")) << rig.why();
+  EXPECT_EQ(rig.snapshot().clearance.broken, broken);
+  broken.clear();
+  run_s(0.9);
+  EXPECT_LT(speed_mps(), 0.005);
+  run_s(10);
+  EXPECT_EQ(rig.snapshot().nav.status, NavStatus::success) << rig.why();
+}
+
+TEST_F(InFrontOfAWall, EndsATaskWhoseConstraintIsBrokenForTooLong) {
+  start();
+  run_s(3);
+  broken = "the fence of field_north: 0.20 m outside";
+  run_s(rig.config.navigate.obstacle_timeout_s + 2);
+  EXPECT_EQ(rig.snapshot().nav.status, NavStatus::error);
+  ASSERT_EQ(rig.said<TaskEnded>().size(), 1U);
+  EXPECT_THAT(std::string(rig.said<TaskEnded>()[0].reason.view()), HasSubstr("field_north"));
+}
+
+TEST_F(InFrontOfAWall, StartsNothingWhereAConstraintIsBroken) {
+  broken = "the fence of field_north: 0.20 m outside";
+  run_s(0.5);
+  start();
+  run_s(0.1);
+  ASSERT_FALSE(rig.said<CommandRefused>().empty());
+  EXPECT_THAT(std::string(rig.said<CommandRefused>().back().reason.view()),
+              HasSubstr("field_north"));
+  stream_s(0, 0.6);
+  stream_s(2, 1);
+  EXPECT_LT(std::abs(rig.plant.truth().x_m), 0.001);
+  EXPECT_THAT(std::string(rig.snapshot().joint_command.reason.view()), HasSubstr("field_north"));
+}
+
+TEST_F(InFrontOfAWall, EndsJointCommandsWhereAConstraintBreaks) {
+  stream_s(0, 0.6);
+  stream_s(2, 2);
+  ASSERT_GT(speed_mps(), 0.2);
+  broken = "the fence of field_north: 0.20 m outside";
+  stream_s(2, 1.5);
+  EXPECT_LT(speed_mps(), 0.005);
+}
+
+/// While the heading is not known nobody can tell where its corners are: what is free is so all
+/// around, and turning is told as nothing.
+class ThatLooksForItsHeading : public InFrontOfAWall {
+ protected:
+  ThatLooksForItsHeading() { turns = false; }
+  void look_for_heading() {
+    rig.no_heading = true;
+    rig.engine = std::make_unique<Engine>(rig.config);
+    tick();
+    rig.set_origin();
+    run_s(3);
+    ASSERT_FALSE(std::isfinite(rig.engine->viewpoint().pose.yaw_sigma_rad));
+    rig.command(FindHeading{});
+  }
+};
+
+TEST_F(ThatLooksForItsHeading, DrivesWhereItsSurroundingsAreFree) {
+  look_for_heading();
+  run_s(6);
+  EXPECT_GT(rig.plant.truth().x_m, 0.3) << rig.why();
+}
+
+TEST_F(ThatLooksForItsHeading, StopsBeforeWhatIsInItsWay) {
+  wall_m = 0.4;
+  look_for_heading();
+  run_s(10);
+  EXPECT_GT(rig.plant.truth().x_m, 0.1) << rig.why();
+  EXPECT_GE(gap_m(), 0);
+  EXPECT_LT(speed_mps(), 0.005);
+  EXPECT_TRUE(announced("no heading: box1"));
+}
+
+TEST(WithoutSomebodyWhoLooks, ARobotThatNeedsNoneDrives) {
+  EngineRig rig;
+  Path path = straight_path(6);
+  rig.settle();
+  rig.start(path, 12, 0.5);
+  rig.run_s(4);
+  EXPECT_GT(rig.plant.truth().x_m, 0.5);
+}
+
+}  // namespace
+}  // namespace drover::engine
