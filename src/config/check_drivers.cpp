@@ -62,7 +62,7 @@ void look_at_speed(const DeviceConfig& device, Findings& found) {
   found.add(path,
             "is " + std::to_string(link.baud) + ", but " + device_path(device) + " (" +
                 device.driver + ") speaks at " + all,
-            known.size() == 1 && known[0] == kUsualBaud ? "write that, or leave it out" : "");
+            known.size() == 1 ? "write that, or leave it out" : "");
 }
 
 /// A driver begins with the option's name. Its speed stands at its link.

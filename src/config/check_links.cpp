@@ -56,6 +56,16 @@ void check_baud(const LinkConfig& link, std::span<const int> known, Findings& fo
             "is " + std::to_string(link.baud) + ", but a line has one of " + all);
 }
 
+/// Of a line that says nothing of it: what its device speaks.
+int usual_baud(const LinkConfig& link, Findings& found) {
+  for (const auto& device : found.config().devices) {
+    const auto* entry = find_driver(device.driver);
+    if (device.link == link.name && entry != nullptr && !entry->bauds.empty())
+      return entry->bauds[0];
+  }
+  return kUsualBaud;
+}
+
 /// Speed and parity are of the lines that have them.
 void check_pace(LinkConfig& link, Findings& found) {
   const auto refuse = [&](std::string_view key) {
@@ -66,7 +76,7 @@ void check_pace(LinkConfig& link, Findings& found) {
   if (link.wire != Wire::registers) refuse("parity");
   if (link.wire == Wire::can || link.wire == Wire::levels) refuse("baud");
   if (link.wire == Wire::bytes) {
-    if (link.baud == 0) link.baud = kUsualBaud;
+    if (link.baud == 0) link.baud = usual_baud(link, found);
     check_baud(link, kSerialBauds, found);
   } else if (link.wire == Wire::registers && link.baud != 0) {
     check_baud(link, kModbusBauds, found);

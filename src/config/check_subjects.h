@@ -34,6 +34,12 @@ void check_base(const BaseNames& base, Findings& found);
 void check_limits(Findings& found);
 void check_broker(Findings& found);
 void check_channel(Findings& found);
+/// What the robot covers, and its frames; turns the footprint counter-clockwise.
+void check_scene(Findings& found);
+void warn_of_short_look(Findings& found);
+/// Scanners, and the field that they look at.
+void check_scanners(Findings& found);
+void warn_of_short_field(Findings& found);
 
 // The devices: what only their drivers know.
 /// Fills in the registers; a map is looked for below `folder`.

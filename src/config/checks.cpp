@@ -20,6 +20,8 @@ void finish_engine(DroverConfig& c) {
   }
   for (std::size_t i = 0; i < kOutputCount; ++i)
     c.engine.output_configured[i] = c.outputs.output[i].configured;
+  c.engine.clearance_required = c.scene.configured;
+  c.engine.clearance = c.scene.clearance;
 }
 
 }  // namespace
@@ -36,6 +38,8 @@ void check_and_resolve(const json::Node& root, const GroupNames& groups, const s
   check_limits(found);
   check_broker(found);
   check_channel(found);
+  check_scene(found);
+  check_scanners(found);
   check_batteries(folder, found);
   follow_baud_rates(found);
   finish_engine(loaded.config);

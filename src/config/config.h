@@ -141,6 +141,50 @@ struct AimrtConfig {
   std::string touch_state_content = "pb";
 };
 
+/// A point of the footprint in base_link.
+struct CornerConfig {
+  double x_m = 0;
+  double y_m = 0;
+};
+
+/// A named frame on the base: a sensor, a mast. Yaw first, then pitch, then roll, as mount_*_deg of
+/// a sensor.
+struct FrameConfig {
+  std::string name;  ///< its key in the table
+  double x_m = 0;
+  double y_m = 0;
+  double z_m = 0;
+  double roll_deg = 0;
+  double pitch_deg = 0;
+  double yaw_deg = 0;
+};
+
+/// The rectangle before the robot in which whatever a scanner sees is in the way: it begins at the
+/// front edge of the footprint.
+struct FieldConfig {
+  double ahead_m = 2.0;
+  double beside_m = 0.4;  ///< to each side of base_link
+};
+
+/// What the robot takes of the space around it, and how it looks there.
+struct SceneConfig {
+  bool configured = false;  ///< the section is there
+  /// Convex, counter-clockwise whichever way round it is written, around base_link.
+  std::vector<CornerConfig> footprint;
+  double height_m = 1.0;             ///< its top
+  double ground_clearance_m = 0.05;  ///< what is lower is driven over
+  std::string heights = "robot";     ///< or "ignore": on uneven land
+  double margin_m = 0.1;             ///< around the footprint
+  double ahead_m = 3.0;              ///< so far along the present curve, ahead and back
+  double along_m = 10.0;             ///< so far along the track
+  double max_object_age_s = 0;       ///< of what is stored, when it is loaded; 0: none is too old
+  /// Ages are fixed, beside_m and reach_m follow from margin and footprint; the others are keys of
+  /// this section.
+  engine::ClearanceConfig clearance;
+  std::vector<FrameConfig> frames;
+  FieldConfig field;  ///< of scanners; without one it is of no use
+};
+
 struct DroverConfig {
   std::string robot_name = "drover";
   PathsConfig paths;
@@ -152,6 +196,7 @@ struct DroverConfig {
   MqttConfig mqtt;
   ProtocolConfig protocol;
   AimrtConfig aimrt;
+  SceneConfig scene;
   std::vector<std::string> accept;  ///< by name what is warned of otherwise, see warn_of_risks()
   engine::EngineConfig engine;
 };

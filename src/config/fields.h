@@ -23,6 +23,10 @@ inline constexpr std::size_t kMaxBuses = 8;
 inline constexpr std::size_t kMaxLinks = 17;
 inline constexpr std::size_t kMaxDevices = 80;
 
+/// Of the scene.
+inline constexpr std::size_t kMaxCorners = 32;
+inline constexpr std::size_t kMaxFrames = 32;
+
 /// Names of all drivers.
 inline std::vector<std::string> driver_names() {
   std::vector<std::string> names;
@@ -86,7 +90,8 @@ void visit(V& v, LinkConfig& c) {
          Presence::alternative);
   v.text("gpio", c.gpio, "label or name of a GPIO chip, or files:DIRECTORY", Presence::alternative);
   v.integer("baud", c.baud, Range{0, 921600},
-            "of a serial line; 0: 115200, and on modbus as the device's map says");
+            "of a serial line; 0: as its device usually has it, mostly 115200; on modbus as its "
+            "map says");
   v.choice("parity", c.parity, {"none", "even", "odd"}, "of a serial line with modbus");
 }
 
@@ -202,6 +207,62 @@ void visit(V& v, AimrtConfig& c) {
 }
 
 template <class V>
+void visit(V& v, CornerConfig& c) {
+  v.number("x_m", c.x_m, Range{-20, 20}, "ahead of base_link", Presence::required);
+  v.number("y_m", c.y_m, Range{-20, 20}, "left of base_link", Presence::required);
+}
+
+template <class V>
+void visit(V& v, FrameConfig& c) {
+  v.number("x_m", c.x_m, Range{-20, 20}, "ahead of base_link");
+  v.number("y_m", c.y_m, Range{-20, 20}, "left of base_link");
+  v.number("z_m", c.z_m, Range{-20, 20}, "above base_link, which is on the ground");
+  v.number("roll_deg", c.roll_deg, Range{-360, 360}, "about its x, after yaw and pitch");
+  v.number("pitch_deg", c.pitch_deg, Range{-360, 360}, "about its y, after yaw");
+  v.number("yaw_deg", c.yaw_deg, Range{-360, 360}, "counter-clockwise from ahead");
+}
+
+template <class V>
+void visit(V& v, FieldConfig& c) {
+  v.number("ahead_m", c.ahead_m, Range{0.2, 10}, "from the front edge of the footprint on");
+  v.number("beside_m", c.beside_m, Range{0.1, 5}, "to each side of base_link");
+}
+
+template <class V>
+void visit(V& v, SceneConfig& c) {
+  v.list(
+      "footprint", c.footprint, Count{3, kMaxCorners},
+      "corners of what the robot covers of the ground, seen from above: in order, convex, around "
+      "base_link",
+      Presence::required);
+  v.number("height_m", c.height_m, Range{0.05, 20}, "top of the robot: what hangs higher is free");
+  v.number("ground_clearance_m", c.ground_clearance_m, Range{0, 5}, "what is lower is driven over");
+  v.choice("heights", c.heights, {"robot", "ignore"},
+           "robot: only what is between ground clearance and height is in the way; ignore: "
+           "everything is, on uneven land");
+  v.number("margin_m", c.margin_m, Range{0, 5}, "kept free around the footprint");
+  v.number("ahead_m", c.ahead_m, Range{0.2, 100},
+           "looked at along the present curve, ahead and back; bounds the speed");
+  v.number("along_m", c.along_m, Range{0.2, 200},
+           "looked at along the track; bounds the speed of a task");
+  v.number("reaction_s", c.clearance.reaction_s, Range{0.1, 5},
+           "from something that appears to the base's braking: sensor, scene, cycle and drives");
+  v.number(
+      "again_m", c.clearance.again_m, Range{0.01, 5},
+      "so much freer than at the least, or 0.4 m in all, and for again_s, before what was blocked "
+      "is free again");
+  v.number("again_s", c.clearance.again_s, Range{0.2, 60}, "see again_m");
+  v.number("wait_s", c.clearance.wait_s, Range{0.5, 60},
+           "a task whose track was not looked along for so long ends");
+  v.number("max_object_age_s", c.max_object_age_s, Range{0, 31'536'000},
+           "stored objects that are older when they are loaded are left out; 0: none is too old");
+  v.table("frames", c.frames, Count{0, kMaxFrames},
+          "frames on the base by name, for messages that say where something is");
+  v.object("field", c.field, "what a scanner sees in it is in the way");
+  c.configured = true;
+}
+
+template <class V>
 void visit(V& v, DroverConfig& c, GroupNames& groups) {
   v.text("robot", c.robot_name, "name of this robot");
   v.object("paths", c.paths, "folders");
@@ -218,10 +279,13 @@ void visit(V& v, DroverConfig& c, GroupNames& groups) {
   v.object("mqtt", c.mqtt, "broker");
   v.object("protocol", c.protocol, "choices of the RTK navigation protocol");
   v.object("aimrt", c.aimrt, "AimRT channel");
-  v.names("accept", c.accept, Count{0, 5},
-          "no_estop: there is no e-stop line; slow_guard: guard.limit_ms is above 200; no_tilt: "
-          "nothing tells how steep the ground is; no_soc: no battery tells its charge; no_relay: "
-          "nothing takes the power from drives that do not stop; that is known");
+  v.object("scene", c.scene, "what is around the robot: left out, nothing of it is looked at");
+  v.names(
+      "accept", c.accept, Count{0, 6},
+      "no_estop: there is no e-stop line; slow_guard: guard.limit_ms is above 200; no_tilt: "
+      "nothing tells how steep the ground is; no_soc: no battery tells its charge; no_relay: "
+      "nothing takes the power from drives that do not stop; short_look: the scene, or a lidar's "
+      "field, is not looked at as far as the fastest speed needs; that is known");
 }
 
 }  // namespace drover::config

@@ -4,11 +4,13 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
 #include "drover/command.h"
 #include "drover/event.h"
+#include "publish/scene_jobs.h"
 #include "store/storage.h"
 
 namespace drover::publish {
@@ -37,8 +39,20 @@ struct LogLine {
   std::string text;
 };
 
-/// A StorageJob goes to the storage thread, a Command to the engine.
-using Action = std::variant<PublishText, Answer, Reply, LogLine, store::StorageJob, Command>;
+/// A StorageJob goes to the storage thread, a Command to the engine, a SceneJob to the scene's
+/// thread and a SceneTextJob to its parser.
+using Action = std::variant<PublishText, Answer, Reply, LogLine, store::StorageJob, Command,
+                            SceneJob, SceneTextJob>;
 using Actions = std::vector<Action>;
+
+/// Appends a job for the scene's thread, or its parser, in its place: compilers see ghosts in what
+/// is moved there.
+template <class Job, class What>
+Job& append_job(Actions& out, std::uint64_t number, What what) {
+  Job& job = std::get<Job>(out.emplace_back(std::in_place_type<Job>));
+  job.number = number;
+  job.what.template emplace<What>(std::move(what));
+  return job;
+}
 
 }  // namespace drover::publish

@@ -81,6 +81,8 @@ class CommandService final {
   /// As it would be driven now; nothing when there is none of that name.
   std::optional<store::Track> find_track(const std::string& name) const;
   const std::optional<GeodeticPoint>& origin() const { return origin_; }
+  /// Another one may be in force any moment.
+  bool origin_pending() const;
   /// Why a stored origin is lost, until init_rtk_data gives another; empty: it is not.
   const std::string& origin_problem() const { return origin_problem_; }
   /// Paths that the engine holds; none is left when all tasks are over.
@@ -121,7 +123,6 @@ class CommandService final {
   void refused(RequestId id, std::string_view reason, Actions& out);
   void release(const Path* path);
   bool being_written(const std::string& name) const;
-  bool origin_pending() const;
   /// Whether the disk may be asked for one more that holds so many bytes.
   bool disk_behind(std::size_t bytes) const;
   RequestId next_id(RequestId::Source source) { return {source, ++last_number_}; }

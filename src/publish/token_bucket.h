@@ -21,6 +21,11 @@ class TokenBucket final {
     tokens_ -= 1;
     return true;
   }
+  /// What was let in has cost so much more: it may become a debt.
+  void charge(double tokens, Time now) {
+    refill(now);
+    tokens_ -= tokens;
+  }
 
  private:
   void refill(Time now) {

@@ -16,14 +16,16 @@ namespace drover::runtime {
 
 namespace {
 constexpr std::size_t kMaxRequest = 64 * 1024;
-constexpr std::size_t kMaxWaiting = 64 * 1024 * 1024;  // a large track, shown
+constexpr std::size_t kMaxLongRequest = std::size_t{6} << 20;  // a file, escaped as JSON
+constexpr std::size_t kMaxWaiting = 64 * 1024 * 1024;          // a large track, shown
 constexpr std::size_t kMaxClients = 32;
 constexpr std::uint64_t kListenerTag = 0;
 }  // namespace
 
-CliServer::CliServer(const std::string& path, OnRequest on_request)
+CliServer::CliServer(const std::string& path, OnRequest on_request, std::string_view long_line)
     : path_(path),
       on_request_(std::move(on_request)),
+      long_line_(long_line),
       listener_(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0)),
       epoll_(::epoll_create1(EPOLL_CLOEXEC)) {
   sockaddr_un address{};
@@ -84,7 +86,7 @@ void CliServer::accept() {
   event.events = EPOLLIN;
   event.data.u64 = id;
   ::epoll_ctl(epoll_.get(), EPOLL_CTL_ADD, fd.get(), &event);
-  clients_.emplace(id, Client{std::move(fd), {}, {}});
+  clients_.emplace(id, Client{std::move(fd), {}, 0, {}});
 }
 
 void CliServer::watch(ClientId id, bool writing) {
@@ -94,13 +96,20 @@ void CliServer::watch(ClientId id, bool writing) {
   ::epoll_ctl(epoll_.get(), EPOLL_CTL_MOD, clients_.at(id).fd.get(), &event);
 }
 
+std::size_t CliServer::longest_request(ClientId id) const {
+  if (long_line_.empty() || !clients_.at(id).in.starts_with(long_line_)) return kMaxRequest;
+  for (const auto& [other, client] : clients_)
+    if (other != id && client.in.size() > kMaxRequest) return kMaxRequest;
+  return kMaxLongRequest;
+}
+
 void CliServer::read(ClientId id) {
   const auto it = clients_.find(id);
   if (it == clients_.end()) return;
   std::array<char, 4096> buffer{};
   const auto n = ::recv(it->second.fd.get(), buffer.data(), buffer.size(), 0);
   if (n < 0 && (errno == EAGAIN || errno == EINTR)) return;
-  if (n <= 0 || it->second.in.size() + static_cast<std::size_t>(n) > kMaxRequest) {
+  if (n <= 0 || it->second.in.size() + static_cast<std::size_t>(n) > longest_request(id)) {
     clients_.erase(it);
     return;
   }
@@ -109,7 +118,8 @@ void CliServer::read(ClientId id) {
     const auto client = clients_.find(id);  // a request may end its client
     if (client == clients_.end()) return;
     auto& in = client->second.in;
-    const auto end = in.find('\n');
+    const auto end = in.find('\n', client->second.searched);
+    client->second.searched = end == std::string::npos ? in.size() : 0;
     if (end == std::string::npos) return;
     const std::string line = in.substr(0, end);
     in.erase(0, end + 1);

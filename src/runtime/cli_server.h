@@ -21,8 +21,10 @@ class CliServer final {
   using ClientId = publish::ClientId;
   using OnRequest = std::function<void(ClientId, std::string_view line)>;
 
-  /// Listens at `path` (mode 0660). Throws std::runtime_error with the path and the reason.
-  CliServer(const std::string& path, OnRequest on_request);
+  /// Listens at `path` (mode 0660). A request that begins with `long_line` may be longer than
+  /// others, of one client at a time; empty: none may. Throws std::runtime_error with the path and
+  /// the reason.
+  CliServer(const std::string& path, OnRequest on_request, std::string_view long_line = {});
   ~CliServer();
   CliServer(const CliServer&) = delete;
   CliServer& operator=(const CliServer&) = delete;
@@ -37,6 +39,7 @@ class CliServer final {
   struct Client {
     link::UniqueFd fd;
     std::string in;
+    std::size_t searched = 0;  ///< so many bytes of `in` have no end of a line
     std::string out;
   };
   void accept();
@@ -44,9 +47,11 @@ class CliServer final {
   void write(ClientId id);
   void watch(ClientId id, bool writing);
   bool may_connect(int fd) const;
+  std::size_t longest_request(ClientId id) const;
 
   std::string path_;
   OnRequest on_request_;
+  std::string_view long_line_;
   link::UniqueFd listener_;
   link::UniqueFd epoll_;
   std::map<ClientId, Client> clients_;

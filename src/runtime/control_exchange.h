@@ -10,6 +10,7 @@
 #include "drover/triple_buffer.h"
 #include "runtime/command_intake.h"
 #include "runtime/recorder.h"
+#include "runtime/scene_sight.h"
 #include "runtime/stop_requests.h"
 #include "runtime/wake.h"
 
@@ -29,6 +30,7 @@ struct ControlExchange {
   std::atomic<const char*> trouble{nullptr};
   /// Counted by the main thread at each look at the others; 0: it has not begun.
   std::atomic<std::uint64_t> looks{0};
+  SceneSight* scene = nullptr;   ///< nullptr: the robot has no scene
   Recorder* recorder = nullptr;  ///< control and publish tell it; nullptr: nothing is recorded
 };
 

@@ -110,6 +110,7 @@ Time ControlLoop::cycle(Time begin, std::uint64_t late) {
     if (wire_of(link) == Wire::levels) read_lines(link, begin);
   watch_guard(begin);
   take_slow_links();
+  hear_scene(begin);
   watch_program(begin);
   take_commands(begin);
 
@@ -118,6 +119,7 @@ Time ControlLoop::cycle(Time begin, std::uint64_t late) {
   apply(begin, gateway::Tick{guard_alive, guard_watch_.holds(begin), guard_watch_.latched()});
   // Before the events go: who hears that a path is released may delete it.
   if (exchange_.recorder != nullptr) exchange_.recorder->output(gateway_);
+  show_scene();
   const auto& out = gateway_.output();
   for (std::size_t bus = 0; bus < gateway_.bus_count(); ++bus) {
     const auto& frames = out.frames[bus];
@@ -166,6 +168,21 @@ void ControlLoop::keep(const Remembered& remembered) {
 void ControlLoop::take_commands(Time now) {
   intake_.take(exchange_.commands, exchange_.stops, now,
                [&](const Command& command) { apply(now, gateway::CommandGiven{command}); });
+}
+
+void ControlLoop::hear_scene(Time now) {
+  if (exchange_.scene == nullptr) return;
+  const FoundClearance& found = exchange_.scene->clearance.latest();
+  if (found.number == clearance_) return;
+  clearance_ = found.number;
+  apply(now, gateway::ClearanceFound{found.clearance});
+}
+
+/// What it looks from.
+void ControlLoop::show_scene() {
+  if (exchange_.scene == nullptr) return;
+  exchange_.scene->viewpoint.back() = gateway_.viewpoint();
+  exchange_.scene->viewpoint.publish();
 }
 
 void ControlLoop::watch_program(Time now) {

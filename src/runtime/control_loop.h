@@ -68,6 +68,8 @@ class ControlLoop final {
   void watch_guard(Time now);
   void keep(const Remembered& remembered);
   void take_slow_links();
+  void hear_scene(Time now);
+  void show_scene();
   Time publish(Time now);
   Wire wire_of(std::size_t link) const { return gateway_.wiring().links[link].wire; }
   std::size_t line_count(std::size_t link) const {
@@ -104,8 +106,9 @@ class ControlLoop final {
   GuardWatch guard_watch_;
   CommandIntake intake_;
   ProgramWatch program_;
-  double last_vx_mps_ = 0;  ///< of the base, when somebody knew it
-  Duration asleep_{};       ///< since the computer booted
+  std::uint64_t clearance_ = 0;  ///< number of the last one
+  double last_vx_mps_ = 0;       ///< of the base, when somebody knew it
+  Duration asleep_{};            ///< since the computer booted
   link::FrameBatch batch_;
 };
 

@@ -9,6 +9,7 @@
 
 #include <cerrno>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <thread>
 
@@ -19,6 +20,8 @@
 #include "runtime/log.h"
 #include "runtime/publish_loop.h"
 #include "runtime/realtime.h"
+#include "runtime/scan_loop.h"
+#include "runtime/scene_loop.h"
 #include "runtime/stop_listener.h"
 #include "runtime/storage_loop.h"
 #include "runtime/supervisor.h"
@@ -79,17 +82,22 @@ class Daemon final {
         gateway_(config),
         keeper_(config, gateway_.wiring(), guard_, gateway_.duties()),
         slow_(slow_links(config, gateway_.wiring())),
-        stored_(storage_.load()),
+        scanners_(scan_links(config)),
+        stored_(storage_.load(scene_age(config.scene))),
         memory_(config.paths.run, boot_id(), text, stored_.report),
         on_disk_(stored_.stop),
         control_(config, gateway_, keeper_, guard_, control_exchange_, {memory_, storage_exchange_},
                  slow_),
         parser_(publish::ControlLimits{}),
+        scene_(config.scene.configured ? std::make_unique<Scene>(config, stored_, scanners_)
+                                       : nullptr),
         stop_listener_(config.mqtt.enabled
                            ? std::make_unique<StopListener>(config.mqtt, control_exchange_.stops)
                            : nullptr),
-        publish_(config, control_exchange_, storage_exchange_, parser_, stop_listener_.get(),
-                 std::move(stored_)) {}
+        publish_(config, control_exchange_, storage_exchange_, parser_, scene_partners(),
+                 stop_listener_.get(), std::move(stored_), scanners_) {
+    if (scene_) control_exchange_.scene = &scene_->exchange.sight;
+  }
 
   void run() {
     control_.recall(recall(memory_, on_disk_));
@@ -100,12 +108,20 @@ class Daemon final {
     for (const auto& link : slow_)
       slow.push_back(std::make_unique<Worker>(
           "battery", [this, loop = link->loop.get()] { loop->run(stop_battery_); }));
+    for (const auto& scanner : scanners_)
+      slow.push_back(std::make_unique<Worker>(
+          "scanner", [this, loop = scanner->loop.get()] { loop->run(stop_scanners_); }));
     std::optional<Worker> recorder;
     if (recorder_) {
       log(LogLevel::info, "records to " + recorder_->file());
       recorder.emplace("recorder", [this] { recorder_->run(stop_recorder_); });
     }
     Worker parser("parser", [this] { parser_.run(stop_publish_); });
+    std::optional<Worker> scene, scene_parser;
+    if (scene_) {
+      scene.emplace("scene", [this] { scene_->loop.run(stop_publish_); });
+      scene_parser.emplace("scene parser", [this] { scene_->parser.run(stop_publish_); });
+    }
     Worker control("control", [this] { run_control(); });
     Worker publish("publish", [this] { publish_.run(stop_publish_); });
     std::optional<Worker> stops;
@@ -119,15 +135,20 @@ class Daemon final {
     come_to_rest();
     stop_battery_ = true;
     for (const auto& link : slow_) link->loop->wake();
+    stop_scanners_ = true;
+    for (const auto& scanner : scanners_) scanner->loop->wake();
     stop_publish_ = true;
     publish_.wake();
     storage_exchange_.jobs_ready.notify();
     parser_.wake();
     if (stop_listener_) stop_listener_->wake();
+    if (scene_) scene_->parser.wake();
     join(publish, 1s);
     if (stops) join(*stops, 1s);
     join(storage, 1s);
     join(parser, 1s);
+    if (scene) join(*scene, 1s);
+    if (scene_parser) join(*scene_parser, 1s);
     // From here on the guard sees no heartbeat, if it still does: it keeps the drives at rest.
     stop_control_ = true;
     join(control, 1s);
@@ -141,6 +162,29 @@ class Daemon final {
   }
 
  private:
+  /// Threads and what they share with the others.
+  struct Scene {
+    Scene(const config::DroverConfig& config, const store::StoredState& all,
+          std::span<const std::unique_ptr<ScanLink>> scanners)
+        : stored(all.scene), loop(config, exchange, stored, scanners) {}
+    std::shared_ptr<const store::StoredScene> stored;
+    SceneExchange exchange;
+    SceneParserLoop parser;
+    SceneLoop loop;
+  };
+
+  static std::optional<store::SceneAge> scene_age(const config::SceneConfig& scene) {
+    if (!scene.configured) return std::nullopt;
+    const Duration wall = monotonic_now().time_since_epoch() + wall_minus_monotonic();
+    store::SceneAge age{to_s(wall)};
+    if (scene.max_object_age_s > 0) age.max_age_s = scene.max_object_age_s;
+    return age;
+  }
+  std::optional<ScenePartners> scene_partners() {
+    if (!scene_) return std::nullopt;
+    return ScenePartners{scene_->exchange, scene_->parser, scene_->stored};
+  }
+
   void run_control() {
     if (config_.control.realtime)
       if (const auto missing = become_real_time(config_.control.priority); !missing.empty())
@@ -158,10 +202,19 @@ class Daemon final {
     if (stop_listener_)
       supervisor_.watch(
           {"droverd's thread for stops stands still", &stop_listener_->turns(), 600ms});
+    if (scene_) {
+      supervisor_.watch(
+          {"droverd's scene thread stands still", &scene_->loop.turns(), SceneLoop::kLongestTurn});
+      supervisor_.watch({"droverd's parser thread of the scene stands still",
+                         &scene_->parser.turns(), SceneParserLoop::kLongestTurn});
+    }
     supervisor_.watch({"droverd's link thread stands still", &keeper_.turns(), 5s});
     for (const auto& link : slow_)
       supervisor_.watch({"droverd's battery thread stands still", &link->loop->turns(),
                          BatteryLoop::kLongestTurn});
+    for (const auto& scanner : scanners_)
+      supervisor_.watch({"droverd's scanner thread stands still", &scanner->loop->turns(),
+                         ScanLoop::kLongestTurn});
   }
 
   /// Waits for a signal, and looks ten times a second whether all threads live.
@@ -224,12 +277,14 @@ class Daemon final {
   ControlExchange control_exchange_;
   StorageExchange storage_exchange_;
   const std::vector<std::unique_ptr<SlowLink>> slow_;  ///< Modbus lines
-  std::unique_ptr<Recorder> recorder_;                 ///< nullptr: nothing is recorded
-  store::StoredState stored_;                          ///< given on to the publish thread
+  const std::vector<std::unique_ptr<ScanLink>> scanners_;
+  std::unique_ptr<Recorder> recorder_;  ///< nullptr: nothing is recorded
+  store::StoredState stored_;           ///< given on to the publish thread
   RobotMemory memory_;
   const Remembered on_disk_;
   ControlLoop control_;
   ParserLoop parser_;
+  std::unique_ptr<Scene> scene_;                 ///< nullptr: the robot has none
   std::unique_ptr<StopListener> stop_listener_;  ///< nullptr: without a broker
   PublishLoop publish_;
   Supervisor supervisor_;
@@ -241,6 +296,7 @@ class Daemon final {
   std::atomic<bool> stop_control_{false};
   std::atomic<bool> stop_publish_{false};
   std::atomic<bool> stop_battery_{false};
+  std::atomic<bool> stop_scanners_{false};
   std::atomic<bool> stop_keeper_{false};
   std::atomic<bool> stop_recorder_{false};
 };

@@ -27,6 +27,8 @@ enum Tag : std::uint64_t {
   kReplies,
   kParsed,
   kStops,
+  kScene,
+  kSceneParsed,
   kOutlets
 };
 
@@ -46,30 +48,27 @@ void clear_timer(const link::UniqueFd& timer) {
   (void)!::read(timer.get(), &expirations, sizeof expirations);
 }
 
-LogLevel log_level(Notice::Level level) {
-  switch (level) {
-    case Notice::Level::info: return LogLevel::info;
-    case Notice::Level::warning: return LogLevel::warning;
-    case Notice::Level::error: return LogLevel::error;
-  }
-  return LogLevel::error;
-}
-
 }  // namespace
 
 PublishLoop::PublishLoop(const config::DroverConfig& config, ControlExchange& control,
-                         StorageExchange& storage, ParserLoop& parser, StopListener* stops,
-                         store::StoredState stored)
+                         StorageExchange& storage, ParserLoop& parser,
+                         const std::optional<ScenePartners>& scene, StopListener* stops,
+                         store::StoredState stored,
+                         std::span<const std::unique_ptr<ScanLink>> scanners)
     : config_(config),
       control_(control),
       storage_(storage),
       parser_(parser),
+      scene_(scene),
       stops_(stops),
+      scanners_(scanners),
       stop_order_(stops),
       service_(service_config(config), std::move(stored)),
       started_(monotonic_now()),
-      cli_(config.paths.run + "/drover.sock",
-           [this](publish::ClientId client, std::string_view line) { on_line(client, line); }),
+      cli_(
+          config.paths.run + "/drover.sock",
+          [this](publish::ClientId client, std::string_view line) { on_line(client, line); },
+          scene ? publish::SceneRequests::kLongLine : std::string_view()),
       epoll_(::epoll_create1(EPOLL_CLOEXEC)),
       timer_(periodic_timer(kTenth)) {
   if (!epoll_) throw std::runtime_error("the publish thread's epoll cannot be made");
@@ -79,6 +78,15 @@ PublishLoop::PublishLoop(const config::DroverConfig& config, ControlExchange& co
   watch(storage_.replies_ready.fd(), kReplies);
   watch(parser_.replies_ready().fd(), kParsed);
   if (stops_ != nullptr) watch(stops_->heard_ready().fd(), kStops);
+  if (scene_) {
+    watch(scene_->exchange.replies_ready.fd(), kScene);
+    watch(scene_->parser.replies_ready().fd(), kSceneParsed);
+  }
+  const auto texts = scene_ ? scene_->stored->texts : std::vector<store::NamedText>();
+  auto of_scene = std::make_unique<publish::SceneOutlet>(
+      scene_.has_value(), texts, [this](Time now) { return robot_now(now); });
+  scene_outlet_ = of_scene.get();
+  add(std::move(of_scene));  // before the command line, which takes every line
   for (auto& outlet : make_outlets(config, service_, [this](Time now) { return status_text(now); }))
     add(std::move(outlet));
   if (config.mqtt.enabled) connect_broker();
@@ -162,6 +170,14 @@ void PublishLoop::run(const std::atomic<bool>& stop) {
           parser_.replies_ready().clear();
           take_parsed(now);
           break;
+        case kScene:
+          scene_->exchange.replies_ready.clear();
+          take_scene(now);
+          break;
+        case kSceneParsed:
+          scene_->parser.replies_ready().clear();
+          take_scene_texts(now);
+          break;
         case kStops:
           stops_->heard_ready().clear();
           take_heard_stops(now);
@@ -183,6 +199,7 @@ void PublishLoop::each_tenth(Time now) {
   if (broker_) broker_->tick(now);
   tell_whether_stops_are_heard(now);
   send_unsent();
+  refuse_late_starts(now);
   // Also when the ring of events was full; what comes in its place has had the time for it.
   answer_stops(obeyed_stops_, now);
   obeyed_stops_ = control_.stops.obeyed();
@@ -201,6 +218,12 @@ Snapshot PublishLoop::seen(Time now) {
   const Duration limit = std::max<Duration>(publish::kSnapshotLimit,
                                             std::chrono::milliseconds(config_.guard.limit_ms));
   auto snapshot = publish::as_seen(control_.snapshot.latest(), now, limit);
+  // They are told by threads of their own, whatever the control thread does.
+  for (const auto& scanner : scanners_) {
+    const ScanTold& told = scanner->exchange.told.latest();
+    (void)snapshot.scanners.push_back(as_shown(told, now));
+    (void)snapshot.links.push_back(told.link);
+  }
   if (!service_.origin_problem().empty()) publish::tell_first(snapshot, service_.origin_problem());
   for (const auto& each : outlets_)
     if (const auto trouble = each.outlet->trouble(now); !trouble.empty())
@@ -246,56 +269,15 @@ void PublishLoop::take_events() {
 
 void PublishLoop::take_replies(Time now) {
   store::StorageReply reply;
-  while (storage_.replies.pop(reply)) service_.on_reply(std::move(reply), now, actions_);
+  while (storage_.replies.pop(reply)) stored(std::move(reply), now, actions_);
 }
 
-void PublishLoop::send(const publish::PublishText& message, publish::Actions& actions) {
-  if (!broker_) return;
-  if (message.topic == publish::kTopicFeedback && stops_->answer(message.text)) return;
-  send_with_others(message, actions);
-}
-
-void PublishLoop::send_with_others(const publish::PublishText& message, publish::Actions& actions) {
-  const auto problem = broker_->publish(std::string(message.topic).c_str(), message.text);
-  if (!problem.empty()) {
-    if (message.topic == publish::kTopicFeedback) ++lost_answers_;
-    service_.on_unsent(message, problem, actions);
+void PublishLoop::stored(store::StorageReply reply, Time now, publish::Actions& actions) {
+  if (reply.whose == store::StoredFor::scene) {
+    scene_outlet_->on_stored(reply, now, actions);
+  } else {
+    service_.on_reply(std::move(reply), now, actions);
   }
-  service_.set_under_way(broker_->bytes_under_way());
-}
-
-/// What the second connection could not send after all.
-void PublishLoop::send_unsent() {
-  if (stops_ == nullptr || !broker_) return;
-  for (std::string text; stops_->take_unsent(text);)
-    send_with_others({publish::kTopicFeedback, text}, actions_);
-}
-
-void PublishLoop::carry_out(publish::Actions& actions) {
-  // An undelivered command appends its refusal: walk by index.
-  for (std::size_t i = 0; i < actions.size(); ++i) {
-    auto action = std::move(actions[i]);
-    if (const auto* message = std::get_if<publish::PublishText>(&action)) {
-      send(*message, actions);
-    } else if (const auto* answer = std::get_if<publish::Answer>(&action)) {
-      for (const auto& each : outlets_)
-        if (each.outlet->on_answer(*answer, actions)) break;
-    } else if (const auto* reply = std::get_if<publish::Reply>(&action)) {
-      cli_.reply(reply->client, reply->line);
-    } else if (const auto* line = std::get_if<publish::LogLine>(&action)) {
-      log(log_level(line->level), line->text);
-    } else if (auto* job = std::get_if<store::StorageJob>(&action)) {
-      if (storage_.jobs.push(std::move(*job))) {
-        storage_.jobs_ready.notify();
-      } else {
-        service_.on_reply({job->id, false, "the disk is too slow: too many writes wait", {}},
-                          monotonic_now(), actions);
-      }
-    } else if (const auto* command = std::get_if<Command>(&action)) {
-      deliver(*command, actions);
-    }
-  }
-  actions.clear();
 }
 
 }  // namespace drover::runtime

@@ -5,28 +5,42 @@
 #include <atomic>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "config/config.h"
 #include "publish/command_service.h"
 #include "publish/outlet.h"
+#include "publish/scene_outlet.h"
 #include "runtime/cli_server.h"
 #include "runtime/control_exchange.h"
 #include "runtime/mqtt_client.h"
 #include "runtime/parser_loop.h"
+#include "runtime/scan_loop.h"
+#include "runtime/scene_exchange.h"
+#include "runtime/start_checks.h"
 #include "runtime/stop_listener.h"
 #include "runtime/stop_order.h"
 #include "runtime/storage_loop.h"
 
 namespace drover::runtime {
 
+/// What the publish thread needs of the scene's.
+struct ScenePartners {
+  SceneExchange& exchange;
+  SceneParserLoop& parser;
+  std::shared_ptr<const store::StoredScene> stored;
+};
+
 class PublishLoop final {
  public:
-  /// `stops`: nullptr without a broker. Throws std::runtime_error when its socket cannot be opened.
+  /// `stops`: nullptr without a broker; `scene`: nothing without a scene. Throws std::runtime_error
+  /// when its socket cannot be opened.
   PublishLoop(const config::DroverConfig& config, ControlExchange& control,
-              StorageExchange& storage, ParserLoop& parser, StopListener* stops,
-              store::StoredState stored);
+              StorageExchange& storage, ParserLoop& parser,
+              const std::optional<ScenePartners>& scene, StopListener* stops,
+              store::StoredState stored, std::span<const std::unique_ptr<ScanLink>> scanners = {});
   void run(const std::atomic<bool>& stop);
   /// Wakes the loop so that it sees `stop`.
   void wake() const { control_.events_ready.notify(); }
@@ -64,6 +78,12 @@ class PublishLoop final {
   Snapshot seen(Time now);
   void take_events();
   void take_replies(Time now);
+  void stored(store::StorageReply reply, Time now, publish::Actions& actions);
+  void take_scene(Time now);
+  void take_scene_texts(Time now);
+  void give(publish::SceneJob job, publish::Actions& actions);
+  void give(publish::SceneTextJob job, publish::Actions& actions);
+  publish::RobotNow robot_now(Time now);
   void on_line(publish::ClientId client, std::string_view line);
   std::string status_text(Time now);
   void carry_out(publish::Actions& actions);
@@ -71,13 +91,20 @@ class PublishLoop final {
   void send_unsent();
   void send(const publish::PublishText& message, publish::Actions& actions);
   void deliver(const Command& command, publish::Actions& actions);
+  void push(const Command& command, const StopCounts& before, publish::Actions& actions);
+  void check_start(const Command& command, const StopCounts& before, Time now,
+                   publish::Actions& actions);
+  void checked(std::uint64_t number, const publish::TrackChecked& found);
+  void refuse_late_starts(Time now);
   void answer_stops(const StopCounts& obeyed, Time now);
 
   const config::DroverConfig& config_;
   ControlExchange& control_;
   StorageExchange& storage_;
   ParserLoop& parser_;
+  std::optional<ScenePartners> scene_;
   StopListener* stops_;
+  std::span<const std::unique_ptr<ScanLink>> scanners_;
   StopOrder stop_order_;
   std::uint64_t lost_answers_ = 0;  ///< that neither connection takes
   Time next_wait_ = kNever;         ///< for the other self of a stop, not before
@@ -85,9 +112,12 @@ class PublishLoop final {
   // Of what is carried out just now, when it is not what the present tells:
   std::optional<StopCounts> before_;  ///< it waited for the parser since
   std::optional<StopCounts> asked_;   ///< a stop, and what was asked for with it
+  StartChecks starts_;
+  Time last_start_ = kNever;  ///< delivered
   publish::CommandService service_;
   publish::Actions actions_;
   std::vector<TimedOutlet> outlets_;
+  publish::SceneOutlet* scene_outlet_ = nullptr;  ///< one of them
   Time started_;
   std::string broker_text_;
   std::unique_ptr<MqttClient> broker_;

@@ -127,18 +127,25 @@ void PublishLoop::deliver(const Command& command, publish::Actions& actions) {
     if (is_from_broker(command) && begins_motion(command) && stop_order_.overtaken(now))
       return service_.on_undelivered(command, actions, kOvertaken);
     last_delivered_ = now;
-    const auto* start = std::get_if<StartTask>(&command.body);
-    if (control_.recorder != nullptr && start != nullptr && start->path != nullptr)
-      control_.recorder->path(*start->path);
-    const bool taken = control_.commands.push(QueuedCommand{command, before});
-    if (!taken) service_.on_undelivered(command, actions);
-    return;
+    if (scene_ && std::holds_alternative<StartTask>(command.body))
+      return check_start(command, before, now, actions);
+    return push(command, before, actions);
   }
   const auto counts = asked_   ? *asked_
                       : cancel ? control_.stops.ask_cancel()
                                : control_.stops.ask_stop();
   if (const auto unanswered = stop_order_.asked(counts, command))
     service_.on_undelivered(*unanswered, actions);
+}
+
+void PublishLoop::push(const Command& command, const StopCounts& before,
+                       publish::Actions& actions) {
+  const auto* start = std::get_if<StartTask>(&command.body);
+  if (start != nullptr) last_start_ = monotonic_now();
+  if (control_.recorder != nullptr && start != nullptr && start->path != nullptr)
+    control_.recorder->path(*start->path);
+  const bool taken = control_.commands.push(QueuedCommand{command, before});
+  if (!taken) service_.on_undelivered(command, actions);
 }
 
 void PublishLoop::answer_stops(const StopCounts& obeyed, Time now) {

@@ -34,9 +34,11 @@ bool drives_healthy(const Snapshot& snapshot) {
          });
 }
 
-/// The zone contacts stand for the obstacle sensor: true when there is one and all of it answers.
-bool zones_healthy(const Snapshot& snapshot) {
-  bool any = false;
+/// Scanners and the zone contacts of others: true when there is one, and all that there are answer.
+bool obstacle_sensors_healthy(const Snapshot& snapshot) {
+  for (const ScannerSnapshot& scanner : snapshot.scanners)
+    if (scanner.health != SourceState::fresh) return false;
+  bool any = !snapshot.scanners.empty();
   for (const Line line : {Line::zone_far, Line::zone_near}) {
     const auto i = static_cast<std::size_t>(line);
     if (!snapshot.line_configured[i]) continue;
@@ -172,7 +174,7 @@ std::string BaseStatus::text(const Snapshot& snapshot) {
 
   out.key("sensor").open('{');
   out.key("imu").boolean(snapshot.imu.configured && snapshot.imu.health == SourceState::fresh);
-  out.key("laser").boolean(zones_healthy(snapshot));
+  out.key("laser").boolean(obstacle_sensors_healthy(snapshot));
   out.key("robot").boolean(drives_healthy(snapshot)).close('}');
   return out.close('}').str();
 }

@@ -20,6 +20,9 @@ void forget_motion(Snapshot& s) {
     axis.commanded_velocity_radps = kAbsent;
   }
   s.base.measured = s.base.commanded = {kAbsent, kAbsent};
+  ClearanceSnapshot& free = s.clearance;
+  free.ahead_m = free.back_m = free.along_m = free.left_rad = free.right_rad = kAbsent;
+  free.first.clear();
   s.joint_command.active = false;
 }
 
@@ -51,6 +54,7 @@ Snapshot as_seen(const Snapshot& snapshot, Time now, Duration limit) {
   for (SensorSnapshot& sensor : seen.sensors) source(sensor.health, sensor.source);
   for (AxisSnapshot& axis : seen.axes) source(axis.health, axis.source);
   source(seen.base.health, seen.base.source);
+  seen.clearance.unknown = old;
   for (std::size_t i = 0; i < kLineCount; ++i) source(seen.line_health[i], seen.line_source[i]);
   forget_motion(seen);
   seen.nav.status = NavStatus::error;

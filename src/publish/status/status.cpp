@@ -92,6 +92,7 @@ void daemon_part(JsonText& out, const Snapshot& s, const DaemonStatus& daemon) {
   out.key("reason").text(daemon.broker_text);
   count(out, "dropped", daemon.telemetry_dropped);
   count(out, "answers_lost", daemon.answers_lost);
+  count(out, "scene_messages_unanswered", daemon.scene_messages_unanswered);
   out.close('}');
   out.key("storage").open('{');
   out.key("stop_kept").boolean(daemon.stop_trouble.empty());
@@ -132,8 +133,10 @@ std::string status_json(const Snapshot& s, const DaemonStatus& daemon) {
   object(out, "imu", s.imu, s.time, s.imu.configured);
   object(out, "battery", s.battery, s.time, s.battery.configured);
   list(out, "sensors", s.sensors, s.time);
+  list(out, "scanners", s.scanners, daemon.now);
   list(out, "axes", s.axes, s.time);
   object(out, "base", s.base, s.time, s.base.configured);
+  object(out, "clearance", s.clearance, s.time, s.clearance.configured);
   lines(out, s);
   outputs(out, s);
   list(out, "links", s.links, s.time);

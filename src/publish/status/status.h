@@ -16,6 +16,7 @@ struct DaemonStatus {
   Time now = kNever;  ///< when it is shown
   std::uint64_t telemetry_dropped = 0;
   std::uint64_t answers_lost = 0;  ///< on `feedback`: no connection to the broker took them
+  std::uint64_t scene_messages_unanswered = 0;  ///< of a flood
   std::uint64_t events_lost = 0;
   std::string stop_trouble;                    ///< why a stop would be forgotten over a boot
   std::uint64_t joint_commands_unread = 0;     ///< of a flood

@@ -145,6 +145,19 @@ TEST(Fields, OfTheDaemonAreAllKeys) {
   expect_complete<ProtocolConfig>();
 }
 
+TEST(Fields, OfTheSceneAreAllKeys) {
+  expect_complete<CornerConfig>();
+  expect_complete<FrameConfig>(1);  // name
+  // Not configured, which follows; of the engine's part not max_age_s and silent_s, which are
+  // fixed, nor beside_m and reach_m, which follow.
+  EXPECT_EQ(key_count<SceneConfig>(),
+            field_count<SceneConfig>() - 2 + field_count<engine::ClearanceConfig>() - 4);
+}
+
+TEST(Fields, OfAScannersFieldAreAllKeys) {
+  expect_complete<FieldConfig>();
+}
+
 TEST(Fields, OfTheBaseAreAllKeys) {
   engine::BaseConfig base;
   BaseNames names;

@@ -87,6 +87,11 @@ TEST(Schema, AndTheReaderRefuseTheSame) {
            {"\"link\": \"gnss\"", "\"link\": \"gnss\", \"options\": {\"latency_s\": 2}"},
            {"\"line\": \"a\"", "\"line\": \"a\", \"options\": {\"active_level\": \"up\"}"},
            {"{\"can\": \"can0\"}", "{\"cna\": \"can0\"}"},
+           {"1883}",
+            "1883}, \"scene\": {}"},  // the scene needs a footprint, its corners both numbers
+           {"1883}",
+            "1883}, \"scene\": {\"footprint\": [{\"x_m\": 1}, {\"x_m\": 2}, {\"x_m\": 3}]}"},
+           {"1883}", "1883}, \"scene\": {\"footprint\": [], \"margin_m\": -1}"},
        }) {
     const auto text = with(piece, replacement);
     EXPECT_NE(problems(text), "") << piece << " -> " << replacement;

@@ -1,5 +1,6 @@
 #include "runtime/cli_server.h"
 
+#include <errno.h>
 #include <gtest/gtest.h>
 #include <poll.h>
 #include <sys/socket.h>
@@ -40,6 +41,17 @@ class CliServerTest : public ::testing::Test {
     pollfd ready{server_->fd(), POLLIN, 0};
     while (::poll(&ready, 1, 20) == 1) server_->on_ready();
   }
+  /// As far as the other side takes it.
+  static void send_all(const link::UniqueFd& fd, std::string_view text, CliServer& server) {
+    pollfd ready{server.fd(), POLLIN, 0};
+    while (!text.empty()) {
+      const auto n = ::send(fd.get(), text.data(), text.size(), MSG_NOSIGNAL);
+      if (n > 0) text.remove_prefix(static_cast<std::size_t>(n));
+      if (n < 0 && errno != EAGAIN) break;
+      while (::poll(&ready, 1, 5) == 1) server.on_ready();
+    }
+    while (::poll(&ready, 1, 20) == 1) server.on_ready();
+  }
   static std::string read(const link::UniqueFd& fd) {
     std::string text(4096, '\0');
     const auto n = ::recv(fd.get(), text.data(), text.size(), 0);
@@ -79,6 +91,34 @@ TEST_F(CliServerTest, PutsRequestsTogetherHoweverTheyAreCut) {
   }
   EXPECT_EQ(lines_, (std::vector<std::string>{"one", "two"}));
   EXPECT_EQ(read(client), "got one\ngot two\n");
+}
+
+TEST_F(CliServerTest, TakesALongLineOnlyOfTheKindThatMayBeLong) {
+  std::vector<std::size_t> sizes;
+  CliServer server(
+      folder_ + "/long.sock",
+      [&](CliServer::ClientId, std::string_view line) { sizes.push_back(line.size()); }, "long:");
+  const auto say = [&](const std::string& text) {
+    sockaddr_un address{};
+    address.sun_family = AF_UNIX;
+    std::strcpy(address.sun_path, (folder_ + "/long.sock").c_str());
+    link::UniqueFd fd(::socket(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK, 0));
+    EXPECT_EQ(::connect(fd.get(), reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
+    send_all(fd, text, server);
+    return fd;
+  };
+  const std::string kilobytes(200'000, 'x');
+  (void)say("long:" + kilobytes + "\n");
+  EXPECT_EQ(sizes, std::vector<std::size_t>{kilobytes.size() + 5});
+  (void)say("other:" + kilobytes + "\n");
+  EXPECT_EQ(sizes.size(), 1U);
+  (void)say("long:" + std::string(std::size_t{7} << 20, 'x') + "\n");
+  EXPECT_EQ(sizes.size(), 1U) << "it has an end, too";
+  const auto first = say("long:" + kilobytes);
+  (void)say("long:" + kilobytes + "\n");
+  EXPECT_EQ(sizes.size(), 1U) << "of one client at a time";
+  send_all(first, "\n", server);
+  EXPECT_EQ(sizes.size(), 2U);
 }
 
 TEST_F(CliServerTest, ForgetsAClientThatIsGone) {

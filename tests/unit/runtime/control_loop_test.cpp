@@ -67,6 +67,8 @@ class ControlLoopTest : public testing::Test {
   ControlLoop control_{loaded_.config, gateway_, keeper_, guard_, exchange_, {memory_, *storage_}};
   std::atomic<bool> stop_{false};
   std::atomic<std::uint64_t> allocations_{0};
+  SceneSight scene_;
+  bool has_scene_ = (exchange_.scene = &scene_) != nullptr;  // before the thread begins
   std::thread keeper_thread_{[this] { keeper_.run(stop_); }};
   std::thread control_thread_{[this] {
     const test::AllocationCounter counter;
@@ -91,6 +93,8 @@ TEST_F(ControlLoopTest, AllocatesNothingWhateverComes) {
     (void)exchange_.commands.push(QueuedCommand{{id, monotonic_now(), ProposeOrigin{}}, {}});
     if (i % 10 == 0) exchange_.stops.ask_stop();
     if (i % 10 == 5) exchange_.stops.ask_cancel();
+    scene_.clearance.back() = {static_cast<std::uint64_t>(i + 1), {.t = monotonic_now()}};
+    scene_.clearance.publish();
     wait_for_cycles(1);
   }
   EXPECT_GT(bus_.take(), 0) << "it asks the drives";
@@ -107,6 +111,12 @@ TEST_F(ControlLoopTest, AllocatesNothingWhateverComes) {
   control_thread_.join();
   EXPECT_EQ(allocations_, 0U);
   control_thread_ = std::thread([] {});
+}
+
+TEST_F(ControlLoopTest, ShowsTheSceneInEachCycleWhereTheRobotIs) {
+  ASSERT_TRUE(wait_until([this] { return scene_.viewpoint.latest().t != kNever; }));
+  const Time before = scene_.viewpoint.latest().t;
+  EXPECT_TRUE(wait_until([&] { return scene_.viewpoint.latest().t > before; }));
 }
 
 }  // namespace

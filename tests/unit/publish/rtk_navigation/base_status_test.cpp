@@ -234,6 +234,28 @@ TEST(BaseStatus, CallsTheScannerHealthyOnlyWhenItIsThereAndAnswers) {
   EXPECT_TRUE(*at(status(snapshot), "sensor", "laser").boolean());
 }
 
+TEST(BaseStatus, CallsTheScannersHealthyOnlyWhenEachIs) {
+  Snapshot snapshot = good_snapshot();
+  for (const SourceState first :
+       {SourceState::never_heard, SourceState::fresh, SourceState::stale}) {
+    snapshot.scanners.clear();
+    ASSERT_TRUE(snapshot.scanners.push_back({.name = "front", .health = first, .source = {}}));
+    EXPECT_EQ(*at(status(snapshot), "sensor", "laser").boolean(), first == SourceState::fresh);
+    ASSERT_TRUE(
+        snapshot.scanners.push_back({.name = "rear", .health = SourceState::stale, .source = {}}));
+    EXPECT_FALSE(*at(status(snapshot), "sensor", "laser").boolean());
+  }
+  // Of a robot that has both, both count.
+  snapshot.scanners.clear();
+  ASSERT_TRUE(
+      snapshot.scanners.push_back({.name = "front", .health = SourceState::fresh, .source = {}}));
+  const auto near = static_cast<std::size_t>(Line::zone_near);
+  snapshot.line_configured[near] = true;
+  EXPECT_FALSE(*at(status(snapshot), "sensor", "laser").boolean());
+  snapshot.line_health[near] = SourceState::fresh;
+  EXPECT_TRUE(*at(status(snapshot), "sensor", "laser").boolean());
+}
+
 TEST(BaseStatus, PowerIsPercentOrVoltsAsConfigured) {
   Snapshot snapshot = good_snapshot();
   snapshot.axes[0].bus_V = 48.5;

@@ -41,6 +41,9 @@ Snapshot driving() {
   EXPECT_TRUE(s.axes.push_back(axis));
   s.line_configured[0] = true;
   s.line_health[0] = SourceState::fresh;
+  const auto zone = static_cast<std::size_t>(Line::zone_near);
+  s.line_configured[zone] = true;
+  s.line_health[zone] = SourceState::fresh;
   EXPECT_TRUE(s.why.push_back("somebody in the far zone: slowly"));
   return s;
 }
@@ -53,6 +56,15 @@ json::Document base_status(const Snapshot& seen, BaseStatus& writer) {
 
 const json::Node& at(const json::Document& document, const char* group, const char* field) {
   return *document.root.find(group)->find(field);
+}
+
+TEST(Seen, KnowsNothingOfWhatIsFreeWhenNobodyLooked) {
+  Snapshot old = driving();
+  old.clearance = {.configured = true, .time = kTaken, .ahead_m = 3, .first = "box1"};
+  const auto seen = as_seen(old, kTaken + 3s).clearance;
+  EXPECT_FALSE(std::isfinite(seen.ahead_m));
+  EXPECT_TRUE(seen.first.empty());
+  EXPECT_THAT(std::string(seen.unknown.view()), HasSubstr("stands still"));
 }
 
 TEST(Seen, IsTheSnapshotItselfWhileItIsFresh) {
@@ -78,6 +90,7 @@ TEST(Seen, TellsOperatorsAnErrorAndNoSpeedOfThePresent) {
   BaseStatus writer({});
   auto document = base_status(driving(), writer);
   EXPECT_EQ(*at(document, "robot", "valid").boolean(), true);
+  EXPECT_EQ(*at(document, "sensor", "laser").boolean(), true);
   document = base_status(as_seen(driving(), kTaken + 251ms), writer);
   EXPECT_EQ(*at(document, "nav", "status").text(), "NAV_ERROR");
   EXPECT_EQ(*at(document, "nav", "locate").text(), "LOCATE_FALSE");

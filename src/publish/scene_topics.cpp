@@ -1,0 +1,208 @@
+#include "publish/scene_topics.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "scene/message/check.h"
+
+namespace drover::publish {
+namespace {
+
+/// Anything longer is parsed where nobody waits for it.
+constexpr std::size_t kShortPayloadBytes = 4096;
+/// What each message of a list but the first takes of the rate.
+constexpr double kListShare = 0.1;
+
+std::string_view our_topic(std::string_view topic) {
+  for (const std::string_view ours : {kTopicCollisionObject, kTopicPlanningConstraints})
+    if (topic == ours) return ours;
+  return {};
+}
+
+}  // namespace
+
+SceneTopics::SceneTopics(bool configured, JobNumbers& numbers, SceneSaver& saver,
+                         const SceneTopicLimits& limits)
+    : configured_(configured),
+      numbers_(numbers),
+      saver_(saver),
+      limits_(limits),
+      bucket_(limits.max_messages_Hz, limits.message_burst),
+      refusals_(limits.max_refusals_Hz, limits.refusal_burst) {}
+
+bool SceneTopics::on_message(std::string_view name, std::string_view payload,
+                             const Arrival& arrival, Time now, Actions& out) {
+  const auto topic = our_topic(name);
+  if (topic.empty()) return false;
+  if (payload.empty()) return true;  // how a retained message is taken back: nobody asks
+  if (const auto why = untimely(now); !why.empty()) {
+    refuse_flood(topic, why, now, out);
+    return true;
+  }
+  Waiting& waiting = expect(topic, arrival, now);
+  const bool is_unread = arrival.retain != Retain::no || payload.size() > SceneLimits{}.max_bytes;
+  const bool is_short = payload.size() <= kShortPayloadBytes && parsing_ == 0;
+  if (!is_unread && !is_short) {
+    ++parsing_;
+    append_job<SceneTextJob>(out, waiting.number, ParseMessages{topic}).payload = payload;
+    return true;
+  }
+  if (topic == kTopicCollisionObject) {
+    follow(waiting, parse_collision_objects(payload, arrival.retain), now, out);
+  } else {
+    follow(waiting, parse_planning_constraints(payload, arrival.retain), now, out);
+  }
+  answer(out);
+  return true;
+}
+
+/// Empty: it may be looked at.
+std::string_view SceneTopics::untimely(Time now) {
+  if (!configured_) return kNoScene;
+  if (!bucket_.take(now)) return "too many messages, slow down or send them as a list";
+  if (waiting_.size() >= limits_.max_waiting) return "too many messages wait already, slow down";
+  return {};
+}
+
+SceneTopics::Waiting& SceneTopics::expect(std::string_view topic, const Arrival& arrival,
+                                          Time now) {
+  Waiting& waiting = waiting_.emplace_back();
+  waiting.number = numbers_.next();
+  waiting.topic = topic;
+  waiting.arrived = {now, arrival.wall - now.time_since_epoch()};
+  return waiting;
+}
+
+SceneTopics::Waiting* SceneTopics::find(std::uint64_t number) {
+  const auto found =
+      std::find_if(waiting_.begin(), waiting_.end(),
+                   [number](const Waiting& waiting) { return waiting.number == number; });
+  return found == waiting_.end() ? nullptr : &*found;
+}
+
+/// Those of its messages that are good go to the scene, in their order.
+template <class Message>
+void SceneTopics::follow(Waiting& waiting, Result<SceneMessages<Message>, scene::Refusal> read,
+                         Time now, Actions& out) {
+  if (!read.ok()) {
+    waiting.answers = {answer_to(waiting.topic, read.error())};
+    waiting.complete = true;
+    return;
+  }
+  auto& messages = read.value().messages;
+  waiting.is_list = read->is_list;
+  if (messages.size() > 1)
+    bucket_.charge(kListShare * static_cast<double>(messages.size() - 1), now);
+  ApplyMessages job{{}, waiting.arrived};
+  for (auto& message : messages) {
+    waiting.answers.push_back(answer_to(message));
+    if (!message.result.ok()) continue;
+    waiting.followed.push_back(waiting.answers.size() - 1);
+    job.messages.emplace_back(std::move(message.result.value().message));
+  }
+  waiting.complete = waiting.followed.empty();
+  if (!waiting.complete) append_job<SceneJob>(out, waiting.number, std::move(job));
+}
+
+void SceneTopics::on_parsed(SceneTextReply& reply, Time now, Actions& out) {
+  --parsing_;
+  Waiting* waiting = find(reply.job.number);
+  if (waiting == nullptr) return;
+  if (auto* objects = std::get_if<ParsedObjects>(&*reply.result))
+    follow(*waiting, std::move(*objects), now, out);
+  if (auto* constraints = std::get_if<ParsedConstraints>(&*reply.result))
+    follow(*waiting, std::move(*constraints), now, out);
+  answer(out);
+}
+
+void SceneTopics::on_unparsed(std::uint64_t number, Actions& out) {
+  --parsing_;
+  if (Waiting* waiting = find(number))
+    refuse(*waiting, "", "too many large messages at once, slow down");
+  answer(out);
+}
+
+void SceneTopics::on_applied(std::uint64_t number, const MessagesApplied& applied, Time now,
+                             Actions& out) {
+  std::uint64_t save = 0;
+  Waiting* waiting = find(number);
+  const double arrived_s =
+      waiting == nullptr
+          ? 0
+          : to_s(waiting->arrived.at.time_since_epoch() + waiting->arrived.wall_ahead);
+  if (!applied.changes.empty()) save = saver_.note(applied.changes, arrived_s);
+  if (waiting == nullptr) return;
+  for (std::size_t i = 0; i < waiting->followed.size() && i < applied.results.size(); ++i) {
+    SceneAnswer& answer = waiting->answers[waiting->followed[i]];
+    answer.refusal = applied.results[i].refusal;
+    for (const std::string& note : applied.results[i].notes) scene::check::note(answer.notes, note);
+  }
+  waiting->save = save;
+  waiting->applied = now;
+  waiting->complete = save == 0;
+  answer(out);
+}
+
+void SceneTopics::on_unapplied(std::uint64_t number, Actions& out) {
+  if (Waiting* waiting = find(number))
+    for (const std::size_t i : std::exchange(waiting->followed, {})) {
+      waiting->answers[i].refusal =
+          scene::Refusal{"", "the scene is behind with earlier messages, slow down"};
+      waiting->complete = true;
+    }
+  answer(out);
+}
+
+void SceneTopics::on_saved(std::uint64_t save, std::string_view failure, Actions& out) {
+  for (Waiting& waiting : waiting_) {
+    if (waiting.complete || waiting.save == 0 || waiting.save > save) continue;
+    if (!failure.empty()) note_unstored(waiting, failure);
+    waiting.complete = true;
+  }
+  answer(out);
+}
+
+void SceneTopics::on_time(Time now, Actions& out) {
+  for (Waiting& waiting : waiting_) {
+    if (waiting.complete || waiting.save == 0) continue;
+    if (now - waiting.applied <= limits_.longest_store) continue;
+    note_unstored(waiting, "the disk has not taken it yet");
+    waiting.complete = true;
+  }
+  answer(out);
+}
+
+void SceneTopics::refuse(Waiting& waiting, std::string path, std::string why) {
+  waiting.answers = {answer_to(waiting.topic, {std::move(path), std::move(why)})};
+  waiting.complete = true;
+}
+
+void SceneTopics::note_unstored(Waiting& waiting, std::string_view why) {
+  for (const std::size_t i : waiting.followed)
+    if (SceneAnswer& answer = waiting.answers[i]; !answer.refusal)
+      answer.notes.push_back("counts, but would be lost at a restart: " + std::string(why));
+}
+
+/// In its place among the others, so that who counts answers is not led astray.
+void SceneTopics::refuse_flood(std::string_view topic, std::string_view why, Time now,
+                               Actions& out) {
+  if (!refusals_.take(now)) {
+    ++unanswered_;
+    return;
+  }
+  Waiting& waiting = expect(topic, {}, now);
+  refuse(waiting, "", std::string(why));
+  answer(out);
+}
+
+void SceneTopics::answer(Actions& out) {
+  for (; !waiting_.empty() && waiting_.front().complete; waiting_.pop_front()) {
+    const Waiting& first = waiting_.front();
+    if (!first.is_list && first.answers.empty()) continue;
+    out.emplace_back(PublishText{kTopicSceneFeedback,
+                                 first.is_list ? scene_feedback_text(first.answers)
+                                               : scene_feedback_text(first.answers.front())});
+  }
+}
+
+}  // namespace drover::publish

@@ -1,0 +1,105 @@
+// A scanner in the configuration: on a line of its own at its own speed, with a field that fits.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "unit/config/config_text.h"
+
+namespace drover::config {
+namespace {
+
+using testing::HasSubstr;
+
+/// kGood with a scanner, these other members of it, of its line and of a scene for a robot 0.7 m
+/// wide.
+std::string scanner(const std::string& of_device = "", const std::string& of_link = "",
+                    const std::string& of_scene = "") {
+  std::string text = with("\"port\": 1883}",
+                          R"("port": 1883}, "scene": {"footprint": [
+      {"x_m": 0.45, "y_m": 0.35}, {"x_m": -0.45, "y_m": 0.35}, {"x_m": -0.45, "y_m": -0.35},
+      {"x_m": 0.45, "y_m": -0.35}])" +
+                              of_scene + "}");
+  const auto add = [&text](const std::string& before, const std::string& what) {
+    const auto at = text.find(before);
+    ASSERT_NE(at, std::string::npos);
+    text.insert(at, what);
+  };
+  add(R"("panel": {"gpio")", R"("lidar": {"serial": "/dev/drover/lidar")" + of_link + "}, ");
+  add(R"("estop": {"driver")",
+      R"("lidar": {"driver": "ld06", "link": "lidar")" + of_device + "}, ");
+  return text;
+}
+
+TEST(AScanner, IsADeviceOnALineOfItsOwnAtItsOwnSpeed) {
+  const auto loaded = load_text(scanner());
+  ASSERT_EQ(problems(scanner()), "");
+  const auto* device = first(loaded.config, SlotKind::scanner);
+  ASSERT_NE(device, nullptr);
+  EXPECT_EQ(device->name, "lidar");
+  EXPECT_EQ(loaded.config.links[device->link_index].baud, 230400);
+  EXPECT_EQ(device->options.number("baud"), 230400);
+  EXPECT_EQ(loaded.config.scene.field.ahead_m, 2);
+  EXPECT_EQ(loaded.config.scene.field.beside_m, 0.4);
+  EXPECT_EQ(problems(scanner("", R"(, "baud": 230400)")), "");
+  EXPECT_EQ(problems(scanner("", R"(, "baud": 0)")), "");
+}
+
+TEST(AScanner, KnowsOneSpeed) {
+  EXPECT_THAT(problems(scanner("", R"(, "baud": 115200)")),
+              HasSubstr("links.lidar.baud: is 115200, but devices.lidar (ld06) speaks at 230400 "
+                        "(write that, or leave it out)"));
+}
+
+TEST(AScanner, SharesItsLineWithNobody) {
+  const auto text = scanner(R"(}, "second": {"driver": "ld06", "link": "lidar")");
+  EXPECT_THAT(problems(text),
+              HasSubstr("devices.second.link: \"lidar\" is a serial line, and devices.lidar hangs "
+                        "on it"));
+  EXPECT_THAT(problems(scanner(R"(}, "imu": {"driver": "witmotion", "link": "lidar")")),
+              HasSubstr("devices.imu.link: \"lidar\" is a serial line, and devices.lidar hangs"));
+}
+
+TEST(AScanner, IsMountedAndLeavesTheRobotItselfOut) {
+  const auto text = scanner(
+      R"(, "options": {"mount_x_m": 0.4, "mount_y_m": 0.1, "mount_z_m": 0.3, "mount_yaw_deg": 90,
+      "upside_down": true, "self_filter": "0.4 0.3, 0.4 -0.3, -0.4 0"})");
+  EXPECT_EQ(problems(text), "");
+  EXPECT_THAT(problems(scanner(R"(, "options": {"self_filter": "1 2"})")),
+              HasSubstr("devices.lidar.options: self_filter: fewer than 3 corners"));
+  EXPECT_THAT(problems(scanner(R"(, "role": "steers")")),
+              HasSubstr("devices.lidar.role: is of no use to ld06"));
+}
+
+TEST(AScanner, NeedsASceneThatLooksAtWhatItSees) {
+  auto text = scanner();
+  const auto begin = text.find(R"(, "scene": )");
+  text.erase(begin, text.rfind("]}") + 2 - begin);
+  EXPECT_THAT(problems(text),
+              HasSubstr("devices.lidar: is a scanner, and nobody looks at what it sees"));
+}
+
+TEST(AScanner, HasAFieldAsWideAsTheRobotAndAsLongAsItsStop) {
+  EXPECT_EQ(problems(scanner("", "", R"(, "field": {"ahead_m": 3, "beside_m": 0.35})")), "");
+  EXPECT_THAT(problems(scanner("", "", R"(, "field": {"beside_m": 0.3})")),
+              HasSubstr("scene.field.beside_m: 0.30 m is narrower than the robot, which reaches "
+                        "0.35 m to a side"));
+  EXPECT_THAT(problems(scanner("", "", R"(, "field": {"ahead_m": 0})")),
+              HasSubstr("scene.field.ahead_m: is 0, but must be between 0.2 and 10"));
+  EXPECT_THAT(warnings(scanner("", "", R"(, "field": {"ahead_m": 0.5})")),
+              HasSubstr("scene.field.ahead_m: is shorter than the way to stop"));
+  EXPECT_THAT(warnings(scanner()), testing::Not(HasSubstr("scene.field")));
+}
+
+TEST(AScanner, IsOneOfFourAtMost) {
+  std::string more;
+  std::string links;
+  for (int i = 2; i <= 5; ++i) {
+    const auto name = "lidar" + std::to_string(i);
+    more += "}, \"" + name + R"(": {"driver": "ld06", "link": ")" + name + "\"";
+    links += "}, \"" + name + R"(": {"serial": "/dev/)" + name + "\"";
+  }
+  EXPECT_THAT(problems(scanner(more, links)),
+              HasSubstr("devices.lidar5: is one scanner too many: there may be 4"));
+}
+
+}  // namespace
+}  // namespace drover::config

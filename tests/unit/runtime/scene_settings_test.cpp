@@ -1,0 +1,118 @@
+// What the scene's keeper is told of the robot is what the configuration says.
+#include "runtime/scene_settings.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "config/load.h"
+#include "drover/angle.h"
+#include "scene/message/frames.h"
+#include "scene/world/rigid.h"
+
+namespace drover::runtime {
+namespace {
+
+using scene::KeeperSettings;
+
+config::DroverConfig field() {
+  const auto loaded =
+      config::load_file(std::string(DROVER_SOURCE_DIR) + "/sim/robots/field_scene.drover.json");
+  EXPECT_TRUE(loaded.problems.empty()) << loaded.problems.front().text("field_scene");
+  EXPECT_TRUE(loaded.warnings.empty()) << loaded.warnings.front().text("field_scene");
+  return loaded.config;
+}
+
+const scene::Link& base_link(const KeeperSettings& settings) {
+  return settings.robot.links.front();
+}
+
+TEST(SceneSettings, LookAsIsConfigured) {
+  auto config = field();
+  config.scene.margin_m = 0.2;
+  config.scene.ahead_m = 4;
+  config.scene.along_m = 12;
+  config.engine.navigate.pivot_angle_deg = 90;
+  const auto settings = keeper_settings(config);
+  ASSERT_EQ(settings.look.footprint.size(), 4U);
+  EXPECT_EQ(settings.look.footprint[1], (scene::Point2{-0.415, 0.35}));
+  EXPECT_EQ(settings.look.margin_m, 0.2);
+  EXPECT_EQ(settings.look.ahead_m, 4);
+  EXPECT_EQ(settings.look.along_m, 12);
+  EXPECT_DOUBLE_EQ(settings.pivot_rad, kPi / 2);
+}
+
+TEST(SceneSettings, NameTheJointsByTheirAxes) {
+  EXPECT_THAT(keeper_settings(field()).joints,
+              testing::ElementsAre("front_left", "rear_left", "front_right", "rear_right"));
+}
+
+TEST(SceneSettings, TakeTheRobotsHeights) {
+  const auto settings = keeper_settings(field());
+  EXPECT_EQ(settings.heights.low_m, 0.05);
+  EXPECT_EQ(settings.heights.high_m, 1);
+}
+
+TEST(SceneSettings, HaveNoEndAboveAndBelowWhereHeightsAreIgnored) {
+  auto config = field();
+  config.scene.heights = "ignore";
+  const auto settings = keeper_settings(config);
+  EXPECT_EQ(settings.heights.low_m, -HUGE_VAL);
+  EXPECT_EQ(settings.heights.high_m, HUGE_VAL);
+  EXPECT_TRUE(scene::is_interval(settings.heights));
+}
+
+TEST(SceneSettings, PlaceFramesOnTheBase) {
+  auto config = field();
+  config.scene.frames = {{"mast", 0.1, -0.2, 0.6, 10, 20, 90}};
+  const auto mast = scene::link_on_base(keeper_settings(config).robot, "mast");
+  ASSERT_TRUE(mast.has_value());
+  EXPECT_EQ(mast->position_m.x, 0.1);
+  EXPECT_EQ(mast->position_m.y, -0.2);
+  EXPECT_EQ(mast->position_m.z, 0.6);
+  // Its x looks to the left, and down by the pitch; its y back, turned by the roll.
+  const Vector3 x = scene::rigid::turned(mast->orientation, {1, 0, 0});
+  EXPECT_NEAR(x.x, 0, 1e-12);
+  EXPECT_NEAR(x.y, std::cos(to_rad(20)), 1e-12);
+  EXPECT_NEAR(x.z, -std::sin(to_rad(20)), 1e-12);
+  const Vector3 y = scene::rigid::turned(mast->orientation, {0, 1, 0});
+  EXPECT_NEAR(y.x, -std::cos(to_rad(10)), 1e-12);
+}
+
+TEST(SceneSettings, KnowBaseLinkWithoutFrames) {
+  auto config = field();
+  config.scene.frames.clear();
+  const auto settings = keeper_settings(config);
+  ASSERT_EQ(settings.robot.links.size(), 1U);
+  EXPECT_EQ(base_link(settings).name, scene::kBaseLink);
+}
+
+TEST(SceneSettings, HaveTheFootprintAsABodyFromClearanceToTop) {
+  auto config = field();
+  config.scene.heights = "ignore";  // the body has an end all the same
+  const auto settings = keeper_settings(config);
+  ASSERT_EQ(base_link(settings).bodies.size(), 1U);
+  const auto& mesh = std::get<scene::Mesh>(base_link(settings).bodies[0].shape);
+  EXPECT_EQ(mesh.vertices.size(), 8U);
+  EXPECT_EQ(mesh.triangles.size(), 12U);
+  // The volume by the triangles' own turns: all are there, and look outwards.
+  double volume_m3 = 0;
+  for (const auto& [a, b, c] : mesh.triangles)
+    volume_m3 += scene::rigid::dot(mesh.vertices[a],
+                                   scene::rigid::cross(mesh.vertices[b], mesh.vertices[c])) /
+                 6;
+  EXPECT_NEAR(volume_m3, 0.865 * 0.7 * 0.95, 1e-9);
+  for (const auto& corner : mesh.vertices) EXPECT_TRUE(corner.z == 0.05 || corner.z == 1);
+}
+
+// The configuration refuses them by a list of its own.
+TEST(SceneSettings, NamesThatAreNoFramesOfTheRobotAreRefusedByTheConfiguration) {
+  for (const auto* name : {"map", "1", "/map", "/1"}) EXPECT_TRUE(scene::is_global_frame(name));
+  EXPECT_TRUE(scene::is_no_frame("0"));
+  EXPECT_EQ(scene::kBaseLink, "base_link");
+}
+
+}  // namespace
+}  // namespace drover::runtime
