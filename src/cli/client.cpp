@@ -40,8 +40,12 @@ std::string ask(const std::string& socket_path, const std::string& request, int 
   if (::connect(fd.get(), reinterpret_cast<sockaddr*>(&address), sizeof address) != 0)
     throw NoAnswer{why(socket_path, errno, patience_s)};
   const std::string line = request + "\n";
-  if (::send(fd.get(), line.data(), line.size(), MSG_NOSIGNAL) != static_cast<ssize_t>(line.size()))
-    throw NoAnswer{why(socket_path, errno, patience_s)};
+  for (std::size_t sent = 0; sent < line.size();) {
+    const auto n = ::send(fd.get(), line.data() + sent, line.size() - sent, MSG_NOSIGNAL);
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) throw NoAnswer{why(socket_path, errno, patience_s)};
+    sent += static_cast<std::size_t>(n);  // a large one goes in parts
+  }
 
   std::string reply;
   std::array<char, 65536> buffer{};

@@ -18,15 +18,23 @@
 #include "cli/failure.h"
 #include "cli/option_texts.h"
 #include "cli/replay.h"
+#include "cli/reply.h"
+#include "cli/scene.h"
 #include "cli/show.h"
 #include "cli/stop.h"
 #include "cli/verbs.h"
+#include "cli/zone.h"
 #include "json/json_text.h"
 
 namespace {
 
 using drover::json::JsonText;
 using drover::json::Node;
+
+using drover::cli::named_request;
+using drover::cli::read_reply;
+using drover::cli::request;
+using drover::cli::tell;
 
 using drover::cli::kDone;
 using drover::cli::kNoDaemon;
@@ -43,43 +51,13 @@ struct Settings {
   double speed_mps = 0.5;
 };
 
-using Show = std::string (*)(const Node&);
-
 /// Asks, prints the member `wanted` of the answer, or why it was refused.
-int run(const Settings& settings, const std::string& request, std::string_view wanted = {},
-        Show show = nullptr) {
-  const auto reply = drover::cli::ask(settings.socket, request);
-  const auto document = drover::json::parse(
-      reply, {.max_bytes = std::size_t{64} << 20, .max_depth = 16, .max_values = 10'000'000});
-  if (!document) {
-    drover::cli::tell_failure(settings.json, "drover",
-                              "the answer is not understood: " + document.error().text());
-    return kNoDaemon;
-  }
-  const auto& root = document->root;
-  const auto* ok = root.find("ok");
-  const bool done = ok != nullptr && ok->boolean() != nullptr && *ok->boolean();
-  if (settings.json) {
-    std::printf("%s\n", reply.c_str());
-    return done ? kDone : kRefused;
-  }
-  const auto* word = root.find(done ? "note" : "reason");
-  if (!done) {
-    std::fprintf(stderr, "refused: %s\n",
-                 word != nullptr && word->text() != nullptr ? word->text()->c_str() : "no reason");
-    return kRefused;
-  }
-  if (const auto* value = root.find(wanted); show != nullptr && value != nullptr) {
-    std::fputs(show(*value).c_str(), stdout);
-  } else {
-    const bool noted = word != nullptr && word->text() != nullptr && !word->text()->empty();
-    std::printf("done%s%s\n", noted ? ": " : "", noted ? word->text()->c_str() : "");
-  }
-  return kDone;
-}
-
-std::string request(std::string_view cmd) {
-  return JsonText().open('{').key("cmd").text(cmd).close('}').take();
+int run(const Settings& settings, const std::string& question, std::string_view wanted = {},
+        std::string (*show)(const Node&) = nullptr) {
+  const auto answer = read_reply(drover::cli::ask(settings.socket, question));
+  const auto* value = answer.document.root.find(wanted);
+  if (show == nullptr || value == nullptr) return tell(answer, settings.json);
+  return tell(answer, settings.json, [&](const Node&) { return show(*value); });
 }
 
 std::string release_request(bool on_slope) {
@@ -91,10 +69,6 @@ std::string release_request(bool on_slope) {
       .boolean(on_slope)
       .close('}')
       .take();
-}
-
-std::string named_request(std::string_view cmd, const std::string& name) {
-  return JsonText().open('{').key("cmd").text(cmd).key("name").text(name).close('}').take();
 }
 
 std::string start_request(const Settings& s) {
@@ -219,6 +193,9 @@ int main(int argc, char** argv) {
   auto* cancel = task->add_subcommand("cancel", "stop");
   cancel->add_flag("--json", s.json, "one JSON object");
   cancel->callback([&] { code = run(s, request("task_cancel")); });
+
+  drover::cli::add_scene_commands(app, s.socket, code);
+  drover::cli::add_zone_commands(app, s.socket, code);
 
   auto* heading = app.add_subcommand("heading", "direction of the robot")->require_subcommand(1);
   auto* find = heading->add_subcommand(

@@ -4,6 +4,7 @@
 
 #include "cli/layout.h"
 #include "cli/show_sensors.h"
+#include "drover/angle.h"
 
 namespace drover::cli {
 
@@ -90,6 +91,31 @@ void show_place(std::string& out, const Node& status) {
            quantity(at(gnss, "age_s"), "%.2f s old"));
 }
 
+/// Only where somebody looks around.
+void show_clearance(std::string& out, const Node& status) {
+  const auto& free = at(status, "clearance");
+  if (free.object() == nullptr) return;
+  const auto degrees = [&](const char* key) {
+    const auto rad = at(free, key).number();
+    char text[16];
+    std::snprintf(text, sizeof text, "%.0f deg", to_deg(rad.value_or(0)));
+    return std::string(rad ? text : "-");
+  };
+  std::string value;
+  if (!text(at(free, "unknown")).empty()) {
+    value = "not known: " + text(at(free, "unknown"));
+  } else {
+    value = quantity(at(free, "ahead_m"), "%.2f m ahead, ") +
+            quantity(at(free, "back_m"), "%.2f m back, ") + degrees("left_rad") + " left, " +
+            degrees("right_rad") + " right";
+    if (at(free, "along_m").number())
+      value += quantity(at(free, "along_m"), ", %.2f m on its track");
+    if (!text(at(free, "first")).empty()) value += "; " + text(at(free, "first"));
+  }
+  line(out, "free", value);
+  if (!text(at(free, "broken")).empty()) line(out, "", text(at(free, "broken")));
+}
+
 void show_battery(std::string& out, const Node& status) {
   const auto& battery = at(status, "battery");
   if (battery.object() == nullptr) return;
@@ -105,9 +131,10 @@ void show_battery(std::string& out, const Node& status) {
   line(out, "battery", value);
 }
 
-/// Where there are several of a kind, which of them the lines above are of.
+/// Where there are several of a kind, which of them the lines above are of; and the scanners.
 void show_others(std::string& out, const Node& status) {
   for (const auto* kind : {"gnss", "imu", "battery"}) out += show_sensors(status, kind);
+  out += show_scanners(status);
 }
 
 void show_axes(std::string& out, const Node& status) {
@@ -195,6 +222,7 @@ std::string show_status(const Node& status) {
   show_joint_commands(out, status);
   show_why(out, status);
   show_place(out, status);
+  show_clearance(out, status);
   show_battery(out, status);
   show_others(out, status);
   show_axes(out, status);

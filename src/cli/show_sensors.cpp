@@ -38,4 +38,22 @@ std::string show_sensors(const Node& status, std::string_view kind) {
   return count > 1 ? out : "";
 }
 
+std::string show_scanners(const Node& status) {
+  const auto* scanners = at(status, "scanners").list();
+  std::string out;
+  if (scanners == nullptr) return out;
+  for (const auto& scanner : *scanners) {
+    std::string value = padded(text(at(scanner, "name")), 16);
+    if (text(at(scanner, "health")) != "never heard")
+      value += quantity(at(scanner, "turn_Hz"), "%.1f turns/s") + "  " +
+               quantity(at(scanner, "returns"), "%.0f") +
+               quantity(at(scanner, "points"), " of %.0f points seen") + "  ";
+    value += text(at(scanner, "health"));
+    if (at(scanner, "age_s").number()) value += quantity(at(scanner, "age_s"), "  %.2f s old");
+    if (!text(at(scanner, "reason")).empty()) value += "  " + text(at(scanner, "reason"));
+    line(out, out.empty() ? "scanner" : "", value);
+  }
+  return out;
+}
+
 }  // namespace drover::cli

@@ -52,6 +52,27 @@ constexpr Example kExamples[] = {
      "  drover task start 'row 7' --id 57 --speed 0.5   # THE ROBOT DRIVES, to point 57\n"
      "  drover traj show 'row 7'                        # which points it has"},
     {"task cancel", "  drover task cancel             # a controlled stop"},
+    {"scene",
+     "  drover scene list\n"
+     "  drover scene show box1"},
+    {"scene list",
+     "  drover scene list\n"
+     "  drover scene list --json | jq .objects[].id"},
+    {"scene show", "  drover scene show box1"},
+    {"scene clear",
+     "  drover scene clear            # what others believe to be there is not, then"},
+    {"scene accept-loss", "  drover scene accept-loss      # after: drover scene list"},
+    {"zone",
+     "  drover zone import yard.geojson --keep-in\n"
+     "  drover zone list"},
+    {"zone import",
+     "  drover zone import yard.geojson --keep-in             # shows it, and asks\n"
+     "  drover zone import greenhouse.kml --keep-out --name greenhouse --yes"},
+    {"zone list",
+     "  drover zone list\n"
+     "  drover zone list --json"},
+    {"zone delete", "  drover zone delete greenhouse"},
+    {"zone forget-unreadable", "  drover zone forget-unreadable # after: drover zone list"},
     {"heading", "  drover heading find            # THE ROBOT DRIVES, up to 3 m straight ahead"},
     {"heading find",
      "  drover heading find            # THE ROBOT DRIVES, up to 3 m straight ahead"},
@@ -86,7 +107,8 @@ namespace {
 /// Of a hint for "help" nobody must learn to press "hold": a verb that acts on the robot is only
 /// named for a slip of one letter.
 bool acts_on_the_robot(std::string_view verb) {
-  for (const std::string_view one : {"hold", "release", "reset", "start", "find", "delete"})
+  for (const std::string_view one : {"hold", "release", "reset", "start", "find", "delete", "clear",
+                                     "accept-loss", "forget-unreadable"})
     if (verb == one) return true;
   return false;
 }

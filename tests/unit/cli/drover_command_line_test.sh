@@ -29,7 +29,7 @@ expect() {
 }
 
 # The verbs as the help lists them: "  name   text".
-verbs() { "$drover" "$@" --help | sed -n '/^Subcommands:/,/^$/s/^  \([a-z]*\) .*/\1/p'; }
+verbs() { "$drover" "$@" --help | sed -n '/^Subcommands:/,/^$/s/^  \([a-z-]*\) .*/\1/p'; }
 
 every_verb_has_an_example() {
   local verb inner
@@ -73,6 +73,16 @@ expect "a file that is not there is JSON for programs" 1 out '{"ok":false,"reaso
   gnss --file "$work/none" --json
 expect "a speed is a plain number" 2 err '"nan" is no number' task start x --id 1 --speed nan
 expect "not a hexadecimal one" 2 err '"0x1p-1" is no number' task start x --id 1 --speed 0x1p-1
+yard=$(dirname "$0")/../../../config/zones/keep_in_yard_with_pond.geojson
+expect "a zone is kept in or out of" 2 err "say --keep-in when" zone import "$yard"
+expect "not both" 2 err "--keep-in" zone import "$yard" --keep-in --keep-out
+expect "without droverd nothing of a zone is stored" 3 err "no-daemon.sock" \
+  zone import "$yard" --keep-in --yes
+expect "a file that is no zone is told with its line" 1 err "line 1, column " \
+  zone import "$0" --keep-in --yes
+expect "to programs as JSON" 1 out '{"ok":false,"reason":"' zone import "$0" --keep-in --json
+expect "a scene is asked of droverd" 3 out '{"ok":false,"reason":"' scene list --json
+expect "a verb that gives up what is stored is not guessed" 2 err "there are " scene accept
 expect "a point's number is one that there can be" 2 err "id" \
   task start x --id 99999999999999999999
 expect "the version is told to programs, too" 0 out '{"ok":true,"drover":"' version --json

@@ -78,6 +78,13 @@ Snapshot full_snapshot() {
   (void)s.links.push_back(link);
   s.line_configured[0] = s.line_active[0] = true;
   s.output_configured[0] = s.output_on[0] = true;
+  (void)s.scanners.push_back({.name = "lidar",
+                              .health = SourceState::fresh,
+                              .source = {.reason = "the scanner is blind in 2 of 24 sectors"},
+                              .time = kNow - 60ms,
+                              .turn_Hz = 9.97,
+                              .points = 451,
+                              .returns = 437});
   s.joint_command = {true, 120, 3, "joint 'wing': there is no such joint"};
   s.estimator = {1, 2, 3, 4, 5};
   s.notices_dropped = 6;
@@ -156,6 +163,11 @@ TEST_F(StatusViews, ShowTheWholeInShort) {
   EXPECT_DOUBLE_EQ(nav.find("owner_timeout_s")->number().value_or(0), 0.1);
 }
 
+TEST_F(StatusViews, ShowTheScannerAmongTheSensors) {
+  expect(show_status(status), {"scanner   lidar           10.0 turns/s  437 of 451 points seen  "
+                               "fresh  0.06 s old  the scanner is blind in 2 of 24 sectors"});
+}
+
 TEST(StatusInShort, SaysNothingOfTheSilenceOfATask) {
   Snapshot s;
   s.nav.owner = Owner::task;
@@ -187,6 +199,63 @@ TEST(StatusInShort, CountsAnswersThatNobodyGot) {
   };
   EXPECT_NE(shown(4).find("broker    connected  4 ANSWERS LOST\n"), std::string::npos);
   EXPECT_NE(shown(0).find("broker    connected\n"), std::string::npos);
+}
+
+class WhatIsFree : public testing::Test {
+ protected:
+  WhatIsFree() {
+    s.time = kNow;
+    s.clearance = {.configured = true,
+                   .time = kNow - 60ms,
+                   .ahead_m = 2.31,
+                   .back_m = 3,
+                   .left_rad = 3.14159,
+                   .right_rad = 0.7,
+                   .first = "crate is in the way, 2.31 m ahead"};
+  }
+  json::Node status() const {
+    auto document = json::parse(publish::status_json(s, {}));
+    if (!document) ADD_FAILURE() << document.error().text();
+    return document ? document->root : json::Node{};
+  }
+  void expect_shown(const char* part) const {
+    const auto text = show_status(status());
+    EXPECT_NE(text.find(part), std::string::npos) << part << " is not in\n" << text;
+  }
+  Snapshot s;
+};
+
+TEST_F(WhatIsFree, IsShownWithWhatIsMetFirst) {
+  expect_shown(
+      "free      2.31 m ahead, 3.00 m back, 180 deg left, 40 deg right; "
+      "crate is in the way, 2.31 m ahead\n");
+  s.clearance.along_m = 7.5;
+  expect_shown("40 deg right, 7.50 m on its track; crate");
+}
+
+TEST_F(WhatIsFree, IsTellingWhyItIsNotKnown) {
+  s.clearance = {.configured = true, .unknown = "the lidar sees nothing"};
+  expect_shown("free      not known: the lidar sees nothing\n");
+}
+
+TEST_F(WhatIsFree, NamesTheConstraintThatDoesNotHold) {
+  s.clearance.broken = "the fence of field_north: 0.20 m outside";
+  expect_shown("\n          the fence of field_north: 0.20 m outside\n");
+}
+
+TEST_F(WhatIsFree, IsOfTheStatusWithItsAge) {
+  const auto document = status();
+  const auto& free = *document.find("clearance");
+  EXPECT_NEAR(free.find("age_s")->number().value_or(0), 0.06, 1e-9);
+  EXPECT_EQ(free.find("right_rad")->number().value_or(0), 0.7);
+  EXPECT_TRUE(free.find("along_m")->is_null()) << "there is no task";
+}
+
+TEST_F(WhatIsFree, IsNotSpokenOfWhereNobodyLooks) {
+  s.clearance = {};
+  const auto document = status();
+  EXPECT_TRUE(document.find("clearance")->is_null());
+  EXPECT_EQ(show_status(document).find("free "), std::string::npos);
 }
 
 TEST(StatusInShort, ShowsADashForWhatWasNeverHeardAndNoNumbers) {

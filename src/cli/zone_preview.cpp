@@ -1,0 +1,80 @@
+#include "cli/zone_preview.h"
+
+#include <GeographicLib/LocalCartesian.hpp>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+#include "cli/layout.h"
+#include "scene/zone/summary.h"
+
+namespace drover::cli {
+
+namespace {
+
+std::string formed(const char* form, double value) {
+  std::array<char, 64> out{};
+  std::snprintf(out.data(), out.size(), form, value);
+  return out.data();
+}
+
+std::string amount_text(std::size_t n, const char* one, const char* many) {
+  return std::to_string(n) + " " + (n == 1 ? one : many);
+}
+
+std::string shape_text(const scene::ZoneSummary& summary) {
+  return amount_text(summary.polygons, "polygon", "polygons") +
+         (summary.holes > 0 ? ", " + amount_text(summary.holes, "hole", "holes") : "") + ", " +
+         amount_text(summary.points, "point", "points");
+}
+
+std::string robot_text(const scene::ZoneSummary& summary) {
+  if (!summary.from_robot) return "does not know where it is: look twice that this is the place";
+  if (summary.from_robot->distance_m == 0) return "inside of it";
+  return formed("%.2f m from it", summary.from_robot->distance_m) +
+         formed(", which lies %.0f deg from north, clockwise",
+                summary.from_robot->bearing_rad * 180 / std::numbers::pi);
+}
+
+}  // namespace
+
+Whereabouts whereabouts_of(const json::Node& status) {
+  Whereabouts found;
+  const auto& origin = at(status, "origin");
+  const auto latitude_deg = at(origin, "latitude_deg").number();
+  const auto longitude_deg = at(origin, "longitude_deg").number();
+  const auto altitude_m = at(origin, "altitude_m").number();
+  if (!latitude_deg || !longitude_deg || !altitude_m) return found;
+  found.origin = GeodeticPoint{*latitude_deg, *longitude_deg, *altitude_m};
+  // Without a sigma the pose counts from where droverd was started: that is no place.
+  const auto& pose = at(status, "pose");
+  const auto x_m = at(pose, "x_m").number();
+  const auto y_m = at(pose, "y_m").number();
+  if (!x_m || !y_m || !at(pose, "position_sigma_m").number()) return found;
+  const GeographicLib::LocalCartesian map(*latitude_deg, *longitude_deg, *altitude_m);
+  GeodeticPoint robot;
+  map.Reverse(*x_m, *y_m, 0, robot.latitude_deg, robot.longitude_deg, robot.altitude_m);
+  found.robot = robot;
+  return found;
+}
+
+std::string preview_text(const scene::NewZone& zone, const Whereabouts& from, bool replaces) {
+  const auto summary = scene::summarise(zone.zone, from.robot);
+  const bool keeps_in = zone.zone.kind == scene::Zone::Kind::keep_in;
+  std::string out;
+  line(out, "zone", zone.zone.name);
+  line(out, "kind",
+       keeps_in ? "keep-in: the whole robot stays inside"
+                : "keep-out: nothing of the robot comes into it");
+  line(out, "shape", shape_text(summary));
+  line(out, "area", formed("%.1f m2", summary.area_m2));
+  line(out, "perimeter", formed("%.1f m", summary.perimeter_m));
+  line(out, "robot", robot_text(summary));
+  if (replaces) line(out, "replaces", "the zone that has this name now");
+  for (const auto& note : zone.notes) line(out, "note", note);
+  for (const auto& warning : summary.warnings) line(out, "warning", warning);
+  return out;
+}
+
+}  // namespace drover::cli
