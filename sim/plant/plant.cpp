@@ -66,6 +66,8 @@ Plant::Plant(const std::string& world_file) : impl_(std::make_unique<Impl>()) {
   if (!impl_->model) throw std::runtime_error(world_file + ": " + error.data());
   const mjModel& m = *impl_->model;
   impl_->data.reset(mj_makeData(&m));
+  impl_->objects.emplace(m);
+  impl_->touches.reserve(kMaxBoxes);
   impl_->base = need(m, mjOBJ_BODY, "base", world_file);
   const int free_joint = need(m, mjOBJ_JOINT, "base", world_file);
   impl_->base_qpos = m.jnt_qposadr[free_joint];
@@ -87,7 +89,10 @@ Plant::Plant(const std::string& world_file) : impl_(std::make_unique<Impl>()) {
       wheel.contact_geom = geom;
       impl_->radius_m = m.geom_size[3 * geom];
     }
-    if (!of_robot && m.geom_type[geom] == mjGEOM_BOX && (m.geom_contype[geom] & kObstacleBit) != 0)
+    const bool solid = (m.geom_contype[geom] & kObstacleBit) != 0;
+    if (of_robot && solid) impl_->body_geoms.push_back(geom);
+    // The scanner's zones do not see what a scenario puts there: only who is told of it knows it.
+    if (!of_robot && solid && m.geom_type[geom] == mjGEOM_BOX && !impl_->objects->owns(geom))
       impl_->boxes.push_back(geom);
   }
   for (std::size_t i = 0; i < impl_->wheels.size(); ++i)
@@ -168,10 +173,15 @@ void Plant::Impl::pull_tyre(Wheel& wheel) {
 }
 
 void Plant::step() {
-  if (impl_->carried) return impl_->carry();
-  impl_->push();
-  for (auto& wheel : impl_->wheels) impl_->pull_tyre(wheel);
-  mj_step(impl_->model.get(), impl_->data.get());
+  impl_->objects->advance(*impl_->data, impl_->model->opt.timestep);
+  if (impl_->carried) {
+    impl_->carry();
+  } else {
+    impl_->push();
+    for (auto& wheel : impl_->wheels) impl_->pull_tyre(wheel);
+    mj_step(impl_->model.get(), impl_->data.get());
+  }
+  impl_->feel();
 }
 
 bool Plant::set_obstacle(std::string_view name, double x_m, double y_m) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "drover/measurement.h"
+#include "sim/plant/solid.h"
 
 namespace drover::sim {
 
@@ -96,9 +97,37 @@ class Plant {
   /// infinity when there is none.
   double free_distance_m(double width_m) const;
 
+  /// From a point of the robot along a direction (both given in base_link) to what is there first,
+  /// the robot itself left out; nothing within `reach_m`: there is none.
+  std::optional<double> ray_m(const Vector& from_m, const Vector& along, double reach_m) const;
+
   /// Moves one of the world's movable obstacles, centred at x, y. False: no such obstacle.
   bool set_obstacle(std::string_view name, double x_m, double y_m);
   bool remove_obstacle(std::string_view name);
+
+  /// How many solids the world can hold (worlds/objects.xml); 0: none.
+  std::size_t object_slots() const;
+  /// Puts it there in place of what had its name. Returns what is wrong, empty when nothing is.
+  std::string put_object(std::string_view name, const Solid& solid);
+  /// From now on it goes there on a straight line. False: there is no such thing.
+  bool move_object(std::string_view name, double x_m, double y_m, double speed_mps);
+  bool remove_object(std::string_view name);
+  /// The height of the ground, for what is to stand on it.
+  double ground_m(double x_m, double y_m) const;
+  struct PlacedObject {
+    std::string name;
+    Solid solid;
+    bool moves = false;
+  };
+  std::vector<PlacedObject> objects() const;
+
+  struct Touch {
+    std::string_view
+        what;  ///< a solid's name, or that of a thing of the world; lives with the plant
+    double depth_m = 0;
+  };
+  /// What the robot's body touched in the last step, each thing once. Not the ground under it.
+  const std::vector<Touch>& touches() const;
 
  private:
   struct Impl;

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "sim/plant/objects.h"
 #include "sim/plant/plant.h"
 #include "sim/plant/tyre.h"
 
@@ -63,6 +64,9 @@ struct Plant::Impl {
   std::vector<std::array<double, 2>> feet_m;  // the same in base_link
   std::array<mjtNum, 3> push_N{};             // along the base's axes
   std::optional<CarrySpeed> carried;
+  std::optional<Objects> objects;  // set as soon as there is a model
+  std::vector<int> body_geoms;     // of the robot, that obstacles touch
+  std::vector<Touch> touches;      // in the last step
 
   Friction friction(std::size_t joint) const;
   void set_friction(std::size_t joint, const Friction& friction);
@@ -71,6 +75,8 @@ struct Plant::Impl {
   void pull_tyre(Wheel& wheel);
   void push();
   void carry();
+  void feel();
+  bool is_body(int geom) const;
   Footing footing(double x_m, double y_m, double yaw_rad) const;
   void set_pose(double x_m, double y_m, double yaw_rad);
   double ground_m(double x_m, double y_m) const;

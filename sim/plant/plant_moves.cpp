@@ -1,4 +1,5 @@
 // What is done to the robot from outside: put down, shoved, pushed, carried, held by its brakes.
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -64,8 +65,10 @@ void Plant::place(double x_m, double y_m, double yaw_rad) {
   mjData& d = *impl_->data;
   // Obstacles stay where a scenario has put them.
   const std::vector<mjtNum> mocap(d.mocap_pos, d.mocap_pos + 3 * m.nmocap);
+  const std::vector<mjtNum> turned(d.mocap_quat, d.mocap_quat + 4 * m.nmocap);
   mj_resetData(&m, &d);
-  for (std::size_t i = 0; i < mocap.size() && d.time == 0; ++i) d.mocap_pos[i] = mocap[i];
+  std::copy(mocap.begin(), mocap.end(), d.mocap_pos);
+  std::copy(turned.begin(), turned.end(), d.mocap_quat);
   mj_kinematics(&m, &d);
   for (auto& wheel : impl_->wheels) wheel.tyre.reset();
   impl_->carried.reset();

@@ -3,9 +3,13 @@
 //   bumper touch|free                forced, or left to the mechanics
 //   zone near|far occupied|free      the same for the scanner's zones
 //   obstacle NAME X Y|remove         a movable box of the world, centred at X, Y (m)
+//   obstacle NAME box|cylinder|...   any solid, where the world can hold them: object_command.h
 //   gnss STATE                       see drover/twin.h: fix, float, single, none, silent, ...
 //   imu STATE                        silent, frozen, saturated, bias:2, ...; well: all is good;
 //                                    of one on a bus also unplug, plug
+//   lidar STATE                      covered, sun, frozen, dirty, silent, ...: twin.h of its
+//   driver;
+//                                    normal: all is good; unplugged
 //   battery soc PERCENT              so much is left
 //   battery charger plug|unplug      and see battery_port.h for the faults of its line
 //   gnss NAME STATE, imu NAME STATE, battery NAME soc PERCENT, ...: a further one of its kind
@@ -22,6 +26,7 @@
 #include <vector>
 
 #include "drover/angle.h"
+#include "sim/robot/object_command.h"
 #include "sim/robot/robot.h"
 
 namespace drover::sim {
@@ -56,6 +61,12 @@ std::string Robot::command(std::string_view text) {
   auto words = split(text);
   if (words.empty()) return error("no command");
   const std::string_view verb = words[0];
+  if (verb == "obstacle" && words.size() > 2 && plant_.object_slots() > 0) {
+    const std::span<const std::string_view> rest(words.data() + 2, words.size() - 2);
+    // The world's own boxes are moved, and taken away, as ever.
+    if (is_object_command(rest) || (rest[0] == "remove" && plant_.remove_object(words[1])))
+      return rest[0] == "remove" ? "ok" : command_object(plant_, words[1], rest);
+  }
   words.resize(5);  // missing words are empty
   const auto force = [this](LineName line, std::string_view word, std::string_view on,
                             std::string_view off) {
@@ -79,6 +90,7 @@ std::string Robot::command(std::string_view text) {
   if (auto answer = more_.command(verb, words[1], words[2], words[3], now_)) return *answer;
   if (verb == "gnss") return command_gnss(words[1]);
   if (verb == "imu") return command_imu(words[1]);
+  if (verb == "lidar") return command_lidar(words[1]);
   if (verb == "battery") return command_battery(words[1], words[2]);
   if (verb == "drive") return drives_.command(words[1], words[2], words[3], now_);
   if (verb == "kick") {
@@ -118,6 +130,12 @@ std::string Robot::command_imu(std::string_view state) {
                    : imu_->set_state(state == "well" ? "" : state, now_))
              ? "ok"
              : error("no state '" + std::string(state) + "' of an inertial sensor");
+}
+
+std::string Robot::command_lidar(std::string_view state) {
+  if (!lidar_) return error("the scenario has no lidar");
+  return lidar_->command(state, now_) ? "ok"
+                                      : error("no state '" + std::string(state) + "' of a lidar");
 }
 
 std::string Robot::command_battery(std::string_view what, std::string_view value) {

@@ -16,6 +16,8 @@ Commands for a running simulator (drover-sim ctl COMMAND...):
   estop press|release            bumper touch|free        zone near|far occupied|free
   tap estop|bumper|zone_...      (an instant only)
   obstacle NAME X Y|remove       gnss STATE|unplug|plug   kick VX VY
+  obstacle NAME box X Y YAW_DEG L W H [Z] | cylinder|cone X Y R H [Z] | sphere X Y R [Z] |
+    prism X Y H Z X1 Y1 X2 Y2 X3 Y3 ... | move X Y SPEED | remove
   imu STATE|well|unplug|plug     (silent, frozen, saturated, bias:2, restart, ...)
   drive NAME|all power on|off    drive NAME|all fault NAME|none     drive NAME unplug|plug
   battery soc P | charger plug|unplug | unplug|plug

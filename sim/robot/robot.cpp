@@ -35,6 +35,14 @@ Twins make_twins(const Scenario& scenario, std::uint64_t seed) {
     const auto make = std::get<MakeRegisterTwin>(scenario.battery->driver->make_twin);
     twins.battery = make(scenario.battery->options, scenario.battery->map);
   }
+  if (scenario.lidar) {
+    const auto make = std::get<MakeScannerTwin>(scenario.lidar->driver->make_twin);
+    try {
+      twins.lidar = make(scenario.lidar->options, seed ^ 0x6C69646172U);
+    } catch (const std::exception& error) {
+      throw std::runtime_error(std::string("lidar: ") + error.what());
+    }
+  }
   return twins;
 }
 
@@ -53,6 +61,7 @@ Robot::Robot(const Scenario& scenario, Twins twins)
   if (steps_per_tick_ < 1 || std::abs(steps - steps_per_tick_) > 1e-9)
     throw std::runtime_error(scenario.world + ": the timestep must divide 5 ms");
   if (twins.can_imu) can_imu_.emplace(std::move(twins.can_imu), scenario.imu->bus.value());
+  if (twins.lidar) lidar_.emplace(scenario.lidar.value(), std::move(twins.lidar));
   if (battery_twin_) battery_.emplace(scenario.battery ? scenario.battery->model : BatteryModel{});
   drives_.tell_wheels(plant_, truth_.wheels);
   plant_.place(scenario.start_x_m, scenario.start_y_m, to_rad(scenario.start_yaw_deg));
@@ -78,6 +87,7 @@ void Robot::step(Time now) {
   sense(now);
   tell_gnss(now);
   imu_size_ = imu_ ? imu_->on_tick(now, truth_.imu, imu_bytes_) : 0;
+  if (lidar_) lidar_->step(now, plant_);
   more_.step(now, plant_, earth_, battery_power_W());
   if (can_imu_) {
     can_imu_->step(now, truth_.imu);
@@ -89,6 +99,7 @@ void Robot::step(Time now) {
     drives_.turn(at, i == 0, plant_);
     move_from_outside(at);
     plant_.step();
+    object_record_.note_touches(at + kTick / steps_per_tick_, plant_);
   }
   use_battery();
 }
@@ -113,6 +124,7 @@ void Robot::sense(Time now) {
   truth_.pose = plant_.pose();
   truth_.velocity = plant_.velocity();
   truth_.free_ahead_m = plant_.free_distance_m(scenario_.zone_width_m);
+  object_record_.note_objects(now, plant_);
   drives_.tell_wheels(plant_, truth_.wheels);
   sense_motion();
   const auto set = [this](LineName line, bool value) {

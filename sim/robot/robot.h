@@ -16,6 +16,8 @@
 #include "sim/robot/can_imu.h"
 #include "sim/robot/drives.h"
 #include "sim/robot/more_devices.h"
+#include "sim/robot/object_record.h"
+#include "sim/robot/scanner.h"
 #include "sim/robot/scenario.h"
 
 namespace drover::sim {
@@ -28,6 +30,7 @@ struct Twins {
   std::unique_ptr<ImuTwin> imu;           ///< nullptr: none
   std::unique_ptr<CanImuTwin> can_imu;    ///< in place of `imu`; nullptr: none
   std::unique_ptr<RegisterTwin> battery;  ///< nullptr: none
+  std::unique_ptr<ScannerTwin> lidar;     ///< nullptr: none
   std::uint64_t seed = 1;                 ///< of the further devices, which the robot makes
 };
 /// From the registry. Throws std::runtime_error naming the device and its option.
@@ -62,6 +65,8 @@ class Robot {
   void on_imu_bytes(std::span<const std::uint8_t> bytes, Time now);
   /// The battery's registers; nullptr: none.
   const RegisterTwin* battery_registers() const { return battery_twin_.get(); }
+  /// What the scanner said at this tick, not yet paced.
+  std::string_view lidar_bytes() const { return lidar_ ? lidar_->bytes() : std::string_view(); }
   /// Further devices, in the scenario's order.
   MoreDevices& more() { return more_; }
   /// Electrical level.
@@ -79,6 +84,9 @@ class Robot {
   /// As of the last step's `now`.
   const Truth& truth() const { return truth_; }
   const Scenario& scenario() const { return scenario_; }
+  /// What stands in its way and what it touches, since the last call: see object_record.h.
+  std::string take_object_lines() { return object_record_.take(); }
+  bool has_objects() const { return plant_.object_slots() > 0; }
 
   /// One line of text, see command.h. Returns "ok", "error: ...", or the answer.
   std::string command(std::string_view text);
@@ -105,6 +113,7 @@ class Robot {
   std::string command_carry(std::span<const std::string_view> numbers);
   std::string command_gnss(std::string_view state);
   std::string command_imu(std::string_view state);
+  std::string command_lidar(std::string_view state);
   std::string command_obstacle(std::string_view name, std::string_view x, std::string_view y);
   void use_battery();
   double battery_power_W() const;
@@ -121,6 +130,7 @@ class Robot {
   std::optional<CanImu> can_imu_;
   std::unique_ptr<RegisterTwin> battery_twin_;
   std::optional<Battery> battery_;
+  std::optional<Scanner> lidar_;
   MoreDevices more_;
   Time next_battery_ = kNever;
   std::array<char, 8192> gnss_bytes_{};
@@ -131,6 +141,7 @@ class Robot {
   std::array<bool, kLineNames> sensed_{};
   std::array<Override, kLineNames> forced_{};
   Truth truth_;
+  ObjectRecord object_record_;
   bool relay_closed_ = false;
   Time dip_until_ = kNever;
   Time push_until_ = kNever;

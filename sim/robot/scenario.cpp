@@ -104,6 +104,28 @@ BatterySpec read_battery(JsonReader reader, const std::string& folder) {
   return battery;
 }
 
+ScannerSpec read_lidar(JsonReader reader) {
+  ScannerSpec lidar;
+  lidar.driver = &find_twin<MakeScannerTwin>(reader, reader.text("driver", "ld06"));
+  lidar.port = reader.text("port", lidar.port);
+  const auto& bauds = lidar.driver->bauds;
+  lidar.baud = read_baud(reader, bauds.empty() ? lidar.baud : bauds[0]);
+  if (reader.has("place")) {
+    auto place = reader.object("place");
+    lidar.x_m = place.number("x_m", 0);
+    lidar.y_m = place.number("y_m", 0);
+    lidar.z_m = place.number("z_m", 0);
+    lidar.yaw_deg = place.number("yaw_deg", 0);
+    place.done();
+  }
+  lidar.reach_m = reader.number("reach_m", lidar.reach_m);
+  if (!(lidar.reach_m > 0 && lidar.reach_m <= 1000))
+    reader.fail("reach_m", "must be above 0, and 1000 at most");
+  read_options(reader, *lidar.driver, lidar.options);
+  reader.done();
+  return lidar;
+}
+
 /// "more": {"gnss_rear": {"is": "gnss", ...}}, with the keys that the first of the kind has.
 void read_more(JsonReader& top, const std::string& folder, Scenario& scenario) {
   if (!top.has("more")) return;
@@ -173,6 +195,12 @@ void read_places(JsonReader& top, Scenario& scenario) {
   origin.done();
 }
 
+void read_truth_rate(JsonReader& top, Scenario& scenario) {
+  const double rate_Hz = top.number("truth_Hz", 20);
+  if (!(rate_Hz >= 1 && rate_Hz <= 200)) top.fail("truth_Hz", "must be from 1 to 200");
+  scenario.truth_period = from_s(1 / rate_Hz);
+}
+
 void read_events(JsonReader& top, Scenario& scenario) {
   if (!top.has("events")) return;
   for (auto& item : top.list("events")) {
@@ -197,6 +225,7 @@ Scenario read_scenario(const nlohmann::json& document, const std::string& folder
   if (top.has("gnss")) scenario.gnss = read_gnss(top.object("gnss"));
   if (top.has("imu")) scenario.imu = read_imu(top.object("imu"), scenario);
   if (top.has("battery")) scenario.battery = read_battery(top.object("battery"), folder);
+  if (top.has("lidar")) scenario.lidar = read_lidar(top.object("lidar"));
   read_more(top, folder, scenario);
   read_lines(top, scenario);
   read_zones(top, scenario);
@@ -205,6 +234,7 @@ Scenario read_scenario(const nlohmann::json& document, const std::string& folder
   scenario.relay_feeds_drives = top.flag("relay_feeds_drives", false);
   scenario.brake = top.flag("brake", false);
   scenario.worm_gear = top.flag("worm_gear", false);
+  read_truth_rate(top, scenario);
   read_events(top, scenario);
   for (const auto* key : {"description", "gateway", "mission", "player"}) top.ignore(key);
   top.done();

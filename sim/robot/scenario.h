@@ -81,6 +81,20 @@ struct BatterySpec {
   BatteryModel model;
 };
 
+struct ScannerSpec {
+  const DriverEntry* driver = nullptr;
+  std::string port = "lidar";  ///< as the receiver's
+  int baud = 230400;
+  Options options;  ///< whether it hangs; its place is the one below
+  // Place in base_link, and what its x points to, counter-clockwise from ahead. Its plane is the
+  // base's.
+  double x_m = 0;
+  double y_m = 0;
+  double z_m = 0;
+  double yaw_deg = 0;
+  double reach_m = 12;  ///< farther nothing comes back
+};
+
 /// One more of a kind: one of the three is there.
 struct MoreSpec {
   std::string name;
@@ -122,6 +136,7 @@ struct Scenario {
   std::optional<GnssSpec> gnss;
   std::optional<ImuSpec> imu;
   std::optional<BatterySpec> battery;
+  std::optional<ScannerSpec> lidar;
   std::vector<MoreSpec> more;  ///< in the order of the alphabet
   std::array<LineSpec, kLineNames> lines;
   double zone_near_m = 0.6;  ///< ahead of the bumper
@@ -131,8 +146,10 @@ struct Scenario {
   bool estop_cuts_power = false;  ///< the pressed button also takes the drives' supply away
   /// The gateway's output enable_relay feeds the drives: open or not driven, they have no supply.
   bool relay_feeds_drives = false;
-  bool brake = false;         ///< each wheel has a holding brake, released only by its drive
-  bool worm_gear = false;     ///< no wheel can turn its motor
+  bool brake = false;      ///< each wheel has a holding brake, released only by its drive
+  bool worm_gear = false;  ///< no wheel can turn its motor
+  /// Between two lines of the true motion.
+  Duration truth_period = std::chrono::milliseconds(50);
   std::vector<Event> events;  ///< by time
 };
 

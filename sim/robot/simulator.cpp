@@ -17,7 +17,6 @@ namespace drover::sim {
 namespace {
 
 constexpr std::uint64_t kMaxCatchUp = 20;  // ticks
-constexpr Duration kTruthPeriod = std::chrono::milliseconds(50);
 constexpr Duration kFlushPeriod = std::chrono::seconds(1);
 
 Duration read_clock(clockid_t clock) {
@@ -88,7 +87,8 @@ Simulator::Simulator(const SimulatorSettings& settings)
                  : LinePort::files(robot_.scenario(), made_folder(settings.run_folder) + "/lines")),
       can_log_(log_file(settings, "can.log")),
       serial_log_(has_serial_drive(robot_.scenario()) ? log_file(settings, "serial.log") : ""),
-      truth_log_(log_file(settings, "truth.csv"), robot_.scenario()) {
+      truth_log_(log_file(settings, "truth.csv"), robot_.scenario()),
+      object_log_(robot_.has_objects() ? log_file(settings, "objects.log") : "") {
   made_folder(settings_.run_folder);
   const auto& scenario = robot_.scenario();
   // Before the signals are blocked, which a child (`ip`) would inherit.
@@ -105,6 +105,7 @@ Simulator::Simulator(const SimulatorSettings& settings)
   if (scenario.imu && !scenario.imu->bus)
     imu_.emplace(place(scenario.imu->port), scenario.imu->baud);
   if (scenario.battery) (void)battery_line(*scenario.battery, *robot_.battery_registers());
+  if (scenario.lidar) lidar_.emplace(place(scenario.lidar->port), scenario.lidar->baud);
   for (std::size_t i = 0; i < scenario.more.size(); ++i) {
     const auto& [name, gnss, imu, battery] = scenario.more[i];
     auto& line = more_lines_.emplace_back();
@@ -171,6 +172,7 @@ void Simulator::run() {
   can_log_.flush();
   serial_log_.flush();
   truth_log_.flush();
+  object_log_.flush();
 }
 
 void Simulator::on_events(int timeout_ms) {
@@ -258,6 +260,7 @@ void Simulator::exchange_serial(Time now) {
     if (drive_lines_[i]) drive_lines_[i]->pump(robot_.drive_bytes(i), kTick);
   // What is written to a receiver does not concern this one.
   if (gnss_) gnss_->pump(robot_.gnss_bytes(), kTick);
+  if (lidar_) lidar_->pump(robot_.lidar_bytes(), kTick);
   for (std::size_t i = 0; i < more_lines_.size(); ++i) {
     if (!more_lines_[i]) continue;
     if (const int baud = robot_.more().baud(i); baud != 0) more_lines_[i]->set_baud(baud);
@@ -280,12 +283,14 @@ void Simulator::write_lines() {
 void Simulator::keep_records(Time now) {
   if (now >= next_truth_) {
     truth_log_.write(robot_.truth());
-    next_truth_ = now + kTruthPeriod;
+    next_truth_ = now + robot_.scenario().truth_period;
   }
+  if (robot_.has_objects()) object_log_.append(robot_.take_object_lines());
   if (now >= next_flush_) {
     can_log_.flush();
     serial_log_.flush();
     truth_log_.flush();
+    object_log_.flush();
     if (outputs_) outputs_->flush();
     measure_clocks();
     next_flush_ = now + kFlushPeriod;
@@ -312,6 +317,8 @@ std::string Simulator::command(std::string_view text) {
     for (const std::string_view verb : {"plug", "unplug"})
       if (text.starts_with(device) && text.substr(device.size()) == verb)
         return command_plug(device.substr(0, device.size() - 1), verb);
+  constexpr std::string_view kLidar = "lidar ";
+  if (lidar_ && text.starts_with(kLidar)) return command_lidar(text.substr(kLidar.size()));
   std::string_view verb;
   if (SerialPort* const line = drive_line(text, verb); line != nullptr) {
     verb == "plug" ? line->plug() : line->unplug();
@@ -406,6 +413,16 @@ std::string Simulator::command_more(std::string_view text) {
   return {};
 }
 
+/// Its plug is a state like the others.
+std::string Simulator::command_lidar(std::string_view state) {
+  if (state == "unplugged") {
+    lidar_->unplug();
+    return "ok";
+  }
+  if (state == "normal") lidar_->plug();
+  return robot_.command("lidar " + std::string(state));
+}
+
 std::string Simulator::command_plug(std::string_view device, std::string_view verb) {
   auto& port = device == "imu" ? imu_ : gnss_;
   // Not there, or on a bus.
@@ -424,6 +441,7 @@ std::string Simulator::summary() const {
   for (const auto& bus : buses_) can_dropped += bus->dropped();
   std::array<char, 256> text{};
   std::uint64_t serial_dropped = (gnss_ ? gnss_->dropped() : 0) + (imu_ ? imu_->dropped() : 0);
+  serial_dropped += lidar_ ? lidar_->dropped() : 0;
   for (const auto& line : more_lines_) serial_dropped += line ? line->dropped() : 0;
   for (const auto& line : drive_lines_) serial_dropped += line ? line->dropped() : 0;
   const int n = std::snprintf(

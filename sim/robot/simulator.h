@@ -57,6 +57,7 @@ class Simulator {
   std::string command_lines(std::string_view verb);
   BatteryPort& battery_line(const BatterySpec& spec, const RegisterTwin& device);
   std::string command_more(std::string_view text);
+  std::string command_lidar(std::string_view state);
   std::string command_plug(std::string_view device, std::string_view verb);
   SerialPort* drive_line(std::string_view text, std::string_view& verb);
   void on_events(int timeout_ms);
@@ -70,6 +71,7 @@ class Simulator {
   std::vector<std::unique_ptr<SerialPort>> drive_lines_;  // by drive; nullptr: it hangs on a bus
   std::optional<SerialPort> gnss_;
   std::optional<SerialPort> imu_;  // none: there is no inertial sensor, or it hangs on a bus
+  std::optional<SerialPort> lidar_;
   std::vector<std::unique_ptr<BatteryPort>> batteries_;  ///< the first battery's, and others
   /// Of further devices; nullptr: batteries, and what hangs on a bus.
   std::vector<std::unique_ptr<SerialPort>> more_lines_;
@@ -80,6 +82,7 @@ class Simulator {
   CanLog can_log_;
   SerialLog serial_log_;  // none where no drive hangs on a serial line
   TruthLog truth_log_;
+  TextLog object_log_;  // none where nothing can be put in the robot's way
   std::optional<ControlSocket> control_;
   std::vector<link::ReceivedFrame> received_;
   Duration wall_minus_monotonic_{};

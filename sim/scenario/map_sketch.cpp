@@ -49,6 +49,19 @@ void MapSketch::put(const TrackPose& place, const std::string& mark) {
     row[static_cast<std::size_t>(column)] = mark;
 }
 
+void MapSketch::put_edge(const std::vector<TrackPose>& polygon, const std::string& mark) {
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const auto& from = polygon[i];
+    const auto& to = polygon[(i + 1) % polygon.size()];
+    const double length_m = std::hypot(to.x_m - from.x_m, to.y_m - from.y_m);
+    const auto steps = std::clamp(std::ceil(2 * length_m / cell_m_), 1.0, 1000.0);
+    for (double step = 0; step < steps; ++step)
+      put({from.x_m + step / steps * (to.x_m - from.x_m),
+           from.y_m + step / steps * (to.y_m - from.y_m), 0},
+          mark);
+  }
+}
+
 std::vector<std::string> MapSketch::rows() const {
   std::vector<std::string> rows;
   for (const auto& cells : cells_) {

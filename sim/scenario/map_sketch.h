@@ -14,6 +14,8 @@ class MapSketch {
   explicit MapSketch(const std::vector<TrackPose>& track);
   /// `mark` is one character, of any number of bytes. Beyond the edge nothing is drawn.
   void put(const TrackPose& place, const std::string& mark);
+  /// The edge of a closed polygon; of a small one the place it is at.
+  void put_edge(const std::vector<TrackPose>& polygon, const std::string& mark);
   std::vector<std::string> rows() const;
   /// A bar of a round length with its length: "|--------| 5 m".
   std::string scale() const;

@@ -3,8 +3,9 @@
 // Events that steps can follow: boot (all programs were started), ready (LOCATE_TRUE),
 // locate_false, saved, save_failed, start_task, start_task_failed, start_nav, start_nav_failed,
 // nav_success, nav_error, obstacle (while NAV_RUN), obstacle_gone, cancelled, broker_lost,
-// broker_back, commands_end (a stream of joint commands is over), exit_NAME of a program, and the
-// name of every step. "ready#2" is the second one.
+// broker_back, commands_end (a stream of joint commands is over), scene_done and scene_refused
+// (each answer on scene_feedback), object_arrived, exit_NAME of a program, and the name of every
+// step. "ready#2" is the second one.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -15,7 +16,7 @@
 #include <vector>
 
 #include "drover/time.h"
-#include "sim/scenario/command_stream.h"
+#include "sim/scenario/action.h"
 #include "sim/scenario/track.h"
 
 namespace drover::sim {
@@ -32,31 +33,6 @@ struct Condition {
   std::string value;
   bool above = true;
   double bound = 0;
-};
-
-struct Action {
-  enum class Kind {
-    sim,
-    kill,
-    freeze,
-    thaw,
-    start,
-    publish,
-    cancel,
-    save,
-    start_task,
-    cli,
-    joint_commands
-  };
-  Kind kind = Kind::sim;
-  std::string text{};   ///< command, name of the program, payload, or arguments
-  std::string topic{};  ///< publish
-  bool retain = false;
-  int signal = 0;
-  std::string thread{};             ///< freeze
-  std::optional<std::size_t> id{};  ///< start_task
-  std::optional<double> speed_mps{};
-  CommandStreamSpec stream{};  ///< joint_commands
 };
 
 struct Step {

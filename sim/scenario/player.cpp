@@ -196,6 +196,7 @@ bool Player::turn(Time until) {
   if (t >= until) return false;
   take_steps(t);
   command_joints(t);
+  tell_journeys(t);
   start_when_ready(t);
   if (t >= next_reconnect_) {
     client_->connect();
@@ -207,7 +208,8 @@ bool Player::turn(Time until) {
     mqtt_log_.flush();
     next_second_ = t + kSecond;
   }
-  until = std::min({until, next_second_, story_.next(t), commands_.next(), start_at_});
+  until = std::min(
+      {until, next_second_, story_.next(t), commands_.next(), journeys_.next(), start_at_});
   if (client_->descriptor() < 0) until = std::min(until, next_reconnect_);
   until = std::min(until, view_.draw(t, report_));
   poll_once(until - t);
@@ -290,6 +292,7 @@ void Player::on_message(const MqttMessage& message) {
   std::vector<std::string> events;
   if (message.topic == "base_status") events = report_.on_base_status(message.payload);
   if (message.topic == "feedback") events = report_.on_feedback(message.payload);
+  if (message.topic == "scene_feedback") events = report_.on_scene_feedback(message.payload);
   for (const auto& event : events) happened(event);
 }
 

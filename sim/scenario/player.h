@@ -63,6 +63,11 @@ class Player {
   void take_steps(Time t);
   void act(const Action& action, Time now);
   void publish(const std::string& topic, const std::string& payload, bool retain = false);
+  void publish_to_scene(const Action& action);
+  void act_on_object(const ObjectSpec& spec, Time now);
+  void act_on_zone(const ZoneSpec& zone);
+  void tell_simulator(const std::string& command);
+  void tell_journeys(Time now);
   void command_joints(Time t);
   void save_track();
   void start_task(const Action& action);
@@ -83,6 +88,8 @@ class Player {
   std::unique_ptr<HeldThread> frozen_;
   Story story_;
   CommandStream commands_;
+  std::map<std::string, ObjectSpec> objects_;  // as they were told last, by id
+  Journeys journeys_;
   RobotReport report_;
   std::optional<OperatorClient> client_;
   bool was_subscribed_ = false;

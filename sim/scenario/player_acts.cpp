@@ -30,12 +30,7 @@ void Player::command_joints(Time t) {
 void Player::act(const Action& action, Time now) {
   using Kind = Action::Kind;
   switch (action.kind) {
-    case Kind::sim:
-      tell("sim " + action.text);
-      view_.on_sim_command(action.text);
-      if (const auto answer = ask(workplace_.sim_socket(), action.text); answer != "ok")
-        broken_ = "sim " + action.text + ": " + answer;
-      return;
+    case Kind::sim: return tell_simulator(action.text);
     case Kind::kill:
       if (action.signal == SIGKILL || action.signal == SIGTERM) killed_.insert(action.text);
       tell("signal " + std::to_string(action.signal) + " to " + action.text);
@@ -52,7 +47,9 @@ void Player::act(const Action& action, Time now) {
       frozen_.reset();
       return;
     case Kind::start: return start(action.text);
-    case Kind::publish: return publish(action.topic, action.text, action.retain);
+    case Kind::publish:
+      if (action.in_sim_frame || action.stamped_s_ago) return publish_to_scene(action);
+      return publish(action.topic, action.text, action.retain);
     case Kind::cancel:
       return publish("mqtt_control", R"({"cmd_type":"task_control","cmd":"cancel_task"})");
     case Kind::save: return save_track();
@@ -61,7 +58,16 @@ void Player::act(const Action& action, Time now) {
     case Kind::joint_commands:
       tell("joint commands for " + std::to_string(to_s(action.stream.lasts)) + " s");
       return commands_.begin(action.stream, now);
+    case Kind::object: return act_on_object(action.object, now);
+    case Kind::zone: return act_on_zone(action.zone);
   }
+}
+
+void Player::tell_simulator(const std::string& command) {
+  tell("sim " + command);
+  view_.on_sim_command(command);
+  if (const auto answer = ask(workplace_.sim_socket(), command); answer != "ok")
+    broken_ = "sim " + command + ": " + answer;
 }
 
 void Player::publish(const std::string& topic, const std::string& payload, bool retain) {

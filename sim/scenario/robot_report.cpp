@@ -66,4 +66,21 @@ std::vector<std::string> RobotReport::on_feedback(std::string_view payload) try 
   return {};
 }
 
+/// One answer, or a list of them.
+std::vector<std::string> RobotReport::on_scene_feedback(std::string_view payload) try {
+  auto answers = json::parse(payload);
+  if (!answers.is_array()) answers = json::array({answers});
+  std::vector<std::string> events;
+  for (const auto& answer : answers) {
+    const auto result = answer.at("result").get<std::string>();
+    const auto id = answer.value("id", answer.value("name", ""));
+    last_feedback_ = "scene: " + result + (id.empty() ? "" : " " + id);
+    if (answer.contains("reason")) last_feedback_ += ": " + answer.at("reason").get<std::string>();
+    events.emplace_back(result == "done" ? "scene_done" : "scene_refused");
+  }
+  return events;
+} catch (const json::exception&) {
+  return {};
+}
+
 }  // namespace drover::sim

@@ -16,6 +16,7 @@ class RobotReport {
   /// nothing.
   std::vector<std::string> on_base_status(std::string_view payload);
   std::vector<std::string> on_feedback(std::string_view payload);
+  std::vector<std::string> on_scene_feedback(std::string_view payload);
 
   bool heard() const { return heard_; }
   const Fix& fix() const { return fix_; }

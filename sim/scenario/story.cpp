@@ -6,7 +6,7 @@ namespace drover::sim {
 namespace {
 
 // How often a condition is looked at.
-constexpr Duration kLook = std::chrono::milliseconds(20);
+constexpr Duration kConditionLook = std::chrono::milliseconds(20);
 
 bool holds(const Condition& condition, const nlohmann::json& truth) {
   if (!truth.is_object() || !truth.contains(condition.value)) return false;
@@ -38,7 +38,7 @@ Time Story::next(Time now) const {
   Time next = Time::max();
   for (std::size_t i = 0; i < progress_.size(); ++i) {
     if (progress_[i].done) continue;
-    next = std::min(next, waits(i, now) ? now + kLook : progress_[i].due);
+    next = std::min(next, waits(i, now) ? now + kConditionLook : progress_[i].due);
   }
   return next;
 }

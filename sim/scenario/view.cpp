@@ -46,6 +46,23 @@ std::string way_left(double distance_m, double speed_mps) {
   return out;
 }
 
+std::string free_way(const nlohmann::json& status) {
+  const auto found = status.is_object() ? status.find("clearance") : status.end();
+  if (!status.is_object() || found == status.end() || !found->is_object()) return {};
+  const auto words = [&found](const char* key) {
+    const auto it = found->find(key);
+    return it != found->end() && it->is_string() ? it->get<std::string>() : std::string();
+  };
+  for (const char* key : {"unknown", "broken"})
+    if (const auto why = words(key); !why.empty()) return why;
+  const auto number = [&found](const char* key) { return number_at(*found, key); };
+  auto out =
+      text("free ahead %.2f m, back %.2f m, left %.0f deg, right %.0f deg", number("ahead_m"),
+           number("back_m"), to_deg(number("left_rad")), to_deg(number("right_rad")));
+  if (const auto first = words("first"); !first.empty()) out += "; " + first;
+  return out;
+}
+
 View::View(ViewKind kind, const Mission& mission, const std::string& daemon_socket)
     : kind_(kind), mission_(mission), status_(daemon_socket) {}
 
@@ -59,8 +76,11 @@ Time View::draw(Time now, const RobotReport& report) {
   elapsed_s_ = to_s(now - begin_);
   next_ = now + period(kind_);
   auto shown = kind_ == ViewKind::lines ? line(report) : picture(report);
-  if (kind_ == ViewKind::lines && report.heard() && ++lines_ % 10 == 0)
+  if (kind_ == ViewKind::lines && report.heard() && ++lines_ % 10 == 0) {
     shown += "       " + left(report) + "\n       " + sensors() + "\n       " + wheels() + "\n";
+    if (const auto free = free_way(status_.status()); !free.empty())
+      shown += "       " + free + "\n";
+  }
   std::fwrite(shown.data(), 1, shown.size(), stdout);
   std::fflush(stdout);
   status_.ask();
@@ -77,6 +97,20 @@ void View::on_sim_command(const std::string& command) {
     obstacles_[name] = at;
   else
     obstacles_.erase(name);
+}
+
+void View::on_object(const std::string& id, std::vector<TrackPose> outline) {
+  if (outline.empty())
+    objects_.erase(id);
+  else
+    objects_[id] = std::move(outline);
+}
+
+void View::on_zone(const std::string& name, std::vector<TrackPose> polygon, bool keep_in) {
+  if (polygon.empty())
+    zones_.erase(name);
+  else
+    zones_[name] = {std::move(polygon), keep_in};
 }
 
 void View::on_event(const std::string& event) {
@@ -129,7 +163,9 @@ std::string View::left(const RobotReport& report) const {
 
 std::string View::picture(const RobotReport& report) const {
   MapSketch map(mission_.track);
+  for (const auto& [name, zone] : zones_) map.put_edge(zone.polygon, zone.keep_in ? "+" : "x");
   for (const auto& [name, place] : obstacles_) map.put(place, "#");
+  for (const auto& [id, edge] : objects_) map.put_edge(edge, "#");
   const std::size_t goal = mission_.target_id - 1;
   if (goal < mission_.track.size()) map.put(mission_.track[goal], "G");
   if (report.heard() && report.locate() != "LOCATE_UNINIT") {
@@ -144,11 +180,13 @@ std::string View::picture(const RobotReport& report) const {
   const auto add = [&out](const std::string& line) { out += line + "\033[K\n"; };
   add(text("%s  %.1f s", mission_.name.c_str(), elapsed_s_));
   for (const auto& row : map.rows()) add(row);
-  add(map.scale() + "    north is up    . track  G goal  # obstacle  ↑ robot");
+  add(map.scale() + "    north is up    . track  G goal  # obstacle  ↑ robot" +
+      (zones_.empty() ? "" : "  x keep-out  + keep-in"));
   add(text("%-11s %-13s %5.2f m/s  turning %6.1f deg/s%s", report.nav_status().c_str(),
            report.locate().c_str(), report.speed_mps(), to_deg(report.turn_radps()),
            report.obstacle() ? "  OBSTACLE" : ""));
   add("way: " + left(report));
+  if (const auto free = free_way(status_.status()); !free.empty()) add(free);
   add(text("%s, position error %.3f m (one sigma)", rtk_word(report.rtk_status()), sigma_m));
   add(wheels());
   add(sensors());

@@ -1,8 +1,11 @@
 // What a person sees while a scenario runs: a picture redrawn in place, plain lines, or nothing.
 #pragma once
 
+#include <nlohmann/json.hpp>
+
 #include <map>
 #include <string>
+#include <vector>
 
 #include "drover/time.h"
 #include "sim/scenario/mission.h"
@@ -15,6 +18,10 @@ enum class ViewKind { none, lines, terminal };
 
 /// "7.3 m left, about 15 s"; without a speed worth the name no time; nothing is "-".
 std::string way_left(double distance_m, double speed_mps);
+
+/// "free ahead 2.31 m, back 3.00 m, left 180 deg, right 40 deg; box1 is in the way, ..." of the
+/// status' clearance; why nothing is known, or nothing where it has none.
+std::string free_way(const nlohmann::json& status);
 
 class View {
  public:
@@ -31,6 +38,10 @@ class View {
 
   /// A command to the simulator: obstacles appear on the map.
   void on_sim_command(const std::string& command);
+  /// Seen from above; an empty outline: it is gone.
+  void on_object(const std::string& id, std::vector<TrackPose> outline);
+  /// An empty polygon: it is deleted.
+  void on_zone(const std::string& name, std::vector<TrackPose> polygon, bool keep_in);
   /// What the player does and hears.
   void on_event(const std::string& text);
 
@@ -44,7 +55,13 @@ class View {
   ViewKind kind_;
   const Mission& mission_;
   StatusClient status_;
+  struct ShownZone {
+    std::vector<TrackPose> polygon;
+    bool keep_in = false;
+  };
   std::map<std::string, TrackPose> obstacles_;
+  std::map<std::string, std::vector<TrackPose>> objects_;
+  std::map<std::string, ShownZone> zones_;
   std::string last_event_;
   Time begin_ = kNever;
   Time next_ = kNever;

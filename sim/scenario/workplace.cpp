@@ -72,9 +72,10 @@ const WideOption kTimeOuts[] = {
 };
 /// Of the gateway's drivers.
 const WideOption kAges[] = {
-    {SlotKind::drive, "stale_s", 1}, {SlotKind::drive, "heartbeat_timeout_s", 1},
-    {SlotKind::drive, "gone_s", 1},  {SlotKind::gnss, "stale_s", 2},
-    {SlotKind::imu, "stale_s", 2},   {SlotKind::line, "stale_s", 0.5}};
+    {SlotKind::drive, "stale_s", 1},  {SlotKind::drive, "heartbeat_timeout_s", 1},
+    {SlotKind::drive, "gone_s", 1},   {SlotKind::gnss, "stale_s", 2},
+    {SlotKind::imu, "stale_s", 2},    {SlotKind::line, "stale_s", 0.5},
+    {SlotKind::scanner, "stale_s", 2}};
 
 /// Those that the device's driver has.
 template <class Json>

@@ -57,6 +57,25 @@ TEST(Scenario, HasFurtherDevicesByName) {
   EXPECT_EQ(scenario.more[2].battery->unit, 7);
 }
 
+TEST(Scenario, HasAScannerAtItsPlace) {
+  const auto scenario = parse_scenario(
+      kPlain + R"(, "lidar": {"place": {"x_m": 0.4, "z_m": 0.1, "yaw_deg": 90}, "reach_m": 8,
+                              "options": {"upside_down": true}}})",
+      "/w");
+  ASSERT_TRUE(scenario.lidar.has_value());
+  EXPECT_EQ(scenario.lidar->driver->name, "ld06");
+  EXPECT_EQ(scenario.lidar->baud, 230400);
+  EXPECT_EQ(scenario.lidar->port, "lidar");
+  EXPECT_EQ(scenario.lidar->x_m, 0.4);
+  EXPECT_EQ(scenario.lidar->yaw_deg, 90);
+  EXPECT_EQ(scenario.lidar->reach_m, 8);
+  EXPECT_TRUE(scenario.lidar->options.flag("upside_down"));
+  EXPECT_EQ(refusal(R"(, "lidar": {"driver": "witmotion"})"),
+            "lidar.driver: no simulated 'witmotion' of this kind; there is: ld06");
+  EXPECT_EQ(refusal(R"(, "lidar": {"reach_m": 0})"),
+            "lidar.reach_m: must be above 0, and 1000 at most");
+}
+
 TEST(Scenario, HangsInertialSensorsOnBuses) {
   const auto scenario = parse_scenario(kPlain + R"(,
     "can": {"can0": {"kind": "vcan"}, "can1": {"kind": "vcan"}},

@@ -11,7 +11,9 @@
 #include <sstream>
 #include <thread>
 
+#include "drover/registry.h"
 #include "link/can_open.h"
+#include "link/serial_link.h"
 
 namespace drover::sim {
 namespace {
@@ -32,6 +34,7 @@ class SimulatorTest : public testing::Test {
       "drives": [{"joint": "front_left", "driver": "odrive", "bus": "can0",
                   "options": {"node": 0}}],
       "gnss": {},
+      "lidar": {"place": {"x_m": 0.4, "z_m": 0.1}},
       "imu": {"driver": "hipnuc_can", "bus": "can0"},
       "more": {"imu_rear": {"is": "imu", "driver": "hipnuc_can", "bus": "can0",
                             "options": {"node": 9}}}})";
@@ -79,6 +82,12 @@ TEST_F(SimulatorTest, AnswersOnItsWiresUntilItIsToldToQuit) {
   EXPECT_FALSE(fs::is_symlink(folder / "run/gnss"));
   EXPECT_EQ(ask(socket, "gnss plug"), "ok");
   EXPECT_TRUE(fs::is_symlink(folder / "run/gnss"));
+  EXPECT_EQ(ask(socket, "lidar unplugged"), "ok");
+  EXPECT_FALSE(fs::is_symlink(folder / "run/lidar"));
+  EXPECT_EQ(ask(socket, "lidar normal"), "ok");
+  EXPECT_TRUE(fs::is_symlink(folder / "run/lidar"));
+  EXPECT_EQ(ask(socket, "lidar covered"), "ok");
+  EXPECT_THAT(ask(socket, "lidar muddy"), StartsWith("error: no state 'muddy'"));
   EXPECT_EQ(ask(socket, "quit"), "ok");
   loop.join();
   EXPECT_THAT(simulator.summary(), HasSubstr(" ticks"));
@@ -88,6 +97,30 @@ TEST_F(SimulatorTest, AnswersOnItsWiresUntilItIsToldToQuit) {
   EXPECT_THAT(read("log/truth.csv"), StartsWith("time_s,x_m,y_m"));
 }
 
+TEST_F(SimulatorTest, ScansOnASerialLineAtTheScannersSpeed) {
+  Simulator simulator(settings);
+  std::thread loop([&simulator] { simulator.run(); });
+  auto line = link::open_serial({(folder / "run/lidar").string(), 230400});
+  ASSERT_TRUE(line.link) << line.problem;
+  const auto* const entry = find_driver("ld06");
+  const auto made = entry->make(Options(entry->options), {});
+  Time now{std::chrono::seconds(100)};
+  // Half a second of packets, however slow the machine is.
+  for (int i = 0; i < 2000 && made.device->health(now).good < 190; ++i) {
+    std::array<std::uint8_t, 1024> bytes{};
+    std::size_t size = 0;
+    ASSERT_TRUE(line.link->read(bytes, size));
+    ScanOut out;
+    made.scans->on_bytes({bytes.data(), size}, now, out);
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    now += std::chrono::milliseconds(5);
+  }
+  EXPECT_GE(made.device->health(now).good, 190U);
+  EXPECT_LE(made.device->health(now).bad, 1U) << "the first may be cut";
+  EXPECT_EQ(ask(settings.run_folder + "/sim.sock", "quit"), "ok");
+  loop.join();
+}
+
 TEST_F(SimulatorTest, LeavesNothingInItsRunFolder) {
   {
     Simulator simulator(settings);
@@ -95,7 +128,7 @@ TEST_F(SimulatorTest, LeavesNothingInItsRunFolder) {
     (void)ask(settings.run_folder + "/sim.sock", "quit");
     loop.join();
   }
-  for (const auto* name : {"run/gnss", "run/can0.sock", "run/sim.sock", "run/ready"})
+  for (const auto* name : {"run/gnss", "run/lidar", "run/can0.sock", "run/sim.sock", "run/ready"})
     EXPECT_FALSE(fs::exists(fs::symlink_status(folder / name))) << name;
 }
 

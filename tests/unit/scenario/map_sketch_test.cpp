@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "drover/angle.h"
 
 namespace drover::sim {
@@ -71,6 +73,16 @@ TEST(AnArrow, PointsWhereTheRobotLooks) {
   EXPECT_EQ(arrow(3.1), "←");
   EXPECT_EQ(arrow(-3.1), "←");
   EXPECT_EQ(arrow(-kPi / 4), "↘");
+}
+
+TEST(AMapSketch, DrawsTheEdgeOfAPolygon) {
+  MapSketch map({{0, 0, 0}, {10, 0, 0}});
+  map.put_edge({{2, -1, 0}, {4, -1, 0}, {4, 1, 0}, {2, 1, 0}}, "x");
+  std::size_t marks = 0;
+  for (const auto& row : map.rows())
+    marks += static_cast<std::size_t>(std::count(row.begin(), row.end(), 'x'));
+  EXPECT_GT(marks, 20U);
+  map.put_edge({{20, 20, 0}, {1e9, 0, 0}}, "x");  // beyond the edge, and endless: nothing happens
 }
 
 }  // namespace

@@ -59,5 +59,16 @@ TEST(ARobotReport, ReadsFeedbackWithItsReason) {
   EXPECT_EQ(report.on_feedback(R"({"cmd":"something_else"})"), Names{});
 }
 
+TEST(RobotReport, TellsEachAnswerOfTheScene) {
+  RobotReport report;
+  EXPECT_EQ(report.on_scene_feedback(R"({"id": "box1", "result": "done"})"),
+            std::vector<std::string>{"scene_done"});
+  EXPECT_EQ(report.on_scene_feedback(
+                R"([{"result": "done"}, {"name": "yard", "result": "refused", "reason": "bad"}])"),
+            (std::vector<std::string>{"scene_done", "scene_refused"}));
+  EXPECT_EQ(report.last_feedback(), "scene: refused yard: bad");
+  EXPECT_TRUE(report.on_scene_feedback("nonsense").empty());
+}
+
 }  // namespace
 }  // namespace drover::sim

@@ -21,5 +21,18 @@ TEST(AView, TellsNoWayThatNobodyKnows) {
   EXPECT_EQ(way_left(NAN, 0.5), "-");
 }
 
+TEST(AView, TellsHowFarTheWayIsFreeWhereThatIsKnown) {
+  using nlohmann::json;
+  EXPECT_EQ(free_way(json()), "");
+  EXPECT_EQ(free_way(json::parse(R"({"nav": {}})")), "");
+  EXPECT_EQ(free_way(json::parse(R"({"clearance": null})")), "");
+  EXPECT_EQ(
+      free_way(json::parse(R"({"clearance": {"ahead_m": 2.314, "back_m": 3, "left_rad": 3.14159,
+      "right_rad": 0.7, "first": "box1 is in the way, 2.31 m ahead", "unknown": ""}})")),
+      "free ahead 2.31 m, back 3.00 m, left 180 deg, right 40 deg; box1 is in the way, 2.31 m "
+      "ahead");
+  EXPECT_EQ(free_way(json::parse(R"({"clearance": {"unknown": "no position"}})")), "no position");
+}
+
 }  // namespace
 }  // namespace drover::sim
