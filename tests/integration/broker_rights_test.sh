@@ -75,6 +75,11 @@ for message in %2Fjoint_state/$channel.JointState %2Fjoint_state/$channel.JointS
     dropped "/channel/$message" "$reader" droverd operator viewer
   done
 done
-dropped mqtt_control droverd operator viewer droverd
-dropped base_status viewer droverd operator viewer
+for topic in mqtt_control collision_object planning_constraints; do
+  dropped "$topic" droverd operator viewer droverd
+done
+for topic in base_status scene_feedback; do
+  dropped "$topic" viewer droverd operator viewer
+done
+dropped scene_feedback operator droverd operator viewer
 exit "$failed"

@@ -25,12 +25,14 @@ mirror() {
 }
 
 make_root() {
-  [[ ! -s $cache/$suite.tar ]] || return 0
+  [[ ! -f $cache/$suite.tar ]] || return 0
   local from
   from=$(mirror)
   echo "making a bare Debian ($suite)${from:+ from $from}"
+  rm -rf "$cache/$suite.tar"  # whatever stands there is no archive
+  # The ending says that an archive is wanted.
   mmdebstrap --quiet --variant=important --include=sudo,ca-certificates "$suite" \
-    "$cache/$suite.tar.new" ${from:+"$from"} && mv "$cache/$suite.tar.new" "$cache/$suite.tar"
+    "$cache/$suite.new.tar" ${from:+"$from"} && mv -T "$cache/$suite.new.tar" "$cache/$suite.tar"
 }
 
 if [[ ${1:-} != --inside ]]; then

@@ -262,7 +262,11 @@ void RobotRig::stop_daemon() {
 }
 
 bool RobotRig::wait_until(const std::function<bool()>& done) {
-  const auto end = std::chrono::steady_clock::now() + deadline();
+  return wait_until(done, deadline());
+}
+
+bool RobotRig::wait_until(const std::function<bool()>& done, std::chrono::nanoseconds longest) {
+  const auto end = std::chrono::steady_clock::now() + longest;
   while (!done()) {
     if (std::chrono::steady_clock::now() > end) return false;
     const auto before = client_.heard().size();

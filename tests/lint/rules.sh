@@ -10,6 +10,7 @@ includes_of_rooms() {
 include/drover   drover/
 drivers          drover/ drivers/
 src/engine       drover/ engine/
+src/engine/clearance drover/ engine/config.h engine/clearance/
 src/engine/estimate  drover/ engine/config.h engine/still.h engine/base/ engine/estimate/
 src/engine/signals   drover/ engine/config.h engine/signals/
 src/engine/base      drover/ engine/config.h engine/still.h engine/base/
@@ -21,23 +22,27 @@ src/engine/navigate  engine/gate/ engine/health/ engine/navigate/
 src/engine/own       drover/ engine/config.h engine/event_queue.h engine/still.h
 src/engine/own       engine/base/ engine/gate/ engine/health/ engine/navigate/ engine/own/
 src/link         drover/ link/
-src/scene        drover/ scene/
+src/scene        drover/ scene/ text/
+src/scene/zone   drover/ json/ text/ scene/
 src/json         drover/ json/
 src/text         drover/ text/
 src/store        drover/ store/ json/
-src/config       drover/ config/ json/ text/ engine/config.h
+src/config       drover/ config/ json/ text/ engine/config.h engine/clearance/stop_chain.h
 src/gateway      drover/ gateway/ config/ engine/
-src/publish      drover/ publish/ store/ json/ text/
+src/publish      drover/ publish/ scene/ store/ json/ text/
 src/publish/rtk_navigation  drover/ store/ json/ publish/arrival.h publish/names.h
 src/publish/rtk_navigation  publish/rtk_navigation/
+src/publish/scene    drover/ json/ scene/ publish/arrival.h publish/names.h publish/shown_json.h
+src/publish/scene    publish/token_bucket.h publish/scene/
 src/publish/status   drover/ json/ publish/names.h publish/rtk_navigation/spelling.h
 src/publish/status   publish/shown_json.h publish/status/
 src/publish/aimrt    drover/ json/ text/ publish/arrival.h publish/command_service.h
 src/publish/aimrt    publish/token_bucket.h publish/aimrt/
-src/runtime      drover/ runtime/ publish/ store/ json/ config/ link/ engine/ gateway/
+src/runtime      drover/ runtime/ publish/ store/ json/ config/ link/ engine/ gateway/ scene/
 src/guard        drover/ guard/
 src/cli          drover/ cli/ json/ text/ config/register_map.h config/fields_map.h
 src/cli          gateway/recording/replay.h link/unique_fd.h publish/names.h publish/shown_json.h
+src/cli          scene/zone/
 src/droverd.cpp  config/ runtime/
 sim/plant        drover/ sim/plant/
 sim/robot        drover/ link/ text/ sim/plant/ sim/robot/ config/register_map.h
@@ -114,15 +119,15 @@ matches() {
 }
 
 rule_pure_rooms() {
-  sources 'drivers/|src/(engine|gateway)/' | matches \
+  sources 'drivers/|src/(engine|gateway|scene)/' | matches \
     '\<now\(|_clock\>|clock_gettime|sleep|std::thread|\<mutex\>|lock_guard|getenv|std::async' \
-    'no clock, thread, lock or environment in drivers, engine and gateway: time is an argument'
-  sources 'drivers/|src/(engine|gateway)/' | matches \
+    'no clock, thread, lock or environment in a pure room: time is an argument'
+  sources 'drivers/|src/(engine|gateway|scene)/' | matches \
     '\<f?open\(|\<socket\(|[^A-Za-z0-9_>]::(read|write|send|recv|ioctl|poll)\(' \
-    'no I/O in drivers, engine and gateway'
-  sources 'drivers/|src/(engine|gateway)/' | matches \
+    'no I/O in a pure room'
+  sources 'drivers/|src/(engine|gateway|scene)/' | matches \
     '\<f?printf\(|\<f?puts\(|std::c(out|err|log)\>|\<[io]?fstream\>' \
-    'no I/O in drivers, engine and gateway'
+    'no I/O in a pure room'
   # spsc_ring and triple_buffer are the only exchange; the vocabulary has no clock either.
   sources 'include/' | matches '\<now\(|_clock::now|clock_gettime|std::mutex|std::thread|sleep' \
     'the vocabulary has no clock, thread or lock'
@@ -256,6 +261,61 @@ rule_packages() {
     if (seen[$1]++) print FILENAME ":" FNR ": " $1 " stands twice"
     if ($0 !~ /# [^ ]/) print FILENAME ":" FNR ": " $1 ": say what it is used for"
   }' .ci/packages
+}
+
+# "Message field" and "Message CONSTANT=value", as the planning messages' document has them.
+fields_of_document() {
+  awk '
+    BEGIN {
+      type = "u?int8|u?int32|byte|float64|string|time|Header|[a-z_]+/[A-Za-z]+|[A-Za-z]+Constraint"
+      declared = "^(" type ")(\\[\\])? [A-Za-z_]+(=[0-9]+)?( |$)"
+    }
+    { gsub(/[`\r]/, "") }
+    /^### / { message = $NF }
+    { sub(/^[>* ]+/, "") }
+    $0 ~ declared { print message, $2 }
+    /^stamp\.n?sec:/ { sub(/:.*/, ""); print message, $0 }' "$1"
+}
+
+# Each field and constant of the planning messages is a row of the scene's table with tests that
+# are there, and is spelled in the sources. The list is the document's, where that is at hand.
+rule_document_fields() {
+  local fields=tests/unit/scene/document_fields.txt table=src/scene/README.md
+  local document=../shared/seeds/ros-message-types.md
+  local source message name number=0 wire values rows tests
+  [[ -n $(sources 'src/scene/') ]] || return 0
+  [[ -e $fields ]] || { echo "$fields:1: missing"; return; }
+  [[ -e $table ]] || { echo "$table:1: missing"; return; }
+  wire=$(sources 'src/publish/scene/' | xargs -r cat)
+  values=$(sources 'src/scene/message/' | xargs -r cat)
+  rows=$(grep '^| `' "$table")
+  while read -r source message name; do
+    number=$((number + 1))
+    [[ $source == document || $source == ros1 ]] || continue
+    [[ $rows == *"| \`$message.$name\` |"* ]] ||
+      echo "$table:1: has no row for \`$message.$name\`"
+    if [[ $name == *=* ]]; then
+      [[ $values =~ [^A-Z_]${name%=*}\ =\ ${name#*=}[^0-9] ]] ||
+        echo "$fields:$number: src/scene/message has no ${name/=/ = }"
+    else
+      [[ $wire == *"\"${name##*.}\""* ]] ||
+        echo "$fields:$number: src/publish/scene does not spell \"${name##*.}\""
+    fi
+  done < "$fields"
+  # The names of the tests first: as an argument they would be too long.
+  sources 'tests/unit/' | xargs -r sed -nE 's/^TEST(_F|_P)?\((\w+), (\w+)\).*/\2.\3/p' | awk -F'|' '
+    FILENAME == "-" { there[$0] = 1; next }
+    /^\|.*\| tests \|$/ { on = 1; next }
+    !/^\|/ { on = 0 }
+    on && !/^\|[-|]+\|$/ {
+      if ($(NF - 1) !~ /`[A-Z]/) print FILENAME ":" FNR ": this row names no test"
+      m = split($(NF - 1), part, "`")
+      for (i = 2; i <= m; i += 2)
+        if (!(part[i] in there)) print FILENAME ":" FNR ": there is no test " part[i]
+    }' - "$table"
+  [[ -e $document ]] || return 0
+  diff <(fields_of_document "$document" | sort -u) <(sed -n 's/^document //p' "$fields" | sort -u) |
+    sed -n "s|^< |$fields:1: the document has |p; s|^> |$fields:1: the document has no |p"
 }
 
 # Programs only: what they source is followed.

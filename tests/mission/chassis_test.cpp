@@ -1,83 +1,17 @@
 // A chassis that takes a twist: over a serial line and over CAN.
-#include <array>
-#include <bit>
-#include <cstdint>
-#include <fstream>
-#include <optional>
-#include <sstream>
+#include <algorithm>
 
 #include "mission/support.h"
+#include "mission/wire_twist.h"
 
 namespace drover::mission {
 namespace {
 
-/// What one packet on the chassis' line asks for, read from the bytes alone.
-struct Asked {
-  Time time = kNever;  ///< when its last byte was there
-  std::uint16_t sequence = 0;
-  double vx_mps = 0;
-  double wz_radps = 0;
-  bool moves() const { return vx_mps != 0 || wz_radps != 0; }
-};
+using gt01::Asked;
+using gt01::Line;
 
-struct Line {
-  std::vector<Asked> packets;
-  std::size_t strange = 0;  ///< bytes that belong to no twist
-};
-
-/// A twist: ED DE, sequence, 02, 12 (length), mode 0, v mm/s, w float, sum, BD BC.
-std::optional<Asked> read_twist(const std::vector<std::uint8_t>& b, std::size_t at) {
-  constexpr std::size_t kSize = 18;
-  if (b.size() - at < kSize || b[at] != 0xED || b[at + 1] != 0xDE || b[at + 4] != 0x02 ||
-      b[at + 5] != kSize || b[at + 6] != 0 || b[at + 7] != 0 || b[at + 16] != 0xBD ||
-      b[at + 17] != 0xBC)
-    return std::nullopt;
-  const auto word = [&](std::size_t i) {
-    return static_cast<std::uint16_t>(b[at + i] | b[at + i + 1] << 8U);
-  };
-  unsigned sum = 0;
-  for (std::size_t i = 0; i < 14; ++i) sum += b[at + i];
-  if ((sum & 0xFFFFU) != word(14)) return std::nullopt;
-  const auto bits = static_cast<std::uint32_t>(word(10)) | static_cast<std::uint32_t>(word(12))
-                                                               << 16U;
-  Asked asked;
-  asked.sequence = word(2);
-  asked.vx_mps = static_cast<std::int16_t>(word(8)) / 1000.0;
-  asked.wz_radps = std::bit_cast<float>(bits);
-  return asked;
-}
-
-/// "(12.345678901) base EDDE...", one line a tick, packets cut anywhere.
 Line read_line(const Record& log) {
-  std::ifstream file(log.folder / "serial.log");
-  std::vector<std::uint8_t> bytes;
-  std::vector<Time> times;
-  std::string text;
-  while (std::getline(file, text)) {
-    std::istringstream words(text);
-    std::string stamp;
-    std::string port;
-    std::string digits;
-    words >> stamp >> port >> digits;
-    const Time time{from_s(std::stod(stamp.substr(1)))};
-    for (std::size_t i = 0; i + 1 < digits.size(); i += 2) {
-      bytes.push_back(static_cast<std::uint8_t>(std::stoi(digits.substr(i, 2), nullptr, 16)));
-      times.push_back(time);
-    }
-  }
-  Line line;
-  for (std::size_t at = 0; at < bytes.size();) {
-    auto asked = read_twist(bytes, at);
-    if (!asked) {
-      ++line.strange;
-      ++at;
-      continue;
-    }
-    at += 18;
-    asked->time = times[at - 1];
-    line.packets.push_back(*asked);
-  }
-  return line;
+  return gt01::read_line(log.folder);
 }
 
 TEST(Gt01, IsDrivenToSuccessCloseToTheTrack) {
@@ -169,8 +103,66 @@ TEST(Gt01Torn, GoesOnOnlyAfterAResetAndANewStart) {
   const Line line = read_line(log);
   const Time start = next_start(log, log.event("event plugged#1"));
   for (const Asked& asked : line.packets)
-    if (asked.time > log.event("event plugged#1") && asked.time < start - 100ms)
+    if (asked.time > log.event("event plugged#1") && asked.time < start - 100ms) {
       EXPECT_FALSE(asked.moves()) << "at " << seconds(asked.time);
+    }
+}
+
+bool told(const Record& log, const char* what, Time begin) {
+  return std::any_of(log.statuses.begin(), log.statuses.end(), [&](const Status& status) {
+    return status.time >= begin && status.why.find(what) != std::string::npos;
+  });
+}
+
+void expect_success_after_a_cancel(const char* name) {
+  const Record& log = record(name);
+  auto words = kStarted;
+  words.insert(words.end(), {"cancel_task_success", "start_task_success", "start_nav_success"});
+  EXPECT_EQ(log.feedback_words(), words);
+  EXPECT_EQ(log.statuses.back().nav, "NAV_SUCCESS");
+}
+
+/// Its zero only brakes: it creeps, tells nothing for a while, and is pushed.
+TEST(Gt01RestOnRamp, KeepsItsPower) {
+  const Record& log = record("gt01_rest_on_ramp");
+  const Time cancelled = log.event("event cancelled#1");
+  ASSERT_GT(log.truth_at(cancelled).z_m - log.truth.front().z_m, 0.05) << "it is not on the ramp";
+  const Roll crept = roll(log, cancelled + 1s, log.event("event pushed#1"));
+  figure("way that it crept", crept.way_m, "m");
+  EXPECT_LT(crept.way_m, 0.5);
+  EXPECT_TRUE(log.changes("enable_relay", cancelled, Time::max()).empty());
+  EXPECT_FALSE(told(log, "did not stop", kNever));
+}
+
+TEST(Gt01RestOnRamp, DrivesOnAfterwards) {
+  expect_success_after_a_cancel("gt01_rest_on_ramp");
+}
+
+/// The program that begins meanwhile did not see who moves it.
+TEST(Gt01PushedOverRestart, KeepsItsPowerAndDrivesOnAfterwards) {
+  const Record& log = record("gt01_pushed_over_restart");
+  const Time pushed = log.event("event pushed#1");
+  const Time back = log.event("start droverd", 2);
+  ASSERT_GT(std::abs(log.truth_at(log.event("signal 9 to droverd")).vx_mps), 0.1)
+      << "nobody pushes it: this proves nothing";
+  ASSERT_GT(std::abs(log.truth_at(back + 1500ms).vx_mps), 0.1);
+  EXPECT_TRUE(log.changes("enable_relay", pushed, Time::max()).empty());
+  EXPECT_FALSE(told(log, "did not stop", kNever));
+  expect_success_after_a_cancel("gt01_pushed_over_restart");
+}
+
+/// Without power it rolls back; what it must not do is to go on up.
+TEST(Gt01DeafOnRamp, LosesItsPowerBecauseItGoesOnUp) {
+  const Record& log = record("gt01_deaf_on_ramp");
+  const Time deaf = log.event("event deaf#1");
+  ASSERT_GT(log.truth_at(deaf).z_m - log.truth.front().z_m, 0.05) << "it is not on the ramp";
+  ASSERT_GT(log.truth_at(deaf).vx_mps, 0.1) << "it stands: this proves nothing";
+  const auto relay = log.changes("enable_relay", deaf, Time::max());
+  ASSERT_FALSE(relay.empty()) << "the relay stays closed";
+  figure("the relay opens after", relay.front().time - deaf);
+  EXPECT_LE(relay.front().time - deaf, 2s);
+  EXPECT_TRUE(told(log, "did not stop", deaf));
+  EXPECT_LT(log.truth.back().x_m, log.truth_at(relay.front().time).x_m + 0.3);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "mission/wire_twist.h"
 #include "mission/wire_zlac8015d.h"
 
 namespace drover::mission {
@@ -16,6 +17,8 @@ using namespace std::chrono_literals;
 constexpr std::size_t kEnough = 10;
 // A publisher looks at the snapshot each few milliseconds, and a frame waits for its cycle.
 constexpr Duration kAnnounced = 100ms;
+// An AgileX gets zeros for so long before any motion (drivers/agilex_v2/README.md).
+constexpr Duration kZerosFirst = 200ms;
 // From the highest speed to rest: 0.8 m/s at 0.8 m/s^2, the jerk limit's 0.4 s, and a margin.
 constexpr Duration kRamp = 1600ms;
 constexpr Duration kGuard = 100ms;
@@ -127,15 +130,29 @@ std::string seconds(Time time) {
   return seconds(time.time_since_epoch());
 }
 
+std::string judge(Maker maker, const CanFrame& frame) {
+  switch (maker) {
+    case Maker::odrive: return forbidden(frame);
+    case Maker::zlac8015d: return zlac8015d::forbidden(frame);
+    case Maker::gt01_can: return gt01::forbidden(frame);
+    case Maker::agilex_v2: return agilex_v2::forbidden(frame);
+    case Maker::gt01_serial: break;
+  }
+  return "it has no bus";
+}
+
 Problems check_frames(const Record& record) {
   Problems problems;
   std::size_t number = 0;
   for (const auto& line : record.can) {
     ++number;
-    const auto judge = record.maker == Maker::odrive ? forbidden : zlac8015d::forbidden;
-    const auto why = line.bus == "can0" ? judge(line.frame) : "no bus of this robot";
+    const auto why = line.bus == "can0" ? judge(record.maker, line.frame) : "no bus of this robot";
     if (!why.empty()) add(problems, "can.log:" + std::to_string(number) + ": " + why);
   }
+  // Half a packet of a program that died is none of another one's.
+  constexpr std::size_t kHalfPackets = 17;
+  if (record.maker == Maker::gt01_serial && gt01::read_line(record.folder).strange > kHalfPackets)
+    add(problems, "serial.log: bytes that belong to no twist");
   if (record.sent.empty()) add(problems, "no set point was ever sent");
   return problems;
 }
@@ -153,13 +170,14 @@ Problems check_motion(const Record& record, Holding holding) {
     if (!inside(permitted, one.time) && (holding == Holding::unmoved || !ramps.slows(one)))
       add(problems, seconds(one.time) + ": node " + std::to_string(one.wheel.node) +
                         " is told to move outside of any task and stream of joint commands");
+  const Duration late = kAnnounced + (record.maker == Maker::agilex_v2 ? kZerosFirst : 0ms);
   for (const auto& one : record.feedback) {
     if (one.cmd != "start_nav_success") continue;
     Time begin = kNever;
     for (const auto& task : list)
       if (task.begin <= one.time) begin = task.begin;
     const auto moved = record.moving(begin, Time::max());
-    if (moved.empty() || moved.front().time > one.time + kAnnounced ||
+    if (moved.empty() || moved.front().time > one.time + late ||
         moved.front().time < one.time - kAnnounced)
       add(problems, seconds(one.time) + ": start_nav_success, but the first motion was " +
                         (moved.empty() ? "never" : "at " + seconds(moved.front().time)));

@@ -93,6 +93,10 @@ Problems check_aimrt_rates(const Record& record) {
     if (interval.end == Time::max() || interval.end - interval.begin < kLongEnough) continue;
     for (const std::string type : {".JointState", ".ImuState", ".TouchState"}) {
       const auto list = messages(record, type, interval);
+      if (type == ".TouchState" && !record.bumper) {
+        if (!list.empty()) add(problems, type + " of a robot that has no contact");
+        continue;
+      }
       if (list.empty() || list.front()->time - interval.begin > kBegin ||
           interval.end - list.back()->time > kEnd) {
         add(problems, type + " does not last from " + seconds(interval.begin) + " to " +

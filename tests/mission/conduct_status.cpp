@@ -140,6 +140,14 @@ std::string judge_packet(const MqttLine& line) {
   return line.payload.starts_with("027062000a") ? "" : "is no packet: " + line.payload;
 }
 
+/// How often the origin of the map was set by then. It is answered when it is in force.
+std::size_t origins_set(const Record& record, Time when) {
+  return static_cast<std::size_t>(
+      std::count_if(record.feedback.begin(), record.feedback.end(), [when](const Feedback& one) {
+        return one.cmd == "init_rtk_data_success" && one.time <= when;
+      }));
+}
+
 }  // namespace
 
 Problems check_form(const Record& record) {
@@ -148,8 +156,8 @@ Problems check_form(const Record& record) {
     if (const auto why = judge_status(status); !why.empty())
       add(problems, seconds(status.time) + ": base_status: " + why);
   for (const auto& line : record.mqtt) {
-    const bool ours =
-        line.topic == "base_status" || line.topic == "feedback" || line.topic == "trajectory_data";
+    const bool ours = line.topic == "base_status" || line.topic == "feedback" ||
+                      line.topic == "trajectory_data" || line.topic == "scene_feedback";
     if (ours && line.retained) add(problems, seconds(line.time) + ": retained " + line.topic);
     // Added to the document: whether the gateway is there, as the broker's last will tells it.
     const bool online =
@@ -159,7 +167,9 @@ Problems check_form(const Record& record) {
       if (const auto why = judge_packet(line); !why.empty())
         add(problems, seconds(line.time) + ": " + line.topic + ": " + why);
     }
-    if (!ours && !online && !aimrt && line.topic != "mqtt_control")
+    const bool asked = line.topic == "mqtt_control" || line.topic == "collision_object" ||
+                       line.topic == "planning_constraints";
+    if (!ours && !online && !aimrt && !asked)
       add(problems, seconds(line.time) + ": a topic of no document: " + line.topic);
     if (line.topic != "feedback") continue;
     const auto message = json::parse(line.payload);
@@ -216,14 +226,18 @@ Problems check_rate(const Record& record) {
 }
 
 Problems check_pose(const Record& record) {
-  // Between the robot's map and the simulator's frame lies one shift, the same for ever.
+  // Between the robot's map and the simulator's frame lies one shift, the same until the origin of
+  // the map is set anew.
   constexpr double kSame_m = 0.003;
   constexpr double kSame_deg = 0.01;
   Problems problems;
   const Status* first = nullptr;
+  std::size_t maps = 0;
   for (const auto& status : record.statuses) {
     if (status.locate != "LOCATE_TRUE") continue;
-    if (first == nullptr) first = &status;
+    const auto before = origins_set(record, status.time);
+    if (first == nullptr || before != maps) first = &status;
+    maps = before;
     const double dx_m = (status.sim.x_m - status.map.x_m) - (first->sim.x_m - first->map.x_m);
     const double dy_m = (status.sim.y_m - status.map.y_m) - (first->sim.y_m - first->map.y_m);
     if (!(std::hypot(dx_m, dy_m) <= kSame_m))

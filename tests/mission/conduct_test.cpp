@@ -100,8 +100,8 @@ struct Logs {
     put("mqtt.log", mqtt);
     put("events.log", events);
     std::ofstream truth(folder / "truth.csv");
-    truth << "time_s,x_m,y_m,z_m,yaw_rad,vx_mps,free_ahead_m\n";
-    for (int i = 0; i <= 220; ++i) truth << 0.05 * i << "," << truth_x_m << ",0,0,0,0,999\n";
+    truth << "time_s,x_m,y_m,z_m,yaw_rad,vx_mps,free_ahead_m,wz_radps\n";
+    for (int i = 0; i <= 220; ++i) truth << 0.05 * i << "," << truth_x_m << ",0,0,0,0,999,0\n";
     return folder;
   }
   Record read() const {

@@ -10,8 +10,8 @@
 namespace drover::mission {
 namespace {
 
-constexpr std::array<std::string_view, 7> kTruthNames{"time_s",  "x_m",    "y_m",         "z_m",
-                                                      "yaw_rad", "vx_mps", "free_ahead_m"};
+constexpr std::array<std::string_view, 8> kTruthNames{
+    "time_s", "x_m", "y_m", "z_m", "yaw_rad", "vx_mps", "free_ahead_m", "wz_radps"};
 
 [[noreturn]] void fail(const char* what, std::string_view line) {
   throw std::runtime_error(std::string(what) + " in '" + std::string(line.substr(0, 120)) + "'");
@@ -145,8 +145,14 @@ TruthLine TruthColumns::parse(std::string_view line) const {
     values[i] = number<double>(cells[columns_[i]], line);
     if (!std::isfinite(values[i])) fail("not finite", line);
   }
-  return {
-      Time{from_s(values[0])}, values[1], values[2], values[3], values[4], values[5], values[6]};
+  return {Time{from_s(values[0])},
+          values[1],
+          values[2],
+          values[3],
+          values[4],
+          values[5],
+          values[6],
+          values[7]};
 }
 
 }  // namespace drover::mission

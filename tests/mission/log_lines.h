@@ -42,6 +42,7 @@ struct TruthLine {
   double yaw_rad = 0;
   double vx_mps = 0;
   double free_ahead_m = 0;
+  double wz_radps = 0;
 };
 
 /// "(12.345678901) can0 00D#00000000", as `candump -L` writes it but with nanoseconds.

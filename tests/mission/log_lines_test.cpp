@@ -79,19 +79,20 @@ TEST(MissionTruth, IsRefusedWithoutItsColumns) {
 }
 
 TEST(MissionTruth, RefusesLinesThatAreNotNumbersOfTheHeadersCount) {
-  const TruthColumns columns("free_ahead_m,time_s,x_m,y_m,z_m,yaw_rad,vx_mps");
-  expect_refused(
-      [&columns](std::string_view line) { return columns.parse(line); },
-      {"", "1,2,3,4,5,6", "1,2,3,4,5,6,7,8", "1,2,3,4,5,6,x", "1,2,3,4,5,6,nan", "1,2,3,4,5,6,"});
+  const TruthColumns columns("free_ahead_m,wz_radps,time_s,x_m,y_m,z_m,yaw_rad,vx_mps");
+  expect_refused([&columns](std::string_view line) { return columns.parse(line); },
+                 {"", "1,2,3,4,5,6,7", "1,2,3,4,5,6,7,8,9", "1,2,3,4,5,6,7,x", "1,2,3,4,5,6,7,nan",
+                  "1,2,3,4,5,6,7,"});
 }
 
 TEST(MissionTruth, FindsItsColumnsByName) {
-  const TruthColumns columns("free_ahead_m,time_s,x_m,y_m,z_m,yaw_rad,vx_mps");
-  const auto line = columns.parse("999,1.5,2,3,4,5,-6");
+  const TruthColumns columns("free_ahead_m,wz_radps,time_s,x_m,y_m,z_m,yaw_rad,vx_mps");
+  const auto line = columns.parse("999,0.25,1.5,2,3,4,5,-6");
   EXPECT_EQ(line.time.time_since_epoch().count(), 1'500'000'000);
   EXPECT_EQ(line.x_m, 2);
   EXPECT_EQ(line.vx_mps, -6);
   EXPECT_EQ(line.free_ahead_m, 999);
+  EXPECT_EQ(line.wz_radps, 0.25);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <map>
 #include <stdexcept>
 
+#include "mission/wire_twist.h"
 #include "mission/wire_zlac8015d.h"
 
 namespace drover::mission {
@@ -90,22 +91,47 @@ json read_json(const fs::path& file) {
   throw std::runtime_error(record.folder.string() + ": " + what);
 }
 
+constexpr std::pair<const char*, Maker> kTwistBases[] = {{"gt01_serial", Maker::gt01_serial},
+                                                         {"gt01_can", Maker::gt01_can},
+                                                         {"agilex_v2", Maker::agilex_v2}};
+
 /// What its drives are like.
 void read_drives(const json& scenario, Record& record) {
   constexpr double kTurn = 2 * M_PI;
   record.mps_per_turnps = kTurn * 0.165 / 10;
   for (const auto& drive : scenario.value("drives", json::array())) {
-    if (drive.value("driver", "") == "zlac8015d") {
+    const std::string driver = drive.value("driver", "");
+    if (driver == "zlac8015d") {
       record.maker = Maker::zlac8015d;
       record.mps_per_turnps = kTurn * 0.085;
+    }
+    for (const auto& [name, maker] : kTwistBases) {
+      if (driver != name) continue;
+      record.maker = maker;
+      record.mps_per_turnps = 1;
+      return;  // it has no joints
     }
     if (drive.contains("joint")) record.joints.push_back(drive.at("joint"));
     for (const auto& joint : drive.value("joints", json::array())) record.joints.push_back(joint);
   }
 }
 
+/// As its two edges.
+void add_twist(Time time, const TwistCommand& twist, Record& record) {
+  constexpr double kHalfTrack_m = 0.3;
+  for (const double side : {-1.0, 1.0}) {
+    const double edge_mps = twist.vx_mps + side * kHalfTrack_m * twist.wz_radps;
+    const auto node = static_cast<std::uint8_t>(side < 0 ? 1 : 2);
+    record.sent.push_back({time, {node, static_cast<float>(edge_mps), 0}});
+  }
+}
+
 void read_set_points(const CanLine& line, Record& record) {
-  if (record.maker == Maker::odrive) {
+  if (record.maker == Maker::gt01_can || record.maker == Maker::agilex_v2) {
+    const auto twist = record.maker == Maker::gt01_can ? gt01::twist_command(line.frame)
+                                                       : agilex_v2::twist_command(line.frame);
+    if (twist) add_twist(line.time, *twist, record);
+  } else if (record.maker == Maker::odrive) {
     if (const auto wheel = wheel_command(line.frame)) record.sent.push_back({line.time, *wheel});
   } else if (const auto targets = zlac8015d::targets_turnps(line.frame)) {
     for (std::uint8_t i = 0; i < targets->size(); ++i)
@@ -119,6 +145,7 @@ Record read_record(const fs::path& folder, const json& scenario) {
   Record record;
   record.folder = folder;
   read_drives(scenario, record);
+  record.bumper = scenario.value(json::json_pointer("/lines/bumper"), std::string()) != "unwired";
   const Earth earth(scenario);
   const auto read_can = [&](std::string_view line) {
     auto parsed = parse_can_line(line);
@@ -133,6 +160,9 @@ Record read_record(const fs::path& folder, const json& scenario) {
   if (scenario.value("outputs", false))
     each_line(folder / "lines.log",
               [&](std::string_view line) { append(record.levels, parse_level_line(line)); });
+  if (record.maker == Maker::gt01_serial)
+    for (const gt01::Asked& asked : gt01::read_line(folder).packets)
+      add_twist(asked.time, asked.twist, record);
   std::optional<TruthColumns> columns;
   each_line(folder / "truth.csv", [&](std::string_view line) {
     if (columns)
@@ -219,7 +249,8 @@ TruthLine Record::truth_at(Time time) const {
           mix(a.z_m, b.z_m),
           a.yaw_rad + share * turn_rad,
           mix(a.vx_mps, b.vx_mps),
-          mix(a.free_ahead_m, b.free_ahead_m)};
+          mix(a.free_ahead_m, b.free_ahead_m),
+          mix(a.wz_radps, b.wz_radps)};
 }
 
 std::vector<Sent> Record::moving(Time begin, Time end) const {

@@ -39,12 +39,13 @@ struct Sent {
 };
 
 /// Whose drives they are.
-enum class Maker { odrive, zlac8015d };
+enum class Maker { odrive, zlac8015d, gt01_serial, gt01_can, agilex_v2 };
 
 struct Record {
   std::filesystem::path folder;
   Maker maker = Maker::odrive;
-  std::vector<std::string> joints;  ///< of the drives, in their order
+  std::vector<std::string> joints;  ///< of the drives, in their order; none of such a base
+  bool bumper = true;               ///< it has one
   double mps_per_turnps = 0;        ///< way of a wheel in a motor's turn
   std::vector<CanLine> can;
   std::vector<MqttLine> mqtt;
@@ -54,7 +55,8 @@ struct Record {
   // What the lines above mean:
   std::vector<Status> statuses;
   std::vector<Feedback> feedback;
-  /// Every set point on the bus, whoever sent it. Of a ZLAC8015D the wheels are nodes 1 and 2.
+  /// Every set point on the wire, whoever sent it. Of a ZLAC8015D the wheels are nodes 1 and 2; of
+  /// a base that takes a twist its left and its right edge, in m/s.
   std::vector<Sent> sent;
   std::vector<JointCommandLine> joint_commands;
   std::vector<Place> track;   ///< of the last save_trajectory, in the simulator's frame

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "mission/log_lines.h"
+#include "mission/wire_twist.h"
 #include "mission/wire_zlac8015d.h"
 
 namespace drover::mission {
@@ -97,6 +98,55 @@ TEST(MissionWire, ReadsBothWheelsOfAZlac8015dAsTheyDriveAhead) {
   EXPECT_FALSE((WheelCommand{1, (*zero)[1], 0}.moves()));
   EXPECT_TRUE(zlac8015d::is_zero_by_service(frame("601#23FF600200000000")));
   EXPECT_FALSE(zlac8015d::is_zero_by_service(frame("601#23FF600201000000")));
+}
+
+TEST(MissionWire, RefusesWhatAGt01OnCanMustNeverBeTold) {
+  for (const char* text : {
+           "001#0102000000000000",  // speeds of its wheels
+           "001#0201000000000000",  // another command
+           "001#0101F40100000001",  // something behind the twist
+           "001#0101F401",
+           "002#0101000000000000",
+           "00000001#0101000000000000",
+           "001#R",
+       })
+    EXPECT_FALSE(gt01::forbidden(frame(text)).empty()) << text;
+  for (const char* text : {"001#0101F40107000000", "020#0239FE0108000000", "010#0000000000000000"})
+    EXPECT_EQ(gt01::forbidden(frame(text)), "") << text;
+}
+
+TEST(MissionWire, ReadsTheTwistsOfAGt01OnCan) {
+  const auto twist = gt01::twist_command(frame("001#010101F4FFF80000"));
+  ASSERT_TRUE(twist);
+  EXPECT_EQ(twist->vx_mps, 0.5);
+  EXPECT_EQ(twist->wz_radps, -0.008);
+  EXPECT_FALSE(gt01::twist_command(frame("001#0101000000000000"))->moves());
+  EXPECT_FALSE(gt01::twist_command(frame("010#010101F4FFF80000")));
+}
+
+TEST(MissionWire, RefusesWhatAnAgilexMustNeverBeTold) {
+  for (const char* text : {
+           "111#01F4000500000001",  // a steering angle
+           "111#01F40005",
+           "421#02",       // a mode that is none of ours
+           "431#00",       // the zero of a steering
+           "441#00",       // clear errors
+           "131#01",       // a brake
+           "0CFF1000#00",  // another sensor
+           "411#01",
+       })
+    EXPECT_FALSE(agilex_v2::forbidden(frame(text)).empty()) << text;
+  for (const char* text : {"111#01F4000500000000", "421#01", "421#00", "221#01F4000500000000",
+                           "0CFF3408#0C000300EE070000"})
+    EXPECT_EQ(agilex_v2::forbidden(frame(text)), "") << text;
+}
+
+TEST(MissionWire, ReadsTheTwistsOfAnAgilex) {
+  const auto twist = agilex_v2::twist_command(frame("111#FE0C000500000000"));
+  ASSERT_TRUE(twist);
+  EXPECT_EQ(twist->vx_mps, -0.5);
+  EXPECT_EQ(twist->wz_radps, 0.005);
+  EXPECT_FALSE(agilex_v2::twist_command(frame("111#0000000000000000"))->moves());
 }
 
 }  // namespace

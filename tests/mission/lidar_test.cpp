@@ -1,0 +1,110 @@
+// Missions in which nobody tells of what is in the way: the lidar alone sees it, or does not see.
+#include "mission/support.h"
+
+namespace drover::mission {
+namespace {
+
+/// Half of the box of the world, and from base_link to the robot's front edge.
+constexpr double kHalfBox_m = 0.25;
+constexpr double kFront_m = 0.45;
+
+bool laser(const Status& status) {
+  return status.document.at("sensor").at("laser").get<bool>();
+}
+bool obstacle(const Status& status) {
+  return status.document.at("nav").at("obstacle").get<bool>();
+}
+
+template <typename Is>
+const Status* first(const Record& log, Time begin, const Is& is) {
+  for (const auto& status : log.statuses)
+    if (status.time >= begin && is(status)) return &status;
+  return nullptr;
+}
+
+void expect_success_without_another_start(const Record& log) {
+  EXPECT_EQ(log.feedback_words(), kStarted);
+  EXPECT_EQ(log.statuses.back().nav, "NAV_SUCCESS");
+}
+
+TEST(ALidar, IsWellInAHall) {
+  for (const char* name : {"lidar_box", "lidar_ramp"}) {
+    const Record& log = record(name);
+    const Time begin = log.answered("start_nav_success");
+    EXPECT_EQ(first(log, begin, [](const Status& s) { return !laser(s); }), nullptr) << name;
+  }
+}
+
+TEST(ABoxThatNobodyTellsOf, IsStoppedForByTheLidarAloneAndDrivenOnWhenItIsGone) {
+  const Record& log = record("lidar_box");
+  const Time comes = log.event("sim obstacle obstacle 1 1");
+  const Time goes = log.event("sim obstacle obstacle remove");
+  const auto* told = first(log, comes, obstacle);
+  ASSERT_NE(told, nullptr);
+  ASSERT_LT(told->time, goes);
+  EXPECT_NE(told->why.find("lidar"), std::string::npos) << told->why;
+  EXPECT_EQ(told->nav, "NAV_RUN");
+  tell_way_to_rest(log, comes, goes);
+  EXPECT_LT(roll(log, comes, goes).rest, goes - 3s);
+  const double left_m = 1 - kHalfBox_m - kFront_m - log.truth_at(goes).x_m;
+  figure("left before the box", left_m, "m");
+  EXPECT_GT(left_m, 0.05);
+  // The margin, and half a metre.
+  EXPECT_LT(left_m, 0.1 + 0.5);
+  EXPECT_FALSE(log.moving(goes + 1s, goes + 4s).empty()) << "it did not go on by itself";
+  expect_success_without_another_start(log);
+}
+
+struct Fault {
+  const char* mission;
+  const char* command;
+  const char* why;
+  Duration noticed;  ///< by the driver, at most
+};
+
+class ALidarThatDoesNotSee : public testing::TestWithParam<Fault> {};
+
+TEST_P(ALidarThatDoesNotSee, StopsTheRobotWhichSaysWhyAndDrivesOnWhenItSeesAgain) {
+  const Fault& fault = GetParam();
+  const Record& log = record(fault.mission);
+  const Time begin = log.event(fault.command);
+  const Time over = log.event("sim lidar normal");
+  ASSERT_TRUE(moved_until(log, begin));
+  tell_way_to_rest(log, begin, over);
+  // The age of the last good turn, and a ramp from 0.5 m/s at 0.8 m/s^2 with its jerk.
+  EXPECT_LT(roll(log, begin, over).rest - begin, fault.noticed + 300ms + 1200ms);
+  const auto* told = first(log, begin, [](const Status& s) { return !laser(s); });
+  ASSERT_NE(told, nullptr);
+  EXPECT_LT(told->time - begin, fault.noticed + 600ms);
+  const auto* late = first(log, over - 1s, [](const Status&) { return true; });
+  ASSERT_NE(late, nullptr);
+  EXPECT_NE(late->why.find("lidar: "), std::string::npos) << late->why;
+  EXPECT_NE(late->why.find(fault.why), std::string::npos) << late->why;
+  EXPECT_EQ(late->nav, "NAV_RUN");
+  EXPECT_FALSE(laser(*late));
+  // What was not known has to be for a second, and a line is tried again after two.
+  EXPECT_FALSE(log.moving(over, over + 6s).empty()) << "it did not go on by itself";
+  EXPECT_TRUE(laser(log.statuses.back()));
+  expect_success_without_another_start(log);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Each, ALidarThatDoesNotSee,
+    testing::Values(Fault{"lidar_covered", "sim lidar covered", "its lens is covered", 200ms},
+                    Fault{"lidar_sun", "sim lidar sun", "is blind in", 500ms},
+                    Fault{"lidar_frozen", "sim lidar frozen", "the same turn over and over", 800ms},
+                    Fault{"lidar_unplugged", "sim lidar unplugged", "/lidar", 100ms}),
+    [](const auto& each) { return std::string(each.param.mission); });
+
+/// With its beams at 0.35 m the ramp is met 2.33 m beyond its foot, or farther while it climbs.
+TEST(ARampOf15Percent, IsDrivenUpWithoutANeedlessStop) {
+  const Record& log = record("lidar_ramp");
+  const Time begin = log.answered("start_nav_success");
+  const auto& success = log.first_status("NAV_SUCCESS", begin);
+  EXPECT_EQ(first(log, begin, obstacle), nullptr);
+  EXPECT_GT(log.truth_at(success.time).z_m, 0.4);
+  expect_success_without_another_start(log);
+}
+
+}  // namespace
+}  // namespace drover::mission

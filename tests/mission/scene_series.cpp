@@ -1,0 +1,249 @@
+// Judges what tests/mission/scenes played: each thing that appeared, by how far ahead it was then.
+#include "mission/scene_series.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "mission/conduct.h"
+#include "mission/scene_way.h"
+
+namespace drover::mission {
+namespace {
+
+using namespace std::chrono_literals;
+
+// scene.margin_m, limits.deceleration_mps2, defaults; the delay of the whole chain.
+constexpr double kMargin_m = 0.1;
+constexpr double kBrakes_mps2 = 0.8;
+constexpr double kChain_s = 0.28;
+// Two sigma of the position, and what the judge does not know better.
+constexpr double kBlur_m = 0.1;
+constexpr double kFarFrom_m = kMargin_m + 0.5;
+constexpr double kStanding_mps = 0.01;
+
+struct Drive {
+  Time start = kNever;
+  Time end = Time::max();
+  std::size_t target = 0;
+};
+
+std::vector<Drive> drives_of(const Record& log) {
+  std::vector<Drive> drives;
+  for (const auto& line : log.mqtt) {
+    if (line.topic != "mqtt_control") continue;
+    const auto message = nlohmann::json::parse(line.payload, nullptr, false);
+    if (!message.is_object() || message.value("cmd", "") != "start_task") continue;
+    if (!drives.empty()) drives.back().end = line.time;
+    drives.push_back({line.time, Time::max(), message.at("id").get<std::size_t>()});
+  }
+  return drives;
+}
+
+const char* word(Appeared::Where where) {
+  switch (where) {
+    case Appeared::Where::beside: return "beside";
+    case Appeared::Where::grazing: return "grazing";
+    case Appeared::Where::far: return "far";
+    case Appeared::Where::between: return "between";
+    case Appeared::Where::near: return "near";
+    case Appeared::Where::at_rest: return "at rest";
+  }
+  return "";
+}
+
+/// Far enough to stop before it, nearer than a ramp to zero takes, or neither.
+Appeared::Where judge_distance(double way_m, double v_mps) {
+  const double brakes_m = v_mps * v_mps / (2 * kBrakes_mps2);
+  if (way_m >= kChain_s * v_mps + brakes_m + kMargin_m + kBlur_m) return Appeared::Where::far;
+  return way_m < brakes_m + kMargin_m ? Appeared::Where::near : Appeared::Where::between;
+}
+
+class Series {
+ public:
+  explicit Series(const Record& record)
+      : log_(record),
+        scene_(read_scene_log(record)),
+        way_(record.track),
+        drives_(drives_of(record)) {}
+
+  SeriesReport judge_all() {
+    report_.drives = drives_.size();
+    for (const auto& answer : log_.feedback)
+      if (answer.cmd == "start_task_success") ++report_.accepted;
+    for (std::size_t i = 0; i < scene_.objects.size(); ++i)
+      if (scene_.objects[i].verb == "put") look_at(scene_.objects[i], i);
+    judge_contacts();
+    judge_touches();
+    return std::move(report_);
+  }
+
+ private:
+  const Drive* drive_at(Time time) const {
+    const Drive* found = nullptr;
+    for (const auto& drive : drives_)
+      if (drive.start <= time) found = &drive;
+    return found;
+  }
+
+  Time gone(std::size_t from, const std::string& name) const {
+    for (std::size_t i = from; i < scene_.objects.size(); ++i)
+      if (scene_.objects[i].verb == "gone" && scene_.objects[i].name == name)
+        return scene_.objects[i].time;
+    return log_.truth.back().time;
+  }
+
+  /// Where on its way the robot is, and how far beside it.
+  void locate(const TruePose& pose, const Drive& drive, double& s_m, double& beside_m) const {
+    // A drive begins at most as far before its target as two of them are long.
+    const double target_m = 0.5 * static_cast<double>(drive.target - 1);
+    const double from_m = std::max(0.0, target_m - 13);
+    s_m = way_.nearest_m({pose.x_m, pose.y_m}, from_m, target_m - from_m + 0.5);
+    const TruePose on = way_.pose(s_m);
+    beside_m =
+        -std::sin(on.yaw_rad) * (pose.x_m - on.x_m) + std::cos(on.yaw_rad) * (pose.y_m - on.y_m);
+  }
+
+  void look_at(const ObjectLine& put, std::size_t index) {
+    Appeared one;
+    one.name = put.name;
+    one.kind = put.solid.kind;
+    one.time = put.time;
+    one.gone = gone(index, put.name);
+    const Drive* const drive = drive_at(put.time);
+    const auto thing = flat(put.solid);
+    if (drive == nullptr || !thing) return;
+    const TruePose& pose = scene_.pose_at(put.time);
+    one.v_mps = pose.vx_mps;
+    double s_m = 0;
+    double beside_m = 0;
+    locate(pose, *drive, s_m, beside_m);
+    const double end_m = 0.5 * static_cast<double>(drive->target - 1);
+    const auto way_m = way_to_contact_m(way_, s_m, end_m, beside_m, *thing);
+    if (!way_m) {
+      const double least_m = nearest_on_way_m(way_, s_m, end_m, beside_m, *thing);
+      one.where =
+          least_m > kMargin_m + kBlur_m ? Appeared::Where::beside : Appeared::Where::grazing;
+    } else {
+      one.way_m = *way_m;
+      one.where = pose.moves() ? judge_distance(*way_m, pose.vx_mps) : Appeared::Where::at_rest;
+    }
+    if (one.where == Appeared::Where::near) judge_zero(one);
+    if (one.where == Appeared::Where::far) judge_standing(one, *drive, *thing);
+    report_.appeared.push_back(one);
+  }
+
+  void judge_zero(const Appeared& one) {
+    const auto moving = log_.moving(one.time + 100ms, std::min(one.gone, one.time + 2s));
+    if (!moving.empty())
+      problem(one, "is driven on for after 100 ms: " + seconds(moving.front().time));
+  }
+
+  /// When it is taken away and the robot stands before nothing else.
+  void judge_standing(Appeared& one, const Drive& drive, const Flat& thing) {
+    const Time then = one.gone - 20ms;
+    if (then > drive.end || then < one.time + 1500ms) return;
+    const TruePose& pose = scene_.pose_at(then);
+    const TruePose& earlier = scene_.pose_at(then - 1s);
+    if (pose.moves() || std::hypot(pose.x_m - earlier.x_m, pose.y_m - earlier.y_m) > kStanding_mps)
+      return;
+    double s_m = 0;
+    double beside_m = 0;
+    locate(pose, drive, s_m, beside_m);
+    const double end_m = 0.5 * static_cast<double>(drive.target - 1);
+    const auto way_m = way_to_contact_m(way_, s_m, end_m, beside_m, thing);
+    if (!way_m) return;  // it stands at its goal
+    for (const auto& other : gaps_at(pose, scene_.objects))
+      if (other.what != one.name && other.gap_m < kFarFrom_m + kBlur_m) return;
+    one.stood_m = *way_m;
+    if (*way_m > kFarFrom_m + kBlur_m)
+      problem(one, "is stood before at " + std::to_string(*way_m) + " m, that is too far");
+    bool told = false;
+    for (const auto& status : log_.statuses)
+      told = told || (status.time > then - 1s && status.time <= one.gone && status.obstacle &&
+                      status.why.find(one.name) != std::string::npos);
+    if (!told) problem(one, "is stood before and not named");
+  }
+
+  /// What appeared too near to stop may be run into while it brakes; nothing else.
+  bool is_excused(const std::string& name) const {
+    return std::any_of(report_.appeared.begin(), report_.appeared.end(), [&](const Appeared& one) {
+      return one.name == name &&
+             (one.where == Appeared::Where::near || one.where == Appeared::Where::between);
+    });
+  }
+
+  void judge_contacts() {
+    report_.poses = scene_.poses.size();
+    std::set<std::string> met;  // each is told once
+    for (const auto& pose : scene_.poses) {
+      if (!pose.moves()) continue;
+      for (const auto& one : gaps_near(pose)) {
+        const bool excused = is_excused(one.what);
+        if (!excused) report_.least_gap_m = std::min(report_.least_gap_m, one.gap_m);
+        if (!(one.gap_m < 0) || !met.insert(one.what).second) continue;
+        if (excused)
+          ++report_.excused_contacts;
+        else
+          report_.problems.push_back(one.what + ": CONTACT at " + seconds(one.time) + " at " +
+                                     std::to_string(pose.vx_mps) + " m/s");
+      }
+    }
+  }
+
+  std::vector<Near> gaps_near(const TruePose& pose) {
+    while (next_ < scene_.objects.size() && scene_.objects[next_].time <= pose.time)
+      present_.push_back(next_++);
+    std::erase_if(present_, [&](std::size_t i) {
+      const auto& line = scene_.objects[i];
+      return line.verb != "put" || gone(i, line.name) <= pose.time;
+    });
+    std::vector<Near> found;
+    for (const auto i : present_)
+      if (const auto thing = flat(scene_.objects[i].solid))
+        found.push_back({pose.time, scene_.objects[i].name,
+                         gap_m(outline(pose.x_m, pose.y_m, pose.yaw_rad), *thing), pose.moves()});
+    return found;
+  }
+
+  /// The mechanics say the same.
+  void judge_touches() {
+    for (const auto& touch : scene_.all("touch")) {
+      ++report_.touches;
+      if (is_excused(touch.name)) continue;
+      const bool moved =
+          std::abs(touch.numbers[3]) > kStanding_mps || std::abs(touch.numbers[5]) > 0.01;
+      if (moved)
+        report_.problems.push_back(touch.name + ": the mechanics felt a CONTACT at " +
+                                   seconds(touch.time));
+    }
+  }
+
+  void problem(const Appeared& one, const std::string& what) {
+    report_.problems.push_back(one.name + " (" + one.kind + ", " + word(one.where) + ", " +
+                               std::to_string(one.way_m) + " m at " + std::to_string(one.v_mps) +
+                               " m/s, " + seconds(one.time) + ") " + what);
+  }
+
+  const Record& log_;
+  SceneLog scene_;
+  Way way_;
+  std::vector<Drive> drives_;
+  std::vector<std::size_t> present_;
+  std::size_t next_ = 0;
+  SeriesReport report_;
+};
+
+}  // namespace
+
+SeriesReport judge_series(const Record& record) {
+  return Series(record).judge_all();
+}
+
+std::size_t SeriesReport::count(Appeared::Where where) const {
+  return static_cast<std::size_t>(
+      std::count_if(appeared.begin(), appeared.end(),
+                    [where](const Appeared& one) { return one.where == where; }));
+}
+
+}  // namespace drover::mission
