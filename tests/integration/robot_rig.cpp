@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 using std::chrono::milliseconds;
 
 milliseconds deadline() {
-  return milliseconds(20'000) * deadline_factor();
+  return milliseconds(60'000) * deadline_factor();
 }
 
 /// In memory where there is such a place: a robot that logs to a busy disk stands still meanwhile.

@@ -58,7 +58,7 @@ class RobotRig : public testing::Test {
   /// Ends the gateway as systemd would and expects that it ends well.
   void stop_daemon();
 
-  /// Turns the operator's loop until `done`; false at the deadline (20 s), or when so long is over.
+  /// Turns the operator's loop until `done`; false at the deadline (60 s), or when so long is over.
   bool wait_until(const std::function<bool()>& done);
   bool wait_until(const std::function<bool()>& done, std::chrono::nanoseconds longest);
   bool wait_for_feedback(std::string_view cmd, std::size_t from);

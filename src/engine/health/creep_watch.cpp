@@ -9,7 +9,7 @@ namespace drover::engine {
 namespace {
 
 constexpr double kPatience_s = 0.3;  // drives lag
-constexpr double kConfirm_s = 1.0;
+constexpr double kSeenStanding_s = 1.0;
 constexpr double kForgets_s = 5.0;
 constexpr double kCreeps_m = 0.1;
 
@@ -36,7 +36,7 @@ bool CreepWatch::update(const CreepInput& input, const RimMotion& rims) {
   // than its wheels: the count begins anew.
   const bool down = goes_down(rims.ahead, input.falls_ahead) && std::abs(mps) > kStands_mps;
   if (input.may_roll && (down || std::abs(mps) > kTurns_mps)) way_m_ = heard_s_ = 0;
-  const bool stood = heard_s_ > kConfirm_s && std::abs(way_m_) < kStands_mps * heard_s_;
+  const bool stood = heard_s_ > kSeenStanding_s && std::abs(way_m_) < kStands_mps * heard_s_;
   if (stood || !input.power || !rims.driven) end();
   const bool sure = !input.may_roll || !input.seen_to_stand;
   return under_way() && std::abs(way_m_) > kCreeps_m && sure;

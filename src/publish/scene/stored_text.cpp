@@ -43,13 +43,13 @@ std::optional<GeodeticPoint> read_origin(std::string_view line) {
 }
 
 template <class Message>
-struct Read {
+struct Stored {
   std::vector<Message> messages;
   GeodeticPoint origin;
 };
 
 template <class Message, class Parse>
-Result<Read<Message>, scene::Refusal> read_stored(std::string_view text, Parse parse) {
+Result<Stored<Message>, scene::Refusal> read_stored(std::string_view text, Parse parse) {
   const auto end = text.find('\n');
   const auto origin = read_origin(text.substr(0, end));
   if (end == std::string_view::npos || !origin)
@@ -57,7 +57,7 @@ Result<Read<Message>, scene::Refusal> read_stored(std::string_view text, Parse p
   auto read = parse(text.substr(end + 1), Retain::no, kStoredSceneLimits);
   if (!read.ok()) return read.error();
   if (read->messages.empty()) return scene::Refusal{"", "there is no message"};
-  Read<Message> stored{{}, *origin};
+  Stored<Message> stored{{}, *origin};
   for (auto& message : read.value().messages) {
     if (!message.result.ok()) return message.result.error();
     stored.messages.push_back(std::move(message.result.value().message));

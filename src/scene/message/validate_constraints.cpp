@@ -14,20 +14,20 @@ using check::Notes;
 using check::Problem;
 
 /// Of tolerances, weights and angles: beyond it a number is a mistake.
-constexpr double kMost = 1e9;
+constexpr double kLargest = 1e9;
 
 /// Any weight counts; 0 is 1. It never switches a constraint off.
 Problem check_weight(const std::string& path, double weight) {
-  return check::number(check::member(path, "weight"), weight, 0, kMost);
+  return check::number(check::member(path, "weight"), weight, 0, kLargest);
 }
 
 Problem check_joint(const std::string& path, JointConstraint& joint, Notes& notes) {
   if (auto problem = check::name(check::member(path, "joint_name"), joint.joint_name))
     return problem;
-  for (const auto& [name, value, least] : {std::tuple{"position", joint.position, -kMost},
+  for (const auto& [name, value, least] : {std::tuple{"position", joint.position, -kLargest},
                                            {"tolerance_above", joint.tolerance_above, 0.0},
                                            {"tolerance_below", joint.tolerance_below, 0.0}}) {
-    if (auto problem = check::number(check::member(path, name), value, least, kMost))
+    if (auto problem = check::number(check::member(path, name), value, least, kLargest))
       return problem;
   }
   if (joint.tolerance_above == 0 && joint.tolerance_below == 0)
@@ -63,7 +63,7 @@ Problem check_position(const std::string& path, PositionConstraint& position, No
 
 /// A sign says nothing; 0 is what no sensor ever holds.
 Problem check_tolerance(const std::string& path, double& tolerance, Notes& notes) {
-  if (auto problem = check::number(path, tolerance, -kMost, kMost)) return problem;
+  if (auto problem = check::number(path, tolerance, -kLargest, kLargest)) return problem;
   if (tolerance == 0)
     check::note(notes, path, "is 0: a measured turn never holds it; pi and more leaves it free");
   if (tolerance < 0) check::note(notes, path, "is negative, taken without its sign");
@@ -96,8 +96,8 @@ Problem check_placed(const std::string& path, PoseStamped& placed, Notes& notes)
 Problem check_view(const std::string& path, VisibilityConstraint& sight, Notes& notes) {
   for (const auto& [name, value, most] :
        {std::tuple{"target_radius", sight.target_radius, kMaxSize_m},
-        {"max_view_angle", sight.max_view_angle, kMost},
-        {"max_range_angle", sight.max_range_angle, kMost}}) {
+        {"max_view_angle", sight.max_view_angle, kLargest},
+        {"max_range_angle", sight.max_range_angle, kLargest}}) {
     if (auto problem = check::number(check::member(path, name), value, 0, most)) return problem;
   }
   if (sight.target_radius == 0 && sight.max_view_angle == 0 && sight.max_range_angle == 0)
