@@ -21,6 +21,8 @@ constexpr double kChain_s = 0.28;
 constexpr double kBlur_m = 0.1;
 constexpr double kFarFrom_m = kMargin_m + 0.5;
 constexpr double kStanding_mps = 0.01;
+// scene.again_s, default, and what looking, answering and beginning to move take.
+constexpr auto kAgain = 1500ms;
 
 struct Drive {
   Time start = kNever;
@@ -139,7 +141,7 @@ class Series {
       problem(one, "is driven on for after 100 ms: " + seconds(moving.front().time));
   }
 
-  /// When it is taken away and the robot stands before nothing else.
+  /// When it is taken away and the robot stands before nothing else, nor did just now.
   void judge_standing(Appeared& one, const Drive& drive, const Flat& thing) {
     const Time then = one.gone - 20ms;
     if (then > drive.end || then < one.time + 1500ms) return;
@@ -153,8 +155,7 @@ class Series {
     const double end_m = 0.5 * static_cast<double>(drive.target - 1);
     const auto way_m = way_to_contact_m(way_, s_m, end_m, beside_m, thing);
     if (!way_m) return;  // it stands at its goal
-    for (const auto& other : gaps_at(pose, scene_.objects))
-      if (other.what != one.name && other.gap_m < kFarFrom_m + kBlur_m) return;
+    if (stands_before_other(pose, one.name)) return;
     one.stood_m = *way_m;
     if (*way_m > kFarFrom_m + kBlur_m)
       problem(one, "is stood before at " + std::to_string(*way_m) + " m, that is too far");
@@ -163,6 +164,14 @@ class Series {
       told = told || (status.time > then - 1s && status.time <= one.gone && status.obstacle &&
                       status.why.find(one.name) != std::string::npos);
     if (!told) problem(one, "is stood before and not named");
+  }
+
+  /// Or stood until so short a time ago that it need not move yet.
+  bool stands_before_other(TruePose pose, const std::string& name) const {
+    for (const Time then = pose.time; pose.time > then - kAgain; pose.time -= 20ms)
+      for (const auto& other : gaps_at(pose, scene_.objects))
+        if (other.what != name && other.gap_m < kFarFrom_m + kBlur_m) return true;
+    return false;
   }
 
   /// What appeared too near to stop may be run into while it brakes; nothing else.

@@ -24,7 +24,8 @@ struct DriveAlongX {
   double stands_at_x_m = 5.3;  ///< its middle
   Time stop_commanded{0s};     ///< 0: as it stands
   bool named = true;
-  std::string touch;  ///< a line of objects.log
+  std::string touch;      ///< a line of objects.log
+  std::string pole_gone;  ///< when a pole 0.1 m before it is taken away, like "29.5"; empty: none
 
   SeriesReport report() const {
     const test::TempFolder folder;
@@ -37,7 +38,12 @@ struct DriveAlongX {
     char stamp[40];
     std::snprintf(stamp, sizeof stamp, "(%lld.%09lld) ", static_cast<long long>(ns / 1'000'000'000),
                   static_cast<long long>(ns % 1'000'000'000));
-    objects << stamp << "put box box 6.5 0 0.5 0 1 1 1\n" << touch << "(30.000000000) gone box\n";
+    objects << stamp << "put box box 6.5 0 0.5 0 1 1 1\n" << touch;
+    if (!pole_gone.empty())
+      objects << stamp << "put pole cylinder " << stands_at_x_m + 0.45 + 0.11
+              << " 0.4 0.5 0 0.01 1\n"
+              << "(" << pole_gone << "00000000) gone pole\n";
+    objects << "(30.000000000) gone box\n";
     objects.close();
     for (int i = 0; i <= 20; ++i) record.track.push_back({0.5 * i, 0});
     record.mqtt.push_back({Time{1s}, "mqtt_control", false, R"({"cmd": "start_task", "id": 21})"});
@@ -95,6 +101,15 @@ TEST(ASeries, FindsARobotThatStandsTooFarAwayAndOneThatDoesNotSayWhy) {
   drive = {};
   drive.named = false;
   EXPECT_THAT(drive.report().problems, ElementsAre(HasSubstr("not named")));
+}
+
+TEST(ASeries, LetsTheRobotWaitForASecondAfterSomethingElseThatHeldIt) {
+  DriveAlongX drive;
+  drive.stands_at_x_m = 4.5;
+  drive.pole_gone = "29.5";
+  EXPECT_THAT(drive.report().problems, IsEmpty());
+  drive.pole_gone = "28.0";
+  EXPECT_THAT(drive.report().problems, ElementsAre(HasSubstr("too far")));
 }
 
 TEST(ASeries, WantsZeroWithin100MillisecondsBeforeWhatCameTooNear) {
