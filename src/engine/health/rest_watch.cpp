@@ -21,27 +21,11 @@ constexpr double kAlone_s = 1.0;    // a witness without another one
 constexpr double kSilent_s = 1.0;   // where nothing else can tell
 constexpr double kBegins_s = 2.5;   // a base that has its supply again, with a margin
 constexpr Duration kCaughtUntil = std::chrono::seconds(10);  // as long as drives are taken back
-constexpr double kFaster_mps = 0.3;
 constexpr double kSteady_s = 1.0;
-constexpr double kRolled_m = 0.3;
 constexpr double kConfirm_s = 1.0;
-// Of the speed that it had: what is slower has braked.
-constexpr double kHasBraked = 0.5;
-// Of the sine of the slope, whose doing it is however fast it was driven: 0.2 m/s on 15 %.
-constexpr double kCreeps_mps = 1.35;
-constexpr double kCreepsUnknown_mps = 0.2;                  // where nobody knows how steep it is
-constexpr double kCreepsUnheard_mps = 0.1;                  // it may as well be driven so slowly
 constexpr Duration kCreptLately = std::chrono::seconds(1);  // one speed of a receiver is noise
-constexpr double kAlong = 0.87;  // of its way: within 30 degrees of the heading
-// A second shows whether it stands. So long after a stop has to be looked at for longer.
-constexpr Duration kLookTwice = std::chrono::seconds(6);
 constexpr Duration kLookAgain = std::chrono::seconds(5);
 constexpr Duration kLookAgainAfterCut = std::chrono::seconds(2);
-
-/// Of the way; absent without a heading.
-double along(const PathPoint& way, double yaw_rad) {
-  return way.x_m * std::cos(yaw_rad) + way.y_m * std::sin(yaw_rad);
-}
 
 /// There is some to take, and no person has let the drives go.
 bool has_power(const RestInput& input) {
@@ -58,7 +42,7 @@ void RestWatch::expect_stop(Time now) {
   if (!creep_.under_way()) creep_.begin(now);
   if (!has_rested()) return;
   state_ = RestState::settling;
-  due_ = should_rest_since_ = now;
+  due_ = last_.rest_due = now;
   moves_since_ = alone_since_ = kNever;
 }
 
@@ -70,7 +54,7 @@ bool RestWatch::has_rested() const {
 void RestWatch::reset() {
   if (state_ != RestState::not_stopping) return;
   state_ = RestState::settling;
-  ours_ = inherited_ = false;  // what had no power begins anew
+  ours_ = last_.inherited = false;  // what had no power begins anew
   silence_.reset();
   creep_.end();
   quiet_since_ = moves_since_ = alone_since_ = kNever;
@@ -84,10 +68,10 @@ bool RestWatch::due(const RestInput& input) {
   if (asked_mps != 0 && !input.caught) {
     ours_ = true;
     const bool told = asked.ahead != 0 || asked.turn != 0;  // the end of a ramp counts as standing
-    direction_ = told ? asked.ahead : direction_;
-    turn_ = told ? asked.turn : turn_;
-    if (state_ != RestState::driving && state_ != RestState::settling) drove_mps_ = 0;
-    drove_mps_ = std::max(drove_mps_, std::abs(asked_mps));
+    last_.direction = told ? asked.ahead : last_.direction;
+    last_.turn = told ? asked.turn : last_.turn;
+    if (state_ != RestState::driving && state_ != RestState::settling) last_.fastest_mps = 0;
+    last_.fastest_mps = std::max(last_.fastest_mps, std::abs(asked_mps));
   }
   const double slower_mps =
       expected_mps_ - config_.limits.deceleration_mps2 * std::max(to_s(input.dt), 0.0);
@@ -97,15 +81,15 @@ bool RestWatch::due(const RestInput& input) {
     return false;
   }
   if (due_ == kNever) {
-    due_ = should_rest_since_ = input.now;
-    witness_.expect_rest(input.now, turn_);
+    due_ = last_.rest_due = input.now;
+    witness_.expect_rest(input.now, last_.turn);
     quiet_since_ = moves_since_ = alone_since_ = kNever;
-    seen_mps_ = 0;
+    last_.seen_mps = 0;
     crept_at_ = kNever;
     creep_.end();
     if (ours_) creep_.begin(input.now);
   }
-  if (seen_mps_ == 0) seen_mps_ = witness_.speed_mps(input.now);
+  if (last_.seen_mps == 0) last_.seen_mps = witness_.speed_mps(input.now);
   return true;
 }
 
@@ -117,7 +101,7 @@ bool RestWatch::is_driven_by_us(const RestInput& input) const {
 /// Whether taking the power helps: from what we drive, not from what would only roll faster.
 bool RestWatch::may_be_cut(const RestInput& input, const RimMotion& rims) const {
   // Wheels that run by what the program before this one said, and nothing else shows it.
-  const bool inherits = inherited_ && !ours_ && history_.turns() && rims.driven;
+  const bool inherits = last_.inherited && !ours_ && history_.turns() && rims.driven;
   if ((!ours_ && !inherits) || !has_power(input)) return false;
   if (!may_roll_ && !inherits) return true;
   // Caught on level ground, or slowed down by a guard, it gets slower: what does not is driven.
@@ -126,51 +110,7 @@ bool RestWatch::may_be_cut(const RestInput& input, const RimMotion& rims) const 
   // Drives that do not run drive nothing: it rolls, and they are to catch it.
   const Time since = std::max(moves_since_, history_.drives_on_since());
   return rims.driven && input.now - since >= from_s(inherits ? kSteady_s : kMotionHeldOnSlope_s) &&
-         moves_as_commanded(input, rims);
-}
-
-/// Driven on, rather than rolling down where it stands. Only what shows it counts.
-bool RestWatch::moves_as_commanded(const RestInput& input, const RimMotion& rims) const {
-  const bool turns = std::abs(rims.fastest_mps) > kTurns_mps;
-  if (!turns && witness_.spins_on(input.now)) return true;
-  // Frozen encoders may tell the last speed for ever.
-  const double half_mps = kHasBraked * std::abs(rims.fastest_mps);
-  const bool goes = rims.ahead != 0 || !turns;
-  if (goes && (is_seen_to_stand(input.now) || witness_.is_slower(half_mps, input.now)))
-    return false;
-  if (turns) {
-    if (creeps_down(input, rims.ahead, std::abs(rims.fastest_mps))) return false;
-    // The program before this one may have driven it any way.
-    const bool unknown = inherited_ && direction_ == 0 && turn_ == 0;
-    const bool up = rims.ahead * input.falls_ahead < 0;
-    return unknown || up || rims.fastest_mps * direction_ > 0 || rims.turn * turn_ > 0;
-  }
-  // Speed and place are one device's: it counts where it does not contradict itself.
-  const auto way = witness_.proven_way(input.now);
-  return way && along(*way, input.yaw_rad) * direction_ > kAlong * std::hypot(way->x_m, way->y_m);
-}
-
-/// Told to stand it only brakes, and the ground falls there: slow as it is, a cut lets it go.
-bool RestWatch::creeps_down(const RestInput& input, double ahead, double mps) const {
-  const bool known = std::isfinite(input.falls_ahead);
-  const double most_mps = known ? kCreeps_mps * std::abs(input.falls_ahead) : kCreepsUnknown_mps;
-  return input.stop_creeps && goes_down(ahead, input.falls_ahead) && mps < most_mps;
-}
-
-/// By a receiver with a fix. What goes by 5 cm in a second passes for standing at first.
-bool RestWatch::is_seen_to_stand(Time now) const {
-  return witness_.stood(now) || (witness_.stands(now) && now - should_rest_since_ < kLookTwice);
-}
-
-/// By the wheels, or by two devices, or by one that does not contradict itself.
-bool RestWatch::is_seen_to_go(const RestInput& input) const {
-  const bool turns = witness_.turns(input.now) && witness_.hear(input.now).moving >= 2;
-  return history_.turns() || turns || witness_.proven_way(input.now);
-}
-
-/// By the receiver, since rest is due.
-double RestWatch::ahead_m(const RestInput& input) const {
-  return along(witness_.way(input.now), input.yaw_rad);
+         pardon(input).drives_on(rims);
 }
 
 /// Before any rest is due. Not where it would only roll without power, and may slide down.
@@ -187,18 +127,8 @@ bool RestWatch::creeps_on(const RestInput& input, const RimMotion& rims) {
                         .power = has_power(input),
                         .may_roll = may_roll_,
                         .falls_ahead = input.falls_ahead,
-                        .seen_to_stand = is_seen_to_stand(input.now)},
+                        .seen_to_stand = pardon(input).stands()},
                        rims);
-}
-
-/// Its supply is away: faster than it was ever driven, or back; and not up. How fast the program
-/// before this one drove it is not known.
-bool RestWatch::is_seen_to_roll(const RestInput& input) const {
-  if (ahead_m(input) * input.falls_ahead < 0) return false;
-  const double drove_mps = inherited_ ? std::max(drove_mps_, seen_mps_) : drove_mps_;
-  if (witness_.speed_mps(input.now) > drove_mps + kFaster_mps) return true;
-  if (!std::isfinite(input.yaw_rad)) return false;
-  return ahead_m(input) * direction_ < -kRolled_m;
 }
 
 /// A silent base that keeps its last command, and was not at rest or is seen to move: witnesses see
@@ -208,15 +138,14 @@ bool RestWatch::is_seen_to_roll(const RestInput& input) const {
 bool RestWatch::cannot_be_stopped(const RestInput& input) {
   spared_ = false;
   if (!silence_.unheard() || !is_driven_by_us(input)) return false;
-  const double creep_mps = std::min(kHasBraked * drove_mps_, kCreepsUnheard_mps);
-  if (creeps_down(input, ahead_m(input), 0) && witness_.is_slower(creep_mps, input.now))
-    crept_at_ = input.now;
-  const bool stands = is_seen_to_stand(input.now);
+  const SlopePardon seen_on_slope = pardon(input);
+  if (seen_on_slope.creeps_unheard()) crept_at_ = input.now;
+  const bool stands = seen_on_slope.stands();
   const bool may_begin = on_slope_ || stands || !silence_.ever_heard();
   const Duration patience = from_s(may_begin ? kBegins_s : kSilent_s);
   const Duration waited = input.now - due_;
   if (waited < patience) return false;
-  const bool may_be_caught = is_seen_to_roll(input) && waited < kCaughtUntil;
+  const bool may_be_caught = seen_on_slope.rolls() && waited < kCaughtUntil;
   const bool creeps = crept_at_ != kNever && input.now - crept_at_ < kCreptLately;
   spared_ = on_slope_ && (stands || creeps || may_be_caught);
   const bool seen = moves_since_ != kNever && input.now - moves_since_ >= patience;
@@ -233,7 +162,7 @@ void RestWatch::watch_silence(const RestInput& input, const RimMotion& rims) {
                                          .found_powered = input.found_powered,
                                          .stop_asked = stop_asked,
                                          .rests = state_ == RestState::resting,
-                                         .moves = is_seen_to_go(input),
+                                         .moves = pardon(input).goes(history_.turns()),
                                          .slope = input.rolls_unpowered,
                                          .fastest_mps = rims.fastest_mps,
                                          .asked = expected_mps_ > 0});
@@ -310,7 +239,7 @@ void RestWatch::settle(const RestInput& input, const RimMotion& rims, const Test
   if (quiet && quiet_since_ == kNever) quiet_since_ = input.now;
   if (quiet && input.now - quiet_since_ >= from_s(kConfirm_s)) {
     state_ = RestState::resting;
-    ours_ = inherited_ = false;
+    ours_ = last_.inherited = false;
   }
 }
 
@@ -334,14 +263,15 @@ void RestWatch::stay(const RestInput& input, const RimMotion& rims, const Testim
   // A receiver's position wanders over the hours.
   if (input.now - due_ > kLookAgain) {
     due_ = input.now;
-    witness_.expect_rest(input.now, turn_);
+    witness_.expect_rest(input.now, last_.turn);
   }
 }
 
 RestState RestWatch::update(const RestInput& input) {
   if (!std::exchange(began_, true))
-    inherited_ = input.found_powered && !silence_.was_found_at_rest();
-  if (input.released) ours_ = inherited_ = false;  // who lets go of the drives is going to push
+    last_.inherited = input.found_powered && !silence_.was_found_at_rest();
+  if (input.released)
+    ours_ = last_.inherited = false;  // who lets go of the drives is going to push
   const RimMotion rims = rims_.told(input.axes, input.now);
   hears_wheels_ = rims.heard;
   watch_silence(input, rims);
@@ -358,7 +288,7 @@ RestState RestWatch::update(const RestInput& input) {
     // What it rolled until it came to rest is no motion any more.
     if (due_ == kNever || input.now - due_ > kLookAgainAfterCut) {
       due_ = input.now;
-      witness_.expect_rest(input.now, turn_);
+      witness_.expect_rest(input.now, last_.turn);
     }
     return state_;
   }

@@ -2,34 +2,16 @@
 // power; what is pushed or carried is told.
 #pragma once
 
-#include <span>
-
-#include "drover/snapshot.h"
 #include "engine/config.h"
 #include "engine/health/creep_watch.h"
 #include "engine/health/motion_witness.h"
+#include "engine/health/rest_input.h"
 #include "engine/health/rim_history.h"
 #include "engine/health/rim_motion.h"
 #include "engine/health/silent_base.h"
+#include "engine/health/slope_pardon.h"
 
 namespace drover::engine {
-
-struct RestInput {
-  Time now = kNever;
-  Duration dt{};
-  std::span<const AxisSnapshot> axes;  ///< with the commands of the last cycle
-  bool power_is_off = false;           ///< by the e-stop's own circuit: there is nothing to cut
-  bool rolls_unpowered = false;        ///< the ground falls, and nothing but the drives holds it
-  bool released = false;               ///< by a person, who may push it: there is nothing to cut
-  /// Drives that had let go are being taken back: their commands follow a roll, nobody drives.
-  bool caught = false;
-  bool drives_on_in_silence = false;  ///< a drive that says nothing keeps its last command
-  bool stop_creeps = false;           ///< told to stand it only brakes, on a slope
-  bool found_powered = false;         ///< it may have one of the program before this one
-  /// Sine of how the ground falls on its way ahead; 0: hardly. Absent: unknown.
-  double falls_ahead = kAbsent;
-  double yaw_rad = kAbsent;  ///< of the base, as far as it is known
-};
 
 enum class RestState : std::uint8_t {
   driving,      ///< something is commanded, or the ramp to zero needs its time
@@ -68,7 +50,7 @@ class RestWatch final {
     return (state_ == RestState::resting || pushed) && !silence_.suspect();
   }
   /// Sign in which it was driven last; 0 before.
-  double direction() const { return direction_; }
+  double direction() const { return last_.direction; }
   /// What is silent may go on by a command that it has: nothing but its power stops it.
   bool may_drive_on() const { return silence_.unheard() && (ours_ || silence_.has_a_command()); }
   /// And it was not at rest when it fell silent, or nobody knows.
@@ -94,16 +76,11 @@ class RestWatch final {
   bool bolts(const RestInput& input, const RimMotion& rims) const;
   bool creeps_on(const RestInput& input, const RimMotion& rims);
   bool cannot_be_stopped(const RestInput& input);
-  double ahead_m(const RestInput& input) const;
   bool has_rested() const;
-  bool is_seen_to_stand(Time now) const;
-  bool is_seen_to_go(const RestInput& input) const;
-  bool creeps_down(const RestInput& input, double ahead, double mps) const;
-  bool is_seen_to_roll(const RestInput& input) const;
+  SlopePardon pardon(const RestInput& input) const { return {input, witness_, last_}; }
   void watch_silence(const RestInput& input, const RimMotion& rims);
   bool is_driven_by_us(const RestInput& input) const;
   bool may_be_cut(const RestInput& input, const RimMotion& rims) const;
-  bool moves_as_commanded(const RestInput& input, const RimMotion& rims) const;
   void settle(const RestInput& input, const RimMotion& rims, const Testimony& said);
   void stay(const RestInput& input, const RimMotion& rims, const Testimony& said);
   bool others_say_so(const RestInput& input, const RimMotion& rims, const Testimony& said);
@@ -119,20 +96,15 @@ class RestWatch final {
   Reason reason_;
   bool stop_asked_ = false;  ///< since the last cycle
   bool ours_ = false;        ///< we moved it since it rested last
-  bool inherited_ = false;   ///< the program before this one may have, and it has not rested yet
   bool began_ = false;
-  double direction_ = 0;  ///< RimMotion::ahead of the last command of one who drove
-  double turn_ = 0;       ///< RimMotion::turn of it
-  double drove_mps_ = 0;  ///< the fastest that was asked of a rim, since it rested last before
-  Time should_rest_since_ = kNever;  ///< as due_, which moves on while it rests
-  bool on_slope_ = false;            ///< it could roll without power, since rest is due
-  bool may_roll_ = false;            ///< it could without power, or was caught, since rest is due
-  bool hears_wheels_ = false;        ///< at least one, in the last cycle
-  Time crept_at_ = kNever;           ///< silent, when the receiver last saw it go down slowly
-  double seen_mps_ = 0;              ///< what the receiver said first since rest is due
-  bool spared_ = false;              ///< silent on a slope: it stands, creeps, or may be caught yet
-  double expected_mps_ = 0;          ///< how fast it may still be
-  Time due_ = kNever;                ///< since when it should rest
+  LastDrive last_;
+  bool on_slope_ = false;      ///< it could roll without power, since rest is due
+  bool may_roll_ = false;      ///< it could without power, or was caught, since rest is due
+  bool hears_wheels_ = false;  ///< at least one, in the last cycle
+  Time crept_at_ = kNever;     ///< silent, when the receiver last saw it go down slowly
+  bool spared_ = false;        ///< silent on a slope: it stands, creeps, or may be caught yet
+  double expected_mps_ = 0;    ///< how fast it may still be
+  Time due_ = kNever;          ///< since when it should rest
   Time moves_since_ = kNever;
   Time alone_since_ = kNever;
   Time quiet_since_ = kNever;
