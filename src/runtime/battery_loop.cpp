@@ -90,7 +90,7 @@ void BatteryLoop::open(Time now) {
     unit.block = 0;
     unit.next_round = now;
   }
-  tell(gateway::LinkUp{link_id_}, now);
+  tell({now, gateway::LinkUp{link_id_}});
 }
 
 std::string BatteryLoop::said(const Name& name, const std::string& text) const {
@@ -99,7 +99,7 @@ std::string BatteryLoop::said(const Name& name, const std::string& text) const {
 
 void BatteryLoop::tell_lost(Time now) {
   for (const Unit& unit : units_)
-    tell(gateway::RegistersFailed{unit.slot, 0, RegisterFailure::link, 0}, now);
+    tell({now, gateway::RegistersFailed{unit.slot, 0, RegisterFailure::link, 0}});
 }
 
 void BatteryLoop::lose(const std::string& why, Time now) {
@@ -126,7 +126,7 @@ void BatteryLoop::ask(Unit& unit, Time now) {
   const auto result = link_->read(unit.modbus, block, read.words);
   now = monotonic_now();
   if (result.good) {
-    tell(read, now);
+    tell({now, read});
     if (++unit.block == unit.blocks.size()) {
       if (!std::exchange(unit.answers, true)) log(LogLevel::info, said(unit.name, "answers"));
       unit.block = 0;
@@ -140,13 +140,12 @@ void BatteryLoop::ask(Unit& unit, Time now) {
     tell_lost(now);
     return lose(settings_.port + ": lost (" + std::strerror(link_->error()) + ")", now);
   }
-  tell(gateway::RegistersFailed{unit.slot, read.block, result.failure, result.exception}, now);
+  tell({now, gateway::RegistersFailed{unit.slot, read.block, result.failure, result.exception}});
 }
 
 /// What finds the ring full is missed like an answer that never came: the driver's data grow old.
-template <class What>
-void BatteryLoop::tell(const What& what, Time at) {
-  dropped_ += exchange_.told.push(BatteryTold{at, what}) ? 0 : 1;
+void BatteryLoop::tell(const BatteryTold& told) {
+  dropped_ += exchange_.told.push(told) ? 0 : 1;
 }
 
 void BatteryLoop::publish() {

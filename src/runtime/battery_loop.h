@@ -66,8 +66,7 @@ class BatteryLoop final {
   void tell_lost(Time now);
   std::string said(const Name& name, const std::string& text) const;
   void ask(Unit& unit, Time now);
-  template <class What>
-  void tell(const What& what, Time at);
+  void tell(const BatteryTold& told);
   void publish();
   void sleep_until(Time due, Time now);
 
