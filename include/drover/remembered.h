@@ -19,7 +19,8 @@ struct Remembered {
   /// What stopped the base so that joint commands wait until a person acts; empty: nothing. A task
   /// may begin all the same: it is a person's act.
   Reason joints_wait;
-  bool at_rest = false;  ///< it was confirmed to rest, and nobody has driven it since
+  bool at_rest = false;   ///< it was confirmed to rest, and nobody has driven it since
+  bool ran_away = false;  ///< that stop, or one before it, is of a wheel that ran away
 
   friend bool operator==(const Remembered&, const Remembered&) = default;
 };

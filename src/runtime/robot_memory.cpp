@@ -20,44 +20,20 @@ namespace drover::runtime {
 
 namespace {
 
-/// What the layout before this one kept: not whether the robot was at rest.
-struct RememberedBefore {
-  Reason stop;
-  bool stop_at_robot = false;
-  bool power_cut = false;
-  bool holding = false;
-  bool released = false;
-  bool task = false;
-  bool mechanics_proved = false;
-  Reason joints_wait;
-
-  operator Remembered() const {
-    return {stop, stop_at_robot,    power_cut,   holding, released,
-            task, mechanics_proved, joints_wait, false};
-  }
-};
-
-template <class Kept>
-constexpr std::uint64_t kLayout = 0;
-template <>
-constexpr std::uint64_t kLayout<Remembered> = 0x64726d656d303034;  // "drmem004"
-template <>
-constexpr std::uint64_t kLayout<RememberedBefore> = 0x64726d656d303033;  // "drmem003"
-
-// The file's size tells the layout.
-static_assert(sizeof(Remembered) != sizeof(RememberedBefore));
+constexpr std::uint64_t kLayout = 0x64726d656d303035;  // "drmem005"
+/// Of the same size: it did not tell whether a wheel ran away.
+constexpr std::uint64_t kLayoutBefore = 0x64726d656d303034;  // "drmem004"
 
 }  // namespace
 
-template <class Kept>
 struct RobotMemory::Record {
-  static_assert(std::is_trivially_copyable_v<Kept>);
+  static_assert(std::is_trivially_copyable_v<Remembered>);
 
   std::uint64_t format = 0;
   std::uint64_t sequence = 0;  ///< 0: never written
   std::array<char, 40> boot{};
   std::uint64_t configuration = 0;
-  Kept remembered;
+  Remembered remembered;
   std::uint64_t checksum = 0;  ///< of all bytes before it
 
   std::uint64_t sum() const {
@@ -73,7 +49,7 @@ std::string boot_id() {
 
 RobotMemory::RobotMemory(const std::string& folder, const std::string& boot_id,
                          std::string_view configuration, std::vector<std::string>& report)
-    : boot_id_(boot_id.substr(0, std::tuple_size_v<decltype(Record<Remembered>::boot)> - 1)),
+    : boot_id_(boot_id.substr(0, std::tuple_size_v<decltype(Record::boot)> - 1)),
       configuration_(store::fingerprint(configuration)) {
   const std::string path = folder + "/memory";
   if (const char* failed = open(path)) {
@@ -81,61 +57,48 @@ RobotMemory::RobotMemory(const std::string& folder, const std::string& boot_id,
                      ": a latched stop is forgotten when droverd dies");
     return;
   }
-  if (!found_ && !unreadable_) {
-    read(records_);
-    return;
-  }
-  // Of the version before, and emptied: this program may die before its first cycle.
-  if (unreadable_) {
-    records_[0].format = kLayout<Remembered>;
-  } else {
-    write(*found_);
-  }
+  read();
 }
 
 const char* RobotMemory::open(const std::string& path) {
   link::UniqueFd fd(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0600));
   if (!fd) return "cannot open";
   struct stat info {};
-  const auto size = static_cast<off_t>(2 * sizeof(Record<Remembered>));
+  const auto size = static_cast<off_t>(2 * sizeof(Record));
   if (::fstat(fd.get(), &info) != 0) return "cannot look at it";
-  std::array<Record<RememberedBefore>, 2> before;
-  if (info.st_size == static_cast<off_t>(sizeof before)) {
-    if (::pread(fd.get(), before.data(), sizeof before, 0) != ssize_t{sizeof before})
-      return "cannot read";
-    read(before.data());
-  }
-  // Of yet another version, or none yet: there is nothing in it for us.
+  // Of another version, or none yet: there is nothing in it for us.
   if (info.st_size != size && ::ftruncate(fd.get(), 0) != 0) return "cannot empty";
   // Allocated now: a full disk would be a signal later, in the control thread.
   if (info.st_size != size) {
     errno = ::posix_fallocate(fd.get(), 0, size);
     if (errno != 0) return "no room";
   }
-  void* memory = ::mmap(nullptr, 2 * sizeof(Record<Remembered>), PROT_READ | PROT_WRITE,
+  void* memory = ::mmap(nullptr, 2 * sizeof(Record), PROT_READ | PROT_WRITE,
                         MAP_SHARED | MAP_POPULATE, fd.get(), 0);
   if (memory == MAP_FAILED) return "cannot map";
-  records_ = static_cast<Record<Remembered>*>(memory);
+  records_ = static_cast<Record*>(memory);
   return nullptr;
 }
 
 RobotMemory::~RobotMemory() {
-  if (records_ != nullptr) ::munmap(records_, 2 * sizeof(Record<Remembered>));
+  if (records_ != nullptr) ::munmap(records_, 2 * sizeof(Record));
 }
 
-template <class Kept>
-void RobotMemory::read(const Record<Kept>* records) {
+void RobotMemory::read() {
   bool written = false;
   for (int i = 0; i < 2; ++i) {
-    Record<Kept> record;
-    std::memcpy(static_cast<void*>(&record), &records[i], sizeof record);
+    Record record;
+    std::memcpy(static_cast<void*>(&record), &records_[i], sizeof record);
     if (record.sequence == 0 && record.format == 0) continue;
     written = true;
-    const bool whole = record.format == kLayout<Kept> && record.checksum == record.sum();
-    if (!whole) {
+    const bool known = record.format == kLayout || record.format == kLayoutBefore;
+    if (!known || record.checksum != record.sum()) {
       damaged_ = true;
       continue;
     }
+    // What lay there then was nothing.
+    if (record.format == kLayoutBefore)
+      std::memset(&record.remembered.ran_away, 0, sizeof record.remembered.ran_away);
     if (record.sequence <= sequence_) continue;
     sequence_ = record.sequence;
     const bool this_boot = boot_id_ == std::string_view(record.boot.data());
@@ -153,9 +116,9 @@ bool RobotMemory::keep(const Remembered& now) {
 }
 
 void RobotMemory::write(const Remembered& now) {
-  Record<Remembered> record;
+  Record record;
   std::memset(static_cast<void*>(&record), 0, sizeof record);
-  record.format = kLayout<Remembered>;
+  record.format = kLayout;
   record.sequence = ++sequence_;
   std::memcpy(record.boot.data(), boot_id_.data(), boot_id_.size());
   record.configuration = configuration_;
@@ -174,6 +137,7 @@ Remembered recall(const RobotMemory& memory, const Remembered& on_disk) {
     if (!kept->stop.empty()) known.stop = kept->stop;
     if (!kept->joints_wait.empty()) known.joints_wait = kept->joints_wait;
     known.power_cut = known.power_cut || kept->power_cut;
+    known.ran_away = known.ran_away || kept->ran_away;
     known.released = known.released || kept->released;
     known.task = known.task || kept->task;
   }

@@ -35,16 +35,14 @@ class RobotMemory final {
   bool keep(const Remembered& now);
 
  private:
-  template <class Kept>
   struct Record;
   /// Returns the step that failed, with errno; nullptr when none did.
   const char* open(const std::string& path);
-  /// The newest whole one of two records, of whatever layout.
-  template <class Kept>
-  void read(const Record<Kept>* records);
+  /// The newest whole one of the two records, of this layout or the one before.
+  void read();
   void write(const Remembered& now);
 
-  Record<Remembered>* records_ = nullptr;  ///< two; nullptr: no file
+  Record* records_ = nullptr;  ///< two; nullptr: no file
   std::string boot_id_;
   std::uint64_t configuration_ = 0;
   std::uint64_t sequence_ = 0;

@@ -10,8 +10,9 @@ namespace drover::store {
 namespace {
 
 constexpr std::string_view kStopFormat = "drover-stop";
-constexpr int kStopVersion = 2;
-constexpr int kVersionBefore = 1;  // nothing that joint commands wait for was kept
+constexpr int kStopVersion = 3;
+constexpr int kJointsWaitSince = 2;  // before: nothing that joint commands wait for was kept
+constexpr int kRanAwaySince = 3;     // before: not that a wheel ran away
 const std::string kStopFile = "stop.json";
 const std::string kRoomFile = "stop.room";  // given up for a stop when the disk is full
 constexpr std::size_t kRoom = 16384;        // bytes: a stop and its folder's entry, in any blocks
@@ -23,11 +24,17 @@ std::optional<Remembered> read(const json::Node& root, int version) {
   if (stop == nullptr || stop->text() == nullptr || at_robot == nullptr ||
       at_robot->boolean() == nullptr || power_cut == nullptr || power_cut->boolean() == nullptr)
     return std::nullopt;
-  const auto* joints_wait = root.find("joints_wait");
-  if (version == kStopVersion && (joints_wait == nullptr || joints_wait->text() == nullptr))
-    return std::nullopt;
   Remembered found;
-  if (version == kStopVersion) found.joints_wait.assign(*joints_wait->text());
+  if (version >= kJointsWaitSince) {
+    const auto* joints_wait = root.find("joints_wait");
+    if (joints_wait == nullptr || joints_wait->text() == nullptr) return std::nullopt;
+    found.joints_wait.assign(*joints_wait->text());
+  }
+  if (version >= kRanAwaySince) {
+    const auto* ran_away = root.find("ran_away");
+    if (ran_away == nullptr || ran_away->boolean() == nullptr) return std::nullopt;
+    found.ran_away = *ran_away->boolean();
+  }
   found.stop.assign(*stop->text());
   found.stop_at_robot = *at_robot->boolean();
   found.power_cut = *power_cut->boolean();
@@ -42,6 +49,7 @@ Remembered lasting(const Remembered& all) {
   kept.stop_at_robot = all.stop_at_robot;
   kept.power_cut = all.power_cut;
   kept.joints_wait = all.joints_wait;
+  kept.ran_away = all.ran_away;
   return kept;
 }
 
@@ -64,9 +72,9 @@ Remembered StopStore::load(std::vector<std::string>& report) const {
   if (error != 0) {
     report.push_back(failure_text("read", path, error));
   } else {
-    auto body = unseal(kStopFormat, kVersionBefore, content);
-    const int version = body.ok() ? kVersionBefore : kStopVersion;
-    if (version == kStopVersion) body = unseal(kStopFormat, version, content);
+    int version = 1;
+    auto body = unseal(kStopFormat, version, content);
+    while (!body.ok() && version < kStopVersion) body = unseal(kStopFormat, ++version, content);
     if (body.ok()) {
       const auto parsed = json::parse(*body);
       const auto found = parsed.ok() ? read(parsed->root, version) : std::nullopt;
@@ -98,7 +106,8 @@ std::optional<Failure> StopStore::write(const Remembered& remembered) {
   body.open('{').key("stop").text(remembered.stop.view());
   body.key("at_robot").boolean(remembered.stop_at_robot);
   body.key("power_cut").boolean(remembered.power_cut);
-  body.key("joints_wait").text(remembered.joints_wait.view()).close('}');
+  body.key("joints_wait").text(remembered.joints_wait.view());
+  body.key("ran_away").boolean(remembered.ran_away).close('}');
   return write_durably(files_, folder_, kStopFile, seal(kStopFormat, kStopVersion, body.str()));
 }
 

@@ -17,7 +17,8 @@ inline constexpr std::string_view kUnreadableStop = "the stored stop cannot be r
 /// Then only who stands at the robot resets it: it may have been such a stop.
 Remembered unreadable_stop();
 
-/// That part of `all` that outlives a boot: the stop, the power cut, what joint commands wait for.
+/// That part of `all` that outlives a boot: the stop and what kind it is, the power cut, what joint
+/// commands wait for.
 Remembered lasting(const Remembered& all);
 
 class StopStore final {

@@ -66,12 +66,14 @@ void Latch::recall(const Remembered& remembered) {
   joints_ = remembered.joints_wait;
   at_robot_ = !stop_.empty() && remembered.stop_at_robot;
   power_cut_ = remembered.power_cut;
+  ran_away_ = !stop_.empty() && remembered.ran_away;
 }
 
 void Latch::remember(Remembered& out) const {
   out.stop = stop_;
   out.stop_at_robot = at_robot_;
   out.power_cut = power_cut_;
+  out.ran_away = ran_away_;
   out.joints_wait = joints_;
 }
 

@@ -23,7 +23,7 @@ struct Translation {
     lost,     ///< the same, and no reason behind it
     battery,  ///< its slot
     line_of_battery,
-    memory,  ///< behind it: joint commands wait for nothing, and it is not known to rest
+    memory,  ///< behind it: joint commands wait for nothing, not known to rest, no wheel ran away
   };
   std::uint8_t kind = 0;
   Adds adds = Adds::nothing;
@@ -57,6 +57,13 @@ SlotId slot_of(const Wiring& wiring, SlotKind kind) {
   const auto it = std::find_if(wiring.slots.begin(), wiring.slots.end(),
                                [kind](const Slot& slot) { return slot.kind == kind; });
   return it == wiring.slots.end() ? kNowhere : static_cast<SlotId>(it - wiring.slots.begin());
+}
+
+/// What was remembered gets so many more flags, not set.
+std::vector<std::uint8_t> with_flags(std::span<const std::uint8_t> record, std::size_t more) {
+  std::vector<std::uint8_t> today(record.begin(), record.end());
+  if (!today.empty() && today.front() == kind_now<Recalled>()) today.resize(today.size() + more);
+  return today;
 }
 
 LinkId link_of(const Wiring& wiring, SlotKind kind) {
@@ -101,6 +108,7 @@ std::vector<std::uint8_t> from_first_edition(std::span<const std::uint8_t> recor
   if (adds == Adds::memory) {
     out.text("");
     out.byte(0);
+    out.byte(0);
   }
   if (!in.good() || !out.good()) return {};
   buffer.resize(out.written().size());
@@ -108,9 +116,11 @@ std::vector<std::uint8_t> from_first_edition(std::span<const std::uint8_t> recor
 }
 
 std::vector<std::uint8_t> from_second_edition(std::span<const std::uint8_t> record) {
-  std::vector<std::uint8_t> today(record.begin(), record.end());
-  if (!today.empty() && today.front() == kind_now<Recalled>()) today.push_back(0);
-  return today;
+  return with_flags(record, 2);
+}
+
+std::vector<std::uint8_t> from_third_edition(std::span<const std::uint8_t> record) {
+  return with_flags(record, 1);
 }
 
 }  // namespace drover::gateway

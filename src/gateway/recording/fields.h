@@ -93,7 +93,7 @@ void visit_fields(V& v, const engine::EngineOutput& output, std::size_t axis_cou
   v.value("unsettled", unsettled);
   v.inside("remembered", [&v, &part = remembered] {
     const auto& [stop, stop_at_robot, power_cut, holding, released, task, proved, joints_wait,
-                 at_rest] = part;
+                 at_rest, ran_away] = part;
     v.value("stop", stop);
     v.value("stop_at_robot", stop_at_robot);
     v.value("power_cut", power_cut);
@@ -103,6 +103,7 @@ void visit_fields(V& v, const engine::EngineOutput& output, std::size_t axis_cou
     v.value("mechanics_proved", proved);
     v.value("joints_wait", joints_wait);
     v.value("at_rest", at_rest);
+    v.value("ran_away", ran_away);
   });
 }
 

@@ -164,21 +164,23 @@ void get(Suspended& slept, ByteReader& in) {
 
 void put(const Recalled& recalled, ByteWriter& out) {
   const auto& [stop, stop_at_robot, power_cut, holding, released, task, proved, joints_wait,
-               at_rest] = recalled.remembered;
+               at_rest, ran_away] = recalled.remembered;
   out.text(stop);
   for (const bool flag : {stop_at_robot, power_cut, holding, released, task, proved})
     out.byte(flag ? 1 : 0);
   out.text(joints_wait);
   out.byte(at_rest ? 1 : 0);
+  out.byte(ran_away ? 1 : 0);
 }
 void get(Recalled& recalled, ByteReader& in) {
-  auto& [stop, stop_at_robot, power_cut, holding, released, task, proved, joints_wait, at_rest] =
-      recalled.remembered;
+  auto& [stop, stop_at_robot, power_cut, holding, released, task, proved, joints_wait, at_rest,
+         ran_away] = recalled.remembered;
   stop.assign(in.text());
   for (bool* flag : {&stop_at_robot, &power_cut, &holding, &released, &task, &proved})
     *flag = get_flag(in);
   joints_wait.assign(in.text());
   at_rest = get_flag(in);
+  ran_away = get_flag(in);
 }
 
 void put(const OutputsUp& up, ByteWriter& out) {

@@ -114,10 +114,11 @@ std::string words(const Suspended& slept, const Wiring&) {
 }
 std::string words(const Recalled& recalled, const Wiring&) {
   const auto& [stop, stop_at_robot, power_cut, holding, released, task, proved, joints_wait,
-               at_rest] = recalled.remembered;
+               at_rest, ran_away] = recalled.remembered;
   return std::string("recalled:") + (at_rest ? " at rest" : "") + (holding ? " held" : "") +
          (released ? " released" : "") + (power_cut ? " without power" : "") +
-         (task ? " with a task" : "") + (proved ? " with proved mechanics" : "") +
+         (ran_away ? " run away" : "") + (task ? " with a task" : "") +
+         (proved ? " with proved mechanics" : "") +
          (joints_wait.empty() ? "" : " joint commands wait: " + std::string(joints_wait) + ",") +
          (stop_at_robot ? " stopped at the robot: " : " stopped: ") + std::string(stop);
 }

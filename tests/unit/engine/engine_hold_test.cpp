@@ -231,6 +231,24 @@ TEST_F(ARobotThatHolds, ResetsAStopThatIsForTheRobotOnlyThere) {
   EXPECT_FALSE(rig.snapshot().stop_latched);
   EXPECT_TRUE(rig.out.outputs[kRelay]);
 }
+TEST_F(ARobotThatHolds, ArmsNoWheelThatRanAwayBeforeARestartUntilAReset) {
+  drive();
+  rig.drives[0].by_itself_radps = 12;
+  rig.run_s(0.5);
+  rig.drives[0].by_itself_radps = 0;
+  rig.run_s(1);
+  restart();
+  rig.run_s(1);
+  rig.command(ArmHold{});
+  rig.tick();
+  EXPECT_THAT(refusal(), HasSubstr("a wheel ran away: drover reset"));
+  EXPECT_NE(rig.snapshot().hold, HoldState::held);
+  rig.command(ResetStop{});
+  rig.run_s(0.1);
+  rig.command(ArmHold{});
+  rig.run_s(1);
+  EXPECT_EQ(rig.snapshot().hold, HoldState::held) << rig.why();
+}
 TEST_F(ARobotThatHolds, TellsThatATaskWasOnItsWay) {
   drive();
   restart();

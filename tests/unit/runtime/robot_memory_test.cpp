@@ -22,11 +22,12 @@ Remembered stopped() {
   kept.stop = "emergency stop of an operator";
   kept.holding = true;
   kept.joints_wait = "bumper touched";
+  kept.ran_away = true;
   return kept;
 }
-/// A record of the layout before this one, which did not know whether the robot was at rest.
+/// A record of the layout before this one, which did not tell whether a wheel ran away.
 struct RecordBefore {
-  std::uint64_t format = 0x64726d656d303033;
+  std::uint64_t format = 0x64726d656d303034;
   std::uint64_t sequence = 1;
   std::array<char, 40> boot{};
   std::uint64_t configuration = store::fingerprint("{}");
@@ -34,6 +35,8 @@ struct RecordBefore {
     Reason stop;
     std::array<bool, 6> flags{};  ///< the third: holding
     Reason joints_wait;
+    bool at_rest = false;
+    std::array<unsigned char, 7> nothing{};
   } kept;
   std::uint64_t checksum = 0;
 };
@@ -60,6 +63,8 @@ class ARobotMemory : public ::testing::Test {
     std::memcpy(record.boot.data(), kBoot, std::strlen(kBoot));
     record.kept.stop = "emergency stop of an operator";
     record.kept.flags[2] = true;
+    record.kept.at_rest = true;
+    record.kept.nothing.fill(0xff);
     record.checksum = store::fingerprint(
         {reinterpret_cast<const char*>(&record), offsetof(RecordBefore, checksum)});
     if (!whole) ++record.checksum;
@@ -122,7 +127,7 @@ TEST_F(ARobotMemory, OfWhichTheNewestIsDamagedCountsAsAStopWithAllThatIsKnownBes
   older.released = true;
   Remembered on_disk;
   on_disk.stop = "the robot did not stop";
-  on_disk.power_cut = true;
+  on_disk.power_cut = on_disk.ran_away = true;
   {
     auto memory = open();
     memory.keep(older);  // record 1
@@ -134,6 +139,7 @@ TEST_F(ARobotMemory, OfWhichTheNewestIsDamagedCountsAsAStopWithAllThatIsKnownBes
   EXPECT_TRUE(known.stop_at_robot);
   EXPECT_TRUE(known.power_cut);
   EXPECT_TRUE(known.released);
+  EXPECT_TRUE(known.ran_away);
   EXPECT_EQ(recall(open(), {}).stop, store::kUnreadableStop);
 }
 TEST_F(ARobotMemory, IsWholeAgainAfterItsNextRecord) {
@@ -154,10 +160,12 @@ TEST_F(ARobotMemory, LeavesItToTheDiskAfterABoot) {
   { open().keep({}); }
   EXPECT_EQ(recall(open("another"), stopped()), stopped());
 }
-TEST_F(ARobotMemory, OfTheVersionBeforeTellsAllButWhatJointCommandsWaitFor) {
+TEST_F(ARobotMemory, OfTheVersionBeforeTellsAllButThatAWheelRanAway) {
   leave_the_layout_before(true);
   Remembered left = stopped();
   left.joints_wait.clear();
+  left.ran_away = false;
+  left.at_rest = true;
   EXPECT_EQ(open().found(), left);
   EXPECT_EQ(open().found(), left) << "still, when that program died before its first cycle";
   EXPECT_FALSE(open("another").found()) << "after a boot";

@@ -17,6 +17,7 @@ Remembered stopped() {
   kept.stop_at_robot = true;
   kept.power_cut = true;
   kept.joints_wait = "bumper touched";
+  kept.ran_away = true;
   return kept;
 }
 
@@ -69,7 +70,7 @@ TEST(AStopStore, KeepsWhatJointCommandsWaitForWithoutAStop) {
   ASSERT_TRUE(it.save(waiting));
   EXPECT_EQ(it.load(), waiting);
 }
-TEST(AStopStore, ReadsAFileOfTheVersionBeforeInWhichJointCommandsWaitForNothing) {
+TEST(AStopStore, ReadsAFileOfTheFirstVersionInWhichJointCommandsWaitForNothing) {
   Stored it;
   const std::string body = R"({"stop": "off", "at_robot": false, "power_cut": true})";
   it.files.put("state/stop.json", seal("drover-stop", 1, body));
@@ -79,12 +80,27 @@ TEST(AStopStore, ReadsAFileOfTheVersionBeforeInWhichJointCommandsWaitForNothing)
   EXPECT_EQ(it.load(), left);
   EXPECT_TRUE(it.report.empty());
 }
-TEST(AStopStore, CountsAFileOfThisVersionWithoutThatAsAStop) {
+TEST(AStopStore, ReadsAFileOfTheSecondVersionInWhichNoWheelRanAway) {
   Stored it;
-  const std::string body = R"({"stop": "", "at_robot": false, "power_cut": false})";
+  const std::string body =
+      R"({"stop": "off", "at_robot": true, "power_cut": false, "joints_wait": "bumper touched"})";
   it.files.put("state/stop.json", seal("drover-stop", 2, body));
-  EXPECT_EQ(it.load(), unreadable_stop());
-  EXPECT_THAT(it.report, ElementsAre(HasSubstr("does not tell all")));
+  Remembered left;
+  left.stop = "off";
+  left.stop_at_robot = true;
+  left.joints_wait = "bumper touched";
+  EXPECT_EQ(it.load(), left);
+  EXPECT_TRUE(it.report.empty());
+}
+TEST(AStopStore, CountsAFileThatLacksWhatItsVersionTellsAsAStop) {
+  const std::string first = R"({"stop": "", "at_robot": false, "power_cut": false)";
+  for (const auto& [version, body] :
+       {std::pair{2, first + "}"}, std::pair{3, first + R"(, "joints_wait": ""})"}}) {
+    Stored it;
+    it.files.put("state/stop.json", seal("drover-stop", version, body));
+    EXPECT_EQ(it.load(), unreadable_stop()) << version;
+    EXPECT_THAT(it.report, ElementsAre(HasSubstr("does not tell all")));
+  }
 }
 TEST(AStopStore, CountsADamagedFileAsAStopUntilTheNextSave) {
   Stored it;

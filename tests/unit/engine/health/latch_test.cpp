@@ -132,5 +132,17 @@ TEST_F(ALatch, OutlivesTheProgramButForHowItsTaskEnded) {
   EXPECT_EQ(refuses(Source::internal), "this stop is reset at the robot: drover reset");
 }
 
+TEST_F(ALatch, KnowsOverARestartThatAWheelRanAwayUntilAReset) {
+  latch.set(Latched::ran_away, "wheel a runs away");
+  restart();
+  EXPECT_TRUE(latch.ran_away());
+  latch.set(Latched::asked, "emergency stop");
+  restart();
+  EXPECT_TRUE(latch.ran_away()) << "a stop that is less grave takes nothing back";
+  latch.reset(Act::reset);
+  restart();
+  EXPECT_FALSE(latch.ran_away());
+}
+
 }  // namespace
 }  // namespace drover::engine
