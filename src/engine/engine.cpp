@@ -228,6 +228,7 @@ void Engine::Impl::reset_stop(const RequestId& id, Time now) {
   const Reason why = latch.refuses({.by = id.source,
                                     .runs_away = runs_away ? wheel_reason : Reason(),
                                     .moves = rest.moves(now),
+                                    .turns = rest.turns(),
                                     .task_active = navigator.active(),
                                     .at_rest = owners.at_rest(),
                                     .health = health.report()});

@@ -58,6 +58,9 @@ Reason Latch::refuses(const ResetAsked& asked) const {
   if (!asked.at_rest) return "the robot is still stopping";
   if (at_robot_ && asked.by != RequestId::Source::cli)
     return "this stop is reset at the robot: drover reset";
+  // What does not hear its stop is cut in a moment, and must not have been reset before.
+  if (!stop_.empty() && asked.turns) return "the robot still moves";
+  if (!stop_.empty() && asked.health.holds(Cause::moved)) return asked.health.text(Cause::moved);
   return asked.health.stop;
 }
 

@@ -50,6 +50,7 @@ struct ResetAsked {
   RequestId::Source by = RequestId::Source::internal;
   Reason runs_away = {};  ///< which wheel does now; empty: none
   bool moves = false;     ///< anything says that the robot does
+  bool turns = false;     ///< its wheels do, by their own word
   bool task_active = false;
   bool at_rest = true;  ///< nothing is commanded
   const HealthReport& health;

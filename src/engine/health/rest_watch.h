@@ -57,6 +57,8 @@ class RestWatch final {
   bool drives_on() const { return may_drive_on() && silence_.keeps_on() && !spared_; }
   /// Anything says that the base moves now.
   bool moves(Time now) const { return history_.turns() || witness_.hear(now).moving > 0; }
+  /// Its wheels say that they do.
+  bool turns() const { return history_.turns(); }
   bool hears_wheels() const { return hears_wheels_; }
   /// What is wrong, in words; empty when nothing is.
   const Reason& reason() const { return reason_; }

@@ -206,6 +206,22 @@ TEST_F(ABaseThatTakesATwist, LosesItsPowerWhenItIsFoundDrivingOn) {
   EXPECT_FALSE(has_power()) << rig.why();
 }
 
+/// A stop that it did not hear is no stop yet, whoever wants to end it.
+TEST_F(ABaseThatTakesATwist, IsNotResetWhileItDrivesOnThoughAPersonStoppedIt) {
+  drive();
+  rig.disobeys = WheelSpeeds{1.5, 1.5};
+  rig.command(EngageStop{});
+  rig.run_s(0.2);
+  ASSERT_TRUE(has_power());
+  rig.engine->on_command({{RequestId::Source::cli, 99}, rig.now, ResetStop{}}, rig.now);
+  rig.tick();
+  EXPECT_TRUE(rig.snapshot().stop_latched);
+  ASSERT_FALSE(rig.said<CommandRefused>().empty());
+  EXPECT_EQ(rig.said<CommandRefused>().back().reason, "the robot still moves");
+  rig.run_s(3);
+  EXPECT_FALSE(has_power()) << "and it is cut as ever";
+}
+
 /// A person pushes it meanwhile.
 TEST_F(ABaseThatTakesATwist, KeepsItsPowerWhenItIsFoundMovingAndWasKnownToRest) {
   rig.environment.relay_found_closed = rig.environment.drives_on_in_silence = true;

@@ -15,6 +15,7 @@ struct ALatch : ::testing::Test {
                            .refuses({.by = by,
                                      .runs_away = runs_away,
                                      .moves = moves,
+                                     .turns = turns,
                                      .task_active = task_active,
                                      .at_rest = at_rest,
                                      .health = health})
@@ -32,6 +33,7 @@ struct ALatch : ::testing::Test {
   HealthReport health;
   Reason runs_away;
   bool moves = false;
+  bool turns = false;
   bool task_active = false;
   bool at_rest = true;
 };
@@ -110,6 +112,19 @@ TEST_F(ALatch, RefusesAResetWhileTheCausePersistsOrTheRobotMoves) {
   EXPECT_EQ(refuses(), "the gateway has just started");
   runs_away = "wheel a runs away";
   EXPECT_EQ(refuses(), "wheel a runs away");
+}
+TEST_F(ALatch, RefusesTheResetOfAStopWhileTheWheelsTurnOrAnythingElseMovesTheRobot) {
+  turns = true;
+  EXPECT_EQ(refuses(), "") << "no stop is latched";
+  latch.set(Latched::asked, "emergency stop");
+  EXPECT_EQ(refuses(), "the robot still moves");
+  turns = false;
+  health.causes = bit(Cause::moved);
+  health.texts[static_cast<std::size_t>(Cause::moved)] = "the robot is pushed or carried";
+  EXPECT_EQ(refuses(), "the robot is pushed or carried");
+  health.causes = 0;
+  moves = true;
+  EXPECT_EQ(refuses(), "") << "where only a receiver says so";
 }
 TEST_F(ALatch, GivesPowerBackAtTheRobotOnlyAndNotWhileItMoves) {
   latch.set(Latched::did_not_stop, "the robot did not stop");
