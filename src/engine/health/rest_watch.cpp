@@ -87,7 +87,7 @@ bool RestWatch::due(const RestInput& input) {
     last_.seen_mps = 0;
     crept_at_ = kNever;
     creep_.end();
-    if (ours_) creep_.begin(input.now);
+    if (ours_ || last_.inherited) creep_.begin(input.now);
   }
   if (last_.seen_mps == 0) last_.seen_mps = witness_.speed_mps(input.now);
   return true;
@@ -122,10 +122,12 @@ bool RestWatch::bolts(const RestInput& input, const RimMotion& rims) const {
 }
 
 bool RestWatch::creeps_on(const RestInput& input, const RimMotion& rims) {
+  // What the program before this one drove may still be braking: faster it is judged by that.
+  const bool found = last_.inherited && !ours_;
   return creep_.update({.now = input.now,
                         .dt = input.dt,
                         .power = has_power(input),
-                        .may_roll = may_roll_,
+                        .may_roll = may_roll_ || found,
                         .falls_ahead = input.falls_ahead,
                         .seen_to_stand = pardon(input).stands()},
                        rims);

@@ -206,6 +206,18 @@ TEST_F(ABaseThatTakesATwist, LosesItsPowerWhenItIsFoundDrivingOn) {
   EXPECT_FALSE(has_power()) << rig.why();
 }
 
+/// It did not hear its last zero, and that was too slow for anything else that watches.
+TEST_F(ABaseThatTakesATwist, LosesItsPowerWhenItIsFoundCreepingOn) {
+  rig.imu = rig.environment.relay_found_closed = true;
+  rig.drives[0].state = AxisState::running;
+  rig.disobeys = WheelSpeeds{0.25, 0.25};  // 0.04 m/s
+  rig.run_s(1);
+  ASSERT_TRUE(has_power()) << rig.why();
+  rig.run_s(4);
+  EXPECT_THAT(rig.why(), HasSubstr("did not stop"));
+  EXPECT_FALSE(has_power()) << rig.why();
+}
+
 /// A stop that it did not hear is no stop yet, whoever wants to end it.
 TEST_F(ABaseThatTakesATwist, IsNotResetWhileItDrivesOnThoughAPersonStoppedIt) {
   drive();
