@@ -114,13 +114,15 @@ void Zlac8015dTwin::set_power(bool on, Time now) {
 bool Zlac8015dTwin::set_fault(std::string_view name, Time) {
   constexpr std::string_view kError = "error:";
   if (name.empty()) {
-    silent_ = false;
+    silent_ = wheels_[kRight].torn = false;
   } else if (name == "silent") {
     silent_ = true;
   } else if (name == "over_temperature") {
     fail(kLeft, kOverTemperature);
   } else if (name == "over_current") {
     fail(kRight, kOverCurrent);
+  } else if (name == "no_torque") {
+    wheels_[kRight].torn = true;
   } else if (name == "leaves_enabled") {
     wheels_[kRight].drive = DriveState::switch_on_disabled;
   } else if (name.substr(0, kError.size()) == kError) {

@@ -53,6 +53,7 @@ class Zlac8015dTwin final : public CanTwin {
     double position_rad = 0;
     double power_on_rad = 0;
     double integral_Nm = 0;
+    bool torn = false;  ///< a line of its motor: no torque, and the drive says nothing of it
   };
   void boot(Time now, TwinFrames& out);
   void on_nmt(std::uint8_t command);

@@ -47,7 +47,8 @@ void Zlac8015dTwin::move(double dt_s, std::span<Shaft> shafts) {
       w.integral_Nm = 0;
       w.ramped_rpm = w.measured_radps / kRadpsPerRpm * settings_.gear_ratio;
     }
-    shaft.torque_Nm = energized ? torque_of(wheel, dt_s) * sign : 0;
+    const double torque_Nm = energized ? torque_of(wheel, dt_s) * sign : 0;
+    shaft.torque_Nm = w.torn ? 0 : torque_Nm;
     shaft.energized = energized;
   }
 }

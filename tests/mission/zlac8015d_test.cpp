@@ -91,6 +91,26 @@ TEST(Zlac8015dOverCurrent, IsToldInWordsAndEndsTheTask) {
       << error.why;
 }
 
+// It coasts slowly enough to look as if it followed; the other wheel waits for it on the track.
+TEST(Zlac8015dTornMotor, OfWhichTheDriveSaysNothingIsToldAndLeavesTheRobotOnItsTrack) {
+  const Record& log = record("zlac8015d_torn_motor");
+  const Time torn = log.event("event faulted#1");
+  ASSERT_TRUE(moved_until(log, torn));
+  const auto& error = log.first_status("NAV_ERROR", torn);
+  EXPECT_EQ(error.why.find("wheel right does not follow its command"), 0U) << error.why;
+  figure("told after", error.time - torn);
+  EXPECT_LT(error.time - torn, 4s);
+  double turned_rad = 0;
+  for (const auto& line : log.truth)
+    if (line.time > torn)
+      turned_rad =
+          std::max(turned_rad,
+                   std::abs(std::remainder(line.yaw_rad - log.truth_at(torn).yaw_rad, 2 * M_PI)));
+  figure("turned", turned_rad * 180 / M_PI, "degrees");
+  EXPECT_LT(turned_rad * 180 / M_PI, 30);
+  EXPECT_NEAR(log.truth.back().vx_mps, 0, 0.01);
+}
+
 TEST(Zlac8015dDipOnRamp, SetsTheDriveUpAnewAndHoldsTheRobotAgain) {
   const Record& log = record("zlac8015d_dip_on_ramp");
   const Time dipped = log.event("event dipped#1");
