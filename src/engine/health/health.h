@@ -40,6 +40,8 @@ struct HealthInput {
       nullptr;  ///< why the ground is too steep to be left there; empty: it is not
 };
 
+inline constexpr const char* kJustStarted = "the gateway has just started";
+
 struct HealthReport {
   bool ready = false;           ///< at least one cycle was looked at
   bool drives_ok = false;       ///< all heard, fresh and without a fault
@@ -74,6 +76,11 @@ struct HealthReport {
   bool nothing_moves() const { return !stop.empty() || holds(Cause::drive_fault); }
   bool holds_any(std::uint32_t bits) const { return (causes & bits) != 0; }
   const Reason& text(Cause cause) const { return texts[static_cast<std::size_t>(cause)]; }
+  /// Why nothing may begin to move, whoever asks, or go on; empty: it may.
+  Reason hinders_all() const {
+    if (!ready) return kJustStarted;
+    return stop.empty() ? end_task : stop;
+  }
   /// What stands in the near zone or in the way.
   Reason obstacle() const {
     return holds(Cause::near_zone) ? text(Cause::near_zone) : Reason("obstacle in the near zone");

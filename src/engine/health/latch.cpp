@@ -53,7 +53,7 @@ Reason Latch::refuses(const ResetAsked& asked) const {
   if (!asked.runs_away.empty()) return asked.runs_away;
   if (power_cut_ && far_away(asked.by)) return "the power was cut: reset it at the robot";
   if (power_cut_ && asked.moves) return "the robot still moves";
-  if (!asked.health.ready) return "the gateway has just started";
+  if (!asked.health.ready) return kJustStarted;
   if (asked.task_active) return "a task runs: cancel it first";
   if (!asked.at_rest) return "the robot is still stopping";
   if (at_robot_ && asked.by != RequestId::Source::cli)

@@ -43,9 +43,7 @@ SpeedCheck check_speed(double asked_mps, const LimitsConfig& limits) {
 }
 
 Reason check_robot(const HealthReport& health, bool has_origin) {
-  if (!health.ready) return "the gateway has just started";
-  if (!health.stop.empty()) return health.stop;
-  if (!health.end_task.empty()) return health.end_task;
+  if (const Reason why = health.hinders_all(); !why.empty()) return why;
   if (!health.no_start.empty()) return health.no_start;
   // A drive that reports a fault is no refusal: arming clears what can be cleared.
   if (!has_origin) return "no origin is set";

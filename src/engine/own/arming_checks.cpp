@@ -9,7 +9,7 @@
 namespace drover::engine {
 
 Reason check_arm(const HealthReport& health, const Latch& latch, bool driven) {
-  if (!health.ready) return "the gateway has just started";
+  if (!health.ready) return kJustStarted;
   if (health.estop) return "the e-stop is pressed";
   if (!health.estop_known) return health.text(Cause::line_lost);
   if (latch.power_cut()) return "the drives have no power: drover reset";

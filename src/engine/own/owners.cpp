@@ -17,7 +17,7 @@ Owners::Owners(const EngineConfig& config, Latch& latch)
       joint_gate_(config.base, config.limits),
       stream_(from_s(config.health.joint_command_timeout_s)),
       creep_(config),
-      busy_("the gateway has just started") {}
+      busy_(kJustStarted) {}
 
 void Owners::take(const JointTargets& targets, Time now) {
   Reason busy = busy_;
@@ -71,9 +71,7 @@ void Owners::on_task_started() {
 
 /// Why nobody but a task may move the base now.
 Reason Owners::hindrance(const OwnInput& input) const {
-  if (!input.health.ready) return "the gateway has just started";
-  if (!input.health.stop.empty()) return input.health.stop;
-  if (!input.health.end_task.empty()) return input.health.end_task;
+  if (const Reason why = input.health.hinders_all(); !why.empty()) return why;
   if (!input.health.end_stream.empty()) return input.health.end_stream;
   if (const Reason why = latch_.hinders_all(); !why.empty()) return why;
   if (!input.not_held.empty()) return input.not_held;
