@@ -1,12 +1,9 @@
 // What held the robot on a slope holds it again; what stopped it still stops it.
+#include "mission/robot.h"
 #include "mission/support.h"
 
 namespace drover::mission {
 namespace {
-
-constexpr double kGear = 10;
-constexpr double kRadius_m = 0.165;
-constexpr double kDeceleration_mps2 = 0.8;  // limits.deceleration_mps2, default
 
 /// Both programs away from `gone` to `back`, and what came of it by `end`.
 void expect_held_again(const Record& log, Time gone, Time back, Time end) {
@@ -18,9 +15,9 @@ void expect_held_again(const Record& log, Time gone, Time back, Time end) {
   figure("fastest", after.fastest_mps, "m/s");
   figure("held after", after.rest - back);
   EXPECT_LT(after.rest - back, 2500ms);
-  // At 0.8 m/s^2 from what it had, and before that the time in which programs and drives get ready.
+  // A ramp from what it had, and before that the time in which programs and drives get ready.
   const double v_mps = after.fastest_mps;
-  EXPECT_LT(after.way_m, v_mps * v_mps / (2 * 0.8) + 0.6 * v_mps + 0.05);
+  EXPECT_LT(after.way_m, braking_way_m(v_mps) + 0.6 * v_mps + 0.05);
   EXPECT_LT(roll(log, after.rest + 100ms, end).way_m, 0.01) << "it is not held";
 }
 
@@ -110,9 +107,7 @@ TEST(DipOnRamp, RampsTheWheelsDownFromTheSpeedThatTheyHave) {
   const double fastest_mps = roll(log, back, end).fastest_mps;
   const auto ramp = log.moving(back, end);
   double first_mps = 0;
-  for (const auto& one : ramp)
-    first_mps =
-        std::max(first_mps, std::abs(one.wheel.velocity_turnps) / kGear * 2 * M_PI * kRadius_m);
+  for (const auto& one : ramp) first_mps = std::max(first_mps, log.rim_mps(one));
   figure("set points of the ramp", static_cast<double>(ramp.size()), "frames");
   figure("ramp begins with", first_mps, "m/s");
   figure("hardest braking", hardest_mps2(log, back, end), "m/s/s");
@@ -145,9 +140,7 @@ TEST(LongDipOnRamp, CatchesARobotThatRollsFastByARampWithinTheLimit) {
   const auto ramp = log.moving(back, end);
   ASSERT_FALSE(ramp.empty()) << "no set point of the ramp came to the wire";
   double first_mps = 0;
-  for (const auto& one : ramp)
-    first_mps =
-        std::max(first_mps, std::abs(one.wheel.velocity_turnps) / kGear * 2 * M_PI * kRadius_m);
+  for (const auto& one : ramp) first_mps = std::max(first_mps, log.rim_mps(one));
   figure("ramp begins with", first_mps, "m/s");
   EXPECT_GT(first_mps, 0.8 * after.fastest_mps);
   const auto fastest = std::max_element(log.truth.begin(), log.truth.end(),
@@ -156,9 +149,9 @@ TEST(LongDipOnRamp, CatchesARobotThatRollsFastByARampWithinTheLimit) {
                                         });
   const double mean_mps2 = after.fastest_mps / to_s(after.rest - fastest->time);
   figure("mean braking", mean_mps2, "m/s/s");
-  EXPECT_LT(mean_mps2, 1.1 * kDeceleration_mps2);
+  EXPECT_LT(mean_mps2, 1.1 * kBrakes_mps2);
   // Over a tenth of a second, while the wheels' controllers take over and the slope ends.
-  EXPECT_LT(hardest, 1.6 * kDeceleration_mps2) << "it is jerked to rest";
+  EXPECT_LT(hardest, 1.6 * kBrakes_mps2) << "it is jerked to rest";
   EXPECT_GT(end - after.rest, 1s) << "it is not held";
 }
 
@@ -202,8 +195,8 @@ TEST(GuardDiesOnRamp, LeavesARobotThatRollsToTheProgramThatIsBack) {
   figure("fastest", after.fastest_mps, "m/s");
   figure("hardest braking", hardest, "m/s/s");
   EXPECT_GT(after.fastest_mps, 0.5) << "it does not roll fast enough to show anything";
-  EXPECT_LT(hardest, 2 * kDeceleration_mps2) << "it is jerked to rest";
-  EXPECT_LT(after.way_m, after.fastest_mps * after.fastest_mps / (2 * 0.8) + 0.3);
+  EXPECT_LT(hardest, 2 * kBrakes_mps2) << "it is jerked to rest";
+  EXPECT_LT(after.way_m, braking_way_m(after.fastest_mps) + 0.3);
   EXPECT_GT(end - after.rest, 1s) << "it is not held";
 }
 

@@ -4,6 +4,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "mission/robot.h"
 #include "mission/support.h"
 
 namespace drover::mission {
@@ -12,11 +13,13 @@ namespace {
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-// From 2 rad/s of a wheel of 0.165 m at 0.8 m/s^2 (limits.deceleration_mps2, default).
+constexpr double kAsked_radps = 2;
+// From that at limits.deceleration_mps2, rounded up.
 constexpr Duration kRamp = 413ms;
+static_assert(kAsked_radps * kWheelRadius_m / kBrakes_mps2 <= 0.413);
 // From a message to the frame: one cycle of 5 ms each for the broker, the gateway and the gate.
 constexpr Duration kWay = 15ms;
-constexpr double kTwoRadps_turnps = 2 * 10 / (2 * M_PI);  // before the gear
+constexpr double kAsked_turnps = kAsked_radps * kGear / (2 * M_PI);  // before the gear
 
 struct JointCommands : testing::Test {
   const Record& log = record("joint_commands");
@@ -43,7 +46,7 @@ struct JointCommands : testing::Test {
     const auto points = sent(begin, end);
     EXPECT_GT(points.size(), 50U);
     for (const auto& one : points)
-      ASSERT_NEAR(std::abs(one.wheel.velocity_turnps), kTwoRadps_turnps, 1e-3)
+      ASSERT_NEAR(std::abs(one.wheel.velocity_turnps), kAsked_turnps, 1e-3)
           << "at " << seconds(one.time);
   }
   /// It holds until the time-out, comes down at once then, and stays at rest until `end`.
@@ -51,7 +54,7 @@ struct JointCommands : testing::Test {
     expect_steady(last - 500ms, last + kStreamTimeout - 5ms);
     const Time down = last + kStreamTimeout + kWay;
     for (const auto& one : sent(down, down + 20ms))
-      ASSERT_LT(std::abs(one.wheel.velocity_turnps), kTwoRadps_turnps) << seconds(one.time);
+      ASSERT_LT(std::abs(one.wheel.velocity_turnps), kAsked_turnps) << seconds(one.time);
     const auto moved = log.moving(last, end);
     ASSERT_FALSE(moved.empty());
     std::printf("  last motion %s after the last message\n",
@@ -73,7 +76,7 @@ TEST_F(JointCommands, MoveTheBaseWhileTheyComeAndOnlyThen) {
   const Time last = last_of_stream(begin);
   EXPECT_GT(last, begin + 2900ms);
   expect_steady(begin + 1s, last);
-  EXPECT_NEAR(log.truth_at(last).vx_mps, 2 * 0.165, 0.03);
+  EXPECT_NEAR(log.truth_at(last).vx_mps, kAsked_radps * kWheelRadius_m, 0.03);
   EXPECT_GT(log.truth_at(last).x_m - log.truth_at(begin).x_m, 0.8);
   expect_ramp_after(last, step("begin_unknown"));
 }
@@ -120,7 +123,7 @@ TEST_F(JointCommands, OfAimrt1xInJsonMoveTheBaseAsTheOthersDo) {
   const Time last = last_of_stream(begin);
   EXPECT_GT(last, begin + 1900ms);
   expect_steady(begin + 1s, last);
-  EXPECT_NEAR(log.truth_at(last).vx_mps, 2 * 0.165, 0.03);
+  EXPECT_NEAR(log.truth_at(last).vx_mps, kAsked_radps * kWheelRadius_m, 0.03);
   expect_ramp_after(last, step("task"));
   for (const auto& line : log.mqtt)
     if (line.time > begin && line.time < last) {
@@ -154,7 +157,7 @@ TEST_F(JointCommands, BesideATaskChangeNothing) {
     usual_turnps[one.wheel.node] = one.wheel.velocity_turnps;
   for (const auto& one : sent(begin, end + 1s)) {
     const double usual = usual_turnps[one.wheel.node];
-    ASSERT_GT(std::abs(usual), kTwoRadps_turnps);
+    ASSERT_GT(std::abs(usual), kAsked_turnps);
     ASSERT_NEAR(one.wheel.velocity_turnps, usual, 0.1 * std::abs(usual)) << seconds(one.time);
   }
   expect_good_drive(log);

@@ -2,25 +2,20 @@
 #include <fstream>
 #include <iterator>
 
+#include "mission/robot.h"
 #include "mission/support.h"
 
 namespace drover::mission {
 namespace {
 
-// limits.max_speed_mps, limits.deceleration_mps2 and navigate.far_zone_speed_mps, all defaults.
+// limits.max_speed_mps and navigate.far_zone_speed_mps, both defaults.
 constexpr double kMaxSpeed_mps = 0.8;
 constexpr double kFarZoneSpeed_mps = 0.25;
-constexpr double kDeceleration_mps2 = 0.8;
 // From the simulated robot's zones.
 constexpr double kFarZone_m = 2.0;
 constexpr double kNearZone_m = 0.6;
 // A contact's debounce, a cycle, and what the drives need to follow.
 constexpr Duration kToFollow = 150ms;
-
-/// Of the rim, of the wheel that a frame commands: its motor turns ten times as often.
-double rim_mps(const Sent& sent) {
-  return std::abs(sent.wheel.velocity_turnps) / 10 * 2 * M_PI * 0.165;
-}
 
 struct JointObstacle : testing::Test {
   const Record& log = record("joint_obstacle");
@@ -42,7 +37,7 @@ struct JointObstacle : testing::Test {
   }
   double fastest_set_point_mps(Time begin, Time end) const {
     double fastest = 0;
-    for (const auto& one : log.moving(begin, end)) fastest = std::max(fastest, rim_mps(one));
+    for (const auto& one : log.moving(begin, end)) fastest = std::max(fastest, log.rim_mps(one));
     return fastest;
   }
 };
@@ -58,8 +53,7 @@ TEST_F(JointObstacle, TheStreamAsksForMuchMoreThanTheRobotMayAndGetsItsMaximum) 
 TEST_F(JointObstacle, InTheFarZoneItIsSlowedToThatZonesSpeedByARamp) {
   const Time far = reached(kFarZone_m);
   const Time near = reached(kNearZone_m);
-  const Time slow =
-      far + kToFollow + from_s((kMaxSpeed_mps - kFarZoneSpeed_mps) / kDeceleration_mps2);
+  const Time slow = far + kToFollow + from_s((kMaxSpeed_mps - kFarZoneSpeed_mps) / kBrakes_mps2);
   ASSERT_LT(slow, near) << "the far zone is too small to see it slowly";
   figure("fastest in the far zone", fastest_mps(slow, near), "m/s");
   EXPECT_LT(fastest_mps(slow, near), kFarZoneSpeed_mps + 0.03);
@@ -69,7 +63,7 @@ TEST_F(JointObstacle, InTheFarZoneItIsSlowedToThatZonesSpeedByARamp) {
 
 TEST_F(JointObstacle, InTheNearZoneItStopsAndTheBumperNeverTouches) {
   const Time near = reached(kNearZone_m);
-  const Time still = near + kToFollow + from_s(kFarZoneSpeed_mps / kDeceleration_mps2);
+  const Time still = near + kToFollow + from_s(kFarZoneSpeed_mps / kBrakes_mps2);
   ASSERT_GT(over - still, 1s) << "nobody asks for motion any more";
   EXPECT_THAT(log.moving(still, Time::max()), testing::IsEmpty()) << "the stream goes on asking";
   double least_m = kFarZone_m;

@@ -1,60 +1,20 @@
-// Whether the robot touched anything, by geometry of its own: the outline of the robot at each true
-// pose against the true shapes, in the plane at the robot's heights. Knows nothing of src/scene.
+// Whether the robot touched anything: its outline at each true pose against what stood there then.
+// All that is judged of gaps comes from here.
 #pragma once
 
+#include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
 #include <string>
-#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "drover/time.h"
-#include "mission/track.h"
+#include "mission/flat.h"
+#include "mission/object_line.h"
 
 namespace drover::mission {
-
-/// A convex polygon, counter-clockwise, grown by a radius: one corner alone makes a disc.
-struct Flat {
-  std::vector<Place> corners;
-  double radius_m = 0;
-};
-
-/// Between two of them; negative: they overlap, by about so much. Exact while they do not.
-double gap_m(const Flat& a, const Flat& b);
-
-/// Of field_scene.xml's robot.
-struct RobotShape {
-  double front_m = 0.45;
-  double rear_m = 0.415;
-  double side_m = 0.35;
-  double low_m = 0.05;  ///< over the ground
-  double top_m = 1.0;
-};
-Flat outline(double x_m, double y_m, double yaw_rad, const RobotShape& robot = {});
-
-/// As the simulator put it there: upright, on flat ground.
-struct TrueSolid {
-  std::string name;
-  std::string kind;  ///< box, cylinder, sphere, cone, prism
-  double x_m = 0;
-  double y_m = 0;
-  double z_m = 0;  ///< of the middle of its height
-  double yaw_rad = 0;
-  std::vector<double> sizes;  ///< as objects.log has them
-};
-/// What of it is at the robot's heights; nothing: it is above or below them.
-std::optional<Flat> flat(const TrueSolid& solid, const RobotShape& robot = {});
-
-/// A line of objects.log.
-struct ObjectLine {
-  Time time = kNever;
-  std::string verb;  ///< watching, put, at, gone, touch, leave
-  std::string name;
-  TrueSolid solid;              ///< of put
-  std::vector<double> numbers;  ///< of at, touch, leave
-};
-/// Throws std::runtime_error.
-ObjectLine parse_object_line(std::string_view line);
 
 struct TruePose {
   Time time = kNever;
@@ -80,6 +40,27 @@ struct Near {
   double gap_m = std::numeric_limits<double>::infinity();
   bool moving = false;
 };
+
+/// What stands around the robot, from one pose to the next.
+class Around final {
+ public:
+  /// `objects` are borrowed.
+  explicit Around(const std::vector<ObjectLine>& objects, std::vector<Fence> fences = {})
+      : objects_(objects), fences_(std::move(fences)) {}
+
+  /// From the robot to each thing that is at its heights then, nearest first. Poses come in the
+  /// order of their times.
+  std::vector<Near> gaps(const TruePose& pose);
+
+ private:
+  void follow(Time time);
+
+  const std::vector<ObjectLine>& objects_;
+  std::vector<Fence> fences_;
+  std::size_t next_ = 0;
+  std::map<std::string, TrueSolid> present_;
+};
+
 struct Verdict {
   std::size_t poses = 0;             ///< looked at
   std::size_t things = 0;            ///< that stood at the robot's heights

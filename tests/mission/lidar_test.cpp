@@ -1,12 +1,12 @@
 // Missions in which nobody tells of what is in the way: the lidar alone sees it, or does not see.
+#include "mission/robot.h"
 #include "mission/support.h"
 
 namespace drover::mission {
 namespace {
 
-/// Half of the box of the world, and from base_link to the robot's front edge.
+/// Of the world's box.
 constexpr double kHalfBox_m = 0.25;
-constexpr double kFront_m = 0.45;
 
 bool laser(const Status& status) {
   return status.document.at("sensor").at("laser").get<bool>();
@@ -46,11 +46,10 @@ TEST(ABoxThatNobodyTellsOf, IsStoppedForByTheLidarAloneAndDrivenOnWhenItIsGone) 
   EXPECT_EQ(told->nav, "NAV_RUN");
   tell_way_to_rest(log, comes, goes);
   EXPECT_LT(roll(log, comes, goes).rest, goes - 3s);
-  const double left_m = 1 - kHalfBox_m - kFront_m - log.truth_at(goes).x_m;
+  const double left_m = 1 - kHalfBox_m - RobotShape{}.front_m - log.truth_at(goes).x_m;
   figure("left before the box", left_m, "m");
   EXPECT_GT(left_m, 0.05);
-  // The margin, and half a metre.
-  EXPECT_LT(left_m, 0.1 + 0.5);
+  EXPECT_LT(left_m, kFarFrom_m);
   EXPECT_FALSE(log.moving(goes + 1s, goes + 4s).empty()) << "it did not go on by itself";
   expect_success_without_another_start(log);
 }

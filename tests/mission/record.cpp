@@ -9,6 +9,7 @@
 #include <map>
 #include <stdexcept>
 
+#include "mission/robot.h"
 #include "mission/wire_twist.h"
 #include "mission/wire_zlac8015d.h"
 
@@ -98,7 +99,7 @@ constexpr std::pair<const char*, Maker> kTwistBases[] = {{"gt01_serial", Maker::
 /// What its drives are like.
 void read_drives(const json& scenario, Record& record) {
   constexpr double kTurn = 2 * M_PI;
-  record.mps_per_turnps = kTurn * 0.165 / 10;
+  record.mps_per_turnps = kTurn * kWheelRadius_m / kGear;
   for (const auto& drive : scenario.value("drives", json::array())) {
     const std::string driver = drive.value("driver", "");
     if (driver == "zlac8015d") {

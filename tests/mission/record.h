@@ -1,6 +1,7 @@
 // One mission as its logs tell it: frames, messages, the operator's doings, and the true motion.
 #pragma once
 
+#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -76,6 +77,10 @@ struct Record {
   TruthLine truth_at(Time time) const;
   /// Commands with motion from `begin` to `end`, both included.
   std::vector<Sent> moving(Time begin, Time end) const;
+  /// How fast a set point lets its wheel's rim move, whichever way.
+  double rim_mps(const Sent& one) const {
+    return std::abs(one.wheel.velocity_turnps) * mps_per_turnps;
+  }
   std::vector<Sent> moving() const { return moving(kNever, Time::max()); }
   /// The first status from `begin` on with this nav.status or locate. Throws.
   const Status& first_status(const std::string& word, Time begin = kNever) const;

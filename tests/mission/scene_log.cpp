@@ -6,6 +6,8 @@
 #include <map>
 #include <stdexcept>
 
+#include "mission/robot.h"
+
 namespace drover::mission {
 namespace {
 
@@ -70,21 +72,18 @@ std::vector<ObjectLine> SceneLog::all(const std::string& verb) const {
 }
 
 std::optional<Time> first_above_ramp(const Record& record, Time from, Time until) {
-  constexpr double kBrakes_mps2 = 0.9 * 0.8;  // nearly all that it has
+  constexpr double kNearlyAll_mps2 = 0.9 * kBrakes_mps2;
   constexpr double kTrace_mps = 0.02;
   constexpr Duration kLate = std::chrono::milliseconds(50);
-  const auto rim_mps = [&record](const Sent& one) {
-    return std::abs(one.wheel.velocity_turnps) * record.mps_per_turnps;
-  };
   double fastest_mps = 0;  // as it was until then; in a curve the outer wheel
   for (const auto& one : record.sent)
     if (one.time > from - kLate && one.time <= from)
-      fastest_mps = std::max(fastest_mps, rim_mps(one));
+      fastest_mps = std::max(fastest_mps, record.rim_mps(one));
   for (const auto& one : record.sent) {
     if (one.time <= from || one.time > until) continue;
-    const double ramp_mps = std::max(0.0, fastest_mps - kBrakes_mps2 * to_s(one.time - from));
-    const bool over = one.time > from + from_s(fastest_mps / kBrakes_mps2) + kLate;
-    if (over ? one.wheel.moves() : rim_mps(one) > ramp_mps + kTrace_mps) return one.time;
+    const double ramp_mps = std::max(0.0, fastest_mps - kNearlyAll_mps2 * to_s(one.time - from));
+    const bool over = one.time > from + from_s(fastest_mps / kNearlyAll_mps2) + kLate;
+    if (over ? one.wheel.moves() : record.rim_mps(one) > ramp_mps + kTrace_mps) return one.time;
   }
   return std::nullopt;
 }

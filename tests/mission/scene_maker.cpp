@@ -10,21 +10,20 @@
 #include <string>
 #include <vector>
 
+#include "mission/robot.h"
+#include "mission/scene_drive.h"
+
 namespace {
 
+using namespace drover::mission;
 using nlohmann::ordered_json;
 
 // Rows with U-turns between them, so that a drive is along straights and curves of both hands.
 constexpr double kRow_m = 30;
 constexpr double kRadius_m = 2.5;
 constexpr double kUturn_m = M_PI * kRadius_m;
-constexpr double kDrive_m = 6;  // of one scene
-constexpr double kSpacing_m = 0.5;
 constexpr double kStart_x_m = -15;
 constexpr double kStart_y_m = -20;
-// Of the robot, and its margin.
-constexpr double kFront_m = 0.45;
-constexpr double kMargin_m = 0.1;
 
 /// Numbers of a distribution of our own: the library's differ between libraries.
 class Dice {
@@ -123,12 +122,12 @@ double add_scene(Dice& dice, int number, bool last, const std::string& after, do
     const double at_s = rounded(dice.from(0.7, 0.7 + 0.7 * kDrive_m / v_mps));
     // At most so far it is by then; nearer than that the thing cannot be.
     const double farthest_m = begin_m + v_mps * at_s;
-    const double stop_m = 0.3 * v_mps + v_mps * v_mps / 1.6 + kMargin_m;
+    const double stop_m = 0.3 * v_mps + braking_way_m(v_mps) + kMargin_m;
     const double ahead_m =
         dice.happens(0.8) ? stop_m + dice.from(0.1, 2.5) : dice.from(0.12, stop_m);
     const double beside_m =
         dice.happens(0.6) ? dice.from(-0.5, 0.5) : dice.side() * dice.from(0.5, 1.3);
-    const Spot at = spot(farthest_m + kFront_m + ahead_m + thing.reach_m);
+    const Spot at = spot(farthest_m + RobotShape{}.front_m + ahead_m + thing.reach_m);
     thing.object["at"] = {rounded(at.x_m - beside_m * std::sin(at.yaw_rad)),
                           rounded(at.y_m + beside_m * std::cos(at.yaw_rad))};
     const double gone_s = rounded(at_s + dice.from(3, 7));

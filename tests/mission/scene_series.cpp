@@ -6,6 +6,8 @@
 #include <set>
 
 #include "mission/conduct.h"
+#include "mission/robot.h"
+#include "mission/scene_drive.h"
 #include "mission/scene_way.h"
 
 namespace drover::mission {
@@ -13,13 +15,6 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// scene.margin_m, limits.deceleration_mps2, defaults; the delay of the whole chain.
-constexpr double kMargin_m = 0.1;
-constexpr double kBrakes_mps2 = 0.8;
-constexpr double kChain_s = 0.28;
-// Two sigma of the position, and what the judge does not know better.
-constexpr double kBlur_m = 0.1;
-constexpr double kFarFrom_m = kMargin_m + 0.5;
 constexpr double kStanding_mps = 0.01;
 // scene.again_s, default, and what looking, answering and beginning to move take.
 constexpr auto kAgain = 1500ms;
@@ -56,7 +51,7 @@ const char* word(Appeared::Where where) {
 
 /// Far enough to stop before it, nearer than a ramp to zero takes, or neither.
 Appeared::Where judge_distance(double way_m, double v_mps) {
-  const double brakes_m = v_mps * v_mps / (2 * kBrakes_mps2);
+  const double brakes_m = braking_way_m(v_mps);
   if (way_m >= kChain_s * v_mps + brakes_m + kMargin_m + kBlur_m) return Appeared::Where::far;
   return way_m < brakes_m + kMargin_m ? Appeared::Where::near : Appeared::Where::between;
 }
@@ -98,8 +93,8 @@ class Series {
   /// Where on its way the robot is, and how far beside it.
   void locate(const TruePose& pose, const Drive& drive, double& s_m, double& beside_m) const {
     // A drive begins at most as far before its target as two of them are long.
-    const double target_m = 0.5 * static_cast<double>(drive.target - 1);
-    const double from_m = std::max(0.0, target_m - 13);
+    const double target_m = target_at_m(drive.target);
+    const double from_m = std::max(0.0, target_m - 2 * kDrive_m - 1);
     s_m = way_.nearest_m({pose.x_m, pose.y_m}, from_m, target_m - from_m + 0.5);
     const TruePose on = way_.pose(s_m);
     beside_m =
@@ -120,7 +115,7 @@ class Series {
     double s_m = 0;
     double beside_m = 0;
     locate(pose, *drive, s_m, beside_m);
-    const double end_m = 0.5 * static_cast<double>(drive->target - 1);
+    const double end_m = target_at_m(drive->target);
     const auto way_m = way_to_contact_m(way_, s_m, end_m, beside_m, *thing);
     if (!way_m) {
       const double least_m = nearest_on_way_m(way_, s_m, end_m, beside_m, *thing);
@@ -152,7 +147,7 @@ class Series {
     double s_m = 0;
     double beside_m = 0;
     locate(pose, drive, s_m, beside_m);
-    const double end_m = 0.5 * static_cast<double>(drive.target - 1);
+    const double end_m = target_at_m(drive.target);
     const auto way_m = way_to_contact_m(way_, s_m, end_m, beside_m, thing);
     if (!way_m) return;  // it stands at its goal
     if (stands_before_other(pose, one.name)) return;
@@ -184,10 +179,11 @@ class Series {
 
   void judge_contacts() {
     report_.poses = scene_.poses.size();
+    Around around(scene_.objects);
     std::set<std::string> met;  // each is told once
     for (const auto& pose : scene_.poses) {
       if (!pose.moves()) continue;
-      for (const auto& one : gaps_near(pose)) {
+      for (const auto& one : around.gaps(pose)) {
         const bool excused = is_excused(one.what);
         if (!excused) report_.least_gap_m = std::min(report_.least_gap_m, one.gap_m);
         if (!(one.gap_m < 0) || !met.insert(one.what).second) continue;
@@ -198,21 +194,6 @@ class Series {
                                      std::to_string(pose.vx_mps) + " m/s");
       }
     }
-  }
-
-  std::vector<Near> gaps_near(const TruePose& pose) {
-    while (next_ < scene_.objects.size() && scene_.objects[next_].time <= pose.time)
-      present_.push_back(next_++);
-    std::erase_if(present_, [&](std::size_t i) {
-      const auto& line = scene_.objects[i];
-      return line.verb != "put" || gone(i, line.name) <= pose.time;
-    });
-    std::vector<Near> found;
-    for (const auto i : present_)
-      if (const auto thing = flat(scene_.objects[i].solid))
-        found.push_back({pose.time, scene_.objects[i].name,
-                         gap_m(outline(pose.x_m, pose.y_m, pose.yaw_rad), *thing), pose.moves()});
-    return found;
   }
 
   /// The mechanics say the same.
@@ -238,8 +219,6 @@ class Series {
   SceneLog scene_;
   Way way_;
   std::vector<Drive> drives_;
-  std::vector<std::size_t> present_;
-  std::size_t next_ = 0;
   SeriesReport report_;
 };
 

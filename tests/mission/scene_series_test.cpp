@@ -24,7 +24,7 @@ struct DriveAlongX {
   double stands_at_x_m = 5.3;  ///< its middle
   Time stop_commanded{0s};     ///< 0: as it stands
   bool named = true;
-  std::string touch;      ///< a line of objects.log
+  std::string meanwhile;  ///< a line of objects.log
   std::string pole_gone;  ///< when a pole 0.1 m before it is taken away, like "29.5"; empty: none
 
   SeriesReport report() const {
@@ -38,7 +38,7 @@ struct DriveAlongX {
     char stamp[40];
     std::snprintf(stamp, sizeof stamp, "(%lld.%09lld) ", static_cast<long long>(ns / 1'000'000'000),
                   static_cast<long long>(ns % 1'000'000'000));
-    objects << stamp << "put box box 6.5 0 0.5 0 1 1 1\n" << touch;
+    objects << stamp << "put box box 6.5 0 0.5 0 1 1 1\n" << meanwhile;
     if (!pole_gone.empty())
       objects << stamp << "put pole cylinder " << stands_at_x_m + 0.45 + 0.11
               << " 0.4 0.5 0 0.01 1\n"
@@ -88,9 +88,15 @@ TEST(ASeries, FindsAContact) {
   EXPECT_THAT(drive.report().problems, ElementsAre(HasSubstr("box: CONTACT")));
 }
 
+TEST(ASeries, FindsAContactWithWhatWalkedIntoTheWay) {
+  DriveAlongX drive;
+  drive.meanwhile = "(9.000000000) at box 6.0 0\n";  // its face at 5.5 m
+  EXPECT_THAT(drive.report().problems, ElementsAre(HasSubstr("box: CONTACT")));
+}
+
 TEST(ASeries, FindsWhatOnlyTheMechanicsFelt) {
   DriveAlongX drive;
-  drive.touch = "(9.000000000) touch box 4 0 0 0.5 0 0 0.001\n";
+  drive.meanwhile = "(9.000000000) touch box 4 0 0 0.5 0 0 0.001\n";
   EXPECT_THAT(drive.report().problems, ElementsAre(HasSubstr("the mechanics")));
 }
 

@@ -56,8 +56,7 @@ TEST(SceneNear, IsToldZeroWithin100Milliseconds) {
   const double gap_m = scene.gap_at(appeared, "crate");
   figure("appears at a distance of", gap_m, "m");
   ASSERT_GT(v_mps, 0.45);
-  ASSERT_LT(gap_m, v_mps * v_mps / (2 * kBrakes_mps2) + 0.28 * v_mps + kMargin_m)
-      << "it is not near";
+  ASSERT_LT(gap_m, braking_way_m(v_mps) + kChain_s * v_mps + kMargin_m) << "it is not near";
   const Time gone = scene.at("gone", "crate");
   // No ramp would end before it.
   const auto moving = log.moving(appeared, gone);
@@ -112,8 +111,7 @@ TEST(SceneWorker, StopsWhenNobodyLooksAroundAnyMore) {
   ASSERT_TRUE(moved_until(log, held)) << "it did not drive";
   const double v_mps = scene.pose_at(held).vx_mps;
   const auto slower = std::find_if(log.sent.begin(), log.sent.end(), [&](const Sent& one) {
-    return one.time > held &&
-           std::abs(one.wheel.velocity_turnps) * log.mps_per_turnps < v_mps - 0.03;
+    return one.time > held && log.rim_mps(one) < v_mps - 0.03;
   });
   ASSERT_NE(slower, log.sent.end());
   figure("slows down after", slower->time - held);

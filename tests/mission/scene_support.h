@@ -3,18 +3,14 @@
 
 #include <regex>
 
+#include "mission/robot.h"
 #include "mission/scene_log.h"
 #include "mission/support.h"
 
 namespace drover::mission {
 
-// scene.margin_m, default; and how much nearer than needed nobody has to come.
-inline constexpr double kMargin_m = 0.1;
-inline constexpr double kFarFrom_m = kMargin_m + 0.5;
-// The estimate's share: two sigma and what the drive is beside its track.
-inline constexpr double kBlur_m = 0.15;
-// limits.deceleration_mps2, default.
-inline constexpr double kBrakes_mps2 = 0.8;
+/// What a drive is beside its track at the most.
+inline constexpr double kOffTrack_m = 0.05;
 
 /// From `begin` to `end` it stands still because of `name`, which it is told, at most so far from
 /// it.
@@ -64,7 +60,7 @@ inline void expect_refused(const SceneLog& scene, std::size_t n, const std::stri
   ASSERT_TRUE(std::regex_search(reason, found, std::regex("([0-9]+\\.[0-9]+) m ahead"))) << reason;
   const double told_m = std::stod(found[1]);
   EXPECT_LE(told_m, true_way_m + 0.05);
-  EXPECT_GE(told_m, true_way_m - kMargin_m - kBlur_m);
+  EXPECT_GE(told_m, true_way_m - kMargin_m - kBlur_m - kOffTrack_m);
 }
 
 /// From the robot's front at `time`, which looks east, to the nearest of what lies at x.
