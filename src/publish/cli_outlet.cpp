@@ -5,20 +5,14 @@
 
 #include "json/json_text.h"
 #include "json/located_json.h"
+#include "publish/line_json.h"
 #include "publish/rtk_navigation/trajectory_data.h"
 
 namespace drover::publish {
 namespace {
 
-std::string reply_of(bool ok, std::string_view text) {
-  json::JsonText reply;
-  reply.open('{').key("ok").boolean(ok);
-  reply.key(ok ? "note" : "reason").text(text).close('}');
-  return reply.take();
-}
-
 std::string refusal(std::string_view reason) {
-  return reply_of(false, reason);
+  return reply_line(false, reason);
 }
 
 double length_m(const store::Track& track) {
@@ -27,11 +21,6 @@ double length_m(const store::Track& track) {
     length += std::hypot(track.points[i].x_m - track.points[i - 1].x_m,
                          track.points[i].y_m - track.points[i - 1].y_m);
   return length;
-}
-
-std::string text_of(const json::Node& request, std::string_view key) {
-  const auto* node = request.find(key);
-  return node != nullptr && node->text() != nullptr ? *node->text() : std::string();
 }
 
 bool is_true(const json::Node& request, std::string_view key) {
@@ -65,8 +54,8 @@ bool CliOutlet::on_line(ClientId client, std::string_view line, Time now, Action
       json::parse(line, {.max_bytes = 64 * 1024, .max_depth = 4, .max_values = 64});
   if (!document) return reply(refusal("not understood: " + document.error().text()));
   const json::Node& request = document->root;
-  const auto cmd = text_of(request, "cmd");
-  const auto name = text_of(request, "name");
+  const auto cmd = text_member(request, "cmd");
+  const auto name = text_member(request, "name");
   auto command = command_of(cmd, name, request);
   if (cmd == "task_start") {
     const auto* id = request.find("id");
@@ -86,7 +75,7 @@ bool CliOutlet::on_answer(const Answer& answer, Actions& out) {
   if (answer.id.source != RequestId::Source::cli) return false;
   const auto waiting = waiting_.find(answer.id.number);
   if (waiting == waiting_.end()) return false;
-  out.emplace_back(Reply{waiting->second, reply_of(answer.ok, answer.text)});
+  out.emplace_back(Reply{waiting->second, reply_line(answer.ok, answer.text)});
   waiting_.erase(waiting);
   return true;
 }

@@ -1,5 +1,7 @@
 // What the scene's thread and its parser are asked, and what they answer. Each is a value: no
-// thread holds what is another one's.
+// thread holds what is another one's. Behind a shared_ptr to const is what several threads keep at
+// the same time: zones, paths and stored shapes are megabytes, nobody changes them after they were
+// made, and nobody knows which thread lets go of them last.
 #pragma once
 
 #include <cstddef>

@@ -1,19 +1,8 @@
 #include "publish/scene_list.h"
 
-#include <cmath>
-
-#include "json/json_text.h"
+#include "publish/line_json.h"
 
 namespace drover::publish {
-namespace {
-
-void number_or_null(json::JsonText& out, std::string_view name, std::optional<double> value,
-                    int decimals) {
-  out.key(name);
-  value&& std::isfinite(*value) ? out.number(*value, decimals) : out.null();
-}
-
-}  // namespace
 
 std::string scene_list_line(const SceneListed& listed, const SceneSaver& saver,
                             const std::optional<scene::Point2>& robot, std::string_view problem) {

@@ -3,22 +3,12 @@
 #include <algorithm>
 #include <utility>
 
+#include "publish/line_json.h"
 #include "publish/scene_list.h"
 #include "scene/zone/zone_checks.h"
 
 namespace drover::publish {
 namespace {
-
-std::string line_of(bool ok, std::string_view text) {
-  json::JsonText reply;
-  reply.open('{').key("ok").boolean(ok);
-  return reply.key(ok ? "note" : "reason").text(text).close('}').take();
-}
-
-std::string text_of(const json::Node& request, std::string_view key) {
-  const auto* node = request.find(key);
-  return node != nullptr && node->text() != nullptr ? *node->text() : std::string();
-}
 
 constexpr std::size_t kMostLoggedBytes = 200;
 
@@ -55,13 +45,13 @@ bool SceneRequests::on_line(ClientId client, std::string_view line, Time now, Ac
     const auto document =
         json::parse(line, {.max_bytes = 64 * 1024, .max_depth = 4, .max_values = 64});
     if (!document) return false;
-    cmd = text_of(document->root, "cmd");
-    name = text_of(document->root, "name");
+    cmd = text_member(document->root, "cmd");
+    name = text_member(document->root, "name");
   }
   const auto what = what_of(cmd);
   if (!what) return false;
   if (const auto why = refusal(*what, now); !why.empty()) {
-    out.emplace_back(Reply{client, line_of(false, why)});
+    out.emplace_back(Reply{client, reply_line(false, why)});
   } else {
     ask({*what, client, std::move(cmd), std::move(name), 0}, line, now, out);
   }
@@ -106,12 +96,12 @@ void SceneRequests::ask(Asked asked, std::string_view line, Time now, Actions& o
       ZoneChange change{number, *zones_, unreadable_, of_file_, {}};
       std::erase_if(change.zones, [&](const auto& zone) { return zone.name == name; });
       std::erase_if(change.unreadable, [&](const auto& zone) { return zone.name == name; });
-      change.reply = line_of(true, "the zone \"" + name + "\" is deleted");
+      change.reply = reply_line(true, "the zone \"" + name + "\" is deleted");
       begin(std::move(change), store::DeleteZone{name}, out);
       return;
     }
     case What::forget:
-      begin({number, {}, {}, {}, line_of(true, "there is no zone; the file is kept aside")},
+      begin({number, {}, {}, {}, reply_line(true, "there is no zone; the file is kept aside")},
             store::ForgetUnreadableZones{}, out);
       return;
   }
@@ -151,7 +141,7 @@ bool SceneRequests::on_reply(SceneReply& reply, Time now, Actions& out) {
     asked->second.save = saver_.note_cleared();
   } else if (asked->second.what == What::accept) {
     scene_problem_.clear();
-    answer(reply.number, line_of(true, "the scene is what can be read of it"), out);
+    answer(reply.number, reply_line(true, "the scene is what can be read of it"), out);
   } else if (change_ && change_->number == reply.number) {
     std::string line = std::move(change_->reply);
     change_.reset();
@@ -226,7 +216,7 @@ void SceneRequests::on_saved(std::uint64_t save, std::string_view failure, Actio
     const auto [number, asked] = *it++;
     if (asked.save == 0 || asked.save > save) continue;
     if (failure.empty()) {
-      answer(number, line_of(true, "objects and constraints are cleared; zones stay"), out);
+      answer(number, reply_line(true, "objects and constraints are cleared; zones stay"), out);
     } else {
       refuse(number, "cleared, but it would be back after a restart: " + std::string(failure), out);
     }
@@ -271,7 +261,7 @@ void SceneRequests::answer(std::uint64_t number, std::string line, Actions& out)
 }
 
 void SceneRequests::refuse(std::uint64_t number, std::string_view why, Actions& out) {
-  answer(number, line_of(false, why), out);
+  answer(number, reply_line(false, why), out);
 }
 
 }  // namespace drover::publish

@@ -1,9 +1,9 @@
 // The slow half of the scene's requests: reading what is large, and writing it out.
-#include <cmath>
-#include <numbers>
 #include <utility>
 
+#include "drover/angle.h"
 #include "json/located_json.h"
+#include "publish/line_json.h"
 #include "publish/scene_jobs.h"
 #include "scene/zone/import_zone.h"
 #include "scene/zone/project.h"
@@ -20,13 +20,6 @@ constexpr json::Limits kImportLimits{
 std::optional<GeodeticPoint> on_earth(const RobotPlace& robot) {
   if (!robot.origin || !robot.in_map) return std::nullopt;
   return scene::place_on_earth(*robot.in_map, *robot.origin);
-}
-
-/// Null what is not known.
-void number_or_null(json::JsonText& out, std::string_view name, std::optional<double> value,
-                    int decimals) {
-  out.key(name);
-  value&& std::isfinite(*value) ? out.number(*value, decimals) : out.null();
 }
 
 void write_zone(json::JsonText& out, const scene::Zone& zone, const RobotPlace& robot) {
@@ -46,31 +39,25 @@ void write_zone(json::JsonText& out, const scene::Zone& zone, const RobotPlace& 
   const bool outside = near && near->distance_m > 0;
   number_or_null(out, "distance_m", near ? std::optional(near->distance_m) : std::nullopt, 2);
   number_or_null(out, "bearing_deg",
-                 outside ? std::optional(near->bearing_rad * 180 / std::numbers::pi) : std::nullopt,
-                 1);
+                 outside ? std::optional(to_deg(near->bearing_rad)) : std::nullopt, 1);
   out.key("warnings").open('[');
   for (const std::string& warning : summary.warnings) out.text(warning);
   out.close(']').close('}');
-}
-
-std::string member(const json::Node& request, std::string_view key) {
-  const auto* node = request.find(key);
-  return node == nullptr || node->text() == nullptr ? std::string() : *node->text();
 }
 
 Result<ZoneRead, std::string> import_line(std::string_view line, const RobotPlace& robot) {
   const auto parsed = json::parse(line, kImportLimits);
   if (!parsed) return "not understood: " + parsed.error().text();
   const json::Node& request = parsed->root;
-  const std::string kind = member(request, "kind");
+  const std::string kind = text_member(request, "kind");
   if (kind != "keep_in" && kind != "keep_out")
     return std::string("kind must be keep_in or keep_out");
   const auto* text = request.find("text");
   if (text == nullptr || text->text() == nullptr) return std::string("text, the file, is missing");
   const scene::ZoneOrder order{
-      member(request, "name"),
+      text_member(request, "name"),
       kind == "keep_in" ? scene::Zone::Kind::keep_in : scene::Zone::Kind::keep_out,
-      member(request, "source"), robot.origin};
+      text_member(request, "source"), robot.origin};
   auto made = scene::import_zone(*text->text(), order);
   if (!made.ok()) return made.error().text();
   ZoneRead read{std::move(made.value().zone), {}, {}, std::move(made.value().notes)};

@@ -4,6 +4,7 @@
 
 #include "runtime/clock.h"
 #include "runtime/publish_loop.h"
+#include "scene/world/map_change.h"
 
 namespace drover::runtime {
 
@@ -77,7 +78,7 @@ void PublishLoop::checked(std::uint64_t number, const publish::TrackChecked& fou
         offence_text(*found.offence, config_.protocol.first_target_id == 0 ? 0 : 1));
   // Its path would lie elsewhere on earth by now.
   if (service_.origin_pending() || !service_.origin() ||
-      !same_place(*service_.origin(), start->origin))
+      !scene::same_origin(*service_.origin(), start->origin))
     return service_.on_undelivered(start->command, actions_, "the origin is being set, try again");
   push(start->command, start->before, actions_);
 }

@@ -58,9 +58,4 @@ inline std::string offence_text(const scene::TrackOffence& offence, int first_id
   return offence.what + place;
 }
 
-inline bool same_place(const GeodeticPoint& a, const GeodeticPoint& b) {
-  return a.latitude_deg == b.latitude_deg && a.longitude_deg == b.longitude_deg &&
-         a.altitude_m == b.altitude_m;
-}
-
 }  // namespace drover::runtime
