@@ -2,6 +2,8 @@
 
 #include <cstdio>
 
+#include "text/number.h"
+
 namespace drover::cli {
 
 using json::Node;
@@ -20,10 +22,7 @@ std::string text(const Node& node) {
 
 std::string quantity(const Node& node, const char* format) {
   const auto value = node.number();
-  if (!value) return "-";
-  char out[64];
-  std::snprintf(out, sizeof out, format, *value);
-  return out;
+  return value ? text::formed(format, *value) : "-";
 }
 
 std::string labelled(std::string_view label, const Node& node, const char* format) {
@@ -32,6 +31,19 @@ std::string labelled(std::string_view label, const Node& node, const char* forma
 
 bool yes(const Node& node) {
   return node.boolean() != nullptr && *node.boolean();
+}
+
+double value_of(const Node& node) {
+  return node.number().value_or(0);
+}
+
+std::size_t count(const Node& list) {
+  return list.list() != nullptr ? list.list()->size() : 0;
+}
+
+const Node& entry(const Node& list, std::size_t i) {
+  static const Node kNothing;
+  return i < count(list) ? (*list.list())[i] : kNothing;
 }
 
 void line(std::string& out, std::string_view label, const std::string& value) {

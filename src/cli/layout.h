@@ -1,6 +1,7 @@
 // How values of droverd's answers become columns of text: absent ones are "-", never 0.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 
@@ -17,6 +18,12 @@ std::string quantity(const json::Node& node, const char* format);
 /// "speed 0.50 m/s", or "speed -" when it is absent.
 std::string labelled(std::string_view label, const json::Node& node, const char* format);
 bool yes(const json::Node& node);
+/// A number; 0 when it is absent.
+double value_of(const json::Node& node);
+/// How long a list is; 0 for anything else.
+std::size_t count(const json::Node& list);
+/// Of a list; a node without a value where it has none.
+const json::Node& entry(const json::Node& list, std::size_t i);
 /// Appends one line with its label in a column of its own.
 void line(std::string& out, std::string_view label, const std::string& value);
 /// Pads to `width` columns, counting UTF-8 characters.

@@ -2,39 +2,20 @@
 
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <ctime>
-#include <numbers>
 
 #include "cli/layout.h"
+#include "cli/scene_lists.h"
+#include "drover/angle.h"
+#include "scene/message/shapes.h"
+#include "text/number.h"
 
 namespace drover::cli {
 
 namespace {
 
 using json::Node;
-
-constexpr std::size_t kNameColumns = 20;
-
-double value_of(const Node& node) {
-  return node.number().value_or(0);
-}
-
-std::size_t count(const Node& list) {
-  return list.list() != nullptr ? list.list()->size() : 0;
-}
-
-std::string counted(double n, const char* one, const char* many) {
-  std::array<char, 64> out{};
-  std::snprintf(out.data(), out.size(), "%.0f %s", n, n == 1 ? one : many);
-  return out.data();
-}
-
-std::string meters(double value) {
-  std::array<char, 64> out{};
-  std::snprintf(out.data(), out.size(), "%.2f", value);
-  return out.data();
-}
+using Solid = scene::SolidPrimitive;
 
 /// Seconds since the epoch; nothing when nobody knows.
 std::string when(const Node& node) {
@@ -48,16 +29,18 @@ std::string when(const Node& node) {
   return out.data();
 }
 
-/// First of all, with the verbs that end it.
-std::string problem(const Node& answer, const char* way_out) {
-  const auto what = text(at(answer, "problem"));
-  if (what.empty()) return "";
-  return "NOTHING IS FREE, no task moves: " + what + "\n  the way out: " + way_out + "\n";
+std::string meters(double value) {
+  return text::formed("%.2f", value);
+}
+
+/// "2 shapes", of a number in an answer.
+std::string amount(const Node& node, const char* one, const char* many) {
+  return text::counted(static_cast<std::size_t>(value_of(node)), one, many);
 }
 
 std::string object_line(const Node& object) {
   std::string out = padded(text(at(object, "id")), kNameColumns) + "  " +
-                    padded(counted(value_of(at(object, "shapes")), "shape", "shapes"), 10);
+                    padded(amount(at(object, "shapes"), "shape", "shapes"), 10);
   if (!at(object, "x_m").number()) {
     out += "  not placed";
   } else {
@@ -67,7 +50,7 @@ std::string object_line(const Node& object) {
                : "  the robot does not know where it is";
   }
   if (value_of(at(object, "triangles")) > 0)
-    out += "  " + counted(value_of(at(object, "triangles")), "triangle", "triangles");
+    out += "  " + amount(at(object, "triangles"), "triangle", "triangles");
   return out + when(at(object, "arrived_s")) + "\n";
 }
 
@@ -75,7 +58,7 @@ std::string set_line(const Node& set) {
   std::string kinds;
   for (const auto* kind : {"joint", "position", "orientation", "visibility"})
     if (value_of(at(set, kind)) > 0)
-      kinds += (kinds.empty() ? "" : ", ") + counted(value_of(at(set, kind)), kind, kind);
+      kinds += (kinds.empty() ? "" : ", ") + amount(at(set, kind), kind, kind);
   return padded(text(at(set, "name")), kNameColumns) + "  constraints: " + kinds +
          when(at(set, "arrived_s")) + "\n";
 }
@@ -96,44 +79,42 @@ std::string place(const Node& pose) {
       std::atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))};
   constexpr std::array<const char*, 3> kNames{"roll", "pitch", "yaw"};
   for (std::size_t i = 0; i < angles_rad.size(); ++i) {
-    const double deg = angles_rad[i] * 180 / std::numbers::pi;
+    const double deg = to_deg(angles_rad[i]);
     if (std::abs(deg) < 0.05) continue;
-    std::array<char, 64> angle{};
-    std::snprintf(angle.data(), angle.size(), "  %s %.1f deg", kNames[i], deg);
-    out += angle.data();
+    out += std::string("  ") + kNames[i] + text::formed(" %.1f deg", deg);
   }
   return out;
-}
-
-const Node& entry(const Node& list, std::size_t i) {
-  static const Node kNothing;
-  return i < count(list) ? (*list.list())[i] : kNothing;
 }
 
 std::string primitive(const Node& solid) {
   const auto& sizes = at(solid, "dimensions");
   const auto size = [&](std::size_t i) { return meters(value_of(entry(sizes, i))); };
   switch (at(solid, "type").integer().value_or(0)) {
-    case 1: return padded("box", 10) + size(0) + " x " + size(1) + " x " + size(2) + " m";
-    case 2: return padded("sphere", 10) + "radius " + size(0) + " m";
-    case 3: return padded("cylinder", 10) + "height " + size(0) + "  radius " + size(1) + " m";
-    case 4: return padded("cone", 10) + "height " + size(0) + "  radius " + size(1) + " m";
+    case Solid::BOX:
+      return padded("box", 10) + size(Solid::BOX_X) + " x " + size(Solid::BOX_Y) + " x " +
+             size(Solid::BOX_Z) + " m";
+    case Solid::SPHERE: return padded("sphere", 10) + "radius " + size(Solid::SPHERE_RADIUS) + " m";
+    case Solid::CYLINDER:
+      return padded("cylinder", 10) + "height " + size(Solid::CYLINDER_HEIGHT) + "  radius " +
+             size(Solid::CYLINDER_RADIUS) + " m";
+    case Solid::CONE:
+      return padded("cone", 10) + "height " + size(Solid::CONE_HEIGHT) + "  radius " +
+             size(Solid::CONE_RADIUS) + " m";
     default: return "a shape of an unknown type";
   }
 }
 
 std::string plane(const Node& plane) {
   const auto& coef = at(plane, "coef");
-  std::array<char, 160> out{};
-  std::snprintf(out.data(), out.size(), "%-10s%g x %+g y %+g z %+g = 0", "plane",
-                value_of(entry(coef, 0)), value_of(entry(coef, 1)), value_of(entry(coef, 2)),
-                value_of(entry(coef, 3)));
-  return out.data();
+  const auto term = [&](std::size_t i, const char* form) {
+    return text::formed(form, value_of(entry(coef, i)));
+  };
+  return padded("plane", 10) + term(0, "%g x ") + term(1, "%+g y ") + term(2, "%+g z ") +
+         term(3, "%+g = 0");
 }
 
 std::string mesh(const Node& mesh) {
-  return padded("mesh", 10) +
-         counted(static_cast<double>(count(at(mesh, "triangles"))), "triangle", "triangles");
+  return padded("mesh", 10) + text::counted(count(at(mesh, "triangles")), "triangle", "triangles");
 }
 
 template <class Text>
@@ -158,11 +139,9 @@ std::string object_text(const Node& messages) {
 
 std::string joint_text(const Node& joint) {
   const double position = value_of(at(joint, "position"));
-  std::array<char, 96> out{};
-  std::snprintf(out.data(), out.size(), "  from %.4g to %.4g",
-                position - value_of(at(joint, "tolerance_below")),
-                position + value_of(at(joint, "tolerance_above")));
-  return text(at(joint, "joint_name")) + out.data();
+  return text(at(joint, "joint_name")) +
+         text::formed("  from %.4g", position - value_of(at(joint, "tolerance_below"))) +
+         text::formed(" to %.4g", position + value_of(at(joint, "tolerance_above")));
 }
 
 std::string frame_of(const Node& constraint) {
@@ -173,7 +152,7 @@ std::string position_text(const Node& position) {
   const auto& region = at(position, "constraint_region");
   const auto shapes_of_it = count(at(region, "primitives")) + count(at(region, "meshes"));
   return text(at(position, "link_name")) + "  inside of " +
-         counted(static_cast<double>(shapes_of_it), "shape", "shapes") + frame_of(position);
+         text::counted(shapes_of_it, "shape", "shapes") + frame_of(position);
 }
 
 std::string orientation_text(const Node& orientation) {
@@ -208,36 +187,10 @@ std::string set_text(const Node& set) {
   return out;
 }
 
-std::string kind_words(const Node& zone) {
-  return text(at(zone, "kind")) == "keep_in" ? "keep-in" : "keep-out";
-}
-
-std::string sentences(const Node& list, const char* label) {
-  std::string out;
-  for (std::size_t i = 0; i < count(list); ++i)
-    out += std::string("  ") + label + ": " + text(entry(list, i)) + "\n";
-  return out;
-}
-
-std::string zone_line(const Node& zone) {
-  std::string out = padded(text(at(zone, "name")), kNameColumns) + "  ";
-  if (const auto why = text(at(zone, "unreadable")); !why.empty())
-    return out + "CANNOT BE READ: " + why + "\n";
-  out += padded(kind_words(zone), 10) + quantity(at(zone, "area_m2"), "%12.1f m2") +
-         quantity(at(zone, "perimeter_m"), "  %8.1f m around");
-  const auto distance_m = at(zone, "distance_m").number();
-  out += !distance_m          ? "  the robot does not know where it is"
-         : *distance_m == 0.0 ? "  the robot is inside"
-                              : quantity(at(zone, "distance_m"), "  %.2f m from the robot");
-  if (at(zone, "bearing_deg").number())
-    out += quantity(at(zone, "bearing_deg"), ", %.0f deg from north");
-  return out + "  " + text(at(zone, "source")) + "\n" + sentences(at(zone, "warnings"), "warning");
-}
-
 }  // namespace
 
 std::string show_scene(const Node& answer) {
-  std::string out = problem(answer, "drover scene accept-loss gives up what is lost");
+  std::string out = nothing_is_free(answer, "drover scene accept-loss gives up what is lost");
   const auto& objects = at(answer, "objects");
   const auto& sets = at(answer, "constraints");
   for (std::size_t i = 0; i < count(objects); ++i) out += object_line(entry(objects, i));
@@ -251,24 +204,6 @@ std::string show_scene_entry(const Node& answer) {
   if (at(answer, "object").list() != nullptr) out += object_text(at(answer, "object"));
   if (at(answer, "constraints").object() != nullptr) out += set_text(at(answer, "constraints"));
   return out;
-}
-
-std::string show_zones(const Node& answer) {
-  std::string out = problem(answer,
-                            "drover zone delete NAME of a zone that cannot be read, or drover zone "
-                            "forget-unreadable when the whole file cannot; then import them anew");
-  const auto& zones = at(answer, "zones");
-  for (std::size_t i = 0; i < count(zones); ++i) out += zone_line(entry(zones, i));
-  if (count(zones) == 0) out += "no zone\n";
-  return out;
-}
-
-std::string show_imported(const Node& answer) {
-  const auto& zone = at(answer, "zone");
-  std::string out = "done: the zone " + text(at(zone, "name")) + " is stored as " +
-                    kind_words(zone) + ", and counts from now on";
-  if (yes(at(answer, "replaced"))) out += ", in the place of the one that had its name";
-  return out + "\n" + sentences(at(zone, "warnings"), "warning");
 }
 
 }  // namespace drover::cli

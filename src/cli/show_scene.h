@@ -1,4 +1,4 @@
-// droverd's answers about the planning scene and the zones as text for people.
+// droverd's answers about the planning scene as text for people.
 #pragma once
 
 #include <string>
@@ -12,9 +12,4 @@ namespace drover::cli {
 std::string show_scene(const json::Node& answer);
 /// Of scene_show: a line a shape, a line a constraint.
 std::string show_scene_entry(const json::Node& answer);
-/// Of zone_list: a line a zone, and what is to be known of it.
-std::string show_zones(const json::Node& answer);
-/// Of zone_import: what is stored now.
-std::string show_imported(const json::Node& answer);
-
 }  // namespace drover::cli

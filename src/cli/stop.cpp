@@ -14,6 +14,7 @@
 
 #include "cli/client.h"
 #include "cli/exit_codes.h"
+#include "cli/layout.h"
 #include "cli/unheard_drives.h"
 #include "json/json_text.h"
 #include "json/located_json.h"
@@ -45,11 +46,6 @@ std::string why_no_guard(const std::string& path, int error) {
     return "drover-guard does not run (no answer at " + path + ")";
   if (error == EAGAIN || error == EINPROGRESS) return "drover-guard did not answer";
   return path + ": " + std::strerror(error);
-}
-
-bool is_true(const json::Node& root, std::string_view key) {
-  const auto* value = root.find(key);
-  return value != nullptr && value->boolean() != nullptr && *value->boolean();
 }
 
 /// The guard's answer to one word, its state; nothing with a sentence in `problem`.
@@ -85,21 +81,21 @@ Answer tell_guard(const StopPlaces& places, std::string_view word) {
   std::string problem;
   const auto state = ask_guard(places, word, problem);
   if (!state) return {.why = problem};
-  if (is_true(state->root, "latched") != (word == "stop"))
+  if (yes(at(state->root, "latched")) != (word == "stop"))
     return {.heard = true, .why = "drover-guard did not take it"};
   const auto* axes = state->root.find("axes");
   const bool has_axes = axes != nullptr && axes->integer().value_or(0) > 0;
   if (word == "stop" && !has_axes)
     return {.heard = true, .why = "drover-guard permits no motion, but knows no drives to stop"};
   const auto* may_hold = state->root.find("may_hold");
-  const bool limp = may_hold != nullptr && !is_true(state->root, "may_hold");
+  const bool limp = may_hold != nullptr && !yes(*may_hold);
   return {.obeyed = true, .heard = true, .limp = limp};
 }
 
 bool holds(const StopPlaces& places) {
   std::string problem;
   const auto state = ask_guard(places, "state", problem);
-  return state && is_true(state->root, "holds");
+  return state && yes(at(state->root, "holds"));
 }
 
 Answer tell_daemon(const StopPlaces& places, std::string_view cmd) {
@@ -107,7 +103,7 @@ Answer tell_daemon(const StopPlaces& places, std::string_view cmd) {
     const auto question = json::JsonText().open('{').key("cmd").text(cmd).close('}').take();
     const auto reply = json::parse(ask(places.daemon, question, kDaemonPatience_s));
     if (!reply) return {.heard = true, .why = "droverd's answer is not understood"};
-    if (is_true(reply->root, "ok")) return {.obeyed = true, .heard = true};
+    if (yes(at(reply->root, "ok"))) return {.obeyed = true, .heard = true};
     const auto* reason = reply->root.find("reason");
     return {.heard = true,
             .why = reason != nullptr && reason->text() != nullptr ? *reason->text()

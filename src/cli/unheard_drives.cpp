@@ -2,30 +2,20 @@
 
 #include <string_view>
 
+#include "cli/layout.h"
+
 namespace drover::cli {
 
 namespace {
 
-bool is_true(const json::Node* value) {
-  return value != nullptr && value->boolean() != nullptr && *value->boolean();
-}
-
-std::string text_of(const json::Node& object, std::string_view key) {
-  const auto* value = object.find(key);
-  return value != nullptr && value->text() != nullptr ? *value->text() : std::string();
-}
-
 bool has_no_power(const json::Node& status) {
-  const auto* lines = status.find("lines");
-  const auto* estop = lines == nullptr ? nullptr : lines->find("estop");
-  if (estop != nullptr && is_true(estop->find("active"))) return true;
-  const auto* outputs = status.find("outputs");
-  const auto* relay = outputs == nullptr ? nullptr : outputs->find("enable_relay");
-  return relay != nullptr && !is_true(relay);
+  if (yes(at(at(at(status, "lines"), "estop"), "active"))) return true;
+  const auto* relay = at(status, "outputs").find("enable_relay");
+  return relay != nullptr && !yes(*relay);
 }
 
 bool is_unheard(const json::Node& drive) {
-  return text_of(drive, "health") != "fresh";
+  return text(at(drive, "health")) != "fresh";
 }
 
 }  // namespace
@@ -36,13 +26,11 @@ std::string unheard_drives(const json::Node& status) {
   const auto add = [&](std::string_view name) {
     names += (names.empty() ? "" : ", ") + std::string(name);
   };
-  const auto* axes = status.find("axes");
-  if (axes != nullptr && axes->list() != nullptr) {
-    for (const auto& axis : *axes->list())
-      if (is_unheard(axis)) add(text_of(axis, "joint"));
-  }
-  const auto* base = status.find("base");
-  if (base != nullptr && base->object() != nullptr && is_unheard(*base)) add("the base");
+  const auto& axes = at(status, "axes");
+  for (std::size_t i = 0; i < count(axes); ++i)
+    if (is_unheard(entry(axes, i))) add(text(at(entry(axes, i), "joint")));
+  const auto& base = at(status, "base");
+  if (base.object() != nullptr && is_unheard(base)) add("the base");
   return names;
 }
 

@@ -9,7 +9,7 @@
 #include "cli/option_texts.h"
 #include "cli/reply.h"
 #include "cli/scene.h"
-#include "cli/show_scene.h"
+#include "cli/show_zones.h"
 #include "cli/zone_import.h"
 
 namespace drover::cli {

@@ -10,7 +10,7 @@
 #include "cli/exit_codes.h"
 #include "cli/layout.h"
 #include "cli/reply.h"
-#include "cli/show_scene.h"
+#include "cli/show_zones.h"
 #include "cli/zone_preview.h"
 #include "json/json_text.h"
 #include "scene/zone/import_zone.h"

@@ -1,32 +1,23 @@
 #include "cli/zone_preview.h"
 
 #include <GeographicLib/LocalCartesian.hpp>
-#include <array>
-#include <cmath>
-#include <cstdio>
-#include <numbers>
 
 #include "cli/layout.h"
+#include "drover/angle.h"
 #include "scene/zone/summary.h"
+#include "text/number.h"
 
 namespace drover::cli {
 
 namespace {
 
-std::string formed(const char* form, double value) {
-  std::array<char, 64> out{};
-  std::snprintf(out.data(), out.size(), form, value);
-  return out.data();
-}
-
-std::string amount_text(std::size_t n, const char* one, const char* many) {
-  return std::to_string(n) + " " + (n == 1 ? one : many);
-}
+using text::counted;
+using text::formed;
 
 std::string shape_text(const scene::ZoneSummary& summary) {
-  return amount_text(summary.polygons, "polygon", "polygons") +
-         (summary.holes > 0 ? ", " + amount_text(summary.holes, "hole", "holes") : "") + ", " +
-         amount_text(summary.points, "point", "points");
+  return counted(summary.polygons, "polygon", "polygons") +
+         (summary.holes > 0 ? ", " + counted(summary.holes, "hole", "holes") : "") + ", " +
+         counted(summary.points, "point", "points");
 }
 
 std::string robot_text(const scene::ZoneSummary& summary) {
@@ -34,7 +25,7 @@ std::string robot_text(const scene::ZoneSummary& summary) {
   if (summary.from_robot->distance_m == 0) return "inside of it";
   return formed("%.2f m from it", summary.from_robot->distance_m) +
          formed(", which lies %.0f deg from north, clockwise",
-                summary.from_robot->bearing_rad * 180 / std::numbers::pi);
+                to_deg(summary.from_robot->bearing_rad));
 }
 
 }  // namespace

@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 
 #include "config/check_subjects.h"
 #include "engine/clearance/stop_chain.h"
+#include "text/number.h"
 
 namespace drover::config {
 namespace {
@@ -14,9 +14,7 @@ constexpr auto kAhead = "scene.field.ahead_m";
 constexpr auto kBeside = "scene.field.beside_m";
 
 std::string metres(double value_m) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.2f m", value_m);
-  return text.data();
+  return text::formed("%.2f m", value_m);
 }
 
 void check_width(Findings& found) {

@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 
 #include "config/check_subjects.h"
 #include "engine/clearance/stop_chain.h"
+#include "text/frame_name.h"
+#include "text/number.h"
 
 namespace drover::config {
 namespace {
@@ -16,12 +17,6 @@ constexpr double kLeastArea_m2 = 0.01;
 constexpr double kSamePlace_m = 1e-6;
 /// What messages mean by these names is no frame of the robot's own.
 constexpr std::array<std::string_view, 4> kNamesOfTheScene{"map", "base_link", "0", "1"};
-
-std::string rounded(const char* form, double value) {
-  std::array<char, 64> text{};
-  std::snprintf(text.data(), text.size(), form, value);
-  return text.data();
-}
 
 std::string corner_path(std::size_t i) {
   return std::string(kFootprint) + "[" + std::to_string(i) + "]";
@@ -93,7 +88,7 @@ void find_left_out(const DroverConfig& config, Findings& found) {
       corners.begin(), corners.end(), [](const auto& a, const auto& b) { return a.y_m < b.y_m; });
   if (left->y_m < wheel_m || right->y_m > -wheel_m)
     found.add(kFootprint,
-              "does not reach the wheels, " + rounded("%.3g", wheel_m) +
+              "does not reach the wheels, " + text::formed("%.3g", wheel_m) +
                   " m to each side of base_link by groups.base.track_m",
               "it is all that the robot covers");
 }
@@ -144,8 +139,7 @@ void check_heights(Findings& found) {
 void check_frames(Findings& found) {
   for (const auto& frame : found.config().scene.frames) {
     const auto path = "scene.frames." + frame.name;
-    std::string_view name = frame.name;
-    while (name.starts_with('/')) name.remove_prefix(1);
+    const std::string_view name = text::without_slash(frame.name);
     if (std::find(kNamesOfTheScene.begin(), kNamesOfTheScene.end(), name) !=
         kNamesOfTheScene.end()) {
       found.add(path, "\"" + frame.name + "\" means something else in messages",
@@ -184,10 +178,11 @@ void warn_of_short_look(Findings& found) {
     const double possible_mps = engine::permitted_speed(look_m, chain);
     if (possible_mps >= fastest_mps) return;
     found.warn(path,
-               "reaches for " + rounded("%.2f m/s", possible_mps) + ": " + whom +
-                   " no faster, though limits.max_speed_mps is " + rounded("%.2f", fastest_mps) +
+               "reaches for " + text::formed("%.2f m/s", possible_mps) + ": " + whom +
+                   " no faster, though limits.max_speed_mps is " +
+                   text::formed("%.2f", fastest_mps) +
                    ", because what was not looked at is not free",
-               "short_look", rounded("%.2f m or more", needed_m));
+               "short_look", text::formed("%.2f m or more", needed_m));
   };
   judge("scene.ahead_m", config.scene.ahead_m, "without a track the robot is");
   judge("scene.along_m", config.scene.along_m, "a task is");

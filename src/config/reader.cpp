@@ -33,7 +33,7 @@ std::string right_type(const json::Node& node, std::string_view expected) {
 }
 
 std::string counted(std::size_t n) {
-  return std::to_string(n) + (n == 1 ? " entry" : " entries");
+  return text::counted(n, "entry", "entries");
 }
 
 }  // namespace

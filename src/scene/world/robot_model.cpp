@@ -1,17 +1,11 @@
 #include "scene/world/robot_model.h"
 
+#include "text/frame_name.h"
+
 namespace drover::scene {
-namespace {
-
-std::string_view bare_link(std::string_view name) {
-  if (name.starts_with('/')) name.remove_prefix(1);
-  return name;
-}
-
-}  // namespace
 
 bool same_frame(std::string_view a, std::string_view b) {
-  return bare_link(a) == bare_link(b);
+  return text::without_slash(a) == text::without_slash(b);
 }
 
 std::optional<Pose> link_on_base(const RobotModel& robot, std::string_view name) {

@@ -4,15 +4,10 @@
 #include <gtest/gtest.h>
 
 #include "cli/rates.h"
+#include "unit/cli/parsed.h"
 
 namespace drover::cli {
 namespace {
-
-json::Node parsed(std::string_view text) {
-  auto document = json::parse(text);
-  if (!document) ADD_FAILURE() << document.error().text();
-  return document ? document->root : json::Node{};
-}
 
 const DeviceView& view(std::string_view name) {
   for (const auto& each : device_views())

@@ -1,21 +1,12 @@
-// Answers about the scene and the zones as a person reads them.
+// Answers about the scene as a person reads them.
 #include "cli/show_scene.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <string>
+#include "unit/cli/parsed.h"
 
 namespace drover::cli {
 namespace {
-
-using testing::HasSubstr;
-
-json::Node parsed(std::string_view text) {
-  auto document = json::parse(text);
-  if (!document) ADD_FAILURE() << document.error().text();
-  return document ? document->root : json::Node{};
-}
 
 TEST(SceneList, HasALineForEachObjectAndSet) {
   EXPECT_EQ(
@@ -81,31 +72,6 @@ TEST(SceneShow, TellsConstraints) {
       "position    base_link  inside of 1 shape  of frame map\n"
       "orientation base_link  within 0.2 0.2 3.2 rad about x, y, z  of frame map\n"
       "visibility  target of radius 0.50 m  view angle to 0.3 rad\n");
-}
-
-TEST(ZoneList, HasALineForEachZoneAndItsWarnings) {
-  EXPECT_EQ(
-      show_zones(
-          parsed(R"({"ok":true,"zones":[{"name":"yard","kind":"keep_in","source":"yard.geojson",)"
-                 R"("polygons":1,"holes":0,"points":5,"area_m2":1200.5,"perimeter_m":140.2,)"
-                 R"("distance_m":0,"bearing_deg":null,"warnings":["it moved"]},)"
-                 R"({"name":"pond","kind":"keep_out","source":"pond.kml","polygons":1,"holes":0,)"
-                 R"("points":5,"area_m2":10,"perimeter_m":14,"distance_m":3.25,"bearing_deg":90,)"
-                 R"("warnings":[]},{"name":"old","unreadable":"kind: is missing"}],)"
-                 R"("problem":"zone old cannot be read"})")),
-      "NOTHING IS FREE, no task moves: zone old cannot be read\n"
-      "  the way out: drover zone delete NAME of a zone that cannot be read, or drover zone "
-      "forget-unreadable when the whole file cannot; then import them anew\n"
-      "yard                  keep-in         1200.5 m2     140.2 m around  the robot is inside  "
-      "yard.geojson\n"
-      "  warning: it moved\n"
-      "pond                  keep-out          10.0 m2      14.0 m around  3.25 m from the robot, "
-      "90 deg from north  pond.kml\n"
-      "old                   CANNOT BE READ: kind: is missing\n");
-}
-
-TEST(ZoneList, SaysThatThereIsNone) {
-  EXPECT_EQ(show_zones(parsed(R"({"ok":true,"zones":[],"problem":""})")), "no zone\n");
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include "cli/measurement.h"
 #include "drover/describe_snapshot.h"
+#include "unit/cli/parsed.h"
 
 namespace drover::cli {
 namespace {
@@ -37,12 +38,6 @@ Names names_of(const T& it) {
   Names names;
   describe(names, it);
   return names;
-}
-
-json::Node parsed(std::string_view text) {
-  auto document = json::parse(text);
-  if (!document) ADD_FAILURE() << document.error().text();
-  return document ? document->root : json::Node{};
 }
 
 TEST(ShownValues, HaveOnePrecisionWhateverTheyAreAPartOf) {
