@@ -2,11 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace drover::sim {
 namespace {
 
 constexpr double kLargest_m = 100;
+constexpr std::pair<Solid::Kind, std::string_view> kSolidWords[] = {{Solid::Kind::box, "box"},
+                                                               {Solid::Kind::cylinder, "cylinder"},
+                                                               {Solid::Kind::sphere, "sphere"},
+                                                               {Solid::Kind::cone, "cone"},
+                                                               {Solid::Kind::prism, "prism"}};
 
 bool is_length(double value_m) {
   return value_m > 0 && value_m <= kLargest_m;
@@ -24,6 +30,18 @@ bool is_convex(const std::vector<std::array<double, 2>>& corners) {
 }
 
 }  // namespace
+
+std::string_view word(Solid::Kind kind) {
+  for (const auto& [each, name] : kSolidWords)
+    if (each == kind) return name;
+  return "";
+}
+
+std::optional<Solid::Kind> kind_of(std::string_view word) {
+  for (const auto& [kind, name] : kSolidWords)
+    if (name == word) return kind;
+  return std::nullopt;
+}
 
 double height_of(const Solid& solid) {
   return solid.kind == Solid::Kind::sphere ? 2 * solid.radius_m : solid.height_m;

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace drover::sim {
@@ -24,6 +26,11 @@ struct Solid {
 
   bool operator==(const Solid&) const = default;
 };
+
+/// As commands and records call it.
+std::string_view word(Solid::Kind kind);
+/// Nothing: there is no such solid.
+std::optional<Solid::Kind> kind_of(std::string_view word);
 
 inline constexpr std::size_t kMaxCorners = 16;
 

@@ -29,24 +29,19 @@ constexpr const char* kUsage =
     "HEIGHT [Z], sphere X Y RADIUS [Z], prism X Y HEIGHT Z X1 Y1 X2 Y2 X3 Y3 ..., move X Y SPEED, "
     "or remove";
 
-struct Form {
-  std::string_view word;
-  Solid::Kind kind;
-  std::size_t count;  // of numbers, without Z
-};
-constexpr Form kForms[] = {{"box", Solid::Kind::box, 6},
-                           {"cylinder", Solid::Kind::cylinder, 4},
-                           {"cone", Solid::Kind::cone, 4},
-                           {"sphere", Solid::Kind::sphere, 3},
-                           {"prism", Solid::Kind::prism, 4}};
-
-const Form* form_of(std::string_view word) {
-  for (const auto& form : kForms)
-    if (form.word == word) return &form;
-  return nullptr;
+/// How many numbers it has at the least: a prism with its Z, the others without.
+std::size_t least_count(Solid::Kind kind) {
+  switch (kind) {
+    case Solid::Kind::box: return 6;
+    case Solid::Kind::cylinder:
+    case Solid::Kind::cone:
+    case Solid::Kind::prism: return 4;
+    case Solid::Kind::sphere: return 3;
+  }
+  return 0;
 }
 
-/// From X Y on, with at least the form's numbers.
+/// From X Y on, with at least so many numbers.
 Solid solid_of(Solid::Kind kind, const Numbers& n, const Plant& plant) {
   Solid solid;
   solid.kind = kind;
@@ -87,7 +82,7 @@ Solid solid_of(Solid::Kind kind, const Numbers& n, const Plant& plant) {
 }  // namespace
 
 bool is_object_command(std::span<const std::string_view> words) {
-  return !words.empty() && (form_of(words[0]) != nullptr || words[0] == "move");
+  return !words.empty() && (kind_of(words[0]) || words[0] == "move");
 }
 
 std::string command_object(Plant& plant, std::string_view name,
@@ -101,11 +96,11 @@ std::string command_object(Plant& plant, std::string_view name,
     if (values->size() != 3 || !((*values)[2] > 0)) return kUsage;
     return plant.move_object(name, (*values)[0], (*values)[1], (*values)[2]) ? "ok" : unknown();
   }
-  const Form* const form = form_of(words[0]);
-  if (form == nullptr || values->size() < form->count) return kUsage;
-  const bool prism = form->kind == Solid::Kind::prism;
-  if (prism ? values->size() % 2 != 0 : values->size() > form->count + 1) return kUsage;
-  const auto problem = plant.put_object(name, solid_of(form->kind, *values, plant));
+  const auto kind = kind_of(words[0]);
+  if (!kind || values->size() < least_count(*kind)) return kUsage;
+  const bool prism = *kind == Solid::Kind::prism;
+  if (prism ? values->size() % 2 != 0 : values->size() > least_count(*kind) + 1) return kUsage;
+  const auto problem = plant.put_object(name, solid_of(*kind, *values, plant));
   return problem.empty() ? "ok" : "error: obstacle " + std::string(name) + ": " + problem;
 }
 

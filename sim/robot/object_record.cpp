@@ -21,17 +21,16 @@ std::string numbers(std::initializer_list<double> values) {
 }
 
 std::string words_of(const Solid& solid) {
-  const auto place = numbers({solid.x_m, solid.y_m, solid.z_m, solid.yaw_rad});
+  std::string text(word(solid.kind));
+  text += numbers({solid.x_m, solid.y_m, solid.z_m, solid.yaw_rad});
   switch (solid.kind) {
-    case Solid::Kind::box:
-      return "box" + place + numbers({solid.length_m, solid.width_m, solid.height_m});
+    case Solid::Kind::box: return text + numbers({solid.length_m, solid.width_m, solid.height_m});
     case Solid::Kind::cylinder:
-      return "cylinder" + place + numbers({solid.radius_m, solid.height_m});
-    case Solid::Kind::sphere: return "sphere" + place + numbers({solid.radius_m});
-    case Solid::Kind::cone: return "cone" + place + numbers({solid.radius_m, solid.height_m});
+    case Solid::Kind::cone: return text + numbers({solid.radius_m, solid.height_m});
+    case Solid::Kind::sphere: return text + numbers({solid.radius_m});
     case Solid::Kind::prism: break;
   }
-  std::string text = "prism" + place + numbers({solid.height_m});
+  text += numbers({solid.height_m});
   for (const auto& corner : solid.corners_m) text += numbers({corner[0], corner[1]});
   return text;
 }

@@ -45,6 +45,7 @@ class Simulator {
   void tick(Time now);
   void exchange_can(Time now);
   void send_can(Time now);
+  void watch_bus(const CanPort& bus);
   bool drain_bus(int fd);
   void write_lines();
   void keep_records(Time now);

@@ -1,0 +1,117 @@
+// Links: each is one that there can be, of the right wire and speed, and a device hangs on it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "config/checks.h"
+#include "unit/config/config_text.h"
+
+namespace drover::config {
+namespace {
+
+using testing::AllOf;
+using testing::EndsWith;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+TEST(ConfigurationChecks, RefuseALinkThatDoesNotExist) {
+  EXPECT_EQ(
+      problems(with("\"link\": \"can0\", \"options\": {\"node\": 2}",
+                    "\"link\": \"cna0\", \"options\": {\"node\": 2}")),
+      "f:6:43: devices.right.link: there is no link named \"cna0\" (did you mean \"can0\"?)\n");
+}
+
+TEST(ConfigurationChecks, RefuseASpeedThatNoLineHas) {
+  EXPECT_THAT(problems(with("115200", "115201")),
+              HasSubstr("links.gnss.baud: is 115201, but a line has one of 4800, 9600"));
+}
+
+TEST(ConfigurationChecks, RefuseALineThatIsNoWholePath) {
+  const auto serial = [](const std::string& port) {
+    return problems(with("\"/dev/drover/gnss\"", "\"" + port + "\""));
+  };
+  EXPECT_EQ(serial("ttyUSB0"),
+            "f:3:32: links.gnss.serial: \"ttyUSB0\" is no absolute path: it would be looked for in "
+            "droverd's working folder (did you mean \"/dev/ttyUSB0\"?)\n");
+  EXPECT_THAT(serial("dev/drover/gnss"), HasSubstr("(did you mean \"/dev/drover/gnss\"?)"));
+  EXPECT_THAT(serial("./gnss"), HasSubstr("(a path like \"/dev/ttyUSB0\")"));
+  auto text = with("\"panel\"", "\"bms\": {\"modbus\": \"ttyS1\"}, \"panel\"");
+  EXPECT_THAT(problems(text), HasSubstr("links.bms.modbus: \"ttyS1\" is no absolute path"));
+}
+
+TEST(ConfigurationChecks, RefuseAnInterfaceThatTheKernelCannotName) {
+  EXPECT_THAT(
+      problems(with("{\"can\": \"can0\"}", "{\"can\": \"can0_of_the_left_side\"}")),
+      HasSubstr("links.can0.can: \"can0_of_the_left_side\" is no name of an interface: they "
+                "have up to 15 characters"));
+}
+
+TEST(ConfigurationChecks, RefuseALinkOfTheWrongWire) {
+  EXPECT_EQ(
+      problems(with("\"link\": \"can0\", \"options\": {\"node\": 2}",
+                    "\"link\": \"gnss\", \"options\": {\"node\": 2}")),
+      "f:6:43: devices.right.link: \"gnss\" is a serial line, but odrive hangs on a CAN bus\n");
+  EXPECT_EQ(
+      problems(with("\"nmea0183\", \"link\": \"gnss\"", "\"nmea0183\", \"link\": \"can0\"")),
+      "f:7:44: devices.gnss.link: \"can0\" is a CAN bus, but nmea0183 hangs on a serial line\n");
+}
+
+TEST(ConfigurationChecks, RefuseALinkOfNoKindOrOfTwo) {
+  EXPECT_EQ(problems(with("{\"can\": \"can0\"}", "{}")),
+            "f:2:21: links.can0: has none of: can, serial, modbus, gpio\n");
+  EXPECT_EQ(problems(with("{\"can\": \"can0\"}", "{\"can\": \"can0\", \"gpio\": \"b\"}")),
+            "f:2:45: links.can0.gpio: is given beside can (one of: can, serial, modbus, gpio)\n");
+}
+
+TEST(ConfigurationChecks, RefuseALinkThatNoDeviceHangsOn) {
+  EXPECT_EQ(
+      problems(with("{\"can\": \"can0\"}", "{\"can\": \"can0\"}, \"b\": {\"can\": \"can1\"}")),
+      "f:2:43: links.b: no device hangs on it (leave it out)\n");
+  // One that the outputs' chip hangs on is used.
+  auto text = with("\"gpio\": \"chip0\"}", "\"gpio\": \"chip0\"}, \"b\": {\"gpio\": \"chip1\"}");
+  const std::string_view outputs = "\"outputs\": {\"link\": \"panel\"";
+  text.replace(text.find(outputs), outputs.size(), "\"outputs\": {\"link\": \"b\"");
+  EXPECT_EQ(problems(text), "");
+}
+
+TEST(ConfigurationChecks, RefuseASpeedWhereALinkHasNone) {
+  EXPECT_EQ(problems(with("{\"can\": \"can0\"}", "{\"can\": \"can0\", \"baud\": 500000}")),
+            "f:2:45: links.can0.baud: is of no use on a CAN bus (leave it out)\n");
+  EXPECT_EQ(problems(with("115200", "115200, \"parity\": \"even\"")),
+            "f:3:78: links.gnss.parity: is of no use on a serial line (leave it out)\n");
+}
+
+TEST(ConfigurationChecks, RefuseASecondDeviceOnASerialLine) {
+  const auto text = with("\"gnss\": {\"driver\": \"nmea0183\", \"link\": \"gnss\"},",
+                         "\"gnss\": {\"driver\": \"nmea0183\", \"link\": \"gnss\"},\n"
+                         "\"rear\": {\"driver\": \"nmea0183\", \"link\": \"gnss\"},");
+  EXPECT_THAT(problems(text), HasSubstr("devices.rear.link: \"gnss\" is a serial line, and "
+                                        "devices.gnss hangs on it\n"));
+}
+
+TEST(ConfigurationChecks, RefuseTwoLinksOnOnePort) {
+  EXPECT_THAT(
+      problems(with("\"panel\"", "\"imu\": {\"serial\": \"/dev//drover/gnss\"}, \"panel\"")),
+      HasSubstr("links.imu.serial: \"/dev//drover/gnss\" is used by links.gnss.serial already"));
+}
+
+TEST(ConfigurationChecks, PointAtTheSpeedOfALineThatIsTooSlowForItsSensor) {
+  const auto imu = [](const std::string& baud) {
+    auto text = with("\"panel\"",
+                     R"("imu": {"serial": "/dev/drover/imu", "baud": )" + baud + "}, \"panel\"");
+    return problems(text.insert(text.find("    \"estop\""),
+                                R"("imu": {"driver": "witmotion", "link": "imu"},)"));
+  };
+  EXPECT_EQ(imu("115200"), "");
+  EXPECT_EQ(imu("9600"),
+            "f:3:114: links.imu.baud: is 9600, but rate_Hz 100 needs 38400 or more: droverd sets "
+            "the sensor to the speed that stands here; or a rate_Hz of 20 and less\n");
+  // What is wrong by itself is told alone.
+  EXPECT_THAT(imu("9601"), AllOf(StartsWith("f:3:114: links.imu.baud: is 9601, but a line has"),
+                                 testing::Not(HasSubstr("devices.imu"))));
+  EXPECT_EQ(imu("\"9600\""),
+            "f:3:114: links.imu.baud: is a text, but a whole number is expected (write it without "
+            "quotes)\n");
+}
+
+}  // namespace
+}  // namespace drover::config
