@@ -7,103 +7,12 @@
 #include <limits>
 
 #include "engine/clearance/stop_chain.h"
-#include "engine_rig.h"
+#include "engine_wall.h"
 
 namespace drover::engine {
 namespace {
 
 using testing::HasSubstr;
-
-EngineConfig looking() {
-  EngineConfig config = rig_config();
-  config.clearance_required = true;
-  return config;
-}
-
-/// At the origin, on a track of 6 m along x; the answers come 20 times a second, 35 ms old.
-class InFrontOfAWall : public testing::Test {
- protected:
-  InFrontOfAWall() {
-    path.number = 5;
-    tick();
-    rig.set_origin();
-    run_s(3);
-  }
-  void tick() {
-    if (answers && count++ % 10 == 0) {
-      Clearance found;
-      found.t = rig.now - std::chrono::milliseconds(35);
-      found.path = task_path;
-      const Viewpoint& view = rig.engine->viewpoint();
-      found.twist = is_zero(view.commanded) ? view.asked : view.commanded;
-      const double left_m = std::max(0.0, wall_m - rig.plant.truth().x_m);
-      constexpr double kFree = std::numeric_limits<double>::infinity();
-      found.ahead_m = std::min({left_m, ahead_m, 3.0});
-      found.along_m = wall_m > 6 ? kFree : left_m;  // behind its goal
-      found.back_m = 3;
-      found.left_rad = found.right_rad = turns ? kFree : 0;
-      if (left_m < 3) found.first.format("box1 is in the way, %.2f m ahead", left_m);
-      found.broken = broken;
-      rig.engine->on_clearance(found);
-    }
-    rig.tick();
-  }
-  void turn_wheels(double radps) {
-    JointTargets targets;
-    for (AxisId id = 0; id < 4; ++id) (void)targets.joints.push_back({id, radps});
-    rig.command(targets);
-  }
-  void stream_s(double radps, double seconds) {
-    for (int i = 0; i < static_cast<int>(seconds * 200 + 0.5); ++i) {
-      if (i % 4 == 0) turn_wheels(radps);
-      tick();
-    }
-  }
-  /// For so long, at that speed and turn.
-  void curve_s(double seconds, double vx_mps, double wz_radps) {
-    for (int i = 0; i < static_cast<int>(seconds * 200 + 0.5); ++i) {
-      if (count % 4 == 0) {
-        const JointVelocities radps =
-            setpoints(kinematics_of(looking().base), {vx_mps, wz_radps}, Learned{1.0}, 100);
-        JointTargets targets;
-        for (AxisId id = 0; id < 4; ++id) (void)targets.joints.push_back({id, radps[id]});
-        rig.command(targets);
-      }
-      tick();
-    }
-  }
-  void run_s(double seconds) {
-    for (int i = 0; i < static_cast<int>(seconds * 200 + 0.5); ++i) tick();
-  }
-  void start(double speed_mps = 0.8) {
-    task_path = path.number;
-    rig.start(path, 12, speed_mps);
-  }
-  double gap_m() const { return wall_m - rig.plant.truth().x_m; }
-  double speed_mps() const { return std::abs(rig.plant.truth().vx_mps); }
-  bool told(const char* what) const {
-    for (const Reason& why : rig.snapshot().why)
-      if (why.view().find(what) != std::string_view::npos) return true;
-    return false;
-  }
-
-  bool announced(const char* what) const {
-    const auto notices = rig.said<Notice>();
-    return std::any_of(notices.begin(), notices.end(), [what](const Notice& notice) {
-      return notice.text.view().find(what) != std::string_view::npos;
-    });
-  }
-
-  Path path = straight_path(6);
-  EngineRig rig{looking()};
-  double ahead_m = 100;  ///< on whatever curve
-  double wall_m = 100;   ///< where the footprint with its margin would touch it
-  std::uint64_t task_path = 0;
-  bool answers = true;
-  bool turns = true;  ///< nothing hinders a turn on the spot
-  Reason broken;
-  int count = 0;
-};
 
 TEST_F(InFrontOfAWall, DrivesToItsGoalWhereNothingIsInTheWay) {
   start();
@@ -347,58 +256,6 @@ TEST_F(InFrontOfAWall, TellsWhatIsFreeAndWhatIsInItsWay) {
   run_s(1);
   EXPECT_FALSE(std::isfinite(free.ahead_m));
   EXPECT_FALSE(free.unknown.empty());
-}
-
-TEST_F(InFrontOfAWall, StandsWhileAConstraintIsBroken) {
-  start();
-  run_s(5);
-  ASSERT_GT(speed_mps(), 0.7);
-  broken = "the fence of field_north: 0.20 m outside";
-  run_s(3);
-  EXPECT_LT(speed_mps(), 0.005);
-  EXPECT_EQ(rig.snapshot().nav.status, NavStatus::run);
-  EXPECT_TRUE(rig.snapshot().nav.paused);
-  EXPECT_FALSE(rig.snapshot().nav.obstacle);
-  EXPECT_TRUE(told("field_north")) << rig.why();
-  EXPECT_EQ(rig.snapshot().clearance.broken, broken);
-  broken.clear();
-  run_s(0.9);
-  EXPECT_LT(speed_mps(), 0.005);
-  run_s(10);
-  EXPECT_EQ(rig.snapshot().nav.status, NavStatus::success) << rig.why();
-}
-
-TEST_F(InFrontOfAWall, EndsATaskWhoseConstraintIsBrokenForTooLong) {
-  start();
-  run_s(3);
-  broken = "the fence of field_north: 0.20 m outside";
-  run_s(rig.config.navigate.obstacle_timeout_s + 2);
-  EXPECT_EQ(rig.snapshot().nav.status, NavStatus::error);
-  ASSERT_EQ(rig.said<TaskEnded>().size(), 1U);
-  EXPECT_THAT(std::string(rig.said<TaskEnded>()[0].reason.view()), HasSubstr("field_north"));
-}
-
-TEST_F(InFrontOfAWall, StartsNothingWhereAConstraintIsBroken) {
-  broken = "the fence of field_north: 0.20 m outside";
-  run_s(0.5);
-  start();
-  run_s(0.1);
-  ASSERT_FALSE(rig.said<CommandRefused>().empty());
-  EXPECT_THAT(std::string(rig.said<CommandRefused>().back().reason.view()),
-              HasSubstr("field_north"));
-  stream_s(0, 0.6);
-  stream_s(2, 1);
-  EXPECT_LT(std::abs(rig.plant.truth().x_m), 0.001);
-  EXPECT_THAT(std::string(rig.snapshot().joint_command.reason.view()), HasSubstr("field_north"));
-}
-
-TEST_F(InFrontOfAWall, EndsJointCommandsWhereAConstraintBreaks) {
-  stream_s(0, 0.6);
-  stream_s(2, 2);
-  ASSERT_GT(speed_mps(), 0.2);
-  broken = "the fence of field_north: 0.20 m outside";
-  stream_s(2, 1.5);
-  EXPECT_LT(speed_mps(), 0.005);
 }
 
 /// While the heading is not known nobody can tell where its corners are: what is free is so all

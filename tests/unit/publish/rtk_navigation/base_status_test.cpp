@@ -6,22 +6,12 @@
 #include <limits>
 #include <numbers>
 
-#include "json/located_json.h"
-#include "publish/rtk_navigation/feedback.h"
-#include "publish/rtk_navigation/trajectory_data.h"
-#include "store/point_texts.h"
 #include "tests/unit/publish/examples.h"
 
 namespace drover::publish {
 namespace {
 
 using json::Node;
-
-json::Document parsed(const std::string& text) {
-  auto result = json::parse(text);
-  EXPECT_TRUE(result.ok()) << result.error().text() << "\n" << text;
-  return result.ok() ? std::move(result.value()) : json::Document{};
-}
 
 const Node& at(const json::Document& document, const char* group, const char* field) {
   return *document.root.find(group)->find(field);
@@ -48,7 +38,7 @@ Snapshot good_snapshot() {
 }
 
 json::Document status(const Snapshot& snapshot, const RtkConfig& config = {}) {
-  return parsed(BaseStatus(config).text(snapshot));
+  return document_of(BaseStatus(config).text(snapshot));
 }
 
 BatterySnapshot good_battery() {
@@ -66,7 +56,7 @@ BatterySnapshot good_battery() {
 }
 
 TEST(BaseStatus, HasEveryFieldOfTheDocumentWithItsType) {
-  const auto document = parsed(example("base_status"));
+  const auto document = document_of(example("base_status"));
   for (const auto& ours : {status(Snapshot{}), status(good_snapshot())}) {
     for (const auto& group : *document.root.object()) {
       const Node* our_group = ours.root.find(group.key);
@@ -83,7 +73,7 @@ TEST(BaseStatus, HasEveryFieldOfTheDocumentWithItsType) {
 }
 
 TEST(BaseStatus, AddsNothingBesideWhatItDeclares) {
-  const auto document = parsed(example("base_status"));
+  const auto document = document_of(example("base_status"));
   const auto ours = status(good_snapshot());
   std::vector<std::string> added;
   for (const auto& group : *ours.root.object()) {
@@ -139,7 +129,7 @@ TEST(BaseStatus, NeverWritesWhatIsNoNumber) {
   snapshot.pose.x_m = snapshot.pose.yaw_rad = snapshot.worst_vx_mps = bad;
   snapshot.pose.wz_radps = std::numeric_limits<double>::infinity();
   snapshot.gnss.pose_latitude_deg = snapshot.gnss.pose_longitude_deg = bad;
-  const auto ours = parsed(publisher.text(snapshot));
+  const auto ours = document_of(publisher.text(snapshot));
   EXPECT_EQ(at(ours, "pose", "x").number(), 12.5);
   EXPECT_EQ(at(ours, "rtk", "latitude").number(), 23.1496524965);
   EXPECT_EQ(at(ours, "rtk", "angle").number(), 90);
@@ -169,7 +159,7 @@ TEST(BaseStatus, KeepsTheLastPoseWhenTheReceiverIsSilentAndThePlaceIsLost) {
   publisher.text(snapshot);
   snapshot.gnss.health = SourceState::stale;
   snapshot.nav.locate = LocateState::lost;
-  const auto lost = parsed(publisher.text(snapshot));
+  const auto lost = document_of(publisher.text(snapshot));
   EXPECT_EQ(at(lost, "rtk", "latitude").number(), 23.1496524965);
   EXPECT_EQ(at(lost, "rtk", "longitude").number(), 113.0196366457);
 }
@@ -319,13 +309,13 @@ TEST(BaseStatus, KeepsTheLastOfABatteryThatIsSilentAndMarksItUnknown) {
   Snapshot snapshot = good_snapshot();
   snapshot.battery = good_battery();
   BaseStatus publisher{RtkConfig{}};
-  const auto before = parsed(publisher.text(snapshot));
+  const auto before = document_of(publisher.text(snapshot));
   EXPECT_TRUE(*at(before, "bms", "valid").boolean());
   EXPECT_EQ(at(before, "bms", "error").integer(), 0);
   EXPECT_EQ(at(before, "bms", "status").integer(), 2);
   snapshot.battery.health = SourceState::stale;
   snapshot.battery.sample = {};
-  const auto after = parsed(publisher.text(snapshot));
+  const auto after = document_of(publisher.text(snapshot));
   EXPECT_FALSE(*at(after, "bms", "valid").boolean());
   EXPECT_EQ(at(after, "bms", "error").integer(), 1);
   EXPECT_EQ(at(after, "bms", "soc").number(), 68);
@@ -362,42 +352,6 @@ TEST(BaseStatus, SaysWhyTheCauseFirst) {
   const auto& why = *at(ours, "nav", "why").list();
   ASSERT_EQ(why.size(), 2U);
   EXPECT_EQ(*why[0].text(), "e-stop pressed");
-}
-
-TEST(TrajectoryData, NoTrackIsAnEmptyList) {
-  EXPECT_EQ(trajectory_data_text({}), "[]");
-}
-
-TEST(TrajectoryData, HasTheDocumentsShapeAndDigits) {
-  store::Track track{"test5", {}, {}};
-  track.points.assign(2, {188.2222333, 23.04934955, 30, 322100, 45220, 230, 3.141592});
-  const auto ours = parsed(trajectory_data_text({&track, 1}));
-  const auto theirs = parsed(example("trajectory_data"));
-  const Node& our_point = (*(*ours.root.list())[0].find("data")->list())[1];
-  const Node& their_point = (*(*theirs.root.list())[0].find("data")->list())[1];
-  ASSERT_EQ(our_point.object()->size(), their_point.object()->size());
-  for (const auto& field : *their_point.object()) {
-    EXPECT_EQ(our_point.find(field.key)->number(), field.node.number()) << field.key;
-  }
-  EXPECT_EQ(*(*ours.root.list())[0].find("name")->text(), "test5");
-}
-
-TEST(TrajectoryData, TakesNoMoreBytesThanWereCounted) {
-  store::Track track{"te\"st\n5", {}, {}};
-  track.points.assign(3, {188.2222333, 23.04934955, 30, 322100, 45220, 230, 3.141592});
-  const store::Track tracks[] = {track, {"empty", {}, {}}};
-  const auto counted = store::list_bytes(tracks[0]) + store::list_bytes(tracks[1]) + 2;
-  const auto text = trajectory_data_text(tracks);
-  EXPECT_LE(text.size(), counted);
-  // Counted beyond: room for another origin's x and y, and the last point's and track's comma.
-  EXPECT_EQ(text.size() + 3 * (4 + 5) + 2, counted);
-}
-
-TEST(Feedback, HasTheDocumentsShape) {
-  EXPECT_EQ(feedback_text(success_cmd(Verb::delete_trajectory), {}, {}),
-            "{\"cmd\":\"delete_trajectory_success\",\"cmd_type\":\"feedback\"}");
-  EXPECT_EQ(feedback_text(failure_cmd(Verb::start_nav), "why", {}),
-            "{\"cmd\":\"start_nav_failse\",\"cmd_type\":\"feedback\",\"reason\":\"why\"}");
 }
 
 }  // namespace
