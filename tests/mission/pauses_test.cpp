@@ -49,14 +49,17 @@ std::vector<Pause> losses(const Record& log) {
   return pauses(log, begin, log.first_status("NAV_SUCCESS", begin).time, lost);
 }
 
-TEST(GnssOutage, EndsWithSuccessWithoutAnotherStart) {
-  const Record& log = record("gnss_outage");
+void expect_one_run_to_the_goal(const Record& log) {
   EXPECT_EQ(log.feedback_words(), kStarted);
   const Time begin = log.answered("start_nav_success");
   const Time end = log.first_status("NAV_SUCCESS", begin).time;
   expect_nav_stays(log, "NAV_RUN", begin, end - 1ms);
   EXPECT_EQ(log.statuses.back().nav, "NAV_SUCCESS");
   EXPECT_LT(drive_figures(log, begin, end).goal_m, 0.10);
+}
+
+TEST(GnssOutage, EndsWithSuccessWithoutAnotherStart) {
+  expect_one_run_to_the_goal(record("gnss_outage"));
 }
 
 TEST(GnssOutage, PausesWhileItDoesNotKnowWhereItIs) {
@@ -87,13 +90,7 @@ TEST(FixFloatFix, SeesTheReceiverGoThroughFloat) {
 }
 
 TEST(FixFloatFix, EndsWithSuccessWithoutAnotherStart) {
-  const Record& log = record("fix_float_fix");
-  EXPECT_EQ(log.feedback_words(), kStarted);
-  const Time begin = log.answered("start_nav_success");
-  const Time end = log.first_status("NAV_SUCCESS", begin).time;
-  expect_nav_stays(log, "NAV_RUN", begin, end - 1ms);
-  EXPECT_EQ(log.statuses.back().nav, "NAV_SUCCESS");
-  EXPECT_LT(drive_figures(log, begin, end).goal_m, 0.10);
+  expect_one_run_to_the_goal(record("fix_float_fix"));
 }
 
 bool blocked(const Status& status) {

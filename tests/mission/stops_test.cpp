@@ -181,20 +181,9 @@ TEST(KillOnRamp, HoldsTheRobotOnTheSlope) {
   const Record& log = record("kill_on_ramp");
   const Time killed = log.event("signal 9 to droverd");
   const Time back = log.event("start droverd", 2);
-  // Along the slope, against the way it drove. It still rolls ahead when the kill comes, so from
-  // the farthest point on.
-  const auto at_kill = log.truth_at(killed);
   ASSERT_GT(log.truth_at(killed).z_m - log.truth.front().z_m, 0.1) << "it is not on the ramp";
-  double ahead_m = 0;
-  double back_m = 0;
-  for (const auto& line : log.truth) {
-    if (line.time < killed || line.time > back) continue;
-    const double along_m = (line.x_m - at_kill.x_m) * std::cos(at_kill.yaw_rad) +
-                           (line.y_m - at_kill.y_m) * std::sin(at_kill.yaw_rad);
-    const double way_m = std::copysign(std::hypot(along_m, line.z_m - at_kill.z_m), along_m);
-    ahead_m = std::max(ahead_m, way_m);
-    back_m = std::max(back_m, ahead_m - way_m);
-  }
+  // It still rolls ahead when the kill comes.
+  const auto [ahead_m, back_m] = ahead_and_back_m(log, killed, back);
   figure("rolled on", ahead_m, "m");
   figure("rolled back", back_m, "m");
   EXPECT_LE(back_m, 0.05);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 #include <ostream>
+#include <utility>
 
 #include "mission/conduct.h"
 
@@ -46,6 +47,22 @@ inline Roll roll(const Record& log, Time begin, Time end) {
     if (std::abs(line.vx_mps) > 0.01) found.rest = line.time;
   }
   return found;
+}
+
+/// How far it rolled ahead after `begin`, and back from its farthest point, along its way.
+inline std::pair<double, double> ahead_and_back_m(const Record& log, Time begin, Time end) {
+  const auto from = log.truth_at(begin);
+  double ahead_m = 0;
+  double back_m = 0;
+  for (const auto& line : log.truth) {
+    if (line.time < begin || line.time > end) continue;
+    const double along_m = (line.x_m - from.x_m) * std::cos(from.yaw_rad) +
+                           (line.y_m - from.y_m) * std::sin(from.yaw_rad);
+    const double way_m = std::copysign(std::hypot(along_m, line.z_m - from.z_m), along_m);
+    ahead_m = std::max(ahead_m, way_m);
+    back_m = std::max(back_m, ahead_m - way_m);
+  }
+  return {ahead_m, back_m};
 }
 
 /// Tells way and time to rest after what happened at `begin`, as far as `end`.

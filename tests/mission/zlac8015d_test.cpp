@@ -8,22 +8,6 @@ namespace {
 
 constexpr Duration kGuard = 100ms;
 
-/// How far it rolled ahead after `begin`, and back from its farthest point, along its way.
-std::pair<double, double> ahead_and_back_m(const Record& log, Time begin, Time end) {
-  const auto from = log.truth_at(begin);
-  double ahead_m = 0;
-  double back_m = 0;
-  for (const auto& line : log.truth) {
-    if (line.time < begin || line.time > end) continue;
-    const double along_m = (line.x_m - from.x_m) * std::cos(from.yaw_rad) +
-                           (line.y_m - from.y_m) * std::sin(from.yaw_rad);
-    const double way_m = std::copysign(std::hypot(along_m, line.z_m - from.z_m), along_m);
-    ahead_m = std::max(ahead_m, way_m);
-    back_m = std::max(back_m, ahead_m - way_m);
-  }
-  return {ahead_m, back_m};
-}
-
 // A target of zero each 20 ms, and between two of them one for a wheel by the service channel.
 TEST(Zlac8015dKillOnRamp, IsStoppedByTheGuardWithin100Milliseconds) {
   const Record& log = record("zlac8015d_kill_on_ramp");
