@@ -7,6 +7,8 @@
 #include <initializer_list>
 #include <utility>
 
+#include "sim/robot/log.h"
+
 namespace drover::sim {
 namespace {
 
@@ -48,12 +50,7 @@ std::string ObjectRecord::take() {
 }
 
 void ObjectRecord::begin(Time now, const std::string& words) {
-  std::array<char, 48> stamp{};
-  const auto ns = now.time_since_epoch().count();
-  const int n = std::snprintf(stamp.data(), stamp.size(), "(%lld.%09lld) ",
-                              static_cast<long long>(ns / 1'000'000'000),
-                              static_cast<long long>(ns % 1'000'000'000));
-  lines_.append(stamp.data(), static_cast<std::size_t>(n));
+  append_stamp(lines_, now);
   lines_ += words;
   lines_ += '\n';
 }

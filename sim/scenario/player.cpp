@@ -13,6 +13,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "sim/robot/log.h"
+
 namespace drover::sim {
 namespace {
 
@@ -47,15 +49,6 @@ link::UniqueFd block_signals() {
 void run_after_the_others() {
   const sched_param none{};
   (void)::sched_setscheduler(0, SCHED_BATCH | SCHED_RESET_ON_FORK, &none);
-}
-
-std::string stamp(Time time) {
-  std::array<char, 48> text{};
-  const auto ns = time.time_since_epoch().count();
-  const int n = std::snprintf(text.data(), text.size(), "(%lld.%09lld) ",
-                              static_cast<long long>(ns / 1'000'000'000),
-                              static_cast<long long>(ns % 1'000'000'000));
-  return {text.data(), static_cast<std::size_t>(n)};
 }
 
 /// One line whatever it says: control characters as \xNN.
@@ -279,7 +272,8 @@ void Player::collect_children() {
 void Player::on_message(const MqttMessage& message) {
   const Time t = now();
   if (!recording_) return;
-  std::string line = stamp(t);
+  std::string line;
+  append_stamp(line, t);
   line += message.topic;
   line += message.retained ? " 1 " : " 0 ";
   if (message.topic.starts_with("/channel/")) {
@@ -337,7 +331,8 @@ void Player::look_for_end(const std::string& event) {
 }
 
 void Player::tell(const std::string& text) {
-  std::string line = stamp(now());
+  std::string line;
+  append_stamp(line, now());
   append_line(line, text);
   events_log_.append(line);
   if (recording_) view_.on_event(text);

@@ -119,28 +119,22 @@ class SchemaWriter final {
   template <class T>
   void list(std::string_view key, const std::vector<T>&, Count count, std::string_view text,
             Presence presence = Presence::optional) {
-    SchemaWriter inner;
-    T item;
-    visit(inner, item);
     Json schema;
     schema["type"] = "array";
     schema["minItems"] = count.min;
     schema["maxItems"] = count.max;
-    schema["items"] = inner.finish();
+    schema["items"] = of_one<T>();
     insert(key, schema, text, presence);
   }
   template <class T>
   void table(std::string_view key, const std::vector<T>&, Count count, std::string_view text,
              Presence presence = Presence::optional) {
-    SchemaWriter inner;
-    T item;
-    visit(inner, item);
     Json schema;
     schema["type"] = "object";
     schema["minProperties"] = count.min;
     schema["maxProperties"] = count.max;
     schema["propertyNames"] = {{"minLength", 1}, {"maxLength", Name::capacity()}};
-    schema["additionalProperties"] = inner.finish();
+    schema["additionalProperties"] = of_one<T>();
     insert(key, schema, text, presence);
   }
   /// They depend on the driver.
@@ -194,6 +188,14 @@ class SchemaWriter final {
   }
 
  private:
+  /// Of an item of a list, or of a table.
+  template <class T>
+  static Json of_one() {
+    SchemaWriter inner;
+    T item;
+    visit(inner, item);
+    return inner.finish();
+  }
   /// What holds where this key has this value: one condition for each.
   Json& where(const char* key, std::string_view value) {
     auto& all = schema_["allOf"];

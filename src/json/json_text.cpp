@@ -6,33 +6,10 @@
 #include <charconv>
 #include <cmath>
 
+#include "text/utf8.h"
+
 namespace drover::json {
 namespace {
-
-/// Length of the valid UTF-8 character at the front, 0 when it is none (RFC 3629: shortest form,
-/// no surrogates, nothing above U+10FFFF).
-std::size_t utf8_length(std::string_view text) {
-  const auto byte = [&](std::size_t i) {
-    return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U;
-  };
-  const auto follows = [&](std::size_t i) { return (byte(i) & 0xC0U) == 0x80U; };
-  const unsigned first = byte(0);
-  if (first < 0x80) return 1;
-  if (first >= 0xC2 && first <= 0xDF) return follows(1) ? 2 : 0;
-  if (first >= 0xE0 && first <= 0xEF) {
-    if (!follows(1) || !follows(2)) return 0;
-    if (first == 0xE0 && byte(1) < 0xA0) return 0;
-    if (first == 0xED && byte(1) > 0x9F) return 0;
-    return 3;
-  }
-  if (first >= 0xF0 && first <= 0xF4) {
-    if (!follows(1) || !follows(2) || !follows(3)) return 0;
-    if (first == 0xF0 && byte(1) < 0x90) return 0;
-    if (first == 0xF4 && byte(1) > 0x8F) return 0;
-    return 4;
-  }
-  return 0;
-}
 
 void append_control(std::string& out, unsigned char c) {
   constexpr std::string_view kHex = "0123456789abcdef";
@@ -78,7 +55,7 @@ JsonText& JsonText::text(std::string_view value) {
     value.remove_prefix(static_cast<std::size_t>(end - value.begin()));
     if (value.empty()) break;
     const auto c = static_cast<unsigned char>(value.front());
-    const std::size_t length = utf8_length(value);
+    const std::size_t length = text::character_bytes(value);
     if (c == '"' || c == '\\') {
       out_ += '\\';
       out_ += value.front();

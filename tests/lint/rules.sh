@@ -24,7 +24,7 @@ src/engine/own       engine/base/ engine/gate/ engine/health/ engine/navigate/ e
 src/link         drover/ link/
 src/scene        drover/ scene/ text/
 src/scene/zone   drover/ json/ text/ scene/
-src/json         drover/ json/
+src/json         drover/ json/ text/
 src/text         drover/ text/
 src/store        drover/ store/ json/
 src/config       drover/ config/ json/ text/ engine/config.h engine/clearance/stop_chain.h

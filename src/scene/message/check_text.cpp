@@ -6,25 +6,10 @@
 #include "scene/message/check.h"
 #include "scene/message/validate.h"
 #include "text/number.h"
+#include "text/utf8.h"
 
 namespace drover::scene::check {
 namespace {
-
-/// Length of the UTF-8 character at the front, 0 when there is none (RFC 3629). DDS checks nothing.
-std::size_t character_bytes(std::string_view value) {
-  const auto byte = [&](std::size_t i) {
-    return i < value.size() ? static_cast<unsigned char>(value[i]) : 0U;
-  };
-  const auto follows = [&](std::size_t i) { return (byte(i) & 0xC0U) == 0x80U; };
-  const unsigned first = byte(0);
-  if (first < 0x80) return 1;
-  if (first >= 0xC2 && first <= 0xDF) return follows(1) ? 2 : 0;
-  const bool short_form = (first == 0xE0 && byte(1) < 0xA0) || (first == 0xF0 && byte(1) < 0x90);
-  const bool beyond = (first == 0xED && byte(1) > 0x9F) || (first == 0xF4 && byte(1) > 0x8F);
-  if (short_form || beyond || !follows(1) || !follows(2)) return 0;
-  if (first >= 0xE0 && first <= 0xEF) return 3;
-  return first >= 0xF0 && first <= 0xF4 && follows(3) ? 4 : 0;
-}
 
 /// One that shows as another line, as nothing, or turns the text around it: C0 and C1 controls,
 /// DEL, U+2028, U+2029 and the marks of bidirectional text.
@@ -73,7 +58,7 @@ Problem text(const std::string& path, std::string_view value) {
                              std::to_string(kMaxNameBytes) + " are allowed"};
   }
   while (!value.empty()) {
-    const std::size_t bytes = character_bytes(value);
+    const std::size_t bytes = text::character_bytes(value);
     if (bytes == 0) return Refusal{path, "is no UTF-8"};
     if (is_control(value.substr(0, bytes))) return Refusal{path, "contains a control character"};
     value.remove_prefix(bytes);

@@ -3,8 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
+
+#include "drover/angle.h"
 
 namespace drover::scene {
 namespace {
@@ -77,7 +78,7 @@ bool is_bad_pair(const RingEdge& e, const RingEdge& f) {
 }  // namespace
 
 Point2 flat(const GeoPoint& point, const GeoPoint& zero) {
-  const double narrow = std::cos(zero.latitude_deg * std::numbers::pi / 180);
+  const double narrow = std::cos(to_rad(zero.latitude_deg));
   return {(point.longitude_deg - zero.longitude_deg) * kMetresPerDegree * narrow,
           (point.latitude_deg - zero.latitude_deg) * kMetresPerDegree};
 }

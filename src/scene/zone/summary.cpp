@@ -4,9 +4,9 @@
 #include <GeographicLib/Geodesic.hpp>
 #include <GeographicLib/LocalCartesian.hpp>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
+#include "drover/angle.h"
 #include "scene/world/map_change.h"
 #include "scene/zone/project.h"
 #include "text/number.h"
@@ -41,7 +41,7 @@ Nearest from_place(const std::vector<GeoPolygon>& polygons, const GeodeticPoint&
                                            corner.latitude_deg, corner.longitude_deg, distance_m,
                                            azimuth_deg, azimuth_there_deg);
   if (azimuth_deg < 0) azimuth_deg += 360;
-  return {distance_m, azimuth_deg * std::numbers::pi / 180};
+  return {distance_m, to_rad(azimuth_deg)};
 }
 
 /// Empty when a swapped point would be none.
