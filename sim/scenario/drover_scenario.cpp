@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <filesystem>
 #include <fstream>
@@ -52,22 +53,37 @@ void summarize(const drover::sim::Workplace& place, const drover::sim::Mission& 
     figures = drover::sim::measure_drive(drover::sim::read_truth(truth), mission.track,
                                          result.target_id - 1, drover::to_s(result.begin), end_s);
   }
+  std::ifstream objects(place.log_folder() + "/objects.log");
+  const auto touched = drover::sim::read_touches(objects);
   const std::string status = result.status.empty() ? "no result" : result.status;
-  const nlohmann::ordered_json document{{"name", mission.name},
-                                        {"status", status},
-                                        {"expected", mission.expect_status},
-                                        {"exit_status", static_cast<int>(outcome)},
-                                        {"distance_m", figures.distance_m},
-                                        {"time_s", figures.time_s},
-                                        {"cross_track_rms_m", figures.cross_track_rms_m},
-                                        {"cross_track_max_m", figures.cross_track_max_m},
-                                        {"goal_distance_m", figures.goal_distance_m}};
+  nlohmann::ordered_json document{{"name", mission.name},
+                                  {"status", status},
+                                  {"expected", mission.expect_status},
+                                  {"exit_status", static_cast<int>(outcome)},
+                                  {"distance_m", figures.distance_m},
+                                  {"time_s", figures.time_s},
+                                  {"cross_track_rms_m", figures.cross_track_rms_m},
+                                  {"cross_track_max_m", figures.cross_track_max_m},
+                                  {"goal_distance_m", figures.goal_distance_m}};
+  auto& waits = document["waited"] = nlohmann::ordered_json::array();
+  for (const auto& wait : player.waits())
+    if (wait.end != drover::kNever)
+      waits.push_back({{"time_s", drover::to_s(wait.end - wait.begin)}, {"why", wait.why}});
+  if (touched) document["touched"] = *touched;
   std::ofstream(place.log_folder() + "/summary.json") << document.dump(1) << "\n";
   std::printf("\n%s\n", mission.name.c_str());
   std::printf("  driven        %8.2f m in %.1f s\n", figures.distance_m, figures.time_s);
   std::printf("  cross-track   %8.1f mm RMS, %.1f mm at most\n", figures.cross_track_rms_m * 1e3,
               figures.cross_track_max_m * 1e3);
   std::printf("  from the goal %8.1f mm\n", figures.goal_distance_m * 1e3);
+  for (const auto& wait : waits)
+    std::printf("  waited        %8.1f s: %s\n", wait.at("time_s").get<double>(),
+                wait.at("why").get<std::string>().c_str());
+  if (touched) {
+    std::string names;
+    for (const auto& name : *touched) names += (names.empty() ? "" : ", ") + name;
+    std::printf("  touched        %s\n", names.empty() ? "nothing" : names.c_str());
+  }
   if (outcome == Outcome::broken) std::printf("  broken: %s\n", player.broken().c_str());
   if (outcome == Outcome::timed_out) std::printf("  the scenario's time is over\n");
   std::printf("%s\n", status.c_str());
@@ -89,13 +105,15 @@ void tell_ways_in(const drover::sim::Workplace& place) {
 int play(const Options& options) {
   const drover::sim::Workplace place(options.place);
   const auto mission = drover::sim::read_mission(place.document());
-  drover::sim::View view(view_kind(options.view), mission, place.daemon_socket());
+  const char* const plain = std::getenv("NO_COLOR");
+  const bool coloured = plain == nullptr || *plain == '\0';
+  drover::sim::View view(view_kind(options.view), coloured, mission, place.daemon_socket());
   drover::sim::Player player(place, mission, view);
   auto outcome = player.play();
   if (options.keep && outcome != Outcome::interrupted && outcome != Outcome::broken) {
+    view.close();
     summarize(place, mission, player, outcome);
     tell_ways_in(place);
-    view.rest();
     player.keep_running();
     player.finish();
     return static_cast<int>(outcome);
@@ -104,6 +122,7 @@ int play(const Options& options) {
   if (!player.finish() && outcome != Outcome::interrupted) outcome = Outcome::broken;
   // A stop that never came would prove nothing.
   if (outcome == Outcome::as_expected && !player.steps_left().empty()) outcome = Outcome::otherwise;
+  view.close();
   summarize(place, mission, player, outcome);
   if (outcome != Outcome::interrupted)
     for (const auto& step : player.steps_left())

@@ -284,7 +284,10 @@ void Player::on_message(const MqttMessage& message) {
   mqtt_log_.append(line);
   if (message.retained) return;
   std::vector<std::string> events;
-  if (message.topic == "base_status") events = report_.on_base_status(message.payload);
+  if (message.topic == "base_status") {
+    events = report_.on_base_status(message.payload);
+    if (const auto words = waits_.look(t, report_); !words.empty()) tell(words);
+  }
   if (message.topic == "feedback") events = report_.on_feedback(message.payload);
   if (message.topic == "scene_feedback") events = report_.on_scene_feedback(message.payload);
   for (const auto& event : events) happened(event);

@@ -15,6 +15,7 @@
 #include "sim/scenario/robot_report.h"
 #include "sim/scenario/story.h"
 #include "sim/scenario/view.h"
+#include "sim/scenario/waits.h"
 #include "sim/scenario/workplace.h"
 
 namespace drover::sim {
@@ -46,6 +47,8 @@ class Player {
     std::string status{};
   };
   const Result& result() const { return result_; }
+  /// When it waited on its way.
+  const std::vector<Waits::Wait>& waits() const { return waits_.all(); }
   /// What broke, empty when nothing did.
   const std::string& broken() const { return broken_; }
   /// Steps of the mission that never came, in words.
@@ -91,6 +94,7 @@ class Player {
   std::map<std::string, ObjectSpec> objects_;  // as they were told last, by id
   Journeys journeys_;
   RobotReport report_;
+  Waits waits_;
   std::optional<OperatorClient> client_;
   bool was_subscribed_ = false;
   std::deque<std::string> calls_;  // of the command line, that wait for the one before

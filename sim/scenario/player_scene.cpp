@@ -35,7 +35,7 @@ void Player::act_on_object(const ObjectSpec& spec, Time now) {
   switch (spec.does) {
     case ObjectSpec::Does::appears:
       objects_[spec.id] = spec;
-      view_.on_object(spec.id, outline(spec));
+      view_.on_object(spec);
       if (spec.told) publish(kObjects, added_message(spec, shift).dump());
       return;
     case ObjectSpec::Does::moves:
@@ -47,7 +47,7 @@ void Player::act_on_object(const ObjectSpec& spec, Time now) {
     case ObjectSpec::Does::goes:
       journeys_.end(spec.id);
       objects_.erase(spec.id);
-      view_.on_object(spec.id, {});
+      view_.on_object(spec);
       if (spec.told) publish(kObjects, removed_message(spec.id).dump());
   }
 }
@@ -55,7 +55,7 @@ void Player::act_on_object(const ObjectSpec& spec, Time now) {
 void Player::tell_journeys(Time now) {
   for (const auto& one : journeys_.due(now)) {
     objects_[one.object.id] = one.object;
-    view_.on_object(one.object.id, outline(one.object));
+    view_.on_object(one.object);
     const auto shift = map_shift(report_.fix(), mission_.origin, mission_.antenna);
     if (one.told) (void)client_->publish(kObjects, moved_message(one.object, shift).dump(), false);
     if (one.arrived) happened("object_arrived");
@@ -65,7 +65,7 @@ void Player::tell_journeys(Time now) {
 void Player::act_on_zone(const ZoneSpec& zone) {
   const auto file = workplace_.log_folder() + "/" + zone.name + ".geojson";
   if (!zone.deleted) std::ofstream(file) << geojson(zone, mission_.origin);
-  view_.on_zone(zone.name, zone.polygon, zone.keep_in);
+  view_.on_zone(zone);
   start("drover", zone_words(zone, file));
 }
 

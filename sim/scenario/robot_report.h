@@ -23,6 +23,8 @@ class RobotReport {
   const std::string& locate() const { return locate_; }
   const std::string& nav_status() const { return nav_status_; }
   bool obstacle() const { return obstacle_; }
+  /// On its way, for what is in it.
+  bool waits() const { return held_; }
   int rtk_status() const { return rtk_status_; }
   double speed_mps() const { return speed_mps_; }
   double turn_radps() const { return turn_radps_; }

@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <sstream>
 #include <stdexcept>
 #include <string_view>
 
@@ -51,6 +52,21 @@ std::vector<TruthSample> read_truth(std::istream& csv) {
         {number(cells[columns[0]]), number(cells[columns[1]]), number(cells[columns[2]])});
   }
   return samples;
+}
+
+std::optional<std::vector<std::string>> read_touches(std::istream& log) {
+  std::optional<std::vector<std::string>> touched;
+  for (std::string line; std::getline(log, line);) {
+    std::istringstream words(line);
+    std::string stamp, what, name;
+    words >> stamp >> what >> name;
+    if (what == "watching" && !touched) touched.emplace();
+    if (what != "touch") continue;
+    if (!touched) touched.emplace();
+    if (std::find(touched->begin(), touched->end(), name) == touched->end())
+      touched->push_back(name);
+  }
+  return touched;
 }
 
 DriveFigures measure_drive(const std::vector<TruthSample>& truth,

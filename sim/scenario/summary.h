@@ -2,6 +2,7 @@
 #pragma once
 
 #include <istream>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,10 @@ struct TruthSample {
 /// Columns are found by their names in the header; throws std::runtime_error when one is missing
 /// or a line is no numbers. A last line that was cut short is left out.
 std::vector<TruthSample> read_truth(std::istream& csv);
+
+/// What the robot touched, each once, by the lines of objects.log (see object_record.h). Nothing:
+/// nobody watched, as in a world without such things.
+std::optional<std::vector<std::string>> read_touches(std::istream& log);
 
 struct DriveFigures {
   double time_s = 0;

@@ -5,10 +5,14 @@
 #include <sstream>
 
 #include "drover/angle.h"
-#include "sim/scenario/map_sketch.h"
 
 namespace drover::sim {
 namespace {
+
+constexpr std::size_t kColumns = 100;  // of the picture
+constexpr std::size_t kTold = 90;      // of an event
+constexpr double kSeen_m = 0.1;        // what a step on the map is worth
+constexpr double kStanding_mps = 0.02;
 
 Duration period(ViewKind kind) {
   return kind == ViewKind::terminal ? std::chrono::milliseconds(250) : std::chrono::seconds(1);
@@ -40,7 +44,6 @@ double number_at(const nlohmann::json& object, const char* key) {
 
 std::string way_left(double distance_m, double speed_mps) {
   if (!std::isfinite(distance_m)) return "-";
-  constexpr double kStanding_mps = 0.02;
   auto out = text("%.1f m left", distance_m);
   if (speed_mps > kStanding_mps) out += text(", about %.0f s", distance_m / speed_mps);
   return out;
@@ -63,8 +66,8 @@ std::string free_way(const nlohmann::json& status) {
   return out;
 }
 
-View::View(ViewKind kind, const Mission& mission, const std::string& daemon_socket)
-    : kind_(kind), mission_(mission), status_(daemon_socket) {}
+View::View(ViewKind kind, bool coloured, const Mission& mission, const std::string& daemon_socket)
+    : kind_(kind), coloured_(coloured), mission_(mission), status_(daemon_socket) {}
 
 Time View::draw(Time now, const RobotReport& report) {
   if (kind_ == ViewKind::none) return Time::max();
@@ -75,9 +78,11 @@ Time View::draw(Time now, const RobotReport& report) {
   if (now < next_) return next_;
   elapsed_s_ = to_s(now - begin_);
   next_ = now + period(kind_);
+  note_place(report);
   auto shown = kind_ == ViewKind::lines ? line(report) : picture(report);
   if (kind_ == ViewKind::lines && report.heard() && ++lines_ % 10 == 0) {
-    shown += "       " + left(report) + "\n       " + sensors() + "\n       " + wheels() + "\n";
+    shown +=
+        "       " + left(report) + "\n       " + sensors() + "\n       wheels " + wheels() + "\n";
     if (const auto free = free_way(status_.status()); !free.empty())
       shown += "       " + free + "\n";
   }
@@ -94,29 +99,64 @@ void View::on_sim_command(const std::string& command) {
   words >> verb >> name;
   if (verb != "obstacle") return;
   if (words >> at.x_m >> at.y_m)
-    obstacles_[name] = at;
+    around_.obstacles[name] = at;
   else
-    obstacles_.erase(name);
+    around_.obstacles.erase(name);
 }
 
-void View::on_object(const std::string& id, std::vector<TrackPose> outline) {
-  if (outline.empty())
-    objects_.erase(id);
+void View::on_object(const ObjectSpec& object) {
+  if (object.does == ObjectSpec::Does::goes)
+    around_.objects.erase(object.id);
   else
-    objects_[id] = std::move(outline);
+    around_.objects[object.id] = object;
 }
 
-void View::on_zone(const std::string& name, std::vector<TrackPose> polygon, bool keep_in) {
-  if (polygon.empty())
-    zones_.erase(name);
+void View::on_zone(const ZoneSpec& zone) {
+  if (zone.deleted)
+    around_.zones.erase(zone.name);
   else
-    zones_[name] = {std::move(polygon), keep_in};
+    around_.zones[zone.name] = zone;
 }
 
 void View::on_event(const std::string& event) {
-  last_event_ = event.substr(0, 70);
+  // Ten a second while something walks; of one that is refused it is told.
+  if (event.starts_with("event scene_done#")) return;
+  last_event_ = fitted(event, kTold);
   if (kind_ != ViewKind::lines) return;
   std::printf("       %s\n", last_event_.c_str());
+}
+
+void View::close() {
+  if (kind_ == ViewKind::lines) {
+    bool begun = false;
+    std::fputs("\n", stdout);
+    for (const auto& row : map()) {
+      begun = begun || !row.empty();
+      if (begun) std::printf("%s\n", row.c_str());
+    }
+  }
+  kind_ = ViewKind::none;
+}
+
+void View::note_place(const RobotReport& report) {
+  robot_.reset();
+  if (!report.heard() || report.locate() == "LOCATE_UNINIT") return;
+  const auto shift = map_shift(report.fix(), mission_.origin, mission_.antenna);
+  const auto& fix = report.fix();
+  robot_ = {fix.x_m - shift.x_m, fix.y_m - shift.y_m, fix.yaw_rad};
+  const auto is_far = [this](const std::vector<TrackPose>& from, double far_m) {
+    return from.empty() ||
+           std::hypot(robot_->x_m - from.back().x_m, robot_->y_m - from.back().y_m) > far_m;
+  };
+  if (report.locate() == "LOCATE_TRUE" && is_far(around_.driven, kSeen_m))
+    around_.driven.push_back(*robot_);
+  if (report.waits() && report.speed_mps() < kStanding_mps && is_far(around_.waited, kSeen_m))
+    around_.waited.push_back(*robot_);
+}
+
+std::vector<std::string> View::map() const {
+  const bool coloured = coloured_ && kind_ == ViewKind::terminal;
+  return map_lines(mission_.track, mission_.target_id - 1, around_, robot_, coloured);
 }
 
 std::string View::line(const RobotReport& report) const {
@@ -131,12 +171,11 @@ std::string View::line(const RobotReport& report) const {
 }
 
 std::string View::wheels() const {
-  std::string out = "wheels ";
   const auto& status = status_.status();
-  if (!status.is_object() || !status.contains("axes")) return out + "-";
+  if (!status.is_object() || !status.contains("axes")) return "-";
+  std::string out = "rad/s";
   for (const auto& axis : status.at("axes"))
-    out +=
-        text(" %s %6.2f rad/s", axis.value("joint", "").c_str(), number_at(axis, "velocity_radps"));
+    out += text("  %s %.2f", axis.value("joint", "").c_str(), number_at(axis, "velocity_radps"));
   return out;
 }
 
@@ -161,39 +200,40 @@ std::string View::left(const RobotReport& report) const {
   return way_left(number_at(status.at("nav"), "distance_left_m"), report.speed_mps());
 }
 
-std::string View::picture(const RobotReport& report) const {
-  MapSketch map(mission_.track);
-  for (const auto& [name, zone] : zones_) map.put_edge(zone.polygon, zone.keep_in ? "+" : "x");
-  for (const auto& [name, place] : obstacles_) map.put(place, "#");
-  for (const auto& [id, edge] : objects_) map.put_edge(edge, "#");
-  const std::size_t goal = mission_.target_id - 1;
-  if (goal < mission_.track.size()) map.put(mission_.track[goal], "G");
-  if (report.heard() && report.locate() != "LOCATE_UNINIT") {
-    const auto shift = map_shift(report.fix(), mission_.origin, mission_.antenna);
-    const auto& fix = report.fix();
-    map.put({fix.x_m - shift.x_m, fix.y_m - shift.y_m, fix.yaw_rad}, arrow(fix.yaw_rad));
-  }
+std::string View::place(const RobotReport& report) const {
   double sigma_m = NAN;
   if (const auto& status = status_.status(); status.is_object() && status.contains("pose"))
     sigma_m = number_at(status.at("pose"), "position_sigma_m");
-  std::string out = "\033[H";
+  return text("%s, %s, error %.3f m (one sigma)", report.locate().c_str(),
+              rtk_word(report.rtk_status()), sigma_m);
+}
+
+// As many lines as an old terminal has, and the longest of them are cut rather than broken.
+std::string View::picture(const RobotReport& report) const {
+  std::string out = "\033[?7l\033[H";
   const auto add = [&out](const std::string& line) { out += line + "\033[K\n"; };
-  add(text("%s  %.1f s", mission_.name.c_str(), elapsed_s_));
-  for (const auto& row : map.rows()) add(row);
-  add(map.scale() + "    north is up    . track  G goal  # obstacle  ↑ robot" +
-      (zones_.empty() ? "" : "  x keep-out  + keep-in"));
-  add(text("%-11s %-13s %5.2f m/s  turning %6.1f deg/s%s", report.nav_status().c_str(),
-           report.locate().c_str(), report.speed_mps(), to_deg(report.turn_radps()),
-           report.obstacle() ? "  OBSTACLE" : ""));
-  add("way: " + left(report));
-  if (const auto free = free_way(status_.status()); !free.empty()) add(free);
-  add(text("%s, position error %.3f m (one sigma)", rtk_word(report.rtk_status()), sigma_m));
-  add(wheels());
-  add(sensors());
-  add("why: " + (report.why().empty() ? "-" : report.why()));
-  add("last feedback: " + (report.last_feedback().empty() ? "-" : report.last_feedback()));
-  add(last_event_);
-  return out + "\033[J";
+  const auto tell = [&add](const char* what, const std::string& words) {
+    add(text("%-8s", what) + fitted(words.empty() ? "-" : words, kColumns - 8));
+  };
+  add(fitted(
+      text("%s  %.1f s  %s", mission_.name.c_str(), elapsed_s_, report.nav_status().c_str()) +
+          (report.waits()      ? ", waits"
+           : report.obstacle() ? ", obstacle"
+                               : "") +
+          (report.why().empty() ? "" : ": " + report.why()),
+      kColumns));
+  for (const auto& row : map()) add(row);
+  tell("speed",
+       text("%.2f m/s, turning %.1f deg/s; ", report.speed_mps(), to_deg(report.turn_radps())) +
+           left(report));
+  tell("place", place(report));
+  const auto free = free_way(status_.status());
+  tell("free", free.starts_with("free ") ? free.substr(5) : free);
+  tell("wheels", wheels());
+  tell("power", sensors());
+  tell("answer", report.last_feedback());
+  tell("last", last_event_);
+  return out + "\033[J\033[?7h";
 }
 
 }  // namespace drover::sim

@@ -3,12 +3,13 @@
 
 #include <nlohmann/json.hpp>
 
-#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "drover/time.h"
 #include "sim/scenario/mission.h"
+#include "sim/scenario/picture.h"
 #include "sim/scenario/robot_report.h"
 #include "sim/scenario/status_client.h"
 
@@ -25,7 +26,7 @@ std::string free_way(const nlohmann::json& status);
 
 class View {
  public:
-  View(ViewKind kind, const Mission& mission, const std::string& daemon_socket);
+  View(ViewKind kind, bool coloured, const Mission& mission, const std::string& daemon_socket);
 
   /// Draws when it is time; returns when it will be time again (Time::max(): never).
   Time draw(Time now, const RobotReport& report);
@@ -33,35 +34,33 @@ class View {
   int descriptor() const { return status_.descriptor(); }
   void on_readable() { status_.on_readable(); }
 
-  /// Draws nothing from now on: what stands there is to be read.
-  void rest() { kind_ = ViewKind::none; }
+  /// The map of the whole drive, where no picture was drawn. Nothing is drawn from now on.
+  void close();
 
   /// A command to the simulator: obstacles appear on the map.
   void on_sim_command(const std::string& command);
-  /// Seen from above; an empty outline: it is gone.
-  void on_object(const std::string& id, std::vector<TrackPose> outline);
-  /// An empty polygon: it is deleted.
-  void on_zone(const std::string& name, std::vector<TrackPose> polygon, bool keep_in);
+  /// It is there, elsewhere or gone.
+  void on_object(const ObjectSpec& object);
+  void on_zone(const ZoneSpec& zone);
   /// What the player does and hears.
   void on_event(const std::string& text);
 
  private:
+  void note_place(const RobotReport& report);
+  std::vector<std::string> map() const;
   std::string line(const RobotReport& report) const;
   std::string picture(const RobotReport& report) const;
+  std::string place(const RobotReport& report) const;
   std::string wheels() const;
   std::string sensors() const;
   std::string left(const RobotReport& report) const;
 
   ViewKind kind_;
+  bool coloured_;
   const Mission& mission_;
   StatusClient status_;
-  struct ShownZone {
-    std::vector<TrackPose> polygon;
-    bool keep_in = false;
-  };
-  std::map<std::string, TrackPose> obstacles_;
-  std::map<std::string, std::vector<TrackPose>> objects_;
-  std::map<std::string, ShownZone> zones_;
+  Surroundings around_;
+  std::optional<TrackPose> robot_;
   std::string last_event_;
   Time begin_ = kNever;
   Time next_ = kNever;

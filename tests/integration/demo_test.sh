@@ -35,11 +35,24 @@ for _ in {1..300}; do
 done
 grep -q '^NAV_SUCCESS$' "$folder/out"
 check "the mission ends in NAV_SUCCESS"
-grep -A 4 '^demo$' "$folder/out"
+grep -A 6 '^demo$' "$folder/out"
 below "$(number cross_track_rms_m)" 0.05
 check "cross-track RMS is under 5 cm"
 below "$(number goal_distance_m)" 0.10
 check "the goal is nearer than 10 cm"
+
+# The map after the drive: what it came past, by its names.
+shown() { grep -q -- "$1" "$folder/out"; }
+shown '█  box' && shown '▒pond▒' && shown '●  person' && shown '•w•'
+check "the map shows the box, the keep-out, the person and where the robot waited"
+shown '^ *the robot waits: person is in the way, .* m' && shown '^ *the robot goes on after'
+check "it tells that it waits for the person and that it goes on"
+waited=$(number time_s | sed -n 2p)
+below 1 "$waited" && below "$waited" 10
+check "it waited for a few seconds: ${waited:-never}"
+grep -q 'watching' "$folder/logs/objects.log" && ! grep -w 'touch' "$folder/logs/objects.log" &&
+  shown '^  touched  *nothing$'
+check "it touched nothing, says the mechanics"
 
 timeout 60 mosquitto_sub -h 127.0.0.1 -p "${port:-1}" -i demo-test -t base_status -C 201 -F %U \
   > "$folder/times"

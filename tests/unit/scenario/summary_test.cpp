@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <optional>
 #include <sstream>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 namespace drover::sim {
 namespace {
@@ -62,6 +65,26 @@ TEST(DriveFigures, WeighTheErrorByTheWayAndNotByTheTimeStoodStill) {
 TEST(DriveFigures, MeasureTheDistanceToTheAskedPoint) {
   const auto figures = measure_drive({{0, 0, 0}, {1, 5, 0.03}}, kTrack, 1, 0, 2);
   EXPECT_NEAR(figures.goal_distance_m, 0.03, 1e-12);
+}
+
+std::optional<std::vector<std::string>> touches(const std::string& text) {
+  std::istringstream stream(text);
+  return read_touches(stream);
+}
+
+TEST(Touches, AreToldOnceEach) {
+  EXPECT_EQ(touches("(0.880000000) watching 36\n"
+                    "(1.905000000) put box box -4 -4.1 0.4 0.26 0.6 0.4 0.8\n"
+                    "(2.000000000) touch box 1 2 0 0.5 0 0 0.001\n"
+                    "(2.100000000) leave box 0.002 0.5 0\n"
+                    "(2.200000000) touch pole 1 2 0 0.5 0 0 0.001\n"
+                    "(2.300000000) touch box 1 2 0 0.5 0 0 0.001\n"),
+            (std::vector<std::string>{"box", "pole"}));
+}
+
+TEST(Touches, AreNoneOnlyWhereSomebodyWatched) {
+  EXPECT_EQ(touches("(0.880000000) watching 36\n"), std::vector<std::string>{});
+  EXPECT_EQ(touches(""), std::nullopt);
 }
 
 }  // namespace
