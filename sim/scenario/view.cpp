@@ -40,6 +40,19 @@ double number_at(const nlohmann::json& object, const char* key) {
   return it != object.end() && it->is_number() ? it->get<double>() : NAN;
 }
 
+nlohmann::json clearance_of(const nlohmann::json& status) {
+  if (!status.is_object()) return nlohmann::json::object();
+  const auto found = status.find("clearance");
+  const bool there = found != status.end() && found->is_object();
+  return there ? *found : nlohmann::json::object();
+}
+
+std::string words_of_clearance(const nlohmann::json& status, const char* key) {
+  const auto clearance = clearance_of(status);
+  const auto it = clearance.find(key);
+  return it != clearance.end() && it->is_string() ? it->get<std::string>() : std::string();
+}
+
 }  // namespace
 
 std::string way_left(double distance_m, double speed_mps) {
@@ -49,21 +62,18 @@ std::string way_left(double distance_m, double speed_mps) {
   return out;
 }
 
-std::string free_way(const nlohmann::json& status) {
-  const auto found = status.is_object() ? status.find("clearance") : status.end();
-  if (!status.is_object() || found == status.end() || !found->is_object()) return {};
-  const auto words = [&found](const char* key) {
-    const auto it = found->find(key);
-    return it != found->end() && it->is_string() ? it->get<std::string>() : std::string();
-  };
+std::string free_room(const nlohmann::json& status) {
   for (const char* key : {"unknown", "broken"})
-    if (const auto why = words(key); !why.empty()) return why;
-  const auto number = [&found](const char* key) { return number_at(*found, key); };
-  auto out =
-      text("free ahead %.2f m, back %.2f m, left %.0f deg, right %.0f deg", number("ahead_m"),
-           number("back_m"), to_deg(number("left_rad")), to_deg(number("right_rad")));
-  if (const auto first = words("first"); !first.empty()) out += "; " + first;
-  return out;
+    if (auto why = words_of_clearance(status, key); !why.empty()) return why;
+  const auto clearance = clearance_of(status);
+  if (clearance.empty()) return {};
+  const auto number = [&clearance](const char* key) { return number_at(clearance, key); };
+  return text("ahead %.2f m, back %.2f m, left %.0f deg, right %.0f deg", number("ahead_m"),
+              number("back_m"), to_deg(number("left_rad")), to_deg(number("right_rad")));
+}
+
+std::string first_in_the_way(const nlohmann::json& status) {
+  return words_of_clearance(status, "first");
 }
 
 View::View(ViewKind kind, bool coloured, const Mission& mission, const std::string& daemon_socket)
@@ -83,8 +93,9 @@ Time View::draw(Time now, const RobotReport& report) {
   if (kind_ == ViewKind::lines && report.heard() && ++lines_ % 10 == 0) {
     shown +=
         "       " + left(report) + "\n       " + sensors() + "\n       wheels " + wheels() + "\n";
-    if (const auto free = free_way(status_.status()); !free.empty())
-      shown += "       " + free + "\n";
+    const auto first = first_in_the_way(status_.status());
+    if (const auto free = free_room(status_.status()); !free.empty())
+      shown += "       free " + free + (first.empty() ? "" : "; " + first) + "\n";
   }
   std::fwrite(shown.data(), 1, shown.size(), stdout);
   std::fflush(stdout);
@@ -215,20 +226,19 @@ std::string View::picture(const RobotReport& report) const {
   const auto tell = [&add](const char* what, const std::string& words) {
     add(text("%-8s", what) + fitted(words.empty() ? "-" : words, kColumns - 8));
   };
-  add(fitted(
-      text("%s  %.1f s  %s", mission_.name.c_str(), elapsed_s_, report.nav_status().c_str()) +
-          (report.waits()      ? ", waits"
-           : report.obstacle() ? ", obstacle"
-                               : "") +
-          (report.why().empty() ? "" : ": " + report.why()),
-      kColumns));
+  const char* const held = report.waits() ? ", waits" : report.obstacle() ? ", obstacle" : "";
+  // Also what it slows down for, before it waits.
+  const auto why = report.why().empty() ? first_in_the_way(status_.status()) : report.why();
+  add(fitted(text("%s  %.1f s  %s%s", mission_.name.c_str(), elapsed_s_,
+                  report.nav_status().c_str(), held) +
+                 (why.empty() ? "" : ": " + why),
+             kColumns));
   for (const auto& row : map()) add(row);
   tell("speed",
        text("%.2f m/s, turning %.1f deg/s; ", report.speed_mps(), to_deg(report.turn_radps())) +
            left(report));
   tell("place", place(report));
-  const auto free = free_way(status_.status());
-  tell("free", free.starts_with("free ") ? free.substr(5) : free);
+  tell("free", free_room(status_.status()));
   tell("wheels", wheels());
   tell("power", sensors());
   tell("answer", report.last_feedback());

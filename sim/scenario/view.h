@@ -20,9 +20,11 @@ enum class ViewKind { none, lines, terminal };
 /// "7.3 m left, about 15 s"; without a speed worth the name no time; nothing is "-".
 std::string way_left(double distance_m, double speed_mps);
 
-/// "free ahead 2.31 m, back 3.00 m, left 180 deg, right 40 deg; box1 is in the way, ..." of the
-/// status' clearance; why nothing is known, or nothing where it has none.
-std::string free_way(const nlohmann::json& status);
+/// "ahead 2.31 m, back 3.00 m, left 180 deg, right 40 deg" of the status' clearance; why nothing is
+/// known, or nothing where it has none.
+std::string free_room(const nlohmann::json& status);
+/// "box1 is in the way, 2.31 m ahead", or nothing.
+std::string first_in_the_way(const nlohmann::json& status);
 
 class View {
  public:

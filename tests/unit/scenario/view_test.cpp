@@ -23,15 +23,16 @@ TEST(AView, TellsNoWayThatNobodyKnows) {
 
 TEST(AView, TellsHowFarTheWayIsFreeWhereThatIsKnown) {
   using nlohmann::json;
-  EXPECT_EQ(free_way(json()), "");
-  EXPECT_EQ(free_way(json::parse(R"({"nav": {}})")), "");
-  EXPECT_EQ(free_way(json::parse(R"({"clearance": null})")), "");
-  EXPECT_EQ(
-      free_way(json::parse(R"({"clearance": {"ahead_m": 2.314, "back_m": 3, "left_rad": 3.14159,
-      "right_rad": 0.7, "first": "box1 is in the way, 2.31 m ahead", "unknown": ""}})")),
-      "free ahead 2.31 m, back 3.00 m, left 180 deg, right 40 deg; box1 is in the way, 2.31 m "
-      "ahead");
-  EXPECT_EQ(free_way(json::parse(R"({"clearance": {"unknown": "no position"}})")), "no position");
+  for (const char* nothing : {"null", R"({"nav": {}})", R"({"clearance": null})"}) {
+    EXPECT_EQ(free_room(json::parse(nothing)), "") << nothing;
+    EXPECT_EQ(first_in_the_way(json::parse(nothing)), "") << nothing;
+  }
+  const auto status = json::parse(R"({"clearance": {"ahead_m": 2.314, "back_m": 3,
+      "left_rad": 3.14159, "right_rad": 0.7, "first": "box1 is in the way, 2.31 m ahead",
+      "unknown": ""}})");
+  EXPECT_EQ(free_room(status), "ahead 2.31 m, back 3.00 m, left 180 deg, right 40 deg");
+  EXPECT_EQ(first_in_the_way(status), "box1 is in the way, 2.31 m ahead");
+  EXPECT_EQ(free_room(json::parse(R"({"clearance": {"unknown": "no position"}})")), "no position");
 }
 
 }  // namespace
