@@ -43,7 +43,7 @@ check "the goal is nearer than 10 cm"
 
 # The map after the drive: what it came past, by its names.
 shown() { grep -q -- "$1" "$folder/out"; }
-shown '█  box' && shown '▒pond▒' && shown '●  person' && shown '•w•'
+shown '█  box' && shown '▒pond▒' && shown '●  person' && shown '•ww*•'
 check "the map shows the box, the keep-out, the person and where the robot waited"
 shown '^ *the robot waits: person is in the way, .* m' && shown '^ *the robot goes on after'
 check "it tells that it waits for the person and that it goes on"
@@ -61,6 +61,21 @@ rate=$(awk 'NR == 1 { first = $1 } { last = $1 }
 echo "base_status as seen from outside: ${rate:-nothing} a second"
 awk -v rate="${rate:-0}" 'BEGIN { exit !(rate >= 9.9 && rate <= 10.1) }'
 check "base_status comes 10 times a second, within 1 %"
+
+# What sim/README.md shows: another program tells of a crate, and that it is gone.
+tell() { mosquitto_pub -h 127.0.0.1 -p "${port:-1}" -q 1 -t collision_object "$@"; }
+timeout 30 mosquitto_sub -h 127.0.0.1 -p "${port:-1}" -q 1 -t scene_feedback -C 2 \
+  > "$folder/answers" &
+listener=$!
+sleep 1
+tell -f config/scene/object_box.json
+tell -m '{"id": "crate", "operation": 1}'
+wait "$listener"
+diff - "$folder/answers" << 'TEXT'
+{"topic":"collision_object","id":"crate","seq":1,"operation":"ADD","result":"done"}
+{"topic":"collision_object","id":"crate","operation":"REMOVE","result":"done"}
+TEXT
+check "other programs tell of objects and are answered"
 
 kill -INT -- "-$demo"
 wait "$demo"
