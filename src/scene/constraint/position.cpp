@@ -16,17 +16,19 @@ constexpr int kMarginSides = 16;  // around the margin's circle: 2 % more, never
 
 /// All of it in `map`; that everything of them is inside a convex shape is that all corners are.
 std::vector<Vector3> corners_of(const PositionConstraint& position, const Extent& extent,
-                                const Pose& link) {
+                                const Pose& link, const Pose2& base) {
   std::vector<Vector3> outline = extent.outline;
   if (outline.empty()) outline.push_back({});
   std::vector<Vector3> corners;
   for (const Vector3& own : outline) {
     const Vector3 at = rigid::in_parent(link, rigid::sum(position.target_point_offset, own));
-    if (extent.margin_m == 0) {
+    const double thrown_m = extent.turn_rad * std::hypot(at.x - base.x_m, at.y - base.y_m);
+    const double margin_m = extent.margin_m + thrown_m;
+    if (margin_m == 0) {
       corners.push_back(at);
       continue;
     }
-    const double reach_m = extent.margin_m / std::cos(kPi / kMarginSides);
+    const double reach_m = margin_m / std::cos(kPi / kMarginSides);
     for (int side = 0; side < kMarginSides; ++side) {
       const double angle_rad = 2 * kPi * side / kMarginSides;
       corners.push_back(
@@ -77,7 +79,7 @@ Finding finding_of(const PositionConstraint& position, const Setting& setting) {
     return unknown("the robot's place is not known");
 
   const Extent& extent = setting.terms.extent;
-  const std::vector<Vector3> corners = corners_of(position, extent, *link);
+  const std::vector<Vector3> corners = corners_of(position, extent, *link, setting.state.base);
   const BoundingVolume& region = position.constraint_region;
   const double outside_all_m =
       std::min(least_outside_m(region.primitives, region.primitive_poses, *frame, corners),

@@ -17,6 +17,7 @@ struct Extent {
   /// About the target point, in the link's frame. Empty: the point alone, as the document says.
   std::vector<Vector3> outline;
   double margin_m = 0;  ///< level, around every point of it: two sigma of the position
+  double turn_rad = 0;  ///< two sigma of the heading: as much wider, times the point's way to base
 };
 
 struct Terms {

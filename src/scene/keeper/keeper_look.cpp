@@ -68,6 +68,7 @@ Steering Keeper::Impl::steering() const {
 Terms Keeper::Impl::terms() const {
   Terms terms;
   terms.extent.margin_m = settings.look.sigmas * position_sigma_m();
+  terms.extent.turn_rad = settings.look.sigmas * yaw_sigma_rad();
   return terms;
 }
 

@@ -82,8 +82,8 @@ void TrackCheck::Impl::look_along_part() {
   const double ahead_m = part_m();
   const auto line = line_about(path, way, ahead_m);
   if (!line) return end(way.segment, way_m, "the track cannot be followed from here");
-  const double sigma_m = keeper.position_sigma_m();
-  const Sweeper sweeper(keeper.around, body_of(keeper.settings.look, sigma_m));
+  const Sweeper sweeper(keeper.around, body_of(keeper.settings.look, keeper.position_sigma_m(),
+                                               keeper.yaw_sigma_rad()));
   const TrackPart part{line->points, line->from_m, ahead_m};
   const auto steps = track_steps(pose, part, keeper.steering(), sweeper.stride_m());
   const WayEnd found = sweeper.sweep(steps);

@@ -18,13 +18,32 @@ bool has_heading(const Standpoint& from) {
   return is_heading(from.pose.yaw_rad, from.yaw_sigma_rad);
 }
 
+/// From base_link to the farthest corner.
+double reach_of(const Piece& body) {
+  double reach_m = 0;
+  for (const Point2 corner : body.corners) reach_m = std::max(reach_m, length_m(corner));
+  return reach_m;
+}
+
+/// How far, of each metre of distance, a heading that is off throws a thing aside: its chord, which
+/// is never more than from one side to the other.
+double thrown_aside(const LookSettings& settings, double yaw_sigma_rad) {
+  return std::min(settings.sigmas * yaw_sigma_rad, 2.0);
+}
+
 /// Along the curve of its twist, at rest straight on: ahead, or the same curve back.
-std::vector<Step> curve_steps(const Standpoint& from, bool back, double length, double stride_m) {
+/// Nobody keeps it on that curve by the map, as the tracker does on its line: where the robot looks
+/// otherwise than it believes, it comes off by that much of its way.
+std::vector<Step> curve_steps(const LookSettings& settings, const Standpoint& from, bool back,
+                              double stride_m) {
   const bool drives = std::abs(from.twist.vx_mps) > kStraight_mps;
   const Twist curve = drives ? from.twist : Twist{1, 0};
   const double v_mps = (back ? -1 : 1) * std::abs(curve.vx_mps);
   const double wz_radps = curve.wz_radps * (v_mps * curve.vx_mps < 0 ? -1 : 1);
-  return twist_steps(from.pose, v_mps, wz_radps, length, stride_m);
+  auto steps = twist_steps(from.pose, v_mps, wz_radps, settings.ahead_m, stride_m);
+  const double aside = thrown_aside(settings, from.yaw_sigma_rad);
+  for (Step& step : steps) step.off_m = aside * step.driven_m;
+  return steps;
 }
 
 /// Why nothing can be said; empty: something can.
@@ -59,11 +78,9 @@ void look_at_nothing(const LookSettings& settings, const Standpoint& from, Clear
 
 void look_any_way(const Surroundings& around, const LookSettings& settings, const Standpoint& from,
                   Clearance& found) {
-  const Piece body = body_of(settings, from.position_sigma_m);
-  double reach_m = 0;
-  for (const Point2 corner : body.corners) reach_m = std::max(reach_m, length_m(corner));
+  const Piece body = body_of(settings, from.position_sigma_m, 0);  // a disc looks any way
   const FreeDisc disc =
-      free_disc(around, place_of(from.pose), reach_m + body.radius_m, settings.ahead_m);
+      free_disc(around, place_of(from.pose), reach_of(body) + body.radius_m, settings.ahead_m);
   found.ahead_m = found.back_m = disc.free_m;
   found.left_rad = found.right_rad = disc.free ? kFree : 0;
   if (disc.blocked) found.first = in_the_way(disc.name, "away", disc.free_m);
@@ -72,8 +89,8 @@ void look_any_way(const Surroundings& around, const LookSettings& settings, cons
 void look_around(const Sweeper& sweeper, const LookSettings& settings, const Standpoint& from,
                  Clearance& found) {
   const double stride_m = sweeper.stride_m();
-  const WayEnd ahead = sweeper.sweep(curve_steps(from, false, settings.ahead_m, stride_m));
-  const WayEnd back = sweeper.sweep(curve_steps(from, true, settings.ahead_m, stride_m));
+  const WayEnd ahead = sweeper.sweep(curve_steps(settings, from, false, stride_m));
+  const WayEnd back = sweeper.sweep(curve_steps(settings, from, true, stride_m));
   const WayEnd left = sweeper.sweep(pivot_steps(from.pose, std::numbers::pi));
   const WayEnd right = sweeper.sweep(pivot_steps(from.pose, -std::numbers::pi));
   found.ahead_m = ahead.way.free_m;
@@ -109,8 +126,10 @@ bool is_heading(double yaw_rad, double yaw_sigma_rad) {
   return std::isfinite(yaw_rad) && std::isfinite(yaw_sigma_rad) && yaw_sigma_rad >= 0;
 }
 
-Piece body_of(const LookSettings& settings, double position_sigma_m) {
-  return piece_of(settings.footprint, settings.margin_m + settings.sigmas * position_sigma_m);
+Piece body_of(const LookSettings& settings, double position_sigma_m, double yaw_sigma_rad) {
+  const Piece body =
+      piece_of(settings.footprint, settings.margin_m + settings.sigmas * position_sigma_m);
+  return widened(body, thrown_aside(settings, yaw_sigma_rad) * reach_of(body));
 }
 
 Clearance look(const Surroundings& around, const LookSettings& settings, const Standpoint& from) {
@@ -129,7 +148,7 @@ Clearance look(const Surroundings& around, const LookSettings& settings, const S
     look_any_way(around, settings, from, found);
     return found;
   }
-  const Sweeper sweeper(around, body_of(settings, from.position_sigma_m));
+  const Sweeper sweeper(around, body_of(settings, from.position_sigma_m, from.yaw_sigma_rad));
   look_around(sweeper, settings, from, found);
   if (from.path != 0) look_along(sweeper, settings, from, found);
   return found;

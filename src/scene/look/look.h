@@ -18,7 +18,7 @@ namespace drover::scene {
 struct LookSettings {
   std::vector<Point2> footprint;  ///< convex, in base_link
   double margin_m = 0.1;          ///< around it
-  double sigmas = 2;              ///< of the position, around that
+  double sigmas = 2;              ///< of position and heading, around that
   double ahead_m = 3;             ///< how far to look along the curve, each way
   double along_m = 10;            ///< and along the track
   Steering steering;
@@ -48,7 +48,8 @@ Clearance look(const Surroundings& around, const LookSettings& settings, const S
 Reason position_problem(const Pose2& pose, double position_sigma_m);
 /// The robot knows which way it looks.
 bool is_heading(double yaw_rad, double yaw_sigma_rad);
-/// Footprint with its margin and the position's error.
-Piece body_of(const LookSettings& settings, double position_sigma_m);
+/// Footprint with its margin and the errors of position and heading: a heading that is off throws
+/// the corner that is farthest from base_link farthest aside.
+Piece body_of(const LookSettings& settings, double position_sigma_m, double yaw_sigma_rad);
 
 }  // namespace drover::scene

@@ -86,6 +86,19 @@ Area union_of(std::vector<Area> areas) {
   return all;
 }
 
+// What is solid grows by its walls.
+Area widened(Area area, double by_m) {
+  if (area.empty()) return area;
+  if (!(by_m >= 0)) return area_of_everything();
+  for (Piece& piece : area.pieces) piece = widened(std::move(piece), by_m);
+  for (Strip& strip : area.strips) {
+    strip.low_m -= by_m;
+    strip.high_m += by_m;
+  }
+  area.around.radius_m += by_m;
+  return area;
+}
+
 Point2 nearest(const Area& area, Point2 from) {
   if (is_inside(area, from)) return from;
   constexpr double kEndless = std::numeric_limits<double>::infinity();

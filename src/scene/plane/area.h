@@ -48,6 +48,9 @@ Area area_of_rings(const std::vector<std::vector<Point2>>& rings);
 /// One object of several shapes.
 Area union_of(std::vector<Area> areas);
 
+/// All that is within `by_m` of it: of what is known to be there or that much beside it.
+Area widened(Area area, double by_m);
+
 /// Of the area's points about the one that is nearest to `from`.
 Point2 nearest(const Area& area, Point2 from);
 

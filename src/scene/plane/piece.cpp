@@ -66,6 +66,13 @@ Piece disc(Point2 centre, double radius_m) {
   return piece_of({centre}, radius_m);
 }
 
+Piece widened(Piece piece, double by_m) {
+  if (!(by_m >= 0)) return piece_of_everything();
+  piece.radius_m += by_m;
+  piece.around.radius_m += by_m;
+  return piece;
+}
+
 Piece placed(const Piece& in_base, const Pose2& at) {
   if (!is_finite(at)) return piece_of_everything();
   const Point2 ahead = direction(at.yaw_rad);

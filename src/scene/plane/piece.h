@@ -24,6 +24,9 @@ Piece piece_of_everything();
 Piece piece_of(std::vector<Point2> points, double radius_m = 0);
 Piece disc(Point2 centre, double radius_m);
 
+/// All that is within `by_m` of it; a width that is no number, or negative, makes it everything.
+Piece widened(Piece piece, double by_m);
+
 /// From base_link into `map`.
 Piece placed(const Piece& in_base, const Pose2& at);
 /// The point of the side from `a` to `b` that is nearest to `from`.

@@ -15,6 +15,7 @@ struct Step {
   Pose2 pose;
   double driven_m = 0;  ///< arc length of base_link
   double turned_rad = 0;
+  double off_m = 0;  ///< so far beside this pose the robot may be when it has come there
 };
 
 /// No step of the makers below turns by more.

@@ -23,11 +23,16 @@ double longest_chord_m(const Piece& from, const Piece& to) {
   return std::sqrt(longest2);
 }
 
+/// Of what lies between two steps, and of what the robot may be beside them.
+Piece passed(const Piece& footprint, const Step& from, const Step& to) {
+  return widened(swept(footprint, from.pose, to.pose), std::max(from.off_m, to.off_m));
+}
+
 /// Around the footprint at all these steps and between them.
 Circle circle_of(const Piece& footprint, std::span<const Step> steps) {
-  Circle circle = swept(footprint, steps.front().pose, steps.back().pose).around;
+  Circle circle = passed(footprint, steps.front(), steps.back()).around;
   for (std::size_t i = 0; i + 1 < steps.size(); ++i) {
-    const Circle part = swept(footprint, steps[i].pose, steps[i + 1].pose).around;
+    const Circle part = passed(footprint, steps[i], steps[i + 1]).around;
     circle.radius_m =
         std::max(circle.radius_m, length_m(part.centre - circle.centre) + part.radius_m);
   }
@@ -134,12 +139,12 @@ struct Contact {
 template <class Judge>
 std::optional<Contact> find_contact(Judge& judge, const Piece& footprint, const Step& from,
                                     const Step& to) {
-  const auto object = judged(judge, swept(footprint, from.pose, to.pose));
+  const auto object = judged(judge, passed(footprint, from, to));
   if (!object) return std::nullopt;
   const double chord_m = longest_chord_m(placed(footprint, from.pose), placed(footprint, to.pose));
   if (*object == kNoObject || !(chord_m > kResolution_m)) return Contact{from, *object};
   const Step middle{between(from.pose, to.pose, 0.5), 0.5 * (from.driven_m + to.driven_m),
-                    0.5 * (from.turned_rad + to.turned_rad)};
+                    0.5 * (from.turned_rad + to.turned_rad), 0.5 * (from.off_m + to.off_m)};
   const auto first = find_contact(judge, footprint, from, middle);
   return first ? first : find_contact(judge, footprint, middle, to);
 }
@@ -158,8 +163,9 @@ template <class Judge>
 FreeWay walk(Judge judge, const Piece& footprint, std::span<const Step> steps) {
   if (steps.empty()) return {};
   judge.look_around(circle_of(footprint, steps.first(1)));
-  if (const auto object = judged(judge, placed(footprint, steps.front().pose))) {
-    FreeWay way = blocked_at(judge, footprint, {steps.front(), *object});
+  const Step& first = steps.front();
+  if (const auto object = judged(judge, widened(placed(footprint, first.pose), first.off_m))) {
+    FreeWay way = blocked_at(judge, footprint, {first, *object});
     way.at_start = true;
     return way;
   }

@@ -35,7 +35,7 @@ class AKeeper : public testing::Test {
     keeper.set_scene_problem("");
     from.t = Time{std::chrono::seconds(100)};
     from.pose.position_sigma_m = 0;
-    from.pose.yaw_sigma_rad = 0.01;
+    from.pose.yaw_sigma_rad = 0;
     from.origin_set = true;
     from.origin = kYard;
     keeper.see(from);

@@ -146,6 +146,20 @@ TEST_F(AKeeper, TakesTwiceThePositionsSigmaForAConstraintsMargin) {
   EXPECT_THAT(text(look().broken), HasSubstr("0.1"));
 }
 
+TEST_F(AKeeper, TakesTwiceTheHeadingsSigmaForAConstraintOnWhatIsFarFromItsMiddle) {
+  Constraints set = fence(2);
+  ASSERT_EQ(apply(set), "done");
+  from.pose.x_m = 1.8;
+  from.pose.yaw_sigma_rad = 0.1;
+  EXPECT_EQ(text(look().broken), "") << "its middle does not move by it";
+  from.pose.x_m = 0.9;
+  set.position_constraints[0].target_point_offset = {1, 0, 0};
+  ASSERT_EQ(apply(set), "done");
+  EXPECT_THAT(text(look().broken), HasSubstr("0.10")) << "1 m away: 0.2 m";
+  from.pose.yaw_sigma_rad = 0.04;
+  EXPECT_EQ(text(look().broken), "");
+}
+
 TEST_F(AKeeper, JudgesTheTiltThatIsMeasuredAndNoOther) {
   Constraints set;
   set.name = "level";

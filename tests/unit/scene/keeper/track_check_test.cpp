@@ -47,6 +47,18 @@ TEST_F(AKeeper, NamesWhatIsWhereTheRobotIs) {
   EXPECT_EQ(offence->what, "box1 is where the robot is");
 }
 
+TEST_F(AKeeper, LooksAlongATrackWithTheErrorsOfPlaceAndHeading) {
+  const Path path = row(100);
+  apply(box("beside", 50, 0.35 + 0.1 + 0.05 + 0.1));
+  EXPECT_FALSE(check(path, 100).has_value());
+  from.pose.position_sigma_m = 0.02;
+  EXPECT_FALSE(check(path, 100).has_value());
+  from.pose.yaw_sigma_rad = 0.01;  // 1.2 cm at the corners
+  const auto offence = check(path, 100);
+  ASSERT_TRUE(offence);
+  EXPECT_EQ(offence->what, "beside is in the way");
+}
+
 TEST_F(AKeeper, NamesTheZonesOfATrack) {
   const Path path = row(100);
   keeper.set_zones({zone("pond", Zone::Kind::keep_out, 50, 2, 1.8)}, "");

@@ -75,6 +75,54 @@ TEST_F(ALook, TakesFootprintMarginAndTwiceThePositionsSigmaOffTheWay) {
   EXPECT_THAT(text(found.first), HasSubstr("ahead"));
 }
 
+TEST_F(ALook, TakesTwiceTheHeadingsSigmaTimesItsReachOffTheWay) {
+  put("box1", 2, 0);
+  const double reach_m = std::hypot(0.5, 0.35);
+  from.yaw_sigma_rad = 0.05;
+  drive_along({{0, 0}, {4, 0}});
+  const double free_m = 1.9 - 0.5 - 0.1 - 0.1 * reach_m;
+  EXPECT_NEAR(look_now().along_m, free_m, kResolution_m + 1e-9);
+  EXPECT_NEAR(look_now().ahead_m, free_m / 1.1, kResolution_m + 1e-9)
+      << "on no track it comes off its curve by a tenth of the way";
+  from.yaw_sigma_rad = 1;  // a turned corner is thrown no farther than to the other side
+  put("box1", 5, 0);
+  EXPECT_NEAR(look_now().along_m, 4.9 - 0.5 - 0.1 - 2 * reach_m, kResolution_m + 1e-9);
+}
+
+TEST_F(ALook, TurnsInAWiderSpaceWhenItsHeadingIsLessWellKnown) {
+  put("wall", 0, 0.8, 0.3);  // its side is at 0.65 m, 6 cm less than the corners reach
+  const double free_rad = look_now().left_rad;
+  from.yaw_sigma_rad = 0.03;
+  EXPECT_LT(look_now().left_rad, free_rad - 0.05);
+  EXPECT_GT(look_now().left_rad, 0);
+}
+
+/// 3 cm beside the margin, far ahead: a heading that is off by 2 degrees leads into it.
+TEST_F(ALook, SeesWhatACurveLeadsIntoWhenItsHeadingIsOff) {
+  put("beside", 2.5, 0.35 + 0.1 + 0.03 + 0.1);
+  EXPECT_DOUBLE_EQ(look_now().ahead_m, settings.ahead_m);
+  from.yaw_sigma_rad = to_rad(1);
+  const Clearance found = look_now();
+  EXPECT_LT(found.ahead_m, 2.0);
+  EXPECT_GT(found.ahead_m, 0.1);
+  EXPECT_DOUBLE_EQ(found.back_m, settings.ahead_m);
+  // A task is kept on its line by the map: only its body is turned.
+  from.yaw_sigma_rad = to_rad(0.6);
+  drive_along({{0, 0}, {4, 0}});
+  EXPECT_EQ(look_now().along_m, kFree);
+  from.yaw_sigma_rad = to_rad(2);
+  EXPECT_LT(look_now().along_m, 2.5);
+}
+
+TEST_F(ALook, KeepsFartherFromItsFenceWhenItsHeadingIsLessWellKnown) {
+  around.keep_in.push_back(area_of_rings({{{-3, -3}, {3, -3}, {3, 3}, {-3, 3}}}));
+  around.keep_in_names.emplace_back("yard");
+  from.yaw_sigma_rad = 0.05;
+  drive_along({{0, 0}, {4, 0}});
+  EXPECT_NEAR(look_now().along_m, 3 - 0.5 - 0.1 - 0.1 * std::hypot(0.5, 0.35),
+              kResolution_m + 1e-9);
+}
+
 TEST_F(ALook, NamesWhatIsBehindARobotThatReverses) {
   put("ahead", 2, 0);
   put("behind", -1.5, 0);

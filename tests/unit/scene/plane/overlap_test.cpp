@@ -115,6 +115,29 @@ TEST(Rings, AConcaveKeepInIsNotCutAcrossItsMouth) {
   EXPECT_FALSE(is_inside(area, placed(footprint(), {5, 8, 0})));
 }
 
+TEST(Widened, AnAreaIsAllThatIsWithinTheWidthOfIt) {
+  const Area box_area = widened(area_of(box(2, 2, 1), pose(5, 0, 0.5), kRobot), 0.3);
+  EXPECT_TRUE(covers(box_area, 3.71, 0));
+  EXPECT_FALSE(covers(box_area, 3.69, 0));
+  EXPECT_FALSE(covers(box_area, 3.75, 1.25)) << "its corners are round";
+  const Area wall = widened(area_of(Plane{{1, 0, 0, -2}}, {}, kRobot), 0.3);
+  EXPECT_TRUE(covers(wall, 1.71, 9));
+  EXPECT_TRUE(covers(wall, 2.29, -9));
+  EXPECT_FALSE(covers(wall, 1.69, 9));
+  const Area ring = widened(area_of_rings(square_with_hole()), 0.3);
+  EXPECT_TRUE(covers(ring, -0.29, 5));
+  EXPECT_TRUE(covers(ring, 2, 2)) << "still solid";
+  EXPECT_FALSE(covers(ring, -0.31, 5));
+}
+
+TEST(Widened, NothingStaysNothingAndNoWidthAtAllIsEverything) {
+  EXPECT_TRUE(widened(Area{}, 0.3).empty());
+  EXPECT_TRUE(covers(widened(area_of_everything(), 0.3), 1e6, 0));
+  for (const double by_m : {kNaN, -0.1})
+    EXPECT_TRUE(covers(widened(area_of(box(2, 2, 1), pose(5, 0, 0.5), kRobot), by_m), 90, 9));
+  EXPECT_TRUE(overlaps(widened(disc({0, 0}, 1), kNaN), disc({90, 0}, 1)));
+}
+
 TEST(Nearest, IsOnTheEdgeOrThePointItself) {
   const Piece square = piece_of({{0, 0}, {1, 0}, {1, 1}, {0, 1}}, 0.5);
   EXPECT_EQ(nearest(square, {0.2, 0.3}), (Point2{0.2, 0.3}));

@@ -36,6 +36,21 @@ TEST(Sweep, EndsAtAWallAcrossTheWay) {
   EXPECT_NEAR(way.pose.x_m, way.free_m, 1e-12);
 }
 
+TEST(Sweep, FindsWhatTheRobotMayComeToBesideItsWay) {
+  const Field field = field_of({{"pole", pole(3, 0.35 + 0.01 + 0.1)}});
+  auto steps = ahead(5);
+  EXPECT_FALSE(first_contact(field, footprint(), steps).blocked);
+  for (Step& step : steps) step.off_m = 0.05 * step.driven_m;
+  const FreeWay way = first_contact(field, footprint(), steps);
+  EXPECT_TRUE(way.blocked);
+  EXPECT_NEAR(way.free_m, 2.5, 0.06) << "there it is off by 12 cm, and its front is 0.45 m ahead";
+  EXPECT_EQ(way.pose.y_m, 0);
+  for (Step& step : steps) step.off_m = 0.03 * step.driven_m;
+  EXPECT_GT(first_contact(field, footprint(), steps).free_m, way.free_m);
+  steps.front().off_m = 4;
+  EXPECT_TRUE(first_contact(field, footprint(), steps).at_start);
+}
+
 TEST(Sweep, OfAFreeWayIsAllOfIt) {
   const Field field = field_of({{"wall", area_of(box(0.2, 4, 1), pose(9, 0, 0.5), kRobot)}});
   const FreeWay way = first_contact(field, footprint(), ahead(5));
