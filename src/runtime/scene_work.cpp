@@ -113,7 +113,8 @@ std::optional<scene::Refusal> SceneWork::restore_object(const std::string& text)
   const auto stored = publish::read_stored_object(text);
   if (!stored.ok()) return stored.error();
   for (const auto& message : stored->messages)
-    if (const auto applied = keeper_.restore(message, stored->origin); !applied.ok())
+    if (const auto applied = keeper_.restore(message, stored->origin, stored->place_sigma_m);
+        !applied.ok())
       return applied.error();
   return std::nullopt;
 }

@@ -73,7 +73,17 @@ void Keeper::Impl::find_problem() {
   }
 }
 
-void Keeper::Impl::on_object(const CollisionObject& message, Applied& applied) {
+double Keeper::Impl::place_sigma_m(std::string_view id) const {
+  const Object* object = world.object(id);
+  return object == nullptr ? 0 : object->place_sigma_m;
+}
+
+Area Keeper::Impl::with_error(Area area, double place_sigma_m) const {
+  return widened(std::move(area), settings.look.sigmas * place_sigma_m);
+}
+
+void Keeper::Impl::on_object(const CollisionObject& message, double sigma_before_m,
+                             Applied& applied) {
   changed_objects.insert(message.id);
   const Object* object = world.object(message.id);
   if (object == nullptr) {
@@ -88,9 +98,10 @@ void Keeper::Impl::on_object(const CollisionObject& message, Applied& applied) {
     from = {object->primitives.size() - message.primitives.size(),
             object->meshes.size() - message.meshes.size(),
             object->planes.size() - message.planes.size()};
-    areas.push_back(*there);
+    areas.push_back(with_error(*there, object->place_sigma_m - sigma_before_m));
   }
-  std::ranges::move(areas_of(*object, from, settings.heights), std::back_inserter(areas));
+  for (Area& area : areas_of(*object, from, settings.heights))
+    areas.push_back(with_error(std::move(area), object->place_sigma_m));
   around.field.put(message.id, union_of(std::move(areas)));
   if (is_height_ignored(settings.heights)) note_planes(*object, from.plane, applied.notes);
   change();
@@ -118,7 +129,8 @@ void Keeper::Impl::place_all() {
   place_zones();
   around.field.clear();
   for (const Object& object : world.objects())
-    around.field.put(object.id, union_of(areas_of(object, {}, settings.heights)));
+    around.field.put(object.id, with_error(union_of(areas_of(object, {}, settings.heights)),
+                                           object.place_sigma_m));
   change();
 }
 
@@ -144,9 +156,11 @@ void Keeper::set_scene_problem(const std::string& problem) {
 }
 
 Result<Applied, Refusal> Keeper::apply(const CollisionObject& message, const Arrived& arrived) {
-  const Placement placement{impl_->settings.robot, impl_->poses, arrived.at, arrived.wall_ahead};
+  const Placement placement{impl_->settings.robot, impl_->poses, arrived.at, arrived.wall_ahead,
+                            arrived.late};
+  const double before_m = impl_->place_sigma_m(message.id);
   auto applied = impl_->world.apply(message, placement);
-  if (applied) impl_->on_object(message, applied.value());
+  if (applied) impl_->on_object(message, before_m, applied.value());
   return applied;
 }
 
@@ -159,11 +173,12 @@ Result<Applied, Refusal> Keeper::apply(const Constraints& message, const Arrived
 }
 
 Result<Applied, Refusal> Keeper::restore(const CollisionObject& message,
-                                         const GeodeticPoint& origin) {
+                                         const GeodeticPoint& origin, double place_sigma_m) {
   const bool is_stored = !impl_->changed_objects.contains(message.id);
-  auto applied = impl_->world.restore(message, origin);
+  const double before_m = impl_->place_sigma_m(message.id);
+  auto applied = impl_->world.restore(message, origin, place_sigma_m);
   if (!applied) return applied;
-  impl_->on_object(message, applied.value());
+  impl_->on_object(message, before_m, applied.value());
   if (is_stored) impl_->changed_objects.erase(message.id);
   return applied;
 }
@@ -209,7 +224,7 @@ std::optional<StoredObject> Keeper::stored_object(std::string_view id) const {
   const Object* object = impl_->world.object(id);
   if (object == nullptr) return std::nullopt;
   return StoredObject{in_messages(as_message(*object)),
-                      impl_->world.origin().value_or(GeodeticPoint{})};
+                      impl_->world.origin().value_or(GeodeticPoint{}), object->place_sigma_m};
 }
 
 std::optional<StoredSet> Keeper::stored_set(std::string_view name) const {

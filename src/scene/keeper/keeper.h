@@ -40,6 +40,8 @@ struct KeeperSettings {
 struct Arrived {
   Time at = kNever;
   Duration wall_ahead{0};
+  /// Why it may have been sent long before: who brought it held messages back. Empty: at once.
+  std::string late{};
 };
 
 /// Why a track is not started: the first thing on it that something is in the way of.
@@ -53,6 +55,7 @@ struct TrackOffence {
 struct StoredObject {
   std::vector<CollisionObject> messages;  ///< an ADD, then APPENDs of what is too much for it
   GeodeticPoint origin;                   ///< of the map that they are in
+  double place_sigma_m = 0;               ///< how well its place in that is known
 };
 /// And of a set of constraints.
 struct StoredSet {
@@ -84,7 +87,8 @@ class Keeper final {
   Result<Applied, Refusal> apply(const Constraints& message, const Arrived& arrived);
   /// What was stored under another origin, message by message: at its place on earth. The origin
   /// that is in force need not be known yet.
-  Result<Applied, Refusal> restore(const CollisionObject& message, const GeodeticPoint& origin);
+  Result<Applied, Refusal> restore(const CollisionObject& message, const GeodeticPoint& origin,
+                                   double place_sigma_m = 0);
   Result<Applied, Refusal> restore(const Constraints& message, const GeodeticPoint& origin);
   /// Objects and constraints; zones stay.
   void clear();

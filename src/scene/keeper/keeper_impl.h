@@ -18,8 +18,12 @@ struct Keeper::Impl {
 
   // What happened; each counts the number up.
   void change();
-  /// After the world took it.
-  void on_object(const CollisionObject& message, Applied& applied);
+  /// How well the object's place is known; 0: there is none.
+  double place_sigma_m(std::string_view id) const;
+  /// After the world took it; `sigma_before_m` is what that was before.
+  void on_object(const CollisionObject& message, double sigma_before_m, Applied& applied);
+  /// What of the plane is left to the object, wherever of all that its sigma allows it is.
+  Area with_error(Area area, double place_sigma_m) const;
   void place_all();
   void place_zones();
   void find_problem();

@@ -120,8 +120,10 @@ void Keeper::see(const Viewpoint& from) {
   impl.move_map(from);
   impl.viewpoint = from;
   const double sigma_m = impl.position_sigma_m();
-  if (position_problem(impl.pose(), sigma_m).empty())
-    impl.poses.add(from.t, impl.pose(), sigma_m, std::isfinite(impl.pose().yaw_rad));
+  const Pose2 pose = impl.pose();
+  if (position_problem(pose, sigma_m).empty())
+    impl.poses.add(from.t, pose, sigma_m,
+                   std::isfinite(pose.yaw_rad) ? impl.yaw_sigma_rad() : kAbsent);
 }
 
 void Keeper::set_sensors(const std::optional<sensor::FieldView>& view) {

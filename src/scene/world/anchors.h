@@ -7,6 +7,7 @@
 
 #include "scene/message/refusal.h"
 #include "scene/world/object.h"
+#include "scene/world/sighting.h"
 
 namespace drover::scene {
 
@@ -14,6 +15,7 @@ namespace drover::scene {
 struct Ground {
   Pose frame;
   GeodeticPoint origin;
+  Sighting seen{};
 };
 
 /// One anchor for each of `poses`, appended to `anchors`. `list` names the poses in the message.

@@ -33,6 +33,8 @@ struct Object {
   std::vector<Placed<SolidPrimitive>> primitives;
   std::vector<Placed<Mesh>> meshes;
   std::vector<Placed<Plane>> planes;
+  /// All of it may be so far beside its place, one sigma: 0 where it came in `map`.
+  double place_sigma_m = 0;
   std::uint64_t revision = 0;  ///< the world's when this last changed
 };
 

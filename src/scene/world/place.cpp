@@ -35,12 +35,17 @@ std::optional<Refusal> frame_refusal(std::string_view frame_id, const RobotModel
   return std::nullopt;
 }
 
-Result<Pose, Refusal> frame_in_map(const Header& header, const Placement& placement) {
+Result<PlacedFrame, Refusal> frame_in_map(const Header& header, const Placement& placement) {
   if (auto refused = frame_refusal(header.frame_id, placement.robot, "header")) return *refused;
-  if (is_global_frame(header.frame_id)) return Pose{};
+  if (is_global_frame(header.frame_id)) return PlacedFrame{};
+  if (header.stamp == Stamp{} && !placement.late.empty())
+    return Refusal{"header.stamp",
+                   "0 means now, but this may be older: " + std::string(placement.late)};
   const auto base = placement.poses.at(monotonic(header.stamp, placement), placement.arrived);
   if (!base) return Refusal{"header.stamp", base.error()};
-  return rigid::product(upright(*base), *link_on_base(placement.robot, header.frame_id));
+  const Pose on_base = *link_on_base(placement.robot, header.frame_id);
+  return PlacedFrame{rigid::product(upright(base->pose), on_base),
+                     {place_of(base->pose), base->position_sigma_m, base->yaw_sigma_rad}};
 }
 
 }  // namespace drover::scene

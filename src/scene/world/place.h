@@ -9,6 +9,7 @@
 #include "scene/message/refusal.h"
 #include "scene/world/pose_history.h"
 #include "scene/world/robot_model.h"
+#include "scene/world/sighting.h"
 
 namespace drover::scene {
 
@@ -19,6 +20,8 @@ struct Placement {
   Time arrived = kNever;
   /// Wall time since the epoch at `arrived`, less `arrived`: stamps are wall time.
   Duration wall_ahead{0};
+  /// Why it may have been sent long before; empty: it came at once.
+  std::string_view late{};
 };
 
 /// Farther from the origin nothing is placed: there the map is no plane any more.
@@ -28,8 +31,14 @@ inline constexpr double kFarthest_m = 100'000;
 std::optional<Refusal> frame_refusal(std::string_view frame_id, const RobotModel& robot,
                                      std::string_view header_path);
 
+/// A header's frame in `map`, and how well that is known.
+struct PlacedFrame {
+  Pose in_map;
+  Sighting seen;
+};
+
 /// The header's frame in `map`. A frame of the robot is where it was at the stamp; a stamp of zero
-/// means now. For `map` the stamp says nothing.
-Result<Pose, Refusal> frame_in_map(const Header& header, const Placement& placement);
+/// means now, which a message that came late cannot say. For `map` the stamp says nothing.
+Result<PlacedFrame, Refusal> frame_in_map(const Header& header, const Placement& placement);
 
 }  // namespace drover::scene

@@ -11,6 +11,13 @@
 
 namespace drover::scene {
 
+/// A pose, and how well it was known.
+struct KnownPose {
+  Pose2 pose;
+  double position_sigma_m = 0;
+  double yaw_sigma_rad = 0;
+};
+
 /// A ring of the last two seconds. What is older is refused, not guessed.
 class PoseHistory final {
  public:
@@ -28,20 +35,19 @@ class PoseHistory final {
   /// A place that is known worse than this places nothing.
   static constexpr double kMostSigma_m = 0.3;
 
-  /// In the order of time; what is not finite, or not newer, is left out. Without a heading (the
-  /// yaw may be any number then) it is remembered that there was none.
-  void add(Time time, const Pose2& pose, double position_sigma_m = 0, bool has_heading = true);
+  /// In the order of time; what is not finite, or not newer, is left out. Without a heading (an
+  /// absent sigma; the yaw may be any number then) it is remembered that there was none.
+  void add(Time time, const Pose2& pose, double position_sigma_m = 0, double yaw_sigma_rad = 0);
   /// When the map moved, or the place was lost: older poses are of another map.
   void clear() { size_ = 0; }
-  /// Interpolated by the shorter turn. `arrived` is when the question came; the error says how old
-  /// it is and how far back is known.
-  Result<Pose2, std::string> at(Time when, Time arrived) const;
+  /// Interpolated by the shorter turn, as well known as the worse of both. `arrived` is when the
+  /// question came; the error says how old it is and how far back is known.
+  Result<KnownPose, std::string> at(Time when, Time arrived) const;
 
  private:
   struct Known {
     Time time = kNever;
-    Pose2 pose;
-    double position_sigma_m = 0;
+    KnownPose at;
     bool has_heading = true;
   };
   static constexpr std::size_t kCapacity = 512;

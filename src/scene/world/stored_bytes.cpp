@@ -10,6 +10,7 @@ constexpr std::size_t kQuaternion = 26 + 4 * kNumber;
 constexpr std::size_t kPose = 34 + kPoint + kQuaternion;
 constexpr std::size_t kTriangle = 24 + 3 * kInteger;
 constexpr std::size_t kStoreHead = 160;  // its line: kind, arrival, length
+constexpr std::size_t kPlaceSigma = 18 + kNumber;
 // An object that is larger than a message is several, each with its head and at most 4.1 kB: per
 // thousand shapes, and twice per 10 000 triangles or 30 000 vertices.
 constexpr std::size_t kShareOfMessage = 5;
@@ -82,7 +83,7 @@ std::size_t of(const std::vector<Kind>& list) {
 
 std::size_t stored_bytes_of_head(const Object& object) {
   return kStoreHead + 2 * of(object.id) + of(object.type.key) + of(object.type.db) + 320 +
-         4 * kInteger;
+         kPlaceSigma + 4 * kInteger;
 }
 
 std::size_t stored_bytes_of_shapes(const Object& object) {

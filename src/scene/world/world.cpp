@@ -2,8 +2,10 @@
 #include "scene/world/world.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
+#include "scene/message/check.h"
 #include "scene/message/frames.h"
 #include "scene/world/map_change.h"
 #include "scene/world/words.h"
@@ -13,18 +15,46 @@ namespace {
 
 using Effect = Applied::Effect;
 
+template <class Shape>
+const Shape& shape_of(const Shape& shape) {
+  return shape;
+}
+template <class Shape>
+const Shape& shape_of(const Placed<Shape>& placed) {
+  return placed.shape;
+}
+
+/// The worst place of all shapes counts for the object; the first that is too far off is named.
+template <class Shape>
+std::optional<Refusal> anchor_shapes(const std::vector<Shape>& shapes,
+                                     const std::vector<Pose>& poses, std::string_view list,
+                                     const Ground& ground, std::vector<Anchor>& anchors,
+                                     double& sigma_m) {
+  if (auto refused = anchor_all(poses, list, ground, anchors)) return refused;
+  const Sighting& seen = ground.seen;
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    const bool turns = seen.yaw_sigma_rad != 0;
+    const double reach_m =
+        turns ? farthest_m(shape_of(shapes[i]), anchors[i].pose, seen.from) : 0.0;
+    const auto sigma = sigma_of_place(seen, reach_m);
+    if (!sigma.ok()) return Refusal{check::element(std::string(list), i), sigma.error()};
+    sigma_m = std::max(sigma_m, *sigma);
+  }
+  return std::nullopt;
+}
+
 /// Without one of their own the last shapes are where the header's frame is.
 template <class Shape>
 std::optional<Refusal> place_shapes(const std::vector<Shape>& shapes, std::vector<Pose> poses,
                                     std::string_view list, const Ground& ground,
-                                    std::vector<Placed<Shape>>& placed) {
+                                    std::vector<Placed<Shape>>& placed, double& sigma_m) {
   if (poses.size() > shapes.size())
     return Refusal{std::string(list), std::to_string(poses.size()) + " poses for " +
                                           std::to_string(shapes.size()) +
                                           " shapes; allowed: at most one for each"};
   poses.resize(shapes.size());
   std::vector<Anchor> anchors;
-  if (auto refused = anchor_all(poses, list, ground, anchors)) return refused;
+  if (auto refused = anchor_shapes(shapes, poses, list, ground, anchors, sigma_m)) return refused;
   for (std::size_t i = 0; i < shapes.size(); ++i)
     placed.push_back({shapes[i], anchors[i], anchors[i].pose});
   return std::nullopt;
@@ -72,6 +102,7 @@ struct NewPlaces {
   std::vector<Anchor> primitives;
   std::vector<Anchor> meshes;
   std::vector<Anchor> planes;
+  double sigma_m = 0;
 };
 
 std::optional<Refusal> find_places(const CollisionObject& message, const Object& object,
@@ -88,10 +119,14 @@ std::optional<Refusal> find_places(const CollisionObject& message, const Object&
         count_refusal(plane_poses.size(), object.planes.size(), "plane_poses", "planes")}) {
     if (refused) return refused;
   }
-  if (auto refused = anchor_all(primitive_poses, "primitive_poses", ground, places.primitives))
+  if (auto refused = anchor_shapes(object.primitives, primitive_poses, "primitive_poses", ground,
+                                   places.primitives, places.sigma_m))
     return refused;
-  if (auto refused = anchor_all(mesh_poses, "mesh_poses", ground, places.meshes)) return refused;
-  return anchor_all(plane_poses, "plane_poses", ground, places.planes);
+  if (auto refused = anchor_shapes(object.meshes, mesh_poses, "mesh_poses", ground, places.meshes,
+                                   places.sigma_m))
+    return refused;
+  return anchor_shapes(object.planes, plane_poses, "plane_poses", ground, places.planes,
+                       places.sigma_m);
 }
 
 /// The header's frame under the origin in force.
@@ -101,7 +136,7 @@ Result<Ground, Refusal> ground_of(const Header& header, const Placement& placeme
   if (!frame) return frame.error();
   if (!origin)
     return Refusal{"header.frame_id", "map has no origin yet: nothing can be placed before"};
-  return Ground{*frame, *origin};
+  return Ground{frame->in_map, *origin, frame->seen};
 }
 
 Result<Object, Refusal> placed(const CollisionObject& message, const Ground& ground) {
@@ -109,13 +144,13 @@ Result<Object, Refusal> placed(const CollisionObject& message, const Ground& gro
   object.id = message.id;
   object.type = message.type;
   if (auto refused = place_shapes(message.primitives, message.primitive_poses, "primitive_poses",
-                                  ground, object.primitives))
+                                  ground, object.primitives, object.place_sigma_m))
     return *refused;
-  if (auto refused =
-          place_shapes(message.meshes, message.mesh_poses, "mesh_poses", ground, object.meshes))
+  if (auto refused = place_shapes(message.meshes, message.mesh_poses, "mesh_poses", ground,
+                                  object.meshes, object.place_sigma_m))
     return *refused;
-  if (auto refused =
-          place_shapes(message.planes, message.plane_poses, "plane_poses", ground, object.planes))
+  if (auto refused = place_shapes(message.planes, message.plane_poses, "plane_poses", ground,
+                                  object.planes, object.place_sigma_m))
     return *refused;
   if (object.primitives.empty() && object.meshes.empty() && object.planes.empty())
     return Refusal{"primitives", "no shape: an object has primitives, meshes or planes"};
@@ -141,8 +176,8 @@ Result<Applied, Refusal> World::apply(const CollisionObject& message, const Plac
   }
 }
 
-Result<Applied, Refusal> World::restore(const CollisionObject& message,
-                                        const GeodeticPoint& origin) {
+Result<Applied, Refusal> World::restore(const CollisionObject& message, const GeodeticPoint& origin,
+                                        double place_sigma_m) {
   if (message.id.empty()) return Refusal{"id", "empty: an object is kept by its id"};
   const bool appends = message.operation == CollisionObject::APPEND;
   if (!appends && message.operation != CollisionObject::ADD)
@@ -150,7 +185,9 @@ Result<Applied, Refusal> World::restore(const CollisionObject& message,
   if (!is_global_frame(message.header.frame_id))
     return Refusal{"header.frame_id", "what is kept is in map"};
   if (!is_origin(origin)) return Refusal{"", "it was kept under an origin that is no place"};
-  const Ground ground{{}, origin};
+  if (!std::isfinite(place_sigma_m) || place_sigma_m < 0)
+    return Refusal{"", "it was kept with a place that is not known"};
+  const Ground ground{{}, origin, {{}, place_sigma_m, 0}};
   auto applied = appends ? append(message, ground) : add(message, ground);
   if (applied && origin_) put_under(*find_object(message.id), *origin_);
   return applied;
@@ -189,6 +226,7 @@ Result<Applied, Refusal> World::append(const CollisionObject& message, const Gro
   take_over(there->primitives, more.value().primitives);
   take_over(there->meshes, more.value().meshes);
   take_over(there->planes, more.value().planes);
+  there->place_sigma_m = std::max(there->place_sigma_m, more->place_sigma_m);
   const Applied applied = changed(Effect::extended);
   there->revision = applied.revision;
   return applied;
@@ -202,6 +240,7 @@ Result<Applied, Refusal> World::move(const CollisionObject& message, const Groun
   set_places(object->primitives, places.primitives);
   set_places(object->meshes, places.meshes);
   set_places(object->planes, places.planes);
+  object->place_sigma_m = places.sigma_m;
   const Applied applied = changed(Effect::moved);
   object->revision = applied.revision;
   return applied;

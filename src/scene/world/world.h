@@ -37,9 +37,10 @@ class World final {
   /// place on earth; in a frame of the robot it goes along.
   Result<Applied, Refusal> apply(const Constraints& message, const RobotModel& robot);
 
-  /// What was stored under another origin than the one in force: an ADD or APPEND in `map`, a set
-  /// of constraints. It is at its place on earth.
-  Result<Applied, Refusal> restore(const CollisionObject& message, const GeodeticPoint& origin);
+  /// What was stored under another origin than the one in force: an ADD or APPEND in `map` with the
+  /// sigma that its place had, a set of constraints. It is at its place on earth.
+  Result<Applied, Refusal> restore(const CollisionObject& message, const GeodeticPoint& origin,
+                                   double place_sigma_m = 0);
   Result<Applied, Refusal> restore(const Constraints& message, const RobotModel& robot,
                                    const GeodeticPoint& origin);
 

@@ -22,7 +22,8 @@ Pose long_pose() {
 constexpr GeodeticPoint kLongOrigin{kLong, kLong, kLong};
 
 std::string text_of(const Object& object) {
-  return publish::stored_text(StoredObject{in_messages(as_message(object)), kLongOrigin});
+  return publish::stored_text(
+      StoredObject{in_messages(as_message(object)), kLongOrigin, object.place_sigma_m});
 }
 
 std::size_t bytes_of(const Object& object) {
@@ -41,6 +42,7 @@ Object long_object(std::size_t primitives, std::size_t meshes, std::size_t trian
                    std::size_t vertices, std::size_t planes) {
   Object object;
   object.id = std::string(200, '"');
+  object.place_sigma_m = -kLong;
   object.type = {std::string(200, '\\'), std::string(200, '"')};
   object.primitives.assign(primitives,
                            {{SolidPrimitive::BOX, {kLong, kLong, kLong}}, {}, long_pose()});

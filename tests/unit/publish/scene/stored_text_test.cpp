@@ -34,6 +34,26 @@ TEST(StoredTexts, OfAnObjectAreReadWithTheirOriginToTheBit) {
   EXPECT_EQ(read->origin.altitude_m, kField.altitude_m);
 }
 
+TEST(StoredTexts, OfAnObjectAreReadWithHowWellItsPlaceIsKnown) {
+  const std::string text = stored_text(scene::StoredObject{{shelf()}, kField, 0.1 + 0.02});
+  const auto read = read_stored_object(text);
+  ASSERT_TRUE(read.ok()) << read.error().why;
+  EXPECT_EQ(read->place_sigma_m, 0.1 + 0.02);
+  // What is of `map`, and all that was stored before this was kept, has no error.
+  const std::string before = stored_text(scene::StoredObject{{shelf()}, kField});
+  EXPECT_EQ(before.find("place_sigma_m"), std::string::npos);
+  EXPECT_EQ(read_stored_object(before)->place_sigma_m, 0);
+}
+
+TEST(StoredTexts, OfAnObjectAreRefusedWhenHowWellItsPlaceIsKnownIsDamaged) {
+  const std::string good = stored_text(scene::StoredObject{{shelf()}, kField, 0.125});
+  for (const char* bad : {"-0.125", "null", "\"0.125\"", "1e999"}) {
+    std::string text = good;
+    text.replace(text.find("0.125"), 5, bad);
+    EXPECT_FALSE(read_stored_object(text).ok()) << bad;
+  }
+}
+
 TEST(StoredTexts, OfAnObjectOfAnySizeAreReadAgain) {
   auto object = shelf();
   object.operation = scene::CollisionObject::ADD;

@@ -155,6 +155,72 @@ TEST_F(AKeeper, PlacesNothingByAPoseThatIsHardlyKnown) {
   EXPECT_THAT(apply(box("box1", 3, 0, 0.2, "base_link")), HasSubstr("not known"));
 }
 
+TEST_F(AKeeper, KeepsFartherFromWhatItPlacedByAPoseThatWasLessWellKnown) {
+  from.pose.position_sigma_m = 0.05;
+  from.pose.yaw_sigma_rad = 0.02;
+  from.t += std::chrono::milliseconds(100);
+  keeper.see(from);
+  const double wider_m = 2 * (0.05 + 0.02 * std::hypot(2.1, 0.1));
+  EXPECT_EQ(apply(box("box1", 2, 0, 0.2, "base_link")), "done");
+  from.pose.position_sigma_m = from.pose.yaw_sigma_rad = 0;  // since then it is better known
+  EXPECT_NEAR(look().ahead_m, 1.9 - 0.5 - 0.1 - wider_m, kResolution_m + 1e-9);
+  EXPECT_EQ(apply(box("box2", -2, 0)), "done");
+  EXPECT_NEAR(look().back_m, 1.9 - 0.5 - 0.1, kResolution_m + 1e-9) << "in map it has none";
+
+  const auto stored = keeper.stored_object("box1");
+  ASSERT_TRUE(stored);
+  EXPECT_NEAR(stored->place_sigma_m, 0.5 * wider_m, 1e-9);
+  Keeper next(keeper_settings());
+  next.set_zones({}, "");
+  next.set_scene_problem("");
+  for (const CollisionObject& message : stored->messages)
+    EXPECT_EQ(words(next.restore(message, stored->origin, stored->place_sigma_m)), "done");
+  next.see(from);
+  EXPECT_NEAR(next.look(nullptr).ahead_m, 1.3 - wider_m, kResolution_m + 1e-9);
+  EXPECT_NEAR(next.stored_object("box1")->place_sigma_m, 0.5 * wider_m, 1e-9);
+
+  from.origin.latitude_deg += 10 / 111'200.0;  // everything is placed anew
+  from.pose.y_m -= 10;
+  next.see(from);
+  EXPECT_NEAR(next.look(nullptr).ahead_m, 1.3 - wider_m, 0.03);
+}
+
+TEST_F(AKeeper, KeepsFartherFromAllOfAnObjectThatIsExtendedByAWorsePose) {
+  apply(box("box1", 2, 0));
+  from.pose.position_sigma_m = 0.1;
+  from.t += std::chrono::milliseconds(100);
+  keeper.see(from);
+  CollisionObject more = box("box1", -2, 0, 0.2, "base_link");
+  more.operation = CollisionObject::APPEND;
+  EXPECT_EQ(apply(more), "done");
+  from.pose.position_sigma_m = 0;
+  EXPECT_NEAR(look().ahead_m, 1.3 - 0.2, kResolution_m + 1e-9);
+  EXPECT_NEAR(look().back_m, 1.3 - 0.2, kResolution_m + 1e-9);
+  more.header.frame_id = "map";
+  more.primitive_poses[0].position_m.x = 20;
+  EXPECT_EQ(apply(more), "done");
+  EXPECT_NEAR(look().ahead_m, 1.3 - 0.2, kResolution_m + 1e-9) << "widened once";
+  CollisionObject move;
+  move.id = "box1";
+  move.header.frame_id = "map";
+  move.operation = CollisionObject::MOVE;
+  move.primitive_poses = {{{2, 0, 0.5}, {}}, {{-2, 0, 0.5}, {}}, {{20, 0, 0.5}, {}}};
+  EXPECT_EQ(apply(move), "done");
+  EXPECT_NEAR(look().ahead_m, 1.3, kResolution_m + 1e-9);
+}
+
+TEST_F(AKeeper, PlacesNothingOfNowThatCameLate) {
+  const Arrived late{from.t, Duration{0}, "the broker is late"};
+  EXPECT_THAT(words(keeper.apply(box("box1", 2, 0, 0.2, "base_link"), late)),
+              HasSubstr("header.stamp: 0 means now"));
+  EXPECT_THAT(words(keeper.apply(box("box1", 2, 0, 0.2, "base_link"), late)),
+              HasSubstr("the broker is late"));
+  CollisionObject stamped = box("box1", 2, 0, 0.2, "base_link");
+  stamped.header.stamp.sec = 100;
+  EXPECT_EQ(words(keeper.apply(stamped, late)), "done");
+  EXPECT_EQ(words(keeper.apply(box("box2", 2, 0), late)), "done");
+}
+
 TEST_F(AKeeper, NamesWhatTheStoreHasToHaveAnew) {
   EXPECT_THAT(keeper.take_changed_objects(), IsEmpty());
   apply(box("box2", 2, 0));

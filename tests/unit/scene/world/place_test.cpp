@@ -95,14 +95,50 @@ TEST(Place, APlaceThatWasLostIsNoPlaceOfNow) {
   EXPECT_THAT(yard.apply(message), HasSubstr("the robot's place is not known since 3.0 s"));
 }
 
+TEST(Place, OfAMessageThatABrokerHeldBackIsNotThatOfNow) {
+  Yard yard;
+  yard.drive(1, 1);
+  yard.late = "the broker was late just now; try again";
+  CollisionObject message = seen(0);
+  message.header.stamp = {};
+  EXPECT_EQ(yard.apply(message),
+            "header.stamp: 0 means now, but this may be older: the broker was late just now; try "
+            "again");
+  EXPECT_TRUE(yard.world.objects().empty());
+  EXPECT_EQ(yard.apply(seen(100.5)), "added") << "placed by its stamp as ever";
+  expect_at(yard.place_of("box1"), 2.5, 0, 0.3, 1e-6);
+  EXPECT_THAT(yard.apply(seen(97)), HasSubstr("the history reaches back"));
+}
+
+TEST(Place, OfALateMessageInMapIsTaken) {
+  Yard yard;
+  yard.late = "the broker was late just now; try again";
+  EXPECT_EQ(yard.apply(add_box("box1", at(2, 0))), "added");
+  EXPECT_EQ(yard.apply(add_box("box1", at(3, 0), "1")), "replaced");
+  CollisionObject move = yard::only(CollisionObject::MOVE, "box1");
+  move.primitive_poses = {at(7, 8)};
+  EXPECT_EQ(yard.apply(move), "moved");
+  EXPECT_EQ(yard.apply(yard::only(CollisionObject::REMOVE, "box1")), "removed");
+}
+
+TEST(PoseHistory, KnowsAPlaceBetweenTwoAsWellAsTheWorseOfBoth) {
+  PoseHistory poses;
+  poses.add(Time{from_s(1.0)}, {0, 0, 0}, 0.05, 0.03);
+  poses.add(Time{from_s(1.2)}, {2, 0, 0}, 0.1, 0.01);
+  const Time now{from_s(1.2)};
+  EXPECT_EQ(poses.at(Time{from_s(1.1)}, now)->position_sigma_m, 0.1);
+  EXPECT_EQ(poses.at(Time{from_s(1.1)}, now)->yaw_sigma_rad, 0.03);
+  EXPECT_EQ(poses.at(now, now)->yaw_sigma_rad, 0.01);
+}
+
 TEST(PoseHistory, TurnsTheShorterWay) {
   PoseHistory poses;
   poses.add(Time{from_s(1.0)}, {0, 0, kPi - 0.1});
   poses.add(Time{from_s(1.2)}, {2, 0, -kPi + 0.1});
   const auto pose = poses.at(Time{from_s(1.1)}, Time{from_s(1.2)});
   ASSERT_TRUE(pose.ok());
-  EXPECT_NEAR(std::abs(pose->yaw_rad), kPi, 1e-9);
-  EXPECT_NEAR(pose->x_m, 1, 1e-9);
+  EXPECT_NEAR(std::abs(pose->pose.yaw_rad), kPi, 1e-9);
+  EXPECT_NEAR(pose->pose.x_m, 1, 1e-9);
 }
 
 TEST(PoseHistory, ReachesBackTwoSecondsAtAnyRate) {
@@ -113,7 +149,7 @@ TEST(PoseHistory, ReachesBackTwoSecondsAtAnyRate) {
     const Time arrived{from_s(t_s)};
     const auto pose = poses.at(arrived - std::chrono::milliseconds(1790), arrived);
     ASSERT_TRUE(pose.ok()) << step_s << ": " << pose.error();
-    EXPECT_NEAR(pose->x_m, t_s - 1.79, 1e-6) << step_s;
+    EXPECT_NEAR(pose->pose.x_m, t_s - 1.79, 1e-6) << step_s;
     EXPECT_FALSE(poses.at(arrived - std::chrono::milliseconds(2210), arrived).ok()) << step_s;
   }
 }
@@ -136,7 +172,7 @@ TEST(PoseHistory, LeavesOutWhatIsNoPlace) {
   poses.add(Time{from_s(1.0)}, {1, 0, 0});
   poses.add(Time{from_s(0.5)}, {2, 0, 0});
   ASSERT_TRUE(poses.at(Time{from_s(1.0)}, Time{from_s(1.0)}).ok());
-  EXPECT_EQ(poses.at(Time{from_s(1.0)}, Time{from_s(1.0)})->x_m, 1);
+  EXPECT_EQ(poses.at(Time{from_s(1.0)}, Time{from_s(1.0)})->pose.x_m, 1);
 }
 
 }  // namespace

@@ -65,6 +65,10 @@ struct Yard {
   PoseHistory poses;
   World world;
   double now_s = kStart_s;
+  // How well the robot knows where it is while it drives.
+  double position_sigma_m = 0;
+  double yaw_sigma_rad = 0;
+  std::string late;
 
   Yard() {
     robot.links.push_back({"lidar", {{0.5, 0, 0.3}, rigid::about_z(kPi / 2)}, {}});
@@ -77,11 +81,13 @@ struct Yard {
       Pose2 pose = from;
       pose.x_m += speed_mps * t_s * std::cos(from.yaw_rad);
       pose.y_m += speed_mps * t_s * std::sin(from.yaw_rad);
-      poses.add(Time{from_s(kStart_s + t_s)}, pose);
+      poses.add(Time{from_s(kStart_s + t_s)}, pose, position_sigma_m, yaw_sigma_rad);
       now_s = kStart_s + t_s;
     }
   }
-  Placement placement() const { return {robot, poses, Time{from_s(now_s)}, from_s(kWall0_s)}; }
+  Placement placement() const {
+    return {robot, poses, Time{from_s(now_s)}, from_s(kWall0_s), late};
+  }
 
   /// "added", ... or "path: why".
   std::string apply(const CollisionObject& message) {
@@ -93,6 +99,11 @@ struct Yard {
     return object != nullptr && i < object->primitives.size()
                ? object->primitives[i].in_map.position_m
                : Vector3{kAbsent, kAbsent, kAbsent};
+  }
+
+  double sigma_of(const std::string& id) const {
+    const Object* object = world.object(id);
+    return object != nullptr ? object->place_sigma_m : kAbsent;
   }
 
   static std::string in_words(const Result<Applied, Refusal>& result) {
