@@ -69,7 +69,7 @@ SceneTopics::Waiting& SceneTopics::expect(std::string_view topic, const Arrival&
   Waiting& waiting = waiting_.emplace_back();
   waiting.number = numbers_.next();
   waiting.topic = topic;
-  waiting.arrived = {now, arrival.wall - now.time_since_epoch()};
+  waiting.arrived = {now, arrival.wall - now.time_since_epoch(), std::string(arrival.late)};
   return waiting;
 }
 

@@ -29,8 +29,8 @@ class SceneOutletTest : public testing::Test {
   }
 
   void hear(std::string_view payload, std::string_view topic = kTopicCollisionObject,
-            Retain retain = Retain::no) {
-    const Arrival arrival{retain, {}, kWall + now_.time_since_epoch()};
+            Retain retain = Retain::no, std::string_view late = {}) {
+    const Arrival arrival{retain, late, kWall + now_.time_since_epoch()};
     EXPECT_TRUE(outlet_->on_message(topic, payload, arrival, now_, actions_));
     sort_out();
   }

@@ -64,6 +64,17 @@ TEST_F(SceneTopicsTest, AnswerWhatIsOnTheDiskAndNotBefore) {
           R"("notes":["it was followed"]})"));
 }
 
+TEST_F(SceneTopicsTest, HandOnThatABrokerHeldTheMessageBack) {
+  hear(ball("a"));
+  hear(ball("b"), kTopicCollisionObject, Retain::no, "the broker was late just now");
+  hear(long_ball("c"), kTopicCollisionObject, Retain::no, "the broker was late just now");
+  parse();
+  ASSERT_THAT(jobs_, SizeIs(3));
+  EXPECT_EQ(std::get<ApplyMessages>(jobs_[0].what).arrived.late, "");
+  for (const int i : {1, 2})
+    EXPECT_EQ(std::get<ApplyMessages>(jobs_[i].what).arrived.late, "the broker was late just now");
+}
+
 TEST_F(SceneTopicsTest, TakeConstraintsAsTheyTakeObjects) {
   hear(R"({"name":"row","joint_constraints":[{"joint_name":"base/y","position":1,)"
        R"("tolerance_above":0.5,"tolerance_below":0.5}]})",
