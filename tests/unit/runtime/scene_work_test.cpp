@@ -3,6 +3,8 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+
 #include "publish/scene/stored_text.h"
 #include "scene/zone/import_zone.h"
 #include "scene/zone/zone_text.h"
@@ -101,6 +103,27 @@ class SceneWorkTest : public testing::Test {
   std::uint64_t last_ = 0;
   Time now_{100s};
 };
+
+TEST_F(SceneWorkTest, KeepsHowWellAPlaceIsKnownOverARestart) {
+  store::StoredScene before;
+  before.texts = {{std::string(store::kObjectKind), "box1", 1,
+                   publish::stored_text(scene::StoredObject{{box("box1", 2)}, kField, 0.15})}};
+  make(std::move(before));
+  work();
+  see();
+  const double wider_m = 2 * 0.15;
+  EXPECT_NEAR(work_->look().ahead_m, 1.8 - 0.45 - 0.1 - wider_m, 0.08) << "its own error is small";
+  replies_.clear();
+  // What it places by itself is told to the store.
+  auto seen = box("seen", 5);
+  seen.header.frame_id = "base_link";
+  apply({seen});
+  work();
+  const auto applied = take<publish::MessagesApplied>();
+  ASSERT_THAT(applied.changes, SizeIs(1));
+  const double kept_m = std::get<scene::StoredObject>(*applied.changes[0].content).place_sigma_m;
+  EXPECT_NEAR(kept_m, 0.01 + 0.01 * std::hypot(5.2, 0.2), 1e-6);
+}
 
 TEST_F(SceneWorkTest, KnowsNothingBeforeWhatIsStoredIsRead) {
   make();
