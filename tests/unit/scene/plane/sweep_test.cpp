@@ -47,6 +47,9 @@ TEST(Sweep, FindsWhatTheRobotMayComeToBesideItsWay) {
   EXPECT_EQ(way.pose.y_m, 0);
   for (Step& step : steps) step.off_m = 0.03 * step.driven_m;
   EXPECT_GT(first_contact(field, footprint(), steps).free_m, way.free_m);
+  // Between two steps, however far apart.
+  const std::vector<Step> long_step{{{0, 0, 0}, 0, 0, 0}, {{5, 0, 0}, 5, 0, 0.25}};
+  EXPECT_NEAR(first_contact(field, footprint(), long_step).free_m, way.free_m, 0.05);
   steps.front().off_m = 4;
   EXPECT_TRUE(first_contact(field, footprint(), steps).at_start);
 }
