@@ -8,7 +8,7 @@ namespace drover::cli {
 
 namespace {
 
-OptionValue value_of(const OptionSpec& spec, const std::string& text) {
+OptionValue taken_as(const OptionSpec& spec, const std::string& text) {
   const auto wrong = [&](const std::string& why) {
     return WrongUsage("option " + std::string(spec.name) + ": \"" + text + "\" " + why);
   };
@@ -42,7 +42,7 @@ Options options_from(std::span<const OptionSpec> specs, const std::vector<std::s
                                    [&](const OptionSpec& each) { return each.name == name; });
     if (spec == specs.end()) throw WrongUsage("the driver has no option \"" + name + "\"");
     if (equals == std::string::npos) throw WrongUsage("option " + name + ": no =VALUE");
-    options.set(name, value_of(*spec, text.substr(equals + 1)));
+    options.set(name, taken_as(*spec, text.substr(equals + 1)));
   }
   for (const auto& spec : specs)
     if (!options.has(spec.name))
