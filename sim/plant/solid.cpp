@@ -8,11 +8,12 @@ namespace drover::sim {
 namespace {
 
 constexpr double kLargest_m = 100;
-constexpr std::pair<Solid::Kind, std::string_view> kSolidWords[] = {{Solid::Kind::box, "box"},
-                                                               {Solid::Kind::cylinder, "cylinder"},
-                                                               {Solid::Kind::sphere, "sphere"},
-                                                               {Solid::Kind::cone, "cone"},
-                                                               {Solid::Kind::prism, "prism"}};
+constexpr std::pair<Solid::Kind, std::string_view> kSolidWords[] = {
+    {Solid::Kind::box, "box"},
+    {Solid::Kind::cylinder, "cylinder"},
+    {Solid::Kind::sphere, "sphere"},
+    {Solid::Kind::cone, "cone"},
+    {Solid::Kind::prism, "prism"}};
 
 bool is_length(double value_m) {
   return value_m > 0 && value_m <= kLargest_m;
