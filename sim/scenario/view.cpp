@@ -1,5 +1,6 @@
 #include "sim/scenario/view.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <sstream>
@@ -76,6 +77,25 @@ std::string first_in_the_way(const nlohmann::json& status) {
   return words_of_clearance(status, "first");
 }
 
+std::string sensor_words(const nlohmann::json& status) {
+  const auto part = [&status](const char* name) {
+    const auto it = status.is_object() ? status.find(name) : status.end();
+    return it != status.end() && it->is_object() ? *it : nlohmann::json::object();
+  };
+  std::string out;
+  if (const auto battery = part("battery"); std::isfinite(number_at(battery, "voltage_V")))
+    out = text("battery %.1f %% %.1f V %+.1f A", number_at(battery, "soc_percent"),
+               number_at(battery, "voltage_V"), number_at(battery, "current_A"));
+  const auto imu = part("imu");
+  const auto health = imu.find("health");
+  if (health == imu.end() || !health->is_string()) return out;
+  out += (out.empty() ? "IMU " : "; IMU ") + health->get<std::string>();
+  if (const double roll_rad = number_at(imu, "roll_rad"); std::isfinite(roll_rad))
+    out +=
+        text(", roll %.1f pitch %.1f deg", to_deg(roll_rad), to_deg(number_at(imu, "pitch_rad")));
+  return out;
+}
+
 View::View(ViewKind kind, bool coloured, const Mission& mission, const std::string& daemon_socket)
     : kind_(kind), coloured_(coloured), mission_(mission), status_(daemon_socket) {}
 
@@ -91,11 +111,16 @@ Time View::draw(Time now, const RobotReport& report) {
   note_place(report);
   auto shown = kind_ == ViewKind::lines ? line(report) : picture(report);
   if (kind_ == ViewKind::lines && report.heard() && ++lines_ % 10 == 0) {
-    shown +=
-        "       " + left(report) + "\n       " + sensors() + "\n       wheels " + wheels() + "\n";
-    const auto first = first_in_the_way(status_.status());
-    if (const auto free = free_room(status_.status()); !free.empty())
-      shown += "       free " + free + (first.empty() ? "" : "; " + first) + "\n";
+    const auto add = [&shown](const std::string& words) {
+      if (!words.empty()) shown += "       " + words + "\n";
+    };
+    const auto& status = status_.status();
+    const auto first = first_in_the_way(status);
+    add(left(report));
+    add(sensor_words(status));
+    add("wheels " + wheels());
+    if (const auto free = free_room(status); !free.empty())
+      add("free " + free + (first.empty() ? "" : "; " + first));
   }
   std::fwrite(shown.data(), 1, shown.size(), stdout);
   std::fflush(stdout);
@@ -139,12 +164,13 @@ void View::on_event(const std::string& event) {
 
 void View::close() {
   if (kind_ == ViewKind::lines) {
-    bool begun = false;
+    auto rows = map();
+    const auto drawn = [](const std::string& row) { return !row.empty(); };
+    rows.erase(rows.begin(), std::find_if(rows.begin(), rows.end(), drawn));
+    // Before the last one, which is the scale.
+    rows.erase(std::find_if(rows.rbegin() + 1, rows.rend(), drawn).base(), rows.end() - 1);
     std::fputs("\n", stdout);
-    for (const auto& row : map()) {
-      begun = begun || !row.empty();
-      if (begun) std::printf("%s\n", row.c_str());
-    }
+    for (const auto& row : rows) std::printf("%s\n", row.c_str());
   }
   kind_ = ViewKind::none;
 }
@@ -190,20 +216,6 @@ std::string View::wheels() const {
   return out;
 }
 
-std::string View::sensors() const {
-  const auto& status = status_.status();
-  const auto part = [&status](const char* name) {
-    const auto it = status.is_object() ? status.find(name) : status.end();
-    return it != status.end() && it->is_object() ? *it : nlohmann::json::object();
-  };
-  const auto battery = part("battery");
-  const auto imu = part("imu");
-  return text("battery %.1f %% %.1f V %+.1f A; IMU %s, roll %.1f pitch %.1f deg",
-              number_at(battery, "soc_percent"), number_at(battery, "voltage_V"),
-              number_at(battery, "current_A"), imu.value("health", "-").c_str(),
-              to_deg(number_at(imu, "roll_rad")), to_deg(number_at(imu, "pitch_rad")));
-}
-
 std::string View::left(const RobotReport& report) const {
   const auto& status = status_.status();
   if (report.nav_status() != "NAV_RUN" || !status.is_object() || !status.contains("nav"))
@@ -240,7 +252,7 @@ std::string View::picture(const RobotReport& report) const {
   tell("place", place(report));
   tell("free", free_room(status_.status()));
   tell("wheels", wheels());
-  tell("power", sensors());
+  tell("power", sensor_words(status_.status()));
   tell("answer", report.last_feedback());
   tell("last", last_event_);
   return out + "\033[J\033[?7h";

@@ -26,6 +26,9 @@ std::string free_room(const nlohmann::json& status);
 /// "box1 is in the way, 2.31 m ahead", or nothing.
 std::string first_in_the_way(const nlohmann::json& status);
 
+/// "battery 84.0 % 26.4 V -1.2 A; IMU fresh, roll 0.1 pitch 0.0 deg" of what the robot has.
+std::string sensor_words(const nlohmann::json& status);
+
 class View {
  public:
   View(ViewKind kind, bool coloured, const Mission& mission, const std::string& daemon_socket);
@@ -54,7 +57,6 @@ class View {
   std::string picture(const RobotReport& report) const;
   std::string place(const RobotReport& report) const;
   std::string wheels() const;
-  std::string sensors() const;
   std::string left(const RobotReport& report) const;
 
   ViewKind kind_;

@@ -35,5 +35,17 @@ TEST(AView, TellsHowFarTheWayIsFreeWhereThatIsKnown) {
   EXPECT_EQ(free_room(json::parse(R"({"clearance": {"unknown": "no position"}})")), "no position");
 }
 
+TEST(AView, TellsOfTheSensorsThatTheRobotHas) {
+  using nlohmann::json;
+  EXPECT_EQ(sensor_words(json()), "");
+  EXPECT_EQ(sensor_words(json::parse(R"({"battery": null, "imu": {}})")), "");
+  EXPECT_EQ(sensor_words(json::parse(R"({"imu": {"health": "silent", "roll_rad": null}})")),
+            "IMU silent");
+  EXPECT_EQ(sensor_words(json::parse(
+                R"({"battery": {"soc_percent": 84, "voltage_V": 26.4, "current_A": -1.2},
+                    "imu": {"health": "fresh", "roll_rad": 0.1, "pitch_rad": 0}})")),
+            "battery 84.0 % 26.4 V -1.2 A; IMU fresh, roll 5.7 pitch 0.0 deg");
+}
+
 }  // namespace
 }  // namespace drover::sim
