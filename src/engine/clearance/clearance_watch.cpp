@@ -53,8 +53,30 @@ Reason ClearanceWatch::find_unknown(Time now, const WaySince& since) const {
     why = found_.unknown;
   } else if (!since.known) {
     why = "nobody knows how far the robot went since its surroundings were looked at";
+  } else if (late_since_ != kNever && now - late_since_ >= from_s(config_.silent_s)) {
+    why.format("nobody looked for %.2f s around the robot, again and again: the scene is too slow",
+               to_s(latest_));
   }
   return why;
+}
+
+/// One late answer is braked for and forgotten with the next. Where one after the other is late the
+/// robot stands nearly all the time, and that has to be told: between two late ones there may be
+/// one cycle or some in which it might drive.
+void ClearanceWatch::watch_lateness(Time now) {
+  if (found_.t == kNever) return;
+  const Duration age = now - found_.t;
+  if (age > from_s(config_.max_age_s)) {
+    in_time_since_ = kNever;
+    if (late_since_ == kNever) {
+      late_since_ = now;
+      latest_ = {};
+    }
+    latest_ = std::max(latest_, age);
+  } else if (late_since_ != kNever) {
+    if (in_time_since_ == kNever) in_time_since_ = now;
+    if (now - in_time_since_ > from_s(config_.max_age_s)) late_since_ = kNever;
+  }
 }
 
 /// Nobody saw any way free now.
@@ -190,6 +212,7 @@ void ClearanceWatch::update(const ClearanceInput& input) {
   if (found_.t > input.now) found_ = {};  // or it would keep all right ones out until then
   const WaySince since = ways_.since(found_.t);
   caps_ = {};
+  watch_lateness(input.now);
   unknown_ = find_unknown(input.now, since);
   unasked_.clear();
   if (unknown_.empty() && input.path != 0 && input.path != found_.path)

@@ -86,6 +86,7 @@ class ClearanceWatch final {
   static Way way_of(const Twist& twist);
   static StopChain in_curve(StopChain chain, const ClearanceInput& input);
   Reason find_unknown(Time now, const WaySince& since) const;
+  void watch_lateness(Time now);
   void watch_constraints(Time now);
   double agreed_m(const ClearanceInput& input, const WaySince& since) const;
   void judge(Gate& gate, const Stretch& way, const StopChain& full, Time now);
@@ -111,6 +112,10 @@ class ClearanceWatch final {
   std::array<Gate, kWays> gates_{};
   bool too_near_ = false;
   Time held_since_ = kNever;  ///< all constraints, again
+  // Answers that come too late to move by, one after the other.
+  Time late_since_ = kNever;
+  Time in_time_since_ = kNever;  ///< but for a moment: the next one may be late again
+  Duration latest_{0};           ///< the oldest of them
   Reason blocked_;
   Reason unknown_;
   Reason unasked_;

@@ -81,6 +81,47 @@ TEST_F(AClearance, PermitsNothingWithALateAnswerAndAllWithTheNext) {
   EXPECT_GT(watch.caps().ahead_mps, 0.5);
 }
 
+/// A scene that takes 0.14 s for each look: the robot would stand without a word for ever.
+TEST_F(AClearance, TellsOfAnswersThatAreLateOneAfterTheOther) {
+  tick(30);
+  ASSERT_EQ(why(), "");
+  answers = false;
+  const auto tick_late = [this](int cycles, Duration age) {
+    for (int i = 0; i < cycles; ++i) {
+      if (count++ % 8 == 0) {
+        found.t = now - age;
+        watch.on_clearance(found);
+      }
+      tick();
+    }
+  };
+  tick_late(30, 105ms);
+  EXPECT_EQ(why(), "") << "not yet";
+  tick_late(40, 105ms);
+  EXPECT_EQ(watch.caps().ahead_mps, 0);
+  EXPECT_THAT(why(), HasSubstr("nobody looked for 0.15 s"));
+  EXPECT_FALSE(blocked());
+  tick_late(60, 20ms);
+  EXPECT_EQ(why(), "");
+  EXPECT_GT(watch.caps().ahead_mps, 0.5);
+}
+
+/// Each is in time when it comes, and too old before the next one does.
+TEST_F(AClearance, TellsOfAnswersThatGrowTooOldInBetween) {
+  answers = false;
+  bool moved = false;
+  for (int i = 0; i < 100; ++i) {
+    if (i % 18 == 0) {  // each 90 ms, about 85 ms before
+      found.t = now - 85ms;
+      watch.on_clearance(found);
+    }
+    tick();
+    moved = moved || (i > 80 && watch.caps().ahead_mps > 0);
+  }
+  EXPECT_THAT(why(), HasSubstr("nobody looked for 0.1"));
+  EXPECT_FALSE(moved) << "it jerks";
+}
+
 TEST_F(AClearance, TellsABrokenConstraintUntilItHeldForASecond) {
   found.broken = "the fence of field_north: 0.20 m outside";
   tick(30);
