@@ -25,19 +25,24 @@ const std::string& subject(const VisibilityConstraint& visibility) {
   return visibility.sensor_pose.header.frame_id;
 }
 
+/// False: it is not of this list, and `i` is what it is from there on.
 template <class Kind>
-void judge_list(const Constraints& set, const std::vector<Kind>& list, const std::string& list_name,
-                const Setting& setting, bool named, const std::function<void(Verdict)>& take) {
-  for (std::size_t i = 0; i < list.size(); ++i) {
-    if (setting.moment == Moment::ahead && known_ahead(list[i]) == Ahead::nothing) continue;
-    const Finding finding = finding_of(list[i], setting);
-    Verdict verdict{finding.holds, finding.error, weight_of(list[i].weight), "", finding.why};
-    // Infinite rather than no number: it is put in order.
-    if (std::isnan(verdict.error)) verdict.error = std::numeric_limits<double>::infinity();
-    if (named || !finding.holds)
-      verdict.which = set.name + "." + check::element(list_name, i) + " (" + subject(list[i]) + ")";
-    take(std::move(verdict));
+bool judge_in(const Constraints& set, const std::vector<Kind>& list, const char* list_name,
+              std::size_t& i, const Setting& setting, bool named,
+              const std::function<void(Verdict)>& take) {
+  if (i >= list.size()) {
+    i -= list.size();
+    return false;
   }
+  if (setting.moment == Moment::ahead && known_ahead(list[i]) == Ahead::nothing) return true;
+  const Finding finding = finding_of(list[i], setting);
+  Verdict verdict{finding.holds, finding.error, weight_of(list[i].weight), "", finding.why};
+  // Infinite rather than no number: it is put in order.
+  if (std::isnan(verdict.error)) verdict.error = std::numeric_limits<double>::infinity();
+  if (named || !finding.holds)
+    verdict.which = set.name + "." + check::element(list_name, i) + " (" + subject(list[i]) + ")";
+  take(std::move(verdict));
+  return true;
 }
 
 /// The map about `origin` seen from the one in force, as it is at the robot.
@@ -62,10 +67,23 @@ Setting setting_of(const ConstraintSet& set, const World& world, const RobotMode
 
 void judge(const Constraints& set, const Setting& setting, bool named,
            const std::function<void(Verdict)>& take) {
-  judge_list(set, set.joint_constraints, "joint_constraints", setting, named, take);
-  judge_list(set, set.position_constraints, "position_constraints", setting, named, take);
-  judge_list(set, set.orientation_constraints, "orientation_constraints", setting, named, take);
-  judge_list(set, set.visibility_constraints, "visibility_constraints", setting, named, take);
+  for (std::size_t i = 0; i < count_of(set); ++i) judge_one(set, i, setting, named, take);
+}
+
+std::size_t count_of(const Constraints& set) {
+  return set.joint_constraints.size() + set.position_constraints.size() +
+         set.orientation_constraints.size() + set.visibility_constraints.size();
+}
+
+void judge_one(const Constraints& set, std::size_t i, const Setting& setting, bool named,
+               const std::function<void(Verdict)>& take) {
+  if (judge_in(set, set.joint_constraints, "joint_constraints", i, setting, named, take)) return;
+  if (judge_in(set, set.position_constraints, "position_constraints", i, setting, named, take))
+    return;
+  if (judge_in(set, set.orientation_constraints, "orientation_constraints", i, setting, named,
+               take))
+    return;
+  judge_in(set, set.visibility_constraints, "visibility_constraints", i, setting, named, take);
 }
 
 std::vector<Verdict> evaluate(const World& world, const RobotModel& robot, const RobotState& state,

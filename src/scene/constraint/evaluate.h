@@ -31,5 +31,9 @@ double weight_of(double told);
 /// gets the verdict; `which` of those that hold is empty unless `named`.
 void judge(const Constraints& set, const Setting& setting, bool named,
            const std::function<void(Verdict)>& take);
+/// Of all kinds, numbered from 0 in the order of the message; and one of them, judged as above.
+std::size_t count_of(const Constraints& set);
+void judge_one(const Constraints& set, std::size_t i, const Setting& setting, bool named,
+               const std::function<void(Verdict)>& take);
 
 }  // namespace drover::scene

@@ -57,5 +57,8 @@ struct Keeper::Impl {
 
 /// "constraint yard.position_constraints[0] (base_link) does not hold: 0.200 m outside".
 Reason in_words(const Verdict& broken);
+/// Of where the robot is: what a person can do about it besides. It stays at its end when the words
+/// before it are long.
+Reason with_way_out(const Verdict& broken);
 
 }  // namespace drover::scene

@@ -6,6 +6,7 @@
 #include "scene/keeper/keeper_impl.h"
 #include "scene/keeper/track_check_impl.h"
 #include "scene/keeper/way_line.h"
+#include "scene/look/with_edges.h"
 #include "scene/look/with_sensor.h"
 #include "scene/plane/track_line.h"
 #include "scene/world/map_change.h"
@@ -87,6 +88,14 @@ std::optional<Verdict> Keeper::Impl::broken() const {
   return heaviest_broken(world, settings.robot, state, terms());
 }
 
+Reason with_way_out(const Verdict& broken) {
+  constexpr std::string_view kWayOut = "; take it away (drover scene clear) or push it";
+  const FixedText<Reason::capacity() - kWayOut.size()> what(in_words(broken).view());
+  Reason words;
+  words.format("%.*s%s", static_cast<int>(what.view().size()), what.view().data(), kWayOut.data());
+  return words;
+}
+
 Reason in_words(const Verdict& broken) {
   constexpr std::size_t kShownWhich = 72;
   const FixedText<kShownWhich> which(broken.which);
@@ -158,8 +167,12 @@ Clearance Keeper::look(const Path* path) const {
   LookSettings look_settings = impl.settings.look;
   look_settings.steering = impl.steering();
   found = scene::look(impl.around, look_settings, from);
-  if (found.unknown.empty())
-    if (const auto broken = impl.broken()) found.broken = in_words(*broken);
+  if (found.unknown.empty() && impl.around.constrained) {
+    const Terms terms = impl.terms();
+    const Edges edges(impl.world, impl.settings.robot, terms, from.pose);
+    found = with_edges(found, edges, look_settings, from);
+    if (const auto broken = impl.broken()) found.broken = with_way_out(*broken);
+  }
   if (!impl.sensors) return found;
   SensorTerms terms{impl.settings.look.margin_m, true, driven_m(seen, impl.sensors->since)};
   if (line) terms.track_ahead = is_ahead(*line, from.pose.yaw_rad, impl.settings.pivot_rad);

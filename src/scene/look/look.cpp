@@ -31,21 +31,6 @@ double thrown_aside(const LookSettings& settings, double yaw_sigma_rad) {
   return std::min(settings.sigmas * yaw_sigma_rad, 2.0);
 }
 
-/// Along the curve of its twist, at rest straight on: ahead, or the same curve back.
-/// Nobody keeps it on that curve by the map, as the tracker does on its line: where the robot looks
-/// otherwise than it believes, it comes off by that much of its way.
-std::vector<Step> curve_steps(const LookSettings& settings, const Standpoint& from, bool back,
-                              double stride_m) {
-  const bool drives = std::abs(from.twist.vx_mps) > kStraight_mps;
-  const Twist curve = drives ? from.twist : Twist{1, 0};
-  const double v_mps = (back ? -1 : 1) * std::abs(curve.vx_mps);
-  const double wz_radps = curve.wz_radps * (v_mps * curve.vx_mps < 0 ? -1 : 1);
-  auto steps = twist_steps(from.pose, v_mps, wz_radps, settings.ahead_m, stride_m);
-  const double aside = thrown_aside(settings, from.yaw_sigma_rad);
-  for (Step& step : steps) step.off_m = aside * step.driven_m;
-  return steps;
-}
-
 /// Why nothing can be said; empty: something can.
 Reason find_unknown(const Surroundings& around, const Standpoint& from) {
   if (!around.problem.empty()) return around.problem;
@@ -115,6 +100,18 @@ void look_along(const Sweeper& sweeper, const LookSettings& settings, const Stan
 }
 
 }  // namespace
+
+std::vector<Step> curve_steps(const LookSettings& settings, const Standpoint& from, bool back,
+                              double stride_m) {
+  const bool drives = std::abs(from.twist.vx_mps) > kStraight_mps;
+  const Twist curve = drives ? from.twist : Twist{1, 0};
+  const double v_mps = (back ? -1 : 1) * std::abs(curve.vx_mps);
+  const double wz_radps = curve.wz_radps * (v_mps * curve.vx_mps < 0 ? -1 : 1);
+  auto steps = twist_steps(from.pose, v_mps, wz_radps, settings.ahead_m, stride_m);
+  const double aside = thrown_aside(settings, from.yaw_sigma_rad);
+  for (Step& step : steps) step.off_m = aside * step.driven_m;
+  return steps;
+}
 
 Reason position_problem(const Pose2& pose, double position_sigma_m) {
   if (is_finite(place_of(pose)) && std::isfinite(position_sigma_m) && position_sigma_m >= 0)

@@ -44,6 +44,12 @@ struct Standpoint {
 /// robot may go in any direction, and turn: what a search for the heading needs.
 Clearance look(const Surroundings& around, const LookSettings& settings, const Standpoint& from);
 
+/// Along the curve of its twist, at rest straight on: ahead, or the same curve back.
+/// Nobody keeps it on that curve by the map, as the tracker does on its line: where the robot looks
+/// otherwise than it believes, it comes off by that much of its way.
+std::vector<Step> curve_steps(const LookSettings& settings, const Standpoint& from, bool back,
+                              double stride_m);
+
 /// Nothing can be said by a position like this one; empty: it is one.
 Reason position_problem(const Pose2& pose, double position_sigma_m);
 /// The robot knows which way it looks.

@@ -134,8 +134,80 @@ TEST_F(AKeeper, NamesTheConstraintThatDoesNotHold) {
   from.pose.x_m = 2.5;
   EXPECT_EQ(text(look().broken),
             "constraint yard.position_constraints[0] (base_link) does not hold: 0.500 m outside of "
-            "its region");
+            "its region; take it away (drover scene clear) or push it");
   EXPECT_EQ(text(look().unknown), "");
+}
+
+TEST_F(AKeeper, EndsAWayBeforeTheEdgeOfAConstraint) {
+  ASSERT_EQ(apply(fence(2)), "done");
+  const Clearance found = look();
+  EXPECT_EQ(text(found.broken), "");
+  EXPECT_NEAR(found.ahead_m, 1.9, 0.005);
+  EXPECT_NEAR(found.back_m, 1.9, 0.005);
+  EXPECT_EQ(found.left_rad, kEndless);
+  EXPECT_EQ(text(found.first),
+            "the edge of constraint yard.position_constraints[0] (base_link) is 2.00 m ahead");
+  from.pose.position_sigma_m = 0.15;
+  EXPECT_NEAR(look().ahead_m, 1.6, 0.02) << "twice the sigma before it";
+  from.pose.position_sigma_m = 0;
+  from.asked = {-0.3, 0};
+  EXPECT_THAT(text(look().first), HasSubstr("2.00 m back"));
+  from.asked = {0.5, 0.5};  // a circle of 1 m: it stays inside
+  EXPECT_DOUBLE_EQ(look().ahead_m, 3);
+}
+
+TEST_F(AKeeper, ComesNoFartherThanTheEdgeAndMayGoBack) {
+  ASSERT_EQ(apply(fence(2)), "done");
+  double before_m = 3;
+  for (from.pose.x_m = 0; from.pose.x_m < 2; from.pose.x_m += 0.013) {
+    const Clearance found = look();
+    EXPECT_NEAR(found.ahead_m, std::max(1.9 - from.pose.x_m, 0.0), 0.005);
+    EXPECT_LE(found.ahead_m, before_m) << "no jump back";
+    EXPECT_GT(found.back_m, 1.8);
+    before_m = found.ahead_m;
+  }
+  from.pose.y_m = 1.97;
+  from.pose.x_m = 0;
+  EXPECT_NEAR(look().ahead_m, 1.9, 0.005) << "along the edge";
+}
+
+TEST_F(AKeeper, EndsATrackBeforeTheEdgeOfAConstraintThatCameLater) {
+  const Path path = row(20);
+  on(path, 0, 0, 20);
+  ASSERT_EQ(apply(fence(2)), "done");
+  EXPECT_NEAR(look(&path).along_m, 1.9, 0.005);
+  EXPECT_THAT(text(look(&path).first), HasSubstr("2.00 m along the track"));
+  EXPECT_DOUBLE_EQ(look(&path).ahead_m, 3) << "what is behind a goal does not slow a task";
+  on(path, 0, 0, 1);
+  EXPECT_EQ(look(&path).along_m, kEndless) << "it ends before";
+}
+
+TEST_F(AKeeper, EndsATurnBeforeTheEdgeOfAConstraint) {
+  Constraints set;
+  set.name = "row";
+  set.joint_constraints = {{"base/theta", 0, 0.5, 1, 0}, {"base/x", 0, 1, 1, 0}};
+  ASSERT_EQ(apply(set), "done");
+  const Clearance found = look();
+  EXPECT_NEAR(found.left_rad, 0.45, 0.005);
+  EXPECT_NEAR(found.right_rad, 0.95, 0.005);
+  EXPECT_NEAR(found.ahead_m, 0.9, 0.005);
+}
+
+TEST_F(AKeeper, LeavesWhatIsBrokenToThatWhichTellsIt) {
+  ASSERT_EQ(apply(fence(2)), "done");
+  from.pose.x_m = 2.5;
+  EXPECT_DOUBLE_EQ(look().ahead_m, 3);
+  EXPECT_EQ(text(look().first), "");
+  EXPECT_NE(text(look().broken), "");
+}
+
+TEST_F(AKeeper, SaysTheWayOutHoweverLongTheNamesAre) {
+  Constraints set = fence(2);
+  set.name = std::string(200, 'y');
+  ASSERT_EQ(apply(set), "done");
+  from.pose.x_m = 2.5;
+  EXPECT_THAT(text(look().broken),
+              testing::EndsWith("; take it away (drover scene clear) or push it"));
 }
 
 TEST_F(AKeeper, TakesTwiceThePositionsSigmaForAConstraintsMargin) {

@@ -1,0 +1,96 @@
+#include "scene/constraint/edge.h"
+
+#include <utility>
+
+#include "scene/constraint/evaluate.h"
+#include "scene/constraint/kinds.h"
+#include "scene/message/frames.h"
+
+namespace drover::scene {
+namespace {
+
+// What judging at one place costs, in points against primitives: some 70 ns each.
+constexpr double kMostCost = 320;
+constexpr double kMarginCost = 16;             // a position's margin is a circle of points
+constexpr double kVerticesOfAPrimitive = 1.5;  // of a hull, that cost as much
+constexpr int kHalvings = 8;                   // of a step of 25 cm: a millimetre
+
+double cost_of(const PositionConstraint& position) {
+  double shapes = static_cast<double>(position.constraint_region.primitives.size());
+  for (const Mesh& mesh : position.constraint_region.meshes)
+    shapes += 1 + static_cast<double>(mesh.vertices.size()) / kVerticesOfAPrimitive;
+  return kMarginCost * shapes;
+}
+
+/// By its number in the set; 0: a place alone does not break it.
+double cost_of(const Constraints& set, std::size_t i) {
+  const std::size_t joints = set.joint_constraints.size();
+  const std::size_t positions = set.position_constraints.size();
+  if (i < joints) return is_of_base(set.joint_constraints[i]) ? 1 : 0;
+  if (i < joints + positions) return cost_of(set.position_constraints[i - joints]);
+  return i < joints + positions + set.orientation_constraints.size() ? 1 : 0;
+}
+
+/// What a turn on the spot changes nothing of.
+bool is_of_point(const Constraints& set, std::size_t i) {
+  const std::size_t joints = set.joint_constraints.size();
+  if (i < joints) return set.joint_constraints[i].joint_name != "base/theta";
+  if (i - joints >= set.position_constraints.size()) return false;
+  const PositionConstraint& position = set.position_constraints[i - joints];
+  const Vector3& offset = position.target_point_offset;
+  return same_frame(position.link_name, kBaseLink) && offset.x == 0 && offset.y == 0 &&
+         is_global_frame(position.header.frame_id);
+}
+
+}  // namespace
+
+Edges::Edges(const World& world, const RobotModel& robot, const Terms& terms, const Pose2& here)
+    : world_(world), robot_(robot), terms_(terms) {
+  double cost = 0;
+  for (const ConstraintSet& set : world.constraints()) {
+    for (std::size_t i = 0; i < count_of(set.message); ++i) {
+      const double own = cost_of(set.message, i);
+      if (own == 0 || cost + own > kMostCost) continue;
+      const Bound bound{&set, i, is_of_point(set.message, i)};
+      cost += own;
+      if (broken(bound, here).empty()) bounds_.push_back(bound);
+    }
+  }
+}
+
+std::string Edges::broken(const Bound& bound, const Pose2& at) const {
+  RobotState state;
+  state.base = at;
+  std::string which;
+  judge_one(bound.set->message, bound.item,
+            setting_of(*bound.set, world_, robot_, state, terms_, Moment::ahead), false,
+            [&which](const Verdict& verdict) {
+              if (!verdict.holds) which = verdict.which;
+            });
+  return which;
+}
+
+std::optional<Edge> Edges::first(std::span<const Step> steps) const {
+  const bool on_the_spot = !steps.empty() && steps.back().driven_m == 0;
+  for (std::size_t i = 1; i < steps.size(); ++i) {
+    for (const Bound& bound : bounds_) {
+      if (on_the_spot && bound.of_point) continue;
+      std::string which = broken(bound, steps[i].pose);
+      if (which.empty()) continue;
+      const Step& from = steps[i - 1];
+      const Step& to = steps[i];
+      double holds = 0;
+      double breaks = 1;
+      for (int n = 0; n < kHalvings; ++n) {
+        const double middle = 0.5 * (holds + breaks);
+        // Another one may break first within this step; its own end is found by the next look.
+        (broken(bound, between(from.pose, to.pose, middle)).empty() ? holds : breaks) = middle;
+      }
+      return Edge{from.driven_m + holds * (to.driven_m - from.driven_m),
+                  from.turned_rad + holds * (to.turned_rad - from.turned_rad), std::move(which)};
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace drover::scene

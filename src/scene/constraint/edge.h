@@ -1,0 +1,51 @@
+// Where a way leads out of what constraints permit of the robot's place.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "scene/constraint/setting.h"
+#include "scene/plane/steps.h"
+#include "scene/world/world.h"
+
+namespace drover::scene {
+
+struct Edge {
+  // Until there: the last place at which it holds, to a millimetre and a twentieth of a degree.
+  double driven_m = 0;
+  double turned_rad = 0;
+  std::string which;  ///< as Verdict::which
+};
+
+/// The constraints of the world that a place alone breaks: positions, base/x, base/y, base/theta,
+/// yaws. Views are none of them: one may cost more than the whole look.
+class Edges final {
+ public:
+  /// Borrows world, robot and terms. Those that hold at `here` only, for what is broken is another
+  /// one's to tell; and only as many as may be judged at a hundred poses, many times a second.
+  Edges(const World& world, const RobotModel& robot, const Terms& terms, const Pose2& here);
+
+  bool empty() const { return bounds_.empty(); }
+  /// The first one on a way; nothing: all of them hold on all of it. What ends and begins again
+  /// between two steps is not found.
+  std::optional<Edge> first(std::span<const Step> steps) const;
+
+ private:
+  struct Bound {
+    const ConstraintSet* set = nullptr;
+    std::size_t item = 0;   ///< as judge_one counts
+    bool of_point = false;  ///< base_link's place breaks it, however it is turned
+  };
+  /// "" when it holds there.
+  std::string broken(const Bound& bound, const Pose2& at) const;
+
+  const World& world_;
+  const RobotModel& robot_;
+  const Terms& terms_;
+  std::vector<Bound> bounds_;
+};
+
+}  // namespace drover::scene

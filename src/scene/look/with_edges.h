@@ -1,0 +1,17 @@
+// What constraints permit of the robot's place, on top of what is free about it.
+#pragma once
+
+#include "drover/clearance.h"
+#include "scene/constraint/edge.h"
+#include "scene/look/look.h"
+
+namespace drover::scene {
+
+/// Never more than was free; where a constraint is broken already nothing is changed. Each way ends
+/// the margin before the edge, measured along it: who drives beside an edge is not held up by it,
+/// and who stands before it may drive back. A task is bounded on its track alone: what lies behind
+/// its goal or a corner it does not drive to.
+Clearance with_edges(Clearance found, const Edges& edges, const LookSettings& settings,
+                     const Standpoint& from);
+
+}  // namespace drover::scene
