@@ -34,6 +34,7 @@ struct Viewpoint {
   /// What the owner of the base would have it do, before anything bounds it: where it would go.
   Twist asked;
   WayLeft way;
+  Owner owner = Owner::nobody;              ///< who moves it, though it may stand and wait
   double roll_rad = kAbsent;                ///< absent: no inertial sensor tells it
   double pitch_rad = kAbsent;               ///< likewise
   FixedVector<double, kMaxAxes> joint_rad;  ///< positions, by AxisId

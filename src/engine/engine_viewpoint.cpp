@@ -14,6 +14,7 @@ void Engine::Impl::fill_viewpoint() {
   view.commanded = commanded;
   view.asked = asked;
   view.way = navigator.way();
+  view.owner = snapshot.nav.owner;
   const bool level_known = imu_trusted();
   view.roll_rad = level_known ? estimate.roll_rad : kAbsent;
   view.pitch_rad = level_known ? estimate.pitch_rad : kAbsent;

@@ -37,8 +37,9 @@ struct ApplyMessages {
 struct SetZones {
   std::shared_ptr<const std::vector<scene::Zone>> zones;
   std::string problem;
+  bool takes_away = false;  ///< one that was there: not while somebody moves the robot
 };
-/// Objects and constraints.
+/// Objects and constraints; not while somebody moves the robot.
 struct ClearScene {};
 /// A person gave up what of the stored scene is lost.
 struct AcceptSceneLoss {};
@@ -79,6 +80,10 @@ struct MessagesApplied {
 };
 /// Of what is only done: zones, clearing, a loss accepted.
 struct SceneDone {};
+/// Nothing was changed: somebody moves the robot by now.
+struct SceneRefused {
+  std::string_view why;  ///< of not_while()
+};
 /// A row of what a person asked to see.
 struct SceneRow {
   std::string_view kind;
@@ -124,7 +129,8 @@ std::string zones_problem(const std::string& of_file,
 
 struct SceneReply {
   std::uint64_t number = 0;
-  std::variant<MessagesApplied, SceneDone, SceneListed, SceneShown, TrackChecked, SceneRestored>
+  std::variant<MessagesApplied, SceneDone, SceneRefused, SceneListed, SceneShown, TrackChecked,
+               SceneRestored>
       what;
 };
 

@@ -6,11 +6,21 @@
 #include "publish/line_json.h"
 #include "publish/scene_list.h"
 #include "scene/zone/zone_checks.h"
+#include "scene/zone/zone_text.h"
 
 namespace drover::publish {
 namespace {
 
 constexpr std::size_t kMostLoggedBytes = 200;
+
+/// Without what has this name; nothing: no zone had it.
+std::optional<scene::Zone> take_out(std::vector<scene::Zone>& zones, std::string_view name) {
+  const auto found = std::ranges::find(zones, name, &scene::Zone::name);
+  if (found == zones.end()) return std::nullopt;
+  auto taken = std::move(*found);
+  zones.erase(found);
+  return taken;
+}
 
 RequestId storage_id(std::uint64_t number) {
   return {RequestId::Source::internal, number};
@@ -66,7 +76,8 @@ std::string SceneRequests::refusal(What what, Time now) {
   if (changes_zones && change_) return "another change of the zones is under way, try again";
   const bool takes_away =
       what == What::clear || what == What::accept || what == What::remove || what == What::forget;
-  if (takes_away && robot_(now).task) return "not while a task runs: cancel it first";
+  if (takes_away)
+    if (const auto busy = robot_(now).busy; !busy.empty()) return std::string(busy);
   if (what == What::accept && scene_problem_.empty()) return "nothing of the scene is lost";
   if (what == What::forget && of_file_.empty())
     return "the file of the zones can be read: delete zones one by one";
@@ -93,15 +104,22 @@ void SceneRequests::ask(Asked asked, std::string_view line, Time now, Actions& o
       append_job<SceneTextJob>(out, number, ImportZone{robot_(now).place}).payload = line;
       return;
     case What::remove: {
-      ZoneChange change{number, *zones_, unreadable_, of_file_, {}};
-      std::erase_if(change.zones, [&](const auto& zone) { return zone.name == name; });
+      ZoneChange change{number, nullptr, unreadable_, of_file_, {}};
+      auto zones = *zones_;
+      change.taken = take_out(zones, name);
+      change.zones = std::make_shared<const std::vector<scene::Zone>>(std::move(zones));
       std::erase_if(change.unreadable, [&](const auto& zone) { return zone.name == name; });
       change.reply = reply_line(true, "the zone \"" + name + "\" is deleted");
       begin(std::move(change), store::DeleteZone{name}, out);
       return;
     }
     case What::forget:
-      begin({number, {}, {}, {}, reply_line(true, "there is no zone; the file is kept aside")},
+      // Until now nothing was free, so that nobody drives when it acts.
+      begin({number,
+             std::make_shared<const std::vector<scene::Zone>>(),
+             {},
+             {},
+             reply_line(true, "there is no zone; the file is kept aside")},
             store::ForgetUnreadableZones{}, out);
       return;
   }
@@ -137,17 +155,50 @@ bool SceneRequests::on_reply(SceneReply& reply, Time now, Actions& out) {
     } else {
       append_job<SceneTextJob>(out, reply.number, WriteShown{std::move(*shown)});
     }
+  } else if (const auto* refused = std::get_if<SceneRefused>(&reply.what)) {
+    if (change_ && change_->number == reply.number) {
+      on_zones_set(false, refused->why, now, out);
+    } else {
+      refuse(reply.number, refused->why, out);
+    }
   } else if (asked->second.what == What::clear) {
     asked->second.save = saver_.note_cleared();
   } else if (asked->second.what == What::accept) {
     scene_problem_.clear();
     answer(reply.number, reply_line(true, "the scene is what can be read of it"), out);
   } else if (change_ && change_->number == reply.number) {
-    std::string line = std::move(change_->reply);
-    change_.reset();
-    answer(reply.number, std::move(line), out);
+    on_zones_set(true, {}, now, out);
   }
   return true;
+}
+
+/// They act, or they do not: a task began while the disk was busy. Then what was taken away is
+/// stored again, so that it is there after a restart, too.
+void SceneRequests::on_zones_set(bool done, std::string_view why_not, Time now, Actions& out) {
+  if (!done) {
+    change_->refused = why_not;
+    const scene::Zone& taken = *change_->taken;
+    out.emplace_back(store::StorageJob{
+        storage_id(change_->number),
+        store::SaveZone{taken.name, scene::zone_text(taken), robot_(now).wall_s}});
+    return;
+  }
+  zones_ = std::move(change_->zones);
+  unreadable_ = std::move(change_->unreadable);
+  of_file_ = std::move(change_->of_file);
+  const auto number = change_->number;
+  std::string line = std::move(change_->reply);
+  change_.reset();
+  answer(number, std::move(line), out);
+}
+
+void SceneRequests::end_putting_back(const store::StorageReply& reply, Actions& out) {
+  std::string why(change_->refused);
+  if (!reply.ok)
+    why += "; the zone \"" + change_->taken->name +
+           "\" counts, but would be lost at a restart: " + reply.reason;
+  change_.reset();
+  refuse(reply.id.number, why, out);
 }
 
 bool SceneRequests::on_text(SceneTextReply& reply, Time now, Actions& out) {
@@ -166,15 +217,17 @@ void SceneRequests::import(std::uint64_t number, ZoneRead read, Time now, Action
   if (change_) return refuse(number, "another change of the zones is under way, try again", out);
   if (const auto no_room = scene::check_room(*zones_, read.zone))
     return refuse(number, no_room->why, out);
-  ZoneChange change{number, *zones_, unreadable_, of_file_, {}};
+  ZoneChange change{number, nullptr, unreadable_, of_file_, {}};
   const std::string name = read.zone.name;
-  const auto before = change.zones.size() + change.unreadable.size();
-  std::erase_if(change.zones, [&](const auto& zone) { return zone.name == name; });
-  std::erase_if(change.unreadable, [&](const auto& zone) { return zone.name == name; });
-  const bool replaced = change.zones.size() + change.unreadable.size() < before;
-  if (replaced && robot_(now).task)
-    return refuse(number, "a zone of this name is there, and a task runs: cancel it first", out);
-  change.zones.push_back(std::move(read.zone));
+  auto zones = *zones_;
+  change.taken = take_out(zones, name);
+  const auto gone =
+      std::erase_if(change.unreadable, [&](const auto& zone) { return zone.name == name; });
+  const bool replaced = change.taken || gone > 0;
+  if (const auto busy = robot_(now).busy; replaced && !busy.empty())
+    return refuse(number, "a zone of this name is there: " + std::string(busy), out);
+  zones.push_back(std::move(read.zone));
+  change.zones = std::make_shared<const std::vector<scene::Zone>>(std::move(zones));
   change.reply = R"({"ok":true,"zone":)" + read.shown + R"(,"replaced":)" +
                  (replaced ? "true" : "false") + R"(,"notes":)";
   json::JsonText notes;
@@ -194,21 +247,21 @@ bool SceneRequests::on_stored(const store::StorageReply& reply, Actions& out) {
     append_job<SceneJob>(out, number, AcceptSceneLoss{});
     return true;
   }
+  if (!change_->refused.empty()) return end_putting_back(reply, out), true;
   if (!reply.ok) {
     change_.reset();
     return refuse(number, reply.reason, out), true;
   }
-  zones_ = std::make_shared<const std::vector<scene::Zone>>(std::move(change_->zones));
-  unreadable_ = std::move(change_->unreadable);
-  of_file_ = std::move(change_->of_file);
   set_zones(out);
   return true;
 }
 
-/// From here on they act.
+/// From here on they act, if nobody moves the robot by then.
 void SceneRequests::set_zones(Actions& out) {
-  append_job<SceneJob>(out, change_->number,
-                       SetZones{zones_, zones_problem(of_file_, unreadable_)});
+  append_job<SceneJob>(
+      out, change_->number,
+      SetZones{change_->zones, zones_problem(change_->of_file, change_->unreadable),
+               change_->taken.has_value()});
 }
 
 void SceneRequests::on_saved(std::uint64_t save, std::string_view failure, Actions& out) {

@@ -24,8 +24,9 @@ namespace drover::publish {
 /// What a request needs to know of the robot now.
 struct RobotNow {
   RobotPlace place;
-  /// It drives, or is about to: nothing that was in its way may be taken out of it by a person.
-  bool task = false;
+  /// Who moves it, or is about to: why nothing that was in its way may be taken out of it by a
+  /// person (not_while.h). Empty: nobody.
+  std::string_view busy{};
   double wall_s = 0;  ///< since the epoch
 };
 
@@ -66,10 +67,14 @@ class SceneRequests final {
   /// A change of the zones on its way.
   struct ZoneChange {
     std::uint64_t number = 0;
-    std::vector<scene::Zone> zones;  ///< as they are with it
+    std::shared_ptr<const std::vector<scene::Zone>> zones;  ///< as they are with it
     std::vector<UnreadableZone> unreadable;
     std::string of_file;
     std::string reply;
+    /// It takes this one away. When it is to act and somebody moves the robot by then, it is stored
+    /// again.
+    std::optional<scene::Zone> taken{};
+    std::string_view refused{};  ///< that is under way: why
   };
   using What = Asked::What;
 
@@ -81,6 +86,8 @@ class SceneRequests final {
   void import(std::uint64_t number, ZoneRead read, Time now, Actions& out);
   void begin(ZoneChange change, decltype(store::StorageJob::what) job, Actions& out);
   void set_zones(Actions& out);
+  void on_zones_set(bool done, std::string_view why_not, Time now, Actions& out);
+  void end_putting_back(const store::StorageReply& reply, Actions& out);
 
   bool configured_;
   JobNumbers& numbers_;

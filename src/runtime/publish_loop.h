@@ -113,7 +113,7 @@ class PublishLoop final {
   std::optional<StopCounts> before_;  ///< it waited for the parser since
   std::optional<StopCounts> asked_;   ///< a stop, and what was asked for with it
   StartChecks starts_;
-  Time last_start_ = kNever;  ///< delivered
+  Time last_start_ = kNever;  ///< of a task or a search for the heading, delivered
   publish::CommandService service_;
   publish::Actions actions_;
   std::vector<TimedOutlet> outlets_;

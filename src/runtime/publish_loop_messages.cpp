@@ -141,7 +141,8 @@ void PublishLoop::deliver(const Command& command, publish::Actions& actions) {
 void PublishLoop::push(const Command& command, const StopCounts& before,
                        publish::Actions& actions) {
   const auto* start = std::get_if<StartTask>(&command.body);
-  if (start != nullptr) last_start_ = monotonic_now();
+  if (start != nullptr || std::holds_alternative<FindHeading>(command.body))
+    last_start_ = monotonic_now();
   if (control_.recorder != nullptr && start != nullptr && start->path != nullptr)
     control_.recorder->path(*start->path);
   const bool taken = control_.commands.push(QueuedCommand{command, before});

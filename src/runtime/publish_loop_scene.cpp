@@ -2,6 +2,7 @@
 // first.
 #include <cmath>
 
+#include "publish/not_while.h"
 #include "runtime/clock.h"
 #include "runtime/publish_loop.h"
 #include "scene/world/map_change.h"
@@ -9,7 +10,7 @@
 namespace drover::runtime {
 
 namespace {
-/// Until the snapshot tells of a task that was delivered.
+/// Until the snapshot tells of a task, or a search for the heading, that was delivered.
 constexpr Duration kStartShows = std::chrono::milliseconds(500);
 }  // namespace
 
@@ -50,8 +51,9 @@ publish::RobotNow PublishLoop::robot_now(Time now) {
   robot.place.origin = service_.origin();
   if (snapshot.origin_set && std::isfinite(snapshot.pose.position_sigma_m))
     robot.place.in_map = {snapshot.pose.x_m, snapshot.pose.y_m};
-  robot.task = snapshot.nav.status == NavStatus::run || starts_.any() ||
-               (last_start_ != kNever && now - last_start_ < kStartShows);
+  robot.busy = publish::not_while(snapshot.nav.owner, snapshot.nav.status == NavStatus::run);
+  const bool begins = starts_.any() || (last_start_ != kNever && now - last_start_ < kStartShows);
+  if (robot.busy.empty() && begins) robot.busy = publish::kNotWhileItBegins;
   robot.wall_s = to_s(now.time_since_epoch() + wall_minus_monotonic_);
   return robot;
 }

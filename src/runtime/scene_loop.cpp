@@ -39,7 +39,8 @@ SceneLoop::SceneLoop(const config::DroverConfig& config, SceneExchange& exchange
     : control_(config.control),
       exchange_(exchange),
       scanners_(scanners),
-      work_(keeper_settings(config), exchange, std::move(stored)) {}
+      work_(keeper_settings(config), exchange, std::move(stored)),
+      late_(from_s(config.engine.clearance.max_age_s), from_s(config.engine.clearance.silent_s)) {}
 
 void SceneLoop::run(const std::atomic<bool>& stop) {
   if (control_.realtime)
@@ -56,15 +57,26 @@ void SceneLoop::run(const std::atomic<bool>& stop) {
   }
 }
 
-/// Jobs before the look, so that it tells of what came a moment ago; and both by the newest pose.
+/// Jobs before the look, so that it tells of what came a moment ago, and both by the newest pose.
+/// What is answered is in force by then. Looks along tracks last: whoever waits for a start waits a
+/// little longer, and the robot for nothing.
 void SceneLoop::turn() {
-  const Time end = monotonic_now() + kWork;
+  const auto until = [](Time end) { return [end] { return monotonic_now() < end; }; };
   (void)see();
-  work_.work([end] { return monotonic_now() < end; });
-  if (!see()) return;
+  work_.work(until(monotonic_now() + kWork));
+  if (see()) look();
+  work_.send_replies();
+  work_.check(until(monotonic_now() + kChecks));
+  work_.send_replies();
+}
+
+void SceneLoop::look() {
   look_at_scanners();
   auto& found = exchange_.sight.clearance.back();
   found.clearance = work_.look();
+  late_.note(found.clearance.t, monotonic_now());
+  if (found.clearance.unknown.empty())
+    found.clearance.unknown = late_.words(work_.objects(), work_.constraints());
   found.number = ++found_;
   exchange_.sight.clearance.publish();
 }

@@ -9,6 +9,7 @@
 
 #include "config/config.h"
 #include "link/unique_fd.h"
+#include "runtime/late_looks.h"
 #include "runtime/scan_loop.h"
 #include "runtime/scene_work.h"
 
@@ -19,6 +20,8 @@ class SceneLoop final {
   static constexpr Duration kPeriod = std::chrono::milliseconds(25);
   /// Of each period for jobs, and not much more: a single one takes some milliseconds at most.
   static constexpr Duration kWork = std::chrono::milliseconds(10);
+  /// And for looks along tracks that are to be started, after the robot's own.
+  static constexpr Duration kChecks = std::chrono::milliseconds(5);
   /// Standing still it stops the robot long before; then nobody can start it any more.
   static constexpr Duration kLongestTurn = std::chrono::seconds(5);
 
@@ -33,6 +36,7 @@ class SceneLoop final {
 
  private:
   void turn();
+  void look();
   bool see();
   void look_at_scanners();
 
@@ -40,6 +44,7 @@ class SceneLoop final {
   SceneExchange& exchange_;
   std::span<const std::unique_ptr<ScanLink>> scanners_;
   SceneWork work_;
+  LateLooks late_;
   std::uint64_t found_ = 0;
   std::atomic<std::uint64_t> turns_{0};
 };

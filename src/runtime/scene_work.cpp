@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "publish/not_while.h"
 #include "publish/scene/stored_text.h"
 #include "scene/zone/zone_text.h"
 
@@ -13,9 +14,13 @@ using publish::SceneContent;
 
 /// Of those that were looked along and are not driven: a start that waits for its turn is younger.
 constexpr std::size_t kMostPaths = 8;
-/// Of one look along a track, which begins anew with each change of the scene: two seconds of
-/// changes in every turn.
+/// Of one look along a track, which begins anew in a turn after a change of the scene: two seconds
+/// of changes in every turn.
 constexpr int kMostBeginnings = 80;
+/// Until the viewpoint tells of a task whose track was found free.
+constexpr Duration kStartShows = std::chrono::milliseconds(500);
+/// As many as the ring takes.
+constexpr std::size_t kMostUnsent = 256;
 
 std::string words(const scene::Refusal& refusal) {
   return refusal.path.empty() ? refusal.why : refusal.path + " " + refusal.why;
@@ -54,21 +59,35 @@ SceneWork::SceneWork(scene::KeeperSettings settings, SceneExchange& exchange,
       keeper_(std::move(settings)),
       restoring_(Restoring{}) {}
 
-void SceneWork::work(const std::function<bool()>& time_left) {
-  while (!unsent_.empty() && exchange_.replies.push(std::move(unsent_.front()))) {
+void SceneWork::work(const scene::TimeLeft& time_left) {
+  while (unsent_.size() < kMostUnsent && time_left())
+    if (!restore_step() && !job_step()) return;
+}
+
+void SceneWork::check(const scene::TimeLeft& time_left) {
+  while (!restoring_ && !checks_.empty() && unsent_.size() < kMostUnsent)
+    if (!check_first(time_left) || !time_left()) return;
+}
+
+void SceneWork::send_replies() {
+  const auto before = unsent_.size();
+  while (!unsent_.empty() && exchange_.replies.push(std::move(unsent_.front())))
     unsent_.pop_front();
-    exchange_.replies_ready.notify();
-  }
-  while (unsent_.empty() && time_left()) {
-    if (restore_step()) continue;
-    const bool worked = job_step();
-    if (!check_step() && !worked) return;
-  }
+  if (unsent_.size() < before) exchange_.replies_ready.notify();
 }
 
 void SceneWork::see(const Viewpoint& from) {
   keeper_.see(from);
   driven_ = from.way.path;
+  owner_ = from.owner;
+  seen_ = from.t;
+}
+
+/// Why nothing that may be in its way can be taken out of it; empty: it can.
+std::string_view SceneWork::not_now() const {
+  const auto busy = publish::not_while(owner_, driven_ != 0);
+  const bool begins = !checks_.empty() || (checked_ != kNever && seen_ - checked_ < kStartShows);
+  return busy.empty() && begins ? publish::kNotWhileItBegins : busy;
 }
 
 Clearance SceneWork::look() const {
@@ -100,8 +119,9 @@ void SceneWork::restore_zone(const store::NamedText& text) {
 
 void SceneWork::restore_text(const store::NamedText& text) {
   const bool is_object = text.kind == store::kObjectKind;
-  const auto problem = is_object ? restore_object(text.text) : restore_set(text.text);
+  const auto problem = is_object ? restore_object(text) : restore_set(text.text);
   if (!problem) return;
+  if (is_object) lost_objects_.insert(text.name);
   auto& reply = restoring_->reply;
   reply.lost.push_back({text.kind, text.name});
   if (reply.problem.empty())
@@ -109,13 +129,18 @@ void SceneWork::restore_text(const store::NamedText& text) {
                     text.name + "\" cannot be read: " + words(*problem);
 }
 
-std::optional<scene::Refusal> SceneWork::restore_object(const std::string& text) {
-  const auto stored = publish::read_stored_object(text);
+/// All of it or nothing: half an object would look like a whole one once the loss is accepted.
+std::optional<scene::Refusal> SceneWork::restore_object(const store::NamedText& text) {
+  const auto stored = publish::read_stored_object(text.text);
   if (!stored.ok()) return stored.error();
   for (const auto& message : stored->messages)
-    if (const auto applied = keeper_.restore(message, stored->origin, stored->place_sigma_m);
-        !applied.ok())
-      return applied.error();
+    if (message.id != text.name) return scene::Refusal{"", "it has another name inside"};
+  for (const auto& message : stored->messages) {
+    const auto applied = keeper_.restore(message, stored->origin, stored->place_sigma_m);
+    if (applied.ok()) continue;
+    keeper_.forget(text.name);
+    return applied.error();
+  }
   return std::nullopt;
 }
 
@@ -155,15 +180,20 @@ void SceneWork::take(publish::SceneJob job) {
   if (std::holds_alternative<publish::ApplyMessages>(job.what)) {
     batch_.emplace(Batch{std::move(job), 0, {}});
   } else if (auto* zones = std::get_if<publish::SetZones>(&job.what)) {
+    if (zones->takes_away && !not_now().empty())
+      return reply(number, publish::SceneRefused{not_now()});
     keeper_.set_zones(*zones->zones, zones->problem);
     reply(number, publish::SceneDone{});
   } else if (std::holds_alternative<publish::ClearScene>(job.what)) {
+    if (!not_now().empty()) return reply(number, publish::SceneRefused{not_now()});
     keeper_.clear();
     (void)keeper_.take_changed_objects();  // who asked for it knows that all are gone
     (void)keeper_.take_changed_sets();
     reply(number, publish::SceneDone{});
   } else if (std::holds_alternative<publish::AcceptSceneLoss>(job.what)) {
+    // Until now nothing was free, so that nobody drives.
     keeper_.set_scene_problem("");
+    lost_objects_.clear();
     reply(number, publish::SceneDone{});
   } else if (std::holds_alternative<publish::ListScene>(job.what)) {
     reply(number, list());
@@ -180,10 +210,27 @@ void SceneWork::apply_next() {
   if (batch_->next == all.messages.size()) return end_batch();
   const auto& value = all.messages[batch_->next++];
   const auto applied =
-      std::visit([&](const auto& message) { return keeper_.apply(message, all.arrived); }, value);
+      std::visit([&](const auto& message) { return apply(message, all.arrived); }, value);
   batch_->applied.results.push_back(applied.ok()
                                         ? publish::MessageApplied{std::nullopt, applied->notes}
                                         : publish::MessageApplied{applied.error(), {}});
+}
+
+Result<scene::Applied, scene::Refusal> SceneWork::apply(const scene::CollisionObject& message,
+                                                        const scene::Arrived& arrived) {
+  using Object = scene::CollisionObject;
+  if (message.operation == Object::APPEND && lost_objects_.contains(message.id))
+    return scene::Refusal{"id",
+                          "is of an object whose stored shapes cannot be read: ADD all of it, or "
+                          "give them up (drover scene accept-loss)"};
+  auto applied = keeper_.apply(message, arrived);
+  if (applied.ok() && message.operation == Object::ADD) lost_objects_.erase(message.id);
+  return applied;
+}
+
+Result<scene::Applied, scene::Refusal> SceneWork::apply(const scene::Constraints& message,
+                                                        const scene::Arrived& arrived) {
+  return keeper_.apply(message, arrived);
 }
 
 /// What is to be stored is what came of all of it.
@@ -197,34 +244,29 @@ void SceneWork::end_batch() {
   batch_.reset();
 }
 
-/// A part of the first one; anew when something has changed meanwhile.
-bool SceneWork::check_step() {
-  if (checks_.empty()) return false;
+/// The first one, anew when something has changed meanwhile; false: it needs more time.
+bool SceneWork::check_first(const scene::TimeLeft& time_left) {
   Check& check = checks_.front();
   if (!check.track || check.track->number() != keeper_.number()) {
     check.track = keeper_.check(*check.what.path, check.what.target);
     ++check.begun;
   }
   std::optional<scene::TrackOffence> offence;
-  if (check.track->advance()) {
+  if (check.track->advance(time_left)) {
     offence = check.track->offence();
   } else if (check.begun > kMostBeginnings) {  // or no other start would ever be looked at
     offence = {0, 0, "what is around changes faster than the track can be looked along, try again"};
   } else {
-    return true;
+    return false;
   }
+  if (!offence) checked_ = seen_;
   reply(check.number, publish::TrackChecked{offence});
   checks_.pop_front();
   return true;
 }
 
 void SceneWork::reply(std::uint64_t number, decltype(publish::SceneReply::what) what) {
-  publish::SceneReply reply{number, std::move(what)};
-  if (unsent_.empty() && exchange_.replies.push(std::move(reply))) {
-    exchange_.replies_ready.notify();
-  } else {
-    unsent_.push_back(std::move(reply));  // NOLINT(bugprone-use-after-move): a full ring leaves it
-  }
+  unsent_.push_back({number, std::move(what)});
 }
 
 publish::SceneListed SceneWork::list() const {

@@ -189,6 +189,15 @@ Result<Applied, Refusal> Keeper::restore(const Constraints& message, const Geode
   return applied;
 }
 
+void Keeper::forget(std::string_view id) {
+  CollisionObject gone;
+  gone.operation = CollisionObject::REMOVE;
+  gone.id = id;
+  const bool is_stored = !impl_->changed_objects.contains(id);
+  if (!apply(gone, {})) return;
+  if (is_stored) impl_->changed_objects.erase(gone.id);
+}
+
 void Keeper::clear() {
   for (const Object& object : impl_->world.objects()) impl_->changed_objects.insert(object.id);
   for (const ConstraintSet& set : impl_->world.constraints())

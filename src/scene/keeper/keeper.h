@@ -17,6 +17,7 @@
 #include "drover/path.h"
 #include "drover/result.h"
 #include "drover/viewpoint.h"
+#include "scene/constraint/at_start.h"
 #include "scene/look/look.h"
 #include "scene/plane/section.h"
 #include "scene/sensor/seen.h"
@@ -90,6 +91,9 @@ class Keeper final {
   Result<Applied, Refusal> restore(const CollisionObject& message, const GeodeticPoint& origin,
                                    double place_sigma_m = 0);
   Result<Applied, Refusal> restore(const Constraints& message, const GeodeticPoint& origin);
+  /// What was restored of an object of which the rest cannot be: nothing of it is there, and
+  /// nothing to be stored.
+  void forget(std::string_view id);
   /// Objects and constraints; zones stay.
   void clear();
 
@@ -129,9 +133,11 @@ class TrackCheck final {
   explicit TrackCheck(std::unique_ptr<Impl> impl);
   ~TrackCheck();
 
-  /// Looks at some hundred poses more; true when it is done. When the scene changes meanwhile it
-  /// ends with an offence that says so.
-  bool advance();
+  /// Looks at 20 m more, or a part of what is to be judged there, and goes on while there is time;
+  /// true when it is done. A step between two questions for the time takes a millisecond or a few,
+  /// however many constraints there are. When the scene changes meanwhile it ends with an offence
+  /// that says so.
+  bool advance(const TimeLeft& time_left);
   /// Once done: nothing stands on the track, or what does.
   const std::optional<TrackOffence>& offence() const;
   /// Of the scene that it looked at: when Keeper::number() is another one, it has to begin anew.

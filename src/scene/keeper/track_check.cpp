@@ -1,20 +1,14 @@
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
-#include "scene/constraint/at_start.h"
 #include "scene/keeper/track_check_impl.h"
 #include "scene/keeper/track_start.h"
-#include "scene/look/sweeper.h"
 #include "scene/world/words.h"
 
 namespace drover::scene {
 namespace {
 
-// A part has some hundred poses; fewer when there are many constraints to judge at each.
-constexpr double kPart_m = 20;
-constexpr double kLeastPart_m = 0.5;
-constexpr double kConstraintMetres = 1000;
+constexpr double kPart_m = 20;  // some hundred poses
 constexpr double kNoWay_m = 1e-6;
 
 std::string way_end_words(const Sweeper& sweeper, const WayEnd& end) {
@@ -57,7 +51,7 @@ void TrackCheck::Impl::end(std::size_t point, double at_m, std::string_view what
   done = true;
 }
 
-bool TrackCheck::Impl::advance() {
+bool TrackCheck::Impl::advance(const TimeLeft& time_left) {
   if (done) return true;
   if (keeper.around.number != number) {
     end(0, 0, "the scene changed while the track was looked at");
@@ -65,54 +59,63 @@ bool TrackCheck::Impl::advance() {
   }
   if (!begun) look_here();
   begun = true;
-  if (!done) look_along_part();
+  while (!done) {
+    if (!part) begin_part();
+    if (done) break;
+    if (!part->judge.advance(time_left)) break;
+    end_part();
+    if (!time_left()) break;
+  }
   return done;
 }
 
 void TrackCheck::Impl::look_here() {
-  if (const auto broken = keeper.broken()) end(way.segment, 0, in_words(*broken).view());
+  if (const auto broken = keeper.broken()) end(way.segment, 0, with_way_out(*broken).view());
 }
 
-double TrackCheck::Impl::part_m() const {
-  const auto constraints = static_cast<double>(keeper.world.amount().constraints);
-  return std::clamp(kConstraintMetres / (constraints + 1), kLeastPart_m, kPart_m);
-}
-
-void TrackCheck::Impl::look_along_part() {
-  const double ahead_m = part_m();
-  const auto line = line_about(path, way, ahead_m);
+void TrackCheck::Impl::begin_part() {
+  auto line = line_about(path, way, kPart_m);
   if (!line) return end(way.segment, way_m, "the track cannot be followed from here");
   const Sweeper sweeper(keeper.around, body_of(keeper.settings.look, keeper.position_sigma_m(),
                                                keeper.yaw_sigma_rad()));
-  const TrackPart part{line->points, line->from_m, ahead_m};
-  const auto steps = track_steps(pose, part, keeper.steering(), sweeper.stride_m());
+  const TrackPart ahead{line->points, line->from_m, kPart_m};
+  auto steps = track_steps(pose, ahead, keeper.steering(), sweeper.stride_m());
   const WayEnd found = sweeper.sweep(steps);
-
   std::vector<Pose2> poses;
   for (const Step& step : steps)
     if (step.driven_m <= found.way.free_m) poses.push_back(step.pose);
-  if (const auto broken =
-          first_offence(keeper.world, keeper.settings.robot, poses, keeper.terms())) {
-    const double at_m = steps[broken->index].driven_m;
-    return end(line->farther(at_m).segment, way_m + at_m, in_words(broken->verdict).view());
+  TrackJudge judge(keeper.world, keeper.settings.robot, std::move(poses), keeper.terms());
+  part.emplace(Part{std::move(*line), std::move(steps), found, std::move(judge)});
+}
+
+void TrackCheck::Impl::end_part() {
+  const Part over = std::move(*part);
+  part.reset();
+  const WayLine& line = over.line;
+  const FreeWay& free = over.found.way;
+  if (const auto& broken = over.judge.offence()) {
+    const double at_m = over.steps[broken->index].driven_m;
+    return end(line.farther(at_m).segment, way_m + at_m, in_words(broken->verdict).view());
   }
-  if (found.way.blocked)
-    return end(line->farther(found.way.free_m).segment, way_m + found.way.free_m,
-               way_end_words(sweeper, found));
-  const double driven_m = steps.back().driven_m;
-  done = line->ends && driven_m < ahead_m - kNoWay_m;
+  if (free.blocked) {
+    const Sweeper sweeper(keeper.around, body_of(keeper.settings.look, keeper.position_sigma_m()));
+    return end(line.farther(free.free_m).segment, way_m + free.free_m,
+               way_end_words(sweeper, over.found));
+  }
+  const double driven_m = over.steps.back().driven_m;
+  done = line.ends && driven_m < kPart_m - kNoWay_m;
   if (!done && driven_m < kNoWay_m)
     return end(way.segment, way_m, "the track leads nowhere from here");
-  way = line->farther(driven_m);
-  pose = steps.back().pose;
+  way = line.farther(driven_m);
+  pose = over.steps.back().pose;
   way_m += driven_m;
 }
 
 TrackCheck::TrackCheck(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 TrackCheck::~TrackCheck() = default;
 
-bool TrackCheck::advance() {
-  return impl_->advance();
+bool TrackCheck::advance(const TimeLeft& time_left) {
+  return impl_->advance(time_left);
 }
 
 const std::optional<TrackOffence>& TrackCheck::offence() const {

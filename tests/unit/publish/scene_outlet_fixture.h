@@ -102,7 +102,7 @@ class SceneOutletTest : public testing::Test {
   std::vector<std::string> replies() { return std::exchange(replies_, {}); }
 
   std::unique_ptr<SceneOutlet> outlet_;
-  RobotNow robot_{{}, false, 1.7e9};
+  RobotNow robot_{{}, {}, 1.7e9};
   Time now_ = kStart;
   std::deque<SceneJob> jobs_;
   std::vector<SceneTextJob> texts_;

@@ -1,5 +1,6 @@
 // What persons ask of the scene by the daemon's socket.
 #include "json/located_json.h"
+#include "publish/not_while.h"
 #include "tests/unit/publish/scene_outlet_fixture.h"
 
 namespace drover::publish {
@@ -119,7 +120,7 @@ TEST_F(SceneRequestsTest, TakeNothingAwayWhileATaskRuns) {
   restored.problem = "the stored scene is lost";
   restored.zones_problem = "the zones are not known";
   restore(std::move(restored));
-  robot_.task = true;
+  robot_.busy = not_while(Owner::task, true);
   for (const char* cmd :
        {"scene_clear", "scene_accept_loss", "zone_delete", "zone_forget_unreadable"}) {
     ask(std::string(R"({"cmd":")") + cmd + R"(","name":"yard"})");
@@ -131,7 +132,7 @@ TEST_F(SceneRequestsTest, TakeNothingAwayWhileATaskRuns) {
 
 TEST_F(SceneRequestsTest, ImportAZoneThatIsStoredThenActsThenIsAcknowledged) {
   restore();
-  robot_.task = true;  // it may be
+  robot_.busy = not_while(Owner::task, true);  // it may be
   ask(import_line("yard"));
   EXPECT_THAT(disk_, IsEmpty());
   parse();
@@ -215,14 +216,70 @@ TEST_F(SceneRequestsTest, DeleteAZone) {
   EXPECT_EQ(member(only_reply(), "ok"), "true");
 }
 
+/// It is asked for while nobody moves the robot, and the disk is slow.
+TEST_F(SceneRequestsTest, StoreAZoneAgainThatMayNotBeTakenAwayAnyMore) {
+  restore();
+  import("yard");
+  const auto refuse_it = [this] {
+    ask(R"({"cmd":"zone_delete","name":"yard"})");
+    store();
+    ASSERT_TRUE(std::get<SetZones>(jobs_.front().what).takes_away);
+    const auto number = jobs_.front().number;
+    jobs_.clear();
+    reply(number, SceneRefused{not_while(Owner::joint_command, false)});
+    ASSERT_THAT(disk_, SizeIs(1));
+    const auto& save = std::get<store::SaveZone>(disk_[0].what);
+    EXPECT_EQ(save.name, "yard");
+    EXPECT_THAT(save.text, HasSubstr("yard"));
+  };
+  refuse_it();
+  store();
+  EXPECT_THAT(only_reply(), AllOf(HasSubstr(R"("ok":false)"), HasSubstr("joint commands")));
+  EXPECT_THAT(jobs_, IsEmpty()) << "it acts on";
+  refuse_it();
+  store("the disk is full");
+  EXPECT_THAT(only_reply(), AllOf(HasSubstr("joint commands"), HasSubstr("lost at a restart")));
+  ask(R"({"cmd":"zone_list"})");
+  parse();
+  EXPECT_THAT(only_reply(), HasSubstr("yard"));
+  ask(R"({"cmd":"zone_delete","name":"yard"})");
+  store();
+  follow();
+  EXPECT_EQ(member(only_reply(), "ok"), "true");
+}
+
+TEST_F(SceneRequestsTest, SayThatTheSceneWasNotClearedWhenItWasToBe) {
+  restore();
+  ask(R"({"cmd":"scene_clear"})");
+  const auto number = jobs_.front().number;
+  jobs_.clear();
+  reply(number, SceneRefused{not_while(Owner::task, true)});
+  EXPECT_THAT(only_reply(), AllOf(HasSubstr(R"("ok":false)"), HasSubstr("task")));
+  EXPECT_THAT(disk_, IsEmpty());
+}
+
+TEST_F(SceneRequestsTest, TakeNothingAwayWhoeverMovesTheRobot) {
+  restore();
+  for (const Owner owner : {Owner::manual, Owner::joint_command}) {
+    robot_.busy = not_while(owner, false);
+    for (const char* cmd : {"scene_clear", "zone_delete"}) {
+      ask(std::string(R"({"cmd":")") + cmd + R"(","name":"yard"})");
+      EXPECT_THAT(only_reply(), AllOf(HasSubstr(R"("ok":false)"), HasSubstr("not while")));
+    }
+  }
+  EXPECT_TRUE(not_while(Owner::nobody, false).empty());
+  EXPECT_TRUE(not_while(Owner::estop, false).empty());
+  EXPECT_THAT(jobs_, IsEmpty());
+}
+
 TEST_F(SceneRequestsTest, ReplaceAZoneButNotUnderATask) {
   restore();
   import("yard");
-  robot_.task = true;
+  robot_.busy = not_while(Owner::task, true);
   ask(import_line("yard"));
   parse();
   EXPECT_THAT(only_reply(), AllOf(HasSubstr(R"("ok":false)"), HasSubstr("task")));
-  robot_.task = false;
+  robot_.busy = {};
   ask(import_line("yard"));
   parse();
   store();

@@ -77,6 +77,11 @@ class SceneWorkTest : public testing::Test {
   void see() { work_->see(here()); }
   void work() {
     work_->work([] { return true; });
+    work_->check([] { return true; });
+    take_replies();
+  }
+  void take_replies() {
+    work_->send_replies();
     publish::SceneReply reply;
     while (exchange_->replies.pop(reply)) replies_.push_back(std::move(reply));
   }
@@ -221,8 +226,7 @@ TEST_F(SceneWorkTest, DoesALargeJobInParts) {
     ++steps;
     bool first = true;
     work_->work([&first] { return std::exchange(first, false); });
-    publish::SceneReply reply;
-    while (exchange_->replies.pop(reply)) replies_.push_back(std::move(reply));
+    take_replies();
   }
   EXPECT_GT(steps, 50);
   EXPECT_THAT(take<publish::MessagesApplied>().results, SizeIs(100));
@@ -291,6 +295,135 @@ TEST_F(SceneWorkTest, KeepsThePathThatIsDriven) {
   }
 }
 
+scene::CollisionObject moved(const std::string& id, double x_m, double y_m) {
+  auto object = box(id, x_m, y_m);
+  object.operation = scene::CollisionObject::MOVE;
+  object.primitives.clear();
+  return object;
+}
+
+/// Each message would make it begin anew, and after some it would be given up.
+TEST_F(SceneWorkTest, BeginsALookAlongATrackOnceForAllThatChangedInATurn) {
+  make();
+  see();
+  work();
+  apply({box("a", 5, 30)});
+  work();
+  replies_.clear();
+  give(publish::CheckTrack{straight(1, 1000), 2000});
+  work_->work([] { return true; });
+  work_->check([] { return false; });
+  for (int i = 0; i < 200; ++i) apply({moved("a", 5, 30 + 0.01 * i)});
+  work();
+  ASSERT_THAT(replies_, SizeIs(201));
+  EXPECT_EQ(std::get<publish::TrackChecked>(replies_.back().what).offence, std::nullopt);
+}
+
+TEST_F(SceneWorkTest, AnswersWhatTheNextLookTellsOf) {
+  make();
+  see();
+  work();
+  replies_.clear();
+  apply({box("near", 1.5)});
+  work_->work([] { return true; });
+  publish::SceneReply reply;
+  EXPECT_FALSE(exchange_->replies.pop(reply));
+  see();
+  EXPECT_LT(work_->look().ahead_m, 1);
+  take_replies();
+  (void)take<publish::MessagesApplied>();
+}
+
+/// A request may have waited since before that.
+TEST_F(SceneWorkTest, TakesNothingAwayWhileSomebodyMovesTheRobot) {
+  make();
+  see();
+  work();
+  apply({box("a", 5)});
+  work();
+  const auto zones = std::make_shared<const std::vector<scene::Zone>>();
+  auto driven = here();
+  driven.way = {1, true, 20, 0, 0};
+  for (const Owner owner : {Owner::task, Owner::manual, Owner::joint_command, Owner::nobody}) {
+    driven.owner = owner;
+    work_->see(driven);
+    replies_.clear();
+    give(publish::ClearScene{});
+    give(publish::SetZones{zones, "", true});
+    give(publish::SetZones{zones, "", false});
+    give(publish::ListScene{});
+    work();
+    EXPECT_THAT(take<publish::SceneRefused>().why, HasSubstr("not while"));
+    (void)take<publish::SceneRefused>();
+    (void)take<publish::SceneDone>();
+    EXPECT_THAT(take<publish::SceneListed>().rows, SizeIs(1));
+    if (owner == Owner::manual) driven.way = {};
+    if (owner == Owner::joint_command) driven.way = {1, true, 20, 0, 0};  // and no owner
+  }
+  driven.way = {};
+  work_->see(driven);
+  replies_.clear();
+  give(publish::CheckTrack{straight(1, 3), 6});
+  give(publish::ClearScene{});
+  work();
+  EXPECT_THAT(take<publish::SceneRefused>().why, HasSubstr("about to be moved"));
+  EXPECT_FALSE(take<publish::TrackChecked>().offence);
+  give(publish::ClearScene{});
+  work();
+  EXPECT_THAT(take<publish::SceneRefused>().why, HasSubstr("about to be moved"));
+  now_ += 1s;
+  see();
+  give(publish::ClearScene{});
+  work();
+  (void)take<publish::SceneDone>();
+}
+
+/// An ADD that is there and an APPEND for which there is no room would be half an object.
+TEST_F(SceneWorkTest, LosesAStoredObjectAsAWhole) {
+  auto many = box("many", 1.5);
+  many.primitives.assign(1000, many.primitives.front());
+  many.primitive_poses.assign(1000, many.primitive_poses.front());
+  scene::StoredObject whole{{many}, kField};
+  many.operation = scene::CollisionObject::APPEND;
+  whole.messages.resize(11, many);
+  scene::StoredObject strange{{box("b", 20), box("a", 21)}, kField};
+  make({{{std::string(store::kObjectKind), "many", 1, publish::stored_text(whole)},
+         {std::string(store::kObjectKind), "b", 1, publish::stored_text(strange)},
+         stored(box("good", 30))},
+        "",
+        {},
+        ""});
+  work();
+  const auto restored = take<publish::SceneRestored>();
+  ASSERT_THAT(restored.lost, SizeIs(2));
+  EXPECT_EQ(restored.lost[0].name, "many");
+  EXPECT_EQ(restored.lost[1].name, "b");
+  give(publish::ListScene{});
+  work();
+  EXPECT_THAT(take<publish::SceneListed>().rows, SizeIs(1)) << "nothing of them is there";
+
+  see();
+  many.primitives.resize(1);
+  many.primitive_poses.resize(1);
+  apply({many});
+  work();
+  auto applied = take<publish::MessagesApplied>();
+  ASSERT_TRUE(applied.results[0].refusal) << "half of it was told";
+  EXPECT_THAT(applied.results[0].refusal->why, HasSubstr("accept-loss"));
+  EXPECT_THAT(applied.changes, IsEmpty()) << "what is stored stays";
+  apply({box("many", 9), many});
+  work();
+  applied = take<publish::MessagesApplied>();
+  EXPECT_FALSE(applied.results[0].refusal) << "all of it";
+  EXPECT_FALSE(applied.results[1].refusal) << "more of that";
+  give(publish::AcceptSceneLoss{});
+  work();
+  (void)take<publish::SceneDone>();
+  give(publish::ListScene{});
+  work();
+  EXPECT_THAT(take<publish::SceneListed>().rows, SizeIs(2));
+}
+
 TEST_F(SceneWorkTest, LosesNoReplyWhenNobodyTakesThem) {
   make();
   see();
@@ -298,6 +431,7 @@ TEST_F(SceneWorkTest, LosesNoReplyWhenNobodyTakesThem) {
   for (int turn = 0; turn < 10; ++turn) {
     while (exchange_->jobs.push(publish::SceneJob{++last_, publish::ListScene{}})) ++given;
     work_->work([] { return true; });
+    work_->send_replies();
   }
   EXPECT_LT(given, 1000U) << "no new job is begun while replies wait";
   for (int turn = 0; turn < 10; ++turn) work();

@@ -179,12 +179,60 @@ TEST_F(AKeeper, EndsALookAlongATrackWhenTheSceneChanges) {
   apply(box("far", 0, 50));
   keeper.see(from);
   const auto looking = keeper.check(path, 1000);
-  EXPECT_FALSE(looking->advance());
+  EXPECT_FALSE(looking->advance(no_time));
   apply(box("box1", 10, 0));
   EXPECT_NE(looking->number(), keeper.number());
-  EXPECT_TRUE(looking->advance());
+  EXPECT_TRUE(looking->advance(no_time));
   ASSERT_TRUE(looking->offence().has_value());
   EXPECT_THAT(looking->offence()->what, HasSubstr("changed"));
+}
+
+Constraints views(int count, double target_x_m) {
+  Constraints set;
+  set.name = "views";
+  for (int i = 0; i < count; ++i) {
+    VisibilityConstraint view;
+    view.target_radius = 0.2;
+    view.cone_sides = 4;
+    view.sensor_pose.header.frame_id = view.target_pose.header.frame_id = "map";
+    view.sensor_pose.pose.position_m = {target_x_m - 20, 30.0 + i, 1};
+    view.target_pose.pose.position_m = {target_x_m, 30.0 + i, 1};
+    view.sensor_view_direction = VisibilityConstraint::SENSOR_X;
+    set.visibility_constraints.push_back(view);
+  }
+  return set;
+}
+
+/// A thousand views past a thousand objects take seconds at each pose.
+TEST_F(AKeeper, AsksForTheTimeAfterEachConstraintOfATrack) {
+  const Path path = row(10);
+  ASSERT_EQ(apply(views(50, 100)), "done");
+  keeper.see(from);
+  const auto looking = keeper.check(path, 10);
+  int asked = 0;
+  const auto counts = [&asked] { return ++asked % 7 != 0; };
+  int slices = 1;
+  while (!looking->advance(counts)) ++slices;
+  EXPECT_FALSE(looking->offence().has_value());
+  EXPECT_GT(asked, 50 * 50);
+  EXPECT_GT(slices, 50 * 50 / 7);
+}
+
+TEST_F(AKeeper, FindsTheSameInSlicesAsInOneGo) {
+  const Path path = row(100);
+  Constraints set = views(20, 100);
+  set.joint_constraints = {{"base/x", 0, 40, 40, 0}, {"base/x", 0, 70, 70, 0}};
+  ASSERT_EQ(apply(set), "done");
+  keeper.see(from);
+  const auto whole = keeper.check(path, 100);
+  while (!whole->advance([] { return true; })) {
+  }
+  const auto in_slices = check(path, 100);
+  ASSERT_TRUE(whole->offence() && in_slices);
+  EXPECT_EQ(whole->offence()->what, in_slices->what);
+  EXPECT_THAT(in_slices->what, HasSubstr("views.joint_constraints[0]"));
+  EXPECT_EQ(whole->offence()->way_m, in_slices->way_m);
+  EXPECT_NEAR(in_slices->way_m, 40, 0.2);
 }
 
 TEST_F(AKeeper, LooksAlongALongTrackInPartsThatAreShort) {
@@ -196,7 +244,7 @@ TEST_F(AKeeper, LooksAlongALongTrackInPartsThatAreShort) {
   keeper.see(from);
   const auto looking = keeper.check(path, 49'999);
   int parts = 0;
-  while (!looking->advance()) ++parts;
+  while (!looking->advance(no_time)) ++parts;
   EXPECT_FALSE(looking->offence().has_value());
   EXPECT_GT(parts, 40);
   EXPECT_LT(parts, 200);
