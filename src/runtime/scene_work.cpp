@@ -18,7 +18,7 @@ constexpr std::size_t kMostPaths = 8;
 /// of changes in every turn.
 constexpr int kMostBeginnings = 80;
 /// Until the viewpoint tells of a task whose track was found free.
-constexpr Duration kStartShows = std::chrono::milliseconds(500);
+constexpr Duration kBeginsWithin = std::chrono::milliseconds(500);
 /// As many as the ring takes.
 constexpr std::size_t kMostUnsent = 256;
 
@@ -86,7 +86,7 @@ void SceneWork::see(const Viewpoint& from) {
 /// Why nothing that may be in its way can be taken out of it; empty: it can.
 std::string_view SceneWork::not_now() const {
   const auto busy = publish::not_while(owner_, driven_ != 0);
-  const bool begins = !checks_.empty() || (checked_ != kNever && seen_ - checked_ < kStartShows);
+  const bool begins = !checks_.empty() || (checked_ != kNever && seen_ - checked_ < kBeginsWithin);
   return busy.empty() && begins ? publish::kNotWhileItBegins : busy;
 }
 

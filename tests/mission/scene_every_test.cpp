@@ -41,7 +41,8 @@ INSTANTIATE_TEST_SUITE_P(Each, EveryScene,
                                          "scene_beside", "scene_pivot", "scene_planes",
                                          "scene_mouth", "scene_wall_behind", "scene_stamps",
                                          "scene_origin", "scene_constraint", "scene_reverse",
-                                         "scene_heading", "scene_worker", "scene_restart"),
+                                         "scene_edge", "scene_heading", "scene_worker",
+                                         "scene_restart"),
                          [](const auto& one) { return std::string(one.param); });
 
 }  // namespace

@@ -103,6 +103,27 @@ TEST(SceneReverse, StopsJointCommandsThatDriveBackIntoABox) {
   EXPECT_THAT(journal, testing::HasSubstr("crate"));
 }
 
+TEST(SceneEdge, StopsJointCommandsBeforeItAndLetsThemLeave) {
+  const SceneLog& scene = scene_log("scene_edge");
+  const Record& log = *scene.record;
+  constexpr double kEdgeX_m = -12;
+  ASSERT_TRUE(scene.answer("yard").done) << scene.answer("yard").reason;
+  const Time drive = log.event("event drive#1");
+  const Time over = log.event("event commands_end#2");
+  const double stands_m = scene.pose_at(over).x_m;
+  EXPECT_LT(stands_m, scene.pose_at(drive).x_m - 0.5) << "it did not drive back";
+  figure("stands before it", stands_m - kEdgeX_m, "m");
+  EXPECT_GT(stands_m, kEdgeX_m);
+  EXPECT_LE(stands_m, kEdgeX_m + kFarFrom_m);
+  EXPECT_THAT(log.moving(over - 1s, over), testing::IsEmpty());
+  std::ifstream stream(log.folder / "droverd.log");
+  const std::string journal{std::istreambuf_iterator<char>(stream), {}};
+  EXPECT_THAT(journal, testing::HasSubstr("joint commands ended: the edge of constraint yard"));
+  EXPECT_EQ(journal.find("outside of its region"), std::string::npos) << "it was broken";
+  // Nobody had to push it or to take the constraint away.
+  EXPECT_GT(scene.pose_at(log.event("event commands_end#4")).x_m, stands_m + 0.3);
+}
+
 TEST(SceneWorker, StopsWhenNobodyLooksAroundAnyMore) {
   const SceneLog& scene = scene_log("scene_worker");
   const Record& log = *scene.record;
