@@ -10,6 +10,15 @@
 
 namespace drover {
 
+/// Ways, each with what is not known of the position left out.
+struct BareWays {
+  double along_m = 0;
+  double ahead_m = 0;
+  double back_m = 0;
+  double left_rad = 0;
+  double right_rad = 0;
+};
+
 /// Made outside the control thread, of objects, zones, constraints and the points of obstacle
 /// sensors, for one pose, one path and one twist: what is asked of another one it does not answer.
 /// Ways begin where the base was at `t`, with the margin and the position's error taken off; what
@@ -24,8 +33,15 @@ struct Clearance {
   double back_m = 0;
   double left_rad = 0;  ///< turning on the spot, counter-clockwise
   double right_rad = 0;
-  /// What is met first, and how far away, in an operator's words; empty: nothing near.
+  /// The same by the margin alone. An error of the position that grows in one moment takes a way
+  /// away in which nothing came nearer: what is truly near is judged by these, where they are more.
+  BareWays bare;
+  /// What is met first on the way that is asked for, a turn on the spot too, and how far away, in
+  /// an operator's words; empty: nothing near.
   Reason first;
+  /// What ends the turn on the spot that is asked for, and after which angle; empty: nothing, or
+  /// none is asked for.
+  Reason turn;
   /// Why nothing can be said: no position, a blind sensor, a scene that could not be read. Then
   /// nothing is free.
   Reason unknown;

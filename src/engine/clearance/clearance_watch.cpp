@@ -115,11 +115,14 @@ double ClearanceWatch::agreed_m(const ClearanceInput& input, const WaySince& sin
 }
 
 /// Closed at once, and open again only when more was free for long enough: who was stopped without
-/// a ramp does not creep on to where a ramp would have ended.
+/// a ramp does not creep on to where a ramp would have ended. Without a ramp is stopped before what
+/// is truly near: where a way ended because the position is not known as well as it was, nothing
+/// came nearer, and a ramp that ends in what the margin alone leaves is as good.
 void ClearanceWatch::judge(Gate& gate, const Stretch& way, const StopChain& full, Time now) {
   const bool too_near = stop_way(way.moves, full) > way.left;
   const StopChain from_now{kDriveLag_s, full.deceleration};
-  too_near_ = too_near_ || (way.moves > 0 && stop_way(way.moves, from_now) > way.left);
+  const double truly_left = std::max(way.left, way.bare);
+  too_near_ = too_near_ || (way.moves > 0 && stop_way(way.moves, from_now) > truly_left);
   if (gate.closed) gate.least = std::min(gate.least, way.left);
   if (too_near || permitted_speed(way.left, way.brakes) < way.slowest) {
     gate = {true, kNever, gate.closed ? gate.least : way.left};
@@ -140,8 +143,12 @@ double ClearanceWatch::along_cap(const ClearanceInput& input, const WaySince& si
     gates_[kAlong] = {};
     return 0;
   }
-  const Stretch way{found_.along_m - since.driven_m, std::abs(input.commanded.vx_mps), straight_,
-                    limits_.min_speed_mps, config_.again_m};
+  const Stretch way{found_.along_m - since.driven_m,
+                    found_.bare.along_m - since.driven_m,
+                    std::abs(input.commanded.vx_mps),
+                    straight_,
+                    limits_.min_speed_mps,
+                    config_.again_m};
   judge(gates_[kAlong], way, straight_full_, input.now);
   return gates_[kAlong].closed ? 0 : permitted_speed(way.left, way.brakes);
 }
@@ -164,8 +171,11 @@ double ClearanceWatch::straight_cap(Way which, const ClearanceInput& input, cons
   const bool task = input.path != 0;
   const double moves_mps = which == kBack ? -input.commanded.vx_mps : input.commanded.vx_mps;
   Stretch way{(which == kBack ? found_.back_m : found_.ahead_m) - since.driven_m,
-              std::max(moves_mps, 0.0), in_curve(task ? straight_firm_ : straight_, input),
-              limits_.min_speed_mps, config_.again_m};
+              (which == kBack ? found_.bare.back_m : found_.bare.ahead_m) - since.driven_m,
+              std::max(moves_mps, 0.0),
+              in_curve(task ? straight_firm_ : straight_, input),
+              limits_.min_speed_mps,
+              config_.again_m};
   const StopChain full = in_curve(straight_full_, input);
   const bool elsewhere = way.left > agreed_m;
   if (elsewhere && task) way.left = kFree;
@@ -180,9 +190,13 @@ double ClearanceWatch::straight_cap(Way which, const ClearanceInput& input, cons
 /// An answer about a turn is for the place where it was looked around.
 double ClearanceWatch::turn_cap(Way which, const ClearanceInput& input, const WaySince& since) {
   const double moves_radps = which == kLeft ? input.commanded.wz_radps : -input.commanded.wz_radps;
-  const Stretch way{(which == kLeft ? found_.left_rad : found_.right_rad) - since.turned_rad,
-                    drives(input.commanded) ? 0 : std::max(moves_radps, 0.0), turning_,
-                    kSlowest_radps, kAgain_rad};
+  const Stretch way{
+      (which == kLeft ? found_.left_rad : found_.right_rad) - since.turned_rad,
+      (which == kLeft ? found_.bare.left_rad : found_.bare.right_rad) - since.turned_rad,
+      drives(input.commanded) ? 0 : std::max(moves_radps, 0.0),
+      turning_,
+      kSlowest_radps,
+      kAgain_rad};
   Gate& gate = gates_[which];
   judge(gate, way, turning_full_, input.now);
   const bool here = since.driven_m <= config_.beside_m;
@@ -204,6 +218,17 @@ bool ClearanceWatch::is_blocked(const ClearanceInput& input) const {
   if (input.path != 0) return closed(kAlong) || (way != kNone && closed(way));
   if (way != kNone) return closed(way);
   return closed(kAhead) && closed(kBack) && closed(kLeft) && closed(kRight);
+}
+
+/// In words: a turn is not hindered by what is ahead. What ends the track ends it for the turn,
+/// too.
+Reason ClearanceWatch::blocked_by(const ClearanceInput& input) const {
+  const Way asked = way_of(input.asked);
+  const Way way = asked == kNone ? way_of(input.commanded) : asked;
+  const bool turns = (way == kLeft || way == kRight) && gates_[way].closed;
+  if (turns && !found_.turn.empty()) return found_.turn;
+  if (!found_.first.empty()) return found_.first;
+  return blocked_.empty() ? Reason("something is in the way") : blocked_;
 }
 
 void ClearanceWatch::update(const ClearanceInput& input) {
@@ -230,13 +255,7 @@ void ClearanceWatch::update(const ClearanceInput& input) {
   const ClearanceCaps caps{along_cap(input, since), straight_cap(kAhead, input, since, agreed),
                            straight_cap(kBack, input, since, agreed), turn_cap(kLeft, input, since),
                            turn_cap(kRight, input, since)};
-  if (!is_blocked(input)) {
-    blocked_.clear();
-  } else if (!found_.first.empty()) {
-    blocked_ = found_.first;
-  } else if (blocked_.empty()) {
-    blocked_ = "something is in the way";
-  }
+  blocked_ = is_blocked(input) ? blocked_by(input) : Reason();
   const bool waits = input.path != 0 && !blocked_.empty();
   if (broken_.empty() && !waits) caps_ = caps;
 }

@@ -78,6 +78,7 @@ class ClearanceWatch final {
   /// m and m/s, or rad and rad/s of a turn on the spot.
   struct Stretch {
     double left = 0;
+    double bare = 0;     ///< that was left by the margin alone, where it is more
     double moves = 0;    ///< into it
     StopChain brakes;    ///< as it is come to
     double slowest = 0;  ///< what a base cannot hold is no speed
@@ -94,6 +95,7 @@ class ClearanceWatch final {
   double straight_cap(Way way, const ClearanceInput& input, const WaySince& since, double agreed_m);
   double turn_cap(Way way, const ClearanceInput& input, const WaySince& since);
   bool is_blocked(const ClearanceInput& input) const;
+  Reason blocked_by(const ClearanceInput& input) const;
   void forget_freedom();
 
   ClearanceConfig config_;

@@ -191,32 +191,36 @@ void get(OutputsUp& up, ByteReader& in) {
 }
 
 void put(const ClearanceFound& found, ByteWriter& out) {
-  const auto& [t, scene, path, twist, along_m, ahead_m, back_m, left_rad, right_rad, first, unknown,
-               broken] = found.clearance;
+  const auto& [t, scene, path, twist, along_m, ahead_m, back_m, left_rad, right_rad, bare, first,
+               turn, unknown, broken] = found.clearance;
   // Of no time: that permits nothing, and has to stay so.
   out.byte(t == kNever ? 0 : 1);
   out.signed_number(std::max(t, Time{}).time_since_epoch().count());
   out.number(scene);
   out.number(path);
   for (const double value :
-       {twist.vx_mps, twist.wz_radps, along_m, ahead_m, back_m, left_rad, right_rad})
+       {twist.vx_mps, twist.wz_radps, along_m, ahead_m, back_m, left_rad, right_rad, bare.along_m,
+        bare.ahead_m, bare.back_m, bare.left_rad, bare.right_rad})
     out.real(value);
   out.text(first);
+  out.text(turn);
   out.text(unknown);
   out.text(broken);
 }
 void get(ClearanceFound& found, ByteReader& in) {
-  auto& [t, scene, path, twist, along_m, ahead_m, back_m, left_rad, right_rad, first, unknown,
-         broken] = found.clearance;
+  auto& [t, scene, path, twist, along_m, ahead_m, back_m, left_rad, right_rad, bare, first, turn,
+         unknown, broken] = found.clearance;
   const bool timed = get_flag(in);
   t = get_time(Time{}, in);
   if (!timed) t = kNever;
   scene = in.number();
   path = in.number();
   for (double* value :
-       {&twist.vx_mps, &twist.wz_radps, &along_m, &ahead_m, &back_m, &left_rad, &right_rad})
+       {&twist.vx_mps, &twist.wz_radps, &along_m, &ahead_m, &back_m, &left_rad, &right_rad,
+        &bare.along_m, &bare.ahead_m, &bare.back_m, &bare.left_rad, &bare.right_rad})
     *value = in.real();
   first.assign(in.text());
+  turn.assign(in.text());
   unknown.assign(in.text());
   broken.assign(in.text());
 }

@@ -132,6 +132,7 @@ std::string words(const ClearanceFound& found, const Wiring&) {
       ": free along it " + std::to_string(clearance.along_m) + " m, ahead " +
       std::to_string(clearance.ahead_m) + " m, back " + std::to_string(clearance.back_m) + " m";
   if (!clearance.first.empty()) text += ", " + std::string(clearance.first);
+  if (!clearance.turn.empty()) text += ", turning " + std::string(clearance.turn);
   if (!clearance.unknown.empty()) text += ", not known: " + std::string(clearance.unknown);
   if (!clearance.broken.empty()) text += ", broken: " + std::string(clearance.broken);
   return text;

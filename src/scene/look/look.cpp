@@ -12,6 +12,8 @@ namespace drover::scene {
 namespace {
 
 constexpr double kStraight_mps = 0.01;  // slower has no curve of its own
+constexpr double kTurns_radps = 0.02;   // as the engine has it
+constexpr double kHere_m = 0.05;        // a turn that begins so near is the one that is begun
 constexpr double kFree = std::numeric_limits<double>::infinity();
 
 bool has_heading(const Standpoint& from) {
@@ -29,6 +31,38 @@ double reach_of(const Piece& body) {
 /// is never more than from one side to the other.
 double thrown_aside(const LookSettings& settings, double yaw_sigma_rad) {
   return std::min(settings.sigmas * yaw_sigma_rad, 2.0);
+}
+
+/// One way, by two bodies.
+struct Swept {
+  WayEnd end;
+  FreeWay bare;  ///< without the errors of position and heading
+};
+
+/// The robot with all that is kept free around it, and with the margin alone.
+class Bodies final {
+ public:
+  Bodies(const Surroundings& around, const LookSettings& settings, const Standpoint& from)
+      : whole_(around, body_of(settings, from.position_sigma_m, from.yaw_sigma_rad)),
+        bare_(around, body_of(settings, 0, 0)) {}
+
+  double stride_m() const { return whole_.stride_m(); }
+  std::string name(const WayEnd& end) const { return whole_.name(end); }
+  /// What is free for the larger one is free for the smaller one.
+  Swept sweep(std::vector<Step> steps) const {
+    const WayEnd end = whole_.sweep(steps);
+    if (!end.way.blocked) return {end, end.way};
+    for (Step& step : steps) step.off_m = 0;
+    return {end, bare_.sweep(steps).way};
+  }
+
+ private:
+  Sweeper whole_;
+  Sweeper bare_;
+};
+
+double turn_rad(const FreeWay& way) {
+  return way.blocked ? way.free_rad : kFree;
 }
 
 /// Why nothing can be said; empty: something can.
@@ -68,46 +102,80 @@ void look_any_way(const Surroundings& around, const LookSettings& settings, cons
       free_disc(around, place_of(from.pose), reach_of(body) + body.radius_m, settings.ahead_m);
   found.ahead_m = found.back_m = disc.free_m;
   found.left_rad = found.right_rad = disc.free ? kFree : 0;
-  if (disc.blocked) found.first = in_the_way(disc.name, "away", disc.free_m);
+  if (disc.blocked)
+    found.first = disc.free ? in_the_way(disc.name, "away", disc.free_m) : is_there(disc.name);
 }
 
-void look_around(const Sweeper& sweeper, const LookSettings& settings, const Standpoint& from,
+Reason in_words(const Bodies& bodies, const WayEnd& end, const char* where) {
+  if (end.way.at_start) return is_there(bodies.name(end));
+  return in_the_way(bodies.name(end), where, end.way.free_m);
+}
+
+/// What is there already hinders every turn.
+Reason in_turn_words(const Bodies& bodies, const WayEnd& end, double turn_rad, bool left) {
+  if (end.way.at_start) return is_there(bodies.name(end));
+  return in_the_turn(bodies.name(end), "is", turn_rad, left);
+}
+
+void look_around(const Bodies& bodies, const LookSettings& settings, const Standpoint& from,
                  Clearance& found) {
-  const double stride_m = sweeper.stride_m();
-  const WayEnd ahead = sweeper.sweep(curve_steps(settings, from, false, stride_m));
-  const WayEnd back = sweeper.sweep(curve_steps(settings, from, true, stride_m));
-  const WayEnd left = sweeper.sweep(pivot_steps(from.pose, std::numbers::pi));
-  const WayEnd right = sweeper.sweep(pivot_steps(from.pose, -std::numbers::pi));
-  found.ahead_m = ahead.way.free_m;
-  found.back_m = back.way.free_m;
-  found.left_rad = left.way.blocked ? left.way.free_rad : kFree;
-  found.right_rad = right.way.blocked ? right.way.free_rad : kFree;
+  const double stride_m = bodies.stride_m();
+  const Swept ahead = bodies.sweep(unguided_steps(settings, from, false, stride_m));
+  const Swept back = bodies.sweep(unguided_steps(settings, from, true, stride_m));
+  const Swept left = bodies.sweep(pivot_steps(from.pose, std::numbers::pi));
+  const Swept right = bodies.sweep(pivot_steps(from.pose, -std::numbers::pi));
+  found.ahead_m = ahead.end.way.free_m;
+  found.back_m = back.end.way.free_m;
+  found.left_rad = turn_rad(left.end.way);
+  found.right_rad = turn_rad(right.end.way);
+  found.bare = {0, ahead.bare.free_m, back.bare.free_m, turn_rad(left.bare), turn_rad(right.bare)};
+  if (is_turn(from.twist)) {
+    const bool to_left = from.twist.wz_radps > 0;
+    const WayEnd& end = to_left ? left.end : right.end;
+    if (end.way.blocked) found.turn = in_turn_words(bodies, end, end.way.free_rad, to_left);
+    found.first = found.turn;
+    return;
+  }
   const bool backwards = from.twist.vx_mps < 0;
-  const WayEnd& end = backwards ? back : ahead;
-  if (end.way.blocked)
-    found.first = in_the_way(sweeper.name(end), backwards ? "back" : "ahead", end.way.free_m);
+  const WayEnd& end = backwards ? back.end : ahead.end;
+  if (end.way.blocked) found.first = in_words(bodies, end, backwards ? "back" : "ahead");
 }
 
-void look_along(const Sweeper& sweeper, const LookSettings& settings, const Standpoint& from,
+void look_along(const Bodies& bodies, const LookSettings& settings, const Standpoint& from,
                 Clearance& found) {
   const TrackPart part{from.line, from.line_from_m, settings.along_m};
-  const WayEnd end =
-      sweeper.sweep(track_steps(from.pose, part, settings.steering, sweeper.stride_m()));
-  found.along_m = !end.way.blocked && is_whole(settings, from) ? kFree : end.way.free_m;
+  const auto [end, bare] =
+      bodies.sweep(track_steps(from.pose, part, settings.steering, bodies.stride_m()));
+  const bool whole = is_whole(settings, from);
+  found.along_m = !end.way.blocked && whole ? kFree : end.way.free_m;
+  found.bare.along_m = !bare.blocked && whole ? kFree : bare.free_m;
   found.first.clear();
-  if (end.way.blocked)
-    found.first = in_the_way(sweeper.name(end), "along the track", end.way.free_m);
+  if (!end.way.blocked) return;
+  const double turned_rad = wrap_rad(end.way.pose.yaw_rad - from.pose.yaw_rad);
+  if (is_turn(from.twist) && end.way.free_m < kHere_m)
+    found.first = in_turn_words(bodies, end, std::abs(turned_rad), from.twist.wz_radps > 0);
+  else
+    found.first = in_words(bodies, end, "along the track");
 }
 
 }  // namespace
 
-std::vector<Step> curve_steps(const LookSettings& settings, const Standpoint& from, bool back,
+bool is_turn(const Twist& twist) {
+  return std::abs(twist.vx_mps) <= kStraight_mps && std::abs(twist.wz_radps) > kTurns_radps;
+}
+
+std::vector<Step> curve_steps(const Pose2& from, const Twist& twist, bool back, double length_m,
                               double stride_m) {
-  const bool drives = std::abs(from.twist.vx_mps) > kStraight_mps;
-  const Twist curve = drives ? from.twist : Twist{1, 0};
+  const bool drives = std::abs(twist.vx_mps) > kStraight_mps;
+  const Twist curve = drives ? twist : Twist{1, 0};
   const double v_mps = (back ? -1 : 1) * std::abs(curve.vx_mps);
   const double wz_radps = curve.wz_radps * (v_mps * curve.vx_mps < 0 ? -1 : 1);
-  auto steps = twist_steps(from.pose, v_mps, wz_radps, settings.ahead_m, stride_m);
+  return twist_steps(from, v_mps, wz_radps, length_m, stride_m);
+}
+
+std::vector<Step> unguided_steps(const LookSettings& settings, const Standpoint& from, bool back,
+                                 double stride_m) {
+  auto steps = curve_steps(from.pose, from.twist, back, settings.ahead_m, stride_m);
   const double aside = thrown_aside(settings, from.yaw_sigma_rad);
   for (Step& step : steps) step.off_m = aside * step.driven_m;
   return steps;
@@ -145,9 +213,9 @@ Clearance look(const Surroundings& around, const LookSettings& settings, const S
     look_any_way(around, settings, from, found);
     return found;
   }
-  const Sweeper sweeper(around, body_of(settings, from.position_sigma_m, from.yaw_sigma_rad));
-  look_around(sweeper, settings, from, found);
-  if (from.path != 0) look_along(sweeper, settings, from, found);
+  const Bodies bodies(around, settings, from);
+  look_around(bodies, settings, from, found);
+  if (from.path != 0) look_along(bodies, settings, from, found);
   return found;
 }
 

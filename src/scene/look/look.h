@@ -30,8 +30,8 @@ struct Standpoint {
   Pose2 pose;
   double position_sigma_m = 0;  ///< absent or not finite: the position is not known
   double yaw_sigma_rad = 0;     ///< likewise the heading
-  Twist twist;                  ///< whose curve is looked along; at rest it looks straight ahead
-  std::uint64_t path = 0;       ///< 0: no track
+  Twist twist;  ///< whose curve is looked along; at rest, and turning, it looks straight ahead
+  std::uint64_t path = 0;  ///< 0: no track
   /// Of the track what is near and ahead, in the order of travel.
   std::span<const Point2> line;
   double line_from_m = 0;  ///< the robot is about there on it (1 m), as arc length
@@ -44,11 +44,15 @@ struct Standpoint {
 /// robot may go in any direction, and turn: what a search for the heading needs.
 Clearance look(const Surroundings& around, const LookSettings& settings, const Standpoint& from);
 
-/// Along the curve of its twist, at rest straight on: ahead, or the same curve back.
-/// Nobody keeps it on that curve by the map, as the tracker does on its line: where the robot looks
-/// otherwise than it believes, it comes off by that much of its way.
-std::vector<Step> curve_steps(const LookSettings& settings, const Standpoint& from, bool back,
+/// A turn on the spot: slower ahead has no curve of its own.
+bool is_turn(const Twist& twist);
+/// Along the curve of a twist, at rest straight on: ahead, or the same curve back.
+std::vector<Step> curve_steps(const Pose2& from, const Twist& twist, bool back, double length_m,
                               double stride_m);
+/// The same where nobody keeps the robot on that curve by the map, as the tracker does on its line:
+/// where it looks otherwise than it believes, it comes off by that much of its way.
+std::vector<Step> unguided_steps(const LookSettings& settings, const Standpoint& from, bool back,
+                                 double stride_m);
 
 /// Nothing can be said by a position like this one; empty: it is one.
 Reason position_problem(const Pose2& pose, double position_sigma_m);

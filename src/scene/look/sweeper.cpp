@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "drover/angle.h"
+
 namespace drover::scene {
 namespace {
 
@@ -11,6 +13,10 @@ constexpr std::size_t kShownName = 80;
 bool is_earlier(const FreeWay& a, const FreeWay& b) {
   if (!a.blocked || !b.blocked) return a.blocked;
   return std::pair(a.free_m, a.free_rad) < std::pair(b.free_m, b.free_rad);
+}
+
+std::string shown_name(const std::string& name) {
+  return std::string(FixedText<kShownName>(name).view());
 }
 
 }  // namespace
@@ -37,15 +43,25 @@ std::string Sweeper::name(const WayEnd& end) const {
   return "the fence of " + (known ? around_.keep_in_names[i] : std::string("a zone"));
 }
 
-Reason in_the_way(const std::string& name, const char* where, double way_m) {
-  const FixedText<kShownName> shown(name);
-  const auto size = static_cast<int>(shown.view().size());
+Reason in_the_turn(const std::string& name, const char* is, double turn_rad, bool left) {
+  const std::string shown = shown_name(name);
   Reason words;
-  if (way_m > 0) {
-    words.format("%.*s is in the way, %.2f m %s", size, shown.view().data(), way_m, where);
-  } else {
-    words.format("%.*s is where the robot is", size, shown.view().data());
-  }
+  words.format("%s %s in the way of the turn to the %s, after %.0f deg", shown.c_str(), is,
+               left ? "left" : "right", to_deg(turn_rad));
+  return words;
+}
+
+Reason in_the_way(const std::string& name, const char* where, double way_m) {
+  const std::string shown = shown_name(name);
+  Reason words;
+  words.format("%s is in the way, %.2f m %s", shown.c_str(), way_m, where);
+  return words;
+}
+
+Reason is_there(const std::string& name) {
+  const std::string shown = shown_name(name);
+  Reason words;
+  words.format("%s is where the robot is", shown.c_str());
   return words;
 }
 

@@ -38,7 +38,13 @@ class Sweeper final {
   double stride_m_;
 };
 
-/// "box1 is in the way, 1.20 m ahead"; where the way is 0: "box1 is where the robot is".
+/// "box1" and "is" for what is known; "lidar" and "sees something" for what is seen: "box1 is in
+/// the way of the turn to the left, after 12 deg". `turn_rad` of it are free.
+Reason in_the_turn(const std::string& name, const char* is, double turn_rad, bool left);
+
+/// "box1 is in the way, 1.20 m ahead".
 Reason in_the_way(const std::string& name, const char* where, double way_m);
+/// "box1 is where the robot is".
+Reason is_there(const std::string& name);
 
 }  // namespace drover::scene

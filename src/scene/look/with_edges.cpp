@@ -60,9 +60,9 @@ Clearance with_edges(Clearance found, const Edges& edges, const LookSettings& se
   }
   if (!is_heading(from.pose.yaw_rad, from.yaw_sigma_rad)) return found;
   const bool backwards = from.twist.vx_mps < 0;
-  bound_way(found.ahead_m, curve_steps(settings, from, false, stride), edges, settings.margin_m,
+  bound_way(found.ahead_m, unguided_steps(settings, from, false, stride), edges, settings.margin_m,
             "ahead", backwards ? nullptr : &found.first);
-  bound_way(found.back_m, curve_steps(settings, from, true, stride), edges, settings.margin_m,
+  bound_way(found.back_m, unguided_steps(settings, from, true, stride), edges, settings.margin_m,
             "back", backwards ? &found.first : nullptr);
   bound_turn(found.left_rad, from.pose, std::numbers::pi, edges);
   bound_turn(found.right_rad, from.pose, -std::numbers::pi, edges);

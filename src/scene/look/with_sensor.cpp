@@ -1,6 +1,9 @@
 #include "scene/look/with_sensor.h"
 
+#include <algorithm>
 #include <string_view>
+
+#include "scene/look/look.h"
 
 namespace drover::scene {
 namespace {
@@ -8,10 +11,12 @@ namespace {
 void take_all(Clearance& found) {
   found.along_m = found.ahead_m = found.back_m = 0;
   found.left_rad = found.right_rad = 0;
+  found.bare = {};
 }
 
 /// Lower, and by what is seen.
-bool bound(double& way_m, double free_m) {
+bool lower(double& way_m, double& bare_m, double free_m) {
+  bare_m = std::min(bare_m, free_m);
   if (way_m <= free_m) return false;
   way_m = free_m;
   return true;
@@ -25,9 +30,10 @@ Clearance with_sensor(Clearance found, const sensor::FieldView& seen, const Sens
     const double free_m = left_m > 0 ? left_m : 0;  // and what is no number is none
     const auto who = seen.scanner.empty() ? std::string_view("a scanner") : seen.scanner.view();
     const bool on_track = found.path != 0;
-    const bool ahead = bound(found.ahead_m, free_m);
-    const bool along = on_track && terms.track_ahead && bound(found.along_m, free_m);
-    if (on_track ? along : ahead && found.twist.vx_mps >= 0)
+    const bool ahead = lower(found.ahead_m, found.bare.ahead_m, free_m);
+    const bool along =
+        on_track && terms.track_ahead && lower(found.along_m, found.bare.along_m, free_m);
+    if (on_track ? along : ahead && found.twist.vx_mps >= 0 && !is_turn(found.twist))
       found.first.format("%.*s sees something, %.2f m ahead", static_cast<int>(who.size()),
                          who.data(), free_m);
   }

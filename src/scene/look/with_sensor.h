@@ -15,8 +15,8 @@ struct SensorTerms {
 };
 
 /// A field that something is in ends the way ahead there, and along a track that goes on ahead; of
-/// other ways it says nothing, and one that is free says nothing of objects and zones either. Where
-/// it does not see, nothing is free.
+/// other ways it says nothing (with_points.h does), and one that is free says nothing of objects
+/// and zones either. Where it does not see, nothing is free.
 Clearance with_sensor(Clearance found, const sensor::FieldView& seen, const SensorTerms& terms);
 
 }  // namespace drover::scene

@@ -74,7 +74,9 @@ struct OneOfEachInput {
                         1.5,
                         0.25,
                         2,
+                        {INFINITY, 3.5, 1.75, 0.5, 2.5},
                         "box1",
+                        "box2 is in the way of the turn to the left, after 14 deg",
                         "blind",
                         "the fence of field_north"}});
     add(ClearanceFound{});

@@ -183,5 +183,98 @@ TEST_F(AClearance, IsBlockedByWhatAppearsTooNearForItsSpeed) {
   EXPECT_TRUE(blocked());
 }
 
+/// What is ahead does not hinder a turn: that is told by what does.
+TEST_F(AClearance, NamesWhatHindersTheTurnThatIsAskedFor) {
+  found.first = "box1 is in the way, 0.30 m ahead";
+  found.turn = "box2 is in the way of the turn to the left, after 0 deg";
+  found.left_rad = 0;
+  for (const std::uint64_t path : {0U, 7U}) {
+    input.path = path;
+    input.asked = {0, 0.5};
+    tick(30);
+    EXPECT_THAT(why(), HasSubstr("box2"));
+    // It stands, and is not asked for a moment.
+    input.asked = {0, -0.5};
+    tick(30);
+    EXPECT_EQ(why(), "");
+  }
+  input.path = 0;
+  input.asked = {0.3, 0};
+  found.ahead_m = 0;
+  tick(30);
+  EXPECT_THAT(why(), HasSubstr("box1"));
+}
+
+TEST_F(AClearance, NamesOfATrackThatEndsInATurnWhatEndsIt) {
+  input.path = 7;
+  input.asked = {0, 0.5};
+  found.along_m = 0;
+  found.first = "wall is in the way of the turn to the left, after 40 deg";
+  found.turn = "post is in the way of the turn to the left, after 120 deg";
+  tick(30);
+  EXPECT_THAT(why(), HasSubstr("wall")) << "the turn is free so far as it is to go";
+}
+
+/// The position was known to 2 cm and is to 20: the free way is shorter at once, and nothing came.
+TEST_F(AClearance, StopsOnARampWhenOnlyThePositionIsNotKnownAsWell) {
+  input.commanded = {0.5, 0};
+  found.ahead_m = found.bare.ahead_m = 1.2;
+  tick(30);
+  ASSERT_FALSE(blocked());
+  found.ahead_m = 0;
+  tick(10);
+  EXPECT_TRUE(blocked());
+  EXPECT_EQ(watch.caps().ahead_mps, 0);
+  EXPECT_FALSE(watch.too_near());
+}
+
+TEST_F(AClearance, StopsWithoutARampBeforeWhatIsTrulyNearer) {
+  input.commanded = {0.5, 0};
+  found.ahead_m = found.bare.ahead_m = 1.2;
+  tick(30);
+  found.ahead_m = 0;
+  found.bare.ahead_m = 0.15;
+  tick(10);
+  EXPECT_TRUE(blocked());
+  EXPECT_TRUE(watch.too_near());
+}
+
+TEST_F(AClearance, TakesTheWayItselfWhereNobodySaidWhatTheMarginAloneLeaves) {
+  input.commanded = {0.5, 0};
+  tick(30);
+  found.ahead_m = 0.15;
+  tick(10);
+  EXPECT_TRUE(watch.too_near());
+  found.bare = {NAN, NAN, NAN, NAN, NAN};
+  tick(10);
+  EXPECT_TRUE(watch.too_near());
+}
+
+TEST_F(AClearance, JudgesATrackAndATurnByWhatIsTrulyNearToo) {
+  input.path = 7;
+  input.commanded = input.asked = {0.5, 0};
+  tick(30);
+  found.along_m = 0;
+  found.bare.along_m = 1;
+  tick(10);
+  EXPECT_TRUE(blocked());
+  EXPECT_FALSE(watch.too_near());
+  found.bare.along_m = 0.1;
+  tick(10);
+  EXPECT_TRUE(watch.too_near());
+  found.along_m = 5;
+  input.path = 0;
+  input.commanded = input.asked = {0, 0.6};
+  tick(10);
+  found.left_rad = 0;
+  found.bare.left_rad = 1;
+  tick(10);
+  EXPECT_TRUE(blocked());
+  EXPECT_FALSE(watch.too_near());
+  found.bare.left_rad = 0.05;
+  tick(10);
+  EXPECT_TRUE(watch.too_near());
+}
+
 }  // namespace
 }  // namespace drover::engine

@@ -315,5 +315,67 @@ TEST_F(ALook, SaysNothingOfATrackOfWhichNothingIsGiven) {
   EXPECT_THAT(text(found.unknown), HasSubstr("track"));
 }
 
+/// What is ahead does not hinder a turn on the spot, and what hinders it is not ahead.
+TEST_F(ALook, NamesWhatHindersTheTurnThatIsAskedFor) {
+  put("ahead", 1.5, 0);
+  put("beside", 0.2, 0.65);
+  from.twist = {0, 0.5};
+  Clearance found = look_now();
+  EXPECT_LT(found.left_rad, to_rad(30));
+  std::string degrees = std::to_string(std::lround(to_deg(found.left_rad)));
+  EXPECT_EQ(text(found.turn),
+            "beside is in the way of the turn to the left, after " + degrees + " deg");
+  EXPECT_EQ(text(found.first), text(found.turn));
+  from.twist = {0, -0.5};
+  found = look_now();
+  degrees = std::to_string(std::lround(to_deg(found.right_rad)));
+  EXPECT_EQ(text(found.first),
+            "beside is in the way of the turn to the right, after " + degrees + " deg");
+  around.field.remove("beside");
+  found = look_now();
+  EXPECT_EQ(found.right_rad, kFree);
+  EXPECT_EQ(text(found.first), "");
+  from.twist = {0.5, 0};
+  found = look_now();
+  EXPECT_EQ(text(found.turn), "");
+  EXPECT_THAT(text(found.first), HasSubstr("ahead is in the way"));
+}
+
+TEST_F(ALook, NamesWhatHindersTheTurnAtACornerOfItsTrack) {
+  put("wall", 0.2, 0.65);
+  drive_along({{-3, 0}, {0, 0}, {0, -4}});
+  from.line_from_m = 3;
+  from.twist = {0, -0.5};
+  const Clearance found = look_now();
+  EXPECT_LT(found.along_m, 0.05);
+  EXPECT_THAT(text(found.first), HasSubstr("wall is in the way of the turn to the right, after "));
+}
+
+TEST_F(ALook, SaysOfATurnThatItStandsInSomething) {
+  put("box1", -0.2, -0.2);
+  from.twist = {0, 0.5};
+  EXPECT_EQ(text(look_now().turn), "box1 is where the robot is");
+}
+
+/// The position is not known any more as well as it was: nothing came nearer.
+TEST_F(ALook, SaysWhatTheMarginAloneLeavesOfAWay) {
+  put("box1", 1.2, 0);
+  put("beside", 0, 0.8);
+  drive_along({{0, 0}, {4, 0}});
+  from.position_sigma_m = 0;
+  const Clearance sure = look_now();
+  EXPECT_NEAR(sure.ahead_m, 0.5, 0.02);
+  EXPECT_EQ(sure.bare.ahead_m, sure.ahead_m);
+  from.position_sigma_m = 0.2;
+  const Clearance unsure = look_now();
+  EXPECT_EQ(unsure.ahead_m, 0);
+  EXPECT_EQ(unsure.along_m, 0);
+  EXPECT_NEAR(unsure.bare.ahead_m, sure.ahead_m, kResolution_m);
+  EXPECT_NEAR(unsure.bare.along_m, sure.along_m, kResolution_m);
+  EXPECT_NEAR(unsure.bare.back_m, sure.back_m, kResolution_m);
+  EXPECT_NEAR(unsure.bare.left_rad, sure.left_rad, 2 * kResolution_m);
+  EXPECT_NEAR(unsure.bare.right_rad, sure.right_rad, 2 * kResolution_m);
+}
+
 }  // namespace
 }  // namespace drover::scene

@@ -111,5 +111,24 @@ TEST(WithSensor, AFieldWithoutANumberIsBlockedAtOnce) {
   }
 }
 
+TEST(WithSensor, BoundsWhatTheMarginAloneLeavesToo) {
+  Clearance found = free_clearance();
+  found.bare = {kFree, 3, 3, kFree, kFree};
+  const Clearance some = with_sensor(found, seen(true, false, 0.6), kAhead);
+  EXPECT_DOUBLE_EQ(some.bare.ahead_m, 0.5);
+  EXPECT_DOUBLE_EQ(some.bare.along_m, 0.5);
+  const Clearance none = with_sensor(found, seen(false, true, 2), kAhead);
+  EXPECT_EQ(none.bare.ahead_m + none.bare.back_m + none.bare.along_m + none.bare.left_rad, 0);
+}
+
+TEST(WithSensor, WhatIsSeenAheadIsNotFirstForOneThatTurnsOnTheSpot) {
+  Clearance found = free_clearance();
+  found.path = 0;
+  found.twist = {0, 0.5};
+  found = with_sensor(found, seen(true, false, 0.5), kAhead);
+  EXPECT_DOUBLE_EQ(found.ahead_m, 0.4);
+  EXPECT_EQ(found.first.view(), "");
+}
+
 }  // namespace
 }  // namespace drover::scene
