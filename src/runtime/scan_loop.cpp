@@ -109,6 +109,8 @@ void ScanLoop::take(const Scan& turn) {
   seen_.begin = turn.begin;
   seen_.end = turn.end;
   seen_.field = scene::sensor::look(turn, made_.scans->mount(), field_);
+  exchange_.turn.back() = {name_, made_.scans->mount(), turn};
+  exchange_.turn.publish();
   ++shown_.source.samples;
   shown_.time = turn.end;
   shown_.turn_Hz = turn.turn_Hz;

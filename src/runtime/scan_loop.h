@@ -1,6 +1,6 @@
 // A scanner's thread: opens its line for ever, has its driver decode what comes, and looks at each
-// turn for what is in the robot's way. Only that leaves it: to the scene, whole, and to people in
-// short. The control thread hears none of its bytes.
+// turn for what is in the robot's way. Only turns and that leave it: to the scene, whole, and to
+// people in short. The control thread hears none of its bytes.
 #pragma once
 
 #include <atomic>
@@ -15,6 +15,7 @@
 #include "link/serial_link.h"
 #include "runtime/back_off.h"
 #include "runtime/wake.h"
+#include "scene/sensor/near_things.h"
 #include "scene/sensor/seen.h"
 
 namespace drover::runtime {
@@ -28,6 +29,7 @@ struct ScanTold {
 
 struct ScanExchange {
   TripleBuffer<scene::sensor::ScanSeen> seen;  ///< → scene
+  TripleBuffer<scene::sensor::SeenTurn> turn;  ///< likewise, the latest one whole
   TripleBuffer<ScanTold> told;                 ///< → publish
 };
 

@@ -85,7 +85,10 @@ void SceneLoop::look() {
 void SceneLoop::look_at_scanners() {
   if (scanners_.empty()) return;
   FixedVector<scene::sensor::ScanSeen, kMaxOfKind> seen;
-  for (const auto& scanner : scanners_) (void)seen.push_back(scanner->exchange.seen.latest());
+  for (std::size_t i = 0; i < scanners_.size(); ++i) {
+    (void)seen.push_back(scanners_[i]->exchange.seen.latest());
+    work_.see_turn(static_cast<std::uint8_t>(i), scanners_[i]->exchange.turn.latest());
+  }
   work_.set_sensors(scene::sensor::view({seen.data(), seen.size()}, monotonic_now()));
 }
 

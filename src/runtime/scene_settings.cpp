@@ -12,6 +12,8 @@ namespace {
 
 using config::SceneConfig;
 
+constexpr Duration kLongerThanAnyWaits = std::chrono::seconds(10);
+
 scene::Heights heights_of(const SceneConfig& config) {
   constexpr double kEnd = std::numeric_limits<double>::infinity();
   if (config.heights == "ignore") return {-kEnd, kEnd};
@@ -66,6 +68,7 @@ scene::KeeperSettings keeper_settings(const config::DroverConfig& config) {
   settings.pivot_rad = to_rad(config.engine.navigate.pivot_angle_deg);
   settings.lookahead_s = config.engine.navigate.lookahead_s;
   settings.min_lookahead_m = config.engine.navigate.min_lookahead_m;
+  settings.seen_kept = from_s(config.engine.navigate.obstacle_timeout_s) + kLongerThanAnyWaits;
   return settings;
 }
 

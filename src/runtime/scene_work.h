@@ -35,6 +35,10 @@ class SceneWork final {
   void see(const Viewpoint& from);
   /// What its scanners see now; of a robot without one it is never called.
   void set_sensors(const scene::sensor::FieldView& view) { keeper_.set_sensors(view); }
+  /// The latest turn of one of them, by its number.
+  void see_turn(std::uint8_t scanner, const scene::sensor::SeenTurn& turn) {
+    keeper_.see_turn(scanner, turn);
+  }
   /// From there, on the track that it drives.
   Clearance look() const;
   std::size_t objects() const { return keeper_.world().amount().objects; }

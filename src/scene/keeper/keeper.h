@@ -20,6 +20,7 @@
 #include "scene/constraint/at_start.h"
 #include "scene/look/look.h"
 #include "scene/plane/section.h"
+#include "scene/sensor/near_things.h"
 #include "scene/sensor/seen.h"
 #include "scene/world/world.h"
 #include "scene/zone/zone.h"
@@ -35,6 +36,9 @@ struct KeeperSettings {
   double pivot_rad = to_rad(60.0);  ///< where a track turns by so much it is turned on the spot
   double lookahead_s = 1.0;
   double min_lookahead_m = 0.35;
+  /// What a scanner saw close to the robot and does not see any more is there so long: longer than
+  /// a task waits for it to leave, so that nobody turns into it because nobody looked.
+  Duration seen_kept = std::chrono::seconds(130);
 };
 
 /// When a message came, as Placement has it.
@@ -114,6 +118,9 @@ class Keeper final {
   void see(const Viewpoint& from);
   /// What the scanners see now, as long as that is true; nothing: there are none.
   void set_sensors(const std::optional<sensor::FieldView>& view);
+  /// The latest turn of a scanner, by its number from 0; after see(). The same one again changes
+  /// nothing. It bounds turns as long as set_sensors() has something.
+  void see_turn(std::uint8_t scanner, const sensor::SeenTurn& turn);
   /// By the last viewpoint. `path` is the one that its way is on; nullptr or another one: none, or
   /// it is not here yet. Then Clearance::path is 0.
   Clearance look(const Path* path) const;

@@ -14,7 +14,9 @@
 namespace drover::scene {
 
 struct Keeper::Impl {
-  explicit Impl(KeeperSettings given) : settings(std::move(given)) {}
+  explicit Impl(KeeperSettings given)
+      : settings(std::move(given)), near_things(near_settings(settings)) {}
+  static sensor::NearSettings near_settings(const KeeperSettings& settings);
 
   // What happened; each counts the number up.
   void change();
@@ -46,6 +48,9 @@ struct Keeper::Impl {
   Surroundings around;
   std::optional<Viewpoint> viewpoint;
   std::optional<sensor::FieldView> sensors;
+  sensor::OwnWay own_way;
+  sensor::NearThings near_things;
+  std::vector<Name> scanners;  ///< by number
   bool zones_told = false;
   bool scene_told = false;
   std::string zones_problem;

@@ -7,6 +7,7 @@
 #include "scene/keeper/track_check_impl.h"
 #include "scene/keeper/way_line.h"
 #include "scene/look/with_edges.h"
+#include "scene/look/with_points.h"
 #include "scene/look/with_sensor.h"
 #include "scene/plane/track_line.h"
 #include "scene/world/map_change.h"
@@ -16,6 +17,10 @@ namespace {
 
 constexpr double kDrives_mps = 0.01;
 constexpr double kAtCorner_m = 0.05;
+// Who turns on the spot at a corner stands a little before or behind it, and is done when he looks
+// along what comes then.
+constexpr double kTurningAt_m = 0.15;
+constexpr double kFaces_rad = 0.1;
 
 /// What it does; at rest what it is asked to do.
 Twist looked_along(const Viewpoint& from) {
@@ -23,27 +28,41 @@ Twist looked_along(const Viewpoint& from) {
   return drives || !std::isfinite(from.commanded.vx_mps) ? from.commanded : from.asked;
 }
 
-/// Ahead since then, as fast as it is or is told to be: a field was seen a moment before the pose.
-double driven_m(const Viewpoint& from, Time since) {
-  if (since == kNever || !(since < from.t)) return 0;
+/// Ahead, as it is or is told to be.
+double fastest_mps(const Viewpoint& from) {
   double fastest_mps = 0;
   for (const double vx_mps : {from.pose.vx_mps, from.commanded.vx_mps})
     if (std::isfinite(vx_mps)) fastest_mps = std::max(fastest_mps, vx_mps);
-  return fastest_mps * to_s(from.t - since);
+  return fastest_mps;
 }
 
-/// The track goes on the way that the robot looks.
-bool is_ahead(const WayLine& line, double yaw_rad, double pivot_rad) {
+/// Ahead since then: a field was seen a moment before the pose.
+double driven_m(const Viewpoint& from, const sensor::OwnWay& way, Time since) {
+  if (since == kNever || !(since < from.t)) return 0;
+  return way.pose() ? way.ahead_m(since) : fastest_mps(from) * to_s(from.t - since);
+}
+
+/// The track goes on the way that the robot looks. Of one that turns on the spot it does so only
+/// when it has turned: what its field sweeps over meanwhile is not on its track.
+bool is_ahead(const WayLine& line, double yaw_rad, double pivot_rad, bool turns) {
   const TrackLine track(line.points, pivot_rad);
   if (track.empty()) return true;
   const TrackLine::Leg* leg = &track.legs().front();
+  const double at_corner_m = turns ? kTurningAt_m : kAtCorner_m;
   for (const TrackLine::Leg& next : track.legs())
-    if (track.first_m(next) <= line.from_m + kAtCorner_m) leg = &next;
-  const double off_rad = wrap_rad(track.place(*leg, line.from_m).yaw_rad - yaw_rad);
-  return !(std::abs(off_rad) >= pivot_rad);
+    if (track.first_m(next) <= line.from_m + at_corner_m) leg = &next;
+  const double on_m = std::max(line.from_m, track.first_m(*leg));
+  const double off_rad = wrap_rad(track.place(*leg, on_m).yaw_rad - yaw_rad);
+  return !(std::abs(off_rad) >= (turns ? kFaces_rad : pivot_rad));
 }
 
 }  // namespace
+
+sensor::NearSettings Keeper::Impl::near_settings(const KeeperSettings& settings) {
+  // What it drives up to was seen before it is in the turning circle.
+  return {settings.look.footprint, turning_circle_m(settings.look) + 2 * kNearby_m,
+          settings.seen_kept};
+}
 
 Pose2 Keeper::Impl::pose() const {
   if (!viewpoint) return {kAbsent, kAbsent, kAbsent};
@@ -128,6 +147,7 @@ void Keeper::see(const Viewpoint& from) {
   if (!impl.viewpoint || impl.viewpoint->place != from.place) impl.poses.clear();
   impl.move_map(from);
   impl.viewpoint = from;
+  impl.own_way.note(from.t, {from.pose.vx_mps, from.pose.wz_radps}, fastest_mps(from));
   const double sigma_m = impl.position_sigma_m();
   const Pose2 pose = impl.pose();
   if (position_problem(pose, sigma_m).empty())
@@ -137,6 +157,13 @@ void Keeper::see(const Viewpoint& from) {
 
 void Keeper::set_sensors(const std::optional<sensor::FieldView>& view) {
   impl_->sensors = view;
+}
+
+void Keeper::see_turn(std::uint8_t scanner, const sensor::SeenTurn& turn) {
+  Impl& impl = *impl_;
+  if (impl.scanners.size() <= scanner) impl.scanners.resize(scanner + std::size_t{1});
+  impl.scanners[scanner] = turn.device;
+  impl.near_things.see(scanner, turn, impl.own_way);
 }
 
 Clearance Keeper::look(const Path* path) const {
@@ -174,8 +201,13 @@ Clearance Keeper::look(const Path* path) const {
     if (const auto broken = impl.broken()) found.broken = with_way_out(*broken);
   }
   if (!impl.sensors) return found;
-  SensorTerms terms{impl.settings.look.margin_m, true, driven_m(seen, impl.sensors->since)};
-  if (line) terms.track_ahead = is_ahead(*line, from.pose.yaw_rad, impl.settings.pivot_rad);
+  const auto points = impl.near_things.all(impl.own_way);
+  found = with_points(found, points, impl.scanners, impl.settings.look, from.t);
+  SensorTerms terms{impl.settings.look.margin_m, true,
+                    driven_m(seen, impl.own_way, impl.sensors->since)};
+  if (line)
+    terms.track_ahead =
+        is_ahead(*line, from.pose.yaw_rad, impl.settings.pivot_rad, is_turn(from.twist));
   return with_sensor(found, *impl.sensors, terms);
 }
 

@@ -137,6 +137,10 @@ TEST_F(ScannerOnALine, SeesTheFieldAndWhatComesIntoIt) {
   // The box is 1.5 m from base_link, and the robot's front edge 0.45 m.
   EXPECT_NEAR(all.field.free_m, 1.05, 0.05);
   EXPECT_EQ(all.scanner, "lidar");
+  const scene::sensor::SeenTurn& turn = exchange().turn.latest();
+  EXPECT_EQ(turn.device, "lidar");
+  EXPECT_EQ(turn.scan.points.size(), 450U);
+  EXPECT_GT(turn.scan.end, turn.scan.begin);
   const ScanTold told = exchange().told.latest();
   EXPECT_EQ(told.scanner.health, SourceState::fresh);
   EXPECT_NEAR(told.scanner.turn_Hz, 10, 0.1);

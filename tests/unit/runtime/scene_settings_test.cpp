@@ -29,6 +29,15 @@ const scene::Link& base_link(const KeeperSettings& settings) {
   return settings.robot.links.front();
 }
 
+/// Or a task would turn into what it saw, and waits for, when that is forgotten.
+TEST(SceneSettings, RememberWhatWasSeenForLongerThanATaskWaits) {
+  auto config = field();
+  for (const double waits_s : {5.0, 120.0, 3600.0}) {
+    config.engine.navigate.obstacle_timeout_s = waits_s;
+    EXPECT_GT(to_s(keeper_settings(config).seen_kept), waits_s + 5);
+  }
+}
+
 TEST(SceneSettings, LookAsIsConfigured) {
   auto config = field();
   config.scene.margin_m = 0.2;

@@ -1,0 +1,112 @@
+#include "scene/look/with_points.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "scene/look/sweeper.h"
+#include "scene/plane/sweep.h"
+#include "scene/sensor/seen.h"
+
+namespace drover::scene {
+namespace {
+
+/// Points by who saw them, and whether he does: an object each.
+Field field_of(std::span<const sensor::SeenPoint> points, std::span<const Name> scanners,
+               double within_m, Time now) {
+  Field field;
+  for (std::size_t i = 0; i < scanners.size(); ++i) {
+    for (const bool sees : {true, false}) {
+      std::vector<Piece> pieces;
+      for (const sensor::SeenPoint& point : points) {
+        const bool is_new = now - point.seen <= sensor::kOldestTurn;
+        if (point.scanner == i && is_new == sees && length_m(point.at) <= within_m)
+          pieces.push_back(disc(point.at, 0));
+      }
+      if (pieces.empty()) continue;
+      const std::string name(scanners[i].view());
+      field.put((name.empty() ? "a scanner" : name) + (sees ? " sees" : " saw"),
+                area_of(std::move(pieces)));
+    }
+  }
+  return field;
+}
+
+/// Lower, and by what was seen.
+bool bound(double& way, double& bare, double free) {
+  bare = std::min(bare, free);
+  if (!(way > free)) return false;
+  way = free;
+  return true;
+}
+
+class Points final {
+ public:
+  Points(const Field& field, const LookSettings& settings)
+      : field_(field),
+        body_(piece_of(settings.footprint, settings.margin_m)),
+        slim_(piece_of(settings.footprint, settings.margin_m / 2)) {}
+
+  void bound_turn(bool left, Clearance& found) const {
+    const double all_rad = left ? std::numbers::pi : -std::numbers::pi;
+    const FreeWay way = first_contact(field_, body_, pivot_steps({}, all_rad));
+    if (!way.blocked) return;
+    double& way_rad = left ? found.left_rad : found.right_rad;
+    double& bare_rad = left ? found.bare.left_rad : found.bare.right_rad;
+    const bool nearest = bound(way_rad, bare_rad, way.free_rad);
+    if (!nearest || !is_turn(found.twist) || left != (found.twist.wz_radps > 0)) return;
+    if (way.at_start)
+      found.turn.format("%s something beside the robot, which has no room to turn",
+                        field_.name(way.object).c_str());
+    else
+      found.turn = in_the_turn(field_.name(way.object), "something", way.free_rad, left);
+    found.first = found.turn;
+  }
+  void bound_curve(bool back, double length_m, Clearance& found) const {
+    const Piece& body = back ? body_ : slim_;
+    const auto steps = curve_steps({}, found.twist, back, length_m, stride_m(body));
+    const FreeWay way = first_contact(field_, body, steps);
+    if (!way.blocked) return;
+    double& way_m = back ? found.back_m : found.ahead_m;
+    double& bare_m = back ? found.bare.back_m : found.bare.ahead_m;
+    const bool nearest = bound(way_m, bare_m, way.free_m);
+    const bool asked = !is_turn(found.twist) && back == (found.twist.vx_mps < 0);
+    if (nearest && asked && (found.path == 0 || way.free_m < found.along_m))
+      found.first.format("%s something, %.2f m %s", field_.name(way.object).c_str(), way.free_m,
+                         back ? "back" : "ahead");
+  }
+
+ private:
+  const Field& field_;
+  Piece body_;
+  Piece slim_;
+};
+
+bool bends(const Twist& twist) {
+  return !is_turn(twist) && std::abs(twist.wz_radps) > kBends_radpm * std::abs(twist.vx_mps);
+}
+
+}  // namespace
+
+double turning_circle_m(const LookSettings& settings) {
+  double reach_m = 0;
+  for (const Point2 corner : settings.footprint) reach_m = std::max(reach_m, length_m(corner));
+  return reach_m + settings.margin_m;
+}
+
+Clearance with_points(Clearance found, std::span<const sensor::SeenPoint> points,
+                      std::span<const Name> scanners, const LookSettings& settings, Time now) {
+  if (!std::isfinite(found.twist.vx_mps + found.twist.wz_radps)) return found;
+  const double within_m = turning_circle_m(settings) + kNearby_m;
+  const Field field = field_of(points, scanners, within_m, now);
+  if (field.size() == 0) return found;
+  const Points seen(field, settings);
+  seen.bound_turn(true, found);
+  seen.bound_turn(false, found);
+  seen.bound_curve(true, settings.ahead_m, found);
+  if (bends(found.twist)) seen.bound_curve(false, settings.ahead_m, found);
+  return found;
+}
+
+}  // namespace drover::scene
