@@ -1,4 +1,5 @@
 // Missions in which nobody tells of what is in the way: the lidar alone sees it, or does not see.
+#include "drover/angle.h"
 #include "mission/robot.h"
 #include "mission/support.h"
 
@@ -27,15 +28,20 @@ void expect_success_without_another_start(const Record& log) {
   EXPECT_EQ(log.statuses.back().nav, "NAV_SUCCESS");
 }
 
-TEST(ALidar, IsWellInAHall) {
-  for (const char* name : {"lidar_box", "lidar_ramp"}) {
-    const Record& log = record(name);
-    const Time begin = log.answered("start_nav_success");
-    EXPECT_EQ(first(log, begin, [](const Status& s) { return !laser(s); }), nullptr) << name;
-  }
+void expect_well_all_the_time(const Record& log) {
+  const Time begin = log.answered("start_nav_success");
+  EXPECT_EQ(first(log, begin, [](const Status& s) { return !laser(s); }), nullptr);
 }
 
-TEST(ABoxThatNobodyTellsOf, IsStoppedForByTheLidarAloneAndDrivenOnWhenItIsGone) {
+TEST(LidarBox, IsWellInAHall) {
+  expect_well_all_the_time(record("lidar_box"));
+}
+
+TEST(LidarRamp, IsWellInAHall) {
+  expect_well_all_the_time(record("lidar_ramp"));
+}
+
+TEST(LidarBox, IsStoppedForThoughNobodyTellsOfItAndDrivenOnWhenItIsGone) {
   const Record& log = record("lidar_box");
   const Time comes = log.event("sim obstacle obstacle 1 1");
   const Time goes = log.event("sim obstacle obstacle remove");
@@ -52,6 +58,63 @@ TEST(ABoxThatNobodyTellsOf, IsStoppedForByTheLidarAloneAndDrivenOnWhenItIsGone) 
   EXPECT_LT(left_m, kFarFrom_m);
   EXPECT_FALSE(log.moving(goes + 1s, goes + 4s).empty()) << "it did not go on by itself";
   expect_success_without_another_start(log);
+}
+
+/// The least that was between the robot and the box of the world, by its true poses.
+double least_gap_m(const Record& log, double x_m, double y_m, Time begin, Time end) {
+  const Flat box{{{x_m - kHalfBox_m, y_m - kHalfBox_m},
+                  {x_m + kHalfBox_m, y_m - kHalfBox_m},
+                  {x_m + kHalfBox_m, y_m + kHalfBox_m},
+                  {x_m - kHalfBox_m, y_m + kHalfBox_m}},
+                 0};
+  double least_m = std::numeric_limits<double>::infinity();
+  for (const auto& line : log.truth)
+    if (line.time >= begin && line.time <= end)
+      least_m = std::min(least_m, gap_m(outline(line.x_m, line.y_m, line.yaw_rad), box));
+  return least_m;
+}
+
+/// From when it is told to when it is over it stands, says what hinders its turn, and waits.
+void expect_waits_in_its_turn(const Record& log, Time begin, Time over, const char* who) {
+  const auto* told = first(log, begin, obstacle);
+  ASSERT_NE(told, nullptr) << "it was never told";
+  ASSERT_LT(told->time, over - 4s);
+  std::printf("  %s\n", told->why.c_str());
+  EXPECT_NE(told->why.find(who), std::string::npos) << told->why;
+  const auto at = log.truth_at(over);
+  figure("before the corner", -2 - at.x_m, "m");
+  EXPECT_NEAR(at.x_m, -2, 0.1) << "it did not get to its corner";
+  figure("turned", to_deg(at.yaw_rad), "deg");
+  EXPECT_LT(at.yaw_rad, to_rad(45));
+  EXPECT_THAT(log.moving(told->time + 2s, over), testing::IsEmpty());
+  for (const auto& status : log.statuses) {
+    if (status.time < told->time + 1s || status.time > over) continue;
+    EXPECT_TRUE(obstacle(status)) << seconds(status.time);
+    EXPECT_EQ(status.nav, "NAV_RUN") << seconds(status.time);
+    EXPECT_NE(status.why.find("turn to the left"), std::string::npos) << status.why;
+  }
+}
+
+TEST(LidarPivot, TurnsNotIntoABoxThatItSees) {
+  const Record& log = record("lidar_pivot");
+  const Time begin = log.answered("start_nav_success");
+  const Time goes = log.event("sim obstacle obstacle remove");
+  const double least_m = least_gap_m(log, -2, -1.75, begin, goes);
+  figure("nearest", least_m, "m");
+  EXPECT_GT(least_m, 0.05);
+  expect_waits_in_its_turn(log, begin, goes, "lidar sees something");
+  EXPECT_FALSE(log.moving(goes + 1s, goes + 4s).empty()) << "it did not go on by itself";
+  expect_success_without_another_start(log);
+}
+
+TEST(LidarPivotHidden, TurnsNotIntoABoxThatItSawWhenItCame) {
+  const Record& log = record("lidar_pivot_hidden");
+  const Time begin = log.answered("start_nav_success");
+  const Time over = log.truth.back().time - 500ms;
+  const double least_m = least_gap_m(log, -2.2, -1.75, begin, over);
+  figure("nearest", least_m, "m");
+  EXPECT_GT(least_m, 0.05);
+  expect_waits_in_its_turn(log, begin, over, "lidar saw something");
 }
 
 struct Fault {
@@ -96,7 +159,7 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& each) { return std::string(each.param.mission); });
 
 /// With its beams at 0.35 m the ramp is met 2.33 m beyond its foot, or farther while it climbs.
-TEST(ARampOf15Percent, IsDrivenUpWithoutANeedlessStop) {
+TEST(LidarRamp, Of15PercentIsDrivenUpWithoutANeedlessStop) {
   const Record& log = record("lidar_ramp");
   const Time begin = log.answered("start_nav_success");
   const auto& success = log.first_status("NAV_SUCCESS", begin);
