@@ -220,11 +220,16 @@ bool ClearanceWatch::is_blocked(const ClearanceInput& input) const {
   return closed(kAhead) && closed(kBack) && closed(kLeft) && closed(kRight);
 }
 
-/// In words: a turn is not hindered by what is ahead. What ends the track ends it for the turn,
-/// too.
+/// In words: of a turn what hinders it, not what is ahead. What was in the way is the reason until
+/// that is open again; what comes after it is farther away and hinders nobody.
 Reason ClearanceWatch::blocked_by(const ClearanceInput& input) const {
+  const auto held = [this](Way way) {
+    return gates_[way].closed && gates_[way].free_since == kNever;
+  };
   const Way asked = way_of(input.asked);
   const Way way = asked == kNone ? way_of(input.commanded) : asked;
+  const bool waits = way != kNone && !held(way) && (input.path == 0 || !held(kAlong));
+  if (waits && !blocked_.empty()) return blocked_;
   const bool turns = (way == kLeft || way == kRight) && gates_[way].closed;
   if (turns && !found_.turn.empty()) return found_.turn;
   if (!found_.first.empty()) return found_.first;

@@ -137,6 +137,22 @@ TEST_F(AClearance, NamesWhatWasInTheWayUntilItIsOpenAgain) {
   EXPECT_EQ(why(), "box1 is in the way, 0.00 m ahead");
 }
 
+TEST_F(AClearance, NamesNothingElseThatIsFartherAwayUntilItIsOpenAgain) {
+  for (const std::uint64_t path : {0U, 7U}) {
+    input.path = path;
+    input.asked = {0.3, 0};
+    found.ahead_m = found.along_m = 0;
+    found.first = "box1 is in the way, 0.00 m ahead";
+    tick(30);
+    found.ahead_m = found.along_m = 1.9;
+    found.first = "box2 is in the way, 1.90 m ahead";
+    tick(100);
+    EXPECT_EQ(why(), "box1 is in the way, 0.00 m ahead");
+    tick(120);
+    EXPECT_EQ(why(), "");
+  }
+}
+
 TEST_F(AClearance, StaysBlockedWhileAnAnswerIsLate) {
   input.asked = {0.3, 0};
   found.ahead_m = 0;
