@@ -1,5 +1,6 @@
 // Missions in which nobody tells of what is in the way: the lidar alone sees it, or does not see.
 #include "drover/angle.h"
+#include "mission/flat.h"
 #include "mission/robot.h"
 #include "mission/support.h"
 

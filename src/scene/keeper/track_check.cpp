@@ -98,7 +98,8 @@ void TrackCheck::Impl::end_part() {
     return end(line.farther(at_m).segment, way_m + at_m, in_words(broken->verdict).view());
   }
   if (free.blocked) {
-    const Sweeper sweeper(keeper.around, body_of(keeper.settings.look, keeper.position_sigma_m()));
+    const Sweeper sweeper(keeper.around, body_of(keeper.settings.look, keeper.position_sigma_m(),
+                                                 keeper.yaw_sigma_rad()));
     return end(line.farther(free.free_m).segment, way_m + free.free_m,
                way_end_words(sweeper, over.found));
   }

@@ -41,9 +41,9 @@ bool bound(double& way, double& bare, double free) {
   return true;
 }
 
-class Points final {
+class NearPoints final {
  public:
-  Points(const Field& field, const LookSettings& settings)
+  NearPoints(const Field& field, const LookSettings& settings)
       : field_(field),
         body_(piece_of(settings.footprint, settings.margin_m)),
         slim_(piece_of(settings.footprint, settings.margin_m / 2)) {}
@@ -101,7 +101,7 @@ Clearance with_points(Clearance found, std::span<const sensor::SeenPoint> points
   const double within_m = turning_circle_m(settings) + kNearby_m;
   const Field field = field_of(points, scanners, within_m, now);
   if (field.size() == 0) return found;
-  const Points seen(field, settings);
+  const NearPoints seen(field, settings);
   seen.bound_turn(true, found);
   seen.bound_turn(false, found);
   seen.bound_curve(true, settings.ahead_m, found);
