@@ -18,14 +18,15 @@ src/engine/gate      drover/ engine/config.h engine/base/ engine/gate/
 src/engine/health    drover/ engine/config.h engine/environment.h engine/event_queue.h
 src/engine/health    engine/still.h engine/base/ engine/estimate/ engine/health/ engine/sensors/
 src/engine/navigate  drover/ engine/config.h engine/event_queue.h engine/still.h
-src/engine/navigate  engine/gate/ engine/health/ engine/navigate/
+src/engine/navigate  engine/gate/ engine/health/ engine/navigate/ track/
 src/engine/own       drover/ engine/config.h engine/event_queue.h engine/still.h
 src/engine/own       engine/base/ engine/gate/ engine/health/ engine/navigate/ engine/own/
 src/link         drover/ link/
-src/scene        drover/ scene/ text/
+src/scene        drover/ scene/ text/ track/
 src/scene/zone   drover/ json/ text/ scene/
 src/json         drover/ json/ text/
 src/text         drover/ text/
+src/track        drover/ track/
 src/store        drover/ store/ json/
 src/config       drover/ config/ json/ text/ engine/config.h engine/clearance/stop_chain.h
 src/gateway      drover/ gateway/ config/ engine/
@@ -84,7 +85,7 @@ rule_include_directions() {
 
 # The rooms without I/O know the standard library only; the engine also GeographicLib.
 rule_headers() {
-  sources 'include/|drivers/|src/engine/' | while read -r file; do
+  sources 'include/|drivers/|src/(engine|track)/' | while read -r file; do
     awk -v file="$file" '
       /^ *# *include *</ {
         name = $0
@@ -119,13 +120,13 @@ matches() {
 }
 
 rule_pure_rooms() {
-  sources 'drivers/|src/(engine|gateway|scene)/' | matches \
+  sources 'drivers/|src/(engine|gateway|scene|track)/' | matches \
     '\<now\(|_clock\>|clock_gettime|sleep|std::thread|\<mutex\>|lock_guard|getenv|std::async' \
     'no clock, thread, lock or environment in a pure room: time is an argument'
-  sources 'drivers/|src/(engine|gateway|scene)/' | matches \
+  sources 'drivers/|src/(engine|gateway|scene|track)/' | matches \
     '\<f?open\(|\<socket\(|[^A-Za-z0-9_>]::(read|write|send|recv|ioctl|poll)\(' \
     'no I/O in a pure room'
-  sources 'drivers/|src/(engine|gateway|scene)/' | matches \
+  sources 'drivers/|src/(engine|gateway|scene|track)/' | matches \
     '\<f?printf\(|\<f?puts\(|std::c(out|err|log)\>|\<[io]?fstream\>' \
     'no I/O in a pure room'
   # spsc_ring and triple_buffer are the only exchange; the vocabulary has no clock either.

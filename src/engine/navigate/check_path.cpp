@@ -2,8 +2,8 @@
 #include <cmath>
 #include <cstddef>
 
-#include "engine/navigate/path_geometry.h"
 #include "engine/navigate/tracker.h"
+#include "track/path_geometry.h"
 
 namespace drover::engine {
 namespace {
@@ -16,7 +16,7 @@ constexpr double kSamePoint_m = 1e-3;
 constexpr std::size_t kMostAtOnePlace = 64;
 
 double square_m2(const PathPoint& from, const PathPoint& to) {
-  const Vector way = {to.x_m - from.x_m, to.y_m - from.y_m};
+  const track::Vector way = {to.x_m - from.x_m, to.y_m - from.y_m};
   return dot(way, way);
 }
 

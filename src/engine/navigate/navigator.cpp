@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "engine/navigate/navigator_checks.h"
-#include "engine/navigate/path_search.h"
 #include "engine/still.h"
+#include "track/path_search.h"
 
 namespace drover::engine {
 namespace {
@@ -55,11 +55,11 @@ void Navigator::start(const RequestId& id, const StartTask& task, Time now,
   if (const Reason why = check_robot(health, has_origin); !why.empty()) return refuse(why);
   const Pose& pose = estimate.pose;
   const auto target = static_cast<std::uint32_t>(
-      target_ahead(task.path->points, task.target, {pose.x_m, pose.y_m}, pose.yaw_rad));
+      track::target_ahead(task.path->points, task.target, {pose.x_m, pose.y_m}, pose.yaw_rad));
   tracker_.begin(*task.path, target, speed.speed_mps, pose);
   progress_ = tracker_.locate(pose);
   // The first point of a loop is reached by who stands there, whichever leg he would leave it by.
-  const bool at_first = target == 0 && is_closed(task.path->points) &&
+  const bool at_first = target == 0 && track::is_closed(task.path->points) &&
                         progress_.distance_to_goal_m <= config_.navigate.goal_tolerance_m;
   progress_.arrived = progress_.arrived || at_first;
   const Reason why = check_place(*task.path, target, pose, progress_, config_.navigate);

@@ -5,19 +5,19 @@
 #include <cmath>
 
 #include "drover/angle.h"
-#include "engine/navigate/path_search.h"
+#include "track/path_search.h"
 
 namespace drover::engine {
 namespace {
 
 /// From `at` to the segment that the tracker would begin on, m.
 double distance_m(const Path& path, std::uint32_t target, const Pose& pose) {
-  const Vector at{pose.x_m, pose.y_m};
-  const PathStart start = find_start(path.points, target, at, pose.yaw_rad);
+  const track::Vector at{pose.x_m, pose.y_m};
+  const track::PathStart start = find_start(path.points, target, at, pose.yaw_rad);
   const PathPoint& a = path.points[start.segment];
   const PathPoint& b = path.points[start.segment + 1];
-  const Vector from{a.x_m, a.y_m};
-  const Vector along = Vector{b.x_m, b.y_m} - from;
+  const track::Vector from{a.x_m, a.y_m};
+  const track::Vector along = track::Vector{b.x_m, b.y_m} - from;
   const double squared = dot(along, along);
   const double share = squared > 0 ? std::clamp(dot(at - from, along) / squared, 0.0, 1.0) : 0.0;
   return length(at - (from + share * along));

@@ -6,16 +6,19 @@
 #include <cmath>
 
 #include "drover/angle.h"
-#include "engine/navigate/path_search.h"
 #include "engine/still.h"
+#include "track/path_search.h"
 
 namespace drover::engine {
 namespace {
 
-constexpr double kEndChord_m = 0.25;
+using track::kEndChord_m;
+using track::kSmoothing_m;
+using track::Reference;
+using track::Station;
+using track::Vector;
+
 constexpr double kLookBack_m = 1.0;
-constexpr double kCornerSpread_m = 0.3;  // points this close belong to one corner
-constexpr double kTestSpacing_m = 0.02;  // of points tested for corners, where points are dense
 constexpr double kJoined_m = 0.2;
 
 Vector place(const Pose& pose) {
@@ -40,8 +43,8 @@ Tracker::Tracker(const NavigateConfig& config, const LimitsConfig& limits)
       horizon_m_(limits.max_speed_mps * limits.max_speed_mps / (2 * braking_mps2_) + 2.0) {}
 
 void Tracker::begin(const Path& path, std::uint32_t target, double speed_mps, const Pose& pose) {
-  const PathStart start = find_start(path.points, target, place(pose), pose.yaw_rad);
-  route_ = Route(path.points, target, start.forwards);
+  const track::PathStart start = find_start(path.points, target, place(pose), pose.yaw_rad);
+  route_ = track::Route(path.points, target, start.forwards);
   const std::size_t last_segment = path.points.size() - 2;
   // Arc length 0 is the first point, in the order of travel, of the segment the robot starts on.
   station_ = {start.forwards ? start.segment : last_segment - start.segment, 0};
@@ -54,16 +57,15 @@ void Tracker::begin(const Path& path, std::uint32_t target, double speed_mps, co
   double first_m = 0;
   double tested_m = INFINITY;
   while (first > 0 && first_m > -kLookBack_m) {
-    if (tested_m - first_m >= kTestSpacing_m) {
+    if (tested_m - first_m >= track::kTestSpacing_m) {
       tested_m = first_m;
       if (corner_rad(route_, first, 0) >= sharp_rad) break;
     }
     --first;
     first_m -= route_.segment_m(first);
   }
-  enter_leg(first, first_m);
-  scan_ = station_;
-  tested_m_ = 0;
+  leg_ = leg_to_target(route_, first, first_m, goal_m_);
+  scan_ = {station_, 0};
   phase_ = Phase::follow;
   speed_mps_ = speed_mps;
   joined_ = false;
@@ -87,37 +89,12 @@ WayLeft Tracker::way() const {
   return way;
 }
 
-void Tracker::enter_leg(std::size_t first, double first_m) {
-  const std::size_t last = route_.size() - 1;
-  const Vector fallback = unit(route_.point(last) - route_.point(first), {1, 0});
-  leg_ = {first, last, first_m, goal_m_, {}, {}};
-  leg_.enter = unit(chord_after(route_, first, last, kEndChord_m), fallback);
-  leg_.leave = unit(chord_before(route_, last, first, kEndChord_m), leg_.enter);
-}
-
 void Tracker::look_for_corner() {
   if (!is_last_leg()) return;  // one is known already
   const double sharp_rad = to_rad(config_.pivot_angle_deg);
-  Station found;
-  double found_rad = sharp_rad;
-  double until_m = s_m_ + horizon_m_;
-  while (scan_.segment + 2 < route_.size() && scan_.start_m < until_m) {
-    scan_ = {scan_.segment + 1, scan_.start_m + route_.segment_m(scan_.segment)};
-    if (scan_.start_m - tested_m_ < kTestSpacing_m) continue;
-    tested_m_ = scan_.start_m;
-    const double angle_rad = corner_rad(route_, scan_.segment, leg_.first);
-    if (angle_rad <= found_rad) continue;
-    // Dense points: the sharpest of those around is the corner.
-    if (found.segment == 0) until_m = scan_.start_m + kCornerSpread_m;
-    found = scan_;
-    found_rad = angle_rad;
-  }
-  if (found.segment == 0) return;
-  leg_.last = found.segment;
-  leg_.last_m = found.start_m;
-  leg_.leave = unit(chord_before(route_, leg_.last, leg_.first, kEndChord_m), leg_.enter);
-  scan_ = found;
-  tested_m_ = found.start_m;
+  const Station corner = find_corner(route_, leg_, sharp_rad, s_m_ + horizon_m_, scan_);
+  if (corner.segment == 0) return;
+  leg_ = leg_to_corner(route_, leg_, corner);
   station_ = seek(route_, leg_, station_, std::min(s_m_, leg_.last_m));
 }
 
@@ -184,7 +161,7 @@ Twist Tracker::pivot(const Pose& pose) {
     phase_ = Phase::follow;
     s_m_ = leg_.last_m;
     station_ = {leg_.last, leg_.last_m};
-    enter_leg(leg_.last, leg_.last_m);
+    leg_ = leg_to_target(route_, leg_.last, leg_.last_m, goal_m_);
     look_for_corner();
     return {};
   }

@@ -9,7 +9,7 @@
 #include "drover/twist.h"
 #include "drover/viewpoint.h"
 #include "engine/config.h"
-#include "engine/navigate/path_geometry.h"
+#include "track/legs.h"
 
 namespace drover::engine {
 
@@ -58,7 +58,6 @@ class Tracker final {
  private:
   enum class Phase : std::uint8_t { follow, halt, pivot };
 
-  void enter_leg(std::size_t first, double first_m);
   void look_for_corner();
   bool is_last_leg() const { return leg_.last + 1 == route_.size(); }
   double stop_distance_m(double speed_mps) const;
@@ -71,14 +70,13 @@ class Tracker final {
   double braking_mps2_;
   double horizon_m_;  ///< corners are looked for this far ahead
   bool active_ = false;
-  Route route_;
-  Leg leg_;
-  Station station_;  ///< where the robot is
+  track::Route route_;
+  track::Leg leg_;
+  track::Station station_;  ///< where the robot is
   double s_m_ = 0;
   double goal_m_ = 0;  ///< arc length of the target
-  Vector goal_;
-  Station scan_;         ///< corners are known up to here
-  double tested_m_ = 0;  ///< of the last point tested
+  track::Vector goal_;
+  track::CornerScan scan_;
   Phase phase_ = Phase::follow;
   double speed_mps_ = 0;
   double yaw_gain_ = 0;  ///< learnt: how much more the base must be asked to turn

@@ -92,9 +92,9 @@ inline Points square() {
 inline double distance_m(const Points& points, double x_m, double y_m) {
   double best_m = INFINITY;
   for (std::size_t i = 0; i + 1 < points.size(); ++i) {
-    const Vector a{points[i].x_m, points[i].y_m};
-    const Vector ab = Vector{points[i + 1].x_m, points[i + 1].y_m} - a;
-    const Vector ap = Vector{x_m, y_m} - a;
+    const track::Vector a{points[i].x_m, points[i].y_m};
+    const track::Vector ab = track::Vector{points[i + 1].x_m, points[i + 1].y_m} - a;
+    const track::Vector ap = track::Vector{x_m, y_m} - a;
     const double ab_m2 = dot(ab, ab);
     const double t = ab_m2 > 0 ? std::clamp(dot(ap, ab) / ab_m2, 0.0, 1.0) : 0;
     best_m = std::min(best_m, length(ap - t * ab));

@@ -6,7 +6,7 @@
 #include <random>
 
 #include "drover/angle.h"
-#include "engine/navigate/path_search.h"
+#include "track/path_search.h"
 
 namespace drover::scene {
 namespace {
@@ -39,9 +39,9 @@ TEST(TrackStart, IsWhereTheEngineBegins) {
     if (!is_track(path, target)) continue;
     const Pose2 pose{at_m(random), at_m(random), 0.5 * at_m(random)};
     const WayLeft way = way_of_start(path, target, pose);
-    const engine::Vector at{pose.x_m, pose.y_m};
-    const std::size_t goal = engine::target_ahead(path.points, target, at, pose.yaw_rad);
-    const engine::PathStart start = engine::find_start(path.points, goal, at, pose.yaw_rad);
+    const track::Vector at{pose.x_m, pose.y_m};
+    const std::size_t goal = track::target_ahead(path.points, target, at, pose.yaw_rad);
+    const track::PathStart start = track::find_start(path.points, goal, at, pose.yaw_rad);
     ASSERT_EQ(way.target, goal) << round;
     ASSERT_EQ(way.forwards, start.forwards) << round;
     ASSERT_EQ(way.segment, start.forwards ? start.segment : start.segment + 1) << round;

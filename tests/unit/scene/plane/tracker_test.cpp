@@ -170,15 +170,14 @@ TEST(SweptTracks, FollowTheTrackersSmoothLineToAMillimetre) {
     path.points.push_back(point);
   const TrackLine line(points_of(path), to_rad(60.0));
   ASSERT_EQ(line.legs().size(), 2U);
-  const engine::Route route(path.points, path.points.size() - 1, true);
+  const track::Route route(path.points, path.points.size() - 1, true);
   for (const TrackLine::Leg& leg : line.legs()) {
-    const engine::Vector enter{leg.enter.x_m, leg.enter.y_m};
-    const engine::Vector leave{leg.leave.x_m, leg.leave.y_m};
-    const engine::Leg theirs{leg.first,        leg.last, line.first_m(leg),
-                             line.last_m(leg), enter,    leave};
+    const track::Vector enter{leg.enter.x_m, leg.enter.y_m};
+    const track::Vector leave{leg.leave.x_m, leg.leave.y_m};
+    const track::Leg theirs{leg.first, leg.last, line.first_m(leg), line.last_m(leg), enter, leave};
     for (double s_m = line.first_m(leg) - 0.3; s_m < line.last_m(leg) + 0.3; s_m += 0.037) {
       const auto on = line.place(leg, s_m);
-      const engine::Reference there = smooth(route, theirs, {leg.first, line.first_m(leg)}, s_m);
+      const track::Reference there = smooth(route, theirs, {leg.first, line.first_m(leg)}, s_m);
       EXPECT_NEAR(on.point.x_m, there.point.x, 1e-9) << s_m;
       EXPECT_NEAR(on.point.y_m, there.point.y, 1e-9) << s_m;
       EXPECT_NEAR(on.yaw_rad, std::atan2(there.ahead.y, there.ahead.x), 1e-9) << s_m;

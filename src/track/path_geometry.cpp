@@ -1,9 +1,9 @@
 // A polyline as it is driven: walking along it, its true corners, and a smooth line through it.
-#include "engine/navigate/path_geometry.h"
+#include "track/path_geometry.h"
 
 #include <algorithm>
 
-namespace drover::engine {
+namespace drover::track {
 namespace {
 
 constexpr double kShortestChord_m = 0.10;
@@ -178,4 +178,4 @@ double offset_m(const Route& route, const Leg& leg, Station station, double s_m,
   return std::copysign(std::sqrt(best_m2), cross(r.ahead, best));
 }
 
-}  // namespace drover::engine
+}  // namespace drover::track

@@ -11,7 +11,7 @@
 
 #include "drover/path.h"
 
-namespace drover::engine {
+namespace drover::track {
 
 /// A point or a free vector in the `map` frame, metres (directions: unit length).
 struct Vector {
@@ -115,4 +115,4 @@ double foot_m(const Route& route, const Leg& leg, Station station, double s_m, V
 /// Distance of `point` from the polyline itself near `s_m`, left of travel positive (m).
 double offset_m(const Route& route, const Leg& leg, Station station, double s_m, Vector point);
 
-}  // namespace drover::engine
+}  // namespace drover::track

@@ -4,9 +4,9 @@
 #include <cstddef>
 #include <span>
 
-#include "engine/navigate/path_geometry.h"
+#include "track/path_geometry.h"
 
-namespace drover::engine {
+namespace drover::track {
 
 struct PathStart {
   std::size_t segment = 0;  ///< of the list: between its points `segment` and `segment + 1`
@@ -34,4 +34,4 @@ bool is_closed(std::span<const PathPoint> points);
 std::size_t target_ahead(std::span<const PathPoint> points, std::size_t target, Vector at,
                          double yaw_rad);
 
-}  // namespace drover::engine
+}  // namespace drover::track

@@ -1,11 +1,11 @@
 // Where on a whole path a robot begins: the only search that looks at every point.
-#include "engine/navigate/path_search.h"
+#include "track/path_search.h"
 
 #include <algorithm>
 
 #include "drover/angle.h"
 
-namespace drover::engine {
+namespace drover::track {
 namespace {
 
 constexpr double kAboutAsNear_m = 0.3;
@@ -125,4 +125,4 @@ std::size_t target_ahead(std::span<const PathPoint> points, std::size_t target, 
   return behind && ahead ? other : target;
 }
 
-}  // namespace drover::engine
+}  // namespace drover::track

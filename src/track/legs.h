@@ -1,0 +1,32 @@
+// A route from one true corner to the next: where it turns so sharply that a robot turns there on
+// the spot.
+#pragma once
+
+#include <cstddef>
+
+#include "track/path_geometry.h"
+
+namespace drover::track {
+
+/// Chords of this length tell the direction in which a leg begins and ends.
+inline constexpr double kEndChord_m = 0.25;
+/// Of points tested for corners, where points are dense.
+inline constexpr double kTestSpacing_m = 0.02;
+
+/// From a point to the target at `end_m`, as long as no corner on the way is known.
+Leg leg_to_target(const Route& route, std::size_t first, double first_m, double end_m);
+/// The same leg, once its corner is.
+Leg leg_to_corner(const Route& route, const Leg& leg, const Station& corner);
+
+/// How far a route was looked along for corners.
+struct CornerScan {
+  Station known;        ///< corners are known up to here
+  double tested_m = 0;  ///< of the last point tested
+};
+
+/// Looks on, up to `until_m`, for the first point after the leg's beginning where the route turns
+/// by more than `sharp_rad`; of points close together it is the sharpest. Segment 0: there is none.
+Station find_corner(const Route& route, const Leg& leg, double sharp_rad, double until_m,
+                    CornerScan& scan);
+
+}  // namespace drover::track
