@@ -40,7 +40,7 @@ std::vector<Step> pivot_steps(const Pose2& from, double turn_rad);
 
 /// How the robot drives along a line.
 struct Steering {
-  double pivot_rad = to_rad(60.0);  ///< where the line turns by so much it turns on the spot
+  double pivot_rad = to_rad(60.0);  ///< where the line turns by more it turns on the spot
   double lookahead_m = 0.5;         ///< from beside the line it gets onto it in about twice of this
 };
 

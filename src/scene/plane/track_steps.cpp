@@ -108,10 +108,10 @@ class Driver {
 
   bool has_begun() const { return begun_; }
   void drive(const TrackLine::Leg& leg, double until_m, Steps& steps) {
-    const double end_m = std::min(line_.last_m(leg), until_m);
+    const double end_m = std::min(leg.last_m, until_m);
     double s_m = begun_ ? s_m_ : from_m_;
     Offset offset = offset_at(leg, s_m, steps.pose());
-    const bool at_corner = leg.first != 0 && s_m - line_.first_m(leg) < kAtCorner_m &&
+    const bool at_corner = leg.first != 0 && s_m - leg.first_m < kAtCorner_m &&
                            std::abs(offset.turn_rad) > kTurned_rad;
     if (begun_ || at_corner || std::abs(offset.turn_rad) >= steering_.pivot_rad) {
       steps.pivot(line_.place(leg, s_m).yaw_rad);
@@ -143,7 +143,7 @@ class Driver {
     Point2 at = on.point;
     // Where a leg ends the line is its last point, but for rounding.
     const Point2 end = line_.last_point(leg);
-    if (s_m == line_.last_m(leg) && length_m(at - end) < 1e-6) at = end;
+    if (s_m == leg.last_m && length_m(at - end) < 1e-6) at = end;
     const Point2 ahead = direction(on.yaw_rad);
     at = at + offset.left_m * Point2{-ahead.y_m, ahead.x_m};
     return {at.x_m, at.y_m, on.yaw_rad + offset.turn_rad};
@@ -172,7 +172,7 @@ std::vector<Point2> line_of(const Pose2& from, const TrackPart& part, double& fr
   if (!line.empty()) {
     from_m = line.foot_m(at, part.near_m - kAbout_m, part.near_m + kAbout_m);
     const TrackLine::Leg& leg = line.legs().front();
-    if (from_m == 0) from_m = std::min(0.0, dot(leg.enter, at - points.front()));
+    if (from_m == 0) from_m = std::min(0.0, dot(from_track(leg.enter), at - points.front()));
     if (length_m(at - line.place(leg, from_m).point) <= kFarBeside_m) return points;
   }
   from_m = 0;
@@ -181,11 +181,11 @@ std::vector<Point2> line_of(const Pose2& from, const TrackPart& part, double& fr
 }
 
 /// The robot is at the corner between two legs and on its turn there, nearer to the second one.
-bool turns_already(const TrackLine& line, const TrackLine::Leg& leg, const TrackLine::Leg& next,
-                   const Pose2& from, double from_m) {
-  if (line.last_m(leg) - from_m > kAtCorner_m) return false;
+bool turns_already(const TrackLine::Leg& leg, const TrackLine::Leg& next, const Pose2& from,
+                   double from_m) {
+  if (leg.last_m - from_m > kAtCorner_m) return false;
   const Point2 ahead = direction(from.yaw_rad);
-  return dot(ahead, next.enter) > dot(ahead, leg.leave);
+  return dot(ahead, from_track(next.enter)) > dot(ahead, from_track(leg.leave));
 }
 
 }  // namespace
@@ -206,11 +206,10 @@ std::vector<Step> track_steps(const Pose2& from, const TrackPart& part, const St
   const double until_m = from_m + part.most_m;
   for (std::size_t i = 0; i < line.legs().size(); ++i) {
     const TrackLine::Leg& leg = line.legs()[i];
-    if (driver.has_begun() && line.first_m(leg) >= until_m) break;
+    if (driver.has_begun() && leg.first_m >= until_m) break;
     const bool is_last = i + 1 == line.legs().size();
-    if (line.last_m(leg) <= from_m && !is_last) continue;
-    if (!driver.has_begun() && !is_last &&
-        turns_already(line, leg, line.legs()[i + 1], from, from_m))
+    if (leg.last_m <= from_m && !is_last) continue;
+    if (!driver.has_begun() && !is_last && turns_already(leg, line.legs()[i + 1], from, from_m))
       continue;
     driver.drive(leg, until_m, steps);
   }

@@ -160,6 +160,48 @@ TEST(SweptTracks, CoverTheWayOntoTheTrack) {
   expect_looks_cover(path, "before its beginning", {-1, 0.2, 0});
 }
 
+/// Where it turns though it does not move, each place once.
+std::vector<Point2> pivots_of(std::span<const Pose2> poses) {
+  constexpr double kAtOnePlace_m = 0.1;
+  std::vector<Point2> places;
+  double turned_rad = 0;
+  for (std::size_t i = 1; i < poses.size(); ++i) {
+    const Point2 at = place_of(poses[i]);
+    const bool stands = length_m(at - place_of(poses[i - 1])) < 1e-3;
+    turned_rad = stands ? turned_rad + wrap_rad(poses[i].yaw_rad - poses[i - 1].yaw_rad) : 0;
+    if (std::abs(turned_rad) < to_rad(20.0)) continue;
+    if (places.empty() || length_m(places.back() - at) > kAtOnePlace_m) places.push_back(at);
+  }
+  return places;
+}
+
+void expect_same_pivots(const Path& path, const char* what) {
+  const Driven driven = drive(path, {}, 0.5);
+  ASSERT_TRUE(driven.arrived) << what;
+  std::vector<Pose2> looked;
+  for (const Step& step : track_steps({}, points_of(path), 0.1)) looked.push_back(step.pose);
+  const auto theirs = pivots_of(driven.poses);
+  const auto ours = pivots_of(looked);
+  ASSERT_EQ(ours.size(), theirs.size()) << what;
+  for (std::size_t i = 0; i < ours.size(); ++i)
+    EXPECT_LT(length_m(ours[i] - theirs[i]), 0.08) << what;
+}
+
+TEST(SweptTracks, TurnOnTheSpotWhereTheTrackerDoes) {
+  Pen close;
+  close.line(3).turn(to_rad(65.0)).line(0.2).turn(to_rad(70.0)).line(0.35).turn(to_rad(80.0));
+  close.line(3);
+  expect_same_pivots(record(close.points(), 0.05), "close together");
+  Pen apart;
+  apart.line(3).turn(to_rad(65.0)).line(1).turn(-to_rad(120.0)).line(2).turn(to_rad(90.0)).line(2);
+  expect_same_pivots(record(apart.points(), 0.05), "a metre and two apart");
+  expect_same_pivots(record(apart.points()), "a point each 0.5 m");
+  Path sharper;
+  sharper.points = {{0, 0}, {4, 0}, {4.85, 1.81}, {1.95, 2.59}};
+  expect_same_pivots(sharper, "the next point is a sharper corner");
+}
+
+/// Found at once, not by walking along the line.
 TEST(SweptTracks, FollowTheTrackersSmoothLineToAMillimetre) {
   Pen pen;
   pen.line(3).arc(1, kPi / 2);
@@ -172,12 +214,9 @@ TEST(SweptTracks, FollowTheTrackersSmoothLineToAMillimetre) {
   ASSERT_EQ(line.legs().size(), 2U);
   const track::Route route(path.points, path.points.size() - 1, true);
   for (const TrackLine::Leg& leg : line.legs()) {
-    const track::Vector enter{leg.enter.x_m, leg.enter.y_m};
-    const track::Vector leave{leg.leave.x_m, leg.leave.y_m};
-    const track::Leg theirs{leg.first, leg.last, line.first_m(leg), line.last_m(leg), enter, leave};
-    for (double s_m = line.first_m(leg) - 0.3; s_m < line.last_m(leg) + 0.3; s_m += 0.037) {
+    for (double s_m = leg.first_m - 0.3; s_m < leg.last_m + 0.3; s_m += 0.037) {
       const auto on = line.place(leg, s_m);
-      const track::Reference there = smooth(route, theirs, {leg.first, line.first_m(leg)}, s_m);
+      const track::Reference there = smooth(route, leg, {leg.first, leg.first_m}, s_m);
       EXPECT_NEAR(on.point.x_m, there.point.x, 1e-9) << s_m;
       EXPECT_NEAR(on.point.y_m, there.point.y, 1e-9) << s_m;
       EXPECT_NEAR(on.yaw_rad, std::atan2(there.ahead.y, there.ahead.x), 1e-9) << s_m;
