@@ -31,7 +31,9 @@ Station find_corner(const Route& route, const Leg& leg, double sharp_rad, double
   double found_rad = sharp_rad;
   while (scan.known.segment + 2 < route.size() && scan.known.start_m < until_m) {
     Station& at = scan.known;
-    at = {at.segment + 1, at.start_m + route.segment_m(at.segment)};
+    const Station next{at.segment + 1, at.start_m + route.segment_m(at.segment)};
+    if (found.segment != 0 && next.start_m > until_m) break;
+    at = next;
     if (at.start_m - scan.tested_m < kTestSpacing_m) continue;
     scan.tested_m = at.start_m;
     const double angle_rad = corner_rad(route, at.segment, leg.first);

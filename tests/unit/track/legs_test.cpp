@@ -47,6 +47,11 @@ TEST(TrueCorners, OfPointsCloseTogetherAreTheSharpest) {
   EXPECT_EQ(found.front(), 2U);
 }
 
+TEST(TrueCorners, AreNotPassedOverForASharperOneFartherOn) {
+  const Points points{{0, 0}, {4, 0}, {4.85, 1.81}, {1.95, 2.59}};  // 65 degrees, 2 m, 100 degrees
+  EXPECT_EQ(corners(forwards_along(points), 50), (std::vector<std::size_t>{1, 2}));
+}
+
 TEST(TrueCorners, AreNeitherTheFirstNorTheLastPoint) {
   EXPECT_TRUE(corners(forwards_along({{0, 0}, {1, 0}}), 50).empty());
   const Points points{{0, 0}, {0, 0}, {1, 0}, {1, 0}};
