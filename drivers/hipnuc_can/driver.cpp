@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "drivers/rotation.h"
+#include "drover/rotation.h"
 
 namespace drover::hipnuc_can {
 namespace {

@@ -6,7 +6,7 @@
 #include "drivers/checked_options.h"
 #include "drivers/hipnuc_can/driver.h"
 #include "drivers/hipnuc_can/twin.h"
-#include "drivers/rotation.h"
+#include "drover/rotation.h"
 
 namespace drover {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "drivers/rotation.h"
 #include "drivers/twin_states.h"
+#include "drover/rotation.h"
 
 namespace drover::hipnuc_can {
 namespace {

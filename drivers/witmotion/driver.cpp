@@ -5,8 +5,8 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "drivers/rotation.h"
 #include "drover/angle.h"
+#include "drover/rotation.h"
 
 namespace drover::witmotion {
 namespace {

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "drivers/rotation.h"
 #include "drivers/twin_states.h"
 #include "drover/angle.h"
+#include "drover/rotation.h"
 
 namespace drover::witmotion {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "drivers/rotation.h"
 #include "drivers/witmotion/codec.h"
+#include "drover/rotation.h"
 
 namespace drover::witmotion {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "drover/angle.h"
-#include "scene/world/rigid.h"
+#include "drover/rotation.h"
 
 namespace drover::runtime {
 namespace {
@@ -41,8 +41,7 @@ scene::Mesh prism(const SceneConfig& config) {
 
 scene::Pose pose_of(const config::FrameConfig& frame) {
   return {{frame.x_m, frame.y_m, frame.z_m},
-          scene::rigid::from_roll_pitch_yaw(to_rad(frame.roll_deg), to_rad(frame.pitch_deg),
-                                            to_rad(frame.yaw_deg))};
+          from_angles(to_rad(frame.roll_deg), to_rad(frame.pitch_deg), to_rad(frame.yaw_deg))};
 }
 
 scene::RobotModel robot_of(const SceneConfig& config) {

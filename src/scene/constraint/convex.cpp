@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "drover/rotation.h"
 #include "scene/constraint/simplex.h"
 #include "scene/world/rigid.h"
 
@@ -27,7 +28,7 @@ Vector3 farthest_of_round(double radius_m, double half_height_m, bool is_cone,
     return rim;
   }
   const Vector3 tip{0, 0, half_height_m};
-  return rigid::dot(tip, direction) > rigid::dot(rim, direction) ? tip : rim;
+  return dot(tip, direction) > dot(rim, direction) ? tip : rim;
 }
 
 /// Of a shape that was never found valid: nothing is known of it, and nothing is decided.
@@ -43,8 +44,8 @@ Vector3 farthest_own(const SolidPrimitive& shape, const Vector3& direction) {
               std::copysign(d[Type::BOX_Y] / 2, direction.y),
               std::copysign(d[Type::BOX_Z] / 2, direction.z)};
     case Type::SPHERE: {
-      const double n = rigid::length(direction);
-      return n > 0 ? rigid::scaled(direction, d[Type::SPHERE_RADIUS] / n) : Vector3{};
+      const double n = length(direction);
+      return n > 0 ? d[Type::SPHERE_RADIUS] / n * direction : Vector3{};
     }
     case Type::CYLINDER:
       return farthest_of_round(d[Type::CYLINDER_RADIUS], d[Type::CYLINDER_HEIGHT] / 2, false,
@@ -59,7 +60,7 @@ Vector3 farthest_own(std::span<const Vector3> points, const Vector3& direction) 
   const Vector3* best = nullptr;
   double farthest = -std::numeric_limits<double>::infinity();
   for (const Vector3& point : points) {
-    const double along = rigid::dot(point, direction);
+    const double along = dot(point, direction);
     if (std::isnan(along)) return kNowhere;
     if (along < farthest) continue;
     farthest = along;
@@ -81,7 +82,7 @@ bool has_dimensions(const SolidPrimitive& shape) {
 }
 
 Vector3 farthest(const Convex& body, const Vector3& direction) {
-  const Vector3 own = rigid::turned(rigid::back(body.pose.orientation), direction);
+  const Vector3 own = rotate(conjugate(body.pose.orientation), direction);
   if (const auto* points = std::get_if<std::span<const Vector3>>(&body.shape))
     return rigid::in_parent(body.pose, farthest_own(*points, own));
   return rigid::in_parent(body.pose, farthest_own(**std::get_if<0>(&body.shape), own));
@@ -92,20 +93,20 @@ Vector3 farthest(const Convex& body, const Vector3& direction) {
 // bodies are apart, however the numbers were rounded on the way there.
 Separation separation(const Convex& a, const Convex& b) {
   const auto corner = [&](const Vector3& direction) {
-    return rigid::difference(farthest(a, direction), farthest(b, rigid::scaled(direction, -1)));
+    return farthest(a, direction) - farthest(b, -direction);
   };
   Simplex simplex;
   simplex.add(corner({1, 0, 0}));
   Separation found;
   for (int turn = 0; turn < kMostTurns; ++turn) {
     const Simplex::Nearest nearest = simplex.reduce_to_nearest();
-    const double distance_m = rigid::length(nearest.point);
+    const double distance_m = length(nearest.point);
     if (nearest.encloses || distance_m <= kTouch_m) {
       found.meeting = Separation::Meeting::together;
       return found;
     }
-    const Vector3 next = corner(rigid::scaled(nearest.point, -1));
-    const double at_least_m = rigid::dot(nearest.point, next) / distance_m;
+    const Vector3 next = corner(-nearest.point);
+    const double at_least_m = dot(nearest.point, next) / distance_m;
     found.at_least_m = std::max(found.at_least_m, at_least_m);
     if (found.at_least_m > kTouch_m) found.meeting = Separation::Meeting::apart;
     if (found.at_least_m >= kExact * distance_m || !simplex.add(next)) return found;

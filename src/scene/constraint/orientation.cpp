@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "drover/angle.h"
+#include "drover/rotation.h"
 #include "scene/constraint/kinds.h"
 #include "scene/message/frames.h"
 #include "scene/world/rigid.h"
@@ -70,10 +71,8 @@ Finding finding_of(const OrientationConstraint& orientation, const Setting& sett
       return unknown("roll and pitch are not measured");
     }
   }
-  const Quaternion wanted =
-      rigid::product(frame->orientation, rigid::unit(orientation.orientation));
-  const Angles off =
-      intrinsic_xyz(rigid::product(rigid::back(wanted), link->orientation), tolerance_rad[2]);
+  const Quaternion wanted = frame->orientation * normalised(orientation.orientation);
+  const Angles off = intrinsic_xyz(conjugate(wanted) * link->orientation, tolerance_rad[2]);
   Finding finding = holding();
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (is_free_axis(tolerance_rad[axis])) continue;

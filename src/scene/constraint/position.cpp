@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "drover/angle.h"
+#include "drover/rotation.h"
 #include "scene/constraint/kinds.h"
 #include "scene/constraint/region.h"
 #include "scene/world/rigid.h"
@@ -21,7 +22,7 @@ std::vector<Vector3> corners_of(const PositionConstraint& position, const Extent
   if (outline.empty()) outline.push_back({});
   std::vector<Vector3> corners;
   for (const Vector3& own : outline) {
-    const Vector3 at = rigid::in_parent(link, rigid::sum(position.target_point_offset, own));
+    const Vector3 at = rigid::in_parent(link, position.target_point_offset + own);
     const double thrown_m = extent.turn_rad * std::hypot(at.x - base.x_m, at.y - base.y_m);
     const double margin_m = extent.margin_m + thrown_m;
     if (margin_m == 0) {
@@ -31,8 +32,8 @@ std::vector<Vector3> corners_of(const PositionConstraint& position, const Extent
     const double reach_m = margin_m / std::cos(kPi / kMarginSides);
     for (int side = 0; side < kMarginSides; ++side) {
       const double angle_rad = 2 * kPi * side / kMarginSides;
-      corners.push_back(
-          rigid::sum(at, {reach_m * std::cos(angle_rad), reach_m * std::sin(angle_rad), 0}));
+      corners.push_back(at +
+                        Vector3{reach_m * std::cos(angle_rad), reach_m * std::sin(angle_rad), 0});
     }
   }
   return corners;

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "drover/rotation.h"
 #include "scene/constraint/convex.h"
-#include "scene/world/rigid.h"
 
 namespace drover::scene {
 namespace {
@@ -41,7 +41,7 @@ double outside_m(const SolidPrimitive& shape, const Vector3& at) {
   const double across_m = std::hypot(at.x, at.y);
   switch (shape.type) {
     case Type::BOX:
-      return rigid::length({over(std::abs(at.x) - d[Type::BOX_X] / 2),
+      return length(Vector3{over(std::abs(at.x) - d[Type::BOX_X] / 2),
                             over(std::abs(at.y) - d[Type::BOX_Y] / 2),
                             over(std::abs(at.z) - d[Type::BOX_Z] / 2)});
     case Type::SPHERE: return over(std::hypot(across_m, at.z) - d[Type::SPHERE_RADIUS]);

@@ -1,5 +1,6 @@
 #include "scene/constraint/setting.h"
 
+#include "drover/rotation.h"
 #include "scene/message/frames.h"
 #include "scene/world/rigid.h"
 
@@ -11,8 +12,7 @@ std::optional<Pose> link_in_map(const Setting& setting, std::string_view link) {
   const Pose2& base = setting.state.base;
   const Tilt tilt = setting.state.tilt.value_or(Tilt{});
   return rigid::product(
-      Pose{{base.x_m, base.y_m, 0},
-           rigid::from_roll_pitch_yaw(tilt.roll_rad, tilt.pitch_rad, base.yaw_rad)},
+      Pose{{base.x_m, base.y_m, 0}, from_angles(tilt.roll_rad, tilt.pitch_rad, base.yaw_rad)},
       *on_base);
 }
 

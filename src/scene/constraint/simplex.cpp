@@ -4,7 +4,7 @@
 #include <limits>
 #include <span>
 
-#include "scene/world/rigid.h"
+#include "drover/rotation.h"
 
 namespace drover::scene {
 namespace {
@@ -26,35 +26,34 @@ struct Foot {
 };
 
 Foot foot_on_line(const Vector3& a, const Vector3& b) {
-  const Vector3 ab = rigid::difference(b, a);
-  const double square = rigid::dot(ab, ab);
+  const Vector3 ab = b - a;
+  const double square = dot(ab, ab);
   if (!(square > 0)) return {};
-  const double share = -rigid::dot(a, ab) / square;
+  const double share = -dot(a, ab) / square;
   return {{1 - share, share}, true};
 }
 
 Foot foot_on_triangle(const Vector3& a, const Vector3& b, const Vector3& c) {
-  const Vector3 ab = rigid::difference(b, a);
-  const Vector3 ac = rigid::difference(c, a);
-  const Vector3 normal = rigid::cross(ab, ac);
-  const double square = rigid::dot(normal, normal);
-  if (!(square > kFlat * kFlat * rigid::dot(ab, ab) * rigid::dot(ac, ac))) return {};
-  return {{rigid::dot(normal, rigid::cross(b, c)) / square,
-           rigid::dot(normal, rigid::cross(c, a)) / square,
-           rigid::dot(normal, rigid::cross(a, b)) / square},
+  const Vector3 ab = b - a;
+  const Vector3 ac = c - a;
+  const Vector3 normal = cross(ab, ac);
+  const double square = dot(normal, normal);
+  if (!(square > kFlat * kFlat * dot(ab, ab) * dot(ac, ac))) return {};
+  return {{dot(normal, cross(b, c)) / square, dot(normal, cross(c, a)) / square,
+           dot(normal, cross(a, b)) / square},
           true};
 }
 
 Foot foot_in_tetrahedron(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d) {
-  const Vector3 ab = rigid::difference(b, a);
-  const Vector3 ac = rigid::difference(c, a);
-  const Vector3 ad = rigid::difference(d, a);
-  const double volume = rigid::dot(ab, rigid::cross(ac, ad));
-  const double size = rigid::length(ab) * rigid::length(ac) * rigid::length(ad);
+  const Vector3 ab = b - a;
+  const Vector3 ac = c - a;
+  const Vector3 ad = d - a;
+  const double volume = dot(ab, cross(ac, ad));
+  const double size = length(ab) * length(ac) * length(ad);
   if (!(std::abs(volume) > kFlat * size)) return {};
-  const double of_b = -rigid::dot(a, rigid::cross(ac, ad)) / volume;
-  const double of_c = -rigid::dot(ab, rigid::cross(a, ad)) / volume;
-  const double of_d = -rigid::dot(ab, rigid::cross(ac, a)) / volume;
+  const double of_b = -dot(a, cross(ac, ad)) / volume;
+  const double of_c = -dot(ab, cross(a, ad)) / volume;
+  const double of_d = -dot(ab, cross(ac, a)) / volume;
   return {{1 - of_b - of_c - of_d, of_b, of_c, of_d}, true};
 }
 
@@ -69,8 +68,7 @@ Foot foot_on(std::span<const Vector3> corners) {
 
 Vector3 at_shares(std::span<const Vector3> corners, const Foot& foot) {
   Vector3 point;
-  for (std::size_t i = 0; i < corners.size(); ++i)
-    point = rigid::sum(point, rigid::scaled(corners[i], foot.shares[i]));
+  for (std::size_t i = 0; i < corners.size(); ++i) point = point + foot.shares[i] * corners[i];
   return point;
 }
 
@@ -104,7 +102,7 @@ Simplex::Nearest Simplex::reduce_to_nearest() {
     if (!foot.is_inside(size)) continue;
     const bool encloses = size == 4;
     const Vector3 point = encloses ? Vector3{} : at_shares(corners, foot);
-    const double square = rigid::dot(point, point);
+    const double square = dot(point, point);
     if (square >= best_square) continue;
     best = {point, encloses};
     best_square = square;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "drover/angle.h"
+#include "drover/rotation.h"
 #include "scene/constraint/convex.h"
 #include "scene/message/validate.h"
 #include "scene/world/rigid.h"
@@ -31,7 +32,7 @@ double reach_m(const SolidPrimitive& shape) {
   if (!has_dimensions(shape)) return kAbsent;
   switch (shape.type) {
     case SolidPrimitive::SPHERE: return d[SolidPrimitive::SPHERE_RADIUS];
-    case SolidPrimitive::BOX: return 0.5 * rigid::length({d[0], d[1], d[2]});
+    case SolidPrimitive::BOX: return 0.5 * length(Vector3{d[0], d[1], d[2]});
     default:
       return std::hypot(0.5 * d[SolidPrimitive::CYLINDER_HEIGHT],
                         d[SolidPrimitive::CYLINDER_RADIUS]);
@@ -41,11 +42,11 @@ double reach_m(const SolidPrimitive& shape) {
 /// The view is nowhere farther from its middle line than the disc is wide: most of a large scene is
 /// told apart by that.
 bool is_far_beside(const View& view, const Vector3& middle, double reach_m) {
-  const Vector3 line = rigid::difference(view.target.position_m, view.sensor.position_m);
-  const Vector3 way = rigid::difference(middle, view.sensor.position_m);
-  const double square = rigid::dot(line, line);
-  const double share = square > 0 ? std::clamp(rigid::dot(way, line) / square, 0.0, 1.0) : 0;
-  const double beside_m = rigid::length(rigid::difference(way, rigid::scaled(line, share)));
+  const Vector3 line = view.target.position_m - view.sensor.position_m;
+  const Vector3 way = middle - view.sensor.position_m;
+  const double square = dot(line, line);
+  const double share = square > 0 ? std::clamp(dot(way, line) / square, 0.0, 1.0) : 0;
+  const double beside_m = length(way - share * line);
   return beside_m > reach_m + view.radius_m + kOnSheet_m;
 }
 
@@ -98,9 +99,9 @@ bool hides(const Mesh& mesh, const Pose& in_map, const Points& view) {
 /// A sheet without thickness: the view is on one side of it, or it hides.
 bool hides(const Plane& plane, const Pose& in_map, const Points& view) {
   const Vector3 normal{plane.coef[0], plane.coef[1], plane.coef[2]};
-  const double scale = rigid::length(normal);
+  const double scale = length(normal);
   const auto side_m = [&](const Vector3& at) {
-    return (rigid::dot(normal, rigid::in_own(in_map, at)) + plane.coef[3]) / scale;
+    return (dot(normal, rigid::in_own(in_map, at)) + plane.coef[3]) / scale;
   };
   const bool above = std::ranges::all_of(view, [&](auto& at) { return side_m(at) >= -kOnSheet_m; });
   const bool below = std::ranges::all_of(view, [&](auto& at) { return side_m(at) <= kOnSheet_m; });
@@ -133,7 +134,7 @@ bool body_hides(const RobotBody& body, const Pose& link, const Points& view) {
 
 Points corners_of(const View& view, double short_of_m) {
   const Vector3& sensor = view.sensor.position_m;
-  const double way_m = rigid::length(rigid::difference(view.target.position_m, sensor));
+  const double way_m = length(view.target.position_m - sensor);
   const double share = way_m > 2 * short_of_m ? 1 - short_of_m / way_m : 0.5;
   Points corners{sensor};
   const int sides = std::clamp(view.sides, 3, kMaxConeSides);
@@ -141,8 +142,8 @@ Points corners_of(const View& view, double short_of_m) {
     const double angle_rad = 2 * kPi * i / sides;
     const Vector3 on_disc{view.radius_m * std::cos(angle_rad), view.radius_m * std::sin(angle_rad),
                           0};
-    const Vector3 ray = rigid::difference(rigid::in_parent(view.target, on_disc), sensor);
-    corners.push_back(rigid::sum(sensor, rigid::scaled(ray, share)));
+    const Vector3 ray = rigid::in_parent(view.target, on_disc) - sensor;
+    corners.push_back(sensor + share * ray);
   }
   return corners;
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "drover/angle.h"
+#include "drover/rotation.h"
 #include "scene/constraint/kinds.h"
 #include "scene/constraint/view.h"
 #include "scene/world/rigid.h"
@@ -12,15 +13,15 @@ namespace drover::scene {
 namespace {
 
 double angle_rad(const Vector3& a, const Vector3& b) {
-  return std::atan2(rigid::length(rigid::cross(a, b)), rigid::dot(a, b));
+  return std::atan2(length(cross(a, b)), dot(a, b));
 }
 
 /// The sensor's z, y or x.
 std::optional<Vector3> view_axis(const VisibilityConstraint& visibility, const Pose& sensor) {
   switch (visibility.sensor_view_direction) {
-    case VisibilityConstraint::SENSOR_Z: return rigid::turned(sensor.orientation, {0, 0, 1});
-    case VisibilityConstraint::SENSOR_Y: return rigid::turned(sensor.orientation, {0, 1, 0});
-    case VisibilityConstraint::SENSOR_X: return rigid::turned(sensor.orientation, {1, 0, 0});
+    case VisibilityConstraint::SENSOR_Z: return rotate(sensor.orientation, {0, 0, 1});
+    case VisibilityConstraint::SENSOR_Y: return rotate(sensor.orientation, {0, 1, 0});
+    case VisibilityConstraint::SENSOR_X: return rotate(sensor.orientation, {1, 0, 0});
     default: return std::nullopt;
   }
 }
@@ -58,11 +59,11 @@ Finding finding_of(const VisibilityConstraint& visibility, const Setting& settin
   if (!has_cone && visibility.max_view_angle == 0 && visibility.max_range_angle == 0)
     return unknown("it bounds nothing: radius and both angles are 0");
 
-  const Vector3 towards_sensor = rigid::turned(target->orientation, {0, 0, -1});
+  const Vector3 towards_sensor = rotate(target->orientation, {0, 0, -1});
   Finding seen = judge_angle(angle_rad(*axis, towards_sensor), visibility.max_view_angle,
                              "between the view and the target's back");
   if (!seen.holds) return seen;
-  const Vector3 way = rigid::difference(target->position_m, sensor->position_m);
+  const Vector3 way = target->position_m - sensor->position_m;
   seen = judge_angle(angle_rad(*axis, way), visibility.max_range_angle,
                      "beside the middle of the view");
   if (!seen.holds || !has_cone) return seen;

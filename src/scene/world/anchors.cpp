@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "drover/rotation.h"
 #include "scene/message/check.h"
 #include "scene/world/place.h"
 #include "scene/world/rigid.h"
@@ -13,7 +14,7 @@ namespace {
 /// All zero is what a client sends that set none.
 Quaternion set_turn(const Quaternion& q) {
   const bool unset = q.w == 0 && q.x == 0 && q.y == 0 && q.z == 0;
-  return unset ? Quaternion{} : rigid::unit(q);
+  return unset ? Quaternion{} : normalised(q);
 }
 
 bool is_near_enough(const Vector3& at) {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "drover/angle.h"
-#include "scene/world/rigid.h"
+#include "drover/rotation.h"
 
 namespace drover::scene {
 namespace {
@@ -71,8 +71,7 @@ Pose2 moved(const Pose2& pose, const GeodeticPoint& from, const GeodeticPoint& t
 Pose moved(const Pose& pose, const GeodeticPoint& from, const GeodeticPoint& to) {
   if (same_origin(from, to)) return pose;
   const Pose2 there = moved(Pose2{pose.position_m.x, pose.position_m.y, 0}, from, to);
-  return {{there.x_m, there.y_m, pose.position_m.z},
-          rigid::product(rigid::about_z(there.yaw_rad), pose.orientation)};
+  return {{there.x_m, there.y_m, pose.position_m.z}, about_z(there.yaw_rad) * pose.orientation};
 }
 
 }  // namespace drover::scene

@@ -3,12 +3,12 @@
 #include <cmath>
 
 #include "drover/angle.h"
-#include "scene/world/rigid.h"
+#include "drover/rotation.h"
 
 namespace drover::scene {
 
 Pose upright(const Pose2& pose) {
-  return {{pose.x_m, pose.y_m, 0}, rigid::about_z(pose.yaw_rad)};
+  return {{pose.x_m, pose.y_m, 0}, about_z(pose.yaw_rad)};
 }
 
 Pose2 product(const Pose2& outer, const Pose2& inner) {

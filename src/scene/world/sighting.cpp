@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "drover/angle.h"
+#include "drover/rotation.h"
 #include "scene/world/rigid.h"
 #include "scene/world/words.h"
 
@@ -56,11 +57,11 @@ double farthest_m(const Plane& shape, const Pose& in_map, Point2 from) {
   const auto& [a, b, c, d] = shape.coef;
   const double length = std::hypot(a, b, c);
   if (!(length > 0)) return kUnknown_m;
-  const Vector3 normal = rigid::turned(in_map.orientation, {a / length, b / length, c / length});
+  const Vector3 normal = rotate(in_map.orientation, Vector3{a / length, b / length, c / length});
   const double level = std::hypot(normal.x, normal.y);
   if (level < kLevelPlane) return 0;
-  const Vector3 to_robot = rigid::difference({from.x_m, from.y_m, 0}, in_map.position_m);
-  const double away_m = std::abs(rigid::dot(normal, to_robot) + d / length) / level;
+  const Vector3 to_robot = Vector3{from.x_m, from.y_m, 0} - in_map.position_m;
+  const double away_m = std::abs(dot(normal, to_robot) + d / length) / level;
   return std::max(away_m, kPlaneReach_m);
 }
 

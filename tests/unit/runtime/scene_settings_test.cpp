@@ -9,8 +9,8 @@
 
 #include "config/load.h"
 #include "drover/angle.h"
+#include "drover/rotation.h"
 #include "scene/message/frames.h"
-#include "scene/world/rigid.h"
 
 namespace drover::runtime {
 namespace {
@@ -82,11 +82,11 @@ TEST(SceneSettings, PlaceFramesOnTheBase) {
   EXPECT_EQ(mast->position_m.y, -0.2);
   EXPECT_EQ(mast->position_m.z, 0.6);
   // Its x looks to the left, and down by the pitch; its y back, turned by the roll.
-  const Vector3 x = scene::rigid::turned(mast->orientation, {1, 0, 0});
+  const Vector3 x = rotate(mast->orientation, {1, 0, 0});
   EXPECT_NEAR(x.x, 0, 1e-12);
   EXPECT_NEAR(x.y, std::cos(to_rad(20)), 1e-12);
   EXPECT_NEAR(x.z, -std::sin(to_rad(20)), 1e-12);
-  const Vector3 y = scene::rigid::turned(mast->orientation, {0, 1, 0});
+  const Vector3 y = rotate(mast->orientation, {0, 1, 0});
   EXPECT_NEAR(y.x, -std::cos(to_rad(10)), 1e-12);
 }
 
@@ -109,9 +109,7 @@ TEST(SceneSettings, HaveTheFootprintAsABodyFromClearanceToTop) {
   // The volume by the triangles' own turns: all are there, and look outwards.
   double volume_m3 = 0;
   for (const auto& [a, b, c] : mesh.triangles)
-    volume_m3 += scene::rigid::dot(mesh.vertices[a],
-                                   scene::rigid::cross(mesh.vertices[b], mesh.vertices[c])) /
-                 6;
+    volume_m3 += dot(mesh.vertices[a], cross(mesh.vertices[b], mesh.vertices[c])) / 6;
   EXPECT_NEAR(volume_m3, 0.865 * 0.7 * 0.95, 1e-9);
   for (const auto& corner : mesh.vertices) EXPECT_TRUE(corner.z == 0.05 || corner.z == 1);
 }

@@ -7,8 +7,8 @@
 
 #include "drivers/hipnuc_can/entry.h"
 #include "drivers/hipnuc_can/twin.h"
-#include "drivers/rotation.h"
 #include "drover/angle.h"
+#include "drover/rotation.h"
 
 namespace drover::hipnuc_can {
 namespace {

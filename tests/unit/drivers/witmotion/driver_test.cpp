@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "drivers/rotation.h"
 #include "drover/angle.h"
+#include "drover/rotation.h"
 #include "unit/drivers/witmotion/rig.h"
 
 namespace drover::witmotion {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <random>
 
+#include "drover/rotation.h"
 #include "scene/constraint/region.h"
 #include "unit/scene/world/yard.h"
 
@@ -21,9 +22,9 @@ Convex hull(const Points& points, const Pose& pose = {}) {
 
 /// How far the two are apart along this axis; negative: they overlap by it.
 double gap_m(const Points& a, const Points& b, const Vector3& axis) {
-  const double n = rigid::length(axis);
+  const double n = length(axis);
   if (n < 1e-9) return -1e9;
-  const auto along = [&](const Vector3& p) { return rigid::dot(p, axis) / n; };
+  const auto along = [&](const Vector3& p) { return dot(p, axis) / n; };
   const auto [a_low, a_high] = std::ranges::minmax(a, {}, along);
   const auto [b_low, b_high] = std::ranges::minmax(b, {}, along);
   return std::max(along(b_low) - along(a_high), along(a_low) - along(b_high));
@@ -39,16 +40,16 @@ double widest_gap_m(const Points& a, const Points& b) {
   const auto edges_of = [](const Points& points) {
     Points edges;
     for (std::size_t i = 0; i < points.size(); ++i)
-      for (std::size_t j = 0; j < i; ++j) edges.push_back(rigid::difference(points[i], points[j]));
+      for (std::size_t j = 0; j < i; ++j) edges.push_back(points[i] - points[j]);
     return edges;
   };
   const Points of_a = edges_of(a);
   const Points of_b = edges_of(b);
   for (const Points* edges : {&of_a, &of_b})
     for (const Vector3& e : *edges)
-      for (const Vector3& f : *edges) try_axis(rigid::cross(e, f));
+      for (const Vector3& f : *edges) try_axis(cross(e, f));
   for (const Vector3& e : of_a)
-    for (const Vector3& f : of_b) try_axis(rigid::cross(e, f));
+    for (const Vector3& f : of_b) try_axis(cross(e, f));
   return widest_m;
 }
 
@@ -103,7 +104,7 @@ TEST(Convex, FarFromTheOriginTheSameIsFound) {
     const double widest_m = widest_gap_m(a, b);
     if (std::abs(widest_m) < 1e-4) continue;
     for (Points* points : {&a, &b})
-      for (Vector3& p : *points) p = rigid::sum(p, {80'000, -90'000, 3});
+      for (Vector3& p : *points) p = p + Vector3{80'000, -90'000, 3};
     EXPECT_EQ(separation(hull(a), hull(b)).meeting,
               widest_m > 0 ? Meeting::apart : Meeting::together)
         << i << " " << widest_m;

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "drover/rotation.h"
 #include "unit/scene/constraint/judged.h"
 
 namespace drover::scene {
@@ -22,7 +23,7 @@ OrientationConstraint turn(double x, double y, double z, const Quaternion& wante
 
 TEST(OrientationConstraint, BoundsTheHeading) {
   Judged robot;
-  robot.keep(turn(0.1, 0.1, 0.2, rigid::about_z(kPi / 2)));
+  robot.keep(turn(0.1, 0.1, 0.2, about_z(kPi / 2)));
   EXPECT_TRUE(robot.holds_at({0, 0, kPi / 2 + 0.19}));
   EXPECT_TRUE(robot.holds_at({0, 0, kPi / 2 - 0.19}));
   EXPECT_FALSE(robot.holds_at({0, 0, kPi / 2 + 0.21}));
@@ -32,14 +33,14 @@ TEST(OrientationConstraint, BoundsTheHeading) {
 
 TEST(OrientationConstraint, TheHeadingWrapsAtHalfATurn) {
   Judged robot;
-  robot.keep(turn(0.1, 0.1, 0.2, rigid::about_z(kPi - 0.05)));
+  robot.keep(turn(0.1, 0.1, 0.2, about_z(kPi - 0.05)));
   EXPECT_TRUE(robot.holds_at({0, 0, -kPi + 0.1}));
   EXPECT_FALSE(robot.holds_at({0, 0, -kPi + 0.2}));
 }
 
 TEST(OrientationConstraint, AQuaternionAndItsNegativeAreTheSameTurn) {
   Judged robot;
-  const Quaternion q = rigid::about_z(1);
+  const Quaternion q = about_z(1);
   robot.keep(turn(0.1, 0.1, 0.1, {-q.w, -q.x, -q.y, -q.z}));
   EXPECT_TRUE(robot.holds_at({0, 0, 1.05}));
   EXPECT_TRUE(robot.holds_at({0, 0, 0.95}));
@@ -63,7 +64,7 @@ TEST(OrientationConstraint, TheAnglesAreIntrinsicXYZ) {
   // About its own x, then its new y, then its new z.
   const Quaternion about_x{std::cos(0.2), std::sin(0.2), 0, 0};
   const Quaternion about_y{std::cos(0.15), 0, std::sin(0.15), 0};
-  const Quaternion turned = rigid::product(about_x, rigid::product(about_y, rigid::about_z(0.5)));
+  const Quaternion turned = about_x * (about_y * about_z(0.5));
   Judged robot;
   robot.robot.links.push_back({"crane", {{}, turned}, {}});
   OrientationConstraint orientation = turn(0.401, 0.301, 0.501);
@@ -86,7 +87,7 @@ TEST(OrientationConstraint, AtNinetyDegreesOfPitchRollAndYawAreOneTurnThatBothMu
     Judged robot;
     const Quaternion about_x{std::cos(0.2), std::sin(0.2), 0, 0};
     const Quaternion about_y{std::cos(pitch_rad / 2), 0, std::sin(pitch_rad / 2), 0};
-    const Quaternion up = rigid::product(about_x, about_y);
+    const Quaternion up = about_x * about_y;
     robot.robot.links.push_back({"crane", {{}, up}, {}});
     const auto holds = [&](double x, double z) {
       OrientationConstraint orientation = turn(x, 1.6, z);
@@ -131,7 +132,7 @@ TEST(OrientationConstraint, WithoutAnInertialSensorTiltIsNotHeld) {
 TEST(OrientationConstraint, BetweenTwoFramesOfTheRobotItsTiltSaysNothing) {
   Judged robot;
   robot.state.tilt = std::nullopt;
-  OrientationConstraint orientation = turn(0.1, 0.1, 0.1, rigid::about_z(kPi / 2));
+  OrientationConstraint orientation = turn(0.1, 0.1, 0.1, about_z(kPi / 2));
   orientation.header.frame_id = "base_link";
   orientation.link_name = "lidar";
   robot.keep(orientation);

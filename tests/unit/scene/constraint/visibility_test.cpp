@@ -3,6 +3,7 @@
 
 #include <random>
 
+#include "drover/rotation.h"
 #include "scene/constraint/convex.h"
 #include "scene/constraint/view.h"
 #include "unit/scene/constraint/judged.h"
@@ -226,7 +227,7 @@ TEST(VisibilityConstraint, TheSensorLooksAlongTheAxisThatIsNamed) {
       visibility.target_radius = 0;
       visibility.max_range_angle = 0.1;
       robot.keep(visibility);
-      EXPECT_EQ(robot.holds(), rigid::dot(looks, target) > 0) << int(axis);
+      EXPECT_EQ(robot.holds(), dot(looks, target) > 0) << int(axis);
     }
   }
 }

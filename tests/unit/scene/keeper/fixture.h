@@ -10,9 +10,9 @@
 #include <utility>
 #include <vector>
 
+#include "drover/rotation.h"
 #include "scene/keeper/keeper.h"
 #include "scene/plane/sweep.h"
-#include "scene/world/rigid.h"
 
 namespace drover::scene {
 

@@ -3,6 +3,7 @@
 
 #include <random>
 
+#include "scene/world/rigid.h"
 #include "unit/scene/world/yard.h"
 
 namespace drover::scene {

@@ -7,6 +7,7 @@
 #include <GeographicLib/Geodesic.hpp>
 #include <GeographicLib/LocalCartesian.hpp>
 
+#include "scene/world/rigid.h"
 #include "unit/scene/world/yard.h"
 
 namespace drover::scene {

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "drover/angle.h"
-#include "scene/world/rigid.h"
+#include "drover/rotation.h"
 #include "scene/world/world.h"
 
 namespace drover::scene::yard {
@@ -24,7 +24,7 @@ inline Stamp stamp_s(double monotonic_s) {
 }
 
 inline Pose at(double x_m, double y_m, double z_m = 0, double yaw_rad = 0) {
-  return {{x_m, y_m, z_m}, rigid::about_z(yaw_rad)};
+  return {{x_m, y_m, z_m}, about_z(yaw_rad)};
 }
 
 inline SolidPrimitive box(double x_m, double y_m, double z_m) {
@@ -71,7 +71,7 @@ struct Yard {
   std::string late;
 
   Yard() {
-    robot.links.push_back({"lidar", {{0.5, 0, 0.3}, rigid::about_z(kPi / 2)}, {}});
+    robot.links.push_back({"lidar", {{0.5, 0, 0.3}, about_z(kPi / 2)}, {}});
     world.move_origin(kOrigin);
   }
   /// The robot drives for `seconds` from where `from` is along x, heading `yaw`.
