@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <random>
 #include <string>
 #include <vector>
@@ -102,6 +103,33 @@ Thing draw_thing(Dice& dice, const std::string& id) {
   return thing;
 }
 
+constexpr double kNearStays_s = 4;
+
+/// Something appears where the robot cannot stop any more: by the clock alone nobody knows how far
+/// it came by then, so by its place, on a row. When it is gone at the latest; nothing: it is in a
+/// curve there.
+std::optional<double> add_near(Dice& dice, const std::string& name, double begin_m, double v_mps,
+                               ordered_json& steps) {
+  const double at_m = begin_m + dice.from(2.5, 4.5);  // it has its speed by then
+  const Spot robot = spot(at_m);
+  const bool east = robot.yaw_rad == 0;
+  auto thing = draw_thing(dice, name + "_near");
+  const double ahead_m = dice.from(0.03, braking_way_m(v_mps) + kMargin_m - 0.05);
+  const Spot there = spot(at_m + RobotShape{}.front_m + ahead_m + thing.reach_m);
+  if ((!east && robot.yaw_rad != M_PI) || there.yaw_rad != robot.yaw_rad) return std::nullopt;
+  const double aside_m = dice.from(-0.2, 0.2);
+  thing.object["at"] = {rounded(there.x_m), rounded(there.y_m + aside_m)};
+  const std::string put = name + "_put";
+  steps.push_back({{"name", put},
+                   {"after", name},
+                   {"when", {{east ? "x_m_above" : "x_m_below", rounded(robot.x_m)}}},
+                   {"do", {{"object", thing.object}}}});
+  steps.push_back({{"after", put},
+                   {"delay_s", kNearStays_s},
+                   {"do", {{"object", {{"id", thing.object["id"]}, {"gone", true}}}}}});
+  return (at_m - begin_m) / v_mps + 2 + kNearStays_s;
+}
+
 /// The drives' latest end after the start of a scene, and its steps.
 double add_scene(Dice& dice, int number, bool last, const std::string& after, double delay_s,
                  ordered_json& steps) {
@@ -115,6 +143,9 @@ double add_scene(Dice& dice, int number, bool last, const std::string& after, do
                    {"do", {{"start_task", {{"id", target}, {"speed_mps", v_mps}}}}}});
   const double drive_s = kDrive_m / v_mps + 2;
   double over_s = 0;
+  if (!last && dice.happens(0.15))
+    if (const auto gone_s = add_near(dice, name, begin_m, v_mps, steps))
+      return *gone_s + drive_s + 3;
   const double many = dice.from(0, 1);
   const int things = last || many < 0.05 ? 0 : many < 0.6 ? 1 : many < 0.9 ? 2 : 3;
   for (int i = 0; i < things; ++i) {
