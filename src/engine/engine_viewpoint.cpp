@@ -1,4 +1,6 @@
 // What somebody who looks around has to know of the robot, at the end of each cycle.
+#include <algorithm>
+
 #include "engine/engine_impl.h"
 
 namespace drover::engine {
@@ -6,8 +8,12 @@ namespace drover::engine {
 void Engine::Impl::fill_viewpoint() {
   view.t = estimate.pose.time;
   view.pose = estimate.pose;
-  // Where the receiver contradicts the wheels, that counts too.
-  view.pose.position_sigma_m = estimate.has_position ? estimate.predicted_error_m / 2 : kAbsent;
+  // Where the receiver contradicts the wheels, that counts too: a place that stands still while the
+  // wheels turn may be a receiver that is stuck, and is none once it is told as that.
+  view.pose.position_sigma_m =
+      estimate.has_position && !estimate.disagrees
+          ? std::max(estimate.predicted_error_m, estimate.slipped_m) / 2
+          : kAbsent;
   view.place = place_count.number();
   view.origin_set = estimator.has_origin();
   if (view.origin_set) view.origin = estimator.origin();

@@ -30,6 +30,8 @@ struct Estimate {
   Reason reason;                       ///< why it is not good; empty when it is
   bool disagrees = false;              ///< GNSS and odometry contradict each other beyond the gate
   bool slipping = false;               ///< the wheels roll another way than the base moves
+  /// How much the ways of wheels and receiver differ since they slip: one of both is wrong by it.
+  double slipped_m = 0;
   /// What was noticed and is made up for, so far: slipping wheels, a gyro that is not believed.
   Reason notice;
   /// How far it could still drive by dead reckoning; absent with an RTK fix, or without a place.

@@ -40,6 +40,11 @@ Leg begin(const BaseFix& fix, Time now) {
   return leg;
 }
 
+void begin_brief(MotionWatch& watch, const BaseFix& fix, Time now) {
+  watch.brief = begin(fix, now);
+  watch.last_gap_m = watch.last_east_m = watch.last_north_m = watch.largest_step_m = 0;
+}
+
 /// How far the fix is away from dead reckoning.
 struct Apart {
   double along_m = 0;
@@ -108,15 +113,20 @@ void MotionWatch::forget() {
 void watch_slip(MotionWatch& watch, Belief& belief, const BaseFix& fix, Time now) {
   Leg& leg = watch.brief;
   if (leg.since == kNever || now - leg.since > 2 * kBrief) {
-    leg = begin(fix, now);
-    watch.last_gap_m = watch.largest_step_m = 0;
+    begin_brief(watch, fix, now);
     watch.slip_since = kNever;
     return;
   }
   const double wheels_m = std::hypot(leg.east_m, leg.north_m);
   const double receiver_m = std::hypot(fix.x_m - leg.x_m, fix.y_m - leg.y_m);
   const double gap_m = wheels_m - receiver_m;
-  watch.largest_step_m = std::max(watch.largest_step_m, std::abs(gap_m - watch.last_gap_m));
+  // By its place, not its length: a jump back by more than the way so far looks like little of it.
+  const double east_m = fix.x_m - leg.x_m - leg.east_m;
+  const double north_m = fix.y_m - leg.y_m - leg.north_m;
+  watch.largest_step_m = std::max(
+      watch.largest_step_m, std::hypot(east_m - watch.last_east_m, north_m - watch.last_north_m));
+  watch.last_east_m = east_m;
+  watch.last_north_m = north_m;
   watch.last_gap_m = gap_m;
   const Duration age = now - leg.since;
   if (age < kBriefest) return;
@@ -141,8 +151,8 @@ void watch_slip(MotionWatch& watch, Belief& belief, const BaseFix& fix, Time now
   // What the wheels spun away is no drift.
   if (watch.slipping()) watch.lasting = {};
   if (age < kBrief) return;
-  leg = begin(fix, now);
-  watch.last_gap_m = watch.largest_step_m = 0;
+  watch.slipped_m = watch.slipping() ? watch.slipped_m + std::abs(gap_m) : 0;
+  begin_brief(watch, fix, now);
 }
 
 void watch_drift(MotionWatch& watch, const Belief& belief, const BaseFix& fix, Time now,

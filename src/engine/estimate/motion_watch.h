@@ -40,11 +40,14 @@ struct MotionWatch {
   Leg brief;
   std::array<Leg, 2> lasting;  ///< the younger begins when the older is half as old as it may be
   double last_gap_m = 0;
+  double last_east_m = 0;  ///< how far the last position was from dead reckoning
+  double last_north_m = 0;
   double largest_step_m = 0;  ///< how much of the gap came between two positions: a jump is no slip
 
   Time slip_since = kNever;  ///< kNever: the wheels do not slip
   double wheel_mps = 0;      ///< while they do
   double receiver_mps = 0;
+  double slipped_m = 0;  ///< and how much the ways of both differ in the legs that are over
   Time drift_since = kNever;
   double drift_m = 0;     ///< how far the position went away from the wheels
   double drift_s = 0;     ///< in this time

@@ -64,6 +64,7 @@ void Estimator::report_trouble(const State& state, Time now) {
   const bool stuck = watch.stuck(now, patience);
   const bool drifting = watch.drifting(now, patience);
   e.disagrees = position_disagrees || heading_disagrees || stuck || drifting;
+  e.slipped_m = watch.slipping() ? watch.slipped_m + std::abs(watch.last_gap_m) : 0;
   // One of the two is wrong, and nobody knows which: the error may be all that lies between them.
   if (state.has_position) {
     double apart_m = 0;

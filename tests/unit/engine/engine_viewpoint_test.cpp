@@ -42,6 +42,30 @@ TEST_F(AViewpoint, TellsThatItIsNotLocated) {
   EXPECT_FALSE(view().origin_set);
 }
 
+/// Nobody is stopped by things around a place that stands still while the robot does not.
+TEST_F(AViewpoint, ItsPlaceIsWorseByWhatItSlippedAndNoneOnceTheReceiverIsStuck) {
+  rig.settle();
+  begin_stream();
+  const auto drive_on = [this](double seconds, bool stuck) {
+    const double from_m = rig.driven_m;
+    const double jump_m = rig.jump_m;
+    for (int i = 0; i < static_cast<int>(seconds * 200); ++i) {
+      if (i % 4 == 0) turn_wheels(3, 3);
+      if (stuck) rig.jump_m = jump_m - (rig.driven_m - from_m);
+      rig.tick();
+    }
+    return rig.driven_m - from_m;
+  };
+  ASSERT_GT(drive_on(3, false), 0.5);
+  EXPECT_LT(view().pose.position_sigma_m, 0.05);
+  double away_m = drive_on(0.7, true);  // as long as slip is looked for
+  for (int i = 0; i < 15; ++i) {
+    away_m += drive_on(0.1, true);
+    EXPECT_FALSE(view().pose.position_sigma_m < away_m / 4) << away_m << " m away";
+  }
+  EXPECT_FALSE(std::isfinite(view().pose.position_sigma_m)) << rig.why();
+}
+
 TEST_F(AViewpoint, TellsTheTiltOfAnInertialSensorOnly) {
   rig.settle();
   EXPECT_FALSE(std::isfinite(view().roll_rad));

@@ -299,6 +299,39 @@ TEST(EstimateFusion, TakesAFixThatSettlesForNoSlip) {
   }
 }
 
+TEST(EstimateFusion, TakesAJumpBackAlongTheWayForNoSlip) {
+  for (const double v_mps : {0.3, 0.5, 0.8}) {
+    for (const double back_m : {0.15, 0.2, 0.3, 0.35, 0.5}) {
+      for (int phase = 0; phase < 8; ++phase) {  // of the time over which slip is looked for
+        Rig rig(12);
+        rig.yaw_rad = 0;
+        settle(rig);
+        rig.drive(v_mps, v_mps, 3 + 0.1 * phase);
+        rig.world.jump_x_m = -back_m;
+        bool slips = false;
+        for (int i = 0; i < 9; ++i) {
+          rig.drive(v_mps, v_mps, 0.1);
+          slips = slips || rig.last.slipping;
+        }
+        EXPECT_FALSE(slips) << back_m << " m back at " << v_mps << " m/s, phase " << phase;
+      }
+    }
+  }
+}
+
+TEST(EstimateFusion, AddsUpWhatItSlipped) {
+  Rig rig(13);
+  settle(rig);
+  rig.drive(0.5, 0.5, 5);
+  EXPECT_EQ(rig.last.slipped_m, 0);
+  rig.world.grip = 0.5;
+  rig.drive(0.5, 0.5, 4);  // of 2 m that rolled 1 m was driven
+  EXPECT_NEAR(rig.last.slipped_m, 1, 0.3);
+  rig.world.grip = 1;
+  rig.drive(0.5, 0.5, 3);
+  EXPECT_EQ(rig.last.slipped_m, 0);
+}
+
 TEST(EstimateFusion, HasNoFalsePlaceOnIce) {
   for (const bool imu : {false, true}) {
     Rig rig(11);
