@@ -74,7 +74,10 @@ store::AcceptLoss SceneSaver::give_up_lost() {
 }
 
 void SceneSaver::on_given_up(bool stored) {
-  if (!stored) lost_.merge(given_up_);
+  if (!stored && !given_up_.empty()) {
+    lost_.merge(given_up_);
+    changed_ = true;  // a save that was made meanwhile is without them
+  }
   given_up_.clear();
 }
 

@@ -137,6 +137,22 @@ TEST(ASceneSaverOfWhatWasStored, KeepsOnTheDiskWhatNobodyCanReadUntilItIsGivenUp
   EXPECT_THAT(names(saver.next(kNow)->texts), ElementsAre("good", "worse"));
 }
 
+/// A save that was made while the loss was on its way to be accepted is without them.
+TEST(ASceneSaverOfWhatWasStored, WritesWhatCannotBeReadAgainWhenItsLossWasNotAccepted) {
+  SceneSaver saver({stored("good"), stored("bad")});
+  const SceneRestored::Lost lost[] = {{std::string(store::kObjectKind), "bad"}};
+  saver.set_lost(lost);
+  (void)saver.give_up_lost();
+  const SceneChange change = added("new");
+  (void)saver.note({&change, 1}, 2);
+  EXPECT_THAT(names(saver.next(kNow)->texts), ElementsAre("good", "new"));
+  saver.on_given_up(false);
+  (void)saver.on_saved("", kNow);
+  const auto again = saver.next(kNow);
+  ASSERT_TRUE(again);
+  EXPECT_THAT(names(again->texts), ElementsAre("good", "new", "bad"));
+}
+
 TEST(ASceneSaverOfWhatWasStored, KeepsWhatCannotBeReadWhenAPersonClearsTheScene) {
   SceneSaver saver({stored("good"), stored("bad")});
   const SceneRestored::Lost lost[] = {{std::string(store::kObjectKind), "bad"}};
