@@ -75,6 +75,20 @@ TEST_F(AViewpoint, TellsTheTiltOfAnInertialSensorOnly) {
   EXPECT_NEAR(view().pitch_rad, 0, 0.02);
 }
 
+/// The base may coast: that it stands is not said of one that nobody hears.
+TEST_F(AViewpoint, TellsNoMotionWhileNobodyKnowsHowTheRobotMoves) {
+  drive();
+  EXPECT_GT(view().pose.vx_mps, 0.1);
+  for (auto& drive : rig.drives) drive.silent = true;
+  rig.run_s(1);
+  EXPECT_FALSE(std::isfinite(view().pose.vx_mps));
+  EXPECT_FALSE(std::isfinite(view().pose.wz_radps));
+  for (auto& drive : rig.drives) drive.silent = false;
+  rig.run_s(1);
+  EXPECT_TRUE(std::isfinite(view().pose.vx_mps));
+  EXPECT_TRUE(std::isfinite(view().pose.wz_radps));
+}
+
 TEST_F(AViewpoint, HasAnotherPlaceWithEachOriginAndWhenItIsFound) {
   rig.tick();
   const auto at_first = view().place;
