@@ -3,27 +3,13 @@
 #include <cstdint>
 
 #include "scene/keeper/way_line.h"
+#include "track/flaw.h"
 #include "track/path_search.h"
 
 namespace drover::scene {
-namespace {
-
-// As the engine has them.
-constexpr double kLongestGap_m = 1000;
-constexpr double kSamePoint_m = 1e-3;
-
-}  // namespace
-
 bool is_track(const Path& path, std::size_t target) {
-  if (path.points.size() < 2 || target >= path.points.size()) return false;
-  bool has_length = false;
-  for (std::size_t i = 0; i < path.points.size(); ++i) {
-    if (!is_finite(point_of(path, i))) return false;
-    const double gap2 = i == 0 ? 0 : squared(point_of(path, i) - point_of(path, i - 1));
-    if (!(gap2 < kLongestGap_m * kLongestGap_m)) return false;
-    has_length = has_length || gap2 > kSamePoint_m * kSamePoint_m;
-  }
-  return has_length;
+  return target < path.points.size() &&
+         track::find_flaw(path.points).kind == track::Flaw::Kind::none;
 }
 
 WayLeft way_of_start(const Path& path, std::size_t target, const Pose2& pose) {

@@ -9,8 +9,7 @@
 
 namespace drover::scene {
 
-/// It has two points and more, all finite, not all the same, none 1000 m from the one before it,
-/// and one of that index: what the engine would not refuse (it refuses more).
+/// Without a flaw (track/flaw.h), and with a point of that index: what the engine would not refuse.
 bool is_track(const Path& path, std::size_t target);
 
 /// The whole way of a task that starts at this pose, along a path that is_track, as the engine

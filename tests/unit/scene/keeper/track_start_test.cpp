@@ -64,6 +64,9 @@ TEST(TrackStart, IsOnNoTrackThatIsNone) {
   EXPECT_FALSE(is_track(path, 1));
   path.points[1].y_m = NAN;
   EXPECT_FALSE(is_track(path, 0));
+  path.points.assign(200, {1, 0});
+  path.points[0].x_m = 0;
+  EXPECT_FALSE(is_track(path, 199)) << "the engine would refuse it";
 }
 
 }  // namespace
