@@ -125,12 +125,24 @@ std::string words(const Recalled& recalled, const Wiring&) {
 std::string words(const OutputsUp& up, const Wiring&) {
   return std::string("outputs up, relay ") + (up.relay_closed ? "closed" : "open");
 }
+/// How long it is free, and in brackets by the margin alone.
+std::string way(double is, double bare, const char* unit) {
+  return std::to_string(is) + " (" + std::to_string(bare) + ") " + unit;
+}
 std::string words(const ClearanceFound& found, const Wiring&) {
   const Clearance& clearance = found.clearance;
-  std::string text =
-      "surroundings " + number(clearance.scene) + ", track " + number(clearance.path) +
-      ": free along it " + std::to_string(clearance.along_m) + " m, ahead " +
-      std::to_string(clearance.ahead_m) + " m, back " + std::to_string(clearance.back_m) + " m";
+  const BareWays& bare = clearance.bare;
+  const std::string time =
+      clearance.t == kNever ? "no time" : std::to_string(to_s(clearance.t)) + " s";
+  std::string text = "surroundings " + number(clearance.scene) + ", track " +
+                     number(clearance.path) + ", of " + time + ", at " +
+                     std::to_string(clearance.twist.vx_mps) + " m/s and " +
+                     std::to_string(clearance.twist.wz_radps) + " rad/s: free along it " +
+                     way(clearance.along_m, bare.along_m, "m") + ", ahead " +
+                     way(clearance.ahead_m, bare.ahead_m, "m") + ", back " +
+                     way(clearance.back_m, bare.back_m, "m") + ", left " +
+                     way(clearance.left_rad, bare.left_rad, "rad") + ", right " +
+                     way(clearance.right_rad, bare.right_rad, "rad");
   if (!clearance.first.empty()) text += ", " + std::string(clearance.first);
   if (!clearance.turn.empty()) text += ", turning " + std::string(clearance.turn);
   if (!clearance.unknown.empty()) text += ", not known: " + std::string(clearance.unknown);
