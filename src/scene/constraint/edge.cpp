@@ -1,7 +1,9 @@
 #include "scene/constraint/edge.h"
 
+#include <cmath>
 #include <utility>
 
+#include "drover/angle.h"
 #include "scene/constraint/evaluate.h"
 #include "scene/constraint/kinds.h"
 #include "scene/message/frames.h"
@@ -14,6 +16,8 @@ constexpr double kMostCost = 320;
 constexpr double kMarginCost = 16;             // a position's margin is a circle of points
 constexpr double kVerticesOfAPrimitive = 1.5;  // of a hull, that cost as much
 constexpr int kHalvings = 8;                   // of a step of 25 cm: a millimetre
+constexpr double kResolved_m = 1e-3;
+constexpr int kDirections = 16;
 
 double cost_of(const PositionConstraint& position) {
   double shapes = static_cast<double>(position.constraint_region.primitives.size());
@@ -42,6 +46,13 @@ bool is_of_point(const Constraints& set, std::size_t i) {
          is_global_frame(position.header.frame_id);
 }
 
+/// A region that does not go along with the robot.
+bool is_on_earth(const Constraints& set, std::size_t i) {
+  const std::size_t joints = set.joint_constraints.size();
+  if (i < joints || i - joints >= set.position_constraints.size()) return false;
+  return is_global_frame(set.position_constraints[i - joints].header.frame_id);
+}
+
 }  // namespace
 
 Edges::Edges(const World& world, const RobotModel& robot, const Terms& terms, const Pose2& here)
@@ -59,15 +70,60 @@ Edges::Edges(const World& world, const RobotModel& robot, const Terms& terms, co
 }
 
 std::string Edges::broken(const Bound& bound, const Pose2& at) const {
+  return broken(bound, at, terms_);
+}
+
+std::string Edges::broken(const Bound& bound, const Pose2& at, const Terms& terms) const {
   RobotState state;
   state.base = at;
   std::string which;
   judge_one(bound.set->message, bound.item,
-            setting_of(*bound.set, world_, robot_, state, terms_, Moment::ahead), false,
+            setting_of(*bound.set, world_, robot_, state, terms, Moment::ahead), false,
             [&which](const Verdict& verdict) {
               if (!verdict.holds) which = verdict.which;
             });
   return which;
+}
+
+std::string Edges::broken_about(const Bound& bound, const Pose2& at, double moved_m) const {
+  // Of a region on earth all of a disc must be in one shape: who may be moved has a larger disc.
+  if (is_on_earth(bound.set->message, bound.item)) {
+    Terms terms = terms_;
+    terms.extent.margin_m += moved_m;
+    return broken(bound, at, terms);
+  }
+  // What else a place breaks is beyond one or two straight lines, of any direction in the map.
+  const double reach_m = moved_m / std::cos(kPi / kDirections);
+  for (int i = 0; i < kDirections; ++i) {
+    const Point2 there = place_of(at) + reach_m * direction(2 * kPi * i / kDirections);
+    if (auto which = broken(bound, {there.x_m, there.y_m, at.yaw_rad}); !which.empty())
+      return which;
+  }
+  return {};
+}
+
+std::string Edges::broken_about(const Pose2& at, double moved_m) const {
+  for (const Bound& bound : bounds_)
+    if (auto which = broken_about(bound, at, moved_m); !which.empty()) return which;
+  return {};
+}
+
+std::optional<Edge> Edges::around(const Pose2& here, double most_m) const {
+  std::string which = broken_about(here, most_m);
+  if (which.empty()) return std::nullopt;
+  double holds_m = 0;
+  double breaks_m = most_m;
+  while (breaks_m - holds_m > kResolved_m) {
+    const double middle_m = 0.5 * (holds_m + breaks_m);
+    auto there = broken_about(here, middle_m);
+    if (there.empty()) {
+      holds_m = middle_m;
+    } else {
+      breaks_m = middle_m;
+      which = std::move(there);
+    }
+  }
+  return Edge{.driven_m = holds_m, .which = std::move(which)};
 }
 
 std::optional<Edge> Edges::first(std::span<const Step> steps) const {

@@ -32,6 +32,9 @@ class Edges final {
   /// The first one on a way; nothing: all of them hold on all of it. What ends and begins again
   /// between two steps is not found.
   std::optional<Edge> first(std::span<const Step> steps) const;
+  /// The same on all ways from a place in whichever direction, for who does not know where it
+  /// looks: within `driven_m` of it all of them hold. Nothing: within `most_m`.
+  std::optional<Edge> around(const Pose2& here, double most_m) const;
 
  private:
   struct Bound {
@@ -41,6 +44,10 @@ class Edges final {
   };
   /// "" when it holds there.
   std::string broken(const Bound& bound, const Pose2& at) const;
+  std::string broken(const Bound& bound, const Pose2& at, const Terms& terms) const;
+  /// "" when it holds wherever the robot may be that was moved from there by so much.
+  std::string broken_about(const Bound& bound, const Pose2& at, double moved_m) const;
+  std::string broken_about(const Pose2& at, double moved_m) const;
 
   const World& world_;
   const RobotModel& robot_;

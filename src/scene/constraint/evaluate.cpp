@@ -46,8 +46,9 @@ bool judge_in(const Constraints& set, const std::vector<Kind>& list, const char*
 }
 
 /// The map about `origin` seen from the one in force, as it is at the robot.
-Pose2 map_seen_at(const Pose2& base, const GeodeticPoint& origin, const GeodeticPoint& in_force) {
+Pose2 map_seen_at(Pose2 base, const GeodeticPoint& origin, const GeodeticPoint& in_force) {
   if (same_origin(origin, in_force)) return {};
+  if (!std::isfinite(base.yaw_rad)) base.yaw_rad = 0;  // both maps are there, wherever it looks
   return product(base, back(moved(base, in_force, origin)));
 }
 

@@ -15,7 +15,8 @@ constexpr double kJointSlack = 1e-9;  // rad or m
 /// The robot's place as a planar joint, in the map that the constraint came in.
 std::optional<JointReading> base_reading(const std::string& name, const Setting& setting) {
   Pose2 base = product(back(setting.their_map), setting.state.base);
-  if (!is_finite(base)) base = {kAbsent, kAbsent, kAbsent};  // half a pose is none
+  // Half a place is none, and a heading without a place is none either.
+  if (!is_finite(place_of(base))) base = {kAbsent, kAbsent, kAbsent};
   if (name == "base/x") return JointReading{.name = name, .position = base.x_m};
   if (name == "base/y") return JointReading{.name = name, .position = base.y_m};
   if (name == "base/theta")
@@ -68,6 +69,9 @@ bool is_of_base(const JointConstraint& joint) {
 Finding finding_of(const JointConstraint& joint, const Setting& setting) {
   const auto reading = reading_of(joint.joint_name, setting);
   if (!reading) return unknown("the robot has no joint " + words::quoted(joint.joint_name));
+  if (is_of_base(joint) && !std::isfinite(reading->position))
+    return unknown(is_finite(place_of(setting.state.base)) ? "the robot's heading is not known"
+                                                           : "the robot's place is not known");
   Finding present = judge_joint(joint, reading->position, reading->continuous, "is");
   const double horizon_s = setting.terms.joint_horizon_s;
   if (!present.holds || horizon_s == 0 || is_of_base(joint)) return present;

@@ -42,5 +42,9 @@ struct Setting {
 std::optional<Pose> link_in_map(const Setting& setting, std::string_view link);
 /// Of a frame_id; the global one is the constraints' map.
 std::optional<Pose> frame_of(const Setting& setting, std::string_view frame_id);
+/// The same of a robot that looks so.
+std::optional<Pose> link_if_looking(const Setting& setting, std::string_view link, double yaw_rad);
+std::optional<Pose> frame_if_looking(const Setting& setting, std::string_view frame_id,
+                                     double yaw_rad);
 
 }  // namespace drover::scene

@@ -1,6 +1,7 @@
 // Whether one constraint holds, and how badly not.
 #pragma once
 
+#include <cmath>
 #include <limits>
 #include <string>
 #include <utility>
@@ -31,6 +32,9 @@ struct Verdict {
   double weight = 1;  ///< 0 or absent counts as 1: a weight switches nothing off
   std::string which;  ///< like `yard.position_constraints[0] (base_link)`
   std::string why;
+
+  /// Or something is not known that it needs.
+  bool can_be_judged() const { return std::isfinite(error); }
 };
 
 }  // namespace drover::scene

@@ -110,8 +110,11 @@ std::optional<Verdict> Keeper::Impl::broken() const {
 Reason with_way_out(const Verdict& broken) {
   constexpr std::string_view kWayOut = "; take it away (drover scene clear) or push it";
   const FixedText<Reason::capacity() - kWayOut.size()> what(in_words(broken).view());
+  // Who is pushed comes back to where it holds, but learns nothing that is missing.
+  const std::size_t told = broken.can_be_judged() ? kWayOut.size() : kWayOut.find(" or push it");
   Reason words;
-  words.format("%.*s%s", static_cast<int>(what.view().size()), what.view().data(), kWayOut.data());
+  words.format("%.*s%.*s", static_cast<int>(what.view().size()), what.view().data(),
+               static_cast<int>(told), kWayOut.data());
   return words;
 }
 
@@ -119,8 +122,8 @@ Reason in_words(const Verdict& broken) {
   constexpr std::size_t kShownWhich = 72;
   const FixedText<kShownWhich> which(broken.which);
   Reason words;
-  words.format("constraint %.*s does not hold: %s", static_cast<int>(which.view().size()),
-               which.view().data(), broken.why.c_str());
+  words.format("constraint %.*s %s: %s", static_cast<int>(which.view().size()), which.view().data(),
+               broken.can_be_judged() ? "does not hold" : "cannot be judged", broken.why.c_str());
   return words;
 }
 

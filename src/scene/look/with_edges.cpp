@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "scene/look/with_edge_disc.h"
 #include "scene/plane/sweep.h"
 
 namespace drover::scene {
@@ -61,7 +62,8 @@ Clearance with_edges(Clearance found, const Edges& edges, const LookSettings& se
               "along the track", &found.first);
     return found;
   }
-  if (!is_heading(from.pose.yaw_rad, from.yaw_sigma_rad)) return found;
+  if (!is_heading(from.pose.yaw_rad, from.yaw_sigma_rad))
+    return with_edge_disc(found, edges, settings, from);
   const bool backwards = from.twist.vx_mps < 0;
   bound_way(found.ahead_m, found.bare.ahead_m, unguided_steps(settings, from, false, stride), edges,
             settings.margin_m, "ahead", backwards ? nullptr : &found.first);

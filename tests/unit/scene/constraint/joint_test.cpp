@@ -96,7 +96,13 @@ TEST(JointConstraint, WhatIsNotKnownDoesNotHold) {
   robot.keep(joint("base/x", 0, 5, 5));
   EXPECT_FALSE(robot.holds_at({kAbsent, 0, 0}));
   EXPECT_FALSE(robot.holds_at({std::numeric_limits<double>::infinity(), 0, 0}));
+  EXPECT_FALSE(robot.holds_at({0, kAbsent, 0}));
+  EXPECT_EQ(robot.why(), "the robot's place is not known");
+  EXPECT_TRUE(robot.holds_at({0, 0, kAbsent})) << "the place is, and nothing else is asked";
+  EXPECT_FALSE(robot.holds_at({6, 0, kAbsent}));
+  robot.keep(joint("base/theta", 0, 1, 1));
   EXPECT_FALSE(robot.holds_at({0, 0, kAbsent}));
+  EXPECT_EQ(robot.why(), "the robot's heading is not known");
   EXPECT_TRUE(robot.holds_at({}));
   robot.keep(joint("arm", 0, kAbsent, 1));
   robot.state.joints = {{"arm"}};

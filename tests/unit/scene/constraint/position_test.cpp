@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include "unit/scene/constraint/judged.h"
 
 namespace drover::scene {
@@ -210,7 +212,54 @@ TEST(PositionConstraint, WhatIsNotKnownDoesNotHold) {
   Judged robot;
   robot.keep(inside(box(10, 4, 2)));
   EXPECT_FALSE(robot.holds_at({kAbsent, 0, 0}));
-  EXPECT_FALSE(robot.holds_at({0, 0, kAbsent}));
+  EXPECT_FALSE(robot.holds_at({0, kAbsent, 0}));
+  EXPECT_EQ(robot.why(), "the robot's place is not known");
+}
+
+TEST(PositionConstraint, OfBaseLinkNeedsNoHeading) {
+  Judged robot;
+  robot.terms.extent.turn_rad = kAbsent;
+  robot.keep(inside(box(10, 4, 2)));
+  EXPECT_TRUE(robot.holds_at({4.9, 1.9, kAbsent}));
+  EXPECT_FALSE(robot.holds_at({5.25, 0, kAbsent}));
+  EXPECT_EQ(robot.why(), "0.250 m outside of its region");
+}
+
+/// Nothing is permitted that some heading would break.
+TEST(PositionConstraint, OfAPointFarFromBaseLinkHoldsWithoutAHeadingOnlyIfItDoesForEach) {
+  Judged robot;
+  robot.terms.extent.turn_rad = kAbsent;
+  PositionConstraint position = inside(box(10, 4, 2));
+  position.target_point_offset = {0.6, -0.8, 0};
+  robot.keep(position);
+  EXPECT_TRUE(robot.holds_at({3.9, 0.9, kAbsent}));
+  EXPECT_FALSE(robot.holds_at({4.1, 0, kAbsent}));
+  EXPECT_FALSE(robot.holds_at({0, -1.1, kAbsent}));
+  EXPECT_THAT(robot.why(), testing::EndsWith("m outside of its region, with no heading"));
+  robot.terms.extent.turn_rad = 0;
+  EXPECT_TRUE(robot.holds_at({4.1, 0, 0}));
+  std::mt19937 random(5);
+  std::uniform_real_distribution<> any(-1, 1);
+  for (int round = 0; round < 300; ++round) {
+    const Pose2 at{6 * any(random), 3 * any(random), kAbsent};
+    robot.terms.extent.turn_rad = kAbsent;
+    if (!robot.holds_at(at)) continue;
+    robot.terms.extent.turn_rad = 0;
+    for (int i = 0; i < 32; ++i) ASSERT_TRUE(robot.holds_at({at.x_m, at.y_m, i * kPi / 16}));
+  }
+}
+
+TEST(PositionConstraint, InAFrameOfTheRobotIsJudgedWithoutAHeading) {
+  Judged robot;
+  robot.terms.extent.turn_rad = kAbsent;
+  PositionConstraint position = inside(box(2, 2, 4));
+  position.header.frame_id = "base_link";
+  position.link_name = "lidar";
+  robot.keep(position);
+  EXPECT_TRUE(robot.holds_at({100, 50, kAbsent}));
+  position.target_point_offset = {0, -0.8, 0};  // ahead, of the lidar that looks to the left
+  robot.keep(position);
+  EXPECT_FALSE(robot.holds_at({100, 50, kAbsent}));
 }
 
 }  // namespace
