@@ -1,5 +1,7 @@
-// scene_checks FOLDER...: judges the runs that tests/mission/scenes left, and says what is wrong.
-// Exit status: 0 all is well; 1 something is not; 2 a record cannot be read.
+// scene_checks FOLDER...: judges the runs that tests/mission/scenes left, and says what is wrong,
+// with each of them ("FAILED 12: ...", by the folder's name) and with all of them together ("FAILED
+// series: ...": too little happened to prove anything). Exit status: 0 all is well; 1 something is
+// not; 2 a record cannot be read.
 #include <cstdio>
 #include <exception>
 #include <fstream>
@@ -19,8 +21,9 @@ nlohmann::json played(const std::filesystem::path& folder) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::size_t drives = 0;
+  drover::mission::SeriesProof proof;
   std::size_t bad = 0;
+  bool unreadable = false;
   double least_gap_m = 1e9;
   for (int i = 1; i < argc; ++i) {
     const std::filesystem::path folder = argv[i];
@@ -45,15 +48,22 @@ int main(int argc, char** argv) {
         if (one.stood_m >= 0) std::printf("  stood before it: %.4f m\n", one.stood_m);
       for (const auto& problem : report.problems)
         std::printf("FAILED %s: %s\n", folder.filename().c_str(), problem.c_str());
-      drives += report.drives;
+      proof.add(report);
       bad += report.problems.size();
       least_gap_m = std::min(least_gap_m, report.least_gap_m);
     } catch (const std::exception& error) {
       std::printf("FAILED %s: %s\n", folder.filename().c_str(), error.what());
-      return 2;
+      unreadable = true;
     }
   }
-  std::printf("%zu scenes, %zu problems; nearest while moving %.3f m\n", drives, bad,
-              std::min(least_gap_m, 99.0));
-  return bad == 0 && drives > 0 ? 0 : 1;
+  for (const auto& lack : proof.lacks()) {
+    std::printf("FAILED series: %s\n", lack.c_str());
+    ++bad;
+  }
+  std::printf(
+      "%zu scenes, %zu problems; nearest while moving %.3f m; stood before %zu of %zu far "
+      "things, %zu came too near\n",
+      proof.drives, bad, std::min(least_gap_m, 99.0), proof.stood, proof.far, proof.near);
+  if (unreadable) return 2;
+  return bad == 0 && proof.drives > 0 ? 0 : 1;
 }

@@ -2,6 +2,7 @@
 // beside it while it drives: all of it from the seed. tests/mission/scenes plays them.
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -73,6 +74,15 @@ ordered_json track(double length_m) {
     length_m -= kRow_m + kUturn_m;
   }
   return shapes;
+}
+
+/// So far it is by then, to a few centimetres: it takes a moment to begin, and a ramp.
+double driven_m(double v_mps, double at_s) {
+  constexpr double kBegins_s = 0.2;
+  constexpr double kGains_mps2 = 0.42;
+  const double moves_s = std::max(at_s - kBegins_s, 0.0);
+  const double ramp_s = std::min(v_mps / kGains_mps2, moves_s);
+  return kGains_mps2 * ramp_s * ramp_s / 2 + v_mps * (moves_s - ramp_s);
 }
 
 struct Thing {
@@ -154,11 +164,13 @@ double add_scene(Dice& dice, int number, bool last, const std::string& after, do
     // At most so far it is by then; nearer than that the thing cannot be.
     const double farthest_m = begin_m + v_mps * at_s;
     const double stop_m = 0.3 * v_mps + braking_way_m(v_mps) + kMargin_m;
-    const double ahead_m =
-        dice.happens(0.8) ? stop_m + dice.from(0.1, 2.5) : dice.from(0.12, stop_m);
+    const bool far = dice.happens(0.8);
+    const double ahead_m = far ? stop_m + dice.from(0.1, 2.5) : dice.from(0.05, stop_m);
+    // What is to come too near has to know better where the robot is.
+    const double robot_m = far ? farthest_m : begin_m + driven_m(v_mps, at_s);
     const double beside_m =
         dice.happens(0.6) ? dice.from(-0.5, 0.5) : dice.side() * dice.from(0.5, 1.3);
-    const Spot at = spot(farthest_m + RobotShape{}.front_m + ahead_m + thing.reach_m);
+    const Spot at = spot(robot_m + RobotShape{}.front_m + ahead_m + thing.reach_m);
     thing.object["at"] = {rounded(at.x_m - beside_m * std::sin(at.yaw_rad)),
                           rounded(at.y_m + beside_m * std::cos(at.yaw_rad))};
     const double gone_s = rounded(at_s + dice.from(3, 7));

@@ -228,6 +228,28 @@ SeriesReport judge_series(const Record& record) {
   return Series(record).judge_all();
 }
 
+void SeriesProof::add(const SeriesReport& report) {
+  drives += report.drives;
+  far += report.count(Appeared::Where::far);
+  near += report.count(Appeared::Where::near);
+  stood += static_cast<std::size_t>(
+      std::ranges::count_if(report.appeared, [](const Appeared& one) { return one.stood_m >= 0; }));
+}
+
+std::vector<std::string> SeriesProof::lacks() const {
+  constexpr std::size_t kSeries = 100;
+  // Of those that appear far enough away two in five are still there when it comes to them; before
+  // some of those it stands too short a time, or before something else.
+  constexpr std::size_t kOneIn = 6;
+  std::vector<std::string> lacks;
+  if (drives < kSeries) return lacks;
+  if (stood == 0 || kOneIn * stood < far)
+    lacks.push_back("only before " + std::to_string(stood) + " of " + std::to_string(far) +
+                    " things that came far enough away the robot was seen to stand");
+  if (near == 0) lacks.push_back("nothing came too near to stop before it");
+  return lacks;
+}
+
 std::size_t SeriesReport::count(Appeared::Where where) const {
   return static_cast<std::size_t>(
       std::count_if(appeared.begin(), appeared.end(),

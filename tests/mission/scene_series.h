@@ -43,4 +43,16 @@ struct SeriesReport {
 };
 SeriesReport judge_series(const Record& record);
 
+/// What all runs of a series have proved together.
+struct SeriesProof {
+  std::size_t drives = 0;
+  std::size_t far = 0;    ///< things that it could stop before
+  std::size_t stood = 0;  ///< of them those before which it was seen to stand
+  std::size_t near = 0;   ///< judged by how soon zero was commanded
+
+  void add(const SeriesReport& report);
+  /// In a series of 100 drives and more, which of them never happened: without it well is not well.
+  std::vector<std::string> lacks() const;
+};
+
 }  // namespace drover::mission

@@ -82,6 +82,29 @@ TEST(ASeries, IsWellWhenTheRobotStandsBeforeWhatCame) {
   EXPECT_EQ(report.accepted, 1U);
 }
 
+TEST(ASeriesProof, CountsWhatHappenedInEachRun) {
+  SeriesProof proof;
+  proof.add(DriveAlongX{}.report());
+  DriveAlongX drive;
+  drive.appears = Time{11'800ms};
+  drive.stands_at_x_m = 5.52;
+  drive.stop_commanded = Time{11'880ms};
+  proof.add(drive.report());
+  EXPECT_EQ(proof.drives, 2U);
+  EXPECT_EQ(proof.far, 1U);
+  EXPECT_EQ(proof.stood, 1U);
+  EXPECT_EQ(proof.near, 1U);
+  EXPECT_THAT(proof.lacks(), IsEmpty()) << "who repeats one run plays no series";
+}
+
+/// A robot that never stands, or before which nothing ever comes, would pass otherwise.
+TEST(ASeriesProof, LacksWhatNeverHappened) {
+  EXPECT_THAT((SeriesProof{100, 80, 30, 5}.lacks()), IsEmpty());
+  EXPECT_THAT((SeriesProof{100, 80, 30, 0}.lacks()), ElementsAre(HasSubstr("too near")));
+  EXPECT_THAT((SeriesProof{100, 80, 13, 1}.lacks()), ElementsAre(HasSubstr("13 of 80")));
+  EXPECT_THAT((SeriesProof{100, 0, 0, 0}.lacks()), testing::SizeIs(2));
+}
+
 TEST(ASeries, FindsAContact) {
   DriveAlongX drive;
   drive.stands_at_x_m = 5.6;
