@@ -1,6 +1,8 @@
 // How fast a base moves, or is to move.
 #pragma once
 
+#include <cmath>
+
 namespace drover {
 
 /// Twist in base_link (REP 103): m/s ahead, rad/s counter-clockwise.
@@ -12,6 +14,20 @@ struct Twist {
 /// At rest, or told to be.
 constexpr bool is_zero(const Twist& twist) {
   return twist.vx_mps == 0 && twist.wz_radps == 0;
+}
+
+/// Slower has no way and no curve of its own: a gate's ramp to rest ends in it, and noise.
+inline constexpr double kDrives_mps = 0.01;
+/// Slower is no turn.
+inline constexpr double kTurns_radps = 0.02;
+
+inline bool drives(const Twist& twist) {
+  return std::abs(twist.vx_mps) > kDrives_mps;
+}
+
+/// On the spot.
+inline bool is_turn(const Twist& twist) {
+  return std::abs(twist.vx_mps) <= kDrives_mps && std::abs(twist.wz_radps) > kTurns_radps;
 }
 
 /// What a base says of its motion, by its wheels or by itself, in its own axes: m/s along its x,

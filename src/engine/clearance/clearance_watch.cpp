@@ -7,17 +7,11 @@ namespace drover::engine {
 namespace {
 
 constexpr double kFree = std::numeric_limits<double>::infinity();
-constexpr double kFirm = 0.8;          // likewise
-constexpr double kDrives_mps = 0.01;   // less is no way, as the gates ramp it down
-constexpr double kTurns_radps = 0.02;  // less is no turn
+constexpr double kFirm = 0.8;  // of the deceleration
 constexpr double kSlowest_radps = 0.05;
 constexpr double kAgain_rad = 0.05;
 constexpr double kDriveLag_s = 0.1;  // what of the reaction is still to come when a ramp begins now
 constexpr double kNear = 0.4;        // m or rad: who stands so near to something stays there
-
-bool drives(const Twist& twist) {
-  return std::abs(twist.vx_mps) > kDrives_mps;
-}
 
 double curvature_radpm(const Twist& twist) {
   return drives(twist) ? twist.wz_radps / twist.vx_mps : 0.0;

@@ -15,7 +15,6 @@
 namespace drover::scene {
 namespace {
 
-constexpr double kDrives_mps = 0.01;
 constexpr double kAtCorner_m = 0.05;
 // Who turns on the spot at a corner stands a little before or behind it, and is done when he looks
 // along what comes then.
@@ -24,8 +23,8 @@ constexpr double kFaces_rad = 0.1;
 
 /// What it does; at rest what it is asked to do.
 Twist looked_along(const Viewpoint& from) {
-  const bool drives = std::abs(from.commanded.vx_mps) > kDrives_mps;
-  return drives || !std::isfinite(from.commanded.vx_mps) ? from.commanded : from.asked;
+  return drives(from.commanded) || !std::isfinite(from.commanded.vx_mps) ? from.commanded
+                                                                         : from.asked;
 }
 
 /// Ahead, as it is or is told to be.

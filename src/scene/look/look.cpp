@@ -11,9 +11,7 @@
 namespace drover::scene {
 namespace {
 
-constexpr double kStraight_mps = 0.01;  // slower has no curve of its own
-constexpr double kTurns_radps = 0.02;   // as the engine has it
-constexpr double kHere_m = 0.05;        // a turn that begins so near is the one that is begun
+constexpr double kHere_m = 0.05;  // a turn that begins so near is the one that is begun
 constexpr double kFree = std::numeric_limits<double>::infinity();
 
 bool has_heading(const Standpoint& from) {
@@ -160,14 +158,9 @@ void look_along(const Bodies& bodies, const LookSettings& settings, const Standp
 
 }  // namespace
 
-bool is_turn(const Twist& twist) {
-  return std::abs(twist.vx_mps) <= kStraight_mps && std::abs(twist.wz_radps) > kTurns_radps;
-}
-
 std::vector<Step> curve_steps(const Pose2& from, const Twist& twist, bool back, double length_m,
                               double stride_m) {
-  const bool drives = std::abs(twist.vx_mps) > kStraight_mps;
-  const Twist curve = drives ? twist : Twist{1, 0};
+  const Twist curve = drives(twist) ? twist : Twist{1, 0};
   const double v_mps = (back ? -1 : 1) * std::abs(curve.vx_mps);
   const double wz_radps = curve.wz_radps * (v_mps * curve.vx_mps < 0 ? -1 : 1);
   return twist_steps(from, v_mps, wz_radps, length_m, stride_m);

@@ -44,8 +44,6 @@ struct Standpoint {
 /// robot may go in any direction, and turn: what a search for the heading needs.
 Clearance look(const Surroundings& around, const LookSettings& settings, const Standpoint& from);
 
-/// A turn on the spot: slower ahead has no curve of its own.
-bool is_turn(const Twist& twist);
 /// Along the curve of a twist, at rest straight on: ahead, or the same curve back.
 std::vector<Step> curve_steps(const Pose2& from, const Twist& twist, bool back, double length_m,
                               double stride_m);
