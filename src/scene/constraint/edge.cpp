@@ -126,25 +126,35 @@ std::optional<Edge> Edges::around(const Pose2& here, double most_m) const {
   return Edge{.driven_m = holds_m, .which = std::move(which)};
 }
 
+double Edges::last_held(const Bound& bound, const Pose2& from, const Pose2& to) const {
+  double holds = 0;
+  double breaks = 1;
+  for (int n = 0; n < kHalvings; ++n) {
+    const double middle = 0.5 * (holds + breaks);
+    (broken(bound, between(from, to, middle)).empty() ? holds : breaks) = middle;
+  }
+  return holds;
+}
+
 std::optional<Edge> Edges::first(std::span<const Step> steps) const {
   const bool on_the_spot = !steps.empty() && steps.back().driven_m == 0;
   for (std::size_t i = 1; i < steps.size(); ++i) {
+    const Step& from = steps[i - 1];
+    const Step& to = steps[i];
+    double least = 1;  // of several that break within this step the nearest
+    std::string first;
     for (const Bound& bound : bounds_) {
       if (on_the_spot && bound.of_point) continue;
-      std::string which = broken(bound, steps[i].pose);
+      std::string which = broken(bound, to.pose);
       if (which.empty()) continue;
-      const Step& from = steps[i - 1];
-      const Step& to = steps[i];
-      double holds = 0;
-      double breaks = 1;
-      for (int n = 0; n < kHalvings; ++n) {
-        const double middle = 0.5 * (holds + breaks);
-        // Another one may break first within this step; its own end is found by the next look.
-        (broken(bound, between(from.pose, to.pose, middle)).empty() ? holds : breaks) = middle;
-      }
-      return Edge{from.driven_m + holds * (to.driven_m - from.driven_m),
-                  from.turned_rad + holds * (to.turned_rad - from.turned_rad), std::move(which)};
+      const double holds = last_held(bound, from.pose, to.pose);
+      if (!first.empty() && holds >= least) continue;
+      least = holds;
+      first = std::move(which);
     }
+    if (!first.empty())
+      return Edge{from.driven_m + least * (to.driven_m - from.driven_m),
+                  from.turned_rad + least * (to.turned_rad - from.turned_rad), std::move(first)};
   }
   return std::nullopt;
 }

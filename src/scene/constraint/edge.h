@@ -48,6 +48,8 @@ class Edges final {
   /// "" when it holds wherever the robot may be that was moved from there by so much.
   std::string broken_about(const Bound& bound, const Pose2& at, double moved_m) const;
   std::string broken_about(const Pose2& at, double moved_m) const;
+  /// The part of a step until which it holds, when it does not at its end.
+  double last_held(const Bound& bound, const Pose2& from, const Pose2& to) const;
 
   const World& world_;
   const RobotModel& robot_;

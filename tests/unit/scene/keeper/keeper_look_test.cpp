@@ -193,6 +193,23 @@ TEST_F(AKeeper, EndsATurnBeforeTheEdgeOfAConstraint) {
   EXPECT_NEAR(found.ahead_m, 0.9, 0.005);
 }
 
+TEST_F(AKeeper, EndsAWayAtTheNearerOfTwoEdgesWhicheverIsToldFirst) {
+  from.pose.x_m = -10;
+  const JointConstraint nearer{"base/x", 0, 100, 12.00, 0};
+  const JointConstraint farther{"base/x", 0, 100, 12.06, 0};
+  Constraints set;
+  set.name = "row";
+  set.joint_constraints = {farther, nearer};
+  ASSERT_EQ(apply(set), "done");
+  from.asked = {-0.3, 0};
+  EXPECT_NEAR(look().back_m, 1.9, 0.005);
+  EXPECT_THAT(text(look().first), HasSubstr("joint_constraints[1]"));
+  set.joint_constraints = {nearer, farther};
+  ASSERT_EQ(apply(set), "done");
+  EXPECT_NEAR(look().back_m, 1.9, 0.005);
+  EXPECT_THAT(text(look().first), HasSubstr("joint_constraints[0]"));
+}
+
 TEST_F(AKeeper, LeavesWhatIsBrokenToThatWhichTellsIt) {
   ASSERT_EQ(apply(fence(2)), "done");
   from.pose.x_m = 2.5;
