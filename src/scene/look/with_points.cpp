@@ -84,7 +84,7 @@ class NearPoints final {
 };
 
 bool bends(const Twist& twist) {
-  return !is_turn(twist) && std::abs(twist.wz_radps) > kBends_radpm * std::abs(twist.vx_mps);
+  return drives(twist) && std::abs(twist.wz_radps) > kBends_radpm * std::abs(twist.vx_mps);
 }
 
 }  // namespace

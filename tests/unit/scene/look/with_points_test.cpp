@@ -137,6 +137,13 @@ TEST_F(WithPoints, AWideCurveBesideAWallIsFree) {
   EXPECT_GT(result().ahead_m, 0.3);
 }
 
+TEST_F(WithPoints, NoiseNearRestIsNoCurve) {
+  see(0.8, 0);
+  found.twist = {0.005, 0.01};
+  EXPECT_EQ(result().ahead_m, 3) << "straight on it is the field's business";
+  EXPECT_EQ(text(result().first), "");
+}
+
 TEST_F(WithPoints, TheWayBackEndsAtWhatWasSeenBehind) {
   see(-0.9, 0.1, 3s);
   found.twist = {-0.3, 0};
