@@ -92,15 +92,21 @@ void look_at_nothing(const LookSettings& settings, const Standpoint& from, Clear
   found.left_rad = found.right_rad = kFree;
   if (from.path != 0) found.along_m = is_whole(settings, from) ? kFree : settings.along_m;
 }
+  found.bare = {found.along_m, found.ahead_m, found.back_m, found.left_rad, found.right_rad};
 
 void look_any_way(const Surroundings& around, const LookSettings& settings, const Standpoint& from,
                   Clearance& found) {
-  const Piece body = body_of(settings, from.position_sigma_m, 0);  // a disc looks any way
-  const FreeDisc disc =
-      free_disc(around, place_of(from.pose), reach_of(body) + body.radius_m, settings.ahead_m);
+  const auto disc_of = [&](double position_sigma_m) {
+    const Piece body = body_of(settings, position_sigma_m, 0);  // a disc looks any way
+    return free_disc(around, place_of(from.pose), reach_of(body) + body.radius_m, settings.ahead_m);
+  };
+  const FreeDisc disc = disc_of(from.position_sigma_m);
   found.ahead_m = found.back_m = disc.free_m;
   found.left_rad = found.right_rad = disc.free ? kFree : 0;
   if (disc.blocked)
+  const FreeDisc bare = disc.blocked ? disc_of(0) : disc;
+  const double bare_rad = bare.free ? kFree : 0;
+  found.bare = {0, bare.free_m, bare.free_m, bare_rad, bare_rad};
     found.first = disc.free ? in_the_way(disc.name, "away", disc.free_m) : is_there(disc.name);
 }
 

@@ -360,6 +360,29 @@ TEST_F(ALook, SaysOfATurnThatItStandsInSomething) {
 /// The position is not known any more as well as it was: nothing came nearer.
 TEST_F(ALook, SaysWhatTheMarginAloneLeavesOfAWay) {
   put("box1", 1.2, 0);
+TEST_F(ALook, SaysWhatTheMarginAloneLeavesWhereNothingIsOrNoHeading) {
+  drive_along({{0, 0}, {40, 0}});
+  Clearance found = look_now();
+  EXPECT_EQ(found.bare.along_m, found.along_m);
+  EXPECT_EQ(found.bare.ahead_m, found.ahead_m);
+  EXPECT_EQ(found.bare.back_m, found.back_m);
+  EXPECT_EQ(found.bare.left_rad, kFree);
+  EXPECT_EQ(found.bare.right_rad, kFree);
+  from.path = 0;
+  from.yaw_sigma_rad = NAN;
+  put("behind", -2, 0);
+  const Clearance sure = look_now();
+  from.position_sigma_m = 0.6;
+  found = look_now();
+  EXPECT_EQ(found.ahead_m, 0);
+  EXPECT_EQ(found.left_rad, 0);
+  EXPECT_EQ(sure.bare.ahead_m, sure.ahead_m);
+  EXPECT_NEAR(found.bare.ahead_m, sure.ahead_m, kResolution_m);
+  EXPECT_NEAR(found.bare.back_m, sure.ahead_m, kResolution_m);
+  EXPECT_EQ(found.bare.left_rad, kFree);
+  EXPECT_EQ(found.bare.right_rad, kFree);
+}
+
   put("beside", 0, 0.8);
   drive_along({{0, 0}, {4, 0}});
   from.position_sigma_m = 0;
