@@ -117,11 +117,14 @@ void check_footprint(Findings& found) {
 }
 
 /// What follows from the footprint and the margin.
-void fill_clearance(SceneConfig& scene) {
-  // Half of the margin is for curves that change between two looks. Without any nothing could move.
+void fill_clearance(DroverConfig& config) {
+  SceneConfig& scene = config.scene;
+  // Half of the margin is for curves that change between two looks; what a scanner sees beside them
+  // is looked at with half of it, and a half of that is. Without any nothing could move.
+  const double part = first(config, SlotKind::scanner) == nullptr ? 0.5 : 0.25;
   constexpr double kLeast_m = 0.01;
   constexpr double kMost_m = engine::ClearanceConfig{}.beside_m;
-  scene.clearance.beside_m = std::clamp(scene.margin_m / 2, kLeast_m, kMost_m);
+  scene.clearance.beside_m = std::clamp(part * scene.margin_m, kLeast_m, kMost_m);
   double reach_m = 0;
   for (const auto& corner : scene.footprint)
     reach_m = std::max(reach_m, std::hypot(corner.x_m, corner.y_m));
@@ -162,7 +165,7 @@ engine::StopChain chain_of(const engine::EngineConfig& engine) {
 void check_scene(Findings& found) {
   if (!found.config().scene.configured) return;
   check_footprint(found);
-  fill_clearance(found.config().scene);
+  fill_clearance(found.config());
   check_heights(found);
   check_frames(found);
 }

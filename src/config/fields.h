@@ -240,8 +240,9 @@ void visit(V& v, SceneConfig& c) {
   v.choice("heights", c.heights, {"robot", "ignore"},
            "robot: only what is between ground clearance and height is in the way; ignore: "
            "everything is, on uneven land");
-  v.number("margin_m", c.margin_m, Range{0, 5},
-           "kept free around the footprint, beside the errors of position and heading");
+  v.number(
+      "margin_m", c.margin_m, Range{0, 5},
+      "kept free around the footprint, beside the errors of position and heading; 0.02 m at least");
   v.number("ahead_m", c.ahead_m, Range{0.2, 100},
            "looked at along the present curve, ahead and back; bounds the speed");
   v.number("along_m", c.along_m, Range{0.2, 200},

@@ -58,7 +58,9 @@ scene::KeeperSettings keeper_settings(const config::DroverConfig& config) {
   scene::KeeperSettings settings;
   for (const auto& corner : scene.footprint)
     settings.look.footprint.push_back({corner.x_m, corner.y_m});
-  settings.look.margin_m = scene.margin_m;
+  // Of no margin nothing could be left for curves that change; the half that is kept of what
+  // scanners see has to hold all of it.
+  settings.look.margin_m = std::max(scene.margin_m, 2 * scene.clearance.beside_m);
   settings.look.ahead_m = scene.ahead_m;
   settings.look.along_m = scene.along_m;
   settings.heights = heights_of(scene);

@@ -46,7 +46,7 @@ class NearPoints final {
   NearPoints(const Field& field, const LookSettings& settings)
       : field_(field),
         body_(piece_of(settings.footprint, settings.margin_m)),
-        slim_(piece_of(settings.footprint, settings.margin_m / 2)) {}
+        slim_(piece_of(settings.footprint, slim_margin_m(settings))) {}
 
   void bound_turn(bool left, Clearance& found) const {
     const double all_rad = left ? std::numbers::pi : -std::numbers::pi;
@@ -107,6 +107,10 @@ Clearance with_points(Clearance found, std::span<const sensor::SeenPoint> points
   seen.bound_curve(true, settings.ahead_m, found);
   if (bends(found.twist)) seen.bound_curve(false, settings.ahead_m, found);
   return found;
+double slim_margin_m(const LookSettings& settings) {
+  return settings.margin_m / 2;
+}
+
 }
 
 }  // namespace drover::scene

@@ -16,6 +16,9 @@ inline constexpr double kNearby_m = 0.5;
 /// A curve with less of a bend goes straight ahead, for which the field is.
 inline constexpr double kBends_radpm = 0.05;
 
+/// Kept beside a curve and a track: half of the margin. Less may be taken by a robot that leaves
+/// what was looked along before the next look (engine::ClearanceConfig::beside_m).
+double slim_margin_m(const LookSettings& settings);
 /// Of the footprint's farthest corner from base_link, with its margin.
 double turning_circle_m(const LookSettings& settings);
 

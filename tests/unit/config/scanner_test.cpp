@@ -77,6 +77,17 @@ TEST(AScanner, NeedsASceneThatLooksAtWhatItSees) {
               HasSubstr("devices.lidar: is a scanner, and nobody looks at what it sees"));
 }
 
+TEST(AScanner, LeavesLessOfTheMarginToCurvesThatChange) {
+  const auto beside_m = [](const std::string& margin_m) {
+    const auto text = scanner("", "", R"(, "margin_m": )" + margin_m);
+    EXPECT_EQ(problems(text), "");
+    return load_text(text).config.engine.clearance.beside_m;
+  };
+  EXPECT_EQ(beside_m("0.1"), 0.025);
+  EXPECT_EQ(beside_m("0"), 0.01);
+  EXPECT_EQ(beside_m("2"), 0.05);
+}
+
 TEST(AScanner, HasAFieldAsWideAsTheRobotAndAsLongAsItsStop) {
   EXPECT_EQ(problems(scanner("", "", R"(, "field": {"ahead_m": 3, "beside_m": 0.35})")), "");
   EXPECT_THAT(problems(scanner("", "", R"(, "field": {"beside_m": 0.3})")),

@@ -10,6 +10,7 @@
 #include "config/load.h"
 #include "drover/angle.h"
 #include "drover/rotation.h"
+#include "scene/look/with_points.h"
 #include "scene/message/frames.h"
 
 namespace drover::runtime {
@@ -51,6 +52,29 @@ TEST(SceneSettings, LookAsIsConfigured) {
   EXPECT_EQ(settings.look.ahead_m, 4);
   EXPECT_EQ(settings.look.along_m, 12);
   EXPECT_DOUBLE_EQ(settings.pivot_rad, kPi / 2);
+}
+
+/// Beside a curve half of the margin is looked at, and the base may leave that curve before the
+/// next look: both are of the same margin.
+TEST(SceneSettings, KeepMoreBesideACurveThanIsLeftOfItBetweenTwoLooks) {
+  const std::string file = "/sim/robots/field_lidar.drover.json";
+  std::string text;
+  ASSERT_EQ(config::read_text(DROVER_SOURCE_DIR + file, text), "");
+  const auto at = text.find("\"footprint\"");
+  ASSERT_NE(at, std::string::npos);
+  ASSERT_EQ(text.find("\"margin_m\""), std::string::npos);
+  for (const char* margin_m : {"0", "0.01", "0.02", "0.03", "0.05", "0.1", "0.2", "0.5", "2"}) {
+    std::string changed = text;
+    changed.insert(at, std::string("\"margin_m\": ") + margin_m + ", ");
+    const auto loaded = config::load_text(changed);
+    ASSERT_TRUE(loaded.problems.empty()) << loaded.problems.front().text("field_lidar");
+    const auto look = keeper_settings(loaded.config).look;
+    const double left_m = loaded.config.engine.clearance.beside_m;
+    const double spent_m = left_m + (look.margin_m - scene::slim_margin_m(look));
+    EXPECT_GT(left_m, 0) << margin_m;
+    EXPECT_LE(spent_m, look.margin_m + 1e-12) << margin_m;
+    if (look.margin_m > 0.04) EXPECT_LT(spent_m, 0.8 * look.margin_m) << margin_m;
+  }
 }
 
 TEST(SceneSettings, NameTheJointsByTheirAxes) {
