@@ -175,6 +175,7 @@ std::vector<Step> curve_steps(const Pose2& from, const Twist& twist, bool back, 
 std::vector<Step> unguided_steps(const LookSettings& settings, const Standpoint& from, bool back,
                                  double stride_m) {
   auto steps = curve_steps(from.pose, from.twist, back, settings.ahead_m, stride_m);
+  if (from.path != 0) return steps;
   const double aside = thrown_aside(settings, from.yaw_sigma_rad);
   for (Step& step : steps) step.off_m = aside * step.driven_m;
   return steps;

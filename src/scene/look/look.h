@@ -48,7 +48,8 @@ Clearance look(const Surroundings& around, const LookSettings& settings, const S
 std::vector<Step> curve_steps(const Pose2& from, const Twist& twist, bool back, double length_m,
                               double stride_m);
 /// The same where nobody keeps the robot on that curve by the map, as the tracker does on its line:
-/// where it looks otherwise than it believes, it comes off by that much of its way.
+/// where it looks otherwise than it believes, it comes off by that much of its way. With a track
+/// it is the plain curve.
 std::vector<Step> unguided_steps(const LookSettings& settings, const Standpoint& from, bool back,
                                  double stride_m);
 

@@ -82,8 +82,11 @@ TEST_F(ALook, TakesTwiceTheHeadingsSigmaTimesItsReachOffTheWay) {
   drive_along({{0, 0}, {4, 0}});
   const double free_m = 1.9 - 0.5 - 0.1 - 0.1 * reach_m;
   EXPECT_NEAR(look_now().along_m, free_m, kResolution_m + 1e-9);
+  EXPECT_NEAR(look_now().ahead_m, free_m, kResolution_m + 1e-9) << "the map holds it there";
+  from.path = 0;
   EXPECT_NEAR(look_now().ahead_m, free_m / 1.1, kResolution_m + 1e-9)
       << "on no track it comes off its curve by a tenth of the way";
+  from.path = 3;
   from.yaw_sigma_rad = 1;  // a turned corner is thrown no farther than to the other side
   put("box1", 5, 0);
   EXPECT_NEAR(look_now().along_m, 4.9 - 0.5 - 0.1 - 2 * reach_m, kResolution_m + 1e-9);
