@@ -195,11 +195,14 @@ Clearance Keeper::look(const Path* path) const {
   }
   LookSettings look_settings = impl.settings.look;
   look_settings.steering = impl.steering();
-  found = scene::look(impl.around, look_settings, from);
+  const auto track = track_way(look_settings, from);
+  found = scene::look(impl.around, look_settings, from, track);
   if (found.unknown.empty() && impl.around.constrained) {
     const Terms terms = impl.terms();
+    const Terms by_margin_alone;
     const Edges edges(impl.world, impl.settings.robot, terms, from.pose);
-    found = with_edges(found, edges, look_settings, from);
+    const Edges bare(impl.world, impl.settings.robot, by_margin_alone, from.pose);
+    found = with_edges(found, {edges, bare}, look_settings, from, track);
     if (const auto broken = impl.broken()) found.broken = with_way_out(*broken);
   }
   if (!impl.sensors) return found;

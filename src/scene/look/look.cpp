@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "scene/look/free_disc.h"
 #include "scene/look/sweeper.h"
@@ -11,7 +10,9 @@
 namespace drover::scene {
 namespace {
 
-constexpr double kHere_m = 0.05;  // a turn that begins so near is the one that is begun
+constexpr double kHere_m = 0.05;      // a turn that begins so near is the one that is begun
+constexpr double kBeginsAt_m = 0.15;  // who turns at a corner stands a little before or behind it
+constexpr double kTurnsOver_rad = 0.1;
 constexpr double kFree = std::numeric_limits<double>::infinity();
 
 bool has_heading(const Standpoint& from) {
@@ -91,8 +92,8 @@ void look_at_nothing(const LookSettings& settings, const Standpoint& from, Clear
   found.ahead_m = found.back_m = settings.ahead_m;
   found.left_rad = found.right_rad = kFree;
   if (from.path != 0) found.along_m = is_whole(settings, from) ? kFree : settings.along_m;
-}
   found.bare = {found.along_m, found.ahead_m, found.back_m, found.left_rad, found.right_rad};
+}
 
 void look_any_way(const Surroundings& around, const LookSettings& settings, const Standpoint& from,
                   Clearance& found) {
@@ -103,10 +104,10 @@ void look_any_way(const Surroundings& around, const LookSettings& settings, cons
   const FreeDisc disc = disc_of(from.position_sigma_m);
   found.ahead_m = found.back_m = disc.free_m;
   found.left_rad = found.right_rad = disc.free ? kFree : 0;
-  if (disc.blocked)
   const FreeDisc bare = disc.blocked ? disc_of(0) : disc;
   const double bare_rad = bare.free ? kFree : 0;
   found.bare = {0, bare.free_m, bare.free_m, bare_rad, bare_rad};
+  if (disc.blocked)
     found.first = disc.free ? in_the_way(disc.name, "away", disc.free_m) : is_there(disc.name);
 }
 
@@ -122,12 +123,12 @@ Reason in_turn_words(const Bodies& bodies, const WayEnd& end, double turn_rad, b
 }
 
 void look_around(const Bodies& bodies, const LookSettings& settings, const Standpoint& from,
-                 Clearance& found) {
+                 std::span<const Step> track, Clearance& found) {
   const double stride_m = bodies.stride_m();
-  const Swept ahead = bodies.sweep(unguided_steps(settings, from, false, stride_m));
-  const Swept back = bodies.sweep(unguided_steps(settings, from, true, stride_m));
-  const Swept left = bodies.sweep(pivot_steps(from.pose, std::numbers::pi));
-  const Swept right = bodies.sweep(pivot_steps(from.pose, -std::numbers::pi));
+  const Swept ahead = bodies.sweep(curve_way(settings, from, false, stride_m));
+  const Swept back = bodies.sweep(curve_way(settings, from, true, stride_m));
+  const Swept left = bodies.sweep(pivot_steps(from.pose, looked_around_rad(true, track)));
+  const Swept right = bodies.sweep(pivot_steps(from.pose, looked_around_rad(false, track)));
   found.ahead_m = ahead.end.way.free_m;
   found.back_m = back.end.way.free_m;
   found.left_rad = turn_rad(left.end.way);
@@ -146,17 +147,15 @@ void look_around(const Bodies& bodies, const LookSettings& settings, const Stand
 }
 
 void look_along(const Bodies& bodies, const LookSettings& settings, const Standpoint& from,
-                Clearance& found) {
-  const TrackPart part{from.line, from.line_from_m, settings.along_m};
-  const auto [end, bare] =
-      bodies.sweep(track_steps(from.pose, part, settings.steering, bodies.stride_m()));
+                std::span<const Step> track, Clearance& found) {
+  const auto [end, bare] = bodies.sweep({track.begin(), track.end()});
   const bool whole = is_whole(settings, from);
   found.along_m = !end.way.blocked && whole ? kFree : end.way.free_m;
   found.bare.along_m = !bare.blocked && whole ? kFree : bare.free_m;
   found.first.clear();
   if (!end.way.blocked) return;
   const double turned_rad = wrap_rad(end.way.pose.yaw_rad - from.pose.yaw_rad);
-  if (is_turn(from.twist) && end.way.free_m < kHere_m)
+  if (is_in_first_turn(from.twist, end.way.free_m))
     found.first = in_turn_words(bodies, end, std::abs(turned_rad), from.twist.wz_radps > 0);
   else
     found.first = in_words(bodies, end, "along the track");
@@ -172,13 +171,41 @@ std::vector<Step> curve_steps(const Pose2& from, const Twist& twist, bool back, 
   return twist_steps(from, v_mps, wz_radps, length_m, stride_m);
 }
 
-std::vector<Step> unguided_steps(const LookSettings& settings, const Standpoint& from, bool back,
-                                 double stride_m) {
+std::vector<Step> curve_way(const LookSettings& settings, const Standpoint& from, bool back,
+                            double stride_m) {
   auto steps = curve_steps(from.pose, from.twist, back, settings.ahead_m, stride_m);
   if (from.path != 0) return steps;
   const double aside = thrown_aside(settings, from.yaw_sigma_rad);
   for (Step& step : steps) step.off_m = aside * step.driven_m;
   return steps;
+}
+
+std::vector<Step> track_way(const LookSettings& settings, const Standpoint& from) {
+  if (from.path == 0 || from.line.empty() || !has_heading(from) ||
+      !position_problem(from.pose, from.position_sigma_m).empty())
+    return {};
+  const Piece body = body_of(settings, from.position_sigma_m, from.yaw_sigma_rad);
+  const TrackPart part{from.line, from.line_from_m, settings.along_m};
+  return track_steps(from.pose, part, settings.steering, stride_m(body));
+}
+
+double first_turn_rad(std::span<const Step> track) {
+  const auto turns = [track](std::size_t i) { return track[i].driven_m == track[i - 1].driven_m; };
+  std::size_t i = 1;
+  while (i < track.size() && track[i].driven_m <= kBeginsAt_m && !turns(i)) ++i;
+  if (i >= track.size() || !turns(i)) return 0;
+  while (i + 1 < track.size() && turns(i + 1)) ++i;
+  return wrap_rad(track[i].pose.yaw_rad - track.front().pose.yaw_rad);
+}
+
+double looked_around_rad(bool left, std::span<const Step> track) {
+  const double sign = left ? 1 : -1;
+  const double turn_rad = sign * first_turn_rad(track);
+  return sign * (turn_rad > 0 ? std::min(turn_rad + kTurnsOver_rad, kPi) : kPi);
+}
+
+bool is_in_first_turn(const Twist& twist, double free_m) {
+  return is_turn(twist) && free_m < kHere_m;
 }
 
 Reason position_problem(const Pose2& pose, double position_sigma_m) {
@@ -197,7 +224,8 @@ Piece body_of(const LookSettings& settings, double position_sigma_m, double yaw_
   return widened(body, thrown_aside(settings, yaw_sigma_rad) * reach_of(body));
 }
 
-Clearance look(const Surroundings& around, const LookSettings& settings, const Standpoint& from) {
+Clearance look(const Surroundings& around, const LookSettings& settings, const Standpoint& from,
+               std::span<const Step> track) {
   Clearance found;
   found.t = from.t;
   found.scene = around.number;
@@ -214,8 +242,8 @@ Clearance look(const Surroundings& around, const LookSettings& settings, const S
     return found;
   }
   const Bodies bodies(around, settings, from);
-  look_around(bodies, settings, from, found);
-  if (from.path != 0) look_along(bodies, settings, from, found);
+  look_around(bodies, settings, from, track, found);
+  if (from.path != 0) look_along(bodies, settings, from, track, found);
   return found;
 }
 

@@ -38,20 +38,38 @@ struct Standpoint {
   bool line_ends = true;   ///< its last point is the goal: beyond it nothing is driven
 };
 
+/// What is driven of its track, to its end or for `along_m`. Empty: it is on none, or nobody knows
+/// where it is on it.
+std::vector<Step> track_way(const LookSettings& settings, const Standpoint& from);
+/// Of a track that begins with a turn on the spot the angle to that one's end, positive to the
+/// left; 0: it begins with none.
+double first_turn_rad(std::span<const Step> track);
+/// So far around a turn is looked at, to the left positive: on a track that begins with it a little
+/// farther than to its end, since what is beyond hinders nobody; else all around.
+double looked_around_rad(bool left, std::span<const Step> track);
+
 /// What was not looked at is not free: a way ends with what was asked to look at, but that of a
 /// track that ends before, with nothing in between, is free for ever. Where nothing is placed and
 /// nothing constrained, no position is needed. Without a heading, on no track, it says how far the
-/// robot may go in any direction, and turn: what a search for the heading needs.
-Clearance look(const Surroundings& around, const LookSettings& settings, const Standpoint& from);
+/// robot may go in any direction, and turn: what a search for the heading needs. `track` is its
+/// track_way().
+Clearance look(const Surroundings& around, const LookSettings& settings, const Standpoint& from,
+               std::span<const Step> track);
+inline Clearance look(const Surroundings& around, const LookSettings& settings,
+                      const Standpoint& from) {
+  return look(around, settings, from, track_way(settings, from));
+}
+
+/// What ends a track so near, while the robot turns, is in the way of the turn and not ahead.
+bool is_in_first_turn(const Twist& twist, double free_m);
 
 /// Along the curve of a twist, at rest straight on: ahead, or the same curve back.
 std::vector<Step> curve_steps(const Pose2& from, const Twist& twist, bool back, double length_m,
                               double stride_m);
-/// The same where nobody keeps the robot on that curve by the map, as the tracker does on its line:
-/// where it looks otherwise than it believes, it comes off by that much of its way. With a track
-/// it is the plain curve.
-std::vector<Step> unguided_steps(const LookSettings& settings, const Standpoint& from, bool back,
-                                 double stride_m);
+/// The same for `ahead_m`. Where nobody keeps the robot on that curve by the map, as the tracker
+/// does on its line, it comes off by as much of its way as it looks otherwise than it believes.
+std::vector<Step> curve_way(const LookSettings& settings, const Standpoint& from, bool back,
+                            double stride_m);
 
 /// Nothing can be said by a position like this one; empty: it is one.
 Reason position_problem(const Pose2& pose, double position_sigma_m);

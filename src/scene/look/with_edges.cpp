@@ -1,12 +1,11 @@
 #include "scene/look/with_edges.h"
 
 #include <algorithm>
-#include <numbers>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "scene/look/with_edge_disc.h"
-#include "scene/plane/sweep.h"
 
 namespace drover::scene {
 namespace {
@@ -15,13 +14,8 @@ constexpr double kMargin_rad = 0.05;
 constexpr double kTurnStep_rad = to_rad(8.0);  // a point 1 m away is 3 mm farther out in between
 constexpr std::size_t kShownEdge = 90;
 
-/// Lower, and by an edge. How well the position is known is not in it.
-bool end_at(double& way, double& bare, double edge, double margin) {
-  const double left = std::max(edge - margin, 0.0);
-  bare = std::min(bare, left);
-  if (!(left < way)) return false;
-  way = left;
-  return true;
+double left_before(double edge, double margin) {
+  return std::max(edge - margin, 0.0);
 }
 
 Reason edge_ahead(const std::string& which, const char* where, double way_m) {
@@ -32,45 +26,83 @@ Reason edge_ahead(const std::string& which, const char* where, double way_m) {
   return words;
 }
 
-void bound_way(double& way_m, double& bare_m, std::span<const Step> steps, const Edges& edges,
-               double margin_m, const char* where, Reason* first) {
-  const auto edge = edges.first(steps);
-  if (edge && end_at(way_m, bare_m, edge->driven_m, margin_m) && first != nullptr)
-    *first = edge_ahead(edge->which, where, edge->driven_m);
+Reason edge_in_turn(const std::string& which, double turn_rad, bool left) {
+  const FixedText<kShownEdge> shown(which);
+  Reason words;
+  words.format("the edge of constraint %.*s is after %.0f deg of the turn to the %s",
+               static_cast<int>(shown.view().size()), shown.view().data(), to_deg(turn_rad),
+               left ? "left" : "right");
+  return words;
 }
 
-void bound_turn(double& turn_rad, double& bare_rad, const Pose2& from, double by_rad,
-                const Edges& edges) {
+/// The edge that makes the way shorter. What all errors leave free the margin alone does, too.
+std::optional<Edge> end_at_edge(double& way, double& bare, std::span<const Step> steps,
+                                const EdgesToKeep& edges, double Edge::*measure, double margin) {
+  auto edge = edges.all.first(steps);
+  if (!edge) return std::nullopt;
+  if (const auto truly = edges.bare.first(steps))
+    bare = std::min(bare, left_before((*truly).*measure, margin));
+  const double left = left_before((*edge).*measure, margin);
+  if (!(left < way)) return std::nullopt;
+  way = left;
+  return edge;
+}
+
+/// To what is looked at of a way, or a step farther.
+std::span<const Step> begin_of(std::span<const Step> track, double most_m) {
+  std::size_t count = 0;
+  while (count < track.size() && (count == 0 || track[count - 1].driven_m < most_m)) ++count;
+  return track.first(count);
+}
+
+void bound_track(Clearance& found, std::span<const Step> track, const EdgesToKeep& edges,
+                 double margin_m) {
+  const auto edge =
+      end_at_edge(found.along_m, found.bare.along_m, track, edges, &Edge::driven_m, margin_m);
+  if (!edge) return;
+  if (is_in_first_turn(found.twist, edge->driven_m))
+    found.first = found.turn =
+        edge_in_turn(edge->which, edge->turned_rad, found.twist.wz_radps > 0);
+  else
+    found.first = edge_ahead(edge->which, "along the track", edge->driven_m);
+}
+
+void bound_way(bool back, Clearance& found, std::span<const Step> steps, const EdgesToKeep& edges,
+               double margin_m) {
+  double& way_m = back ? found.back_m : found.ahead_m;
+  double& bare_m = back ? found.bare.back_m : found.bare.ahead_m;
+  const auto edge = end_at_edge(way_m, bare_m, steps, edges, &Edge::driven_m, margin_m);
+  const bool asked = !is_turn(found.twist) && back == (found.twist.vx_mps < 0);
+  if (edge && asked) found.first = edge_ahead(edge->which, back ? "back" : "ahead", edge->driven_m);
+}
+
+void bound_turn(bool left, Clearance& found, const Pose2& from, const EdgesToKeep& edges) {
   std::vector<Step> steps;
-  for (const Step& step : pivot_steps(from, by_rad))
+  for (const Step& step : pivot_steps(from, left ? kPi : -kPi))
     if (steps.empty() || step.turned_rad > steps.back().turned_rad + kTurnStep_rad)
       steps.push_back(step);
-  const auto edge = edges.first(steps);
-  if (edge) end_at(turn_rad, bare_rad, edge->turned_rad, kMargin_rad);
+  double& way_rad = left ? found.left_rad : found.right_rad;
+  double& bare_rad = left ? found.bare.left_rad : found.bare.right_rad;
+  const auto edge = end_at_edge(way_rad, bare_rad, steps, edges, &Edge::turned_rad, kMargin_rad);
+  const bool asked = is_turn(found.twist) && left == (found.twist.wz_radps > 0);
+  if (edge && asked) found.first = found.turn = edge_in_turn(edge->which, edge->turned_rad, left);
 }
 
 }  // namespace
 
-Clearance with_edges(Clearance found, const Edges& edges, const LookSettings& settings,
-                     const Standpoint& from) {
-  if (!found.unknown.empty() || edges.empty()) return found;
-  const double stride = stride_m(body_of(settings, from.position_sigma_m, from.yaw_sigma_rad));
+Clearance with_edges(Clearance found, const EdgesToKeep& edges, const LookSettings& settings,
+                     const Standpoint& from, std::span<const Step> track) {
+  if (!found.unknown.empty() || edges.all.empty()) return found;
   if (from.path != 0) {
-    const TrackPart part{from.line, from.line_from_m, std::min(settings.along_m, settings.ahead_m)};
-    bound_way(found.along_m, found.bare.along_m,
-              track_steps(from.pose, part, settings.steering, stride), edges, settings.margin_m,
-              "along the track", &found.first);
+    bound_track(found, begin_of(track, settings.ahead_m), edges, settings.margin_m);
     return found;
   }
   if (!is_heading(from.pose.yaw_rad, from.yaw_sigma_rad))
-    return with_edge_disc(found, edges, settings, from);
-  const bool backwards = from.twist.vx_mps < 0;
-  bound_way(found.ahead_m, found.bare.ahead_m, unguided_steps(settings, from, false, stride), edges,
-            settings.margin_m, "ahead", backwards ? nullptr : &found.first);
-  bound_way(found.back_m, found.bare.back_m, unguided_steps(settings, from, true, stride), edges,
-            settings.margin_m, "back", backwards ? &found.first : nullptr);
-  bound_turn(found.left_rad, found.bare.left_rad, from.pose, std::numbers::pi, edges);
-  bound_turn(found.right_rad, found.bare.right_rad, from.pose, -std::numbers::pi, edges);
+    return with_edge_disc(found, edges.all, settings, from);
+  const double stride = stride_m(body_of(settings, from.position_sigma_m, from.yaw_sigma_rad));
+  for (const bool back : {false, true})
+    bound_way(back, found, curve_way(settings, from, back, stride), edges, settings.margin_m);
+  for (const bool left : {true, false}) bound_turn(left, found, from.pose, edges);
   return found;
 }
 

@@ -191,6 +191,13 @@ TEST_F(AKeeper, EndsATurnBeforeTheEdgeOfAConstraint) {
   EXPECT_NEAR(found.left_rad, 0.45, 0.005);
   EXPECT_NEAR(found.right_rad, 0.95, 0.005);
   EXPECT_NEAR(found.ahead_m, 0.9, 0.005);
+  from.asked = {0, 0.5};
+  EXPECT_EQ(text(look().turn),
+            "the edge of constraint row.joint_constraints[0] (base/theta) is after 29 deg of the "
+            "turn to the left");
+  EXPECT_EQ(text(look().first), text(look().turn)) << "what is ahead hinders no turn";
+  from.asked = {0, -0.5};
+  EXPECT_THAT(text(look().first), HasSubstr("is after 57 deg of the turn to the right"));
 }
 
 TEST_F(AKeeper, EndsAWayAtTheNearerOfTwoEdgesWhicheverIsToldFirst) {
@@ -208,6 +215,21 @@ TEST_F(AKeeper, EndsAWayAtTheNearerOfTwoEdgesWhicheverIsToldFirst) {
   ASSERT_EQ(apply(set), "done");
   EXPECT_NEAR(look().back_m, 1.9, 0.005);
   EXPECT_THAT(text(look().first), HasSubstr("joint_constraints[0]"));
+}
+
+/// Nothing came nearer when the position is not known as well as it was.
+TEST_F(AKeeper, SaysWhatTheMarginAloneLeavesBeforeAnEdge) {
+  ASSERT_EQ(apply(fence(2)), "done");
+  from.pose.position_sigma_m = 0.15;
+  Clearance found = look();
+  EXPECT_NEAR(found.ahead_m, 1.6, 0.02);
+  EXPECT_NEAR(found.bare.ahead_m, 1.9, 0.005);
+  EXPECT_NEAR(found.bare.back_m, 1.9, 0.005);
+  const Path path = row(20);
+  on(path, 0, 0, 20);
+  found = look(&path);
+  EXPECT_NEAR(found.along_m, 1.6, 0.02);
+  EXPECT_NEAR(found.bare.along_m, 1.9, 0.005);
 }
 
 TEST_F(AKeeper, LeavesWhatIsBrokenToThatWhichTellsIt) {

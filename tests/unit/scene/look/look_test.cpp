@@ -360,9 +360,22 @@ TEST_F(ALook, SaysOfATurnThatItStandsInSomething) {
   EXPECT_EQ(text(look_now().turn), "box1 is where the robot is");
 }
 
-/// The position is not known any more as well as it was: nothing came nearer.
-TEST_F(ALook, SaysWhatTheMarginAloneLeavesOfAWay) {
-  put("box1", 1.2, 0);
+/// The rear left corner comes there after more than the corner of the track turns.
+TEST_F(ALook, LooksNoFartherAroundThanTheTrackTurns) {
+  put("beyond", 0.69 * std::cos(to_rad(45)), 0.69 * std::sin(to_rad(45)), 0.02);
+  from.twist = {0, -0.5};
+  EXPECT_NEAR(look_now().right_rad, to_rad(93), to_rad(3));
+  EXPECT_THAT(text(look_now().first), HasSubstr("beyond"));
+  drive_along({{-3, 0}, {0, 0}, {0.695, -3.94}});  // by 80 degrees
+  from.line_from_m = 3;
+  const Clearance found = look_now();
+  EXPECT_EQ(found.right_rad, kFree);
+  EXPECT_EQ(found.along_m, kFree);
+  EXPECT_EQ(text(found.turn), "");
+  EXPECT_EQ(text(found.first), "");
+  EXPECT_LT(found.left_rad, to_rad(30)) << "who turns otherwise than the track may go on";
+}
+
 TEST_F(ALook, SaysWhatTheMarginAloneLeavesWhereNothingIsOrNoHeading) {
   drive_along({{0, 0}, {40, 0}});
   Clearance found = look_now();
@@ -386,6 +399,9 @@ TEST_F(ALook, SaysWhatTheMarginAloneLeavesWhereNothingIsOrNoHeading) {
   EXPECT_EQ(found.bare.right_rad, kFree);
 }
 
+/// The position is not known any more as well as it was: nothing came nearer.
+TEST_F(ALook, SaysWhatTheMarginAloneLeavesOfAWay) {
+  put("box1", 1.2, 0);
   put("beside", 0, 0.8);
   drive_along({{0, 0}, {4, 0}});
   from.position_sigma_m = 0;
