@@ -1,6 +1,8 @@
 // Where the robot is, and what is free about it.
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "scene/constraint/evaluate.h"
 #include "scene/keeper/keeper_impl.h"
@@ -11,6 +13,7 @@
 #include "scene/look/with_sensor.h"
 #include "scene/plane/track_line.h"
 #include "scene/world/map_change.h"
+#include "scene/world/planar_pose.h"
 
 namespace drover::scene {
 namespace {
@@ -39,6 +42,13 @@ double fastest_mps(const Viewpoint& from) {
 double driven_m(const Viewpoint& from, const sensor::OwnWay& way, Time since) {
   if (since == kNever || !(since < from.t)) return 0;
   return way.pose() ? way.ahead_m(since) : fastest_mps(from) * to_s(from.t - since);
+}
+
+std::vector<Step> in_base_link(std::vector<Step> steps) {
+  if (steps.empty()) return steps;
+  const Pose2 to_base = back(steps.front().pose);
+  for (Step& step : steps) step.pose = product(to_base, step.pose);
+  return steps;
 }
 
 /// The track goes on the way that the robot looks. Of one that turns on the spot it does so only
@@ -195,7 +205,7 @@ Clearance Keeper::look(const Path* path) const {
   }
   LookSettings look_settings = impl.settings.look;
   look_settings.steering = impl.steering();
-  const auto track = track_way(look_settings, from);
+  auto track = track_way(look_settings, from);
   found = scene::look(impl.around, look_settings, from, track);
   if (found.unknown.empty() && impl.around.constrained) {
     const Terms terms = impl.terms();
@@ -207,7 +217,8 @@ Clearance Keeper::look(const Path* path) const {
   }
   if (!impl.sensors) return found;
   const auto points = impl.near_things.all(impl.own_way);
-  found = with_points(found, points, impl.scanners, impl.settings.look, from.t);
+  found = with_points(found, points, impl.scanners, impl.settings.look, from.t,
+                      in_base_link(std::move(track)));
   SensorTerms terms{impl.settings.look.margin_m, true,
                     driven_m(seen, impl.own_way, impl.sensors->since)};
   if (line)

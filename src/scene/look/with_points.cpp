@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string>
 
 #include "scene/look/sweeper.h"
@@ -43,25 +42,31 @@ bool bound(double& way, double& bare, double free) {
 
 class NearPoints final {
  public:
-  NearPoints(const Field& field, const LookSettings& settings)
+  NearPoints(const Field& field, const LookSettings& settings, std::span<const Step> track)
       : field_(field),
+        track_(track),
         body_(piece_of(settings.footprint, settings.margin_m)),
         slim_(piece_of(settings.footprint, slim_margin_m(settings))) {}
 
+  /// Its curve is that of the moment: it says nothing of what the track bends into.
+  void bound_track(Clearance& found) const {
+    const FreeWay way = first_contact(field_, slim_, track_);
+    if (!way.blocked || !bound(found.along_m, found.bare.along_m, way.free_m)) return;
+    if (is_in_first_turn(found.twist, way.free_m))
+      tell_turn(way, found.twist.wz_radps > 0, found);
+    else
+      found.first.format("%s something, %.2f m along the track", field_.name(way.object).c_str(),
+                         way.free_m);
+  }
   void bound_turn(bool left, Clearance& found) const {
-    const double all_rad = left ? std::numbers::pi : -std::numbers::pi;
-    const FreeWay way = first_contact(field_, body_, pivot_steps({}, all_rad));
+    const double around_rad = looked_around_rad(left, track_);
+    const FreeWay way = first_contact(field_, body_, pivot_steps({}, around_rad));
     if (!way.blocked) return;
     double& way_rad = left ? found.left_rad : found.right_rad;
     double& bare_rad = left ? found.bare.left_rad : found.bare.right_rad;
     const bool nearest = bound(way_rad, bare_rad, way.free_rad);
     if (!nearest || !is_turn(found.twist) || left != (found.twist.wz_radps > 0)) return;
-    if (way.at_start)
-      found.turn.format("%s something beside the robot, which has no room to turn",
-                        field_.name(way.object).c_str());
-    else
-      found.turn = in_the_turn(field_.name(way.object), "something", way.free_rad, left);
-    found.first = found.turn;
+    tell_turn(way, left, found);
   }
   void bound_curve(bool back, double length_m, Clearance& found) const {
     const Piece& body = back ? body_ : slim_;
@@ -78,7 +83,20 @@ class NearPoints final {
   }
 
  private:
+  void tell_turn(const FreeWay& way, bool left, Clearance& found) const {
+    if (way.at_start)
+      found.turn.format("%s something beside the robot, which has no room to turn",
+                        field_.name(way.object).c_str());
+    else
+      found.turn = in_the_turn(field_.name(way.object), "something", way.free_rad, left);
+    // What is beyond the corner's end is met, if ever, after what stands on the track.
+    const double corner_rad = std::abs(first_turn_rad(track_));
+    const bool is_beyond = found.path != 0 && way.free_rad > corner_rad;
+    if (!is_beyond || found.first.empty()) found.first = found.turn;
+  }
+
   const Field& field_;
+  std::span<const Step> track_;
   Piece body_;
   Piece slim_;
 };
@@ -89,6 +107,10 @@ bool bends(const Twist& twist) {
 
 }  // namespace
 
+double slim_margin_m(const LookSettings& settings) {
+  return settings.margin_m / 2;
+}
+
 double turning_circle_m(const LookSettings& settings) {
   double reach_m = 0;
   for (const Point2 corner : settings.footprint) reach_m = std::max(reach_m, length_m(corner));
@@ -96,21 +118,19 @@ double turning_circle_m(const LookSettings& settings) {
 }
 
 Clearance with_points(Clearance found, std::span<const sensor::SeenPoint> points,
-                      std::span<const Name> scanners, const LookSettings& settings, Time now) {
+                      std::span<const Name> scanners, const LookSettings& settings, Time now,
+                      std::span<const Step> track) {
   if (!std::isfinite(found.twist.vx_mps + found.twist.wz_radps)) return found;
   const double within_m = turning_circle_m(settings) + kNearby_m;
   const Field field = field_of(points, scanners, within_m, now);
   if (field.size() == 0) return found;
-  const NearPoints seen(field, settings);
+  const NearPoints seen(field, settings, track);
+  if (found.path != 0 && !track.empty()) seen.bound_track(found);
   seen.bound_turn(true, found);
   seen.bound_turn(false, found);
   seen.bound_curve(true, settings.ahead_m, found);
   if (bends(found.twist)) seen.bound_curve(false, settings.ahead_m, found);
   return found;
-double slim_margin_m(const LookSettings& settings) {
-  return settings.margin_m / 2;
-}
-
 }
 
 }  // namespace drover::scene

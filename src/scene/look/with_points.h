@@ -23,10 +23,12 @@ double slim_margin_m(const LookSettings& settings);
 double turning_circle_m(const LookSettings& settings);
 
 /// The points bound turns on the spot and the way back as an object does; the curve ahead, where it
-/// bends, with half of the margin: what is beside a robot that drives straight on is the field's
-/// business. They need no position. What no scanner sees bounds nothing. `scanners`: their names,
-/// by SeenPoint::scanner; `now`: what is older than a turn is told as seen before.
+/// bends, and the track, with half of the margin: what is beside a robot that drives straight on is
+/// the field's business. They need no position. What no scanner sees bounds nothing. `scanners`:
+/// their names, by SeenPoint::scanner; `now`: what is older than a turn is told as seen before;
+/// `track`: its track_way(), in base_link.
 Clearance with_points(Clearance found, std::span<const sensor::SeenPoint> points,
-                      std::span<const Name> scanners, const LookSettings& settings, Time now);
+                      std::span<const Name> scanners, const LookSettings& settings, Time now,
+                      std::span<const Step> track = {});
 
 }  // namespace drover::scene

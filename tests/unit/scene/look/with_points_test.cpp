@@ -28,12 +28,13 @@ class WithPoints : public testing::Test {
   void see(double x_m, double y_m, Duration age = 0ms) {
     points.push_back({{x_m, y_m}, kNow - age, 0});
   }
-  Clearance result() const { return with_points(found, points, names, settings, kNow); }
+  Clearance result() const { return with_points(found, points, names, settings, kNow, track); }
   static std::string text(const Reason& reason) { return std::string(reason.view()); }
 
   LookSettings settings;
   Clearance found;
   std::vector<sensor::SeenPoint> points;
+  std::vector<Step> track;
   std::array<Name, 1> names{"lidar"};
 };
 
@@ -168,6 +169,45 @@ TEST_F(WithPoints, OnATrackWhatIsNearerThanItsEndIsToldFirst) {
   EXPECT_THAT(text(result().first), HasSubstr("lidar"));
   found.along_m = 0;
   EXPECT_THAT(text(result().first), HasSubstr("box1"));
+}
+
+/// The left rear corner comes to the point after 93 degrees of a turn to the right.
+TEST_F(WithPoints, WhatIsBeyondTheEndOfTheCornerHindersNoTurnToIt) {
+  see(0.69 * std::cos(to_rad(45)), 0.69 * std::sin(to_rad(45)));
+  found.path = 3;
+  found.twist = {0, -0.5};
+  found.first = "box1 is in the way, 1.50 m along the track";
+  EXPECT_NEAR(result().right_rad, to_rad(95), to_rad(3));
+  track = pivot_steps({}, to_rad(-80));
+  EXPECT_EQ(result().right_rad, kFree);
+  EXPECT_EQ(text(result().turn), "");
+  EXPECT_THAT(text(result().first), HasSubstr("box1"));
+  track = pivot_steps({}, to_rad(-120));
+  EXPECT_NEAR(result().right_rad, to_rad(95), to_rad(3));
+  EXPECT_THAT(text(result().first), HasSubstr("lidar sees something in the way of the turn"));
+}
+
+TEST_F(WithPoints, WhatIsJustBeyondTheEndOfTheCornerIsNotToldFirst) {
+  see(0.69 * std::cos(to_rad(45)), 0.69 * std::sin(to_rad(45)));
+  found.path = 3;
+  found.twist = {0, -0.5};
+  found.first = "box1 is in the way, 0.50 m along the track";
+  track = pivot_steps({}, to_rad(-92));
+  EXPECT_LT(result().right_rad, to_rad(100));
+  EXPECT_THAT(text(result().turn), HasSubstr("lidar sees something in the way of the turn"));
+  EXPECT_THAT(text(result().first), HasSubstr("box1"));
+}
+
+TEST_F(WithPoints, ATrackThatTurnsIntoSomethingEndsInThatTurn) {
+  see(0.4, 0.5);
+  found.path = 3;
+  found.twist = {0, 0.5};
+  track = pivot_steps({}, to_rad(80));
+  const Clearance all = result();
+  EXPECT_EQ(all.along_m, 0);
+  EXPECT_EQ(all.bare.along_m, 0);
+  EXPECT_LT(all.left_rad, to_rad(15));
+  EXPECT_THAT(text(all.first), HasSubstr("in the way of the turn to the left"));
 }
 
 TEST_F(WithPoints, ATwistThatIsNoNumberIsLeftToOthers) {
