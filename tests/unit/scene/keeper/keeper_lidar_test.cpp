@@ -1,4 +1,4 @@
-// A keeper with a scanner: what it sees and saw close by, for turns.
+// What scanners see close to a robot with a Keeper bounds turns, and tracks that bend into it.
 #include "tests/unit/scene/keeper/fixture.h"
 #include "tests/unit/scene/sensor/turns.h"
 
@@ -78,6 +78,27 @@ TEST_F(AKeeperWithALidar, TurnsNotIntoWhatItSeesWhereverItIs) {
   world.boxes = {{{0.5, 0.72}}};
   run(0.5, {});
   EXPECT_LT(look().left_rad, to_rad(20));
+}
+
+/// Its field is free, and its curve goes straight on; the track bends into what stands beside.
+TEST_F(AKeeperWithALidar, DrivesNotAlongATrackIntoWhatItSees) {
+  world.boxes = {{{1.0, 0.65}, 0.1}};
+  run(0.5, {});
+  from.commanded = from.asked = {0.3, 0};
+  Path path;
+  path.number = 3;
+  path.points = {{0, 0}, {0.3, 0}, {0.6, 0.1}, {1.0, 0.4}, {1.4, 0.8}};
+  on(path, 0, 0, 4);
+  const Clearance found = look(&path);
+  EXPECT_EQ(found.ahead_m, 3);
+  EXPECT_GT(found.along_m, 0.05);
+  EXPECT_LT(found.along_m, 0.6);
+  EXPECT_EQ(found.bare.along_m, found.along_m);
+  EXPECT_THAT(text(found.first), HasSubstr("lidar sees something, 0."));
+  EXPECT_THAT(text(found.first), HasSubstr("m along the track"));
+  const Path straight = row(20);
+  on(straight, 0, 0, 4);
+  EXPECT_EQ(look(&straight).along_m, kEndless);
 }
 
 TEST_F(AKeeperWithALidar, FollowsNoJumpOfThePosition) {
