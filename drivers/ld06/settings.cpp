@@ -11,25 +11,31 @@
 namespace drover::ld06 {
 namespace {
 
+// Where it is has no default: what is seen from a place where it is not is seen beside the robot,
+// and it drives into what stands ahead.
 const OptionSpec kOptions[] = {
     {.name = "mount_x_m",
      .default_value = 0.0,
+     .required = true,
      .min = -10.0,
      .max = 10.0,
      .text = "the sensor's place in base_link, ahead (m)"},
     {.name = "mount_y_m",
      .default_value = 0.0,
+     .required = true,
      .min = -10.0,
      .max = 10.0,
      .text = "the same, to the left (m)"},
     {.name = "mount_z_m",
      .default_value = 0.2,
+     .required = true,
      .min = 0.0,
      .max = 5.0,
      .text = "its beams above the ground (m): a ramp of 15 % is an obstacle this height "
              "divided by 0.15 beyond its foot"},
     {.name = "mount_yaw_deg",
      .default_value = 0.0,
+     .required = true,
      .min = -180.0,
      .max = 180.0,
      .text = "from ahead to the sensor's 0 degrees, counter-clockwise seen from above"},
@@ -61,9 +67,10 @@ const OptionSpec kOptions[] = {
      .default_value = 0.5,
      .min = 0.0,
      .max = 1.0,
-     .text = "of the beams of a sector that have to come back for it to count as seen, whatever "
-             "was learned. Less where nothing is within reach for long: then it is not noticed "
-             "that the sun blinds it"},
+     .text =
+         "of the beams of a sector that have to come back for it to count as seen, whatever "
+         "was learned. With less it may not be noticed that the sun blinds it; in the open, with "
+         "nothing within reach, it does not make the robot go"},
     {.name = "stale_s",
      .default_value = 0.4,
      .min = 0.15,

@@ -191,7 +191,8 @@ void describe(V& v, const SensorSnapshot& sensor) {
 
 template <class V>
 void describe(V& v, const ScannerSnapshot& scanner) {
-  const auto& [name, health, source, time, turn_Hz, points, returns] = scanner;
+  const auto& [name, health, source, time, turn_Hz, points, returns, nearest_m, nearest_deg] =
+      scanner;
   v.value("name", name, {});
   v.value("health", health, {});
   v.inside("source", [&v, &part = source] { describe(v, part); });
@@ -199,6 +200,8 @@ void describe(V& v, const ScannerSnapshot& scanner) {
   v.value("turn_Hz", turn_Hz, {.decimals = 1});
   v.value("points", points, {});
   v.value("returns", returns, {});
+  v.value("nearest_m", nearest_m, {.decimals = 2});
+  v.value("nearest_deg", nearest_deg, {.decimals = 0});
 }
 
 template <class V>

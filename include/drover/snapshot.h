@@ -149,6 +149,9 @@ struct ScannerSnapshot {
   double turn_Hz = kAbsent;  ///< of that one, as the device tells it
   std::uint32_t points = 0;  ///< of that turn, and those of them in which something was seen
   std::uint32_t returns = 0;
+  /// What is nearest of that turn, from the scanner: to check how it is mounted.
+  double nearest_m = kAbsent;
+  double nearest_deg = kAbsent;  ///< as the robot stands: 0 is ahead, to the left positive
 };
 
 struct BatterySnapshot {

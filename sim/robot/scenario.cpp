@@ -121,7 +121,11 @@ ScannerSpec read_lidar(JsonReader reader) {
   lidar.reach_m = reader.number("reach_m", lidar.reach_m);
   if (!(lidar.reach_m > 0 && lidar.reach_m <= 1000))
     reader.fail("reach_m", "must be above 0, and 1000 at most");
-  read_options(reader, *lidar.driver, lidar.options);
+  // Where it is says "place": what the gateway has to be told of it is not asked for here again.
+  std::vector<OptionSpec> specs(lidar.driver->options.begin(), lidar.driver->options.end());
+  for (auto& spec : specs) spec.required = false;
+  reader.options("options", specs, lidar.options);
+  reader.options("twin", lidar.driver->twin_options, lidar.options);
   reader.done();
   return lidar;
 }

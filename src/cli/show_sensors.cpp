@@ -18,6 +18,17 @@ std::string values(const Node& sensor, std::string_view kind) {
          (yes(at(sensor, "charger_connected")) ? "CHARGER  " : "");
 }
 
+/// "nearest 0.98 m, 90° left": by that a person sees whether it is mounted as the configuration
+/// says.
+std::string nearest(const Node& scanner) {
+  const auto bearing_deg = at(scanner, "nearest_deg").number();
+  if (!bearing_deg) return "";
+  std::string where = "ahead";
+  if (*bearing_deg != 0)
+    where = quantity(at(scanner, "nearest_deg"), *bearing_deg > 0 ? "+%.0f° left" : "%.0f° right");
+  return quantity(at(scanner, "nearest_m"), "nearest %.2f m, ") + where + "  ";
+}
+
 }  // namespace
 
 std::string show_sensors(const Node& status, std::string_view kind) {
@@ -47,7 +58,7 @@ std::string show_scanners(const Node& status) {
     if (text(at(scanner, "health")) != "never heard")
       value += quantity(at(scanner, "turn_Hz"), "%.1f turns/s") + "  " +
                quantity(at(scanner, "returns"), "%.0f") +
-               quantity(at(scanner, "points"), " of %.0f points seen") + "  ";
+               quantity(at(scanner, "points"), " of %.0f points seen") + "  " + nearest(scanner);
     value += text(at(scanner, "health"));
     if (at(scanner, "age_s").number()) value += quantity(at(scanner, "age_s"), "  %.2f s old");
     if (!text(at(scanner, "reason")).empty()) value += "  " + text(at(scanner, "reason"));

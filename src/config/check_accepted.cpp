@@ -8,8 +8,8 @@ namespace drover::config {
 namespace {
 
 const std::vector<std::string> kOfADrive{"no_watchdog"};
-const std::vector<std::string> kAtTheTop{"no_estop", "slow_guard", "no_tilt",
-                                         "no_soc",   "no_relay",   "short_look"};
+const std::vector<std::string> kAtTheTop{"no_estop", "slow_guard", "no_tilt",     "no_soc",
+                                         "no_relay", "short_look", "slow_chassis"};
 
 bool is_one_of(const std::vector<std::string>& words, const std::string& word) {
   return std::find(words.begin(), words.end(), word) != words.end();
@@ -99,6 +99,7 @@ void warn_of_risks(Findings& found) {
                "the wheels go on for " + std::to_string(found.config().guard.limit_ms) +
                    " ms when droverd dies; up to 200 ms is usual",
                "slow_guard");
+  warn_of_slow_chassis(found);
   warn_of_short_look(found);
   warn_of_short_field(found);
 }

@@ -5,6 +5,7 @@
 #include "config/check_subjects.h"
 #include "config/register_map.h"
 #include "config/taken.h"
+#include "text/number.h"
 
 namespace drover::config {
 namespace {
@@ -158,7 +159,41 @@ void share_line(const DeviceConfig& device, Taken& taken, Findings& found) {
   }
 }
 
+constexpr auto kOwnSpeed = "max_speed_mps";
+
+/// The device with the least speed of its own; nullptr: there is none.
+const DeviceConfig* slowest_chassis(const DroverConfig& config) {
+  const DeviceConfig* slowest = nullptr;
+  for (const auto& device : config.devices) {
+    if (device.kind != SlotKind::drive || !device.options.has(kOwnSpeed)) continue;
+    if (slowest == nullptr || device.options.number(kOwnSpeed) < slowest->options.number(kOwnSpeed))
+      slowest = &device;
+  }
+  return slowest;
+}
+
 }  // namespace
+
+double fastest_mps(const DroverConfig& config) {
+  const double limit_mps = config.engine.limits.max_speed_mps;
+  const auto* const chassis = slowest_chassis(config);
+  return chassis == nullptr ? limit_mps : std::min(limit_mps, chassis->options.number(kOwnSpeed));
+}
+
+/// It drives slower than it is told then, and the engine sees wheels that do not follow.
+void warn_of_slow_chassis(Findings& found) {
+  const auto& config = found.config();
+  const auto* const chassis = slowest_chassis(config);
+  if (chassis == nullptr || found.has_problem("limits") || found.has_problem(device_path(*chassis)))
+    return;
+  const double own_mps = chassis->options.number(kOwnSpeed);
+  if (own_mps >= config.engine.limits.max_speed_mps) return;
+  found.warn("limits.max_speed_mps",
+             "is " + text::number_text(config.engine.limits.max_speed_mps) + ", but " +
+                 device_path(*chassis, "options.max_speed_mps") + " is " +
+                 text::number_text(own_mps) + ": the chassis does not follow what is faster",
+             "slow_chassis", text::number_text(own_mps) + " or less");
+}
 
 void check_batteries(const std::string& folder, Findings& found) {
   Maps maps(folder, found);

@@ -174,16 +174,18 @@ void warn_of_short_look(Findings& found) {
   const auto& config = found.config();
   if (!config.scene.configured || found.has_problem("scene") || found.has_problem("limits")) return;
   const auto chain = chain_of(config.engine);
-  const double fastest_mps = config.engine.limits.max_speed_mps;
+  const double wanted_mps = fastest_mps(config);
   // Round up: who writes the number that is told shall not be warned again.
-  const double needed_m = std::ceil(100 * engine::stop_way(fastest_mps, chain)) / 100;
+  const double needed_m = std::ceil(100 * engine::stop_way(wanted_mps, chain)) / 100;
   const auto judge = [&](const std::string& path, double look_m, const char* whom) {
     const double possible_mps = engine::permitted_speed(look_m, chain);
-    if (possible_mps >= fastest_mps) return;
+    if (possible_mps >= wanted_mps) return;
     found.warn(path,
                "reaches for " + text::formed("%.2f m/s", possible_mps) + ": " + whom +
-                   " no faster, though limits.max_speed_mps is " +
-                   text::formed("%.2f", fastest_mps) +
+                   " no faster, though " +
+                   (wanted_mps < config.engine.limits.max_speed_mps ? "the chassis' own is "
+                                                                    : "limits.max_speed_mps is ") +
+                   text::formed("%.2f", wanted_mps) +
                    ", because what was not looked at is not free",
                "short_look", text::formed("%.2f m or more", needed_m));
   };

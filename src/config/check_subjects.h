@@ -47,6 +47,9 @@ void check_batteries(const std::string& folder, Findings& found);
 /// The driver places each byte in time by the pace at which the line is really opened.
 void follow_baud_rates(Findings& found);
 void check_drivers(Findings& found);
+/// limits.max_speed_mps, or what the chassis clamps to when that is less.
+double fastest_mps(const DroverConfig& config);
+void warn_of_slow_chassis(Findings& found);
 
 /// What a person may accept by name.
 void check_accepted(Findings& found);

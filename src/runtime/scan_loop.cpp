@@ -118,6 +118,7 @@ void ScanLoop::take(const Scan& turn) {
   shown_.returns = static_cast<std::uint32_t>(
       std::count_if(turn.points.begin(), turn.points.end(),
                     [](const ScanPoint& point) { return point.range_m > 0; }));
+  show_nearest(turn, made_.scans->mount().yaw_rad, shown_);
   next_publish_ = kNever;  // at once
 }
 
@@ -171,6 +172,16 @@ std::vector<std::unique_ptr<ScanLink>> scan_links(const config::DroverConfig& co
 
 Time came_in(const ReadTimes& read, std::size_t size, Duration byte_time) {
   return std::min(read.before, read.now - byte_time * static_cast<std::int64_t>(size));
+}
+
+void show_nearest(const Scan& turn, double yaw_rad, ScannerSnapshot& shown) {
+  shown.nearest_m = kAbsent;
+  shown.nearest_deg = kAbsent;
+  for (const ScanPoint& point : turn.points) {
+    if (!(point.range_m > 0) || point.range_m >= shown.nearest_m) continue;
+    shown.nearest_m = point.range_m;
+    shown.nearest_deg = to_deg(wrap_rad(point.bearing_rad + yaw_rad));
+  }
 }
 
 ScannerSnapshot as_shown(const ScanTold& told, Time now) {

@@ -94,6 +94,9 @@ struct ReadTimes {
 /// young.
 Time came_in(const ReadTimes& read, std::size_t size, Duration byte_time);
 
+/// What of a turn is nearest to a scanner that is mounted with this yaw; absent: it sees nothing.
+void show_nearest(const Scan& turn, double yaw_rad, ScannerSnapshot& shown);
+
 /// What a scanner's thread said of it, as it may be shown at `now`.
 ScannerSnapshot as_shown(const ScanTold& told, Time now);
 

@@ -59,6 +59,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   std::vector<std::uint8_t> bytes(data + 1, data + size);
   if (choice % 2 == 1) bytes = sealed(bytes);
   Options options(ld06::option_table());
+  for (const char* const name : {"mount_x_m", "mount_y_m", "mount_z_m", "mount_yaw_deg"})
+    options.set(name, 0.0);
   options.set("self_filter", std::string("0.5 0.3, 0.5 -0.3, -0.5 0"));
   ld06::Ld06Driver whole(options);
   ld06::Ld06Driver pieces(options);

@@ -84,7 +84,9 @@ Snapshot full_snapshot() {
                               .time = kNow - 60ms,
                               .turn_Hz = 9.97,
                               .points = 451,
-                              .returns = 437});
+                              .returns = 437,
+                              .nearest_m = 0.984,
+                              .nearest_deg = 90.2});
   s.joint_command = {true, 120, 3, "joint 'wing': there is no such joint"};
   s.estimator = {1, 2, 3, 4, 5};
   s.notices_dropped = 6;
@@ -164,8 +166,9 @@ TEST_F(StatusViews, ShowTheWholeInShort) {
 }
 
 TEST_F(StatusViews, ShowTheScannerAmongTheSensors) {
-  expect(show_status(status), {"scanner   lidar           10.0 turns/s  437 of 451 points seen  "
-                               "fresh  0.06 s old  the scanner is blind in 2 of 24 sectors"});
+  expect(show_status(status),
+         {"scanner   lidar           10.0 turns/s  437 of 451 points seen  "
+          "nearest 0.98 m, +90° left  fresh  0.06 s old  the scanner is blind in 2 of 24 sectors"});
 }
 
 TEST(StatusInShort, SaysNothingOfTheSilenceOfATask) {

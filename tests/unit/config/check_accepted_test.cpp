@@ -40,6 +40,30 @@ TEST(ConfigurationChecks, WarnOfABatteryWhoseChargeNobodyTellsUnlessThatIsAccept
   EXPECT_EQ(warnings(accepted), "");
 }
 
+TEST(ConfigurationChecks, WarnOfAChassisThatIsSlowerThanItsLimitUnlessThatIsAccepted) {
+  const auto chassis = [](const char* speed, const char* words) {
+    return std::string(R"({"links": {"can0": {"can": "can0"}, "panel": {"gpio": "g"}},
+      "devices": {"chassis": {"driver": "gt01_can", "link": "can0",
+                              "options": {"max_speed_mps": 0.5}},
+        "estop": {"driver": "gpio_line", "link": "panel", "line": "a", "is": "estop"}},
+      "groups": {"base": {"kind": "twist", "device": "chassis", "track_m": 0.7, "hold": "brake"}},
+      "limits": {"max_speed_mps": )") +
+           speed +
+           R"(}, "scene": {"footprint": [{"x_m": 0.5, "y_m": 0.4}, {"x_m": -0.5, "y_m": 0.4},
+        {"x_m": -0.5, "y_m": -0.4}, {"x_m": 0.5, "y_m": -0.4}], "ahead_m": 1},
+      "accept": ["no_relay")" +
+           words + "]}";
+  };
+  EXPECT_EQ(problems(chassis("1.5", "")), "");
+  EXPECT_THAT(
+      warnings(chassis("1.5", "")),
+      HasSubstr("limits.max_speed_mps: is 1.5, but devices.chassis.options.max_speed_mps is "
+                "0.5: the chassis does not follow what is faster"));
+  EXPECT_EQ(warnings(chassis("1.5", R"(, "slow_chassis")")), "")
+      << "a metre ahead is far enough for what it drives";
+  EXPECT_EQ(warnings(chassis("0.5", "")), "");
+}
+
 TEST(ConfigurationChecks, WarnOfGroundWhoseSlopeNobodyTellsUnlessThatIsAccepted) {
   auto text = with(R"("hold": "brake")", R"("hold": "level_ground_only")");
   EXPECT_THAT(warnings(text), HasSubstr("groups.base.hold: without an inertial sensor"));

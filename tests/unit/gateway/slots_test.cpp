@@ -46,7 +46,8 @@ TEST(Wiring, LeavesAScannerAndItsLineToTheScene) {
   auto text = changed(robot_configuration(), R"("gnss": {"serial")",
                       R"("lidar": {"serial": "/dev/drover/lidar"}, "gnss": {"serial")");
   text = changed(text, R"("gnss": {"driver")",
-                 R"("lidar": {"driver": "ld06", "link": "lidar"}, "gnss": {"driver")");
+                 R"("lidar": {"driver": "ld06", "link": "lidar", "options": {"mount_x_m": 0.4,
+      "mount_y_m": 0, "mount_z_m": 0.3, "mount_yaw_deg": 0}}, "gnss": {"driver")");
   text = changed(text, R"("limits": {)",
                  R"("scene": {"footprint": [{"x_m": 0.5, "y_m": 0.35}, {"x_m": -0.5, "y_m": 0.35},
       {"x_m": -0.5, "y_m": -0.35}, {"x_m": 0.5, "y_m": -0.35}]}, "limits": {)");

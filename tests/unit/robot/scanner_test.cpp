@@ -62,7 +62,11 @@ class AScannerInAHall : public testing::Test {
     scenario_.lidar.emplace();
     auto& lidar = *scenario_.lidar;
     lidar.driver = find_driver("ld06");
-    lidar.options = Options(lidar.driver->options);
+    lidar.options = Options(lidar.driver->options)
+                        .set("mount_x_m", 0.0)
+                        .set("mount_y_m", 0.0)
+                        .set("mount_z_m", 0.2)
+                        .set("mount_yaw_deg", 0.0);
     lidar.x_m = 0.3;
     lidar.z_m = 0.13;  // a quarter of a metre above the ground
   }

@@ -103,7 +103,12 @@ TEST_F(SimulatorTest, ScansOnASerialLineAtTheScannersSpeed) {
   auto line = link::open_serial({(folder / "run/lidar").string(), 230400});
   ASSERT_TRUE(line.link) << line.problem;
   const auto* const entry = find_driver("ld06");
-  const auto made = entry->make(Options(entry->options), {});
+  const auto made = entry->make(Options(entry->options)
+                                    .set("mount_x_m", 0.0)
+                                    .set("mount_y_m", 0.0)
+                                    .set("mount_z_m", 0.2)
+                                    .set("mount_yaw_deg", 0.0),
+                                {});
   Time now{std::chrono::seconds(100)};
   // Half a second of packets, however slow the machine is.
   for (int i = 0; i < 2000 && made.device->health(now).good < 190; ++i) {

@@ -27,7 +27,8 @@ constexpr std::string_view kRobot = R"({
              "accept": ["no_watchdog"]},
     "right": {"driver": "odrive", "link": "can0", "options": {"node": 2},
               "accept": ["no_watchdog"]},
-    "lidar": {"driver": "ld06", "link": "lidar", "options": {"mount_x_m": 0.4, "mount_z_m": 0.3}}
+    "lidar": {"driver": "ld06", "link": "lidar", "options": {"mount_x_m": 0.4,
+              "mount_y_m": 0, "mount_z_m": 0.3, "mount_yaw_deg": 0}}
   },
   "groups": {"base": {"kind": "skid_steer", "wheel_radius_m": 0.165, "track_m": 0.6,
                       "left": ["left"], "right": ["right"], "hold": "brake"}},
@@ -147,9 +148,26 @@ TEST_F(ScannerOnALine, SeesTheFieldAndWhatComesIntoIt) {
   EXPECT_EQ(told.scanner.points, 450U);
   EXPECT_EQ(told.scanner.returns, 450U);
   EXPECT_GT(told.scanner.source.samples, 1U);
+  EXPECT_NEAR(told.scanner.nearest_m, 1.1, 0.06);
+  EXPECT_NEAR(told.scanner.nearest_deg, 0, 12);
   EXPECT_TRUE(told.link.up);
   EXPECT_EQ(told.link.name, "lidar");
   EXPECT_GT(told.link.received, 1000U);
+}
+
+TEST(AScannersNearest, IsSaidAsTheRobotStandsSoThatItsYawCanBeChecked) {
+  Scan turn;
+  ASSERT_TRUE(turn.points.push_back({.bearing_rad = 0, .range_m = 2}));
+  ASSERT_TRUE(turn.points.push_back({.bearing_rad = -kPi / 2, .range_m = 1}));
+  ASSERT_TRUE(turn.points.push_back({.bearing_rad = 1, .range_m = 0}));
+  ScannerSnapshot shown;
+  show_nearest(turn, 0, shown);
+  EXPECT_EQ(shown.nearest_m, 1);
+  EXPECT_NEAR(shown.nearest_deg, -90, 1e-9) << "to the right";
+  show_nearest(turn, kPi, shown);
+  EXPECT_NEAR(shown.nearest_deg, 90, 1e-9) << "mounted the other way round";
+  show_nearest({}, 0, shown);
+  EXPECT_TRUE(std::isnan(shown.nearest_m) && std::isnan(shown.nearest_deg));
 }
 
 TEST_F(ScannerOnALine, IsUnknownWithoutALineAndSaysWhichIsMissing) {

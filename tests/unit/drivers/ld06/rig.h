@@ -18,8 +18,13 @@ inline double room_m(double bearing_rad) {
   return std::min(3 / std::abs(std::cos(bearing_rad)), 2 / std::abs(std::sin(bearing_rad)));
 }
 
+/// The defaults, and 0.2 m above base_link, looking ahead.
 inline Options ld06_options() {
-  return Options(ld06::option_table());
+  return Options(ld06::option_table())
+      .set("mount_x_m", 0.0)
+      .set("mount_y_m", 0.0)
+      .set("mount_z_m", 0.2)
+      .set("mount_yaw_deg", 0.0);
 }
 
 struct ScannerRig {

@@ -2,7 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "drivers/ld06/sort.h"
+#include "unit/drivers/ld06/rig.h"
 
 namespace drover::ld06 {
 namespace {
@@ -17,14 +21,25 @@ std::string refusal_of(const Options& options) {
 }
 
 Options with(std::string_view name, OptionValue value) {
-  return Options(option_table()).set(name, std::move(value));
+  return ld06_options().set(name, std::move(value));
 }
 
 TEST(Ld06Settings, AreReadFromTheirDefaults) {
-  const Settings settings = read_settings(Options(option_table()));
+  const Settings settings = read_settings(ld06_options());
   EXPECT_EQ(settings.sectors, 24U);
   EXPECT_TRUE(settings.self_filter.empty());
   EXPECT_DOUBLE_EQ(settings.range_max_m, 12);
+}
+
+TEST(Ld06Settings, SayWhereItIsMounted) {
+  for (const char* const name : {"mount_x_m", "mount_y_m", "mount_z_m", "mount_yaw_deg"}) {
+    const auto table = option_table();
+    const auto spec = std::find_if(table.begin(), table.end(),
+                                   [name](const OptionSpec& each) { return each.name == name; });
+    ASSERT_NE(spec, table.end());
+    EXPECT_TRUE(spec->required) << name << ": nobody guesses where a scanner is";
+  }
+  EXPECT_EQ(refusal_of(Options(option_table())), "option missing: mount_x_m");
 }
 
 TEST(Ld06Settings, ReadAnOutlineInMetres) {
