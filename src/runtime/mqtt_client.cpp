@@ -109,6 +109,21 @@ void MqttClient::speak(int version) {
   ::mosquitto_int_option(client_, MOSQ_OPT_PROTOCOL_VERSION, version);
 }
 
+namespace {
+
+/// In the broker's words, and where to mend it: the two keys are what it has to go by.
+std::string refused_with(int code, bool newest) {
+  std::string words = newest ? ::mosquitto_reason_string(code) : ::mosquitto_connack_string(code);
+  const bool of_the_user =
+      newest
+          ? code == MQTT_RC_NOT_AUTHORIZED || code == MQTT_RC_BAD_USERNAME_OR_PASSWORD
+          : code == CONNACK_REFUSED_NOT_AUTHORIZED || code == CONNACK_REFUSED_BAD_USERNAME_PASSWORD;
+  if (of_the_user) words += " (mqtt.username, mqtt.password_file)";
+  return words;
+}
+
+}  // namespace
+
 void MqttClient::on_connack(int code) {
   closed_unanswered_ = 0;
   if (code == 0) return on_connected();
@@ -119,8 +134,7 @@ void MqttClient::on_connack(int code) {
     refusal_ = "it knows no MQTT 5";
     return;
   }
-  refusal_ = version_ == MQTT_PROTOCOL_V5 ? ::mosquitto_reason_string(code)
-                                          : ::mosquitto_connack_string(code);
+  refusal_ = refused_with(code, version_ == MQTT_PROTOCOL_V5);
 }
 
 void MqttClient::on_connected() {

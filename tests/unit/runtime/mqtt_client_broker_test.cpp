@@ -133,7 +133,7 @@ TEST_F(MqttClientTest, SaysWhyTheBrokerRefusesAndTriesAgain) {
   turn(50ms);
   broker_.close();
   ASSERT_TRUE(turn_until([&] { return broker_.connections == 2; }));
-  EXPECT_THAT(said_.back(), HasSubstr("Not authorized"));
+  EXPECT_THAT(said_.back(), HasSubstr("Not authorized (mqtt.username, mqtt.password_file)"));
   EXPECT_EQ(broker_.version(), 5);
 }
 
