@@ -111,6 +111,15 @@ std::optional<Failure> write_durably(Files& files, const std::string& folder,
   return std::nullopt;
 }
 
+bool is_foreign(int error) {
+  return error == EACCES || error == EPERM;
+}
+
+std::string foreign_text(const std::string& folder, const std::string& name) {
+  return folder + "/" + name + " belongs to another user: sudo chown -R drover: " + folder +
+         " and sudo systemctl restart droverd";
+}
+
 Result<std::string, Failure> quarantine(Files& files, const std::string& folder,
                                         const std::string& name) {
   std::vector<std::string> taken;

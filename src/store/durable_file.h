@@ -35,6 +35,12 @@ std::optional<Failure> write_durably(Files& files, const std::string& folder,
 /// "cannot write /path: No space left on device"
 std::string failure_text(std::string_view step, const std::string& path, int error);
 
+/// Whether a file could not be read because it is not ours: it is as good as ever, and nothing may
+/// be put in its place.
+bool is_foreign(int error);
+/// "/folder/name belongs to another user: sudo chown -R drover: /folder"; and what then.
+std::string foreign_text(const std::string& folder, const std::string& name);
+
 /// Renames a file that cannot be used to `<name>.bad` (or .bad2, ...) so that nothing is lost.
 /// @return the new name
 Result<std::string, Failure> quarantine(Files& files, const std::string& folder,

@@ -109,13 +109,19 @@ LoadedTexts load_named_texts(Files& files, const std::string& folder, const Name
   std::string content;
   const int error = files.read(path, file.max_bytes, content);
   if (error == ENOENT) return {};
+  if (is_foreign(error)) {
+    return {.problem = foreign_text(folder, std::string(file.file)),
+            .is_there = true,
+            .is_foreign = true};
+  }
   if (error != 0) {
     const bool for_ever = error == EFBIG || error == EINVAL || error == ELOOP;
-    return {failure_text("read", path, error), true, for_ever, {}};
+    return {.problem = failure_text("read", path, error), .is_there = true, .is_damaged = for_ever};
   }
   auto texts = decode_named_texts(file, content);
-  if (!texts.ok()) return {path + " " + texts.error().text, true, true, {}};
-  return {"", true, false, std::move(texts.value())};
+  if (!texts.ok())
+    return {.problem = path + " " + texts.error().text, .is_there = true, .is_damaged = true};
+  return {.problem = "", .is_there = true, .texts = std::move(texts.value())};
 }
 
 std::optional<Failure> save_named_texts(Files& files, const std::string& folder,

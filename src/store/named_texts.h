@@ -40,10 +40,11 @@ Result<std::vector<NamedText>, Failure> decode_named_texts(const NamedTextsFile&
 struct LoadedTexts {
   /// Empty: `texts` is all that was ever acknowledged. Else why nobody knows it: damaged, or it
   /// cannot be read.
-  std::string problem;
+  std::string problem = {};
   bool is_there = false;    ///< there is such a file
   bool is_damaged = false;  ///< what is on the disk can never be read; false: perhaps later
-  std::vector<NamedText> texts;
+  bool is_foreign = false;  ///< it belongs to another user: a person mends that, and all is there
+  std::vector<NamedText> texts = {};
 };
 /// Changes nothing on the disk.
 LoadedTexts load_named_texts(Files& files, const std::string& folder, const NamedTextsFile& file);

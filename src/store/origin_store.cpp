@@ -52,7 +52,8 @@ std::optional<GeodeticPoint> OriginStore::load(std::vector<std::string>& report)
     if (damaged_before()) problem_ = kDamaged;
     return std::nullopt;
   } else if (e != 0) {
-    problem_ = kUnreadable;
+    problem_ = is_foreign(e) ? "the stored origin cannot be read: " + foreign_text(folder_, kFile)
+                             : kUnreadable;
     report.push_back(failure_text("read", path, e));
     return std::nullopt;
   }

@@ -28,6 +28,12 @@ std::vector<NamedText> SceneStore::load(double wall_s, std::optional<double> max
   auto found = load_named_texts(files_, folder_, kSceneFile);
   remove_leftovers(files_, folder_, kSceneFile);
   problem_.clear();
+  is_foreign_ = found.is_foreign;
+  if (is_foreign_) {
+    problem_ = "the stored scene is not known: " + found.problem;
+    report.push_back(found.problem);
+    return {};
+  }
   if (!found.problem.empty()) {
     problem_ = "the stored scene is lost: " + found.problem;
     const auto aside = quarantine(files_, folder_, std::string(kSceneFile.file));
@@ -54,6 +60,7 @@ std::vector<NamedText> SceneStore::load(double wall_s, std::optional<double> max
 std::optional<Failure> SceneStore::save(const std::vector<NamedText>& texts) {
   if (!std::all_of(texts.begin(), texts.end(), is_of_the_scene))
     return Failure{"a scene has objects and constraints only"};
+  if (is_foreign_) return Failure{problem_};
   if (problem_.empty()) return save_named_texts(files_, folder_, kSceneFile, texts);
   auto all = texts;
   all.push_back({std::string(kLossKind), "", 0, problem_});
@@ -61,6 +68,7 @@ std::optional<Failure> SceneStore::save(const std::vector<NamedText>& texts) {
 }
 
 std::optional<Failure> SceneStore::accept_loss(const std::vector<NamedText>& texts) {
+  if (is_foreign_) return Failure{problem_};
   const std::string before = std::exchange(problem_, {});
   auto failure = save(texts);
   if (failure) problem_ = before;

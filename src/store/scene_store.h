@@ -23,15 +23,16 @@ class SceneStore final {
 
   /// What was stored, without the objects that arrived more than `max_age_s` before `wall_s`: only
   /// here they grow old, never while the program runs. What arrived later than `wall_s` is kept:
-  /// the clock is wrong. A file that cannot be used is put aside; `report` gets a sentence of that
-  /// and of what was left out.
+  /// the clock is wrong. A file that cannot be used is put aside, but stays where it only belongs
+  /// to another user; `report` gets a sentence of that and of what was left out.
   std::vector<NamedText> load(double wall_s, std::optional<double> max_age_s,
                               std::vector<std::string>& report);
   /// Why something that was stored is not known any more, for operators; empty: nothing is. It
   /// outlives restarts and saves.
   const std::string& problem() const { return problem_; }
 
-  /// Replaces all. Returns nothing when it is durable. Each has one of the two kinds.
+  /// Replaces all. Returns nothing when it is durable. Each has one of the two kinds. Both are
+  /// refused while the file belongs to another user: what is in it is as good as ever.
   std::optional<Failure> save(const std::vector<NamedText>& texts);
   /// A person knows that something is lost. The scene is `texts` now.
   std::optional<Failure> accept_loss(const std::vector<NamedText>& texts);
@@ -39,6 +40,7 @@ class SceneStore final {
  private:
   Files& files_;
   std::string folder_;
+  bool is_foreign_ = false;
   std::string problem_;
 };
 

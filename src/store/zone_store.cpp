@@ -18,10 +18,12 @@ void ZoneStore::load() {
   auto found = load_named_texts(files_, folder_, kZonesFile);
   remove_leftovers(files_, folder_, kZonesFile);
   problem_.clear();
+  is_foreign_ = found.is_foreign;
   zones_ = std::move(found.texts);
   if (!found.problem.empty()) {
-    problem_ = "the stored zones are not known: " + found.problem +
-               (found.is_damaged ? "; forget them and import them again" : "; mend the disk");
+    problem_ = "the stored zones are not known: " + found.problem;
+    if (!found.is_foreign)
+      problem_ += found.is_damaged ? "; forget them and import them again" : "; mend the disk";
   }
 }
 
@@ -51,6 +53,7 @@ std::optional<Failure> ZoneStore::replace(std::vector<NamedText> zones) {
 
 std::optional<Failure> ZoneStore::forget_unreadable() {
   if (problem_.empty()) return Failure{"the stored zones can be read: delete them one by one"};
+  if (is_foreign_) return Failure{problem_};  // nothing is lost yet
   const auto aside = quarantine(files_, folder_, std::string(kZonesFile.file));
   if (!aside.ok()) return aside.error();
   if (auto failure = save_named_texts(files_, folder_, kZonesFile, {})) return failure;

@@ -34,6 +34,7 @@ class ZoneStore final {
   /// Returns nothing when it is durably gone; fails when there is none of that name.
   std::optional<Failure> remove(const std::string& name);
   /// A person gives up what cannot be read: it is kept aside as `<file>.bad`, and there is no zone.
+  /// Refused where the file only belongs to another user: the fence is as good as ever.
   std::optional<Failure> forget_unreadable();
 
  private:
@@ -42,6 +43,7 @@ class ZoneStore final {
   Files& files_;
   std::string folder_;
   std::vector<NamedText> zones_;
+  bool is_foreign_ = false;
   std::string problem_ = "the stored zones have not been read yet";
 };
 

@@ -95,6 +95,26 @@ TEST(ASceneStore, HasItsProblemStillWhenALossCannotBeAccepted) {
   EXPECT_TRUE(store.accept_loss({}));
   EXPECT_THAT(store.problem(), HasSubstr("lost"));
 }
+TEST(ASceneStore, LeavesASceneAloneThatOnlyBelongsToAnotherUser) {
+  struct Foreign final : FaultFiles {
+    bool is_foreign = false;
+    int read(const std::string& path, std::size_t most, std::string& content) override {
+      return is_foreign ? EACCES : FaultFiles::read(path, most, content);
+    }
+  } files;
+  std::vector<std::string> report;
+  SceneStore(files, "state").save({{std::string(kObjectKind), "box", 0, "1"}});
+  const auto before = files.contents();
+  files.is_foreign = true;
+  SceneStore store(files, "state");
+  EXPECT_TRUE(store.load(0, std::nullopt, report).empty());
+  EXPECT_THAT(store.problem(), testing::HasSubstr("scene.texts belongs to another user: sudo chown "
+                                                  "-R drover: state"));
+  EXPECT_TRUE(store.save({}));
+  EXPECT_TRUE(store.accept_loss({}));
+  EXPECT_EQ(files.contents(), before) << "neither put aside nor written over";
+}
+
 TEST(ASceneStore, RefusesMoreThanItsFileHolds) {
   Stored it;
   SceneStore store(it.files, "state");

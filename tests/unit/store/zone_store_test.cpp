@@ -90,6 +90,37 @@ TEST(AZoneStore, DoesNotKnowTheFenceWhereTheDiskCannotBeRead) {
   store.load();
   EXPECT_THAT(store.problem(), HasSubstr("mend the disk"));
 }
+TEST(AZoneStore, LeavesAFenceAloneThatOnlyBelongsToAnotherUser) {
+  struct Foreign final : FaultFiles {
+    int error = EACCES;
+    int read(const std::string& path, std::size_t most, std::string& content) override {
+      return error != 0 ? error : FaultFiles::read(path, most, content);
+    }
+  } files;
+  const auto before = [&files] {
+    files.error = 0;
+    ZoneStore store(files, "state");
+    store.load();
+    EXPECT_FALSE(store.save("yard", "1", 0));
+    return files.contents();
+  }();
+  for (const int error : {EACCES, EPERM}) {
+    files.error = error;
+    ZoneStore store(files, "state");
+    store.load();
+    EXPECT_EQ(store.problem(),
+              "the stored zones are not known: state/zones.texts belongs to another user: sudo "
+              "chown -R drover: state and sudo systemctl restart droverd");
+    const auto refusal = store.forget_unreadable();
+    ASSERT_TRUE(refusal);
+    EXPECT_EQ(refusal->text, store.problem());
+    EXPECT_EQ(files.contents(), before);
+  }
+  files.error = 0;
+  ZoneStore store(files, "state");
+  store.load();
+  EXPECT_THAT(names_of(store), ElementsAre("yard=1"));
+}
 TEST(AZoneStore, RefusesAHundredAndFirstZone) {
   Stored it;
   ZoneStore store = it.booted();
