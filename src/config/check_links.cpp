@@ -97,7 +97,14 @@ void check_port(const LinkConfig& link, std::string_view key, const std::string&
 
 /// Longer ones the kernel cuts, or refuses when it is too late.
 void check_interface(const LinkConfig& link, Findings& found) {
-  if (link.can.starts_with("unix:") || link.can.size() <= kLongestInterface) return;
+  if (link.can.starts_with("unix:")) return;
+  if (const auto slash = link.can.rfind('/'); slash != std::string::npos) {
+    const auto name = link.can.substr(slash + 1);
+    return found.add(link_path(link, "can"),
+                     "\"" + link.can + "\" is no name of an interface: they have no slash",
+                     name.empty() ? "a name like \"can0\"" : "did you mean \"" + name + "\"?");
+  }
+  if (link.can.size() <= kLongestInterface) return;
   found.add(link_path(link, "can"), "\"" + link.can +
                                         "\" is no name of an interface: they have up to " +
                                         std::to_string(kLongestInterface) + " characters");

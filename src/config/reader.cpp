@@ -279,13 +279,29 @@ void Reader::option(const OptionSpec& spec, const json::Node& node, Options& int
   }
 }
 
+namespace {
+
+/// What people look for in the file and comes another way; empty: nothing of that.
+std::string comes_otherwise(std::string_view path) {
+  for (const auto* const fence : {"scene.fence", "scene.fences", "scene.zone", "scene.zones",
+                                  "scene.keep_in", "scene.keep_out"})
+    if (path == fence)
+      return "zones are imported: drover zone import FILE --keep-in, or --keep-out";
+  if (path == "scene.object" || path == "scene.objects")
+    return "objects come as messages of the topic collision_object";
+  return "";
+}
+
+}  // namespace
+
 void Reader::finish() {
   check_alternatives();
   for (const auto& member : *node_.object()) {
     if (std::find(known_.begin(), known_.end(), member.key) != known_.end()) continue;
     if (path_.empty() && member.key == "$schema") continue;  // for the editor
+    const auto otherwise = comes_otherwise(path_of(member.key));
     problems_.push_back({member.line, member.column, path_of(member.key), "is no known key",
-                         did_you_mean(member.key, known_), ""});
+                         otherwise.empty() ? did_you_mean(member.key, known_) : otherwise, ""});
   }
 }
 

@@ -43,6 +43,10 @@ TEST(ConfigurationChecks, RefuseAnInterfaceThatTheKernelCannotName) {
       problems(with("{\"can\": \"can0\"}", "{\"can\": \"can0_of_the_left_side\"}")),
       HasSubstr("links.can0.can: \"can0_of_the_left_side\" is no name of an interface: they "
                 "have up to 15 characters"));
+  EXPECT_THAT(problems(with("{\"can\": \"can0\"}", "{\"can\": \"/dev/can0\"}")),
+              HasSubstr("links.can0.can: \"/dev/can0\" is no name of an interface: they have no "
+                        "slash (did you mean \"can0\"?)"));
+  EXPECT_EQ(problems(with("{\"can\": \"can0\"}", "{\"can\": \"unix:/tmp/can0\"}")), "");
 }
 
 TEST(ConfigurationChecks, RefuseALinkOfTheWrongWire) {
