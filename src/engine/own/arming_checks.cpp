@@ -8,9 +8,20 @@
 
 namespace drover::engine {
 
+namespace {
+
+/// A line that cannot be read counts as pressed, and nobody finds a button to turn.
+Reason why_estop(const HealthReport& health) {
+  const bool lost = health.holds(Cause::line_lost) && !health.holds(Cause::estop);
+  const Reason why = lost ? health.text(Cause::line_lost) : Reason();
+  return why.empty() ? Reason("the e-stop is pressed") : why;
+}
+
+}  // namespace
+
 Reason check_arm(const HealthReport& health, const Latch& latch, bool driven) {
   if (!health.ready) return kJustStarted;
-  if (health.estop) return "the e-stop is pressed";
+  if (health.estop) return why_estop(health);
   if (!health.estop_known) return health.text(Cause::line_lost);
   if (latch.power_cut()) return "the drives have no power: drover reset";
   if (latch.ran_away()) return "a wheel ran away: drover reset";

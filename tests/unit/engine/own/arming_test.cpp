@@ -5,6 +5,7 @@
 #include <string>
 
 #include "../engine_rig.h"
+#include "engine/own/arming_checks.h"
 
 namespace drover::engine {
 namespace {
@@ -287,6 +288,18 @@ TEST_F(Holding, IsNotReleasedOnASlopeOrWhereTheTiltIsUnknown) {
   EXPECT_FALSE(hold.released());
   hold.release({}, {true}, {}, 2.5, now, events);
   EXPECT_EQ(answer(), "yes");
+}
+
+/// A line that cannot be read counts as a pressed button.
+TEST_F(Holding, SaysThatTheEmergencyStopsLineCannotBeReadWhenThatIsWhyItIsRefused) {
+  health.estop = true;
+  health.causes = 1U << static_cast<unsigned>(Cause::line_lost);
+  health.texts[static_cast<std::size_t>(Cause::line_lost)] = "line estop: not readable";
+  EXPECT_EQ(check_arm(health, Latch(), false), "line estop: not readable");
+  health.causes |= 1U << static_cast<unsigned>(Cause::estop);
+  EXPECT_EQ(check_arm(health, Latch(), false), "the e-stop is pressed");
+  health.causes = 0;
+  EXPECT_EQ(check_arm(health, Latch(), false), "the e-stop is pressed");
 }
 
 /// The e-stop's line tells nothing until its contact has held for a while.
