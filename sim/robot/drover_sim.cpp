@@ -27,7 +27,7 @@ Commands for a running simulator (drover-sim ctl COMMAND...):
   truth                                                   quit
 
 Examples:
-  drover-sim --scenario sim/scenarios/straight.json
+  drover-sim --scenario sim/scenarios/demo.json
   drover-sim --scenario s.json --can-transport unix --lines files --run-dir /tmp/robot
   drover-sim ctl estop press
   drover-sim ctl --run-dir /tmp/robot obstacle obstacle 4.0 0.0
@@ -70,7 +70,11 @@ int main(int argc, char** argv) {
   ctl->add_option("command", words, "see below")->required();
   ctl->positionals_at_end(false);
   ctl->prefix_command();
-  CLI11_PARSE(app, argc, argv);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
 
   try {
     if (ctl->parsed()) {

@@ -153,10 +153,10 @@ void JsonReader::done() const {
 nlohmann::json parse_json(std::string_view text) {
   std::vector<std::set<std::string>> open;  // keys of the objects that are being read
   const auto watch = [&open](int, nlohmann::json::parse_event_t event, nlohmann::json& parsed) {
-    using Event = nlohmann::json::parse_event_t;
-    if (event == Event::object_start) open.emplace_back();
-    if (event == Event::object_end) open.pop_back();
-    if (event == Event::key && !open.back().insert(parsed.get<std::string>()).second)
+    using Told = nlohmann::json::parse_event_t;
+    if (event == Told::object_start) open.emplace_back();
+    if (event == Told::object_end) open.pop_back();
+    if (event == Told::key && !open.back().insert(parsed.get<std::string>()).second)
       throw std::runtime_error(parsed.get<std::string>() + ": the key stands there twice");
     return true;
   };

@@ -56,6 +56,19 @@ std::string words_of_clearance(const nlohmann::json& status, const char* key) {
 
 }  // namespace
 
+std::string wheel_words(const nlohmann::json& axes) {
+  std::string out = "rad/s";
+  for (const auto& axis : axes) {
+    const double radps = number_at(axis, "velocity_radps");
+    out += "  " + axis.value("joint", "") + (std::isfinite(radps) ? text(" %.2f", radps) : " -");
+  }
+  return out;
+}
+
+std::string error_words(double sigma_m) {
+  return std::isfinite(sigma_m) ? text("error %.3f m (one sigma)", sigma_m) : "error -";
+}
+
 std::string way_left(double distance_m, double speed_mps) {
   if (!std::isfinite(distance_m)) return "-";
   auto out = text("%.1f m left", distance_m);
@@ -210,10 +223,7 @@ std::string View::line(const RobotReport& report) const {
 std::string View::wheels() const {
   const auto& status = status_.status();
   if (!status.is_object() || !status.contains("axes")) return "-";
-  std::string out = "rad/s";
-  for (const auto& axis : status.at("axes"))
-    out += text("  %s %.2f", axis.value("joint", "").c_str(), number_at(axis, "velocity_radps"));
-  return out;
+  return wheel_words(status.at("axes"));
 }
 
 std::string View::left(const RobotReport& report) const {
@@ -227,8 +237,8 @@ std::string View::place(const RobotReport& report) const {
   double sigma_m = NAN;
   if (const auto& status = status_.status(); status.is_object() && status.contains("pose"))
     sigma_m = number_at(status.at("pose"), "position_sigma_m");
-  return text("%s, %s, error %.3f m (one sigma)", report.locate().c_str(),
-              rtk_word(report.rtk_status()), sigma_m);
+  return text("%s, %s, %s", report.locate().c_str(), rtk_word(report.rtk_status()),
+              error_words(sigma_m).c_str());
 }
 
 // As many lines as an old terminal has, and the longest of them are cut rather than broken.

@@ -20,6 +20,11 @@ enum class ViewKind { none, lines, terminal };
 /// "7.3 m left, about 15 s"; without a speed worth the name no time; nothing is "-".
 std::string way_left(double distance_m, double speed_mps);
 
+/// "rad/s  left 1.20  right -": what is not heard of is no number.
+std::string wheel_words(const nlohmann::json& axes);
+/// "error 0.014 m (one sigma)", or "error -".
+std::string error_words(double sigma_m);
+
 /// "ahead 2.31 m, back 3.00 m, left 180 deg, right 40 deg" of the status' clearance; why nothing is
 /// known, or nothing where it has none.
 std::string free_room(const nlohmann::json& status);

@@ -8,6 +8,15 @@
 namespace drover::sim {
 namespace {
 
+TEST(AView, HasADashForWhatIsNotKnownYet) {
+  EXPECT_EQ(error_words(0.0142), "error 0.014 m (one sigma)");
+  EXPECT_EQ(error_words(NAN), "error -");
+  EXPECT_EQ(
+      wheel_words(nlohmann::json::parse(
+          R"([{"joint":"left","velocity_radps":1.2},{"joint":"right","velocity_radps":null}])")),
+      "rad/s  left 1.20  right -");
+}
+
 TEST(AView, TellsTheWayThatIsLeftAndHowLongItTakes) {
   EXPECT_EQ(way_left(7.31, 0.5), "7.3 m left, about 15 s");
 }
