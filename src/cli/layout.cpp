@@ -1,5 +1,6 @@
 #include "cli/layout.h"
 
+#include <cmath>
 #include <cstdio>
 
 #include "text/number.h"
@@ -23,6 +24,13 @@ std::string text(const Node& node) {
 std::string quantity(const Node& node, const char* format) {
   const auto value = node.number();
   return value ? text::formed(format, *value) : "-";
+}
+
+std::string distance(const json::Node& node) {
+  constexpr double kFar_m = 10'000;
+  const auto value_m = node.number();
+  if (!value_m || std::abs(*value_m) < kFar_m) return quantity(node, "%.2f m");
+  return text::formed("%.1f km", *value_m / 1e3);
 }
 
 std::string labelled(std::string_view label, const Node& node, const char* format) {

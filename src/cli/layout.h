@@ -15,6 +15,8 @@ const json::Node& at(const json::Node& node, std::string_view key);
 std::string text(const json::Node& node);
 /// One number by a printf format such as "%.2f m"; "-" when it is absent.
 std::string quantity(const json::Node& node, const char* format);
+/// "3.25 m", and from 10 km on "102.4 km".
+std::string distance(const json::Node& node);
 /// "speed 0.50 m/s", or "speed -" when it is absent.
 std::string labelled(std::string_view label, const json::Node& node, const char* format);
 bool yes(const json::Node& node);

@@ -78,13 +78,38 @@ std::string start_request(const Settings& s) {
   return out.take();
 }
 
+/// The reason of a slip in the name is the broker's as well; here a person can look.
+int start_task(const Settings& settings) {
+  const auto answer = read_reply(drover::cli::ask(settings.socket, start_request(settings)));
+  const int code = tell(answer, settings.json);
+  if (!settings.json && answer.reason.starts_with("there is no track of this name"))
+    std::fputs("the tracks that there are: drover traj list\n", stderr);
+  return code;
+}
+
 int status(const Settings& settings) {
   const auto question = request("status");
   if (!settings.watch) return run(settings, question, "status", drover::cli::show_status);
   const bool terminal = ::isatty(STDOUT_FILENO) != 0;
+  bool answered = false;
+  bool waits = false;
   for (;;) {
-    if (terminal && !settings.json) std::fputs("\033[H\033[2J", stdout);
-    if (const int code = run(settings, question, "status", drover::cli::show_status)) return code;
+    try {
+      const auto answer = read_reply(drover::cli::ask(settings.socket, question));
+      answered = true;
+      waits = false;
+      if (terminal && !settings.json) std::fputs("\033[H\033[2J", stdout);
+      const auto* status = answer.document.root.find("status");
+      if (const int code = tell(answer, settings.json, [&](const Node& root) {
+            return drover::cli::show_status(status == nullptr ? root : *status);
+          }))
+        return code;
+    } catch (const drover::cli::NoAnswer& no) {
+      // A restart is what somebody watches for. Whoever asks in vain at once asks the wrong place.
+      if (!answered) throw;
+      if (!waits) drover::cli::tell_failure(settings.json, "waiting", no.text);
+      waits = true;
+    }
     std::fflush(stdout);
     ::usleep(terminal ? 200'000 : 1'000'000);
   }
@@ -189,7 +214,7 @@ int main(int argc, char** argv) {
       ->capture_default_str()
       ->check(CLI::Validator(not_a_plain_number, "", "a number"));
   start->add_flag("--json", s.json, "one JSON object");
-  start->callback([&] { code = run(s, start_request(s)); });
+  start->callback([&] { code = start_task(s); });
   auto* cancel = task->add_subcommand("cancel", "stop");
   cancel->add_flag("--json", s.json, "one JSON object");
   cancel->callback([&] { code = run(s, request("task_cancel")); });

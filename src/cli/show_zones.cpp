@@ -29,7 +29,7 @@ std::string zone_line(const Node& zone) {
   const auto distance_m = at(zone, "distance_m").number();
   out += !distance_m          ? "  the robot does not know where it is"
          : *distance_m == 0.0 ? "  the robot is inside"
-                              : quantity(at(zone, "distance_m"), "  %.2f m from the robot");
+                              : "  " + distance(at(zone, "distance_m")) + " from the robot";
   if (at(zone, "bearing_deg").number())
     out += quantity(at(zone, "bearing_deg"), ", %.0f deg from north");
   return out + "  " + text(at(zone, "source")) + "\n" + sentences(at(zone, "warnings"), "warning");
@@ -46,6 +46,15 @@ std::string show_zones(const Node& answer) {
   for (std::size_t i = 0; i < count(zones); ++i) out += zone_line(entry(zones, i));
   if (count(zones) == 0) out += "no zone\n";
   return out;
+}
+
+std::string bounds_nothing(const Node& answer) {
+  const auto& zones = at(answer, "zones");
+  if (zones.list() == nullptr) return "";
+  for (std::size_t i = 0; i < count(zones); ++i)
+    if (text(at(entry(zones, i), "kind")) != "keep_out") return "";  // also what cannot be read
+  return count(zones) == 0 ? "NO ZONE IS LEFT: nothing bounds the robot now\n"
+                           : "NO KEEP-IN IS LEFT: nothing bounds the robot now but the keep-outs\n";
 }
 
 std::string show_imported(const Node& answer) {

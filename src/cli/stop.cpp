@@ -113,16 +113,32 @@ Answer tell_daemon(const StopPlaces& places, std::string_view cmd) {
   }
 }
 
-/// What droverd does not hear of the drives; empty also when it does not answer.
-std::string unheard(const StopPlaces& places) {
+/// droverd's; nothing when it does not answer.
+std::optional<json::Node> daemon_status(const StopPlaces& places) {
   try {
     const auto question = json::JsonText().open('{').key("cmd").text("status").close('}').take();
     const auto reply = json::parse(ask(places.daemon, question, kDaemonPatience_s));
     const auto* status = reply ? reply->root.find("status") : nullptr;
-    return status == nullptr ? std::string() : unheard_drives(*status);
+    return status == nullptr ? std::nullopt : std::optional(*status);
   } catch (const NoAnswer&) {
-    return {};
+    return std::nullopt;
   }
+}
+
+/// What droverd does not hear of the drives; empty also when it does not answer.
+std::string unheard(const StopPlaces& places) {
+  const auto status = daemon_status(places);
+  return status ? unheard_drives(*status) : std::string();
+}
+
+/// Whether somebody's stop holds the robot; true where droverd does not say.
+bool is_stopped(const StopPlaces& places) {
+  std::string problem;
+  const auto guard = ask_guard(places, "state", problem);
+  if (guard && yes(at(guard->root, "latched"))) return true;
+  const auto status = daemon_status(places);
+  return !status || status->find("stopped_until_told") == nullptr ||
+         yes(at(*status, "stopped_until_told"));
 }
 
 void add(json::JsonText& out, std::string_view key, const Answer& answer) {
@@ -190,11 +206,12 @@ int stop(const StopPlaces& places) {
 int reset(const StopPlaces& places) {
   // The guard first: droverd refuses while somebody else has the bus. It has latched the same stop,
   // so that its own refusal still keeps the robot where it is.
+  const bool was_stopped = is_stopped(places);
   const auto guard = tell_guard(places, "reset");
   if (guard.obeyed) wait_for_bus(places);
   const auto daemon = tell_daemon(places, "reset");
   const bool done = daemon.obeyed && (guard.obeyed || !guard.heard);
-  std::string words = "the stop is over";
+  std::string words = was_stopped ? "the stop is over" : "no stop was latched";
   if (!guard.obeyed) words = (done ? words + "; " : "") + guard.why;
   if (!daemon.obeyed)
     words =

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "cli/client.h"
+#include "cli/exit_codes.h"
 #include "cli/option_texts.h"
 #include "cli/reply.h"
 #include "cli/scene.h"
@@ -68,7 +69,15 @@ void add_zone_commands(CLI::App& app, const std::string& socket, int& code) {
   auto* remove = zone->add_subcommand("delete", "delete a zone: THE FENCE IS GONE");
   remove->add_option("name", command->name, "zone")->required();
   remove->add_flag("--json", command->json, "one JSON object");
-  remove->callback([run, command] { run(named_request("zone_delete", command->name), nullptr); });
+  remove->callback([run, command, &socket, &code] {
+    run(named_request("zone_delete", command->name), nullptr);
+    if (code != kDone || command->json) return;
+    std::cout << std::flush;
+    try {
+      std::cerr << bounds_nothing(read_reply(ask(socket, request("zone_list"))).document.root);
+    } catch (const NoAnswer&) {  // it is deleted all the same
+    }
+  });
   auto* forget = zone->add_subcommand(
       "forget-unreadable", "put a file of zones aside that cannot be read: THERE IS NO FENCE THEN");
   forget->add_flag("--json", command->json, "one JSON object");

@@ -9,6 +9,7 @@
 #include "publish/rtk_navigation/trajectory_data.h"
 #include "store/drivable.h"
 #include "store/point_texts.h"
+#include "text/suggestion.h"
 
 namespace drover::publish {
 namespace {
@@ -273,11 +274,20 @@ void CommandService::remove(RequestId id, DeleteTrajectory request, Actions& out
   out.push_back(store::StorageJob{id, store::DeleteTrack{std::move(request.name)}});
 }
 
+/// A sentence to go on with, or nothing.
+std::string CommandService::near_name(const std::string& name) const {
+  std::vector<std::string> names;
+  names.reserve(tracks_.size());
+  for (const auto& [known, track] : tracks_) names.push_back(known);
+  const auto meant = text::did_you_mean(name, names);
+  return meant.empty() ? "" : " (" + meant + ")";
+}
+
 std::optional<std::string> CommandService::start_problem(const StartTaskRequest& request,
                                                          std::uint32_t& index) const {
   if (being_written(request.name)) return "the track is being stored or deleted, try again";
   const auto found = tracks_.find(request.name);
-  if (found == tracks_.end()) return "there is no track of this name";
+  if (found == tracks_.end()) return "there is no track of this name" + near_name(request.name);
   if (origin_pending()) return "the origin is being set, try again";
   if (!origin_ && !origin_problem_.empty()) return origin_problem_;
   if (!origin_) return "there is no origin yet: it needs a first RTK fixed position";

@@ -108,6 +108,7 @@ class CommandService final {
   void start(RequestId id, const StartTaskRequest& request, Time now, Actions& out);
   void propose_origin(RequestId id, Time now, Actions& out);
   /// Why a path cannot be made for the request; `index` counts from 0.
+  std::string near_name(const std::string& name) const;
   std::optional<std::string> start_problem(const StartTaskRequest& request,
                                            std::uint32_t& index) const;
 

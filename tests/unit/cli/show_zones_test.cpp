@@ -1,6 +1,7 @@
 // Answers about the zones as a person reads them.
 #include "cli/show_zones.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "unit/cli/parsed.h"
@@ -31,6 +32,22 @@ TEST(ZoneList, HasALineForEachZoneAndItsWarnings) {
 
 TEST(ZoneList, SaysThatThereIsNone) {
   EXPECT_EQ(show_zones(parsed(R"({"ok":true,"zones":[],"problem":""})")), "no zone\n");
+}
+
+TEST(TheZones, AreTensOfKilometresAwayAndNotHundredThousandsOfMetres) {
+  EXPECT_THAT(show_zones(parsed(R"({"ok":true,"zones":[{"name":"far","kind":"keep_in",)"
+                                R"("distance_m":102406.69}],"problem":""})")),
+              testing::HasSubstr("  102.4 km from the robot"));
+}
+
+TEST(TheZones, SayWhenTheLastFenceIsGone) {
+  EXPECT_EQ(bounds_nothing(parsed(R"({"ok":true,"zones":[]})")),
+            "NO ZONE IS LEFT: nothing bounds the robot now\n");
+  EXPECT_THAT(bounds_nothing(parsed(R"({"ok":true,"zones":[{"kind":"keep_out"}]})")),
+              testing::HasSubstr("NO KEEP-IN IS LEFT"));
+  EXPECT_EQ(bounds_nothing(parsed(R"({"ok":true,"zones":[{"kind":"keep_in"}]})")), "");
+  EXPECT_EQ(bounds_nothing(parsed(R"({"ok":true,"zones":[{"unreadable":"why"}]})")), "");
+  EXPECT_EQ(bounds_nothing(parsed(R"({"ok":false})")), "");
 }
 
 }  // namespace

@@ -35,6 +35,9 @@ TEST_F(CommandServiceTest, RefusesATrackItDoesNotHave) {
   start("unknown");
   EXPECT_THAT(feedback(), ElementsAre("start_task_failse: there is no track of this name"));
   make({}, {{{"empty", {}, kOrigin}}, kOrigin, {}});
+  start("emty");
+  EXPECT_THAT(feedback(), ElementsAre("start_task_failse: there is no track of this name (did you "
+                                      "mean \"empty\"?)"));
   start("empty", "1");
   EXPECT_THAT(feedback(), ElementsAre("start_task_failse: the track has no points"));
 }
