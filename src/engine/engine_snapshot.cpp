@@ -63,6 +63,25 @@ void Engine::Impl::fill_clearance() {
   s.along_m = on_track ? std::min(found.along_m, snapshot.nav.distance_left_m) : kAbsent;
 }
 
+/// Who goes on sending joint commands after the end of his stream asks for no motion any more: what
+/// stopped him would be told nowhere else.
+void Engine::Impl::tell_sender(Time now, Owner owner) {
+  const JointStream& stream = owners.stream();
+  const bool his = owner == Owner::nobody || owner == Owner::joint_command;
+  if (!his || !stream.refuses(now)) return;
+  const auto tell = [this](const Reason& what) {
+    const auto& why = snapshot.why;
+    if (std::find(why.begin(), why.end(), what) == why.end()) (void)snapshot.why.push_back(what);
+  };
+  // What is in the way still is told with its newest distance.
+  if (!stream.obstacle().empty()) {
+    if (!snapshot.nav.obstacle) tell(stream.obstacle());
+    snapshot.nav.obstacle = true;
+    if (stream.reason() == stream.obstacle()) return;
+  }
+  tell(stream.reason());
+}
+
 void Engine::Impl::fill_snapshot(Time now, const Environment& environment, const LineTable& lines,
                                  const Estimate& located, Owner owner) {
   const HealthReport& report = health.report();
@@ -127,6 +146,7 @@ void Engine::Impl::fill_snapshot(Time now, const Environment& environment, const
   } else if (const Reason why = arming.hindrance(); !why.empty()) {
     (void)snapshot.why.push_back(why);
   }
+  tell_sender(now, owner);
 }
 
 }  // namespace drover::engine

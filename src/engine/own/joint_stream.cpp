@@ -11,6 +11,8 @@ using namespace std::chrono_literals;
 
 // A stream of 200 refused messages a second is one line in the journal.
 constexpr Duration kSameAgain = 1s;
+// So long after a message it is told why that was refused.
+constexpr Duration kToldOn = 1s;
 constexpr Duration kBetweenNews = 200ms;
 constexpr Duration kRestFirst = 300ms;
 
@@ -42,7 +44,7 @@ void JointStream::take(const JointTargets& targets, std::string_view busy, Time 
   JointVelocities wanted;
   for (const JointTarget& joint : targets.joints) {
     if (joint.axis >= kMaxAxes || !std::isfinite(joint.velocity_radps)) {
-      return reject("a joint or a velocity that cannot be");
+      return reject("a joint or a velocity that cannot be", now);
     }
     wanted.resize(std::max(wanted.size(), std::size_t{joint.axis} + 1));
     wanted[joint.axis] = joint.velocity_radps;
@@ -52,7 +54,7 @@ void JointStream::take(const JointTargets& targets, std::string_view busy, Time 
   watch_zeros(neutral, now);
   if (!busy.empty()) {
     if (following_) end(busy);
-    if (!neutral) return reject(busy);
+    if (!neutral) return reject(busy, now);
     last_ = now;
     return;
   }
@@ -60,7 +62,7 @@ void JointStream::take(const JointTargets& targets, std::string_view busy, Time 
     Reason why;
     why.format("a stream of joint commands begins with velocity 0, and nothing else for %.1f s",
                to_s(std::max(kRestFirst, timeout_)));
-    return reject(why);
+    return reject(why, now);
   }
   may_move_ = may_move_ || !neutral;
   if (!following_) since_ = now;
@@ -69,6 +71,8 @@ void JointStream::take(const JointTargets& targets, std::string_view busy, Time 
   velocities_ = wanted;
   ++accepted_;
   reason_.clear();
+  obstacle_.clear();
+  refused_at_ = kNever;
 }
 
 void JointStream::refuse(const Reason& why) {
@@ -76,8 +80,9 @@ void JointStream::refuse(const Reason& why) {
   reason_ = why;
 }
 
-void JointStream::reject(const Reason& why) {
+void JointStream::reject(const Reason& why, Time now) {
   refuse(why);
+  refused_at_ = now;
   news_ = text_of("joint command refused: ", why);
 }
 
@@ -102,12 +107,23 @@ void JointStream::end(std::string_view why) {
   news_ = text_of("joint commands ended: ", why);
 }
 
+void JointStream::meet(const Reason& obstacle) {
+  if (!following_) return;
+  end(obstacle);
+  obstacle_ = obstacle;
+  refused_at_ = last_;
+}
+
 void JointStream::step(Time now) {
   if (following_ && now - last_ > timeout_) end("the stream of joint commands fell silent");
 }
 
 bool JointStream::wants_motion() const {
   return std::any_of(velocities_.begin(), velocities_.end(), [](double v) { return v != 0; });
+}
+
+bool JointStream::refuses(Time now) const {
+  return !following_ && refused_at_ != kNever && now - refused_at_ <= kToldOn;
 }
 
 }  // namespace drover::engine

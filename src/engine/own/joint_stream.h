@@ -21,6 +21,8 @@ class JointStream final {
   void refuse(const Reason& why);
   /// Ends it for a cause that lies elsewhere.
   void end(std::string_view why);
+  /// Ends it for what is in its way.
+  void meet(const Reason& obstacle);
   /// Once a cycle: notices silence.
   void step(Time now);
   /// Tells what was refused or has ended, once for a row of messages of which the same holds.
@@ -28,6 +30,12 @@ class JointStream final {
 
   bool following() const { return following_; }
   bool wants_motion() const;
+  /// What is sent to it was refused, or ended it before an obstacle, until a second ago. Nobody
+  /// asks for motion then, so nothing else would tell the sender why the robot stands.
+  bool refuses(Time now) const;
+  /// What was in the way of the last one, until another begins; empty: it ended otherwise.
+  const Reason& obstacle() const { return obstacle_; }
+  const Reason& reason() const { return reason_; }
   Time last() const { return last_; }
   Time since() const { return since_; }  ///< when it began
   /// rad/s by AxisId; zero for joints that the last message did not name, and none behind the
@@ -36,7 +44,7 @@ class JointStream final {
   JointCommandSnapshot snapshot() const { return {following_, accepted_, refused_, reason_}; }
 
  private:
-  void reject(const Reason& why);
+  void reject(const Reason& why, Time now);
   bool rested(Time now) const;
   void watch_zeros(bool neutral, Time now);
 
@@ -51,7 +59,9 @@ class JointStream final {
   std::uint64_t accepted_ = 0;
   std::uint64_t refused_ = 0;
   Reason reason_;
-  Reason news_;  ///< not announced yet; the newest is told
+  Reason obstacle_;
+  Time refused_at_ = kNever;  ///< kNever also while one is followed
+  Reason news_;               ///< not announced yet; the newest is told
   Reason told_;
   Time told_at_ = kNever;
   Time same_until_ = kNever;  ///< until then the same is no news

@@ -121,7 +121,7 @@ Stop Owners::watch_stream(const OwnInput& input, bool at_once) {
   stream_.step(input.now);
   if (at_once) latch(why_at_once(input), input.health.holds_any(kByPeople));
   if (!busy_.empty()) stream_.end(busy_);
-  if (input.health.near_zone && stream_.wants_motion()) stream_.end(input.health.obstacle());
+  if (input.health.near_zone && stream_.wants_motion()) stream_.meet(input.health.obstacle());
   if (!stream_.following()) {
     stream_drives_.begin();
     return Stop::controlled;

@@ -64,6 +64,7 @@ class Owners final {
   const JointVelocities& joint_velocities_radps() const { return joint_gate_.velocities_radps(); }
   /// What the stream of joint commands asks for now, rad/s by AxisId.
   const JointVelocities& stream_radps() const { return stream_.velocities_radps(); }
+  const JointStream& stream() const { return stream_; }
   JointCommandSnapshot joint_command() const { return stream_.snapshot(); }
   /// Silence after which that owner's motion ends, s; absent when there is no such time.
   double timeout_s(Owner owner) const;

@@ -177,6 +177,42 @@ TEST_F(InFrontOfAWall, FollowsNoJointCommandsIntoIt) {
   EXPECT_GE(gap_m(), 0);
 }
 
+/// Nobody asks for motion any more once the stream has ended; its sender is told all the same.
+TEST_F(InFrontOfAWall, TellsWhatEndedJointCommandsWhileSomebodySendsThem) {
+  wall_m = 1;
+  stream_s(0, 0.6);
+  EXPECT_TRUE(rig.snapshot().why.empty()) << rig.why();
+  stream_s(4, 6);
+  ASSERT_TRUE(announced("joint commands ended: box1"));
+  for (int i = 0; i < 100; ++i) {
+    stream_s(4, 0.02);
+    EXPECT_TRUE(rig.snapshot().nav.obstacle) << i;
+    EXPECT_TRUE(told("box1 is in the way")) << rig.why();
+  }
+  EXPECT_TRUE(told("begins with velocity 0")) << rig.why();
+  EXPECT_LT(rig.snapshot().why.size(), 4U) << rig.why();
+  run_s(0.9);
+  EXPECT_TRUE(rig.snapshot().nav.obstacle);
+  run_s(0.2);
+  EXPECT_FALSE(rig.snapshot().nav.obstacle) << "nobody sends any more";
+  EXPECT_TRUE(rig.snapshot().why.empty()) << rig.why();
+}
+
+TEST_F(InFrontOfAWall, TellsWhatEndedJointCommandsUntilOthersBegin) {
+  wall_m = 1;
+  stream_s(0, 0.6);
+  stream_s(4, 8);
+  ASSERT_TRUE(rig.snapshot().nav.obstacle);
+  stream_s(0, 0.1);
+  EXPECT_FALSE(rig.snapshot().nav.obstacle);
+  EXPECT_TRUE(rig.snapshot().why.empty()) << rig.why();
+  stream_s(0, 0.6);
+  run_s(2);
+  stream_s(4, 0.1);
+  EXPECT_FALSE(rig.snapshot().nav.obstacle) << "this one met nothing";
+  EXPECT_TRUE(told("begins with velocity 0")) << rig.why();
+}
+
 /// It was driven to the wall, and its driver lets go, then reverses.
 TEST_F(InFrontOfAWall, LetsJointCommandsDriveAwayFromIt) {
   wall_m = 1;
