@@ -4,9 +4,12 @@
 #include <algorithm>
 #include <utility>
 
+#include "scene/constraint/kinds.h"
 #include "scene/keeper/keeper_impl.h"
+#include "scene/message/check.h"
 #include "scene/message/split.h"
 #include "scene/world/map_change.h"
+#include "scene/world/words.h"
 #include "scene/zone/zone_areas.h"
 
 namespace drover::scene {
@@ -45,6 +48,36 @@ void note_planes(const Object& object, std::size_t first, std::vector<std::strin
                                 : "neither upright nor level: as heights are not looked at, it "
                                   "blocks everything"));
   }
+}
+
+void note_never(const std::string& list, std::size_t i, std::string_view field, const char* what,
+                const std::string& name, std::vector<std::string>& notes) {
+  check::note(
+      notes, check::member(check::element(list, i), field),
+      std::string("the robot has no ") + what + " " + words::quoted(name) + ": it never holds");
+}
+
+template <class Constraint>
+void note_links(const std::vector<Constraint>& constraints, const std::string& list,
+                const RobotModel& robot, std::vector<std::string>& notes) {
+  for (std::size_t i = 0; i < constraints.size(); ++i) {
+    const std::string& link = constraints[i].link_name;
+    if (!link_on_base(robot, link)) note_never(list, i, "link_name", "link", link, notes);
+  }
+}
+
+/// It is valid, and stops the robot until it is taken away: mostly a name that was mistyped.
+void note_strangers(const Constraints& set, const KeeperSettings& settings,
+                    std::vector<std::string>& notes) {
+  for (std::size_t i = 0; i < set.joint_constraints.size(); ++i) {
+    const JointConstraint& joint = set.joint_constraints[i];
+    const auto& own = settings.joints;
+    if (is_of_base(joint) || std::find(own.begin(), own.end(), joint.joint_name) != own.end())
+      continue;
+    note_never("joint_constraints", i, "joint_name", "joint", joint.joint_name, notes);
+  }
+  note_links(set.position_constraints, "position_constraints", settings.robot, notes);
+  note_links(set.orientation_constraints, "orientation_constraints", settings.robot, notes);
 }
 
 }  // namespace
@@ -167,6 +200,7 @@ Result<Applied, Refusal> Keeper::apply(const CollisionObject& message, const Arr
 Result<Applied, Refusal> Keeper::apply(const Constraints& message, const Arrived& /*arrived*/) {
   auto applied = impl_->world.apply(message, impl_->settings.robot);
   if (!applied) return applied;
+  note_strangers(message, impl_->settings, applied.value().notes);
   impl_->changed_sets.insert(message.name);
   impl_->change();
   return applied;

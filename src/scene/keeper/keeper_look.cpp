@@ -65,6 +65,28 @@ bool is_ahead(const WayLine& line, double yaw_rad, double pivot_rad, bool turns)
   return !(std::abs(off_rad) >= (turns ? kFaces_rad : pivot_rad));
 }
 
+/// The first bytes of it, whole characters.
+std::string_view beginning(std::string_view text, std::size_t bytes) {
+  if (bytes >= text.size()) return text;
+  while (bytes > 0 && (static_cast<unsigned char>(text[bytes]) & 0xC0U) == 0x80U) --bytes;
+  return text.substr(0, bytes);
+}
+
+/// What is measured and what is allowed stand at its end: where not all has room the name is cut.
+Reason in_words_of(const Verdict& broken, std::size_t room) {
+  constexpr std::size_t kLeastShown = 24;
+  constexpr std::size_t kMostShown = 72;
+  const std::string_view between =
+      broken.can_be_judged() ? " does not hold: " : " cannot be judged: ";
+  std::string words = "constraint ";
+  const std::size_t others = words.size() + between.size() + broken.why.size();
+  const std::size_t left = room > others ? room - others : 0;
+  words += beginning(broken.which, std::clamp(left, kLeastShown, kMostShown));
+  words += between;
+  words += broken.why;
+  return Reason(beginning(words, room));
+}
+
 }  // namespace
 
 sensor::NearSettings Keeper::Impl::near_settings(const KeeperSettings& settings) {
@@ -117,8 +139,8 @@ std::optional<Verdict> Keeper::Impl::broken() const {
 }
 
 Reason with_way_out(const Verdict& broken) {
-  constexpr std::string_view kWayOut = "; take it away (drover scene clear) or push it";
-  const FixedText<Reason::capacity() - kWayOut.size()> what(in_words(broken).view());
+  constexpr std::string_view kWayOut = "; take it away or push it";
+  const Reason what = in_words_of(broken, Reason::capacity() - kWayOut.size());
   // Who is pushed comes back to where it holds, but learns nothing that is missing.
   const std::size_t told = broken.can_be_judged() ? kWayOut.size() : kWayOut.find(" or push it");
   Reason words;
@@ -128,12 +150,7 @@ Reason with_way_out(const Verdict& broken) {
 }
 
 Reason in_words(const Verdict& broken) {
-  constexpr std::size_t kShownWhich = 72;
-  const FixedText<kShownWhich> which(broken.which);
-  Reason words;
-  words.format("constraint %.*s %s: %s", static_cast<int>(which.view().size()), which.view().data(),
-               broken.can_be_judged() ? "does not hold" : "cannot be judged", broken.why.c_str());
-  return words;
+  return in_words_of(broken, Reason::capacity());
 }
 
 void Keeper::Impl::move_map(const Viewpoint& from) {

@@ -4,10 +4,12 @@
 
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <sstream>
 
 #include "publish/scene/messages.h"
 #include "scene/constraint/evaluate.h"
+#include "scene/keeper/keeper.h"
 
 namespace drover::publish {
 namespace {
@@ -119,6 +121,38 @@ TEST(SceneExamples, TheConstraintsHoldWhereTheReadmeSaysSo) {
   EXPECT_TRUE(visibility.holds_at({0, 0, 0.3}));
   EXPECT_FALSE(visibility.holds_at({0, 0, 0.8}));
   EXPECT_FALSE(visibility.holds_at({20, 0, 0}));
+}
+
+/// A robot far from where they hold is told what is measured, what is allowed, and what to do.
+TEST(SceneExamples, SayWhatIsAllowedWhereTheyDoNotHold) {
+  const std::map<std::string, std::string> allowed = {
+      {"constraint_joint", "allowed -0.4"},
+      {"constraint_orientation", "allowed"},
+      {"constraint_position", "outside of its region"},
+      {"constraint_visibility", "allowed 45.8"},
+  };
+  for (const auto& entry : std::filesystem::directory_iterator(example("").parent_path())) {
+    const std::string name = entry.path().stem();
+    if (!name.starts_with("constraint")) continue;
+    const auto read = parse_planning_constraints(text_of(entry.path()), Retain::no);
+    scene::Constraints set = read->messages.at(0).result->message;
+    set.name.append(200 - set.name.size(), '_');
+    scene::Keeper keeper({});
+    keeper.set_zones({}, "");
+    keeper.set_scene_problem("");
+    Viewpoint from;
+    from.t = Time{from_s(100)};
+    from.pose = {.x_m = 500, .y_m = 500, .yaw_rad = 2};
+    from.pose.position_sigma_m = from.pose.yaw_sigma_rad = 0;
+    from.roll_rad = from.pitch_rad = 0.4;
+    from.origin_set = true;
+    from.origin = {48, 11, 500};
+    keeper.see(from);
+    ASSERT_TRUE(keeper.apply(set, {from.t, Duration{0}})) << name;
+    const std::string broken(keeper.look(nullptr).broken.view());
+    EXPECT_THAT(broken, testing::HasSubstr(allowed.at(name))) << name;
+    EXPECT_THAT(broken, testing::EndsWith("; take it away or push it")) << name;
+  }
 }
 
 }  // namespace

@@ -134,8 +134,46 @@ TEST_F(AKeeper, NamesTheConstraintThatDoesNotHold) {
   from.pose.x_m = 2.5;
   EXPECT_EQ(text(look().broken),
             "constraint yard.position_constraints[0] (base_link) does not hold: 0.500 m outside of "
-            "its region; take it away (drover scene clear) or push it");
+            "its region; take it away or push it");
   EXPECT_EQ(text(look().unknown), "");
+}
+
+/// A long name is cut, and neither what is measured nor what is allowed.
+TEST_F(AKeeper, SaysWhatIsAllowedOfAConstraintWithALongName) {
+  Constraints set;
+  set.name = std::string(199, 'n') + "o";
+  VisibilityConstraint view;
+  view.target_pose.header.frame_id = view.sensor_pose.header.frame_id = "map";
+  view.max_view_angle = 0.8;
+  view.sensor_view_direction = VisibilityConstraint::SENSOR_Y;
+  set.visibility_constraints = {view};
+  ASSERT_EQ(apply(set), "done");
+  EXPECT_THAT(text(look().broken), HasSubstr("90.0 deg between the view and the target's back, "
+                                             "allowed 45.8; take it away or push it"));
+  EXPECT_THAT(text(look().broken), HasSubstr("constraint nnnnnnnnnnnnnnnnnnnnnnnn"));
+}
+
+/// Valid, and the robot stands: mostly a name that was mistyped.
+TEST_F(AKeeper, NotesAConstraintOfWhatTheRobotDoesNotHave) {
+  Constraints set = fence(2);
+  set.joint_constraints = {
+      {"base/y", 0, 1, 1, 0}, {"nojoint", 0, 1, 1, 0}, {"arm", 0, 1, 1, 0}, {"Arm", 0, 1, 1, 0}};
+  OrientationConstraint level;
+  level.header.frame_id = "map";
+  level.link_name = "mast";
+  set.orientation_constraints = {level};
+  EXPECT_EQ(
+      apply(set),
+      "done; joint_constraints[1].joint_name: the robot has no joint \"nojoint\": it never "
+      "holds; joint_constraints[3].joint_name: the robot has no joint \"Arm\": it never holds; "
+      "orientation_constraints[0].link_name: the robot has no link \"mast\": it never holds");
+  set.position_constraints[0].link_name = "bucket";
+  set.joint_constraints.clear();
+  set.orientation_constraints.clear();
+  EXPECT_EQ(apply(set),
+            "done; position_constraints[0].link_name: the robot has no link \"bucket\": it never "
+            "holds");
+  EXPECT_EQ(apply(fence(2)), "done");
 }
 
 TEST_F(AKeeper, EndsAWayBeforeTheEdgeOfAConstraint) {
@@ -245,8 +283,7 @@ TEST_F(AKeeper, SaysTheWayOutHoweverLongTheNamesAre) {
   set.name = std::string(200, 'y');
   ASSERT_EQ(apply(set), "done");
   from.pose.x_m = 2.5;
-  EXPECT_THAT(text(look().broken),
-              testing::EndsWith("; take it away (drover scene clear) or push it"));
+  EXPECT_THAT(text(look().broken), testing::EndsWith("; take it away or push it"));
 }
 
 TEST_F(AKeeper, TakesTwiceThePositionsSigmaForAConstraintsMargin) {
