@@ -2,6 +2,7 @@
 #include "publish/scene/messages.h"
 
 #include <array>
+#include <cmath>
 #include <utility>
 
 #include "publish/scene/reader.h"
@@ -27,11 +28,13 @@ std::string shown_name(const Node& message, std::string_view field) {
   return json::shown(*node->text(), scene::kMaxNameBytes);
 }
 
+/// As read_integer takes it.
 std::uint32_t shown_seq(const Node& message) {
   const Node* header = message.find("header");
   const Node* seq = header == nullptr ? nullptr : header->find("seq");
-  const auto number = seq == nullptr ? std::nullopt : seq->integer();
-  const bool fits = number && *number >= 0 && *number <= 0xFFFF'FFFF;
+  const auto number = seq == nullptr ? std::nullopt : seq->number();
+  const bool fits =
+      number && *number >= 0 && *number <= 0xFFFF'FFFF && std::trunc(*number) == *number;
   return fits ? static_cast<std::uint32_t>(*number) : 0;
 }
 

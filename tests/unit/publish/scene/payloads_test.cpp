@@ -40,6 +40,23 @@ TEST(ScenePayloads, NameWhatIsRefused) {
   EXPECT_EQ(odd->messages.at(0).operation, "");
 }
 
+/// Programs that know no integers send 2.0.
+TEST(ScenePayloads, EchoTheSeqHoweverItIsWritten) {
+  const auto seq = [](const std::string& written) {
+    const auto read = parse_collision_objects(
+        R"({"header": {"seq": )" + written + R"(, "frame_id": "map"}, "id": "a", "operation": 1})",
+        Retain::no);
+    return read->messages.at(0).seq;
+  };
+  EXPECT_EQ(seq("2"), 2U);
+  EXPECT_EQ(seq("2.0"), 2U);
+  EXPECT_EQ(seq("2e0"), 2U);
+  EXPECT_EQ(seq("4294967295.0"), 4294967295U);
+  EXPECT_EQ(seq("2.5"), 0U);
+  EXPECT_EQ(seq("4294967296"), 0U);
+  EXPECT_EQ(seq("-1"), 0U);
+}
+
 TEST(ScenePayloads, AreNoneInAnEmptyPayloadOrList) {
   EXPECT_EQ(object(""), "nothing");
   EXPECT_EQ(object("[]"), "nothing");
