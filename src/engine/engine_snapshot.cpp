@@ -138,7 +138,7 @@ void Engine::Impl::fill_snapshot(Time now, const Environment& environment, const
   for (const Reason& reason : report.why) {
     if (!snapshot.why.push_back(reason)) break;
   }
-  if (const Reason waits = navigator.waits_for(); !waits.empty())
+  if (const Reason waits = navigator.waits_for(report); !waits.empty())
     (void)snapshot.why.push_back(waits);
   if (latch.power_cut()) (void)snapshot.why.push_back("the drives have no power: drover reset");
   if (arming.state() == HoldState::lost) {

@@ -125,8 +125,12 @@ void Navigator::end(Time now, TaskEnded::How how, const Reason& reason, EventQue
   }
 }
 
-Reason Navigator::waits_for() const {
+Reason Navigator::waits_for(const HealthReport& health) const {
   Reason text;
+  if (phase_ == Phase::paused && waits() && health.why.empty()) {
+    text.format("goes on when nothing has held it up for %.1f s", config_.navigate.resume_after_s);
+    return text;
+  }
   if (status_ != NavStatus::error || !latch_.stop().empty() || !latch_.task().empty()) return text;
   text.format("waits for a new start; the task ended: %.*s", static_cast<int>(ended_.view().size()),
               ended_.view().data());

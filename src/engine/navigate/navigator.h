@@ -58,8 +58,9 @@ class Navigator final {
   std::uint64_t path_number() const { return path_ == nullptr ? 0 : path_->number; }
   WayLeft way() const;
   bool starting() const { return phase_ == Phase::starting; }
-  /// After an error that nothing holds any more: what a person has to do; empty when nothing.
-  Reason waits_for() const;
+  /// After an error that nothing holds any more: what a person has to do. In a pause whose cause is
+  /// gone: that it goes on soon. Empty otherwise.
+  Reason waits_for(const HealthReport& health) const;
   NavSnapshot snapshot(const HealthReport& health) const;
 
  private:

@@ -36,7 +36,10 @@ void tell_first(Snapshot& snapshot, std::string_view reason) {
 }
 
 void tell_last(Snapshot& snapshot, std::string_view reason) {
-  (void)snapshot.why.push_back(drover::Reason(reason));
+  const drover::Reason words(reason);
+  for (const drover::Reason& told : snapshot.why)
+    if (told == words) return;
+  (void)snapshot.why.push_back(words);
 }
 
 Snapshot as_seen(const Snapshot& snapshot, Time now, Duration limit) {

@@ -159,6 +159,21 @@ TEST_F(InFrontOfAWall, StopsWhenNobodyLooksAnyMore) {
   EXPECT_EQ(rig.snapshot().nav.status, NavStatus::success) << rig.why();
 }
 
+TEST_F(InFrontOfAWall, SaysThatItGoesOnSoonWhenItIsSeenAgain) {
+  start();
+  run_s(5);
+  answers = false;
+  run_s(2);
+  EXPECT_FALSE(told("goes on when")) << rig.why();
+  answers = true;
+  run_s(0.3);
+  ASSERT_TRUE(rig.snapshot().nav.obstacle);
+  EXPECT_TRUE(told("goes on when nothing has held it up for")) << rig.why();
+  run_s(3);
+  EXPECT_FALSE(rig.snapshot().nav.obstacle);
+  EXPECT_TRUE(rig.snapshot().why.empty()) << rig.why();
+}
+
 TEST_F(InFrontOfAWall, StartsNothingWhileNobodyLooks) {
   answers = false;
   run_s(0.5);

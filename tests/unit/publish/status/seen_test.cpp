@@ -112,9 +112,10 @@ TEST(AReasonToldLast, StandsBehindTheOthersAndDrivesNoneOut) {
   Snapshot snapshot;
   (void)snapshot.why.push_back("first");
   tell_last(snapshot, "last");
+  tell_last(snapshot, "last");  // told already
   ASSERT_EQ(snapshot.why.size(), 2U);
   EXPECT_EQ(snapshot.why[1], "last");
-  for (int i = 0; i < 20; ++i) tell_last(snapshot, "more");
+  for (int i = 0; i < 20; ++i) tell_last(snapshot, "more " + std::to_string(i));
   EXPECT_EQ(snapshot.why[0], "first");
 }
 
