@@ -40,10 +40,12 @@ void add_import(CLI::App& zone, const std::string& socket, int& code,
   auto* keep_in = verb->add_flag("--keep-in", order.keep_in, "the whole robot stays inside");
   verb->add_flag("--keep-out", command->keep_out, "nothing of the robot comes into it")
       ->excludes(keep_in);
-  verb->add_option("--name", order.name, "instead of the name in the file");
+  auto* name = verb->add_option("--name", order.name, "instead of the name in the file");
   verb->add_flag("--yes", order.yes, "do not ask: somebody has looked where it is");
   verb->add_flag("--json", order.json, "one JSON object; with --yes");
-  verb->callback([&socket, &code, command] {
+  verb->callback([&socket, &code, command, name] {
+    if (name->count() > 0 && command->order.name.empty())
+      throw WrongUsage("--name is empty: leave it out for the name in the file");
     if (!command->order.keep_in && !command->keep_out)
       throw WrongUsage("say --keep-in when it stays inside, --keep-out when it stays outside");
     const ImportTalk talk{

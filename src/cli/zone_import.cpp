@@ -1,6 +1,5 @@
 #include "cli/zone_import.h"
 
-#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -60,11 +59,13 @@ std::string import_request(const ImportOrder& order, const scene::ZoneOrder& zon
   return out.take();
 }
 
-bool is_there(const Reply& zones, const std::string& name) {
+/// Null: there is none of that name.
+const json::Node* zone_of(const Reply& zones, const std::string& name) {
   const auto* list = at(zones.document.root, "zones").list();
-  return list != nullptr && std::any_of(list->begin(), list->end(), [&](const auto& zone) {
-           return text(at(zone, "name")) == name;
-         });
+  if (list == nullptr) return nullptr;
+  for (const json::Node& zone : *list)
+    if (text(at(zone, "name")) == name) return &zone;
+  return nullptr;
 }
 
 }  // namespace
@@ -86,7 +87,7 @@ int import_zone_file(const ImportOrder& order, const ImportTalk& talk, std::ostr
     const auto status = read_reply(talk.ask(request("status")));
     const auto from = whereabouts_of(at(status.document.root, "status"));
     if (!order.json)
-      out << preview_text(*zone, from, is_there(zones, zone->zone.name)) << std::flush;
+      out << preview_text(*zone, from, zone_of(zones, zone->zone.name)) << std::flush;
     const auto said = order.json ? std::nullopt : talk.ask_person("import it? yes or no: ");
     if (!said)
       return refuse(order,

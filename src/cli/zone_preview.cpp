@@ -3,6 +3,7 @@
 #include <GeographicLib/LocalCartesian.hpp>
 
 #include "cli/layout.h"
+#include "cli/reply.h"
 #include "drover/angle.h"
 #include "scene/zone/summary.h"
 #include "text/number.h"
@@ -28,6 +29,19 @@ std::string robot_text(const scene::ZoneSummary& summary) {
                 to_deg(summary.from_robot->bearing_rad));
 }
 
+/// One that cannot be read has neither kind nor area.
+std::string old_text(const json::Node& old) {
+  const auto area_m2 = at(old, "area_m2").number();
+  if (!area_m2) return "the zone that has this name now";
+  return std::string("the ") + (text(at(old, "kind")) == "keep_in" ? "keep-in" : "keep-out") +
+         formed(" of this name (%.0f m2)", *area_m2);
+}
+
+bool is_other_kind(const json::Node& old, bool keeps_in) {
+  const std::string was = text(at(old, "kind"));
+  return !was.empty() && (was == "keep_in") != keeps_in;
+}
+
 }  // namespace
 
 Whereabouts whereabouts_of(const json::Node& status) {
@@ -50,7 +64,8 @@ Whereabouts whereabouts_of(const json::Node& status) {
   return found;
 }
 
-std::string preview_text(const scene::NewZone& zone, const Whereabouts& from, bool replaces) {
+std::string preview_text(const scene::NewZone& zone, const Whereabouts& from,
+                         const json::Node* old) {
   const auto summary = scene::summarise(zone.zone, from.robot);
   const bool keeps_in = zone.zone.kind == scene::Zone::Kind::keep_in;
   std::string out;
@@ -59,11 +74,19 @@ std::string preview_text(const scene::NewZone& zone, const Whereabouts& from, bo
        keeps_in ? "keep-in: the whole robot stays inside"
                 : "keep-out: nothing of the robot comes into it");
   line(out, "shape", shape_text(summary));
-  line(out, "area", formed("%.1f m2", summary.area_m2));
+  line(
+      out, "area",
+      formed("%.1f m2", summary.area_m2) +
+          (summary.polygons > 1 ? ", the sum of " + counted(summary.polygons, "polygon", "polygons")
+                                : ""));
   line(out, "perimeter", formed("%.1f m", summary.perimeter_m));
   line(out, "robot", robot_text(summary));
-  if (replaces) line(out, "replaces", "the zone that has this name now");
+  if (old != nullptr) line(out, "replaces", old_text(*old));
   for (const auto& note : zone.notes) line(out, "note", note);
+  if (old != nullptr && is_other_kind(*old, keeps_in))
+    line(out, "warning",
+         keeps_in ? "what was a keep-out of this name becomes a keep-in"
+                  : "what was a keep-in of this name becomes a keep-out: THE FENCE IS GONE");
   for (const auto& warning : summary.warnings) line(out, "warning", warning);
   return out;
 }

@@ -17,7 +17,9 @@ struct Whereabouts {
 };
 Whereabouts whereabouts_of(const json::Node& status);
 
-/// Kind, size, distance to the robot, what was passed over in the file, and what is odd.
-std::string preview_text(const scene::NewZone& zone, const Whereabouts& from, bool replaces);
+/// Kind, size, distance to the robot, what was passed over in the file, and what is odd. `old`: of
+/// zone_list, the zone that it takes the place of; null: none.
+std::string preview_text(const scene::NewZone& zone, const Whereabouts& from,
+                         const json::Node* old);
 
 }  // namespace drover::cli

@@ -76,6 +76,8 @@ expect "not a hexadecimal one" 2 err '"0x1p-1" is no number' task start x --id 1
 yard=$(dirname "$0")/../../../config/zones/keep_in_yard_with_pond.geojson
 expect "a zone is kept in or out of" 2 err "say --keep-in when" zone import "$yard"
 expect "not both" 2 err "--keep-in" zone import "$yard" --keep-in --keep-out
+expect "a name that is empty is none" 2 err "--name is empty" \
+  zone import "$yard" --keep-in --name ""
 expect "without droverd nothing of a zone is stored" 3 err "no-daemon.sock" \
   zone import "$yard" --keep-in --yes
 expect "a file that is no zone is told with its line" 1 err "line 1, column " \

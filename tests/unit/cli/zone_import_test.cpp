@@ -117,6 +117,33 @@ TEST_F(ZoneImport, SaysWhenItReplacesAZone) {
   EXPECT_THAT(out.str(), HasSubstr("replaces  the zone that has this name now\n"));
 }
 
+TEST_F(ZoneImport, SaysWhatItReplacesAndWhenTheKindChanges) {
+  zones = R"({"ok":true,"zones":[{"name":"pond","kind":"keep_in","area_m2":9},)"
+          R"({"name":"yard","kind":"keep_out","area_m2":400.2}],"problem":""})";
+  EXPECT_EQ(run({.file = kYard, .keep_in = true}), kDone);
+  EXPECT_THAT(out.str(), HasSubstr("replaces  the keep-out of this name (400 m2)\n"));
+  EXPECT_THAT(out.str(), HasSubstr("warning   what was a keep-out of this name becomes a keep-in"));
+  out.str("");
+  EXPECT_EQ(run({.file = kYard, .keep_in = false}), kDone);
+  EXPECT_THAT(out.str(), HasSubstr("replaces  the keep-out of this name (400 m2)\n"));
+  EXPECT_THAT(out.str(), Not(HasSubstr("becomes")));
+  out.str("");
+  EXPECT_EQ(run({.file = kYard, .name = "pond", .keep_in = false}), kDone);
+  EXPECT_THAT(out.str(), HasSubstr("becomes a keep-out: THE FENCE IS GONE\n"));
+}
+
+TEST_F(ZoneImport, SaysThatTheAreaOfSeveralPolygonsIsTheirSum) {
+  EXPECT_EQ(run({.file = kYard, .keep_in = true}), kDone);
+  EXPECT_THAT(out.str(), HasSubstr("area      4231.2 m2\n"));
+  const std::string file = testing::TempDir() + "/two_yards.geojson";
+  std::ofstream(file) << R"({"type":"MultiPolygon","coordinates":[)"
+                         R"([[[113,23],[113.001,23],[113.001,23.001],[113,23.001],[113,23]]],)"
+                         R"([[[113,23],[113.001,23],[113.001,23.001],[113,23.001],[113,23]]]]})";
+  out.str("");
+  EXPECT_EQ(run({.file = file, .name = "two", .keep_in = true}), kDone) << err.str();
+  EXPECT_THAT(out.str(), HasSubstr(" m2, the sum of 2 polygons\n"));
+}
+
 TEST_F(ZoneImport, SaysThatTheRobotDoesNotKnowWhereItIs) {
   for (const auto* unknown :
        {R"({"ok":true,"status":{"pose":{"x_m":0,"y_m":0},"origin":{"latitude_deg":23,)"
