@@ -96,7 +96,7 @@ TEST_F(AKeeperWithoutAHeading, IsToldWhatIsMissingAndNotToPushIt) {
   ASSERT_EQ(apply(set), "done");
   EXPECT_EQ(text(look().broken),
             "constraint north.joint_constraints[0] (base/theta) cannot be judged: the robot's "
-            "heading is not known; take it away (drover scene clear)");
+            "heading is not known; take it away");
 }
 
 }  // namespace
