@@ -98,11 +98,25 @@ void tell_ways_in(const drover::sim::Workplace& place) {
   std::ifstream outside(place.log_folder() + "/host-port");
   const bool lab = static_cast<bool>(outside >> port);
   std::printf("  mosquitto_sub -h 127.0.0.1 -p %d -t base_status\n", port);
-  if (lab) std::printf("  sim/lab enter        a shell beside the programs\n");
+  if (lab) {
+    std::printf("  sim/lab enter        a shell beside the programs\n");
+  } else {
+    const auto sim_folder = std::filesystem::path(place.sim_socket()).parent_path().string();
+    std::printf("  DROVER_SOCKET=%s %s status\n", place.daemon_socket().c_str(),
+                place.program("drover").command[0].c_str());
+    std::printf("  %s ctl --run-dir %s truth\n", place.program("drover-sim").command[0].c_str(),
+                sim_folder.c_str());
+  }
   std::fflush(stdout);
 }
 
 int play(const Options& options) {
+  // Else the first that is told is some interface or folder that is missing.
+  if (!options.place.native && std::getenv("DROVER_LAB") == nullptr)
+    std::fprintf(
+        stderr,
+        "drover-scenario: this is not the lab: CAN interfaces, gpio-sim and /run/drover-sim "
+        "have to be there. sim/lab -- drover-scenario ... has them, --native needs none\n");
   const drover::sim::Workplace place(options.place);
   const auto mission = drover::sim::read_mission(place.document());
   const char* const plain = std::getenv("NO_COLOR");
