@@ -283,11 +283,12 @@ void visit(V& v, DroverConfig& c, GroupNames& groups) {
   v.object("aimrt", c.aimrt, "AimRT channel");
   v.object("scene", c.scene, "what is around the robot: left out, nothing of it is looked at");
   v.names(
-      "accept", c.accept, Count{0, 6},
+      "accept", c.accept, Count{0, 7},
       "no_estop: there is no e-stop line; slow_guard: guard.limit_ms is above 200; no_tilt: "
       "nothing tells how steep the ground is; no_soc: no battery tells its charge; no_relay: "
       "nothing takes the power from drives that do not stop; short_look: the scene, or a lidar's "
-      "field, is not looked at as far as the fastest speed needs; that is known");
+      "field, is not looked at as far as the fastest speed needs; slow_chassis: the chassis' own "
+      "speed is below limits.max_speed_mps; that is known");
 }
 
 }  // namespace drover::config

@@ -62,6 +62,10 @@ TEST(ConfigurationChecks, WarnOfAChassisThatIsSlowerThanItsLimitUnlessThatIsAcce
   EXPECT_EQ(warnings(chassis("1.5", R"(, "slow_chassis")")), "")
       << "a metre ahead is far enough for what it drives";
   EXPECT_EQ(warnings(chassis("0.5", "")), "");
+  EXPECT_EQ(problems(chassis("1.5", R"(, "slow_chassis", "no_estop", "slow_guard", "no_tilt",
+                                       "no_soc", "short_look")")),
+            "")
+      << "all at once";
 }
 
 TEST(ConfigurationChecks, WarnOfGroundWhoseSlopeNobodyTellsUnlessThatIsAccepted) {

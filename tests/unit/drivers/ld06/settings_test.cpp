@@ -21,11 +21,11 @@ std::string refusal_of(const Options& options) {
 }
 
 Options with(std::string_view name, OptionValue value) {
-  return ld06_options().set(name, std::move(value));
+  return test::ld06_options().set(name, std::move(value));
 }
 
 TEST(Ld06Settings, AreReadFromTheirDefaults) {
-  const Settings settings = read_settings(ld06_options());
+  const Settings settings = read_settings(test::ld06_options());
   EXPECT_EQ(settings.sectors, 24U);
   EXPECT_TRUE(settings.self_filter.empty());
   EXPECT_DOUBLE_EQ(settings.range_max_m, 12);
