@@ -211,7 +211,7 @@ lets_a_visitor_in() {
   "$lab" --real-time --shell-socket --timeout 30 -- sleep 25 > /dev/null 2> "$work/visit.err" &
   local running=$!
   sleep 2
-  "$lab" list | grep -q "^$running  real time.*second console: sleep 25" || return 1
+  grep -q "^$running  real time.*second console: sleep 25" <<< "$("$lab" list)" || return 1
   printf 'echo in""side $((6*7)); cat /proc/1/comm; exit\r' > "$work/keys"
   # The keys come after the prompt, as a person's would.
   { sleep 3; cat "$work/keys"; sleep 3; } |

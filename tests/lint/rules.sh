@@ -229,7 +229,7 @@ rule_driver_folders() {
   files | grep -oE '^drivers/[^/]+/' | sort -u | while read -r folder; do
     [[ -s ${folder}README.md ]] || echo "${folder}README.md:1: missing: source document and frames"
     # A driver without a codec has levels, not bytes.
-    [[ ! -e ${folder}codec.h ]] || files | grep -q "^${folder}golden/" ||
+    [[ ! -e ${folder}codec.h ]] || grep -q "^${folder}golden/" <<< "$(files)" ||
       echo "${folder}golden:1: missing: captured or documented bytes"
     [[ $shared != *" $(basename "$folder") "* ]] || continue
     grep -q "$(basename "$folder")" drivers/registry.cpp 2> /dev/null ||

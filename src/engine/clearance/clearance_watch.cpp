@@ -12,6 +12,7 @@ constexpr double kSlowest_radps = 0.05;
 constexpr double kAgain_rad = 0.05;
 constexpr double kDriveLag_s = 0.1;  // what of the reaction is still to come when a ramp begins now
 constexpr double kNear = 0.4;        // m or rad: who stands so near to something stays there
+constexpr double kSways_s = 1.0;     // who was stopped at once sways back, by a few centimetres
 
 double curvature_radpm(const Twist& twist) {
   return drives(twist) ? twist.wz_radps / twist.vx_mps : 0.0;
@@ -117,9 +118,12 @@ void ClearanceWatch::judge(Gate& gate, const Stretch& way, const StopChain& full
   const StopChain from_now{kDriveLag_s, full.deceleration};
   const double truly_left = std::max(way.left, way.bare);
   too_near_ = too_near_ || (way.moves > 0 && stop_way(way.moves, from_now) > truly_left);
-  if (gate.closed) gate.least = std::min(gate.least, way.left);
+  if (way.moves > 0) gate.moved = now;
+  const bool sways = gate.moved != kNever && now - gate.moved < from_s(kSways_s);
+  gate.least = gate.closed && !sways ? std::min(gate.least, way.left) : way.left;
   if (too_near || permitted_speed(way.left, way.brakes) < way.slowest) {
-    gate = {true, kNever, gate.closed ? gate.least : way.left};
+    gate.closed = true;
+    gate.free_since = kNever;
     return;
   }
   const double stood = gate.closed ? std::max(gate.least, 0.0) : 0.0;

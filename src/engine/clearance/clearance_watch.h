@@ -73,7 +73,8 @@ class ClearanceWatch final {
   struct Gate {
     bool closed = false;
     Time free_since = kNever;
-    double least = 0;  ///< that was left since it closed
+    double least = 0;     ///< that was left since it closed
+    Time moved = kNever;  ///< into it, last
   };
   /// m and m/s, or rad and rad/s of a turn on the spot.
   struct Stretch {

@@ -112,7 +112,7 @@ TEST(AScanner, NeedsASceneThatLooksAtWhatItSees) {
 
 TEST(AScanner, LeavesLessOfTheMarginToCurvesThatChange) {
   const auto beside_m = [](const std::string& margin_m) {
-    const auto text = scanner("", "", R"(, "margin_m": )" + margin_m);
+    const auto text = scanner(mounted(), "", R"(, "margin_m": )" + margin_m);
     EXPECT_EQ(problems(text), "");
     return load_text(text).config.engine.clearance.beside_m;
   };

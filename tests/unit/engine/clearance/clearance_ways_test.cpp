@@ -200,6 +200,21 @@ TEST_F(AClearance, IsBlockedByWhatAppearsTooNearForItsSpeed) {
 }
 
 /// What is ahead does not hinder a turn: that is told by what does.
+TEST_F(AClearance, GainsNoWayBySwayingBackAfterAStop) {
+  input.asked = input.commanded = {0.7, 0};
+  tick(20);
+  found.ahead_m = found.bare.ahead_m = 0.11;
+  tick(20);
+  ASSERT_TRUE(blocked());
+  input.commanded = {};
+  found.ahead_m = found.bare.ahead_m = 0.17;  // 6 cm more than in the moment of the stop
+  tick(600);
+  EXPECT_TRUE(blocked());
+  found.ahead_m = found.bare.ahead_m = 0.23;  // than where it stands
+  tick(300);
+  EXPECT_FALSE(blocked());
+}
+
 TEST_F(AClearance, NamesWhatHindersTheTurnThatIsAskedFor) {
   found.first = "box1 is in the way, 0.30 m ahead";
   found.turn = "box2 is in the way of the turn to the left, after 0 deg";
