@@ -66,7 +66,7 @@ TEST(SceneSettings, KeepMoreBesideACurveThanIsLeftOfItBetweenTwoLooks) {
   for (const char* margin_m : {"0", "0.01", "0.02", "0.03", "0.05", "0.1", "0.2", "0.5", "2"}) {
     std::string changed = text;
     changed.insert(at, std::string("\"margin_m\": ") + margin_m + ", ");
-    const auto loaded = config::load_text(changed);
+    const auto loaded = config::load_text(changed, DROVER_SOURCE_DIR "/sim/robots");
     ASSERT_TRUE(loaded.problems.empty()) << loaded.problems.front().text("field_lidar");
     const auto look = keeper_settings(loaded.config).look;
     const double left_m = loaded.config.engine.clearance.beside_m;
