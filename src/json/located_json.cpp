@@ -5,6 +5,7 @@
 #include <unordered_set>
 
 #include "json/slips.h"
+#include "text/utf8.h"
 
 namespace drover::json {
 namespace {
@@ -260,14 +261,12 @@ std::string JsonError::text() const {
 }
 
 std::string shown(std::string_view text, std::size_t max_bytes) {
-  std::size_t size = std::min(text.size(), max_bytes);
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-  while (size > 0 && size < text.size() && (byte(size) & 0xC0U) == 0x80U) --size;
-  std::string out(text.substr(0, size));
+  std::string out(text::beginning(text, max_bytes));
+  const bool whole = out.size() == text.size();
   for (char& c : out) {
     if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = '?';
   }
-  return size < text.size() ? out + "..." : out;
+  return whole ? out : out + "...";
 }
 
 Result<Document, JsonError> parse(std::string_view text, const Limits& limits) {

@@ -25,4 +25,11 @@ std::size_t character_bytes(std::string_view text) {
   return 0;
 }
 
+std::string_view beginning(std::string_view text, std::size_t most_bytes) {
+  if (most_bytes >= text.size()) return text;
+  std::size_t size = most_bytes;
+  while (size > 0 && (static_cast<unsigned char>(text[size]) & 0xC0U) == 0x80U) --size;
+  return text.substr(0, size);
+}
+
 }  // namespace drover::text

@@ -10,4 +10,7 @@ namespace drover::text {
 /// nothing above U+10FFFF.
 std::size_t character_bytes(std::string_view text);
 
+/// At most so many of its first bytes, whole characters.
+std::string_view beginning(std::string_view text, std::size_t most_bytes);
+
 }  // namespace drover::text

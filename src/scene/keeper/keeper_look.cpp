@@ -14,15 +14,12 @@
 #include "scene/plane/track_line.h"
 #include "scene/world/map_change.h"
 #include "scene/world/planar_pose.h"
+#include "text/utf8.h"
 
 namespace drover::scene {
 namespace {
 
 constexpr double kAtCorner_m = 0.05;
-// Who turns on the spot at a corner stands a little before or behind it, and is done when he looks
-// along what comes then.
-constexpr double kTurningAt_m = 0.15;
-constexpr double kFaces_rad = 0.1;
 
 /// What it does; at rest what it is asked to do.
 Twist looked_along(const Viewpoint& from) {
@@ -57,19 +54,12 @@ bool is_ahead(const WayLine& line, double yaw_rad, double pivot_rad, bool turns)
   const TrackLine track(line.points, pivot_rad);
   if (track.empty()) return true;
   const TrackLine::Leg* leg = &track.legs().front();
-  const double at_corner_m = turns ? kTurningAt_m : kAtCorner_m;
+  const double at_corner_m = turns ? kTurnsAt_m : kAtCorner_m;
   for (const TrackLine::Leg& next : track.legs())
     if (track.first_m(next) <= line.from_m + at_corner_m) leg = &next;
   const double on_m = std::max(line.from_m, track.first_m(*leg));
   const double off_rad = wrap_rad(track.place(*leg, on_m).yaw_rad - yaw_rad);
-  return !(std::abs(off_rad) >= (turns ? kFaces_rad : pivot_rad));
-}
-
-/// The first bytes of it, whole characters.
-std::string_view beginning(std::string_view text, std::size_t bytes) {
-  if (bytes >= text.size()) return text;
-  while (bytes > 0 && (static_cast<unsigned char>(text[bytes]) & 0xC0U) == 0x80U) --bytes;
-  return text.substr(0, bytes);
+  return !(std::abs(off_rad) >= (turns ? kTurnsOver_rad : pivot_rad));
 }
 
 /// What is measured and what is allowed stand at its end: where not all has room the name is cut.
@@ -81,10 +71,10 @@ Reason in_words_of(const Verdict& broken, std::size_t room) {
   std::string words = "constraint ";
   const std::size_t others = words.size() + between.size() + broken.why.size();
   const std::size_t left = room > others ? room - others : 0;
-  words += beginning(broken.which, std::clamp(left, kLeastShown, kMostShown));
+  words += text::beginning(broken.which, std::clamp(left, kLeastShown, kMostShown));
   words += between;
   words += broken.why;
-  return Reason(beginning(words, room));
+  return Reason(text::beginning(words, room));
 }
 
 }  // namespace

@@ -73,11 +73,15 @@ void TrackCheck::Impl::look_here() {
   if (const auto broken = keeper.broken()) end(way.segment, 0, with_way_out(*broken).view());
 }
 
+Sweeper TrackCheck::Impl::sweeper() const {
+  return {keeper.around,
+          body_of(keeper.settings.look, keeper.position_sigma_m(), keeper.yaw_sigma_rad())};
+}
+
 void TrackCheck::Impl::begin_part() {
   auto line = line_about(path, way, kPart_m);
   if (!line) return end(way.segment, way_m, "the track cannot be followed from here");
-  const Sweeper sweeper(keeper.around, body_of(keeper.settings.look, keeper.position_sigma_m(),
-                                               keeper.yaw_sigma_rad()));
+  const Sweeper sweeper = this->sweeper();
   const TrackPart ahead{line->points, line->from_m, kPart_m};
   auto steps = track_steps(pose, ahead, keeper.steering(), sweeper.stride_m());
   const WayEnd found = sweeper.sweep(steps);
@@ -97,12 +101,9 @@ void TrackCheck::Impl::end_part() {
     const double at_m = over.steps[broken->index].driven_m;
     return end(line.farther(at_m).segment, way_m + at_m, in_words(broken->verdict).view());
   }
-  if (free.blocked) {
-    const Sweeper sweeper(keeper.around, body_of(keeper.settings.look, keeper.position_sigma_m(),
-                                                 keeper.yaw_sigma_rad()));
+  if (free.blocked)
     return end(line.farther(free.free_m).segment, way_m + free.free_m,
-               way_end_words(sweeper, over.found));
-  }
+               way_end_words(sweeper(), over.found));
   const double driven_m = over.steps.back().driven_m;
   done = line.ends && driven_m < kPart_m - kNoWay_m;
   if (!done && driven_m < kNoWay_m)

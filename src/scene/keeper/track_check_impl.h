@@ -27,6 +27,7 @@ struct TrackCheck::Impl {
   Reason find_problem(std::uint32_t target) const;
   /// Before it drives off: what holds at this moment only.
   void look_here();
+  Sweeper sweeper() const;
   /// Sweeps it; its poses are to be judged.
   void begin_part();
   /// All of its poses were.

@@ -10,20 +10,11 @@
 namespace drover::scene {
 namespace {
 
-constexpr double kHere_m = 0.05;      // a turn that begins so near is the one that is begun
-constexpr double kBeginsAt_m = 0.15;  // who turns at a corner stands a little before or behind it
-constexpr double kTurnsOver_rad = 0.1;
+constexpr double kHere_m = 0.05;  // a turn that begins so near is the one that is begun
 constexpr double kFree = std::numeric_limits<double>::infinity();
 
 bool has_heading(const Standpoint& from) {
   return is_heading(from.pose.yaw_rad, from.yaw_sigma_rad);
-}
-
-/// From base_link to the farthest corner.
-double reach_of(const Piece& body) {
-  double reach_m = 0;
-  for (const Point2 corner : body.corners) reach_m = std::max(reach_m, length_m(corner));
-  return reach_m;
 }
 
 /// How far, of each metre of distance, a heading that is off throws a thing aside: its chord, which
@@ -99,7 +90,8 @@ void look_any_way(const Surroundings& around, const LookSettings& settings, cons
                   Clearance& found) {
   const auto disc_of = [&](double position_sigma_m) {
     const Piece body = body_of(settings, position_sigma_m, 0);  // a disc looks any way
-    return free_disc(around, place_of(from.pose), reach_of(body) + body.radius_m, settings.ahead_m);
+    return free_disc(around, place_of(from.pose), reach_m(body.corners) + body.radius_m,
+                     settings.ahead_m);
   };
   const FreeDisc disc = disc_of(from.position_sigma_m);
   found.ahead_m = found.back_m = disc.free_m;
@@ -192,7 +184,7 @@ std::vector<Step> track_way(const LookSettings& settings, const Standpoint& from
 double first_turn_rad(std::span<const Step> track) {
   const auto turns = [track](std::size_t i) { return track[i].driven_m == track[i - 1].driven_m; };
   std::size_t i = 1;
-  while (i < track.size() && track[i].driven_m <= kBeginsAt_m && !turns(i)) ++i;
+  while (i < track.size() && track[i].driven_m <= kTurnsAt_m && !turns(i)) ++i;
   if (i >= track.size() || !turns(i)) return 0;
   while (i + 1 < track.size() && turns(i + 1)) ++i;
   return wrap_rad(track[i].pose.yaw_rad - track.front().pose.yaw_rad);
@@ -208,6 +200,13 @@ bool is_in_first_turn(const Twist& twist, double free_m) {
   return is_turn(twist) && free_m < kHere_m;
 }
 
+bool shorten(double& way, double& bare, double free) {
+  bare = std::min(bare, free);
+  if (way <= free) return false;
+  way = free;
+  return true;
+}
+
 Reason position_problem(const Pose2& pose, double position_sigma_m) {
   if (is_finite(place_of(pose)) && std::isfinite(position_sigma_m) && position_sigma_m >= 0)
     return {};
@@ -221,7 +220,7 @@ bool is_heading(double yaw_rad, double yaw_sigma_rad) {
 Piece body_of(const LookSettings& settings, double position_sigma_m, double yaw_sigma_rad) {
   const Piece body =
       piece_of(settings.footprint, settings.margin_m + settings.sigmas * position_sigma_m);
-  return widened(body, thrown_aside(settings, yaw_sigma_rad) * reach_of(body));
+  return widened(body, thrown_aside(settings, yaw_sigma_rad) * reach_m(body.corners));
 }
 
 Clearance look(const Surroundings& around, const LookSettings& settings, const Standpoint& from,

@@ -41,6 +41,10 @@ struct Standpoint {
 /// What is driven of its track, to its end or for `along_m`. Empty: it is on none, or nobody knows
 /// where it is on it.
 std::vector<Step> track_way(const LookSettings& settings, const Standpoint& from);
+/// Who turns on the spot at a corner stands a little before or behind it, and is done when he looks
+/// along what comes then.
+inline constexpr double kTurnsAt_m = 0.15;
+inline constexpr double kTurnsOver_rad = 0.1;
 /// Of a track that begins with a turn on the spot the angle to that one's end, positive to the
 /// left; 0: it begins with none.
 double first_turn_rad(std::span<const Step> track);
@@ -70,6 +74,9 @@ std::vector<Step> curve_steps(const Pose2& from, const Twist& twist, bool back, 
 /// does on its line, it comes off by as much of its way as it looks otherwise than it believes.
 std::vector<Step> curve_way(const LookSettings& settings, const Standpoint& from, bool back,
                             double stride_m);
+
+/// No more is free than this, by the margin alone neither; true: the way had been longer.
+bool shorten(double& way, double& bare, double free);
 
 /// Nothing can be said by a position like this one; empty: it is one.
 Reason position_problem(const Pose2& pose, double position_sigma_m);

@@ -5,8 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "scene/look/with_edge_disc.h"
-
 namespace drover::scene {
 namespace {
 
@@ -88,6 +86,21 @@ void bound_turn(bool left, Clearance& found, const Pose2& from, const EdgesToKee
   if (edge && asked) found.first = found.turn = edge_in_turn(edge->which, edge->turned_rad, left);
 }
 
+/// Whoever does not know where he looks keeps off the edge whichever way he drives; a turn takes
+/// nothing out of what already holds wherever it looks.
+Clearance bound_any_way(Clearance found, const Edges& edges, const LookSettings& settings,
+                        const Standpoint& from) {
+  const auto edge = edges.around(from.pose, settings.ahead_m);
+  if (!edge) return found;
+  const double left_m = left_before(edge->driven_m, settings.margin_m);
+  if (left_m < std::max(found.ahead_m, found.back_m))
+    found.first = edge_ahead(edge->which, "away", edge->driven_m);
+  for (double* const way_m :
+       {&found.ahead_m, &found.back_m, &found.bare.ahead_m, &found.bare.back_m})
+    *way_m = std::min(*way_m, left_m);
+  return found;
+}
+
 }  // namespace
 
 Clearance with_edges(Clearance found, const EdgesToKeep& edges, const LookSettings& settings,
@@ -98,7 +111,7 @@ Clearance with_edges(Clearance found, const EdgesToKeep& edges, const LookSettin
     return found;
   }
   if (!is_heading(from.pose.yaw_rad, from.yaw_sigma_rad))
-    return with_edge_disc(found, edges.all, settings, from);
+    return bound_any_way(found, edges.all, settings, from);
   const double stride = stride_m(body_of(settings, from.position_sigma_m, from.yaw_sigma_rad));
   for (const bool back : {false, true})
     bound_way(back, found, curve_way(settings, from, back, stride), edges, settings.margin_m);

@@ -32,14 +32,6 @@ Field field_of(std::span<const sensor::SeenPoint> points, std::span<const Name> 
   return field;
 }
 
-/// Lower, and by what was seen.
-bool bound(double& way, double& bare, double free) {
-  bare = std::min(bare, free);
-  if (!(way > free)) return false;
-  way = free;
-  return true;
-}
-
 class NearPoints final {
  public:
   NearPoints(const Field& field, const LookSettings& settings, std::span<const Step> track)
@@ -51,7 +43,7 @@ class NearPoints final {
   /// Its curve is that of the moment: it says nothing of what the track bends into.
   void bound_track(Clearance& found) const {
     const FreeWay way = first_contact(field_, slim_, track_);
-    if (!way.blocked || !bound(found.along_m, found.bare.along_m, way.free_m)) return;
+    if (!way.blocked || !shorten(found.along_m, found.bare.along_m, way.free_m)) return;
     if (is_in_first_turn(found.twist, way.free_m))
       tell_turn(way, found.twist.wz_radps > 0, found);
     else
@@ -64,7 +56,7 @@ class NearPoints final {
     if (!way.blocked) return;
     double& way_rad = left ? found.left_rad : found.right_rad;
     double& bare_rad = left ? found.bare.left_rad : found.bare.right_rad;
-    const bool nearest = bound(way_rad, bare_rad, way.free_rad);
+    const bool nearest = shorten(way_rad, bare_rad, way.free_rad);
     if (!nearest || !is_turn(found.twist) || left != (found.twist.wz_radps > 0)) return;
     tell_turn(way, left, found);
   }
@@ -75,7 +67,7 @@ class NearPoints final {
     if (!way.blocked) return;
     double& way_m = back ? found.back_m : found.ahead_m;
     double& bare_m = back ? found.bare.back_m : found.bare.ahead_m;
-    const bool nearest = bound(way_m, bare_m, way.free_m);
+    const bool nearest = shorten(way_m, bare_m, way.free_m);
     const bool asked = !is_turn(found.twist) && back == (found.twist.vx_mps < 0);
     if (nearest && asked && (found.path == 0 || way.free_m < found.along_m))
       found.first.format("%s something, %.2f m %s", field_.name(way.object).c_str(), way.free_m,
@@ -112,9 +104,7 @@ double slim_margin_m(const LookSettings& settings) {
 }
 
 double turning_circle_m(const LookSettings& settings) {
-  double reach_m = 0;
-  for (const Point2 corner : settings.footprint) reach_m = std::max(reach_m, length_m(corner));
-  return reach_m + settings.margin_m;
+  return reach_m(settings.footprint) + settings.margin_m;
 }
 
 Clearance with_points(Clearance found, std::span<const sensor::SeenPoint> points,

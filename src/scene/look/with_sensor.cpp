@@ -14,14 +14,6 @@ void take_all(Clearance& found) {
   found.bare = {};
 }
 
-/// Lower, and by what is seen.
-bool lower(double& way_m, double& bare_m, double free_m) {
-  bare_m = std::min(bare_m, free_m);
-  if (way_m <= free_m) return false;
-  way_m = free_m;
-  return true;
-}
-
 }  // namespace
 
 Clearance with_sensor(Clearance found, const sensor::FieldView& seen, const SensorTerms& terms) {
@@ -30,9 +22,9 @@ Clearance with_sensor(Clearance found, const sensor::FieldView& seen, const Sens
     const double free_m = left_m > 0 ? left_m : 0;  // and what is no number is none
     const auto who = seen.scanner.empty() ? std::string_view("a scanner") : seen.scanner.view();
     const bool on_track = found.path != 0;
-    const bool ahead = lower(found.ahead_m, found.bare.ahead_m, free_m);
+    const bool ahead = shorten(found.ahead_m, found.bare.ahead_m, free_m);
     const bool along =
-        on_track && terms.track_ahead && lower(found.along_m, found.bare.along_m, free_m);
+        on_track && terms.track_ahead && shorten(found.along_m, found.bare.along_m, free_m);
     if (on_track ? along : ahead && found.twist.vx_mps >= 0 && !is_turn(found.twist))
       found.first.format("%.*s sees something, %.2f m ahead", static_cast<int>(who.size()),
                          who.data(), free_m);

@@ -73,6 +73,12 @@ Piece widened(Piece piece, double by_m) {
   return piece;
 }
 
+double reach_m(std::span<const Point2> corners) {
+  double reach_m = 0;
+  for (const Point2 corner : corners) reach_m = std::max(reach_m, length_m(corner));
+  return reach_m;
+}
+
 Piece placed(const Piece& in_base, const Pose2& at) {
   if (!is_finite(at)) return piece_of_everything();
   const Point2 ahead = direction(at.yaw_rad);

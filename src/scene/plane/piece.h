@@ -2,6 +2,7 @@
 // distance of one.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "scene/plane/point.h"
@@ -26,6 +27,9 @@ Piece disc(Point2 centre, double radius_m);
 
 /// All that is within `by_m` of it; a width that is no number, or negative, makes it everything.
 Piece widened(Piece piece, double by_m);
+
+/// From base_link to the farthest of its corners.
+double reach_m(std::span<const Point2> corners);
 
 /// From base_link into `map`.
 Piece placed(const Piece& in_base, const Pose2& at);

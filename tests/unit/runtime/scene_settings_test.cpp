@@ -73,7 +73,9 @@ TEST(SceneSettings, KeepMoreBesideACurveThanIsLeftOfItBetweenTwoLooks) {
     const double spent_m = left_m + (look.margin_m - scene::slim_margin_m(look));
     EXPECT_GT(left_m, 0) << margin_m;
     EXPECT_LE(spent_m, look.margin_m + 1e-12) << margin_m;
-    if (look.margin_m > 0.04) EXPECT_LT(spent_m, 0.8 * look.margin_m) << margin_m;
+    if (look.margin_m > 0.04) {
+      EXPECT_LT(spent_m, 0.8 * look.margin_m) << margin_m;
+    }
   }
 }
 
