@@ -22,7 +22,8 @@ void describe(V& v, const Pose& pose) {
 template <class V>
 void describe(V& v, const NavSnapshot& nav) {
   const auto& [status, locate, obstacle, paused, owner, track, target_id, cross_track_m,
-               distance_left_m, asked_speed_mps, metres_left, owner_timeout_s] = nav;
+               distance_left_m, asked_speed_mps, metres_left, error_bound_m,
+               owner_timeout_s] = nav;
   v.value("status", status, {});
   v.value("locate", locate, {});
   v.value("obstacle", obstacle, {});
@@ -34,6 +35,7 @@ void describe(V& v, const NavSnapshot& nav) {
   v.value("distance_left_m", distance_left_m, {.decimals = 1});
   v.value("asked_speed_mps", asked_speed_mps, {.decimals = 3});
   v.value("metres_left", metres_left, {.decimals = 2});
+  v.value("error_bound_m", error_bound_m, {.decimals = 3});
   v.value("owner_timeout_s", owner_timeout_s, {.decimals = 1});
 }
 

@@ -38,7 +38,8 @@ bool is(const json& value, Kind kind) {
 using Keys = std::vector<std::pair<const char*, Kind>>;
 
 // RTK navigation protocol, "状态反馈 base_status"; bms.valid, robot.valid, nav.owner and nav.why
-// are added to it, and nav.metres_left while the position is reckoned without an RTK fix.
+// are added to it, nav.metres_left while the position is reckoned without an RTK fix, and
+// nav.error_bound_m while there is one.
 const std::vector<std::pair<const char*, Keys>> kDocument{
     {"bms",
      {{"current", Kind::number},
@@ -72,10 +73,11 @@ const std::vector<std::pair<const char*, Keys>> kDocument{
 };
 
 std::string judge_part(const std::string& name, json part, const Keys& keys) {
-  if (part.is_object() && name == "nav" && part.contains("metres_left")) {
-    if (!is(part.at("metres_left"), Kind::number) || part.at("metres_left").get<double>() < 0)
-      return "nav.metres_left is no distance";
-    part.erase("metres_left");
+  for (const char* key : {"metres_left", "error_bound_m"}) {
+    if (!part.is_object() || name != "nav" || !part.contains(key)) continue;
+    if (!is(part.at(key), Kind::number) || part.at(key).get<double>() < 0)
+      return std::string("nav.") + key + " is no distance";
+    part.erase(key);
   }
   if (!part.is_object() || part.size() != keys.size()) return name + " has other keys";
   for (const auto& [key, kind] : keys) {

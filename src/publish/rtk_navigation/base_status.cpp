@@ -20,6 +20,7 @@ constexpr int kWholePercent = 0;
 constexpr int kDegrees_C = 1;
 constexpr int kMetres = 4;
 constexpr int kMetresLeft = 2;
+constexpr int kBound_m = 3;
 constexpr int kRadians = 5;
 constexpr int kSpeed = 4;      // m/s, rad/s
 constexpr int kDegrees = 3;    // of the compass
@@ -148,6 +149,7 @@ std::string BaseStatus::text(const Snapshot& snapshot) {
   out.key("status").text(spelling(nav.status));
   out.key("owner").text(word(nav.owner));
   if (std::isfinite(nav.metres_left)) out.key("metres_left").number(nav.metres_left, kMetresLeft);
+  if (std::isfinite(nav.error_bound_m)) out.key("error_bound_m").number(nav.error_bound_m, kBound_m);
   out.key("why").open('[');
   for (const drover::Reason& reason : snapshot.why) out.text(reason.view());
   out.close(']').close('}');

@@ -94,6 +94,14 @@ TEST(BaseStatus, SaysHowManyMetresAreLeftOnlyWithoutAFix) {
   EXPECT_EQ(status(snapshot).root.find("nav")->find("metres_left"), nullptr);
 }
 
+TEST(BaseStatus, SaysHowWrongThePlaceMayBeWhileThereIsOne) {
+  Snapshot snapshot = good_snapshot();
+  snapshot.nav.error_bound_m = 0.02449;
+  EXPECT_EQ(at(status(snapshot), "nav", "error_bound_m").number(), 0.024);
+  snapshot.nav.error_bound_m = kAbsent;
+  EXPECT_EQ(status(snapshot).root.find("nav")->find("error_bound_m"), nullptr);
+}
+
 TEST(BaseStatus, BeforeAnythingIsKnownItClaimsNothing) {
   const auto ours = status(Snapshot{});
   EXPECT_EQ(*at(ours, "nav", "locate").text(), "LOCATE_UNINIT");

@@ -1,0 +1,302 @@
+// What becomes of a task when something ordinary goes wrong: rows of seeded drives of the whole
+// engine in the field of support/field_world.h. For people: `bench_events --help`.
+#include <cstdio>
+#include <cstring>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "support/field_world.h"
+
+namespace drover::test {
+namespace {
+
+struct Row {
+  const char* name;
+  const char* what;
+  /// `share` in [0, 1) and `seed` draw what the row leaves open.
+  std::function<void(FieldPlan&, engine::EngineConfig&, double share, std::uint64_t seed)> plan;
+  int rows = 2;
+  double leg_m = 20;
+};
+
+const std::vector<Row>& all_rows() {
+  using Plan = FieldPlan;
+  using Config = engine::EngineConfig;
+  static const std::vector<Row> rows{
+      {"well", "nothing is wrong", [](Plan&, Config&, double, std::uint64_t) {}},
+      {"well_1mps", "nothing is wrong, at 1 m/s",
+       [](Plan& p, Config& c, double, std::uint64_t) {
+         p.speed_mps = 1;
+         c.limits.max_speed_mps = 1.2;
+       }},
+      {"drift_early", "20 mm/s sideways from 3 to 12 m on",
+       [](Plan& p, Config&, double share, std::uint64_t) {
+         p.drift_m = {3 + 9 * share, INFINITY};
+         p.drift_mps = 0.02;
+       },
+       1, 70},
+      {"drift_late", "20 mm/s sideways from 25 to 60 m on, after two legs",
+       [](Plan& p, Config&, double share, std::uint64_t) {
+         p.drift_m = {85 + 35 * share, INFINITY};
+         p.drift_mps = 0.02;
+       },
+       4, 40},
+      {"slope_2", "side slope of 2 degrees, entered and left",
+       [](Plan& p, Config&, double share, std::uint64_t) {
+         p.slope_m = {4 + 4 * share, 40};
+         p.slope_deg = 2;
+       },
+       2, 30},
+      {"slope_5", "side slope of 5 degrees, entered and left",
+       [](Plan& p, Config&, double share, std::uint64_t) {
+         p.slope_m = {4 + 4 * share, 40};
+         p.slope_deg = 5;
+       },
+       2, 30},
+      {"slope_5_wet", "the same where it is wet: a degree of crab for each",
+       [](Plan& p, Config&, double share, std::uint64_t) {
+         p.slope_m = {4 + 4 * share, 40};
+         p.slope_deg = 5;
+         p.crab_per_slope = 1;
+       },
+       2, 30},
+      {"mount_1", "heading mounted 1 degree off",
+       [](Plan& p, Config&, double, std::uint64_t) { p.heading_off_deg = 1; }},
+      {"mount_3", "heading mounted 3 degrees off",
+       [](Plan& p, Config&, double, std::uint64_t) { p.heading_off_deg = 3; }, 4, 20},
+      {"mount_5", "heading mounted 5 degrees off",
+       [](Plan& p, Config&, double, std::uint64_t) { p.heading_off_deg = -5; }, 4, 20},
+      {"mount_2_outage", "2 degrees off, 30 s without receiver on the fourth leg",
+       [](Plan& p, Config& c, double, std::uint64_t) {
+         p.heading_off_deg = 2;
+         p.outage_s = {155, 185};
+         c.estimate.bound_run_m = 0.6;
+       },
+       4, 20},
+      {"slip_25", "slip of 25 % for 2 s",
+       [](Plan& p, Config&, double share, std::uint64_t) {
+         p.slip_s = {8 + 20 * share, 10 + 20 * share};
+         p.slip_share = 0.25;
+       }},
+      {"slip_30", "slip of 30 % for 2 s",
+       [](Plan& p, Config&, double share, std::uint64_t) {
+         p.slip_s = {8 + 20 * share, 10 + 20 * share};
+         p.slip_share = 0.30;
+       }},
+      {"slip_35", "slip of 35 % for 2 s",
+       [](Plan& p, Config&, double share, std::uint64_t) {
+         p.slip_s = {8 + 20 * share, 10 + 20 * share};
+         p.slip_share = 0.35;
+       }},
+      {"slip_10s", "slip of 30 % for 10 s",
+       [](Plan& p, Config&, double share, std::uint64_t) {
+         p.slip_s = {8 + 20 * share, 18 + 20 * share};
+         p.slip_share = 0.30;
+       }},
+      {"shove_14", "shoved 14 cm aside",
+       [](Plan& p, Config&, double share, std::uint64_t seed) {
+         p.shove_at_s = 8 + 20 * share;
+         p.shove_left_m = seed % 2 == 0 ? 0.14 : -0.14;
+       }},
+      {"shove_25", "shoved 25 cm aside",
+       [](Plan& p, Config&, double share, std::uint64_t seed) {
+         p.shove_at_s = 8 + 20 * share;
+         p.shove_left_m = seed % 2 == 0 ? 0.25 : -0.25;
+       }},
+      {"shove_40", "shoved 40 cm aside",
+       [](Plan& p, Config&, double share, std::uint64_t seed) {
+         p.shove_at_s = 8 + 20 * share;
+         p.shove_left_m = seed % 2 == 0 ? 0.40 : -0.40;
+       }},
+      {"step_8", "another integer solution, 8 cm off for 10 s, any direction",
+       [](Plan& p, Config&, double share, std::uint64_t) {
+         p.step_s = {8 + 20 * share, 18 + 20 * share};
+         p.step_m = 0.08;
+         p.step_rad = 2 * kPi * share * 7;
+       }},
+      {"step_15", "15 cm",
+       [](Plan& p, Config&, double share, std::uint64_t) {
+         p.step_s = {8 + 20 * share, 18 + 20 * share};
+         p.step_m = 0.15;
+         p.step_rad = 2 * kPi * share * 7;
+       }},
+      {"step_30", "30 cm",
+       [](Plan& p, Config&, double share, std::uint64_t) {
+         p.step_s = {8 + 20 * share, 18 + 20 * share};
+         p.step_m = 0.30;
+         p.step_rad = 2 * kPi * share * 7;
+       }},
+      {"step_50", "50 cm",
+       [](Plan& p, Config&, double share, std::uint64_t) {
+         p.step_s = {8 + 20 * share, 18 + 20 * share};
+         p.step_m = 0.50;
+         p.step_rad = 2 * kPi * share * 7;
+       }},
+      {"late_50_1mps", "stamps 50 ms late, at 1 m/s",
+       [](Plan& p, Config& c, double, std::uint64_t) {
+         p.late_s = 0.05;
+         p.speed_mps = 1;
+         c.limits.max_speed_mps = 1.2;
+       },
+       4, 20},
+      {"late_200", "stamps 200 ms late",
+       [](Plan& p, Config&, double, std::uint64_t) { p.late_s = 0.2; }, 4, 20},
+      {"epochs", "the heading is an epoch older than the position",
+       [](Plan& p, Config&, double, std::uint64_t) { p.heading_epoch_s = 0.1; }, 4, 20},
+      {"lever_x_20", "antenna 20 cm farther ahead than told",
+       [](Plan& p, Config&, double, std::uint64_t) { p.lever_x_m = 0.2; }, 4, 20},
+      {"lever_y_20", "antenna 20 cm farther to the left than told",
+       [](Plan& p, Config&, double, std::uint64_t) { p.lever_y_m = 0.2; }, 4, 20},
+      {"imu_roll_1", "inertial sensor rolled by 1 degree, antenna 1.5 m up",
+       [](Plan& p, Config& c, double, std::uint64_t) {
+         p.imu_roll_deg = 1;
+         c.estimate.antenna_z_m = 1.5;
+       },
+       4, 20},
+      {"tyres_3", "tyres 3 % low",
+       [](Plan& p, Config&, double, std::uint64_t) { p.tyres = 0.97; }, 4, 20},
+      {"ambiguity", "heading 5 to 30 degrees wrong for 3 s",
+       [](Plan& p, Config&, double share, std::uint64_t seed) {
+         p.heading_wrong_s = {8 + 20 * share, 11 + 20 * share};
+         p.heading_wrong_deg = (5 + 25 * share) * (seed % 2 == 0 ? 1 : -1);
+       }},
+      {"swapped", "antennas swapped",
+       [](Plan& p, Config&, double, std::uint64_t) { p.heading_off_deg = 180; }},
+      {"two_cm", "receiver of 2 cm without GST",
+       [](Plan& p, Config&, double, std::uint64_t) { p.sigma_m = 0.02; }, 4, 20},
+      {"float_10", "float for 10 s",
+       [](Plan& p, Config&, double share, std::uint64_t) {
+         p.float_s = {8 + 20 * share, 18 + 20 * share};
+       }},
+      {"outage_10", "no receiver for 10 s",
+       [](Plan& p, Config&, double share, std::uint64_t) {
+         p.outage_s = {8 + 20 * share, 18 + 20 * share};
+       }},
+      {"no_imu", "without inertial sensor",
+       [](Plan& p, Config&, double, std::uint64_t) { p.imu = false; }},
+      {"five_Hz", "receiver of 5 Hz",
+       [](Plan& p, Config&, double, std::uint64_t) { p.receiver_Hz = 5; }},
+  };
+  return rows;
+}
+
+double share_of(std::uint64_t seed) {
+  const double x = static_cast<double>(seed) * 0.6180339887498949;
+  return x - std::floor(x);
+}
+
+struct Sum {
+  int drives = 0, successes = 0;
+  double pauses = 0, paused_s = 0, outside_s = 0, beyond_s = 0, rms_m = 0, p95_m = 0, max_m = 0;
+  double time_s = 0, two_sigma = 0, three_sigma = 0;
+};
+
+Judgement drive_row(const Row& row, std::uint64_t seed) {
+  FieldPlan plan;
+  engine::EngineConfig config = field_config();
+  row.plan(plan, config, share_of(seed), seed);
+  FieldWorld world(config, plan, seed);
+  const Path path = field_rows(row.rows, row.leg_m);
+  const double length_m = row.rows * row.leg_m + (row.rows - 1) * kPi * 1.5;
+  return world.drive(path, 3 * length_m / plan.speed_mps + 120);
+}
+
+void print_header() {
+  std::printf("%-15s %7s %6s %6s %6s %7s %7s %8s %8s %6s %6s %7s\n", "row", "success", "rms",
+              "p95", "max mm", "pauses", "paused", "outside", "beyond", "2sig", "3sig", "time s");
+}
+
+void run_row(const Row& row, std::uint64_t first, int seeds, bool each) {
+  Sum sum;
+  std::vector<std::string> words;
+  for (int i = 0; i < seeds; ++i) {
+    const std::uint64_t seed = first + static_cast<std::uint64_t>(i);
+    const Judgement j = drive_row(row, seed);
+    ++sum.drives;
+    sum.successes += j.success ? 1 : 0;
+    sum.pauses += j.pauses;
+    sum.paused_s += j.paused_s;
+    sum.outside_s += j.outside_s;
+    sum.beyond_s += j.beyond_s;
+    sum.rms_m += j.rms_m * j.rms_m;
+    sum.p95_m = std::max(sum.p95_m, j.p95_m);
+    sum.max_m = std::max(sum.max_m, j.max_m);
+    sum.time_s += j.time_s;
+    sum.two_sigma += j.inside_two_sigma;
+    sum.three_sigma += j.inside_three_sigma;
+    if (!j.success) words.push_back(std::to_string(seed) + ": " + j.words);
+    if (!each) continue;
+    std::printf("  seed %llu: %s, %s; %.1f s, rms %.0f mm, max %.0f mm, goal %.0f mm, outside %.2f s "
+                "(worst %.3f m)\n",
+                static_cast<unsigned long long>(seed), j.success ? "success" : "NO SUCCESS",
+                j.words.c_str(), j.time_s, 1e3 * j.rms_m, 1e3 * j.max_m, 1e3 * j.goal_m,
+                j.outside_s, j.worst_outside_m);
+    for (const std::string& said : j.said) std::printf("      %s\n", said.c_str());
+  }
+  const double n = sum.drives;
+  std::printf("%-15s %4d/%-2d %6.1f %6.1f %6.0f %7.1f %7.1f %8.2f %8.2f %6.3f %6.3f %7.1f\n",
+              row.name, sum.successes, sum.drives, 1e3 * std::sqrt(sum.rms_m / n), 1e3 * sum.p95_m,
+              1e3 * sum.max_m, sum.pauses / n, sum.paused_s / n, sum.outside_s, sum.beyond_s,
+              sum.two_sigma / n, sum.three_sigma / n, sum.time_s / n);
+  if (each) return;
+  for (std::size_t i = 0; i < words.size() && i < 2; ++i) {
+    std::printf("                seed %s\n", words[i].c_str());
+  }
+}
+
+constexpr const char* kUsage = R"(usage: bench_events [--seeds N] [--first SEED] [--each] [ROW...]
+
+Drives the whole engine over a field in which something ordinary goes wrong, N times (20) from SEED (1)
+on, and prints for each row: how many reached the target, cross-track error of the truth (rms, the worst
+seed's 95th percentile and maximum, by the way), pauses and their seconds (mean), seconds of motion with
+the true error beyond the published bound and beyond the corridor (sum), the share of time inside two and
+three published sigma, and the mean time. Without ROW: all rows. --each tells each drive, with what was
+said; --list names the rows.
+)";
+
+int run(int argc, char** argv) {
+  std::uint64_t first = 1;
+  int seeds = 20;
+  bool each = false;
+  std::vector<std::string> names;
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    if (word == "--seeds" && i + 1 < argc) {
+      seeds = std::atoi(argv[++i]);
+    } else if (word == "--first" && i + 1 < argc) {
+      first = std::strtoull(argv[++i], nullptr, 10);
+    } else if (word == "--each") {
+      each = true;
+    } else if (word == "--list") {
+      for (const Row& row : all_rows()) std::printf("%-15s %s\n", row.name, row.what);
+      return 0;
+    } else if (word.starts_with("-")) {
+      std::fputs(kUsage, word == "--help" ? stdout : stderr);
+      return word == "--help" ? 0 : 2;
+    } else {
+      names.push_back(word);
+    }
+  }
+  for (const std::string& name : names) {
+    const auto known = [&](const Row& row) { return row.name == name; };
+    if (std::none_of(all_rows().begin(), all_rows().end(), known)) {
+      std::fprintf(stderr, "there is no row %s: --list names them\n", name.c_str());
+      return 2;
+    }
+  }
+  print_header();
+  for (const Row& row : all_rows()) {
+    if (!names.empty() && std::find(names.begin(), names.end(), row.name) == names.end()) continue;
+    run_row(row, first, seeds, each);
+    std::fflush(stdout);
+  }
+  return 0;
+}
+
+}  // namespace
+}  // namespace drover::test
+
+int main(int argc, char** argv) {
+  return drover::test::run(argc, argv);
+}
