@@ -75,7 +75,7 @@ struct EstimateConfig {
   double max_correction_age_s = 30.0;  ///< an older RTK fix counts as float
   // The predicted error (two sigma, larger axis) inside which the position counts as good.
   double bound_start_m = 0.10;
-  double bound_run_m = 0.30;
+  double bound_run_m = 0.25;
   double bound_yaw_deg = 5.0;
   double max_measurement_delay_s = 0.5;
   double gate_sigma = 5.0;     ///< innovations beyond this are not believed

@@ -106,7 +106,7 @@ void Engine::Impl::fill_snapshot(Time now, const Environment& environment, const
                      snapshot.gnss.position.quality == FixQuality::rtk_fixed;
   // Nobody reckons beside a fix, though the estimator believes a new one only after a while.
   snapshot.nav.metres_left = fixed ? kAbsent : located.metres_left;
-  snapshot.nav.error_bound_m = located.predicted_error_m;
+  snapshot.nav.error_bound_m = located.error_bound_m;
   snapshot.imu.configured = environment.imu_configured;
   snapshot.imu.health = environment.imu[sensors.imu()].state;
   snapshot.gnss.pose_heading_deg =

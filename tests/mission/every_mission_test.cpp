@@ -8,7 +8,7 @@ namespace {
 using testing::IsEmpty;
 
 // The configured bound on the predicted error while driving (estimate.bound_run_m, default).
-constexpr double kBoundRun_m = 0.30;
+constexpr double kBoundRun_m = 0.25;
 
 std::string bytes_of_hex(std::string_view digits) {
   std::string bytes;

@@ -22,7 +22,11 @@ struct Estimate {
   bool has_position = false;
   bool has_heading = false;
   Pose pose;                           ///< predicted to the asked time
-  double predicted_error_m = kAbsent;  ///< two sigma of the larger horizontal axis
+  /// Two sigma of the larger horizontal axis, or what lies between sources that contradict each
+  /// other.
+  double predicted_error_m = kAbsent;
+  /// What the true error does not exceed: twice that of the axis, or what contradicts.
+  double error_bound_m = kAbsent;
   double yaw_error_rad = kAbsent;      ///< two sigma
   BodyMotion body;                     ///< as the base tells it, nothing learned applied
   double fastest_mps = 0;              ///< of its wheels on the ground, by that motion

@@ -17,6 +17,9 @@ constexpr Duration kReachEach = std::chrono::milliseconds(100);
 constexpr Duration kFixed = std::chrono::milliseconds(500);
 // A run of refused positions so long is no outlier.
 constexpr Duration kContradicted = std::chrono::milliseconds(300);
+// An error lasts for half a minute: at two sigma a robot would be outside once in ten minutes, at
+// four never.
+constexpr double kSure = 2.0;
 
 }  // namespace
 
@@ -45,6 +48,7 @@ void Estimator::report(const State& state, Time now) {
   e.pose.position_sigma_m = state.has_position ? two_sigma_m / 2 : kAbsent;
   e.pose.yaw_sigma_rad = state.has_heading ? two_sigma_rad / 2 : kAbsent;
   e.predicted_error_m = state.has_position ? two_sigma_m : kAbsent;
+  e.error_bound_m = state.has_position ? kSure * two_sigma_m : kAbsent;
   e.yaw_error_rad = state.has_heading ? two_sigma_rad : kAbsent;
 
   report_trouble(state, now);
@@ -72,6 +76,7 @@ void Estimator::report_trouble(const State& state, Time now) {
     if (drifting) apart_m = std::max(apart_m, watch.drift_m);
     if (watch.slipping()) apart_m = std::max(apart_m, std::abs(watch.last_gap_m));
     e.predicted_error_m = std::max(e.predicted_error_m, apart_m);
+    e.error_bound_m = std::max(e.error_bound_m, apart_m);
   }
   if (position_disagrees) {
     e.reason = "position disagrees with odometry";

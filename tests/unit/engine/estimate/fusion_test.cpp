@@ -139,6 +139,7 @@ TEST(EstimateFusion, TellsItsErrorTruly) {
     leg(-0.2, 0.2, 5);
     rig.world.position = rig.world.heading = false;
     leg(0.45, 0.55, 20);
+    EXPECT_EQ(rig.share_bound(), 1.0) << "world " << i;
     inside += rig.share_inside() / kWorlds;
     yaw_inside += rig.share_yaw_inside() / kWorlds;
   }

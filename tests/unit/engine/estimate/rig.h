@@ -121,8 +121,10 @@ class Rig {
   double rms_yaw_rad() const { return std::sqrt(sum2_yaw_ / n_); }
   double max_m() const { return max_; }
   double share_inside() const { return inside_ / n_; }
+  /// Inside what is said never to be exceeded.
+  double share_bound() const { return bound_inside_ / n_; }
   double share_yaw_inside() const { return yaw_inside_ / n_; }
-  void forget() { n_ = sum2_ = sum2_yaw_ = max_ = inside_ = yaw_inside_ = 0; }
+  void forget() { n_ = sum2_ = sum2_yaw_ = max_ = inside_ = yaw_inside_ = bound_inside_ = 0; }
 
   double normal() { return normal_(random_); }
   Measurement position_at(double x, double y, FixQuality quality, Time time) const {
@@ -263,6 +265,7 @@ class Rig {
     sum2_yaw_ += yaw_error_rad() * yaw_error_rad();
     max_ = std::max(max_, error);
     inside_ += error <= last.predicted_error_m ? 1 : 0;
+    bound_inside_ += error <= last.error_bound_m ? 1 : 0;
     yaw_inside_ += yaw_error_rad() <= last.yaw_error_rad ? 1 : 0;
   }
 
@@ -280,6 +283,7 @@ class Rig {
   double sigma_now_ = 0;
   std::int64_t ticks_ = 0;
   double n_ = 0, sum2_ = 0, sum2_yaw_ = 0, max_ = 0, inside_ = 0, yaw_inside_ = 0;
+  double bound_inside_ = 0;
 };
 
 }  // namespace drover::engine::estimate

@@ -66,7 +66,7 @@ TEST_F(ALocateMonitor, HasATighterBoundBeforeATaskThanDuringOne) {
   EXPECT_EQ(update(false), LocateState::lost);
   EXPECT_THAT(reason(), HasSubstr("0.200 m, allowed 0.080 m"));
   EXPECT_EQ(update(true), LocateState::good);
-  estimate.predicted_error_m = 0.31;
+  estimate.predicted_error_m = 0.26;
   EXPECT_EQ(update(true), LocateState::lost);
 }
 TEST_F(ALocateMonitor, TellsTheBoundOfTheHeadingThatCounts) {
@@ -75,19 +75,19 @@ TEST_F(ALocateMonitor, TellsTheBoundOfTheHeadingThatCounts) {
   EXPECT_THAT(reason(), HasSubstr("heading uncertain by 4.5 degrees, allowed 4.0"));
 }
 TEST_F(ALocateMonitor, DoesNotFlapAtTheBound) {
-  estimate.predicted_error_m = 0.29;
+  estimate.predicted_error_m = 0.24;
   EXPECT_EQ(update(true), LocateState::lost) << "good only well inside";
   estimate.predicted_error_m = 0.2;
   EXPECT_EQ(update(true), LocateState::good);
-  estimate.predicted_error_m = 0.29;
+  estimate.predicted_error_m = 0.24;
   EXPECT_EQ(update(true), LocateState::good);
-  estimate.predicted_error_m = 0.31;
+  estimate.predicted_error_m = 0.26;
   EXPECT_EQ(update(true), LocateState::lost);
-  estimate.predicted_error_m = 0.29;
+  estimate.predicted_error_m = 0.24;
   EXPECT_EQ(update(true), LocateState::lost);
 }
 TEST_F(ALocateMonitor, TellsHowMuchOfTheBudgetIsUsed) {
-  estimate.predicted_error_m = 0.15;
+  estimate.predicted_error_m = 0.125;
   EXPECT_EQ(update(true), LocateState::good);
   EXPECT_NEAR(monitor.used(), 0.5, 1e-9);
   EXPECT_EQ(reason(), "");
