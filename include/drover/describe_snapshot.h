@@ -22,8 +22,7 @@ void describe(V& v, const Pose& pose) {
 template <class V>
 void describe(V& v, const NavSnapshot& nav) {
   const auto& [status, locate, obstacle, paused, owner, track, target_id, cross_track_m,
-               distance_left_m, asked_speed_mps, metres_left, error_bound_m,
-               owner_timeout_s] = nav;
+               distance_left_m, asked_speed_mps, metres_left, error_bound_m, owner_timeout_s] = nav;
   v.value("status", status, {});
   v.value("locate", locate, {});
   v.value("obstacle", obstacle, {});

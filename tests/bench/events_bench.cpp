@@ -154,8 +154,8 @@ const std::vector<Row>& all_rows() {
          c.estimate.antenna_z_m = 1.5;
        },
        4, 20},
-      {"tyres_3", "tyres 3 % low",
-       [](Plan& p, Config&, double, std::uint64_t) { p.tyres = 0.97; }, 4, 20},
+      {"tyres_3", "tyres 3 % low", [](Plan& p, Config&, double, std::uint64_t) { p.tyres = 0.97; },
+       4, 20},
       {"ambiguity", "heading 5 to 30 degrees wrong for 3 s",
        [](Plan& p, Config&, double share, std::uint64_t seed) {
          p.heading_wrong_s = {8 + 20 * share, 11 + 20 * share};
@@ -203,8 +203,8 @@ Judgement drive_row(const Row& row, std::uint64_t seed) {
 }
 
 void print_header() {
-  std::printf("%-15s %7s %6s %6s %6s %7s %7s %8s %8s %6s %6s %7s\n", "row", "success", "rms",
-              "p95", "max mm", "pauses", "paused", "outside", "beyond", "2sig", "3sig", "time s");
+  std::printf("%-15s %7s %6s %6s %6s %7s %7s %8s %8s %6s %6s %7s\n", "row", "success", "rms", "p95",
+              "max mm", "pauses", "paused", "outside", "beyond", "2sig", "3sig", "time s");
 }
 
 void run_row(const Row& row, std::uint64_t first, int seeds, bool each) {
@@ -227,11 +227,12 @@ void run_row(const Row& row, std::uint64_t first, int seeds, bool each) {
     sum.three_sigma += j.inside_three_sigma;
     if (!j.success) words.push_back(std::to_string(seed) + ": " + j.words);
     if (!each) continue;
-    std::printf("  seed %llu: %s, %s; %.1f s, rms %.0f mm, max %.0f mm, goal %.0f mm, outside %.2f s "
-                "(worst %.3f m)\n",
-                static_cast<unsigned long long>(seed), j.success ? "success" : "NO SUCCESS",
-                j.words.c_str(), j.time_s, 1e3 * j.rms_m, 1e3 * j.max_m, 1e3 * j.goal_m,
-                j.outside_s, j.worst_outside_m);
+    std::printf(
+        "  seed %llu: %s, %s; %.1f s, rms %.0f mm, max %.0f mm, goal %.0f mm, outside %.2f s "
+        "(worst %.3f m)\n",
+        static_cast<unsigned long long>(seed), j.success ? "success" : "NO SUCCESS",
+        j.words.c_str(), j.time_s, 1e3 * j.rms_m, 1e3 * j.max_m, 1e3 * j.goal_m, j.outside_s,
+        j.worst_outside_m);
     for (const std::string& said : j.said) std::printf("      %s\n", said.c_str());
   }
   const double n = sum.drives;
@@ -247,12 +248,12 @@ void run_row(const Row& row, std::uint64_t first, int seeds, bool each) {
 
 constexpr const char* kUsage = R"(usage: bench_events [--seeds N] [--first SEED] [--each] [ROW...]
 
-Drives the whole engine over a field in which something ordinary goes wrong, N times (20) from SEED (1)
-on, and prints for each row: how many reached the target, cross-track error of the truth (rms, the worst
-seed's 95th percentile and maximum, by the way), pauses and their seconds (mean), seconds of motion with
-the true error beyond the published bound and beyond the corridor (sum), the share of time inside two and
-three published sigma, and the mean time. Without ROW: all rows. --each tells each drive, with what was
-said; --list names the rows.
+Drives the whole engine over a field in which something ordinary goes wrong, N times (20) from SEED
+(1) on, and prints for each row: how many reached the target, cross-track error of the truth (rms,
+the worst seed's 95th percentile and maximum, by the way), pauses and their seconds (mean), seconds
+of motion with the true error beyond the published bound and beyond the corridor (sum), the share of
+time inside two and three published sigma, and the mean time. Without ROW: all rows. --each tells
+each drive, with what was said; --list names the rows.
 )";
 
 int run(int argc, char** argv) {

@@ -14,8 +14,8 @@ using Problems = std::vector<std::string>;
 /// Every frame on the bus is a drive's, or on the list of what may be sent to a wheel.
 Problems check_frames(const Record& record);
 /// base_status: the document's keys and no others but bms.valid, nav.owner, nav.why,
-/// nav.metres_left and nav.error_bound_m; the document's types; values that the document knows; not retained. feedback:
-/// the same.
+/// nav.metres_left and nav.error_bound_m; the document's types; values that the document knows; not
+/// retained. feedback: the same.
 Problems check_form(const Record& record);
 /// base_status: 10.0 Hz to 0.1 while gateway and broker run; back within 2 s of their start.
 Problems check_rate(const Record& record);

@@ -33,9 +33,9 @@ struct Span {
 struct FieldPlan {
   double speed_mps = 0.5;
   // Ground.
-  Span slip_s;              ///< the wheels roll more than the base moves
-  double slip_share = 0;    ///< of the way
-  Span slope_m;             ///< ground that falls towards `downhill_rad`
+  Span slip_s;            ///< the wheels roll more than the base moves
+  double slip_share = 0;  ///< of the way
+  Span slope_m;           ///< ground that falls towards `downhill_rad`
   double slope_deg = 0;
   double downhill_rad = -kPi / 2;
   double crab_per_slope = 0.5;  ///< course beside the heading over the slope
@@ -49,15 +49,15 @@ struct FieldPlan {
   double sigma_m = 0.01;
   double sigma_claimed_m = kAbsent;  ///< GST
   FixQuality quality = FixQuality::rtk_fixed;
-  Span outage_s;       ///< no positions and headings
-  Span float_s;        ///< float solution
-  Span drift_m;        ///< the place wanders while this is driven,
+  Span outage_s;  ///< no positions and headings
+  Span float_s;   ///< float solution
+  Span drift_m;   ///< the place wanders while this is driven,
   double drift_mps = 0;
   double drift_rad = kPi / 2;
-  Span step_s;         ///< it is elsewhere
+  Span step_s;  ///< it is elsewhere
   double step_m = 0;
   double step_rad = kPi / 2;
-  double late_s = 0;   ///< later than the gateway believes
+  double late_s = 0;           ///< later than the gateway believes
   double heading_epoch_s = 0;  ///< the heading is so much older than the position
   double heading_off_deg = 0;  ///< of the antenna line, not told to the gateway
   Span heading_wrong_s;
@@ -75,18 +75,18 @@ struct FieldPlan {
 struct Judgement {
   bool success = false;
   bool ended = false;
-  std::string words;       ///< how the task ended, or that it was refused
-  double time_s = 0;       ///< from the start to the end
+  std::string words;  ///< how the task ended, or that it was refused
+  double time_s = 0;  ///< from the start to the end
   double way_m = 0;
-  double rms_m = 0;        ///< of the truth beside the track, over the way
+  double rms_m = 0;  ///< of the truth beside the track, over the way
   double p95_m = 0;
   double max_m = 0;
-  double goal_m = 0;       ///< from the target, at the end
+  double goal_m = 0;  ///< from the target, at the end
   int pauses = 0;
   double paused_s = 0;
-  double outside_s = 0;    ///< moved while the true error was beyond the published bound
+  double outside_s = 0;  ///< moved while the true error was beyond the published bound
   double worst_outside_m = 0;
-  double beyond_s = 0;     ///< moved beyond the corridor
+  double beyond_s = 0;          ///< moved beyond the corridor
   double inside_two_sigma = 0;  ///< share of time while moving
   double inside_three_sigma = 0;
   std::vector<std::string> said;  ///< notices, with the time
@@ -185,9 +185,8 @@ class FieldWorld final {
     deliver();
     environment_.guard_alive = true;
     environment_.imu_configured = plan_.imu;
-    environment_.gnss[0].state = now_ - heard_ < std::chrono::milliseconds(500)
-                                     ? SourceState::fresh
-                                     : SourceState::stale;
+    environment_.gnss[0].state =
+        now_ - heard_ < std::chrono::milliseconds(500) ? SourceState::fresh : SourceState::stale;
     environment_.gnss[0].last_good = heard_;
     if (plan_.imu) {
       environment_.imu[0].state = SourceState::fresh;
@@ -231,8 +230,8 @@ class FieldWorld final {
     const bool slips = plan_.slip_s.holds(since_s());
     const double vx = rolled_mps * (slips ? 1 - plan_.slip_share : 1);
     const double way_m = std::abs(vx) * kTick_s;
-    const double turn = (right_mps_ - left_mps_) * plan_.tyres / config_.base.track_m /
-                        plan_.yaw_slip * kTick_s;
+    const double turn =
+        (right_mps_ - left_mps_) * plan_.tyres / config_.base.track_m / plan_.yaw_slip * kTick_s;
     lie_on_slope();
     const double root = std::sqrt(way_m) * plan_.ground_noise;
     const double turned =
@@ -243,10 +242,10 @@ class FieldWorld final {
     const double slide = std::abs(vx) * plan_.crab_per_slope * std::tan(slope_rad_) * kTick_s;
     const double middle = yaw_rad_ + turned / 2;
     const double before_vx = vx_mps_;
-    x_m_ += along * std::cos(middle) - across * std::sin(middle) +
-            slide * std::cos(plan_.downhill_rad);
-    y_m_ += along * std::sin(middle) + across * std::cos(middle) +
-            slide * std::sin(plan_.downhill_rad);
+    x_m_ +=
+        along * std::cos(middle) - across * std::sin(middle) + slide * std::cos(plan_.downhill_rad);
+    y_m_ +=
+        along * std::sin(middle) + across * std::cos(middle) + slide * std::sin(plan_.downhill_rad);
     yaw_rad_ = wrap_rad(yaw_rad_ + turned);
     turned_rad_ += turned;
     vx_mps_ = vx;
@@ -282,8 +281,9 @@ class FieldWorld final {
       motion.position_rad = position_rad_[i];
       environment_.axes[i].state = SourceState::fresh;
       measure(now_, motion);
-      measure(now_, AxisStatus{static_cast<AxisId>(i),
-                               running_ ? AxisState::running : AxisState::idle, 0, Reason(), false});
+      measure(now_,
+              AxisStatus{static_cast<AxisId>(i), running_ ? AxisState::running : AxisState::idle, 0,
+                         Reason(), false});
     }
   }
 
@@ -312,8 +312,8 @@ class FieldWorld final {
     if (plan_.drift_m.holds(moved_m_)) wandered_m_ += plan_.drift_mps * dt_s;
     const double step = plan_.step_s.holds(since_s()) ? plan_.step_m : 0;
     const auto& e = config_.estimate;
-    const engine::AntennaConfig arm{e.antenna_x_m + plan_.lever_x_m, e.antenna_y_m + plan_.lever_y_m,
-                                    e.antenna_z_m, 0};
+    const engine::AntennaConfig arm{e.antenna_x_m + plan_.lever_x_m,
+                                    e.antenna_y_m + plan_.lever_y_m, e.antenna_z_m, 0};
     const double over = arm.y_m * std::sin(roll_rad_) + arm.z_m * std::cos(roll_rad_);
     const double ahead = arm.x_m * std::cos(pitch_rad_) + over * std::sin(pitch_rad_);
     const double left = arm.y_m * std::cos(roll_rad_) - arm.z_m * std::sin(roll_rad_);
@@ -339,9 +339,9 @@ class FieldWorld final {
     fix.position.correction_age_s = 1;
     fix.position.sigma_east_m = fix.position.sigma_north_m = plan_.sigma_claimed_m;
     headings_.push_back(yaw_rad_);
-    const auto old = static_cast<std::size_t>(
-        std::clamp(std::lround(plan_.heading_epoch_s * plan_.receiver_Hz), 0L,
-                   static_cast<long>(headings_.size()) - 1));
+    const auto old =
+        static_cast<std::size_t>(std::clamp(std::lround(plan_.heading_epoch_s * plan_.receiver_Hz),
+                                            0L, static_cast<long>(headings_.size()) - 1));
     const double yaw = headings_[headings_.size() - 1 - old];
     if (headings_.size() > 16) headings_.pop_front();
     const double off_deg = plan_.heading_off_deg +

@@ -21,19 +21,19 @@ namespace drover::engine {
 struct Estimate {
   bool has_position = false;
   bool has_heading = false;
-  Pose pose;                           ///< predicted to the asked time
+  Pose pose;  ///< predicted to the asked time
   /// Two sigma of the larger horizontal axis, or what lies between sources that contradict each
   /// other.
   double predicted_error_m = kAbsent;
   /// What the true error does not exceed: twice that of the axis, or what contradicts.
   double error_bound_m = kAbsent;
-  double yaw_error_rad = kAbsent;      ///< two sigma
-  BodyMotion body;                     ///< as the base tells it, nothing learned applied
-  double fastest_mps = 0;              ///< of its wheels on the ground, by that motion
-  double yaw_slip_factor = 1.0;        ///< as refined
-  Reason reason;                       ///< why it is not good; empty when it is
-  bool disagrees = false;              ///< GNSS and odometry contradict each other beyond the gate
-  bool slipping = false;               ///< the wheels roll another way than the base moves
+  double yaw_error_rad = kAbsent;  ///< two sigma
+  BodyMotion body;                 ///< as the base tells it, nothing learned applied
+  double fastest_mps = 0;          ///< of its wheels on the ground, by that motion
+  double yaw_slip_factor = 1.0;    ///< as refined
+  Reason reason;                   ///< why it is not good; empty when it is
+  bool disagrees = false;          ///< GNSS and odometry contradict each other beyond the gate
+  bool slipping = false;           ///< the wheels roll another way than the base moves
   /// How much the ways of wheels and receiver differ since they slip: one of both is wrong by it.
   double slipped_m = 0;
   /// What was noticed and is made up for, so far: slipping wheels, a gyro that is not believed.

@@ -149,7 +149,8 @@ std::string BaseStatus::text(const Snapshot& snapshot) {
   out.key("status").text(spelling(nav.status));
   out.key("owner").text(word(nav.owner));
   if (std::isfinite(nav.metres_left)) out.key("metres_left").number(nav.metres_left, kMetresLeft);
-  if (std::isfinite(nav.error_bound_m)) out.key("error_bound_m").number(nav.error_bound_m, kBound_m);
+  if (std::isfinite(nav.error_bound_m))
+    out.key("error_bound_m").number(nav.error_bound_m, kBound_m);
   out.key("why").open('[');
   for (const drover::Reason& reason : snapshot.why) out.text(reason.view());
   out.close(']').close('}');
