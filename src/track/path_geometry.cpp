@@ -9,6 +9,46 @@ namespace {
 constexpr double kShortestChord_m = 0.10;
 constexpr double kCornerChord_m = 0.25;
 
+/// A walk ahead along a leg. It knows its segment's length, so that a step costs no root.
+class Walk final {
+ public:
+  Walk(const Route& route, const Leg& leg, Station station, double s_m) : route_(route), leg_(leg) {
+    enter(seek(route, leg, station, s_m));
+  }
+  /// Not before the last place.
+  Vector at(double s_m) {
+    if (s_m < leg_.first_m) return route_.point(leg_.first) + (s_m - leg_.first_m) * leg_.enter;
+    if (s_m > leg_.last_m) return route_.point(leg_.last) + (s_m - leg_.last_m) * leg_.leave;
+    while (s_m > end_m() && goes_on()) enter({station_.segment + 1, end_m()});
+    if (segment_m_ <= 0) return from_;
+    return from_ + std::clamp((s_m - station_.start_m) / segment_m_, 0.0, 1.0) * way_;
+  }
+  /// Of the straight piece that begins at `s_m`: where an end of the leg or a point ends it.
+  double straight_until_m(double s_m) {
+    if (s_m < leg_.first_m) return leg_.first_m;
+    if (s_m >= leg_.last_m) return INFINITY;
+    while (end_m() <= s_m && goes_on()) enter({station_.segment + 1, end_m()});
+    return end_m() > s_m ? end_m() : INFINITY;
+  }
+
+ private:
+  void enter(Station station) {
+    station_ = station;
+    from_ = route_.point(station.segment);
+    way_ = route_.point(station.segment + 1) - from_;
+    segment_m_ = length(way_);
+  }
+  double end_m() const { return station_.start_m + segment_m_; }
+  bool goes_on() const { return station_.segment + 1 < leg_.last; }
+
+  const Route& route_;
+  const Leg& leg_;
+  Station station_;
+  Vector from_;
+  Vector way_;
+  double segment_m_ = 0;
+};
+
 /// Means of the line over [from, to]: plain, and weighted by a ramp from `w_from` to `w_to`.
 struct Window {
   Vector mean;
@@ -17,37 +57,24 @@ struct Window {
   Vector end;
 };
 
-Window integrate(const Route& route, const Leg& leg, Station& station, double from_m, double to_m,
-                 double w_from, double w_to) {
-  const double width_m = to_m - from_m;
-  const auto weight = [&](double s) { return w_from + (w_to - w_from) * (s - from_m) / width_m; };
+Window integrate(Walk& walk, double from_m, double to_m, double w_from, double w_to) {
+  const double per_m = 1 / (to_m - from_m);
+  const auto weight = [&](double s) { return w_from + (w_to - w_from) * (s - from_m) * per_m; };
   Window sum;
   double a_m = from_m;
-  Vector a = position(route, leg, station, a_m);
+  double w_a = w_from;
+  Vector a = walk.at(a_m);
   sum.start = a;
   while (a_m < to_m) {
-    // The end of the straight piece that holds a: an end of the leg, a point, or the window's.
-    double b_m = to_m;
-    if (a_m < leg.first_m) {
-      b_m = std::min(b_m, leg.first_m);
-    } else if (a_m < leg.last_m) {
-      station = seek(route, leg, station, a_m);
-      double end_m = station.start_m + route.segment_m(station.segment);
-      while (end_m <= a_m && station.segment + 1 < leg.last) {
-        station = {station.segment + 1, end_m};
-        end_m += route.segment_m(station.segment);
-      }
-      if (end_m > a_m) b_m = std::min(b_m, end_m);
-    }
-    const Vector b = position(route, leg, station, b_m);
-    const Vector middle = 0.5 * (a + b);
-    const double part = (b_m - a_m) / width_m;
-    const double w_middle = weight(0.5 * (a_m + b_m));
-    sum.mean = sum.mean + part * middle;
-    // Simpson's rule is exact here: a linear weight on a linear piece.
-    sum.weighted =
-        sum.weighted + part / 6 * (weight(a_m) * a + 4 * w_middle * middle + weight(b_m) * b);
+    const double b_m = std::min(to_m, walk.straight_until_m(a_m));
+    const Vector b = walk.at(b_m);
+    const double w_b = weight(b_m);
+    const double part = (b_m - a_m) * per_m;
+    sum.mean = sum.mean + 0.5 * part * (a + b);
+    // Exact for a linear weight on a linear piece.
+    sum.weighted = sum.weighted + part / 6 * ((2 * w_a + w_b) * a + (w_a + 2 * w_b) * b);
     a_m = b_m;
+    w_a = w_b;
     a = b;
   }
   sum.end = a;
@@ -91,6 +118,13 @@ Vector position(const Route& route, const Leg& leg, Station& station, double s_m
   return a + std::clamp((s_m - station.start_m) / ab_m, 0.0, 1.0) * (b - a);
 }
 
+void sample(const Route& route, const Leg& leg, Station station, double from_m, double step_m,
+            std::span<Vector> places) {
+  Walk walk(route, leg, station, from_m);
+  for (std::size_t i = 0; i < places.size(); ++i)
+    places[i] = walk.at(from_m + step_m * static_cast<double>(i));
+}
+
 Vector chord_before(const Route& route, std::size_t point, std::size_t first, double reach_m) {
   const Vector here = route.point(point);
   for (double left_m = reach_m; point > first; --point) {
@@ -126,8 +160,9 @@ double corner_rad(const Route& route, std::size_t point, std::size_t first) {
 
 Reference smooth(const Route& route, const Leg& leg, Station station, double s_m) {
   constexpr double h_m = kSmoothing_m;
-  const Window behind = integrate(route, leg, station, s_m - h_m, s_m, 0, 1);
-  const Window ahead = integrate(route, leg, station, s_m, s_m + h_m, 1, 0);
+  Walk walk(route, leg, station, s_m - h_m);
+  const Window behind = integrate(walk, s_m - h_m, s_m, 0, 1);
+  const Window ahead = integrate(walk, s_m, s_m + h_m, 1, 0);
   const Vector slope = 1 / h_m * (ahead.mean - behind.mean);
   const Vector bend = 1 / (h_m * h_m) * (ahead.end - 2 * behind.end + behind.start);
   const double slope_size = std::max(length(slope), 0.3);
@@ -140,8 +175,9 @@ Reference smooth(const Route& route, const Leg& leg, Station station, double s_m
   return r;
 }
 
-double foot_m(const Route& route, const Leg& leg, Station station, double s_m, Vector point,
-              int iterations) {
+LineFoot find_foot(const Route& route, const Leg& leg, Station station, double s_m, Vector point,
+                   int iterations) {
+  constexpr double kThere_m = 1e-4;  // over so little the line is an arc
   for (int i = 0; i < iterations; ++i) {
     station = seek(route, leg, station, s_m);
     const Reference r = smooth(route, leg, station, s_m);
@@ -149,14 +185,19 @@ double foot_m(const Route& route, const Leg& leg, Station station, double s_m, V
     const double stretch = std::clamp(1 - r.curvature_radpm * cross(r.ahead, off), 0.3, 3.0);
     const double step_m = std::clamp(dot(r.ahead, off) / stretch, -0.25, 0.25);
     s_m += step_m;
-    if (std::abs(step_m) < 1e-4) break;
+    if (std::abs(step_m) >= kThere_m) continue;
+    const Vector left{-r.ahead.y, r.ahead.x};
+    const Vector ahead = unit(r.ahead + step_m * r.curvature_radpm * left, r.ahead);
+    return {s_m, {r.point + step_m * r.ahead, ahead, r.curvature_radpm}};
   }
-  return s_m;
+  return {s_m, smooth(route, leg, station, s_m)};
 }
 
-double offset_m(const Route& route, const Leg& leg, Station station, double s_m, Vector point) {
+double offset_m(const Route& route, const Leg& leg, Station station, const LineFoot& foot,
+                Vector point) {
   constexpr double kWindow_m = 0.6;
-  const Reference r = smooth(route, leg, station, s_m);
+  const double s_m = foot.s_m;
+  const Reference& r = foot.line;
   if (s_m <= leg.first_m || s_m >= leg.last_m) return cross(r.ahead, point - r.point);
   station = seek(route, leg, station, s_m - kWindow_m);
   Vector best;

@@ -85,6 +85,10 @@ struct Leg {
 Station seek(const Route& route, const Leg& leg, Station station, double s_m);
 Vector position(const Route& route, const Leg& leg, Station& station, double s_m);
 
+/// Places along the polyline, one each `step_m` from `from_m` on.
+void sample(const Route& route, const Leg& leg, Station station, double from_m, double step_m,
+            std::span<Vector> places);
+
 /// Directions of the chords of `reach_m` before and after a point, not going beyond `first`/`last`.
 /// Length 0 where there is less than 0.1 m of line: too little to tell a direction from noise.
 Vector chord_before(const Route& route, std::size_t point, std::size_t first, double reach_m);
@@ -107,12 +111,19 @@ inline constexpr double kSmoothing_m = 0.5;
 /// wheels), moved out again by what averaging cuts off a bend.
 Reference smooth(const Route& route, const Leg& leg, Station station, double s_m);
 
-/// Arc length of the foot of `point` on the smooth line, searched near `s_m` only: a line that
-/// crosses or comes back beside itself cannot catch the search. Moves at most 0.25 m an iteration.
-double foot_m(const Route& route, const Leg& leg, Station station, double s_m, Vector point,
-              int iterations);
+/// The place on the smooth line square to a point.
+struct LineFoot {
+  double s_m = 0;
+  Reference line;  ///< there
+};
 
-/// Distance of `point` from the polyline itself near `s_m`, left of travel positive (m).
-double offset_m(const Route& route, const Leg& leg, Station station, double s_m, Vector point);
+/// The foot of `point`, searched near `s_m` only: a line that crosses or comes back beside itself
+/// cannot catch the search. Moves at most 0.25 m an iteration.
+LineFoot find_foot(const Route& route, const Leg& leg, Station station, double s_m, Vector point,
+                   int iterations);
+
+/// Distance of `point` from the polyline itself near its foot, left of travel positive (m).
+double offset_m(const Route& route, const Leg& leg, Station station, const LineFoot& foot,
+                Vector point);
 
 }  // namespace drover::track

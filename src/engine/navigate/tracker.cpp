@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 #include "drover/angle.h"
 #include "engine/still.h"
@@ -14,6 +15,7 @@ namespace {
 
 using track::kEndChord_m;
 using track::kSmoothing_m;
+using track::LineFoot;
 using track::Reference;
 using track::Station;
 using track::Vector;
@@ -70,7 +72,7 @@ void Tracker::begin(const Path& path, std::uint32_t target, double speed_mps, co
   speed_mps_ = speed_mps;
   joined_ = false;
   active_ = true;
-  s_m_ = foot_m(route_, leg_, station_, s_m_, place(pose), 16);
+  s_m_ = find_foot(route_, leg_, station_, s_m_, place(pose), 16).s_m;
   look_for_corner();
 }
 
@@ -112,14 +114,17 @@ TrackProgress Tracker::locate(const Pose& pose) {
   TrackProgress progress;
   progress.joined = joined_;
   if (!active_ || !usable(pose)) return progress;
-  if (phase_ != Phase::pivot) {
-    s_m_ = foot_m(route_, leg_, station_, s_m_, place(pose), 3);
-    station_ = seek(route_, leg_, station_, s_m_);
+  if (phase_ == Phase::pivot) {
+    here_ = smooth(route_, leg_, station_, s_m_);
+  } else {
     look_for_corner();
+    const LineFoot foot = find_foot(route_, leg_, station_, s_m_, place(pose), 3);
+    s_m_ = foot.s_m;
+    here_ = foot.line;
+    station_ = seek(route_, leg_, station_, s_m_);
   }
-  const Reference here = smooth(route_, leg_, station_, s_m_);
-  progress.cross_track_m = offset_m(route_, leg_, station_, s_m_, place(pose));
-  progress.heading_error_rad = wrap_rad(pose.yaw_rad - direction_rad(here.ahead));
+  progress.cross_track_m = offset_m(route_, leg_, station_, {s_m_, here_}, place(pose));
+  progress.heading_error_rad = wrap_rad(pose.yaw_rad - direction_rad(here_.ahead));
   progress.distance_left_m = std::max(goal_m_ - s_m_, 0.0);
   progress.distance_to_goal_m = length(goal_ - place(pose));
   joined_ = joined_ || std::abs(progress.cross_track_m) < kJoined_m;
@@ -184,11 +189,7 @@ double Tracker::path_speed_mps(double cap_mps, double s_m) const {
   const std::size_t stations = std::min(
       kStations, 2 * kSide + 1 + static_cast<std::size_t>(std::min(reach_m / kStep_m, 100.0)));
   std::array<Vector, kStations> line;
-  Station station = seek(route_, leg_, station_, s_m - kSmoothing_m);
-  for (std::size_t i = 0; i < stations; ++i) {
-    const double offset_m = kStep_m * (static_cast<double>(i) - static_cast<double>(kSide));
-    line[i] = position(route_, leg_, station, s_m + offset_m);
-  }
+  sample(route_, leg_, station_, s_m - kSmoothing_m, kStep_m, std::span(line).first(stations));
   double fastest_mps = cap_mps;
   for (std::size_t i = kSide; i + kSide < stations; ++i) {
     const Vector slope = 1 / (2 * kSmoothing_m) * (line[i + kSide] - line[i - kSide]);
@@ -220,8 +221,9 @@ Twist Tracker::steer(const Pose& pose, double cap_mps, Duration dt) {
   const double turned_rad = pose.yaw_rad + 0.5 * pose.wz_radps * lag_s;
   const Vector at =
       place(pose) + pose.vx_mps * lag_s * Vector{std::cos(turned_rad), std::sin(turned_rad)};
-  const double s_m = foot_m(route_, leg_, station_, s_m_ + pose.vx_mps * lag_s, at, 2);
-  const Reference line = smooth(route_, leg_, station_, s_m);
+  const LineFoot foot = find_foot(route_, leg_, station_, s_m_ + pose.vx_mps * lag_s, at, 2);
+  const double s_m = foot.s_m;
+  const Reference& line = foot.line;
   const double offset_m = cross(line.ahead, at - line.point);
   const double heading_rad =
       wrap_rad(pose.yaw_rad + pose.wz_radps * lag_s - direction_rad(line.ahead));

@@ -141,8 +141,8 @@ TEST(AFoot, IsOnTheSmoothLineSquareToThePoint) {
     const Station station = station_at(route, leg, s_m);
     const Reference there = smooth(route, leg, station, s_m);
     const Vector beside = there.point + 0.4 * Vector{-there.ahead.y, there.ahead.x};
-    EXPECT_NEAR(foot_m(route, leg, station, s_m + 0.3, beside, 16), s_m, 2e-3);
-    EXPECT_NEAR(offset_m(route, leg, station, s_m, beside), 0.4, 0.03);
+    EXPECT_NEAR(find_foot(route, leg, station, s_m + 0.3, beside, 16).s_m, s_m, 2e-3);
+    EXPECT_NEAR(offset_m(route, leg, station, {s_m, there}, beside), 0.4, 0.03);
   }
 }
 
@@ -150,17 +150,20 @@ TEST(AFoot, StaysOnItsPassWhereTheLineCrossesItself) {
   const Points points{{0, 0}, {10, 0}, {10, 5}, {5, 5}, {5, -5}};
   const Route route = forwards_along(points);
   const Leg leg = whole_leg(route);
-  EXPECT_NEAR(foot_m(route, leg, {0, 0}, 4.9, {5, 0.2}, 16), 5, 1e-3);
-  EXPECT_NEAR(foot_m(route, leg, {3, 20}, 24.9, {5, 0.2}, 16), 24.8, 1e-3);
+  EXPECT_NEAR(find_foot(route, leg, {0, 0}, 4.9, {5, 0.2}, 16).s_m, 5, 1e-3);
+  EXPECT_NEAR(find_foot(route, leg, {3, 20}, 24.9, {5, 0.2}, 16).s_m, 24.8, 1e-3);
 }
 
 TEST(AnOffset, IsPositiveToTheLeft) {
   const Points points{{0, 0}, {10, 0}};
   const Route route = forwards_along(points);
   const Leg leg = whole_leg(route);
-  EXPECT_NEAR(offset_m(route, leg, {}, 5, {5, 0.3}), 0.3, 1e-12);
-  EXPECT_NEAR(offset_m(route, leg, {}, 5, {5, -0.3}), -0.3, 1e-12);
-  EXPECT_NEAR(offset_m(route, leg, {}, -1, {-1, -0.3}), -0.3, 1e-12) << "before its beginning";
+  const auto offset = [&](double s_m, Vector point) {
+    return offset_m(route, leg, {}, {s_m, smooth(route, leg, {}, s_m)}, point);
+  };
+  EXPECT_NEAR(offset(5, {5, 0.3}), 0.3, 1e-12);
+  EXPECT_NEAR(offset(5, {5, -0.3}), -0.3, 1e-12);
+  EXPECT_NEAR(offset(-1, {-1, -0.3}), -0.3, 1e-12) << "before its beginning";
 }
 
 }  // namespace
