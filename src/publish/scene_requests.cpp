@@ -119,7 +119,7 @@ void SceneRequests::ask(Asked asked, std::string_view line, Time now, Actions& o
              std::make_shared<const std::vector<scene::Zone>>(),
              {},
              {},
-             reply_line(true, "there is no zone; the file is kept aside")},
+             reply_line(true, "there is no zone; a file that was there is kept aside")},
             store::ForgetUnreadableZones{}, out);
       return;
   }

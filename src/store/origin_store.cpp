@@ -5,6 +5,8 @@
 #include <cerrno>
 #include <cmath>
 
+#include "store/kept_marks.h"
+
 namespace drover::store {
 namespace {
 
@@ -13,6 +15,8 @@ constexpr int kOriginVersion = 1;
 const std::string kFile = "origin.json";
 constexpr const char* kDamaged =
     "the stored origin was damaged: put the robot where it was and give init_rtk_data";
+constexpr const char* kDeleted =
+    "the stored origin was deleted: put the robot where it was and give init_rtk_data";
 constexpr const char* kUnreadable =
     "the stored origin cannot be read: mend the disk, or give init_rtk_data where it was";
 
@@ -49,7 +53,12 @@ std::optional<GeodeticPoint> OriginStore::load(std::vector<std::string>& report)
   std::string content;
   problem_.clear();
   if (const int e = files_.read(path, 65536, content); e == ENOENT) {
-    if (damaged_before()) problem_ = kDamaged;
+    if (damaged_before()) {
+      problem_ = kDamaged;
+    } else if (was_kept(files_, folder_, kFile)) {
+      problem_ = kDeleted;
+      report.push_back(deleted_text(folder_, kFile));
+    }
     return std::nullopt;
   } else if (e != 0) {
     problem_ = is_foreign(e) ? "the stored origin cannot be read: " + foreign_text(folder_, kFile)
@@ -62,7 +71,10 @@ std::optional<GeodeticPoint> OriginStore::load(std::vector<std::string>& report)
   if (body.ok()) {
     const auto parsed = json::parse(*body);
     const auto origin = parsed.ok() ? read_origin(parsed->root) : std::nullopt;
-    if (origin) return origin;
+    if (origin) {
+      mark_kept(files_, folder_, kFile);
+      return origin;
+    }
   } else {
     what = body.error().text;
   }
@@ -86,8 +98,10 @@ std::optional<Failure> OriginStore::save(const GeodeticPoint& origin) {
   write_origin(body, origin);
   auto failure =
       write_durably(files_, folder_, kFile, seal(kOriginFormat, kOriginVersion, body.str()));
-  if (!failure) problem_.clear();
-  return failure;
+  if (failure) return failure;
+  mark_kept(files_, folder_, kFile);
+  problem_.clear();
+  return std::nullopt;
 }
 
 }  // namespace drover::store

@@ -23,7 +23,8 @@ class OriginStore final {
   /// `files` is borrowed for the lifetime of this object; `folder` exists.
   OriginStore(Files& files, std::string folder);
 
-  /// Nothing when none was ever stored. A file that cannot be used is put aside and reported.
+  /// Nothing when none was ever stored. A file that cannot be used is put aside and reported; one
+  /// that was deleted is reported.
   std::optional<GeodeticPoint> load(std::vector<std::string>& report);
   /// Why there is none though one was stored, for operators; empty when there is one, or never was.
   /// Stored tracks belong to the lost one, so a person gives the new one.

@@ -4,11 +4,14 @@
 #include <algorithm>
 #include <utility>
 
+#include "store/kept_marks.h"
+
 namespace drover::store {
 namespace {
 
 /// Stands among the texts as long as a person does not know of it; its text is the problem.
 constexpr std::string_view kLossKind = "loss";
+const std::string kFile(kSceneFile.file);
 
 bool is_loss(const NamedText& text) {
   return text.kind == kLossKind;
@@ -36,7 +39,7 @@ std::vector<NamedText> SceneStore::load(double wall_s, std::optional<double> max
   }
   if (!found.problem.empty()) {
     problem_ = "the stored scene is lost: " + found.problem;
-    const auto aside = quarantine(files_, folder_, std::string(kSceneFile.file));
+    const auto aside = quarantine(files_, folder_, kFile);
     report.push_back(found.problem + "; " +
                      (aside.ok() ? "kept as " + *aside : aside.error().text));
     return {};
@@ -48,7 +51,11 @@ std::vector<NamedText> SceneStore::load(double wall_s, std::optional<double> max
     texts.erase(loss);
   } else if (!found.is_there && has_damaged_before(files_, folder_, kSceneFile)) {
     problem_ = "the stored scene was damaged and is lost";
+  } else if (!found.is_there && was_kept(files_, folder_, kFile)) {
+    problem_ = "the stored scene is lost: " + deleted_text(folder_, kFile);
+    report.push_back(problem_);
   }
+  if (found.is_there) mark_kept(files_, folder_, kFile);
   const auto is_old = [&](const NamedText& text) {
     return max_age_s && text.kind == kObjectKind && wall_s - text.arrived_s > *max_age_s;
   };
@@ -61,10 +68,11 @@ std::optional<Failure> SceneStore::save(const std::vector<NamedText>& texts) {
   if (!std::all_of(texts.begin(), texts.end(), is_of_the_scene))
     return Failure{"a scene has objects and constraints only"};
   if (is_foreign_) return Failure{problem_};
-  if (problem_.empty()) return save_named_texts(files_, folder_, kSceneFile, texts);
   auto all = texts;
-  all.push_back({std::string(kLossKind), "", 0, problem_});
-  return save_named_texts(files_, folder_, kSceneFile, all);
+  if (!problem_.empty()) all.push_back({std::string(kLossKind), "", 0, problem_});
+  auto failure = save_named_texts(files_, folder_, kSceneFile, all);
+  if (!failure) mark_kept(files_, folder_, kFile);
+  return failure;
 }
 
 std::optional<Failure> SceneStore::accept_loss(const std::vector<NamedText>& texts) {

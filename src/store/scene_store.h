@@ -24,7 +24,8 @@ class SceneStore final {
   /// What was stored, without the objects that arrived more than `max_age_s` before `wall_s`: only
   /// here they grow old, never while the program runs. What arrived later than `wall_s` is kept:
   /// the clock is wrong. A file that cannot be used is put aside, but stays where it only belongs
-  /// to another user; `report` gets a sentence of that and of what was left out.
+  /// to another user, and one that was deleted is a loss, too; `report` gets a sentence of that and
+  /// of what was left out.
   std::vector<NamedText> load(double wall_s, std::optional<double> max_age_s,
                               std::vector<std::string>& report);
   /// Why something that was stored is not known any more, for operators; empty: nothing is. It

@@ -5,6 +5,7 @@
 
 #include "json/json_text.h"
 #include "json/located_json.h"
+#include "store/kept_marks.h"
 
 namespace drover::store {
 namespace {
@@ -68,7 +69,11 @@ Remembered StopStore::load(std::vector<std::string>& report) const {
   std::string content;
   std::string what = "does not tell all of a stop";
   const int error = files_.read(path, 65536, content);
-  if (error == ENOENT) return {};
+  if (error == ENOENT) {
+    if (!was_kept(files_, folder_, kStopFile)) return {};
+    report.push_back(deleted_text(folder_, kStopFile));
+    return unreadable_stop();
+  }
   if (error != 0) {
     report.push_back(failure_text("read", path, error));
   } else {
@@ -78,7 +83,10 @@ Remembered StopStore::load(std::vector<std::string>& report) const {
     if (body.ok()) {
       const auto parsed = json::parse(*body);
       const auto found = parsed.ok() ? read(parsed->root, version) : std::nullopt;
-      if (found) return *found;
+      if (found) {
+        mark_kept(files_, folder_, kStopFile);
+        return *found;
+      }
     } else {
       what = body.error().text;
     }
@@ -97,8 +105,10 @@ std::optional<Failure> StopStore::save(const Remembered& remembered) {
     has_room_ = false;
     failure = write(remembered);
   }
-  if (!failure) keep_room();
-  return failure;
+  if (failure) return failure;
+  keep_room();
+  mark_kept(files_, folder_, kStopFile);
+  return std::nullopt;
 }
 
 std::optional<Failure> StopStore::write(const Remembered& remembered) {

@@ -26,8 +26,8 @@ class StopStore final {
   /// `files` is borrowed for the lifetime of this object; `folder` exists.
   StopStore(Files& files, std::string folder);
 
-  /// Nothing is latched when none was ever stored. A file that cannot be read is reported and
-  /// counts as a stop; it stays where it is until the next save.
+  /// Nothing is latched when none was ever stored. A file that cannot be read, or that was deleted,
+  /// is reported and counts as a stop; the one stays where it is until the next save.
   Remembered load(std::vector<std::string>& report) const;
   /// Keeps room for a save on a disk that others fill. Tried again with every save.
   void keep_room();

@@ -4,6 +4,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "store/kept_marks.h"
+
 namespace drover::store {
 namespace {
 
@@ -14,7 +16,9 @@ std::string prepared(Files& files, const std::string& folder) {
   };
   need(files.make_folder(folder), folder);
   need(files.make_folder(folder + "/tracks"), folder + "/tracks");
-  files.sync_folder(folder);  // on a read-only disk it fails, and everything else goes on
+  // On a read-only disk these fail, and everything else goes on.
+  files.make_folder(folder + "/" + std::string(kMarksFolder));
+  files.sync_folder(folder);
   return folder;
 }
 

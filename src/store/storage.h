@@ -94,7 +94,7 @@ struct StoredState {
 };
 
 /// Owns the state folder's content: `tracks/`, `origin.json`, `stop.json`, `stop.room`,
-/// `scene.texts` and `zones.texts`.
+/// `scene.texts`, `zones.texts` and the marks of these in `kept/`.
 class Storage final {
  public:
   /// Makes `folder` and its `tracks` when they are missing.

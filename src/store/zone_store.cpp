@@ -4,10 +4,15 @@
 #include <algorithm>
 #include <utility>
 
+#include "store/kept_marks.h"
+
 namespace drover::store {
 namespace {
 
 const std::string kZoneKind = "zone";
+const std::string kFile(kZonesFile.file);
+constexpr const char* kUnknown = "the stored zones are not known: ";
+constexpr const char* kForget = "; forget them and import them again";
 
 }  // namespace
 
@@ -19,11 +24,16 @@ void ZoneStore::load() {
   remove_leftovers(files_, folder_, kZonesFile);
   problem_.clear();
   is_foreign_ = found.is_foreign;
+  is_deleted_ = false;
   zones_ = std::move(found.texts);
   if (!found.problem.empty()) {
-    problem_ = "the stored zones are not known: " + found.problem;
-    if (!found.is_foreign)
-      problem_ += found.is_damaged ? "; forget them and import them again" : "; mend the disk";
+    problem_ = kUnknown + found.problem;
+    if (!found.is_foreign) problem_ += found.is_damaged ? kForget : "; mend the disk";
+  } else if (found.is_there) {
+    mark_kept(files_, folder_, kFile);
+  } else if (was_kept(files_, folder_, kFile)) {
+    problem_ = kUnknown + deleted_text(folder_, kFile) + kForget;
+    is_deleted_ = true;
   }
 }
 
@@ -46,16 +56,19 @@ std::optional<Failure> ZoneStore::remove(const std::string& name) {
 
 std::optional<Failure> ZoneStore::replace(std::vector<NamedText> zones) {
   if (!problem_.empty()) return Failure{problem_};
-  auto failure = save_named_texts(files_, folder_, kZonesFile, zones);
-  if (!failure) zones_ = std::move(zones);
-  return failure;
+  if (auto failure = save_named_texts(files_, folder_, kZonesFile, zones)) return failure;
+  mark_kept(files_, folder_, kFile);
+  zones_ = std::move(zones);
+  return std::nullopt;
 }
 
 std::optional<Failure> ZoneStore::forget_unreadable() {
   if (problem_.empty()) return Failure{"the stored zones can be read: delete them one by one"};
   if (is_foreign_) return Failure{problem_};  // nothing is lost yet
-  const auto aside = quarantine(files_, folder_, std::string(kZonesFile.file));
-  if (!aside.ok()) return aside.error();
+  if (!is_deleted_) {
+    const auto aside = quarantine(files_, folder_, kFile);
+    if (!aside.ok()) return aside.error();
+  }
   if (auto failure = save_named_texts(files_, folder_, kZonesFile, {})) return failure;
   problem_.clear();
   zones_.clear();

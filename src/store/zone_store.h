@@ -20,7 +20,8 @@ class ZoneStore final {
   ZoneStore(Files& files, std::string folder);
 
   /// Reads all and removes leftovers of interrupted saves. A file that is damaged stays where it
-  /// is, so that every start finds it, until a person says forget_unreadable.
+  /// is, so that every start finds it, until a person says forget_unreadable; so does the memory of
+  /// one that was deleted.
   void load();
   /// Empty: `zones` are all there are. Else the fence is not known, for operators: nothing may
   /// start, and nothing is stored over what may come back.
@@ -33,7 +34,8 @@ class ZoneStore final {
   std::optional<Failure> save(const std::string& name, std::string text, double wall_s);
   /// Returns nothing when it is durably gone; fails when there is none of that name.
   std::optional<Failure> remove(const std::string& name);
-  /// A person gives up what cannot be read: it is kept aside as `<file>.bad`, and there is no zone.
+  /// A person gives up what cannot be read: it is kept aside as `<file>.bad` (what was deleted is
+  /// gone), and there is no zone.
   /// Refused where the file only belongs to another user: the fence is as good as ever.
   std::optional<Failure> forget_unreadable();
 
@@ -44,6 +46,7 @@ class ZoneStore final {
   std::string folder_;
   std::vector<NamedText> zones_;
   bool is_foreign_ = false;
+  bool is_deleted_ = false;
   std::string problem_ = "the stored zones have not been read yet";
 };
 

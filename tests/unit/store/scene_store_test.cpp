@@ -85,6 +85,49 @@ TEST(ASceneStore, PutsADamagedFileAsideAndTellsItUntilAPersonKnows) {
   EXPECT_THAT(it.boot(), ElementsAre(object("box", 1)));
   EXPECT_THAT(it.problem, IsEmpty());
 }
+TEST(ASceneStore, TellsOfADeletedFileUntilAPersonKnows) {
+  Stored it;
+  ASSERT_FALSE(SceneStore(it.files, "state").save({object("box", 1)}));
+  it.files.remove(kPath);
+  for (int boot = 0; boot < 2; ++boot) {
+    EXPECT_THAT(it.boot(), IsEmpty());
+    EXPECT_EQ(it.problem, "the stored scene is lost: state/scene.texts was deleted") << boot;
+    EXPECT_THAT(it.report, ElementsAre(it.problem)) << boot;
+  }
+  std::vector<std::string> report;
+  SceneStore store(it.files, "state");
+  store.load(0, {}, report);
+  ASSERT_FALSE(store.save({object("pole", 2)}));
+  EXPECT_THAT(it.boot(), ElementsAre(object("pole", 2)));
+  EXPECT_THAT(it.problem, HasSubstr("deleted")) << "a program that goes on sending has not seen it";
+  ASSERT_FALSE(store.accept_loss({object("pole", 2)}));
+  it.boot();
+  EXPECT_THAT(it.problem, IsEmpty());
+}
+TEST(ASceneStore, KnowsADeletedFileThatAnOlderProgramHadWritten) {
+  Stored it;
+  it.files.put(kPath, *encode_named_texts(kSceneFile, {object("box", 1)}));
+  EXPECT_THAT(it.boot(), ElementsAre(object("box", 1)));
+  EXPECT_THAT(it.problem, IsEmpty());
+  it.files.remove(kPath);
+  it.boot();
+  EXPECT_THAT(it.problem, HasSubstr("deleted"));
+}
+TEST(ASceneStore, TellsOfNoDeletionWhereverThePowerGoesInItsFirstSave) {
+  for (int call = 1; call < 14; ++call) {
+    for (const bool names : {false, true}) {
+      Stored it;
+      it.files.plan(FaultFiles::Fault::cut_after, call);
+      try {
+        SceneStore(it.files, "state").save({object("a", 1)});
+      } catch (const PowerCut&) {
+      }
+      it.files.boot_after_cut({names, names});
+      it.boot();
+      EXPECT_THAT(it.problem, IsEmpty()) << call;
+    }
+  }
+}
 TEST(ASceneStore, HasItsProblemStillWhenALossCannotBeAccepted) {
   Stored it;
   it.files.put(kPath, "{");

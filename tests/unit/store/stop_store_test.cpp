@@ -115,6 +115,17 @@ TEST(AStopStore, CountsADamagedFileAsAStopUntilTheNextSave) {
   ASSERT_TRUE(it.save({}));
   EXPECT_EQ(it.load(), Remembered{});
 }
+TEST(AStopStore, CountsADeletedFileAsAStopUntilTheNextSave) {
+  Stored it;
+  ASSERT_TRUE(it.save({}));
+  it.files.remove("state/stop.json");
+  for (int boot = 0; boot < 2; ++boot) {
+    EXPECT_EQ(it.load(), unreadable_stop());
+    EXPECT_THAT(it.report, ElementsAre("state/stop.json was deleted"));
+  }
+  ASSERT_TRUE(it.save({}));
+  EXPECT_EQ(it.load(), Remembered{});
+}
 TEST(AStopStore, HasRoomForAStopOnADiskThatOthersFilled) {
   FullDisk disk;
   StopStore store(disk, "state");

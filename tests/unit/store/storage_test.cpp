@@ -233,6 +233,20 @@ TEST(Storage, TellsOfALostOriginUntilAnotherIsGiven) {
   EXPECT_EQ(found.origin_problem, "");
 }
 
+TEST(Storage, TellsOfADeletedOriginUntilAnotherIsGiven) {
+  FaultFiles files;
+  Storage storage(files, "/state");
+  ASSERT_TRUE(storage.run({{}, SaveOrigin{{23.0, 113.0, 1.0}}}).ok);
+  files.remove("/state/origin.json");
+  StoredState found = Storage(files, "/state").load();
+  EXPECT_FALSE(found.origin.has_value());
+  EXPECT_EQ(found.origin_problem,
+            "the stored origin was deleted: put the robot where it was and give init_rtk_data");
+  EXPECT_THAT(found.report, ElementsAre("/state/origin.json was deleted"));
+  ASSERT_TRUE(storage.run({{}, SaveOrigin{{23.0, 113.0, 1.0}}}).ok);
+  EXPECT_EQ(Storage(files, "/state").load().origin_problem, "");
+}
+
 TEST(Storage, TellsOfAnOriginThatCannotBeRead) {
   FaultFiles files;
   files.put("/state/origin.json", std::string(70'000, ' '));

@@ -75,6 +75,34 @@ TEST(AZoneStore, DoesNotKnowTheFenceThatIsDamagedUntilAPersonGivesItUp) {
     EXPECT_THAT(names_of(it.booted()), ElementsAre("yard=1"));
   }
 }
+TEST(AZoneStore, DoesNotKnowTheFenceThatWasDeletedUntilAPersonGivesItUp) {
+  Stored it;
+  ASSERT_FALSE(it.booted().save("yard", "1", 0));
+  it.files.remove(kPath);
+  for (int boot = 0; boot < 2; ++boot) {
+    ZoneStore store = it.booted();
+    EXPECT_EQ(store.problem(),
+              "the stored zones are not known: state/zones.texts was deleted; forget them and "
+              "import them again");
+    EXPECT_TRUE(store.save("pond", "2", 0)) << "the yard would be lost unseen";
+  }
+  ZoneStore store = it.booted();
+  ASSERT_FALSE(store.forget_unreadable());
+  EXPECT_THAT(store.problem(), IsEmpty());
+  ASSERT_FALSE(store.save("yard", "1", 0));
+  EXPECT_THAT(it.booted().problem(), IsEmpty());
+  EXPECT_THAT(names_of(it.booted()), ElementsAre("yard=1"));
+}
+TEST(AZoneStore, FindsADeletedFileThatWasBroughtBack) {
+  Stored it;
+  ASSERT_FALSE(it.booted().save("yard", "1", 0));
+  const auto backup = it.files.contents()[kPath];
+  it.files.remove(kPath);
+  EXPECT_THAT(it.booted().problem(), HasSubstr("deleted"));
+  it.files.put(kPath, backup);
+  EXPECT_THAT(it.booted().problem(), IsEmpty());
+  EXPECT_THAT(names_of(it.booted()), ElementsAre("yard=1"));
+}
 TEST(AZoneStore, ForgetsNothingThatCanBeRead) {
   Stored it;
   ZoneStore store = it.booted();

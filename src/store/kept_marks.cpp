@@ -1,0 +1,34 @@
+// Which files were ever written: one of them that is not there was deleted, and was not "never".
+#include "store/kept_marks.h"
+
+#include <cerrno>
+
+#include "store/durable_file.h"
+
+namespace drover::store {
+namespace {
+
+std::string marks_of(const std::string& folder) {
+  return folder + "/" + std::string(kMarksFolder);
+}
+
+int look(Files& files, const std::string& folder, const std::string& name) {
+  std::string content;
+  return files.read(marks_of(folder) + "/" + name, 4096, content);
+}
+
+}  // namespace
+
+bool was_kept(Files& files, const std::string& folder, const std::string& name) {
+  return look(files, folder, name) != ENOENT;
+}
+
+void mark_kept(Files& files, const std::string& folder, const std::string& name) {
+  if (look(files, folder, name) == ENOENT) (void)write_durably(files, marks_of(folder), name, "");
+}
+
+std::string deleted_text(const std::string& folder, const std::string& name) {
+  return folder + "/" + name + " was deleted";
+}
+
+}  // namespace drover::store
