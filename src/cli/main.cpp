@@ -14,11 +14,13 @@
 
 #include "cli/client.h"
 #include "cli/devices.h"
+#include "cli/estimate.h"
 #include "cli/exit_codes.h"
 #include "cli/failure.h"
 #include "cli/option_texts.h"
 #include "cli/replay.h"
 #include "cli/reply.h"
+#include "cli/report.h"
 #include "cli/scene.h"
 #include "cli/show.h"
 #include "cli/stop.h"
@@ -189,6 +191,7 @@ int main(int argc, char** argv) {
 
   drover::cli::add_device_commands(app, s.socket, code);
   drover::cli::add_replay_command(app, code);
+  drover::cli::add_estimate_command(app, code);
 
   auto* traj = app.add_subcommand("traj", "saved tracks")->require_subcommand(1);
   auto* list = traj->add_subcommand("list", "name, points and length of each");
@@ -219,6 +222,7 @@ int main(int argc, char** argv) {
   cancel->add_flag("--json", s.json, "one JSON object");
   cancel->callback([&] { code = run(s, request("task_cancel")); });
 
+  drover::cli::add_report_command(app, s.socket, code);
   drover::cli::add_scene_commands(app, s.socket, code);
   drover::cli::add_zone_commands(app, s.socket, code);
 

@@ -52,6 +52,11 @@ constexpr Example kExamples[] = {
      "  drover task start 'row 7' --id 57 --speed 0.5   # THE ROBOT DRIVES, to point 57\n"
      "  drover traj show 'row 7'                        # which points it has"},
     {"task cancel", "  drover task cancel             # a controlled stop"},
+    {"report",
+     "  drover report                  # of the last task\n"
+     "  drover report --list\n"
+     "  drover report 12 --svg row7.svg --colour quality\n"
+     "  drover report --json | jq .report.cross_track"},
     {"scene",
      "  drover scene list\n"
      "  drover scene show box1"},

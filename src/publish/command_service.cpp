@@ -312,7 +312,8 @@ void CommandService::start(RequestId id, const StartTaskRequest& request, Time n
   if (!path) return tell(id, Verb::start_task, false, path.error(), out);
   path.value()->number = ++last_path_;
   paths_.push_back(std::move(path.value()));
-  expect(id, Verb::start_task, request.name);
+  expect(id, Verb::start_task, request.name).task = {paths_.back().get(), request.name, request.id,
+                                                     request.speed_mps};
   send(id, now, StartTask{paths_.back().get(), index, request.speed_mps}, out);
 }
 
@@ -332,6 +333,12 @@ void CommandService::on_snapshot(const Snapshot& snapshot, Time now, Actions& ou
   if (!fixed || now < next_automatic_origin_) return;
   next_automatic_origin_ = now + from_s(kAutomaticOriginRetry_s);
   propose_origin(next_id(RequestId::Source::internal), now, out);
+}
+
+std::optional<GivenTask> CommandService::given_task(RequestId id) const {
+  const auto found = pending_.find(Key{id.source, id.number});
+  if (found == pending_.end() || found->second.task.path == nullptr) return std::nullopt;
+  return found->second.task;
 }
 
 std::optional<store::Track> CommandService::find_track(const std::string& name) const {

@@ -47,6 +47,14 @@ struct CommandServiceConfig {
 /// parsed where nobody waits for it.
 inline constexpr std::size_t kShortMessageBytes = 4096;
 
+/// A task that was given to the engine and has not ended.
+struct GivenTask {
+  const Path* path = nullptr;  ///< until the engine gives it back
+  std::string track;
+  std::int64_t target_id = 0;  ///< as the operator counts
+  double asked_mps = 0;
+};
+
 class CommandService final {
  public:
   CommandService(const CommandServiceConfig& config, store::StoredState stored);
@@ -80,6 +88,8 @@ class CommandService final {
   const std::map<std::string, store::Track>& tracks() const { return tracks_; }
   /// As it would be driven now; nothing when there is none of that name.
   std::optional<store::Track> find_track(const std::string& name) const;
+  /// Of a start; nothing when there is none of that number.
+  std::optional<GivenTask> given_task(RequestId id) const;
   const std::optional<GeodeticPoint>& origin() const { return origin_; }
   /// Another one may be in force any moment.
   bool origin_pending() const;
@@ -98,6 +108,7 @@ class CommandService final {
     GeodeticPoint origin;   ///< init_rtk_data: once proposed
     bool origin_stored = false;
     bool answered = false;  ///< start_task: accepted, and start_nav is to come
+    GivenTask task;         ///< start_task
   };
   using Key = std::pair<RequestId::Source, std::uint64_t>;
 

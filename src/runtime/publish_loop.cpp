@@ -88,6 +88,9 @@ PublishLoop::PublishLoop(const config::DroverConfig& config, ControlExchange& co
       [this](Time now) { return robot_now(now); });
   scene_outlet_ = of_scene.get();
   add(std::move(of_scene));  // before the command line, which takes every line
+  auto of_reports = std::make_unique<publish::ReportOutlet>(service_);
+  report_outlet_ = of_reports.get();
+  add(std::move(of_reports));
   for (auto& outlet : make_outlets(config, service_, [this](Time now) { return status_text(now); }))
     add(std::move(outlet));
   if (config.mqtt.enabled) connect_broker();
@@ -276,6 +279,8 @@ void PublishLoop::take_replies(Time now) {
 void PublishLoop::stored(store::StorageReply reply, Time now, publish::Actions& actions) {
   if (reply.whose == store::StoredFor::scene) {
     scene_outlet_->on_stored(reply, now, actions);
+  } else if (reply.whose == store::StoredFor::reports) {
+    report_outlet_->on_stored(reply, actions);
   } else {
     service_.on_reply(std::move(reply), now, actions);
   }

@@ -12,6 +12,7 @@
 #include "config/config.h"
 #include "publish/command_service.h"
 #include "publish/outlet.h"
+#include "publish/report_outlet.h"
 #include "publish/scene_outlet.h"
 #include "runtime/cli_server.h"
 #include "runtime/control_exchange.h"
@@ -117,7 +118,8 @@ class PublishLoop final {
   publish::CommandService service_;
   publish::Actions actions_;
   std::vector<TimedOutlet> outlets_;
-  publish::SceneOutlet* scene_outlet_ = nullptr;  ///< one of them
+  publish::SceneOutlet* scene_outlet_ = nullptr;    ///< one of them
+  publish::ReportOutlet* report_outlet_ = nullptr;  ///< likewise
   Time started_;
   std::string broker_text_;
   std::unique_ptr<MqttClient> broker_;

@@ -16,7 +16,9 @@ std::string prepared(Files& files, const std::string& folder) {
   };
   need(files.make_folder(folder), folder);
   need(files.make_folder(folder + "/tracks"), folder + "/tracks");
-  // On a read-only disk these fail, and everything else goes on.
+  // On a read-only disk these fail, and everything else goes on: without its folder each report is
+  // lost, and told.
+  (void)files.make_folder(folder + "/reports");
   files.make_folder(folder + "/" + std::string(kMarksFolder));
   files.sync_folder(folder);
   return folder;
@@ -33,6 +35,10 @@ std::vector<NamedText> written(const std::vector<SceneText>& texts) {
 }  // namespace
 
 StoredFor stored_for(const StorageJob& job) {
+  const bool of_reports = std::holds_alternative<SaveReport>(job.what) ||
+                          std::holds_alternative<ListReports>(job.what) ||
+                          std::holds_alternative<ReadReport>(job.what);
+  if (of_reports) return StoredFor::reports;
   const bool of_scene =
       std::holds_alternative<SaveScene>(job.what) || std::holds_alternative<AcceptLoss>(job.what) ||
       std::holds_alternative<SaveZone>(job.what) || std::holds_alternative<DeleteZone>(job.what) ||
@@ -45,7 +51,8 @@ Storage::Storage(Files& files, const std::string& folder)
       origin_(files, folder),
       stop_(files, folder),
       scene_(files, folder),
-      zones_(files, folder) {}
+      zones_(files, folder),
+      reports_(files, folder + "/reports") {}
 
 StoredState Storage::load(const std::optional<SceneAge>& scene) {
   StoredState state;
@@ -86,6 +93,14 @@ StorageReply Storage::run(StorageJob job) {
     failure = zones_.remove(gone->name);
   } else if (std::holds_alternative<ForgetUnreadableZones>(job.what)) {
     failure = zones_.forget_unreadable();
+  } else if (const auto* report = std::get_if<SaveReport>(&job.what)) {
+    failure = reports_.save(report->texts);
+  } else if (std::holds_alternative<ListReports>(job.what)) {
+    reply.reports = reports_.list();
+  } else if (const auto* wanted = std::get_if<ReadReport>(&job.what)) {
+    auto found = reports_.read(wanted->number);
+    if (found.ok()) reply.reports.push_back(std::move(found.value()));
+    if (!found.ok()) failure = found.error();
   } else {
     failure = tracks_.remove_all(reply.removed);
   }

@@ -11,6 +11,7 @@
 #include "drover/command.h"
 #include "store/files.h"
 #include "store/origin_store.h"
+#include "store/report_store.h"
 #include "store/scene_store.h"
 #include "store/scene_text.h"
 #include "store/stop_store.h"
@@ -49,15 +50,23 @@ struct DeleteZone {
 };
 struct ForgetUnreadableZones {};
 
+struct SaveReport {
+  ReportTexts texts;
+};
+struct ListReports {};
+struct ReadReport {
+  std::uint64_t number = 0;  ///< 0: the newest
+};
+
 struct StorageJob {
   RequestId id;
   std::variant<SaveTrack, DeleteTrack, DeleteAllTracks, SaveOrigin, SaveScene, AcceptLoss, SaveZone,
-               DeleteZone, ForgetUnreadableZones>
+               DeleteZone, ForgetUnreadableZones, SaveReport, ListReports, ReadReport>
       what;
 };
 
 /// Whose answer it is: numbers of requests are each one's own.
-enum class StoredFor : std::uint8_t { tracks, scene };
+enum class StoredFor : std::uint8_t { tracks, scene, reports };
 StoredFor stored_for(const StorageJob& job);
 
 struct StorageReply {
@@ -67,6 +76,7 @@ struct StorageReply {
   std::vector<std::string> removed;  ///< DeleteAllTracks: names that are gone, also when not ok
   std::optional<Track> track{};      ///< SaveTrack: given back
   StoredFor whose = StoredFor::tracks;
+  std::vector<StoredReport> reports{};  ///< ListReports: all, the newest first; ReadReport: it
 };
 
 /// The scene is wanted, too; by it objects grow old.
@@ -93,11 +103,11 @@ struct StoredState {
   std::shared_ptr<const StoredScene> scene{};  ///< nullptr: it was not asked for
 };
 
-/// Owns the state folder's content: `tracks/`, `origin.json`, `stop.json`, `stop.room`,
+/// Owns the state folder's content: `tracks/`, `reports/`, `origin.json`, `stop.json`, `stop.room`,
 /// `scene.texts`, `zones.texts` and the marks of these in `kept/`.
 class Storage final {
  public:
-  /// Makes `folder` and its `tracks` when they are missing.
+  /// Makes `folder`, its `tracks` and its `reports` when they are missing.
   /// @throws std::runtime_error with folder and reason; start-up only
   Storage(Files& files, const std::string& folder);
 
@@ -114,6 +124,7 @@ class Storage final {
   StopStore stop_;
   SceneStore scene_;
   ZoneStore zones_;
+  ReportStore reports_;
 };
 
 }  // namespace drover::store

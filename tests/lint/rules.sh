@@ -44,6 +44,7 @@ src/guard        drover/ guard/
 src/cli          drover/ cli/ json/ text/ config/register_map.h config/fields_map.h
 src/cli          gateway/recording/replay.h link/unique_fd.h publish/names.h publish/shown_json.h
 src/cli          scene/zone/ scene/message/shapes.h
+src/cli          config/load.h engine/config.h engine/base/kinematics.h engine/estimate/estimator.h
 src/droverd.cpp  config/ runtime/
 sim/plant        drover/ sim/plant/
 sim/robot        drover/ link/ text/ sim/plant/ sim/robot/ config/register_map.h

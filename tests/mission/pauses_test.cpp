@@ -1,4 +1,6 @@
 // Missions that wait and go on by themselves: lost localisation, an obstacle.
+#include <fstream>
+
 #include "mission/support.h"
 
 namespace drover::mission {
@@ -146,6 +148,40 @@ TEST(Obstacle, IsNeverTouched) {
     if (status.time > begin) {
       EXPECT_EQ(status.document.at("robot").at("robot_status").get<int>() & 16, 0) << "bumper";
     }
+}
+
+/// What `drover report` says of the mission is what its logs show.
+TEST(Obstacle, IsInTheReportOfItsTask) {
+  const Record& log = record("obstacle");
+  std::ifstream file(log.folder / "drover.log");
+  const auto answer = nlohmann::json::parse(file, nullptr, false);
+  ASSERT_TRUE(answer.is_object() && answer.at("ok").get<bool>()) << "what drover said: " << answer;
+  const auto& report = answer.at("report");
+  EXPECT_EQ(report.at("track"), "obstacle");
+  EXPECT_EQ(report.at("result"), "success");
+  const auto& status = log.first_status("NAV_SUCCESS");
+  const Time begin = log.answered("start_nav_success");
+  EXPECT_NEAR(report.at("time_s").get<double>(), to_s(status.time - begin), 0.5);
+  const auto figures = drive_figures(log, begin, status.time);
+  const double way_m = report.at("way_m").get<double>();
+  EXPECT_NEAR(way_m, figures.distance_m, 0.02 * figures.distance_m);
+  const auto& beside = report.at("cross_track");
+  figure("cross-track by the report", beside.at("rms_m").get<double>(), "m");
+  EXPECT_NEAR(beside.at("rms_m").get<double>(), figures.rms_m, 0.015)
+      << "the report goes by the robot's own estimate";
+  EXPECT_GE(beside.at("max_m").get<double>(), beside.at("p95_m").get<double>());
+  ASSERT_EQ(report.at("pauses").size(), 1U);
+  const auto& pause = report.at("pauses").front();
+  const auto found = obstacles(log);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_NEAR(pause.at("lasted_s").get<double>(), to_s(found[0].end - found[0].begin), 0.3);
+  EXPECT_THAT(pause.at("reason").get<std::string>(), testing::HasSubstr("zone"));
+  double shares = 0;
+  for (const auto& one : report.at("quality")) shares += one.at("share").get<double>();
+  EXPECT_NEAR(shares, 1, 0.001);
+  EXPECT_LT(report.at("error_bound").at("max_moving_m").get<double>(), 0.3);
+  const auto& driven = answer.at("line").at("driven");
+  EXPECT_GT(driven.size(), 0.5 * way_m / 0.1);
 }
 
 TEST(Obstacle, SlowsTheRobotInTheFarZone) {

@@ -30,9 +30,29 @@ std::string shown(FieldKind kind, const FieldValue& value) {
   return text;
 }
 
+/// Whether inputs that name numbers of one mean the same devices and links of the other.
+bool same_wiring(const Wiring& a, const Wiring& b) {
+  const auto same_link = [](const Link& one, const Link& other) {
+    return one.name == other.name && one.wire == other.wire;
+  };
+  const auto same_slot = [](const Slot& one, const Slot& other) {
+    return one.name == other.name && one.kind == other.kind && one.link == other.link;
+  };
+  return std::equal(a.links.begin(), a.links.end(), b.links.begin(), b.links.end(), same_link) &&
+         std::equal(a.slots.begin(), a.slots.end(), b.slots.begin(), b.slots.end(), same_slot);
+}
+
+/// What is done with a recording.
+struct Playing {
+  bool compares = true;
+  const config::DroverConfig* config = nullptr;  ///< in place of the recorded one
+  std::function<void(const Snapshot&)> cycle;    ///< after each
+};
+
 class Replay final {
  public:
-  explicit Replay(std::span<const std::uint8_t> file) : in_(file) {}
+  Replay(std::span<const std::uint8_t> file, Playing playing)
+      : in_(file), playing_(std::move(playing)) {}
 
   Replayed run() {
     if (!begin()) return result_;
@@ -66,7 +86,8 @@ class Replay final {
   void give_up(std::string why) {
     over_ = true;
     char place[80] = {};
-    std::snprintf(place, sizeof place, " (equal for %llu cycles until then)",
+    std::snprintf(place, sizeof place, " (%s %llu cycles until then)",
+                  playing_.compares ? "equal for" : "played",
                   static_cast<unsigned long long>(result_.cycles));
     finish(Replayed::Verdict::unusable, std::move(why) + place);
   }
@@ -87,6 +108,7 @@ class Replay final {
     }
     try {
       gateway_ = std::make_unique<Gateway>(loaded.config);
+      if (playing_.config != nullptr && !take_other_configuration()) return false;
     } catch (const std::runtime_error& error) {
       result_.note = error.what();
       return false;
@@ -101,6 +123,16 @@ class Replay final {
     fields_ = std::move(header.fields);
     recorded_.resize(fields_.size());
     match_fields();
+    return true;
+  }
+
+  bool take_other_configuration() {
+    auto other = std::make_unique<Gateway>(*playing_.config);
+    if (!same_wiring(gateway_->wiring(), other->wiring())) {
+      result_.note = "its devices and links are not those of the configuration that is given";
+      return false;
+    }
+    gateway_ = std::move(other);
     return true;
   }
 
@@ -168,6 +200,11 @@ class Replay final {
   void compare(ByteReader& in) {
     if (!ticked_) return give_up("it has an output without a cycle");
     ticked_ = false;
+    if (playing_.cycle) playing_.cycle(gateway_->snapshot());
+    if (!playing_.compares) {
+      ++result_.cycles;
+      return release_paths();
+    }
     differences_.clear();
     read_fields(in);
     compare_fields();
@@ -290,6 +327,7 @@ class Replay final {
   static constexpr std::size_t kNowhere = SIZE_MAX;
 
   ByteReader in_;
+  Playing playing_;
   Replayed result_;
   std::map<std::uint64_t, std::unique_ptr<const Path>> paths_;  ///< outlive the gateway
   std::unique_ptr<Gateway> gateway_;
@@ -311,7 +349,12 @@ class Replay final {
 }  // namespace
 
 Replayed replay(std::span<const std::uint8_t> file) {
-  return Replay(file).run();
+  return Replay(file, {}).run();
+}
+
+Replayed play(std::span<const std::uint8_t> file, const config::DroverConfig* config,
+              const std::function<void(const Snapshot&)>& cycle) {
+  return Replay(file, {false, config, cycle}).run();
 }
 
 }  // namespace drover::gateway

@@ -3,10 +3,13 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "config/config.h"
+#include "drover/snapshot.h"
 #include "drover/time.h"
 
 namespace drover::gateway {
@@ -42,5 +45,11 @@ struct Replayed {
 /// A recording that ends within a record is one of a daemon that was killed: good until there.
 /// One with a gap is unusable, and it is said how far it was equal.
 Replayed replay(std::span<const std::uint8_t> file);
+
+/// To see what the gateway makes of what was recorded, whatever the recording says of it. `cycle`
+/// is called after each; `config`: in place of the recorded configuration, nullptr: that one. It is
+/// unusable when the devices or links of the two are not the same, whose numbers the inputs name.
+Replayed play(std::span<const std::uint8_t> file, const config::DroverConfig* config,
+              const std::function<void(const Snapshot&)>& cycle);
 
 }  // namespace drover::gateway

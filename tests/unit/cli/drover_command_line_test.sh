@@ -84,6 +84,25 @@ expect "a file that is no zone is told with its line" 1 err "line 1, column " \
   zone import "$0" --keep-in --yes
 expect "to programs as JSON" 1 out '{"ok":false,"reason":"' zone import "$0" --keep-in --json
 expect "a scene is asked of droverd" 3 out '{"ok":false,"reason":"' scene list --json
+expect "a report is asked of droverd" 3 out '{"ok":false,"reason":"' report --svg "$work/a.svg" --json
+[[ ! -e $work/a.svg ]]
+verdict $? "and nothing is drawn without it"
+expect "reports are numbered from one" 2 err "number" report 0
+robot=$(dirname "$0")/../../../config/drover.json
+log=$work/log.csv
+printf 'time_s,vx_mps,wz_radps\n0,0,0\n0.5,0,0\n' > "$log"
+expect "a log is estimated as the robot would" 0 out '"no origin"' \
+  estimate --config "$robot" --in "$log"
+expect "and how much it was is told beside it" 0 err "rows 2, poses " \
+  estimate --config "$robot" --in "$log" --out "$work/pose.csv"
+[[ $(head -c 18 "$work/pose.csv") == time_s,x_m,y_m,yaw ]]
+verdict $? "into a file, if there is one"
+expect "by a configuration" 2 err "--config" estimate --in "$log"
+expect "of a log or of a recording" 2 err "--in or --recording" estimate --config "$robot"
+printf '1,0,zero\n' >> "$log"
+expect "what is wrong in a log is told with its place" 1 err 'line 4, column 3 (wz_radps)' \
+  estimate --config "$robot" --in "$log"
+expect "what is no recording is none" 1 err "$log: " estimate --recording "$log"
 expect "a verb that gives up what is stored is not guessed" 2 err "there are " scene accept
 expect "a point's number is one that there can be" 2 err "id" \
   task start x --id 99999999999999999999

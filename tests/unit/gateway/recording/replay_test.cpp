@@ -136,6 +136,51 @@ TEST(Replay, KnowsAPathByItsNumber) {
   EXPECT_THAT(it.note, HasSubstr("killed")) << "it has no last word";
 }
 
+TEST(Replay, IsPlayedForWhatTheGatewayMakesOfIt) {
+  const RobotRun run = a_run();
+  const auto file = record(run);
+  std::uint64_t cycles = 0;
+  Time last = kNever;
+  const auto watch = [&](const Snapshot& snapshot) {
+    EXPECT_GT(snapshot.time, last);
+    last = snapshot.time;
+    ++cycles;
+  };
+  const auto it = play(file, nullptr, watch);
+  EXPECT_NE(it.verdict, Verdict::unusable) << it.note;
+  EXPECT_EQ(cycles, replay(file).cycles);
+  EXPECT_EQ(it.cycles, cycles);
+}
+
+TEST(Replay, IsPlayedWithAnotherConfigurationOfTheSameDevices) {
+  const RobotRun run = a_run();
+  const auto other =
+      changed(robot_configuration(), "\"acceleration_mps2\": 0.4", "\"acceleration_mps2\": 0.41");
+  const auto commanded = [](const std::vector<std::uint8_t>& file, const auto* config) {
+    std::vector<double> speeds;
+    const auto it = play(file, config, [&](const Snapshot& snapshot) {
+      speeds.push_back(snapshot.axes[0].commanded_velocity_radps);
+    });
+    EXPECT_NE(it.verdict, Verdict::unusable) << it.note;
+    return speeds;
+  };
+  const config::DroverConfig* recorded = nullptr;
+  const auto config = load_robot(other).config;
+  const auto with_other = commanded(record(run), &config);
+  EXPECT_EQ(with_other, commanded(record(
+                                      run, other, [](auto&) {}, other),
+                                  recorded));
+  EXPECT_NE(with_other, commanded(record(run), recorded));
+}
+
+TEST(Replay, IsNotPlayedWithAConfigurationOfOtherDevices) {
+  auto other = load_robot().config;
+  other.devices.front().name = "somebody else's";
+  const auto it = play(record(a_run()), &other, {});
+  EXPECT_EQ(it.verdict, Verdict::unusable);
+  EXPECT_THAT(it.note, HasSubstr("not those of the configuration that is given"));
+}
+
 TEST(Replay, RefusesATaskWhosePathIsMissing) {
   RobotRun run;
   Path path;
