@@ -187,13 +187,14 @@ void Composer::hdt(const Solution& solution) {
   end();
 }
 
-std::size_t compose(const Solution& solution, std::string_view talker, std::span<char> out) {
+std::size_t compose(const Solution& solution, std::string_view talker, std::span<char> out,
+                    Sentences sends) {
   Composer composer(out, talker);
   composer.gga(solution);
   composer.rmc(solution);
   composer.vtg(solution);
-  composer.gst(solution);
-  composer.hdt(solution);
+  if (sends.gst) composer.gst(solution);
+  if (sends.hdt) composer.hdt(solution);
   return composer.full() ? 0 : composer.size();
 }
 

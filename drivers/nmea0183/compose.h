@@ -57,7 +57,14 @@ class Composer final {
   bool full_ = false;
 };
 
+/// What not every receiver sends.
+struct Sentences {
+  bool gst = true;
+  bool hdt = true;
+};
+
 /// GGA, RMC, VTG, GST, HDT in this order. Returns the bytes written; 0 when they do not fit.
-std::size_t compose(const Solution& solution, std::string_view talker, std::span<char> out);
+std::size_t compose(const Solution& solution, std::string_view talker, std::span<char> out,
+                    Sentences sends = {});
 
 }  // namespace drover::nmea0183

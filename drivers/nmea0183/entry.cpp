@@ -41,6 +41,7 @@ const OptionSpec kOptions[] = {
 };
 
 constexpr std::string_view kFixes[] = {"fix", "float", "dgps", "single", "none"};
+constexpr std::string_view kSpeeds[] = {"signal", "positions"};
 
 const OptionSpec kTwinOptions[] = {
     {.name = "output_rate_Hz",
@@ -96,6 +97,18 @@ const OptionSpec kTwinOptions[] = {
      .min = 0.0,
      .max = 5.0,
      .text = "one sigma of the speed, along and across (m/s)"},
+    {.name = "speed_from",
+     .default_value = std::string("signal"),
+     .choices = kSpeeds,
+     .text = "speed and course are measured by themselves, or are those of the told positions, "
+             "smoothed over 0.5 s"},
+    {.name = "gst", .default_value = true, .text = "it sends GST"},
+    {.name = "gst_factor",
+     .default_value = 1.0,
+     .min = 0.01,
+     .max = 100.0,
+     .text = "what GST tells for a sigma of one"},
+    {.name = "hdt", .default_value = true, .text = "it sends HDT; false: it has one antenna"},
     {.name = "undulation_m",
      .default_value = -8.5,
      .min = -110.0,

@@ -14,7 +14,6 @@ namespace {
 
 constexpr std::size_t kHistory = 2048;
 constexpr Duration kSampleSpacing = std::chrono::milliseconds(2);
-constexpr double kMaxLag_ms = 2000;
 // A solution that gets worse wanders off; one that gets better is there soon.
 constexpr double kWorsens_s = 3.0;
 constexpr double kImproves_s = 0.3;
@@ -22,6 +21,7 @@ constexpr double kHeadingErrorTau_s = 0.5;
 constexpr double kVerticalFactor = 1.5;
 constexpr double kNormalAge_s = 1.0;
 constexpr double kCourseNeeds_mps = 0.1;
+constexpr double kPositionsSmooth_s = 0.5;
 constexpr std::uint64_t kFaultStream = 0x6661756C74U;
 
 struct KindOfFix {
@@ -94,6 +94,9 @@ Nmea0183Twin::Nmea0183Twin(const Options& options, std::uint64_t seed)
       sigma_single_m_(options.number("sigma_single_m")),
       heading_sigma_deg_(options.number("heading_sigma_deg")),
       speed_sigma_mps_(options.number("speed_sigma_mps")),
+      speed_of_positions_(options.text("speed_from") == "positions"),
+      sends_{options.flag("gst"), options.flag("hdt")},
+      gst_factor_(options.number("gst_factor")),
       undulation_m_(options.number("undulation_m")),
       noise_(seed),
       fault_noise_(seed ^ kFaultStream),
@@ -102,7 +105,6 @@ Nmea0183Twin::Nmea0183Twin(const Options& options, std::uint64_t seed)
       up_(options.number("correlation_s"), noise_),
       heading_error_(kHeadingErrorTau_s, noise_),
       history_(kHistory) {
-  period_ = configured_period_;
   const auto utc = parse_utc(options.text("utc_start"));
   if (!utc) throw std::runtime_error("utc_start is not of the form yyyy-mm-ddThh:mm:ss");
   utc_start_ = *utc;
@@ -134,7 +136,8 @@ GnssTruth Nmea0183Twin::truth_at(Time at) const {
             .altitude_m = blend(a.altitude_m, b.altitude_m, share),
             .heading_deg = blend_deg(a.heading_deg, b.heading_deg, share),
             .speed_mps = blend(a.speed_mps, b.speed_mps, share),
-            .course_deg = blend_deg(a.course_deg, b.course_deg, share)};
+            .course_deg = blend_deg(a.course_deg, b.course_deg, share),
+            .ahead_deg = blend_deg(a.ahead_deg, b.ahead_deg, share)};
   }
   return later->truth;
 }
@@ -144,14 +147,14 @@ std::size_t Nmea0183Twin::on_tick(Time now, const GnssTruth& truth, std::span<ch
     started_ = true;
     start_ = now;
     next_epoch_ = now;
-    last_epoch_ = now - period_;
+    last_epoch_ = now - period();
   }
   remember(now, truth);
   std::size_t written = 0;
-  while (next_epoch_ + latency_ + faults_.lag <= now) {
+  while (next_epoch_ + latency_ + faults_.delay(now) <= now) {
     if (out.size() - written < kMaxEpochBytes) break;
     written += write_epoch(next_epoch_, out.subspan(written));
-    next_epoch_ += period_;
+    next_epoch_ += period();
   }
   return written;
 }
@@ -159,8 +162,10 @@ std::size_t Nmea0183Twin::on_tick(Time now, const GnssTruth& truth, std::span<ch
 std::size_t Nmea0183Twin::write_epoch(Time at, std::span<char> out) {
   // Always solved, so that a silence does not change the noise after it.
   const Solution solution = solve(at);
-  if (faults_.output == Output::silent) return 0;
-  const std::size_t size = compose(solution, talker_, out);
+  if (faults_.output == TwinFaults::Output::silent) return 0;
+  Sentences sends = sends_;
+  if (faults_.gst_lost) sends.gst = false;
+  const std::size_t size = compose(solution, talker_, out, sends);
   damage(out.first(size));
   return size;
 }
@@ -177,7 +182,8 @@ double Nmea0183Twin::asked_sigma_m() const {
 Solution Nmea0183Twin::solve(Time at) {
   const double elapsed_s = to_s(at - last_epoch_);
   last_epoch_ = at;
-  const GnssTruth truth = truth_at(at);
+  const Time measured = at - faults_.stamp_late;
+  const GnssTruth truth = truth_at(measured);
 
   Solution solution;
   const Utc utc = utc_start_ + (at - start_);
@@ -188,27 +194,15 @@ Solution Nmea0183Twin::solve(Time at) {
   solution.month = static_cast<int>(static_cast<unsigned>(date.month()));
   solution.day = static_cast<int>(static_cast<unsigned>(date.day()));
 
-  solution.position = measure_position(at, truth, elapsed_s);
+  solution.position = measure_position(measured, truth, elapsed_s);
   const bool solved = quality_ != FixQuality::none;
-  solution.sigma_up_m = solved ? sigma_m_ * kVerticalFactor : kAbsent;
-
-  const bool noisy = faults_.speed_noise_mps > 0;
-  const double sigma_mps = noisy ? faults_.speed_noise_mps : speed_sigma_mps_;
-  const double speed_error_mps = sigma_mps * noise_.normal();
-  const double across_mps = sigma_mps * noise_.normal();
-  const double heading_error_deg = heading_sigma_deg_ * heading_error_.step(elapsed_s, noise_);
-  if (solved) {
-    // At rest a receiver tells the length of its noise.
-    const double speed_mps = noisy ? std::hypot(truth.speed_mps + speed_error_mps, across_mps)
-                                   : std::max(0.0, truth.speed_mps + speed_error_mps);
-    solution.velocity.speed_mps = speed_mps;
-    if (speed_mps >= kCourseNeeds_mps)
-      solution.velocity.course_deg =
-          wrap_deg(truth.course_deg + to_deg(std::atan2(across_mps, speed_mps)));
-    if (!faults_.heading_lost)
-      solution.heading.heading_deg =
-          wrap_deg(truth.heading_deg + heading_error_deg + (faults_.heading_flip ? 180 : 0));
-  }
+  solution.sigma_up_m = solved ? gst_factor_ * sigma_m_ * kVerticalFactor : kAbsent;
+  // Always measured: what is not told does not change the noise after it.
+  follow_positions(solution.position, elapsed_s);
+  const GnssVelocity velocity = measure_velocity(truth);
+  const double heading_deg = measure_heading_deg(measured + faults_.heading_epoch, elapsed_s);
+  if (solved) solution.velocity = velocity;
+  if (solved && !faults_.heading_lost) solution.heading.heading_deg = heading_deg;
   if (faults_.stuck) {
     solution.position = last_.position;
     solution.velocity = last_.velocity;
@@ -217,15 +211,58 @@ Solution Nmea0183Twin::solve(Time at) {
   return solution;
 }
 
+GnssVelocity Nmea0183Twin::measure_velocity(const GnssTruth& truth) {
+  const bool noisy = faults_.speed_noise_mps > 0;
+  const double sigma_mps = noisy ? faults_.speed_noise_mps : speed_sigma_mps_;
+  const double along_mps = sigma_mps * noise_.normal();
+  const double across_mps = sigma_mps * noise_.normal();
+  GnssVelocity velocity;
+  double course_deg = 0;
+  if (speed_of_positions_ && !noisy) {
+    velocity.speed_mps = std::hypot(smooth_east_mps_, smooth_north_mps_);
+    course_deg = to_deg(std::atan2(smooth_east_mps_, smooth_north_mps_));
+  } else {
+    // At rest a receiver tells the length of its noise.
+    velocity.speed_mps = noisy ? std::hypot(truth.speed_mps + along_mps, across_mps)
+                               : std::max(0.0, truth.speed_mps + along_mps);
+    course_deg = truth.course_deg + to_deg(std::atan2(across_mps, velocity.speed_mps));
+  }
+  if (velocity.speed_mps >= kCourseNeeds_mps) velocity.course_deg = wrap_deg(course_deg);
+  return velocity;
+}
+
+// Not of the epoch after a gap: a place that was not told has no speed.
+void Nmea0183Twin::follow_positions(const GnssPosition& told, double elapsed_s) {
+  const double latitude_rad = to_rad(told.latitude_deg);
+  const double east_m = (told.longitude_deg - last_.position.longitude_deg) *
+                        metres_per_longitude_degree(latitude_rad);
+  const double north_m =
+      (told.latitude_deg - last_.position.latitude_deg) * metres_per_latitude_degree(latitude_rad);
+  if (!std::isfinite(east_m) || !(elapsed_s > 0)) {
+    smooth_east_mps_ = smooth_north_mps_ = 0;
+    return;
+  }
+  const double share = 1 - std::exp(-elapsed_s / kPositionsSmooth_s);
+  smooth_east_mps_ = blend(smooth_east_mps_, east_m / elapsed_s, share);
+  smooth_north_mps_ = blend(smooth_north_mps_, north_m / elapsed_s, share);
+}
+
+double Nmea0183Twin::measure_heading_deg(Time at, double elapsed_s) {
+  const double error_deg = heading_sigma_deg_ * heading_error_.step(elapsed_s, noise_);
+  const double wrong_deg = faults_.heading_off_deg + (faults_.heading_flip ? 180 : 0);
+  return wrap_deg(truth_at(at).heading_deg + error_deg + wrong_deg);
+}
+
 GnssPosition Nmea0183Twin::measure_position(Time at, const GnssTruth& truth, double elapsed_s) {
   const double asked_m = asked_sigma_m();
   const double tau_s = asked_m > sigma_m_ ? kWorsens_s : kImproves_s;
   sigma_m_ = asked_m + (sigma_m_ - asked_m) * std::exp(-elapsed_s / tau_s);
   // The epoch at hand was measured a latency ago, perhaps before the drift began.
-  const double drifting_s = std::max(0.0, to_s(at - faults_.drift_since));
-  const double drift_m = faults_.drift_mps == 0 ? 0 : faults_.drift_mps * drifting_s;
-  const double east_m = sigma_m_ * east_.step(elapsed_s, noise_) + faults_.jump_m + drift_m;
-  const double north_m = sigma_m_ * north_.step(elapsed_s, noise_);
+  const Offset drift = faults_.drift.at(at);
+  const double east_m =
+      sigma_m_ * east_.step(elapsed_s, noise_) + faults_.jump.east_m + drift.east_m;
+  const double north_m =
+      sigma_m_ * north_.step(elapsed_s, noise_) + faults_.jump.north_m + drift.north_m;
   const double up_m = sigma_m_ * kVerticalFactor * up_.step(elapsed_s, noise_);
 
   GnssPosition position;
@@ -239,8 +276,8 @@ GnssPosition Nmea0183Twin::measure_position(Time at, const GnssTruth& truth, dou
   position.longitude_deg = truth.longitude_deg + east_m / metres_per_longitude_degree(latitude_rad);
   position.undulation_m = undulation_m_;
   position.altitude_msl_m = truth.altitude_m - undulation_m_ + up_m;
-  position.sigma_east_m = sigma_m_;
-  position.sigma_north_m = sigma_m_;
+  position.sigma_east_m = gst_factor_ * sigma_m_;
+  position.sigma_north_m = gst_factor_ * sigma_m_;
   if (quality_ != FixQuality::single) {
     position.correction_age_s = kNormalAge_s;
     if (faults_.corrections_lost_at)
@@ -250,7 +287,7 @@ GnssPosition Nmea0183Twin::measure_position(Time at, const GnssTruth& truth, dou
 }
 
 void Nmea0183Twin::damage(std::span<char> epoch) {
-  if (faults_.output == Output::garbage) {
+  if (faults_.output == TwinFaults::Output::garbage) {
     for (char& c : epoch) c = static_cast<char>(fault_noise_.bits() & 0xFFU);
     return;
   }
@@ -262,60 +299,18 @@ void Nmea0183Twin::damage(std::span<char> epoch) {
   }
 }
 
+Duration Nmea0183Twin::period() const {
+  return faults_.rate_Hz > 0 ? from_s(1 / faults_.rate_Hz) : configured_period_;
+}
+
 bool Nmea0183Twin::set_state(std::string_view name, Time now) {
   for (const auto& kind : kKinds) {
     if (name != kind.name) continue;
     quality_ = kind.quality;
-    faults_.output = Output::sentences;
+    faults_.output = TwinFaults::Output::sentences;
     return true;
   }
-  const std::size_t colon = name.find(':');
-  if (colon != std::string_view::npos) {
-    const auto value = parse_decimal(name.substr(colon + 1));
-    return value && set_number(name.substr(0, colon), *value, now);
-  }
-  if (name == "silent")
-    faults_.output = Output::silent;
-  else if (name == "garbage")
-    faults_.output = Output::garbage;
-  else if (name == "stuck")
-    faults_.stuck = true;
-  else if (name == "corrections_lost")
-    faults_.corrections_lost_at = now;
-  else if (name == "heading_flip")
-    faults_.heading_flip = true;
-  else if (name == "heading_lost")
-    faults_.heading_lost = true;
-  else if (name == "clear")
-    clear();
-  else
-    return false;
-  return true;
-}
-
-void Nmea0183Twin::clear() {
-  faults_ = Faults{};
-  period_ = configured_period_;
-}
-
-bool Nmea0183Twin::set_number(std::string_view name, double value, Time now) {
-  if (name == "bad_checksum" && (value == 0 || value >= 1)) {
-    faults_.bad_checksum_one_in = value;
-  } else if (name == "lag" && value >= 0 && value <= kMaxLag_ms) {
-    faults_.lag = from_s(value * 1e-3);
-  } else if (name == "rate" && value >= 0.2 && value <= 20) {
-    period_ = from_s(1 / value);
-  } else if (name == "speed_noise" && value >= 0 && value <= 10) {
-    faults_.speed_noise_mps = value;
-  } else if (name == "jump") {
-    faults_.jump_m = value;
-  } else if (name == "drift") {
-    faults_.drift_mps = value * 1e-3;
-    faults_.drift_since = now;
-  } else {
-    return false;
-  }
-  return true;
+  return faults_.set(name, now, history_[newest_].truth.ahead_deg);
 }
 
 }  // namespace drover::nmea0183

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "drivers/nmea0183/compose.h"
+#include "drivers/nmea0183/twin_faults.h"
 #include "drivers/noise.h"
 #include "drover/options.h"
 #include "drover/twin.h"
@@ -26,16 +27,28 @@ std::optional<Utc> parse_utc(std::string_view text);
 ///   silent                   no bytes
 ///   garbage                  as many bytes as ever, none of them sensible
 ///   bad_checksum:<n>         one sentence in n is damaged; 0 ends it
-///   lag:<ms>                 that much more latency, at most 2000; 0 ends it
+///   lag:<ms>                 that much more latency, at most 2000, with the UTC of the instant; 0
+///                            ends it
+///   backlog:<ms/s>[:<s>]     the line is too slow: the latency grows by so much a second, up to
+///                            0.4 s or to the second number; 0 ends it
+///   stamp_late:<ms>          what is told is that much older than its UTC, at most 2000; 0 ends it
 ///   rate:<Hz>                epochs a second, 0.2 to 20
-///   jump:<m>                 the position is that far east of the truth; 0 ends it
-///   drift:<mm/s>             the position wanders east from now on; 0 ends it
+///   jump:<m>[:<deg>]         the position is that far from the truth, to the east or in that
+///                            direction, counter-clockwise from east; 0 ends it
+///   jump_aside:<m>           the same to the robot's left as it stands just now
+///   drift:<mm/s>[:<deg>]     the position wanders from now on, from where it is, to the east or in
+///                            that direction; 0 ends it at once
+///   drift_aside:<mm/s>       the same to the robot's left as it stands just now
+///   drift_stays              the position wanders no farther, and does not come back
 ///   speed_noise:<m/s>        one sigma of the speed along and across, as at rest with a float
 ///                            solution among trees; 0 ends it
 ///   stuck                    position and speed stay as they are, time runs on
 ///   corrections_lost         the age of corrections grows, the quality stays
+///   heading_off:<deg>        the heading is that far off, clockwise; 0 ends it
+///   heading_epoch:<s>        the heading is of an instant before that of the position: -2 to 0
 ///   heading_flip             the heading is turned by 180 degrees
 ///   heading_lost             the heading field is empty
+///   gst_lost                 no sigmas are sent
 ///   clear                    ends everything but the kind of fix
 class Nmea0183Twin final : public GnssTwin {
  public:
@@ -50,33 +63,20 @@ class Nmea0183Twin final : public GnssTwin {
     Time at = kNever;
     GnssTruth truth;
   };
-  enum class Output : std::uint8_t { sentences, silent, garbage };
-  struct Faults {
-    Output output = Output::sentences;
-    double bad_checksum_one_in = 0;
-    Duration lag{};
-    double jump_m = 0;
-    double drift_mps = 0;
-    Time drift_since = kNever;
-    double speed_noise_mps = 0;
-    bool stuck = false;
-    std::optional<Time> corrections_lost_at;
-    bool heading_flip = false;
-    bool heading_lost = false;
-  };
 
   void remember(Time now, const GnssTruth& truth);
   GnssTruth truth_at(Time at) const;
   std::size_t write_epoch(Time at, std::span<char> out);
   Solution solve(Time at);
   GnssPosition measure_position(Time at, const GnssTruth& truth, double elapsed_s);
+  GnssVelocity measure_velocity(const GnssTruth& truth);
+  void follow_positions(const GnssPosition& told, double elapsed_s);
+  double measure_heading_deg(Time at, double elapsed_s);
   void damage(std::span<char> epoch);
-  void clear();
-  bool set_number(std::string_view name, double value, Time now);
   double asked_sigma_m() const;
+  Duration period() const;
 
   // Settings.
-  Duration period_{};
   Duration configured_period_;
   Duration latency_;
   Utc utc_start_;
@@ -87,6 +87,9 @@ class Nmea0183Twin final : public GnssTwin {
   double sigma_single_m_;
   double heading_sigma_deg_;
   double speed_sigma_mps_;
+  bool speed_of_positions_;
+  Sentences sends_;
+  double gst_factor_;
   double undulation_m_;
 
   // State.
@@ -97,13 +100,15 @@ class Nmea0183Twin final : public GnssTwin {
   AxisError up_;
   Drift heading_error_;
   FixQuality quality_ = FixQuality::rtk_fixed;
-  Faults faults_;
+  TwinFaults faults_;
   double sigma_m_ = 0;  ///< of each horizontal axis now; follows the kind of fix smoothly
   bool started_ = false;
   Time start_ = kNever;
   Time next_epoch_ = kNever;
   Time last_epoch_ = kNever;
   Solution last_;
+  double smooth_east_mps_ = 0;  ///< of the told positions
+  double smooth_north_mps_ = 0;
   std::vector<Sample> history_;  ///< a ring, sized once
   std::size_t newest_ = 0;
 };

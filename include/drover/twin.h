@@ -62,6 +62,7 @@ struct GnssTruth {
   double heading_deg = 0;  ///< of the antenna baseline, clockwise from true north
   double speed_mps = 0;
   double course_deg = 0;
+  double ahead_deg = 0;  ///< where the robot points: base_link's x, clockwise from true north
 };
 
 class GnssTwin {

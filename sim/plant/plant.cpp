@@ -78,7 +78,7 @@ Plant::Plant(const std::string& world_file) : impl_(std::make_unique<Impl>()) {
   for (int i = 0; i < m.nu; ++i) {
     impl_->joint_ids.push_back(m.actuator_trnid[2 * i]);
     impl_->joints.push_back(name_of(m, mjOBJ_JOINT, m.actuator_trnid[2 * i]));
-    impl_->wheels.push_back({m.jnt_bodyid[m.actuator_trnid[2 * i]], -1, Tyre{}});
+    impl_->wheels.push_back({m.jnt_bodyid[m.actuator_trnid[2 * i]], -1, Tyre{}, 0});
     impl_->free_friction.push_back(impl_->friction(impl_->joint_ids.size() - 1));
   }
   for (int geom = 0; geom < m.ngeom; ++geom) {
@@ -164,9 +164,17 @@ void Plant::Impl::pull_tyre(Wheel& wheel) {
   mj_objectVelocity(&m, &d, mjOBJ_XBODY, wheel.body, hub.data(), 0);
   mju_cross(rim.data(), hub.data(), arm.data());
   mju_addTo3(rim.data(), hub.data() + 3);
+  const mjtNum hub_mps = mju_dot3(hub.data() + 3, ahead.data());
+  const mjtNum rim_mps = mju_dot3(rim.data(), ahead.data());
+  // What the ground under it does: it gives way against the rolling, and slides.
+  const mjtNum rolled_mps = hub_mps - rim_mps;
+  std::array<mjtNum, 3> ground{};
+  mju_scl3(ground.data(), slides.data(), std::abs(hub_mps));
+  mju_addToScl3(ground.data(), ahead.data(), -wheel.slip * rolled_mps);
   const auto grip =
-      wheel.tyre.step(mju_dot3(rim.data(), ahead.data()), mju_dot3(rim.data(), left.data()),
-                      mju_dot3(hub.data() + 3, ahead.data()), load_N, m.opt.timestep);
+      wheel.tyre.step(rim_mps - mju_dot3(ground.data(), ahead.data()),
+                      mju_dot3(rim.data(), left.data()) - mju_dot3(ground.data(), left.data()),
+                      hub_mps, load_N, m.opt.timestep);
   mju_addToScl3(push, ahead.data(), grip.ahead_N);
   mju_addToScl3(push, left.data(), grip.left_N);
   mju_cross(push + 3, arm.data(), push);
@@ -178,6 +186,7 @@ void Plant::step() {
     impl_->carry();
   } else {
     impl_->push();
+    impl_->shove();
     for (auto& wheel : impl_->wheels) impl_->pull_tyre(wheel);
     mj_step(impl_->model.get(), impl_->data.get());
   }

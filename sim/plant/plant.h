@@ -74,6 +74,27 @@ class Plant {
   /// As long as a speed is set the base is moved by somebody else, along the ground and along its
   /// own axes, and its wheels do not turn; set down it stands still.
   void carry(const std::optional<CarrySpeed>& speed);
+  struct Shove {
+    double ahead_m = 0;
+    double left_m = 0;
+    double turn_rad = 0;
+    double lasts_s = 0;
+  };
+  /// A force displaces the base along its own axes, beside how it moves just now: wheels stand or
+  /// roll on. It begins and ends gently; along an axis without displacement nothing pulls.
+  void shove(const Shove& shove);
+
+  /// The ground gives way under a wheel: it makes this share less of the way that it rolls, until
+  /// it is set again.
+  void set_slip(std::size_t joint, double share);
+  /// The wheel is on the left side.
+  bool is_left(std::size_t joint) const;
+  /// The ground slides under all wheels by this share of their speed, in a direction of the world
+  /// (counter-clockwise from east), until it is set again.
+  void set_sideslip(double share, double direction_rad);
+  /// Tilts what is a side slope of the world (bodies `side_slope...`), its north side up; the robot
+  /// should not be on it. False: the world has none.
+  bool set_side_slope(double tilt_rad);
 
   WheelState wheel(std::size_t joint) const;
   BasePose pose() const;

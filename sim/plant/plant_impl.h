@@ -30,6 +30,18 @@ struct Wheel {
   int body = 0;
   int contact_geom = 0;
   Tyre tyre;
+  double slip = 0;  ///< share of the rolled way that the ground gives way
+};
+
+// A shove under way: where it began, and what it works against.
+struct ShoveState {
+  Plant::Shove shove;
+  double begin_s = 0;
+  std::array<double, 2> ahead{};  // in the world, as the other axes
+  std::array<double, 3> start{};  // x, y, yaw
+  std::array<double, 3> speed{};  // along ahead, along left, turning
+  double mass_kg = 0;
+  double inertia_kgm2 = 0;
 };
 
 // Dry friction of a joint and how hard the solver insists on it.
@@ -64,6 +76,8 @@ struct Plant::Impl {
   std::vector<std::array<double, 2>> feet_m;  // the same in base_link
   std::array<mjtNum, 3> push_N{};             // along the base's axes
   std::optional<CarrySpeed> carried;
+  std::optional<ShoveState> shoved;
+  std::array<mjtNum, 3> slides{};  // of a wheel's speed, in the world
   std::optional<Objects> objects;  // set as soon as there is a model
   std::vector<int> body_geoms;     // of the robot, that obstacles touch
   std::vector<Touch> touches;      // in the last step
@@ -74,6 +88,7 @@ struct Plant::Impl {
   int mocap(std::string_view name) const;
   void pull_tyre(Wheel& wheel);
   void push();
+  void shove();
   void carry();
   void feel();
   bool is_body(int geom) const;

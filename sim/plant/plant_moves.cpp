@@ -72,6 +72,7 @@ void Plant::place(double x_m, double y_m, double yaw_rad) {
   mj_kinematics(&m, &d);
   for (auto& wheel : impl_->wheels) wheel.tyre.reset();
   impl_->carried.reset();
+  impl_->shoved.reset();
   impl_->push_N = {};
   // The model's own pose is level, so the feet need not be turned.
   impl_->feet_m.clear();

@@ -4,8 +4,9 @@
 //   zone near|far occupied|free      the same for the scanner's zones
 //   obstacle NAME X Y|remove         a movable box of the world, centred at X, Y (m)
 //   obstacle NAME box|cylinder|...   any solid, where the world can hold them: object_command.h
-//   gnss STATE                       see drover/twin.h: fix, float, single, none, silent, ...
-//   imu STATE                        silent, frozen, saturated, bias:2, ...; well: all is good;
+//   gnss STATE [NUMBER...]           see drover/twin.h: fix, float, single, none, silent, ...;
+//                                    a state's numbers are words or behind colons
+//   imu STATE [NUMBER]               silent, frozen, saturated, bias:2, ...; well: all is good;
 //                                    of one on a bus also unplug, plug
 //   lidar STATE                      covered, sun, frozen, dirty, silent, ...: twin.h of its
 //   driver;
@@ -19,43 +20,21 @@
 //   kick VX VY                       a shove along the base's own axes (m/s)
 //   push FX FY SECONDS               somebody pushes with this force along the base's axes (N)
 //   carry DX DY DEGREES SECONDS      it is moved on a trailer, along its axes; no wheel turns
+//   shove DX DY SECONDS [DEGREES]    a force displaces it so far along its axes, and turns it
+//   slip SHARE SECONDS [SIDE]        its wheels (left, right or all) make so much less way
+//   sideslip SHARE [DEGREES]         it slides by this share of its speed: to its left as it stands
+//                                    now, or in that direction of the world; 0 ends it
+//   slope DEGREES                    tilts the world's side slope, north up, where there is one
 //   truth                            pose and speed as JSON
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <vector>
 
 #include "drover/angle.h"
 #include "sim/robot/object_command.h"
 #include "sim/robot/robot.h"
+#include "sim/robot/words.h"
 
 namespace drover::sim {
-namespace {
-
-std::vector<std::string_view> split(std::string_view text) {
-  std::vector<std::string_view> words;
-  std::size_t at = 0;
-  while ((at = text.find_first_not_of(" \t\r\n", at)) != std::string_view::npos) {
-    const auto end = std::min(text.find_first_of(" \t\r\n", at), text.size());
-    words.push_back(text.substr(at, end - at));
-    at = end;
-  }
-  return words;
-}
-
-std::optional<double> number(std::string_view text) {
-  double value = 0;
-  const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (result.ec != std::errc{} || result.ptr != text.data() + text.size() || !std::isfinite(value))
-    return std::nullopt;
-  return value;
-}
-
-std::string error(std::string text) {
-  return "error: " + std::move(text);
-}
-
-}  // namespace
 
 std::string Robot::command(std::string_view text) {
   auto words = split(text);
@@ -87,9 +66,11 @@ std::string Robot::command(std::string_view text) {
     return force(LineName::zone_far, words[2], "occupied", "free");
   if (verb == "obstacle") return command_obstacle(words[1], words[2], words[3]);
   // A further one has a name, the first of its kind goes without.
-  if (auto answer = more_.command(verb, words[1], words[2], words[3], now_)) return *answer;
-  if (verb == "gnss") return command_gnss(words[1]);
-  if (verb == "imu") return command_imu(words[1]);
+  const std::span<const std::string_view> rest(words.data() + 1, words.size() - 1);
+  const std::string what = verb == "battery" ? std::string(words[2]) : state_of(rest.subspan(1));
+  if (auto answer = more_.command(verb, words[1], what, words[3], now_)) return *answer;
+  if (verb == "gnss") return command_gnss(state_of(rest));
+  if (verb == "imu") return command_imu(state_of(rest));
   if (verb == "lidar") return command_lidar(words[1]);
   if (verb == "battery") return command_battery(words[1], words[2]);
   if (verb == "drive") return drives_.command(words[1], words[2], words[3], now_);
@@ -100,10 +81,13 @@ std::string Robot::command(std::string_view text) {
     plant_.kick(*vx_mps, *vy_mps);
     return "ok";
   }
-  const std::span<const std::string_view> rest(words.data() + 1, words.size() - 1);
   if (verb == "supply") return command_supply(words[1], words[2]);
   if (verb == "push") return command_push(rest);
   if (verb == "carry") return command_carry(rest);
+  if (verb == "shove") return command_shove(rest);
+  if (verb == "slip") return command_slip(rest);
+  if (verb == "sideslip") return command_sideslip(rest);
+  if (verb == "slope") return command_slope(rest[0]);
   if (verb == "truth") return truth_text();
   return error("unknown command '" + std::string(verb) + "'");
 }

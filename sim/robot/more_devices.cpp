@@ -16,8 +16,8 @@ GnssTruth gnss_truth(const Plant& plant, const GeographicLib::LocalCartesian& ea
   const auto speed = plant.point_velocity_mps(arm);
   GnssTruth truth;
   earth.Reverse(at.x, at.y, at.z, truth.latitude_deg, truth.longitude_deg, truth.altitude_m);
-  truth.heading_deg =
-      wrap_deg(compass_deg_from_yaw_rad(plant.pose().yaw_rad) + spec.heading_offset_deg);
+  truth.ahead_deg = compass_deg_from_yaw_rad(plant.pose().yaw_rad);
+  truth.heading_deg = wrap_deg(truth.ahead_deg + spec.heading_offset_deg);
   truth.speed_mps = std::hypot(speed.x, speed.y);
   truth.course_deg = compass_deg_from_yaw_rad(std::atan2(speed.y, speed.x));
   return truth;

@@ -164,6 +164,7 @@ void Robot::supply_drives() {
 }
 
 void Robot::move_from_outside(Time now) {
+  make_slip(now);
   if (push_until_ != kNever && now >= push_until_) {
     plant_.push(0, 0);
     push_until_ = kNever;

@@ -36,6 +36,18 @@ struct Twins {
 /// From the registry. Throws std::runtime_error naming the device and its option.
 Twins make_twins(const Scenario& scenario, std::uint64_t seed);
 
+/// The ground gives way under the wheels for a time.
+struct Slip {
+  Time begin = kNever;
+  double share = 0;
+  double lasts_s = 0;
+  bool left = true;
+  bool right = true;
+
+  double level(Time now) const;
+  bool over(Time now) const;
+};
+
 /// No descriptors, no clock: equal calls give equal frames, bytes and levels, to the bit.
 class Robot {
  public:
@@ -111,6 +123,11 @@ class Robot {
   std::string command_supply(std::string_view verb, std::string_view seconds);
   std::string command_push(std::span<const std::string_view> numbers);
   std::string command_carry(std::span<const std::string_view> numbers);
+  std::string command_shove(std::span<const std::string_view> words);
+  std::string command_slip(std::span<const std::string_view> words);
+  std::string command_sideslip(std::span<const std::string_view> words);
+  std::string command_slope(std::string_view word);
+  void make_slip(Time now);
   std::string command_gnss(std::string_view state);
   std::string command_imu(std::string_view state);
   std::string command_lidar(std::string_view state);
@@ -146,6 +163,7 @@ class Robot {
   Time dip_until_ = kNever;
   Time push_until_ = kNever;
   std::optional<Carry> carry_;
+  std::optional<Slip> slip_;
   Time now_{};
   int steps_per_tick_ = 0;
 };

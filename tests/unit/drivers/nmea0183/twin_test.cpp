@@ -88,8 +88,32 @@ class NmeaTwin : public testing::Test {
 };
 
 TEST_F(NmeaTwin, RefusesUnknownStatesAndWrongNumbers) {
-  for (const auto* name : {"", "fixed", "lag:", "lag:-1", "lag:2001", "lag:nan", "jump", "jump:x",
-                           "rate:0", "rate:100", "bad_checksum:0.5", "nothing:1", ":", "fix:1"})
+  for (const auto* name : {"",
+                           "fixed",
+                           "lag:",
+                           "lag:-1",
+                           "lag:2001",
+                           "lag:nan",
+                           "jump",
+                           "jump:x",
+                           "rate:0",
+                           "rate:100",
+                           "bad_checksum:0.5",
+                           "nothing:1",
+                           ":",
+                           "fix:1",
+                           "jump:1:",
+                           "jump:1:90:2",
+                           "jump_aside:1:90",
+                           "drift_aside",
+                           "heading_off:181",
+                           "heading_epoch:0.1",
+                           "heading_epoch:-3",
+                           "backlog:-1",
+                           "backlog:20:3",
+                           "backlog:20:0",
+                           "stamp_late:-1",
+                           "lag:1:2"})
     EXPECT_FALSE(twin.set_state(name, now)) << name;
 }
 

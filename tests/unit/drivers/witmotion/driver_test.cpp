@@ -57,6 +57,16 @@ TEST(WitmotionDriver, StampsASampleWithTheFirstByteOfItsCycle) {
   EXPECT_EQ(out.measurements[0].time, start);
 }
 
+// As its label is printed, X to the right, its own pitch rolls it about the base's x.
+TEST(WitmotionDriver, SeesARollWhereTheSensorIsRolledAndItIsNotTold) {
+  Rig rig(
+      {{"mount_yaw_deg", -90.0}},
+      {{"mount_yaw_deg", -90.0}, {"mount_pitch_deg", 1.0}, {"acceleration_bias_sigma_mps2", 0.0}});
+  rig.run(2s);
+  EXPECT_NEAR(rig.sample.acceleration_mps2.x, 0, 0.05);
+  EXPECT_NEAR(rig.sample.acceleration_mps2.y, 9.80665 * std::sin(to_rad(1)), 0.05);
+}
+
 TEST(WitmotionDriver, TurnsTheSensorsAxesIntoThoseOfTheBase) {
   // Upside down, and its x to the right.
   Rig rig({{"mount_roll_deg", 180.0}, {"mount_yaw_deg", -90.0}, {"magnetic_field", true}},
