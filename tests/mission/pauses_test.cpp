@@ -167,6 +167,7 @@ TEST(Obstacle, IsInTheReportOfItsTask) {
   EXPECT_NEAR(way_m, figures.distance_m, 0.02 * figures.distance_m);
   const auto& beside = report.at("cross_track");
   figure("cross-track by the report", beside.at("rms_m").get<double>(), "m");
+  EXPECT_GT(beside.at("rms_m").get<double>(), 0);
   EXPECT_NEAR(beside.at("rms_m").get<double>(), figures.rms_m, 0.015)
       << "the report goes by the robot's own estimate";
   EXPECT_GE(beside.at("max_m").get<double>(), beside.at("p95_m").get<double>());

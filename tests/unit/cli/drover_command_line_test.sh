@@ -84,7 +84,8 @@ expect "a file that is no zone is told with its line" 1 err "line 1, column " \
   zone import "$0" --keep-in --yes
 expect "to programs as JSON" 1 out '{"ok":false,"reason":"' zone import "$0" --keep-in --json
 expect "a scene is asked of droverd" 3 out '{"ok":false,"reason":"' scene list --json
-expect "a report is asked of droverd" 3 out '{"ok":false,"reason":"' report --svg "$work/a.svg" --json
+expect "a report is asked of droverd" 3 out '{"ok":false,"reason":"' \
+  report --svg "$work/a.svg" --json
 [[ ! -e $work/a.svg ]]
 verdict $? "and nothing is drawn without it"
 expect "reports are numbered from one" 2 err "number" report 0
