@@ -81,11 +81,20 @@ void read_places(JsonReader& top, Mission& mission) {
   auto origin = top.object("origin");
   mission.origin = {origin.number("latitude_deg"), origin.number("longitude_deg"),
                     origin.number("altitude_m", 0)};
-  if (!top.has("gnss")) return;
-  auto gnss = top.object("gnss");
-  if (!gnss.has("antenna")) return;
-  auto antenna = gnss.object("antenna");
-  mission.antenna = {antenna.number("x_m", 0), antenna.number("y_m", 0)};
+  if (top.has("gnss")) {
+    auto gnss = top.object("gnss");
+    if (gnss.has("antenna")) {
+      auto antenna = gnss.object("antenna");
+      mission.antenna = {antenna.number("x_m", 0), antenna.number("y_m", 0)};
+    }
+  }
+  // Where the gateway is told of another place, its tracks and its origin are made with that one.
+  if (!top.has("gateway")) return;
+  auto gateway = top.object("gateway");
+  if (!gateway.has("estimate")) return;
+  auto told = gateway.object("estimate");
+  mission.antenna.x_m = told.number("antenna_x_m", mission.antenna.x_m);
+  mission.antenna.y_m = told.number("antenna_y_m", mission.antenna.y_m);
 }
 
 /// What may be followed: a misspelt event would never happen, and its step never be played.

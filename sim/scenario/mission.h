@@ -56,7 +56,7 @@ struct Mission {
   Duration timeout = std::chrono::seconds(300);
   std::string expect_status = "NAV_SUCCESS";
   Origin origin;
-  Antenna antenna;
+  Antenna antenna;  ///< as the gateway is told of it
 };
 
 /// From a scenario's document (see scenario_file.h). Throws std::runtime_error naming the key.

@@ -153,10 +153,8 @@ Workplace::Workplace(const WorkplaceSettings& settings)
   if (log_folder_.empty()) log_folder_ = private_folder_ + "/log";
   fs::create_directories(log_folder_);
   auto config = read_config(settings.scenario_file);
-  if (document_.contains("gateway")) {
+  if (document_.contains("gateway"))
     change_gateway(config, document_["gateway"], settings.scenario_file);
-    document_.erase("gateway");
-  }
   if (settings.native) make_native(config);
   if ((settings.native || lab_in_real_time()) && !settings.own_ages) widen_ages(config);
   if (document_.value("/gnss/port"_json_pointer, "").starts_with("usb:")) prepare_udev(config);

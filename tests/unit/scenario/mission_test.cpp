@@ -147,6 +147,14 @@ TEST(SetMember, ChangesOneMemberAndRefusesWhatIsNoAssignment) {
   EXPECT_THROW(set_member(changed, "name.x=1"), std::runtime_error);
 }
 
+TEST(AMission, IsRecordedWithTheAntennaThatTheGatewayIsToldOf) {
+  auto with = document();
+  with["gateway"]["estimate"]["antenna_y_m"] = -0.1;
+  const auto mission = read_mission(with);
+  EXPECT_DOUBLE_EQ(mission.antenna.x_m, 0.1);
+  EXPECT_DOUBLE_EQ(mission.antenna.y_m, -0.1);
+}
+
 // Every scenario that is delivered can be played: the player and the simulator both read it.
 TEST(TheScenarios, AreReadByThePlayerAndByTheSimulator) {
   std::size_t count = 0;
