@@ -21,7 +21,7 @@ namespace drover::cli {
 
 namespace {
 
-struct Settings {
+struct EstimateSettings {
   std::string in;
   std::string recording;
   std::string out;
@@ -55,7 +55,7 @@ PoseRow row_of(const Snapshot& snapshot) {
   return row;
 }
 
-int from_recording(const Settings& settings, const config::DroverConfig* config,
+int from_recording(const EstimateSettings& settings, const config::DroverConfig* config,
                    std::ostream& out) {
   const MappedFile file(settings.recording);
   if (!file.problem().empty()) return fail(settings.recording + ": " + file.problem());
@@ -78,7 +78,8 @@ int from_recording(const Settings& settings, const config::DroverConfig* config,
   return kDone;
 }
 
-int from_log(const Settings& settings, const config::DroverConfig& config, std::ostream& out) {
+int from_log(const EstimateSettings& settings, const config::DroverConfig& config,
+             std::ostream& out) {
   std::ifstream file;
   const bool piped = settings.in == "-";
   if (!piped) file.open(settings.in);
@@ -94,7 +95,7 @@ int from_log(const Settings& settings, const config::DroverConfig& config, std::
   return kDone;
 }
 
-int run(const Settings& settings) {
+int run(const EstimateSettings& settings) {
   std::optional<config::DroverConfig> config;
   if (!settings.config.empty()) {
     config = read_config(settings.config);
@@ -120,7 +121,7 @@ int run(const Settings& settings) {
 void add_estimate_command(CLI::App& app, int& code) {
   auto* command = app.add_subcommand(
       "estimate", "what the robot's estimator makes of a log, or of a recording: poses as a table");
-  const auto settings = std::make_shared<Settings>();
+  const auto settings = std::make_shared<EstimateSettings>();
   auto* config = command->add_option("--config", settings->config, "the robot's drover.json");
   auto* in =
       command->add_option("--in", settings->in, "measurements as a table (CSV), - for stdin");

@@ -8,11 +8,12 @@
 #include <utility>
 
 #include "text/suggestion.h"
+#include "text/trimmed.h"
 
 namespace drover::cli {
 namespace {
 
-constexpr std::array<std::string_view, 20> kColumns = {
+constexpr std::array<std::string_view, 20> kLogColumns = {
     "time_s",       "received_s",   "left_rim_mps",  "right_rim_mps",    "vx_mps",
     "wz_radps",     "gyro_x_radps", "gyro_y_radps",  "gyro_z_radps",     "accel_x_mps2",
     "accel_y_mps2", "accel_z_mps2", "latitude_deg",  "longitude_deg",    "altitude_m",
@@ -41,15 +42,8 @@ constexpr double kLongest_s = 1e9;  // as nanoseconds it has room in 64 bits
 constexpr int kMostQuality = 8;     // of GGA
 constexpr Duration kLongestGap = std::chrono::hours(1);
 
-std::string_view trimmed(std::string_view text) {
-  const auto is_space = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
-  while (!text.empty() && is_space(text.front())) text.remove_prefix(1);
-  while (!text.empty() && is_space(text.back())) text.remove_suffix(1);
-  return text;
-}
-
 bool says_nothing(std::string_view line) {
-  line = trimmed(line);
+  line = text::trimmed(line);
   return line.empty() || line.front() == '#';
 }
 
@@ -57,7 +51,7 @@ std::vector<std::string_view> split(std::string_view line) {
   std::vector<std::string_view> cells;
   for (;;) {
     const auto comma = line.find(',');
-    cells.push_back(trimmed(line.substr(0, comma)));
+    cells.push_back(text::trimmed(line.substr(0, comma)));
     if (comma == line.npos) return cells;
     line.remove_prefix(comma + 1);
   }
@@ -93,7 +87,7 @@ std::optional<LogError> LogReader::read_head(std::string_view line) {
   ++line_;
   if (says_nothing(line)) return std::nullopt;
   if (line.starts_with("\xEF\xBB\xBF")) line.remove_prefix(3);  // spreadsheets begin with it
-  std::vector<std::string> known(kColumns.begin(), kColumns.end());
+  std::vector<std::string> known(kLogColumns.begin(), kLogColumns.end());
   for (const auto name : split(line)) {
     columns_.emplace_back(name);
     const std::size_t column = columns_.size() - 1;

@@ -6,6 +6,7 @@
 #include "drover/bytes.h"
 #include "drover/checksum.h"
 #include "json/located_json.h"
+#include "text/trimmed.h"
 
 namespace drover::cli {
 
@@ -49,13 +50,6 @@ std::optional<std::vector<std::uint8_t>> parse_bytes(std::string_view text) {
   return bytes;
 }
 
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view kBlank = " \t";
-  const auto begin = text.find_first_not_of(kBlank);
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(kBlank) - begin + 1);
-}
-
 /// Hexadecimal behind 0x, else decimal. "0028" is either, and nobody guesses which.
 std::optional<std::uint16_t> address_of(std::string_view text) {
   const bool hexadecimal = text.starts_with("0x") || text.starts_with("0X");
@@ -82,13 +76,13 @@ std::string RegisterLog::add(std::string_view line) {
 }
 
 std::string RegisterLog::add_words(std::string_view head, std::string_view words) {
-  head = trimmed(head);
+  head = text::trimmed(head);
   std::uint8_t function = 3;
   if (const auto slash = head.find('/'); slash != std::string_view::npos) {
-    const auto said = trimmed(head.substr(0, slash));
+    const auto said = text::trimmed(head.substr(0, slash));
     if (said != "3" && said != "4") return "the function is neither 3 nor 4";
     function = said == "3" ? 3 : 4;
-    head = trimmed(head.substr(slash + 1));
+    head = text::trimmed(head.substr(slash + 1));
   }
   if (head.empty()) return "no address before the colon";
   const auto address = address_of(head);

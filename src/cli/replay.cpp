@@ -14,12 +14,12 @@ namespace {
 
 using gateway::Replayed;
 
-struct Settings {
+struct ReplaySettings {
   std::string file;
   bool json = false;
 };
 
-int play(const Settings& settings) {
+int play(const ReplaySettings& settings) {
   const MappedFile file(settings.file);
   auto it = file.problem().empty() ? gateway::replay(file.bytes()) : Replayed{};
   if (!file.problem().empty()) it.note = file.problem();
@@ -43,7 +43,7 @@ int play(const Settings& settings) {
 void add_replay_command(CLI::App& app, int& code) {
   auto* command = app.add_subcommand(
       "replay", "play a recording of droverd again and say where this program differs");
-  const auto settings = std::make_shared<Settings>();
+  const auto settings = std::make_shared<ReplaySettings>();
   command->add_option("file", settings->file, "written by droverd --record")->required();
   command->add_flag("--json", settings->json, "one JSON object");
   command->footer(

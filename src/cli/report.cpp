@@ -18,7 +18,7 @@ namespace drover::cli {
 
 namespace {
 
-struct Settings {
+struct ReportSettings {
   std::int64_t number = 0;  ///< 0: the last task's
   bool list = false;
   bool json = false;
@@ -44,7 +44,7 @@ std::string write_file(const std::string& path, const std::string& text) {
   return written && closed ? "" : trouble();
 }
 
-int tell_report(const Settings& settings, const std::string& socket) {
+int tell_report(const ReportSettings& settings, const std::string& socket) {
   const auto answer = read_reply(ask(socket, report_request(settings.number), kDiskPatience_s));
   if (!settings.svg.empty() && answer.done) {
     const auto by = settings.colour == "quality" ? DrawnBy::quality : DrawnBy::cross_track;
@@ -64,7 +64,7 @@ int tell_report(const Settings& settings, const std::string& socket) {
 }  // namespace
 
 void add_report_command(CLI::App& app, const std::string& socket, int& code) {
-  const auto settings = std::make_shared<Settings>();
+  const auto settings = std::make_shared<ReportSettings>();
   auto* command = app.add_subcommand(
       "report", "what became of a task: cross-track, speed, fix quality, pauses");
   auto* number = command->add_option("number", settings->number, "of the report; else the last");

@@ -24,7 +24,7 @@ constexpr double kMargin = 36;
 constexpr double kTallest = 900;
 constexpr double kLowest = 160;
 constexpr double kLine = 30;  // from one line of text to the next
-constexpr std::size_t kColumns = 58;
+constexpr std::size_t kLineColumns = 58;
 constexpr std::size_t kPausesTold = 20;
 
 struct Colour {
@@ -225,7 +225,7 @@ std::string legend(DrawnBy by, double y) {
 class Page {
  public:
   void write(std::string_view text, std::string_view style = {}) {
-    for (const auto& each : wrapped(text, kColumns)) {
+    for (const auto& each : wrapped(text, kLineColumns)) {
       body_ += text_at(kMargin, y_, style, each);
       y_ += kLine;
     }

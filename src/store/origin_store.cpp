@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::string_view kOriginFormat = "drover-origin";
 constexpr int kOriginVersion = 1;
-const std::string kFile = "origin.json";
+const std::string kOriginFile = "origin.json";
 constexpr const char* kDamaged =
     "the stored origin was damaged: put the robot where it was and give init_rtk_data";
 constexpr const char* kDeleted =
@@ -49,20 +49,21 @@ OriginStore::OriginStore(Files& files, std::string folder)
     : files_(files), folder_(std::move(folder)) {}
 
 std::optional<GeodeticPoint> OriginStore::load(std::vector<std::string>& report) {
-  const std::string path = folder_ + "/" + kFile;
+  const std::string path = folder_ + "/" + kOriginFile;
   std::string content;
   problem_.clear();
   if (const int e = files_.read(path, 65536, content); e == ENOENT) {
     if (damaged_before()) {
       problem_ = kDamaged;
-    } else if (was_kept(files_, folder_, kFile)) {
+    } else if (was_kept(files_, folder_, kOriginFile)) {
       problem_ = kDeleted;
-      report.push_back(deleted_text(folder_, kFile));
+      report.push_back(deleted_text(folder_, kOriginFile));
     }
     return std::nullopt;
   } else if (e != 0) {
-    problem_ = is_foreign(e) ? "the stored origin cannot be read: " + foreign_text(folder_, kFile)
-                             : kUnreadable;
+    problem_ = is_foreign(e)
+                   ? "the stored origin cannot be read: " + foreign_text(folder_, kOriginFile)
+                   : kUnreadable;
     report.push_back(failure_text("read", path, e));
     return std::nullopt;
   }
@@ -72,14 +73,14 @@ std::optional<GeodeticPoint> OriginStore::load(std::vector<std::string>& report)
     const auto parsed = json::parse(*body);
     const auto origin = parsed.ok() ? read_origin(parsed->root) : std::nullopt;
     if (origin) {
-      mark_kept(files_, folder_, kFile);
+      mark_kept(files_, folder_, kOriginFile);
       return origin;
     }
   } else {
     what = body.error().text;
   }
   problem_ = kDamaged;
-  const auto aside = quarantine(files_, folder_, kFile);
+  const auto aside = quarantine(files_, folder_, kOriginFile);
   report.push_back(path + " " + what + "; " +
                    (aside.ok() ? "kept as " + *aside : aside.error().text));
   return std::nullopt;
@@ -89,17 +90,18 @@ std::optional<GeodeticPoint> OriginStore::load(std::vector<std::string>& report)
 bool OriginStore::damaged_before() {
   std::vector<std::string> names;
   if (files_.list(folder_, names) != 0) return false;
-  return std::any_of(names.begin(), names.end(),
-                     [](const std::string& name) { return name.starts_with(kFile + ".bad"); });
+  return std::any_of(names.begin(), names.end(), [](const std::string& name) {
+    return name.starts_with(kOriginFile + ".bad");
+  });
 }
 
 std::optional<Failure> OriginStore::save(const GeodeticPoint& origin) {
   json::JsonText body;
   write_origin(body, origin);
   auto failure =
-      write_durably(files_, folder_, kFile, seal(kOriginFormat, kOriginVersion, body.str()));
+      write_durably(files_, folder_, kOriginFile, seal(kOriginFormat, kOriginVersion, body.str()));
   if (failure) return failure;
-  mark_kept(files_, folder_, kFile);
+  mark_kept(files_, folder_, kOriginFile);
   problem_.clear();
   return std::nullopt;
 }

@@ -10,8 +10,8 @@
 namespace drover::store {
 namespace {
 
-constexpr std::string_view kFormat = "drover task report";
-constexpr int kVersion = 1;
+constexpr std::string_view kReportFormat = "drover task report";
+constexpr int kReportVersion = 1;
 constexpr std::string_view kEnding = ".report";
 // The two texts as one list, each on a line of its own.
 constexpr std::string_view kOpen = "[";
@@ -35,7 +35,7 @@ std::uint64_t number_of(std::string_view file) {
 }
 
 Result<ReportTexts, Failure> decode(std::string_view content) {
-  const auto body = unseal(kFormat, kVersion, content);
+  const auto body = unseal(kReportFormat, kReportVersion, content);
   if (!body.ok()) return body.error();
   std::string_view text = *body;
   const auto between = text.find(kBetween);
@@ -77,7 +77,7 @@ std::optional<Failure> ReportStore::save(const ReportTexts& texts) {
   body += kBetween;
   body += texts.line;
   body += kClose;
-  const std::string content = seal(kFormat, kVersion, body);
+  const std::string content = seal(kReportFormat, kReportVersion, body);
   if (content.size() > kMaxReportBytes)
     return Failure{"it has more than " + std::to_string(kMaxReportBytes) + " bytes"};
   remove_leftovers();

@@ -11,7 +11,7 @@ namespace {
 
 /// Stands among the texts as long as a person does not know of it; its text is the problem.
 constexpr std::string_view kLossKind = "loss";
-const std::string kFile(kSceneFile.file);
+const std::string kScene(kSceneFile.file);
 
 bool is_loss(const NamedText& text) {
   return text.kind == kLossKind;
@@ -39,7 +39,7 @@ std::vector<NamedText> SceneStore::load(double wall_s, std::optional<double> max
   }
   if (!found.problem.empty()) {
     problem_ = "the stored scene is lost: " + found.problem;
-    const auto aside = quarantine(files_, folder_, kFile);
+    const auto aside = quarantine(files_, folder_, kScene);
     report.push_back(found.problem + "; " +
                      (aside.ok() ? "kept as " + *aside : aside.error().text));
     return {};
@@ -51,11 +51,11 @@ std::vector<NamedText> SceneStore::load(double wall_s, std::optional<double> max
     texts.erase(loss);
   } else if (!found.is_there && has_damaged_before(files_, folder_, kSceneFile)) {
     problem_ = "the stored scene was damaged and is lost";
-  } else if (!found.is_there && was_kept(files_, folder_, kFile)) {
-    problem_ = "the stored scene is lost: " + deleted_text(folder_, kFile);
+  } else if (!found.is_there && was_kept(files_, folder_, kScene)) {
+    problem_ = "the stored scene is lost: " + deleted_text(folder_, kScene);
     report.push_back(problem_);
   }
-  if (found.is_there) mark_kept(files_, folder_, kFile);
+  if (found.is_there) mark_kept(files_, folder_, kScene);
   const auto is_old = [&](const NamedText& text) {
     return max_age_s && text.kind == kObjectKind && wall_s - text.arrived_s > *max_age_s;
   };
@@ -71,7 +71,7 @@ std::optional<Failure> SceneStore::save(const std::vector<NamedText>& texts) {
   auto all = texts;
   if (!problem_.empty()) all.push_back({std::string(kLossKind), "", 0, problem_});
   auto failure = save_named_texts(files_, folder_, kSceneFile, all);
-  if (!failure) mark_kept(files_, folder_, kFile);
+  if (!failure) mark_kept(files_, folder_, kScene);
   return failure;
 }
 

@@ -10,7 +10,7 @@ namespace drover::store {
 namespace {
 
 const std::string kZoneKind = "zone";
-const std::string kFile(kZonesFile.file);
+const std::string kZones(kZonesFile.file);
 constexpr const char* kUnknown = "the stored zones are not known: ";
 constexpr const char* kForget = "; forget them and import them again";
 
@@ -30,9 +30,9 @@ void ZoneStore::load() {
     problem_ = kUnknown + found.problem;
     if (!found.is_foreign) problem_ += found.is_damaged ? kForget : "; mend the disk";
   } else if (found.is_there) {
-    mark_kept(files_, folder_, kFile);
-  } else if (was_kept(files_, folder_, kFile)) {
-    problem_ = kUnknown + deleted_text(folder_, kFile) + kForget;
+    mark_kept(files_, folder_, kZones);
+  } else if (was_kept(files_, folder_, kZones)) {
+    problem_ = kUnknown + deleted_text(folder_, kZones) + kForget;
     is_deleted_ = true;
   }
 }
@@ -57,7 +57,7 @@ std::optional<Failure> ZoneStore::remove(const std::string& name) {
 std::optional<Failure> ZoneStore::replace(std::vector<NamedText> zones) {
   if (!problem_.empty()) return Failure{problem_};
   if (auto failure = save_named_texts(files_, folder_, kZonesFile, zones)) return failure;
-  mark_kept(files_, folder_, kFile);
+  mark_kept(files_, folder_, kZones);
   zones_ = std::move(zones);
   return std::nullopt;
 }
@@ -66,7 +66,7 @@ std::optional<Failure> ZoneStore::forget_unreadable() {
   if (problem_.empty()) return Failure{"the stored zones can be read: delete them one by one"};
   if (is_foreign_) return Failure{problem_};  // nothing is lost yet
   if (!is_deleted_) {
-    const auto aside = quarantine(files_, folder_, kFile);
+    const auto aside = quarantine(files_, folder_, kZones);
     if (!aside.ok()) return aside.error();
   }
   if (auto failure = save_named_texts(files_, folder_, kZonesFile, {})) return failure;
