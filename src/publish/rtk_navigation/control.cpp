@@ -82,6 +82,10 @@ Reason read_save(const Message& message, ControlCommand& out) {
   if (auto reason = new_name_problem(track.name)) return reason;
   const Node* points = data->find("data");
   if (points == nullptr || points->list() == nullptr) return "'data.data' must be a list of points";
+  // A recorder that heard no position must not take the place of a track that was driven yesterday.
+  if (points->list()->empty()) {
+    return "'data.data' has no points, nothing is saved (delete_trajectory takes a track away)";
+  }
   if (points->list()->size() > store::kMaxPointsPerTrack) {
     return "a track has at most " + std::to_string(store::kMaxPointsPerTrack) + " points";
   }

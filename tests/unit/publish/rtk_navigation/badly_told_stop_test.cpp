@@ -75,7 +75,9 @@ TEST(BadlyToldStop, IsRefusedWhenTheBrokerHadStoredIt) {
 
 TEST(BadlyToldStop, IsNoneInsideOfANameOrAnotherCommandsData) {
   const std::string save = R"({"cmd_type":"trajectory_control","cmd":"save_trajectory","data":)";
-  EXPECT_EQ(answer(save + R"({"name":"\"cmd\":\"cancel_task\"","data":[]}})"), "another command");
+  const std::string point = R"({"longitude":1,"latitude":2,"angle":3,"x":4,"y":5,"yaw":6})";
+  EXPECT_EQ(answer(save + R"({"name":"\"cmd\":\"cancel_task\"","data":[)" + point + "]}}"),
+            "another command");
   // And each of these is no JSON as a whole:
   for (const std::string& payload :
        {save + R"({"name":"\"cmd\":\"cancel_task\"","data":[],}})",
