@@ -1,6 +1,11 @@
 // The devices: what only their drivers and their register maps know.
 #include <algorithm>
+#include <cmath>
 #include <exception>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <utility>
 
 #include "config/check_subjects.h"
 #include "config/register_map.h"
@@ -159,15 +164,31 @@ void share_line(const DeviceConfig& device, Taken& taken, Findings& found) {
   }
 }
 
-constexpr auto kOwnSpeed = "max_speed_mps";
+/// What a drive's own settings let it drive at the most, and which of them.
+struct OwnSpeed {
+  double mps = 0;
+  std::string path;
+};
 
-/// The device with the least speed of its own; nullptr: there is none.
-const DeviceConfig* slowest_chassis(const DroverConfig& config) {
-  const DeviceConfig* slowest = nullptr;
+std::optional<OwnSpeed> own_speed(const DroverConfig& config, const DeviceConfig& device) {
+  const auto& options = device.options;
+  if (options.has("max_speed_mps")) {
+    return OwnSpeed{options.number("max_speed_mps"), device_path(device, "options.max_speed_mps")};
+  }
+  const auto& base = config.engine.base;
+  if (!options.has("max_rpm") || base.kind == engine::BaseKind::twist) return std::nullopt;
+  const double gear_ratio = options.has("gear_ratio") ? options.number("gear_ratio") : 1;
+  const double wheel_radps = options.number("max_rpm") * 2 * std::numbers::pi / 60 / gear_ratio;
+  return OwnSpeed{wheel_radps * base.wheel_radius_m, device_path(device, "options.max_rpm")};
+}
+
+/// The least of all drives'.
+std::optional<OwnSpeed> slowest_drive(const DroverConfig& config) {
+  std::optional<OwnSpeed> slowest;
   for (const auto& device : config.devices) {
-    if (device.kind != SlotKind::drive || !device.options.has(kOwnSpeed)) continue;
-    if (slowest == nullptr || device.options.number(kOwnSpeed) < slowest->options.number(kOwnSpeed))
-      slowest = &device;
+    if (device.kind != SlotKind::drive) continue;
+    auto own = own_speed(config, device);
+    if (own && (!slowest || own->mps < slowest->mps)) slowest = std::move(own);
   }
   return slowest;
 }
@@ -176,23 +197,24 @@ const DeviceConfig* slowest_chassis(const DroverConfig& config) {
 
 double fastest_mps(const DroverConfig& config) {
   const double limit_mps = config.engine.limits.max_speed_mps;
-  const auto* const chassis = slowest_chassis(config);
-  return chassis == nullptr ? limit_mps : std::min(limit_mps, chassis->options.number(kOwnSpeed));
+  const auto slowest = slowest_drive(config);
+  return slowest ? std::min(limit_mps, slowest->mps) : limit_mps;
 }
 
 /// It drives slower than it is told then, and the engine sees wheels that do not follow.
 void warn_of_slow_chassis(Findings& found) {
   const auto& config = found.config();
-  const auto* const chassis = slowest_chassis(config);
-  if (chassis == nullptr || found.has_problem("limits") || found.has_problem(device_path(*chassis)))
+  if (found.has_problem("limits") || found.has_problem("devices") || found.has_problem("groups"))
     return;
-  const double own_mps = chassis->options.number(kOwnSpeed);
-  if (own_mps >= config.engine.limits.max_speed_mps) return;
+  const auto slowest = slowest_drive(config);
+  if (!slowest || slowest->mps >= config.engine.limits.max_speed_mps) return;
+  // Rounded down, so that what is proposed can be driven.
+  const auto own = text::number_text(std::floor(slowest->mps * 1000) / 1000);
   found.warn("limits.max_speed_mps",
-             "is " + text::number_text(config.engine.limits.max_speed_mps) + ", but " +
-                 device_path(*chassis, "options.max_speed_mps") + " is " +
-                 text::number_text(own_mps) + ": the chassis does not follow what is faster",
-             "slow_chassis", text::number_text(own_mps) + " or less");
+             "is " + text::number_text(config.engine.limits.max_speed_mps) + ", but with " +
+                 slowest->path + " the base drives " + own +
+                 " at the most: it does not follow what is faster",
+             "slow_chassis", own + " or less");
 }
 
 void check_batteries(const std::string& folder, Findings& found) {

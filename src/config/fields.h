@@ -287,8 +287,9 @@ void visit(V& v, DroverConfig& c, GroupNames& groups) {
       "no_estop: there is no e-stop line; slow_guard: guard.limit_ms is above 200; no_tilt: "
       "nothing tells how steep the ground is; no_soc: no battery tells its charge; no_relay: "
       "nothing takes the power from drives that do not stop; short_look: the scene, or a lidar's "
-      "field, is not looked at as far as the fastest speed needs; slow_chassis: the chassis' own "
-      "speed is below limits.max_speed_mps; that is known");
+      "field, is not looked at as far as the fastest speed needs; slow_chassis: what the "
+      "drives do by their own max_speed_mps or max_rpm is below limits.max_speed_mps; that is "
+      "known");
 }
 
 }  // namespace drover::config

@@ -57,8 +57,8 @@ TEST(ConfigurationChecks, WarnOfAChassisThatIsSlowerThanItsLimitUnlessThatIsAcce
   EXPECT_EQ(problems(chassis("1.5", "")), "");
   EXPECT_THAT(
       warnings(chassis("1.5", "")),
-      HasSubstr("limits.max_speed_mps: is 1.5, but devices.chassis.options.max_speed_mps is "
-                "0.5: the chassis does not follow what is faster"));
+      HasSubstr("limits.max_speed_mps: is 1.5, but with devices.chassis.options.max_speed_mps the "
+                "base drives 0.5 at the most: it does not follow what is faster"));
   EXPECT_EQ(warnings(chassis("1.5", R"(, "slow_chassis")")), "")
       << "a metre ahead is far enough for what it drives";
   EXPECT_EQ(warnings(chassis("0.5", "")), "");
@@ -66,6 +66,27 @@ TEST(ConfigurationChecks, WarnOfAChassisThatIsSlowerThanItsLimitUnlessThatIsAcce
                                        "no_soc", "short_look")")),
             "")
       << "all at once";
+}
+
+TEST(ConfigurationChecks, WarnOfMotorsThatTurnSlowerThanTheLimitNeeds) {
+  const auto hubs = [](const char* rpm, const char* gear_ratio) {
+    return std::string(R"({"links": {"can0": {"can": "can0"}, "panel": {"gpio": "g"}},
+      "devices": {"hubs": {"driver": "zlac8015d", "link": "can0",
+                           "joints": {"left": {"channel": "left"}, "right": {"channel": "right"}},
+                           "options": {"max_rpm": )") +
+           rpm + R"(, "gear_ratio": )" + gear_ratio +
+           R"(, "encoder_lines": 1024}},
+        "estop": {"driver": "gpio_line", "link": "panel", "line": "a", "is": "estop"}},
+      "groups": {"base": {"kind": "differential", "left": ["left"], "right": ["right"],
+                          "track_m": 0.5, "wheel_radius_m": 0.1, "hold": "brake"}},
+      "limits": {"max_speed_mps": 1.2}, "accept": ["no_relay"]})";
+  };
+  EXPECT_EQ(problems(hubs("100", "1")), "");
+  EXPECT_THAT(warnings(hubs("100", "1")),
+              HasSubstr("limits.max_speed_mps: is 1.2, but with devices.hubs.options.max_rpm the "
+                        "base drives 1.047 at the most"));
+  EXPECT_EQ(warnings(hubs("120", "1")), "") << "1.26 m/s";
+  EXPECT_THAT(warnings(hubs("300", "3")), HasSubstr("drives 1.047 at the most"));
 }
 
 TEST(ConfigurationChecks, WarnOfGroundWhoseSlopeNobodyTellsUnlessThatIsAccepted) {
