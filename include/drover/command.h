@@ -65,6 +65,9 @@ struct ReleaseHold {
 };
 /// Takes the drives into closed loop and holds the robot where it is; ends a release.
 struct ArmHold {};
+/// A person has seen where the robot stands: from now on its receiver is believed, whatever wheels
+/// and gyro made of the way there. Refused while it moves, and without an RTK fix.
+struct AcceptPosition {};
 /// Drive straight ahead for a short way, so that a receiver with one antenna shows the heading.
 struct FindHeading {};
 
@@ -72,7 +75,8 @@ struct Command {
   RequestId id;
   Time received = kNever;
   std::variant<std::monostate, StartTask, CancelTask, EngageStop, ResetStop, ProposeOrigin,
-               SetOrigin, JointTargets, JointTargetsRefused, FindHeading, ReleaseHold, ArmHold>
+               SetOrigin, JointTargets, JointTargetsRefused, FindHeading, ReleaseHold, ArmHold,
+               AcceptPosition>
       body;
 };
 

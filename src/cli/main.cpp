@@ -232,6 +232,12 @@ int main(int argc, char** argv) {
   find->add_flag("--json", s.json, "one JSON object");
   find->callback([&] { code = run(s, request("heading_find")); });
 
+  auto* position = app.add_subcommand("position", "place of the robot")->require_subcommand(1);
+  auto* accept = position->add_subcommand(
+      "accept", "believe the receiver: you see the robot stand where the map shows it");
+  accept->add_flag("--json", s.json, "one JSON object");
+  accept->callback([&] { code = run(s, request("position_accept")); });
+
   auto* stop = app.add_subcommand("stop", "emergency stop: zero at once, until `drover reset`");
   stop->add_flag("--json", s.json, "one JSON object");
   stop->callback([&] { code = drover::cli::stop({s.socket, s.stop_socket, s.json}); });

@@ -81,6 +81,9 @@ constexpr Example kExamples[] = {
     {"heading", "  drover heading find            # THE ROBOT DRIVES, up to 3 m straight ahead"},
     {"heading find",
      "  drover heading find            # THE ROBOT DRIVES, up to 3 m straight ahead"},
+    {"position", "  drover position accept         # after: a look at the map, and at the robot"},
+    {"position accept",
+     "  drover position accept         # after: a look at the map, and at the robot"},
     {"stop",
      "  drover stop                    # zero at once: droverd and the guard are told\n"
      "  drover reset                   # after the cause is gone"},
@@ -113,7 +116,7 @@ namespace {
 /// named for a slip of one letter.
 bool acts_on_the_robot(std::string_view verb) {
   for (const std::string_view one : {"hold", "release", "reset", "start", "find", "delete", "clear",
-                                     "accept-loss", "forget-unreadable"})
+                                     "accept", "accept-loss", "forget-unreadable"})
     if (verb == one) return true;
   return false;
 }

@@ -14,11 +14,6 @@ namespace {
 
 constexpr Duration kLongestCycle = std::chrono::milliseconds(50);
 
-bool valid(const GeodeticPoint& point) {
-  return std::abs(point.latitude_deg) <= 90 && std::abs(point.longitude_deg) <= 180 &&
-         std::isfinite(point.altitude_m);
-}
-
 }  // namespace
 
 Engine::Impl::Impl(const EngineConfig& c)
@@ -137,40 +132,6 @@ void Engine::Impl::take(const Measurement& m) {
   }
 }
 
-void Engine::Impl::propose_origin(const RequestId& id, Time now) {
-  const auto refuse = [&](const Reason& why) { events.push(now, CommandRefused{id, why}); };
-  if (navigator.active()) return refuse("a task runs");
-  const Time at = snapshot.gnss.position_time;
-  if (!health.report().gnss_ok || at == kNever || now - at > from_s(config.health.gnss_stale_s)) {
-    return refuse("the receiver gives no position");
-  }
-  if (fix.quality != FixQuality::rtk_fixed) return refuse("the position is not RTK fixed");
-  if (fix.correction_age_s > config.estimate.max_correction_age_s) {
-    return refuse("the corrections are too old");
-  }
-  GeodeticPoint origin{fix.latitude_deg, fix.longitude_deg, fix.altitude_msl_m};
-  if (std::isfinite(fix.undulation_m)) origin.altitude_m += fix.undulation_m;
-  if (!std::isfinite(origin.altitude_m)) origin.altitude_m = 0;  // it only tilts the map
-  if (!valid(origin)) return refuse("the receiver's position is not valid");
-  events.push(now, OriginProposed{id, origin});
-}
-
-void Engine::Impl::set_origin(const RequestId& id, const GeodeticPoint& origin, Time now) {
-  if (navigator.active()) {
-    events.push(now, CommandRefused{id, "a task runs"});
-  } else if (!valid(origin)) {
-    events.push(now, CommandRefused{id, "the origin is not a place on earth"});
-  } else {
-    estimator.set_origin(origin);
-    estimate = estimator.step(last_step == kNever ? now : last_step);
-    place.forget();
-    place_count.another();
-    snapshot.origin_set = true;
-    snapshot.origin = origin;
-    events.push(now, CommandAccepted{id, {}});
-  }
-}
-
 /// What the drives were let do; how fast they run is their owner's word.
 void Engine::Impl::command_axes(const Motion& motion, EngineOutput& out) {
   const Learned learned{estimate.yaw_slip_factor};
@@ -281,6 +242,8 @@ void Engine::on_command(const Command& command, Time now) {
     e.release_hold(id, *release, now);
   } else if (std::holds_alternative<ArmHold>(command.body)) {
     e.arm_hold(id, now);
+  } else if (std::holds_alternative<AcceptPosition>(command.body)) {
+    e.accept_position(id, now);
   } else {
     e.events.push(now, CommandRefused{id, "an empty command"});
   }

@@ -36,6 +36,8 @@ struct Engine::Impl {
   void fill_sources(const Environment& environment);
   void propose_origin(const RequestId& id, Time now);
   void set_origin(const RequestId& id, const GeodeticPoint& origin, Time now);
+  void accept_position(const RequestId& id, Time now);
+  Reason poor_fix(Time now) const;
   void engage_stop(const RequestId& id, Time now);
   void reset_stop(const RequestId& id, Time now);
   void start_task(const Command& command, const StartTask& task, Time now);

@@ -40,6 +40,7 @@ std::optional<ControlCommand> command_of(std::string_view cmd, const std::string
   if (cmd == "release") return ReleaseRequest{is_true(request, "on_slope")};
   if (cmd == "hold") return HoldRequest{};
   if (cmd == "heading_find") return FindHeadingRequest{};
+  if (cmd == "position_accept") return AcceptPositionRequest{};
   return std::nullopt;
 }
 

@@ -17,6 +17,8 @@ constexpr Duration kLongestStep = std::chrono::milliseconds(20);
 // A sensor that was away comes back with another bias.
 constexpr Duration kGyroAway = std::chrono::seconds(1);
 constexpr double kGyroReturn_radps = 0.001;
+// A receiver that told a heading so lately tells the next one soon.
+constexpr Duration kHeadingTold = std::chrono::seconds(1);
 constexpr std::size_t kOutward =
     kMaxOfKind;                      // whoever is in use: the antenna that others count from
 constexpr double kInstant_s = 0.05;  // how well the instants of two receivers are known
@@ -105,6 +107,21 @@ void Estimator::set_origin(const GeodeticPoint& origin) {
   }
   history_.restart(state);
   frame_.set_origin(origin);
+}
+
+void Estimator::accept_position() {
+  replay();
+  State state = history_.before(history_.size());
+  state.has_position = false;
+  state.gnss.jumps = {};
+  state.gnss.fixed = kNever;
+  state.watch = {};
+  state.course = {};
+  // One that only the gyro carries on is kept: nothing else tells it.
+  const bool told = state.heading.last != kNever && state.time - state.heading.last < kHeadingTold;
+  state.has_heading = state.has_heading && !told;
+  state.heading.jumps = {};
+  history_.restart(state);
 }
 
 bool Estimator::has_origin() const {
@@ -227,7 +244,7 @@ void Estimator::reckon(State& state, const BodyMotion& body, const GyroMotion& g
   predict(belief, body, dt_s, state.has_heading, state.gnss.sigma_x_m, state.gnss.sigma_y_m,
           config_, gyro);
   if (!body.known || gyro.pushed) {
-    state.watch.forget();
+    state.watch.lose();
     state.course = {};
     return;
   }

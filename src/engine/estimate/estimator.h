@@ -62,6 +62,9 @@ class Estimator final {
   /// the receiver contradicts, is forgotten and found again from the next measurements; then only
   /// the yaw gain, the wheel scale and the gyro's errors, which no origin changes, are kept.
   void set_origin(const GeodeticPoint& origin);
+  /// The place is that of the next position, and the heading, where a receiver tells one, of the
+  /// next heading. What was found by comparing positions with wheels and gyro is forgotten.
+  void accept_position();
   bool has_origin() const;
   const GeodeticPoint& origin() const;
   /// Position of the antenna for a pose of base_link, degrees (for rtk.latitude/longitude). The

@@ -215,7 +215,7 @@ void apply(State& state, const AntennaPosition& measured, double speed_mps,
                     .y_m = position.y_m - arm_y,
                     .sigma_m = larger_sigma_m(position)};
   if (!fixed) {
-    state.watch.forget();
+    state.watch.pause();
   } else {
     watch_slip(state.watch, belief, fix, state.time);
   }
@@ -237,14 +237,14 @@ void apply(State& state, const AntennaPosition& measured, double speed_mps,
     if (refuse(state, position, std::hypot(dx, dy), larger_sigma_m(position), config)) {
       place(state, position, arm_x, arm_y, place_variance);
       state.gnss.jumps.accepted();
-      state.watch.forget();
+      state.watch.pause();
     }
     return;
   }
   state.gnss.jumps.accepted();
   if (fixed) {
     state.gnss.fixed = state.time;
-    watch_drift(state.watch, belief, fix, state.time, config);
+    watch_drift(state.watch, belief, fix, state.time, state.standing_since != kNever, config);
   }
   const Vector before = belief.mean;
   belief.correct(row_x, dx, variance_x);

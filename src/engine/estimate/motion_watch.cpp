@@ -21,7 +21,9 @@ constexpr Duration kLasting = std::chrono::seconds(24);
 constexpr Duration kShortestDrift = std::chrono::seconds(3);
 constexpr double kDriftGate = 4.0;  // sigmas
 constexpr double kDrift_m = 0.10;   // less is no drift
-constexpr double kStraight = 0.8;   // chord over way
+constexpr double kBackGate = 2.0;   // sigmas within which it is back
+constexpr Duration kBackFor = std::chrono::seconds(10);
+constexpr double kStraight = 0.8;  // chord over way
 // Soil takes its share of the way, and another one a few metres on: along the way a slow drift
 // cannot be told from it.
 constexpr double kScaleShare = 0.02;
@@ -110,6 +112,21 @@ void MotionWatch::forget() {
   crab_way_m = old.crab_way_m;
 }
 
+void MotionWatch::pause() {
+  const MotionWatch old = *this;
+  forget();
+  if (!old.drifted) return;
+  drifted = true;
+  drift_m = old.drift_m;
+  drift_s = old.drift_s;
+  lasting[0] = old.lasting[0];
+}
+
+void MotionWatch::lose() {
+  pause();
+  lasting = {};
+}
+
 void watch_slip(MotionWatch& watch, Belief& belief, const BaseFix& fix, Time now) {
   Leg& leg = watch.brief;
   if (leg.since == kNever || now - leg.since > 2 * kBrief) {
@@ -149,29 +166,39 @@ void watch_slip(MotionWatch& watch, Belief& belief, const BaseFix& fix, Time now
     watch.slip_since = kNever;
   }
   // What the wheels spun away is no drift.
-  if (watch.slipping()) watch.lasting = {};
+  if (watch.slipping() && !watch.drifted) watch.lasting = {};
   if (age < kBrief) return;
   watch.slipped_m = watch.slipping() ? watch.slipped_m + std::abs(gap_m) : 0;
   begin_brief(watch, fix, now);
 }
 
 void watch_drift(MotionWatch& watch, const Belief& belief, const BaseFix& fix, Time now,
-                 const EstimateConfig& config) {
+                 bool stands, const EstimateConfig& config) {
   Leg& older = watch.lasting[0];
   Leg& younger = watch.lasting[1];
+  if (watch.lost_track()) return;
   if (older.since == kNever) {
     older = begin(fix, now);
     return;
   }
   const Apart drift = apart(older, fix);
   const double drift_m = std::hypot(drift.along_m, drift.across_m);
-  const bool drifts =
-      now - older.since >= kShortestDrift && drift_m > kDrift_m && !watch.slipping() &&
-      drift_in_sigmas2(watch, older, belief, drift, fix.sigma_m, config) > square(kDriftGate);
+  const double sigmas2 = drift_in_sigmas2(watch, older, belief, drift, fix.sigma_m, config);
+  if (watch.drifted) {
+    watch.drift_m = drift_m;
+    const bool back = stands && (drift_m <= kDrift_m || sigmas2 <= square(kBackGate));
+    if (!back) watch.back_since = kNever;
+    if (back && watch.back_since == kNever) watch.back_since = now;
+    if (back && now - watch.back_since >= kBackFor) watch.forget();
+    return;
+  }
+  const bool drifts = now - older.since >= kShortestDrift && drift_m > kDrift_m &&
+                      !watch.slipping() && sigmas2 > square(kDriftGate);
   if (drifts) {
     if (watch.drift_since == kNever) watch.drift_since = now;
     watch.drift_m = drift_m;
     watch.drift_s = to_s(now - older.since);
+    watch.drifted = now - watch.drift_since >= from_s(config.jump_time_s);
     return;
   }
   watch.drift_since = kNever;

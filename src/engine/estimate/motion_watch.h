@@ -49,32 +49,40 @@ struct MotionWatch {
   double receiver_mps = 0;
   double slipped_m = 0;  ///< and how much the ways of both differ in the legs that are over
   Time drift_since = kNever;
-  double drift_m = 0;     ///< how far the position went away from the wheels
-  double drift_s = 0;     ///< in this time
-  double crab_rad = 0;    ///< course less heading on straights, as learned
-  double crab_way_m = 0;  ///< over this way
+  double drift_m = 0;  ///< how far the position went away from the wheels
+  double drift_s = 0;  ///< in this time
+  /// It drifted for long enough to be told. Time alone does not end that: the base stands, and what
+  /// the receiver says comes back to where dead reckoning is; or a person accepts it.
+  bool drifted = false;
+  Time back_since = kNever;  ///< it is back, and the base stands
+  double crab_rad = 0;       ///< course less heading on straights, as learned
+  double crab_way_m = 0;     ///< over this way
 
   bool slipping() const { return slip_since != kNever; }
   /// The base hardly follows its wheels, or the receiver is stuck: nobody can tell which.
   bool stuck(Time now, Duration patience) const {
     return slipping() && now - slip_since >= patience && receiver_mps < 0.4 * wheel_mps;
   }
-  bool drifting(Time now, Duration patience) const {
-    return drift_since != kNever && now - drift_since >= patience;
-  }
+  /// Nobody can tell any more whether it comes back: the wheels were not heard, or it was pushed.
+  bool lost_track() const { return drifted && lasting[0].since == kNever; }
   /// How wrong the speed by wheels may be, m/s.
   double slip_mps() const;
   /// A step of dead reckoning; `way` rolled in either direction.
   void advance(double east, double north, double way, double turn);
-  /// Begins anew; what was learned of the mounting stays.
+  /// Without positions to compare with: begins anew with the next one. What was learned of the
+  /// mounting stays, and the comparison with a drifted position goes on.
+  void pause();
+  /// Nobody knows what was driven: likewise, but that comparison is over.
+  void lose();
+  /// Another receiver or another place: only what was learned of the mounting stays.
   void forget();
 };
 
 /// A fix before it is judged by the gate. When wheels begin to slip the belief loses trust in its
 /// place along the way, so that the fixes are followed.
 void watch_slip(MotionWatch& watch, Belief& belief, const BaseFix& fix, Time now);
-/// A fix that was believed.
+/// A fix that was believed. `stands`: the base does, by wheels and gyro.
 void watch_drift(MotionWatch& watch, const Belief& belief, const BaseFix& fix, Time now,
-                 const EstimateConfig& config);
+                 bool stands, const EstimateConfig& config);
 
 }  // namespace drover::engine::estimate

@@ -66,14 +66,14 @@ void Estimator::report_trouble(const State& state, Time now) {
   const bool position_disagrees = state.gnss.jumps.disagrees(patience);
   const bool heading_disagrees = state.heading.jumps.disagrees(patience);
   const bool stuck = watch.stuck(now, patience);
-  const bool drifting = watch.drifting(now, patience);
-  e.disagrees = position_disagrees || heading_disagrees || stuck || drifting;
+  const bool drifted = watch.drifted;
+  e.disagrees = position_disagrees || heading_disagrees || stuck || drifted;
   e.slipped_m = watch.slipping() ? watch.slipped_m + std::abs(watch.last_gap_m) : 0;
   // One of the two is wrong, and nobody knows which: the error may be all that lies between them.
   if (state.has_position) {
     double apart_m = 0;
     if (state.gnss.jumps.disagrees(kContradicted)) apart_m = state.gnss.contradiction_m;
-    if (drifting) apart_m = std::max(apart_m, watch.drift_m);
+    if (drifted) apart_m = std::max(apart_m, watch.drift_m);
     if (watch.slipping()) apart_m = std::max(apart_m, std::abs(watch.last_gap_m));
     e.predicted_error_m = std::max(e.predicted_error_m, apart_m);
     e.error_bound_m = std::max(e.error_bound_m, apart_m);
@@ -85,9 +85,11 @@ void Estimator::report_trouble(const State& state, Time now) {
   } else if (stuck) {
     e.reason.format("wheels slip or the receiver is stuck: %.2f m/s by wheels, %.2f by receiver",
                     watch.wheel_mps, watch.receiver_mps);
-  } else if (drifting) {
-    e.reason.format("position drifts away from odometry: %.2f m in %.0f s", watch.drift_m,
-                    watch.drift_s);
+  } else if (drifted) {
+    e.reason.format(
+        "position drifts away from odometry: %.2f m; if the map shows the robot where it stands: "
+        "drover position accept",
+        watch.drift_m);
   } else if (!frame_.has_origin()) {
     e.reason = "no origin";
   } else if (!state.has_position) {

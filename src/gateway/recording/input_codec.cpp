@@ -241,6 +241,8 @@ void put(const FindHeading&, ByteWriter&) {}
 void get(FindHeading&, ByteReader&) {}
 void put(const ArmHold&, ByteWriter&) {}
 void get(ArmHold&, ByteReader&) {}
+void put(const AcceptPosition&, ByteWriter&) {}
+void get(AcceptPosition&, ByteReader&) {}
 void put(const ReleaseHold& release, ByteWriter& out) {
   out.byte(release.on_slope ? 1 : 0);
 }

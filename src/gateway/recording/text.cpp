@@ -150,10 +150,19 @@ std::string words(const ClearanceFound& found, const Wiring&) {
   return text;
 }
 std::string words(const CommandGiven& given, const Wiring&) {
-  constexpr const char* kBodies[] = {"nothing",        "start of a task", "cancel",
-                                     "stop",           "reset",           "proposal of an origin",
-                                     "an origin",      "joint targets",   "joint targets refused",
-                                     "heading search", "release",         "hold"};
+  constexpr const char* kBodies[] = {"nothing",
+                                     "start of a task",
+                                     "cancel",
+                                     "stop",
+                                     "reset",
+                                     "proposal of an origin",
+                                     "an origin",
+                                     "joint targets",
+                                     "joint targets refused",
+                                     "heading search",
+                                     "release",
+                                     "hold",
+                                     "a person accepts the position"};
   static_assert(std::size(kBodies) == std::variant_size_v<decltype(Command::body)>);
   const auto& command = given.command;
   std::string text = "command " + number(static_cast<std::uint64_t>(command.id.source)) + "/" +

@@ -50,11 +50,14 @@ struct ReleaseRequest {
 };
 /// Takes the drives into closed loop at rest. The command line's.
 struct HoldRequest {};
+/// A person's word that the receiver is right. The command line's.
+struct AcceptPositionRequest {};
 
 using ControlCommand =
     std::variant<GetAllTrajectory, SaveTrajectory, DeleteTrajectory, DeleteAllTrajectory,
                  StartTaskRequest, CancelTaskRequest, InitRtkData, TerminateRequest,
-                 ResetStopRequest, FindHeadingRequest, ReleaseRequest, HoldRequest>;
+                 ResetStopRequest, FindHeadingRequest, ReleaseRequest, HoldRequest,
+                 AcceptPositionRequest>;
 
 struct ControlRefusal {
   std::string feedback_cmd;  ///< always one that can be published, "unknown_failse" at worst

@@ -18,7 +18,8 @@ std::string_view verb_name(Verb verb) {
                                          "terminate",
                                          "find_heading",
                                          "release",
-                                         "hold"};
+                                         "hold",
+                                         "accept_position"};
   return kNames[static_cast<std::size_t>(verb)];
 }
 

@@ -24,11 +24,12 @@ enum class Verb : std::uint8_t {
   cancel_task,
   init_rtk_data,
   start_nav,
-  reset_stop,    ///< not of this protocol: the command line's
-  terminate,     ///< of a later edition
-  find_heading,  ///< the command line's
-  release,       ///< the command line's
-  hold,          ///< the command line's
+  reset_stop,       ///< not of this protocol: the command line's
+  terminate,        ///< of a later edition
+  find_heading,     ///< the command line's
+  release,          ///< the command line's
+  hold,             ///< the command line's
+  accept_position,  ///< the command line's
 };
 
 std::string_view verb_name(Verb verb);

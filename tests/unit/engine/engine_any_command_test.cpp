@@ -134,9 +134,9 @@ class AnyCommands {
     rig_.command(body);
   }
   void command() {
-    static_assert(std::variant_size_v<decltype(Command::body)> == 12,
+    static_assert(std::variant_size_v<decltype(Command::body)> == 13,
                   "a new command has its place here, and in what the witness knows of it");
-    switch (random_() % 16) {
+    switch (random_() % 17) {
       case 0: return ask(CancelTask{});
       case 1: return ask(EngageStop{});
       case 2:
@@ -150,6 +150,7 @@ class AnyCommands {
       case 10: return ask(ArmHold{});
       case 11: streams_ = !streams_; return;
       case 12: streamed_radps_ = one_in_(2) ? 0 : 2; return;
+      case 13: return ask(AcceptPosition{});
       default: return ask(StartTask{&path_, 20, 0.8});
     }
   }

@@ -143,6 +143,7 @@ class EngineRig {
     double gyro = 1;        ///< it tells so many times the turn
   } mechanics;
   double jump_m = 0;           ///< of the reported position, east
+  double aside_m = 0;          ///< likewise, north
   double heading_off_deg = 0;  ///< of the reported heading
   Time now{std::chrono::seconds(10)};
   double driven_m = 0;  ///< true way of the base
@@ -282,6 +283,7 @@ class EngineRig {
   void read_receiver() {
     Pose pose = plant.estimate();
     pose.x_m += jump_m;
+    pose.y_m += aside_m;
     const GeodeticPoint antenna = geo_.antenna_geodetic(pose);
     Fix fix;
     fix.time = now;

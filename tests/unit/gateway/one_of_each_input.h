@@ -60,6 +60,7 @@ struct OneOfEachInput {
     command(ResetStop{});
     command(ReleaseHold{true});
     command(ArmHold{});
+    command(AcceptPosition{});
     add(Tick{true, false});
     add(ProgramTrouble{"droverd ends"});
     add(Suspended{2.5});

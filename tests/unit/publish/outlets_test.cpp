@@ -1,4 +1,5 @@
 #include <gmock/gmock.h>
+#include <algorithm>
 
 #include "json/located_json.h"
 #include "publish/aimrt_outlet.h"
@@ -109,6 +110,15 @@ TEST_F(Outlets, OfTheCommandLineTellTheClientWhatBecameOfItsRequest) {
   EXPECT_EQ(reply->line, R"({"ok":false,"reason":"no task is under way"})");
   EXPECT_FALSE(cli_.on_answer(answer, out)) << "once";
   EXPECT_FALSE(rtk_.on_line(7, R"({"cmd":"status"})", kMoment.now, out));
+}
+
+TEST_F(Outlets, OfTheCommandLineTakeAPersonsWordForThePosition) {
+  EXPECT_EQ(reply_to(R"({"cmd":"position_accept"})"), "");
+  const auto accepts = [](const Action& action) {
+    const auto* command = std::get_if<Command>(&action);
+    return command != nullptr && std::holds_alternative<AcceptPosition>(command->body);
+  };
+  EXPECT_EQ(std::count_if(actions_.begin(), actions_.end(), accepts), 1);
 }
 
 TEST_F(Outlets, AddTheirCountersToTheStatus) {
