@@ -21,9 +21,8 @@ struct AntennaOffset {
 /// True when x and y hold as they were saved: the track was saved under this very origin.
 bool holds_under(const Track& track, const std::optional<GeodeticPoint>& origin);
 
-/// The track with x and y for `origin`: as saved where they hold, otherwise from latitude and
-/// longitude (and yaw, for the antenna's offset). yaw and z stay as saved. Without an origin the
-/// track is returned as saved. Impossible latitudes give NaN.
+/// The track with x and y for `origin`: as saved where they hold, otherwise of the place that is
+/// driven (see Placing). yaw and z stay as saved. Without an origin the track is returned as saved.
 Track derive(const Track& track, const std::optional<GeodeticPoint>& origin,
              const AntennaOffset& antenna = {});
 
