@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <span>
 
+#include "drover/fixed_text.h"
 #include "drover/path.h"
 
 namespace drover::track {
@@ -26,5 +27,9 @@ struct Flaw {
 
 /// The first one; of crowds only where there is nothing worse. O(points), nothing allocates.
 Flaw find_flaw(std::span<const PathPoint> points);
+
+/// Why a path cannot be driven to point `target` (an index from 0); empty when it can. Points are
+/// named as the operator counts, from 1. O(points).
+Reason check_path(const Path& path, std::uint32_t target);
 
 }  // namespace drover::track

@@ -9,6 +9,7 @@
 #include "drover/twist.h"
 #include "drover/viewpoint.h"
 #include "engine/config.h"
+#include "track/flaw.h"
 #include "track/legs.h"
 
 namespace drover::engine {
@@ -29,9 +30,7 @@ struct TrackProgress {
   bool joined = false;
 };
 
-/// Why a path cannot be driven; empty when it can. Points are named as the operator counts, from 1;
-/// `target` is an index from 0. O(points).
-Reason check_path(const Path& path, std::uint32_t target);
+using track::check_path;
 
 /// Follows a smooth line through the points: curvature ahead of the drives' lag, plus feedback on
 /// offset and heading. Where the track has a true corner it stops, turns on the spot and goes on.

@@ -10,6 +10,8 @@
 #include "publish/rtk_navigation/told_command.h"
 #include "publish/rtk_navigation/track_name.h"
 #include "store/point_texts.h"
+#include "text/letters.h"
+#include "text/trimmed.h"
 
 namespace drover::publish {
 namespace {
@@ -177,6 +179,14 @@ const Row* find_row(std::string_view cmd) {
   return row == kRows.end() ? nullptr : row;
 }
 
+/// Who writes a stop with a capital or a blank too many means it all the same.
+const Row* find_stop(std::string_view cmd) {
+  const auto row = std::find_if(kRows.begin(), kRows.end(), [&](const Row& r) {
+    return r.stops && text::equal_but_for_case(r.cmd, text::trimmed(cmd));
+  });
+  return row == kRows.end() ? nullptr : &*row;
+}
+
 /// A text that is nothing but a word, in quotes or not.
 std::string_view lone_word(std::string_view text) {
   constexpr std::string_view kAround = " \t\r\n\"'";
@@ -188,14 +198,10 @@ std::string_view lone_word(std::string_view text) {
 /// The stop that is told, however badly: nobody writes one by mistake, and who stops a robot must
 /// not be asked for commas.
 const Row* told_stop(std::string_view text) {
-  const auto stop = [](std::string_view cmd) {
-    const Row* row = find_row(cmd);
-    return row != nullptr && row->stops ? row : nullptr;
-  };
-  if (const Row* row = stop(lone_word(text))) return row;
+  if (const Row* row = find_stop(lone_word(text))) return row;
   ToldCommands told(text);
   for (auto cmd = told.next(); !cmd.empty(); cmd = told.next()) {
-    if (const Row* row = stop(cmd)) return row;
+    if (const Row* row = find_stop(cmd)) return row;
   }
   return nullptr;
 }
@@ -266,8 +272,10 @@ Result<ControlCommand, ControlRefusal> parse_control(std::string_view payload, R
   if (root.object() == nullptr)
     return refuse_form("", "a command is an object, not " + std::string(root.kind()));
   std::string cmd;
-  if (auto reason = read_text(root, "cmd", cmd)) return refuse(cmd, *reason);
+  if (auto reason = read_text(root, "cmd", cmd)) return refuse_form(cmd, *reason);
   const Row* row = find_row(cmd);
+  if (row == nullptr && find_stop(cmd) != nullptr)
+    return refuse_form(cmd, "there is no command " + quoted(cmd));
   const bool stops = row != nullptr && row->stops;
   if (stops && retain == Retain::stored) return refuse(cmd, kRetained);
   if (auto reason = address_problem(root, cmd, row)) {
@@ -293,7 +301,7 @@ bool may_stop(std::string_view payload) {
   // A letter may be written as an escape; then only the parser knows.
   if (payload.find('\\') != std::string_view::npos) return true;
   return std::any_of(kRows.begin(), kRows.end(), [&](const Row& row) {
-    return row.stops && payload.find(row.cmd) != std::string_view::npos;
+    return row.stops && text::contains_but_for_case(payload, row.cmd);
   });
 }
 

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "text/letters.h"
+
 namespace drover::publish {
 namespace {
 
@@ -25,7 +27,7 @@ std::string_view ToldCommands::next() {
     if (is_quote(c) || is_letter(c)) {
       const auto word = read_word();
       const bool is_value = is_cmd_;
-      is_cmd_ = !is_value && depth_ <= 1 && word == "cmd";
+      is_cmd_ = !is_value && depth_ <= 1 && text::equal_but_for_case(word, "cmd");
       if (is_value && !word.empty()) return word;
     } else if (c != '/' || !skip_comment()) {
       if (c == '{') ++depth_;

@@ -4,6 +4,7 @@
 #include "scene/keeper/track_check_impl.h"
 #include "scene/keeper/track_start.h"
 #include "scene/world/words.h"
+#include "track/flaw.h"
 
 namespace drover::scene {
 namespace {
@@ -37,7 +38,7 @@ TrackCheck::Impl::Impl(const Keeper::Impl& given, const Path& track, std::uint32
 Reason TrackCheck::Impl::find_problem(std::uint32_t target) const {
   const Surroundings& around = keeper.around;
   if (!around.problem.empty()) return around.problem;
-  if (!is_track(path, target)) return "the track is none that can be driven";
+  if (Reason problem = track::check_path(path, target); !problem.empty()) return problem;
   if (around.is_empty()) return {};
   if (Reason problem = position_problem(pose, keeper.position_sigma_m()); !problem.empty())
     return problem;

@@ -30,6 +30,7 @@ class GeoJsonReader {
   }
   /// Only when nothing is wrong.
   ImportedZone take() {
+    zone_.names_differ = !names_agree_;
     if (names_agree_) zone_.name = std::move(name_);
     if (without_place_ > 0)
       zone_.notes.push_back(std::to_string(without_place_) + " features without a geometry");

@@ -26,7 +26,11 @@ Result<NewZone, ImportError> import_zone(std::string_view text, const ZoneOrder&
   if (!read.ok()) return read.error();
   ImportedZone& file = read.value();
   const std::string& name = order.name.empty() ? file.name : order.name;
-  if (name.empty()) return ImportError{0, 0, "name", "the file does not name its areas: give one"};
+  if (name.empty()) {
+    return ImportError{0, 0, "name",
+                       file.names_differ ? "the areas of the file have different names: give one"
+                                         : "the file does not name its areas: give one"};
+  }
   NewZone made{{name, order.kind, std::move(file.polygons), order.datum, order.source},
                std::move(file.notes)};
   if (const auto refusal = check_zone(made.zone))

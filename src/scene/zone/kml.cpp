@@ -79,6 +79,7 @@ class KmlReader {
   std::optional<ImportError>& error() { return error_; }
   /// Only when nothing is wrong.
   ImportedZone take() {
+    zone_.names_differ = !names_agree_;
     if (names_agree_) zone_.name = std::move(name_);
     return std::move(zone_);
   }

@@ -49,7 +49,8 @@ TEST(CheckPath, RefusesAPathWithoutPoints) {
   EXPECT_EQ(check_path(path_of({}), 0).view(), "the track has no points");
 }
 TEST(CheckPath, RefusesASinglePoint) {
-  EXPECT_EQ(check_path(path_of({{1, 2}}), 0).view(), "the track has only one point");
+  EXPECT_EQ(check_path(path_of({{1, 2}}), 0).view(),
+            "the track has only one point, two are needed");
 }
 TEST(CheckPath, RefusesATargetBeyondTheEndAndCountsFromOne) {
   const std::string reason{check_path(path_of({{0, 0}, {1, 0}}), 2).view()};

@@ -14,6 +14,14 @@ TEST_F(AKeeper, FindsNothingOnATrackThatIsFree) {
   EXPECT_FALSE(check(path, 300).has_value());
 }
 
+TEST_F(AKeeper, SaysWhyATrackIsNone) {
+  Path path;
+  path.points = {{1, 0}};
+  EXPECT_EQ(check(path, 0)->what, "the track has only one point, two are needed");
+  path.points = {{1, 0}, {1, 0}};
+  EXPECT_EQ(check(path, 1)->what, "all points of the track are the same");
+}
+
 TEST_F(AKeeper, NamesTheFirstObjectOnATrackWithItsPointAndItsWay) {
   const Path path = row(300);
   apply(box("second", 200, 0));

@@ -29,6 +29,20 @@ TEST(ZoneImport, TellsGeoJsonFromKmlByTheText) {
   EXPECT_EQ(import_zone(kKml, {})->zone.name, "pond");
   EXPECT_EQ(import_zone(" \r\n" + kKml, {})->zone.name, "pond");
 }
+TEST(ZoneImport, SaysThatTheAreasHaveDifferentNames) {
+  const auto feature = [](const std::string& name, const char* east) {
+    return R"({"type":"Feature","properties":{"name":")" + name +
+           R"("},"geometry":{"type":"Polygon","coordinates":[[[)" + east + ",48],[" + east +
+           "1,48],[" + east + "1,48.001],[" + east + ",48]]]}}";
+  };
+  const auto file = [&](const char* one, const char* other) {
+    return R"({"type":"FeatureCollection","features":[)" + feature(one, "11.00") + "," +
+           feature(other, "11.02") + "]}";
+  };
+  EXPECT_THAT(refusal(file("a", "b")), HasSubstr("have different names: give one"));
+  EXPECT_EQ(refusal(file("a", "a")), "taken");
+  EXPECT_EQ(refusal(file("a", "b"), {"field"}), "taken");
+}
 TEST(ZoneImport, PassesOverAByteOrderMark) {
   EXPECT_EQ(refusal("\xEF\xBB\xBF" + kGeoJson), "taken");
   EXPECT_EQ(refusal("\xEF\xBB\xBF" + kKml), "taken");

@@ -1,16 +1,15 @@
 // Which paths are refused before anything moves, in the words of who counts points from 1.
 #include <cstddef>
 
-#include "engine/navigate/tracker.h"
 #include "track/flaw.h"
 
-namespace drover::engine {
+namespace drover::track {
 
 Reason check_path(const Path& path, std::uint32_t target) {
-  using Kind = track::Flaw::Kind;
+  using Kind = Flaw::Kind;
   Reason reason;
   const auto& points = path.points;
-  const track::Flaw flaw = track::find_flaw(points);
+  const Flaw flaw = find_flaw(points);
   if (flaw.kind != Kind::too_few && target >= points.size()) {
     reason.format("the track has no point %llu, only 1 to %zu",
                   static_cast<unsigned long long>(target) + 1, points.size());
@@ -19,7 +18,8 @@ Reason check_path(const Path& path, std::uint32_t target) {
   switch (flaw.kind) {
     case Kind::none: break;
     case Kind::too_few:
-      reason = points.empty() ? "the track has no points" : "the track has only one point";
+      reason = points.empty() ? "the track has no points"
+                              : "the track has only one point, two are needed";
       break;
     case Kind::not_finite:
       reason.format("point %zu of the track has no valid position", flaw.point + 1);
@@ -36,4 +36,4 @@ Reason check_path(const Path& path, std::uint32_t target) {
   return reason;
 }
 
-}  // namespace drover::engine
+}  // namespace drover::track
