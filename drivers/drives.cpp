@@ -13,7 +13,7 @@ bool ToldStatus::is_due(const AxisStatus& current, bool always) {
   const bool changed = !told_once_ || current.state != told_.state ||
                        current.error_code != told_.error_code || current.lapsed != told_.lapsed ||
                        current.powered != told_.powered || !(current.reason == told_.reason);
-  if (!changed && !always) return false;
+  if (!changed) return always;
   told_once_ = true;
   told_ = current;
   return true;

@@ -245,10 +245,9 @@ void OdriveDriver::report_status(Time now, bool always, DriverOut& out) {
 }
 
 SourceHealth OdriveDriver::health(Time now) const {
-  Reason never;
-  never.format("node %u was never heard", static_cast<unsigned>(settings_.node));
-  SourceHealth health =
-      heard_.health(now, never.view(), "no heartbeat", settings_.heartbeat_timeout);
+  SourceHealth health = heard_.health(now, {}, "no heartbeat", settings_.heartbeat_timeout);
+  if (health.state == SourceState::never_heard)
+    health.reason.format("node %u was never heard", static_cast<unsigned>(settings_.node));
   health.bad += bad_setpoints_;
   if (health.state != SourceState::fresh) return health;
   if (last_estimates_ == kNever)

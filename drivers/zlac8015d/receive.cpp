@@ -197,10 +197,9 @@ void Zlac8015dDriver::report_status(Time now, bool always, DriverOut& out) {
 }
 
 SourceHealth Zlac8015dDriver::health(Time now) const {
-  Reason never;
-  never.format("node %u was never heard", static_cast<unsigned>(settings_.node));
-  SourceHealth health =
-      heard_.health(now, never.view(), "nothing heard", settings_.heartbeat_timeout);
+  SourceHealth health = heard_.health(now, {}, "nothing heard", settings_.heartbeat_timeout);
+  if (health.state == SourceState::never_heard)
+    health.reason.format("node %u was never heard", static_cast<unsigned>(settings_.node));
   health.bad += bad_setpoints_;
   if (health.state != SourceState::fresh) return health;
   if (link_ != Link::ready)
