@@ -11,8 +11,6 @@
 namespace drover::engine {
 namespace {
 
-constexpr std::uint8_t kClassicLength = 8;
-
 /// Set points travel in single precision.
 constexpr double kRounding = 1 + 1e-6;
 
@@ -49,13 +47,6 @@ bool takes_twist(const Actuator& driver, std::size_t channel) {
 }
 
 }  // namespace
-
-bool matches(const FrameRule& rule, const CanFrame& frame) {
-  // A rule that allows more than 8 bytes speaks of CAN FD; only then an FD frame is meant.
-  return rule.id == frame.id && rule.extended == frame.extended && rule.remote == frame.remote &&
-         frame.fd == (rule.max_len > kClassicLength) && frame.len >= rule.min_len &&
-         frame.len <= rule.max_len;
-}
 
 void FrameGate::add(std::size_t link, const Actuator& driver) {
   if (link >= kMaxLinks) throw std::runtime_error("more links than the frame gate holds");
@@ -121,26 +112,31 @@ void FrameGate::note(std::size_t sender, std::size_t channel, const Parts& asked
     slowest[i] = std::min(std::abs(asked[i]), slowest[i]);
 }
 
-/// Each channel is permitted, or slowed: a ramp that has begun only falls.
+/// Each channel is permitted, or slowed.
 bool FrameGate::may_move(std::size_t sender, const Message& message, ChannelMask moves,
+                         const Permission& permission) {
+  const ChannelMask permitted = permission.guard_has_bus ? ChannelMask{0} : permission.motion;
+  const auto others = static_cast<ChannelMask>(moves & ~permitted);
+  if (others != 0 && !may_slow(sender, message, others, permission)) return false;
+  note_zeros(sender, message, permission);
+  return true;
+}
+
+/// Each of them is slowed: a ramp that has begun only falls.
+bool FrameGate::may_slow(std::size_t sender, const Message& message, ChannelMask moves,
                          const Permission& permission) {
   const Actuator& driver = *senders_[sender].driver;
   std::array<Parts, kMaxChannels> asked{};
-  ChannelMask slowed = 0;
-  for (std::size_t channel = 0; channel < driver.channels().size(); ++channel) {
-    const ChannelMask bit = channel_bit(channel);
-    if ((moves & bit) == 0) continue;
-    if ((permission.motion & bit) != 0 && !permission.guard_has_bus) continue;
+  for (std::size_t channel = 0; channel < kMaxChannels; ++channel) {
+    if ((moves & channel_bit(channel)) == 0) continue;
     if (!is_slowed(permission, channel)) return false;
     asked[channel] = asked_of(driver, message, channel);
     if (!is_slower(asked[channel], driver, channel, permission.slowing[channel],
                    slowest_[sender][channel]))
       return false;
-    slowed |= bit;
   }
-  for (std::size_t channel = 0; slowed != 0 && channel < kMaxChannels; ++channel)
-    if ((slowed & channel_bit(channel)) != 0) note(sender, channel, asked[channel]);
-  note_zeros(sender, message, permission);
+  for (std::size_t channel = 0; channel < kMaxChannels; ++channel)
+    if ((moves & channel_bit(channel)) != 0) note(sender, channel, asked[channel]);
   return true;
 }
 
@@ -148,7 +144,8 @@ bool FrameGate::may_move(std::size_t sender, const Message& message, ChannelMask
 void FrameGate::note_zeros(std::size_t sender, const Message& message,
                            const Permission& permission) {
   const Actuator& driver = *senders_[sender].driver;
-  for (std::size_t channel = 0; channel < driver.channels().size(); ++channel) {
+  const std::size_t channels = std::min(permission.slowing.size(), driver.channels().size());
+  for (std::size_t channel = 0; channel < channels; ++channel) {
     if (!is_slowed(permission, channel)) continue;
     const Parts asked = asked_of(driver, message, channel);
     if (asked == Parts{}) note(sender, channel, asked);

@@ -76,6 +76,8 @@ class FrameGate final {
                      const Permission& permission, Time now);
   bool may_move(std::size_t sender, const Message& message, ChannelMask moves,
                 const Permission& permission);
+  bool may_slow(std::size_t sender, const Message& message, ChannelMask moves,
+                const Permission& permission);
   void note_zeros(std::size_t sender, const Message& message, const Permission& permission);
   void note(std::size_t sender, std::size_t channel, const Parts& asked);
 
@@ -86,6 +88,12 @@ class FrameGate final {
 };
 
 /// Whether a frame is what a rule describes: id, kind and length.
-bool matches(const FrameRule& rule, const CanFrame& frame);
+inline bool matches(const FrameRule& rule, const CanFrame& frame) {
+  constexpr std::uint8_t kClassicLength = 8;
+  // A rule that allows more than 8 bytes speaks of CAN FD; only then an FD frame is meant.
+  return rule.id == frame.id && rule.extended == frame.extended && rule.remote == frame.remote &&
+         frame.fd == (rule.max_len > kClassicLength) && frame.len >= rule.min_len &&
+         frame.len <= rule.max_len;
+}
 
 }  // namespace drover::engine
