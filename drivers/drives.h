@@ -21,11 +21,7 @@ constexpr bool arms(AxisRequest request) {
 /// What a device that stamps nothing said: of the instant in which it came.
 template <class T>
 void report_heard(const T& value, Time received, DriverOut& out) {
-  Measurement m;
-  m.time = received;
-  m.received = received;
-  m.value = value;
-  out.report(m);
+  out.report(received, received, value);
 }
 
 /// A status is told when it changed, and whenever it is asked for.

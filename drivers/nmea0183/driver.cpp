@@ -178,7 +178,7 @@ void Nmea0183Driver::report_velocity(GnssVelocity velocity, const Arrival& at, D
 
 template <class Value>
 void Nmea0183Driver::report(const Value& value, const Arrival& at, DriverOut& out) {
-  out.report({epoch_.due - latency_, at.received, value});
+  out.report(epoch_.due - latency_, at.received, value);
 }
 
 void Nmea0183Driver::note_pace(Duration utc) {

@@ -23,6 +23,12 @@ struct DriverOut {
   std::uint32_t reopen_baud = 0;
   std::uint32_t overflows = 0;  ///< things that did not fit and were dropped
 
+  /// Made where it stays: most values are far smaller than a Measurement.
+  template <class Value>
+  void report(Time time, Time received, const Value& value) {
+    const auto make = [&] { return Measurement{time, received, value}; };
+    overflows += measurements.push_made(make) ? 0 : 1;
+  }
   void report(const Measurement& m) { overflows += measurements.push_back(m) ? 0 : 1; }
   void send(const CanFrame& f) { overflows += frames.push_back(f) ? 0 : 1; }
   void send(const Packet& p) { overflows += packets.push_back(p) ? 0 : 1; }

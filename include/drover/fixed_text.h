@@ -24,7 +24,7 @@ class FixedText {
     if (size_ < text.size()) {
       while (size_ > 0 && (static_cast<unsigned char>(text[size_]) & 0xC0U) == 0x80U) --size_;
     }
-    for (std::size_t i = 0; i < size_; ++i) chars_[i] = text[i];
+    std::copy_n(text.data(), size_, chars_.data());
   }
   /// printf into the text; cut when it does not fit. glibc's vsnprintf does not allocate for these.
   [[gnu::format(printf, 2, 3)]] void format(const char* pattern, ...) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <memory>
+#include <new>
 #include <span>
 #include <type_traits>
 
@@ -32,6 +33,14 @@ class FixedVector {
   [[nodiscard]] bool push_back(const T& value) {
     if (size_ == N) return false;
     std::construct_at(items_.data() + size_, value);
+    ++size_;
+    return true;
+  }
+  /// The same of what `make` returns, which is made in its place.
+  template <class Make>
+  [[nodiscard]] bool push_made(const Make& make) {
+    if (size_ == N) return false;
+    ::new (static_cast<void*>(items_.data() + size_)) T(make());
     ++size_;
     return true;
   }
