@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <cstdint>
 
 #include "drivers/nmea0183/block.h"
@@ -16,18 +17,19 @@ constexpr std::size_t kMaxNumberLength = 20;
 
 // A number of so few digits, and each of these powers, is a double without a rest: their quotient
 // is the double that is nearest to the text, as from_chars would find it.
-constexpr std::size_t kExactDigits = 15;
+constexpr std::ptrdiff_t kExactDigits = 15;
 constexpr std::array kPowersOfTen{1e0, 1e1, 1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
                                   1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15};
 
 bool is_digit(char c) {
   return c >= '0' && c <= '9';
 }
-bool all_digits(std::string_view text) {
-  return !text.empty() && std::all_of(text.begin(), text.end(), is_digit);
-}
-int two_digits(std::string_view text) {
-  return (text[0] - '0') * 10 + (text[1] - '0');
+/// The number that the next two characters are; none above 99 when they are no digits.
+int two_digits(std::string_view text, std::size_t at) {
+  constexpr int kNone = 100;
+  const char tens = text[at];
+  const char ones = text[at + 1];
+  return is_digit(tens) && is_digit(ones) ? (tens - '0') * 10 + (ones - '0') : kNone;
 }
 
 /// The number that eight characters are, when all of them are digits: three steps that join
@@ -54,45 +56,60 @@ const char* take_digits(const char* at, const char* end, std::uint64_t& number) 
   return at;
 }
 
+/// A plain decimal number that has more digits than a double holds.
+[[gnu::noinline]] double read_long_decimal(std::string_view text) {
+  double value = 0;
+  const char* end = text.data() + text.size();
+  const auto result = std::from_chars(text.data(), end, value, std::chars_format::fixed);
+  return result.ec == std::errc{} && result.ptr == end ? value : kAbsent;
+}
+
+/// A plain decimal number; absent when it is none.
+double read_decimal(std::string_view text) {
+  if (text.empty() || text.size() > kMaxNumberLength) return kAbsent;
+  const char* at = text.data();
+  const char* const end = at + text.size();
+  const bool negative = *at == '-';
+  if (negative) ++at;
+  // from_chars alone would also take `nan` and `inf`.
+  std::uint64_t mantissa = 0;
+  const char* const begin = at;
+  at = take_digits(at, end, mantissa);
+  std::ptrdiff_t digits = at - begin;
+  std::ptrdiff_t decimals = 0;
+  if (at != end && *at == '.') {
+    const char* const point = at++;
+    // Positions have eight of them and more.
+    if (std::uint64_t eight = 0; end - at >= 8 && eight_digits(at, eight)) {
+      mantissa = mantissa * 100'000'000 + eight;
+      at += 8;
+    }
+    at = take_digits(at, end, mantissa);
+    decimals = at - point - 1;
+    digits += decimals;
+  }
+  if (at != end || digits == 0) return kAbsent;
+  if (digits > kExactDigits) return read_long_decimal(text);
+  const double value = static_cast<double>(static_cast<std::int64_t>(mantissa)) /
+                       kPowersOfTen[static_cast<std::size_t>(decimals)];
+  return negative ? -value : value;
+}
+
 }  // namespace
 
 std::optional<double> parse_decimal(std::string_view text) {
-  if (text.empty() || text.size() > kMaxNumberLength) return std::nullopt;
-  const char* at = text.data();
-  const char* end = at + text.size();
-  if (*at == '-') ++at;
-  // from_chars alone would also take `nan` and `inf`.
-  std::uint64_t mantissa = 0;
-  const char* begin = at;
-  at = take_digits(at, end, mantissa);
-  auto digits = static_cast<std::size_t>(at - begin);
-  std::size_t decimals = 0;
-  if (at != end && *at == '.') {
-    begin = ++at;
-    // Positions have eight of them and more.
-    for (std::uint64_t eight = 0; end - at >= 8 && eight_digits(at, eight); at += 8)
-      mantissa = mantissa * 100'000'000 + eight;
-    at = take_digits(at, end, mantissa);
-    decimals = static_cast<std::size_t>(at - begin);
-    digits += decimals;
-  }
-  if (at != end || digits == 0) return std::nullopt;
-  if (digits <= kExactDigits) {
-    const double value = static_cast<double>(mantissa) / kPowersOfTen[decimals];
-    return text.front() == '-' ? -value : value;
-  }
-  double value = 0;
-  const auto result = std::from_chars(text.data(), end, value, std::chars_format::fixed);
-  if (result.ec != std::errc{} || result.ptr != end) return std::nullopt;
-  return value;
+  const double value = read_decimal(text);
+  return std::isnan(value) ? std::nullopt : std::optional(value);
 }
 
 FieldReader::FieldReader(std::string_view body) : body_(body) {
+  // What finds no room is beyond all that is read.
   const auto end_at = [this](std::size_t comma) {
-    if (size_ < kMaxFields) begins_[++size_] = static_cast<std::uint32_t>(comma + 1);
+    (void)begins_.push_back(static_cast<std::uint32_t>(comma + 1));
   };
+  (void)begins_.push_back(0);
   std::size_t at = 0;
-  for (; body.size() - at >= kBlock && size_ < kMaxFields; at += kBlock)
+  for (; body.size() - at >= kBlock && !begins_.full(); at += kBlock)
     each_mark(load_block(&body[at]) == ',', [&](std::size_t comma) { end_at(at + comma); });
   for (; at < body.size(); ++at)
     if (body[at] == ',') end_at(at);
@@ -102,6 +119,11 @@ FieldReader::FieldReader(std::string_view body) : body_(body) {
 double FieldReader::fail_absent() {
   ok_ = false;
   return kAbsent;
+}
+
+std::nullopt_t FieldReader::fail_unknown() {
+  ok_ = false;
+  return std::nullopt;
 }
 
 char FieldReader::letter(std::size_t i) {
@@ -118,25 +140,19 @@ void FieldReader::expect_letter_or_empty(std::size_t i, char unit) {
 }
 
 double FieldReader::decimal(std::size_t i, double min, double max) {
-  if (text(i).empty()) return kAbsent;
-  const auto value = parse_decimal(text(i));
-  if (!value || *value < min || *value > max) return fail_absent();
-  return *value;
+  const auto field = text(i);
+  if (field.empty()) return kAbsent;
+  const double value = read_decimal(field);
+  return value >= min && value <= max ? value : fail_absent();
 }
 
 std::optional<int> FieldReader::integer(std::size_t i, int max) {
   const auto field = text(i);
   if (field.empty()) return std::nullopt;
-  if (field.size() > 4 || !all_digits(field)) {
-    ok_ = false;
-    return std::nullopt;
-  }
+  const bool digits = field.size() <= 4 && std::all_of(field.begin(), field.end(), is_digit);
   int value = 0;
-  for (const char c : field) value = value * 10 + (c - '0');
-  if (value > max) {
-    ok_ = false;
-    return std::nullopt;
-  }
+  for (const char c : field.substr(0, 4)) value = value * 10 + (c - '0');
+  if (!digits || value > max) return fail_unknown();
   return value;
 }
 
@@ -144,18 +160,21 @@ double FieldReader::angle_deg(std::size_t i, std::size_t degree_digits, double l
                               std::string_view hemispheres) {
   const auto field = text(i);
   const char hemisphere = letter(i + 1);
-  if (hemisphere != '\0' && hemispheres.find(hemisphere) == std::string_view::npos)
+  if (hemisphere != '\0' && hemisphere != hemispheres[0] && hemisphere != hemispheres[1])
     return fail_absent();
   if (field.empty()) return kAbsent;
   // The number of digits before the point is fixed. A sign would negate twice: it is no digit.
-  const auto whole = field.substr(0, field.find('.'));
-  if (hemisphere == '\0' || whole.size() != degree_digits + 2 || !all_digits(whole))
+  const std::size_t point = degree_digits + 2;
+  if (hemisphere == '\0' || field.size() < point || (field.size() > point && field[point] != '.'))
     return fail_absent();
-  int degrees = 0;
-  for (const char c : whole.substr(0, degree_digits)) degrees = degrees * 10 + (c - '0');
-  const auto minutes = parse_decimal(field.substr(degree_digits));
-  if (!minutes || *minutes >= 60.0) return fail_absent();
-  const double angle = degrees + *minutes / 60.0;
+  int whole = 0;
+  for (const char c : field.substr(0, point)) {
+    if (!is_digit(c)) return fail_absent();
+    whole = whole * 10 + (c - '0');
+  }
+  const double minutes = read_decimal(field.substr(degree_digits));
+  if (!(minutes < 60.0)) return fail_absent();
+  const double angle = whole / 100 + minutes / 60.0;
   if (angle > limit_deg) return fail_absent();
   return hemisphere == hemispheres[0] ? angle : -angle;
 }
@@ -168,28 +187,22 @@ double FieldReader::direction_deg(std::size_t i) {
 std::optional<Duration> FieldReader::time_of_day(std::size_t i) {
   const auto field = text(i);
   if (field.empty()) return std::nullopt;
-  const auto whole = field.substr(0, 6);
-  const auto fraction = field.substr(whole.size());
-  const bool shaped =
-      whole.size() == 6 && all_digits(whole) &&
-      (fraction.empty() || (fraction[0] == '.' && fraction.size() <= 10 &&
-                            (fraction.size() == 1 || all_digits(fraction.substr(1)))));
-  if (!shaped) {
-    ok_ = false;
-    return std::nullopt;
-  }
-  const int hour = two_digits(whole);
-  const int minute = two_digits(whole.substr(2));
-  const int second = two_digits(whole.substr(4));
+  constexpr std::size_t kPoint = 6;
+  constexpr std::size_t kDecimals = 9;  // nanoseconds
+  const bool shaped = field.size() == kPoint || (field.size() > kPoint && field[kPoint] == '.' &&
+                                                 field.size() <= kPoint + 1 + kDecimals);
+  if (!shaped) return fail_unknown();
+  const int hour = two_digits(field, 0);
+  const int minute = two_digits(field, 2);
+  const int second = two_digits(field, 4);
   const bool leap = hour == 23 && minute == 59 && second == 60;
-  if (hour > 23 || minute > 59 || (second > 59 && !leap)) {
-    ok_ = false;
-    return std::nullopt;
-  }
+  if (hour > 23 || minute > 59 || (second > 59 && !leap)) return fail_unknown();
   std::int64_t nanoseconds = 0;
   std::int64_t unit_ns = 100'000'000;
-  for (std::size_t digit = 1; digit < fraction.size(); ++digit, unit_ns /= 10)
-    nanoseconds += unit_ns * (fraction[digit] - '0');
+  for (std::size_t digit = kPoint + 1; digit < field.size(); ++digit, unit_ns /= 10) {
+    if (!is_digit(field[digit])) return fail_unknown();
+    nanoseconds += unit_ns * (field[digit] - '0');
+  }
   return std::chrono::hours(hour) + std::chrono::minutes(minute) + std::chrono::seconds(second) +
          Duration(nanoseconds);
 }

@@ -1,12 +1,12 @@
 // Fields of a sentence and the strict grammar of what they hold: no locale, no nan, no exponent.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string_view>
 
+#include "drover/fixed_vector.h"
 #include "drover/time.h"
 
 namespace drover::nmea0183 {
@@ -18,13 +18,13 @@ class FieldReader final {
  public:
   explicit FieldReader(std::string_view body);
 
-  std::size_t size() const { return size_; }
+  std::size_t size() const { return begins_.size() - 1; }
   bool ok() const { return ok_; }
   void fail() { ok_ = false; }
 
   /// Empty when the sentence has no such field.
   std::string_view text(std::size_t i) const {
-    if (i >= size_) return {};
+    if (i >= size()) return {};
     return {body_.data() + begins_[i], begins_[i + 1] - 1 - begins_[i]};
   }
   /// One letter, '\0' when the field is empty, '?' (and a failure) when it is longer.
@@ -50,11 +50,11 @@ class FieldReader final {
   double angle_deg(std::size_t i, std::size_t degree_digits, double limit_deg,
                    std::string_view hemispheres);
   double fail_absent();
+  std::nullopt_t fail_unknown();
 
   std::string_view body_;
   /// Where each begins; the one after the last begins behind the comma that would end it.
-  std::array<std::uint32_t, kMaxFields + 1> begins_{};
-  std::size_t size_ = 0;
+  FixedVector<std::uint32_t, kMaxFields + 1> begins_;
   bool ok_ = true;
 };
 

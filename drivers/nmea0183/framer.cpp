@@ -43,7 +43,11 @@ std::size_t Framer::take_dull(std::span<const std::uint8_t> bytes) {
   if (state_ == State::checksum) return 0;
   if (state_ == State::idle)
     return static_cast<std::size_t>(std::find(bytes.begin(), bytes.end(), '$') - bytes.begin());
-  bytes = bytes.first(std::min(bytes.size(), kMaxBody - size_));
+  const std::size_t text = take_text(bytes.first(std::min(bytes.size(), kMaxBody - size_)));
+  return text + take_sum(bytes.subspan(text));
+}
+
+std::size_t Framer::take_text(std::span<const std::uint8_t> bytes) {
   std::size_t count = 0;
   Block sums{};
   std::size_t dull = kBlock;
@@ -58,6 +62,19 @@ std::size_t Framer::take_dull(std::span<const std::uint8_t> bytes) {
   if (count > 0) std::memcpy(&buffer_[size_], bytes.data(), count);
   size_ += count;
   return count;
+}
+
+/// The end of the text with the digits behind it, where all of them are there.
+std::size_t Framer::take_sum(std::span<const std::uint8_t> bytes) {
+  constexpr std::size_t kWhole = 1 + kSumDigits;
+  if (bytes.size() < kWhole || bytes[0] != '*') return 0;
+  const int high = hex_value(bytes[1]);
+  const int low = hex_value(bytes[2]);
+  if (high < 0 || low < 0) return 0;
+  state_ = State::checksum;
+  digits_ = kSumDigits;
+  claimed_ = static_cast<std::uint32_t>(high << 4 | low);
+  return kWhole;
 }
 
 Framer::Event Framer::push(std::uint8_t byte) {

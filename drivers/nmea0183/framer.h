@@ -24,7 +24,8 @@ class Framer final {
 
   Event push(std::uint8_t byte);
   /// How many bytes at the beginning of `bytes` lead to nothing but Event::none, and takes them:
-  /// text inside a sentence, or what lies between two. They are most of a stream, and so go fast.
+  /// text inside a sentence with its checksum, or what lies between two. They are most of a stream,
+  /// and so go fast.
   std::size_t take_dull(std::span<const std::uint8_t> bytes);
   /// Between `$` and `*`, after Event::sentence and until the next push().
   std::string_view body() const { return {buffer_.data(), size_}; }
@@ -34,6 +35,8 @@ class Framer final {
  private:
   enum class State : std::uint8_t { idle, body, checksum };
 
+  std::size_t take_text(std::span<const std::uint8_t> bytes);
+  std::size_t take_sum(std::span<const std::uint8_t> bytes);
   Event drop();
   Event finish();
 
