@@ -4,6 +4,7 @@
 //   bench_nmea FILE              decodes it: "positions velocities headings bad"
 //   bench_nmea --floor FILE      only finds the ends of lines and adds up their checksums
 //   bench_nmea --check           writes, decodes and compares a small one; no file
+#include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
@@ -50,18 +51,19 @@ struct Counts {
   std::uint64_t bad = 0;
 };
 
-Counts decode(std::string_view text) {
+/// Piece by piece, as a decoder does that sits at a line.
+Counts decode(std::istream& text) {
   nmea0183::Nmea0183Driver driver(defaults());
   Counts counts;
   DriverOut out;
   Time now{};
   driver.on_link_up(now);
-  while (!text.empty()) {
-    const auto part = text.substr(0, kAtOnce);
-    text.remove_prefix(part.size());
+  for (std::array<char, kAtOnce> piece{}; text;) {
+    text.read(piece.data(), piece.size());
+    const auto size = static_cast<std::size_t>(text.gcount());
     // As fast as the line would bring them.
-    now += std::chrono::microseconds(87 * part.size());
-    driver.on_bytes({reinterpret_cast<const std::uint8_t*>(part.data()), part.size()}, now, out);
+    now += std::chrono::microseconds(87 * size);
+    driver.on_bytes({reinterpret_cast<const std::uint8_t*>(piece.data()), size}, now, out);
     for (const auto& measurement : out.measurements) {
       counts.positions += std::holds_alternative<GnssPosition>(measurement.value) ? 1 : 0;
       counts.velocities += std::holds_alternative<GnssVelocity>(measurement.value) ? 1 : 0;
@@ -73,36 +75,36 @@ Counts decode(std::string_view text) {
   return counts;
 }
 
-std::size_t floor_of(std::string_view text) {
+std::size_t floor_of(std::istream& text) {
   std::size_t lines = 0;
   unsigned sum = 0;
-  for (const char c : text) {
-    if (c == '\n') {
-      ++lines;
-    } else {
-      sum ^= static_cast<unsigned char>(c);
+  for (std::array<char, kAtOnce> piece{}; text;) {
+    text.read(piece.data(), piece.size());
+    for (const char c : std::string_view(piece.data(), static_cast<std::size_t>(text.gcount()))) {
+      if (c == '\n') {
+        ++lines;
+      } else {
+        sum ^= static_cast<unsigned char>(c);
+      }
     }
   }
   return lines + (sum > 255 ? 1 : 0);
 }
 
-std::string read_all(const char* path) {
+std::ifstream opened(const char* path) {
   std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  if (!file) {
-    std::cerr << path << " cannot be read\n";
-    std::exit(2);
-  }
-  return text.str();
+  if (file) return file;
+  std::cerr << path << " cannot be read\n";
+  std::exit(2);
 }
 
 int check() {
-  const auto text = receiver_says(100'000);
+  const auto said = receiver_says(100'000);
+  std::istringstream text(said);
   const auto counts = decode(text);
   const bool good = counts.positions > 200 && counts.velocities == counts.positions &&
                     counts.headings == counts.positions && counts.bad == 0;
-  std::printf("%zu positions in %zu bytes: %s\n", counts.positions, text.size(),
+  std::printf("%zu positions in %zu bytes: %s\n", counts.positions, said.size(),
               good ? "good" : "BAD");
   return good ? 0 : 1;
 }
@@ -117,14 +119,16 @@ int main(int argc, char** argv) {
     return 0;
   }
   if (first == "--floor" && argc == 3) {
-    std::printf("%zu lines\n", floor_of(read_all(argv[2])));
+    auto file = opened(argv[2]);
+    std::printf("%zu lines\n", floor_of(file));
     return 0;
   }
   if (argc != 2) {
     std::cerr << "bench_nmea [--write FILE MB | --floor FILE | --check | FILE]\n";
     return 2;
   }
-  const auto counts = decode(read_all(argv[1]));
+  auto file = opened(argv[1]);
+  const auto counts = decode(file);
   std::printf("%zu positions, %zu velocities, %zu headings, %llu bad\n", counts.positions,
               counts.velocities, counts.headings, static_cast<unsigned long long>(counts.bad));
   return 0;
