@@ -48,6 +48,21 @@ TEST(FixedVector, GrowsByFreshValuesWhateverWasThereBefore) {
   EXPECT_TRUE(list.full());
 }
 
+TEST(FixedVector, MakesAValueInItsPlaceAndNoneWhenFull) {
+  FixedVector<Counted, 2> list;
+  int made = 0;
+  const auto make = [&made] { return Counted(++made); };
+  copies = 0;
+  EXPECT_TRUE(list.push_made(make));
+  EXPECT_TRUE(list.push_made(make));
+  EXPECT_FALSE(list.push_made(make));
+  EXPECT_EQ(copies, 0);
+  EXPECT_EQ(made, 2);
+  ASSERT_EQ(list.size(), 2U);
+  EXPECT_EQ(list[0].number, 1);
+  EXPECT_EQ(list[1].number, 2);
+}
+
 TEST(FixedVector, OutlivesBeingCopiedToItself) {
   FixedVector<int, 4> list;
   ASSERT_TRUE(list.push_back(7));

@@ -147,8 +147,8 @@ Framed frame_at_once(std::string_view text, std::size_t chunk) {
 TEST(NmeaFramer, FindsTheSameWhetherItTakesBytesAtOnceOrOneByOne) {
   std::mt19937 random(1);
   const std::string_view pieces[] = {
-      "$GNHDT,244.28,T*13\r\n", "$GPGGA,1,2*", "\r\n", "#", "$", "*", "command,", "13", "\x80",
-      "text between",           "$A*41\n"};
+      "$GNHDT,244.28,T*13\r\n", "$GPGGA,1,2*", "\r\n", "#",  "$",   "*", "command,", "13", "\x80",
+      "text between",           "$A*41\n",     "*4",   "1G", "aF\n"};
   for (int i = 0; i < 2000; ++i) {
     std::string text;
     for (auto count = random() % 12; count > 0; --count)
