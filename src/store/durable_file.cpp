@@ -52,7 +52,8 @@ std::string seal(std::string_view format, int version, std::string_view body) {
   return text;
 }
 
-Result<std::string, Failure> unseal(std::string_view format, int version, std::string_view text) {
+Result<std::string_view, Failure> unseal_front(std::string_view format, int version,
+                                               std::string_view text) {
   if (text.empty()) return Failure{"is empty"};
   const auto break_at = text.find('\n');
   const std::string front(text.substr(0, break_at));
@@ -66,11 +67,16 @@ Result<std::string, Failure> unseal(std::string_view format, int version, std::s
   if (number == nullptr || number->integer() != version) {
     return Failure{"is of another version of the format"};
   }
-  if (!text.ends_with(kFooter) || text.size() < break_at + 1 + kFooter.size()) {
-    return Failure{"is cut short"};
-  }
-  std::string body(text.substr(break_at + 1, text.size() - break_at - 1 - kFooter.size()));
-  if (front + "\n" != header(format, version, fingerprint(body))) {
+  return text.substr(break_at + 1);
+}
+
+Result<std::string, Failure> unseal(std::string_view format, int version, std::string_view text) {
+  const auto rest = unseal_front(format, version, text);
+  if (!rest.ok()) return rest.error();
+  if (!rest->ends_with(kFooter)) return Failure{"is cut short"};
+  std::string body(rest->substr(0, rest->size() - kFooter.size()));
+  const auto front = text.substr(0, text.size() - rest->size());
+  if (front != header(format, version, fingerprint(body))) {
     return Failure{"is damaged: its checksum differs"};
   }
   return body;

@@ -23,6 +23,10 @@ std::uint64_t fingerprint(std::string_view text);
 std::string seal(std::string_view format, int version, std::string_view body);
 /// The body of a sealed text, or a sentence that says what is wrong with it.
 Result<std::string, Failure> unseal(std::string_view format, int version, std::string_view text);
+/// The begin of the body of which `front` is the begin: as it lies there, for without its end no
+/// fingerprint can be compared.
+Result<std::string_view, Failure> unseal_front(std::string_view format, int version,
+                                               std::string_view front);
 
 /// Replaces `folder/name`: a temporary file beside it, written, synced, renamed over it, and the
 /// folder synced. Returns nothing on success: then it survives a power cut. After an error the old

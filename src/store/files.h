@@ -18,6 +18,8 @@ class Files {
   virtual int list(const std::string& folder, std::vector<std::string>& names) = 0;
   /// Reads a whole regular file; EFBIG when it is larger than `max_bytes`.
   virtual int read(const std::string& path, std::size_t max_bytes, std::string& content) = 0;
+  /// Of a regular file the first `bytes`, or all that it has.
+  virtual int read_front(const std::string& path, std::size_t bytes, std::string& content) = 0;
   /// A new empty file for writing; EEXIST when the name is taken, links are not followed.
   virtual int create(const std::string& path, int& descriptor) = 0;
   /// Writes all of it.

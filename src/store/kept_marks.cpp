@@ -3,8 +3,6 @@
 
 #include <cerrno>
 
-#include "store/durable_file.h"
-
 namespace drover::store {
 namespace {
 
@@ -24,11 +22,20 @@ bool was_kept(Files& files, const std::string& folder, const std::string& name) 
 }
 
 void mark_kept(Files& files, const std::string& folder, const std::string& name) {
-  if (look(files, folder, name) == ENOENT) (void)write_durably(files, marks_of(folder), name, "");
+  if (look(files, folder, name) != ENOENT) return;
+  // An empty file is whole whenever the power goes: it needs no temporary name, that would stay.
+  int descriptor = -1;
+  if (files.create(marks_of(folder) + "/" + name, descriptor) != 0) return;
+  (void)files.close(descriptor);
+  (void)files.sync_folder(marks_of(folder));
 }
 
 std::string deleted_text(const std::string& folder, const std::string& name) {
   return folder + "/" + name + " was deleted";
+}
+
+std::string gone_text(const std::string& folder, const std::string& name) {
+  return folder + "/" + name + " was damaged or deleted";
 }
 
 }  // namespace drover::store

@@ -22,5 +22,7 @@ void mark_kept(Files& files, const std::string& folder, const std::string& name)
 
 /// "/state/scene.texts was deleted"
 std::string deleted_text(const std::string& folder, const std::string& name);
+/// "/state/scene.texts was damaged or deleted": one that was put aside lies there still.
+std::string gone_text(const std::string& folder, const std::string& name);
 
 }  // namespace drover::store

@@ -15,6 +15,9 @@ constexpr int kOriginVersion = 1;
 const std::string kOriginFile = "origin.json";
 constexpr const char* kDamaged =
     "the stored origin was damaged: put the robot where it was and give init_rtk_data";
+// One was put aside once, and none was written since, or it was and is not there any more.
+constexpr const char* kGone =
+    "the stored origin was damaged or deleted: put the robot where it was and give init_rtk_data";
 constexpr const char* kDeleted =
     "the stored origin was deleted: put the robot where it was and give init_rtk_data";
 constexpr const char* kUnreadable =
@@ -54,7 +57,8 @@ std::optional<GeodeticPoint> OriginStore::load(std::vector<std::string>& report)
   problem_.clear();
   if (const int e = files_.read(path, 65536, content); e == ENOENT) {
     if (damaged_before()) {
-      problem_ = kDamaged;
+      problem_ = kGone;
+      report.push_back(gone_text(folder_, kOriginFile));
     } else if (was_kept(files_, folder_, kOriginFile)) {
       problem_ = kDeleted;
       report.push_back(deleted_text(folder_, kOriginFile));

@@ -6,6 +6,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstdio>
@@ -23,6 +24,31 @@ int open_again(const std::string& path, int flags, mode_t mode = 0) {
     descriptor = ::open(path.c_str(), flags | O_CLOEXEC, mode);
   } while (descriptor < 0 && errno == EINTR);
   return descriptor;
+}
+
+/// A regular file, and its size.
+int open_file(const std::string& path, int& descriptor, std::size_t& size) {
+  // O_NONBLOCK: a pipe in this place must not hold the start-up.
+  descriptor = open_again(path, O_RDONLY | O_NOFOLLOW | O_NONBLOCK);
+  if (descriptor < 0) return errno;
+  struct stat info {};
+  const int error = result(::fstat(descriptor, &info));
+  size = static_cast<std::size_t>(info.st_size);
+  return error == 0 && !S_ISREG(info.st_mode) ? EINVAL : error;
+}
+
+/// Until it ends, or `content` has as many.
+int read_up_to(int descriptor, std::size_t bytes, std::string& content) {
+  std::array<char, 65536> buffer{};
+  while (content.size() < bytes) {
+    const ssize_t got =
+        ::read(descriptor, buffer.data(), std::min(buffer.size(), bytes - content.size()));
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) return errno;
+    if (got == 0) break;
+    content.append(buffer.data(), static_cast<std::size_t>(got));
+  }
+  return 0;
 }
 
 }  // namespace
@@ -55,23 +81,23 @@ int PosixFiles::list(const std::string& folder, std::vector<std::string>& names)
 
 int PosixFiles::read(const std::string& path, std::size_t max_bytes, std::string& content) {
   content.clear();
-  // O_NONBLOCK: a pipe in this place must not hold the start-up.
-  const int descriptor = open_again(path, O_RDONLY | O_NOFOLLOW | O_NONBLOCK);
-  if (descriptor < 0) return errno;
-  struct stat info {};
-  int error = result(::fstat(descriptor, &info));
-  if (error == 0 && !S_ISREG(info.st_mode)) error = EINVAL;
-  if (error == 0 && static_cast<std::size_t>(info.st_size) > max_bytes) error = EFBIG;
-  std::array<char, 65536> buffer{};
-  while (error == 0) {
-    const ssize_t got = ::read(descriptor, buffer.data(), buffer.size());
-    if (got < 0 && errno == EINTR) continue;
-    error = result(static_cast<int>(got));
-    if (got <= 0) break;
-    content.append(buffer.data(), static_cast<std::size_t>(got));
-    if (content.size() > max_bytes) error = EFBIG;
-  }
-  ::close(descriptor);
+  int descriptor = -1;
+  std::size_t size = 0;
+  int error = open_file(path, descriptor, size);
+  if (error == 0 && size > max_bytes) error = EFBIG;
+  if (error == 0) error = read_up_to(descriptor, max_bytes + 1, content);
+  if (error == 0 && content.size() > max_bytes) error = EFBIG;  // it grew
+  if (descriptor >= 0) ::close(descriptor);
+  return error;
+}
+
+int PosixFiles::read_front(const std::string& path, std::size_t bytes, std::string& content) {
+  content.clear();
+  int descriptor = -1;
+  std::size_t size = 0;
+  int error = open_file(path, descriptor, size);
+  if (error == 0) error = read_up_to(descriptor, bytes, content);
+  if (descriptor >= 0) ::close(descriptor);
   return error;
 }
 

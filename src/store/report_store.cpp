@@ -7,6 +7,8 @@
 #include <cstdio>
 #include <string_view>
 
+#include "json/located_json.h"
+
 namespace drover::store {
 namespace {
 
@@ -17,6 +19,7 @@ constexpr std::string_view kEnding = ".report";
 constexpr std::string_view kOpen = "[";
 constexpr std::string_view kBetween = ",\n";
 constexpr std::string_view kClose = "]";
+constexpr std::size_t kFront = 64 * 1024;  // has all of a summary but the longest
 
 std::string file_name(std::uint64_t number) {
   char digits[24];
@@ -34,17 +37,22 @@ std::uint64_t number_of(std::string_view file) {
   return read.ec == std::errc() && read.ptr == end && file_name(number) == file ? number : 0;
 }
 
+/// Of a body, or of so much of its begin.
+std::optional<std::string_view> summary_in(std::string_view body) {
+  const auto between = body.find(kBetween);
+  if (!body.starts_with(kOpen) || between == body.npos) return std::nullopt;
+  return body.substr(kOpen.size(), between - kOpen.size());
+}
+
 Result<ReportTexts, Failure> decode(std::string_view content) {
   const auto body = unseal(kReportFormat, kReportVersion, content);
   if (!body.ok()) return body.error();
   std::string_view text = *body;
-  const auto between = text.find(kBetween);
-  if (!text.starts_with(kOpen) || !text.ends_with(kClose) || between == text.npos)
-    return Failure{"is no report"};
-  const auto summary = text.substr(kOpen.size(), between - kOpen.size());
-  text.remove_prefix(between + kBetween.size());
+  const auto summary = summary_in(text);
+  if (!summary || !text.ends_with(kClose)) return Failure{"is no report"};
+  text.remove_prefix(kOpen.size() + summary->size() + kBetween.size());
   text.remove_suffix(kClose.size());
-  return ReportTexts{std::string(summary), std::string(text)};
+  return ReportTexts{std::string(*summary), std::string(text)};
 }
 
 }  // namespace
@@ -95,11 +103,23 @@ std::vector<StoredReport> ReportStore::list() const {
   auto there = numbers();
   std::reverse(there.begin(), there.end());
   for (const auto number : there) {
-    auto one = read(number);
-    if (!one.ok()) continue;
-    reports.push_back({number, {std::move(one->texts.summary), {}}});
+    if (auto one = summary(number)) reports.push_back({number, {std::move(*one), {}}});
   }
   return reports;
+}
+
+std::optional<std::string> ReportStore::summary(std::uint64_t number) const {
+  std::string content;
+  if (files_.read_front(path(file_name(number)), kFront, content) != 0) return std::nullopt;
+  const auto front = unseal_front(kReportFormat, kReportVersion, content);
+  if (!front.ok()) return std::nullopt;
+  if (const auto found = summary_in(*front)) {
+    if (!json::parse(*found).ok()) return std::nullopt;
+    return std::string(*found);
+  }
+  auto whole = read(number);  // one that is longer than others are
+  if (!whole.ok()) return std::nullopt;
+  return std::move(whole->texts.summary);
 }
 
 Result<StoredReport, Failure> ReportStore::read(std::uint64_t number) const {

@@ -37,13 +37,15 @@ class ReportStore final {
 
   /// Returns nothing when it is durable; fails without harm to those that are there.
   std::optional<Failure> save(const ReportTexts& texts);
-  /// The newest first; without their lines.
+  /// The newest first; without their lines. Only the front of each is read, for a stop that is to
+  /// be kept waits meanwhile: a summary that is JSON is believed, its checksum is not compared.
   std::vector<StoredReport> list() const;
   /// 0: the newest.
   Result<StoredReport, Failure> read(std::uint64_t number) const;
 
  private:
   std::vector<std::uint64_t> numbers() const;
+  std::optional<std::string> summary(std::uint64_t number) const;
   void remove_leftovers();
   std::string path(const std::string& file) const { return folder_ + "/" + file; }
 

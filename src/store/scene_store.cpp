@@ -50,7 +50,8 @@ std::vector<NamedText> SceneStore::load(double wall_s, std::optional<double> max
     problem_ = loss->text;
     texts.erase(loss);
   } else if (!found.is_there && has_damaged_before(files_, folder_, kSceneFile)) {
-    problem_ = "the stored scene was damaged and is lost";
+    problem_ = "the stored scene is lost: " + gone_text(folder_, kScene);
+    report.push_back(problem_);
   } else if (!found.is_there && was_kept(files_, folder_, kScene)) {
     problem_ = "the stored scene is lost: " + deleted_text(folder_, kScene);
     report.push_back(problem_);

@@ -19,8 +19,8 @@ std::string prepared(Files& files, const std::string& folder) {
   // On a read-only disk these fail, and everything else goes on: without its folder each report is
   // lost, and told.
   (void)files.make_folder(folder + "/reports");
-  files.make_folder(folder + "/" + std::string(kMarksFolder));
-  files.sync_folder(folder);
+  (void)files.make_folder(folder + "/" + std::string(kMarksFolder));
+  (void)files.sync_folder(folder);
   return folder;
 }
 

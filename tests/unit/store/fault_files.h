@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "store/files.h"
@@ -69,8 +70,18 @@ class FaultFiles : public Files {
     const auto it = names_.find(path);
     if (it == names_.end()) return ENOENT;
     content = it->second->content;
+    read_bytes_ += content.size();
     return content.size() > max_bytes ? EFBIG : 0;
   }
+  int read_front(const std::string& path, std::size_t bytes, std::string& content) override {
+    const auto it = names_.find(path);
+    if (it == names_.end()) return ENOENT;
+    content = it->second->content.substr(0, bytes);
+    read_bytes_ += content.size();
+    return 0;
+  }
+  /// By `read` and `read_front`, since it was asked before.
+  std::size_t read_bytes() { return std::exchange(read_bytes_, 0); }
   int create(const std::string& path, int& descriptor) override {
     return call([&] {
       if (names_.contains(path)) return EEXIST;
@@ -149,6 +160,7 @@ class FaultFiles : public Files {
   int at_call_ = 0;
   int error_ = 0;
   int calls_ = 0;
+  std::size_t read_bytes_ = 0;
 };
 
 }  // namespace drover::store

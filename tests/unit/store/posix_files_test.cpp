@@ -60,6 +60,17 @@ TEST_F(PosixFilesTest, RefusesAFileThatIsTooLarge) {
   EXPECT_EQ(content, "12345");
 }
 
+TEST_F(PosixFilesTest, ReadsTheFrontOfAFile) {
+  std::ofstream(folder_ + "/f") << "12345";
+  std::string content;
+  EXPECT_EQ(files_.read_front(folder_ + "/f", 4, content), 0);
+  EXPECT_EQ(content, "1234");
+  EXPECT_EQ(files_.read_front(folder_ + "/f", 9, content), 0);
+  EXPECT_EQ(content, "12345");
+  EXPECT_EQ(files_.read_front(folder_ + "/none", 9, content), ENOENT);
+  EXPECT_EQ(files_.read_front(folder_, 9, content), EINVAL);
+}
+
 TEST_F(PosixFilesTest, ASavedTrackIsThereForTheNextStart) {
   const Track track{"../../etc/passwd", {{188.2222333, 23.04934955, 230, 1, 2, 3, 0}}, {}};
   {

@@ -50,6 +50,37 @@ TEST(Reports, AreListedTheNewestFirstWithoutTheirLines) {
   EXPECT_EQ(list.front().texts.line, "");
 }
 
+TEST(Reports, AreListedByTheirFrontsHoweverLongTheirLinesAre) {
+  FaultFiles files;
+  ReportStore store(files, kFolder);
+  const std::size_t line_bytes = 600'000;
+  for (int n = 1; n <= 5; ++n)
+    ASSERT_FALSE(store.save({report(n).summary, '"' + std::string(line_bytes, 'x') + '"'}));
+  files.read_bytes();
+  EXPECT_EQ(store.list().size(), 5U);
+  EXPECT_LT(files.read_bytes(), 5 * line_bytes / 8);
+}
+
+TEST(Reports, AreListedAlsoWhereASummaryIsLong) {
+  FaultFiles files;
+  ReportStore store(files, kFolder);
+  const std::string summary = R"({"reason":")" + std::string(100'000, 'x') + R"("})";
+  ASSERT_FALSE(store.save({summary, "[]"}));
+  ASSERT_EQ(store.list().size(), 1U);
+  EXPECT_EQ(store.list().front().texts.summary, summary);
+}
+
+TEST(Reports, AreNotListedWhenWhatIsInFrontIsNoJson) {
+  FaultFiles files;
+  ReportStore store(files, kFolder);
+  for (int n = 1; n <= 2; ++n) ASSERT_FALSE(store.save(report(n)));
+  const std::string path = std::string(kFolder) + "/000001.report";
+  auto content = files.contents()[path];
+  content[content.find("way_m") - 1] = ' ';
+  files.put(path, content);
+  EXPECT_THAT(numbers_of(store), ElementsAre(2));
+}
+
 TEST(Reports, SurviveARestartAndAPowerCut) {
   FaultFiles files;
   ASSERT_FALSE(ReportStore(files, kFolder).save(report(1)));

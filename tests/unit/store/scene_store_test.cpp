@@ -71,7 +71,9 @@ TEST(ASceneStore, PutsADamagedFileAsideAndTellsItUntilAPersonKnows) {
   EXPECT_THAT(it.report, ElementsAre(HasSubstr("kept as scene.texts.bad")));
   EXPECT_THAT(it.problem, HasSubstr("lost"));
   it.boot();
-  EXPECT_THAT(it.problem, HasSubstr("lost")) << "nobody has saved since";
+  EXPECT_EQ(it.problem, "the stored scene is lost: state/scene.texts was damaged or deleted")
+      << "nobody has saved since";
+  EXPECT_THAT(it.report, ElementsAre(it.problem));
 
   std::vector<std::string> report;
   SceneStore store(it.files, "state");

@@ -225,12 +225,17 @@ TEST(Storage, TellsOfALostOriginUntilAnotherIsGiven) {
   EXPECT_THAT(found.origin_problem, HasSubstr("the stored origin was damaged"));
   found = Storage(files, "/state").load();
   EXPECT_THAT(found.origin_problem, HasSubstr("init_rtk_data")) << "also after the next start";
-  EXPECT_THAT(found.report, testing::IsEmpty());
+  EXPECT_THAT(found.report, ElementsAre("/state/origin.json was damaged or deleted"));
 
   ASSERT_TRUE(storage.run({{}, SaveOrigin{{23.0, 113.0, 1.0}}}).ok);
   found = Storage(files, "/state").load();
   EXPECT_TRUE(found.origin.has_value());
   EXPECT_EQ(found.origin_problem, "");
+
+  files.remove("/state/origin.json");
+  found = Storage(files, "/state").load();
+  EXPECT_THAT(found.origin_problem, HasSubstr("damaged or deleted")) << "the old one lies aside";
+  EXPECT_THAT(found.report, ElementsAre("/state/origin.json was damaged or deleted"));
 }
 
 TEST(Storage, TellsOfADeletedOriginUntilAnotherIsGiven) {
