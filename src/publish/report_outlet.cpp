@@ -1,5 +1,7 @@
 #include "publish/report_outlet.h"
 
+#include <algorithm>
+
 #include "json/json_text.h"
 #include "json/located_json.h"
 #include "publish/line_json.h"
@@ -74,18 +76,26 @@ bool ReportOutlet::on_line(ClientId client, std::string_view line, Time /*now*/,
     return true;
   };
   if (cmd != "report" && cmd != "report_list") return false;
-  if (questions_.size() >= kMostQuestions) return reply("the disk is behind, try again");
+  if (questions_.size() >= kMostQuestions || (cmd == "report_list" && list_waits()))
+    return reply("the disk is behind, try again");
   const RequestId id = next_id();
   if (cmd == "report_list") {
     out.emplace_back(store::StorageJob{id, store::ListReports{}});
   } else {
     const auto* number = document->root.find("number");
     const auto wanted = number == nullptr ? 0 : number->integer();
-    if (!wanted || *wanted < 0) return reply("number is no whole number");
+    if (!wanted) return reply("number is no whole number");
+    if (*wanted < 0) return reply("number is below zero: reports are numbered from one");
     out.emplace_back(store::StorageJob{id, store::ReadReport{static_cast<std::uint64_t>(*wanted)}});
   }
   questions_[id.number] = {client, cmd == "report_list"};
   return true;
+}
+
+/// Of lists the disk reads one at a time: a stop that is to be kept waits behind it.
+bool ReportOutlet::list_waits() const {
+  return std::any_of(questions_.begin(), questions_.end(),
+                     [](const auto& one) { return one.second.of_list; });
 }
 
 void ReportOutlet::on_stored(const store::StorageReply& reply, Actions& out) {

@@ -33,6 +33,7 @@ class ReportOutlet final : public Outlet {
   void begin(RequestId id, Time now);
   void end(RequestId id, Time now, bool begun, TaskEnded::How how, std::string_view reason,
            Actions& out);
+  bool list_waits() const;
   RequestId next_id() { return {RequestId::Source::internal, ++last_number_}; }
 
   const CommandService& service_;

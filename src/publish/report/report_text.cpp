@@ -22,18 +22,14 @@ std::string_view quality_word(std::size_t quality) {
   return quality == kNotHeard ? "not heard" : word(static_cast<FixQuality>(quality));
 }
 
-void put(JsonText& out, std::string_view name, double value, int decimals) {
-  number_or_null(out, name, value, decimals);
-}
-
 void put_qualities(JsonText& out, const TaskReport& report) {
   out.key("quality").open('[');
   for (std::size_t i = 0; i < kQualities; ++i) {
     const double way_m = report.way_by_quality_m[i];
     if (way_m <= 0) continue;
     out.open('{').key("quality").text(quality_word(i));
-    put(out, "way_m", way_m, 2);
-    put(out, "share", way_m / report.way_m, 4);
+    number_or_null(out, "way_m", way_m, 2);
+    number_or_null(out, "share", way_m / report.way_m, 4);
     out.close('}');
   }
   out.close(']');
@@ -43,11 +39,11 @@ void put_pauses(JsonText& out, const TaskReport& report) {
   out.key("pauses").open('[');
   for (const ReportPause& pause : report.pauses) {
     out.open('{').key("reason").text(pause.reason);
-    put(out, "after_s", pause.after_s, 1);
-    put(out, "lasted_s", pause.lasted_s, 1);
-    put(out, "x_m", pause.x_m, 3);
-    put(out, "y_m", pause.y_m, 3);
-    put(out, "way_m", pause.way_m, 2);
+    number_or_null(out, "after_s", pause.after_s, 1);
+    number_or_null(out, "lasted_s", pause.lasted_s, 1);
+    number_or_null(out, "x_m", pause.x_m, 3);
+    number_or_null(out, "y_m", pause.y_m, 3);
+    number_or_null(out, "way_m", pause.way_m, 2);
     out.close('}');
   }
   out.close(']').key("pauses_left_out").integer(static_cast<std::int64_t>(report.pauses_left_out));
@@ -56,25 +52,25 @@ void put_pauses(JsonText& out, const TaskReport& report) {
 std::string summary_text(const TaskReport& report) {
   JsonText out;
   out.open('{').key("track").text(report.track).key("target_id").integer(report.target_id);
-  put(out, "asked_mps", report.asked_mps, 3);
-  put(out, "began_unix_s", to_s(report.began_since_1970), 1);
+  number_or_null(out, "asked_mps", report.asked_mps, 3);
+  number_or_null(out, "began_unix_s", to_s(report.began_since_1970), 1);
   out.key("result").text(result_of(report)).key("reason").text(report.reason);
-  put(out, "time_s", report.time_s, 1);
-  put(out, "moving_s", report.moving_s, 1);
-  put(out, "paused_s", report.paused_s, 1);
-  put(out, "way_m", report.way_m, 2);
-  put(out, "left_m", report.left_m, 2);
+  number_or_null(out, "time_s", report.time_s, 1);
+  number_or_null(out, "moving_s", report.moving_s, 1);
+  number_or_null(out, "paused_s", report.paused_s, 1);
+  number_or_null(out, "way_m", report.way_m, 2);
+  number_or_null(out, "left_m", report.left_m, 2);
   out.key("cross_track").open('{');
-  put(out, "from_way_m", report.joined_m, 2);
-  put(out, "rms_m", report.rms_m, 4);
-  put(out, "p95_m", report.p95_m, 4);
-  put(out, "max_m", report.worst_m, 4);
+  number_or_null(out, "from_way_m", report.joined_m, 2);
+  number_or_null(out, "rms_m", report.rms_m, 4);
+  number_or_null(out, "p95_m", report.p95_m, 4);
+  number_or_null(out, "max_m", report.worst_m, 4);
   out.close('}').key("speed").open('{');
-  put(out, "mean_mps", report.mean_mps, 3);
-  put(out, "max_mps", report.fastest_mps, 3);
+  number_or_null(out, "mean_mps", report.mean_mps, 3);
+  number_or_null(out, "max_mps", report.fastest_mps, 3);
   out.close('}').key("error_bound").open('{');
-  put(out, "max_m", report.worst_bound_m, 3);
-  put(out, "max_moving_m", report.worst_bound_moving_m, 3);
+  number_or_null(out, "max_m", report.worst_bound_m, 3);
+  number_or_null(out, "max_moving_m", report.worst_bound_moving_m, 3);
   out.close('}');
   put_qualities(out, report);
   put_pauses(out, report);

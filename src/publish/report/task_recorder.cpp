@@ -56,9 +56,8 @@ TaskRecorder::TaskRecorder(const GivenTask& task, Time accepted, Duration since_
 void TaskRecorder::take(const Snapshot& seen) {
   const bool of_it = seen.nav.status == NavStatus::run && seen.time >= accepted_;
   if (!of_it || (last_ && seen.time <= last_->time)) return;
-  const Duration since_last = last_ ? seen.time - last_->time : Duration{};
   drive(seen);
-  look_at_pause(seen, since_last);
+  look_at_pause(seen);
   sample(seen);
   report_.left_m = seen.nav.distance_left_m;
 }
@@ -98,15 +97,14 @@ void TaskRecorder::look_at_bound(const Snapshot& seen, bool moves) {
   if (moves) raise(report_.worst_bound_moving_m, seen.nav.error_bound_m);
 }
 
-/// `since_last`: the task waited in the snapshot before, too.
-void TaskRecorder::look_at_pause(const Snapshot& seen, Duration since_last) {
-  if (paused_since_) report_.paused_s += to_s(since_last);
+void TaskRecorder::look_at_pause(const Snapshot& seen) {
+  wait_until(seen.time);
   if (!seen.nav.paused) {
     paused_since_.reset();
     return;
   }
   if (!paused_since_) {
-    paused_since_ = seen.time;
+    paused_since_ = waited_until_ = seen.time;
     pause_kept_ = report_.pauses.size() < kMostPauses;
     if (pause_kept_) {
       report_.pauses.push_back(
@@ -117,16 +115,34 @@ void TaskRecorder::look_at_pause(const Snapshot& seen, Duration since_last) {
   }
   if (!pause_kept_) return;
   ReportPause& pause = report_.pauses.back();
-  pause.lasted_s = to_s(seen.time - *paused_since_);
   if (pause.reason.empty() && !seen.why.empty()) pause.reason = seen.why[0].view();
 }
 
+/// A pause lasts until it is seen to be over, or until its task ends.
+void TaskRecorder::wait_until(Time now) {
+  if (!paused_since_ || now <= waited_until_) return;
+  report_.paused_s += to_s(now - waited_until_);
+  waited_until_ = now;
+  if (pause_kept_) report_.pauses.back().lasted_s = to_s(now - *paused_since_);
+}
+
 void TaskRecorder::sample(const Snapshot& seen) {
+  newest_ = {seen.pose.x_m,    seen.pose.y_m,          report_.way_m,   seen.nav.cross_track_m,
+             last_->speed_mps, seen.nav.error_bound_m, quality_of(seen)};
   auto& samples = report_.samples;
   if (!samples.empty() && report_.way_m - samples.back().way_m < spacing_m_ - kRounding_m) return;
-  samples.push_back({seen.pose.x_m, seen.pose.y_m, report_.way_m, seen.nav.cross_track_m,
-                     last_->speed_mps, seen.nav.error_bound_m, quality_of(seen)});
+  samples.push_back(newest_);
   if (samples.size() >= kMostSamples) thin();
+}
+
+/// However near the one before it lies: the way is drawn to its end.
+void TaskRecorder::add_last_place() {
+  auto& samples = report_.samples;
+  if (samples.empty()) return;
+  const ReportSample& last = samples.back();
+  const bool same =
+      last.way_m == newest_.way_m && last.x_m == newest_.x_m && last.y_m == newest_.y_m;
+  if (!same) samples.push_back(newest_);
 }
 
 void TaskRecorder::thin() {
@@ -153,6 +169,8 @@ TaskReport TaskRecorder::end(Time ended, bool begun, TaskEnded::How how, std::st
   report_.how = how;
   report_.reason = reason;
   report_.time_s = to_s(ended - accepted_);
+  wait_until(ended);
+  add_last_place();
   if (report_.moving_s > 0) report_.mean_mps = report_.way_m / report_.moving_s;
   if (judged_m_ > 0) {
     report_.rms_m = std::sqrt(squares_m3_ / judged_m_);

@@ -34,8 +34,10 @@ class TaskRecorder final {
   void drive(const Snapshot& seen);
   void compare_with_track(double cross_track_m, double way_m);
   void look_at_bound(const Snapshot& seen, bool moves);
-  void look_at_pause(const Snapshot& seen, Duration since_last);
+  void look_at_pause(const Snapshot& seen);
+  void wait_until(Time now);
   void sample(const Snapshot& seen);
+  void add_last_place();
   void thin();
   double percentile_m(double share) const;
 
@@ -43,8 +45,10 @@ class TaskRecorder final {
   Time accepted_;
   std::optional<Last> last_;
   std::optional<Time> paused_since_;
+  Time waited_until_ = kNever;  ///< of the pause that lasts: counted so far
   bool pause_kept_ = false;
   double spacing_m_ = kSpacing_m;
+  ReportSample newest_;  ///< of the last snapshot
   // Beside the track, by way.
   double judged_m_ = 0;
   double squares_m3_ = 0;

@@ -61,7 +61,7 @@ struct TaskReport {
   double mean_mps = kAbsent;  ///< while it moved
   double fastest_mps = 0;
   std::array<double, kQualities> way_by_quality_m{};
-  double worst_bound_m = kAbsent;         ///< of the predicted error
+  double worst_bound_m = kAbsent;         ///< of `nav.error_bound_m`
   double worst_bound_moving_m = kAbsent;  ///< while it moved
   std::vector<ReportPause> pauses;
   std::uint64_t pauses_left_out = 0;

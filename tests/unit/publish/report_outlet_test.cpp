@@ -130,10 +130,21 @@ TEST_F(ReportOutletTest, PassesARefusalOn) {
 
 TEST_F(ReportOutletTest, RefusesWhatIsNoNumberAndTooMuchAtOnce) {
   EXPECT_THAT(reply_to(R"({"cmd":"report","number":"last"})"), HasSubstr("no whole number"));
-  EXPECT_THAT(reply_to(R"({"cmd":"report","number":-1})"), HasSubstr("no whole number"));
+  EXPECT_THAT(reply_to(R"({"cmd":"report","number":1.5})"), HasSubstr("no whole number"));
+  EXPECT_THAT(reply_to(R"({"cmd":"report","number":-1})"), HasSubstr("below zero"));
   std::string last;
   for (int i = 0; i < 20; ++i) last = reply_to(R"({"cmd":"report"})");
   EXPECT_THAT(last, HasSubstr("try again"));
+}
+
+TEST_F(ReportOutletTest, AsksTheDiskForOneListAtATime) {
+  EXPECT_EQ(reply_to(R"({"cmd":"report_list"})"), "");
+  const auto job = only<store::StorageJob>();
+  EXPECT_THAT(reply_to(R"({"cmd":"report_list"})"), HasSubstr("the disk is behind, try again"));
+  EXPECT_TRUE(all<store::StorageJob>().empty());
+  EXPECT_EQ(reply_to(R"({"cmd":"report"})"), "") << "one report is little";
+  outlet_.on_stored({job.id, true}, actions_);
+  EXPECT_EQ(reply_to(R"({"cmd":"report_list"})"), "");
 }
 
 TEST_F(ReportOutletTest, LeavesOtherLinesToOthers) {

@@ -126,12 +126,39 @@ TEST_F(TaskRecorderTest, TellsWhereHowLongAndWhyItPaused) {
   ASSERT_EQ(report.pauses.size(), 2U);
   const auto& first = report.pauses.front();
   EXPECT_EQ(first.reason, "person is in the way, 0.04 m along the track");
-  EXPECT_NEAR(first.after_s, 10, 0.11);
-  EXPECT_NEAR(first.lasted_s, 3, 0.11);
+  EXPECT_NEAR(first.after_s, 10.1, 1e-6);
+  EXPECT_NEAR(first.lasted_s, 3, 1e-6);
   EXPECT_NEAR(first.way_m, 5, 0.06);
   EXPECT_NEAR(first.x_m, 5, 0.06);
-  EXPECT_NEAR(report.paused_s, 5, 0.21);
+  EXPECT_NEAR(report.paused_s, 3 + 1.9, 1e-6) << "seen a tick after its begin, ended with the task";
   EXPECT_EQ(report.pauses.back().reason, "no RTK fix");
+}
+
+TEST_F(TaskRecorderTest, AddsUpItsPausesAlsoTheOneInWhichTheTaskEnded) {
+  drive(0.5, 1);
+  pause(3, "an obstacle");
+  drive(0.5, 1);
+  pause(2, "an obstacle");
+  const auto report =
+      recorder_.end(seen_.time + from_s(0.35), true, TaskEnded::How::cancelled, "cancelled");
+  ASSERT_EQ(report.pauses.size(), 2U);
+  EXPECT_NEAR(report.pauses[1].lasted_s, 1.9 + 0.35, 1e-6);
+  EXPECT_NEAR(report.paused_s, report.pauses[0].lasted_s + report.pauses[1].lasted_s, 1e-6);
+}
+
+TEST_F(TaskRecorderTest, KeepsTheLastPlaceHoweverNear) {
+  drive(0.5, 10);
+  drive(0.05, 0.3);
+  const auto report = end();
+  ASSERT_GT(report.samples.size(), 2U);
+  EXPECT_EQ(report.samples.back().x_m, seen_.pose.x_m);
+  EXPECT_EQ(report.samples.back().way_m, report.way_m);
+  EXPECT_LT(report.samples.end()[-2].way_m, report.way_m);
+}
+
+TEST_F(TaskRecorderTest, KeepsThePlaceOfARobotThatStandsOnce) {
+  drive(0, 5);
+  EXPECT_EQ(end().samples.size(), 1U);
 }
 
 TEST_F(TaskRecorderTest, KeepsSoManyPausesAndCountsTheOthers) {
@@ -142,7 +169,7 @@ TEST_F(TaskRecorderTest, KeepsSoManyPausesAndCountsTheOthers) {
   const auto report = end();
   EXPECT_EQ(report.pauses.size(), TaskRecorder::kMostPauses);
   EXPECT_EQ(report.pauses_left_out, 5U);
-  EXPECT_NEAR(report.paused_s, 0.5 * (TaskRecorder::kMostPauses + 5), 11);
+  EXPECT_NEAR(report.paused_s, 0.5 * (TaskRecorder::kMostPauses + 5), 1e-6);
 }
 
 TEST_F(TaskRecorderTest, KeepsAPlaceEachTenthOfAMetre) {
@@ -150,7 +177,7 @@ TEST_F(TaskRecorderTest, KeepsAPlaceEachTenthOfAMetre) {
   const auto report = end();
   ASSERT_GT(report.samples.size(), 80U);
   ASSERT_LT(report.samples.size(), 110U);
-  for (std::size_t i = 1; i < report.samples.size(); ++i)
+  for (std::size_t i = 1; i + 1 < report.samples.size(); ++i)
     EXPECT_GE(report.samples[i].way_m - report.samples[i - 1].way_m,
               TaskRecorder::kSpacing_m - 1e-6);
   EXPECT_NEAR(report.samples.back().x_m, report.samples.back().way_m, 0.06);
@@ -163,7 +190,7 @@ TEST_F(TaskRecorderTest, DropsEverySecondPlaceOfALongWayAndNothingOfTheFigures) 
   EXPECT_LT(report.samples.size(), TaskRecorder::kMostSamples);
   EXPECT_GT(report.samples.size(), TaskRecorder::kMostSamples / 4);
   const double first_m = report.samples[1].way_m - report.samples[0].way_m;
-  const double last_m = report.samples.back().way_m - report.samples.end()[-2].way_m;
+  const double last_m = report.samples.end()[-2].way_m - report.samples.end()[-3].way_m;
   EXPECT_NEAR(first_m, last_m, 0.25) << "as dense at its end as at its begin";
   EXPECT_NEAR(report.rms_m, 0.02, 1e-6);
 }
