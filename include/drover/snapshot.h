@@ -199,8 +199,8 @@ struct NavSnapshot {
   /// How far it could still drive by dead reckoning before the position is too uncertain; absent
   /// while the receiver gives an RTK fix.
   double metres_left = kAbsent;
-  /// What the error of the pose's place does not exceed, m: four sigma, and all that lies between
-  /// sources that contradict each other. Absent without a place.
+  /// How far off the place may be: four sigma (motion is decided by two), or what lies between
+  /// sources that contradict each other. What no source shows is not in it. Absent without a place.
   double error_bound_m = kAbsent;
   double owner_timeout_s = kAbsent;  ///< silence of the owner after which the base comes to rest
 };

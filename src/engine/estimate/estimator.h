@@ -22,10 +22,10 @@ struct Estimate {
   bool has_position = false;
   bool has_heading = false;
   Pose pose;  ///< predicted to the asked time
-  /// Two sigma of the larger horizontal axis, or what lies between sources that contradict each
-  /// other.
+  /// By it motion is decided: two sigma of the larger horizontal axis, or what lies between sources
+  /// that contradict each other, if that is more.
   double predicted_error_m = kAbsent;
-  /// What the true error does not exceed: twice that of the axis, or what contradicts.
+  /// Likewise with four sigma, for people. An error that no source shows is in neither.
   double error_bound_m = kAbsent;
   double yaw_error_rad = kAbsent;  ///< two sigma
   BodyMotion body;                 ///< as the base tells it, nothing learned applied

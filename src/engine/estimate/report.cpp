@@ -18,7 +18,7 @@ constexpr Duration kFixed = std::chrono::milliseconds(500);
 // A run of refused positions so long is no outlier.
 constexpr Duration kContradicted = std::chrono::milliseconds(300);
 // An error lasts for half a minute: at two sigma a robot would be outside once in ten minutes, at
-// four never.
+// four hardly ever, as long as the sources err as they say.
 constexpr double kSure = 2.0;
 
 }  // namespace

@@ -114,17 +114,18 @@ TrackProgress Tracker::locate(const Pose& pose) {
   TrackProgress progress;
   progress.joined = joined_;
   if (!active_ || !usable(pose)) return progress;
+  track::Reference here;
   if (phase_ == Phase::pivot) {
-    here_ = smooth(route_, leg_, station_, s_m_);
+    here = smooth(route_, leg_, station_, s_m_);
   } else {
     look_for_corner();
     const LineFoot foot = find_foot(route_, leg_, station_, s_m_, place(pose), 3);
     s_m_ = foot.s_m;
-    here_ = foot.line;
+    here = foot.line;
     station_ = seek(route_, leg_, station_, s_m_);
   }
-  progress.cross_track_m = offset_m(route_, leg_, station_, {s_m_, here_}, place(pose));
-  progress.heading_error_rad = wrap_rad(pose.yaw_rad - direction_rad(here_.ahead));
+  progress.cross_track_m = offset_m(route_, leg_, station_, {s_m_, here}, place(pose));
+  progress.heading_error_rad = wrap_rad(pose.yaw_rad - direction_rad(here.ahead));
   progress.distance_left_m = std::max(goal_m_ - s_m_, 0.0);
   progress.distance_to_goal_m = length(goal_ - place(pose));
   joined_ = joined_ || std::abs(progress.cross_track_m) < kJoined_m;

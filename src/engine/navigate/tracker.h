@@ -73,8 +73,7 @@ class Tracker final {
   track::Leg leg_;
   track::Station station_;  ///< where the robot is
   double s_m_ = 0;
-  track::Reference here_;  ///< the line there
-  double goal_m_ = 0;      ///< arc length of the target
+  double goal_m_ = 0;  ///< arc length of the target
   track::Vector goal_;
   track::CornerScan scan_;
   Phase phase_ = Phase::follow;
