@@ -12,6 +12,9 @@ struct NoAnswer {
   std::string text;
 };
 
+/// How long an answer that waits for the disk may take.
+inline constexpr int kDiskPatience_s = 20;
+
 /// Sends `request` (one JSON line) and waits for the reply. Throws NoAnswer.
 std::string ask(const std::string& socket_path, const std::string& request, int patience_s = 10);
 

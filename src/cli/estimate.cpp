@@ -13,6 +13,7 @@
 #include "cli/exit_codes.h"
 #include "cli/failure.h"
 #include "cli/mapped_file.h"
+#include "cli/pose_file.h"
 #include "cli/pose_table.h"
 #include "config/load.h"
 #include "gateway/recording/replay.h"
@@ -49,47 +50,49 @@ PoseRow row_of(const Snapshot& snapshot) {
   row.error_bound_m = snapshot.nav.error_bound_m;
   row.latitude_deg = snapshot.gnss.pose_latitude_deg;
   row.longitude_deg = snapshot.gnss.pose_longitude_deg;
-  row.has_quality = snapshot.gnss.position_time != kNever;
-  row.quality = snapshot.gnss.position.quality;
+  if (snapshot.gnss.position_time != kNever) row.quality = snapshot.gnss.position.quality;
   if (!snapshot.why.empty()) row.reason = snapshot.why[0].view();
   return row;
 }
 
-int from_recording(const EstimateSettings& settings, const config::DroverConfig* config,
-                   std::ostream& out) {
+int from_recording(const EstimateSettings& settings, const config::DroverConfig* config) {
   const MappedFile file(settings.recording);
   if (!file.problem().empty()) return fail(settings.recording + ": " + file.problem());
-  out << pose_head();
+  PoseFile out(settings.out, settings.recording);
+  if (!out.problem().empty()) return fail(out.problem());
+  out.stream() << pose_head();
   std::uint64_t poses = 0;
   Time begin = kNever;
-  Time next = kNever;
+  RowTimes rows(settings.rate_Hz);
   const auto played = gateway::play(file.bytes(), config, [&](const Snapshot& snapshot) {
-    if (begin == kNever) begin = next = snapshot.time;
-    if (snapshot.time < next) return;
-    next += from_s(1 / settings.rate_Hz);
-    out << pose_line(to_s(snapshot.time - begin), row_of(snapshot));
+    if (begin == kNever) rows.begin(begin = snapshot.time);
+    if (!rows.is_due(snapshot.time)) return;
+    out.stream() << pose_line(to_s(snapshot.time - begin), row_of(snapshot));
     ++poses;
   });
   if (played.verdict == gateway::Replayed::Verdict::unusable)
     return fail(settings.recording + ": " + played.note);
+  if (const auto trouble = out.finish(); !trouble.empty()) return fail(trouble);
   std::fprintf(
       stderr, "cycles %llu, poses %llu%s%s\n", static_cast<unsigned long long>(played.cycles),
       static_cast<unsigned long long>(poses), played.note.empty() ? "" : "; ", played.note.c_str());
   return kDone;
 }
 
-int from_log(const EstimateSettings& settings, const config::DroverConfig& config,
-             std::ostream& out) {
+int from_log(const EstimateSettings& settings, const config::DroverConfig& config) {
   std::ifstream file;
   const bool piped = settings.in == "-";
   if (!piped) file.open(settings.in);
   if (!piped && !file) return fail(settings.in + ": cannot be read: " + std::strerror(errno));
+  PoseFile out(settings.out, settings.in);
+  if (!out.problem().empty()) return fail(out.problem());
   EstimateRun run{config.engine, settings.rate_Hz, std::nullopt};
   if (!settings.origin.empty())
     run.origin = GeodeticPoint{settings.origin[0], settings.origin[1],
                                settings.origin.size() > 2 ? settings.origin[2] : 0.0};
-  const auto outcome = estimate(piped ? std::cin : file, run, out);
+  const auto outcome = estimate(piped ? std::cin : file, run, out.stream());
   if (!outcome.problem.empty()) return fail(settings.in + ": " + outcome.problem);
+  if (const auto trouble = out.finish(); !trouble.empty()) return fail(trouble);
   std::fprintf(stderr, "rows %llu, poses %llu\n", static_cast<unsigned long long>(outcome.rows),
                static_cast<unsigned long long>(outcome.poses));
   return kDone;
@@ -101,19 +104,8 @@ int run(const EstimateSettings& settings) {
     config = read_config(settings.config);
     if (!config) return kRefused;
   }
-  const bool printed = settings.out.empty() || settings.out == "-";
-  std::ofstream file;
-  if (!printed) {
-    file.open(settings.out);
-    if (!file) return fail(settings.out + ": cannot be written: " + std::strerror(errno));
-  }
-  std::ostream& out = printed ? std::cout : file;
-  const int code = settings.recording.empty()
-                       ? from_log(settings, *config, out)
-                       : from_recording(settings, config ? &*config : nullptr, out);
-  out.flush();
-  if (!out) return fail((printed ? "standard output" : settings.out) + ": cannot be written");
-  return code;
+  return settings.recording.empty() ? from_log(settings, *config)
+                                    : from_recording(settings, config ? &*config : nullptr);
 }
 
 }  // namespace
@@ -149,6 +141,8 @@ void add_estimate_command(CLI::App& app, int& code) {
   command->callback([settings, &code] {
     if (settings->in.empty() && settings->recording.empty())
       throw CLI::RequiredError("--in or --recording");
+    if (settings->recording.empty() && settings->config.empty())
+      throw CLI::RequiredError("--config");
     code = run(*settings);
   });
 }

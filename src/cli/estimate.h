@@ -5,7 +5,7 @@
 
 namespace drover::cli {
 
-/// `code` outlives `app`. Throws WrongUsage.
+/// `code` outlives `app`.
 void add_estimate_command(CLI::App& app, int& code);
 
 }  // namespace drover::cli

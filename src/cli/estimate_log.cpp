@@ -19,7 +19,7 @@ constexpr std::array<std::string_view, 20> kLogColumns = {
     "accel_y_mps2", "accel_z_mps2", "latitude_deg",  "longitude_deg",    "altitude_m",
     "quality",      "sigma_east_m", "sigma_north_m", "correction_age_s", "heading_deg"};
 /// A value of the first is nothing without the second in its row.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 18> kTogether = {
+constexpr std::array<std::pair<std::string_view, std::string_view>, 19> kTogether = {
     {{"left_rim_mps", "right_rim_mps"},
      {"right_rim_mps", "left_rim_mps"},
      {"vx_mps", "wz_radps"},
@@ -33,13 +33,15 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 18> kTogethe
      {"latitude_deg", "longitude_deg"},
      {"longitude_deg", "latitude_deg"},
      {"latitude_deg", "quality"},
+     {"quality", "latitude_deg"},
      {"altitude_m", "latitude_deg"},
      {"sigma_east_m", "sigma_north_m"},
      {"sigma_north_m", "sigma_east_m"},
      {"sigma_east_m", "latitude_deg"},
      {"correction_age_s", "latitude_deg"}}};
-constexpr double kLongest_s = 1e9;  // as nanoseconds it has room in 64 bits
-constexpr int kMostQuality = 8;     // of GGA
+// Unix time is within; two of them apart have room in 64 bits, as nanoseconds.
+constexpr double kLongest_s = 4e9;
+constexpr int kMostQuality = 8;  // of GGA
 constexpr Duration kLongestGap = std::chrono::hours(1);
 
 bool says_nothing(std::string_view line) {
@@ -85,8 +87,8 @@ std::optional<double> LogReader::value(std::string_view name) const {
 
 std::optional<LogError> LogReader::read_head(std::string_view line) {
   ++line_;
-  if (says_nothing(line)) return std::nullopt;
   if (line.starts_with("\xEF\xBB\xBF")) line.remove_prefix(3);  // spreadsheets begin with it
+  if (says_nothing(line)) return std::nullopt;
   std::vector<std::string> known(kLogColumns.begin(), kLogColumns.end());
   for (const auto name : split(line)) {
     columns_.emplace_back(name);

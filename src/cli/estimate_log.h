@@ -49,8 +49,6 @@ class LogReader final {
   Result<std::optional<LogRow>, LogError> read_row(std::string_view line);
 
   bool has_head() const { return !columns_.empty(); }
-  /// Of the last line that was read.
-  std::size_t line_number() const { return line_; }
 
  private:
   std::optional<LogError> read_cells(std::string_view line);

@@ -22,7 +22,7 @@ class Run final {
         base_(engine::kinematics_of(run.config.base)),
         estimator_(run.config.estimate, run.config.base),
         step_(from_s(1 / run.config.tick_Hz)),
-        each_(from_s(1 / run.rate_Hz)) {
+        rows_(run.rate_Hz) {
     if (run.origin) estimator_.set_origin(*run.origin);
   }
 
@@ -47,7 +47,8 @@ class Run final {
   bool begun() const { return now_ != kNever; }
   void begin(Time first) {
     shift_ = kBegin - first.time_since_epoch();
-    now_ = next_ = shifted(first);
+    now_ = shifted(first);
+    rows_.begin(now_);
   }
   Time shifted(Time time) const { return time + shift_; }
 
@@ -95,8 +96,7 @@ class Run final {
   void step() {
     now_ += step_;
     const engine::Estimate& e = estimator_.step(now_);
-    if (now_ < next_) return;
-    next_ += each_;
+    if (!rows_.is_due(now_)) return;
     PoseRow row;
     row.pose = e.pose;
     if (!e.has_position) row.pose.position_sigma_m = kAbsent;
@@ -106,8 +106,7 @@ class Run final {
     const GeodeticPoint antenna = estimator_.antenna_geodetic(e.pose);
     row.latitude_deg = antenna.latitude_deg;
     row.longitude_deg = antenna.longitude_deg;
-    row.has_quality = quality_.has_value();
-    row.quality = quality_.value_or(FixQuality::none);
+    row.quality = quality_;
     row.notice = e.notice.view();
     row.reason = e.reason.view();
     out_ << pose_line(to_s(now_ - shift_), row);
@@ -119,10 +118,9 @@ class Run final {
   engine::Kinematics base_;
   engine::Estimator estimator_;
   Duration step_;
-  Duration each_;
   Duration shift_{};
   Time now_ = kNever;
-  Time next_ = kNever;  ///< row to be written
+  RowTimes rows_;
   std::optional<FixQuality> quality_;
   std::uint64_t poses_ = 0;
 };
@@ -147,7 +145,12 @@ EstimateOutcome estimate(std::istream& log, const EstimateRun& run, std::ostream
   }
   estimator.finish();
   outcome.poses = estimator.poses();
-  if (outcome.problem.empty() && outcome.rows == 0) outcome.problem = "there is no row in it";
+  if (!outcome.problem.empty()) return outcome;
+  if (log.bad()) {
+    outcome.problem = "cannot be read";
+  } else if (outcome.rows == 0) {
+    outcome.problem = "there is no row in it";
+  }
   return outcome;
 }
 

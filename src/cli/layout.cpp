@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <ctime>
 
 #include "text/number.h"
 
@@ -35,6 +36,17 @@ std::string distance(const json::Node& node) {
 
 std::string labelled(std::string_view label, const Node& node, const char* format) {
   return std::string(label) + " " + quantity(node, format);
+}
+
+std::string date(const Node& unix_s, const char* format) {
+  const auto value_s = unix_s.number();
+  if (!value_s) return "";
+  const auto seconds = static_cast<std::time_t>(*value_s);
+  std::tm utc{};
+  char text[64];
+  if (::gmtime_r(&seconds, &utc) == nullptr || std::strftime(text, sizeof text, format, &utc) == 0)
+    return "";
+  return text;
 }
 
 bool yes(const Node& node) {

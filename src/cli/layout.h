@@ -19,6 +19,8 @@ std::string quantity(const json::Node& node, const char* format);
 std::string distance(const json::Node& node);
 /// "speed 0.50 m/s", or "speed -" when it is absent.
 std::string labelled(std::string_view label, const json::Node& node, const char* format);
+/// Seconds since 1970 by a strftime format, in UTC; empty when they are absent.
+std::string date(const json::Node& unix_s, const char* format);
 bool yes(const json::Node& node);
 /// A number; 0 when it is absent.
 double value_of(const json::Node& node);

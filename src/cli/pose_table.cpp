@@ -29,6 +29,12 @@ void add(std::string& line, std::string_view text) {
 
 }  // namespace
 
+bool RowTimes::is_due(Time now) {
+  if (now < next_) return false;
+  next_ += apart_ * ((now - next_) / apart_ + 1);
+  return true;
+}
+
 std::string pose_head() {
   return "time_s,x_m,y_m,yaw_rad,vx_mps,wz_radps,position_sigma_m,predicted_error_m,"
          "error_bound_m,yaw_sigma_rad,latitude_deg,longitude_deg,quality,notice,reason\n";
@@ -52,7 +58,8 @@ std::string pose_line(double time_s, const PoseRow& row) {
   add(line, row.pose.yaw_sigma_rad, 5);
   add(line, placed ? row.latitude_deg : kAbsent, 10);
   add(line, placed ? row.longitude_deg : kAbsent, 10);
-  line += row.has_quality ? "," + std::to_string(static_cast<int>(row.quality)) : ",";
+  line += ',';
+  if (row.quality) line += std::to_string(static_cast<int>(*row.quality));
   add(line, row.notice);
   add(line, row.reason);
   return line + "\n";

@@ -10,7 +10,6 @@
 #include "cli/failure.h"
 #include "cli/reply.h"
 #include "cli/report_svg.h"
-#include "cli/scene.h"
 #include "cli/show_report.h"
 #include "json/json_text.h"
 
@@ -69,12 +68,14 @@ void add_report_command(CLI::App& app, const std::string& socket, int& code) {
       "report", "what became of a task: cross-track, speed, fix quality, pauses");
   auto* number = command->add_option("number", settings->number, "of the report; else the last");
   number->check(CLI::Range(std::int64_t{1}, INT64_MAX));
-  command->add_flag("--list", settings->list, "all that are kept, the newest first")
-      ->excludes(number);
+  auto* list = command->add_flag("--list", settings->list, "all that are kept, the newest first");
+  list->excludes(number);
   command->add_flag("--json", settings->json, "one JSON object, with the way that was driven");
-  command->add_option("--svg", settings->svg, "write a picture to this file");
+  auto* svg = command->add_option("--svg", settings->svg, "write a picture to this file");
+  svg->excludes(list);
   command->add_option("--colour", settings->colour, "of the driven way in the picture")
       ->capture_default_str()
+      ->needs(svg)
       ->check(CLI::IsMember({"cross-track", "quality"}));
   command->callback([settings, &socket, &code] {
     if (settings->list) {

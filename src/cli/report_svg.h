@@ -15,7 +15,4 @@ enum class DrawnBy : std::uint8_t { cross_track, quality };
 /// north and a legend. Names and reasons are foreign text, and are escaped.
 std::string report_svg(const json::Node& answer, DrawnBy by);
 
-/// As text, or an attribute's value, of XML: what XML does not allow becomes U+FFFD.
-std::string xml_text(std::string_view text);
-
 }  // namespace drover::cli

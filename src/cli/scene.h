@@ -6,9 +6,6 @@
 
 namespace drover::cli {
 
-/// How long an answer that waits for the disk may take.
-inline constexpr int kDiskPatience_s = 20;
-
 /// Adds scene. `socket` and `code`, into which the exit code goes, must outlive the app. The
 /// commands throw NoAnswer.
 void add_scene_commands(CLI::App& app, const std::string& socket, int& code);

@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cmath>
-#include <ctime>
 
 #include "cli/layout.h"
 #include "cli/scene_lists.h"
@@ -19,14 +18,7 @@ using Solid = scene::SolidPrimitive;
 
 /// Seconds since the epoch; nothing when nobody knows.
 std::string when(const Node& node) {
-  if (!node.number()) return "";
-  const auto seconds = static_cast<std::time_t>(*node.number());
-  std::tm parts{};
-  std::array<char, 64> out{};
-  if (::gmtime_r(&seconds, &parts) == nullptr ||
-      std::strftime(out.data(), out.size(), "  since %Y-%m-%d %H:%M:%SZ", &parts) == 0)
-    return "";
-  return out.data();
+  return date(node, "  since %Y-%m-%d %H:%M:%SZ");
 }
 
 std::string meters(double value) {

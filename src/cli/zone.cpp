@@ -9,7 +9,6 @@
 #include "cli/exit_codes.h"
 #include "cli/option_texts.h"
 #include "cli/reply.h"
-#include "cli/scene.h"
 #include "cli/show_zones.h"
 #include "cli/zone_import.h"
 

@@ -88,6 +88,9 @@ expect "a report is asked of droverd" 3 out '{"ok":false,"reason":"' \
   report --svg "$work/a.svg" --json
 [[ ! -e $work/a.svg ]]
 verdict $? "and nothing is drawn without it"
+expect "a picture is of one report, and not of the list" 2 err "--svg" \
+  report --list --svg "$work/a.svg"
+expect "a colour is one of a picture" 2 err "--svg" report --colour quality
 expect "reports are numbered from one" 2 err "number" report 0
 robot=$(dirname "$0")/../../../config/drover.json
 log=$work/log.csv
@@ -98,7 +101,16 @@ expect "and how much it was is told beside it" 0 err "rows 2, poses " \
   estimate --config "$robot" --in "$log" --out "$work/pose.csv"
 [[ $(head -c 18 "$work/pose.csv") == time_s,x_m,y_m,yaw ]]
 verdict $? "into a file, if there is one"
+expect "a misspelt log leaves the poses of before" 1 err "cannot be read" \
+  estimate --config "$robot" --in "$work/lgo.csv" --out "$work/pose.csv"
+expect "and a log is not written over by its poses" 1 err "is what is read" \
+  estimate --config "$robot" --in "$log" --out "$log"
+expect "nor is a folder a log" 1 err "cannot be read" \
+  estimate --config "$robot" --in "$work" --out "$work/pose.csv"
+[[ $(head -c 18 "$work/pose.csv") == time_s,x_m,y_m,yaw && $(wc -l < "$log") == 3 ]]
+verdict $? "both are as they were"
 expect "by a configuration" 2 err "--config" estimate --in "$log"
+expect "which an empty name is not" 2 err "--config" estimate --in "$log" --config ''
 expect "of a log or of a recording" 2 err "--in or --recording" estimate --config "$robot"
 printf '1,0,zero\n' >> "$log"
 expect "what is wrong in a log is told with its place" 1 err 'line 4, column 3 (wz_radps)' \

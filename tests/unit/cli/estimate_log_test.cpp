@@ -94,6 +94,33 @@ TEST(EstimateLog, NamesLineAndColumnOfWhatIsWrong) {
               HasSubstr("column 2 (received_s): it was received before it was true"));
 }
 
+TEST(EstimateLog, MayCountFromAnyZero) {
+  for (const double zero_s : {0.0, -5e8, 1772373900.25, 3.9e9}) {
+    const LogRow one = row("time_s,received_s,heading_deg",
+                           std::to_string(zero_s) + "," + std::to_string(zero_s + 0.5) + ",90");
+    EXPECT_EQ(one.time, Time{from_s(zero_s)});
+    EXPECT_NEAR(to_s(one.received - one.time), 0.5, 1e-6);
+  }
+  EXPECT_THAT(trouble("time_s,heading_deg", "1772373900250,90"),
+              HasSubstr("is not within -4e+09 and 4e+09"))
+      << "milliseconds";
+}
+
+TEST(EstimateLog, BeginsAsSpreadsheetsDo) {
+  LogReader reader;
+  EXPECT_FALSE(reader.read_head("\xEF\xBB\xBF# of the robot in the yard"));
+  EXPECT_FALSE(reader.has_head());
+  EXPECT_FALSE(reader.read_head("time_s,heading_deg"));
+  EXPECT_EQ(row("\xEF\xBB\xBFtime_s,heading_deg", "1,90").heading->heading_deg, 90);
+}
+
+TEST(EstimateLog, WantsAQualityBesideItsPosition) {
+  EXPECT_EQ(trouble("time_s,quality", "1,4"),
+            "line 1, column 2 (quality): it needs latitude_deg beside it");
+  EXPECT_EQ(trouble("time_s,latitude_deg,longitude_deg,quality", "1,,,4"),
+            "line 2, column 4 (quality): it needs latitude_deg beside it");
+}
+
 TEST(EstimateLog, WantsTheMotionOfTheBaseOnce) {
   EXPECT_THAT(trouble("time_s,left_rim_mps,right_rim_mps,vx_mps,wz_radps", ""),
               HasSubstr("column 4 (vx_mps): the motion of the base is told twice"));

@@ -6,10 +6,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
 #include <map>
 #include <random>
 #include <sstream>
 
+#include "cli/pose_table.h"
 #include "drover/angle.h"
 #include "engine/estimate/local_frame.h"
 #include "unit/engine/estimate/rig.h"
@@ -188,6 +190,36 @@ TEST(EstimateOfALog, EndsAtWhatIsWrongAndSaysWhere) {
   EXPECT_EQ(outcome.rows, 1U);
   std::istringstream nothing("\n# nothing\n");
   EXPECT_THAT(estimate(nothing, settings(), out).problem, HasSubstr("no row"));
+}
+
+TEST(EstimateOfALog, TellsAFileThatCannotBeReadFromOneWithoutARow) {
+  std::ifstream folder("/");
+  std::ostringstream out;
+  EXPECT_EQ(estimate(folder, settings(), out).problem, "cannot be read");
+}
+
+TEST(EstimateOfALog, HasTheTimesOfTheLogInItsRows) {
+  std::istringstream in(
+      "time_s,vx_mps,wz_radps\n1772373900.25,0,0\n1772373900.75,0,0\n1772373901,0,0\n");
+  std::ostringstream out;
+  const auto outcome = estimate(in, settings(), out);
+  EXPECT_EQ(outcome.problem, "");
+  ASSERT_GE(outcome.poses, 7U);
+  EXPECT_NEAR(std::stod(rows_of(out.str()).back()["time_s"]), 1772373900.95, 0.1);
+}
+
+TEST(RowTimes, KeepTheirRateAfterAGap) {
+  constexpr auto at = [](double s) { return Time{from_s(s)}; };
+  RowTimes rows(10);
+  rows.begin(at(1));
+  std::vector<double> due_s;
+  for (int i = 0; i < 150; ++i) {
+    const double now_s = i < 50 ? 1 + 0.01 * i : 60 + 0.01 * i;
+    if (rows.is_due(at(now_s))) due_s.push_back(now_s);
+  }
+  ASSERT_EQ(due_s.size(), 15U);
+  EXPECT_NEAR(due_s[5], 60.5, 1e-9) << "the first after it";
+  for (std::size_t i = 6; i < due_s.size(); ++i) EXPECT_NEAR(due_s[i] - due_s[i - 1], 0.1, 1e-9);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include <vector>
 
+#include "cli/svg_page.h"
 #include "unit/cli/parsed.h"
 #include "unit/cli/report_answer.h"
 
@@ -84,6 +85,36 @@ TEST(PictureOfAReport, ColoursTheWayByWhatIsAskedFor) {
   EXPECT_EQ(count_of(drawn(DrawnBy::quality), kNear), 1);
   EXPECT_EQ(count_of(drawn(DrawnBy::quality), kFloat), 1);
   EXPECT_EQ(count_of(drawn(DrawnBy::quality), kBeside), 0);
+}
+
+TEST(PictureOfAReport, CountsThePausesThatItLeavesOut) {
+  std::string answer = R"({"report":{"pauses_left_out":4,"pauses":[{"lasted_s":1})";
+  for (int i = 1; i < 22; ++i) answer += R"(,{"lasted_s":1})";
+  EXPECT_THAT(report_svg(parsed(answer + R"(]},"line":{}})"), DrawnBy::cross_track),
+              HasSubstr("and 6 more pauses"));
+}
+
+TEST(PictureOfAReport, HasAColourForACrossTrackThatNobodyKnows) {
+  const auto svg = report_svg(
+      parsed(R"({"report":{},"line":{"driven":[[0,0,0,null],[5,0,5,null],[9,0,9,0.01]]}})"),
+      DrawnBy::cross_track);
+  EXPECT_EQ(count_of(svg, "stroke-linecap=\"round\" stroke=\"#000000\""), 1);
+  EXPECT_EQ(count_of(svg, "stroke=\"#1b7837\""), 1);
+  EXPECT_THAT(svg, HasSubstr(">not known</text>"));
+}
+
+TEST(PictureOfAReport, BreaksTheWayWhereNoPlaceIsKnown) {
+  const auto svg = report_svg(
+      parsed(R"({"report":{"pauses":[{"x_m":null,"y_m":null,"reason":"no place"}]},"line":{)"
+             R"("track":[[100,100],[120,100]],"driven":[[100,100,0,0],[104,100,4,0],)"
+             R"([null,null,5,0],[110,100,10,0],[114,100,14,0],[null,null,15,0]]}})"),
+      DrawnBy::cross_track);
+  EXPECT_EQ(malformed(svg), "");
+  EXPECT_THAT(svg, Not(HasSubstr("nan")));
+  EXPECT_EQ(count_of(svg, "stroke=\"#1b7837\""), 2);
+  EXPECT_THAT(svg, HasSubstr("v10h162.0v-10")) << "(0, 0) is far away, and not in it";
+  EXPECT_EQ(count_of(svg, "<circle"), 0);
+  EXPECT_THAT(svg, HasSubstr("no place")) << "told all the same";
 }
 
 TEST(PictureOfAReport, HasAScaleThatIsTrue) {

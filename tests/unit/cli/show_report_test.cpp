@@ -38,9 +38,12 @@ TEST(TaskReport, HasADashForWhatNobodyKnows) {
 }
 
 TEST(TaskReport, CutsAListOfManyPausesShortAndSaysSo) {
-  std::string answer = R"({"report":{"pauses_left_out":4,"pauses":[{"lasted_s":1})";
+  std::string answer = R"({"number":12,"report":{"pauses_left_out":4,"pauses":[{"lasted_s":1})";
   for (int i = 1; i < 20; ++i) answer += R"(,{"lasted_s":1})";
-  EXPECT_THAT(show_report(parsed(answer + "]}}")), HasSubstr("and 16 more: drover report --json"));
+  const auto text = show_report(parsed(answer + "]}}"));
+  EXPECT_THAT(text, HasSubstr("pauses    24, "));
+  EXPECT_THAT(text, HasSubstr("          and 12 more: drover report 12 --json\n"
+                              "          and 4 that were not kept\n"));
 }
 
 TEST(TaskReports, HaveALineEach) {
