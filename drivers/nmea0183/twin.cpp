@@ -231,13 +231,14 @@ GnssVelocity Nmea0183Twin::measure_velocity(const GnssTruth& truth) {
   return velocity;
 }
 
-// Not of the epoch after a gap: a place that was not told has no speed.
-void Nmea0183Twin::follow_positions(const GnssPosition& told, double elapsed_s) {
-  const double latitude_rad = to_rad(told.latitude_deg);
-  const double east_m = (told.longitude_deg - last_.position.longitude_deg) *
+// Not of the epoch after a gap: a place that was not measured has no speed.
+void Nmea0183Twin::follow_positions(const GnssPosition& measured, double elapsed_s) {
+  const double latitude_rad = to_rad(measured.latitude_deg);
+  const double east_m = (measured.longitude_deg - measured_.longitude_deg) *
                         metres_per_longitude_degree(latitude_rad);
   const double north_m =
-      (told.latitude_deg - last_.position.latitude_deg) * metres_per_latitude_degree(latitude_rad);
+      (measured.latitude_deg - measured_.latitude_deg) * metres_per_latitude_degree(latitude_rad);
+  measured_ = measured;
   if (!std::isfinite(east_m) || !(elapsed_s > 0)) {
     smooth_east_mps_ = smooth_north_mps_ = 0;
     return;

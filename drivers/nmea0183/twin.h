@@ -70,7 +70,7 @@ class Nmea0183Twin final : public GnssTwin {
   Solution solve(Time at);
   GnssPosition measure_position(Time at, const GnssTruth& truth, double elapsed_s);
   GnssVelocity measure_velocity(const GnssTruth& truth);
-  void follow_positions(const GnssPosition& told, double elapsed_s);
+  void follow_positions(const GnssPosition& measured, double elapsed_s);
   double measure_heading_deg(Time at, double elapsed_s);
   void damage(std::span<char> epoch);
   double asked_sigma_m() const;
@@ -106,8 +106,9 @@ class Nmea0183Twin final : public GnssTwin {
   Time start_ = kNever;
   Time next_epoch_ = kNever;
   Time last_epoch_ = kNever;
-  Solution last_;
-  double smooth_east_mps_ = 0;  ///< of the told positions
+  Solution last_;               ///< as it was told
+  GnssPosition measured_;       ///< of the same epoch, also while another one is told
+  double smooth_east_mps_ = 0;  ///< of the measured positions
   double smooth_north_mps_ = 0;
   std::vector<Sample> history_;  ///< a ring, sized once
   std::size_t newest_ = 0;

@@ -171,6 +171,19 @@ TEST_F(WrongReceiver, TellsTheSpeedOfItsPositionsWhereItIsMadeSo) {
   EXPECT_NEAR(velocity.course_deg, 360 - 26.6, 2);
 }
 
+TEST_F(WrongReceiver, TellsNoSpeedOfTheWayThatItWasStuck) {
+  make(Options(kNmea0183Entry.twin_options).set("speed_from", std::string("positions")));
+  run(5s);
+  set("stuck");
+  run(10s);
+  EXPECT_NEAR(last<GnssVelocity>().second.speed_mps, 1, 0.05);
+  set("clear");
+  for (int i = 0; i < 10; ++i) {
+    run(200ms);
+    EXPECT_NEAR(last<GnssVelocity>().second.speed_mps, 1, 0.05) << i;
+  }
+}
+
 TEST_F(WrongReceiver, HasAHeadingThatIsOffUntilItIsNot) {
   set("heading_off:20");
   run(1s);

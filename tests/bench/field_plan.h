@@ -1,0 +1,80 @@
+// What is wrong in a field, and the robot and the track of it.
+#pragma once
+
+#include <cmath>
+
+#include "drover/angle.h"
+#include "engine/config.h"
+#include "support/tracks.h"
+
+namespace drover::bench {
+
+/// When it happens: by the way driven since the start, or by the time since the start.
+struct Span {
+  double from = INFINITY;
+  double to = INFINITY;
+  bool holds(double at) const { return at >= from && at < to; }
+};
+
+/// All of it nothing at first.
+struct FieldPlan {
+  double speed_mps = 0.5;
+  // Ground.
+  Span slip_s;            ///< the wheels roll more than the base moves
+  double slip_share = 0;  ///< of the way
+  Span slope_m;           ///< ground that falls to the south
+  double slope_deg = 0;
+  double crab_per_slope = 0.5;  ///< course beside the heading over the slope
+  double shove_at_s = INFINITY;
+  double shove_left_m = 0;  ///< within 0.4 s
+  double tyres = 1;         ///< true radius over the configured one
+  // Receiver.
+  double receiver_Hz = 10;
+  double sigma_m = 0.01;
+  Span outage_s;  ///< no positions and headings
+  Span float_s;   ///< float solution
+  Span drift_m;   ///< the place wanders to the north while this is driven
+  double drift_mps = 0;
+  Span step_s;  ///< it is elsewhere
+  double step_m = 0;
+  double step_rad = 0;
+  double late_s = 0;           ///< later than the gateway believes
+  double heading_epoch_s = 0;  ///< the heading is so much older than the position
+  double heading_off_deg = 0;  ///< of the antenna line, not told to the gateway
+  Span heading_wrong_s;
+  double heading_wrong_deg = 0;
+  double lever_x_m = 0;  ///< true antenna beside the configured one
+  double lever_y_m = 0;
+  // Inertial sensor.
+  bool imu = true;
+  double imu_roll_deg = 0;  ///< mounted so, and not told
+};
+
+inline engine::EngineConfig field_config() {
+  engine::EngineConfig config;
+  for (const char* name : {"front_left", "front_right", "rear_left", "rear_right"}) {
+    (void)config.joints.push_back(name);
+  }
+  for (const AxisId id : {AxisId{0}, AxisId{2}}) (void)config.base.left.push_back(id);
+  for (const AxisId id : {AxisId{1}, AxisId{3}}) (void)config.base.right.push_back(id);
+  config.estimate.antenna_x_m = 0.1;
+  config.estimate.antenna_z_m = 0.6;
+  config.base.hold = engine::HoldBy::brake;
+  config.base.max_tilt_deg = 20;
+  config.base.yaw_slip_factor = 1.2;
+  return config;
+}
+
+/// Rows of `leg_m` with U-turns of 1.5 m between them, a point each half metre.
+inline Path field_rows(int rows, double leg_m) {
+  test::Pen pen;
+  for (int row = 0; row < rows; ++row) {
+    if (row > 0) pen.arc(1.5, row % 2 == 1 ? kPi : -kPi);
+    pen.line(leg_m);
+  }
+  Path path = test::record(pen.points());
+  path.name = "rows";
+  return path;
+}
+
+}  // namespace drover::bench
