@@ -31,7 +31,7 @@ src/store        drover/ store/ json/
 src/config       drover/ config/ json/ text/ engine/config.h engine/clearance/stop_chain.h
 src/gateway      drover/ gateway/ config/ engine/
 src/publish      drover/ publish/ scene/ store/ json/ text/
-src/publish/rtk_navigation  drover/ store/ json/ publish/arrival.h publish/names.h
+src/publish/rtk_navigation  drover/ store/ json/ text/ publish/arrival.h publish/names.h
 src/publish/rtk_navigation  publish/rtk_navigation/
 src/publish/scene    drover/ json/ scene/ publish/arrival.h publish/names.h publish/shown_json.h
 src/publish/scene    publish/token_bucket.h publish/scene/

@@ -11,7 +11,7 @@ namespace drover::scene {
 
 /// What the file says; whether it is keep-in or keep-out the person says who imports it.
 struct ImportedZone {
-  std::string name;                  ///< of the file's areas, when they agree; else empty
+  std::string name;  ///< of the file's areas, when they agree; else empty
   bool names_differ = false;
   std::vector<GeoPolygon> polygons;  ///< as check_polygons wants them
   std::vector<std::string> notes;    ///< what was passed over, a sentence each
