@@ -84,7 +84,7 @@ int from_log(const EstimateSettings& settings, const config::DroverConfig& confi
   const bool piped = settings.in == "-";
   if (!piped) file.open(settings.in);
   if (!piped && !file) return fail(settings.in + ": cannot be read: " + std::strerror(errno));
-  PoseFile out(settings.out, settings.in);
+  PoseFile out(settings.out, piped ? "/dev/stdin" : settings.in);
   if (!out.problem().empty()) return fail(out.problem());
   EstimateRun run{config.engine, settings.rate_Hz, std::nullopt};
   if (!settings.origin.empty())
