@@ -106,7 +106,7 @@ expect "a misspelt log leaves the poses of before" 1 err "cannot be read" \
 expect "and a log is not written over by its poses" 1 err "is what is read" \
   estimate --config "$robot" --in "$log" --out "$log"
 expect "also when it comes by standard input" 1 err "is what is read" \
-  estimate --config "$robot" --in - --out "$log" < "$log"
+  estimate --config "$robot" --in - --out "$work/log.csv" < "$log"
 expect "nor is a folder a log" 1 err "cannot be read" \
   estimate --config "$robot" --in "$work" --out "$work/pose.csv"
 [[ $(head -c 18 "$work/pose.csv") == time_s,x_m,y_m,yaw && $(wc -l < "$log") == 3 ]]
