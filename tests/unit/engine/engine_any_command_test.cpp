@@ -25,7 +25,10 @@ class Witness {
     if (std::holds_alternative<ResetStop>(body)) resets_.insert(id);
     if (std::holds_alternative<ReleaseHold>(body)) releases_.insert(id);
     if (std::holds_alternative<ArmHold>(body)) arms_.insert(id);
-    if (std::holds_alternative<EngageStop>(body)) stopped_ = true;
+    if (std::holds_alternative<EngageStop>(body)) {
+      unanswered_ = unanswered_ || !stopped_;
+      stopped_ = true;
+    }
     const bool ends = std::holds_alternative<CancelTask>(body);
     if (stopped_ || ends) {
       search_until_ = kNever;
@@ -43,6 +46,7 @@ class Witness {
   /// After each tick. Returns what is broken, or nothing.
   std::string check() {
     read_answers();
+    unanswered_ = false;
     const double fastest_radps = rig_.fastest_command_radps();
     const bool faster = fastest_radps > last_radps_ + 1e-6;
     last_radps_ = fastest_radps;
@@ -57,6 +61,9 @@ class Witness {
   }
   /// A restart of the program ends all that drove.
   void restarts() {
+    // A stop over which the program died in the very cycle was never answered: who asked for it
+    // knows that, and asks again.
+    if (unanswered_) stopped_ = unanswered_ = false;
     task_ = streams_ = false;
     search_until_ = kNever;
     last_radps_ = 0;
@@ -97,6 +104,7 @@ class Witness {
   std::set<std::uint64_t> starts_, searches_, resets_, releases_, arms_;
   bool task_ = false;
   bool stopped_ = false;
+  bool unanswered_ = false;  ///< that stop, before its cycle was over
   bool released_ = false;
   bool streams_ = false;
   Time last_target_ = kNever;
@@ -136,7 +144,7 @@ class AnyCommands {
   void command() {
     static_assert(std::variant_size_v<decltype(Command::body)> == 13,
                   "a new command has its place here, and in what the witness knows of it");
-    switch (random_() % 17) {
+    switch (random_() % 18) {
       case 0: return ask(CancelTask{});
       case 1: return ask(EngageStop{});
       case 2:
