@@ -174,7 +174,8 @@ double FieldReader::angle_deg(std::size_t i, std::size_t degree_digits, double l
   }
   const double minutes = read_decimal(field.substr(degree_digits));
   if (!(minutes < 60.0)) return fail_absent();
-  const double angle = whole / 100 + minutes / 60.0;
+  const int degrees = whole / 100;  // two digits of minutes behind them
+  const double angle = degrees + minutes / 60.0;
   if (angle > limit_deg) return fail_absent();
   return hemisphere == hemispheres[0] ? angle : -angle;
 }

@@ -119,7 +119,7 @@ std::optional<std::string> ReportStore::summary(std::uint64_t number) const {
   }
   auto whole = read(number);  // one that is longer than others are
   if (!whole.ok()) return std::nullopt;
-  return std::move(whole->texts.summary);
+  return std::move(whole.value().texts.summary);
 }
 
 Result<StoredReport, Failure> ReportStore::read(std::uint64_t number) const {
