@@ -153,7 +153,7 @@ Result<std::optional<LogRow>, LogError> LogReader::read_row(std::string_view lin
   if (last_ != kNever && row.received - last_ > kLongestGap)
     return error(ordered_by, "more than an hour after the row before it: these are two logs");
   last_ = row.received;
-  return std::optional<LogRow>{std::move(row)};
+  return std::optional<LogRow>{row};
 }
 
 std::optional<LogError> LogReader::check_groups() const {
