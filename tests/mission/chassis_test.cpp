@@ -54,32 +54,6 @@ TEST(Gt01Can, HearsNothingButTwists) {
   EXPECT_GT(told, 500U);
 }
 
-TEST(Gt01Kill, IsBroughtToRestByTheGuardsPackets) {
-  const Record& log = record("gt01_kill");
-  const Time killed = log.event("signal 9 to droverd");
-  const Time back = log.event("start droverd", 2);
-  const Line line = read_line(log);
-  // Half a packet of the one who died may stand before the guard's first.
-  EXPECT_LT(line.strange, 18U);
-  Time first = kNever;
-  for (const Asked& asked : line.packets) {
-    if (asked.time < killed + 10ms || asked.time > back) continue;
-    EXPECT_FALSE(asked.moves()) << "at " << seconds(asked.time);
-    if (first == kNever) first = asked.time;
-  }
-  ASSERT_NE(first, kNever) << "nobody spoke";
-  figure("the guard's first packet after it went", first - killed);
-  EXPECT_LE(first - killed, 100ms);
-  tell_way_to_rest(log, killed, back);
-  EXPECT_LE(roll(log, killed, back).way_m, 0.35);
-  EXPECT_LE(roll(log, killed, back).rest - killed, 800ms);
-}
-
-TEST(Gt01Kill, LetsANewStartReachTheGoal) {
-  const Record& log = record("gt01_kill");
-  expect_new_start_succeeds(log, log.event("start droverd", 2));
-}
-
 /// It keeps its last twist, and nobody reaches it: only its power can be taken.
 TEST(Gt01Torn, LosesItsPowerAndComesToRest) {
   const Record& log = record("gt01_torn");

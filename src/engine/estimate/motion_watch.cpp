@@ -118,7 +118,6 @@ void MotionWatch::pause() {
   if (!old.drifted) return;
   drifted = true;
   drift_m = old.drift_m;
-  drift_s = old.drift_s;
   lasting[0] = old.lasting[0];
 }
 
@@ -197,7 +196,6 @@ void watch_drift(MotionWatch& watch, const Belief& belief, const BaseFix& fix, T
   if (drifts) {
     if (watch.drift_since == kNever) watch.drift_since = now;
     watch.drift_m = drift_m;
-    watch.drift_s = to_s(now - older.since);
     watch.drifted = now - watch.drift_since >= from_s(config.jump_time_s);
     return;
   }

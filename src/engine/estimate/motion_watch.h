@@ -50,7 +50,6 @@ struct MotionWatch {
   double slipped_m = 0;  ///< and how much the ways of both differ in the legs that are over
   Time drift_since = kNever;
   double drift_m = 0;  ///< how far the position went away from the wheels
-  double drift_s = 0;  ///< in this time
   /// It drifted for long enough to be told. Time alone does not end that: the base stands, and what
   /// the receiver says comes back to where dead reckoning is; or a person accepts it.
   bool drifted = false;

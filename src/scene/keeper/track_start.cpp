@@ -3,14 +3,9 @@
 #include <cstdint>
 
 #include "scene/keeper/way_line.h"
-#include "track/flaw.h"
 #include "track/path_search.h"
 
 namespace drover::scene {
-bool is_track(const Path& path, std::size_t target) {
-  return target < path.points.size() &&
-         track::find_flaw(path.points).kind == track::Flaw::Kind::none;
-}
 
 WayLeft way_of_start(const Path& path, std::size_t target, const Pose2& pose) {
   const track::Vector at{pose.x_m, pose.y_m};

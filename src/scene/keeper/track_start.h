@@ -9,11 +9,8 @@
 
 namespace drover::scene {
 
-/// Without a flaw (track/flaw.h), and with a point of that index: what the engine would not refuse.
-bool is_track(const Path& path, std::size_t target);
-
-/// The whole way of a task that starts at this pose, along a path that is_track, as the engine
-/// begins it (track/path_search.h).
+/// The whole way of a task that starts at this pose, along a path that track::check_path lets pass,
+/// as the engine begins it (track/path_search.h).
 WayLeft way_of_start(const Path& path, std::size_t target, const Pose2& pose);
 
 }  // namespace drover::scene

@@ -6,10 +6,15 @@
 #include <random>
 
 #include "drover/angle.h"
+#include "track/flaw.h"
 #include "track/path_search.h"
 
 namespace drover::scene {
 namespace {
+
+bool is_track(const Path& path, std::uint32_t target) {
+  return track::check_path(path, target).empty();
+}
 
 /// A walk that turns and crosses itself, at times a loop.
 Path any_track(std::mt19937& random) {
