@@ -5,6 +5,20 @@
 
 namespace drover {
 
+/// Where the base stands, in the map of an origin. It is compared with where it is found again.
+struct RestPlace {
+  bool known = false;
+  double x_m = 0;
+  double y_m = 0;
+  double yaw_rad = 0;
+  double position_sigma_m = 0;
+  double yaw_sigma_rad = 0;
+  double origin_latitude_deg = 0;
+  double origin_longitude_deg = 0;
+
+  friend bool operator==(const RestPlace&, const RestPlace&) = default;
+};
+
 /// Given to the gateway once, before its first cycle, and kept up to date by it from then on.
 /// A stop, what joint commands wait for and a power cut outlive a boot; all else ends with it.
 struct Remembered {
@@ -21,6 +35,7 @@ struct Remembered {
   Reason joints_wait;
   bool at_rest = false;   ///< it was confirmed to rest, and nobody has driven it since
   bool ran_away = false;  ///< that stop, or one before it, is of a wheel that ran away
+  RestPlace place;        ///< unknown while a wheel turns
 
   friend bool operator==(const Remembered&, const Remembered&) = default;
 };

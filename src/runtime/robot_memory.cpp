@@ -9,37 +9,14 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-#include <type_traits>
 
 #include "link/opened.h"
 #include "link/unique_fd.h"
+#include "runtime/memory_layout.h"
 #include "store/durable_file.h"
 #include "store/stop_store.h"
 
 namespace drover::runtime {
-
-namespace {
-
-constexpr std::uint64_t kLayout = 0x64726d656d303035;  // "drmem005"
-/// Of the same size: it did not tell whether a wheel ran away.
-constexpr std::uint64_t kLayoutBefore = 0x64726d656d303034;  // "drmem004"
-
-}  // namespace
-
-struct RobotMemory::Record {
-  static_assert(std::is_trivially_copyable_v<Remembered>);
-
-  std::uint64_t format = 0;
-  std::uint64_t sequence = 0;  ///< 0: never written
-  std::array<char, 40> boot{};
-  std::uint64_t configuration = 0;
-  Remembered remembered;
-  std::uint64_t checksum = 0;  ///< of all bytes before it
-
-  std::uint64_t sum() const {
-    return store::fingerprint({reinterpret_cast<const char*>(this), offsetof(Record, checksum)});
-  }
-};
 
 std::string boot_id() {
   std::string id;
@@ -61,12 +38,13 @@ RobotMemory::RobotMemory(const std::string& folder, const std::string& boot_id,
 }
 
 const char* RobotMemory::open(const std::string& path) {
+  if (const char* failed = raise_memory_layout(path)) return failed;
   link::UniqueFd fd(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0600));
   if (!fd) return "cannot open";
   struct stat info {};
   const auto size = static_cast<off_t>(2 * sizeof(Record));
   if (::fstat(fd.get(), &info) != 0) return "cannot look at it";
-  // Of another version, or none yet: there is nothing in it for us.
+  // Of a version long ago, or none yet: there is nothing in it for us.
   if (info.st_size != size && ::ftruncate(fd.get(), 0) != 0) return "cannot empty";
   // Allocated now: a full disk would be a signal later, in the control thread.
   if (info.st_size != size) {
@@ -89,21 +67,21 @@ void RobotMemory::read() {
   for (int i = 0; i < 2; ++i) {
     Record record;
     std::memcpy(static_cast<void*>(&record), &records_[i], sizeof record);
-    if (record.sequence == 0 && record.format == 0) continue;
+    if (record.never_written()) continue;
     written = true;
-    const bool known = record.format == kLayout || record.format == kLayoutBefore;
-    if (!known || record.checksum != record.sum()) {
+    if (record.format != kMemoryLayout || record.checksum != record.sum()) {
       damaged_ = true;
       continue;
     }
-    // What lay there then was nothing.
-    if (record.format == kLayoutBefore)
-      std::memset(&record.remembered.ran_away, 0, sizeof record.remembered.ran_away);
     if (record.sequence <= sequence_) continue;
     sequence_ = record.sequence;
     const bool this_boot = boot_id_ == std::string_view(record.boot.data());
     found_ = this_boot ? std::optional<Remembered>(record.remembered) : std::nullopt;
-    if (found_ && record.configuration != configuration_) found_->mechanics_proved = false;
+    // With another antenna the same base stands elsewhere.
+    if (found_ && record.configuration != configuration_) {
+      found_->mechanics_proved = false;
+      found_->place = {};
+    }
   }
   unreadable_ = written && sequence_ == 0;
 }
@@ -118,7 +96,7 @@ bool RobotMemory::keep(const Remembered& now) {
 void RobotMemory::write(const Remembered& now) {
   Record record;
   std::memset(static_cast<void*>(&record), 0, sizeof record);
-  record.format = kLayout;
+  record.format = kMemoryLayout;
   record.sequence = ++sequence_;
   std::memcpy(record.boot.data(), boot_id_.data(), boot_id_.size());
   record.configuration = configuration_;

@@ -11,6 +11,9 @@
 
 namespace drover::runtime {
 
+template <class Kept>
+struct MemoryRecord;
+
 /// Plain stores into a mapped file survive a kill, and cost the control thread no system call. Two
 /// records in turn, each with a checksum: one that was being written when the program died is told
 /// from the one before. The file does not outlive a boot, nor is it believed after one.
@@ -35,10 +38,10 @@ class RobotMemory final {
   bool keep(const Remembered& now);
 
  private:
-  struct Record;
+  using Record = MemoryRecord<Remembered>;
   /// Returns the step that failed, with errno; nullptr when none did.
   const char* open(const std::string& path);
-  /// The newest whole one of the two records, of this layout or the one before.
+  /// The newest whole one of the two records.
   void read();
   void write(const Remembered& now);
 

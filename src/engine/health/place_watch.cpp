@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "drover/angle.h"
 #include "engine/still.h"
@@ -38,16 +39,52 @@ const Change& lesser_way(const Change& a, const Change& b) {
 
 }  // namespace
 
-void PlaceWatch::update(Time now, Duration dt, const Estimate& estimate, bool heard) {
-  if (!estimate.has_position || !estimate.has_heading) return;
-  // What rolls out after an e-stop rolls unheard.
-  const bool stands = heard && estimate.fastest_mps <= kStands_mps;
-  if (!known_ || !stands) {
-    known_ = true;
-    seen_ = rested_ = {estimate.pose, estimate.pose};
-    crept_x_m_ = crept_y_m_ = 0;
+void PlaceWatch::begin_at(const Pose& pose) {
+  known_ = true;
+  away_ = false;
+  seen_ = rested_ = {pose, pose};
+  crept_x_m_ = crept_y_m_ = 0;
+}
+
+void PlaceWatch::begin_where_it_stood(const GeodeticPoint& origin) {
+  const RestPlace place = std::exchange(recalled_, {});
+  if (place.origin_latitude_deg != origin.latitude_deg ||
+      place.origin_longitude_deg != origin.longitude_deg)
     return;
-  }
+  Pose pose;
+  pose.x_m = place.x_m;
+  pose.y_m = place.y_m;
+  pose.yaw_rad = place.yaw_rad;
+  pose.position_sigma_m = place.position_sigma_m;
+  pose.yaw_sigma_rad = place.yaw_sigma_rad;
+  begin_at(pose);
+  away_ = true;
+}
+
+RestPlace PlaceWatch::rest_place(const GeodeticPoint& origin) const {
+  if (recalled_.known) return recalled_;
+  if (!known_ || !stands_) return {};
+  // Whole centimetres: what creeps is not written anew in each cycle.
+  const auto crept = [](double m) { return std::round(m * 100) / 100; };
+  const Pose& pose = jumped_.empty() ? rested_.at : rested_.stood;
+  return {.known = true,
+          .x_m = pose.x_m + crept(crept_x_m_),
+          .y_m = pose.y_m + crept(crept_y_m_),
+          .yaw_rad = pose.yaw_rad,
+          .position_sigma_m = pose.position_sigma_m,
+          .yaw_sigma_rad = pose.yaw_sigma_rad,
+          .origin_latitude_deg = origin.latitude_deg,
+          .origin_longitude_deg = origin.longitude_deg};
+}
+
+void PlaceWatch::update(Time now, Duration dt, const Estimate& estimate, bool heard,
+                        const GeodeticPoint& origin) {
+  // What rolls out after an e-stop rolls unheard.
+  stands_ = heard && estimate.fastest_mps <= kStands_mps;
+  if (heard && !stands_) recalled_ = {};
+  if (!estimate.has_position || !estimate.has_heading || (recalled_.known && !heard)) return;
+  if (recalled_.known) begin_where_it_stood(origin);
+  if (!known_ || !stands_) return begin_at(estimate.pose);
   if (estimate.body.known) {
     const double way_m = estimate.body.twist.vx_mps * std::max(to_s(dt), 0.0);
     crept_x_m_ += way_m * std::cos(estimate.pose.yaw_rad);
@@ -72,6 +109,7 @@ void PlaceWatch::compare(Time now, const Pose& pose) {
     jumped_at_ = now;
     told_ = false;
   }
+  away_ = false;
   if (!jumped && pose.position_sigma_m >= kBetterKnown * seen_.at.position_sigma_m) return;
   seen_.at = pose;
   rested_.at = rested;
@@ -82,12 +120,12 @@ void PlaceWatch::tell(const Pose& pose) {
   const Pose rested = without_creep(pose);
   const Change last = lesser_way(change(seen_.at, pose), change(rested_.at, rested));
   const Change all = lesser_way(change(seen_.stood, pose), change(rested_.stood, rested));
+  const char* how = away_ ? "while droverd was not running" : "though no wheel turned";
   if (std::max(last.way_share, all.way_share) > std::max(last.turn_share, all.turn_share)) {
-    jumped_.format("the position jumped by %.1f m though no wheel turned",
-                   std::max(last.way_m, all.way_m));
+    jumped_.format("the position jumped by %.1f m %s", std::max(last.way_m, all.way_m), how);
   } else {
-    jumped_.format("the heading jumped by %.0f degrees though no wheel turned",
-                   to_deg(std::max(last.turn_rad, all.turn_rad)));
+    jumped_.format("the heading jumped by %.0f degrees %s",
+                   to_deg(std::max(last.turn_rad, all.turn_rad)), how);
   }
 }
 

@@ -2,6 +2,7 @@
 // carried. Nobody can tell which, so a person has to look before it drives on.
 #pragma once
 
+#include "drover/remembered.h"
 #include "engine/estimate/estimator.h"
 
 namespace drover::engine {
@@ -15,7 +16,13 @@ class PlaceWatch final {
 
   /// `heard`: wheels are. One that stands is enough: a base does not go without it.
   /// What the wheels tell though it stands, creeping down a slope, is no jump.
-  void update(Time now, Duration dt, const Estimate& estimate, bool heard);
+  void update(Time now, Duration dt, const Estimate& estimate, bool heard,
+              const GeodeticPoint& origin);
+  /// Where it stood when the program before this one ended. A wheel that turns before the place is
+  /// known again, or another origin, makes that worthless.
+  void recall(const RestPlace& place) { recalled_ = place; }
+  /// For the next program: where it stands, or stood before a jump that nobody has looked at yet.
+  RestPlace rest_place(const GeodeticPoint& origin) const;
   /// Another origin: all places have other numbers.
   void forget() { known_ = false; }
   /// A start is asked for. Why not; empty when it may begin: then the new place is believed.
@@ -33,12 +40,17 @@ class PlaceWatch final {
     Pose stood;  ///< when a wheel turned last, or better known since
     Pose at;     ///< the same, or where it jumped to
   };
+  void begin_at(const Pose& pose);
+  void begin_where_it_stood(const GeodeticPoint& origin);
   Pose without_creep(Pose pose) const;
   void compare(Time now, const Pose& pose);
   void tell(const Pose& pose);
 
   EstimateConfig config_;
+  RestPlace recalled_;
+  bool away_ = false;  ///< it began with that place, and has not compared it yet
   bool known_ = false;
+  bool stands_ = false;
   Places seen_;
   Places rested_;         ///< without what it crept: the nearer of the two counts
   double crept_x_m_ = 0;  ///< since it stands, by its wheels

@@ -107,8 +107,7 @@ std::vector<std::uint8_t> from_first_edition(std::span<const std::uint8_t> recor
   out.bytes(in.left());
   if (adds == Adds::memory) {
     out.text("");
-    out.byte(0);
-    out.byte(0);
+    for (int flag = 0; flag < 3; ++flag) out.byte(0);
   }
   if (!in.good() || !out.good()) return {};
   buffer.resize(out.written().size());
@@ -116,10 +115,14 @@ std::vector<std::uint8_t> from_first_edition(std::span<const std::uint8_t> recor
 }
 
 std::vector<std::uint8_t> from_second_edition(std::span<const std::uint8_t> record) {
-  return with_flags(record, 2);
+  return with_flags(record, 3);
 }
 
 std::vector<std::uint8_t> from_third_edition(std::span<const std::uint8_t> record) {
+  return with_flags(record, 2);
+}
+
+std::vector<std::uint8_t> from_fourth_edition(std::span<const std::uint8_t> record) {
   return with_flags(record, 1);
 }
 

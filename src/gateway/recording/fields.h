@@ -93,7 +93,7 @@ void visit_fields(V& v, const engine::EngineOutput& output, std::size_t axis_cou
   v.value("unsettled", unsettled);
   v.inside("remembered", [&v, &part = remembered] {
     const auto& [stop, stop_at_robot, power_cut, holding, released, task, proved, joints_wait,
-                 at_rest, ran_away] = part;
+                 at_rest, ran_away, place] = part;
     v.value("stop", stop);
     v.value("stop_at_robot", stop_at_robot);
     v.value("power_cut", power_cut);
@@ -104,6 +104,18 @@ void visit_fields(V& v, const engine::EngineOutput& output, std::size_t axis_cou
     v.value("joints_wait", joints_wait);
     v.value("at_rest", at_rest);
     v.value("ran_away", ran_away);
+    v.inside("place", [&v, &where = place] {
+      const auto& [known, x_m, y_m, yaw_rad, position_sigma_m, yaw_sigma_rad, latitude_deg,
+                   longitude_deg] = where;
+      v.value("known", known);
+      v.value("x_m", x_m);
+      v.value("y_m", y_m);
+      v.value("yaw_rad", yaw_rad);
+      v.value("position_sigma_m", position_sigma_m);
+      v.value("yaw_sigma_rad", yaw_sigma_rad);
+      v.value("origin_latitude_deg", latitude_deg);
+      v.value("origin_longitude_deg", longitude_deg);
+    });
   });
 }
 

@@ -164,23 +164,37 @@ void get(Suspended& slept, ByteReader& in) {
 
 void put(const Recalled& recalled, ByteWriter& out) {
   const auto& [stop, stop_at_robot, power_cut, holding, released, task, proved, joints_wait,
-               at_rest, ran_away] = recalled.remembered;
+               at_rest, ran_away, place] = recalled.remembered;
   out.text(stop);
   for (const bool flag : {stop_at_robot, power_cut, holding, released, task, proved})
     out.byte(flag ? 1 : 0);
   out.text(joints_wait);
   out.byte(at_rest ? 1 : 0);
   out.byte(ran_away ? 1 : 0);
+  const auto& [known, x_m, y_m, yaw_rad, position_sigma_m, yaw_sigma_rad, latitude_deg,
+               longitude_deg] = place;
+  out.byte(known ? 1 : 0);
+  if (!known) return;
+  for (const double value :
+       {x_m, y_m, yaw_rad, position_sigma_m, yaw_sigma_rad, latitude_deg, longitude_deg})
+    out.real(value);
 }
 void get(Recalled& recalled, ByteReader& in) {
   auto& [stop, stop_at_robot, power_cut, holding, released, task, proved, joints_wait, at_rest,
-         ran_away] = recalled.remembered;
+         ran_away, place] = recalled.remembered;
   stop.assign(in.text());
   for (bool* flag : {&stop_at_robot, &power_cut, &holding, &released, &task, &proved})
     *flag = get_flag(in);
   joints_wait.assign(in.text());
   at_rest = get_flag(in);
   ran_away = get_flag(in);
+  auto& [known, x_m, y_m, yaw_rad, position_sigma_m, yaw_sigma_rad, latitude_deg, longitude_deg] =
+      place;
+  known = get_flag(in);
+  if (!known) return;
+  for (double* value :
+       {&x_m, &y_m, &yaw_rad, &position_sigma_m, &yaw_sigma_rad, &latitude_deg, &longitude_deg})
+    *value = in.real();
 }
 
 void put(const OutputsUp& up, ByteWriter& out) {

@@ -114,8 +114,10 @@ std::string words(const Suspended& slept, const Wiring&) {
 }
 std::string words(const Recalled& recalled, const Wiring&) {
   const auto& [stop, stop_at_robot, power_cut, holding, released, task, proved, joints_wait,
-               at_rest, ran_away] = recalled.remembered;
-  return std::string("recalled:") + (at_rest ? " at rest" : "") + (holding ? " held" : "") +
+               at_rest, ran_away, place] = recalled.remembered;
+  const std::string where =
+      place.known ? " at " + std::to_string(place.x_m) + " " + std::to_string(place.y_m) : "";
+  return std::string("recalled:") + (at_rest ? " at rest" : "") + where + (holding ? " held" : "") +
          (released ? " released" : "") + (power_cut ? " without power" : "") +
          (ran_away ? " run away" : "") + (task ? " with a task" : "") +
          (proved ? " with proved mechanics" : "") +

@@ -25,9 +25,10 @@ Remembered stopped() {
   kept.ran_away = true;
   return kept;
 }
-/// A record of the layout before this one, which did not tell whether a wheel ran away.
+/// A record of the layout before this one, which did not tell where the base stood, or of the one
+/// before that, which did not tell whether a wheel ran away either.
 struct RecordBefore {
-  std::uint64_t format = 0x64726d656d303034;
+  std::uint64_t format = 0;
   std::uint64_t sequence = 1;
   std::array<char, 40> boot{};
   std::uint64_t configuration = store::fingerprint("{}");
@@ -36,7 +37,8 @@ struct RecordBefore {
     std::array<bool, 6> flags{};  ///< the third: holding
     Reason joints_wait;
     bool at_rest = false;
-    std::array<unsigned char, 7> nothing{};
+    unsigned char ran_away = 0;
+    std::array<unsigned char, 6> nothing{};
   } kept;
   std::uint64_t checksum = 0;
 };
@@ -54,16 +56,19 @@ class ARobotMemory : public ::testing::Test {
     file.seekp(static_cast<std::streamoff>(record * size + size / 2));
     file.put('\x7f');
   }
-  /// What the version before this one left: its stop of an operator, the robot held.
-  void leave_the_layout_before(bool whole) const {
+  /// What the version before this one left: its stop of an operator, the robot held. `ran_away`:
+  /// the byte that says so; of the version before that one it is any.
+  void leave_the_layout_before(bool whole, unsigned char ran_away, char layout = '5') const {
     std::array<RecordBefore, 2> records;
     std::memset(static_cast<void*>(records.data()), 0, sizeof records);
     RecordBefore record;
+    record.format = 0x64726d656d303000 + static_cast<unsigned char>(layout);
     std::memset(static_cast<void*>(&record.kept), 0, sizeof record.kept);
     std::memcpy(record.boot.data(), kBoot, std::strlen(kBoot));
     record.kept.stop = "emergency stop of an operator";
     record.kept.flags[2] = true;
     record.kept.at_rest = true;
+    record.kept.ran_away = ran_away;
     record.kept.nothing.fill(0xff);
     record.checksum = store::fingerprint(
         {reinterpret_cast<const char*>(&record), offsetof(RecordBefore, checksum)});
@@ -160,11 +165,25 @@ TEST_F(ARobotMemory, LeavesItToTheDiskAfterABoot) {
   { open().keep({}); }
   EXPECT_EQ(recall(open("another"), stopped()), stopped());
 }
-TEST_F(ARobotMemory, OfTheVersionBeforeTellsAllButThatAWheelRanAway) {
-  leave_the_layout_before(true);
+TEST_F(ARobotMemory, ForgetsWithAnotherConfigurationWhereItStood) {
+  Remembered stood = stopped();
+  stood.place.known = true;
+  { open().keep(stood); }
+  EXPECT_EQ(open().found(), stood);
+  EXPECT_EQ(open(kBoot, R"({"base": {}})").found(), stopped());
+}
+TEST_F(ARobotMemory, OfTwoVersionsBeforeTellsAllButThatAWheelRanAway) {
+  leave_the_layout_before(true, 0xff, '4');
   Remembered left = stopped();
   left.joints_wait.clear();
   left.ran_away = false;
+  left.at_rest = true;
+  EXPECT_EQ(open().found(), left);
+}
+TEST_F(ARobotMemory, OfTheVersionBeforeTellsAllButWhereItStood) {
+  leave_the_layout_before(true, 1);
+  Remembered left = stopped();
+  left.joints_wait.clear();
   left.at_rest = true;
   EXPECT_EQ(open().found(), left);
   EXPECT_EQ(open().found(), left) << "still, when that program died before its first cycle";
@@ -174,7 +193,7 @@ TEST_F(ARobotMemory, OfTheVersionBeforeTellsAllButThatAWheelRanAway) {
   EXPECT_EQ(report, std::vector<std::string>{});
 }
 TEST_F(ARobotMemory, OfTheVersionBeforeThatCannotBeReadCountsAsAStop) {
-  leave_the_layout_before(false);
+  leave_the_layout_before(false, 0);
   for (int start = 1; start <= 2; ++start) {
     const auto memory = open();
     EXPECT_TRUE(memory.unreadable()) << "start " << start;

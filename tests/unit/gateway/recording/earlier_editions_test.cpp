@@ -109,6 +109,29 @@ TEST(ThirdEdition, DidNotRememberWhetherAWheelRanAway) {
             "at 8.000000000 s: recalled: at rest held stopped at the robot: off");
 }
 
+TEST(FourthEdition, DidNotRememberWhereTheRobotStood) {
+  engine::Environment environment;
+  const Wiring wiring = wire_up(load_robot().config, environment);
+  std::vector<std::uint8_t> record(64);
+  ByteWriter out(record);
+  out.byte(static_cast<std::uint8_t>(InputBody(Recalled{}).index()));
+  out.signed_number(1'000'000'000);
+  out.text("off");
+  for (const bool flag : {true, false, true, false, false, false}) out.byte(flag ? 1 : 0);
+  out.text("");
+  out.byte(1);
+  out.byte(1);
+  record.resize(out.written().size());
+  const auto now = from_fourth_edition(record);
+  ByteReader in(now);
+  const auto kind = in.byte();
+  const auto input = read_input(
+      kind, Time{std::chrono::seconds(7)}, [](auto) { return nullptr; }, in);
+  ASSERT_TRUE(in.done());
+  EXPECT_EQ(text_of(input, wiring),
+            "at 8.000000000 s: recalled: at rest held run away stopped at the robot: off");
+}
+
 TEST_F(FirstEdition, HadTheSameOfAllElse) {
   EXPECT_EQ(meaning(12, {5}), "at 8.000000000 s: tick, guard alive, stopped at the guard");
   EXPECT_EQ(meaning(13, {2, 'n', 'o'}), "at 8.000000000 s: trouble of the daemon: no");

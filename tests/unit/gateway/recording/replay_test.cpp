@@ -221,7 +221,7 @@ TEST(Replay, StopsAtAGapAndSaysHowFarItWasEqual) {
 }
 
 TEST(Replay, RefusesWhatIsNoRecording) {
-  for (const std::string text : {"", "drover", "drover recording 4\n", "{\"a\": 1}"}) {
+  for (const std::string text : {"", "drover", "drover recording 5\n", "{\"a\": 1}"}) {
     const auto it = replay({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
     EXPECT_EQ(it.verdict, Verdict::unusable) << text;
     EXPECT_THAT(it.note, HasSubstr("no recording")) << text;
