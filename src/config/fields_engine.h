@@ -190,8 +190,9 @@ void visit(V& v, engine::HealthConfig& c) {
   v.number("line_stale_s", c.line_stale_s, Range{0.01, 1}, "longest silence of a digital input");
   v.number("joint_command_timeout_s", c.joint_command_timeout_s, Range{0.02, 1},
            "longest silence within a stream of joint commands");
-  v.number("follow_timeout_s", c.follow_timeout_s, Range{0.1, 10},
-           "a wheel that is commanded but does not follow for so long is a fault");
+  v.number(
+      "follow_timeout_s", c.follow_timeout_s, Range{0.1, 10},
+      "a wheel that is commanded but does not follow for so long, and 0.12 m of way, is a fault");
   v.number("tilt_limit_deg", c.tilt_limit_deg, Range{5, 60},
            "tilted farther for 0.3 s: the robot stops and holds");
   v.number("battery_stale_s", c.battery_stale_s, Range{2, 120}, "longest silence of the battery");

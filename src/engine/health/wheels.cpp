@@ -14,6 +14,9 @@ namespace {
 constexpr double kJudgedShare = 0.05;  // of the highest speed
 constexpr double kFollows = 0.2;       // of the commanded way
 constexpr double kWindow_s = 0.1;      // ways are compared over this long
+// At the rim. A base that turned on the spot has its tyres wound up against the ground: turned the
+// other way they unwind first, and a slow wheel stands or goes back meanwhile.
+constexpr double kUnwinds_m = 0.12;
 constexpr double kRunaway_s = 0.1;
 constexpr double kRunawayMargin_mps = 0.3;
 constexpr double kReachHeld_s = 0.5;  // drives lag, and a load overshoots
@@ -25,6 +28,7 @@ WheelMonitor::WheelMonitor(const EngineConfig& config)
     : config_(config),
       base_(kinematics_of(config.base)),
       judged_radps_(joint_radps(base_, kJudgedShare * config.limits.max_speed_mps)),
+      unwinds_rad_(joint_radps(base_, kUnwinds_m)),
       fastest_radps_(joint_radps(
           base_, max_rim_mps(base_, config.limits, {kHighestSlip}) + kRunawayMargin_mps)),
       margin_radps_(joint_radps(base_, kRunawayMargin_mps)),
@@ -56,14 +60,19 @@ void WheelMonitor::watch(Wheel& wheel, const AxisSnapshot& axis, Time now, Durat
     wheel.commanded_rad = 0;
     wheel.moved_rad = 0;
     wheel.mark = now;
+    wheel.owed_rad = 0;
     wheel.window = now;
     return;
   }
   wheel.commanded_rad += std::abs(command_radps) * to_s(dt);
+  wheel.owed_rad += std::abs(command_radps) * to_s(dt);
   wheel.moved_rad += forwards ? step_rad : -step_rad;
   if (now - wheel.window < from_s(kWindow_s)) return;
   // Each window for itself: a wheel that stood for a moment has nothing to make up for.
-  if (wheel.moved_rad >= kFollows * wheel.commanded_rad) wheel.mark = now;
+  if (wheel.moved_rad >= kFollows * wheel.commanded_rad) {
+    wheel.mark = now;
+    wheel.owed_rad = 0;
+  }
   wheel.commanded_rad = 0;
   wheel.moved_rad = 0;
   wheel.window = now;
@@ -143,7 +152,7 @@ WheelFault WheelMonitor::update(Time now, Duration dt, std::span<const AxisSnaps
     ++judged;
     const Duration age = now - wheel.mark;
     shortest = std::min(shortest, age);
-    if (age >= longest) {
+    if (age >= longest && wheel.owed_rad >= unwinds_rad_) {
       longest = age;
       behind = &axes[i];
     }
@@ -155,7 +164,7 @@ WheelFault WheelMonitor::update(Time now, Duration dt, std::span<const AxisSnaps
   }
   // Only beside one that does follow now; when all stand, the robot is about to be blocked.
   const bool others_follow = shortest <= from_s(1.5 * kWindow_s);
-  if (longest >= from_s(config_.health.follow_timeout_s) && others_follow) {
+  if (behind != nullptr && longest >= from_s(config_.health.follow_timeout_s) && others_follow) {
     const auto joint = joint_text(base_, behind->joint);
     reason_.format("%.*s does not follow its command", static_cast<int>(joint.view().size()),
                    joint.view().data());

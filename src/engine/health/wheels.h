@@ -20,7 +20,8 @@ enum class WheelFault : std::uint8_t {
 };
 
 /// Compares commands with feedback. It looks at travelled angle, so it needs no tuned lag: a wheel
-/// follows when it made a fifth of the commanded way, in the commanded direction. How fast a wheel
+/// follows when it made a fifth of the commanded way, in the commanded direction; one that does not
+/// is given the way, too, by which tyres that were wound up unwind. How fast a wheel
 /// may turn follows its command with the delay and the deceleration of a stop; a wheel that is seen
 /// for the first time, again after a silence, or newly in closed loop begins with the speed it has.
 /// No wheel is faster than the highest command, except one that is caught while it rolls: until it
@@ -43,6 +44,7 @@ class WheelMonitor final {
     double last_position_rad = kAbsent;
     Time window = kNever;    ///< when this window began
     Time mark = kNever;      ///< when it was last seen to follow
+    double owed_rad = 0;     ///< commanded since then
     bool judged = false;     ///< heard, and in closed loop, in the cycle before
     double reach_radps = 0;  ///< how fast the commands of late may have made it
     double began_radps = 0;  ///< its reach when it was first seen, or caught
@@ -59,6 +61,7 @@ class WheelMonitor final {
   EngineConfig config_;
   Kinematics base_;
   double judged_radps_;   ///< slower commands are not judged
+  double unwinds_rad_;    ///< less than this commanded way a wheel may stay behind
   double fastest_radps_;  ///< no command is faster
   double margin_radps_;   ///< faster than told by more than this: it runs away
   double falls_radps2_;   ///< of a wheel's reach, once nothing asks for it any more

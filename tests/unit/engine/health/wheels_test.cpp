@@ -104,6 +104,28 @@ TEST_F(AWheelMonitor, FindsAWheelThatTurnsTheWrongWay) {
   EXPECT_GT(run_s(1, {1, 1, 1, -1}), 0);
   EXPECT_THAT(reason(), HasSubstr("wheel d"));
 }
+TEST_F(AWheelMonitor, GivesTyresThatWereWoundUpTheWayToUnwind) {
+  command(0.05 / config.base.wheel_radius_m);
+  EXPECT_EQ(run_s(1.0, {1, 1, 0, 0}), 0);
+  EXPECT_EQ(run_s(0.9, {1, 1, -0.3, -0.3}), 0);
+  EXPECT_EQ(run_s(5, {1, 1, 1, 1}), 0);
+}
+TEST_F(AWheelMonitor, FindsASlowWheelThatDoesNotFollowBeforeTheRobotWentFifteenCentimetres) {
+  for (const double share : {0.0, -0.3, -1.0}) {
+    monitor.reset();
+    command(0.05 / config.base.wheel_radius_m);
+    run_s(1, {1, 1, 1, 1});
+    const double found_s = run_s(5, {1, 1, share, 1});
+    EXPECT_GT(found_s, 0) << share;
+    EXPECT_LE(found_s * 0.05, 0.15) << share;
+    EXPECT_EQ(fault, WheelFault::not_following) << share;
+  }
+}
+TEST_F(AWheelMonitor, GivesNoMoreTimeToAFastWheelThanToldInTheConfiguration) {
+  command(0.5 / config.base.wheel_radius_m);
+  run_s(1, {1, 1, 1, 1});
+  EXPECT_NEAR(run_s(5, {1, 1, 0, 1}), config.health.follow_timeout_s, 0.11);
+}
 TEST_F(AWheelMonitor, FindsThatAllWheelsAreBlockedAfterTheTimeOut) {
   command(3);
   run_s(1, {1, 1, 1, 1});
