@@ -72,6 +72,9 @@ struct EstimateConfig {
   double heading_baseline_offset_deg = 0.0;         ///< of the antenna line from ahead, clockwise
   FixedVector<AntennaConfig, kMaxOfKind> antennas;  ///< of each receiver; empty: all have that
   double heading_sigma_deg = 0.5;
+  /// Of how the antenna line is mounted, until it was learned: 2 cm in a metre. The bound for
+  /// people, four sigma, then just has room for all that can be learned. 0: it was calibrated.
+  double heading_mount_sigma_deg = 1.2;
   double max_correction_age_s = 30.0;  ///< an older RTK fix counts as float
   // The predicted error (two sigma, larger axis) inside which the position counts as good.
   double bound_start_m = 0.10;

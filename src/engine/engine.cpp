@@ -13,6 +13,9 @@ namespace drover::engine {
 namespace {
 
 constexpr Duration kLongestCycle = std::chrono::milliseconds(50);
+constexpr const char* kMountingUnknown =
+    "how the antenna line is mounted is not known before it was driven there and back: until then "
+    "a slow drift of the position is noticed after 0.2 m or not at all";
 
 }  // namespace
 
@@ -174,7 +177,10 @@ void Engine::Impl::start_task(const Command& command, const StartTask& task, Tim
     return;
   }
   navigator.start(id, task, now, estimate, estimator.has_origin(), health.report(), events);
-  if (navigator.starting()) owners.on_task_started();
+  if (!navigator.starting()) return;
+  owners.on_task_started();
+  const bool learns = std::isfinite(estimate.mounting_sigma_rad) && !estimate.mounting_known;
+  if (learns) events.notice(now, Notice::Level::info, kMountingUnknown);
 }
 
 void Engine::Impl::engage_stop(const RequestId& id, Time now) {
@@ -325,6 +331,7 @@ void Engine::step(Time now, const Environment& environment, EngineOutput& out) {
   e.motion_asked = out.motion_permitted;
   out.unsettled = (e.rest.drives_on() || e.latch.power_cut()) && !e.power.opened();
   e.navigator.on_commanded(now, out.motion_permitted, e.events);
+  e.tell_mounting(now);
   e.announcer.update(now, e.health.report(), e.events);
   e.fill_snapshot(now, environment, lines, e.estimate, motion.owner);
   if (takes_twist(e.base)) e.fill_base(environment, out.base);

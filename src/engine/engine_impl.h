@@ -60,6 +60,7 @@ struct Engine::Impl {
   void fill_clearance();
   void fill_speed(Time now);
   void fill_viewpoint();
+  void tell_mounting(Time now);
   void tell_sender(Time now, Owner owner);
   void fill_imu(const Estimate& located);
   void fill_lines(const LineTable& lines);
@@ -100,8 +101,9 @@ struct Engine::Impl {
   Reason steep;                          ///< why this ground is too steep to stop on
   Time steep_since = kNever;
   Time tilt_known_at = kNever;
-  bool slopes = false;       ///< the ground fell when that was known last
-  Time stopped_at = kNever;  ///< last: nothing could move then
+  bool mounting_told = false;  ///< how the antenna line is mounted: learned, and said
+  bool slopes = false;         ///< the ground fell when that was known last
+  Time stopped_at = kNever;    ///< last: nothing could move then
   Time last_step = kNever;
   Snapshot snapshot;
   Viewpoint view;

@@ -1,10 +1,13 @@
 // The engine's part of knowing the place: from where it counts, and a person's word for it.
 #include <cmath>
 
+#include "drover/angle.h"
 #include "engine/engine_impl.h"
 
 namespace drover::engine {
 namespace {
+
+constexpr double kLargeMounting_deg = 1.0;
 
 bool valid(const GeodeticPoint& point) {
   return std::abs(point.latitude_deg) <= 90 && std::abs(point.longitude_deg) <= 180 &&
@@ -49,6 +52,23 @@ void Engine::Impl::set_origin(const RequestId& id, const GeodeticPoint& origin, 
     snapshot.origin = origin;
     events.push(now, CommandAccepted{id, {}});
   }
+}
+
+/// Once for each line of antennas; what is little is nobody's business.
+void Engine::Impl::tell_mounting(Time now) {
+  const bool large = std::abs(estimate.mounting_rad) >= to_rad(kLargeMounting_deg);
+  if (!estimate.mounting_known) mounting_told = false;
+  if (!estimate.mounting_known || mounting_told || !large) return;
+  mounting_told = true;
+  const double left_deg = to_deg(estimate.mounting_rad);
+  const double offset_deg =
+      antenna_of(config.estimate, sensors.receiver()).heading_baseline_offset_deg;
+  Reason text;
+  text.format(
+      "the antenna line is mounted %.1f degrees to the %s of what heading_baseline_offset_deg "
+      "says: %.1f would be right; it is made up for",
+      std::abs(left_deg), left_deg > 0 ? "left" : "right", offset_deg - left_deg);
+  events.notice(now, Notice::Level::warning, text);
 }
 
 void Engine::Impl::accept_position(const RequestId& id, Time now) {

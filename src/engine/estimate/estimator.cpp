@@ -102,6 +102,8 @@ void Estimator::set_origin(const GeodeticPoint& origin) {
   state.refused = old.refused;
   state.broken = old.broken;
   state.gyro = old.gyro;
+  state.heading.receiver = old.heading.receiver;
+  state.mounting = old.mounting;
   for (const std::size_t i : kCarried) {
     state.belief.reset(i, old.belief.mean[i], std::sqrt(old.belief.covariance[i][i]));
   }
@@ -243,18 +245,32 @@ void Estimator::reckon(State& state, const BodyMotion& body, const GyroMotion& g
   const double y_m = belief.mean[kY];
   predict(belief, body, dt_s, state.has_heading, state.gnss.sigma_x_m, state.gnss.sigma_y_m,
           config_, gyro);
+  const double east_m = belief.mean[kX] - x_m;
+  const double north_m = belief.mean[kY] - y_m;
+  state.reckoned.east_m += east_m;
+  state.reckoned.north_m += north_m;
   if (!body.known || gyro.pushed) {
     state.watch.lose();
     state.course = {};
     return;
   }
+  // Roll is positive with the left side up.
+  const double slope_rad = state.gyro.fresh(state.time, imu_stale_) ? state.gyro.roll_rad : kAbsent;
+  const double crab_rad =
+      state.has_heading ? state.watch.crab_rad(belief.mean[kYaw], slope_rad) : 0;
+  belief.mean[kX] -= crab_rad * north_m;
+  belief.mean[kY] += crab_rad * east_m;
   const double way_m = belief.mean[kScale] * body.twist.vx_mps * dt_s;
   const double turn_rad =
       gyro.known ? belief.mean[kGyroScale] * (gyro.rate_radps - belief.mean[kGyroBias]) * dt_s
                  : belief.mean[kGain] * body.twist.wz_radps * dt_s;
   if (state.has_heading) {
-    state.watch.advance(belief.mean[kX] - x_m, belief.mean[kY] - y_m, std::abs(way_m),
-                        std::abs(turn_rad));
+    state.watch.advance({.east_m = east_m,
+                         .north_m = north_m,
+                         .way_m = std::abs(way_m),
+                         .turn_rad = std::abs(turn_rad),
+                         .slope_rad = slope_rad},
+                        crab_rad);
   } else {
     state.course.advance(way_m, turn_rad);
   }
@@ -302,6 +318,7 @@ void Estimator::take(State& state, const Input& input) const {
     if (yaw->receiver != state.heading.receiver) {  // its line is mounted with an error of its own
       state.heading = {};
       state.heading.receiver = yaw->receiver;
+      state.mounting = {};
       state.gyro.heard = kNever;
     }
     hear_heading(state.gyro, yaw->yaw_rad, state.time);

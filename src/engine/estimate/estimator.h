@@ -36,6 +36,14 @@ struct Estimate {
   bool slipping = false;           ///< the wheels roll another way than the base moves
   /// How much the ways of wheels and receiver differ since they slip: one of both is wrong by it.
   double slipped_m = 0;
+  /// Why the base has to stand until it is seen whether the position drifts; empty: it may drive.
+  Reason looks;
+  /// The antenna line is mounted so much beside what is configured, counterclockwise, as learned
+  /// and corrected; its sigma, until then that of the configuration. Absent: no receiver tells
+  /// headings.
+  double mounting_rad = kAbsent;
+  double mounting_sigma_rad = kAbsent;
+  bool mounting_known = false;
   /// What was noticed and is made up for, so far: slipping wheels, a gyro that is not believed.
   Reason notice;
   /// How far it could still drive by dead reckoning; absent with an RTK fix, or without a place.
@@ -60,10 +68,12 @@ class Estimator final {
 
   /// Takes an origin. A known pose is told in its frame at once. One that was not known, or that
   /// the receiver contradicts, is forgotten and found again from the next measurements; then only
-  /// the yaw gain, the wheel scale and the gyro's errors, which no origin changes, are kept.
+  /// the yaw gain, the wheel scale, the gyro's errors and the mounting of the antenna line, which
+  /// no origin changes, are kept.
   void set_origin(const GeodeticPoint& origin);
   /// The place is that of the next position, and the heading, where a receiver tells one, of the
-  /// next heading. What was found by comparing positions with wheels and gyro is forgotten.
+  /// next heading. What was found by comparing positions with wheels and gyro is forgotten, but not
+  /// the mounting of the antenna line: that is of the robot, not of the place.
   void accept_position();
   bool has_origin() const;
   const GeodeticPoint& origin() const;

@@ -88,6 +88,7 @@ void place(State& state, const AntennaPosition& position, double arm_x_m, double
   p[kX][kBiasX] = p[kBiasX][kX] = -square(position.sigma_x_m);
   p[kY][kBiasY] = p[kBiasY][kY] = -square(position.sigma_y_m);
   state.has_position = true;
+  state.reckoned = {};
   if (position.quality == GnssClass::fixed) state.gnss.fixed = state.time;
 }
 
@@ -142,6 +143,48 @@ bool refuse(State& state, const AntennaPosition& position, double distance_m, do
     gnss.place_y_m = position.y_m;
   }
   return standing && gnss.jumps.settled(from_s(config.jump_time_s));
+}
+
+Ground ground_of(const State& state, const EstimateConfig& config) {
+  Ground ground;
+  ground.stands = state.standing_since != kNever;
+  // Roll is positive with the left side up.
+  if (state.gyro.fresh(state.time, from_s(config.imu_stale_s)))
+    ground.slope_rad = state.gyro.roll_rad;
+  return ground;
+}
+
+/// Dead reckoning that is off by more than a poor position itself is seen by it.
+void rest_on(State& state, const AntennaPosition& position, const EstimateConfig& config) {
+  Reckoned& way = state.reckoned;
+  if (position.quality == GnssClass::fixed) {
+    way = {};
+    return;
+  }
+  const double off_m = state.mount_sigma_rad(config) * std::hypot(way.east_m, way.north_m);
+  const double seen_m = larger_sigma_m(position);
+  if (off_m <= seen_m) return;
+  way.east_m *= seen_m / off_m;
+  way.north_m *= seen_m / off_m;
+}
+
+/// The heading turns, the antenna stays where it is.
+void correct_mounting(State& state, const LeverArm& arm, const EstimateConfig& config) {
+  const double turn_rad = state.has_heading ? state.mounting.catch_up(config) : 0;
+  if (turn_rad == 0) return;
+  Vector& mean = state.belief.mean;
+  const auto arm_x_m = [&] {
+    return arm.ahead_m * std::cos(mean[kYaw]) - arm.left_m * std::sin(mean[kYaw]);
+  };
+  const auto arm_y_m = [&] {
+    return arm.ahead_m * std::sin(mean[kYaw]) + arm.left_m * std::cos(mean[kYaw]);
+  };
+  mean[kX] += arm_x_m();
+  mean[kY] += arm_y_m();
+  mean[kYaw] = wrap_rad(mean[kYaw] + turn_rad);
+  mean[kX] -= arm_x_m();
+  mean[kY] -= arm_y_m();
+  state.watch.turn_heading(mean[kYaw], turn_rad);
 }
 
 }  // namespace
@@ -215,7 +258,7 @@ void apply(State& state, const AntennaPosition& measured, double speed_mps,
                     .y_m = position.y_m - arm_y,
                     .sigma_m = larger_sigma_m(position)};
   if (!fixed) {
-    state.watch.pause();
+    state.watch.lose_fix();
   } else {
     watch_slip(state.watch, belief, fix, state.time);
   }
@@ -244,8 +287,10 @@ void apply(State& state, const AntennaPosition& measured, double speed_mps,
   state.gnss.jumps.accepted();
   if (fixed) {
     state.gnss.fixed = state.time;
-    watch_drift(state.watch, belief, fix, state.time, state.standing_since != kNever, config);
+    watch_drift(state.watch, state.mounting, belief, fix, state.time, ground_of(state, config),
+                config);
   }
+  rest_on(state, position, config);
   const Vector before = belief.mean;
   belief.correct(row_x, dx, variance_x);
   // The first correction has moved the state; the second one starts from there.
@@ -255,6 +300,7 @@ void apply(State& state, const AntennaPosition& measured, double speed_mps,
   const double floor = square(kFloorShare * config.sigma_fixed_m);
   belief.floor_variance(kX, floor);
   belief.floor_variance(kY, floor);
+  correct_mounting(state, tilted.arm, config);
 }
 
 }  // namespace drover::engine::estimate

@@ -25,8 +25,9 @@ double yaw_of_baseline_rad(double heading_deg, const AntennaConfig& antenna) {
   return yaw_rad_from_compass_deg(heading_deg - antenna.heading_baseline_offset_deg);
 }
 
-void apply_heading(State& state, double yaw_rad, const EstimateConfig& config) {
+void apply_heading(State& state, double told_rad, const EstimateConfig& config) {
   HeadingTrack& track = state.heading;
+  const double yaw_rad = wrap_rad(told_rad + state.mounting.applied_rad);
   const double sigma = to_rad(config.heading_sigma_deg);
   const double since_s =
       track.last == kNever ? kShortest_s : std::max(to_s(state.time - track.last), kShortest_s);

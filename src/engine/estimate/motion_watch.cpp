@@ -19,19 +19,35 @@ constexpr double kJumpShare = 0.6;  // of the gap between two positions: not the
 
 constexpr Duration kLasting = std::chrono::seconds(24);
 constexpr Duration kShortestDrift = std::chrono::seconds(3);
-constexpr double kDriftGate = 4.0;  // sigmas
-constexpr double kDrift_m = 0.10;   // less is no drift
+constexpr double kDriftGate = 3.0;  // sigmas: to look costs a few seconds
+constexpr double kDrift_m = 0.10;   // so near it is back
 constexpr double kBackGate = 2.0;   // sigmas within which it is back
 constexpr Duration kBackFor = std::chrono::seconds(10);
 constexpr double kStraight = 0.8;  // chord over way
 // Soil takes its share of the way, and another one a few metres on: along the way a slow drift
 // cannot be told from it.
 constexpr double kScaleShare = 0.02;
-// The antenna line is mounted with an error, which shows as a course beside the heading; it is
-// learned over so many metres, and stays the same to this.
-constexpr double kCrabWay_m = 3.0;
-constexpr double kMostCrabWay_m = 60.0;
-constexpr double kCrab_rad = 0.0025;
+constexpr double kCrab_rad = 0.0025;  // course beside the heading, whatever it comes from
+
+constexpr double kSuspected_m = 0.20;
+constexpr Duration kStopWithin = std::chrono::seconds(4);  // otherwise nobody looks
+// A drift as fast as the suspected one goes twice as far in a look as fixes wander meanwhile.
+constexpr double kWandered = 3.0;  // sigmas of a fix
+constexpr Duration kShortestLook = std::chrono::seconds(3);
+constexpr Duration kLongestLook = std::chrono::seconds(20);
+constexpr int kFirstFixes = 5;
+constexpr double kBlend = 0.2;                  // of the newest fix into where it stands by now
+constexpr double kSameDirection_rad = kPi / 4;  // what a look found holds so far
+constexpr double kSidewaysWay_m = 4.0;          // shorter ones show little but noise
+constexpr double kSlope_rad = 0.025;            // to a side: the likeliest cause, from here on
+constexpr double kMostSlideShare = 1.2;
+constexpr double kUnknownSlope_rad = 0.03;  // under a field robot
+
+constexpr double kStudyWay_m = 5.0;
+constexpr double kDoubtful_m = 0.12;
+constexpr double kShortLesson_m = 1.5;
+constexpr double kStudyStraight = 0.98;  // chord over way
+constexpr double kSlideShare = 0.5;      // wheels slide down a slope by so much of it
 
 Leg begin(const BaseFix& fix, Time now) {
   Leg leg;
@@ -49,49 +65,172 @@ void begin_brief(MotionWatch& watch, const BaseFix& fix, Time now) {
 
 /// How far the fix is away from dead reckoning.
 struct Apart {
-  double along_m = 0;
-  double across_m = 0;  ///< left of the way
-  bool straight = false;
+  double east_m = 0;
+  double north_m = 0;
+
+  double m() const { return std::hypot(east_m, north_m); }
 };
 
 Apart apart(const Leg& leg, const BaseFix& fix) {
-  const double east_m = fix.x_m - leg.x_m - leg.east_m;
-  const double north_m = fix.y_m - leg.y_m - leg.north_m;
+  return {.east_m = fix.x_m - leg.x_m - leg.east_m, .north_m = fix.y_m - leg.y_m - leg.north_m};
+}
+
+/// A leg that hardly bends.
+struct Straight {
+  double chord_m = 0;  ///< 0: it bends
+  double course_rad = 0;
+  double across_m = 0;  ///< the fix, left of it
+};
+
+Straight straight(const Leg& leg, const BaseFix& fix, double least_share) {
   const double chord_m = std::hypot(leg.east_m, leg.north_m);
-  if (!(chord_m > kStraight * leg.way_m) || !(chord_m > 0)) {
-    return {.along_m = east_m, .across_m = north_m};
-  }
-  const double c = leg.east_m / chord_m;
-  const double s = leg.north_m / chord_m;
-  return {
-      .along_m = east_m * c + north_m * s, .across_m = north_m * c - east_m * s, .straight = true};
+  if (!(chord_m > least_share * leg.way_m) || !(chord_m > 0)) return {};
+  const Apart gap = apart(leg, fix);
+  return {.chord_m = chord_m,
+          .course_rad = std::atan2(leg.north_m, leg.east_m),
+          .across_m = (gap.north_m * leg.east_m - gap.east_m * leg.north_m) / chord_m};
+}
+
+/// Of a gap between fixes and dead reckoning that nothing is wrong with, m2.
+struct Spread {
+  double ee = 0;
+  double en = 0;
+  double nn = 0;
+};
+
+Spread expected(const Leg& leg, const Belief& belief, double sigma_m,
+                const EstimateConfig& config) {
+  const double yaw = belief.covariance[kYaw][kYaw] + square(kCrab_rad);
+  const double scale = belief.covariance[kScale][kScale] + square(kScaleShare);
+  const double ee = leg.spread_ee_m;
+  const double en = leg.spread_en_m;
+  const double nn = leg.spread_nn_m;
+  const double rest =
+      square(leg.sigma_m) + square(sigma_m) + square(config.turning_shift_m) * leg.turn_rad;
+  const double along = square(config.odometry_along_m);
+  const double across = square(config.odometry_across_m);
+  // The scale acts along the way, the heading across it.
+  return {.ee = rest + along * ee + across * nn + scale * (ee * ee + en * en) +
+                yaw * (nn * nn + en * en),
+          .en = (along - across) * en + (scale - yaw) * en * (ee + nn),
+          .nn = rest + along * nn + across * ee + scale * (nn * nn + en * en) +
+                yaw * (ee * ee + en * en)};
 }
 
 /// In sigmas, squared.
-double drift_in_sigmas2(const MotionWatch& watch, const Leg& leg, const Belief& belief,
-                        const Apart& apart, double sigma_m, const EstimateConfig& config) {
-  const double unlearned = kCrabWay_m / (kCrabWay_m + watch.crab_way_m);
-  const double yaw_variance = belief.covariance[kYaw][kYaw] + square(kCrab_rad) +
-                              square(to_rad(config.heading_sigma_deg)) * unlearned;
-  const double scale_variance = belief.covariance[kScale][kScale] + square(kScaleShare);
-  const double rest =
-      square(leg.sigma_m) + square(sigma_m) + square(config.turning_shift_m) * leg.turn_rad;
-  const double along =
-      rest + square(config.odometry_along_m) * leg.way_m + scale_variance * square(leg.way_m);
-  const double across =
-      rest + square(config.odometry_across_m) * leg.way_m + yaw_variance * square(leg.way_m);
-  if (!apart.straight) {  // no direction is along
-    return (square(apart.along_m) + square(apart.across_m)) / std::max(along, across);
-  }
-  const double crab_m = watch.crab_rad * leg.way_m;
-  return square(apart.along_m) / along + square(apart.across_m - crab_m) / across;
+double in_sigmas2(const Apart& apart, const Spread& spread) {
+  const double determinant = spread.ee * spread.nn - square(spread.en);
+  return (spread.nn * square(apart.east_m) - 2 * spread.en * apart.east_m * apart.north_m +
+          spread.ee * square(apart.north_m)) /
+         determinant;
 }
 
-void learn_crab(MotionWatch& watch, const Leg& leg, const Apart& apart) {
-  if (!apart.straight || leg.way_m < kCrabWay_m) return;
-  watch.crab_rad +=
-      leg.way_m / (watch.crab_way_m + leg.way_m) * (apart.across_m / leg.way_m - watch.crab_rad);
-  watch.crab_way_m = std::min(watch.crab_way_m + leg.way_m, kMostCrabWay_m);
+/// It was no drift, so it was the ground or the mounting: by the youngest leg that shows it. Where
+/// it stands on a slope it was that one; `slope_rad` is NaN when nobody knows.
+Sideways sideways_of(const MotionWatch& watch, double slope_rad) {
+  Sideways sideways = watch.sideways;
+  const Look& look = watch.look;
+  if (!(look.chord_m > 0)) return sideways;
+  const double more_rad = look.across_m / look.chord_m;
+  if (std::abs(slope_rad) > kSlope_rad) {
+    if (look.fall_m * slope_rad > 0)
+      sideways.slide_share =
+          std::clamp(sideways.slide_share - look.across_m / look.fall_m, 0.0, kMostSlideShare);
+    return sideways;
+  }
+  sideways.crab_rad = watch.crab_rad(look.course_rad, kAbsent) + more_rad;
+  sideways.course_rad = look.course_rad;
+  sideways.any_direction = std::abs(slope_rad) <= kSlope_rad;
+  return sideways;
+}
+
+/// Without way when it was too short or no straight one.
+StraightLeg lesson_of(const Leg& leg, const Belief& belief, const BaseFix& fix,
+                      const EstimateConfig& config) {
+  const Straight gap = straight(leg, fix, kStudyStraight);
+  if (leg.way_m < kShortLesson_m || gap.chord_m == 0) return {};
+  const double slid_m =
+      kSlideShare * (std::isfinite(leg.fall_m) ? leg.fall_m : kUnknownSlope_rad * leg.way_m);
+  const Spread spread = expected(leg, belief, fix.sigma_m, config);
+  const double c = leg.east_m / gap.chord_m;
+  const double s = leg.north_m / gap.chord_m;
+  const double across_m2 = spread.ee * s * s - 2 * spread.en * s * c + spread.nn * c * c;
+  return {.way_m = leg.way_m,
+          .course_rad = gap.course_rad,
+          .across_m = gap.across_m,
+          .variance_m2 = across_m2 + square(slid_m)};
+}
+
+void suspect(MotionWatch& watch, const StraightLeg& lesson, const BaseFix& fix, Time now) {
+  const Leg& older = watch.lasting[0];
+  const Apart gap = apart(older, fix);
+  const double rate_mps = gap.m() / to_s(now - older.since);
+  watch.look = {.since = now,
+                .east = gap.east_m / gap.m(),
+                .north = gap.north_m / gap.m(),
+                .takes = std::clamp(from_s(2 * kWandered * fix.sigma_m / rate_mps), kShortestLook,
+                                    kLongestLook),
+                .lesson = lesson,
+                .moving = now};
+  watch.study = {};
+  const Leg& younger = watch.lasting[1];
+  const bool shows = younger.since != kNever && younger.way_m >= kSidewaysWay_m;
+  const Leg& leg = shows ? younger : older;
+  const Straight found = straight(leg, fix, kStraight);
+  watch.look.across_m = found.across_m;
+  watch.look.chord_m = found.chord_m;
+  watch.look.course_rad = found.course_rad;
+  watch.look.fall_m = leg.fall_m;
+}
+
+/// Nothing that stands is taken aside by its mounting, by the ground or by its wheels.
+void look_on(MotionWatch& watch, Mounting& mounting, const BaseFix& fix, Time now,
+             const Ground& ground, const EstimateConfig& config) {
+  Look& look = watch.look;
+  if (!ground.stands) {
+    if (look.moving == kNever) look.moving = now;
+    look.resting = kNever;
+    watch.drifted = now - look.moving > kStopWithin;
+    if (watch.drifted) look = {};
+    return;
+  }
+  look.moving = kNever;
+  const double at_m = fix.x_m * look.east + fix.y_m * look.north;
+  if (look.resting == kNever) {
+    look.resting = now;
+    look.fixes = 0;
+    look.first_m = 0;
+  }
+  if (++look.fixes <= kFirstFixes) {
+    look.first_m += (at_m - look.first_m) / look.fixes;
+    look.by_now_m = look.first_m;
+    return;
+  }
+  look.by_now_m += kBlend * (at_m - look.by_now_m);
+  const Duration looked = now - look.resting;
+  if (looked < kShortestLook) return;
+  if (look.by_now_m - look.first_m > kWandered * fix.sigma_m) {
+    watch.drifted = true;
+    look = {};
+  } else if (looked >= look.takes) {
+    watch.sideways = sideways_of(watch, ground.slope_rad);
+    if (look.lesson.way_m > 0) learn(mounting, look.lesson, config);
+    watch.lasting = {};
+    watch.gap_m = 0;
+    look = {};
+  }
+}
+
+void study(MotionWatch& watch, Mounting& mounting, const Belief& belief, const BaseFix& fix,
+           Time now, const EstimateConfig& config) {
+  Leg& leg = watch.study;
+  if (watch.slipping()) leg = {};
+  if (leg.since == kNever) leg = begin(fix, now);
+  // What may turn out to be a drift teaches nothing before it was looked at.
+  if (leg.way_m < kStudyWay_m || watch.gap_m > kDoubtful_m) return;
+  const StraightLeg lesson = lesson_of(leg, belief, fix, config);
+  if (lesson.way_m > 0) learn(mounting, lesson, config);
+  leg = begin(fix, now);
 }
 
 }  // namespace
@@ -100,30 +239,72 @@ double MotionWatch::slip_mps() const {
   return slipping() ? std::abs(wheel_mps - receiver_mps) : 0.0;
 }
 
-void MotionWatch::advance(double east, double north, double way, double turn) {
-  brief.advance(east, north, way, turn);
-  for (Leg& leg : lasting) leg.advance(east, north, way, turn);
+double MotionWatch::crab_rad(double yaw_rad, double slope_rad) const {
+  const bool holds = sideways.any_direction ||
+                     std::abs(wrap_rad(yaw_rad - sideways.course_rad)) < kSameDirection_rad;
+  const double slid_rad = std::isfinite(slope_rad) ? sideways.slide_share * slope_rad : 0.0;
+  return (holds ? sideways.crab_rad : 0.0) - slid_rad;
 }
 
-void MotionWatch::forget() {
-  const MotionWatch old = *this;
-  *this = MotionWatch{};
-  crab_rad = old.crab_rad;
-  crab_way_m = old.crab_way_m;
+void Leg::advance(const Step& step) {
+  east_m += step.east_m;
+  north_m += step.north_m;
+  way_m += step.way_m;
+  turn_rad += step.turn_rad;
+  fall_m += step.slope_rad * step.way_m;
+  const double long_m = std::hypot(step.east_m, step.north_m);
+  if (!(long_m > 0)) return;
+  spread_ee_m += square(step.east_m) / long_m;
+  spread_en_m += step.east_m * step.north_m / long_m;
+  spread_nn_m += square(step.north_m) / long_m;
+}
+
+void MotionWatch::advance(Step step, double crab_rad) {
+  study.advance(step);
+  const double east_m = step.east_m;
+  step.east_m -= crab_rad * step.north_m;
+  step.north_m += crab_rad * east_m;
+  brief.advance(step);
+  for (Leg& leg : lasting) leg.advance(step);
+}
+
+void Leg::turn(double rad) {
+  const double east = east_m;
+  east_m -= rad * north_m;
+  north_m += rad * east;
+}
+
+/// What a look found beside the heading was this, as far as it goes.
+void MotionWatch::turn_heading(double yaw_rad, double by_rad) {
+  study.turn(by_rad);
+  const bool found = crab_rad(yaw_rad, kAbsent) != 0;
+  if (sideways.crab_rad != 0) sideways.crab_rad -= by_rad;
+  if (found) return;
+  brief.turn(by_rad);
+  for (Leg& leg : lasting) leg.turn(by_rad);
 }
 
 void MotionWatch::pause() {
   const MotionWatch old = *this;
   forget();
-  if (!old.drifted) return;
-  drifted = true;
+  sideways = old.sideways;
+  gap_m = old.gap_m;
+  if (!old.drifted && !old.looks()) return;
+  drifted = old.drifted;
   drift_m = old.drift_m;
   lasting[0] = old.lasting[0];
+  look = old.look;
+}
+
+void MotionWatch::lose_fix() {
+  pause();
+  look.resting = kNever;
 }
 
 void MotionWatch::lose() {
   pause();
   lasting = {};
+  look = {};
 }
 
 void watch_slip(MotionWatch& watch, Belief& belief, const BaseFix& fix, Time now) {
@@ -165,14 +346,14 @@ void watch_slip(MotionWatch& watch, Belief& belief, const BaseFix& fix, Time now
     watch.slip_since = kNever;
   }
   // What the wheels spun away is no drift.
-  if (watch.slipping() && !watch.drifted) watch.lasting = {};
+  if (watch.slipping() && !watch.drifted && !watch.looks()) watch.lasting = {};
   if (age < kBrief) return;
   watch.slipped_m = watch.slipping() ? watch.slipped_m + std::abs(gap_m) : 0;
   begin_brief(watch, fix, now);
 }
 
-void watch_drift(MotionWatch& watch, const Belief& belief, const BaseFix& fix, Time now,
-                 bool stands, const EstimateConfig& config) {
+void watch_drift(MotionWatch& watch, Mounting& mounting, const Belief& belief, const BaseFix& fix,
+                 Time now, const Ground& ground, const EstimateConfig& config) {
   Leg& older = watch.lasting[0];
   Leg& younger = watch.lasting[1];
   if (watch.lost_track()) return;
@@ -180,28 +361,34 @@ void watch_drift(MotionWatch& watch, const Belief& belief, const BaseFix& fix, T
     older = begin(fix, now);
     return;
   }
-  const Apart drift = apart(older, fix);
-  const double drift_m = std::hypot(drift.along_m, drift.across_m);
-  const double sigmas2 = drift_in_sigmas2(watch, older, belief, drift, fix.sigma_m, config);
+  const Apart gap = apart(older, fix);
+  const double sigmas2 = in_sigmas2(gap, expected(older, belief, fix.sigma_m, config));
+  watch.gap_m = gap.m();
   if (watch.drifted) {
-    watch.drift_m = drift_m;
-    const bool back = stands && (drift_m <= kDrift_m || sigmas2 <= square(kBackGate));
+    watch.drift_m = watch.gap_m;
+    const bool back = ground.stands && (watch.drift_m <= kDrift_m || sigmas2 <= square(kBackGate));
     if (!back) watch.back_since = kNever;
     if (back && watch.back_since == kNever) watch.back_since = now;
     if (back && now - watch.back_since >= kBackFor) watch.forget();
     return;
   }
-  const bool drifts = now - older.since >= kShortestDrift && drift_m > kDrift_m &&
-                      !watch.slipping() && sigmas2 > square(kDriftGate);
-  if (drifts) {
-    if (watch.drift_since == kNever) watch.drift_since = now;
-    watch.drift_m = drift_m;
-    watch.drifted = now - watch.drift_since >= from_s(config.jump_time_s);
+  if (watch.looks()) {
+    look_on(watch, mounting, fix, now, ground, config);
+    if (watch.drifted) watch.drift_m = gap.m();
     return;
   }
-  watch.drift_since = kNever;
+  const bool drifts = now - older.since >= kShortestDrift && watch.gap_m >= kSuspected_m &&
+                      !watch.slipping() && sigmas2 > square(kDriftGate);
+  if (!drifts) watch.drift_since = kNever;
+  if (drifts && watch.drift_since == kNever) watch.drift_since = now;
+  study(watch, mounting, belief, fix, now, config);
+  if (drifts) {
+    if (now - watch.drift_since < from_s(config.jump_time_s)) return;
+    watch.drift_since = kNever;
+    suspect(watch, lesson_of(watch.study, belief, fix, config), fix, now);
+    return;
+  }
   if (now - older.since > kLasting && younger.since != kNever) {
-    learn_crab(watch, older, drift);
     older = younger;
     younger = begin(fix, now);
   } else if (younger.since == kNever && now - older.since > kLasting / 2) {

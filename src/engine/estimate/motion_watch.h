@@ -1,5 +1,9 @@
 // Compares the way by wheels and gyro with the way by RTK positions, over a second for slipping
 // wheels and over many seconds for positions that drift away (a wrong base, a spoofer).
+//
+// Driving, a place that drifts aside cannot be told from an antenna line that is mounted askew, nor
+// from ground that falls to one side; standing, it can: only the drift goes on. So a suspicion asks
+// for rest.
 #pragma once
 
 #include <array>
@@ -7,8 +11,18 @@
 #include "drover/time.h"
 #include "engine/config.h"
 #include "engine/estimate/filter.h"
+#include "engine/estimate/mounting.h"
 
 namespace drover::engine::estimate {
+
+/// A step of dead reckoning.
+struct Step {
+  double east_m = 0;
+  double north_m = 0;
+  double way_m = 0;  ///< rolled, either direction
+  double turn_rad = 0;
+  double slope_rad = 0;  ///< the ground falls so much to the right; NaN: not known
+};
 
 /// Both ways since one RTK position.
 struct Leg {
@@ -18,15 +32,18 @@ struct Leg {
   double sigma_m = 0;  ///< of that position
   double east_m = 0;   ///< dead reckoned from there
   double north_m = 0;
-  double way_m = 0;  ///< rolled, either direction
+  double way_m = 0;
   double turn_rad = 0;
+  double fall_m = 0;  ///< of the ground to the right, over that way; NaN: not known
+  // Of the way what led east, north and both at once, there or back: a share of the way that is
+  // lost, and not the same one everywhere, moves the end by so much.
+  double spread_ee_m = 0;
+  double spread_en_m = 0;
+  double spread_nn_m = 0;
 
-  void advance(double east, double north, double way, double turn) {
-    east_m += east;
-    north_m += north;
-    way_m += way;
-    turn_rad += turn;
-  }
+  void advance(const Step& step);
+  /// As if the heading had been another all the way.
+  void turn(double rad);
 };
 
 /// An RTK fix, turned into the place of base_link.
@@ -36,9 +53,40 @@ struct BaseFix {
   double sigma_m = 0;
 };
 
+/// What looks found: so much the base goes aside of its heading.
+struct Sideways {
+  double slide_share = 0;  ///< of the slope to the side, wherever that is known
+  double crab_rad = 0;     ///< and what else there is, while it drives on in that direction
+  double course_rad = 0;
+  bool any_direction = false;  ///< the ground was level, so it is of the base
+};
+
+/// A suspicion that the position drifts, from its beginning until standing has decided it.
+struct Look {
+  Time since = kNever;  ///< kNever: nothing is suspected
+  double east = 0;      ///< direction of the gap between the fixes and dead reckoning
+  double north = 0;
+  Duration takes{};  ///< so long a drift needs to show itself
+  // What it was if it was none, by the youngest leg that shows it; without a chord: none does.
+  double across_m = 0;
+  double chord_m = 0;
+  double course_rad = 0;
+  double fall_m = 0;
+  StraightLeg lesson;  ///< likewise, of the mounting
+  Time moving = kNever;
+  Time resting = kNever;
+  int fixes = 0;       ///< since it rests
+  double first_m = 0;  ///< along that direction: where it stood first, and stands by now
+  double by_now_m = 0;
+};
+
 struct MotionWatch {
   Leg brief;
   std::array<Leg, 2> lasting;  ///< the younger begins when the older is half as old as it may be
+  Leg study;                   ///< for the mounting of the antenna line
+  Look look;
+  Sideways sideways;
+  double gap_m = 0;  ///< how far the last fix is beside the older of the lasting legs
   double last_gap_m = 0;
   double last_east_m = 0;  ///< how far the last position was from dead reckoning
   double last_north_m = 0;
@@ -54,9 +102,11 @@ struct MotionWatch {
   /// the receiver says comes back to where dead reckoning is; or a person accepts it.
   bool drifted = false;
   Time back_since = kNever;  ///< it is back, and the base stands
-  double crab_rad = 0;       ///< course less heading on straights, as learned
-  double crab_way_m = 0;     ///< over this way
 
+  /// Course beside the heading by what looks found, on ground that falls so much to the right (NaN:
+  /// nobody knows).
+  double crab_rad(double yaw_rad, double slope_rad) const;
+  bool looks() const { return look.since != kNever; }
   bool slipping() const { return slip_since != kNever; }
   /// The base hardly follows its wheels, or the receiver is stuck: nobody can tell which.
   bool stuck(Time now, Duration patience) const {
@@ -66,22 +116,32 @@ struct MotionWatch {
   bool lost_track() const { return drifted && lasting[0].since == kNever; }
   /// How wrong the speed by wheels may be, m/s.
   double slip_mps() const;
-  /// A step of dead reckoning; `way` rolled in either direction.
-  void advance(double east, double north, double way, double turn);
-  /// Without positions to compare with: begins anew with the next one. What was learned of the
-  /// mounting stays, and the comparison with a drifted position goes on.
+  /// A step by the heading; the way goes so much beside it.
+  void advance(Step step, double crab_rad);
+  /// The heading is corrected by this, because of its mounting.
+  void turn_heading(double yaw_rad, double by_rad);
+  /// Without positions to compare with: begins anew with the next one. What a look found stays, and
+  /// the comparison with a position that drifted, or is suspected to, goes on.
   void pause();
+  /// Likewise; a look begins anew, because another fix may well be another place.
+  void lose_fix();
   /// Nobody knows what was driven: likewise, but that comparison is over.
   void lose();
-  /// Another receiver or another place: only what was learned of the mounting stays.
-  void forget();
+  /// Another receiver or another place.
+  void forget() { *this = {}; }
 };
 
 /// A fix before it is judged by the gate. When wheels begin to slip the belief loses trust in its
 /// place along the way, so that the fixes are followed.
 void watch_slip(MotionWatch& watch, Belief& belief, const BaseFix& fix, Time now);
-/// A fix that was believed. `stands`: the base does, by wheels and gyro.
-void watch_drift(MotionWatch& watch, const Belief& belief, const BaseFix& fix, Time now,
-                 bool stands, const EstimateConfig& config);
+/// What is known of the base's rest and its ground by wheels, gyro and tilt.
+struct Ground {
+  bool stands = false;
+  double slope_rad = kAbsent;  ///< it falls so much to the right; NaN: nobody knows
+};
+
+/// A fix that was believed.
+void watch_drift(MotionWatch& watch, Mounting& mounting, const Belief& belief, const BaseFix& fix,
+                 Time now, const Ground& ground, const EstimateConfig& config);
 
 }  // namespace drover::engine::estimate

@@ -21,6 +21,10 @@ constexpr Duration kContradicted = std::chrono::milliseconds(300);
 // four hardly ever, as long as the sources err as they say.
 constexpr double kSure = 2.0;
 
+HeadingDoubt doubt_of(const State& state, const EstimateConfig& config) {
+  return {state.mount_sigma_rad(config), state.reckoned.east_m, state.reckoned.north_m};
+}
+
 }  // namespace
 
 void Estimator::report(const State& state, Time now) {
@@ -43,8 +47,9 @@ void Estimator::report(const State& state, Time now) {
   e.fastest_mps = fastest_mps(base_, body.twist);
   e.yaw_slip_factor = 1.0 / belief.mean[kGain];
 
-  const double two_sigma_m = two_sigma_position_m(belief);
-  const double two_sigma_rad = 2 * std::sqrt(belief.covariance[kYaw][kYaw]);
+  const HeadingDoubt doubt = doubt_of(state, config_);
+  const double two_sigma_m = doubt.two_sigma_m(belief);
+  const double two_sigma_rad = doubt.two_sigma_rad(belief);
   e.pose.position_sigma_m = state.has_position ? two_sigma_m / 2 : kAbsent;
   e.pose.yaw_sigma_rad = state.has_heading ? two_sigma_rad / 2 : kAbsent;
   e.predicted_error_m = state.has_position ? two_sigma_m : kAbsent;
@@ -53,6 +58,10 @@ void Estimator::report(const State& state, Time now) {
 
   report_trouble(state, now);
   report_imu(state, now);
+  const bool told = state.heading.last != kNever;
+  e.mounting_known = told && state.mounting.known(config_);
+  e.mounting_rad = told ? -state.mounting.applied_rad : kAbsent;
+  e.mounting_sigma_rad = told ? state.mounting.sigma_rad(config_) : kAbsent;
   if (reach_at_ == kNever || now - reach_at_ >= kReachEach || now < reach_at_) {
     reach_at_ = now;
     e.metres_left = reach_m(state, now);
@@ -76,7 +85,8 @@ void Estimator::report_trouble(const State& state, Time now) {
     if (drifted) apart_m = std::max(apart_m, watch.drift_m);
     if (watch.slipping()) apart_m = std::max(apart_m, std::abs(watch.last_gap_m));
     e.predicted_error_m = std::max(e.predicted_error_m, apart_m);
-    e.error_bound_m = std::max(e.error_bound_m, apart_m);
+    // Less than that is no contradiction, but may well be the beginning of one.
+    e.error_bound_m = std::max(e.error_bound_m + watch.gap_m, apart_m);
   }
   if (position_disagrees) {
     e.reason = "position disagrees with odometry";
@@ -104,6 +114,10 @@ void Estimator::report_trouble(const State& state, Time now) {
   const GyroTrack& gyro = state.gyro;
   e.slipping = watch.slipping() || gyro.trouble == TurnTrouble::slip ||
                gyro.trouble == TurnTrouble::undecided;
+  e.looks.clear();
+  if (watch.looks() && !e.disagrees)
+    e.looks.format("stands and looks whether the position drifts: %.2f m beside wheels and heading",
+                   watch.gap_m);
   e.notice.clear();
   switch (gyro.trouble) {
     case TurnTrouble::none:
@@ -152,7 +166,8 @@ double Estimator::reach_m(const State& state, Time now) const {
   // Standing wheels hold the heading themselves; driving on, the gyro would.
   gyro.known = state.gyro.believed() && state.gyro.fresh(now, imu_stale_);
   gyro.rate_radps = state.gyro.rate_radps;
-  return metres_left(state.belief, body, gyro, state.gnss.sigma_x_m, state.gnss.sigma_y_m, config_);
+  return metres_left(state.belief, doubt_of(state, config_), body, gyro, state.gnss.sigma_x_m,
+                     state.gnss.sigma_y_m, config_);
 }
 
 }  // namespace drover::engine

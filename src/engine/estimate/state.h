@@ -12,6 +12,7 @@
 #include "engine/estimate/gyro_track.h"
 #include "engine/estimate/jump_watch.h"
 #include "engine/estimate/motion_watch.h"
+#include "engine/estimate/mounting.h"
 
 namespace drover::engine::estimate {
 
@@ -40,6 +41,12 @@ struct HeadingTrack {
   double place_rad = 0;
 };
 
+/// The way since the place was the receiver's: an error of the heading bends it.
+struct Reckoned {
+  double east_m = 0;
+  double north_m = 0;
+};
+
 /// A robot that has been turned by more than this without being seen has no heading any more: the
 /// filter's straight-line approximations end here.
 inline constexpr double kLostYaw_rad = 0.5;
@@ -53,9 +60,16 @@ struct State {
   Time standing_since = kNever;  ///< kNever while the base moves or may move
   GnssTrack gnss;
   HeadingTrack heading;
+  Mounting mounting;  ///< of the line of that receiver's antennas
+  Reckoned reckoned;
   GyroTrack gyro;
   MotionWatch watch;
   Course course;
+
+  /// Of the mounting, as long as the heading is a receiver's.
+  double mount_sigma_rad(const EstimateConfig& config) const {
+    return heading.last == kNever ? 0.0 : mounting.sigma_rad(config);
+  }
   std::uint32_t refused = 0;  ///< by the gates, since the start
   std::uint32_t broken = 0;   ///< times the filter lost its numbers and was started again
 };

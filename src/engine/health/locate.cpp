@@ -38,6 +38,8 @@ LocateState LocateMonitor::update(const Estimate& estimate, bool has_origin, boo
   } else if (estimate.disagrees) {
     reason_ = estimate.reason;
     if (reason_.empty()) reason_ = "position disagrees with odometry";
+  } else if (!estimate.looks.empty()) {
+    reason_ = estimate.looks;
   } else if (!(error_m <= share * bound_m)) {
     reason_.format("position uncertain by %.3f m, allowed %.3f m", error_m, share * bound_m);
   } else if (!(error_rad <= share * bound_rad)) {

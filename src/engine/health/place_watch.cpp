@@ -90,8 +90,9 @@ void PlaceWatch::update(Time now, Duration dt, const Estimate& estimate, bool he
     crept_x_m_ += way_m * std::cos(estimate.pose.yaw_rad);
     crept_y_m_ += way_m * std::sin(estimate.pose.yaw_rad);
   }
-  if (!estimate.disagrees && estimate.predicted_error_m <= config_.bound_run_m)
-    compare(now, estimate.pose);
+  // What is suspected already is judged by who looks at it.
+  const bool believed = !estimate.disagrees && estimate.looks.empty();
+  if (believed && estimate.predicted_error_m <= config_.bound_run_m) compare(now, estimate.pose);
 }
 
 Pose PlaceWatch::without_creep(Pose pose) const {

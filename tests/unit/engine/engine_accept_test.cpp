@@ -77,8 +77,8 @@ TEST_F(APersonWhoLooked, IsNeededAlsoWhenTheFixWasLostMeanwhile) {
 TEST_F(APersonWhoLooked, IsNotNeededWhenThePositionHasComeBack) {
   drift_aside();
   drift_back();
-  expect_start_refused("the position jumped");  // it moved though the robot stood: told once
-  rig.run_s(12);
+  expect_start_refused("drover position accept");  // it is not back for 10 s yet
+  rig.run_s(10);
   expect_drives();
 }
 

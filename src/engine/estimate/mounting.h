@@ -1,0 +1,39 @@
+// How much the antenna line is mounted beside what its heading offset says, from straight legs.
+#pragma once
+
+#include <array>
+
+#include "engine/config.h"
+
+namespace drover::engine::estimate {
+
+/// A straight leg with RTK positions at both ends.
+struct StraightLeg {
+  double way_m = 0;
+  double course_rad = 0;  ///< yaw of its chord
+  double across_m = 0;    ///< positions less dead reckoning by the told heading, left of the chord
+  double variance_m2 = 0;
+};
+
+/// On a leg the crab of a line that is mounted askew looks like a place that drifts, or like ground
+/// that falls to one side; on the way back the one is on the same side of the base, and the other
+/// two are on the other. Three numbers by least squares, so that one direction alone teaches the
+/// first one nothing.
+struct Mounting {
+  /// Crab (course less told heading, rad), and what is fixed to the map: east and north, as shares
+  /// of the way.
+  std::array<double, 3> mean{};
+  std::array<std::array<double, 3>, 3> covariance{};
+  bool begun = false;
+  double course_rad = 0;   ///< of the last leg
+  double applied_rad = 0;  ///< of the crab: told headings are corrected by it
+
+  double sigma_rad(const EstimateConfig& config) const;
+  bool known(const EstimateConfig& config) const;
+  /// What is known of the crab and not applied yet, rad. From here on it is.
+  double catch_up(const EstimateConfig& config);
+};
+
+void learn(Mounting& mounting, const StraightLeg& leg, const EstimateConfig& config);
+
+}  // namespace drover::engine::estimate
