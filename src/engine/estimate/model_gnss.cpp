@@ -154,18 +154,17 @@ Ground ground_of(const State& state, const EstimateConfig& config) {
   return ground;
 }
 
-/// Dead reckoning that is off by more than a poor position itself is seen by it.
+/// By how much dead reckoning may be off is seen by a position as well as that is known itself.
+/// Fixes tell more together; the error of a poor position stays.
 void rest_on(State& state, const AntennaPosition& position, const EstimateConfig& config) {
   Reckoned& way = state.reckoned;
-  if (position.quality == GnssClass::fixed) {
-    way = {};
-    return;
-  }
-  const double off_m = state.mount_sigma_rad(config) * std::hypot(way.east_m, way.north_m);
   const double seen_m = larger_sigma_m(position);
-  if (off_m <= seen_m) return;
-  way.east_m *= seen_m / off_m;
-  way.north_m *= seen_m / off_m;
+  const double off_m = state.mount_sigma_rad(config) * std::hypot(way.east_m, way.north_m);
+  if (!(off_m > 0)) return;
+  const bool fixed = position.quality == GnssClass::fixed;
+  const double left = fixed ? 1 / std::hypot(1.0, off_m / seen_m) : std::min(seen_m / off_m, 1.0);
+  way.east_m *= left;
+  way.north_m *= left;
 }
 
 /// The heading turns, the antenna stays where it is.

@@ -24,6 +24,7 @@ constexpr double kDrift_m = 0.10;   // so near it is back
 constexpr double kBackGate = 2.0;   // sigmas within which it is back
 constexpr Duration kBackFor = std::chrono::seconds(10);
 constexpr double kStraight = 0.8;  // chord over way
+constexpr double kPoorFix = 1.5;   // times the sigma of one that came later
 // Soil takes its share of the way, and another one a few metres on: along the way a slow drift
 // cannot be told from it.
 constexpr double kScaleShare = 0.02;
@@ -357,8 +358,12 @@ void watch_drift(MotionWatch& watch, Mounting& mounting, const Belief& belief, c
   Leg& older = watch.lasting[0];
   Leg& younger = watch.lasting[1];
   if (watch.lost_track()) return;
-  if (older.since == kNever) {
+  // A leg that began with a fix that had not settled yet would tell of that.
+  const bool poor = older.sigma_m > kPoorFix * fix.sigma_m && !watch.drifted && !watch.looks();
+  if (older.since == kNever || poor) {
     older = begin(fix, now);
+    younger = watch.study = {};
+    watch.gap_m = 0;
     return;
   }
   const Apart gap = apart(older, fix);

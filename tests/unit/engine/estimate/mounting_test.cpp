@@ -168,6 +168,26 @@ TEST_F(MountedAskew, DrivesLessFarWithoutReceiver) {
   }
 }
 
+TEST_F(MountedAskew, StaysDoubtedUntilAFixHasSettled) {
+  Rig rig(6);
+  rig.world.heading_off_deg = 2;
+  settle(rig);
+  drive(rig, 10);
+  rig.world.position = rig.world.heading = false;
+  rig.drive(0.5, 0.5, 20);
+  rig.forget();
+  rig.world.position = rig.world.heading = true;
+  rig.world.fade_s = 1;
+  rig.world.quality = FixQuality::rtk_float;
+  rig.stand(1);
+  rig.world.quality = FixQuality::rtk_fixed;
+  rig.stand(0.3);
+  EXPECT_GT(rig.last.predicted_error_m, 0.2);
+  rig.stand(10);
+  EXPECT_LT(rig.last.predicted_error_m, 0.06);
+  EXPECT_EQ(rig.share_bound(), 1);
+}
+
 TEST_F(MountedAskew, ADriftFromTheFirstMetresOnIsNoMounting) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     Rig rig(seed);
