@@ -361,6 +361,19 @@ TEST(MissionChecks, FindARobotThatMovesFarFromWhereItBelievesToBe) {
   Logs logs;
   logs.truth_x_m = 0.31;
   EXPECT_THAT(check_truth(logs.read(), 0.3), Not(IsEmpty()));
+  logs.change(5000, 5000, [](json& s) { s["nav"]["locate"] = "LOCATE_FALSE"; });
+  EXPECT_THAT(check_truth(logs.read(), 0.3), Not(IsEmpty()));
+}
+
+TEST(MissionChecks, TakeAPoorReceiverForNoBeliefWhileThePositionIsNotGood) {
+  Logs logs;
+  logs.change(5000, 5000, [](json& s) {
+    s["nav"]["locate"] = "LOCATE_FALSE";
+    s["rtk"]["latitude"] = s["rtk"]["latitude"].get<double>() + 1e-5;
+  });
+  EXPECT_THAT(check_truth(logs.read(), 0.3), IsEmpty());
+  logs.change(5000, 5000, [](json& s) { s["pose"]["x"] = s["pose"]["x"].get<double>() + 0.4; });
+  EXPECT_THAT(check_truth(logs.read(), 0.3), Not(IsEmpty()));
 }
 
 TEST(MissionChecks, MeasureTheDriveBesideTheTrack) {
