@@ -8,6 +8,7 @@ namespace drover {
 /// Where the base stands, in the map of an origin. It is compared with where it is found again.
 struct RestPlace {
   bool known = false;
+  bool doubted = false;  ///< what the receiver says is not believed, and nobody has accepted it
   double x_m = 0;
   double y_m = 0;
   double yaw_rad = 0;

@@ -60,6 +60,10 @@ void visit_gnss(V& v, engine::EstimateConfig& c) {
   v.number("heading_sigma_deg", c.heading_sigma_deg, Range{0.05, 20}, "one sigma of the heading");
   v.number("heading_mount_sigma_deg", c.heading_mount_sigma_deg, Range{0, 5},
            "one sigma of how the antenna line is mounted, until that was learned; 0: calibrated");
+  v.number(
+      "gnss_late_sigma_s", c.gnss_late_sigma_s, Range{0, 0.5},
+      "one sigma of how much later positions and headings are than the gateway takes them for, "
+      "until that was learned; 0: calibrated");
   v.number("heading_correlation_s", c.heading_correlation_s, Range{0.001, 60},
            "how long a heading error stays the same");
   v.number("max_correction_age_s", c.max_correction_age_s, Range{1, 600},

@@ -89,10 +89,12 @@ struct EstimateConfig {
   double sigma_float_m = 0.30;
   double sigma_dgps_m = 0.60;
   double sigma_single_m = 2.0;
-  double gnss_inflation = 1.25;        ///< times that floor or GST: receivers are optimists
-  double gnss_correlation_s = 30.0;    ///< how long a position error stays the same (multipath)
-  double gnss_white_share = 0.5;       ///< uncorrelated noise on top, as a share of the sigma
-  double gnss_timing_sigma_s = 0.01;   ///< how well the instant of a position is known
+  double gnss_inflation = 1.25;       ///< times that floor or GST: receivers are optimists
+  double gnss_correlation_s = 30.0;   ///< how long a position error stays the same (multipath)
+  double gnss_white_share = 0.5;      ///< uncorrelated noise on top, as a share of the sigma
+  double gnss_timing_sigma_s = 0.01;  ///< how well the instant of a position is known
+  /// Of how much later positions are than their stamps say, until it was learned. 0: calibrated.
+  double gnss_late_sigma_s = 0.1;
   double fix_settle_s = 1.0;           ///< the old error fades so fast when the quality improves
   double heading_correlation_s = 0.1;  ///< how long a heading error stays the same
   // Odometry noise: per square root of metre driven or of radian turned.

@@ -331,7 +331,8 @@ void Engine::step(Time now, const Environment& environment, EngineOutput& out) {
   e.motion_asked = out.motion_permitted;
   out.unsettled = (e.rest.drives_on() || e.latch.power_cut()) && !e.power.opened();
   e.navigator.on_commanded(now, out.motion_permitted, e.events);
-  e.tell_mounting(now);
+  e.learned_notices.tell(now, e.estimate, antenna_of(e.config.estimate, e.sensors.receiver()),
+                         e.events);
   e.announcer.update(now, e.health.report(), e.events);
   e.fill_snapshot(now, environment, lines, e.estimate, motion.owner);
   if (takes_twist(e.base)) e.fill_base(environment, out.base);

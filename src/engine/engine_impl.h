@@ -13,6 +13,7 @@
 #include "engine/health/announcer.h"
 #include "engine/health/health.h"
 #include "engine/health/latch.h"
+#include "engine/health/learned_notices.h"
 #include "engine/health/mechanics_check.h"
 #include "engine/health/place_watch.h"
 #include "engine/health/rest_watch.h"
@@ -60,7 +61,6 @@ struct Engine::Impl {
   void fill_clearance();
   void fill_speed(Time now);
   void fill_viewpoint();
-  void tell_mounting(Time now);
   void tell_sender(Time now, Owner owner);
   void fill_imu(const Estimate& located);
   void fill_lines(const LineTable& lines);
@@ -101,9 +101,9 @@ struct Engine::Impl {
   Reason steep;                          ///< why this ground is too steep to stop on
   Time steep_since = kNever;
   Time tilt_known_at = kNever;
-  bool mounting_told = false;  ///< how the antenna line is mounted: learned, and said
-  bool slopes = false;         ///< the ground fell when that was known last
-  Time stopped_at = kNever;    ///< last: nothing could move then
+  LearnedNotices learned_notices;
+  bool slopes = false;       ///< the ground fell when that was known last
+  Time stopped_at = kNever;  ///< last: nothing could move then
   Time last_step = kNever;
   Snapshot snapshot;
   Viewpoint view;

@@ -7,8 +7,6 @@
 namespace drover::engine {
 namespace {
 
-constexpr double kLargeMounting_deg = 1.0;
-
 bool valid(const GeodeticPoint& point) {
   return std::abs(point.latitude_deg) <= 90 && std::abs(point.longitude_deg) <= 180 &&
          std::isfinite(point.altitude_m);
@@ -31,6 +29,8 @@ void Engine::Impl::propose_origin(const RequestId& id, Time now) {
   const auto refuse = [&](const Reason& why) { events.push(now, CommandRefused{id, why}); };
   if (navigator.active()) return refuse("a task runs");
   if (const Reason why = poor_fix(now); !why.empty()) return refuse(why);
+  // Whoever counts from a place that is doubted has it for good.
+  if (estimate.place_doubted) return refuse(estimate.reason);
   GeodeticPoint origin{fix.latitude_deg, fix.longitude_deg, fix.altitude_msl_m};
   if (std::isfinite(fix.undulation_m)) origin.altitude_m += fix.undulation_m;
   if (!std::isfinite(origin.altitude_m)) origin.altitude_m = 0;  // it only tilts the map
@@ -54,29 +54,13 @@ void Engine::Impl::set_origin(const RequestId& id, const GeodeticPoint& origin, 
   }
 }
 
-/// Once for each line of antennas; what is little is nobody's business.
-void Engine::Impl::tell_mounting(Time now) {
-  const bool large = std::abs(estimate.mounting_rad) >= to_rad(kLargeMounting_deg);
-  if (!estimate.mounting_known) mounting_told = false;
-  if (!estimate.mounting_known || mounting_told || !large) return;
-  mounting_told = true;
-  const double left_deg = to_deg(estimate.mounting_rad);
-  const double offset_deg =
-      antenna_of(config.estimate, sensors.receiver()).heading_baseline_offset_deg;
-  Reason text;
-  text.format(
-      "the antenna line is mounted %.1f degrees to the %s of what heading_baseline_offset_deg "
-      "says: %.1f would be right; it is made up for",
-      std::abs(left_deg), left_deg > 0 ? "left" : "right", offset_deg - left_deg);
-  events.notice(now, Notice::Level::warning, text);
-}
-
 void Engine::Impl::accept_position(const RequestId& id, Time now) {
   const auto refuse = [&](const Reason& why) { events.push(now, CommandRefused{id, why}); };
   if (navigator.active()) return refuse("a task runs");
   if (!owners.at_rest() || rest.moves(now)) return refuse("the robot moves");
   if (!estimator.has_origin()) return refuse("there is no origin");
   if (const Reason why = poor_fix(now); !why.empty()) return refuse(why);
+  if (!estimate.looks.empty()) return refuse(estimate.looks);
   estimator.accept_position();
   estimate = estimator.step(last_step == kNever ? now : last_step);
   // Who accepts it has seen where it jumped to.

@@ -12,7 +12,7 @@ void Engine::Impl::fill_viewpoint() {
   if (!estimate.body.known) view.pose.vx_mps = view.pose.wz_radps = kAbsent;
   // Where the receiver contradicts the wheels, that counts too: a place that stands still while the
   // wheels turn may be a receiver that is stuck, and is none once it is told as that.
-  view.pose.position_sigma_m = estimate.has_position && !estimate.disagrees
+  view.pose.position_sigma_m = estimate.has_position && (!estimate.disagrees || estimate.disputed)
                                    ? std::max(estimate.predicted_error_m, estimate.slipped_m) / 2
                                    : kAbsent;
   view.place = place_count.number();

@@ -13,7 +13,9 @@
 
 namespace drover::runtime {
 
-inline constexpr std::uint64_t kMemoryLayout = 0x64726d656d303036;  // "drmem006"
+inline constexpr std::uint64_t kMemoryLayout = 0x64726d656d303037;  // "drmem007"
+/// Of the same size: it did not tell whether the place was doubted.
+inline constexpr std::uint64_t kMemoryLayoutWithoutDoubt = 0x64726d656d303036;  // "drmem006"
 
 template <class Kept>
 struct MemoryRecord {

@@ -69,18 +69,21 @@ void RobotMemory::read() {
     std::memcpy(static_cast<void*>(&record), &records_[i], sizeof record);
     if (record.never_written()) continue;
     written = true;
-    if (record.format != kMemoryLayout || record.checksum != record.sum()) {
+    const bool without_doubt = record.format == kMemoryLayoutWithoutDoubt;
+    const bool readable = record.format == kMemoryLayout || without_doubt;
+    if (!readable || record.checksum != record.sum()) {
       damaged_ = true;
       continue;
     }
     if (record.sequence <= sequence_) continue;
+    if (without_doubt) record.remembered.place.doubted = false;  // what lay there was nothing
     sequence_ = record.sequence;
     const bool this_boot = boot_id_ == std::string_view(record.boot.data());
     found_ = this_boot ? std::optional<Remembered>(record.remembered) : std::nullopt;
     // With another antenna the same base stands elsewhere.
     if (found_ && record.configuration != configuration_) {
       found_->mechanics_proved = false;
-      found_->place = {};
+      found_->place = {.doubted = found_->place.doubted};
     }
   }
   unreadable_ = written && sequence_ == 0;

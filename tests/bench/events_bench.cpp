@@ -16,12 +16,20 @@ namespace {
 using Change =
     std::function<void(FieldPlan&, engine::EngineConfig&, double share, std::uint64_t seed)>;
 
+/// What each drive of a row is judged by.
+enum class Must {
+  reach,    ///< the target, and the next two
+  be_true,  ///< never moved beyond the published bound or the corridor
+  nothing,  ///< for people to read
+};
+
 struct Row {
   const char* name;
   const char* what;
   Change change;
   int rows = 2;
   double leg_m = 20;
+  Must must = Must::reach;
 };
 
 using Config = engine::EngineConfig;
@@ -83,8 +91,9 @@ const std::vector<Row>& all_rows() {
       {"well", "nothing is wrong", [](Plan&, Config&, double, std::uint64_t) {}},
       {"well_1mps", "nothing is wrong, at 1 m/s",
        [](Plan& p, Config& c, double, std::uint64_t) { at_1_mps(p, c); }},
-      {"drift_early", "20 mm/s sideways from 3 to 12 m on", drifts(3, 9), 1, 70},
-      {"drift_late", "20 mm/s sideways from 25 to 60 m on, after two legs", drifts(85, 35), 4, 40},
+      {"drift_early", "20 mm/s sideways from 3 to 12 m on", drifts(3, 9), 1, 70, Must::be_true},
+      {"drift_late", "20 mm/s sideways from 25 to 60 m on, after two legs", drifts(85, 35), 4, 40,
+       Must::be_true},
       {"slope_2", "side slope of 2 degrees, entered and left", slope(2), 2, 30},
       {"slope_5", "side slope of 5 degrees, entered and left", slope(5), 2, 30},
       {"slope_5_wet", "the same where it is wet: a degree of crab for each", slope(5, 1), 2, 30},
@@ -109,6 +118,19 @@ const std::vector<Row>& all_rows() {
       {"step_15", "15 cm", stepped(0.15)},
       {"step_30", "30 cm", stepped(0.30)},
       {"step_50", "50 cm", stepped(0.50)},
+      {"refix_40", "float for 3 s, then for good a fix that is 40 cm off",
+       [](Plan& p, Config&, double share, std::uint64_t) {
+         p.float_s = while_s(share, 3);
+         p.step_s = {p.float_s.to, INFINITY};
+         p.step_m = 0.4;
+         p.step_rad = 2 * kPi * share * 7;
+       },
+       2, 20, Must::be_true},
+      {"slip_30_1mps", "slip of 30 % for 2 s, at 1 m/s",
+       [](Plan& p, Config& c, double share, std::uint64_t seed) {
+         slip(0.30)(p, c, share, seed);
+         at_1_mps(p, c);
+       }},
       {"late_50_1mps", "stamps 50 ms late, at 1 m/s",
        [](Plan& p, Config& c, double, std::uint64_t) {
          p.late_s = 0.05;
@@ -120,9 +142,9 @@ const std::vector<Row>& all_rows() {
       {"epochs", "the heading is an epoch older than the position",
        [](Plan& p, Config&, double, std::uint64_t) { p.heading_epoch_s = 0.1; }, 4, 20},
       {"lever_x_20", "antenna 20 cm farther ahead than told",
-       [](Plan& p, Config&, double, std::uint64_t) { p.lever_x_m = 0.2; }, 4, 20},
+       [](Plan& p, Config&, double, std::uint64_t) { p.lever_x_m = 0.2; }, 4, 20, Must::nothing},
       {"lever_y_20", "antenna 20 cm farther to the left than told",
-       [](Plan& p, Config&, double, std::uint64_t) { p.lever_y_m = 0.2; }, 4, 20},
+       [](Plan& p, Config&, double, std::uint64_t) { p.lever_y_m = 0.2; }, 4, 20, Must::nothing},
       {"imu_roll_1", "inertial sensor rolled by 1 degree, antenna 1.5 m up",
        [](Plan& p, Config& c, double, std::uint64_t) {
          p.imu_roll_deg = 1;
@@ -136,7 +158,7 @@ const std::vector<Row>& all_rows() {
          p.heading_wrong_s = while_s(share, 3);
          p.heading_wrong_deg = (5 + 25 * share) * (seed % 2 == 0 ? 1 : -1);
        }},
-      {"swapped", "antennas swapped", mounted(180)},
+      {"swapped", "antennas swapped", mounted(180), 2, 20, Must::be_true},
       {"two_cm", "receiver of 2 cm without GST",
        [](Plan& p, Config&, double, std::uint64_t) { p.sigma_m = 0.02; }, 4, 20},
       {"float_10", "float for 10 s",
@@ -177,10 +199,10 @@ void print_header() {
               "max mm", "pauses", "paused", "outside", "beyond", "2sig", "3sig", "time s");
 }
 
-/// Whether it is no row that can be judged, or all of its drives are as they have to be.
 bool is_well(const Row& row, const Sum& sum) {
-  if (row.name != std::string_view("well")) return true;
-  return sum.successes == sum.drives && sum.outside_s == 0 && sum.beyond_s == 0;
+  if (row.must == Must::nothing) return true;
+  const bool reached = row.must != Must::reach || sum.successes == sum.drives;
+  return reached && sum.outside_s == 0 && sum.beyond_s == 0;
 }
 
 bool run_row(const Row& row, std::uint64_t first, int seeds, bool each) {
@@ -216,6 +238,7 @@ bool run_row(const Row& row, std::uint64_t first, int seeds, bool each) {
               row.name, sum.successes, sum.drives, 1e3 * std::sqrt(sum.rms_m / n), 1e3 * sum.p95_m,
               1e3 * sum.max_m, sum.pauses / n, sum.paused_s / n, sum.outside_s, sum.beyond_s,
               sum.two_sigma / n, sum.three_sigma / n, sum.time_s / n);
+  if (!is_well(row, sum)) std::printf("                NOT AS IT HAS TO BE\n");
   for (std::size_t i = 0; !each && i < words.size() && i < 2; ++i)
     std::printf("                seed %s\n", words[i].c_str());
   return is_well(row, sum);
@@ -230,8 +253,9 @@ of motion with the true error beyond the published bound and beyond the corridor
 time inside two and three published sigma, and the mean time. Without ROW: all rows. --each tells
 each drive, with what was said; --list names the rows.
 
-Exit status: 0; 1 not all is well in the row "well", the one that is judged: each drive reaches the
-target, within the corridor and within the published bound; 2 wrong usage.
+Exit status: 0; 1 a drive moved beyond the published bound or the corridor, or did not reach the
+target where it can be reached (drifts, a wrong fix for good and swapped antennas have to be named
+instead; a lever arm that nobody told is only shown); 2 wrong usage.
 )";
 
 int run(int argc, char** argv) {

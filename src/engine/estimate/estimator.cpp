@@ -23,6 +23,7 @@ constexpr std::size_t kOutward =
     kMaxOfKind;                      // whoever is in use: the antenna that others count from
 constexpr double kInstant_s = 0.05;  // how well the instants of two receivers are known
 constexpr double kStands = 0.5;      // cosine of a pitch of 60 degrees
+constexpr double kHeadingGap_s = 1.5;
 // No place changes these.
 constexpr std::array<std::size_t, 4> kCarried{kGain, kScale, kGyroBias, kGyroScale};
 
@@ -60,6 +61,8 @@ Estimator::Estimator(const EstimateConfig& config, const BaseConfig& base)
 
 State Estimator::blank() const {
   State state;
+  state.fit = AntennaFit(config_);
+  state.heading_late = HeadingLate(config_);
   state.belief.reset(kGain, first_gain_, config_.yaw_slip_sigma);
   state.belief.reset(kScale, 1.0, config_.wheel_scale_sigma);
   state.belief.reset(kGyroBias, 0.0, config_.imu_gyro_bias_sigma_radps);
@@ -81,6 +84,7 @@ State Estimator::carried_over(const State& old, const GeodeticPoint& origin) con
   state.belief.mean[kY] = place.y_m;
   // What compares places with earlier ones begins anew.
   state.gnss.jumps = {};
+  state.gnss.dispute = {};
   state.heading.jumps = {};
   state.watch.forget();
   state.course = {};
@@ -104,6 +108,11 @@ void Estimator::set_origin(const GeodeticPoint& origin) {
   state.gyro = old.gyro;
   state.heading.receiver = old.heading.receiver;
   state.mounting = old.mounting;
+  state.fit = old.fit;
+  state.fit.pause();
+  state.late_s = old.late_s;
+  state.heading_late = old.heading_late;
+  state.heading_late.pause();
   for (const std::size_t i : kCarried) {
     state.belief.reset(i, old.belief.mean[i], std::sqrt(old.belief.covariance[i][i]));
   }
@@ -116,6 +125,7 @@ void Estimator::accept_position() {
   State state = history_.before(history_.size());
   state.has_position = false;
   state.gnss.jumps = {};
+  state.gnss.dispute = {};
   state.gnss.fixed = kNever;
   state.watch = {};
   state.course = {};
@@ -245,11 +255,19 @@ void Estimator::reckon(State& state, const BodyMotion& body, const GyroMotion& g
   const double y_m = belief.mean[kY];
   predict(belief, body, dt_s, state.has_heading, state.gnss.sigma_x_m, state.gnss.sigma_y_m,
           config_, gyro);
+  if (state.has_heading && state.gyro.fresh(state.time, imu_stale_)) {
+    const double turning_mps2 = body.twist.vx_mps * gyro.rate_radps;
+    const bool drives = body.known && !body.standing && !gyro.pushed;
+    follow(state.shove, belief, state.gyro.left_mps2 - turning_mps2, dt_s,
+           drives && !state.gyro.rocks, state.time);
+  }
   const double east_m = belief.mean[kX] - x_m;
   const double north_m = belief.mean[kY] - y_m;
   state.reckoned.east_m += east_m;
   state.reckoned.north_m += north_m;
   if (!body.known || gyro.pushed) {
+    state.way_unknown = true;
+    state.fit.pause();
     state.watch.lose();
     state.course = {};
     return;
@@ -265,6 +283,7 @@ void Estimator::reckon(State& state, const BodyMotion& body, const GyroMotion& g
       gyro.known ? belief.mean[kGyroScale] * (gyro.rate_radps - belief.mean[kGyroBias]) * dt_s
                  : belief.mean[kGain] * body.twist.wz_radps * dt_s;
   if (state.has_heading) {
+    state.fit.advance(east_m, north_m, std::abs(way_m), std::abs(turn_rad));
     state.watch.advance({.east_m = east_m,
                          .north_m = north_m,
                          .way_m = std::abs(way_m),
@@ -308,7 +327,28 @@ void Estimator::take_rates(State& state, const MotionInput& input) const {
   gyro.rate_radps = input.turn->radps;
   gyro.roll_rad = input.turn->roll_rad;
   gyro.pitch_rad = input.turn->pitch_rad;
+  gyro.left_mps2 = input.turn->left_mps2;
+  gyro.rocks = input.turn->rocks;
   gyro.at = input.turn->saturated ? kNever : state.time;
+}
+
+/// A heading as it would have been told without delay.
+double Estimator::in_time(State& state, double told_rad) const {
+  HeadingLate& late = state.heading_late;
+  const GyroTrack& gyro = state.gyro;
+  const bool believed = gyro.believed() && gyro.trouble == TurnTrouble::none &&
+                        gyro.fresh(state.time, imu_stale_) && gyro.learned_s > 0;
+  if (!believed) {
+    late.pause();
+    return told_rad;
+  }
+  const double since_s = gyro.heard == kNever ? 0.0 : to_s(state.time - gyro.heard);
+  if (!late.begun() || !(since_s > 0 && since_s < kHeadingGap_s)) {
+    late.begin(told_rad);
+  } else {
+    late.hear(told_rad, gyro.gyro_since_rad, since_s, config_);
+  }
+  return wrap_rad(told_rad + late.lag_rad());
 }
 
 void Estimator::take(State& state, const Input& input) const {
@@ -319,10 +359,14 @@ void Estimator::take(State& state, const Input& input) const {
       state.heading = {};
       state.heading.receiver = yaw->receiver;
       state.mounting = {};
+      state.fit = AntennaFit(config_);
+      state.heading_late = HeadingLate(config_);
+      state.late_s = 0;
       state.gyro.heard = kNever;
     }
-    hear_heading(state.gyro, yaw->yaw_rad, state.time);
-    apply_heading(state, yaw->yaw_rad, config_);
+    const double yaw_rad = in_time(state, yaw->yaw_rad);
+    hear_heading(state.gyro, yaw_rad, state.time);
+    apply_heading(state, yaw_rad, config_);
   } else if (const auto* position = std::get_if<AntennaPosition>(&input)) {
     const BodyMotion body = body_motion(base_, state.told, state.time, wheel_stale_);
     apply(state, *position, body.twist.vx_mps, config_);

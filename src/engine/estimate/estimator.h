@@ -33,9 +33,27 @@ struct Estimate {
   double yaw_slip_factor = 1.0;    ///< as refined
   Reason reason;                   ///< why it is not good; empty when it is
   bool disagrees = false;          ///< GNSS and odometry contradict each other beyond the gate
-  bool slipping = false;           ///< the wheels roll another way than the base moves
+  /// They do since the base drove, and which of both is right may still show: predicted_error_m and
+  /// yaw_error_rad cover both, and inside of them a task may go on.
+  bool disputed = false;
+  /// The position drifted or jumped while it drove, and nobody has accepted where it is.
+  bool place_doubted = false;
+  bool slipping = false;  ///< the wheels roll another way than the base moves
   /// How much the ways of wheels and receiver differ since they slip: one of both is wrong by it.
   double slipped_m = 0;
+  /// So much later than their stamps say are positions and headings, as learned and made up for, s;
+  /// absent until it is certain that they are.
+  double late_s = kAbsent;
+  double heading_late_s = kAbsent;
+  /// The antenna is so much farther ahead and to the left of what the base turns about than is
+  /// configured, m; absent until that is certain. Not made up for: predicted_error_m has it.
+  double arm_ahead_m = kAbsent;
+  double arm_left_m = kAbsent;
+  /// True speed over the told one, when that is certainly another; absent: about the same.
+  double wheel_scale = kAbsent;
+  /// The last shove that is over, as an inertial sensor felt it: to the left; kNever: none.
+  Time shoved = kNever;
+  double shoved_m = 0;
   /// Why the base has to stand until it is seen whether the position drifts; empty: it may drive.
   Reason looks;
   /// The antenna line is mounted so much beside what is configured, counterclockwise, as learned
@@ -118,12 +136,14 @@ class Estimator final {
   void reckon(estimate::State& state, const BodyMotion& body, const estimate::GyroMotion& gyro,
               double dt_s) const;
   void take(estimate::State& state, const estimate::Input& input) const;
+  double in_time(estimate::State& state, double told_rad) const;
   void take_rates(estimate::State& state, const estimate::MotionInput& input) const;
   void hand_over_gyro(estimate::State& state, const estimate::TurnRate& turn) const;
   estimate::State blank() const;
   estimate::State carried_over(const estimate::State& old, const GeodeticPoint& origin) const;
   // What a state means, in report.cpp:
   void report(const estimate::State& state, Time now);
+  void report_learned(const estimate::State& state);
   void report_trouble(const estimate::State& state, Time now);
   void report_imu(const estimate::State& state, Time now);
   double reach_m(const estimate::State& state, Time now) const;

@@ -108,6 +108,7 @@ void Estimator::on_position(const GnssPosition& position, std::uint8_t receiver,
   antenna.y_m = point.y_m;
   antenna.sigma_x_m = sigma_m(antenna.quality, position.sigma_east_m, config_);
   antenna.sigma_y_m = sigma_m(antenna.quality, position.sigma_north_m, config_);
+  antenna.told_sigma = position.sigma_east_m > 0 && position.sigma_north_m > 0;
   const bool sane = std::abs(position.latitude_deg) <= 90 &&
                     std::abs(position.longitude_deg) <= 180 &&
                     std::hypot(antenna.x_m, antenna.y_m) <= kFarthest_m;

@@ -27,6 +27,8 @@ struct GyroTrack {
   Time at = kNever;         ///< when it was measured; kNever: none that can be used
   double roll_rad = 0;
   double pitch_rad = 0;
+  double left_mps2 = 0;  ///< of the base, without gravity
+  bool rocks = false;
 
   // The slice of time that is being summed up.
   double slice_s = 0;

@@ -9,6 +9,7 @@ namespace {
 constexpr double kFastest_radps = 50.0;  // sensors end at 35
 constexpr double kHardest_mps2 = 400.0;  // sensors end at 157 or 314
 constexpr double kUnitTolerance = 0.05;  // of a quaternion's length
+constexpr double kRocks_radps = 0.35;
 constexpr Duration kGap = std::chrono::milliseconds(100);
 constexpr Duration kRestart = std::chrono::seconds(1);
 
@@ -33,6 +34,8 @@ TurnRate ImuIntake::turn(double radps) const {
   turn.rest_bias_sigma = bias_.sigma_radps();
   turn.roll_rad = tilt_.roll_rad();
   turn.pitch_rad = tilt_.pitch_rad();
+  turn.left_mps2 = left_mps2_;
+  turn.rocks = rocks_;
   turn.saturated = saturated_;
   return turn;
 }
@@ -50,6 +53,10 @@ ImuIntake::Verdict ImuIntake::take(const ImuSample& sample, Time at, bool standi
     bias_.update(sample.angular_velocity_radps, at, standing);
   }
   const Vector3& rate = sample.angular_velocity_radps;
+  const double gravity_left_mps2 =
+      kGravity_mps2 * std::cos(tilt_.pitch_rad()) * std::sin(tilt_.roll_rad());
+  left_mps2_ = sample.acceleration_mps2.y - gravity_left_mps2;
+  rocks_ = std::hypot(rate.x - bias.x, rate.y - bias.y) > kRocks_radps;
   turn_radps_ = rate.z - bias.z;
   const double radps =
       tilt_.vertical_radps({.x = rate.x - bias.x, .y = rate.y - bias.y, .z = rate.z});

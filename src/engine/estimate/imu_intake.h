@@ -19,6 +19,8 @@ struct TurnRate {
   double rest_bias_sigma = kAbsent;  ///< rad/s; absent: none learned yet
   double roll_rad = 0;
   double pitch_rad = 0;
+  double left_mps2 = 0;    ///< felt to the left, without gravity
+  bool rocks = false;      ///< rolls or pitches fast, so that a sensor high up is swung about
   bool saturated = false;  ///< the truth is larger
 };
 
@@ -53,6 +55,8 @@ class ImuIntake final {
   Time from_ = kNever;     ///< slot in which the present sum began
   double turned_rad_ = 0;  ///< since then
   double turn_radps_ = 0;
+  double left_mps2_ = 0;
+  bool rocks_ = false;
   bool saturated_ = false;
   std::optional<TurnSlot> finished_;
 };

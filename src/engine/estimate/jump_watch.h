@@ -11,17 +11,23 @@ class JumpWatch final {
   void accepted() { *this = JumpWatch{}; }
   /// A refused measurement at `at`. `same_place`: the robot stands and this one repeats the place
   /// that the run of refused ones began with; otherwise the place to repeat begins anew here.
-  void refused(Time at, bool same_place) {
-    if (run_since_ == kNever) run_since_ = at;
+  void refused(Time at, bool same_place, bool moving = false) {
+    if (run_since_ == kNever) {
+      run_since_ = at;
+      began_moving_ = moving;
+    }
     if (place_since_ == kNever || !same_place) place_since_ = at;
     last_ = at;
   }
   bool running() const { return run_since_ != kNever; }
+  Time since() const { return run_since_; }  ///< kNever: none
   /// Nothing but refused ones for `duration`.
   bool disagrees(Duration duration) const { return running() && last_ - run_since_ >= duration; }
-  /// The same new place for `duration` while standing: it may be believed.
+  /// The run began while the robot moved: standing afterwards shows nothing.
+  bool began_moving() const { return running() && began_moving_; }
+  /// The same new place for `duration` while standing, also when it appeared: it may be believed.
   bool settled(Duration duration) const {
-    return place_since_ != kNever && last_ - place_since_ >= duration;
+    return place_since_ != kNever && !began_moving_ && last_ - place_since_ >= duration;
   }
   /// True when the present one begins the place to repeat.
   bool new_place() const { return place_since_ == last_; }
@@ -30,6 +36,7 @@ class JumpWatch final {
   Time run_since_ = kNever;
   Time place_since_ = kNever;
   Time last_ = kNever;
+  bool began_moving_ = false;
 };
 
 }  // namespace drover::engine::estimate

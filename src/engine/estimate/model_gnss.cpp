@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "drover/angle.h"
+#include "engine/estimate/antenna_learning.h"
+#include "engine/estimate/fix_jumps.h"
 
 namespace drover::engine::estimate {
 namespace {
@@ -11,10 +13,6 @@ namespace {
 // The share of the fixed sigma under which a position is never claimed to be known: a fix that
 // comes and goes has the same multipath error each time, so averaging its spells proves nothing.
 constexpr double kFloorShare = 0.8;
-
-double larger_sigma_m(const AntennaPosition& position) {
-  return std::max(position.sigma_x_m, position.sigma_y_m);
-}
 
 /// Filters in the receiver let the error of the worse quality fade after the better one is shown:
 /// until then the position is taken for as bad as that.
@@ -58,6 +56,7 @@ AntennaPosition follow_quality(State& state, const AntennaPosition& position,
     scale_bias(state.belief, kBiasX, used.sigma_x_m / gnss.sigma_x_m);
     scale_bias(state.belief, kBiasY, used.sigma_y_m / gnss.sigma_y_m);
   }
+  gnss.told_sigma = used.told_sigma;
   gnss.sigma_x_m = used.sigma_x_m;
   gnss.sigma_y_m = used.sigma_y_m;
   return used;
@@ -71,9 +70,16 @@ void hand_over(State& state, std::uint8_t receiver) {
   gnss.quality = GnssClass::none;
   gnss.improved = kNever;
   gnss.jumps = {};
+  gnss.dispute = {};
   state.watch.forget();
   state.course = {};
 }
+
+/// In the map, from base_link.
+struct TurnedArm {
+  double x_m = 0;
+  double y_m = 0;
+};
 
 void place(State& state, const AntennaPosition& position, double arm_x_m, double arm_y_m,
            double extra_variance) {
@@ -89,7 +95,16 @@ void place(State& state, const AntennaPosition& position, double arm_x_m, double
   p[kY][kBiasY] = p[kBiasY][kY] = -square(position.sigma_y_m);
   state.has_position = true;
   state.reckoned = {};
+  state.way_unknown = false;
   if (position.quality == GnssClass::fixed) state.gnss.fixed = state.time;
+}
+
+/// Where the base was believed to be was wrong.
+void place_anew(State& state, const AntennaPosition& position, const TurnedArm& arm,
+                double extra_variance) {
+  place(state, position, arm.x_m, arm.y_m, extra_variance);
+  state.gnss.jumps.accepted();
+  state.watch.pause();
 }
 
 struct TiltedArm {
@@ -128,21 +143,24 @@ void find_heading(State& state, const AntennaPosition& position, const LeverArm&
 
 /// Remembers a refused position. True when it is to be believed after all: the base has stood
 /// since before the new place appeared, and the place has repeated for long enough.
-bool refuse(State& state, const AntennaPosition& position, double distance_m, double noise_m,
-            const EstimateConfig& config) {
+bool refuse(State& state, const AntennaPosition& position, const Dispute::Offset& beside,
+            double noise_m, bool fixed, const EstimateConfig& config) {
   GnssTrack& gnss = state.gnss;
   const bool standing = state.standing_since != kNever;
   const bool same_place =
       standing && std::hypot(position.x_m - gnss.place_x_m, position.y_m - gnss.place_y_m) <
                       config.gate_sigma * noise_m;
-  gnss.jumps.refused(state.time, same_place);
-  gnss.contradiction_m = distance_m;
+  gnss.jumps.refused(state.time, same_place, !standing && !state.way_unknown);
+  gnss.contradiction_m = beside.m();
   ++state.refused;
   if (gnss.jumps.new_place()) {
     gnss.place_x_m = position.x_m;
     gnss.place_y_m = position.y_m;
   }
-  return standing && gnss.jumps.settled(from_s(config.jump_time_s));
+  const Duration patience = from_s(config.jump_time_s);
+  if (fixed && gnss.jumps.began_moving() && gnss.jumps.disagrees(patience))
+    gnss.dispute.begin(beside, gnss.jumps.since());
+  return standing && gnss.jumps.settled(patience);
 }
 
 Ground ground_of(const State& state, const EstimateConfig& config) {
@@ -152,6 +170,18 @@ Ground ground_of(const State& state, const EstimateConfig& config) {
   if (state.gyro.fresh(state.time, from_s(config.imu_stale_s)))
     ground.slope_rad = state.gyro.roll_rad;
   return ground;
+}
+
+/// For those who watch ways: what only seems to move because the antenna is elsewhere is no drift.
+BaseFix base_fix(const State& state, const AntennaPosition& position, const TurnedArm& arm) {
+  const bool elsewhere = state.fit.arm_wrong();
+  const double ahead_m = elsewhere ? state.fit.ahead_m() : 0;
+  const double left_m = elsewhere ? state.fit.left_m() : 0;
+  const double c = std::cos(state.belief.mean[kYaw]);
+  const double s = std::sin(state.belief.mean[kYaw]);
+  return {.x_m = position.x_m - arm.x_m - ahead_m * c + left_m * s,
+          .y_m = position.y_m - arm.y_m - ahead_m * s - left_m * c,
+          .sigma_m = larger_sigma_m(position)};
 }
 
 /// By how much dead reckoning may be off is seen by a position as well as that is known itself.
@@ -167,71 +197,13 @@ void rest_on(State& state, const AntennaPosition& position, const EstimateConfig
   way.north_m *= left;
 }
 
-/// The heading turns, the antenna stays where it is.
-void correct_mounting(State& state, const LeverArm& arm, const EstimateConfig& config) {
-  const double turn_rad = state.has_heading ? state.mounting.catch_up(config) : 0;
-  if (turn_rad == 0) return;
-  Vector& mean = state.belief.mean;
-  const auto arm_x_m = [&] {
-    return arm.ahead_m * std::cos(mean[kYaw]) - arm.left_m * std::sin(mean[kYaw]);
-  };
-  const auto arm_y_m = [&] {
-    return arm.ahead_m * std::sin(mean[kYaw]) + arm.left_m * std::cos(mean[kYaw]);
-  };
-  mean[kX] += arm_x_m();
-  mean[kY] += arm_y_m();
-  mean[kYaw] = wrap_rad(mean[kYaw] + turn_rad);
-  mean[kX] -= arm_x_m();
-  mean[kY] -= arm_y_m();
-  state.watch.turn_heading(mean[kYaw], turn_rad);
-}
-
 }  // namespace
-
-GnssClass class_of(const GnssPosition& position, const EstimateConfig& config) {
-  switch (position.quality) {
-    case FixQuality::none:
-    case FixQuality::estimated:
-    case FixQuality::manual:
-    case FixQuality::simulator: return GnssClass::none;
-    case FixQuality::rtk_fixed:
-      return position.correction_age_s > config.max_correction_age_s ? GnssClass::floating
-                                                                     : GnssClass::fixed;
-    case FixQuality::rtk_float: return GnssClass::floating;
-    case FixQuality::dgps: return GnssClass::dgps;
-    case FixQuality::single:
-    case FixQuality::pps: break;
-  }
-  return GnssClass::single;  // an unknown number is never better than 1
-}
-
-double floor_sigma_m(GnssClass quality, const EstimateConfig& config) {
-  switch (quality) {
-    case GnssClass::fixed: return config.sigma_fixed_m;
-    case GnssClass::floating: return config.sigma_float_m;
-    case GnssClass::dgps: return config.sigma_dgps_m;
-    case GnssClass::none:
-    case GnssClass::single: break;
-  }
-  return config.sigma_single_m;
-}
-
-double sigma_m(GnssClass quality, double gst_sigma_m, const EstimateConfig& config) {
-  const double floor = floor_sigma_m(quality, config);
-  const bool worse = gst_sigma_m > floor && std::isfinite(gst_sigma_m);
-  return config.gnss_inflation * (worse ? gst_sigma_m : floor);
-}
-
-LeverArm lever_arm(double roll_rad, double pitch_rad, const AntennaConfig& antenna) {
-  const double over_m = antenna.y_m * std::sin(roll_rad) + antenna.z_m * std::cos(roll_rad);
-  return {.ahead_m = antenna.x_m * std::cos(pitch_rad) + over_m * std::sin(pitch_rad),
-          .left_m = antenna.y_m * std::cos(roll_rad) - antenna.z_m * std::sin(roll_rad)};
-}
 
 void apply(State& state, const AntennaPosition& measured, double speed_mps,
            const EstimateConfig& config) {
   if (measured.receiver != state.gnss.receiver) hand_over(state, measured.receiver);
-  const AntennaPosition position = follow_quality(state, measured, config);
+  const AntennaPosition position =
+      in_time(state, follow_quality(state, measured, config), speed_mps);
   Belief& belief = state.belief;
   const TiltedArm tilted = tilted_arm(state, config);
   find_heading(state, position, tilted.arm, config);
@@ -253,13 +225,11 @@ void apply(State& state, const AntennaPosition& measured, double speed_mps,
     return;
   }
   const bool fixed = position.quality == GnssClass::fixed && oriented;
-  const BaseFix fix{.x_m = position.x_m - arm_x,
-                    .y_m = position.y_m - arm_y,
-                    .sigma_m = larger_sigma_m(position)};
+  const BaseFix fix = base_fix(state, position, {arm_x, arm_y});
   if (!fixed) {
     state.watch.lose_fix();
   } else {
-    watch_slip(state.watch, belief, fix, state.time);
+    watch_slip(state.watch, belief, fix, state.time, config);
   }
 
   Vector row_x{};
@@ -275,31 +245,53 @@ void apply(State& state, const AntennaPosition& measured, double speed_mps,
   const double sxy = belief.project(row_x, row_y);
   const double determinant = sxx * syy - sxy * sxy;
   const double distance2 = (syy * dx * dx - 2 * sxy * dx * dy + sxx * dy * dy) / determinant;
-  if (!(distance2 <= square(config.gate_sigma))) {
-    if (refuse(state, position, std::hypot(dx, dy), larger_sigma_m(position), config)) {
-      place(state, position, arm_x, arm_y, place_variance);
-      state.gnss.jumps.accepted();
-      state.watch.pause();
+  const bool inside = distance2 <= square(config.gate_sigma);
+  if (!fixed) {
+    state.gnss.dispute.lose_fix();
+  } else {
+    switch (judge_jump(state, {{dx, dy}, inside, fix.sigma_m, extra, speed_mps}, config)) {
+      case FixVerdict::plain: break;
+      case FixVerdict::waits: return;
+      case FixVerdict::doubted: ++state.refused; return;
+      case FixVerdict::renewed: return place_anew(state, position, {arm_x, arm_y}, place_variance);
     }
+  }
+  if (!inside) {
+    if (refuse(state, position, {dx, dy}, larger_sigma_m(position), fixed, config))
+      place_anew(state, position, {arm_x, arm_y}, place_variance);
     return;
   }
   state.gnss.jumps.accepted();
   if (fixed) {
+    state.gnss.believed = state.time;
+    state.way_unknown = false;
     state.gnss.fixed = state.time;
+    const bool was_wrong = state.fit.arm_wrong();
+    learn_fit(state, measured, {.arm_x_m = arm_x, .arm_y_m = arm_y}, speed_mps, config);
+    if (state.fit.arm_wrong() != was_wrong) state.watch.pause();
     watch_drift(state.watch, state.mounting, belief, fix, state.time, ground_of(state, config),
                 config);
   }
   rest_on(state, position, config);
   const Vector before = belief.mean;
   belief.correct(row_x, dx, variance_x);
-  // The first correction has moved the state; the second one starts from there.
-  const double moved_m = belief.mean[kY] - before[kY] + belief.mean[kBiasY] - before[kBiasY] +
-                         arm_x * wrap_rad(belief.mean[kYaw] - before[kYaw]);
-  belief.correct(row_y, dy - moved_m, variance_y);
+  // The first correction has moved the state; what is left starts from there.
+  const auto left_y_m = [&] {
+    return dy - (belief.mean[kY] - before[kY]) - (belief.mean[kBiasY] - before[kBiasY]) -
+           arm_x * wrap_rad(belief.mean[kYaw] - before[kYaw]);
+  };
+  belief.correct(row_y, left_y_m(), variance_y);
+  if (fixed) {
+    state.gnss.beside_x_m = dx - (belief.mean[kX] - before[kX]) -
+                            (belief.mean[kBiasX] - before[kBiasX]) +
+                            arm_y * wrap_rad(belief.mean[kYaw] - before[kYaw]);
+    state.gnss.beside_y_m = left_y_m();
+  }
   const double floor = square(kFloorShare * config.sigma_fixed_m);
   belief.floor_variance(kX, floor);
   belief.floor_variance(kY, floor);
   correct_mounting(state, tilted.arm, config);
+  correct_lateness(state, speed_mps);
 }
 
 }  // namespace drover::engine::estimate

@@ -13,8 +13,13 @@ struct AntennaPosition {
   GnssClass quality = GnssClass::none;
   double sigma_x_m = 0;
   double sigma_y_m = 0;
+  bool told_sigma = false;    ///< the receiver says how well it knows
   std::uint8_t receiver = 0;  ///< whose
 };
+
+inline double larger_sigma_m(const AntennaPosition& position) {
+  return position.sigma_x_m > position.sigma_y_m ? position.sigma_x_m : position.sigma_y_m;
+}
 
 /// The class whose error a quality has. Dead reckoning of the receiver, manual input and its
 /// simulator mode are no measurements; an RTK fix with old corrections is a float.

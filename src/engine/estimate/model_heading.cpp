@@ -41,7 +41,9 @@ void apply_heading(State& state, double told_rad, const EstimateConfig& config) 
   if (!(square(innovation) <= square(config.gate_sigma) * expected)) {
     const bool standing = state.standing_since != kNever;
     const double repeats = std::abs(wrap_rad(yaw_rad - track.place_rad));
-    track.jumps.refused(state.time, standing && repeats < config.gate_sigma * sigma);
+    track.jumps.refused(state.time, standing && repeats < config.gate_sigma * sigma,
+                        !standing && !state.way_unknown);
+    track.contradiction_rad = std::abs(innovation);
     ++state.refused;
     if (track.jumps.new_place()) track.place_rad = yaw_rad;
     if (standing && track.jumps.settled(from_s(config.jump_time_s))) place(state, yaw_rad, sigma);

@@ -8,14 +8,9 @@
 namespace drover::engine::estimate {
 namespace {
 
-constexpr Duration kBriefest = std::chrono::milliseconds(350);
-constexpr Duration kBrief = std::chrono::milliseconds(750);
-// Slip is told when the ways differ by more than this and this share of the way; it is over below
-// half of it.
-constexpr double kSlip_m = 0.05;
-constexpr double kSlipShare = 0.25;
-constexpr double kSlipGate = 3.0;   // sigmas of the two positions
-constexpr double kJumpShare = 0.6;  // of the gap between two positions: not the wheels' doing
+// Wheels that spun so much more than the base moved look the same as a place that drifts along the
+// way.
+constexpr double kSlipSuspected_m = 0.5;
 
 constexpr Duration kLasting = std::chrono::seconds(24);
 constexpr Duration kShortestDrift = std::chrono::seconds(3);
@@ -28,9 +23,11 @@ constexpr double kPoorFix = 1.5;   // times the sigma of one that came later
 // Soil takes its share of the way, and another one a few metres on: along the way a slow drift
 // cannot be told from it.
 constexpr double kScaleShare = 0.02;
+constexpr double kBentShare = 0.5;
 constexpr double kCrab_rad = 0.0025;  // course beside the heading, whatever it comes from
 
 constexpr double kSuspected_m = 0.20;
+constexpr double kSlowestSlip_mps = 0.02;
 constexpr Duration kStopWithin = std::chrono::seconds(4);  // otherwise nobody looks
 // A drift as fast as the suspected one goes twice as far in a look as fixes wander meanwhile.
 constexpr double kWandered = 3.0;  // sigmas of a fix
@@ -39,9 +36,16 @@ constexpr Duration kLongestLook = std::chrono::seconds(20);
 constexpr int kFirstFixes = 5;
 constexpr double kBlend = 0.2;                  // of the newest fix into where it stands by now
 constexpr double kSameDirection_rad = kPi / 4;  // what a look found holds so far
-constexpr double kSidewaysWay_m = 4.0;          // shorter ones show little but noise
+constexpr double kSidewaysWay_m = 3.0;          // shorter ones show little but noise
 constexpr double kSlope_rad = 0.025;            // to a side: the likeliest cause, from here on
 constexpr double kMostSlideShare = 1.2;
+constexpr double kUsualSlideShare = 0.5;
+// How much a look tells of it: of the way before the last metres a part was on another ground.
+constexpr double kRecentWeight = 0.9;
+constexpr double kOlderWeight = 0.5;
+constexpr double kUnexplained_rad = 0.025;
+constexpr double kOpposite_rad = 0.01;
+constexpr double kBack_rad = 2 * kPi / 3;   // no other way than back
 constexpr double kUnknownSlope_rad = 0.03;  // under a field robot
 
 constexpr double kStudyWay_m = 5.0;
@@ -49,20 +53,6 @@ constexpr double kDoubtful_m = 0.12;
 constexpr double kShortLesson_m = 1.5;
 constexpr double kStudyStraight = 0.98;  // chord over way
 constexpr double kSlideShare = 0.5;      // wheels slide down a slope by so much of it
-
-Leg begin(const BaseFix& fix, Time now) {
-  Leg leg;
-  leg.since = now;
-  leg.x_m = fix.x_m;
-  leg.y_m = fix.y_m;
-  leg.sigma_m = fix.sigma_m;
-  return leg;
-}
-
-void begin_brief(MotionWatch& watch, const BaseFix& fix, Time now) {
-  watch.brief = begin(fix, now);
-  watch.last_gap_m = watch.last_east_m = watch.last_north_m = watch.largest_step_m = 0;
-}
 
 /// How far the fix is away from dead reckoning.
 struct Apart {
@@ -102,10 +92,13 @@ struct Spread {
 Spread expected(const Leg& leg, const Belief& belief, double sigma_m,
                 const EstimateConfig& config) {
   const double yaw = belief.covariance[kYaw][kYaw] + square(kCrab_rad);
-  const double scale = belief.covariance[kScale][kScale] + square(kScaleShare);
   const double ee = leg.spread_ee_m;
   const double en = leg.spread_en_m;
   const double nn = leg.spread_nn_m;
+  // Of a way there and back soil takes another share on each, but hardly all of it on one.
+  const double straight = ee + nn > 0 ? std::hypot(leg.east_m, leg.north_m) / (ee + nn) : 1.0;
+  const double soil = kScaleShare * (kBentShare + (1 - kBentShare) * straight);
+  const double scale = belief.covariance[kScale][kScale] + square(soil);
   const double rest =
       square(leg.sigma_m) + square(sigma_m) + square(config.turning_shift_m) * leg.turn_rad;
   const double along = square(config.odometry_along_m);
@@ -126,6 +119,14 @@ double in_sigmas2(const Apart& apart, const Spread& spread) {
          determinant;
 }
 
+/// What the look showed, and what is usual before any did.
+double slide_share(double before, const Look& look) {
+  const double seen = before - look.across_m / look.fall_m;
+  const double usual = before > 0 ? before : kUsualSlideShare;
+  const double weight = look.recent ? kRecentWeight : kOlderWeight;
+  return std::clamp(usual + weight * (seen - usual), 0.0, kMostSlideShare);
+}
+
 /// It was no drift, so it was the ground or the mounting: by the youngest leg that shows it. Where
 /// it stands on a slope it was that one; `slope_rad` is NaN when nobody knows.
 Sideways sideways_of(const MotionWatch& watch, double slope_rad) {
@@ -134,15 +135,33 @@ Sideways sideways_of(const MotionWatch& watch, double slope_rad) {
   if (!(look.chord_m > 0)) return sideways;
   const double more_rad = look.across_m / look.chord_m;
   if (std::abs(slope_rad) > kSlope_rad) {
-    if (look.fall_m * slope_rad > 0)
-      sideways.slide_share =
-          std::clamp(sideways.slide_share - look.across_m / look.fall_m, 0.0, kMostSlideShare);
+    if (look.fall_m * slope_rad > 0) sideways.slide_share = slide_share(sideways.slide_share, look);
     return sideways;
   }
+  // Just off a slope it was the slope, or how that was felt: nothing for this ground.
+  if (std::abs(look.fall_m) > kSlope_rad * look.chord_m) return sideways;
   sideways.crab_rad = watch.crab_rad(look.course_rad, kAbsent) + more_rad;
   sideways.course_rad = look.course_rad;
   sideways.any_direction = std::abs(slope_rad) <= kSlope_rad;
   return sideways;
+}
+
+/// A base on level ground whose antenna line is known, or that went aside to the other hand of it
+/// on the way back: nothing of the robot does that, and a place may well drift only while it moves.
+bool unexplained(const MotionWatch& watch, const Mounting& mounting, double slope_rad,
+                 const EstimateConfig& config) {
+  const Look& look = watch.look;
+  const bool level =
+      std::abs(slope_rad) <= kSlope_rad && std::abs(look.fall_m) <= kSlope_rad * look.chord_m;
+  if (!level || !(look.chord_m > 0)) return false;
+  const double seen_rad = look.across_m / look.chord_m;
+  const double crab_rad = watch.crab_rad(look.course_rad, kAbsent) + seen_rad;
+  if (mounting.known(config))
+    return std::abs(crab_rad) > kUnexplained_rad + 3 * mounting.sigma_rad(config);
+  const Sideways& before = watch.sideways;
+  const bool back = std::abs(wrap_rad(look.course_rad - before.course_rad)) > kBack_rad;
+  return before.any_direction && back && before.crab_rad * crab_rad < 0 &&
+         std::min(std::abs(before.crab_rad), std::abs(crab_rad)) > kOpposite_rad;
 }
 
 /// Without way when it was too short or no straight one.
@@ -169,19 +188,34 @@ void suspect(MotionWatch& watch, const StraightLeg& lesson, const BaseFix& fix, 
   watch.look = {.since = now,
                 .east = gap.east_m / gap.m(),
                 .north = gap.north_m / gap.m(),
-                .takes = std::clamp(from_s(2 * kWandered * fix.sigma_m / rate_mps), kShortestLook,
-                                    kLongestLook),
+                .rate_mps = rate_mps,
                 .lesson = lesson,
                 .moving = now};
   watch.study = {};
-  const Leg& younger = watch.lasting[1];
-  const bool shows = younger.since != kNever && younger.way_m >= kSidewaysWay_m;
-  const Leg& leg = shows ? younger : older;
+  const Leg& recent = watch.recent[0];
+  watch.look.recent = recent.way_m >= kSidewaysWay_m && recent.since > older.since;
+  const Leg& leg = watch.look.recent ? recent : older;
   const Straight found = straight(leg, fix, kStraight);
   watch.look.across_m = found.across_m;
   watch.look.chord_m = found.chord_m;
   watch.look.course_rad = found.course_rad;
   watch.look.fall_m = leg.fall_m;
+}
+
+/// Whoever slips goes less far than his wheels, on and on; or the place drifts along the way.
+void suspect_slip(MotionWatch& watch, Time now) {
+  const Leg& leg = watch.brief;
+  const double wheels_m = std::hypot(leg.east_m, leg.north_m);
+  const double ahead = watch.receiver_mps > watch.wheel_mps ? 1 : -1;
+  if (!(wheels_m > 0)) return;
+  const double rate_mps = std::max(watch.slip_mps(), kSlowestSlip_mps);
+  watch.look = {.since = now,
+                .along = true,
+                .east = ahead * leg.east_m / wheels_m,
+                .north = ahead * leg.north_m / wheels_m,
+                .rate_mps = rate_mps,
+                .moving = now};
+  watch.study = {};
 }
 
 /// Nothing that stands is taken aside by its mounting, by the ground or by its wheels.
@@ -191,7 +225,7 @@ void look_on(MotionWatch& watch, Mounting& mounting, const BaseFix& fix, Time no
   if (!ground.stands) {
     if (look.moving == kNever) look.moving = now;
     look.resting = kNever;
-    watch.drifted = now - look.moving > kStopWithin;
+    watch.drifted = !look.along && now - look.moving > kStopWithin;
     if (watch.drifted) look = {};
     return;
   }
@@ -202,6 +236,8 @@ void look_on(MotionWatch& watch, Mounting& mounting, const BaseFix& fix, Time no
     look.fixes = 0;
     look.first_m = 0;
   }
+  look.sigma_m +=
+      look.fixes == 0 ? fix.sigma_m - look.sigma_m : kBlend * (fix.sigma_m - look.sigma_m);
   if (++look.fixes <= kFirstFixes) {
     look.first_m += (at_m - look.first_m) / look.fixes;
     look.by_now_m = look.first_m;
@@ -210,35 +246,45 @@ void look_on(MotionWatch& watch, Mounting& mounting, const BaseFix& fix, Time no
   look.by_now_m += kBlend * (at_m - look.by_now_m);
   const Duration looked = now - look.resting;
   if (looked < kShortestLook) return;
-  if (look.by_now_m - look.first_m > kWandered * fix.sigma_m) {
+  const Duration takes =
+      std::clamp(from_s(2 * kWandered * look.sigma_m / look.rate_mps), kShortestLook, kLongestLook);
+  if (look.by_now_m - look.first_m > kWandered * look.sigma_m ||
+      (looked >= takes && unexplained(watch, mounting, ground.slope_rad, config))) {
     watch.drifted = true;
     look = {};
-  } else if (looked >= look.takes) {
+  } else if (looked >= takes) {
     watch.sideways = sideways_of(watch, ground.slope_rad);
     if (look.lesson.way_m > 0) learn(mounting, look.lesson, config);
     watch.lasting = {};
-    watch.gap_m = 0;
+    watch.gap_m = watch.unseen_slip_m = 0;
     look = {};
   }
+}
+
+/// What is beside the heading now shows in the last metres: before, it may have been another
+/// ground, or the tilt was not known yet.
+void follow_recent(MotionWatch& watch, const BaseFix& fix, Time now) {
+  auto& [older, younger] = watch.recent;
+  if (older.since == kNever) older = begin_leg(fix, now);
+  if (older.way_m >= kSidewaysWay_m && younger.since == kNever) younger = begin_leg(fix, now);
+  if (younger.way_m < kSidewaysWay_m) return;
+  older = younger;
+  younger = begin_leg(fix, now);
 }
 
 void study(MotionWatch& watch, Mounting& mounting, const Belief& belief, const BaseFix& fix,
            Time now, const EstimateConfig& config) {
   Leg& leg = watch.study;
   if (watch.slipping()) leg = {};
-  if (leg.since == kNever) leg = begin(fix, now);
+  if (leg.since == kNever) leg = begin_leg(fix, now);
   // What may turn out to be a drift teaches nothing before it was looked at.
   if (leg.way_m < kStudyWay_m || watch.gap_m > kDoubtful_m) return;
   const StraightLeg lesson = lesson_of(leg, belief, fix, config);
   if (lesson.way_m > 0) learn(mounting, lesson, config);
-  leg = begin(fix, now);
+  leg = begin_leg(fix, now);
 }
 
 }  // namespace
-
-double MotionWatch::slip_mps() const {
-  return slipping() ? std::abs(wheel_mps - receiver_mps) : 0.0;
-}
 
 double MotionWatch::crab_rad(double yaw_rad, double slope_rad) const {
   const bool holds = sideways.any_direction ||
@@ -267,6 +313,7 @@ void MotionWatch::advance(Step step, double crab_rad) {
   step.north_m += crab_rad * east_m;
   brief.advance(step);
   for (Leg& leg : lasting) leg.advance(step);
+  for (Leg& leg : recent) leg.advance(step);
 }
 
 void Leg::turn(double rad) {
@@ -283,6 +330,7 @@ void MotionWatch::turn_heading(double yaw_rad, double by_rad) {
   if (found) return;
   brief.turn(by_rad);
   for (Leg& leg : lasting) leg.turn(by_rad);
+  for (Leg& leg : recent) leg.turn(by_rad);
 }
 
 void MotionWatch::pause() {
@@ -297,8 +345,10 @@ void MotionWatch::pause() {
   look = old.look;
 }
 
+/// The ways go on: what comes back is compared with where it was, however often it goes.
 void MotionWatch::lose_fix() {
-  pause();
+  brief = study = {};
+  slip_since = stuck_since = kNever;
   look.resting = kNever;
 }
 
@@ -306,51 +356,6 @@ void MotionWatch::lose() {
   pause();
   lasting = {};
   look = {};
-}
-
-void watch_slip(MotionWatch& watch, Belief& belief, const BaseFix& fix, Time now) {
-  Leg& leg = watch.brief;
-  if (leg.since == kNever || now - leg.since > 2 * kBrief) {
-    begin_brief(watch, fix, now);
-    watch.slip_since = kNever;
-    return;
-  }
-  const double wheels_m = std::hypot(leg.east_m, leg.north_m);
-  const double receiver_m = std::hypot(fix.x_m - leg.x_m, fix.y_m - leg.y_m);
-  const double gap_m = wheels_m - receiver_m;
-  // By its place, not its length: a jump back by more than the way so far looks like little of it.
-  const double east_m = fix.x_m - leg.x_m - leg.east_m;
-  const double north_m = fix.y_m - leg.y_m - leg.north_m;
-  watch.largest_step_m = std::max(
-      watch.largest_step_m, std::hypot(east_m - watch.last_east_m, north_m - watch.last_north_m));
-  watch.last_east_m = east_m;
-  watch.last_north_m = north_m;
-  watch.last_gap_m = gap_m;
-  const Duration age = now - leg.since;
-  if (age < kBriefest) return;
-  // Fixes that still settle after an outage wander by more than wheels slip.
-  const double noise_m = kSlipGate * std::hypot(leg.sigma_m, fix.sigma_m);
-  const double most_m = std::max(kSlip_m, noise_m) + kSlipShare * wheels_m;
-  const bool creeping = watch.largest_step_m < kJumpShare * std::abs(gap_m);
-  watch.wheel_mps = wheels_m / to_s(age);
-  watch.receiver_mps = receiver_m / to_s(age);
-  if (!watch.slipping() && std::abs(gap_m) > most_m && creeping) {
-    watch.slip_since = leg.since;
-    const double c = std::cos(belief.mean[kYaw]);
-    const double s = std::sin(belief.mean[kYaw]);
-    Matrix& p = belief.covariance;
-    p[kX][kX] += square(gap_m * c);
-    p[kY][kY] += square(gap_m * s);
-    p[kX][kY] += square(gap_m) * c * s;
-    p[kY][kX] = p[kX][kY];
-  } else if (std::abs(gap_m) < most_m / 2 && age >= kBrief) {
-    watch.slip_since = kNever;
-  }
-  // What the wheels spun away is no drift.
-  if (watch.slipping() && !watch.drifted && !watch.looks()) watch.lasting = {};
-  if (age < kBrief) return;
-  watch.slipped_m = watch.slipping() ? watch.slipped_m + std::abs(gap_m) : 0;
-  begin_brief(watch, fix, now);
 }
 
 void watch_drift(MotionWatch& watch, Mounting& mounting, const Belief& belief, const BaseFix& fix,
@@ -361,8 +366,9 @@ void watch_drift(MotionWatch& watch, Mounting& mounting, const Belief& belief, c
   // A leg that began with a fix that had not settled yet would tell of that.
   const bool poor = older.sigma_m > kPoorFix * fix.sigma_m && !watch.drifted && !watch.looks();
   if (older.since == kNever || poor) {
-    older = begin(fix, now);
+    older = begin_leg(fix, now);
     younger = watch.study = {};
+    watch.recent = {older, {}};
     watch.gap_m = 0;
     return;
   }
@@ -382,11 +388,16 @@ void watch_drift(MotionWatch& watch, Mounting& mounting, const Belief& belief, c
     if (watch.drifted) watch.drift_m = gap.m();
     return;
   }
+  if (watch.slipping() && watch.unseen_slip_m > kSlipSuspected_m) {
+    suspect_slip(watch, now);
+    return;
+  }
   const bool drifts = now - older.since >= kShortestDrift && watch.gap_m >= kSuspected_m &&
                       !watch.slipping() && sigmas2 > square(kDriftGate);
   if (!drifts) watch.drift_since = kNever;
   if (drifts && watch.drift_since == kNever) watch.drift_since = now;
   study(watch, mounting, belief, fix, now, config);
+  follow_recent(watch, fix, now);
   if (drifts) {
     if (now - watch.drift_since < from_s(config.jump_time_s)) return;
     watch.drift_since = kNever;
@@ -395,9 +406,9 @@ void watch_drift(MotionWatch& watch, Mounting& mounting, const Belief& belief, c
   }
   if (now - older.since > kLasting && younger.since != kNever) {
     older = younger;
-    younger = begin(fix, now);
+    younger = begin_leg(fix, now);
   } else if (younger.since == kNever && now - older.since > kLasting / 2) {
-    younger = begin(fix, now);
+    younger = begin_leg(fix, now);
   }
 }
 

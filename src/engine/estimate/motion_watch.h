@@ -24,6 +24,13 @@ struct Step {
   double slope_rad = 0;  ///< the ground falls so much to the right; NaN: not known
 };
 
+/// An RTK fix, turned into the place of base_link.
+struct BaseFix {
+  double x_m = 0;
+  double y_m = 0;
+  double sigma_m = 0;
+};
+
 /// Both ways since one RTK position.
 struct Leg {
   Time since = kNever;  ///< kNever: not begun
@@ -46,12 +53,14 @@ struct Leg {
   void turn(double rad);
 };
 
-/// An RTK fix, turned into the place of base_link.
-struct BaseFix {
-  double x_m = 0;
-  double y_m = 0;
-  double sigma_m = 0;
-};
+inline Leg begin_leg(const BaseFix& fix, Time now) {
+  Leg leg;
+  leg.since = now;
+  leg.x_m = fix.x_m;
+  leg.y_m = fix.y_m;
+  leg.sigma_m = fix.sigma_m;
+  return leg;
+}
 
 /// What looks found: so much the base goes aside of its heading.
 struct Sideways {
@@ -64,15 +73,18 @@ struct Sideways {
 /// A suspicion that the position drifts, from its beginning until standing has decided it.
 struct Look {
   Time since = kNever;  ///< kNever: nothing is suspected
+  bool along = false;   ///< wheels slip, if it is no drift: who drives on may have it decided later
   double east = 0;      ///< direction of the gap between the fixes and dead reckoning
   double north = 0;
-  Duration takes{};  ///< so long a drift needs to show itself
+  double rate_mps = 0;  ///< at which they parted
+  double sigma_m = 0;   ///< of the fixes since it rests, smoothed
   // What it was if it was none, by the youngest leg that shows it; without a chord: none does.
   double across_m = 0;
   double chord_m = 0;
   double course_rad = 0;
   double fall_m = 0;
-  StraightLeg lesson;  ///< likewise, of the mounting
+  bool recent = false;  ///< that leg is the last metres
+  StraightLeg lesson;   ///< likewise, of the mounting
   Time moving = kNever;
   Time resting = kNever;
   int fixes = 0;       ///< since it rests
@@ -83,6 +95,7 @@ struct Look {
 struct MotionWatch {
   Leg brief;
   std::array<Leg, 2> lasting;  ///< the younger begins when the older is half as old as it may be
+  std::array<Leg, 2> recent;   ///< likewise, of some metres
   Leg study;                   ///< for the mounting of the antenna line
   Look look;
   Sideways sideways;
@@ -95,7 +108,9 @@ struct MotionWatch {
   Time slip_since = kNever;  ///< kNever: the wheels do not slip
   double wheel_mps = 0;      ///< while they do
   double receiver_mps = 0;
-  double slipped_m = 0;  ///< and how much the ways of both differ in the legs that are over
+  double slipped_m = 0;       ///< and how much the ways of both differ in the legs that are over
+  Time stuck_since = kNever;  ///< hardly any of what the wheels roll is seen by the receiver
+  double unseen_slip_m = 0;   ///< likewise, of late, since a look found no drift behind it
   Time drift_since = kNever;
   double drift_m = 0;  ///< how far the position went away from the wheels
   /// It drifted for long enough to be told. Time alone does not end that: the base stands, and what
@@ -110,7 +125,7 @@ struct MotionWatch {
   bool slipping() const { return slip_since != kNever; }
   /// The base hardly follows its wheels, or the receiver is stuck: nobody can tell which.
   bool stuck(Time now, Duration patience) const {
-    return slipping() && now - slip_since >= patience && receiver_mps < 0.4 * wheel_mps;
+    return stuck_since != kNever && now - stuck_since >= patience;
   }
   /// Nobody can tell any more whether it comes back: the wheels were not heard, or it was pushed.
   bool lost_track() const { return drifted && lasting[0].since == kNever; }
@@ -133,7 +148,8 @@ struct MotionWatch {
 
 /// A fix before it is judged by the gate. When wheels begin to slip the belief loses trust in its
 /// place along the way, so that the fixes are followed.
-void watch_slip(MotionWatch& watch, Belief& belief, const BaseFix& fix, Time now);
+void watch_slip(MotionWatch& watch, Belief& belief, const BaseFix& fix, Time now,
+                const EstimateConfig& config);
 /// What is known of the base's rest and its ground by wheels, gyro and tilt.
 struct Ground {
   bool stands = false;

@@ -20,6 +20,11 @@ constexpr Duration kContradicted = std::chrono::milliseconds(300);
 // An error lasts for half a minute: at two sigma a robot would be outside once in ten minutes, at
 // four hardly ever, as long as the sources err as they say.
 constexpr double kSure = 2.0;
+// Wheels that are worn, or sink in, are told from so much on; and from so many sigmas.
+constexpr double kOtherScale = 0.025;
+constexpr double kCertainScale = 4.0;
+// A receiver that does not tell how well it knows (GST) may be as bad as this beside its class.
+constexpr double kUntold_m = 0.019;
 
 HeadingDoubt doubt_of(const State& state, const EstimateConfig& config) {
   return {state.mount_sigma_rad(config), state.reckoned.east_m, state.reckoned.north_m};
@@ -48,7 +53,10 @@ void Estimator::report(const State& state, Time now) {
   e.yaw_slip_factor = 1.0 / belief.mean[kGain];
 
   const HeadingDoubt doubt = doubt_of(state, config_);
-  const double two_sigma_m = doubt.two_sigma_m(belief);
+  // Until it is known how late positions are, the place along the way is not well known.
+  const double late_m = e.pose.vx_mps * state.fit.late_sigma_s();
+  const double untold_m = state.gnss.told_sigma ? 0.0 : kUntold_m;
+  const double two_sigma_m = std::hypot(doubt.two_sigma_m(belief), 2 * late_m, 2 * untold_m);
   const double two_sigma_rad = doubt.two_sigma_rad(belief);
   e.pose.position_sigma_m = state.has_position ? two_sigma_m / 2 : kAbsent;
   e.pose.yaw_sigma_rad = state.has_heading ? two_sigma_rad / 2 : kAbsent;
@@ -58,43 +66,87 @@ void Estimator::report(const State& state, Time now) {
 
   report_trouble(state, now);
   report_imu(state, now);
-  const bool told = state.heading.last != kNever;
-  e.mounting_known = told && state.mounting.known(config_);
-  e.mounting_rad = told ? -state.mounting.applied_rad : kAbsent;
-  e.mounting_sigma_rad = told ? state.mounting.sigma_rad(config_) : kAbsent;
+  report_learned(state);
+  e.shoved = state.shove.ended;
+  e.shoved_m = state.shove.left_m;
   if (reach_at_ == kNever || now - reach_at_ >= kReachEach || now < reach_at_) {
     reach_at_ = now;
     e.metres_left = reach_m(state, now);
   }
 }
 
+void Estimator::report_learned(const State& state) {
+  Estimate& e = estimate_;
+  const bool told = state.heading.last != kNever;
+  e.mounting_known = told && state.mounting.known(config_);
+  e.mounting_rad = told ? -state.mounting.applied_rad : kAbsent;
+  e.mounting_sigma_rad = told ? state.mounting.sigma_rad(config_) : kAbsent;
+  e.late_s = state.fit.late_known() ? state.fit.late_s() : kAbsent;
+  e.heading_late_s = state.heading_late.known() ? state.heading_late.late_s() : kAbsent;
+  const bool arm_wrong = state.fit.arm_wrong() && std::isfinite(e.roll_rad);
+  e.arm_ahead_m = arm_wrong ? state.fit.ahead_m() : kAbsent;
+  e.arm_left_m = arm_wrong ? state.fit.left_m() : kAbsent;
+  const double scale = state.belief.mean[kScale];
+  const double scale_sigma = std::sqrt(state.belief.covariance[kScale][kScale]);
+  const bool other_wheels =
+      std::abs(scale - 1) > std::max(kCertainScale * scale_sigma, kOtherScale);
+  e.wheel_scale = other_wheels ? scale : kAbsent;
+  if (!arm_wrong || !state.has_position) return;
+  const double off_m = std::hypot(e.arm_ahead_m, e.arm_left_m);
+  e.predicted_error_m = std::max(e.predicted_error_m, off_m);
+  e.error_bound_m += off_m;
+}
+
 void Estimator::report_trouble(const State& state, Time now) {
   Estimate& e = estimate_;
   const Duration patience = from_s(config_.jump_time_s);
   const MotionWatch& watch = state.watch;
-  const bool position_disagrees = state.gnss.jumps.disagrees(patience);
-  const bool heading_disagrees = state.heading.jumps.disagrees(patience);
+  const JumpWatch& places = state.gnss.jumps;
+  const JumpWatch& headings = state.heading.jumps;
+  const Dispute& dispute = state.gnss.dispute;
+  const bool disputed = dispute.holds() && now - dispute.since() >= patience;
+  const bool position_disagrees = disputed || places.disagrees(patience);
+  const bool heading_disagrees = headings.disagrees(patience);
   const bool stuck = watch.stuck(now, patience);
   const bool drifted = watch.drifted;
   e.disagrees = position_disagrees || heading_disagrees || stuck || drifted;
+  e.disputed = e.disagrees && !stuck && !drifted && (!position_disagrees || disputed) &&
+               (!heading_disagrees || headings.began_moving());
+  e.place_doubted = disputed || drifted;
   e.slipped_m = watch.slipping() ? watch.slipped_m + std::abs(watch.last_gap_m) : 0;
   // One of the two is wrong, and nobody knows which: the error may be all that lies between them.
   if (state.has_position) {
     double apart_m = 0;
-    if (state.gnss.jumps.disagrees(kContradicted)) apart_m = state.gnss.contradiction_m;
+    if (places.disagrees(kContradicted)) apart_m = state.gnss.contradiction_m;
+    if (dispute.holds() && now - dispute.since() >= kContradicted) apart_m = dispute.apart_m();
     if (drifted) apart_m = std::max(apart_m, watch.drift_m);
     if (watch.slipping()) apart_m = std::max(apart_m, std::abs(watch.last_gap_m));
     e.predicted_error_m = std::max(e.predicted_error_m, apart_m);
     // Less than that is no contradiction, but may well be the beginning of one.
-    e.error_bound_m = std::max(e.error_bound_m + watch.gap_m, apart_m);
+    if (dispute.holds()) apart_m = std::max(apart_m, dispute.apart_m());
+    if (places.running()) apart_m = std::max(apart_m, state.gnss.contradiction_m);
+    e.error_bound_m += std::max(watch.gap_m, apart_m);
   }
-  if (position_disagrees) {
-    e.reason = "position disagrees with odometry";
-  } else if (heading_disagrees) {
-    e.reason = "heading disagrees with odometry";
-  } else if (stuck) {
+  // Gyro and wheels, which agree, vote a heading out that jumped.
+  const bool voted = e.gyro_used && state.gyro.trouble == TurnTrouble::none;
+  if (headings.disagrees(kContradicted) && state.has_heading && !voted)
+    e.yaw_error_rad = std::max(e.yaw_error_rad, state.heading.contradiction_rad);
+  if (stuck) {
     e.reason.format("wheels slip or the receiver is stuck: %.2f m/s by wheels, %.2f by receiver",
                     watch.wheel_mps, watch.receiver_mps);
+  } else if (position_disagrees) {
+    e.reason = "position disagrees with odometry";
+    if (disputed)
+      e.reason.format(
+          "position disagrees with odometry by %.2f m; if the map shows the robot where it stands: "
+          "drover position accept",
+          dispute.apart_m());
+  } else if (heading_disagrees) {
+    e.reason = "heading disagrees with odometry";
+    if (headings.began_moving())
+      e.reason.format("heading disagrees with odometry: %.0f degrees beside %s",
+                      to_deg(state.heading.contradiction_rad),
+                      e.gyro_used ? "gyro and wheels" : "wheels");
   } else if (drifted) {
     e.reason.format(
         "position drifts away from odometry: %.2f m; if the map shows the robot where it stands: "
@@ -116,11 +168,14 @@ void Estimator::report_trouble(const State& state, Time now) {
                gyro.trouble == TurnTrouble::undecided;
   e.looks.clear();
   if (watch.looks() && !e.disagrees)
-    e.looks.format("stands and looks whether the position drifts: %.2f m beside wheels and heading",
-                   watch.gap_m);
+    e.looks.format("stands and looks whether the position drifts: %.2f m %s",
+                   watch.look.along ? watch.unseen_slip_m : watch.gap_m,
+                   watch.look.along ? "apart from the wheels along the way, which may have slipped"
+                                    : "beside wheels and heading");
   e.notice.clear();
   switch (gyro.trouble) {
     case TurnTrouble::none:
+      if (e.disputed) e.notice = e.reason;
       if (!watch.slipping()) break;
       e.notice.format("wheels slip: %.2f m/s by wheels, %.2f m/s by receiver", watch.wheel_mps,
                       watch.receiver_mps);

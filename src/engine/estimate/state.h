@@ -7,12 +7,16 @@
 #include "drover/measurement.h"
 #include "drover/time.h"
 #include "engine/base/kinematics.h"
+#include "engine/estimate/antenna_fit.h"
 #include "engine/estimate/course.h"
+#include "engine/estimate/dispute.h"
 #include "engine/estimate/filter.h"
 #include "engine/estimate/gyro_track.h"
+#include "engine/estimate/heading_late.h"
 #include "engine/estimate/jump_watch.h"
 #include "engine/estimate/motion_watch.h"
 #include "engine/estimate/mounting.h"
+#include "engine/estimate/shove.h"
 
 namespace drover::engine::estimate {
 
@@ -23,7 +27,8 @@ enum class GnssClass : std::uint8_t { none, fixed, floating, dgps, single };
 struct GnssTrack {
   std::uint8_t receiver = 0;  ///< whose positions these are
   GnssClass quality = GnssClass::none;
-  double sigma_x_m = 0;  ///< of the class, or of GST when that is larger
+  bool told_sigma = false;  ///< by the receiver, in GST
+  double sigma_x_m = 0;     ///< of the class, or of GST when that is larger
   double sigma_y_m = 0;
   Time improved = kNever;  ///< when the quality last became better
   double old_sigma_m = 0;  ///< what it was before
@@ -31,7 +36,12 @@ struct GnssTrack {
   double place_x_m = 0;  ///< the refused place that must repeat
   double place_y_m = 0;
   double contradiction_m = 0;  ///< how far the last refused position was off
-  Time fixed = kNever;         ///< the last believed RTK fix
+  Dispute dispute;
+  // The last believed position, and how far beside the estimate it was left:
+  Time believed = kNever;
+  double beside_x_m = 0;
+  double beside_y_m = 0;
+  Time fixed = kNever;  ///< the last believed RTK fix
 };
 
 struct HeadingTrack {
@@ -39,6 +49,7 @@ struct HeadingTrack {
   Time last = kNever;
   JumpWatch jumps;
   double place_rad = 0;
+  double contradiction_rad = 0;  ///< how far the last refused heading was off
 };
 
 /// The way since the place was the receiver's: an error of the heading bends it.
@@ -62,7 +73,12 @@ struct State {
   HeadingTrack heading;
   Mounting mounting;  ///< of the line of that receiver's antennas
   Reckoned reckoned;
+  bool way_unknown = false;  ///< since the last believed fix: wheels silent, or somebody pushed it
   GyroTrack gyro;
+  AntennaFit fit;
+  double late_s = 0;  ///< of positions: what was learned of it and is applied
+  HeadingLate heading_late;
+  Shove shove;
   MotionWatch watch;
   Course course;
 

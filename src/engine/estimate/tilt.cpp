@@ -10,7 +10,6 @@ constexpr double kAtRest_s = 0.5;
 constexpr double kInMotion_s = 5.0;
 constexpr double kLongestGap_s = 0.2;
 // A force farther from gravity than this is a shock.
-constexpr double kGravity_mps2 = 9.81;
 constexpr double kShock_mps2 = 3.0;
 constexpr double kSteepest_rad = 1.0;  // no field robot stands so; keeps the cosine away from zero
 

@@ -6,6 +6,8 @@
 
 namespace drover::engine::estimate {
 
+inline constexpr double kGravity_mps2 = 9.81;
+
 /// Takes the device's own orientation when it gives one. Else the gyro carries roll and pitch and
 /// gravity levels them: in half a second at rest, slowly in motion, where acceleration is not only
 /// gravity. REP 103: roll is positive with the left side up, pitch with the nose down.

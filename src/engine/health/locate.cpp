@@ -35,11 +35,13 @@ LocateState LocateMonitor::update(const Estimate& estimate, bool has_origin, boo
   // Written so that a value that is not a number is never good.
   if (!finite(estimate.pose)) {
     reason_ = "the position estimate is not a number";
-  } else if (estimate.disagrees) {
+  } else if (estimate.disagrees && !(estimate.disputed && task_active)) {
     reason_ = estimate.reason;
     if (reason_.empty()) reason_ = "position disagrees with odometry";
   } else if (!estimate.looks.empty()) {
     reason_ = estimate.looks;
+  } else if (estimate.disputed && !(error_m <= share * bound_m && error_rad <= share * bound_rad)) {
+    reason_ = estimate.reason;
   } else if (!(error_m <= share * bound_m)) {
     reason_.format("position uncertain by %.3f m, allowed %.3f m", error_m, share * bound_m);
   } else if (!(error_rad <= share * bound_rad)) {

@@ -12,8 +12,8 @@ namespace drover::engine {
 namespace {
 
 // More than this, beyond what both places are uncertain by (two sigma each).
-constexpr double kJump_m = 0.1;
-const double kJump_rad = to_rad(5.0);
+constexpr double kMoved_m = 0.1;
+const double kSwung_rad = to_rad(5.0);
 constexpr double kBetterKnown = 0.9;
 constexpr Duration kStable = std::chrono::seconds(10);
 
@@ -28,8 +28,8 @@ Change change(const Pose& from, const Pose& to) {
   Change it;
   it.way_m = std::hypot(to.x_m - from.x_m, to.y_m - from.y_m);
   it.turn_rad = std::abs(wrap_rad(to.yaw_rad - from.yaw_rad));
-  it.way_share = it.way_m / (kJump_m + 2 * std::hypot(from.position_sigma_m, to.position_sigma_m));
-  it.turn_share = it.turn_rad / (kJump_rad + 2 * std::hypot(from.yaw_sigma_rad, to.yaw_sigma_rad));
+  it.way_share = it.way_m / (kMoved_m + 2 * std::hypot(from.position_sigma_m, to.position_sigma_m));
+  it.turn_share = it.turn_rad / (kSwung_rad + 2 * std::hypot(from.yaw_sigma_rad, to.yaw_sigma_rad));
   return it;
 }
 
@@ -44,6 +44,15 @@ void PlaceWatch::begin_at(const Pose& pose) {
   away_ = false;
   seen_ = rested_ = {pose, pose};
   crept_x_m_ = crept_y_m_ = 0;
+}
+
+void PlaceWatch::recall(const RestPlace& place) {
+  recalled_ = place;
+  doubted_before_ = place.doubted;
+  if (doubted_before_)
+    jumped_ =
+        "the position was not believed when droverd ended; if the map shows the robot where it "
+        "stands: drover position accept";
 }
 
 void PlaceWatch::begin_where_it_stood(const GeodeticPoint& origin) {
@@ -63,11 +72,13 @@ void PlaceWatch::begin_where_it_stood(const GeodeticPoint& origin) {
 
 RestPlace PlaceWatch::rest_place(const GeodeticPoint& origin) const {
   if (recalled_.known) return recalled_;
-  if (!known_ || !stands_) return {};
+  const bool doubted = doubted_ || doubted_before_;
+  if (!known_ || !stands_) return {.doubted = doubted};
   // Whole centimetres: what creeps is not written anew in each cycle.
   const auto crept = [](double m) { return std::round(m * 100) / 100; };
   const Pose& pose = jumped_.empty() ? rested_.at : rested_.stood;
   return {.known = true,
+          .doubted = doubted,
           .x_m = pose.x_m + crept(crept_x_m_),
           .y_m = pose.y_m + crept(crept_y_m_),
           .yaw_rad = pose.yaw_rad,
@@ -81,6 +92,7 @@ void PlaceWatch::update(Time now, Duration dt, const Estimate& estimate, bool he
                         const GeodeticPoint& origin) {
   // What rolls out after an e-stop rolls unheard.
   stands_ = heard && estimate.fastest_mps <= kStands_mps;
+  doubted_ = estimate.place_doubted;
   if (heard && !stands_) recalled_ = {};
   if (!estimate.has_position || !estimate.has_heading || (recalled_.known && !heard)) return;
   if (recalled_.known) begin_where_it_stood(origin);
@@ -105,7 +117,7 @@ void PlaceWatch::compare(Time now, const Pose& pose) {
   const Pose rested = without_creep(pose);
   const Change since = lesser_way(change(seen_.at, pose), change(rested_.at, rested));
   const bool jumped = since.way_share > 1 || since.turn_share > 1;
-  if (jumped) {
+  if (jumped && !doubted_before_) {
     tell(pose);
     jumped_at_ = now;
     told_ = false;
@@ -131,7 +143,7 @@ void PlaceWatch::tell(const Pose& pose) {
 }
 
 Reason PlaceWatch::ask_start(Time now) {
-  if (jumped_.empty()) return {};
+  if (jumped_.empty() || doubted_before_) return jumped_;
   const bool stable = now - jumped_at_ >= kStable;
   if (stable && told_) {
     jumped_.clear();

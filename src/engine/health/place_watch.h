@@ -20,7 +20,8 @@ class PlaceWatch final {
               const GeodeticPoint& origin);
   /// Where it stood when the program before this one ended. A wheel that turns before the place is
   /// known again, or another origin, makes that worthless.
-  void recall(const RestPlace& place) { recalled_ = place; }
+  /// One that was doubted then stays so until a person accepts what the receiver says.
+  void recall(const RestPlace& place);
   /// For the next program: where it stands, or stood before a jump that nobody has looked at yet.
   RestPlace rest_place(const GeodeticPoint& origin) const;
   /// Another origin: all places have other numbers.
@@ -58,6 +59,8 @@ class PlaceWatch final {
   Reason jumped_;
   Time jumped_at_ = kNever;
   bool told_ = false;
+  bool doubted_ = false;         ///< now, by the estimate
+  bool doubted_before_ = false;  ///< when the program before this one ended
 };
 
 }  // namespace drover::engine

@@ -12,8 +12,13 @@ namespace drover::engine {
 namespace {
 
 constexpr double kGoalNear_m = 0.5;  // the arrival time-out runs inside this
-constexpr double kSlowFrom = 0.5;    // share of the error budget from which on it slows
-constexpr double kSlowest = 0.5;     // share of the speed that is left when the budget is spent
+// Shoved so far beside its track it goes back to it slowly, until it is so near.
+constexpr double kAside_m = 0.10;
+constexpr double kBack_m = 0.05;
+constexpr double kBackToTrack_mps = 0.2;
+constexpr Duration kShovedOfLate = std::chrono::seconds(2);
+constexpr double kSlowFrom = 0.5;  // share of the error budget from which on it slows
+constexpr double kSlowest = 0.5;   // share of the speed that is left when the budget is spent
 
 unsigned long long as_counted(std::uint32_t target) {
   return static_cast<unsigned long long>(target) + 1;
@@ -75,7 +80,7 @@ void Navigator::start(const RequestId& id, const StartTask& task, Time now,
   speed_mps_ = speed.speed_mps;
   accepted_ = now;
   goal_near_since_ = kNever;
-  begun_ = stopping_at_goal_ = false;
+  begun_ = stopping_at_goal_ = returns_ = false;
   drives_.begin();
   obstacle_ = constraint_ = lost_ = unasked_ = {};
   latch_.reset(Act::begin);
@@ -195,7 +200,7 @@ Reason Navigator::find_position_failure(const Estimate& estimate,
   if (estimate.has_position && !std::isfinite(pose.x_m + pose.y_m + pose.yaw_rad + pose.vx_mps)) {
     return "the position estimate is not a number";
   }
-  if (estimate.disagrees) {
+  if (estimate.disagrees && !estimate.disputed) {
     return estimate.reason.empty() ? Reason("position disagrees with odometry") : estimate.reason;
   }
   if (health.locate != LocateState::good) return {};  // a pause, not a failure
@@ -229,13 +234,21 @@ Reason Navigator::find_failure(const NavInput& input) {
     why.format("for %.0f s: %.*s", limits.obstacle_timeout_s, static_cast<int>(which.size()),
                which.data());
   } else if (lost_.longer_than(limits.locate_timeout_s, input.now)) {
-    why.format("localisation was lost for %.0f s", limits.locate_timeout_s);
+    const std::string_view cause = input.health.locate_reason.view();
+    why.format("localisation was lost for %.0f s%s%.*s", limits.locate_timeout_s,
+               cause.empty() ? "" : ": ", static_cast<int>(cause.size()), cause.data());
   } else if (goal_near_since_ != kNever &&
              input.now - goal_near_since_ > from_s(limits.arrival_timeout_s)) {
     why.format("did not arrive at point %llu within %.0f s", as_counted(target_),
                limits.arrival_timeout_s);
   }
   return why;
+}
+
+/// Of two places one is right, and nobody knows which: both have to be inside the corridor.
+bool Navigator::may_be_outside(const Estimate& estimate) const {
+  const double off_m = std::abs(progress_.cross_track_m) + estimate.predicted_error_m;
+  return estimate.disputed && progress_.joined && !(off_m <= config_.navigate.corridor_m);
 }
 
 void Navigator::watch_pauses(const NavInput& input, EventQueue& events) {
@@ -248,12 +261,14 @@ void Navigator::watch_pauses(const NavInput& input, EventQueue& events) {
                    zone || unseen ? resume_after : Duration{});
   constraint_.update(broken, input.now, Duration{});
   unasked_.update(!input.unasked.empty(), input.now, Duration{});
-  lost_.update(input.health.locate != LocateState::good, input.now, resume_after);
+  const bool outside = may_be_outside(input.estimate);
+  lost_.update(input.health.locate != LocateState::good || outside, input.now, resume_after);
   const bool wait = waits();
   if (wait && phase_ == Phase::running) {
     phase_ = Phase::paused;
     Reason text;
     const Reason& what = broken                   ? input.health.text(Cause::constraint)
+                         : outside                ? input.estimate.reason
                          : !obstacle_.holds()     ? input.health.locate_reason
                          : input.health.near_zone ? input.health.text(Cause::near_zone)
                                                   : input.health.text(Cause::surroundings);
@@ -278,9 +293,18 @@ void Navigator::settle_at_goal(const NavInput& input, EventQueue& events) {
   }
 }
 
+void Navigator::watch_shoves(const NavInput& input) {
+  const double off_m = std::abs(progress_.cross_track_m);
+  const Time shoved = input.estimate.shoved;
+  const bool of_late = shoved != kNever && input.now - shoved < kShovedOfLate;
+  returns_ = progress_.joined && (returns_ ? off_m > kBack_m : of_late && off_m > kAside_m);
+}
+
 double Navigator::speed_cap_mps(const NavInput& input) const {
   const HealthReport& health = input.health;
   double cap_mps = speed_mps_;
+  if (returns_)
+    cap_mps = std::min(cap_mps, std::max(kBackToTrack_mps, config_.limits.min_speed_mps));
   if (health.far_zone) cap_mps = std::min(cap_mps, config_.navigate.far_zone_speed_mps);
   const double over = (health.budget_used - kSlowFrom) / (1 - kSlowFrom);
   const double share = 1 - (1 - kSlowest) * std::clamp(over, 0.0, 1.0);
@@ -302,6 +326,7 @@ NavOutput Navigator::run(const NavInput& input, EventQueue& events) {
     return {{}, false, Stop::controlled};
   }
   watch_pauses(input, events);
+  watch_shoves(input);
   // What holds it up at its goal holds up nothing any more.
   const bool there = progress_.arrived && !lost_.holds() && !constraint_.holds();
   if (phase_ == Phase::paused && !there) {

@@ -92,7 +92,9 @@ class Navigator final {
   bool stop_at_once(const NavInput& input, EventQueue& events);
   Reason find_failure(const NavInput& input);
   Reason find_position_failure(const Estimate& estimate, const HealthReport& health) const;
+  void watch_shoves(const NavInput& input);
   double speed_cap_mps(const NavInput& input) const;
+  bool may_be_outside(const Estimate& estimate) const;
   bool waits() const { return obstacle_.holds() || constraint_.holds() || lost_.holds(); }
   Twist asked(const NavInput& input);
 
@@ -108,6 +110,7 @@ class Navigator final {
   double speed_mps_ = 0;
   bool begun_ = false;  ///< NavigationStarted was said
   bool stopping_at_goal_ = false;
+  bool returns_ = false;  ///< to its track, after a shove
   ArmWait drives_;
   Time accepted_ = kNever;
   Time goal_near_since_ = kNever;

@@ -162,6 +162,10 @@ void get(Suspended& slept, ByteReader& in) {
   slept.lasted_s = in.real();
 }
 
+// Of the place where it rests; recordings from before doubts were kept have none.
+constexpr std::uint8_t kPlaceKnown = 1;
+constexpr std::uint8_t kPlaceDoubted = 2;
+
 void put(const Recalled& recalled, ByteWriter& out) {
   const auto& [stop, stop_at_robot, power_cut, holding, released, task, proved, joints_wait,
                at_rest, ran_away, place] = recalled.remembered;
@@ -171,9 +175,9 @@ void put(const Recalled& recalled, ByteWriter& out) {
   out.text(joints_wait);
   out.byte(at_rest ? 1 : 0);
   out.byte(ran_away ? 1 : 0);
-  const auto& [known, x_m, y_m, yaw_rad, position_sigma_m, yaw_sigma_rad, latitude_deg,
+  const auto& [known, doubted, x_m, y_m, yaw_rad, position_sigma_m, yaw_sigma_rad, latitude_deg,
                longitude_deg] = place;
-  out.byte(known ? 1 : 0);
+  out.byte(static_cast<std::uint8_t>((known ? kPlaceKnown : 0) | (doubted ? kPlaceDoubted : 0)));
   if (!known) return;
   for (const double value :
        {x_m, y_m, yaw_rad, position_sigma_m, yaw_sigma_rad, latitude_deg, longitude_deg})
@@ -188,9 +192,12 @@ void get(Recalled& recalled, ByteReader& in) {
   joints_wait.assign(in.text());
   at_rest = get_flag(in);
   ran_away = get_flag(in);
-  auto& [known, x_m, y_m, yaw_rad, position_sigma_m, yaw_sigma_rad, latitude_deg, longitude_deg] =
-      place;
-  known = get_flag(in);
+  auto& [known, doubted, x_m, y_m, yaw_rad, position_sigma_m, yaw_sigma_rad, latitude_deg,
+         longitude_deg] = place;
+  const std::uint8_t flags = in.byte();
+  if (flags > (kPlaceKnown | kPlaceDoubted)) in.fail();
+  known = (flags & kPlaceKnown) != 0;
+  doubted = (flags & kPlaceDoubted) != 0;
   if (!known) return;
   for (double* value :
        {&x_m, &y_m, &yaw_rad, &position_sigma_m, &yaw_sigma_rad, &latitude_deg, &longitude_deg})

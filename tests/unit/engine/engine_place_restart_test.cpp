@@ -53,6 +53,27 @@ TEST_F(ARobotThatIsStartedAgain, DrivesFromWhereItStood) {
   expect_drives();
 }
 
+/// The receiver jumps while it drives, and does not come back.
+TEST_F(ARobotThatIsStartedAgain, StillDoubtsAPositionThatWasDoubtedBefore) {
+  drive();
+  rig.jump_m += 0.4;
+  rig.run_s(65);
+  ASSERT_THAT(rig.why(), HasSubstr("position disagrees with odometry"));
+  ASSERT_TRUE(rig.out.remembered.place.doubted);
+  for (int start = 1; start <= 2; ++start) {
+    restart([] {});
+    for (int press = 1; press <= 3; ++press) {
+      expect_refused("drover position accept");
+      rig.run_s(11);
+    }
+    EXPECT_TRUE(rig.out.remembered.place.doubted);
+  }
+  rig.command(AcceptPosition{});
+  rig.run_s(2);
+  EXPECT_FALSE(rig.out.remembered.place.doubted);
+  expect_drives();
+}
+
 class AJumpOverARestart : public ARobotThatIsStartedAgain,
                           public testing::WithParamInterface<double> {};
 

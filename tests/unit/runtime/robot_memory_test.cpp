@@ -172,6 +172,13 @@ TEST_F(ARobotMemory, ForgetsWithAnotherConfigurationWhereItStood) {
   EXPECT_EQ(open().found(), stood);
   EXPECT_EQ(open(kBoot, R"({"base": {}})").found(), stopped());
 }
+TEST_F(ARobotMemory, KeepsWithAnotherConfigurationThatThePlaceWasDoubted) {
+  Remembered doubted = stopped();
+  doubted.place.known = doubted.place.doubted = true;
+  { open().keep(doubted); }
+  doubted.place.known = false;
+  EXPECT_EQ(open(kBoot, R"({"base": {}})").found(), doubted);
+}
 TEST_F(ARobotMemory, OfTwoVersionsBeforeTellsAllButThatAWheelRanAway) {
   leave_the_layout_before(true, 0xff, '4');
   Remembered left = stopped();

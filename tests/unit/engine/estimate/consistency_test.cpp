@@ -1,6 +1,7 @@
 // Whether the estimate's own account of its error is true, over seeded random worlds.
 #include <gtest/gtest.h>
 
+#include <cstdio>
 #include <string>
 
 #include "unit/engine/estimate/rig.h"
@@ -16,13 +17,15 @@ struct Account {
 };
 
 /// A mission of standing, curves, straights and turns with wrong slip and wheel size.
-Account account(FixQuality quality, double correlation_s) {
+Account account(FixQuality quality, double correlation_s, bool gst = true, double noise = 1) {
   constexpr int kWorlds = 20;
   Account sum;
   int samples = 0;
   for (int i = 0; i < kWorlds; ++i) {
     Rig rig(static_cast<std::uint64_t>(i) + 1);
     rig.world.quality = quality;
+    rig.world.gst = gst;
+    rig.world.noise = noise;
     rig.world.correlation_s = correlation_s;
     rig.world.slip = 1.0 + 0.2 * (i % 4);
     rig.world.scale = 1.0 + 0.02 * (i % 3 - 1);
@@ -59,6 +62,17 @@ TEST_P(EstimateConsistency, HoldsForErrorsThatWanderAsExpected) {
   EXPECT_LE(a.normalised2, 3.0);
   EXPECT_GE(a.normalised2, 0.7);
   RecordProperty("rms_mm", static_cast<int>(a.rms_m * 1000));
+}
+
+/// A receiver that does not tell its error may well be twice as bad as its class: that is allowed
+/// for, and so the account is more cautious where it is not.
+TEST(EstimateWithoutGst, AllowsForAReceiverThatIsTwiceAsBad) {
+  const Account as_its_class = account(FixQuality::rtk_fixed, 30, false);
+  EXPECT_GE(as_its_class.inside, 0.97);
+  EXPECT_GE(as_its_class.normalised2, 0.3);
+  const Account bad = account(FixQuality::rtk_fixed, 30, false, 2);
+  std::printf("  without GST, of two centimetres: %.3f inside two sigma\n", bad.inside);
+  EXPECT_GE(bad.inside, 0.93);
 }
 
 TEST_P(EstimateConsistency, SurvivesErrorsThatWanderFasterOrSlower) {

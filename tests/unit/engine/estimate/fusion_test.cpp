@@ -115,7 +115,11 @@ TEST(EstimateFusion, TellsItsErrorTruly) {
   double normalised2 = 0;
   int samples = 0;
   for (int i = 0; i < kWorlds; ++i) {
-    Rig rig(static_cast<std::uint64_t>(i) + 1);
+    // How late positions are is known, as by a calibration, and the receiver tells its error.
+    EngineConfig config = rig_config();
+    config.estimate.gnss_late_sigma_s = 0;
+    Rig rig(static_cast<std::uint64_t>(i) + 1, config);
+    rig.world.gst = true;
     rig.world.slip = 1.0 + 0.2 * (i % 4);
     rig.world.scale = 1.0 + 0.02 * (i % 3 - 1);
     rig.world.gyro_bias_radps = 0.01 * (i % 5 - 2);

@@ -84,8 +84,10 @@ TEST(EstimateMotion, TurnsThePositionByTheLeverArm) {
 struct Latency {
   double error_m = 0;
 };
-Latency circle_with_stamp_error(double stamp_error_s) {
-  Rig rig;
+Latency circle_with_stamp_error(double stamp_error_s, double late_sigma_s = 0) {
+  EngineConfig config = rig_config();
+  config.estimate.gnss_late_sigma_s = late_sigma_s;
+  Rig rig(1, config);
   rig.world.noise = rig.world.disturbance = 0;
   rig.world.stamp_error_s = stamp_error_s;
   rig.stand(2);
@@ -101,6 +103,10 @@ TEST(EstimateMotion, AppliesALatePositionAtItsOwnTime) {
 
 TEST(EstimateMotion, WouldBeWrongIfTheLatencyWereForgotten) {
   EXPECT_GT(circle_with_stamp_error(0.08).error_m, 0.05);
+}
+
+TEST(EstimateMotion, LearnsALatencyThatNobodyTold) {
+  EXPECT_LT(circle_with_stamp_error(0.08, 0.1).error_m, 0.035);
 }
 
 TEST(EstimateMotion, HonestlyLosesItselfInAnOutage) {

@@ -1,0 +1,124 @@
+#include "engine/estimate/antenna_fit.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "drover/angle.h"
+#include "engine/estimate/filter.h"
+
+namespace drover::engine::estimate {
+namespace {
+
+constexpr Duration kStretch = std::chrono::milliseconds(1500);
+constexpr Duration kTooLong = std::chrono::seconds(3);
+// Before anything was learned, one sigma.
+constexpr double kArm_m = 0.1;
+constexpr double kWheelShare = 0.03;
+const double kCrab_deg = 2.5;
+// How much ground and tyres change from one stretch to the next, and the clock.
+constexpr double kShareWalk = 0.002;
+const double kCrabWalk_deg = 0.3;
+constexpr double kLateWalk_s = 0.002;
+constexpr double kFitGate = 5.0;  // sigmas: it slipped, or jumped
+constexpr double kMostLate_s = 0.4;
+constexpr double kLateKnown_s = 0.04;
+constexpr double kLateLeast_s = 0.03;
+constexpr double kArmKnown_m = 0.03;
+constexpr double kArmWrong_m = 0.05;
+constexpr double kCertain = 4.0;  // sigmas
+constexpr double kRolled_m = 0.02;
+
+}  // namespace
+
+AntennaFit::AntennaFit(const EstimateConfig& config) {
+  covariance_[kAhead][kAhead] = covariance_[kLeft][kLeft] = square(kArm_m);
+  covariance_[kLate][kLate] = square(config.gnss_late_sigma_s);
+  covariance_[kShare][kShare] = square(kWheelShare);
+  covariance_[kCrab][kCrab] = square(to_rad(kCrab_deg));
+}
+
+void AntennaFit::advance(double east_m, double north_m, double way_m, double turn_rad) {
+  if (from_.time == kNever) return;
+  east_m_ += east_m;
+  north_m_ += north_m;
+  way_m_ += way_m;
+  turn_rad_ += turn_rad;
+}
+
+void AntennaFit::hear(const AntennaPoint& point, const EstimateConfig& config) {
+  const bool known = from_.time != kNever;
+  if (known && point.time - from_.time < kStretch) return;
+  if (known && point.time - from_.time < kTooLong && way_m_ > kRolled_m) learn(point, config);
+  from_ = point;
+  east_m_ = north_m_ = way_m_ = turn_rad_ = 0;
+}
+
+void AntennaFit::learn(const AntennaPoint& to, const EstimateConfig& config) {
+  const double dt_s = to_s(to.time - from_.time);
+  const double dc = std::cos(to.yaw_rad) - std::cos(from_.yaw_rad);
+  const double ds = std::sin(to.yaw_rad) - std::sin(from_.yaw_rad);
+  const Row east{dc, -ds, from_.vx_mps - to.vx_mps, east_m_, -north_m_};
+  const Row north{ds, dc, from_.vy_mps - to.vy_mps, north_m_, east_m_};
+  const double east_m = to.x_m - from_.x_m - east_m_ - (to.arm_x_m - from_.arm_x_m);
+  const double north_m = to.y_m - from_.y_m - north_m_ - (to.arm_y_m - from_.arm_y_m);
+  const double slow = 2 * (1 - std::exp(-dt_s / config.gnss_correlation_s));
+  const double variance_m2 = square(to.white_m) + square(from_.white_m) + slow * square(to.slow_m) +
+                             square(config.odometry_along_m) * way_m_ +
+                             square(config.turning_shift_m) * turn_rad_;
+  covariance_[kShare][kShare] += square(kShareWalk);
+  covariance_[kCrab][kCrab] += square(to_rad(kCrabWalk_deg));
+  covariance_[kLate][kLate] += square(kLateWalk_s) * (config.gnss_late_sigma_s > 0 ? 1 : 0);
+  const auto misses = [&](const Row& row, double measured_m) {
+    double expected_m = 0;
+    for (std::size_t i = 0; i < kNumbers; ++i) expected_m += row[i] * mean_[i];
+    return square(measured_m - expected_m) > square(kFitGate) * (variance_of(row) + variance_m2);
+  };
+  if (misses(east, east_m) || misses(north, north_m)) return;
+  correct(east, east_m, variance_m2);
+  correct(north, north_m, variance_m2);
+  mean_[kLate] = std::clamp(mean_[kLate], -kMostLate_s, kMostLate_s);
+}
+
+double AntennaFit::variance_of(const Row& row) const {
+  double sum = 0;
+  for (std::size_t r = 0; r < kNumbers; ++r)
+    for (std::size_t c = 0; c < kNumbers; ++c) sum += row[r] * covariance_[r][c] * row[c];
+  return sum;
+}
+
+void AntennaFit::correct(const Row& row, double measured_m, double variance_m2) {
+  Row spread{};
+  for (std::size_t r = 0; r < kNumbers; ++r)
+    for (std::size_t c = 0; c < kNumbers; ++c) spread[r] += covariance_[r][c] * row[c];
+  double total = variance_m2;
+  double innovation_m = measured_m;
+  for (std::size_t i = 0; i < kNumbers; ++i) {
+    total += row[i] * spread[i];
+    innovation_m -= row[i] * mean_[i];
+  }
+  if (!(total > 0)) return;
+  for (std::size_t r = 0; r < kNumbers; ++r) {
+    mean_[r] += spread[r] / total * innovation_m;
+    for (std::size_t c = 0; c < kNumbers; ++c) covariance_[r][c] -= spread[r] * spread[c] / total;
+  }
+}
+
+double AntennaFit::late_sigma_s() const {
+  return std::sqrt(std::max(covariance_[kLate][kLate], 0.0));
+}
+
+bool AntennaFit::late_known() const {
+  return late_sigma_s() <= kLateKnown_s &&
+         std::abs(late_s()) > std::max(kCertain * late_sigma_s(), kLateLeast_s);
+}
+
+double AntennaFit::arm_sigma_m() const {
+  return std::sqrt(std::max({covariance_[kAhead][kAhead], covariance_[kLeft][kLeft], 0.0}));
+}
+
+bool AntennaFit::arm_wrong() const {
+  return arm_sigma_m() <= kArmKnown_m &&
+         std::hypot(ahead_m(), left_m()) > std::max(kCertain * arm_sigma_m(), kArmWrong_m);
+}
+
+}  // namespace drover::engine::estimate

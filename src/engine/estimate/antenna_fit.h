@@ -1,0 +1,72 @@
+// Where the antenna is and how late its positions are, as straights, turns and changes of speed
+// tell it.
+//
+// Over a second and a half the antenna goes where wheels, gyro and heading say, but for four
+// things: a lever arm that is wrong turns with the base, a delay that is wrong shows where the
+// speed changes, wheels have their share of the way, and the course is beside the heading. Five
+// numbers by recursive least squares, so that what cannot be told apart yet keeps its uncertainty.
+#pragma once
+
+#include <array>
+
+#include "drover/time.h"
+#include "engine/config.h"
+
+namespace drover::engine::estimate {
+
+/// What is compared from one RTK position to the next but some: of base_link and its antenna in
+/// `map`.
+struct AntennaPoint {
+  Time time = kNever;
+  double x_m = 0;  ///< the antenna by the position
+  double y_m = 0;
+  double arm_x_m = 0;  ///< from base_link to it as configured, turned into the map
+  double arm_y_m = 0;
+  double yaw_rad = 0;
+  double vx_mps = 0;  ///< of the antenna, in the map
+  double vy_mps = 0;
+  double white_m = 0;  ///< one sigma of its uncorrelated error
+  double slow_m = 0;   ///< and of the other one
+};
+
+class AntennaFit final {
+ public:
+  AntennaFit() = default;
+  explicit AntennaFit(const EstimateConfig& config);
+
+  /// A step of dead reckoning.
+  void advance(double east_m, double north_m, double way_m, double turn_rad);
+  /// An RTK position that was believed. Learns when the last one compared with is old enough.
+  void hear(const AntennaPoint& point, const EstimateConfig& config);
+  /// What happens now is none to learn from: begins anew with the next position.
+  void pause() { from_.time = kNever; }
+
+  /// How much later the positions are than their stamps say, s, and one sigma of it.
+  double late_s() const { return mean_[kLate]; }
+  double late_sigma_s() const;
+  bool late_known() const;
+  /// How much farther ahead and to the left the antenna is than configured, m; larger sigma.
+  double ahead_m() const { return mean_[kAhead]; }
+  double left_m() const { return mean_[kLeft]; }
+  double arm_sigma_m() const;
+  /// It is, by more than can be chance.
+  bool arm_wrong() const;
+
+ private:
+  enum : std::size_t { kAhead, kLeft, kLate, kShare, kCrab, kNumbers };
+  using Row = std::array<double, kNumbers>;
+
+  void learn(const AntennaPoint& to, const EstimateConfig& config);
+  double variance_of(const Row& row) const;
+  void correct(const Row& row, double measured_m, double variance_m2);
+
+  Row mean_{};
+  std::array<Row, kNumbers> covariance_{};
+  AntennaPoint from_;
+  double east_m_ = 0;  ///< dead reckoned since then
+  double north_m_ = 0;
+  double way_m_ = 0;
+  double turn_rad_ = 0;
+};
+
+}  // namespace drover::engine::estimate

@@ -1,0 +1,80 @@
+#include "engine/estimate/antenna_learning.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "drover/angle.h"
+
+namespace drover::engine::estimate {
+namespace {
+
+constexpr double kLevel_rad = 0.035;   // steeper ground takes the base aside
+constexpr double kLateStep_s = 0.003;  // a smaller change is not worth it
+constexpr double kNoticed_m = 0.01;    // positions so far from the last ones are not compared
+
+}  // namespace
+
+void learn_fit(State& state, const AntennaPosition& raw, AntennaPoint point, double speed_mps,
+               const EstimateConfig& config) {
+  const bool told = state.heading.last != kNever && state.heading.jumps.running() == false;
+  const GyroTrack& gyro = state.gyro;
+  const bool tilts = gyro.fresh(state.time, from_s(config.imu_stale_s));
+  const bool level = !tilts || std::hypot(gyro.roll_rad, gyro.pitch_rad) < kLevel_rad;
+  const bool sure = told && level && !state.watch.slipping() && !state.watch.looks() &&
+                    !state.watch.drifted && !state.shove.holds();
+  if (!sure) return state.fit.pause();
+  const Vector& mean = state.belief.mean;
+  point.time = state.time;
+  point.x_m = raw.x_m;
+  point.y_m = raw.y_m;
+  point.yaw_rad = mean[kYaw];
+  point.vx_mps = mean[kScale] * speed_mps * std::cos(mean[kYaw]);
+  point.vy_mps = mean[kScale] * speed_mps * std::sin(mean[kYaw]);
+  point.white_m = config.gnss_white_share * larger_sigma_m(raw);
+  point.slow_m = larger_sigma_m(raw);
+  state.fit.hear(point, config);
+}
+
+void correct_mounting(State& state, const LeverArm& arm, const EstimateConfig& config) {
+  const double turn_rad = state.has_heading ? state.mounting.catch_up(config) : 0;
+  if (turn_rad == 0) return;
+  Vector& mean = state.belief.mean;
+  const auto arm_x_m = [&] {
+    return arm.ahead_m * std::cos(mean[kYaw]) - arm.left_m * std::sin(mean[kYaw]);
+  };
+  const auto arm_y_m = [&] {
+    return arm.ahead_m * std::sin(mean[kYaw]) + arm.left_m * std::cos(mean[kYaw]);
+  };
+  mean[kX] += arm_x_m();
+  mean[kY] += arm_y_m();
+  mean[kYaw] = wrap_rad(mean[kYaw] + turn_rad);
+  mean[kX] -= arm_x_m();
+  mean[kY] -= arm_y_m();
+  state.watch.turn_heading(mean[kYaw], turn_rad);
+}
+
+AntennaPosition in_time(const State& state, AntennaPosition position, double speed_mps) {
+  const double ahead_m = state.belief.mean[kScale] * speed_mps * state.late_s;
+  position.x_m += ahead_m * std::cos(state.belief.mean[kYaw]);
+  position.y_m += ahead_m * std::sin(state.belief.mean[kYaw]);
+  return position;
+}
+
+void correct_lateness(State& state, double speed_mps) {
+  const double more_s = state.fit.late_s() - state.late_s;
+  if (std::abs(more_s) < kLateStep_s) return;
+  state.late_s = state.fit.late_s();
+  const double ahead_m = state.belief.mean[kScale] * speed_mps * more_s;
+  const double c = std::cos(state.belief.mean[kYaw]);
+  const double s = std::sin(state.belief.mean[kYaw]);
+  state.belief.mean[kX] += ahead_m * c;
+  state.belief.mean[kY] += ahead_m * s;
+  Matrix& p = state.belief.covariance;
+  p[kX][kX] += square(ahead_m * c) / 4;
+  p[kY][kY] += square(ahead_m * s) / 4;
+  p[kX][kY] += square(ahead_m) * c * s / 4;
+  p[kY][kX] = p[kX][kY];
+  if (std::abs(ahead_m) > kNoticed_m) state.watch.pause();
+}
+
+}  // namespace drover::engine::estimate

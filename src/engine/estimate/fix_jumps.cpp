@@ -1,0 +1,73 @@
+#include "engine/estimate/fix_jumps.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace drover::engine::estimate {
+namespace {
+
+// A step from one RTK position to the next one.
+constexpr Duration kStepWithin = std::chrono::seconds(12);
+constexpr double kStepGate = 4.5;  // sigmas
+constexpr double kStep_m = 0.045;
+constexpr double kStepSlip = 0.4;  // of the way between them, along it
+constexpr double kStepSlipWay_m = 0.25;
+constexpr double kReckoned = 0.02;  // of a longer way, by wheels and gyro
+constexpr double kReckonedWell_m = 0.1;
+// So many times fix_settle_s after it was found again a fix is what it will be; a place that is
+// known so well meanwhile does without it.
+constexpr double kSettles = 3.0;
+constexpr double kKnownWell_m = 0.15;  // two sigma
+constexpr double kSways = 0.1;  // of the variance by tilt and timing: most of that stays the same
+
+/// A fix that was just found again, on a base that drives: it may be another integer solution, and
+/// whether it is shows when its filters have settled.
+bool settles(const State& state, const EstimateConfig& config) {
+  const GnssTrack& gnss = state.gnss;
+  return state.standing_since == kNever && !state.way_unknown && gnss.improved != kNever &&
+         gnss.believed != kNever &&
+         state.time - gnss.improved < from_s(kSettles * config.fix_settle_s);
+}
+
+/// Whether a position jumped aside of the last one, or along the way by more than wheels slip. One
+/// that did may be inside of the gate.
+bool steps(const State& state, double dx_m, double dy_m, double variance_m2, double speed_mps) {
+  const GnssTrack& gnss = state.gnss;
+  if (state.standing_since != kNever || gnss.believed == kNever) return false;
+  if (state.way_unknown || state.shove.holds()) return false;
+  const Duration since = state.time - gnss.believed;
+  if (since > kStepWithin) return false;
+  const double c = std::cos(state.belief.mean[kYaw]);
+  const double s = std::sin(state.belief.mean[kYaw]);
+  const double x_m = dx_m - gnss.beside_x_m;
+  const double y_m = dy_m - gnss.beside_y_m;
+  const double way_m = std::abs(speed_mps) * to_s(since);
+  const double least_m = std::max(kStepGate * std::sqrt(2 * variance_m2), kStep_m) +
+                         kReckoned * std::max(way_m - kReckonedWell_m, 0.0);
+  const double slip_m = kStepSlip * std::min(way_m, kStepSlipWay_m);
+  return std::hypot((x_m * c + y_m * s) / (least_m + slip_m), (y_m * c - x_m * s) / least_m) > 1;
+}
+
+}  // namespace
+
+FixVerdict judge_jump(State& state, const FixBeside& fix, const EstimateConfig& config) {
+  GnssTrack& gnss = state.gnss;
+  const double known_m = two_sigma_position_m(state.belief);
+  if (gnss.dispute.holds()) {
+    const auto verdict =
+        gnss.dispute.hear(fix.offset, fix.inside, known_m, fix.sigma_m, state.time);
+    if (verdict == Dispute::Verdict::undecided) return FixVerdict::doubted;
+    gnss.dispute = {};
+    gnss.believed = kNever;
+    if (verdict == Dispute::Verdict::renewed) return FixVerdict::renewed;
+  }
+  if (settles(state, config) && known_m < kKnownWell_m) return FixVerdict::waits;
+  const double white_m = config.gnss_white_share * fix.sigma_m;
+  const double variance_m2 = square(white_m) + kSways * fix.sways_m2;
+  if (!steps(state, fix.offset.east_m, fix.offset.north_m, variance_m2, fix.speed_mps))
+    return FixVerdict::plain;
+  gnss.dispute.begin(fix.offset, state.time);
+  return FixVerdict::doubted;
+}
+
+}  // namespace drover::engine::estimate

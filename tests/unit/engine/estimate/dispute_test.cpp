@@ -1,0 +1,86 @@
+// Two places, of which one is right: when it is decided, and by what.
+#include "engine/estimate/dispute.h"
+
+#include <gtest/gtest.h>
+
+namespace drover::engine::estimate {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+using Verdict = Dispute::Verdict;
+using Offset = Dispute::Offset;
+
+constexpr Time kBegin{seconds(100)};
+constexpr double kWell_m = 0.016;  // two sigma of dead reckoning at the beginning
+constexpr double kNoise_m = 0.0125;
+
+class ADispute : public testing::Test {
+ protected:
+  ADispute() { dispute.begin({0.08, 0}, now); }
+  /// A fix each tenth of a second, for `seconds`, or until it is decided.
+  Verdict hear(const Offset& offset, double for_s, double two_sigma_m = kWell_m) {
+    for (double s = 0; s < for_s - 0.05; s += 0.1) {
+      now += milliseconds(100);
+      const Verdict verdict = dispute.hear(offset, true, two_sigma_m, kNoise_m, now);
+      if (verdict != Verdict::undecided) return verdict;
+    }
+    return Verdict::undecided;
+  }
+
+  Time now = kBegin;
+  Dispute dispute;
+};
+
+TEST_F(ADispute, IsOverWhenItStepsBack) {
+  EXPECT_EQ(hear({0.08, 0}, 10), Verdict::undecided);
+  EXPECT_EQ(hear({0.005, 0.008}, 0.1), Verdict::came_back);
+}
+
+TEST_F(ADispute, IsOverWhenItStepsBackThoughDeadReckoningWentAstrayMeanwhile) {
+  EXPECT_EQ(hear({0.08, 0}, 2), Verdict::undecided);
+  EXPECT_EQ(hear({0.09, 0.02}, 3, 0.05), Verdict::undecided);
+  EXPECT_EQ(hear({0.10, 0.04}, 3, 0.08), Verdict::undecided);
+  EXPECT_EQ(hear({0.02, 0.04}, 0.2, 0.08), Verdict::came_back);
+}
+
+TEST_F(ADispute, IsNotOverBecauseDeadReckoningComesNear) {
+  for (int i = 0; i <= 80; ++i)
+    EXPECT_EQ(hear({0.08 - 0.001 * i, 0}, 0.2, 0.06), Verdict::undecided) << i;
+}
+
+TEST_F(ADispute, WasAnOutlierThatIsNearAgainAtOnce) {
+  EXPECT_EQ(hear({0.01, 0.01}, 0.1, 0.06), Verdict::came_back);
+}
+
+TEST_F(ADispute, DoesNotEndByTime) {
+  EXPECT_EQ(hear({0.08, 0}, 600), Verdict::undecided);
+}
+
+TEST_F(ADispute, EndsAMinuteAfterAFixThatWasLostAndFoundAgain) {
+  EXPECT_EQ(hear({0.08, 0}, 5), Verdict::undecided);
+  dispute.lose_fix();
+  EXPECT_EQ(hear({0.08, 0}, 59.5), Verdict::undecided);
+  EXPECT_EQ(hear({0.08, 0}, 1), Verdict::renewed);
+}
+
+TEST_F(ADispute, WaitsAnotherMinuteForAFixThatMoved) {
+  dispute.lose_fix();
+  EXPECT_EQ(hear({0.08, 0}, 50), Verdict::undecided);
+  EXPECT_EQ(hear({0.20, 0}, 59), Verdict::undecided);
+  EXPECT_EQ(hear({0.20, 0}, 2), Verdict::renewed);
+}
+
+TEST_F(ADispute, CountsSilenceAsALoss) {
+  EXPECT_EQ(hear({0.08, 0}, 5), Verdict::undecided);
+  now += seconds(3);
+  EXPECT_EQ(hear({0.08, 0}, 61), Verdict::renewed);
+}
+
+TEST_F(ADispute, TellsHowFarThePlacesAreApart) {
+  hear({0.3, 0.4}, 0.1);
+  EXPECT_DOUBLE_EQ(dispute.apart_m(), 0.5);
+}
+
+}  // namespace
+}  // namespace drover::engine::estimate
