@@ -214,6 +214,7 @@ void suspect_slip(MotionWatch& watch, Time now) {
                 .east = ahead * leg.east_m / wheels_m,
                 .north = ahead * leg.north_m / wheels_m,
                 .rate_mps = rate_mps,
+                .lesson = {},
                 .moving = now};
   watch.study = {};
 }
