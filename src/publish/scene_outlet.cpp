@@ -4,7 +4,7 @@
 
 namespace drover::publish {
 
-SceneOutlet::SceneOutlet(bool configured, const std::vector<store::NamedText>& stored,
+SceneOutlet::SceneOutlet(bool configured, const store::StoredScene& stored,
                          std::function<RobotNow(Time)> robot, const SceneTopicLimits& limits)
     : saver_(stored),
       topics_(configured, numbers_, saver_, limits),

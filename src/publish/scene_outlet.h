@@ -17,7 +17,7 @@ class SceneOutlet final : public Outlet {
  public:
   /// `configured`: the robot has a scene; else everything is refused in words. `stored`: its texts
   /// on the disk.
-  SceneOutlet(bool configured, const std::vector<store::NamedText>& stored,
+  SceneOutlet(bool configured, const store::StoredScene& stored,
               std::function<RobotNow(Time)> robot, const SceneTopicLimits& limits = {});
 
   Duration period() const override { return std::chrono::milliseconds(100); }

@@ -13,8 +13,8 @@ std::shared_ptr<store::LazyText> lazy_text(std::shared_ptr<const SceneContent> c
 
 }  // namespace
 
-SceneSaver::SceneSaver(const std::vector<store::NamedText>& stored) {
-  for (const store::NamedText& text : stored)
+SceneSaver::SceneSaver(const store::StoredScene& stored) : changed_(stored.is_unsaved) {
+  for (const store::NamedText& text : stored.texts)
     texts_[{text.kind, text.name}] = {text.kind, text.name, text.arrived_s,
                                       std::make_shared<store::LazyText>(text.text)};
 }

@@ -27,8 +27,8 @@ class SceneSaver final {
   static constexpr double kMostSaves_Hz = 1;
   static constexpr double kSaveBurst = 10;
 
-  /// `stored`: what is on the disk.
-  explicit SceneSaver(const std::vector<store::NamedText>& stored);
+  /// `stored`: what was found at start.
+  explicit SceneSaver(const store::StoredScene& stored);
 
   /// Returns the number of the save that will have them.
   std::uint64_t note(std::span<const SceneChange> changes, double arrived_s);

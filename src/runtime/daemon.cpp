@@ -78,7 +78,7 @@ class Daemon final {
   Daemon(const config::DroverConfig& config, std::string_view text)
       : config_(config),
         files_(),
-        storage_(files_, config.paths.state),
+        storage_(files_, config.paths.state, config.paths.run),
         gateway_(config),
         keeper_(config, gateway_.wiring(), guard_, gateway_.duties()),
         slow_(slow_links(config, gateway_.wiring())),

@@ -82,9 +82,9 @@ PublishLoop::PublishLoop(const config::DroverConfig& config, ControlExchange& co
     watch(scene_->exchange.replies_ready.fd(), kScene);
     watch(scene_->parser.replies_ready().fd(), kSceneParsed);
   }
-  const std::vector<store::NamedText> none;  // the others are up to 16 MiB: no copy
+  const store::StoredScene none;  // the other is up to 16 MiB: no copy
   auto of_scene = std::make_unique<publish::SceneOutlet>(
-      scene_.has_value(), scene_ ? scene_->stored->texts : none,
+      scene_.has_value(), scene_ ? *scene_->stored : none,
       [this](Time now) { return robot_now(now); });
   scene_outlet_ = of_scene.get();
   add(std::move(of_scene));  // before the command line, which takes every line

@@ -23,8 +23,10 @@ bool is_of_the_scene(const NamedText& text) {
 
 }  // namespace
 
-SceneStore::SceneStore(Files& files, std::string folder)
-    : files_(files), folder_(std::move(folder)) {}
+SceneStore::SceneStore(Files& files, std::string folder, std::string run_folder)
+    : files_(files),
+      folder_(std::move(folder)),
+      spare_(files, std::move(run_folder), kSceneFile) {}
 
 std::vector<NamedText> SceneStore::load(double wall_s, std::optional<double> max_age_s,
                                         std::vector<std::string>& report) {
@@ -36,6 +38,15 @@ std::vector<NamedText> SceneStore::load(double wall_s, std::optional<double> max
     problem_ = "the stored scene is not known: " + found.problem;
     report.push_back(found.problem);
     return {};
+  }
+  auto spare = spare_.load();
+  is_unsaved_ = spare.is_there && spare.problem.empty();
+  if (is_unsaved_) {
+    found = std::move(spare);
+    report.emplace_back("the scene is as it was: the disk had not taken the last of it");
+  } else if (spare.is_there) {
+    problem_ = "what the disk did not take of the scene is lost: " + spare.problem;
+    report.push_back(problem_);
   }
   if (!found.problem.empty()) {
     problem_ = "the stored scene is lost: " + found.problem;
@@ -71,7 +82,9 @@ std::optional<Failure> SceneStore::save(const std::vector<NamedText>& texts) {
   if (is_foreign_) return Failure{problem_};
   auto all = texts;
   if (!problem_.empty()) all.push_back({std::string(kLossKind), "", 0, problem_});
+  spare_.before_save(all);
   auto failure = save_named_texts(files_, folder_, kSceneFile, all);
+  spare_.after_save(all, !failure);
   if (!failure) mark_kept(files_, folder_, kScene);
   return failure;
 }

@@ -46,11 +46,11 @@ StoredFor stored_for(const StorageJob& job) {
   return of_scene ? StoredFor::scene : StoredFor::tracks;
 }
 
-Storage::Storage(Files& files, const std::string& folder)
+Storage::Storage(Files& files, const std::string& folder, const std::string& run_folder)
     : tracks_(files, prepared(files, folder) + "/tracks"),
       origin_(files, folder),
       stop_(files, folder),
-      scene_(files, folder),
+      scene_(files, folder, run_folder),
       zones_(files, folder),
       reports_(files, folder + "/reports") {}
 
@@ -64,6 +64,7 @@ StoredState Storage::load(const std::optional<SceneAge>& scene) {
   StoredScene found;
   found.texts = scene_.load(scene->wall_s, scene->max_age_s, state.report);
   found.problem = scene_.problem();
+  found.is_unsaved = scene_.is_unsaved();
   zones_.load();
   found.zones = zones_.zones();
   found.zones_problem = zones_.problem();

@@ -89,6 +89,7 @@ struct SceneAge {
 struct StoredScene {
   std::vector<NamedText> texts;  ///< objects and constraints
   std::string problem;           ///< what of it is lost; empty: nothing is
+  bool is_unsaved = false;       ///< the disk had not taken these texts: save them
   std::vector<NamedText> zones;
   std::string zones_problem;  ///< why they are not known; empty: these are all
 };
@@ -107,9 +108,10 @@ struct StoredState {
 /// `scene.texts`, `zones.texts` and the marks of these in `kept/`.
 class Storage final {
  public:
-  /// Makes `folder`, its `tracks` and its `reports` when they are missing.
+  /// Makes `folder`, its `tracks` and its `reports` when they are missing. `run_folder` exists; see
+  /// SceneStore.
   /// @throws std::runtime_error with folder and reason; start-up only
-  Storage(Files& files, const std::string& folder);
+  Storage(Files& files, const std::string& folder, const std::string& run_folder = {});
 
   /// `scene`: nothing leaves the scene's files as they are.
   StoredState load(const std::optional<SceneAge>& scene = {});

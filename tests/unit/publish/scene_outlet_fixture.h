@@ -19,7 +19,8 @@ class SceneOutletTest : public testing::Test {
   static constexpr Duration kWall = std::chrono::hours(400'000);
 
   void make(bool configured, std::vector<store::NamedText> stored = {}) {
-    outlet_ = std::make_unique<SceneOutlet>(configured, stored, [this](Time) { return robot_; });
+    const store::StoredScene before{.texts = std::move(stored)};
+    outlet_ = std::make_unique<SceneOutlet>(configured, before, [this](Time) { return robot_; });
   }
   /// What the scene's thread tells at its start.
   void restore(SceneRestored restored = {}) {

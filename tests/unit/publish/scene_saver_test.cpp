@@ -35,7 +35,7 @@ store::NamedText stored(const std::string& name) {
 class ASceneSaver : public testing::Test {
  protected:
   std::uint64_t note(SceneChange change) { return saver_.note({&change, 1}, 50); }
-  SceneSaver saver_{{}};
+  SceneSaver saver_{store::StoredScene{}};
 };
 
 TEST_F(ASceneSaver, HasNothingToDoUntilSomethingChanges) {
@@ -120,7 +120,7 @@ TEST_F(ASceneSaver, KnowsWhenSomethingCame) {
 }
 
 TEST(ASceneSaverOfWhatWasStored, KeepsOnTheDiskWhatNobodyCanReadUntilItIsGivenUp) {
-  SceneSaver saver({stored("good"), stored("bad"), stored("worse")});
+  SceneSaver saver({.texts = {stored("good"), stored("bad"), stored("worse")}});
   const SceneRestored::Lost lost[] = {{std::string(store::kObjectKind), "bad"},
                                       {std::string(store::kObjectKind), "worse"}};
   saver.set_lost(lost);
@@ -139,7 +139,7 @@ TEST(ASceneSaverOfWhatWasStored, KeepsOnTheDiskWhatNobodyCanReadUntilItIsGivenUp
 
 /// A save that was made while the loss was on its way to be accepted is without them.
 TEST(ASceneSaverOfWhatWasStored, WritesWhatCannotBeReadAgainWhenItsLossWasNotAccepted) {
-  SceneSaver saver({stored("good"), stored("bad")});
+  SceneSaver saver({.texts = {stored("good"), stored("bad")}});
   const SceneRestored::Lost lost[] = {{std::string(store::kObjectKind), "bad"}};
   saver.set_lost(lost);
   (void)saver.give_up_lost();
@@ -153,8 +153,15 @@ TEST(ASceneSaverOfWhatWasStored, WritesWhatCannotBeReadAgainWhenItsLossWasNotAcc
   EXPECT_THAT(names(again->texts), ElementsAre("good", "new", "bad"));
 }
 
+TEST(ASceneSaverOfWhatWasStored, SavesAtOnceWhatTheDiskHadNotTaken) {
+  SceneSaver saver({.texts = {stored("a"), stored("b")}, .is_unsaved = true});
+  const auto save = saver.next(kNow);
+  ASSERT_TRUE(save);
+  EXPECT_THAT(names(save->texts), ElementsAre("a", "b"));
+}
+
 TEST(ASceneSaverOfWhatWasStored, KeepsWhatCannotBeReadWhenAPersonClearsTheScene) {
-  SceneSaver saver({stored("good"), stored("bad")});
+  SceneSaver saver({.texts = {stored("good"), stored("bad")}});
   const SceneRestored::Lost lost[] = {{std::string(store::kObjectKind), "bad"}};
   saver.set_lost(lost);
   saver.note_cleared();

@@ -31,6 +31,8 @@ class FaultFiles : public Files {
     calls_ = 0;
   }
   int calls() const { return calls_; }
+  /// Nothing in `folder` can be made, renamed or removed until another one is named.
+  void read_only(const std::string& folder) { read_only_ = folder; }
   void boot_after_cut(Remains remains) {
     if (!remains.names) names_ = synced_names_;
     for (auto& [path, file] : names_) {
@@ -84,6 +86,7 @@ class FaultFiles : public Files {
   std::size_t read_bytes() { return std::exchange(read_bytes_, 0); }
   int create(const std::string& path, int& descriptor) override {
     return call([&] {
+      if (is_read_only(path)) return EROFS;
       if (names_.contains(path)) return EEXIST;
       names_[path] = std::make_shared<File>();
       open_.push_back(names_[path]);
@@ -115,6 +118,7 @@ class FaultFiles : public Files {
   }
   int rename(const std::string& from, const std::string& to) override {
     return call([&] {
+      if (is_read_only(to)) return EROFS;
       const auto it = names_.find(from);
       if (it == names_.end()) return ENOENT;
       names_[to] = it->second;
@@ -123,7 +127,10 @@ class FaultFiles : public Files {
     });
   }
   int remove(const std::string& path) override {
-    return call([&] { return names_.erase(path) == 1 ? 0 : ENOENT; });
+    return call([&] {
+      if (is_read_only(path)) return EROFS;
+      return names_.erase(path) == 1 ? 0 : ENOENT;
+    });
   }
   int sync_folder(const std::string& folder) override {
     return call([&] {
@@ -142,6 +149,10 @@ class FaultFiles : public Files {
     bool lost = false;
   };
 
+  bool is_read_only(const std::string& path) const {
+    return !read_only_.empty() && path.starts_with(read_only_ + "/");
+  }
+
   template <class Act>
   int call(Act act) {
     ++calls_;
@@ -156,6 +167,7 @@ class FaultFiles : public Files {
   std::map<std::string, std::shared_ptr<File>> names_;
   std::map<std::string, std::shared_ptr<File>> synced_names_;
   std::vector<std::shared_ptr<File>> open_;
+  std::string read_only_;
   Fault fault_ = Fault::none;
   int at_call_ = 0;
   int error_ = 0;
