@@ -154,6 +154,7 @@ void Gateway::on(const ClearanceFound& found, Time) {
 void Gateway::on(const Tick& tick, Time now) {
   listen_to_devices(now);
   look_at_buses(now);
+  look_at_lost_lines();
   tell_health();
   foreign_.update(now, tick.guard_has_bus || (guard_required_ && !tick.guard_alive));
   environment_.foreign = foreign_.reason();
@@ -196,6 +197,20 @@ void Gateway::look_at_buses(Time now) {
       if (health.state == SourceState::fresh && !cut) continue;
       if (health.state == SourceState::fresh) health.state = SourceState::stale;
       health.reason = trouble;
+    }
+  }
+}
+
+/// What moves something has lost its line at once, with the system's words: its own silence would be
+/// noticed later, and after the guard, which then has no line either.
+void Gateway::look_at_lost_lines() {
+  for (const Link& link : wiring_.links) {
+    if (link.lost.empty()) continue;
+    for (const SlotId id : link.slots) {
+      Slot& slot = wiring_.slots[id];
+      if (slot.made.actuator == nullptr) continue;
+      if (slot.health.state == SourceState::fresh) slot.health.state = SourceState::stale;
+      slot.health.reason = link.lost;
     }
   }
 }

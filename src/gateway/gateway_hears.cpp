@@ -73,11 +73,13 @@ void Gateway::on(const RegistersFailed& failed, Time at) {
 
 void Gateway::on(const LinkUp& up, Time now) {
   if (is_bus(up.link)) buses_[up.link].on_up();
+  if (up.link < wiring_.links.size()) wiring_.links[up.link].lost.clear();
   for (const SlotId id : slots_on(up.link)) wiring_.slots[id].made.device->on_link_up(now);
 }
 
 void Gateway::on(const LinkLost& lost, Time now) {
   if (is_bus(lost.link)) buses_[lost.link].on_lost(lost.why);
+  if (is_line_of_bytes(lost.link)) wiring_.links[lost.link].lost = lost.why;
   for (const SlotId id : slots_on(lost.link)) {
     Slot& slot = wiring_.slots[id];
     if (slot.made.levels == nullptr) continue;
@@ -96,7 +98,7 @@ void Gateway::on(const Suspended& slept, Time now) {
     const auto link = static_cast<LinkId>(i);
     if (wiring_.links[i].wire == Wire::levels) {
       on(LinkLost{link, {}}, now);
-    } else if (!is_bus(i) || !buses_[i].lost()) {
+    } else if (wiring_.links[i].lost.empty() && (!is_bus(i) || !buses_[i].lost())) {
       on(LinkUp{link}, now);
     }
   }

@@ -41,7 +41,7 @@ void ControlLoop::take_links(Time now) {
     }
     const auto link = static_cast<LinkId>(slot);
     if (!arrived.opened()) {
-      if (wire_of(slot) == Wire::can) apply(now, gateway::LinkLost{link, arrived.problem});
+      if (wire_of(slot) != Wire::levels) apply(now, gateway::LinkLost{link, arrived.problem});
       continue;
     }
     open_[slot].can = std::move(arrived.can);
@@ -74,8 +74,10 @@ void ControlLoop::lose(std::size_t slot, int error, Time now) {
     dead.can = std::move(link.can);
     dead.serial = std::move(link.serial);
     dead.lines = std::move(link.lines);
-    const auto why = wire_of(slot) == Wire::can ? dead.problem : Reason();
-    if (wire_of(slot) != Wire::bytes) apply(now, gateway::LinkLost{static_cast<LinkId>(slot), why});
+    // A line that comes back at another speed is not lost, and lines of levels have no words.
+    const bool comes_back = wire_of(slot) == Wire::bytes && error == 0;
+    const auto why = wire_of(slot) == Wire::levels ? Reason() : dead.problem;
+    if (!comes_back) apply(now, gateway::LinkLost{static_cast<LinkId>(slot), why});
   }
   (void)keeper_.give_back(dead);
 }

@@ -89,9 +89,9 @@ struct SceneAge {
 struct StoredScene {
   std::vector<NamedText> texts;  ///< objects and constraints
   std::string problem;           ///< what of it is lost; empty: nothing is
-  bool is_unsaved = false;       ///< the disk had not taken these texts: save them
   std::vector<NamedText> zones;
   std::string zones_problem;  ///< why they are not known; empty: these are all
+  bool is_unsaved = false;    ///< the disk had not taken `texts`: save them
 };
 
 /// What was found at start.

@@ -33,6 +33,17 @@ constexpr auto kConfig = R"({
   "mqtt": {"host": "127.0.0.1", "port": 1883}
 })";
 
+constexpr auto kChassis = R"({
+  "accept": ["no_estop_line", "no_relay"],
+  "links": {"base": {"serial": "/dev/drover/base"}, "gnss": {"serial": "/dev/drover/gnss"}},
+  "devices": {
+    "chassis": {"driver": "gt01_serial", "link": "base", "accept": ["no_watchdog"]},
+    "gnss": {"driver": "nmea0183", "link": "gnss"}},
+  "groups": {"base": {"kind": "twist", "device": "chassis", "track_m": 0.725,
+                      "hold": "level_ground_only"}},
+  "mqtt": {"host": "127.0.0.1", "port": 1883}
+})";
+
 /// Two drives that talk, on one bus.
 class Bench {
  public:
@@ -123,6 +134,22 @@ TEST(Gateway, TellsOfABusThatIsGoneUntilItIsBack) {
   bench.apply(LinkUp{0});
   bench.cycle();
   EXPECT_FALSE(bench.told("lost"));
+}
+
+/// The guard has lost it, too, and is not equipped: that word comes after the cause.
+TEST(Gateway, TellsFirstOfALostLineOnWhichTheBaseHangs) {
+  Gateway gateway(config::load_text(kChassis).config);
+  Time now{100s};
+  const auto why = [&](bool guard_alive) {
+    gateway.apply({now += 5ms, Tick{guard_alive, false}});
+    return std::string(gateway.snapshot().why[0].view());
+  };
+  gateway.apply({now, LinkUp{0}});
+  EXPECT_EQ(why(true).find("lost"), std::string::npos);
+  gateway.apply({now, LinkLost{0, "base: lost (Input/output error)"}});
+  EXPECT_EQ(why(false), "the base: base: lost (Input/output error)");
+  gateway.apply({now, LinkUp{0}});
+  EXPECT_EQ(why(true).find("lost"), std::string::npos);
 }
 
 TEST(Gateway, TakesABusThatTakesNoFramesForLost) {
