@@ -9,6 +9,7 @@
 #include "drover/angle.h"
 #include "scene/world/map_change.h"
 #include "scene/zone/project.h"
+#include "scene/zone/union_area.h"
 #include "text/number.h"
 
 namespace drover::scene {
@@ -71,11 +72,11 @@ std::string far_away_text(const Zone& zone, const GeodeticPoint& robot, double d
 ZoneSummary summarise(const Zone& zone, const std::optional<GeodeticPoint>& robot) {
   ZoneSummary summary;
   const GeoPoint& corner = zone.polygons.front().outer.front();
-  for (const MapPolygon& polygon :
-       project(zone.polygons, {corner.latitude_deg, corner.longitude_deg, 0})) {
+  const auto polygons = project(zone.polygons, {corner.latitude_deg, corner.longitude_deg, 0});
+  summary.area_m2 = united_area_m2(polygons);
+  for (const MapPolygon& polygon : polygons) {
     ++summary.polygons;
     summary.holes += polygon.holes.size();
-    summary.area_m2 += area_m2(polygon);
     summary.perimeter_m += perimeter_m(polygon);
   }
   summary.points = point_count(zone.polygons);

@@ -16,8 +16,8 @@ struct ZoneSummary {
   std::size_t polygons = 0;
   std::size_t holes = 0;
   std::size_t points = 0;
-  double area_m2 = 0;  ///< where polygons overlap it counts twice
-  double perimeter_m = 0;
+  double area_m2 = 0;                   ///< where polygons overlap it counts once (united_area_m2)
+  double perimeter_m = 0;               ///< of all of them
   std::optional<Nearest> from_robot{};  ///< absent: nobody knows where the robot is
   std::vector<std::string> warnings{};  ///< a sentence each
 };
