@@ -90,8 +90,9 @@ struct SceneRow {
   std::string name;
   std::size_t shapes = 0;
   std::size_t triangles = 0;
-  std::optional<scene::Point2> in_map{};  ///< of the first shape
-  std::size_t joint = 0;                  ///< constraints, by kind
+  std::optional<scene::Point2> in_map{};   ///< of the first shape
+  std::optional<scene::Point2> nearest{};  ///< Keeper::nearest_of
+  std::size_t joint = 0;                   ///< constraints, by kind
   std::size_t position = 0;
   std::size_t orientation = 0;
   std::size_t visibility = 0;

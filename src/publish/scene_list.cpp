@@ -11,7 +11,9 @@ std::string scene_list_line(const SceneListed& listed, const SceneSaver& saver,
   for (const SceneRow& row : listed.rows) {
     if (row.kind != store::kObjectKind) continue;
     std::optional<double> distance_m;
-    if (robot && row.in_map) distance_m = length_m(*row.in_map - *robot);
+    // What is higher or lower than the robot has its place only.
+    const auto& there = row.nearest ? row.nearest : row.in_map;
+    if (robot && there) distance_m = length_m(*there - *robot);
     out.open('{').key("id").text(row.name);
     out.key("shapes").integer(static_cast<std::int64_t>(row.shapes));
     out.key("triangles").integer(static_cast<std::int64_t>(row.triangles));

@@ -271,7 +271,10 @@ void SceneWork::reply(std::uint64_t number, decltype(publish::SceneReply::what) 
 
 publish::SceneListed SceneWork::list() const {
   publish::SceneListed listed;
-  for (const auto& object : keeper_.world().objects()) listed.rows.push_back(row_of(object));
+  for (const auto& object : keeper_.world().objects()) {
+    listed.rows.push_back(row_of(object));
+    listed.rows.back().nearest = keeper_.nearest_of(object.id);
+  }
   for (const auto& set : keeper_.world().constraints()) listed.rows.push_back(row_of(set));
   return listed;
 }

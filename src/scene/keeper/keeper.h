@@ -125,6 +125,11 @@ class Keeper final {
   /// it is not here yet. Then Clearance::path is 0.
   Clearance look(const Path* path) const;
 
+  /// For people: the point of the object, as far as the robot's height reaches and with the
+  /// uncertainty of its place, that is nearest to base_link. Nothing: the robot does not know where
+  /// it is, or none of the object is as high or as low as the robot.
+  std::optional<Point2> nearest_of(std::string_view object) const;
+
   /// From the robot to `target`, an index of the path's points, or on a closed loop to its other
   /// end, as a task does. `path` is the caller's, and stays as it is until the check ends; so does
   /// the Keeper.

@@ -238,4 +238,12 @@ std::unique_ptr<TrackCheck> Keeper::check(const Path& path, std::uint32_t target
   return std::make_unique<TrackCheck>(std::make_unique<TrackCheck::Impl>(*impl_, path, target));
 }
 
+std::optional<Point2> Keeper::nearest_of(std::string_view object) const {
+  const Area* area = impl_->around.field.find(object);
+  const bool is_placed = std::isfinite(impl_->position_sigma_m());
+  if (area == nullptr || area->empty() || !is_placed) return std::nullopt;
+  const Pose2 pose = impl_->pose();
+  return nearest(*area, {pose.x_m, pose.y_m});
+}
+
 }  // namespace drover::scene

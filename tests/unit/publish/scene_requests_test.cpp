@@ -79,6 +79,16 @@ TEST_F(SceneRequestsTest, ListWhatIsThere) {
             R"("position":0,"orientation":0,"visibility":0,"arrived_s":null}],"problem":""})");
 }
 
+TEST_F(SceneRequestsTest, TellTheDistanceToWhatIsNearestOfALargeThing) {
+  restore();
+  ask(R"({"cmd":"scene_list"})");
+  SceneRow wall{store::kObjectKind, "wall"};
+  wall.in_map = scene::Point2{30, 40};
+  wall.nearest = scene::Point2{0, 2};
+  reply(jobs_.front().number, SceneListed{{wall}});
+  EXPECT_THAT(only_reply(), HasSubstr(R"("x_m":30,"y_m":40,"distance_m":2,)"));
+}
+
 TEST_F(SceneRequestsTest, ShowAnObjectAsAMessage) {
   restore();
   ask(R"({"cmd":"scene_show","name":"box"})");

@@ -250,6 +250,8 @@ TEST_F(SceneWorkTest, ListsShowsAndClears) {
   EXPECT_EQ(rows[0].shapes, 1U);
   ASSERT_TRUE(rows[0].in_map.has_value());
   EXPECT_NEAR(rows[0].in_map->x_m, 5, 1e-9);
+  ASSERT_TRUE(rows[0].nearest.has_value());
+  EXPECT_LT(rows[0].nearest->x_m, 5 - 0.05) << "its near side";
   EXPECT_NE(take<publish::SceneShown>().object, nullptr);
   EXPECT_EQ(take<publish::SceneShown>().object, nullptr);
   (void)take<publish::SceneDone>();

@@ -379,5 +379,33 @@ TEST_F(AKeeper, SaysNothingOfPlanesWhereHeightsCount) {
   EXPECT_DOUBLE_EQ(look().ahead_m, 3);
 }
 
+TEST_F(AKeeper, TellsThePointOfAThingThatIsNearestToTheRobot) {
+  CollisionObject wall = box("wall", 3, 10);
+  wall.primitives[0].dimensions = {0.2, 30, 1};
+  ASSERT_EQ(apply(wall), "done");
+  CollisionObject hedge;
+  hedge.id = "hedge";
+  hedge.header.frame_id = "map";
+  hedge.planes = {{{0, 1, 0, 2}}};  // y = -2
+  hedge.plane_poses = {{}};
+  ASSERT_EQ(apply(hedge), "done");
+  CollisionObject beam = box("beam", 1, 0);
+  beam.primitive_poses[0].position_m.z = 5;
+  ASSERT_EQ(apply(beam), "done");
+
+  const auto of_wall = keeper.nearest_of("wall");
+  ASSERT_TRUE(of_wall);
+  EXPECT_NEAR(of_wall->x_m, 2.9, 1e-6);
+  EXPECT_NEAR(of_wall->y_m, 0, 1e-6);
+  const auto of_hedge = keeper.nearest_of("hedge");
+  ASSERT_TRUE(of_hedge);
+  EXPECT_NEAR(of_hedge->y_m, -2, 0.02);
+  EXPECT_FALSE(keeper.nearest_of("beam")) << "above the robot";
+  EXPECT_FALSE(keeper.nearest_of("nobody"));
+  from.pose.position_sigma_m = kAbsent;
+  keeper.see(from);
+  EXPECT_FALSE(keeper.nearest_of("wall")) << "it does not know where it is";
+}
+
 }  // namespace
 }  // namespace drover::scene
