@@ -111,8 +111,9 @@ std::string show_report(const Node& answer) {
 
 std::string show_reports(const Node& answer) {
   const Node& reports = at(answer, "reports");
-  if (count(reports) == 0) return "no report: no task has ended yet\n";
-  std::string out;
+  std::string out = text(at(answer, "problem"));
+  if (!out.empty()) out += "\n";
+  if (count(reports) == 0 && out.empty()) return "no report: no task has ended yet\n";
   for (std::size_t i = 0; i < count(reports); ++i) {
     const Node& one = entry(reports, i);
     const Node& report = at(one, "report");

@@ -19,13 +19,14 @@ std::string entry_text(const store::StoredReport& report) {
          "}";
 }
 
-std::string list_line(const std::vector<store::StoredReport>& reports) {
+/// `problem`: what is missing before the first of them.
+std::string list_line(const std::vector<store::StoredReport>& reports, std::string_view problem) {
   std::string line = R"({"ok":true,"reports":[)";
   for (const auto& report : reports) {
     if (&report != &reports.front()) line += ',';
     line += entry_text(report);
   }
-  return line + "]}";
+  return line + "],\"problem\":" + json::JsonText().text(problem).take() + "}";
 }
 
 std::string report_line(const store::StoredReport& report) {
@@ -79,7 +80,8 @@ bool ReportOutlet::on_line(ClientId client, std::string_view line, Time /*now*/,
   if (questions_.size() >= kMostQuestions || (cmd == "report_list" && list_waits()))
     return reply("the disk is behind, try again");
   const RequestId id = next_id();
-  if (cmd == "report_list") {
+  Question question{client, cmd == "report_list"};
+  if (question.of_list) {
     out.emplace_back(store::StorageJob{id, store::ListReports{}});
   } else {
     const auto* number = document->root.find("number");
@@ -87,8 +89,9 @@ bool ReportOutlet::on_line(ClientId client, std::string_view line, Time /*now*/,
     if (!wanted) return reply("number is no whole number");
     if (*wanted < 0) return reply("number is below zero: reports are numbered from one");
     out.emplace_back(store::StorageJob{id, store::ReadReport{static_cast<std::uint64_t>(*wanted)}});
+    question.of_last = *wanted == 0;
   }
-  questions_[id.number] = {client, cmd == "report_list"};
+  questions_[id.number] = question;
   return true;
 }
 
@@ -100,18 +103,23 @@ bool ReportOutlet::list_waits() const {
 
 void ReportOutlet::on_stored(const store::StorageReply& reply, Actions& out) {
   const auto found = questions_.find(reply.id.number);
-  if (found == questions_.end()) {
-    if (!reply.ok)
-      out.emplace_back(
-          LogLine{Notice::Level::warning, "the task's report is lost: " + reply.reason});
-    return;
-  }
+  if (found == questions_.end()) return on_saved(reply, out);
   const Question question = found->second;
   questions_.erase(found);
-  const std::string line = !reply.ok          ? reply_line(false, reply.reason)
-                           : question.of_list ? list_line(reply.reports)
-                                              : report_line(reply.reports.front());
-  out.emplace_back(Reply{question.client, line});
+  std::string line;
+  if (question.of_last && !lost_.empty()) {
+    line = reply_line(false, lost_ + "; those before it: drover report --list");
+  } else if (!reply.ok) {
+    line = reply_line(false, reply.reason);
+  } else {
+    line = question.of_list ? list_line(reply.reports, lost_) : report_line(reply.reports.front());
+  }
+  out.emplace_back(Reply{question.client, std::move(line)});
+}
+
+void ReportOutlet::on_saved(const store::StorageReply& reply, Actions& out) {
+  lost_ = reply.ok ? "" : "the last task's report is lost: " + reply.reason;
+  if (!reply.ok) out.emplace_back(LogLine{Notice::Level::warning, lost_});
 }
 
 }  // namespace drover::publish

@@ -29,11 +29,14 @@ class ReportOutlet final : public Outlet {
   struct Question {
     ClientId client = 0;
     bool of_list = false;
+    bool of_last = false;  ///< whichever that is
   };
   void begin(RequestId id, Time now);
   void end(RequestId id, Time now, bool begun, TaskEnded::How how, std::string_view reason,
            Actions& out);
   bool list_waits() const;
+  /// The disk has taken the last task's report, or not.
+  void on_saved(const store::StorageReply& reply, Actions& out);
   RequestId next_id() { return {RequestId::Source::internal, ++last_number_}; }
 
   const CommandService& service_;
@@ -41,6 +44,7 @@ class ReportOutlet final : public Outlet {
   std::optional<TaskRecorder> recorder_;
   Duration wall_minus_monotonic_{};
   std::uint64_t last_number_ = 0;
+  std::string lost_;  ///< why the last report is lost; empty: it is not
   std::map<std::uint64_t, Question> questions_;  ///< by the number of their job
 };
 

@@ -58,6 +58,12 @@ TEST(TaskReports, HaveALineEach) {
       "not started\n");
 }
 
+TEST(TaskReports, BeginWithTheOneThatIsLost) {
+  EXPECT_EQ(show_reports(parsed(
+                R"({"ok":true,"reports":[],"problem":"the last task's report is lost: full"})")),
+            "the last task's report is lost: full\n");
+}
+
 TEST(TaskReports, AreMissed) {
   EXPECT_EQ(show_reports(parsed(R"({"ok":true,"reports":[]})")),
             "no report: no task has ended yet\n");

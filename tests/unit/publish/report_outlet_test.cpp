@@ -92,7 +92,33 @@ TEST_F(ReportOutletTest, TellsOfAReportThatTheDiskDoesNotTakeAndOfNothingElse) {
   actions_.clear();
   outlet_.on_stored({job.id, false, "No space left on device"}, actions_);
   ASSERT_EQ(actions_.size(), 1U);
-  EXPECT_EQ(only<LogLine>().text, "the task's report is lost: No space left on device");
+  EXPECT_EQ(only<LogLine>().text, "the last task's report is lost: No space left on device");
+}
+
+TEST_F(ReportOutletTest, DoesNotPassAnOlderOneOffForTheOneThatIsLost) {
+  const auto end_a_task = [this](bool stored) {
+    const RequestId id = begun();
+    tell(TaskEnded{id, TaskEnded::How::success, {}});
+    const auto job = all<store::StorageJob>().back();
+    outlet_.on_stored({job.id, stored, stored ? "" : "No space left on device"}, actions_);
+  };
+  const auto ask = [this](const std::string& line) {
+    EXPECT_EQ(reply_to(line), "");
+    const auto job = only<store::StorageJob>();
+    actions_.clear();
+    store::StorageReply reply{job.id, true};
+    reply.reports = {{3, {"{}", "{}"}}};
+    outlet_.on_stored(reply, actions_);
+    return only<Reply>().line;
+  };
+  end_a_task(false);
+  EXPECT_EQ(ask(R"({"cmd":"report"})"),
+            R"({"ok":false,"reason":"the last task's report is lost: No space left on device; )"
+            R"(those before it: drover report --list"})");
+  EXPECT_THAT(ask(R"({"cmd":"report","number":3})"), HasSubstr(R"("ok":true,"number":3)"));
+  EXPECT_THAT(ask(R"({"cmd":"report_list"})"), HasSubstr(R"("problem":"the last task's report)"));
+  end_a_task(true);
+  EXPECT_THAT(ask(R"({"cmd":"report"})"), HasSubstr(R"("ok":true,"number":3)"));
 }
 
 TEST_F(ReportOutletTest, AnswersFromTheDisk) {
@@ -116,7 +142,7 @@ TEST_F(ReportOutletTest, ListsWhatThereIs) {
   reply.reports = {{4, {"{}", ""}}, {3, {"{}", ""}}};
   outlet_.on_stored(reply, actions_);
   EXPECT_EQ(only<Reply>().line,
-            R"({"ok":true,"reports":[{"number":4,"report":{}},{"number":3,"report":{}}]})");
+            R"({"ok":true,"reports":[{"number":4,"report":{}},{"number":3,"report":{}}],"problem":""})");
 }
 
 TEST_F(ReportOutletTest, PassesARefusalOn) {
