@@ -25,7 +25,10 @@ struct CornerScan {
 };
 
 /// Looks on, up to `until_m`, for the first point after the leg's beginning where the route turns
-/// by more than `sharp_rad`; of points close together it is the sharpest. Segment 0: there is none.
+/// by more than `sharp_rad`; of points close together it is the sharpest. A short step back (up to
+/// 0.3 m), after which the route goes on as before, is none: whoever recorded it rolled back a
+/// little, and a robot that drives ahead only would turn round twice for it. Segment 0: there is
+/// none.
 Station find_corner(const Route& route, const Leg& leg, double sharp_rad, double until_m,
                     CornerScan& scan);
 

@@ -52,6 +52,33 @@ TEST(TrueCorners, AreNotPassedOverForASharperOneFartherOn) {
   EXPECT_EQ(corners(forwards_along(points), 50), (std::vector<std::size_t>{1, 2}));
 }
 
+TEST(TrueCorners, AreNoneWhereARecordingStepsBackALittle) {
+  for (const double spacing_m : {0.05, 0.1, 0.2, 0.5}) {
+    for (const double back_m : {0.03, 0.1, 0.15, 0.2, 0.25, 0.28}) {
+      Points points;
+      for (double x_m = 0; x_m < 3; x_m += spacing_m) points.push_back({x_m, 0});
+      const double from_m = points.back().x_m;
+      for (double gone_m = 0; gone_m < back_m;) {
+        gone_m = std::min(back_m, gone_m + spacing_m);
+        points.push_back({from_m - gone_m, 0.002});
+      }
+      for (double x_m = spacing_m; x_m < 3; x_m += spacing_m)
+        points.push_back({from_m - back_m + x_m, 0});
+      EXPECT_TRUE(corners(forwards_along(points), 50).empty()) << spacing_m << " " << back_m;
+      EXPECT_TRUE(corners(forwards_along(points), 0.3).empty()) << spacing_m << " " << back_m;
+    }
+  }
+}
+
+TEST(TrueCorners, AreThereWhereARouteGoesBackAndAwayElsewhere) {
+  const Points away{{0, 0}, {2, 0}, {1.8, 0}, {1.8, 3}};
+  EXPECT_EQ(corners(forwards_along(away), 50), (std::vector<std::size_t>{1, 2})) << "to the left";
+  const Points back{{0, 0}, {2, 0}, {1.8, 0}, {1.9, 0.05}, {0, 0.2}};
+  EXPECT_EQ(corners(forwards_along(back), 50).size(), 1U) << "it goes home";
+  const Points far{{0, 0}, {2, 0}, {1.4, 0}, {4, 0}};
+  EXPECT_EQ(corners(forwards_along(far), 50), (std::vector<std::size_t>{1, 2})) << "that is meant";
+}
+
 TEST(TrueCorners, AreNeitherTheFirstNorTheLastPoint) {
   EXPECT_TRUE(corners(forwards_along({{0, 0}, {1, 0}}), 50).empty());
   const Points points{{0, 0}, {0, 0}, {1, 0}, {1, 0}};

@@ -198,6 +198,27 @@ TEST(TrackerDrive, TurnsRoundWhereTheTrackGoesBackOnItself) {
   EXPECT_LT(d.final_m, 0.03);
   EXPECT_NEAR(d.driven_m, 5, 0.1);
 }
+/// Points each 10 cm with a step back of 25 cm among them: it turned round and round, a metre beside.
+TEST(TrackerDrive, DrivesOnWhereARecordingStepsBackALittle) {
+  for (const double spacing_m : {0.1, 0.2, 0.5}) {
+    for (const double back_m : {0.03, 0.1, 0.2, 0.25}) {
+      Path path;
+      const auto row = [&](double from_m) {
+        for (double x_m = from_m; x_m < from_m + 4; x_m += spacing_m)
+          path.points.push_back({x_m, 0.002 * static_cast<double>(path.points.size() % 3)});
+      };
+      row(0);
+      const double turn_m = path.points.back().x_m;
+      for (double x_m = turn_m - spacing_m; x_m > turn_m - back_m; x_m -= spacing_m)
+        path.points.push_back({x_m, 0.003});
+      row(turn_m - back_m);
+      const Drive d = drive(path, last(path), {});
+      EXPECT_TRUE(d.arrived) << spacing_m << " " << back_m;
+      EXPECT_LT(d.time_s, 22) << "it turns round, " << spacing_m << " " << back_m;
+      EXPECT_LT(d.max_m, 0.04) << spacing_m << " " << back_m;
+    }
+  }
+}
 TEST(TrackerDrive, DrivesARoundedCornerOfDensePoints) {
   Pen pen;
   const Path path = record(pen.line(4).arc(0.4, kPi / 2).line(4).points(), 0.02, 0.003, 2);
