@@ -25,6 +25,23 @@ std::string metres(double value) {
   return text;
 }
 
+std::string degrees(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4f", value);
+  return text;
+}
+
+std::string told(const Track& track, const Disagreement& wrong) {
+  std::string text = told_point(wrong.index) + ": x, y are " + metres(wrong.distance_m) +
+                     " away from its latitude and longitude, allowed " + metres(wrong.allowed_m);
+  const double longitude_deg = track.points[wrong.index].longitude_deg;
+  if (std::abs(longitude_deg) <= 180)
+    return text + ": were they recorded before the origin was set, or with the antenna elsewhere?";
+  const double other_name_deg = longitude_deg - std::copysign(360, longitude_deg);
+  return text + ": its longitude " + degrees(longitude_deg) + " is beyond 180 degrees, which is " +
+         degrees(other_name_deg) + " on earth: is it right?";
+}
+
 }  // namespace
 
 double resolution_m(const Track& track) {
@@ -53,11 +70,7 @@ Result<std::unique_ptr<Path>, std::string> build_path(const Track& track,
                                                       const GeodeticPoint& origin,
                                                       const AntennaOffset& antenna) {
   const auto wrong = find_disagreement(track, antenna);
-  if (wrong) {
-    return told_point(wrong->index) + ": x, y are " + metres(wrong->distance_m) +
-           " away from its latitude and longitude, allowed " + metres(wrong->allowed_m) +
-           ": were they recorded before the origin was set, or with the antenna elsewhere?";
-  }
+  if (wrong) return told(track, *wrong);
   const Placing placing(track, origin, antenna);
   auto path = std::make_unique<Path>();
   path->name = track.name;

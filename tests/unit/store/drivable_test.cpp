@@ -178,7 +178,9 @@ TEST(Drivable, RefusesImpossibleLatitudes) {
 
 TEST(Drivable, RefusesTheDocumentsOwnSample) {
   const TrackPoint sample{188.2222333, 23.04934955, 230, 322100.0, 45220.0, 3.141592, 0};
-  EXPECT_THAT(refusal({"test1", {sample, sample}, kOld}), HasSubstr("point 1: x, y are "));
+  const std::string why = refusal({"test1", {sample, sample}, kOld});
+  EXPECT_THAT(why, HasSubstr("point 1: x, y are "));
+  EXPECT_THAT(why, HasSubstr("its longitude 188.2222 is beyond 180 degrees, which is -171.7778"));
 }
 
 TEST(Drivable, APathSharesNothingWithItsTrack) {
