@@ -42,7 +42,7 @@ const Change& lesser_way(const Change& a, const Change& b) {
 void PlaceWatch::begin_at(const Pose& pose) {
   known_ = true;
   away_ = false;
-  seen_ = rested_ = {pose, pose};
+  seen_ = rested_ = {pose, pose, pose};
   crept_x_m_ = crept_y_m_ = 0;
 }
 
@@ -116,7 +116,9 @@ Pose PlaceWatch::without_creep(Pose pose) const {
 void PlaceWatch::compare(Time now, const Pose& pose) {
   const Pose rested = without_creep(pose);
   const Change since = lesser_way(change(seen_.at, pose), change(rested_.at, rested));
-  const bool jumped = since.way_share > 1 || since.turn_share > 1;
+  const Change in_all = lesser_way(change(seen_.began, pose), change(rested_.began, rested));
+  const bool jumped =
+      std::max({since.way_share, since.turn_share, in_all.way_share, in_all.turn_share}) > 1;
   if (jumped && !doubted_before_) {
     tell(pose);
     jumped_at_ = now;
@@ -126,6 +128,9 @@ void PlaceWatch::compare(Time now, const Pose& pose) {
   if (!jumped && pose.position_sigma_m >= kBetterKnown * seen_.at.position_sigma_m) return;
   seen_.at = pose;
   rested_.at = rested;
+  if (!jumped) return;
+  seen_.began = pose;
+  rested_.began = rested;
 }
 
 /// Who was carried went through many places: what counts is how far in all. Who came back was away.

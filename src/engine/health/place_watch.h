@@ -40,6 +40,7 @@ class PlaceWatch final {
   struct Places {
     Pose stood;  ///< when a wheel turned last, or better known since
     Pose at;     ///< the same, or where it jumped to
+    Pose began;  ///< the same, but as first known: what walks away slowly is not taken along
   };
   void begin_at(const Pose& pose);
   void begin_where_it_stood(const GeodeticPoint& origin);

@@ -85,6 +85,19 @@ TEST_P(AJumpInAPause, IsNotDrivenFromWhenTheObstacleGoesAtTheSameTime) {
 INSTANTIATE_TEST_SUITE_P(OfTheReceiver, AJumpInAPause,
                          testing::Values(-0.45, 0.3, 0.45, 2, -5, 50));
 
+/// 4 mm/s: its place became a little better known meanwhile, and was taken for the one it stood at.
+TEST_F(ARobotWhosePlaceChanges, FailsWhenTheReceiverWalksAwayInAPause) {
+  wait_before_an_obstacle();
+  double told_after_m = 0;
+  for (int i = 0; i < 200 && rig.said<TaskEnded>().empty(); ++i) {
+    rig.jump_m += 0.002;
+    told_after_m = rig.snapshot().pose.x_m - rig.plant.truth().x_m;
+    rig.run_s(0.5);
+  }
+  EXPECT_LT(told_after_m, 0.2);
+  expect_failed("jumped by");
+}
+
 TEST_F(ARobotWhosePlaceChanges, FailsWhenTheHeadingFlipsInAPause) {
   wait_before_an_obstacle();
   rig.heading_off_deg = 180;
