@@ -3,6 +3,7 @@
 #include <sys/socket.h>
 #include <sys/uio.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <ctime>
@@ -23,6 +24,18 @@ struct CanLink::Buffers {
   std::array<mmsghdr, kBatch> messages{};
   alignas(cmsghdr) std::array<std::array<char, kControlBytes>, kBatch> control{};
   std::uint32_t last_overflow = 0;
+  std::size_t used = kBatch;  ///< by the last call, from the first on: to be made ready again
+
+  /// For the next drain. What no call has touched since is ready, and stays out of the cache.
+  void make_ready() {
+    for (std::size_t i = 0; i < used; ++i) {
+      vectors[i].iov_len = sizeof(canfd_frame);
+      messages[i].msg_hdr.msg_control = control[i].data();
+      messages[i].msg_hdr.msg_controllen = kControlBytes;
+      messages[i].msg_hdr.msg_flags = 0;
+    }
+    used = 0;
+  }
 };
 
 CanLink::CanLink(UniqueFd fd) : fd_(std::move(fd)), buffers_(std::make_unique<Buffers>()) {
@@ -38,13 +51,10 @@ CanLink::~CanLink() = default;
 bool CanLink::receive(const StampWindow& window, FrameBatch& batch) {
   batch.clear();
   auto& b = *buffers_;
-  for (std::size_t i = 0; i < kBatch; ++i) {
-    b.vectors[i].iov_len = sizeof(canfd_frame);
-    b.messages[i].msg_hdr.msg_control = b.control[i].data();
-    b.messages[i].msg_hdr.msg_controllen = kControlBytes;
-    b.messages[i].msg_hdr.msg_flags = 0;
-  }
+  b.make_ready();
   const int n = ::recvmmsg(fd_.get(), b.messages.data(), kBatch, MSG_DONTWAIT, nullptr);
+  // Of the one after the last the kernel may have begun.
+  b.used = std::min(kBatch, static_cast<std::size_t>(std::max(n, 0)) + 1);
   if (n < 0) {
     if (errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR || errno == ENOBUFS) return true;
     error_ = errno;
@@ -88,6 +98,7 @@ bool CanLink::send(std::span<const CanFrame> frames) {
   std::size_t done = 0;
   while (done < frames.size()) {
     const std::size_t count = std::min(frames.size() - done, kBatch);
+    b.used = std::max(b.used, count);
     for (std::size_t i = 0; i < count; ++i) {
       b.vectors[i].iov_len = to_wire(frames[done + i], b.frames[i]);
       b.messages[i].msg_hdr.msg_control = nullptr;

@@ -31,7 +31,12 @@ inline bool from_wire(const canfd_frame& wire, std::size_t size, CanFrame& frame
                             : frame.extended ? CAN_EFF_MASK
                                              : CAN_SFF_MASK);
   frame.len = wire.len;
-  if (!frame.remote) std::memcpy(frame.data.data(), wire.data, frame.len);
+  if (frame.remote) return true;
+  if (frame.len == CAN_MAX_DLEN) {  // most are: without a call
+    std::memcpy(frame.data.data(), wire.data, CAN_MAX_DLEN);
+  } else {
+    std::memcpy(frame.data.data(), wire.data, frame.len);
+  }
   return true;
 }
 
