@@ -201,6 +201,10 @@ void visit(V& v, engine::HealthConfig& c) {
       "a wheel that is commanded but does not follow for so long, and 0.12 m of way, is a fault");
   v.number("tilt_limit_deg", c.tilt_limit_deg, Range{5, 60},
            "tilted farther for 0.3 s: the robot stops and holds");
+  v.number(
+      "hit_mps2", c.hit_mps2, Range{0, 200},
+      "an acceleration across the ground beyond this is a hit: the robot stops as on a bumper, "
+      "and a person starts it again; 0: nobody looks");
   v.number("battery_stale_s", c.battery_stale_s, Range{2, 120}, "longest silence of the battery");
   v.number("battery_low_percent", c.battery_low_percent, Range{0, 100},
            "below: told, and no task starts");

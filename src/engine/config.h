@@ -166,6 +166,7 @@ struct HealthConfig {
   double joint_command_timeout_s = 0.1;  ///< a stream silent for longer has ended
   double follow_timeout_s = 0.4;  ///< one wheel commanded but not following for so long: failed
   double tilt_limit_deg = 25.0;   ///< steeper for 0.3 s: stops and holds
+  double hit_mps2 = 20.0;         ///< across the ground: stops; 0: nobody looks
   bool guard_required = true;
   double battery_stale_s = 5.0;          ///< of its thread; the driver judges the device
   double battery_low_percent = 20.0;     ///< below: told, and no task starts

@@ -29,6 +29,7 @@ Engine::Impl::Impl(const EngineConfig& c)
       rest(c),
       place(c.estimate),
       tilt(c.health),
+      hit(c.health),
       mechanics(c),
       clearance(c.clearance, c.limits, c.clearance_required),
       navigator(c, latch),
@@ -296,7 +297,7 @@ void Engine::step(Time now, const Environment& environment, EngineOutput& out) {
   e.health.update({now, environment, axes, lines, e.estimate, e.estimator.has_origin(),
                    e.navigator.active(), e.latch.why(), &e.sensors, e.tilt.reason(), moved,
                    e.place.jumped(), e.latch.power_cut() && e.power.opened(), e.clearance.blocked(),
-                   e.clearance.unknown(), e.clearance.broken(), &e.steep});
+                   e.clearance.unknown(), e.clearance.broken(), &e.steep, &e.hit.reason(now)});
   if (e.health.report().nothing_moves()) e.stopped_at = now;
   e.watch_wheels(now, dt);
   const double cap_mps = e.mechanics.speed_cap_mps();

@@ -17,6 +17,7 @@
 #include "engine/health/mechanics_check.h"
 #include "engine/health/place_watch.h"
 #include "engine/health/rest_watch.h"
+#include "engine/health/hit_watch.h"
 #include "engine/health/tilt_watch.h"
 #include "engine/health/wheels.h"
 #include "engine/health/worst_speed.h"
@@ -80,6 +81,7 @@ struct Engine::Impl {
   PlaceWatch place;
   PlaceCount place_count;
   TiltWatch tilt;
+  HitWatch hit;
   MechanicsCheck mechanics;
   ClearanceWatch clearance;
   Twist commanded;            ///< in the last cycle; of single joints what they make of it

@@ -37,6 +37,7 @@ void Engine::Impl::choose_sensors(Time now, const Environment& environment) {
 
 void Engine::Impl::watch_imu(const ImuSample& sample, Time at) {
   tilt.on_sample(sample, at);
+  hit.on_sample(sample, at);
   const bool zero_known = std::isfinite(estimate.gyro_bias_sigma_radps);
   const double turn_radps =
       sample.angular_velocity_radps.z - (zero_known ? estimate.gyro_bias_radps.z : 0.0);

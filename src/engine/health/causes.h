@@ -14,6 +14,7 @@ enum class Cause : std::uint8_t {
   line_lost,
   guard_has_bus,
   bumper,
+  hit,   ///< an acceleration that no drive gives
   tilt,  ///< tilted beyond the limit, or gravity on the wrong axis
   drive_silent,
   guard_silent,
@@ -67,6 +68,8 @@ inline constexpr std::array<CauseRow, kCauseCount> kCauses{{
    .over = "the guard gave the drives back"},
   {.cause = Cause::bumper, .stops = true, .by_people = true, .severe = true,
    .over = "bumper free"},
+  {.cause = Cause::hit, .stops = true, .by_people = true, .severe = true,
+   .over = "nothing hits the robot any more"},
   {.cause = Cause::tilt, .stops = true, .severe = true,
    .over = "no tilt beyond the limit any more"},
   {.cause = Cause::drive_silent, .stops = true, .severe = true,

@@ -264,6 +264,7 @@ void HealthMonitor::look_at_program(const Environment& environment) {
 
 /// The ground, and what moved it.
 void HealthMonitor::look_at_place(const HealthInput& input) {
+  if (input.hit != nullptr && !input.hit->empty()) hold(Cause::hit, *input.hit);
   if (!input.tilt.empty()) hold(Cause::tilt, input.tilt);
   if (input.steep != nullptr && !input.steep->empty()) hold(Cause::steep, *input.steep);
   if (!input.moved.empty()) hold(Cause::moved, input.moved);

@@ -37,7 +37,8 @@ struct HealthInput {
   Reason unseen{};                   ///< as ClearanceWatch::unknown
   Reason broken{};                   ///< as ClearanceWatch::broken
   const Reason* steep =
-      nullptr;  ///< why the ground is too steep to be left there; empty: it is not
+      nullptr;                  ///< why the ground is too steep to be left there; empty: it is not
+  const Reason* hit = nullptr;  ///< what hit it just now; empty: nothing did
 };
 
 inline constexpr const char* kJustStarted = "the gateway has just started";

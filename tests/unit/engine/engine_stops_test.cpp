@@ -145,6 +145,30 @@ TEST_F(AnEngine, StopsAtOnceForTheBumper) {
   rig.lines[1] = false;
   expect_no_motion_for_s(5);
 }
+TEST_F(AnEngine, StopsAtOnceWhenItIsHitAndAPersonStartsItAgain) {
+  rig.imu = true;
+  drive();
+  const Vector3 level = rig.gravity_mps2;
+  rig.gravity_mps2.y = -24;
+  rig.run_s(0.02);
+  rig.gravity_mps2 = level;
+  expect_stopped_at_once("the robot was hit: 24 m/s2 across the ground");
+  expect_no_motion_for_s(5);
+  rig.start(path, 40, 0.5);
+  rig.run_s(3);
+  EXPECT_GT(rig.fastest_command_radps(), 1) << rig.why() << refusal();
+}
+TEST_F(AnEngine, IsNotHitByASlopeABrakingOrAShake) {
+  rig.imu = true;
+  drive();
+  const Vector3 level = rig.gravity_mps2;
+  for (int i = 0; i < 100; ++i) {
+    rig.gravity_mps2 = {3.0 + 9 * (i % 2), i % 2 == 0 ? 8.0 : -8.0, 20};
+    rig.run_s(0.05);
+  }
+  rig.gravity_mps2 = level;
+  EXPECT_TRUE(rig.said<TaskEnded>().empty()) << rig.why();
+}
 TEST_F(AnEngine, StopsAllWheelsAtOnceWhenOneDriveFallsSilent) {
   drive();
   rig.drives[2].silent = true;
