@@ -88,6 +88,7 @@ State Estimator::carried_over(const State& old, const GeodeticPoint& origin) con
   state.heading.jumps = {};
   state.watch.forget();
   state.course = {};
+  state.fit.pause();
   return state;
 }
 

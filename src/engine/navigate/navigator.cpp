@@ -17,6 +17,7 @@ constexpr double kAside_m = 0.10;
 constexpr double kBack_m = 0.05;
 constexpr double kBackToTrack_mps = 0.2;
 constexpr Duration kShovedOfLate = std::chrono::seconds(2);
+constexpr Duration kReturnsWithin = std::chrono::seconds(20);
 constexpr double kSlowFrom = 0.5;  // share of the error budget from which on it slows
 constexpr double kSlowest = 0.5;   // share of the speed that is left when the budget is spent
 
@@ -297,7 +298,10 @@ void Navigator::watch_shoves(const NavInput& input) {
   const double off_m = std::abs(progress_.cross_track_m);
   const Time shoved = input.estimate.shoved;
   const bool of_late = shoved != kNever && input.now - shoved < kShovedOfLate;
-  returns_ = progress_.joined && (returns_ ? off_m > kBack_m : of_late && off_m > kAside_m);
+  // One that crabs along a slope may never come nearer.
+  const bool long_ago = shoved == kNever || input.now - shoved > kReturnsWithin;
+  returns_ = progress_.joined &&
+             (returns_ ? off_m > kBack_m && !long_ago : of_late && off_m > kAside_m);
 }
 
 double Navigator::speed_cap_mps(const NavInput& input) const {

@@ -289,6 +289,16 @@ TEST_F(ANavigator, DrivesSlowlyWhileSomebodyIsInTheFarZone) {
   health.far_zone = false;
   EXPECT_GT(run_s(1).target.vx_mps, 0.3);
 }
+TEST_F(ANavigator, ReturnsSlowlyAfterAShoveButNotForEver) {
+  start_and_run();
+  estimate.pose.y_m = 0.2;
+  estimate.shoved = now;
+  EXPECT_LE(run_s(3).target.vx_mps, 0.2);
+  estimate.pose.y_m = 0.07;
+  EXPECT_LE(run_s(3).target.vx_mps, 0.2) << "not back yet";
+  // It crabs along a slope, say, and never comes nearer.
+  EXPECT_GT(run_s(20).target.vx_mps, 0.3);
+}
 TEST_F(ANavigator, SlowsDownWhenTheErrorBudgetIsNearlySpent) {
   start_and_run();
   health.budget_used = 1;
