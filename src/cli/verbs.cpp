@@ -121,6 +121,17 @@ bool acts_on_the_robot(std::string_view verb) {
   return false;
 }
 
+/// What people call it elsewhere; empty: nothing of that.
+std::string_view known_as(std::string_view word) {
+  constexpr std::pair<std::string_view, std::string_view> kNames[] = {
+      {"battery", "bms"},     {"gps", "gnss"},        {"rtk", "gnss"},   {"track", "traj"},
+      {"tracks", "traj"},     {"trajectory", "traj"}, {"fence", "zone"}, {"obstacle", "scene"},
+      {"obstacles", "scene"}, {"objects", "scene"}};
+  for (const auto& [other, verb] : kNames)
+    if (other == word) return verb;
+  return "";
+}
+
 std::string hint_for(const CLI::App& app, const CLI::App& level, const std::string& word,
                      const std::vector<std::string>& names) {
   // A verb of a verb, written without the first one.
@@ -130,6 +141,8 @@ std::string hint_for(const CLI::App& app, const CLI::App& level, const std::stri
         if (inner->get_name() == word)
           return "did you mean \"" + verb->get_name() + " " + word + "\"?";
   }
+  if (const auto verb = known_as(word); &level == &app && !verb.empty())
+    return "did you mean \"" + std::string(verb) + "\"?";
   const auto best = text::nearest(word, names);
   if (best.empty()) return "";
   const auto [shorter, longer] = std::minmax({word.size(), best.size()});

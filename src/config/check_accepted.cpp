@@ -1,15 +1,18 @@
 // What a person may accept by name, and what is told of until somebody does.
 #include <algorithm>
+#include <cmath>
 
 #include "config/check_subjects.h"
+#include "text/number.h"
 #include "text/suggestion.h"
 
 namespace drover::config {
 namespace {
 
 const std::vector<std::string> kOfADrive{"no_watchdog"};
-const std::vector<std::string> kAtTheTop{"no_estop", "slow_guard", "no_tilt",     "no_soc",
-                                         "no_relay", "short_look", "slow_chassis"};
+const std::vector<std::string> kAtTheTop{"no_estop",     "slow_guard",  "no_tilt",
+                                         "no_soc",       "no_relay",    "short_look",
+                                         "slow_chassis", "far_antenna", "slow_watchdog"};
 
 bool is_one_of(const std::vector<std::string>& words, const std::string& word) {
   return std::find(words.begin(), words.end(), word) != words.end();
@@ -60,6 +63,34 @@ void warn_of_no_relay(Findings& found) {
                "no_relay", "an enable_relay in their supply");
 }
 
+/// Nothing else ends it when its cable is torn.
+void warn_of_slow_watchdogs(Findings& found) {
+  constexpr int kSlow_ms = 1000;
+  for (const auto& device : found.config().devices) {
+    if (device.stops_after_ms <= kSlow_ms) continue;
+    found.warn(device_path(device, "options"),
+               "it goes on for " + text::number_text(device.stops_after_ms / 1000.0) +
+                   " s when its line is cut; up to 1 s is usual",
+               "slow_watchdog", "a shorter time-out of its own");
+  }
+}
+
+/// In centimetres, say.
+void warn_of_far_antenna(Findings& found) {
+  const auto& config = found.config();
+  constexpr double kLeast_m = 1;
+  constexpr double kTracks = 3;
+  const auto& antenna = config.engine.estimate;
+  const double away_m = std::hypot(antenna.antenna_x_m, antenna.antenna_y_m);
+  const double track_m = config.engine.base.track_m;
+  if (found.has_problem("estimate") || found.has_problem("groups")) return;
+  if (away_m <= std::max(kLeast_m, kTracks * track_m)) return;
+  found.warn("estimate",
+             "the antenna is " + text::number_text(std::round(away_m * 100) / 100) +
+                 " m from base_link, on a base whose track is " + text::number_text(track_m) + " m",
+             "far_antenna", "antenna_x_m and antenna_y_m in metres");
+}
+
 }  // namespace
 
 void check_accepted(Findings& found) {
@@ -99,6 +130,8 @@ void warn_of_risks(Findings& found) {
                "the wheels go on for " + std::to_string(found.config().guard.limit_ms) +
                    " ms when droverd dies; up to 200 ms is usual",
                "slow_guard");
+  warn_of_slow_watchdogs(found);
+  warn_of_far_antenna(found);
   warn_of_slow_chassis(found);
   warn_of_short_look(found);
   warn_of_short_field(found);

@@ -242,7 +242,9 @@ void check_drivers(Findings& found) {
     look_at_speed(device, found);
     const auto made = build(device, found);
     if (made.actuator == nullptr) continue;
-    device.goes_on_in_silence = !made.actuator->silence().stops;
+    const SilenceBehaviour silence = made.actuator->silence();
+    device.goes_on_in_silence = !silence.stops;
+    if (silence.stops) device.stops_after_ms = static_cast<int>(to_s(silence.after) * 1000);
     look_at_silence(device, *made.actuator, found);
   }
 }

@@ -1,4 +1,5 @@
 // Values that contradict each other.
+#include <algorithm>
 #include <utility>
 
 #include "config/check_subjects.h"
@@ -25,7 +26,25 @@ void check_limits(Findings& found) {
               "is shorter than 2.5 control cycles (" + text::number_text(least_ms) + " ms)");
 }
 
+namespace {
+
+/// "mqtt://10.0.0.5:1883": what people have from elsewhere.
+void check_host(const std::string& host, Findings& found) {
+  if (host.starts_with('/') || found.has_problem("mqtt.host")) return;
+  const auto scheme = host.find("://");
+  const std::string rest = scheme == std::string::npos ? host : host.substr(scheme + 3);
+  const bool is_ipv6 = std::count(rest.begin(), rest.end(), ':') > 1;
+  const auto end = rest.find_first_of(is_ipv6 ? "/ " : ":/ ");
+  if (scheme == std::string::npos && end == std::string::npos) return;
+  const std::string name = rest.substr(0, end);
+  found.add("mqtt.host", "\"" + host + "\" is no name or address of a host",
+            name.empty() ? "a name like \"127.0.0.1\"" : "\"" + name + "\"; the port is mqtt.port");
+}
+
+}  // namespace
+
 void check_broker(Findings& found) {
+  check_host(found.config().mqtt.host, found);
   const bool is_path = found.config().mqtt.host.starts_with('/');
   if (is_path && found.config().mqtt.port != 0)
     found.add("mqtt.port", "must be 0 when mqtt.host is the path of a Unix socket");

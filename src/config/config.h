@@ -76,6 +76,7 @@ struct DeviceConfig {
   AxisId first_axis = 0;  ///< of its joints, which are numbered through all devices
   /// It moves something, and goes on as it was told last when messages cease.
   bool goes_on_in_silence = false;
+  int stops_after_ms = 0;  ///< else: when its own time-out ends it
   RegisterMap registers;  ///< read from `map`
 };
 

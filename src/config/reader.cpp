@@ -1,6 +1,7 @@
 #include "config/reader.h"
 
 #include <charconv>
+#include <cmath>
 
 #include "text/number.h"
 #include "text/suggestion.h"
@@ -19,7 +20,7 @@ std::string joined(const std::vector<std::string>& words) {
 }
 
 /// What to write instead, for the usual slips.
-std::string right_type(const json::Node& node, std::string_view expected) {
+std::string right_type(const json::Node& node, std::string_view key, std::string_view expected) {
   if (const auto* text = node.text(); text != nullptr) {
     const auto inner = json::parse(*text);
     const bool number = inner && inner->root.number() && expected.ends_with("number");
@@ -27,7 +28,12 @@ std::string right_type(const json::Node& node, std::string_view expected) {
     return number || flag ? "write it without quotes" : "";
   }
   if (node.number() && expected == "a text") return "write it in quotes";
-  if (node.number() && expected == "a whole number") return "write it without a fraction";
+  if (node.number() && expected == "a whole number") {
+    const bool in_seconds = key.ends_with("_ms") && std::abs(*node.number()) < 10;
+    return in_seconds ? "it is in milliseconds: " + number_text(*node.number()) + " s are " +
+                            number_text(std::round(*node.number() * 1000))
+                      : "write it without a fraction";
+  }
   if (node.is_null()) return "leave the key out for its default";
   return "";
 }
@@ -63,7 +69,7 @@ const json::Node* Reader::find(std::string_view key, Presence presence, std::str
 void Reader::wrong_type(const json::Node& node, std::string_view key, std::string_view expected) {
   add(node, path_of(key),
       "is " + std::string(node.kind()) + ", but " + std::string(expected) + " is expected",
-      right_type(node, expected));
+      right_type(node, key, expected));
 }
 
 void Reader::check_count(const json::Node& node, std::string_view key, Count count) {
@@ -287,6 +293,11 @@ std::string comes_otherwise(std::string_view path) {
                                   "scene.keep_in", "scene.keep_out"})
     if (path == fence)
       return "zones are imported: drover zone import FILE --keep-in, or --keep-out";
+  if (path.starts_with("links.") &&
+      (path.ends_with(".bitrate") || path.ends_with(".bit_rate") || path.ends_with(".speed")))
+    return "the system sets the bit rate of a CAN bus (80-can0.network, config/README.md); a "
+           "serial "
+           "line's is \"baud\"";
   if (path == "scene.object" || path == "scene.objects")
     return "objects come as messages of the topic collision_object";
   return "";

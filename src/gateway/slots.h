@@ -18,7 +18,7 @@ struct Link {
   Wire wire = Wire::can;
   std::vector<SlotId> slots;  ///< in the order of the table
   std::size_t place = 0;      ///< in the configuration's table
-  Reason lost;                ///< a line of bytes: why it is gone; empty: it is not
+  Reason lost{};              ///< a line of bytes: why it is gone; empty: it is not
 };
 
 /// One device in its place.

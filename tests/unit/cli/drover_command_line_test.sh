@@ -56,6 +56,7 @@ expect "so is an unknown verb of a verb" 2 err \
 expect "a verb that is like none is answered with all" 2 err 'there are ' fly
 expect "a slip is told from a word that means another thing" 2 err \
   'no verb "unhold"; there are ' unhold
+expect "what people call it elsewhere is told" 2 err 'did you mean "bms"?' battery
 expect "a verb of a verb is told with the first one" 2 err 'did you mean "task cancel"?' cancel
 expect "help is a verb, too" 0 out 'drover stop' help stop
 expect "also alone" 0 out 'Examples:' help

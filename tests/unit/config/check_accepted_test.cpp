@@ -162,5 +162,30 @@ TEST(ConfigurationChecks, WarnOfAGuardThatWaitsLongUnlessThatIsAccepted) {
   EXPECT_EQ(warnings(accepted), "");
 }
 
+TEST(Warnings, TellOfADriveThatGoesOnForSecondsWhenItsLineIsCut) {
+  const auto after = [](const std::string& seconds, const std::string& words) {
+    return warnings(std::string("{\"accept\": [") + words + "]," +
+                    with(R"("options": {"node": 1}, "accept": ["no_watchdog"])",
+                         R"("options": {"node": 1, "watchdog_timeout_s": )" + seconds + "}")
+                        .substr(1));
+  };
+  EXPECT_EQ(after("0.5", ""), "");
+  EXPECT_THAT(after("5", ""),
+              HasSubstr("devices.left.options: it goes on for 5 s when its line is cut"));
+  EXPECT_EQ(after("5", R"("slow_watchdog")"), "");
+}
+
+TEST(Warnings, TellOfAnAntennaFarFromItsBase) {
+  const auto at = [](const std::string& antenna, const std::string& words) {
+    return warnings(std::string("{\"accept\": [") + words + "], \"estimate\": {" + antenna + "}," +
+                    std::string(kGood).substr(1));
+  };
+  EXPECT_EQ(at(R"("antenna_x_m": -1.5, "antenna_y_m": 0.8)", ""), "") << "of a track of 0.6 m";
+  EXPECT_THAT(at(R"("antenna_x_m": -5)", ""),
+              HasSubstr("estimate: the antenna is 5 m from base_link, on a base whose track is 0.6 "
+                        "m (antenna_x_m and antenna_y_m in metres, or"));
+  EXPECT_EQ(at(R"("antenna_x_m": -5)", R"("far_antenna")"), "");
+}
+
 }  // namespace
 }  // namespace drover::config

@@ -310,5 +310,29 @@ TEST(Configuration, LooksAtADriveThoughOneWithALongerNumberIsWrong) {
   EXPECT_THAT(told, HasSubstr("devices.w1.options: keeps its last velocity for ever"));
 }
 
+TEST(Broker, IsAHostAndNoUrl) {
+  const auto host = [](const std::string& text) {
+    return problems(with(R"("host": "127.0.0.1")", R"("host": ")" + text + R"(")"));
+  };
+  EXPECT_EQ(host("broker.local"), "");
+  EXPECT_EQ(host("fe80::1"), "");
+  EXPECT_THAT(host("mqtt://192.168.1.5:1883"),
+              testing::HasSubstr(
+                  R"(is no name or address of a host ("192.168.1.5"; the port is mqtt.port))"));
+  EXPECT_THAT(host("192.168.1.5:1883"), testing::HasSubstr(R"(("192.168.1.5"; the port)"));
+  EXPECT_THAT(host("tcp://"), testing::HasSubstr(R"(a name like "127.0.0.1")"));
+}
+
+TEST(Milliseconds, AreNamedWhereSecondsAreGiven) {
+  EXPECT_THAT(problems(with(R"("limits": {)", R"("guard": {"limit_ms": 0.05}, "limits": {)")),
+              testing::HasSubstr("it is in milliseconds: 0.05 s are 50"));
+}
+
+TEST(BitRates, AreSetByTheSystem) {
+  EXPECT_THAT(
+      problems(with(R"({"can": "can0"})", R"({"can": "can0", "bitrate": 500000})")),
+      testing::HasSubstr("links.can0.bitrate: is no known key (the system sets the bit rate"));
+}
+
 }  // namespace
 }  // namespace drover::config

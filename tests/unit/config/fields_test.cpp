@@ -138,8 +138,8 @@ TEST(Fields, OfTheDaemonAreAllKeys) {
   expect_complete<ControlConfig>();
   expect_complete<LinkConfig>(2);   // name, wire
   expect_complete<JointConfig>(2);  // name, channel_index
-  // name, kind, link_index, first_axis, goes_on_in_silence, registers
-  expect_complete<DeviceConfig>(6);
+  // name, kind, link_index, first_axis, goes_on_in_silence, stops_after_ms, registers
+  expect_complete<DeviceConfig>(7);
   expect_complete<GuardConfig>();
   expect_complete<MqttConfig>();
   expect_complete<ProtocolConfig>();
