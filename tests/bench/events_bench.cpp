@@ -167,6 +167,24 @@ const std::vector<Row>& all_rows() {
        [](Plan& p, Config&, double share, std::uint64_t) { p.outage_s = while_s(share, 10); }},
       {"no_imu", "without inertial sensor",
        [](Plan& p, Config&, double, std::uint64_t) { p.imu = false; }},
+      {"heading_lost", "the receiver's heading is lost for good on the first row",
+       [](Plan& p, Config&, double share, std::uint64_t) {
+         p.no_heading_s.from = 8 + 20 * share, p.no_heading_s.to = INFINITY;
+       },
+       4, 20},
+      {"one_antenna", "no heading from the start on, once it is known",
+       [](Plan& p, Config&, double, std::uint64_t) {
+         p.no_heading_s = {0.5, INFINITY};
+       },
+       4, 20},
+      {"one_antenna_no_gyro", "the same without inertial sensor",
+       [](Plan& p, Config&, double, std::uint64_t) {
+         p.no_heading_s = {0.5, INFINITY};
+         p.imu = false;
+       },
+       4, 20},
+      {"tyres_8", "a radius 8 % wrong",
+       [](Plan& p, Config&, double, std::uint64_t) { p.tyres = 0.92; }, 4, 20},
       {"five_Hz", "receiver of 5 Hz",
        [](Plan& p, Config&, double, std::uint64_t) { p.receiver_Hz = 5; }},
   };

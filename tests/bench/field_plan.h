@@ -43,6 +43,7 @@ struct FieldPlan {
   double heading_off_deg = 0;  ///< of the antenna line, not told to the gateway
   Span heading_wrong_s;
   double heading_wrong_deg = 0;
+  Span no_heading_s;     ///< none is told: one antenna
   double lever_x_m = 0;  ///< true antenna beside the configured one
   double lever_y_m = 0;
   // Inertial sensor.

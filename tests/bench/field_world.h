@@ -222,6 +222,7 @@ class FieldWorld final {
                            (plan_.heading_wrong_s.holds(since_s()) ? plan_.heading_wrong_deg : 0);
     fix.heading.heading_deg =
         wrap_deg(compass_deg_from_yaw_rad(yaw + to_rad(0.3) * normal()) + off_deg);
+    fix.has_heading = !plan_.no_heading_s.holds(since_s());
     if (!plan_.outage_s.holds(since_s())) fixes_.push_back(fix);
   }
   /// Where a point of the map is on the earth: the antenna of a pose without a lever arm.
@@ -237,7 +238,7 @@ class FieldWorld final {
     while (!fixes_.empty() && fixes_.front().received <= now_) {
       const Fix& fix = fixes_.front();
       measure(fix.stamp, fix.position);
-      measure(fix.stamp, fix.heading);
+      if (fix.has_heading) measure(fix.stamp, fix.heading);
       heard_ = now_;
       fixes_.pop_front();
     }
@@ -263,6 +264,7 @@ class FieldWorld final {
     Time received = kNever;
     GnssPosition position;
     GnssHeading heading;
+    bool has_heading = true;
   };
 
   engine::EngineConfig config_;

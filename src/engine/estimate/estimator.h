@@ -28,6 +28,7 @@ struct Estimate {
   /// Likewise with four sigma, for people. An error that no source shows is in neither.
   double error_bound_m = kAbsent;
   double yaw_error_rad = kAbsent;  ///< two sigma
+  bool way_heals = false;          ///< RTK fixes come and no heading: only way driven tells it
   BodyMotion body;                 ///< as the base tells it, nothing learned applied
   double fastest_mps = 0;          ///< of its wheels on the ground, by that motion
   double yaw_slip_factor = 1.0;    ///< as refined

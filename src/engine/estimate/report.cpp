@@ -15,6 +15,8 @@ namespace {
 constexpr Duration kReachEach = std::chrono::milliseconds(100);
 // An RTK fix this young is what the place rests on, not dead reckoning.
 constexpr Duration kFixed = std::chrono::milliseconds(500);
+// A receiver that tells headings tells each second, or oftener.
+constexpr Duration kToldOfLate = std::chrono::seconds(2);
 // A run of refused positions so long is no outlier.
 constexpr Duration kContradicted = std::chrono::milliseconds(300);
 // An error lasts for half a minute: at two sigma a robot would be outside once in ten minutes, at
@@ -63,6 +65,10 @@ void Estimator::report(const State& state, Time now) {
   e.predicted_error_m = state.has_position ? two_sigma_m : kAbsent;
   e.error_bound_m = state.has_position ? kSure * two_sigma_m : kAbsent;
   e.yaw_error_rad = state.has_heading ? two_sigma_rad : kAbsent;
+
+  const bool fixed = state.gnss.fixed != kNever && now - state.gnss.fixed < kFixed;
+  const bool told = state.heading.last != kNever && now - state.heading.last < kToldOfLate;
+  e.way_heals = fixed && state.has_heading && !told;
 
   report_trouble(state, now);
   report_imu(state, now);

@@ -10,6 +10,8 @@ namespace drover::engine {
 namespace {
 
 constexpr double kGoodAgain = 0.8;  // of the bound
+// A heading that only way tells gets no better by waiting: with RTK fixes a task goes on slowly.
+constexpr double kOnTheWay = 2;
 
 bool finite(const Pose& pose) {
   return std::isfinite(pose.x_m) && std::isfinite(pose.y_m) && std::isfinite(pose.yaw_rad) &&
@@ -28,7 +30,8 @@ LocateState LocateMonitor::update(const Estimate& estimate, bool has_origin, boo
     return state_ = LocateState::uninit;
   }
   const double bound_m = task_active ? config_.bound_run_m : config_.bound_start_m;
-  const double bound_rad = to_rad(config_.bound_yaw_deg);
+  const bool goes_on = task_active && estimate.way_heals;
+  const double bound_rad = to_rad(config_.bound_yaw_deg) * (goes_on ? kOnTheWay : 1.0);
   const double share = state_ == LocateState::good ? 1.0 : kGoodAgain;
   const double error_m = estimate.predicted_error_m;
   const double error_rad = estimate.yaw_error_rad;
@@ -48,7 +51,8 @@ LocateState LocateMonitor::update(const Estimate& estimate, bool has_origin, boo
     reason_.format("heading uncertain by %.1f degrees, allowed %.1f", to_deg(error_rad),
                    to_deg(share * bound_rad));
   } else {
-    used_ = std::max(error_m / bound_m, error_rad / bound_rad);
+    used_ = std::max(error_m / bound_m, error_rad / to_rad(config_.bound_yaw_deg));
+    used_ = std::min(used_, 1.0);
     return state_ = LocateState::good;
   }
   return state_ = LocateState::lost;

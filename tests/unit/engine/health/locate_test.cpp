@@ -56,6 +56,19 @@ TEST_F(ALocateMonitor, IsLostWhenSourcesContradictEachOther) {
   EXPECT_EQ(update(), LocateState::lost);
   EXPECT_THAT(reason(), HasSubstr("disagrees"));
 }
+TEST_F(ALocateMonitor, LetsATaskGoOnSlowlyWhereOnlyWayTellsTheHeading) {
+  estimate.yaw_error_rad = to_rad(7.0);
+  EXPECT_EQ(update(true), LocateState::lost) << "a receiver tells it";
+  estimate.way_heals = true;
+  EXPECT_EQ(update(true), LocateState::good) << "waiting brings nothing";
+  EXPECT_EQ(monitor.used(), 1) << "slowly";
+  EXPECT_EQ(update(false), LocateState::lost) << "nothing begins so";
+  estimate.yaw_error_rad = to_rad(11.0);
+  EXPECT_EQ(update(true), LocateState::lost);
+  estimate.yaw_error_rad = to_rad(3.0);
+  estimate.predicted_error_m = 1;
+  EXPECT_EQ(update(true), LocateState::lost) << "the place has its own bound";
+}
 TEST_F(ALocateMonitor, IsLostBeyondTheBoundOfTheHeading) {
   estimate.yaw_error_rad = 0.1;
   EXPECT_EQ(update(), LocateState::lost);
