@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace drover::engine {
 namespace {
 
 constexpr double kLasting_s = 0.3;  // longer than a knock, shorter than a braking
 constexpr double kStale_s = 0.5;
+constexpr double kAlone_s = 0.015;  // a hit takes 10 to 50 ms
 constexpr Duration kHeld = std::chrono::seconds(1);
 
 }  // namespace
@@ -20,10 +22,13 @@ void HitWatch::on_sample(const ImuSample& sample, Time at) {
   if (!(dt_s >= 0 && dt_s < kStale_s)) {
     lasting_x_mps2_ = force.x;
     lasting_y_mps2_ = force.y;
+    above_ = false;
     return;
   }
   const double knock_mps2 = std::hypot(force.x - lasting_x_mps2_, force.y - lasting_y_mps2_);
-  if (knock_mps2 > limit_mps2_) {
+  const bool was_above = std::exchange(above_, knock_mps2 > limit_mps2_);
+  if (above_ && !was_above && dt_s < kAlone_s) return;
+  if (above_) {
     // One hit rings for a while: told once, with its hardest.
     const bool same = hit_at_ != kNever && at - hit_at_ < kHeld;
     hardest_mps2_ = std::max(same ? hardest_mps2_ : 0.0, knock_mps2);

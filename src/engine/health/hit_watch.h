@@ -7,7 +7,9 @@
 
 namespace drover::engine {
 
-/// Across the ground. What lasts is gravity (a slope), or a drive's: it is taken off.
+/// Across the ground. What lasts is gravity (a slope), or a drive's: it is taken off. One sample
+/// alone counts only of a sensor that tells no more within a hit: a wheel that takes hold jerks,
+/// too.
 class HitWatch final {
  public:
   explicit HitWatch(const HealthConfig& config) : limit_mps2_(config.hit_mps2) {}
@@ -18,7 +20,8 @@ class HitWatch final {
   const Reason& reason(Time now);
 
  private:
-  double limit_mps2_;  ///< 0: nobody looks
+  double limit_mps2_;   ///< 0: nobody looks
+  bool above_ = false;  ///< the last sample was
   double lasting_x_mps2_ = 0;
   double lasting_y_mps2_ = 0;
   Time sample_at_ = kNever;
