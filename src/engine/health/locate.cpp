@@ -9,7 +9,6 @@
 namespace drover::engine {
 namespace {
 
-constexpr double kGoodAgain = 0.8;  // of the bound
 // A heading that only way tells gets no better by waiting: with RTK fixes a task goes on slowly.
 constexpr double kOnTheWay = 2;
 
@@ -26,7 +25,7 @@ LocateState LocateMonitor::update(const Estimate& estimate, bool has_origin, boo
   if (!has_origin || !estimate.has_position || !estimate.has_heading) {
     reason_ = !has_origin              ? "no origin is set"
               : !estimate.has_position ? "no position yet"
-                                       : "no heading yet";
+                                       : "no heading yet (with one antenna: drover heading find)";
     return state_ = LocateState::uninit;
   }
   const double bound_m = task_active ? config_.bound_run_m : config_.bound_start_m;
@@ -45,11 +44,11 @@ LocateState LocateMonitor::update(const Estimate& estimate, bool has_origin, boo
     reason_ = estimate.looks;
   } else if (estimate.disputed && !(error_m <= share * bound_m && error_rad <= share * bound_rad)) {
     reason_ = estimate.reason;
-  } else if (!(error_m <= share * bound_m)) {
+  } else if (!(error_m <= share * bound_m) && !(error_rad / bound_rad > error_m / bound_m)) {
     reason_.format("position uncertain by %.3f m, allowed %.3f m", error_m, share * bound_m);
-  } else if (!(error_rad <= share * bound_rad)) {
-    reason_.format("heading uncertain by %.1f degrees, allowed %.1f", to_deg(error_rad),
-                   to_deg(share * bound_rad));
+  } else if (!(error_rad <= share * bound_rad)) {  // the place of base_link may follow from it
+    reason_.format("heading uncertain by %.1f degrees, allowed %.1f%s", to_deg(error_rad),
+                   to_deg(share * bound_rad), estimate.way_heals ? ": drover heading find" : "");
   } else {
     used_ = std::max(error_m / bound_m, error_rad / to_rad(config_.bound_yaw_deg));
     used_ = std::min(used_, 1.0);

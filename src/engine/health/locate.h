@@ -6,6 +6,9 @@
 
 namespace drover::engine {
 
+/// What was lost is good again below this share of its bound.
+inline constexpr double kGoodAgain = 0.8;
+
 /// `uninit` until there is a position and a heading; then `good` while the predicted errors (two
 /// sigma) are inside their bounds, else `lost`. What was lost is good again only well inside.
 class LocateMonitor final {

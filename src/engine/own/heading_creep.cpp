@@ -20,7 +20,7 @@ void HeadingCreep::start(const RequestId& id, std::string_view hindrance, const 
   const auto refuse = [&](const Reason& why) { events.push(now, CommandRefused{id, why}); };
   if (active_) return refuse("the heading is being looked for already");
   if (!hindrance.empty()) return refuse(hindrance);
-  if (estimate.has_heading) return refuse("the heading is known already");
+  if (knows_heading(estimate)) return refuse("the heading is known already");
   if (!health.gnss_ok) return refuse("the receiver gives no position");
   if (!estimate.has_position) return refuse("there is no position yet");
   if (!(estimate.predicted_error_m <= config_.find_heading_distance_m / 2)) {
@@ -46,7 +46,7 @@ void HeadingCreep::end(std::string_view why, Time now, EventQueue& events) {
 Twist HeadingCreep::step(Time now, Duration dt, const Estimate& estimate,
                          const HealthReport& health, EventQueue& events) {
   if (!active_) return {};
-  if (estimate.has_heading) {
+  if (knows_heading(estimate)) {
     active_ = false;
     Reason text;
     text.format("heading found after %.1f m", driven_m_);

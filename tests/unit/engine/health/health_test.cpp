@@ -234,7 +234,7 @@ TEST_F(AHealthMonitor, TellsWhyThereIsNoPosition) {
   EXPECT_EQ(first_why(), "no origin is set");
   has_origin = true;
   estimate.has_heading = false;
-  EXPECT_EQ(first_why(), "no heading yet");
+  EXPECT_EQ(first_why(), "no heading yet (with one antenna: drover heading find)");
 }
 TEST_F(AHealthMonitor, SeesBothZones) {
   activate(Line::zone_far);

@@ -34,7 +34,7 @@ TEST_F(ALocateMonitor, IsNotInitialisedWithoutOriginPositionOrHeading) {
   EXPECT_EQ(reason(), "no origin is set");
   estimate.has_heading = false;
   EXPECT_EQ(update(), LocateState::uninit);
-  EXPECT_EQ(reason(), "no heading yet");
+  EXPECT_EQ(reason(), "no heading yet (with one antenna: drover heading find)");
   estimate.has_position = false;
   EXPECT_EQ(update(), LocateState::uninit);
   EXPECT_EQ(reason(), "no position yet");

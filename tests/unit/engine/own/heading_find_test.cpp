@@ -21,6 +21,26 @@ TEST_F(FindingTheHeading, IsRefusedWhenItIsKnown) {
   EXPECT_EQ(rig.fastest_command_radps(), 0);
   EXPECT_THAT(std::string(rig.said<CommandRefused>().back().reason.view()), HasSubstr("known"));
 }
+/// One antenna, no gyro: a short press of the e-stop, and nobody knows how far it was turned.
+TEST_F(FindingTheHeading, BeginsAgainWhenItIsNotKnownWellEnoughAnyMore) {
+  settle_without_heading();
+  const auto find = [this] {
+    const std::size_t refused = rig.said<CommandRefused>().size();
+    rig.command(FindHeading{});
+    rig.run_s(15);
+    EXPECT_EQ(rig.said<CommandRefused>().size(), refused) << rig.why();
+    EXPECT_EQ(rig.snapshot().nav.locate, LocateState::good) << rig.why();
+  };
+  find();
+  for (auto& drive : rig.drives) drive.silent = true;
+  rig.run_s(0.5);
+  for (auto& drive : rig.drives) drive.silent = false;
+  rig.run_s(10);
+  ASSERT_EQ(rig.snapshot().nav.locate, LocateState::lost) << rig.why();
+  EXPECT_THAT(std::string(rig.why()),
+              HasSubstr("drover heading find"));
+  find();
+}
 TEST_F(FindingTheHeading, DrivesNoFartherThanItMay) {
   settle_without_heading();
   rig.quality = FixQuality::none;  // nothing will ever show it
