@@ -87,19 +87,21 @@ std::vector<Figure> figures(const Node& answer) {
   const Node& report = at(answer, "report");
   const Node& speed = at(report, "speed");
   const Node& bound = at(report, "error_bound");
-  return {{"report", quantity(at(answer, "number"), "%.0f") + "  " + date_words(report)},
-          {"track", "\"" + text(at(report, "track")) + "\" to point " +
-                        quantity(at(report, "target_id"), "%.0f") +
-                        quantity(at(report, "asked_mps"), ", asked %.2f m/s")},
-          {"result", result_words(report)},
-          {"way", quantity(at(report, "way_m"), "%.1f m") + " in " + minutes(at(report, "time_s")) +
-                      quantity(at(report, "left_m"), ", %.2f m left")},
-          {"beside", cross_track_words(report)},
-          {"speed", quantity(at(speed, "mean_mps"), "mean %.2f m/s") +
-                        quantity(at(speed, "max_mps"), "  max %.2f m/s")},
-          {"gnss", quality_words(report)},
-          {"bound", centimetres(bound, "max_moving_m") + " at most while it moved, " +
-                        centimetres(bound, "max_m") + " in all"}};
+  return {
+      {"report", quantity(at(answer, "number"), "%.0f") + "  " + date_words(report)},
+      {"track", "\"" + text(at(report, "track")) + "\" to point " +
+                    quantity(at(report, "target_id"), "%.0f") +
+                    quantity(at(report, "asked_mps"), ", asked %.2f m/s")},
+      {"result", result_words(report)},
+      {"way",
+       quantity(at(report, "way_m"), "%.1f m") + " in " + minutes(at(report, "time_s")) +
+           (at(report, "left_m").number() ? quantity(at(report, "left_m"), ", %.2f m left") : "")},
+      {"beside", cross_track_words(report)},
+      {"speed", quantity(at(speed, "mean_mps"), "mean %.2f m/s") +
+                    quantity(at(speed, "max_mps"), "  max %.2f m/s")},
+      {"gnss", quality_words(report)},
+      {"bound", centimetres(bound, "max_moving_m") + " at most while it moved, " +
+                    centimetres(bound, "max_m") + " in all"}};
 }
 
 std::string show_report(const Node& answer) {

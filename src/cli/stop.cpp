@@ -131,11 +131,15 @@ std::string unheard(const StopPlaces& places) {
   return status ? unheard_drives(*status) : std::string();
 }
 
-/// Whether somebody's stop holds the robot; true where droverd does not say.
-bool is_stopped(const StopPlaces& places) {
+bool guard_is_latched(const StopPlaces& places) {
   std::string problem;
   const auto guard = ask_guard(places, "state", problem);
-  if (guard && yes(at(guard->root, "latched"))) return true;
+  return guard && yes(at(guard->root, "latched"));
+}
+
+/// Whether somebody's stop holds the robot; true where droverd does not say.
+bool is_stopped(const StopPlaces& places) {
+  if (guard_is_latched(places)) return true;
   const auto status = daemon_status(places);
   return !status || status->find("stopped_until_told") == nullptr ||
          yes(at(*status, "stopped_until_told"));
@@ -206,10 +210,15 @@ int stop(const StopPlaces& places) {
 int reset(const StopPlaces& places) {
   // The guard first: droverd refuses while somebody else has the bus. It has latched the same stop,
   // so that its own refusal still keeps the robot where it is.
+  const bool was_latched = guard_is_latched(places);
   const bool was_stopped = is_stopped(places);
-  const auto guard = tell_guard(places, "reset");
+  auto guard = tell_guard(places, "reset");
   if (guard.obeyed) wait_for_bus(places);
   const auto daemon = tell_daemon(places, "reset");
+  // What droverd refuses is refused: no half of the stop is over.
+  const bool refused = daemon.heard && !daemon.obeyed;
+  if (refused && was_latched && guard.obeyed && tell_guard(places, "stop").obeyed)
+    guard = {.heard = true, .why = "stopped again: droverd refused"};
   const bool done = daemon.obeyed && (guard.obeyed || !guard.heard);
   std::string words = was_stopped ? "the stop is over" : "no stop was latched";
   if (!guard.obeyed) words = (done ? words + "; " : "") + guard.why;

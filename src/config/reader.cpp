@@ -108,10 +108,24 @@ void Reader::check_alternatives() {
         "one of: " + joined(alternatives_));
 }
 
+namespace {
+
+/// " metres", by the end of a key that has a unit; it is what people write otherwise.
+std::string unit_of(std::string_view key) {
+  constexpr std::pair<std::string_view, std::string_view> kUnits[] = {
+      {"_mps", " m/s"}, {"_mps2", " m/s2"}, {"_radps", " rad/s"}, {"_deg", " degrees"},
+      {"_ms", " ms"},   {"_s", " s"},       {"_Hz", " Hz"},       {"_m", " metres"}};
+  for (const auto& [end, unit] : kUnits)
+    if (key.ends_with(end)) return std::string(unit);
+  return "";
+}
+
+}  // namespace
+
 void Reader::out_of_range(const json::Node& node, std::string_view key, Range range) {
   add(node, path_of(key),
       "is " + number_text(*node.number()) + ", but must be between " + number_text(range.min) +
-          " and " + number_text(range.max));
+          " and " + number_text(range.max) + unit_of(key));
 }
 
 void Reader::number(std::string_view key, double& into, Range range, std::string_view text,

@@ -4,7 +4,9 @@
 #include <sys/un.h>
 
 #include <array>
+#include <atomic>
 #include <cstring>
+#include <thread>
 
 #include "integration/guard_rig.h"
 #include "integration/process.h"
@@ -48,6 +50,33 @@ class GuardAndCommandLine : public GuardRig {
     EXPECT_EQ(::listen(fd.get(), 4), 0);
     return fd;
   }
+
+  /// One that answers each question with the same line, until it is gone.
+  class RefusingDaemon {
+   public:
+    RefusingDaemon(link::UniqueFd fd, std::string line)
+        : fd_(std::move(fd)), line_(std::move(line)), thread_([this] { serve(); }) {}
+    ~RefusingDaemon() {
+      ends_ = true;
+      ::shutdown(fd_.get(), SHUT_RDWR);
+      thread_.join();
+    }
+
+   private:
+    void serve() {
+      while (!ends_) {
+        const link::UniqueFd client(::accept(fd_.get(), nullptr, nullptr));
+        std::array<char, 1024> question{};
+        if (client.get() < 0 || ::recv(client.get(), question.data(), question.size(), 0) <= 0)
+          continue;
+        (void)::send(client.get(), line_.data(), line_.size(), MSG_NOSIGNAL);
+      }
+    }
+    link::UniqueFd fd_;
+    std::string line_;
+    std::atomic<bool> ends_{false};
+    std::thread thread_;
+  };
 
  private:
   int calls_ = 0;
@@ -107,6 +136,18 @@ TEST_F(GuardAndCommandLine, ResetSaysThatOnlyTheGuardHeardIt) {
   EXPECT_EQ(reset.code, 3);
   EXPECT_THAT(reset.text, HasSubstr("only drover-guard's stop is over: droverd does not run"));
   EXPECT_THAT(at_stop_socket("state"), HasSubstr("\"latched\":false"));
+}
+
+/// droverd refuses while what stopped the robot persists: then nothing of the stop is over.
+TEST_F(GuardAndCommandLine, ResetThatDroverdRefusesLeavesTheGuardsStopAsItWas) {
+  start();
+  supply();
+  ASSERT_EQ(drover({"stop"}).code, 0);
+  const RefusingDaemon daemon(hung_daemon(), "{\"ok\":false,\"reason\":\"the e-stop is lost\"}\n");
+  const auto reset = drover({"reset"});
+  EXPECT_EQ(reset.code, 1) << reset.text;
+  EXPECT_THAT(reset.text, HasSubstr("refused: the e-stop is lost"));
+  EXPECT_THAT(at_stop_socket("state"), HasSubstr("\"latched\":true"));
 }
 
 }  // namespace drover::test

@@ -73,9 +73,9 @@ TEST(Configuration, KeepsTheOrderOfATable) {
 
 TEST(Configuration, RefusesAValueOutsideItsRange) {
   EXPECT_EQ(problems(with("0.8", "800")),
-            "f:12:31: limits.max_speed_mps: is 800, but must be between 0.05 and 5\n");
+            "f:12:31: limits.max_speed_mps: is 800, but must be between 0.05 and 5 m/s\n");
   EXPECT_EQ(problems(with("0.8", "5.001")),
-            "f:12:31: limits.max_speed_mps: is 5.001, but must be between 0.05 and 5\n");
+            "f:12:31: limits.max_speed_mps: is 5.001, but must be between 0.05 and 5 m/s\n");
   EXPECT_EQ(problems(with("0.8", "5")), "");
   EXPECT_EQ(problems(with("1883", "65536")),
             "f:13:41: mqtt.port: is 65536, but must be between 0 and 65535\n");
