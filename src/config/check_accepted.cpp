@@ -10,9 +10,9 @@ namespace drover::config {
 namespace {
 
 const std::vector<std::string> kOfADrive{"no_watchdog"};
-const std::vector<std::string> kAtTheTop{"no_estop",     "slow_guard",  "no_tilt",
-                                         "no_soc",       "no_relay",    "short_look",
-                                         "slow_chassis", "far_antenna", "slow_watchdog"};
+const std::vector<std::string> kAtTheTop{
+    "no_estop",   "slow_guard",   "no_tilt",     "no_soc",        "no_relay",
+    "short_look", "slow_chassis", "far_antenna", "slow_watchdog", "no_guard"};
 
 bool is_one_of(const std::vector<std::string>& words, const std::string& word) {
   return std::find(words.begin(), words.end(), word) != words.end();
@@ -124,6 +124,11 @@ void warn_of_risks(Findings& found) {
                  "tells no soc: an empty battery is not noticed, and no task ends for it",
                  "no_soc");
   }
+  if (!found.config().guard.required)
+    found.warn("guard.required",
+               "is false: the robot drives without drover-guard, and nothing stops it then when "
+               "droverd dies or hangs but the drives' own time-outs",
+               "no_guard", "true");
   constexpr int kSlowGuard_ms = 200;
   if (found.config().guard.limit_ms > kSlowGuard_ms)
     found.warn("guard.limit_ms",

@@ -175,6 +175,12 @@ TEST(Warnings, TellOfADriveThatGoesOnForSecondsWhenItsLineIsCut) {
   EXPECT_EQ(after("5", R"("slow_watchdog")"), "");
 }
 
+TEST(Warnings, TellOfARobotThatDrivesWithoutItsGuard) {
+  const auto text = with(R"("limits": {)", R"("guard": {"required": false}, "limits": {)");
+  EXPECT_THAT(warnings(text), HasSubstr("guard.required: is false: the robot drives without"));
+  EXPECT_EQ(warnings("{\"accept\": [\"no_guard\"]," + text.substr(1)), "");
+}
+
 TEST(Warnings, TellOfAnAntennaFarFromItsBase) {
   const auto at = [](const std::string& antenna, const std::string& words) {
     return warnings(std::string("{\"accept\": [") + words + "], \"estimate\": {" + antenna + "}," +

@@ -34,7 +34,7 @@ constexpr auto kConfig = R"({
 })";
 
 constexpr auto kChassis = R"({
-  "accept": ["no_estop_line", "no_relay"],
+  "accept": ["no_estop", "no_relay"],
   "links": {"base": {"serial": "/dev/drover/base"}, "gnss": {"serial": "/dev/drover/gnss"}},
   "devices": {
     "chassis": {"driver": "gt01_serial", "link": "base", "accept": ["no_watchdog"]},
