@@ -77,7 +77,7 @@ struct DeviceConfig {
   /// It moves something, and goes on as it was told last when messages cease.
   bool goes_on_in_silence = false;
   int stops_after_ms = 0;  ///< else: when its own time-out ends it
-  RegisterMap registers;  ///< read from `map`
+  RegisterMap registers;   ///< read from `map`
 };
 
 /// The robot's lines, as they are written: by Line.

@@ -201,8 +201,8 @@ void Gateway::look_at_buses(Time now) {
   }
 }
 
-/// What moves something has lost its line at once, with the system's words: its own silence would be
-/// noticed later, and after the guard, which then has no line either.
+/// What moves something has lost its line at once, with the system's words: its own silence would
+/// be noticed later, and after the guard, which then has no line either.
 void Gateway::look_at_lost_lines() {
   for (const Link& link : wiring_.links) {
     if (link.lost.empty()) continue;

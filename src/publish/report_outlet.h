@@ -44,7 +44,7 @@ class ReportOutlet final : public Outlet {
   std::optional<TaskRecorder> recorder_;
   Duration wall_minus_monotonic_{};
   std::uint64_t last_number_ = 0;
-  std::string lost_;  ///< why the last report is lost; empty: it is not
+  std::string lost_;                             ///< why the last report is lost; empty: it is not
   std::map<std::uint64_t, Question> questions_;  ///< by the number of their job
 };
 

@@ -83,9 +83,9 @@ PublishLoop::PublishLoop(const config::DroverConfig& config, ControlExchange& co
     watch(scene_->parser.replies_ready().fd(), kSceneParsed);
   }
   const store::StoredScene none;  // the other is up to 16 MiB: no copy
-  auto of_scene = std::make_unique<publish::SceneOutlet>(
-      scene_.has_value(), scene_ ? *scene_->stored : none,
-      [this](Time now) { return robot_now(now); });
+  auto of_scene =
+      std::make_unique<publish::SceneOutlet>(scene_.has_value(), scene_ ? *scene_->stored : none,
+                                             [this](Time now) { return robot_now(now); });
   scene_outlet_ = of_scene.get();
   add(std::move(of_scene));  // before the command line, which takes every line
   auto of_reports = std::make_unique<publish::ReportOutlet>(service_);

@@ -36,9 +36,9 @@ class SceneStore final {
   /// What was loaded is not on the disk yet: it did not take it.
   bool is_unsaved() const { return is_unsaved_; }
 
-  /// Replaces all. Returns nothing when it is durable; else it outlives the program all the same, in
-  /// the run folder. Each has one of the two kinds. Both are
-  /// refused while the file belongs to another user: what is in it is as good as ever.
+  /// Replaces all. Returns nothing when it is durable; else it outlives the program all the same,
+  /// in the run folder. Each has one of the two kinds. Both are refused while the file belongs to
+  /// another user: what is in it is as good as ever.
   std::optional<Failure> save(const std::vector<NamedText>& texts);
   /// A person knows that something is lost. The scene is `texts` now.
   std::optional<Failure> accept_loss(const std::vector<NamedText>& texts);

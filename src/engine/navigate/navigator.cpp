@@ -300,8 +300,8 @@ void Navigator::watch_shoves(const NavInput& input) {
   const bool of_late = shoved != kNever && input.now - shoved < kShovedOfLate;
   // One that crabs along a slope may never come nearer.
   const bool long_ago = shoved == kNever || input.now - shoved > kReturnsWithin;
-  returns_ = progress_.joined &&
-             (returns_ ? off_m > kBack_m && !long_ago : of_late && off_m > kAside_m);
+  returns_ =
+      progress_.joined && (returns_ ? off_m > kBack_m && !long_ago : of_late && off_m > kAside_m);
 }
 
 double Navigator::speed_cap_mps(const NavInput& input) const {

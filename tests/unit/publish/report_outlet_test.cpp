@@ -141,8 +141,9 @@ TEST_F(ReportOutletTest, ListsWhatThereIs) {
   store::StorageReply reply{job.id, true};
   reply.reports = {{4, {"{}", ""}}, {3, {"{}", ""}}};
   outlet_.on_stored(reply, actions_);
-  EXPECT_EQ(only<Reply>().line,
-            R"({"ok":true,"reports":[{"number":4,"report":{}},{"number":3,"report":{}}],"problem":""})");
+  EXPECT_EQ(
+      only<Reply>().line,
+      R"({"ok":true,"reports":[{"number":4,"report":{}},{"number":3,"report":{}}],"problem":""})");
 }
 
 TEST_F(ReportOutletTest, PassesARefusalOn) {

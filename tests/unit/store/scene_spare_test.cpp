@@ -1,5 +1,5 @@
-// What a disk did not take of the scene outlives the program (issue: an object that a read-only disk
-// did not take was forgotten by a kill).
+// What a disk did not take of the scene outlives the program (issue: an object that a read-only
+// disk did not take was forgotten by a kill).
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

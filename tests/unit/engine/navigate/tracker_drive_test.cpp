@@ -198,7 +198,8 @@ TEST(TrackerDrive, TurnsRoundWhereTheTrackGoesBackOnItself) {
   EXPECT_LT(d.final_m, 0.03);
   EXPECT_NEAR(d.driven_m, 5, 0.1);
 }
-/// Points each 10 cm with a step back of 25 cm among them: it turned round and round, a metre beside.
+/// Points each 10 cm with a step back of 25 cm among them: it turned round and round, a metre
+/// beside.
 TEST(TrackerDrive, DrivesOnWhereARecordingStepsBackALittle) {
   for (const double spacing_m : {0.1, 0.2, 0.5}) {
     for (const double back_m : {0.03, 0.1, 0.2, 0.25}) {

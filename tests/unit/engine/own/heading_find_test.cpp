@@ -37,8 +37,7 @@ TEST_F(FindingTheHeading, BeginsAgainWhenItIsNotKnownWellEnoughAnyMore) {
   for (auto& drive : rig.drives) drive.silent = false;
   rig.run_s(10);
   ASSERT_EQ(rig.snapshot().nav.locate, LocateState::lost) << rig.why();
-  EXPECT_THAT(std::string(rig.why()),
-              HasSubstr("drover heading find"));
+  EXPECT_THAT(std::string(rig.why()), HasSubstr("drover heading find"));
   find();
 }
 TEST_F(FindingTheHeading, DrivesNoFartherThanItMay) {
