@@ -20,6 +20,8 @@ constexpr double kShareWalk = 0.002;
 const double kCrabWalk_deg = 0.3;
 constexpr double kLateWalk_s = 0.002;
 constexpr double kFitGate = 5.0;  // sigmas: it slipped, or jumped
+constexpr double kTells = 0.2;     // of the arm: so much of it is seen in a stretch's turn
+constexpr int kMostMissed = 5;     // about 7 s of turns
 constexpr double kMostLate_s = 0.4;
 constexpr double kLateKnown_s = 0.04;
 constexpr double kLateLeast_s = 0.03;
@@ -73,10 +75,22 @@ void AntennaFit::learn(const AntennaPoint& to, const EstimateConfig& config) {
     for (std::size_t i = 0; i < kNumbers; ++i) expected_m += row[i] * mean_[i];
     return square(measured_m - expected_m) > square(kFitGate) * (variance_of(row) + variance_m2);
   };
-  if (misses(east, east_m) || misses(north, north_m)) return;
+  const bool missed = misses(east, east_m) || misses(north, north_m);
+  if (std::hypot(dc, ds) > kTells) turns_missed_ = missed ? turns_missed_ + 1 : 0;
+  if (turns_missed_ > kMostMissed) forget_arm();
+  if (missed) return;
   correct(east, east_m, variance_m2);
   correct(north, north_m, variance_m2);
   mean_[kLate] = std::clamp(mean_[kLate], -kMostLate_s, kMostLate_s);
+}
+
+void AntennaFit::forget_arm() {
+  turns_missed_ = 0;
+  for (const std::size_t i : {std::size_t{kAhead}, std::size_t{kLeft}}) {
+    for (std::size_t k = 0; k < kNumbers; ++k) covariance_[i][k] = covariance_[k][i] = 0;
+    covariance_[i][i] = square(kArm_m);
+    mean_[i] = 0;
+  }
 }
 
 double AntennaFit::variance_of(const Row& row) const {

@@ -59,10 +59,13 @@ class AntennaFit final {
   void learn(const AntennaPoint& to, const EstimateConfig& config);
   double variance_of(const Row& row) const;
   void correct(const Row& row, double measured_m, double variance_m2);
+  /// The arm is another than before, perhaps: it was knocked, or learned wrong.
+  void forget_arm();
 
   Row mean_{};
   std::array<Row, kNumbers> covariance_{};
   AntennaPoint from_;
+  int turns_missed_ = 0;  ///< stretches in a row that tell of the arm and do not fit to it
   double east_m_ = 0;  ///< dead reckoned since then
   double north_m_ = 0;
   double way_m_ = 0;

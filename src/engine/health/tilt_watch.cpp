@@ -11,7 +11,7 @@ namespace {
 constexpr double kTiltHeld_s = 0.3;
 constexpr double kTiltSmooth_s = 0.3;
 constexpr double kTiltStale_s = 0.5;
-constexpr double kUpright_mps2 = 9.81;
+constexpr double kGravity_mps2 = 9.81;
 constexpr double kShaken_mps2 = 3.0;
 constexpr double kUpright = 0.5;  // of gravity along z: 60 degrees, farther than any limit
 constexpr double kBack = 0.9;     // of the limit: upright again
@@ -33,9 +33,9 @@ void TiltWatch::on_sample(const ImuSample& sample, Time at) {
 
 void TiltWatch::update(Time now, double roll_rad, double pitch_rad) {
   const bool felt = sample_at_ != kNever && now - sample_at_ < from_s(kTiltStale_s) &&
-                    std::abs(force_mps2_ - kUpright_mps2) < kShaken_mps2;
+                    std::abs(force_mps2_ - kGravity_mps2) < kShaken_mps2;
   // Its driver may reject such a sensor: what was felt last stands, until it feels otherwise.
-  if (felt) wrong_axis_ = up_mps2_ < kUpright * kUpright_mps2;
+  if (felt) wrong_axis_ = up_mps2_ < kUpright * kGravity_mps2;
   const double tilt_rad =
       std::acos(std::clamp(std::cos(roll_rad) * std::cos(pitch_rad), -1.0, 1.0));
   // A tilt that is not known any more leaves the verdict as it was.

@@ -101,6 +101,17 @@ TEST_F(AnAntenna, IsElsewhereByWhatShowsInTurns) {
   }
 }
 
+TEST_F(AnAntenna, IsLearnedAnewWhenItWasKnockedAside) {
+  for (int i = 0; i < 4; ++i) rows();
+  EXPECT_FALSE(fit.arm_wrong());
+  ahead_m = -0.3;
+  left_m = 0.3;
+  for (int i = 0; i < 4; ++i) rows();
+  EXPECT_TRUE(fit.arm_wrong());
+  EXPECT_NEAR(fit.ahead_m(), -0.3, 0.05);
+  EXPECT_NEAR(fit.left_m(), 0.3, 0.05);
+}
+
 TEST_F(AnAntenna, IsNotElsewhereBecauseWheelsAreWorn) {
   told_share = 1.03;
   rows();
