@@ -24,7 +24,9 @@ bool is_of_the_scene(const NamedText& text) {
 }  // namespace
 
 SceneStore::SceneStore(Files& files, std::string folder, std::string run_folder)
-    : files_(files), folder_(std::move(folder)), spare_(files, std::move(run_folder), kSceneFile) {}
+    : files_(files),
+      folder_(std::move(folder)),
+      spare_(files, std::move(run_folder), kUnsavedSceneFile) {}
 
 std::vector<NamedText> SceneStore::load(double wall_s, std::optional<double> max_age_s,
                                         std::vector<std::string>& report) {

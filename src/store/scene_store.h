@@ -12,6 +12,9 @@ namespace drover::store {
 
 inline constexpr NamedTextsFile kSceneFile{"scene.texts", "drover-scene", 2000,
                                            std::size_t{16} << 20};
+/// In the run folder, which may be the same one.
+inline constexpr NamedTextsFile kUnsavedSceneFile{"scene.unsaved", kSceneFile.format,
+                                                  kSceneFile.max_texts, kSceneFile.max_bytes};
 /// The kinds that a scene's texts have. Only objects grow old.
 inline constexpr std::string_view kObjectKind = "object";
 inline constexpr std::string_view kConstraintKind = "constraint";

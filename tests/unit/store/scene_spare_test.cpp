@@ -13,7 +13,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-const std::string kSpare = "run/scene.texts";
+const std::string kSpare = "run/scene.unsaved";
 
 NamedText box(const std::string& name) {
   return {std::string(kObjectKind), name, 1, "{}"};
@@ -60,6 +60,19 @@ TEST(WhatTheDiskDidNotTake, IsGoneWhenTheDiskHasIt) {
   it.start();
   EXPECT_THAT(it.texts, ElementsAre(box("b")));
   EXPECT_FALSE(it.store->is_unsaved());
+}
+
+TEST(WhatTheDiskDidNotTake, IsNeverTheDisksOwnFileWhereBothFoldersAreOne) {
+  FaultFiles files;
+  std::vector<std::string> report;
+  SceneStore store(files, "state", "state");
+  (void)store.load(0, {}, report);
+  ASSERT_FALSE(store.save({box("a")}));
+  SceneStore again(files, "state", "state");
+  EXPECT_THAT(again.load(0, {}, report), ElementsAre(box("a")));
+  EXPECT_FALSE(again.is_unsaved());
+  ASSERT_FALSE(again.save({box("b")}));
+  EXPECT_THAT(SceneStore(files, "state", "state").load(0, {}, report), ElementsAre(box("b")));
 }
 
 TEST(WhatTheDiskDidNotTake, IsForgottenByABoot) {
