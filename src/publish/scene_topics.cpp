@@ -180,7 +180,7 @@ void SceneTopics::refuse(Waiting& waiting, std::string path, std::string why) {
 void SceneTopics::note_unstored(Waiting& waiting, std::string_view why) {
   for (const std::size_t i : waiting.followed)
     if (SceneAnswer& answer = waiting.answers[i]; !answer.refusal)
-      answer.notes.push_back("counts, but would be lost at a restart: " + std::string(why));
+      answer.notes.push_back("counts, but would be lost at a boot: " + std::string(why));
 }
 
 /// In its place among the others, so that who counts answers is not led astray.
