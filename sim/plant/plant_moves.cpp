@@ -96,7 +96,9 @@ void Plant::push(double ahead_N, double left_N) {
 }
 
 void Plant::Impl::push() {
-  mju_mulMatVec(data->xfrc_applied + 6 * base, rotation(), push_N.data(), 3, 3);
+  mjtNum* force = data->xfrc_applied + 6 * base;
+  mju_mulMatVec(force, rotation(), push_N.data(), 3, 3);
+  mju_zero(force + 3, 3);  // a shove that is over turns nothing
 }
 
 void Plant::carry(const std::optional<CarrySpeed>& speed) {

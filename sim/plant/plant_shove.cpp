@@ -80,7 +80,7 @@ void Plant::Impl::shove() {
   mjtNum* force = data->xfrc_applied + 6 * base;
   force[0] += c * ahead_N - n * left_N;
   force[1] += n * ahead_N + c * left_N;
-  force[5] = s.inertia_kgm2 * pull(s.shove.turn_rad, s.speed[2], turned_rad, v[5]);
+  force[5] += s.inertia_kgm2 * pull(s.shove.turn_rad, s.speed[2], turned_rad, v[5]);
 }
 
 }  // namespace drover::sim

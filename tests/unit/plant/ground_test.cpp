@@ -120,6 +120,17 @@ TEST_F(OnGround, IsShovedAsFarAsItIsSaidWhileItStandsAndWhileItRolls) {
     }
 }
 
+/// Its wheels turn it against whoever shoves it; once that is over they do.
+TEST_F(OnGround, IsFreeWhenAShoveIsOver) {
+  plant.place(0, 0, 0);
+  drive(0.5, 2);
+  plant.shove({0, 0.14, 0, 0.4});
+  drive(0.3, 0.7, 0.4);
+  const double turned_rad = plant.pose().yaw_rad;
+  drive(0.3, 0.7, 1);
+  EXPECT_GT(plant.pose().yaw_rad - turned_rad, 0.2);
+}
+
 TEST_F(OnGround, IsShovedAlongItsOwnAxesAndTurned) {
   plant.place(1, 2, kPi / 2);
   // Braked: a drive would roll back what the shove has rolled.
