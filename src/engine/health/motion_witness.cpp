@@ -190,7 +190,7 @@ double MotionWitness::speed_mps(Time now) const {
   return speed_mps_ > std::max(kMoving_mps, kSigmas * speed_noise_mps()) ? speed_mps_ : 0.0;
 }
 
-double MotionWitness::proven_speed_mps(Time now) const {
+double MotionWitness::proven_speed_mps(Time now, double yaw_rad) const {
   const bool two = fresh(speed_at_, now) && fresh(speed_before_at_, speed_at_) &&
                    fresh(position_at_, now) && fresh(position_before_at_, position_at_);
   if (!two) return 0;
@@ -198,7 +198,9 @@ double MotionWitness::proven_speed_mps(Time now) const {
   const PathPoint step = ground_way(position_before_, position_);
   const double noise_m = std::hypot(place_sigma_m(position_before_, config_.estimate),
                                     place_sigma_m(position_, config_.estimate));
-  const double went_m = std::hypot(step.x_m, step.y_m);
+  const double went_m = std::isfinite(yaw_rad)
+                            ? std::abs(step.x_m * std::cos(yaw_rad) + step.y_m * std::sin(yaw_rad))
+                            : std::hypot(step.x_m, step.y_m);
   if (went_m <= kSigmas * noise_m || speed_mps <= kSigmas * speed_noise_mps()) return 0;
   return std::min(speed_mps, went_m / to_s(position_at_ - position_before_at_));
 }

@@ -118,7 +118,7 @@ bool RestWatch::bolts(const RestInput& input, const RimMotion& rims) const {
   if (!is_driven_by_us(input) || may_roll_ || !rims.driven) return false;
   const double explained_mps =
       std::max({config_.limits.max_speed_mps, expected_mps_, std::abs(rims.fastest_mps)});
-  return witness_.proven_speed_mps(input.now) > explained_mps + kBolts_mps;
+  return witness_.proven_speed_mps(input.now, input.yaw_rad) > explained_mps + kBolts_mps;
 }
 
 bool RestWatch::creeps_on(const RestInput& input, const RimMotion& rims) {

@@ -44,6 +44,15 @@ TEST_F(AMotionWitness, SeesAMotionThatBeginsSlowlyWithAFix) {
   EXPECT_EQ(moving(), 2) << witness_.hear(now_).in_words.view();
 }
 
+TEST_F(AMotionWitness, TellsWhatADriveDoesFromAShoveAside) {
+  for (int i = 0; i < 3; ++i) tell(1.6, FixQuality::rtk_fixed);  // to the north
+  constexpr double kNorth_rad = 1.5707963267948966;
+  EXPECT_NEAR(witness_.proven_speed_mps(now_, kNorth_rad), 1.6, 0.01);
+  EXPECT_NEAR(witness_.proven_speed_mps(now_, -kNorth_rad), 1.6, 0.01) << "backwards";
+  EXPECT_EQ(witness_.proven_speed_mps(now_, 0), 0) << "it is shoved aside";
+  EXPECT_NEAR(witness_.proven_speed_mps(now_, kAbsent), 1.6, 0.01) << "nobody knows where to";
+}
+
 TEST_F(AMotionWitness, LearnsTheNoiseOfAFloatSolutionWhileItRests) {
   witness_.set_at_rest(true);
   for (int i = 0; i < 100; ++i) tell(i % 2 == 0 ? 0.3 : 0.1, FixQuality::rtk_float);
