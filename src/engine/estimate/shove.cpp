@@ -53,7 +53,9 @@ void follow(Shove& shove, Belief& belief, double left_mps2, double dt_s, bool ma
     shove.since = now;
     shove.quiet_m = shove.left_m = shove.variance_m2 = shove.fastest_mps = 0;
   }
-  shove.fastest_mps = std::max(shove.fastest_mps, std::abs(shove.left_mps));
+  if (std::abs(shove.left_mps) > std::abs(shove.fastest_mps)) shove.fastest_mps = shove.left_mps;
+  // It has come to rest sideways: what is felt from here on is another motion, as a turn.
+  if (shove.left_mps * shove.fastest_mps <= 0) return end(shove, now);
   const bool pushed = std::abs(left_mps2 - shove.usual_mps2) > kQuiet_mps2;
   if (pushed) {
     shove.quiet = kNever;
@@ -67,7 +69,8 @@ void follow(Shove& shove, Belief& belief, double left_mps2, double dt_s, bool ma
   const bool quiet = shove.quiet != kNever && now - shove.quiet >= kQuietFor;
   if (!quiet && now - shove.since < kLongest) return;
   // No base goes on sliding: what was felt was the sensor's tilt.
-  const bool slides = std::abs(shove.left_mps) > std::max(kAtRest_mps, kAtRest * shove.fastest_mps);
+  const bool slides =
+      std::abs(shove.left_mps) > std::max(kAtRest_mps, kAtRest * std::abs(shove.fastest_mps));
   // It rests since nothing pushes it.
   move(shove, belief, slides ? -shove.left_m : -shove.quiet_m);
   end(shove, now);

@@ -12,7 +12,7 @@ namespace drover::engine::estimate {
 struct Shove {
   double usual_mps2 = 0;  ///< what is felt all the time: the sensor's zero, its tilt
   double left_mps = 0;    ///< by the sensor
-  double fastest_mps = 0;
+  double fastest_mps = 0;  ///< of left_mps, with its sign
   Time since = kNever;     ///< kNever: nobody shoves it
   Time quiet = kNever;     ///< since when nothing pushes it
   double quiet_m = 0;      ///< added up since then

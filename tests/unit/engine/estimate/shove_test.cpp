@@ -48,6 +48,15 @@ TEST_P(AShove, MovesTheBelief) {
 
 INSTANTIATE_TEST_SUITE_P(OfSomeCentimetres, AShove, testing::Values(0.14, -0.14, 0.25, -0.25, 0.4));
 
+/// It turns back to its line at once: what it feels of that undid the shove.
+TEST_F(AShove, IsOverWhenTheBaseRestsSidewaysWhateverItDoesThen) {
+  push(0.14, 0.55);
+  feel(-0.4, 0.8);
+  feel(0, 1);
+  EXPECT_NEAR(left_m(), 0.14, 0.05) << "its slow begin is not felt";
+  EXPECT_LE(std::abs(left_m() - 0.14), 2 * sigma_m());
+}
+
 TEST_F(AShove, IsNoneThatLastsBecauseTheSensorTilts) {
   // 5 degrees of roll, reached within a second, that nobody tells.
   for (int i = 0; i < 100; ++i) feel(0.85 * i / 100, kStep_s);
