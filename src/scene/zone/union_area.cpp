@@ -76,6 +76,7 @@ std::optional<std::vector<double>> levels_of(const std::vector<Edge>& edges, std
 /// How much of the line at `y_m` the polygons take whose edges cross there.
 double covered_m(const std::vector<const Edge*>& there, double y_m, std::size_t polygons) {
   std::vector<std::pair<double, std::size_t>> crossings;
+  crossings.reserve(there.size());
   for (const Edge* edge : there) crossings.emplace_back(edge->x_at(y_m), edge->polygon);
   std::sort(crossings.begin(), crossings.end());
   std::vector<bool> inside(polygons, false);
