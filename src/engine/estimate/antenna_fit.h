@@ -66,7 +66,7 @@ class AntennaFit final {
   std::array<Row, kNumbers> covariance_{};
   AntennaPoint from_;
   int turns_missed_ = 0;  ///< stretches in a row that tell of the arm and do not fit to it
-  double east_m_ = 0;  ///< dead reckoned since then
+  double east_m_ = 0;     ///< dead reckoned since then
   double north_m_ = 0;
   double way_m_ = 0;
   double turn_rad_ = 0;

@@ -10,8 +10,8 @@ namespace drover::engine::estimate {
 /// within a moment; what comes fast enough to be a shove is followed until the base is at rest
 /// sideways again, a second at the longest: wheels do not go on sliding.
 struct Shove {
-  double usual_mps2 = 0;  ///< what is felt all the time: the sensor's zero, its tilt
-  double left_mps = 0;    ///< by the sensor
+  double usual_mps2 = 0;   ///< what is felt all the time: the sensor's zero, its tilt
+  double left_mps = 0;     ///< by the sensor
   double fastest_mps = 0;  ///< of left_mps, with its sign
   Time since = kNever;     ///< kNever: nobody shoves it
   Time quiet = kNever;     ///< since when nothing pushes it

@@ -77,7 +77,8 @@ void LearnedNotices::tell_arm(Time now, const Estimate& estimate, const AntennaC
   if (!ahead && !left) return;
   Reason text;
   text.format(
-      "the antenna is not where it is configured: x %.2f m, y %.2f m would fit to how it goes round "
+      "the antenna is not where it is configured: x %.2f m, y %.2f m would fit to how it goes "
+      "round "
       "when the base turns, not %.2f, %.2f",
       antenna.x_m + estimate.arm_ahead_m, antenna.y_m + estimate.arm_left_m, antenna.x_m,
       antenna.y_m);

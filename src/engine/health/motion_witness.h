@@ -45,8 +45,9 @@ class MotionWitness final {
   double speed_mps(Time now) const;
   Time speed_at() const { return speed_at_; }  ///< when it was measured
   /// The least of the receiver's last two speeds and of what lies between its last two positions:
-  /// two witnesses in a tenth of a second, but only of what is fast. 0 when noise could be it. Where
-  /// the heading is known (`yaw_rad`) only what goes along it counts: no drive takes a base aside.
+  /// two witnesses in a tenth of a second, but only of what is fast. 0 when noise could be it.
+  /// Where the heading is known (`yaw_rad`) only what goes along it counts: no drive takes a base
+  /// aside.
   double proven_speed_mps(Time now, double yaw_rad) const;
   /// From where rest was expected, m; x east, y north. Zero without a position.
   PathPoint way(Time now) const;
