@@ -102,7 +102,9 @@ TEST(WhatTheDiskDidNotTake, NeverComesBackOverSomethingNewer) {
     it.files.plan(FaultFiles::Fault::none, 0);  // a kill: everything that was written is there
     it.start();
     ASSERT_EQ(it.texts.size(), 1U) << "killed at call " << at;
-    if (acknowledged) EXPECT_EQ(it.texts[0].name, "new") << "killed at call " << at;
+    if (acknowledged) {
+      EXPECT_EQ(it.texts[0].name, "new") << "killed at call " << at;
+    }
     const auto second = it.texts;
     it.start();
     EXPECT_EQ(it.texts, second) << "killed at call " << at;
