@@ -68,6 +68,9 @@ struct ArmHold {};
 /// A person has seen where the robot stands: from now on its receiver is believed, whatever wheels
 /// and gyro made of the way there. Refused while it moves, and without an RTK fix.
 struct AcceptPosition {};
+/// What drives taught the robot of itself is no longer so: a wheel, an antenna was changed. Refused
+/// while it moves.
+struct ForgetLearned {};
 /// Drive straight ahead for a short way, so that a receiver with one antenna shows the heading.
 struct FindHeading {};
 
@@ -76,7 +79,7 @@ struct Command {
   Time received = kNever;
   std::variant<std::monostate, StartTask, CancelTask, EngageStop, ResetStop, ProposeOrigin,
                SetOrigin, JointTargets, JointTargetsRefused, FindHeading, ReleaseHold, ArmHold,
-               AcceptPosition>
+               AcceptPosition, ForgetLearned>
       body;
 };
 

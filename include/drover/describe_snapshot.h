@@ -74,6 +74,18 @@ void describe(V& v, const EstimatorCounters& counters) {
 }
 
 template <class V>
+void describe(V& v, const LearnedValues& learned) {
+  v.value("receiver", learned.receiver);
+  v.value("forgotten", learned.forgotten);
+  each_learned(learned, [&v](const char* name, const LearnedValue& each) {
+    v.inside(name, [&v, &each] {
+      v.value("value", each.value);
+      v.value("sigma", each.sigma);
+    });
+  });
+}
+
+template <class V>
 void describe(V& v, const JointCommandSnapshot& stream) {
   const auto& [active, accepted, refused, reason] = stream;
   v.value("active", active, {});

@@ -42,6 +42,7 @@ class Options {
   double number(std::string_view name) const { return get<double>(name); }
   bool flag(std::string_view name) const { return get<bool>(name); }
   const std::string& text(std::string_view name) const { return get<std::string>(name); }
+  const std::map<std::string, OptionValue>& all() const { return values_; }
 
  private:
   template <class T>

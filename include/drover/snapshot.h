@@ -8,6 +8,7 @@
 #include "drover/driver.h"
 #include "drover/fixed_text.h"
 #include "drover/fixed_vector.h"
+#include "drover/learned.h"
 #include "drover/measurement.h"
 #include "drover/path.h"
 #include "drover/role.h"
@@ -260,6 +261,7 @@ struct Snapshot {
   FixedVector<Reason, 8> why;
   CycleStats cycle;
   EstimatorCounters estimator;
+  LearnedValues learned;
   std::uint64_t notices_dropped = 0;  ///< events that found the engine's queue full
 };
 

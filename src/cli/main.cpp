@@ -17,6 +17,7 @@
 #include "cli/estimate.h"
 #include "cli/exit_codes.h"
 #include "cli/failure.h"
+#include "cli/learned.h"
 #include "cli/option_texts.h"
 #include "cli/replay.h"
 #include "cli/reply.h"
@@ -237,6 +238,8 @@ int main(int argc, char** argv) {
       "accept", "believe the receiver: you see the robot stand where the map shows it");
   accept->add_flag("--json", s.json, "one JSON object");
   accept->callback([&] { code = run(s, request("position_accept")); });
+
+  drover::cli::add_learned_commands(app, s.socket, code);
 
   auto* stop = app.add_subcommand("stop", "emergency stop: zero at once, until `drover reset`");
   stop->add_flag("--json", s.json, "one JSON object");

@@ -84,6 +84,14 @@ constexpr Example kExamples[] = {
     {"position", "  drover position accept         # after: a look at the map, and at the robot"},
     {"position accept",
      "  drover position accept         # after: a look at the map, and at the robot"},
+    {"learned",
+     "  drover learned show\n"
+     "  drover learned show --json | jq .learned.values"},
+    {"learned show",
+     "  drover learned show            # what could be corrected in drover.json\n"
+     "  drover learned show --json | jq .learned.values"},
+    {"learned forget",
+     "  drover learned forget          # after: a wheel, an antenna or a tyre was changed"},
     {"stop",
      "  drover stop                    # zero at once: droverd and the guard are told\n"
      "  drover reset                   # after the cause is gone"},
@@ -116,7 +124,7 @@ namespace {
 /// named for a slip of one letter.
 bool acts_on_the_robot(std::string_view verb) {
   for (const std::string_view one : {"hold", "release", "reset", "start", "find", "delete", "clear",
-                                     "accept", "accept-loss", "forget-unreadable"})
+                                     "accept", "accept-loss", "forget-unreadable", "forget"})
     if (verb == one) return true;
   return false;
 }

@@ -251,6 +251,8 @@ void Engine::on_command(const Command& command, Time now) {
     e.arm_hold(id, now);
   } else if (std::holds_alternative<AcceptPosition>(command.body)) {
     e.accept_position(id, now);
+  } else if (std::holds_alternative<ForgetLearned>(command.body)) {
+    e.forget_learned(id, now);
   } else {
     e.events.push(now, CommandRefused{id, "an empty command"});
   }

@@ -11,6 +11,7 @@
 #include "drover/driver.h"
 #include "drover/event.h"
 #include "drover/fixed_vector.h"
+#include "drover/learned.h"
 #include "drover/remembered.h"
 #include "drover/snapshot.h"
 #include "drover/twist.h"
@@ -51,6 +52,8 @@ class Engine final {
 
   /// Before the first step: what the program before this one left.
   void recall(const Remembered& remembered, Time now);
+  /// Likewise, of the robot.
+  void recall(const LearnedValues& learned);
   void on_measurement(const Measurement& measurement);
   void on_command(const Command& command, Time now);
   /// Somebody looked around. Without EngineConfig::clearance_required it changes nothing.

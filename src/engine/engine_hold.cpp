@@ -35,6 +35,10 @@ void Engine::recall(const Remembered& remembered, Time now) {
   }
 }
 
+void Engine::recall(const LearnedValues& learned) {
+  impl_->estimator.recall(learned);
+}
+
 /// What the ground falls by where the base stands; not a number without an inertial sensor.
 double Engine::Impl::tilt_deg() const {
   if (!imu_trusted()) return kAbsent;

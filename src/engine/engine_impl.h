@@ -39,6 +39,7 @@ struct Engine::Impl {
   void propose_origin(const RequestId& id, Time now);
   void set_origin(const RequestId& id, const GeodeticPoint& origin, Time now);
   void accept_position(const RequestId& id, Time now);
+  void forget_learned(const RequestId& id, Time now);
   Reason poor_fix(Time now) const;
   void engage_stop(const RequestId& id, Time now);
   void reset_stop(const RequestId& id, Time now);

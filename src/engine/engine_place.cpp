@@ -69,4 +69,19 @@ void Engine::Impl::accept_position(const RequestId& id, Time now) {
   events.push(now, CommandAccepted{id, {}});
 }
 
+void Engine::Impl::forget_learned(const RequestId& id, Time now) {
+  const auto refuse = [&](const Reason& why) { events.push(now, CommandRefused{id, why}); };
+  if (navigator.active()) return refuse("a task runs");
+  if (!owners.at_rest() || rest.moves(now)) return refuse("the robot moves");
+  // What it was learned by is in question, and would be believed with it.
+  if (estimate.place_doubted) return refuse(estimate.reason);
+  if (!estimate.looks.empty()) return refuse(estimate.looks);
+  estimator.forget_learned();
+  estimate = estimator.step(last_step == kNever ? now : last_step);
+  place.forget();
+  place_count.another();
+  learned_notices = {};
+  events.push(now, CommandAccepted{id, {}});
+}
+
 }  // namespace drover::engine

@@ -126,6 +126,7 @@ void Engine::Impl::fill_snapshot(Time now, const Environment& environment, const
     snapshot.battery.health = SourceState::stale;
   }
   snapshot.estimator = estimator.counters();
+  snapshot.learned = located.learned;
   snapshot.notices_dropped = events.dropped();
   snapshot.stop_latched = !latch.why().empty();
   snapshot.hold = arming.state();

@@ -143,6 +143,10 @@ void Gateway::on(const Recalled& recalled, Time now) {
   engine_.recall(recalled.remembered, now);
 }
 
+void Gateway::on(const LearnedRecalled& recalled, Time) {
+  engine_.recall(recalled.learned);
+}
+
 void Gateway::on(const OutputsUp& up, Time) {
   environment_.relay_found_closed = up.relay_closed;
 }

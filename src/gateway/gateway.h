@@ -108,6 +108,7 @@ class Gateway final {
   void on(const CommandGiven& given, Time now);
   void on(const ProgramTrouble& trouble, Time now);
   void on(const Recalled& recalled, Time now);
+  void on(const LearnedRecalled& recalled, Time now);
   void on(const OutputsUp& up, Time now);
   void on(const ClearanceFound& found, Time now);
   void on(const Tick& tick, Time now);

@@ -15,6 +15,7 @@
 #include "drover/driver.h"
 #include "drover/fixed_text.h"
 #include "drover/fixed_vector.h"
+#include "drover/learned.h"
 #include "drover/measurement.h"
 #include "drover/remembered.h"
 #include "drover/time.h"
@@ -89,6 +90,10 @@ struct Suspended {
 struct Recalled {
   Remembered remembered;
 };
+/// Before the first cycle: what drives taught the robot of itself, by the programs before this one.
+struct LearnedRecalled {
+  LearnedValues learned;
+};
 /// The output lines were opened; whether the enable relay was closed then, because another program
 /// had kept it.
 struct OutputsUp {
@@ -108,7 +113,7 @@ struct Tick {
 /// The order is the recording's: a new one goes to the end.
 using InputBody = std::variant<FrameHeard, BytesHeard, LevelsRead, RegistersRead, RegistersFailed,
                                LinkUp, LinkLost, FramesSent, CommandGiven, Tick, ProgramTrouble,
-                               Suspended, Recalled, OutputsUp, ClearanceFound>;
+                               Suspended, Recalled, OutputsUp, ClearanceFound, LearnedRecalled>;
 
 struct Input {
   Time time = kNever;

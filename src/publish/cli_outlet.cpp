@@ -41,6 +41,7 @@ std::optional<ControlCommand> command_of(std::string_view cmd, const std::string
   if (cmd == "hold") return HoldRequest{};
   if (cmd == "heading_find") return FindHeadingRequest{};
   if (cmd == "position_accept") return AcceptPositionRequest{};
+  if (cmd == "learned_forget") return ForgetLearnedRequest{};
   return std::nullopt;
 }
 

@@ -24,7 +24,7 @@ Verb verb_of(const ControlCommand& request) {
       Verb::delete_all_trajectory, Verb::start_task,      Verb::cancel_task,
       Verb::init_rtk_data,         Verb::terminate,       Verb::reset_stop,
       Verb::find_heading,          Verb::release,         Verb::hold,
-      Verb::accept_position};
+      Verb::accept_position,       Verb::forget_learned};
   static_assert(std::size(kVerbs) == std::variant_size_v<ControlCommand>);
   return kVerbs[request.index()];
 }
@@ -214,6 +214,9 @@ void CommandService::handle(RequestId id, ControlCommand request, Time now, Acti
   } else if (std::holds_alternative<AcceptPositionRequest>(request)) {
     expect(id, Verb::accept_position);
     send(id, now, AcceptPosition{}, out);
+  } else if (std::holds_alternative<ForgetLearnedRequest>(request)) {
+    expect(id, Verb::forget_learned);
+    send(id, now, ForgetLearned{}, out);
   } else if (auto* terminate = std::get_if<TerminateRequest>(&request)) {
     expect(id, Verb::terminate).note = std::move(terminate->note);
     send(id, now, EngageStop{}, out);

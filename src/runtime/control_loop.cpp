@@ -153,6 +153,10 @@ void ControlLoop::recall(const Remembered& remembered) {
   apply(monotonic_now(), gateway::Recalled{remembered});
 }
 
+void ControlLoop::recall(const LearnedValues& learned) {
+  apply(monotonic_now(), gateway::LearnedRecalled{learned});
+}
+
 /// The guard must know, too, what it may do with drives that nobody commands.
 void ControlLoop::keep(const Remembered& remembered) {
   const auto may_hold = remembered.released    ? GuardMayHold::released

@@ -36,6 +36,7 @@ class ControlLoop final {
               std::span<const std::unique_ptr<SlowLink>> slow = {});
   /// Before `run`: what the program before this one left.
   void recall(const Remembered& remembered);
+  void recall(const LearnedValues& learned);
   void run(const std::atomic<bool>& stop);
 
  private:

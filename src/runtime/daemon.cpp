@@ -17,6 +17,7 @@
 #include "runtime/battery_loop.h"
 #include "runtime/clock.h"
 #include "runtime/control_loop.h"
+#include "runtime/learned_subject.h"
 #include "runtime/log.h"
 #include "runtime/publish_loop.h"
 #include "runtime/realtime.h"
@@ -84,6 +85,7 @@ class Daemon final {
         slow_(slow_links(config, gateway_.wiring())),
         scanners_(scan_links(config)),
         stored_(storage_.load(scene_age(config.scene))),
+        learned_(of_this_robot(config, stored_)),
         memory_(config.paths.run, boot_id(), text, stored_.report),
         on_disk_(stored_.stop),
         control_(config, gateway_, keeper_, guard_, control_exchange_, {memory_, storage_exchange_},
@@ -95,12 +97,16 @@ class Daemon final {
                            ? std::make_unique<StopListener>(config.mqtt, control_exchange_.stops)
                            : nullptr),
         publish_(config, control_exchange_, storage_exchange_, parser_, scene_partners(),
-                 stop_listener_.get(), std::move(stored_), scanners_) {
+                 stop_listener_.get(), std::move(stored_), learned_, scanners_) {
     if (scene_) control_exchange_.scene = &scene_->exchange.sight;
   }
 
   void run() {
     control_.recall(recall(memory_, on_disk_));
+    if (learned_) {
+      control_.recall(learned_->values);
+      log(LogLevel::info, "what the robot has learned of itself is used: drover learned");
+    }
     Worker keeper("links", [this] { keeper_.run(stop_keeper_); });
     Worker storage("storage",
                    [this] { run_storage(storage_, storage_exchange_, on_disk_, stop_publish_); });
@@ -183,6 +189,17 @@ class Daemon final {
   std::optional<ScenePartners> scene_partners() {
     if (!scene_) return std::nullopt;
     return ScenePartners{scene_->exchange, scene_->parser, scene_->stored};
+  }
+
+  /// What was learned beside another configuration is none of its errors.
+  static std::optional<store::KeptLearned> of_this_robot(const config::DroverConfig& config,
+                                                         store::StoredState& stored) {
+    if (!stored.learned || !knows_any(stored.learned->values)) return std::nullopt;
+    if (stored.learned->subject == learned_subject(config)) return stored.learned;
+    stored.report.emplace_back(
+        "base, drives, antennas or sensors are configured otherwise than when the robot learned of "
+        "itself: it learns anew");
+    return std::nullopt;
   }
 
   void run_control() {
@@ -278,8 +295,9 @@ class Daemon final {
   StorageExchange storage_exchange_;
   const std::vector<std::unique_ptr<SlowLink>> slow_;  ///< Modbus lines
   const std::vector<std::unique_ptr<ScanLink>> scanners_;
-  std::unique_ptr<Recorder> recorder_;  ///< nullptr: nothing is recorded
-  store::StoredState stored_;           ///< given on to the publish thread
+  std::unique_ptr<Recorder> recorder_;               ///< nullptr: nothing is recorded
+  store::StoredState stored_;                        ///< given on to the publish thread
+  const std::optional<store::KeptLearned> learned_;  ///< of this configuration
   RobotMemory memory_;
   const Remembered on_disk_;
   ControlLoop control_;

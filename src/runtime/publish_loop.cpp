@@ -9,6 +9,7 @@
 
 #include "publish/status/seen.h"
 #include "runtime/clock.h"
+#include "runtime/learned_subject.h"
 #include "runtime/log.h"
 #include "runtime/outlets.h"
 
@@ -53,7 +54,7 @@ void clear_timer(const link::UniqueFd& timer) {
 PublishLoop::PublishLoop(const config::DroverConfig& config, ControlExchange& control,
                          StorageExchange& storage, ParserLoop& parser,
                          const std::optional<ScenePartners>& scene, StopListener* stops,
-                         store::StoredState stored,
+                         store::StoredState stored, std::optional<store::KeptLearned> learned,
                          std::span<const std::unique_ptr<ScanLink>> scanners)
     : config_(config),
       control_(control),
@@ -91,6 +92,10 @@ PublishLoop::PublishLoop(const config::DroverConfig& config, ControlExchange& co
   auto of_reports = std::make_unique<publish::ReportOutlet>(service_);
   report_outlet_ = of_reports.get();
   add(std::move(of_reports));
+  auto of_learned =
+      std::make_unique<publish::LearnedOutlet>(learned_beside(config), std::move(learned));
+  learned_outlet_ = of_learned.get();
+  add(std::move(of_learned));
   for (auto& outlet : make_outlets(config, service_, [this](Time now) { return status_text(now); }))
     add(std::move(outlet));
   if (config.mqtt.enabled) connect_broker();
@@ -281,6 +286,8 @@ void PublishLoop::stored(store::StorageReply reply, Time now, publish::Actions& 
     scene_outlet_->on_stored(reply, now, actions);
   } else if (reply.whose == store::StoredFor::reports) {
     report_outlet_->on_stored(reply, actions);
+  } else if (reply.whose == store::StoredFor::learned) {
+    learned_outlet_->on_stored(reply, actions);
   } else {
     service_.on_reply(std::move(reply), now, actions);
   }

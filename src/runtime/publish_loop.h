@@ -11,6 +11,7 @@
 
 #include "config/config.h"
 #include "publish/command_service.h"
+#include "publish/learned_outlet.h"
 #include "publish/outlet.h"
 #include "publish/report_outlet.h"
 #include "publish/scene_outlet.h"
@@ -41,7 +42,8 @@ class PublishLoop final {
   PublishLoop(const config::DroverConfig& config, ControlExchange& control,
               StorageExchange& storage, ParserLoop& parser,
               const std::optional<ScenePartners>& scene, StopListener* stops,
-              store::StoredState stored, std::span<const std::unique_ptr<ScanLink>> scanners = {});
+              store::StoredState stored, std::optional<store::KeptLearned> learned,
+              std::span<const std::unique_ptr<ScanLink>> scanners = {});
   void run(const std::atomic<bool>& stop);
   /// Wakes the loop so that it sees `stop`.
   void wake() const { control_.events_ready.notify(); }
@@ -120,6 +122,7 @@ class PublishLoop final {
   std::vector<TimedOutlet> outlets_;
   publish::SceneOutlet* scene_outlet_ = nullptr;    ///< one of them
   publish::ReportOutlet* report_outlet_ = nullptr;  ///< likewise
+  publish::LearnedOutlet* learned_outlet_ = nullptr;
   Time started_;
   std::string broker_text_;
   std::unique_ptr<MqttClient> broker_;

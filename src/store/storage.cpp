@@ -39,6 +39,7 @@ StoredFor stored_for(const StorageJob& job) {
                           std::holds_alternative<ListReports>(job.what) ||
                           std::holds_alternative<ReadReport>(job.what);
   if (of_reports) return StoredFor::reports;
+  if (std::holds_alternative<SaveLearned>(job.what)) return StoredFor::learned;
   const bool of_scene =
       std::holds_alternative<SaveScene>(job.what) || std::holds_alternative<AcceptLoss>(job.what) ||
       std::holds_alternative<SaveZone>(job.what) || std::holds_alternative<DeleteZone>(job.what) ||
@@ -52,7 +53,8 @@ Storage::Storage(Files& files, const std::string& folder, const std::string& run
       stop_(files, folder),
       scene_(files, folder, run_folder),
       zones_(files, folder),
-      reports_(files, folder + "/reports") {}
+      reports_(files, folder + "/reports"),
+      learned_(files, folder) {}
 
 StoredState Storage::load(const std::optional<SceneAge>& scene) {
   StoredState state;
@@ -60,6 +62,7 @@ StoredState Storage::load(const std::optional<SceneAge>& scene) {
   state.origin = origin_.load(state.report);
   state.origin_problem = origin_.problem();
   state.stop = stop_.load(state.report);
+  state.learned = learned_.load(state.report);
   if (!scene) return state;
   StoredScene found;
   found.texts = scene_.load(scene->wall_s, scene->max_age_s, state.report);
@@ -98,6 +101,8 @@ StorageReply Storage::run(StorageJob job) {
     failure = reports_.save(report->texts);
   } else if (std::holds_alternative<ListReports>(job.what)) {
     reply.reports = reports_.list();
+  } else if (const auto* learned = std::get_if<SaveLearned>(&job.what)) {
+    failure = learned_.save(learned->kept);
   } else if (const auto* wanted = std::get_if<ReadReport>(&job.what)) {
     auto found = reports_.read(wanted->number);
     if (found.ok()) reply.reports.push_back(std::move(found.value()));

@@ -10,6 +10,7 @@
 
 #include "drover/command.h"
 #include "store/files.h"
+#include "store/learned_store.h"
 #include "store/origin_store.h"
 #include "store/report_store.h"
 #include "store/scene_store.h"
@@ -58,15 +59,19 @@ struct ReadReport {
   std::uint64_t number = 0;  ///< 0: the newest
 };
 
+struct SaveLearned {
+  KeptLearned kept;
+};
+
 struct StorageJob {
   RequestId id;
   std::variant<SaveTrack, DeleteTrack, DeleteAllTracks, SaveOrigin, SaveScene, AcceptLoss, SaveZone,
-               DeleteZone, ForgetUnreadableZones, SaveReport, ListReports, ReadReport>
+               DeleteZone, ForgetUnreadableZones, SaveReport, ListReports, ReadReport, SaveLearned>
       what;
 };
 
 /// Whose answer it is: numbers of requests are each one's own.
-enum class StoredFor : std::uint8_t { tracks, scene, reports };
+enum class StoredFor : std::uint8_t { tracks, scene, reports, learned };
 StoredFor stored_for(const StorageJob& job);
 
 struct StorageReply {
@@ -102,10 +107,11 @@ struct StoredState {
   std::vector<std::string> report;             ///< for the log, a sentence each
   std::string origin_problem{};                ///< why the stored origin is lost; empty: it is not
   std::shared_ptr<const StoredScene> scene{};  ///< nullptr: it was not asked for
+  std::optional<KeptLearned> learned{};        ///< of whatever configuration
 };
 
 /// Owns the state folder's content: `tracks/`, `reports/`, `origin.json`, `stop.json`, `stop.room`,
-/// `scene.texts`, `zones.texts` and the marks of these in `kept/`.
+/// `learned.json`, `scene.texts`, `zones.texts` and the marks of these in `kept/`.
 class Storage final {
  public:
   /// Makes `folder`, its `tracks` and its `reports` when they are missing. `run_folder` exists; see
@@ -127,6 +133,7 @@ class Storage final {
   SceneStore scene_;
   ZoneStore zones_;
   ReportStore reports_;
+  LearnedStore learned_;
 };
 
 }  // namespace drover::store

@@ -84,6 +84,17 @@ void AntennaFit::learn(const AntennaPoint& to, const EstimateConfig& config) {
   mean_[kLate] = std::clamp(mean_[kLate], -kMostLate_s, kMostLate_s);
 }
 
+void AntennaFit::recall_late(double late_s, double sigma_s) {
+  mean_[kLate] = late_s;
+  covariance_[kLate][kLate] = square(sigma_s);
+}
+
+void AntennaFit::recall_arm(double ahead_m, double left_m, double sigma_m) {
+  mean_[kAhead] = ahead_m;
+  mean_[kLeft] = left_m;
+  covariance_[kAhead][kAhead] = covariance_[kLeft][kLeft] = square(sigma_m);
+}
+
 void AntennaFit::forget_arm() {
   turns_missed_ = 0;
   for (const std::size_t i : {std::size_t{kAhead}, std::size_t{kLeft}}) {

@@ -41,10 +41,17 @@ class AntennaFit final {
   /// What happens now is none to learn from: begins anew with the next position.
   void pause() { from_.time = kNever; }
 
+  /// What an earlier program had found.
+  void recall_late(double late_s, double sigma_s);
+  void recall_arm(double ahead_m, double left_m, double sigma_m);
+
   /// How much later the positions are than their stamps say, s, and one sigma of it.
   double late_s() const { return mean_[kLate]; }
   double late_sigma_s() const;
   bool late_known() const;
+  /// What of it is to be made up for: positions that seem to be early may be wheels that are told
+  /// late.
+  double late_used_s() const { return late_s() > 0 || late_known() ? late_s() : 0.0; }
   /// How much farther ahead and to the left the antenna is than configured, m; larger sigma.
   double ahead_m() const { return mean_[kAhead]; }
   double left_m() const { return mean_[kLeft]; }

@@ -61,9 +61,7 @@ AntennaPosition in_time(const State& state, AntennaPosition position, double spe
 }
 
 void correct_lateness(State& state, double speed_mps) {
-  // Positions that seem to be early may be wheels that are told late.
-  const bool used = state.fit.late_s() > 0 || state.fit.late_known();
-  const double late_s = used ? state.fit.late_s() : 0.0;
+  const double late_s = state.fit.late_used_s();
   const double more_s = late_s - state.late_s;
   if (std::abs(more_s) < kLateStep_s) return;
   state.late_s = late_s;

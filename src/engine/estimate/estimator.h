@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdint>
 
+#include "drover/learned.h"
 #include "drover/measurement.h"
 #include "drover/path.h"
 #include "drover/snapshot.h"
@@ -63,6 +64,8 @@ struct Estimate {
   double mounting_rad = kAbsent;
   double mounting_sigma_rad = kAbsent;
   bool mounting_known = false;
+  /// What of all that is known well enough to begin with next time.
+  LearnedValues learned;
   /// What was noticed and is made up for, so far: slipping wheels, a gyro that is not believed.
   Reason notice;
   /// How far it could still drive by dead reckoning; absent with an RTK fix, or without a place.
@@ -94,6 +97,12 @@ class Estimator final {
   /// next heading. What was found by comparing positions with wheels and gyro is forgotten, but not
   /// the mounting of the antenna line: that is of the robot, not of the place.
   void accept_position();
+  /// What the program before this one had learned, before anything is measured. Values that cannot
+  /// be are left out; what is taken is a little less certain than it was.
+  void recall(const LearnedValues& learned);
+  /// Begins as a robot that has never driven; where it is told headings, place and heading are
+  /// those of the next measurements. It rests.
+  void forget_learned();
   bool has_origin() const;
   const GeodeticPoint& origin() const;
   /// Position of the antenna for a pose of base_link, degrees (for rtk.latitude/longitude). The
@@ -145,6 +154,7 @@ class Estimator final {
   // What a state means, in report.cpp:
   void report(const estimate::State& state, Time now);
   void report_learned(const estimate::State& state);
+  void report_kept(const estimate::State& state);  // in learned.cpp
   void report_trouble(const estimate::State& state, Time now);
   void report_imu(const estimate::State& state, Time now);
   double reach_m(const estimate::State& state, Time now) const;

@@ -14,6 +14,11 @@ class HeadingLate final {
   HeadingLate() = default;
   explicit HeadingLate(const EstimateConfig& config);
 
+  /// What an earlier program had found.
+  void recall(double late_s, double sigma_s) {
+    late_s_ = late_s;
+    covariance_[1][1] = sigma_s * sigma_s;
+  }
   /// The first heading, or one after a pause.
   void begin(double told_rad);
   bool begun() const { return begun_; }

@@ -156,7 +156,7 @@ bool unexplained(const MotionWatch& watch, const Mounting& mounting, double slop
   if (!level || !(look.chord_m > 0)) return false;
   const double seen_rad = look.across_m / look.chord_m;
   const double crab_rad = watch.crab_rad(look.course_rad, kAbsent) + seen_rad;
-  if (mounting.known(config))
+  if (mounting.proved(config))
     return std::abs(crab_rad) > kUnexplained_rad + 3 * mounting.sigma_rad(config);
   const Sideways& before = watch.sideways;
   const bool back = std::abs(wrap_rad(look.course_rad - before.course_rad)) > kBack_rad;

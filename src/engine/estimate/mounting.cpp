@@ -20,6 +20,8 @@ constexpr double kAsideWalk = 0.002;
 // that shows on the first way back.
 constexpr double kMapGate = 3.0;
 constexpr double kSameWay_rad = kPi / 4;
+// Sideways on ground that looks level, as a share of the way.
+constexpr double kUsualAside = 0.015;
 
 void begin(Mounting& mounting, const EstimateConfig& config) {
   mounting.begun = true;
@@ -36,7 +38,36 @@ void forget_aside(Mounting& mounting) {
   }
 }
 
+/// A leg that goes another way than the recalled mounting says: it is told from nothing then.
+bool contradicts(const Mounting& mounting, const StraightLeg& leg, double measured_m) {
+  const double variance_m2 =
+      (mounting.covariance[0][0] + square(kUsualAside)) * square(leg.way_m) + leg.variance_m2;
+  return square(measured_m - mounting.mean[0] * leg.way_m) > square(kMapGate) * variance_m2;
+}
+
+void prove(Mounting& mounting, const StraightLeg& leg, double measured_m, bool same_way,
+           const EstimateConfig& config) {
+  using Recalled = Mounting::Recalled;
+  if (contradicts(mounting, leg, measured_m)) {
+    mounting.recalled = Recalled::no;
+    begin(mounting, config);
+  } else if (mounting.recalled == Recalled::unproved) {
+    mounting.recalled = Recalled::one_way;
+  } else if (!same_way) {
+    mounting.recalled = Recalled::no;
+  }
+}
+
 }  // namespace
+
+void Mounting::recall(double crab_rad, double sigma_rad, const EstimateConfig& config) {
+  if (config.heading_mount_sigma_deg <= kKnown_deg) return;  // it was calibrated
+  *this = {};
+  begin(*this, config);
+  covariance[0][0] = square(sigma_rad);
+  mean[0] = applied_rad = crab_rad;
+  recalled = Recalled::unproved;
+}
 
 double Mounting::sigma_rad(const EstimateConfig& config) const {
   return begun ? std::sqrt(covariance[0][0]) : to_rad(config.heading_mount_sigma_deg);
@@ -73,6 +104,10 @@ void learn(Mounting& mounting, const StraightLeg& leg, const EstimateConfig& con
   const double measured_m = leg.across_m + mounting.applied_rad * leg.way_m;
   const bool same_way = std::abs(wrap_rad(leg.course_rad - mounting.course_rad)) < kSameWay_rad;
   mounting.course_rad = leg.course_rad;
+  if (mounting.recalled != Mounting::Recalled::no) {
+    prove(mounting, leg, measured_m, same_way, config);
+    spread = spread_of();
+  }
   const double surprise2 = square(measured_m - dot(mounting.mean));
   if ((same_way || mounting.known(config)) &&
       surprise2 > square(kMapGate) * (dot(spread) + leg.variance_m2)) {

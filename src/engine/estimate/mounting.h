@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 
 #include "engine/config.h"
 
@@ -27,9 +28,17 @@ struct Mounting {
   bool begun = false;
   double course_rad = 0;   ///< of the last leg
   double applied_rad = 0;  ///< of the crab: told headings are corrected by it
+  /// It is an earlier program's, and somebody may have mounted it anew meanwhile: legs there and
+  /// back that fit to it prove it.
+  enum class Recalled : std::uint8_t { no, unproved, one_way } recalled = Recalled::no;
 
   double sigma_rad(const EstimateConfig& config) const;
   bool known(const EstimateConfig& config) const;
+  /// And this program has seen it.
+  bool proved(const EstimateConfig& config) const {
+    return known(config) && recalled == Recalled::no;
+  }
+  void recall(double crab_rad, double sigma_rad, const EstimateConfig& config);
   /// What is known of the crab and not applied yet, rad. From here on it is.
   double catch_up(const EstimateConfig& config);
 };

@@ -73,6 +73,7 @@ void Estimator::report(const State& state, Time now) {
   report_trouble(state, now);
   report_imu(state, now);
   report_learned(state);
+  report_kept(state);
   e.shoved = state.shove.ended;
   e.shoved_m = state.shove.left_m;
   if (reach_at_ == kNever || now - reach_at_ >= kReachEach || now < reach_at_) {

@@ -22,7 +22,7 @@ void visit_fields(V& v, const Snapshot& snapshot) {
   const auto& [time, pose, worst_vx_mps, nav, gnss, imu, battery, sensors, scanners, joint_command,
                axes, base, clearance, line_active, line_health, line_configured, line_source,
                output_configured, output_on, links, stop_latched, hold, guard_alive, guard_has_bus,
-               origin_set, origin, why, cycle, estimator, notices_dropped] = snapshot;
+               origin_set, origin, why, cycle, estimator, learned, notices_dropped] = snapshot;
   (void)links;  // those two are the loop's
   (void)cycle;
   (void)scanners;  // and the gateway hears none
@@ -60,6 +60,7 @@ void visit_fields(V& v, const Snapshot& snapshot) {
     v.inside("why", i, [&v, &part = i < why.size() ? why[i] : kNone] { v.value("", part); });
   v.inside("estimator", [&v, &part = estimator] { describe(v, part); });
   v.value("notices_dropped", notices_dropped);
+  v.inside("learned", [&v, &part = learned] { describe(v, part); });
 }
 
 inline constexpr std::size_t kFewestSlowed = 16;

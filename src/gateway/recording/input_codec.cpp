@@ -246,6 +246,21 @@ void get(ClearanceFound& found, ByteReader& in) {
   broken.assign(in.text());
 }
 
+void put(const LearnedRecalled& recalled, ByteWriter& out) {
+  out.byte(recalled.learned.receiver);
+  each_learned(recalled.learned, [&out](const char*, const LearnedValue& value) {
+    out.real(value.value);
+    out.real(value.sigma);
+  });
+}
+void get(LearnedRecalled& recalled, ByteReader& in) {
+  recalled.learned.receiver = in.byte();
+  each_learned(recalled.learned, [&in](const char*, LearnedValue& value) {
+    value.value = in.real();
+    value.sigma = in.real();
+  });
+}
+
 // Bodies of commands: the same once more.
 
 void put(const std::monostate&, ByteWriter&) {}
@@ -264,6 +279,8 @@ void put(const ArmHold&, ByteWriter&) {}
 void get(ArmHold&, ByteReader&) {}
 void put(const AcceptPosition&, ByteWriter&) {}
 void get(AcceptPosition&, ByteReader&) {}
+void put(const ForgetLearned&, ByteWriter&) {}
+void get(ForgetLearned&, ByteReader&) {}
 void put(const ReleaseHold& release, ByteWriter& out) {
   out.byte(release.on_slope ? 1 : 0);
 }

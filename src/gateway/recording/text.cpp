@@ -124,6 +124,15 @@ std::string words(const Recalled& recalled, const Wiring&) {
          (joints_wait.empty() ? "" : " joint commands wait: " + std::string(joints_wait) + ",") +
          (stop_at_robot ? " stopped at the robot: " : " stopped: ") + std::string(stop);
 }
+std::string words(const LearnedRecalled& recalled, const Wiring&) {
+  std::string text = "learned of the robot:";
+  each_learned(recalled.learned, [&text](const char* name, const LearnedValue& value) {
+    if (!value.known()) return;
+    text += " " + std::string(name) + " " + std::to_string(value.value) + " +- " +
+            std::to_string(value.sigma);
+  });
+  return text;
+}
 std::string words(const OutputsUp& up, const Wiring&) {
   return std::string("outputs up, relay ") + (up.relay_closed ? "closed" : "open");
 }
@@ -164,7 +173,8 @@ std::string words(const CommandGiven& given, const Wiring&) {
                                      "heading search",
                                      "release",
                                      "hold",
-                                     "a person accepts the position"};
+                                     "a person accepts the position",
+                                     "a person has what was learned forgotten"};
   static_assert(std::size(kBodies) == std::variant_size_v<decltype(Command::body)>);
   const auto& command = given.command;
   std::string text = "command " + number(static_cast<std::uint64_t>(command.id.source)) + "/" +

@@ -53,11 +53,14 @@ struct HoldRequest {};
 /// A person's word that the receiver is right. The command line's.
 struct AcceptPositionRequest {};
 
+/// What was learned of the robot is no longer so. The command line's.
+struct ForgetLearnedRequest {};
+
 using ControlCommand =
     std::variant<GetAllTrajectory, SaveTrajectory, DeleteTrajectory, DeleteAllTrajectory,
                  StartTaskRequest, CancelTaskRequest, InitRtkData, TerminateRequest,
                  ResetStopRequest, FindHeadingRequest, ReleaseRequest, HoldRequest,
-                 AcceptPositionRequest>;
+                 AcceptPositionRequest, ForgetLearnedRequest>;
 
 struct ControlRefusal {
   std::string feedback_cmd;  ///< always one that can be published, "unknown_failse" at worst

@@ -19,7 +19,8 @@ std::string_view verb_name(Verb verb) {
                                          "find_heading",
                                          "release",
                                          "hold",
-                                         "accept_position"};
+                                         "accept_position",
+                                         "forget_learned"};
   return kNames[static_cast<std::size_t>(verb)];
 }
 

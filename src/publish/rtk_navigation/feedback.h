@@ -30,6 +30,7 @@ enum class Verb : std::uint8_t {
   release,          ///< the command line's
   hold,             ///< the command line's
   accept_position,  ///< the command line's
+  forget_learned,   ///< the command line's
 };
 
 std::string_view verb_name(Verb verb);

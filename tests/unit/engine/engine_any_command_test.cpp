@@ -142,7 +142,7 @@ class AnyCommands {
     rig_.command(body);
   }
   void command() {
-    static_assert(std::variant_size_v<decltype(Command::body)> == 13,
+    static_assert(std::variant_size_v<decltype(Command::body)> == 14,
                   "a new command has its place here, and in what the witness knows of it");
     switch (random_() % 18) {
       case 0: return ask(CancelTask{});
@@ -159,6 +159,7 @@ class AnyCommands {
       case 11: streams_ = !streams_; return;
       case 12: streamed_radps_ = one_in_(2) ? 0 : 2; return;
       case 13: return ask(AcceptPosition{});
+      case 14: return ask(ForgetLearned{});
       default: return ask(StartTask{&path_, 20, 0.8});
     }
   }

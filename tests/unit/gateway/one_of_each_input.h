@@ -61,10 +61,16 @@ struct OneOfEachInput {
     command(ReleaseHold{true});
     command(ArmHold{});
     command(AcceptPosition{});
+    command(ForgetLearned{});
     add(Tick{true, false});
     add(ProgramTrouble{"droverd ends"});
     add(Suspended{2.5});
     add(Recalled{{"emergency stop", true, false, true, false, true, true, "bumper touched", true}});
+    LearnedValues learned;
+    learned.receiver = 1;
+    learned.mounting_rad = {0.03, 0.002};
+    learned.late_s = {0.08, 0.01};
+    add(LearnedRecalled{learned});
     add(OutputsUp{true});
     add(ClearanceFound{{Time{std::chrono::milliseconds(40)},
                         7,

@@ -121,6 +121,15 @@ TEST_F(Outlets, OfTheCommandLineTakeAPersonsWordForThePosition) {
   EXPECT_EQ(std::count_if(actions_.begin(), actions_.end(), accepts), 1);
 }
 
+TEST_F(Outlets, OfTheCommandLineTakeAPersonsWordThatWhatWasLearnedIsForgotten) {
+  EXPECT_EQ(reply_to(R"({"cmd":"learned_forget"})"), "");
+  const auto forgets = [](const Action& action) {
+    const auto* command = std::get_if<Command>(&action);
+    return command != nullptr && std::holds_alternative<ForgetLearned>(command->body);
+  };
+  EXPECT_EQ(std::count_if(actions_.begin(), actions_.end(), forgets), 1);
+}
+
 TEST_F(Outlets, AddTheirCountersToTheStatus) {
   const auto topic = aimrt_.wants().front().name;
   for (int i = 0; i < 80; ++i) (void)aimrt_.on_message(topic, "x", {}, kMoment.now, actions_);
