@@ -18,6 +18,12 @@ struct Path {
   std::uint64_t number = 0;  ///< of this run, from 1: recordings name it
   std::string name;
   std::vector<PathPoint> points;  ///< in the order of the track, ids 1..N
+  /// Of each segment, from its point to the next: not 0 where it is driven backwards, whichever way
+  /// through the list. Empty: nowhere.
+  std::vector<std::uint8_t> backwards;
+  /// Nobody asked for either: who stands with his back to the way drives all of it the other way
+  /// round.
+  bool either = false;
 };
 
 struct GeodeticPoint {

@@ -18,6 +18,7 @@ struct WayLeft {
   std::uint32_t target = 0;   ///< index of the point that it ends at
   std::uint32_t segment = 0;  ///< index of the point that it comes from, in the list
   double along_m = 0;         ///< past that point, towards the next one
+  bool flipped = false;       ///< Path::backwards is the other way round
 };
 
 /// Made by the engine in each cycle, of one instant.

@@ -67,6 +67,7 @@ Shape read_shape(JsonReader& reader) {
     shape.radius_m = reader.number("radius_m");
     if (!(shape.radius_m >= 0)) reader.fail("radius_m", "must not be below 0");
   }
+  shape.backwards = reader.flag("backwards", false);
   reader.done();
   return shape;
 }

@@ -21,15 +21,16 @@ double length_m(const Shape& shape) {
 }
 
 TrackPose along(const TrackPose& from, const Shape& shape, double s_m) {
+  const double ahead = shape.backwards ? -1 : 1;
   if (shape.straight_m > 0)
-    return {from.x_m + s_m * std::cos(from.yaw_rad), from.y_m + s_m * std::sin(from.yaw_rad),
-            from.yaw_rad};
+    return {from.x_m + ahead * s_m * std::cos(from.yaw_rad),
+            from.y_m + ahead * s_m * std::sin(from.yaw_rad), from.yaw_rad};
   if (shape.radius_m <= 0) return {from.x_m, from.y_m, wrap_rad(from.yaw_rad + shape.turn_rad)};
   const double side = shape.turn_rad < 0 ? -1 : 1;
   const double yaw_rad = from.yaw_rad + side * s_m / shape.radius_m;
-  return {from.x_m + side * shape.radius_m * (std::sin(yaw_rad) - std::sin(from.yaw_rad)),
-          from.y_m - side * shape.radius_m * (std::cos(yaw_rad) - std::cos(from.yaw_rad)),
-          wrap_rad(yaw_rad)};
+  const double reach_m = ahead * side * shape.radius_m;
+  return {from.x_m + reach_m * (std::sin(yaw_rad) - std::sin(from.yaw_rad)),
+          from.y_m - reach_m * (std::cos(yaw_rad) - std::cos(from.yaw_rad)), wrap_rad(yaw_rad)};
 }
 
 TrackPose antenna_place(const TrackPose& base, const Antenna& antenna) {

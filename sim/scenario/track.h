@@ -14,11 +14,13 @@ struct TrackPose {
 };
 
 /// A straight when `straight_m` is above 0, otherwise a turn; left is positive. A turn of radius 0
-/// is a corner: it adds no point.
+/// is a corner: it adds no point. Backwards the robot keeps its yaw on a straight, and turns left
+/// (yaw grows) for a positive turn, as ahead.
 struct Shape {
   double straight_m = 0;
   double turn_rad = 0;
   double radius_m = 0;
+  bool backwards = false;
 };
 
 /// The shapes from `start` on, one point each 0.5 m driven, the first at `start` and the last at

@@ -8,6 +8,27 @@
 
 namespace drover::config {
 
+namespace {
+
+/// Behind the robot nobody looks but a scanner.
+constexpr double kUnseen_mps = 0.2;
+constexpr double kMostPivot_deg = 120;  // a cusp has to be a corner
+
+void check_backwards(Findings& found) {
+  const auto& navigate = found.config().engine.navigate;
+  if (navigate.drive == engine::DriveTracks::ahead) return;
+  const bool sees =
+      found.config().scene.configured && first(found.config(), SlotKind::scanner) != nullptr;
+  if (navigate.backwards_speed_mps > kUnseen_mps && !sees)
+    found.add("navigate.backwards_speed_mps",
+              "is above 0.2 m/s, and no scanner looks behind the robot", "0.2 and less");
+  if (navigate.pivot_angle_deg > kMostPivot_deg)
+    found.add("navigate.pivot_angle_deg", "is above 120: no cusp would be a corner",
+              "\"navigate\": {\"drive\": \"ahead\"}, or up to 120");
+}
+
+}  // namespace
+
 void check_limits(Findings& found) {
   const auto& engine = found.config().engine;
   if (engine.health.battery_critical_percent > engine.health.battery_low_percent)
@@ -19,6 +40,7 @@ void check_limits(Findings& found) {
   if (engine.estimate.bound_start_m > engine.estimate.bound_run_m)
     found.add("estimate.bound_start_m", "is above estimate.bound_run_m",
               "a task would start and pause at once");
+  check_backwards(found);
   constexpr double kBeats = 2.5;  // two lost cycles are no failure
   const double least_ms = kBeats * 1e3 / found.config().control.tick_Hz;
   if (found.config().guard.limit_ms < least_ms)

@@ -1,6 +1,7 @@
 // Keys of the engine's numbers: range and meaning of each, in one table per struct.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
@@ -148,8 +149,18 @@ void visit(V& v, engine::EstimateConfig& c) {
   visit_imu(v, c);
 }
 
+/// As `drive` is written, by DriveTracks.
+inline constexpr std::array<std::string_view, 3> kDriveWords{"ahead", "recorded", "either"};
+
 template <class V>
 void visit(V& v, engine::NavigateConfig& c) {
+  std::string drive(kDriveWords[static_cast<std::size_t>(c.drive)]);
+  v.choice("drive", drive, {kDriveWords.begin(), kDriveWords.end()},
+           "ahead: a robot looks where it drives and turns round at a cusp; recorded: backwards "
+           "where a track was recorded so; either: as it stands at the start, and at a cusp it "
+           "goes on the other way");
+  for (std::size_t i = 0; i < kDriveWords.size(); ++i)
+    if (drive == kDriveWords[i]) c.drive = static_cast<engine::DriveTracks>(i);
   v.number("start_distance_m", c.start_distance_m, Range{0.1, 20},
            "a start farther from the track is refused");
   v.number("start_angle_deg", c.start_angle_deg, Range{5, 180}, "a start worse turned is refused");
@@ -167,6 +178,8 @@ void visit(V& v, engine::NavigateConfig& c) {
   v.number("creep_speed_mps", c.creep_speed_mps, Range{0.02, 1}, "slowest speed near the goal");
   v.number("far_zone_speed_mps", c.far_zone_speed_mps, Range{0, 5},
            "cap while the far zone is occupied");
+  v.number("backwards_speed_mps", c.backwards_speed_mps, Range{0.05, 5},
+           "cap where a track is driven backwards; more than 0.2 with a scanner only");
   v.number("corridor_m", c.corridor_m, Range{0.05, 10}, "farther off the track the task fails");
   v.number("resume_after_s", c.resume_after_s, Range{0.2, 60}, "health before a pause ends");
   v.number("obstacle_timeout_s", c.obstacle_timeout_s, Range{1, 3600},

@@ -118,7 +118,11 @@ struct EstimateConfig {
   double imu_acceleration_sigma_mps2 = 0.05;  ///< of one sample
 };
 
+/// Which way the robot looks along a track: src/store/gears.h has what follows from it.
+enum class DriveTracks : std::uint8_t { ahead, recorded, either };
+
 struct NavigateConfig {
+  DriveTracks drive = DriveTracks::ahead;
   double start_distance_m = 2.0;  ///< farther from the track: refused
   double start_angle_deg = 30.0;  ///< worse turned: refused
   double goal_tolerance_m = 0.10;
@@ -130,6 +134,7 @@ struct NavigateConfig {
   double lateral_acceleration_mps2 = 0.3;  ///< slows for curvature
   double creep_speed_mps = 0.10;           ///< slowest speed while approaching the goal
   double far_zone_speed_mps = 0.25;        ///< cap while the scanner's far zone is occupied
+  double backwards_speed_mps = 0.2;        ///< cap where a track is driven backwards
   double corridor_m = 0.50;                ///< farther off the track while driving: the task fails
   double resume_after_s = 1.0;             ///< of health, before a pause ends by itself
   double obstacle_timeout_s = 120.0;       ///< a longer obstacle ends the task

@@ -315,7 +315,7 @@ void CommandService::start(RequestId id, const StartTaskRequest& request, Time n
     return tell(id, Verb::start_task, false, *problem, out);
   }
   // The path is the task's own copy: whatever happens to the track, the task drives what it was.
-  auto path = store::build_path(tracks_.at(request.name), *origin_, config_.antenna);
+  auto path = store::build_path(tracks_.at(request.name), *origin_, config_.antenna, config_.drive);
   if (!path) return tell(id, Verb::start_task, false, path.error(), out);
   path.value()->number = ++last_path_;
   paths_.push_back(std::move(path.value()));

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <vector>
 
 #include "store/placing.h"
 
@@ -68,13 +69,16 @@ std::optional<Disagreement> find_disagreement(const Track& track, const AntennaO
 
 Result<std::unique_ptr<Path>, std::string> build_path(const Track& track,
                                                       const GeodeticPoint& origin,
-                                                      const AntennaOffset& antenna) {
+                                                      const AntennaOffset& antenna,
+                                                      TrackDrive drive) {
   const auto wrong = find_disagreement(track, antenna);
   if (wrong) return told(track, *wrong);
   const Placing placing(track, origin, antenna);
   auto path = std::make_unique<Path>();
   path->name = track.name;
   path->points.reserve(track.points.size());
+  std::vector<double> looks_rad;
+  looks_rad.reserve(track.points.size());
   for (std::size_t i = 0; i < track.points.size(); ++i) {
     const TrackPoint& point = track.points[i];
     if (has_place(point) && !on_earth(point))
@@ -83,7 +87,9 @@ Result<std::unique_ptr<Path>, std::string> build_path(const Track& track,
     if (!at)
       return told_point(i) + ": it has no latitude and longitude, and x, y are of no known origin";
     path->points.push_back({at->x_m, at->y_m});
+    looks_rad.push_back(placing.yaw_rad(point));
   }
+  set_gears(*path, looks_rad, drive);
   return std::unique_ptr<Path>(std::move(path));
 }
 

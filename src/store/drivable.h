@@ -9,6 +9,7 @@
 #include "drover/path.h"
 #include "drover/result.h"
 #include "store/derive.h"
+#include "store/gears.h"
 #include "store/track.h"
 
 namespace drover::store {
@@ -36,12 +37,13 @@ double resolution_m(const Track& track);
 /// and tracks that were saved without an origin have nothing to compare.
 std::optional<Disagreement> find_disagreement(const Track& track, const AntennaOffset& antenna);
 
-/// The polyline to drive, in the frame of `origin`; it shares nothing with the track. Points come
-/// from latitude and longitude; from x and y where those are absent, have no angle to take the arm
-/// off by, or are coarser than 2 cm. O(points).
-/// The failure is a sentence with point (as the operator counts, from 1) and distance.
+/// The polyline to drive, in the frame of `origin`, and which way; it shares nothing with the
+/// track. Points come from latitude and longitude; from x and y where those are absent, have no
+/// angle to take the arm off by, or are coarser than 2 cm. O(points). The failure is a sentence
+/// with point (as the operator counts, from 1) and distance.
 Result<std::unique_ptr<Path>, std::string> build_path(const Track& track,
                                                       const GeodeticPoint& origin,
-                                                      const AntennaOffset& antenna = {});
+                                                      const AntennaOffset& antenna = {},
+                                                      TrackDrive drive = TrackDrive::ahead);
 
 }  // namespace drover::store

@@ -26,4 +26,11 @@ std::optional<Local> Placing::at(const TrackPoint& point) const {
   return same_ ? told : then_->in(now_, told);
 }
 
+double Placing::yaw_rad(const TrackPoint& point) const {
+  if (!has_angle(point)) return kAbsent;
+  if (!then_ || !has_place(point)) return point.yaw_rad;
+  const Local before = then_->local(point.latitude_deg, point.longitude_deg);
+  return better_heading(point, before, antenna_).yaw_rad;
+}
+
 }  // namespace drover::store

@@ -16,6 +16,8 @@ class Placing final {
 
   /// base_link's place. Nothing: it has no latitude and longitude, and x, y are of no known origin.
   std::optional<Local> at(const TrackPoint& point) const;
+  /// How the base looked there; not a number when the point does not tell.
+  double yaw_rad(const TrackPoint& point) const;
 
  private:
   MapFrame now_;

@@ -8,7 +8,6 @@ namespace drover::track {
 namespace {
 
 constexpr double kCornerSpread_m = 0.3;  // points this close belong to one corner
-constexpr double kFold_rad = 2.1;        // 120 degrees: a turn round
 constexpr double kFold_m = 0.3;          // a longer step back is meant
 constexpr double kFoldSpread_m = 0.6;    // there and back, as far as chords see its ends
 
@@ -29,6 +28,17 @@ Leg leg_to_corner(const Route& route, const Leg& leg, const Station& corner) {
   shorter.last_m = corner.start_m;
   shorter.leave = unit(chord_before(route, shorter.last, leg.first, kEndChord_m), leg.enter);
   return shorter;
+}
+
+bool is_backwards(const Route& route, const Leg& leg) {
+  double s_m = 0;
+  std::size_t k = leg.first;
+  while (k + 1 < leg.last) {
+    s_m += route.segment_m(k);
+    if (s_m > kCornerSpread_m) break;
+    ++k;
+  }
+  return k + 1 < route.size() && route.backwards(k);
 }
 
 namespace {
@@ -55,7 +65,7 @@ double step_back_m(const Route& route, std::size_t from, std::size_t to, Vector 
 
 /// A short step back in a recording: it turns round twice, and goes on as it came.
 bool is_fold(const Route& route, std::size_t leg_first, const Cluster& cluster, double sharp_rad) {
-  if (cluster.sharpest_rad < kFold_rad) return false;
+  if (cluster.sharpest_rad < kCusp_rad) return false;
   const Vector before = chord_before(route, cluster.first.segment, leg_first, kEndChord_m);
   const Vector after = chord_after(route, cluster.last.segment, route.size() - 1, kEndChord_m);
   if (dot(before, before) == 0 || dot(after, after) == 0) return false;

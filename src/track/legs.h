@@ -10,6 +10,8 @@ namespace drover::track {
 
 /// Chords of this length tell the direction in which a leg begins and ends.
 inline constexpr double kEndChord_m = 0.25;
+/// A turn by more is a cusp: who does not turn round there drives on the other way.
+inline constexpr double kCusp_rad = 2.1;  // 120 degrees
 /// Of points tested for corners, where points are dense.
 inline constexpr double kTestSpacing_m = 0.02;
 
@@ -17,6 +19,10 @@ inline constexpr double kTestSpacing_m = 0.02;
 Leg leg_to_target(const Route& route, std::size_t first, double first_m, double end_m);
 /// The same leg, once its corner is.
 Leg leg_to_corner(const Route& route, const Leg& leg, const Station& corner);
+
+/// The robot drives backwards on the leg: as the route tells a little behind its beginning, which
+/// may lie beside the point where it was changed.
+bool is_backwards(const Route& route, const Leg& leg);
 
 /// How far a route was looked along for corners.
 struct CornerScan {

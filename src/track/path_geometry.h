@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 
 #include "drover/path.h"
@@ -44,11 +45,15 @@ Vector unit(Vector a, Vector otherwise);
 class Route final {
  public:
   Route() = default;
-  /// Borrows `points`. Travel is from the list's one end to `target`.
-  Route(std::span<const PathPoint> points, std::size_t target, bool forwards)
+  /// Borrows `points` and `backwards` (as Path::backwards; `flipped`: the other way round). Travel
+  /// is from the list's one end to `target`.
+  Route(std::span<const PathPoint> points, std::size_t target, bool forwards,
+        std::span<const std::uint8_t> backwards = {}, bool flipped = false)
       : points_(points),
+        backwards_(backwards),
         size_(forwards ? target + 1 : points.size() - target),
-        forwards_(forwards) {}
+        forwards_(forwards),
+        flipped_(flipped) {}
   std::size_t size() const { return size_; }
   Vector point(std::size_t k) const {
     const PathPoint& p = points_[index(k)];
@@ -58,11 +63,19 @@ class Route final {
   std::size_t index(std::size_t k) const { return forwards_ ? k : points_.size() - 1 - k; }
   bool forwards() const { return forwards_; }
   double segment_m(std::size_t k) const { return length(point(k + 1) - point(k)); }
+  /// The robot drives backwards from point `k` to the next.
+  bool backwards(std::size_t k) const {
+    const std::size_t segment = forwards_ ? k : index(k) - 1;
+    return segment < backwards_.size() && (backwards_[segment] != 0) != flipped_;
+  }
+  bool flipped() const { return flipped_; }
 
  private:
   std::span<const PathPoint> points_;
+  std::span<const std::uint8_t> backwards_;
   std::size_t size_ = 0;
   bool forwards_ = true;
+  bool flipped_ = false;
 };
 
 /// A segment of the route, by its first point, and the arc length at that point.

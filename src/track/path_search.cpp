@@ -56,7 +56,7 @@ bool better(const Candidate& a, const Candidate& b) {
 }  // namespace
 
 PathStart find_start(std::span<const PathPoint> points, std::size_t target, Vector at,
-                     double yaw_rad) {
+                     double yaw_rad, const Gears& gears) {
   double least_m2 = INFINITY;
   double target_m = 0;
   double s_m = 0;
@@ -102,6 +102,10 @@ PathStart find_start(std::span<const PathPoint> points, std::size_t target, Vect
     leg.start = {k, along_m, 0, forwards};
     leg.distance_m = distance_m;
     leg.turned_rad = std::abs(wrap_rad(std::atan2(travel.y, travel.x) - yaw_rad));
+    if (k < gears.backwards.size() && gears.backwards[k] != 0)
+      leg.turned_rad = kPi - leg.turned_rad;
+    leg.start.flipped = gears.either && leg.turned_rad > kPi / 2;
+    if (leg.start.flipped) leg.turned_rad = kPi - leg.turned_rad;
     leg.left_m = std::abs(target_m - (start_m + along_m));
   }
   if (in_leg && better(leg, best)) best = leg;
@@ -115,13 +119,13 @@ bool is_closed(std::span<const PathPoint> points) {
 }
 
 std::size_t target_ahead(std::span<const PathPoint> points, std::size_t target, Vector at,
-                         double yaw_rad) {
+                         double yaw_rad, const Gears& gears) {
   const std::size_t last = points.size() - 1;
   if (target != 0 && target != last) return target;
   if (!is_closed(points) || length(vector(points[target]) - at) <= kAsNear_m) return target;
   const std::size_t other = last - target;
-  const bool behind = find_start(points, target, at, yaw_rad).turned_rad > kPi / 2;
-  const bool ahead = find_start(points, other, at, yaw_rad).turned_rad < kPi / 2;
+  const bool behind = find_start(points, target, at, yaw_rad, gears).turned_rad > kPi / 2;
+  const bool ahead = find_start(points, other, at, yaw_rad, gears).turned_rad < kPi / 2;
   return behind && ahead ? other : target;
 }
 

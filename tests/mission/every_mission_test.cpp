@@ -95,9 +95,9 @@ TEST_P(EveryMission, IsAtRestAtItsEnd) {
 INSTANTIATE_TEST_SUITE_P(
     Each, EveryMission,
     testing::Values(
-        "straight_and_uturn", "figure8", "gnss_outage", "fix_float_fix", "estop", "estop_tap",
-        "obstacle", "broker_restart", "kill_on_ramp", "hang", "long", "imu_faults",
-        "battery_faults", "battery_empty", "outage_on_curve", "receiver_replugged",
+        "straight_and_uturn", "three_point_turn", "figure8", "gnss_outage", "fix_float_fix",
+        "estop", "estop_tap", "obstacle", "broker_restart", "kill_on_ramp", "hang", "long",
+        "imu_faults", "battery_faults", "battery_empty", "outage_on_curve", "receiver_replugged",
         "receiver_renamed", "joint_commands", "bus_off", "can_replugged", "chip_replugged",
         "hang_without_bus", "heading_find", "battery_low", "runs_on", "carried", "gear_ratio_10",
         "gear_ratio_2", "sides_swapped", "wheel_reversed", "restart_on_ramp", "dip_on_ramp",
@@ -108,11 +108,11 @@ INSTANTIATE_TEST_SUITE_P(
         "zlac8015d_torn_motor", "zlac8015d_dip_on_ramp", "one_of_each_dies", "gt01", "gt01_can",
         "gt01_kill", "gt01_can_kill", "gt01_torn", "gt01_rest_on_ramp", "gt01_deaf_on_ramp",
         "gt01_pushed_over_restart", "agilex_v2", "agilex_v2_imu_silent", "agilex_v2_kill",
-        "scene_box", "scene_near", "scene_pole", "scene_person", "scene_refused", "scene_keep_out",
-        "scene_keep_in", "scene_beside", "scene_pivot", "scene_planes", "scene_mouth",
-        "scene_wall_behind", "scene_stamps", "scene_origin", "scene_constraint", "scene_reverse",
-        "scene_edge", "scene_heading", "scene_worker", "scene_restart", "lidar_box",
-        "lidar_covered", "lidar_sun", "lidar_frozen", "lidar_unplugged", "lidar_ramp",
+        "scene_backwards", "scene_box", "scene_near", "scene_pole", "scene_person", "scene_refused",
+        "scene_keep_out", "scene_keep_in", "scene_beside", "scene_pivot", "scene_planes",
+        "scene_mouth", "scene_wall_behind", "scene_stamps", "scene_origin", "scene_constraint",
+        "scene_reverse", "scene_edge", "scene_heading", "scene_worker", "scene_restart",
+        "lidar_box", "lidar_covered", "lidar_sun", "lidar_frozen", "lidar_unplugged", "lidar_ramp",
         "lidar_pivot", "lidar_pivot_hidden"),
     [](const auto& one) { return std::string(one.param); });
 

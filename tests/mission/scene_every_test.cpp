@@ -36,13 +36,13 @@ TEST_P(EveryScene, TouchesNothingByTheMechanics) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Each, EveryScene,
-                         testing::Values("scene_box", "scene_near", "scene_pole", "scene_person",
-                                         "scene_refused", "scene_keep_out", "scene_keep_in",
-                                         "scene_beside", "scene_pivot", "scene_planes",
-                                         "scene_mouth", "scene_wall_behind", "scene_stamps",
-                                         "scene_origin", "scene_constraint", "scene_reverse",
-                                         "scene_edge", "scene_heading", "scene_worker",
-                                         "scene_restart"),
+                         testing::Values("scene_backwards", "scene_box", "scene_near", "scene_pole",
+                                         "scene_person", "scene_refused", "scene_keep_out",
+                                         "scene_keep_in", "scene_beside", "scene_pivot",
+                                         "scene_planes", "scene_mouth", "scene_wall_behind",
+                                         "scene_stamps", "scene_origin", "scene_constraint",
+                                         "scene_reverse", "scene_edge", "scene_heading",
+                                         "scene_worker", "scene_restart"),
                          [](const auto& one) { return std::string(one.param); });
 
 }  // namespace

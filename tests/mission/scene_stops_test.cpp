@@ -3,6 +3,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "drover/angle.h"
 #include "mission/scene_support.h"
 
 namespace drover::mission {
@@ -24,6 +25,18 @@ void expect_stop_and_going_on(const char* mission, const char* name) {
 
 TEST(SceneBox, StopsBeforeItAndGoesOn) {
   expect_stop_and_going_on("scene_box", "crate");
+}
+
+TEST(SceneBackwards, StopsBeforeItAndGoesOn) {
+  expect_stop_and_going_on("scene_backwards", "crate");
+}
+
+TEST(SceneBackwards, StandsWithItsBackToTheBox) {
+  const SceneLog& scene = scene_log("scene_backwards");
+  const Time gone = scene.at("gone", "crate");
+  EXPECT_GT(std::cos(scene.pose_at(gone).yaw_rad - to_rad(120)), 0.9) << "it turned round";
+  const Time appeared = scene.at("put", "crate");
+  EXPECT_GT(scene.pose_at(gone).x_m, scene.pose_at(appeared).x_m) << "it did not back up";
 }
 
 TEST(ScenePole, IsNotMissedBetweenTwoPosesOfTheSweep) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <random>
 #include <vector>
 
@@ -68,6 +69,31 @@ inline Path record(const Points& drawn, double spacing_m = 0.5, double noise_m =
     since_m = 0;
   }
   return path;
+}
+
+/// Where it turns by more than 120 degrees it goes on the other way.
+inline Path with_gears(Path path, bool first_backwards = false, bool either = false) {
+  std::uint8_t back = first_backwards ? 1 : 0;
+  for (std::size_t i = 0; i + 1 < path.points.size(); ++i) {
+    if (i > 0) {
+      const track::Vector before{path.points[i].x_m - path.points[i - 1].x_m,
+                                 path.points[i].y_m - path.points[i - 1].y_m};
+      const track::Vector after{path.points[i + 1].x_m - path.points[i].x_m,
+                                path.points[i + 1].y_m - path.points[i].y_m};
+      if (dot(before, after) < -0.5 * length(before) * length(after)) back ^= 1;
+    }
+    path.backwards.push_back(back);
+  }
+  path.either = either;
+  return path;
+}
+
+/// Ahead, back in a bend, and ahead again: how one turns round where there is no room.
+inline Points three_point_turn() {
+  Pen pen;
+  pen.line(4).arc(2.5, kPi / 3).turn(kPi).arc(2.5, kPi / 3).line(2).turn(kPi).arc(2.5, kPi / 3);
+  pen.line(3);
+  return pen.points();
 }
 
 inline Points rows() {

@@ -226,16 +226,16 @@ double MechanicsCheck::speed_cap_mps() const {
 }
 
 Twist MechanicsCheck::guide(const Twist& wanted) const {
-  if (proved_ || !(wanted.vx_mps > 0)) return wanted;
+  if (proved_ || !(std::abs(wanted.vx_mps) > 0)) return wanted;
   Twist twist = wanted;
-  twist.vx_mps = std::min(wanted.vx_mps, speed_cap_mps());
+  twist.vx_mps = std::clamp(wanted.vx_mps, -speed_cap_mps(), speed_cap_mps());
   const double share = rolled_m_ / config_.navigate.first_way_m - kStraightShare;
   double side = 0;  // which way the swing goes now
   if (share >= 0 && share < 4 * kSwingShare) {
     side = share < kSwingShare || share >= 3 * kSwingShare ? 1.0 : -1.0;
   }
   const double radpm = kSwing_rad / (kSwingShare * config_.navigate.first_way_m);
-  twist.wz_radps = side * radpm * twist.vx_mps;
+  twist.wz_radps = side * radpm * std::abs(twist.vx_mps);
   return twist;
 }
 

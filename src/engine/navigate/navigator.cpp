@@ -61,7 +61,8 @@ void Navigator::start(const RequestId& id, const StartTask& task, Time now,
   if (const Reason why = check_robot(health, has_origin); !why.empty()) return refuse(why);
   const Pose& pose = estimate.pose;
   const auto target = static_cast<std::uint32_t>(
-      track::target_ahead(task.path->points, task.target, {pose.x_m, pose.y_m}, pose.yaw_rad));
+      track::target_ahead(task.path->points, task.target, {pose.x_m, pose.y_m}, pose.yaw_rad,
+                          track::gears_of(*task.path)));
   tracker_.begin(*task.path, target, speed.speed_mps, pose);
   progress_ = tracker_.locate(pose);
   // The first point of a loop is reached by who stands there, whichever leg he would leave it by.

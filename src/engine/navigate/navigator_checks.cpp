@@ -13,7 +13,8 @@ namespace {
 /// From `at` to the segment that the tracker would begin on, m.
 double distance_m(const Path& path, std::uint32_t target, const Pose& pose) {
   const track::Vector at{pose.x_m, pose.y_m};
-  const track::PathStart start = find_start(path.points, target, at, pose.yaw_rad);
+  const track::PathStart start =
+      find_start(path.points, target, at, pose.yaw_rad, track::gears_of(path));
   const PathPoint& a = path.points[start.segment];
   const PathPoint& b = path.points[start.segment + 1];
   const track::Vector from{a.x_m, a.y_m};
@@ -76,8 +77,10 @@ Reason check_place(const Path& path, std::uint32_t target, const Pose& pose,
   }
   const double turned_deg = to_deg(std::abs(progress.heading_error_rad));
   if (!(turned_deg <= config.start_angle_deg)) {
-    const char* advice =
-        turned_deg > 90 ? "turn it round, or choose a point ahead of it" : "turn it into the way";
+    const char* advice = progress.backwards
+                             ? "it is driven backwards there: turn its back to the way"
+                         : turned_deg > 90 ? "turn it round, or choose a point ahead of it"
+                                           : "turn it into the way";
     reason.format(
         "the robot is turned %.0f degrees away from the way to point %llu, allowed %.0f: %s",
         turned_deg, static_cast<unsigned long long>(target) + 1, config.start_angle_deg, advice);

@@ -45,8 +45,9 @@ Tracker::Tracker(const NavigateConfig& config, const LimitsConfig& limits)
       horizon_m_(limits.max_speed_mps * limits.max_speed_mps / (2 * braking_mps2_) + 2.0) {}
 
 void Tracker::begin(const Path& path, std::uint32_t target, double speed_mps, const Pose& pose) {
-  const track::PathStart start = find_start(path.points, target, place(pose), pose.yaw_rad);
-  route_ = track::Route(path.points, target, start.forwards);
+  const track::PathStart start =
+      find_start(path.points, target, place(pose), pose.yaw_rad, track::gears_of(path));
+  route_ = track::Route(path.points, target, start.forwards, path.backwards, start.flipped);
   const std::size_t last_segment = path.points.size() - 2;
   // Arc length 0 is the first point, in the order of travel, of the segment the robot starts on.
   station_ = {start.forwards ? start.segment : last_segment - start.segment, 0};
@@ -66,7 +67,7 @@ void Tracker::begin(const Path& path, std::uint32_t target, double speed_mps, co
     --first;
     first_m -= route_.segment_m(first);
   }
-  leg_ = leg_to_target(route_, first, first_m, goal_m_);
+  begin_leg(leg_to_target(route_, first, first_m, goal_m_));
   scan_ = {station_, 0};
   phase_ = Phase::follow;
   speed_mps_ = speed_mps;
@@ -74,6 +75,24 @@ void Tracker::begin(const Path& path, std::uint32_t target, double speed_mps, co
   active_ = true;
   s_m_ = find_foot(route_, leg_, station_, s_m_, place(pose), 16).s_m;
   look_for_corner();
+}
+
+void Tracker::begin_leg(const track::Leg& leg) {
+  leg_ = leg;
+  backwards_ = is_backwards(route_, leg_);
+}
+
+/// Of a robot that looks where it drives.
+Pose Tracker::as_driven(const Pose& pose) const {
+  if (!backwards_) return pose;
+  Pose turned = pose;
+  turned.yaw_rad = wrap_rad(pose.yaw_rad + kPi);
+  turned.vx_mps = -pose.vx_mps;
+  return turned;
+}
+
+Twist Tracker::as_told(const Twist& twist) const {
+  return backwards_ ? Twist{-twist.vx_mps, twist.wz_radps} : twist;
 }
 
 void Tracker::end() {
@@ -85,6 +104,7 @@ WayLeft Tracker::way() const {
   WayLeft way;
   if (!active_) return way;
   way.forwards = route_.forwards();
+  way.flipped = route_.flipped();
   way.target = static_cast<std::uint32_t>(route_.index(route_.size() - 1));
   way.segment = static_cast<std::uint32_t>(route_.index(station_.segment));
   way.along_m = std::clamp(s_m_ - station_.start_m, 0.0, route_.segment_m(station_.segment));
@@ -110,10 +130,11 @@ double Tracker::stop_distance_m(double speed_mps) const {
   return v * config_.drive_lag_s + ramp_m;
 }
 
-TrackProgress Tracker::locate(const Pose& pose) {
+TrackProgress Tracker::locate(const Pose& seen) {
   TrackProgress progress;
   progress.joined = joined_;
-  if (!active_ || !usable(pose)) return progress;
+  if (!active_ || !usable(seen)) return progress;
+  const Pose pose = as_driven(seen);
   track::Reference here;
   if (phase_ == Phase::pivot) {
     here = smooth(route_, leg_, station_, s_m_);
@@ -126,6 +147,7 @@ TrackProgress Tracker::locate(const Pose& pose) {
   }
   progress.cross_track_m = offset_m(route_, leg_, station_, {s_m_, here}, place(pose));
   progress.heading_error_rad = wrap_rad(pose.yaw_rad - direction_rad(here.ahead));
+  progress.backwards = backwards_;
   progress.distance_left_m = std::max(goal_m_ - s_m_, 0.0);
   progress.distance_to_goal_m = length(goal_ - place(pose));
   joined_ = joined_ || std::abs(progress.cross_track_m) < kJoined_m;
@@ -142,19 +164,24 @@ TrackProgress Tracker::locate(const Pose& pose) {
   return progress;
 }
 
-Twist Tracker::follow(const Pose& pose, const TrackProgress&, double speed_cap_mps, Duration dt) {
-  const double cap_mps = std::min({speed_mps_, speed_cap_mps, limits_.max_speed_mps});
-  if (!active_ || !usable(pose) || !(speed_cap_mps > 0) || !(cap_mps > 0)) return {};
+Twist Tracker::follow(const Pose& seen, const TrackProgress&, double speed_cap_mps, Duration dt) {
+  double cap_mps = std::min({speed_mps_, speed_cap_mps, limits_.max_speed_mps});
+  if (backwards_) cap_mps = std::min(cap_mps, config_.backwards_speed_mps);
+  if (!active_ || !usable(seen) || !(speed_cap_mps > 0) || !(cap_mps > 0)) return {};
+  const Pose pose = as_driven(seen);
   if (phase_ == Phase::pivot) return pivot(pose);
   // Once it brakes for the end it does not creep on because its stop distance shrank meanwhile.
   const double left_m = leg_.last_m - s_m_;
   if (phase_ == Phase::halt && left_m > config_.goal_tolerance_m) phase_ = Phase::follow;
   if (left_m <= stop_distance_m(pose.vx_mps)) phase_ = Phase::halt;
-  if (phase_ == Phase::follow) return steer(pose, cap_mps, dt);
+  if (phase_ == Phase::follow) return as_told(steer(pose, cap_mps, dt));
   if (is_last_leg() || std::abs(pose.vx_mps) > kStands_mps) return {};
   phase_ = Phase::pivot;
   return pivot(pose);
 }
+
+/// To how it looks on the leg that comes next: driven the other way than this one, it may look as
+/// it does already.
 
 Twist Tracker::pivot(const Pose& pose) {
   constexpr double kDone_rad = 1.0 * kPi / 180;
@@ -162,12 +189,14 @@ Twist Tracker::pivot(const Pose& pose) {
   constexpr double kGain_ps = 3.0;
   const Vector next =
       unit(chord_after(route_, leg_.last, route_.size() - 1, kEndChord_m), leg_.leave);
-  const double left_rad = wrap_rad(direction_rad(next) - pose.yaw_rad);
+  const track::Leg coming = leg_to_target(route_, leg_.last, leg_.last_m, goal_m_);
+  const double looks_rad = is_backwards(route_, coming) == backwards_ ? 0 : kPi;
+  const double left_rad = wrap_rad(direction_rad(next) + looks_rad - pose.yaw_rad);
   if (std::abs(left_rad) < kDone_rad && std::abs(pose.wz_radps) < kDone_radps) {
     phase_ = Phase::follow;
     s_m_ = leg_.last_m;
     station_ = {leg_.last, leg_.last_m};
-    leg_ = leg_to_target(route_, leg_.last, leg_.last_m, goal_m_);
+    begin_leg(coming);
     look_for_corner();
     return {};
   }

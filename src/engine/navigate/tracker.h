@@ -18,7 +18,7 @@ namespace drover::engine {
 /// `target`, forwards or backwards through the list.
 struct TrackProgress {
   double cross_track_m = 0;       ///< left of the direction of travel positive
-  double heading_error_rad = 0;   ///< of the robot against the direction of travel
+  double heading_error_rad = 0;   ///< of the robot against how it is to look there
   double distance_left_m = 0;     ///< along the path to the target point
   double distance_to_goal_m = 0;  ///< straight line to the target point
   /// At the goal, as near as a stop begun now comes to it; or inside the tolerance and at rest; or
@@ -26,6 +26,7 @@ struct TrackProgress {
   bool arrived = false;
   /// The goal lies behind: driving ahead does not lead there. Without `arrived`: failed.
   bool goal_passed = false;
+  bool backwards = false;  ///< it is driven backwards there
   /// Was within 0.2 m of the track since begin: only then a corridor means anything.
   bool joined = false;
 };
@@ -34,6 +35,7 @@ using track::check_path;
 
 /// Follows a smooth line through the points: curvature ahead of the drives' lag, plus feedback on
 /// offset and heading. Where the track has a true corner it stops, turns on the spot and goes on.
+/// Where it says so (Path::backwards) it is driven backwards: as if the robot looked the other way.
 class Tracker final {
  public:
   Tracker(const NavigateConfig& config, const LimitsConfig& limits);
@@ -43,6 +45,8 @@ class Tracker final {
   void begin(const Path& path, std::uint32_t target, double speed_mps, const Pose& pose);
   void end();
   bool active() const { return active_; }
+  /// The robot drives, or is to drive, backwards.
+  bool backwards() const { return active_ && backwards_; }
   /// What is left of the path, by the last `locate`; without the path's number.
   WayLeft way() const;
 
@@ -58,6 +62,9 @@ class Tracker final {
   enum class Phase : std::uint8_t { follow, halt, pivot };
 
   void look_for_corner();
+  void begin_leg(const track::Leg& leg);
+  Pose as_driven(const Pose& pose) const;
+  Twist as_told(const Twist& twist) const;
   bool is_last_leg() const { return leg_.last + 1 == route_.size(); }
   double stop_distance_m(double speed_mps) const;
   double path_speed_mps(double cap_mps, double s_m) const;
@@ -80,6 +87,7 @@ class Tracker final {
   double speed_mps_ = 0;
   double yaw_gain_ = 0;  ///< learnt: how much more the base must be asked to turn
   bool joined_ = false;
+  bool backwards_ = false;  ///< on this leg
 };
 
 }  // namespace drover::engine

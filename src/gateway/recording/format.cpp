@@ -43,7 +43,7 @@ RecordingHeader read_header(ByteReader& in) {
 }
 
 std::vector<std::uint8_t> written(const Path& path) {
-  std::vector<std::uint8_t> bytes(64 + path.name.size() + 16 * path.points.size());
+  std::vector<std::uint8_t> bytes(64 + path.name.size() + 17 * path.points.size());
   ByteWriter out(bytes);
   out.byte(static_cast<std::uint8_t>(RecordKind::path));
   out.number(path.number);
@@ -52,6 +52,10 @@ std::vector<std::uint8_t> written(const Path& path) {
   for (const auto& point : path.points) {
     out.real(point.x_m);
     out.real(point.y_m);
+  }
+  if (!path.backwards.empty()) {
+    out.byte(path.either ? 1 : 0);
+    for (const std::uint8_t flag : path.backwards) out.byte(flag != 0 ? 1 : 0);
   }
   bytes.resize(out.written().size());
   return bytes;
@@ -68,6 +72,10 @@ Path read_path(ByteReader& in) {
     const double x_m = in.real();
     path.points.push_back({x_m, in.real()});
   }
+  if (!in.good() || in.left().empty()) return path;
+  path.either = in.below(2) != 0;
+  for (std::uint64_t i = 1; i < count && in.good(); ++i)
+    path.backwards.push_back(static_cast<std::uint8_t>(in.below(2)));
   return path;
 }
 

@@ -51,12 +51,13 @@ std::vector<Step> in_base_link(std::vector<Step> steps) {
 /// The track goes on the way that the robot looks. Of one that turns on the spot it does so only
 /// when it has turned: what its field sweeps over meanwhile is not on its track.
 bool is_ahead(const WayLine& line, double yaw_rad, double pivot_rad, bool turns) {
-  const TrackLine track(line.points, pivot_rad);
+  const TrackLine track(line.points, pivot_rad, line.backwards);
   if (track.empty()) return true;
   const TrackLine::Leg* leg = &track.legs().front();
   const double at_corner_m = turns ? kTurnsAt_m : kAtCorner_m;
   for (const TrackLine::Leg& next : track.legs())
     if (track.first_m(next) <= line.from_m + at_corner_m) leg = &next;
+  if (track.is_backwards(*leg)) return false;
   const double on_m = std::max(line.from_m, track.first_m(*leg));
   const double off_rad = wrap_rad(track.place(*leg, on_m).yaw_rad - yaw_rad);
   return !(std::abs(off_rad) >= (turns ? kTurnsOver_rad : pivot_rad));
@@ -207,6 +208,7 @@ Clearance Keeper::look(const Path* path) const {
   }
   if (line) {
     from.line = line->points;
+    from.line_backwards = line->backwards;
     from.line_from_m = line->from_m;
     from.line_ends = line->ends;
   }

@@ -83,7 +83,7 @@ void TrackCheck::Impl::begin_part() {
   auto line = line_about(path, way, kPart_m);
   if (!line) return end(way.segment, way_m, "the track cannot be followed from here");
   const Sweeper sweeper = this->sweeper();
-  const TrackPart ahead{line->points, line->from_m, kPart_m};
+  const TrackPart ahead{line->points, line->from_m, kPart_m, line->backwards};
   auto steps = track_steps(pose, ahead, keeper.steering(), sweeper.stride_m());
   const WayEnd found = sweeper.sweep(steps);
   std::vector<Pose2> poses;

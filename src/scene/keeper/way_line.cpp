@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "scene/plane/track_line.h"
+#include "track/path_geometry.h"
 
 namespace drover::scene {
 namespace {
@@ -43,6 +44,11 @@ std::optional<WayLine> line_about(const Path& path, const WayLeft& way, double a
     line.points.push_back(point);
   }
   line.ends = i == way.target;
+  if (path.backwards.empty()) return line;
+  const track::Route route(path.points, way.target, way.forwards, path.backwards, way.flipped);
+  const std::size_t begin_k = way.forwards ? line.first : path.points.size() - 1 - line.first;
+  for (std::size_t k = 0; k + 1 < line.points.size(); ++k)
+    line.backwards.push_back(route.backwards(begin_k + k) ? 1 : 0);
   return line;
 }
 

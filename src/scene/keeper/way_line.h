@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -17,10 +18,11 @@ inline Point2 point_of(const Path& path, std::size_t i) {
 
 struct WayLine {
   std::vector<Point2> points;
-  double from_m = 0;      ///< the place, as arc length of these points
-  bool ends = true;       ///< the last one is the target
-  WayLeft way;            ///< of the place
-  std::size_t first = 0;  ///< index in the path of the first one
+  std::vector<std::uint8_t> backwards;  ///< of each segment: it is driven so; empty: none is
+  double from_m = 0;                    ///< the place, as arc length of these points
+  bool ends = true;                     ///< the last one is the target
+  WayLeft way;                          ///< of the place
+  std::size_t first = 0;                ///< index in the path of the first one
 
   Point2 place() const;
   /// The same way, so much farther along it; not beyond its last point.

@@ -177,7 +177,7 @@ std::vector<Step> track_way(const LookSettings& settings, const Standpoint& from
       !position_problem(from.pose, from.position_sigma_m).empty())
     return {};
   const Piece body = body_of(settings, from.position_sigma_m, from.yaw_sigma_rad);
-  const TrackPart part{from.line, from.line_from_m, settings.along_m};
+  const TrackPart part{from.line, from.line_from_m, settings.along_m, from.line_backwards};
   return track_steps(from.pose, part, settings.steering, stride_m(body));
 }
 

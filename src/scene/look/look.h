@@ -34,6 +34,7 @@ struct Standpoint {
   std::uint64_t path = 0;  ///< 0: no track
   /// Of the track what is near and ahead, in the order of travel.
   std::span<const Point2> line;
+  std::span<const std::uint8_t> line_backwards = {};  ///< of each segment; empty: none is
   double line_from_m = 0;  ///< the robot is about there on it (1 m), as arc length
   bool line_ends = true;   ///< its last point is the goal: beyond it nothing is driven
 };

@@ -1,6 +1,7 @@
 // Ways to sweep: poses one after the other, close enough together.
 #pragma once
 
+#include <cstdint>
 #include <limits>
 #include <span>
 #include <vector>
@@ -49,6 +50,7 @@ struct TrackPart {
   std::span<const Point2> line;
   double near_m = 0;  ///< as arc length: the robot is about there on it (1 m)
   double most_m = std::numeric_limits<double>::infinity();  ///< so far along it, or to its end
+  std::span<const std::uint8_t> backwards = {};  ///< of each segment; empty: none is driven so
 };
 
 /// Who is farther from a line than this drives to it straight; no task begins so far from its

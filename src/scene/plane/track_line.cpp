@@ -13,13 +13,16 @@ constexpr double kSamePlace_m = 1e-3;
 
 }  // namespace
 
-TrackLine::TrackLine(const std::vector<Point2>& points, double pivot_rad) {
-  for (const Point2 point : points) {
+TrackLine::TrackLine(const std::vector<Point2>& points, double pivot_rad,
+                     std::span<const std::uint8_t> backwards) {
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Point2 point = points[i];
     double s_m = 0;
     if (!points_.empty()) {
       const double away_m = length_m(point - Point2{points_.back().x_m, points_.back().y_m});
       if (!(away_m > kSamePlace_m)) continue;
       s_m = at_m_.back() + away_m;
+      if (!backwards.empty()) backwards_.push_back(i <= backwards.size() ? backwards[i - 1] : 0);
     }
     points_.push_back({point.x_m, point.y_m});
     at_m_.push_back(s_m);

@@ -5,10 +5,13 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "drover/path.h"
 #include "scene/plane/point.h"
+#include "track/legs.h"
 #include "track/path_geometry.h"
 
 namespace drover::scene {
@@ -29,7 +32,9 @@ class TrackLine final {
   };
 
   /// In the order of travel, finite. What turns by more than `pivot_rad` is a true corner.
-  TrackLine(const std::vector<Point2>& points, double pivot_rad);
+  /// `backwards`: of each segment of `points`; empty: none is driven so.
+  TrackLine(const std::vector<Point2>& points, double pivot_rad,
+            std::span<const std::uint8_t> backwards = {});
 
   /// Less than two different points are no line.
   bool empty() const { return points_.size() < 2; }
@@ -37,6 +42,8 @@ class TrackLine final {
   double end_m() const { return at_m_.back(); }
   const std::vector<Leg>& legs() const { return legs_; }
   double first_m(const Leg& leg) const { return leg.first_m; }
+  /// The robot looks the other way on it.
+  bool is_backwards(const Leg& leg) const { return track::is_backwards(route(), leg); }
   Point2 last_point(const Leg& leg) const { return from_track(route().point(leg.last)); }
 
   Place place(const Leg& leg, double s_m) const;
@@ -44,12 +51,13 @@ class TrackLine final {
   double foot_m(Point2 from, double least_m, double most_m) const;
 
  private:
-  track::Route route() const { return {points_, points_.size() - 1, true}; }
+  track::Route route() const { return {points_, points_.size() - 1, true, backwards_}; }
   std::size_t segment(double s_m) const;
   void split(double pivot_rad);
 
   std::vector<PathPoint> points_;  ///< none twice
   std::vector<double> at_m_;       ///< arc length at each
+  std::vector<std::uint8_t> backwards_;
   std::vector<Leg> legs_;
 };
 

@@ -108,13 +108,14 @@ class Driver {
 
   bool has_begun() const { return begun_; }
   void drive(const TrackLine::Leg& leg, double until_m, Steps& steps) {
+    looks_rad_ = line_.is_backwards(leg) ? kPi : 0;
     const double end_m = std::min(leg.last_m, until_m);
     double s_m = begun_ ? s_m_ : from_m_;
     Offset offset = offset_at(leg, s_m, steps.pose());
     const bool at_corner = leg.first != 0 && s_m - leg.first_m < kAtCorner_m &&
                            std::abs(offset.turn_rad) > kTurned_rad;
     if (begun_ || at_corner || std::abs(offset.turn_rad) >= steering_.pivot_rad) {
-      steps.pivot(line_.place(leg, s_m).yaw_rad);
+      steps.pivot(wrap_rad(line_.place(leg, s_m).yaw_rad + looks_rad_));
       offset.turn_rad = 0;
     }
     // An approach is a few metres; a track that folds up is not one for ever.
@@ -136,7 +137,7 @@ class Driver {
   Offset offset_at(const TrackLine::Leg& leg, double s_m, const Pose2& pose) const {
     const TrackLine::Place on = line_.place(leg, s_m);
     return {cross(direction(on.yaw_rad), place_of(pose) - on.point),
-            wrap_rad(pose.yaw_rad - on.yaw_rad)};
+            wrap_rad(pose.yaw_rad + looks_rad_ - on.yaw_rad)};
   }
   Pose2 pose_at(const TrackLine::Leg& leg, double s_m, const Offset& offset) const {
     const TrackLine::Place on = line_.place(leg, s_m);
@@ -146,7 +147,7 @@ class Driver {
     if (s_m == leg.last_m && length_m(at - end) < 1e-6) at = end;
     const Point2 ahead = direction(on.yaw_rad);
     at = at + offset.left_m * Point2{-ahead.y_m, ahead.x_m};
-    return {at.x_m, at.y_m, on.yaw_rad + offset.turn_rad};
+    return {at.x_m, at.y_m, on.yaw_rad + offset.turn_rad + looks_rad_};
   }
 
   const TrackLine& line_;
@@ -155,7 +156,8 @@ class Driver {
   double stride_m_;
   double from_m_;
   double s_m_ = 0;
-  bool begun_ = false;  ///< a leg before this one was driven
+  bool begun_ = false;    ///< a leg before this one was driven
+  double looks_rad_ = 0;  ///< how the robot looks on this leg, against its way
 };
 
 bool are_finite(const Pose2& from, std::span<const Point2> line) {
@@ -164,9 +166,11 @@ bool are_finite(const Pose2& from, std::span<const Point2> line) {
 }
 
 /// The line, or with the way to it before it; `from_m`: where on it the robot is, before its
-/// beginning too, which it begins straight.
-std::vector<Point2> line_of(const Pose2& from, const TrackPart& part, double& from_m) {
+/// beginning too, which it begins straight. `backwards`: as the part's, of these points.
+std::vector<Point2> line_of(const Pose2& from, const TrackPart& part, double& from_m,
+                            std::vector<std::uint8_t>& backwards) {
   std::vector<Point2> points(part.line.begin(), part.line.end());
+  backwards.assign(part.backwards.begin(), part.backwards.end());
   const TrackLine line(points, kPi);
   const Point2 at = place_of(from);
   if (!line.empty()) {
@@ -177,15 +181,18 @@ std::vector<Point2> line_of(const Pose2& from, const TrackPart& part, double& fr
   }
   from_m = 0;
   points.insert(points.begin(), at);
+  if (!backwards.empty()) backwards.insert(backwards.begin(), backwards.front());
   return points;
 }
 
 /// The robot is at the corner between two legs and on its turn there, nearer to the second one.
-bool turns_already(const TrackLine::Leg& leg, const TrackLine::Leg& next, const Pose2& from,
-                   double from_m) {
+bool turns_already(const TrackLine& line, const TrackLine::Leg& leg, const TrackLine::Leg& next,
+                   const Pose2& from, double from_m) {
   if (leg.last_m - from_m > kAtCorner_m) return false;
   const Point2 ahead = direction(from.yaw_rad);
-  return dot(ahead, from_track(next.enter)) > dot(ahead, from_track(leg.leave));
+  const double before = line.is_backwards(leg) ? -1 : 1;
+  const double after = line.is_backwards(next) ? -1 : 1;
+  return after * dot(ahead, from_track(next.enter)) > before * dot(ahead, from_track(leg.leave));
 }
 
 }  // namespace
@@ -197,7 +204,9 @@ std::vector<Step> track_steps(const Pose2& from, const TrackPart& part, const St
       !std::isfinite(stride_m) || !std::isfinite(steering.lookahead_m))
     return unknown_way(from);
   double from_m = 0;
-  const TrackLine line(line_of(from, part, from_m), steering.pivot_rad);
+  std::vector<std::uint8_t> backwards;
+  const std::vector<Point2> points = line_of(from, part, from_m, backwards);
+  const TrackLine line(points, steering.pivot_rad, backwards);
   Steps steps(from);
   if (line.empty()) return steps.take();
   // A line that is longer than any has longer steps.
@@ -209,7 +218,8 @@ std::vector<Step> track_steps(const Pose2& from, const TrackPart& part, const St
     if (driver.has_begun() && leg.first_m >= until_m) break;
     const bool is_last = i + 1 == line.legs().size();
     if (leg.last_m <= from_m && !is_last) continue;
-    if (!driver.has_begun() && !is_last && turns_already(leg, line.legs()[i + 1], from, from_m))
+    if (!driver.has_begun() && !is_last &&
+        turns_already(line, leg, line.legs()[i + 1], from, from_m))
       continue;
     driver.drive(leg, until_m, steps);
   }

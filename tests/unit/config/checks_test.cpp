@@ -42,6 +42,19 @@ TEST(ConfigurationChecks, RefuseWhatIsUsedTwice) {
             "f:9:75: devices.bumper.is: \"estop\" is used by devices.estop.is already\n");
 }
 
+TEST(ConfigurationChecks, RefuseToBackUpFastWhereNobodyLooks) {
+  const auto navigate = [](const std::string& keys) {
+    return with("\"limits\": {", "\"navigate\": {" + keys + "}, \"limits\": {");
+  };
+  EXPECT_EQ(problems(navigate(R"("drive": "recorded")")), "");
+  EXPECT_EQ(problems(navigate(R"("backwards_speed_mps": 0.5)")), "") << "it never does";
+  EXPECT_THAT(problems(navigate(R"("drive": "either", "backwards_speed_mps": 0.5)")),
+              HasSubstr("navigate.backwards_speed_mps: is above 0.2 m/s, and no scanner looks"));
+  EXPECT_THAT(problems(navigate(R"("drive": "recorded", "pivot_angle_deg": 180)")),
+              HasSubstr("navigate.pivot_angle_deg: is above 120: no cusp would be a corner"));
+  EXPECT_THAT(problems(navigate(R"("drive": "record")")), HasSubstr("recorded"));
+}
+
 TEST(ConfigurationChecks, RefuseAnOutputOnALineThatIsAnInput) {
   EXPECT_THAT(problems(with("{\"link\": \"panel\", \"enable_relay\"",
                             "{\"link\": \"panel\", \"lamp\": {\"line\": \"b\"}, \"enable_relay\"")),

@@ -36,6 +36,21 @@ TEST(AStart, IsOnTheLegThatTheRobotLooksAlong) {
   EXPECT_NEAR(find_start(points, 4, {4, 0.05}, kPi).left_m, 4, 1e-9);
 }
 
+TEST(AStart, IsOnTheLegThatTheRobotDrivesAsItStands) {
+  const Points points{{0, 0}, {10, 0}, {20, 0}, {10, 0}, {0, 0}};
+  const std::vector<std::uint8_t> back{0, 0, 1, 1};
+  const Gears gears{back};
+  EXPECT_NEAR(find_start(points, 4, {4, 0.05}, kPi, gears).turned_rad, kPi, 0.1)
+      << "both are for who looks east";
+  EXPECT_NEAR(find_start(points, 4, {4, 0.05}, 0, gears).turned_rad, 0, 0.1);
+  const Gears either{back, true};
+  for (const double yaw_rad : {0.0, kPi}) {
+    const PathStart start = find_start(points, 4, {4, 0.05}, yaw_rad, either);
+    EXPECT_NEAR(start.turned_rad, 0, 0.1);
+    EXPECT_EQ(start.flipped, yaw_rad != 0);
+  }
+}
+
 TEST(AStart, IsOnAFartherLegOnlyWhenThatIsAboutAsNear) {
   const Points points{{0, 0}, {10, 0}, {10, 0.5}, {0, 0.5}};
   EXPECT_EQ(find_start(points, 3, {5, 0.15}, kPi).segment, 2U);

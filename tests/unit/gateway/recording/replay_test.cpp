@@ -136,6 +136,24 @@ TEST(Replay, KnowsAPathByItsNumber) {
   EXPECT_THAT(it.note, HasSubstr("killed")) << "it has no last word";
 }
 
+TEST(RecordedPath, KeepsWhichWayItIsDriven) {
+  Path path;
+  path.number = 7;
+  path.name = "row";
+  path.points = {{0, 0}, {5, 0}, {1, 0.5}};
+  for (const bool gears : {false, true}) {
+    if (gears) path.backwards = {0, 1};
+    path.either = gears;
+    const auto bytes = written(path);
+    ByteReader in(std::span<const std::uint8_t>(bytes).subspan(1));
+    const Path read = read_path(in);
+    EXPECT_TRUE(in.good());
+    EXPECT_EQ(read.points.size(), 3U);
+    EXPECT_EQ(read.backwards, path.backwards);
+    EXPECT_EQ(read.either, gears);
+  }
+}
+
 TEST(Replay, IsPlayedForWhatTheGatewayMakesOfIt) {
   const RobotRun run = a_run();
   const auto file = record(run);

@@ -65,7 +65,8 @@ std::vector<Piece> swept_along(const Path& path, const Pose2& from, double near_
   const std::vector<Point2> line = points_of(path);
   const Piece body = footprint(margin_m);
   const Steering steering{to_rad(60.0), std::max(speed_mps, 0.35)};
-  const auto steps = track_steps(from, TrackPart{line, near_m}, steering, stride_m(body));
+  const auto steps = track_steps(from, TrackPart{line, near_m, INFINITY, path.backwards}, steering,
+                                 stride_m(body));
   std::vector<Piece> pieces;
   for (std::size_t i = 0; i + 1 < steps.size(); ++i)
     pieces.push_back(swept(body, steps[i].pose, steps[i + 1].pose));
@@ -112,6 +113,29 @@ TEST(SweptTracks, CoverCornersThatAreTurnedOnTheSpot) {
   Pen right;
   right.line(4).turn(-to_rad(80.0)).line(3).turn(to_rad(120.0)).line(3);
   expect_covered(record(right.points()), "right and left");
+}
+
+TEST(SweptTracks, CoverWhatIsDrivenBackwards) {
+  const Path turn = test::with_gears(record(test::three_point_turn()));
+  expect_covered(turn, "from one cusp to the next");
+  Pen pen;
+  pen.line(4).turn(kPi / 2).line(3).arc(1, kPi).line(3);
+  const Path all = test::with_gears(record(pen.points()), true);
+  expect_covered(all, "all of it", {0, 0, kPi});
+}
+
+/// The same line, driven ahead and backwards, is not swept by the same corners: this footprint has
+/// its longer half ahead.
+TEST(SweptTracks, LieTheOtherWayRoundWhereTheyAreDrivenBackwards) {
+  Pen pen;
+  pen.line(4);
+  const Path path = test::with_gears(record(pen.points()), true);
+  const std::vector<Point2> line = points_of(path);
+  const auto steps =
+      track_steps({0, 0, kPi}, TrackPart{line, 0, INFINITY, path.backwards}, {}, 0.1);
+  for (const Step& step : steps) EXPECT_NEAR(std::abs(wrap_rad(step.pose.yaw_rad)), kPi, 1e-6);
+  EXPECT_NEAR(steps.back().pose.x_m, 4, 1e-6);
+  EXPECT_NEAR(steps.back().driven_m, 4, 1e-6);
 }
 
 TEST(SweptTracks, CoverCornersThatAreDrivenThrough) {
