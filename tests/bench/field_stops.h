@@ -1,0 +1,83 @@
+// Where a task stood still, and whether it had to.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "drover/angle.h"
+#include "drover/snapshot.h"
+#include "engine/config.h"
+
+namespace drover::bench {
+
+struct Stop {
+  /// By where it truly was, and what was published of how well that is known, when it began.
+  enum class Kind {
+    needless,  ///< both inside of what a task may have
+    careful,   ///< it was where it thought it was, but did not know it well enough
+    right,     ///< it truly was farther off than a task may be
+  } kind = Kind::needless;
+  double at_s = 0;
+  double for_s = 0;
+  std::string why;
+  double error_m = 0;  ///< true
+  double error_rad = 0;
+  double doubt_m = 0;  ///< published
+  double doubt_rad = 0;
+  bool is_end = false;  ///< of the task, not a pause
+};
+
+class StopWatch final {
+ public:
+  explicit StopWatch(const engine::EstimateConfig& config)
+      : most_m_(config.bound_run_m), most_rad_(to_rad(config.bound_yaw_deg)) {}
+
+  /// Each tick of a task.
+  void look(const Snapshot& seen, const Pose& truth, double since_s) {
+    const double tick_s = since_s - last_s_;
+    last_s_ = since_s;
+    const Stop now = measured(seen, truth, since_s);
+    if (seen.nav.status == NavStatus::error && !ended_) stops_.push_back(now);
+    ended_ = seen.nav.status == NavStatus::error;
+    if (ended_) stops_.back().is_end = true;
+    if (seen.nav.paused && !paused_) stops_.push_back(now);
+    paused_ = seen.nav.paused;
+    if (!paused_) return;
+    stops_.back().for_s = since_s - stops_.back().at_s;
+    if (now.kind == Stop::Kind::needless) needless_s_ += tick_s;
+  }
+
+  const std::vector<Stop>& stops() const { return stops_; }
+  /// Paused while there was no need.
+  double needless_s() const { return needless_s_; }
+
+ private:
+  Stop measured(const Snapshot& seen, const Pose& truth, double since_s) const {
+    Stop stop;
+    stop.at_s = since_s;
+    if (!seen.why.empty()) stop.why = std::string(seen.why[0].view());
+    stop.error_m = std::hypot(seen.pose.x_m - truth.x_m, seen.pose.y_m - truth.y_m);
+    stop.error_rad = std::abs(wrap_rad(seen.pose.yaw_rad - truth.yaw_rad));
+    // Two sigma, or what lies between sources that contradict each other: the bound for people is
+    // four sigma and that.
+    const double sigma_m = seen.pose.position_sigma_m;
+    stop.doubt_m = std::max(2 * sigma_m, seen.nav.error_bound_m - 4 * sigma_m);
+    stop.doubt_rad = 2 * seen.pose.yaw_sigma_rad;
+    const bool right = !(stop.error_m <= most_m_ && stop.error_rad <= most_rad_);
+    const bool known = stop.doubt_m <= most_m_ && stop.doubt_rad <= most_rad_;
+    stop.kind = right ? Stop::Kind::right : known ? Stop::Kind::needless : Stop::Kind::careful;
+    return stop;
+  }
+
+  double most_m_;
+  double most_rad_;
+  double last_s_ = 0;
+  bool paused_ = false;
+  bool ended_ = false;
+  double needless_s_ = 0;
+  std::vector<Stop> stops_;
+};
+
+}  // namespace drover::bench
