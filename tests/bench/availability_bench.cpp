@@ -19,6 +19,7 @@ struct Driven {
   std::uint64_t seed = 0;
   Judgement end;
   std::vector<Stop> stops;
+  std::vector<Beyond> beyond;
   double needless_s = 0;
 
   int needless() const {
@@ -39,6 +40,7 @@ Driven drive_mission(std::uint64_t seed) {
       field_rows(mission.rows, mission.leg_m), 1500,
       [&](const Snapshot& seen, const Pose& truth, double s) { stops.look(seen, truth, s); });
   driven.stops = stops.stops();
+  driven.beyond = stops.beyond();
   driven.needless_s = stops.needless_s();
   return driven;
 }
@@ -148,6 +150,10 @@ void print_each(const Driven& d, bool all_said) {
         "degrees)\n",
         stop.is_end ? "ended" : "paused", stop.at_s, stop.for_s, word(stop.kind), stop.why.c_str(),
         stop.error_m, to_deg(stop.error_rad), stop.doubt_m, to_deg(stop.doubt_rad));
+  }
+  for (const Beyond& b : d.beyond) {
+    std::printf("  BEYOND THE BOUND from %.2f to %.2f s: truly off %.3f m, published %.3f m\n",
+                b.from_s, b.to_s, b.error_m, b.bound_m);
   }
   constexpr std::size_t kLast = 8;
   const std::size_t first = all_said || j.said.size() < kLast ? 0 : j.said.size() - kLast;

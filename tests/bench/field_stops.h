@@ -29,6 +29,14 @@ struct Stop {
   bool is_end = false;  ///< of the task, not a pause
 };
 
+/// Motion with the true error beyond the published bound.
+struct Beyond {
+  double from_s = 0;
+  double to_s = 0;
+  double error_m = 0;  ///< the worst, and the bound then
+  double bound_m = 0;
+};
+
 class StopWatch final {
  public:
   explicit StopWatch(const engine::EstimateConfig& config)
@@ -39,6 +47,7 @@ class StopWatch final {
     const double tick_s = since_s - last_s_;
     last_s_ = since_s;
     const Stop now = measured(seen, truth, since_s);
+    if (std::abs(truth.vx_mps) > 0.02) compare(now.error_m, seen.nav.error_bound_m, since_s);
     if (seen.nav.status == NavStatus::error && !ended_) stops_.push_back(now);
     ended_ = seen.nav.status == NavStatus::error;
     if (ended_) stops_.back().is_end = true;
@@ -50,10 +59,22 @@ class StopWatch final {
   }
 
   const std::vector<Stop>& stops() const { return stops_; }
+  const std::vector<Beyond>& beyond() const { return beyond_; }
   /// Paused while there was no need.
   double needless_s() const { return needless_s_; }
 
  private:
+  void compare(double error_m, double bound_m, double since_s) {
+    if (error_m <= bound_m) return;
+    constexpr double kOther_s = 1;  // a shorter gap parts nothing
+    if (beyond_.empty() || since_s - beyond_.back().to_s > kOther_s)
+      beyond_.push_back({since_s, since_s, 0, 0});
+    Beyond& last = beyond_.back();
+    last.to_s = since_s;
+    if (error_m - bound_m <= last.error_m - last.bound_m) return;
+    last.error_m = error_m;
+    last.bound_m = bound_m;
+  }
   Stop measured(const Snapshot& seen, const Pose& truth, double since_s) const {
     Stop stop;
     stop.at_s = since_s;
@@ -78,6 +99,7 @@ class StopWatch final {
   bool ended_ = false;
   double needless_s_ = 0;
   std::vector<Stop> stops_;
+  std::vector<Beyond> beyond_;
 };
 
 }  // namespace drover::bench
