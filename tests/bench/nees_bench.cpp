@@ -57,7 +57,7 @@ FieldPlan plan_of(const Drive& drive, const engine::EstimateConfig& believed, bo
   std::mt19937_64 random(seed);
   plan.heading_off_deg = believed.heading_mount_sigma_deg * normal(random);
   plan.tyres = 1 + believed.wheel_scale_sigma * normal(random);
-  plan.late_s = believed.gnss_late_sigma_s * normal(random);
+  plan.late_s = believed.gnss_late_sigma_s * std::abs(normal(random));  // never early
   return plan;
 }
 
@@ -102,6 +102,9 @@ Driven drive_all(const Drive& drive, bool gst, std::uint64_t first, int seeds) {
         });
     all.outside_s += j.outside_s;
     all.reached += j.success ? 1 : 0;
+    if (!j.success)
+      std::fprintf(stderr, "%s, seed %llu: %s\n", drive.name, static_cast<unsigned long long>(seed),
+                   j.words.c_str());
   }
   return all;
 }
