@@ -83,6 +83,20 @@ struct FieldPlan {
     return float_s.holds(since_s) || any(Trouble::Kind::floats, since_s);
   }
 
+  /// Wheels slip, or slipped since the last fix that had settled: nobody could see it.
+  bool slips_unseen(double since_s) const {
+    constexpr double kSettled_s = 3.3;
+    constexpr double kEach_s = 0.1;
+    double fixed_s = 0;
+    double at_s = since_s;
+    for (; at_s > 0 && fixed_s < kSettled_s; at_s -= kEach_s)
+      fixed_s = is_out(at_s) || floats(at_s) ? 0 : fixed_s + kEach_s;
+    if (since_s - at_s < kSettled_s + 2 * kEach_s) return false;  // there was one all the time
+    for (at_s += kSettled_s; at_s <= since_s; at_s += kEach_s)
+      if (slip_at(at_s) > 0) return true;
+    return false;
+  }
+
  private:
   bool any(Trouble::Kind kind, double since_s) const {
     return std::any_of(more.begin(), more.end(),

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "bench/field_plan.h"
 #include "drover/angle.h"
 #include "drover/snapshot.h"
 #include "engine/config.h"
@@ -39,15 +41,21 @@ struct Beyond {
 
 class StopWatch final {
  public:
-  explicit StopWatch(const engine::EstimateConfig& config)
-      : most_m_(config.bound_run_m), most_rad_(to_rad(config.bound_yaw_deg)) {}
+  StopWatch(const engine::EstimateConfig& config, FieldPlan plan)
+      : most_m_(config.bound_run_m),
+        most_rad_(to_rad(config.bound_yaw_deg)),
+        plan_(std::move(plan)) {}
 
   /// Each tick of a task.
   void look(const Snapshot& seen, const Pose& truth, double since_s) {
     const double tick_s = since_s - last_s_;
     last_s_ = since_s;
     const Stop now = measured(seen, truth, since_s);
-    if (std::abs(truth.vx_mps) > 0.02) compare(now.error_m, seen.nav.error_bound_m, since_s);
+    const bool moves = std::abs(truth.vx_mps) > 0.02;
+    if (moves && now.error_m > seen.nav.error_bound_m) {
+      remember(now.error_m, seen.nav.error_bound_m, since_s);
+      if (plan_.slips_unseen(since_s)) unseen_s_ += tick_s;
+    }
     if (seen.nav.status == NavStatus::error && !ended_) stops_.push_back(now);
     ended_ = seen.nav.status == NavStatus::error;
     if (ended_) stops_.back().is_end = true;
@@ -60,12 +68,13 @@ class StopWatch final {
 
   const std::vector<Stop>& stops() const { return stops_; }
   const std::vector<Beyond>& beyond() const { return beyond_; }
+  /// Moved beyond the bound after a slip that nobody could see.
+  double unseen_s() const { return unseen_s_; }
   /// Paused while there was no need.
   double needless_s() const { return needless_s_; }
 
  private:
-  void compare(double error_m, double bound_m, double since_s) {
-    if (error_m <= bound_m) return;
+  void remember(double error_m, double bound_m, double since_s) {
     constexpr double kOther_s = 1;  // a shorter gap parts nothing
     if (beyond_.empty() || since_s - beyond_.back().to_s > kOther_s)
       beyond_.push_back({since_s, since_s, 0, 0});
@@ -94,10 +103,12 @@ class StopWatch final {
 
   double most_m_;
   double most_rad_;
+  FieldPlan plan_;
   double last_s_ = 0;
   bool paused_ = false;
   bool ended_ = false;
   double needless_s_ = 0;
+  double unseen_s_ = 0;
   std::vector<Stop> stops_;
   std::vector<Beyond> beyond_;
 };
