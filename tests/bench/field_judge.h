@@ -13,6 +13,8 @@
 
 namespace drover::bench {
 
+inline constexpr double kWide_m = 0.10;
+
 struct Judgement {
   bool success = false;
   bool ended = false;
@@ -26,7 +28,9 @@ struct Judgement {
   double paused_s = 0;
   double outside_s = 0;  ///< moved while the true error was beyond the published bound
   double worst_outside_m = 0;
-  double beyond_s = 0;          ///< moved beyond the corridor
+  double beyond_s = 0;  ///< moved beyond the corridor
+  double wide_s = 0;    ///< moved beyond kWide_m beside the track
+  double moving_s = 0;
   double inside_two_sigma = 0;  ///< share of time while moving
   double inside_three_sigma = 0;
   std::vector<std::string> said;  ///< notices, with the time
@@ -63,6 +67,7 @@ class FieldJudge final {
     if (++moving_ticks_ % kTicksEach != 0) return;
     const double off_m = test::distance_m(path_.points, truth.x_m, truth.y_m);
     if (off_m > corridor_m_) judged_.beyond_s += kTicksEach * tick_s;
+    if (off_m > kWide_m) judged_.wide_s += kTicksEach * tick_s;
     off_.push_back({off_m, std::abs(truth.vx_mps) * kTicksEach * tick_s});
   }
 
@@ -74,6 +79,7 @@ class FieldJudge final {
     }
     const PathPoint& goal = path_.points.back();
     judged_.goal_m = std::hypot(truth.x_m - goal.x_m, truth.y_m - goal.y_m);
+    judged_.moving_s = moving_s_;
     if (moving_s_ > 0) {
       judged_.inside_two_sigma /= moving_s_;
       judged_.inside_three_sigma /= moving_s_;

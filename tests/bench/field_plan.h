@@ -1,7 +1,9 @@
 // What is wrong in a field, and the robot and the track of it.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "drover/angle.h"
 #include "engine/config.h"
@@ -14,6 +16,15 @@ struct Span {
   double from = INFINITY;
   double to = INFINITY;
   bool holds(double at) const { return at >= from && at < to; }
+};
+
+/// One of many, beside the one of each kind that a plan names.
+struct Trouble {
+  enum class Kind { slip, slope, shove, outage, floats, step } kind = Kind::slip;
+  Span span;               ///< s since the start; of a slope m of way
+  double size = 0;         ///< share of the way, degrees, m to the left, m of a step
+  double towards_rad = 0;  ///< of a step
+  bool holds(Kind wanted, double at) const { return kind == wanted && span.holds(at); }
 };
 
 /// All of it nothing at first.
@@ -31,9 +42,10 @@ struct FieldPlan {
   // Receiver.
   double receiver_Hz = 10;
   double sigma_m = 0.01;
-  Span outage_s;  ///< no positions and headings
-  Span float_s;   ///< float solution
-  Span drift_m;   ///< the place wanders to the north while this is driven
+  bool gst = false;  ///< it tells how well it knows
+  Span outage_s;     ///< no positions and headings
+  Span float_s;      ///< float solution
+  Span drift_m;      ///< the place wanders to the north while this is driven
   double drift_mps = 0;
   Span step_s;  ///< it is elsewhere
   double step_m = 0;
@@ -49,6 +61,47 @@ struct FieldPlan {
   // Inertial sensor.
   bool imu = true;
   double imu_roll_deg = 0;  ///< mounted so, and not told
+  std::vector<Trouble> more;
+
+  /// Share of the way, the worst of what holds.
+  double slip_at(double since_s) const {
+    double share = slip_s.holds(since_s) ? slip_share : 0;
+    for (const Trouble& t : more)
+      if (t.holds(Trouble::Kind::slip, since_s)) share = std::max(share, t.size);
+    return share;
+  }
+  double slope_deg_at(double moved_m) const {
+    double deg = slope_m.holds(moved_m) ? slope_deg : 0;
+    for (const Trouble& t : more)
+      if (t.holds(Trouble::Kind::slope, moved_m)) deg = t.size;
+    return deg;
+  }
+  bool is_out(double since_s) const {
+    return outage_s.holds(since_s) || any(Trouble::Kind::outage, since_s);
+  }
+  bool floats(double since_s) const {
+    return float_s.holds(since_s) || any(Trouble::Kind::floats, since_s);
+  }
+
+  /// Wheels slip, or slipped since the last fix that had settled: nobody could see it.
+  bool slips_unseen(double since_s) const {
+    constexpr double kSettled_s = 3.3;
+    constexpr double kEach_s = 0.1;
+    double fixed_s = 0;
+    double at_s = since_s;
+    for (; at_s > 0 && fixed_s < kSettled_s; at_s -= kEach_s)
+      fixed_s = is_out(at_s) || floats(at_s) ? 0 : fixed_s + kEach_s;
+    if (since_s - at_s < kSettled_s + 2 * kEach_s) return false;  // there was one all the time
+    for (at_s += kSettled_s; at_s <= since_s; at_s += kEach_s)
+      if (slip_at(at_s) > 0) return true;
+    return false;
+  }
+
+ private:
+  bool any(Trouble::Kind kind, double since_s) const {
+    return std::any_of(more.begin(), more.end(),
+                       [&](const Trouble& t) { return t.holds(kind, since_s); });
+  }
 };
 
 inline engine::EngineConfig field_config() {

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <random>
@@ -34,8 +35,11 @@ class FieldWorld final {
     for (double& d : drift_) d = normal();
   }
 
+  /// Each tick of a task: what is published, the truth, s since the start.
+  using Watch = std::function<void(const Snapshot&, const Pose&, double)>;
+
   /// Stands for a while, starts, and drives until the task ends or `limit_s` is over.
-  Judgement drive(const Path& path, double limit_s) {
+  Judgement drive(const Path& path, double limit_s, const Watch& watch = {}) {
     judge_.emplace(path, config_.navigate.corridor_m);
     tick();
     command(SetOrigin{kFieldOrigin});
@@ -46,6 +50,7 @@ class FieldWorld final {
     while (!judge_->ended() && since_s() < limit_s) {
       tick();
       judge_->look(engine_->snapshot(), truth(), kTick_s);
+      if (watch) watch(engine_->snapshot(), truth(), since_s());
     }
     return judge_->conclude(engine_->snapshot(), truth(), since_s());
   }
@@ -107,8 +112,7 @@ class FieldWorld final {
     left_mps_ += blend * (rim[0] - left_mps_);
     right_mps_ += blend * (rim[1] - right_mps_);
     const double rolled_mps = 0.5 * (left_mps_ + right_mps_) * plan_.tyres;
-    const bool slips = plan_.slip_s.holds(since_s());
-    const double vx = rolled_mps * (slips ? 1 - plan_.slip_share : 1);
+    const double vx = rolled_mps * (1 - plan_.slip_at(since_s()));
     const double way_m = std::abs(vx) * kTick_s;
     const double turn =
         (right_mps_ - left_mps_) * plan_.tyres / config_.base.track_m / kYawSlip * kTick_s;
@@ -131,15 +135,22 @@ class FieldWorld final {
     last_shove_m_ = shoved;
     moved_m_ += way_m;
   }
-  /// Left, in this tick: half a cosine in 0.4 s.
+  /// Left, in this tick.
   double shove() const {
+    double left_m = shove(plan_.shove_at_s, plan_.shove_left_m);
+    for (const Trouble& t : plan_.more)
+      if (t.kind == Trouble::Kind::shove) left_m += shove(t.span.from, t.size);
+    return left_m;
+  }
+  /// Half a cosine in 0.4 s.
+  double shove(double at_s, double left_m) const {
     constexpr double kFor_s = 0.4;
-    const double t = (since_s() - plan_.shove_at_s) / kFor_s;
+    const double t = (since_s() - at_s) / kFor_s;
     if (!(t >= 0 && t < 1)) return 0;
-    return plan_.shove_left_m * kPi / 2 * std::sin(kPi * t) / kFor_s * kTick_s;
+    return left_m * kPi / 2 * std::sin(kPi * t) / kFor_s * kTick_s;
   }
   void lie_on_slope() {
-    const double wanted = plan_.slope_m.holds(moved_m_) ? to_rad(plan_.slope_deg) : 0;
+    const double wanted = to_rad(plan_.slope_deg_at(moved_m_));
     slope_rad_ += std::clamp(wanted - slope_rad_, -0.0005, 0.0005);  // no edge is sharp
     const double up = yaw_rad_ - kDownhill_rad - kPi;
     pitch_rad_ = -std::atan(std::tan(slope_rad_) * std::cos(up));
@@ -182,7 +193,7 @@ class FieldWorld final {
     const double dt_s = 1 / plan_.receiver_Hz;
     const double keep = std::exp(-dt_s / 30.0);
     for (double& d : drift_) d = keep * d + std::sqrt(1 - keep * keep) * normal();
-    const bool floats = plan_.float_s.holds(since_s());
+    const bool floats = plan_.floats(since_s());
     const double sigma = floats ? 0.3 : plan_.sigma_m;
     if (plan_.drift_m.holds(moved_m_)) wandered_m_ += plan_.drift_mps * dt_s;
     const double step = plan_.step_s.holds(since_s()) ? plan_.step_m : 0;
@@ -197,6 +208,11 @@ class FieldWorld final {
     std::array<double, 2> at{x_m_ + ahead * c - left * s, y_m_ + ahead * s + left * c};
     at[0] += step * std::cos(plan_.step_rad);
     at[1] += wandered_m_ + step * std::sin(plan_.step_rad);
+    for (const Trouble& t : plan_.more) {
+      if (!t.holds(Trouble::Kind::step, since_s())) continue;
+      at[0] += t.size * std::cos(t.towards_rad);
+      at[1] += t.size * std::sin(t.towards_rad);
+    }
     for (std::size_t i = 0; i < 2; ++i) {
       at[i] += sigma * (std::sqrt(0.9) * drift_[i] + std::sqrt(0.1) * normal());
     }
@@ -212,6 +228,7 @@ class FieldWorld final {
     fix.position.satellites = 20;
     fix.position.hdop = 0.7;
     fix.position.correction_age_s = 1;
+    if (plan_.gst) fix.position.sigma_east_m = fix.position.sigma_north_m = sigma;
     headings_.push_back(yaw_rad_);
     const auto old =
         static_cast<std::size_t>(std::clamp(std::lround(plan_.heading_epoch_s * plan_.receiver_Hz),
@@ -223,7 +240,7 @@ class FieldWorld final {
     fix.heading.heading_deg =
         wrap_deg(compass_deg_from_yaw_rad(yaw + to_rad(0.3) * normal()) + off_deg);
     fix.has_heading = !plan_.no_heading_s.holds(since_s());
-    if (!plan_.outage_s.holds(since_s())) fixes_.push_back(fix);
+    if (!plan_.is_out(since_s())) fixes_.push_back(fix);
   }
   /// Where a point of the map is on the earth: the antenna of a pose without a lever arm.
   GeodeticPoint place_of(double x_m, double y_m) const {
