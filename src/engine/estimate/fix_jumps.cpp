@@ -12,6 +12,8 @@ constexpr double kStepGate = 4.5;  // sigmas
 constexpr double kStep_m = 0.045;
 constexpr double kStepSlip = 0.4;  // of the way between them, along it
 constexpr double kStepSlipWay_m = 0.25;
+constexpr Duration kShownAfterShove = std::chrono::milliseconds(300);
+constexpr double kShoveGate = 3.0;  // sigmas
 constexpr double kReckoned = 0.02;  // of a longer way, by wheels and gyro
 constexpr double kReckonedWell_m = 0.1;
 // So many times fix_settle_s after it was found again a fix is what it will be; a place that is
@@ -27,6 +29,15 @@ bool settles(const State& state, const EstimateConfig& config) {
   return state.standing_since == kNever && !state.way_unknown && gnss.improved != kNever &&
          gnss.believed != kNever &&
          state.time - gnss.improved < from_s(kSettles * config.fix_settle_s);
+}
+
+/// What the sensor's way of a shove may be wrong by. Positions that are told late still show it for
+/// a moment after it is over.
+double shoved_m(const State& state) {
+  const Shove& shove = state.shove;
+  const bool of_late =
+      shove.ended != kNever && state.gnss.believed - shove.ended <= kShownAfterShove;
+  return of_late ? kShoveGate * std::sqrt(shove.variance_m2) : 0.0;
 }
 
 /// Whether a position jumped aside of the last one, or along the way by more than wheels slip. One
@@ -45,7 +56,8 @@ bool steps(const State& state, double dx_m, double dy_m, double variance_m2, dou
   const double least_m = std::max(kStepGate * std::sqrt(2 * variance_m2), kStep_m) +
                          kReckoned * std::max(way_m - kReckonedWell_m, 0.0);
   const double slip_m = kStepSlip * std::min(way_m, kStepSlipWay_m);
-  return std::hypot((x_m * c + y_m * s) / (least_m + slip_m), (y_m * c - x_m * s) / least_m) > 1;
+  const double aside_m = std::hypot(least_m, shoved_m(state));
+  return std::hypot((x_m * c + y_m * s) / (least_m + slip_m), (y_m * c - x_m * s) / aside_m) > 1;
 }
 
 }  // namespace

@@ -197,6 +197,30 @@ void rest_on(State& state, const AntennaPosition& position, const EstimateConfig
   way.north_m *= left;
 }
 
+/// Of what lies between a position and what is expected of it, m2.
+struct Expected {
+  double xx = 0;
+  double xy = 0;
+  double yy = 0;
+};
+
+/// The gate. How the antenna line is mounted is no state: what that may bend the way since the last
+/// fix comes on top.
+bool passes(const State& state, Expected expected, double dx_m, double dy_m,
+            const EstimateConfig& config) {
+  const double mount_rad = state.mount_sigma_rad(config);
+  const double bent_x_m = -mount_rad * state.reckoned.north_m;
+  const double bent_y_m = mount_rad * state.reckoned.east_m;
+  expected.xx += square(bent_x_m);
+  expected.xy += bent_x_m * bent_y_m;
+  expected.yy += square(bent_y_m);
+  const double determinant = expected.xx * expected.yy - square(expected.xy);
+  const double distance2 =
+      (expected.yy * dx_m * dx_m - 2 * expected.xy * dx_m * dy_m + expected.xx * dy_m * dy_m) /
+      determinant;
+  return distance2 <= square(config.gate_sigma);
+}
+
 }  // namespace
 
 void apply(State& state, const AntennaPosition& measured, double speed_mps,
@@ -243,9 +267,7 @@ void apply(State& state, const AntennaPosition& measured, double speed_mps,
   const double sxx = belief.project(row_x, row_x) + variance_x;
   const double syy = belief.project(row_y, row_y) + variance_y;
   const double sxy = belief.project(row_x, row_y);
-  const double determinant = sxx * syy - sxy * sxy;
-  const double distance2 = (syy * dx * dx - 2 * sxy * dx * dy + sxx * dy * dy) / determinant;
-  const bool inside = distance2 <= square(config.gate_sigma);
+  const bool inside = passes(state, {.xx = sxx, .xy = sxy, .yy = syy}, dx, dy, config);
   if (!fixed) {
     state.gnss.dispute.lose_fix();
   } else {

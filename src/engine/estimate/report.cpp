@@ -61,7 +61,8 @@ void Estimator::report(const State& state, Time now) {
   const double two_sigma_m = std::hypot(doubt.two_sigma_m(belief), 2 * late_m, 2 * untold_m);
   const double two_sigma_rad = doubt.two_sigma_rad(belief);
   e.pose.position_sigma_m = state.has_position ? two_sigma_m / 2 : kAbsent;
-  e.pose.yaw_sigma_rad = state.has_heading ? two_sigma_rad / 2 : kAbsent;
+  const double told_rad = std::hypot(two_sigma_rad / 2, state.mount_left_rad());
+  e.pose.yaw_sigma_rad = state.has_heading ? told_rad : kAbsent;
   e.predicted_error_m = state.has_position ? two_sigma_m : kAbsent;
   e.error_bound_m = state.has_position ? kSure * two_sigma_m : kAbsent;
   e.yaw_error_rad = state.has_heading ? two_sigma_rad : kAbsent;

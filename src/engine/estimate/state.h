@@ -86,6 +86,10 @@ struct State {
   double mount_sigma_rad(const EstimateConfig& config) const {
     return heading.last == kNever ? 0.0 : mounting.sigma_rad(config);
   }
+  /// What was learned of it and is not made up for yet.
+  double mount_left_rad() const {
+    return heading.last == kNever ? 0.0 : mounting.mean[0] - mounting.applied_rad;
+  }
   std::uint32_t refused = 0;  ///< by the gates, since the start
   std::uint32_t broken = 0;   ///< times the filter lost its numbers and was started again
 };

@@ -1,0 +1,63 @@
+// What ordinarily goes wrong in a field, one thing with another: tasks bear it, and what is
+// published holds.
+#include <gtest/gtest.h>
+
+#include "bench/field_world.h"
+
+namespace drover {
+namespace {
+
+using bench::field_config;
+using bench::field_rows;
+using bench::FieldPlan;
+using bench::FieldWorld;
+using bench::Judgement;
+
+/// An outage of 20 s with an antenna line 2 degrees off, which nobody knows yet.
+TEST(AnAntennaLineThatIsMountedAskew, EndsNoTaskWhenTheReceiverIsBackAfterAnOutage) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    FieldPlan plan;
+    plan.heading_off_deg = 2;
+    plan.outage_s = {12, 32};
+    engine::EngineConfig config = field_config();
+    config.estimate.bound_run_m = 0.6;  // it drives on
+    FieldWorld world(config, plan, seed);
+    const Judgement end = world.drive(field_rows(1, 40), 300);
+    EXPECT_TRUE(end.success) << seed << ": " << end.words;
+    EXPECT_EQ(end.outside_s, 0) << seed;
+  }
+}
+
+/// A shove, and positions 50 ms late, which still show some of it when it is over.
+TEST(AShove, EndsNoTaskWherePositionsAreLate) {
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    FieldPlan plan;
+    plan.gst = true;
+    plan.late_s = 0.05;  // gnss_late_sigma_s is 0.1
+    plan.shove_at_s = 12 + 0.3 * static_cast<double>(seed);
+    plan.shove_left_m = seed % 2 == 0 ? -0.4 : 0.4;
+    FieldWorld world(field_config(), plan, seed);
+    const Judgement end = world.drive(field_rows(1, 40), 300);
+    EXPECT_TRUE(end.success) << seed << ": " << end.words;
+    EXPECT_EQ(end.outside_s, 0) << seed;
+  }
+}
+
+/// What is known of the mounting and not made up for yet is still in the heading.
+TEST(APublishedHeading, IsNotSaidToBeKnownBeforeTheMountingIsMadeUpFor) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    FieldPlan plan;
+    plan.heading_off_deg = 2;
+    FieldWorld world(field_config(), plan, seed);
+    double worst = 0;
+    const auto watch = [&](const Snapshot& seen, const Pose& truth, double) {
+      const double error_rad = std::abs(wrap_rad(seen.pose.yaw_rad - truth.yaw_rad));
+      worst = std::max(worst, error_rad / seen.pose.yaw_sigma_rad);
+    };
+    (void)world.drive(field_rows(2, 20), 300, watch);
+    EXPECT_LE(worst, 3) << seed;
+  }
+}
+
+}  // namespace
+}  // namespace drover
