@@ -11,6 +11,7 @@ namespace {
 constexpr double kStep_s = 0.1;
 constexpr double kMostNodes = 6000;
 constexpr double kMostLate_s = 0.6;
+constexpr double kMean_s = 0.1;         // of a speed or a rate
 constexpr double kCourseSpan_s = 0.4;   // of the positions that show a course
 constexpr double kCourseWay_m = 0.12;   // at least
 constexpr double kFollow = 0.05;        // share of what a first heading is put right by
@@ -137,11 +138,7 @@ double Chain::turned_rad(double time_s) const {
 }
 
 double Chain::turn_radps(double time_s) const {
-  if (track_.has_gyro())
-    return shared_[kGyroScale] * track_.gyro_radps.at(time_s) - shared_[kGyroBias];
-  return shared_[kTurnGain] / width_m_ *
-         (shared_[kRightScale] * track_.right_mps.at(time_s) -
-          shared_[kLeftScale] * track_.left_mps.at(time_s));
+  return (turned_rad(time_s + kMean_s / 2) - turned_rad(time_s - kMean_s / 2)) / kMean_s;
 }
 
 double Chain::rolled_m(double from_s, double to_s) const {
@@ -150,8 +147,7 @@ double Chain::rolled_m(double from_s, double to_s) const {
 }
 
 double Chain::speed_mps(double time_s) const {
-  return 0.5 * (shared_[kLeftScale] * track_.left_mps.at(time_s) +
-                shared_[kRightScale] * track_.right_mps.at(time_s));
+  return rolled_m(time_s - kMean_s / 2, time_s + kMean_s / 2) / kMean_s;
 }
 
 }  // namespace drover::calibrate

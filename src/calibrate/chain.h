@@ -61,7 +61,7 @@ class Chain final {
   Prior prior() const;
   void step(const SharedValues& shared, const std::vector<NodeValues>& nodes);
 
-  /// By the present numbers: turn up to `time_s` by gyro or wheels, and speed.
+  /// By the present numbers: turn up to `time_s` by gyro or wheels, and speeds about it.
   double turned_rad(double time_s) const;
   double turn_radps(double time_s) const;
   double rolled_m(double from_s, double to_s) const;

@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kHuber = 3;          // sigmas: from here on a residual counts less
 constexpr double kOutlier = 6;        // and from here on ever less
-constexpr int kNoiseRounds = 8;
+constexpr int kNoiseRounds = 12;
 constexpr int kMostSteps = 25;
 constexpr double kConverged = 0.02;   // of a sigma
 constexpr double kMostStep_s = 0.15;  // of a lateness, at once
@@ -76,6 +76,8 @@ class Fitting final {
     double share = 1;
     for (const std::size_t late : {kPlaceLate, kHeadingLate})
       share = std::min(share, kMostStep_s / std::max(std::abs(shared[late]), kMostStep_s));
+    if (turns_back(shared)) share /= 2;
+    before_ = shared;
     moved_ = 0;
     for (std::size_t i = 0; i < kShared; ++i) {
       moved_ = std::max(moved_, std::abs(shared[i]) / std::sqrt(elimination_.covariance()[i][i]));
@@ -88,6 +90,13 @@ class Fitting final {
     chain_.step(shared, nodes);
     return std::isfinite(moved_);
   }
+  /// Whether the step takes back what the last one did: both went too far.
+  bool turns_back(const SharedValues& now) const {
+    double product = 0;
+    for (std::size_t i = 0; i < kShared; ++i)
+      product += now[i] * before_[i] / elimination_.covariance()[i][i];
+    return product < 0;
+  }
   bool settle() {
     for (int i = 0; i < kMostSteps; ++i) {
       if (!step()) return false;
@@ -99,6 +108,9 @@ class Fitting final {
 
   /// Of each kind of noise: what the residuals show, over what they can show.
   void look_at_noise() {
+    // What is left after the step, or one noise takes over from another in turn.
+    chain_.rows(after_);
+    for (std::size_t i = 0; i < rows_.size(); ++i) rows_[i].residual = after_[i].residual;
     NoiseScales seen{};
     NoiseScales freedom{};
     std::vector<std::size_t> first(chain_.size() + 1, rows_.size());
@@ -159,7 +171,9 @@ class Fitting final {
   Chain& chain_;
   Elimination elimination_;
   std::vector<Row> rows_;
+  std::vector<Row> after_;
   NoiseScales scales_{};
+  SharedValues before_{};  ///< the last step
   bool robust_ = false;
   double moved_ = 0;
 };

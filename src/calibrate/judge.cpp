@@ -109,7 +109,7 @@ class Judge final {
       refuse(Quantity::yaw_slip_factor, one_way(e_.facts));
     } else {
       tell(Quantity::yaw_slip_factor, slip / gain, slip / (gain * gain) * sigma(kTurnGain),
-           {0.003 * slip / gain, 0.06 * slip / gain}, kCircles);
+           {0.01 * slip / gain, 0.06 * slip / gain}, kCircles);
     }
     configured(slip);
   }
@@ -138,7 +138,7 @@ class Judge final {
       double offset_deg = to_deg(wrap_rad(-e_.fit.value[kLine]));
       const double turns = std::round((e_.configured.heading_baseline_offset_deg - offset_deg) / 360);
       offset_deg += 360 * turns;  // spelled as the configuration does
-      tell(Quantity::heading_offset_deg, offset_deg, to_deg(sigma(kLine)), {0.03, 1.0},
+      tell(Quantity::heading_offset_deg, offset_deg, to_deg(sigma(kLine)), {0.2, 1.0},
            kStraightOn);
     }
     configured(e_.configured.heading_baseline_offset_deg);

@@ -14,7 +14,6 @@ constexpr double kMostLag_s = 0.8;
 constexpr double kLeastChanges_mps = 1.0;  // two starts and stops at 0.25 m/s
 constexpr double kWobble_mps = 0.05;
 constexpr double kPiece_s = 6;
-constexpr double kMean_s = 0.1;  // of speeds that are compared
 constexpr double kMoves_mps = 0.15;
 constexpr double kAlike = 0.5;     // correlation of errors from which on they are the same
 constexpr double kUnlike = 0.3;    // and up to which they are not
@@ -121,12 +120,9 @@ class DriveLag final {
 
 /// How fast the antenna was about `time_s`, by wheels and turn.
 double antenna_mps(const Chain& chain, double time_s) {
-  const double from_s = time_s - kMean_s / 2;
-  const double to_s = time_s + kMean_s / 2;
-  const double rate = (chain.turned_rad(to_s) - chain.turned_rad(from_s)) / kMean_s;
-  const double speed = chain.rolled_m(from_s, to_s) / kMean_s;
+  const double rate = chain.turn_radps(time_s);
   const auto& shared = chain.shared();
-  return std::hypot(speed - rate * shared[kArmY], rate * shared[kArmX]);
+  return std::hypot(chain.speed_mps(time_s) - rate * shared[kArmY], rate * shared[kArmX]);
 }
 
 /// Whether wheels tell of the time about it.

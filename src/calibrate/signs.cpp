@@ -18,7 +18,10 @@ constexpr double kWindow_s = 1.0;
 constexpr double kStep_s = 0.5;
 constexpr double kLeastWay_m = 0.15;   // of a window, to have a course
 constexpr double kMostTurn_rad = 1.2;  // of a window: more may be a turn back
-constexpr double kSure = 4;            // sigmas
+constexpr double kStraight_rad = 0.04;
+constexpr double kLeastStraight_m = 2;
+constexpr double kSameWay = 0.7;  // of 1, or of minus 1
+constexpr double kSure = 4;       // sigmas
 
 /// What happened within a window.
 struct Window {
@@ -29,10 +32,10 @@ struct Window {
   Complex way;          ///< of the antenna: by headings as seen from its line, else east and north
 };
 
-/// Least squares of `y` on two or three real columns, with a little stiffness that shares what
+/// Least squares of `y` on two real columns, with a little stiffness that shares what
 /// cannot be told apart; weights go down for what does not fit.
-template <std::size_t kColumns>
 struct Regression {
+  static constexpr std::size_t kColumns = 2;
   std::array<Complex, kColumns> value{};
   std::array<double, kColumns> sigma{};
 
@@ -177,26 +180,38 @@ class SignSearch final {
     gyro_.fit(
         windows_, [](const Window& w) { return std::array{w.gyro_rad, kWindow_s}; },
         [](const Window& w) { return Complex(w.turn_rad); });
-    if (has_headings_)
-      way_.fit(
-          windows_, [](const Window& w) { return std::array{w.left_m, w.right_m, w.turn_rad}; },
-          [](const Window& w) { return w.way; });
+    look_at_straights();
+  }
+  /// Where it did not turn both sides rolled alike, and the antenna went as the base did.
+  void look_at_straights() {
+    std::array<double, 2> squares{1e-9, 1e-9};
+    double product = 0;
+    for (const Window& w : windows_) {
+      if (std::abs(w.turn_rad) > kStraight_rad) continue;
+      const std::array rolled{w.left_m, w.right_m};
+      for (std::size_t i = 0; i < 2; ++i) {
+        way_[i] += rolled[i] * w.way;
+        squares[i] += rolled[i] * rolled[i];
+      }
+      product += w.left_m * w.right_m;
+      straight_m_ += kStep_s / kWindow_s * std::abs(w.way);
+    }
+    for (std::size_t i = 0; i < 2; ++i) way_[i] /= squares[i];
+    alike_ = product / std::sqrt(squares[0] * squares[1]);
   }
   bool sides_are_clear() const {
     for (std::size_t i = 0; i < 2; ++i) {
-      const bool turns = std::abs(turn_.value[i].real()) > kSure * turn_.sigma[i];
-      const bool goes = !has_headings_ || std::abs(way_.value[i]) > kSure * way_.sigma[i];
-      if (!turns || !goes) return false;
+      if (std::abs(turn_.value[i]) < kSure * turn_.sigma[i]) return false;
+      if (has_headings_ && std::abs(way_[i]) < kSameWay) return false;
     }
-    return windows_.size() > 10;
+    return windows_.size() > 10 && straight_m_ > kLeastStraight_m && std::abs(alike_) > kSameWay;
   }
 
   void judge_with_headings(Signs& signs, FirstGuess& guess) const {
-    const double along = (way_.value[0] * std::conj(way_.value[1])).real();
     // If the left column's sign is right the antenna line points this way, else the other way.
-    const double line_rad = -std::arg(way_.value[0]);
+    const double line_rad = -std::arg(way_[0]);
     bool reversed = std::abs(wrap_rad(line_rad - offset_rad_)) > kPi / 2;
-    const bool both = along > 0;
+    const bool both = alike_ > 0;
     const bool left_is_left = (turn_.value[0].real() < 0) != reversed;
     // A whole side that is swapped and reversed is likelier an antenna line the other way round.
     if (reversed && both && !left_is_left) {
@@ -221,15 +236,9 @@ class SignSearch final {
 
   /// Without headings ahead is where it went when the wheels said so.
   void judge_by_course(Signs& signs) const {
-    double alike = 0;
-    double unlike = 0;
-    for (const Window& w : windows_) {
-      alike += std::pow(std::abs(w.way) - std::abs(w.left_m + w.right_m) / 2, 2);
-      unlike += std::pow(std::abs(w.way) - std::abs(w.left_m - w.right_m) / 2, 2);
-    }
     const double left = turn_.value[0].real();
     const double right = turn_.value[1].real();
-    if (unlike < alike) {
+    if (alike_ < 0) {
       if (left * right < 0) {
         signs.contradict = true;
         signs.refused = "the wheels' signs contradict the course: look at the columns";
@@ -262,9 +271,11 @@ class SignSearch final {
   double width_m_;
   double offset_rad_;
   std::vector<Window> windows_;
-  Regression<2> turn_;
-  Regression<2> gyro_;
-  Regression<3> way_;
+  Regression turn_;
+  Regression gyro_;
+  std::array<Complex, 2> way_{};  ///< of the antenna over that of each side, while straight
+  double straight_m_ = 0;
+  double alike_ = 0;  ///< 1: both sides told the same while straight, -1: the opposite
 };
 
 }  // namespace

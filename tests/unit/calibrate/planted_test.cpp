@@ -80,29 +80,32 @@ struct Score {
   double square = 0;  ///< of errors over half an interval
 };
 
-void play(const Noisy& noisy, bool gyro, bool headings, int sets, std::uint64_t first_seed,
-          std::map<Quantity, Score>& scores, int* sources_right) {
+struct Play {
+  Noisy noisy;
+  bool gyro = true;
+  bool headings = true;
+  int sets = kSets;
+  std::uint64_t first_seed = 1;
+};
+
+void play(const Play& how, std::map<Quantity, Score>& scores, int* sources_right) {
   Configured configured;
   configured.antenna_x_m = 0.3;
   configured.heading_baseline_offset_deg = 90;
-  for (int i = 0; i < sets; ++i) {
-    const std::uint64_t seed = first_seed + static_cast<std::uint64_t>(i);
+  for (int i = 0; i < how.sets; ++i) {
+    const std::uint64_t seed = how.first_seed + static_cast<std::uint64_t>(i);
     const Planted p = planted(seed, configured);
-    Drive drive = SimulatedDrive(p, configured, seed, noisy).drive(good_legs());
-    if (!gyro) drive.gyro_radps.clear();
-    if (!headings) drive.headings_rad.clear();
+    Drive drive = SimulatedDrive(p, configured, seed, how.noisy).drive(good_legs());
+    if (!how.gyro) drive.gyro_radps.clear();
+    if (!how.headings) drive.headings_rad.clear();
     const Calibration result = calibrate(drive, configured);
     ASSERT_EQ(result.refused, "") << "seed " << seed;
     EXPECT_FALSE(result.signs.wrong()) << "seed " << seed;
     for (const auto& [what, truth] : truths(p, configured)) {
       const Found& found = result.of(what);
-      if (!found.refused.empty()) {
-        if (std::getenv("SHOW")) std::printf("seed %lu %s: %s\n", seed, kNames[(int)what], found.refused.c_str());
-        continue;
-      }
+      if (!found.refused.empty()) continue;  // which is counted as not within
       Score& score = scores[what];
       ++score.sets;
-      if (std::getenv("SHOW")) std::printf("   %s off %.5f of %.5f\n", kNames[(int)what], found.value - truth.value, found.interval);
       const double off = std::abs(found.value - truth.value);
       score.within += off <= found.interval ? 1 : 0;
       score.widest = std::max(score.widest, found.interval / truth.widest);
@@ -110,7 +113,6 @@ void play(const Noisy& noisy, bool gyro, bool headings, int sets, std::uint64_t 
     }
     const auto right = p.speed_by_positions ? SpeedSource::positions : SpeedSource::own;
     if (sources_right != nullptr) *sources_right += result.speed_source == right ? 1 : 0;
-    if (std::getenv("SHOW")) std::printf("seed %lu white %.4f slow %.4f head %.4f outl %zu src %d %s\n", seed, result.facts.place_white_m, result.facts.place_slow_m, result.facts.heading_white_rad, result.facts.outliers, (int)result.speed_source, result.speed_source_refused.c_str());
   }
 }
 
@@ -123,17 +125,42 @@ void print(const char* name, const std::map<Quantity, Score>& scores) {
                 std::sqrt(score.square / std::max(1, score.sets)));
 }
 
+void expect_found(const std::map<Quantity, Score>& scores, int least) {
+  for (const auto& [what, score] : scores) {
+    SCOPED_TRACE(kNames[static_cast<std::size_t>(what)]);
+    // Half of the receivers make their speed of their positions: its lateness is not planted then.
+    EXPECT_GE(score.within, what == Quantity::speed_late_s ? least / 2 : least);
+    EXPECT_LT(score.widest, 1);
+  }
+}
+
 TEST(PlantedErrors, AreFoundWithinTheirIntervals) {
   std::map<Quantity, Score> scores;
   int sources_right = 0;
-  play({}, true, true, kSets, 1, scores, &sources_right);
+  play({}, scores, &sources_right);
   print("seeds 1 to 20", scores);
-  for (const auto& [what, score] : scores) {
-    SCOPED_TRACE(kNames[static_cast<std::size_t>(what)]);
-    EXPECT_GE(score.within, what == Quantity::speed_late_s ? 9 : kLeastWithin);
-    EXPECT_LT(score.widest, 1);
-  }
+  expect_found(scores, kLeastWithin);
   EXPECT_GE(sources_right, kLeastWithin);
+}
+
+TEST(PlantedErrors, AreFoundWithAReceiverOfTwoCentimetres) {
+  Play how{{}, true, true, 10, 201};
+  how.noisy.place_slow_m = 0.02;
+  how.noisy.place_white_m = 0.008;
+  how.noisy.heading_slow_deg = 0.2;
+  std::map<Quantity, Score> scores;
+  play(how, scores, nullptr);
+  print("seeds 201 to 210, receiver of 2 cm", scores);
+  expect_found(scores, 9);
+}
+
+TEST(PlantedErrors, AreFoundWithoutAGyroAndWithOneAntenna) {
+  std::map<Quantity, Score> scores;
+  play({{}, false, false, 10, 301}, scores, nullptr);
+  scores.erase(Quantity::heading_offset_deg);
+  scores.erase(Quantity::heading_late_s);
+  print("seeds 301 to 310, without gyro and headings", scores);
+  expect_found(scores, 9);
 }
 
 }  // namespace
