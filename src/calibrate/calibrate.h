@@ -59,13 +59,13 @@ struct DriveFacts {
   double duration_s = 0;
   double way_m = 0;
   double straight_m = 0;
-  double left_rad = 0;   ///< turned to the left, in all
-  double right_rad = 0;  ///< likewise to the right
+  double left_rad = 0;           ///< turned to the left, in all
+  double right_rad = 0;          ///< likewise to the right
   double speed_changes_mps = 0;  ///< sum of all changes of speed
   std::size_t places = 0;
-  std::size_t outliers = 0;       ///< places and headings that do not fit
-  double place_white_m = 0;       ///< one sigma of what remains, from place to place
-  double place_slow_m = 0;        ///< one sigma of the error that stays for half a minute
+  std::size_t outliers = 0;  ///< places and headings that do not fit
+  double place_white_m = 0;  ///< one sigma of what remains, from place to place
+  double place_slow_m = 0;   ///< one sigma of the error that stays for half a minute
   double heading_white_rad = 0;
 };
 

@@ -8,13 +8,13 @@
 namespace drover::calibrate {
 namespace {
 
-constexpr double kStep_s = 0.1;
+constexpr double kNodeStep_s = 0.1;
 constexpr double kMostNodes = 6000;
 constexpr double kMostLate_s = 0.6;
-constexpr double kMean_s = 0.1;         // of a speed or a rate
-constexpr double kCourseSpan_s = 0.4;   // of the positions that show a course
-constexpr double kCourseWay_m = 0.12;   // at least
-constexpr double kFollow = 0.05;        // share of what a first heading is put right by
+constexpr double kMean_s = 0.1;        // of a speed or a rate
+constexpr double kCourseSpan_s = 0.4;  // of the positions that show a course
+constexpr double kCourseWay_m = 0.12;  // at least
+constexpr double kFollow = 0.05;       // share of what a first heading is put right by
 
 /// The row of `rows` that is nearest to each node, no farther than half a step.
 template <class Value>
@@ -40,10 +40,18 @@ Chain::Chain(const Drive& drive, const Configured& configured, const Signs& sign
       has_headings_(drive.headings_rad.size() > 20) {
   begin_s_ = std::max(drive.places.front().time_s, drive.rims.front().time_s);
   const double end_s = std::min(drive.places.back().time_s, drive.rims.back().time_s);
-  step_s_ = std::max(kStep_s, (end_s - begin_s_) / kMostNodes);
+  step_s_ = std::max(kNodeStep_s, (end_s - begin_s_) / kMostNodes);
   nodes_.resize(static_cast<std::size_t>(std::max(0.0, (end_s - begin_s_) / step_s_)) + 1);
-  before_ = {1, 1, guess.turn_gain, 1, 0, configured.antenna_x_m, configured.antenna_y_m,
-             guess.heading_rad, 0, 0};
+  before_ = {1,
+             1,
+             guess.turn_gain,
+             1,
+             0,
+             configured.antenna_x_m,
+             configured.antenna_y_m,
+             guess.heading_rad,
+             0,
+             0};
   shared_ = before_;
   attach(drive);
   guess_values(drive, guess);

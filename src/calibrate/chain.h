@@ -16,15 +16,15 @@ namespace drover::calibrate {
 enum Of : std::size_t { kX, kY, kYaw, kSlowX, kSlowY, kSlowYaw };
 /// Places in SharedValues.
 enum Number : std::size_t {
-  kLeftScale,   ///< true way over that of the left wheels
-  kRightScale,  ///< likewise
-  kTurnGain,    ///< true turn over (right way - left way) / configured track x slip
-  kGyroScale,   ///< true turn over the measured one
-  kGyroBias,    ///< rad/s, to be taken off after the scale
-  kArmX,        ///< m, antenna ahead of base_link
-  kArmY,        ///< m, to its left
-  kLine,        ///< rad, antenna line from ahead, counter-clockwise
-  kPlaceLate,   ///< s
+  kLeftScale,    ///< true way over that of the left wheels
+  kRightScale,   ///< likewise
+  kTurnGain,     ///< true turn over (right way - left way) / configured track x slip
+  kGyroScale,    ///< true turn over the measured one
+  kGyroBias,     ///< rad/s, to be taken off after the scale
+  kArmX,         ///< m, antenna ahead of base_link
+  kArmY,         ///< m, to its left
+  kLine,         ///< rad, antenna line from ahead, counter-clockwise
+  kPlaceLate,    ///< s
   kHeadingLate,  ///< s
 };
 

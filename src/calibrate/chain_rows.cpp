@@ -120,9 +120,9 @@ void Chain::turn_rows(std::size_t k, std::vector<Row>& into) const {
   const double by_wheels = shared_[kTurnGain] / width_m_ * (right - left);
   if (node.rolled) {
     const double way = (std::abs(node.left_m) + std::abs(node.right_m)) / 2;
-    const double sigma = std::sqrt(assumed_.turn_rad * assumed_.turn_rad * std::abs(by_wheels) +
-                                   assumed_.turn_radpm * assumed_.turn_radpm * way +
-                                   kRest_rad * kRest_rad);
+    const double sigma =
+        std::sqrt(assumed_.turn_rad * assumed_.turn_rad * std::abs(by_wheels) +
+                  assumed_.turn_radpm * assumed_.turn_radpm * way + kRest_rad * kRest_rad);
     Row row = row_of(k, Noise::wheel_turn, by_wheels - turn, sigma);
     row.slope[kNumbers + kTurnGain] = -(right - left) / width_m_ / sigma;
     row.slope[kNumbers + kLeftScale] = shared_[kTurnGain] / width_m_ * node.left_m / sigma;

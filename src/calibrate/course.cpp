@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kPlaceGap_s = 1.0;
 
-Series side(const std::vector<RimRow>& rims, double RimRow::* which, bool reversed) {
+Series side(const std::vector<RimRow>& rims, double RimRow::*which, bool reversed) {
   std::vector<double> times;
   std::vector<double> values;
   times.reserve(rims.size());
@@ -24,8 +24,8 @@ Series side(const std::vector<RimRow>& rims, double RimRow::* which, bool revers
 /// The last row at or before `time_s` that has one after it, close enough to go between.
 template <class Row>
 std::optional<std::pair<const Row*, double>> between(const std::vector<Row>& rows, double time_s) {
-  const auto after = std::upper_bound(
-      rows.begin(), rows.end(), time_s, [](double at, const Row& row) { return at < row.time_s; });
+  const auto after = std::upper_bound(rows.begin(), rows.end(), time_s,
+                                      [](double at, const Row& row) { return at < row.time_s; });
   if (after == rows.begin() || after == rows.end()) return std::nullopt;
   const Row* before = &*after - 1;
   const double span_s = after->time_s - before->time_s;

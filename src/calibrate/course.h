@@ -1,4 +1,5 @@
-// A drive as functions of time: what the wheels rolled, what the gyro turned, where the antenna was.
+// A drive as functions of time: what the wheels rolled, what the gyro turned, where the antenna
+// was.
 #pragma once
 
 #include <optional>

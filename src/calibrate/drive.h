@@ -31,10 +31,10 @@ struct PlaceRow {
 struct Drive {
   std::vector<RimRow> rims;
   std::vector<ValueRow> gyro_radps;
-  std::vector<PlaceRow> places;         ///< RTK fixed only
-  std::vector<ValueRow> headings_rad;   ///< of the antenna line, counter-clockwise from east
-  std::vector<ValueRow> receiver_mps;   ///< its own speed over ground, never negative
-  std::vector<RimRow> commands;         ///< what the rims were told; each holds until the next
+  std::vector<PlaceRow> places;        ///< RTK fixed only
+  std::vector<ValueRow> headings_rad;  ///< of the antenna line, counter-clockwise from east
+  std::vector<ValueRow> receiver_mps;  ///< its own speed over ground, never negative
+  std::vector<RimRow> commands;        ///< what the rims were told; each holds until the next
 };
 
 /// Field names are keys of the configuration where there is such a key.

@@ -147,8 +147,7 @@ std::vector<Matrix<kOfNode, kShared>> Elimination::sensitivities() const {
       for (std::size_t c = 0; c < kShared; ++c) {
         all[k][i][c] = -follow[i][kOfNode + c];
         if (k + 1 == nodes_.size()) continue;
-        for (std::size_t j = 0; j < kOfNode; ++j)
-          all[k][i][c] -= follow[i][j] * all[k + 1][j][c];
+        for (std::size_t j = 0; j < kOfNode; ++j) all[k][i][c] -= follow[i][j] * all[k + 1][j][c];
       }
     }
   }
@@ -176,8 +175,7 @@ void Elimination::visit_covariances(
     for (std::size_t i = 0; i < kOfNode; ++i) {
       for (std::size_t j = 0; j < kOfNode; ++j) {
         double sum = node.inverse[i][j];
-        for (std::size_t c = 0; c < kBehind; ++c)
-          sum -= node.follow[i][c] * joint[j][kOfNode + c];
+        for (std::size_t c = 0; c < kBehind; ++c) sum -= node.follow[i][c] * joint[j][kOfNode + c];
         joint[i][j] = sum;
       }
     }

@@ -13,8 +13,8 @@ namespace drover::calibrate {
 
 inline constexpr std::size_t kOfNode = 6;
 inline constexpr std::size_t kShared = 10;
-inline constexpr std::size_t kBehind = kOfNode + kShared;    ///< the next node and what is shared
-inline constexpr std::size_t kJoint = kOfNode + kBehind;     ///< a node, the next, what is shared
+inline constexpr std::size_t kBehind = kOfNode + kShared;  ///< the next node and what is shared
+inline constexpr std::size_t kJoint = kOfNode + kBehind;   ///< a node, the next, what is shared
 
 template <std::size_t kRows, std::size_t kColumns>
 using Matrix = std::array<std::array<double, kColumns>, kRows>;
@@ -23,15 +23,15 @@ using SharedValues = std::array<double, kShared>;
 
 /// Whose noise a row has.
 enum class Noise : std::size_t {
-  along,         ///< of the way by wheels
-  across,        ///< beside it
-  wheel_turn,    ///< of the turn by wheels
-  gyro_turn,     ///< of the turn by the gyro
-  place_white,   ///< of a position, for itself
-  place_slow,    ///< of the positions' error that stays
+  along,        ///< of the way by wheels
+  across,       ///< beside it
+  wheel_turn,   ///< of the turn by wheels
+  gyro_turn,    ///< of the turn by the gyro
+  place_white,  ///< of a position, for itself
+  place_slow,   ///< of the positions' error that stays
   heading_white,
   heading_slow,
-  known,         ///< what is assumed
+  known,  ///< what is assumed
 };
 inline constexpr std::size_t kNoises = 9;
 using NoiseScales = std::array<double, kNoises>;  ///< variance over the assumed one
@@ -41,7 +41,7 @@ struct Row {
   std::size_t node = 0;
   Noise noise = Noise::known;
   double residual = 0;
-  double trust = 1;  ///< less for an outlier
+  double trust = 1;                    ///< less for an outlier
   std::array<double, kJoint> slope{};  ///< by this node, the next node, what is shared
 };
 

@@ -6,8 +6,8 @@
 namespace drover::calibrate {
 namespace {
 
-constexpr double kHuber = 3;          // sigmas: from here on a residual counts less
-constexpr double kOutlier = 6;        // and from here on ever less
+constexpr double kHuber = 3;    // sigmas: from here on a residual counts less
+constexpr double kOutlier = 6;  // and from here on ever less
 constexpr int kNoiseRounds = 12;
 constexpr int kMostSteps = 25;
 constexpr double kConverged = 0.02;   // of a sigma
@@ -15,7 +15,7 @@ constexpr double kMostStep_s = 0.15;  // of a lateness, at once
 constexpr double kPseudo = 6;         // so many assumed residuals steady the noise that is seen
 constexpr double kLeastScale = 1.0 / 25;
 constexpr double kMostScale = 400;
-constexpr double kPiece_s = 12;       // what is within belongs together
+constexpr double kPiece_s = 12;  // what is within belongs together
 constexpr std::size_t kLeastPieces = 6;
 
 double trust_in(double sigmas) {

@@ -11,13 +11,13 @@ namespace {
 constexpr double kShortest_s = 20;
 constexpr double kLeastWay_m = 5;
 constexpr std::size_t kLeastPlaces = 100;
-constexpr double kWindow_s = 0.5;
+constexpr double kLook_s = 0.5;
 constexpr double kTurns_radps = 0.05;
 constexpr double kMoves_mps = 0.05;
 constexpr double kWobble_mps = 0.1;
-constexpr double kBothWays_rad = kPi;     // to each side, at least
-constexpr double kStraight_m = 8;         // at least, to tell a direction
-constexpr double kSigmas = 2.4;           // of the interval: few pieces tell how it scatters
+constexpr double kBothWays_rad = kPi;  // to each side, at least
+constexpr double kStraight_m = 8;      // at least, to tell a direction
+constexpr double kSigmas = 2.4;        // of the interval: few pieces tell how it scatters
 
 constexpr const char* kCircles = "drive a left and a right circle";
 constexpr const char* kStraightOn = "drive 20 m straight, there and back";
@@ -136,10 +136,10 @@ class Judge final {
              std::string("there was hardly a straight way: ") + kStraightOn);
     } else {
       double offset_deg = to_deg(wrap_rad(-e_.fit.value[kLine]));
-      const double turns = std::round((e_.configured.heading_baseline_offset_deg - offset_deg) / 360);
+      const double turns =
+          std::round((e_.configured.heading_baseline_offset_deg - offset_deg) / 360);
       offset_deg += 360 * turns;  // spelled as the configuration does
-      tell(Quantity::heading_offset_deg, offset_deg, to_deg(sigma(kLine)), {0.2, 1.0},
-           kStraightOn);
+      tell(Quantity::heading_offset_deg, offset_deg, to_deg(sigma(kLine)), {0.2, 1.0}, kStraightOn);
     }
     configured(e_.configured.heading_baseline_offset_deg);
   }
@@ -147,7 +147,8 @@ class Judge final {
   void lateness() {
     tell(Quantity::position_late_s, e_.fit.value[kPlaceLate], sigma(kPlaceLate), {0.003, 0.06},
          kSpeeds);
-    if (e_.drive.headings_rad.empty()) return refuse(Quantity::heading_late_s, "the receiver told no heading");
+    if (e_.drive.headings_rad.empty())
+      return refuse(Quantity::heading_late_s, "the receiver told no heading");
     tell(Quantity::heading_late_s, e_.fit.value[kHeadingLate], sigma(kHeadingLate), {0.003, 0.06},
          kCircles);
   }
@@ -216,15 +217,15 @@ void measure_drive(const Drive& drive, const Chain& chain, DriveFacts& facts) {
   facts.duration_s = end_s - begin_s;
   std::vector<double> times;
   std::vector<double> speeds;
-  for (double t = begin_s; t + kWindow_s <= end_s; t += kWindow_s) {
-    const double way_m = chain.rolled_m(t, t + kWindow_s);
-    const double turn_rad = chain.turned_rad(t + kWindow_s) - chain.turned_rad(t);
-    const bool turns = std::abs(turn_rad) > kTurns_radps * kWindow_s;
+  for (double t = begin_s; t + kLook_s <= end_s; t += kLook_s) {
+    const double way_m = chain.rolled_m(t, t + kLook_s);
+    const double turn_rad = chain.turned_rad(t + kLook_s) - chain.turned_rad(t);
+    const bool turns = std::abs(turn_rad) > kTurns_radps * kLook_s;
     times.push_back(t);
-    speeds.push_back(way_m / kWindow_s);
+    speeds.push_back(way_m / kLook_s);
     facts.way_m += std::abs(way_m);
     if (turns) (turn_rad > 0 ? facts.left_rad : facts.right_rad) += std::abs(turn_rad);
-    if (!turns && std::abs(way_m) > kMoves_mps * kWindow_s) facts.straight_m += std::abs(way_m);
+    if (!turns && std::abs(way_m) > kMoves_mps * kLook_s) facts.straight_m += std::abs(way_m);
   }
   facts.speed_changes_mps = Series(std::move(times), std::move(speeds)).variation(kWobble_mps);
 }

@@ -8,13 +8,13 @@
 namespace drover::calibrate {
 namespace {
 
-constexpr double kStep_s = 0.02;
+constexpr double kGrid_s = 0.02;
 constexpr double kHolds_s = 0.06;
 constexpr double kMostLag_s = 0.8;
 constexpr double kLeastChanges_mps = 1.0;  // two starts and stops at 0.25 m/s
-constexpr double kWobble_mps = 0.05;
-constexpr double kPiece_s = 6;
-constexpr double kMoves_mps = 0.15;
+constexpr double kToldWobble_mps = 0.05;
+constexpr double kAlikeFor_s = 6;
+constexpr double kComparedFrom_mps = 0.15;
 constexpr double kAlike = 0.5;     // correlation of errors from which on they are the same
 constexpr double kUnlike = 0.3;    // and up to which they are not
 constexpr double kBehind_s = 0.1;  // a speed that is so much later than positions is made of them
@@ -22,17 +22,17 @@ constexpr double kBehind_s = 0.1;  // a speed that is so much later than positio
 /// What a side was told and did.
 struct Side {
   Series told;
-  std::vector<double> did;  ///< each kStep_s
+  std::vector<double> did;  ///< each kGrid_s
 };
 
 /// Between rows that are close a straight line, for a ramp is told in steps; a farther one holds
 /// until shortly before the next.
-Series column(const std::vector<RimRow>& rows, double RimRow::* which) {
+Series column(const std::vector<RimRow>& rows, double RimRow::*which) {
   std::vector<double> times;
   std::vector<double> values;
   for (const RimRow& row : rows) {
     if (!times.empty() && row.time_s - times.back() > kHolds_s) {
-      times.push_back(row.time_s - kStep_s / 2);
+      times.push_back(row.time_s - kGrid_s / 2);
       values.push_back(values.back());
     }
     times.push_back(row.time_s);
@@ -50,8 +50,8 @@ class DriveLag final {
       const auto which = i == 0 ? &RimRow::left_mps : &RimRow::right_mps;
       sides_[i].told = column(drive.commands, which);
       const Series did = column(drive.rims, which);
-      for (double t = begin_s_; t < end_s_; t += kStep_s) sides_[i].did.push_back(did.at(t));
-      changes_mps_ += sides_[i].told.variation(kWobble_mps) / 2;
+      for (double t = begin_s_; t < end_s_; t += kGrid_s) sides_[i].did.push_back(did.at(t));
+      changes_mps_ += sides_[i].told.variation(kToldWobble_mps) / 2;
     }
   }
 
@@ -59,13 +59,14 @@ class DriveLag final {
     Late late;
     if (changes_mps_ < kLeastChanges_mps || sides_[0].did.size() < 500) {
       late.refused =
-          "the commanded speed hardly changed: change the speed while straight, from 0.2 m/s to the "
+          "the commanded speed hardly changed: change the speed while straight, from 0.2 m/s to "
+          "the "
           "highest and back, three times";
       return late;
     }
     SmallFit<3> fit;
     fit.run(
-        first_guess(), {0.005, 0.005, 0.005}, static_cast<std::size_t>(kPiece_s / kStep_s),
+        first_guess(), {0.005, 0.005, 0.005}, static_cast<std::size_t>(kAlikeFor_s / kGrid_s),
         [this](const auto& numbers) { return residuals(numbers); },
         [](auto numbers) {
           numbers[0] = std::clamp(numbers[0], 0.0, kMostLag_s / 2);
@@ -100,12 +101,12 @@ class DriveLag final {
   std::vector<double> residuals(const Numbers& numbers) const {
     std::vector<double> off;
     off.reserve(2 * sides_[0].did.size());
-    const double blend = 1 - std::exp(-kStep_s / std::max(numbers[1], 1e-3));
+    const double blend = 1 - std::exp(-kGrid_s / std::max(numbers[1], 1e-3));
     for (const Side& side : sides_) {
       double follows = side.told.at(begin_s_ - numbers[0]);
       for (std::size_t i = 0; i < side.did.size(); ++i) {
         off.push_back(side.did[i] - numbers[2] * follows);
-        const double middle_s = begin_s_ + kStep_s * (static_cast<double>(i) + 0.5) - numbers[0];
+        const double middle_s = begin_s_ + kGrid_s * (static_cast<double>(i) + 0.5) - numbers[0];
         follows += blend * (side.told.at(middle_s) - follows);
       }
     }
@@ -159,7 +160,7 @@ double error_correlation(const Drive& drive, const Chain& chain, double late_s, 
     const double expected = antenna_mps(chain, row.time_s - late_s);
     const auto a = antenna_at(drive.places, row.time_s - span_s);
     const auto b = antenna_at(drive.places, row.time_s - 1e-6);
-    if (expected < kMoves_mps || !a || !b) continue;
+    if (expected < kComparedFrom_mps || !a || !b) continue;
     const double way_mps = std::hypot(b->x_m - a->x_m, b->y_m - a->y_m) / span_s;
     const double middle_s = row.time_s - span_s / 2 - place_late_s;
     of_speed.push_back(row.value - expected);
@@ -189,11 +190,11 @@ Late speed_late(const Drive& drive, const Chain& chain) {
     return late;
   }
   SmallFit<2> fit;
-  const double rate_Hz = static_cast<double>(rows.size()) /
-                         std::max(1.0, rows.back().time_s - rows.front().time_s);
+  const double rate_Hz =
+      static_cast<double>(rows.size()) / std::max(1.0, rows.back().time_s - rows.front().time_s);
   fit.run(
       {chain.shared()[kPlaceLate], 1}, {0.05, 0.01},
-      static_cast<std::size_t>(std::max(2.0, kPiece_s * rate_Hz)),
+      static_cast<std::size_t>(std::max(2.0, kAlikeFor_s * rate_Hz)),
       [&](const auto& numbers) {
         std::vector<double> off;
         off.reserve(rows.size());

@@ -7,9 +7,7 @@
 namespace drover::calibrate {
 
 Series::Series(std::vector<double> times_s, std::vector<double> values)
-    : times_s_(std::move(times_s)),
-      values_(std::move(values)),
-      sums_(times_s_.size(), 0.0) {
+    : times_s_(std::move(times_s)), values_(std::move(values)), sums_(times_s_.size(), 0.0) {
   for (std::size_t i = 1; i < times_s_.size(); ++i) {
     const double mean = 0.5 * (values_[i - 1] + values_[i]);
     sums_[i] = sums_[i - 1] + mean * (times_s_[i] - times_s_[i - 1]);

@@ -15,9 +15,9 @@ namespace {
 using Complex = std::complex<double>;
 
 constexpr double kWindow_s = 1.0;
-constexpr double kStep_s = 0.5;
-constexpr double kLeastWay_m = 0.15;   // of a window, to have a course
-constexpr double kMostTurn_rad = 1.2;  // of a window: more may be a turn back
+constexpr double kEach_s = 0.5;
+constexpr double kCourseFrom_m = 0.15;  // of a window, to have a course
+constexpr double kMostTurn_rad = 1.2;   // of a window: more may be a turn back
 constexpr double kStraight_rad = 0.04;
 constexpr double kLeastStraight_m = 2;
 constexpr double kSameWay = 0.7;  // of 1, or of minus 1
@@ -160,7 +160,7 @@ class SignSearch final {
     const auto end = antenna_at(drive_.places, from_s + 2 * kWindow_s);
     if (!end) return std::nullopt;
     const Complex next(end->x_m - middle.x_m, end->y_m - middle.y_m);
-    if (std::abs(window.way) < kLeastWay_m || std::abs(next) < kLeastWay_m) return std::nullopt;
+    if (std::abs(window.way) < kCourseFrom_m || std::abs(next) < kCourseFrom_m) return std::nullopt;
     window.turn_rad = std::arg(next * std::conj(window.way));
     if (std::abs(window.turn_rad) > kMostTurn_rad) return std::nullopt;
     window.way = (window.way + next) / 2.0;
@@ -169,16 +169,22 @@ class SignSearch final {
   }
   void cut_windows() {
     const double end_s = drive_.places.back().time_s - kWindow_s;
-    for (double t = drive_.places.front().time_s; t < end_s; t += kStep_s)
+    for (double t = drive_.places.front().time_s; t < end_s; t += kEach_s)
       if (const auto made = window(t)) windows_.push_back(*made);
   }
 
   void fit() {
     turn_.fit(
-        windows_, [](const Window& w) { return std::array{w.left_m, w.right_m}; },
+        windows_,
+        [](const Window& w) {
+          return std::array{w.left_m, w.right_m};
+        },
         [](const Window& w) { return Complex(w.turn_rad); });
     gyro_.fit(
-        windows_, [](const Window& w) { return std::array{w.gyro_rad, kWindow_s}; },
+        windows_,
+        [](const Window& w) {
+          return std::array{w.gyro_rad, kWindow_s};
+        },
         [](const Window& w) { return Complex(w.turn_rad); });
     look_at_straights();
   }
@@ -194,7 +200,7 @@ class SignSearch final {
         squares[i] += rolled[i] * rolled[i];
       }
       product += w.left_m * w.right_m;
-      straight_m_ += kStep_s / kWindow_s * std::abs(w.way);
+      straight_m_ += kEach_s / kWindow_s * std::abs(w.way);
     }
     for (std::size_t i = 0; i < 2; ++i) way_[i] /= squares[i];
     alike_ = product / std::sqrt(squares[0] * squares[1]);

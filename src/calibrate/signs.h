@@ -6,7 +6,7 @@
 namespace drover::calibrate {
 
 struct FirstGuess {
-  double turn_gain = 1;   ///< true turn over that of the wheels, by the configured track
+  double turn_gain = 1;    ///< true turn over that of the wheels, by the configured track
   double heading_rad = 0;  ///< of the antenna line from ahead, counter-clockwise
 };
 

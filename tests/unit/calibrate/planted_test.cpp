@@ -40,38 +40,41 @@ Planted planted(std::uint64_t seed, const Configured& configured) {
   return p;
 }
 
+/// As the simulation plants it.
+double in_ticks(double late_s) {
+  return 0.005 * std::round(late_s / 0.005);
+}
+
 /// What the truth is, and how wide an interval may be.
 struct Truth {
   double value;
   double widest;
 };
 std::map<Quantity, Truth> truths(const Planted& p, const Configured& c) {
-  const double dead_s = std::lround(p.dead_s / 0.005) * 0.005;
+  const double dead_s = in_ticks(p.dead_s);
   const double radius = c.wheel_radius_m;
   std::map<Quantity, Truth> truth{
-      {Quantity::wheel_radius_m,
-       {radius * (p.left_scale + p.right_scale) / 2, 0.01 * radius}},
+      {Quantity::wheel_radius_m, {radius * (p.left_scale + p.right_scale) / 2, 0.01 * radius}},
       {Quantity::left_radius_m, {radius * p.left_scale, 0.01 * radius}},
       {Quantity::right_radius_m, {radius * p.right_scale, 0.01 * radius}},
       {Quantity::yaw_slip_factor, {p.yaw_slip_factor, 0.03 * p.yaw_slip_factor}},
       {Quantity::antenna_x_m, {p.antenna_x_m, 0.03}},
       {Quantity::antenna_y_m, {p.antenna_y_m, 0.03}},
       {Quantity::heading_offset_deg, {p.heading_offset_deg, 0.5}},
-      {Quantity::position_late_s, {std::lround(p.position_late_s / 0.005) * 0.005, 0.03}},
-      {Quantity::heading_late_s, {std::lround(p.heading_late_s / 0.005) * 0.005, 0.03}},
+      {Quantity::position_late_s, {in_ticks(p.position_late_s), 0.03}},
+      {Quantity::heading_late_s, {in_ticks(p.heading_late_s), 0.03}},
       {Quantity::gyro_scale, {p.gyro_scale, 0.01}},
       {Quantity::gyro_bias_radps, {p.gyro_bias_radps, 0.001}},
       {Quantity::drive_lag_s, {dead_s + p.lag_s, 0.03}},
   };
-  if (!p.speed_by_positions)
-    truth[Quantity::speed_late_s] = {std::lround(p.speed_late_s / 0.005) * 0.005, 0.03};
+  if (!p.speed_by_positions) truth[Quantity::speed_late_s] = {in_ticks(p.speed_late_s), 0.03};
   return truth;
 }
 
 constexpr const char* kNames[kQuantities] = {
-    "wheel_radius_m", "left_radius_m",   "right_radius_m", "yaw_slip_factor", "antenna_x_m",
-    "antenna_y_m",    "heading_offset",  "position_late_s", "heading_late_s",  "gyro_scale",
-    "gyro_bias",      "drive_lag_s",     "speed_late_s"};
+    "wheel_radius_m", "left_radius_m",  "right_radius_m",  "yaw_slip_factor", "antenna_x_m",
+    "antenna_y_m",    "heading_offset", "position_late_s", "heading_late_s",  "gyro_scale",
+    "gyro_bias",      "drive_lag_s",    "speed_late_s"};
 
 struct Score {
   int sets = 0;

@@ -3,13 +3,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "calibrate/signs.h"
 #include "unit/calibrate/simulated_drive.h"
 
 namespace drover::calibrate {
 namespace {
 
 using testing::HasSubstr;
-
 
 class WrongSigns : public testing::TestWithParam<int> {};
 
@@ -28,30 +28,38 @@ Calibration found(const Planted& planted, bool headings = true) {
   return calibrate(drive, {});
 }
 
-TEST_P(WrongSigns, AreFoundAndPutRight) {
+TEST_P(WrongSigns, AreFound) {
   const Planted planted = wrong(GetParam());
-  const auto result = found(planted);
-  ASSERT_EQ(result.refused, "");
-  EXPECT_EQ(result.signs.refused, "");
+  FirstGuess guess;
+  const Signs signs = find_signs(SimulatedDrive(planted, {}, 11).drive(good_legs()), {}, guess);
+  EXPECT_EQ(signs.refused, "");
   // Of swapped sides the columns are told, not the wheels.
   const bool left = planted.swapped ? planted.right_reversed : planted.left_reversed;
   const bool right = planted.swapped ? planted.left_reversed : planted.right_reversed;
-  EXPECT_EQ(result.signs.gyro_reversed, planted.gyro_reversed);
+  EXPECT_EQ(signs.gyro_reversed, planted.gyro_reversed);
   if (planted.swapped && left && right) {  // looks like a robot whose other end is ahead
-    EXPECT_TRUE(result.signs.heading_opposite);
-    EXPECT_NEAR(std::abs(result.of(Quantity::heading_offset_deg).value), 180, 1);
+    EXPECT_TRUE(signs.heading_opposite);
+    EXPECT_NEAR(std::abs(guess.heading_rad), kPi, 0.02);
     return;
   }
-  EXPECT_EQ(result.signs.left_reversed, left);
-  EXPECT_EQ(result.signs.right_reversed, right);
-  EXPECT_EQ(result.signs.swapped, planted.swapped);
-  EXPECT_FALSE(result.signs.heading_opposite);
-  EXPECT_NEAR(result.of(Quantity::wheel_radius_m).value, 0.165, 0.002);
-  EXPECT_NEAR(result.of(Quantity::yaw_slip_factor).value, 1.2, 0.04);
-  EXPECT_NEAR(result.of(Quantity::gyro_scale).value, 1, 0.01);
+  EXPECT_EQ(signs.left_reversed, left);
+  EXPECT_EQ(signs.right_reversed, right);
+  EXPECT_EQ(signs.swapped, planted.swapped);
+  EXPECT_FALSE(signs.heading_opposite);
 }
 
 INSTANTIATE_TEST_SUITE_P(EachOfThem, WrongSigns, testing::Range(0, 16));
+
+TEST(Signs, ArePutRightBeforeAnythingElse) {
+  for (const int which : {1, 4, 14}) {
+    const auto result = found(wrong(which));
+    ASSERT_EQ(result.refused, "");
+    EXPECT_TRUE(result.signs.wrong());
+    EXPECT_NEAR(result.of(Quantity::wheel_radius_m).value, 0.165, 0.002);
+    EXPECT_NEAR(result.of(Quantity::yaw_slip_factor).value, 1.2, 0.04);
+    EXPECT_NEAR(result.of(Quantity::gyro_scale).value, 1, 0.01);
+  }
+}
 
 TEST(Signs, OfAnAntennaLineTheOtherWayRound) {
   Planted planted;

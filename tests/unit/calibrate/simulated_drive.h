@@ -45,9 +45,9 @@ using Legs = std::vector<Leg>;
 
 /// Rest, changes of speed while straight, a left and a right circle, there and back.
 inline Legs good_legs() {
-  return {{6, 0, 0},     {4, 0.3, 0},  {4, 0.7, 0},  {4, 0.3, 0},    {4, 0.7, 0},   {4, 0.3, 0},
-          {18, 0.4, 0.4}, {6, 0.6, 0},  {18, 0.4, -0.4}, {5, 0.7, 0},   {8, 0.2, 0.4}, {8, 0.7, 0},
-          {4, 0.3, 0},   {6, 0.7, 0},  {5, 0, 0.6},  {5, 0, -0.6},    {8, 0.6, 0},   {6, 0, 0}};
+  return {{6, 0, 0},      {4, 0.3, 0}, {4, 0.7, 0},     {4, 0.3, 0},  {4, 0.7, 0},   {4, 0.3, 0},
+          {18, 0.4, 0.4}, {6, 0.6, 0}, {18, 0.4, -0.4}, {5, 0.7, 0},  {8, 0.2, 0.4}, {8, 0.7, 0},
+          {4, 0.3, 0},    {6, 0.7, 0}, {5, 0, 0.6},     {5, 0, -0.6}, {8, 0.6, 0},   {6, 0, 0}};
 }
 
 /// How noisy it is: one sigma each.
@@ -148,8 +148,8 @@ class SimulatedDrive final {
     const double rate = turned_rad_ / (2 * kTick_s);
     turned_rad_ = 0;
     const double told = (rate + planted_.gyro_bias_radps) / planted_.gyro_scale;
-    made_.gyro_radps.push_back({now_s_ - kTick_s, (planted_.gyro_reversed ? -told : told) +
-                                                          noisy_.gyro_radps * normal()});
+    made_.gyro_radps.push_back(
+        {now_s_ - kTick_s, (planted_.gyro_reversed ? -told : told) + noisy_.gyro_radps * normal()});
   }
 
   State then(double late_s) const {
