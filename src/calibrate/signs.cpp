@@ -216,7 +216,10 @@ class SignSearch final {
   void judge_with_headings(Signs& signs, FirstGuess& guess) const {
     // If the left column's sign is right the antenna line points this way, else the other way.
     const double line_rad = -std::arg(way_[0]);
-    bool reversed = std::abs(wrap_rad(line_rad - offset_rad_)) > kPi / 2;
+    const double off_rad = std::abs(wrap_rad(line_rad - offset_rad_));
+    const bool sideways = std::abs(off_rad - kPi / 2) < kPi / 4;
+    // Configured a quarter off it shows no ahead: then the sides are not swapped.
+    bool reversed = sideways ? turn_.value[0].real() > 0 : off_rad > kPi / 2;
     const bool both = alike_ > 0;
     const bool left_is_left = (turn_.value[0].real() < 0) != reversed;
     // A whole side that is swapped and reversed is likelier an antenna line the other way round.

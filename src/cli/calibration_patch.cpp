@@ -20,7 +20,7 @@ bool is_off(const Found& found) {
   return found.has_configured && is_off(found, found.configured);
 }
 
-/// Sections open and close around what is in them, and only then.
+/// Members are texts: of a section in which nothing is off there is none.
 class Patch final {
  public:
   Patch(const Calibration& it, const CalibrationKeys& keys) : it_(it), keys_(keys) {}

@@ -143,8 +143,7 @@ std::string calibration_json(const Calibration& it, const CalibrationKeys& keys)
   for (const auto& note : calibration_notes(it, keys)) out.text(note);
   out.close(']');
   const auto patch = calibration_patch(it, keys);
-  out.key("patch").spelled_number(patch.empty() ? "{}" : patch);
-  return out.close('}').take();
+  return out.take() + ",\"patch\":" + (patch.empty() ? "{}" : patch) + "}";
 }
 
 }  // namespace drover::cli
