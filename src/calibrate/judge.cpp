@@ -109,7 +109,7 @@ class Judge final {
       refuse(Quantity::yaw_slip_factor, one_way(e_.facts));
     } else {
       tell(Quantity::yaw_slip_factor, slip / gain, slip / (gain * gain) * sigma(kTurnGain),
-           {0.01 * slip / gain, 0.06 * slip / gain}, kCircles);
+           {0.01 * slip / gain, 0.15 * slip / gain}, kCircles);
     }
     configured(slip);
   }
@@ -171,13 +171,13 @@ class Judge final {
   }
 
   void lags() {
-    late(Quantity::drive_lag_s, e_.drive_lag);
+    late(Quantity::drive_lag_s, e_.drive_lag, 0.005);
     configured(e_.configured.drive_lag_s);
-    late(Quantity::speed_late_s, e_.speed_late);
+    late(Quantity::speed_late_s, e_.speed_late, 0.012);
   }
-  void late(Quantity what, const Late& late) {
+  void late(Quantity what, const Late& late, double floor_s) {
     if (!late.known) return refuse(what, late.refused);
-    tell(what, late.late_s, late.sigma_s, {0.008, 0.1}, kSpeeds);
+    tell(what, late.late_s, late.sigma_s, {floor_s, 0.1}, kSpeeds);
   }
 
   const Evidence& e_;

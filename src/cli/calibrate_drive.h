@@ -37,7 +37,8 @@ class DriveOfRecording final {
  private:
   void take_wheels(const Snapshot& snapshot);
   void take_base(const Snapshot& snapshot);
-  void take_receiver(const GnssSnapshot& gnss);
+  /// Positions only where the base is `level`.
+  void take_receiver(const GnssSnapshot& gnss, bool level);
   void take_gyro(const ImuSnapshot& imu);
 
   engine::BaseConfig base_;

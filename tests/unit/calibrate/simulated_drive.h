@@ -63,6 +63,7 @@ struct Noisy {
   double across = 0.005;     ///< likewise
   double turn = 0.02;        ///< per square root of radian
   double gain_share = 0.01;  ///< of the turn, for ten seconds or so
+  double spot_share = 0;     ///< so much less of it on the spot than in a wide curve
 };
 
 class SimulatedDrive final {
@@ -120,6 +121,8 @@ class SimulatedDrive final {
     const double root = std::sqrt((std::abs(left) + std::abs(right)) / 2);
     double turn = (right - left) / (configured_.track_m * planted_.yaw_slip_factor);
     turn *= 1 + noisy_.gain_share * gain_;
+    const double spot = std::abs(right - left) / (std::abs(right) + std::abs(left) + 1e-9);
+    turn *= 1 - noisy_.spot_share * spot;
     turn += (noisy_.turn * std::sqrt(std::abs(turn)) + 0.004 * root) * normal();
     const double along = (left + right) / 2 + noisy_.along * root * normal();
     const double across = noisy_.across * root * normal();

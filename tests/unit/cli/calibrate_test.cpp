@@ -25,8 +25,8 @@ constexpr GeodeticPoint kYard{48.1, 11.6, 500};
 engine::EngineConfig robot() {
   engine::EngineConfig config;
   config.base.yaw_slip_factor = 1.5;
-  for (const AxisId id : {0, 2}) (void)config.base.left.push_back(id);
-  for (const AxisId id : {1, 3}) (void)config.base.right.push_back(id);
+  for (AxisId id = 0; id < 4; ++id)
+    (void)(id % 2 == 0 ? config.base.left : config.base.right).push_back(id);
   config.estimate.antenna_x_m = 0.3;
   config.estimate.heading_baseline_offset_deg = 90;
   return config;
@@ -152,6 +152,23 @@ TEST(CalibrateFromARecording, FindsWhatIsPlanted) {
   EXPECT_EQ(taken.drive.rims.size(), drive.rims.size());
   EXPECT_EQ(taken.drive.places.size(), drive.places.size());
   expect_planted(calibrated(taken));
+}
+
+TEST(CalibrateFromARecording, LeavesOutPositionsOnSlopes) {
+  engine::estimate::LocalFrame frame;
+  frame.set_origin(kYard);
+  DriveOfRecording taken(robot().base);
+  Snapshot shown;
+  shown.gnss.position = fix_at(frame, {});
+  shown.gnss.position_time = at(1);
+  shown.imu.roll_rad = 0;
+  shown.imu.pitch_rad = to_rad(5);
+  taken.take(shown);
+  EXPECT_TRUE(taken.drive.places.empty());
+  shown.gnss.position_time = at(2);
+  shown.imu.pitch_rad = to_rad(1);
+  taken.take(shown);
+  EXPECT_EQ(taken.drive.places.size(), 1U);
 }
 
 TEST(CalibrateFromALog, LooksAtThePartThatIsChosen) {
