@@ -54,7 +54,7 @@ Chain::Chain(const Drive& drive, const Configured& configured, const Signs& sign
              0};
   shared_ = before_;
   attach(drive);
-  guess_values(drive, guess);
+  guess_values(drive);
 }
 
 void Chain::attach(const Drive& drive) {
@@ -105,7 +105,7 @@ void Chain::guess_yaws(const Drive& drive) {
   for (std::size_t k = size() - 1; k > 0; --k) follow(k, k - 1);
 }
 
-void Chain::guess_values(const Drive& drive, const FirstGuess&) {
+void Chain::guess_values(const Drive& drive) {
   values_.assign(size(), {});
   guess_yaws(drive);
   Point last{drive.places.front().east_m, drive.places.front().north_m};

@@ -80,7 +80,7 @@ class Chain final {
   };
 
   void attach(const Drive& drive);
-  void guess_values(const Drive& drive, const FirstGuess& guess);
+  void guess_values(const Drive& drive);
   void guess_yaws(const Drive& drive);
   std::optional<double> seen_yaw(const Drive& drive, double time_s) const;
   void anchor_rows(std::vector<Row>& into) const;
