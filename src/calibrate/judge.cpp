@@ -145,11 +145,11 @@ class Judge final {
   }
 
   void lateness() {
-    tell(Quantity::position_late_s, e_.fit.value[kPlaceLate], sigma(kPlaceLate), {0.003, 0.06},
+    tell(Quantity::position_late_s, e_.fit.value[kPlaceLate], sigma(kPlaceLate), {0.005, 0.06},
          kSpeeds);
     if (e_.drive.headings_rad.empty())
       return refuse(Quantity::heading_late_s, "the receiver told no heading");
-    tell(Quantity::heading_late_s, e_.fit.value[kHeadingLate], sigma(kHeadingLate), {0.003, 0.06},
+    tell(Quantity::heading_late_s, e_.fit.value[kHeadingLate], sigma(kHeadingLate), {0.008, 0.06},
          kCircles);
   }
 

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <random>
@@ -50,6 +51,9 @@ class FieldWorld final {
     return judge_->conclude(engine_->snapshot(), truth(), since_s());
   }
 
+  /// Called after each cycle, if it is there.
+  std::function<void(const Snapshot&)> watch;
+
  private:
   using BodyOf = decltype(Command::body);
   static constexpr double kTick_s = 0.005;
@@ -83,6 +87,7 @@ class FieldWorld final {
     }
     engine_->step(now_, environment_, out_);
     for (const Event& event : out_.events) judge_->hear(event, since_s());
+    if (watch) watch(engine_->snapshot());
   }
 
   Pose truth() const {

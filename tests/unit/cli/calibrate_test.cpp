@@ -8,8 +8,10 @@
 #include "cli/calibrate_drive.h"
 #include "cli/show_calibration.h"
 #include "drover/angle.h"
+#include "gateway/recording/replay.h"
 #include "unit/calibrate/simulated_drive.h"
 #include "unit/cli/parsed.h"
+#include "unit/gateway/recorded_run.h"
 
 namespace drover::cli {
 namespace {
@@ -152,6 +154,22 @@ TEST(CalibrateFromARecording, FindsWhatIsPlanted) {
   EXPECT_EQ(taken.drive.rims.size(), drive.rims.size());
   EXPECT_EQ(taken.drive.places.size(), drive.places.size());
   expect_planted(calibrated(taken));
+}
+
+TEST(CalibrateFromARecording, HearsWhatTheDrivesToldAndWereTold) {
+  const auto file = gateway::record(gateway::a_run());
+  const auto recorded = gateway::recorded_configuration(file);
+  ASSERT_EQ(recorded.problem, "");
+  const auto& base = recorded.loaded.config.engine.base;
+  DriveOfRecording taken(base);
+  const auto played =
+      gateway::play(file, nullptr, [&](const Snapshot& snapshot) { taken.take(snapshot); });
+  EXPECT_EQ(played.note, "");
+  EXPECT_GT(taken.drive.rims.size(), 250U);
+  ASSERT_GT(taken.drive.commands.size(), 250U);
+  EXPECT_GT(taken.drive.commands.back().left_mps, 0.1);
+  EXPECT_NEAR(taken.drive.commands.back().left_mps, taken.drive.commands.back().right_mps, 1e-6);
+  EXPECT_NE(gateway::recorded_configuration({}).problem, "");
 }
 
 TEST(CalibrateFromARecording, LeavesOutPositionsOnSlopes) {
