@@ -47,6 +47,23 @@ void shift(Drive& drive) {
     for (ValueRow& row : *rows) row.time_s -= first.time_s;
 }
 
+/// Only while wheels and an RTK fix were heard.
+void keep_what_is_common(Drive& drive) {
+  if (drive.rims.empty() || drive.places.empty()) return;
+  const double begin_s = std::max(drive.rims.front().time_s, drive.places.front().time_s);
+  const double end_s = std::min(drive.rims.back().time_s, drive.places.back().time_s);
+  const auto keep = [&](auto& rows) {
+    std::erase_if(rows,
+                  [&](const auto& row) { return row.time_s < begin_s || row.time_s > end_s; });
+  };
+  keep(drive.rims);
+  keep(drive.places);
+  keep(drive.gyro_radps);
+  keep(drive.headings_rad);
+  keep(drive.receiver_mps);
+  keep(drive.commands);
+}
+
 Drive tidied(const Drive& drive) {
   Drive own = drive;
   tidy(own.rims);
@@ -55,6 +72,7 @@ Drive tidied(const Drive& drive) {
   tidy(own.headings_rad);
   tidy(own.receiver_mps);
   tidy(own.commands);
+  keep_what_is_common(own);
   constexpr std::size_t kLeastHeadings = 20;
   if (own.headings_rad.size() <= kLeastHeadings) own.headings_rad.clear();
   shift(own);

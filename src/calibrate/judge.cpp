@@ -28,7 +28,7 @@ std::string one_way(const DriveFacts& facts) {
   const bool left = facts.left_rad < facts.right_rad;
   const double turned_deg = to_deg(left ? facts.left_rad : facts.right_rad);
   std::string said = "it turned only ";
-  said += std::to_string(static_cast<int>(turned_deg)) + " degrees to the ";
+  said += std::to_string(static_cast<int>(std::min(turned_deg, 1e6))) + " degrees to the ";
   said += left ? "left" : "right";
   return said + ": " + kCircles;
 }
