@@ -109,6 +109,9 @@ std::optional<LogError> LogReader::read_head(std::string_view line) {
     return LogError{line_, 0, "", "there is no column time_s"};
   if (column_of("vx_mps") < columns_.size() && column_of("left_rim_mps") < columns_.size())
     return error(column_of("vx_mps"), "the motion of the base is told twice: by its rims, too");
+  if (column_of("command_vx_mps") < columns_.size() &&
+      column_of("command_left_mps") < columns_.size())
+    return error(column_of("command_vx_mps"), "the command is told twice: by its rims, too");
   cells_.assign(columns_.size(), 0.0);  // as if a row had them all
   for (const auto& [name, other] : kTogether)
     if (auto wrong = needs(name, other)) return wrong;
