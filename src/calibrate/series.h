@@ -25,11 +25,16 @@ class Series final {
   const std::vector<double>& times_s() const { return times_s_; }
 
  private:
+  void index();
+  std::size_t part_of(double time_s) const;
   std::size_t before(double time_s) const;  ///< index of the sample at or before
+  double between(std::size_t sample, double time_s) const;
 
   std::vector<double> times_s_;
   std::vector<double> values_;
-  std::vector<double> sums_;  ///< integral up to each
+  std::vector<double> sums_;        ///< integral up to each
+  std::vector<std::size_t> parts_;  ///< the sample at or before the begin of each part
+  double per_s_ = 0;                ///< parts
 };
 
 }  // namespace drover::calibrate
