@@ -131,8 +131,9 @@ class Notes final {
     if (!left.refused.empty() || !right.refused.empty()) return;
     const double apart = right.value - left.value;
     if (std::abs(apart) < std::hypot(left.interval, right.interval)) return;
-    say("the wheels of the right side are " + fixed(100 * std::abs(apart) / left.value, 1) + " % " +
-        (apart > 0 ? "larger" : "smaller") +
+    say(std::string(keys_.twist_base ? "the ways of the right side are "
+                                     : "the wheels of the right side are ") +
+        fixed(100 * std::abs(apart) / left.value, 1) + " % " + (apart > 0 ? "larger" : "smaller") +
         " than those of the left: no key tells sides apart; look at tyres and gear ratios");
   }
   void lateness() {

@@ -35,8 +35,13 @@ constexpr std::array<Named, kQuantities> kNamed{{{"wheel_radius_m", 5},
                                                  {"drive_lag_s", 3},
                                                  {"receiver_speed_late_s", 3}}};
 
-const Named& named(const Found& found) {
-  return kNamed[static_cast<std::size_t>(found.what)];
+/// Of a base that tells a twist, whose edges stand for wheels of a metre.
+constexpr std::array<Named, 3> kNamedOfTwist{
+    {{"way_scale", 4}, {"left_way_scale", 4}, {"right_way_scale", 4}}};
+
+const Named& named(const Found& found, bool twist) {
+  const auto which = static_cast<std::size_t>(found.what);
+  return twist && which < kNamedOfTwist.size() ? kNamedOfTwist[which] : kNamed[which];
 }
 
 const char* name_of(SpeedSource source) {
@@ -57,8 +62,8 @@ std::string facts_text(const DriveFacts& facts) {
          " cm  outliers " + std::to_string(facts.outliers) + "\n";
 }
 
-std::string line_of(const Found& found) {
-  const auto& [name, decimals] = named(found);
+std::string line_of(const Found& found, bool twist) {
+  const auto& [name, decimals] = named(found, twist);
   char text[160];
   const std::string was = found.has_configured ? fixed(found.configured, decimals) : "";
   if (!found.refused.empty()) {
@@ -99,8 +104,8 @@ void write_signs(json::JsonText& out, const calibrate::Signs& signs) {
   out.key("heading_opposite").boolean(signs.heading_opposite).close('}');
 }
 
-void write_found(json::JsonText& out, const Found& found) {
-  const auto& [name, decimals] = named(found);
+void write_found(json::JsonText& out, const Found& found, bool twist) {
+  const auto& [name, decimals] = named(found, twist);
   out.key(name).open('{');
   if (found.refused.empty()) {
     out.key("value").number(found.value, decimals + 1);
@@ -117,7 +122,7 @@ void write_found(json::JsonText& out, const Found& found) {
 std::string show_calibration(const Calibration& it, const CalibrationKeys& keys) {
   std::string text = facts_text(it.facts) + signs_text(it.signs);
   text += "                                 found     interval  configured\n";
-  for (const Found& found : it.found) text += line_of(found);
+  for (const Found& found : it.found) text += line_of(found, keys.twist_base);
   text += std::string("speed     ");
   if (it.speed_source == SpeedSource::unknown) {
     text += "whether the receiver measures it by itself is not known: " + it.speed_source_refused;
@@ -137,7 +142,7 @@ std::string calibration_json(const Calibration& it, const CalibrationKeys& keys)
   write_facts(out, it.facts);
   write_signs(out, it.signs);
   out.key("values").open('{');
-  for (const Found& found : it.found) write_found(out, found);
+  for (const Found& found : it.found) write_found(out, found, keys.twist_base);
   out.close('}').key("receiver_speed").text(name_of(it.speed_source));
   out.key("notes").open('[');
   for (const auto& note : calibration_notes(it, keys)) out.text(note);

@@ -246,6 +246,8 @@ TEST(CalibrationPatch, HasNoRadiusOfABaseThatTellsATwist) {
   auto twist = keys();
   twist.twist_base = true;
   EXPECT_THAT(calibration_patch(found(), twist), Not(HasSubstr("wheel_radius_m")));
+  EXPECT_THAT(show_calibration(found(), twist), HasSubstr("way_scale"));
+  EXPECT_THAT(show_calibration(found(), twist), Not(HasSubstr("wheel_radius_m")));
 }
 
 TEST(ShowCalibration, SaysWhyAValueIsNotTold) {
