@@ -138,9 +138,9 @@ void describe(V& v, const BaseSnapshot& base) {
 
 template <class V>
 void describe(V& v, const GnssSnapshot& gnss) {
-  const auto& [configured, health, source, position, position_time, velocity, receiver_heading_deg,
-               heading_deg, heading_time, pose_heading_deg, pose_latitude_deg, pose_longitude_deg] =
-      gnss;
+  const auto& [configured, health, source, position, position_time, velocity, velocity_time,
+               receiver_heading_deg, heading_deg, heading_time, pose_heading_deg, pose_latitude_deg,
+               pose_longitude_deg] = gnss;
   v.value("configured", configured);
   v.value("health", health, {});
   v.inside("source", [&v, &part = source] { describe(v, part); });

@@ -101,6 +101,7 @@ struct GnssSnapshot {
   GnssPosition position;        ///< last one, for display
   Time position_time = kNever;  ///< when it was true
   GnssVelocity velocity;        ///< last one, for display
+  Time velocity_time = kNever;  ///< when it was true; for who calibrates, and not published
   /// Of its antennas' baseline, as the receiver tells it, clockwise from true north; absent when it
   /// never told one.
   double receiver_heading_deg = kAbsent;

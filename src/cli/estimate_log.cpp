@@ -13,16 +13,23 @@
 namespace drover::cli {
 namespace {
 
-constexpr std::array<std::string_view, 20> kLogColumns = {
-    "time_s",       "received_s",   "left_rim_mps",  "right_rim_mps",    "vx_mps",
-    "wz_radps",     "gyro_x_radps", "gyro_y_radps",  "gyro_z_radps",     "accel_x_mps2",
-    "accel_y_mps2", "accel_z_mps2", "latitude_deg",  "longitude_deg",    "altitude_m",
-    "quality",      "sigma_east_m", "sigma_north_m", "correction_age_s", "heading_deg"};
+constexpr std::array<std::string_view, 25> kLogColumns = {
+    "time_s",          "received_s",       "left_rim_mps",      "right_rim_mps",
+    "vx_mps",          "wz_radps",         "gyro_x_radps",      "gyro_y_radps",
+    "gyro_z_radps",    "accel_x_mps2",     "accel_y_mps2",      "accel_z_mps2",
+    "latitude_deg",    "longitude_deg",    "altitude_m",        "quality",
+    "sigma_east_m",    "sigma_north_m",    "correction_age_s",  "heading_deg",
+    "receiver_mps",    "command_left_mps", "command_right_mps", "command_vx_mps",
+    "command_wz_radps"};
 /// A value of the first is nothing without the second in its row.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 19> kTogether = {
+constexpr std::array<std::pair<std::string_view, std::string_view>, 23> kTogether = {
     {{"left_rim_mps", "right_rim_mps"},
      {"right_rim_mps", "left_rim_mps"},
      {"vx_mps", "wz_radps"},
+     {"command_left_mps", "command_right_mps"},
+     {"command_right_mps", "command_left_mps"},
+     {"command_vx_mps", "command_wz_radps"},
+     {"command_wz_radps", "command_vx_mps"},
      {"wz_radps", "vx_mps"},
      {"gyro_x_radps", "gyro_z_radps"},
      {"gyro_y_radps", "gyro_z_radps"},
@@ -102,6 +109,9 @@ std::optional<LogError> LogReader::read_head(std::string_view line) {
     return LogError{line_, 0, "", "there is no column time_s"};
   if (column_of("vx_mps") < columns_.size() && column_of("left_rim_mps") < columns_.size())
     return error(column_of("vx_mps"), "the motion of the base is told twice: by its rims, too");
+  if (column_of("command_vx_mps") < columns_.size() &&
+      column_of("command_left_mps") < columns_.size())
+    return error(column_of("command_vx_mps"), "the command is told twice: by its rims, too");
   cells_.assign(columns_.size(), 0.0);  // as if a row had them all
   for (const auto& [name, other] : kTogether)
     if (auto wrong = needs(name, other)) return wrong;
@@ -185,7 +195,8 @@ std::optional<LogError> LogReader::check_values() const {
                                {"quality", 0, kMostQuality},
                                {"sigma_east_m", 0, 1e6},
                                {"sigma_north_m", 0, 1e6},
-                               {"correction_age_s", 0, 1e6}};
+                               {"correction_age_s", 0, 1e6},
+                               {"receiver_mps", 0, 1e3}};
   for (const auto& [name, least, most] : kRanges)
     if (auto wrong = within(name, least, most)) return wrong;
   if (const auto quality = value("quality"); quality && *quality != std::floor(*quality))
@@ -199,6 +210,11 @@ void LogReader::fill(LogRow& row) const {
   if (const auto left = value("left_rim_mps"))
     row.motion = LoggedMotion{true, *left, *value("right_rim_mps")};
   if (const auto vx = value("vx_mps")) row.motion = LoggedMotion{false, *vx, *value("wz_radps")};
+  row.receiver_mps = value("receiver_mps");
+  if (const auto left = value("command_left_mps"))
+    row.command = LoggedMotion{true, *left, *value("command_right_mps")};
+  if (const auto vx = value("command_vx_mps"))
+    row.command = LoggedMotion{false, *vx, *value("command_wz_radps")};
   if (const auto gyro_z = value("gyro_z_radps")) {
     ImuSample imu;
     imu.angular_velocity_radps = {value("gyro_x_radps").value_or(0),

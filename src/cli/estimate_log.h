@@ -1,4 +1,5 @@
-// A log of measurements as a table (CSV), for `drover estimate --in`. Pure: line by line, no file.
+// A log of measurements as a table (CSV), for `drover estimate --in` and
+// `drover calibrate --in`. Pure: line by line, no file.
 //
 // The columns, whose names have their units, are in README.md. An empty cell is a value that is not
 // of this row's instant: sensors have rates of their own.
@@ -39,6 +40,9 @@ struct LogRow {
   std::optional<ImuSample> imu;
   std::optional<GnssPosition> position;
   std::optional<GnssHeading> heading;
+  // Of no use to the estimator; for `drover calibrate`:
+  std::optional<double> receiver_mps;   ///< the receiver's own speed over ground
+  std::optional<LoggedMotion> command;  ///< what the base was told
 };
 
 class LogReader final {

@@ -131,10 +131,17 @@ bool acts_on_the_robot(std::string_view verb) {
 
 /// What people call it elsewhere; empty: nothing of that.
 std::string_view known_as(std::string_view word) {
-  constexpr std::pair<std::string_view, std::string_view> kNames[] = {
-      {"battery", "bms"},     {"gps", "gnss"},        {"rtk", "gnss"},   {"track", "traj"},
-      {"tracks", "traj"},     {"trajectory", "traj"}, {"fence", "zone"}, {"obstacle", "scene"},
-      {"obstacles", "scene"}, {"objects", "scene"}};
+  constexpr std::pair<std::string_view, std::string_view> kNames[] = {{"battery", "bms"},
+                                                                      {"gps", "gnss"},
+                                                                      {"rtk", "gnss"},
+                                                                      {"track", "traj"},
+                                                                      {"tracks", "traj"},
+                                                                      {"trajectory", "traj"},
+                                                                      {"fence", "zone"},
+                                                                      {"obstacle", "scene"},
+                                                                      {"obstacles", "scene"},
+                                                                      {"objects", "scene"},
+                                                                      {"calibration", "calibrate"}};
   for (const auto& [other, verb] : kNames)
     if (other == word) return verb;
   return "";

@@ -114,6 +114,7 @@ void Engine::Impl::take(const Measurement& m) {
     mechanics.on_position(*position, m.time);
   } else if (const auto* velocity = std::get_if<GnssVelocity>(&m.value)) {
     snapshot.gnss.velocity = *velocity;
+    snapshot.gnss.velocity_time = m.time;
     rest.witness().on_speed(*velocity, m.time);
   } else if (const auto* heading = std::get_if<GnssHeading>(&m.value)) {
     rest.witness().on_heading(*heading, m.time);

@@ -31,6 +31,7 @@ void Engine::Impl::choose_sensors(Time now, const Environment& environment) {
   snapshot.gnss.position = fix;
   snapshot.gnss.position_time = sensors.position_at();
   snapshot.gnss.velocity = {};
+  snapshot.gnss.velocity_time = kNever;
   snapshot.gnss.receiver_heading_deg = snapshot.gnss.heading_deg = kAbsent;
   snapshot.gnss.heading_time = kNever;
 }

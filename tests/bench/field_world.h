@@ -55,6 +55,9 @@ class FieldWorld final {
     return judge_->conclude(engine_->snapshot(), truth(), since_s());
   }
 
+  /// Called after each cycle, if it is there.
+  std::function<void(const Snapshot&)> watch;
+
  private:
   using BodyOf = decltype(Command::body);
   static constexpr double kTick_s = 0.005;
@@ -88,6 +91,7 @@ class FieldWorld final {
     }
     engine_->step(now_, environment_, out_);
     for (const Event& event : out_.events) judge_->hear(event, since_s());
+    if (watch) watch(engine_->snapshot());
   }
 
   Pose truth() const {

@@ -42,6 +42,19 @@ bool same_wiring(const Wiring& a, const Wiring& b) {
          std::equal(a.slots.begin(), a.slots.end(), b.slots.begin(), b.slots.end(), same_slot);
 }
 
+constexpr const char* kNoRecording = "this is no recording of this program's format";
+
+RecordedConfiguration configuration_of(const RecordingHeader& header) {
+  RecordedConfiguration recorded;
+  recorded.loaded = config::load_text(config::in_todays_form(header.configuration), "",
+                                      std::string(header.register_map));
+  const auto& problems = recorded.loaded.problems;
+  if (!problems.empty())
+    recorded.problem =
+        "its configuration is not understood: " + problems.front().text("configuration");
+  return recorded;
+}
+
 /// What is done with a recording.
 struct Playing {
   bool compares = true;
@@ -95,17 +108,14 @@ class Replay final {
   bool begin() {
     RecordingHeader header = read_header(in_);
     if (!in_.good()) {
-      result_.note = "this is no recording of this program's format";
+      result_.note = kNoRecording;
       return false;
     }
     result_.version = header.version;
-    const auto loaded = config::load_text(config::in_todays_form(header.configuration), "",
-                                          std::move(header.register_map));
-    if (!loaded.problems.empty()) {
-      result_.note =
-          "its configuration is not understood: " + loaded.problems.front().text("configuration");
-      return false;
-    }
+    const auto recorded = configuration_of(header);
+    result_.note = recorded.problem;
+    if (!recorded.problem.empty()) return false;
+    const auto& loaded = recorded.loaded;
     try {
       gateway_ = std::make_unique<Gateway>(loaded.config);
       if (playing_.config != nullptr && !take_other_configuration()) return false;
@@ -351,6 +361,15 @@ class Replay final {
 
 Replayed replay(std::span<const std::uint8_t> file) {
   return Replay(file, {}).run();
+}
+
+RecordedConfiguration recorded_configuration(std::span<const std::uint8_t> file) {
+  ByteReader in(file);
+  const RecordingHeader header = read_header(in);
+  if (in.good()) return configuration_of(header);
+  RecordedConfiguration none;
+  none.problem = kNoRecording;
+  return none;
 }
 
 Replayed play(std::span<const std::uint8_t> file, const config::DroverConfig* config,

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "config/config.h"
+#include "config/load.h"
 #include "drover/snapshot.h"
 #include "drover/time.h"
 
@@ -51,5 +51,13 @@ Replayed replay(std::span<const std::uint8_t> file);
 /// unusable when the devices or links of the two are not the same, whose numbers the inputs name.
 Replayed play(std::span<const std::uint8_t> file, const config::DroverConfig* config,
               const std::function<void(const Snapshot&)>& cycle);
+
+/// What the daemon was configured as when it was recorded. Its problem: the file is no recording,
+/// or the configuration is not understood.
+struct RecordedConfiguration {
+  std::string problem;  ///< empty: it is
+  config::Loaded loaded;
+};
+RecordedConfiguration recorded_configuration(std::span<const std::uint8_t> file);
 
 }  // namespace drover::gateway

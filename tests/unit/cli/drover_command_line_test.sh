@@ -119,6 +119,15 @@ printf '1,0,zero\n' >> "$log"
 expect "what is wrong in a log is told with its place" 1 err 'line 4, column 3 (wz_radps)' \
   estimate --config "$robot" --in "$log"
 expect "what is no recording is none" 1 err "$log: " estimate --recording "$log"
+printf 'time_s,vx_mps,wz_radps\n0,0,0\n0.5,0,0\n' > "$log"
+expect "a robot is not calibrated from a log that shows nothing" 1 err "RTK fix: drive where" \
+  calibrate --config "$robot" --in "$log"
+expect "which is told to programs, too" 1 out '{"ok":false,"reason":"' \
+  calibrate --config "$robot" --in "$log" --json
+expect "nor from what is no recording" 1 err "$log: " calibrate --recording "$log"
+expect "a log needs the configuration of its robot" 2 err "--config" calibrate --in "$log"
+expect "and one of both is needed" 2 err "--in or --recording" calibrate --config "$robot"
+expect "what to drive is in the help" 0 out "a left and a right circle" calibrate --help
 expect "a verb that gives up what is stored is not guessed" 2 err "there are " scene accept
 expect "a point's number is one that there can be" 2 err "id" \
   task start x --id 99999999999999999999

@@ -55,6 +55,23 @@ TEST(EstimateLog, HasTwistsAndTimesOfReceptionToo) {
   EXPECT_EQ(one.received - one.time, std::chrono::milliseconds(100));
 }
 
+TEST(EstimateLog, HasWhatACalibrationLooksAt) {
+  constexpr std::string_view kRims = "time_s,receiver_mps,command_left_mps,command_right_mps";
+  const LogRow told = row(kRims, "1,,0.4,0.5");
+  EXPECT_TRUE(told.command->by_rims);
+  EXPECT_EQ(told.command->second, 0.5);
+  EXPECT_FALSE(told.receiver_mps);
+  EXPECT_EQ(row(kRims, "1,0.3,,").receiver_mps, 0.3);
+  const LogRow twist = row("time_s,command_vx_mps,command_wz_radps", "1,0.5,-0.2");
+  EXPECT_FALSE(twist.command->by_rims);
+  EXPECT_EQ(twist.command->second, -0.2);
+  EXPECT_THAT(trouble(kRims, "1,-0.3,,"), HasSubstr("(receiver_mps): -0.3 is not within"));
+  EXPECT_THAT(trouble(kRims, "1,,0.4,"), HasSubstr("it needs command_right_mps"));
+  EXPECT_THAT(trouble("time_s,command_left_mps,command_right_mps,command_vx_mps,command_wz_radps",
+                      "1,0,0,0,0"),
+              HasSubstr("told twice"));
+}
+
 TEST(EstimateLog, PassesCommentsAndEmptyLinesOverAndCountsThem) {
   LogReader reader;
   EXPECT_FALSE(reader.read_head("# of the robot in the yard"));

@@ -29,7 +29,7 @@ TEST(AnAntennaLineThatIsMountedAskew, EndsNoTaskWhenTheReceiverIsBackAfterAnOuta
 }
 
 /// A shove, and positions 50 ms late, which still show some of it when it is over.
-TEST(AShove, EndsNoTaskWherePositionsAreLate) {
+TEST(AShoveInAField, EndsNoTaskWherePositionsAreLate) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     FieldPlan plan;
     plan.gst = true;

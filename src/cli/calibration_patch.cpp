@@ -1,0 +1,171 @@
+// What of a calibration becomes a change of the configuration, and what only a person can change.
+#include <cmath>
+
+#include "cli/show_calibration.h"
+#include "cli/shown_text.h"
+#include "json/json_text.h"
+
+namespace drover::cli {
+namespace {
+
+using calibrate::Calibration;
+using calibrate::Found;
+using calibrate::Quantity;
+using json::JsonText;
+
+bool is_off(const Found& found, double configured) {
+  return found.refused.empty() && std::abs(found.value - configured) > found.interval;
+}
+bool is_off(const Found& found) {
+  return found.has_configured && is_off(found, found.configured);
+}
+
+/// Members are texts: of a section in which nothing is off there is none.
+class Patch final {
+ public:
+  Patch(const Calibration& it, const CalibrationKeys& keys) : it_(it), keys_(keys) {}
+
+  std::string text() {
+    base();
+    estimate();
+    receiver();
+    if (is_off(it_.of(Quantity::drive_lag_s)))
+      section("navigate", one("drive_lag_s", it_.of(Quantity::drive_lag_s).value, 3));
+    return parts_.empty() ? "" : "{" + parts_ + "}";
+  }
+
+ private:
+  static std::string one(const char* key, double value, int decimals) {
+    JsonText out;
+    out.key(key).number(value, decimals);
+    return out.take();
+  }
+  void add(std::string& to, Quantity what, const char* key, int decimals) const {
+    if (is_off(it_.of(what))) append(to, one(key, it_.of(what).value, decimals));
+  }
+  static void append(std::string& to, const std::string& member) {
+    to += (to.empty() ? "" : ",") + member;
+  }
+  static std::string in(const std::string& name, const std::string& members) {
+    JsonText key;
+    key.key(name);
+    return key.take() + "{" + members + "}";
+  }
+  void section(const std::string& name, const std::string& members) {
+    if (!members.empty()) append(parts_, in(name, members));
+  }
+
+  void base() {
+    std::string members;
+    if (!keys_.twist_base) add(members, Quantity::wheel_radius_m, "wheel_radius_m", 5);
+    add(members, Quantity::yaw_slip_factor, "yaw_slip_factor", 3);
+    if (!members.empty()) section("groups", in("base", members));
+  }
+  void antenna(std::string& members, bool at_receiver) const {
+    if (keys_.x_at_receiver == at_receiver) add(members, Quantity::antenna_x_m, "antenna_x_m", 3);
+    if (keys_.y_at_receiver == at_receiver) add(members, Quantity::antenna_y_m, "antenna_y_m", 3);
+    if (keys_.heading_at_receiver == at_receiver)
+      add(members, Quantity::heading_offset_deg, "heading_baseline_offset_deg", 2);
+  }
+  void estimate() {
+    std::string members;
+    antenna(members, false);
+    section("estimate", members);
+  }
+  void receiver() {
+    std::string members;
+    antenna(members, true);
+    const Found& late = it_.of(Quantity::position_late_s);
+    if (keys_.own_stamps && keys_.latency_s && is_off(late, 0) &&
+        *keys_.latency_s + late.value >= 0)
+      append(members, in("options", one("latency_s", *keys_.latency_s + late.value, 3)));
+    if (!members.empty()) section("devices", in(keys_.receiver, members));
+  }
+
+  const Calibration& it_;
+  const CalibrationKeys& keys_;
+  std::string parts_;
+};
+
+class Notes final {
+ public:
+  Notes(const Calibration& it, const CalibrationKeys& keys) : it_(it), keys_(keys) {}
+
+  std::vector<std::string> all() {
+    signs();
+    sides();
+    lateness();
+    const Found& scale = it_.of(Quantity::gyro_scale);
+    if (is_off(scale))
+      say("the gyro's turns are to be taken times " + fixed(scale.value, 4) +
+          ": no key; the estimate learns it while driving");
+    if (keys_.twist_base && is_off(it_.of(Quantity::wheel_radius_m)))
+      say("the base's own way is to be taken times " +
+          fixed(it_.of(Quantity::wheel_radius_m).value, 4) +
+          ": no key; the estimate learns it while driving");
+    speed();
+    return std::move(notes_);
+  }
+
+ private:
+  void say(std::string text) { notes_.push_back(std::move(text)); }
+
+  void signs() {
+    const auto& signs = it_.signs;
+    if (signs.swapped)
+      say("left and right are swapped: exchange groups.base.left and groups.base.right");
+    if (signs.left_reversed)
+      say("what is configured as left tells backwards: turn \"reversed\" of its drives round");
+    if (signs.right_reversed)
+      say("what is configured as right tells backwards: turn \"reversed\" of its drives round");
+    if (signs.gyro_reversed)
+      say("the gyro turns the other way: its mount_roll_deg is 180 degrees off, or "
+          "mount_pitch_deg");
+    if (signs.heading_opposite)
+      say("the antenna line points the other way round; or the sides are swapped and both are "
+          "reversed: look which");
+  }
+  void sides() {
+    const Found& left = it_.of(Quantity::left_radius_m);
+    const Found& right = it_.of(Quantity::right_radius_m);
+    if (!left.refused.empty() || !right.refused.empty()) return;
+    const double apart = right.value - left.value;
+    if (std::abs(apart) < std::hypot(left.interval, right.interval)) return;
+    say(std::string(keys_.twist_base ? "the ways of the right side are "
+                                     : "the wheels of the right side are ") +
+        fixed(100 * std::abs(apart) / left.value, 1) + " % " + (apart > 0 ? "larger" : "smaller") +
+        " than those of the left: no key tells sides apart; look at tyres and gear ratios");
+  }
+  void lateness() {
+    const Found& place = it_.of(Quantity::position_late_s);
+    if (is_off(place, 0) && !(keys_.own_stamps && keys_.latency_s))
+      say("positions are " + fixed(place.value, 3) +
+          " s older than their stamps: with droverd that is added to the receiver's latency_s");
+    const Found& heading = it_.of(Quantity::heading_late_s);
+    if (heading.refused.empty() && place.refused.empty() &&
+        std::abs(heading.value - place.value) > std::hypot(heading.interval, place.interval))
+      say("headings are " + fixed(heading.value - place.value, 3) +
+          " s later than positions: no key; the estimate learns it while driving");
+  }
+  void speed() {
+    if (it_.speed_source == calibrate::SpeedSource::positions)
+      say("the receiver makes its speed of its positions: it is no second witness, switch the "
+          "receiver to Doppler speed if it can");
+  }
+
+  const Calibration& it_;
+  const CalibrationKeys& keys_;
+  std::vector<std::string> notes_;
+};
+
+}  // namespace
+
+std::string calibration_patch(const Calibration& it, const CalibrationKeys& keys) {
+  return it.found.empty() ? "" : Patch(it, keys).text();
+}
+
+std::vector<std::string> calibration_notes(const Calibration& it, const CalibrationKeys& keys) {
+  return it.found.empty() ? std::vector<std::string>{} : Notes(it, keys).all();
+}
+
+}  // namespace drover::cli
