@@ -186,7 +186,8 @@ Prints how many ended without a person, and of the pauses which were
 Seconds that were paused needlessly are those in which both are inside. Then the seconds of motion
 beyond 10 cm beside the track and beyond the published bound (of the truth), and in how many of
 these wheels slipped, or had slipped since a fix that had settled, which no source shows; why it
-paused and failed, and the ten worst: beyond the bound, failed, paused needlessly, paused, in this order.
+paused and failed, and the ten worst: beyond the bound, failed, paused needlessly, paused, in this
+order.
 --each tells each mission, with all that was said.
 
 Exit status: 0; 1 a mission moved beyond the published bound; 2 wrong usage.

@@ -157,9 +157,9 @@ SEED (1) on, each half second: the square of the true error over the published s
 two degrees of freedom, and what is published of it is one sigma of its larger axis: its mean is to
 be below 2, a heading's below 1. Printed are the mean over drives and instants, the worst instant
 (mean over drives), the share of instants whose mean is beyond the upper 95 % bound of a chi-square;
-for sharpness the mean published sigma and the mean true error; and the share of samples inside three
-published sigma (99.7 % is wanted). Last come the seconds of motion beyond the published bound. An
-outage begins after 20 s, and it drives on however little it knows.
+for sharpness the mean published sigma and the mean true error; and the share of samples inside
+three published sigma (99.7 % is wanted). Last come the seconds of motion beyond the published
+bound. An outage begins after 20 s, and it drives on however little it knows.
 Without DRIVE: all, each with and without GST. --list names them.
 
 Exit status: 0; 1 a drive moved beyond the published bound; 2 wrong usage.

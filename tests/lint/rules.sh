@@ -28,7 +28,7 @@ src/json         drover/ json/ text/
 src/text         drover/ text/
 src/track        drover/ track/
 src/calibrate    drover/ calibrate/
-src/store        drover/ store/ json/
+src/store        drover/ store/ json/ track/
 src/config       drover/ config/ json/ text/ engine/config.h engine/clearance/stop_chain.h
 src/gateway      drover/ gateway/ config/ engine/
 src/publish      drover/ publish/ scene/ store/ json/ text/
