@@ -69,7 +69,7 @@ struct ArmHold {};
 /// and gyro made of the way there. Refused while it moves, and without an RTK fix.
 struct AcceptPosition {};
 /// What drives taught the robot of itself is no longer so: a wheel, an antenna was changed. Refused
-/// while it moves.
+/// while a task runs, it moves, or its place is not in order.
 struct ForgetLearned {};
 /// Drive straight ahead for a short way, so that a receiver with one antenna shows the heading.
 struct FindHeading {};

@@ -76,6 +76,7 @@ void describe(V& v, const EstimatorCounters& counters) {
 template <class V>
 void describe(V& v, const LearnedValues& learned) {
   v.value("receiver", learned.receiver);
+  v.value("imu", learned.imu);
   v.value("forgotten", learned.forgotten);
   each_learned(learned, [&v](const char* name, const LearnedValue& each) {
     v.inside(name, [&v, &each] {

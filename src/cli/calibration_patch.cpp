@@ -62,6 +62,8 @@ class Patch final {
     if (!members.empty()) section("groups", in("base", members));
   }
   void antenna(std::string& members, bool at_receiver) const {
+    // The line, or the sides: who does not know which must not make both wrong.
+    if (it_.signs.heading_opposite) return;
     if (keys_.x_at_receiver == at_receiver) add(members, Quantity::antenna_x_m, "antenna_x_m", 3);
     if (keys_.y_at_receiver == at_receiver) add(members, Quantity::antenna_y_m, "antenna_y_m", 3);
     if (keys_.heading_at_receiver == at_receiver)
@@ -112,11 +114,15 @@ class Notes final {
 
   void signs() {
     const auto& signs = it_.signs;
-    if (signs.swapped)
+    const bool wheels = !keys_.twist_base;
+    if (!wheels && (signs.swapped || signs.left_reversed || signs.right_reversed))
+      say("what the base tells of its own motion has wrong signs: look how it is wired, and how it "
+          "is mounted");
+    if (wheels && signs.swapped)
       say("left and right are swapped: exchange groups.base.left and groups.base.right");
-    if (signs.left_reversed)
+    if (wheels && signs.left_reversed)
       say("what is configured as left tells backwards: turn \"reversed\" of its drives round");
-    if (signs.right_reversed)
+    if (wheels && signs.right_reversed)
       say("what is configured as right tells backwards: turn \"reversed\" of its drives round");
     if (signs.gyro_reversed)
       say("the gyro turns the other way: its mount_roll_deg is 180 degrees off, or "

@@ -19,10 +19,10 @@ std::string with_unit(const json::Node& number, const std::string& unit) {
 std::string show_learned(const json::Node& answer) {
   const json::Node& learned = at(answer, "learned");
   const json::Node& values = at(learned, "values");
-  if (count(values) == 0)
-    return "nothing yet: straights there and back, turns and changes of speed teach it\n";
-  std::string out = padded("", kNameColumn) + padded("configured", kNumberColumn) +
-                    padded("fits", kNumberColumn) + "within\n";
+  std::string out = "nothing yet: straights there and back, turns and changes of speed teach it\n";
+  if (count(values) > 0)
+    out = padded("", kNameColumn) + padded("configured", kNumberColumn) +
+          padded("fits", kNumberColumn) + "within\n";
   for (std::size_t i = 0; i < count(values); ++i) {
     const json::Node& value = entry(values, i);
     const std::string unit = text(at(value, "unit"));
@@ -36,7 +36,7 @@ std::string show_learned(const json::Node& answer) {
   const std::string since = date(at(learned, "kept_s"), "%Y-%m-%d %H:%M UTC");
   if (!problem.empty()) {
     out += "not on the disk: " + problem + "\n";
-  } else if (!since.empty()) {
+  } else if (!since.empty() && count(values) > 0) {
     out += "kept on the disk, of " + since + "\n";
   }
   return out;

@@ -10,19 +10,15 @@ namespace drover::config {
 
 namespace {
 
-/// Behind the robot nobody looks but a scanner.
-constexpr double kUnseen_mps = 0.2;
 constexpr double kMostPivot_deg = 120;  // a cusp has to be a corner
 
 void check_backwards(Findings& found) {
-  const auto& navigate = found.config().engine.navigate;
-  if (navigate.drive == engine::DriveTracks::ahead) return;
-  const bool sees =
-      found.config().scene.configured && first(found.config(), SlotKind::scanner) != nullptr;
-  if (navigate.backwards_speed_mps > kUnseen_mps && !sees)
-    found.add("navigate.backwards_speed_mps",
-              "is above 0.2 m/s, and no scanner looks behind the robot", "0.2 and less");
-  if (navigate.pivot_angle_deg > kMostPivot_deg)
+  const auto& engine = found.config().engine;
+  if (engine.navigate.drive == TrackDrive::ahead) return;
+  if (engine.navigate.backwards_speed_mps < engine.limits.min_speed_mps)
+    found.add("navigate.backwards_speed_mps", "is below limits.min_speed_mps",
+              "\"navigate\": {\"drive\": \"ahead\"}, or a base that can be driven so slowly");
+  if (engine.navigate.pivot_angle_deg > kMostPivot_deg)
     found.add("navigate.pivot_angle_deg", "is above 120: no cusp would be a corner",
               "\"navigate\": {\"drive\": \"ahead\"}, or up to 120");
 }

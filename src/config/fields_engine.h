@@ -149,7 +149,7 @@ void visit(V& v, engine::EstimateConfig& c) {
   visit_imu(v, c);
 }
 
-/// As `drive` is written, by DriveTracks.
+/// As `drive` is written, by TrackDrive.
 inline constexpr std::array<std::string_view, 3> kDriveWords{"ahead", "recorded", "either"};
 
 template <class V>
@@ -160,7 +160,7 @@ void visit(V& v, engine::NavigateConfig& c) {
            "where a track was recorded so; either: as it stands at the start, and at a cusp it "
            "goes on the other way");
   for (std::size_t i = 0; i < kDriveWords.size(); ++i)
-    if (drive == kDriveWords[i]) c.drive = static_cast<engine::DriveTracks>(i);
+    if (drive == kDriveWords[i]) c.drive = static_cast<TrackDrive>(i);
   v.number("start_distance_m", c.start_distance_m, Range{0.1, 20},
            "a start farther from the track is refused");
   v.number("start_angle_deg", c.start_angle_deg, Range{5, 180}, "a start worse turned is refused");
@@ -178,8 +178,8 @@ void visit(V& v, engine::NavigateConfig& c) {
   v.number("creep_speed_mps", c.creep_speed_mps, Range{0.02, 1}, "slowest speed near the goal");
   v.number("far_zone_speed_mps", c.far_zone_speed_mps, Range{0, 5},
            "cap while the far zone is occupied");
-  v.number("backwards_speed_mps", c.backwards_speed_mps, Range{0.05, 5},
-           "cap where a track is driven backwards; more than 0.2 with a scanner only");
+  v.number("backwards_speed_mps", c.backwards_speed_mps, Range{0.05, 0.2},
+           "cap where a track is driven backwards: nobody looks behind the robot");
   v.number("corridor_m", c.corridor_m, Range{0.05, 10}, "farther off the track the task fails");
   v.number("resume_after_s", c.resume_after_s, Range{0.2, 60}, "health before a pause ends");
   v.number("obstacle_timeout_s", c.obstacle_timeout_s, Range{1, 3600},

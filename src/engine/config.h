@@ -6,6 +6,7 @@
 #include "drover/fixed_text.h"
 #include "drover/fixed_vector.h"
 #include "drover/measurement.h"
+#include "drover/path.h"
 #include "drover/role.h"
 
 namespace drover::engine {
@@ -118,11 +119,8 @@ struct EstimateConfig {
   double imu_acceleration_sigma_mps2 = 0.05;  ///< of one sample
 };
 
-/// Which way the robot looks along a track: src/store/gears.h has what follows from it.
-enum class DriveTracks : std::uint8_t { ahead, recorded, either };
-
 struct NavigateConfig {
-  DriveTracks drive = DriveTracks::ahead;
+  TrackDrive drive = TrackDrive::ahead;
   double start_distance_m = 2.0;  ///< farther from the track: refused
   double start_angle_deg = 30.0;  ///< worse turned: refused
   double goal_tolerance_m = 0.10;

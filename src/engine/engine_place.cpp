@@ -73,8 +73,11 @@ void Engine::Impl::forget_learned(const RequestId& id, Time now) {
   const auto refuse = [&](const Reason& why) { events.push(now, CommandRefused{id, why}); };
   if (navigator.active()) return refuse("a task runs");
   if (!owners.at_rest() || rest.moves(now)) return refuse("the robot moves");
-  // What it was learned by is in question, and would be believed with it.
-  if (estimate.place_doubted) return refuse(estimate.reason);
+  // The place is found anew, and what it is compared with is forgotten: that must be in order now.
+  if (const Reason why = poor_fix(now); !why.empty()) return refuse(why);
+  if (estimate.disagrees || estimate.place_doubted) return refuse(estimate.reason);
+  if (!place.jumped().empty()) return refuse(place.jumped());
+  if (!place.compared()) return refuse("where it stood before is not compared yet");
   if (!estimate.looks.empty()) return refuse(estimate.looks);
   estimator.forget_learned();
   estimate = estimator.step(last_step == kNever ? now : last_step);

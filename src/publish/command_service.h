@@ -22,7 +22,6 @@
 #include "publish/rtk_navigation/feedback.h"
 #include "publish/token_bucket.h"
 #include "store/derive.h"
-#include "store/gears.h"
 #include "store/storage.h"
 
 namespace drover::publish {
@@ -41,7 +40,7 @@ struct CommandServiceConfig {
   std::size_t max_pending_writes = 16;                   ///< for the disk; each may hold a track
   std::size_t max_pending_bytes = std::size_t{8} << 20;  ///< of those tracks in a list
   store::AntennaOffset antenna{};
-  store::TrackDrive drive = store::TrackDrive::ahead;
+  TrackDrive drive = TrackDrive::ahead;
   ControlLimits limits{};
 };
 

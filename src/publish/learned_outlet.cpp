@@ -1,7 +1,6 @@
 #include "publish/learned_outlet.h"
 
 #include <cmath>
-#include <vector>
 
 #include "drover/angle.h"
 #include "json/json_text.h"
@@ -25,15 +24,10 @@ bool differs(const LearnedValue& now, const LearnedValue& kept) {
          now.sigma < kOtherSigma * kept.sigma;
 }
 
-/// Both know the same names in the same order.
 bool differs(const LearnedValues& now, const LearnedValues& kept) {
-  std::vector<LearnedValue> before;
-  each_learned(kept,
-               [&before](const char*, const LearnedValue& value) { before.push_back(value); });
-  std::size_t i = 0;
   bool other = now.receiver != kept.receiver;
-  each_learned(now, [&](const char*, const LearnedValue& value) {
-    other = differs(value, before[i++]) || other;
+  each_learned_of_both(now, kept, [&other](const LearnedValue& value, const LearnedValue& before) {
+    other = differs(value, before) || other;
   });
   return other;
 }
@@ -87,10 +81,12 @@ void write_values(json::JsonText& out, const LearnedValues& learned, const Learn
   add(learned.late_s, {"positions late", "s", kAbsent, learned.late_s.value, 0, kMadeUp}, 3, 1);
   add(learned.heading_late_s,
       {"headings late", "s", kAbsent, learned.heading_late_s.value, 0, kMadeUp}, 3, 1);
+  const bool has_wheels = std::isfinite(beside.wheel_radius_m);
+  const double radius_m = has_wheels ? beside.wheel_radius_m : 1;
   add(learned.wheel_scale,
-      {"wheel_radius_m", "m", beside.wheel_radius_m,
-       beside.wheel_radius_m * learned.wheel_scale.value, 0, kMadeUp},
-      4, beside.wheel_radius_m);
+      {has_wheels ? "wheel_radius_m" : "speed scale", has_wheels ? "m" : "", beside.wheel_radius_m,
+       radius_m * learned.wheel_scale.value, 0, kMadeUp},
+      4, radius_m);
   const double slip = 1 / learned.turn_gain.value;
   add(learned.turn_gain, {"yaw_slip_factor", "", beside.yaw_slip_factor, slip, 0, kMadeUp}, 3,
       slip * slip);
@@ -102,6 +98,7 @@ void write_values(json::JsonText& out, const LearnedValues& learned, const Learn
 LearnedOutlet::LearnedOutlet(const LearnedBeside& beside, std::optional<store::KeptLearned> stored)
     : beside_(beside) {
   given_.values.receiver = latest_.receiver = beside.receiver;
+  given_.values.imu = latest_.imu = beside.imu;
   if (!stored) return;
   given_ = *stored;
   latest_ = stored->values;
@@ -111,18 +108,24 @@ LearnedOutlet::LearnedOutlet(const LearnedBeside& beside, std::optional<store::K
 LearnedValues LearnedOutlet::wanted(const LearnedValues& now) {
   if (now.forgotten != forgotten_) {
     forgotten_ = now.forgotten;
+    forgetting_ = true;
     return now;
   }
   if (now.receiver != beside_.receiver) return given_.values;
   LearnedValues all = now;
-  std::vector<LearnedValue> before;
-  each_learned(given_.values,
-               [&before](const char*, const LearnedValue& value) { before.push_back(value); });
-  std::size_t i = 0;
-  each_learned(all, [&](const char*, LearnedValue& value) {
-    if (!value.known()) value = before[i];
-    ++i;
-  });
+  const LearnedValues& before = given_.values;
+  const auto keep = [](LearnedValue& value, const LearnedValue& older) {
+    if (!value.known()) value = older;
+  };
+  keep(all.late_s, before.late_s);
+  keep(all.heading_late_s, before.heading_late_s);
+  keep(all.wheel_scale, before.wheel_scale);
+  keep(all.turn_gain, before.turn_gain);
+  if (now.imu != beside_.imu) {
+    all.imu = beside_.imu;
+    all.gyro_scale = {};
+  }
+  keep(all.gyro_scale, before.gyro_scale);
   return all;
 }
 
@@ -152,13 +155,14 @@ void LearnedOutlet::on_stored(const store::StorageReply& reply, Actions& out) {
   if (reply.ok) {
     kept_s_ = given_.wall_s;
     problem_.clear();
+    forgetting_ = false;
     return;
   }
   // Told once, and tried again.
-  if (problem_.empty())
-    out.emplace_back(
-        LogLine{Notice::Level::warning,
-                "what was learned of the robot is lost with droverd: " + reply.reason});
+  const char* what = forgetting_
+                         ? "what was forgotten of the robot comes back with the next start: "
+                         : "what was learned of the robot is lost with droverd: ";
+  if (problem_.empty()) out.emplace_back(LogLine{Notice::Level::warning, what + reply.reason});
   problem_ = reply.reason;
 }
 

@@ -13,11 +13,12 @@ namespace drover::publish {
 /// What the learned values are beside.
 struct LearnedBeside {
   std::uint64_t subject = 0;  ///< fingerprint of the configuration's part that they are beside
-  std::uint8_t receiver = 0;  ///< the one that steers; its antennas:
+  std::uint8_t imu = 0;       ///< the one that steers
+  std::uint8_t receiver = 0;  ///< likewise; its antennas:
   double antenna_x_m = 0;
   double antenna_y_m = 0;
   double heading_baseline_offset_deg = 0;
-  double wheel_radius_m = 0;
+  double wheel_radius_m = kAbsent;  ///< absent: a base without wheels of ours
   double yaw_slip_factor = 1;
 };
 
@@ -35,8 +36,10 @@ class LearnedOutlet final : public Outlet {
   void on_stored(const store::StorageReply& reply, Actions& out);
 
  private:
-  /// What was known before and is not just now (another receiver steered, the filter began anew)
-  /// is kept, but for what a person had forgotten.
+  /// What to keep: of where antennas are what is known now, since what was known and is not any
+  /// more was refuted; of the others, too, what was known before (wheels slip, a speed that has
+  /// been even for long), but for what a person had forgotten. Of another receiver or sensor
+  /// nothing.
   LearnedValues wanted(const LearnedValues& now);
   std::string shown() const;
 
@@ -46,6 +49,7 @@ class LearnedOutlet final : public Outlet {
   std::optional<double> kept_s_;  ///< since the epoch: the disk has it since then
   std::string problem_;           ///< why it is not on the disk; empty: it is, or there is nothing
   bool under_way_ = false;        ///< to the disk
+  bool forgetting_ = false;       ///< a person's word is not on the disk yet
   std::uint32_t forgotten_ = 0;
   Time given_at_ = kNever;
   std::uint64_t last_number_ = 0;

@@ -105,7 +105,7 @@ class Daemon final {
     control_.recall(recall(memory_, on_disk_));
     if (learned_) {
       control_.recall(learned_->values);
-      log(LogLevel::info, "what the robot has learned of itself is used: drover learned");
+      log(LogLevel::info, "what the robot has learned of itself is used: drover learned show");
     }
     Worker keeper("links", [this] { keeper_.run(stop_keeper_); });
     Worker storage("storage",

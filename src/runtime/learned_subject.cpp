@@ -33,6 +33,13 @@ void write(json::JsonText& out, const config::DeviceConfig& device,
   out.close(']');
 }
 
+std::uint8_t that_steers(const engine::SensorList& sensors) {
+  const auto* steers =
+      std::find_if(sensors.begin(), sensors.end(),
+                   [](const engine::SensorConfig& one) { return one.role == Role::steers; });
+  return static_cast<std::uint8_t>(steers == sensors.end() ? 0 : steers - sensors.begin());
+}
+
 bool tells_of_motion(const config::DeviceConfig& device) {
   return device.kind == SlotKind::drive || device.kind == SlotKind::gnss ||
          device.kind == SlotKind::imu;
@@ -46,26 +53,29 @@ std::uint64_t learned_subject(const config::DroverConfig& config) {
   out.open('[').integer(static_cast<int>(base.kind));
   for (const double number : {base.wheel_radius_m, base.track_m, base.yaw_slip_factor})
     out.number(number);
+  for (const auto* side : {&base.left, &base.right}) {
+    out.open('[');
+    for (const AxisId axis : *side) out.integer(axis);
+    out.close(']');
+  }
   for (const config::DeviceConfig& device : config.devices)
     if (tells_of_motion(device)) write(out, device, config);
   return store::fingerprint(out.close(']').str());
 }
 
 publish::LearnedBeside learned_beside(const config::DroverConfig& config) {
-  const auto& receivers = config.engine.receivers;
-  const auto* steers =
-      std::find_if(receivers.begin(), receivers.end(),
-                   [](const engine::SensorConfig& one) { return one.role == Role::steers; });
+  const engine::EngineConfig& engine = config.engine;
   publish::LearnedBeside beside;
   beside.subject = learned_subject(config);
-  if (steers != receivers.end())
-    beside.receiver = static_cast<std::uint8_t>(steers - receivers.begin());
-  const auto antenna = engine::antenna_of(config.engine.estimate, beside.receiver);
+  beside.receiver = that_steers(engine.receivers);
+  beside.imu = that_steers(engine.imus);
+  const auto antenna = engine::antenna_of(engine.estimate, beside.receiver);
   beside.antenna_x_m = antenna.x_m;
   beside.antenna_y_m = antenna.y_m;
   beside.heading_baseline_offset_deg = antenna.heading_baseline_offset_deg;
-  beside.wheel_radius_m = config.engine.base.wheel_radius_m;
-  beside.yaw_slip_factor = config.engine.base.yaw_slip_factor;
+  const bool has_wheels = engine.base.kind != engine::BaseKind::twist;
+  if (has_wheels) beside.wheel_radius_m = engine.base.wheel_radius_m;
+  beside.yaw_slip_factor = engine.base.yaw_slip_factor;
   return beside;
 }
 

@@ -16,15 +16,6 @@ HeadingConvention heading_convention(const config::ProtocolConfig& protocol) {
   return HeadingConvention::clockwise_from_north;
 }
 
-store::TrackDrive track_drive(engine::DriveTracks drive) {
-  switch (drive) {
-    case engine::DriveTracks::ahead: return store::TrackDrive::ahead;
-    case engine::DriveTracks::recorded: return store::TrackDrive::recorded;
-    case engine::DriveTracks::either: return store::TrackDrive::either;
-  }
-  return store::TrackDrive::ahead;
-}
-
 publish::RtkConfig rtk_config(const config::ProtocolConfig& protocol) {
   publish::RtkConfig rtk;
   rtk.heading = heading_convention(protocol);
@@ -66,7 +57,7 @@ publish::CommandServiceConfig service_config(const config::DroverConfig& config)
   service.automatic_origin = config.protocol.automatic_origin;
   service.antenna = {config.engine.estimate.antenna_x_m, config.engine.estimate.antenna_y_m,
                      heading_convention(config.protocol)};
-  service.drive = track_drive(config.engine.navigate.drive);
+  service.drive = config.engine.navigate.drive;
   return service;
 }
 

@@ -19,6 +19,13 @@ std::optional<double> number_of(const json::Node& node, std::string_view key) {
   return member == nullptr ? std::nullopt : member->number();
 }
 
+/// The number of a receiver or inertial sensor.
+std::optional<std::uint8_t> sensor_of(const json::Node& root, std::string_view key) {
+  const auto number = number_of(root, key);
+  if (!number || !(*number >= 0 && *number < kMaxOfKind)) return std::nullopt;
+  return static_cast<std::uint8_t>(*number);
+}
+
 /// In hexadecimal: a number of JSON does not hold 64 bits everywhere.
 std::optional<std::uint64_t> subject_of(const json::Node& root) {
   const auto* member = root.find("subject");
@@ -43,13 +50,14 @@ std::optional<KeptLearned> read_learned(const json::Node& root) {
   KeptLearned kept;
   const auto subject = subject_of(root);
   const auto wall_s = number_of(root, "wall_s");
-  const auto receiver = number_of(root, "receiver");
+  const auto receiver = sensor_of(root, "receiver");
+  const auto imu = sensor_of(root, "imu");
   const auto* values = root.find("values");
-  if (!subject || !wall_s || !receiver || values == nullptr) return std::nullopt;
-  if (!(*receiver >= 0 && *receiver < kMaxOfKind)) return std::nullopt;
+  if (!subject || !wall_s || !receiver || !imu || values == nullptr) return std::nullopt;
   kept.subject = *subject;
   kept.wall_s = *wall_s;
-  kept.values.receiver = static_cast<std::uint8_t>(*receiver);
+  kept.values.receiver = *receiver;
+  kept.values.imu = *imu;
   each_learned(kept.values, [values](const char* name, LearnedValue& value) {
     const auto* member = values->find(name);
     if (member == nullptr) return;
@@ -94,6 +102,7 @@ std::optional<Failure> LearnedStore::save(const KeptLearned& kept) {
   body.open('{').key("subject").text(subject_text(kept.subject));
   body.key("wall_s").number(kept.wall_s);
   body.key("receiver").integer(kept.values.receiver);
+  body.key("imu").integer(kept.values.imu);
   body.key("values").open('{');
   each_learned(kept.values, [&body](const char* name, const LearnedValue& value) {
     if (!value.known()) return;

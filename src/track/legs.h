@@ -20,8 +20,8 @@ Leg leg_to_target(const Route& route, std::size_t first, double first_m, double 
 /// The same leg, once its corner is.
 Leg leg_to_corner(const Route& route, const Leg& leg, const Station& corner);
 
-/// The robot drives backwards on the leg: as the route tells a little behind its beginning, which
-/// may lie beside the point where it was changed.
+/// The robot drives backwards on the leg: as the route tells a little after its beginning, which
+/// may lie beside the point where that changes.
 bool is_backwards(const Route& route, const Leg& leg);
 
 /// How far a route was looked along for corners.

@@ -149,8 +149,7 @@ void print_each(const Driven& d, bool all_said) {
   const std::string plan = in_words(draw_mission(d.seed));
   for (std::size_t at = 0; at < plan.size(); at = plan.find('\n', at) + 1) {
     const std::string text = plan.substr(at, plan.find('\n', at) - at);
-    const bool later = std::atof(text.c_str()) > j.time_s;
-    if (at == 0 || !later) std::printf("    %s\n", text.c_str());
+    std::printf("    %s\n", text.c_str());
   }
   for (const Stop& stop : d.stops) {
     std::printf(
@@ -210,6 +209,10 @@ int run(int argc, char** argv) {
       return word == "--help" ? 0 : 2;
     }
   }
+  if (seeds < 1) {
+    std::fputs(kUsage, stderr);
+    return 2;
+  }
   std::vector<Driven> all;
   bool inside = true;
   for (int i = 0; i < seeds; ++i) {
@@ -220,7 +223,6 @@ int run(int argc, char** argv) {
                  static_cast<unsigned long long>(d.seed), d.end.words.c_str());
     if (each) print_each(d, true);
   }
-  if (all.empty()) return 0;
   if (each) std::printf("\n");
   print_sums(all);
   std::stable_sort(all.begin(), all.end(), is_worse);

@@ -50,7 +50,8 @@ void recall_scale(Belief& belief, std::size_t i, const HandOver& rule, const Lea
 void Estimator::recall(const LearnedValues& learned) {
   replay();
   State state = history_.before(history_.size());
-  state.heading.receiver = learned.receiver;
+  state.heading.receiver = state.gnss.receiver = learned.receiver;
+  state.gyro.source = learned.imu;
   const LearnedValue mounting = recalled(kMountingKept, learned.mounting_rad);
   if (mounting.known()) state.mounting.recall(-mounting.value, mounting.sigma, config_);
   const LearnedValue late = recalled(kLateKept, learned.late_s);
@@ -94,7 +95,10 @@ void Estimator::forget_learned() {
 
 void Estimator::report_kept(const State& state) {
   LearnedValues& learned = estimate_.learned;
-  learned.receiver = state.heading.receiver;
+  // With one antenna no headings tell whose it is.
+  const bool told = state.heading.last != kNever;
+  learned.receiver = told ? state.heading.receiver : state.gnss.receiver;
+  learned.imu = state.gyro.source;
   const auto sigma_of = [&state](std::size_t i) {
     return std::sqrt(std::max(state.belief.covariance[i][i], 0.0));
   };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "drover/angle.h"
 #include "engine/estimate/filter.h"
@@ -20,6 +21,7 @@ constexpr double kAsideWalk = 0.002;
 // that shows on the first way back.
 constexpr double kMapGate = 3.0;
 constexpr double kSameWay_rad = kPi / 4;
+constexpr double kBackAgain_rad = 0.75 * kPi;
 // Sideways on ground that looks level, as a share of the way.
 constexpr double kUsualAside = 0.015;
 
@@ -38,22 +40,25 @@ void forget_aside(Mounting& mounting) {
   }
 }
 
-/// A leg that goes another way than the recalled mounting says: it is told from nothing then.
+/// A leg that goes another way than the recalled mounting says.
 bool contradicts(const Mounting& mounting, const StraightLeg& leg, double measured_m) {
   const double variance_m2 =
       (mounting.covariance[0][0] + square(kUsualAside)) * square(leg.way_m) + leg.variance_m2;
   return square(measured_m - mounting.mean[0] * leg.way_m) > square(kMapGate) * variance_m2;
 }
 
-void prove(Mounting& mounting, const StraightLeg& leg, double measured_m, bool same_way,
+void prove(Mounting& mounting, const StraightLeg& leg, double measured_m,
            const EstimateConfig& config) {
   using Recalled = Mounting::Recalled;
   if (contradicts(mounting, leg, measured_m)) {
-    mounting.recalled = Recalled::no;
+    mounting.recalled = Recalled::refuted;
+    mounting.mean = {};
+    mounting.covariance = {};
     begin(mounting, config);
   } else if (mounting.recalled == Recalled::unproved) {
     mounting.recalled = Recalled::one_way;
-  } else if (!same_way) {
+    mounting.first_course_rad = leg.course_rad;
+  } else if (std::abs(wrap_rad(leg.course_rad - mounting.first_course_rad)) > kBackAgain_rad) {
     mounting.recalled = Recalled::no;
   }
 }
@@ -78,6 +83,10 @@ bool Mounting::known(const EstimateConfig& config) const {
 }
 
 double Mounting::catch_up(const EstimateConfig& config) {
+  if (recalled == Recalled::refuted) {
+    recalled = Recalled::no;
+    return -std::exchange(applied_rad, 0.0);
+  }
   if (!known(config)) return 0;
   const double before_rad = applied_rad;
   applied_rad = std::clamp(mean[0], -to_rad(kMost_deg), to_rad(kMost_deg));
@@ -104,8 +113,9 @@ void learn(Mounting& mounting, const StraightLeg& leg, const EstimateConfig& con
   const double measured_m = leg.across_m + mounting.applied_rad * leg.way_m;
   const bool same_way = std::abs(wrap_rad(leg.course_rad - mounting.course_rad)) < kSameWay_rad;
   mounting.course_rad = leg.course_rad;
-  if (mounting.recalled != Mounting::Recalled::no) {
-    prove(mounting, leg, measured_m, same_way, config);
+  using Recalled = Mounting::Recalled;
+  if (mounting.recalled == Recalled::unproved || mounting.recalled == Recalled::one_way) {
+    prove(mounting, leg, measured_m, config);
     spread = spread_of();
   }
   const double surprise2 = square(measured_m - dot(mounting.mean));

@@ -29,8 +29,9 @@ struct Mounting {
   double course_rad = 0;   ///< of the last leg
   double applied_rad = 0;  ///< of the crab: told headings are corrected by it
   /// It is an earlier program's, and somebody may have mounted it anew meanwhile: legs there and
-  /// back that fit to it prove it.
-  enum class Recalled : std::uint8_t { no, unproved, one_way } recalled = Recalled::no;
+  /// back that fit to it prove it, and one that does not refutes it.
+  enum class Recalled : std::uint8_t { no, unproved, one_way, refuted } recalled = Recalled::no;
+  double first_course_rad = 0;  ///< of the first leg that fits to it
 
   double sigma_rad(const EstimateConfig& config) const;
   bool known(const EstimateConfig& config) const;
@@ -39,7 +40,8 @@ struct Mounting {
     return known(config) && recalled == Recalled::no;
   }
   void recall(double crab_rad, double sigma_rad, const EstimateConfig& config);
-  /// What is known of the crab and not applied yet, rad. From here on it is.
+  /// What is known of the crab and not applied yet, rad. From here on it is. Of one that was
+  /// refuted nothing is applied any more.
   double catch_up(const EstimateConfig& config);
 };
 

@@ -32,6 +32,8 @@ class PlaceWatch final {
   void told() { told_ = true; }
   /// Last; kNever: it did not.
   Time jumped_at() const { return jumped_at_; }
+  /// With where it stood when the program before this one ended.
+  bool compared() const { return !away_ && !recalled_.known; }
   /// What jumped, until a start was accepted; empty when nothing did.
   const Reason& jumped() const { return jumped_; }
 

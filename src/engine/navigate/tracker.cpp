@@ -116,7 +116,7 @@ void Tracker::look_for_corner() {
   const double sharp_rad = to_rad(config_.pivot_angle_deg);
   const Station corner = find_corner(route_, leg_, sharp_rad, s_m_ + horizon_m_, scan_);
   if (corner.segment == 0) return;
-  leg_ = leg_to_corner(route_, leg_, corner);
+  begin_leg(leg_to_corner(route_, leg_, corner));
   station_ = seek(route_, leg_, station_, std::min(s_m_, leg_.last_m));
 }
 
@@ -180,23 +180,31 @@ Twist Tracker::follow(const Pose& seen, const TrackProgress&, double speed_cap_m
   return pivot(pose);
 }
 
+/// With its corner, where that is so near that it says which way the leg is driven.
+track::Leg Tracker::next_leg() const {
+  constexpr double kNear_m = 0.35;
+  const track::Leg leg = leg_to_target(route_, leg_.last, leg_.last_m, goal_m_);
+  track::CornerScan scan{{leg_.last, leg_.last_m}, leg_.last_m};
+  const Station corner =
+      find_corner(route_, leg, to_rad(config_.pivot_angle_deg), leg_.last_m + kNear_m, scan);
+  return corner.segment == 0 ? leg : leg_to_corner(route_, leg, corner);
+}
+
 /// To how it looks on the leg that comes next: driven the other way than this one, it may look as
 /// it does already.
-
 Twist Tracker::pivot(const Pose& pose) {
   constexpr double kDone_rad = 1.0 * kPi / 180;
   constexpr double kDone_radps = 0.1;
   constexpr double kGain_ps = 3.0;
   const Vector next =
       unit(chord_after(route_, leg_.last, route_.size() - 1, kEndChord_m), leg_.leave);
-  const track::Leg coming = leg_to_target(route_, leg_.last, leg_.last_m, goal_m_);
-  const double looks_rad = is_backwards(route_, coming) == backwards_ ? 0 : kPi;
+  const double looks_rad = is_backwards(route_, next_leg()) == backwards_ ? 0 : kPi;
   const double left_rad = wrap_rad(direction_rad(next) + looks_rad - pose.yaw_rad);
   if (std::abs(left_rad) < kDone_rad && std::abs(pose.wz_radps) < kDone_radps) {
     phase_ = Phase::follow;
     s_m_ = leg_.last_m;
     station_ = {leg_.last, leg_.last_m};
-    begin_leg(coming);
+    begin_leg(leg_to_target(route_, leg_.last, leg_.last_m, goal_m_));
     look_for_corner();
     return {};
   }

@@ -45,8 +45,6 @@ class Tracker final {
   void begin(const Path& path, std::uint32_t target, double speed_mps, const Pose& pose);
   void end();
   bool active() const { return active_; }
-  /// The robot drives, or is to drive, backwards.
-  bool backwards() const { return active_ && backwards_; }
   /// What is left of the path, by the last `locate`; without the path's number.
   WayLeft way() const;
 
@@ -63,6 +61,7 @@ class Tracker final {
 
   void look_for_corner();
   void begin_leg(const track::Leg& leg);
+  track::Leg next_leg() const;
   Pose as_driven(const Pose& pose) const;
   Twist as_told(const Twist& twist) const;
   bool is_last_leg() const { return leg_.last + 1 == route_.size(); }

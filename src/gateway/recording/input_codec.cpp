@@ -248,6 +248,7 @@ void get(ClearanceFound& found, ByteReader& in) {
 
 void put(const LearnedRecalled& recalled, ByteWriter& out) {
   out.byte(recalled.learned.receiver);
+  out.byte(recalled.learned.imu);
   each_learned(recalled.learned, [&out](const char*, const LearnedValue& value) {
     out.real(value.value);
     out.real(value.sigma);
@@ -255,6 +256,7 @@ void put(const LearnedRecalled& recalled, ByteWriter& out) {
 }
 void get(LearnedRecalled& recalled, ByteReader& in) {
   recalled.learned.receiver = in.byte();
+  recalled.learned.imu = in.byte();
   each_learned(recalled.learned, [&in](const char*, LearnedValue& value) {
     value.value = in.real();
     value.sigma = in.real();

@@ -29,6 +29,12 @@ TEST(WhatWasLearned, IsNothingAtFirst) {
             "nothing yet: straights there and back, turns and changes of speed teach it\n");
 }
 
+TEST(WhatWasLearned, SaysThatTheDiskDoesNotForget) {
+  const auto text = show_learned(parsed(R"({"ok":true,"learned":{"values":[],"kept_s":1772373900,)"
+                                        R"("problem":"Read-only file system"}})"));
+  EXPECT_NE(text.find("not on the disk: Read-only file system\n"), std::string::npos) << text;
+}
+
 TEST(WhatWasLearned, SaysThatTheDiskDoesNotTakeIt) {
   const auto text = show_learned(
       parsed(R"({"ok":true,"learned":{"values":[{"name":"gyro scale","unit":"","configured":null,)"

@@ -42,14 +42,17 @@ TEST(ConfigurationChecks, RefuseWhatIsUsedTwice) {
             "f:9:75: devices.bumper.is: \"estop\" is used by devices.estop.is already\n");
 }
 
-TEST(ConfigurationChecks, RefuseToBackUpFastWhereNobodyLooks) {
-  const auto navigate = [](const std::string& keys) {
-    return with("\"limits\": {", "\"navigate\": {" + keys + "}, \"limits\": {");
+TEST(ConfigurationChecks, RefuseToBackUpAsNoRobotCanOrMay) {
+  const auto navigate = [](const std::string& keys, const std::string& limits = "") {
+    return with("\"limits\": {", "\"navigate\": {" + keys + "}, \"limits\": {" + limits);
   };
   EXPECT_EQ(problems(navigate(R"("drive": "recorded")")), "");
-  EXPECT_EQ(problems(navigate(R"("backwards_speed_mps": 0.5)")), "") << "it never does";
   EXPECT_THAT(problems(navigate(R"("drive": "either", "backwards_speed_mps": 0.5)")),
-              HasSubstr("navigate.backwards_speed_mps: is above 0.2 m/s, and no scanner looks"));
+              HasSubstr("navigate.backwards_speed_mps: is 0.5, but must be between 0.05 and 0.2"))
+      << "nobody looks behind it";
+  EXPECT_THAT(problems(navigate(R"("drive": "recorded")", R"("min_speed_mps": 0.3, )")),
+              HasSubstr("navigate.backwards_speed_mps: is below limits.min_speed_mps"));
+  EXPECT_EQ(problems(navigate(R"("drive": "ahead")", R"("min_speed_mps": 0.3, )")), "");
   EXPECT_THAT(problems(navigate(R"("drive": "recorded", "pivot_angle_deg": 180)")),
               HasSubstr("navigate.pivot_angle_deg: is above 120: no cusp would be a corner"));
   EXPECT_THAT(problems(navigate(R"("drive": "record")")), HasSubstr("recorded"));

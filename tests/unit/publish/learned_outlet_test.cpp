@@ -103,17 +103,77 @@ TEST_F(LearnedOutletTest, WritesOnceAMinuteWhileItDrives) {
 }
 
 TEST_F(LearnedOutletTest, KeepsWhatIsNotKnownJustNow) {
-  values().mounting_rad = {0.03, 0.002};
+  values().late_s = {0.1, 0.01};
+  values().turn_gain = {0.8, 0.01};
   look();
   (void)saved();
   disk_says(true);
   values() = {};
-  values().late_s = {0.1, 0.01};
+  values().mounting_rad = {0.03, 0.002};
   look(std::chrono::minutes(2));
   const auto jobs = saved();
   ASSERT_EQ(jobs.size(), 1U);
   EXPECT_EQ(jobs[0].values.mounting_rad.value, 0.03);
   EXPECT_EQ(jobs[0].values.late_s.value, 0.1);
+  EXPECT_EQ(jobs[0].values.turn_gain.value, 0.8);
+}
+
+/// Where antennas are is known no more when it was refuted: the next start must not begin with it.
+TEST_F(LearnedOutletTest, DropsAMountingAndAnArmThatWereRefuted) {
+  values().mounting_rad = {0.03, 0.002};
+  values().antenna_ahead_m = values().antenna_left_m = {0.2, 0.01};
+  look();
+  (void)saved();
+  disk_says(true);
+  values() = {};
+  look(std::chrono::minutes(2));
+  const auto jobs = saved();
+  ASSERT_EQ(jobs.size(), 1U);
+  EXPECT_FALSE(knows_any(jobs[0].values));
+}
+
+TEST_F(LearnedOutletTest, WritesNoScaleOfAGyroThatStepsIn) {
+  values().gyro_scale = {1.01, 0.001};
+  look();
+  (void)saved();
+  disk_says(true);
+  values().imu = 1;
+  values().gyro_scale = {0.98, 0.001};
+  look(std::chrono::minutes(2));
+  EXPECT_TRUE(saved().empty());
+  EXPECT_THAT(answer(),
+              HasSubstr(R"("name":"gyro scale","unit":"","configured":null,"fits":1.01)"));
+}
+
+TEST_F(LearnedOutletTest, SaysThatWhatIsForgottenComesBackWhenTheDiskDoesNotTakeIt) {
+  values().mounting_rad = {0.03, 0.002};
+  look();
+  (void)saved();
+  disk_says(true);
+  values() = {};
+  values().forgotten = 1;
+  look();
+  ASSERT_EQ(saved().size(), 1U);
+  disk_says(false, "Read-only file system");
+  ASSERT_EQ(actions_.size(), 1U);
+  EXPECT_THAT(std::get<LogLine>(actions_[0]).text, HasSubstr("comes back with the next start"));
+  EXPECT_THAT(answer(), HasSubstr(R"("problem":"Read-only file system")"));
+}
+
+TEST(ALearnedOutlet, OfABaseWithoutWheelsHasNoRadius) {
+  LearnedBeside twist = beside();
+  twist.wheel_radius_m = kAbsent;
+  LearnedOutlet outlet(twist, std::nullopt);
+  Snapshot seen;
+  seen.time = Time{std::chrono::seconds(100)};
+  seen.learned.wheel_scale = {0.97, 0.004};
+  Actions actions;
+  outlet.on_snapshot(seen, {seen.time, {}}, actions);
+  actions.clear();
+  ASSERT_TRUE(outlet.on_line(1, R"({"cmd":"learned"})", seen.time, actions));
+  const std::string line = std::get<Reply>(actions[0]).line;
+  EXPECT_THAT(line, HasSubstr(R"("name":"speed scale","unit":"","configured":null,"fits":0.97)"));
+  EXPECT_THAT(line, Not(HasSubstr("wheel_radius_m")));
 }
 
 TEST_F(LearnedOutletTest, WritesNothingOfAReceiverThatStepsIn) {

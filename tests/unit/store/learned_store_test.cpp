@@ -16,6 +16,7 @@ KeptLearned of_a_drive() {
   kept.subject = 0xFEDCBA9876543210U;
   kept.wall_s = 1795780800.25;
   kept.values.receiver = 1;
+  kept.values.imu = 2;
   kept.values.mounting_rad = {-0.0314159265358979, 0.0021};
   kept.values.late_s = {0.084, 0.012};
   return kept;
@@ -48,6 +49,7 @@ TEST(ALearnedStore, KeepsValuesToTheBit) {
   EXPECT_EQ(found->subject, of_a_drive().subject);
   EXPECT_EQ(found->wall_s, of_a_drive().wall_s);
   EXPECT_EQ(found->values.receiver, 1);
+  EXPECT_EQ(found->values.imu, 2);
   EXPECT_EQ(found->values.mounting_rad.value, of_a_drive().values.mounting_rad.value);
   EXPECT_EQ(found->values.mounting_rad.sigma, 0.0021);
   EXPECT_EQ(found->values.late_s.value, 0.084);
@@ -71,12 +73,12 @@ TEST(ALearnedStore, PutsADamagedFileAsideAndSaysSo) {
 
 TEST(ALearnedStore, ReadsNothingThatIsNoneOfItsValues) {
   for (const char* body :
-       {"{}", "[]", "7", R"({"subject":"12","wall_s":1,"receiver":0,"values":{}})",
-        R"({"subject":"000000000000000g","wall_s":1,"receiver":0,"values":{}})",
-        R"({"subject":"0000000000000001","wall_s":1,"receiver":-1,"values":{}})",
-        R"({"subject":"0000000000000001","wall_s":1,"receiver":4,"values":{}})",
-        R"({"subject":"0000000000000001","wall_s":"1","receiver":0,"values":{}})",
-        R"({"subject":"0000000000000001","wall_s":1,"receiver":0})"}) {
+       {"{}", "[]", "7", R"({"subject":"12","wall_s":1,"receiver":0,"imu":0,"values":{}})",
+        R"({"subject":"000000000000000g","wall_s":1,"receiver":0,"imu":0,"values":{}})",
+        R"({"subject":"0000000000000001","wall_s":1,"receiver":-1,"imu":0,"values":{}})",
+        R"({"subject":"0000000000000001","wall_s":1,"receiver":0,"imu":4,"values":{}})",
+        R"({"subject":"0000000000000001","wall_s":"1","receiver":0,"imu":0,"values":{}})",
+        R"({"subject":"0000000000000001","wall_s":1,"receiver":0,"imu":0})"}) {
     LearnedOnDisk it;
     it.put(seal("drover-learned", 1, body));
     EXPECT_FALSE(it.load()) << body;

@@ -113,6 +113,60 @@ TEST_F(LearnedBefore, AnotherMountingIsNoticedAndLearned) {
   }
 }
 
+/// What refutes it ends it at once: who loses the receiver then has a heading that is as uncertain
+/// as it is told.
+TEST_F(LearnedBefore, AnotherMountingIsGivenUpAtTheFirstLeg) {
+  for (const double off_deg : {-2.0, 0.0, 2.0}) {
+    Rig rig(5);
+    rig.estimator.recall(mounted(off_deg < 0 ? -3 : 3, 0.1));
+    rig.world.heading_off_deg = off_deg;
+    settle(rig);
+    drive(rig, 30);
+    EXPECT_FALSE(rig.last.mounting_known) << off_deg;
+    EXPECT_NEAR(to_deg(rig.last.mounting_rad), 0, 1e-9) << off_deg;
+    EXPECT_FALSE(rig.last.learned.mounting_rad.known()) << off_deg;
+    rig.world.position = rig.world.heading = false;
+    rig.forget();
+    rig.drive(0.5, 0.5, 20);
+    EXPECT_EQ(rig.share_bound(), 1) << off_deg;
+    EXPECT_FALSE(rig.last.disagrees) << off_deg << ' ' << rig.last.reason.view();
+  }
+}
+
+TEST_F(LearnedBefore, IsProvedThereAndBackAndNotRoundACorner) {
+  const EstimateConfig config;
+  const auto leg = [&](Mounting& mounting, double course_rad) {
+    learn(mounting, {.way_m = 5, .course_rad = course_rad, .across_m = 0, .variance_m2 = 0.0013},
+          config);
+  };
+  Mounting mounting;
+  mounting.recall(to_rad(2), to_rad(0.14), config);
+  EXPECT_FALSE(mounting.proved(config));
+  leg(mounting, 0);
+  leg(mounting, kPi / 2);
+  leg(mounting, -kPi / 2);
+  EXPECT_FALSE(mounting.proved(config));
+  leg(mounting, kPi);
+  EXPECT_TRUE(mounting.proved(config));
+}
+
+/// The scale of the one gyro says nothing of the other one's.
+TEST_F(LearnedBefore, AScaleIsOfItsGyro) {
+  LearnedValues learned;
+  learned.imu = 1;
+  learned.gyro_scale = {1.02, 0.001};
+  Rig rig(4);
+  rig.estimator.recall(learned);
+  settle(rig);  // it hears the first one
+  EXPECT_EQ(rig.last.learned.imu, 0);
+  EXPECT_FALSE(rig.last.learned.gyro_scale.known());
+  learned.imu = 0;
+  Rig same(4);
+  same.estimator.recall(learned);
+  settle(same);
+  EXPECT_NEAR(same.last.learned.gyro_scale.value, 1.02, 0.002);
+}
+
 TEST_F(LearnedBefore, WhatNoRobotCanBeIsLeftOut) {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   constexpr double kInf = std::numeric_limits<double>::infinity();
