@@ -54,7 +54,8 @@ void clear_timer(const link::UniqueFd& timer) {
 PublishLoop::PublishLoop(const config::DroverConfig& config, ControlExchange& control,
                          StorageExchange& storage, ParserLoop& parser,
                          const std::optional<ScenePartners>& scene, StopListener* stops,
-                         store::StoredState stored, std::optional<store::KeptLearned> learned,
+                         store::StoredState stored,
+                         const std::optional<store::KeptLearned>& learned,
                          std::span<const std::unique_ptr<ScanLink>> scanners)
     : config_(config),
       control_(control),
@@ -92,8 +93,7 @@ PublishLoop::PublishLoop(const config::DroverConfig& config, ControlExchange& co
   auto of_reports = std::make_unique<publish::ReportOutlet>(service_);
   report_outlet_ = of_reports.get();
   add(std::move(of_reports));
-  auto of_learned =
-      std::make_unique<publish::LearnedOutlet>(learned_beside(config), std::move(learned));
+  auto of_learned = std::make_unique<publish::LearnedOutlet>(learned_beside(config), learned);
   learned_outlet_ = of_learned.get();
   add(std::move(of_learned));
   for (auto& outlet : make_outlets(config, service_, [this](Time now) { return status_text(now); }))

@@ -42,7 +42,7 @@ class PublishLoop final {
   PublishLoop(const config::DroverConfig& config, ControlExchange& control,
               StorageExchange& storage, ParserLoop& parser,
               const std::optional<ScenePartners>& scene, StopListener* stops,
-              store::StoredState stored, std::optional<store::KeptLearned> learned,
+              store::StoredState stored, const std::optional<store::KeptLearned>& learned,
               std::span<const std::unique_ptr<ScanLink>> scanners = {});
   void run(const std::atomic<bool>& stop);
   /// Wakes the loop so that it sees `stop`.

@@ -1,5 +1,7 @@
 #include "store/placing.h"
 
+#include "drover/measurement.h"
+
 namespace drover::store {
 namespace {
 

@@ -18,9 +18,9 @@ constexpr double kEach_s = 0.5;
 enum class Way { rows, straight, curve };
 
 struct Drive {
-  const char* name;
-  const char* what;
-  Way way;
+  const char* name = "";
+  const char* what = "";
+  Way way = Way::rows;
   double outage_s = 0;
   bool drawn = false;       ///< mounting, tyres and lateness, from what the configuration believes
   bool calibrated = false;  ///< it is known how the antenna line is mounted
