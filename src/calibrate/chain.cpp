@@ -37,7 +37,7 @@ Chain::Chain(const Drive& drive, const Configured& configured, const Signs& sign
              const FirstGuess& guess)
     : track_(track_of(drive, signs)),
       width_m_(configured.track_m * configured.yaw_slip_factor),
-      has_headings_(drive.headings_rad.size() > 20) {
+      has_headings_(!drive.headings_rad.empty()) {
   begin_s_ = std::max(drive.places.front().time_s, drive.rims.front().time_s);
   const double end_s = std::min(drive.places.back().time_s, drive.rims.back().time_s);
   step_s_ = std::max(kNodeStep_s, (end_s - begin_s_) / kMostNodes);

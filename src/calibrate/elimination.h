@@ -5,9 +5,10 @@
 #include <array>
 #include <cstddef>
 #include <functional>
-#include <optional>
 #include <span>
 #include <vector>
+
+#include "calibrate/matrix.h"
 
 namespace drover::calibrate {
 
@@ -16,8 +17,6 @@ inline constexpr std::size_t kShared = 10;
 inline constexpr std::size_t kBehind = kOfNode + kShared;  ///< the next node and what is shared
 inline constexpr std::size_t kJoint = kOfNode + kBehind;   ///< a node, the next, what is shared
 
-template <std::size_t kRows, std::size_t kColumns>
-using Matrix = std::array<std::array<double, kColumns>, kRows>;
 using NodeValues = std::array<double, kOfNode>;
 using SharedValues = std::array<double, kShared>;
 

@@ -21,8 +21,6 @@ constexpr double kSigmas = 2.4;        // of the interval: few pieces tell how i
 
 constexpr const char* kCircles = "drive a left and a right circle";
 constexpr const char* kStraightOn = "drive 20 m straight, there and back";
-constexpr const char* kSpeeds =
-    "change the speed while straight, from 0.2 m/s to the highest and back, three times";
 
 std::string one_way(const DriveFacts& facts) {
   const bool left = facts.left_rad < facts.right_rad;
@@ -115,7 +113,7 @@ class Judge final {
   }
 
   void arm() {
-    const std::string advice = std::string(kCircles) + ", and " + kSpeeds;
+    const std::string advice = std::string(kCircles) + ", and " + kDriveSpeeds;
     for (const auto& [what, number, is] :
          {std::tuple{Quantity::antenna_x_m, kArmX, e_.configured.antenna_x_m},
           std::tuple{Quantity::antenna_y_m, kArmY, e_.configured.antenna_y_m}}) {
@@ -146,7 +144,7 @@ class Judge final {
 
   void lateness() {
     tell(Quantity::position_late_s, e_.fit.value[kPlaceLate], sigma(kPlaceLate), {0.005, 0.06},
-         kSpeeds);
+         kDriveSpeeds);
     if (e_.drive.headings_rad.empty())
       return refuse(Quantity::heading_late_s, "the receiver told no heading");
     tell(Quantity::heading_late_s, e_.fit.value[kHeadingLate], sigma(kHeadingLate), {0.008, 0.06},
@@ -177,7 +175,7 @@ class Judge final {
   }
   void late(Quantity what, const Late& late, double floor_s) {
     if (!late.known) return refuse(what, late.refused);
-    tell(what, late.late_s, late.sigma_s, {floor_s, 0.1}, kSpeeds);
+    tell(what, late.late_s, late.sigma_s, {floor_s, 0.1}, kDriveSpeeds);
   }
 
   const Evidence& e_;

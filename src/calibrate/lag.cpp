@@ -58,10 +58,7 @@ class DriveLag final {
   Late find() const {
     Late late;
     if (changes_mps_ < kLeastChanges_mps || sides_[0].did.size() < 500) {
-      late.refused =
-          "the commanded speed hardly changed: change the speed while straight, from 0.2 m/s to "
-          "the "
-          "highest and back, three times";
+      late.refused = std::string("the commanded speed hardly changed: ") + kDriveSpeeds;
       return late;
     }
     SmallFit<3> fit;
@@ -231,8 +228,8 @@ SpeedVerdict judge_speed(const Drive& drive, const Chain& chain, const Late& lat
     verdict.source = SpeedSource::own;
   } else {
     verdict.refused =
-        "it is neither clearly later than the positions nor clearly not: change the speed while "
-        "straight, from 0.2 m/s to the highest and back, three times";
+        std::string("it is neither clearly later than the positions nor clearly not: ") +
+        kDriveSpeeds;
   }
   return verdict;
 }

@@ -8,6 +8,10 @@
 
 namespace drover::calibrate {
 
+/// What to drive where a delay does not show.
+inline constexpr const char* kDriveSpeeds =
+    "change the speed while straight, from 0.2 m/s to the highest and back, three times";
+
 struct Late {
   bool known = false;
   double late_s = 0;

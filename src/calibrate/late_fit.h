@@ -6,6 +6,8 @@
 #include <cmath>
 #include <vector>
 
+#include "calibrate/matrix.h"
+
 namespace drover::calibrate {
 
 template <std::size_t kNumbers>
@@ -51,7 +53,7 @@ struct SmallFit {
     for (const double r : off_) square += r * r;
     const double mean = square / static_cast<double>(off_.size()) + 1e-12;
     weights_.resize(off_.size());
-    std::array<Numbers, kNumbers> normal{};
+    Matrix<kNumbers, kNumbers> normal{};
     right_ = {};
     for (std::size_t i = 0; i < off_.size(); ++i) {
       weights_[i] = 1 / (1 + off_[i] * off_[i] / (9 * mean));
@@ -61,32 +63,10 @@ struct SmallFit {
           normal[a][b] += weights_[i] * slopes_[a][i] * slopes_[b][i];
       }
     }
-    return invert(normal);
-  }
-
-  bool invert(std::array<Numbers, kNumbers> m) {
-    inverse_ = {};
-    for (std::size_t i = 0; i < kNumbers; ++i) {
-      m[i][i] = m[i][i] * (1 + 1e-9) + 1e-15;
-      inverse_[i][i] = 1;
-    }
-    for (std::size_t p = 0; p < kNumbers; ++p) {
-      const double pivot = m[p][p];
-      if (!(pivot > 0)) return false;
-      for (std::size_t j = 0; j < kNumbers; ++j) {
-        m[p][j] /= pivot;
-        inverse_[p][j] /= pivot;
-      }
-      for (std::size_t i = 0; i < kNumbers; ++i) {
-        if (i == p) continue;
-        const double factor = m[i][p];
-        for (std::size_t j = 0; j < kNumbers; ++j) {
-          m[i][j] -= factor * m[p][j];
-          inverse_[i][j] -= factor * inverse_[p][j];
-        }
-      }
-    }
-    return true;
+    for (std::size_t a = 0; a < kNumbers; ++a) normal[a][a] = normal[a][a] * (1 + 1e-9) + 1e-15;
+    const auto inverse = inverse_of(normal);
+    if (inverse) inverse_ = *inverse;
+    return inverse.has_value();
   }
 
   void spread(std::size_t together) {
@@ -111,7 +91,7 @@ struct SmallFit {
   std::array<std::vector<double>, kNumbers> slopes_;
   std::vector<double> weights_;
   Numbers right_{};
-  std::array<Numbers, kNumbers> inverse_{};
+  Matrix<kNumbers, kNumbers> inverse_{};
 };
 
 }  // namespace drover::calibrate

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "calibrate/course.h"
+#include "calibrate/matrix.h"
 #include "drover/angle.h"
 
 namespace drover::calibrate {
@@ -67,9 +68,7 @@ struct Regression {
   template <class Columns, class Result>
   void solve(const std::vector<Window>& windows, const Columns& columns, const Result& result,
              const std::vector<double>& weights) {
-    // Gauss-Jordan on [normal | right | unit].
-    std::array<std::array<double, kColumns>, kColumns> a{};
-    std::array<std::array<double, kColumns>, kColumns> inverse{};
+    Matrix<kColumns, kColumns> a{};
     std::array<Complex, kColumns> b{};
     for (std::size_t w = 0; w < windows.size(); ++w) {
       const auto at = columns(windows[w]);
@@ -78,25 +77,8 @@ struct Regression {
         for (std::size_t j = 0; j < kColumns; ++j) a[i][j] += weights[w] * at[i] * at[j];
       }
     }
-    for (std::size_t i = 0; i < kColumns; ++i) {
-      a[i][i] += 1e-3;
-      inverse[i][i] = 1;
-    }
-    for (std::size_t p = 0; p < kColumns; ++p) {
-      const double pivot = a[p][p];  // positive definite: no exchange of rows
-      for (std::size_t j = 0; j < kColumns; ++j) {
-        a[p][j] /= pivot;
-        inverse[p][j] /= pivot;
-      }
-      for (std::size_t i = 0; i < kColumns; ++i) {
-        if (i == p) continue;
-        const double factor = a[i][p];
-        for (std::size_t j = 0; j < kColumns; ++j) {
-          a[i][j] -= factor * a[p][j];
-          inverse[i][j] -= factor * inverse[p][j];
-        }
-      }
-    }
+    for (std::size_t i = 0; i < kColumns; ++i) a[i][i] += 1e-3;
+    const auto inverse = inverse_of(a).value_or(Matrix<kColumns, kColumns>{});
     for (std::size_t i = 0; i < kColumns; ++i) {
       value[i] = 0;
       for (std::size_t j = 0; j < kColumns; ++j) value[i] += inverse[i][j] * b[j];
@@ -110,7 +92,7 @@ class SignSearch final {
   SignSearch(const Drive& drive, const Configured& configured)
       : drive_(drive),
         track_(track_of(drive)),
-        has_headings_(drive.headings_rad.size() > 20),
+        has_headings_(!drive.headings_rad.empty()),
         width_m_(configured.track_m * configured.yaw_slip_factor),
         offset_rad_(to_rad(-configured.heading_baseline_offset_deg)) {}
 

@@ -78,7 +78,7 @@ Result<std::unique_ptr<Path>, std::string> build_path(const Track& track,
   path->name = track.name;
   path->points.reserve(track.points.size());
   std::vector<double> looks_rad;
-  looks_rad.reserve(track.points.size());
+  if (drive == TrackDrive::recorded) looks_rad.reserve(track.points.size());
   for (std::size_t i = 0; i < track.points.size(); ++i) {
     const TrackPoint& point = track.points[i];
     if (has_place(point) && !on_earth(point))
@@ -87,7 +87,7 @@ Result<std::unique_ptr<Path>, std::string> build_path(const Track& track,
     if (!at)
       return told_point(i) + ": it has no latitude and longitude, and x, y are of no known origin";
     path->points.push_back({at->x_m, at->y_m});
-    looks_rad.push_back(placing.yaw_rad(point));
+    if (drive == TrackDrive::recorded) looks_rad.push_back(placing.yaw_rad(point));
   }
   set_gears(*path, looks_rad, drive);
   return std::unique_ptr<Path>(std::move(path));

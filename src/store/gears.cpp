@@ -34,23 +34,19 @@ void set_gears(Path& path, std::span<const double> looks_rad, TrackDrive drive) 
   path.backwards.clear();
   path.either = drive == TrackDrive::either;
   const std::size_t count = path.points.size();
-  if (drive == TrackDrive::ahead || count < 2 || looks_rad.size() != count) return;
+  const bool untold = drive == TrackDrive::recorded && looks_rad.size() != count;
+  if (drive == TrackDrive::ahead || count < 2 || untold) return;
   std::vector<std::uint8_t> backwards(count - 1, 0);
   const track::Route route(path.points, count - 1, true);
-  constexpr double kEnd_m = INFINITY;
-  track::Leg leg = leg_to_target(route, 0, 0, kEnd_m);
-  track::CornerScan scan;
   bool other_way = false;
-  for (bool last = false; !last; other_way = !other_way) {
-    const track::Station cusp = find_corner(route, leg, track::kCusp_rad, kEnd_m, scan);
-    last = cusp.segment == 0;
-    const std::size_t end = last ? count - 1 : cusp.segment;
-    const bool back = path.either ? other_way : recorded_backwards(path, looks_rad, leg.first, end);
+  each_leg(route, track::kCusp_rad, INFINITY, [&](const track::Leg& leg) {
+    const bool back =
+        path.either ? other_way : recorded_backwards(path, looks_rad, leg.first, leg.last);
     std::fill(backwards.begin() + static_cast<std::ptrdiff_t>(leg.first),
-              backwards.begin() + static_cast<std::ptrdiff_t>(end),
+              backwards.begin() + static_cast<std::ptrdiff_t>(leg.last),
               static_cast<std::uint8_t>(back ? 1 : 0));
-    if (!last) leg = leg_to_target(route, cusp.segment, cusp.start_m, kEnd_m);
-  }
+    other_way = !other_way;
+  });
   const bool any = std::find(backwards.begin(), backwards.end(), 1) != backwards.end();
   if (any || path.either) path.backwards = std::move(backwards);
 }

@@ -38,4 +38,17 @@ struct CornerScan {
 Station find_corner(const Route& route, const Leg& leg, double sharp_rad, double until_m,
                     CornerScan& scan);
 
+/// All legs of a route in their order, from its first point to its target at `end_m`.
+template <class Visit>
+void each_leg(const Route& route, double sharp_rad, double end_m, const Visit& visit) {
+  Leg leg = leg_to_target(route, 0, 0, end_m);
+  CornerScan scan;
+  for (Station corner = find_corner(route, leg, sharp_rad, end_m, scan); corner.segment != 0;
+       corner = find_corner(route, leg, sharp_rad, end_m, scan)) {
+    visit(leg_to_corner(route, leg, corner));
+    leg = leg_to_target(route, corner.segment, corner.start_m, end_m);
+  }
+  visit(leg);
+}
+
 }  // namespace drover::track

@@ -39,9 +39,10 @@ Driven drive_mission(std::uint64_t seed) {
   FieldWorld world(config, mission.plan, seed);
   Driven driven;
   driven.seed = seed;
-  driven.end = world.drive(
-      field_rows(mission.rows, mission.leg_m), 1500,
-      [&](const Snapshot& seen, const Pose& truth, double s) { stops.look(seen, truth, s); });
+  driven.end = world.drive(field_rows(mission.rows, mission.leg_m), 1500,
+                           [&](const Snapshot& seen, const Pose& truth, double s) {
+                             if (s >= 0) stops.look(seen, truth, s);
+                           });
   driven.stops = stops.stops();
   driven.beyond = stops.beyond();
   driven.unseen_s = stops.unseen_s();

@@ -35,12 +35,13 @@ class FieldWorld final {
     for (double& d : drift_) d = normal();
   }
 
-  /// Each tick of a task: what is published, the truth, s since the start.
+  /// Each tick: what is published, the truth, s since the start (below 0 before it).
   using Watch = std::function<void(const Snapshot&, const Pose&, double)>;
 
   /// Stands for a while, starts, and drives until the task ends or `limit_s` is over.
   Judgement drive(const Path& path, double limit_s, const Watch& watch = {}) {
     judge_.emplace(path, config_.navigate.corridor_m);
+    watch_ = watch;
     tick();
     command(SetOrigin{kFieldOrigin});
     for (int i = 0; i < 200 * 6; ++i) tick();
@@ -50,13 +51,9 @@ class FieldWorld final {
     while (!judge_->ended() && since_s() < limit_s) {
       tick();
       judge_->look(engine_->snapshot(), truth(), kTick_s);
-      if (watch) watch(engine_->snapshot(), truth(), since_s());
     }
     return judge_->conclude(engine_->snapshot(), truth(), since_s());
   }
-
-  /// Called after each cycle, if it is there.
-  std::function<void(const Snapshot&)> watch;
 
  private:
   using BodyOf = decltype(Command::body);
@@ -91,7 +88,7 @@ class FieldWorld final {
     }
     engine_->step(now_, environment_, out_);
     for (const Event& event : out_.events) judge_->hear(event, since_s());
-    if (watch) watch(engine_->snapshot());
+    if (watch_) watch_(engine_->snapshot(), truth(), since_s());
   }
 
   Pose truth() const {
@@ -313,6 +310,7 @@ class FieldWorld final {
   double wandered_m_ = 0;
   std::deque<Fix> fixes_;
   std::deque<double> headings_;
+  Watch watch_;
   std::optional<FieldJudge> judge_;
 };
 

@@ -177,6 +177,7 @@ Twist Tracker::follow(const Pose& seen, const TrackProgress&, double speed_cap_m
   if (phase_ == Phase::follow) return as_told(steer(pose, cap_mps, dt));
   if (is_last_leg() || std::abs(pose.vx_mps) > kStands_mps) return {};
   phase_ = Phase::pivot;
+  next_looks_rad_ = is_backwards(route_, next_leg()) == backwards_ ? 0 : kPi;
   return pivot(pose);
 }
 
@@ -198,8 +199,7 @@ Twist Tracker::pivot(const Pose& pose) {
   constexpr double kGain_ps = 3.0;
   const Vector next =
       unit(chord_after(route_, leg_.last, route_.size() - 1, kEndChord_m), leg_.leave);
-  const double looks_rad = is_backwards(route_, next_leg()) == backwards_ ? 0 : kPi;
-  const double left_rad = wrap_rad(direction_rad(next) + looks_rad - pose.yaw_rad);
+  const double left_rad = wrap_rad(direction_rad(next) + next_looks_rad_ - pose.yaw_rad);
   if (std::abs(left_rad) < kDone_rad && std::abs(pose.wz_radps) < kDone_radps) {
     phase_ = Phase::follow;
     s_m_ = leg_.last_m;

@@ -86,7 +86,8 @@ class Tracker final {
   double speed_mps_ = 0;
   double yaw_gain_ = 0;  ///< learnt: how much more the base must be asked to turn
   bool joined_ = false;
-  bool backwards_ = false;  ///< on this leg
+  bool backwards_ = false;     ///< on this leg
+  double next_looks_rad_ = 0;  ///< while it turns: pi when the next one is driven the other way
 };
 
 }  // namespace drover::engine

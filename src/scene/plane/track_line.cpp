@@ -27,27 +27,15 @@ TrackLine::TrackLine(const std::vector<Point2>& points, double pivot_rad,
     points_.push_back({point.x_m, point.y_m});
     at_m_.push_back(s_m);
   }
-  if (!empty()) split(pivot_rad);
+  if (empty()) return;
+  // At the corners that are turned on the spot.
+  each_leg(route(), pivot_rad, at_m_.back(), [this](const Leg& leg) { legs_.push_back(leg); });
 }
 
 std::size_t TrackLine::segment(double s_m) const {
   const auto after = std::upper_bound(at_m_.begin(), at_m_.end(), s_m);
   const auto k = static_cast<std::size_t>(after - at_m_.begin());
   return std::min(k == 0 ? 0 : k - 1, points_.size() - 2);
-}
-
-/// At the corners that are turned on the spot.
-void TrackLine::split(double pivot_rad) {
-  const double end_m = at_m_.back();
-  Leg leg = leg_to_target(route(), 0, 0, end_m);
-  track::CornerScan scan;
-  while (true) {
-    const track::Station corner = find_corner(route(), leg, pivot_rad, end_m, scan);
-    if (corner.segment == 0) break;
-    legs_.push_back(leg_to_corner(route(), leg, corner));
-    leg = leg_to_target(route(), corner.segment, corner.start_m, end_m);
-  }
-  legs_.push_back(leg);
 }
 
 TrackLine::Place TrackLine::place(const Leg& leg, double s_m) const {

@@ -53,7 +53,6 @@ class TrackLine final {
  private:
   track::Route route() const { return {points_, points_.size() - 1, true, backwards_}; }
   std::size_t segment(double s_m) const;
-  void split(double pivot_rad);
 
   std::vector<PathPoint> points_;  ///< none twice
   std::vector<double> at_m_;       ///< arc length at each

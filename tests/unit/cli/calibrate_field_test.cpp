@@ -38,9 +38,8 @@ TEST(CalibrateInAField, FindsWhatIsPlanted) {
     SCOPED_TRACE(seed);
     bench::FieldWorld world(config, plan, seed);
     DriveOfRecording taken(config.base);
-    world.watch = [&](const Snapshot& snapshot) { taken.take(snapshot); };
     const auto path = circles();
-    world.drive(path, 200);
+    world.drive(path, 200, [&](const Snapshot& seen, const Pose&, double) { taken.take(seen); });
     const auto result = calibrate::calibrate(taken.drive, configured_of(config));
     ASSERT_EQ(result.refused, "");
     EXPECT_FALSE(result.signs.wrong());

@@ -50,7 +50,8 @@ TEST(APublishedHeading, IsNotSaidToBeKnownBeforeTheMountingIsMadeUpFor) {
     plan.heading_off_deg = 2;
     FieldWorld world(field_config(), plan, seed);
     double worst = 0;
-    const auto watch = [&](const Snapshot& seen, const Pose& truth, double) {
+    const auto watch = [&](const Snapshot& seen, const Pose& truth, double since_s) {
+      if (since_s < 0) return;
       const double error_rad = std::abs(wrap_rad(seen.pose.yaw_rad - truth.yaw_rad));
       worst = std::max(worst, error_rad / seen.pose.yaw_sigma_rad);
     };
