@@ -32,7 +32,7 @@ TEST(Wiring, TellsEachDevicesHealthWhereTheEngineLooks) {
   EXPECT_EQ(wiring.slots[3].tells_health[0], &environment.imu[0]);
   EXPECT_EQ(wiring.slots[4].tells_health[0], &environment.battery[0]);
   EXPECT_EQ(wiring.slots[6].tells_health[0],
-            &environment.lines[static_cast<std::size_t>(Line::bumper)]);
+            &environment.lines[static_cast<std::size_t>(drover::Line::bumper)]);
 }
 
 TEST(Wiring, GivesTheSlowThreadWhatIsPolled) {

@@ -8,7 +8,6 @@
 #include <cstring>
 
 namespace drover::guard {
-
 namespace {
 
 using namespace std::chrono_literals;
@@ -68,8 +67,6 @@ class GuardStopSet : public testing::Test {
   int drives_ = -1;
   int link_ = -1;
 };
-
-}  // namespace
 
 TEST_F(GuardStopSet, PlaysRoundsInTurnEachInItsPeriod) {
   StopSet set;
@@ -187,4 +184,5 @@ TEST_F(GuardStopSet, ReadsBackWhatItTells) {
   EXPECT_EQ(heard(), "ab");
 }
 
+}  // namespace
 }  // namespace drover::guard

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 namespace drover::guard {
-
 namespace {
+
 using namespace std::chrono_literals;
 constexpr Time kStart{std::chrono::seconds(100)};
 
@@ -14,7 +14,6 @@ bool step_until(Watch& watch, std::uint64_t beats, Time from, Time to) {
   for (Time t = from + 1ms; t <= to; t += 1ms) holds = watch.step(beats, t);
   return holds;
 }
-}  // namespace
 
 TEST(GuardWatch, SendsNothingBeforeASetIsInForce) {
   Watch watch;
@@ -87,4 +86,5 @@ TEST(GuardWatch, ANewDaemonDoesNotEndTheHoldByConnecting) {
   EXPECT_TRUE(watch.step(1, kStart + 1s + 5ms));
 }
 
+}  // namespace
 }  // namespace drover::guard

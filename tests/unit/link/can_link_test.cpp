@@ -32,8 +32,6 @@ struct Pair {
   UniqueFd peer;
 };
 
-}  // namespace
-
 TEST(CanLink, SaysWhenItsOtherEndIsGone) {
   Pair pair;
   FrameBatch batch;
@@ -92,4 +90,5 @@ TEST(OpenCan, NamesWhatIsMissing) {
   EXPECT_NE(socket.problem.find("/nowhere/can.sock"), std::string::npos) << socket.problem;
 }
 
+}  // namespace
 }  // namespace drover::link

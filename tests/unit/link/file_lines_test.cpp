@@ -19,8 +19,6 @@ struct Folder {
   std::string path;
 };
 
-}  // namespace
-
 TEST(FileLines, NameTheLineThatIsMissing) {
   Folder folder;
   const auto opened = open_lines({"files:" + folder.path, {"estop"}});
@@ -59,4 +57,5 @@ TEST(OpenLines, NamesTheChipThatIsMissing) {
   EXPECT_NE(opened.problem.find("no-such-chip"), std::string::npos) << opened.problem;
 }
 
+}  // namespace
 }  // namespace drover::link

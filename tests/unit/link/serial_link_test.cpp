@@ -22,8 +22,6 @@ struct Pty {
   std::string path;
 };
 
-}  // namespace
-
 TEST(OpenSerial, RefusesABaudRateNobodyKnows) {
   const auto opened = open_serial({"/dev/null", 12345});
   EXPECT_EQ(opened.link, nullptr);
@@ -103,4 +101,5 @@ TEST(SerialLink, TellsAnIdleLineFromOneThatHungUp) {
   EXPECT_FALSE(opened.link->read(buffer, size));
 }
 
+}  // namespace
 }  // namespace drover::link

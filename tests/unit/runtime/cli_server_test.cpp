@@ -64,8 +64,6 @@ class CliServerTest : public ::testing::Test {
   std::unique_ptr<CliServer> server_;
 };
 
-}  // namespace
-
 TEST_F(CliServerTest, ClosesAClientWhoseRequestNeverEnds) {
   const auto client = connect();
   work();
@@ -138,4 +136,5 @@ TEST_F(CliServerTest, IsOpenToItsUserAndGroupOnly) {
   EXPECT_EQ(mode & perms::others_all, perms::none);
 }
 
+}  // namespace
 }  // namespace drover::runtime
