@@ -9,6 +9,7 @@
 #include "drover/measurement.h"
 #include "drover/path.h"
 #include "drover/time.h"
+#include "drover/twist.h"
 
 namespace drover {
 
@@ -73,13 +74,18 @@ struct AcceptPosition {};
 struct ForgetLearned {};
 /// Drive straight ahead for a short way, so that a receiver with one antenna shows the heading.
 struct FindHeading {};
+/// Drive so while a key is held down: one message of a row, obeyed for 0.3 s. Zero: the key is up.
+struct DriveByHand {
+  std::uint64_t hand = 0;  ///< whose key it is: one drives at a time
+  Twist twist;
+};
 
 struct Command {
   RequestId id;
   Time received = kNever;
   std::variant<std::monostate, StartTask, CancelTask, EngageStop, ResetStop, ProposeOrigin,
                SetOrigin, JointTargets, JointTargetsRefused, FindHeading, ReleaseHold, ArmHold,
-               AcceptPosition, ForgetLearned>
+               AcceptPosition, ForgetLearned, DriveByHand>
       body;
 };
 

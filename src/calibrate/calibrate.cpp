@@ -81,6 +81,35 @@ Drive tidied(const Drive& drive) {
 
 }  // namespace
 
+Signs signs_of(const Drive& recorded, const Configured& configured) {
+  constexpr std::size_t kLeastPlaces = 20;
+  const Drive drive = tidied(recorded);
+  if (drive.places.size() < kLeastPlaces || drive.rims.size() < 2) {
+    Signs signs;
+    signs.refused = "wheels and an RTK fix were not heard together";
+    return signs;
+  }
+  FirstGuess guess;
+  return find_signs(drive, configured, guess);
+}
+
+std::vector<Quantity> worth_driving_for(const Calibration& it, const Drive& drive) {
+  std::vector<Quantity> worth;
+  const auto told_by_nobody = [&](Quantity what) {
+    switch (what) {
+      case Quantity::heading_offset_deg:
+      case Quantity::heading_late_s: return drive.headings_rad.empty();
+      case Quantity::gyro_scale:
+      case Quantity::gyro_bias_radps: return drive.gyro_radps.empty();
+      case Quantity::speed_late_s: return true;  // many receivers cannot show it, however far
+      default: return false;
+    }
+  };
+  for (const Found& found : it.found)
+    if (!found.refused.empty() && !told_by_nobody(found.what)) worth.push_back(found.what);
+  return worth;
+}
+
 Calibration calibrate(const Drive& recorded, const Configured& configured) {
   Calibration result;
   const Drive drive = tidied(recorded);

@@ -83,6 +83,12 @@ struct Calibration {
 /// All of it. What is as wrong as a side that is reversed is put right first, and told in `signs`.
 Calibration calibrate(const Drive& drive, const Configured& configured);
 
+/// Which way round things are, of a drive that is too short for the rest.
+Signs signs_of(const Drive& drive, const Configured& configured);
+
+/// What another round of the drive may tell, and this one did not: not what no sensor tells.
+std::vector<Quantity> worth_driving_for(const Calibration& it, const Drive& drive);
+
 /// Longest drive that is looked at, s: one longer is refused.
 inline constexpr double kLongestDrive_s = 1800;
 

@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 
+#include "cli/calibrate_by_hand.h"
 #include "cli/calibrate_drive.h"
 #include "cli/exit_codes.h"
 #include "cli/failure.h"
@@ -15,7 +16,6 @@
 #include "cli/show_calibration.h"
 #include "config/load.h"
 #include "gateway/recording/replay.h"
-#include "json/located_json.h"
 
 namespace drover::cli {
 
@@ -35,35 +35,12 @@ int refuse(const CalibrateSettings& settings, const std::string& text) {
   return kRefused;
 }
 
-bool has_key(const config::Loaded& loaded, const std::string& device, const char* key) {
-  const auto document = json::parse(loaded.text);
-  if (!document.ok()) return false;
-  const json::Node* devices = document->root.find("devices");
-  const json::Node* node = devices == nullptr ? nullptr : devices->find(device);
-  return node != nullptr && node->find(key) != nullptr;
-}
-
-CalibrationKeys keys_of(const config::Loaded& loaded, bool own_stamps) {
-  CalibrationKeys keys;
-  keys.own_stamps = own_stamps;
-  keys.twist_base = loaded.config.engine.base.kind == engine::BaseKind::twist;
-  for (const auto& device : loaded.config.devices) {
-    if (device.kind != SlotKind::gnss || device.role != "steers") continue;
-    keys.receiver = device.name;
-    keys.x_at_receiver = has_key(loaded, device.name, "antenna_x_m");
-    keys.y_at_receiver = has_key(loaded, device.name, "antenna_y_m");
-    keys.heading_at_receiver = has_key(loaded, device.name, "heading_baseline_offset_deg");
-    if (device.options.has("latency_s")) keys.latency_s = device.options.number("latency_s");
-  }
-  return keys;
-}
-
 int judge(const CalibrateSettings& settings, calibrate::Drive& drive,
           const config::Loaded& loaded) {
   cut(drive, settings.from_s, settings.to_s);
   const auto result = calibrate::calibrate(drive, configured_of(loaded.config.engine));
   if (!result.refused.empty()) return refuse(settings, result.refused);
-  const auto keys = keys_of(loaded, !settings.recording.empty());
+  const auto keys = calibration_keys(loaded, !settings.recording.empty());
   const auto text =
       settings.json ? calibration_json(result, keys) + "\n" : show_calibration(result, keys);
   std::fputs(text.c_str(), stdout);
@@ -121,9 +98,9 @@ int run_calibration(const CalibrateSettings& settings) {
 
 }  // namespace
 
-void add_calibrate_command(CLI::App& app, int& code) {
+void add_calibrate_command(CLI::App& app, const std::string& socket, int& code) {
   auto* command = app.add_subcommand("calibrate",
-                                     "the robot's own numbers from a recorded drive, each with its "
+                                     "the robot's own numbers from a drive, each with its "
                                      "interval, as a patch to review");
   const auto settings = std::make_shared<CalibrateSettings>();
   auto* config = command->add_option("--config", settings->config, "the robot's drover.json");
@@ -145,10 +122,13 @@ void add_calibrate_command(CLI::App& app, int& code) {
       "Columns of a log: as of drover estimate, and receiver_mps, command_left_mps and\n"
       "command_right_mps or command_vx_mps and command_wz_radps.\n"
       "Examples:\n"
+      "  drover calibrate drive           # THE ROBOT DRIVES while you hold a key\n"
       "  drover calibrate --recording run.rec\n"
       "  drover calibrate --recording run.rec --from 60 --to 200 --json | jq .patch\n"
       "  drover calibrate --config drover.json --in log.csv");
-  command->callback([settings, &code] {
+  add_calibrate_drive_command(*command, socket, code);
+  command->callback([command, settings, &code] {
+    if (command->got_subcommand("drive")) return;
     if (settings->in.empty() && settings->recording.empty())
       throw CLI::RequiredError("--in or --recording");
     if (settings->recording.empty() && settings->config.empty())

@@ -2,10 +2,11 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <string>
 
 namespace drover::cli {
 
-/// `code` outlives `app`.
-void add_calibrate_command(CLI::App& app, int& code);
+/// `socket` and `code` outlive `app`.
+void add_calibrate_command(CLI::App& app, const std::string& socket, int& code);
 
 }  // namespace drover::cli

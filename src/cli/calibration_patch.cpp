@@ -113,23 +113,7 @@ class Notes final {
   void say(std::string text) { notes_.push_back(std::move(text)); }
 
   void signs() {
-    const auto& signs = it_.signs;
-    const bool wheels = !keys_.twist_base;
-    if (!wheels && (signs.swapped || signs.left_reversed || signs.right_reversed))
-      say("what the base tells of its own motion has wrong signs: look how it is wired, and how it "
-          "is mounted");
-    if (wheels && signs.swapped)
-      say("left and right are swapped: exchange groups.base.left and groups.base.right");
-    if (wheels && signs.left_reversed)
-      say("what is configured as left tells backwards: turn \"reversed\" of its drives round");
-    if (wheels && signs.right_reversed)
-      say("what is configured as right tells backwards: turn \"reversed\" of its drives round");
-    if (signs.gyro_reversed)
-      say("the gyro turns the other way: its mount_roll_deg is 180 degrees off, or "
-          "mount_pitch_deg");
-    if (signs.heading_opposite)
-      say("the antenna line points the other way round; or the sides are swapped and both are "
-          "reversed: look which");
+    for (std::string& note : sign_notes(it_.signs, keys_.twist_base)) say(std::move(note));
   }
   void sides() {
     const Found& left = it_.of(Quantity::left_radius_m);
@@ -165,6 +149,28 @@ class Notes final {
 };
 
 }  // namespace
+
+std::vector<std::string> sign_notes(const calibrate::Signs& signs, bool twist_base) {
+  std::vector<std::string> notes;
+  const auto say = [&notes](const char* text) { notes.emplace_back(text); };
+  const bool wheels = !twist_base;
+  if (!wheels && (signs.swapped || signs.left_reversed || signs.right_reversed))
+    say("what the base tells of its own motion has wrong signs: look how it is wired, and how it "
+        "is mounted");
+  if (wheels && signs.swapped)
+    say("left and right are swapped: exchange groups.base.left and groups.base.right");
+  if (wheels && signs.left_reversed)
+    say("what is configured as left tells backwards: turn \"reversed\" of its drives round");
+  if (wheels && signs.right_reversed)
+    say("what is configured as right tells backwards: turn \"reversed\" of its drives round");
+  if (signs.gyro_reversed)
+    say("the gyro turns the other way: its mount_roll_deg is 180 degrees off, or "
+        "mount_pitch_deg");
+  if (signs.heading_opposite)
+    say("the antenna line points the other way round; or the sides are swapped and both are "
+        "reversed: look which");
+  return notes;
+}
 
 std::string calibration_patch(const Calibration& it, const CalibrationKeys& keys) {
   return it.found.empty() ? "" : Patch(it, keys).text();

@@ -8,8 +8,6 @@
 #include <cerrno>
 #include <cstring>
 
-#include "link/unique_fd.h"
-
 namespace drover::cli {
 
 namespace {
@@ -27,37 +25,45 @@ std::string why(const std::string& path, int error, int patience_s) {
 
 }  // namespace
 
-std::string ask(const std::string& socket_path, const std::string& request, int patience_s) {
+Connection::Connection(const std::string& socket_path, int patience_s)
+    : path_(socket_path), patience_s_(patience_s) {
   sockaddr_un address{};
   address.sun_family = AF_UNIX;
-  if (socket_path.size() >= sizeof address.sun_path)
-    throw NoAnswer{socket_path + ": the socket's path is too long"};
-  std::memcpy(address.sun_path, socket_path.c_str(), socket_path.size());
-  link::UniqueFd fd(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0));
+  if (path_.size() >= sizeof address.sun_path)
+    throw NoAnswer{path_ + ": the socket's path is too long"};
+  std::memcpy(address.sun_path, path_.c_str(), path_.size());
+  fd_ = link::UniqueFd(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0));
   const timeval patience{patience_s, 0};
-  ::setsockopt(fd.get(), SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
-  ::setsockopt(fd.get(), SOL_SOCKET, SO_SNDTIMEO, &patience, sizeof patience);  // connect, too
-  if (::connect(fd.get(), reinterpret_cast<sockaddr*>(&address), sizeof address) != 0)
-    throw NoAnswer{why(socket_path, errno, patience_s)};
+  ::setsockopt(fd_.get(), SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
+  ::setsockopt(fd_.get(), SOL_SOCKET, SO_SNDTIMEO, &patience, sizeof patience);  // connect, too
+  if (::connect(fd_.get(), reinterpret_cast<sockaddr*>(&address), sizeof address) != 0)
+    throw NoAnswer{why(path_, errno, patience_s_)};
+}
+
+std::string Connection::ask(const std::string& request) {
   const std::string line = request + "\n";
   for (std::size_t sent = 0; sent < line.size();) {
-    const auto n = ::send(fd.get(), line.data() + sent, line.size() - sent, MSG_NOSIGNAL);
+    const auto n = ::send(fd_.get(), line.data() + sent, line.size() - sent, MSG_NOSIGNAL);
     if (n < 0 && errno == EINTR) continue;
-    if (n < 0) throw NoAnswer{why(socket_path, errno, patience_s)};
+    if (n < 0) throw NoAnswer{why(path_, errno, patience_s_)};
     sent += static_cast<std::size_t>(n);  // a large one goes in parts
   }
 
   std::string reply;
   std::array<char, 65536> buffer{};
   while (reply.empty() || reply.back() != '\n') {
-    const auto n = ::recv(fd.get(), buffer.data(), buffer.size(), 0);
+    const auto n = ::recv(fd_.get(), buffer.data(), buffer.size(), 0);
     if (n < 0 && errno == EINTR) continue;
-    if (n < 0) throw NoAnswer{why(socket_path, errno, patience_s)};
+    if (n < 0) throw NoAnswer{why(path_, errno, patience_s_)};
     if (n == 0) throw NoAnswer{"droverd closed the connection"};
     reply.append(buffer.data(), static_cast<std::size_t>(n));
   }
   reply.pop_back();
   return reply;
+}
+
+std::string ask(const std::string& socket_path, const std::string& request, int patience_s) {
+  return Connection(socket_path, patience_s).ask(request);
 }
 
 }  // namespace drover::cli

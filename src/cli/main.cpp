@@ -194,7 +194,7 @@ int main(int argc, char** argv) {
   drover::cli::add_device_commands(app, s.socket, code);
   drover::cli::add_replay_command(app, code);
   drover::cli::add_estimate_command(app, code);
-  drover::cli::add_calibrate_command(app, code);
+  drover::cli::add_calibrate_command(app, s.socket, code);
 
   auto* traj = app.add_subcommand("traj", "saved tracks")->require_subcommand(1);
   auto* list = traj->add_subcommand("list", "name, points and length of each");

@@ -119,6 +119,12 @@ void write_found(json::JsonText& out, const Found& found, bool twist) {
 
 }  // namespace
 
+const char* name_of(calibrate::Quantity what, bool twist_base) {
+  Found found;
+  found.what = what;
+  return named(found, twist_base).name;
+}
+
 std::string show_calibration(const Calibration& it, const CalibrationKeys& keys) {
   std::string text = facts_text(it.facts) + signs_text(it.signs);
   text += "                                 found     interval  configured\n";

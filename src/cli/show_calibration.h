@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "calibrate/calibrate.h"
+#include "config/load.h"
 
 namespace drover::cli {
 
@@ -21,9 +22,14 @@ struct CalibrationKeys {
   /// Stamps are those of droverd, so that a lateness is its latency_s that is wrong.
   bool own_stamps = false;
 };
+CalibrationKeys calibration_keys(const config::Loaded& loaded, bool own_stamps);
+/// As wheel_radius_m: with "way_scale" in its place for a base that tells a twist.
+const char* name_of(calibrate::Quantity what, bool twist_base);
 
 /// A merge patch (RFC 7396) of what is off by more than its interval; empty: nothing is.
 std::string calibration_patch(const calibrate::Calibration& it, const CalibrationKeys& keys);
+/// What is the wrong way round, and what to do: a sentence each; none when the signs are right.
+std::vector<std::string> sign_notes(const calibrate::Signs& signs, bool twist_base);
 /// What no key says, and what a person has to look at: a sentence each.
 std::vector<std::string> calibration_notes(const calibrate::Calibration& it,
                                            const CalibrationKeys& keys);

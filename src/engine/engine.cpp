@@ -246,6 +246,8 @@ void Engine::on_command(const Command& command, Time now) {
     e.owners.refuse(*refused);
   } else if (std::holds_alternative<FindHeading>(command.body)) {
     e.owners.find_heading(id, e.estimate, e.health.report(), now, e.events);
+  } else if (const auto* hand = std::get_if<DriveByHand>(&command.body)) {
+    e.owners.drive_by_hand(command, *hand, e.health.report(), e.mechanics.proved(), now, e.events);
   } else if (const auto* release = std::get_if<ReleaseHold>(&command.body)) {
     e.release_hold(id, *release, now);
   } else if (std::holds_alternative<ArmHold>(command.body)) {
@@ -311,10 +313,11 @@ void Engine::step(Time now, const Environment& environment, EngineOutput& out) {
   wanted.target = e.clearance.limit(e.mechanics.guide(wanted.target));
   const Learned learned{e.estimate.yaw_slip_factor};
   const Twist stream = twist_of(e.base, e.owners.stream_radps(), learned);
+  const Twist by_hand = e.clearance.limit(e.mechanics.guide(e.owners.by_hand()));
   const Motion& motion = e.owners.step(
       {now, dt, e.estimate, e.health.report(), e.wheel_fault, e.wheel_reason, wanted, cap_mps,
        e.arming.hindrance(), stream, e.clearance.caps().ahead_mps,
-       e.clearance.rim_cap_mps(stream, e.config.base.track_m / 2), e.clearance.too_near()},
+       e.clearance.rim_cap_mps(stream, e.config.base.track_m / 2), e.clearance.too_near(), by_hand},
       e.events);
   e.commanded =
       motion.joints ? twist_of(e.base, e.owners.joint_velocities_radps(), learned) : motion.twist;

@@ -67,7 +67,7 @@ constexpr Duration kFeedEach = 200ms;  // of systemd's watchdog, which has 1 s
 class Daemon final {
  public:
   Daemon(const config::Loaded& loaded, const std::string& record)
-      : Daemon(loaded.config, loaded.text) {
+      : Daemon(loaded.config, publish::ConfigurationTexts{loaded.text, loaded.register_map}) {
     if (record.empty()) return;
     recorder_ = std::make_unique<Recorder>(
         record, gateway::RecordingHeader{DROVER_VERSION, loaded.text, loaded.register_map,
@@ -75,8 +75,7 @@ class Daemon final {
                                          gateway::field_names(gateway_)});
     control_exchange_.recorder = recorder_.get();
   }
-  /// `text`: of the configuration.
-  Daemon(const config::DroverConfig& config, std::string_view text)
+  Daemon(const config::DroverConfig& config, const publish::ConfigurationTexts& texts)
       : config_(config),
         files_(),
         storage_(files_, config.paths.state, config.paths.run),
@@ -86,7 +85,7 @@ class Daemon final {
         scanners_(scan_links(config)),
         stored_(storage_.load(scene_age(config.scene))),
         learned_(of_this_robot(config, stored_)),
-        memory_(config.paths.run, boot_id(), text, stored_.report),
+        memory_(config.paths.run, boot_id(), texts.configuration, stored_.report),
         on_disk_(stored_.stop),
         control_(config, gateway_, keeper_, guard_, control_exchange_, {memory_, storage_exchange_},
                  slow_),
@@ -97,7 +96,7 @@ class Daemon final {
                            ? std::make_unique<StopListener>(config.mqtt, control_exchange_.stops)
                            : nullptr),
         publish_(config, control_exchange_, storage_exchange_, parser_, scene_partners(),
-                 stop_listener_.get(), std::move(stored_), learned_, scanners_) {
+                 stop_listener_.get(), std::move(stored_), learned_, texts, scanners_) {
     if (scene_) control_exchange_.scene = &scene_->exchange.sight;
   }
 

@@ -56,6 +56,7 @@ PublishLoop::PublishLoop(const config::DroverConfig& config, ControlExchange& co
                          const std::optional<ScenePartners>& scene, StopListener* stops,
                          store::StoredState stored,
                          const std::optional<store::KeptLearned>& learned,
+                         publish::ConfigurationTexts texts,
                          std::span<const std::unique_ptr<ScanLink>> scanners)
     : config_(config),
       control_(control),
@@ -96,6 +97,8 @@ PublishLoop::PublishLoop(const config::DroverConfig& config, ControlExchange& co
   auto of_learned = std::make_unique<publish::LearnedOutlet>(learned_beside(config), learned);
   learned_outlet_ = of_learned.get();
   add(std::move(of_learned));
+  add(std::make_unique<publish::HandOutlet>(std::move(texts),
+                                            [this](Time now) { return seen(now); }));
   for (auto& outlet : make_outlets(config, service_, [this](Time now) { return status_text(now); }))
     add(std::move(outlet));
   if (config.mqtt.enabled) connect_broker();

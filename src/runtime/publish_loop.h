@@ -11,6 +11,7 @@
 
 #include "config/config.h"
 #include "publish/command_service.h"
+#include "publish/hand_outlet.h"
 #include "publish/learned_outlet.h"
 #include "publish/outlet.h"
 #include "publish/report_outlet.h"
@@ -43,6 +44,7 @@ class PublishLoop final {
               StorageExchange& storage, ParserLoop& parser,
               const std::optional<ScenePartners>& scene, StopListener* stops,
               store::StoredState stored, const std::optional<store::KeptLearned>& learned,
+              publish::ConfigurationTexts texts,
               std::span<const std::unique_ptr<ScanLink>> scanners = {});
   void run(const std::atomic<bool>& stop);
   /// Wakes the loop so that it sees `stop`.

@@ -55,6 +55,35 @@ class FieldWorld final {
     return judge_->conclude(engine_->snapshot(), truth(), since_s());
   }
 
+  /// Somebody holds a key, for so long at most: what he asks for after a tick, if anything. Each
+  /// answer goes to `answered`.
+  struct Hand {
+    std::function<std::optional<Twist>(const Snapshot&, Time)> ask;
+    std::function<void(bool, std::string_view)> answered;
+    std::function<bool()> done;
+  };
+  void drive_by_hand(double limit_s, const Hand& hand) {
+    tick();
+    command(SetOrigin{kFieldOrigin});
+    started_at_ = now_;
+    while (!hand.done() && since_s() < limit_s) {
+      if (const auto twist = hand.ask(engine_->snapshot(), now_)) {
+        command(DriveByHand{1, *twist});
+        const std::uint64_t asked = asked_;
+        tick();
+        for (const Event& event : out_.events) {
+          const auto* yes = std::get_if<CommandAccepted>(&event.body);
+          const auto* no = std::get_if<CommandRefused>(&event.body);
+          if (yes != nullptr && yes->id.number == asked) hand.answered(true, yes->note);
+          if (no != nullptr && no->id.number == asked) hand.answered(false, no->reason);
+        }
+      } else {
+        tick();
+      }
+    }
+  }
+  Pose true_pose() const { return truth(); }
+
  private:
   using BodyOf = decltype(Command::body);
   static constexpr double kTick_s = 0.005;
@@ -87,7 +116,8 @@ class FieldWorld final {
       environment_.imu[0].last_good = now_;
     }
     engine_->step(now_, environment_, out_);
-    for (const Event& event : out_.events) judge_->hear(event, since_s());
+    if (judge_)
+      for (const Event& event : out_.events) judge_->hear(event, since_s());
     if (watch_) watch_(engine_->snapshot(), truth(), since_s());
   }
 

@@ -2,11 +2,20 @@
 #include "engine/own/owners.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace drover::engine {
 namespace {
 
 constexpr Duration kOldestTarget = std::chrono::milliseconds(100);
+
+/// The same curve, its fastest rim no faster than that.
+Twist slowed(const Twist& twist, double cap_mps, double track_m) {
+  const double rim_mps = std::abs(twist.vx_mps) + std::abs(twist.wz_radps) * track_m / 2;
+  if (!(rim_mps > cap_mps)) return twist;
+  const double share = std::max(cap_mps, 0.0) / rim_mps;
+  return {share * twist.vx_mps, share * twist.wz_radps};
+}
 
 }  // namespace
 
@@ -17,6 +26,7 @@ Owners::Owners(const EngineConfig& config, Latch& latch)
       joint_gate_(config.base, config.limits),
       stream_(from_s(config.health.joint_command_timeout_s)),
       creep_(config),
+      hand_busy_(kJustStarted),
       busy_(kJustStarted) {}
 
 void Owners::take(const JointTargets& targets, Time now) {
@@ -29,7 +39,7 @@ void Owners::take(const JointTargets& targets, Time now) {
 
 double Owners::timeout_s(Owner owner) const {
   switch (owner) {
-    case Owner::manual: return creep_.timeout_s();
+    case Owner::manual: return hand_.active() ? to_s(HandDrive::kHeld) : creep_.timeout_s();
     case Owner::task: return to_s(kOldestTarget);
     case Owner::joint_command: return config_.health.joint_command_timeout_s;
     case Owner::estop:
@@ -50,13 +60,28 @@ void Owners::find_heading(const RequestId& id, const Estimate& estimate, const H
   latch_.reset(Act::take);
 }
 
+void Owners::drive_by_hand(const Command& command, const DriveByHand& wanted,
+                           const HealthReport& health, bool proved, Time now, EventQueue& events) {
+  Reason why = hand_busy_;
+  // What runs may go on, and nothing new begins.
+  if (why.empty() && !hand_.active()) {
+    if (stream_.wants_motion() || !at_rest()) why = "the robot moves";
+    if (why.empty()) why = health.no_start;
+  }
+  if (why.empty() && health.near_zone && !is_zero(wanted.twist)) why = health.obstacle();
+  const Reason note = proved ? "" : "slowly, until wheels, gyro and receiver are seen to agree";
+  hand_.take(command, wanted, why, note, now, events);
+}
+
 void Owners::cancel(Time now, EventQueue& events) {
   creep_.end("cancelled", now, events);
+  hand_.end("cancelled", now, events);
   stream_.end("cancelled");
 }
 
 Reason Owners::hinders_task() const {
   if (creep_.active()) return "the heading is being looked for: wait, or cancel it";
+  if (hand_.active()) return "a person drives the robot with a key: wait, or cancel it";
   if (stream_.wants_motion() || !joint_gate_.at_rest()) {
     return "joint commands move the robot: end them first";
   }
@@ -76,6 +101,14 @@ Reason Owners::hindrance(const OwnInput& input) const {
   if (const Reason why = latch_.hinders_all(); !why.empty()) return why;
   if (!input.not_held.empty()) return input.not_held;
   if (input.task.drives) return "a task owns the drives";
+  return {};
+}
+
+/// Why joint commands may not move it either.
+Reason Owners::hinders_joints(const OwnInput& input) const {
+  if (const Reason why = hindrance(input); !why.empty()) return why;
+  if (creep_.active()) return "the heading is being looked for";
+  if (hand_.active()) return "a person drives the robot with a key";
   // One gate moves at a time: what a stream asked would hide a ramp, and then go on with it.
   if (!twist_gate_.at_rest()) return "the robot comes to rest";
   return {};
@@ -83,7 +116,7 @@ Reason Owners::hindrance(const OwnInput& input) const {
 
 Owner Owners::rank(const OwnInput& input) const {
   if (input.health.estop) return Owner::estop;
-  if (creep_.active()) return Owner::manual;
+  if (creep_.active() || hand_.active()) return Owner::manual;
   if (input.task.drives) return Owner::task;
   if (stream_.following()) return Owner::joint_command;
   return Owner::nobody;
@@ -91,7 +124,7 @@ Owner Owners::rank(const OwnInput& input) const {
 
 Twist Owners::asked(const OwnInput& input, const Twist& creep) const {
   switch (motion_.owner) {
-    case Owner::manual: return creep;
+    case Owner::manual: return creep_.active() ? creep : hand_.wanted();
     case Owner::task: return input.task.asked;
     case Owner::joint_command: return input.stream;
     case Owner::estop:
@@ -138,8 +171,44 @@ Stop Owners::watch_stream(const OwnInput& input, bool at_once) {
   return Stop::immediate;
 }
 
+/// What ends driving by hand, and how fast it is let go on.
+Twist Owners::watch_hand(const OwnInput& input, bool at_once, double cap_mps, EventQueue& events) {
+  hand_.step(input.now);
+  hand_busy_ = hindrance(input);
+  if (hand_busy_.empty() && creep_.active()) hand_busy_ = "the heading is being looked for";
+  if (at_once) hand_.end(why_at_once(input), input.now, events);
+  if (!hand_busy_.empty()) hand_.end(hand_busy_, input.now, events);
+  const Twist wanted = hand_.wanted();
+  if (input.health.near_zone && !is_zero(wanted))
+    hand_.end(input.health.obstacle(), input.now, events);
+  if (!hand_.active()) {
+    hand_since_ = kNever;
+    hand_moved_ = false;
+    return {};
+  }
+  if (hand_since_ == kNever) {
+    hand_since_ = input.now;
+    hand_drives_.begin();
+  }
+  const bool late = input.now - hand_since_ > from_s(config_.navigate.start_timeout_s);
+  switch (hand_drives_.look(input.health.drives_running, late)) {
+    case Drives::armed: break;
+    case Drives::asked:
+    case Drives::arming: return {};
+    case Drives::late:
+    case Drives::lost: hand_.end(input.health.not_running, input.now, events); return {};
+  }
+  if (is_zero(wanted)) return {};
+  // A person has taken the drives: not before his key moves them.
+  if (!hand_moved_) {
+    latch_.reset(Act::take);
+    events.notice(input.now, Notice::Level::info, "a person drives the robot with a key");
+  }
+  hand_moved_ = true;
+  return slowed(input.hand, cap_mps, config_.base.track_m);
+}
+
 const Motion& Owners::step(const OwnInput& input, EventQueue& events) {
-  busy_ = hindrance(input);
   no_start_ = input.health.no_start;
   const bool at_once = input.task.stop == Stop::immediate || !input.health.stop.empty() ||
                        input.wheels != WheelFault::none;
@@ -152,16 +221,25 @@ const Motion& Owners::step(const OwnInput& input, EventQueue& events) {
                              : input.speed_cap_mps;
   const Twist search = creep;
   creep.vx_mps = std::min({creep.vx_mps, cap_mps, input.ahead_cap_mps});
-  if (busy_.empty() && creep_.active()) busy_ = "the heading is being looked for";
+  const Twist by_hand = watch_hand(input, at_once, cap_mps, events);
+  busy_ = hinders_joints(input);
   const Stop stream_stop = watch_stream(input, at_once);
 
   motion_.owner = rank(input);
   motion_.asked = asked(input, search);
   const bool manual = motion_.owner == Owner::manual;
   const Offer offer{motion_.owner == Owner::joint_command ? Owner::nobody : motion_.owner,
-                    manual ? creep : input.task.target, input.now};
+                    !manual           ? input.task.target
+                    : creep_.active() ? creep
+                                      : by_hand,
+                    input.now};
   const bool no_ramp = at_once || input.too_near;
-  const Stop twist_stop = no_ramp ? Stop::immediate : manual ? Stop::none : input.task.stop;
+  // A key that is up is a stop: with all of the deceleration, along the curve.
+  const bool key_is_up = manual && hand_.active() && is_zero(by_hand);
+  const Stop twist_stop = no_ramp     ? Stop::immediate
+                          : key_is_up ? Stop::controlled
+                          : manual    ? Stop::none
+                                      : input.task.stop;
   motion_.twist = twist_gate_.step(input.now, input.dt, {&offer, 1}, twist_stop);
   // One gate moves at a time: the other waits until it has come to rest.
   const Stop joint_stop = no_ramp                 ? Stop::immediate

@@ -7,6 +7,7 @@
 #include "engine/health/latch.h"
 #include "engine/health/wheels.h"
 #include "engine/navigate/navigator.h"
+#include "engine/own/hand_drive.h"
 #include "engine/own/heading_creep.h"
 #include "engine/own/joint_stream.h"
 
@@ -26,6 +27,7 @@ struct OwnInput {
   double ahead_cap_mps = 1e9;  ///< of what is free straight ahead
   double rim_cap_mps = 1e9;    ///< of what is free where the stream goes
   bool too_near = false;       ///< something came into the way where no ramp ends before it
+  Twist hand = {};             ///< what `by_hand` is let do, but for the limits of speed
 };
 
 /// What the gates let through this cycle.
@@ -50,6 +52,11 @@ class Owners final {
   void refuse(const JointTargetsRefused& refused) { stream_.refuse(refused.reason); }
   void find_heading(const RequestId& id, const Estimate& estimate, const HealthReport& health,
                     Time now, EventQueue& events);
+  /// `proved`: wheels, gyro and receiver agree with each other.
+  void drive_by_hand(const Command& command, const DriveByHand& wanted, const HealthReport& health,
+                     bool proved, Time now, EventQueue& events);
+  /// What a person asks for with his key now.
+  Twist by_hand() const { return hand_.wanted(); }
   /// A person's cancel stops every owner.
   void cancel(Time now, EventQueue& events);
   /// Why a task cannot take the base over now; empty: it can. An idle stream makes way.
@@ -72,7 +79,9 @@ class Owners final {
  private:
   Owner rank(const OwnInput& input) const;
   Reason hindrance(const OwnInput& input) const;
+  Reason hinders_joints(const OwnInput& input) const;
   Stop watch_stream(const OwnInput& input, bool at_once);
+  Twist watch_hand(const OwnInput& input, bool at_once, double cap_mps, EventQueue& events);
   Twist asked(const OwnInput& input, const Twist& creep) const;
   Reason why_at_once(const OwnInput& input) const;
   void latch(const Reason& why, bool anyone);
@@ -83,7 +92,12 @@ class Owners final {
   JointGate joint_gate_;
   JointStream stream_;
   HeadingCreep creep_;
+  HandDrive hand_;
   ArmWait stream_drives_;
+  ArmWait hand_drives_;
+  Time hand_since_ = kNever;   ///< it waits for the drives, or has them
+  bool hand_moved_ = false;    ///< since it began
+  Reason hand_busy_;           ///< why nobody may drive by hand; empty: he may
   Reason busy_;                ///< why joint commands cannot be followed; empty: they can
   Reason no_start_;            ///< why nothing new may begin; empty: it may
   Owner drove_ = Owner::task;  ///< who asked for a twist last

@@ -283,6 +283,16 @@ void put(const AcceptPosition&, ByteWriter&) {}
 void get(AcceptPosition&, ByteReader&) {}
 void put(const ForgetLearned&, ByteWriter&) {}
 void get(ForgetLearned&, ByteReader&) {}
+void put(const DriveByHand& drive, ByteWriter& out) {
+  out.number(drive.hand);
+  out.real(drive.twist.vx_mps);
+  out.real(drive.twist.wz_radps);
+}
+void get(DriveByHand& drive, ByteReader& in) {
+  drive.hand = in.number();
+  drive.twist.vx_mps = in.real();
+  drive.twist.wz_radps = in.real();
+}
 void put(const ReleaseHold& release, ByteWriter& out) {
   out.byte(release.on_slope ? 1 : 0);
 }

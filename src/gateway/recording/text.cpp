@@ -174,7 +174,8 @@ std::string words(const CommandGiven& given, const Wiring&) {
                                      "release",
                                      "hold",
                                      "a person accepts the position",
-                                     "a person has what was learned forgotten"};
+                                     "a person has what was learned forgotten",
+                                     "a key that drives"};
   static_assert(std::size(kBodies) == std::variant_size_v<decltype(Command::body)>);
   const auto& command = given.command;
   std::string text = "command " + number(static_cast<std::uint64_t>(command.id.source)) + "/" +

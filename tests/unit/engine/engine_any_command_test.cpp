@@ -12,6 +12,7 @@ namespace drover::engine {
 namespace {
 
 constexpr double kLongestHeadingSearch_s = 60;
+constexpr Duration kKeyHeld = std::chrono::milliseconds(300);
 
 /// What a person knows who saw each command and each answer, and nothing else.
 class Witness {
@@ -41,6 +42,12 @@ class Witness {
       if (!stopped_ && std::all_of(joints.begin(), joints.end(), zero)) streams_ = true;
       if (streams_) last_target_ = rig_.now;
     }
+    if (const auto* hand = std::get_if<DriveByHand>(&body)) {
+      // A key that was held since before it was ended moves nothing.
+      if (last_key_ == kNever || rig_.now - last_key_ > kKeyHeld) keys_since_ = rig_.now;
+      last_key_ = is_zero(hand->twist) ? last_key_ : rig_.now;
+    }
+    if (stopped_ || ends) keys_since_ = kNever;
   }
 
   /// After each tick. Returns what is broken, or nothing.
@@ -56,7 +63,8 @@ class Witness {
     if (fastest_radps != 0 && must_rest(rig_)) return "motion while a stop condition holds";
     if (released_ && !left_alone()) return "drives that were released are not left alone";
     if (faster && stopped_) return "faster after a stop that nobody reset";
-    if (faster && !task_ && !searching() && !streaming()) return "faster, and nobody asked for it";
+    if (faster && !task_ && !searching() && !streaming() && !held())
+      return "faster, and nobody asked for it";
     return {};
   }
   /// A restart of the program ends all that drove.
@@ -65,7 +73,7 @@ class Witness {
     // knows that, and asks again.
     if (unanswered_) stopped_ = unanswered_ = false;
     task_ = streams_ = false;
-    search_until_ = kNever;
+    search_until_ = keys_since_ = last_key_ = kNever;
     last_radps_ = 0;
     seen_ = rig_.log.size();
   }
@@ -75,6 +83,10 @@ class Witness {
   bool streaming() const {
     return streams_ &&
            rig_.now - last_target_ < from_s(rig_.config.health.joint_command_timeout_s) + kRigTick;
+  }
+  bool held() const {
+    return keys_since_ != kNever && rig_.now - keys_since_ >= kKeyHeld &&
+           rig_.now - last_key_ <= kKeyHeld + kRigTick;
   }
   bool left_alone() const {
     const auto& slowing = rig_.out.slowing_permitted;
@@ -109,6 +121,8 @@ class Witness {
   bool streams_ = false;
   Time last_target_ = kNever;
   Time search_until_ = kNever;
+  Time keys_since_ = kNever;
+  Time last_key_ = kNever;
   double last_radps_ = 0;
 };
 
@@ -142,9 +156,9 @@ class AnyCommands {
     rig_.command(body);
   }
   void command() {
-    static_assert(std::variant_size_v<decltype(Command::body)> == 14,
+    static_assert(std::variant_size_v<decltype(Command::body)> == 15,
                   "a new command has its place here, and in what the witness knows of it");
-    switch (random_() % 18) {
+    switch (random_() % 20) {
       case 0: return ask(CancelTask{});
       case 1: return ask(EngageStop{});
       case 2:
@@ -160,10 +174,13 @@ class AnyCommands {
       case 12: streamed_radps_ = one_in_(2) ? 0 : 2; return;
       case 13: return ask(AcceptPosition{});
       case 14: return ask(ForgetLearned{});
+      case 15:
+      case 16: key_ = !key_; return;
       default: return ask(StartTask{&path_, 20, 0.8});
     }
   }
   void stream() {
+    if (key_) ask(DriveByHand{1, {one_in_(200) ? 0.0 : 0.5, 0.2}});
     if (!streams_) return;
     JointTargets targets;
     for (AxisId id = 0; id < 4; ++id) (void)targets.joints.push_back({id, streamed_radps_});
@@ -195,6 +212,7 @@ class AnyCommands {
   Path path_ = straight_path(10);
   bool streams_ = false;
   double streamed_radps_ = 0;
+  bool key_ = false;
   bool moved_ = false;
 };
 

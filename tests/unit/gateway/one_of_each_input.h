@@ -62,6 +62,7 @@ struct OneOfEachInput {
     command(ArmHold{});
     command(AcceptPosition{});
     command(ForgetLearned{});
+    command(DriveByHand{7, {0.3, -0.1}});
     add(Tick{true, false});
     add(ProgramTrouble{"droverd ends"});
     add(Suspended{2.5});

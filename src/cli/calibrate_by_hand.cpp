@@ -1,0 +1,221 @@
+#include "cli/calibrate_by_hand.h"
+
+#include <poll.h>
+#include <termios.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstdio>
+#include <fstream>
+#include <memory>
+
+#include "calibrate/calibrate.h"
+#include "cli/calibration_drive.h"
+#include "cli/client.h"
+#include "cli/drive_values.h"
+#include "cli/exit_codes.h"
+#include "cli/failure.h"
+#include "cli/reply.h"
+#include "cli/show_calibration.h"
+#include "cli/terminal_watch.h"
+#include "config/load.h"
+#include "json/json_text.h"
+#include "runtime/clock.h"
+
+namespace drover::cli {
+namespace {
+
+constexpr int kPatience_s = 1;
+constexpr int kLook_ms = 10;
+constexpr Duration kShowEach = std::chrono::milliseconds(100);
+
+struct DriveSettings {
+  std::string out;
+  bool json = false;
+};
+
+using runtime::monotonic_now;
+
+/// Keys as they come, without an echo, until it is gone.
+class KeyTerminal final {
+ public:
+  KeyTerminal() {
+    ::tcgetattr(STDIN_FILENO, &before_);
+    termios raw = before_;
+    raw.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO | ISIG);
+    raw.c_cc[VMIN] = 0;
+    raw.c_cc[VTIME] = 0;
+    ::tcsetattr(STDIN_FILENO, TCSAFLUSH, &raw);  // what was typed before is no key
+  }
+  ~KeyTerminal() { ::tcsetattr(STDIN_FILENO, TCSAFLUSH, &before_); }
+  KeyTerminal(const KeyTerminal&) = delete;
+  KeyTerminal& operator=(const KeyTerminal&) = delete;
+
+  struct Keys {
+    bool space = false;
+    bool quit = false;  ///< q, ^C, ^D, or the terminal is gone
+  };
+  /// Waits for so long at most.
+  Keys read(int wait_ms) {
+    Keys keys;
+    if (const auto question = watch_.ask(monotonic_now()); !question.empty())
+      keys.quit = ::write(STDIN_FILENO, question.data(), question.size()) < 0;
+    pollfd fd{STDIN_FILENO, POLLIN, 0};
+    if (::poll(&fd, 1, wait_ms) <= 0) return keys;
+    std::array<char, 4096> typed{};
+    const auto n = ::read(STDIN_FILENO, typed.data(), typed.size());
+    keys.quit = keys.quit || n <= 0;
+    for (ssize_t i = 0; i < n; ++i) {
+      const char key = typed[static_cast<std::size_t>(i)];
+      if (watch_.take(key, monotonic_now())) continue;
+      keys.space = keys.space || key == ' ';
+      keys.quit = keys.quit || key == 'q' || key == 'Q' || key == '\x03' || key == '\x04';
+    }
+    // Let go, perhaps, and nobody here knows yet.
+    keys.space = keys.space && !is_late();
+    return keys;
+  }
+  bool is_late() const { return watch_.is_late(monotonic_now()); }
+  double delay_s() const { return to_s(watch_.delay(monotonic_now())); }
+
+ private:
+  termios before_{};
+  TerminalWatch watch_;
+};
+
+/// What a person follows: a line that changes, and one that stays for each piece.
+class Screen final {
+ public:
+  explicit Screen(bool twist_base) : twist_base_(twist_base) {}
+
+  void show(const CalibrationDrive& drive, const KeyTerminal& terminal, Time at) {
+    if (drive.missing() != missing_) {
+      missing_ = drive.missing();
+      std::fputs("\nnot seen well enough yet:", stderr);
+      for (const auto what : missing_) std::fprintf(stderr, " %s", name_of(what, twist_base_));
+      std::fputs("\nanother round shows more; q ends with what there is", stderr);
+    }
+    if (shown_at_ != kNever && at - shown_at_ < kShowEach) return;
+    shown_at_ = at;
+    if (drive.recipe().at() != piece_) std::fputs("\n", stderr);
+    piece_ = drive.recipe().at();
+    std::fprintf(stderr, "\r%s", drive.line().c_str());
+    if (terminal.is_late())
+      std::fprintf(stderr, ": your keys come %.1f s late, and count for nothing",
+                   terminal.delay_s());
+    std::fputs("\033[K", stderr);
+  }
+
+ private:
+  bool twist_base_;
+  Time shown_at_ = kNever;
+  std::size_t piece_ = 0;
+  std::vector<calibrate::Quantity> missing_;
+};
+
+std::string key_request(const Twist& twist) {
+  json::JsonText out;
+  out.open('{').key("cmd").text("drive_by_hand").key("vx_mps").number(twist.vx_mps);
+  return out.key("wz_radps").number(twist.wz_radps).close('}').take();
+}
+
+/// That of the droverd that is asked, or why not.
+config::Loaded configuration_of(Connection& daemon, std::string& problem) {
+  const auto reply = read_reply(daemon.ask(request("configuration")));
+  const auto* text = reply.document.root.find("configuration");
+  const auto* map = reply.document.root.find("register_map");
+  if (text == nullptr || text->text() == nullptr || map == nullptr || map->text() == nullptr) {
+    problem = reply.done ? "droverd's answer is not understood" : reply.reason;
+    return {};
+  }
+  auto loaded = config::load_text(*text->text(), "", *map->text());
+  if (!loaded.problems.empty())
+    problem = "droverd's configuration is not understood: is it of another version? " +
+              loaded.problems.front().text("configuration");
+  return loaded;
+}
+
+/// Until it has ended, or the person ends it.
+void drive(Connection& daemon, CalibrationDrive& it, bool twist_base) {
+  KeyTerminal terminal;
+  const auto ask_values = request("drive_values");
+  Screen screen(twist_base);
+  while (!it.ended()) {
+    const auto keys = terminal.read(kLook_ms);
+    if (keys.quit) break;
+    const auto values = read_reply(daemon.ask(ask_values));
+    const auto* told = values.document.root.find("values");
+    if (told == nullptr) break;
+    if (const auto say = it.look(monotonic_now(), keys.space, snapshot_of(*told))) {
+      const auto answer = read_reply(daemon.ask(key_request(*say)));
+      it.answered(answer.done, answer.done ? answer.note : answer.reason);
+    }
+    screen.show(it, terminal, monotonic_now());
+  }
+  (void)daemon.ask(key_request({}));  // rest, at once
+  std::fputs("\n\n", stderr);
+}
+
+int tell_result(const DriveSettings& settings, const CalibrationDrive& it,
+                const config::Loaded& loaded) {
+  const auto refuse = [&](const std::string& text) {
+    tell_failure(settings.json, "drover", text);
+    return kRefused;
+  };
+  const auto keys = calibration_keys(loaded, true);
+  if (!it.problem().empty()) {
+    std::string text = it.problem();
+    for (const auto& note : sign_notes(it.signs(), keys.twist_base)) text += "; " + note;
+    return refuse(text);
+  }
+  const auto found = calibrate::calibrate(it.drive(), configured_of(loaded.config.engine));
+  if (!found.refused.empty()) return refuse(found.refused);
+  const auto text =
+      settings.json ? calibration_json(found, keys) + "\n" : show_calibration(found, keys);
+  std::fputs(text.c_str(), stdout);
+  if (settings.out.empty()) return kDone;
+  std::ofstream file(settings.out, std::ios::trunc);
+  file << text;
+  file.close();
+  return file ? kDone : refuse(settings.out + ": cannot be written");
+}
+
+int calibrate_by_hand(const DriveSettings& settings, const std::string& socket) {
+  if (::isatty(STDIN_FILENO) == 0) {
+    tell_failure(settings.json, "drover",
+                 "it is driven with a key that a person holds: run it at a terminal (ssh -t)");
+    return kRefused;
+  }
+  Connection daemon(socket, kPatience_s);
+  std::string problem;
+  const auto loaded = configuration_of(daemon, problem);
+  if (!problem.empty()) {
+    tell_failure(settings.json, "drover", problem);
+    return kRefused;
+  }
+  CalibrationDrive it(loaded.config.engine);
+  std::fprintf(stderr, "%s\n", it.intro().c_str());
+  drive(daemon, it, loaded.config.engine.base.kind == engine::BaseKind::twist);
+  return tell_result(settings, it, loaded);
+}
+
+}  // namespace
+
+void add_calibrate_drive_command(CLI::App& calibrate, const std::string& socket, int& code) {
+  auto* command = calibrate.add_subcommand(
+      "drive", "DRIVES the robot while you hold the space key, and calibrates from that");
+  const auto settings = std::make_shared<DriveSettings>();
+  command->add_option("--out", settings->out, "write the result to this file, too");
+  command->add_flag("--json", settings->json, "the result as one JSON object");
+  command->footer(
+      "It says first which area it needs, and begins with the first key. Let go, it comes to "
+      "rest.\n"
+      "Nothing is changed: the patch is to be reviewed.\n"
+      "Examples:\n"
+      "  drover calibrate drive\n"
+      "  drover calibrate drive --out calibration.txt\n"
+      "  drover calibrate drive --json | jq .patch");
+  command->callback([settings, &socket, &code] { code = calibrate_by_hand(*settings, socket); });
+}
+
+}  // namespace drover::cli

@@ -1,0 +1,169 @@
+#include "cli/calibration_drive.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "cli/shown_text.h"
+#include "drover/angle.h"
+
+namespace drover::cli {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr Duration kEachKey = 40ms;     // a terminal repeats up to 30 a second
+constexpr Duration kEachRest = 100ms;   // while no key is held
+constexpr Duration kFixLasts = 1500ms;  // of a receiver of 1 Hz
+constexpr double kStill_mps = 0.01;
+constexpr double kStill_radps = 0.02;
+constexpr double kLongestStep_s = 0.2;
+
+calibrate::DriveLimits limits_of(const engine::EngineConfig& config) {
+  return {config.limits.max_speed_mps, config.limits.max_yaw_rate_radps};
+}
+
+}  // namespace
+
+CalibrationDrive::CalibrationDrive(const engine::EngineConfig& config)
+    : config_(config),
+      configured_(configured_of(config)),
+      recipe_(limits_of(config)),
+      taken_(config.base) {}
+
+bool CalibrationDrive::has_fix() const {
+  return fixed_at_ != kNever && seen_at_ - fixed_at_ <= kFixLasts;
+}
+
+void CalibrationDrive::end(std::string problem) {
+  ended_ = true;
+  problem_ = std::move(problem);
+}
+
+/// What has happened since the last look.
+void CalibrationDrive::follow(const Snapshot& seen) {
+  if (seen.time == kNever || (seen_at_ != kNever && seen.time <= seen_at_)) return;
+  const double since_s = seen_at_ == kNever ? 0 : to_s(seen.time - seen_at_);
+  seen_at_ = seen.time;
+  vx_mps_ = seen.pose.vx_mps;
+  if (seen.gnss.position.quality == FixQuality::rtk_fixed) fixed_at_ = seen.gnss.position_time;
+  if (!begun_) return;
+  taken_.take(seen);
+  const double dt_s = std::min(since_s, kLongestStep_s);
+  calibrate::Moved moved;
+  moved.dt_s = dt_s;
+  moved.way_m = seen.pose.vx_mps * dt_s;
+  moved.turn_rad = seen.pose.wz_radps * dt_s;
+  // What is driven or stood without a fix is of no use.
+  moved.still = has_fix() && std::abs(seen.pose.vx_mps) < kStill_mps &&
+                std::abs(seen.pose.wz_radps) < kStill_radps;
+  recipe_.look(moved);
+}
+
+void CalibrationDrive::judge_signs() {
+  signs_ = calibrate::signs_of(taken_.drive, configured_);
+  if (signs_.wrong()) return end("signs are wrong: put them right first, then drive again");
+  if (signs_.contradict) return end(signs_.refused);
+  // A receiver without headings shows them at a higher speed only. The first way, on which droverd
+  // compares wheels, gyro and receiver, has shown as much.
+  const bool compared = !slow_ && config_.navigate.first_way_m > 0;
+  if (!signs_.refused.empty() && !compared) return end(signs_.refused);
+  recipe_.proved();
+}
+
+void CalibrationDrive::judge_all() {
+  const auto found = calibrate::calibrate(taken_.drive, configured_);
+  if (found.signs.wrong() || found.signs.contradict) return end({});
+  missing_ = calibrate::worth_driving_for(found, taken_.drive);
+  const bool enough = found.refused.empty() && missing_.empty();
+  if (enough || !recipe_.again()) end({});
+}
+
+Twist CalibrationDrive::wanted(Time now) const {
+  if (let_go_ || !has_fix() || !held(now)) return {};
+  return recipe_.wanted();
+}
+
+std::optional<Twist> CalibrationDrive::look(Time now, bool key, const Snapshot& seen) {
+  now_ = now;
+  if (key) key_at_ = now;
+  begun_ = begun_ || key;
+  if (!held(now)) let_go_ = false;
+  follow(seen);
+  if (!ended_ && recipe_.asks_for_signs()) judge_signs();
+  if (!ended_ && recipe_.over()) judge_all();
+  if (!begun_) return std::nullopt;
+  const Duration since = said_at_ == kNever ? kEachRest : now - said_at_;
+  const Twist twist = ended_ ? Twist{} : wanted(now);
+  // Motion is asked for with each key, and never without one; rest goes on by itself.
+  const bool due = is_zero(twist) ? since >= kEachRest : key && since >= kEachKey;
+  if (!due) return std::nullopt;
+  said_at_ = now;
+  asked_to_move_ = !is_zero(twist);
+  return twist;
+}
+
+void CalibrationDrive::answered(bool ok, const std::string& text) {
+  refused_ = !ok;
+  if (!ok) stopped_by_ = text;
+  if (ok) slow_ = !text.empty();
+  if (ok && asked_to_move_) stopped_by_.clear();
+  if (!ok && now_ != kNever && held(now_)) let_go_ = true;
+}
+
+std::string CalibrationDrive::intro() const {
+  const auto area = recipe_.area();
+  double fastest_mps = 0;
+  for (const auto& piece : recipe_.pieces()) fastest_mps = std::max(fastest_mps, piece.fast_mps);
+  std::string text = "Calibration drive: you hold the space key, the robot drives.\n\n";
+  text += "area    level ground, nobody and nothing on it: " + fixed(area.ahead_m, 0) +
+          " m ahead of the robot,\n        " + fixed(area.left_m, 0) + " m to its left, " +
+          fixed(area.right_m, 0) + " m to its right, " + fixed(area.behind_m, 0) +
+          " m behind it.\n";
+  text +=
+      "drive   5 m slowly, with a bend to the left and one to the right; 10 m straight on, at "
+      "up to " +
+      fixed(fastest_mps, 1) +
+      " m/s;\n        there a left circle and a right one, 3 to 4 m across; 12 m straight back. "
+      "About 3 minutes.\n";
+  text += "you     Stand where you see all of it, with the e-stop in your hand. ";
+  text += config_.clearance_required
+              ? "What its scanners see stops\n        it, as always; for what they do not see you "
+                "answer.\n"
+              : "Nothing looks for obstacles\n        but what is wired to stop it: you answer for "
+                "the way.\n";
+  text +=
+      "key     Hold the space key: it drives. Let it go: it comes to rest, by a ramp that begins "
+      "0.3 s\n        later. Pressed again it goes on. q ends. A line on which keys come later "
+      "than that is\n        noticed, and drives nothing.\n";
+  text += "fix     It needs an RTK fix all the time: without one it stands.\n";
+  return text;
+}
+
+std::string CalibrationDrive::line() const {
+  if (recipe_.over()) return "done";
+  const auto& piece = recipe_.pieces()[recipe_.at()];
+  const bool stands = piece.stand_s > 0;
+  const bool turns = !stands && !(piece.way_m > 0);
+  const double scale = turns ? to_deg(1) : 1;
+  char text[160];
+  std::snprintf(text, sizeof text, "%2zu/%zu %-26.*s %5.*f of %.*f %-3s %5.2f m/s  ",
+                recipe_.at() + 1, recipe_.pieces().size(), static_cast<int>(piece.what.size()),
+                piece.what.data(), turns ? 0 : 1, scale * recipe_.done(), turns ? 0 : 1,
+                scale * recipe_.of(),
+                stands  ? "s"
+                : turns ? "deg"
+                        : "m",
+                std::isfinite(vx_mps_) ? vx_mps_ : 0.0);
+  const bool holds = now_ != kNever && held(now_);
+  if (!begun_) return std::string(text) + (has_fix() ? "hold the space key" : "no RTK fix yet");
+  if (!has_fix()) return std::string(text) + "stands: no RTK fix";
+  const std::string why = stopped_by_.empty() ? "" : " (" + stopped_by_ + ")";
+  if (refused_) return std::string(text) + "stands" + why;
+  if (let_go_) return std::string(text) + "let the key go first" + why;
+  if (stands) return std::string(text) + "wait";
+  if (!holds) return std::string(text) + "paused: hold the space key" + why;
+  return std::string(text) + (slow_ ? "drives slowly" : "drives");
+}
+
+}  // namespace drover::cli

@@ -1,0 +1,52 @@
+// How late what a person types arrives here: the terminal is asked for its state again and again,
+// and answers as fast as a key comes. Pure.
+#pragma once
+
+#include <string_view>
+
+#include "drover/time.h"
+
+namespace drover::cli {
+
+/// Of a terminal that answers. Of one that never does nothing is known.
+class TerminalWatch final {
+ public:
+  /// What is to be written to the terminal now; empty: nothing.
+  std::string_view ask(Time now) {
+    if (asked_ != kNever || (last_ != kNever && now - last_ < kEach)) return {};
+    asked_ = last_ = now;
+    return "\033[5n";
+  }
+  /// Takes the answer out of what is typed: true when `key` is part of one.
+  bool take(char key, Time now) {
+    constexpr std::string_view kAnswer = "\033[0n";
+    if (key != kAnswer[matched_]) {
+      matched_ = key == kAnswer[0] ? 1 : 0;
+      return matched_ > 0;
+    }
+    if (++matched_ < kAnswer.size()) return true;
+    matched_ = 0;
+    if (asked_ != kNever) took_ = now - asked_;
+    answers_ = answers_ || asked_ != kNever;
+    asked_ = kNever;
+    return true;
+  }
+  /// A key that comes now may have been let go too long ago.
+  bool is_late(Time now) const { return answers_ && delay(now) > kMost; }
+  /// There and back.
+  Duration delay(Time now) const {
+    return asked_ != kNever && now - asked_ > took_ ? now - asked_ : took_;
+  }
+
+ private:
+  static constexpr Duration kEach = std::chrono::milliseconds(100);
+  static constexpr Duration kMost = std::chrono::milliseconds(300);
+
+  Time asked_ = kNever;  ///< and not answered yet
+  Time last_ = kNever;
+  Duration took_{0};
+  std::size_t matched_ = 0;
+  bool answers_ = false;
+};
+
+}  // namespace drover::cli

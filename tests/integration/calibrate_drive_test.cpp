@@ -1,0 +1,254 @@
+// `drover calibrate drive` at a terminal, with the whole robot behind it: real processes, in real
+// time. What moves it, and that nothing that hangs, dies or comes late does.
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <pty.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <mutex>
+#include <sstream>
+#include <thread>
+
+#include "integration/robot_rig.h"
+
+namespace drover::test {
+namespace {
+
+using testing::HasSubstr;
+using namespace std::chrono_literals;
+
+/// A person at a terminal, who holds the space key or does not.
+class KeyHolder final {
+ public:
+  explicit KeyHolder(const std::vector<std::string>& words) {
+    std::vector<char*> arguments;
+    for (const auto& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
+    arguments.push_back(nullptr);
+    pid_ = ::forkpty(&terminal_, nullptr, nullptr, nullptr);
+    if (pid_ == 0) {
+      ::execv(arguments[0], arguments.data());
+      ::_exit(127);
+    }
+    types_ = std::thread([this] {
+      while (!ends_) {
+        if (held_) type(" ");
+        std::this_thread::sleep_for(33ms);
+      }
+    });
+    reads_ = std::thread([this] {
+      std::array<char, 4096> buffer{};
+      for (;;) {
+        const auto n = ::read(terminal_, buffer.data(), buffer.size());
+        if (n <= 0) return;  // its end closed
+        const std::string_view shown(buffer.data(), static_cast<std::size_t>(n));
+        if (shown.find("\033[5n") != std::string_view::npos && answers_after_ms_ >= 0) {
+          std::this_thread::sleep_for(std::chrono::milliseconds(answers_after_ms_));
+          type("\033[0n");
+        }
+        const std::lock_guard lock(mutex_);
+        shown_.append(shown);
+      }
+    });
+  }
+  ~KeyHolder() {
+    signal(SIGKILL);
+    ends_ = true;
+    types_.join();
+    reads_.join();
+    ::close(terminal_);
+    if (!status_) ::waitpid(pid_, nullptr, 0);
+  }
+  KeyHolder(const KeyHolder&) = delete;
+  KeyHolder& operator=(const KeyHolder&) = delete;
+
+  void hold() { held_ = true; }
+  void let_go() { held_ = false; }
+  void type(const char* keys) {
+    if (::write(terminal_, keys, std::strlen(keys)) < 0) held_ = false;
+  }
+  /// As a terminal does at the other end of a line; below zero: it never does.
+  void answer_after_ms(int ms) { answers_after_ms_ = ms; }
+  void signal(int number) const { ::kill(pid_, number); }
+  /// Exit code, once it has ended.
+  std::optional<int> status() {
+    int status = 0;
+    if (!status_ && ::waitpid(pid_, &status, WNOHANG) == pid_) status_ = WEXITSTATUS(status);
+    return status_;
+  }
+  std::string shown() const {
+    const std::lock_guard lock(mutex_);
+    return shown_;
+  }
+
+ private:
+  int terminal_ = -1;
+  pid_t pid_ = -1;
+  std::optional<int> status_;
+  std::atomic<bool> held_{false};
+  std::atomic<bool> ends_{false};
+  std::atomic<int> answers_after_ms_{-1};
+  mutable std::mutex mutex_;
+  std::string shown_;
+  std::thread types_;
+  std::thread reads_;
+};
+
+class CalibrationDriveProcess : public RobotRig {
+ protected:
+  std::unique_ptr<KeyHolder> at_terminal() {
+    return std::make_unique<KeyHolder>(std::vector<std::string>{
+        DROVER_PROGRAM, "--socket", (folder() / "run/drover.sock").string(), "calibrate", "drive"});
+  }
+  /// Everywhere in that file.
+  void configure(const char* file_name, const std::string& was, const std::string& is) {
+    std::ifstream file(folder() / file_name);
+    std::string text((std::istreambuf_iterator<char>(file)), {});
+    ASSERT_NE(text.find(was), std::string::npos);
+    for (auto at = text.find(was); at != std::string::npos; at = text.find(was, at + is.size()))
+      text.replace(at, was.size(), is);
+    std::ofstream(folder() / file_name) << text;
+  }
+  /// A line of the result; without it nothing is near.
+  static std::pair<double, double> found(const std::string& shown, const std::string& name) {
+    const auto at = shown.find(name + "  ");
+    double value = NAN;
+    double interval = 0;
+    if (at != std::string::npos)
+      (void)std::sscanf(shown.c_str() + at + name.size(), " %lf +- %lf", &value, &interval);
+    return {value, interval};
+  }
+  /// What stays on the screen: each line as it was last.
+  static std::string pieces_of(const std::string& shown) {
+    std::istringstream lines(shown);
+    std::string all;
+    for (std::string line; std::getline(lines, line);) {
+      while (!line.empty() && line.back() == '\r') line.pop_back();
+      all += line.substr(line.rfind('\r') + 1) + "\n";
+    }
+    return all;
+  }
+  bool moves() { return true_speed_mps() > 0.03; }
+  void expect_rest_for(std::chrono::milliseconds time, const char* when) {
+    ASSERT_FALSE(wait_until([&] { return !at_rest(); }, time)) << when;
+  }
+  void hold_until_it_moves(KeyHolder& person) {
+    person.hold();
+    ASSERT_TRUE(wait_until([&] { return moves(); })) << person.shown();
+    ASSERT_TRUE(wait_until([&] { return status_text("nav", "owner") == "manual"; }));
+  }
+};
+
+TEST_F(CalibrationDriveProcess, OnlyAKeyThatIsHeldMovesIt) {
+  start_all();
+  const auto person = at_terminal();
+  ASSERT_TRUE(
+      wait_until([&] { return person->shown().find("hold the space key") != std::string::npos; }));
+  EXPECT_THAT(person->shown(), HasSubstr("m ahead of the robot"));
+  expect_rest_for(1s, "before a key");
+
+  hold_until_it_moves(*person);
+  person->let_go();
+  ASSERT_TRUE(wait_until([&] { return at_rest(); }));
+  ASSERT_TRUE(wait_until([&] { return person->shown().find("paused") != std::string::npos; }));
+  expect_rest_for(1s, "let go");
+
+  // It hangs while the key is held on; then all of those keys arrive at once.
+  hold_until_it_moves(*person);
+  person->signal(SIGSTOP);
+  ASSERT_TRUE(wait_until([&] { return at_rest(); }));
+  person->let_go();
+  expect_rest_for(1s, "hung");
+  person->signal(SIGCONT);
+  expect_rest_for(2s, "a burst of keys");
+
+  hold_until_it_moves(*person);
+  EXPECT_EQ(drover({"stop"}).code, 0);
+  ASSERT_TRUE(wait_until([&] { return at_rest(); }));
+  expect_rest_for(1s, "stopped");
+  EXPECT_EQ(drover({"reset"}).code, 0);
+  expect_rest_for(2s, "the key was held over the stop");
+  EXPECT_THAT(person->shown(), HasSubstr("let the key go first"));
+  person->let_go();
+  expect_rest_for(1s, "let go");
+
+  hold_until_it_moves(*person);
+  person->signal(SIGKILL);
+  ASSERT_TRUE(wait_until([&] { return at_rest(); }));
+}
+/// The whole drive, in real time: three minutes.
+TEST_F(CalibrationDriveProcess, FindsWhatIsConfiguredWrong) {
+  // Without gears its motors are too hot for circles.
+  for (const char* file : {"sim.json", "drover.json"})
+    configure(file, R"("options": {"node":)", R"("options": {"gear_ratio": 10, "node":)");
+  configure("drover.json", R"("wheel_radius_m": 0.165)", R"("wheel_radius_m": 0.160)");
+  configure("drover.json", R"("antenna_x_m": 0.1)", R"("antenna_x_m": 0.0)");
+  start_all();
+  const auto out = folder() / "calibration.txt";
+  KeyHolder person({DROVER_PROGRAM, "--socket", (folder() / "run/drover.sock").string(),
+                    "calibrate", "drive", "--out", out.string()});
+  person.hold();
+  bool ended = false;
+  ASSERT_TRUE(wait_until(
+      [&] {
+        // What is not seen yet after one round is refused by name, and nothing is lost.
+        if (!ended && person.shown().find("not seen well enough") != std::string::npos) {
+          ended = true;
+          person.let_go();
+          person.type("q");
+        }
+        return person.status().has_value();
+      },
+      6min * deadline_factor()))
+      << pieces_of(person.shown());
+  EXPECT_EQ(person.status(), 0) << person.shown();
+  std::ifstream file(out);
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  std::printf("%s\n%s", pieces_of(person.shown()).c_str(), text.c_str());
+  for (const auto& [name, truth] : {std::pair{"wheel_radius_m", 0.165},
+                                    std::pair{"antenna_y_m", 0.0}, std::pair{"gyro_scale", 1.0}}) {
+    const auto [value, interval] = found(text, name);
+    EXPECT_NEAR(value, truth, interval) << name;
+  }
+  // Told from the point about which it turns: these wheels skid about one that is 3 cm ahead.
+  EXPECT_NEAR(found(text, "antenna_x_m").first, 0.1, 0.045);
+  EXPECT_THAT(text, HasSubstr(R"({"groups":{"base":{"wheel_radius_m":0.16)"));
+}
+TEST_F(CalibrationDriveProcess, KeysThatComeLateCountForNothing) {
+  start_all();
+  const auto person = at_terminal();
+  person->answer_after_ms(20);
+  hold_until_it_moves(*person);
+  person->answer_after_ms(600);
+  ASSERT_TRUE(wait_until([&] { return at_rest(); })) << person->shown();
+  expect_rest_for(1s, "a slow line");
+  EXPECT_THAT(person->shown(), HasSubstr("s late, and count for nothing"));
+  person->answer_after_ms(20);
+  ASSERT_TRUE(wait_until([&] { return moves(); })) << person->shown();
+}
+TEST_F(CalibrationDriveProcess, EndsWithAKeyAndSaysWhatIsMissing) {
+  start_all();
+  const auto person = at_terminal();
+  hold_until_it_moves(*person);
+  const auto second = at_terminal();
+  second->hold();
+  ASSERT_TRUE(wait_until(
+      [&] { return second->shown().find("somebody else drives") != std::string::npos; }));
+  second->let_go();
+  EXPECT_TRUE(moves());
+  person->let_go();
+  person->type("q");
+  ASSERT_TRUE(wait_until([&] { return person->status().has_value(); }));
+  EXPECT_EQ(person->status(), 1);
+  EXPECT_THAT(person->shown(), HasSubstr("positions with an RTK fix"));
+  ASSERT_TRUE(wait_until([&] { return at_rest(); }));
+}
+
+}  // namespace
+}  // namespace drover::test

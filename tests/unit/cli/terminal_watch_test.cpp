@@ -1,0 +1,47 @@
+// A key that comes late is none: how late it is, the terminal's own answers tell.
+#include "cli/terminal_watch.h"
+
+#include <gtest/gtest.h>
+
+namespace drover::cli {
+namespace {
+
+using namespace std::chrono_literals;
+
+void answer(TerminalWatch& watch, Time now) {
+  for (const char key : std::string_view("\033[0n")) EXPECT_TRUE(watch.take(key, now));
+}
+
+TEST(TerminalWatch, IsLateWhenTheAnswerWasAndUntilOneIsFast) {
+  TerminalWatch watch;
+  Time now{10s};
+  EXPECT_EQ(watch.ask(now), "\033[5n");
+  EXPECT_EQ(watch.ask(now + 150ms), "") << "one at a time";
+  answer(watch, now + 200ms);
+  EXPECT_FALSE(watch.is_late(now + 200ms));
+  now += 300ms;
+  EXPECT_EQ(watch.ask(now), "\033[5n");
+  EXPECT_FALSE(watch.is_late(now + 250ms));
+  EXPECT_TRUE(watch.is_late(now + 350ms)) << "it stalls";
+  answer(watch, now + 2s);
+  EXPECT_TRUE(watch.is_late(now + 2s)) << "what came with it was typed long ago";
+  now += 2100ms;
+  EXPECT_NE(watch.ask(now), "");
+  answer(watch, now + 50ms);
+  EXPECT_FALSE(watch.is_late(now + 50ms));
+}
+TEST(TerminalWatch, OfATerminalThatNeverAnswersNothingIsKnown) {
+  TerminalWatch watch;
+  EXPECT_NE(watch.ask(Time{10s}), "");
+  EXPECT_FALSE(watch.is_late(Time{100s}));
+}
+TEST(TerminalWatch, LeavesKeysAlone) {
+  TerminalWatch watch;
+  EXPECT_FALSE(watch.take(' ', Time{10s}));
+  EXPECT_TRUE(watch.take('\033', Time{10s}));
+  EXPECT_FALSE(watch.take('q', Time{10s}));
+  EXPECT_FALSE(watch.take(' ', Time{10s}));
+}
+
+}  // namespace
+}  // namespace drover::cli
