@@ -266,6 +266,7 @@ void Estimator::reckon(State& state, const BodyMotion& body, const GyroMotion& g
   const double north_m = belief.mean[kY] - y_m;
   state.reckoned.east_m += east_m;
   state.reckoned.north_m += north_m;
+  if (!body.standing) state.unseen.advance(east_m, north_m);
   if (!body.known || gyro.pushed) {
     state.way_unknown = true;
     state.fit.pause();

@@ -13,6 +13,10 @@ namespace {
 // The share of the fixed sigma under which a position is never claimed to be known: a fix that
 // comes and goes has the same multipath error each time, so averaging its spells proves nothing.
 constexpr double kFloorShare = 0.8;
+constexpr double kSettled = 3.0;  // times fix_settle_s
+// From one fix to the next, settled ones, so much of what the base moves otherwise than its wheels
+// is left at the most: before long that is seen as slip.
+constexpr double kLagsBehind = 0.5;
 
 /// Filters in the receiver let the error of the worse quality fade after the better one is shown:
 /// until then the position is taken for as bad as that.
@@ -95,6 +99,7 @@ void place(State& state, const AntennaPosition& position, double arm_x_m, double
   p[kY][kBiasY] = p[kBiasY][kY] = -square(position.sigma_y_m);
   state.has_position = true;
   state.reckoned = {};
+  state.unseen = {};
   state.way_unknown = false;
   if (position.quality == GnssClass::fixed) state.gnss.fixed = state.time;
 }
@@ -197,6 +202,19 @@ void rest_on(State& state, const AntennaPosition& position, const EstimateConfig
   way.north_m *= left;
 }
 
+bool has_settled(const State& state, const EstimateConfig& config) {
+  return state.gnss.improved == kNever ||
+         state.time - state.gnss.improved > from_s(kSettled * config.fix_settle_s);
+}
+
+/// How much of an error of the place is left when it is corrected by this.
+double left_after(const Belief& belief, const Vector& row, std::size_t axis, double variance_m2) {
+  Vector place{};
+  place[axis] = 1;
+  const double share = belief.project(place, row) / (belief.project(row, row) + variance_m2);
+  return 1 - std::clamp(share, 0.0, 1.0);
+}
+
 /// Of what lies between a position and what is expected of it, m2.
 struct Expected {
   double xx = 0;
@@ -295,6 +313,11 @@ void apply(State& state, const AntennaPosition& measured, double speed_mps,
                 config);
   }
   rest_on(state, position, config);
+  if (fixed) {
+    const double left = std::max(left_after(belief, row_x, kX, variance_x),
+                                 left_after(belief, row_y, kY, variance_y));
+    state.unseen.keep(has_settled(state, config) ? std::min(left, kLagsBehind) : left);
+  }
   const Vector before = belief.mean;
   belief.correct(row_x, dx, variance_x);
   // The first correction has moved the state; what is left starts from there.

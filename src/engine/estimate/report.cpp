@@ -72,6 +72,7 @@ void Estimator::report(const State& state, Time now) {
   e.way_heals = fixed && state.has_heading && !told;
 
   report_trouble(state, now);
+  report_unseen(state);
   report_imu(state, now);
   report_learned(state);
   report_kept(state);
@@ -205,6 +206,19 @@ void Estimator::report_trouble(const State& state, Time now) {
                       to_deg(std::abs(gyro.apart_radps)));
       break;
   }
+}
+
+/// Motion is not decided by it, but for how far it leads aside of the track: where it goes straight
+/// on the robot is behind of where it thinks, on the same line.
+void Estimator::report_unseen(const State& state) {
+  Estimate& e = estimate_;
+  const UnseenWay& unseen = state.unseen;
+  if (!state.has_position) return;
+  e.unseen_way_m = unseen.way_m;
+  e.unseen_aside_m = config_.unseen_slip_share * unseen.aside_m(e.pose.yaw_rad);
+  const double known_m = 2 * kSure * e.pose.position_sigma_m;
+  e.error_bound_m = known_m + std::hypot(std::max(e.error_bound_m - known_m, 0.0),
+                                         config_.unseen_slip_share * unseen.way_m);
 }
 
 void Estimator::report_imu(const State& state, Time now) {

@@ -17,6 +17,7 @@
 #include "engine/estimate/motion_watch.h"
 #include "engine/estimate/mounting.h"
 #include "engine/estimate/shove.h"
+#include "engine/estimate/unseen_way.h"
 
 namespace drover::engine::estimate {
 
@@ -73,6 +74,7 @@ struct State {
   HeadingTrack heading;
   Mounting mounting;  ///< of the line of that receiver's antennas
   Reckoned reckoned;
+  UnseenWay unseen;
   bool way_unknown = false;  ///< since the last believed fix: wheels silent, or somebody pushed it
   GyroTrack gyro;
   AntennaFit fit;
