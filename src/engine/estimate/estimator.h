@@ -161,7 +161,7 @@ class Estimator final {
   void report_learned(const estimate::State& state);
   void report_kept(const estimate::State& state);  // in learned.cpp
   void report_trouble(const estimate::State& state, Time now);
-  void report_unseen(const estimate::State& state);
+  void report_unseen(const estimate::State& state, double sure_m);
   void report_imu(const estimate::State& state, Time now);
   double reach_m(const estimate::State& state, Time now) const;
 

@@ -110,7 +110,7 @@ void Estimator::report_kept(const State& state) {
              : LearnedValue{};
   const AntennaFit& fit = state.fit;
   const bool of_late = config_.gnss_late_sigma_s > 0;
-  learned.late_s = of_late ? kept(kLateKept, fit.late_s(), fit.late_sigma_s()) : LearnedValue{};
+  learned.late_s = of_late ? kept(kLateKept, fit.late_s(), fit.late_doubt_s()) : LearnedValue{};
   learned.heading_late_s =
       of_late ? kept(kLateKept, state.heading_late.late_s(), state.heading_late.sigma_s())
               : LearnedValue{};

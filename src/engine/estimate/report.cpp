@@ -64,7 +64,10 @@ void Estimator::report(const State& state, Time now) {
   const double told_rad = std::hypot(two_sigma_rad / 2, state.mount_left_rad());
   e.pose.yaw_sigma_rad = state.has_heading ? told_rad : kAbsent;
   e.predicted_error_m = state.has_position ? two_sigma_m : kAbsent;
-  e.error_bound_m = state.has_position ? kSure * two_sigma_m : kAbsent;
+  const double late_doubt_m = e.pose.vx_mps * state.fit.late_doubt_s();
+  const double sure_m =
+      kSure * std::hypot(doubt.two_sigma_m(belief), 2 * late_doubt_m, 2 * untold_m);
+  e.error_bound_m = state.has_position ? sure_m : kAbsent;
   e.yaw_error_rad = state.has_heading ? two_sigma_rad : kAbsent;
 
   const bool fixed = state.gnss.fixed != kNever && now - state.gnss.fixed < kFixed;
@@ -72,7 +75,7 @@ void Estimator::report(const State& state, Time now) {
   e.way_heals = fixed && state.has_heading && !told;
 
   report_trouble(state, now);
-  report_unseen(state);
+  report_unseen(state, sure_m);
   report_imu(state, now);
   report_learned(state);
   report_kept(state);
@@ -210,15 +213,14 @@ void Estimator::report_trouble(const State& state, Time now) {
 
 /// Motion is not decided by it, but for how far it leads aside of the track: where it goes straight
 /// on the robot is behind of where it thinks, on the same line.
-void Estimator::report_unseen(const State& state) {
+void Estimator::report_unseen(const State& state, double sure_m) {
   Estimate& e = estimate_;
   const UnseenWay& unseen = state.unseen;
   if (!state.has_position) return;
   e.unseen_way_m = unseen.way_m;
   e.unseen_aside_m = config_.unseen_slip_share * unseen.aside_m(e.pose.yaw_rad);
-  const double known_m = 2 * kSure * e.pose.position_sigma_m;
-  e.error_bound_m = known_m + std::hypot(std::max(e.error_bound_m - known_m, 0.0),
-                                         config_.unseen_slip_share * unseen.way_m);
+  e.error_bound_m =
+      sure_m + std::hypot(e.error_bound_m - sure_m, config_.unseen_slip_share * unseen.way_m);
 }
 
 void Estimator::report_imu(const State& state, Time now) {
