@@ -32,6 +32,7 @@ struct Estimate {
   /// The way since the last believed RTK fix, and how far aside of the heading the robot may be when
   /// wheels slipped on it by unseen_slip_share, which is in error_bound_m.
   double unseen_way_m = 0;
+  double unseen_slip_m = 0;  ///< what is in error_bound_m of it
   double unseen_aside_m = 0;
   double yaw_error_rad = kAbsent;  ///< two sigma
   bool way_heals = false;          ///< RTK fixes come and no heading: only way driven tells it
@@ -43,6 +44,12 @@ struct Estimate {
   /// They do since the base drove, and which of both is right may still show: predicted_error_m and
   /// yaw_error_rad cover both, and inside of them a task may go on.
   bool disputed = false;
+  /// Of predicted_error_m what is not between both.
+  double own_error_m = kAbsent;
+  /// The last time that it was decided for where the receiver is; kNever: it was not.
+  Time renewed = kNever;
+  /// When it is decided at the latest if all stays as it is; kNever: not by waiting.
+  Time decided_at = kNever;
   /// The position drifted or jumped while it drove, and nobody has accepted where it is.
   bool place_doubted = false;
   bool slipping = false;  ///< the wheels roll another way than the base moves

@@ -29,6 +29,13 @@ struct UnseenWay {
     en_m *= share;
     nn_m *= share;
   }
+  /// Of what came since `before` so much is left.
+  void keep_since(const UnseenWay& before, double share) {
+    way_m = before.way_m + share * (way_m - before.way_m);
+    ee_m = before.ee_m + share * (ee_m - before.ee_m);
+    en_m = before.en_m + share * (en_m - before.en_m);
+    nn_m = before.nn_m + share * (nn_m - before.nn_m);
+  }
   /// The most of it that may lead aside of who has this heading now: ahead of him none does.
   double aside_m(double yaw_rad) const {
     const double c = std::cos(yaw_rad);

@@ -16,6 +16,8 @@ constexpr double kGoalNear_m = 0.5;  // the arrival time-out runs inside this
 constexpr double kAside_m = 0.10;
 constexpr double kBack_m = 0.05;
 constexpr double kBackToTrack_mps = 0.2;
+// Of two places: after a minute of a fix that was found again, and is lost now and then.
+constexpr double kDecides_s = 90;
 constexpr Duration kShovedOfLate = std::chrono::seconds(2);
 constexpr Duration kReturnsWithin = std::chrono::seconds(20);
 constexpr double kSlowFrom = 0.5;  // share of the error budget from which on it slows
@@ -236,7 +238,7 @@ Reason Navigator::find_failure(const NavInput& input) {
     const std::string_view which = input.health.text(Cause::constraint).view();
     why.format("for %.0f s: %.*s", limits.obstacle_timeout_s, static_cast<int>(which.size()),
                which.data());
-  } else if (lost_.longer_than(limits.locate_timeout_s, input.now)) {
+  } else if (lost_too_long(input)) {
     const std::string_view cause =
         (input.health.locate_reason.empty() ? outside_ : input.health.locate_reason).view();
     why.format("localisation was lost for %.0f s%s%.*s", limits.locate_timeout_s,
@@ -247,6 +249,18 @@ Reason Navigator::find_failure(const NavInput& input) {
                limits.arrival_timeout_s);
   }
   return why;
+}
+
+/// What is being decided is waited for, but not twice as long.
+bool Navigator::lost_too_long(const NavInput& input) const {
+  const double limit_s = config_.navigate.locate_timeout_s;
+  if (!lost_.longer_than(limit_s, input.now)) return false;
+  // It was just decided, and goes on soon.
+  if (input.health.locate == LocateState::good && may_be_outside(input.estimate).empty())
+    return false;
+  const Time decided = input.estimate.decided_at;
+  const bool soon = decided != kNever && decided - lost_.since < from_s(kDecides_s + limit_s);
+  return !soon || lost_.longer_than(kDecides_s + limit_s, input.now);
 }
 
 /// Of two places one is right, and nobody knows which: both have to be inside the corridor. So has

@@ -94,6 +94,7 @@ class Navigator final {
   Reason find_position_failure(const Estimate& estimate, const HealthReport& health) const;
   void watch_shoves(const NavInput& input);
   double speed_cap_mps(const NavInput& input) const;
+  bool lost_too_long(const NavInput& input) const;
   /// Why the robot may be outside of its corridor; empty: it may not.
   Reason may_be_outside(const Estimate& estimate) const;
   bool waits() const { return obstacle_.holds() || constraint_.holds() || lost_.holds(); }
