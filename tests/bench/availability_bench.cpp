@@ -147,8 +147,10 @@ void print_each(const Driven& d, bool all_said) {
   std::printf("\nseed %llu: %s, %s; %.1f s, %d pauses of %.1f s, %.1f s needlessly\n",
               static_cast<unsigned long long>(d.seed), j.success ? "success" : "NO SUCCESS",
               j.words.c_str(), j.time_s, j.pauses, j.paused_s, d.needless_s);
-  std::printf("  rms %.0f mm, max %.0f mm, %.1f s beyond 10 cm, %.2f s beyond the corridor, %.2f s beyond the bound (%.3f m)\n",
-              1e3 * j.rms_m, 1e3 * j.max_m, j.wide_s, j.beyond_s, j.outside_s, j.worst_outside_m);
+  std::printf(
+      "  rms %.0f mm, max %.0f mm, %.1f s beyond 10 cm, %.2f s beyond the corridor, %.2f s beyond "
+      "the bound (%.3f m)\n",
+      1e3 * j.rms_m, 1e3 * j.max_m, j.wide_s, j.beyond_s, j.outside_s, j.worst_outside_m);
   const std::string plan = in_words(draw_mission(d.seed));
   for (std::size_t at = 0; at < plan.size(); at = plan.find('\n', at) + 1) {
     const std::string text = plan.substr(at, plan.find('\n', at) - at);

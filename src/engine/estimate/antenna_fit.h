@@ -69,7 +69,7 @@ class AntennaFit final {
   /// From one point to another.
   struct Stretch {
     AntennaPoint from;
-    AntennaPoint to;     ///< kNever: there is none
+    AntennaPoint to;    ///< kNever: there is none
     double east_m = 0;  ///< dead reckoned
     double north_m = 0;
     double way_m = 0;
@@ -99,7 +99,7 @@ class AntennaFit final {
   Stretch waits_;  ///< for the next one to be over without a suspicion, before it teaches anything
   std::array<Change, 5> changes_{};  ///< the last ones
   std::size_t next_change_ = 0;
-  bool proved_ = false;     ///< several of them agree on the delay
+  bool proved_ = false;       ///< several of them agree on the delay
   double least_doubt_s_ = 0;  ///< as long as they do not
 };
 

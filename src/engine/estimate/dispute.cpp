@@ -114,8 +114,7 @@ bool Dispute::may_hold(const Offset& by_wheels, double allowed_m) const {
 }
 
 Dispute::Verdict Dispute::hear(const Offset& offset, bool inside, double two_sigma_m,
-                               double noise_m, bool settled, bool stands,
-                               Time now) {
+                               double noise_m, bool settled, bool stands, Time now) {
   if (now - heard_ > kGone) lose_fix();
   const Duration since = held_since_ == kNever ? Duration{} : now - heard_;
   heard_ = now;

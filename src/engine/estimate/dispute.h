@@ -74,10 +74,10 @@ class Dispute final {
   Time away_since_ = kNever;  ///< they are elsewhere
   int held_count_ = 0;
   bool steady_ = false;
-  Offset put_right_;  ///< in all
-  double way_m_ = 0;          ///< since a new fix holds
-  double unheard_m_ = 0;      ///< since the last position
-  Offset by_wheels_;          ///< from where wheels and gyro alone have it, by the last position
+  Offset put_right_;            ///< in all
+  double way_m_ = 0;            ///< since a new fix holds
+  double unheard_m_ = 0;        ///< since the last position
+  Offset by_wheels_;            ///< from where wheels and gyro alone have it, by the last position
   bool moved_at_rest_ = false;  ///< where it holds, while the base stood: it may have been carried
 };
 

@@ -26,11 +26,11 @@ struct Estimate {
   /// By it motion is decided: two sigma of the larger horizontal axis, or what lies between sources
   /// that contradict each other, if that is more.
   double predicted_error_m = kAbsent;
-  /// Likewise with four sigma, for people, and with what wheels may have slipped since the last fix.
-  /// Another error that no source shows is in neither.
+  /// Likewise with four sigma, for people, and with what wheels may have slipped since the last
+  /// fix. Another error that no source shows is in neither.
   double error_bound_m = kAbsent;
-  /// The way since the last believed RTK fix, and how far aside of the heading the robot may be when
-  /// wheels slipped on it by unseen_slip_share, which is in error_bound_m.
+  /// The way since the last believed RTK fix, and how far aside of the heading the robot may be
+  /// when wheels slipped on it by unseen_slip_share, which is in error_bound_m.
   double unseen_way_m = 0;
   double unseen_slip_m = 0;  ///< what is in error_bound_m of it
   double unseen_aside_m = 0;

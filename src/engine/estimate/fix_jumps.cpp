@@ -98,8 +98,8 @@ FixVerdict judge_jump(State& state, const FixBeside& fix, const EstimateConfig& 
   const double known_m = two_sigma_position_m(state.belief);
   if (gnss.dispute.holds()) {
     const auto verdict =
-        gnss.dispute.hear(fix.offset, fix.inside, known_m, fix.sigma_m,
-                          has_settled(state, config), state.standing_since != kNever, state.time);
+        gnss.dispute.hear(fix.offset, fix.inside, known_m, fix.sigma_m, has_settled(state, config),
+                          state.standing_since != kNever, state.time);
     if (verdict == Dispute::Verdict::undecided) return FixVerdict::doubted;
     const bool moved_at_rest = gnss.dispute.moved_at_rest();
     const bool confirmed = gnss.dispute.confirmed();

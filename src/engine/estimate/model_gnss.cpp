@@ -170,8 +170,7 @@ bool refuse(State& state, const AntennaPosition& position, const Dispute::Offset
   }
   const Duration patience = from_s(config.jump_time_s);
   if (fixed && gnss.jumps.began_moving() && gnss.jumps.disagrees(patience))
-    gnss.dispute.begin(beside, gnss.jumps.since(),
-                       slipped_meanwhile(state, beside, config));
+    gnss.dispute.begin(beside, gnss.jumps.since(), slipped_meanwhile(state, beside, config));
   return standing && gnss.jumps.settled(patience);
 }
 
@@ -364,10 +363,9 @@ void apply(State& state, const AntennaPosition& measured, double speed_mps,
                             arm_y * wrap_rad(belief.mean[kYaw] - before[kYaw]);
     state.gnss.beside_y_m = left_y_m();
   }
-  if (state.watch.slipping())
-    belief.floor_variance(kScale, scale_variance);
-  belief.mean[kScale] = std::clamp(belief.mean[kScale], before[kScale] - scale_most,
-                                   before[kScale] + scale_most);
+  if (state.watch.slipping()) belief.floor_variance(kScale, scale_variance);
+  belief.mean[kScale] =
+      std::clamp(belief.mean[kScale], before[kScale] - scale_most, before[kScale] + scale_most);
   const double floor = square(kFloorShare * config.sigma_fixed_m);
   belief.floor_variance(kX, floor);
   belief.floor_variance(kY, floor);

@@ -108,7 +108,7 @@ struct MotionWatch {
   Time slip_since = kNever;  ///< kNever: the wheels do not slip
   double wheel_mps = 0;      ///< while they do
   double receiver_mps = 0;
-  double slipped_m = 0;       ///< and how much the ways of both differ in the legs that are over
+  double slipped_m = 0;  ///< and how much the ways of both differ in the legs that are over
   /// Learned of the wheels before the brief leg, and before the one before that; 0: not known.
   std::array<double, 2> scale_before{};
   Time stuck_since = kNever;  ///< hardly any of what the wheels roll is seen by the receiver

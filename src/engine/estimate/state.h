@@ -56,8 +56,8 @@ struct GnssTrack {
   Time believed = kNever;
   double beside_x_m = 0;
   double beside_y_m = 0;
-  Time fixed = kNever;  ///< the last believed RTK fix
-  Time renewed = kNever;  ///< of two places the new one was believed then
+  Time fixed = kNever;       ///< the last believed RTK fix
+  Time renewed = kNever;     ///< of two places the new one was believed then
   double unconfirmed_m = 0;  ///< and so far away is the other one, until another fix is there
   // A place that jumped while the base stood was believed then, so far from where it had been:
   Time replaced = kNever;
