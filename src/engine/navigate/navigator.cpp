@@ -272,7 +272,11 @@ Reason Navigator::may_be_outside(const Estimate& estimate) const {
   const double corridor_m = config_.navigate.corridor_m;
   if (estimate.disputed && !(off_m + estimate.predicted_error_m <= corridor_m)) {
     why = estimate.reason;
-  } else if (!(off_m + estimate.unseen_aside_m <= corridor_m)) {
+  } else if (off_m + estimate.unseen_aside_m <= corridor_m) {
+    return why;
+  } else if (estimate.disputed) {
+    why = estimate.reason;
+  } else {
     why.format(
         "%.1f m driven without an RTK fix: %.2f m beside the track here, had the wheels slipped",
         estimate.unseen_way_m, estimate.unseen_aside_m);
