@@ -270,17 +270,13 @@ Reason Navigator::may_be_outside(const Estimate& estimate) const {
   if (!progress_.joined) return why;
   const double off_m = std::abs(progress_.cross_track_m);
   const double corridor_m = config_.navigate.corridor_m;
-  if (estimate.disputed && !(off_m + estimate.predicted_error_m <= corridor_m)) {
-    why = estimate.reason;
-  } else if (off_m + estimate.unseen_aside_m <= corridor_m) {
-    return why;
-  } else if (estimate.disputed) {
-    why = estimate.reason;
-  } else {
-    why.format(
-        "%.1f m driven without an RTK fix: %.2f m beside the track here, had the wheels slipped",
-        estimate.unseen_way_m, estimate.unseen_aside_m);
-  }
+  const bool slipped_out = !(off_m + estimate.unseen_aside_m <= corridor_m);
+  const bool other_out = estimate.disputed && !(off_m + estimate.predicted_error_m <= corridor_m);
+  if (!slipped_out && !other_out) return why;
+  if (estimate.disputed) return estimate.reason;
+  why.format(
+      "%.1f m driven without an RTK fix: %.2f m beside the track here, had the wheels slipped",
+      estimate.unseen_way_m, estimate.unseen_aside_m);
   return why;
 }
 
