@@ -109,6 +109,10 @@ void visit_odometry(V& v, engine::EstimateConfig& c) {
            "one sigma of wheel radius and longitudinal slip at the start, as a share");
   v.number("wheel_scale_walk", c.wheel_scale_walk, Range{0, 0.1},
            "how much it changes, per square root of metre driven");
+  v.number(
+      "unseen_slip_share", c.unseen_slip_share, Range{0, 1},
+      "the most that wheels slip, as a share of the way: what was driven without an RTK fix may "
+      "be wrong by it");
 }
 
 template <class V>

@@ -108,6 +108,8 @@ struct EstimateConfig {
   double yaw_slip_walk = 0.03;      ///< of the yaw gain, per square root of radian turned
   double wheel_scale_sigma = 0.02;  ///< of wheel radius and longitudinal slip, at the start
   double wheel_scale_walk = 0.002;  ///< per square root of metre
+  /// The most that wheels slip, as a share of the way: without a fix nothing shows it.
+  double unseen_slip_share = 0.4;
   // Inertial sensor. The noise is that of a moving machine, not of the data sheet.
   double imu_stale_s = 0.1;                   ///< older rates say nothing about the turn
   double imu_gyro_noise_rad = 0.0005;         ///< of the heading, per square root of second

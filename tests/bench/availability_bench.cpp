@@ -94,7 +94,7 @@ void print_counts(const char* what, const std::map<std::string, Count>& counts) 
 void print_sums(const std::vector<Driven>& all) {
   int successes = 0, pauses = 0, needless = 0, hindered = 0, wide = 0, beyond = 0;
   double paused_s = 0, needless_s = 0, wide_s = 0, moving_s = 0, time_s = 0, outside_s = 0,
-         unseen_s = 0;
+         unseen_s = 0, corridor_s = 0;
   std::map<std::string, Count> paused, ended;
   for (const Driven& d : all) {
     successes += d.end.success ? 1 : 0;
@@ -108,6 +108,7 @@ void print_sums(const std::vector<Driven>& all) {
     moving_s += d.end.moving_s;
     time_s += d.end.time_s;
     outside_s += d.end.outside_s;
+    corridor_s += d.end.beyond_s;
     unseen_s += d.unseen_s;
     beyond += d.end.outside_s > 0 ? 1 : 0;
     for (const Stop& stop : d.stops) {
@@ -129,6 +130,7 @@ void print_sums(const std::vector<Driven>& all) {
               wide_s, 100 * kWide_m, 100 * wide_s / moving_s, wide);
   std::printf("beyond the bound         %.2f s, in %d; %.2f s of it after a slip without a fix\n",
               outside_s, beyond, unseen_s);
+  std::printf("beyond the corridor      %.2f s\n", corridor_s);
   print_counts("paused, first reason", paused);
   print_counts("failed", ended);
 }
@@ -145,8 +147,10 @@ void print_each(const Driven& d, bool all_said) {
   std::printf("\nseed %llu: %s, %s; %.1f s, %d pauses of %.1f s, %.1f s needlessly\n",
               static_cast<unsigned long long>(d.seed), j.success ? "success" : "NO SUCCESS",
               j.words.c_str(), j.time_s, j.pauses, j.paused_s, d.needless_s);
-  std::printf("  rms %.0f mm, max %.0f mm, %.1f s beyond 10 cm, %.2f s beyond the bound (%.3f m)\n",
-              1e3 * j.rms_m, 1e3 * j.max_m, j.wide_s, j.outside_s, j.worst_outside_m);
+  std::printf(
+      "  rms %.0f mm, max %.0f mm, %.1f s beyond 10 cm, %.2f s beyond the corridor, %.2f s beyond "
+      "the bound (%.3f m)\n",
+      1e3 * j.rms_m, 1e3 * j.max_m, j.wide_s, j.beyond_s, j.outside_s, j.worst_outside_m);
   const std::string plan = in_words(draw_mission(d.seed));
   for (std::size_t at = 0; at < plan.size(); at = plan.find('\n', at) + 1) {
     const std::string text = plan.substr(at, plan.find('\n', at) - at);

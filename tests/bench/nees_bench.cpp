@@ -66,7 +66,7 @@ engine::EngineConfig config_of(const Drive& drive) {
   engine::EngineConfig config = field_config();
   config.estimate.bound_run_m = 20;
   config.estimate.bound_yaw_deg = 90;
-  config.navigate.corridor_m = 2;
+  config.navigate.corridor_m = 10;
   if (drive.calibrated) config.estimate.heading_mount_sigma_deg = 0;
   return config;
 }

@@ -25,6 +25,14 @@ constexpr int kMostMissed = 5;    // about 7 s of turns
 constexpr double kMostLate_s = 0.4;
 constexpr double kLateKnown_s = 0.04;
 constexpr double kLateLeast_s = 0.03;
+// What several changes of speed do not agree on has at least such a sigma, also as a share of it.
+constexpr double kUnproved_s = 0.05;
+constexpr double kUnprovedShare = 0.3;
+constexpr double kChange_mps = 0.15;
+constexpr double kHardlyTurns_rad = 0.1;
+constexpr Duration kOtherChange = std::chrono::seconds(3);
+constexpr double kAgree_s = 0.07;
+constexpr std::size_t kMustAgree = 3;
 constexpr double kArmKnown_m = 0.03;
 constexpr double kArmWrong_m = 0.05;
 constexpr double kCertain = 4.0;  // sigmas
@@ -50,26 +58,34 @@ void AntennaFit::advance(double east_m, double north_m, double way_m, double tur
 void AntennaFit::hear(const AntennaPoint& point, const EstimateConfig& config) {
   const bool known = from_.time != kNever;
   if (known && point.time - from_.time < kStretch) return;
-  if (known && point.time - from_.time < kTooLong && way_m_ > kRolled_m) learn(point, config);
+  if (waits_.to.time != kNever) learn(waits_, config);
+  waits_ = {};
+  if (known && point.time - from_.time < kTooLong && way_m_ > kRolled_m)
+    waits_ = {from_, point, east_m_, north_m_, way_m_, turn_rad_};
   from_ = point;
   east_m_ = north_m_ = way_m_ = turn_rad_ = 0;
 }
 
-void AntennaFit::learn(const AntennaPoint& to, const EstimateConfig& config) {
-  const double dt_s = to_s(to.time - from_.time);
-  const double dc = std::cos(to.yaw_rad) - std::cos(from_.yaw_rad);
-  const double ds = std::sin(to.yaw_rad) - std::sin(from_.yaw_rad);
-  const Row east{dc, -ds, from_.vx_mps - to.vx_mps, east_m_, -north_m_};
-  const Row north{ds, dc, from_.vy_mps - to.vy_mps, north_m_, east_m_};
-  const double east_m = to.x_m - from_.x_m - east_m_ - (to.arm_x_m - from_.arm_x_m);
-  const double north_m = to.y_m - from_.y_m - north_m_ - (to.arm_y_m - from_.arm_y_m);
+void AntennaFit::learn(const Stretch& stretch, const EstimateConfig& config) {
+  const AntennaPoint& from = stretch.from;
+  const AntennaPoint& to = stretch.to;
+  const double dt_s = to_s(to.time - from.time);
+  const double dc = std::cos(to.yaw_rad) - std::cos(from.yaw_rad);
+  const double ds = std::sin(to.yaw_rad) - std::sin(from.yaw_rad);
+  const Row east{dc, -ds, from.vx_mps - to.vx_mps, stretch.east_m, -stretch.north_m};
+  const Row north{ds, dc, from.vy_mps - to.vy_mps, stretch.north_m, stretch.east_m};
+  const double east_m = to.x_m - from.x_m - stretch.east_m - (to.arm_x_m - from.arm_x_m);
+  const double north_m = to.y_m - from.y_m - stretch.north_m - (to.arm_y_m - from.arm_y_m);
   const double slow = 2 * (1 - std::exp(-dt_s / config.gnss_correlation_s));
-  const double variance_m2 = square(to.white_m) + square(from_.white_m) + slow * square(to.slow_m) +
-                             square(config.odometry_along_m) * way_m_ +
-                             square(config.turning_shift_m) * turn_rad_;
+  const double variance_m2 = square(to.white_m) + square(from.white_m) + slow * square(to.slow_m) +
+                             square(config.odometry_along_m) * stretch.way_m +
+                             square(config.turning_shift_m) * stretch.turn_rad;
   covariance_[kShare][kShare] += square(kShareWalk);
   covariance_[kCrab][kCrab] += square(to_rad(kCrabWalk_deg));
   covariance_[kLate][kLate] += square(kLateWalk_s) * (config.gnss_late_sigma_s > 0 ? 1 : 0);
+  note_change(stretch);
+  least_doubt_s_ = std::min(config.gnss_late_sigma_s,
+                            std::max(kUnproved_s, kUnprovedShare * std::abs(mean_[kLate])));
   const auto misses = [&](const Row& row, double measured_m) {
     double expected_m = 0;
     for (std::size_t i = 0; i < kNumbers; ++i) expected_m += row[i] * mean_[i];
@@ -84,7 +100,43 @@ void AntennaFit::learn(const AntennaPoint& to, const EstimateConfig& config) {
   mean_[kLate] = std::clamp(mean_[kLate], -kMostLate_s, kMostLate_s);
 }
 
+/// What a change of speed alone tells of the delay, by what else is known. A stretch along which it
+/// only turns tells as much of the arm.
+void AntennaFit::note_change(const Stretch& stretch) {
+  const AntennaPoint& from = stretch.from;
+  const AntennaPoint& to = stretch.to;
+  const double slower_mps = std::hypot(from.vx_mps, from.vy_mps) - std::hypot(to.vx_mps, to.vy_mps);
+  const bool straight = stretch.turn_rad < kHardlyTurns_rad;
+  if (!straight || std::abs(slower_mps) < kChange_mps) return;
+  const double c = std::cos(to.yaw_rad);
+  const double s = std::sin(to.yaw_rad);
+  const double seen_m = (to.x_m - from.x_m - (to.arm_x_m - from.arm_x_m)) * c +
+                        (to.y_m - from.y_m - (to.arm_y_m - from.arm_y_m)) * s;
+  const double rolled_m = stretch.east_m * c + stretch.north_m * s;
+  const double late_s = (seen_m - rolled_m * (1 + mean_[kShare])) / slower_mps;
+  Change& last = changes_[(next_change_ + changes_.size() - 1) % changes_.size()];
+  // The rest of the same one.
+  if (last.at != kNever && to.time - last.at < kOtherChange) return;
+  changes_[next_change_] = {to.time, late_s};
+  next_change_ = (next_change_ + 1) % changes_.size();
+  std::size_t heard = 0;
+  std::size_t agree = 0;
+  for (const Change& change : changes_) {
+    if (change.at == kNever) continue;
+    ++heard;
+    std::size_t with = 0;
+    for (const Change& other : changes_)
+      with += other.at != kNever && std::abs(other.late_s - change.late_s) < kAgree_s ? 1 : 0;
+    agree = std::max(agree, with);
+  }
+  proved_ = agree >= kMustAgree && 2 * agree > heard;
+  // One of both was none: it is open again.
+  if (!proved_ && std::abs(late_s - mean_[kLate]) > kAgree_s)
+    covariance_[kLate][kLate] = square(late_doubt_s());
+}
+
 void AntennaFit::recall_late(double late_s, double sigma_s) {
+  proved_ = true;
   mean_[kLate] = late_s;
   covariance_[kLate][kLate] = square(sigma_s);
 }
@@ -132,8 +184,12 @@ double AntennaFit::late_sigma_s() const {
   return std::sqrt(std::max(covariance_[kLate][kLate], 0.0));
 }
 
+double AntennaFit::late_doubt_s() const {
+  return proved_ ? late_sigma_s() : std::max(late_sigma_s(), least_doubt_s_);
+}
+
 bool AntennaFit::late_known() const {
-  return late_sigma_s() <= kLateKnown_s &&
+  return late_doubt_s() <= kLateKnown_s &&
          std::abs(late_s()) > std::max(kCertain * late_sigma_s(), kLateLeast_s);
 }
 

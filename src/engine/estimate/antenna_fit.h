@@ -39,7 +39,7 @@ class AntennaFit final {
   /// An RTK position that was believed. Learns when the last one compared with is old enough.
   void hear(const AntennaPoint& point, const EstimateConfig& config);
   /// What happens now is none to learn from: begins anew with the next position.
-  void pause() { from_.time = kNever; }
+  void pause() { from_.time = waits_.to.time = kNever; }
 
   /// What an earlier program had found.
   void recall_late(double late_s, double sigma_s);
@@ -48,6 +48,9 @@ class AntennaFit final {
   /// How much later the positions are than their stamps say, s, and one sigma of it.
   double late_s() const { return mean_[kLate]; }
   double late_sigma_s() const;
+  /// Likewise, with room for that one change of speed may have been wheels that slipped, until
+  /// several agree.
+  double late_doubt_s() const;
   bool late_known() const;
   /// What of it is to be made up for: positions that seem to be early may be wheels that are told
   /// late.
@@ -63,7 +66,23 @@ class AntennaFit final {
   enum : std::size_t { kAhead, kLeft, kLate, kShare, kCrab, kNumbers };
   using Row = std::array<double, kNumbers>;
 
-  void learn(const AntennaPoint& to, const EstimateConfig& config);
+  /// From one point to another.
+  struct Stretch {
+    AntennaPoint from;
+    AntennaPoint to;    ///< kNever: there is none
+    double east_m = 0;  ///< dead reckoned
+    double north_m = 0;
+    double way_m = 0;
+    double turn_rad = 0;
+  };
+  /// What one change of speed tells of the delay.
+  struct Change {
+    Time at = kNever;
+    double late_s = 0;
+  };
+
+  void learn(const Stretch& stretch, const EstimateConfig& config);
+  void note_change(const Stretch& stretch);
   double variance_of(const Row& row) const;
   void correct(const Row& row, double measured_m, double variance_m2);
   /// The arm is another than before, perhaps: it was knocked, or learned wrong.
@@ -77,6 +96,11 @@ class AntennaFit final {
   double north_m_ = 0;
   double way_m_ = 0;
   double turn_rad_ = 0;
+  Stretch waits_;  ///< for the next one to be over without a suspicion, before it teaches anything
+  std::array<Change, 5> changes_{};  ///< the last ones
+  std::size_t next_change_ = 0;
+  bool proved_ = false;       ///< several of them agree on the delay
+  double least_doubt_s_ = 0;  ///< as long as they do not
 };
 
 }  // namespace drover::engine::estimate

@@ -1,5 +1,6 @@
 #include "engine/estimate/dispute.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace drover::engine::estimate {
@@ -14,7 +15,14 @@ constexpr double kAway = 0.5;
 constexpr Duration kOutlier = std::chrono::seconds(1);
 constexpr Duration kGone = std::chrono::seconds(2);
 constexpr Duration kRenewed = std::chrono::seconds(60);
-constexpr double kSamePlace = 4.0;  // sigmas of a position
+constexpr double kSamePlace = 4.0;     // sigmas of a position
+constexpr double kWheelsAgree = 0.03;  // of the way
+constexpr double kHeld_m = 0.06;       // so near positions keep their distance
+constexpr double kHeldSigmas = 5.0;
+
+Dispute::Offset plus(const Dispute::Offset& a, const Dispute::Offset& b) {
+  return {a.east_m + b.east_m, a.north_m + b.north_m};
+}
 
 Dispute::Offset minus(const Dispute::Offset& a, const Dispute::Offset& b) {
   return {a.east_m - b.east_m, a.north_m - b.north_m};
@@ -26,15 +34,54 @@ double Dispute::Offset::m() const {
   return std::hypot(east_m, north_m);
 }
 
-void Dispute::begin(const Offset& offset, Time since) {
+void Dispute::begin(const Offset& offset, Time since, bool found_again) {
   *this = {};
+  found_again_ = found_again;
   since_ = heard_ = since;
   jump_ = late_ = last_ = offset;
 }
 
 void Dispute::lose_fix() {
-  lost_ = holds();
-  renewed_ = kNever;
+  lost_ = found_again_ = holds();
+  held_since_ = kNever;
+  steady_ = false;
+}
+
+Dispute::Offset Dispute::astray() const {
+  return minus(last_, held_);
+}
+
+void Dispute::put_right(const Offset& by) {
+  late_ = minus(late_, by);
+  last_ = minus(last_, by);
+  put_right_ = plus(put_right_, by);
+}
+
+Time Dispute::decided_at() const {
+  return holds() && renews_ ? heard_ + kRenewed - held_for_ : kNever;
+}
+
+/// Another jump is another distance.
+void Dispute::hold(const Offset& offset, double noise_m, bool settled, Time now) {
+  steady_ = false;
+  if (!settled) held_since_ = kNever;
+  if (!settled) return;
+  const bool near = minus(offset, held_).m() <= std::max(kHeld_m, kHeldSigmas * noise_m);
+  if (near) away_since_ = kNever;
+  if (!near && away_since_ == kNever) away_since_ = now;
+  if (held_since_ == kNever || (!near && now - away_since_ >= kOutlier)) {
+    held_ = offset;
+    held_since_ = now;
+    held_count_ = 1;
+    away_since_ = kNever;
+    return;
+  }
+  if (!near) return;
+  steady_ = now - held_since_ >= kOutlier;
+  if (steady_) return;
+  ++held_count_;
+  held_.east_m += (offset.east_m - held_.east_m) / held_count_;
+  held_.north_m += (offset.north_m - held_.north_m) / held_count_;
 }
 
 /// At first, what is near again was an outlier, or a mast that swayed.
@@ -58,20 +105,37 @@ void Dispute::follow(const Offset& offset, Time now) {
   jump_.north_m += (offset.north_m - jump_.north_m) / (first_ + 1);
 }
 
+/// With wheels and gyro, since it was found; and where it was, since the last position.
+bool Dispute::may_hold(const Offset& by_wheels, double allowed_m) const {
+  const double crept_m = minus(by_wheels, renewed_at_).m();
+  const double stepped_m = minus(by_wheels, by_wheels_).m();
+  return renews_ && crept_m <= allowed_m + kWheelsAgree * way_m_ &&
+         stepped_m <= std::max(allowed_m, kHeld_m) + kWheelsAgree * unheard_m_;
+}
+
 Dispute::Verdict Dispute::hear(const Offset& offset, bool inside, double two_sigma_m,
-                               double noise_m, Time now) {
+                               double noise_m, bool settled, bool stands, Time now) {
   if (now - heard_ > kGone) lose_fix();
+  const Duration since = held_since_ == kNever ? Duration{} : now - heard_;
   heard_ = now;
   last_ = offset;
   if (inside && came_back(offset, two_sigma_m, now)) return Verdict::came_back;
   follow(offset, now);
-  if (!lost_) return Verdict::undecided;
-  const double allowed_m = std::hypot(kSamePlace * noise_m, two_sigma_m);
-  if (renewed_ == kNever || minus(offset, renewed_at_).m() > allowed_m) {
-    renewed_ = now;
-    renewed_at_ = offset;
+  hold(offset, noise_m, settled, now);
+  if (!found_again_) return Verdict::undecided;
+  const Offset by_wheels = plus(offset, put_right_);
+  const bool holds = may_hold(by_wheels, std::hypot(kSamePlace * noise_m, two_sigma_m));
+  by_wheels_ = by_wheels;
+  unheard_m_ = 0;
+  held_for_ += since;
+  if (!holds) {
+    moved_at_rest_ = moved_at_rest_ || (renews_ && stands);
+    renews_ = true;
+    held_for_ = {};
+    renewed_at_ = by_wheels;
+    way_m_ = 0;
   }
-  return now - renewed_ >= kRenewed ? Verdict::renewed : Verdict::undecided;
+  return held_for_ >= kRenewed ? Verdict::renewed : Verdict::undecided;
 }
 
 }  // namespace drover::engine::estimate

@@ -16,8 +16,9 @@ class Dispute final {
     double m() const;
   };
 
-  /// Positions are refused, or jumped, since then.
-  void begin(const Offset& offset, Time since);
+  /// Positions are refused, or jumped, since then. `found_again`: the fix was lost just before, and
+  /// slip explains where it is: this is another one already.
+  void begin(const Offset& offset, Time since, bool found_again);
   bool holds() const { return since_ != kNever; }
   Time since() const { return since_; }
   /// Between both places, by the last position, m.
@@ -28,13 +29,34 @@ class Dispute final {
   enum class Verdict { undecided, came_back, renewed };
   /// The next RTK position. It came back when it steps back by what it jumped, or is again where
   /// dead reckoning is while that is known well; a fix that was lost and found holds when it has
-  /// stayed with wheels and gyro for a minute. `inside`: the gate would let it pass; `two_sigma_m`
-  /// of dead reckoning, `noise_m` of one position.
-  Verdict hear(const Offset& offset, bool inside, double two_sigma_m, double noise_m, Time now);
+  /// stayed with wheels and gyro for a minute, in which it may be lost and found at the same place
+  /// again. `inside`: the gate would let it pass; `two_sigma_m`
+  /// of dead reckoning, `noise_m` of one position. `settled`: the receiver's filters have.
+  Verdict hear(const Offset& offset, bool inside, double two_sigma_m, double noise_m, bool settled,
+               bool stands, Time now);
+
+  /// Whichever place is right, positions that keep their distance to dead reckoning tell how that
+  /// goes on: they do, and dead reckoning has gone astray by so much since.
+  bool steady() const { return steady_; }
+  Offset astray() const;
+  /// Dead reckoning was put right by so much.
+  void put_right(const Offset& by);
+  /// The base went so far, by its wheels.
+  void advance(double way_m) {
+    way_m_ += way_m;
+    unheard_m_ += way_m;
+  }
+  /// When it is decided at the latest if all stays as it is; kNever: not by waiting.
+  Time decided_at() const;
+  bool moved_at_rest() const { return moved_at_rest_; }
+  /// A fix that was lost and found since it began says so, and not only one from just before.
+  bool confirmed() const { return lost_; }
 
  private:
   bool came_back(const Offset& offset, double two_sigma_m, Time now) const;
   void follow(const Offset& offset, Time now);
+  bool may_hold(const Offset& by_wheels, double allowed_m) const;
+  void hold(const Offset& offset, double noise_m, bool settled, Time now);
 
   Time since_ = kNever;
   Time heard_ = kNever;
@@ -42,9 +64,21 @@ class Dispute final {
   int first_ = 0;
   Offset late_;  ///< of late, smoothed; what jumps away from that hardly moves it
   Offset last_;
-  bool lost_ = false;
-  Time renewed_ = kNever;  ///< since when a new fix holds
+  bool lost_ = false;         ///< since it began: it may step back by something else
+  bool found_again_ = false;  ///< or just before
+  bool renews_ = false;       ///< a new fix holds there, for so long:
   Offset renewed_at_;
+  Duration held_for_{};
+  Offset held_;  ///< how far from dead reckoning positions stay
+  Time held_since_ = kNever;
+  Time away_since_ = kNever;  ///< they are elsewhere
+  int held_count_ = 0;
+  bool steady_ = false;
+  Offset put_right_;            ///< in all
+  double way_m_ = 0;            ///< since a new fix holds
+  double unheard_m_ = 0;        ///< since the last position
+  Offset by_wheels_;            ///< from where wheels and gyro alone have it, by the last position
+  bool moved_at_rest_ = false;  ///< where it holds, while the base stood: it may have been carried
 };
 
 }  // namespace drover::engine::estimate

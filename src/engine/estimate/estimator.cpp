@@ -17,8 +17,6 @@ constexpr Duration kLongestStep = std::chrono::milliseconds(20);
 // A sensor that was away comes back with another bias.
 constexpr Duration kGyroAway = std::chrono::seconds(1);
 constexpr double kGyroReturn_radps = 0.001;
-// A receiver that told a heading so lately tells the next one soon.
-constexpr Duration kHeadingTold = std::chrono::seconds(1);
 constexpr std::size_t kOutward =
     kMaxOfKind;                      // whoever is in use: the antenna that others count from
 constexpr double kInstant_s = 0.05;  // how well the instants of two receivers are known
@@ -128,6 +126,8 @@ void Estimator::accept_position() {
   state.gnss.jumps = {};
   state.gnss.dispute = {};
   state.gnss.fixed = kNever;
+  state.gnss.unconfirmed_m = 0;
+  state.gnss.replaced = kNever;
   state.watch = {};
   state.course = {};
   // One that only the gyro carries on is kept: nothing else tells it.
@@ -227,7 +227,7 @@ void Estimator::advance(State& state, Time to) const {
   while (state.time < to) {
     BodyMotion body = body_motion(base_, state.told, state.time, wheel_stale_);
     body = level_motion(state, body, imu_stale_);
-    body.vx_var += square(state.watch.slip_mps());
+    if (!body.standing) body.vx_var += square(state.watch.slip_mps());
     const GyroMotion gyro = motion_of(state.gyro, state.belief, body, state.time, config_);
     if (!body.standing || gyro.pushed) {
       state.standing_since = kNever;
@@ -266,6 +266,8 @@ void Estimator::reckon(State& state, const BodyMotion& body, const GyroMotion& g
   const double north_m = belief.mean[kY] - y_m;
   state.reckoned.east_m += east_m;
   state.reckoned.north_m += north_m;
+  if (!body.standing) state.unseen.advance(east_m, north_m);
+  state.gnss.dispute.advance(std::hypot(east_m, north_m));
   if (!body.known || gyro.pushed) {
     state.way_unknown = true;
     state.fit.pause();

@@ -26,8 +26,14 @@ struct Estimate {
   /// By it motion is decided: two sigma of the larger horizontal axis, or what lies between sources
   /// that contradict each other, if that is more.
   double predicted_error_m = kAbsent;
-  /// Likewise with four sigma, for people. An error that no source shows is in neither.
+  /// Likewise with four sigma, for people, and with what wheels may have slipped since the last
+  /// fix. Another error that no source shows is in neither.
   double error_bound_m = kAbsent;
+  /// The way since the last believed RTK fix, and how far aside of the heading the robot may be
+  /// when wheels slipped on it by unseen_slip_share, which is in error_bound_m.
+  double unseen_way_m = 0;
+  double unseen_slip_m = 0;  ///< what is in error_bound_m of it
+  double unseen_aside_m = 0;
   double yaw_error_rad = kAbsent;  ///< two sigma
   bool way_heals = false;          ///< RTK fixes come and no heading: only way driven tells it
   BodyMotion body;                 ///< as the base tells it, nothing learned applied
@@ -38,6 +44,12 @@ struct Estimate {
   /// They do since the base drove, and which of both is right may still show: predicted_error_m and
   /// yaw_error_rad cover both, and inside of them a task may go on.
   bool disputed = false;
+  /// Of predicted_error_m what is not between both.
+  double own_error_m = kAbsent;
+  /// The last time that it was decided for where the receiver is; kNever: it was not.
+  Time renewed = kNever;
+  /// When it is decided at the latest if all stays as it is; kNever: not by waiting.
+  Time decided_at = kNever;
   /// The position drifted or jumped while it drove, and nobody has accepted where it is.
   bool place_doubted = false;
   bool slipping = false;  ///< the wheels roll another way than the base moves
@@ -156,6 +168,7 @@ class Estimator final {
   void report_learned(const estimate::State& state);
   void report_kept(const estimate::State& state);  // in learned.cpp
   void report_trouble(const estimate::State& state, Time now);
+  void report_unseen(const estimate::State& state, double sure_m);
   void report_imu(const estimate::State& state, Time now);
   double reach_m(const estimate::State& state, Time now) const;
 

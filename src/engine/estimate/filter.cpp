@@ -92,6 +92,13 @@ void Belief::floor_variance(std::size_t i, double variance) {
   covariance[i][i] = std::max(covariance[i][i], variance);
 }
 
+void Belief::limit_variance(std::size_t i, double variance) {
+  if (!(covariance[i][i] > variance)) return;
+  const double factor = std::sqrt(variance / covariance[i][i]);
+  for (std::size_t k = 0; k < kStates; ++k) covariance[i][k] *= factor;
+  for (std::size_t k = 0; k < kStates; ++k) covariance[k][i] *= factor;
+}
+
 bool Belief::finite() const {
   for (std::size_t r = 0; r < kStates; ++r) {
     if (!std::isfinite(mean[r]) || !(covariance[r][r] >= 0)) return false;

@@ -52,6 +52,8 @@ struct Belief {
   double project(const Vector& row, const Vector& other) const;
   /// Lifts the variance of an entry to at least `variance`.
   void floor_variance(std::size_t i, double variance);
+  /// Lowers it to at most that, and what depends on it likewise.
+  void limit_variance(std::size_t i, double variance);
   bool finite() const;
 };
 

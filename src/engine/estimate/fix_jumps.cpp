@@ -16,19 +16,18 @@ constexpr Duration kShownAfterShove = std::chrono::milliseconds(300);
 constexpr double kShoveGate = 3.0;  // sigmas
 constexpr double kReckoned = 0.02;  // of a longer way, by wheels and gyro
 constexpr double kReckonedWell_m = 0.1;
-// So many times fix_settle_s after it was found again a fix is what it will be; a place that is
-// known so well meanwhile does without it.
+// So many times fix_settle_s after it was found again a fix is what it will be.
 constexpr double kSettles = 3.0;
-constexpr double kKnownWell_m = 0.15;  // two sigma
+constexpr double kSlippedAside_m = 0.05;
+constexpr Duration kFixGone = std::chrono::seconds(1);
 constexpr double kSways = 0.1;  // of the variance by tilt and timing: most of that stays the same
 
 /// A fix that was just found again, on a base that drives: it may be another integer solution, and
 /// whether it is shows when its filters have settled.
 bool settles(const State& state, const EstimateConfig& config) {
   const GnssTrack& gnss = state.gnss;
-  return state.standing_since == kNever && !state.way_unknown && gnss.improved != kNever &&
-         gnss.believed != kNever &&
-         state.time - gnss.improved < from_s(kSettles * config.fix_settle_s);
+  return state.standing_since == kNever && !state.way_unknown && gnss.believed != kNever &&
+         !has_settled(state, config);
 }
 
 /// What the sensor's way of a shove may be wrong by. Positions that are told late still show it for
@@ -60,25 +59,69 @@ bool steps(const State& state, double dx_m, double dy_m, double variance_m2, dou
   return std::hypot((x_m * c + y_m * s) / (least_m + slip_m), (y_m * c - x_m * s) / aside_m) > 1;
 }
 
+/// The same of a fix that was found again: beside of where wheels and gyro have it.
+bool is_elsewhere(const State& state, bool near) {
+  const bool drives = state.standing_since == kNever && !state.way_unknown;
+  return drives && !near && !state.shove.holds();
+}
+
 }  // namespace
+
+bool has_settled(const State& state, const EstimateConfig& config) {
+  const Time improved = state.gnss.improved;
+  return improved == kNever || state.time - improved >= from_s(kSettles * config.fix_settle_s);
+}
+
+bool found_again(const State& state) {
+  const GnssTrack& gnss = state.gnss;
+  if (gnss.believed == kNever) return false;
+  const bool improved = gnss.improved != kNever && gnss.improved >= gnss.believed;
+  return improved || state.time - gnss.believed > kFixGone;
+}
+
+bool slipped_meanwhile(const State& state, const Dispute::Offset& beside,
+                       const EstimateConfig& config) {
+  if (!found_again(state)) return false;
+  const double yaw_rad = state.belief.mean[kYaw];
+  const double c = std::cos(yaw_rad);
+  const double s = std::sin(yaw_rad);
+  const double known_m = std::max(two_sigma_position_m(state.belief), kSlippedAside_m);
+  const double share = config.unseen_slip_share;
+  const double behind_m = -(beside.east_m * c + beside.north_m * s);
+  const double aside_m = std::abs(beside.north_m * c - beside.east_m * s);
+  return behind_m > -known_m && behind_m <= share * state.unseen.way_m + known_m &&
+         aside_m <= share * state.unseen.aside_m(yaw_rad) + known_m;
+}
 
 FixVerdict judge_jump(State& state, const FixBeside& fix, const EstimateConfig& config) {
   GnssTrack& gnss = state.gnss;
   const double known_m = two_sigma_position_m(state.belief);
   if (gnss.dispute.holds()) {
     const auto verdict =
-        gnss.dispute.hear(fix.offset, fix.inside, known_m, fix.sigma_m, state.time);
+        gnss.dispute.hear(fix.offset, fix.inside, known_m, fix.sigma_m, has_settled(state, config),
+                          state.standing_since != kNever, state.time);
     if (verdict == Dispute::Verdict::undecided) return FixVerdict::doubted;
+    const bool moved_at_rest = gnss.dispute.moved_at_rest();
+    const bool confirmed = gnss.dispute.confirmed();
+    const double apart_m = gnss.dispute.apart_m();
     gnss.dispute = {};
     gnss.believed = kNever;
-    if (verdict == Dispute::Verdict::renewed) return FixVerdict::renewed;
+    if (verdict == Dispute::Verdict::renewed) {
+      if (!moved_at_rest) gnss.renewed = state.time;
+      if (!confirmed) gnss.unconfirmed_m = apart_m;
+      return FixVerdict::renewed;
+    }
   }
-  if (settles(state, config) && known_m < kKnownWell_m) return FixVerdict::waits;
+  if (settles(state, config) && known_m < config.bound_run_m) return FixVerdict::waits;
+  const bool again = found_again(state);
   const double white_m = config.gnss_white_share * fix.sigma_m;
   const double variance_m2 = square(white_m) + kSways * fix.sways_m2;
-  if (!steps(state, fix.offset.east_m, fix.offset.north_m, variance_m2, fix.speed_mps))
-    return FixVerdict::plain;
-  gnss.dispute.begin(fix.offset, state.time);
+  const bool jumped =
+      again ? is_elsewhere(state, fix.near)
+            : steps(state, fix.offset.east_m, fix.offset.north_m, variance_m2, fix.speed_mps);
+  if (again && !jumped) gnss.unconfirmed_m = 0;
+  if (!jumped) return FixVerdict::plain;
+  gnss.dispute.begin(fix.offset, state.time, slipped_meanwhile(state, fix.offset, config));
   return FixVerdict::doubted;
 }
 

@@ -10,6 +10,7 @@ namespace drover::engine::estimate {
 struct FixBeside {
   Dispute::Offset offset;
   bool inside = false;  ///< the gate would let it pass
+  bool near = false;    ///< so would a narrow one
   double sigma_m = 0;   ///< of the position
   double sways_m2 = 0;  ///< variance by tilt and timing
   double speed_mps = 0;
@@ -22,6 +23,13 @@ enum class FixVerdict : std::uint8_t {
   renewed,  ///< the place is where it says
 };
 
+/// The receiver's filters have settled since its positions became better.
+bool has_settled(const State& state, const EstimateConfig& config);
+/// Since the last believed RTK fix there were none, or poorer positions: it may be another one.
+bool found_again(const State& state);
+/// It was, and wheels that slipped meanwhile explain where it is.
+bool slipped_meanwhile(const State& state, const Dispute::Offset& beside,
+                       const EstimateConfig& config);
 FixVerdict judge_jump(State& state, const FixBeside& fix, const EstimateConfig& config);
 
 }  // namespace drover::engine::estimate

@@ -11,9 +11,6 @@ using namespace estimate;
 
 namespace {
 
-// A heading is a receiver's as long as it was told within:
-constexpr Duration kHeadingIsTold = std::chrono::seconds(2);
-
 /// How a value is handed over from one program to the next.
 struct HandOver {
   double between;  ///< one sigma of how much it changes meanwhile: screws, air in the tyres, ground
@@ -82,8 +79,7 @@ void Estimator::forget_learned() {
   state.heading_late = unlearned.heading_late;
   for (const std::size_t i : {std::size_t{kScale}, std::size_t{kGain}, std::size_t{kGyroScale}})
     state.belief.reset(i, unlearned.belief.mean[i], std::sqrt(unlearned.belief.covariance[i][i]));
-  const bool told =
-      state.heading.last != kNever && state.time - state.heading.last < kHeadingIsTold;
+  const bool told = state.heading.last != kNever && state.time - state.heading.last < kHeadingTold;
   state.has_heading = state.has_heading && !told;
   state.has_position = state.has_position && !told;
   state.heading.jumps = {};
@@ -110,7 +106,7 @@ void Estimator::report_kept(const State& state) {
              : LearnedValue{};
   const AntennaFit& fit = state.fit;
   const bool of_late = config_.gnss_late_sigma_s > 0;
-  learned.late_s = of_late ? kept(kLateKept, fit.late_s(), fit.late_sigma_s()) : LearnedValue{};
+  learned.late_s = of_late ? kept(kLateKept, fit.late_s(), fit.late_doubt_s()) : LearnedValue{};
   learned.heading_late_s =
       of_late ? kept(kLateKept, state.heading_late.late_s(), state.heading_late.sigma_s())
               : LearnedValue{};

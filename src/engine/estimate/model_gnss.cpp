@@ -13,6 +13,15 @@ namespace {
 // The share of the fixed sigma under which a position is never claimed to be known: a fix that
 // comes and goes has the same multipath error each time, so averaging its spells proves nothing.
 constexpr double kFloorShare = 0.8;
+// From one fix to the next, settled ones, so much of what the base moves otherwise than its wheels
+// is left at the most: before long that is seen as slip.
+constexpr double kLagsBehind = 0.5;
+// A fix that was found again is where dead reckoning is.
+constexpr double kNearGate = 3.0;  // sigmas
+constexpr double kNear_m = 0.045;
+constexpr double kGoesBeside = 0.25;
+// The wheel scale changes by no more than this share in a metre: what changes it faster is slip.
+constexpr double kScalePerMetre = 0.002;
 
 /// Filters in the receiver let the error of the worse quality fade after the better one is shown:
 /// until then the position is taken for as bad as that.
@@ -71,6 +80,7 @@ void hand_over(State& state, std::uint8_t receiver) {
   gnss.improved = kNever;
   gnss.jumps = {};
   gnss.dispute = {};
+  gnss.unconfirmed_m = 0;
   state.watch.forget();
   state.course = {};
 }
@@ -95,6 +105,7 @@ void place(State& state, const AntennaPosition& position, double arm_x_m, double
   p[kY][kBiasY] = p[kBiasY][kY] = -square(position.sigma_y_m);
   state.has_position = true;
   state.reckoned = {};
+  state.unseen = {};
   state.way_unknown = false;
   if (position.quality == GnssClass::fixed) state.gnss.fixed = state.time;
 }
@@ -159,7 +170,7 @@ bool refuse(State& state, const AntennaPosition& position, const Dispute::Offset
   }
   const Duration patience = from_s(config.jump_time_s);
   if (fixed && gnss.jumps.began_moving() && gnss.jumps.disagrees(patience))
-    gnss.dispute.begin(beside, gnss.jumps.since());
+    gnss.dispute.begin(beside, gnss.jumps.since(), slipped_meanwhile(state, beside, config));
   return standing && gnss.jumps.settled(patience);
 }
 
@@ -197,6 +208,37 @@ void rest_on(State& state, const AntennaPosition& position, const EstimateConfig
   way.north_m *= left;
 }
 
+/// Whichever of two places is right: positions that keep their distance to dead reckoning tell how
+/// that goes on, and where it is it is known as well as when they began to.
+void go_beside(State& state) {
+  GnssTrack& gnss = state.gnss;
+  Belief& belief = state.belief;
+  if (!gnss.dispute.steady()) {
+    gnss.disputed_xx_m2 = belief.covariance[kX][kX];
+    gnss.disputed_yy_m2 = belief.covariance[kY][kY];
+    gnss.disputed_unseen = state.unseen;
+    gnss.disputed_reckoned = state.reckoned;
+    return;
+  }
+  const Dispute::Offset astray = gnss.dispute.astray();
+  const Dispute::Offset by{kGoesBeside * astray.east_m, kGoesBeside * astray.north_m};
+  belief.mean[kX] += by.east_m;
+  belief.mean[kY] += by.north_m;
+  gnss.dispute.put_right(by);
+  belief.limit_variance(kX, gnss.disputed_xx_m2 + square(gnss.sigma_x_m));
+  belief.limit_variance(kY, gnss.disputed_yy_m2 + square(gnss.sigma_y_m));
+  state.unseen.keep_since(gnss.disputed_unseen, 1 - kGoesBeside);
+  state.reckoned = gnss.disputed_reckoned;
+}
+
+/// How much of an error of the place is left when it is corrected by this.
+double left_after(const Belief& belief, const Vector& row, std::size_t axis, double variance_m2) {
+  Vector place{};
+  place[axis] = 1;
+  const double share = belief.project(place, row) / (belief.project(row, row) + variance_m2);
+  return 1 - std::clamp(share, 0.0, 1.0);
+}
+
 /// Of what lies between a position and what is expected of it, m2.
 struct Expected {
   double xx = 0;
@@ -206,7 +248,7 @@ struct Expected {
 
 /// The gate. How the antenna line is mounted is no state: what that may bend the way since the last
 /// fix comes on top.
-bool passes(const State& state, Expected expected, double dx_m, double dy_m,
+bool passes(const State& state, Expected expected, double dx_m, double dy_m, double sigmas,
             const EstimateConfig& config) {
   const double mount_rad = state.mount_sigma_rad(config);
   const double bent_x_m = -mount_rad * state.reckoned.north_m;
@@ -218,7 +260,7 @@ bool passes(const State& state, Expected expected, double dx_m, double dy_m,
   const double distance2 =
       (expected.yy * dx_m * dx_m - 2 * expected.xy * dx_m * dy_m + expected.xx * dy_m * dy_m) /
       determinant;
-  return distance2 <= square(config.gate_sigma);
+  return distance2 <= square(sigmas);
 }
 
 }  // namespace
@@ -267,20 +309,25 @@ void apply(State& state, const AntennaPosition& measured, double speed_mps,
   const double sxx = belief.project(row_x, row_x) + variance_x;
   const double syy = belief.project(row_y, row_y) + variance_y;
   const double sxy = belief.project(row_x, row_y);
-  const bool inside = passes(state, {.xx = sxx, .xy = sxy, .yy = syy}, dx, dy, config);
+  const Expected expected{.xx = sxx, .xy = sxy, .yy = syy};
+  const bool inside = passes(state, expected, dx, dy, config.gate_sigma, config);
+  const bool near = std::hypot(dx, dy) < kNear_m ||
+                    passes(state, expected, dx, dy, std::min(kNearGate, config.gate_sigma), config);
   if (!fixed) {
     state.gnss.dispute.lose_fix();
   } else {
-    switch (judge_jump(state, {{dx, dy}, inside, fix.sigma_m, extra, speed_mps}, config)) {
+    switch (judge_jump(state, {{dx, dy}, inside, near, fix.sigma_m, extra, speed_mps}, config)) {
       case FixVerdict::plain: break;
       case FixVerdict::waits: return;
-      case FixVerdict::doubted: ++state.refused; return;
+      case FixVerdict::doubted: ++state.refused; return go_beside(state);
       case FixVerdict::renewed: return place_anew(state, position, {arm_x, arm_y}, place_variance);
     }
   }
   if (!inside) {
-    if (refuse(state, position, {dx, dy}, larger_sigma_m(position), fixed, config))
-      place_anew(state, position, {arm_x, arm_y}, place_variance);
+    if (!refuse(state, position, {dx, dy}, larger_sigma_m(position), fixed, config)) return;
+    state.gnss.replaced = state.time;
+    state.gnss.replaced_m = std::hypot(dx, dy);
+    place_anew(state, position, {arm_x, arm_y}, place_variance);
     return;
   }
   state.gnss.jumps.accepted();
@@ -294,7 +341,14 @@ void apply(State& state, const AntennaPosition& measured, double speed_mps,
     watch_drift(state.watch, state.mounting, belief, fix, state.time, ground_of(state, config),
                 config);
   }
+  const double scale_most = state.watch.slipping() ? 0.0 : kScalePerMetre * state.unseen.way_m;
   rest_on(state, position, config);
+  if (fixed) {
+    const double left = std::max(left_after(belief, row_x, kX, variance_x),
+                                 left_after(belief, row_y, kY, variance_y));
+    state.unseen.keep(has_settled(state, config) ? std::min(left, kLagsBehind) : left);
+  }
+  const double scale_variance = belief.covariance[kScale][kScale];
   const Vector before = belief.mean;
   belief.correct(row_x, dx, variance_x);
   // The first correction has moved the state; what is left starts from there.
@@ -309,6 +363,9 @@ void apply(State& state, const AntennaPosition& measured, double speed_mps,
                             arm_y * wrap_rad(belief.mean[kYaw] - before[kYaw]);
     state.gnss.beside_y_m = left_y_m();
   }
+  if (state.watch.slipping()) belief.floor_variance(kScale, scale_variance);
+  belief.mean[kScale] =
+      std::clamp(belief.mean[kScale], before[kScale] - scale_most, before[kScale] + scale_most);
   const double floor = square(kFloorShare * config.sigma_fixed_m);
   belief.floor_variance(kX, floor);
   belief.floor_variance(kY, floor);

@@ -349,7 +349,7 @@ void MotionWatch::pause() {
 /// The ways go on: what comes back is compared with where it was, however often it goes.
 void MotionWatch::lose_fix() {
   brief = study = {};
-  slip_since = stuck_since = kNever;
+  stuck_since = kNever;
   look.resting = kNever;
 }
 

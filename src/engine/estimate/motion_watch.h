@@ -108,7 +108,9 @@ struct MotionWatch {
   Time slip_since = kNever;  ///< kNever: the wheels do not slip
   double wheel_mps = 0;      ///< while they do
   double receiver_mps = 0;
-  double slipped_m = 0;       ///< and how much the ways of both differ in the legs that are over
+  double slipped_m = 0;  ///< and how much the ways of both differ in the legs that are over
+  /// Learned of the wheels before the brief leg, and before the one before that; 0: not known.
+  std::array<double, 2> scale_before{};
   Time stuck_since = kNever;  ///< hardly any of what the wheels roll is seen by the receiver
   double unseen_slip_m = 0;   ///< likewise, of late, since a look found no drift behind it
   Time drift_since = kNever;
@@ -138,7 +140,8 @@ struct MotionWatch {
   /// Without positions to compare with: begins anew with the next one. What a look found stays, and
   /// the comparison with a position that drifted, or is suspected to, goes on.
   void pause();
-  /// Likewise; a look begins anew, because another fix may well be another place.
+  /// Likewise; a look begins anew, because another fix may well be another place. Wheels that slip
+  /// go on slipping until a fix shows that they do not.
   void lose_fix();
   /// Nobody knows what was driven: likewise, but that comparison is over.
   void lose();

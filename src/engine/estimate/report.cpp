@@ -15,13 +15,13 @@ namespace {
 constexpr Duration kReachEach = std::chrono::milliseconds(100);
 // An RTK fix this young is what the place rests on, not dead reckoning.
 constexpr Duration kFixed = std::chrono::milliseconds(500);
-// A receiver that tells headings tells each second, or oftener.
-constexpr Duration kToldOfLate = std::chrono::seconds(2);
 // A run of refused positions so long is no outlier.
 constexpr Duration kContradicted = std::chrono::milliseconds(300);
 // An error lasts for half a minute: at two sigma a robot would be outside once in ten minutes, at
 // four hardly ever, as long as the sources err as they say.
 constexpr double kSure = 2.0;
+// Another integer solution that was taken for the place of a base at rest may last so long.
+constexpr Duration kMayStepBack = std::chrono::seconds(60);
 // Wheels that are worn, or sink in, are told from so much on; and from so many sigmas.
 constexpr double kOtherScale = 0.025;
 constexpr double kCertainScale = 4.0;
@@ -64,14 +64,18 @@ void Estimator::report(const State& state, Time now) {
   const double told_rad = std::hypot(two_sigma_rad / 2, state.mount_left_rad());
   e.pose.yaw_sigma_rad = state.has_heading ? told_rad : kAbsent;
   e.predicted_error_m = state.has_position ? two_sigma_m : kAbsent;
-  e.error_bound_m = state.has_position ? kSure * two_sigma_m : kAbsent;
+  const double late_doubt_m = e.pose.vx_mps * state.fit.late_doubt_s();
+  const double sure_m =
+      kSure * std::hypot(doubt.two_sigma_m(belief), 2 * late_doubt_m, 2 * untold_m);
+  e.error_bound_m = state.has_position ? sure_m : kAbsent;
   e.yaw_error_rad = state.has_heading ? two_sigma_rad : kAbsent;
 
   const bool fixed = state.gnss.fixed != kNever && now - state.gnss.fixed < kFixed;
-  const bool told = state.heading.last != kNever && now - state.heading.last < kToldOfLate;
+  const bool told = state.heading.last != kNever && now - state.heading.last < kHeadingTold;
   e.way_heals = fixed && state.has_heading && !told;
 
   report_trouble(state, now);
+  report_unseen(state, sure_m);
   report_imu(state, now);
   report_learned(state);
   report_kept(state);
@@ -121,9 +125,12 @@ void Estimator::report_trouble(const State& state, Time now) {
   e.disputed = e.disagrees && !stuck && !drifted && (!position_disagrees || disputed) &&
                (!heading_disagrees || headings.began_moving());
   e.place_doubted = disputed || drifted;
+  e.renewed = state.gnss.renewed;
+  e.decided_at = disputed ? dispute.decided_at() : kNever;
   e.slipped_m = watch.slipping() ? watch.slipped_m + std::abs(watch.last_gap_m) : 0;
   // One of the two is wrong, and nobody knows which: the error may be all that lies between them.
   if (state.has_position) {
+    e.own_error_m = e.predicted_error_m;
     double apart_m = 0;
     if (places.disagrees(kContradicted)) apart_m = state.gnss.contradiction_m;
     if (dispute.holds() && now - dispute.since() >= kContradicted) apart_m = dispute.apart_m();
@@ -133,6 +140,9 @@ void Estimator::report_trouble(const State& state, Time now) {
     // Less than that is no contradiction, but may well be the beginning of one.
     if (dispute.holds()) apart_m = std::max(apart_m, dispute.apart_m());
     if (places.running()) apart_m = std::max(apart_m, state.gnss.contradiction_m);
+    if (state.gnss.replaced != kNever && now - state.gnss.replaced < kMayStepBack)
+      apart_m = std::max(apart_m, state.gnss.replaced_m);
+    apart_m = std::max(apart_m, state.gnss.unconfirmed_m);
     e.error_bound_m += std::max(watch.gap_m, apart_m);
   }
   // Gyro and wheels, which agree, vote a heading out that jumped.
@@ -205,6 +215,18 @@ void Estimator::report_trouble(const State& state, Time now) {
                       to_deg(std::abs(gyro.apart_radps)));
       break;
   }
+}
+
+/// Motion is not decided by it, but for how far it leads aside of the track: where it goes straight
+/// on the robot is behind of where it thinks, on the same line.
+void Estimator::report_unseen(const State& state, double sure_m) {
+  Estimate& e = estimate_;
+  const UnseenWay& unseen = state.unseen;
+  if (!state.has_position) return;
+  e.unseen_way_m = unseen.way_m;
+  e.unseen_aside_m = config_.unseen_slip_share * unseen.aside_m(e.pose.yaw_rad);
+  e.unseen_slip_m = config_.unseen_slip_share * unseen.way_m;
+  e.error_bound_m = sure_m + std::hypot(e.error_bound_m - sure_m, e.unseen_slip_m);
 }
 
 void Estimator::report_imu(const State& state, Time now) {

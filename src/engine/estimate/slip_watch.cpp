@@ -19,8 +19,9 @@ constexpr double kJumpShare = 0.6;        // of the gap between two positions: n
 constexpr double kStuckShare = 0.4;       // of the wheels' way
 constexpr double kSlipForgiven = 0.05;    // of a way without slip
 
-void begin_brief(MotionWatch& watch, const BaseFix& fix, Time now) {
+void begin_brief(MotionWatch& watch, const Belief& belief, const BaseFix& fix, Time now) {
   watch.brief = begin_leg(fix, now);
+  watch.scale_before = {belief.mean[kScale], watch.scale_before[0]};
   watch.last_gap_m = watch.last_east_m = watch.last_north_m = watch.largest_step_m = 0;
 }
 
@@ -60,7 +61,7 @@ void watch_slip(MotionWatch& watch, Belief& belief, const BaseFix& fix, Time now
                 const EstimateConfig& config) {
   Leg& leg = watch.brief;
   if (leg.since == kNever || now - leg.since > 2 * kBrief) {
-    begin_brief(watch, fix, now);
+    begin_brief(watch, belief, fix, now);
     watch.slip_since = watch.stuck_since = kNever;
     return;
   }
@@ -84,6 +85,8 @@ void watch_slip(MotionWatch& watch, Belief& belief, const BaseFix& fix, Time now
   const bool slipped = watch.slipping();
   if (!watch.slipping() && std::abs(gap_m) > most_m && creeping) {
     watch.slip_since = leg.since;
+    // What it taught meanwhile was none of the wheels.
+    if (watch.scale_before[1] > 0) belief.mean[kScale] = watch.scale_before[1];
     const double c = std::cos(belief.mean[kYaw]);
     const double s = std::sin(belief.mean[kYaw]);
     Matrix& p = belief.covariance;
@@ -104,7 +107,7 @@ void watch_slip(MotionWatch& watch, Belief& belief, const BaseFix& fix, Time now
   watch.slipped_m = watch.slipping() ? watch.slipped_m + std::abs(gap_m) : 0;
   watch.unseen_slip_m += watch.slipping() ? std::abs(gap_m) : -kSlipForgiven * wheels_m;
   watch.unseen_slip_m = std::max(watch.unseen_slip_m, 0.0);
-  begin_brief(watch, fix, now);
+  begin_brief(watch, belief, fix, now);
 }
 
 }  // namespace drover::engine::estimate

@@ -17,12 +17,22 @@
 #include "engine/estimate/motion_watch.h"
 #include "engine/estimate/mounting.h"
 #include "engine/estimate/shove.h"
+#include "engine/estimate/unseen_way.h"
 
 namespace drover::engine::estimate {
 
 /// Qualities that share a kind of error; when the class changes, the old error says nothing of the
 /// new one.
 enum class GnssClass : std::uint8_t { none, fixed, floating, dgps, single };
+
+/// The way since the place was the receiver's: an error of the heading bends it.
+struct Reckoned {
+  double east_m = 0;
+  double north_m = 0;
+};
+
+/// A receiver that told a heading so lately tells the next one soon.
+inline constexpr Duration kHeadingTold = std::chrono::seconds(2);
 
 struct GnssTrack {
   std::uint8_t receiver = 0;  ///< whose positions these are
@@ -37,11 +47,21 @@ struct GnssTrack {
   double place_y_m = 0;
   double contradiction_m = 0;  ///< how far the last refused position was off
   Dispute dispute;
+  // How well the place was known when the positions of the dispute began to keep their distance:
+  double disputed_xx_m2 = 0;
+  double disputed_yy_m2 = 0;
+  UnseenWay disputed_unseen;
+  Reckoned disputed_reckoned;
   // The last believed position, and how far beside the estimate it was left:
   Time believed = kNever;
   double beside_x_m = 0;
   double beside_y_m = 0;
-  Time fixed = kNever;  ///< the last believed RTK fix
+  Time fixed = kNever;       ///< the last believed RTK fix
+  Time renewed = kNever;     ///< of two places the new one was believed then
+  double unconfirmed_m = 0;  ///< and so far away is the other one, until another fix is there
+  // A place that jumped while the base stood was believed then, so far from where it had been:
+  Time replaced = kNever;
+  double replaced_m = 0;
 };
 
 struct HeadingTrack {
@@ -50,12 +70,6 @@ struct HeadingTrack {
   JumpWatch jumps;
   double place_rad = 0;
   double contradiction_rad = 0;  ///< how far the last refused heading was off
-};
-
-/// The way since the place was the receiver's: an error of the heading bends it.
-struct Reckoned {
-  double east_m = 0;
-  double north_m = 0;
 };
 
 /// A robot that has been turned by more than this without being seen has no heading any more: the
@@ -73,6 +87,7 @@ struct State {
   HeadingTrack heading;
   Mounting mounting;  ///< of the line of that receiver's antennas
   Reckoned reckoned;
+  UnseenWay unseen;
   bool way_unknown = false;  ///< since the last believed fix: wheels silent, or somebody pushed it
   GyroTrack gyro;
   AntennaFit fit;

@@ -32,7 +32,8 @@ LocateState LocateMonitor::update(const Estimate& estimate, bool has_origin, boo
   const bool goes_on = task_active && estimate.way_heals;
   const double bound_rad = to_rad(config_.bound_yaw_deg) * (goes_on ? kOnTheWay : 1.0);
   const double share = state_ == LocateState::good ? 1.0 : kGoodAgain;
-  const double error_m = estimate.predicted_error_m;
+  // Whether both of two places are inside of the corridor is the task's to say.
+  const double error_m = estimate.disputed ? estimate.own_error_m : estimate.predicted_error_m;
   const double error_rad = estimate.yaw_error_rad;
   // Written so that a value that is not a number is never good.
   if (!finite(estimate.pose)) {

@@ -32,6 +32,9 @@ constexpr double kWayRatio = 1.5;
 constexpr double kWaySigmas = 2.5;        // two positions in succession
 constexpr double kWaySigmasAtOnce = 5.0;  // one
 constexpr double kFewestPlaces = 3;
+constexpr double kMostRatio = 12;  // of gears that somebody got wrong
+constexpr double kJumpSigmas = 5.0;
+constexpr double kJumpsFrom_m = 0.05;
 constexpr double kShortest_m = 0.1;  // of a way that is found too short
 
 }  // namespace
@@ -51,6 +54,8 @@ void MechanicsCheck::begin() {
   next_mark_ = 0;
   heading_turn_rad_ = kAbsent;
   odd_places_ = 0;
+  last_way_ = jumped_ = {};
+  last_rolled_m_ = 0;
 }
 
 void MechanicsCheck::on_position(const GnssPosition& position, Time at) {
@@ -150,13 +155,26 @@ void MechanicsCheck::compare_turn(const MechanicsInput& input) {
                 to_deg(then->turn_rad), to_deg(heading_turn_rad_), words_->wrong_turn);
 }
 
+/// What comes at once is no ratio: another integer solution, or a shove, on which others look.
+bool MechanicsCheck::jumps(const PathPoint& way, const Mark& wheels, double sigma_m) {
+  const PathPoint step{way.x_m - last_way_.x_m, way.y_m - last_way_.y_m};
+  const double rolled_m = std::abs(wheels.way_m - last_rolled_m_);
+  last_way_ = way;
+  last_rolled_m_ = wheels.way_m;
+  const double most_m = kMostRatio * rolled_m + std::max(kJumpSigmas * sigma_m, kJumpsFrom_m);
+  if (!(std::hypot(step.x_m, step.y_m) > most_m)) return false;
+  jumped_.x_m += step.x_m;
+  jumped_.y_m += step.y_m;
+  return true;
+}
+
 void MechanicsCheck::compare_way(const Mark& wheels) {
   GnssPosition from = position_;
   from.latitude_deg = rest_.north_deg;
   from.longitude_deg = rest_.east_deg;
   PathPoint way = ground_way(from, position_);
   const double turn_rad = std::isfinite(heading_turn_rad_) ? heading_turn_rad_ : wheels.turn_rad;
-  double ahead_m = std::hypot(way.x_m, way.y_m);
+  double ahead_m = 0;
   if (std::isfinite(yaw_rad_)) {
     const double yaw0_rad = yaw_rad_ - turn_rad;
     // The antenna swings about the base as it turns.
@@ -170,8 +188,14 @@ void MechanicsCheck::compare_way(const Mark& wheels) {
     const PathPoint after = arm(yaw_rad_);
     way.x_m -= after.x_m - before.x_m;
     way.y_m -= after.y_m - before.y_m;
-    ahead_m = way.x_m * std::cos(yaw0_rad) + way.y_m * std::sin(yaw0_rad);
   }
+  const double sigma = place_sigma_m(position_, config_.estimate);
+  if (jumps(way, wheels, sigma)) return;
+  way.x_m -= jumped_.x_m;
+  way.y_m -= jumped_.y_m;
+  ahead_m = std::hypot(way.x_m, way.y_m);
+  if (std::isfinite(yaw_rad_))
+    ahead_m = way.x_m * std::cos(yaw_rad_ - turn_rad) + way.y_m * std::sin(yaw_rad_ - turn_rad);
   const double rolled_m = wheels.way_m;
   const double gone_m = std::hypot(way.x_m, way.y_m);
   const bool back = ahead_m * rolled_m < 0;
@@ -179,7 +203,6 @@ void MechanicsCheck::compare_way(const Mark& wheels) {
   const double too_little_m =
       std::abs(rolled_m) > kShortest_m ? std::abs(rolled_m) - kWayRatio * gone_m : 0.0;
   const double odd_m = std::max(too_much_m, too_little_m);
-  const double sigma = place_sigma_m(position_, config_.estimate);
   odd_places_ = odd_m > kWaySigmas * sigma ? odd_places_ + 1 : 0;
   if (odd_places_ < 2 && !(odd_m > kWaySigmasAtOnce * sigma)) return;
   if (back) {

@@ -74,6 +74,7 @@ class MechanicsCheck final {
   const Mark* mark_at(Time at) const;
   void compare_turn(const MechanicsInput& input);
   void compare_way(const Mark& wheels);
+  bool jumps(const PathPoint& way, const Mark& wheels, double sigma_m);
   void say_turn(double by_gyro_rad, double by_wheels_rad);
 
   EngineConfig config_;
@@ -97,6 +98,9 @@ class MechanicsCheck final {
   Time gyro_at_ = kNever;
   AntennaConfig antenna_;
   int odd_places_ = 0;  ///< in succession
+  PathPoint last_way_;  ///< of the antenna less its swing, by the last position
+  double last_rolled_m_ = 0;
+  PathPoint jumped_;  ///< so much of it came by jumps
   Reason fault_;
 };
 

@@ -96,7 +96,13 @@ void PlaceWatch::update(Time now, Duration dt, const Estimate& estimate, bool he
   if (heard && !stands_) recalled_ = {};
   if (!estimate.has_position || !estimate.has_heading || (recalled_.known && !heard)) return;
   if (recalled_.known) begin_where_it_stood(origin);
-  if (!known_ || !stands_) return begin_at(estimate.pose);
+  // It was known that it may be elsewhere, and now that it is.
+  const bool renewed = estimate.renewed != renewed_;
+  renewed_ = estimate.renewed;
+  Pose pose = estimate.pose;
+  // What its wheels may have slipped before it came to rest without a fix is no jump, either.
+  pose.position_sigma_m = std::hypot(pose.position_sigma_m, estimate.unseen_slip_m / 2);
+  if (!known_ || !stands_ || renewed) return begin_at(pose);
   if (estimate.body.known) {
     const double way_m = estimate.body.twist.vx_mps * std::max(to_s(dt), 0.0);
     crept_x_m_ += way_m * std::cos(estimate.pose.yaw_rad);
@@ -104,7 +110,7 @@ void PlaceWatch::update(Time now, Duration dt, const Estimate& estimate, bool he
   }
   // What is suspected already is judged by who looks at it.
   const bool believed = !estimate.disagrees && estimate.looks.empty();
-  if (believed && estimate.predicted_error_m <= config_.bound_run_m) compare(now, estimate.pose);
+  if (believed && estimate.predicted_error_m <= config_.bound_run_m) compare(now, pose);
 }
 
 Pose PlaceWatch::without_creep(Pose pose) const {

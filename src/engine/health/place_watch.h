@@ -54,6 +54,7 @@ class PlaceWatch final {
   RestPlace recalled_;
   bool away_ = false;  ///< it began with that place, and has not compared it yet
   bool known_ = false;
+  Time renewed_ = kNever;  ///< of two places the new one was believed last
   bool stands_ = false;
   Places seen_;
   Places rested_;         ///< without what it crept: the nearer of the two counts

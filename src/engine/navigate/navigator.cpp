@@ -16,6 +16,8 @@ constexpr double kGoalNear_m = 0.5;  // the arrival time-out runs inside this
 constexpr double kAside_m = 0.10;
 constexpr double kBack_m = 0.05;
 constexpr double kBackToTrack_mps = 0.2;
+// Of two places: after a minute of a fix that was found again, and is lost now and then.
+constexpr double kDecides_s = 90;
 constexpr Duration kShovedOfLate = std::chrono::seconds(2);
 constexpr Duration kReturnsWithin = std::chrono::seconds(20);
 constexpr double kSlowFrom = 0.5;  // share of the error budget from which on it slows
@@ -134,6 +136,7 @@ void Navigator::end(Time now, TaskEnded::How how, const Reason& reason, EventQue
 
 Reason Navigator::waits_for(const HealthReport& health) const {
   Reason text;
+  if (phase_ == Phase::paused && !outside_.empty()) return outside_;
   if (phase_ == Phase::paused && waits() && health.why.empty()) {
     text.format("goes on when nothing has held it up for %.1f s", config_.navigate.resume_after_s);
     return text;
@@ -235,8 +238,9 @@ Reason Navigator::find_failure(const NavInput& input) {
     const std::string_view which = input.health.text(Cause::constraint).view();
     why.format("for %.0f s: %.*s", limits.obstacle_timeout_s, static_cast<int>(which.size()),
                which.data());
-  } else if (lost_.longer_than(limits.locate_timeout_s, input.now)) {
-    const std::string_view cause = input.health.locate_reason.view();
+  } else if (lost_too_long(input)) {
+    const std::string_view cause =
+        (input.health.locate_reason.empty() ? outside_ : input.health.locate_reason).view();
     why.format("localisation was lost for %.0f s%s%.*s", limits.locate_timeout_s,
                cause.empty() ? "" : ": ", static_cast<int>(cause.size()), cause.data());
   } else if (goal_near_since_ != kNever &&
@@ -247,10 +251,33 @@ Reason Navigator::find_failure(const NavInput& input) {
   return why;
 }
 
-/// Of two places one is right, and nobody knows which: both have to be inside the corridor.
-bool Navigator::may_be_outside(const Estimate& estimate) const {
-  const double off_m = std::abs(progress_.cross_track_m) + estimate.predicted_error_m;
-  return estimate.disputed && progress_.joined && !(off_m <= config_.navigate.corridor_m);
+/// What is being decided is waited for, but not twice as long.
+bool Navigator::lost_too_long(const NavInput& input) const {
+  const double limit_s = config_.navigate.locate_timeout_s;
+  if (!lost_.longer_than(limit_s, input.now)) return false;
+  // It was just decided, and goes on soon.
+  if (input.health.locate == LocateState::good && may_be_outside(input.estimate).empty())
+    return false;
+  const Time decided = input.estimate.decided_at;
+  const bool soon = decided != kNever && decided - lost_.since < from_s(kDecides_s + limit_s);
+  return !soon || lost_.longer_than(kDecides_s + limit_s, input.now);
+}
+
+/// Of two places one is right, and nobody knows which: both have to be inside the corridor. So has
+/// the one where it is when wheels slipped before a turn, and nobody saw it.
+Reason Navigator::may_be_outside(const Estimate& estimate) const {
+  Reason why;
+  if (!progress_.joined) return why;
+  const double off_m = std::abs(progress_.cross_track_m);
+  const double corridor_m = config_.navigate.corridor_m;
+  const bool slipped_out = !(off_m + estimate.unseen_aside_m <= corridor_m);
+  const bool other_out = estimate.disputed && !(off_m + estimate.predicted_error_m <= corridor_m);
+  if (!slipped_out && !other_out) return why;
+  if (estimate.disputed) return estimate.reason;
+  why.format(
+      "%.1f m driven without an RTK fix: %.2f m beside the track here, had the wheels slipped",
+      estimate.unseen_way_m, estimate.unseen_aside_m);
+  return why;
 }
 
 void Navigator::watch_pauses(const NavInput& input, EventQueue& events) {
@@ -263,14 +290,16 @@ void Navigator::watch_pauses(const NavInput& input, EventQueue& events) {
                    zone || unseen ? resume_after : Duration{});
   constraint_.update(broken, input.now, Duration{});
   unasked_.update(!input.unasked.empty(), input.now, Duration{});
-  const bool outside = may_be_outside(input.estimate);
-  lost_.update(input.health.locate != LocateState::good || outside, input.now, resume_after);
+  const Reason outside = may_be_outside(input.estimate);
+  lost_.update(input.health.locate != LocateState::good || !outside.empty(), input.now,
+               resume_after);
+  outside_ = outside;
   const bool wait = waits();
   if (wait && phase_ == Phase::running) {
     phase_ = Phase::paused;
     Reason text;
     const Reason& what = broken                   ? input.health.text(Cause::constraint)
-                         : outside                ? input.estimate.reason
+                         : !outside.empty()       ? outside
                          : !obstacle_.holds()     ? input.health.locate_reason
                          : input.health.near_zone ? input.health.text(Cause::near_zone)
                                                   : input.health.text(Cause::surroundings);

@@ -94,7 +94,9 @@ class Navigator final {
   Reason find_position_failure(const Estimate& estimate, const HealthReport& health) const;
   void watch_shoves(const NavInput& input);
   double speed_cap_mps(const NavInput& input) const;
-  bool may_be_outside(const Estimate& estimate) const;
+  bool lost_too_long(const NavInput& input) const;
+  /// Why the robot may be outside of its corridor; empty: it may not.
+  Reason may_be_outside(const Estimate& estimate) const;
   bool waits() const { return obstacle_.holds() || constraint_.holds() || lost_.holds(); }
   Twist asked(const NavInput& input);
 
@@ -117,6 +119,7 @@ class Navigator final {
   Wait obstacle_;
   Wait constraint_;
   Wait lost_;
+  Reason outside_;  ///< why it may be outside of its corridor now; empty: it may not
   Wait unasked_;
   TrackProgress progress_;
   Reason ended_;  ///< why the task ended in an error; outlives a reset

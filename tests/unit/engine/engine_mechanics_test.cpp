@@ -56,6 +56,14 @@ TEST_F(ARobotOnItsFirstWay, DrivesSlowlyForThirtyCentimetresAndThenAsAsked) {
   EXPECT_GT(rig.fastest_command_radps() * 0.165, 0.45);
 }
 
+TEST_F(ARobotOnItsFirstWay, TakesAPositionThatJumpsForNoWrongRatio) {
+  while (rig.driven_m < 0.12) rig.tick();
+  rig.aside_m = 0.15;
+  while (rig.driven_m < 0.8 && rig.snapshot().nav.status == NavStatus::run) rig.tick();
+  EXPECT_EQ(rig.snapshot().nav.status, NavStatus::run) << ended();
+  EXPECT_TRUE(rig.out.remembered.mechanics_proved);
+}
+
 TEST_F(ARobotOnItsFirstWay, IsNotAskedForAnotherOneAfterARestartOfTheProgram) {
   rig.run_s(2);
   EXPECT_FALSE(rig.out.remembered.mechanics_proved);

@@ -56,7 +56,7 @@ TEST_F(ARobotThatIsStartedAgain, DrivesFromWhereItStood) {
 /// The receiver jumps while it drives, and does not come back.
 TEST_F(ARobotThatIsStartedAgain, StillDoubtsAPositionThatWasDoubtedBefore) {
   drive();
-  rig.jump_m += 0.4;
+  rig.jump_m += 0.6;  // beyond the corridor
   rig.run_s(65);
   ASSERT_THAT(rig.why(), HasSubstr("position disagrees with odometry"));
   ASSERT_TRUE(rig.out.remembered.place.doubted);

@@ -60,5 +60,98 @@ TEST(APublishedHeading, IsNotSaidToBeKnownBeforeTheMountingIsMadeUpFor) {
   }
 }
 
+/// Nothing shows it as long as there is no fix.
+TEST(WheelsThatSlipInAnOutage, MoveNothingBeyondWhatIsPublished) {
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    FieldPlan plan;
+    plan.gst = seed % 2 == 0;
+    plan.outage_s = {20, 28};
+    plan.slip_s = {20.5 + 0.5 * static_cast<double>(seed), 26};
+    plan.slip_share = 0.35;
+    FieldWorld world(field_config(), plan, seed);
+    EXPECT_EQ(world.drive(field_rows(1, 40), 300).outside_s, 0) << seed;
+  }
+}
+
+/// A fix that is lost while they slip says nothing against it.
+TEST(WheelsThatSlip, EndNoTaskWhenTheFixIsLostForAMoment) {
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    FieldPlan plan;
+    plan.gst = seed % 2 == 0;
+    plan.slip_s = {15, 22};
+    plan.slip_share = 0.28;
+    plan.float_s = {17, 17.5 + 0.2 * static_cast<double>(seed)};
+    FieldWorld world(field_config(), plan, seed);
+    const Judgement end = world.drive(field_rows(1, 40), 300);
+    EXPECT_TRUE(end.success) << seed << ": " << end.words;
+    EXPECT_EQ(end.outside_s, 0) << seed;
+  }
+}
+
+/// 5 cm for good, and nothing that could decide it: both places are inside of the corridor.
+TEST(AnotherIntegerSolution, EndsNoTaskWhereBothPlacesAreInsideOfTheCorridor) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    FieldPlan plan;
+    plan.gst = true;
+    plan.step_s = {15, INFINITY};
+    plan.step_m = 0.06 + 0.02 * static_cast<double>(seed);
+    plan.step_rad = 1.3 * static_cast<double>(seed);
+    FieldWorld world(field_config(), plan, seed);
+    const Judgement end = world.drive(field_rows(2, 40), 400);
+    EXPECT_TRUE(end.success) << seed << ": " << end.words;
+    EXPECT_EQ(end.outside_s, 0) << seed;
+    EXPECT_EQ(end.beyond_s, 0) << seed;
+  }
+}
+
+/// The fix that is found again holds a minute: longer than navigate.locate_timeout_s by a little.
+TEST(AFixThatIsFoundElsewhere, EndsNoTaskThatWaitsUntilItIsDecided) {
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    FieldPlan plan;
+    plan.float_s = {15, 18};
+    plan.slip_s = {15, 18};
+    plan.slip_share = 0.35;
+    FieldWorld world(field_config(), plan, seed);
+    const Judgement end = world.drive(field_rows(1, 40), 400);
+    EXPECT_TRUE(end.success) << seed << ": " << end.words;
+    EXPECT_EQ(end.outside_s, 0) << seed;
+  }
+}
+
+/// 15 cm off in any direction after a float.
+TEST(AFixThatIsFoundElsewhere, IsNotBelievedAtOnce) {
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    FieldPlan plan;
+    plan.gst = true;
+    plan.float_s = {15, 18};
+    plan.step_s = {16, 36};
+    plan.step_m = 0.15;
+    plan.step_rad = 1.05 * static_cast<double>(seed);
+    FieldWorld world(field_config(), plan, seed);
+    const Judgement end = world.drive(field_rows(1, 40), 400);
+    EXPECT_TRUE(end.success) << seed << ": " << end.words;
+    EXPECT_EQ(end.outside_s, 0) << seed;
+  }
+}
+
+/// What they lost on the straight is beside the track in the turn behind it.
+TEST(WheelsThatSlipInAnOutage, TakeNothingOutOfTheCorridorInTheNextTurn) {
+  double driven_m = 0;
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    FieldPlan plan;
+    plan.outage_s = {36, 66};
+    plan.slip_s = {37, 44};
+    plan.slip_share = 0.34;
+    FieldWorld world(field_config(), plan, seed);
+    const auto watch = [&](const Snapshot&, const Pose& truth, double since_s) {
+      if (plan.outage_s.holds(since_s)) driven_m += truth.vx_mps * 0.005 / 4;
+    };
+    const Judgement end = world.drive(field_rows(2, 20), 300, watch);
+    EXPECT_EQ(end.outside_s, 0) << seed;
+    EXPECT_EQ(end.beyond_s, 0) << seed;
+  }
+  EXPECT_GT(driven_m, 3) << "the straight it drives on";
+}
+
 }  // namespace
 }  // namespace drover

@@ -17,12 +17,12 @@ constexpr double kNoise_m = 0.0125;
 
 class ADispute : public testing::Test {
  protected:
-  ADispute() { dispute.begin({0.08, 0}, now); }
+  ADispute() { dispute.begin({0.08, 0}, now, false); }
   /// A fix each tenth of a second, for `seconds`, or until it is decided.
   Verdict hear(const Offset& offset, double for_s, double two_sigma_m = kWell_m) {
     for (double s = 0; s < for_s - 0.05; s += 0.1) {
       now += milliseconds(100);
-      const Verdict verdict = dispute.hear(offset, true, two_sigma_m, kNoise_m, now);
+      const Verdict verdict = dispute.hear(offset, true, two_sigma_m, kNoise_m, true, false, now);
       if (verdict != Verdict::undecided) return verdict;
     }
     return Verdict::undecided;
@@ -71,10 +71,64 @@ TEST_F(ADispute, WaitsAnotherMinuteForAFixThatMoved) {
   EXPECT_EQ(hear({0.20, 0}, 2), Verdict::renewed);
 }
 
+TEST_F(ADispute, CountsOnWhenTheNewFixIsLostForAMomentAndFoundWhereItWas) {
+  dispute.lose_fix();
+  EXPECT_EQ(hear({0.08, 0}, 40), Verdict::undecided);
+  dispute.lose_fix();
+  now += seconds(2);
+  EXPECT_EQ(hear({0.08, 0}, 19), Verdict::undecided);
+  EXPECT_EQ(hear({0.08, 0}, 2), Verdict::renewed);
+}
+
+TEST_F(ADispute, WaitsAnotherMinuteForAFixThatJumpsHoweverFarItWentMeanwhile) {
+  dispute.lose_fix();
+  EXPECT_EQ(hear({0.08, 0}, 50), Verdict::undecided);
+  dispute.advance(30);
+  EXPECT_EQ(hear({0.08, 0}, 1), Verdict::undecided);
+  EXPECT_EQ(hear({0.38, 0}, 20), Verdict::undecided);
+}
+
 TEST_F(ADispute, CountsSilenceAsALoss) {
   EXPECT_EQ(hear({0.08, 0}, 5), Verdict::undecided);
   now += seconds(3);
   EXPECT_EQ(hear({0.08, 0}, 61), Verdict::renewed);
+}
+
+TEST_F(ADispute, CountsALossJustBeforeItBegan) {
+  dispute.begin({0.15, 0}, now, true);
+  EXPECT_EQ(hear({0.15, 0}, 59.5), Verdict::undecided);
+  EXPECT_EQ(dispute.decided_at(), kBegin + milliseconds(60100));
+  EXPECT_EQ(hear({0.15, 0}, 1), Verdict::renewed);
+}
+
+TEST_F(ADispute, WithoutALossIsNotDecidedByWaiting) {
+  hear({0.08, 0}, 5);
+  EXPECT_EQ(dispute.decided_at(), kNever);
+}
+
+TEST_F(ADispute, TellsHowDeadReckoningGoesOnByPositionsThatKeepTheirDistance) {
+  EXPECT_EQ(hear({0.08, 0}, 0.9), Verdict::undecided);
+  EXPECT_FALSE(dispute.steady());
+  EXPECT_EQ(hear({0.08, 0}, 0.5), Verdict::undecided);
+  EXPECT_EQ(hear({0.10, 0.01}, 0.1), Verdict::undecided);
+  ASSERT_TRUE(dispute.steady());
+  EXPECT_NEAR(dispute.astray().east_m, 0.02, 1e-9);
+  dispute.put_right(dispute.astray());
+  EXPECT_NEAR(dispute.apart_m(), 0.08, 1e-9);
+  EXPECT_EQ(hear({0.20, 0}, 0.5), Verdict::undecided);
+  EXPECT_FALSE(dispute.steady()) << "it jumped again";
+  EXPECT_EQ(hear({0.20, 0}, 3), Verdict::undecided);
+  EXPECT_TRUE(dispute.steady());
+  EXPECT_NEAR(dispute.astray().east_m, 0, 1e-9);
+}
+
+/// What is put right step by step is no agreement.
+TEST_F(ADispute, WaitsAnotherMinuteForAFixThatCreepsAway) {
+  dispute.lose_fix();
+  for (int i = 0; i < 70; ++i) {
+    EXPECT_EQ(hear({0.08 + 0.005, 0}, 1), Verdict::undecided) << i;
+    dispute.put_right({0.005, 0});
+  }
 }
 
 TEST_F(ADispute, TellsHowFarThePlacesAreApart) {

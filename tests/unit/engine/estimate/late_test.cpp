@@ -78,11 +78,37 @@ TEST_F(AnAntenna, IsLateByWhatShowsWhenTheSpeedChanges) {
   drive(0, 0, 3);
   EXPECT_NEAR(fit.late_sigma_s(), config.gnss_late_sigma_s, 0.02) << "at rest nothing tells";
   drive(0.5, 0, 6);
-  EXPECT_TRUE(fit.late_known());
-  EXPECT_NEAR(fit.late_s(), 0.2, 3 * fit.late_sigma_s());
+  EXPECT_NEAR(fit.late_used_s(), 0.2, 0.04);
+  EXPECT_NEAR(fit.late_s(), 0.2, fit.late_doubt_s());
+  EXPECT_FALSE(fit.late_known()) << "once is no proof";
   rows();
+  EXPECT_TRUE(fit.late_known());
   EXPECT_NEAR(fit.late_s(), 0.2, 0.03);
   EXPECT_FALSE(fit.arm_wrong());
+}
+
+TEST_F(AnAntenna, IsNotLateBecauseItsWheelsSlippedAtAStart) {
+  drive(0, 0, 3);
+  told_share = 1.2;
+  drive(0.5, 0, 3);
+  told_share = 1;
+  drive(0.5, 0, 6);
+  EXPECT_FALSE(fit.late_known());
+  EXPECT_LT(fit.late_s(), 4 * fit.late_doubt_s()) << "the bound has room for it";
+  rows();
+  EXPECT_NEAR(fit.late_s(), 0, 0.06);
+  rows();
+  EXPECT_NEAR(fit.late_s(), 0, 0.03);
+}
+
+TEST_F(AnAntenna, IsLearnedOfNothingThatASuspicionFollows) {
+  drive(0, 0, 3);
+  told_share = 1.3;
+  drive(0.5, 0, 2);
+  fit.pause();
+  told_share = 1;
+  drive(0.5, 0, 6);
+  EXPECT_NEAR(fit.late_s(), 0, 0.01);
 }
 
 TEST_F(AnAntenna, IsElsewhereByWhatShowsInTurns) {
