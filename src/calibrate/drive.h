@@ -46,6 +46,7 @@ struct Configured {
   double antenna_y_m = 0;
   double heading_baseline_offset_deg = 0;  ///< of the antenna line from ahead, clockwise
   double drive_lag_s = 0.12;
+  bool skids = false;  ///< wheels that skid in a turn: about which point, no drive shows
 };
 
 }  // namespace drover::calibrate

@@ -17,7 +17,9 @@ constexpr double kMoves_mps = 0.05;
 constexpr double kWobble_mps = 0.1;
 constexpr double kBothWays_rad = kPi;  // to each side, at least
 constexpr double kStraight_m = 8;      // at least, to tell a direction
-constexpr double kSigmas = 2.4;        // of the interval: few pieces tell how it scatters
+/// Wheels that skid turn the base about a point that may lie so far ahead of base_link or behind.
+constexpr double kSkids_m = 0.05;
+constexpr double kSigmas = 2.4;  // of the interval: few pieces tell how it scatters
 
 constexpr const char* kCircles = "drive a left and a right circle";
 constexpr const char* kStraightOn = "drive 20 m straight, there and back";
@@ -114,13 +116,15 @@ class Judge final {
 
   void arm() {
     const std::string advice = std::string(kCircles) + ", and " + kDriveSpeeds;
+    const Limits across{0.003, 0.06};
+    const Limits along = e_.configured.skids ? Limits{kSkids_m, 0.08} : across;
     for (const auto& [what, number, is] :
          {std::tuple{Quantity::antenna_x_m, kArmX, e_.configured.antenna_x_m},
           std::tuple{Quantity::antenna_y_m, kArmY, e_.configured.antenna_y_m}}) {
       if (!turned_both_ways()) {
         refuse(what, one_way(e_.facts));
       } else {
-        tell(what, e_.fit.value[number], sigma(number), {0.003, 0.06}, advice);
+        tell(what, e_.fit.value[number], sigma(number), number == kArmX ? along : across, advice);
       }
       configured(is);
     }

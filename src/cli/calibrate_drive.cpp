@@ -59,6 +59,7 @@ calibrate::Configured configured_of(const engine::EngineConfig& config) {
   configured.antenna_y_m = config.estimate.antenna_y_m;
   configured.heading_baseline_offset_deg = config.estimate.heading_baseline_offset_deg;
   configured.drive_lag_s = config.navigate.drive_lag_s;
+  configured.skids = config.base.kind == engine::BaseKind::skid_steer;
   return configured;
 }
 

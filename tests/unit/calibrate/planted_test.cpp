@@ -176,5 +176,18 @@ TEST(PlantedErrors, AreFoundWithoutAGyroAndWithOneAntenna) {
   expect_found(scores, kLeastWithin / 2);
 }
 
+TEST(PlantedErrors, AnAntennasXIsOnlyKnownFromThePointThatWheelsSkidAbout) {
+  Configured configured;
+  const Planted nothing;
+  const Drive drive = SimulatedDrive(nothing, configured, 1, {}).drive(good_legs());
+  const double sharp = calibrate(drive, configured).of(Quantity::antenna_x_m).interval;
+  configured.skids = true;
+  const Calibration skids = calibrate(drive, configured);
+  EXPECT_LT(sharp, 0.02);
+  EXPECT_EQ(skids.of(Quantity::antenna_x_m).refused, "");
+  EXPECT_GE(skids.of(Quantity::antenna_x_m).interval, 0.05);
+  EXPECT_LT(skids.of(Quantity::antenna_y_m).interval, 0.02);
+}
+
 }  // namespace
 }  // namespace drover::calibrate
