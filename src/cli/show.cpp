@@ -66,13 +66,20 @@ void show_joint_commands(std::string& out, const Node& status) {
   line(out, "joints", reason.empty() ? value : value + ": " + reason);
 }
 
+/// A yaw that nobody knows yet is no number.
+std::string shown_yaw(const Node& pose) {
+  constexpr double kKnown_rad = 0.5;  // of one sigma
+  const auto sigma_rad = at(pose, "yaw_sigma_rad").number();
+  return sigma_rad && *sigma_rad < kKnown_rad ? quantity(at(pose, "yaw_rad"), "%.3f rad") : "-";
+}
+
 void show_place(std::string& out, const Node& status) {
   const auto& pose = at(status, "pose");
   // Before the first fix the pose counts from where droverd was started: that is no place.
   if (at(pose, "position_sigma_m").number().has_value()) {
     line(out, "pose",
          quantity(at(pose, "x_m"), "x %.2f m") + quantity(at(pose, "y_m"), "  y %.2f m") +
-             quantity(at(pose, "yaw_rad"), "  yaw %.3f rad") +
+             "  yaw " + shown_yaw(pose) +
              quantity(at(pose, "position_sigma_m"), "  +- %.3f m"));
   } else {
     line(out, "pose", "-");

@@ -286,6 +286,20 @@ TEST(StatusInShort, ShowsADashForWhatWasNeverHeardAndNoNumbers) {
     }
 }
 
+TEST(StatusInShort, TellsNoYawBeforeOneIsKnown) {
+  Snapshot s;
+  s.time = kNow;
+  s.pose.time = kNow;
+  s.pose.position_sigma_m = 0.012;
+  const auto pose = [&s](double yaw_sigma_rad) {
+    s.pose.yaw_sigma_rad = yaw_sigma_rad;
+    const auto document = json::parse(publish::status_json(s, {}));
+    return document ? show_status(document->root) : std::string();
+  };
+  EXPECT_NE(pose(0.01).find("  yaw 0.000 rad  +- 0.012 m"), std::string::npos) << pose(0.01);
+  EXPECT_NE(pose(kPi).find("  yaw -  +- 0.012 m"), std::string::npos) << pose(kPi);
+}
+
 TEST_F(StatusViews, CarryEveryCounter) {
   const auto count = [this](const char* part, const char* key) {
     return status.find(part)->find(key)->integer().value_or(-1);
