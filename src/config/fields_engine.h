@@ -138,8 +138,10 @@ template <class V>
 void visit(V& v, engine::EstimateConfig& c) {
   v.number("bound_start_m", c.bound_start_m, Range{0.01, 10},
            "largest predicted position error (two sigma) to start with");
-  v.number("bound_run_m", c.bound_run_m, Range{0.01, 10},
-           "largest predicted position error (two sigma) to drive with");
+  v.number(
+      "bound_run_m", c.bound_run_m, Range{0.01, 10},
+      "largest predicted position error (two sigma) to drive with; while two places contradict "
+      "each other, of dead reckoning: both have to be inside of navigate.corridor_m");
   v.number("bound_yaw_deg", c.bound_yaw_deg, Range{0.5, 45},
            "largest predicted heading error (two sigma)");
   v.number("max_measurement_delay_s", c.max_measurement_delay_s, Range{0.05, 1},

@@ -77,7 +77,8 @@ struct EstimateConfig {
   /// people, four sigma, then just has room for all that can be learned. 0: it was calibrated.
   double heading_mount_sigma_deg = 1.2;
   double max_correction_age_s = 30.0;  ///< an older RTK fix counts as float
-  // The predicted error (two sigma, larger axis) inside which the position counts as good.
+  // The predicted error (two sigma, larger axis) inside which the position counts as good. Of two
+  // places that contradict each other: of dead reckoning; both have to be inside of the corridor.
   double bound_start_m = 0.10;
   double bound_run_m = 0.25;
   double bound_yaw_deg = 5.0;

@@ -105,11 +105,11 @@ void AntennaFit::learn(const Stretch& stretch, const EstimateConfig& config) {
 void AntennaFit::note_change(const Stretch& stretch) {
   const AntennaPoint& from = stretch.from;
   const AntennaPoint& to = stretch.to;
-  const double slower_mps = std::hypot(from.vx_mps, from.vy_mps) - std::hypot(to.vx_mps, to.vy_mps);
-  const bool straight = stretch.turn_rad < kHardlyTurns_rad;
-  if (!straight || std::abs(slower_mps) < kChange_mps) return;
   const double c = std::cos(to.yaw_rad);
   const double s = std::sin(to.yaw_rad);
+  const double slower_mps = (from.vx_mps - to.vx_mps) * c + (from.vy_mps - to.vy_mps) * s;
+  const bool straight = stretch.turn_rad < kHardlyTurns_rad;
+  if (!straight || std::abs(slower_mps) < kChange_mps) return;
   const double seen_m = (to.x_m - from.x_m - (to.arm_x_m - from.arm_x_m)) * c +
                         (to.y_m - from.y_m - (to.arm_y_m - from.arm_y_m)) * s;
   const double rolled_m = stretch.east_m * c + stretch.north_m * s;
@@ -119,23 +119,34 @@ void AntennaFit::note_change(const Stretch& stretch) {
   if (last.at != kNever && to.time - last.at < kOtherChange) return;
   changes_[next_change_] = {to.time, late_s};
   next_change_ = (next_change_ + 1) % changes_.size();
+  judge_changes();
+  // One of both was none: it is open again.
+  if (!proved_ && std::abs(late_s - mean_[kLate]) > kAgree_s)
+    covariance_[kLate][kLate] = square(late_doubt_s());
+}
+
+/// Most of them agree, with each other and with what was learned.
+void AntennaFit::judge_changes() {
   std::size_t heard = 0;
   std::size_t agree = 0;
+  double middle_s = 0;
   for (const Change& change : changes_) {
     if (change.at == kNever) continue;
     ++heard;
     std::size_t with = 0;
     for (const Change& other : changes_)
       with += other.at != kNever && std::abs(other.late_s - change.late_s) < kAgree_s ? 1 : 0;
+    if (with > agree) middle_s = change.late_s;
     agree = std::max(agree, with);
   }
-  proved_ = agree >= kMustAgree && 2 * agree > heard;
-  // One of both was none: it is open again.
-  if (!proved_ && std::abs(late_s - mean_[kLate]) > kAgree_s)
-    covariance_[kLate][kLate] = square(late_doubt_s());
+  proved_ =
+      agree >= kMustAgree && 2 * agree > heard && std::abs(middle_s - mean_[kLate]) < kAgree_s;
 }
 
 void AntennaFit::recall_late(double late_s, double sigma_s) {
+  // What proved it then counts like changes of speed that were seen now.
+  for (next_change_ = 0; next_change_ < kMustAgree; ++next_change_)
+    changes_[next_change_] = {Time{}, late_s};
   proved_ = true;
   mean_[kLate] = late_s;
   covariance_[kLate][kLate] = square(sigma_s);

@@ -83,6 +83,7 @@ class AntennaFit final {
 
   void learn(const Stretch& stretch, const EstimateConfig& config);
   void note_change(const Stretch& stretch);
+  void judge_changes();
   double variance_of(const Row& row) const;
   void correct(const Row& row, double measured_m, double variance_m2);
   /// The arm is another than before, perhaps: it was knocked, or learned wrong.

@@ -19,6 +19,7 @@ constexpr double kSamePlace = 4.0;     // sigmas of a position
 constexpr double kWheelsAgree = 0.03;  // of the way
 constexpr double kHeld_m = 0.06;       // so near positions keep their distance
 constexpr double kHeldSigmas = 5.0;
+constexpr double kLeads_m = 0.2;  // beside what slips: more is a receiver that drifts
 
 Dispute::Offset plus(const Dispute::Offset& a, const Dispute::Offset& b) {
   return {a.east_m + b.east_m, a.north_m + b.north_m};
@@ -55,6 +56,25 @@ void Dispute::put_right(const Offset& by) {
   late_ = minus(late_, by);
   last_ = minus(last_, by);
   put_right_ = plus(put_right_, by);
+}
+
+void Dispute::advance(double east_m, double north_m) {
+  const double way_m = std::hypot(east_m, north_m);
+  way_m_ += way_m;
+  unheard_m_ += way_m;
+  gone_.advance(east_m, north_m);
+}
+
+double Dispute::led_aside_m(double yaw_rad) const {
+  return std::abs(put_right_.north_m * std::cos(yaw_rad) - put_right_.east_m * std::sin(yaw_rad));
+}
+
+bool Dispute::may_lead(double yaw_rad, double slip_share) const {
+  const double along_m =
+      std::abs(put_right_.east_m * std::cos(yaw_rad) + put_right_.north_m * std::sin(yaw_rad));
+  const double least_m = std::min(kHeld_m + kWheelsAgree * gone_.way_m, kLeads_m);
+  return along_m <= least_m + slip_share * gone_.way_m &&
+         led_aside_m(yaw_rad) <= least_m + slip_share * gone_.aside_m(yaw_rad);
 }
 
 Time Dispute::decided_at() const {
@@ -118,18 +138,21 @@ Dispute::Verdict Dispute::hear(const Offset& offset, bool inside, double two_sig
   if (now - heard_ > kGone) lose_fix();
   const Duration since = held_since_ == kNever ? Duration{} : now - heard_;
   heard_ = now;
+  const Offset before = plus(last_, put_right_);
   last_ = offset;
   if (inside && came_back(offset, two_sigma_m, now)) return Verdict::came_back;
   follow(offset, now);
   hold(offset, noise_m, settled, now);
   if (!found_again_) return Verdict::undecided;
   const Offset by_wheels = plus(offset, put_right_);
-  const bool holds = may_hold(by_wheels, std::hypot(kSamePlace * noise_m, two_sigma_m));
+  const double allowed_m = std::hypot(kSamePlace * noise_m, two_sigma_m);
+  const bool holds = may_hold(by_wheels, allowed_m);
+  const bool elsewhere = minus(by_wheels, before).m() > std::max(allowed_m, kHeld_m);
   by_wheels_ = by_wheels;
   unheard_m_ = 0;
   held_for_ += since;
   if (!holds) {
-    moved_at_rest_ = moved_at_rest_ || (renews_ && stands);
+    moved_at_rest_ = moved_at_rest_ || (stands && (renews_ || elsewhere));
     renews_ = true;
     held_for_ = {};
     renewed_at_ = by_wheels;

@@ -4,6 +4,7 @@
 
 #include "drover/time.h"
 #include "engine/config.h"
+#include "engine/estimate/unseen_way.h"
 
 namespace drover::engine::estimate {
 
@@ -39,13 +40,16 @@ class Dispute final {
   /// goes on: they do, and dead reckoning has gone astray by so much since.
   bool steady() const { return steady_; }
   Offset astray() const;
+  /// As long as wheels that slip by `slip_share`, and what wheels and heading err by otherwise,
+  /// explain what it was put right by in all. Positions that lead it farther wander themselves.
+  bool may_lead(double yaw_rad, double slip_share) const;
   /// Dead reckoning was put right by so much.
   void put_right(const Offset& by);
+  /// By so much in all, m; and how much of it is aside of who has this heading.
+  double led_m() const { return put_right_.m(); }
+  double led_aside_m(double yaw_rad) const;
   /// The base went so far, by its wheels.
-  void advance(double way_m) {
-    way_m_ += way_m;
-    unheard_m_ += way_m;
-  }
+  void advance(double east_m, double north_m);
   /// When it is decided at the latest if all stays as it is; kNever: not by waiting.
   Time decided_at() const;
   bool moved_at_rest() const { return moved_at_rest_; }
@@ -75,6 +79,7 @@ class Dispute final {
   int held_count_ = 0;
   bool steady_ = false;
   Offset put_right_;            ///< in all
+  UnseenWay gone_;              ///< since it began
   double way_m_ = 0;            ///< since a new fix holds
   double unheard_m_ = 0;        ///< since the last position
   Offset by_wheels_;            ///< from where wheels and gyro alone have it, by the last position

@@ -267,7 +267,8 @@ void Estimator::reckon(State& state, const BodyMotion& body, const GyroMotion& g
   state.reckoned.east_m += east_m;
   state.reckoned.north_m += north_m;
   if (!body.standing) state.unseen.advance(east_m, north_m);
-  state.gnss.dispute.advance(std::hypot(east_m, north_m));
+  state.gnss.dispute.advance(east_m, north_m);
+  state.gnss.corrected_way_m += std::hypot(east_m, north_m);
   if (!body.known || gyro.pushed) {
     state.way_unknown = true;
     state.fit.pause();

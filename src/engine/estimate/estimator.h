@@ -34,6 +34,8 @@ struct Estimate {
   double unseen_way_m = 0;
   double unseen_slip_m = 0;  ///< what is in error_bound_m of it
   double unseen_aside_m = 0;
+  double unseen_ahead_m = 0;  ///< likewise ahead, by the way that led against its heading
+  double unseen_behind_m = 0;
   double yaw_error_rad = kAbsent;  ///< two sigma
   bool way_heals = false;          ///< RTK fixes come and no heading: only way driven tells it
   BodyMotion body;                 ///< as the base tells it, nothing learned applied

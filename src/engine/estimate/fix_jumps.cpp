@@ -19,7 +19,7 @@ constexpr double kReckonedWell_m = 0.1;
 // So many times fix_settle_s after it was found again a fix is what it will be.
 constexpr double kSettles = 3.0;
 constexpr double kSlippedAside_m = 0.05;
-constexpr Duration kFixGone = std::chrono::seconds(1);
+constexpr Duration kFixGone = std::chrono::seconds(2);  // some receivers tell one a second
 constexpr double kSways = 0.1;  // of the variance by tilt and timing: most of that stays the same
 
 /// A fix that was just found again, on a base that drives: it may be another integer solution, and
@@ -89,7 +89,8 @@ bool slipped_meanwhile(const State& state, const Dispute::Offset& beside,
   const double share = config.unseen_slip_share;
   const double behind_m = -(beside.east_m * c + beside.north_m * s);
   const double aside_m = std::abs(beside.north_m * c - beside.east_m * s);
-  return behind_m > -known_m && behind_m <= share * state.unseen.way_m + known_m &&
+  return behind_m >= -share * state.unseen.against_m(yaw_rad) - known_m &&
+         behind_m <= share * state.unseen.in_m(yaw_rad) + known_m &&
          aside_m <= share * state.unseen.aside_m(yaw_rad) + known_m;
 }
 
@@ -122,6 +123,7 @@ FixVerdict judge_jump(State& state, const FixBeside& fix, const EstimateConfig& 
   if (again && !jumped) gnss.unconfirmed_m = 0;
   if (!jumped) return FixVerdict::plain;
   gnss.dispute.begin(fix.offset, state.time, slipped_meanwhile(state, fix.offset, config));
+  state.fit.pause();
   return FixVerdict::doubted;
 }
 

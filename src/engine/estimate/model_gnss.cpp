@@ -169,8 +169,10 @@ bool refuse(State& state, const AntennaPosition& position, const Dispute::Offset
     gnss.place_y_m = position.y_m;
   }
   const Duration patience = from_s(config.jump_time_s);
-  if (fixed && gnss.jumps.began_moving() && gnss.jumps.disagrees(patience))
+  if (fixed && gnss.jumps.began_moving() && gnss.jumps.disagrees(patience)) {
     gnss.dispute.begin(beside, gnss.jumps.since(), slipped_meanwhile(state, beside, config));
+    state.fit.pause();
+  }
   return standing && gnss.jumps.settled(patience);
 }
 
@@ -210,10 +212,11 @@ void rest_on(State& state, const AntennaPosition& position, const EstimateConfig
 
 /// Whichever of two places is right: positions that keep their distance to dead reckoning tell how
 /// that goes on, and where it is it is known as well as when they began to.
-void go_beside(State& state) {
+void go_beside(State& state, const EstimateConfig& config) {
   GnssTrack& gnss = state.gnss;
   Belief& belief = state.belief;
-  if (!gnss.dispute.steady()) {
+  const bool leads = gnss.dispute.may_lead(belief.mean[kYaw], config.unseen_slip_share);
+  if (!gnss.dispute.steady() || !leads) {
     gnss.disputed_xx_m2 = belief.covariance[kX][kX];
     gnss.disputed_yy_m2 = belief.covariance[kY][kY];
     gnss.disputed_unseen = state.unseen;
@@ -319,7 +322,7 @@ void apply(State& state, const AntennaPosition& measured, double speed_mps,
     switch (judge_jump(state, {{dx, dy}, inside, near, fix.sigma_m, extra, speed_mps}, config)) {
       case FixVerdict::plain: break;
       case FixVerdict::waits: return;
-      case FixVerdict::doubted: ++state.refused; return go_beside(state);
+      case FixVerdict::doubted: ++state.refused; return go_beside(state, config);
       case FixVerdict::renewed: return place_anew(state, position, {arm_x, arm_y}, place_variance);
     }
   }
@@ -341,7 +344,9 @@ void apply(State& state, const AntennaPosition& measured, double speed_mps,
     watch_drift(state.watch, state.mounting, belief, fix, state.time, ground_of(state, config),
                 config);
   }
-  const double scale_most = state.watch.slipping() ? 0.0 : kScalePerMetre * state.unseen.way_m;
+  const double scale_most =
+      state.watch.slipping() ? 0.0 : kScalePerMetre * state.gnss.corrected_way_m;
+  state.gnss.corrected_way_m = 0;
   rest_on(state, position, config);
   if (fixed) {
     const double left = std::max(left_after(belief, row_x, kX, variance_x),

@@ -106,6 +106,7 @@ void Estimator::report_learned(const State& state) {
   if (!arm_wrong || !state.has_position) return;
   const double off_m = std::hypot(e.arm_ahead_m, e.arm_left_m);
   e.predicted_error_m = std::max(e.predicted_error_m, off_m);
+  e.own_error_m = std::max(e.own_error_m, off_m);
   e.error_bound_m += off_m;
 }
 
@@ -130,15 +131,18 @@ void Estimator::report_trouble(const State& state, Time now) {
   e.slipped_m = watch.slipping() ? watch.slipped_m + std::abs(watch.last_gap_m) : 0;
   // One of the two is wrong, and nobody knows which: the error may be all that lies between them.
   if (state.has_position) {
-    e.own_error_m = e.predicted_error_m;
+    const double gap_m = watch.slipping() ? std::abs(watch.last_gap_m) : 0;
+    e.own_error_m = std::max(e.predicted_error_m, gap_m);
     double apart_m = 0;
     if (places.disagrees(kContradicted)) apart_m = state.gnss.contradiction_m;
-    if (dispute.holds() && now - dispute.since() >= kContradicted) apart_m = dispute.apart_m();
+    // Positions that led dead reckoning meanwhile may have wandered themselves.
+    if (dispute.holds() && now - dispute.since() >= kContradicted)
+      apart_m = dispute.apart_m() + dispute.led_aside_m(e.pose.yaw_rad);
     if (drifted) apart_m = std::max(apart_m, watch.drift_m);
-    if (watch.slipping()) apart_m = std::max(apart_m, std::abs(watch.last_gap_m));
-    e.predicted_error_m = std::max(e.predicted_error_m, apart_m);
+    e.predicted_error_m = std::max(e.own_error_m, apart_m);
     // Less than that is no contradiction, but may well be the beginning of one.
-    if (dispute.holds()) apart_m = std::max(apart_m, dispute.apart_m());
+    if (dispute.holds()) apart_m = std::max(apart_m, dispute.apart_m() + dispute.led_m());
+    apart_m = std::max(apart_m, gap_m);
     if (places.running()) apart_m = std::max(apart_m, state.gnss.contradiction_m);
     if (state.gnss.replaced != kNever && now - state.gnss.replaced < kMayStepBack)
       apart_m = std::max(apart_m, state.gnss.replaced_m);
@@ -226,6 +230,8 @@ void Estimator::report_unseen(const State& state, double sure_m) {
   e.unseen_way_m = unseen.way_m;
   e.unseen_aside_m = config_.unseen_slip_share * unseen.aside_m(e.pose.yaw_rad);
   e.unseen_slip_m = config_.unseen_slip_share * unseen.way_m;
+  e.unseen_ahead_m = config_.unseen_slip_share * unseen.against_m(e.pose.yaw_rad);
+  e.unseen_behind_m = config_.unseen_slip_share * unseen.in_m(e.pose.yaw_rad);
   e.error_bound_m = sure_m + std::hypot(e.error_bound_m - sure_m, e.unseen_slip_m);
 }
 

@@ -62,6 +62,7 @@ struct GnssTrack {
   // A place that jumped while the base stood was believed then, so far from where it had been:
   Time replaced = kNever;
   double replaced_m = 0;
+  double corrected_way_m = 0;  ///< since a position corrected the place
 };
 
 struct HeadingTrack {

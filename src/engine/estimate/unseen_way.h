@@ -2,39 +2,44 @@
 // seen: a bound has to have room for it, because no source shows it before the next fix.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+
+#include "drover/angle.h"
 
 namespace drover::engine::estimate {
 
 struct UnseenWay {
-  double way_m = 0;  ///< either direction
+  double way_m = 0;   ///< in both gears
+  double east_m = 0;  ///< where it led in all
+  double north_m = 0;
   // Of it what led east, north and both at once: it sums up to the way.
   double ee_m = 0;
   double en_m = 0;
   double nn_m = 0;
 
   /// A step of dead reckoning.
-  void advance(double east_m, double north_m) {
-    const double long_m = std::hypot(east_m, north_m);
+  void advance(double step_east_m, double step_north_m) {
+    const double long_m = std::hypot(step_east_m, step_north_m);
     if (!(long_m > 0)) return;
     way_m += long_m;
-    ee_m += east_m * east_m / long_m;
-    en_m += east_m * north_m / long_m;
-    nn_m += north_m * north_m / long_m;
+    east_m += step_east_m;
+    north_m += step_north_m;
+    ee_m += step_east_m * step_east_m / long_m;
+    en_m += step_east_m * step_north_m / long_m;
+    nn_m += step_north_m * step_north_m / long_m;
   }
   /// Of an error along it so much is left.
-  void keep(double share) {
-    way_m *= share;
-    ee_m *= share;
-    en_m *= share;
-    nn_m *= share;
-  }
+  void keep(double share) { keep_since({}, share); }
   /// Of what came since `before` so much is left.
   void keep_since(const UnseenWay& before, double share) {
-    way_m = before.way_m + share * (way_m - before.way_m);
-    ee_m = before.ee_m + share * (ee_m - before.ee_m);
-    en_m = before.en_m + share * (en_m - before.en_m);
-    nn_m = before.nn_m + share * (nn_m - before.nn_m);
+    const auto keep = [share](double& now, double then) { now = then + share * (now - then); };
+    keep(way_m, before.way_m);
+    keep(east_m, before.east_m);
+    keep(north_m, before.north_m);
+    keep(ee_m, before.ee_m);
+    keep(en_m, before.en_m);
+    keep(nn_m, before.nn_m);
   }
   /// The most of it that may lead aside of who has this heading now: ahead of him none does.
   double aside_m(double yaw_rad) const {
@@ -42,6 +47,17 @@ struct UnseenWay {
     const double s = std::sin(yaw_rad);
     const double across_m = ee_m * s * s - 2 * en_m * s * c + nn_m * c * c;
     return across_m > 0 ? std::sqrt(way_m * across_m) : 0.0;
+  }
+  /// Of what went to and fro along this direction the part in it, and the part against it.
+  double in_m(double yaw_rad) const { return std::max(along_m(yaw_rad) + led_m(yaw_rad), 0.0) / 2; }
+  double against_m(double yaw_rad) const {
+    return std::max(along_m(yaw_rad) - led_m(yaw_rad), 0.0) / 2;
+  }
+
+ private:
+  double along_m(double yaw_rad) const { return aside_m(yaw_rad + kPi / 2); }
+  double led_m(double yaw_rad) const {
+    return east_m * std::cos(yaw_rad) + north_m * std::sin(yaw_rad);
   }
 };
 

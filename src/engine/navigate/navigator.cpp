@@ -267,16 +267,25 @@ bool Navigator::lost_too_long(const NavInput& input) const {
 /// the one where it is when wheels slipped before a turn, and nobody saw it.
 Reason Navigator::may_be_outside(const Estimate& estimate) const {
   Reason why;
-  if (!progress_.joined) return why;
+  if (!progress_.joined) {
+    // There is no corridor yet.
+    if (estimate.disputed && !(estimate.predicted_error_m <= config_.estimate.bound_run_m))
+      why = estimate.reason;
+    return why;
+  }
   const double off_m = std::abs(progress_.cross_track_m);
   const double corridor_m = config_.navigate.corridor_m;
-  const bool slipped_out = !(off_m + estimate.unseen_aside_m <= corridor_m);
+  // On a straight it is behind, on its line: on the way back, in whichever gear, it would leave the
+  // track at its end.
+  const double past_m = progress_.backwards ? estimate.unseen_behind_m : estimate.unseen_ahead_m;
+  const bool slipped_past = !(past_m <= corridor_m);
+  const bool slipped_out = slipped_past || !(off_m + estimate.unseen_aside_m <= corridor_m);
   const bool other_out = estimate.disputed && !(off_m + estimate.predicted_error_m <= corridor_m);
   if (!slipped_out && !other_out) return why;
   if (estimate.disputed) return estimate.reason;
-  why.format(
-      "%.1f m driven without an RTK fix: %.2f m beside the track here, had the wheels slipped",
-      estimate.unseen_way_m, estimate.unseen_aside_m);
+  why.format("%.1f m driven without an RTK fix: %.2f m %s the track here, had the wheels slipped",
+             estimate.unseen_way_m, slipped_past ? past_m : estimate.unseen_aside_m,
+             slipped_past ? "past the end of" : "beside");
   return why;
 }
 

@@ -153,5 +153,27 @@ TEST(WheelsThatSlipInAnOutage, TakeNothingOutOfTheCorridorInTheNextTurn) {
   EXPECT_GT(driven_m, 3) << "the straight it drives on";
 }
 
+/// Two places, and the one that the receiver tells wanders on to the side.
+TEST(AnotherIntegerSolution, ThatWandersMovesNothingBeyondWhatIsPublished) {
+  double driven_m = 0;
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    FieldPlan plan;
+    plan.gst = seed % 2 == 0;
+    plan.step_s = {15, INFINITY};
+    plan.step_m = 0.1;
+    plan.step_rad = kPi / 2;
+    plan.drift_m = {6, 60};
+    plan.drift_mps = 0.01 + 0.01 * static_cast<double>(seed);
+    FieldWorld world(field_config(), plan, seed);
+    const auto watch = [&](const Snapshot&, const Pose& truth, double since_s) {
+      if (since_s > 16) driven_m += truth.vx_mps * 0.005;
+    };
+    const Judgement end = world.drive(field_rows(1, 40), 400, watch);
+    EXPECT_EQ(end.outside_s, 0) << seed;
+    EXPECT_EQ(end.beyond_s, 0) << seed;
+  }
+  EXPECT_GT(driven_m, 6) << "it goes on until it may be outside of its corridor";
+}
+
 }  // namespace
 }  // namespace drover

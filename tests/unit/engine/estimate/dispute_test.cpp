@@ -83,7 +83,7 @@ TEST_F(ADispute, CountsOnWhenTheNewFixIsLostForAMomentAndFoundWhereItWas) {
 TEST_F(ADispute, WaitsAnotherMinuteForAFixThatJumpsHoweverFarItWentMeanwhile) {
   dispute.lose_fix();
   EXPECT_EQ(hear({0.08, 0}, 50), Verdict::undecided);
-  dispute.advance(30);
+  dispute.advance(30, 0);
   EXPECT_EQ(hear({0.08, 0}, 1), Verdict::undecided);
   EXPECT_EQ(hear({0.38, 0}, 20), Verdict::undecided);
 }
@@ -134,6 +134,46 @@ TEST_F(ADispute, WaitsAnotherMinuteForAFixThatCreepsAway) {
 TEST_F(ADispute, TellsHowFarThePlacesAreApart) {
   hear({0.3, 0.4}, 0.1);
   EXPECT_DOUBLE_EQ(dispute.apart_m(), 0.5);
+}
+
+constexpr double kSlip = 0.4;
+
+/// Wheels that slip lead it along; aside it errs by a few hundredths of the way.
+TEST_F(ADispute, LeadsDeadReckoningByNoMoreThanItErrs) {
+  EXPECT_TRUE(dispute.may_lead(0, kSlip));
+  dispute.put_right({0, 0.07});
+  EXPECT_FALSE(dispute.may_lead(0, kSlip)) << "at rest";
+  dispute.advance(2, 0);
+  EXPECT_TRUE(dispute.may_lead(0, kSlip));
+  dispute.put_right({-0.7, 0});
+  EXPECT_TRUE(dispute.may_lead(0, kSlip)) << "they slip by a third";
+  EXPECT_NEAR(dispute.led_m(), std::hypot(0.7, 0.07), 1e-9);
+  EXPECT_NEAR(dispute.led_aside_m(0), 0.07, 1e-9);
+  dispute.advance(50, 0);
+  dispute.put_right({0, 0.1});
+  EXPECT_TRUE(dispute.may_lead(0, kSlip));
+  dispute.put_right({0, 0.1});
+  EXPECT_FALSE(dispute.may_lead(0, kSlip)) << "a receiver that wanders";
+}
+
+TEST_F(ADispute, KnowsAFixThatIsFoundElsewhereByABaseThatStoodForOneThatWasCarried) {
+  const auto stand = [&](const Offset& offset, double for_s) {
+    Verdict last = Verdict::undecided;
+    for (double s = 0; s < for_s && last == Verdict::undecided; s += 0.1) {
+      now += milliseconds(100);
+      last = dispute.hear(offset, true, kWell_m, kNoise_m, true, true, now);
+    }
+    return last;
+  };
+  EXPECT_EQ(stand({0.08, 0}, 5), Verdict::undecided);
+  dispute.lose_fix();
+  EXPECT_EQ(stand({0.08, 0}, 5), Verdict::undecided);
+  EXPECT_FALSE(dispute.moved_at_rest());
+  dispute.begin({0.08, 0}, now, false);
+  EXPECT_EQ(stand({0.08, 0}, 5), Verdict::undecided);
+  dispute.lose_fix();
+  EXPECT_EQ(stand({0.5, 0.1}, 70), Verdict::renewed);
+  EXPECT_TRUE(dispute.moved_at_rest());
 }
 
 }  // namespace

@@ -87,6 +87,32 @@ TEST_F(AnAntenna, IsLateByWhatShowsWhenTheSpeedChanges) {
   EXPECT_FALSE(fit.arm_wrong());
 }
 
+TEST_F(AnAntenna, IsLateByAsMuchWhenItIsDrivenBackwards) {
+  late_s = 0.2;
+  drive(0, 0, 3);
+  for (int i = 0; i < 3; ++i) {
+    drive(-0.5, 0, 6);
+    drive(0, 0, 4);
+  }
+  EXPECT_TRUE(fit.late_known());
+  EXPECT_NEAR(fit.late_s(), 0.2, 0.03);
+}
+
+TEST_F(AnAntenna, KeepsADelayThatIsRecalledUntilSeveralChangesOfSpeedContradictIt) {
+  fit.recall_late(0.2, 0.006);
+  late_s = 0.2;
+  drive(0, 0, 3);
+  drive(0.5, 0, 6);
+  EXPECT_TRUE(fit.late_known());
+  late_s = 0;
+  for (int i = 0; i < 4; ++i) {
+    drive(0, 0, 4);
+    drive(0.5, 0, 6);
+  }
+  EXPECT_FALSE(fit.late_known());
+  EXPECT_NEAR(fit.late_s(), 0, 0.03);
+}
+
 TEST_F(AnAntenna, IsNotLateBecauseItsWheelsSlippedAtAStart) {
   drive(0, 0, 3);
   told_share = 1.2;
@@ -94,6 +120,7 @@ TEST_F(AnAntenna, IsNotLateBecauseItsWheelsSlippedAtAStart) {
   told_share = 1;
   drive(0.5, 0, 6);
   EXPECT_FALSE(fit.late_known());
+  EXPECT_LT(fit.late_s(), 0.15);
   EXPECT_LT(fit.late_s(), 4 * fit.late_doubt_s()) << "the bound has room for it";
   rows();
   EXPECT_NEAR(fit.late_s(), 0, 0.06);
