@@ -27,7 +27,8 @@ expect 0 'OK ] A.Test' 'tests that pass' "$passes; $passes"
 expect 0 'SKIPPED' 'a test that is skipped' "$run; echo '[  SKIPPED ] A.Test (1 ms)'"
 expect 0 '' 'a shard without tests' ':'
 expect 1 'FAILED  ] A.Test' 'a test that fails' "$run; echo '[  FAILED  ] A.Test (1 ms)'; exit 1"
-expect 1 'not done after 1 s, in A.Test (1000 ms)' 'a test that hangs' "$passes; $run; exec sleep 30"
+expect 1 'not done after 1 s, in A.Test (1000 ms)' 'a test that hangs' \
+  "$passes; $run; exec sleep 30"
 expect 1 '2 tests began, 1 ended, exit status 0 (0 ms)' 'a program that ends amid its tests' \
   "$passes; $run; exit 0"
 expect 1 '1 tests began, 0 ended, exit status 139 (0 ms)' 'a program that crashes' \
