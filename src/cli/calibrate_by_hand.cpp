@@ -81,6 +81,7 @@ class KeyTerminal final {
     return keys;
   }
   bool is_silent() const { return watch_.is_silent(monotonic_now()); }
+  bool answers() const { return watch_.answers(); }
   bool is_late() const { return watch_.is_late(monotonic_now()); }
   double delay_s() const { return to_s(watch_.delay(monotonic_now())); }
 
@@ -110,7 +111,7 @@ class Screen final {
     if (terminal.is_silent())
       std::fputs(": your terminal does not tell how late your keys come: they count for nothing",
                  stderr);
-    else if (terminal.is_late())
+    else if (terminal.answers() && terminal.is_late())
       std::fprintf(stderr, ": your keys come %.1f s late, and count for nothing",
                    terminal.delay_s());
     std::fputs("\033[K", stderr);

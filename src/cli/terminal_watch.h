@@ -37,6 +37,7 @@ class TerminalWatch final {
   bool is_late(Time now) const { return !answers_ || delay(now) > kMost; }
   /// It has had its time for a first answer.
   bool is_silent(Time now) const { return !answers_ && first_ != kNever && now - first_ > kFirst; }
+  bool answers() const { return answers_; }
   /// There and back.
   Duration delay(Time now) const {
     return asked_ != kNever && now - asked_ > took_ ? now - asked_ : took_;

@@ -249,9 +249,11 @@ TEST_F(CalibrationDriveProcess, WhatWasMeasuredIsJudgedWhenDroverdAnswersNoMore)
   hold_until_it_moves(*person);
   stop_daemon();
   ASSERT_TRUE(wait_until([&] { return person->status().has_value(); }));
-  EXPECT_EQ(person->status(), 1) << person->shown();
+  EXPECT_EQ(person->status(), 1);
+  ASSERT_TRUE(wait_until([&] {
+    return person->shown().find("positions with an RTK fix") != std::string::npos;
+  })) << person->shown();
   EXPECT_THAT(person->shown(), HasSubstr("the drive ends here"));
-  EXPECT_THAT(person->shown(), HasSubstr("positions with an RTK fix"));
 }
 TEST_F(CalibrationDriveProcess, EndsWithAKeyAndSaysWhatIsMissing) {
   start_all();
