@@ -138,7 +138,9 @@ void Recipe::look(const Moved& moved) {
                                        : turned_rad >= std::abs(piece.turn_rad);
   if (!there) return;
   ++at_;
-  stood_s_ = rolled_m_ = turned_rad_ = 0;
+  stood_s_ = rolled_m_ = 0;
+  // Where nobody looked in time it turned further: what follows begins with that.
+  turned_rad_ = proved_ ? turned_rad_ - piece.turn_rad : 0;
 }
 
 Twist Recipe::wanted() const {

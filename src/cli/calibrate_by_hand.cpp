@@ -52,8 +52,8 @@ class KeyTerminal final {
   KeyTerminal& operator=(const KeyTerminal&) = delete;
 
   struct Keys {
-    bool space = false;
-    bool quit = false;  ///< q, ^C, ^D, or the terminal is gone
+    Time space = kNever;  ///< when the key came, at the earliest; never: it did not
+    bool quit = false;    ///< q, ^C, ^D, or the terminal is gone
   };
   /// Waits for so long at most.
   Keys read(int wait_ms) {
@@ -61,25 +61,33 @@ class KeyTerminal final {
     if (const auto question = watch_.ask(monotonic_now()); !question.empty())
       keys.quit = ::write(STDIN_FILENO, question.data(), question.size()) < 0;
     pollfd fd{STDIN_FILENO, POLLIN, 0};
-    if (::poll(&fd, 1, wait_ms) <= 0) return keys;
+    // What is there already may have come at any time since the last look.
+    const bool waited = ::poll(&fd, 1, 0) == 0;
+    const Time at = waited || looked_ == kNever ? kNever : looked_;
+    const bool any = fd.revents != 0 || ::poll(&fd, 1, wait_ms) > 0;
+    looked_ = monotonic_now();
+    if (!any) return keys;
     std::array<char, 4096> typed{};
     const auto n = ::read(STDIN_FILENO, typed.data(), typed.size());
     keys.quit = keys.quit || n <= 0;
     for (ssize_t i = 0; i < n; ++i) {
       const char key = typed[static_cast<std::size_t>(i)];
       if (watch_.take(key, monotonic_now())) continue;
-      keys.space = keys.space || key == ' ';
+      if (key == ' ') keys.space = at == kNever ? looked_ : at;
       keys.quit = keys.quit || key == 'q' || key == 'Q' || key == '\x03' || key == '\x04';
     }
     // Let go, perhaps, and nobody here knows yet.
-    keys.space = keys.space && !is_late();
+    if (is_late()) keys.space = kNever;
     return keys;
   }
+  bool is_silent() const { return watch_.is_silent(monotonic_now()); }
+  bool answers() const { return watch_.answers(); }
   bool is_late() const { return watch_.is_late(monotonic_now()); }
   double delay_s() const { return to_s(watch_.delay(monotonic_now())); }
 
  private:
   termios before_{};
+  Time looked_ = kNever;
   TerminalWatch watch_;
 };
 
@@ -100,7 +108,10 @@ class Screen final {
     if (drive.recipe().at() != piece_) std::fputs("\n", stderr);
     piece_ = drive.recipe().at();
     std::fprintf(stderr, "\r%s", drive.line().c_str());
-    if (terminal.is_late())
+    if (terminal.is_silent())
+      std::fputs(": your terminal does not tell how late your keys come: they count for nothing",
+                 stderr);
+    else if (terminal.answers() && terminal.is_late())
       std::fprintf(stderr, ": your keys come %.1f s late, and count for nothing",
                    terminal.delay_s());
     std::fputs("\033[K", stderr);
@@ -135,9 +146,8 @@ config::Loaded configuration_of(Connection& daemon, std::string& problem) {
   return loaded;
 }
 
-/// Until it has ended, or the person ends it.
-void drive(Connection& daemon, CalibrationDrive& it, bool twist_base) {
-  KeyTerminal terminal;
+/// Until it has ended, or the person ends it. Throws NoAnswer.
+void drive_on(Connection& daemon, KeyTerminal& terminal, CalibrationDrive& it, bool twist_base) {
   const auto ask_values = request("drive_values");
   Screen screen(twist_base);
   while (!it.ended()) {
@@ -153,6 +163,16 @@ void drive(Connection& daemon, CalibrationDrive& it, bool twist_base) {
     screen.show(it, terminal, monotonic_now());
   }
   (void)daemon.ask(key_request({}));  // rest, at once
+}
+
+/// A daemon that does not answer ends it, too: what was measured until then is judged.
+void drive(Connection& daemon, CalibrationDrive& it, bool twist_base) {
+  KeyTerminal terminal;
+  try {
+    drive_on(daemon, terminal, it, twist_base);
+  } catch (const NoAnswer& none) {
+    std::fprintf(stderr, "\n%s: the drive ends here", none.text.c_str());
+  }
   std::fputs("\n\n", stderr);
 }
 

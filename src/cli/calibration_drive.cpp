@@ -18,6 +18,7 @@ constexpr Duration kFixLasts = 1500ms;  // of a receiver of 1 Hz
 constexpr double kStill_mps = 0.01;
 constexpr double kStill_radps = 0.02;
 constexpr double kLongestStep_s = 0.2;
+constexpr Duration kFreshKey = 100ms;  // it counts for 0.3 s from when droverd hears of it
 
 calibrate::DriveLimits limits_of(const engine::EngineConfig& config) {
   return {config.limits.max_speed_mps, config.limits.max_yaw_rate_radps};
@@ -40,20 +41,39 @@ void CalibrationDrive::end(std::string problem) {
   problem_ = std::move(problem);
 }
 
+/// What it did in a gap, in which nobody looked: by where it was before and is now. While its
+/// heading is unknown: the last key counted to its end, then a ramp followed.
+calibrate::Moved CalibrationDrive::moved_in_gap(const Snapshot& seen, double gap_s) const {
+  const double held_s = std::min(gap_s, to_s(kHeld));
+  const double ramp_s = std::abs(before_.pose.vx_mps) / config_.limits.deceleration_mps2;
+  const double ramps_s = std::min(gap_s - held_s, ramp_s);
+  const double rolled_s = held_s + (ramp_s > 0 ? ramps_s - ramps_s * ramps_s / (2 * ramp_s) : 0.0);
+  calibrate::Moved moved;
+  moved.way_m = before_.pose.vx_mps * rolled_s;
+  moved.turn_rad = before_.pose.wz_radps * rolled_s;
+  const double turn_rad = -to_rad(seen.gnss.pose_heading_deg - before_.gnss.pose_heading_deg);
+  const double way_m =
+      std::hypot(seen.pose.x_m - before_.pose.x_m, seen.pose.y_m - before_.pose.y_m);
+  if (!std::isfinite(turn_rad) || !std::isfinite(way_m)) return moved;
+  moved.turn_rad += wrap_rad(turn_rad - moved.turn_rad);
+  moved.way_m = std::copysign(way_m, moved.way_m);
+  return moved;
+}
+
 /// What has happened since the last look.
 void CalibrationDrive::follow(const Snapshot& seen) {
   if (seen.time == kNever || (seen_at_ != kNever && seen.time <= seen_at_)) return;
   const double since_s = seen_at_ == kNever ? 0 : to_s(seen.time - seen_at_);
   seen_at_ = seen.time;
-  vx_mps_ = seen.pose.vx_mps;
+  calibrate::Moved moved;
+  moved.way_m = seen.pose.vx_mps * since_s;
+  moved.turn_rad = seen.pose.wz_radps * since_s;
+  if (since_s > kLongestStep_s) moved = moved_in_gap(seen, since_s);
+  before_ = seen;
   if (seen.gnss.position.quality == FixQuality::rtk_fixed) fixed_at_ = seen.gnss.position_time;
   if (!begun_) return;
   taken_.take(seen);
-  const double dt_s = std::min(since_s, kLongestStep_s);
-  calibrate::Moved moved;
-  moved.dt_s = dt_s;
-  moved.way_m = seen.pose.vx_mps * dt_s;
-  moved.turn_rad = seen.pose.wz_radps * dt_s;
+  moved.dt_s = std::min(since_s, kLongestStep_s);
   // What is driven or stood without a fix is of no use.
   moved.still = has_fix() && std::abs(seen.pose.vx_mps) < kStill_mps &&
                 std::abs(seen.pose.wz_radps) < kStill_radps;
@@ -80,14 +100,18 @@ void CalibrationDrive::judge_all() {
 }
 
 Twist CalibrationDrive::wanted(Time now) const {
-  if (let_go_ || !has_fix() || !held(now)) return {};
+  const bool fresh = fresh_at_ != kNever && now - fresh_at_ <= kHeld;
+  if (let_go_ || !has_fix() || !fresh) return {};
   return recipe_.wanted();
 }
 
-std::optional<Twist> CalibrationDrive::look(Time now, bool key, const Snapshot& seen) {
+std::optional<Twist> CalibrationDrive::look(Time now, Time key, const Snapshot& seen) {
   now_ = now;
-  if (key) key_at_ = now;
-  begun_ = begun_ || key;
+  const bool pressed = key != kNever;
+  if (pressed) key_at_ = key;
+  const bool fresh = pressed && now - key <= kFreshKey;
+  if (fresh) fresh_at_ = key;
+  begun_ = begun_ || pressed;
   if (!held(now)) let_go_ = false;
   follow(seen);
   if (!ended_ && recipe_.asks_for_signs()) judge_signs();
@@ -96,7 +120,7 @@ std::optional<Twist> CalibrationDrive::look(Time now, bool key, const Snapshot& 
   const Duration since = said_at_ == kNever ? kEachRest : now - said_at_;
   const Twist twist = ended_ ? Twist{} : wanted(now);
   // Motion is asked for with each key, and never without one; rest goes on by itself.
-  const bool due = is_zero(twist) ? since >= kEachRest : key && since >= kEachKey;
+  const bool due = is_zero(twist) ? since >= kEachRest : fresh && since >= kEachKey;
   if (!due) return std::nullopt;
   said_at_ = now;
   asked_to_move_ = !is_zero(twist);
@@ -135,7 +159,9 @@ std::string CalibrationDrive::intro() const {
   text +=
       "key     Hold the space key: it drives. Let it go: it comes to rest, by a ramp that begins "
       "0.3 s\n        later. Pressed again it goes on. q ends. A line on which keys come later "
-      "than that is\n        noticed, and drives nothing.\n";
+      "than that is\n        noticed, and drives nothing; nor does a terminal that does not tell "
+      "how late they come.\n        Not over VNC or RDP, nor within tmux or screen: there nobody "
+      "notices.\n";
   text += "fix     It needs an RTK fix all the time: without one it stands.\n";
   return text;
 }
@@ -154,7 +180,7 @@ std::string CalibrationDrive::line() const {
                 stands  ? "s"
                 : turns ? "deg"
                         : "m",
-                std::isfinite(vx_mps_) ? vx_mps_ : 0.0);
+                std::isfinite(before_.pose.vx_mps) ? before_.pose.vx_mps : 0.0);
   const bool holds = now_ != kNever && held(now_);
   if (!begun_) return std::string(text) + (has_fix() ? "hold the space key" : "no RTK fix yet");
   if (!has_fix()) return std::string(text) + "stands: no RTK fix";
@@ -163,6 +189,8 @@ std::string CalibrationDrive::line() const {
   if (let_go_) return std::string(text) + "let the key go first" + why;
   if (stands) return std::string(text) + "wait";
   if (!holds) return std::string(text) + "paused: hold the space key" + why;
+  if (fresh_at_ == kNever || now_ - fresh_at_ > kHeld)
+    return std::string(text) + "stands: droverd answers too slowly for a key" + why;
   return std::string(text) + (slow_ ? "drives slowly" : "drives");
 }
 

@@ -16,9 +16,9 @@ class CalibrationDrive final {
  public:
   explicit CalibrationDrive(const engine::EngineConfig& config);
 
-  /// Each look, a hundred times a second: whether the key was seen since the last one, and what is
-  /// measured now. What to ask of droverd; nothing: nothing.
-  std::optional<Twist> look(Time now, bool key, const Snapshot& seen);
+  /// Each look, a hundred times a second: when the key was seen since the last one (never: it was
+  /// not), and what is measured now. What to ask of droverd; nothing: nothing.
+  std::optional<Twist> look(Time now, Time key, const Snapshot& seen);
   /// What droverd said to that; `text`: why not, or that it is slow yet.
   void answered(bool ok, const std::string& text);
 
@@ -37,6 +37,7 @@ class CalibrationDrive final {
   const std::vector<calibrate::Quantity>& missing() const { return missing_; }
 
  private:
+  calibrate::Moved moved_in_gap(const Snapshot& seen, double gap_s) const;
   void follow(const Snapshot& seen);
   void judge_signs();
   void judge_all();
@@ -58,6 +59,7 @@ class CalibrationDrive final {
   std::string problem_;
   Time now_ = kNever;
   Time key_at_ = kNever;
+  Time fresh_at_ = kNever;  ///< the last key that was young enough to be sent
   Time said_at_ = kNever;
   bool let_go_ = false;   ///< the key has to be let go first
   bool slow_ = true;      ///< droverd has not seen yet that the mechanics are right
@@ -66,7 +68,7 @@ class CalibrationDrive final {
   std::string stopped_by_;  ///< what was refused last, until it moves again
   Time seen_at_ = kNever;
   Time fixed_at_ = kNever;
-  double vx_mps_ = 0;
+  Snapshot before_;  ///< the last that was seen
 };
 
 }  // namespace drover::cli

@@ -74,6 +74,9 @@ Snapshot snapshot_of(const json::Node& values) {
   if (const auto* gyro = values.find("gyro")) take_gyro(*gyro, made.imu);
   made.pose.vx_mps = number_of(values, "vx_mps");
   made.pose.wz_radps = number_of(values, "wz_radps");
+  made.pose.x_m = number_of(values, "x_m");
+  made.pose.y_m = number_of(values, "y_m");
+  made.gnss.pose_heading_deg = number_of(values, "heading_deg");
   const auto* why = values.find("why");
   if (why != nullptr && why->text() != nullptr && !why->text()->empty())
     (void)made.why.push_back(Reason(std::string_view(*why->text())));

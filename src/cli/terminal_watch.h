@@ -8,13 +8,15 @@
 
 namespace drover::cli {
 
-/// Of a terminal that answers. Of one that never does nothing is known.
+/// Of a terminal that never answers nothing is known, and nothing before its first answer: its keys
+/// are late, as far as anybody can tell.
 class TerminalWatch final {
  public:
   /// What is to be written to the terminal now; empty: nothing.
   std::string_view ask(Time now) {
     if (asked_ != kNever || (last_ != kNever && now - last_ < kEach)) return {};
     asked_ = last_ = now;
+    if (first_ == kNever) first_ = now;
     return "\033[5n";
   }
   /// Takes the answer out of what is typed: true when `key` is part of one.
@@ -32,7 +34,10 @@ class TerminalWatch final {
     return true;
   }
   /// A key that comes now may have been let go too long ago.
-  bool is_late(Time now) const { return answers_ && delay(now) > kMost; }
+  bool is_late(Time now) const { return !answers_ || delay(now) > kMost; }
+  /// It has had its time for a first answer.
+  bool is_silent(Time now) const { return !answers_ && first_ != kNever && now - first_ > kFirst; }
+  bool answers() const { return answers_; }
   /// There and back.
   Duration delay(Time now) const {
     return asked_ != kNever && now - asked_ > took_ ? now - asked_ : took_;
@@ -41,9 +46,11 @@ class TerminalWatch final {
  private:
   static constexpr Duration kEach = std::chrono::milliseconds(100);
   static constexpr Duration kMost = std::chrono::milliseconds(300);
+  static constexpr Duration kFirst = std::chrono::seconds(2);
 
   Time asked_ = kNever;  ///< and not answered yet
   Time last_ = kNever;
+  Time first_ = kNever;  ///< the first question
   Duration took_{0};
   std::size_t matched_ = 0;
   bool answers_ = false;

@@ -181,6 +181,7 @@ void Engine::Impl::start_task(const Command& command, const StartTask& task, Tim
   navigator.start(id, task, now, estimate, estimator.has_origin(), health.report(), events);
   if (!navigator.starting()) return;
   owners.on_task_started();
+  mechanics.begin_anew();
   const bool learns = std::isfinite(estimate.mounting_sigma_rad) && !estimate.mounting_known;
   if (learns) events.notice(now, Notice::Level::info, kMountingUnknown);
 }
@@ -305,7 +306,7 @@ void Engine::step(Time now, const Environment& environment, EngineOutput& out) {
                    e.clearance.unknown(), e.clearance.broken(), &e.steep, &e.hit.reason(now)});
   if (e.health.report().nothing_moves()) e.stopped_at = now;
   e.watch_wheels(now, dt);
-  const double cap_mps = e.mechanics.speed_cap_mps();
+  const double cap_mps = e.mechanics.speed_cap_mps(FirstWay::task);
   NavOutput wanted = e.navigator.step(
       {now, dt, e.estimate, e.health.report(), e.wheel_fault, e.wheel_reason, e.owners.at_rest(),
        e.owners.refusal(), cap_mps, e.clearance.caps().along_mps, e.clearance.unasked()},
@@ -316,6 +317,7 @@ void Engine::step(Time now, const Environment& environment, EngineOutput& out) {
   const Twist by_hand = e.clearance.limit(e.mechanics.guide(e.owners.by_hand()));
   const Motion& motion = e.owners.step(
       {now, dt, e.estimate, e.health.report(), e.wheel_fault, e.wheel_reason, wanted, cap_mps,
+       e.mechanics.speed_cap_mps(FirstWay::joints), e.mechanics.speed_cap_mps(FirstWay::hand),
        e.arming.hindrance(), stream, e.clearance.caps().ahead_mps,
        e.clearance.rim_cap_mps(stream, e.config.base.track_m / 2), e.clearance.too_near(), by_hand},
       e.events);

@@ -89,6 +89,10 @@ std::string drive_values_json(const Snapshot& seen) {
   write_gyro(out, seen.imu);
   number(out, "vx_mps", seen.pose.vx_mps);
   number(out, "wz_radps", seen.pose.wz_radps);
+  // Of the estimate's own frame: for differences.
+  number(out, "x_m", seen.pose.x_m);
+  number(out, "y_m", seen.pose.y_m);
+  number(out, "heading_deg", seen.gnss.pose_heading_deg);
   out.key("owner").text(word(seen.nav.owner));
   out.key("why").text(seen.why.empty() ? std::string_view() : seen.why[0].view());
   return out.close('}').take();
@@ -145,6 +149,10 @@ void HandOutlet::on_event(const Event& event, Actions& out) {
     answer(yes->id, true, yes->note.view(), out);
   else if (const auto* no = std::get_if<CommandRefused>(&event.body))
     answer(no->id, false, no->reason.view(), out);
+}
+
+void HandOutlet::on_undelivered(const Command& command, Actions& out) {
+  answer(command.id, false, "the control loop takes no command now", out);
 }
 
 }  // namespace drover::publish

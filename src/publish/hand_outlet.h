@@ -33,6 +33,7 @@ class HandOutlet final : public Outlet {
   bool needs_broker() const override { return false; }
   bool on_line(ClientId client, std::string_view line, Time now, Actions& out) override;
   void on_event(const Event& event, Actions& out) override;
+  void on_undelivered(const Command& command, Actions& out) override;
 
  private:
   std::string drive(ClientId client, const json::Node& request, Time now, Actions& out);

@@ -67,6 +67,9 @@ class Outlet {
   /// Each of the engine's, in their order.
   virtual void on_event(const Event& /*event*/, Actions& /*out*/) {}
 
+  /// A command of this outlet's found the engine's ring full: nobody else answers.
+  virtual void on_undelivered(const Command& /*command*/, Actions& /*out*/) {}
+
   /// What operators are told beside the robot's own reasons; empty: nothing.
   virtual std::string_view trouble(Time /*now*/) const { return {}; }
   /// Adds its counters to what `drover status` shows.

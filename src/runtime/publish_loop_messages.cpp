@@ -145,8 +145,9 @@ void PublishLoop::push(const Command& command, const StopCounts& before,
     last_start_ = monotonic_now();
   if (control_.recorder != nullptr && start != nullptr && start->path != nullptr)
     control_.recorder->path(*start->path);
-  const bool taken = control_.commands.push(QueuedCommand{command, before});
-  if (!taken) service_.on_undelivered(command, actions);
+  if (control_.commands.push(QueuedCommand{command, before})) return;
+  service_.on_undelivered(command, actions);
+  for (const auto& each : outlets_) each.outlet->on_undelivered(command, actions);
 }
 
 void PublishLoop::answer_stops(const StopCounts& obeyed, Time now) {

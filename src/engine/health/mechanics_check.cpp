@@ -35,6 +35,9 @@ constexpr double kFewestPlaces = 3;
 constexpr double kMostRatio = 12;  // of gears that somebody got wrong
 constexpr double kJumpSigmas = 5.0;
 constexpr double kJumpsFrom_m = 0.05;
+const double kSameWay = std::cos(to_rad(60.0));  // of two jumps
+// A position is a second apart from the next one, and late.
+constexpr double kComparedShare = 2.0 / 3;
 constexpr double kShortest_m = 0.1;  // of a way that is found too short
 
 }  // namespace
@@ -48,7 +51,7 @@ MechanicsCheck::MechanicsCheck(const EngineConfig& config)
 void MechanicsCheck::begin() {
   moving_ = true;
   began_ = now_;
-  rolled_m_ = 0;
+  rolled_m_ = compared_m_ = 0;
   last_ = {};
   marks_.fill({});
   next_mark_ = 0;
@@ -100,6 +103,12 @@ void MechanicsCheck::forget_receiver(const AntennaConfig& antenna) {
   heading_turn_rad_ = kAbsent;
   heading_at_ = kNever;
   odd_places_ = 0;
+}
+
+void MechanicsCheck::begin_anew() {
+  if (proved_ || !past_first_way() || !fault_.empty()) return;
+  moving_ = false;
+  rest_ = {};
 }
 
 void MechanicsCheck::remember(Time now) {
@@ -155,7 +164,8 @@ void MechanicsCheck::compare_turn(const MechanicsInput& input) {
                 to_deg(then->turn_rad), to_deg(heading_turn_rad_), words_->wrong_turn);
 }
 
-/// What comes at once is no ratio: another integer solution, or a shove, on which others look.
+/// What comes at once is no ratio: another integer solution, or a shove, on which others look. Two
+/// that go the same way are one: of a receiver that tells a position each second.
 bool MechanicsCheck::jumps(const PathPoint& way, const Mark& wheels, double sigma_m) {
   const PathPoint step{way.x_m - last_way_.x_m, way.y_m - last_way_.y_m};
   const double rolled_m = std::abs(wheels.way_m - last_rolled_m_);
@@ -163,6 +173,9 @@ bool MechanicsCheck::jumps(const PathPoint& way, const Mark& wheels, double sigm
   last_rolled_m_ = wheels.way_m;
   const double most_m = kMostRatio * rolled_m + std::max(kJumpSigmas * sigma_m, kJumpsFrom_m);
   if (!(std::hypot(step.x_m, step.y_m) > most_m)) return false;
+  const double along_m2 = step.x_m * jumped_.x_m + step.y_m * jumped_.y_m;
+  const double most_m2 = std::hypot(step.x_m, step.y_m) * std::hypot(jumped_.x_m, jumped_.y_m);
+  if (most_m2 > 0 && along_m2 > kSameWay * most_m2) return false;
   jumped_.x_m += step.x_m;
   jumped_.y_m += step.y_m;
   return true;
@@ -191,6 +204,7 @@ void MechanicsCheck::compare_way(const Mark& wheels) {
   }
   const double sigma = place_sigma_m(position_, config_.estimate);
   if (jumps(way, wheels, sigma)) return;
+  compared_m_ = wheels.rolled_m;
   way.x_m -= jumped_.x_m;
   way.y_m -= jumped_.y_m;
   ahead_m = std::hypot(way.x_m, way.y_m);
@@ -231,27 +245,34 @@ void MechanicsCheck::step(const MechanicsInput& input) {
   const double dt_s = std::max(to_s(input.dt), 0.0);
   last_.way_m += input.body.vx_mps * dt_s;
   last_.turn_rad += input.body.wz_radps / config_.base.yaw_slip_factor * dt_s;
+  const bool was_past = past_first_way();
   rolled_m_ += std::abs(input.body.vx_mps) * dt_s;
+  last_.rolled_m = rolled_m_;
   remember(input.now);
-  if (!fault_.empty()) return;
+  if (!fault_.empty() || was_past) return;
   compare_turn(input);
   if (fresh_position_ && fault_.empty() && rest_.places >= kFewestPlaces) {
     if (const Mark* then = mark_at(position_at_); then != nullptr) compare_way(*then);
   }
   fresh_position_ = false;
-  if (fault_.empty() && rolled_m_ >= config_.navigate.first_way_m) proved_ = true;
+  if (!fault_.empty() || !past_first_way()) return;
+  went_first_ = true;
+  proved_ = odd_places_ == 0 && compared_m_ >= kComparedShare * config_.navigate.first_way_m;
 }
 
-double MechanicsCheck::speed_cap_mps() const {
-  if (proved_) return std::numeric_limits<double>::infinity();
+double MechanicsCheck::speed_cap_mps(FirstWay who) const {
+  const bool gone = fault_.empty() && ((who == FirstWay::task && past_first_way()) ||
+                                       (who == FirstWay::joints && went_first_));
+  if (proved_ || gone) return std::numeric_limits<double>::infinity();
   const double age_s = moving_ ? to_s(now_ - began_) : 0.0;
   return kFirst_mps * std::clamp(age_s / kSpeedUp_s, 0.2, 1.0);
 }
 
 Twist MechanicsCheck::guide(const Twist& wanted) const {
-  if (proved_ || !(std::abs(wanted.vx_mps) > 0)) return wanted;
+  if (proved_ || past_first_way() || !(std::abs(wanted.vx_mps) > 0)) return wanted;
   Twist twist = wanted;
-  twist.vx_mps = std::clamp(wanted.vx_mps, -speed_cap_mps(), speed_cap_mps());
+  const double cap_mps = speed_cap_mps(FirstWay::hand);
+  twist.vx_mps = std::clamp(wanted.vx_mps, -cap_mps, cap_mps);
   const double share = rolled_m_ / config_.navigate.first_way_m - kStraightShare;
   double side = 0;  // which way the swing goes now
   if (share >= 0 && share < 4 * kSwingShare) {

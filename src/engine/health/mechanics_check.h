@@ -25,9 +25,14 @@ struct MechanicsInput {
   bool gyro_zero_known = false;  ///< its bias was learned
 };
 
+/// For whom a speed is asked.
+enum class FirstWay : std::uint8_t { task, joints, hand };
+
 /// Ways and turns count from the place where motion began; the receiver's are compared with the
 /// wheels' at the receiver's own instant. What cannot be compared (no RTK fix, no gyro) is not: the
-/// slow way stays.
+/// slow way stays, and proves nothing. After it a task, or a search for the heading, goes on as
+/// asked, and the next one begins with another; joint commands, which need no receiver, are asked
+/// for one in the life of the program; a person who drives with a key stays slow.
 class MechanicsCheck final {
  public:
   explicit MechanicsCheck(const EngineConfig& config);
@@ -39,22 +44,28 @@ class MechanicsCheck final {
 
   /// Another receiver speaks from now on, from there. Of this motion it compares nothing any more.
   void forget_receiver(const AntennaConfig& antenna);
+  /// Somebody takes the base for a way of his own: what another went slowly does not count for it.
+  void begin_anew();
   void step(const MechanicsInput& input);
   /// The program before this one proved them, in the same boot with the same configuration.
   void recall_proved() { proved_ = true; }
   bool proved() const { return proved_; }
   /// What disagrees; empty when nothing does. Stays until the base rests.
   const Reason& fault() const { return fault_; }
-  /// How fast anybody may drive now, m/s; infinite once proved.
-  double speed_cap_mps() const;
+  /// How fast that one may drive now, m/s; infinite once proved.
+  double speed_cap_mps(FirstWay who) const;
   /// What is driven instead of `wanted`: the same way, with a little turn to each side.
   Twist guide(const Twist& wanted) const;
 
  private:
+  /// Nothing more is compared in this motion: it went on for the first way.
+  bool past_first_way() const { return moving_ && rolled_m_ >= config_.navigate.first_way_m; }
+
   /// Since the motion began.
   struct Mark {
     Time at = kNever;
     double way_m = 0;     ///< by the wheels, ahead positive
+    double rolled_m = 0;  ///< likewise, in either direction
     double turn_rad = 0;  ///< by the wheels
     double gyro_rad = 0;
   };
@@ -85,7 +96,9 @@ class MechanicsCheck final {
   Time began_ = kNever;
   Time now_ = kNever;
   double yaw_rad_ = kAbsent;
-  double rolled_m_ = 0;  ///< in either direction
+  double rolled_m_ = 0;      ///< in either direction
+  double compared_m_ = 0;    ///< of that, until the receiver's last position that was compared
+  bool went_first_ = false;  ///< a first way was gone to its end, compared or not
   Mark last_;
   std::array<Mark, 128> marks_{};
   std::size_t next_mark_ = 0;

@@ -11,11 +11,13 @@ constexpr const char* kOthers = "somebody else drives by hand";
 
 }  // namespace
 
-/// A key that was turned away is none of the new hand's before it is let go.
+/// Another one begins anew, as everybody: he takes nothing over. A key of his that was turned away
+/// is none before it is let go.
 void HandDrive::change_hands(std::uint64_t to, Time at) {
   const bool pressed =
       turned_away_ == to && turned_away_at_ != kNever && at - turned_away_at_ <= kHeld;
   hand_ = to;
+  active_ = moves_ = false;
   row_ = key_ = pressed ? turned_away_at_ : kNever;
   spoiled_ = pressed;
   ended_ = kOthers;
@@ -41,7 +43,7 @@ void HandDrive::take(const Command& command, const DriveByHand& wanted, const Re
   if (!finite) return refuse("a speed that cannot be");
   const Time at = command.received == kNever ? now : std::min(command.received, now);
   if (now - at > kHeld) return refuse("it came too late to be a key that is held");
-  const bool others = hand_ != wanted.hand && heard_ != kNever && now - heard_ <= kHeld;
+  const bool others = hand_ != wanted.hand && heard_ != kNever && now - heard_ <= kLasts;
   if (others) {
     turned_away_ = wanted.hand;
     turned_away_at_ = at;
@@ -85,7 +87,7 @@ void HandDrive::end(const Reason& why, Time now, EventQueue& events) {
 
 void HandDrive::step(Time now) {
   if (!holds(now)) moves_ = false;
-  if (active_ && now - heard_ > kHeld) active_ = moves_ = false;
+  if (active_ && now - heard_ > kLasts) active_ = moves_ = false;
 }
 
 }  // namespace drover::engine

@@ -10,11 +10,15 @@ namespace drover::engine {
 /// What is asked counts for kHeld, and nothing moves before it was asked for so long without a gap:
 /// what comes in a burst, because a line or a program hung, is not a key that is held. What hinders
 /// spoils the whole row: the key has to be let go before it drives again.
-/// It begins with a key, and lasts while he who began says anything, also that he wants rest.
+/// It begins with a key, and lasts while he who began says anything, also that he wants rest:
+/// motion ends with kHeld of silence, his hold with kLasts, in which he can say so.
 class HandDrive final {
  public:
-  /// How long one message is obeyed, and silence after which it has ended.
+  /// How long one message is obeyed.
   static constexpr Duration kHeld = std::chrono::milliseconds(300);
+  /// Silence after which it has ended, and somebody else may begin. Whoever let the key go notices
+  /// that after kHeld himself, and says from then on that he wants rest.
+  static constexpr Duration kLasts = 2 * kHeld;
 
   /// `busy`: why nobody may drive by hand now; empty: he may. `note` goes with the answer.
   void take(const Command& command, const DriveByHand& wanted, const Reason& busy,
@@ -26,6 +30,7 @@ class HandDrive final {
 
   /// Somebody has the robot in his hand, whether it moves or not.
   bool active() const { return active_; }
+  bool active_of(std::uint64_t hand) const { return active_ && hand_ == hand; }
   /// It has moved, or is to, since it began.
   bool moves() const { return moves_; }
   /// What is wanted now; zero while the key is up.

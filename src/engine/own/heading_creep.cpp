@@ -45,6 +45,7 @@ void HeadingCreep::end(std::string_view why, Time now, EventQueue& events) {
 
 Twist HeadingCreep::step(Time now, Duration dt, const Estimate& estimate,
                          const HealthReport& health, EventQueue& events) {
+  lost_ = false;
   if (!active_) return {};
   if (knows_heading(estimate)) {
     active_ = false;
@@ -63,12 +64,16 @@ Twist HeadingCreep::step(Time now, Duration dt, const Estimate& estimate,
     return {};
   }
   const bool late = now - began_ > from_s(config_.start_timeout_s);
-  switch (drives_.look(health.drives_running, late)) {
+  const Drives drives = drives_.look(health.drives_running, late);
+  switch (drives) {
     case Drives::armed: break;
     case Drives::asked:
     case Drives::arming: return {};
     case Drives::late:
-    case Drives::lost: end(health.not_running, now, events); return {};
+    case Drives::lost:
+      lost_ = drives == Drives::lost;
+      end(health.not_running, now, events);
+      return {};
   }
   driven_m_ += std::abs(estimate.body.twist.vx_mps) * to_s(dt);
   // The way that the ramp to zero takes, and what drives lag behind it, count as well.

@@ -29,6 +29,8 @@ class HeadingCreep final {
   Twist step(Time now, Duration dt, const Estimate& estimate, const HealthReport& health,
              EventQueue& events);
   bool active() const { return active_; }
+  /// It ended in this cycle because a drive that ran does no more.
+  bool lost() const { return lost_; }
   /// Total time after which it gives up.
   double timeout_s() const;
 
@@ -42,6 +44,7 @@ class HeadingCreep final {
   double deceleration_mps2_;
   double good_rad_;  ///< two sigma of a heading that is found
   bool active_ = false;
+  bool lost_ = false;
   ArmWait drives_;
   Time began_ = kNever;
   double driven_m_ = 0;

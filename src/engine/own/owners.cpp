@@ -64,7 +64,7 @@ void Owners::drive_by_hand(const Command& command, const DriveByHand& wanted,
                            const HealthReport& health, bool proved, Time now, EventQueue& events) {
   Reason why = hand_busy_;
   // What runs may go on, and nothing new begins.
-  if (why.empty() && !hand_.active()) {
+  if (why.empty() && !hand_.active_of(wanted.hand)) {
     if (stream_.wants_motion() || !at_rest()) why = "the robot moves";
     if (why.empty()) why = health.no_start;
   }
@@ -172,7 +172,8 @@ Stop Owners::watch_stream(const OwnInput& input, bool at_once) {
 }
 
 /// What ends driving by hand, and how fast it is let go on.
-Twist Owners::watch_hand(const OwnInput& input, bool at_once, double cap_mps, EventQueue& events) {
+Owners::ByHand Owners::watch_hand(const OwnInput& input, bool at_once, double cap_mps,
+                                  EventQueue& events) {
   hand_.step(input.now);
   hand_busy_ = hindrance(input);
   if (hand_busy_.empty() && creep_.active()) hand_busy_ = "the heading is being looked for";
@@ -191,21 +192,23 @@ Twist Owners::watch_hand(const OwnInput& input, bool at_once, double cap_mps, Ev
     hand_drives_.begin();
   }
   const bool late = input.now - hand_since_ > from_s(config_.navigate.start_timeout_s);
-  switch (hand_drives_.look(input.health.drives_running, late)) {
+  const Drives drives = hand_drives_.look(input.health.drives_running, late);
+  switch (drives) {
     case Drives::armed: break;
     case Drives::asked:
     case Drives::arming: return {};
     case Drives::late:
-    case Drives::lost: hand_.end(input.health.not_running, input.now, events); return {};
+    case Drives::lost:
+      hand_.end(input.health.not_running, input.now, events);
+      return {{}, drives == Drives::lost};
   }
   if (is_zero(wanted)) return {};
-  // A person has taken the drives: not before his key moves them.
-  if (!hand_moved_) {
-    latch_.reset(Act::take);
+  // What is latched stays: whoever holds a key thinks of what it moves, and not of a stream of
+  // joint commands that waits for a person since it was stopped.
+  if (!hand_moved_)
     events.notice(input.now, Notice::Level::info, "a person drives the robot with a key");
-  }
   hand_moved_ = true;
-  return slowed(input.hand, cap_mps, config_.base.track_m);
+  return {slowed(input.hand, cap_mps, config_.base.track_m)};
 }
 
 const Motion& Owners::step(const OwnInput& input, EventQueue& events) {
@@ -216,12 +219,11 @@ const Motion& Owners::step(const OwnInput& input, EventQueue& events) {
   if (!input.health.end_task.empty()) creep_.end(input.health.end_task, input.now, events);
   Twist creep = creep_.step(input.now, input.dt, input.estimate, input.health, events);
   // A task keeps the far zone's speed by itself, so that it slows along its track.
-  const double cap_mps = input.health.far_zone
-                             ? std::min(input.speed_cap_mps, config_.navigate.far_zone_speed_mps)
-                             : input.speed_cap_mps;
+  const double zone_mps = input.health.far_zone ? config_.navigate.far_zone_speed_mps : 1e9;
   const Twist search = creep;
-  creep.vx_mps = std::min({creep.vx_mps, cap_mps, input.ahead_cap_mps});
-  const Twist by_hand = watch_hand(input, at_once, cap_mps, events);
+  creep.vx_mps = std::min({creep.vx_mps, input.speed_cap_mps, zone_mps, input.ahead_cap_mps});
+  const auto [by_hand, hand_lost] =
+      watch_hand(input, at_once, std::min(input.hand_cap_mps, zone_mps), events);
   busy_ = hinders_joints(input);
   const Stop stream_stop = watch_stream(input, at_once);
 
@@ -236,17 +238,19 @@ const Motion& Owners::step(const OwnInput& input, EventQueue& events) {
   const bool no_ramp = at_once || input.too_near;
   // A key that is up is a stop: with all of the deceleration, along the curve.
   const bool key_is_up = manual && hand_.active() && is_zero(by_hand);
-  const Stop twist_stop = no_ramp     ? Stop::immediate
-                          : key_is_up ? Stop::controlled
-                          : manual    ? Stop::none
-                                      : input.task.stop;
+  // One side is dead: a ramp of the other one would turn the robot.
+  const bool one_side = hand_lost || creep_.lost();
+  const Stop twist_stop = no_ramp || one_side ? Stop::immediate
+                          : key_is_up         ? Stop::controlled
+                          : manual            ? Stop::none
+                                              : input.task.stop;
   motion_.twist = twist_gate_.step(input.now, input.dt, {&offer, 1}, twist_stop);
   // One gate moves at a time: the other waits until it has come to rest.
   const Stop joint_stop = no_ramp                 ? Stop::immediate
                           : twist_gate_.at_rest() ? stream_stop
                                                   : Stop::controlled;
   joint_gate_.step(input.dt, stream_.velocities_radps(), input.estimate.yaw_slip_factor,
-                   std::min(cap_mps, input.rim_cap_mps), joint_stop);
+                   std::min({input.joints_cap_mps, zone_mps, input.rim_cap_mps}), joint_stop);
   motion_.joints = motion_.owner == Owner::joint_command || !joint_gate_.at_rest();
   motion_.at_once = at_once;
   // A stop ramp is still the motion of the one who drove.

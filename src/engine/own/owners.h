@@ -21,13 +21,15 @@ struct OwnInput {
   WheelFault wheels = WheelFault::none;
   const Reason& wheel_reason;
   const NavOutput& task;
-  double speed_cap_mps = 1e9;  ///< of the first way after the start
-  Reason not_held = {};        ///< why the drives cannot be had now; empty: they can
-  Twist stream = {};           ///< what `stream_radps` make of the base
-  double ahead_cap_mps = 1e9;  ///< of what is free straight ahead
-  double rim_cap_mps = 1e9;    ///< of what is free where the stream goes
-  bool too_near = false;       ///< something came into the way where no ramp ends before it
-  Twist hand = {};             ///< what `by_hand` is let do, but for the limits of speed
+  double speed_cap_mps = 1e9;   ///< of the first way after the start, for a search
+  double joints_cap_mps = 1e9;  ///< likewise, for joint commands
+  double hand_cap_mps = 1e9;    ///< likewise, for a person with a key
+  Reason not_held = {};         ///< why the drives cannot be had now; empty: they can
+  Twist stream = {};            ///< what `stream_radps` make of the base
+  double ahead_cap_mps = 1e9;   ///< of what is free straight ahead
+  double rim_cap_mps = 1e9;     ///< of what is free where the stream goes
+  bool too_near = false;        ///< something came into the way where no ramp ends before it
+  Twist hand = {};              ///< what `by_hand` is let do, but for the limits of speed
 };
 
 /// What the gates let through this cycle.
@@ -81,7 +83,11 @@ class Owners final {
   Reason hindrance(const OwnInput& input) const;
   Reason hinders_joints(const OwnInput& input) const;
   Stop watch_stream(const OwnInput& input, bool at_once);
-  Twist watch_hand(const OwnInput& input, bool at_once, double cap_mps, EventQueue& events);
+  struct ByHand {
+    Twist twist;
+    bool lost = false;  ///< a drive that ran does no more: the others may not go on
+  };
+  ByHand watch_hand(const OwnInput& input, bool at_once, double cap_mps, EventQueue& events);
   Twist asked(const OwnInput& input, const Twist& creep) const;
   Reason why_at_once(const OwnInput& input) const;
   void latch(const Reason& why, bool anyone);

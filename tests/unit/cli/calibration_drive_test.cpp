@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <set>
 
 #include "bench/field_world.h"
 #include "cli/drive_values.h"
@@ -27,11 +28,15 @@ class Person {
     if (begun_ == kNever) begun_ = now + 1s;
     if (now < next_look_) return std::nullopt;
     next_look_ = now + 10ms;
-    const bool key = holds(to_s(now - begun_)) && now >= next_key_;
+    const bool stalls = drive.recipe().at() >= stalls_from_piece &&
+                        std::fmod(to_s(now - begun_), stalls_each_s) < stalls_s;
+    if (stalls) return std::nullopt;
+    if (drive.line().find("let the key go first") != std::string::npos) lets_go_until_ = now + 1s;
+    const bool key = holds(to_s(now - begun_)) && now >= next_key_ && now > lets_go_until_;
     if (key) next_key_ = now + 33ms;
     // As the socket carries it.
     const auto document = json::parse(publish::drive_values_json(seen));
-    const auto twist = drive.look(now, key, snapshot_of(document->root));
+    const auto twist = drive.look(now, key ? now - key_age : kNever, snapshot_of(document->root));
     if (twist) fastest_asked_mps = std::max(fastest_asked_mps, std::abs(twist->vx_mps));
     if (lines.empty() || drive.recipe().at() != piece_) lines.push_back(drive.line());
     piece_ = drive.recipe().at();
@@ -42,6 +47,10 @@ class Person {
   }
 
   CalibrationDrive drive;
+  double stalls_s = 0;  ///< for so long nothing is asked or looked at
+  double stalls_each_s = 1;
+  std::size_t stalls_from_piece = 0;
+  Duration key_age{};
   double pauses_at_s = INFINITY;
   double goes_on_at_s = INFINITY;
   double fastest_asked_mps = 0;
@@ -51,6 +60,7 @@ class Person {
   Time begun_ = kNever;
   Time next_look_ = kNever;
   Time next_key_ = kNever;
+  Time lets_go_until_ = kNever;  ///< as he is told
   std::size_t piece_ = 0;
 };
 
@@ -80,7 +90,10 @@ class ACalibrationDrive : public ::testing::Test {
                                           fastest_slow_mps_, std::abs(world.true_pose().vx_mps));
                                     took_s = to_s(now) - 10;
                                     piece_ = person.drive.recipe().at();
-                                    return person.look(seen, now);
+                                    const auto said = person.look(seen, now);
+                                    if (person.drive.line().find("paused") != std::string::npos)
+                                      paused_owners.insert(seen.nav.owner);
+                                    return said;
                                   },
                                   [&](bool ok, std::string_view text) {
                                     person.drive.answered(ok, std::string(text));
@@ -94,6 +107,7 @@ class ACalibrationDrive : public ::testing::Test {
   double fastest_slow_mps_ = 0;
   double took_s = 0;
   std::vector<std::string> refusals;
+  std::set<Owner> paused_owners;
 
  private:
   std::size_t piece_ = 0;
@@ -148,12 +162,41 @@ TEST_F(ACalibrationDrive, PausesWhileTheKeyIsUpAndGoesOn) {
   drive(person, world, 95);
   EXPECT_THAT(person.drive.line(), HasSubstr("paused: hold the space key"));
   EXPECT_LT(std::abs(world.true_pose().vx_mps), 0.001);
+  EXPECT_THAT(paused_owners, testing::ElementsAre(Owner::manual)) << "nobody else takes it";
   const double done = person.drive.recipe().done();
   drive(person, world, 10);
   EXPECT_GT(person.drive.recipe().done(), done + 1);
   drive(person, world, 600);
   EXPECT_TRUE(person.drive.ended());
   EXPECT_EQ(person.drive.problem(), "");
+}
+TEST_F(ACalibrationDrive, StaysInItsAreaWhenEverythingStallsAgainAndAgain) {
+  for (const auto& [stalls_s, each_s] : {std::pair{0.28, 1.0}, {0.5, 2.0}, {1.5, 5.0}}) {
+    SCOPED_TRACE(stalls_s);
+    box = {};
+    Person person(config());
+    person.stalls_s = stalls_s;
+    person.stalls_each_s = each_s;
+    person.stalls_from_piece = 5;  // the fast ones
+    bench::FieldWorld world(config(), {}, 1);
+    drive(person, world, 2000);
+    ASSERT_TRUE(person.drive.ended()) << person.drive.line();
+    const auto area = person.drive.recipe().area();
+    EXPECT_LT(box.ahead_m, area.ahead_m);
+    EXPECT_LT(box.behind_m, area.behind_m);
+    EXPECT_LT(box.left_m, area.left_m);
+    EXPECT_LT(box.right_m, area.right_m);
+    std::printf("stalls of %.2f s: area %.1f + %.1f by %.1f + %.1f m\n", stalls_s, box.ahead_m,
+                box.behind_m, box.left_m, box.right_m);
+  }
+}
+TEST_F(ACalibrationDrive, AKeyThatGrewOldOnItsWayDrivesNothing) {
+  Person person(config());
+  person.key_age = 150ms;
+  bench::FieldWorld world(config(), {}, 1);
+  drive(person, world, 30);
+  EXPECT_EQ(box.ahead_m, 0);
+  EXPECT_THAT(person.drive.line(), HasSubstr("answers too slowly"));
 }
 TEST_F(ACalibrationDrive, DrivesNothingWithoutAFix) {
   Person person(config());

@@ -30,10 +30,21 @@ TEST(TerminalWatch, IsLateWhenTheAnswerWasAndUntilOneIsFast) {
   answer(watch, now + 50ms);
   EXPECT_FALSE(watch.is_late(now + 50ms));
 }
-TEST(TerminalWatch, OfATerminalThatNeverAnswersNothingIsKnown) {
+TEST(TerminalWatch, NoKeyCountsBeforeTheFirstAnswer) {
+  TerminalWatch watch;
+  EXPECT_TRUE(watch.is_late(Time{10s}));
+  EXPECT_FALSE(watch.is_silent(Time{10s}));
+  EXPECT_NE(watch.ask(Time{10s}), "");
+  EXPECT_TRUE(watch.is_late(Time{10s} + 10ms));
+  EXPECT_FALSE(watch.is_silent(Time{11s})) << "it may answer yet";
+  answer(watch, Time{11s});
+  EXPECT_TRUE(watch.is_late(Time{11s})) << "it took a second";
+}
+TEST(TerminalWatch, OfATerminalThatNeverAnswersNothingIsKnownAndNoKeyCounts) {
   TerminalWatch watch;
   EXPECT_NE(watch.ask(Time{10s}), "");
-  EXPECT_FALSE(watch.is_late(Time{100s}));
+  EXPECT_TRUE(watch.is_late(Time{100s}));
+  EXPECT_TRUE(watch.is_silent(Time{12100ms}));
 }
 TEST(TerminalWatch, LeavesKeysAlone) {
   TerminalWatch watch;

@@ -1,5 +1,5 @@
 // The first way after the start shows wrong mechanics before they hurt.
-#include "engine_fixture.h"
+#include "own/owners_fixture.h"
 
 namespace drover::engine {
 namespace {
@@ -164,6 +164,52 @@ TEST_F(ARobotOnItsFirstWay, IsNotSlowInTheNextTask) {
   rig.start(path, 40, 0.5);
   rig.run_s(3);
   EXPECT_GT(rig.fastest_command_radps() * 0.165, 0.45);
+}
+
+TEST_F(ARobotOnItsFirstWay, IsProvedByItsReceiverAloneWhereThereIsNoGyro) {
+  EngineRig without{unproved()};
+  without.settle();
+  without.start(path, 40, 0.5);
+  while (without.driven_m < 0.5 && without.now < Time{std::chrono::seconds(60)}) without.tick();
+  EXPECT_TRUE(without.out.remembered.mechanics_proved) << without.why();
+}
+
+class JointCommandsOnAFirstWay : public JointCommands {
+ protected:
+  JointCommandsOnAFirstWay() {
+    rig = EngineRig(unproved());
+    rig.imu = true;
+  }
+};
+
+TEST_F(JointCommandsOnAFirstWay, AreSlowOnceWhereNothingCanBeCompared) {
+  rig.quality = FixQuality::rtk_float;
+  rig.settle();
+  stream_s(0, 0.5);
+  while (rig.driven_m < 0.28) {
+    stream_s(2, 0.1);
+    ASSERT_LE(rig.fastest_command_radps() * 0.165, 0.051) << rig.driven_m;
+    ASSERT_LT(rig.now, Time{std::chrono::seconds(60)}) << reason();
+  }
+  stream_s(2, 2);
+  EXPECT_NEAR(rig.fastest_command_radps(), 2, 1e-9);
+  EXPECT_FALSE(rig.out.remembered.mechanics_proved);
+  stream_s(0, 4);
+  stream_s(2, 2);
+  EXPECT_NEAR(rig.fastest_command_radps(), 2, 1e-9) << reason();
+}
+
+TEST_F(JointCommandsOnAFirstWay, FindARatioOfTwentyByAPositionEachSecond) {
+  rig.mechanics.gear = 20;
+  rig.receiver_ticks = 200;
+  rig.settle();
+  rig.run_s(5);
+  stream_s(0, 0.5);
+  const double from_m = rig.driven_m;
+  for (int i = 0; i < 100 && rig.driven_m - from_m < 6; ++i) stream_s(2, 0.1);
+  EXPECT_LT(rig.driven_m - from_m, 3) << reason();
+  EXPECT_EQ(rig.fastest_command_radps(), 0);
+  EXPECT_THAT(reason(), HasSubstr("gear ratio"));
 }
 
 class ARobotWithAnIMU : public AnEngine {

@@ -121,6 +121,7 @@ class EngineRig {
   bool guard_alive = true;
   bool guard_has_bus = false;
   bool receiver_silent = false;
+  int receiver_ticks = 20;  ///< between two of its positions
   bool no_heading = false;
   bool blocked = false;
   FixQuality quality = FixQuality::rtk_fixed;
@@ -257,7 +258,7 @@ class EngineRig {
     if (imu) read_imu();
     environment.gnss[0].state = receiver_silent ? SourceState::stale : SourceState::fresh;
     if (!receiver_silent) environment.gnss[0].last_good = now;
-    if (++ticks_ % 20 == 0) read_receiver();
+    if (++ticks_ % static_cast<std::uint64_t>(receiver_ticks) == 0) read_receiver();
     while (!fixes_.empty() && now - fixes_.front().time >= std::chrono::milliseconds(80)) {
       const Fix& fix = fixes_.front();
       if (!receiver_silent) {

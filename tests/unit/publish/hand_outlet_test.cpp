@@ -52,6 +52,19 @@ TEST_F(HandOutletTest, AKeyIsACommandOfHimWhoIsConnectedAndTheEngineAnswers) {
   EXPECT_TRUE(replies_to({now_, CommandRefused{given->id, "again"}}).empty());
   EXPECT_TRUE(replies_to({now_, CommandAccepted{{RequestId::Source::cli, 1}, {}}}).empty());
 }
+TEST_F(HandOutletTest, AKeyThatTheEngineDoesNotTakeIsAnswered) {
+  EXPECT_EQ(reply_to(kKey), "");
+  const auto given = command();
+  ASSERT_TRUE(given);
+  actions_.clear();
+  outlet_.on_undelivered({{RequestId::Source::mqtt, given->id.number}, now_, {}}, actions_);
+  EXPECT_TRUE(actions_.empty()) << "another one's";
+  outlet_.on_undelivered(*given, actions_);
+  ASSERT_EQ(actions_.size(), 1U);
+  const auto& reply = std::get<Reply>(actions_[0]);
+  EXPECT_EQ(reply.client, 7U);
+  EXPECT_THAT(reply.line, HasSubstr("takes no command now"));
+}
 TEST_F(HandOutletTest, AFloodIsToldToSlowDownAndHeldBack) {
   int given = 0;
   for (int i = 0; i < 100; ++i) {

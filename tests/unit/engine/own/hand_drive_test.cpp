@@ -1,4 +1,6 @@
 // A person who drives with a key that is held down: what moves the robot, and what does not.
+#include "engine/own/hand_drive.h"
+
 #include "owners_fixture.h"
 
 namespace drover::engine {
@@ -259,5 +261,115 @@ TEST_F(DrivingByHand, SidesThatAreSwappedStopItOnTheFirstWay) {
   EXPECT_THAT(refused(), HasSubstr("let the key go first: by its wheels the robot turned"));
 }
 
+TEST_F(DrivingByHand, AKeyThatWasLetGoHindersOthersUntilTheCommandLineSaysSo) {
+  rig.settle();
+  hold_s(3);
+  // It notices 0.3 s after the last key, and says it then.
+  for (int i = 0; i < 70; ++i) {
+    rig.tick();
+    ASSERT_EQ(rig.snapshot().nav.owner, Owner::manual) << i;
+  }
+  say_s({}, 3);
+  EXPECT_EQ(rig.fastest_command_radps(), 0);
+  EXPECT_EQ(rig.snapshot().nav.owner, Owner::manual);
+  rig.start(path, 20, 0.5);
+  rig.tick();
+  EXPECT_THAT(refused(), HasSubstr("a person drives"));
+  hold_s(3);
+  EXPECT_NEAR(speed_mps(), 0.4, 1e-9) << refused();
+}
+TEST_F(DrivingByHand, ADriveThatFaultsStopsTheOthersAtOnce) {
+  rig.settle();
+  hold_s(3);
+  ASSERT_NEAR(speed_mps(), 0.4, 1e-9);
+  rig.drives[0].fault = true;
+  rig.tick();
+  rig.tick();
+  for (const auto& axis : rig.out.axes) EXPECT_EQ(axis.velocity_radps, 0);
+  EXPECT_GT(told("no longer driven by hand: wheel front_left: over temperature"), 0);
+}
+TEST_F(DrivingByHand, ADriveThatFaultsInASearchForTheHeadingStopsTheOthersAtOnce) {
+  rig.no_heading = true;
+  rig.settle();
+  rig.command(FindHeading{});
+  rig.run_s(2);
+  ASSERT_GT(speed_mps(), 0.1) << refused();
+  rig.drives[0].fault = true;
+  rig.tick();
+  rig.tick();
+  for (const auto& axis : rig.out.axes) EXPECT_EQ(axis.velocity_radps, 0);
+}
+TEST(AHandDrive, IsNotInheritedByASecondHand) {
+  using namespace std::chrono_literals;
+  HandDrive by_hand;
+  EventQueue events;
+  Time now{10s};
+  const auto say = [&](std::uint64_t hand, const Reason& busy) {
+    const Command command{{RequestId::Source::cli, 1}, now, DriveByHand{hand, {0.4, 0}}};
+    by_hand.take(command, std::get<DriveByHand>(command.body), busy, {}, now, events);
+    by_hand.step(now);
+  };
+  for (int i = 0; i < 10; ++i, now += 100ms) say(1, {});
+  ASSERT_TRUE(by_hand.moves());
+  now += 400ms;
+  say(2, {});
+  EXPECT_TRUE(by_hand.active_of(1)) << "not so soon";
+  now += 700ms;  // nobody looked meanwhile
+  say(2, "the robot moves");
+  EXPECT_FALSE(by_hand.active());
+  EXPECT_FALSE(by_hand.moves());
+}
+TEST_F(DrivingByHand, WhatNobodyComparedIsNotProvedAndStaysSlow) {
+  EngineConfig config = rig_config();
+  config.navigate.first_way_m = 0.3;
+  rig = EngineRig(config);
+  rig.imu = true;
+  rig.quality = FixQuality::rtk_float;
+  rig.settle();
+  hold_s(15);
+  EXPECT_GT(rig.driven_m, 0.5);
+  EXPECT_LE(std::abs(rig.plant.truth().vx_mps), 0.07);
+  EXPECT_FALSE(rig.out.remembered.mechanics_proved);
+  EXPECT_THAT(std::string(rig.said<CommandAccepted>().back().note.view()), HasSubstr("slowly"));
+  // The key turns it all the same.
+  say_s({0.4, 0.4}, 2);
+  EXPECT_GT(rig.plant.truth().wz_radps, 0.03);
+  // A task begins with a first way of its own.
+  rig.quality = FixQuality::rtk_fixed;
+  rig.run_s(8);
+  const double from_m = rig.driven_m;
+  Path ahead = straight_path(20);
+  const Pose at = rig.plant.truth();
+  for (auto& point : ahead.points) {
+    const double s_m = point.x_m;
+    point = {at.x_m + s_m * std::cos(at.yaw_rad), at.y_m + s_m * std::sin(at.yaw_rad)};
+  }
+  rig.start(ahead, 40, 0.5);
+  while (rig.driven_m < from_m + 0.28) {
+    rig.tick();
+    ASSERT_LE(std::abs(rig.plant.truth().vx_mps), 0.07) << rig.driven_m - from_m;
+    ASSERT_LT(rig.now, Time{std::chrono::seconds(70)}) << refused() << rig.why();
+  }
+  rig.run_s(4);
+  EXPECT_GT(speed_mps(), 0.4) << rig.why();
+  EXPECT_TRUE(rig.out.remembered.mechanics_proved);
+}
+
+class AHandBesideAStream : public JointCommands {};
+
+TEST_F(AHandBesideAStream, ResetsNothingForJointCommandsThatWait) {
+  rig.settle();
+  drive_by_joints();
+  tap(Line::estop);
+  stream_s(0, 2);
+  for (int i = 0; i < 150; ++i) {
+    if (i % 5 == 0) rig.command(DriveByHand{1, {0.4, 0}});
+    if (i % 2 == 0) send(0.0);
+    for (int k = 0; k < 4; ++k) rig.tick();
+  }
+  ASSERT_GT(rig.fastest_command_radps(), 1) << rig.why();
+  stream_s(0, 3);
+  expect_no_joint_moves("reset the stop first");
+}
 }  // namespace
 }  // namespace drover::engine
