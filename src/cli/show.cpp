@@ -79,8 +79,7 @@ void show_place(std::string& out, const Node& status) {
   if (at(pose, "position_sigma_m").number().has_value()) {
     line(out, "pose",
          quantity(at(pose, "x_m"), "x %.2f m") + quantity(at(pose, "y_m"), "  y %.2f m") +
-             "  yaw " + shown_yaw(pose) +
-             quantity(at(pose, "position_sigma_m"), "  +- %.3f m"));
+             "  yaw " + shown_yaw(pose) + quantity(at(pose, "position_sigma_m"), "  +- %.3f m"));
   } else {
     line(out, "pose", "-");
   }
