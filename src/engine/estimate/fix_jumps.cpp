@@ -59,6 +59,11 @@ bool steps(const State& state, double dx_m, double dy_m, double variance_m2, dou
   return std::hypot((x_m * c + y_m * s) / (least_m + slip_m), (y_m * c - x_m * s) / aside_m) > 1;
 }
 
+/// What is left of it in the bound, until another fix is found there.
+double doubt_m(const Dispute::Offset& beside) {
+  return beside.m() < kStep_m ? 0.0 : beside.m();
+}
+
 /// The same of a fix that was found again: beside of where wheels and gyro have it.
 bool is_elsewhere(const State& state, bool near) {
   const bool drives = state.standing_since == kNever && !state.way_unknown;
@@ -112,6 +117,8 @@ FixVerdict judge_jump(State& state, const FixBeside& fix, const EstimateConfig& 
       if (!confirmed) gnss.unconfirmed_m = apart_m;
       return FixVerdict::renewed;
     }
+    // It stepped back, and may have jumped elsewhere meanwhile.
+    gnss.unconfirmed_m = std::max(gnss.unconfirmed_m, doubt_m(fix.offset));
   }
   if (settles(state, config) && known_m < config.bound_run_m) return FixVerdict::waits;
   const bool again = found_again(state);
@@ -120,7 +127,11 @@ FixVerdict judge_jump(State& state, const FixBeside& fix, const EstimateConfig& 
   const bool jumped =
       again ? is_elsewhere(state, fix.near)
             : steps(state, fix.offset.east_m, fix.offset.north_m, variance_m2, fix.speed_mps);
-  if (again && !jumped) gnss.unconfirmed_m = 0;
+  // Found again about there it is believed, but may be another integer solution all the same.
+  if (again && !jumped) {
+    gnss.unconfirmed_m = doubt_m(fix.offset);
+    state.watch.stayed_m = 0;
+  }
   if (!jumped) return FixVerdict::plain;
   gnss.dispute.begin(fix.offset, state.time, slipped_meanwhile(state, fix.offset, config));
   state.fit.pause();

@@ -328,6 +328,7 @@ void apply(State& state, const AntennaPosition& measured, double speed_mps,
   }
   if (!inside) {
     if (!refuse(state, position, {dx, dy}, larger_sigma_m(position), fixed, config)) return;
+    if (fixed && found_again(state)) state.gnss.unconfirmed_m = std::hypot(dx, dy);
     state.gnss.replaced = state.time;
     state.gnss.replaced_m = std::hypot(dx, dy);
     place_anew(state, position, {arm_x, arm_y}, place_variance);
@@ -344,8 +345,8 @@ void apply(State& state, const AntennaPosition& measured, double speed_mps,
     watch_drift(state.watch, state.mounting, belief, fix, state.time, ground_of(state, config),
                 config);
   }
-  const double scale_most =
-      state.watch.slipping() ? 0.0 : kScalePerMetre * state.gnss.corrected_way_m;
+  const double scale_way_m = fixed ? state.unseen.way_m : state.gnss.corrected_way_m;
+  const double scale_most = state.watch.slipping() ? 0.0 : kScalePerMetre * scale_way_m;
   state.gnss.corrected_way_m = 0;
   rest_on(state, position, config);
   if (fixed) {

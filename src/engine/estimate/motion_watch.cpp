@@ -257,6 +257,8 @@ void look_on(MotionWatch& watch, Mounting& mounting, const BaseFix& fix, Time no
     watch.sideways = sideways_of(watch, ground.slope_rad);
     if (look.lesson.way_m > 0) learn(mounting, look.lesson, config);
     watch.lasting = {};
+    // No drift, but perhaps a jump that nobody saw, which stays.
+    if (!look.along) watch.stayed_m = std::max(watch.stayed_m, watch.gap_m);
     watch.gap_m = watch.unseen_slip_m = 0;
     look = {};
   }
@@ -339,6 +341,7 @@ void MotionWatch::pause() {
   forget();
   sideways = old.sideways;
   gap_m = old.gap_m;
+  stayed_m = old.stayed_m;
   if (!old.drifted && !old.looks()) return;
   drifted = old.drifted;
   drift_m = old.drift_m;

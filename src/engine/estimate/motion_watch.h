@@ -99,7 +99,8 @@ struct MotionWatch {
   Leg study;                   ///< for the mounting of the antenna line
   Look look;
   Sideways sideways;
-  double gap_m = 0;  ///< how far the last fix is beside the older of the lasting legs
+  double gap_m = 0;     ///< how far the last fix is beside the older of the lasting legs
+  double stayed_m = 0;  ///< so far beside it was when a look found no drift; of this fix
   double last_gap_m = 0;
   double last_east_m = 0;  ///< how far the last position was from dead reckoning
   double last_north_m = 0;

@@ -146,7 +146,7 @@ void Estimator::report_trouble(const State& state, Time now) {
     if (places.running()) apart_m = std::max(apart_m, state.gnss.contradiction_m);
     if (state.gnss.replaced != kNever && now - state.gnss.replaced < kMayStepBack)
       apart_m = std::max(apart_m, state.gnss.replaced_m);
-    apart_m = std::max(apart_m, state.gnss.unconfirmed_m);
+    apart_m = std::max({apart_m, state.gnss.unconfirmed_m, watch.stayed_m});
     e.error_bound_m += std::max(watch.gap_m, apart_m);
   }
   // Gyro and wheels, which agree, vote a heading out that jumped.
