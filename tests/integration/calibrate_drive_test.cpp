@@ -269,7 +269,9 @@ TEST_F(CalibrationDriveProcess, EndsWithAKeyAndSaysWhatIsMissing) {
   person->type("q");
   ASSERT_TRUE(wait_until([&] { return person->status().has_value(); }));
   EXPECT_EQ(person->status(), 1);
-  EXPECT_THAT(person->shown(), HasSubstr("positions with an RTK fix"));
+  ASSERT_TRUE(wait_until([&] {
+    return person->shown().find("positions with an RTK fix") != std::string::npos;
+  })) << person->shown();
   ASSERT_TRUE(wait_until([&] { return at_rest(); }));
 }
 

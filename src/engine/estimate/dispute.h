@@ -53,8 +53,6 @@ class Dispute final {
   /// When it is decided at the latest if all stays as it is; kNever: not by waiting.
   Time decided_at() const;
   bool moved_at_rest() const { return moved_at_rest_; }
-  /// A fix that was lost and found since it began says so, and not only one from just before.
-  bool confirmed() const { return lost_; }
 
  private:
   bool came_back(const Offset& offset, double two_sigma_m, Time now) const;

@@ -59,9 +59,10 @@ bool steps(const State& state, double dx_m, double dy_m, double variance_m2, dou
   return std::hypot((x_m * c + y_m * s) / (least_m + slip_m), (y_m * c - x_m * s) / aside_m) > 1;
 }
 
-/// What is left of it in the bound, until another fix is found there.
-double doubt_m(const Dispute::Offset& beside) {
-  return beside.m() < kStep_m ? 0.0 : beside.m();
+/// What is left of it in the bound, until another fix is found there: dead reckoning, which may
+/// have been right, was known by two sigma.
+double doubt_m(const Dispute::Offset& beside, double two_sigma_m) {
+  return beside.m() < kStep_m ? 0.0 : beside.m() + two_sigma_m;
 }
 
 /// The same of a fix that was found again: beside of where wheels and gyro have it.
@@ -108,17 +109,16 @@ FixVerdict judge_jump(State& state, const FixBeside& fix, const EstimateConfig& 
                           state.standing_since != kNever, state.time);
     if (verdict == Dispute::Verdict::undecided) return FixVerdict::doubted;
     const bool moved_at_rest = gnss.dispute.moved_at_rest();
-    const bool confirmed = gnss.dispute.confirmed();
     const double apart_m = gnss.dispute.apart_m();
     gnss.dispute = {};
     gnss.believed = kNever;
     if (verdict == Dispute::Verdict::renewed) {
       if (!moved_at_rest) gnss.renewed = state.time;
-      if (!confirmed) gnss.unconfirmed_m = apart_m;
+      gnss.unconfirmed_m = apart_m + known_m;
       return FixVerdict::renewed;
     }
     // It stepped back, and may have jumped elsewhere meanwhile.
-    gnss.unconfirmed_m = std::max(gnss.unconfirmed_m, doubt_m(fix.offset));
+    gnss.unconfirmed_m = std::max(gnss.unconfirmed_m, doubt_m(fix.offset, known_m));
   }
   if (settles(state, config) && known_m < config.bound_run_m) return FixVerdict::waits;
   const bool again = found_again(state);
@@ -129,7 +129,7 @@ FixVerdict judge_jump(State& state, const FixBeside& fix, const EstimateConfig& 
             : steps(state, fix.offset.east_m, fix.offset.north_m, variance_m2, fix.speed_mps);
   // Found again about there it is believed, but may be another integer solution all the same.
   if (again && !jumped) {
-    gnss.unconfirmed_m = doubt_m(fix.offset);
+    gnss.unconfirmed_m = doubt_m(fix.offset, known_m);
     state.watch.stayed_m = 0;
   }
   if (!jumped) return FixVerdict::plain;
