@@ -117,8 +117,6 @@ bool HandOutlet::on_line(ClientId client, std::string_view line, Time now, Actio
   const auto document = json::parse(line, {.max_bytes = 1024, .max_depth = 2, .max_values = 8});
   if (!document) return false;
   const auto cmd = text_member(document->root, "cmd");
-  json::JsonText reply;
-  reply.open('{').key("ok").boolean(true);
   if (cmd == "drive_by_hand") {
     if (const auto why = drive(client, document->root, now, out); !why.empty())
       out.emplace_back(Reply{client, reply_line(false, why)});
@@ -130,7 +128,8 @@ bool HandOutlet::on_line(ClientId client, std::string_view line, Time now, Actio
     return true;
   }
   if (cmd != "configuration") return false;
-  reply.key("configuration").text(texts_.configuration);
+  json::JsonText reply;
+  reply.open('{').key("ok").boolean(true).key("configuration").text(texts_.configuration);
   reply.key("register_map").text(texts_.register_map).close('}');
   out.emplace_back(Reply{client, reply.take()});
   return true;

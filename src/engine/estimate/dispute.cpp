@@ -35,6 +35,14 @@ double Dispute::Offset::m() const {
   return std::hypot(east_m, north_m);
 }
 
+double Dispute::Offset::ahead_m(double yaw_rad) const {
+  return east_m * std::cos(yaw_rad) + north_m * std::sin(yaw_rad);
+}
+
+double Dispute::Offset::left_m(double yaw_rad) const {
+  return north_m * std::cos(yaw_rad) - east_m * std::sin(yaw_rad);
+}
+
 void Dispute::begin(const Offset& offset, Time since, bool found_again) {
   *this = {};
   found_again_ = found_again;
@@ -66,12 +74,11 @@ void Dispute::advance(double east_m, double north_m) {
 }
 
 double Dispute::led_aside_m(double yaw_rad) const {
-  return std::abs(put_right_.north_m * std::cos(yaw_rad) - put_right_.east_m * std::sin(yaw_rad));
+  return std::abs(put_right_.left_m(yaw_rad));
 }
 
 bool Dispute::may_lead(double yaw_rad, double slip_share) const {
-  const double along_m =
-      std::abs(put_right_.east_m * std::cos(yaw_rad) + put_right_.north_m * std::sin(yaw_rad));
+  const double along_m = std::abs(put_right_.ahead_m(yaw_rad));
   const double least_m = std::min(kHeld_m + kWheelsAgree * gone_.way_m, kLeads_m);
   return along_m <= least_m + slip_share * gone_.way_m &&
          led_aside_m(yaw_rad) <= least_m + slip_share * gone_.aside_m(yaw_rad);

@@ -15,6 +15,9 @@ class Dispute final {
     double east_m = 0;
     double north_m = 0;
     double m() const;
+    /// Of who has this heading: ahead of him, and to his left.
+    double ahead_m(double yaw_rad) const;
+    double left_m(double yaw_rad) const;
   };
 
   /// Positions are refused, or jumped, since then. `found_again`: the fix was lost just before, and

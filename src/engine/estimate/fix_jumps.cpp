@@ -47,16 +47,14 @@ bool steps(const State& state, double dx_m, double dy_m, double variance_m2, dou
   if (state.way_unknown || state.shove.holds()) return false;
   const Duration since = state.time - gnss.believed;
   if (since > kStepWithin) return false;
-  const double c = std::cos(state.belief.mean[kYaw]);
-  const double s = std::sin(state.belief.mean[kYaw]);
-  const double x_m = dx_m - gnss.beside_x_m;
-  const double y_m = dy_m - gnss.beside_y_m;
+  const double yaw_rad = state.belief.mean[kYaw];
+  const Dispute::Offset step{dx_m - gnss.beside_x_m, dy_m - gnss.beside_y_m};
   const double way_m = std::abs(speed_mps) * to_s(since);
   const double least_m = std::max(kStepGate * std::sqrt(2 * variance_m2), kStep_m) +
                          kReckoned * std::max(way_m - kReckonedWell_m, 0.0);
   const double slip_m = kStepSlip * std::min(way_m, kStepSlipWay_m);
   const double aside_m = std::hypot(least_m, shoved_m(state));
-  return std::hypot((x_m * c + y_m * s) / (least_m + slip_m), (y_m * c - x_m * s) / aside_m) > 1;
+  return std::hypot(step.ahead_m(yaw_rad) / (least_m + slip_m), step.left_m(yaw_rad) / aside_m) > 1;
 }
 
 /// What is left of it in the bound, until another fix is found there: dead reckoning, which may
@@ -89,12 +87,10 @@ bool slipped_meanwhile(const State& state, const Dispute::Offset& beside,
                        const EstimateConfig& config) {
   if (!found_again(state)) return false;
   const double yaw_rad = state.belief.mean[kYaw];
-  const double c = std::cos(yaw_rad);
-  const double s = std::sin(yaw_rad);
   const double known_m = std::max(two_sigma_position_m(state.belief), kSlippedAside_m);
   const double share = config.unseen_slip_share;
-  const double behind_m = -(beside.east_m * c + beside.north_m * s);
-  const double aside_m = std::abs(beside.north_m * c - beside.east_m * s);
+  const double behind_m = -beside.ahead_m(yaw_rad);
+  const double aside_m = std::abs(beside.left_m(yaw_rad));
   return behind_m >= -share * state.unseen.against_m(yaw_rad) - known_m &&
          behind_m <= share * state.unseen.in_m(yaw_rad) + known_m &&
          aside_m <= share * state.unseen.aside_m(yaw_rad) + known_m;

@@ -187,9 +187,8 @@ void MechanicsCheck::compare_way(const Mark& wheels) {
   from.longitude_deg = rest_.east_deg;
   PathPoint way = ground_way(from, position_);
   const double turn_rad = std::isfinite(heading_turn_rad_) ? heading_turn_rad_ : wheels.turn_rad;
-  double ahead_m = 0;
+  const double yaw0_rad = yaw_rad_ - turn_rad;
   if (std::isfinite(yaw_rad_)) {
-    const double yaw0_rad = yaw_rad_ - turn_rad;
     // The antenna swings about the base as it turns.
     const double ax = antenna_.x_m;
     const double ay = antenna_.y_m;
@@ -207,11 +206,11 @@ void MechanicsCheck::compare_way(const Mark& wheels) {
   compared_m_ = wheels.rolled_m;
   way.x_m -= jumped_.x_m;
   way.y_m -= jumped_.y_m;
-  ahead_m = std::hypot(way.x_m, way.y_m);
-  if (std::isfinite(yaw_rad_))
-    ahead_m = way.x_m * std::cos(yaw_rad_ - turn_rad) + way.y_m * std::sin(yaw_rad_ - turn_rad);
   const double rolled_m = wheels.way_m;
   const double gone_m = std::hypot(way.x_m, way.y_m);
+  const double ahead_m = std::isfinite(yaw_rad_)
+                             ? way.x_m * std::cos(yaw0_rad) + way.y_m * std::sin(yaw0_rad)
+                             : gone_m;
   const bool back = ahead_m * rolled_m < 0;
   const double too_much_m = back ? std::abs(ahead_m) : gone_m - kWayRatio * std::abs(rolled_m);
   const double too_little_m =

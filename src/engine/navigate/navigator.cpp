@@ -299,16 +299,15 @@ void Navigator::watch_pauses(const NavInput& input, EventQueue& events) {
                    zone || unseen ? resume_after : Duration{});
   constraint_.update(broken, input.now, Duration{});
   unasked_.update(!input.unasked.empty(), input.now, Duration{});
-  const Reason outside = may_be_outside(input.estimate);
-  lost_.update(input.health.locate != LocateState::good || !outside.empty(), input.now,
+  outside_ = may_be_outside(input.estimate);
+  lost_.update(input.health.locate != LocateState::good || !outside_.empty(), input.now,
                resume_after);
-  outside_ = outside;
   const bool wait = waits();
   if (wait && phase_ == Phase::running) {
     phase_ = Phase::paused;
     Reason text;
     const Reason& what = broken                   ? input.health.text(Cause::constraint)
-                         : !outside.empty()       ? outside
+                         : !outside_.empty()      ? outside_
                          : !obstacle_.holds()     ? input.health.locate_reason
                          : input.health.near_zone ? input.health.text(Cause::near_zone)
                                                   : input.health.text(Cause::surroundings);
