@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdio>
+#include <cstdlib>
 #include <fstream>
 #include <memory>
 
@@ -200,10 +201,26 @@ int tell_result(const DriveSettings& settings, const CalibrationDrive& it,
   return file ? kDone : refuse(settings.out + ": cannot be written");
 }
 
+std::string_view environment(const char* name) {
+  const char* const value = std::getenv(name);
+  return value == nullptr ? std::string_view{} : value;
+}
+
+/// Why nobody can drive with a key from where this is run; empty: one can.
+std::string no_place_for_a_key() {
+  if (::isatty(STDIN_FILENO) == 0)
+    return "it is driven with a key that a person holds: run it at a terminal (ssh -t)";
+  const auto between = answers_for_the_terminal(
+      {environment("TMUX"), environment("STY"), environment("TERM"), environment("SUDO_USER")});
+  if (between.empty()) return "";
+  return "this runs within " + between +
+         ", which answers for your terminal and goes on when that is gone: nobody would notice "
+         "that you let the key go; run it at a plain terminal (ssh -t)";
+}
+
 int calibrate_by_hand(const DriveSettings& settings, const std::string& socket) {
-  if (::isatty(STDIN_FILENO) == 0) {
-    tell_failure(settings.json, "drover",
-                 "it is driven with a key that a person holds: run it at a terminal (ssh -t)");
+  if (const auto why = no_place_for_a_key(); !why.empty()) {
+    tell_failure(settings.json, "drover", why);
     return kRefused;
   }
   Connection daemon(socket, kPatience_s);

@@ -103,9 +103,15 @@ class KeyHolder final {
 
 class CalibrationDriveProcess : public RobotRig {
  protected:
-  std::unique_ptr<KeyHolder> at_terminal() {
-    return std::make_unique<KeyHolder>(std::vector<std::string>{
-        DROVER_PROGRAM, "--socket", (folder() / "run/drover.sock").string(), "calibrate", "drive"});
+  /// `within`: the environment, without which it is as at a plain terminal.
+  std::unique_ptr<KeyHolder> at_terminal(const std::vector<std::string>& more = {},
+                                         const std::string& within = "WITHIN=nothing") {
+    std::vector<std::string> words{"/usr/bin/env", "-u",        "TMUX", "-u",           "STY",
+                                   "-u",           "SUDO_USER", within, DROVER_PROGRAM, "--socket"};
+    words.push_back((folder() / "run/drover.sock").string());
+    words.insert(words.end(), {"calibrate", "drive"});
+    words.insert(words.end(), more.begin(), more.end());
+    return std::make_unique<KeyHolder>(words);
   }
   /// Everywhere in that file.
   void configure(const char* file_name, const std::string& was, const std::string& is) {
@@ -192,8 +198,8 @@ TEST_F(CalibrationDriveProcess, FindsWhatIsConfiguredWrong) {
   configure("drover.json", R"("antenna_x_m": 0.1)", R"("antenna_x_m": 0.0)");
   start_all();
   const auto out = folder() / "calibration.txt";
-  KeyHolder person({DROVER_PROGRAM, "--socket", (folder() / "run/drover.sock").string(),
-                    "calibrate", "drive", "--out", out.string()});
+  const auto at_it = at_terminal({"--out", out.string()});
+  KeyHolder& person = *at_it;
   person.hold();
   bool ended = false;
   // However slow the programs are: ctest ends it after 10, without a word.
@@ -221,6 +227,14 @@ TEST_F(CalibrationDriveProcess, FindsWhatIsConfiguredWrong) {
     EXPECT_NEAR(value, truth, interval) << name;
   }
   EXPECT_THAT(text, HasSubstr(R"({"groups":{"base":{"wheel_radius_m":0.16)"));
+}
+TEST_F(CalibrationDriveProcess, IsRefusedWhereAnotherProgramAnswersForTheTerminal) {
+  for (const char* within : {"TMUX=/tmp/tmux-0/default,7,0", "STY=7.pts-0.robot"}) {
+    const auto person = at_terminal({}, within);
+    ASSERT_TRUE(wait_until([&] { return person->status().has_value(); })) << within;
+    EXPECT_EQ(person->status(), 1) << within;
+    EXPECT_THAT(person->shown(), HasSubstr("run it at a plain terminal"));
+  }
 }
 TEST_F(CalibrationDriveProcess, KeysThatComeLateCountForNothing) {
   start_all();

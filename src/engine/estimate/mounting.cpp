@@ -78,6 +78,12 @@ double Mounting::sigma_rad(const EstimateConfig& config) const {
   return begun ? std::sqrt(covariance[0][0]) : to_rad(config.heading_mount_sigma_deg);
 }
 
+double Mounting::doubt_rad(const EstimateConfig& config) const {
+  const double legs_rad = sigma_rad(config);
+  return recalled == Recalled::unproved ? std::max(legs_rad, to_rad(config.heading_mount_sigma_deg))
+                                        : legs_rad;
+}
+
 bool Mounting::known(const EstimateConfig& config) const {
   return sigma_rad(config) <= to_rad(kKnown_deg);
 }

@@ -34,6 +34,9 @@ struct Mounting {
   double first_course_rad = 0;  ///< of the first leg that fits to it
 
   double sigma_rad(const EstimateConfig& config) const;
+  /// What a heading may be off by: of one that was recalled as much as of one that nobody knows,
+  /// until a leg of this program agrees.
+  double doubt_rad(const EstimateConfig& config) const;
   bool known(const EstimateConfig& config) const;
   /// And this program has seen it.
   bool proved(const EstimateConfig& config) const {

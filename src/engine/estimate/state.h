@@ -100,7 +100,7 @@ struct State {
 
   /// Of the mounting, as long as the heading is a receiver's.
   double mount_sigma_rad(const EstimateConfig& config) const {
-    return heading.last == kNever ? 0.0 : mounting.sigma_rad(config);
+    return heading.last == kNever ? 0.0 : mounting.doubt_rad(config);
   }
   /// What was learned of it and is not made up for yet.
   double mount_left_rad() const {

@@ -133,6 +133,21 @@ TEST_F(LearnedBefore, AnotherMountingIsGivenUpAtTheFirstLeg) {
   }
 }
 
+/// The receiver is lost before the first leg could tell: the bound is that of an unknown mounting.
+TEST_F(LearnedBefore, ALineThatWasBumpedIsInTheBoundBeforeTheFirstLeg) {
+  for (const double off_deg : {-6.0, -3.0, 0.0}) {
+    Rig rig(5);
+    rig.estimator.recall(mounted(3, 0.1));
+    rig.world.heading_off_deg = off_deg;
+    settle(rig);
+    rig.drive(0.5, 0.5, 1);
+    rig.world.position = rig.world.heading = false;
+    rig.forget();
+    rig.drive(0.5, 0.5, 30);
+    EXPECT_EQ(rig.share_bound(), 1) << off_deg;
+  }
+}
+
 TEST_F(LearnedBefore, IsProvedThereAndBackAndNotRoundACorner) {
   const EstimateConfig config;
   const auto leg = [&](Mounting& mounting, double course_rad) {
