@@ -14,7 +14,6 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr std::size_t kEnough = 10;
 // A publisher looks at the snapshot each few milliseconds, and a frame waits for its cycle.
 constexpr Duration kAnnounced = 100ms;
 // An AgileX gets zeros for so long before any motion (drivers/agilex_v2/README.md).
@@ -22,10 +21,6 @@ constexpr Duration kZerosFirst = 200ms;
 // From the highest speed to rest: 0.8 m/s at 0.8 m/s^2, the jerk limit's 0.4 s, and a margin.
 constexpr Duration kRamp = 1600ms;
 constexpr Duration kGuard = 100ms;
-
-void add(Problems& problems, std::string text) {
-  if (problems.size() < kEnough) problems.push_back(std::move(text));
-}
 
 /// A task: from the operator's start to the end that the gateway told.
 struct Task {
@@ -120,6 +115,11 @@ bool inside(const std::vector<Task>& tasks, Time time) {
 }
 
 }  // namespace
+
+void add(Problems& problems, std::string text) {
+  constexpr std::size_t kEnough = 10;
+  if (problems.size() < kEnough) problems.push_back(std::move(text));
+}
 
 std::string seconds(Duration duration) {
   std::array<char, 48> text{};

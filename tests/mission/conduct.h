@@ -10,6 +10,8 @@
 namespace drover::mission {
 
 using Problems = std::vector<std::string>;
+/// The first ten of a kind: more say nothing new.
+void add(Problems& problems, std::string text);
 
 /// Every frame on the bus is a drive's, or on the list of what may be sent to a wheel.
 Problems check_frames(const Record& record);

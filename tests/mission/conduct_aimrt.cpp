@@ -9,15 +9,10 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr std::size_t kEnough = 10;
 constexpr double kShare = 0.01;  // of a rate
 constexpr Duration kBegin = 2s;
 constexpr Duration kEnd = 200ms;
 constexpr Duration kLongEnough = 5s;  // to say something about a rate
-
-void add(Problems& problems, std::string text) {
-  if (problems.size() < kEnough) problems.push_back(std::move(text));
-}
 
 using Messages = std::vector<const MqttLine*>;
 

@@ -11,14 +11,9 @@ namespace {
 using namespace std::chrono_literals;
 using nlohmann::json;
 
-constexpr std::size_t kEnough = 10;
 constexpr Duration kBack = 2s;
 constexpr Duration kGap = 200ms;
 constexpr Duration kPiledUp = 200ms;
-
-void add(Problems& problems, std::string text) {
-  if (problems.size() < kEnough) problems.push_back(std::move(text));
-}
 
 enum class Kind { number, integer, boolean, text, texts };
 
