@@ -113,6 +113,7 @@ void Engine::Impl::take(const Measurement& m) {
     rest.witness().on_position(*position, m.time);
     mechanics.on_position(*position, m.time);
   } else if (const auto* velocity = std::get_if<GnssVelocity>(&m.value)) {
+    if (m.time < snapshot.gnss.velocity_time) return;
     snapshot.gnss.velocity = *velocity;
     snapshot.gnss.velocity_time = m.time;
     rest.witness().on_speed(*velocity, m.time);

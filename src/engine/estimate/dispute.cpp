@@ -43,10 +43,11 @@ double Dispute::Offset::left_m(double yaw_rad) const {
   return north_m * std::cos(yaw_rad) - east_m * std::sin(yaw_rad);
 }
 
-void Dispute::begin(const Offset& offset, Time since, bool found_again) {
+void Dispute::begin(const Offset& offset, Time since, bool found_again, Time now) {
   *this = {};
   found_again_ = found_again;
-  since_ = heard_ = since;
+  since_ = since;
+  heard_ = now;
   jump_ = late_ = last_ = offset;
 }
 

@@ -20,9 +20,9 @@ class Dispute final {
     double left_m(double yaw_rad) const;
   };
 
-  /// Positions are refused, or jumped, since then. `found_again`: the fix was lost just before, and
-  /// slip explains where it is: this is another one already.
-  void begin(const Offset& offset, Time since, bool found_again);
+  /// Positions are refused, or jumped, since then, and heard until now. `found_again`: the fix was
+  /// lost just before, and slip explains where it is: this is another one already.
+  void begin(const Offset& offset, Time since, bool found_again, Time now);
   bool holds() const { return since_ != kNever; }
   Time since() const { return since_; }
   /// Between both places, by the last position, m.

@@ -129,7 +129,8 @@ FixVerdict judge_jump(State& state, const FixBeside& fix, const EstimateConfig& 
     state.watch.stayed_m = 0;
   }
   if (!jumped) return FixVerdict::plain;
-  gnss.dispute.begin(fix.offset, state.time, slipped_meanwhile(state, fix.offset, config));
+  gnss.dispute.begin(fix.offset, state.time, slipped_meanwhile(state, fix.offset, config),
+                     state.time);
   state.fit.pause();
   return FixVerdict::doubted;
 }

@@ -105,13 +105,19 @@ void Estimator::report_kept(const State& state) {
       taught ? kept(kMountingKept, -mounting.applied_rad, mounting.sigma_rad(config_))
              : LearnedValue{};
   const AntennaFit& fit = state.fit;
+  // All is kept under one receiver's name; while another one tells the positions, theirs is not.
+  const bool its_own = !told || state.gnss.receiver == state.heading.receiver;
+  const auto of_positions = [its_own](LearnedValue value) {
+    return its_own ? value : LearnedValue{};
+  };
   const bool of_late = config_.gnss_late_sigma_s > 0;
-  learned.late_s = of_late ? kept(kLateKept, fit.late_s(), fit.late_doubt_s()) : LearnedValue{};
+  learned.late_s =
+      of_late ? of_positions(kept(kLateKept, fit.late_s(), fit.late_doubt_s())) : LearnedValue{};
   learned.heading_late_s =
       of_late ? kept(kLateKept, state.heading_late.late_s(), state.heading_late.sigma_s())
               : LearnedValue{};
-  learned.antenna_ahead_m = kept(kArmKept, fit.ahead_m(), fit.arm_sigma_m());
-  learned.antenna_left_m = kept(kArmKept, fit.left_m(), fit.arm_sigma_m());
+  learned.antenna_ahead_m = of_positions(kept(kArmKept, fit.ahead_m(), fit.arm_sigma_m()));
+  learned.antenna_left_m = of_positions(kept(kArmKept, fit.left_m(), fit.arm_sigma_m()));
   learned.wheel_scale = kept(kScaleKept, mean_of(kScale), sigma_of(kScale));
   learned.turn_gain = kept(kGainKept, mean_of(kGain), sigma_of(kGain));
   learned.gyro_scale = kept(kGyroScaleKept, mean_of(kGyroScale), sigma_of(kGyroScale));

@@ -71,9 +71,9 @@ AntennaPosition follow_quality(State& state, const AntennaPosition& position,
   return used;
 }
 
-/// Another receiver has errors of its own. Where the base is stays as it was: what the new one says
-/// must fit to that, as anything that it says later.
-void hand_over(State& state, std::uint8_t receiver) {
+/// Another receiver has errors of its own, and an antenna. Where the base is stays as it was: what
+/// the new one says must fit to that, as anything that it says later.
+void hand_over(State& state, std::uint8_t receiver, const EstimateConfig& config) {
   GnssTrack& gnss = state.gnss;
   gnss.receiver = receiver;
   gnss.quality = GnssClass::none;
@@ -81,6 +81,8 @@ void hand_over(State& state, std::uint8_t receiver) {
   gnss.jumps = {};
   gnss.dispute = {};
   gnss.unconfirmed_m = 0;
+  state.fit = AntennaFit(config);
+  state.late_s = 0;
   state.watch.forget();
   state.course = {};
 }
@@ -170,7 +172,8 @@ bool refuse(State& state, const AntennaPosition& position, const Dispute::Offset
   }
   const Duration patience = from_s(config.jump_time_s);
   if (fixed && gnss.jumps.began_moving() && gnss.jumps.disagrees(patience)) {
-    gnss.dispute.begin(beside, gnss.jumps.since(), slipped_meanwhile(state, beside, config));
+    gnss.dispute.begin(beside, gnss.jumps.since(), slipped_meanwhile(state, beside, config),
+                       state.time);
     state.fit.pause();
   }
   return standing && gnss.jumps.settled(patience);
@@ -270,7 +273,7 @@ bool passes(const State& state, Expected expected, double dx_m, double dy_m, dou
 
 void apply(State& state, const AntennaPosition& measured, double speed_mps,
            const EstimateConfig& config) {
-  if (measured.receiver != state.gnss.receiver) hand_over(state, measured.receiver);
+  if (measured.receiver != state.gnss.receiver) hand_over(state, measured.receiver, config);
   const AntennaPosition position =
       in_time(state, follow_quality(state, measured, config), speed_mps);
   Belief& belief = state.belief;
@@ -327,7 +330,9 @@ void apply(State& state, const AntennaPosition& measured, double speed_mps,
     }
   }
   if (!inside) {
-    if (!refuse(state, position, {dx, dy}, larger_sigma_m(position), fixed, config)) return;
+    const bool settled = refuse(state, position, {dx, dy}, larger_sigma_m(position), fixed, config);
+    // Which of two places is right is no question for a poor position.
+    if (!settled || (!fixed && state.gnss.dispute.holds())) return;
     if (fixed && found_again(state)) state.gnss.unconfirmed_m = std::hypot(dx, dy);
     state.gnss.replaced = state.time;
     state.gnss.replaced_m = std::hypot(dx, dy);

@@ -62,7 +62,7 @@ void watch_slip(MotionWatch& watch, Belief& belief, const BaseFix& fix, Time now
   Leg& leg = watch.brief;
   if (leg.since == kNever || now - leg.since > 2 * kBrief) {
     begin_brief(watch, belief, fix, now);
-    watch.slip_since = watch.stuck_since = kNever;
+    watch.stuck_since = kNever;
     return;
   }
   const double wheels_m = std::hypot(leg.east_m, leg.north_m);

@@ -315,6 +315,13 @@ TEST_F(AnEngine, DoesNotLetFramesThatOvertookEachOtherMoveAStateBackwards) {
   m.value = AxisMotion{0, 1234, 0, 0};
   rig.engine->on_measurement(m);
   EXPECT_NE(rig.snapshot().axes[0].motion.position_rad, 1234);
+  m.time = rig.now;
+  m.value = GnssVelocity{.speed_mps = 0.25};
+  rig.engine->on_measurement(m);
+  m.time = rig.now - std::chrono::milliseconds(50);
+  m.value = GnssVelocity{.speed_mps = 7};
+  rig.engine->on_measurement(m);
+  EXPECT_EQ(rig.snapshot().gnss.velocity.speed_mps, 0.25);
 }
 TEST_F(AnEngine, NoticesASilentDriveWhoseLastStampLayInTheFuture) {
   drive();

@@ -17,7 +17,7 @@ constexpr double kNoise_m = 0.0125;
 
 class ADispute : public testing::Test {
  protected:
-  ADispute() { dispute.begin({0.08, 0}, now, false); }
+  ADispute() { dispute.begin({0.08, 0}, now, false, now); }
   /// A fix each tenth of a second, for `seconds`, or until it is decided.
   Verdict hear(const Offset& offset, double for_s, double two_sigma_m = kWell_m) {
     for (double s = 0; s < for_s - 0.05; s += 0.1) {
@@ -95,10 +95,17 @@ TEST_F(ADispute, CountsSilenceAsALoss) {
 }
 
 TEST_F(ADispute, CountsALossJustBeforeItBegan) {
-  dispute.begin({0.15, 0}, now, true);
+  dispute.begin({0.15, 0}, now, true, now);
   EXPECT_EQ(hear({0.15, 0}, 59.5), Verdict::undecided);
   EXPECT_EQ(dispute.decided_at(), kBegin + milliseconds(60100));
   EXPECT_EQ(hear({0.15, 0}, 1), Verdict::renewed);
+}
+
+/// Refused for long before it is told as a dispute: the fix was there all the time.
+TEST_F(ADispute, ThatBeginsLateIsNoLoss) {
+  dispute.begin({0.2, 0}, now - milliseconds(2500), false, now);
+  EXPECT_EQ(hear({0.2, 0}, 70), Verdict::undecided);
+  EXPECT_EQ(dispute.since(), kBegin - milliseconds(2500));
 }
 
 TEST_F(ADispute, WithoutALossIsNotDecidedByWaiting) {
@@ -169,7 +176,7 @@ TEST_F(ADispute, KnowsAFixThatIsFoundElsewhereByABaseThatStoodForOneThatWasCarri
   dispute.lose_fix();
   EXPECT_EQ(stand({0.08, 0}, 5), Verdict::undecided);
   EXPECT_FALSE(dispute.moved_at_rest());
-  dispute.begin({0.08, 0}, now, false);
+  dispute.begin({0.08, 0}, now, false, now);
   EXPECT_EQ(stand({0.08, 0}, 5), Verdict::undecided);
   dispute.lose_fix();
   EXPECT_EQ(stand({0.5, 0.1}, 70), Verdict::renewed);

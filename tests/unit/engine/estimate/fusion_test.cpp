@@ -275,6 +275,27 @@ TEST(EstimateFusion, TellsWheelsThatSlipInTheTurn) {
   EXPECT_LT(rig.max_m(), 0.05);
 }
 
+/// A fix that is lost for a moment shows nothing of them.
+TEST(EstimateFusion, TakesWheelsThatSlippedForSlippingUntilFixesShowThatTheyDoNot) {
+  Rig rig(10);
+  settle(rig);
+  rig.drive(0.5, 0.5, 5);
+  rig.world.grip = 0.5;
+  rig.drive(0.5, 0.5, 2);
+  ASSERT_TRUE(rig.last.slipping);
+  rig.world.quality = FixQuality::rtk_float;
+  rig.drive(0.5, 0.5, 0.5);
+  EXPECT_TRUE(rig.last.slipping);
+  rig.world.quality = FixQuality::rtk_fixed;
+  for (int i = 0; i < 6; ++i) {
+    rig.drive(0.5, 0.5, 0.1);
+    EXPECT_TRUE(rig.last.slipping) << i;
+  }
+  rig.world.grip = 1;
+  rig.drive(0.5, 0.5, 3);
+  EXPECT_FALSE(rig.last.slipping);
+}
+
 TEST(EstimateFusion, FollowsAndTellsWheelsThatSlipALittle) {
   Rig rig(10);
   settle(rig);

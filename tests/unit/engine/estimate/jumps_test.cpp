@@ -42,6 +42,27 @@ TEST_P(EstimateJumps, EndWhenTheReceiverComesBack) {
 
 INSTANTIATE_TEST_SUITE_P(HalfAMetreToFifty, EstimateJumps, testing::Values(0.5, 5.0, 50.0));
 
+/// Two places are in question, and a poor position says a third: it decides nothing.
+TEST(EstimateContradiction, APoorPositionMovesNothingWhileADisputeHolds) {
+  Rig rig;
+  rig.stand(5);
+  rig.drive(0.5, 0.5, 5);
+  rig.world.jump_x_m = 0.3;
+  rig.drive(0.5, 0.5, 2);
+  ASSERT_TRUE(rig.last.disputed);
+  rig.stand(1);
+  rig.world.quality = FixQuality::rtk_float;
+  rig.world.jump_x_m = 2.5;
+  rig.forget();
+  rig.stand(10);
+  EXPECT_LT(rig.max_m(), 0.5);
+  rig.world.quality = FixQuality::rtk_fixed;
+  rig.world.jump_x_m = 0;
+  rig.stand(5);
+  EXPECT_LT(rig.position_error_m(), 0.05);
+  EXPECT_EQ(rig.share_bound(), 1);
+}
+
 TEST(EstimateContradiction, SingleOutliersAreNoDisagreement) {
   Rig rig;
   rig.stand(5);

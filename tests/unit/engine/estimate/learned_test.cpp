@@ -228,6 +228,28 @@ TEST_F(LearnedBefore, ADelayNeedsNoChangeOfSpeedAnyMore) {
   }
 }
 
+/// The spare's positions are on time, and it tells no heading.
+TEST_F(LearnedBefore, ADelayIsNotThatOfAnotherReceiver) {
+  LearnedValues learned;
+  learned.late_s = {0.2, 0.01};
+  Rig rig(6);
+  rig.world.noise = 0;
+  rig.world.latency_s = rig.world.stamp_error_s = 0.2;
+  rig.estimator.recall(learned);
+  settle(rig);
+  rig.drive(1, 1, 5);
+  EXPECT_LT(rig.position_error_m(), 0.05);
+  EXPECT_TRUE(rig.last.learned.late_s.known());
+  rig.world.heading = false;
+  rig.world.receiver = 1;
+  rig.world.stamp_error_s = 0;
+  rig.world.latency_s = 0.05;
+  rig.drive(1, 1, 10);
+  EXPECT_LT(rig.position_error_m(), 0.05);
+  EXPECT_FALSE(rig.last.disagrees) << rig.last.reason.view();
+  EXPECT_FALSE(rig.last.learned.late_s.known()) << "under the first one's name";
+}
+
 TEST_F(LearnedBefore, AnArmIsInTheBoundFromTheFirstMetreOn) {
   LearnedValues learned;
   learned.antenna_ahead_m = {0.2, 0.01};

@@ -27,6 +27,7 @@ struct World {
   bool position = true;
   bool gst = false;
   FixQuality quality = FixQuality::rtk_fixed;
+  std::uint8_t receiver = 0;  ///< whose positions they are
   double noise = 1.0;        ///< 0: a perfect receiver
   double disturbance = 1.0;  ///< 0: a perfect ground
   double fade_s = 0.0;       ///< how slowly the noise follows a better quality
@@ -245,6 +246,7 @@ class Rig {
     if (world.position) {
       Measurement m = position_at(at[0], at[1], world.quality, stamp);
       m.received = received;
+      m.source = world.receiver;
       if (world.gst) {
         auto& p = std::get<GnssPosition>(m.value);
         p.sigma_east_m = p.sigma_north_m = sigma_now_;
