@@ -1,6 +1,8 @@
 // What outlives the program: what stopped the robot until a person acts, and whether it was held.
 #pragma once
 
+#include <cstdint>
+
 #include "drover/fixed_text.h"
 
 namespace drover {
@@ -9,6 +11,7 @@ namespace drover {
 struct RestPlace {
   bool known = false;
   bool doubted = false;  ///< what the receiver says is not believed, and nobody has accepted it
+  std::uint16_t doubt_cm = 0;  ///< so far away it may be beside what its sigma says, cm
   double x_m = 0;
   double y_m = 0;
   double yaw_rad = 0;

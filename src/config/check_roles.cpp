@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "config/check_subjects.h"
+#include "text/number.h"
 
 namespace drover::config {
 namespace {
@@ -94,6 +95,22 @@ void antennas(const std::vector<DeviceConfig*>& receivers, Findings& found) {
   }
 }
 
+/// A position that is too old before the next one comes lets nothing start, and stops what drives.
+void outlasts_its_period(const DeviceConfig& receiver, Findings& found) {
+  constexpr double kPeriods = 1.5;
+  const double stale_s = found.config().engine.health.gnss_stale_s;
+  if (receiver.role == "told" || !receiver.options.has("rate_Hz")) return;
+  const double rate_Hz = receiver.options.number("rate_Hz");
+  if (stale_s * rate_Hz >= kPeriods) return;
+  found.add("health.gnss_stale_s",
+            text::formed("%g s", stale_s) + " is shorter than one and a half periods of " +
+                device_path(receiver) + text::formed(", %g Hz", rate_Hz) +
+                ": its positions would be too old before the next one comes",
+            text::formed("%.2f", kPeriods / rate_Hz) +
+                " or more, for which the robot drives without one; a receiver that tells ten "
+                "times a second is better");
+}
+
 }  // namespace
 
 void check_roles(Findings& found) {
@@ -106,7 +123,9 @@ void check_roles(Findings& found) {
                                                    std::to_string(kMaxOfKind));
     fill_in(kind, all, found);
     one_steers(kind, all, found);
-    if (kind.kind == SlotKind::gnss) antennas(all, found);
+    if (kind.kind != SlotKind::gnss) continue;
+    antennas(all, found);
+    for (const auto* receiver : all) outlasts_its_period(*receiver, found);
   }
 }
 

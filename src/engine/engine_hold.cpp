@@ -29,6 +29,7 @@ void Engine::recall(const Remembered& remembered, Time now) {
   if (remembered.mechanics_proved) e.mechanics.recall_proved();
   if (remembered.at_rest) e.rest.recall_at_rest();
   e.place.recall(remembered.place);
+  e.estimator.recall_elsewhere(remembered.place.doubt_cm / 100.0);
   if (remembered.task) {
     e.events.notice(now, Notice::Level::warning,
                     "a task was on its way when the gateway ended: it is not taken up again");

@@ -13,8 +13,10 @@
 
 namespace drover::runtime {
 
-inline constexpr std::uint64_t kMemoryLayout = 0x64726d656d303037;  // "drmem007"
-/// Of the same size: it did not tell whether the place was doubted.
+inline constexpr std::uint64_t kMemoryLayout = 0x64726d656d303038;  // "drmem008"
+/// Of the same size: it did not tell how far away a doubted place may be.
+inline constexpr std::uint64_t kMemoryLayoutWithoutHowFar = 0x64726d656d303037;  // "drmem007"
+/// Nor whether it was doubted.
 inline constexpr std::uint64_t kMemoryLayoutWithoutDoubt = 0x64726d656d303036;  // "drmem006"
 
 template <class Kept>

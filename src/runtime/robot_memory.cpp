@@ -70,20 +70,23 @@ void RobotMemory::read() {
     if (record.never_written()) continue;
     written = true;
     const bool without_doubt = record.format == kMemoryLayoutWithoutDoubt;
-    const bool readable = record.format == kMemoryLayout || without_doubt;
+    const bool without_how_far = record.format == kMemoryLayoutWithoutHowFar || without_doubt;
+    const bool readable = record.format == kMemoryLayout || without_how_far;
     if (!readable || record.checksum != record.sum()) {
       damaged_ = true;
       continue;
     }
     if (record.sequence <= sequence_) continue;
-    if (without_doubt) record.remembered.place.doubted = false;  // what lay there was nothing
+    // What lay there was nothing.
+    if (without_doubt) record.remembered.place.doubted = false;
+    if (without_how_far) record.remembered.place.doubt_cm = 0;
     sequence_ = record.sequence;
     const bool this_boot = boot_id_ == std::string_view(record.boot.data());
     found_ = this_boot ? std::optional<Remembered>(record.remembered) : std::nullopt;
     // With another antenna the same base stands elsewhere.
     if (found_ && record.configuration != configuration_) {
       found_->mechanics_proved = false;
-      found_->place = {.doubted = found_->place.doubted};
+      found_->place = {.doubted = found_->place.doubted, .doubt_cm = found_->place.doubt_cm};
     }
   }
   unreadable_ = written && sequence_ == 0;

@@ -13,7 +13,6 @@ constexpr double kNewest = 0.2;       // of the newest position into where they 
 constexpr double kNewestAway = 0.02;  // likewise, of one that is as far away as so much of the jump
 constexpr double kAway = 0.5;
 constexpr Duration kOutlier = std::chrono::seconds(1);
-constexpr Duration kGone = std::chrono::seconds(2);
 constexpr Duration kRenewed = std::chrono::seconds(60);
 constexpr double kSamePlace = 4.0;     // sigmas of a position
 constexpr double kWheelsAgree = 0.03;  // of the way
@@ -143,7 +142,7 @@ bool Dispute::may_hold(const Offset& by_wheels, double allowed_m) const {
 
 Dispute::Verdict Dispute::hear(const Offset& offset, bool inside, double two_sigma_m,
                                double noise_m, bool settled, bool stands, Time now) {
-  if (now - heard_ > kGone) lose_fix();
+  if (now - heard_ > kFixGone) lose_fix();
   const Duration since = held_since_ == kNever ? Duration{} : now - heard_;
   heard_ = now;
   const Offset before = plus(last_, put_right_);

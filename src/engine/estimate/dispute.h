@@ -8,6 +8,12 @@
 
 namespace drover::engine::estimate {
 
+/// A fix so near to where the last one, or dead reckoning, had it is the same place: the nearest
+/// that another integer solution was seen.
+inline constexpr double kSameFix_m = 0.045;
+/// Without one for so long the next may be another; some receivers tell one a second.
+inline constexpr Duration kFixGone = std::chrono::seconds(2);
+
 class Dispute final {
  public:
   /// How far an RTK position is from where dead reckoning has it, m; east and north.

@@ -105,6 +105,7 @@ void Estimator::set_origin(const GeodeticPoint& origin) {
   state.refused = old.refused;
   state.broken = old.broken;
   state.gyro = old.gyro;
+  state.gnss.unconfirmed_m = old.gnss.unconfirmed_m;
   state.heading.receiver = old.heading.receiver;
   state.mounting = old.mounting;
   state.fit = old.fit;
@@ -134,6 +135,13 @@ void Estimator::accept_position() {
   const bool told = state.heading.last != kNever && state.time - state.heading.last < kHeadingTold;
   state.has_heading = state.has_heading && !told;
   state.heading.jumps = {};
+  history_.restart(state);
+}
+
+void Estimator::recall_elsewhere(double away_m) {
+  replay();
+  State state = history_.before(history_.size());
+  state.gnss.unconfirmed_m = std::max(state.gnss.unconfirmed_m, away_m);
   history_.restart(state);
 }
 

@@ -54,6 +54,9 @@ struct Estimate {
   Time decided_at = kNever;
   /// The position drifted or jumped while it drove, and nobody has accepted where it is.
   bool place_doubted = false;
+  bool heading_doubted = false;  ///< it contradicts wheels and gyro
+  /// What another place, which may be the right one, adds to the bound, m.
+  double elsewhere_m = 0;
   bool slipping = false;  ///< the wheels roll another way than the base moves
   /// How much the ways of wheels and receiver differ since they slip: one of both is wrong by it.
   double slipped_m = 0;
@@ -114,6 +117,8 @@ class Estimator final {
   /// What the program before this one had learned, before anything is measured. Values that cannot
   /// be are left out; what is taken is a little less certain than it was.
   void recall(const LearnedValues& learned);
+  /// The program before this one knew of another place so far away, m, which may be the right one.
+  void recall_elsewhere(double away_m);
   /// Begins as a robot that has never driven; where it is told headings, place and heading are
   /// those of the next measurements. It rests.
   void forget_learned();

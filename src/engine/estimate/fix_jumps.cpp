@@ -9,7 +9,6 @@ namespace {
 // A step from one RTK position to the next one.
 constexpr Duration kStepWithin = std::chrono::seconds(12);
 constexpr double kStepGate = 4.5;  // sigmas
-constexpr double kStep_m = 0.045;
 constexpr double kStepSlip = 0.4;  // of the way between them, along it
 constexpr double kStepSlipWay_m = 0.25;
 constexpr Duration kShownAfterShove = std::chrono::milliseconds(300);
@@ -19,7 +18,8 @@ constexpr double kReckonedWell_m = 0.1;
 // So many times fix_settle_s after it was found again a fix is what it will be.
 constexpr double kSettles = 3.0;
 constexpr double kSlippedAside_m = 0.05;
-constexpr Duration kFixGone = std::chrono::seconds(2);  // some receivers tell one a second
+// Lost for so long it is found by another search of the receiver.
+constexpr Duration kAnotherFix = std::chrono::seconds(10);
 constexpr double kSways = 0.1;  // of the variance by tilt and timing: most of that stays the same
 
 /// A fix that was just found again, on a base that drives: it may be another integer solution, and
@@ -50,7 +50,7 @@ bool steps(const State& state, double dx_m, double dy_m, double variance_m2, dou
   const double yaw_rad = state.belief.mean[kYaw];
   const Dispute::Offset step{dx_m - gnss.beside_x_m, dy_m - gnss.beside_y_m};
   const double way_m = std::abs(speed_mps) * to_s(since);
-  const double least_m = std::max(kStepGate * std::sqrt(2 * variance_m2), kStep_m) +
+  const double least_m = std::max(kStepGate * std::sqrt(2 * variance_m2), kSameFix_m) +
                          kReckoned * std::max(way_m - kReckonedWell_m, 0.0);
   const double slip_m = kStepSlip * std::min(way_m, kStepSlipWay_m);
   const double aside_m = std::hypot(least_m, shoved_m(state));
@@ -60,7 +60,7 @@ bool steps(const State& state, double dx_m, double dy_m, double variance_m2, dou
 /// What is left of it in the bound, until another fix is found there: dead reckoning, which may
 /// have been right, was known by two sigma.
 double doubt_m(const Dispute::Offset& beside, double two_sigma_m) {
-  return beside.m() < kStep_m ? 0.0 : beside.m() + two_sigma_m;
+  return beside.m() < kSameFix_m ? 0.0 : beside.m() + two_sigma_m;
 }
 
 /// The same of a fix that was found again: beside of where wheels and gyro have it.
@@ -123,10 +123,13 @@ FixVerdict judge_jump(State& state, const FixBeside& fix, const EstimateConfig& 
   const bool jumped =
       again ? is_elsewhere(state, fix.near)
             : steps(state, fix.offset.east_m, fix.offset.north_m, variance_m2, fix.speed_mps);
-  // Found again about there it is believed, but may be another integer solution all the same.
-  if (again && !jumped) {
-    gnss.unconfirmed_m = doubt_m(fix.offset, known_m);
-    state.watch.stayed_m = 0;
+  // Found again about there it is believed, but may be another integer solution all the same. Where
+  // nobody knows the way there is no other place to compare it with.
+  if (again && !jumped && !state.way_unknown) {
+    // After a moment it is the same solution, and as right or wrong as before.
+    const bool another = state.time - gnss.believed > kAnotherFix;
+    gnss.unconfirmed_m = std::max(another ? 0.0 : gnss.unconfirmed_m, doubt_m(fix.offset, known_m));
+    if (another) state.watch.stayed_m = 0;
   }
   if (!jumped) return FixVerdict::plain;
   gnss.dispute.begin(fix.offset, state.time, slipped_meanwhile(state, fix.offset, config),

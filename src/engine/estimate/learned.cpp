@@ -23,8 +23,8 @@ const HandOver kMountingKept{to_rad(0.1), to_rad(0.2), -to_rad(5), to_rad(5)};
 constexpr HandOver kLateKept{0.01, 0.04, -0.4, 0.4};
 constexpr HandOver kArmKept{0.005, 0.03, -1, 1};
 constexpr HandOver kScaleKept{0.01, 0.01, 0.8, 1.2};
-constexpr HandOver kGainKept{0.05, 0.05, 0.2, 5};
-constexpr HandOver kGyroScaleKept{0.001, 0.003, 0.9, 1.1};
+constexpr HandOver kGainKept{0.05, 0.05, 0.2, 2};
+constexpr HandOver kGyroScaleKept{0.001, 0.003, 0.97, 1.03};
 
 LearnedValue kept(const HandOver& rule, double value, double sigma) {
   const bool fits = sigma <= rule.known && value >= rule.least && value <= rule.most;

@@ -18,7 +18,6 @@ constexpr double kFloorShare = 0.8;
 constexpr double kLagsBehind = 0.5;
 // A fix that was found again is where dead reckoning is.
 constexpr double kNearGate = 3.0;  // sigmas
-constexpr double kNear_m = 0.045;
 constexpr double kGoesBeside = 0.25;
 // The wheel scale changes by no more than this share in a metre: what changes it faster is slip.
 constexpr double kScalePerMetre = 0.002;
@@ -80,7 +79,7 @@ void hand_over(State& state, std::uint8_t receiver, const EstimateConfig& config
   gnss.improved = kNever;
   gnss.jumps = {};
   gnss.dispute = {};
-  gnss.unconfirmed_m = 0;
+  if (state.has_position) gnss.unconfirmed_m = 0;
   state.fit = AntennaFit(config);
   state.late_s = 0;
   state.watch.forget();
@@ -317,7 +316,7 @@ void apply(State& state, const AntennaPosition& measured, double speed_mps,
   const double sxy = belief.project(row_x, row_y);
   const Expected expected{.xx = sxx, .xy = sxy, .yy = syy};
   const bool inside = passes(state, expected, dx, dy, config.gate_sigma, config);
-  const bool near = std::hypot(dx, dy) < kNear_m ||
+  const bool near = std::hypot(dx, dy) < kSameFix_m ||
                     passes(state, expected, dx, dy, std::min(kNearGate, config.gate_sigma), config);
   if (!fixed) {
     state.gnss.dispute.lose_fix();
@@ -333,7 +332,8 @@ void apply(State& state, const AntennaPosition& measured, double speed_mps,
     const bool settled = refuse(state, position, {dx, dy}, larger_sigma_m(position), fixed, config);
     // Which of two places is right is no question for a poor position.
     if (!settled || (!fixed && state.gnss.dispute.holds())) return;
-    if (fixed && found_again(state)) state.gnss.unconfirmed_m = std::hypot(dx, dy);
+    if (fixed && found_again(state) && !state.way_unknown)
+      state.gnss.unconfirmed_m = std::hypot(dx, dy);
     state.gnss.replaced = state.time;
     state.gnss.replaced_m = std::hypot(dx, dy);
     place_anew(state, position, {arm_x, arm_y}, place_variance);

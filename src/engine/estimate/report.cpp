@@ -126,6 +126,8 @@ void Estimator::report_trouble(const State& state, Time now) {
   e.disputed = e.disagrees && !stuck && !drifted && (!position_disagrees || disputed) &&
                (!heading_disagrees || headings.began_moving());
   e.place_doubted = disputed || drifted;
+  e.heading_doubted = heading_disagrees;
+  e.elsewhere_m = state.gnss.unconfirmed_m;
   e.renewed = state.gnss.renewed;
   e.decided_at = disputed ? dispute.decided_at() : kNever;
   e.slipped_m = watch.slipping() ? watch.slipped_m + std::abs(watch.last_gap_m) : 0;
@@ -147,6 +149,7 @@ void Estimator::report_trouble(const State& state, Time now) {
     if (state.gnss.replaced != kNever && now - state.gnss.replaced < kMayStepBack)
       apart_m = std::max(apart_m, state.gnss.replaced_m);
     apart_m = std::max({apart_m, state.gnss.unconfirmed_m, watch.stayed_m});
+    e.elsewhere_m = watch.looks() ? std::max(watch.gap_m, apart_m) : apart_m;
     e.error_bound_m += std::max(watch.gap_m, apart_m);
   }
   // Gyro and wheels, which agree, vote a heading out that jumped.

@@ -17,6 +17,13 @@ const double kSwung_rad = to_rad(5.0);
 constexpr double kBetterKnown = 0.9;
 constexpr Duration kStable = std::chrono::seconds(10);
 
+/// In steps that are not written anew in each cycle; upwards, and nothing of what is always there.
+std::uint16_t whole_cm(double away_m) {
+  constexpr double kStep_cm = 5;
+  const double steps = std::ceil(std::min(100 * away_m, 60000.0) / kStep_cm);
+  return away_m * 100 < kStep_cm ? std::uint16_t{0} : static_cast<std::uint16_t>(steps * kStep_cm);
+}
+
 struct Change {
   double way_m = 0;
   double turn_rad = 0;
@@ -49,10 +56,11 @@ void PlaceWatch::begin_at(const Pose& pose) {
 void PlaceWatch::recall(const RestPlace& place) {
   recalled_ = place;
   doubted_before_ = place.doubted;
+  doubt_cm_ = place.doubt_cm;
   if (doubted_before_)
     jumped_ =
-        "the position was not believed when droverd ended; if the map shows the robot where it "
-        "stands: drover position accept";
+        "position or heading were not believed when droverd ended; if the map shows the robot "
+        "where it stands: drover position accept";
 }
 
 void PlaceWatch::begin_where_it_stood(const GeodeticPoint& origin) {
@@ -73,12 +81,13 @@ void PlaceWatch::begin_where_it_stood(const GeodeticPoint& origin) {
 RestPlace PlaceWatch::rest_place(const GeodeticPoint& origin) const {
   if (recalled_.known) return recalled_;
   const bool doubted = doubted_ || doubted_before_;
-  if (!known_ || !stands_) return {.doubted = doubted};
+  if (!known_ || !stands_) return {.doubted = doubted, .doubt_cm = doubt_cm_};
   // Whole centimetres: what creeps is not written anew in each cycle.
   const auto crept = [](double m) { return std::round(m * 100) / 100; };
   const Pose& pose = jumped_.empty() ? rested_.at : rested_.stood;
   return {.known = true,
           .doubted = doubted,
+          .doubt_cm = doubt_cm_,
           .x_m = pose.x_m + crept(crept_x_m_),
           .y_m = pose.y_m + crept(crept_y_m_),
           .yaw_rad = pose.yaw_rad,
@@ -92,7 +101,8 @@ void PlaceWatch::update(Time now, Duration dt, const Estimate& estimate, bool he
                         const GeodeticPoint& origin) {
   // What rolls out after an e-stop rolls unheard.
   stands_ = heard && estimate.fastest_mps <= kStands_mps;
-  doubted_ = estimate.place_doubted;
+  doubted_ = estimate.place_doubted || estimate.heading_doubted;
+  doubt_cm_ = whole_cm(estimate.elsewhere_m);
   if (heard && !stands_) recalled_ = {};
   if (!estimate.has_position || !estimate.has_heading || (recalled_.known && !heard)) return;
   if (recalled_.known) begin_where_it_stood(origin);

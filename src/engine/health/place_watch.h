@@ -64,6 +64,7 @@ class PlaceWatch final {
   Time jumped_at_ = kNever;
   bool told_ = false;
   bool doubted_ = false;         ///< now, by the estimate
+  std::uint16_t doubt_cm_ = 0;   ///< so far elsewhere it may be
   bool doubted_before_ = false;  ///< when the program before this one ended
 };
 

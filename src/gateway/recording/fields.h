@@ -106,10 +106,11 @@ void visit_fields(V& v, const engine::EngineOutput& output, std::size_t axis_cou
     v.value("at_rest", at_rest);
     v.value("ran_away", ran_away);
     v.inside("place", [&v, &where = place] {
-      const auto& [known, doubted, x_m, y_m, yaw_rad, position_sigma_m, yaw_sigma_rad, latitude_deg,
-                   longitude_deg] = where;
+      const auto& [known, doubted, doubt_cm, x_m, y_m, yaw_rad, position_sigma_m, yaw_sigma_rad,
+                   latitude_deg, longitude_deg] = where;
       v.value("known", known);
       v.value("doubted", doubted);
+      v.value("doubt_cm", doubt_cm);
       v.value("x_m", x_m);
       v.value("y_m", y_m);
       v.value("yaw_rad", yaw_rad);

@@ -165,6 +165,7 @@ void get(Suspended& slept, ByteReader& in) {
 // Of the place where it rests; recordings from before doubts were kept have none.
 constexpr std::uint8_t kPlaceKnown = 1;
 constexpr std::uint8_t kPlaceDoubted = 2;
+constexpr std::uint8_t kPlaceHowFar = 4;
 
 void put(const Recalled& recalled, ByteWriter& out) {
   const auto& [stop, stop_at_robot, power_cut, holding, released, task, proved, joints_wait,
@@ -175,9 +176,11 @@ void put(const Recalled& recalled, ByteWriter& out) {
   out.text(joints_wait);
   out.byte(at_rest ? 1 : 0);
   out.byte(ran_away ? 1 : 0);
-  const auto& [known, doubted, x_m, y_m, yaw_rad, position_sigma_m, yaw_sigma_rad, latitude_deg,
-               longitude_deg] = place;
-  out.byte(static_cast<std::uint8_t>((known ? kPlaceKnown : 0) | (doubted ? kPlaceDoubted : 0)));
+  const auto& [known, doubted, doubt_cm, x_m, y_m, yaw_rad, position_sigma_m, yaw_sigma_rad,
+               latitude_deg, longitude_deg] = place;
+  out.byte(static_cast<std::uint8_t>((known ? kPlaceKnown : 0) | (doubted ? kPlaceDoubted : 0) |
+                                     (doubt_cm > 0 ? kPlaceHowFar : 0)));
+  if (doubt_cm > 0) out.real(doubt_cm);
   if (!known) return;
   for (const double value :
        {x_m, y_m, yaw_rad, position_sigma_m, yaw_sigma_rad, latitude_deg, longitude_deg})
@@ -192,10 +195,15 @@ void get(Recalled& recalled, ByteReader& in) {
   joints_wait.assign(in.text());
   at_rest = get_flag(in);
   ran_away = get_flag(in);
-  auto& [known, doubted, x_m, y_m, yaw_rad, position_sigma_m, yaw_sigma_rad, latitude_deg,
+  auto& [known, doubted, doubt_cm, x_m, y_m, yaw_rad, position_sigma_m, yaw_sigma_rad, latitude_deg,
          longitude_deg] = place;
   const std::uint8_t flags = in.byte();
-  if (flags > (kPlaceKnown | kPlaceDoubted)) in.fail();
+  if (flags > (kPlaceKnown | kPlaceDoubted | kPlaceHowFar)) in.fail();
+  if ((flags & kPlaceHowFar) != 0) {
+    const double how_far = in.real();
+    if (!(how_far >= 1 && how_far <= UINT16_MAX)) return in.fail();
+    doubt_cm = static_cast<std::uint16_t>(how_far);
+  }
   known = (flags & kPlaceKnown) != 0;
   doubted = (flags & kPlaceDoubted) != 0;
   if (!known) return;

@@ -88,6 +88,19 @@ TEST(Roles, ASpareReceiverSaysWhereItsAntennaIs) {
   EXPECT_EQ(estimate.antennas[1].heading_baseline_offset_deg, 90);
 }
 
+TEST(Roles, APositionIsNotTooOldBeforeTheNextOneComes) {
+  const std::string slow = ", \"options\": {\"rate_Hz\": 1, \"stale_s\": 2}";
+  const std::string of_the_other = ", \"role\": \"told\"";
+  EXPECT_THAT(problems(receivers(slow, of_the_other), kMaps),
+              HasSubstr("health.gnss_stale_s: 0.3 s is shorter than one and a half periods of "
+                        "devices.gnss, 1 Hz: its positions would be too old before the next one "
+                        "comes (1.50 or more"));
+  EXPECT_EQ(problems(receivers("", of_the_other + slow), kMaps), "") << "it is only shown";
+  auto text = receivers(slow, of_the_other);
+  text.insert(text.rfind('}'), ", \"health\": {\"gnss_stale_s\": 1.5}");
+  EXPECT_EQ(problems(text, kMaps), "");
+}
+
 TEST(Roles, TheKeysOfTheEstimateAreTheSteeringOnes) {
   auto text = receivers("", ", \"role\": \"told\"");
   text.insert(text.rfind('}'), ", \"estimate\": {\"antenna_x_m\": 0.7}");

@@ -74,6 +74,32 @@ TEST_F(ARobotThatIsStartedAgain, StillDoubtsAPositionThatWasDoubtedBefore) {
   expect_drives();
 }
 
+/// Another program knows no more than the one before it.
+TEST_F(ARobotThatIsStartedAgain, SaysOfADoubtedPlaceThatItMayBeWrong) {
+  drive();
+  rig.jump_m += 0.6;
+  rig.run_s(65);
+  ASSERT_TRUE(rig.out.remembered.place.doubted);
+  ASSERT_GE(rig.engine->snapshot().nav.error_bound_m, 0.6);
+  restart([] {});
+  EXPECT_GE(rig.engine->snapshot().nav.error_bound_m, 0.6);
+}
+
+/// A fix that was found elsewhere, and is in the bound.
+TEST_F(ARobotThatIsStartedAgain, SaysOfAFixThatWasFoundElsewhereThatItMayBeWrong) {
+  drive();
+  rig.quality = FixQuality::rtk_float;
+  rig.run_s(2);
+  rig.jump_m += 0.15;
+  rig.quality = FixQuality::rtk_fixed;
+  rig.run_s(10);
+  rig.command(CancelTask{});
+  rig.run_s(5);
+  ASSERT_GE(rig.engine->snapshot().nav.error_bound_m, 0.15);
+  restart([] {});
+  EXPECT_GE(rig.engine->snapshot().nav.error_bound_m, 0.15);
+}
+
 class AJumpOverARestart : public ARobotThatIsStartedAgain,
                           public testing::WithParamInterface<double> {};
 

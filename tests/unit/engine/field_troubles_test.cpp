@@ -134,6 +134,21 @@ TEST(AFixThatIsFoundElsewhere, IsNotBelievedAtOnce) {
   }
 }
 
+/// A float of a moment finds nothing anew: it is the same solution, and as wrong as before.
+TEST(AFixThatIsFoundElsewhere, StaysInTheBoundWhenItIsLostForAMoment) {
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    FieldPlan plan;
+    plan.gst = true;
+    plan.float_s = {15, 18};
+    plan.step_s = {17, INFINITY};
+    plan.step_m = 0.18;
+    plan.step_rad = 1.05 * static_cast<double>(seed);
+    plan.more.push_back({bench::Trouble::Kind::floats, {85, 85.3}});
+    FieldWorld world(field_config(), plan, seed);
+    EXPECT_EQ(world.drive(field_rows(1, 90), 400).outside_s, 0) << seed;
+  }
+}
+
 /// What they lost on the straight is beside the track in the turn behind it.
 TEST(WheelsThatSlipInAnOutage, TakeNothingOutOfTheCorridorInTheNextTurn) {
   double driven_m = 0;

@@ -66,7 +66,9 @@ struct OneOfEachInput {
     add(Tick{true, false});
     add(ProgramTrouble{"droverd ends"});
     add(Suspended{2.5});
-    add(Recalled{{"emergency stop", true, false, true, false, true, true, "bumper touched", true}});
+    Remembered left{"emergency stop", true, false, true, false, true, true, "bumper touched", true};
+    left.place.doubt_cm = 65;
+    add(Recalled{left});
     LearnedValues learned;
     learned.receiver = 1;
     learned.mounting_rad = {0.03, 0.002};

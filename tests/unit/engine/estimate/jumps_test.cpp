@@ -63,6 +63,24 @@ TEST(EstimateContradiction, APoorPositionMovesNothingWhileADisputeHolds) {
   EXPECT_EQ(rig.share_bound(), 1);
 }
 
+/// Nothing was heard for a while, of anything: where dead reckoning has it then is no other place.
+TEST(EstimateContradiction, IsNoneWithAPlaceThatNobodyKnewTheWayTo) {
+  for (const double rolled_m : {0.0, 0.2, 2.0}) {
+    Rig rig;
+    rig.stand(5);
+    rig.drive(0.5, 0.5, 5);
+    rig.world.wheels = rig.world.position = rig.world.heading = false;
+    rig.drive(0.1, 0.1, 10 * rolled_m);
+    rig.stand(50);
+    rig.world.wheels = rig.world.position = rig.world.heading = true;
+    rig.stand(10);
+    EXPECT_LT(rig.position_error_m(), 0.05) << rolled_m;
+    EXPECT_LT(rig.last.error_bound_m, 0.2 + rolled_m) << rolled_m;
+    rig.stand(60);
+    EXPECT_LT(rig.last.error_bound_m, 0.2) << rolled_m;
+  }
+}
+
 TEST(EstimateContradiction, SingleOutliersAreNoDisagreement) {
   Rig rig;
   rig.stand(5);
