@@ -74,6 +74,23 @@ TEST_F(ARobotThatIsStartedAgain, StillDoubtsAPositionThatWasDoubtedBefore) {
   expect_drives();
 }
 
+/// Wheels and gyro vote it out, and the next program has no gyro that remembers.
+TEST_F(ARobotThatIsStartedAgain, StillDoubtsAHeadingThatWasDoubtedBefore) {
+  drive();
+  rig.heading_off_deg = 4.5;
+  rig.run_s(4);
+  ASSERT_THAT(rig.why(), HasSubstr("heading disagrees with odometry"));
+  ASSERT_TRUE(rig.out.remembered.place.doubted);
+  restart([] {});
+  for (int press = 1; press <= 2; ++press) {
+    expect_refused("drover position accept");
+    rig.run_s(11);
+  }
+  rig.command(AcceptPosition{});
+  rig.run_s(2);
+  expect_drives();
+}
+
 /// Another program knows no more than the one before it.
 TEST_F(ARobotThatIsStartedAgain, SaysOfADoubtedPlaceThatItMayBeWrong) {
   drive();
