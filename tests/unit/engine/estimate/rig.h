@@ -28,9 +28,9 @@ struct World {
   bool gst = false;
   FixQuality quality = FixQuality::rtk_fixed;
   std::uint8_t receiver = 0;  ///< whose positions they are
-  double noise = 1.0;        ///< 0: a perfect receiver
-  double disturbance = 1.0;  ///< 0: a perfect ground
-  double fade_s = 0.0;       ///< how slowly the noise follows a better quality
+  double noise = 1.0;         ///< 0: a perfect receiver
+  double disturbance = 1.0;   ///< 0: a perfect ground
+  double fade_s = 0.0;        ///< how slowly the noise follows a better quality
   double correlation_s = 30.0;
   double drift_share = 0.9;  ///< of the variance; the rest is white
   double jump_x_m = 0.0;
