@@ -11,6 +11,7 @@
 #include <memory>
 
 #include "calibrate/calibrate.h"
+#include "cli/ancestors.h"
 #include "cli/calibration_drive.h"
 #include "cli/client.h"
 #include "cli/drive_values.h"
@@ -18,6 +19,7 @@
 #include "cli/failure.h"
 #include "cli/reply.h"
 #include "cli/show_calibration.h"
+#include "cli/terminal_between.h"
 #include "cli/terminal_watch.h"
 #include "config/load.h"
 #include "json/json_text.h"
@@ -210,11 +212,14 @@ std::string_view environment(const char* name) {
 std::string no_place_for_a_key() {
   if (::isatty(STDIN_FILENO) == 0)
     return "it is driven with a key that a person holds: run it at a terminal (ssh -t)";
-  const auto between = answers_for_the_terminal(
-      {environment("TMUX"), environment("STY"), environment("TERM"), environment("SUDO_USER")});
+  const auto ancestors = names_of_ancestors();
+  if (!ancestors)
+    return "the kernel does not tell what this runs within (hidepid?), and what that is may answer "
+           "for your terminal: run it with sudo";
+  const auto between = stands_between({*ancestors, environment("TMUX"), environment("STY")});
   if (between.empty()) return "";
   return "this runs within " + between +
-         ", which answers for your terminal and goes on when that is gone: nobody would notice "
+         ", which may answer for your terminal and go on when that is gone: nobody would notice "
          "that you let the key go; run it at a plain terminal (ssh -t)";
 }
 

@@ -2,31 +2,11 @@
 // and answers as fast as a key comes. Pure.
 #pragma once
 
-#include <string>
 #include <string_view>
 
 #include "drover/time.h"
 
 namespace drover::cli {
-
-/// What the environment tells of the terminal; empty: not set.
-struct TerminalNames {
-  std::string_view tmux;       ///< TMUX
-  std::string_view screen;     ///< STY
-  std::string_view kind;       ///< TERM
-  std::string_view sudo_user;  ///< SUDO_USER
-};
-
-/// The program on this computer that answers for the person's terminal, and goes on when that is
-/// gone; empty: none is known of. Under sudo only the terminal's kind is left of it; a kind alone
-/// may be of the person's own end, where it does no harm.
-inline std::string answers_for_the_terminal(const TerminalNames& names) {
-  if (!names.tmux.empty()) return "tmux";
-  if (!names.screen.empty()) return "screen";
-  if (names.sudo_user.empty()) return "";
-  if (names.kind.starts_with("tmux")) return "tmux";
-  return names.kind.starts_with("screen") ? "tmux or screen" : "";
-}
 
 /// Of a terminal that never answers nothing is known, and nothing before its first answer: its keys
 /// are late, as far as anybody can tell.

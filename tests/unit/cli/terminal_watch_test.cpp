@@ -53,16 +53,6 @@ TEST(TerminalWatch, LeavesKeysAlone) {
   EXPECT_FALSE(watch.take('q', Time{10s}));
   EXPECT_FALSE(watch.take(' ', Time{10s}));
 }
-TEST(TerminalWatch, KnowsWhoAnswersForTheTerminal) {
-  EXPECT_EQ(answers_for_the_terminal({}), "");
-  EXPECT_EQ(answers_for_the_terminal({.tmux = "/tmp/tmux-0/default,7,0"}), "tmux");
-  EXPECT_EQ(answers_for_the_terminal({.screen = "7.pts-0.robot"}), "screen");
-  EXPECT_EQ(answers_for_the_terminal({.kind = "tmux-256color", .sudo_user = "ann"}), "tmux");
-  EXPECT_EQ(answers_for_the_terminal({.kind = "screen.xterm", .sudo_user = "ann"}),
-            "tmux or screen");
-  EXPECT_EQ(answers_for_the_terminal({.kind = "tmux-256color"}), "") << "the person's own end";
-  EXPECT_EQ(answers_for_the_terminal({.kind = "xterm", .sudo_user = "ann"}), "");
-}
 
 }  // namespace
 }  // namespace drover::cli
