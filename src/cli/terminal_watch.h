@@ -4,6 +4,7 @@
 
 #include <string_view>
 
+#include "drover/command.h"
 #include "drover/time.h"
 
 namespace drover::cli {
@@ -28,13 +29,18 @@ class TerminalWatch final {
     }
     if (++matched_ < kAnswer.size()) return true;
     matched_ = 0;
-    if (asked_ != kNever) took_ = now - asked_;
+    if (asked_ != kNever) {
+      took_ = now - asked_;
+      typed_after_ = asked_;
+    }
     answers_ = answers_ || asked_ != kNever;
     asked_ = kNever;
     return true;
   }
-  /// A key that comes now may have been let go too long ago.
-  bool is_late(Time now) const { return !answers_ || delay(now) > kMost; }
+  /// A key that comes now was typed after this question: it comes behind the answer to it.
+  bool counts(Time now) const { return answers_ && now - typed_after_ <= kKeyLate; }
+  /// The line is too slow for keys.
+  bool is_late(Time now) const { return !answers_ || delay(now) > kKeyLate; }
   /// It has had its time for a first answer.
   bool is_silent(Time now) const { return !answers_ && first_ != kNever && now - first_ > kFirst; }
   bool answers() const { return answers_; }
@@ -45,13 +51,13 @@ class TerminalWatch final {
 
  private:
   static constexpr Duration kEach = std::chrono::milliseconds(100);
-  static constexpr Duration kMost = std::chrono::milliseconds(300);
   static constexpr Duration kFirst = std::chrono::seconds(2);
 
   Time asked_ = kNever;  ///< and not answered yet
   Time last_ = kNever;
   Time first_ = kNever;  ///< the first question
   Duration took_{0};
+  Time typed_after_ = kNever;  ///< the last question that was answered
   std::size_t matched_ = 0;
   bool answers_ = false;
 };

@@ -5,6 +5,7 @@
 #include <pty.h>
 #include <signal.h>
 #include <sys/wait.h>
+#include <termios.h>
 #include <unistd.h>
 #include <utmp.h>
 
@@ -135,6 +136,12 @@ class KeyHolder final {
   void signal(int number) { program_.signal(number); }
   /// Exit code, once it has ended.
   std::optional<int> status() { return program_.status(); }
+  /// Whether lines are edited, echoed, and signals made of keys: at either end of it the same.
+  tcflag_t modes() const {
+    termios now{};
+    EXPECT_EQ(::tcgetattr(terminal_, &now), 0);
+    return now.c_lflag;
+  }
   std::string shown() const {
     const std::lock_guard lock(mutex_);
     return shown_;
@@ -284,7 +291,9 @@ TEST_F(CalibrationDriveProcess, IsRefusedWhereAnotherProgramAnswersForTheTermina
     const auto person = at_terminal({}, within);
     ASSERT_TRUE(wait_until([&] { return person->status().has_value(); })) << within;
     EXPECT_EQ(person->status(), 1) << within;
-    EXPECT_THAT(person->shown(), HasSubstr("run it at a plain terminal"));
+    ASSERT_TRUE(wait_until([&] {
+      return person->shown().find("run it at a plain terminal") != std::string::npos;
+    })) << person->shown();
   }
   // What sets no variable is known by its name.
   const auto shell = folder() / "mosh-server";
@@ -293,7 +302,9 @@ TEST_F(CalibrationDriveProcess, IsRefusedWhereAnotherProgramAnswersForTheTermina
       {shell.string(), "-c", "env -u TMUX -u STY '" DROVER_PROGRAM "' calibrate drive; exit $?"});
   ASSERT_TRUE(wait_until([&] { return person.status().has_value(); }));
   EXPECT_EQ(person.status(), 1);
-  EXPECT_THAT(person.shown(), HasSubstr("this runs within mosh-server"));
+  ASSERT_TRUE(wait_until([&] {
+    return person.shown().find("this runs within mosh-server") != std::string::npos;
+  })) << person.shown();
 }
 TEST_F(CalibrationDriveProcess, KeysThatComeLateCountForNothing) {
   start_all();
@@ -315,6 +326,26 @@ TEST_F(CalibrationDriveProcess, ATerminalThatNeverAnswersDrivesNothing) {
     return person->shown().find("does not tell how late your keys come") != std::string::npos;
   })) << person->shown();
   expect_rest_for(2s, "nobody knows how late its keys come");
+}
+TEST_F(CalibrationDriveProcess, WhoEndsItGetsHisTerminalBack) {
+  start_all();
+  for (const int number : {SIGTERM, SIGHUP, SIGINT}) {
+    SCOPED_TRACE(number);
+    const auto person = at_terminal();
+    const auto before = person->modes();
+    ASSERT_NE(before & (ICANON | ECHO | ISIG), 0U);
+    hold_until_it_moves(*person);
+    ASSERT_NE(person->modes(), before);
+    person->signal(number);
+    ASSERT_TRUE(wait_until([&] { return person->status().has_value(); }));
+    EXPECT_EQ(person->modes(), before);
+    EXPECT_EQ(person->status(), 1) << "the ordinary end";
+    ASSERT_TRUE(wait_until([&] {
+      return person->shown().find("positions with an RTK fix") != std::string::npos;
+    })) << person->shown();
+    ASSERT_TRUE(wait_until([&] { return at_rest(); }));
+    ASSERT_TRUE(wait_until([&] { return status_text("nav", "owner") != "manual"; }));
+  }
 }
 TEST_F(CalibrationDriveProcess, WhatWasMeasuredIsJudgedWhenDroverdAnswersNoMore) {
   start_all();
