@@ -74,7 +74,14 @@ struct AcceptPosition {};
 struct ForgetLearned {};
 /// Drive straight ahead for a short way, so that a receiver with one antenna shows the heading.
 struct FindHeading {};
-/// Drive so while a key is held down: one message of a row, obeyed for 0.3 s. Zero: the key is up.
+/// What a key asks for is obeyed for so long, and moves nothing before it was held for so long.
+inline constexpr Duration kKeyHeld = std::chrono::milliseconds(300);
+/// None counts that may have been so long on its way to the program that reads it.
+inline constexpr Duration kKeyLate = std::chrono::milliseconds(300);
+/// After it was let go at most: then the ramp begins.
+inline constexpr Duration kKeyRests = kKeyLate + kKeyHeld;
+/// Drive so while a key is held down: one message of a row, obeyed for kKeyHeld from when the key
+/// came (Command::received). Zero: the key is up.
 struct DriveByHand {
   std::uint64_t hand = 0;  ///< whose key it is: one drives at a time
   Twist twist;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "drover/angle.h"
+#include "drover/command.h"
 
 namespace drover::calibrate {
 namespace {
@@ -25,8 +26,8 @@ const double kRight_rad = to_rad(-580);
 constexpr double kBack = 1.0;  // 1/s: turned back where a straight was left
 constexpr double kMostBack_radps = 0.15;
 constexpr int kMostRounds = 3;
-constexpr double kWider = 1.4;  // that circles may come to be
 constexpr double kAround_m = 1;
+constexpr double kOff_m = 0.4;  // that the drive may lead elsewhere than by its numbers
 
 /// Where a piece leads, by its numbers.
 struct Place {
@@ -162,11 +163,19 @@ Area Recipe::area() const {
   }
   Area area;
   Place at;
-  for (const Piece& piece : all.pieces_) walk(piece, at, area);
-  area.ahead_m = std::ceil(area.ahead_m + kAround_m);
-  area.behind_m = std::ceil(area.behind_m + kAround_m);
-  area.left_m = std::ceil(area.left_m + kAround_m);
-  area.right_m = std::ceil(area.right_m + kAround_m);
+  double fastest_mps = 0;
+  for (const Piece& piece : all.pieces_) {
+    walk(piece, at, area);
+    fastest_mps = std::max(fastest_mps, piece.fast_mps);
+  }
+  // Where nobody says more, because all hangs, the last word counts on, and then comes a ramp.
+  const double rolls_on_m =
+      fastest_mps * to_s(kKeyHeld) + fastest_mps * fastest_mps / (2 * limits_.deceleration_mps2);
+  const double around_m = std::max(kAround_m, kOff_m + rolls_on_m);
+  area.ahead_m = std::ceil(area.ahead_m + around_m);
+  area.behind_m = std::ceil(area.behind_m + around_m);
+  area.left_m = std::ceil(area.left_m + around_m);
+  area.right_m = std::ceil(area.right_m + around_m);
   return area;
 }
 

@@ -13,10 +13,14 @@ namespace drover::calibrate {
 /// Faster is not driven before it is known which way round wheels, gyro and antenna are.
 inline constexpr double kUnproved_mps = 0.1;
 
+/// Circles may come to be so many times as wide as they are asked for.
+inline constexpr double kWider = 1.4;
+
 /// What the base may do at most.
 struct DriveLimits {
   double speed_mps = 0.8;
   double yaw_rate_radps = 0.8;
+  double deceleration_mps2 = 0.8;
 };
 
 /// What happened since the last look, as the estimate tells it.
@@ -38,7 +42,8 @@ struct Piece {
   double fast_mps = 0;  ///< straight on: in turn with the other; else the same
 };
 
-/// Metres from where the robot stands at first, as it stands there; with a metre all around.
+/// Metres from where the robot stands at first, as it stands there; with a metre all around, or as
+/// much more as it needs to come to rest by itself.
 struct Area {
   double ahead_m = 0;
   double behind_m = 0;

@@ -1,24 +1,24 @@
 #include "cli/calibrate_by_hand.h"
 
-#include <poll.h>
-#include <termios.h>
 #include <unistd.h>
 
-#include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <memory>
+#include <thread>
 
 #include "calibrate/calibrate.h"
+#include "cli/ancestors.h"
 #include "cli/calibration_drive.h"
 #include "cli/client.h"
 #include "cli/drive_values.h"
 #include "cli/exit_codes.h"
 #include "cli/failure.h"
+#include "cli/key_terminal.h"
 #include "cli/reply.h"
 #include "cli/show_calibration.h"
-#include "cli/terminal_watch.h"
+#include "cli/terminal_between.h"
 #include "config/load.h"
 #include "json/json_text.h"
 #include "runtime/clock.h"
@@ -28,6 +28,7 @@ namespace {
 
 constexpr int kPatience_s = 1;
 constexpr int kLook_ms = 10;
+constexpr Duration kLookAtMost = std::chrono::milliseconds(5);  // each, however fast keys come
 constexpr Duration kShowEach = std::chrono::milliseconds(100);
 
 struct DriveSettings {
@@ -36,61 +37,6 @@ struct DriveSettings {
 };
 
 using runtime::monotonic_now;
-
-/// Keys as they come, without an echo, until it is gone.
-class KeyTerminal final {
- public:
-  KeyTerminal() {
-    ::tcgetattr(STDIN_FILENO, &before_);
-    termios raw = before_;
-    raw.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO | ISIG);
-    raw.c_cc[VMIN] = 0;
-    raw.c_cc[VTIME] = 0;
-    ::tcsetattr(STDIN_FILENO, TCSAFLUSH, &raw);  // what was typed before is no key
-  }
-  ~KeyTerminal() { ::tcsetattr(STDIN_FILENO, TCSAFLUSH, &before_); }
-  KeyTerminal(const KeyTerminal&) = delete;
-  KeyTerminal& operator=(const KeyTerminal&) = delete;
-
-  struct Keys {
-    Time space = kNever;  ///< when the key came, at the earliest; never: it did not
-    bool quit = false;    ///< q, ^C, ^D, or the terminal is gone
-  };
-  /// Waits for so long at most.
-  Keys read(int wait_ms) {
-    Keys keys;
-    if (const auto question = watch_.ask(monotonic_now()); !question.empty())
-      keys.quit = ::write(STDIN_FILENO, question.data(), question.size()) < 0;
-    pollfd fd{STDIN_FILENO, POLLIN, 0};
-    // What is there already may have come at any time since the last look.
-    const bool waited = ::poll(&fd, 1, 0) == 0;
-    const Time at = waited || looked_ == kNever ? kNever : looked_;
-    const bool any = fd.revents != 0 || ::poll(&fd, 1, wait_ms) > 0;
-    looked_ = monotonic_now();
-    if (!any) return keys;
-    std::array<char, 4096> typed{};
-    const auto n = ::read(STDIN_FILENO, typed.data(), typed.size());
-    keys.quit = keys.quit || n <= 0;
-    for (ssize_t i = 0; i < n; ++i) {
-      const char key = typed[static_cast<std::size_t>(i)];
-      if (watch_.take(key, monotonic_now())) continue;
-      if (key == ' ') keys.space = at == kNever ? looked_ : at;
-      keys.quit = keys.quit || key == 'q' || key == 'Q' || key == '\x03' || key == '\x04';
-    }
-    // Let go, perhaps, and nobody here knows yet.
-    if (is_late()) keys.space = kNever;
-    return keys;
-  }
-  bool is_silent() const { return watch_.is_silent(monotonic_now()); }
-  bool answers() const { return watch_.answers(); }
-  bool is_late() const { return watch_.is_late(monotonic_now()); }
-  double delay_s() const { return to_s(watch_.delay(monotonic_now())); }
-
- private:
-  termios before_{};
-  Time looked_ = kNever;
-  TerminalWatch watch_;
-};
 
 /// What a person follows: a line that changes, and one that stays for each piece.
 class Screen final {
@@ -125,10 +71,13 @@ class Screen final {
   std::vector<calibrate::Quantity> missing_;
 };
 
-std::string key_request(const Twist& twist) {
+/// `key`: when it came; never: none is held.
+std::string key_request(const Twist& twist, Time key) {
   json::JsonText out;
   out.open('{').key("cmd").text("drive_by_hand").key("vx_mps").number(twist.vx_mps);
-  return out.key("wz_radps").number(twist.wz_radps).close('}').take();
+  out.key("wz_radps").number(twist.wz_radps);
+  if (key != kNever) out.key("at_ns").integer(key.time_since_epoch().count());
+  return out.close('}').take();
 }
 
 /// That of the droverd that is asked, or why not.
@@ -151,19 +100,23 @@ config::Loaded configuration_of(Connection& daemon, std::string& problem) {
 void drive_on(Connection& daemon, KeyTerminal& terminal, CalibrationDrive& it, bool twist_base) {
   const auto ask_values = request("drive_values");
   Screen screen(twist_base);
+  Time asked = kNever;
   while (!it.ended()) {
     const auto keys = terminal.read(kLook_ms);
     if (keys.quit) break;
+    const Duration early = kLookAtMost - (monotonic_now() - asked);
+    if (early > Duration::zero()) std::this_thread::sleep_for(early);
+    asked = monotonic_now();
     const auto values = read_reply(daemon.ask(ask_values));
     const auto* told = values.document.root.find("values");
     if (told == nullptr) break;
     if (const auto say = it.look(monotonic_now(), keys.space, snapshot_of(*told))) {
-      const auto answer = read_reply(daemon.ask(key_request(*say)));
+      const auto answer = read_reply(daemon.ask(key_request(*say, keys.space)));
       it.answered(answer.done, answer.done ? answer.note : answer.reason);
     }
     screen.show(it, terminal, monotonic_now());
   }
-  (void)daemon.ask(key_request({}));  // rest, at once
+  (void)daemon.ask(key_request({}, kNever));  // rest, at once
 }
 
 /// A daemon that does not answer ends it, too: what was measured until then is judged.
@@ -210,11 +163,14 @@ std::string_view environment(const char* name) {
 std::string no_place_for_a_key() {
   if (::isatty(STDIN_FILENO) == 0)
     return "it is driven with a key that a person holds: run it at a terminal (ssh -t)";
-  const auto between = answers_for_the_terminal(
-      {environment("TMUX"), environment("STY"), environment("TERM"), environment("SUDO_USER")});
+  const auto ancestors = names_of_ancestors();
+  if (!ancestors)
+    return "the kernel does not tell what this runs within (hidepid?), and what that is may answer "
+           "for your terminal: run it with sudo";
+  const auto between = stands_between({*ancestors, environment("TMUX"), environment("STY")});
   if (between.empty()) return "";
   return "this runs within " + between +
-         ", which answers for your terminal and goes on when that is gone: nobody would notice "
+         ", which may answer for your terminal and go on when that is gone: nobody would notice "
          "that you let the key go; run it at a plain terminal (ssh -t)";
 }
 

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdio>
 
-#include "cli/shown_text.h"
 #include "drover/angle.h"
 
 namespace drover::cli {
@@ -18,10 +17,11 @@ constexpr Duration kFixLasts = 1500ms;  // of a receiver of 1 Hz
 constexpr double kStill_mps = 0.01;
 constexpr double kStill_radps = 0.02;
 constexpr double kLongestStep_s = 0.2;
-constexpr Duration kFreshKey = 100ms;  // it counts for 0.3 s from when droverd hears of it
+constexpr Duration kFreshKey = 100ms;  // it counts for kKeyHeld from when it came
 
 calibrate::DriveLimits limits_of(const engine::EngineConfig& config) {
-  return {config.limits.max_speed_mps, config.limits.max_yaw_rate_radps};
+  const auto& limits = config.limits;
+  return {limits.max_speed_mps, limits.max_yaw_rate_radps, limits.deceleration_mps2};
 }
 
 }  // namespace
@@ -44,7 +44,7 @@ void CalibrationDrive::end(std::string problem) {
 /// What it did in a gap, in which nobody looked: by where it was before and is now. While its
 /// heading is unknown: the last key counted to its end, then a ramp followed.
 calibrate::Moved CalibrationDrive::moved_in_gap(const Snapshot& seen, double gap_s) const {
-  const double held_s = std::min(gap_s, to_s(kHeld));
+  const double held_s = std::min(gap_s, to_s(kKeyHeld));
   const double ramp_s = std::abs(before_.pose.vx_mps) / config_.limits.deceleration_mps2;
   const double ramps_s = std::min(gap_s - held_s, ramp_s);
   const double rolled_s = held_s + (ramp_s > 0 ? ramps_s - ramps_s * ramps_s / (2 * ramp_s) : 0.0);
@@ -100,7 +100,7 @@ void CalibrationDrive::judge_all() {
 }
 
 Twist CalibrationDrive::wanted(Time now) const {
-  const bool fresh = fresh_at_ != kNever && now - fresh_at_ <= kHeld;
+  const bool fresh = fresh_at_ != kNever && now - fresh_at_ <= kKeyHeld;
   if (let_go_ || !has_fix() || !fresh) return {};
   return recipe_.wanted();
 }
@@ -135,37 +135,6 @@ void CalibrationDrive::answered(bool ok, const std::string& text) {
   if (!ok && now_ != kNever && held(now_)) let_go_ = true;
 }
 
-std::string CalibrationDrive::intro() const {
-  const auto area = recipe_.area();
-  double fastest_mps = 0;
-  for (const auto& piece : recipe_.pieces()) fastest_mps = std::max(fastest_mps, piece.fast_mps);
-  std::string text = "Calibration drive: you hold the space key, the robot drives.\n\n";
-  text += "area    level ground, nobody and nothing on it: " + fixed(area.ahead_m, 0) +
-          " m ahead of the robot,\n        " + fixed(area.left_m, 0) + " m to its left, " +
-          fixed(area.right_m, 0) + " m to its right, " + fixed(area.behind_m, 0) +
-          " m behind it.\n";
-  text +=
-      "drive   5 m slowly, with a bend to the left and one to the right; 10 m straight on, at "
-      "up to " +
-      fixed(fastest_mps, 1) +
-      " m/s;\n        there a left circle and a right one, 3 to 4 m across; 12 m straight back. "
-      "About 3 minutes.\n";
-  text += "you     Stand where you see all of it, with the e-stop in your hand. ";
-  text += config_.clearance_required
-              ? "What its scanners see stops\n        it, as always; for what they do not see you "
-                "answer.\n"
-              : "Nothing looks for obstacles\n        but what is wired to stop it: you answer for "
-                "the way.\n";
-  text +=
-      "key     Hold the space key: it drives. Let it go: it comes to rest, by a ramp that begins "
-      "0.3 s\n        later. Pressed again it goes on. q ends. A line on which keys come later "
-      "than that is\n        noticed, and drives nothing; nor does a terminal that does not tell "
-      "how late they come.\n        Not over VNC or RDP, nor within tmux or screen: there nobody "
-      "notices.\n";
-  text += "fix     It needs an RTK fix all the time: without one it stands.\n";
-  return text;
-}
-
 std::string CalibrationDrive::line() const {
   if (recipe_.over()) return "done";
   const auto& piece = recipe_.pieces()[recipe_.at()];
@@ -189,7 +158,7 @@ std::string CalibrationDrive::line() const {
   if (let_go_) return std::string(text) + "let the key go first" + why;
   if (stands) return std::string(text) + "wait";
   if (!holds) return std::string(text) + "paused: hold the space key" + why;
-  if (fresh_at_ == kNever || now_ - fresh_at_ > kHeld)
+  if (fresh_at_ == kNever || now_ - fresh_at_ > kKeyHeld)
     return std::string(text) + "stands: droverd answers too slowly for a key" + why;
   return std::string(text) + (slow_ ? "drives slowly" : "drives");
 }

@@ -9,6 +9,7 @@
 
 #include "calibrate/recipe.h"
 #include "cli/calibrate_drive.h"
+#include "drover/command.h"
 
 namespace drover::cli {
 
@@ -44,9 +45,7 @@ class CalibrationDrive final {
   void end(std::string problem);
   bool has_fix() const;
   Twist wanted(Time now) const;
-  bool held(Time now) const { return key_at_ != kNever && now - key_at_ <= kHeld; }
-
-  static constexpr Duration kHeld = std::chrono::milliseconds(300);
+  bool held(Time now) const { return key_at_ != kNever && now - key_at_ <= kKeyHeld; }
 
   engine::EngineConfig config_;
   calibrate::Configured configured_;

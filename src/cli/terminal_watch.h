@@ -2,31 +2,12 @@
 // and answers as fast as a key comes. Pure.
 #pragma once
 
-#include <string>
 #include <string_view>
 
+#include "drover/command.h"
 #include "drover/time.h"
 
 namespace drover::cli {
-
-/// What the environment tells of the terminal; empty: not set.
-struct TerminalNames {
-  std::string_view tmux;       ///< TMUX
-  std::string_view screen;     ///< STY
-  std::string_view kind;       ///< TERM
-  std::string_view sudo_user;  ///< SUDO_USER
-};
-
-/// The program on this computer that answers for the person's terminal, and goes on when that is
-/// gone; empty: none is known of. Under sudo only the terminal's kind is left of it; a kind alone
-/// may be of the person's own end, where it does no harm.
-inline std::string answers_for_the_terminal(const TerminalNames& names) {
-  if (!names.tmux.empty()) return "tmux";
-  if (!names.screen.empty()) return "screen";
-  if (names.sudo_user.empty()) return "";
-  if (names.kind.starts_with("tmux")) return "tmux";
-  return names.kind.starts_with("screen") ? "tmux or screen" : "";
-}
 
 /// Of a terminal that never answers nothing is known, and nothing before its first answer: its keys
 /// are late, as far as anybody can tell.
@@ -48,13 +29,18 @@ class TerminalWatch final {
     }
     if (++matched_ < kAnswer.size()) return true;
     matched_ = 0;
-    if (asked_ != kNever) took_ = now - asked_;
+    if (asked_ != kNever) {
+      took_ = now - asked_;
+      typed_after_ = asked_;
+    }
     answers_ = answers_ || asked_ != kNever;
     asked_ = kNever;
     return true;
   }
-  /// A key that comes now may have been let go too long ago.
-  bool is_late(Time now) const { return !answers_ || delay(now) > kMost; }
+  /// A key that comes now was typed after this question: it comes behind the answer to it.
+  bool counts(Time now) const { return answers_ && now - typed_after_ <= kKeyLate; }
+  /// The line is too slow for keys.
+  bool is_late(Time now) const { return !answers_ || delay(now) > kKeyLate; }
   /// It has had its time for a first answer.
   bool is_silent(Time now) const { return !answers_ && first_ != kNever && now - first_ > kFirst; }
   bool answers() const { return answers_; }
@@ -65,13 +51,13 @@ class TerminalWatch final {
 
  private:
   static constexpr Duration kEach = std::chrono::milliseconds(100);
-  static constexpr Duration kMost = std::chrono::milliseconds(300);
   static constexpr Duration kFirst = std::chrono::seconds(2);
 
   Time asked_ = kNever;  ///< and not answered yet
   Time last_ = kNever;
   Time first_ = kNever;  ///< the first question
   Duration took_{0};
+  Time typed_after_ = kNever;  ///< the last question that was answered
   std::size_t matched_ = 0;
   bool answers_ = false;
 };

@@ -1,5 +1,6 @@
 #include "publish/hand_outlet.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -15,6 +16,8 @@ namespace {
 constexpr std::uint64_t kHandMark = std::uint64_t{1} << 61U;
 /// What the engine has not answered by then it never will.
 constexpr std::size_t kMostWaiting = 256;
+/// The socket takes fewer at once.
+constexpr std::size_t kMostClients = 64;
 
 void number(json::JsonText& out, std::string_view name, double value) {
   out.key(name);
@@ -98,17 +101,42 @@ std::string drive_values_json(const Snapshot& seen) {
   return out.close('}').take();
 }
 
+HandOutlet::Client& HandOutlet::client_of(ClientId id, Time now) {
+  Client& client = clients_[id];
+  client.heard = now;
+  if (clients_.size() > kMostClients)
+    clients_.erase(std::min_element(
+        clients_.begin(), clients_.end(),
+        [](const auto& a, const auto& b) { return a.second.heard < b.second.heard; }));
+  return clients_[id];
+}
+
 /// Why not; empty: the engine answers.
 std::string HandOutlet::drive(ClientId client, const json::Node& request, Time now, Actions& out) {
   const auto vx_mps = number_of(request, "vx_mps");
   const auto wz_radps = number_of(request, "wz_radps");
   if (!vx_mps || !wz_radps) return "vx_mps or wz_radps is missing";
-  if (!keys_.take(now)) return "slow down";
+  Time key = now;
+  if (request.find("at_ns") != nullptr) {
+    constexpr double kMost_ns = 9e18;
+    const double at_ns = number_of(request, "at_ns").value_or(NAN);
+    if (!(at_ns >= 0 && at_ns < kMost_ns)) return "at_ns is no instant";
+    key = std::min(now, Time{Duration{static_cast<Duration::rep>(at_ns)}});
+  }
+  const DriveByHand wanted{client, {*vx_mps, *wz_radps}};
+  const bool rest = is_zero(wanted.twist);
+  Client& who = client_of(client, now);
+  // That the key is up is heard however many keys came before; said again it is nothing new.
+  if (!(rest && who.moves) && !who.keys.take(now)) return "slow down";
+  who.moves = !rest;
+  if (waiting_.size() >= kMostWaiting) {
+    const RequestId oldest{RequestId::Source::cli, waiting_.begin()->first};
+    answer(oldest, false, "the control loop gave no answer", out);
+  }
   const RequestId id{RequestId::Source::cli, kHandMark | ++last_number_};
   waiting_[id.number] = client;
-  if (waiting_.size() > kMostWaiting) waiting_.erase(waiting_.begin());
-  Command command{id, now, {}};
-  command.body = DriveByHand{client, {*vx_mps, *wz_radps}};
+  Command command{id, key, {}};
+  command.body = wanted;
   out.emplace_back(std::move(command));
   return {};
 }
@@ -123,6 +151,10 @@ bool HandOutlet::on_line(ClientId client, std::string_view line, Time now, Actio
     return true;
   }
   if (cmd == "drive_values") {
+    if (!client_of(client, now).values.take(now)) {
+      out.emplace_back(Reply{client, reply_line(false, "slow down")});
+      return true;
+    }
     out.emplace_back(
         Reply{client, R"({"ok":true,"values":)" + drive_values_json(seen_(now)) + "}"});
     return true;
@@ -140,7 +172,7 @@ void HandOutlet::answer(const RequestId& id, bool ok, std::string_view text, Act
   const auto waiting = waiting_.find(id.number);
   if (waiting == waiting_.end()) return;
   out.emplace_back(Reply{waiting->second, reply_line(ok, text)});
-  waiting_.erase(waiting_.begin(), std::next(waiting));  // what is older is never answered
+  waiting_.erase(waiting);
 }
 
 void HandOutlet::on_event(const Event& event, Actions& out) {
@@ -151,6 +183,9 @@ void HandOutlet::on_event(const Event& event, Actions& out) {
 }
 
 void HandOutlet::on_undelivered(const Command& command, Actions& out) {
+  const auto* hand = std::get_if<DriveByHand>(&command.body);
+  const auto who = hand == nullptr ? clients_.end() : clients_.find(hand->hand);
+  if (who != clients_.end()) who->second.moves = true;  // rest has to be said again, and passes
   answer(command.id, false, "the control loop takes no command now", out);
 }
 

@@ -21,9 +21,10 @@ struct ConfigurationTexts {
 /// One JSON object: what a calibration looks at, each with the instant at which it was true.
 std::string drive_values_json(const Snapshot& seen);
 
-/// Requests: `drive_by_hand` with `vx_mps` and `wz_radps`, one for each key that the terminal
-/// repeats, answered by the engine; `drive_values`; `configuration`. Whoever asks is one hand as
-/// long as he is connected.
+/// Requests: `drive_by_hand` with `vx_mps`, `wz_radps` and `at_ns` (when the key came, by the
+/// monotonic clock; not there: now), one for each key that the terminal repeats, answered by the
+/// engine; `drive_values`; `configuration`. Whoever asks is one hand as long as he is connected.
+/// Each has a rate of his own; that a key is up passes whatever came before.
 class HandOutlet final : public Outlet {
  public:
   /// `seen`: the whole state as it is seen at that time.
@@ -36,12 +37,19 @@ class HandOutlet final : public Outlet {
   void on_undelivered(const Command& command, Actions& out) override;
 
  private:
+  struct Client {
+    TokenBucket keys{40, 20};      ///< a terminal repeats 30 a second
+    TokenBucket values{250, 100};  ///< looked at a hundred times a second
+    bool moves = false;            ///< has asked for motion, and not for rest since
+    Time heard = kNever;
+  };
+  Client& client_of(ClientId id, Time now);
   std::string drive(ClientId client, const json::Node& request, Time now, Actions& out);
   void answer(const RequestId& id, bool ok, std::string_view text, Actions& out);
 
   ConfigurationTexts texts_;
   std::function<Snapshot(Time)> seen_;
-  TokenBucket keys_{40, 20};                   ///< of all together: a terminal repeats 30 a second
+  std::map<ClientId, Client> clients_;         ///< who was heard lately
   std::map<std::uint64_t, ClientId> waiting_;  ///< request number → who asked
   std::uint64_t last_number_ = 0;
 };

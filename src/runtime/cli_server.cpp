@@ -18,6 +18,7 @@ namespace {
 constexpr std::size_t kMaxRequest = 64 * 1024;
 constexpr std::size_t kMaxLongRequest = std::size_t{6} << 20;  // a file, escaped as JSON
 constexpr std::size_t kMaxWaiting = 64 * 1024 * 1024;          // a large track, shown
+constexpr std::size_t kMaxUnread = 1024 * 1024;                // before another reply is added
 constexpr std::size_t kMaxClients = 32;
 constexpr std::uint64_t kListenerTag = 0;
 }  // namespace
@@ -130,11 +131,13 @@ void CliServer::read(ClientId id) {
 void CliServer::reply(ClientId id, const std::string& text) {
   const auto it = clients_.find(id);
   if (it == clients_.end()) return;
-  it->second.out += text + "\n";
-  if (it->second.out.size() > kMaxWaiting) {
+  auto& out = it->second.out;
+  // Who goes on asking and does not read is let go.
+  if (out.size() > kMaxUnread || out.size() + text.size() >= kMaxWaiting) {
     clients_.erase(it);
     return;
   }
+  out += text + "\n";
   write(id);
 }
 

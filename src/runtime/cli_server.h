@@ -1,7 +1,7 @@
 // The command line's socket: one JSON request a line, one JSON reply a line.
 //
 // Open to the daemon's own user, its group and root. A request is bounded in size and a client in
-// number, and nobody waits for a slow one.
+// number, and nobody waits for a slow one: who goes on asking and does not read is let go.
 #pragma once
 
 #include <cstdint>

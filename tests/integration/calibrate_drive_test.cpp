@@ -5,7 +5,9 @@
 #include <pty.h>
 #include <signal.h>
 #include <sys/wait.h>
+#include <termios.h>
 #include <unistd.h>
+#include <utmp.h>
 
 #include <algorithm>
 #include <atomic>
@@ -15,6 +17,7 @@
 #include <fstream>
 #include <mutex>
 #include <sstream>
+#include <stdexcept>
 #include <thread>
 
 #include "integration/robot_rig.h"
@@ -25,18 +28,73 @@ namespace {
 using testing::HasSubstr;
 using namespace std::chrono_literals;
 
-/// A person at a terminal, who holds the space key or does not.
-class KeyHolder final {
+/// A program at a terminal of its own, as after a login: nobody's child, so that it does not run
+/// within the tmux that these tests run in.
+class Orphan final {
  public:
-  explicit KeyHolder(const std::vector<std::string>& words) {
+  explicit Orphan(const std::vector<std::string>& words) {
     std::vector<char*> arguments;
     for (const auto& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
     arguments.push_back(nullptr);
-    pid_ = ::forkpty(&terminal_, nullptr, nullptr, nullptr);
-    if (pid_ == 0) {
-      ::execv(arguments[0], arguments.data());
-      ::_exit(127);
+    std::array<int, 2> told{};
+    int other_end = -1;
+    if (::pipe2(told.data(), O_CLOEXEC) != 0 ||
+        ::openpty(&terminal, &other_end, nullptr, nullptr, nullptr) != 0)
+      throw std::runtime_error("no terminal");
+    const pid_t between = ::fork();
+    if (between == 0) {
+      if (::fork() != 0) ::_exit(0);
+      ::close(terminal);
+      const pid_t pid = ::fork();
+      if (pid == 0) {
+        ::login_tty(other_end);
+        ::execv(arguments[0], arguments.data());
+        ::_exit(127);
+      }
+      ::close(other_end);
+      int status = 0;
+      if (::write(told[1], &pid, sizeof pid) < 0) ::_exit(1);
+      ::waitpid(pid, &status, 0);
+      ::_exit(::write(told[1], &status, sizeof status) < 0 ? 1 : 0);
     }
+    ::waitpid(between, nullptr, 0);
+    ::close(other_end);
+    ::close(told[1]);
+    told_ = told[0];
+    if (::read(told_, &pid_, sizeof pid_) != sizeof pid_) pid_ = -1;
+    ::fcntl(told_, F_SETFL, O_NONBLOCK);
+  }
+  ~Orphan() {
+    signal(SIGKILL);
+    ::close(told_);
+  }
+  Orphan(const Orphan&) = delete;
+  Orphan& operator=(const Orphan&) = delete;
+
+  void signal(int number) {
+    if (pid_ > 0 && !status()) ::kill(pid_, number);
+  }
+  /// Exit code, once it has ended.
+  std::optional<int> status() {
+    int status = 0;
+    if (!status_ && ::read(told_, &status, sizeof status) == sizeof status)
+      status_ = WEXITSTATUS(status);
+    return status_;
+  }
+
+  int terminal = -1;
+
+ private:
+  pid_t pid_ = -1;
+  int told_ = -1;
+  std::optional<int> status_;
+};
+
+/// A person at a terminal, who holds the space key or does not.
+class KeyHolder final {
+ public:
+  explicit KeyHolder(const std::vector<std::string>& words)
+      : program_(words), terminal_(program_.terminal) {
     types_ = std::thread([this] {
       while (!ends_) {
         if (held_) type(" ");
@@ -64,7 +122,6 @@ class KeyHolder final {
     types_.join();
     reads_.join();
     ::close(terminal_);
-    if (!status_) ::waitpid(pid_, nullptr, 0);
   }
   KeyHolder(const KeyHolder&) = delete;
   KeyHolder& operator=(const KeyHolder&) = delete;
@@ -76,12 +133,14 @@ class KeyHolder final {
   }
   /// As a terminal does at the other end of a line; below zero: it never does.
   void answer_after_ms(int ms) { answers_after_ms_ = ms; }
-  void signal(int number) const { ::kill(pid_, number); }
+  void signal(int number) { program_.signal(number); }
   /// Exit code, once it has ended.
-  std::optional<int> status() {
-    int status = 0;
-    if (!status_ && ::waitpid(pid_, &status, WNOHANG) == pid_) status_ = WEXITSTATUS(status);
-    return status_;
+  std::optional<int> status() { return program_.status(); }
+  /// Whether lines are edited, echoed, and signals made of keys: at either end of it the same.
+  tcflag_t modes() const {
+    termios now{};
+    EXPECT_EQ(::tcgetattr(terminal_, &now), 0);
+    return now.c_lflag;
   }
   std::string shown() const {
     const std::lock_guard lock(mutex_);
@@ -89,9 +148,8 @@ class KeyHolder final {
   }
 
  private:
-  int terminal_ = -1;
-  pid_t pid_ = -1;
-  std::optional<int> status_;
+  Orphan program_;
+  int terminal_;
   std::atomic<bool> held_{false};
   std::atomic<bool> ends_{false};
   std::atomic<int> answers_after_ms_{20};
@@ -106,8 +164,8 @@ class CalibrationDriveProcess : public RobotRig {
   /// `within`: the environment, without which it is as at a plain terminal.
   std::unique_ptr<KeyHolder> at_terminal(const std::vector<std::string>& more = {},
                                          const std::string& within = "WITHIN=nothing") {
-    std::vector<std::string> words{"/usr/bin/env", "-u",        "TMUX", "-u",           "STY",
-                                   "-u",           "SUDO_USER", within, DROVER_PROGRAM, "--socket"};
+    std::vector<std::string> words{"/usr/bin/env", "-u",   "TMUX",         "-u",
+                                   "STY",          within, DROVER_PROGRAM, "--socket"};
     words.push_back((folder() / "run/drover.sock").string());
     words.insert(words.end(), {"calibrate", "drive"});
     words.insert(words.end(), more.begin(), more.end());
@@ -233,8 +291,20 @@ TEST_F(CalibrationDriveProcess, IsRefusedWhereAnotherProgramAnswersForTheTermina
     const auto person = at_terminal({}, within);
     ASSERT_TRUE(wait_until([&] { return person->status().has_value(); })) << within;
     EXPECT_EQ(person->status(), 1) << within;
-    EXPECT_THAT(person->shown(), HasSubstr("run it at a plain terminal"));
+    ASSERT_TRUE(wait_until([&] {
+      return person->shown().find("run it at a plain terminal") != std::string::npos;
+    })) << person->shown();
   }
+  // What sets no variable is known by its name.
+  const auto shell = folder() / "mosh-server";
+  std::filesystem::create_symlink("/bin/sh", shell);
+  KeyHolder person(
+      {shell.string(), "-c", "env -u TMUX -u STY '" DROVER_PROGRAM "' calibrate drive; exit $?"});
+  ASSERT_TRUE(wait_until([&] { return person.status().has_value(); }));
+  EXPECT_EQ(person.status(), 1);
+  ASSERT_TRUE(wait_until([&] {
+    return person.shown().find("this runs within mosh-server") != std::string::npos;
+  })) << person.shown();
 }
 TEST_F(CalibrationDriveProcess, KeysThatComeLateCountForNothing) {
   start_all();
@@ -256,6 +326,26 @@ TEST_F(CalibrationDriveProcess, ATerminalThatNeverAnswersDrivesNothing) {
     return person->shown().find("does not tell how late your keys come") != std::string::npos;
   })) << person->shown();
   expect_rest_for(2s, "nobody knows how late its keys come");
+}
+TEST_F(CalibrationDriveProcess, WhoEndsItGetsHisTerminalBack) {
+  start_all();
+  for (const int number : {SIGTERM, SIGHUP, SIGINT}) {
+    SCOPED_TRACE(number);
+    const auto person = at_terminal();
+    const auto before = person->modes();
+    ASSERT_NE(before & (ICANON | ECHO | ISIG), 0U);
+    hold_until_it_moves(*person);
+    ASSERT_NE(person->modes(), before);
+    person->signal(number);
+    ASSERT_TRUE(wait_until([&] { return person->status().has_value(); }));
+    EXPECT_EQ(person->modes(), before);
+    EXPECT_EQ(person->status(), 1) << "the ordinary end";
+    ASSERT_TRUE(wait_until([&] {
+      return person->shown().find("positions with an RTK fix") != std::string::npos;
+    })) << person->shown();
+    ASSERT_TRUE(wait_until([&] { return at_rest(); }));
+    ASSERT_TRUE(wait_until([&] { return status_text("nav", "owner") != "manual"; }));
+  }
 }
 TEST_F(CalibrationDriveProcess, WhatWasMeasuredIsJudgedWhenDroverdAnswersNoMore) {
   start_all();

@@ -48,14 +48,14 @@ inline constexpr std::size_t kCauseCount = static_cast<std::size_t>(Cause::batte
 /// What is told only has none of these.
 struct CauseRow {
   Cause cause;
-  bool stops = false;         ///< nothing may move: at once, without a ramp
-  bool ends_task = false;     ///< whatever moves it ends with a ramp, and nothing begins
-  bool ends_wait = false;     ///< a task that waits ends
-  bool refuses_task = false;  ///< no task starts; one that runs goes on
-  bool ends_stream = false;   ///< joint commands are not followed
-  bool by_people = false;     ///< pressed or touched: joint commands wait for one, whoever drove
-  bool severe = false;        ///< an error, not a warning
-  std::string_view over;      ///< said when it holds no more
+  bool stops = false;              ///< nothing may move: at once, without a ramp
+  bool ends_task = false;          ///< whatever moves it ends with a ramp, and nothing begins
+  bool ends_wait = false;          ///< a task that waits ends
+  bool refuses_task = false;       ///< no task starts; one that runs goes on
+  bool ends_free_driving = false;  ///< joint commands and a key; no search begins
+  bool by_people = false;  ///< pressed or touched: joint commands wait for one, whoever drove
+  bool severe = false;     ///< an error, not a warning
+  std::string_view over;   ///< said when it holds no more
 };
 
 // clang-format off
@@ -84,7 +84,7 @@ inline constexpr std::array<CauseRow, kCauseCount> kCauses{{
    .over = "on level ground again"},
   {.cause = Cause::charger, .ends_task = true,
    .over = "charger unplugged"},
-  {.cause = Cause::charger_unknown, .refuses_task = true, .ends_stream = true,
+  {.cause = Cause::charger_unknown, .refuses_task = true, .ends_free_driving = true,
    .over = "it is known whether the charger is connected"},
   {.cause = Cause::battery_critical, .ends_task = true,
    .over = "battery good for driving again"},
@@ -92,13 +92,13 @@ inline constexpr std::array<CauseRow, kCauseCount> kCauses{{
    .over = "droverd runs undisturbed again"},
   {.cause = Cause::near_zone,
    .over = "near zone free"},
-  {.cause = Cause::surroundings, .refuses_task = true, .ends_stream = true,
+  {.cause = Cause::surroundings, .refuses_task = true, .ends_free_driving = true,
    .over = "what is around the robot is known again"},
-  {.cause = Cause::constraint, .refuses_task = true, .ends_stream = true,
+  {.cause = Cause::constraint, .refuses_task = true, .ends_free_driving = true,
    .over = "all constraints hold again"},
-  {.cause = Cause::moved, .ends_wait = true, .refuses_task = true, .ends_stream = true,
+  {.cause = Cause::moved, .ends_wait = true, .refuses_task = true, .ends_free_driving = true,
    .over = "the robot rests again"},
-  {.cause = Cause::foreign, .refuses_task = true, .ends_stream = true,
+  {.cause = Cause::foreign, .refuses_task = true, .ends_free_driving = true,
    .over = "nobody else commands the drives"},
   {.cause = Cause::bus,
    .over = "CAN buses good"},

@@ -67,7 +67,7 @@ struct HealthReport {
   Reason end_task;
   Reason end_wait;
   Reason no_start;  ///< also what no cause is yet: see BatteryVerdict::present
-  Reason end_stream;
+  Reason end_free_driving;
   FixedVector<Reason, 8> why;             ///< the cause first
   std::uint32_t causes = 0;               ///< bits by Cause
   std::array<Reason, kCauseCount> texts;  ///< by Cause, for causes that hold

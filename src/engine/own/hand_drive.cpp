@@ -11,14 +11,22 @@ constexpr const char* kOthers = "somebody else drives by hand";
 
 }  // namespace
 
+HandDrive::Rival& HandDrive::rival(std::uint64_t hand) {
+  const auto his = std::find_if(rivals_.begin(), rivals_.end(),
+                                [&](const Rival& each) { return each.hand == hand; });
+  if (his != rivals_.end()) return *his;
+  return *std::min_element(rivals_.begin(), rivals_.end(),
+                           [](const Rival& a, const Rival& b) { return a.key < b.key; });
+}
+
 /// Another one begins anew, as everybody: he takes nothing over. A key of his that was turned away
 /// is none before it is let go.
 void HandDrive::change_hands(std::uint64_t to, Time at) {
-  const bool pressed =
-      turned_away_ == to && turned_away_at_ != kNever && at - turned_away_at_ <= kHeld;
+  const Rival& his = rival(to);
+  const bool pressed = his.hand == to && his.key != kNever && at - his.key <= kHeld;
   hand_ = to;
   active_ = moves_ = false;
-  row_ = key_ = pressed ? turned_away_at_ : kNever;
+  row_ = key_ = pressed ? his.key : kNever;
   spoiled_ = pressed;
   ended_ = kOthers;
 }
@@ -29,6 +37,7 @@ void HandDrive::press(const Reason& busy, Time at) {
     row_ = at;
     spoiled_ = false;
   }
+  if (row_ == kNever) row_ = at;  // he said meanwhile that the key is up
   key_ = at;
   if (!busy.empty() && !spoiled_) {
     spoiled_ = true;
@@ -45,14 +54,14 @@ void HandDrive::take(const Command& command, const DriveByHand& wanted, const Re
   if (now - at > kHeld) return refuse("it came too late to be a key that is held");
   const bool others = hand_ != wanted.hand && heard_ != kNever && now - heard_ <= kLasts;
   if (others) {
-    turned_away_ = wanted.hand;
-    turned_away_at_ = at;
+    if (!is_zero(wanted.twist)) rival(wanted.hand) = {wanted.hand, at};
     return refuse(kOthers);
   }
   if (hand_ != wanted.hand) change_hands(wanted.hand, at);
   heard_ = at;
   if (is_zero(wanted.twist)) {
     moves_ = false;
+    row_ = kNever;
     if (!busy.empty()) return refuse(busy);
     return events.push(now, CommandAccepted{command.id, note});
   }

@@ -1,6 +1,8 @@
 // A person drives with a key that is held down: the dead-man, and when he may begin.
 #pragma once
 
+#include <array>
+
 #include "drover/command.h"
 #include "drover/twist.h"
 #include "engine/event_queue.h"
@@ -15,7 +17,7 @@ namespace drover::engine {
 class HandDrive final {
  public:
   /// How long one message is obeyed.
-  static constexpr Duration kHeld = std::chrono::milliseconds(300);
+  static constexpr Duration kHeld = kKeyHeld;
   /// Silence after which it has ended, and somebody else may begin. Whoever let the key go notices
   /// that after kHeld himself, and says from then on that he wants rest.
   static constexpr Duration kLasts = 2 * kHeld;
@@ -38,18 +40,23 @@ class HandDrive final {
 
  private:
   bool holds(Time at) const { return key_ != kNever && at - key_ <= kHeld; }
+  struct Rival {
+    std::uint64_t hand = 0;
+    Time key = kNever;
+  };
+  /// His, or the place of him who was not heard for the longest time.
+  Rival& rival(std::uint64_t hand);
   void change_hands(std::uint64_t to, Time at);
   void press(const Reason& busy, Time at);
 
   bool active_ = false;
   bool moves_ = false;
-  bool spoiled_ = false;           ///< this row of keys moves nothing any more
-  std::uint64_t hand_ = 0;         ///< whose it is; also of a row that has not begun anything
-  Time heard_ = kNever;            ///< anything of his
-  std::uint64_t turned_away_ = 0;  ///< another one, who pressed a key meanwhile
-  Time turned_away_at_ = kNever;
-  Time row_ = kNever;  ///< the first key of this row
-  Time key_ = kNever;  ///< and the last
+  bool spoiled_ = false;            ///< this row of keys moves nothing any more
+  std::uint64_t hand_ = 0;          ///< whose it is; also of a row that has not begun anything
+  Time heard_ = kNever;             ///< anything of his
+  std::array<Rival, 32> rivals_{};  ///< who pressed a key meanwhile; the socket takes no more
+  Time row_ = kNever;               ///< the first key of this row, since he last wanted rest
+  Time key_ = kNever;               ///< and the last
   Twist wanted_;
   Reason ended_;  ///< why this row is spoiled
 };

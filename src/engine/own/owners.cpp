@@ -97,7 +97,7 @@ void Owners::on_task_started() {
 /// Why nobody but a task may move the base now.
 Reason Owners::hindrance(const OwnInput& input) const {
   if (const Reason why = input.health.hinders_all(); !why.empty()) return why;
-  if (!input.health.end_stream.empty()) return input.health.end_stream;
+  if (!input.health.end_free_driving.empty()) return input.health.end_free_driving;
   if (const Reason why = latch_.hinders_all(); !why.empty()) return why;
   if (!input.not_held.empty()) return input.not_held;
   if (input.task.drives) return "a task owns the drives";

@@ -100,6 +100,14 @@ TEST(Recipe, SteersBackOnAStraightButNotBeforeTheSignsAreProved) {
   recipe.look({kLook_s, 0.01, 0.1, false});
   EXPECT_LT(recipe.wanted().wz_radps, 0);
 }
+TEST(Recipe, ItsAreaHasRoomForABaseThatComesToRestSlowly) {
+  const Area brisk = Recipe({0.8, 0.8, 0.8}).area();
+  const Area slow = Recipe({0.8, 0.8, 0.05}).area();
+  const double rolls_on_m = 0.7 * 0.3 + 0.7 * 0.7 / (2 * 0.05);
+  EXPECT_GT(slow.ahead_m, brisk.ahead_m - 1 + rolls_on_m - 1);
+  EXPECT_GE(slow.behind_m, rolls_on_m);
+  EXPECT_GE(slow.right_m, brisk.right_m + rolls_on_m - 2);
+}
 TEST(Recipe, AnotherRoundTurnsRoundFirstAndThereAreThree) {
   Recipe recipe({0.8, 0.8});
   const Area area = recipe.area();

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
 #include <set>
 
 #include "bench/field_world.h"
@@ -219,10 +220,24 @@ TEST_F(ACalibrationDrive, IsStoppedOnTheFirstWayWhereTheSidesAreSwapped) {
 TEST(CalibrationIntro, SaysWhichAreaAndWhatItDoes) {
   const CalibrationDrive drive(bench::field_config());
   const auto text = drive.intro();
-  for (const char* words : {"ahead of the robot", "to its left", "e-stop in your hand", "space key",
-                            "RTK fix", "you answer for"})
+  for (const char* words :
+       {"ahead of the robot", "to its left", "e-stop in your hand", "space key", "RTK fix",
+        "you answer for", "2.4 to 3.4 m across", "0.6 s after you let go", "0.7 m until it stands"})
     EXPECT_THAT(text, HasSubstr(words));
-  std::printf("%s", text.c_str());
+}
+TEST(CalibrationIntro, SaysTheNumbersOfThisRobot) {
+  auto config = bench::field_config();
+  config.limits.max_speed_mps = 0.3;
+  config.limits.deceleration_mps2 = 0.1;
+  const auto text = CalibrationDrive(config).intro();
+  for (const char* words : {"at up to 0.3 m/s", "About 4 minutes", "0.6 m until it stands"})
+    EXPECT_THAT(text, HasSubstr(words));
+}
+TEST(CalibrationIntro, IsWhatTheReadmeShows) {
+  std::ifstream file(DROVER_SOURCE_DIR "/src/cli/README.md");
+  const std::string readme((std::istreambuf_iterator<char>(file)), {});
+  EXPECT_NE(readme.find(CalibrationDrive(bench::field_config()).intro()), std::string::npos)
+      << CalibrationDrive(bench::field_config()).intro();
 }
 
 }  // namespace

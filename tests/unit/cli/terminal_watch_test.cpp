@@ -40,6 +40,22 @@ TEST(TerminalWatch, NoKeyCountsBeforeTheFirstAnswer) {
   answer(watch, Time{11s});
   EXPECT_TRUE(watch.is_late(Time{11s})) << "it took a second";
 }
+TEST(TerminalWatch, AKeyCountsWhileItIsSureThatItWasTypedOnlyJustNow) {
+  TerminalWatch watch;
+  Time now{10s};
+  EXPECT_FALSE(watch.counts(now));
+  EXPECT_NE(watch.ask(now), "");
+  EXPECT_FALSE(watch.counts(now));
+  answer(watch, now + 250ms);
+  EXPECT_TRUE(watch.counts(now + 250ms));
+  EXPECT_NE(watch.ask(now + 250ms), "");
+  EXPECT_TRUE(watch.counts(now + 300ms));
+  // Typed at once after the first answer it would be older than that.
+  EXPECT_FALSE(watch.counts(now + 310ms));
+  EXPECT_FALSE(watch.is_late(now + 310ms)) << "but the line is none that is too slow";
+  answer(watch, now + 400ms);
+  EXPECT_TRUE(watch.counts(now + 400ms)) << "the question was asked 0.15 s ago";
+}
 TEST(TerminalWatch, OfATerminalThatNeverAnswersNothingIsKnownAndNoKeyCounts) {
   TerminalWatch watch;
   EXPECT_NE(watch.ask(Time{10s}), "");
@@ -52,16 +68,6 @@ TEST(TerminalWatch, LeavesKeysAlone) {
   EXPECT_TRUE(watch.take('\033', Time{10s}));
   EXPECT_FALSE(watch.take('q', Time{10s}));
   EXPECT_FALSE(watch.take(' ', Time{10s}));
-}
-TEST(TerminalWatch, KnowsWhoAnswersForTheTerminal) {
-  EXPECT_EQ(answers_for_the_terminal({}), "");
-  EXPECT_EQ(answers_for_the_terminal({.tmux = "/tmp/tmux-0/default,7,0"}), "tmux");
-  EXPECT_EQ(answers_for_the_terminal({.screen = "7.pts-0.robot"}), "screen");
-  EXPECT_EQ(answers_for_the_terminal({.kind = "tmux-256color", .sudo_user = "ann"}), "tmux");
-  EXPECT_EQ(answers_for_the_terminal({.kind = "screen.xterm", .sudo_user = "ann"}),
-            "tmux or screen");
-  EXPECT_EQ(answers_for_the_terminal({.kind = "tmux-256color"}), "") << "the person's own end";
-  EXPECT_EQ(answers_for_the_terminal({.kind = "xterm", .sudo_user = "ann"}), "");
 }
 
 }  // namespace

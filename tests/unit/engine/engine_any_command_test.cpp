@@ -3,8 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <map>
 #include <random>
 #include <set>
+#include <utility>
 
 #include "engine_breakdowns.h"
 
@@ -12,7 +15,6 @@ namespace drover::engine {
 namespace {
 
 constexpr double kLongestHeadingSearch_s = 60;
-constexpr Duration kKeyHeld = std::chrono::milliseconds(300);
 
 /// What a person knows who saw each command and each answer, and nothing else.
 class Witness {
@@ -43,11 +45,13 @@ class Witness {
       if (streams_) last_target_ = rig_.now;
     }
     if (const auto* hand = std::get_if<DriveByHand>(&body)) {
-      // A key that was held since before it was ended moves nothing.
-      if (last_key_ == kNever || rig_.now - last_key_ > kKeyHeld) keys_since_ = rig_.now;
-      last_key_ = is_zero(hand->twist) ? last_key_ : rig_.now;
+      if (is_zero(hand->twist))
+        hands_[hand->hand].since = kNever;
+      else
+        keys_[id] = {*hand, rig_.now};
     }
-    if (stopped_ || ends) keys_since_ = kNever;
+    if (stopped_ || ends)
+      for (auto& [whose, hand] : hands_) hand.spoil();
   }
 
   /// After each tick. Returns what is broken, or nothing.
@@ -63,17 +67,24 @@ class Witness {
     if (fastest_radps != 0 && must_rest(rig_)) return "motion while a stop condition holds";
     if (released_ && !left_alone()) return "drives that were released are not left alone";
     if (faster && stopped_) return "faster after a stop that nobody reset";
-    if (faster && !task_ && !searching() && !streaming() && !held())
-      return "faster, and nobody asked for it";
+    if (!faster || task_ || searching() || streaming()) return {};
+    if (!held()) return "faster, and nobody asked for it";
+    driven_by_.insert(driver_);
+    if (std::signbit(along_radps()) != std::signbit(hands_[driver_].vx_mps))
+      return "faster, but the other way than it was asked for";
+    driven_ways_.insert(std::signbit(along_radps()));
     return {};
   }
+  const std::set<std::uint64_t>& driven_by() const { return driven_by_; }
+  const std::set<bool>& driven_ways() const { return driven_ways_; }
   /// A restart of the program ends all that drove.
   void restarts() {
     // A stop over which the program died in the very cycle was never answered: who asked for it
     // knows that, and asks again.
     if (unanswered_) stopped_ = unanswered_ = false;
     task_ = streams_ = false;
-    search_until_ = keys_since_ = last_key_ = kNever;
+    search_until_ = kNever;
+    hands_.clear();
     last_radps_ = 0;
     seen_ = rig_.log.size();
   }
@@ -84,9 +95,49 @@ class Witness {
     return streams_ &&
            rig_.now - last_target_ < from_s(rig_.config.health.joint_command_timeout_s) + kRigTick;
   }
-  bool held() const {
-    return keys_since_ != kNever && rig_.now - keys_since_ >= kKeyHeld &&
-           rig_.now - last_key_ <= kKeyHeld + kRigTick;
+  struct Key {
+    DriveByHand asked;
+    Time at = kNever;
+  };
+  /// One who has a key, by the answers that he got.
+  struct Hand {
+    Time since = kNever;   ///< of a row that was accepted, without a word of rest in it
+    Time last = kNever;    ///< a key, also one that was refused
+    bool spoiled = false;  ///< a row that was ended moves nothing any more
+    double vx_mps = 0;
+
+    void spoil() {
+      spoiled = true;
+      since = kNever;
+    }
+    void press(const Key& key, bool accepted) {
+      if (last == kNever || key.at - last > kKeyHeld) {
+        spoiled = false;
+        since = kNever;
+      }
+      last = key.at;
+      vx_mps = key.asked.twist.vx_mps;
+      if (!accepted) return spoil();
+      if (!spoiled && since == kNever) since = key.at;
+    }
+  };
+  bool held() {
+    const Hand& hand = hands_[driver_];
+    return hand.since != kNever && rig_.now - hand.since >= kKeyHeld &&
+           rig_.now - hand.last <= kKeyHeld + kRigTick;
+  }
+  void answer_key(std::uint64_t id, bool accepted) {
+    const auto key = keys_.find(id);
+    if (key == keys_.end()) return;
+    const auto whose = key->second.asked.hand;
+    if (accepted && std::exchange(driver_, whose) != whose) hands_[whose].since = kNever;
+    hands_[whose].press(key->second, accepted);
+    keys_.erase(key);
+  }
+  double along_radps() const {
+    double sum_radps = 0;
+    for (const AxisCommand& axis : rig_.out.axes) sum_radps += axis.velocity_radps;
+    return sum_radps;
   }
   bool left_alone() const {
     const auto& slowing = rig_.out.slowing_permitted;
@@ -100,9 +151,12 @@ class Witness {
       if (std::holds_alternative<TaskEnded>(body) ||
           std::holds_alternative<NavigationNotStarted>(body))
         task_ = false;
+      if (const auto* refused = std::get_if<CommandRefused>(&body))
+        answer_key(refused->id.number, false);
       const auto* accepted = std::get_if<CommandAccepted>(&body);
       if (accepted == nullptr) continue;
       const auto id = accepted->id.number;
+      answer_key(id, true);
       task_ = task_ || starts_.count(id) != 0;
       if (searches_.count(id) != 0) search_until_ = rig_.now + from_s(kLongestHeadingSearch_s);
       if (resets_.count(id) != 0) stopped_ = false;
@@ -121,8 +175,11 @@ class Witness {
   bool streams_ = false;
   Time last_target_ = kNever;
   Time search_until_ = kNever;
-  Time keys_since_ = kNever;
-  Time last_key_ = kNever;
+  std::map<std::uint64_t, Key> keys_;  ///< by request; not answered yet
+  std::map<std::uint64_t, Hand> hands_;
+  std::uint64_t driver_ = 0;  ///< whose key was accepted last
+  std::set<std::uint64_t> driven_by_;
+  std::set<bool> driven_ways_;
   double last_radps_ = 0;
 };
 
@@ -149,6 +206,7 @@ class AnyCommands {
     return {};
   }
   bool moved() const { return moved_; }
+  const Witness& witness() const { return witness_; }
 
  private:
   void ask(const decltype(Command::body)& body) {
@@ -175,12 +233,22 @@ class AnyCommands {
       case 13: return ask(AcceptPosition{});
       case 14: return ask(ForgetLearned{});
       case 15:
-      case 16: key_ = !key_; return;
+      case 16: {
+        const auto which = one_in_(2) ? 0U : 1U;
+        held_[which] = !held_[which];
+        ahead_[which] = one_in_(2);
+        return;
+      }
       default: return ask(StartTask{&path_, 20, 0.8});
     }
   }
   void stream() {
-    if (key_) ask(DriveByHand{1, {one_in_(200) ? 0.0 : 0.5, 0.2}});
+    for (unsigned i = 0; i < held_.size(); ++i) {
+      if (held_[i] && !one_in_(100))
+        ask(DriveByHand{i + 1, {ahead_[i] ? 0.5 : -0.5, 0.2}});
+      else if (held_[i] || one_in_(100))
+        ask(DriveByHand{i + 1, {}});
+    }
     if (!streams_) return;
     JointTargets targets;
     for (AxisId id = 0; id < 4; ++id) (void)targets.joints.push_back({id, streamed_radps_});
@@ -212,7 +280,8 @@ class AnyCommands {
   Path path_ = straight_path(10);
   bool streams_ = false;
   double streamed_radps_ = 0;
-  bool key_ = false;
+  std::array<bool, 2> held_{};
+  std::array<bool, 2> ahead_{};
   bool moved_ = false;
 };
 
@@ -224,11 +293,17 @@ constexpr std::uint64_t kHistories = 500;
 
 TEST(AnyCommands, MoveNothingThatWasStoppedReleasedOrNotAskedFor) {
   std::uint64_t moved = 0;
+  std::set<std::uint64_t> hands;
+  std::set<bool> ways;
   for (std::uint64_t seed = 1; seed <= kHistories; ++seed) {
     AnyCommands history(seed);
     ASSERT_EQ(history.run(1000), "") << "seed " << seed;
     moved += history.moved() ? 1 : 0;
+    hands.insert(history.witness().driven_by().begin(), history.witness().driven_by().end());
+    ways.insert(history.witness().driven_ways().begin(), history.witness().driven_ways().end());
   }
+  EXPECT_EQ(hands.size(), 2U) << "both drove";
+  EXPECT_EQ(ways.size(), 2U) << "ahead and back";
   EXPECT_GT(moved, kHistories / 4) << "histories without motion prove nothing";
   std::printf("%llu of %llu histories had motion\n", static_cast<unsigned long long>(moved),
               static_cast<unsigned long long>(kHistories));

@@ -130,6 +130,34 @@ TEST_F(CliServerTest, ForgetsAClientThatIsGone) {
   work();
 }
 
+TEST_F(CliServerTest, LetsGoWhoAsksOnAndOnAndDoesNotRead) {
+  std::size_t asked = 0;
+  const std::string large(1'000'000, 'x');
+  CliServer* answers = nullptr;
+  CliServer server(folder_ + "/large.sock", [&](CliServer::ClientId id, std::string_view) {
+    ++asked;
+    answers->reply(id, large);
+  });
+  answers = &server;
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  std::strcpy(address.sun_path, (folder_ + "/large.sock").c_str());
+  link::UniqueFd fd(::socket(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK, 0));
+  EXPECT_EQ(::connect(fd.get(), reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
+  send_all(fd, "a\n", server);
+  std::string heard;
+  pollfd ready{server.fd(), POLLIN, 0};
+  while (heard.size() < large.size() + 1) {
+    const auto part = read(fd);
+    heard += part;
+    if (::poll(&ready, 1, 0) == 1) server.on_ready();
+    if (part.empty() && ::poll(&ready, 1, 200) == 0) break;
+  }
+  EXPECT_EQ(heard.size(), large.size() + 1) << "who reads has all of it";
+  for (int i = 0; i < 20; ++i) send_all(fd, "a\n", server);
+  EXPECT_LE(asked, 5U);
+}
+
 TEST_F(CliServerTest, IsOpenToItsUserAndGroupOnly) {
   const auto mode = std::filesystem::status(folder_ + "/drover.sock").permissions();
   using std::filesystem::perms;

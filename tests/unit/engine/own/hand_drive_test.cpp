@@ -203,11 +203,24 @@ TEST_F(DrivingByHand, StopsForTheNearZoneAndSlowsForTheFarOne) {
   hold_s(3);
   EXPECT_NEAR(speed_mps(), rig.config.navigate.far_zone_speed_mps, 1e-9);
   rig.lines[static_cast<std::size_t>(Line::zone_near)] = true;
-  rig.run_s(1);
-  EXPECT_EQ(rig.fastest_command_radps(), 0);
-  rig.lines = {};
+  const double ramp_s =
+      rig.config.navigate.far_zone_speed_mps / rig.config.limits.deceleration_mps2;
+  for (int i = 0; i < static_cast<int>(ramp_s * 200) + 2; ++i) {
+    if (i % 10 == 0) say(kAhead);
+    rig.tick();
+  }
+  EXPECT_EQ(rig.fastest_command_radps(), 0) << "within the ramp, though the key is held";
   hold_s(1);
+  EXPECT_EQ(rig.fastest_command_radps(), 0);
+  EXPECT_THAT(refused(), HasSubstr("near zone"));
   EXPECT_GT(told("no longer driven by hand: obstacle in the near zone"), 0);
+  rig.lines = {};
+  hold_s(2);
+  EXPECT_EQ(rig.fastest_command_radps(), 0);
+  EXPECT_THAT(refused(), HasSubstr("let the key go first: obstacle in the near zone"));
+  say_s({}, 0.5);
+  hold_s(2);
+  EXPECT_GT(speed_mps(), 0.3) << refused();
 }
 TEST_F(DrivingByHand, NeedsNoFixAndNoOrigin) {
   rig.receiver_silent = true;
@@ -221,6 +234,25 @@ TEST_F(DrivingByHand, EndsWithACancel) {
   rig.command(CancelTask{});
   hold_s(2);
   EXPECT_EQ(rig.fastest_command_radps(), 0) << "the key is still held";
+}
+TEST_F(DrivingByHand, EndsBySomebodyElsesCommandsAndASearchThatHasBegunDoesNot) {
+  rig.settle();
+  hold_s(2);
+  rig.environment.foreign = "somebody else commands front_left on can0";
+  hold_s(1);
+  EXPECT_EQ(rig.fastest_command_radps(), 0);
+  EXPECT_THAT(refused(), HasSubstr("somebody else commands"));
+  EXPECT_GT(told("no longer driven by hand: somebody else commands front_left on can0"), 0);
+
+  rig = EngineRig();
+  rig.no_heading = true;
+  rig.settle();
+  rig.command(FindHeading{});
+  rig.run_s(2);
+  ASSERT_GT(speed_mps(), 0.1) << refused();
+  rig.environment.foreign = "somebody else commands front_left on can0";
+  rig.run_s(0.5);
+  EXPECT_GT(speed_mps(), 0.1);
 }
 TEST_F(DrivingByHand, IsSlowUntilTheMechanicsAreProved) {
   EngineConfig config = rig_config();
@@ -318,6 +350,54 @@ TEST(AHandDrive, IsNotInheritedByASecondHand) {
   say(2, "the robot moves");
   EXPECT_FALSE(by_hand.active());
   EXPECT_FALSE(by_hand.moves());
+}
+TEST_F(DrivingByHand, AfterASayThatTheKeyIsUpItHasToBeHeldAnew) {
+  rig.settle();
+  hold_s(3);
+  say({});
+  for (int i = 0; i < 8; ++i) {
+    const double before_mps = speed_mps();
+    if (i % 4 == 0) say(kAhead);
+    for (int k = 0; k < 5; ++k) rig.tick();
+    ASSERT_LT(speed_mps(), before_mps) << i;
+  }
+}
+TEST(AHandDrive, EachOfTwoRivalsIsToldThatAnotherHandDrives) {
+  using namespace std::chrono_literals;
+  HandDrive by_hand;
+  EventQueue events;
+  Time now{10s};
+  std::uint64_t number = 0;
+  const auto answer = [&](std::uint64_t hand) -> std::string {
+    const Command command{{RequestId::Source::cli, ++number}, now, DriveByHand{hand, {0.4, 0}}};
+    by_hand.take(command, std::get<DriveByHand>(command.body), {}, {}, now, events);
+    by_hand.step(now);
+    std::string why;
+    FixedVector<Event, 16> all;
+    events.drain(all);
+    for (const Event& event : all)
+      if (const auto* no = std::get_if<CommandRefused>(&event.body)) why = no->reason.view();
+    return why;
+  };
+  for (int i = 0; i < 10; ++i, now += 100ms) {
+    EXPECT_EQ(answer(1), "");
+    for (const std::uint64_t rival : {2, 3, 4})
+      EXPECT_EQ(answer(rival), "somebody else drives by hand");
+  }
+  ASSERT_TRUE(by_hand.moves());
+  // Now he lets it go. The other keys are held on: none of them drives before it was let go.
+  for (int i = 0; i < 30; ++i, now += 100ms) {
+    for (const std::uint64_t rival : {2, 3, 4}) {
+      EXPECT_THAT(answer(rival), HasSubstr("somebody else drives by hand"));
+      EXPECT_FALSE(by_hand.active() && !by_hand.active_of(1));
+    }
+  }
+  // Two more are let go, too; the fourth is still held.
+  for (int i = 0; i < 30; ++i, now += 100ms)
+    EXPECT_THAT(answer(4), HasSubstr("somebody else drives by hand"));
+  EXPECT_FALSE(by_hand.moves());
+  now += 1s;
+  EXPECT_EQ(answer(4), "");
 }
 TEST_F(DrivingByHand, WhatNobodyComparedIsNotProvedAndStaysSlow) {
   EngineConfig config = rig_config();
