@@ -129,10 +129,14 @@ std::string imu_state(const Snapshot& snapshot, const Stamping& stamping, Conten
   const auto& rate = imu.sample.angular_velocity_radps;
   const auto& bias = imu.gyro_bias_radps;
   fill(*message.mutable_angular_velocity(), {rate.x - bias.x, rate.y - bias.y, rate.z - bias.z});
-  fill_covariance(*message.mutable_angular_velocity_covariance(), imu.angular_velocity_sigma_radps);
+  // A sample at the end of its range is a bound, no measurement.
+  const auto sigma = [&imu](double known) { return imu.sample.saturated ? kAbsent : known; };
+  fill_covariance(*message.mutable_angular_velocity_covariance(),
+                  sigma(imu.angular_velocity_sigma_radps));
 
   fill(*message.mutable_linear_acceleration(), imu.sample.acceleration_mps2);
-  fill_covariance(*message.mutable_linear_acceleration_covariance(), imu.acceleration_sigma_mps2);
+  fill_covariance(*message.mutable_linear_acceleration_covariance(),
+                  sigma(imu.acceleration_sigma_mps2));
   return written(message, content);
 }
 

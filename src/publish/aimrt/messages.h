@@ -30,8 +30,9 @@ std::string joint_state(const Snapshot& snapshot, Time at, const Stamping& stamp
 /// The inertial sensor's last sample in base_link, the learned gyro bias taken off. Its yaw is the
 /// robot's own, fused one (counter-clockwise from east) with that one's variance; while that is not
 /// known the sensor's, which counts from anywhere, with a variance of pi squared. Covariances are
-/// diagonal; as in sensor_msgs/Imu they are all 0 when unknown, and the orientation's first is
-/// -1 when there is no orientation (which is then the identity).
+/// diagonal; as in sensor_msgs/Imu they are all 0 when unknown, as those of a saturated sample are
+/// (the truth is larger), and the orientation's first is -1 when there is no orientation (which is
+/// then the identity). `last`: the orientation of the message before, see imu_orientation().
 std::string imu_state(const Snapshot& snapshot, const Stamping& stamping,
                       Content content = Content::pb);
 

@@ -147,6 +147,25 @@ TEST(AimrtImuState, SaysZeroForACovarianceThatNobodyKnows) {
     EXPECT_NE(message.find(hex(key) + std::string(72, '\0')), std::string::npos) << key;
 }
 
+TEST(AimrtImuState, KnowsNoCovarianceOfASaturatedSample) {
+  auto snapshot = snapshot_with_imu();
+  snapshot.imu.sample.saturated = true;
+  const auto message = imu_state(snapshot, kStamping);
+  for (const char* key : {"2a 48", "3a 48"})
+    EXPECT_NE(message.find(hex(key) + std::string(72, '\0')), std::string::npos) << key;
+  EXPECT_NE(message.find(hex("1a") + diagonal("0000000000001040", kPiSquared)), std::string::npos)
+      << "the orientation's is its own";
+  EXPECT_NE(message.find(hex("22 12  09 000000000000f03f  19 00000000000000c0")), std::string::npos)
+      << "what was measured is told";
+}
+
+TEST(AimrtImuState, BeginsWithTheQuaternionWhoseScalarIsPositive) {
+  auto snapshot = snapshot_with_imu();
+  const auto told = imu_state(snapshot, kStamping);
+  snapshot.imu.sample.orientation = {-0.5, 0.5, -0.5, 0.5};
+  EXPECT_EQ(imu_state(snapshot, kStamping), told) << "the same rotation";
+}
+
 TEST(AimrtTouchState, NamesTheConfiguredContactsButNoEmergencyStop) {
   Snapshot snapshot;
   snapshot.time = kAt;
