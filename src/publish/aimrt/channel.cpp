@@ -77,8 +77,9 @@ std::vector<Telemetry> Channel::telemetry(const Snapshot& snapshot, Duration wal
   const auto& imu = snapshot.imu;
   if (imu.configured && imu.health == SourceState::fresh && imu.time > last_imu_) {
     last_imu_ = imu.time;
-    add(imu_state_,
-        imu_state(snapshot, {wall_minus_monotonic, ++imu_sequence_}, imu_state_.content));
+    orientation_ = imu_orientation(snapshot, orientation_);
+    add(imu_state_, imu_state(snapshot, {wall_minus_monotonic, ++imu_sequence_}, imu_state_.content,
+                              orientation_));
   }
   if (touch_is_due(snapshot))
     add(touch_state_,

@@ -90,6 +90,7 @@ class Channel final {
   std::uint64_t touch_sequence_ = 0;
   Time last_joints_ = kNever;
   Time last_imu_ = kNever;
+  Quaternion orientation_;  ///< as the last message told it
   Time last_touch_ = kNever;
   std::array<bool, kLineCount> touched_{};
   std::uint64_t last_stamp_ns_ = 0;

@@ -2,6 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
+#include <cstdlib>
+
+#include "drover/angle.h"
 #include "tests/unit/publish/aimrt/wire.h"
 
 namespace drover::publish::aimrt {
@@ -174,6 +179,44 @@ TEST_F(AnAimrtChannel, StampsNoTwoJointStatesAlikeAndIsSilentWithoutANewCycle) {
   // The stamp follows the packet's head, the header's key and length and its own key.
   EXPECT_NE(first[0].payload.substr(0, 24), late[0].payload.substr(0, 24));
   EXPECT_EQ(channel_->telemetry(snapshot, kWallMinusMonotonic).size(), 0U) << "the same cycle";
+/// Of the orientation in a JSON message: x, y, z, w.
+std::array<double, 4> quaternion_in(const std::string& text) {
+  std::array<double, 4> q{};
+  const auto begin = text.find("\"orientation\":{");
+  for (std::size_t i = 0; i < q.size(); ++i) {
+    const auto key = text.find(std::string("\"") + "xyzw"[i] + "\":", begin);
+    q[i] = begin == text.npos || key == text.npos ? kAbsent : std::atof(text.c_str() + key + 4);
+  }
+  return q;
+}
+
+// The sensor's yaw is half a turn off the robot's, give or take its noise.
+TEST_F(AnAimrtChannel, TurnsTheQuaternionWithoutAJumpThreeTimesRound) {
+  config_.imu_state_wording.content = Content::json;
+  channel_.emplace(config_);
+  Snapshot snapshot;
+  snapshot.imu.configured = true;
+  snapshot.imu.health = SourceState::fresh;
+  snapshot.imu.sample.has_orientation = true;
+  std::array<double, 4> last{};
+  for (int i = 0; i <= 1080; ++i) {
+    now_ += std::chrono::milliseconds(20);
+    const double yaw_rad = to_rad(i);
+    const double sensor_rad = yaw_rad + kPi + (i % 2 == 0 ? 0.01 : -0.01);
+    snapshot.time = snapshot.imu.time = snapshot.pose.time = now_;
+    snapshot.pose.yaw_rad = wrap_rad(yaw_rad);
+    snapshot.pose.yaw_sigma_rad = 0.01;
+    snapshot.imu.sample.orientation = {std::cos(sensor_rad / 2), 0, 0, std::sin(sensor_rad / 2)};
+    const auto sent = channel_->telemetry(snapshot, kWallMinusMonotonic);
+    ASSERT_EQ(sent.size(), 2U);
+    const auto q = quaternion_in(sent[1].payload);
+    ASSERT_NEAR(wrap_rad(2 * std::atan2(q[2], q[3]) - yaw_rad), 0, 1e-9);
+    if (i == 0) EXPECT_GE(q[3], 0);
+    if (i > 0) ASSERT_NEAR(std::hypot(q[2] - last[2], q[3] - last[3]), 0, 0.01) << i << " degrees";
+    last = q;
+  }
+}
+
 }
 
 TEST_F(AnAimrtChannel, CountsWhatItDoesNotReadOfAFlood) {
