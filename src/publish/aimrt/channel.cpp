@@ -51,6 +51,7 @@ Channel::Channel(const ChannelConfig& config)
       rules_(config.rules),
       writers_(config.silence),
       command_bucket_(config.max_commands_Hz, config.command_burst),
+      slow_down_("slow down: " + command_bucket_.in_words("messages")),
       flood_bucket_(1, 1),
       log_bucket_(0.2, 3),
       rivals_bucket_(0.2, 1) {}
@@ -136,7 +137,7 @@ void Channel::on_command(Names names, std::string_view payload, const Arrival& a
       ++unread_;
       return;
     }
-    reason = "too many messages a second, slow down";
+    reason = Reason(slow_down_);
   }
   Command command{{RequestId::Source::aimrt, ++commands_}, now, {}};
   const auto rivals_before = writers_.refused();

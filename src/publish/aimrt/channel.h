@@ -98,6 +98,7 @@ class Channel final {
   std::uint64_t unread_ = 0;
   Writers writers_;
   TokenBucket command_bucket_;
+  std::string slow_down_;     ///< what is said when it is empty
   TokenBucket flood_bucket_;  ///< a flood is told of, and the telling is no flood
   TokenBucket log_bucket_;
   TokenBucket rivals_bucket_;  ///< other refusals do not drown it

@@ -119,7 +119,7 @@ TEST_F(AnAimrtChannel, LeavesRoomForOthersInAFlood) {
   }
   EXPECT_LE(commands<JointTargets>().size(), 250U + 50U + 1U);
   EXPECT_LE(commands<JointTargetsRefused>().size(), 2U);
-  EXPECT_EQ(last_refusal(), "too many messages a second, slow down");
+  EXPECT_EQ(last_refusal(), "slow down: 250 messages a second are taken, and 50 at once");
 }
 
 TEST_F(AnAimrtChannel, TakesTwoHundredMessagesASecond) {
