@@ -21,7 +21,6 @@ bool has_touch_lines(const Snapshot& snapshot) {
 
 /// The message of a packet, whichever way it is written.
 Result<JointCommandMessage, Reason> decoded(const Packet& packet, Names names, Content content) {
-  if (packet.message.size() > kMaxCommandBytes) return Reason("the message is longer than 16 KiB");
   if (content == Content::json) return decode_joint_command_json(packet.message);
   auto message = decode_joint_command(packet.message);
   if (message) return std::move(*message);
@@ -102,6 +101,7 @@ Result<JointTargets, Reason> Channel::judged(Names names, std::string_view paylo
   // Old by its nature, whatever its stamp.
   if (arrival.retain != Retain::no) return Reason("a retained message is never followed");
   if (!arrival.late.empty()) return Reason(arrival.late);
+  if (payload.size() > kMaxCommandBytes) return Reason("the packet is longer than 16 KiB");
   const auto packet = decode_packet(payload);
   if (!packet) return Reason(text(packet.error()));
   const auto content = content_of(packet->content_type);

@@ -76,10 +76,25 @@ TEST_F(AnAimrtChannel, RefusesWhatIsNoPacketOfACommand) {
   give(in_packet("x"), {}, Names::aimrt_1x);
   EXPECT_EQ(last_refusal(), "the message is no JointCommandArray");
   give(in_packet(std::string(kMaxCommandBytes + 1, '\0')));
-  EXPECT_EQ(last_refusal(), "the message is longer than 16 KiB");
+  EXPECT_EQ(last_refusal(), "the packet is longer than 16 KiB");
   give(in_packet(joint_entry("left", 0, 1) + joint_entry("wing", 0, 1)));
   EXPECT_EQ(last_refusal(), "joint 'wing': there is no such joint");
   EXPECT_TRUE(commands<JointTargets>().empty());
+}
+
+/// A packet of one pair of context, with a value of so many bytes.
+std::string with_context(std::size_t bytes, const std::string& message) {
+  return hex("02 70 62 01 01 00 6b") + static_cast<char>(bytes & 0xFFU) +
+         static_cast<char>(bytes >> 8U) + std::string(bytes, 'v') + message;
+}
+
+TEST_F(AnAimrtChannel, BoundsAPacketWithAllThatItCarries) {
+  const std::string message = joint_entry("left", 0, 1);
+  give(with_context(kMaxCommandBytes - message.size() - 9, message));
+  EXPECT_EQ(commands<JointTargets>().size(), 1U);
+  give(with_context(kMaxCommandBytes - message.size() - 8, message));
+  EXPECT_EQ(last_refusal(), "the packet is longer than 16 KiB");
+  EXPECT_EQ(commands<JointTargets>().size(), 1U);
 }
 
 TEST_F(AnAimrtChannel, PassesAStreamOn) {
@@ -164,21 +179,6 @@ TEST_F(AnAimrtChannel, PublishesAnInertialSampleOnceAndOnlyAFreshOne) {
   EXPECT_EQ(topics(), (std::vector{joints, imu}));
 }
 
-TEST_F(AnAimrtChannel, StampsNoTwoJointStatesAlikeAndIsSilentWithoutANewCycle) {
-  Snapshot snapshot;
-  snapshot.time = now_;
-  AxisSnapshot axis;
-  axis.health = SourceState::fresh;
-  axis.last_motion = now_ - std::chrono::milliseconds(5);
-  ASSERT_TRUE(snapshot.axes.push_back(axis));
-  const auto first = channel_->telemetry(snapshot, kWallMinusMonotonic);
-  ASSERT_EQ(first.size(), 1U);
-  snapshot.time += std::chrono::milliseconds(20);
-  const auto late = channel_->telemetry(snapshot, kWallMinusMonotonic);
-  ASSERT_EQ(late.size(), 1U) << "the drive is late, and not yet silent";
-  // The stamp follows the packet's head, the header's key and length and its own key.
-  EXPECT_NE(first[0].payload.substr(0, 24), late[0].payload.substr(0, 24));
-  EXPECT_EQ(channel_->telemetry(snapshot, kWallMinusMonotonic).size(), 0U) << "the same cycle";
 /// Of the orientation in a JSON message: x, y, z, w.
 std::array<double, 4> quaternion_in(const std::string& text) {
   std::array<double, 4> q{};
@@ -217,6 +217,21 @@ TEST_F(AnAimrtChannel, TurnsTheQuaternionWithoutAJumpThreeTimesRound) {
   }
 }
 
+TEST_F(AnAimrtChannel, StampsNoTwoJointStatesAlikeAndIsSilentWithoutANewCycle) {
+  Snapshot snapshot;
+  snapshot.time = now_;
+  AxisSnapshot axis;
+  axis.health = SourceState::fresh;
+  axis.last_motion = now_ - std::chrono::milliseconds(5);
+  ASSERT_TRUE(snapshot.axes.push_back(axis));
+  const auto first = channel_->telemetry(snapshot, kWallMinusMonotonic);
+  ASSERT_EQ(first.size(), 1U);
+  snapshot.time += std::chrono::milliseconds(20);
+  const auto late = channel_->telemetry(snapshot, kWallMinusMonotonic);
+  ASSERT_EQ(late.size(), 1U) << "the drive is late, and not yet silent";
+  // The stamp follows the packet's head, the header's key and length and its own key.
+  EXPECT_NE(first[0].payload.substr(0, 24), late[0].payload.substr(0, 24));
+  EXPECT_EQ(channel_->telemetry(snapshot, kWallMinusMonotonic).size(), 0U) << "the same cycle";
 }
 
 TEST_F(AnAimrtChannel, CountsWhatItDoesNotReadOfAFlood) {
