@@ -195,9 +195,23 @@ std::string_view lone_word(std::string_view text) {
   return text.substr(first, text.find_last_not_of(kAround) - first + 1);
 }
 
+/// A text in UTF-16 as far as it is ASCII; any other without its NUL characters.
+std::string without_nuls(std::string_view text) {
+  for (const std::string_view mark : {"\xFF\xFE", "\xFE\xFF"})
+    if (text.starts_with(mark)) text.remove_prefix(mark.size());
+  std::string narrow(text);
+  std::erase(narrow, '\0');
+  return narrow;
+}
+
+bool has_nuls(std::string_view text) {
+  return text.find('\0') != text.npos;
+}
+
 /// The stop that is told, however badly: nobody writes one by mistake, and who stops a robot must
 /// not be asked for commas.
 const Row* told_stop(std::string_view text) {
+  if (has_nuls(text)) return told_stop(without_nuls(text));
   if (const Row* row = find_stop(lone_word(text))) return row;
   ToldCommands told(text);
   for (auto cmd = told.next(); !cmd.empty(); cmd = told.next()) {
@@ -300,6 +314,7 @@ bool is_stop(const Result<ControlCommand, ControlRefusal>& request) {
 bool may_stop(std::string_view payload) {
   // A letter may be written as an escape; then only the parser knows.
   if (payload.find('\\') != std::string_view::npos) return true;
+  if (has_nuls(payload)) return may_stop(without_nuls(payload));
   return std::any_of(kRows.begin(), kRows.end(), [&](const Row& row) {
     return row.stops && text::contains_but_for_case(payload, row.cmd);
   });
