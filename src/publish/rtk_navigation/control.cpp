@@ -132,7 +132,8 @@ Reason read_id(const Message& message, std::int64_t& out) {
   } else if (std::abs(number) <= kMost && std::trunc(number) == number) {
     out = static_cast<std::int64_t>(number);
   } else {
-    return "'id' must be an integer, not " +
+    return std::string(std::trunc(number) == number ? "'id' must be an integer of 64 bits, not "
+                                                    : "'id' must be an integer, not ") +
            (id->number() ? json::shown(id->spelling(message.text), 40) : std::string(id->kind()));
   }
   return std::nullopt;
@@ -277,7 +278,10 @@ Result<ControlCommand, ControlRefusal> parse_control(std::string_view payload, R
     if (retain == Retain::stored) return refuse(row->cmd, kRetained);
     return as_stop(*row, why);
   };
-  const auto parsed = json::parse(payload, {limits.max_bytes, limits.max_depth, limits.max_values});
+  const auto parsed = json::parse(payload, {.max_bytes = limits.max_bytes,
+                                            .max_depth = limits.max_depth,
+                                            .max_values = limits.max_values,
+                                            .long_integers = true});
   if (!parsed.ok()) {
     const Row* told = find_row(ToldCommands(payload).next());
     return refuse_form(told == nullptr ? "" : told->cmd, parsed.error().text());
