@@ -263,7 +263,7 @@ std::string failure_cmd(std::string_view cmd) {
 
 Result<ControlCommand, ControlRefusal> parse_control(std::string_view payload, Retain retain,
                                                      const ControlLimits& limits) {
-  payload = without_end_of_string(payload);
+  payload = text::without_end_of_string(payload);
   // Some platforms' writers begin each text with one: a stop of theirs is a stop.
   constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
   if (payload.starts_with(kByteOrderMark) && may_stop(payload))
