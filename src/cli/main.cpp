@@ -168,6 +168,7 @@ int main(int argc, char** argv) {
   Settings s;
   int code = kDone;
   CLI::App app{"drover: ask and command droverd"};
+  app.set_version_flag("--version", DROVER_VERSION);
   app.require_subcommand(1);
   app.add_option("--socket", s.socket, "droverd's socket")
       ->capture_default_str()

@@ -10,8 +10,11 @@
 namespace drover::cli {
 
 Reply read_reply(std::string text) {
-  auto document = json::parse(
-      text, {.max_bytes = std::size_t{64} << 20, .max_depth = 16, .max_values = 10'000'000});
+  // Numbers of tracks are as they came.
+  auto document = json::parse(text, {.max_bytes = std::size_t{64} << 20,
+                                     .max_depth = 16,
+                                     .max_values = 10'000'000,
+                                     .long_integers = true});
   if (!document) throw NoAnswer{"the answer is not understood: " + document.error().text()};
   Reply answer;
   answer.text = std::move(text);

@@ -82,6 +82,19 @@ void Engine::Impl::tell_sender(Time now, Owner owner) {
   tell(stream.reason());
 }
 
+/// The first way: nothing is wrong, and the robot is slower than was asked for.
+void Engine::Impl::tell_first_way(Owner owner) {
+  if (owner == Owner::nobody || owner == Owner::estop) return;
+  const bool by_joints = owner == Owner::joint_command;
+  const bool by_hand = owner == Owner::manual && owners.hand_drives();
+  const Reason why = mechanics.slowly(by_joints ? FirstWay::joints
+                                      : by_hand ? FirstWay::hand
+                                                : FirstWay::task);
+  if (why.empty()) return;
+  (void)snapshot.why.push_back(why);
+  if (by_joints && snapshot.joint_command.reason.empty()) snapshot.joint_command.reason = why;
+}
+
 void Engine::Impl::fill_snapshot(Time now, const Environment& environment, const LineTable& lines,
                                  const Estimate& located, Owner owner) {
   const HealthReport& report = health.report();
@@ -149,6 +162,7 @@ void Engine::Impl::fill_snapshot(Time now, const Environment& environment, const
     (void)snapshot.why.push_back(why);
   }
   tell_sender(now, owner);
+  tell_first_way(owner);
 }
 
 }  // namespace drover::engine

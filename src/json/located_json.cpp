@@ -107,7 +107,7 @@ class Builder {
     return add(value, Token::number);
   }
   bool number_float(double value, const std::string& written) {
-    if (written.find_first_of(".eE") == std::string::npos) {
+    if (!limits_.long_integers && written.find_first_of(".eE") == std::string::npos) {
       begin_token();
       return fail("integer does not fit into 64 bits");
     }

@@ -57,6 +57,8 @@ struct Limits {
   std::size_t max_bytes = std::size_t{1} << 20;
   std::size_t max_depth = 16;
   std::size_t max_values = 200'000;
+  /// Integers beyond 64 bits are numbers all the same, though no Node::integer().
+  bool long_integers = false;
 };
 
 struct JsonError {
@@ -73,8 +75,8 @@ struct JsonError {
 std::string shown(std::string_view text, std::size_t max_bytes);
 
 /// Refuses, while parsing: depth, size and number of values beyond `limits`, duplicate keys,
-/// integers beyond 64 bits, numbers beyond a double, invalid UTF-8, lone surrogates, a byte order
-/// mark, NUL bytes, and anything after the value.
+/// integers beyond 64 bits (but for `limits.long_integers`), numbers beyond a double, invalid
+/// UTF-8, lone surrogates, a byte order mark, NUL bytes, and anything after the value.
 Result<Document, JsonError> parse(std::string_view text, const Limits& limits = {});
 
 }  // namespace drover::json

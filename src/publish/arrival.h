@@ -1,6 +1,7 @@
 // How a message of the broker came, beside what it says.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string_view>
 
@@ -13,6 +14,12 @@ enum class Retain : std::uint8_t {
   asked,   ///< sent just now, by somebody who wants the broker to keep it
   stored,  ///< kept by the broker since some other day
 };
+
+/// What a client is told whose large message found no room before the parser.
+inline constexpr std::string_view kTooMuchUnread =
+    "slow down: 64 large messages, or 8 MiB of them, wait to be read already";
+inline constexpr std::size_t kMostUnread = 64;
+inline constexpr std::size_t kMostUnreadBytes = std::size_t{8} << 20;
 
 struct Arrival {
   Retain retain = Retain::no;

@@ -45,6 +45,16 @@ std::optional<ControlCommand> command_of(std::string_view cmd, const std::string
   return std::nullopt;
 }
 
+/// Why it is no request at all; empty when it is one.
+std::string cmd_problem(const json::Node& request) {
+  if (request.object() == nullptr)
+    return "a request is an object like {\"cmd\":\"status\"}, not " + std::string(request.kind());
+  const auto* cmd = request.find("cmd");
+  if (cmd == nullptr) return "'cmd' is missing: what is asked for, like {\"cmd\":\"status\"}";
+  if (cmd->text() == nullptr) return "'cmd' must be a text, not " + std::string(cmd->kind());
+  return {};
+}
+
 }  // namespace
 
 bool CliOutlet::on_line(ClientId client, std::string_view line, Time now, Actions& out) {
@@ -56,6 +66,7 @@ bool CliOutlet::on_line(ClientId client, std::string_view line, Time now, Action
       json::parse(line, {.max_bytes = 64 * 1024, .max_depth = 4, .max_values = 64});
   if (!document) return reply(refusal("not understood: " + document.error().text()));
   const json::Node& request = document->root;
+  if (const auto problem = cmd_problem(request); !problem.empty()) return reply(refusal(problem));
   const auto cmd = text_member(request, "cmd");
   const auto name = text_member(request, "name");
   auto command = command_of(cmd, name, request);

@@ -66,12 +66,12 @@ bool CommandService::admit(std::string_view payload, Time now, Actions& out) {
   if (payload.empty()) return false;  // how a retained message is taken back: nobody asks
   if (payload.size() <= kShortMessageBytes && may_stop(payload)) return true;
   if (mqtt_bucket_.take(now)) return true;
-  slow_down(payload, "slow down", now, out);
+  slow_down(payload, too_many_requests(), now, out);
   return false;
 }
 
 void CommandService::on_unparsed(std::string_view payload, Time now, Actions& out) {
-  slow_down(payload, "too many large messages at once, slow down", now, out);
+  slow_down(payload, kTooMuchUnread, now, out);
 }
 
 void CommandService::on_parsed(std::string_view payload,
@@ -82,7 +82,7 @@ void CommandService::on_parsed(std::string_view payload,
   }
   // It was let in for what it might have been.
   if (payload.size() <= kShortMessageBytes && may_stop(payload) && !mqtt_bucket_.take(now)) {
-    return slow_down(payload, "slow down", now, out);
+    return slow_down(payload, too_many_requests(), now, out);
   }
   if (!request.ok()) {
     const ControlRefusal& refusal = request.error();
@@ -129,11 +129,15 @@ std::optional<std::string> CommandService::untimely(const StartTaskRequest& requ
 void CommandService::on_cli(std::uint64_t number, ControlCommand request, Time now, Actions& out) {
   const RequestId id{RequestId::Source::cli, number};
   if (!is_stop(request) && !cli_bucket_.take(now)) {
-    out.push_back(Answer{id, false, "slow down"});
+    out.push_back(Answer{id, false, too_many_requests()});
     return;
   }
   if (is_stop(request)) last_cli_stop_ = now;
   handle(id, std::move(request), now, out);
+}
+
+std::string CommandService::too_many_requests() const {
+  return "slow down: " + mqtt_bucket_.in_words("requests");
 }
 
 /// Parses only what is short, and only as often as it answers.

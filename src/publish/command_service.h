@@ -139,6 +139,7 @@ class CommandService final {
   /// Whether the disk may be asked for one more that holds so many bytes.
   bool disk_behind(std::size_t bytes) const;
   RequestId next_id(RequestId::Source source) { return {source, ++last_number_}; }
+  std::string too_many_requests() const;
   void slow_down(std::string_view payload, std::string_view why, Time now, Actions& out);
   std::optional<std::string> untimely(const StartTaskRequest& request, const Arrival& arrival,
                                       Time now) const;

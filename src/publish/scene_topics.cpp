@@ -57,10 +57,12 @@ bool SceneTopics::on_message(std::string_view name, std::string_view payload,
 }
 
 /// Empty: it may be looked at.
-std::string_view SceneTopics::untimely(Time now) {
-  if (!configured_) return kNoScene;
-  if (!bucket_.take(now)) return "too many messages, slow down or send them as a list";
-  if (waiting_.size() >= limits_.max_waiting) return "too many messages wait already, slow down";
+std::string SceneTopics::untimely(Time now) {
+  if (!configured_) return std::string(kNoScene);
+  if (!bucket_.take(now))
+    return "slow down, or send them as a list: " + bucket_.in_words("messages");
+  if (waiting_.size() >= limits_.max_waiting)
+    return "slow down: " + std::to_string(limits_.max_waiting) + " messages wait already";
   return {};
 }
 
@@ -117,8 +119,7 @@ void SceneTopics::on_parsed(SceneTextReply& reply, Time now, Actions& out) {
 
 void SceneTopics::on_unparsed(std::uint64_t number, Actions& out) {
   --parsing_;
-  if (Waiting* waiting = find(number))
-    refuse(*waiting, "", "too many large messages at once, slow down");
+  if (Waiting* waiting = find(number)) refuse(*waiting, "", std::string(kTooMuchUnread));
   answer(out);
 }
 

@@ -79,7 +79,7 @@ class SceneTopics final {
     bool complete = false;
   };
 
-  std::string_view untimely(Time now);
+  std::string untimely(Time now);
   Waiting& expect(std::string_view topic, const Arrival& arrival, Time now);
   Waiting* find(std::uint64_t number);
   template <class Message>

@@ -2,8 +2,11 @@
 #pragma once
 
 #include <algorithm>
+#include <string>
+#include <string_view>
 
 #include "drover/time.h"
+#include "text/number.h"
 
 namespace drover::publish {
 
@@ -20,6 +23,11 @@ class TokenBucket final {
     if (empty(now)) return false;
     tokens_ -= 1;
     return true;
+  }
+  /// "10 requests a second are taken, and 20 at once", of "requests".
+  std::string in_words(std::string_view what) const {
+    return text::number_text(rate_Hz_) + " " + std::string(what) + " a second are taken, and " +
+           text::number_text(burst_) + " at once";
   }
   /// What was let in has cost so much more: it may become a debt.
   void charge(double tokens, Time now) {

@@ -33,6 +33,10 @@ class ParserLoop final : public ParsingThread<ParseJob, ParseReply> {
         }) {}
 };
 
+static_assert(ParserLoop::kMostWaitingBytes == publish::kMostUnreadBytes &&
+                  ParserLoop::kMostUnderWay == publish::kMostUnread,
+              "kTooMuchUnread tells the numbers");
+
 class SceneParserLoop final : public ParsingThread<publish::SceneTextJob, publish::SceneTextReply> {
  public:
   SceneParserLoop() : ParsingThread(publish::do_scene_text_job) {}

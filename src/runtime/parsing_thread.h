@@ -23,6 +23,7 @@ class ParsingThread {
  public:
   /// Four of the largest: what is beyond is refused aloud rather than kept.
   static constexpr std::size_t kMostWaitingBytes = std::size_t{8} << 20;
+  static constexpr std::size_t kMostUnderWay = 64;
   static constexpr Duration kLongestTurn = std::chrono::seconds(5);
 
   /// `parse`: what becomes of the reply's job.
@@ -73,7 +74,6 @@ class ParsingThread {
   const std::atomic<std::uint64_t>& turns() const { return turns_; }
 
  private:
-  static constexpr std::size_t kMostUnderWay = 64;
   static constexpr int kNiceness = 10;  // whoever floods us pays for it with time
   static constexpr int kLongestWait_ms = 500;
 

@@ -86,7 +86,8 @@ Result<Track, Failure> decode_track(std::string_view content) {
   if (!body.ok()) return body.error();
   const auto parsed = json::parse(*body, {.max_bytes = kMaxTrackFileBytes,
                                           .max_depth = 8,
-                                          .max_values = kMaxPointsPerTrack * 8 + 100});
+                                          .max_values = kMaxPointsPerTrack * 8 + 100,
+                                          .long_integers = true});
   if (!parsed.ok()) return Failure{"is no JSON: " + parsed.error().text()};
   const json::Node& root = parsed->root;
   const auto* name = root.find("name");

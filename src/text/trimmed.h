@@ -13,4 +13,10 @@ inline std::string_view trimmed(std::string_view text) {
   return text.substr(begin, text.find_last_not_of(kBlank) - begin + 1);
 }
 
+/// Without the NUL bytes at its end: a program in C sends the end of its string along.
+inline std::string_view without_end_of_string(std::string_view text) {
+  while (text.ends_with('\0')) text.remove_suffix(1);
+  return text;
+}
+
 }  // namespace drover::text

@@ -35,7 +35,7 @@ src/publish      drover/ publish/ scene/ store/ json/ text/
 src/publish/rtk_navigation  drover/ store/ json/ text/ publish/arrival.h publish/names.h
 src/publish/rtk_navigation  publish/rtk_navigation/
 src/publish/scene    drover/ json/ scene/ publish/arrival.h publish/names.h publish/shown_json.h
-src/publish/scene    publish/token_bucket.h publish/scene/
+src/publish/scene    publish/token_bucket.h publish/scene/ text/
 src/publish/status   drover/ json/ publish/names.h publish/rtk_navigation/spelling.h
 src/publish/status   publish/shown_json.h publish/status/
 src/publish/aimrt    drover/ json/ text/ publish/arrival.h publish/command_service.h

@@ -83,6 +83,43 @@ Reason BatteryMonitor::empty_or_broken(const BatterySample& sample, const Beyond
   return why;
 }
 
+Reason BatteryMonitor::past(const Limit& limit, const char* what, Time now, double value,
+                            const char* unit) const {
+  if (std::isnan(value)) return said(" %s until %.0f s ago", what, limit.back_s(now));
+  return said(" %s until %.0f s ago, %.0f %s now", what, limit.back_s(now), value, unit);
+}
+
+Reason BatteryMonitor::held_critical(Time now, const BatterySample& sample) const {
+  const auto beyond = [](const Limit& limit) { return limit.holds() && !limit.is_past(); };
+  const double soc_percent = sample.soc_percent;
+  if (beyond(critical_) && std::isnan(soc_percent)) return said(" empty when its charge was told");
+  const Reason is = empty_or_broken(sample, {.critical = beyond(critical_),
+                                             .too_hot = beyond(too_hot_),
+                                             .apart = beyond(apart_),
+                                             .alarm = beyond(alarm_)});
+  if (!is.empty()) return is;
+  if (critical_.holds()) return past(critical_, "was empty", now, soc_percent, "%");
+  if (alarm_.holds()) return said(" had an alarm until %.0f s ago", alarm_.back_s(now));
+  if (too_hot_.holds()) return past(too_hot_, "was too hot", now, sample.temperature_degC, "C");
+  if (!apart_.holds()) return {};
+  return said(" cells were too far apart until %.0f s ago, %.2f V to %.2f V now",
+              apart_.back_s(now), sample.min_cell_V, sample.max_cell_V);
+}
+
+Reason BatteryMonitor::held_low(Time now, const BatterySample& sample) const {
+  if (!low_.holds() || critical_.holds()) return {};
+  if (low_.is_past()) return past(low_, "was low", now, sample.soc_percent, "%");
+  if (std::isnan(sample.soc_percent)) return said(" low when its charge was told");
+  return said(" low: %.0f %%", sample.soc_percent);
+}
+
+Reason BatteryMonitor::held_hot(Time now, const BatterySample& sample) const {
+  if (!hot_.holds() || too_hot_.holds()) return {};
+  if (hot_.is_past()) return past(hot_, "was hot", now, sample.temperature_degC, "C");
+  if (std::isnan(sample.temperature_degC)) return said(" hot when its temperature was told");
+  return said(" hot: %.0f C", sample.temperature_degC);
+}
+
 const BatteryVerdict& BatteryMonitor::update(Time now, const BatterySnapshot& battery,
                                              const SourceHealth& source) {
   verdict_ = {};
@@ -110,21 +147,17 @@ const BatteryVerdict& BatteryMonitor::update(Time now, const BatterySnapshot& ba
       verdict_.charger = "charging: unplug the charger first";
     }
   }
-  const Beyond held{.critical = critical_.holds(),
-                    .too_hot = too_hot_.holds(),
-                    .apart = apart_.holds(),
-                    .alarm = alarm_.holds()};
-  verdict_.critical = empty_or_broken(sample, held);
+  verdict_.critical = held_critical(now, sample);
   const Beyond is = beyond(sample);
   verdict_.present = empty_or_broken(sample, is);
   if (verdict_.present.empty() && is.low)
     verdict_.present = said(" low: %.0f %%", sample.soc_percent);
   const auto alarm = sample.alarm_text.view();
-  if (low_.holds() && !critical_.holds()) verdict_.low = said(" low: %.0f %%", sample.soc_percent);
+  verdict_.low = held_low(now, sample);
   if (sample.alarm == BatteryAlarm::warning) {
     verdict_.warning = said(": %.*s", static_cast<int>(alarm.size()), alarm.data());
-  } else if (hot_.holds() && !too_hot_.holds()) {
-    verdict_.warning = said(" hot: %.0f C", sample.temperature_degC);
+  } else {
+    verdict_.warning = held_hot(now, sample);
   }
   return verdict_;
 }

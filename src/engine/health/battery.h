@@ -36,6 +36,9 @@ class BatteryMonitor final {
    public:
     void update(bool known, bool beyond, Time now, Duration on, Duration off);
     bool holds() const { return holds_; }
+    /// It holds only because the value is not back for long enough yet.
+    bool is_past() const { return holds_ && since_ != kNever; }
+    double back_s(Time now) const { return to_s(now - since_); }
 
    private:
     bool begun_ = false;
@@ -55,6 +58,12 @@ class BatteryMonitor final {
   };
   Beyond beyond(const BatterySample& sample) const;
   Reason empty_or_broken(const BatterySample& sample, const Beyond& beyond) const;
+  /// Of limits that hold: what is so, or was until a moment ago.
+  Reason held_critical(Time now, const BatterySample& sample) const;
+  Reason held_low(Time now, const BatterySample& sample) const;
+  Reason held_hot(Time now, const BatterySample& sample) const;
+  /// "battery was low until 4 s ago, 80 % now"
+  Reason past(const Limit& limit, const char* what, Time now, double value, const char* unit) const;
 
   /// "battery empty: 8 %"
   template <class... Values>

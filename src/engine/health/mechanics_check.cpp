@@ -267,6 +267,21 @@ double MechanicsCheck::speed_cap_mps(FirstWay who) const {
   return kFirst_mps * std::clamp(age_s / kSpeedUp_s, 0.2, 1.0);
 }
 
+Reason MechanicsCheck::slowly(FirstWay who) const {
+  Reason why;
+  if (!moving_ || !fault_.empty() || std::isinf(speed_cap_mps(who))) return why;
+  const double first_m = config_.navigate.first_way_m;
+  const double left_m = first_m - rolled_m_;
+  if (left_m > 0) {
+    // Never "0.00 m are left".
+    why.format("slowly: wheels, gyro and receiver are compared on the first %g m, %.2f m are left",
+               first_m, std::max(left_m, 0.01));
+  } else {
+    why = "slowly: wheels, gyro and receiver could not be compared yet";
+  }
+  return why;
+}
+
 Twist MechanicsCheck::guide(const Twist& wanted) const {
   if (proved_ || past_first_way() || !(std::abs(wanted.vx_mps) > 0)) return wanted;
   Twist twist = wanted;

@@ -54,6 +54,9 @@ class MechanicsCheck final {
   const Reason& fault() const { return fault_; }
   /// How fast that one may drive now, m/s; infinite once proved.
   double speed_cap_mps(FirstWay who) const;
+  /// Why that one drives slowly, in words for an operator: as long as it moves and is held back by
+  /// speed_cap_mps(). Empty: it is not.
+  Reason slowly(FirstWay who) const;
   /// What is driven instead of `wanted`: the same way, with a little turn to each side.
   Twist guide(const Twist& wanted) const;
 

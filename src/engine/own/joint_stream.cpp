@@ -40,6 +40,30 @@ void JointStream::watch_zeros(bool neutral, Time now) {
   last_zero_ = now;
 }
 
+/// Somebody who writes that seldom means one stream, and finds it ended at each message.
+void JointStream::watch_rate(Time now) {
+  const Duration gap = heard_ == kNever ? Duration{} : now - heard_;
+  heard_ = now;
+  if (gap <= timeout_ || gap > kToldOn) return;
+  gap_ = gap;
+  gap_at_ = now;
+}
+
+Reason JointStream::not_begun(Time now) const {
+  const double rest_s = to_s(std::max(kRestFirst, timeout_));
+  Reason why;
+  if (gap_at_ != kNever && to_s(now - gap_at_) <= rest_s) {
+    why.format(
+        "joint commands come %.0f ms apart, %.0f ms are allowed; a stream begins with velocity 0 "
+        "for %.1f s",
+        1e3 * to_s(gap_), 1e3 * to_s(timeout_), rest_s);
+  } else {
+    why.format("a stream of joint commands begins with velocity 0, and nothing else for %.1f s",
+               rest_s);
+  }
+  return why;
+}
+
 void JointStream::take(const JointTargets& targets, std::string_view busy, Time now) {
   JointVelocities wanted;
   for (const JointTarget& joint : targets.joints) {
@@ -51,6 +75,7 @@ void JointStream::take(const JointTargets& targets, std::string_view busy, Time 
   }
   const bool neutral = std::all_of(wanted.begin(), wanted.end(), [](double v) { return v == 0; });
   const bool from_rest = rested(now);
+  watch_rate(now);
   watch_zeros(neutral, now);
   if (!busy.empty()) {
     if (following_) end(busy);
@@ -59,10 +84,7 @@ void JointStream::take(const JointTargets& targets, std::string_view busy, Time 
     return;
   }
   if (!neutral && !may_move_ && !(following_ && from_rest)) {
-    Reason why;
-    why.format("a stream of joint commands begins with velocity 0, and nothing else for %.1f s",
-               to_s(std::max(kRestFirst, timeout_)));
-    return reject(why, now);
+    return reject(not_begun(now), now);
   }
   may_move_ = may_move_ || !neutral;
   if (!following_) since_ = now;

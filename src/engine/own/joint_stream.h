@@ -47,12 +47,17 @@ class JointStream final {
   void reject(const Reason& why, Time now);
   bool rested(Time now) const;
   void watch_zeros(bool neutral, Time now);
+  void watch_rate(Time now);
+  Reason not_begun(Time now) const;
 
   Duration timeout_;
   bool following_ = false;
   bool may_move_ = false;  ///< it has shown its rest
   Time zeros_since_ = kNever;
   Time last_zero_ = kNever;
+  Time heard_ = kNever;  ///< the last message, whatever became of it
+  Duration gap_{};       ///< between two messages of late that were too far apart for one stream
+  Time gap_at_ = kNever;
   Time last_ = kNever;
   Time since_ = kNever;
   JointVelocities velocities_;

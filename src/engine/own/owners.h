@@ -57,6 +57,7 @@ class Owners final {
   /// `proved`: wheels, gyro and receiver agree with each other.
   void drive_by_hand(const Command& command, const DriveByHand& wanted, const HealthReport& health,
                      bool proved, Time now, EventQueue& events);
+  bool hand_drives() const { return hand_.active(); }
   /// What a person asks for with his key now.
   Twist by_hand() const { return hand_.wanted(); }
   /// A person's cancel stops every owner.

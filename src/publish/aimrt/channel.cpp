@@ -21,7 +21,6 @@ bool has_touch_lines(const Snapshot& snapshot) {
 
 /// The message of a packet, whichever way it is written.
 Result<JointCommandMessage, Reason> decoded(const Packet& packet, Names names, Content content) {
-  if (packet.message.size() > kMaxCommandBytes) return Reason("the message is longer than 16 KiB");
   if (content == Content::json) return decode_joint_command_json(packet.message);
   auto message = decode_joint_command(packet.message);
   if (message) return std::move(*message);
@@ -51,6 +50,7 @@ Channel::Channel(const ChannelConfig& config)
       rules_(config.rules),
       writers_(config.silence),
       command_bucket_(config.max_commands_Hz, config.command_burst),
+      slow_down_("slow down: " + command_bucket_.in_words("messages")),
       flood_bucket_(1, 1),
       log_bucket_(0.2, 3),
       rivals_bucket_(0.2, 1) {}
@@ -77,8 +77,9 @@ std::vector<Telemetry> Channel::telemetry(const Snapshot& snapshot, Duration wal
   const auto& imu = snapshot.imu;
   if (imu.configured && imu.health == SourceState::fresh && imu.time > last_imu_) {
     last_imu_ = imu.time;
-    add(imu_state_,
-        imu_state(snapshot, {wall_minus_monotonic, ++imu_sequence_}, imu_state_.content));
+    orientation_ = imu_orientation(snapshot, orientation_);
+    add(imu_state_, imu_state(snapshot, {wall_minus_monotonic, ++imu_sequence_}, imu_state_.content,
+                              orientation_));
   }
   if (touch_is_due(snapshot))
     add(touch_state_,
@@ -100,6 +101,7 @@ Result<JointTargets, Reason> Channel::judged(Names names, std::string_view paylo
   // Old by its nature, whatever its stamp.
   if (arrival.retain != Retain::no) return Reason("a retained message is never followed");
   if (!arrival.late.empty()) return Reason(arrival.late);
+  if (payload.size() > kMaxCommandBytes) return Reason("the packet is longer than 16 KiB");
   const auto packet = decode_packet(payload);
   if (!packet) return Reason(text(packet.error()));
   const auto content = content_of(packet->content_type);
@@ -135,7 +137,7 @@ void Channel::on_command(Names names, std::string_view payload, const Arrival& a
       ++unread_;
       return;
     }
-    reason = "too many messages a second, slow down";
+    reason = Reason(slow_down_);
   }
   Command command{{RequestId::Source::aimrt, ++commands_}, now, {}};
   const auto rivals_before = writers_.refused();

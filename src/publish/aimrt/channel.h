@@ -90,6 +90,7 @@ class Channel final {
   std::uint64_t touch_sequence_ = 0;
   Time last_joints_ = kNever;
   Time last_imu_ = kNever;
+  Quaternion orientation_;  ///< as the last message told it
   Time last_touch_ = kNever;
   std::array<bool, kLineCount> touched_{};
   std::uint64_t last_stamp_ns_ = 0;
@@ -97,6 +98,7 @@ class Channel final {
   std::uint64_t unread_ = 0;
   Writers writers_;
   TokenBucket command_bucket_;
+  std::string slow_down_;     ///< what is said when it is empty
   TokenBucket flood_bucket_;  ///< a flood is told of, and the telling is no flood
   TokenBucket log_bucket_;
   TokenBucket rivals_bucket_;  ///< other refusals do not drown it

@@ -63,6 +63,12 @@ Orientation orientation_of(const Snapshot& snapshot) {
   return {turned(q, wrap_rad(yaw_rad - yaw_of(q))), pose.yaw_sigma_rad};
 }
 
+/// The same rotation, told by the one of its two quaternions that is nearer to `near`.
+Quaternion nearer(const Quaternion& q, const Quaternion& near) {
+  const double along = q.w * near.w + q.x * near.x + q.y * near.y + q.z * near.z;
+  return along < 0 ? Quaternion{-q.w, -q.x, -q.y, -q.z} : q;
+}
+
 bool is_heard(const AxisSnapshot& axis) {
   return axis.health == SourceState::fresh && axis.last_motion != kNever;
 }
@@ -103,16 +109,21 @@ std::string joint_state(const Snapshot& snapshot, Time at, const Stamping& stamp
   return written(message, content);
 }
 
-std::string imu_state(const Snapshot& snapshot, const Stamping& stamping, Content content) {
+Quaternion imu_orientation(const Snapshot& snapshot, const Quaternion& last) {
+  if (!snapshot.imu.sample.has_orientation) return last;
+  return nearer(orientation_of(snapshot).rotation, last);
+}
+
+std::string imu_state(const Snapshot& snapshot, const Stamping& stamping, Content content,
+                      const Quaternion& last) {
   const auto& imu = snapshot.imu;
   pb::sensor::ImuState message;
   fill(*message.mutable_header(), imu.time, kBaseFrame, stamping);
 
-  const Orientation told = orientation_of(snapshot);
   auto& orientation = *message.mutable_orientation();
   orientation.set_w(1);
   if (imu.sample.has_orientation) {
-    const Quaternion& q = told.rotation;
+    const Quaternion q = imu_orientation(snapshot, last);
     orientation.set_x(q.x);
     orientation.set_y(q.y);
     orientation.set_z(q.z);
@@ -123,16 +134,21 @@ std::string imu_state(const Snapshot& snapshot, const Stamping& stamping, Conten
   if (!imu.sample.has_orientation) {
     orientation_covariance.Set(0, -1);
   } else if (std::isfinite(imu.orientation_sigma_rad)) {
-    orientation_covariance.Set(8, told.yaw_sigma_rad * told.yaw_sigma_rad);
+    const double yaw_sigma_rad = orientation_of(snapshot).yaw_sigma_rad;
+    orientation_covariance.Set(8, yaw_sigma_rad * yaw_sigma_rad);
   }
 
   const auto& rate = imu.sample.angular_velocity_radps;
   const auto& bias = imu.gyro_bias_radps;
   fill(*message.mutable_angular_velocity(), {rate.x - bias.x, rate.y - bias.y, rate.z - bias.z});
-  fill_covariance(*message.mutable_angular_velocity_covariance(), imu.angular_velocity_sigma_radps);
+  // A sample at the end of its range is a bound, no measurement.
+  const auto sigma = [&imu](double known) { return imu.sample.saturated ? kAbsent : known; };
+  fill_covariance(*message.mutable_angular_velocity_covariance(),
+                  sigma(imu.angular_velocity_sigma_radps));
 
   fill(*message.mutable_linear_acceleration(), imu.sample.acceleration_mps2);
-  fill_covariance(*message.mutable_linear_acceleration_covariance(), imu.acceleration_sigma_mps2);
+  fill_covariance(*message.mutable_linear_acceleration_covariance(),
+                  sigma(imu.acceleration_sigma_mps2));
   return written(message, content);
 }
 

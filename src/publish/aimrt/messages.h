@@ -27,13 +27,19 @@ Time joint_time(const Snapshot& snapshot);
 std::string joint_state(const Snapshot& snapshot, Time at, const Stamping& stamping,
                         Content content = Content::pb);
 
+/// The orientation that imu_state() tells: of the two quaternions of a rotation the one nearer to
+/// `last`, so that what is told message by message never jumps to the other side. The identity as
+/// the first `last` gives w >= 0; without an orientation it stays as it was.
+Quaternion imu_orientation(const Snapshot& snapshot, const Quaternion& last);
+
 /// The inertial sensor's last sample in base_link, the learned gyro bias taken off. Its yaw is the
 /// robot's own, fused one (counter-clockwise from east) with that one's variance; while that is not
 /// known the sensor's, which counts from anywhere, with a variance of pi squared. Covariances are
-/// diagonal; as in sensor_msgs/Imu they are all 0 when unknown, and the orientation's first is
-/// -1 when there is no orientation (which is then the identity).
+/// diagonal; as in sensor_msgs/Imu they are all 0 when unknown, as those of a saturated sample are
+/// (the truth is larger), and the orientation's first is -1 when there is no orientation (which is
+/// then the identity). `last`: the orientation of the message before, see imu_orientation().
 std::string imu_state(const Snapshot& snapshot, const Stamping& stamping,
-                      Content content = Content::pb);
+                      Content content = Content::pb, const Quaternion& last = {});
 
 /// What the robot takes for touched, by Line: a line that cannot be read is.
 std::array<bool, kLineCount> touched(const Snapshot& snapshot);

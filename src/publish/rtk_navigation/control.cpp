@@ -132,7 +132,8 @@ Reason read_id(const Message& message, std::int64_t& out) {
   } else if (std::abs(number) <= kMost && std::trunc(number) == number) {
     out = static_cast<std::int64_t>(number);
   } else {
-    return "'id' must be an integer, not " +
+    return std::string(std::trunc(number) == number ? "'id' must be an integer of 64 bits, not "
+                                                    : "'id' must be an integer, not ") +
            (id->number() ? json::shown(id->spelling(message.text), 40) : std::string(id->kind()));
   }
   return std::nullopt;
@@ -195,9 +196,23 @@ std::string_view lone_word(std::string_view text) {
   return text.substr(first, text.find_last_not_of(kAround) - first + 1);
 }
 
+/// A text in UTF-16 as far as it is ASCII; any other without its NUL characters.
+std::string without_nuls(std::string_view text) {
+  for (const std::string_view mark : {"\xFF\xFE", "\xFE\xFF"})
+    if (text.starts_with(mark)) text.remove_prefix(mark.size());
+  std::string narrow(text);
+  std::erase(narrow, '\0');
+  return narrow;
+}
+
+bool has_nuls(std::string_view text) {
+  return text.find('\0') != text.npos;
+}
+
 /// The stop that is told, however badly: nobody writes one by mistake, and who stops a robot must
 /// not be asked for commas.
 const Row* told_stop(std::string_view text) {
+  if (has_nuls(text)) return told_stop(without_nuls(text));
   if (const Row* row = find_stop(lone_word(text))) return row;
   ToldCommands told(text);
   for (auto cmd = told.next(); !cmd.empty(); cmd = told.next()) {
@@ -248,7 +263,7 @@ std::string failure_cmd(std::string_view cmd) {
 
 Result<ControlCommand, ControlRefusal> parse_control(std::string_view payload, Retain retain,
                                                      const ControlLimits& limits) {
-  payload = without_end_of_string(payload);
+  payload = text::without_end_of_string(payload);
   // Some platforms' writers begin each text with one: a stop of theirs is a stop.
   constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
   if (payload.starts_with(kByteOrderMark) && may_stop(payload))
@@ -263,7 +278,10 @@ Result<ControlCommand, ControlRefusal> parse_control(std::string_view payload, R
     if (retain == Retain::stored) return refuse(row->cmd, kRetained);
     return as_stop(*row, why);
   };
-  const auto parsed = json::parse(payload, {limits.max_bytes, limits.max_depth, limits.max_values});
+  const auto parsed = json::parse(payload, {.max_bytes = limits.max_bytes,
+                                            .max_depth = limits.max_depth,
+                                            .max_values = limits.max_values,
+                                            .long_integers = true});
   if (!parsed.ok()) {
     const Row* told = find_row(ToldCommands(payload).next());
     return refuse_form(told == nullptr ? "" : told->cmd, parsed.error().text());
@@ -300,6 +318,7 @@ bool is_stop(const Result<ControlCommand, ControlRefusal>& request) {
 bool may_stop(std::string_view payload) {
   // A letter may be written as an escape; then only the parser knows.
   if (payload.find('\\') != std::string_view::npos) return true;
+  if (has_nuls(payload)) return may_stop(without_nuls(payload));
   return std::any_of(kRows.begin(), kRows.end(), [&](const Row& row) {
     return row.stops && text::contains_but_for_case(payload, row.cmd);
   });

@@ -64,9 +64,4 @@ std::string_view ToldCommands::read_word() {
   return text_.substr(begin, end - begin);
 }
 
-std::string_view without_end_of_string(std::string_view text) {
-  while (text.ends_with('\0')) text.remove_suffix(1);
-  return text;
-}
-
 }  // namespace drover::publish

@@ -24,7 +24,4 @@ class ToldCommands {
   bool is_cmd_ = false;  ///< the last word was the key, and nothing but a colon came since
 };
 
-/// The text without the NUL bytes at its end: a program in C sends the end of its string along.
-std::string_view without_end_of_string(std::string_view text);
-
 }  // namespace drover::publish

@@ -7,6 +7,7 @@
 
 #include "publish/scene/reader.h"
 #include "publish/scene/words.h"
+#include "text/trimmed.h"
 
 namespace drover::publish {
 namespace scene_json {
@@ -73,6 +74,7 @@ template <class Message>
 Result<SceneMessages<Message>, scene::Refusal> parse(std::string_view payload, Retain retain,
                                                      const SceneLimits& limits) {
   SceneMessages<Message> all;
+  payload = text::without_end_of_string(payload);
   if (payload.empty()) return all;
   if (retain != Retain::no)
     return scene::Refusal{"", "the message was retained by the broker: publish without retain"};

@@ -14,6 +14,7 @@
 #include "publish/scene/fields.h"
 #include "scene/message/check.h"
 #include "scene/message/validate.h"
+#include "text/number.h"
 
 namespace drover::publish::scene_json {
 
@@ -151,8 +152,8 @@ void read_list(const Node& node, const Path& path, Reading& reading,
                const std::span<Element, size>& list) {
   if (node.list() == nullptr) return reading.expect(path, "a list", node);
   if (node.list()->size() != size) {
-    return reading.refuse(path, "has " + std::to_string(node.list()->size()) +
-                                    " numbers: it must have " + std::to_string(size));
+    return reading.refuse(path, "has " + text::counted(node.list()->size(), "number", "numbers") +
+                                    ": it must have " + std::to_string(size));
   }
   read_elements(*node.list(), path, reading, std::span<Element>(list));
 }

@@ -52,7 +52,8 @@ Problem orientation(const std::string& path, Quaternion& orientation, Notes& not
     note(notes, path, "all zero, taken as no turn");
     return std::nullopt;
   }
-  const double length = std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
+  // No square of a number that is told can be too large.
+  const double length = std::hypot(std::hypot(q.w, q.x), std::hypot(q.y, q.z));
   const double error = std::abs(length - 1);
   if (!(error <= kMaxQuaternionError)) {
     return Refusal{path, "has the length " + text::number_text(length) +
@@ -73,8 +74,8 @@ Problem pose(const std::string& path, Pose& pose, Notes& notes) {
 
 Problem poses(const std::string& path, std::vector<Pose>& poses, std::size_t shapes, Notes& notes) {
   if (poses.size() > shapes) {
-    return Refusal{path, "has " + std::to_string(poses.size()) + " poses for " +
-                             std::to_string(shapes) + " shapes"};
+    return Refusal{path, "has " + text::counted(poses.size(), "pose", "poses") + " for " +
+                             text::counted(shapes, "shape", "shapes")};
   }
   for (std::size_t i = 0; i < poses.size(); ++i)
     if (auto problem = pose(element(path, i), poses[i], notes)) return problem;

@@ -36,15 +36,17 @@ Problem primitive(const std::string& path, const SolidPrimitive& primitive) {
   }
   const std::string dimensions = member(path, "dimensions");
   if (primitive.dimensions.size() != kind->dimensions) {
-    return Refusal{dimensions, "has " + std::to_string(primitive.dimensions.size()) +
-                                   " numbers: " + kind->in_words};
+    return Refusal{dimensions, "has " +
+                                   text::counted(primitive.dimensions.size(), "number", "numbers") +
+                                   ": " + kind->in_words};
   }
   for (std::size_t i = 0; i < primitive.dimensions.size(); ++i) {
     const double size_m = primitive.dimensions[i];
-    if (size_m > 0 && size_m <= kMaxSize_m) continue;
+    if (size_m >= kMinSize_m && size_m <= kMaxSize_m) continue;
     const std::string what =
         std::isfinite(size_m) ? "is " + text::number_text(size_m) : "is no finite number";
-    return Refusal{element(dimensions, i), what + ": it must be over 0 and at most " +
+    return Refusal{element(dimensions, i), what + ": it must be from " +
+                                               text::number_text(kMinSize_m) + " to " +
                                                text::number_text(kMaxSize_m) + " m"};
   }
   return std::nullopt;

@@ -16,6 +16,8 @@ namespace drover::scene {
 /// A dimension of a shape, and the radius of a target. A missing decimal point is found, a hall is
 /// not refused.
 inline constexpr double kMaxSize_m = 10'000;
+/// A dimension of a primitive. What is smaller is a mistake, and its square may be nothing.
+inline constexpr double kMinSize_m = 1e-6;
 /// A coordinate. Maps may count as a country's grid does, in which 4.5e6 m are usual.
 inline constexpr double kMaxCoordinate_m = 1e7;
 inline constexpr std::size_t kMaxShapes = 1000;       ///< of a kind, in one message

@@ -9,6 +9,7 @@
 #include "scene/message/frames.h"
 #include "scene/world/map_change.h"
 #include "scene/world/words.h"
+#include "text/number.h"
 
 namespace drover::scene {
 namespace {
@@ -49,9 +50,9 @@ std::optional<Refusal> place_shapes(const std::vector<Shape>& shapes, std::vecto
                                     std::string_view list, const Ground& ground,
                                     std::vector<Placed<Shape>>& placed, double& sigma_m) {
   if (poses.size() > shapes.size())
-    return Refusal{std::string(list), std::to_string(poses.size()) + " poses for " +
-                                          std::to_string(shapes.size()) +
-                                          " shapes; allowed: at most one for each"};
+    return Refusal{std::string(list), text::counted(poses.size(), "pose", "poses") + " for " +
+                                          text::counted(shapes.size(), "shape", "shapes") +
+                                          "; allowed: at most one for each"};
   poses.resize(shapes.size());
   std::vector<Anchor> anchors;
   if (auto refused = anchor_shapes(shapes, poses, list, ground, anchors, sigma_m)) return refused;
@@ -92,8 +93,8 @@ Refusal unknown_id(std::string_view id) {
 std::optional<Refusal> count_refusal(std::size_t poses, std::size_t shapes, std::string_view list,
                                      std::string_view kind) {
   if (poses == shapes) return std::nullopt;
-  return Refusal{std::string(list), std::to_string(poses) + " poses for " + std::to_string(shapes) +
-                                        " " + std::string(kind) +
+  return Refusal{std::string(list), text::counted(poses, "pose", "poses") + " for " +
+                                        std::to_string(shapes) + " " + std::string(kind) +
                                         ": a MOVE carries one for each shape of the object"};
 }
 

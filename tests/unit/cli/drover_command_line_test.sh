@@ -49,6 +49,10 @@ every_verb_has_an_example
 [[ $(verbs | wc -l) -gt 10 ]]
 verdict $? "the help lists the verbs"
 
+expect "the version is printed as droverd prints its own" 0 out "." --version
+[[ "drover $("$drover" --version)" == "$("$drover" version 2> /dev/null | head -1)" ]]
+verdict $? "it is the one that the verb tells"
+
 expect "an unknown verb is answered with the one that may be meant" 2 err \
   'no verb "statsu"; did you mean "status"?' statsu
 expect "so is an unknown verb of a verb" 2 err \

@@ -56,6 +56,17 @@ TEST_F(ARobotOnItsFirstWay, DrivesSlowlyForThirtyCentimetresAndThenAsAsked) {
   EXPECT_GT(rig.fastest_command_radps() * 0.165, 0.45);
 }
 
+TEST_F(ARobotOnItsFirstWay, SaysWhyItIsSlowAndHowLongStill) {
+  EXPECT_EQ(rig.why(), "") << "before it moves";
+  while (rig.driven_m < 0.18) rig.tick();
+  EXPECT_THAT(rig.why(),
+              testing::StartsWith(
+                  "slowly: wheels, gyro and receiver are compared on the first 0.3 m, 0.1"));
+  EXPECT_EQ(rig.snapshot().nav.status, NavStatus::run);
+  while (rig.driven_m < 0.4) rig.tick();
+  EXPECT_EQ(rig.why(), "");
+}
+
 TEST_F(ARobotOnItsFirstWay, TakesAPositionThatJumpsForNoWrongRatio) {
   while (rig.driven_m < 0.12) rig.tick();
   rig.aside_m = 0.15;
@@ -190,8 +201,10 @@ TEST_F(JointCommandsOnAFirstWay, AreSlowOnceWhereNothingCanBeCompared) {
     stream_s(2, 0.1);
     ASSERT_LE(rig.fastest_command_radps() * 0.165, 0.051) << rig.driven_m;
     ASSERT_LT(rig.now, Time{std::chrono::seconds(60)}) << reason();
+    EXPECT_THAT(reason(), testing::StartsWith("slowly: wheels, gyro and receiver are compared"));
   }
   stream_s(2, 2);
+  EXPECT_EQ(reason(), "");
   EXPECT_NEAR(rig.fastest_command_radps(), 2, 1e-9);
   EXPECT_FALSE(rig.out.remembered.mechanics_proved);
   stream_s(0, 4);

@@ -99,7 +99,8 @@ TEST_F(AnArrival, LetsNoOtherCommandThroughAFloodByLookingLikeAStop) {
 TEST_F(AnArrival, TellsThatALargeMessageFoundNoRoom) {
   service_->on_unparsed(std::string(5000, 'x'), now_, actions_);
   EXPECT_THAT(feedback(),
-              ElementsAre("unknown_failse: too many large messages at once, slow down"));
+              ElementsAre("unknown_failse: slow down: 64 large messages, or 8 MiB of them, "
+                          "wait to be read already"));
   EXPECT_THAT(all<Command>(), IsEmpty());
 }
 

@@ -83,10 +83,16 @@ TEST_F(CommandServiceTest, AnswersAFloodWithSlowDownAndNoFloodOfItsOwn) {
   const auto told = feedback();
   EXPECT_GE(told.size(), 29U);
   EXPECT_LE(told.size(), 31U);
-  EXPECT_EQ(told.back(), "get_all_trajectory_failse: slow down");
+  EXPECT_EQ(told.back(),
+            "get_all_trajectory_failse: slow down: 10 requests a second are taken, and 20 at once");
   now_ += from_s(1);
   control(example("get_all_trajectory"));
   EXPECT_EQ(only<PublishText>().topic, kTopicTrajectoryData);
+}
+
+TEST_F(CommandServiceTest, TellsTheCommandLineHowManyRequestsAreTaken) {
+  for (std::uint64_t i = 1; i <= 21; ++i) service_->on_cli(i, GetAllTrajectory{}, now_, actions_);
+  EXPECT_EQ(all<Answer>().back().text, "slow down: 10 requests a second are taken, and 20 at once");
 }
 
 TEST_F(CommandServiceTest, TheCommandLineIsNotHeldUpByAFloodOnTheBroker) {

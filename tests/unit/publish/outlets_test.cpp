@@ -89,6 +89,10 @@ TEST_F(Outlets, OfTheCommandLineAnswerQuestionsAtOnce) {
   EXPECT_EQ(reply_to(R"({"cmd":"traj_list"})"), R"({"ok":true,"tracks":[]})");
   EXPECT_THAT(reply_to(R"({"cmd":"traj_show","name":"a"})"), testing::HasSubstr("no track named"));
   EXPECT_THAT(reply_to(R"({"cmd":"dance"})"), testing::HasSubstr("unknown request \\\"dance"));
+  EXPECT_THAT(reply_to("{}"), testing::HasSubstr("'cmd' is missing"));
+  EXPECT_THAT(reply_to("[]"), testing::HasSubstr("a request is an object like"));
+  EXPECT_THAT(reply_to("[]"), testing::HasSubstr("not a list"));
+  EXPECT_THAT(reply_to(R"({"cmd":5})"), testing::HasSubstr("'cmd' must be a text, not an integer"));
   EXPECT_THAT(reply_to("{"), testing::HasSubstr("not understood"));
   EXPECT_THAT(reply_to(R"({"cmd":"task_start","name":"a","id":1})"),
               testing::HasSubstr("speed is missing"));

@@ -7,6 +7,7 @@ namespace {
 
 using namespace std::chrono_literals;
 using testing::AllOf;
+using testing::Contains;
 using testing::Each;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -157,7 +158,8 @@ TEST_F(SceneTopicsTest, RefuseInWordsWhatFindsNoRoom) {
   Actions actions;
   outlet_->on_unparsed(texts_.front().number, actions);
   ASSERT_THAT(actions, SizeIs(1));
-  EXPECT_THAT(std::get<PublishText>(actions[0]).text, HasSubstr("too many large messages"));
+  EXPECT_THAT(std::get<PublishText>(actions[0]).text,
+              HasSubstr("64 large messages, or 8 MiB of them, wait"));
   texts_.clear();
   hear(ball("b"));
   ASSERT_THAT(jobs_, SizeIs(1)) << "nothing is being parsed any more";
@@ -243,6 +245,8 @@ TEST_F(SceneTopicsTest, AnswerAFloodWithoutAFlood) {
   for (const auto& answer : all) refused += answer.find("slow down") == std::string::npos ? 0 : 1;
   EXPECT_NEAR(static_cast<double>(all.size() - refused), 1200, 5) << "ten seconds and a burst";
   EXPECT_LT(refused, 130U);
+  EXPECT_THAT(all, Contains(HasSubstr("slow down, or send them as a list: 100 messages a second "
+                                      "are taken, and 200 at once")));
   DaemonStatus status;
   outlet_->count(status);
   EXPECT_EQ(status.scene_messages_unanswered + all.size(), 10'000U) << "and nothing is lost";

@@ -88,12 +88,54 @@ TEST_F(ABatteryMonitor, ForgetsALimitOnlyAfterAsLongBack) {
   EXPECT_TRUE(verdict.low.empty());
 }
 
+TEST_F(ABatteryMonitor, SaysOfALimitThatIsHeldOnWhenItWasSoAndWhatIsNow) {
+  sample.soc_percent = 5;
+  sample.temperature_degC = 70;
+  run(1s);
+  sample.soc_percent = 80;
+  run(4s);
+  EXPECT_EQ(critical(), "battery too hot: 70 C") << "what is so comes before what was";
+  sample.soc_percent = 15;
+  sample.temperature_degC = 30;
+  run(3s);
+  EXPECT_EQ(critical(), "battery was empty until 7 s ago, 15 % now");
+  run(14s);
+  EXPECT_EQ(critical(), "battery was too hot until 17 s ago, 30 C now");
+  EXPECT_EQ(verdict.low, "battery low: 15 %");
+  run(5s);
+  EXPECT_EQ(critical(), "");
+  sample.soc_percent = 80;
+  run(4s);
+  EXPECT_EQ(verdict.low, "battery was low until 4 s ago, 80 % now");
+}
+
+TEST_F(ABatteryMonitor, SaysOfCellsAndAnAlarmThatAreHeldOnWhenItWasSo) {
+  sample.min_cell_V = 2.7;
+  run(1s);
+  sample.min_cell_V = 3.3;
+  run(4s);
+  EXPECT_EQ(critical(), "battery cells were too far apart until 4 s ago, 3.30 V to 3.31 V now");
+  run(20s);
+  sample.alarm = BatteryAlarm::critical;
+  sample.alarm_text = "short circuit";
+  run(2s);
+  sample.alarm = BatteryAlarm::none;
+  sample.alarm_text = "";
+  run(4s);
+  EXPECT_EQ(critical(), "battery had an alarm until 4 s ago");
+  sample.temperature_degC = 55;
+  run(22s);
+  sample.temperature_degC = 30;
+  run(4s);
+  EXPECT_EQ(verdict.warning, "battery was hot until 4 s ago, 30 C now");
+}
+
 TEST_F(ABatteryMonitor, KeepsAVerdictWhileTheChargeIsUnknown) {
   sample.soc_percent = 15;
   run(1s);
   sample.soc_percent = kAbsent;
   run(60s);
-  EXPECT_FALSE(verdict.low.empty());
+  EXPECT_EQ(verdict.low, "battery low when its charge was told");
 }
 
 TEST_F(ABatteryMonitor, TellsHotAndEndsTasksWhenTooHotOrCellsAreApart) {

@@ -13,6 +13,24 @@ TEST_F(JointCommands, MoveNothingBeforeAMessageWithVelocityZero) {
   EXPECT_EQ(rig.snapshot().joint_command.refused, 50U);
   EXPECT_EQ(rig.snapshot().nav.owner, Owner::nobody);
 }
+TEST_F(JointCommands, ThatComeTooFarApartForAStreamAreToldHowFar) {
+  const auto send_at_8_Hz = [this](double radps, double seconds) {
+    for (int i = 0; i < static_cast<int>(seconds * 8); ++i) {
+      send(radps);
+      for (int k = 0; k < 25; ++k) rig.tick();
+    }
+  };
+  send_at_8_Hz(0, 2);
+  send_at_8_Hz(2, 1);
+  EXPECT_EQ(rig.fastest_command_radps(), 0);
+  const std::string why = reason();
+  EXPECT_THAT(why, HasSubstr("joint commands come 125 ms apart, 100 ms are allowed"));
+  // Who writes again after a while has begun anew, and in time.
+  rig.run_s(2);
+  stream_s(2, 1);
+  EXPECT_THAT(reason(), HasSubstr("a stream of joint commands begins with velocity 0"));
+  drive_by_joints();
+}
 TEST_F(JointCommands, ReachTheDrivesThroughTheLimitsOfSpeedAndAcceleration) {
   stream_s(0, 0.5);
   double before = 0;

@@ -2,6 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
+#include <cstdlib>
+
+#include "drover/angle.h"
 #include "tests/unit/publish/aimrt/wire.h"
 
 namespace drover::publish::aimrt {
@@ -71,10 +76,25 @@ TEST_F(AnAimrtChannel, RefusesWhatIsNoPacketOfACommand) {
   give(in_packet("x"), {}, Names::aimrt_1x);
   EXPECT_EQ(last_refusal(), "the message is no JointCommandArray");
   give(in_packet(std::string(kMaxCommandBytes + 1, '\0')));
-  EXPECT_EQ(last_refusal(), "the message is longer than 16 KiB");
+  EXPECT_EQ(last_refusal(), "the packet is longer than 16 KiB");
   give(in_packet(joint_entry("left", 0, 1) + joint_entry("wing", 0, 1)));
   EXPECT_EQ(last_refusal(), "joint 'wing': there is no such joint");
   EXPECT_TRUE(commands<JointTargets>().empty());
+}
+
+/// A packet of one pair of context, with a value of so many bytes.
+std::string with_context(std::size_t bytes, const std::string& message) {
+  return hex("02 70 62 01 01 00 6b") + static_cast<char>(bytes & 0xFFU) +
+         static_cast<char>(bytes >> 8U) + std::string(bytes, 'v') + message;
+}
+
+TEST_F(AnAimrtChannel, BoundsAPacketWithAllThatItCarries) {
+  const std::string message = joint_entry("left", 0, 1);
+  give(with_context(kMaxCommandBytes - message.size() - 9, message));
+  EXPECT_EQ(commands<JointTargets>().size(), 1U);
+  give(with_context(kMaxCommandBytes - message.size() - 8, message));
+  EXPECT_EQ(last_refusal(), "the packet is longer than 16 KiB");
+  EXPECT_EQ(commands<JointTargets>().size(), 1U);
 }
 
 TEST_F(AnAimrtChannel, PassesAStreamOn) {
@@ -114,7 +134,7 @@ TEST_F(AnAimrtChannel, LeavesRoomForOthersInAFlood) {
   }
   EXPECT_LE(commands<JointTargets>().size(), 250U + 50U + 1U);
   EXPECT_LE(commands<JointTargetsRefused>().size(), 2U);
-  EXPECT_EQ(last_refusal(), "too many messages a second, slow down");
+  EXPECT_EQ(last_refusal(), "slow down: 250 messages a second are taken, and 50 at once");
 }
 
 TEST_F(AnAimrtChannel, TakesTwoHundredMessagesASecond) {
@@ -157,6 +177,44 @@ TEST_F(AnAimrtChannel, PublishesAnInertialSampleOnceAndOnlyAFreshOne) {
   EXPECT_EQ(topics(), std::vector{joints});
   snapshot.imu.time += std::chrono::milliseconds(10);
   EXPECT_EQ(topics(), (std::vector{joints, imu}));
+}
+
+/// Of the orientation in a JSON message: x, y, z, w.
+std::array<double, 4> quaternion_in(const std::string& text) {
+  std::array<double, 4> q{};
+  const auto begin = text.find("\"orientation\":{");
+  for (std::size_t i = 0; i < q.size(); ++i) {
+    const auto key = text.find(std::string("\"") + "xyzw"[i] + "\":", begin);
+    q[i] = begin == text.npos || key == text.npos ? kAbsent : std::atof(text.c_str() + key + 4);
+  }
+  return q;
+}
+
+// The sensor's yaw is half a turn off the robot's, give or take its noise.
+TEST_F(AnAimrtChannel, TurnsTheQuaternionWithoutAJumpThreeTimesRound) {
+  config_.imu_state_wording.content = Content::json;
+  channel_.emplace(config_);
+  Snapshot snapshot;
+  snapshot.imu.configured = true;
+  snapshot.imu.health = SourceState::fresh;
+  snapshot.imu.sample.has_orientation = true;
+  std::array<double, 4> last{};
+  for (int i = 0; i <= 1080; ++i) {
+    now_ += std::chrono::milliseconds(20);
+    const double yaw_rad = to_rad(i);
+    const double sensor_rad = yaw_rad + kPi + (i % 2 == 0 ? 0.01 : -0.01);
+    snapshot.time = snapshot.imu.time = snapshot.pose.time = now_;
+    snapshot.pose.yaw_rad = wrap_rad(yaw_rad);
+    snapshot.pose.yaw_sigma_rad = 0.01;
+    snapshot.imu.sample.orientation = {std::cos(sensor_rad / 2), 0, 0, std::sin(sensor_rad / 2)};
+    const auto sent = channel_->telemetry(snapshot, kWallMinusMonotonic);
+    ASSERT_EQ(sent.size(), 2U);
+    const auto q = quaternion_in(sent[1].payload);
+    ASSERT_NEAR(wrap_rad(2 * std::atan2(q[2], q[3]) - yaw_rad), 0, 1e-9);
+    if (i == 0) EXPECT_GE(q[3], 0);
+    if (i > 0) ASSERT_NEAR(std::hypot(q[2] - last[2], q[3] - last[3]), 0, 0.01) << i << " degrees";
+    last = q;
+  }
 }
 
 TEST_F(AnAimrtChannel, StampsNoTwoJointStatesAlikeAndIsSilentWithoutANewCycle) {

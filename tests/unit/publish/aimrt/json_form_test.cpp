@@ -86,6 +86,17 @@ TEST(AimrtJson, OfTheInertialSensorIsWhatAimrtWrites) {
   EXPECT_EQ(protobuf_of_json("ImuState", text), imu_state(snapshot, kStamping));
 }
 
+TEST(AimrtJson, OfASaturatedSampleSaysThatNothingIsKnownOfItsErrors) {
+  Snapshot snapshot;
+  auto& imu = snapshot.imu;
+  imu.sample.saturated = true;
+  imu.angular_velocity_sigma_radps = imu.acceleration_sigma_mps2 = 0.5;
+  const auto text = imu_state(snapshot, kStamping, Content::json);
+  for (const char* key : {"angular_velocity_covariance", "linear_acceleration_covariance"})
+    EXPECT_NE(text.find("\"" + std::string(key) + "\":[0,0,0,0,0,0,0,0,0]"), std::string::npos)
+        << text;
+}
+
 TEST(AimrtJson, OfTouchIsWhatAimrtWrites) {
   Snapshot snapshot;
   snapshot.time = Time(Duration(3'000));

@@ -74,7 +74,7 @@ Snapshot snapshot_with_imu() {
   snapshot.imu.sample.angular_velocity_radps = {1.5, 0.5, -2};
   snapshot.imu.gyro_bias_radps = {0.5, 0.5, 0};
   snapshot.imu.sample.has_orientation = true;
-  snapshot.imu.sample.orientation = {-0.5, 0.5, -0.5, 0.5};  // w, x, y, z
+  snapshot.imu.sample.orientation = {0.5, -0.5, 0.5, -0.5};  // w, x, y, z
   snapshot.imu.orientation_sigma_rad = 2;
   snapshot.imu.angular_velocity_sigma_radps = 1;
   snapshot.imu.acceleration_sigma_mps2 = 0.5;
@@ -93,8 +93,8 @@ constexpr std::string_view kPiSquared = "de45bec93cbd2340";
 TEST(AimrtImuState, HasTheDocumentsFieldNumbersAndTheBiasTakenOff) {
   const std::string expected =
       kHeader +
-      hex("12 24  09 000000000000e03f  11 000000000000e0bf  19 000000000000e03f"
-          "  21 000000000000e0bf") +
+      hex("12 24  09 000000000000e0bf  11 000000000000e03f  19 000000000000e0bf"
+          "  21 000000000000e03f") +
       hex("1a") + diagonal("0000000000001040", kPiSquared) +    // 4, and a yaw from anywhere
       hex("22 12  09 000000000000f03f  19 00000000000000c0") +  // 1, 0, -2
       hex("2a") + diagonal("000000000000f03f") +                // 1
@@ -145,6 +145,25 @@ TEST(AimrtImuState, SaysZeroForACovarianceThatNobodyKnows) {
   const auto message = imu_state(snapshot, kStamping);
   for (const char* key : {"1a 48", "2a 48", "3a 48"})
     EXPECT_NE(message.find(hex(key) + std::string(72, '\0')), std::string::npos) << key;
+}
+
+TEST(AimrtImuState, KnowsNoCovarianceOfASaturatedSample) {
+  auto snapshot = snapshot_with_imu();
+  snapshot.imu.sample.saturated = true;
+  const auto message = imu_state(snapshot, kStamping);
+  for (const char* key : {"2a 48", "3a 48"})
+    EXPECT_NE(message.find(hex(key) + std::string(72, '\0')), std::string::npos) << key;
+  EXPECT_NE(message.find(hex("1a") + diagonal("0000000000001040", kPiSquared)), std::string::npos)
+      << "the orientation's is its own";
+  EXPECT_NE(message.find(hex("22 12  09 000000000000f03f  19 00000000000000c0")), std::string::npos)
+      << "what was measured is told";
+}
+
+TEST(AimrtImuState, BeginsWithTheQuaternionWhoseScalarIsPositive) {
+  auto snapshot = snapshot_with_imu();
+  const auto told = imu_state(snapshot, kStamping);
+  snapshot.imu.sample.orientation = {-0.5, 0.5, -0.5, 0.5};
+  EXPECT_EQ(imu_state(snapshot, kStamping), told) << "the same rotation";
 }
 
 TEST(AimrtTouchState, NamesTheConfiguredContactsButNoEmergencyStop) {

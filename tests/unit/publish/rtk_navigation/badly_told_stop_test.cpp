@@ -71,6 +71,38 @@ TEST(BadlyToldStop, MayHaveTheEndOfAStringBehindItAsAnyCommandMay) {
   EXPECT_EQ(answer(example("start_task") + std::string(1, '\0')), "another command");
 }
 
+/// Of ASCII.
+std::string in_utf16(const std::string& text, bool little_endian, bool with_mark) {
+  std::string wide;
+  const auto add = [&](char high, char low) {
+    wide += little_endian ? low : high;
+    wide += little_endian ? high : low;
+  };
+  if (with_mark) add('\xFE', '\xFF');
+  for (const char c : text) add('\0', c);
+  return wide;
+}
+
+TEST(BadlyToldStop, MayBeWrittenInUtf16) {
+  for (const bool little_endian : {true, false}) {
+    for (const bool with_mark : {true, false}) {
+      const auto wide = [&](const std::string& text) {
+        return in_utf16(text, little_endian, with_mark);
+      };
+      for (const auto& stop : {example("cancel_task"), std::string("cancel_task")}) {
+        EXPECT_TRUE(may_stop(wide(stop)));
+        EXPECT_THAT(answer(wide(stop)), StartsWith("cancel: obeyed, though the message is wrong"));
+      }
+      EXPECT_THAT(answer(wide(R"({"cmd_type":"manual_control","cmd":"terminate"})")),
+                  StartsWith("terminate: obeyed"));
+      EXPECT_FALSE(may_stop(wide(example("start_task"))));
+      EXPECT_THAT(answer(wide(example("start_task"))), HasSubstr("_failse: line 1"));
+      EXPECT_THAT(answer(wide(example("cancel_task")), Retain::stored),
+                  StartsWith("cancel_task_failse: the message was retained"));
+    }
+  }
+}
+
 TEST(BadlyToldStop, IsRefusedWhenTheBrokerHadStoredIt) {
   EXPECT_EQ(answer(R"({"cmd":"cancel_task",})", Retain::stored),
             "cancel_task_failse: the message was retained by the broker: publish without retain");

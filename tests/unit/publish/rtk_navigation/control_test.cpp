@@ -147,6 +147,18 @@ TEST(Control, KeepsPointsThatMakeNoSenseAsTheyCame) {
             "188.2222333,91,-1,1e6,-0,230,3.141592,");
 }
 
+TEST(Control, KeepsTheDigitsOfANumberThatNoIntegerHolds) {
+  const auto result =
+      parse_control(save(R"([{"longitude":1,"latitude":2,"angle":3,"x":-98765432109876543210,)"
+                         R"("y":18446744073709551615,"yaw":6,"z":123456789012345678901}])"),
+                    Retain::no);
+  ASSERT_TRUE(result.ok()) << result.error().reason;
+  const auto& track = std::get<SaveTrajectory>(*result).track;
+  EXPECT_EQ(track.points.at(0).z_m, 123456789012345678901.0);
+  EXPECT_EQ(track.numbers,
+            "1,2,3,-98765432109876543210,18446744073709551615,6,123456789012345678901,");
+}
+
 TEST(Control, TakesTheLargestSaveWhateverItsPointsLookLike) {
   const std::string shortest = R"({"longitude":1,"latitude":1,"angle":1,"x":1,"y":1,"yaw":1})";
   const std::string longest =

@@ -167,6 +167,13 @@ TEST(SceneMessages, RefuseWhatIsOfAnotherKind) {
   for (const auto& [what, by, why] : table) EXPECT_EQ(object(with(kBox, what, by)), why);
 }
 
+TEST(SceneMessages, MayHaveTheEndOfAStringBehindThem) {
+  const std::string end(3, '\0');
+  EXPECT_EQ(object(std::string(kBox) + end), "done");
+  EXPECT_THAT(object("{" + end + "}"), testing::HasSubstr("NUL"));
+  EXPECT_EQ(read_object(std::string(kBox) + end).id, "box1");
+}
+
 TEST(SceneMessages, TakeWholeNumbersFromProgramsThatKnowNoIntegers) {
   EXPECT_EQ(read_object(with(kBox, R"("type": 1)", R"("type": 1.0)")).primitives[0].type, 1);
 }
@@ -174,6 +181,8 @@ TEST(SceneMessages, TakeWholeNumbersFromProgramsThatKnowNoIntegers) {
 TEST(SceneMessages, RefusePlanesWithoutFourNumbersAndTrianglesWithoutThree) {
   EXPECT_EQ(object(with(kEachShape, "[1, 0, 0, -20]", "[1, 0, 0]")),
             "planes[0].coef: has 3 numbers: it must have 4");
+  EXPECT_EQ(object(with(kEachShape, "[1, 0, 0, -20]", "[1]")),
+            "planes[0].coef: has 1 number: it must have 4");
   EXPECT_EQ(object(with(kEachShape, R"({"coef": [1, 0, 0, -20]})", "{}")),
             "planes[0].coef: has no direction: a, b and c are all 0");
   EXPECT_EQ(object(with(kEachShape, "[0, 1, 2]", "[0, 1, 2, 0]")),

@@ -28,7 +28,7 @@ TEST(SceneFeedback, SaysWhereAndWhyAMessageIsRefused) {
   EXPECT_EQ(answered(with(kBox, "0.4", "0")),
             R"({"topic":"collision_object","id":"box1","seq":7,"operation":"ADD",)"
             R"("result":"refused","path":"primitives[0].dimensions[0]",)"
-            R"("reason":"is 0: it must be over 0 and at most 10000 m"})");
+            R"("reason":"is 0: it must be from 1e-06 to 10000 m"})");
 }
 
 TEST(SceneFeedback, SaysWhatWasTakenOtherwise) {

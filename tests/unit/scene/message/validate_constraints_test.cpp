@@ -143,8 +143,9 @@ TEST(PositionConstraints, HaveRegionsOfGoodShapes) {
               StartsWith("position_constraints[0].constraint_region.primitive_poses: has 2 poses"));
   EXPECT_THAT(position([](auto& c) { c.constraint_region.meshes.resize(1); }),
               StartsWith("position_constraints[0].constraint_region.meshes[0].triangles: has no"));
-  EXPECT_THAT(position([](auto& c) { c.constraint_region.mesh_poses.resize(1); }),
-              StartsWith("position_constraints[0].constraint_region.mesh_poses: has 1 poses"));
+  EXPECT_THAT(
+      position([](auto& c) { c.constraint_region.mesh_poses.resize(1); }),
+      StartsWith("position_constraints[0].constraint_region.mesh_poses: has 1 pose for 0 shapes"));
 }
 
 TEST(OrientationConstraints, AreSomewhereOfSomething) {

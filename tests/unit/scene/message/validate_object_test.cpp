@@ -133,10 +133,10 @@ TEST(CollisionObjects, HaveNoMorePosesThanShapes) {
   EXPECT_EQ(outcome(object), "primitive_poses: has 5 poses for 4 shapes");
   object = good_object();
   object.mesh_poses.resize(2);
-  EXPECT_EQ(outcome(object), "mesh_poses: has 2 poses for 1 shapes");
+  EXPECT_EQ(outcome(object), "mesh_poses: has 2 poses for 1 shape");
   object = good_object();
   object.planes.clear();
-  EXPECT_EQ(outcome(object), "plane_poses: has 1 poses for 0 shapes");
+  EXPECT_EQ(outcome(object), "plane_poses: has 1 pose for 0 shapes");
 }
 
 TEST(CollisionObjects, HaveIdentityForEachPoseThatIsMissing) {

@@ -58,7 +58,7 @@ TEST(Solids, HaveExactlyTheirDimensions) {
 
 TEST(Solids, HaveTheHeightFirst) {
   EXPECT_EQ(with_primitive(solid(SolidPrimitive::CYLINDER, {1})),
-            "primitives[2].dimensions: has 1 numbers: CYLINDER has 2 dimensions: height, radius");
+            "primitives[2].dimensions: has 1 number: CYLINDER has 2 dimensions: height, radius");
   EXPECT_EQ(with_primitive(solid(SolidPrimitive::CONE, {})),
             "primitives[2].dimensions: has 0 numbers: CONE has 2 dimensions: height, radius");
   const std::size_t cylinder[] = {SolidPrimitive::CYLINDER_HEIGHT, SolidPrimitive::CYLINDER_RADIUS};
@@ -87,8 +87,13 @@ TEST(Solids, AreLargerThanNothingAndSmallerThanALand) {
     const std::string said = with_primitive(solid(SolidPrimitive::CYLINDER, {1, size_m}));
     EXPECT_THAT(said, StartsWith("primitives[2].dimensions[1]: is ")) << size_m;
   }
+  // Its square is 0, and it would be in nobody's way.
+  EXPECT_EQ(with_primitive(solid(SolidPrimitive::SPHERE, {1e-300})),
+            "primitives[2].dimensions[0]: is 1e-300: it must be from 1e-06 to 10000 m");
+  EXPECT_THAT(with_primitive(solid(SolidPrimitive::BOX, {1, 1, 0.9e-6})),
+              StartsWith("primitives[2].dimensions[2]: is 9e-07"));
   EXPECT_EQ(with_primitive(solid(SolidPrimitive::CYLINDER, {-2, 1})),
-            "primitives[2].dimensions[0]: is -2: it must be over 0 and at most 10000 m");
+            "primitives[2].dimensions[0]: is -2: it must be from 1e-06 to 10000 m");
   for (const double size_m : {1e-6, 10'000.0})
     EXPECT_EQ(with_primitive(solid(SolidPrimitive::CYLINDER, {1, size_m})), "done") << size_m;
 }
@@ -215,6 +220,10 @@ TEST(Turns, OfAnotherLengthAreRefused) {
     EXPECT_THAT(with_turn({0.6 * length, 0, 0, 0.8 * length}),
                 StartsWith("primitive_poses[1].orientation: has the length "))
         << length;
+  }
+  for (const double huge : {1e200, 1e300}) {
+    EXPECT_THAT(with_turn({huge, 0, 0, 0}), testing::HasSubstr("has the length 1e+"));
+    EXPECT_THAT(with_turn({1, huge, 0, 0}), testing::HasSubstr("has the length 1e+"));
   }
 }
 

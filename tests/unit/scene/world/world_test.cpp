@@ -47,7 +47,7 @@ TEST(World, ABadAddKeepsTheOldObject) {
   EXPECT_THAT(yard.apply(add_box("box1", at(2e5, 6))), HasSubstr("farther than 100 km"));
   CollisionObject poses = add_box("box1", at(5, 6));
   poses.primitive_poses.push_back(at(1, 1));
-  EXPECT_THAT(yard.apply(poses), HasSubstr("primitive_poses: 2 poses for 1 shapes"));
+  EXPECT_THAT(yard.apply(poses), HasSubstr("primitive_poses: 2 poses for 1 shape"));
   CollisionObject bare = add_box("box1", at(5, 6));
   bare.primitives.clear();
   bare.primitive_poses.clear();
@@ -155,12 +155,12 @@ TEST(World, MoveWithAnotherNumberOfPosesIsRefused) {
   CollisionObject message = only(CollisionObject::MOVE, "box1");
   EXPECT_THAT(yard.apply(message), HasSubstr("primitive_poses: 0 poses for 2 primitives"));
   message.primitive_poses = {at(7, 8)};
-  EXPECT_THAT(yard.apply(message), HasSubstr("primitive_poses: 1 poses for 2 primitives"));
+  EXPECT_THAT(yard.apply(message), HasSubstr("primitive_poses: 1 pose for 2 primitives"));
   message.primitive_poses = {at(7, 8), at(7, 9), at(7, 10)};
   EXPECT_THAT(yard.apply(message), HasSubstr("primitive_poses: 3 poses for 2 primitives"));
   message.primitive_poses = {at(7, 8), at(7, 9)};
   message.mesh_poses = {at(1, 1)};
-  EXPECT_THAT(yard.apply(message), HasSubstr("mesh_poses: 1 poses for 0 meshes"));
+  EXPECT_THAT(yard.apply(message), HasSubstr("mesh_poses: 1 pose for 0 meshes"));
   expect_at(yard.place_of("box1"), 3, 4, 0);
 }
 
