@@ -113,6 +113,17 @@ TEST(LocatedJson, RefusesNumbersThatDoNotFit) {
   EXPECT_NE(refusal("[-9223372036854775809]"), "accepted");
 }
 
+TEST(LocatedJson, TakesLongIntegersForNumbersWhereTheyAreAskedFor) {
+  const std::string_view text = "[18446744073709551616,-98765432109876543210]";
+  const auto read = parse(text, {.long_integers = true});
+  ASSERT_TRUE(read.ok());
+  const Node& first = read->root.list()->at(0);
+  EXPECT_EQ(first.number(), 18446744073709551616.0);
+  EXPECT_FALSE(first.integer());
+  EXPECT_EQ(first.spelling(text), "18446744073709551616");
+  EXPECT_NE(refusal("[1" + std::string(400, '0') + "]", {.long_integers = true}), "accepted");
+}
+
 TEST(LocatedJson, RefusesBadUnicode) {
   for (const std::string_view text :
        {"\"\xFF\"", "\"\xC0\xAF\"", "\"\xED\xA0\x80\"", "\"\xE5\x9B\"", "\"\\ud800\"",

@@ -79,6 +79,17 @@ TEST(TrackFile, EveryNameComesBackByteForByte) {
   }
 }
 
+TEST(TrackFile, KeepsTheDigitsOfANumberThatNoIntegerHolds) {
+  const Track track{"t",
+                    {{1, 2, 3, 4, 5, 6, 123456789012345678901.0}},
+                    std::nullopt,
+                    "1,2,3,4,5,6,123456789012345678901,"};
+  const auto read = decode_track(encode_track(track));
+  ASSERT_TRUE(read.ok());
+  EXPECT_EQ(read->numbers, track.numbers);
+  EXPECT_EQ(read->points.at(0).z_m, track.points[0].z_m);
+}
+
 TEST(TrackFile, RefusesContentThatIsSealedButNoTrack) {
   for (const std::string body :
        {"{}", "[]", "{\"name\":1,\"origin\":null,\"points\":[]}",
