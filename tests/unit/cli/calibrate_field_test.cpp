@@ -4,6 +4,7 @@
 
 #include "bench/field_world.h"
 #include "cli/calibrate_drive.h"
+#include "support/seeds.h"
 
 namespace drover::cli {
 namespace {
@@ -34,7 +35,7 @@ TEST(CalibrateInAField, FindsWhatIsPlanted) {
   plan.heading_off_deg = 2;
   auto config = bench::field_config();
   config.base.yaw_slip_factor = 1.3;
-  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+  for (std::uint64_t seed = 1; seed <= test::seeds(3); ++seed) {
     SCOPED_TRACE(seed);
     bench::FieldWorld world(config, plan, seed);
     DriveOfRecording taken(config.base);

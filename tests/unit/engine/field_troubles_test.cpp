@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "bench/field_world.h"
+#include "support/seeds.h"
 
 namespace drover {
 namespace {
@@ -15,7 +16,7 @@ using bench::Judgement;
 
 /// An outage of 20 s with an antenna line 2 degrees off, which nobody knows yet.
 TEST(AnAntennaLineThatIsMountedAskew, EndsNoTaskWhenTheReceiverIsBackAfterAnOutage) {
-  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+  for (std::uint64_t seed = 1; seed <= test::seeds(5); ++seed) {
     FieldPlan plan;
     plan.heading_off_deg = 2;
     plan.outage_s = {12, 32};
@@ -30,7 +31,7 @@ TEST(AnAntennaLineThatIsMountedAskew, EndsNoTaskWhenTheReceiverIsBackAfterAnOuta
 
 /// A shove, and positions 50 ms late, which still show some of it when it is over.
 TEST(AShoveInAField, EndsNoTaskWherePositionsAreLate) {
-  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+  for (std::uint64_t seed = 1; seed <= test::seeds(10); ++seed) {
     FieldPlan plan;
     plan.gst = true;
     plan.late_s = 0.05;  // gnss_late_sigma_s is 0.1
@@ -45,7 +46,7 @@ TEST(AShoveInAField, EndsNoTaskWherePositionsAreLate) {
 
 /// What is known of the mounting and not made up for yet is still in the heading.
 TEST(APublishedHeading, IsNotSaidToBeKnownBeforeTheMountingIsMadeUpFor) {
-  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+  for (std::uint64_t seed = 1; seed <= test::seeds(5); ++seed) {
     FieldPlan plan;
     plan.heading_off_deg = 2;
     FieldWorld world(field_config(), plan, seed);
@@ -62,7 +63,7 @@ TEST(APublishedHeading, IsNotSaidToBeKnownBeforeTheMountingIsMadeUpFor) {
 
 /// Nothing shows it as long as there is no fix.
 TEST(WheelsThatSlipInAnOutage, MoveNothingBeyondWhatIsPublished) {
-  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+  for (std::uint64_t seed = 1; seed <= test::seeds(6); ++seed) {
     FieldPlan plan;
     plan.gst = seed % 2 == 0;
     plan.outage_s = {20, 28};
@@ -75,7 +76,7 @@ TEST(WheelsThatSlipInAnOutage, MoveNothingBeyondWhatIsPublished) {
 
 /// A fix that is lost while they slip says nothing against it.
 TEST(WheelsThatSlip, EndNoTaskWhenTheFixIsLostForAMoment) {
-  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+  for (std::uint64_t seed = 1; seed <= test::seeds(10); ++seed) {
     FieldPlan plan;
     plan.gst = seed % 2 == 0;
     plan.slip_s = {15, 22};
@@ -90,7 +91,7 @@ TEST(WheelsThatSlip, EndNoTaskWhenTheFixIsLostForAMoment) {
 
 /// 5 cm for good, and nothing that could decide it: both places are inside of the corridor.
 TEST(AnotherIntegerSolution, EndsNoTaskWhereBothPlacesAreInsideOfTheCorridor) {
-  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+  for (std::uint64_t seed = 1; seed <= test::seeds(5); ++seed) {
     FieldPlan plan;
     plan.gst = true;
     plan.step_s = {15, INFINITY};
@@ -106,7 +107,7 @@ TEST(AnotherIntegerSolution, EndsNoTaskWhereBothPlacesAreInsideOfTheCorridor) {
 
 /// The fix that is found again holds a minute: longer than navigate.locate_timeout_s by a little.
 TEST(AFixThatIsFoundElsewhere, EndsNoTaskThatWaitsUntilItIsDecided) {
-  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+  for (std::uint64_t seed = 1; seed <= test::seeds(3); ++seed) {
     FieldPlan plan;
     plan.float_s = {15, 18};
     plan.slip_s = {15, 18};
@@ -120,7 +121,7 @@ TEST(AFixThatIsFoundElsewhere, EndsNoTaskThatWaitsUntilItIsDecided) {
 
 /// 15 cm off in any direction after a float.
 TEST(AFixThatIsFoundElsewhere, IsNotBelievedAtOnce) {
-  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+  for (std::uint64_t seed = 1; seed <= test::seeds(6); ++seed) {
     FieldPlan plan;
     plan.gst = true;
     plan.float_s = {15, 18};
@@ -136,7 +137,7 @@ TEST(AFixThatIsFoundElsewhere, IsNotBelievedAtOnce) {
 
 /// A float of a moment finds nothing anew: it is the same solution, and as wrong as before.
 TEST(AFixThatIsFoundElsewhere, StaysInTheBoundWhenItIsLostForAMoment) {
-  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+  for (std::uint64_t seed = 1; seed <= test::seeds(6); ++seed) {
     FieldPlan plan;
     plan.gst = true;
     plan.float_s = {15, 18};
