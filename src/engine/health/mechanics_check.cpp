@@ -274,10 +274,10 @@ Reason MechanicsCheck::slowly(FirstWay who) const {
   const double left_m = first_m - rolled_m_;
   if (left_m > 0) {
     // Never "0.00 m are left".
-    why.format("slowly: wheels, gyro and receiver are compared on the first %g m, %.2f m are left",
-               first_m, std::max(left_m, 0.01));
+    why.format("slowly: %s, gyro and receiver are compared on the first %g m, %.2f m are left",
+               words_->wheels, first_m, std::max(left_m, 0.01));
   } else {
-    why = "slowly: wheels, gyro and receiver could not be compared yet";
+    why.format("slowly: %s, gyro and receiver could not be compared yet", words_->wheels);
   }
   return why;
 }

@@ -61,7 +61,7 @@ TEST_F(ARobotOnItsFirstWay, SaysWhyItIsSlowAndHowLongStill) {
   while (rig.driven_m < 0.18) rig.tick();
   EXPECT_THAT(rig.why(),
               testing::StartsWith(
-                  "slowly: wheels, gyro and receiver are compared on the first 0.3 m, 0.1"));
+                  "slowly: the wheels, gyro and receiver are compared on the first 0.3 m, 0.1"));
   EXPECT_EQ(rig.snapshot().nav.status, NavStatus::run);
   while (rig.driven_m < 0.4) rig.tick();
   EXPECT_EQ(rig.why(), "");
@@ -201,7 +201,8 @@ TEST_F(JointCommandsOnAFirstWay, AreSlowOnceWhereNothingCanBeCompared) {
     stream_s(2, 0.1);
     ASSERT_LE(rig.fastest_command_radps() * 0.165, 0.051) << rig.driven_m;
     ASSERT_LT(rig.now, Time{std::chrono::seconds(60)}) << reason();
-    EXPECT_THAT(reason(), testing::StartsWith("slowly: wheels, gyro and receiver are compared"));
+    EXPECT_THAT(reason(),
+                testing::StartsWith("slowly: the wheels, gyro and receiver are compared"));
   }
   stream_s(2, 2);
   EXPECT_EQ(reason(), "");

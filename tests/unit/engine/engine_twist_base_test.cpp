@@ -218,6 +218,16 @@ TEST_F(ABaseThatTakesATwist, LosesItsPowerWhenItIsFoundCreepingOn) {
   EXPECT_FALSE(has_power()) << rig.why();
 }
 
+/// It may have wheels, but nobody here knows of them.
+TEST_F(ABaseThatTakesATwist, IsSaidToBeComparedItselfOnItsFirstWay) {
+  rig.config.navigate.first_way_m = 0.3;
+  rig.engine = std::make_unique<Engine>(rig.config);
+  rig.settle();
+  rig.start(path, path_end, 0.5);
+  rig.run_s(3);
+  EXPECT_THAT(rig.why(), HasSubstr("slowly: the base, gyro and receiver are compared"));
+}
+
 /// A stop that it did not hear is no stop yet, whoever wants to end it.
 TEST_F(ABaseThatTakesATwist, IsNotResetWhileItDrivesOnThoughAPersonStoppedIt) {
   drive();
