@@ -35,6 +35,11 @@ void learn_fit(State& state, const AntennaPosition& raw, AntennaPoint point, dou
   state.fit.hear(point, config);
 }
 
+void forget_fit(State& state, const EstimateConfig& config) {
+  state.fit = AntennaFit(config);
+  state.late_s = 0;
+}
+
 void correct_mounting(State& state, const LeverArm& arm, const EstimateConfig& config) {
   const double turn_rad = state.has_heading ? state.mounting.catch_up(config) : 0;
   if (turn_rad == 0) return;

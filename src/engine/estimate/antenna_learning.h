@@ -9,6 +9,8 @@ namespace drover::engine::estimate {
 /// where it is suspected to drift. `point` has the arm.
 void learn_fit(State& state, const AntennaPosition& raw, AntennaPoint point, double speed_mps,
                const EstimateConfig& config);
+/// They are of another receiver from now on: nothing is known of it.
+void forget_fit(State& state, const EstimateConfig& config);
 /// A position as it would be without delay.
 AntennaPosition in_time(const State& state, AntennaPosition position, double speed_mps);
 /// Whoever believed in positions that were late is behind by so much of the way.

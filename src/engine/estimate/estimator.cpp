@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "drover/angle.h"
+#include "engine/estimate/antenna_learning.h"
 #include "engine/estimate/model_gnss.h"
 #include "engine/estimate/model_heading.h"
 
@@ -371,9 +372,8 @@ void Estimator::take(State& state, const Input& input) const {
       state.heading = {};
       state.heading.receiver = yaw->receiver;
       state.mounting = {};
-      state.fit = AntennaFit(config_);
+      forget_fit(state, config_);
       state.heading_late = HeadingLate(config_);
-      state.late_s = 0;
       state.gyro.heard = kNever;
     }
     const double yaw_rad = in_time(state, yaw->yaw_rad);

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "drover/angle.h"
+#include "engine/estimate/antenna_learning.h"
 #include "engine/estimate/estimator.h"
 
 namespace drover::engine {
@@ -74,8 +75,7 @@ void Estimator::forget_learned() {
   State state = history_.before(history_.size());
   const State unlearned = blank();
   state.mounting = {};
-  state.fit = unlearned.fit;
-  state.late_s = 0;
+  forget_fit(state, config_);
   state.heading_late = unlearned.heading_late;
   for (const std::size_t i : {std::size_t{kScale}, std::size_t{kGain}, std::size_t{kGyroScale}})
     state.belief.reset(i, unlearned.belief.mean[i], std::sqrt(unlearned.belief.covariance[i][i]));

@@ -80,8 +80,7 @@ void hand_over(State& state, std::uint8_t receiver, const EstimateConfig& config
   gnss.jumps = {};
   gnss.dispute = {};
   if (state.has_position) gnss.unconfirmed_m = 0;
-  state.fit = AntennaFit(config);
-  state.late_s = 0;
+  forget_fit(state, config);
   state.watch.forget();
   state.course = {};
 }

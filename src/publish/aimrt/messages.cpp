@@ -120,10 +120,11 @@ std::string imu_state(const Snapshot& snapshot, const Stamping& stamping, Conten
   pb::sensor::ImuState message;
   fill(*message.mutable_header(), imu.time, kBaseFrame, stamping);
 
+  const Orientation told = orientation_of(snapshot);
   auto& orientation = *message.mutable_orientation();
   orientation.set_w(1);
   if (imu.sample.has_orientation) {
-    const Quaternion q = imu_orientation(snapshot, last);
+    const Quaternion q = nearer(told.rotation, last);
     orientation.set_x(q.x);
     orientation.set_y(q.y);
     orientation.set_z(q.z);
@@ -134,8 +135,7 @@ std::string imu_state(const Snapshot& snapshot, const Stamping& stamping, Conten
   if (!imu.sample.has_orientation) {
     orientation_covariance.Set(0, -1);
   } else if (std::isfinite(imu.orientation_sigma_rad)) {
-    const double yaw_sigma_rad = orientation_of(snapshot).yaw_sigma_rad;
-    orientation_covariance.Set(8, yaw_sigma_rad * yaw_sigma_rad);
+    orientation_covariance.Set(8, told.yaw_sigma_rad * told.yaw_sigma_rad);
   }
 
   const auto& rate = imu.sample.angular_velocity_radps;

@@ -6,18 +6,13 @@
 #include <map>
 #include <string>
 
+#include "support/seeds.h"
 #include "unit/calibrate/simulated_drive.h"
 
 namespace drover::calibrate {
 namespace {
 
-// The claim is the plain build's to prove. A sanitizer looks for mistakes of memory, and a few sets
-// run through every line that all of them do.
-#ifdef DROVER_SANITIZED
-constexpr int kSets = 4;
-#else
-constexpr int kSets = 20;
-#endif
+constexpr int kSets = static_cast<int>(test::seeds(20));
 constexpr int kLeastWithin = kSets * 9 / 10;
 
 double uniform(std::mt19937_64& random, double from, double to) {

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "engine_breakdowns.h"
+#include "support/seeds.h"
 
 namespace drover::engine {
 namespace {
@@ -285,11 +286,7 @@ class AnyCommands {
   bool moved_ = false;
 };
 
-#ifdef DROVER_SANITIZED
-constexpr std::uint64_t kHistories = 50;
-#else
-constexpr std::uint64_t kHistories = 500;
-#endif
+constexpr std::uint64_t kHistories = test::kSanitized ? 50 : 500;
 
 TEST(AnyCommands, MoveNothingThatWasStoppedReleasedOrNotAskedFor) {
   std::uint64_t moved = 0;

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "engine_breakdowns.h"
+#include "support/seeds.h"
 
 namespace drover::engine {
 namespace {
@@ -167,13 +168,8 @@ class History {
 
 // The claim is the plain build's to prove. A sanitizer, ten to twenty times slower, looks for
 // mistakes of memory, and a tenth of the histories runs through every line that all of them do.
-#ifdef DROVER_SANITIZED
-constexpr std::uint64_t kHistories = 1000;
-constexpr std::uint64_t kLongHistories = 10;
-#else
-constexpr std::uint64_t kHistories = 10000;
-constexpr std::uint64_t kLongHistories = 100;
-#endif
+constexpr std::uint64_t kHistories = test::kSanitized ? 1000 : 10000;
+constexpr std::uint64_t kLongHistories = test::kSanitized ? 10 : 100;
 
 TEST(AnyHistory, NeverMovesWhileAStopConditionHoldsNorWithoutAnAcceptedStart) {
   std::uint64_t moved = 0;
