@@ -17,8 +17,9 @@ namespace drover {
 
 inline constexpr std::size_t kMaxChannels = 16;
 
-/// What a channel is told: how fast its joint shall turn, or how the whole base shall move.
-enum class ChannelMode : std::uint8_t { velocity, twist };
+/// What a channel is told: how fast its joint shall turn, how the whole base shall move, or all
+/// that a JointCommand has: place, speed and effort, and how stiffly they are kept.
+enum class ChannelMode : std::uint8_t { velocity, twist, impedance };
 
 /// One thing that a device moves.
 struct Channel {
@@ -39,17 +40,29 @@ enum class AxisRequest : std::uint8_t {
   idle,  ///< zero, then power stage off; only for a person's explicit wish: it may coast
 };
 
-/// What a joint is to do.
+/// The law that a drive with impedance keeps, at the joint: its torque is
+/// stiffness * (position - measured) + damping * (velocity - measured) + effort.
+struct Impedance {
+  double position_rad = 0;
+  double effort_Nm = 0;
+  double stiffness_Nmprad = 0;  ///< not negative; 0: the position has no weight
+  double damping_Nmsprad = 0;   ///< not negative
+};
+
+/// What a joint is to do. Of a channel with impedance `velocity_radps` is a part of its law.
 struct AxisCommand {
   AxisRequest request = AxisRequest::rest;
   double velocity_radps = 0;  ///< at the joint
+  Impedance impedance{};
 };
 
-/// What a channel is to do: `velocity_radps` or `twist`, as its mode says.
+/// What a channel is to do, as its mode says. One with impedance, at AxisRequest::rest: a drive
+/// that runs damps, with what its driver was told for that.
 struct Setpoint {
   AxisRequest request = AxisRequest::rest;
   double velocity_radps = 0;  ///< at the joint
   Twist twist{};              ///< of the base
+  Impedance impedance{};
 };
 
 /// What a message does to the machine, for the gate.

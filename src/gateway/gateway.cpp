@@ -235,9 +235,10 @@ void Gateway::command_actuators(Time now) {
         frame_gate_.end_slowing(*slot.made.actuator, channel);
       const AxisCommand& command = cycle_.engine.axes[axis];
       const engine::BaseCommand& base = cycle_.engine.base;
-      (void)wanted.push_back(slot.takes_twist
-                                 ? Setpoint{base.request, 0, base.twist}
-                                 : Setpoint{command.request, command.velocity_radps, {}});
+      (void)wanted.push_back(
+          slot.takes_twist
+              ? Setpoint{base.request, 0, base.twist, {}}
+              : Setpoint{command.request, command.velocity_radps, {}, command.impedance});
     }
     slot.made.actuator->on_setpoints({wanted.data(), wanted.size()}, now, scratch_);
     slot.made.device->on_tick(now, scratch_);
