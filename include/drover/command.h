@@ -45,13 +45,28 @@ struct SetOrigin {
   GeodeticPoint origin;
 };
 
-/// What one joint is to do. The drives follow a velocity.
+/// Which values of a JointCommand a joint outside the base follows; the others have to be 0.
+enum class JointFollows : std::uint8_t {
+  impedance,  ///< all five
+  position,   ///< and a velocity with it; stiffness and damping are the configuration's
+  velocity,
+  effort,  ///< with damping
+};
+
+/// What one joint is to do. The wheels of the base follow a velocity; a joint outside of it what
+/// its configuration says.
 struct JointTarget {
   AxisId axis = 0;
   double velocity_radps = 0;
+  double position_rad = 0;
+  double effort_Nm = 0;
+  double stiffness_Nmprad = 0;
+  double damping_Nmsprad = 0;
 };
-/// One message of a stream of joint commands: joints that it does not name come to rest. A stream
-/// begins with all velocities 0, and ends when it is silent for health.joint_command_timeout_s.
+/// One message of a stream of joint commands. Of the base: joints that it does not name come to
+/// rest, unless it names none; a stream begins with all velocities 0, and ends when it is silent
+/// for health.joint_command_timeout_s. Joints outside the base that it does not name are left as
+/// they are.
 struct JointTargets {
   FixedVector<JointTarget, kMaxAxes> joints;
 };

@@ -105,9 +105,10 @@ void describe(V& v, const GeodeticPoint& point) {
 
 template <class V>
 void describe(V& v, const AxisSnapshot& it) {
-  const auto& [joint, motion, state, fault, lapsed, powered, commanded_velocity_radps,
+  const auto& [joint, group, motion, state, fault, lapsed, powered, commanded_velocity_radps,
                inverter_degC, motor_degC, bus_V, bus_A, health, source, last_motion] = it;
   v.value("joint", joint, {});
+  v.value("group", group);  // people are shown its name
   v.inside("motion", [&v, &part = motion] { describe(v, part); });
   v.value("state", state, {});
   v.value("fault", fault, {});
@@ -119,6 +120,17 @@ void describe(V& v, const AxisSnapshot& it) {
   v.value("health", health, {});
   v.inside("source", [&v, &part = source] { describe(v, part); });
   v.value("last_motion", last_motion, {.decimals = 3, .as = "age_s"});
+}
+
+template <class V>
+void describe(V& v, const GroupSnapshot& group) {
+  const auto& [name, state, accepted, refused, limited, reason] = group;
+  v.value("name", name, {});
+  v.value("state", state, {});
+  v.value("accepted", accepted, {});
+  v.value("refused", refused, {});
+  v.value("limited", limited, {});
+  v.value("reason", reason, {});
 }
 
 template <class V>

@@ -65,6 +65,7 @@ struct EstimatorCounters {
 
 struct AxisSnapshot {
   Name joint;
+  std::uint8_t group = 0;  ///< 0: the base; else 1 + the number in Snapshot::groups
   AxisMotion motion;
   AxisState state = AxisState::unknown;
   Reason fault;
@@ -172,6 +173,27 @@ struct JointCommandSnapshot {
   Reason reason;  ///< of the last refusal; empty when the last message was followed
 };
 
+/// What the joints of a group outside the base do; of several the first in this order.
+enum class GroupState : std::uint8_t {
+  following,  ///< commands
+  arming,     ///< its drives come into closed loop
+  holding,    ///< where it is
+  damping,    ///< sinks slowly, if it has a weight
+  released,   ///< the drives let go
+  idle,       ///< the power stages are off
+};
+
+/// Joints outside the base that belong together.
+struct GroupSnapshot {
+  Name name;
+  GroupState state = GroupState::idle;
+  std::uint64_t accepted = 0;  ///< messages that were followed
+  std::uint64_t refused = 0;
+  std::uint64_t limited = 0;  ///< cycles in which a limit was put in place of what was asked for
+  Reason reason;              ///< why it does not follow, or what is wrong; empty: nothing
+};
+inline constexpr std::size_t kMaxGroupsShown = 4;
+
 /// How far the robot may go before it would touch something, by whoever looks around.
 struct ClearanceSnapshot {
   bool configured = false;
@@ -242,7 +264,8 @@ struct Snapshot {
   /// Not the gateway's: told by who shows it, of threads that the control thread does not hear.
   FixedVector<ScannerSnapshot, kMaxOfKind> scanners;
   JointCommandSnapshot joint_command;
-  FixedVector<AxisSnapshot, kMaxAxes> axes;
+  FixedVector<AxisSnapshot, kMaxAxes> axes;  ///< those of the base first
+  FixedVector<GroupSnapshot, kMaxGroupsShown> groups;
   BaseSnapshot base;
   ClearanceSnapshot clearance;
   std::array<bool, kLineCount> line_active{};

@@ -7,10 +7,11 @@
 namespace drover::config {
 namespace {
 
+/// By their axes.
 std::vector<std::string> joint_names(const DroverConfig& config) {
   std::vector<std::string> names;
-  for (const auto& device : config.devices)
-    for (const auto& joint : device.joints) names.push_back(joint.name);
+  for (const auto* device : by_axis(config))
+    for (const auto& joint : device->joints) names.push_back(joint.name);
   return names;
 }
 
@@ -62,8 +63,15 @@ void both_sides(const BaseNames& base, Findings& found) {
 }
 
 /// Its faults, its silence and its stop would be nobody's.
-void nothing_else_moves(const BaseNames& base, Findings& found) {
+void nothing_else_moves(const GroupNames& groups, Findings& found) {
+  const BaseNames& base = groups.base;
   if (found.has_problem("groups.base")) return;
+  const auto beside = [&](const std::string& joint) {
+    return std::any_of(groups.others.begin(), groups.others.end(), [&](const JointGroup& group) {
+      return std::any_of(group.joints.begin(), group.joints.end(),
+                         [&](const GroupJoint& each) { return each.name == joint; });
+    });
+  };
   const bool has_wheels = base.kind != kTwistKind;
   const auto among = [&](const std::vector<std::string>& side, const std::string& joint) {
     return has_wheels && std::find(side.begin(), side.end(), joint) != side.end();
@@ -71,12 +79,11 @@ void nothing_else_moves(const BaseNames& base, Findings& found) {
   for (const auto& device : found.config().devices) {
     for (const auto& joint : device.joints) {
       if (among(base.left, joint.name) || among(base.right, joint.name)) continue;
-      found.add(device_path(device),
-                "\"" + joint.name +
-                    "\" is no wheel of the base: joints outside the base are not supported yet",
-                has_wheels ? "name it in groups.base.left or groups.base.right, or leave the "
-                             "device out"
-                           : "leave the device out");
+      if (beside(joint.name)) continue;
+      found.add(device_path(device), "\"" + joint.name + "\" is of no group",
+                has_wheels ? "name it in groups.base.left or groups.base.right, or give it a group "
+                             "of its own: groups.arm.joints"
+                           : "give it a group of its own: groups.arm.joints");
     }
     if (!is_told_twists(device) || device.name == base.device) continue;
     found.add(device_path(device), "it takes a twist, and is not the device of the base",
@@ -110,13 +117,14 @@ void twist_device(const BaseNames& base, Findings& found) {
 
 }  // namespace
 
-void check_base(const BaseNames& base, Findings& found) {
+void check_base(const GroupNames& groups, Findings& found) {
+  const BaseNames& base = groups.base;
   auto& resolved = found.config().engine.base;
   if (base.kind == kTwistKind)
     twist_device(base, found);
   else
     wheels(base, found);
-  nothing_else_moves(base, found);
+  nothing_else_moves(groups, found);
   resolved.hold = hold_by(base.hold);
   resolved.kind = base_kind(base.kind);
 }

@@ -95,7 +95,6 @@ void check_devices(Findings& found) {
 
 void check_joints(Findings& found) {
   Taken taken(found);
-  std::size_t axes = 0;
   for (auto& device : found.config().devices) {
     const auto* entry = find_driver(device.driver, SlotKind::drive);
     if (entry == nullptr) continue;
@@ -110,11 +109,28 @@ void check_joints(Findings& found) {
       taken.take(device.name, device_path(device));
     }
     name_channels(device, entry->channels, found);
-    device.first_axis = static_cast<AxisId>(axes);
-    axes += device.joints.size();
-    if (axes > kMaxAxes)
-      found.add(device_path(device),
-                "is one joint too many: there may be " + std::to_string(kMaxAxes));
+  }
+}
+
+void number_joints(const std::vector<JointGroup>& groups, Findings& found) {
+  const auto of_group = [&](const DeviceConfig& device) {
+    return std::any_of(groups.begin(), groups.end(), [&](const JointGroup& group) {
+      return std::any_of(group.joints.begin(), group.joints.end(), [&](const GroupJoint& joint) {
+        return std::any_of(device.joints.begin(), device.joints.end(),
+                           [&](const auto& each) { return each.name == joint.name; });
+      });
+    });
+  };
+  std::size_t axes = 0;
+  for (const bool beside_the_base : {false, true}) {
+    for (auto& device : found.config().devices) {
+      if (device.joints.empty() || of_group(device) != beside_the_base) continue;
+      device.first_axis = static_cast<AxisId>(axes);
+      axes += device.joints.size();
+      if (axes > kMaxAxes)
+        found.add(device_path(device),
+                  "is one joint too many: there may be " + std::to_string(kMaxAxes));
+    }
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "config/fields.h"
 #include "config/findings.h"
@@ -18,8 +19,10 @@ void check_devices(Findings& found);  ///< fills in kinds and links
 /// Of receivers, inertial sensors and batteries; fills in their roles and antennas.
 void check_roles(Findings& found);
 engine::SensorList sensors_of(const DroverConfig& config, SlotKind kind);
-void check_joints(Findings& found);  ///< fills in the joints and their axes
-void check_lines(Findings& found);   ///< fills in the outputs' chip
+void check_joints(Findings& found);  ///< fills in the joints
+/// Fills in their axes: those of the base come first.
+void number_joints(const std::vector<JointGroup>& groups, Findings& found);
+void check_lines(Findings& found);  ///< fills in the outputs' chip
 void check_use_of_links(Findings& found);
 /// nullptr, and told at `path`: there is none of that name.
 const LinkConfig* find_link(const std::string& name, const std::string& path, Findings& found);
@@ -28,7 +31,9 @@ std::string_view words(Wire wire);
 
 /// The wheels, or the device that takes the twist; fills in their axes, what kind the base is and
 /// what holds it.
-void check_base(const BaseNames& base, Findings& found);
+void check_base(const GroupNames& groups, Findings& found);
+/// Joints outside the base: fills in their rules.
+void check_groups(const std::vector<JointGroup>& groups, Findings& found);
 
 // Values that contradict each other.
 void check_limits(Findings& found);

@@ -13,8 +13,9 @@ void finish_engine(DroverConfig& c) {
   c.engine.receivers = sensors_of(c, SlotKind::gnss);
   c.engine.imus = sensors_of(c, SlotKind::imu);
   c.engine.batteries = sensors_of(c, SlotKind::battery);
+  for (const auto* device : by_axis(c))
+    for (const auto& joint : device->joints) (void)c.engine.joints.push_back(Name(joint.name));
   for (const auto& device : c.devices) {
-    for (const auto& joint : device.joints) (void)c.engine.joints.push_back(Name(joint.name));
     if (device.kind == SlotKind::line)
       c.engine.line_configured[static_cast<std::size_t>(line_of(device))] = true;
   }
@@ -32,7 +33,9 @@ void check_and_resolve(const json::Node& root, const GroupNames& groups, const s
   check_links(found);
   check_devices(found);
   check_joints(found);
-  check_base(groups.base, found);
+  number_joints(groups.others, found);
+  check_base(groups, found);
+  check_groups(groups.others, found);
   check_lines(found);
   check_use_of_links(found);
   check_limits(found);

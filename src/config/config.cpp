@@ -10,6 +10,15 @@ const std::string& address(const LinkConfig& link) {
   return link.gpio;
 }
 
+std::vector<const DeviceConfig*> by_axis(const DroverConfig& config) {
+  std::vector<const DeviceConfig*> devices;
+  for (const auto& device : config.devices)
+    if (!device.joints.empty()) devices.push_back(&device);
+  std::stable_sort(devices.begin(), devices.end(),
+                   [](const auto* a, const auto* b) { return a->first_axis < b->first_axis; });
+  return devices;
+}
+
 const DeviceConfig* first(const DroverConfig& config, SlotKind kind) {
   const auto it = std::find_if(config.devices.begin(), config.devices.end(),
                                [kind](const auto& device) { return device.kind == kind; });

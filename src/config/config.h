@@ -202,6 +202,8 @@ struct DroverConfig {
   engine::EngineConfig engine;
 };
 
+/// Devices with joints, in the order of their axes.
+std::vector<const DeviceConfig*> by_axis(const DroverConfig& config);
 /// The first device of this kind; nullptr: there is none.
 const DeviceConfig* first(const DroverConfig& config, SlotKind kind);
 /// Which of the robot's lines a digital input is.

@@ -1,10 +1,11 @@
 // The configuration's keys: name, place, range and meaning of each, in one table per object.
 //
 // The same tables read drover.json, write its JSON schema and so cannot disagree. A visitor has
-// number, integer, flag, text, choice, object, list, table, names, options, keys_of_kind and
-// keys_of_base.
+// number, integer, flag, text, choice, object, list, table, others, names, options, keys_of_kind
+// and keys_of_base.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <initializer_list>
 #include <string>
@@ -124,14 +125,67 @@ void visit(V& v, DeviceConfig& c) {
   v.keys_of_kind(c.driver);
 }
 
+/// As `follows` and `on_silence` are written, by JointFollows and OnSilence.
+inline constexpr std::array<std::string_view, 4> kFollowsWords{"impedance", "position", "velocity",
+                                                               "effort"};
+inline constexpr std::array<std::string_view, 3> kSilenceWords{"hold", "damp", "release"};
+
+/// A joint outside the base.
+struct GroupJoint {
+  engine::JointRules rules;  ///< but for its axis, and the two words
+  std::string follows{kFollowsWords[0]};
+  std::string on_silence{kSilenceWords[0]};
+  std::string name;  ///< its key in the table
+};
+
+/// Joints outside the base that belong together.
+struct JointGroup {
+  std::vector<GroupJoint> joints;
+  std::string name;  ///< its key in the table
+};
+
+template <class V>
+void visit(V& v, GroupJoint& c) {
+  engine::JointRules& r = c.rules;
+  v.choice("follows", c.follows, {kFollowsWords.begin(), kFollowsWords.end()},
+           "which values of a joint command: all five (impedance); position, with a velocity; "
+           "velocity; or effort, with damping. The others have to be 0");
+  v.number("min_rad", r.min_rad, Range{-1000, 1000}, "lowest position", Presence::required);
+  v.number("max_rad", r.max_rad, Range{-1000, 1000}, "highest position", Presence::required);
+  v.number("max_velocity_radps", r.max_velocity_radps, Range{0.01, 100}, "fastest",
+           Presence::required);
+  v.number("max_acceleration_radps2", r.max_acceleration_radps2, Range{0.1, 10000},
+           "how fast the velocity of its set point changes");
+  v.number("max_effort_Nm", r.max_effort_Nm, Range{0.01, 10000},
+           "highest effort, and what stiffness makes of a distance", Presence::required);
+  v.number("stiffness_Nmprad", r.stiffness_Nmprad, Range{0, 10000},
+           "of holding, and of following a position or velocity");
+  v.number("damping_Nmsprad", r.damping_Nmsprad, Range{0, 1000}, "likewise, and of damping");
+  v.number("rise_s", r.rise_s, Range{0.02, 10},
+           "in which stiffness and effort come up from nothing");
+  v.number("timeout_s", r.timeout_s, Range{0.02, 1}, "longer without a command: they have ceased");
+  v.choice("on_silence", c.on_silence, {kSilenceWords.begin(), kSilenceWords.end()},
+           "when commands cease, and at every stop: hold where it is, damp (it sinks slowly), "
+           "release (the drive lets go)");
+  v.flag("carries_weight", r.carries_weight, "without power it sinks or falls");
+}
+
+template <class V>
+void visit(V& v, JointGroup& c) {
+  v.table("joints", c.joints, Count{1, engine::kMaxOfGroup}, "its joints, by name",
+          Presence::required);
+}
+
 /// What the groups of joints refer to by name.
 struct GroupNames {
   BaseNames base;
+  std::vector<JointGroup> others;
 };
 
 template <class V>
 void visit(V& v, GroupNames& c) {
   v.object("base", c.base, "the vehicle", Presence::required);
+  v.others(c.others, engine::kMaxGroups, "joints beside the base: an arm, a mast");
 }
 
 template <class V>

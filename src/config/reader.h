@@ -76,25 +76,40 @@ class Reader final {
     if (node == nullptr) return;
     if (node->object() == nullptr) return wrong_type(*node, key, "an object");
     check_count(*node, key, count);
-    for (const auto& member : *node->object()) {
-      const auto path = path_of(key) + "." + member.key;
-      check_name(member, path);
-      into.emplace_back();
-      into.back().name = member.key;
-      if (member.node.object() == nullptr) {
-        add(member.node, path,
-            "is " + std::string(member.node.kind()) + ", but an object is expected");
-        continue;
+    for (const auto& member : *node->object()) row(member, path_of(key) + "." + member.key, into);
+  }
+  /// As a table: the members of this object that nobody asked for before.
+  template <class T>
+  void others(std::vector<T>& into, std::size_t most, std::string_view /*text*/) {
+    for (const auto& member : *node_.object()) {
+      if (std::find(known_.begin(), known_.end(), member.key) != known_.end()) continue;
+      known_.push_back(member.key);
+      if (into.size() == most) {
+        add(member.node, path_of(member.key),
+            "is one too many: there may be " + std::to_string(most) + " beside " + known_[0]);
+        return;
       }
-      Reader inner(member.node, path, problems_);
-      visit(inner, into.back());
-      inner.finish();
+      row(member, path_of(member.key), into);
     }
   }
   /// Reports the members that nobody asked for.
   void finish();
 
  private:
+  template <class T>
+  void row(const json::Member& member, const std::string& path, std::vector<T>& into) {
+    check_name(member, path);
+    into.emplace_back();
+    into.back().name = member.key;
+    if (member.node.object() == nullptr) {
+      add(member.node, path,
+          "is " + std::string(member.node.kind()) + ", but an object is expected");
+      return;
+    }
+    Reader inner(member.node, path, problems_);
+    visit(inner, into.back());
+    inner.finish();
+  }
   const json::Node* find(std::string_view key, Presence presence, std::string_view text);
   std::string path_of(std::string_view key) const;
   void wrong_type(const json::Node& node, std::string_view key, std::string_view expected);

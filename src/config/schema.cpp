@@ -137,6 +137,13 @@ class SchemaWriter final {
     schema["additionalProperties"] = of_one<T>();
     insert(key, schema, text, presence);
   }
+  template <class T>
+  void others(const std::vector<T>&, std::size_t most, std::string_view text) {
+    schema_["maxProperties"] = schema_["properties"].size() + most;
+    schema_["propertyNames"] = {{"minLength", 1}, {"maxLength", Name::capacity()}};
+    schema_["additionalProperties"] = of_one<T>();
+    schema_["additionalProperties"]["description"] = std::string(text);
+  }
   /// They depend on the driver.
   void options(std::string_view key, const Options&, const std::string&) {
     property(key, "object", "options of the driver", Presence::optional);

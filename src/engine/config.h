@@ -3,11 +3,13 @@
 
 #include <array>
 
+#include "drover/command.h"
 #include "drover/fixed_text.h"
 #include "drover/fixed_vector.h"
 #include "drover/measurement.h"
 #include "drover/path.h"
 #include "drover/role.h"
+#include "drover/snapshot.h"
 
 namespace drover::engine {
 
@@ -45,6 +47,39 @@ struct BaseConfig {
   FixedVector<AxisId, kMaxSide> left;
   FixedVector<AxisId, kMaxSide> right;
 };
+
+/// What it does when its commands cease.
+enum class OnSilence : std::uint8_t {
+  hold,     ///< the place where it is
+  damp,     ///< sinks slowly under its weight
+  release,  ///< the drive lets go
+};
+
+/// A joint outside the base. Limits clamp.
+struct JointRules {
+  AxisId axis = 0;
+  JointFollows follows = JointFollows::impedance;
+  double min_rad = -3.14;
+  double max_rad = 3.14;
+  double max_velocity_radps = 1.0;
+  double max_acceleration_radps2 = 5.0;
+  double max_effort_Nm = 5.0;
+  // Of holding, and of following a position or a velocity.
+  double stiffness_Nmprad = 20.0;
+  double damping_Nmsprad = 1.0;
+  double rise_s = 0.5;     ///< in which stiffness and effort come up from nothing
+  double timeout_s = 0.1;  ///< longer without a command: they have ceased
+  OnSilence on_silence = OnSilence::hold;
+  bool carries_weight = false;  ///< without power it sinks or falls
+};
+
+inline constexpr std::size_t kMaxOfGroup = 16;
+/// Joints outside the base that belong together: an arm, a mast.
+struct GroupConfig {
+  Name name;
+  FixedVector<JointRules, kMaxOfGroup> joints;
+};
+inline constexpr std::size_t kMaxGroups = kMaxGroupsShown;
 
 struct LimitsConfig {
   double max_speed_mps = 0.8;   ///< faster requests are clamped to this, and it is said
@@ -205,7 +240,9 @@ struct EngineConfig {
   HealthConfig health;
   ClearanceConfig clearance;
   bool clearance_required = false;  ///< somebody looks around, and nothing moves without his word
-  FixedVector<Name, kMaxAxes> joints;                  ///< names, by AxisId
+  /// Names, by AxisId: those of the base come first.
+  FixedVector<Name, kMaxAxes> joints;
+  FixedVector<GroupConfig, kMaxGroups> groups;         ///< beside the base
   std::array<bool, kLineCount> line_configured{};      ///< by Line
   std::array<bool, kOutputCount> output_configured{};  ///< by Output
   bool battery_configured = false;
@@ -215,5 +252,12 @@ struct EngineConfig {
   SensorList batteries;
   double tick_Hz = 200.0;
 };
+
+/// Joints outside the base.
+inline std::size_t joints_of_groups(const EngineConfig& config) {
+  std::size_t joints = 0;
+  for (const GroupConfig& group : config.groups) joints += group.joints.size();
+  return joints;
+}
 
 }  // namespace drover::engine

@@ -41,7 +41,8 @@ Engine::Impl::Impl(const EngineConfig& c)
     axis.joint = joint;
     if (!snapshot.axes.push_back(axis)) break;
   }
-  axes = {snapshot.axes.data(), snapshot.axes.size()};
+  make_groups();
+  axes = {snapshot.axes.data(), snapshot.axes.size() - joints_of_groups(config)};
   if (takes_twist(base)) {
     snapshot.base.configured = true;  // from the first on: a recording's fields are the same
     edges[0].joint = "left";
@@ -56,7 +57,7 @@ Engine::Impl::Impl(const EngineConfig& c)
 
 void Engine::Impl::count(const Measurement& m) {
   if (const auto* motion = std::get_if<AxisMotion>(&m.value)) {
-    if (motion->axis < axes.size()) ++axes[motion->axis].source.samples;
+    if (AxisSnapshot* const axis = axis_of(motion->axis)) ++axis->source.samples;
   } else if (const auto* line = std::get_if<LineState>(&m.value)) {
     const auto index = static_cast<std::size_t>(line->line);
     if (index < kLineCount) ++snapshot.line_source[index].samples;
@@ -74,9 +75,6 @@ void Engine::Impl::take(const Measurement& m) {
     estimator.on_measurement(m);
   }
   if (!in_use) return;
-  const auto axis_of = [this](AxisId id) -> AxisSnapshot* {
-    return id < axes.size() ? &axes[id] : nullptr;
-  };
   if (const auto* motion = std::get_if<AxisMotion>(&m.value)) {
     AxisSnapshot* axis = axis_of(motion->axis);
     // Frames that overtook each other never move a state backwards.
@@ -89,7 +87,7 @@ void Engine::Impl::take(const Measurement& m) {
     AxisSnapshot* axis = axis_of(status->axis);
     if (axis == nullptr) return;
     // One device moves both edges.
-    for (AxisSnapshot& one : takes_twist(base) ? axes : axes.subspan(status->axis, 1)) {
+    for (AxisSnapshot& one : takes_twist(base) ? axes : std::span(axis, 1)) {
       one.state = status->state;
       one.fault = status->reason;
       one.lapsed = status->lapsed;
@@ -213,6 +211,13 @@ void Engine::Impl::reset_stop(const RequestId& id, Time now) {
 Engine::Engine(const EngineConfig& config) {
   if (joints_needed(config.base) > config.joints.size())
     throw std::invalid_argument("the base names an axis that is not among the drives");
+  const std::size_t of_base = config.joints.size() - joints_of_groups(config);
+  if (joints_of_groups(config) > config.joints.size() || joints_needed(config.base) > of_base)
+    throw std::invalid_argument("the joints of the base come before those of other groups");
+  for (const GroupConfig& group : config.groups)
+    for (const JointRules& joint : group.joints)
+      if (joint.axis < of_base || joint.axis >= config.joints.size())
+        throw std::invalid_argument("a group names an axis that is not its own");
   impl_ = std::make_unique<Impl>(config);
 }
 
@@ -230,6 +235,7 @@ void Engine::on_command(const Command& command, Time now) {
   } else if (std::holds_alternative<CancelTask>(command.body)) {
     e.navigator.cancel(id, now, e.events);
     e.owners.cancel(now, e.events);
+    e.end_groups("cancelled");
     e.latch.reset(Act::cancel);
   } else if (std::holds_alternative<EngageStop>(command.body)) {
     e.engage_stop(id, now);
@@ -240,10 +246,7 @@ void Engine::on_command(const Command& command, Time now) {
   } else if (const auto* origin = std::get_if<SetOrigin>(&command.body)) {
     e.set_origin(id, origin->origin, now);
   } else if (const auto* targets = std::get_if<JointTargets>(&command.body)) {
-    if (takes_twist(e.base))
-      e.owners.refuse({"this robot has no joints: its base takes a twist"});
-    else
-      e.owners.take(*targets, now);
+    e.take_joints(*targets, now);
   } else if (const auto* refused = std::get_if<JointTargetsRefused>(&command.body)) {
     e.owners.refuse(*refused);
   } else if (std::holds_alternative<FindHeading>(command.body)) {
@@ -338,6 +341,7 @@ void Engine::step(Time now, const Environment& environment, EngineOutput& out) {
                 e.events);
   e.command_axes(motion, out);
   if (takes_twist(e.base)) e.command_base(out);
+  e.step_groups(now, dt, environment, out);
   e.motion_asked = out.motion_permitted;
   out.unsettled = (e.rest.drives_on() || e.latch.power_cut()) && !e.power.opened();
   e.navigator.on_commanded(now, out.motion_permitted, e.events);

@@ -38,6 +38,9 @@ struct EngineOutput {
   bool motion_permitted = false;
   /// By AxisId: nothing else may move it, but a ramp from its present speed to rest is permitted.
   std::array<bool, kMaxAxes> slowing_permitted{};
+  /// By AxisId, of joints outside the base: it holds, or follows its commands. Whether the base may
+  /// move opens nothing for them, and they nothing for the base.
+  std::array<bool, kMaxAxes> joint_may_move{};
   /// What is commanded to rest may not be there yet: its power is being cut, or it is silent and
   /// may go on.
   bool unsettled = false;

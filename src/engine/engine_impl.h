@@ -3,6 +3,7 @@
 
 #include <array>
 #include <span>
+#include <vector>
 
 #include "engine/base/kinematics.h"
 #include "engine/clearance/clearance_watch.h"
@@ -10,6 +11,7 @@
 #include "engine/estimate/estimator.h"
 #include "engine/estimate/place_count.h"
 #include "engine/event_queue.h"
+#include "engine/group/joint_group.h"
 #include "engine/health/announcer.h"
 #include "engine/health/health.h"
 #include "engine/health/hit_watch.h"
@@ -35,6 +37,9 @@ struct Engine::Impl {
 
   void take(const Measurement& m);
   void count(const Measurement& m);
+  /// Of the base or of a group; nullptr: there is none of that number.
+  AxisSnapshot* axis_of(AxisId id);
+  void make_groups();
   void fill_sources(const Environment& environment);
   void propose_origin(const RequestId& id, Time now);
   void set_origin(const RequestId& id, const GeodeticPoint& origin, Time now);
@@ -47,6 +52,9 @@ struct Engine::Impl {
   void command_axes(const Motion& motion, EngineOutput& out);
   void take_body(const BodyMotion& body, Time time);
   void command_base(EngineOutput& out);
+  void take_joints(const JointTargets& targets, Time now);
+  void end_groups(const Reason& why);
+  void step_groups(Time now, Duration dt, const Environment& environment, EngineOutput& out);
   void fill_base(const Environment& environment, const BaseCommand& command);
   void release_hold(const RequestId& id, const ReleaseHold& release, Time now);
   void arm_hold(const RequestId& id, Time now);
@@ -114,8 +122,9 @@ struct Engine::Impl {
   /// Edges of a base that takes a twist.
   std::array<AxisSnapshot, 2> edges;
   Twist told{kAbsent, kAbsent};  ///< by that base, last
-  /// All that is watched and commanded: the joints, or those edges.
+  /// All of the base that is watched and commanded: its joints, or those edges.
   std::span<AxisSnapshot> axes;
+  std::vector<JointGroup> groups;  ///< beside the base; made once
 };
 
 }  // namespace drover::engine

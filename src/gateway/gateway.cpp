@@ -118,7 +118,12 @@ engine::Permission Gateway::permission(const Slot& slot) {
   const bool fresh = slot.health.state == SourceState::fresh;
   slowing_.clear();
   const Snapshot& robot = engine_.snapshot();
-  for (const AxisId axis : slot.axes) {
+  ChannelMask motion = 0;
+  for (std::size_t channel = 0; channel < slot.axes.size(); ++channel) {
+    const AxisId axis = slot.axes[channel];
+    const bool of_base = slot.takes_twist || robot.axes[axis].group == 0;
+    const bool may_move = of_base ? motion_permitted_ : cycle_.engine.joint_may_move[axis];
+    if (may_move) motion |= channel_bit(channel);
     engine::Slowing slowing{cycle_.engine.slowing_permitted[axis] && fresh};
     if (slot.takes_twist)
       slowing.measured = robot.base.measured;
@@ -126,9 +131,7 @@ engine::Permission Gateway::permission(const Slot& slot) {
       slowing.measured_radps = robot.axes[axis].motion.velocity_radps;
     (void)slowing_.push_back(slowing);
   }
-  return {motion_permitted_ ? kAllChannels : ChannelMask{0},
-          guard_has_bus_,
-          {slowing_.data(), slowing_.size()}};
+  return {motion, guard_has_bus_, {slowing_.data(), slowing_.size()}};
 }
 
 void Gateway::on(const CommandGiven& given, Time now) {

@@ -75,6 +75,18 @@ constexpr std::string_view word(HoldState state) {
   return "?";
 }
 
+constexpr std::string_view word(GroupState state) {
+  switch (state) {
+    case GroupState::following: return "following";
+    case GroupState::arming: return "arming";
+    case GroupState::holding: return "holding";
+    case GroupState::damping: return "damping";
+    case GroupState::released: return "released";
+    case GroupState::idle: return "idle";
+  }
+  return "?";
+}
+
 constexpr std::string_view word(Line line) {
   switch (line) {
     case Line::estop: return "estop";

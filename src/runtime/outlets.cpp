@@ -44,7 +44,16 @@ publish::aimrt::ChannelConfig channel_config(const config::DroverConfig& config)
   channel.touch_state_wording = wording(aimrt.touch_state_names, aimrt.touch_state_content);
   channel.silence = from_s(config.engine.health.joint_command_timeout_s);
   channel.rules.max_age = from_s(1e-3 * aimrt.max_command_age_ms);
-  for (const auto& joint : config.engine.joints) channel.rules.joints.emplace_back(joint.view());
+  for (const auto& joint : config.engine.joints)
+    channel.rules.joints.emplace_back(std::string(joint.view()));
+  const auto& groups = config.engine.groups;
+  for (std::size_t i = 0; i < groups.size(); ++i)
+    for (const auto& rules : groups[i].joints) {
+      auto& joint = channel.rules.joints.at(rules.axis);
+      joint.follows = rules.follows;
+      joint.group = i + 1;
+    }
+  channel.max_commands_Hz *= static_cast<double>(1 + groups.size());
   return channel;
 }
 

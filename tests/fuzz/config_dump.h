@@ -99,19 +99,28 @@ class Dump final {
     if (!is_of_this_kind(key)) return;
     require_(values.size() >= count.min && values.size() <= count.max);
     out_.key(key).open('{');
-    for (T value : values) {
-      out_.key(value.name);
-      Dump inner(out_, require_);
-      config::visit(inner, value);
-      inner.finish();
-    }
+    rows(values);
     out_.close('}');
+  }
+  template <class T>
+  void others(const std::vector<T>& values, std::size_t most, std::string_view) {
+    require_(values.size() <= most);
+    rows(values);
   }
   void keys_of_kind(const std::string&) {}
   void keys_of_base(const std::string&) {}
   void finish() { out_.close('}'); }
 
  private:
+  template <class T>
+  void rows(const std::vector<T>& values) {
+    for (T value : values) {
+      out_.key(value.name);
+      Dump inner(out_, require_);
+      config::visit(inner, value);
+      inner.finish();
+    }
+  }
   /// What a device or a base of another kind may not have.
   bool is_of_this_kind(std::string_view key) const {
     for (const auto& each : config::kKindKeys)
@@ -173,6 +182,17 @@ std::string dump(config::DroverConfig config, Require require) {
   for (const auto& [axes, names] :
        {std::pair{&config.engine.base.left, &base.left}, {&config.engine.base.right, &base.right}})
     for (const AxisId axis : *axes) names->emplace_back(config.engine.joints[axis].view());
+  for (const engine::GroupConfig& group : config.engine.groups) {
+    config::JointGroup& given = groups.others.emplace_back();
+    given.name = group.name.view();
+    for (const engine::JointRules& rules : group.joints) {
+      config::GroupJoint& joint = given.joints.emplace_back();
+      joint.rules = rules;
+      joint.follows = config::kFollowsWords[static_cast<std::size_t>(rules.follows)];
+      joint.on_silence = config::kSilenceWords[static_cast<std::size_t>(rules.on_silence)];
+      joint.name = config.engine.joints[rules.axis].view();
+    }
+  }
   json::JsonText out;
   Dump writer(out, require);
   config::visit(writer, config, groups);

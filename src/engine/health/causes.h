@@ -54,27 +54,32 @@ struct CauseRow {
   bool refuses_task = false;       ///< no task starts; one that runs goes on
   bool ends_free_driving = false;  ///< joint commands and a key; no search begins
   bool by_people = false;  ///< pressed or touched: joint commands wait for one, whoever drove
+  bool of_all = false;     ///< of the whole robot: joints outside the base follow nobody either
   bool severe = false;     ///< an error, not a warning
   std::string_view over;   ///< said when it holds no more
 };
 
 // clang-format off
 inline constexpr std::array<CauseRow, kCauseCount> kCauses{{
-  {.cause = Cause::estop, .stops = true, .by_people = true, .severe = true,
+  {.cause = Cause::estop, .stops = true, .by_people = true, .of_all = true,
+   .severe = true,
    .over = "e-stop released"},
-  {.cause = Cause::line_lost, .stops = true, .by_people = true, .severe = true,
+  {.cause = Cause::line_lost, .stops = true, .by_people = true, .of_all = true,
+   .severe = true,
    .over = "safety lines readable again"},
-  {.cause = Cause::guard_has_bus, .stops = true, .severe = true,
+  {.cause = Cause::guard_has_bus, .stops = true, .of_all = true, .severe = true,
    .over = "the guard gave the drives back"},
-  {.cause = Cause::bumper, .stops = true, .by_people = true, .severe = true,
+  {.cause = Cause::bumper, .stops = true, .by_people = true, .of_all = true,
+   .severe = true,
    .over = "bumper free"},
-  {.cause = Cause::hit, .stops = true, .by_people = true, .severe = true,
+  {.cause = Cause::hit, .stops = true, .by_people = true, .of_all = true,
+   .severe = true,
    .over = "nothing hits the robot any more"},
-  {.cause = Cause::tilt, .stops = true, .severe = true,
+  {.cause = Cause::tilt, .stops = true, .of_all = true, .severe = true,
    .over = "no tilt beyond the limit any more"},
   {.cause = Cause::drive_silent, .stops = true, .severe = true,
    .over = "all drives answer"},
-  {.cause = Cause::guard_silent, .stops = true, .severe = true,
+  {.cause = Cause::guard_silent, .stops = true, .of_all = true, .severe = true,
    .over = "the guard answers"},
   {.cause = Cause::drive_fault, .severe = true,
    .over = "no drive reports a fault"},
@@ -86,9 +91,9 @@ inline constexpr std::array<CauseRow, kCauseCount> kCauses{{
    .over = "charger unplugged"},
   {.cause = Cause::charger_unknown, .refuses_task = true, .ends_free_driving = true,
    .over = "it is known whether the charger is connected"},
-  {.cause = Cause::battery_critical, .ends_task = true,
+  {.cause = Cause::battery_critical, .ends_task = true, .of_all = true,
    .over = "battery good for driving again"},
-  {.cause = Cause::program, .ends_task = true,
+  {.cause = Cause::program, .ends_task = true, .of_all = true,
    .over = "droverd runs undisturbed again"},
   {.cause = Cause::near_zone,
    .over = "near zone free"},

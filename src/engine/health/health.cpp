@@ -285,6 +285,7 @@ void HealthMonitor::conclude(bool power_cut) {
     first(report_.end_wait, row.ends_wait, text);
     first(report_.no_start, row.refuses_task, text);
     first(report_.end_free_driving, row.ends_free_driving, text);
+    first(report_.end_groups, row.of_all, text);
     (void)report_.why.push_back(text);  // as many as find room: the cause is the first
   }
 }
@@ -308,6 +309,7 @@ const HealthReport& HealthMonitor::update(const HealthInput& input) {
   report_.end_wait.clear();
   report_.no_start.clear();
   report_.end_free_driving.clear();
+  report_.end_groups.clear();
   report_.not_running.clear();
   report_.why.clear();
   look_at_lines(input);

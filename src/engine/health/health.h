@@ -68,6 +68,7 @@ struct HealthReport {
   Reason end_wait;
   Reason no_start;  ///< also what no cause is yet: see BatteryVerdict::present
   Reason end_free_driving;
+  Reason end_groups;  ///< of all of the robot, so that joints outside the base follow nobody
   FixedVector<Reason, 8> why;             ///< the cause first
   std::uint32_t causes = 0;               ///< bits by Cause
   std::array<Reason, kCauseCount> texts;  ///< by Cause, for causes that hold

@@ -20,9 +20,10 @@ void visit_values(V& v, const char* name, const List& list) {
 template <class V>
 void visit_fields(V& v, const Snapshot& snapshot) {
   const auto& [time, pose, worst_vx_mps, nav, gnss, imu, battery, sensors, scanners, joint_command,
-               axes, base, clearance, line_active, line_health, line_configured, line_source,
-               output_configured, output_on, links, stop_latched, hold, guard_alive, guard_has_bus,
-               origin_set, origin, why, cycle, estimator, learned, notices_dropped] = snapshot;
+               axes, groups, base, clearance, line_active, line_health, line_configured,
+               line_source, output_configured, output_on, links, stop_latched, hold, guard_alive,
+               guard_has_bus, origin_set, origin, why, cycle, estimator, learned, notices_dropped] =
+      snapshot;
   (void)links;  // those two are the loop's
   (void)cycle;
   (void)scanners;  // and the gateway hears none
@@ -38,6 +39,8 @@ void visit_fields(V& v, const Snapshot& snapshot) {
   v.inside("joint_command", [&v, &part = joint_command] { describe(v, part); });
   for (std::size_t i = 0; i < axes.size(); ++i)
     v.inside("axes", i, [&v, &part = axes[i]] { describe(v, part); });
+  for (std::size_t i = 0; i < groups.size(); ++i)
+    v.inside("groups", i, [&v, &part = groups[i]] { describe(v, part); });
   // It is there or not from the start on: a recording numbers its fields.
   if (base.configured) v.inside("base", [&v, &part = base] { describe(v, part); });
   if (clearance.configured) v.inside("clearance", [&v, &part = clearance] { describe(v, part); });
@@ -67,15 +70,26 @@ inline constexpr std::size_t kFewestSlowed = 16;
 
 /// What the engine wants of the drives and outputs; `events` are told apart.
 template <class V>
-void visit_fields(V& v, const engine::EngineOutput& output, std::size_t axis_count) {
-  const auto& [axes, base, outputs, events, motion_permitted, slowing_permitted, unsettled,
-               remembered] = output;
+void visit_fields(V& v, const engine::EngineOutput& output, std::span<const AxisSnapshot> joints) {
+  const auto& [axes, base, outputs, events, motion_permitted, slowing_permitted, joint_may_move,
+               unsettled, remembered] = output;
+  const std::size_t axis_count = joints.size();
   (void)events;
   for (std::size_t i = 0; i < axis_count; ++i) {
     v.inside("commands", i, [&v, &part = axes[i]] {
-      const auto& [request, velocity_radps] = part;
+      const auto& [request, velocity_radps, impedance] = part;
       v.value("request", request);
       v.value("velocity_radps", velocity_radps);
+      (void)impedance;
+    });
+    if (joints[i].group == 0) continue;
+    v.inside("commands", i, [&v, &part = axes[i].impedance, may_move = joint_may_move[i]] {
+      const auto& [position_rad, effort_Nm, stiffness_Nmprad, damping_Nmsprad] = part;
+      v.value("position_rad", position_rad);
+      v.value("effort_Nm", effort_Nm);
+      v.value("stiffness_Nmprad", stiffness_Nmprad);
+      v.value("damping_Nmsprad", damping_Nmsprad);
+      v.value("may_move", may_move);
     });
   }
   if (axis_count == 0) {  // a base that takes a twist has none
@@ -126,7 +140,7 @@ template <class V>
 void visit_fields(V& v, const Gateway& gateway) {
   const Snapshot& snapshot = gateway.snapshot();
   visit_fields(v, snapshot);
-  visit_fields(v, gateway.output().engine, snapshot.axes.size());
+  visit_fields(v, gateway.output().engine, std::span(snapshot.axes.data(), snapshot.axes.size()));
 }
 
 }  // namespace drover::gateway

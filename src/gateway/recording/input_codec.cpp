@@ -322,15 +322,20 @@ void get(SetOrigin& set, ByteReader& in) {
 void put(const JointTargets& targets, ByteWriter& out) {
   out.number(targets.joints.size());
   for (const auto& joint : targets.joints) {
-    out.byte(joint.axis);
-    out.real(joint.velocity_radps);
+    const auto& [axis, velocity_radps, position_rad, effort_Nm, stiffness, damping] = joint;
+    out.byte(axis);
+    for (const double value : {velocity_radps, position_rad, effort_Nm, stiffness, damping})
+      out.real(value);
   }
 }
 void get(JointTargets& targets, ByteReader& in) {
   const auto count = in.below(targets.joints.capacity() + 1);
   for (std::uint64_t i = 0; i < count && in.good(); ++i) {
-    const auto axis = static_cast<AxisId>(in.below(kMaxAxes));
-    (void)targets.joints.push_back({axis, in.real()});
+    JointTarget joint{static_cast<AxisId>(in.below(kMaxAxes))};
+    auto& [axis, velocity_radps, position_rad, effort_Nm, stiffness, damping] = joint;
+    for (double* const value : {&velocity_radps, &position_rad, &effort_Nm, &stiffness, &damping})
+      *value = in.real();
+    (void)targets.joints.push_back(joint);
   }
 }
 

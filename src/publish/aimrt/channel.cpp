@@ -48,12 +48,38 @@ Channel::Channel(const ChannelConfig& config)
       command_topics_{mqtt_topic(config.joint_command, Role::joint_command, Names::document),
                       mqtt_topic(config.joint_command, Role::joint_command, Names::aimrt_1x)},
       rules_(config.rules),
-      writers_(config.silence),
       command_bucket_(config.max_commands_Hz, config.command_burst),
       slow_down_("slow down: " + command_bucket_.in_words("messages")),
       flood_bucket_(1, 1),
       log_bucket_(0.2, 3),
-      rivals_bucket_(0.2, 1) {}
+      rivals_bucket_(0.2, 1) {
+  std::size_t groups = 1;
+  for (const JointRule& joint : rules_.joints) groups = std::max(groups, joint.group + 1);
+  groups_.assign(groups, Group{Writers(config.silence)});
+}
+
+std::string_view Channel::rivals(Time now) const {
+  for (const Group& group : groups_)
+    if (const auto text = group.writers.rivals(now); !text.empty()) return text;
+  return {};
+}
+
+std::uint64_t Channel::rivals_refused() const {
+  std::uint64_t refused = 0;
+  for (const Group& group : groups_) refused += group.writers.refused();
+  return refused;
+}
+
+/// By group, whether a joint of it is named; a message that names none is the base's.
+std::vector<bool> Channel::named(const JointCommandMessage& message) const {
+  std::vector<bool> groups(groups_.size());
+  for (const auto& entry : message.joints) {
+    const auto joint = find_joint(rules_, entry.name);
+    if (joint != rules_.joints.end()) groups[joint->group] = true;
+  }
+  if (std::find(groups.begin(), groups.end(), true) == groups.end()) groups[0] = true;
+  return groups;
+}
 
 std::optional<Names> Channel::command_names(std::string_view topic) const {
   for (const Names names : {Names::document, Names::aimrt_1x})
@@ -118,13 +144,27 @@ Result<JointTargets, Reason> Channel::judged(Names names, std::string_view paylo
 
 Result<JointTargets, Reason> Channel::judged(const JointCommandMessage& message,
                                              const Writer& writer, Time now, Duration wall) {
-  const bool rests = std::all_of(message.joints.begin(), message.joints.end(),
-                                 [](const auto& joint) { return joint.velocity_radps == 0; });
-  if (auto why = writers_.hindrance(writer, rests, now); !why.empty()) return why;
-  auto targets = accept_joint_command(message, rules_, wall, last_stamp_ns_);
+  const auto groups = named(message);
+  const bool base_rests =
+      std::all_of(message.joints.begin(), message.joints.end(), [this](const auto& entry) {
+        const auto joint = find_joint(rules_, entry.name);
+        return entry.velocity_radps == 0 || (joint != rules_.joints.end() && joint->group != 0);
+      });
+  std::uint64_t last_stamp_ns = 0;
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    if (!groups[i]) continue;
+    // Whoever takes joints outside the base over begins where they are, whatever he asks.
+    const bool rests = i != 0 || base_rests;
+    if (auto why = groups_[i].writers.hindrance(writer, rests, now); !why.empty()) return why;
+    last_stamp_ns = std::max(last_stamp_ns, groups_[i].last_stamp_ns);
+  }
+  auto targets = accept_joint_command(message, rules_, wall, last_stamp_ns);
   if (!targets) return targets;
-  if (message.stamp_ns != 0) last_stamp_ns_ = message.stamp_ns;
-  if (auto why = writers_.take(writer, *targets, now); !why.empty()) return why;
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    if (!groups[i]) continue;
+    if (message.stamp_ns != 0) groups_[i].last_stamp_ns = message.stamp_ns;
+    if (auto why = groups_[i].writers.take(writer, *targets, now); !why.empty()) return why;
+  }
   return targets;
 }
 
@@ -140,7 +180,7 @@ void Channel::on_command(Names names, std::string_view payload, const Arrival& a
     reason = Reason(slow_down_);
   }
   Command command{{RequestId::Source::aimrt, ++commands_}, now, {}};
-  const auto rivals_before = writers_.refused();
+  const auto rivals_before = rivals_refused();
   if (reason.empty()) {
     const auto targets =
         judged(names, payload, arrival, now, now.time_since_epoch() + wall_minus_monotonic);
@@ -152,7 +192,7 @@ void Channel::on_command(Names names, std::string_view payload, const Arrival& a
   }
   if (!reason.empty()) {
     command.body = JointTargetsRefused{reason};
-    const bool of_rivals = writers_.refused() != rivals_before;
+    const bool of_rivals = rivals_refused() != rivals_before;
     if ((of_rivals ? rivals_bucket_ : log_bucket_).take(now)) {
       out.push_back(
           LogLine{Notice::Level::warning, "joint command refused: " + std::string(reason.view())});

@@ -64,9 +64,9 @@ class Channel final {
   /// Messages of a flood that nobody looked at, so far.
   std::uint64_t unread() const { return unread_; }
   /// Programs that write at once, and which of them is followed; empty when there is one or none.
-  std::string_view rivals(Time now) const { return writers_.rivals(now); }
+  std::string_view rivals(Time now) const;
   /// Messages that were refused for that, so far.
-  std::uint64_t rivals_refused() const { return writers_.refused(); }
+  std::uint64_t rivals_refused() const;
 
  private:
   struct Topics {
@@ -79,6 +79,7 @@ class Channel final {
                                       Time now, Duration wall);
   Result<JointTargets, Reason> judged(const JointCommandMessage& message, const Writer& writer,
                                       Time now, Duration wall);
+  std::vector<bool> named(const JointCommandMessage& message) const;
 
   Topics joint_state_;
   Topics imu_state_;
@@ -93,10 +94,14 @@ class Channel final {
   Quaternion orientation_;  ///< as the last message told it
   Time last_touch_ = kNever;
   std::array<bool, kLineCount> touched_{};
-  std::uint64_t last_stamp_ns_ = 0;
   std::uint64_t commands_ = 0;
   std::uint64_t unread_ = 0;
-  Writers writers_;
+  /// Whose commands the joints of a group follow; the base is the first.
+  struct Group {
+    Writers writers;
+    std::uint64_t last_stamp_ns = 0;
+  };
+  std::vector<Group> groups_;
   TokenBucket command_bucket_;
   std::string slow_down_;     ///< what is said when it is empty
   TokenBucket flood_bucket_;  ///< a flood is told of, and the telling is no flood

@@ -14,7 +14,7 @@ namespace drover::publish::aimrt {
 
 namespace {
 
-constexpr double kAbsurd = 1e5;  // rad, rad/s: no wheel and no joint
+constexpr double kAbsurd = 1e5;  // rad, rad/s, Nm, Nm/rad: no wheel and no joint
 constexpr Duration kMaxAhead = std::chrono::seconds(1);
 constexpr std::size_t kShownName = 40;
 
@@ -42,34 +42,59 @@ Reason stamp_problem(std::uint64_t stamp_ns, Duration max_age, Duration wall,
   return reason;
 }
 
+/// What a joint follows, for people; and whether a value of its command has to be 0.
+struct Followed {
+  const char* what;
+  bool velocity, effort, stiffness, damping;  ///< may be told
+};
+
+Followed followed(const JointRule& rule) {
+  if (!rule.follows) return {"this drive follows velocity only", true, false, false, true};
+  switch (*rule.follows) {
+    case JointFollows::impedance: return {"it follows all five", true, true, true, true};
+    case JointFollows::position:
+      return {"it follows a position, as stiffly as is configured", true, false, false, false};
+    case JointFollows::velocity: return {"it follows a velocity", true, false, false, true};
+    case JointFollows::effort: break;
+  }
+  return {"it follows an effort", false, true, false, true};
+}
+
 /// Why the numbers of one joint cannot be followed; empty when they can.
-Reason number_problem(const JointCommandEntry& joint) {
+Reason number_problem(const JointCommandEntry& joint, const JointRule& rule) {
+  const Followed may = followed(rule);
   struct Field {
     const char* name;
     double value;
+    bool may_be_told;
   };
-  const std::array<Field, 5> fields{{{"position", joint.position_rad},
-                                     {"velocity", joint.velocity_radps},
-                                     {"effort", joint.effort_Nm},
-                                     {"stiffness", joint.stiffness},
-                                     {"damping", joint.damping}}};
+  // A position without stiffness has no weight, whoever follows it.
+  const std::array<Field, 5> fields{{{"position", joint.position_rad, true},
+                                     {"velocity", joint.velocity_radps, may.velocity},
+                                     {"effort", joint.effort_Nm, may.effort},
+                                     {"stiffness", joint.stiffness, may.stiffness},
+                                     {"damping", joint.damping, may.damping}}};
   Reason reason;
-  for (const auto& [name, value] : fields) {
-    if (std::isfinite(value)) continue;
-    reason.format("%s is %s", name, std::isnan(value) ? "NaN" : "infinite");
+  for (const auto& field : fields) {
+    if (std::isfinite(field.value)) continue;
+    reason.format("%s is %s", field.name, std::isnan(field.value) ? "NaN" : "infinite");
     return reason;
   }
-  for (const auto& [name, value] : {fields[0], fields[1]}) {
-    if (std::abs(value) <= kAbsurd) continue;
-    reason.format("%s %g is absurd", name, value);
+  for (const auto& field : fields) {
+    if (std::abs(field.value) <= kAbsurd) continue;
+    reason.format("%s %g is absurd", field.name, field.value);
     return reason;
   }
-  for (const auto& [name, value] : {fields[2], fields[3]}) {
-    if (value == 0) continue;
-    reason.format("%s is %g, but this drive follows velocity only: 0", name, value);
+  for (const auto& field : fields) {
+    if (field.may_be_told || field.value == 0) continue;
+    reason.format("%s is %g, but %s: 0", field.name, field.value, may.what);
     return reason;
   }
-  if (joint.damping < 0) reason.format("damping %g is negative", joint.damping);
+  for (const auto& field : {fields[3], fields[4]}) {
+    if (field.value >= 0) continue;
+    reason.format("%s %g is negative", field.name, field.value);
+    return reason;
+  }
   return reason;
 }
 
@@ -94,6 +119,12 @@ std::optional<JointCommandMessage> decode_joint_command(std::string_view bytes) 
   return message;
 }
 
+std::vector<JointRule>::const_iterator find_joint(const JointCommandRules& rules,
+                                                  std::string_view name) {
+  return std::find_if(rules.joints.begin(), rules.joints.end(),
+                      [name](const JointRule& joint) { return joint.name == name; });
+}
+
 Result<JointTargets, Reason> accept_joint_command(const JointCommandMessage& message,
                                                   const JointCommandRules& rules, Duration wall,
                                                   std::uint64_t last_stamp_ns) {
@@ -112,15 +143,17 @@ Result<JointTargets, Reason> accept_joint_command(const JointCommandMessage& mes
     const auto refused = [&joint](std::string_view why) {
       return Reason("joint '" + json::shown(joint.name, kShownName) + "': " + std::string(why));
     };
-    const auto known = std::find(rules.joints.begin(), rules.joints.end(), joint.name);
+    const auto known = find_joint(rules, joint.name);
     if (known == rules.joints.end()) return refused("there is no such joint");
     const auto axis = static_cast<std::size_t>(known - rules.joints.begin());
     if (axis >= named.size()) return refused("there is no such joint");
     if (std::exchange(named[axis], true)) return refused("it is named twice");
-    reason = number_problem(joint);
+    reason = number_problem(joint, *known);
     if (!reason.empty()) return refused(reason);
     // No more than the robot's joints, each once: it fits.
-    (void)targets.joints.push_back({static_cast<AxisId>(axis), joint.velocity_radps});
+    (void)targets.joints.push_back({static_cast<AxisId>(axis), joint.velocity_radps,
+                                    joint.position_rad, joint.effort_Nm, joint.stiffness,
+                                    joint.damping});
   }
   return targets;
 }

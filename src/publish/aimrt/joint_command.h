@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "drover/command.h"
@@ -34,10 +35,26 @@ struct JointCommandMessage {
   std::vector<JointCommandEntry> joints;
 };
 
+/// A joint of the robot, and what it can be told.
+struct JointRule {
+  JointRule(std::string joint) : name(std::move(joint)) {}
+  JointRule(const char* joint) : name(joint) {}
+  JointRule(std::string joint, JointFollows values, std::size_t of_group)
+      : name(std::move(joint)), follows(values), group(of_group) {}
+
+  std::string name;
+  std::optional<JointFollows> follows;  ///< none: a wheel of the base, which follows a velocity
+  std::size_t group = 0;                ///< whose owners it has; 0: the base's
+};
+
 struct JointCommandRules {
-  std::vector<std::string> joints;  ///< by AxisId
+  std::vector<JointRule> joints;  ///< by AxisId
   Duration max_age = std::chrono::milliseconds(250);
 };
+
+/// The end when there is none of that name.
+std::vector<JointRule>::const_iterator find_joint(const JointCommandRules& rules,
+                                                  std::string_view name);
 
 /// Protobuf bytes; unknown fields are skipped. Nothing when it is no JointCommand.
 std::optional<JointCommandMessage> decode_joint_command(std::string_view bytes);
@@ -47,8 +64,9 @@ std::optional<JointCommandMessage> decode_joint_command(std::string_view bytes);
 Result<JointCommandMessage, Reason> decode_joint_command_json(std::string_view text);
 
 /// `wall` is now since the epoch, `last_stamp_ns` that of the last message that was accepted, 0
-/// when there is none. Every drive follows a velocity: with stiffness 0 a position has no weight,
-/// so it is checked and not used. A velocity beyond the limits is for the gate to clamp.
+/// when there is none. A wheel follows a velocity: with stiffness 0 a position has no weight, so it
+/// is checked and not used. What other joints follow their rule says; a value that a joint does not
+/// follow has to be 0. What is beyond the limits is for the engine to clamp.
 Result<JointTargets, Reason> accept_joint_command(const JointCommandMessage& message,
                                                   const JointCommandRules& rules, Duration wall,
                                                   std::uint64_t last_stamp_ns);

@@ -13,6 +13,9 @@ constexpr Duration kShownFor = std::chrono::seconds(1);
 constexpr double kMostMessages_Hz = 1000;  // a count that jumps further is another program's
 constexpr double kJump_radps = 0.5;
 constexpr double kSame_radps = 0.25;
+// A fifth of a radian in a hundredth of a second is no joint's way.
+constexpr double kJump_rad = 0.2;
+constexpr double kSame_rad = 0.1;
 
 /// "JointCommandArray (json)", and the frame where there is one.
 std::string shown(const Writer& writer, bool with_frame) {
@@ -77,14 +80,20 @@ Reason Writers::hindrance(const Writer& writer, bool rests, Time now) {
 
 /// Up and down again within three messages: two programs by turns, one of which may be at rest.
 bool Writers::jumps_to_and_fro(const JointTargets& targets) {
-  Velocities now{};
-  for (const auto& joint : targets.joints) now[joint.axis] = joint.velocity_radps;
-  const auto near = [&now](const std::optional<Velocities>& then, std::size_t axis) {
-    return then && std::abs((*then)[axis] - now[axis]) <= kSame_radps;
+  Asks now{};
+  for (const auto& joint : targets.joints)
+    now[joint.axis] = {joint.velocity_radps, joint.position_rad};
+  const auto apart = [&now](const std::optional<Asks>& then, std::size_t axis, double radps,
+                            double rad) {
+    return then && (std::abs((*then)[axis].velocity_radps - now[axis].velocity_radps) >= radps ||
+                    std::abs((*then)[axis].position_rad - now[axis].position_rad) >= rad);
+  };
+  const auto near = [&](const std::optional<Asks>& then, std::size_t axis) {
+    return then && !apart(then, axis, kSame_radps, kSame_rad);
   };
   bool jumps = false;
   for (std::size_t axis = 0; axis < now.size(); ++axis) {
-    const bool jump = before_[0] && std::abs((*before_[0])[axis] - now[axis]) >= kJump_radps;
+    const bool jump = apart(before_[0], axis, kJump_radps, kJump_rad);
     jumps = jumps || (jump && (near(before_[1], axis) || near(before_[2], axis)));
   }
   std::rotate(before_.begin(), before_.end() - 1, before_.end());

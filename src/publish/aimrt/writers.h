@@ -47,7 +47,11 @@ class Writers final {
   std::uint64_t refused() const { return refused_; }
 
  private:
-  using Velocities = std::array<double, kMaxAxes>;
+  struct Asked {
+    double velocity_radps = 0;
+    double position_rad = 0;
+  };
+  using Asks = std::array<Asked, kMaxAxes>;
 
   bool is_owner(const Writer& writer) const;
   bool jumps_to_and_fro(const JointTargets& targets);
@@ -59,7 +63,7 @@ class Writers final {
   Time heard_ = kNever;
   Time counted_twice_ = kNever;  ///< a number with two time stamps
   bool followed_since_late_ = false;
-  std::array<std::optional<Velocities>, 3> before_;  ///< the newest first
+  std::array<std::optional<Asks>, 3> before_;  ///< the newest first
   /// One program alone is odd now and then, two are all the time.
   TokenBucket oddities_{3, 5};
   std::string text_;

@@ -135,6 +135,7 @@ std::string status_json(const Snapshot& s, const DaemonStatus& daemon) {
   list(out, "sensors", s.sensors, s.time);
   list(out, "scanners", s.scanners, daemon.now);
   list(out, "axes", s.axes, s.time);
+  list(out, "groups", s.groups, s.time);
   object(out, "base", s.base, s.time, s.base.configured);
   object(out, "clearance", s.clearance, s.time, s.clearance.configured);
   lines(out, s);

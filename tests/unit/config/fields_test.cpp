@@ -74,6 +74,10 @@ class Places final {
              Presence = Presence::optional) {
     add(key, &value, text);
   }
+  template <class T>
+  void others(T& value, std::size_t, std::string_view text) {
+    add("*", &value, text);
+  }
   void keys_of_kind(const std::string&) {}
   void keys_of_base(const std::string&) {}
   template <class T>
@@ -165,6 +169,12 @@ TEST(Fields, OfTheBaseAreAllKeys) {
   Places places;
   visit(places, names);
   EXPECT_EQ(places.count(), field_count<engine::BaseConfig>() + 1);  // device, by name
+}
+
+TEST(Fields, OfAJointOutsideTheBaseAreAllKeys) {
+  // All but its axis, which is a name, and its rules, which are no key themselves.
+  EXPECT_EQ(key_count<GroupJoint>(), field_count<engine::JointRules>() - 1);
+  expect_complete<JointGroup>(1);  // name
 }
 
 TEST(Fields, OfTheWholeAreAllKeysOrSections) {

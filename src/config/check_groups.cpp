@@ -1,0 +1,106 @@
+// Joints outside the base: each of one group, with a drive that can do what its rules say.
+#include <algorithm>
+
+#include "config/check_subjects.h"
+#include "config/taken.h"
+#include "text/number.h"
+#include "text/suggestion.h"
+
+namespace drover::config {
+namespace {
+
+struct Moved {
+  const DeviceConfig* device = nullptr;
+  std::size_t joint = 0;  ///< in the device's list, and so in its axes
+};
+
+Moved find_joint(const std::string& name, const DroverConfig& config) {
+  for (const auto& device : config.devices)
+    for (std::size_t i = 0; i < device.joints.size(); ++i)
+      if (device.joints[i].name == name) return {&device, i};
+  return {};
+}
+
+/// By their place among the words of a choice, which the reader has seen to.
+template <class Kind, std::size_t N>
+Kind by_word(const std::array<std::string_view, N>& words, std::string_view word) {
+  const auto it = std::find(words.begin(), words.end(), word);
+  return static_cast<Kind>(it == words.end() ? 0 : it - words.begin());
+}
+
+void limits(const std::string& path, const engine::JointRules& rules, Findings& found) {
+  if (rules.min_rad < rules.max_rad || found.has_problem(path)) return;
+  found.add(path + ".max_rad",
+            "is " + text::number_text(rules.max_rad) + ", and min_rad is " +
+                text::number_text(rules.min_rad),
+            "the joint moves between the two");
+}
+
+/// What is fed, armed and stopped together has one owner.
+void whole_device(const std::string& path, const JointGroup& group, const DeviceConfig& device,
+                  Findings& found) {
+  for (const auto& other : device.joints) {
+    const bool here = std::any_of(group.joints.begin(), group.joints.end(),
+                                  [&](const auto& joint) { return joint.name == other.name; });
+    if (!here)
+      found.add(path,
+                "its device " + device.name + " moves \"" + other.name +
+                    "\" too, which is not of this group",
+                "joints of one device belong to one group");
+  }
+}
+
+void joint(const std::string& path, const JointGroup& group, const GroupJoint& given,
+           engine::GroupConfig& into, Findings& found) {
+  const Moved moved = find_joint(given.name, found.config());
+  if (moved.device == nullptr) {
+    std::vector<std::string> known;
+    for (const auto& device : found.config().devices)
+      for (const auto& each : device.joints) known.push_back(each.name);
+    return found.add(path, "no device has this joint", text::did_you_mean(given.name, known));
+  }
+  const auto* const entry = find_driver(moved.device->driver);
+  const std::size_t channel = moved.device->joints[moved.joint].channel_index;
+  if (entry == nullptr || channel >= entry->channels.size()) return;  // told already
+  if (entry->channels[channel].mode != ChannelMode::impedance)
+    return found.add(path, "its drive (" + moved.device->driver + ") follows a velocity alone",
+                     "outside the base a drive has to follow position, effort, stiffness and "
+                     "damping, too; a wheel belongs into groups.base");
+  whole_device(path, group, *moved.device, found);
+  limits(path, given.rules, found);
+  engine::JointRules rules = given.rules;
+  rules.axis = static_cast<AxisId>(moved.device->first_axis + moved.joint);
+  rules.follows = by_word<engine::JointFollows>(kFollowsWords, given.follows);
+  rules.on_silence = by_word<engine::OnSilence>(kSilenceWords, given.on_silence);
+  (void)into.joints.push_back(rules);  // too many are told by the reader
+}
+
+}  // namespace
+
+void check_groups(const std::vector<JointGroup>& groups, Findings& found) {
+  auto& engine = found.config().engine;
+  Taken taken(found);
+  for (const char* side : {"left", "right"}) {
+    const auto& wheels = side == std::string_view("left") ? engine.base.left : engine.base.right;
+    for (const AxisId axis : wheels)
+      for (const auto* device : by_axis(found.config()))
+        if (axis >= device->first_axis && axis < device->first_axis + device->joints.size())
+          taken.take(device->joints[axis - device->first_axis].name,
+                     std::string("groups.base.") + side);
+  }
+  for (const auto& given : groups) {
+    engine::GroupConfig group;
+    group.name = Name(given.name);
+    for (const auto& each : given.joints) {
+      const auto path = "groups." + given.name + ".joints." + each.name;
+      taken.take(each.name, path);
+      joint(path, given, each, group, found);
+    }
+    if (engine.base.kind == engine::BaseKind::twist)
+      found.add("groups." + given.name,
+                "joints beside a base that takes a twist are not supported yet");
+    (void)engine.groups.push_back(group);
+  }
+}
+
+}  // namespace drover::config

@@ -1,0 +1,65 @@
+// The engine's part for joints outside the base.
+#include <algorithm>
+
+#include "engine/engine_impl.h"
+
+namespace drover::engine {
+
+AxisSnapshot* Engine::Impl::axis_of(AxisId id) {
+  if (id < axes.size()) return &axes[id];
+  return !groups.empty() && id < snapshot.axes.size() ? &snapshot.axes[id] : nullptr;
+}
+
+void Engine::Impl::make_groups() {
+  for (const GroupConfig& group : config.groups) {
+    groups.emplace_back(group, from_s(config.navigate.start_timeout_s));
+    (void)snapshot.groups.push_back(groups.back().snapshot());
+    for (const JointRules& joint : group.joints)
+      snapshot.axes[joint.axis].group = static_cast<std::uint8_t>(groups.size());
+  }
+}
+
+/// Each part of a message is for whose joints it names, and leaves the others as they are.
+void Engine::Impl::take_joints(const JointTargets& targets, Time now) {
+  for (JointGroup& group : groups) group.take(targets, now);
+  JointTargets of_base;
+  for (const JointTarget& target : targets.joints)
+    if (target.axis >= snapshot.axes.size() || snapshot.axes[target.axis].group == 0)
+      (void)of_base.joints.push_back(target);
+  if (of_base.joints.empty() && !targets.joints.empty()) return;
+  if (takes_twist(base))
+    owners.refuse({"this robot has no joints: its base takes a twist"});
+  else
+    owners.take(of_base, now);
+}
+
+void Engine::Impl::end_groups(const Reason& why) {
+  for (JointGroup& group : groups) group.end(why);
+}
+
+void Engine::Impl::step_groups(Time now, Duration dt, const Environment& environment,
+                               EngineOutput& out) {
+  if (groups.empty()) return;
+  for (std::size_t i = axes.size(); i < snapshot.axes.size(); ++i) {
+    AxisSnapshot& axis = snapshot.axes[i];
+    axis.last_motion = std::min(axis.last_motion, now);
+    axis.health = environment.axes[i].state;
+  }
+  const HealthReport& report = health.report();
+  const Reason hindrance = !report.ready                ? Reason(kJustStarted)
+                           : !report.end_groups.empty() ? report.end_groups
+                                                        : latch.stop();
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    groups[i].step({now,
+                    dt,
+                    {snapshot.axes.data(), snapshot.axes.size()},
+                    from_s(config.health.drive_stale_s),
+                    hindrance},
+                   out.axes, out.joint_may_move, events);
+    snapshot.groups[i] = groups[i].snapshot();
+  }
+  for (std::size_t i = axes.size(); i < snapshot.axes.size(); ++i)
+    snapshot.axes[i].commanded_velocity_radps = out.axes[i].velocity_radps;
+}
+
+}  // namespace drover::engine

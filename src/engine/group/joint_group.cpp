@@ -1,0 +1,124 @@
+// Joints outside the base that belong together, under an owner of their own.
+#include "engine/group/joint_group.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/health/heard.h"
+
+namespace drover::engine {
+namespace {
+
+constexpr Duration kBetweenLimits = std::chrono::seconds(1);
+
+int width(std::string_view text) {
+  return static_cast<int>(text.size());
+}
+
+Reason of_joint(const Name& joint, const Reason& what) {
+  Reason text;
+  text.format("%.*s: %.*s", width(joint), joint.view().data(), width(what), what.view().data());
+  return text;
+}
+
+bool is_heard(const AxisSnapshot& axis, Time now, Duration stale) {
+  return axis.health == SourceState::fresh && tells_motion(axis, now, stale) &&
+         std::isfinite(axis.motion.position_rad);
+}
+
+}  // namespace
+
+JointGroup::JointGroup(const GroupConfig& config, Duration start_timeout)
+    : start_timeout_(start_timeout) {
+  told_.name = config.name;
+  for (const JointRules& rules : config.joints) joints_.emplace_back(rules);
+}
+
+bool JointGroup::take(const JointTargets& targets, Time now) {
+  bool mine = false;
+  for (const JointTarget& target : targets.joints) {
+    for (JointServo& joint : joints_) {
+      if (joint.rules().axis != target.axis) continue;
+      joint.take(target, now);
+      mine = true;
+    }
+  }
+  waiting_ += mine ? 1 : 0;
+  return mine;
+}
+
+void JointGroup::end(const Reason& why) {
+  for (JointServo& joint : joints_) joint.end(why);
+}
+
+/// Why none of its joints may follow anybody: the first that cannot.
+Reason JointGroup::trouble(const Input& input) const {
+  for (const JointServo& joint : joints_) {
+    const AxisSnapshot& axis = input.axes[joint.rules().axis];
+    if (!is_heard(axis, input.now, input.stale)) {
+      const Reason& said = axis.source.reason;
+      return of_joint(axis.joint, said.empty() ? Reason("its drive is silent") : said);
+    }
+    // One that lost its power stage for want of commands is armed again by a new stream.
+    if (axis.state == AxisState::fault && !axis.lapsed) return of_joint(axis.joint, axis.fault);
+  }
+  return {};
+}
+
+void JointGroup::step(const Input& input, std::span<AxisCommand> commands, std::span<bool> may_move,
+                      EventQueue& events) {
+  const Reason hindrance = input.hindrance.empty() ? trouble(input) : input.hindrance;
+  Reason lost;
+  for (JointServo& joint : joints_) {
+    const AxisSnapshot& axis = input.axes[joint.rules().axis];
+    const bool followed = joint.following();
+    joint.step({input.now, input.dt, axis, is_heard(axis, input.now, input.stale), hindrance,
+                start_timeout_});
+    const bool ceased = joint.reason() == "its commands have ceased";
+    if (followed && !joint.following() && !ceased && lost.empty())
+      lost = hindrance.empty() ? of_joint(axis.joint, joint.reason()) : hindrance;
+  }
+  // Together, or none: what one cannot do any more the others do not go on with.
+  if (!lost.empty()) end(lost);
+  told_.state = GroupState::idle;
+  bool limited = false;
+  for (JointServo& joint : joints_) {
+    const AxisId axis = joint.rules().axis;
+    commands[axis] = joint.command();
+    may_move[axis] = joint.may_move();
+    told_.state = std::min(told_.state, joint.state());
+    limited = limited || joint.limited();
+  }
+  told_.reason = hindrance;
+  for (std::size_t i = 0; told_.reason.empty() && i < joints_.size(); ++i)
+    if (!joints_[i].reason().empty())
+      told_.reason = of_joint(input.axes[joints_[i].rules().axis].joint, joints_[i].reason());
+  count(limited);
+  tell(input, lost, limited, events);
+}
+
+void JointGroup::count(bool limited) {
+  const bool refused = told_.state != GroupState::following && !told_.reason.empty();
+  (refused ? told_.refused : told_.accepted) += waiting_;
+  waiting_ = 0;
+  told_.limited += limited ? 1 : 0;
+}
+
+void JointGroup::tell(const Input& input, const Reason& lost, bool limited, EventQueue& events) {
+  const Time now = input.now;
+  const auto say = [&](Notice::Level level, const char* what, const Reason& why) {
+    Reason text;
+    text.format("%.*s: %s%.*s", width(told_.name), told_.name.view().data(), what, width(why),
+                why.view().data());
+    events.notice(now, level, text);
+  };
+  if (!lost.empty()) say(Notice::Level::warning, "joint commands ended: ", lost);
+  if (!limited || (limited_told_ != kNever && now - limited_told_ < kBetweenLimits)) return;
+  limited_told_ = now;
+  const auto first = std::find_if(joints_.begin(), joints_.end(),
+                                  [](const JointServo& joint) { return joint.limited(); });
+  say(Notice::Level::warning, "more was asked than the limits allow of ",
+      Reason(input.axes[first->rules().axis].joint.view()));
+}
+
+}  // namespace drover::engine

@@ -1,0 +1,49 @@
+// Joints outside the base that belong together, under an owner of their own.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "engine/event_queue.h"
+#include "engine/group/joint_servo.h"
+
+namespace drover::engine {
+
+/// The joints of a group follow a stream of commands together, or none: when one of them ends it,
+/// for a fault of its drive or because it is not heard, the others hold, too. It knows nothing of
+/// the base, and the base nothing of it.
+class JointGroup final {
+ public:
+  JointGroup(const GroupConfig& config, Duration start_timeout);
+
+  /// The joints of the message that are its own; others are somebody else's. False: none is.
+  bool take(const JointTargets& targets, Time now);
+  /// A person's word, or a stop: what it follows ends.
+  void end(const Reason& why);
+
+  struct Input {
+    Time now = kNever;
+    Duration dt{};
+    std::span<const AxisSnapshot> axes;  ///< all of the robot, by AxisId
+    Duration stale{};                    ///< what was measured longer ago says nothing
+    const Reason& hindrance;             ///< as JointServo::Input
+  };
+  /// One cycle: writes the commands of its joints, by AxisId, and which of them may be moved.
+  void step(const Input& input, std::span<AxisCommand> commands, std::span<bool> may_move,
+            EventQueue& events);
+
+  const GroupSnapshot& snapshot() const { return told_; }
+
+ private:
+  Reason trouble(const Input& input) const;
+  void count(bool limited);
+  void tell(const Input& input, const Reason& lost, bool limited, EventQueue& events);
+
+  Duration start_timeout_;
+  std::vector<JointServo> joints_;  ///< made once
+  GroupSnapshot told_;
+  std::uint64_t waiting_ = 0;  ///< messages since the last cycle
+  Time limited_told_ = kNever;
+};
+
+}  // namespace drover::engine

@@ -1,0 +1,155 @@
+// One joint outside the base: whether its drive is armed, whose word it follows, what it does else.
+#include "engine/group/joint_servo.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace drover::engine {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr Duration kSteadyFor = 300ms;
+/// Whoever was stopped has to be silent for so long before he begins again.
+constexpr Duration kPause = 1s;
+
+JointMeasured measured_by(const AxisSnapshot& axis) {
+  const double velocity = axis.motion.velocity_radps;
+  return {axis.motion.position_rad, std::isfinite(velocity) ? velocity : 0};
+}
+
+}  // namespace
+
+bool JointServo::sent(Time now) const {
+  return heard_ != kNever && now - heard_ <= from_s(rules_.timeout_s);
+}
+
+bool JointServo::steady(Time now) const {
+  return sent(now) && now - steady_since_ >= std::max(kSteadyFor, from_s(rules_.timeout_s));
+}
+
+void JointServo::take(const JointTarget& target, Time now) {
+  if (heard_ != kNever && now - heard_ >= kPause) waits_ = false;
+  if (!sent(now)) {
+    gap_ = heard_ == kNever || now - heard_ >= kPause ? Duration{} : now - heard_;
+    steady_since_ = now;
+  }
+  heard_ = now;
+  target_ = target;
+}
+
+void JointServo::end(const Reason& why) {
+  const bool asked = follows_ || arming_since_ != kNever;
+  if (asked) reason_ = why;
+  // Also a row that is only beginning: it was sent by somebody who did not know.
+  waits_ = waits_ || asked || heard_ != kNever;
+  follows_ = false;
+  arming_since_ = kNever;
+}
+
+/// Whether what is sent is followed in this cycle, and why not.
+void JointServo::judge_stream(const Input& input) {
+  if (!input.hindrance.empty()) end(input.hindrance);
+  if (!sent(input.now)) {
+    if (follows_) reason_ = "its commands have ceased";
+    if (heard_ != kNever && input.now - heard_ >= kPause) {
+      waits_ = false;
+      gap_ = {};
+      reason_.clear();
+    }
+    follows_ = false;
+    arming_since_ = kNever;
+    return;
+  }
+  if (!input.hindrance.empty()) {
+    reason_ = input.hindrance;
+  } else if (waits_) {
+    if (reason_.empty()) reason_ = "it was stopped: pause its commands for a second";
+  } else if (steady(input.now)) {
+    reason_.clear();
+    follows_ = true;
+    return;
+  } else if (gap_ > Duration{}) {
+    reason_.format("its commands come %.0f ms apart, %.0f ms are allowed", 1e3 * to_s(gap_),
+                   1e3 * rules_.timeout_s);
+  } else {
+    reason_.clear();  // it begins
+  }
+  follows_ = false;
+}
+
+void JointServo::rest_as_ruled(const JointMeasured& measured, double dt_s) {
+  switch (rules_.on_silence) {
+    case OnSilence::hold:
+      shaper_.hold(measured, dt_s);
+      state_ = GroupState::holding;
+      return;
+    case OnSilence::damp:
+      shaper_.damp(measured, dt_s);
+      state_ = GroupState::damping;
+      return;
+    case OnSilence::release:
+      command_ = {AxisRequest::idle, 0, {}};
+      state_ = GroupState::released;
+      return;
+  }
+}
+
+/// Its drive runs, and tells where the joint is.
+void JointServo::run(const Input& input) {
+  const JointMeasured measured = measured_by(input.axis);
+  const double dt_s = std::max(to_s(input.dt), 0.0);
+  arming_since_ = kNever;
+  if (!engaged_) shaper_.take_over(measured);
+  engaged_ = true;
+  command_.request = AxisRequest::run;
+  if (follows_) {
+    shaper_.follow(target_, measured, dt_s);
+    state_ = GroupState::following;
+  } else {
+    rest_as_ruled(measured, dt_s);
+  }
+  command_.velocity_radps = shaper_.velocity_radps();
+  command_.impedance = shaper_.impedance();
+}
+
+/// Its drive does not run: it comes into closed loop where it is, if somebody commands it.
+void JointServo::arm(const Input& input) {
+  if (engaged_ && follows_) {
+    end(input.axis.fault.empty() ? Reason("its drive is not in closed loop") : input.axis.fault);
+  }
+  engaged_ = false;
+  if (!follows_) {
+    state_ = GroupState::idle;
+    return;
+  }
+  if (arming_since_ == kNever) arming_since_ = input.now;
+  if (input.now - arming_since_ > input.start_timeout) {
+    end(input.axis.fault.empty() ? Reason("its drive does not come into closed loop")
+                                 : input.axis.fault);
+    state_ = GroupState::idle;
+    return;
+  }
+  shaper_.take_over(measured_by(input.axis));
+  command_ = {AxisRequest::run, 0, shaper_.impedance()};
+  state_ = GroupState::arming;
+}
+
+void JointServo::step(const Input& input) {
+  command_ = {};
+  judge_stream(input);
+  if (!input.heard) {
+    // Blind, it is told to damp, should it still hear: its last word would stand otherwise.
+    if (follows_)
+      end(input.axis.source.reason.empty() ? Reason("its drive is silent")
+                                           : input.axis.source.reason);
+    engaged_ = false;
+    state_ = GroupState::idle;
+  } else if (input.axis.state == AxisState::running) {
+    run(input);
+  } else {
+    arm(input);
+  }
+}
+
+}  // namespace drover::engine

@@ -1,0 +1,69 @@
+// One joint outside the base: whether its drive is armed, whose word it follows, what it does else.
+#pragma once
+
+#include "drover/snapshot.h"
+#include "engine/group/joint_shaper.h"
+
+namespace drover::engine {
+
+/// Arms by a stream of commands alone, and only after that was heard for a while without a gap:
+/// what comes in a burst after a line or a program hung is none. What stopped a stream once waits
+/// until its commands have ceased for a second, so that a program which does not know of a stop
+/// does not drive on when its cause is gone. A drive that runs and follows nobody holds, damps or
+/// is let go, as its rules say; one that was found so, too. Pure.
+class JointServo final {
+ public:
+  struct Input {
+    Time now = kNever;
+    Duration dt{};
+    const AxisSnapshot& axis;
+    bool heard = false;  ///< its drive is, and tells where it is
+    /// Why nobody's commands are followed now; empty: they are.
+    const Reason& hindrance;
+    Duration start_timeout{};  ///< its drive is armed by then
+  };
+
+  explicit JointServo(const JointRules& rules) : rules_(rules), shaper_(rules) {}
+
+  /// A command that is sound; whether it is followed is decided by step().
+  void take(const JointTarget& target, Time now);
+  /// What it follows ends for a cause that lies elsewhere.
+  void end(const Reason& why);
+
+  /// One cycle.
+  void step(const Input& input);
+  const AxisCommand& command() const { return command_; }
+
+  bool following() const { return state_ == GroupState::following; }
+  GroupState state() const { return state_; }
+  bool limited() const { return following() && shaper_.limited(); }
+  /// Why it does not follow what is sent, or why it ended; empty: it does, or nothing is.
+  const Reason& reason() const { return reason_; }
+  /// It may be moved: its drive is told more than to damp.
+  bool may_move() const { return command_.request == AxisRequest::run; }
+  const JointRules& rules() const { return rules_; }
+
+ private:
+  bool sent(Time now) const;
+  bool steady(Time now) const;
+  void judge_stream(const Input& input);
+  void run(const Input& input);
+  void rest_as_ruled(const JointMeasured& measured, double dt_s);
+  void arm(const Input& input);
+
+  JointRules rules_;
+  JointShaper shaper_;
+  JointTarget target_;
+  Time heard_ = kNever;         ///< the last command
+  Time steady_since_ = kNever;  ///< of a row without a gap
+  Duration gap_{};              ///< before the last command, when it was too long
+  bool waits_ = false;          ///< for a pause: it was stopped
+  bool engaged_ = false;        ///< its drive runs, and the shaper knows of it
+  bool follows_ = false;        ///< this cycle
+  Time arming_since_ = kNever;
+  GroupState state_ = GroupState::idle;
+  Reason reason_;
+  AxisCommand command_;
+};
+
+}  // namespace drover::engine

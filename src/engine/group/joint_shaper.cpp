@@ -1,0 +1,178 @@
+// The set point of one joint outside the base: what was asked for, without a step in it.
+#include "engine/group/joint_shaper.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace drover::engine {
+namespace {
+
+constexpr double kSame_rad = 1e-6;
+/// Of the fastest braking: the rest is for the cycle.
+constexpr double kBrakesWith = 0.8;
+constexpr double kMoves_radps = 0.05;
+
+/// Nearer to `wanted` by `step` at the most.
+double approached(double now, double wanted, double step) {
+  return now + std::clamp(wanted - now, -step, step);
+}
+
+}  // namespace
+
+double JointShaper::within(double value, double low, double high) {
+  const double bounded = std::clamp(value, low, high);
+  limited_ = limited_ || bounded != value;
+  return bounded;
+}
+
+void JointShaper::take_over(const JointMeasured& measured) {
+  position_rad_ = measured.position_rad;
+  velocity_radps_ = 0;
+  stiffness_ = effort_Nm_ = 0;
+  damping_ = rules_.damping_Nmsprad;
+  holds_ = limited_ = false;
+  tell(0, measured);
+}
+
+/// Each comes up within the time of rising, and goes down so, too: a joint that has a weight would
+/// fall otherwise.
+void JointShaper::approach_gains(double stiffness, double damping, double effort, double dt_s) {
+  const double share = rules_.rise_s > 0 ? std::min(dt_s / rules_.rise_s, 1.0) : 1.0;
+  const double stiffest = std::max({stiffness, stiffness_, rules_.stiffness_Nmprad});
+  const double most_damped = std::max({damping, damping_, rules_.damping_Nmsprad});
+  stiffness_ = approached(stiffness_, stiffness, share * stiffest);
+  damping_ = approached(damping_, damping, share * most_damped);
+  effort_Nm_ = approached(effort_Nm_, effort, share * rules_.max_effort_Nm);
+}
+
+void JointShaper::approach_velocity(double wanted_radps, double dt_s) {
+  velocity_radps_ =
+      approached(velocity_radps_, wanted_radps, rules_.max_acceleration_radps2 * dt_s);
+  position_rad_ += velocity_radps_ * dt_s;
+}
+
+/// So fast that it still stops there; on the way of something that moves itself with its speed.
+void JointShaper::approach_position(double wanted_rad, double wanted_radps, double dt_s) {
+  const double step_radps = rules_.max_acceleration_radps2 * dt_s;
+  const double away = wanted_rad - position_rad_;
+  const double reach = std::sqrt(2 * kBrakesWith * rules_.max_acceleration_radps2 * std::abs(away));
+  const double fastest = std::min(reach, std::abs(away) / std::max(dt_s, 1e-9));
+  const double wanted = std::clamp(wanted_radps + std::copysign(fastest, away),
+                                   -rules_.max_velocity_radps, rules_.max_velocity_radps);
+  approach_velocity(wanted, dt_s);
+  const bool arrived = (wanted_rad - position_rad_) * away <= 0 || std::abs(away) < kSame_rad;
+  if (!arrived || std::abs(velocity_radps_ - wanted_radps) > step_radps + kSame_rad) return;
+  position_rad_ = wanted_rad;
+  velocity_radps_ = wanted_radps;
+}
+
+/// What the distance makes of stiffness is an effort like any other.
+void JointShaper::tell(double velocity_radps, const JointMeasured& measured) {
+  told_velocity_radps_ = velocity_radps;
+  told_ = {position_rad_, effort_Nm_, stiffness_, damping_};
+  if (stiffness_ <= 0) return;
+  const double farthest_rad = rules_.max_effort_Nm / stiffness_;
+  told_.position_rad = measured.position_rad + std::clamp(position_rad_ - measured.position_rad,
+                                                          -farthest_rad, farthest_rad);
+}
+
+void JointShaper::follow_position(const JointTarget& target, double stiffness, double damping,
+                                  const JointMeasured& measured, double dt_s) {
+  const double wanted_rad = within(target.position_rad, rules_.min_rad, rules_.max_rad);
+  double wanted_radps =
+      within(target.velocity_radps, -rules_.max_velocity_radps, rules_.max_velocity_radps);
+  // Into a limit there is no speed.
+  if (wanted_rad != target.position_rad) wanted_radps = 0;
+  const double effort = within(target.effort_Nm, -rules_.max_effort_Nm, rules_.max_effort_Nm);
+  approach_gains(stiffness, damping, effort, dt_s);
+  if (stiffness == 0 && stiffness_ == 0) {
+    // The position has no weight: whoever gives it one again begins where the joint is.
+    approach_velocity(wanted_radps, dt_s);
+    position_rad_ = measured.position_rad;
+  } else {
+    approach_position(wanted_rad, wanted_radps, dt_s);
+  }
+  tell(velocity_radps_, measured);
+}
+
+void JointShaper::follow_velocity(const JointTarget& target, const JointMeasured& measured,
+                                  double dt_s) {
+  double wanted =
+      within(target.velocity_radps, -rules_.max_velocity_radps, rules_.max_velocity_radps);
+  const double end_rad = wanted > 0 ? rules_.max_rad : rules_.min_rad;
+  const double left_rad =
+      std::max(wanted > 0 ? end_rad - position_rad_ : position_rad_ - end_rad, 0.0);
+  const double stops_from = std::sqrt(2 * kBrakesWith * rules_.max_acceleration_radps2 * left_rad);
+  wanted = within(wanted, -stops_from, stops_from);
+  approach_gains(rules_.stiffness_Nmprad, rules_.damping_Nmsprad, 0, dt_s);
+  approach_velocity(wanted, dt_s);
+  // What is blocked is not pushed harder for ever.
+  if (stiffness_ > 0) {
+    const double farthest_rad = rules_.max_effort_Nm / stiffness_;
+    position_rad_ = std::clamp(position_rad_, measured.position_rad - farthest_rad,
+                               measured.position_rad + farthest_rad);
+  }
+  tell(velocity_radps_, measured);
+}
+
+/// Beyond an end, or too fast, it is no longer the effort that counts.
+void JointShaper::follow_effort(const JointTarget& target, const JointMeasured& measured,
+                                double dt_s) {
+  const double end_rad = std::clamp(measured.position_rad, rules_.min_rad, rules_.max_rad);
+  const bool beyond = end_rad != measured.position_rad;
+  const bool fast = std::abs(measured.velocity_radps) > rules_.max_velocity_radps;
+  double effort = within(target.effort_Nm, -rules_.max_effort_Nm, rules_.max_effort_Nm);
+  const bool outwards = effort * (measured.position_rad - end_rad) > 0;
+  const bool faster = fast && effort * measured.velocity_radps > 0;
+  if (outwards || faster) effort = 0;
+  limited_ = limited_ || outwards || faster;
+  position_rad_ = end_rad;
+  velocity_radps_ = 0;
+  const double damping = beyond || fast ? std::max(target.damping_Nmsprad, rules_.damping_Nmsprad)
+                                        : target.damping_Nmsprad;
+  approach_gains(beyond ? rules_.stiffness_Nmprad : 0, damping, effort, dt_s);
+  if (beyond || fast) damping_ = damping;
+  tell(0, measured);
+}
+
+void JointShaper::follow(const JointTarget& target, const JointMeasured& measured, double dt_s) {
+  holds_ = limited_ = false;
+  switch (rules_.follows) {
+    case JointFollows::impedance:
+      return follow_position(target, target.stiffness_Nmprad, target.damping_Nmsprad, measured,
+                             dt_s);
+    case JointFollows::position:
+      return follow_position(target, rules_.stiffness_Nmprad, rules_.damping_Nmsprad, measured,
+                             dt_s);
+    case JointFollows::velocity: return follow_velocity(target, measured, dt_s);
+    case JointFollows::effort: return follow_effort(target, measured, dt_s);
+  }
+}
+
+void JointShaper::hold(const JointMeasured& measured, double dt_s) {
+  limited_ = false;
+  if (!holds_) {
+    holds_ = true;
+    // In a movement it is not torn to a stop.
+    const bool moves = std::abs(measured.velocity_radps) > kMoves_radps;
+    velocity_radps_ = moves ? std::clamp(measured.velocity_radps, -rules_.max_velocity_radps,
+                                         rules_.max_velocity_radps)
+                            : 0;
+    const double carries = stiffness_ * (told_.position_rad - measured.position_rad) + effort_Nm_;
+    carried_Nm_ = effort_Nm_ = std::clamp(carries, -rules_.max_effort_Nm, rules_.max_effort_Nm);
+    position_rad_ = measured.position_rad;
+  }
+  approach_gains(rules_.stiffness_Nmprad, rules_.damping_Nmsprad, carried_Nm_, dt_s);
+  approach_velocity(0, dt_s);
+  tell(velocity_radps_, measured);
+}
+
+void JointShaper::damp(const JointMeasured& measured, double dt_s) {
+  holds_ = limited_ = false;
+  approach_gains(0, rules_.damping_Nmsprad, 0, dt_s);
+  approach_velocity(0, dt_s);
+  if (stiffness_ <= 0) position_rad_ = measured.position_rad;
+  tell(0, measured);
+}
+
+}  // namespace drover::engine

@@ -1,0 +1,65 @@
+// The set point of one joint outside the base: what was asked for, without a step in it.
+#pragma once
+
+#include "drover/actuator.h"
+#include "drover/command.h"
+#include "engine/config.h"
+
+namespace drover::engine {
+
+/// Place and speed of a joint, as its drive told last.
+struct JointMeasured {
+  double position_rad = 0;
+  double velocity_radps = 0;
+};
+
+/// Begins without stiffness where the joint is. From then on the position moves by the joint's
+/// limits of velocity and acceleration, stiffness, damping and effort rise and fall within
+/// `rise_s`, and what stiffness makes of a distance stays below the limit of effort. Pure.
+class JointShaper final {
+ public:
+  explicit JointShaper(const JointRules& rules) : rules_(rules) {}
+
+  /// The drive runs from now on, or again: nothing is remembered.
+  void take_over(const JointMeasured& measured);
+  /// A command begins: whatever holds the joint goes on from here.
+  void begin() { holds_ = false; }
+
+  /// One cycle of following.
+  void follow(const JointTarget& target, const JointMeasured& measured, double dt_s);
+  /// One cycle of keeping the place where it was when this began; what carried the joint then
+  /// carries it on.
+  void hold(const JointMeasured& measured, double dt_s);
+  /// One cycle of damping alone.
+  void damp(const JointMeasured& measured, double dt_s);
+
+  double velocity_radps() const { return told_velocity_radps_; }
+  const Impedance& impedance() const { return told_; }
+  /// In the last cycle of following something was beyond the joint's limits.
+  bool limited() const { return limited_; }
+
+ private:
+  double within(double value, double low, double high);
+  void approach_gains(double stiffness, double damping, double effort, double dt_s);
+  void approach_position(double wanted_rad, double wanted_radps, double dt_s);
+  void approach_velocity(double wanted_radps, double dt_s);
+  void follow_position(const JointTarget& target, double stiffness, double damping,
+                       const JointMeasured& measured, double dt_s);
+  void follow_velocity(const JointTarget& target, const JointMeasured& measured, double dt_s);
+  void follow_effort(const JointTarget& target, const JointMeasured& measured, double dt_s);
+  void tell(double velocity_radps, const JointMeasured& measured);
+
+  JointRules rules_;
+  double position_rad_ = 0;  ///< of the set point
+  double velocity_radps_ = 0;
+  double stiffness_ = 0;
+  double damping_ = 0;
+  double effort_Nm_ = 0;
+  bool holds_ = false;
+  double carried_Nm_ = 0;  ///< while it holds
+  bool limited_ = false;
+  double told_velocity_radps_ = 0;
+  Impedance told_;
+};
+
+}  // namespace drover::engine

@@ -1,0 +1,51 @@
+// A joint with a weight behind a drive that keeps an impedance law, for tests of what commands it.
+#pragma once
+
+#include <cmath>
+
+#include "drover/actuator.h"
+#include "drover/measurement.h"
+
+namespace drover::engine {
+
+/// A bar that is level at 0 and hangs at -90 degrees.
+struct ArmJoint {
+  double inertia_kgm2 = 0.05;
+  double weight_Nm = 1.5;  ///< what carries it when it is level
+  double push_Nm = 0;      ///< by somebody
+  double friction_Nms = 0.05;
+  double damps_Nmsprad = 1;  ///< of its drive, told to rest
+
+  double position_rad = 0;
+  double velocity_radps = 0;
+  double torque_Nm = 0;  ///< of its drive
+  AxisState state = AxisState::idle;
+  int arming = 0;
+
+  void obey(const AxisCommand& command) {
+    const bool armed = command.request == AxisRequest::run || command.request == AxisRequest::hold;
+    if (command.request == AxisRequest::idle && state == AxisState::running)
+      state = AxisState::idle;
+    if (armed && state == AxisState::idle) {
+      state = AxisState::arming;
+      arming = 3;
+    } else if (state == AxisState::arming) {
+      state = !armed ? AxisState::idle : --arming <= 0 ? AxisState::running : state;
+    }
+    torque_Nm = 0;
+    if (state != AxisState::running) return;
+    const Impedance& law = command.impedance;
+    torque_Nm = armed ? law.stiffness_Nmprad * (law.position_rad - position_rad) +
+                            law.damping_Nmsprad * (command.velocity_radps - velocity_radps) +
+                            law.effort_Nm
+                      : -damps_Nmsprad * velocity_radps;
+  }
+
+  void step(double dt_s) {
+    const double pull_Nm = -weight_Nm * std::cos(position_rad) - friction_Nms * velocity_radps;
+    velocity_radps += (torque_Nm + pull_Nm + push_Nm) / inertia_kgm2 * dt_s;
+    position_rad += velocity_radps * dt_s;
+  }
+};
+
+}  // namespace drover::engine

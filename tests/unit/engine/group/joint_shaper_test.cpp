@@ -1,0 +1,235 @@
+// The set point of a joint outside the base has no steps, whatever it is asked.
+#include "engine/group/joint_shaper.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "unit/engine/group/arm_joint.h"
+
+namespace drover::engine {
+namespace {
+
+constexpr double kCycle_s = 0.005;
+
+JointRules rules_of(JointFollows follows) {
+  JointRules rules;
+  rules.follows = follows;
+  rules.min_rad = -1;
+  rules.max_rad = 1.5;
+  rules.max_velocity_radps = 1;
+  rules.max_acceleration_radps2 = 5;
+  rules.max_effort_Nm = 4;
+  rules.stiffness_Nmprad = 40;
+  rules.damping_Nmsprad = 2;
+  rules.rise_s = 0.5;
+  return rules;
+}
+
+JointTarget at(double position_rad, double stiffness = 40, double damping = 2) {
+  JointTarget target;
+  target.position_rad = position_rad;
+  target.stiffness_Nmprad = stiffness;
+  target.damping_Nmsprad = damping;
+  return target;
+}
+
+TEST(JointShaper, BeginsWithoutStiffnessWhereTheJointIs) {
+  JointShaper shaper(rules_of(JointFollows::impedance));
+  shaper.take_over({0.3, 0.1});
+  EXPECT_EQ(shaper.impedance().stiffness_Nmprad, 0);
+  EXPECT_EQ(shaper.impedance().effort_Nm, 0);
+  EXPECT_EQ(shaper.impedance().position_rad, 0.3);
+  EXPECT_EQ(shaper.velocity_radps(), 0);
+}
+
+TEST(JointShaper, AStepOfPositionIsMadeByItsLimits) {
+  JointShaper shaper(rules_of(JointFollows::impedance));
+  double measured = 0;
+  shaper.take_over({measured, 0});
+  double before_rad = 0;
+  double before_radps = 0;
+  double farthest = 0;
+  int arrived = 0;
+  for (int i = 0; i < 600; ++i) {
+    shaper.follow(at(1), {measured, 0}, kCycle_s);
+    const double now_rad = shaper.impedance().position_rad;
+    const double now_radps = (now_rad - before_rad) / kCycle_s;
+    EXPECT_LE(std::abs(now_radps), 1 + 1e-9);
+    EXPECT_LE(std::abs(now_radps - before_radps), 2 * 5 * kCycle_s + 1e-9) << i;
+    farthest = std::max(farthest, now_rad);
+    if (arrived == 0 && now_rad > 1 - 1e-6) arrived = i;
+    before_rad = measured = now_rad;  // an ideal drive
+    before_radps = now_radps;
+  }
+  EXPECT_LE(farthest, 1 + 1e-3);
+  EXPECT_GT(arrived * kCycle_s, 1.0);  // at 1 rad/s and with two ramps
+  EXPECT_LT(arrived * kCycle_s, 1.6);
+}
+
+TEST(JointShaper, AStreamWithinTheLimitsIsFollowedWithoutALag) {
+  JointShaper shaper(rules_of(JointFollows::impedance));
+  shaper.take_over({0, 0});
+  double worst = 0;
+  for (int i = 0; i < 400; ++i) {
+    const double t = i * kCycle_s;
+    // 100 Hz: each message stands for two cycles.
+    const double told_s = i / 2 * 2 * kCycle_s;
+    JointTarget target = at(0.5 * (1 - std::cos(told_s)));
+    target.velocity_radps = 0.5 * std::sin(told_s);
+    shaper.follow(target, {0.5 * (1 - std::cos(t)), 0}, kCycle_s);
+    if (i > 100)
+      worst = std::max(worst, std::abs(shaper.impedance().position_rad - 0.5 * (1 - std::cos(t))));
+  }
+  EXPECT_LT(worst, 0.006);
+}
+
+TEST(JointShaper, StiffnessComesUpWithinItsTimeAndFallsSo) {
+  JointShaper shaper(rules_of(JointFollows::impedance));
+  shaper.take_over({0, 0});
+  double before = 0;
+  for (int i = 0; i < 100; ++i) {
+    shaper.follow(at(0), {0, 0}, kCycle_s);
+    EXPECT_LE(shaper.impedance().stiffness_Nmprad - before, 40 * 0.01 + 1e-9);
+    before = shaper.impedance().stiffness_Nmprad;
+  }
+  EXPECT_NEAR(before, 40, 1e-9);  // after half a second
+  shaper.follow(at(0, 0), {0, 0}, kCycle_s);
+  EXPECT_NEAR(shaper.impedance().stiffness_Nmprad, 40 * 0.99, 1e-9);
+}
+
+TEST(JointShaper, WhatStiffnessMakesOfADistanceStaysBelowTheLimitOfEffort) {
+  JointShaper shaper(rules_of(JointFollows::impedance));
+  shaper.take_over({0, 0});
+  for (int i = 0; i < 600; ++i) {
+    shaper.follow(at(1), {0, 0}, kCycle_s);  // something holds it
+    const Impedance& told = shaper.impedance();
+    EXPECT_LE(told.stiffness_Nmprad * told.position_rad, 4 + 1e-9);
+  }
+}
+
+TEST(JointShaper, BeyondItsLimitsIsClampedAndTold) {
+  JointShaper shaper(rules_of(JointFollows::impedance));
+  shaper.take_over({0, 0});
+  for (int i = 0; i < 800; ++i) shaper.follow(at(7), {1.4, 0}, kCycle_s);
+  EXPECT_TRUE(shaper.limited());
+  EXPECT_NEAR(shaper.impedance().position_rad, 1.5, 1e-6);
+  JointTarget hard = at(0);
+  hard.effort_Nm = -50;
+  for (int i = 0; i < 400; ++i) shaper.follow(hard, {0, 0}, kCycle_s);
+  EXPECT_NEAR(shaper.impedance().effort_Nm, -4, 1e-9);
+  shaper.follow(at(0), {0, 0}, kCycle_s);
+  EXPECT_FALSE(shaper.limited());
+}
+
+TEST(JointShaper, AVelocityEndsAtTheEndOfTheJointsWay) {
+  JointShaper shaper(rules_of(JointFollows::velocity));
+  double measured = 1.2;
+  shaper.take_over({measured, 0});
+  JointTarget target;
+  target.velocity_radps = 1;
+  for (int i = 0; i < 600; ++i) {
+    shaper.follow(target, {measured, 0}, kCycle_s);
+    measured = shaper.impedance().position_rad;
+    EXPECT_LE(measured, 1.5 + 0.01);
+  }
+  EXPECT_GT(measured, 1.45);
+  EXPECT_NEAR(shaper.velocity_radps(), 0, 0.05);
+}
+
+TEST(JointShaper, AVelocityThatIsBlockedDoesNotPushHarderForEver) {
+  JointShaper shaper(rules_of(JointFollows::velocity));
+  shaper.take_over({0, 0});
+  JointTarget target;
+  target.velocity_radps = 0.5;
+  for (int i = 0; i < 2000; ++i) shaper.follow(target, {0, 0}, kCycle_s);
+  EXPECT_LE(shaper.impedance().position_rad, 4.0 / 40 + 1e-9);
+}
+
+TEST(JointShaper, AnEffortAloneMovesNoFasterThanIsAllowedAndNotBeyondTheEnd) {
+  JointShaper shaper(rules_of(JointFollows::effort));
+  ArmJoint joint;
+  joint.weight_Nm = 0;
+  joint.state = AxisState::running;
+  shaper.take_over({0, 0});
+  JointTarget target;
+  target.effort_Nm = 3;
+  double fastest = 0;
+  double farthest = 0;
+  for (int i = 0; i < 2000; ++i) {
+    shaper.follow(target, {joint.position_rad, joint.velocity_radps}, kCycle_s);
+    joint.obey({AxisRequest::run, shaper.velocity_radps(), shaper.impedance()});
+    for (int k = 0; k < 5; ++k) joint.step(kCycle_s / 5);
+    fastest = std::max(fastest, joint.velocity_radps);
+    farthest = std::max(farthest, joint.position_rad);
+  }
+  EXPECT_GT(fastest, 0.8);
+  EXPECT_LT(fastest, 1.5);
+  EXPECT_GT(farthest, 1.4);
+  EXPECT_LT(farthest, 1.75);
+}
+
+/// A bar that its own effort carries, level; then the commands cease.
+TEST(JointShaper, HoldKeepsThePlaceWithAllThatCarriedIt) {
+  JointShaper shaper(rules_of(JointFollows::impedance));
+  ArmJoint joint;
+  joint.state = AxisState::running;
+  const auto cycle = [&] {
+    joint.obey({AxisRequest::run, shaper.velocity_radps(), shaper.impedance()});
+    for (int k = 0; k < 5; ++k) joint.step(kCycle_s / 5);
+  };
+  const auto measured = [&] { return JointMeasured{joint.position_rad, joint.velocity_radps}; };
+  shaper.take_over(measured());
+  for (int i = 0; i < 1000; ++i) {
+    shaper.follow(at(0, 20), measured(), kCycle_s);
+    cycle();
+  }
+  const double rested = joint.position_rad;
+  EXPECT_NEAR(rested, -1.5 / 20, 0.01);  // it sags by weight over stiffness
+  double torque = joint.torque_Nm;
+  for (int i = 0; i < 2000; ++i) {
+    shaper.hold(measured(), kCycle_s);
+    cycle();
+    EXPECT_NEAR(joint.torque_Nm, torque, 0.1) << i;
+    torque = joint.torque_Nm;
+  }
+  EXPECT_NEAR(joint.position_rad, rested, 0.002);
+}
+
+TEST(JointShaper, HoldBrakesAMovementByItsLimit) {
+  JointShaper shaper(rules_of(JointFollows::velocity));
+  shaper.take_over({0, 0});
+  JointTarget target;
+  target.velocity_radps = 1;
+  double measured = 0;
+  for (int i = 0; i < 200; ++i) {
+    shaper.follow(target, {measured, shaper.velocity_radps()}, kCycle_s);
+    measured = shaper.impedance().position_rad;
+  }
+  double before = shaper.velocity_radps();
+  for (int i = 0; i < 100; ++i) {
+    shaper.hold({measured, before}, kCycle_s);
+    EXPECT_LE(std::abs(shaper.velocity_radps() - before), 5 * kCycle_s + 1e-9);
+    before = shaper.velocity_radps();
+    measured = shaper.impedance().position_rad;
+  }
+  EXPECT_EQ(before, 0);
+}
+
+TEST(JointShaper, DampLetsItSinkSlowly) {
+  JointShaper shaper(rules_of(JointFollows::impedance));
+  ArmJoint joint;
+  joint.state = AxisState::running;
+  shaper.take_over({0, 0});
+  for (int i = 0; i < 400; ++i) {
+    shaper.damp({joint.position_rad, joint.velocity_radps}, kCycle_s);
+    joint.obey({AxisRequest::run, shaper.velocity_radps(), shaper.impedance()});
+    for (int k = 0; k < 5; ++k) joint.step(kCycle_s / 5);
+  }
+  EXPECT_LT(joint.position_rad, -0.3);
+  EXPECT_NEAR(joint.velocity_radps, -1.5 * std::cos(joint.position_rad) / 2.05, 0.1);
+}
+
+}  // namespace
+}  // namespace drover::engine
