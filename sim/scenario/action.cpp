@@ -28,13 +28,27 @@ std::string program(JsonReader& reader, std::string_view key) {
 ///  "names": "aimrt_1x", "content": "json"}
 CommandStreamSpec read_stream(JsonReader reader, const json& raw) {
   CommandStreamSpec stream;
-  auto joints = reader.object("velocities_radps");
-  for (const auto& joint : joints.keys()) {
-    const bool text = raw.at("velocities_radps").at(joint).is_string();
-    if (text && joints.text(joint) != "nan") joints.fail(joint, "must be a number or nan");
-    stream.joints.push_back({joint, text ? NAN : joints.number(joint)});
+  if (reader.has("velocities_radps")) {
+    auto wheels = reader.object("velocities_radps");
+    for (const auto& joint : wheels.keys()) {
+      const bool text = raw.at("velocities_radps").at(joint).is_string();
+      if (text && wheels.text(joint) != "nan") wheels.fail(joint, "must be a number or nan");
+      stream.joints.push_back({joint, text ? NAN : wheels.number(joint)});
+    }
+    wheels.done();
   }
-  joints.done();
+  if (reader.has("joints")) {
+    auto joints = reader.object("joints");
+    for (const auto& joint : joints.keys()) {
+      auto values = joints.object(joint);
+      stream.joints.push_back({joint, values.number("velocity_radps", 0),
+                               values.number("position_rad", 0), values.number("effort_Nm", 0),
+                               values.number("stiffness", 0), values.number("damping", 0)});
+      values.done();
+    }
+    joints.done();
+  }
+  if (stream.joints.empty()) reader.fail("joints", "or velocities_radps must name a joint");
   stream.rate_Hz = reader.number("rate_Hz", stream.rate_Hz);
   if (!(stream.rate_Hz >= 1 && stream.rate_Hz <= 1000)) reader.fail("rate_Hz", "must be 1 to 1000");
   const double for_s = reader.number("for_s");

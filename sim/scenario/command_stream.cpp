@@ -9,9 +9,23 @@ namespace drover::sim {
 namespace {
 
 // Protobuf: a field's tag is its number and, in the lowest three bits, how its value is written.
-constexpr char kName = 1 << 3 | 2;      // bytes with their length
-constexpr char kVelocity = 3 << 3 | 1;  // eight bytes, the lowest first
+constexpr char kName = 1 << 3 | 2;  // bytes with their length
 constexpr char kJoint = 2 << 3 | 2;
+
+struct Value {
+  const char* key;
+  int number;  ///< of its field
+  double JointSent::*value;
+};
+constexpr Value kValues[] = {{"position", 2, &JointSent::position_rad},
+                             {"velocity", 3, &JointSent::velocity_radps},
+                             {"effort", 4, &JointSent::effort_Nm},
+                             {"stiffness", 5, &JointSent::stiffness_Nmprad},
+                             {"damping", 6, &JointSent::damping_Nmsprad}};
+/// A velocity is always told.
+bool is_told(const Value& value, const JointSent& joint) {
+  return value.value == &JointSent::velocity_radps || joint.*value.value != 0;
+}
 
 /// Seven bits a byte, the lowest first.
 std::string varint(std::size_t value) {
@@ -38,19 +52,29 @@ std::string joint_command_topic(const CommandForm& form) {
          (form.aimrt_1x ? "JointCommandArray" : "JointCommand");
 }
 
-std::string joint_command_packet(const std::vector<JointVelocity>& joints) {
+std::string joint_command_packet(const std::vector<JointSent>& joints) {
   std::string packet("\x02pb\0", 4);
-  for (const auto& joint : joints)
-    packet += with_length(
-        kJoint, with_length(kName, joint.joint) + kVelocity + double_bytes(joint.velocity_radps));
+  for (const auto& joint : joints) {
+    std::string entry = with_length(kName, joint.joint);
+    for (const Value& value : kValues) {
+      if (!is_told(value, joint)) continue;
+      entry += static_cast<char>(value.number << 3 | 1);  // eight bytes, the lowest first
+      entry += double_bytes(joint.*value.value);
+    }
+    packet += with_length(kJoint, entry);
+  }
   return packet;
 }
 
-std::string joint_command_json_packet(const std::vector<JointVelocity>& joints) {
+std::string joint_command_json_packet(const std::vector<JointSent>& joints) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const auto& joint : joints) {
-    nlohmann::ordered_json item{{"name", joint.joint}, {"velocity", joint.velocity_radps}};
-    if (std::isnan(joint.velocity_radps)) item["velocity"] = "NaN";
+    nlohmann::ordered_json item{{"name", joint.joint}};
+    for (const Value& value : kValues) {
+      if (!is_told(value, joint)) continue;
+      item[value.key] = joint.*value.value;
+      if (std::isnan(joint.*value.value)) item[value.key] = "NaN";
+    }
     list.push_back(std::move(item));
   }
   return std::string("\x04json\0", 6) + nlohmann::ordered_json{{"joints", list}}.dump();

@@ -11,9 +11,14 @@
 
 namespace drover::sim {
 
-struct JointVelocity {
-  std::string joint;          ///< any name, known to the robot or not
-  double velocity_radps = 0;  ///< any number, NaN too
+/// Any name, known to the robot or not; any number, NaN too. What is 0 is not written.
+struct JointSent {
+  std::string joint;
+  double velocity_radps = 0;
+  double position_rad = 0;
+  double effort_Nm = 0;
+  double stiffness_Nmprad = 0;
+  double damping_Nmsprad = 0;
 };
 
 /// How a program writes: the document's names or AimRT 1.x's, protobuf or JSON.
@@ -25,14 +30,15 @@ struct CommandForm {
 std::string joint_command_topic(const CommandForm& form);
 
 /// AimRT's MQTT payload (one byte length, "pb", no context) around a protobuf JointCommand: field
-/// 2 the joints, of each field 1 the name and 3 the velocity. Made by hand, so that an error of the
+/// 2 the joints, of each field 1 the name, 2 the position, 3 the velocity, 4 the effort, 5 the
+/// stiffness and 6 the damping. Made by hand, so that an error of the
 /// gateway's own encoder does not hide here.
-std::string joint_command_packet(const std::vector<JointVelocity>& joints);
+std::string joint_command_packet(const std::vector<JointSent>& joints);
 /// The same as JSON ("json" for "pb"); NaN is a text there.
-std::string joint_command_json_packet(const std::vector<JointVelocity>& joints);
+std::string joint_command_json_packet(const std::vector<JointSent>& joints);
 
 struct CommandStreamSpec {
-  std::vector<JointVelocity> joints;
+  std::vector<JointSent> joints;
   double rate_Hz = 50;
   Duration lasts{};
   CommandForm form{};

@@ -162,6 +162,17 @@ void show_axes(std::string& out, const Node& status) {
   }
 }
 
+/// Joints outside the base, with what they do.
+void show_groups(std::string& out, const Node& status) {
+  const auto* groups = at(status, "groups").list();
+  if (groups == nullptr) return;
+  for (const auto& group : *groups) {
+    std::string value = text(at(group, "state"));
+    if (const auto why = text(at(group, "reason")); !why.empty()) value += "  " + why;
+    line(out, text(at(group, "name")), value);
+  }
+}
+
 /// One that takes a twist.
 void show_base(std::string& out, const Node& status) {
   const auto& base = at(status, "base");
@@ -232,6 +243,7 @@ std::string show_status(const Node& status) {
   show_battery(out, status);
   show_others(out, status);
   show_axes(out, status);
+  show_groups(out, status);
   show_base(out, status);
   show_devices(out, status);
   return out;

@@ -56,6 +56,22 @@ void side(const std::string& path, const std::vector<std::string>& joints,
   }
 }
 
+/// A wheel is told how fast it shall turn.
+void follow_velocities(const BaseNames& base, Findings& found) {
+  for (const auto* device : by_axis(found.config())) {
+    const auto* const entry = find_driver(device->driver);
+    if (entry == nullptr || entry->channels.empty()) continue;
+    if (entry->channels[0].mode != ChannelMode::impedance) continue;
+    for (const auto& joint : device->joints)
+      for (const auto* side : {&base.left, &base.right})
+        if (std::find(side->begin(), side->end(), joint.name) != side->end())
+          found.add(side == &base.left ? "groups.base.left" : "groups.base.right",
+                    "the drive of \"" + joint.name + "\" (" + device->driver +
+                        ") is for joints outside the base",
+                    "a wheel needs a drive that follows a velocity");
+  }
+}
+
 void both_sides(const BaseNames& base, Findings& found) {
   for (const auto& joint : base.left)
     if (std::find(base.right.begin(), base.right.end(), joint) != base.right.end())
@@ -97,6 +113,7 @@ void wheels(const BaseNames& base, Findings& found) {
   side("groups.base.left", base.left, resolved.left, found);
   side("groups.base.right", base.right, resolved.right, found);
   both_sides(base, found);
+  follow_velocities(base, found);
 }
 
 void twist_device(const BaseNames& base, Findings& found) {

@@ -51,6 +51,25 @@ void look_at_silence(const DeviceConfig& device, const Actuator& driver, Finding
             "set its watchdog, or \"accept\": [\"no_watchdog\"] when that is meant");
 }
 
+/// A joint that carries a weight is held by its drive alone.
+void warn_of_weights(const DeviceConfig& device, const Actuator& driver, Findings& found) {
+  const auto& engine = found.config().engine;
+  for (const auto& group : engine.groups)
+    for (const auto& joint : group.joints) {
+      const bool moved =
+          joint.axis >= device.first_axis && joint.axis < device.first_axis + device.joints.size();
+      if (!moved || !joint.carries_weight) continue;
+      const char* const by_guard =
+          driver.stop_recipe().ends == StopEnds::holds ? "holds it" : "only lets it sink slowly";
+      found.warn(
+          "groups." + std::string(group.name.view()) + ".joints." +
+              std::string(engine.joints[joint.axis].view()),
+          "carries a weight: without power nothing holds it; when its line is cut its drive " +
+              std::string(driver.silence().text) + "; when droverd dies drover-guard " + by_guard,
+          "falls", "a brake, a spring or a counterweight");
+    }
+}
+
 /// Of what moves something: at another speed nobody hears it, and it hears no stop.
 void look_at_speed(const DeviceConfig& device, Findings& found) {
   const auto* entry = find_driver(device.driver);
@@ -246,6 +265,7 @@ void check_drivers(Findings& found) {
     device.goes_on_in_silence = !silence.stops;
     if (silence.stops) device.stops_after_ms = static_cast<int>(to_s(silence.after) * 1000);
     look_at_silence(device, *made.actuator, found);
+    warn_of_weights(device, *made.actuator, found);
   }
 }
 

@@ -70,7 +70,7 @@ void joint(const std::string& path, const JointGroup& group, const GroupJoint& g
   limits(path, given.rules, found);
   engine::JointRules rules = given.rules;
   rules.axis = static_cast<AxisId>(moved.device->first_axis + moved.joint);
-  rules.follows = by_word<engine::JointFollows>(kFollowsWords, given.follows);
+  rules.follows = by_word<JointFollows>(kFollowsWords, given.follows);
   rules.on_silence = by_word<engine::OnSilence>(kSilenceWords, given.on_silence);
   (void)into.joints.push_back(rules);  // too many are told by the reader
 }

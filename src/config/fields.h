@@ -337,7 +337,7 @@ void visit(V& v, DroverConfig& c, GroupNames& groups) {
   v.object("aimrt", c.aimrt, "AimRT channel");
   v.object("scene", c.scene, "what is around the robot: left out, nothing of it is looked at");
   v.names(
-      "accept", c.accept, Count{0, 10},
+      "accept", c.accept, Count{0, 11},
       "no_estop: there is no e-stop line; slow_guard: guard.limit_ms is above 200; no_tilt: "
       "nothing tells how steep the ground is; no_soc: no battery tells its charge; no_relay: "
       "nothing takes the power from drives that do not stop; short_look: the scene, or a lidar's "
@@ -345,7 +345,8 @@ void visit(V& v, DroverConfig& c, GroupNames& groups) {
       "drives do by their own max_speed_mps or max_rpm is below limits.max_speed_mps; far_antenna: "
       "it is farther from base_link than three tracks; slow_watchdog: a drive goes on for more "
       "than a second when its line is cut; "
-      "no_guard: it drives without drover-guard; that is known");
+      "no_guard: it drives without drover-guard; falls: a joint that carries a weight sinks or "
+      "falls without power; that is known");
 }
 
 }  // namespace drover::config

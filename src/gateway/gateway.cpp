@@ -31,7 +31,7 @@ Gateway::Gateway(const config::DroverConfig& config)
   const Duration jammed_after = from_s(config.engine.health.drive_stale_s);
   for (const Slot& slot : wiring_.slots) {
     const Actuator* const actuator = slot.made.actuator;
-    if (actuator == nullptr) continue;
+    if (actuator == nullptr || !slot.of_base) continue;
     environment_.drives_on_in_silence |= !actuator->silence().stops;
     environment_.stop_creeps |= actuator->stop_recipe().ends != StopEnds::holds;
   }
@@ -121,8 +121,7 @@ engine::Permission Gateway::permission(const Slot& slot) {
   ChannelMask motion = 0;
   for (std::size_t channel = 0; channel < slot.axes.size(); ++channel) {
     const AxisId axis = slot.axes[channel];
-    const bool of_base = slot.takes_twist || robot.axes[axis].group == 0;
-    const bool may_move = of_base ? motion_permitted_ : cycle_.engine.joint_may_move[axis];
+    const bool may_move = slot.of_base ? motion_permitted_ : cycle_.engine.joint_may_move[axis];
     if (may_move) motion |= channel_bit(channel);
     engine::Slowing slowing{cycle_.engine.slowing_permitted[axis] && fresh};
     if (slot.takes_twist)

@@ -65,6 +65,8 @@ class Builder final {
     slot.axes = context.axes;
     slot.takes_twist = drover::takes_twist(*entry);
     if (slot.takes_twist) (void)slot.axes.push_back(0);
+    const auto of_base = config_.engine.joints.size() - joints_of_groups(config_.engine);
+    slot.of_base = slot.axes.empty() || slot.takes_twist || slot.axes[0] < of_base;
     slot.place = place;
     slot.source = of_kind_[static_cast<std::size_t>(slot.kind)]++;
     tell_health(slot, context);

@@ -36,6 +36,7 @@ struct Slot {
   /// Of what moves something: its joints, by channel. What takes the base's twist is axis 0.
   FixedVector<AxisId, kMaxChannels> axes;
   bool takes_twist = false;  ///< its one channel is the base
+  bool of_base = true;       ///< of what moves something: the base, or else an arm, a mast
   SourceHealth health;       ///< as of the last cycle
   /// Where the engine looks for it.
   FixedVector<SourceHealth*, kMaxChannels> tells_health;

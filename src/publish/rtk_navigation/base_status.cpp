@@ -29,9 +29,11 @@ constexpr int kGeodetic = 10;  // degrees: 0.01 mm
 bool drives_healthy(const Snapshot& snapshot) {
   if (const BaseSnapshot& base = snapshot.base; base.configured)
     return base.health == SourceState::fresh && base.state != AxisState::fault;
+  // The document's motor is the vehicle's: an arm has a status of its own.
   return !snapshot.axes.empty() &&
          std::all_of(snapshot.axes.begin(), snapshot.axes.end(), [](const AxisSnapshot& axis) {
-           return axis.health == SourceState::fresh && axis.state != AxisState::fault;
+           return axis.group != 0 ||
+                  (axis.health == SourceState::fresh && axis.state != AxisState::fault);
          });
 }
 
@@ -109,7 +111,8 @@ double BaseStatus::power(const Snapshot& snapshot) {
   if (known(snapshot.battery)) return keep(bus_V_, snapshot.battery.sample.voltage_V);
   // Without a battery that answers the drives know the voltage; the lowest is the one that matters.
   double lowest_V = snapshot.base.bus_V;
-  for (const AxisSnapshot& axis : snapshot.axes) lowest_V = std::fmin(lowest_V, axis.bus_V);
+  for (const AxisSnapshot& axis : snapshot.axes)
+    if (axis.group == 0) lowest_V = std::fmin(lowest_V, axis.bus_V);
   return keep(bus_V_, lowest_V);
 }
 

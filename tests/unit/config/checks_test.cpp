@@ -106,9 +106,8 @@ TEST(ConfigurationChecks, RefuseAJointThatIsNoWheelOfTheBase) {
                 "\"gnss\": {\"driver\"",
                 "\"arm\": {\"driver\": \"odrive\", \"link\": \"can0\", \"options\": {\"node\": 9},"
                 " \"accept\": [\"no_watchdog\"]},\n\"gnss\": {\"driver\"")),
-            "f:7:12: devices.arm: \"arm\" is no wheel of the base: joints outside the base are "
-            "not supported yet (name it in groups.base.left or groups.base.right, or leave the "
-            "device out)\n");
+            "f:7:12: devices.arm: \"arm\" is of no group (name it in groups.base.left or "
+            "groups.base.right, or give it a group of its own: groups.arm.joints)\n");
 }
 
 TEST(ConfigurationChecks, RefuseAJointThatIsThereTwice) {

@@ -24,7 +24,7 @@ TEST(AJointCommandPacket, SaysWhatWasMeant) {
 }
 
 TEST(AJointCommandPacket, SaysTheSameInJson) {
-  const std::vector<JointVelocity> joints{{"front_left", -1.5}, {"rear_left", NAN}};
+  const std::vector<JointSent> joints{{"front_left", -1.5}, {"rear_left", NAN}};
   const auto bytes = joint_command_json_packet(joints);
   EXPECT_EQ(bytes.substr(0, 6), std::string("\x04json\0", 6));
   EXPECT_EQ(test::protobuf_of_json("JointCommandArray", test::message_of_packet(bytes)),

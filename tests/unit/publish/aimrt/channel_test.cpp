@@ -393,5 +393,39 @@ TEST_F(AnAimrtChannel, PublishesUnderTheNamesThatAreConfigured) {
             "/channel/%2Ftouch_state/pb%3Aaimrt.protocols.sensor.TouchSensorStateArray");
 }
 
+/// A robot with an arm: its joints have owners of their own.
+class AnAimrtChannelOfAnArm : public AnAimrtChannel {
+ protected:
+  AnAimrtChannelOfAnArm() {
+    config_.rules.joints = {{"left"}, {"right"}, {"elbow", JointFollows::impedance, 1}};
+    channel_.emplace(config_);
+  }
+  void stamped(std::string_view joint, double velocity, int frame, std::uint64_t late_ns = 0) {
+    const std::string header =
+        test::bytes_field(1, test::varint_field(1, wall_ns() - late_ns) +
+                                 test::bytes_field(2, frame == 0 ? "drive" : "arm"));
+    give(in_packet(header + joint_entry(joint, 0, velocity)));
+  }
+};
+
+TEST_F(AnAimrtChannelOfAnArm, HearsAProgramForEach) {
+  for (int i = 0; i < 20; ++i) {
+    stamped("left", 0, 0);
+    stamped("elbow", 0.5, 1, 3'000'000);  // its clock is its own
+    now_ += std::chrono::milliseconds(10);
+  }
+  EXPECT_EQ(commands<JointTargets>().size(), 40u);
+  EXPECT_EQ(last_refusal(), "");
+  EXPECT_EQ(channel_->rivals(now_), "");
+}
+
+TEST_F(AnAimrtChannelOfAnArm, NamesTwoProgramsOfOneGroup) {
+  stamped("elbow", 0, 1);
+  now_ += std::chrono::milliseconds(10);
+  stamped("elbow", 0, 0);
+  EXPECT_NE(last_refusal().find("two programs write joint commands"), std::string::npos);
+  EXPECT_EQ(channel_->rivals_refused(), 1u);
+}
+
 }  // namespace
 }  // namespace drover::publish::aimrt

@@ -141,5 +141,61 @@ TEST(AimrtJointCommand, DecodesBytesWorkedOutByHand) {
   EXPECT_EQ(joint.damping, 0.5);
 }
 
+/// A joint of each kind outside the base.
+JointCommandRules arm_rules() {
+  JointCommandRules rules;
+  rules.joints = {{"left"},
+                  {"shoulder", JointFollows::impedance, 1},
+                  {"elbow", JointFollows::position, 1},
+                  {"roll", JointFollows::velocity, 1},
+                  {"grip", JointFollows::effort, 2}};
+  return rules;
+}
+
+std::string arm_refusal(const std::string& bytes) {
+  const auto result =
+      accept_joint_command(*decode_joint_command(bytes), arm_rules(), Duration(kNow_ns), 0);
+  return result ? "" : std::string(result.error().view());
+}
+
+TEST(AimrtJointCommand, HandsOnAllFiveValues) {
+  const auto targets =
+      accept_joint_command(*decode_joint_command(joint_entry("shoulder", 0.5, -0.25, 1.5, 40, 2)),
+                           arm_rules(), Duration(kNow_ns), 0);
+  ASSERT_TRUE(targets);
+  ASSERT_EQ(targets->joints.size(), 1u);
+  const JointTarget& joint = targets->joints[0];
+  EXPECT_EQ(joint.axis, 1);
+  EXPECT_EQ(joint.position_rad, 0.5);
+  EXPECT_EQ(joint.velocity_radps, -0.25);
+  EXPECT_EQ(joint.effort_Nm, 1.5);
+  EXPECT_EQ(joint.stiffness_Nmprad, 40);
+  EXPECT_EQ(joint.damping_Nmsprad, 2);
+}
+
+TEST(AimrtJointCommand, RefusesByNameWhatAJointDoesNotFollow) {
+  EXPECT_EQ(arm_refusal(joint_entry("elbow", 0.5, 0.1)), "");
+  EXPECT_EQ(arm_refusal(joint_entry("elbow", 0.5, 0.1, 0, 40)),
+            "joint 'elbow': stiffness is 40, but it follows a position, as stiffly as is "
+            "configured: 0");
+  EXPECT_EQ(arm_refusal(joint_entry("elbow", 0.5, 0.1, 2)),
+            "joint 'elbow': effort is 2, but it follows a position, as stiffly as is configured: "
+            "0");
+  EXPECT_EQ(arm_refusal(joint_entry("roll", 0, 1)), "");
+  EXPECT_EQ(arm_refusal(joint_entry("roll", 0, 1, 0.5)),
+            "joint 'roll': effort is 0.5, but it follows a velocity: 0");
+  EXPECT_EQ(arm_refusal(joint_entry("grip", 0, 0, 3, 0, 0.1)), "");
+  EXPECT_EQ(arm_refusal(joint_entry("grip", 0, 1, 3)),
+            "joint 'grip': velocity is 1, but it follows an effort: 0");
+  EXPECT_EQ(arm_refusal(joint_entry("shoulder", 0, 0, 0, -5)),
+            "joint 'shoulder': stiffness -5 is negative");
+  EXPECT_EQ(arm_refusal(joint_entry("shoulder", 0, 0, 0, 5, -1)),
+            "joint 'shoulder': damping -1 is negative");
+  EXPECT_EQ(arm_refusal(joint_entry("shoulder", 0, 0, 1e7)),
+            "joint 'shoulder': effort 1e+07 is absurd");
+  EXPECT_EQ(arm_refusal(joint_entry("left", 0, 1, 0, 3)),
+            "joint 'left': stiffness is 3, but this drive follows velocity only: 0");
+}
+
 }  // namespace
 }  // namespace drover::publish::aimrt
