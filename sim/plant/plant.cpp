@@ -9,6 +9,7 @@ namespace drover::sim {
 namespace {
 
 constexpr int kTerrainGroup = 0;
+constexpr int kArmGroup = 1;  // of motors
 constexpr int kTerrainBit = 1;
 constexpr int kObstacleBit = 2;
 constexpr double kParked_m = -20;  // an obstacle that is not there
@@ -75,6 +76,7 @@ Plant::Plant(const std::string& world_file) : impl_(std::make_unique<Impl>()) {
   impl_->bumper = mj_name2id(&m, mjOBJ_GEOM, "bumper");
   if (impl_->bumper >= 0)
     impl_->front_m = m.geom_pos[3 * impl_->bumper] + m.geom_size[3 * impl_->bumper];
+  impl_->tip = mj_name2id(&m, mjOBJ_SITE, "tip");
   for (int i = 0; i < m.nu; ++i) {
     impl_->joint_ids.push_back(m.actuator_trnid[2 * i]);
     impl_->joints.push_back(name_of(m, mjOBJ_JOINT, m.actuator_trnid[2 * i]));
@@ -95,11 +97,15 @@ Plant::Plant(const std::string& world_file) : impl_(std::make_unique<Impl>()) {
     if (!of_robot && solid && m.geom_type[geom] == mjGEOM_BOX && !impl_->objects->owns(geom))
       impl_->boxes.push_back(geom);
   }
-  for (std::size_t i = 0; i < impl_->wheels.size(); ++i)
+  bool drives = false;
+  for (std::size_t i = 0; i < impl_->wheels.size(); ++i) {
+    if (m.actuator_group[i] == kArmGroup) continue;
+    drives = true;
     if (impl_->wheels[i].contact_geom < 0)
       throw std::runtime_error(world_file + ": the wheel of joint '" + impl_->joints[i] +
                                "' has no sphere with contype 1 that touches the ground");
-  if (impl_->wheels.empty()) throw std::runtime_error(world_file + ": no motor turns a wheel");
+  }
+  if (!drives) throw std::runtime_error(world_file + ": no motor turns a wheel");
   if (impl_->boxes.size() > kMaxBoxes)
     throw std::runtime_error(world_file + ": more than 64 obstacle boxes");
   place(0, 0, 0);
@@ -126,6 +132,10 @@ std::size_t Plant::joint(std::string_view name) const {
     known += (known.empty() ? "" : ", ") + impl_->joints[i];
   }
   throw std::runtime_error("no joint '" + std::string(name) + "' in the world; it has " + known);
+}
+
+bool Plant::is_wheel(std::size_t joint) const {
+  return impl_->wheels[joint].contact_geom >= 0;
 }
 
 void Plant::set_torque(std::size_t joint, double torque_Nm) {
@@ -186,8 +196,10 @@ void Plant::step() {
     impl_->carry();
   } else {
     impl_->push();
+    impl_->push_tip();
     impl_->shove();
-    for (auto& wheel : impl_->wheels) impl_->pull_tyre(wheel);
+    for (auto& wheel : impl_->wheels)
+      if (wheel.contact_geom >= 0) impl_->pull_tyre(wheel);
     mj_step(impl_->model.get(), impl_->data.get());
   }
   impl_->feel();

@@ -49,16 +49,18 @@ class Plant {
   double timestep_s() const;
   double time_s() const;
 
-  /// Index of a wheel joint for the calls below, in the world's order of motors.
+  /// Index of a joint for the calls below, in the world's order of motors.
   /// Throws std::runtime_error naming the joints that there are.
   std::size_t joint(std::string_view name) const;
   const std::vector<std::string>& joints() const;
+  /// False: a joint of an arm, which has no tyre.
+  bool is_wheel(std::size_t joint) const;
 
   /// Puts the robot down at rest, level with the ground under its wheels; wheel angles become 0.
   void place(double x_m, double y_m, double yaw_rad);
-  /// Torque at a wheel joint until it is set again; positive drives ahead.
+  /// Torque at a joint until it is set again; positive drives a wheel ahead.
   void set_torque(std::size_t joint, double torque_Nm);
-  /// What holds a wheel joint against turning, up to this torque, until it is set again: a brake.
+  /// What holds a joint against turning, up to this torque, until it is set again: a brake.
   void set_holding_torque(std::size_t joint, double torque_Nm);
   /// Advances by one timestep.
   void step();
@@ -66,6 +68,16 @@ class Plant {
   void kick(double vx_mps, double vy_mps);
   /// A force on the base, along its own axes, until it is set again.
   void push(double ahead_N, double left_N);
+  /// A force on the arm's tip, in the world's axes, until it is set again. False: the world has no
+  /// site "tip".
+  struct Vector {
+    double x = 0;
+    double y = 0;
+    double z = 0;
+  };
+  bool push_tip(const Vector& force_N);
+  /// Where it is in the world.
+  std::optional<Vector> tip_m() const;
   struct CarrySpeed {
     double vx_mps = 0;
     double vy_mps = 0;
@@ -100,11 +112,6 @@ class Plant {
   BasePose pose() const;
   BaseVelocity velocity() const;
   /// Velocity of a point that is fixed to the base (given in base_link), in the world's axes.
-  struct Vector {
-    double x = 0;
-    double y = 0;
-    double z = 0;
-  };
   Vector point_m(const Vector& in_base_m) const;
   Vector point_velocity_mps(const Vector& in_base_m) const;
   /// Of base_link in the world.

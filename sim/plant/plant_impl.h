@@ -28,7 +28,7 @@ struct DataDeleter {
 // What a wheel needs for its tyre's force.
 struct Wheel {
   int body = 0;
-  int contact_geom = 0;
+  int contact_geom = 0;  ///< -1: no wheel, but a joint of an arm
   Tyre tyre;
   double slip = 0;  ///< share of the rolled way that the ground gives way
 };
@@ -75,6 +75,8 @@ struct Plant::Impl {
   std::vector<int> feet;                // geoms of the robot that touch the ground: wheels, castors
   std::vector<std::array<double, 2>> feet_m;  // the same in base_link
   std::array<mjtNum, 3> push_N{};             // along the base's axes
+  int tip = -1;                               // site; the world may have none
+  std::array<mjtNum, 3> tip_push_N{};         // along the world's axes
   std::optional<CarrySpeed> carried;
   std::optional<ShoveState> shoved;
   std::array<mjtNum, 3> slides{};  // of a wheel's speed, in the world
@@ -88,6 +90,7 @@ struct Plant::Impl {
   int mocap(std::string_view name) const;
   void pull_tyre(Wheel& wheel);
   void push();
+  void push_tip();
   void shove();
   void carry();
   void feel();

@@ -74,6 +74,7 @@ void Plant::place(double x_m, double y_m, double yaw_rad) {
   impl_->carried.reset();
   impl_->shoved.reset();
   impl_->push_N = {};
+  impl_->tip_push_N = {};
   // The model's own pose is level, so the feet need not be turned.
   impl_->feet_m.clear();
   for (const int geom : impl_->feet) {
@@ -99,6 +100,22 @@ void Plant::Impl::push() {
   mjtNum* force = data->xfrc_applied + 6 * base;
   mju_mulMatVec(force, rotation(), push_N.data(), 3, 3);
   mju_zero(force + 3, 3);  // a shove that is over turns nothing
+}
+
+bool Plant::push_tip(const Vector& force_N) {
+  impl_->tip_push_N = {force_N.x, force_N.y, force_N.z};
+  return impl_->tip >= 0;
+}
+
+// MuJoCo takes a force at a body's centre of mass, and what it turns beside.
+void Plant::Impl::push_tip() {
+  if (tip < 0) return;
+  const int body = model->site_bodyid[tip];
+  mjtNum* force = data->xfrc_applied + 6 * body;
+  std::array<mjtNum, 3> arm{};
+  mju_sub3(arm.data(), data->site_xpos + 3 * tip, data->xipos + 3 * body);
+  mju_copy3(force, tip_push_N.data());
+  mju_cross(force + 3, arm.data(), tip_push_N.data());
 }
 
 void Plant::carry(const std::optional<CarrySpeed>& speed) {

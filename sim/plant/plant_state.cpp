@@ -20,6 +20,12 @@ WheelState Plant::wheel(std::size_t joint) const {
   return {impl_->data->qpos[m.jnt_qposadr[id]], impl_->data->qvel[m.jnt_dofadr[id]]};
 }
 
+std::optional<Plant::Vector> Plant::tip_m() const {
+  if (impl_->tip < 0) return std::nullopt;
+  const mjtNum* at = impl_->data->site_xpos + 3 * impl_->tip;
+  return Vector{at[0], at[1], at[2]};
+}
+
 BasePose Plant::pose() const {
   const mjtNum* p = impl_->data->qpos + impl_->base_qpos;
   std::array<mjtNum, 9> r{};

@@ -19,13 +19,14 @@
 //   supply dip SECONDS               the drives' common supply goes for so long
 //   kick VX VY                       a shove along the base's own axes (m/s)
 //   push FX FY SECONDS               somebody pushes with this force along the base's axes (N)
+//   push_tip FX FY FZ SECONDS        the same at the arm's tip, along the world's axes
 //   carry DX DY DEGREES SECONDS      it is moved on a trailer, along its axes; no wheel turns
 //   shove DX DY SECONDS [DEGREES]    a force displaces it so far along its axes, and turns it
 //   slip SHARE SECONDS [SIDE]        its wheels (left, right or all) make so much less way
 //   sideslip SHARE [DEGREES]         it slides by this share of its speed: to its left as it stands
 //                                    now, or in that direction of the world; 0 ends it
 //   slope DEGREES                    tilts the world's side slope, north up, where there is one
-//   truth                            pose and speed as JSON
+//   truth                            pose and speed as JSON, and of an arm its joints and its tip
 #include <algorithm>
 #include <vector>
 
@@ -83,6 +84,7 @@ std::string Robot::command(std::string_view text) {
   }
   if (verb == "supply") return command_supply(words[1], words[2]);
   if (verb == "push") return command_push(rest);
+  if (verb == "push_tip") return command_push_tip(rest);
   if (verb == "carry") return command_carry(rest);
   if (verb == "shove") return command_shove(rest);
   if (verb == "slip") return command_slip(rest);
@@ -154,6 +156,18 @@ std::string Robot::command_push(std::span<const std::string_view> numbers) {
   return "ok";
 }
 
+std::string Robot::command_push_tip(std::span<const std::string_view> numbers) {
+  const auto east_N = number(numbers[0]);
+  const auto north_N = number(numbers[1]);
+  const auto up_N = number(numbers[2]);
+  const auto lasts_s = number(numbers[3]);
+  if (!east_N || !north_N || !up_N || !lasts_s || !(*lasts_s > 0))
+    return error("say: push_tip FX FY FZ SECONDS");
+  if (!plant_.push_tip({*east_N, *north_N, *up_N})) return error("the world has no arm's tip");
+  push_tip_until_ = now_ + from_s(*lasts_s);
+  return "ok";
+}
+
 std::string Robot::command_carry(std::span<const std::string_view> numbers) {
   const auto ahead_m = number(numbers[0]);
   const auto left_m = number(numbers[1]);
@@ -172,11 +186,27 @@ std::string Robot::truth_text() const {
       text.data(), text.size(),
       "{\"time_s\":%.9f,\"x_m\":%.6f,\"y_m\":%.6f,\"z_m\":%.6f,\"roll_rad\":%.6f,"
       "\"pitch_rad\":%.6f,\"yaw_rad\":%.6f,\"vx_mps\":%.6f,\"vy_mps\":%.6f,\"wz_radps\":%.6f,"
-      "\"free_ahead_m\":%.3f,\"supply\":%s}",
+      "\"free_ahead_m\":%.3f,\"supply\":%s",
       to_s(t.time), t.pose.x_m, t.pose.y_m, t.pose.z_m, t.pose.roll_rad, t.pose.pitch_rad,
       t.pose.yaw_rad, t.velocity.vx_mps, t.velocity.vy_mps, t.velocity.wz_radps,
       std::min(t.free_ahead_m, 999.0), t.supply ? "true" : "false");
-  return {text.data(), static_cast<std::size_t>(n)};
+  return std::string(text.data(), static_cast<std::size_t>(n)) + arm_text() + "}";
+}
+
+std::string Robot::arm_text() const {
+  const auto tip_m = plant_.tip_m();
+  if (truth_.arm.empty() || !tip_m) return "";
+  std::array<char, 160> text{};
+  int n = std::snprintf(text.data(), text.size(), ",\"tip_m\":[%.6f,%.6f,%.6f],\"arm_rad\":{",
+                        tip_m->x, tip_m->y, tip_m->z);
+  std::string all(text.data(), static_cast<std::size_t>(n));
+  const auto names = drives_.arm_joints();
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    n = std::snprintf(text.data(), text.size(), "\":%.6f", truth_.arm[i].position_rad);
+    all += (i > 0 ? ",\"" : "\"") + names[i];
+    all.append(text.data(), static_cast<std::size_t>(n));
+  }
+  return all + "}";
 }
 
 }  // namespace drover::sim

@@ -63,6 +63,7 @@ DriveSpec read_drive(JsonReader& reader, const Scenario& scenario) {
     drive.bus = read_bus(reader, scenario);
   else
     drive.serial = read_serial(reader.object("serial"), scenario);
+  drive.own_supply = reader.flag("own_supply", false);
   read_options(reader, *drive.driver, drive.options);
   reader.done();
   return drive;

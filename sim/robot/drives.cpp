@@ -57,12 +57,14 @@ Drives::Drives(const Scenario& scenario, std::vector<AnyDriveTwin> twins, const 
   for (std::size_t i = 0; i < specs_.size(); ++i) {
     Drive drive;
     drive.bus = specs_[i].bus;
+    drive.own_supply = specs_[i].own_supply;
     drive.twin = std::move(twins[i]);
     drive.device =
         std::visit([](const auto& twin) -> DriveTwin* { return twin.get(); }, drive.twin);
     for (const auto& joint : specs_[i].joints) {
       Wheel wheel;
       wheel.joint = plant.joint(joint);
+      wheel.of_arm = !plant.is_wheel(wheel.joint);
       drive.wheels.push_back(wheel);
     }
     drive.shafts.resize(drive.wheels.size());
@@ -136,7 +138,7 @@ void Drives::turn(Time now, bool first, Plant& plant) {
 }
 
 void Drives::hold(Wheel& wheel, bool energized, Time now, Plant& plant) const {
-  if (!brake_ && !worm_gear_) return;
+  if (wheel.of_arm || (!brake_ && !worm_gear_)) return;
   if (energized != wheel.energized || wheel.energized_since == kNever) {
     // A robot that was just switched on has stood with its brakes on.
     wheel.energized_since = wheel.energized_since == kNever ? now - kBrakeEngages : now;
@@ -151,7 +153,7 @@ void Drives::hold(Wheel& wheel, bool energized, Time now, Plant& plant) const {
 }
 
 void Drives::supply(Drive& drive, Time now) const {
-  const bool on = supply_ && drive.switched_on;
+  const bool on = (supply_ || drive.own_supply) && drive.switched_on;
   if (on == drive.powered) return;
   drive.powered = on;
   drive.device->set_power(on, now);
@@ -162,14 +164,23 @@ void Drives::set_supply(bool on, Time now) {
   for (Drive& drive : drives_) supply(drive, now);
 }
 
-void Drives::tell_wheels(const Plant& plant, std::vector<Shaft>& wheels) const {
-  wheels.clear();
+void Drives::tell(const Plant& plant, bool wheels, std::vector<Shaft>& shafts) const {
+  shafts.clear();
   for (const Drive& drive : drives_) {
     for (std::size_t i = 0; i < drive.wheels.size(); ++i) {
+      if (drive.wheels[i].of_arm == wheels) continue;
       const WheelState wheel = plant.wheel(drive.wheels[i].joint);
-      wheels.push_back({wheel.position_rad, wheel.velocity_radps, drive.shafts[i].torque_Nm});
+      shafts.push_back({wheel.position_rad, wheel.velocity_radps, drive.shafts[i].torque_Nm});
     }
   }
+}
+
+std::vector<std::string> Drives::arm_joints() const {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < drives_.size(); ++i)
+    for (std::size_t j = 0; j < drives_[i].wheels.size(); ++j)
+      if (drives_[i].wheels[j].of_arm) names.push_back(specs_[i].joints[j]);
+  return names;
 }
 
 std::string Drives::command(std::string_view list, std::string_view verb, std::string_view value,

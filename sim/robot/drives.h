@@ -32,7 +32,7 @@ class Drives {
   /// What was written to a drive's serial line (index into the scenario's drives).
   void on_bytes(std::size_t drive, std::span<const std::uint8_t> bytes, Time now);
 
-  /// Of all of them; each has its own switch, too.
+  /// Of all of them but those with one of their own; each has its own switch, too.
   void set_supply(bool on, Time now);
   /// What leaves with this tick is what was said since the last one.
   void begin_tick();
@@ -46,8 +46,14 @@ class Drives {
   /// At this tick; on a serial line not yet paced.
   const std::vector<CanFrame>& frames(std::size_t bus) const { return sent_[bus]; }
   std::string_view bytes(std::size_t drive) const { return drives_[drive].sent; }
-  /// Of all drives' joints, in their order. Position and velocity are the plant's.
-  void tell_wheels(const Plant& plant, std::vector<Shaft>& wheels) const;
+  /// Of all drives' wheels, in their order. Position and velocity are the plant's.
+  void tell_wheels(const Plant& plant, std::vector<Shaft>& wheels) const {
+    tell(plant, true, wheels);
+  }
+  /// The same of an arm's joints.
+  void tell_arm(const Plant& plant, std::vector<Shaft>& arm) const { tell(plant, false, arm); }
+  /// In the same order.
+  std::vector<std::string> arm_joints() const;
 
   /// "power on", "power off", "fault NAME" for the drives in `list`: "all", or names of drives or
   /// joints with commas between them. Returns "ok" or "error: ...".
@@ -57,6 +63,7 @@ class Drives {
  private:
   struct Wheel {
     std::size_t joint = 0;
+    bool of_arm = false;
     /// Since when its power stage has been as it is: a brake follows later.
     bool energized = false;
     Time energized_since = kNever;
@@ -70,9 +77,11 @@ class Drives {
     std::size_t bus = 0;
     std::string sent;     ///< bytes for this tick
     std::string waiting;  ///< bytes for the next one
+    bool own_supply = false;
     bool switched_on = true;
     bool powered = true;
   };
+  void tell(const Plant& plant, bool wheels, std::vector<Shaft>& shafts) const;
   void speak(Drive& drive, Time now, bool first);
   void hold(Wheel& wheel, bool energized, Time now, Plant& plant) const;
   void supply(Drive& drive, Time now) const;

@@ -97,11 +97,15 @@ void SerialLog::write(Time time, std::string_view port, std::span<const std::uin
   log_.append(line_);
 }
 
-TruthLog::TruthLog(const std::string& path, const Scenario& scenario) : log_(path) {
+TruthLog::TruthLog(const std::string& path, const Robot& robot) : log_(path) {
+  const auto arm = robot.arm_joints();
   std::string header = "time_s,x_m,y_m,z_m,roll_rad,pitch_rad,yaw_rad,vx_mps,wz_radps,free_ahead_m";
-  for (const auto& drive : scenario.drives)
-    for (const auto& joint : drive.joints) header += "," + joint + "_radps," + joint + "_Nm";
+  for (const auto& drive : robot.scenario().drives)
+    for (const auto& joint : drive.joints)
+      if (std::find(arm.begin(), arm.end(), joint) == arm.end())
+        header += "," + joint + "_radps," + joint + "_Nm";
   header += ",imu_ax_mps2,imu_ay_mps2,imu_az_mps2,imu_wx_radps,imu_wy_radps,imu_wz_radps,supply";
+  for (const auto& joint : arm) header += "," + joint + "_rad," + joint + "_radps," + joint + "_Nm";
   log_.append(header + "\n");
 }
 
@@ -120,9 +124,15 @@ void TruthLog::write(const Robot::Truth& t) {
   }
   const Vector3& a = t.imu.specific_force_mps2;
   const Vector3& w = t.imu.angular_velocity_radps;
-  n = std::snprintf(text.data(), text.size(), ",%.4f,%.4f,%.4f,%.6f,%.6f,%.6f,%d\n", a.x, a.y, a.z,
+  n = std::snprintf(text.data(), text.size(), ",%.4f,%.4f,%.4f,%.6f,%.6f,%.6f,%d", a.x, a.y, a.z,
                     w.x, w.y, w.z, t.supply ? 1 : 0);
   log_.append({text.data(), static_cast<std::size_t>(n)});
+  for (const auto& joint : t.arm) {
+    n = std::snprintf(text.data(), text.size(), ",%.6f,%.5f,%.4f", joint.position_rad,
+                      joint.velocity_radps, joint.torque_Nm);
+    log_.append({text.data(), static_cast<std::size_t>(n)});
+  }
+  log_.append("\n");
 }
 
 }  // namespace drover::sim

@@ -63,10 +63,11 @@ class SerialLog {
 };
 
 /// CSV with a header line: time_s, x_m, y_m, z_m, roll_rad, pitch_rad, yaw_rad, vx_mps, wz_radps,
-/// free_ahead_m, velocity and torque of each joint, and what a perfect inertial sensor would tell.
+/// free_ahead_m, velocity and torque of each wheel, what a perfect inertial sensor would tell, and
+/// angle, velocity and torque of each joint of an arm.
 class TruthLog {
  public:
-  TruthLog(const std::string& path, const Scenario& scenario);
+  TruthLog(const std::string& path, const Robot& robot);
   void write(const Robot::Truth& truth);
   void flush() { log_.flush(); }
 

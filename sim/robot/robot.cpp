@@ -64,6 +64,7 @@ Robot::Robot(const Scenario& scenario, Twins twins)
   if (twins.lidar) lidar_.emplace(scenario.lidar.value(), std::move(twins.lidar));
   if (battery_twin_) battery_.emplace(scenario.battery ? scenario.battery->model : BatteryModel{});
   drives_.tell_wheels(plant_, truth_.wheels);
+  drives_.tell_arm(plant_, truth_.arm);
   plant_.place(scenario.start_x_m, scenario.start_y_m, to_rad(scenario.start_yaw_deg));
 }
 
@@ -104,11 +105,12 @@ void Robot::step(Time now) {
   use_battery();
 }
 
-/// Packs in parallel share what the wheels take.
+/// Packs in parallel share what the drives take.
 double Robot::battery_power_W() const {
-  double wheels_W = 0;
-  for (const Shaft& wheel : truth_.wheels) wheels_W += wheel.torque_Nm * wheel.velocity_radps;
-  return wheels_W / static_cast<double>(more_.batteries() + 1);
+  double drives_W = 0;
+  for (const Shaft& wheel : truth_.wheels) drives_W += wheel.torque_Nm * wheel.velocity_radps;
+  for (const Shaft& joint : truth_.arm) drives_W += joint.torque_Nm * joint.velocity_radps;
+  return drives_W / static_cast<double>(more_.batteries() + 1);
 }
 
 void Robot::use_battery() {
@@ -126,6 +128,7 @@ void Robot::sense(Time now) {
   truth_.free_ahead_m = plant_.free_distance_m(scenario_.zone_width_m);
   object_record_.note_objects(now, plant_);
   drives_.tell_wheels(plant_, truth_.wheels);
+  drives_.tell_arm(plant_, truth_.arm);
   sense_motion();
   const auto set = [this](LineName line, bool value) {
     sensed_[static_cast<std::size_t>(line)] = value;
@@ -168,6 +171,10 @@ void Robot::move_from_outside(Time now) {
   if (push_until_ != kNever && now >= push_until_) {
     plant_.push(0, 0);
     push_until_ = kNever;
+  }
+  if (push_tip_until_ != kNever && now >= push_tip_until_) {
+    (void)plant_.push_tip({});
+    push_tip_until_ = kNever;
   }
   if (!carry_) return;
   const double share = to_s(now - carry_->begin) / carry_->lasts_s;

@@ -89,6 +89,7 @@ class Robot {
     BasePose pose;
     BaseVelocity velocity;
     std::vector<Shaft> wheels;  ///< in the order of `drives` and their joints
+    std::vector<Shaft> arm;     ///< the same of what is no wheel
     double free_ahead_m = 0;
     bool supply = true;  ///< of the drives: relay, e-stop and dips; not the drives' own switches
     ImuTruth imu;        ///< at the inertial sensor's place; base_link where there is none
@@ -96,6 +97,8 @@ class Robot {
   /// As of the last step's `now`.
   const Truth& truth() const { return truth_; }
   const Scenario& scenario() const { return scenario_; }
+  /// Names for `Truth::arm`.
+  std::vector<std::string> arm_joints() const { return drives_.arm_joints(); }
   /// What stands in its way and what it touches, since the last call: see object_record.h.
   std::string take_object_lines() { return object_record_.take(); }
   bool has_objects() const { return plant_.object_slots() > 0; }
@@ -122,6 +125,7 @@ class Robot {
   void move_from_outside(Time now);
   std::string command_supply(std::string_view verb, std::string_view seconds);
   std::string command_push(std::span<const std::string_view> numbers);
+  std::string command_push_tip(std::span<const std::string_view> numbers);
   std::string command_carry(std::span<const std::string_view> numbers);
   std::string command_shove(std::span<const std::string_view> words);
   std::string command_slip(std::span<const std::string_view> words);
@@ -136,6 +140,7 @@ class Robot {
   double battery_power_W() const;
   std::string command_battery(std::string_view what, std::string_view value);
   std::string truth_text() const;
+  std::string arm_text() const;
   bool active(LineName line) const;
 
   Scenario scenario_;
@@ -162,6 +167,7 @@ class Robot {
   bool relay_closed_ = false;
   Time dip_until_ = kNever;
   Time push_until_ = kNever;
+  Time push_tip_until_ = kNever;
   std::optional<Carry> carry_;
   std::optional<Slip> slip_;
   Time now_{};

@@ -39,6 +39,7 @@ struct DriveSpec {
   const DriverEntry* driver = nullptr;
   std::size_t bus = 0;               ///< on CAN: index into `buses`
   std::optional<SerialSpec> serial;  ///< not on CAN
+  bool own_supply = false;           ///< neither relay nor e-stop nor a dip takes it away
   Options options;                   ///< the driver's and the twin's
 
   /// By its own name, or by that of any of its joints.

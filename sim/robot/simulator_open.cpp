@@ -67,7 +67,7 @@ Simulator::Simulator(const SimulatorSettings& settings)
                  : LinePort::files(robot_.scenario(), made_folder(settings.run_folder) + "/lines")),
       can_log_(log_file(settings, "can.log")),
       serial_log_(has_serial_drive(robot_.scenario()) ? log_file(settings, "serial.log") : ""),
-      truth_log_(log_file(settings, "truth.csv"), robot_.scenario()),
+      truth_log_(log_file(settings, "truth.csv"), robot_),
       object_log_(robot_.has_objects() ? log_file(settings, "objects.log") : "") {
   made_folder(settings_.run_folder);
   const auto& scenario = robot_.scenario();

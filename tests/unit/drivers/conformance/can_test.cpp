@@ -1,5 +1,5 @@
-// What every CAN drive that is told velocities must do, whoever made it, and what everything on CAN
-// that moves must.
+// What every CAN drive of joints must do, whoever made it and however it is told, and what
+// everything on CAN that moves must. What is told an impedance has more: impedance_test.cpp.
 #include <gtest/gtest.h>
 
 #include "support/describe.h"
@@ -18,6 +18,9 @@ class CanConformance : public ::testing::TestWithParam<Subject> {
     EXPECT_EQ(bench.overflows, 0U);
   }
 };
+
+/// Told a velocity alone.
+class CanVelocity : public CanConformance {};
 
 /// Whatever it is told.
 class CanWire : public CanConformance {};
@@ -83,7 +86,8 @@ TEST_P(CanConformance, TurnsEachChannelAsItIsTold) {
   bench.run(milliseconds(1000), kRun, 0.0);
   const std::size_t count = bench.actuator->channels().size();
   for (int i = 0; i < 300; ++i) {
-    bench.step({kRun, 0.0}, [](std::size_t channel) { return 1.0 + static_cast<double>(channel); });
+    bench.step(bench.wish(kRun),
+               [](std::size_t channel) { return 1.0 + static_cast<double>(channel); });
   }
   for (std::size_t channel = 0; channel < count; ++channel) {
     const double told_radps = 1.0 + static_cast<double>(channel);
@@ -92,7 +96,7 @@ TEST_P(CanConformance, TurnsEachChannelAsItIsTold) {
   }
 }
 
-TEST_P(CanConformance, StopsAtRestAndHoldsAgainstALoad) {
+TEST_P(CanVelocity, StopsAtRestAndHoldsAgainstALoad) {
   CanBench bench(GetParam());
   bench.run(milliseconds(500), kRest);
   bench.run(milliseconds(2000), kRun, 3.0);
@@ -356,7 +360,7 @@ TEST_P(CanConformance, StaysDecentThroughRandomHistories) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     std::mt19937 random(seed);
     CanBench bench(GetParam());
-    Setpoint command;
+    Setpoint command = bench.wish(kRest);
     for (int i = 0; i < 600; ++i) {
       if (random() % 40 == 0) command.request = static_cast<AxisRequest>(random() % 4);
       if (random() % 20 == 0) command.velocity_radps = static_cast<double>(random() % 11) - 5.0;
@@ -376,7 +380,7 @@ TEST_P(CanConformance, GivesTheSameForTheSame) {
     CanBench bench(GetParam());
     bench.run(milliseconds(300), kRest);
     for (int i = 0; i < 400; ++i) {
-      bench.step({kRun, 0.01 * i});
+      bench.step(bench.wish(kRun, 0.01 * i));
       text += describe(bench.out);
       for (const CanFrame& frame : bench.out.frames) text += describe(frame);
     }
@@ -388,7 +392,14 @@ std::vector<Subject> movers() {
   return subjects_with_twin<MakeCanTwin>(&Made::actuator);
 }
 
-INSTANTIATE_TEST_SUITE_P(Registry, CanConformance,
+std::vector<Subject> joints() {
+  std::vector<Subject> all = told(ChannelMode::velocity, movers());
+  for (Subject& subject : told(ChannelMode::impedance, movers())) all.push_back(subject);
+  return all;
+}
+
+INSTANTIATE_TEST_SUITE_P(Registry, CanConformance, ::testing::ValuesIn(joints()), label_of);
+INSTANTIATE_TEST_SUITE_P(Registry, CanVelocity,
                          ::testing::ValuesIn(told(ChannelMode::velocity, movers())), label_of);
 INSTANTIATE_TEST_SUITE_P(Registry, CanWire, ::testing::ValuesIn(movers()), label_of);
 

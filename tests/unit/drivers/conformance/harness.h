@@ -135,12 +135,23 @@ class CanBench {
         twin(std::get<MakeCanTwin>(subject.entry->make_twin)(subject.options)),
         shaft(shafts[0]) {
     shafts.resize(shafts_of(*subject.entry));
+    if (actuator->channels()[0].mode == ChannelMode::impedance) {
+      // A joint is lighter than a wheel with its share of a robot.
+      law.damping_Nmsprad = 5;
+      inertia_kgm2 = 0.05;
+      friction_Nms_per_rad = 0.02;
+    }
     device->on_link_up(now);
   }
 
   /// Runs with one command; the plant steps at 2.5 ms.
   void run(Duration time, AxisRequest request, double velocity_radps = 0) {
-    for (const Time end = now + time; now < end;) step({request, velocity_radps});
+    for (const Time end = now + time; now < end;) step(wish(request, velocity_radps));
+  }
+
+  /// Of a channel with impedance by damping alone.
+  Setpoint wish(AxisRequest request, double velocity_radps = 0) const {
+    return {request, velocity_radps, {}, law};
   }
 
   void step(const Setpoint& command) {
@@ -200,6 +211,7 @@ class CanBench {
   std::unique_ptr<CanTwin> twin;
   FixedVector<Shaft, kMaxChannels> shafts;  ///< by channel
   Shaft& shaft;                             ///< of the first
+  Impedance law;  ///< how a velocity is followed; not used by who is told that alone
   double load_Nm = 0;
   double inertia_kgm2 = 0.4;
   double friction_Nms_per_rad = 0.2;

@@ -1,0 +1,259 @@
+// The state machine: when a DAMIAO motor is asked, enabled, commanded and given up.
+#include "drivers/damiao/driver.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "drivers/damiao/rules.h"
+
+namespace drover::damiao {
+namespace {
+
+using std::chrono::milliseconds;
+constexpr Duration kRetry = milliseconds(100);
+/// A feedback that was under way when the request left tells nothing of it.
+constexpr Duration kSettle = milliseconds(20);
+/// Errors that were cleared must be gone by then.
+constexpr Duration kClearTime = milliseconds(250);
+constexpr Duration kPoll = milliseconds(10);
+/// Of a motor that was never heard: perhaps nobody is on the bus, and nothing is acknowledged.
+constexpr Duration kSearch = milliseconds(100);
+constexpr double kSlow_radps = 0.1;
+constexpr Duration kIdleAtLast = milliseconds(1000);
+
+StopRecipe recipe_of(const CanFrame& damp) {
+  StopRecipe recipe;
+  StopRound round;
+  static_cast<void>(round.frames.push_back(damp));
+  static_cast<void>(recipe.rounds.push_back(round));
+  recipe.period = milliseconds(10);
+  // It holds only about a position, and who knows only the recipe knows none.
+  recipe.ends = StopEnds::damps;
+  return recipe;
+}
+
+}  // namespace
+
+DamiaoDriver::DamiaoDriver(const Settings& settings, AxisId axis)
+    : settings_(settings),
+      axis_(axis),
+      hears_{FrameFilter{settings.master_id}, FrameFilter{settings.id}, FrameFilter{kRequestId}},
+      rules_(rules_of(settings)),
+      recipe_(recipe_of(settings.damp_frame())),
+      damp_(settings.damp_frame()),
+      setup_(settings) {
+  if (settings.timeout_ms > 0) {
+    silence_text_.format("goes limp after %.3f s (its TIMEOUT, set and read back at each arming)",
+                         static_cast<double>(settings.timeout_ms) / 1000);
+  } else {
+    silence_text_ = "follows its last command for ever: the motor's TIMEOUT is 0";
+  }
+}
+
+bool DamiaoDriver::silent(Time now) const {
+  return heard_.last_alive == kNever || now - heard_.last_alive > settings_.stale_after;
+}
+
+bool DamiaoDriver::attempts_to_run() const {
+  return phase_ == Phase::arming || phase_ == Phase::running;
+}
+
+/// A motor that damps until it is asked to run anew is a fault for whoever counts on it.
+void DamiaoDriver::lock(std::string_view why) {
+  phase_ = Phase::locked;
+  fault_ = true;
+  lock_reason_.assign(why);
+}
+
+void DamiaoDriver::start_arming(Time now, DriverOut& out) {
+  fault_ = false;
+  lock_reason_.clear();
+  cleared_at_ = kNever;
+  first_attempt_ = last_attempt_ = kNever;
+  phase_since_ = now;
+  if (silent(now)) {
+    lock("asked to run while the motor was silent");
+    return;
+  }
+  phase_ = Phase::arming;
+  // What is off may have lost its supply and what stands only in its memory.
+  if (!feedback_.enabled() || !setup_.done()) setup_.begin();
+  report_status(now, false, out);
+}
+
+double DamiaoDriver::clamped(double value, double limit) {
+  if (std::abs(value) <= limit) return value;
+  ++bad_setpoints_;
+  return std::copysign(limit, value);
+}
+
+/// What is no number, or a spring that pushes away, is not followed in any part.
+CanFrame DamiaoDriver::frame_of(const Setpoint& command) {
+  const Impedance& law = command.impedance;
+  const double all[] = {law.position_rad, command.velocity_radps, law.effort_Nm,
+                        law.stiffness_Nmprad, law.damping_Nmsprad};
+  if (!std::all_of(std::begin(all), std::end(all), [](double x) { return std::isfinite(x); }) ||
+      law.stiffness_Nmprad < 0 || law.damping_Nmsprad < 0) {
+    ++bad_setpoints_;
+    return damp_;
+  }
+  MitCommand mit;
+  // A position without weight may be anything.
+  const double position_rad = law.position_rad * settings_.sign + settings_.zero_rad;
+  if (law.stiffness_Nmprad > 0)
+    mit.position_rad = clamped(position_rad, settings_.ranges.p_max_rad);
+  mit.velocity_radps =
+      clamped(command.velocity_radps * settings_.sign, settings_.ranges.v_max_radps);
+  mit.torque_Nm = clamped(law.effort_Nm * settings_.sign, settings_.max_effort_Nm);
+  mit.stiffness_Nmprad = clamped(law.stiffness_Nmprad, kStiffnessMax_Nmprad);
+  mit.damping_Nmsprad = clamped(law.damping_Nmsprad, kDampingMax_Nmsprad);
+  return encode_mit(settings_.id, mit, settings_.ranges);
+}
+
+void DamiaoDriver::send_command(const CanFrame& frame, Time now, DriverOut& out) {
+  const bool stops = damiao::effect(frame, settings_) == FrameEffect::stop;
+  const bool at_once = stops && moving_;
+  if (!at_once && last_sent_ != kNever && now - last_sent_ < settings_.setpoint_period) return;
+  last_sent_ = now;
+  moving_ = !stops;
+  out.send(frame);
+}
+
+/// Each frame brings one feedback. What is surely off is asked; what is not is made to damp, though
+/// nobody hears it: it may obey and only its answers be lost.
+void DamiaoDriver::keep_alive(Time now, DriverOut& out) {
+  const bool never = heard_.last_alive == kNever;
+  const bool off = !silent(now) && !feedback_.enabled();
+  if (!never && !off) return send_command(damp_, now, out);
+  const Duration period = never ? kSearch : kPoll;
+  if (last_sent_ != kNever && now - last_sent_ < period) return;
+  last_sent_ = now;
+  moving_ = false;
+  out.send(encode_request(settings_.id));
+}
+
+/// The first thing that it follows is damping: what it was told before it was off may still stand
+/// in it.
+void DamiaoDriver::arm(Time now, DriverOut& out) {
+  if (!setup_.done() || now - heard_since_ < settings_.settle) return keep_alive(now, out);
+  const bool again = last_attempt_ == kNever || now - last_attempt_ >= kRetry;
+  if (first_attempt_ == kNever) first_attempt_ = now;
+  if (feedback_.failed()) {
+    // Once for each request: an error that comes back is for a person to look at.
+    if (cleared_at_ == kNever) {
+      cleared_at_ = now;
+      out.send(encode_special(settings_.id, Special::clear_error));
+      return;
+    }
+  } else if (!feedback_.enabled() && again) {
+    last_attempt_ = now;
+    last_sent_ = now;
+    out.send(damp_);
+    out.send(encode_special(settings_.id, Special::enable));
+    return;
+  }
+  keep_alive(now, out);
+}
+
+void DamiaoDriver::look_at_arming(Time now) {
+  if (attempts_to_run() && silent(now)) lock("its answers ceased while armed");
+  if (phase_ != Phase::arming) return;
+  if (setup_.failed()) return lock(setup_.reason().view());
+  if (first_attempt_ == kNever || now - first_attempt_ <= settings_.arming_timeout) return;
+  lock("it does not let itself be enabled");
+}
+
+void DamiaoDriver::control(const Setpoint& command, Time now, DriverOut& out) {
+  look_at_arming(now);
+  switch (phase_) {
+    case Phase::running: send_command(frame_of(command), now, out); return;
+    case Phase::arming: arm(now, out); break;
+    case Phase::idling: {
+      const bool again = last_attempt_ == kNever || now - last_attempt_ >= kRetry;
+      const bool slow = std::abs(feedback_.velocity_radps) < kSlow_radps;
+      if (!silent(now) && feedback_.enabled() && again &&
+          (slow || now - phase_since_ > kIdleAtLast)) {
+        last_attempt_ = last_sent_ = now;
+        out.send(encode_special(settings_.id, Special::disable));
+        break;
+      }
+      keep_alive(now, out);
+      break;
+    }
+    case Phase::resting:
+    case Phase::locked: keep_alive(now, out); break;
+  }
+}
+
+void DamiaoDriver::on_setpoints(std::span<const Setpoint> wanted, Time now, DriverOut& out) {
+  before_ = out.frames.size();
+  if (!wanted.empty()) take(wanted.front(), now, out);
+}
+
+void DamiaoDriver::take(const Setpoint& command, Time now, DriverOut& out) {
+  commanded_ = true;
+  const bool was = arms(request_);
+  const bool changed = command.request != request_;
+  request_ = command.request;
+  // From following to holding and back it stays as it is, and what was given up is armed anew.
+  if (changed && arms(request_) && (!was || phase_ == Phase::locked)) start_arming(now, out);
+  if (changed && !arms(request_)) {
+    phase_ = request_ == AxisRequest::idle ? Phase::idling : Phase::resting;
+    phase_since_ = now;
+    last_attempt_ = kNever;
+    if (was) {
+      fault_ = false;
+      lock_reason_.clear();
+    }
+  }
+  control(command, now, out);
+}
+
+void DamiaoDriver::on_tick(Time now, DriverOut& out) {
+  // Nobody decided this cycle: damping, as at rest.
+  if (!commanded_) {
+    before_ = out.frames.size();
+    control(Setpoint{}, now, out);
+  }
+  commanded_ = false;
+  const bool has_room = out.frames.size() < before_ + messages_per_cycle();
+  if (has_room && !silent(now)) setup_.on_tick(now, out);
+  report_status(now, false, out);
+}
+
+void DamiaoDriver::on_link_up(Time) {
+  heard_.last_alive = kNever;
+  heard_since_ = kNever;
+  feedback_ = {};
+  last_sent_ = kNever;
+  moving_ = false;
+  setup_.forget();
+  if (arms(request_)) lock("the link was lost while armed");
+}
+
+Effect DamiaoDriver::effect(const Message& message, Time) const {
+  const CanFrame* const frame = message.frame();
+  if (frame == nullptr) return {};
+  const FrameEffect kind = damiao::effect(*frame, settings_);
+  return {kind, kind == FrameEffect::motion ? channel_bit(0) : ChannelMask{0}};
+}
+
+double DamiaoDriver::setpoint_radps(const Message& message, std::size_t) const {
+  if (message.frame() == nullptr) return kAbsent;
+  const auto raw = decode_mit_raw(*message.frame(), settings_.id);
+  if (!raw) return kAbsent;
+  const MitCommand mit = scale(*raw, settings_.ranges);
+  if (mit.stiffness_Nmprad != 0 || mit.torque_Nm != 0) return kAbsent;
+  return mit.velocity_radps * settings_.sign;
+}
+
+SilenceBehaviour DamiaoDriver::silence() const {
+  SilenceBehaviour behaviour;
+  behaviour.stops = settings_.timeout_ms > 0;
+  behaviour.after = milliseconds(settings_.timeout_ms);
+  behaviour.text = silence_text_.view();
+  behaviour.ends = StopEnds::coasts;
+  return behaviour;
+}
+
+}  // namespace drover::damiao

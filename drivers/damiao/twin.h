@@ -1,0 +1,74 @@
+// A simulated DAMIAO motor: the other end of the driver's frames, and the law of MIT mode on a
+// shaft.
+//
+// It boots off, keeps the last MIT frame that it heard though it is off, lets go when its time-out
+// runs out, and then wants its error cleared before it can be enabled.
+#pragma once
+
+#include "drivers/damiao/settings.h"
+#include "drover/twin.h"
+
+namespace drover::damiao {
+
+/// The simulated device's own numbers.
+struct TwinSettings {
+  Ranges ranges;  ///< in its registers
+  std::uint32_t saved_mode = kMitMode;
+  std::uint32_t saved_timeout_ms = 0;
+  double time_constant_s = 0.001;
+  double ambient_degC = 25;
+  Duration boot_time{};
+};
+
+TwinSettings read_twin_settings(const Options& options, const Settings& settings);
+std::span<const OptionSpec> twin_option_table();
+
+class DamiaoTwin final : public CanTwin {
+ public:
+  DamiaoTwin(const Settings& settings, const TwinSettings& twin);
+
+  void on_frame(const CanFrame& frame, Time now, TwinFrames& out) override;
+  void on_tick(Time now, std::span<Shaft> shafts, TwinFrames& out) override;
+  void set_power(bool on, Time now) override;
+  /// Known: "over_temperature" (stays hot until cleared), "over_current", "over_voltage",
+  /// "under_voltage", "overload", "lost_comm" (once each), "stuck_encoder", "wrong_sign",
+  /// "silent" (sends nothing, still obeys), "leaves_closed_loop" (once, without an error).
+  bool set_fault(std::string_view name, Time now) override;
+
+ private:
+  double sign() const { return wrong_sign_ ? -settings_.sign : settings_.sign; }
+  void boot(Time now);
+  void fail(MotorStatus status);
+  void on_special(Special special, Time now);
+  void on_request(const CanFrame& frame, TwinFrames& out);
+  void on_register(const CanFrame& frame, TwinFrames& out);
+  std::uint32_t read(std::uint8_t rid) const;
+  void send_feedback(TwinFrames& out) const;
+  void send(const CanFrame& frame, TwinFrames& out) const;
+  void move(double dt_s, Shaft& shaft);
+
+  Settings settings_;
+  TwinSettings twin_;
+
+  bool powered_ = true;
+  bool booted_ = false;
+  Time boot_at_ = kNever;
+  Time last_tick_ = kNever;
+  Time last_fed_ = kNever;
+  MotorStatus status_ = MotorStatus::disabled;
+  std::uint32_t mode_ = kMitMode;
+  std::uint32_t timeout_raw_ = 0;
+  MitCommand command_;
+
+  // At the motor, as its encoder tells.
+  double measured_rad_ = 0;
+  double measured_radps_ = 0;
+  double torque_Nm_ = 0;
+
+  bool hot_ = false;
+  bool stuck_ = false;
+  bool wrong_sign_ = false;
+  bool silent_ = false;
+};
+
+}  // namespace drover::damiao
