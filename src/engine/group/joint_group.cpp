@@ -51,16 +51,19 @@ void JointGroup::end(const Reason& why) {
   for (JointServo& joint : joints_) joint.end(why);
 }
 
-/// Why none of its joints may follow anybody: the first that cannot.
+/// Why none of its joints may follow anybody: the first that cannot. A fault is cleared by who
+/// begins anew, and ends what others follow.
 Reason JointGroup::trouble(const Input& input) const {
+  const bool follows = std::any_of(joints_.begin(), joints_.end(),
+                                   [](const JointServo& joint) { return joint.following(); });
   for (const JointServo& joint : joints_) {
     const AxisSnapshot& axis = input.axes[joint.rules().axis];
     if (!is_heard(axis, input.now, input.stale)) {
       const Reason& said = axis.source.reason;
       return of_joint(axis.joint, said.empty() ? Reason("its drive is silent") : said);
     }
-    // One that lost its power stage for want of commands is armed again by a new stream.
-    if (axis.state == AxisState::fault && !axis.lapsed) return of_joint(axis.joint, axis.fault);
+    if (follows && axis.state == AxisState::fault && !axis.lapsed)
+      return of_joint(axis.joint, axis.fault);
   }
   return {};
 }
@@ -68,15 +71,18 @@ Reason JointGroup::trouble(const Input& input) const {
 void JointGroup::step(const Input& input, std::span<AxisCommand> commands, std::span<bool> may_move,
                       EventQueue& events) {
   const Reason hindrance = input.hindrance.empty() ? trouble(input) : input.hindrance;
+  const bool ready = std::all_of(joints_.begin(), joints_.end(), [&](const JointServo& joint) {
+    return !joint.asked(input.now) || input.axes[joint.rules().axis].state == AxisState::running;
+  });
   Reason lost;
   for (JointServo& joint : joints_) {
     const AxisSnapshot& axis = input.axes[joint.rules().axis];
     const bool followed = joint.following();
     joint.step({input.now, input.dt, axis, is_heard(axis, input.now, input.stale), hindrance,
-                start_timeout_});
-    const bool ceased = joint.reason() == "its commands have ceased";
-    if (followed && !joint.following() && !ceased && lost.empty())
-      lost = hindrance.empty() ? of_joint(axis.joint, joint.reason()) : hindrance;
+                start_timeout_, ready});
+    const bool stopped = followed && !joint.following() && !hindrance.empty();
+    if (lost.empty() && stopped) lost = hindrance;
+    if (lost.empty() && joint.failed()) lost = of_joint(axis.joint, joint.reason());
   }
   // Together, or none: what one cannot do any more the others do not go on with.
   if (!lost.empty()) end(lost);
@@ -91,8 +97,9 @@ void JointGroup::step(const Input& input, std::span<AxisCommand> commands, std::
   }
   told_.reason = hindrance;
   for (std::size_t i = 0; told_.reason.empty() && i < joints_.size(); ++i)
-    if (!joints_[i].reason().empty())
-      told_.reason = of_joint(input.axes[joints_[i].rules().axis].joint, joints_[i].reason());
+    if (const Reason& why = joints_[i].reason(); !why.empty())
+      told_.reason =
+          joints_[i].by_itself() ? of_joint(input.axes[joints_[i].rules().axis].joint, why) : why;
   count(limited);
   tell(input, lost, limited, events);
 }

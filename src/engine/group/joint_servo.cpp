@@ -9,6 +9,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
+constexpr const char* kCeased = "its commands have ceased";
 constexpr Duration kSteadyFor = 300ms;
 /// Whoever was stopped has to be silent for so long before he begins again.
 constexpr Duration kPause = 1s;
@@ -40,18 +41,32 @@ void JointServo::take(const JointTarget& target, Time now) {
 
 void JointServo::end(const Reason& why) {
   const bool asked = follows_ || arming_since_ != kNever;
-  if (asked) reason_ = why;
+  if (asked) {
+    reason_ = why;
+    by_itself_ = false;
+  }
   // Also a row that is only beginning: it was sent by somebody who did not know.
   waits_ = waits_ || asked || heard_ != kNever;
   follows_ = false;
   arming_since_ = kNever;
 }
 
+/// For its drive's own reason, or else in these words.
+void JointServo::fail(const Input& input, const char* otherwise) {
+  const Reason& fault = input.axis.fault;
+  const Reason& said = fault.empty() ? input.axis.source.reason : fault;
+  end(said.empty() ? Reason(otherwise) : said);
+  failed_ = by_itself_ = true;
+}
+
 /// Whether what is sent is followed in this cycle, and why not.
 void JointServo::judge_stream(const Input& input) {
   if (!input.hindrance.empty()) end(input.hindrance);
   if (!sent(input.now)) {
-    if (follows_) reason_ = "its commands have ceased";
+    if (follows_) {
+      reason_ = kCeased;
+      by_itself_ = true;
+    }
     if (heard_ != kNever && input.now - heard_ >= kPause) {
       waits_ = false;
       gap_ = {};
@@ -63,13 +78,15 @@ void JointServo::judge_stream(const Input& input) {
   }
   if (!input.hindrance.empty()) {
     reason_ = input.hindrance;
+    by_itself_ = false;
   } else if (waits_) {
-    if (reason_.empty()) reason_ = "it was stopped: pause its commands for a second";
+    // What stopped it is told on.
   } else if (steady(input.now)) {
     reason_.clear();
     follows_ = true;
     return;
   } else if (gap_ > Duration{}) {
+    by_itself_ = true;
     reason_.format("its commands come %.0f ms apart, %.0f ms are allowed", 1e3 * to_s(gap_),
                    1e3 * rules_.timeout_s);
   } else {
@@ -103,9 +120,12 @@ void JointServo::run(const Input& input) {
   if (!engaged_) shaper_.take_over(measured);
   engaged_ = true;
   command_.request = AxisRequest::run;
-  if (follows_) {
+  if (follows_ && (input.ready || following())) {
     shaper_.follow(target_, measured, dt_s);
     state_ = GroupState::following;
+  } else if (follows_) {
+    shaper_.hold(measured, dt_s);
+    state_ = GroupState::arming;
   } else {
     rest_as_ruled(measured, dt_s);
   }
@@ -115,21 +135,15 @@ void JointServo::run(const Input& input) {
 
 /// Its drive does not run: it comes into closed loop where it is, if somebody commands it.
 void JointServo::arm(const Input& input) {
-  if (engaged_ && follows_) {
-    end(input.axis.fault.empty() ? Reason("its drive is not in closed loop") : input.axis.fault);
-  }
+  if (engaged_ && follows_) fail(input, "its drive is not in closed loop");
   engaged_ = false;
+  if (follows_ && arming_since_ != kNever && input.now - arming_since_ > input.start_timeout)
+    fail(input, "its drive does not come into closed loop");
   if (!follows_) {
     state_ = GroupState::idle;
     return;
   }
   if (arming_since_ == kNever) arming_since_ = input.now;
-  if (input.now - arming_since_ > input.start_timeout) {
-    end(input.axis.fault.empty() ? Reason("its drive does not come into closed loop")
-                                 : input.axis.fault);
-    state_ = GroupState::idle;
-    return;
-  }
   shaper_.take_over(measured_by(input.axis));
   command_ = {AxisRequest::run, 0, shaper_.impedance()};
   state_ = GroupState::arming;
@@ -137,6 +151,7 @@ void JointServo::arm(const Input& input) {
 
 void JointServo::step(const Input& input) {
   command_ = {};
+  failed_ = false;
   judge_stream(input);
   if (!input.heard) {
     // Blind, it is told to damp, should it still hear: its last word would stand otherwise.

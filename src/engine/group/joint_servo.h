@@ -21,6 +21,7 @@ class JointServo final {
     /// Why nobody's commands are followed now; empty: they are.
     const Reason& hindrance;
     Duration start_timeout{};  ///< its drive is armed by then
+    bool ready = true;         ///< the drives of all that are commanded with it run
   };
 
   explicit JointServo(const JointRules& rules) : rules_(rules), shaper_(rules) {}
@@ -34,11 +35,17 @@ class JointServo final {
   void step(const Input& input);
   const AxisCommand& command() const { return command_; }
 
+  /// A row of commands asks for it, whether it may be followed or not.
+  bool asked(Time now) const { return steady(now); }
   bool following() const { return state_ == GroupState::following; }
   GroupState state() const { return state_; }
   bool limited() const { return following() && shaper_.limited(); }
   /// Why it does not follow what is sent, or why it ended; empty: it does, or nothing is.
   const Reason& reason() const { return reason_; }
+  /// That reason lies in this joint, whose name is not in it.
+  bool by_itself() const { return by_itself_; }
+  /// Its drive ended it, or did not come into closed loop, in this cycle.
+  bool failed() const { return failed_; }
   /// It may be moved: its drive is told more than to damp.
   bool may_move() const { return command_.request == AxisRequest::run; }
   const JointRules& rules() const { return rules_; }
@@ -50,6 +57,7 @@ class JointServo final {
   void run(const Input& input);
   void rest_as_ruled(const JointMeasured& measured, double dt_s);
   void arm(const Input& input);
+  void fail(const Input& input, const char* otherwise);
 
   JointRules rules_;
   JointShaper shaper_;
@@ -63,6 +71,8 @@ class JointServo final {
   Time arming_since_ = kNever;
   GroupState state_ = GroupState::idle;
   Reason reason_;
+  bool by_itself_ = true;
+  bool failed_ = false;
   AxisCommand command_;
 };
 

@@ -21,14 +21,16 @@ struct ArmJoint {
   double torque_Nm = 0;  ///< of its drive
   AxisState state = AxisState::idle;
   int arming = 0;
+  int arms_in = 3;      ///< cycles
+  bool clears = false;  ///< a fault, for who arms it
 
   void obey(const AxisCommand& command) {
     const bool armed = command.request == AxisRequest::run || command.request == AxisRequest::hold;
     if (command.request == AxisRequest::idle && state == AxisState::running)
       state = AxisState::idle;
-    if (armed && state == AxisState::idle) {
+    if (armed && (state == AxisState::idle || (state == AxisState::fault && clears))) {
       state = AxisState::arming;
-      arming = 3;
+      arming = arms_in;
     } else if (state == AxisState::arming) {
       state = !armed ? AxisState::idle : --arming <= 0 ? AxisState::running : state;
     }

@@ -200,6 +200,36 @@ TEST_F(EngineGroup, AFaultOfOneJointStopsItsGroupAndNotTheBase) {
   EXPECT_EQ(rig.why(), "");
 }
 
+TEST_F(EngineGroup, AFaultIsClearedByWhoBeginsAnew) {
+  settle();
+  send_s(4, 0.4);
+  arm[0].state = AxisState::fault;
+  send_s(1, 0.6);
+  EXPECT_EQ(told().state, GroupState::holding);
+  send_s(1, 0.6);  // it goes on, and is refused
+  EXPECT_EQ(arm[0].state, AxisState::fault);
+  run_s(1.2);
+  arm[0].clears = true;
+  arm[0].arms_in = 60;
+  send_s(0.35, 0.6);
+  EXPECT_EQ(told().state, GroupState::arming);  // the elbow waits for the shoulder
+  send_s(4, 0.6);
+  EXPECT_EQ(told().state, GroupState::following);
+  EXPECT_NEAR(arm[0].position_rad, 0.6, 0.05);
+  EXPECT_NEAR(arm[1].position_rad, 0.6, 0.05);
+}
+
+TEST_F(EngineGroup, AFaultThatStaysIsToldWhenItsTimeIsUp) {
+  settle();
+  send_s(4, 0.4);
+  arm[0].state = AxisState::fault;
+  run_s(1.5);
+  send_s(4, 0.6);
+  EXPECT_EQ(told().state, GroupState::holding);
+  EXPECT_EQ(reason(), "shoulder: too hot");
+  EXPECT_LT(arm[1].position_rad, 0.5);
+}
+
 TEST_F(EngineGroup, ASilentJointIsToldToDampAndTheOthersHold) {
   settle();
   send_s(3, 0.4);
