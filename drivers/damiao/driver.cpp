@@ -11,10 +11,6 @@ namespace {
 
 using std::chrono::milliseconds;
 constexpr Duration kRetry = milliseconds(100);
-/// A feedback that was under way when the request left tells nothing of it.
-constexpr Duration kSettle = milliseconds(20);
-/// Errors that were cleared must be gone by then.
-constexpr Duration kClearTime = milliseconds(250);
 constexpr Duration kPoll = milliseconds(10);
 /// Of a motor that was never heard: perhaps nobody is on the bus, and nothing is acknowledged.
 constexpr Duration kSearch = milliseconds(100);

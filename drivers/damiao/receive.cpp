@@ -6,7 +6,12 @@
 namespace drover::damiao {
 namespace {
 
-constexpr Duration kTemperatureEach = std::chrono::milliseconds(500);
+using std::chrono::milliseconds;
+/// A feedback that was under way when the request left tells nothing of it.
+constexpr Duration kSettle = milliseconds(20);
+/// Errors that were cleared must be gone by then.
+constexpr Duration kClearTime = milliseconds(250);
+constexpr Duration kTemperatureEach = milliseconds(500);
 
 std::string_view error_text(std::uint8_t status) {
   switch (static_cast<MotorStatus>(status)) {
