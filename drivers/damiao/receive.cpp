@@ -103,7 +103,9 @@ void DamiaoDriver::follow_feedback(Time now) {
   } else if (phase_ == Phase::arming && setup_.done()) {
     const bool tried = cleared_at_ != kNever && now - cleared_at_ > kClearTime;
     if (feedback_.failed() && tried) lock("its error does not clear");
-    const bool settled = now - heard_since_ >= settings_.settle && now - phase_since_ >= kSettle;
+    // What was on already has booted long ago.
+    const bool booted = first_attempt_ == kNever || now - heard_since_ >= settings_.settle;
+    const bool settled = booted && now - phase_since_ >= kSettle;
     if (feedback_.enabled() && settled) phase_ = Phase::running;
   }
 }

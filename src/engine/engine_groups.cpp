@@ -54,7 +54,8 @@ void Engine::Impl::step_groups(Time now, Duration dt, const Environment& environ
                     dt,
                     {snapshot.axes.data(), snapshot.axes.size()},
                     from_s(config.health.drive_stale_s),
-                    hindrance},
+                    hindrance,
+                    environment.guard_has_bus},
                    out.axes, out.joint_may_move, events);
     snapshot.groups[i] = groups[i].snapshot();
   }

@@ -79,7 +79,7 @@ void JointGroup::step(const Input& input, std::span<AxisCommand> commands, std::
     const AxisSnapshot& axis = input.axes[joint.rules().axis];
     const bool followed = joint.following();
     joint.step({input.now, input.dt, axis, is_heard(axis, input.now, input.stale), hindrance,
-                start_timeout_, ready});
+                start_timeout_, input.blocked, ready});
     const bool stopped = followed && !joint.following() && !hindrance.empty();
     if (lost.empty() && stopped) lost = hindrance;
     if (lost.empty() && joint.failed()) lost = of_joint(axis.joint, joint.reason());

@@ -27,6 +27,7 @@ class JointGroup final {
     std::span<const AxisSnapshot> axes;  ///< all of the robot, by AxisId
     Duration stale{};                    ///< what was measured longer ago says nothing
     const Reason& hindrance;             ///< as JointServo::Input
+    bool blocked = false;                ///< likewise
   };
   /// One cycle: writes the commands of its joints, by AxisId, and which of them may be moved.
   void step(const Input& input, std::span<AxisCommand> commands, std::span<bool> may_move,

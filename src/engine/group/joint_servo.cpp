@@ -117,7 +117,8 @@ void JointServo::run(const Input& input) {
   const JointMeasured measured = measured_by(input.axis);
   const double dt_s = std::max(to_s(input.dt), 0.0);
   arming_since_ = kNever;
-  if (!engaged_) shaper_.take_over(measured);
+  // What is held elsewhere goes on from where it is given back.
+  if (!engaged_ || input.blocked) shaper_.take_over(measured);
   engaged_ = true;
   command_.request = AxisRequest::run;
   if (follows_ && (input.ready || following())) {
@@ -135,11 +136,13 @@ void JointServo::run(const Input& input) {
 
 /// Its drive does not run: it comes into closed loop where it is, if somebody commands it.
 void JointServo::arm(const Input& input) {
-  if (engaged_ && follows_) fail(input, "its drive is not in closed loop");
-  engaged_ = false;
+  // A drive that was found running may want to be asked first.
+  const bool taken_over = engaged_ && input.axis.state == AxisState::arming;
+  if (engaged_ && follows_ && !taken_over) fail(input, "its drive is not in closed loop");
+  engaged_ = taken_over;
   if (follows_ && arming_since_ != kNever && input.now - arming_since_ > input.start_timeout)
     fail(input, "its drive does not come into closed loop");
-  if (!follows_) {
+  if (!follows_ && !taken_over) {
     state_ = GroupState::idle;
     return;
   }

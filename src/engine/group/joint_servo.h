@@ -21,6 +21,7 @@ class JointServo final {
     /// Why nobody's commands are followed now; empty: they are.
     const Reason& hindrance;
     Duration start_timeout{};  ///< its drive is armed by then
+    bool blocked = false;      ///< what its drive is told does not arrive: the guard has it
     bool ready = true;         ///< the drives of all that are commanded with it run
   };
 

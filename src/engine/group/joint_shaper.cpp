@@ -153,12 +153,14 @@ void JointShaper::hold(const JointMeasured& measured, double dt_s) {
   limited_ = false;
   if (!holds_) {
     holds_ = true;
-    // In a movement it is not torn to a stop.
-    const bool moves = std::abs(measured.velocity_radps) > kMoves_radps;
+    // In a movement it is not torn to a stop. What sinks without stiffness only damps already.
+    const bool moves = stiffness_ > 0 && std::abs(measured.velocity_radps) > kMoves_radps;
     velocity_radps_ = moves ? std::clamp(measured.velocity_radps, -rules_.max_velocity_radps,
                                          rules_.max_velocity_radps)
                             : 0;
-    const double carries = stiffness_ * (told_.position_rad - measured.position_rad) + effort_Nm_;
+    // All that the drive gives now; of what sinks slowly the damping is its weight.
+    const double carries = stiffness_ * (told_.position_rad - measured.position_rad) +
+                           damping_ * (told_velocity_radps_ - measured.velocity_radps) + effort_Nm_;
     carried_Nm_ = effort_Nm_ = std::clamp(carries, -rules_.max_effort_Nm, rules_.max_effort_Nm);
     position_rad_ = measured.position_rad;
   }

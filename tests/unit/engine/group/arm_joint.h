@@ -21,20 +21,28 @@ struct ArmJoint {
   double torque_Nm = 0;  ///< of its drive
   AxisState state = AxisState::idle;
   int arming = 0;
-  int arms_in = 3;      ///< cycles
-  bool clears = false;  ///< a fault, for who arms it
+  int arms_in = 3;  ///< cycles
+  bool damps_while_arming = false;
+  bool found_on = false;  ///< by a driver that has just begun
+  bool clears = false;    ///< a fault, for who arms it
 
   void obey(const AxisCommand& command) {
     const bool armed = command.request == AxisRequest::run || command.request == AxisRequest::hold;
     if (command.request == AxisRequest::idle && state == AxisState::running)
       state = AxisState::idle;
-    if (armed && (state == AxisState::idle || (state == AxisState::fault && clears))) {
+    // One that was on when its driver began is asked once more, and damps meanwhile.
+    if (armed && state == AxisState::running && found_on) {
+      found_on = false;
+      state = AxisState::arming;
+      arming = arms_in;
+    } else if (armed && (state == AxisState::idle || (state == AxisState::fault && clears))) {
       state = AxisState::arming;
       arming = arms_in;
     } else if (state == AxisState::arming) {
       state = !armed ? AxisState::idle : --arming <= 0 ? AxisState::running : state;
     }
-    torque_Nm = 0;
+    torque_Nm =
+        state == AxisState::arming && damps_while_arming ? -damps_Nmsprad * velocity_radps : 0;
     if (state != AxisState::running) return;
     const Impedance& law = command.impedance;
     torque_Nm = armed ? law.stiffness_Nmprad * (law.position_rad - position_rad) +

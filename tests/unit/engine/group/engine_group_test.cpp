@@ -44,7 +44,7 @@ class EngineGroup : public ::testing::Test {
     const Time told = rig.now + kRigTick;
     for (std::size_t i = 0; i < arm.size(); ++i) {
       const auto axis = static_cast<AxisId>(kFirst + i);
-      arm[i].obey(rig.out.axes[axis]);
+      arm[i].obey(guards ? AxisCommand{} : rig.out.axes[axis]);
       for (int k = 0; k < 5; ++k) arm[i].step(to_s(kRigTick) / 5);
       rig.environment.axes[axis].state = silent[i] ? SourceState::stale : SourceState::fresh;
       if (silent[i]) continue;
@@ -83,6 +83,7 @@ class EngineGroup : public ::testing::Test {
   EngineRig rig;
   std::array<ArmJoint, kNames.size()> arm;
   std::array<bool, kNames.size()> silent{};
+  bool guards = false;  ///< the guard commands the drives
 
  private:
   template <class Value>
@@ -289,6 +290,9 @@ TEST_F(EngineGroup, AnArmsStreamIsNoneOfTheBase) {
 TEST_F(EngineGroup, WhatIsFoundRunningIsHeldAfterARestart) {
   for (ArmJoint& joint : arm) {
     joint.state = AxisState::running;  // as the guard left it
+    joint.found_on = joint.damps_while_arming = true;
+    joint.damps_Nmsprad = 5;
+    joint.arms_in = 20;
     joint.position_rad = 0.7;
   }
   settle();
@@ -297,6 +301,24 @@ TEST_F(EngineGroup, WhatIsFoundRunningIsHeldAfterARestart) {
   const double held = arm[0].position_rad;
   run_s(10);
   EXPECT_NEAR(arm[0].position_rad, held, 0.001);
+}
+
+TEST_F(EngineGroup, WhatTheGuardLetSinkIsHeldWhereItIsGivenBack) {
+  settle();
+  send_s(4, 0.4);
+  run_s(1);
+  rig.guard_has_bus = guards = true;  // it only damps
+  run_s(1);
+  const double sank = arm[0].position_rad;
+  ASSERT_LT(sank, 0.1);
+  rig.guard_has_bus = guards = false;
+  double highest = sank;
+  for (int i = 0; i < 400; ++i) {
+    tick();
+    highest = std::max(highest, arm[0].position_rad);
+  }
+  EXPECT_LT(highest, sank + 0.01);
+  EXPECT_EQ(told().state, GroupState::holding);
 }
 
 TEST_F(EngineGroup, ALimitIsToldOnceASecond) {

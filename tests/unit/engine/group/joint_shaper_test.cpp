@@ -217,6 +217,30 @@ TEST(JointShaper, HoldBrakesAMovementByItsLimit) {
   EXPECT_EQ(before, 0);
 }
 
+TEST(JointShaper, WhatSinksIsCaughtWhereItIs) {
+  JointShaper shaper(rules_of(JointFollows::impedance));
+  ArmJoint joint;
+  joint.state = AxisState::running;
+  joint.damps_Nmsprad = 2;
+  for (int i = 0; i < 100; ++i) {
+    joint.obey({});
+    for (int k = 0; k < 5; ++k) joint.step(kCycle_s / 5);
+  }
+  const double caught = joint.position_rad;
+  ASSERT_LT(joint.velocity_radps, -0.5);
+  shaper.take_over({joint.position_rad, joint.velocity_radps});
+  double lowest = caught;
+  for (int i = 0; i < 600; ++i) {
+    shaper.hold({joint.position_rad, joint.velocity_radps}, kCycle_s);
+    joint.obey({AxisRequest::run, shaper.velocity_radps(), shaper.impedance()});
+    for (int k = 0; k < 5; ++k) joint.step(kCycle_s / 5);
+    lowest = std::min(lowest, joint.position_rad);
+  }
+  EXPECT_GT(lowest, caught - 0.15);
+  EXPECT_LT(joint.position_rad, caught + 0.005);
+  EXPECT_GT(joint.position_rad, caught - 0.03);
+}
+
 TEST(JointShaper, DampLetsItSinkSlowly) {
   JointShaper shaper(rules_of(JointFollows::impedance));
   ArmJoint joint;
