@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "mission/wire_damiao.h"
 #include "mission/wire_twist.h"
 #include "mission/wire_zlac8015d.h"
 
@@ -146,7 +147,10 @@ Problems check_frames(const Record& record) {
   std::size_t number = 0;
   for (const auto& line : record.can) {
     ++number;
-    const auto why = line.bus == "can0" ? judge(record.maker, line.frame) : "no bus of this robot";
+    const bool of_arm = record.has_arm && line.bus == "can1";
+    const auto why = of_arm               ? damiao::forbidden(line.frame)
+                     : line.bus == "can0" ? judge(record.maker, line.frame)
+                                          : "no bus of this robot";
     if (!why.empty()) add(problems, "can.log:" + std::to_string(number) + ": " + why);
   }
   // Half a packet of a program that died is none of another one's.

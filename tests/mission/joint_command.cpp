@@ -58,6 +58,10 @@ class Fields {
 constexpr std::uint64_t kJoint = 2 << 3 | 2;
 constexpr std::uint64_t kName = 1 << 3 | 2;
 constexpr std::uint64_t kVelocity = 3 << 3 | 1;
+/// Position, effort, stiffness and damping: no wheel follows them.
+constexpr bool is_of_an_arm(std::uint64_t tag) {
+  return tag == (2 << 3 | 1) || tag == (4 << 3 | 1) || tag == (5 << 3 | 1) || tag == (6 << 3 | 1);
+}
 
 std::map<std::string, double> velocities_in_json(std::string_view text) {
   std::map<std::string, double> velocities_radps;
@@ -101,7 +105,9 @@ JointCommandLine parse_joint_command(Time time, std::string_view hex) {
       const auto tag = joint.varint();
       if (tag == kName) name = joint.bytes();
       if (tag == kVelocity) velocity_radps = joint.number();
-      if (tag != kName && tag != kVelocity) throw std::runtime_error("another field of a joint");
+      if (is_of_an_arm(tag)) (void)joint.number();
+      if (tag != kName && tag != kVelocity && !is_of_an_arm(tag))
+        throw std::runtime_error("another field of a joint");
     }
     line.velocities_radps[name] = velocity_radps;
   }

@@ -135,6 +135,10 @@ TruthColumns::TruthColumns(std::string_view header) {
     if (at == names.end()) fail(("no column " + std::string(wanted)).c_str(), header);
     columns_.push_back(static_cast<std::size_t>(at - names.begin()));
   }
+  // Behind the supply come the joints of an arm.
+  const auto supply = std::find(names.begin(), names.end(), "supply");
+  for (auto at = supply; at != names.end(); ++at)
+    if (at->ends_with("_rad")) arm_.push_back(static_cast<std::size_t>(at - names.begin()));
 }
 
 TruthLine TruthColumns::parse(std::string_view line) const {
@@ -145,14 +149,18 @@ TruthLine TruthColumns::parse(std::string_view line) const {
     values[i] = number<double>(cells[columns_[i]], line);
     if (!std::isfinite(values[i])) fail("not finite", line);
   }
-  return {Time{from_s(values[0])},
-          values[1],
-          values[2],
-          values[3],
-          values[4],
-          values[5],
-          values[6],
-          values[7]};
+  TruthLine truth{Time{from_s(values[0])},
+                  values[1],
+                  values[2],
+                  values[3],
+                  values[4],
+                  values[5],
+                  values[6],
+                  values[7],
+                  {}};
+  for (const std::size_t column : arm_)
+    truth.arm_rad.push_back(number<double>(cells[column], line));
+  return truth;
 }
 
 }  // namespace drover::mission

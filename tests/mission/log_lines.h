@@ -43,6 +43,7 @@ struct TruthLine {
   double vx_mps = 0;
   double free_ahead_m = 0;
   double wz_radps = 0;
+  std::vector<double> arm_rad;  ///< of its joints outside the base, in the world's order
 };
 
 /// "(12.345678901) can0 00D#00000000", as `candump -L` writes it but with nanoseconds.
@@ -63,6 +64,7 @@ class TruthColumns final {
 
  private:
   std::vector<std::size_t> columns_;
+  std::vector<std::size_t> arm_;
   std::size_t count_ = 0;
 };
 

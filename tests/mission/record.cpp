@@ -102,6 +102,7 @@ void read_drives(const json& scenario, Record& record) {
   record.mps_per_turnps = kTurn * kWheelRadius_m / kGear;
   for (const auto& drive : scenario.value("drives", json::array())) {
     const std::string driver = drive.value("driver", "");
+    record.has_arm = record.has_arm || driver == "damiao";
     if (driver == "zlac8015d") {
       record.maker = Maker::zlac8015d;
       record.mps_per_turnps = kTurn * 0.085;
@@ -133,6 +134,7 @@ void read_set_points(const CanLine& line, Record& record) {
                                                        : agilex_v2::twist_command(line.frame);
     if (twist) add_twist(line.time, *twist, record);
   } else if (record.maker == Maker::odrive) {
+    if (line.bus != "can0") return;  // an arm's
     if (const auto wheel = wheel_command(line.frame)) record.sent.push_back({line.time, *wheel});
   } else if (const auto targets = zlac8015d::targets_turnps(line.frame)) {
     for (std::uint8_t i = 0; i < targets->size(); ++i)

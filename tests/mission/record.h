@@ -52,6 +52,7 @@ struct Record {
   std::vector<MqttLine> mqtt;
   std::vector<EventLine> events;
   std::vector<TruthLine> truth;
+  bool has_arm = false;           ///< DAMIAO motors on a bus of their own
   std::vector<LevelLine> levels;  ///< of the outputs, where the scenario records them
   // What the lines above mean:
   std::vector<Status> statuses;

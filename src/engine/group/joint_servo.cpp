@@ -16,7 +16,7 @@ constexpr Duration kPause = 1s;
 
 JointMeasured measured_by(const AxisSnapshot& axis) {
   const double velocity = axis.motion.velocity_radps;
-  return {axis.motion.position_rad, std::isfinite(velocity) ? velocity : 0};
+  return {axis.motion.position_rad, std::isfinite(velocity) ? velocity : 0, axis.motion.effort_Nm};
 }
 
 }  // namespace

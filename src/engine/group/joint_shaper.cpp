@@ -159,8 +159,9 @@ void JointShaper::hold(const JointMeasured& measured, double dt_s) {
                                          rules_.max_velocity_radps)
                             : 0;
     // All that the drive gives now; of what sinks slowly the damping is its weight.
-    const double carries = stiffness_ * (told_.position_rad - measured.position_rad) +
-                           damping_ * (told_velocity_radps_ - measured.velocity_radps) + effort_Nm_;
+    const double gives = stiffness_ * (told_.position_rad - measured.position_rad) +
+                         damping_ * (told_velocity_radps_ - measured.velocity_radps) + effort_Nm_;
+    const double carries = std::isfinite(measured.effort_Nm) ? measured.effort_Nm : gives;
     carried_Nm_ = effort_Nm_ = std::clamp(carries, -rules_.max_effort_Nm, rules_.max_effort_Nm);
     position_rad_ = measured.position_rad;
   }

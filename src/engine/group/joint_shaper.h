@@ -3,6 +3,7 @@
 
 #include "drover/actuator.h"
 #include "drover/command.h"
+#include "drover/measurement.h"
 #include "engine/config.h"
 
 namespace drover::engine {
@@ -11,6 +12,7 @@ namespace drover::engine {
 struct JointMeasured {
   double position_rad = 0;
   double velocity_radps = 0;
+  double effort_Nm = kAbsent;  ///< that the drive gives
 };
 
 /// Begins without stiffness where the joint is. From then on the position moves by the joint's

@@ -1,0 +1,128 @@
+// An arm beside the base: each is stopped by what is its own, and by what is of all.
+#include "mission/support.h"
+
+namespace drover::mission {
+namespace {
+
+constexpr std::size_t kShoulder = 1;
+constexpr std::size_t kElbow = 2;
+
+double arm_at(const Record& log, std::size_t joint, Time time) {
+  return log.truth_at(time).arm_rad.at(joint);
+}
+
+/// How far a joint moved from where it was at `begin`.
+double strayed(const Record& log, std::size_t joint, Time begin, Time end) {
+  const double from = arm_at(log, joint, begin);
+  double most = 0;
+  for (const TruthLine& line : log.truth)
+    if (line.time >= begin && line.time <= end)
+      most = std::max(most, std::abs(line.arm_rad.at(joint) - from));
+  return most;
+}
+
+/// The highest commanded speed of the wheels then, m/s.
+double speed_at(const Record& log, Time time) {
+  return std::abs(log.truth_at(time).vx_mps);
+}
+
+TEST(Arm, FollowsWhileTheBaseDrives) {
+  const Record& log = record("arm");
+  const Time raised = log.event("event raise#1") + 4s;
+  EXPECT_NEAR(arm_at(log, 0, raised), 0.5, 0.01);
+  // Each sags by its weight over its stiffness, 100 and 50 Nm/rad.
+  EXPECT_NEAR(arm_at(log, kShoulder, raised), 0.8 - 2.39 / 100, 0.01);
+  EXPECT_NEAR(arm_at(log, kElbow, raised), 0.6 - 0.11 / 50, 0.01);
+  EXPECT_GT(speed_at(log, raised), 0.04);
+}
+
+TEST(Arm, StepsOfPositionAreMadeByItsLimits) {
+  const Record& log = record("arm");
+  const Time begin = log.event("event raise#1");
+  double fastest = 0;
+  for (std::size_t i = 1; i < log.truth.size(); ++i) {
+    const TruthLine& line = log.truth[i];
+    if (line.time < begin || line.time > begin + 4s) continue;
+    const double dt_s = to_s(line.time - log.truth[i - 1].time);
+    for (std::size_t joint = 0; joint < 3; ++joint)
+      fastest = std::max(
+          fastest, std::abs(line.arm_rad.at(joint) - log.truth[i - 1].arm_rad.at(joint)) / dt_s);
+  }
+  figure("fastest of its joints", fastest, "rad/s");
+  EXPECT_GT(fastest, 0.9);
+  EXPECT_LT(fastest, 1.3);  // 1.0 asked; weight and stiffness add theirs
+}
+
+// 5 N down at the tip: torque by lever, angle by stiffness; what the weight changes with it is less
+// than a tenth.
+TEST(Arm, GivesUnderAPushAsStiffnessSays) {
+  const Record& log = record("arm");
+  const Time pushed = log.event("event pushed#1");
+  const double shoulder = arm_at(log, kShoulder, pushed);
+  const double elbow = arm_at(log, kElbow, pushed);
+  const double lever_m = 0.3 * std::cos(shoulder + elbow);
+  const double shoulder_lever_m = 0.3 * std::cos(shoulder) + lever_m;
+  const Time stands = pushed + 1900ms;
+  const double shoulder_gave = shoulder - arm_at(log, kShoulder, stands);
+  const double elbow_gave = elbow - arm_at(log, kElbow, stands);
+  figure("shoulder gave", shoulder_gave, "rad");
+  figure("elbow gave", elbow_gave, "rad");
+  EXPECT_NEAR(shoulder_gave, 5 * shoulder_lever_m / 100, 0.1 * shoulder_gave);
+  EXPECT_NEAR(elbow_gave, 5 * lever_m / 50, 0.1 * elbow_gave + 0.0005);
+}
+
+TEST(Arm, AFailedDriveStopsTheArmAndNotTheBase) {
+  const Record& log = record("arm");
+  const Time failed = log.event("event failed#1");
+  const Time again = log.event("event lower#1");
+  expect_nav_stays(log, "NAV_RUN", failed, again);
+  EXPECT_NEAR(speed_at(log, again), 0.4, 0.05);
+  // The others hold where they were, though the elbow's weight is gone from the shoulder's lever.
+  EXPECT_LT(strayed(log, kShoulder, failed, again), 0.02);
+  EXPECT_LT(strayed(log, 0, failed, again), 0.01);
+}
+
+TEST(Arm, AnEstopStopsBothAndTheArmIsHeld) {
+  const Record& log = record("arm");
+  const Time pressed = log.event("event pressed#1");
+  EXPECT_LT(speed_at(log, pressed + 1500ms), 0.01);
+  for (std::size_t joint = 0; joint < 3; ++joint)
+    EXPECT_LT(strayed(log, joint, pressed + 200ms, log.event("event again#1")), 0.02) << joint;
+}
+
+TEST(Arm, TheTaskEndsAtItsGoal) {
+  expect_good_drive(record("arm"), 2);
+}
+
+TEST(ArmKill, IsLetDownSlowlyByTheGuardAndHeldByTheNextDaemon) {
+  const Record& log = record("arm_kill");
+  const Time killed = log.event("event killed#1");
+  const double held = arm_at(log, kShoulder, killed);
+  EXPECT_NEAR(held, 1.0, 0.05);
+  EXPECT_LT(strayed(log, kShoulder, log.event("event held#1") - 4s, killed), 0.01);
+  const Time back = log.event("event restarted#1");
+  const double sank = held - arm_at(log, kShoulder, back);
+  figure("sank before the next began", sank, "rad");
+  EXPECT_GT(sank, 0.1);
+  EXPECT_LT(sank, 0.6);  // 3.9 Nm at most, over 4.9 Nms/rad, for 0.7 s
+  const double caught = held - arm_at(log, kShoulder, back + 2s);
+  figure("sank in all", caught, "rad");
+  EXPECT_LT(caught, 1.0);
+  EXPECT_LT(strayed(log, kShoulder, back + 2s, log.event("event both#1")), 0.01);
+}
+
+TEST(ArmKill, StaysHeldWhileTheBaseDrivesAnew) {
+  expect_good_drive(record("arm_kill"), 2);
+}
+
+// What no software holds, and the README says so.
+TEST(ArmKill, FallsWhenBothProgramsAreGone) {
+  const Record& log = record("arm_kill");
+  const Time both = log.event("event both#1");
+  const Time lies = both + 1s;
+  figure("fell", arm_at(log, kShoulder, both) - arm_at(log, kShoulder, lies), "rad");
+  EXPECT_NEAR(arm_at(log, kShoulder, lies), -0.6, 0.03);
+}
+
+}  // namespace
+}  // namespace drover::mission
