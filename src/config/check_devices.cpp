@@ -37,14 +37,61 @@ void hang(DeviceConfig& device, std::map<std::string, std::string>& first, Findi
 void addresses(Findings& found) {
   std::map<std::string, std::string> first;
   for (const auto& device : found.config().devices) {
-    if (!device.options.has("node")) continue;
-    const auto path = device_path(device, "options.node");
-    const auto address = device.link + ", " + device.driver + " node " +
-                         text::number_text(device.options.number("node"));
-    const auto [it, inserted] = first.emplace(address, path);
-    if (!inserted)
-      found.add(path, "two devices have one address (" + address + "): the other is " + it->second);
+    for (const char* const key : {"node", "id"}) {
+      if (!device.options.has(key)) continue;
+      const auto path = device_path(device, std::string("options.") + key);
+      const auto address = device.link + ", " + device.driver + " " + key + " " +
+                           text::number_text(device.options.number(key));
+      const auto [it, inserted] = first.emplace(address, path);
+      if (!inserted)
+        found.add(path,
+                  "two devices have one address (" + address + "): the other is " + it->second);
+    }
   }
+}
+
+/// The id of a DAMIAO motor's answers; left out it is 16 more than its own.
+int answers_with(const DeviceConfig& device) {
+  const int given = static_cast<int>(device.options.number("master_id"));
+  return given != 0 ? given : static_cast<int>(device.options.number("id")) + 0x10;
+}
+
+void answers(Findings& found) {
+  std::map<std::pair<std::string, int>, std::string> first;
+  for (const auto& device : found.config().devices) {
+    if (!device.options.has("master_id")) continue;
+    const int id = answers_with(device);
+    const auto [it, inserted] = first.emplace(std::pair(device.link, id), device_path(device));
+    if (!inserted)
+      found.add(device_path(device, "options.master_id"),
+                std::to_string(id) + " is what " + it->second + " answers with, on the same bus");
+  }
+}
+
+/// Drivers whose frames mean harm to each other's devices.
+struct Enemies {
+  std::string_view one;
+  std::string_view other;
+  std::string_view why;
+};
+constexpr Enemies kEnemies[] = {
+    {"damiao", "odrive",
+     "what reads its registers (0x7FF) is by its id an ODrive's broadcast to enter firmware "
+     "update"},
+};
+
+void company_on_a_bus(Findings& found) {
+  const auto& devices = found.config().devices;
+  for (const auto& [one, other, why] : kEnemies)
+    for (const auto& device : devices)
+      if (device.driver == one &&
+          std::any_of(devices.begin(), devices.end(), [&, name = other](const auto& each) {
+            return each.driver == name && each.link == device.link;
+          }))
+        found.add(device_path(device, "link"),
+                  "a " + std::string(one) + " shares no bus with an " + std::string(other) + ": " +
+                      std::string(why),
+                  "a bus of its own");
 }
 
 std::string names_of(std::span<const Channel> channels) {
@@ -91,6 +138,8 @@ void check_devices(Findings& found) {
   }
   check_roles(found);
   addresses(found);
+  answers(found);
+  company_on_a_bus(found);
 }
 
 void check_joints(Findings& found) {

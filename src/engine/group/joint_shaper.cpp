@@ -11,6 +11,7 @@ constexpr double kSame_rad = 1e-6;
 /// Of the fastest braking: the rest is for the cycle.
 constexpr double kBrakesWith = 0.8;
 constexpr double kMoves_radps = 0.05;
+constexpr double kRisen = 0.9;  // of the stiffness
 
 /// Nearer to `wanted` by `step` at the most.
 double approached(double now, double wanted, double step) {
@@ -30,7 +31,7 @@ void JointShaper::take_over(const JointMeasured& measured) {
   velocity_radps_ = 0;
   stiffness_ = effort_Nm_ = 0;
   damping_ = rules_.damping_Nmsprad;
-  holds_ = limited_ = false;
+  holds_ = limited_ = risen_ = false;
   tell(0, measured);
 }
 
@@ -52,13 +53,14 @@ void JointShaper::approach_velocity(double wanted_radps, double dt_s) {
 }
 
 /// So fast that it still stops there; on the way of something that moves itself with its speed.
-void JointShaper::approach_position(double wanted_rad, double wanted_radps, double dt_s) {
+void JointShaper::approach_position(double wanted_rad, double wanted_radps, double fastest_radps,
+                                    double dt_s) {
   const double step_radps = rules_.max_acceleration_radps2 * dt_s;
   const double away = wanted_rad - position_rad_;
   const double reach = std::sqrt(2 * kBrakesWith * rules_.max_acceleration_radps2 * std::abs(away));
-  const double fastest = std::min(reach, std::abs(away) / std::max(dt_s, 1e-9));
-  const double wanted = std::clamp(wanted_radps + std::copysign(fastest, away),
-                                   -rules_.max_velocity_radps, rules_.max_velocity_radps);
+  const double nearer = std::min(reach, std::abs(away) / std::max(dt_s, 1e-9));
+  const double wanted =
+      std::clamp(wanted_radps + std::copysign(nearer, away), -fastest_radps, fastest_radps);
   approach_velocity(wanted, dt_s);
   const bool arrived = (wanted_rad - position_rad_) * away <= 0 || std::abs(away) < kSame_rad;
   if (!arrived || std::abs(velocity_radps_ - wanted_radps) > step_radps + kSame_rad) return;
@@ -89,8 +91,12 @@ void JointShaper::follow_position(const JointTarget& target, double stiffness, d
     // The position has no weight: whoever gives it one again begins where the joint is.
     approach_velocity(wanted_radps, dt_s);
     position_rad_ = measured.position_rad;
+    risen_ = false;
   } else {
-    approach_position(wanted_rad, wanted_radps, dt_s);
+    // What nothing draws along yet would have to catch up, faster than it may be.
+    risen_ = risen_ || stiffness_ >= kRisen * stiffness;
+    const double share = risen_ ? 1.0 : stiffness_ / stiffness;
+    approach_position(wanted_rad, wanted_radps, share * rules_.max_velocity_radps, dt_s);
   }
   tell(velocity_radps_, measured);
 }

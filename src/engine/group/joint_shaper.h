@@ -43,7 +43,7 @@ class JointShaper final {
  private:
   double within(double value, double low, double high);
   void approach_gains(double stiffness, double damping, double effort, double dt_s);
-  void approach_position(double wanted_rad, double wanted_radps, double dt_s);
+  void approach_position(double wanted_rad, double wanted_radps, double fastest_radps, double dt_s);
   void approach_velocity(double wanted_radps, double dt_s);
   void follow_position(const JointTarget& target, double stiffness, double damping,
                        const JointMeasured& measured, double dt_s);
@@ -57,6 +57,7 @@ class JointShaper final {
   double stiffness_ = 0;
   double damping_ = 0;
   double effort_Nm_ = 0;
+  bool risen_ = false;  ///< the stiffness has come up once
   bool holds_ = false;
   double carried_Nm_ = 0;  ///< while it holds
   bool limited_ = false;

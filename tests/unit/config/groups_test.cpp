@@ -1,0 +1,131 @@
+// Joints outside the base: what the configuration says of them, and what is refused.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+
+#include "unit/config/config_text.h"
+
+namespace drover::config {
+namespace {
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+const std::string kFolder = DROVER_SOURCE_DIR "/config/examples";
+
+std::string example() {
+  std::ifstream file(kFolder + "/arm.json");
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// The example with an arm, and this piece of it replaced.
+std::string arm_with(const std::string& piece, const std::string& replacement) {
+  auto text = example();
+  const auto at = text.find(piece);
+  EXPECT_NE(at, std::string::npos) << piece;
+  return at == std::string::npos ? text : text.replace(at, piece.size(), replacement);
+}
+
+std::string arm_problems(const std::string& piece, const std::string& replacement) {
+  return problems(arm_with(piece, replacement), kFolder);
+}
+
+TEST(Groups, OfTheExampleAreAnArmOfThreeJoints) {
+  const auto loaded = load_text(example(), kFolder);
+  ASSERT_THAT(loaded.problems, IsEmpty());
+  EXPECT_THAT(loaded.warnings, IsEmpty());
+  const auto& engine = loaded.config.engine;
+  ASSERT_EQ(engine.groups.size(), 1u);
+  EXPECT_EQ(engine.groups[0].name, "arm");
+  ASSERT_EQ(engine.groups[0].joints.size(), 3u);
+  const auto& turret = engine.groups[0].joints[0];
+  EXPECT_EQ(engine.joints[turret.axis], "turret");
+  EXPECT_EQ(turret.follows, JointFollows::position);
+  EXPECT_EQ(turret.max_effort_Nm, 10);
+  const auto& shoulder = engine.groups[0].joints[1];
+  EXPECT_EQ(shoulder.follows, JointFollows::impedance);
+  EXPECT_TRUE(shoulder.carries_weight);
+  EXPECT_EQ(shoulder.on_silence, engine::OnSilence::hold);
+}
+
+TEST(Groups, HaveTheirAxesBehindThoseOfTheBase) {
+  // Written before the wheels.
+  auto text = example();
+  const std::string wheel =
+      "\"left\": {\"driver\": \"odrive\", \"link\": \"can0\", \"options\": "
+      "{\"node\": 0, \"watchdog_timeout_s\": 0.1}},";
+  const auto at = text.find(wheel);
+  ASSERT_NE(at, std::string::npos);
+  text.erase(at, wheel.size());
+  text.insert(text.find("\"gnss\": {\"driver\""), wheel + "\n    ");
+  const auto loaded = load_text(text, kFolder);
+  ASSERT_THAT(loaded.problems, IsEmpty());
+  const auto& engine = loaded.config.engine;
+  EXPECT_EQ(engine.joints[engine.base.left[0]], "left");
+  EXPECT_EQ(engine.joints[engine.base.right[0]], "right");
+  EXPECT_LT(engine.base.left[0], 2);
+  for (const auto& joint : engine.groups[0].joints) EXPECT_GE(joint.axis, 2);
+}
+
+TEST(Groups, RefuseAJointThatIsNone) {
+  EXPECT_THAT(arm_problems("\"elbow\": {\"follows\"", "\"elbov\": {\"follows\""),
+              HasSubstr("groups.arm.joints.elbov: no device has this joint (did you mean "
+                        "\"elbow\"?)"));
+  EXPECT_THAT(arm_problems("\"elbow\": {\"follows\"", "\"elbov\": {\"follows\""),
+              HasSubstr("\"elbow\" is of no group"));
+}
+
+TEST(Groups, RefuseAWheelAndADriveThatOnlyTurns) {
+  EXPECT_THAT(arm_problems("\"turret\": {\"follows\"", "\"left\": {\"follows\""),
+              HasSubstr("\"left\" is used by groups.base.left already"));
+  EXPECT_THAT(arm_problems("\"turret\": {\"follows\"", "\"left\": {\"follows\""),
+              HasSubstr("its drive (odrive) follows a velocity alone"));
+  EXPECT_THAT(arm_problems("\"left\": [\"left\"]", "\"left\": [\"elbow\"]"),
+              HasSubstr("the drive of \"elbow\" (damiao) is for joints outside the base"));
+}
+
+TEST(Groups, RefuseLimitsWithoutRoom) {
+  EXPECT_THAT(arm_problems("\"min_rad\": -2.5", "\"min_rad\": 2.5"),
+              HasSubstr("groups.arm.joints.turret.max_rad: is 2.5, and min_rad is 2.5"));
+  EXPECT_THAT(arm_problems("\"max_effort_Nm\": 10,", ""),
+              HasSubstr("groups.arm.joints.turret.max_effort_Nm: is missing"));
+  EXPECT_THAT(arm_problems("\"follows\": \"position\"", "\"follows\": \"torque\""),
+              HasSubstr("\"torque\" is not one of: impedance, position, velocity, effort"));
+}
+
+TEST(Groups, TellOfAWeightUntilItIsAccepted) {
+  const auto loaded = load_text(arm_with("\"falls\"", ""), kFolder);
+  ASSERT_THAT(loaded.problems, IsEmpty());
+  ASSERT_EQ(loaded.warnings.size(), 2u);
+  EXPECT_THAT(loaded.warnings[0].text("f"),
+              HasSubstr("groups.arm.joints.shoulder: carries a weight: without power nothing holds "
+                        "it; when its line is cut its drive goes limp after 0.100 s"));
+  EXPECT_THAT(loaded.warnings[0].text("f"), HasSubstr("drover-guard only lets it sink slowly"));
+}
+
+TEST(Groups, AreFourAtTheMost) {
+  std::string more;
+  for (const char* name : {"b", "c", "d", "e"})
+    more += std::string("\"") + name + "\": {\"joints\": {}}, ";
+  EXPECT_THAT(arm_problems("\"arm\": {\"joints\"", more + "\"arm\": {\"joints\""),
+              HasSubstr("groups.arm: is one too many: there may be 4 beside base"));
+}
+
+TEST(Groups, RefuseMotorsThatAnswerAlike) {
+  EXPECT_THAT(arm_problems("\"id\": 3", "\"id\": 2"),
+              HasSubstr("two devices have one address (can1, damiao id 2)"));
+  EXPECT_THAT(
+      arm_problems("{\"id\": 3", "{\"id\": 3, \"master_id\": 18"),
+      HasSubstr("devices.elbow.options.master_id: 18 is what devices.shoulder answers with"));
+}
+
+TEST(Groups, RefuseMotorsOnABusWithDrivesThatTheyWouldReprogram) {
+  EXPECT_THAT(arm_problems("\"elbow\": {\"driver\": \"damiao\", \"link\": \"can1\"",
+                           "\"elbow\": {\"driver\": \"damiao\", \"link\": \"can0\""),
+              HasSubstr("devices.elbow.link: a damiao shares no bus with an odrive"));
+}
+
+}  // namespace
+}  // namespace drover::config
