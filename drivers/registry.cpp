@@ -4,6 +4,7 @@
 #include <array>
 
 #include "drivers/agilex_v2/entry.h"
+#include "drivers/agilex_v2/hunter/entry.h"
 #include "drivers/gpio_line/entry.h"
 #include "drivers/gt01/can/entry.h"
 #include "drivers/gt01/serial/entry.h"
@@ -22,7 +23,7 @@ std::span<const DriverEntry> driver_registry() {
   static const std::array kTable{
       kOdriveEntry,    kGpioLineEntry,  kNmea0183Entry,   kModbusBmsEntry,
       kWitmotionEntry, kZlac8015dEntry, kGt01SerialEntry, kGt01CanEntry,
-      kAgilexV2Entry,  kHipnucCanEntry, kLd06Entry,
+      kAgilexV2Entry,  kHipnucCanEntry, kLd06Entry,       kAgilexHunterEntry,
   };
   return kTable;
 }
