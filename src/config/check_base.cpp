@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "config/check_subjects.h"
+#include "text/number.h"
 #include "text/suggestion.h"
 
 namespace drover::config {
@@ -21,6 +22,7 @@ engine::HoldBy hold_by(std::string_view word) {
 
 engine::BaseKind base_kind(std::string_view word) {
   if (word == kTwistKind) return engine::BaseKind::twist;
+  if (word == kAckermannKind) return engine::BaseKind::ackermann;
   return word == "differential" ? engine::BaseKind::differential : engine::BaseKind::skid_steer;
 }
 
@@ -64,7 +66,7 @@ void both_sides(const BaseNames& base, Findings& found) {
 /// Its faults, its silence and its stop would be nobody's.
 void nothing_else_moves(const BaseNames& base, Findings& found) {
   if (found.has_problem("groups.base")) return;
-  const bool has_wheels = base.kind != kTwistKind;
+  const bool has_wheels = !is_told_a_twist(base.kind);
   const auto among = [&](const std::vector<std::string>& side, const std::string& joint) {
     return has_wheels && std::find(side.begin(), side.end(), joint) != side.end();
   };
@@ -92,6 +94,38 @@ void wheels(const BaseNames& base, Findings& found) {
   both_sides(base, found);
 }
 
+/// What is told twice, once to who drives and once to who speaks to the device.
+void same_number(const DeviceConfig& device, const char* key, double number, Findings& found) {
+  if (!device.options.has(key) || device.options.number(key) == number) return;
+  found.add(std::string("groups.base.") + key,
+            "is " + text::number_text(number) + ", but " +
+                text::number_text(device.options.number(key)) + " in " +
+                device_path(device, std::string("options.") + key),
+            "the same in both places");
+}
+
+/// One that steers is told no turn on the spot, and one that does not has no angle.
+void steering(const BaseNames& base, const DeviceConfig& device, const DriverEntry& entry,
+              Findings& found) {
+  const bool steers = base.kind == kAckermannKind;
+  if (entry.steers != steers) {
+    found.add("groups.base.kind",
+              "\"" + device.name + "\" is a " + device.driver + ", which " +
+                  (entry.steers ? "steers" : "does not steer"),
+              entry.steers ? "\"kind\": \"ackermann\"" : "\"kind\": \"twist\"");
+    return;
+  }
+  if (!steers) return;
+  const auto& numbers = *base.base;
+  same_number(device, "wheelbase_m", numbers.wheelbase_m, found);
+  same_number(device, "track_m", numbers.track_m, found);
+  if (device.options.has("max_steering_rad") &&
+      numbers.max_steering_rad > device.options.number("max_steering_rad"))
+    found.add("groups.base.max_steering_rad",
+              "is above " + text::number_text(device.options.number("max_steering_rad")) +
+                  ", the most of " + device.driver);
+}
+
 void twist_device(const BaseNames& base, Findings& found) {
   constexpr auto kPath = "groups.base.device";
   if (base.device.empty()) return;  // told by the reader
@@ -105,6 +139,8 @@ void twist_device(const BaseNames& base, Findings& found) {
   } else if (find_driver(it->driver) != nullptr && !is_told_twists(*it)) {
     found.add(kPath, "\"" + base.device + "\" takes no twist: it is a " + it->driver,
               "a base of another kind names the joints of its wheels");
+  } else if (const auto* const entry = find_driver(it->driver); entry != nullptr) {
+    steering(base, *it, *entry, found);
   }
 }
 
@@ -112,11 +148,14 @@ void twist_device(const BaseNames& base, Findings& found) {
 
 void check_base(const BaseNames& base, Findings& found) {
   auto& resolved = found.config().engine.base;
-  if (base.kind == kTwistKind)
+  if (is_told_a_twist(base.kind))
     twist_device(base, found);
   else
     wheels(base, found);
   nothing_else_moves(base, found);
+  if (found.config().protocol.vz == "steering_angle" && base.kind != kAckermannKind)
+    found.add("protocol.vz", "is steering_angle, but this base does not steer",
+              "\"vz\": \"yaw_rate\"");
   resolved.hold = hold_by(base.hold);
   resolved.kind = base_kind(base.kind);
 }

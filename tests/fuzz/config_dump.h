@@ -116,7 +116,7 @@ class Dump final {
   bool is_of_this_kind(std::string_view key) const {
     for (const auto& each : config::kKindKeys)
       if (driver_ != nullptr && each.key == key && !config::has_key(*driver_, each)) return false;
-    const bool twist = base_kind_ == config::kTwistKind;
+    const bool twist = config::is_told_a_twist(base_kind_);
     for (const auto& each : config::kBaseKeys)
       if (!base_kind_.empty() && each.key == key && each.of_twist != twist) return false;
     return true;
