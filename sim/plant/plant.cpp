@@ -9,6 +9,7 @@ namespace drover::sim {
 namespace {
 
 constexpr int kTerrainGroup = 0;
+constexpr int kArmGroup = 1;  // of motors that turn no wheel
 constexpr int kTerrainBit = 1;
 constexpr int kObstacleBit = 2;
 constexpr double kParked_m = -20;  // an obstacle that is not there
@@ -96,7 +97,7 @@ Plant::Plant(const std::string& world_file) : impl_(std::make_unique<Impl>()) {
       impl_->boxes.push_back(geom);
   }
   for (std::size_t i = 0; i < impl_->wheels.size(); ++i)
-    if (impl_->wheels[i].contact_geom < 0)
+    if (impl_->wheels[i].contact_geom < 0 && m.actuator_group[i] != kArmGroup)
       throw std::runtime_error(world_file + ": the wheel of joint '" + impl_->joints[i] +
                                "' has no sphere with contype 1 that touches the ground");
   if (impl_->wheels.empty()) throw std::runtime_error(world_file + ": no motor turns a wheel");
@@ -187,7 +188,8 @@ void Plant::step() {
   } else {
     impl_->push();
     impl_->shove();
-    for (auto& wheel : impl_->wheels) impl_->pull_tyre(wheel);
+    for (auto& wheel : impl_->wheels)
+      if (wheel.contact_geom >= 0) impl_->pull_tyre(wheel);
     mj_step(impl_->model.get(), impl_->data.get());
   }
   impl_->feel();
