@@ -14,6 +14,14 @@ constexpr Duration kGap = milliseconds(400);
 /// Two of its states long: then its mode is one from after the gap.
 constexpr Duration kZerosAfterGap = milliseconds(200);
 
+constexpr double kSlowest_mps = 0.001;  // less is none on the wire
+/// Of a Hunter. It rests for so long before its brake is locked: what still rolls is not thrown
+/// into it.
+constexpr Duration kStillBeforeBrake = milliseconds(300);
+constexpr Duration kAskBrakeEach = milliseconds(200);
+/// A brake that does not tell that it is locked keeps nobody in command for longer.
+constexpr Duration kBrakeTakes = milliseconds(600);
+
 StopRecipe zeros() {
   StopRecipe recipe;
   recipe.rounds.resize(1);
@@ -26,7 +34,8 @@ StopRecipe zeros() {
 
 }  // namespace
 
-AgilexV2Driver::AgilexV2Driver(AxisId axis) : axis_(axis), recipe_(zeros()) {}
+AgilexV2Driver::AgilexV2Driver(AxisId axis, std::optional<Steering> steering)
+    : axis_(axis), steering_(steering), recipe_(zeros()) {}
 
 void AgilexV2Driver::on_link_up(Time) {
   state_known_ = false;
@@ -48,8 +57,30 @@ void AgilexV2Driver::on_setpoints(std::span<const Setpoint> wanted, Time now, Dr
 
   if (!known || state_.vehicle != Vehicle::well) return;
   if (arms(request_) && !held_off_ && state_.mode == Mode::standby) ask_for(Mode::can, now, out);
-  if (request_ == AxisRequest::idle && state_.mode == Mode::can && at_rest(now))
+  const bool braked = mind_brake(now, out);
+  if (request_ == AxisRequest::idle && state_.mode == Mode::can && at_rest(now) && braked)
     ask_for(Mode::standby, now, out);
+}
+
+/// Released before it moves, locked when it rests and nobody drives: what standby and silence do
+/// with it is nowhere said. True when it may leave the mode.
+bool AgilexV2Driver::mind_brake(Time now, DriverOut& out) {
+  if (!steering_) return true;
+  const bool drives = request_ == AxisRequest::run && !held_off_;
+  if (drives || !at_rest(now)) {
+    still_since_ = kNever;
+  } else if (still_since_ == kNever) {
+    still_since_ = now;
+  }
+  if (state_.mode != Mode::can) return true;
+  const bool rests = still_since_ != kNever && now - still_since_ >= kStillBeforeBrake;
+  const bool wrong = drives ? state_.brake_locked : rests && !state_.brake_locked;
+  if (wrong && now - last_brake_command_ >= kAskBrakeEach) {
+    out.send(brake_command(!drives));
+    last_brake_command_ = now;
+    return false;
+  }
+  return state_.brake_locked || (rests && now - asked_since_ > kBrakeTakes);
 }
 
 /// After a boot, a gap, a fault or a remote control's turn it must not go on by itself. Only to
@@ -57,6 +88,7 @@ void AgilexV2Driver::on_setpoints(std::span<const Setpoint> wanted, Time now, Dr
 void AgilexV2Driver::take_request(AxisRequest request, Time now) {
   if (request != request_) {
     request_ = request;
+    asked_since_ = now;
     in_command_ = false;
     held_off_ = false;
   }
@@ -72,8 +104,19 @@ bool AgilexV2Driver::may_move(Time now) const {
          status(now).state == AxisState::running;
 }
 
+/// At rest, and on its way there, a Hunter's wheels stay as they were told; as they are, where
+/// somebody else steered them meanwhile.
 void AgilexV2Driver::command(const Twist& twist, Time now, DriverOut& out) {
-  out.send(motion_command(twist));
+  if (!steering_) {
+    out.send(motion_command(twist));
+  } else {
+    if (std::abs(twist.vx_mps) >= kSlowest_mps) {
+      asked_inner_rad_ = steering_->inner_rad(twist.wz_radps / twist.vx_mps);
+    } else if (status(now).state != AxisState::running) {
+      asked_inner_rad_ = inner_rad_;
+    }
+    out.send(steered_command({twist.vx_mps, asked_inner_rad_}));
+  }
   last_command_ = now;
 }
 
@@ -87,26 +130,38 @@ std::span<const FrameRule> AgilexV2Driver::rules() const {
   static constexpr std::array kRules{
       FrameRule{.id = kMotionCommandId, .min_len = 8, .max_len = 8},
       FrameRule{.id = kModeCommandId, .min_len = 1, .max_len = 1},
+      FrameRule{.id = kBrakeCommandId, .min_len = 1, .max_len = 1},
   };
-  return kRules;
+  return steering_ ? std::span(kRules) : std::span(kRules).first(2);
+}
+
+/// What a command asks of the base: a Hunter that stands turns its wheels and nothing else.
+std::optional<Twist> AgilexV2Driver::read_twist(const CanFrame& frame) const {
+  if (!steering_) return read_motion_command(frame);
+  const auto steered = read_steered_command(frame);
+  if (!steered) return {};
+  return Twist{steered->speed_mps, steered->speed_mps * steering_->radpm(steered->inner_rad)};
 }
 
 Effect AgilexV2Driver::effect(const Message& message, Time) const {
   const CanFrame* frame = message.frame();
   if (frame == nullptr) return {FrameEffect::forbidden};
-  if (const auto twist = read_motion_command(*frame)) {
+  if (const auto twist = read_twist(*frame)) {
     if (is_zero(*twist)) return {FrameEffect::stop};
     return {FrameEffect::motion, channel_bit(0)};
   }
   const auto mode = read_mode_command(*frame);
   if (mode == Mode::can) return {FrameEffect::harmless};  // it forgets what it was told before
   if (mode == Mode::standby) return {FrameEffect::stop};
+  // Released it stands by its zero speed, and is driven by nothing else.
+  if (const auto lock = read_brake_command(*frame); lock && steering_)
+    return {*lock ? FrameEffect::stop : FrameEffect::harmless};
   return {FrameEffect::forbidden};
 }
 
 Twist AgilexV2Driver::setpoint_twist(const Message& message, std::size_t channel) const {
   if (const CanFrame* frame = message.frame(); frame != nullptr && channel == 0)
-    if (const auto twist = read_motion_command(*frame)) return *twist;
+    if (const auto twist = read_twist(*frame)) return *twist;
   return {kAbsent, kAbsent};
 }
 

@@ -1,11 +1,14 @@
-// A Scout: a base that is told how the whole of it shall move, once it was switched to CAN.
+// A Scout, or a Hunter: a base that is told how the whole of it shall move, once it was switched to
+// CAN.
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "drivers/agilex_v2/codec.h"
+#include "drivers/agilex_v2/hunter/steering.h"
 #include "drivers/drives.h"
 #include "drover/driver.h"
 
@@ -15,7 +18,8 @@ inline constexpr std::array kChannels{Channel{"base", ChannelMode::twist}};
 
 class AgilexV2Driver final : public Device, public FrameFace, public Actuator {
  public:
-  explicit AgilexV2Driver(AxisId axis);
+  /// With `steering` it is a Hunter: it turns on curves only, and has a parking brake.
+  explicit AgilexV2Driver(AxisId axis, std::optional<Steering> steering = {});
 
   void on_link_up(Time now) override;
   void on_tick(Time now, DriverOut& out) override;
@@ -38,15 +42,19 @@ class AgilexV2Driver final : public Device, public FrameFace, public Actuator {
   std::string_view missing(Time now) const;
   AxisStatus status(Time now) const;
   AxisState mode_state() const;
+  Model model() const { return steering_ ? Model::hunter : Model::scout; }
+  std::optional<Twist> read_twist(const CanFrame& frame) const;
   void hear_state(const SystemState& state, Time received, DriverOut& out);
-  void hear_motion(const Twist& twist, Time received, DriverOut& out);
+  void hear_motion(const CanFrame& frame, Time received, DriverOut& out);
   void take_request(AxisRequest request, Time now);
   bool may_move(Time now) const;
   bool at_rest(Time now) const;
   void command(const Twist& twist, Time now, DriverOut& out);
   void ask_for(Mode mode, Time now, DriverOut& out);
+  bool mind_brake(Time now, DriverOut& out);
 
   AxisId axis_;
+  std::optional<Steering> steering_;
   StopRecipe recipe_;
   SystemState state_;
   Twist motion_;
@@ -66,6 +74,13 @@ class AgilexV2Driver final : public Device, public FrameFace, public Actuator {
   Time last_mode_command_ = kNever;
   Time zero_until_ = kNever;
   ToldStatus told_;
+
+  // Of a Hunter.
+  double inner_rad_ = 0;        ///< as its wheels are steered
+  double asked_inner_rad_ = 0;  ///< as they are told to be
+  Time still_since_ = kNever;   ///< it rests, and nobody asks it to move
+  Time asked_since_ = kNever;   ///< this request
+  Time last_brake_command_ = kNever;
 };
 
 }  // namespace drover::agilex_v2

@@ -21,6 +21,10 @@ constexpr double kSlipAhead = 0.05;
 constexpr double kLeastSigma_radps = 0.03;
 constexpr double kSlipTurning = 0.3;
 
+constexpr double kLeastRolling_radps = 0.005;
+constexpr double kBeside_radpm = 0.03;
+constexpr double kSlipRolling = 0.05;
+
 /// Of a base whose wheels are held its last digit may flicker.
 constexpr double kStill_mps = 0.0025;
 constexpr double kStill_radps = 0.0055;
@@ -33,10 +37,21 @@ bool stands(const Twist& twist) {
   return std::abs(twist.vx_mps) < kStill_mps && std::abs(twist.wz_radps) < kStill_radps;
 }
 
-BodyMotion body_motion(const Twist& twist) {
+BodyMotion skidding(const Twist& twist) {
   return {.twist = twist,
           .vx_var = square(kLeastSigma_mps) + square(kSlipAhead * twist.vx_mps),
           .wz_var = square(kLeastSigma_radps) + square(kSlipTurning * twist.wz_radps),
+          .known = true,
+          .standing = stands(twist)};
+}
+
+/// Of wheels that roll on a curve: they slip little, and are steered a degree beside what they say.
+BodyMotion rolling(double speed_mps, double radpm) {
+  const Twist twist{speed_mps, speed_mps * radpm};
+  return {.twist = twist,
+          .vx_var = square(kLeastSigma_mps) + square(kSlipAhead * speed_mps),
+          .wz_var = square(kLeastRolling_radps) + square(kBeside_radpm * speed_mps) +
+                    square(kSlipRolling * twist.wz_radps),
           .known = true,
           .standing = stands(twist)};
 }
@@ -46,9 +61,9 @@ BodyMotion body_motion(const Twist& twist) {
 std::span<const FrameFilter> AgilexV2Driver::listens() const {
   static constexpr std::array kListens{
       FrameFilter{kSystemStateId}, FrameFilter{kMotionId},        FrameFilter{kMotionCommandId},
-      FrameFilter{kModeCommandId}, FrameFilter{kV1SystemStateId},
+      FrameFilter{kModeCommandId}, FrameFilter{kV1SystemStateId}, FrameFilter{kBrakeCommandId},
   };
-  return kListens;
+  return std::span(kListens).first(kListens.size() - (steering_ ? 0 : 1));
 }
 
 void AgilexV2Driver::on_frame(const CanFrame& frame, Time received, DriverOut& out) {
@@ -56,17 +71,13 @@ void AgilexV2Driver::on_frame(const CanFrame& frame, Time received, DriverOut& o
   if (frame.id == kV1SystemStateId) {
     last_v1_ = received;
   } else if (frame.id == kSystemStateId) {
-    if (const auto state = read_system_state(frame)) {
+    if (const auto state = read_system_state(frame, model())) {
       hear_state(*state, received, out);
     } else {
       ++bad_;
     }
   } else if (frame.id == kMotionId) {
-    if (const auto twist = read_motion(frame)) {
-      hear_motion(*twist, received, out);
-    } else {
-      ++bad_;
-    }
+    hear_motion(frame, received, out);
   } else if (!is_of_recipe(frame, recipe_)) {
     // Its own ids of commands: somebody else drives it, and it goes on by a new request only.
     foreign_.on_frame(frame.id, received);
@@ -82,12 +93,24 @@ void AgilexV2Driver::hear_state(const SystemState& state, Time received, DriverO
   out.report({received, received, AxisSupply{.axis = axis_, .bus_V = state.battery_V}});
 }
 
-void AgilexV2Driver::hear_motion(const Twist& twist, Time received, DriverOut& out) {
+void AgilexV2Driver::hear_motion(const CanFrame& frame, Time received, DriverOut& out) {
+  BodyMotion motion;
+  if (!steering_) {
+    const auto twist = read_motion(frame);
+    if (!twist) return void(++bad_);
+    motion = skidding(*twist);
+  } else {
+    const auto steered = read_steered_motion(frame);
+    if (!steered) return void(++bad_);
+    inner_rad_ = steered->inner_rad;
+    motion = rolling(steered->speed_mps, steering_->radpm(steered->inner_rad));
+    motion.steering_rad = steering_->middle_rad(steered->inner_rad);
+  }
   ++good_;
-  motion_ = twist;
+  motion_ = motion.twist;
   last_motion_ = received;
   motion_told_ = true;
-  out.report({received, received, body_motion(twist)});
+  out.report({received, received, motion});
 }
 
 void AgilexV2Driver::on_tick(Time now, DriverOut& out) {
@@ -111,7 +134,9 @@ bool AgilexV2Driver::at_rest(Time now) const {
 }
 
 AxisState AgilexV2Driver::mode_state() const {
-  if (state_.mode == Mode::can) return AxisState::running;
+  const bool drives = request_ == AxisRequest::run && !held_off_;
+  if (state_.mode == Mode::can)
+    return drives && state_.brake_locked ? AxisState::arming : AxisState::running;
   const bool wanted = request_ == AxisRequest::run || request_ == AxisRequest::hold;
   return wanted && !held_off_ ? AxisState::arming : AxisState::idle;
 }
@@ -129,7 +154,7 @@ AxisStatus AgilexV2Driver::status(Time now) const {
   if (state_.vehicle == Vehicle::estop) {
     status.reason = "the chassis' emergency stop is pressed";
   } else if (state_.vehicle == Vehicle::exception) {
-    const std::string_view text = error_text(state_.error);
+    const std::string_view text = error_text(state_.error, model());
     status.reason.format("the chassis reports a fault, error %04X%s%.*s", state_.error,
                          text.empty() ? "" : ": ", static_cast<int>(text.size()), text.data());
   } else if (state_.mode == Mode::remote) {
@@ -163,7 +188,7 @@ SourceHealth AgilexV2Driver::health(Time now) const {
   } else if (!talks(now)) {
     health.reason = silent_text(missing(now), last_state_, now);
   } else {
-    health.reason = error_text(state_.error);
+    health.reason = error_text(state_.error, model());
   }
   if (ever_heard()) health.state = talks(now) ? SourceState::fresh : SourceState::stale;
   return health;

@@ -16,8 +16,6 @@ constexpr Duration kMotionPeriod = milliseconds(20);
 
 /// What turns the gears and motors along when they are not driven.
 constexpr double kGearDrag_Nms_per_rad = 1;
-constexpr double kProportional_Nms_per_rad = 6;
-constexpr double kIntegral_Nm_per_rad = 30;
 
 constexpr std::array kTwinOptions{
     OptionSpec{.name = "wheel_radius_m",
@@ -114,11 +112,6 @@ Twist AgilexV2Twin::obeyed(Time now) const {
   const bool fed = now - last_asked_ <= kProtection;
   if (state_.mode != Mode::can || state_.vehicle != Vehicle::well || !fed) return {};
   return asked_;
-}
-
-double AgilexV2Twin::Servo::torque_Nm(double error_radps, double dt_s, double most_Nm) {
-  effort_Nm = std::clamp(effort_Nm + kIntegral_Nm_per_rad * error_radps * dt_s, -most_Nm, most_Nm);
-  return std::clamp(kProportional_Nms_per_rad * error_radps + effort_Nm, -most_Nm, most_Nm);
 }
 
 void AgilexV2Twin::turn(std::span<Shaft> shafts, const Twist& twist, double dt_s) {

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "drivers/agilex_v2/codec.h"
+#include "drivers/agilex_v2/servo.h"
 #include "drover/options.h"
 #include "drover/twin.h"
 
@@ -22,12 +23,6 @@ class AgilexV2Twin final : public CanTwin {
   void on_tick(Time now, std::span<Shaft> shafts, TwinFrames& out) override;
 
  private:
-  /// Turns at its speed, with a memory of how much torque that takes, so that it holds on a slope.
-  struct Servo {
-    double effort_Nm = 0;
-    double torque_Nm(double error_radps, double dt_s, double most_Nm);
-  };
-
   bool awake(Time now) const;
   Twist obeyed(Time now) const;
   void turn(std::span<Shaft> shafts, const Twist& twist, double dt_s);

@@ -196,12 +196,13 @@ void describe(V& v, const Twist& twist) {
 
 template <class V>
 void describe(V& v, const BodyMotion& motion) {
-  const auto& [twist, vx_var, wz_var, known, standing] = motion;
+  const auto& [twist, vx_var, wz_var, known, standing, steering_rad] = motion;
   describe(v, twist);
   v.value("vx_var", vx_var);
   v.value("wz_var", wz_var);
   v.value("known", known, {});
   v.value("standing", standing, {});
+  v.value("steering_rad", steering_rad, {.decimals = 4});
 }
 
 template <class V>

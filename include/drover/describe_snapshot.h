@@ -135,10 +135,11 @@ void describe(V& v, const GroupSnapshot& group) {
 
 template <class V>
 void describe(V& v, const BaseSnapshot& base) {
-  const auto& [configured, measured, state, fault, commanded, bus_V, bus_A, health, source,
-               last_motion] = base;
+  const auto& [configured, measured, steering_rad, state, fault, commanded, bus_V, bus_A, health,
+               source, last_motion] = base;
   (void)configured;  // there is none where it is not
   describe(v, measured);
+  v.value("steering_rad", steering_rad, {.decimals = 4});
   v.value("state", state, {});
   v.value("fault", fault, {});
   v.value("commanded_vx_mps", commanded.vx_mps, {.decimals = 3});

@@ -66,6 +66,9 @@ struct DriverEntry {
   std::string_view summary;  ///< one line for people
   /// Shafts that the simulated device turns, in the order of its README. 0: one for each channel.
   std::size_t twin_shafts = 0;
+  /// What takes its twist steers: it turns on curves only, tells the angle of its wheels
+  /// (BodyMotion::steering_rad), and the shafts of its twin behind the first two are steered.
+  bool steers = false;
 };
 
 /// Its devices are told how the whole base shall move, and so have no joints.

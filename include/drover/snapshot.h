@@ -85,6 +85,7 @@ struct AxisSnapshot {
 struct BaseSnapshot {
   bool configured = false;
   Twist measured{kAbsent, kAbsent};
+  double steering_rad = kAbsent;  ///< as BodyMotion::steering_rad
   AxisState state = AxisState::unknown;
   Reason fault;
   Twist commanded;

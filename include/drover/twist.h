@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 
 namespace drover {
 
@@ -39,6 +40,9 @@ struct BodyMotion {
   double wz_var = 0;
   bool known = false;     ///< false: part of it is silent, the base may do anything
   bool standing = false;  ///< known, and all that turns is at rest
+  /// Of a base that steers: the angle of a wheel in the middle of its steered axle, left positive,
+  /// also at rest; not a number: it does not tell it.
+  double steering_rad = std::numeric_limits<double>::quiet_NaN();
 };
 
 }  // namespace drover

@@ -9,7 +9,7 @@ namespace drover::sim {
 namespace {
 
 constexpr int kTerrainGroup = 0;
-constexpr int kArmGroup = 1;  // of motors
+constexpr int kArmGroup = 1;  // of motors that turn no wheel
 constexpr int kTerrainBit = 1;
 constexpr int kObstacleBit = 2;
 constexpr double kParked_m = -20;  // an obstacle that is not there

@@ -16,7 +16,6 @@ constexpr double kSlowCurve_m = 1.5;  // tighter ones are hard work for wheels t
 constexpr double kLeg_m = 10;
 constexpr double kWayBack_m = 12;  // the circles lead ahead
 constexpr double kSteps = 4;       // of speed on a straight
-constexpr double kCircle_m = 1.2;
 constexpr double kSlow_mps = 0.3;
 constexpr double kFast_mps = 0.7;
 constexpr double kRound_mps = 0.45;

@@ -16,6 +16,9 @@ inline constexpr double kUnproved_mps = 0.1;
 /// Circles may come to be so many times as wide as they are asked for.
 inline constexpr double kWider = 1.4;
 
+/// As they are asked for.
+inline constexpr double kCircle_m = 1.2;
+
 /// What the base may do at most.
 struct DriveLimits {
   double speed_mps = 0.8;

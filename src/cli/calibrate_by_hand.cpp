@@ -186,9 +186,13 @@ int calibrate_by_hand(const DriveSettings& settings, const std::string& socket) 
     tell_failure(settings.json, "drover", problem);
     return kRefused;
   }
+  if (const auto why = too_tight_for(loaded.config.engine.base); !why.empty()) {
+    tell_failure(settings.json, "drover", why);
+    return kRefused;
+  }
   CalibrationDrive it(loaded.config.engine);
   std::fprintf(stderr, "%s\n", it.intro().c_str());
-  drive(daemon, it, loaded.config.engine.base.kind == engine::BaseKind::twist);
+  drive(daemon, it, engine::takes_twist(loaded.config.engine.base.kind));
   return tell_result(settings, it, loaded);
 }
 

@@ -51,7 +51,7 @@ bool is_new(Time time, Time& last) {
 
 calibrate::Configured configured_of(const engine::EngineConfig& config) {
   calibrate::Configured configured;
-  const bool twist = config.base.kind == engine::BaseKind::twist;
+  const bool twist = engine::takes_twist(config.base.kind);
   configured.wheel_radius_m = twist ? 1.0 : config.base.wheel_radius_m;
   configured.track_m = config.base.track_m;
   configured.yaw_slip_factor = config.base.yaw_slip_factor;

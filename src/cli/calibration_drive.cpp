@@ -1,10 +1,12 @@
 #include "cli/calibration_drive.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 
 #include "drover/angle.h"
+#include "engine/base/kinematics.h"
 
 namespace drover::cli {
 namespace {
@@ -25,6 +27,18 @@ calibrate::DriveLimits limits_of(const engine::EngineConfig& config) {
 }
 
 }  // namespace
+
+/// One that steers drives wider ones than it is asked for, to what the area is measured by.
+std::string too_tight_for(const engine::BaseConfig& base) {
+  const double widest_m = calibrate::kWider * calibrate::kCircle_m;
+  const double needs_m = engine::limits(engine::kinematics_of(base)).smallest_radius_m;
+  if (needs_m <= widest_m) return {};
+  std::array<char, 120> text{};
+  std::snprintf(text.data(), text.size(),
+                "its circles have a radius of %.2f m at the most, and this base needs %.2f m",
+                widest_m, needs_m);
+  return text.data();
+}
 
 CalibrationDrive::CalibrationDrive(const engine::EngineConfig& config)
     : config_(config),

@@ -13,6 +13,9 @@
 
 namespace drover::cli {
 
+/// Why this base cannot drive the circles; empty: it can.
+std::string too_tight_for(const engine::BaseConfig& base);
+
 class CalibrationDrive final {
  public:
   explicit CalibrationDrive(const engine::EngineConfig& config);

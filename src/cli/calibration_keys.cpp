@@ -18,7 +18,7 @@ bool has_key(const config::Loaded& loaded, const std::string& device, const char
 CalibrationKeys calibration_keys(const config::Loaded& loaded, bool own_stamps) {
   CalibrationKeys keys;
   keys.own_stamps = own_stamps;
-  keys.twist_base = loaded.config.engine.base.kind == engine::BaseKind::twist;
+  keys.twist_base = engine::takes_twist(loaded.config.engine.base.kind);
   for (const auto& device : loaded.config.devices) {
     if (device.kind != SlotKind::gnss || device.role != "steers") continue;
     keys.receiver = device.name;

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "config/check_subjects.h"
+#include "text/number.h"
 #include "text/suggestion.h"
 
 namespace drover::config {
@@ -22,6 +23,7 @@ engine::HoldBy hold_by(std::string_view word) {
 
 engine::BaseKind base_kind(std::string_view word) {
   if (word == kTwistKind) return engine::BaseKind::twist;
+  if (word == kAckermannKind) return engine::BaseKind::ackermann;
   return word == "differential" ? engine::BaseKind::differential : engine::BaseKind::skid_steer;
 }
 
@@ -88,7 +90,7 @@ void nothing_else_moves(const GroupNames& groups, Findings& found) {
                          [&](const GroupJoint& each) { return each.name == joint; });
     });
   };
-  const bool has_wheels = base.kind != kTwistKind;
+  const bool has_wheels = !is_told_a_twist(base.kind);
   const auto among = [&](const std::vector<std::string>& side, const std::string& joint) {
     return has_wheels && std::find(side.begin(), side.end(), joint) != side.end();
   };
@@ -97,9 +99,11 @@ void nothing_else_moves(const GroupNames& groups, Findings& found) {
       if (among(base.left, joint.name) || among(base.right, joint.name)) continue;
       if (beside(joint.name)) continue;
       found.add(device_path(device), "\"" + joint.name + "\" is of no group",
-                has_wheels ? "name it in groups.base.left or groups.base.right, or give it a group "
-                             "of its own: groups.arm.joints"
-                           : "give it a group of its own: groups.arm.joints");
+                has_wheels
+                    ? "name it in groups.base.left or groups.base.right, or give it a group "
+                      "of its own: groups.arm.joints"
+                    : "leave it out: joints beside a base that takes a twist are not supported "
+                      "yet");
     }
     if (!is_told_twists(device) || device.name == base.device) continue;
     found.add(device_path(device), "it takes a twist, and is not the device of the base",
@@ -116,6 +120,38 @@ void wheels(const BaseNames& base, Findings& found) {
   follow_velocities(base, found);
 }
 
+/// What is told twice, once to who drives and once to who speaks to the device.
+void same_number(const DeviceConfig& device, const char* key, double number, Findings& found) {
+  if (!device.options.has(key) || device.options.number(key) == number) return;
+  found.add(std::string("groups.base.") + key,
+            "is " + text::number_text(number) + ", but " +
+                text::number_text(device.options.number(key)) + " in " +
+                device_path(device, std::string("options.") + key),
+            "the same in both places");
+}
+
+/// One that steers is told no turn on the spot, and one that does not has no angle.
+void steering(const BaseNames& base, const DeviceConfig& device, const DriverEntry& entry,
+              Findings& found) {
+  const bool steers = base.kind == kAckermannKind;
+  if (entry.steers != steers) {
+    found.add("groups.base.kind",
+              "\"" + device.name + "\" is a " + device.driver + ", which " +
+                  (entry.steers ? "steers" : "does not steer"),
+              entry.steers ? "\"kind\": \"ackermann\"" : "\"kind\": \"twist\"");
+    return;
+  }
+  if (!steers) return;
+  const auto& numbers = *base.base;
+  same_number(device, "wheelbase_m", numbers.wheelbase_m, found);
+  same_number(device, "track_m", numbers.track_m, found);
+  if (device.options.has("max_steering_rad") &&
+      numbers.max_steering_rad > device.options.number("max_steering_rad"))
+    found.add("groups.base.max_steering_rad",
+              "is above " + text::number_text(device.options.number("max_steering_rad")) +
+                  ", the most of " + device.driver);
+}
+
 void twist_device(const BaseNames& base, Findings& found) {
   constexpr auto kPath = "groups.base.device";
   if (base.device.empty()) return;  // told by the reader
@@ -129,6 +165,8 @@ void twist_device(const BaseNames& base, Findings& found) {
   } else if (find_driver(it->driver) != nullptr && !is_told_twists(*it)) {
     found.add(kPath, "\"" + base.device + "\" takes no twist: it is a " + it->driver,
               "a base of another kind names the joints of its wheels");
+  } else if (const auto* const entry = find_driver(it->driver); entry != nullptr) {
+    steering(base, *it, *entry, found);
   }
 }
 
@@ -137,11 +175,14 @@ void twist_device(const BaseNames& base, Findings& found) {
 void check_base(const GroupNames& groups, Findings& found) {
   const BaseNames& base = groups.base;
   auto& resolved = found.config().engine.base;
-  if (base.kind == kTwistKind)
+  if (is_told_a_twist(base.kind))
     twist_device(base, found);
   else
     wheels(base, found);
   nothing_else_moves(groups, found);
+  if (found.config().protocol.vz == "steering_angle" && base.kind != kAckermannKind)
+    found.add("protocol.vz", "is steering_angle, but this base does not steer",
+              "\"vz\": \"yaw_rate\"");
   resolved.hold = hold_by(base.hold);
   resolved.kind = base_kind(base.kind);
 }

@@ -195,7 +195,7 @@ std::optional<OwnSpeed> own_speed(const DroverConfig& config, const DeviceConfig
     return OwnSpeed{options.number("max_speed_mps"), device_path(device, "options.max_speed_mps")};
   }
   const auto& base = config.engine.base;
-  if (!options.has("max_rpm") || base.kind == engine::BaseKind::twist) return std::nullopt;
+  if (!options.has("max_rpm") || engine::takes_twist(base.kind)) return std::nullopt;
   const double gear_ratio = options.has("gear_ratio") ? options.number("gear_ratio") : 1;
   const double wheel_radps = options.number("max_rpm") * 2 * std::numbers::pi / 60 / gear_ratio;
   return OwnSpeed{wheel_radps * base.wheel_radius_m, device_path(device, "options.max_rpm")};

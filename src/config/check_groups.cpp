@@ -96,7 +96,7 @@ void check_groups(const std::vector<JointGroup>& groups, Findings& found) {
       taken.take(each.name, path);
       joint(path, given, each, group, found);
     }
-    if (engine.base.kind == engine::BaseKind::twist)
+    if (engine::takes_twist(engine.base.kind))
       found.add("groups." + given.name,
                 "joints beside a base that takes a twist are not supported yet");
     (void)engine.groups.push_back(group);

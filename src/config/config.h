@@ -117,6 +117,7 @@ struct ProtocolConfig {
   std::string heading = "clockwise_from_north";
   int first_target_id = 1;        ///< number of a track's first point: 1, or 0 for some makers
   std::string power = "percent";  ///< "percent" or "volts"
+  std::string vz = "yaw_rate";    ///< "yaw_rate" or "steering_angle"
   bool start_needs_time = false;  ///< refuse a start_task that does not tell when it was pressed
   bool automatic_origin = true;   ///< take the first RTK fix as origin when none was ever stored
 };

@@ -233,6 +233,8 @@ void visit(V& v, ProtocolConfig& c) {
            "how rtk.angle and a point's angle count");
   v.integer("first_target_id", c.first_target_id, Range{0, 1}, "number of a track's first point");
   v.choice("power", c.power, {"percent", "volts"}, "what robot.power shows");
+  v.choice("vz", c.vz, {"yaw_rate", "steering_angle"},
+           "what robot.vz shows; steering_angle: of a base of kind ackermann");
   v.flag("start_needs_time", c.start_needs_time,
          "refuse a start_task that does not tell when it was pressed (member time)");
   v.flag("automatic_origin", c.automatic_origin,

@@ -250,17 +250,34 @@ struct BaseNames {
 };
 
 /// As `kind` is written.
-inline constexpr std::string_view kBaseKinds[] = {"skid_steer", "differential", "twist"};
+inline constexpr std::string_view kBaseKinds[] = {"skid_steer", "differential", "twist",
+                                                  "ackermann"};
 inline constexpr std::string_view kTwistKind = kBaseKinds[2];
+inline constexpr std::string_view kAckermannKind = kBaseKinds[3];
+/// A device takes its twist.
+constexpr bool is_told_a_twist(std::string_view kind) {
+  return kind == kTwistKind || kind == kAckermannKind;
+}
 
-/// A key that a base with wheels needs, or else one that takes a twist; the other has no use for
-/// it.
+/// A key that bases with wheels need, or those that take a twist, or of them those that steer; the
+/// others have no use for it.
 struct BaseKey {
+  enum class Of : std::uint8_t { wheels, twist, steering };
   std::string_view key;
-  bool of_twist = false;
+  Of of = Of::wheels;
+
+  constexpr bool is_of(std::string_view kind) const {
+    if (of == Of::steering) return kind == kAckermannKind;
+    return is_told_a_twist(kind) == (of == Of::twist);
+  }
 };
-inline constexpr BaseKey kBaseKeys[] = {
-    {"wheel_radius_m", false}, {"left", false}, {"right", false}, {"device", true}};
+inline constexpr BaseKey kBaseKeys[] = {{"wheel_radius_m", BaseKey::Of::wheels},
+                                        {"left", BaseKey::Of::wheels},
+                                        {"right", BaseKey::Of::wheels},
+                                        {"device", BaseKey::Of::twist},
+                                        {"wheelbase_m", BaseKey::Of::steering},
+                                        {"max_steering_rad", BaseKey::Of::steering},
+                                        {"steering_rate_radps", BaseKey::Of::steering}};
 
 inline constexpr Count kSideCount{1, decltype(engine::BaseConfig::left)::capacity()};
 
@@ -268,12 +285,22 @@ template <class V>
 void visit(V& v, BaseNames& c) {
   v.choice("kind", c.kind, {std::begin(kBaseKinds), std::end(kBaseKinds)},
            "skid_steer: several wheels on a side; differential: one, which turns without skidding; "
-           "twist: a device that is told how the whole base shall move",
+           "twist: a device that is told how the whole base shall move; ackermann: likewise, and "
+           "it steers",
            Presence::required);
   v.number("wheel_radius_m", c.base->wheel_radius_m, Range{0.01, 2}, "wheel radius",
            Presence::of_kind);
   v.number("track_m", c.base->track_m, Range{0.05, 5}, "between left and right wheels",
            Presence::required);
+  v.number("wheelbase_m", c.base->wheelbase_m, Range{0.2, 5}, "ackermann: between its axles",
+           Presence::of_kind);
+  v.number(
+      "max_steering_rad", c.base->max_steering_rad, Range{0.1, 1},
+      "ackermann: the most that its inner wheel is steered; less than it can, so that a little "
+      "is left to keep the track",
+      Presence::of_kind);
+  v.number("steering_rate_radps", c.base->steering_rate_radps, Range{0.05, 5},
+           "ackermann: how fast its wheels are steered at least", Presence::of_kind);
   v.number("yaw_slip_factor", c.base->yaw_slip_factor, Range{0.5, 4},
            "how much wider than track_m the base behaves when it turns; refined while driving");
   v.choice("hold", c.hold, {"brake", "worm_gear", "level_ground_only"},

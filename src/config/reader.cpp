@@ -263,8 +263,7 @@ void Reader::keys_of_kind(const std::string& driver) {
 void Reader::keys_of_base(const std::string& kind) {
   if (std::find(std::begin(kBaseKinds), std::end(kBaseKinds), kind) == std::end(kBaseKinds)) return;
   for (const auto& each : kBaseKeys)
-    key_of_kind(each.key, each.of_twist == (kind == kTwistKind), true,
-                "a base of kind \"" + kind + "\"");
+    key_of_kind(each.key, each.is_of(kind), true, "a base of kind \"" + kind + "\"");
 }
 
 void Reader::key_of_kind(std::string_view key, bool has, bool needs, const std::string& whose) {

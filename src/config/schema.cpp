@@ -177,11 +177,11 @@ class SchemaWriter final {
   void keys_of_base(const std::string&) {
     for (const auto kind : kBaseKinds) {
       auto& then = where("kind", kind)["then"];
-      for (const auto& [key, of_twist] : kBaseKeys) {
-        if (of_twist == (kind == kTwistKind)) {
-          then["required"].push_back(std::string(key));
+      for (const auto& each : kBaseKeys) {
+        if (each.is_of(kind)) {
+          then["required"].push_back(std::string(each.key));
         } else {
-          then["properties"][std::string(key)] = false;
+          then["properties"][std::string(each.key)] = false;
         }
       }
     }

@@ -25,7 +25,12 @@ enum class BaseKind : std::uint8_t {
   skid_steer,    ///< wheels of two sides, which skid in a turn
   differential,  ///< two wheels on one axle, which do not
   twist,         ///< a device that takes a twist and tells one: it has no joints
+  ackermann,     ///< likewise, and it steers: it turns on a curve only
 };
+/// It is told how the whole of it shall move.
+constexpr bool takes_twist(BaseKind kind) {
+  return kind == BaseKind::twist || kind == BaseKind::ackermann;
+}
 
 /// Driven wheels of one side.
 inline constexpr std::size_t kMaxSide = kMaxAxes / 2;
@@ -35,6 +40,10 @@ struct BaseConfig {
   BaseKind kind = BaseKind::skid_steer;
   double wheel_radius_m = 0.165;
   double track_m = 0.60;  ///< between the centres of the left and right wheels
+  // Of a base that steers. The angle is that of the inner wheel, as makers tell it.
+  double wheelbase_m = 0.65;         ///< between its axles
+  double max_steering_rad = 0.5;     ///< the most that is asked, so that a little is left
+  double steering_rate_radps = 0.4;  ///< how fast its wheels are turned at least
   /// How much wider than `track_m` the base behaves when it turns, because wheels skid.
   /// The estimate refines it while driving.
   double yaw_slip_factor = 1.0;

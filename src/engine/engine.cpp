@@ -26,12 +26,13 @@ Engine::Impl::Impl(const EngineConfig& c)
       sensors(c),
       health(c),
       wheels(c),
+      steering(c),
       rest(c),
       place(c.estimate),
       tilt(c.health),
       hit(c.health),
       mechanics(c),
-      clearance(c.clearance, c.limits, c.clearance_required),
+      clearance(c.clearance, c.limits, c.clearance_required, limits(base).pivots),
       navigator(c, latch),
       owners(c, latch),
       arming(c) {
@@ -323,7 +324,8 @@ void Engine::step(Time now, const Environment& environment, EngineOutput& out) {
       {now, dt, e.estimate, e.health.report(), e.wheel_fault, e.wheel_reason, wanted, cap_mps,
        e.mechanics.speed_cap_mps(FirstWay::joints), e.mechanics.speed_cap_mps(FirstWay::hand),
        e.arming.hindrance(), stream, e.clearance.caps().ahead_mps,
-       e.clearance.rim_cap_mps(stream, e.config.base.track_m / 2), e.clearance.too_near(), by_hand},
+       e.clearance.rim_cap_mps(stream, e.config.base.track_m / 2), e.clearance.too_near(), by_hand,
+       e.steered_radpm()},
       e.events);
   e.commanded =
       motion.joints ? twist_of(e.base, e.owners.joint_velocities_radps(), learned) : motion.twist;

@@ -21,6 +21,7 @@ void Engine::Impl::take_body(const BodyMotion& body, Time time) {
   ++edges[0].source.samples;
   if (time < edges[0].last_motion) return;
   told = body.twist;
+  if (std::isfinite(body.steering_rad)) steering_rad = body.steering_rad;
   const JointVelocities mps = edges_of(base, body.twist);
   for (std::size_t i = 0; i < edges.size(); ++i) {
     edges[i].motion.velocity_radps = mps[i];
@@ -28,10 +29,16 @@ void Engine::Impl::take_body(const BodyMotion& body, Time time) {
   }
 }
 
+double Engine::Impl::steered_radpm() const {
+  const auto* const steered = std::get_if<Ackermann>(&base);
+  return steered == nullptr ? kAbsent : curvature_radpm(steered->wheelbase_m, steering_rad);
+}
+
 void Engine::Impl::fill_base(const Environment& environment, const BaseCommand& command) {
   const AxisSnapshot& device = edges[0];
   BaseSnapshot& s = snapshot.base;
   s.measured = told;
+  s.steering_rad = steering_rad;
   s.state = device.state;
   s.fault = device.fault;
   s.commanded = command.twist;
@@ -58,6 +65,7 @@ void Engine::Impl::command_base(EngineOutput& out) {
     out.base.twist.vx_mps = no_more_than(out.base.twist.vx_mps, told.vx_mps);
     out.base.twist.wz_radps = no_more_than(out.base.twist.wz_radps, told.wz_radps);
   }
+  sent = out.base.twist;
   out.slowing_permitted[0] = out.slowing_permitted[0] || out.slowing_permitted[1];
   out.slowing_permitted[1] = false;
 }

@@ -20,6 +20,7 @@
 #include "engine/health/mechanics_check.h"
 #include "engine/health/place_watch.h"
 #include "engine/health/rest_watch.h"
+#include "engine/health/steering_watch.h"
 #include "engine/health/tilt_watch.h"
 #include "engine/health/wheels.h"
 #include "engine/health/worst_speed.h"
@@ -55,6 +56,8 @@ struct Engine::Impl {
   void take_joints(const JointTargets& targets, Time now);
   void end_groups(const Reason& why);
   void step_groups(Time now, Duration dt, const Environment& environment, EngineOutput& out);
+  /// Of the curve that the wheels of a base that steers make; not a number: it tells nothing of it.
+  double steered_radpm() const;
   void fill_base(const Environment& environment, const BaseCommand& command);
   void release_hold(const RequestId& id, const ReleaseHold& release, Time now);
   void arm_hold(const RequestId& id, Time now);
@@ -84,6 +87,7 @@ struct Engine::Impl {
   Sensors sensors;
   HealthMonitor health;
   WheelMonitor wheels;
+  SteeringWatch steering;
   WheelFault wheel_fault = WheelFault::none;  ///< of the last step
   Reason wheel_reason;                        ///< of that fault
   RestWatch rest;
@@ -98,6 +102,7 @@ struct Engine::Impl {
   bool by_joints = false;     ///< and of those it is
   Twist asked;                ///< likewise, by its owner, before anything bounded it
   bool motion_asked = false;  ///< in the last cycle
+  Twist sent;                 ///< in the last cycle, to a base that takes a twist
   Announcer announcer;
   Latch latch;
   Navigator navigator;
@@ -121,7 +126,8 @@ struct Engine::Impl {
   Viewpoint view;
   /// Edges of a base that takes a twist.
   std::array<AxisSnapshot, 2> edges;
-  Twist told{kAbsent, kAbsent};  ///< by that base, last
+  Twist told{kAbsent, kAbsent};   ///< by that base, last
+  double steering_rad = kAbsent;  ///< likewise, of one that steers
   /// All of the base that is watched and commanded: its joints, or those edges.
   std::span<AxisSnapshot> axes;
   std::vector<JointGroup> groups;  ///< beside the base; made once

@@ -93,6 +93,11 @@ void Engine::Impl::watch_wheels(Time now, Duration dt) {
     latch.set(Latched::ran_away, wheel_reason);
     rest.expect_stop(now);
   }
+  steering.update(now, dt, motion_asked ? sent : Twist{}, steering_rad);
+  if (wheel_fault == WheelFault::none && !steering.reason().empty()) {
+    wheel_fault = WheelFault::not_following;
+    wheel_reason = steering.reason();
+  }
   // Wheels that work against each other stand before gyro or receiver can tell.
   if (wheel_fault == WheelFault::not_following && !mechanics.proved()) {
     const std::string_view what = wheels.reason();

@@ -73,7 +73,7 @@ publish::LearnedBeside learned_beside(const config::DroverConfig& config) {
   beside.antenna_x_m = antenna.x_m;
   beside.antenna_y_m = antenna.y_m;
   beside.heading_baseline_offset_deg = antenna.heading_baseline_offset_deg;
-  const bool has_wheels = engine.base.kind != engine::BaseKind::twist;
+  const bool has_wheels = !engine::takes_twist(engine.base.kind);
   if (has_wheels) beside.wheel_radius_m = engine.base.wheel_radius_m;
   beside.yaw_slip_factor = engine.base.yaw_slip_factor;
   return beside;

@@ -20,6 +20,7 @@ publish::RtkConfig rtk_config(const config::ProtocolConfig& protocol) {
   publish::RtkConfig rtk;
   rtk.heading = heading_convention(protocol);
   if (protocol.power == "volts") rtk.power = publish::PowerUnit::volts;
+  if (protocol.vz == "steering_angle") rtk.vz = publish::TurnShown::steering_angle;
   return rtk;
 }
 

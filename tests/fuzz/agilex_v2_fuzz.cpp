@@ -1,5 +1,5 @@
-// A Scout's driver under any frames, requests and gaps. What must hold: at rest nothing moves it,
-// and what it sends is on its own list and not forbidden.
+// A Scout's or a Hunter's driver under any frames, requests and gaps. What must hold: at rest
+// nothing moves it, and what it sends is on its own list and not forbidden.
 #include <algorithm>
 #include <cstdlib>
 
@@ -9,7 +9,7 @@
 namespace drover {
 namespace {
 
-constexpr std::array<std::uint32_t, 6> kIds{0x111, 0x151, 0x211, 0x221, 0x421, 0x311};
+constexpr std::array<std::uint32_t, 7> kIds{0x111, 0x151, 0x211, 0x221, 0x421, 0x311, 0x131};
 
 double part_of(std::uint8_t byte) {
   return byte == 0xFF ? kAbsent : (byte - 127) * 0.01;
@@ -40,7 +40,9 @@ void judge(const agilex_v2::AgilexV2Driver& driver, const Setpoint& setpoint, Ti
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace drover;
   fuzz::Input input({data, size});
-  agilex_v2::AgilexV2Driver driver(0);
+  const bool hunter = input.byte() % 2 != 0;
+  agilex_v2::AgilexV2Driver driver(
+      0, hunter ? std::optional(agilex_v2::Steering{}) : std::optional<agilex_v2::Steering>());
   Time now{std::chrono::seconds(1)};
   DriverOut out;
   while (input.more()) {

@@ -125,9 +125,8 @@ class Dump final {
   bool is_of_this_kind(std::string_view key) const {
     for (const auto& each : config::kKindKeys)
       if (driver_ != nullptr && each.key == key && !config::has_key(*driver_, each)) return false;
-    const bool twist = base_kind_ == config::kTwistKind;
     for (const auto& each : config::kBaseKeys)
-      if (!base_kind_.empty() && each.key == key && each.of_twist != twist) return false;
+      if (!base_kind_.empty() && each.key == key && !each.is_of(base_kind_)) return false;
     return true;
   }
   void put_number(std::string_view key, double value) {

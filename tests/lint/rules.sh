@@ -18,7 +18,7 @@ src/engine/gate      drover/ engine/config.h engine/base/ engine/gate/
 src/engine/health    drover/ engine/config.h engine/environment.h engine/event_queue.h
 src/engine/health    engine/still.h engine/base/ engine/estimate/ engine/health/ engine/sensors/
 src/engine/navigate  drover/ engine/config.h engine/event_queue.h engine/still.h
-src/engine/navigate  engine/gate/ engine/health/ engine/navigate/ track/
+src/engine/navigate  engine/base/ engine/gate/ engine/health/ engine/navigate/ track/
 src/engine/own       drover/ engine/config.h engine/event_queue.h engine/still.h
 src/engine/own       engine/base/ engine/gate/ engine/health/ engine/navigate/ engine/own/
 src/link         drover/ link/

@@ -75,5 +75,14 @@ TEST(AgilexV2Kill, LetsANewStartReachTheGoal) {
   expect_a_new_start_reaches_the_goal(record("agilex_v2_kill"));
 }
 
+TEST(HunterKill, IsBroughtToRestByTheGuardsFrames) {
+  const Record& log = record("hunter_kill");
+  expect_the_guard_stops_it(log, said_on_can(log, hunter::twist_command));
+}
+
+TEST(HunterKill, LetsANewStartReachTheGoal) {
+  expect_a_new_start_reaches_the_goal(record("hunter_kill"));
+}
+
 }  // namespace
 }  // namespace drover::mission

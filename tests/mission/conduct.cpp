@@ -23,6 +23,10 @@ constexpr Duration kZerosFirst = 200ms;
 constexpr Duration kRamp = 1600ms;
 constexpr Duration kGuard = 100ms;
 
+bool is_agilex(Maker maker) {
+  return maker == Maker::agilex_v2 || maker == Maker::hunter;
+}
+
 /// A task: from the operator's start to the end that the gateway told.
 struct Task {
   Time begin = kNever;
@@ -137,6 +141,7 @@ std::string judge(Maker maker, const CanFrame& frame) {
     case Maker::zlac8015d: return zlac8015d::forbidden(frame);
     case Maker::gt01_can: return gt01::forbidden(frame);
     case Maker::agilex_v2: return agilex_v2::forbidden(frame);
+    case Maker::hunter: return hunter::forbidden(frame);
     case Maker::gt01_serial: break;
   }
   return "it has no bus";
@@ -174,7 +179,7 @@ Problems check_motion(const Record& record, Holding holding) {
     if (!inside(permitted, one.time) && (holding == Holding::unmoved || !ramps.slows(one)))
       add(problems, seconds(one.time) + ": node " + std::to_string(one.wheel.node) +
                         " is told to move outside of any task and stream of joint commands");
-  const Duration late = kAnnounced + (record.maker == Maker::agilex_v2 ? kZerosFirst : 0ms);
+  const Duration late = kAnnounced + (is_agilex(record.maker) ? kZerosFirst : 0ms);
   for (const auto& one : record.feedback) {
     if (one.cmd != "start_nav_success") continue;
     Time begin = kNever;

@@ -94,7 +94,8 @@ json read_json(const fs::path& file) {
 
 constexpr std::pair<const char*, Maker> kTwistBases[] = {{"gt01_serial", Maker::gt01_serial},
                                                          {"gt01_can", Maker::gt01_can},
-                                                         {"agilex_v2", Maker::agilex_v2}};
+                                                         {"agilex_v2", Maker::agilex_v2},
+                                                         {"agilex_hunter", Maker::hunter}};
 
 /// What its drives are like.
 void read_drives(const json& scenario, Record& record) {
@@ -129,7 +130,9 @@ void add_twist(Time time, const TwistCommand& twist, Record& record) {
 }
 
 void read_set_points(const CanLine& line, Record& record) {
-  if (record.maker == Maker::gt01_can || record.maker == Maker::agilex_v2) {
+  if (record.maker == Maker::hunter) {
+    if (const auto twist = hunter::twist_command(line.frame)) add_twist(line.time, *twist, record);
+  } else if (record.maker == Maker::gt01_can || record.maker == Maker::agilex_v2) {
     const auto twist = record.maker == Maker::gt01_can ? gt01::twist_command(line.frame)
                                                        : agilex_v2::twist_command(line.frame);
     if (twist) add_twist(line.time, *twist, record);

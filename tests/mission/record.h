@@ -40,7 +40,7 @@ struct Sent {
 };
 
 /// Whose drives they are.
-enum class Maker { odrive, zlac8015d, gt01_serial, gt01_can, agilex_v2 };
+enum class Maker { odrive, zlac8015d, gt01_serial, gt01_can, agilex_v2, hunter };
 
 struct Record {
   std::filesystem::path folder;

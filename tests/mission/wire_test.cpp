@@ -149,5 +149,23 @@ TEST(MissionWire, ReadsTheTwistsOfAnAgilex) {
   EXPECT_FALSE(agilex_v2::twist_command(frame("111#0000000000000000"))->moves());
 }
 
+TEST(MissionWire, KnowsWhatAHunterMayBeTold) {
+  for (const char* text : {"111#01F4000500000000", "111#01F40000000102BC", "131#02", "131#0000",
+                           "111#01F4000000000300", "441#FF", "431#AA"})
+    EXPECT_FALSE(hunter::forbidden(frame(text)).empty()) << text;
+  for (const char* text : {"111#01F4000000000240", "111#000000000000FDC0", "131#00", "131#01",
+                           "421#01", "221#01F4000000000000"})
+    EXPECT_EQ(hunter::forbidden(frame(text)), "") << text;
+}
+
+TEST(MissionWire, ReadsTheCurveOfAHunter) {
+  const auto left = hunter::twist_command(frame("111#01F40000000000C8"));
+  ASSERT_TRUE(left);
+  EXPECT_NEAR(left->wz_radps, 0.1425, 1e-4);
+  const auto back = hunter::twist_command(frame("111#FE0C0000000000C8"));
+  EXPECT_NEAR(back->wz_radps, -0.1425, 1e-4);
+  EXPECT_FALSE(hunter::twist_command(frame("111#00000000000000C8"))->moves());
+}
+
 }  // namespace
 }  // namespace drover::mission

@@ -130,4 +130,36 @@ std::string forbidden(const CanFrame& frame) {
 
 }  // namespace agilex_v2
 
+namespace hunter {
+
+std::optional<double> steering_rad(const CanFrame& frame) {
+  if (!plain(frame) || frame.id != 0x111 || frame.len != 8) return std::nullopt;
+  return thousandths(frame.data[6], frame.data[7]);
+}
+
+/// 0x111: v in mm/s, and the angle of the inner wheel in mrad. Of 0.65 m between the axles and
+/// 0.605 m between the wheels.
+std::optional<TwistCommand> twist_command(const CanFrame& frame) {
+  const auto angle_rad = steering_rad(frame);
+  if (!angle_rad) return std::nullopt;
+  const double v_mps = thousandths(frame.data[0], frame.data[1]);
+  const double inner_m = *angle_rad == 0 ? 1e9 : 0.65 / std::tan(std::abs(*angle_rad));
+  return TwistCommand{v_mps, std::copysign(v_mps / (inner_m + 0.3025), v_mps * *angle_rad)};
+}
+
+/// Its own brake beside what a Scout hears; a steering angle beyond 0.576 rad is none of its.
+std::string forbidden(const CanFrame& frame) {
+  if (plain(frame) && frame.id == 0x131)
+    return frame.len == 1 && frame.data[0] <= 1 ? "" : "neither locks nor releases its brake";
+  if (plain(frame) && frame.id == 0x111) {
+    if (frame.len != 8) return "no whole command";
+    const auto& data = frame.data;
+    if ((data[2] | data[3] | data[4] | data[5]) != 0) return "a turn or a way aside of its own";
+    return std::abs(*steering_rad(frame)) <= 0.5765 ? "" : "steered too far";
+  }
+  return agilex_v2::forbidden(frame);
+}
+
+}  // namespace hunter
+
 }  // namespace drover::mission

@@ -55,4 +55,14 @@ std::string forbidden(const CanFrame& frame);
 
 }  // namespace agilex_v2
 
+namespace hunter {
+
+std::optional<TwistCommand> twist_command(const CanFrame& frame);
+/// Of the inner wheel, left positive.
+std::optional<double> steering_rad(const CanFrame& frame);
+/// As above.
+std::string forbidden(const CanFrame& frame);
+
+}  // namespace hunter
+
 }  // namespace drover::mission

@@ -171,6 +171,7 @@ struct Describe {
         .number("wz_radps", m.twist.wz_radps)
         .word("known", m.known ? "true" : "false")
         .word("standing", m.standing ? "true" : "false")
+        .number("steering_rad", m.steering_rad)
         .text();
   }
 };

@@ -21,6 +21,8 @@ constexpr double kRollingGain = 0.03;       // one sigma
 constexpr double kRollingGainWalk = 0.003;  // per square root of radian
 constexpr double kRollingShift_m = 0.005;   // per square root of radian
 constexpr double kRollingTurn_rad = 0.01;   // per square root of radian
+// Wheels that are a degree beside what they are said to be steered to.
+constexpr double kSteeringZero_rad = 0.017;
 constexpr Time kFarFuture{Duration{INT64_MAX / 4}};
 
 const TwoSides& sides_of(const Kinematics& base) {
@@ -34,6 +36,10 @@ TwoSides edges(double width_m) {
   (void)sides.left.push_back(0);
   (void)sides.right.push_back(1);
   return sides;
+}
+
+bool rolls_in_turns(const Kinematics& base) {
+  return std::holds_alternative<Differential>(base) || std::holds_alternative<Ackermann>(base);
 }
 
 /// What is as slow as an encoder at rest is rest, as for wheels.
@@ -53,13 +59,36 @@ Kinematics kinematics_of(const BaseConfig& base) {
   switch (base.kind) {
     case BaseKind::differential: return Differential{sides_of(base)};
     case BaseKind::twist: return TwistBase{edges(base.track_m)};
+    case BaseKind::ackermann:
+      return Ackermann{edges(base.track_m), base.wheelbase_m, base.max_steering_rad,
+                       base.steering_rate_radps};
     case BaseKind::skid_steer: break;
   }
   return SkidSteer{sides_of(base)};
 }
 
+BodyLimits limits(const Kinematics& base) {
+  const auto* const steered = std::get_if<Ackermann>(&base);
+  if (steered == nullptr) return {};
+  BodyLimits limits;
+  limits.pivots = false;
+  limits.smallest_radius_m =
+      steered->sides.track_m / 2 + steered->wheelbase_m / std::tan(steered->max_steering_rad);
+  // It is least straight ahead.
+  limits.curvature_rate_radpms = steered->steering_rate_radps / steered->wheelbase_m;
+  return limits;
+}
+
+double steering_rad(double wheelbase_m, double curvature_radpm) {
+  return std::atan(wheelbase_m * curvature_radpm);
+}
+
+double curvature_radpm(double wheelbase_m, double steering_rad) {
+  return std::tan(steering_rad) / wheelbase_m;
+}
+
 bool takes_twist(const Kinematics& base) {
-  return std::holds_alternative<TwistBase>(base);
+  return std::holds_alternative<TwistBase>(base) || std::holds_alternative<Ackermann>(base);
 }
 
 const char* joint_unit(const Kinematics& base) {
@@ -67,7 +96,12 @@ const char* joint_unit(const Kinematics& base) {
 }
 
 JointVelocities edges_of(const Kinematics& base, const Twist& twist) {
-  return setpoints(base, twist, {}, std::numeric_limits<double>::infinity());
+  const WheelSpeeds speeds =
+      wheels_from_twist(sides_of(base), 1.0, twist, std::numeric_limits<double>::infinity());
+  JointVelocities mps;
+  (void)mps.push_back(speeds.left_radps);  // their radius is a metre
+  (void)mps.push_back(speeds.right_radps);
+  return mps;
 }
 
 Twist twist_of_edges(const Kinematics& base, const JointVelocities& mps) {
@@ -76,7 +110,7 @@ Twist twist_of_edges(const Kinematics& base, const JointVelocities& mps) {
 
 std::size_t joints_needed(const BaseConfig& base) {
   std::size_t needed = 0;
-  if (base.kind == BaseKind::twist) return needed;
+  if (takes_twist(base.kind)) return needed;
   for (const auto* side : {&base.left, &base.right})
     for (const AxisId id : *side) needed = std::max(needed, std::size_t{id} + 1);
   return needed;
@@ -93,7 +127,13 @@ JointSet joints_of(const Kinematics& base) {
 JointVelocities setpoints(const Kinematics& base, const Twist& twist, const Learned& learned,
                           double max_rim_mps) {
   const TwoSides& sides = sides_of(base);
-  const WheelSpeeds speeds = wheels_from_twist(sides, learned.yaw_slip_factor, twist, max_rim_mps);
+  Twist drivable = twist;
+  if (const BodyLimits body = limits(base); !body.pivots && std::isfinite(twist.wz_radps)) {
+    const double most_radps = std::abs(twist.vx_mps) * body.most_radpm() / learned.yaw_slip_factor;
+    drivable.wz_radps = std::clamp(twist.wz_radps, -most_radps, most_radps);
+  }
+  const WheelSpeeds speeds =
+      wheels_from_twist(sides, learned.yaw_slip_factor, drivable, max_rim_mps);
   JointVelocities radps;
   for (const auto* side : {&sides.left, &sides.right})
     for (const AxisId id : *side) radps.resize(std::max(radps.size(), std::size_t{id} + 1));
@@ -143,7 +183,7 @@ double joint_radps(const Kinematics& base, double rim_mps) {
 
 EstimateConfig tuned(const Kinematics& base, const EstimateConfig& config) {
   EstimateConfig own = config;
-  if (!std::holds_alternative<Differential>(base)) return own;
+  if (!rolls_in_turns(base)) return own;
   own.yaw_slip_sigma = std::min(own.yaw_slip_sigma, kRollingGain);
   own.yaw_slip_walk = std::min(own.yaw_slip_walk, kRollingGainWalk);
   own.turning_shift_m = std::min(own.turning_shift_m, kRollingShift_m);
@@ -152,8 +192,10 @@ EstimateConfig tuned(const Kinematics& base, const EstimateConfig& config) {
 }
 
 TurnErrors turn_errors(const Kinematics& base) {
-  const bool rolls = std::holds_alternative<Differential>(base);
-  return {kTyreShare / sides_of(base).track_m, rolls ? kRollingShare : kSkiddingShare};
+  const auto* const steered = std::get_if<Ackermann>(&base);
+  const double pull_radpm = steered != nullptr ? kSteeringZero_rad / steered->wheelbase_m
+                                               : kTyreShare / sides_of(base).track_m;
+  return {pull_radpm, rolls_in_turns(base) ? kRollingShare : kSkiddingShare};
 }
 
 double fastest_mps(const Kinematics& base, const Twist& twist) {

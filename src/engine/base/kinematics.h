@@ -3,6 +3,7 @@
 #pragma once
 
 #include <bitset>
+#include <limits>
 #include <variant>
 
 #include "engine/base/two_sides.h"
@@ -24,10 +25,35 @@ struct Differential {
 struct TwistBase {
   TwoSides sides;
 };
-using Kinematics = std::variant<SkidSteer, Differential, TwistBase>;
+/// The same, of a device that steers its front wheels: it turns on a curve only, and the edges that
+/// stand for wheels are those of its rear axle, the middle of which is base_link.
+struct Ackermann {
+  TwoSides sides;
+  double wheelbase_m = 0;
+  double max_steering_rad = 0;     ///< of the inner wheel
+  double steering_rate_radps = 0;  ///< at least
+};
+using Kinematics = std::variant<SkidSteer, Differential, TwistBase, Ackermann>;
 
 TwoSides sides_of(const BaseConfig& base);
 Kinematics kinematics_of(const BaseConfig& base);
+
+/// What a base can drive at all.
+struct BodyLimits {
+  bool pivots = true;            ///< it turns on the spot
+  double smallest_radius_m = 0;  ///< of the curve of base_link
+  /// How fast the curvature changes; infinite: as fast as the speeds do.
+  double curvature_rate_radpms = std::numeric_limits<double>::infinity();
+
+  double most_radpm() const {
+    return smallest_radius_m > 0 ? 1 / smallest_radius_m : std::numeric_limits<double>::infinity();
+  }
+};
+BodyLimits limits(const Kinematics& base);
+
+/// Of a base that steers: the angle of a wheel in the middle of its steered axle, and back.
+double steering_rad(double wheelbase_m, double curvature_radpm);
+double curvature_radpm(double wheelbase_m, double steering_rad);
 
 /// It is told a twist, and has no joints that anybody sees.
 bool takes_twist(const Kinematics& base);
@@ -50,7 +76,8 @@ struct Learned {
 using JointVelocities = FixedVector<double, kMaxAxes>;
 
 /// What the joints have to do for a twist of base_link. No rim is faster than `max_rim_mps`: all
-/// are scaled then, so that the curvature stays. At rest when a number is not finite, or when the
+/// are scaled then, so that the curvature stays. One that steers turns on no tighter curve than it
+/// can, and at rest not at all. At rest when a number is not finite, or when the
 /// limit permits no motion.
 JointVelocities setpoints(const Kinematics& base, const Twist& twist, const Learned& learned,
                           double max_rim_mps);

@@ -21,10 +21,11 @@ double curvature_radpm(const Twist& twist) {
 }  // namespace
 
 ClearanceWatch::ClearanceWatch(const ClearanceConfig& config, const LimitsConfig& limits,
-                               bool required)
+                               bool required, bool pivots)
     : config_(config),
       limits_(limits),
       required_(required),
+      pivots_(pivots),
       straight_{config.reaction_s, kGentle * limits.deceleration_mps2},
       straight_firm_{config.reaction_s, kFirm * limits.deceleration_mps2},
       straight_full_{config.reaction_s, limits.deceleration_mps2},
@@ -215,7 +216,8 @@ bool ClearanceWatch::is_blocked(const ClearanceInput& input) const {
   const Way way = asked == kNone ? way_of(input.commanded) : asked;
   if (input.path != 0) return closed(kAlong) || (way != kNone && closed(way));
   if (way != kNone) return closed(way);
-  return closed(kAhead) && closed(kBack) && closed(kLeft) && closed(kRight);
+  const bool turns = pivots_ && !(closed(kLeft) && closed(kRight));
+  return closed(kAhead) && closed(kBack) && !turns;
 }
 
 /// In words: of a turn what hinders it, not what is ahead. What was in the way is the reason until

@@ -39,7 +39,9 @@ struct ClearanceCaps {
 class ClearanceWatch final {
  public:
   /// Not `required`: nobody looks around, and everything is permitted.
-  ClearanceWatch(const ClearanceConfig& config, const LimitsConfig& limits, bool required);
+  /// One that does not `pivot` has no way to leave but ahead and back.
+  ClearanceWatch(const ClearanceConfig& config, const LimitsConfig& limits, bool required,
+                 bool pivots = true);
 
   /// The newest one; an older one than it changes nothing.
   void on_clearance(const Clearance& found);
@@ -102,6 +104,7 @@ class ClearanceWatch final {
   ClearanceConfig config_;
   LimitsConfig limits_;
   bool required_;
+  bool pivots_;
   // What is seen from afar is come to gently, on a curve that the gates' limited jerk can follow;
   // what appears nearer is braked for with all that a ramp to zero has.
   StopChain straight_;

@@ -7,6 +7,9 @@
 namespace drover::engine {
 namespace {
 
+/// How far a base may be turned beside its curve while its wheels are still on their way there.
+constexpr double kAstray_rad = 0.05;
+
 /// Towards `target` by at most `step`.
 double approach(double value, double target, double step) {
   return std::abs(target - value) <= step ? target : value + std::copysign(step, target - value);
@@ -25,8 +28,8 @@ std::string_view text(TargetRefusal refusal) {
   return "";
 }
 
-TargetGate::TargetGate(const LimitsConfig& limits, Duration max_age)
-    : limits_(limits), max_age_(max_age) {}
+TargetGate::TargetGate(const LimitsConfig& limits, Duration max_age, const BodyLimits& body)
+    : limits_(limits), max_age_(max_age), body_(body) {}
 
 void TargetGate::reset() {
   twist_ = {};
@@ -56,9 +59,34 @@ Twist TargetGate::choose(Time now, std::span<const Offer> offers) {
     return {};
   }
   refusal_ = TargetRefusal::none;
+  if (!body_.pivots) return on_curve(best->target);
   return {
       std::clamp(best->target.vx_mps, -limits_.max_speed_mps, limits_.max_speed_mps),
       std::clamp(best->target.wz_radps, -limits_.max_yaw_rate_radps, limits_.max_yaw_rate_radps)};
+}
+
+void TargetGate::find_wheels(double curvature_radpm) {
+  if (!at_rest() || !std::isfinite(curvature_radpm)) return;
+  radpm_ = std::clamp(curvature_radpm, -body_.most_radpm(), body_.most_radpm());
+}
+
+/// What a base that steers can do of it: no turn on the spot, and on its way to another curve no
+/// faster than leaves it near that.
+Twist TargetGate::on_curve(const Twist& wanted) {
+  if (!(std::abs(wanted.vx_mps) > 0)) return {};
+  const double most_radpm = body_.most_radpm();
+  wanted_radpm_ = std::clamp(wanted.wz_radps / wanted.vx_mps, -most_radpm, most_radpm);
+  const double away_radpm = wanted_radpm_ - radpm_;
+  const double tightest_radpm = std::max(std::abs(wanted_radpm_), std::abs(radpm_));
+  double most_mps = limits_.max_speed_mps;
+  if (tightest_radpm > 0)
+    most_mps = std::min(most_mps, limits_.max_yaw_rate_radps / tightest_radpm);
+  // Of a change at full rate: curvature * speed * time / 2 is what it turns beside it.
+  if (away_radpm != 0)
+    most_mps = std::min(most_mps,
+                        2 * kAstray_rad * body_.curvature_rate_radpms / (away_radpm * away_radpm));
+  const double vx_mps = std::clamp(wanted.vx_mps, -most_mps, most_mps);
+  return {vx_mps, vx_mps * wanted_radpm_};
 }
 
 void TargetGate::follow(const Twist& target, double dt_s) {
@@ -81,6 +109,12 @@ void TargetGate::follow(const Twist& target, double dt_s) {
   const bool there = change_mps > 0 ? next_mps >= target_mps : next_mps <= target_mps;
   twist_.vx_mps = sign * (there ? target_mps : next_mps);
   acceleration_mps2_ = there ? 0 : sign * a_mps2;
+  if (!body_.pivots) {
+    if (!is_zero(target))
+      radpm_ = approach(radpm_, wanted_radpm_, body_.curvature_rate_radpms * dt_s);
+    twist_.wz_radps = radpm_ * twist_.vx_mps;
+    return;
+  }
   twist_.wz_radps =
       approach(twist_.wz_radps, target.wz_radps, limits_.yaw_acceleration_radps2 * dt_s);
 }
@@ -89,6 +123,10 @@ void TargetGate::ramp_down(double dt_s) {
   const double before_mps = twist_.vx_mps;
   twist_.vx_mps = approach(before_mps, 0, limits_.deceleration_mps2 * dt_s);
   acceleration_mps2_ = 0;
+  if (!body_.pivots) {
+    twist_.wz_radps = radpm_ * twist_.vx_mps;
+    return;
+  }
   // Turning ends with driving, so that the base stays on its curve.
   const double kept = std::abs(before_mps) > 1e-3 ? twist_.vx_mps / before_mps : 0.0;
   twist_.wz_radps =

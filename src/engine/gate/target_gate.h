@@ -6,6 +6,7 @@
 
 #include "drover/snapshot.h"
 #include "drover/twist.h"
+#include "engine/base/kinematics.h"
 #include "engine/config.h"
 
 namespace drover::engine {
@@ -36,14 +37,18 @@ enum class TargetRefusal : std::uint8_t {
 /// to zero. Fails closed: without a fresh, finite wish of somebody the base comes to rest.
 class TargetGate final {
  public:
-  /// A wish older than `max_age` is not followed.
-  TargetGate(const LimitsConfig& limits, Duration max_age);
+  /// A wish older than `max_age` is not followed. Of a base that steers a twist is a speed and a
+  /// curve: on no tighter one than it can, which comes no faster than its wheels are turned, and
+  /// slowly until it is there; at rest, and on a ramp to rest, the curve stays.
+  TargetGate(const LimitsConfig& limits, Duration max_age, const BodyLimits& body = {});
 
   /// The twist to command now. Of several offers the highest rank counts, and only that one: a
   /// stale or senseless wish of the owner in force does not hand the base to the next.
   const Twist& step(Time now, Duration dt, std::span<const Offer> offers, Stop stop);
   /// Forgets all motion: on arming and after an immediate stop.
   void reset();
+  /// Where the wheels of a base that steers are found at rest, as the curve that they make.
+  void find_wheels(double curvature_radpm);
 
   bool at_rest() const { return twist_.vx_mps == 0 && twist_.wz_radps == 0; }
   const Twist& twist() const { return twist_; }
@@ -52,11 +57,15 @@ class TargetGate final {
 
  private:
   Twist choose(Time now, std::span<const Offer> offers);
+  Twist on_curve(const Twist& wanted);
   void follow(const Twist& target, double dt_s);
   void ramp_down(double dt_s);
 
   LimitsConfig limits_;
   Duration max_age_;
+  BodyLimits body_;
+  double wanted_radpm_ = 0;  ///< curvature, of a base that steers
+  double radpm_ = 0;         ///< likewise, as commanded
   Twist twist_;
   double acceleration_mps2_ = 0;
   TargetRefusal refusal_ = TargetRefusal::nobody;

@@ -23,6 +23,7 @@ constexpr double kGyroStale_s = 0.1;
 const double kSwing_rad = to_rad(5.0);
 constexpr double kStraightShare = 1.0 / 12;
 constexpr double kSwingShare = 2.5 / 12;
+constexpr double kSwingCurve = 0.8;  // of the tightest that a base that steers can drive
 // Soil turns a base by itself, and the yaw gain is known within a factor; a wrong sign is twice the
 // turn.
 const double kTurnMargin_rad = to_rad(4.0);
@@ -46,7 +47,13 @@ MechanicsCheck::MechanicsCheck(const EngineConfig& config)
     : config_(config),
       words_(&words_of(kinematics_of(config.base))),
       proved_(!(config.navigate.first_way_m > 0)),
-      antenna_(antenna_of(config.estimate, kMaxOfKind)) {}
+      antenna_(antenna_of(config.estimate, kMaxOfKind)) {
+  // A base that steers needs a longer way for the same turns.
+  const BodyLimits body = limits(kinematics_of(config.base));
+  if (!body.pivots && config.navigate.first_way_m > 0)
+    config_.navigate.first_way_m = std::max(
+        config.navigate.first_way_m, kSwing_rad / (kSwingShare * kSwingCurve * body.most_radpm()));
+}
 
 void MechanicsCheck::begin() {
   moving_ = true;

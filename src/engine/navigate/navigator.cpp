@@ -35,7 +35,10 @@ Reason find_health_failure(const HealthReport& health) {
 }  // namespace
 
 Navigator::Navigator(const EngineConfig& config, Latch& latch)
-    : config_(config), latch_(latch), tracker_(config.navigate, config.limits) {}
+    : config_(config),
+      latch_(latch),
+      body_(limits(kinematics_of(config.base))),
+      tracker_(config.navigate, config.limits, body_) {}
 
 void Navigator::Wait::update(bool bad, Time now, Duration after) {
   if (bad) {
@@ -71,7 +74,9 @@ void Navigator::start(const RequestId& id, const StartTask& task, Time now,
   const bool at_first = target == 0 && track::is_closed(task.path->points) &&
                         progress_.distance_to_goal_m <= config_.navigate.goal_tolerance_m;
   progress_.arrived = progress_.arrived || at_first;
-  const Reason why = check_place(*task.path, target, pose, progress_, config_.navigate);
+  Reason why = check_place(*task.path, target, pose, progress_, config_.navigate);
+  if (why.empty()) why = check_curves(*task.path, target, pose, config_.navigate, body_);
+  if (why.empty()) why = check_joining(target, progress_, config_.navigate, body_);
   if (!why.empty()) {
     tracker_.end();
     return refuse(why);

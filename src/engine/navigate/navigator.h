@@ -102,6 +102,7 @@ class Navigator final {
 
   EngineConfig config_;
   Latch& latch_;
+  BodyLimits body_;
   Tracker tracker_;
   Phase phase_ = Phase::idle;
   NavStatus status_ = NavStatus::free;

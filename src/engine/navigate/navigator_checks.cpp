@@ -6,9 +6,12 @@
 
 #include "drover/angle.h"
 #include "track/path_search.h"
+#include "track/tight.h"
 
 namespace drover::engine {
 namespace {
+
+constexpr double kAlong_deg = 5.0;  // less is along the track
 
 /// From `at` to the segment that the tracker would begin on, m.
 double distance_m(const Path& path, std::uint32_t target, const Pose& pose) {
@@ -85,6 +88,57 @@ Reason check_place(const Path& path, std::uint32_t target, const Pose& pose,
         "the robot is turned %.0f degrees away from the way to point %llu, allowed %.0f: %s",
         turned_deg, static_cast<unsigned long long>(target) + 1, config.start_angle_deg, advice);
   }
+  return reason;
+}
+
+Reason check_curves(const Path& path, std::uint32_t target, const Pose& pose,
+                    const NavigateConfig& config, const BodyLimits& body) {
+  Reason reason;
+  if (body.pivots) return reason;
+  const track::PathStart start =
+      find_start(path.points, target, {pose.x_m, pose.y_m}, pose.yaw_rad, track::gears_of(path));
+  const track::Route route(path.points, target, start.forwards, path.backwards, start.flipped);
+  const std::size_t first = start.forwards ? start.segment : path.points.size() - 2 - start.segment;
+  const track::Tight tight =
+      find_tight(route, first, to_rad(config.pivot_angle_deg), body.smallest_radius_m);
+  switch (tight.kind) {
+    case track::Tight::Kind::none: break;
+    case track::Tight::Kind::corner:
+      reason.format(
+          "at point %zu the track turns by %.0f degrees at once: this base steers, and cannot turn "
+          "on the spot",
+          tight.point + 1, to_deg(tight.turn_rad));
+      break;
+    case track::Tight::Kind::curve:
+      reason.format("at point %zu the track's radius is %.2f m, this base needs %.2f m",
+                    tight.point + 1, tight.radius_m, body.smallest_radius_m);
+      break;
+  }
+  return reason;
+}
+
+Reason check_joining(std::uint32_t target, const TrackProgress& progress,
+                     const NavigateConfig& config, const BodyLimits& body) {
+  Reason reason;
+  if (body.pivots || progress.arrived) return reason;
+  // Turned along the line first, which leads away from it where it is turned away; then two arcs,
+  // to it and along it.
+  const double radius_m = body.smallest_radius_m;
+  const double turned_rad = std::abs(progress.heading_error_rad);
+  const bool away = progress.cross_track_m * progress.heading_error_rad > 0;
+  const double beside_m = std::abs(progress.cross_track_m) +
+                          (away ? radius_m * (1 - std::cos(turned_rad)) : 0.0) -
+                          config.goal_tolerance_m;
+  const double aside_m = std::clamp(beside_m, 0.0, 2 * radius_m);
+  const double needed_m =
+      radius_m * std::sin(turned_rad) + std::sqrt(aside_m * (4 * radius_m - aside_m));
+  if (needed_m <= progress.distance_left_m) return reason;
+  if (!(beside_m > 0) && turned_rad < to_rad(kAlong_deg)) return reason;
+  reason.format(
+      "the robot is %.2f m beside its track and turned by %.0f degrees: to be on it takes %.1f m, "
+      "and point %llu is %.1f m away",
+      std::abs(progress.cross_track_m), to_deg(turned_rad), needed_m,
+      static_cast<unsigned long long>(target) + 1, progress.distance_left_m);
   return reason;
 }
 

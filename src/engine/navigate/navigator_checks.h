@@ -23,4 +23,13 @@ Reason check_robot(const HealthReport& health, bool has_origin);
 Reason check_place(const Path& path, std::uint32_t target, const Pose& pose,
                    const TrackProgress& progress, const NavigateConfig& config);
 
+/// Whether a base that steers can drive the way from there to the target: no corner but where it
+/// goes on the other way, and no curve tighter than its smallest. Others can drive any. O(points).
+Reason check_curves(const Path& path, std::uint32_t target, const Pose& pose,
+                    const NavigateConfig& config, const BodyLimits& body);
+
+/// Whether a base that steers, beside its track or turned away from it, is on it before the target.
+Reason check_joining(std::uint32_t target, const TrackProgress& progress,
+                     const NavigateConfig& config, const BodyLimits& body);
+
 }  // namespace drover::engine

@@ -22,6 +22,10 @@ using track::Vector;
 
 constexpr double kLookBack_m = 1.0;
 constexpr double kJoined_m = 0.2;
+constexpr double kApproach_rad = 1.0;    // steepest way back to the line
+constexpr double kSteeringShare = 0.7;   // of its rate, of a base that steers: the rest is feedback
+constexpr double kSlowestTurned = 0.25;  // of the speed, when a base that steers is badly turned
+constexpr double kTurnedBack = 0.7;      // of the offset in which it can be turned along the line
 
 Vector place(const Pose& pose) {
   return {pose.x_m, pose.y_m};
@@ -38,9 +42,10 @@ bool usable(const Pose& pose) {
 
 }  // namespace
 
-Tracker::Tracker(const NavigateConfig& config, const LimitsConfig& limits)
+Tracker::Tracker(const NavigateConfig& config, const LimitsConfig& limits, const BodyLimits& body)
     : config_(config),
       limits_(limits),
+      body_(body),
       braking_mps2_(config.braking_fraction * limits.deceleration_mps2),
       horizon_m_(limits.max_speed_mps * limits.max_speed_mps / (2 * braking_mps2_) + 2.0) {}
 
@@ -176,9 +181,21 @@ Twist Tracker::follow(const Pose& seen, const TrackProgress&, double speed_cap_m
   if (left_m <= stop_distance_m(pose.vx_mps)) phase_ = Phase::halt;
   if (phase_ == Phase::follow) return as_told(steer(pose, cap_mps, dt));
   if (is_last_leg() || std::abs(pose.vx_mps) > kStands_mps) return {};
+  if (!body_.pivots) {
+    begin_next_leg();
+    return {};
+  }
   phase_ = Phase::pivot;
   next_looks_rad_ = is_backwards(route_, next_leg()) == backwards_ ? 0 : kPi;
   return pivot(pose);
+}
+
+void Tracker::begin_next_leg() {
+  phase_ = Phase::follow;
+  s_m_ = leg_.last_m;
+  station_ = {leg_.last, leg_.last_m};
+  begin_leg(leg_to_target(route_, leg_.last, leg_.last_m, goal_m_));
+  look_for_corner();
 }
 
 /// With its corner, where that is so near that it says which way the leg is driven.
@@ -201,11 +218,7 @@ Twist Tracker::pivot(const Pose& pose) {
       unit(chord_after(route_, leg_.last, route_.size() - 1, kEndChord_m), leg_.leave);
   const double left_rad = wrap_rad(direction_rad(next) + next_looks_rad_ - pose.yaw_rad);
   if (std::abs(left_rad) < kDone_rad && std::abs(pose.wz_radps) < kDone_radps) {
-    phase_ = Phase::follow;
-    s_m_ = leg_.last_m;
-    station_ = {leg_.last, leg_.last_m};
-    begin_leg(leg_to_target(route_, leg_.last, leg_.last_m, goal_m_));
-    look_for_corner();
+    begin_next_leg();
     return {};
   }
   // Foresee the lag, so that the turn does not swing past its end.
@@ -229,15 +242,23 @@ double Tracker::path_speed_mps(double cap_mps, double s_m) const {
   std::array<Vector, kStations> line;
   sample(route_, leg_, station_, s_m - kSmoothing_m, kStep_m, std::span(line).first(stations));
   double fastest_mps = cap_mps;
+  std::array<double, kStations> curvatures_radpm{};
   for (std::size_t i = kSide; i + kSide < stations; ++i) {
     const Vector slope = 1 / (2 * kSmoothing_m) * (line[i + kSide] - line[i - kSide]);
     const Vector bend =
         1 / (kSmoothing_m * kSmoothing_m) * (line[i + kSide] - 2 * line[i] + line[i - kSide]);
     const double size = std::max(length(slope), 0.3);
-    const double curvature_radpm = std::abs(cross(slope, bend)) / (size * size * size);
-    if (curvature_radpm < 1e-3) continue;
-    const double bend_mps = std::min(std::sqrt(config_.lateral_acceleration_mps2 / curvature_radpm),
-                                     steering_radps / curvature_radpm);
+    curvatures_radpm[i] = cross(slope, bend) / (size * size * size);
+    const double curvature_radpm = std::abs(curvatures_radpm[i]);
+    // Wheels that have to be steered to it until then: how fast the curve changes.
+    const double change_radpm2 =
+        i < 2 * kSide ? 0.0
+                      : std::abs(curvatures_radpm[i] - curvatures_radpm[i - kSide]) / kSmoothing_m;
+    double bend_mps = kSteeringShare * body_.curvature_rate_radpms / std::max(change_radpm2, 1e-3);
+    if (curvature_radpm >= 1e-3)
+      bend_mps = std::min({bend_mps, std::sqrt(config_.lateral_acceleration_mps2 / curvature_radpm),
+                           steering_radps / curvature_radpm});
+    if (!(bend_mps < cap_mps)) continue;
     const double ahead_m = kStep_m * static_cast<double>(i - kSide);
     fastest_mps =
         std::min(fastest_mps, std::sqrt(bend_mps * bend_mps + 2 * braking_mps2_ * ahead_m));
@@ -248,11 +269,21 @@ double Tracker::path_speed_mps(double cap_mps, double s_m) const {
   return std::min(fastest_mps, std::sqrt(creep_mps * creep_mps + 2 * braking_mps2_ * left_m));
 }
 
+/// How the robot is to be turned against the line; one that steers no more than it can be turned
+/// along it again until it is there.
+double Tracker::back_to_line_rad(double offset_m, double damping, double stiffness) const {
+  const double back_rad =
+      -kApproach_rad * std::tanh(stiffness / damping * offset_m / kApproach_rad);
+  if (body_.pivots) return back_rad;
+  const double share = kTurnedBack * std::abs(offset_m) / body_.smallest_radius_m;
+  const double most_rad = std::acos(std::clamp(1 - share, -1.0, 1.0));
+  return std::clamp(back_rad, -most_rad, most_rad);
+}
+
 Twist Tracker::steer(const Pose& pose, double cap_mps, Duration dt) {
-  constexpr double kDamping = 2.4;       // of the heading, over the look-ahead
-  constexpr double kStiffness = 2.0;     // of the offset, over its square
-  constexpr double kApproach_rad = 1.0;  // steepest way back to the line
-  constexpr double kTurning_mps = 0.2;   // heading is corrected as if at least so fast
+  constexpr double kDamping = 2.4;      // of the heading, over the look-ahead
+  constexpr double kStiffness = 2.0;    // of the offset, over its square
+  constexpr double kTurning_mps = 0.2;  // heading is corrected as if at least so fast
 
   // The drives answer late: steer for where the base will be then.
   const double lag_s = config_.drive_lag_s;
@@ -277,8 +308,7 @@ Twist Tracker::steer(const Pose& pose, double cap_mps, Duration dt) {
   const double lookahead_m = std::max(config_.lookahead_s * rolling_mps, config_.min_lookahead_m);
   const double damping = kDamping / lookahead_m;
   const double stiffness = kStiffness / (lookahead_m * lookahead_m);
-  const double back_rad =
-      -kApproach_rad * std::tanh(stiffness / damping * offset_m / kApproach_rad);
+  const double back_rad = back_to_line_rad(offset_m, damping, stiffness);
   const double off_rad = wrap_rad(heading_rad - back_rad);
   const double correction_radpm = -damping * off_rad;
 
@@ -291,6 +321,15 @@ Twist Tracker::steer(const Pose& pose, double cap_mps, Duration dt) {
     yaw_gain_ = std::clamp(yaw_gain_, -0.15, 0.35);
   }
 
+  if (!body_.pivots) {
+    const double most_radpm = body_.most_radpm();
+    const double radpm =
+        std::clamp(bend_radpm * (1 + yaw_gain_) + correction_radpm, -most_radpm, most_radpm);
+    vx_mps *= std::clamp(1 - (std::abs(off_rad) - 0.5) / 0.7, kSlowestTurned, 1.0);
+    if (std::abs(radpm) * vx_mps > limits_.max_yaw_rate_radps)
+      vx_mps = limits_.max_yaw_rate_radps / std::abs(radpm);
+    return {vx_mps, radpm * vx_mps};
+  }
   // Badly turned: rather turn than go.
   vx_mps *= std::clamp(1 - (std::abs(off_rad) - 0.5) / 0.7, 0.0, 1.0);
   double wz_radps = rolling_mps * bend_radpm * (1 + yaw_gain_) +

@@ -8,6 +8,7 @@
 #include "drover/time.h"
 #include "drover/twist.h"
 #include "drover/viewpoint.h"
+#include "engine/base/kinematics.h"
 #include "engine/config.h"
 #include "track/flaw.h"
 #include "track/legs.h"
@@ -36,9 +37,11 @@ using track::check_path;
 /// Follows a smooth line through the points: curvature ahead of the drives' lag, plus feedback on
 /// offset and heading. Where the track has a true corner it stops, turns on the spot and goes on.
 /// Where it says so (Path::backwards) it is driven backwards: as if the robot looked the other way.
+/// A base that cannot turn on the spot drives on from a corner as it stands there: only one where
+/// it goes on the other way is for it (find_tight).
 class Tracker final {
  public:
-  Tracker(const NavigateConfig& config, const LimitsConfig& limits);
+  Tracker(const NavigateConfig& config, const LimitsConfig& limits, const BodyLimits& body = {});
 
   /// Starts on `path` (borrowed until the next begin/end) from the point of it nearest to `pose`.
   /// `path` must have passed check_path. O(points): about 1 ms for 100 000.
@@ -68,10 +71,13 @@ class Tracker final {
   double stop_distance_m(double speed_mps) const;
   double path_speed_mps(double cap_mps, double s_m) const;
   Twist pivot(const Pose& pose);
+  void begin_next_leg();
+  double back_to_line_rad(double offset_m, double damping, double stiffness) const;
   Twist steer(const Pose& pose, double cap_mps, Duration dt);
 
   NavigateConfig config_;
   LimitsConfig limits_;
+  BodyLimits body_;
   double braking_mps2_;
   double horizon_m_;  ///< corners are looked for this far ahead
   bool active_ = false;

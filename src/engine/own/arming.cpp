@@ -45,7 +45,7 @@ void Arming::release(const RequestId& id, const ReleaseHold& release, const Reas
   gave_up_ = false;
   forfeit();
   // What a chassis that takes a twist does then is its own.
-  if (config_.base.kind == BaseKind::twist)
+  if (takes_twist(config_.base.kind))
     return events.push(now, CommandAccepted{id,
                                             "nothing is commanded any more, and it can roll; a "
                                             "chassis that does not let go is pushed switched off"});

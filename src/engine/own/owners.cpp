@@ -7,6 +7,7 @@
 namespace drover::engine {
 namespace {
 
+constexpr const char* kNoPivot = "this base cannot turn on the spot: it steers";
 constexpr Duration kOldestTarget = std::chrono::milliseconds(100);
 
 /// The same curve, its fastest rim no faster than that.
@@ -22,7 +23,8 @@ Twist slowed(const Twist& twist, double cap_mps, double track_m) {
 Owners::Owners(const EngineConfig& config, Latch& latch)
     : config_(config),
       latch_(latch),
-      twist_gate_(config.limits, kOldestTarget),
+      body_(limits(kinematics_of(config.base))),
+      twist_gate_(config.limits, kOldestTarget, body_),
       joint_gate_(config.base, config.limits),
       stream_(from_s(config.health.joint_command_timeout_s)),
       creep_(config),
@@ -69,6 +71,7 @@ void Owners::drive_by_hand(const Command& command, const DriveByHand& wanted,
     if (why.empty()) why = health.no_start;
   }
   if (why.empty() && health.near_zone && !is_zero(wanted.twist)) why = health.obstacle();
+  if (why.empty() && !body_.pivots && is_turn(wanted.twist)) why = kNoPivot;
   const Reason note = proved ? "" : "slowly, until wheels, gyro and receiver are seen to agree";
   hand_.take(command, wanted, why, note, now, events);
 }
@@ -244,6 +247,7 @@ const Motion& Owners::step(const OwnInput& input, EventQueue& events) {
                           : key_is_up         ? Stop::controlled
                           : manual            ? Stop::none
                                               : input.task.stop;
+  twist_gate_.find_wheels(input.curvature_radpm);
   motion_.twist = twist_gate_.step(input.now, input.dt, {&offer, 1}, twist_stop);
   // One gate moves at a time: the other waits until it has come to rest.
   const Stop joint_stop = no_ramp                 ? Stop::immediate

@@ -21,15 +21,16 @@ struct OwnInput {
   WheelFault wheels = WheelFault::none;
   const Reason& wheel_reason;
   const NavOutput& task;
-  double speed_cap_mps = 1e9;   ///< of the first way after the start, for a search
-  double joints_cap_mps = 1e9;  ///< likewise, for joint commands
-  double hand_cap_mps = 1e9;    ///< likewise, for a person with a key
-  Reason not_held = {};         ///< why the drives cannot be had now; empty: they can
-  Twist stream = {};            ///< what `stream_radps` make of the base
-  double ahead_cap_mps = 1e9;   ///< of what is free straight ahead
-  double rim_cap_mps = 1e9;     ///< of what is free where the stream goes
-  bool too_near = false;        ///< something came into the way where no ramp ends before it
-  Twist hand = {};              ///< what `by_hand` is let do, but for the limits of speed
+  double speed_cap_mps = 1e9;        ///< of the first way after the start, for a search
+  double joints_cap_mps = 1e9;       ///< likewise, for joint commands
+  double hand_cap_mps = 1e9;         ///< likewise, for a person with a key
+  Reason not_held = {};              ///< why the drives cannot be had now; empty: they can
+  Twist stream = {};                 ///< what `stream_radps` make of the base
+  double ahead_cap_mps = 1e9;        ///< of what is free straight ahead
+  double rim_cap_mps = 1e9;          ///< of what is free where the stream goes
+  bool too_near = false;             ///< something came into the way where no ramp ends before it
+  Twist hand = {};                   ///< what `by_hand` is let do, but for the limits of speed
+  double curvature_radpm = kAbsent;  ///< that the wheels of a base that steers make now
 };
 
 /// What the gates let through this cycle.
@@ -95,6 +96,7 @@ class Owners final {
 
   EngineConfig config_;
   Latch& latch_;
+  BodyLimits body_;
   TargetGate twist_gate_;
   JointGate joint_gate_;
   JointStream stream_;

@@ -169,7 +169,9 @@ std::string BaseStatus::text(const Snapshot& snapshot) {
   out.key("robot_status").integer(robot_status(snapshot));
   out.key("vx").number(keep(vx_mps_, snapshot.worst_vx_mps), kSpeed);
   out.key("vy").number(0);
-  out.key("vz").number(keep(wz_radps_, snapshot.pose.wz_radps), kSpeed);
+  const bool angle = config_.vz == TurnShown::steering_angle;
+  out.key("vz").number(keep(turn_, angle ? snapshot.base.steering_rad : snapshot.pose.wz_radps),
+                       kSpeed);
   out.key("valid").boolean(std::isfinite(snapshot.worst_vx_mps)).close('}');
 
   out.key("rtk").open('{');

@@ -18,10 +18,15 @@ using drover::HeadingConvention;
 /// What `robot.power` carries.
 enum class PowerUnit : std::uint8_t { percent, volts };
 
+/// What `robot.vz` carries, to the left positive: how fast the robot turns, or of one that steers
+/// the angle of a front wheel in the middle, also at rest.
+enum class TurnShown : std::uint8_t { yaw_rate, steering_angle };
+
 /// Field names are the configuration file's keys.
 struct RtkConfig {
   HeadingConvention heading = HeadingConvention::clockwise_from_north;
   PowerUnit power = PowerUnit::percent;
+  TurnShown vz = TurnShown::yaw_rate;
 };
 
 /// `bms.error`, which the document leaves open: 0 all is well, 1 nothing is known now, 2 the pack
@@ -64,7 +69,7 @@ class BaseStatus final {
   double y_m_ = 0;
   double yaw_rad_ = 0;
   double vx_mps_ = 0;
-  double wz_radps_ = 0;
+  double turn_ = 0;
   double latitude_deg_ = 0;
   double longitude_deg_ = 0;
   double angle_deg_ = 0;

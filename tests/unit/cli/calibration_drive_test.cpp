@@ -242,5 +242,16 @@ TEST(CalibrationIntro, IsWhatTheReadmeShows) {
       << CalibrationDrive(bench::field_config()).intro();
 }
 
+TEST(CalibrationDrive, SaysThatItsCirclesAreTooTightForABaseThatSteers) {
+  engine::BaseConfig base;
+  EXPECT_EQ(too_tight_for(base), "");
+  base.kind = engine::BaseKind::ackermann;
+  base.max_steering_rad = 0.55;
+  EXPECT_EQ(too_tight_for(base), "");
+  base.wheelbase_m = 1.5;
+  EXPECT_NE(too_tight_for(base).find("this base needs 2.75 m"), std::string::npos)
+      << too_tight_for(base);
+}
+
 }  // namespace
 }  // namespace drover::cli

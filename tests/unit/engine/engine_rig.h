@@ -134,6 +134,8 @@ class EngineRig {
   std::optional<WheelSpeeds> disobeys;
   /// A base that takes a twist tells this speed, whatever it does.
   std::optional<double> tells_mps;
+  double steering_rad = kAbsent;  ///< of a base that steers
+  bool steering_stuck = false;
   /// The base is moved so, with power or without.
   std::optional<WheelSpeeds> carried;
   /// What is built otherwise than configured.
@@ -151,7 +153,7 @@ class EngineRig {
 
   /// The relay is closed and a drive is in closed loop.
   bool has_power() const {
-    const bool twist = config.base.kind == BaseKind::twist;
+    const bool twist = takes_twist(config.base.kind);
     return out.outputs[static_cast<std::size_t>(Output::enable_relay)] &&
            (twist ? out.base.request : out.axes[0].request) != AxisRequest::idle;
   }
@@ -186,13 +188,28 @@ class EngineRig {
     drive.asked = request;
   }
 
+  /// Its front wheels are turned as fast as they can, and stay as they are at rest.
+  Twist steered(const Twist& asked_twist) {
+    const double wheelbase_m = config.base.wheelbase_m;
+    const double v_mps = asked_twist.vx_mps;
+    if (!std::isfinite(steering_rad)) steering_rad = 0;
+    if (std::abs(v_mps) > 1e-3 && !steering_stuck) {
+      const double wanted_rad = std::atan(wheelbase_m * asked_twist.wz_radps / v_mps);
+      const double step_rad = 1.5 * config.base.steering_rate_radps * to_s(kRigTick);
+      steering_rad += std::clamp(wanted_rad - steering_rad, -step_rad, step_rad);
+    }
+    return {v_mps, v_mps * std::tan(steering_rad) / wheelbase_m};
+  }
+
   /// The device of a base that takes a twist does what the last cycle asked, and tells its motion.
   void move_base() {
     Drive& device = drives[0];
     ask(device, out.base.request);
     const bool obeys = device.state == AxisState::running && !blocked;
     const TwoSides sides = sides_of(config.base);
-    WheelSpeeds speeds = wheels_from_twist(sides, 1, obeys ? out.base.twist : Twist{}, 10);
+    Twist asked_twist = obeys ? out.base.twist : Twist{};
+    if (config.base.kind == BaseKind::ackermann) asked_twist = steered(asked_twist);
+    WheelSpeeds speeds = wheels_from_twist(sides, 1, asked_twist, 10);
     if (disobeys && has_power()) speeds = *disobeys;
     plant.step(speeds, to_s(kRigTick));
     environment.axes[0].state = device.silent ? SourceState::stale : SourceState::fresh;
@@ -200,14 +217,14 @@ class EngineRig {
     const Pose seen = plant.estimate();
     Twist told = device.stuck ? Twist{} : Twist{seen.vx_mps, seen.wz_radps};
     if (tells_mps) told.vx_mps = *tells_mps;
-    measure(now, BodyMotion{.twist = told, .known = true});
+    measure(now, BodyMotion{.twist = told, .known = true, .steering_rad = steering_rad});
     measure(now, AxisStatus{0, device.state, 0,
                             device.fault ? Reason("over temperature") : Reason(), device.lapsed});
   }
 
   /// The drives do what the last cycle asked, the plant turns it into motion.
   void move() {
-    if (config.base.kind == BaseKind::twist) return move_base();
+    if (takes_twist(config.base.kind)) return move_base();
     std::array<double, 4> speed{};
     for (std::size_t i = 0; i < 4; ++i) {
       ask(drives[i], out.axes[i].request);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 #include <set>
+#include <span>
 #include <variant>
 
 #include "unit/drivers/conformance/harness.h"
@@ -81,9 +82,13 @@ class TwistBench {
     note();
   }
 
+  /// What moves the base: of one that steers not what turns its front wheels.
+  std::span<const Shaft> wheels() const {
+    return std::span(shafts.data(), entry.steers ? 2 : shafts.size());
+  }
   double fastest_radps() const {
     double most_radps = 0;
-    for (const Shaft& shaft : shafts)
+    for (const Shaft& shaft : wheels())
       most_radps = std::max(most_radps, std::abs(shaft.velocity_radps));
     return most_radps;
   }

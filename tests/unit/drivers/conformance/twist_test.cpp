@@ -84,7 +84,9 @@ TEST_P(TwistConformance, IsIdleWhenItIsAskedToBeAndRunsAgainWhenItIsAskedTo) {
 TEST_P(TwistConformance, FollowsTheTwistAndTellsIt) {
   TwistBench bench(GetParam());
   drive(bench);
-  for (const Twist twist : {Twist{0.5, 0}, {-0.4, 0}, {0, 0.5}, {0, -0.5}, {0.3, 0.3}}) {
+  const std::vector<Twist> any{{0.5, 0}, {-0.4, 0}, {0, 0.5}, {0, -0.5}, {0.3, 0.3}};
+  const std::vector<Twist> curves{{0.5, 0}, {-0.4, 0}, {0.4, 0.2}, {-0.4, 0.2}, {0.3, -0.15}};
+  for (const Twist& twist : bench.entry.steers ? curves : any) {
     bench.run(milliseconds(2500), kRun, twist);
     EXPECT_NEAR(bench.motion.twist.vx_mps, twist.vx_mps, kNear_mps);
     EXPECT_NEAR(bench.motion.twist.wz_radps, twist.wz_radps, 0.05);
@@ -92,9 +94,27 @@ TEST_P(TwistConformance, FollowsTheTwistAndTellsIt) {
     EXPECT_GT(bench.motion.vx_var, 0);
     EXPECT_GT(bench.motion.wz_var, 0);
     if (twist.wz_radps != 0) continue;
-    for (const Shaft& shaft : bench.shafts) EXPECT_GT(shaft.velocity_radps * twist.vx_mps, 0);
+    for (const Shaft& shaft : bench.wheels()) EXPECT_GT(shaft.velocity_radps * twist.vx_mps, 0);
   }
   expect_decent(bench);
+}
+
+/// It turns on curves only: told a turn on the spot it stands, and its wheels stay as they were.
+TEST_P(TwistConformance, StandsWhenItSteersAndIsToldToTurnOnTheSpot) {
+  TwistBench bench(GetParam());
+  if (!bench.entry.steers) return;
+  drive(bench);
+  bench.run(milliseconds(2000), kRun, {0.4, 0.2});
+  const double angle_rad = bench.motion.steering_rad;
+  EXPECT_GT(angle_rad, 0.1);
+  bench.run(milliseconds(1500), kRun);
+  bench.sent.clear();
+  bench.run(milliseconds(2000), kRun, {0, 0.5});
+  expect_no_motion(bench);
+  EXPECT_LT(bench.fastest_radps(), kStill_radps);
+  EXPECT_NEAR(bench.motion.steering_rad, angle_rad, 0.02);
+  bench.run(milliseconds(2000), kRest);
+  EXPECT_NEAR(bench.motion.steering_rad, angle_rad, 0.02);
 }
 
 /// The gate lets a ramp down to rest pass by what a message says.

@@ -151,6 +151,20 @@ TEST(BaseStatus, TakesRtkOfThePosesOwnInstantWhileLocated) {
   EXPECT_EQ(at(ours, "robot", "vz").number(), 0.0044);
 }
 
+TEST(BaseStatus, ShowsTheSteeringAngleWhereItIsAskedFor) {
+  Snapshot snapshot = good_snapshot();
+  snapshot.base.configured = true;
+  snapshot.base.steering_rad = -0.25;
+  snapshot.pose.wz_radps = 0;
+  RtkConfig config;
+  config.vz = TurnShown::steering_angle;
+  BaseStatus publisher{config};
+  EXPECT_EQ(at(document_of(publisher.text(snapshot)), "robot", "vz").number(), -0.25);
+  snapshot.base.steering_rad = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(at(document_of(publisher.text(snapshot)), "robot", "vz").number(), -0.25);
+  EXPECT_EQ(at(status(snapshot), "robot", "vz").number(), 0);
+}
+
 TEST(BaseStatus, TakesTheReceiversLastWordWhenNotLocated) {
   Snapshot snapshot = good_snapshot();
   snapshot.nav.locate = LocateState::lost;

@@ -1,0 +1,195 @@
+// What a Hunter has that a Scout has not: an angle, and a brake.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "drivers/agilex_v2/driver.h"
+#include "drivers/agilex_v2/hunter/entry.h"
+#include "drivers/agilex_v2/hunter/twin.h"
+
+namespace drover::agilex_v2 {
+namespace {
+
+using std::chrono::milliseconds;
+constexpr auto kDrive = AxisRequest::run;
+constexpr auto kStand = AxisRequest::rest;
+
+/// 10 ms cycles; its shafts turn as they are pushed.
+struct HunterBench {
+  void run(Duration time, AxisRequest request, const Twist& twist = {}) {
+    for (const Time end = now + time; now < end;) cycle({request, 0, twist});
+  }
+  void cycle(const Setpoint& setpoint) {
+    DriverOut out;
+    for (int i = 0; i < 4; ++i) {
+      now += std::chrono::microseconds(2500);
+      TwinFrames frames;
+      twin.on_tick(now, shafts, frames);
+      for (Shaft& shaft : shafts) {
+        shaft.velocity_radps += 0.0025 / 0.4 * (shaft.torque_Nm - 0.2 * shaft.velocity_radps);
+        shaft.position_rad += 0.0025 * shaft.velocity_radps;
+      }
+      for (const CanFrame& frame : frames) driver.on_frame(frame, now, out);
+    }
+    driver.on_setpoints({&setpoint, 1}, now, out);
+    driver.on_tick(now, out);
+    for (const Measurement& each : out.measurements) {
+      if (const auto* value = std::get_if<AxisStatus>(&each.value)) status = *value;
+      if (const auto* value = std::get_if<BodyMotion>(&each.value)) motion = *value;
+    }
+    TwinFrames frames;
+    for (const CanFrame& frame : out.frames) {
+      sent.push_back(frame);
+      twin.on_frame(frame, now, frames);
+    }
+  }
+  /// Index of the first frame of that id and first byte since `from`; the size: none.
+  std::size_t first(std::uint32_t id, std::uint8_t byte, std::size_t from = 0) const {
+    for (std::size_t i = from; i < sent.size(); ++i)
+      if (sent[i].id == id && sent[i].data[0] == byte) return i;
+    return sent.size();
+  }
+  std::size_t first_motion(std::size_t from = 0) const {
+    for (std::size_t i = from; i < sent.size(); ++i)
+      if (driver.effect(sent[i], now).kind == FrameEffect::motion) return i;
+    return sent.size();
+  }
+  double told_rad() const { return read_steered_command(sent.back())->inner_rad; }
+
+  static Options options() {
+    const auto own = kAgilexHunterEntry.options;
+    const auto twins = kAgilexHunterEntry.twin_options;
+    std::vector<OptionSpec> all(own.begin(), own.end());
+    all.insert(all.end(), twins.begin(), twins.end());
+    return Options(all);
+  }
+  AgilexV2Driver driver{0, Steering{}};
+  HunterTwin twin{options(), Steering{}};
+  std::array<Shaft, 4> shafts{};
+  Time now{std::chrono::seconds(1)};
+  AxisStatus status;
+  BodyMotion motion;
+  std::vector<CanFrame> sent;
+};
+
+TEST(HunterSteering, IsThatOfTheInnerWheel) {
+  const Steering steering;
+  for (const double radpm : {-0.6, -0.1, 0.0, 0.3, 0.7})
+    EXPECT_NEAR(steering.radpm(steering.inner_rad(radpm)), radpm, 1e-12);
+  EXPECT_NEAR(1 / steering.radpm(0.576), 0.3025 + 0.65 / std::tan(0.576), 1e-9);
+  EXPECT_EQ(steering.inner_rad(5), 0.576);
+  EXPECT_EQ(steering.inner_rad(-5), -0.576);
+  EXPECT_GT(std::abs(steering.inner_rad(0.5)), std::atan(0.65 * 0.5)) << "the middle one's";
+}
+
+TEST(HunterCodec, ReadsTheMakersExamples) {
+  const auto steered = read_steered_command(make_frame(0x111, {0, 0, 0, 0, 0, 0, 0, 0xC8}));
+  ASSERT_TRUE(steered);
+  EXPECT_NEAR(steered->inner_rad, 0.2, 1e-9);
+  EXPECT_EQ(steered_command({-0.8, 0.3}), make_frame(0x111, {0xFC, 0xE0, 0, 0, 0, 0, 0x01, 0x2C}));
+  EXPECT_FALSE(read_steered_command(make_frame(0x111, {0, 0, 0, 1, 0, 0, 0, 0})));
+}
+
+TEST(Hunter, IsReleasedBeforeItMovesAndLockedBeforeItIsLetGo) {
+  HunterBench bench;
+  bench.run(milliseconds(1000), kStand);
+  bench.run(milliseconds(2500), kDrive, {0.5, 0});
+  EXPECT_NEAR(bench.motion.twist.vx_mps, 0.5, 0.03);
+  const std::size_t released = bench.first(kBrakeCommandId, 0);
+  EXPECT_LT(released, bench.first_motion());
+  EXPECT_EQ(bench.first(kBrakeCommandId, 1), bench.sent.size()) << "locked while it drives";
+  bench.sent.clear();
+  bench.run(milliseconds(2000), kStand);
+  EXPECT_LT(bench.first(kBrakeCommandId, 1), bench.sent.size()) << "locked at rest";
+  bench.run(milliseconds(1000), AxisRequest::idle);
+  EXPECT_LT(bench.first(kBrakeCommandId, 1), bench.first(kModeCommandId, 0));
+  EXPECT_EQ(bench.status.state, AxisState::idle);
+}
+
+TEST(Hunter, IsNotLockedWhileItStillRolls) {
+  HunterBench bench;
+  bench.run(milliseconds(1000), kStand);
+  bench.run(milliseconds(2500), kDrive, {0.5, 0});
+  bench.sent.clear();
+  for (int i = 0; i < 300; ++i) {
+    bench.cycle({kStand, 0, {}});
+    if (bench.sent.back().id != kBrakeCommandId) continue;
+    EXPECT_LT(std::abs(bench.motion.twist.vx_mps), 0.003);
+    return;
+  }
+  FAIL() << "never locked";
+}
+
+TEST(Hunter, TellsItsCurveByItsSpeedAndItsAngle) {
+  HunterBench bench;
+  bench.run(milliseconds(1000), kStand);
+  bench.run(milliseconds(4000), kDrive, {0.4, -0.2});
+  EXPECT_NEAR(bench.motion.twist.wz_radps, -0.2, 0.01);
+  EXPECT_NEAR(bench.motion.steering_rad, -std::atan(0.65 * 0.5), 0.01);
+  EXPECT_LT(bench.told_rad(), bench.motion.steering_rad) << "the inner wheel's is more";
+}
+
+TEST(Hunter, KeepsItsAngleAtRest) {
+  HunterBench bench;
+  bench.run(milliseconds(1000), kStand);
+  bench.run(milliseconds(4000), kDrive, {0.4, 0.2});
+  const double angle_rad = bench.told_rad();
+  EXPECT_GT(angle_rad, 0.3);
+  for (const AxisRequest request : {kDrive, kStand, AxisRequest::hold}) {
+    bench.run(milliseconds(1500), request);
+    EXPECT_NEAR(bench.motion.steering_rad, Steering().middle_rad(angle_rad), 0.01);
+  }
+}
+
+/// Nobody tells it an angle of before: a person steered it.
+TEST(Hunter, LeavesTheAngleThatItIsFoundAt) {
+  AgilexV2Driver driver(0, Steering{});
+  const Time now{std::chrono::seconds(1)};
+  const Setpoint rest;
+  DriverOut out;
+  driver.on_frame(steered_motion_frame({0, 0.25}), now, out);
+  driver.on_setpoints({&rest, 1}, now, out);
+  ASSERT_FALSE(out.frames.empty());
+  EXPECT_NEAR(read_steered_command(out.frames[0])->inner_rad, 0.25, 0.0011);
+}
+
+/// A Hunter SE goes on by itself with the first command after a silence.
+TEST(Hunter, DoesNotGoOnAfterASilence) {
+  HunterBench bench;
+  bench.run(milliseconds(1000), kStand);
+  bench.run(milliseconds(2500), kDrive, {0.5, 0});
+  for (int i = 0; i < 480; ++i) {  // nobody speaks for 1.2 s
+    bench.now += std::chrono::microseconds(2500);
+    TwinFrames frames;
+    bench.twin.on_tick(bench.now, bench.shafts, frames);
+    DriverOut out;
+    for (const CanFrame& frame : frames) bench.driver.on_frame(frame, bench.now, out);
+    for (Shaft& shaft : bench.shafts) shaft.velocity_radps += 0.0025 / 0.4 * shaft.torque_Nm;
+  }
+  bench.sent.clear();
+  bench.run(milliseconds(3000), kDrive, {0.5, 0});
+  EXPECT_EQ(bench.first_motion(), bench.sent.size());
+  EXPECT_LT(std::abs(bench.motion.twist.vx_mps), 0.01);
+}
+
+TEST(Hunter, IsNotSentMotionWhileItsBrakeIsStuck) {
+  HunterBench bench;
+  bench.twin.set_fault("brake_stuck", bench.now);
+  bench.run(milliseconds(1000), kStand);
+  bench.run(milliseconds(3000), kDrive, {0.5, 0});
+  EXPECT_EQ(bench.status.state, AxisState::arming);
+  EXPECT_EQ(bench.first_motion(), bench.sent.size());
+}
+
+TEST(Hunter, NamesTheRemoteControlByItsOwnNumber) {
+  HunterBench bench;
+  bench.run(milliseconds(1000), kStand);
+  bench.twin.set_fault("remote", bench.now);
+  bench.run(milliseconds(300), kDrive);
+  EXPECT_EQ(bench.status.state, AxisState::fault);
+  EXPECT_NE(std::string(bench.status.reason.view()).find("remote control"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace drover::agilex_v2
