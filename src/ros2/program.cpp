@@ -1,0 +1,151 @@
+#include "ros2/program.h"
+
+#include <poll.h>
+
+#include "json/json_text.h"
+#include "ros2/networks.h"
+#include "ros2/say.h"
+#include "runtime/clock.h"
+
+namespace drover::ros2 {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr Duration kBeat = 1s;
+/// droverd sends at least once a second.
+constexpr Duration kSilent = 1500ms;
+
+Stamp_ns wall_now_ns() {
+  return (runtime::monotonic_now().time_since_epoch() + runtime::wall_minus_monotonic()).count();
+}
+
+std::string joined(const std::vector<std::string>& texts) {
+  std::string all;
+  for (const auto& text : texts) all += (all.empty() ? "" : ", ") + text;
+  return all.empty() ? "no network" : all;
+}
+
+}  // namespace
+
+Program::Program(const config::DroverConfig& config)
+    : config_(config),
+      reach_(config.ros2.mode == "network" ? Reach::network : Reach::localhost),
+      robot_(robot_of(config)),
+      link_(config.paths.run + "/drover.sock") {
+  take_over_dds_log();
+}
+
+void Program::run(const std::atomic<bool>& stop) {
+  while (!stop.load(std::memory_order_relaxed)) {
+    const Time now = runtime::monotonic_now();
+    if (now >= next_beat_) {
+      next_beat_ = now + kBeat;
+      beat(now);
+    }
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(next_beat_ - now);
+    pollfd lines{link_.fd(), POLLIN, 0};  // without a link: a descriptor of -1 is passed over
+    if (::poll(&lines, 1, static_cast<int>(left.count())) > 0)
+      link_.hear([this](std::string_view line) { take(line); });
+  }
+}
+
+void Program::beat(Time now) {
+  keep_domain(now);
+  link_.keep(now);
+  tell_users();
+  tell_droverd();
+}
+
+/// A network that comes later is another domain: interfaces are chosen when it is made.
+void Program::keep_domain(Time now) {
+  auto there = networks();
+  if (domain_ && there != networks_) {
+    // Twice the same: it is not just coming up.
+    if (there == other_networks_) {
+      say(Level::info, "the networks have changed: " + joined(there));
+      shown_.reset();
+      domain_.reset();
+      retry_.try_now();
+    }
+    other_networks_ = there;
+  }
+  if (domain_ || !retry_.due(now)) return;
+  networks_ = std::move(there);
+  other_networks_ = networks_;
+  make_domain(now);
+}
+
+void Program::make_domain(Time now) {
+  try {
+    domain_ = std::make_unique<Domain>(config_.ros2.domain, reach_, !networks_.empty());
+    shown_ = std::make_unique<Shown>(domain_->participant(), robot_, wall_now_ns());
+    readers_ = {};
+    problem_.clear();
+    retry_.succeeded();
+    say(Level::info, "domain " + std::to_string(config_.ros2.domain) +
+                         (reach_ == Reach::network
+                              ? ": whoever reaches " + joined(networks_) + " sees this robot"
+                              : ": programs on this computer see this robot"));
+  } catch (const NoDomain& error) {
+    shown_.reset();
+    domain_.reset();
+    retry_.tried(now);
+    if (problem_ != error.what()) say(Level::error, error.what());
+    problem_ = error.what();
+  }
+}
+
+void Program::take(std::string_view line) {
+  const auto told = read_told(line);
+  if (!told) {
+    if (refusal_ != told.error().reason) say(Level::warning, "droverd: " + told.error().reason);
+    refusal_ = told.error().reason;
+    return;
+  }
+  refusal_.clear();
+  heard_ = runtime::monotonic_now();
+  if (!shown_) return;
+  shown_->show(*told);
+  if (told->diagnostics.empty()) return;
+  auto all = told->diagnostics;
+  DiagnosticTold own{
+      "drover-ros2",
+      readers_.incompatible > 0 ? 1 : 0,
+      readers_.incompatible > 0 ? "some readers ask for what is not offered" : "all is well",
+      {{"readers", std::to_string(readers_.matched)},
+       {"incompatible", std::to_string(readers_.incompatible)},
+       {"not_sent", std::to_string(shown_->failed())}}};
+  all.push_back(std::move(own));
+  shown_->show_diagnostics(told->at_ns, all);
+}
+
+/// Without droverd nobody else would tell.
+void Program::tell_users() {
+  if (shown_) {
+    readers_ = shown_->readers();
+    if (!readers_.news.empty()) say(Level::warning, readers_.news);
+  }
+  const bool hears = heard_ != kNever && runtime::monotonic_now() - heard_ < kSilent;
+  const std::string problem = !link_.connected()  ? link_.problem()
+                              : !refusal_.empty() ? refusal_
+                              : !hears            ? "droverd tells nothing"
+                                                  : "";
+  if (problem != said_)
+    say(problem.empty() ? Level::info : Level::warning,
+        problem.empty() ? "droverd tells of the robot" : problem);
+  said_ = problem;
+  if (problem.empty() || !shown_) return;
+  const std::vector<DiagnosticTold> told{{"robot", 2, "not known: " + problem, {}}};
+  shown_->show_diagnostics(wall_now_ns(), told);
+}
+
+void Program::tell_droverd() {
+  json::JsonText line;
+  line.open('{').key("cmd").text("ros2_follow").key("mode").text(config_.ros2.mode);
+  line.key("reason").text(problem_).key("readers").integer(readers_.matched);
+  line.key("incompatible").integer(readers_.incompatible).close('}');
+  link_.send(line.take());
+}
+
+}  // namespace drover::ros2
