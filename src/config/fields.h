@@ -207,11 +207,19 @@ void visit(V& v, AimrtConfig& c) {
 }
 
 template <class V>
+void visit(V& v, Ros2InputsConfig& c) {
+  v.flag("e_stop", c.e_stop, "true on /e_stop (std_msgs/Bool) is an emergency stop");
+}
+
+template <class V>
 void visit(V& v, Ros2Config& c) {
   v.choice("mode", c.mode, {"off", "localhost", "network"},
            "who is met: nobody, programs on this computer, or whoever reaches its networks");
   v.integer("domain", c.domain, Range{0, 232}, "DDS domain, as ROS_DOMAIN_ID");
   v.number("rate_Hz", c.rate_Hz, Range{1, 200}, "joints, IMU, odometry and frames a second");
+  v.object("inputs", c.inputs, "what is heard: each is closed until it is opened");
+  v.flag("network_inputs", c.network_inputs,
+         "with mode network: whoever reaches the robot's networks may use the inputs");
   c.configured = true;
 }
 

@@ -2,6 +2,8 @@
 
 #include <poll.h>
 
+#include <array>
+
 #include "json/json_text.h"
 #include "ros2/networks.h"
 #include "ros2/say.h"
@@ -15,6 +17,7 @@ using namespace std::chrono_literals;
 constexpr Duration kBeat = 1s;
 /// droverd sends at least once a second.
 constexpr Duration kSilent = 1500ms;
+constexpr Duration kStopsApart = 100ms;
 
 Stamp_ns wall_now_ns() {
   return (runtime::monotonic_now().time_since_epoch() + runtime::wall_minus_monotonic()).count();
@@ -44,15 +47,20 @@ void Program::run(const std::atomic<bool>& stop) {
       beat(now);
     }
     const auto left = std::chrono::ceil<std::chrono::milliseconds>(next_beat_ - now);
-    pollfd lines{link_.fd(), POLLIN, 0};  // without a link: a descriptor of -1 is passed over
-    if (::poll(&lines, 1, static_cast<int>(left.count())) > 0)
+    // A descriptor of -1 is passed over.
+    std::array<pollfd, 2> ready{{{link_.fd(), POLLIN, 0}, {users_ ? users_->fd() : -1, POLLIN, 0}}};
+    if (::poll(ready.data(), ready.size(), static_cast<int>(left.count())) <= 0) continue;
+    if (ready[1].revents != 0) hear_users(now);
+    if (ready[0].revents != 0 && link_.connected())
       link_.hear([this](std::string_view line) { take(line); });
   }
 }
 
 void Program::beat(Time now) {
   keep_domain(now);
+  const bool was = link_.connected();
   link_.keep(now);
+  if (!was && link_.connected()) connected_ = now;
   tell_users();
   tell_droverd();
 }
@@ -64,8 +72,7 @@ void Program::keep_domain(Time now) {
     // Twice the same: it is not just coming up.
     if (there == other_networks_) {
       say(Level::info, "the networks have changed: " + joined(there));
-      shown_.reset();
-      domain_.reset();
+      forget_domain();
       retry_.try_now();
     }
     other_networks_ = there;
@@ -80,6 +87,7 @@ void Program::make_domain(Time now) {
   try {
     domain_ = std::make_unique<Domain>(config_.ros2.domain, reach_, !networks_.empty());
     shown_ = std::make_unique<Shown>(domain_->participant(), robot_, wall_now_ns());
+    users_ = std::make_unique<Heard>(domain_->participant(), config_.ros2.inputs);
     readers_ = {};
     problem_.clear();
     retry_.succeeded();
@@ -87,20 +95,40 @@ void Program::make_domain(Time now) {
                          (reach_ == Reach::network
                               ? ": whoever reaches " + joined(networks_) + " sees this robot"
                               : ": programs on this computer see this robot"));
+    if (config_.ros2.inputs.e_stop)
+      say(reach_ == Reach::network ? Level::warning : Level::info,
+          reach_ == Reach::network ? "whoever reaches these networks may stop this robot"
+                                   : "programs on this computer may stop this robot");
   } catch (const NoDomain& error) {
-    shown_.reset();
-    domain_.reset();
+    forget_domain();
     retry_.tried(now);
     if (problem_ != error.what()) say(Level::error, error.what());
     problem_ = error.what();
   }
 }
 
+void Program::forget_domain() {
+  users_.reset();
+  shown_.reset();
+  domain_.reset();
+}
+
+/// A stop is told at once; of more that come in rows ten a second.
+void Program::hear_users(Time now) {
+  if (!users_->stop_asked()) return;
+  if (stopped_ != kNever && now - stopped_ < kStopsApart) return;
+  if (stopped_ == kNever || now - stopped_ > kBeat)
+    say(Level::warning, link_.connected()
+                            ? "an emergency stop was asked for on /e_stop"
+                            : "an emergency stop was asked for on /e_stop, and droverd is away");
+  stopped_ = now;
+  link_.send(json::JsonText().open('{').key("cmd").text("stop").close('}').take());
+}
+
 void Program::take(std::string_view line) {
   const auto told = read_told(line);
   if (!told) {
-    if (refusal_ != told.error().reason) say(Level::warning, "droverd: " + told.error().reason);
-    refusal_ = told.error().reason;
+    if (!told.error().reason.empty()) refusal_ = told.error().reason;
     return;
   }
   refusal_.clear();
@@ -126,7 +154,10 @@ void Program::tell_users() {
     readers_ = shown_->readers();
     if (!readers_.news.empty()) say(Level::warning, readers_.news);
   }
-  const bool hears = heard_ != kNever && runtime::monotonic_now() - heard_ < kSilent;
+  const Time now = runtime::monotonic_now();
+  const bool hears = heard_ != kNever && now - heard_ < kSilent;
+  // It has only just been asked.
+  if (!hears && refusal_.empty() && link_.connected() && now - connected_ < kSilent) return;
   const std::string problem = !link_.connected()  ? link_.problem()
                               : !refusal_.empty() ? refusal_
                               : !hears            ? "droverd tells nothing"

@@ -11,6 +11,7 @@
 #include "drover/time.h"
 #include "ros2/daemon_link.h"
 #include "ros2/domain.h"
+#include "ros2/heard.h"
 #include "ros2/robot.h"
 #include "ros2/shown.h"
 
@@ -28,6 +29,8 @@ class Program final {
   void keep_domain(Time now);
   void make_domain(Time now);
   void take(std::string_view line);
+  void hear_users(Time now);
+  void forget_domain();
   void tell_droverd();
   void tell_users();
 
@@ -37,15 +40,18 @@ class Program final {
   DaemonLink link_;
   std::unique_ptr<Domain> domain_;
   std::unique_ptr<Shown> shown_;
+  std::unique_ptr<Heard> users_;
   std::vector<std::string> networks_;        ///< for which the domain was made
   std::vector<std::string> other_networks_;  ///< that were there at the last beat, if others
   runtime::BackOff retry_{std::chrono::seconds(1), std::chrono::seconds(60)};
   Readers readers_;
-  std::string problem_;  ///< why there is no domain; empty: there is one
-  std::string refusal_;  ///< what droverd has against it
-  std::string said_;     ///< last of droverd
+  std::string problem_;               ///< why there is no domain; empty: there is one
+  std::string refusal_;               ///< what droverd has against it
+  std::string said_ = "nothing yet";  ///< last of droverd
+  Time connected_ = kNever;
   Time heard_ = kNever;  ///< droverd's last line
   Time next_beat_ = kNever;
+  Time stopped_ = kNever;  ///< last, as users asked
 };
 
 }  // namespace drover::ros2

@@ -143,7 +143,7 @@ Result<Told, NoTold> read_told(std::string_view line) {
   const auto document = json::parse(line, {.max_depth = 6});
   if (!document) return NoTold{"not understood: " + document.error().text()};
   const Node& root = document->root;
-  if (root.find("ok") != nullptr) return NoTold{text(root, "reason")};
+  if (root.find("ok") != nullptr) return NoTold{flag(root, "ok") ? "" : text(root, "reason")};
   if (root.find("at_ns") == nullptr) return NoTold{"not understood: at_ns is missing"};
   Told told;
   told.at_ns = stamp(root, "at_ns");

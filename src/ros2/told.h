@@ -119,7 +119,7 @@ struct Told {
   std::vector<DiagnosticTold> diagnostics;  ///< empty: none this time
 };
 
-/// Why a line is none, or what droverd has against this program.
+/// Why a line is none, or what droverd has against this program; empty: the answer to a request.
 struct NoTold {
   std::string reason;
 };

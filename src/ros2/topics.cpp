@@ -32,6 +32,12 @@ const std::array<TopicKind, kTopicCount>& topic_kinds() {
   return kinds;
 }
 
+const TopicKind& stop_kind() {
+  static const TopicKind kind{"rt/e_stop", &std_msgs_msg_dds__Bool__desc,
+                              "feb91e995ff9ebd09c0cb3d2aed18b11077585839fb5db80193b62d74528f6c9"};
+  return kind;
+}
+
 std::string hash_user_data(const char* hash) {
   return "typehash=RIHS01_" + std::string(hash) + ";";
 }

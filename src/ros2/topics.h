@@ -18,9 +18,9 @@ enum class Kept : std::uint8_t {
 };
 
 struct TopicKind {
-  const char* name;
-  const dds_topic_descriptor_t* type;
-  const char* hash;  ///< of the type's description, 64 hex digits
+  const char* name = nullptr;
+  const dds_topic_descriptor_t* type = nullptr;
+  const char* hash = nullptr;  ///< of the type's description, 64 hex digits
   Kept kept = Kept::last;
 };
 
@@ -42,6 +42,9 @@ inline constexpr std::size_t kTopicCount = 12;
 
 /// By Topic.
 const std::array<TopicKind, kTopicCount>& topic_kinds();
+
+/// std_msgs/Bool, heard and not written.
+const TopicKind& stop_kind();
 
 /// What ROS 2 of Iron and later reads of an endpoint: "typehash=RIHS01_...;".
 std::string hash_user_data(const char* hash);

@@ -24,7 +24,8 @@ failed=0
 judge() { if [[ $1 == 0 ]]; then echo "ok - $2"; else echo "not ok - $2"; failed=1; fi; }
 
 configuration() {  # MODE
-  local ros2="\"ros2\": {\"mode\": \"$1\"}"
+  local ros2="\"ros2\": {\"mode\": \"$1\", \"network_inputs\": true"
+  ros2+=", \"inputs\": {\"e_stop\": true}}"
   local paths="\"paths\": {\"run\": \"$folder\", \"state\": \"$folder\"}"
   sed "0,/^{/s||{ $ros2, $paths,|" "$source/config/examples/two_hub_motors.json" > "$folder/$1.json"
 }
@@ -89,6 +90,8 @@ wait "$running" || true
 start network
 within 10 said network "whoever reaches wire 10.9.0.1 sees this robot"
 judge $? "in network it says who sees the robot"
+judge "$(said network "whoever reaches these networks may stop this robot"; echo $?)" \
+  "and who may stop it"
 heard=$(heard_ports | wc -l)
 judge "$([[ $heard -ge 2 ]]; echo $?)" "in network the other computer is heard, on $heard ports"
 kill "$running"

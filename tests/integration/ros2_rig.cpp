@@ -36,11 +36,11 @@ std::string text_of(const std::filesystem::path& path) {
 
 }  // namespace
 
-Ros2Rig::Ros2Rig(User user) : domain_(100 + ::getpid() % 100) {
+Ros2Rig::Ros2Rig(User user, const std::string& more) : domain_(100 + ::getpid() % 100) {
   std::string name = std::filesystem::temp_directory_path() / "drover-ros2-XXXXXX";
   folder_ = ::mkdtemp(name.data());
   auto config = text_of(std::filesystem::path(DROVER_SOURCE_DIR) / "config/examples/lidar.json");
-  const std::string sections = "{\n  \"ros2\": {\"domain\": " + std::to_string(domain_) +
+  const std::string sections = "{\n  \"ros2\": {\"domain\": " + std::to_string(domain_) + more +
                                "},\n  \"paths\": {\"run\": \"" + folder_.string() +
                                "\", \"state\": \"" + folder_.string() + "\"},";
   config.replace(config.find("\n{") + 1, 1, sections);
@@ -98,10 +98,15 @@ void Ros2Rig::hear() {
   }
   if (n > 0) in_.append(block.data(), static_cast<std::size_t>(n));
   for (auto end = in_.find('\n'); end != std::string::npos; end = in_.find('\n')) {
-    last_request_ = in_.substr(0, end);
-    publish::Actions out;
-    EXPECT_TRUE(outlet_->on_line(kClient, last_request_, seen_.time, out)) << last_request_;
+    const std::string line = in_.substr(0, end);
     in_.erase(0, end + 1);
+    if (line == R"({"cmd":"stop"})") {
+      ++stops_;
+      continue;
+    }
+    last_request_ = line;
+    publish::Actions out;
+    EXPECT_TRUE(outlet_->on_line(kClient, line, seen_.time, out)) << line;
   }
 }
 
@@ -151,6 +156,17 @@ dds_entity_t Ros2Rig::reader(ros2::Topic topic, dds_reliability_kind_t reliabili
   dds_delete_qos(qos);
   EXPECT_GT(reader, 0);
   return reader;
+}
+
+dds_entity_t Ros2Rig::stop_writer(dds_reliability_kind_t reliability) {
+  const auto& kind = ros2::stop_kind();
+  const dds_entity_t topic = dds_create_topic(participant_, kind.type, kind.name, nullptr, nullptr);
+  dds_qos_t* qos = dds_create_qos();
+  dds_qset_reliability(qos, reliability, 0);
+  const dds_entity_t writer = dds_create_writer(participant_, topic, qos, nullptr);
+  dds_delete_qos(qos);
+  EXPECT_GT(writer, 0);
+  return writer;
 }
 
 void Ros2Rig::give_back() {

@@ -28,7 +28,8 @@ enum class User : std::uint8_t {
 
 class Ros2Rig : public ::testing::Test {
  protected:
-  explicit Ros2Rig(User user = User::humble);
+  /// `more`: further members of the section ros2, each with a comma before it.
+  explicit Ros2Rig(User user = User::humble, const std::string& more = "");
   ~Ros2Rig() override;
 
   void start_program();
@@ -39,6 +40,7 @@ class Ros2Rig : public ::testing::Test {
   void play_for(std::chrono::milliseconds time);
 
   /// A reader as rmw_cyclonedds makes it.
+  dds_entity_t stop_writer(dds_reliability_kind_t reliability);
   dds_entity_t reader(ros2::Topic topic, dds_reliability_kind_t reliability,
                       dds_durability_kind_t durability = DDS_DURABILITY_VOLATILE);
   /// The newest sample, which is the caller's until the next call; nullptr: none.
@@ -60,7 +62,8 @@ class Ros2Rig : public ::testing::Test {
   std::string log() const { return program_.output(); }
 
   Snapshot seen_;             ///< what droverd sees, at its own time
-  std::string last_request_;  ///< of drover-ros2
+  std::string last_request_;  ///< of drover-ros2, to follow
+  int stops_ = 0;             ///< that it asked for
   Process program_;
   std::filesystem::path folder_;
 

@@ -16,7 +16,7 @@ using testing::HasSubstr;
 
 class Ros2 : public Ros2Rig {
  protected:
-  explicit Ros2(User user = User::humble) : Ros2Rig(user) {
+  explicit Ros2(User user = User::humble, const std::string& more = "") : Ros2Rig(user, more) {
     AxisSnapshot axis;
     axis.joint = "left";
     axis.health = SourceState::fresh;
@@ -103,6 +103,50 @@ TEST_F(Ros2, SeesTheRobotOnEveryTopicReliableAndBestEffort) {
       Topic::touch_state, [](const auto& m) { return m.names_._length == 1; });
   EXPECT_TRUE(play_until([this] { return asked("readers") == 22; })) << last_request_;
   EXPECT_EQ(asked("incompatible"), 0);
+}
+
+class Ros2Stop : public Ros2 {
+ protected:
+  Ros2Stop() : Ros2(User::humble, R"(, "inputs": {"e_stop": true})") {}
+};
+
+/// Whether somebody hears it, within two seconds.
+bool is_heard(dds_entity_t writer, const std::function<void()>& meanwhile) {
+  dds_publication_matched_status_t matched{};
+  for (int i = 0; i < 20 && matched.current_count == 0; ++i) {
+    meanwhile();
+    (void)dds_get_publication_matched_status(writer, &matched);
+  }
+  return matched.current_count > 0;
+}
+
+TEST_F(Ros2Stop, StopsTheRobotByTrueAndDoesNothingByFalse) {
+  open_daemon();
+  start_program();
+  for (const auto reliability : {DDS_RELIABILITY_RELIABLE, DDS_RELIABILITY_BEST_EFFORT}) {
+    const dds_entity_t writer = stop_writer(reliability);
+    ASSERT_TRUE(is_heard(writer, [this] { play_for(100ms); })) << log();
+    const int before = stops_;
+    std_msgs_msg_dds__Bool_ message{false};
+    dds_write(writer, &message);
+    play_for(300ms);
+    EXPECT_EQ(stops_, before);
+    message.data_ = true;
+    dds_write(writer, &message);
+    message.data_ = false;
+    dds_write(writer, &message);
+    EXPECT_TRUE(play_until([&] { return stops_ > before; })) << log();
+  }
+  EXPECT_THAT(log(), HasSubstr("programs on this computer may stop this robot"));
+  EXPECT_THAT(log(), HasSubstr("an emergency stop was asked for on /e_stop"));
+}
+
+TEST_F(Ros2, HearsNoStopUnlessThatIsOpened) {
+  open_daemon();
+  start_program();
+  ASSERT_TRUE(play_until([this] { return log().find("tells of the robot") != std::string::npos; }))
+      << log();
+  EXPECT_FALSE(is_heard(stop_writer(DDS_RELIABILITY_RELIABLE), [this] { play_for(100ms); }));
 }
 
 class Ros2OfJazzy : public Ros2 {

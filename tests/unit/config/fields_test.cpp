@@ -146,6 +146,7 @@ TEST(Fields, OfTheDaemonAreAllKeys) {
 }
 
 TEST(Fields, OfRos2AreAllKeys) {
+  expect_complete<Ros2InputsConfig>();
   expect_complete<Ros2Config>(1);  // configured, which follows
 }
 
