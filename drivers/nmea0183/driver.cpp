@@ -167,6 +167,7 @@ void Nmea0183Driver::add_sigmas(const Gga& sentence, Time at, GnssPosition& posi
     return;
   position.sigma_east_m = sigmas_.gst.sigma_east_m;
   position.sigma_north_m = sigmas_.gst.sigma_north_m;
+  position.sigma_up_m = sigmas_.gst.sigma_up_m;
 }
 
 void Nmea0183Driver::report_velocity(GnssVelocity velocity, const Arrival& at, DriverOut& out) {

@@ -107,7 +107,8 @@ void describe(V& v, const AxisSupply& supply) {
 template <class V>
 void describe(V& v, const GnssPosition& position) {
   const auto& [latitude_deg, longitude_deg, altitude_msl_m, undulation_m, quality, satellites, hdop,
-               correction_age_s, sigma_east_m, sigma_north_m] = position;
+               correction_age_s, sigma_east_m, sigma_north_m, sigma_up_m] = position;
+  (void)sigma_up_m;  // nothing on the ground goes by it
   v.value("latitude_deg", latitude_deg, {.decimals = 9});
   v.value("longitude_deg", longitude_deg, {.decimals = 9});
   v.value("altitude_msl_m", altitude_msl_m, {.decimals = 3});

@@ -81,6 +81,7 @@ struct GnssPosition {
   double correction_age_s = kAbsent;
   double sigma_east_m = kAbsent;  ///< of this epoch's GST, absent when there is none
   double sigma_north_m = kAbsent;
+  double sigma_up_m = kAbsent;
 };
 
 struct GnssVelocity {

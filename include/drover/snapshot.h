@@ -45,6 +45,27 @@ struct Pose {
   double yaw_sigma_rad = kAbsent;
 };
 
+/// Where wheels and gyro alone have the robot, in a frame of their own that begins where `droverd`
+/// did (REP 105: `odom`): it drifts and never jumps, whatever a receiver says.
+struct Odometry {
+  Time time = kNever;
+  double x_m = 0;
+  double y_m = 0;
+  double yaw_rad = 0;  ///< counter-clockwise from how it stood at first, [-pi, pi)
+  double vx_mps = 0;   ///< in base_link, on the level
+  double wz_radps = 0;
+  bool known = false;  ///< false: the base is silent, nobody knows how it moves
+  // Variances since the beginning, m2 and rad2, and of the speeds.
+  double x_var = 0;
+  double xy_var = 0;
+  double y_var = 0;
+  double x_yaw_var = 0;
+  double y_yaw_var = 0;
+  double yaw_var = 0;
+  double vx_var = 0;
+  double wz_var = 0;
+};
+
 /// What a device's driver says of itself: why it is not fresh or what is odd (empty when all is
 /// well), what it understood and what not, and how many measurements it gave.
 struct SourceSnapshot {
@@ -255,6 +276,7 @@ struct LinkSnapshot {
 struct Snapshot {
   Time time = kNever;
   Pose pose;
+  Odometry odometry;
   /// For people: the worse of what the wheels and the receiver say; ahead positive.
   double worst_vx_mps = 0;
   NavSnapshot nav;

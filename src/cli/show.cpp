@@ -189,6 +189,17 @@ void show_base(std::string& out, const Node& status) {
   line(out, "base", value);
 }
 
+void show_ros2(std::string& out, const Node& ros2) {
+  if (ros2.object() == nullptr) return;
+  if (!yes(at(ros2, "connected"))) return line(out, "ros2", "drover-ros2 does not ask");
+  const auto reason = text(at(ros2, "reason"));
+  std::string value = text(at(ros2, "mode")) + "  ";
+  value += reason.empty() ? quantity(at(ros2, "readers"), "%.0f readers") : reason;
+  if (at(ros2, "incompatible").number().value_or(0) > 0)
+    value += quantity(at(ros2, "incompatible"), "  %.0f ASK FOR ANOTHER QUALITY");
+  line(out, "ros2", value);
+}
+
 void show_devices(std::string& out, const Node& status) {
   if (const auto* lines = at(status, "lines").object()) {
     std::string value;
@@ -223,6 +234,7 @@ void show_devices(std::string& out, const Node& status) {
   if (at(broker, "answers_lost").number().value_or(0) > 0)
     link += quantity(at(broker, "answers_lost"), "  %.0f ANSWERS LOST");
   line(out, "broker", link);
+  show_ros2(out, at(status, "ros2"));
   const auto not_kept = text(at(at(status, "storage"), "reason"));
   if (!not_kept.empty())
     line(out, "storage", "the stop will be FORGOTTEN over a boot: " + not_kept);

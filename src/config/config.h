@@ -143,6 +143,22 @@ struct AimrtConfig {
   std::string touch_state_content = "pb";
 };
 
+/// What drover-ros2 hears from ROS 2 users: each is closed until it is opened.
+struct Ros2InputsConfig {
+  bool e_stop = false;  ///< true on /e_stop is an emergency stop
+};
+
+/// What drover-ros2 shows to ROS 2 users, and to whom.
+struct Ros2Config {
+  bool configured = false;  ///< the section is there
+  /// "off"; "localhost": programs on this computer; "network": whoever reaches its networks.
+  std::string mode = "localhost";
+  int domain = 0;  ///< as ROS_DOMAIN_ID
+  double rate_Hz = 50;
+  Ros2InputsConfig inputs;
+  bool network_inputs = false;  ///< whoever reaches its networks may use them
+};
+
 /// A point of the footprint in base_link.
 struct CornerConfig {
   double x_m = 0;
@@ -198,6 +214,7 @@ struct DroverConfig {
   MqttConfig mqtt;
   ProtocolConfig protocol;
   AimrtConfig aimrt;
+  Ros2Config ros2;
   SceneConfig scene;
   std::vector<std::string> accept;  ///< by name what is warned of otherwise, see warn_of_risks()
   engine::EngineConfig engine;

@@ -263,6 +263,23 @@ void visit(V& v, AimrtConfig& c) {
 }
 
 template <class V>
+void visit(V& v, Ros2InputsConfig& c) {
+  v.flag("e_stop", c.e_stop, "true on /e_stop (std_msgs/Bool) is an emergency stop");
+}
+
+template <class V>
+void visit(V& v, Ros2Config& c) {
+  v.choice("mode", c.mode, {"off", "localhost", "network"},
+           "who is met: nobody, programs on this computer, or whoever reaches its networks");
+  v.integer("domain", c.domain, Range{0, 232}, "DDS domain, as ROS_DOMAIN_ID");
+  v.number("rate_Hz", c.rate_Hz, Range{1, 200}, "joints, IMU, odometry and frames a second");
+  v.object("inputs", c.inputs, "what is heard: each is closed until it is opened");
+  v.flag("network_inputs", c.network_inputs,
+         "with mode network: whoever reaches the robot's networks may use the inputs");
+  c.configured = true;
+}
+
+template <class V>
 void visit(V& v, CornerConfig& c) {
   v.number("x_m", c.x_m, Range{-20, 20}, "ahead of base_link", Presence::required);
   v.number("y_m", c.y_m, Range{-20, 20}, "left of base_link", Presence::required);
@@ -337,6 +354,7 @@ void visit(V& v, DroverConfig& c, GroupNames& groups) {
   v.object("mqtt", c.mqtt, "broker");
   v.object("protocol", c.protocol, "choices of the RTK navigation protocol");
   v.object("aimrt", c.aimrt, "AimRT channel");
+  v.object("ros2", c.ros2, "drover-ros2: left out, it shows nothing");
   v.object("scene", c.scene, "what is around the robot: left out, nothing of it is looked at");
   v.names(
       "accept", c.accept, Count{0, 11},

@@ -23,6 +23,7 @@ Engine::Impl::Impl(const EngineConfig& c)
     : config(c),
       base(kinematics_of(c.base)),
       estimator(c.estimate, c.base),
+      odometry(c.estimate),
       sensors(c),
       health(c),
       wheels(c),
@@ -292,6 +293,7 @@ void Engine::step(Time now, const Environment& environment, EngineOutput& out) {
   e.pulse.fill(false);
   e.choose_sensors(now, environment);
   e.estimate = e.estimator.step(now);
+  e.snapshot.odometry = e.odometry.step(now, e.estimate);
   const std::span<const AxisSnapshot> axes = e.axes;
   const Reason moved = e.judge_motion(now, dt, lines, environment);
   e.watch_tilt(now, environment.imu_configured);

@@ -25,6 +25,7 @@
 #include "engine/health/wheels.h"
 #include "engine/health/worst_speed.h"
 #include "engine/navigate/navigator.h"
+#include "engine/odometry.h"
 #include "engine/own/arming.h"
 #include "engine/own/owners.h"
 #include "engine/own/power.h"
@@ -84,6 +85,7 @@ struct Engine::Impl {
   EngineConfig config;
   Kinematics base;
   Estimator estimator;
+  OdometryTrack odometry;
   Sensors sensors;
   HealthMonitor health;
   WheelMonitor wheels;

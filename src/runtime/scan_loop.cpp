@@ -111,6 +111,8 @@ void ScanLoop::take(const Scan& turn) {
   seen_.field = scene::sensor::look(turn, made_.scans->mount(), field_);
   exchange_.turn.back() = {name_, made_.scans->mount(), turn};
   exchange_.turn.publish();
+  exchange_.shown_turn.back() = {name_, made_.scans->mount(), turn};
+  exchange_.shown_turn.publish();
   ++shown_.source.samples;
   shown_.time = turn.end;
   shown_.turn_Hz = turn.turn_Hz;

@@ -28,9 +28,10 @@ struct ScanTold {
 };
 
 struct ScanExchange {
-  TripleBuffer<scene::sensor::ScanSeen> seen;  ///< → scene
-  TripleBuffer<scene::sensor::SeenTurn> turn;  ///< likewise, the latest one whole
-  TripleBuffer<ScanTold> told;                 ///< → publish
+  TripleBuffer<scene::sensor::ScanSeen> seen;        ///< → scene
+  TripleBuffer<scene::sensor::SeenTurn> turn;        ///< likewise, the latest one whole
+  TripleBuffer<ScanTold> told;                       ///< → publish
+  TripleBuffer<scene::sensor::SeenTurn> shown_turn;  ///< likewise, the latest one whole
 };
 
 class ScanLoop final {

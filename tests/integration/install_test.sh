@@ -16,7 +16,9 @@ expect() {  # WHAT COMMAND...
 }
 
 units=$folder/usr/lib/systemd/system
-for program in droverd drover-guard; do
+programs=(droverd drover-guard)
+! grep -q '^DROVER_ROS2:BOOL=ON' "$build/CMakeCache.txt" || programs+=(drover-ros2)
+for program in "${programs[@]}"; do
   path=$(sed -n 's/^ExecStart=\([^ ]*\).*/\1/p' "$units/$program.service")
   expect "$program.service starts an installed program ($path)" test -x "$folder$path"
 done

@@ -38,6 +38,8 @@ src/publish/scene    drover/ json/ scene/ publish/arrival.h publish/names.h publ
 src/publish/scene    publish/token_bucket.h publish/scene/ text/
 src/publish/status   drover/ json/ publish/names.h publish/rtk_navigation/spelling.h
 src/publish/status   publish/shown_json.h publish/status/
+src/publish/ros2     drover/ json/ text/ scene/sensor/near_things.h publish/names.h
+src/publish/ros2     publish/aimrt/messages.h publish/ros2/
 src/publish/aimrt    drover/ json/ text/ publish/arrival.h publish/command_service.h
 src/publish/aimrt    publish/token_bucket.h publish/aimrt/
 src/runtime      drover/ runtime/ publish/ store/ json/ config/ link/ engine/ gateway/ scene/
@@ -48,6 +50,8 @@ src/cli          scene/zone/ scene/message/shapes.h calibrate/calibrate.h calibr
 src/cli          runtime/clock.h
 src/cli          engine/estimate/local_frame.h
 src/cli          config/load.h engine/config.h engine/base/kinematics.h engine/estimate/estimator.h
+src/ros2         drover/ ros2/ json/ config/config.h config/load.h link/unique_fd.h
+src/ros2         runtime/back_off.h runtime/clock.h
 src/droverd.cpp  config/ runtime/
 sim/plant        drover/ sim/plant/
 sim/robot        drover/ link/ text/ sim/plant/ sim/robot/ config/register_map.h
@@ -147,7 +151,7 @@ rule_no_own_mutex() {
 # Descriptors belong to the links, the loop, the programs and the file store.
 rule_descriptors() {
   sources 'src/' |
-    grep -vE '^src/(link|runtime|guard|cli)/|^src/(store/posix_files|config/load)\.cpp$' |
+    grep -vE '^src/(link|runtime|guard|cli|ros2)/|^src/(store/posix_files|config/load)\.cpp$' |
     matches \
       '[^A-Za-z0-9_>]::(open(at)?|socket|read|write|send|recv|ioctl|poll|epoll_[a-z0-9]+|close)\(' \
       'descriptors belong to src/link, src/runtime and the file readers'

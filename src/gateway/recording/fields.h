@@ -19,12 +19,13 @@ void visit_values(V& v, const char* name, const List& list) {
 
 template <class V>
 void visit_fields(V& v, const Snapshot& snapshot) {
-  const auto& [time, pose, worst_vx_mps, nav, gnss, imu, battery, sensors, scanners, joint_command,
-               axes, groups, base, clearance, line_active, line_health, line_configured,
-               line_source, output_configured, output_on, links, stop_latched, hold, guard_alive,
-               guard_has_bus, origin_set, origin, why, cycle, estimator, learned, notices_dropped] =
-      snapshot;
-  (void)links;  // those two are the loop's
+  const auto& [time, pose, odometry, worst_vx_mps, nav, gnss, imu, battery, sensors, scanners,
+               joint_command, axes, groups, base, clearance, line_active, line_health,
+               line_configured, line_source, output_configured, output_on, links, stop_latched,
+               hold, guard_alive, guard_has_bus, origin_set, origin, why, cycle, estimator, learned,
+               notices_dropped] = snapshot;
+  (void)odometry;  // nobody decides by it
+  (void)links;     // those two are the loop's
   (void)cycle;
   (void)scanners;  // and the gateway hears none
   v.value("time", time);

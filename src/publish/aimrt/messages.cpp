@@ -114,6 +114,10 @@ Quaternion imu_orientation(const Snapshot& snapshot, const Quaternion& last) {
   return nearer(orientation_of(snapshot).rotation, last);
 }
 
+double imu_yaw_sigma_rad(const Snapshot& snapshot) {
+  return orientation_of(snapshot).yaw_sigma_rad;
+}
+
 std::string imu_state(const Snapshot& snapshot, const Stamping& stamping, Content content,
                       const Quaternion& last) {
   const auto& imu = snapshot.imu;

@@ -32,6 +32,9 @@ std::string joint_state(const Snapshot& snapshot, Time at, const Stamping& stamp
 /// the first `last` gives w >= 0; without an orientation it stays as it was.
 Quaternion imu_orientation(const Snapshot& snapshot, const Quaternion& last);
 
+/// One sigma of that orientation's yaw: the robot's own, or of a yaw that nobody knows.
+double imu_yaw_sigma_rad(const Snapshot& snapshot);
+
 /// The inertial sensor's last sample in base_link, the learned gyro bias taken off. Its yaw is the
 /// robot's own, fused one (counter-clockwise from east) with that one's variance; while that is not
 /// known the sensor's, which counts from anywhere, with a variance of pi squared. Covariances are

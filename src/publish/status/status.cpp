@@ -94,6 +94,15 @@ void daemon_part(JsonText& out, const Snapshot& s, const DaemonStatus& daemon) {
   count(out, "answers_lost", daemon.answers_lost);
   count(out, "scene_messages_unanswered", daemon.scene_messages_unanswered);
   out.close('}');
+  if (daemon.ros2.configured) {
+    out.key("ros2").open('{');
+    out.key("connected").boolean(daemon.ros2.connected);
+    out.key("mode").text(daemon.ros2.mode);
+    out.key("reason").text(daemon.ros2.reason);
+    out.key("readers").integer(daemon.ros2.readers);
+    out.key("incompatible").integer(daemon.ros2.incompatible);
+    out.close('}');
+  }
   out.key("storage").open('{');
   out.key("stop_kept").boolean(daemon.stop_trouble.empty());
   out.key("reason").text(daemon.stop_trouble);

@@ -1,11 +1,23 @@
 // The whole state as one JSON object: what `drover status --json` prints.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "drover/snapshot.h"
 
 namespace drover::publish {
+
+/// The program that shows the robot to ROS 2.
+struct Ros2Status {
+  bool configured = false;
+  bool connected = false;  ///< it was heard lately
+  // As it says:
+  std::string mode;
+  std::string reason;             ///< what is wrong with it; empty: nothing
+  std::int64_t readers = 0;       ///< of its topics
+  std::int64_t incompatible = 0;  ///< readers or writers that ask for another quality of service
+};
 
 /// What the snapshot does not know.
 struct DaemonStatus {
@@ -22,6 +34,7 @@ struct DaemonStatus {
   std::uint64_t joint_commands_unread = 0;     ///< of a flood
   std::string joint_commands_rivals;           ///< programs that write at once now
   std::uint64_t joint_commands_of_rivals = 0;  ///< refused for that
+  Ros2Status ros2;
 };
 
 /// `snapshot` as it is seen now (as_seen). Angles in rad and degrees by their names' suffix; absent

@@ -192,6 +192,23 @@ TEST(StatusInShort, TellsOfAStopThatABootWouldForget) {
   EXPECT_EQ(shown("").find("FORGOTTEN"), std::string::npos);
 }
 
+TEST(StatusInShort, TellsWhetherTheRobotIsShownToRos2) {
+  publish::DaemonStatus daemon;
+  const auto shown = [&daemon] {
+    const auto document = json::parse(publish::status_json(full_snapshot(), daemon));
+    return document ? show_status(document->root) : document.error().text();
+  };
+  EXPECT_EQ(shown().find("ros2"), std::string::npos) << "it is not configured";
+  daemon.ros2.configured = true;
+  EXPECT_NE(shown().find("drover-ros2 does not ask"), std::string::npos);
+  daemon.ros2 = {true, true, "localhost", "", 3, 0};
+  EXPECT_NE(shown().find("localhost  3 readers\n"), std::string::npos);
+  daemon.ros2.incompatible = 2;
+  EXPECT_NE(shown().find("3 readers  2 ASK FOR ANOTHER QUALITY"), std::string::npos);
+  daemon.ros2.reason = "the DDS domain cannot be made";
+  EXPECT_NE(shown().find("localhost  the DDS domain cannot be made"), std::string::npos);
+}
+
 TEST(StatusInShort, CountsAnswersThatNobodyGot) {
   const auto shown = [](std::uint64_t lost) {
     publish::DaemonStatus daemon;

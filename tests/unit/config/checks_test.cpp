@@ -238,6 +238,18 @@ TEST(ConfigurationChecks, KnowTheNamesAndContentsOfTheChannel) {
   EXPECT_NE(problems(text(R"("touch_state_content": "ros2")")).find("pb, json"), std::string::npos);
 }
 
+TEST(ConfigurationChecks, RefuseInputsOfANetworkUnlessThatIsSaid) {
+  const auto text = [](const std::string& members) {
+    return with("1883}", "1883},\n  \"ros2\": {" + members + "}");
+  };
+  const std::string stop = R"("inputs": {"e_stop": true})";
+  EXPECT_EQ(problems(text(R"("mode": "network")")), "");
+  EXPECT_EQ(problems(text(stop)), "") << "of this computer";
+  EXPECT_NE(problems(text(R"("mode": "network", )" + stop)).find("whoever reaches"),
+            std::string::npos);
+  EXPECT_EQ(problems(text(R"("mode": "network", "network_inputs": true, )" + stop)), "");
+}
+
 TEST(ConfigurationChecks, ResolveNamesToNumbers) {
   const auto loaded = load_text(kGood);
   const auto& engine = loaded.config.engine;

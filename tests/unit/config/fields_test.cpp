@@ -149,6 +149,11 @@ TEST(Fields, OfTheDaemonAreAllKeys) {
   expect_complete<ProtocolConfig>();
 }
 
+TEST(Fields, OfRos2AreAllKeys) {
+  expect_complete<Ros2InputsConfig>();
+  expect_complete<Ros2Config>(1);  // configured, which follows
+}
+
 TEST(Fields, OfTheSceneAreAllKeys) {
   expect_complete<CornerConfig>();
   expect_complete<FrameConfig>(1);  // name

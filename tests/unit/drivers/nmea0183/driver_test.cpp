@@ -185,6 +185,7 @@ TEST_F(NmeaDriver, ReportsOneHeadingWhereBothSentencesAreSent) {
 TEST_F(NmeaDriver, UsesTheSigmasOfTheSameEpochWhenTheyComeFirst) {
   feed(gst(0) + gga(0), at(0ms));
   EXPECT_EQ(position().sigma_north_m, 0.011);
+  EXPECT_EQ(position().sigma_up_m, 0.020);
   EXPECT_EQ(position().sigma_east_m, 0.012);
 }
 

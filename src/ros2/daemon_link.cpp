@@ -1,0 +1,63 @@
+#include "ros2/daemon_link.h"
+
+#include <sys/socket.h>
+#include <sys/un.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+
+namespace drover::ros2 {
+
+namespace {
+/// No line is so long.
+constexpr std::size_t kMostWaiting = 1024 * 1024;
+}  // namespace
+
+void DaemonLink::keep(Time now) {
+  if (fd_ || !retry_.due(now)) return;
+  retry_.tried(now);
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  if (path_.size() >= sizeof address.sun_path) return lose("the path is too long");
+  std::memcpy(address.sun_path, path_.c_str(), path_.size());
+  link::UniqueFd fd(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
+  if (!fd || ::connect(fd.get(), reinterpret_cast<sockaddr*>(&address), sizeof address) != 0)
+    return lose(std::strerror(errno));
+  fd_ = std::move(fd);
+  in_.clear();
+  problem_.clear();
+}
+
+void DaemonLink::hear(const std::function<void(std::string_view)>& on_line) {
+  std::array<char, 65536> block{};
+  const auto n = ::recv(fd_.get(), block.data(), block.size(), MSG_DONTWAIT);
+  if (n < 0 && (errno == EAGAIN || errno == EINTR)) return;
+  if (n <= 0) return lose(n == 0 ? "droverd has closed the connection" : std::strerror(errno));
+  retry_.succeeded();
+  in_.append(block.data(), static_cast<std::size_t>(n));
+  std::size_t begin = 0;
+  for (;;) {
+    const auto end = in_.find('\n', begin);
+    if (end == std::string::npos) break;
+    on_line(std::string_view(in_).substr(begin, end - begin));
+    begin = end + 1;
+  }
+  in_.erase(0, begin);
+  if (in_.size() > kMostWaiting) lose("droverd sends a line without an end");
+}
+
+void DaemonLink::send(const std::string& line) {
+  if (!fd_) return;
+  const std::string text = line + "\n";
+  const auto n = ::send(fd_.get(), text.data(), text.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
+  if (n != static_cast<ssize_t>(text.size())) lose("droverd does not read");
+}
+
+void DaemonLink::lose(const std::string& why) {
+  fd_.reset();
+  in_.clear();
+  problem_ = path_ + ": " + why;
+}
+
+}  // namespace drover::ros2

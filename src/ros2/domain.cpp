@@ -1,0 +1,97 @@
+#include "ros2/domain.h"
+
+#include <dirent.h>
+#include <sys/socket.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <memory>
+#include <string_view>
+
+namespace drover::ros2 {
+namespace {
+
+/// Larger ones are neither sent nor taken: what a flood of them costs is bounded.
+constexpr const char* kLargestSample = "64kB";
+/// Processes that share a computer, as ROS 2 looks for them.
+constexpr int kMostParticipants = 32;
+
+bool hears_datagrams(int fd) {
+  int type = 0;
+  int family = 0;
+  socklen_t size = sizeof type;
+  if (::getsockopt(fd, SOL_SOCKET, SO_TYPE, &type, &size) != 0 || type != SOCK_DGRAM) return false;
+  size = sizeof family;
+  if (::getsockopt(fd, SOL_SOCKET, SO_DOMAIN, &family, &size) != 0) return false;
+  return family == AF_INET || family == AF_INET6;
+}
+
+std::string why(const char* what, dds_return_t code) {
+  return std::string(what) + ": " + dds_strretcode(code);
+}
+
+}  // namespace
+
+std::string domain_settings(Reach reach, bool networked) {
+  const bool local = reach == Reach::localhost;
+  std::string text = "<CycloneDDS><Domain id=\"any\"><General><Interfaces>";
+  // Both: of programs that were told to stay on this computer some use lo, others their network's
+  // own address.
+  if (local || !networked) text += "<NetworkInterface name=\"lo\"/>";
+  if (networked) text += "<NetworkInterface autodetermine=\"true\"/>";
+  text += "</Interfaces>";
+  if (local || !networked) text += "<AllowMulticast>false</AllowMulticast>";
+  text +=
+      "</General><Discovery><ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>" +
+      std::to_string(kMostParticipants) + "</MaxAutoParticipantIndex>";
+  if (local || !networked) text += "<Peers><Peer address=\"127.0.0.1\"/></Peers>";
+  text += "</Discovery><Internal><MaxSampleSize>" + std::string(kLargestSample) +
+          "</MaxSampleSize></Internal></Domain></CycloneDDS>";
+  return text;
+}
+
+std::size_t bind_to_loopback() {
+  const std::unique_ptr<DIR, int (*)(DIR*)> folder(::opendir("/proc/self/fd"), ::closedir);
+  if (!folder) throw NoDomain("its sockets cannot be listed, so they cannot be closed");
+  std::size_t bound = 0;
+  while (const dirent* entry = ::readdir(folder.get())) {
+    char* end = nullptr;
+    const long fd = std::strtol(entry->d_name, &end, 10);
+    if (end == entry->d_name || *end != '\0' || !hears_datagrams(static_cast<int>(fd))) continue;
+    constexpr std::string_view kLoopback = "lo";
+    if (::setsockopt(static_cast<int>(fd), SOL_SOCKET, SO_BINDTODEVICE, kLoopback.data(),
+                     static_cast<socklen_t>(kLoopback.size())) != 0)
+      throw NoDomain(std::string("its sockets cannot be closed to networks: ") +
+                     std::strerror(errno));
+    ++bound;
+  }
+  return bound;
+}
+
+Domain::Domain(int number, Reach reach, bool networked) {
+  // A participant of a domain that could not be made would have the defaults: all networks.
+  domain_ = dds_create_domain(static_cast<dds_domainid_t>(number),
+                              domain_settings(reach, networked).c_str());
+  if (domain_ < 0) throw NoDomain(why("the DDS domain cannot be made", domain_));
+  dds_qos_t* qos = dds_create_qos();
+  constexpr std::string_view kEnclave = "enclave=/;";
+  dds_qset_userdata(qos, kEnclave.data(), kEnclave.size());
+  participant_ = dds_create_participant(static_cast<dds_domainid_t>(number), qos, nullptr);
+  dds_delete_qos(qos);
+  try {
+    if (participant_ < 0) throw NoDomain(why("no DDS participant can be made", participant_));
+    // Before there is any reader or writer.
+    if (reach == Reach::localhost && bind_to_loopback() == 0)
+      throw NoDomain("none of its sockets was found, so they cannot be closed to networks");
+  } catch (...) {
+    dds_delete(domain_);
+    throw;
+  }
+}
+
+Domain::~Domain() {
+  dds_delete(domain_);
+}
+
+}  // namespace drover::ros2

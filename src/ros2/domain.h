@@ -1,0 +1,47 @@
+// A DDS domain with one participant, as closed as it was asked for.
+#pragma once
+
+#include <dds/dds.h>
+
+#include <span>
+#include <stdexcept>
+#include <string>
+
+namespace drover::ros2 {
+
+/// Whom the domain meets.
+enum class Reach : std::uint8_t {
+  localhost,  ///< programs on this computer: its sockets take nothing from a network
+  network,    ///< whoever reaches its networks
+};
+
+/// The domain cannot be made as it was asked for, so there is none.
+struct NoDomain : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// Cyclone DDS' configuration. `networked`: this computer has a network beside loopback.
+std::string domain_settings(Reach reach, bool networked);
+
+class Domain final {
+ public:
+  /// Call it in a thread without real-time priority: those of DDS inherit it. Throws NoDomain, also
+  /// when its sockets cannot be closed towards networks: nobody reads or writes then.
+  Domain(int number, Reach reach, bool networked);
+  ~Domain();
+  Domain(const Domain&) = delete;
+  Domain& operator=(const Domain&) = delete;
+
+  dds_entity_t participant() const { return participant_; }
+
+ private:
+  dds_entity_t domain_ = 0;
+  dds_entity_t participant_ = 0;
+};
+
+/// Binds each internet datagram socket of this process to the loopback device, whatever its
+/// address: what comes over a network finds none. Returns how many there were. Throws NoDomain when
+/// one cannot be bound.
+std::size_t bind_to_loopback();
+
+}  // namespace drover::ros2

@@ -1,0 +1,182 @@
+#include "ros2/program.h"
+
+#include <poll.h>
+
+#include <array>
+
+#include "json/json_text.h"
+#include "ros2/networks.h"
+#include "ros2/say.h"
+#include "runtime/clock.h"
+
+namespace drover::ros2 {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr Duration kBeat = 1s;
+/// droverd sends at least once a second.
+constexpr Duration kSilent = 1500ms;
+constexpr Duration kStopsApart = 100ms;
+
+Stamp_ns wall_now_ns() {
+  return (runtime::monotonic_now().time_since_epoch() + runtime::wall_minus_monotonic()).count();
+}
+
+std::string joined(const std::vector<std::string>& texts) {
+  std::string all;
+  for (const auto& text : texts) all += (all.empty() ? "" : ", ") + text;
+  return all.empty() ? "no network" : all;
+}
+
+}  // namespace
+
+Program::Program(const config::DroverConfig& config)
+    : config_(config),
+      reach_(config.ros2.mode == "network" ? Reach::network : Reach::localhost),
+      robot_(robot_of(config)),
+      link_(config.paths.run + "/drover.sock") {
+  take_over_dds_log();
+}
+
+void Program::run(const std::atomic<bool>& stop) {
+  while (!stop.load(std::memory_order_relaxed)) {
+    const Time now = runtime::monotonic_now();
+    if (now >= next_beat_) {
+      next_beat_ = now + kBeat;
+      beat(now);
+    }
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(next_beat_ - now);
+    // A descriptor of -1 is passed over.
+    std::array<pollfd, 2> ready{{{link_.fd(), POLLIN, 0}, {users_ ? users_->fd() : -1, POLLIN, 0}}};
+    if (::poll(ready.data(), ready.size(), static_cast<int>(left.count())) <= 0) continue;
+    if (ready[1].revents != 0) hear_users(now);
+    if (ready[0].revents != 0 && link_.connected())
+      link_.hear([this](std::string_view line) { take(line); });
+  }
+}
+
+void Program::beat(Time now) {
+  keep_domain(now);
+  const bool was = link_.connected();
+  link_.keep(now);
+  if (!was && link_.connected()) connected_ = now;
+  tell_users();
+  tell_droverd();
+}
+
+/// A network that comes later is another domain: interfaces are chosen when it is made.
+void Program::keep_domain(Time now) {
+  auto there = networks();
+  if (domain_ && there != networks_) {
+    // Twice the same: it is not just coming up.
+    if (there == other_networks_) {
+      say(Level::info, "the networks have changed: " + joined(there));
+      forget_domain();
+      retry_.try_now();
+    }
+    other_networks_ = there;
+  }
+  if (domain_ || !retry_.due(now)) return;
+  networks_ = std::move(there);
+  other_networks_ = networks_;
+  make_domain(now);
+}
+
+void Program::make_domain(Time now) {
+  try {
+    domain_ = std::make_unique<Domain>(config_.ros2.domain, reach_, !networks_.empty());
+    shown_ = std::make_unique<Shown>(domain_->participant(), robot_, wall_now_ns());
+    users_ = std::make_unique<Heard>(domain_->participant(), config_.ros2.inputs);
+    readers_ = {};
+    problem_.clear();
+    retry_.succeeded();
+    say(Level::info, "domain " + std::to_string(config_.ros2.domain) +
+                         (reach_ == Reach::network
+                              ? ": whoever reaches " + joined(networks_) + " sees this robot"
+                              : ": programs on this computer see this robot"));
+    if (config_.ros2.inputs.e_stop)
+      say(reach_ == Reach::network ? Level::warning : Level::info,
+          reach_ == Reach::network ? "whoever reaches these networks may stop this robot"
+                                   : "programs on this computer may stop this robot");
+  } catch (const NoDomain& error) {
+    forget_domain();
+    retry_.tried(now);
+    if (problem_ != error.what()) say(Level::error, error.what());
+    problem_ = error.what();
+  }
+}
+
+void Program::forget_domain() {
+  users_.reset();
+  shown_.reset();
+  domain_.reset();
+}
+
+/// A stop is told at once; of more that come in rows ten a second.
+void Program::hear_users(Time now) {
+  if (!users_->stop_asked()) return;
+  if (stopped_ != kNever && now - stopped_ < kStopsApart) return;
+  if (stopped_ == kNever || now - stopped_ > kBeat)
+    say(Level::warning, link_.connected()
+                            ? "an emergency stop was asked for on /e_stop"
+                            : "an emergency stop was asked for on /e_stop, and droverd is away");
+  stopped_ = now;
+  link_.send(json::JsonText().open('{').key("cmd").text("stop").close('}').take());
+}
+
+void Program::take(std::string_view line) {
+  const auto told = read_told(line);
+  if (!told) {
+    if (!told.error().reason.empty()) refusal_ = told.error().reason;
+    return;
+  }
+  refusal_.clear();
+  heard_ = runtime::monotonic_now();
+  if (!shown_) return;
+  shown_->show(*told);
+  if (told->diagnostics.empty()) return;
+  auto all = told->diagnostics;
+  DiagnosticTold own{
+      "drover-ros2",
+      readers_.incompatible > 0 ? 1 : 0,
+      readers_.incompatible > 0 ? "some readers ask for what is not offered" : "all is well",
+      {{"readers", std::to_string(readers_.matched)},
+       {"incompatible", std::to_string(readers_.incompatible)},
+       {"not_sent", std::to_string(shown_->failed())}}};
+  all.push_back(std::move(own));
+  shown_->show_diagnostics(told->at_ns, all);
+}
+
+/// Without droverd nobody else would tell.
+void Program::tell_users() {
+  if (shown_) {
+    readers_ = shown_->readers();
+    if (!readers_.news.empty()) say(Level::warning, readers_.news);
+  }
+  const Time now = runtime::monotonic_now();
+  const bool hears = heard_ != kNever && now - heard_ < kSilent;
+  // It has only just been asked.
+  if (!hears && refusal_.empty() && link_.connected() && now - connected_ < kSilent) return;
+  const std::string problem = !link_.connected()  ? link_.problem()
+                              : !refusal_.empty() ? refusal_
+                              : !hears            ? "droverd tells nothing"
+                                                  : "";
+  if (problem != said_)
+    say(problem.empty() ? Level::info : Level::warning,
+        problem.empty() ? "droverd tells of the robot" : problem);
+  said_ = problem;
+  if (problem.empty() || !shown_) return;
+  const std::vector<DiagnosticTold> told{{"robot", 2, "not known: " + problem, {}}};
+  shown_->show_diagnostics(wall_now_ns(), told);
+}
+
+void Program::tell_droverd() {
+  json::JsonText line;
+  line.open('{').key("cmd").text("ros2_follow").key("mode").text(config_.ros2.mode);
+  line.key("reason").text(problem_).key("readers").integer(readers_.matched);
+  line.key("incompatible").integer(readers_.incompatible).close('}');
+  link_.send(line.take());
+}
+
+}  // namespace drover::ros2
