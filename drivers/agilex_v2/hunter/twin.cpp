@@ -177,7 +177,7 @@ void HunterTwin::steer(std::span<Shaft> shafts, double dt_s) {
 }
 
 void HunterTwin::let_go(std::span<Shaft> shafts) {
-  servos_ = {};
+  servos_.fill(kServo);
   for (Shaft& shaft : shafts) {
     shaft.torque_Nm = -kDragged_Nms_per_rad * shaft.velocity_radps;
     shaft.energized = false;

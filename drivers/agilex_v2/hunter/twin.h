@@ -53,7 +53,9 @@ class HunterTwin final : public CanTwin {
   Steered asked_;
   Time last_asked_ = kNever;
   double radpm_ = 0;  ///< to which its wheels are steered now
-  std::array<Servo, 2> servos_;
+  /// Two motors move what four do in its sibling: a stop must not swing back.
+  static constexpr Servo kServo{.integral_Nm_per_rad = 100, .proportional_Nms_per_rad = 20};
+  std::array<Servo, 2> servos_{kServo, kServo};
   Time next_state_ = kNever;
   Time next_motion_ = kNever;
   std::uint8_t count_ = 0;
