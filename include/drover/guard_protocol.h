@@ -14,7 +14,7 @@
 
 namespace drover {
 
-inline constexpr std::uint32_t kGuardVersion = 2;
+inline constexpr std::uint32_t kGuardVersion = 3;
 inline constexpr std::size_t kGuardMaxLinks = 8;
 inline constexpr std::size_t kGuardMaxAxes = 64;
 inline constexpr std::size_t kGuardMaxMessages = 512;
@@ -48,6 +48,9 @@ struct GuardMessage {
   std::uint32_t rounds = 1;     ///< axis: how many rounds are played in turn, then from the first
   std::uint32_t round = 0;      ///< stop_message: in which of them it is sent
   std::uint32_t period_ms = 0;  ///< axis: from one round to the next; 10 and more
+  /// axis: 1: it holds only by what droverd tells it, the recipe cannot. A stop at the stop socket
+  /// leaves it to a droverd whose heartbeat is good, which hears of the stop.
+  std::uint32_t held_by_daemon = 0;
   std::uint32_t limit_ms = 50;  ///< hello: a heartbeat later than this is too late
   GuardLinkKind kind = GuardLinkKind::can;
   std::uint32_t size = 0;  ///< stop_message: bytes used

@@ -130,7 +130,9 @@ engine::Permission Gateway::permission(const Slot& slot) {
       slowing.measured_radps = robot.axes[axis].motion.velocity_radps;
     (void)slowing_.push_back(slowing);
   }
-  return {motion, guard_has_bus_, {slowing_.data(), slowing_.size()}};
+  // By a stop from outside the guard has the base; what only this gateway can hold it holds on.
+  const bool guarded = guard_has_bus_ && (slot.of_base || !guard_latched_);
+  return {motion, guarded, {slowing_.data(), slowing_.size()}};
 }
 
 void Gateway::on(const CommandGiven& given, Time now) {
@@ -173,6 +175,7 @@ void Gateway::on(const Tick& tick, Time now) {
   engine_.step(now, environment_, cycle_.engine);
   motion_permitted_ = cycle_.engine.motion_permitted;
   guard_has_bus_ = tick.guard_has_bus;
+  guard_latched_ = tick.guard_latched;
   command_actuators(now);
   hand_out();
 }
@@ -291,7 +294,8 @@ std::vector<LinkDuty> Gateway::duties() const {
   for (const Slot& slot : wiring_.slots) {
     if (slot.made.actuator == nullptr) continue;
     LinkDuty& duty = all[slot.link];
-    duty.stops.push_back(slot.made.actuator->stop_recipe());
+    const StopRecipe recipe = slot.made.actuator->stop_recipe();
+    duty.stops.push_back({recipe, !slot.of_base && recipe.ends != StopEnds::holds});
     duty.messages_per_cycle += slot.made.actuator->messages_per_cycle();
   }
   return all;

@@ -34,9 +34,15 @@ struct StreamOutput {
   std::size_t add(const Packet& packet);
 };
 
+/// How a device is stopped by the guard.
+struct GuardDuty {
+  StopRecipe recipe;
+  bool held_by_daemon = false;  ///< the gateway can hold it, and the recipe cannot
+};
+
 /// What the drives on a link need of those who serve it.
 struct LinkDuty {
-  std::vector<StopRecipe> stops;       ///< for the guard
+  std::vector<GuardDuty> stops;        ///< for the guard
   std::size_t messages_per_cycle = 0;  ///< the most that they send
 };
 
@@ -144,6 +150,7 @@ class Gateway final {
   bool guard_required_;
   bool motion_permitted_ = false;
   bool guard_has_bus_ = false;
+  bool guard_latched_ = false;  ///< by a stop from outside, at the guard
 };
 
 }  // namespace drover::gateway

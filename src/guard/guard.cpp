@@ -70,7 +70,10 @@ void Guard::act(Time t) {
   holding_ = watch_.step(beats(), t) || keep_.state().latched.load() != 0;
   const bool plays = holding_ && may_hold();
   if (holding_ && !was_holding) set_.begin_hold();
-  if (plays) set_.play(t);
+  // A stop from outside: what droverd can hold, and the recipe cannot, it holds while it lives.
+  const bool daemon_holds = keep_.state().latched.load() != 0 && set_is_his_ && daemon_ >= 0 &&
+                            beats() > 0 && !watch_.late(t);
+  if (plays) set_.play(t, daemon_holds);
   // Drives that nobody can stop are the hardware watchdog's.
   if (!plays || set_.in_command(t)) pulse();
 }

@@ -90,6 +90,7 @@ bool StopSet::add_axis(const GuardMessage& message) {
   axis.link = message.link;
   axis.rounds = message.rounds;
   axis.period = std::chrono::milliseconds(message.period_ms);
+  axis.held_by_daemon = message.held_by_daemon == 1;
   return true;
 }
 
@@ -135,9 +136,13 @@ void StopSet::begin_hold() {
   }
 }
 
-void StopSet::play(Time now) {
+void StopSet::play(Time now, bool daemon_holds) {
   for (std::size_t i = 0; i < axis_count_; ++i) {
     auto& axis = axes_[i];
+    if (daemon_holds && axis.held_by_daemon) {
+      axis.reached = now;
+      continue;
+    }
     if (now + kHalfACycle < axis.due) continue;
     axis.due = now - axis.due < axis.period ? axis.due + axis.period : now + axis.period;
     auto& link = links_[axis.link];
@@ -234,6 +239,7 @@ void StopSet::tell(std::vector<GuardMessage>& words) const {
     word.rounds = axis.rounds;
     word.period_ms = static_cast<std::uint32_t>(
         std::chrono::duration_cast<std::chrono::milliseconds>(axis.period).count());
+    word.held_by_daemon = axis.held_by_daemon ? 1 : 0;
     word.name = axis.name;
   }
   for (std::size_t i = 0; i < message_count_; ++i) {

@@ -39,7 +39,8 @@ class StopSet final {
   /// A hold begins: all rounds from the first, at once; what waits in the lines is thrown away.
   void begin_hold();
   /// Sends what is due. What a full or dead link refuses is sent again when it is due next.
-  void play(Time now);
+  /// `daemon_holds`: axes that only droverd can hold are its own.
+  void play(Time now, bool daemon_holds = false);
   /// Each axis was reached within its last five periods. True without any axis.
   bool in_command(Time now) const;
 
@@ -74,6 +75,7 @@ class StopSet final {
     std::uint32_t rounds = 1;
     std::uint32_t round = 0;  ///< the next
     Duration period{};
+    bool held_by_daemon = false;
     Time due = kNever;
     Time reached = kNever;
   };

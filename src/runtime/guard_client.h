@@ -18,6 +18,7 @@ struct GuardedAxis {
   std::string name;  ///< what it is on the wire: the link's name and its address there
   std::chrono::milliseconds period{10};
   std::vector<std::vector<std::vector<std::uint8_t>>> rounds;  ///< messages as they are written
+  bool held_by_daemon = false;                                 ///< as in GuardMessage
 };
 
 /// What the guard must do for one link.

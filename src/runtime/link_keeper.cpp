@@ -227,7 +227,10 @@ void LinkKeeper::failed(std::size_t slot, const std::string& problem, Time now) 
 GuardedLink LinkKeeper::guarded_link(std::size_t slot, std::string& missing) const {
   GuardedLink link;
   link.name = wiring_.links[slot].name;
-  for (const auto& stop : duties_[slot].stops) link.axes.push_back(guarded_axis(link.name, stop));
+  for (const auto& stop : duties_[slot].stops) {
+    link.axes.push_back(guarded_axis(link.name, stop.recipe));
+    link.axes.back().held_by_daemon = stop.held_by_daemon;
+  }
   std::string why;
   if (is_bus(slot)) {
     auto settings = can_settings(slot);

@@ -118,6 +118,13 @@ TEST(ArmKill, StaysHeldWhileTheBaseDrivesAnew) {
   expect_good_drive(record("arm_kill"), 2);
 }
 
+// The guard hears it as well, and has the wheels; it could only let the arm sink.
+TEST(ArmKill, IsHeldByDroverStop) {
+  const Record& log = record("arm_kill");
+  const Time stopped = log.event("event stopped#1");
+  EXPECT_LT(strayed(log, kShoulder, stopped - 500ms, log.event("event both#1")), 0.02);
+}
+
 // What no software holds, and the README says so.
 TEST(ArmKill, FallsWhenBothProgramsAreGone) {
   const Record& log = record("arm_kill");

@@ -280,9 +280,10 @@ TEST(Gateway, TellsTheGuardHowEachDriveOfABusIsStopped) {
   EXPECT_EQ(duties[0].messages_per_cycle, 4U);
   const auto& recipes = duties[0].stops;
   ASSERT_EQ(recipes.size(), 2U);
-  EXPECT_EQ(recipes[0].rounds[0].frames[0].id, 0x02DU);
-  EXPECT_EQ(recipes[1].rounds[0].frames[0].id, 0x04DU);
-  EXPECT_EQ(recipes[1].period, 10ms);
+  EXPECT_EQ(recipes[0].recipe.rounds[0].frames[0].id, 0x02DU);
+  EXPECT_EQ(recipes[1].recipe.rounds[0].frames[0].id, 0x04DU);
+  EXPECT_EQ(recipes[1].recipe.period, 10ms);
+  EXPECT_FALSE(recipes[0].held_by_daemon);
 }
 
 TEST(StreamOutput, TakesAPacketWholeOrNotAtAll) {

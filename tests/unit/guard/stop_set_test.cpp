@@ -105,6 +105,23 @@ TEST_F(GuardStopSet, BeginsAHoldWithTheFirstRoundAtOnce) {
   EXPECT_EQ(heard(), "a");
 }
 
+TEST_F(GuardStopSet, LeavesToTheDaemonWhatOnlyThatCanHold) {
+  StopSet set;
+  add_link(set);
+  auto arm = axis(1, "can0 001");
+  arm.held_by_daemon = 1;
+  ASSERT_TRUE(set.add_axis(axis(0, "can0 02D")) && set.add_axis(arm));
+  ASSERT_TRUE(set.add_message(stop(0, 0, 'w')) && set.add_message(stop(1, 0, 'a')));
+  set.begin_hold();
+  set.play(kStart, true);
+  EXPECT_EQ(heard(), "w");
+  EXPECT_TRUE(set.in_command(kStart));
+  set.play(kStart + 10ms, true);
+  EXPECT_EQ(heard(), "w");
+  set.play(kStart + 20ms);  // it is late
+  EXPECT_EQ(heard(), "wa");
+}
+
 TEST_F(GuardStopSet, IsNotInCommandOfWhatItCannotReach) {
   StopSet set;
   add_link(set);

@@ -154,7 +154,7 @@ TEST(ATwistBaseAtTheGateway, HandsTheGuardItsPacketsAndTellsWhatGoesOn) {
   Bench bench;
   const auto duties = bench.gateway.duties();
   ASSERT_EQ(duties[0].stops.size(), 1U);
-  EXPECT_EQ(duties[0].stops[0].rounds[0].packets.size(), 1U);
+  EXPECT_EQ(duties[0].stops[0].recipe.rounds[0].packets.size(), 1U);
   EXPECT_TRUE(bench.gateway.output().streams[0].moves);
   EXPECT_TRUE(bench.gateway.cautions().empty());
   const Gateway careless(
