@@ -1,21 +1,11 @@
 #include "drivers/agilex_v2/twin.h"
 
-#include <algorithm>
+#include "drivers/agilex_v2/chassis.h"
 
 namespace drover::agilex_v2 {
 namespace {
 
-using std::chrono::milliseconds;
-
-constexpr double kFull_V = 26.5;
-constexpr double kNearlyEmpty_V = 22.4;
-constexpr Duration kBoot = milliseconds(500);
-constexpr Duration kProtection = milliseconds(500);
-constexpr Duration kStatePeriod = milliseconds(100);
-constexpr Duration kMotionPeriod = milliseconds(20);
-
-/// What turns the gears and motors along when they are not driven.
-constexpr double kGearDrag_Nms_per_rad = 1;
+constexpr LowBattery kNearlyEmpty{22.4, 0x0200};
 
 constexpr std::array kTwinOptions{
     OptionSpec{.name = "wheel_radius_m",
@@ -58,25 +48,7 @@ void AgilexV2Twin::set_power(bool on, Time now) {
 }
 
 bool AgilexV2Twin::set_fault(std::string_view name, Time) {
-  const bool was_remote = state_.mode == Mode::remote;
-  if (name == "silent") {
-    silent_ = true;
-  } else if (name == "estop") {
-    state_.vehicle = Vehicle::estop;
-  } else if (name == "exception") {
-    state_.vehicle = Vehicle::exception;
-  } else if (name == "remote") {
-    state_.mode = Mode::remote;
-  } else if (name == "low_battery") {
-    state_.battery_V = kNearlyEmpty_V;
-    state_.error = 0x0200;
-  } else if (name.empty()) {
-    silent_ = false;
-    state_ = {.mode = was_remote ? Mode::standby : state_.mode, .battery_V = kFull_V};
-  } else {
-    return false;
-  }
-  return true;
+  return set_chassis_fault(name, kNearlyEmpty, state_, silent_);
 }
 
 bool AgilexV2Twin::awake(Time now) const {
@@ -103,7 +75,7 @@ void AgilexV2Twin::on_tick(Time now, std::span<Shaft> shafts, TwinFrames& out) {
   if (drives) {
     turn(shafts, obeyed(now), dt_s);
   } else {
-    let_go(shafts);
+    let_go(servos_, {}, shafts);
   }
   if (awake(now) && !silent_) tell(shafts, now, out);
 }
@@ -122,14 +94,6 @@ void AgilexV2Twin::turn(std::span<Shaft> shafts, const Twist& twist, double dt_s
     shafts[i].torque_Nm =
         servos_[i].torque_Nm(asked_radps - shafts[i].velocity_radps, dt_s, max_torque_Nm_);
     shafts[i].energized = true;
-  }
-}
-
-void AgilexV2Twin::let_go(std::span<Shaft> shafts) {
-  servos_ = {};
-  for (Shaft& shaft : shafts) {
-    shaft.torque_Nm = -kGearDrag_Nms_per_rad * shaft.velocity_radps;
-    shaft.energized = false;
   }
 }
 

@@ -26,7 +26,6 @@ class AgilexV2Twin final : public CanTwin {
   bool awake(Time now) const;
   Twist obeyed(Time now) const;
   void turn(std::span<Shaft> shafts, const Twist& twist, double dt_s);
-  void let_go(std::span<Shaft> shafts);
   void tell(std::span<const Shaft> shafts, Time now, TwinFrames& out);
 
   double wheel_radius_m_;

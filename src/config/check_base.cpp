@@ -84,12 +84,6 @@ void both_sides(const BaseNames& base, Findings& found) {
 void nothing_else_moves(const GroupNames& groups, Findings& found) {
   const BaseNames& base = groups.base;
   if (found.has_problem("groups.base")) return;
-  const auto beside = [&](const std::string& joint) {
-    return std::any_of(groups.others.begin(), groups.others.end(), [&](const JointGroup& group) {
-      return std::any_of(group.joints.begin(), group.joints.end(),
-                         [&](const GroupJoint& each) { return each.name == joint; });
-    });
-  };
   const bool has_wheels = !is_told_a_twist(base.kind);
   const auto among = [&](const std::vector<std::string>& side, const std::string& joint) {
     return has_wheels && std::find(side.begin(), side.end(), joint) != side.end();
@@ -97,7 +91,7 @@ void nothing_else_moves(const GroupNames& groups, Findings& found) {
   for (const auto& device : found.config().devices) {
     for (const auto& joint : device.joints) {
       if (among(base.left, joint.name) || among(base.right, joint.name)) continue;
-      if (beside(joint.name)) continue;
+      if (has_joint(groups.others, joint.name)) continue;
       found.add(device_path(device), "\"" + joint.name + "\" is of no group",
                 has_wheels
                     ? "name it in groups.base.left or groups.base.right, or give it a group "

@@ -163,12 +163,8 @@ void check_joints(Findings& found) {
 
 void number_joints(const std::vector<JointGroup>& groups, Findings& found) {
   const auto of_group = [&](const DeviceConfig& device) {
-    return std::any_of(groups.begin(), groups.end(), [&](const JointGroup& group) {
-      return std::any_of(group.joints.begin(), group.joints.end(), [&](const GroupJoint& joint) {
-        return std::any_of(device.joints.begin(), device.joints.end(),
-                           [&](const auto& each) { return each.name == joint.name; });
-      });
-    });
+    return std::any_of(device.joints.begin(), device.joints.end(),
+                       [&](const auto& joint) { return has_joint(groups, joint.name); });
   };
   std::size_t axes = 0;
   for (const bool beside_the_base : {false, true}) {

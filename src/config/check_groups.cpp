@@ -39,15 +39,19 @@ void limits(const std::string& path, const engine::JointRules& rules, Findings& 
 /// What is fed, armed and stopped together has one owner.
 void whole_device(const std::string& path, const JointGroup& group, const DeviceConfig& device,
                   Findings& found) {
-  for (const auto& other : device.joints) {
-    const bool here = std::any_of(group.joints.begin(), group.joints.end(),
-                                  [&](const auto& joint) { return joint.name == other.name; });
-    if (!here)
+  for (const auto& other : device.joints)
+    if (!has_joint(group, other.name))
       found.add(path,
                 "its device " + device.name + " moves \"" + other.name +
                     "\" too, which is not of this group",
                 "joints of one device belong to one group");
-  }
+}
+
+void no_wheel(const std::string& path, const BaseNames& base, const std::string& joint,
+              Findings& found) {
+  for (const auto& [side, wheels] : {std::pair{"left", &base.left}, {"right", &base.right}})
+    if (std::find(wheels->begin(), wheels->end(), joint) != wheels->end())
+      return found.add(path, "\"" + joint + "\" is used by groups.base." + side + " already");
 }
 
 void joint(const std::string& path, const JointGroup& group, const GroupJoint& given,
@@ -77,23 +81,26 @@ void joint(const std::string& path, const JointGroup& group, const GroupJoint& g
 
 }  // namespace
 
-void check_groups(const std::vector<JointGroup>& groups, Findings& found) {
+bool has_joint(const JointGroup& group, const std::string& joint) {
+  return std::any_of(group.joints.begin(), group.joints.end(),
+                     [&](const GroupJoint& each) { return each.name == joint; });
+}
+
+bool has_joint(const std::vector<JointGroup>& groups, const std::string& joint) {
+  return std::any_of(groups.begin(), groups.end(),
+                     [&](const JointGroup& group) { return has_joint(group, joint); });
+}
+
+void check_groups(const GroupNames& groups, Findings& found) {
   auto& engine = found.config().engine;
   Taken taken(found);
-  for (const char* side : {"left", "right"}) {
-    const auto& wheels = side == std::string_view("left") ? engine.base.left : engine.base.right;
-    for (const AxisId axis : wheels)
-      for (const auto* device : by_axis(found.config()))
-        if (axis >= device->first_axis && axis < device->first_axis + device->joints.size())
-          taken.take(device->joints[axis - device->first_axis].name,
-                     std::string("groups.base.") + side);
-  }
-  for (const auto& given : groups) {
+  for (const auto& given : groups.others) {
     engine::GroupConfig group;
     group.name = Name(given.name);
     for (const auto& each : given.joints) {
       const auto path = "groups." + given.name + ".joints." + each.name;
       taken.take(each.name, path);
+      no_wheel(path, groups.base, each.name, found);
       joint(path, given, each, group, found);
     }
     if (engine::takes_twist(engine.base.kind))

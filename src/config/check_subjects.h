@@ -33,7 +33,10 @@ std::string_view words(Wire wire);
 /// what holds it.
 void check_base(const GroupNames& groups, Findings& found);
 /// Joints outside the base: fills in their rules.
-void check_groups(const std::vector<JointGroup>& groups, Findings& found);
+void check_groups(const GroupNames& groups, Findings& found);
+bool has_joint(const JointGroup& group, const std::string& joint);
+/// One of them has it.
+bool has_joint(const std::vector<JointGroup>& groups, const std::string& joint);
 
 // Values that contradict each other.
 void check_limits(Findings& found);

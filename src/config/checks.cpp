@@ -35,7 +35,7 @@ void check_and_resolve(const json::Node& root, const GroupNames& groups, const s
   check_joints(found);
   number_joints(groups.others, found);
   check_base(groups, found);
-  check_groups(groups.others, found);
+  check_groups(groups, found);
   check_lines(found);
   check_use_of_links(found);
   check_limits(found);

@@ -138,6 +138,11 @@ void Engine::Impl::take(const Measurement& m) {
   }
 }
 
+void Engine::Impl::look_at(AxisSnapshot& axis, const SourceHealth& driver, Time now) {
+  axis.last_motion = std::min(axis.last_motion, now);  // a time to come must not hide a silence
+  axis.health = driver.state;
+}
+
 /// What the drives were let do; how fast they run is their owner's word.
 void Engine::Impl::command_axes(const Motion& motion, EngineOutput& out) {
   const Learned learned{estimate.yaw_slip_factor};
@@ -279,11 +284,8 @@ void Engine::step(Time now, const Environment& environment, EngineOutput& out) {
   const Duration dt =
       e.last_step == kNever ? nominal : std::clamp(now - e.last_step, Duration{0}, kLongestCycle);
   e.last_step = now;
-  for (std::size_t i = 0; i < e.axes.size(); ++i) {
-    AxisSnapshot& axis = e.axes[i];
-    axis.last_motion = std::min(axis.last_motion, now);  // a time to come must not hide a silence
-    axis.health = environment.axes[takes_twist(e.base) ? 0 : i].state;
-  }
+  for (std::size_t i = 0; i < e.axes.size(); ++i)
+    Impl::look_at(e.axes[i], environment.axes[takes_twist(e.base) ? 0 : i], now);
   LineTable lines;
   for (std::size_t i = 0; i < kLineCount; ++i) {
     // Any edge counts: what was active for an instant is active for the cycle.

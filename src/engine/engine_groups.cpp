@@ -40,11 +40,8 @@ void Engine::Impl::end_groups(const Reason& why) {
 void Engine::Impl::step_groups(Time now, Duration dt, const Environment& environment,
                                EngineOutput& out) {
   if (groups.empty()) return;
-  for (std::size_t i = axes.size(); i < snapshot.axes.size(); ++i) {
-    AxisSnapshot& axis = snapshot.axes[i];
-    axis.last_motion = std::min(axis.last_motion, now);
-    axis.health = environment.axes[i].state;
-  }
+  for (std::size_t i = axes.size(); i < snapshot.axes.size(); ++i)
+    look_at(snapshot.axes[i], environment.axes[i], now);
   const HealthReport& report = health.report();
   const Reason hindrance = !report.ready                ? Reason(kJustStarted)
                            : !report.end_groups.empty() ? report.end_groups

@@ -41,6 +41,8 @@ struct Engine::Impl {
   void count(const Measurement& m);
   /// Of the base or of a group; nullptr: there is none of that number.
   AxisSnapshot* axis_of(AxisId id);
+  /// What holds of it in this cycle, as its driver judges.
+  static void look_at(AxisSnapshot& axis, const SourceHealth& driver, Time now);
   void make_groups();
   void fill_sources(const Environment& environment);
   void propose_origin(const RequestId& id, Time now);

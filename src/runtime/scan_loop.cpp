@@ -109,10 +109,10 @@ void ScanLoop::take(const Scan& turn) {
   seen_.begin = turn.begin;
   seen_.end = turn.end;
   seen_.field = scene::sensor::look(turn, made_.scans->mount(), field_);
-  exchange_.turn.back() = {name_, made_.scans->mount(), turn};
-  exchange_.turn.publish();
-  exchange_.shown_turn.back() = {name_, made_.scans->mount(), turn};
-  exchange_.shown_turn.publish();
+  for (auto* const reader : {&exchange_.turn, &exchange_.shown_turn}) {
+    reader->back() = {name_, made_.scans->mount(), turn};
+    reader->publish();
+  }
   ++shown_.source.samples;
   shown_.time = turn.end;
   shown_.turn_Hz = turn.turn_Hz;

@@ -1,10 +1,10 @@
 // A Scout's or a Hunter's driver under any frames, requests and gaps. What must hold: at rest
 // nothing moves it, and what it sends is on its own list and not forbidden.
-#include <algorithm>
 #include <cstdlib>
 
 #include "drivers/agilex_v2/driver.h"
 #include "tests/fuzz/input.h"
+#include "tests/fuzz/on_list.h"
 
 namespace drover {
 namespace {
@@ -15,21 +15,13 @@ double part_of(std::uint8_t byte) {
   return byte == 0xFF ? kAbsent : (byte - 127) * 0.01;
 }
 
-bool on_list(const Actuator& actuator, const CanFrame& frame) {
-  const auto rules = actuator.rules();
-  return std::any_of(rules.begin(), rules.end(), [&](const FrameRule& rule) {
-    return rule.id == frame.id && !frame.extended && frame.len >= rule.min_len &&
-           frame.len <= rule.max_len;
-  });
-}
-
 void judge(const agilex_v2::AgilexV2Driver& driver, const Setpoint& setpoint, Time now,
            const DriverOut& out) {
   const bool rests = setpoint.request == AxisRequest::rest || setpoint.request == AxisRequest::idle;
   if (out.overflows != 0 || out.frames.size() > driver.messages_per_cycle()) std::abort();
   for (const CanFrame& frame : out.frames) {
     const FrameEffect effect = driver.effect(frame, now).kind;
-    if (!on_list(driver, frame) || effect == FrameEffect::forbidden) std::abort();
+    if (!fuzz::on_list(driver, frame) || effect == FrameEffect::forbidden) std::abort();
     if (rests && effect == FrameEffect::motion) std::abort();
   }
 }

@@ -1,12 +1,12 @@
 // A DAMIAO motor's driver under any frames, requests, set points and gaps. What must hold: at rest
 // nothing moves it, what it sends is on its own list and not forbidden, and it is enabled only
 // while it is asked to run.
-#include <algorithm>
 #include <array>
 #include <cstdlib>
 
 #include "drivers/damiao/driver.h"
 #include "tests/fuzz/input.h"
+#include "tests/fuzz/on_list.h"
 
 namespace drover {
 namespace {
@@ -26,20 +26,12 @@ Setpoint read_setpoint(fuzz::Input& input, std::uint8_t what) {
   return setpoint;
 }
 
-bool on_list(const Actuator& actuator, const CanFrame& frame) {
-  const auto rules = actuator.rules();
-  return std::any_of(rules.begin(), rules.end(), [&](const FrameRule& rule) {
-    return rule.id == frame.id && !frame.extended && frame.len >= rule.min_len &&
-           frame.len <= rule.max_len;
-  });
-}
-
 void judge(const damiao::DamiaoDriver& driver, const Setpoint& setpoint, Time now,
            const DriverOut& out) {
   if (out.overflows != 0 || out.frames.size() > driver.messages_per_cycle()) std::abort();
   for (const CanFrame& frame : out.frames) {
     const FrameEffect effect = driver.effect(frame, now).kind;
-    if (!on_list(driver, frame) || effect == FrameEffect::forbidden) std::abort();
+    if (!fuzz::on_list(driver, frame) || effect == FrameEffect::forbidden) std::abort();
     const bool runs = setpoint.request == AxisRequest::run || setpoint.request == AxisRequest::hold;
     const bool enables = damiao::decode_special(frame, 1) == damiao::Special::enable;
     if (!runs && (effect == FrameEffect::motion || enables)) std::abort();

@@ -37,8 +37,6 @@ std::string text_of(const std::filesystem::path& path) {
 }  // namespace
 
 Ros2Rig::Ros2Rig(User user, const std::string& more) : domain_(100 + ::getpid() % 100) {
-  std::string name = std::filesystem::temp_directory_path() / "drover-ros2-XXXXXX";
-  folder_ = ::mkdtemp(name.data());
   auto config = text_of(std::filesystem::path(DROVER_SOURCE_DIR) / "config/examples/lidar.json");
   const std::string sections = "{\n  \"ros2\": {\"domain\": " + std::to_string(domain_) + more +
                                "},\n  \"paths\": {\"run\": \"" + folder_.string() +
@@ -59,7 +57,6 @@ Ros2Rig::~Ros2Rig() {
   program_ = {};
   dds_delete(dds_);
   close_daemon();
-  std::filesystem::remove_all(folder_);
 }
 
 void Ros2Rig::start_program() {

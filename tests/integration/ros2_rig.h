@@ -17,6 +17,7 @@
 #include "integration/process.h"
 #include "publish/ros2_outlet.h"
 #include "ros2/topics.h"
+#include "support/temp_folder.h"
 
 namespace drover::test {
 
@@ -65,7 +66,8 @@ class Ros2Rig : public ::testing::Test {
   std::string last_request_;  ///< of drover-ros2, to follow
   int stops_ = 0;             ///< that it asked for
   Process program_;
-  std::filesystem::path folder_;
+  TempFolder own_folder_;
+  std::filesystem::path folder_{own_folder_.path()};
 
  private:
   void give_back();

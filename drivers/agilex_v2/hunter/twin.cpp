@@ -3,20 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "drivers/agilex_v2/chassis.h"
+
 namespace drover::agilex_v2 {
 namespace {
 
-using std::chrono::milliseconds;
-
-constexpr double kCharged_V = 26.5;
-constexpr double kLow_V = 22.0;
-constexpr Duration kBootTime = milliseconds(500);
-constexpr Duration kSilence = milliseconds(500);
-constexpr Duration kTellState = milliseconds(100);
-constexpr Duration kTellMotion = milliseconds(20);
+constexpr LowBattery kEmptied{22.0, 0x0001};
 constexpr std::uint16_t kNobodySpeaks = 0x0200;
 
-constexpr double kDragged_Nms_per_rad = 1;
 constexpr double kSteer_Nm_per_rad = 400;
 constexpr double kSteerDamping_Nms_per_rad = 20;
 constexpr double kMostSteering_Nm = 60;
@@ -51,14 +45,14 @@ HunterTwin::HunterTwin(const Options& options, const Steering& steering)
       wheel_radius_m_(options.number("wheel_radius_m")),
       max_torque_Nm_(options.number("max_torque_Nm")),
       rate_radps_(options.number("steering_rate_radps")) {
-  state_.battery_V = kCharged_V;
+  state_.battery_V = kFull_V;
   state_.brake_locked = true;  // as it was left
 }
 
 void HunterTwin::set_power(bool on, Time now) {
   if (on == powered_) return;
   powered_ = on;
-  booted_ = now + kBootTime;
+  booted_ = now + kBoot;
   state_.mode = Mode::standby;
   state_.brake_locked = true;
   last_asked_ = kNever;
@@ -66,32 +60,17 @@ void HunterTwin::set_power(bool on, Time now) {
 }
 
 bool HunterTwin::set_fault(std::string_view name, Time) {
-  const bool was_remote = state_.mode == Mode::remote;
-  if (name == "silent") {
-    silent_ = true;
-  } else if (name == "estop") {
-    state_.vehicle = Vehicle::estop;
-  } else if (name == "exception") {
-    state_.vehicle = Vehicle::exception;
-  } else if (name == "remote") {
-    state_.mode = Mode::remote;
-    fell_silent_ = false;
-  } else if (name == "low_battery") {
-    state_.battery_V = kLow_V;
-    state_.error = 0x0001;
-  } else if (name == "steering_stuck") {
+  if (name == "steering_stuck") {
     steering_stuck_ = true;
-  } else if (name == "brake_stuck") {
-    brake_stuck_ = true;
-  } else if (name.empty()) {
-    silent_ = steering_stuck_ = brake_stuck_ = false;
-    state_ = {.mode = was_remote ? Mode::standby : state_.mode,
-              .battery_V = kCharged_V,
-              .brake_locked = state_.brake_locked};
-  } else {
-    return false;
+    return true;
   }
-  return true;
+  if (name == "brake_stuck") {
+    brake_stuck_ = true;
+    return true;
+  }
+  if (name == "remote") fell_silent_ = false;
+  if (name.empty()) steering_stuck_ = brake_stuck_ = false;
+  return set_chassis_fault(name, kEmptied, state_, silent_);
 }
 
 void HunterTwin::on_frame(const CanFrame& frame, Time now, TwinFrames&) {
@@ -117,7 +96,7 @@ void HunterTwin::on_frame(const CanFrame& frame, Time now, TwinFrames&) {
 }
 
 void HunterTwin::watch_silence(Time now) {
-  if (state_.mode != Mode::can || last_asked_ == kNever || now - last_asked_ <= kSilence) return;
+  if (state_.mode != Mode::can || last_asked_ == kNever || now - last_asked_ <= kProtection) return;
   state_.mode = Mode::standby;
   state_.error |= kNobodySpeaks;
   fell_silent_ = true;
@@ -131,10 +110,10 @@ void HunterTwin::on_tick(Time now, std::span<Shaft> shafts, TwinFrames& out) {
   if (on) watch_silence(now);
   if (on && (state_.mode != Mode::standby || fell_silent_ || locked())) {
     const bool obeys = state_.mode == Mode::can && state_.vehicle == Vehicle::well && !locked();
-    const bool fed = now - last_asked_ <= kSilence;
+    const bool fed = now - last_asked_ <= kProtection;
     drive(shafts, obeys && fed ? asked_.speed_mps : 0, dt_s);
   } else {
-    let_go(shafts.first(2));
+    let_go(servos_, kServo, shafts.first(2));
   }
   if (on) {
     steer(shafts, dt_s);
@@ -176,14 +155,6 @@ void HunterTwin::steer(std::span<Shaft> shafts, double dt_s) {
   }
 }
 
-void HunterTwin::let_go(std::span<Shaft> shafts) {
-  servos_.fill(kServo);
-  for (Shaft& shaft : shafts) {
-    shaft.torque_Nm = -kDragged_Nms_per_rad * shaft.velocity_radps;
-    shaft.energized = false;
-  }
-}
-
 /// The curve that both front wheels make together.
 double HunterTwin::steered_radpm(std::span<const Shaft> shafts) const {
   double sum_radpm = 0;
@@ -198,14 +169,14 @@ double HunterTwin::steered_radpm(std::span<const Shaft> shafts) const {
 
 void HunterTwin::tell(std::span<const Shaft> shafts, Time now, TwinFrames& out) {
   if (now >= next_motion_) {
-    next_motion_ = now + kTellMotion;
+    next_motion_ = now + kMotionPeriod;
     const double speed_mps =
         (shafts[0].velocity_radps + shafts[1].velocity_radps) / 2 * wheel_radius_m_;
     (void)out.push_back(
         steered_motion_frame({speed_mps, steering_.inner_rad(steered_radpm(shafts))}));
   }
   if (now >= next_state_) {
-    next_state_ = now + kTellState;
+    next_state_ = now + kStatePeriod;
     SystemState told = state_;
     told.brake_locked = locked();
     (void)out.push_back(system_state_frame(told, count_++, Model::hunter));

@@ -33,7 +33,6 @@ class HunterTwin final : public CanTwin {
   void watch_silence(Time now);
   void drive(std::span<Shaft> shafts, double speed_mps, double dt_s);
   void steer(std::span<Shaft> shafts, double dt_s);
-  void let_go(std::span<Shaft> shafts);
   double steered_radpm(std::span<const Shaft> shafts) const;
   void tell(std::span<const Shaft> shafts, Time now, TwinFrames& out);
 

@@ -4,16 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/gate/approach.h"
+
 namespace drover::engine {
 namespace {
 
 /// How far a base may be turned beside its curve while its wheels are still on their way there.
 constexpr double kAstray_rad = 0.05;
-
-/// Towards `target` by at most `step`.
-double approach(double value, double target, double step) {
-  return std::abs(target - value) <= step ? target : value + std::copysign(step, target - value);
-}
 
 }  // namespace
 

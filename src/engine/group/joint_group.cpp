@@ -34,7 +34,7 @@ JointGroup::JointGroup(const GroupConfig& config, Duration start_timeout)
   for (const JointRules& rules : config.joints) joints_.emplace_back(rules);
 }
 
-bool JointGroup::take(const JointTargets& targets, Time now) {
+void JointGroup::take(const JointTargets& targets, Time now) {
   bool mine = false;
   for (const JointTarget& target : targets.joints) {
     for (JointServo& joint : joints_) {
@@ -44,7 +44,6 @@ bool JointGroup::take(const JointTargets& targets, Time now) {
     }
   }
   waiting_ += mine ? 1 : 0;
-  return mine;
 }
 
 void JointGroup::end(const Reason& why) {
@@ -112,20 +111,18 @@ void JointGroup::count(bool limited) {
 }
 
 void JointGroup::tell(const Input& input, const Reason& lost, bool limited, EventQueue& events) {
-  const Time now = input.now;
-  const auto say = [&](Notice::Level level, const char* what, const Reason& why) {
+  const auto warn = [&](const char* what, std::string_view why) {
     Reason text;
     text.format("%.*s: %s%.*s", width(told_.name), told_.name.view().data(), what, width(why),
-                why.view().data());
-    events.notice(now, level, text);
+                why.data());
+    events.notice(input.now, Notice::Level::warning, text);
   };
-  if (!lost.empty()) say(Notice::Level::warning, "joint commands ended: ", lost);
-  if (!limited || (limited_told_ != kNever && now - limited_told_ < kBetweenLimits)) return;
-  limited_told_ = now;
+  if (!lost.empty()) warn("joint commands ended: ", lost);
+  if (!limited || (limited_told_ != kNever && input.now - limited_told_ < kBetweenLimits)) return;
+  limited_told_ = input.now;
   const auto first = std::find_if(joints_.begin(), joints_.end(),
                                   [](const JointServo& joint) { return joint.limited(); });
-  say(Notice::Level::warning, "more was asked than the limits allow of ",
-      Reason(input.axes[first->rules().axis].joint.view()));
+  warn("more was asked than the limits allow of ", input.axes[first->rules().axis].joint);
 }
 
 }  // namespace drover::engine

@@ -16,8 +16,8 @@ class JointGroup final {
  public:
   JointGroup(const GroupConfig& config, Duration start_timeout);
 
-  /// The joints of the message that are its own; others are somebody else's. False: none is.
-  bool take(const JointTargets& targets, Time now);
+  /// The joints of the message that are its own; others are somebody else's.
+  void take(const JointTargets& targets, Time now);
   /// A person's word, or a stop: what it follows ends.
   void end(const Reason& why);
 

@@ -9,7 +9,6 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr const char* kCeased = "its commands have ceased";
 constexpr Duration kSteadyFor = 300ms;
 /// Whoever was stopped has to be silent for so long before he begins again.
 constexpr Duration kPause = 1s;
@@ -62,37 +61,32 @@ void JointServo::fail(const Input& input, const char* otherwise) {
 /// Whether what is sent is followed in this cycle, and why not.
 void JointServo::judge_stream(const Input& input) {
   if (!input.hindrance.empty()) end(input.hindrance);
-  if (!sent(input.now)) {
-    if (follows_) {
-      reason_ = kCeased;
-      by_itself_ = true;
-    }
-    if (heard_ != kNever && input.now - heard_ >= kPause) {
-      waits_ = false;
-      gap_ = {};
-      reason_.clear();
-    }
-    follows_ = false;
-    arming_since_ = kNever;
-    return;
-  }
+  if (!sent(input.now)) return cease(input.now);
+  follows_ = input.hindrance.empty() && !waits_ && steady(input.now);
   if (!input.hindrance.empty()) {
     reason_ = input.hindrance;
     by_itself_ = false;
-  } else if (waits_) {
-    // What stopped it is told on.
-  } else if (steady(input.now)) {
-    reason_.clear();
-    follows_ = true;
-    return;
-  } else if (gap_ > Duration{}) {
+  } else if (!follows_ && !waits_ && gap_ > Duration{}) {
     by_itself_ = true;
     reason_.format("its commands come %.0f ms apart, %.0f ms are allowed", 1e3 * to_s(gap_),
                    1e3 * rules_.timeout_s);
-  } else {
-    reason_.clear();  // it begins
+  } else if (!waits_) {
+    reason_.clear();  // of what waits it is told on what stopped it
+  }
+}
+
+void JointServo::cease(Time now) {
+  if (follows_) {
+    reason_ = "its commands have ceased";
+    by_itself_ = true;
+  }
+  if (heard_ != kNever && now - heard_ >= kPause) {
+    waits_ = false;
+    gap_ = {};
+    reason_.clear();
   }
   follows_ = false;
+  arming_since_ = kNever;
 }
 
 void JointServo::rest_as_ruled(const JointMeasured& measured, double dt_s) {
@@ -158,9 +152,6 @@ void JointServo::step(const Input& input) {
   judge_stream(input);
   if (!input.heard) {
     // Blind, it is told to damp, should it still hear: its last word would stand otherwise.
-    if (follows_)
-      end(input.axis.source.reason.empty() ? Reason("its drive is silent")
-                                           : input.axis.source.reason);
     engaged_ = false;
     state_ = GroupState::idle;
   } else if (input.axis.state == AxisState::running) {

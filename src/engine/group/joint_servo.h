@@ -17,7 +17,7 @@ class JointServo final {
     Time now = kNever;
     Duration dt{};
     const AxisSnapshot& axis;
-    bool heard = false;  ///< its drive is, and tells where it is
+    bool heard = false;  ///< its drive is, and tells where it is; else something hinders
     /// Why nobody's commands are followed now; empty: they are.
     const Reason& hindrance;
     Duration start_timeout{};  ///< its drive is armed by then
@@ -55,6 +55,7 @@ class JointServo final {
   bool sent(Time now) const;
   bool steady(Time now) const;
   void judge_stream(const Input& input);
+  void cease(Time now);
   void run(const Input& input);
   void rest_as_ruled(const JointMeasured& measured, double dt_s);
   void arm(const Input& input);

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/gate/approach.h"
+
 namespace drover::engine {
 namespace {
 
@@ -12,11 +14,6 @@ constexpr double kSame_rad = 1e-6;
 constexpr double kBrakesWith = 0.8;
 constexpr double kMoves_radps = 0.05;
 constexpr double kRisen = 0.9;  // of the stiffness
-
-/// Nearer to `wanted` by `step` at the most.
-double approached(double now, double wanted, double step) {
-  return now + std::clamp(wanted - now, -step, step);
-}
 
 }  // namespace
 
@@ -41,14 +38,13 @@ void JointShaper::approach_gains(double stiffness, double damping, double effort
   const double share = rules_.rise_s > 0 ? std::min(dt_s / rules_.rise_s, 1.0) : 1.0;
   const double stiffest = std::max({stiffness, stiffness_, rules_.stiffness_Nmprad});
   const double most_damped = std::max({damping, damping_, rules_.damping_Nmsprad});
-  stiffness_ = approached(stiffness_, stiffness, share * stiffest);
-  damping_ = approached(damping_, damping, share * most_damped);
-  effort_Nm_ = approached(effort_Nm_, effort, share * rules_.max_effort_Nm);
+  stiffness_ = approach(stiffness_, stiffness, share * stiffest);
+  damping_ = approach(damping_, damping, share * most_damped);
+  effort_Nm_ = approach(effort_Nm_, effort, share * rules_.max_effort_Nm);
 }
 
 void JointShaper::approach_velocity(double wanted_radps, double dt_s) {
-  velocity_radps_ =
-      approached(velocity_radps_, wanted_radps, rules_.max_acceleration_radps2 * dt_s);
+  velocity_radps_ = approach(velocity_radps_, wanted_radps, rules_.max_acceleration_radps2 * dt_s);
   position_rad_ += velocity_radps_ * dt_s;
 }
 

@@ -77,15 +77,13 @@ void visit_fields(V& v, const engine::EngineOutput& output, std::span<const Axis
   const std::size_t axis_count = joints.size();
   (void)events;
   for (std::size_t i = 0; i < axis_count; ++i) {
-    v.inside("commands", i, [&v, &part = axes[i]] {
+    const bool beside_base = joints[i].group != 0;
+    v.inside("commands", i, [&v, &part = axes[i], beside_base, may_move = joint_may_move[i]] {
       const auto& [request, velocity_radps, impedance] = part;
       v.value("request", request);
       v.value("velocity_radps", velocity_radps);
-      (void)impedance;
-    });
-    if (joints[i].group == 0) continue;
-    v.inside("commands", i, [&v, &part = axes[i].impedance, may_move = joint_may_move[i]] {
-      const auto& [position_rad, effort_Nm, stiffness_Nmprad, damping_Nmsprad] = part;
+      if (!beside_base) return;
+      const auto& [position_rad, effort_Nm, stiffness_Nmprad, damping_Nmsprad] = impedance;
       v.value("position_rad", position_rad);
       v.value("effort_Nm", effort_Nm);
       v.value("stiffness_Nmprad", stiffness_Nmprad);

@@ -9,16 +9,6 @@ namespace drover::publish::aimrt {
 
 namespace {
 
-/// A beat of the timer before a tenth of a second is over.
-constexpr Duration kTouchPeriod = std::chrono::milliseconds(90);
-
-bool has_touch_lines(const Snapshot& snapshot) {
-  return std::any_of(snapshot.line_configured.begin(), snapshot.line_configured.end(),
-                     [i = std::size_t{0}](bool configured) mutable {
-                       return static_cast<Line>(i++) != Line::estop && configured;
-                     });
-}
-
 /// The message of a packet, whichever way it is written.
 Result<JointCommandMessage, Reason> decoded(const Packet& packet, Names names, Content content) {
   if (content == Content::json) return decode_joint_command_json(packet.message);
@@ -93,9 +83,7 @@ std::vector<Telemetry> Channel::telemetry(const Snapshot& snapshot, Duration wal
     const auto packet = encode_packet(message, topics.content);
     for (const auto& topic : topics.names) packets.push_back({&topic, packet});
   };
-  // While a drive is late the cycle's own time: no stamp comes twice. None without a new cycle.
-  const Time heard = joint_time(snapshot);
-  if (const Time at = heard > last_joints_ ? heard : snapshot.time; at > last_joints_) {
+  if (const Time at = next_joint_time(snapshot, last_joints_); at != kNever) {
     last_joints_ = at;
     add(joint_state_,
         joint_state(snapshot, at, {wall_minus_monotonic, ++joint_sequence_}, joint_state_.content));
@@ -107,19 +95,10 @@ std::vector<Telemetry> Channel::telemetry(const Snapshot& snapshot, Duration wal
     add(imu_state_, imu_state(snapshot, {wall_minus_monotonic, ++imu_sequence_}, imu_state_.content,
                               orientation_));
   }
-  if (touch_is_due(snapshot))
+  if (touch_.due(snapshot))
     add(touch_state_,
         touch_state(snapshot, {wall_minus_monotonic, ++touch_sequence_}, touch_state_.content));
   return packets;
-}
-
-bool Channel::touch_is_due(const Snapshot& snapshot) {
-  if (!has_touch_lines(snapshot)) return false;
-  const auto lines = touched(snapshot);
-  if (lines == touched_ && snapshot.time - last_touch_ < kTouchPeriod) return false;
-  touched_ = lines;
-  last_touch_ = snapshot.time;
-  return true;
 }
 
 Result<JointTargets, Reason> Channel::judged(Names names, std::string_view payload,

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "publish/aimrt/joint_command.h"
+#include "publish/aimrt/messages.h"
 #include "publish/aimrt/packet.h"
 #include "publish/aimrt/topic.h"
 #include "publish/aimrt/writers.h"
@@ -74,7 +75,6 @@ class Channel final {
     Content content;
   };
   static Topics topics(const std::string& topic, Role role, const Wording& wording);
-  bool touch_is_due(const Snapshot& snapshot);
   Result<JointTargets, Reason> judged(Names names, std::string_view payload, const Arrival& arrival,
                                       Time now, Duration wall);
   Result<JointTargets, Reason> judged(const JointCommandMessage& message, const Writer& writer,
@@ -92,8 +92,7 @@ class Channel final {
   Time last_joints_ = kNever;
   Time last_imu_ = kNever;
   Quaternion orientation_;  ///< as the last message told it
-  Time last_touch_ = kNever;
-  std::array<bool, kLineCount> touched_{};
+  TouchPace touch_;
   std::uint64_t commands_ = 0;
   std::uint64_t unread_ = 0;
   /// Whose commands the joints of a group follow; the base is the first.

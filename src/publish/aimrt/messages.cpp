@@ -85,6 +85,16 @@ void fill_covariance(Values& into, double sigma) {
   for (int i = 0; i < 9; ++i) into.Add(i % 4 == 0 ? variance : 0);
 }
 
+/// A beat of the timer before a tenth of a second is over.
+constexpr Duration kTouchPeriod = std::chrono::milliseconds(90);
+
+bool has_touch_lines(const Snapshot& snapshot) {
+  return std::any_of(snapshot.line_configured.begin(), snapshot.line_configured.end(),
+                     [i = std::size_t{0}](bool configured) mutable {
+                       return static_cast<Line>(i++) != Line::estop && configured;
+                     });
+}
+
 }  // namespace
 
 Time joint_time(const Snapshot& snapshot) {
@@ -92,6 +102,12 @@ Time joint_time(const Snapshot& snapshot) {
   for (const auto& axis : snapshot.axes)
     if (is_heard(axis)) oldest = std::min(oldest, axis.last_motion);
   return oldest;
+}
+
+Time next_joint_time(const Snapshot& snapshot, Time last) {
+  const Time heard = joint_time(snapshot);
+  const Time at = heard > last ? heard : snapshot.time;
+  return at > last ? at : kNever;
 }
 
 std::string joint_state(const Snapshot& snapshot, Time at, const Stamping& stamping,
@@ -163,6 +179,16 @@ std::array<bool, kLineCount> touched(const Snapshot& snapshot) {
     lines[i] = static_cast<Line>(i) != Line::estop &&
                (snapshot.line_active[i] || snapshot.line_health[i] != SourceState::fresh);
   return lines;
+}
+
+bool TouchPace::due(const Snapshot& snapshot) {
+  if (!has_touch_lines(snapshot)) return false;
+  const auto lines = touched(snapshot);
+  const bool rests = last_ != kNever && snapshot.time - last_ < kTouchPeriod;
+  if (lines == touched_ && rests) return false;
+  touched_ = lines;
+  last_ = snapshot.time;
+  return true;
 }
 
 std::string touch_state(const Snapshot& snapshot, const Stamping& stamping, Content content) {

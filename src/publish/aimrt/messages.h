@@ -22,6 +22,10 @@ struct Stamping {
 /// heard.
 Time joint_time(const Snapshot& snapshot);
 
+/// What the joints are stamped with, newer than `last`: joint_time(), and while a drive is late the
+/// cycle's own time, so that no stamp comes twice. kNever: nothing newer is known.
+Time next_joint_time(const Snapshot& snapshot, Time last);
+
 /// Every driven axis: rad, rad/s, N*m; NaN where the drive does not tell or is not heard. `at` is
 /// what it is stamped with: joint_time(), or a later instant at which nothing newer was known.
 std::string joint_state(const Snapshot& snapshot, Time at, const Stamping& stamping,
@@ -46,6 +50,17 @@ std::string imu_state(const Snapshot& snapshot, const Stamping& stamping,
 
 /// What the robot takes for touched, by Line: a line that cannot be read is.
 std::array<bool, kLineCount> touched(const Snapshot& snapshot);
+
+/// Contacts and zones at each change, and ten times a second.
+class TouchPace final {
+ public:
+  /// False, too, where none is configured. True counts as told.
+  bool due(const Snapshot& snapshot);
+
+ private:
+  Time last_ = kNever;
+  std::array<bool, kLineCount> touched_{};
+};
 
 /// The configured contacts and zones: "bumper", "zone_far", "zone_near", one pressure each: 1
 /// touched() or occupied, 0 free.

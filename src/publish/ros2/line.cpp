@@ -15,8 +15,7 @@ namespace {
 using json::JsonText;
 using namespace std::chrono_literals;
 
-/// A beat of the timer before a tenth of a second, and a second, are over.
-constexpr Duration kTouchPeriod = 90ms;
+/// A beat of the timer before a second is over.
 constexpr Duration kSlowPeriod = 990ms;
 
 class Line final {
@@ -49,10 +48,8 @@ bool is_fresh(const AxisSnapshot& axis) {
 }
 
 void joints(Line& line, const Snapshot& s, Told& told) {
-  const Time heard = aimrt::joint_time(s);
-  // While a drive is late the cycle's own time: no stamp comes twice.
-  const Time at = heard > told.joints ? heard : s.time;
-  if (s.axes.empty() || at <= told.joints) return;
+  const Time at = aimrt::next_joint_time(s, told.joints);
+  if (s.axes.empty() || at == kNever) return;
   told.joints = at;
   line.out().key("joints").open('{');
   line.stamp("at_ns", at);
@@ -174,22 +171,16 @@ void battery(Line& line, const Snapshot& s, Told& told) {
 void touch(Line& line, const Snapshot& s, Told& told) {
   constexpr std::array kLines{drover::Line::bumper, drover::Line::zone_far,
                               drover::Line::zone_near};
-  const auto configured = [&s](drover::Line one) {
-    return s.line_configured[static_cast<std::size_t>(one)];
-  };
-  if (std::none_of(kLines.begin(), kLines.end(), configured)) return;
+  if (!told.touch.due(s)) return;
   const auto touched = aimrt::touched(s);
-  const bool due = told.touch == kNever || s.time - told.touch >= kTouchPeriod;
-  if (touched == told.touched && !due) return;
-  told.touched = touched;
-  told.touch = s.time;
   line.out().key("touch").open('{');
   line.stamp("at_ns", s.time);
   line.out().key("each").open('[');
   for (const auto one : kLines) {
-    if (!configured(one)) continue;
+    const auto i = static_cast<std::size_t>(one);
+    if (!s.line_configured[i]) continue;
     line.out().open('{').key("name").text(word(one));
-    line.out().key("touched").boolean(touched[static_cast<std::size_t>(one)]).close('}');
+    line.out().key("touched").boolean(touched[i]).close('}');
   }
   line.out().close(']').close('}');
 }

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "drover/snapshot.h"
+#include "publish/aimrt/messages.h"
 #include "scene/sensor/near_things.h"
 
 namespace drover::publish::ros2 {
@@ -17,10 +18,9 @@ struct Told {
   Time fix = kNever;
   Time battery = kNever;
   Time odometry = kNever;
-  Time touch = kNever;
   Time battery_at = kNever;      ///< when it was told, also that it is silent
   Time diagnostics_at = kNever;  ///< likewise
-  std::array<bool, kLineCount> touched{};
+  aimrt::TouchPace touch;
   std::array<Time, kMaxOfKind> turns{};  ///< by scanner, the end of the last one
   Quaternion orientation;                ///< of the last sample
 };
