@@ -3,6 +3,7 @@
 #pragma once
 
 #include "engine/config.h"
+#include "engine/estimate/course.h"
 #include "engine/estimate/gyro_track.h"
 
 namespace drover::engine::estimate {
