@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "drover/angle.h"
+#include "engine/estimate/antenna_tilt.h"
 
 namespace drover::engine::estimate {
 namespace {
@@ -17,9 +18,8 @@ constexpr double kNoticed_m = 0.01;    // positions so far from the last ones ar
 void learn_fit(State& state, const AntennaPosition& raw, AntennaPoint point, double speed_mps,
                const EstimateConfig& config) {
   const bool told = state.heading.last != kNever && state.heading.jumps.running() == false;
-  const GyroTrack& gyro = state.gyro;
-  const bool tilts = gyro.fresh(state.time, from_s(config.imu_stale_s));
-  const bool level = !tilts || std::hypot(gyro.roll_rad, gyro.pitch_rad) < kLevel_rad;
+  const TiltGuess tilt = guess_tilt(state.gyro);
+  const bool level = std::hypot(tilt.roll_rad, tilt.pitch_rad) < kLevel_rad;
   const bool sure = told && level && !state.watch.slipping() && !state.watch.looks() &&
                     !state.watch.drifted && !state.shove.holds();
   if (!sure) return state.fit.pause();

@@ -50,6 +50,15 @@ void Dispute::begin(const Offset& offset, Time since, bool found_again, Time now
   jump_ = late_ = last_ = offset;
 }
 
+void Dispute::came_from(const Offset& last) {
+  from_ = last;
+  jump_ = minus(last_, from_);
+}
+
+double Dispute::apart_m() const {
+  return std::max(last_.m(), minus(from_, put_right_).m());
+}
+
 void Dispute::lose_fix() {
   lost_ = found_again_ = holds();
   held_since_ = kNever;
@@ -111,14 +120,16 @@ void Dispute::hold(const Offset& offset, double noise_m, bool settled, Time now)
   held_.north_m += (offset.north_m - held_.north_m) / held_count_;
 }
 
-/// At first, what is near again was an outlier, or a mast that swayed.
+/// At first, what is near again was an outlier, or a mast that swayed; and where it came from was
+/// one when it is nearer than that.
 bool Dispute::came_back(const Offset& offset, double two_sigma_m, Time now) const {
-  const double near_m = kNear * jump_.m();
   const Offset step = minus(offset, late_);
-  const bool stepped =
-      !lost_ && std::hypot(step.east_m + jump_.east_m, step.north_m + jump_.north_m) < near_m;
-  const bool known = two_sigma_m < kWellKnown * jump_.m() || now - since_ < kOutlier;
-  return stepped || (known && offset.m() < near_m);
+  const bool stepped = !lost_ && plus(step, jump_).m() < kNear * jump_.m();
+  const double beside_m = plus(jump_, from_).m();
+  const bool known = two_sigma_m < kWellKnown * beside_m && offset.m() < kNear * beside_m;
+  const bool outlier =
+      now - since_ < kOutlier && offset.m() < kNear * std::max(beside_m, from_.m());
+  return stepped || known || outlier;
 }
 
 void Dispute::follow(const Offset& offset, Time now) {
@@ -128,8 +139,8 @@ void Dispute::follow(const Offset& offset, Time now) {
   late_.north_m += share * step.north_m;
   if (now - since_ > kOutlier || step.m() > kAway * jump_.m()) return;
   ++first_;
-  jump_.east_m += (offset.east_m - jump_.east_m) / (first_ + 1);
-  jump_.north_m += (offset.north_m - jump_.north_m) / (first_ + 1);
+  jump_.east_m += (offset.east_m - from_.east_m - jump_.east_m) / (first_ + 1);
+  jump_.north_m += (offset.north_m - from_.north_m - jump_.north_m) / (first_ + 1);
 }
 
 /// With wheels and gyro, since it was found; and where it was, since the last position.

@@ -29,10 +29,14 @@ class Dispute final {
   /// Positions are refused, or jumped, since then, and heard until now. `found_again`: the fix was
   /// lost just before, and slip explains where it is: this is another one already.
   void begin(const Offset& offset, Time since, bool found_again, Time now);
+  /// It stepped there from where the last position was, which was believed, not from where dead
+  /// reckoning is.
+  void came_from(const Offset& last);
   bool holds() const { return since_ != kNever; }
   Time since() const { return since_; }
-  /// Between both places, by the last position, m.
-  double apart_m() const { return last_.m(); }
+  /// Between the places, by the last position, m: of those where positions were and are the one
+  /// that is farther from dead reckoning.
+  double apart_m() const;
   /// A position of another quality, or none for a while: the next fix may be another one.
   void lose_fix();
 
@@ -71,7 +75,8 @@ class Dispute final {
 
   Time since_ = kNever;
   Time heard_ = kNever;
-  Offset jump_;  ///< how it began: the mean of the first ones
+  Offset jump_;  ///< how it began: the mean of the first ones, from where the last one was
+  Offset from_;
   int first_ = 0;
   Offset late_;  ///< of late, smoothed; what jumps away from that hardly moves it
   Offset last_;

@@ -5,6 +5,7 @@
 
 #include "drover/angle.h"
 #include "engine/estimate/antenna_learning.h"
+#include "engine/estimate/antenna_tilt.h"
 #include "engine/estimate/model_gnss.h"
 #include "engine/estimate/model_heading.h"
 
@@ -185,9 +186,9 @@ Apart Estimator::apart(const GnssPosition& position, std::uint8_t receiver, Time
       frame_.local({.latitude_deg = position.latitude_deg,
                     .longitude_deg = position.longitude_deg,
                     .altitude_m = position.altitude_msl_m + position.undulation_m});
-  const bool tilted = std::isfinite(estimate_.roll_rad);
-  const LeverArm arm = lever_arm(tilted ? estimate_.roll_rad : 0, tilted ? estimate_.pitch_rad : 0,
-                                 antenna_of(config_, receiver));
+  const TiltedArm tilted =
+      tilted_arm(history_.before(history_.dirty()).gyro, antenna_of(config_, receiver), config_);
+  const LeverArm& arm = tilted.arm;
   const double age_s = to_s(pose.time - time);
   const double yaw_rad = pose.yaw_rad - pose.wz_radps * age_s;
   const double ahead_m = arm.ahead_m - pose.vx_mps * age_s;
@@ -199,7 +200,7 @@ Apart Estimator::apart(const GnssPosition& position, std::uint8_t receiver, Time
   const double own_m = std::max(sigma_m(quality, position.sigma_east_m, config_),
                                 sigma_m(quality, position.sigma_north_m, config_));
   apart.permitted_m =
-      config_.gate_sigma * std::hypot(own_m, pose.position_sigma_m,
+      config_.gate_sigma * std::hypot(std::hypot(own_m, tilted.guessed_m), pose.position_sigma_m,
                                       std::hypot(arm.ahead_m, arm.left_m) * pose.yaw_sigma_rad) +
       std::abs(pose.vx_mps) * kInstant_s;
   return apart;
@@ -248,6 +249,8 @@ void Estimator::advance(State& state, Time to) const {
                   next_stale(state.gyro, state.time, imu_stale_)});
     const double dt_s = to_s(until - state.time);
     reckon(state, body, gyro, dt_s);
+    if (!state.gyro.fresh(state.time, imu_stale_) && state.standing_since == kNever)
+      state.gyro.tilt_unseen_s += dt_s;
     state.time = until;
     follow_turn(state.gyro, state.belief, body, state.time, dt_s, config_, turn_errors(base_));
     if (state.belief.covariance[kYaw][kYaw] > kLostYaw_rad * kLostYaw_rad) {
@@ -338,8 +341,12 @@ void Estimator::take_rates(State& state, const MotionInput& input) const {
     state.belief.floor_variance(kGyroBias, kGyroReturn_radps * kGyroReturn_radps);
   }
   gyro.rate_radps = input.turn->radps;
-  gyro.roll_rad = input.turn->roll_rad;
-  gyro.pitch_rad = input.turn->pitch_rad;
+  if (!input.turn->saturated) {  // then it kept the tilt that it had
+    gyro.roll_rad = input.turn->roll_rad;
+    gyro.pitch_rad = input.turn->pitch_rad;
+    gyro.tilt_known = true;
+    gyro.tilt_unseen_s = 0;
+  }
   gyro.left_mps2 = input.turn->left_mps2;
   gyro.rocks = input.turn->rocks;
   gyro.at = input.turn->saturated ? kNever : state.time;

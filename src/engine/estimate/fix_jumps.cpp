@@ -39,17 +39,35 @@ double shoved_m(const State& state) {
   return of_late ? kShoveGate * std::sqrt(shove.variance_m2) : 0.0;
 }
 
+/// Of a step, in the map, what is left when the antenna of the last position was somewhere between
+/// where a guessed tilt had it and where it is now.
+Dispute::Offset untilted(const State& state, const Dispute::Offset& step, const LeverArm& arm) {
+  const GnssTrack& gnss = state.gnss;
+  if (!gnss.arm_guessed) return step;
+  const double yaw_rad = state.belief.mean[kYaw];
+  const double ahead_m = gnss.arm.ahead_m - arm.ahead_m;
+  const double left_m = gnss.arm.left_m - arm.left_m;
+  const Dispute::Offset by{ahead_m * std::cos(yaw_rad) - left_m * std::sin(yaw_rad),
+                           ahead_m * std::sin(yaw_rad) + left_m * std::cos(yaw_rad)};
+  const double by2 = square(by.m());
+  if (!(by2 > 0)) return step;
+  const double share =
+      std::clamp((step.east_m * by.east_m + step.north_m * by.north_m) / by2, 0.0, 1.0);
+  return {step.east_m - share * by.east_m, step.north_m - share * by.north_m};
+}
+
 /// Whether a position jumped aside of the last one, or along the way by more than wheels slip. One
 /// that did may be inside of the gate.
-bool steps(const State& state, double dx_m, double dy_m, double variance_m2, double speed_mps) {
+bool steps(const State& state, const FixBeside& fix, double variance_m2) {
   const GnssTrack& gnss = state.gnss;
   if (state.standing_since != kNever || gnss.believed == kNever) return false;
   if (state.way_unknown || state.shove.holds()) return false;
   const Duration since = state.time - gnss.believed;
   if (since > kStepWithin) return false;
   const double yaw_rad = state.belief.mean[kYaw];
-  const Dispute::Offset step{dx_m - gnss.beside_x_m, dy_m - gnss.beside_y_m};
-  const double way_m = std::abs(speed_mps) * to_s(since);
+  const Dispute::Offset step = untilted(
+      state, {fix.offset.east_m - gnss.beside_x_m, fix.offset.north_m - gnss.beside_y_m}, fix.arm);
+  const double way_m = std::abs(fix.speed_mps) * to_s(since);
   const double least_m = std::max(kStepGate * std::sqrt(2 * variance_m2), kSameFix_m) +
                          kReckoned * std::max(way_m - kReckonedWell_m, 0.0);
   const double slip_m = kStepSlip * std::min(way_m, kStepSlipWay_m);
@@ -120,9 +138,7 @@ FixVerdict judge_jump(State& state, const FixBeside& fix, const EstimateConfig& 
   const bool again = found_again(state);
   const double white_m = config.gnss_white_share * fix.sigma_m;
   const double variance_m2 = square(white_m) + kSways * fix.sways_m2;
-  const bool jumped =
-      again ? is_elsewhere(state, fix.near)
-            : steps(state, fix.offset.east_m, fix.offset.north_m, variance_m2, fix.speed_mps);
+  const bool jumped = again ? is_elsewhere(state, fix.near) : steps(state, fix, variance_m2);
   // Found again about there it is believed, but may be another integer solution all the same. Where
   // nobody knows the way there is no other place to compare it with.
   if (again && !jumped && !state.way_unknown) {
@@ -134,6 +150,7 @@ FixVerdict judge_jump(State& state, const FixBeside& fix, const EstimateConfig& 
   if (!jumped) return FixVerdict::plain;
   gnss.dispute.begin(fix.offset, state.time, slipped_meanwhile(state, fix.offset, config),
                      state.time);
+  if (!again) gnss.dispute.came_from({gnss.beside_x_m, gnss.beside_y_m});
   state.fit.pause();
   return FixVerdict::doubted;
 }

@@ -14,6 +14,7 @@ struct FixBeside {
   double sigma_m = 0;   ///< of the position
   double sways_m2 = 0;  ///< variance by tilt and timing
   double speed_mps = 0;
+  LeverArm arm;  ///< of the antenna, as it is tilted
 };
 
 enum class FixVerdict : std::uint8_t {

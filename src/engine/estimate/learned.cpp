@@ -13,32 +13,32 @@ using namespace estimate;
 namespace {
 
 /// How a value is handed over from one program to the next.
-struct HandOver {
+struct KeptRule {
   double between;  ///< one sigma of how much it changes meanwhile: screws, air in the tyres, ground
   double known;    ///< with a sigma up to this it is handed over, and has one up to this then
   double least;    ///< what is outside is no such value
   double most;
 };
 
-const HandOver kMountingKept{to_rad(0.1), to_rad(0.2), -to_rad(5), to_rad(5)};
-constexpr HandOver kLateKept{0.01, 0.04, -0.4, 0.4};
-constexpr HandOver kArmKept{0.005, 0.03, -1, 1};
-constexpr HandOver kScaleKept{0.01, 0.01, 0.8, 1.2};
-constexpr HandOver kGainKept{0.05, 0.05, 0.2, 2};
-constexpr HandOver kGyroScaleKept{0.001, 0.003, 0.97, 1.03};
+const KeptRule kMountingKept{to_rad(0.1), to_rad(0.2), -to_rad(5), to_rad(5)};
+constexpr KeptRule kLateKept{0.01, 0.04, -0.4, 0.4};
+constexpr KeptRule kArmKept{0.005, 0.03, -1, 1};
+constexpr KeptRule kScaleKept{0.01, 0.01, 0.8, 1.2};
+constexpr KeptRule kGainKept{0.05, 0.05, 0.2, 2};
+constexpr KeptRule kGyroScaleKept{0.001, 0.003, 0.97, 1.03};
 
-LearnedValue kept(const HandOver& rule, double value, double sigma) {
+LearnedValue kept(const KeptRule& rule, double value, double sigma) {
   const bool fits = sigma <= rule.known && value >= rule.least && value <= rule.most;
   return fits ? LearnedValue{value, sigma} : LearnedValue{};
 }
 
 /// With the sigma that it has by now; absent when it is none that `kept` gives.
-LearnedValue recalled(const HandOver& rule, const LearnedValue& value) {
+LearnedValue recalled(const KeptRule& rule, const LearnedValue& value) {
   if (!(value.sigma > 0) || !kept(rule, value.value, value.sigma).known()) return {};
   return {value.value, std::min(std::hypot(value.sigma, rule.between), rule.known)};
 }
 
-void recall_scale(Belief& belief, std::size_t i, const HandOver& rule, const LearnedValue& value) {
+void recall_scale(Belief& belief, std::size_t i, const KeptRule& rule, const LearnedValue& value) {
   const LearnedValue now = recalled(rule, value);
   if (now.known()) belief.reset(i, now.value, now.sigma);
 }

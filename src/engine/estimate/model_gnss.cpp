@@ -5,6 +5,7 @@
 
 #include "drover/angle.h"
 #include "engine/estimate/antenna_learning.h"
+#include "engine/estimate/antenna_tilt.h"
 #include "engine/estimate/fix_jumps.h"
 
 namespace drover::engine::estimate {
@@ -116,23 +117,6 @@ void place_anew(State& state, const AntennaPosition& position, const TurnedArm& 
   place(state, position, arm.x_m, arm.y_m, extra_variance);
   state.gnss.jumps.accepted();
   state.watch.pause();
-}
-
-struct TiltedArm {
-  LeverArm arm;
-  double variance_m2 = 0;  ///< of where the antenna is, by the tilt
-};
-
-/// While the sensor of the tilt is silent the antenna may be as far out as it was last.
-TiltedArm tilted_arm(const State& state, const EstimateConfig& config) {
-  const GyroTrack& gyro = state.gyro;
-  const AntennaConfig antenna = antenna_of(config, state.gnss.receiver);
-  const double z2 = square(antenna.z_m);
-  if (gyro.fresh(state.time, from_s(config.imu_stale_s))) {
-    return {lever_arm(gyro.roll_rad, gyro.pitch_rad, antenna),
-            z2 * square(to_rad(config.imu_orientation_sigma_deg))};
-  }
-  return {lever_arm(0, 0, antenna), z2 * (square(gyro.roll_rad) + square(gyro.pitch_rad))};
 }
 
 /// A base with one antenna finds its heading while it drives.
@@ -251,7 +235,7 @@ struct Expected {
 };
 
 /// The gate. How the antenna line is mounted is no state: what that may bend the way since the last
-/// fix comes on top.
+/// fix, or a guessed tilt moved the place by, comes on top.
 bool passes(const State& state, Expected expected, double dx_m, double dy_m, double sigmas,
             const EstimateConfig& config) {
   const double mount_rad = state.mount_sigma_rad(config);
@@ -260,6 +244,8 @@ bool passes(const State& state, Expected expected, double dx_m, double dy_m, dou
   expected.xx += square(bent_x_m);
   expected.xy += bent_x_m * bent_y_m;
   expected.yy += square(bent_y_m);
+  expected.xx += square(state.gnss.guessed_m);
+  expected.yy += square(state.gnss.guessed_m);
   const double determinant = expected.xx * expected.yy - square(expected.xy);
   const double distance2 =
       (expected.yy * dx_m * dx_m - 2 * expected.xy * dx_m * dy_m + expected.xx * dy_m * dy_m) /
@@ -275,7 +261,7 @@ void apply(State& state, const AntennaPosition& measured, double speed_mps,
   const AntennaPosition position =
       in_time(state, follow_quality(state, measured, config), speed_mps);
   Belief& belief = state.belief;
-  const TiltedArm tilted = tilted_arm(state, config);
+  const TiltedArm tilted = tilted_arm(state.gyro, antenna_of(config, state.gnss.receiver), config);
   find_heading(state, position, tilted.arm, config);
   const double c = std::cos(belief.mean[kYaw]);
   const double s = std::sin(belief.mean[kYaw]);
@@ -284,14 +270,16 @@ void apply(State& state, const AntennaPosition& measured, double speed_mps,
   const bool oriented = state.has_heading;
   const double arm_x = oriented ? tilted.arm.ahead_m * c - tilted.arm.left_m * s : 0;
   const double arm_y = oriented ? tilted.arm.ahead_m * s + tilted.arm.left_m * c : 0;
-  const double extra = (oriented ? 0 : square(lever_m)) + tilted.variance_m2 +
-                       square(speed_mps * config.gnss_timing_sigma_s);
+  const double sways_m2 = (oriented ? 0 : square(lever_m)) + tilted.variance_m2 +
+                          square(speed_mps * config.gnss_timing_sigma_s);
+  const double extra = sways_m2 + square(tilted.guessed_m);
   const double variance_x = square(config.gnss_white_share * position.sigma_x_m) + extra;
   const double variance_y = square(config.gnss_white_share * position.sigma_y_m) + extra;
   const double turned_m2 = square(lever_m) * belief.covariance[kYaw][kYaw];
   const double place_variance = variance_x + (oriented ? turned_m2 : 0);
   if (!state.has_position) {
     place(state, position, arm_x, arm_y, place_variance);
+    state.gnss.guessed_m = tilted.guessed_m;
     return;
   }
   const bool fixed = position.quality == GnssClass::fixed && oriented;
@@ -320,11 +308,21 @@ void apply(State& state, const AntennaPosition& measured, double speed_mps,
   if (!fixed) {
     state.gnss.dispute.lose_fix();
   } else {
-    switch (judge_jump(state, {{dx, dy}, inside, near, fix.sigma_m, extra, speed_mps}, config)) {
+    switch (judge_jump(state,
+                       {.offset = {dx, dy},
+                        .inside = inside,
+                        .near = near,
+                        .sigma_m = fix.sigma_m,
+                        .sways_m2 = sways_m2,
+                        .speed_mps = speed_mps,
+                        .arm = tilted.arm},
+                       config)) {
       case FixVerdict::plain: break;
       case FixVerdict::waits: return;
       case FixVerdict::doubted: ++state.refused; return go_beside(state, config);
-      case FixVerdict::renewed: return place_anew(state, position, {arm_x, arm_y}, place_variance);
+      case FixVerdict::renewed:
+        state.gnss.guessed_m = tilted.guessed_m;
+        return place_anew(state, position, {arm_x, arm_y}, place_variance);
     }
   }
   if (!inside) {
@@ -335,6 +333,7 @@ void apply(State& state, const AntennaPosition& measured, double speed_mps,
       state.gnss.unconfirmed_m = std::hypot(dx, dy);
     state.gnss.replaced = state.time;
     state.gnss.replaced_m = std::hypot(dx, dy);
+    state.gnss.guessed_m = tilted.guessed_m;
     place_anew(state, position, {arm_x, arm_y}, place_variance);
     return;
   }
@@ -353,9 +352,11 @@ void apply(State& state, const AntennaPosition& measured, double speed_mps,
   const double scale_most = state.watch.slipping() ? 0.0 : kScalePerMetre * scale_way_m;
   state.gnss.corrected_way_m = 0;
   rest_on(state, position, config);
+  const double left = std::max(left_after(belief, row_x, kX, variance_x),
+                               left_after(belief, row_y, kY, variance_y));
+  // Another tilt than was guessed is another one with the next position, too.
+  state.gnss.guessed_m = left * state.gnss.guessed_m + (1 - left) * tilted.guessed_m;
   if (fixed) {
-    const double left = std::max(left_after(belief, row_x, kX, variance_x),
-                                 left_after(belief, row_y, kY, variance_y));
     state.unseen.keep(has_settled(state, config) ? std::min(left, kLagsBehind) : left);
   }
   const double scale_variance = belief.covariance[kScale][kScale];
@@ -372,6 +373,8 @@ void apply(State& state, const AntennaPosition& measured, double speed_mps,
                             (belief.mean[kBiasX] - before[kBiasX]) +
                             arm_y * wrap_rad(belief.mean[kYaw] - before[kYaw]);
     state.gnss.beside_y_m = left_y_m();
+    state.gnss.arm = tilted.arm;
+    state.gnss.arm_guessed = tilted.guessed_m > 0;
   }
   if (state.watch.slipping()) belief.floor_variance(kScale, scale_variance);
   belief.mean[kScale] =

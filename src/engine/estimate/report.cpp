@@ -58,15 +58,17 @@ void Estimator::report(const State& state, Time now) {
   // Until it is known how late positions are, the place along the way is not well known.
   const double late_m = e.pose.vx_mps * state.fit.late_sigma_s();
   const double untold_m = state.gnss.told_sigma ? 0.0 : kUntold_m;
-  const double two_sigma_m = std::hypot(doubt.two_sigma_m(belief), 2 * late_m, 2 * untold_m);
+  const double tilt_m = state.gnss.guessed_m;
+  const double two_sigma_m =
+      std::hypot(std::hypot(doubt.two_sigma_m(belief), 2 * tilt_m), 2 * late_m, 2 * untold_m);
   const double two_sigma_rad = doubt.two_sigma_rad(belief);
   e.pose.position_sigma_m = state.has_position ? two_sigma_m / 2 : kAbsent;
   const double told_rad = std::hypot(two_sigma_rad / 2, state.mount_left_rad());
   e.pose.yaw_sigma_rad = state.has_heading ? told_rad : kAbsent;
   e.predicted_error_m = state.has_position ? two_sigma_m : kAbsent;
   const double late_doubt_m = e.pose.vx_mps * state.fit.late_doubt_s();
-  const double sure_m =
-      kSure * std::hypot(doubt.two_sigma_m(belief), 2 * late_doubt_m, 2 * untold_m);
+  const double sure_m = kSure * std::hypot(std::hypot(doubt.two_sigma_m(belief), 2 * tilt_m),
+                                           2 * late_doubt_m, 2 * untold_m);
   e.error_bound_m = state.has_position ? sure_m : kAbsent;
   e.yaw_error_rad = state.has_heading ? two_sigma_rad : kAbsent;
 
@@ -165,7 +167,7 @@ void Estimator::report_trouble(const State& state, Time now) {
       e.reason.format(
           "position disagrees with odometry by %.2f m; if the map shows the robot where it stands: "
           "drover position accept",
-          dispute.apart_m());
+          dispute.apart_m() + dispute.led_m());
   } else if (heading_disagrees) {
     e.reason = "heading disagrees with odometry";
     if (headings.began_moving())

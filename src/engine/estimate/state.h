@@ -56,6 +56,11 @@ struct GnssTrack {
   Time believed = kNever;
   double beside_x_m = 0;
   double beside_y_m = 0;
+  // Where its antenna was taken to be, ahead of base_link and to the left; guessed: the sensor of
+  // the tilt was silent. And how far the place may be off by such guesses, as a sigma, m.
+  LeverArm arm;
+  bool arm_guessed = false;
+  double guessed_m = 0;
   Time fixed = kNever;       ///< the last believed RTK fix
   Time renewed = kNever;     ///< of two places the new one was believed then
   double unconfirmed_m = 0;  ///< and so far away is the other one, until another fix is there

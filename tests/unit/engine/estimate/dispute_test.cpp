@@ -53,6 +53,21 @@ TEST_F(ADispute, WasAnOutlierThatIsNearAgainAtOnce) {
   EXPECT_EQ(hear({0.01, 0.01}, 0.1, 0.06), Verdict::came_back);
 }
 
+/// The last position was the odd one, and the place it left is the one that is in question.
+TEST_F(ADispute, EndsAtOnceWhenItSteppedToWhereDeadReckoningIs) {
+  dispute.begin({0.005, 0}, now, false, now);
+  dispute.came_from({-0.09, 0});
+  EXPECT_NEAR(dispute.apart_m(), 0.09, 1e-9);
+  EXPECT_EQ(hear({0.006, 0.004}, 0.1, 0.031), Verdict::came_back);
+}
+
+TEST_F(ADispute, ThatSteppedToDeadReckoningIsOverWhenItStepsBack) {
+  dispute.begin({0.04, 0}, now, false, now);
+  dispute.came_from({-0.05, 0});
+  EXPECT_EQ(hear({0.04, 0}, 5, 0.031), Verdict::undecided);
+  EXPECT_EQ(hear({-0.05, 0.005}, 0.1, 0.031), Verdict::came_back);
+}
+
 TEST_F(ADispute, DoesNotEndByTime) {
   EXPECT_EQ(hear({0.08, 0}, 600), Verdict::undecided);
 }
