@@ -16,6 +16,8 @@ inline constexpr std::size_t kMaxAxes = 64;
 
 /// Index of a driven axis (joint), in the order of the configuration's `drives`.
 using AxisId = std::uint8_t;
+/// The device of a base that takes a twist: it moves no joint, and so has none of their numbers.
+inline constexpr AxisId kBaseAxis = 255;
 
 /// Motion of one axis at the joint, after gear ratio and sign (positive: the base drives forward).
 struct AxisMotion {

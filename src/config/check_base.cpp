@@ -93,11 +93,9 @@ void nothing_else_moves(const GroupNames& groups, Findings& found) {
       if (among(base.left, joint.name) || among(base.right, joint.name)) continue;
       if (has_joint(groups.others, joint.name)) continue;
       found.add(device_path(device), "\"" + joint.name + "\" is of no group",
-                has_wheels
-                    ? "name it in groups.base.left or groups.base.right, or give it a group "
-                      "of its own: groups.arm.joints"
-                    : "leave it out: joints beside a base that takes a twist are not supported "
-                      "yet");
+                has_wheels ? "name it in groups.base.left or groups.base.right, or give it a group "
+                             "of its own: groups.arm.joints"
+                           : "give it a group of its own: groups.arm.joints");
     }
     if (!is_told_twists(device) || device.name == base.device) continue;
     found.add(device_path(device), "it takes a twist, and is not the device of the base",

@@ -103,9 +103,6 @@ void check_groups(const GroupNames& groups, Findings& found) {
       no_wheel(path, groups.base, each.name, found);
       joint(path, given, each, group, found);
     }
-    if (engine::takes_twist(engine.base.kind))
-      found.add("groups." + given.name,
-                "joints beside a base that takes a twist are not supported yet");
     (void)engine.groups.push_back(group);
   }
 }

@@ -32,6 +32,8 @@ Line line_of(const DeviceConfig& device) {
 
 MakeContext context_of(const DeviceConfig& device) {
   MakeContext context{.kind = device.kind};
+  const auto* const entry = find_driver(device.driver, device.kind);
+  if (entry != nullptr && takes_twist(*entry)) (void)context.axes.push_back(kBaseAxis);
   for (std::size_t channel = 0; channel < device.joints.size(); ++channel)
     for (std::size_t i = 0; i < device.joints.size(); ++i)
       if (device.joints[i].channel_index == channel)

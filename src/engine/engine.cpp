@@ -44,7 +44,7 @@ Engine::Impl::Impl(const EngineConfig& c)
     if (!snapshot.axes.push_back(axis)) break;
   }
   make_groups();
-  axes = {snapshot.axes.data(), snapshot.axes.size() - joints_of_groups(config)};
+  axes = {snapshot.axes.data(), joints_of_base()};
   if (takes_twist(base)) {
     snapshot.base.configured = true;  // from the first on: a recording's fields are the same
     edges[0].joint = "left";
@@ -89,7 +89,7 @@ void Engine::Impl::take(const Measurement& m) {
     AxisSnapshot* axis = axis_of(status->axis);
     if (axis == nullptr) return;
     // One device moves both edges.
-    for (AxisSnapshot& one : takes_twist(base) ? axes : std::span(axis, 1)) {
+    for (AxisSnapshot& one : status->axis == kBaseAxis ? axes : std::span(axis, 1)) {
       one.state = status->state;
       one.fault = status->reason;
       one.lapsed = status->lapsed;
@@ -285,7 +285,7 @@ void Engine::step(Time now, const Environment& environment, EngineOutput& out) {
       e.last_step == kNever ? nominal : std::clamp(now - e.last_step, Duration{0}, kLongestCycle);
   e.last_step = now;
   for (std::size_t i = 0; i < e.axes.size(); ++i)
-    Impl::look_at(e.axes[i], environment.axes[takes_twist(e.base) ? 0 : i], now);
+    Impl::look_at(e.axes[i], takes_twist(e.base) ? environment.base : environment.axes[i], now);
   LineTable lines;
   for (std::size_t i = 0; i < kLineCount; ++i) {
     // Any edge counts: what was active for an instant is active for the cycle.

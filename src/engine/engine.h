@@ -25,13 +25,13 @@ namespace drover::engine {
 struct BaseCommand {
   AxisRequest request = AxisRequest::rest;
   Twist twist;  ///< with `hold`: as it moves now, and falling
+  /// As EngineOutput::slowing_permitted, of its device.
+  bool slowing_permitted = false;
 };
 
 struct EngineOutput {
   std::array<AxisCommand, kMaxAxes> axes{};
-  /// Of a base that takes a twist, which has no axes: its device is axis 0 in AxisStatus,
-  /// Environment::axes and slowing_permitted.
-  BaseCommand base;
+  BaseCommand base;                          ///< of one that takes a twist: it has no axes
   std::array<bool, kOutputCount> outputs{};  ///< by Output, true is on
   FixedVector<Event, 64> events;
   /// True while any motion is permitted this cycle; the frame gate refuses motion frames otherwise.

@@ -45,8 +45,8 @@ void Engine::Impl::fill_base(const Environment& environment, const BaseCommand& 
   s.bus_V = device.bus_V;
   s.bus_A = device.bus_A;
   s.health = device.health;
-  s.source = {environment.axes[0].reason, device.source.samples, environment.axes[0].bad,
-              environment.axes[0].overflows};
+  s.source = {environment.base.reason, device.source.samples, environment.base.bad,
+              environment.base.overflows};
   s.last_motion = device.last_motion;
 }
 
@@ -66,8 +66,9 @@ void Engine::Impl::command_base(EngineOutput& out) {
     out.base.twist.wz_radps = no_more_than(out.base.twist.wz_radps, told.wz_radps);
   }
   sent = out.base.twist;
-  out.slowing_permitted[0] = out.slowing_permitted[0] || out.slowing_permitted[1];
-  out.slowing_permitted[1] = false;
+  // The numbers of the edges are those of others outside.
+  out.base.slowing_permitted = out.slowing_permitted[0] || out.slowing_permitted[1];
+  out.slowing_permitted[0] = out.slowing_permitted[1] = false;
 }
 
 }  // namespace drover::engine

@@ -6,8 +6,8 @@
 namespace drover::engine {
 
 AxisSnapshot* Engine::Impl::axis_of(AxisId id) {
-  if (id < axes.size()) return &axes[id];
-  return !groups.empty() && id < snapshot.axes.size() ? &snapshot.axes[id] : nullptr;
+  if (id == kBaseAxis) return takes_twist(base) ? axes.data() : nullptr;
+  return id < snapshot.axes.size() ? &snapshot.axes[id] : nullptr;
 }
 
 void Engine::Impl::make_groups() {
@@ -40,7 +40,7 @@ void Engine::Impl::end_groups(const Reason& why) {
 void Engine::Impl::step_groups(Time now, Duration dt, const Environment& environment,
                                EngineOutput& out) {
   if (groups.empty()) return;
-  for (std::size_t i = axes.size(); i < snapshot.axes.size(); ++i)
+  for (std::size_t i = joints_of_base(); i < snapshot.axes.size(); ++i)
     look_at(snapshot.axes[i], environment.axes[i], now);
   const HealthReport& report = health.report();
   const Reason hindrance = !report.ready                ? Reason(kJustStarted)
@@ -56,7 +56,7 @@ void Engine::Impl::step_groups(Time now, Duration dt, const Environment& environ
                    out.axes, out.joint_may_move, events);
     snapshot.groups[i] = groups[i].snapshot();
   }
-  for (std::size_t i = axes.size(); i < snapshot.axes.size(); ++i)
+  for (std::size_t i = joints_of_base(); i < snapshot.axes.size(); ++i)
     snapshot.axes[i].commanded_velocity_radps = out.axes[i].velocity_radps;
 }
 

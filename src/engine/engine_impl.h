@@ -39,11 +39,13 @@ struct Engine::Impl {
 
   void take(const Measurement& m);
   void count(const Measurement& m);
-  /// Of the base or of a group; nullptr: there is none of that number.
+  /// Of the base or of a group; nullptr: there is none of that number. kBaseAxis: the first edge.
   AxisSnapshot* axis_of(AxisId id);
   /// What holds of it in this cycle, as its driver judges.
   static void look_at(AxisSnapshot& axis, const SourceHealth& driver, Time now);
   void make_groups();
+  /// Those of the groups come after them.
+  std::size_t joints_of_base() const { return snapshot.axes.size() - joints_of_groups(config); }
   void fill_sources(const Environment& environment);
   void propose_origin(const RequestId& id, Time now);
   void set_origin(const RequestId& id, const GeodeticPoint& origin, Time now);

@@ -19,6 +19,7 @@ struct Environment {
   bool relay_found_closed = false;
   /// Health of each drive, by AxisId, as its driver judges it.
   std::array<SourceHealth, kMaxAxes> axes{};
+  SourceHealth base{};  ///< of the device of a base that takes a twist
   /// A drive keeps its last command when it is no longer reached.
   bool drives_on_in_silence = false;
   bool stop_creeps = false;  ///< a drive that is told to stand only brakes: on a slope it creeps

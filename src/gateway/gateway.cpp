@@ -113,6 +113,18 @@ void Gateway::write(Slot& slot, Time now) {
   }
 }
 
+bool Gateway::may_slow(AxisId axis) const {
+  const engine::EngineOutput& wanted = cycle_.engine;
+  return axis == kBaseAxis ? wanted.base.slowing_permitted : wanted.slowing_permitted[axis];
+}
+
+Setpoint Gateway::setpoint(AxisId axis) const {
+  const engine::BaseCommand& base = cycle_.engine.base;
+  if (axis == kBaseAxis) return {base.request, 0, base.twist, {}};
+  const AxisCommand& command = cycle_.engine.axes[axis];
+  return {command.request, command.velocity_radps, {}, command.impedance};
+}
+
 /// A speed counts only while the drive is heard: a wheel that nobody sees is not ramped.
 engine::Permission Gateway::permission(const Slot& slot) {
   const bool fresh = slot.health.state == SourceState::fresh;
@@ -123,7 +135,7 @@ engine::Permission Gateway::permission(const Slot& slot) {
     const AxisId axis = slot.axes[channel];
     const bool may_move = slot.of_base ? motion_permitted_ : cycle_.engine.joint_may_move[axis];
     if (may_move) motion |= channel_bit(channel);
-    engine::Slowing slowing{cycle_.engine.slowing_permitted[axis] && fresh};
+    engine::Slowing slowing{may_slow(axis) && fresh};
     if (slot.takes_twist)
       slowing.measured = robot.base.measured;
     else
@@ -236,14 +248,8 @@ void Gateway::command_actuators(Time now) {
     wanted.clear();
     for (std::size_t channel = 0; channel < slot.axes.size(); ++channel) {
       const AxisId axis = slot.axes[channel];
-      if (!cycle_.engine.slowing_permitted[axis])
-        frame_gate_.end_slowing(*slot.made.actuator, channel);
-      const AxisCommand& command = cycle_.engine.axes[axis];
-      const engine::BaseCommand& base = cycle_.engine.base;
-      (void)wanted.push_back(
-          slot.takes_twist
-              ? Setpoint{base.request, 0, base.twist, {}}
-              : Setpoint{command.request, command.velocity_radps, {}, command.impedance});
+      if (!may_slow(axis)) frame_gate_.end_slowing(*slot.made.actuator, channel);
+      (void)wanted.push_back(setpoint(axis));
     }
     slot.made.actuator->on_setpoints({wanted.data(), wanted.size()}, now, scratch_);
     slot.made.device->on_tick(now, scratch_);

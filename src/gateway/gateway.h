@@ -128,6 +128,8 @@ class Gateway final {
   void send(Slot& slot, Time now);
   void write(Slot& slot, Time now);
   engine::Permission permission(const Slot& slot);
+  bool may_slow(AxisId axis) const;
+  Setpoint setpoint(AxisId axis) const;
 
   engine::Engine engine_;
   engine::Environment environment_;

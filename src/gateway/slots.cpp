@@ -64,7 +64,6 @@ class Builder final {
     slot.link = numbers_.at(device.link_index);
     slot.axes = context.axes;
     slot.takes_twist = drover::takes_twist(*entry);
-    if (slot.takes_twist) (void)slot.axes.push_back(0);
     const auto of_base = config_.engine.joints.size() - joints_of_groups(config_.engine);
     slot.of_base = slot.axes.empty() || slot.takes_twist || slot.axes[0] < of_base;
     slot.place = place;
@@ -90,7 +89,8 @@ class Builder final {
     const auto tell = [&slot](SourceHealth& to) { (void)slot.tells_health.push_back(&to); };
     switch (context.kind) {
       case SlotKind::drive:
-        for (const AxisId axis : slot.axes) tell(environment_.axes.at(axis));
+        for (const AxisId axis : slot.axes)
+          tell(axis == kBaseAxis ? environment_.base : environment_.axes.at(axis));
         return;
       case SlotKind::gnss: return tell(environment_.gnss.at(slot.source));
       case SlotKind::imu: return tell(environment_.imu.at(slot.source));

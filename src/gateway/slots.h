@@ -33,7 +33,8 @@ struct Slot {
   Made made;
   LinkId link = 0;
   Thread thread = Thread::control;
-  /// Of what moves something: its joints, by channel. What takes the base's twist is axis 0.
+  /// Of what moves something: its joints, by channel. What takes the base's twist is
+  /// kBaseAxis.
   FixedVector<AxisId, kMaxChannels> axes;
   bool takes_twist = false;  ///< its one channel is the base
   bool of_base = true;       ///< of what moves something: the base, or else an arm, a mast

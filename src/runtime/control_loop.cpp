@@ -143,7 +143,8 @@ Time ControlLoop::cycle(Time begin, std::uint64_t late) {
     last_vx_mps_ = vx_mps;
   const bool rolls = std::abs(last_vx_mps_) > kRolls_mps;
   const auto& slowing = out.engine.slowing_permitted;
-  const bool slows = std::find(slowing.begin(), slowing.end(), true) != slowing.end();
+  const bool slows = out.engine.base.slowing_permitted ||
+                     std::find(slowing.begin(), slowing.end(), true) != slowing.end();
   const bool moves = out.engine.motion_permitted || slows || task || rolls;
   exchange_.at_rest.store(!moves && !out.engine.unsettled, std::memory_order_release);
   return publish(begin);

@@ -108,11 +108,12 @@ void read_drives(const json& scenario, Record& record) {
       record.maker = Maker::zlac8015d;
       record.mps_per_turnps = kTurn * 0.085;
     }
-    for (const auto& [name, maker] : kTwistBases) {
-      if (driver != name) continue;
-      record.maker = maker;
+    const auto* const twist = std::find_if(std::begin(kTwistBases), std::end(kTwistBases),
+                                           [&](const auto& base) { return driver == base.first; });
+    if (twist != std::end(kTwistBases)) {
+      record.maker = twist->second;
       record.mps_per_turnps = 1;
-      return;  // it has no joints
+      continue;  // it has no joints
     }
     if (drive.contains("joint")) record.joints.push_back(drive.at("joint"));
     for (const auto& joint : drive.value("joints", json::array())) record.joints.push_back(joint);
@@ -130,6 +131,7 @@ void add_twist(Time time, const TwistCommand& twist, Record& record) {
 }
 
 void read_set_points(const CanLine& line, Record& record) {
+  if (record.has_arm && line.bus != "can0") return;  // an arm's
   if (record.maker == Maker::hunter) {
     if (const auto twist = hunter::twist_command(line.frame)) add_twist(line.time, *twist, record);
   } else if (record.maker == Maker::gt01_can || record.maker == Maker::agilex_v2) {
@@ -137,7 +139,6 @@ void read_set_points(const CanLine& line, Record& record) {
                                                        : agilex_v2::twist_command(line.frame);
     if (twist) add_twist(line.time, *twist, record);
   } else if (record.maker == Maker::odrive) {
-    if (line.bus != "can0") return;  // an arm's
     if (const auto wheel = wheel_command(line.frame)) record.sent.push_back({line.time, *wheel});
   } else if (const auto targets = zlac8015d::targets_turnps(line.frame)) {
     for (std::uint8_t i = 0; i < targets->size(); ++i)

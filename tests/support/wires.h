@@ -9,6 +9,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "drover/can_frame.h"
 #include "link/can_wire.h"
@@ -41,6 +42,15 @@ class Bus final {
     int frames = 0;
     for (canfd_frame wire; ::recv(peer_.get(), &wire, sizeof wire, MSG_DONTWAIT) > 0;) ++frames;
     return frames;
+  }
+  /// The frames themselves.
+  std::vector<CanFrame> frames() const {
+    std::vector<CanFrame> all;
+    canfd_frame wire;
+    CanFrame frame;
+    for (ssize_t size = 0; (size = ::recv(peer_.get(), &wire, sizeof wire, MSG_DONTWAIT)) > 0;)
+      if (link::from_wire(wire, static_cast<std::size_t>(size), frame)) all.push_back(frame);
+    return all;
   }
   void hang_up() { peer_.reset(); }
 

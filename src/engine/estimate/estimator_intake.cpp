@@ -37,7 +37,7 @@ void Estimator::on_measurement(const Measurement& measurement) {
 }
 
 void Estimator::on_joint(const AxisMotion& motion, Time time) {
-  if (motion.axis >= joint_count_ || !joints_[motion.axis]) return;
+  if (takes_twist(base_) || motion.axis >= joint_count_ || !joints_[motion.axis]) return;
   if (!(std::abs(rim_mps(base_, motion.velocity_radps)) <= kFastestRim_mps)) {
     ++counters_.absurd;
     return;

@@ -110,7 +110,8 @@ void HealthMonitor::look_at_drives(const HealthInput& input) {
     if (!driven_[i]) continue;
     ++driven;
     const AxisSnapshot& axis = input.axes[i];
-    const SourceHealth& source = input.environment.axes[takes_twist(base_) ? 0 : i];
+    const SourceHealth& source =
+        takes_twist(base_) ? input.environment.base : input.environment.axes[i];
     const bool heard = axis.last_motion != kNever && source.state == SourceState::fresh &&
                        tells_motion(axis, input.now, stale);
     if (heard && axis.state == AxisState::running) continue;  // no words for what is well

@@ -71,9 +71,10 @@ inline constexpr std::size_t kFewestSlowed = 16;
 
 /// What the engine wants of the drives and outputs; `events` are told apart.
 template <class V>
-void visit_fields(V& v, const engine::EngineOutput& output, std::span<const AxisSnapshot> joints) {
+void visit_fields(V& v, const engine::EngineOutput& output, const Snapshot& snapshot) {
   const auto& [axes, base, outputs, events, motion_permitted, slowing_permitted, joint_may_move,
                unsettled, remembered] = output;
+  const auto& joints = snapshot.axes;
   const std::size_t axis_count = joints.size();
   (void)events;
   for (std::size_t i = 0; i < axis_count; ++i) {
@@ -91,19 +92,24 @@ void visit_fields(V& v, const engine::EngineOutput& output, std::span<const Axis
       v.value("may_move", may_move);
     });
   }
-  if (axis_count == 0) {  // a base that takes a twist has none
+  if (snapshot.base.configured) {  // it takes a twist, and has no joint
     v.inside("command", [&v, &part = base] {
-      const auto& [request, twist] = part;
+      const auto& [request, twist, base_may_slow] = part;
       v.value("request", request);
       v.value("vx_mps", twist.vx_mps);
       v.value("wz_radps", twist.wz_radps);
+      (void)base_may_slow;
     });
   }
   visit_values(v, "outputs", outputs);
   v.value("motion_permitted", motion_permitted);
+  // The base's device behind the joints: the first of all where there are none.
+  std::array<bool, kMaxAxes + 1> slowing{};
+  std::copy_n(slowing_permitted.begin(), axis_count, slowing.begin());
+  slowing[axis_count] = base.slowing_permitted;
+  const std::size_t slowed = axis_count + (snapshot.base.configured ? 1 : 0);
   // So many at the least were always there.
-  visit_values(v, "slowing_permitted",
-               std::span(slowing_permitted).first(std::max(axis_count, kFewestSlowed)));
+  visit_values(v, "slowing_permitted", std::span(slowing).first(std::max(slowed, kFewestSlowed)));
   v.value("unsettled", unsettled);
   v.inside("remembered", [&v, &part = remembered] {
     const auto& [stop, stop_at_robot, power_cut, holding, released, task, proved, joints_wait,
@@ -139,7 +145,7 @@ template <class V>
 void visit_fields(V& v, const Gateway& gateway) {
   const Snapshot& snapshot = gateway.snapshot();
   visit_fields(v, snapshot);
-  visit_fields(v, gateway.output().engine, std::span(snapshot.axes.data(), snapshot.axes.size()));
+  visit_fields(v, gateway.output().engine, snapshot);
 }
 
 }  // namespace drover::gateway

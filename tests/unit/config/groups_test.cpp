@@ -15,8 +15,8 @@ using testing::IsEmpty;
 
 const std::string kFolder = DROVER_SOURCE_DIR "/config/examples";
 
-std::string example() {
-  std::ifstream file(kFolder + "/arm.json");
+std::string example(const std::string& name = "arm.json") {
+  std::ifstream file(kFolder + "/" + name);
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
@@ -67,6 +67,31 @@ TEST(Groups, HaveTheirAxesBehindThoseOfTheBase) {
   EXPECT_EQ(engine.joints[engine.base.right[0]], "right");
   EXPECT_LT(engine.base.left[0], 2);
   for (const auto& joint : engine.groups[0].joints) EXPECT_GE(joint.axis, 2);
+}
+
+TEST(Groups, AreAllTheJointsBesideABaseThatTakesATwist) {
+  const auto loaded = load_text(example("scout_arm.json"), kFolder);
+  ASSERT_THAT(loaded.problems, IsEmpty());
+  EXPECT_THAT(loaded.warnings, IsEmpty());
+  const auto& engine = loaded.config.engine;
+  ASSERT_EQ(engine.joints.size(), 3u);
+  ASSERT_EQ(engine.groups.size(), 1u);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(engine.groups[0].joints[i].axis, i);
+  for (const auto& device : loaded.config.devices)
+    if (device.name == "chassis") {
+      ASSERT_EQ(context_of(device).axes.size(), 1u);
+      EXPECT_EQ(context_of(device).axis(0), kBaseAxis);
+    }
+}
+
+TEST(Groups, AJointOfNoneIsToldBesideATwistToo) {
+  auto text = example("scout_arm.json");
+  const std::string elbow = "\"elbow\": {\"driver\"";
+  text.insert(text.find(elbow),
+              "\"spare\": {\"driver\": \"damiao\", \"link\": \"can1\", \"options\": {\"id\": 9, "
+              "\"model\": \"DM4310\"}},\n    ");
+  EXPECT_THAT(problems(text, kFolder), HasSubstr("\"spare\" is of no group (give it a group of "
+                                                 "its own: groups.arm.joints)"));
 }
 
 TEST(Groups, RefuseAJointThatIsNone) {

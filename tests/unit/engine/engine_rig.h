@@ -212,13 +212,13 @@ class EngineRig {
     WheelSpeeds speeds = wheels_from_twist(sides, 1, asked_twist, 10);
     if (disobeys && has_power()) speeds = *disobeys;
     plant.step(speeds, to_s(kRigTick));
-    environment.axes[0].state = device.silent ? SourceState::stale : SourceState::fresh;
+    environment.base.state = device.silent ? SourceState::stale : SourceState::fresh;
     if (device.silent) return;
     const Pose seen = plant.estimate();
     Twist told = device.stuck ? Twist{} : Twist{seen.vx_mps, seen.wz_radps};
     if (tells_mps) told.vx_mps = *tells_mps;
     measure(now, BodyMotion{.twist = told, .known = true, .steering_rad = steering_rad});
-    measure(now, AxisStatus{0, device.state, 0,
+    measure(now, AxisStatus{kBaseAxis, device.state, 0,
                             device.fault ? Reason("over temperature") : Reason(), device.lapsed});
   }
 

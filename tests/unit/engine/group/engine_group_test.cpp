@@ -1,108 +1,21 @@
 // The whole engine with an arm beside its base: each under its own owner, and each stops alone.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
-#include <functional>
-
-#include "unit/engine/engine_rig.h"
-#include "unit/engine/group/arm_joint.h"
+#include "unit/engine/group/engine_group_fixture.h"
 
 namespace drover::engine {
 namespace {
 
 using ::testing::HasSubstr;
 
-constexpr std::size_t kFirst = 4;  // after the wheels
-constexpr std::array kNames{"shoulder", "elbow"};
-
-EngineConfig arm_config() {
-  EngineConfig config = rig_config();
-  GroupConfig arm;
-  arm.name = "arm";
-  for (std::size_t i = 0; i < kNames.size(); ++i) {
-    (void)config.joints.push_back(kNames[i]);
-    JointRules rules;
-    rules.axis = static_cast<AxisId>(kFirst + i);
-    rules.min_rad = -1.5;
-    rules.max_rad = 1.5;
-    rules.max_effort_Nm = 6;
-    rules.stiffness_Nmprad = 60;
-    rules.damping_Nmsprad = 3;
-    (void)arm.joints.push_back(rules);
-  }
-  (void)config.groups.push_back(arm);
-  return config;
-}
-
-class EngineGroup : public ::testing::Test {
- protected:
-  explicit EngineGroup(const EngineConfig& config = arm_config()) : rig(config) {
-    for (ArmJoint& joint : arm) joint.position_rad = -1.45;  // it hangs
-  }
-
-  void tick() {
-    const Time told = rig.now + kRigTick;
-    for (std::size_t i = 0; i < arm.size(); ++i) {
-      const auto axis = static_cast<AxisId>(kFirst + i);
-      arm[i].obey(guards ? AxisCommand{} : rig.out.axes[axis]);
-      for (int k = 0; k < 5; ++k) arm[i].step(to_s(kRigTick) / 5);
-      rig.environment.axes[axis].state = silent[i] ? SourceState::stale : SourceState::fresh;
-      if (silent[i]) continue;
-      measure(told, AxisMotion{axis, arm[i].position_rad, arm[i].velocity_radps, arm[i].torque_Nm});
-      measure(told, AxisStatus{axis, arm[i].state, 0,
-                               arm[i].state == AxisState::fault ? Reason("too hot") : Reason()});
-    }
-    rig.tick();
-  }
-  /// Of each joint with this stiffness, at 100 Hz.
-  void send_s(double seconds, double position_rad, double stiffness = 60) {
-    for (int i = 0; i < static_cast<int>(seconds * 200 + 0.5); ++i) {
-      if (i % 2 == 0) send(position_rad, stiffness);
-      tick();
-    }
-  }
-  void send(double position_rad, double stiffness = 60) {
-    JointTargets targets;
-    for (std::size_t i = 0; i < arm.size(); ++i)
-      (void)targets.joints.push_back(
-          {static_cast<AxisId>(kFirst + i), 0, position_rad, 0, stiffness, 3});
-    rig.command(targets);
-  }
-  void run_s(double seconds) {
-    for (int i = 0; i < static_cast<int>(seconds * 200 + 0.5); ++i) tick();
-  }
-  void settle() {
-    tick();
-    rig.set_origin();
-    run_s(3);
-  }
-  const GroupSnapshot& told() const { return rig.snapshot().groups[0]; }
-  std::string reason() const { return std::string(told().reason.view()); }
-  bool may_move(std::size_t i) const { return rig.out.joint_may_move[kFirst + i]; }
-
-  EngineRig rig;
-  std::array<ArmJoint, kNames.size()> arm;
-  std::array<bool, kNames.size()> silent{};
-  bool guards = false;  ///< the guard commands the drives
-
- private:
-  template <class Value>
-  void measure(Time time, const Value& value) {
-    Measurement m;
-    m.time = m.received = time;
-    m.value = value;
-    rig.engine->on_measurement(m);
-  }
-};
-
 TEST_F(EngineGroup, IsLeftAsItIsUntilSomebodyCommandsIt) {
   settle();
   EXPECT_EQ(told().name, "arm");
   EXPECT_EQ(told().state, GroupState::idle);
   for (std::size_t i = 0; i < arm.size(); ++i) {
-    EXPECT_EQ(rig.out.axes[kFirst + i].request, AxisRequest::rest);
+    EXPECT_EQ(rig.out.axes[first + i].request, AxisRequest::rest);
     EXPECT_FALSE(may_move(i));
-    EXPECT_EQ(rig.snapshot().axes[kFirst + i].group, 1);
+    EXPECT_EQ(rig.snapshot().axes[first + i].group, 1);
   }
   EXPECT_EQ(rig.snapshot().axes[0].group, 0);
 }
@@ -236,7 +149,7 @@ TEST_F(EngineGroup, ASilentJointIsToldToDampAndTheOthersHold) {
   send_s(3, 0.4);
   silent[1] = true;
   send_s(1, 1.0);
-  EXPECT_EQ(rig.out.axes[kFirst + 1].request, AxisRequest::rest);
+  EXPECT_EQ(rig.out.axes[first + 1].request, AxisRequest::rest);
   EXPECT_FALSE(may_move(1));
   EXPECT_EQ(told().state, GroupState::holding);
   EXPECT_THAT(reason(), HasSubstr("elbow"));
@@ -269,14 +182,14 @@ TEST_F(EngineGroup, AMessageNamesTheJointsOfBoth) {
     JointTargets targets;
     for (AxisId wheel = 0; wheel < 4; ++wheel)
       (void)targets.joints.push_back({wheel, i < 100 ? 0.0 : 1.0});
-    (void)targets.joints.push_back({kFirst, 0, 0.3, 0, 60, 3});
+    (void)targets.joints.push_back({static_cast<AxisId>(first), 0, 0.3, 0, 60, 3});
     rig.command(targets);
     tick();
   }
   EXPECT_EQ(rig.snapshot().nav.owner, Owner::joint_command);
   EXPECT_NEAR(rig.fastest_command_radps(), 1.0, 0.1);
   EXPECT_EQ(told().state, GroupState::following);
-  EXPECT_EQ(rig.out.axes[kFirst + 1].request, AxisRequest::rest);  // not named: as it was
+  EXPECT_EQ(rig.out.axes[first + 1].request, AxisRequest::rest);  // not named: as it was
 }
 
 /// A stream for the arm alone is none for the base, whose own does not go on by it.
