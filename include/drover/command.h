@@ -15,7 +15,7 @@ namespace drover {
 
 /// Who asked, and under which number the answer is expected.
 struct RequestId {
-  enum class Source : std::uint8_t { mqtt, cli, internal, aimrt } source = Source::internal;
+  enum class Source : std::uint8_t { mqtt, cli, internal, aimrt, ros2 } source = Source::internal;
   std::uint64_t number = 0;
 };
 
@@ -102,12 +102,22 @@ struct DriveByHand {
   Twist twist;
 };
 
+/// One message of a stream of twists (ROS 2's cmd_vel), which counts from when it came to this
+/// computer (Command::received) and is obeyed for 0.3 s. A stream begins with zero twists.
+struct FollowTwist {
+  Twist twist;
+};
+/// One that was not understood or not permitted, so that it is seen and counted.
+struct TwistRefused {
+  Reason reason;
+};
+
 struct Command {
   RequestId id;
   Time received = kNever;
   std::variant<std::monostate, StartTask, CancelTask, EngageStop, ResetStop, ProposeOrigin,
                SetOrigin, JointTargets, JointTargetsRefused, FindHeading, ReleaseHold, ArmHold,
-               AcceptPosition, ForgetLearned, DriveByHand>
+               AcceptPosition, ForgetLearned, DriveByHand, FollowTwist, TwistRefused>
       body;
 };
 

@@ -87,7 +87,7 @@ void describe(V& v, const LearnedValues& learned) {
 }
 
 template <class V>
-void describe(V& v, const JointCommandSnapshot& stream) {
+void describe(V& v, const StreamSnapshot& stream) {
   const auto& [active, accepted, refused, reason] = stream;
   v.value("active", active, {});
   v.value("accepted", accepted, {});

@@ -22,7 +22,7 @@ enum class LocateState : std::uint8_t { uninit, lost, good };
 /// The RTK navigation protocol's `nav.status`.
 enum class NavStatus : std::uint8_t { free, run, success, error };
 /// Who owns the drives, highest rank first.
-enum class Owner : std::uint8_t { estop, manual, task, joint_command, nobody };
+enum class Owner : std::uint8_t { estop, manual, task, cmd_vel, joint_command, nobody };
 
 /// Whether the drives keep the robot where it is.
 enum class HoldState : std::uint8_t {
@@ -187,8 +187,8 @@ struct BatterySnapshot {
   BatterySample sample;  ///< the last one
 };
 
-/// The stream of joint commands.
-struct JointCommandSnapshot {
+/// A stream that a program drives by: of joint commands, or of twists.
+struct StreamSnapshot {
   bool active = false;  ///< a stream is heard and owns the drives or waits for them
   std::uint64_t accepted = 0;
   std::uint64_t refused = 0;
@@ -286,7 +286,8 @@ struct Snapshot {
   FixedVector<SensorSnapshot, kMaxSensors> sensors;  ///< by kind, in the configuration's order
   /// Not the gateway's: told by who shows it, of threads that the control thread does not hear.
   FixedVector<ScannerSnapshot, kMaxOfKind> scanners;
-  JointCommandSnapshot joint_command;
+  StreamSnapshot cmd_vel;
+  StreamSnapshot joint_command;
   FixedVector<AxisSnapshot, kMaxAxes> axes;  ///< those of the base first
   FixedVector<GroupSnapshot, kMaxGroupsShown> groups;
   BaseSnapshot base;

@@ -32,7 +32,7 @@ void show_nav(std::string& out, const Node& status) {
   line(out, "task", task);
   std::string owner = text(at(nav, "owner"));
   // Of the others nobody sends messages: their time-out is the gateway's own.
-  if (owner == "joint_command" && at(nav, "owner_timeout_s").number())
+  if ((owner == "joint_command" || owner == "cmd_vel") && at(nav, "owner_timeout_s").number())
     owner += quantity(at(nav, "owner_timeout_s"), ", stops %.1f s after its last message");
   line(out, "owner", owner);
   line(out, "located", text(at(nav, "locate")));
@@ -64,6 +64,17 @@ void show_joint_commands(std::string& out, const Node& status) {
   if (some("of_rivals")) value += quantity(at(commands, "of_rivals"), ", %.0f of a second program");
   const auto reason = text(at(commands, "reason"));
   line(out, "joints", reason.empty() ? value : value + ": " + reason);
+}
+
+void show_cmd_vel(std::string& out, const Node& status) {
+  const auto& heard = at(status, "cmd_vel");
+  const auto some = [&](const char* key) { return at(heard, key).number().value_or(0) > 0; };
+  if (!some("accepted") && !some("refused")) return;
+  std::string value = yes(at(heard, "active")) ? "heard" : "silent";
+  value += quantity(at(heard, "accepted"), ", %.0f followed") +
+           quantity(at(heard, "refused"), ", %.0f refused");
+  const auto reason = text(at(heard, "reason"));
+  line(out, "cmd_vel", reason.empty() ? value : value + ": " + reason);
 }
 
 /// A yaw that nobody knows yet is no number.
@@ -248,6 +259,7 @@ std::string show_status(const Node& status) {
        text(at(status, "robot")) + "  droverd " + text(at(status, "version")) +
            quantity(at(status, "uptime_s"), "  up %.0f s"));
   show_nav(out, status);
+  show_cmd_vel(out, status);
   show_joint_commands(out, status);
   show_why(out, status);
   show_place(out, status);

@@ -89,7 +89,7 @@ void check_channel(Findings& found) {
 
 void check_ros2(Findings& found) {
   const auto& ros2 = found.config().ros2;
-  if (ros2.mode == "network" && ros2.inputs.e_stop && !ros2.network_inputs)
+  if (ros2.mode == "network" && ros2.inputs.any() && !ros2.network_inputs)
     found.add("ros2.inputs", "would be open to whoever reaches the robot's networks",
               "\"mode\": \"localhost\"; or \"network_inputs\": true, if that is meant");
 }

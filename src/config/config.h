@@ -146,6 +146,11 @@ struct AimrtConfig {
 /// What drover-ros2 hears from ROS 2 users: each is closed until it is opened.
 struct Ros2InputsConfig {
   bool e_stop = false;  ///< true on /e_stop is an emergency stop
+  /// What comes on /cmd_vel: "closed", "twist" or "twist_stamped".
+  std::string cmd_vel = "closed";
+
+  bool may_drive() const { return cmd_vel != "closed"; }
+  bool any() const { return e_stop || may_drive(); }
 };
 
 /// What drover-ros2 shows to ROS 2 users, and to whom.

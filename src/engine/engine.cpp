@@ -260,6 +260,10 @@ void Engine::on_command(const Command& command, Time now) {
     e.owners.find_heading(id, e.estimate, e.health.report(), now, e.events);
   } else if (const auto* hand = std::get_if<DriveByHand>(&command.body)) {
     e.owners.drive_by_hand(command, *hand, e.health.report(), e.mechanics.proved(), now, e.events);
+  } else if (const auto* follow = std::get_if<FollowTwist>(&command.body)) {
+    e.owners.take(*follow, command.received, now);
+  } else if (const auto* turned_away = std::get_if<TwistRefused>(&command.body)) {
+    e.owners.refuse(*turned_away, now);
   } else if (const auto* release = std::get_if<ReleaseHold>(&command.body)) {
     e.release_hold(id, *release, now);
   } else if (std::holds_alternative<ArmHold>(command.body)) {
@@ -323,19 +327,20 @@ void Engine::step(Time now, const Environment& environment, EngineOutput& out) {
   wanted.target = e.clearance.limit(e.mechanics.guide(wanted.target));
   const Learned learned{e.estimate.yaw_slip_factor};
   const Twist stream = twist_of(e.base, e.owners.stream_radps(), learned);
-  const Twist by_hand = e.clearance.limit(e.mechanics.guide(e.owners.by_hand()));
+  const Twist by_twist = e.clearance.limit(e.mechanics.guide(e.owners.by_twist()));
   const Motion& motion = e.owners.step(
       {now, dt, e.estimate, e.health.report(), e.wheel_fault, e.wheel_reason, wanted, cap_mps,
        e.mechanics.speed_cap_mps(FirstWay::joints), e.mechanics.speed_cap_mps(FirstWay::hand),
        e.arming.hindrance(), stream, e.clearance.caps().ahead_mps,
-       e.clearance.rim_cap_mps(stream, e.config.base.track_m / 2), e.clearance.too_near(), by_hand,
+       e.clearance.rim_cap_mps(stream, e.config.base.track_m / 2), e.clearance.too_near(), by_twist,
        e.steered_radpm()},
       e.events);
   e.commanded =
       motion.joints ? twist_of(e.base, e.owners.joint_velocities_radps(), learned) : motion.twist;
   e.asked = motion.asked;
   e.by_joints = motion.joints;
-  const bool other = motion.owner == Owner::joint_command || motion.owner == Owner::manual;
+  const bool other = motion.owner == Owner::manual || motion.owner == Owner::cmd_vel ||
+                     motion.owner == Owner::joint_command;
   if (other) e.navigator.make_way();
   const HealthReport& report = e.health.report();
   e.power.step(now,

@@ -79,7 +79,7 @@ struct Engine::Impl {
   void fill_clearance();
   void fill_speed(Time now);
   void fill_viewpoint();
-  void tell_sender(Time now, Owner owner);
+  void tell_sender(Time now, Owner owner, const Stream& stream, Owner his);
   void tell_first_way(Owner owner);
   void fill_imu(const Estimate& located);
   void fill_lines(const LineTable& lines);

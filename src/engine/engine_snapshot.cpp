@@ -63,12 +63,11 @@ void Engine::Impl::fill_clearance() {
   s.along_m = on_track ? std::min(found.along_m, snapshot.nav.distance_left_m) : kAbsent;
 }
 
-/// Who goes on sending joint commands after the end of his stream asks for no motion any more: what
+/// Who goes on sending after the end of his stream asks for no motion any more: what
 /// stopped him would be told nowhere else.
-void Engine::Impl::tell_sender(Time now, Owner owner) {
-  const JointStream& stream = owners.stream();
-  const bool his = owner == Owner::nobody || owner == Owner::joint_command;
-  if (!his || !stream.refuses(now)) return;
+void Engine::Impl::tell_sender(Time now, Owner owner, const Stream& stream, Owner his) {
+  const bool to_him = owner == Owner::nobody || owner == his;
+  if (!to_him || !stream.refuses(now)) return;
   const auto tell = [this](const Reason& what) {
     const auto& why = snapshot.why;
     if (std::find(why.begin(), why.end(), what) == why.end()) (void)snapshot.why.push_back(what);
@@ -87,11 +86,13 @@ void Engine::Impl::tell_first_way(Owner owner) {
   if (owner == Owner::nobody || owner == Owner::estop) return;
   const bool by_joints = owner == Owner::joint_command;
   const bool by_hand = owner == Owner::manual && owners.hand_drives();
-  const Reason why = mechanics.slowly(by_joints ? FirstWay::joints
-                                      : by_hand ? FirstWay::hand
-                                                : FirstWay::task);
+  const bool by_twist = owner == Owner::cmd_vel;
+  const Reason why = mechanics.slowly(by_joints || by_twist ? FirstWay::joints
+                                      : by_hand             ? FirstWay::hand
+                                                            : FirstWay::task);
   if (why.empty()) return;
   (void)snapshot.why.push_back(why);
+  if (by_twist && snapshot.cmd_vel.reason.empty()) snapshot.cmd_vel.reason = why;
   if (by_joints && snapshot.joint_command.reason.empty()) snapshot.joint_command.reason = why;
 }
 
@@ -107,7 +108,8 @@ void Engine::Impl::fill_snapshot(Time now, const Environment& environment, const
   snapshot.nav.owner = owner;
   snapshot.nav.owner_timeout_s = owners.timeout_s(owner);
   if (config.clearance_required) fill_clearance();
-  snapshot.joint_command = owners.joint_command();
+  snapshot.cmd_vel = owners.cmd_vel().snapshot();
+  snapshot.joint_command = owners.stream().snapshot();
   snapshot.gnss.configured = environment.gnss_configured;
   fill_imu(located);
   const SourceState receiver = environment.gnss[sensors.receiver()].state;
@@ -161,7 +163,8 @@ void Engine::Impl::fill_snapshot(Time now, const Environment& environment, const
   } else if (const Reason why = arming.hindrance(); !why.empty()) {
     (void)snapshot.why.push_back(why);
   }
-  tell_sender(now, owner);
+  tell_sender(now, owner, owners.cmd_vel(), Owner::cmd_vel);
+  tell_sender(now, owner, owners.stream(), Owner::joint_command);
   tell_first_way(owner);
 }
 

@@ -58,6 +58,7 @@ constexpr std::string_view word(Owner owner) {
     case Owner::estop: return "estop";
     case Owner::manual: return "manual";
     case Owner::task: return "task";
+    case Owner::cmd_vel: return "cmd_vel";
     case Owner::joint_command: return "joint_command";
     case Owner::nobody: return "nobody";
   }

@@ -13,6 +13,7 @@ constexpr std::string_view not_while(Owner owner, bool task) {
   if (task || owner == Owner::task) return "not while a task runs: cancel it first";
   if (owner == Owner::manual)
     return "not while a person drives it, or the heading is looked for: cancel it first";
+  if (owner == Owner::cmd_vel) return "not while cmd_vel moves the robot: end it first";
   if (owner == Owner::joint_command)
     return "not while joint commands move the robot: end them first";
   return {};

@@ -1,6 +1,8 @@
 #include "publish/ros2_outlet.h"
 
-#include "json/located_json.h"
+#include <algorithm>
+#include <optional>
+
 #include "publish/line_json.h"
 
 namespace drover::publish {
@@ -14,6 +16,11 @@ std::int64_t count_of(const json::Node& request, std::string_view key) {
   return node == nullptr ? 0 : node->integer().value_or(0);
 }
 
+std::optional<double> twist_number(const json::Node& request, std::string_view key) {
+  const auto* node = request.find(key);
+  return node == nullptr ? std::nullopt : node->number();
+}
+
 }  // namespace
 
 std::vector<OutMessage> Ros2Outlet::on_snapshot(const Snapshot& seen, const Moment& moment,
@@ -25,26 +32,65 @@ std::vector<OutMessage> Ros2Outlet::on_snapshot(const Snapshot& seen, const Mome
 }
 
 bool Ros2Outlet::on_line(ClientId client, std::string_view line, Time now, Actions& out) {
-  if (line.find("ros2_follow") == std::string_view::npos) return false;
+  const auto names = [line](std::string_view word) {
+    return line.find(word) != std::string_view::npos;
+  };
+  if (!names("ros2_follow") && !names("cmd_vel")) return false;
   const auto document = json::parse(line, {.max_bytes = 2048, .max_depth = 2, .max_values = 8});
-  if (!document || text_member(document->root, "cmd") != "ros2_follow") return false;
+  if (!document) return false;
+  const auto cmd = text_member(document->root, "cmd");
+  if (cmd == "ros2_follow")
+    follow(client, document->root, now, out);
+  else if (cmd == "cmd_vel")
+    cmd_vel(client, document->root, now, out);
+  else
+    return false;
+  return true;
+}
+
+void Ros2Outlet::follow(ClientId client, const json::Node& request, Time now, Actions& out) {
   if (!requests_.take(now)) {
     out.emplace_back(
         Reply{client, reply_line(false, "slow down: " + requests_.in_words("requests"))});
-    return true;
+    return;
   }
   if (client != client_ && follows(now)) {
     out.emplace_back(Reply{client, reply_line(false, "another drover-ros2 shows this robot")});
-    return true;
+    return;
   }
   if (client != client_) told_ = {};
   client_ = client;
   heard_ = now;
-  mode_ = json::shown(text_member(document->root, "mode"), kMostText);
-  reason_ = json::shown(text_member(document->root, "reason"), kMostText);
-  readers_ = count_of(document->root, "readers");
-  incompatible_ = count_of(document->root, "incompatible");
-  return true;
+  mode_ = json::shown(text_member(request, "mode"), kMostText);
+  reason_ = json::shown(text_member(request, "reason"), kMostText);
+  readers_ = count_of(request, "readers");
+  incompatible_ = count_of(request, "incompatible");
+}
+
+void Ros2Outlet::cmd_vel(ClientId client, const json::Node& request, Time now, Actions& out) {
+  const auto refuse = [&](std::string_view why) {
+    out.emplace_back(Reply{client, reply_line(false, why)});
+  };
+  const auto give = [&](Time received, auto body) {
+    Command command{{RequestId::Source::ros2, ++twist_number_}, received, {}};
+    command.body = std::move(body);
+    out.emplace_back(std::move(command));
+  };
+  if (!may_drive_) return refuse("cmd_vel is not opened: ros2.inputs.cmd_vel");
+  if (client != client_ || !follows(now)) return refuse("only drover-ros2 hands cmd_vel on");
+  if (!twists_.take(now)) {
+    // The engine's ring is for others too: a stop must find room in it.
+    if (flood_.take(now))
+      give(now, TwistRefused{Reason("slow down: " + twists_.in_words("messages"))});
+    return;
+  }
+  if (const auto why = text_member(request, "refused"); !why.empty())
+    return give(now, TwistRefused{Reason(json::shown(why, kMostText))});
+  const auto vx_mps = twist_number(request, "vx_mps");
+  const auto wz_radps = twist_number(request, "wz_radps");
+  const auto at_ns = count_of(request, "at_ns");
+  if (!vx_mps || !wz_radps || at_ns <= 0) return refuse("vx_mps, wz_radps or at_ns is missing");
+  give(std::min(now, Time{Duration{at_ns}}), FollowTwist{{*vx_mps, *wz_radps}});
 }
 
 void Ros2Outlet::count(DaemonStatus& status) const {

@@ -1,5 +1,6 @@
 // drover-ros2 as an outlet: a program of its own that follows the robot's state over the daemon's
-// socket. It says each second that it is there; a row of lines goes to it meanwhile.
+// socket. It says each second that it is there; a row of lines goes to it meanwhile. Where the
+// configuration opens it, it hands on what ROS 2 users want the base to do.
 #pragma once
 
 #include <functional>
@@ -7,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "json/located_json.h"
 #include "publish/outlet.h"
 #include "publish/ros2/line.h"
 #include "publish/token_bucket.h"
@@ -21,9 +23,9 @@ class Ros2Outlet final : public Outlet {
   static constexpr Duration kLease = std::chrono::seconds(3);
   using Turns = std::function<std::vector<const scene::sensor::SeenTurn*>()>;
 
-  /// `turns`: the scanners' latest ones.
-  Ros2Outlet(double rate_Hz, Turns turns)
-      : period_(from_s(1 / rate_Hz)), turns_(std::move(turns)) {}
+  /// `turns`: the scanners' latest ones. `may_drive`: the configuration opens cmd_vel.
+  Ros2Outlet(double rate_Hz, Turns turns, bool may_drive = false)
+      : period_(from_s(1 / rate_Hz)), turns_(std::move(turns)), may_drive_(may_drive) {}
 
   Duration period() const override { return period_; }
   bool needs_broker() const override { return false; }
@@ -33,13 +35,19 @@ class Ros2Outlet final : public Outlet {
   void count(DaemonStatus& status) const override;
 
  private:
+  void follow(ClientId client, const json::Node& request, Time now, Actions& out);
+  void cmd_vel(ClientId client, const json::Node& request, Time now, Actions& out);
   bool follows(Time now) const { return heard_ != kNever && now - heard_ <= kLease; }
 
   Duration period_;
   Turns turns_;
+  bool may_drive_;
   ClientId client_ = 0;
   Time heard_ = kNever;
   TokenBucket requests_{20, 20};
+  TokenBucket twists_{150, 50};  ///< drover-ros2 hands on a hundred a second
+  TokenBucket flood_{1, 1};      ///< a flood is told of, and the telling is no flood
+  std::uint64_t twist_number_ = 0;
   ros2::Told told_;
   std::string mode_;    ///< as that program says
   std::string reason_;  ///< likewise, what is wrong with it; empty: nothing

@@ -13,6 +13,8 @@ namespace {
 
 /// What comes between two looks: a stop is not to be pushed out by what follows it.
 constexpr std::int32_t kDepth = 100;
+/// Of twists the newest counts; more show that two programs write.
+constexpr std::int32_t kTwists = 20;
 
 /// A thread of DDS' own: it only wakes the loop.
 void wake(dds_entity_t, void* came) {
@@ -21,13 +23,13 @@ void wake(dds_entity_t, void* came) {
 }
 
 /// Best effort matches both kinds of writers.
-dds_entity_t make_reader(dds_entity_t participant, const TopicKind& kind) {
+dds_entity_t make_reader(dds_entity_t participant, const TopicKind& kind, std::int32_t depth) {
   const dds_entity_t topic = dds_create_topic(participant, kind.type, kind.name, nullptr, nullptr);
   if (topic < 0) return topic;
   dds_qos_t* qos = dds_create_qos();
   dds_qset_reliability(qos, DDS_RELIABILITY_BEST_EFFORT, 0);
   dds_qset_durability(qos, DDS_DURABILITY_VOLATILE);
-  dds_qset_history(qos, DDS_HISTORY_KEEP_LAST, kDepth);
+  dds_qset_history(qos, DDS_HISTORY_KEEP_LAST, depth);
   const std::string hash = hash_user_data(kind.hash);
   dds_qset_userdata(qos, hash.data(), hash.size());
   const dds_entity_t reader = dds_create_reader(participant, topic, qos, nullptr);
@@ -37,20 +39,44 @@ dds_entity_t make_reader(dds_entity_t participant, const TopicKind& kind) {
 
 }  // namespace
 
-Heard::Heard(dds_entity_t participant, const config::Ros2InputsConfig& inputs)
-    : came_(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)), fd_(came_.get()) {
-  if (!inputs.e_stop) return;
-  stop_ = make_reader(participant, stop_kind());
-  if (stop_ < 0) throw NoDomain(std::string("/e_stop cannot be heard: ") + dds_strretcode(stop_));
+dds_entity_t Heard::open(dds_entity_t participant, const TopicKind& kind, std::int32_t depth) {
+  const dds_entity_t reader = make_reader(participant, kind, depth);
+  if (reader < 0)
+    throw NoDomain(std::string(kind.name + 2) + " cannot be heard: " + dds_strretcode(reader));
   dds_listener_t* listener = dds_create_listener(&fd_);
   dds_lset_data_available(listener, wake);
-  dds_set_listener(stop_, listener);
+  dds_set_listener(reader, listener);
   dds_delete_listener(listener);
-  wake(stop_, &fd_);  // what came before
+  wake(reader, &fd_);  // what came before
+  return reader;
+}
+
+Heard::Heard(dds_entity_t participant, const config::Ros2InputsConfig& inputs, Reach reach)
+    : came_(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)), fd_(came_.get()) {
+  try {
+    if (inputs.e_stop) stop_ = open(participant, stop_kind(), kDepth);
+    if (!inputs.may_drive()) return;
+    const bool stamped = inputs.cmd_vel == "twist_stamped";
+    twists_ = open(participant, cmd_vel_kind(stamped), kTwists);
+    cmd_vel_.emplace(twists_, stamped, reach == Reach::localhost);
+  } catch (...) {
+    close();
+    throw;
+  }
 }
 
 Heard::~Heard() {
-  if (stop_ > 0) dds_delete(stop_);  // waits for its listener
+  close();
+}
+
+/// Waits for the listeners, which write to a descriptor of this object.
+void Heard::close() {
+  for (const dds_entity_t reader : {stop_, twists_})
+    if (reader > 0) dds_delete(reader);
+}
+
+TwistsHeard Heard::twists(Time now, Duration wall) {
+  return cmd_vel_ ? cmd_vel_->take(now, wall) : TwistsHeard{};
 }
 
 bool Heard::stop_asked() {

@@ -5,13 +5,16 @@
 
 #include "config/config.h"
 #include "link/unique_fd.h"
+#include "ros2/cmd_vel.h"
+#include "ros2/domain.h"
+#include "ros2/topics.h"
 
 namespace drover::ros2 {
 
 class Heard final {
  public:
   /// Readers are the last that a domain gets: by then its sockets are closed. Throws NoDomain.
-  Heard(dds_entity_t participant, const config::Ros2InputsConfig& inputs);
+  Heard(dds_entity_t participant, const config::Ros2InputsConfig& inputs, Reach reach);
   ~Heard();
   Heard(const Heard&) = delete;
   Heard& operator=(const Heard&) = delete;
@@ -20,11 +23,18 @@ class Heard final {
   int fd() const { return came_.get(); }
   /// Takes all that came: whether one of it asks for an emergency stop.
   bool stop_asked();
+  /// What is wanted of the base, if that is opened. `wall`: UTC now, since 1970.
+  TwistsHeard twists(Time now, Duration wall);
 
  private:
+  void close();
+  dds_entity_t open(dds_entity_t participant, const TopicKind& kind, std::int32_t depth);
+
   link::UniqueFd came_;
   int fd_ = -1;            ///< its number, for the listener
   dds_entity_t stop_ = 0;  ///< 0: not opened
+  dds_entity_t twists_ = 0;
+  std::optional<CmdVel> cmd_vel_;
 };
 
 }  // namespace drover::ros2

@@ -18,6 +18,8 @@ constexpr Duration kBeat = 1s;
 /// droverd sends at least once a second.
 constexpr Duration kSilent = 1500ms;
 constexpr Duration kStopsApart = 100ms;
+constexpr Duration kTwistsApart = 10ms;
+constexpr Duration kRefusalsApart = 100ms;
 
 Stamp_ns wall_now_ns() {
   return (runtime::monotonic_now().time_since_epoch() + runtime::wall_minus_monotonic()).count();
@@ -46,11 +48,14 @@ void Program::run(const std::atomic<bool>& stop) {
       next_beat_ = now + kBeat;
       beat(now);
     }
-    const auto left = std::chrono::ceil<std::chrono::milliseconds>(next_beat_ - now);
+    const Time next = asked_ ? std::min(next_beat_, handed_on_ + kTwistsApart) : next_beat_;
+    const auto left = std::max(std::chrono::ceil<std::chrono::milliseconds>(next - now), 0ms);
     // A descriptor of -1 is passed over.
     std::array<pollfd, 2> ready{{{link_.fd(), POLLIN, 0}, {users_ ? users_->fd() : -1, POLLIN, 0}}};
-    if (::poll(ready.data(), ready.size(), static_cast<int>(left.count())) <= 0) continue;
-    if (ready[1].revents != 0) hear_users(now);
+    const int count = ::poll(ready.data(), ready.size(), static_cast<int>(left.count()));
+    if (count > 0 && ready[1].revents != 0) hear_users(runtime::monotonic_now());
+    hand_on_twist(runtime::monotonic_now());
+    if (count <= 0) continue;
     if (ready[0].revents != 0 && link_.connected())
       link_.hear([this](std::string_view line) { take(line); });
   }
@@ -87,7 +92,7 @@ void Program::make_domain(Time now) {
   try {
     domain_ = std::make_unique<Domain>(config_.ros2.domain, reach_, !networks_.empty());
     shown_ = std::make_unique<Shown>(domain_->participant(), robot_, wall_now_ns());
-    users_ = std::make_unique<Heard>(domain_->participant(), config_.ros2.inputs);
+    users_ = std::make_unique<Heard>(domain_->participant(), config_.ros2.inputs, reach_);
     readers_ = {};
     problem_.clear();
     retry_.succeeded();
@@ -95,10 +100,7 @@ void Program::make_domain(Time now) {
                          (reach_ == Reach::network
                               ? ": whoever reaches " + joined(networks_) + " sees this robot"
                               : ": programs on this computer see this robot"));
-    if (config_.ros2.inputs.e_stop)
-      say(reach_ == Reach::network ? Level::warning : Level::info,
-          reach_ == Reach::network ? "whoever reaches these networks may stop this robot"
-                                   : "programs on this computer may stop this robot");
+    say_who_may();
   } catch (const NoDomain& error) {
     forget_domain();
     retry_.tried(now);
@@ -107,14 +109,54 @@ void Program::make_domain(Time now) {
   }
 }
 
+void Program::say_who_may() const {
+  const auto& inputs = config_.ros2.inputs;
+  if (!inputs.any()) return;
+  const std::string what = !inputs.may_drive() ? "stop"
+                           : inputs.e_stop     ? "drive and stop"
+                                               : "drive";
+  const bool all = reach_ == Reach::network;
+  say(all ? Level::warning : Level::info,
+      std::string(all ? "whoever reaches these networks" : "programs on this computer") + " may " +
+          what + " this robot");
+}
+
 void Program::forget_domain() {
+  asked_.reset();
   users_.reset();
   shown_.reset();
   domain_.reset();
 }
 
-/// A stop is told at once; of more that come in rows ten a second.
 void Program::hear_users(Time now) {
+  hear_stop(now);  // before anything else
+  hear_twists(now);
+}
+
+/// The newest goes on, not faster than droverd takes them.
+void Program::hear_twists(Time now) {
+  const auto heard = users_->twists(now, now.time_since_epoch() + runtime::wall_minus_monotonic());
+  if (heard.twist) asked_ = Asked{*heard.twist, now};
+  if (heard.refused.empty() || (refused_ != kNever && now - refused_ < kRefusalsApart)) return;
+  refused_ = now;
+  json::JsonText line;
+  line.open('{').key("cmd").text("cmd_vel").key("refused").text(heard.refused).close('}');
+  link_.send(line.take());
+}
+
+void Program::hand_on_twist(Time now) {
+  if (!asked_ || (handed_on_ != kNever && now - handed_on_ < kTwistsApart)) return;
+  handed_on_ = now;
+  json::JsonText line;
+  line.open('{').key("cmd").text("cmd_vel").key("vx_mps").number(asked_->twist.vx_mps);
+  line.key("wz_radps").number(asked_->twist.wz_radps);
+  line.key("at_ns").integer(asked_->came.time_since_epoch().count()).close('}');
+  asked_.reset();
+  link_.send(line.take());
+}
+
+/// A stop is told at once; of more that come in rows ten a second.
+void Program::hear_stop(Time now) {
   if (!users_->stop_asked()) return;
   if (stopped_ != kNever && now - stopped_ < kStopsApart) return;
   if (stopped_ == kNever || now - stopped_ > kBeat)

@@ -30,6 +30,10 @@ class Program final {
   void make_domain(Time now);
   void take(std::string_view line);
   void hear_users(Time now);
+  void hear_stop(Time now);
+  void hear_twists(Time now);
+  void hand_on_twist(Time now);
+  void say_who_may() const;
   void forget_domain();
   void tell_droverd();
   void tell_users();
@@ -52,6 +56,13 @@ class Program final {
   Time heard_ = kNever;  ///< droverd's last line
   Time next_beat_ = kNever;
   Time stopped_ = kNever;  ///< last, as users asked
+  struct Asked {
+    Twist twist;
+    Time came = kNever;
+  };
+  std::optional<Asked> asked_;  ///< of the base, not handed on yet
+  Time handed_on_ = kNever;     ///< the last
+  Time refused_ = kNever;       ///< droverd was told last that one was refused
 };
 
 }  // namespace drover::ros2

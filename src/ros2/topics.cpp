@@ -38,6 +38,16 @@ const TopicKind& stop_kind() {
   return kind;
 }
 
+const TopicKind& cmd_vel_kind(bool stamped) {
+  static const std::array<TopicKind, 2> kinds{{
+      {"rt/cmd_vel", &geometry_msgs_msg_dds__Twist__desc,
+       "9c45bf16fe0983d80e3cfe750d6835843d265a9a6c46bd2e609fcddde6fb8d2a"},
+      {"rt/cmd_vel", &geometry_msgs_msg_dds__TwistStamped__desc,
+       "5f0fcd4f81d5d06ad9b4c4c63e3ea51b82d6ae4d0558f1d475229b1121db6f64"},
+  }};
+  return kinds[stamped ? 1 : 0];
+}
+
 std::string hash_user_data(const char* hash) {
   return "typehash=RIHS01_" + std::string(hash) + ";";
 }

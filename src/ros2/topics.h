@@ -1,5 +1,5 @@
-// The topics that drover-ros2 writes: names, types, type hashes and qualities of service, as ROS 2
-// makes them itself.
+// The topics that drover-ros2 writes and hears: names, types, type hashes and qualities of service,
+// as ROS 2 makes them itself.
 #pragma once
 
 #include <array>
@@ -45,6 +45,9 @@ const std::array<TopicKind, kTopicCount>& topic_kinds();
 
 /// std_msgs/Bool, heard and not written.
 const TopicKind& stop_kind();
+
+/// geometry_msgs/Twist or TwistStamped, likewise.
+const TopicKind& cmd_vel_kind(bool stamped);
 
 /// What ROS 2 of Iron and later reads of an endpoint: "typehash=RIHS01_...;".
 std::string hash_user_data(const char* hash);

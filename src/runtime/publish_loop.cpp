@@ -101,11 +101,15 @@ PublishLoop::PublishLoop(const config::DroverConfig& config, ControlExchange& co
   add(std::make_unique<publish::HandOutlet>(std::move(texts),
                                             [this](Time now) { return seen(now); }));
   if (config.ros2.configured && config.ros2.mode != "off")
-    add(std::make_unique<publish::Ros2Outlet>(config.ros2.rate_Hz, [this] {
-      std::vector<const scene::sensor::SeenTurn*> turns;
-      for (const auto& scanner : scanners_) turns.push_back(&scanner->exchange.shown_turn.latest());
-      return turns;
-    }));
+    add(std::make_unique<publish::Ros2Outlet>(
+        config.ros2.rate_Hz,
+        [this] {
+          std::vector<const scene::sensor::SeenTurn*> turns;
+          for (const auto& scanner : scanners_)
+            turns.push_back(&scanner->exchange.shown_turn.latest());
+          return turns;
+        },
+        config.ros2.inputs.may_drive()));
   for (auto& outlet : make_outlets(config, service_, [this](Time now) { return status_text(now); }))
     add(std::move(outlet));
   if (config.mqtt.enabled) connect_broker();

@@ -1,75 +1,27 @@
-// The stream of joint commands: when it may begin, what it asks for now, when it has ended.
+// The stream of joint commands: what it asks for now.
 #pragma once
 
-#include "drover/command.h"
-#include "drover/snapshot.h"
 #include "engine/base/kinematics.h"
-#include "engine/event_queue.h"
+#include "engine/own/stream.h"
 
 namespace drover::engine {
 
-/// Before anything moves every message has to say zero for a while, so that a program that was
-/// stopped while it drove does not drive on when the cause is gone, not even when another one
-/// writes zeros between. A stream ends when it falls silent.
-class JointStream final {
+class JointStream final : public Stream {
  public:
-  explicit JointStream(Duration timeout) : timeout_(timeout) {}
+  /// One that is silent for `timeout` has ended.
+  explicit JointStream(Duration timeout);
 
   /// `busy`: why joint commands cannot be followed now; empty: they can.
   void take(const JointTargets& targets, std::string_view busy, Time now);
-  /// A message that was not permitted before it came here, which the journal knows already.
-  void refuse(const Reason& why);
-  /// Ends it for a cause that lies elsewhere.
-  void end(std::string_view why);
-  /// Ends it for what is in its way.
-  void meet(const Reason& obstacle);
-  /// Once a cycle: notices silence.
-  void step(Time now);
-  /// Tells what was refused or has ended, once for a row of messages of which the same holds.
-  void announce(Time now, EventQueue& events);
 
-  bool following() const { return following_; }
   bool wants_motion() const;
-  /// What is sent to it was refused, or ended it before an obstacle, until a second ago. Nobody
-  /// asks for motion then, so nothing else would tell the sender why the robot stands.
-  bool refuses(Time now) const;
-  /// What was in the way of the last one, until another begins; empty: it ended otherwise.
-  const Reason& obstacle() const { return obstacle_; }
-  const Reason& reason() const { return reason_; }
-  Time last() const { return last_; }
-  Time since() const { return since_; }  ///< when it began
   /// rad/s by AxisId; zero for joints that the last message did not name, and none behind the
   /// last that it did.
-  const JointVelocities& velocities_radps() const { return velocities_; }
-  JointCommandSnapshot snapshot() const { return {following_, accepted_, refused_, reason_}; }
+  const JointVelocities& velocities_radps() const { return following() ? velocities_ : none_; }
 
  private:
-  void reject(const Reason& why, Time now);
-  bool rested(Time now) const;
-  void watch_zeros(bool neutral, Time now);
-  void watch_rate(Time now);
-  Reason not_begun(Time now) const;
-
-  Duration timeout_;
-  bool following_ = false;
-  bool may_move_ = false;  ///< it has shown its rest
-  Time zeros_since_ = kNever;
-  Time last_zero_ = kNever;
-  Time heard_ = kNever;  ///< the last message, whatever became of it
-  Duration gap_{};       ///< between two messages of late that were too far apart for one stream
-  Time gap_at_ = kNever;
-  Time last_ = kNever;
-  Time since_ = kNever;
   JointVelocities velocities_;
-  std::uint64_t accepted_ = 0;
-  std::uint64_t refused_ = 0;
-  Reason reason_;
-  Reason obstacle_;
-  Time refused_at_ = kNever;  ///< kNever also while one is followed
-  Reason news_;               ///< not announced yet; the newest is told
-  Reason told_;
-  Time told_at_ = kNever;
-  Time same_until_ = kNever;  ///< until then the same is no news
+  JointVelocities none_;
 };
 
 }  // namespace drover::engine

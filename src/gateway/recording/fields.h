@@ -20,7 +20,7 @@ void visit_values(V& v, const char* name, const List& list) {
 template <class V>
 void visit_fields(V& v, const Snapshot& snapshot) {
   const auto& [time, pose, odometry, worst_vx_mps, nav, gnss, imu, battery, sensors, scanners,
-               joint_command, axes, groups, base, clearance, line_active, line_health,
+               cmd_vel, joint_command, axes, groups, base, clearance, line_active, line_health,
                line_configured, line_source, output_configured, output_on, links, stop_latched,
                hold, guard_alive, guard_has_bus, origin_set, origin, why, cycle, estimator, learned,
                notices_dropped] = snapshot;
@@ -37,6 +37,7 @@ void visit_fields(V& v, const Snapshot& snapshot) {
   v.inside("battery", [&v, &part = battery] { describe(v, part); });
   for (std::size_t i = 0; i < sensors.size(); ++i)
     v.inside("sensors", i, [&v, &part = sensors[i]] { describe(v, part); });
+  v.inside("cmd_vel", [&v, &part = cmd_vel] { describe(v, part); });
   v.inside("joint_command", [&v, &part = joint_command] { describe(v, part); });
   for (std::size_t i = 0; i < axes.size(); ++i)
     v.inside("axes", i, [&v, &part = axes[i]] { describe(v, part); });

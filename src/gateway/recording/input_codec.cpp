@@ -301,6 +301,20 @@ void get(DriveByHand& drive, ByteReader& in) {
   drive.twist.vx_mps = in.real();
   drive.twist.wz_radps = in.real();
 }
+void put(const FollowTwist& follow, ByteWriter& out) {
+  out.real(follow.twist.vx_mps);
+  out.real(follow.twist.wz_radps);
+}
+void get(FollowTwist& follow, ByteReader& in) {
+  follow.twist.vx_mps = in.real();
+  follow.twist.wz_radps = in.real();
+}
+void put(const TwistRefused& refused, ByteWriter& out) {
+  out.text(refused.reason);
+}
+void get(TwistRefused& refused, ByteReader& in) {
+  refused.reason.assign(in.text());
+}
 void put(const ReleaseHold& release, ByteWriter& out) {
   out.byte(release.on_slope ? 1 : 0);
 }
@@ -389,7 +403,7 @@ void with_alternative(std::size_t index, Variant& into, const Use& use) {
 void get(CommandGiven& given, const FindPath& find_path, ByteReader& in) {
   auto& command = given.command;
   command.id.source =
-      static_cast<RequestId::Source>(in.below(static_cast<unsigned>(RequestId::Source::aimrt) + 1));
+      static_cast<RequestId::Source>(in.below(static_cast<unsigned>(RequestId::Source::ros2) + 1));
   command.id.number = in.number();
   command.received = get_time(Time{}, in);
   const auto index = in.below(std::variant_size_v<decltype(command.body)>);

@@ -175,7 +175,9 @@ std::string words(const CommandGiven& given, const Wiring&) {
                                      "hold",
                                      "a person accepts the position",
                                      "a person has what was learned forgotten",
-                                     "a key that drives"};
+                                     "a key that drives",
+                                     "a twist to follow",
+                                     "a twist refused"};
   static_assert(std::size(kBodies) == std::variant_size_v<decltype(Command::body)>);
   const auto& command = given.command;
   std::string text = "command " + number(static_cast<std::uint64_t>(command.id.source)) + "/" +

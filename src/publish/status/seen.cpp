@@ -23,7 +23,7 @@ void forget_motion(Snapshot& s) {
   ClearanceSnapshot& free = s.clearance;
   free.ahead_m = free.back_m = free.along_m = free.left_rad = free.right_rad = kAbsent;
   free.first.clear();
-  s.joint_command.active = false;
+  s.cmd_vel.active = s.joint_command.active = false;
 }
 
 }  // namespace

@@ -72,6 +72,13 @@ void count(JsonText& out, std::string_view key, std::uint64_t value) {
   out.key(key).integer(static_cast<std::int64_t>(value));
 }
 
+void cmd_vel(JsonText& out, const Snapshot& s) {
+  ShownJson members(out, s.time);
+  out.key("cmd_vel").open('{');
+  describe(members, s.cmd_vel);
+  out.close('}');
+}
+
 void joint_commands(JsonText& out, const Snapshot& s, const DaemonStatus& daemon) {
   ShownJson members(out, s.time);
   out.key("joint_commands").open('{');
@@ -134,6 +141,7 @@ std::string status_json(const Snapshot& s, const DaemonStatus& daemon) {
   for (const auto& reason : s.why) out.text(reason.view());
   out.close(']');
   object(out, "nav", s.nav, s.time);
+  cmd_vel(out, s);
   joint_commands(out, s, daemon);
   pose(out, s);
   object(out, "origin", s.origin, s.time, s.origin_set);

@@ -248,6 +248,11 @@ TEST(ConfigurationChecks, RefuseInputsOfANetworkUnlessThatIsSaid) {
   EXPECT_NE(problems(text(R"("mode": "network", )" + stop)).find("whoever reaches"),
             std::string::npos);
   EXPECT_EQ(problems(text(R"("mode": "network", "network_inputs": true, )" + stop)), "");
+  const std::string drive = R"("inputs": {"cmd_vel": "twist_stamped"})";
+  EXPECT_EQ(problems(text(drive)), "");
+  EXPECT_NE(problems(text(R"("mode": "network", )" + drive)).find("whoever reaches"),
+            std::string::npos);
+  EXPECT_NE(problems(text(R"("inputs": {"cmd_vel": true})")), "") << "as what it comes is said";
 }
 
 TEST(ConfigurationChecks, ResolveNamesToNumbers) {

@@ -178,6 +178,26 @@ TEST_F(ARobotThatSteers, IsNotTurnedOnTheSpotByHand) {
   EXPECT_TRUE(is_zero(rig.out.base.twist));
 }
 
+TEST_F(ARobotThatSteers, FollowsCmdVelOnNoTighterCurveThanItCan) {
+  const auto say_s = [this](Twist twist, double seconds) {
+    for (int i = 0; i < static_cast<int>(seconds * 20); ++i) {
+      rig.command(FollowTwist{twist});
+      rig.run_s(0.05);
+    }
+  };
+  const double most_radpm = limits(kinematics_of(rig.config.base)).most_radpm();
+  say_s({}, 0.5);
+  say_s({0.4, 2}, 4);
+  EXPECT_EQ(rig.snapshot().nav.owner, Owner::cmd_vel) << rig.snapshot().cmd_vel.reason.view();
+  const Twist twist = rig.out.base.twist;
+  EXPECT_GT(twist.vx_mps, 0.1);
+  EXPECT_NEAR(twist.wz_radps / twist.vx_mps, most_radpm, 1e-6);
+  say_s({0, 0.3}, 1);
+  EXPECT_TRUE(is_zero(rig.out.base.twist));
+  EXPECT_THAT(std::string(rig.snapshot().cmd_vel.reason.view()),
+              HasSubstr("cannot turn on the spot"));
+}
+
 /// The first way after a start, on which wheels, gyro and receiver have to agree.
 class ARobotThatSteersOnItsFirstWay : public ::testing::Test {
  protected:

@@ -9,6 +9,7 @@
 #include <set>
 #include <utility>
 
+#include "engine/own/twist_stream.h"
 #include "engine_breakdowns.h"
 #include "support/seeds.h"
 
@@ -36,7 +37,11 @@ class Witness {
     const bool ends = std::holds_alternative<CancelTask>(body);
     if (stopped_ || ends) {
       search_until_ = kNever;
-      streams_ = false;
+      streams_ = twists_ = false;
+    }
+    if (const auto* follow = std::get_if<FollowTwist>(&body)) {
+      if (!stopped_ && is_zero(follow->twist)) twists_ = true;
+      if (twists_) last_twist_ = rig_.now;
     }
     if (const auto* targets = std::get_if<JointTargets>(&body)) {
       const auto zero = [](const JointTarget& t) { return t.velocity_radps == 0; };
@@ -83,7 +88,7 @@ class Witness {
     // A stop over which the program died in the very cycle was never answered: who asked for it
     // knows that, and asks again.
     if (unanswered_) stopped_ = unanswered_ = false;
-    task_ = streams_ = false;
+    task_ = streams_ = twists_ = false;
     search_until_ = kNever;
     hands_.clear();
     last_radps_ = 0;
@@ -93,6 +98,7 @@ class Witness {
  private:
   bool searching() const { return rig_.now < search_until_; }
   bool streaming() const {
+    if (twists_ && rig_.now - last_twist_ < TwistStream::kTimeout + kRigTick) return true;
     return streams_ &&
            rig_.now - last_target_ < from_s(rig_.config.health.joint_command_timeout_s) + kRigTick;
   }
@@ -174,7 +180,9 @@ class Witness {
   bool unanswered_ = false;  ///< that stop, before its cycle was over
   bool released_ = false;
   bool streams_ = false;
+  bool twists_ = false;
   Time last_target_ = kNever;
+  Time last_twist_ = kNever;
   Time search_until_ = kNever;
   std::map<std::uint64_t, Key> keys_;  ///< by request; not answered yet
   std::map<std::uint64_t, Hand> hands_;
@@ -215,9 +223,9 @@ class AnyCommands {
     rig_.command(body);
   }
   void command() {
-    static_assert(std::variant_size_v<decltype(Command::body)> == 15,
+    static_assert(std::variant_size_v<decltype(Command::body)> == 17,
                   "a new command has its place here, and in what the witness knows of it");
-    switch (random_() % 20) {
+    switch (random_() % 22) {
       case 0: return ask(CancelTask{});
       case 1: return ask(EngageStop{});
       case 2:
@@ -240,6 +248,8 @@ class AnyCommands {
         ahead_[which] = one_in_(2);
         return;
       }
+      case 17: twists_ = !twists_; return;
+      case 18: twist_ = one_in_(2) ? Twist{} : Twist{one_in_(2) ? 0.5 : -0.5, 0.2}; return;
       default: return ask(StartTask{&path_, 20, 0.8});
     }
   }
@@ -250,6 +260,8 @@ class AnyCommands {
       else if (held_[i] || one_in_(100))
         ask(DriveByHand{i + 1, {}});
     }
+    if (one_in_(100)) ask(TwistRefused{"linear.y is 1"});
+    if (twists_) ask(FollowTwist{twist_});
     if (!streams_) return;
     JointTargets targets;
     for (AxisId id = 0; id < 4; ++id) (void)targets.joints.push_back({id, streamed_radps_});
@@ -281,6 +293,8 @@ class AnyCommands {
   Path path_ = straight_path(10);
   bool streams_ = false;
   double streamed_radps_ = 0;
+  bool twists_ = false;
+  Twist twist_;
   std::array<bool, 2> held_{};
   std::array<bool, 2> ahead_{};
   bool moved_ = false;

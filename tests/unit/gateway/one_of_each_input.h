@@ -63,6 +63,8 @@ struct OneOfEachInput {
     command(AcceptPosition{});
     command(ForgetLearned{});
     command(DriveByHand{7, {0.3, -0.1}});
+    command(FollowTwist{{0.3, -0.1}});
+    command(TwistRefused{"linear.y is 0.3"});
     add(Tick{true, false});
     add(ProgramTrouble{"droverd ends"});
     add(Suspended{2.5});

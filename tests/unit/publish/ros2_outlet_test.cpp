@@ -97,5 +97,81 @@ TEST_F(Ros2, ShowsInTheStatusWhatTheProgramSays) {
   EXPECT_FALSE(status(kNow + 4s).ros2.connected);
 }
 
+class Ros2Twists : public Ros2 {
+ protected:
+  Ros2Twists() { EXPECT_EQ(ask(7, kNow), ""); }
+  static std::string line(const std::string& at_ns = "99900000000") {
+    return R"({"cmd":"cmd_vel","vx_mps":0.3,"wz_radps":-0.1,"at_ns":)" + at_ns + "}";
+  }
+  std::vector<Command> given(std::string_view line, ClientId client = 7, Time now = kNow) {
+    Actions out;
+    EXPECT_TRUE(open_.on_line(client, line, now, out)) << line;
+    std::vector<Command> commands;
+    for (const Action& action : out)
+      if (const auto* command = std::get_if<Command>(&action)) commands.push_back(*command);
+    return commands;
+  }
+  std::string refusal(std::string_view line, ClientId client = 7) {
+    Actions out;
+    EXPECT_TRUE(open_.on_line(client, line, kNow, out)) << line;
+    return out.size() == 1 && std::holds_alternative<Reply>(out[0]) ? std::get<Reply>(out[0]).line
+                                                                    : "";
+  }
+  void SetUp() override {
+    Actions out;
+    EXPECT_TRUE(open_.on_line(7, kFollow, kNow, out));
+  }
+  Ros2Outlet open_{50, [] { return std::vector<const scene::sensor::SeenTurn*>(); }, true};
+};
+
+TEST_F(Ros2Twists, GoToTheEngineWithTheInstantAtWhichTheyCame) {
+  const auto commands = given(line());
+  ASSERT_EQ(commands.size(), 1U);
+  EXPECT_EQ(commands[0].received, kNow - 100ms);
+  EXPECT_EQ(commands[0].id.source, RequestId::Source::ros2);
+  const auto& twist = std::get<FollowTwist>(commands[0].body).twist;
+  EXPECT_EQ(twist.vx_mps, 0.3);
+  EXPECT_EQ(twist.wz_radps, -0.1);
+  EXPECT_EQ(given(line("200000000000")).at(0).received, kNow) << "none is of tomorrow";
+}
+
+TEST_F(Ros2Twists, ThatWereRefusedAreToldWithTheirReason) {
+  const auto commands = given(R"({"cmd":"cmd_vel","refused":"linear.y is 0.3"})");
+  ASSERT_EQ(commands.size(), 1U);
+  EXPECT_EQ(std::get<TwistRefused>(commands[0].body).reason.view(), "linear.y is 0.3");
+}
+
+TEST_F(Ros2Twists, AreRefusedWhereTheConfigurationDoesNotOpenThem) {
+  EXPECT_THAT(ask(7, kNow, line()), HasSubstr("ros2.inputs.cmd_vel"));
+}
+
+TEST_F(Ros2Twists, AreTakenOfDroverRos2Only) {
+  EXPECT_THAT(refusal(line(), 8), HasSubstr("only drover-ros2"));
+  EXPECT_EQ(given(line(), 7, kNow + 3s).size(), 1U);
+  EXPECT_EQ(given(line(), 7, kNow + 4s).size(), 0U)
+      << "it has not said for so long that it is there";
+}
+
+TEST_F(Ros2Twists, ThatAreNotWholeMoveNothing) {
+  for (const auto* bad : {R"({"cmd":"cmd_vel"})", R"({"cmd":"cmd_vel","vx_mps":0.3,"wz_radps":0})",
+                          R"({"cmd":"cmd_vel","vx_mps":"0.3","wz_radps":0,"at_ns":1})",
+                          R"({"cmd":"cmd_vel","vx_mps":0.3,"at_ns":1})",
+                          R"({"cmd":"cmd_vel","vx_mps":0.3,"wz_radps":0,"at_ns":-1})"})
+    EXPECT_THAT(refusal(bad), HasSubstr("is missing")) << bad;
+}
+
+TEST_F(Ros2Twists, OfAFloodAreBoundedBeforeTheyReachTheEngine) {
+  std::size_t commands = 0;
+  std::size_t told = 0;
+  for (int i = 0; i < 10000; ++i)  // ten seconds of a thousand a second
+    for (const auto& command : given(line(), 7, kNow + i * 200us)) {
+      ++commands;
+      told += std::holds_alternative<TwistRefused>(command.body) ? 1 : 0;
+    }
+  EXPECT_LE(commands, 50U + 2 * 150 + 3);
+  EXPECT_LE(told, 3U);
+  EXPECT_GE(told, 1U);
+}
+
 }  // namespace
 }  // namespace drover::publish

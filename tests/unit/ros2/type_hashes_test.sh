@@ -96,6 +96,8 @@ published() {
       echo e369d0f05a23ae52508854b66f6aa0437f3449d652e8cbf22d5abe85d020f087 ;;
     geometry_msgs/Twist)
       echo 9c45bf16fe0983d80e3cfe750d6835843d265a9a6c46bd2e609fcddde6fb8d2a ;;
+    geometry_msgs/TwistStamped)
+      echo 5f0fcd4f81d5d06ad9b4c4c63e3ea51b82d6ae4d0558f1d475229b1121db6f64 ;;
   esac
 }
 
@@ -105,7 +107,8 @@ judge() {
 }
 
 for type in sensor_msgs/Imu sensor_msgs/JointState sensor_msgs/NavSatFix sensor_msgs/BatteryState \
-  sensor_msgs/LaserScan nav_msgs/Odometry tf2_msgs/TFMessage geometry_msgs/Twist; do
+  sensor_msgs/LaserScan nav_msgs/Odometry tf2_msgs/TFMessage geometry_msgs/Twist \
+  geometry_msgs/TwistStamped; do
   judge "$type is hashed as ROS 2 does" "$(computed "$type")" "$(published "$type")"
 done
 # Each type that a topic has: "&sensor_msgs_msg_dds__Imu__desc," and its hash.

@@ -1,0 +1,31 @@
+// The stream of twists that a program drives the base by: what it asks for now.
+#include "engine/own/twist_stream.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace drover::engine {
+namespace {
+
+constexpr StreamWords kTwistWords{
+    .refused = "cmd_vel refused: ",
+    .ended = "cmd_vel ended: ",
+    .come = "messages come",
+    .begins = "cmd_vel begins with a zero twist",
+    .silent = "cmd_vel fell silent",
+};
+
+}  // namespace
+
+TwistStream::TwistStream() : Stream(kTimeout, kTwistWords) {}
+
+void TwistStream::take(const Twist& twist, Time received, std::string_view busy, Time now) {
+  if (!std::isfinite(twist.vx_mps) || !std::isfinite(twist.wz_radps))
+    return reject("a speed that cannot be", now);
+  const Time at = received == kNever ? now : std::min(received, now);
+  if (now - at > kTimeout) return reject("it came too late to be followed", now);
+  newest_ = std::max(newest_, at);  // none is heard before the one that came before it
+  if (follow(is_zero(twist), busy, newest_)) wanted_ = twist;
+}
+
+}  // namespace drover::engine

@@ -1,0 +1,65 @@
+#include "ros2/cmd_vel.h"
+
+#include <array>
+#include <cstdio>
+#include <memory>
+
+#include "ros2/read_twist.h"
+
+namespace drover::ros2 {
+namespace {
+
+constexpr std::int32_t kAtOnce = 20;
+
+}  // namespace
+
+std::string CmdVel::name_of(dds_instance_handle_t writer) const {
+  const std::unique_ptr<dds_builtintopic_endpoint_t, void (*)(dds_builtintopic_endpoint_t*)> told(
+      dds_get_matched_publication_data(reader_, writer), dds_builtintopic_free_endpoint);
+  if (!told) return "one that is gone";
+  std::string name;
+  for (const auto byte : told->key.v) {
+    std::array<char, 4> hex{};
+    std::snprintf(hex.data(), hex.size(), "%02x", static_cast<unsigned>(byte));
+    name += (name.empty() ? "" : ".") + std::string(hex.data());
+  }
+  return name;
+}
+
+void CmdVel::hear(const void* sample, const dds_sample_info_t& info, Time now, Duration wall,
+                  TwistsHeard& heard) {
+  const auto rival = writers_.rival_of(info.publication_handle, now);
+  if (rival != 0) {
+    heard.twist.reset();
+    heard.refused = "two programs write it, neither is followed: " + name_of(rival) + " and " +
+                    name_of(info.publication_handle);
+    return;
+  }
+  const Duration age = wall - Duration{info.source_timestamp};
+  if (one_clock_ && age > kOldestTwist) {
+    heard.refused = "a message came too late: it is " +
+                    std::to_string(age / std::chrono::milliseconds(1)) + " ms old";
+    return;
+  }
+  const auto& message =
+      stamped_ ? static_cast<const geometry_msgs_msg_dds__TwistStamped_*>(sample)->twist_
+               : *static_cast<const geometry_msgs_msg_dds__Twist_*>(sample);
+  const auto twist = read_twist(message);
+  if (twist)
+    heard.twist = *twist;
+  else
+    heard.refused = twist.error();
+}
+
+TwistsHeard CmdVel::take(Time now, Duration wall) {
+  TwistsHeard heard;
+  std::array<void*, kAtOnce> samples{};
+  std::array<dds_sample_info_t, kAtOnce> infos{};
+  const auto taken = dds_take(reader_, samples.data(), infos.data(), kAtOnce, kAtOnce);
+  for (std::int32_t i = 0; i < taken; ++i)
+    if (infos[i].valid_data) hear(samples[i], infos[i], now, wall, heard);
+  if (taken > 0) dds_return_loan(reader_, samples.data(), taken);
+  return heard;
+}
+
+}  // namespace drover::ros2

@@ -1,0 +1,232 @@
+// A ROS 2 user who drives by /cmd_vel: drover-ros2, droverd and the simulated robot as they are
+// shipped, and a writer that is plain DDS.
+#include <dds/dds.h>
+#include <gmock/gmock.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <thread>
+
+#include "integration/robot_rig.h"
+#include "ros2/topics.h"
+
+namespace drover::test {
+namespace {
+
+using namespace std::chrono_literals;
+using testing::HasSubstr;
+using testing::Not;
+
+constexpr double kRamp_s = 1.5;  ///< from 0.4 m/s, and what is on its way
+constexpr double kSilent_s = 0.3;
+
+/// As rmw_cyclonedds is told to stay on this computer.
+constexpr const char* kUser =
+    "<CycloneDDS><Domain id=\"any\"><General><Interfaces><NetworkInterface "
+    "address=\"127.0.0.1\"/></Interfaces><AllowMulticast>false</AllowMulticast></General>"
+    "<Discovery><ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>32"
+    "</MaxAutoParticipantIndex><Peers><Peer address=\"localhost\"/></Peers></Discovery></Domain>"
+    "</CycloneDDS>";
+
+class DrivenByCmdVel : public RobotRig {
+ protected:
+  DrivenByCmdVel() {
+    add_section("\"ros2\": {\"domain\": " + std::to_string(domain_) +
+                R"(, "inputs": {"e_stop": true, "cmd_vel": "twist"}})");
+    dds_ = dds_create_domain(static_cast<dds_domainid_t>(domain_), kUser);
+    participant_ = dds_create_participant(static_cast<dds_domainid_t>(domain_), nullptr, nullptr);
+    EXPECT_GT(participant_, 0);
+  }
+  ~DrivenByCmdVel() override {
+    program_ = {};
+    dds_delete(dds_);
+  }
+
+  void start_program() {
+    program_ = Process({DROVER_ROS2_PROGRAM, "--config", (folder() / "drover.json").string()},
+                       (folder() / "ros2.log").string());
+  }
+  dds_entity_t writer(const ros2::TopicKind& kind = ros2::cmd_vel_kind(false)) {
+    const dds_entity_t topic =
+        dds_create_topic(participant_, kind.type, kind.name, nullptr, nullptr);
+    dds_qos_t* qos = dds_create_qos();
+    dds_qset_reliability(qos, DDS_RELIABILITY_RELIABLE, 0);
+    const dds_entity_t made = dds_create_writer(participant_, topic, qos, nullptr);
+    dds_delete_qos(qos);
+    EXPECT_GT(made, 0);
+    return made;
+  }
+  bool is_heard(dds_entity_t by) {
+    return wait_until([&] {
+      dds_publication_matched_status_t matched{};
+      (void)dds_get_publication_matched_status(by, &matched);
+      return matched.current_count > 0;
+    });
+  }
+  static void say(dds_entity_t by, double vx_mps, double wz_radps = 0) {
+    const geometry_msgs_msg_dds__Twist_ message{{vx_mps, 0, 0}, {0, 0, wz_radps}};
+    dds_write(by, &message);
+  }
+  /// Says so at 20 Hz until `done`; false: not within `longest`.
+  bool say_until(dds_entity_t by, double vx_mps, const std::function<bool()>& done,
+                 std::chrono::nanoseconds longest = 20s) {
+    const double begin_s = now_s();
+    while (!done()) {
+      if (now_s() - begin_s > std::chrono::duration<double>(longest).count()) return false;
+      say(by, vx_mps);
+      (void)wait_until([] { return false; }, 50ms);
+    }
+    return true;
+  }
+  void say_for(dds_entity_t by, double vx_mps, double seconds) {
+    const double end_s = now_s() + seconds;
+    (void)say_until(by, vx_mps, [end_s] { return now_s() > end_s; });
+  }
+  bool moves() { return true_speed_mps() > 0.2; }
+  void start_robot() {
+    ASSERT_NO_FATAL_FAILURE(start_all());
+    start_program();
+    writer_ = writer();
+    ASSERT_TRUE(is_heard(writer_)) << program_.output();
+    // It says each second that it is there.
+    ASSERT_TRUE(wait_until([this] {
+      return program_.output().find("droverd tells of the robot") != std::string::npos;
+    })) << program_.output();
+  }
+  /// Until it moves.
+  void drive_off() {
+    say_for(writer_, 0, 0.8);
+    ASSERT_TRUE(say_until(writer_, 0.4, [this] { return moves(); }))
+        << drover({"status"}).text << program_.output();
+  }
+  std::string status() { return drover({"status"}).text; }
+  /// No set point but 0 from then on.
+  void expect_rest_on_the_bus_from(double from_s) {
+    stop_daemon();
+    bool moved = false;
+    for (const SetPoint& point : set_points_on_the_bus()) {
+      moved = moved || point.velocity_turnps != 0;
+      if (point.time_s > from_s) {
+        ASSERT_EQ(point.velocity_turnps, 0) << point.time_s - from_s << " s later";
+      }
+    }
+    EXPECT_TRUE(moved) << "it drove before";
+  }
+
+  int domain_ = 100 + ::getpid() % 100;
+  Process program_;
+  dds_entity_t dds_ = 0;
+  dds_entity_t participant_ = 0;
+  dds_entity_t writer_ = 0;
+};
+
+TEST_F(DrivenByCmdVel, MovesAsToldAndStopsWhenItIsSilent) {
+  ASSERT_NO_FATAL_FAILURE(start_robot());
+  say_for(writer_, 0.4, 1);
+  EXPECT_LT(true_speed_mps(), 0.01) << "a stream begins with a zero twist";
+  EXPECT_THAT(status(), HasSubstr("cmd_vel begins with a zero twist"));
+  ASSERT_NO_FATAL_FAILURE(drive_off());
+  EXPECT_THAT(status(), HasSubstr("cmd_vel, stops 0.3 s after its last message"));
+  say(writer_, 0.4);
+  const double last_s = now_s();
+  ASSERT_TRUE(wait_until([this] { return at_rest(); }));
+  (void)wait_until([] { return false; }, 2s);
+  EXPECT_THAT(status(), HasSubstr("cmd_vel fell silent"));
+  // What is not 0 is not followed without rest before it.
+  say_for(writer_, 0.4, 1);
+  expect_rest_on_the_bus_from(last_s + kSilent_s + kRamp_s);
+}
+
+TEST_F(DrivenByCmdVel, IsNotMovedByWhatWasQueuedWhileItsProgramHung) {
+  ASSERT_NO_FATAL_FAILURE(start_robot());
+  ASSERT_NO_FATAL_FAILURE(drive_off());
+  program_.signal(SIGSTOP);
+  const double hung_s = now_s();
+  say_for(writer_, 0.4, 2);
+  ASSERT_TRUE(say_until(writer_, 0.4, [this] { return at_rest(); }));
+  // Rest and motion, all of it in the queue.
+  say_for(writer_, 0, 1);
+  say_for(writer_, 0.4, 1);
+  program_.signal(SIGCONT);
+  say_for(writer_, 0.4, 2);
+  EXPECT_TRUE(at_rest());
+  EXPECT_THAT(daemon().output(), HasSubstr("cmd_vel refused"));
+  expect_rest_on_the_bus_from(hung_s + kSilent_s + kRamp_s);
+}
+
+TEST_F(DrivenByCmdVel, StopsWhenItsProgramIsKilledAndFollowsTheNextOneFromRest) {
+  ASSERT_NO_FATAL_FAILURE(start_robot());
+  ASSERT_NO_FATAL_FAILURE(drive_off());
+  program_.signal(SIGKILL);
+  (void)program_.wait(5s);
+  ASSERT_TRUE(say_until(writer_, 0.4, [this] { return at_rest(); }));
+  start_program();
+  say_for(writer_, 0.4, 3);
+  EXPECT_TRUE(at_rest());
+  // Another one shows this robot for three seconds still, as far as droverd knows.
+  ASSERT_TRUE(wait_until([&] {
+    say_for(writer_, 0, 1);
+    return status().find("cmd_vel, stops") != std::string::npos;
+  })) << status()
+      << program_.output();
+  ASSERT_NO_FATAL_FAILURE(drive_off());
+}
+
+TEST_F(DrivenByCmdVel, IsStoppedByTheEmergencyStopWhateverIsSaid) {
+  ASSERT_NO_FATAL_FAILURE(start_robot());
+  const dds_entity_t stop = writer(ros2::stop_kind());
+  ASSERT_TRUE(is_heard(stop));
+  ASSERT_NO_FATAL_FAILURE(drive_off());
+  // A flood of a thousand a second is before it.
+  for (int i = 0; i < 500; ++i) {
+    say(writer_, 0.4);
+    std::this_thread::sleep_for(1ms);
+  }
+  const std_msgs_msg_dds__Bool_ message{true};
+  dds_write(stop, &message);
+  const double stop_s = now_s();
+  for (int i = 0; i < 500; ++i) {
+    say(writer_, 0.4);
+    std::this_thread::sleep_for(1ms);
+  }
+  ASSERT_TRUE(say_until(writer_, 0.4, [this] { return at_rest(); }));
+  say_for(writer_, 0, 0.8);
+  say_for(writer_, 0.4, 1);
+  EXPECT_TRUE(at_rest());
+  EXPECT_THAT(status(), HasSubstr("reset the stop first"));
+  expect_rest_on_the_bus_from(stop_s + 0.5);
+}
+
+TEST_F(DrivenByCmdVel, IsMovedByNeitherOfTwoPrograms) {
+  ASSERT_NO_FATAL_FAILURE(start_robot());
+  ASSERT_NO_FATAL_FAILURE(drive_off());
+  const dds_entity_t other = writer();
+  ASSERT_TRUE(is_heard(other));
+  ASSERT_TRUE(say_until(writer_, 0.4, [&] {
+    say(other, 0);
+    return at_rest();
+  }));
+  EXPECT_THAT(status(), HasSubstr("two programs write it, neither is followed: "));
+  EXPECT_THAT(daemon().output(), HasSubstr("cmd_vel refused: two programs write it"));
+  dds_delete(other);
+  say_for(writer_, 0.4, 2);
+  EXPECT_TRUE(at_rest()) << "it begins from rest again";
+  ASSERT_NO_FATAL_FAILURE(drive_off());
+}
+
+TEST_F(DrivenByCmdVel, RefusesByNameWhatItsBaseCannot) {
+  ASSERT_NO_FATAL_FAILURE(start_robot());
+  say_for(writer_, 0, 0.8);
+  const geometry_msgs_msg_dds__Twist_ sideways{{0.4, 0.3, 0}, {0, 0, 0}};
+  ASSERT_TRUE(wait_until([&] {
+    dds_write(writer_, &sideways);
+    return daemon().output().find(
+               "cmd_vel refused: linear.y is 0.3: this base cannot go "
+               "sideways") != std::string::npos;
+  })) << daemon().output();
+  EXPECT_TRUE(at_rest());
+}
+
+}  // namespace
+}  // namespace drover::test
