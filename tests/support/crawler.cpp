@@ -62,7 +62,7 @@ constexpr Duration kStale = std::chrono::milliseconds(200);
 
 class Crawler final : public Device, public ByteFace, public Actuator {
  public:
-  explicit Crawler(bool stops) : stops_(stops) {}
+  Crawler(bool stops, AxisId axis) : stops_(stops), axis_(axis) {}
 
   void on_link_up(Time) override { size_ = 0; }
   void on_tick(Time, DriverOut& out) override {
@@ -120,6 +120,7 @@ class Crawler final : public Device, public ByteFace, public Actuator {
     if (said.what < kIsIdle || said.what > kFault) return;
     heard_ = at;
     AxisStatus status;
+    status.axis = axis_;
     status.state = said.what == kRuns     ? AxisState::running
                    : said.what == kIsIdle ? AxisState::idle
                                           : AxisState::fault;
@@ -133,6 +134,7 @@ class Crawler final : public Device, public ByteFace, public Actuator {
   }
 
   bool stops_;
+  AxisId axis_;
   Setpoint wanted_;
   Time heard_ = kNever;
   std::array<std::uint8_t, kSize> window_{};
@@ -144,8 +146,8 @@ constexpr OptionSpec kOptions[] = {
 
 constexpr int kBauds[] = {115200};
 
-Made make(const Options& options, const MakeContext&) {
-  return make_device<Crawler>(options.flag("stops"));
+Made make(const Options& options, const MakeContext& context) {
+  return make_device<Crawler>(options.flag("stops"), context.axis(0));
 }
 
 }  // namespace
