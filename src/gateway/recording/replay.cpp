@@ -153,7 +153,7 @@ class Replay final {
     for (const auto& field : fields_) {
       const auto it = ours.find(field.name);
       const bool known = it != ours.end() && names[it->second].kind == field.kind;
-      place_.push_back(known ? it->second : kNowhere);
+      place_.push_back(known ? it->second : kNotThere);
       if (!known) result_.not_compared.push_back(field.name);
       if (known) ours.erase(it);
     }
@@ -249,7 +249,7 @@ class Replay final {
     FieldValues visitor(replayed_);
     visit_fields(visitor, *gateway_);
     for (std::size_t i = 0; i < fields_.size(); ++i) {
-      if (place_[i] == kNowhere || replayed_[place_[i]] == recorded_[i]) continue;
+      if (place_[i] == kNotThere || replayed_[place_[i]] == recorded_[i]) continue;
       differs(fields_[i].name, shown(fields_[i].kind, recorded_[i]),
               shown(fields_[i].kind, replayed_[place_[i]]));
     }
@@ -337,7 +337,7 @@ class Replay final {
     for (const auto number : released) paths_.erase(number);
   }
 
-  static constexpr std::size_t kNowhere = SIZE_MAX;
+  static constexpr std::size_t kNotThere = SIZE_MAX;
 
   ByteReader in_;
   Playing playing_;

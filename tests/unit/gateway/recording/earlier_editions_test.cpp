@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "gateway/recording/input_codec.h"
+#include "gateway/recording/replay.h"
 #include "tests/unit/gateway/recorded_run.h"
 
 namespace drover::gateway {
@@ -118,6 +119,25 @@ TEST_F(FirstEdition, NamesNoLinkThatIsNotConfigured) {
   wiring_ = wire_up(config, environment_);
   EXPECT_EQ(meaning(10, {1}), "at 8.000000000 s: link 255 up");
   EXPECT_THAT(streams_of_first_edition(wiring_), ElementsAre(1, kNowhere));
+}
+
+TEST(FirstEditionReplayed, ComparesNoStreamThatIsNotConfigured) {
+  const std::string blind = changed(
+      changed(robot_configuration(), R"("imu": {"driver": "witmotion", "link": "imu"},)", ""),
+      R"("imu": {"serial": "/dev/drover/imu", "baud": 115200},)", "");
+  RecordingHeader header;
+  const auto loaded = load_robot(blind);
+  header.configuration = loaded.text;
+  header.register_map = loaded.register_map;
+  header.edition = 1;
+  std::vector<std::uint8_t> file = written(header);
+  // A cycle, and an output in which nothing is told, not even of the two streams that there were.
+  for (const int byte : {3, 12, 2, 0, 1, static_cast<int>(RecordKind::output)})
+    file.push_back(static_cast<std::uint8_t>(byte));
+  const Replayed it = replay(file);
+  EXPECT_EQ(it.inputs, 1U);
+  EXPECT_EQ(it.verdict, Replayed::Verdict::unusable);
+  EXPECT_THAT(it.note, ::testing::StartsWith("it has a damaged output"));
 }
 
 }  // namespace
