@@ -49,32 +49,17 @@ std::string nothing_heard(const Node& source) {
   return "-  never heard" + (reason.empty() ? "" : "  " + reason);
 }
 
-/// Nothing where nobody ever sent one.
-void show_joint_commands(std::string& out, const Node& status) {
-  const auto& commands = at(status, "joint_commands");
-  const auto some = [&](const char* key) {
-    const auto count = at(commands, key).number();
-    return count && *count > 0;
-  };
+/// A stream that a program drives by: nothing where nobody ever sent one.
+void show_stream(std::string& out, const char* name, const Node& stream) {
+  const auto some = [&](const char* key) { return at(stream, key).number().value_or(0) > 0; };
   if (!some("accepted") && !some("refused") && !some("unread")) return;
-  std::string value = yes(at(commands, "active")) ? "heard" : "silent";
-  value += quantity(at(commands, "accepted"), ", %.0f followed") +
-           quantity(at(commands, "refused"), ", %.0f refused");
-  if (some("unread")) value += quantity(at(commands, "unread"), ", %.0f of a flood not read");
-  if (some("of_rivals")) value += quantity(at(commands, "of_rivals"), ", %.0f of a second program");
-  const auto reason = text(at(commands, "reason"));
-  line(out, "joints", reason.empty() ? value : value + ": " + reason);
-}
-
-void show_cmd_vel(std::string& out, const Node& status) {
-  const auto& heard = at(status, "cmd_vel");
-  const auto some = [&](const char* key) { return at(heard, key).number().value_or(0) > 0; };
-  if (!some("accepted") && !some("refused")) return;
-  std::string value = yes(at(heard, "active")) ? "heard" : "silent";
-  value += quantity(at(heard, "accepted"), ", %.0f followed") +
-           quantity(at(heard, "refused"), ", %.0f refused");
-  const auto reason = text(at(heard, "reason"));
-  line(out, "cmd_vel", reason.empty() ? value : value + ": " + reason);
+  std::string value = yes(at(stream, "active")) ? "heard" : "silent";
+  value += quantity(at(stream, "accepted"), ", %.0f followed") +
+           quantity(at(stream, "refused"), ", %.0f refused");
+  if (some("unread")) value += quantity(at(stream, "unread"), ", %.0f of a flood not read");
+  if (some("of_rivals")) value += quantity(at(stream, "of_rivals"), ", %.0f of a second program");
+  const auto reason = text(at(stream, "reason"));
+  line(out, name, reason.empty() ? value : value + ": " + reason);
 }
 
 /// A yaw that nobody knows yet is no number.
@@ -259,8 +244,8 @@ std::string show_status(const Node& status) {
        text(at(status, "robot")) + "  droverd " + text(at(status, "version")) +
            quantity(at(status, "uptime_s"), "  up %.0f s"));
   show_nav(out, status);
-  show_cmd_vel(out, status);
-  show_joint_commands(out, status);
+  show_stream(out, "cmd_vel", at(status, "cmd_vel"));
+  show_stream(out, "joints", at(status, "joint_commands"));
   show_why(out, status);
   show_place(out, status);
   show_clearance(out, status);

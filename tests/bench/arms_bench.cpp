@@ -4,10 +4,9 @@
 // carries (seven do); a socket has no such limit.
 //
 //   bench_arms SECONDS       prints "tick_ns longest_ns overruns ticks allocations": CPU time of
-//   the
-//                            control thread for a tick, its longest step (wall), ticks that came
-//                            too late in the time that was measured, and how many there were; how
-//                            often the thread allocated in all its life
+//                            the control thread for a tick, its longest step (wall), ticks that
+//                            came too late in the time that was measured, and how many there were;
+//                            how often the thread allocated in all its life
 //   bench_arms --configuration   prints the robot's configuration, for droverd --check
 #include <cmath>
 #include <cstdio>
