@@ -1,6 +1,5 @@
 // A ROS 2 user who drives by /cmd_vel: drover-ros2, droverd and the simulated robot as they are
 // shipped, and a writer that is plain DDS.
-#include <dds/dds.h>
 #include <gmock/gmock.h>
 #include <signal.h>
 #include <unistd.h>
@@ -9,6 +8,7 @@
 #include <thread>
 
 #include "integration/robot_rig.h"
+#include "integration/ros2_user.h"
 #include "ros2/topics.h"
 
 namespace drover::test {
@@ -21,20 +21,13 @@ using testing::Not;
 constexpr double kRamp_s = 1.5;  ///< from 0.4 m/s, and what is on its way
 constexpr double kSilent_s = 0.3;
 
-/// As rmw_cyclonedds is told to stay on this computer.
-constexpr const char* kUser =
-    "<CycloneDDS><Domain id=\"any\"><General><Interfaces><NetworkInterface "
-    "address=\"127.0.0.1\"/></Interfaces><AllowMulticast>false</AllowMulticast></General>"
-    "<Discovery><ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>32"
-    "</MaxAutoParticipantIndex><Peers><Peer address=\"localhost\"/></Peers></Discovery></Domain>"
-    "</CycloneDDS>";
-
 class DrivenByCmdVel : public RobotRig {
  protected:
   DrivenByCmdVel() {
     add_section("\"ros2\": {\"domain\": " + std::to_string(domain_) +
                 R"(, "inputs": {"e_stop": true, "cmd_vel": "twist"}})");
-    dds_ = dds_create_domain(static_cast<dds_domainid_t>(domain_), kUser);
+    dds_ =
+        dds_create_domain(static_cast<dds_domainid_t>(domain_), settings_of(User::humble).c_str());
     participant_ = dds_create_participant(static_cast<dds_domainid_t>(domain_), nullptr, nullptr);
     EXPECT_GT(participant_, 0);
   }
@@ -48,14 +41,7 @@ class DrivenByCmdVel : public RobotRig {
                        (folder() / "ros2.log").string());
   }
   dds_entity_t writer(const ros2::TopicKind& kind = ros2::cmd_vel_kind(false)) {
-    const dds_entity_t topic =
-        dds_create_topic(participant_, kind.type, kind.name, nullptr, nullptr);
-    dds_qos_t* qos = dds_create_qos();
-    dds_qset_reliability(qos, DDS_RELIABILITY_RELIABLE, 0);
-    const dds_entity_t made = dds_create_writer(participant_, topic, qos, nullptr);
-    dds_delete_qos(qos);
-    EXPECT_GT(made, 0);
-    return made;
+    return make_writer(participant_, kind, DDS_RELIABILITY_RELIABLE);
   }
   bool is_heard(dds_entity_t by) {
     return wait_until([&] {

@@ -17,18 +17,6 @@ namespace {
 using namespace std::chrono_literals;
 constexpr publish::ClientId kClient = 7;
 
-/// As rmw_cyclonedds says it.
-std::string settings_of(User user) {
-  std::string text = "<CycloneDDS><Domain id=\"any\"><General>";
-  if (user == User::humble)
-    text += "<Interfaces><NetworkInterface address=\"127.0.0.1\"/></Interfaces>";
-  return text +
-         "<AllowMulticast>false</AllowMulticast></General><Discovery>"
-         "<ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>32"
-         "</MaxAutoParticipantIndex><Peers><Peer address=\"localhost\"/></Peers></Discovery>"
-         "</Domain></CycloneDDS>";
-}
-
 std::string text_of(const std::filesystem::path& path) {
   std::ifstream file(path);
   return {std::istreambuf_iterator<char>(file), {}};
@@ -153,17 +141,6 @@ dds_entity_t Ros2Rig::reader(ros2::Topic topic, dds_reliability_kind_t reliabili
   dds_delete_qos(qos);
   EXPECT_GT(reader, 0);
   return reader;
-}
-
-dds_entity_t Ros2Rig::stop_writer(dds_reliability_kind_t reliability) {
-  const auto& kind = ros2::stop_kind();
-  const dds_entity_t topic = dds_create_topic(participant_, kind.type, kind.name, nullptr, nullptr);
-  dds_qos_t* qos = dds_create_qos();
-  dds_qset_reliability(qos, reliability, 0);
-  const dds_entity_t writer = dds_create_writer(participant_, topic, qos, nullptr);
-  dds_delete_qos(qos);
-  EXPECT_GT(writer, 0);
-  return writer;
 }
 
 void Ros2Rig::give_back() {

@@ -15,17 +15,12 @@
 
 #include "drover/snapshot.h"
 #include "integration/process.h"
+#include "integration/ros2_user.h"
 #include "publish/ros2_outlet.h"
 #include "ros2/topics.h"
 #include "support/temp_folder.h"
 
 namespace drover::test {
-
-/// How the ROS 2 user was told to stay on this computer.
-enum class User : std::uint8_t {
-  humble,  ///< ROS_LOCALHOST_ONLY=1: it uses lo
-  jazzy,   ///< ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST: it uses the network's address
-};
 
 class Ros2Rig : public ::testing::Test {
  protected:
@@ -40,8 +35,10 @@ class Ros2Rig : public ::testing::Test {
   bool play_until(const std::function<bool()>& done);
   void play_for(std::chrono::milliseconds time);
 
-  /// A reader as rmw_cyclonedds makes it.
-  dds_entity_t stop_writer(dds_reliability_kind_t reliability);
+  dds_entity_t stop_writer(dds_reliability_kind_t reliability) {
+    return make_writer(participant_, ros2::stop_kind(), reliability);
+  }
+  /// As rmw_cyclonedds makes it.
   dds_entity_t reader(ros2::Topic topic, dds_reliability_kind_t reliability,
                       dds_durability_kind_t durability = DDS_DURABILITY_VOLATILE);
   /// The newest sample, which is the caller's until the next call; nullptr: none.
