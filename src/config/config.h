@@ -148,9 +148,10 @@ struct Ros2InputsConfig {
   bool e_stop = false;  ///< true on /e_stop is an emergency stop
   /// What comes on /cmd_vel: "closed", "twist" or "twist_stamped".
   std::string cmd_vel = "closed";
+  bool joint_command = false;  ///< what comes on /joint_command is followed
 
-  bool may_drive() const { return cmd_vel != "closed"; }
-  bool any() const { return e_stop || may_drive(); }
+  bool may_move() const { return cmd_vel != "closed" || joint_command; }
+  bool any() const { return e_stop || may_move(); }
 };
 
 /// What drover-ros2 shows to ROS 2 users, and to whom.

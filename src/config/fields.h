@@ -267,6 +267,8 @@ void visit(V& v, Ros2InputsConfig& c) {
   v.flag("e_stop", c.e_stop, "true on /e_stop (std_msgs/Bool) is an emergency stop");
   v.choice("cmd_vel", c.cmd_vel, {"closed", "twist", "twist_stamped"},
            "drive by /cmd_vel, and as what it comes: geometry_msgs/Twist or TwistStamped");
+  v.flag("joint_command", c.joint_command,
+         "follow joint commands on /joint_command (aimrt_msgs/JointCommandArray)");
 }
 
 template <class V>

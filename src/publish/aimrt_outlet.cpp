@@ -4,7 +4,7 @@ namespace drover::publish {
 
 std::vector<WantedTopic> AimrtOutlet::wants() const {
   std::vector<WantedTopic> topics;
-  if (commands_)
+  if (hears_commands_)
     for (const auto& topic : channel_.command_topics()) topics.push_back({topic, 0});
   return topics;
 }
@@ -23,12 +23,6 @@ bool AimrtOutlet::on_message(std::string_view topic, std::string_view payload,
   if (!names) return false;
   channel_.on_command(*names, payload, arrival, now, arrival.wall - now.time_since_epoch(), out);
   return true;
-}
-
-void AimrtOutlet::count(DaemonStatus& status) const {
-  status.joint_commands_unread = channel_.unread();
-  status.joint_commands_rivals = channel_.rivals(status.now);
-  status.joint_commands_of_rivals = channel_.rivals_refused();
 }
 
 }  // namespace drover::publish

@@ -8,8 +8,10 @@ namespace drover::publish {
 
 class AimrtOutlet final : public Outlet {
  public:
-  AimrtOutlet(const aimrt::ChannelConfig& config, double rate_Hz, bool commands)
-      : channel_(config), period_(from_s(1 / rate_Hz)), commands_(commands) {}
+  /// `commands` outlives it; they are heard only if `hears_commands`.
+  AimrtOutlet(const aimrt::ChannelConfig& config, aimrt::JointCommands& commands, double rate_Hz,
+              bool hears_commands)
+      : channel_(config, commands), period_(from_s(1 / rate_Hz)), hears_commands_(hears_commands) {}
 
   Duration period() const override { return period_; }
   std::vector<WantedTopic> wants() const override;
@@ -17,13 +19,11 @@ class AimrtOutlet final : public Outlet {
                                       Actions& out) override;
   bool on_message(std::string_view topic, std::string_view payload, const Arrival& arrival,
                   Time now, Actions& out) override;
-  std::string_view trouble(Time now) const override { return channel_.rivals(now); }
-  void count(DaemonStatus& status) const override;
 
  private:
   aimrt::Channel channel_;
   Duration period_;
-  bool commands_;  ///< joint commands are heard
+  bool hears_commands_;
 };
 
 }  // namespace drover::publish

@@ -10,6 +10,8 @@ namespace drover::publish {
 namespace {
 
 constexpr std::size_t kMostText = 200;
+/// A joint command as JSON in a text of JSON.
+constexpr std::size_t kMostBytes = 2 * aimrt::kMaxCommandBytes + 2048;
 
 std::int64_t count_of(const json::Node& request, std::string_view key) {
   const auto* node = request.find(key);
@@ -25,6 +27,7 @@ std::optional<double> twist_number(const json::Node& request, std::string_view k
 
 std::vector<OutMessage> Ros2Outlet::on_snapshot(const Snapshot& seen, const Moment& moment,
                                                 Actions& out) {
+  wall_minus_monotonic_ = moment.wall_minus_monotonic;
   if (!follows(moment.now)) return {};
   out.emplace_back(
       Reply{client_, ros2::state_line(seen, moment.wall_minus_monotonic, turns_(), told_)});
@@ -35,14 +38,17 @@ bool Ros2Outlet::on_line(ClientId client, std::string_view line, Time now, Actio
   const auto names = [line](std::string_view word) {
     return line.find(word) != std::string_view::npos;
   };
-  if (!names("ros2_follow") && !names("cmd_vel")) return false;
-  const auto document = json::parse(line, {.max_bytes = 2048, .max_depth = 2, .max_values = 8});
+  if (!names("ros2_follow") && !names("cmd_vel") && !names("joint_command")) return false;
+  const auto document =
+      json::parse(line, {.max_bytes = kMostBytes, .max_depth = 2, .max_values = 8});
   if (!document) return false;
   const auto cmd = text_member(document->root, "cmd");
   if (cmd == "ros2_follow")
     follow(client, document->root, now, out);
   else if (cmd == "cmd_vel")
     cmd_vel(client, document->root, now, out);
+  else if (cmd == "joint_command")
+    joint_command(client, document->root, now, out);
   else
     return false;
   return true;
@@ -91,6 +97,40 @@ void Ros2Outlet::cmd_vel(ClientId client, const json::Node& request, Time now, A
   const auto at_ns = count_of(request, "at_ns");
   if (!vx_mps || !wz_radps || at_ns <= 0) return refuse("vx_mps, wz_radps or at_ns is missing");
   give(std::min(now, Time{Duration{at_ns}}), FollowTwist{{*vx_mps, *wz_radps}});
+}
+
+/// What drover-ros2 made of a message: its values as AimRT's JSON, by the reader of the broker's.
+Result<aimrt::JointCommandHeard, Reason> Ros2Outlet::read_joint_command(const json::Node& request,
+                                                                        Time now) const {
+  if (const auto why = text_member(request, "refused"); !why.empty())
+    return Reason(json::shown(why, kMostText));
+  const auto writer = text_member(request, "writer");
+  const Time came{Duration{count_of(request, "at_ns")}};
+  if (writer.empty() || came <= Time{}) return Reason("its writer or at_ns is missing");
+  if (now - came > joint_commands_->max_age()) {
+    Reason late;
+    late.format("it waited for %.0f ms on this computer, %.0f ms are allowed",
+                1e3 * to_s(now - came), 1e3 * to_s(joint_commands_->max_age()));
+    return late;
+  }
+  auto message = aimrt::decode_joint_command_json(text_member(request, "message"));
+  if (!message) return message.error();
+  aimrt::JointCommandHeard heard{std::move(*message), {}};
+  heard.writer.stamp_ns = heard.message.stamp_ns;
+  heard.writer.guid = writer;
+  return heard;
+}
+
+void Ros2Outlet::joint_command(ClientId client, const json::Node& request, Time now, Actions& out) {
+  const auto refuse = [&](std::string_view why) {
+    out.emplace_back(Reply{client, reply_line(false, why)});
+  };
+  if (joint_commands_ == nullptr)
+    return refuse("joint_command is not opened: ros2.inputs.joint_command");
+  if (client != client_ || !follows(now)) return refuse("only drover-ros2 hands joint commands on");
+  joint_commands_->take(
+      RequestId::Source::ros2, [&] { return read_joint_command(request, now); }, now,
+      now.time_since_epoch() + wall_minus_monotonic_, out);
 }
 
 void Ros2Outlet::count(DaemonStatus& status) const {

@@ -1,6 +1,6 @@
 // drover-ros2 as an outlet: a program of its own that follows the robot's state over the daemon's
 // socket. It says each second that it is there; a row of lines goes to it meanwhile. Where the
-// configuration opens it, it hands on what ROS 2 users want the base to do.
+// configuration opens it, it hands on what ROS 2 users want the base and other joints to do.
 #pragma once
 
 #include <functional>
@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "json/located_json.h"
+#include "publish/aimrt/joint_commands.h"
 #include "publish/outlet.h"
 #include "publish/ros2/line.h"
 #include "publish/token_bucket.h"
@@ -24,8 +25,13 @@ class Ros2Outlet final : public Outlet {
   using Turns = std::function<std::vector<const scene::sensor::SeenTurn*>()>;
 
   /// `turns`: the scanners' latest ones. `may_drive`: the configuration opens cmd_vel.
-  Ros2Outlet(double rate_Hz, Turns turns, bool may_drive = false)
-      : period_(from_s(1 / rate_Hz)), turns_(std::move(turns)), may_drive_(may_drive) {}
+  /// `joint_commands` outlives it; nullptr: the configuration does not open them.
+  Ros2Outlet(double rate_Hz, Turns turns, bool may_drive = false,
+             aimrt::JointCommands* joint_commands = nullptr)
+      : period_(from_s(1 / rate_Hz)),
+        turns_(std::move(turns)),
+        may_drive_(may_drive),
+        joint_commands_(joint_commands) {}
 
   Duration period() const override { return period_; }
   bool needs_broker() const override { return false; }
@@ -37,11 +43,16 @@ class Ros2Outlet final : public Outlet {
  private:
   void follow(ClientId client, const json::Node& request, Time now, Actions& out);
   void cmd_vel(ClientId client, const json::Node& request, Time now, Actions& out);
+  void joint_command(ClientId client, const json::Node& request, Time now, Actions& out);
+  Result<aimrt::JointCommandHeard, Reason> read_joint_command(const json::Node& request,
+                                                              Time now) const;
   bool follows(Time now) const { return heard_ != kNever && now - heard_ <= kLease; }
 
   Duration period_;
   Turns turns_;
   bool may_drive_;
+  aimrt::JointCommands* joint_commands_;
+  Duration wall_minus_monotonic_{};  ///< as of late
   ClientId client_ = 0;
   Time heard_ = kNever;
   TokenBucket requests_{20, 20};

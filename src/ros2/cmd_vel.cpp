@@ -1,10 +1,9 @@
 #include "ros2/cmd_vel.h"
 
 #include <array>
-#include <cstdio>
-#include <memory>
 
 #include "ros2/read_twist.h"
+#include "ros2/writer_names.h"
 
 namespace drover::ros2 {
 namespace {
@@ -13,26 +12,13 @@ constexpr std::int32_t kAtOnce = 20;
 
 }  // namespace
 
-std::string CmdVel::name_of(dds_instance_handle_t writer) const {
-  const std::unique_ptr<dds_builtintopic_endpoint_t, void (*)(dds_builtintopic_endpoint_t*)> told(
-      dds_get_matched_publication_data(reader_, writer), dds_builtintopic_free_endpoint);
-  if (!told) return "one that is gone";
-  std::string name;
-  for (const auto byte : told->key.v) {
-    std::array<char, 4> hex{};
-    std::snprintf(hex.data(), hex.size(), "%02x", static_cast<unsigned>(byte));
-    name += (name.empty() ? "" : ".") + std::string(hex.data());
-  }
-  return name;
-}
-
 void CmdVel::hear(const void* sample, const dds_sample_info_t& info, Time now, Duration wall,
                   TwistsHeard& heard) {
   const auto rival = writers_.rival_of(info.publication_handle, now);
   if (rival != 0) {
     heard.twist.reset();
-    heard.refused = "two programs write it, neither is followed: " + name_of(rival) + " and " +
-                    name_of(info.publication_handle);
+    heard.refused = "two programs write it, neither is followed: " + writer_name(reader_, rival) +
+                    " and " + writer_name(reader_, info.publication_handle);
     return;
   }
   const Duration age = wall - Duration{info.source_timestamp};

@@ -33,8 +33,6 @@ class CmdVel final {
  private:
   void hear(const void* sample, const dds_sample_info_t& info, Time now, Duration wall,
             TwistsHeard& heard);
-  /// As `ros2 topic info -v` shows it, and of which program where that is known.
-  std::string name_of(dds_instance_handle_t writer) const;
 
   dds_entity_t reader_;
   bool stamped_;

@@ -15,6 +15,8 @@ namespace {
 constexpr std::int32_t kDepth = 100;
 /// Of twists the newest counts; more show that two programs write.
 constexpr std::int32_t kTwists = 20;
+/// Of joint commands each counts: two programs may write 200 a second for groups of their own.
+constexpr std::int32_t kJointCommands = 50;
 
 /// A thread of DDS' own: it only wakes the loop.
 void wake(dds_entity_t, void* came) {
@@ -37,6 +39,14 @@ dds_entity_t make_reader(dds_entity_t participant, const TopicKind& kind, std::i
   return reader;
 }
 
+JointCommandLimits limits_of(const config::DroverConfig& config) {
+  JointCommandLimits limits;
+  limits.oldest = from_s(1e-3 * config.aimrt.max_command_age_ms);
+  limits.joints = config.engine.joints.size();
+  limits.messages_Hz *= static_cast<double>(1 + config.engine.groups.size());
+  return limits;
+}
+
 }  // namespace
 
 dds_entity_t Heard::open(dds_entity_t participant, const TopicKind& kind, std::int32_t depth) {
@@ -51,14 +61,21 @@ dds_entity_t Heard::open(dds_entity_t participant, const TopicKind& kind, std::i
   return reader;
 }
 
-Heard::Heard(dds_entity_t participant, const config::Ros2InputsConfig& inputs, Reach reach)
+Heard::Heard(dds_entity_t participant, const config::DroverConfig& config, Reach reach)
     : came_(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)), fd_(came_.get()) {
+  const auto& inputs = config.ros2.inputs;
+  const bool one_clock = reach == Reach::localhost;
   try {
     if (inputs.e_stop) stop_ = open(participant, stop_kind(), kDepth);
-    if (!inputs.may_drive()) return;
-    const bool stamped = inputs.cmd_vel == "twist_stamped";
-    twists_ = open(participant, cmd_vel_kind(stamped), kTwists);
-    cmd_vel_.emplace(twists_, stamped, reach == Reach::localhost);
+    if (inputs.cmd_vel != "closed") {
+      const bool stamped = inputs.cmd_vel == "twist_stamped";
+      twists_ = open(participant, cmd_vel_kind(stamped), kTwists);
+      cmd_vel_.emplace(twists_, stamped, one_clock);
+    }
+    if (inputs.joint_command) {
+      joints_ = open(participant, joint_command_kind(), kJointCommands);
+      joint_commands_.emplace(joints_, limits_of(config), one_clock);
+    }
   } catch (...) {
     close();
     throw;
@@ -71,12 +88,17 @@ Heard::~Heard() {
 
 /// Waits for the listeners, which write to a descriptor of this object.
 void Heard::close() {
-  for (const dds_entity_t reader : {stop_, twists_})
+  for (const dds_entity_t reader : {stop_, twists_, joints_})
     if (reader > 0) dds_delete(reader);
 }
 
 TwistsHeard Heard::twists(Time now, Duration wall) {
   return cmd_vel_ ? cmd_vel_->take(now, wall) : TwistsHeard{};
+}
+
+void Heard::joint_commands(Time now, Duration wall,
+                           const std::function<void(const std::string&)>& send) {
+  if (joint_commands_) joint_commands_->take(now, wall, send);
 }
 
 bool Heard::stop_asked() {

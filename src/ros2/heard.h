@@ -7,6 +7,7 @@
 #include "link/unique_fd.h"
 #include "ros2/cmd_vel.h"
 #include "ros2/domain.h"
+#include "ros2/joint_command_input.h"
 #include "ros2/topics.h"
 
 namespace drover::ros2 {
@@ -14,7 +15,7 @@ namespace drover::ros2 {
 class Heard final {
  public:
   /// Readers are the last that a domain gets: by then its sockets are closed. Throws NoDomain.
-  Heard(dds_entity_t participant, const config::Ros2InputsConfig& inputs, Reach reach);
+  Heard(dds_entity_t participant, const config::DroverConfig& config, Reach reach);
   ~Heard();
   Heard(const Heard&) = delete;
   Heard& operator=(const Heard&) = delete;
@@ -25,6 +26,8 @@ class Heard final {
   bool stop_asked();
   /// What is wanted of the base, if that is opened. `wall`: UTC now, since 1970.
   TwistsHeard twists(Time now, Duration wall);
+  /// Lines of joint commands for droverd, likewise.
+  void joint_commands(Time now, Duration wall, const std::function<void(const std::string&)>& send);
 
  private:
   void close();
@@ -34,7 +37,9 @@ class Heard final {
   int fd_ = -1;            ///< its number, for the listener
   dds_entity_t stop_ = 0;  ///< 0: not opened
   dds_entity_t twists_ = 0;
+  dds_entity_t joints_ = 0;
   std::optional<CmdVel> cmd_vel_;
+  std::optional<JointCommandInput> joint_commands_;
 };
 
 }  // namespace drover::ros2

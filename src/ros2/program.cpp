@@ -92,7 +92,7 @@ void Program::make_domain(Time now) {
   try {
     domain_ = std::make_unique<Domain>(config_.ros2.domain, reach_, !networks_.empty());
     shown_ = std::make_unique<Shown>(domain_->participant(), robot_, wall_now_ns());
-    users_ = std::make_unique<Heard>(domain_->participant(), config_.ros2.inputs, reach_);
+    users_ = std::make_unique<Heard>(domain_->participant(), config_, reach_);
     readers_ = {};
     problem_.clear();
     retry_.succeeded();
@@ -112,9 +112,7 @@ void Program::make_domain(Time now) {
 void Program::say_who_may() const {
   const auto& inputs = config_.ros2.inputs;
   if (!inputs.any()) return;
-  const std::string what = !inputs.may_drive() ? "stop"
-                           : inputs.e_stop     ? "drive and stop"
-                                               : "drive";
+  const std::string what = !inputs.may_move() ? "stop" : inputs.e_stop ? "move and stop" : "move";
   const bool all = reach_ == Reach::network;
   say(all ? Level::warning : Level::info,
       std::string(all ? "whoever reaches these networks" : "programs on this computer") + " may " +
@@ -131,6 +129,8 @@ void Program::forget_domain() {
 void Program::hear_users(Time now) {
   hear_stop(now);  // before anything else
   hear_twists(now);
+  users_->joint_commands(now, now.time_since_epoch() + runtime::wall_minus_monotonic(),
+                         [this](const std::string& line) { link_.send(line); });
 }
 
 /// The newest goes on, not faster than droverd takes them.

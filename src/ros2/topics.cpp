@@ -48,6 +48,12 @@ const TopicKind& cmd_vel_kind(bool stamped) {
   return kinds[stamped ? 1 : 0];
 }
 
+const TopicKind& joint_command_kind() {
+  static const TopicKind kind{"rt/joint_command", &aimrt_msgs_msg_dds__JointCommandArray__desc,
+                              "b54f1627593fe732147b3b50e8bea84cc65db662367463cf776d86e0fa133769"};
+  return kind;
+}
+
 std::string hash_user_data(const char* hash) {
   return "typehash=RIHS01_" + std::string(hash) + ";";
 }

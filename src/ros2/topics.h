@@ -49,6 +49,9 @@ const TopicKind& stop_kind();
 /// geometry_msgs/Twist or TwistStamped, likewise.
 const TopicKind& cmd_vel_kind(bool stamped);
 
+/// aimrt_msgs/JointCommandArray, likewise.
+const TopicKind& joint_command_kind();
+
 /// What ROS 2 of Iron and later reads of an endpoint: "typehash=RIHS01_...;".
 std::string hash_user_data(const char* hash);
 

@@ -43,22 +43,27 @@ publish::aimrt::ChannelConfig channel_config(const config::DroverConfig& config)
   channel.joint_state_wording = wording(aimrt.joint_state_names, aimrt.joint_state_content);
   channel.imu_state_wording = wording("document", aimrt.imu_state_content);
   channel.touch_state_wording = wording(aimrt.touch_state_names, aimrt.touch_state_content);
-  channel.silence = from_s(config.engine.health.joint_command_timeout_s);
-  channel.rules.max_age = from_s(1e-3 * aimrt.max_command_age_ms);
-  for (const auto& joint : config.engine.joints)
-    channel.rules.joints.emplace_back(std::string(joint.view()));
-  const auto& groups = config.engine.groups;
-  for (std::size_t i = 0; i < groups.size(); ++i)
-    for (const auto& rules : groups[i].joints) {
-      auto& joint = channel.rules.joints.at(rules.axis);
-      joint.follows = rules.follows;
-      joint.group = i + 1;
-    }
-  channel.max_commands_Hz *= static_cast<double>(1 + groups.size());
   return channel;
 }
 
 }  // namespace
+
+publish::aimrt::JointCommandsConfig joint_commands_config(const config::DroverConfig& config) {
+  publish::aimrt::JointCommandsConfig commands;
+  commands.silence = from_s(config.engine.health.joint_command_timeout_s);
+  commands.rules.max_age = from_s(1e-3 * config.aimrt.max_command_age_ms);
+  for (const auto& joint : config.engine.joints)
+    commands.rules.joints.emplace_back(std::string(joint.view()));
+  const auto& groups = config.engine.groups;
+  for (std::size_t i = 0; i < groups.size(); ++i)
+    for (const auto& rules : groups[i].joints) {
+      auto& joint = commands.rules.joints.at(rules.axis);
+      joint.follows = rules.follows;
+      joint.group = i + 1;
+    }
+  commands.max_commands_Hz *= static_cast<double>(1 + groups.size());
+  return commands;
+}
 
 publish::CommandServiceConfig service_config(const config::DroverConfig& config) {
   publish::CommandServiceConfig service;
@@ -73,12 +78,12 @@ publish::CommandServiceConfig service_config(const config::DroverConfig& config)
 
 std::vector<std::unique_ptr<publish::Outlet>> make_outlets(
     const config::DroverConfig& config, publish::CommandService& service,
-    std::function<std::string(Time)> status) {
+    publish::aimrt::JointCommands& joint_commands, std::function<std::string(Time)> status) {
   std::vector<std::unique_ptr<publish::Outlet>> outlets;
   outlets.push_back(std::make_unique<publish::RtkOutlet>(rtk_config(config.protocol), service));
   if (config.mqtt.enabled && config.aimrt.enabled)
     outlets.push_back(std::make_unique<publish::AimrtOutlet>(
-        channel_config(config), config.aimrt.rate_Hz, config.aimrt.commands));
+        channel_config(config), joint_commands, config.aimrt.rate_Hz, config.aimrt.commands));
   outlets.push_back(std::make_unique<publish::CliOutlet>(service, std::move(status)));
   return outlets;
 }

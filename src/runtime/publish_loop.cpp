@@ -68,6 +68,7 @@ PublishLoop::PublishLoop(const config::DroverConfig& config, ControlExchange& co
       scanners_(scanners),
       stop_order_(stops),
       service_(service_config(config), std::move(stored)),
+      joint_commands_(joint_commands_config(config)),
       started_(monotonic_now()),
       cli_(
           config.paths.run + "/drover.sock",
@@ -109,8 +110,10 @@ PublishLoop::PublishLoop(const config::DroverConfig& config, ControlExchange& co
             turns.push_back(&scanner->exchange.shown_turn.latest());
           return turns;
         },
-        config.ros2.inputs.may_drive()));
-  for (auto& outlet : make_outlets(config, service_, [this](Time now) { return status_text(now); }))
+        config.ros2.inputs.cmd_vel != "closed",
+        config.ros2.inputs.joint_command ? &joint_commands_ : nullptr));
+  for (auto& outlet : make_outlets(config, service_, joint_commands_,
+                                   [this](Time now) { return status_text(now); }))
     add(std::move(outlet));
   if (config.mqtt.enabled) connect_broker();
 }
@@ -251,6 +254,8 @@ Snapshot PublishLoop::seen(Time now) {
   for (const auto& each : outlets_)
     if (const auto trouble = each.outlet->trouble(now); !trouble.empty())
       publish::tell_last(snapshot, trouble);
+  if (const auto rivals = joint_commands_.rivals(now); !rivals.empty())
+    publish::tell_last(snapshot, rivals);
   return snapshot;
 }
 
@@ -263,6 +268,9 @@ std::string PublishLoop::status_text(Time now) {
   daemon.uptime_s = to_s(now - started_);
   daemon.telemetry_dropped = broker_ ? broker_->dropped() : 0;
   daemon.answers_lost = lost_answers_ + (stops_ != nullptr ? stops_->lost_answers() : 0);
+  daemon.joint_commands_unread = joint_commands_.unread();
+  daemon.joint_commands_rivals = joint_commands_.rivals(now);
+  daemon.joint_commands_of_rivals = joint_commands_.rivals_refused();
   for (const auto& each : outlets_) each.outlet->count(daemon);
   daemon.events_lost = control_.lost_events.load(std::memory_order_relaxed);
   daemon.stop_trouble = storage_.stop_trouble.latest().view();

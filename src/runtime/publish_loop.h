@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "config/config.h"
+#include "publish/aimrt/joint_commands.h"
 #include "publish/command_service.h"
 #include "publish/hand_outlet.h"
 #include "publish/learned_outlet.h"
@@ -120,6 +121,7 @@ class PublishLoop final {
   StartChecks starts_;
   Time last_start_ = kNever;  ///< of a task or a search for the heading, delivered
   publish::CommandService service_;
+  publish::aimrt::JointCommands joint_commands_;  ///< by whichever way they come
   publish::Actions actions_;
   std::vector<TimedOutlet> outlets_;
   publish::SceneOutlet* scene_outlet_ = nullptr;    ///< one of them

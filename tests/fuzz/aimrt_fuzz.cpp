@@ -41,18 +41,19 @@ void check_targets(const JointTargets& targets, std::size_t joints) {
 
 /// The whole way: one command or one refusal in words, and the same for both families' names.
 void check_way(aimrt::Names names, std::string_view payload) {
-  aimrt::ChannelConfig config;
+  aimrt::JointCommandsConfig config;
   config.rules.joints = {"left", "right"};
-  aimrt::Channel channel(config);
+  aimrt::JointCommands commands(config);
+  aimrt::Channel channel({}, commands);
   // The corpus' stamps are about one second after the epoch.
   const Time now{from_s(1)};
   Actions actions;
   channel.on_command(names, payload, {}, now, Duration(0), actions);
-  int commands = 0;
+  int given = 0;
   for (const Action& action : actions) {
     const auto* command = std::get_if<Command>(&action);
     if (command == nullptr) continue;
-    ++commands;
+    ++given;
     if (const auto* refused = std::get_if<JointTargetsRefused>(&command->body)) {
       require(!refused->reason.empty());
       for (const char c : refused->reason.view()) require(static_cast<unsigned char>(c) >= 0x20);
@@ -64,7 +65,7 @@ void check_way(aimrt::Names names, std::string_view payload) {
       require(std::holds_alternative<JointTargetsRefused>(std::get<Command>(later.back()).body));
     }
   }
-  require(commands == 1);
+  require(given == 1);
 }
 
 void check_json(std::string_view text) {

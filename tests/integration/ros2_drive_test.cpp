@@ -1,15 +1,9 @@
 // A ROS 2 user who drives by /cmd_vel: drover-ros2, droverd and the simulated robot as they are
 // shipped, and a writer that is plain DDS.
-#include <gmock/gmock.h>
-#include <signal.h>
-#include <unistd.h>
-
 #include <fstream>
 #include <thread>
 
-#include "integration/robot_rig.h"
-#include "integration/ros2_user.h"
-#include "ros2/topics.h"
+#include "integration/ros2_drive_rig.h"
 
 namespace drover::test {
 namespace {
@@ -21,90 +15,30 @@ using testing::Not;
 constexpr double kRamp_s = 1.5;  ///< from 0.4 m/s, and what is on its way
 constexpr double kSilent_s = 0.3;
 
-class DrivenByCmdVel : public RobotRig {
+class DrivenByCmdVel : public MovedFromRos2 {
  protected:
-  DrivenByCmdVel() {
-    add_section("\"ros2\": {\"domain\": " + std::to_string(domain_) +
-                R"(, "inputs": {"e_stop": true, "cmd_vel": "twist"}})");
-    dds_ =
-        dds_create_domain(static_cast<dds_domainid_t>(domain_), settings_of(User::humble).c_str());
-    participant_ = dds_create_participant(static_cast<dds_domainid_t>(domain_), nullptr, nullptr);
-    EXPECT_GT(participant_, 0);
-  }
-  ~DrivenByCmdVel() override {
-    program_ = {};
-    dds_delete(dds_);
-  }
+  DrivenByCmdVel() : MovedFromRos2(R"("e_stop": true, "cmd_vel": "twist")") {}
 
-  void start_program() {
-    program_ = Process({DROVER_ROS2_PROGRAM, "--config", (folder() / "drover.json").string()},
-                       (folder() / "ros2.log").string());
-  }
-  dds_entity_t writer(const ros2::TopicKind& kind = ros2::cmd_vel_kind(false)) {
-    return make_writer(participant_, kind, DDS_RELIABILITY_RELIABLE);
-  }
-  bool is_heard(dds_entity_t by) {
-    return wait_until([&] {
-      dds_publication_matched_status_t matched{};
-      (void)dds_get_publication_matched_status(by, &matched);
-      return matched.current_count > 0;
-    });
-  }
   static void say(dds_entity_t by, double vx_mps, double wz_radps = 0) {
     const geometry_msgs_msg_dds__Twist_ message{{vx_mps, 0, 0}, {0, 0, wz_radps}};
     dds_write(by, &message);
   }
-  /// Says so at 20 Hz until `done`; false: not within `longest`.
-  bool say_until(dds_entity_t by, double vx_mps, const std::function<bool()>& done,
-                 std::chrono::nanoseconds longest = 20s) {
-    const double begin_s = now_s();
-    while (!done()) {
-      if (now_s() - begin_s > std::chrono::duration<double>(longest).count()) return false;
-      say(by, vx_mps);
-      (void)wait_until([] { return false; }, 50ms);
-    }
-    return true;
+  /// Says so at 20 Hz until `done`; false: not in time.
+  bool say_until(dds_entity_t by, double vx_mps, const std::function<bool()>& done) {
+    return repeat_until([&] { say(by, vx_mps); }, 50ms, done);
   }
   void say_for(dds_entity_t by, double vx_mps, double seconds) {
     const double end_s = now_s() + seconds;
     (void)say_until(by, vx_mps, [end_s] { return now_s() > end_s; });
   }
   bool moves() { return true_speed_mps() > 0.2; }
-  void start_robot() {
-    ASSERT_NO_FATAL_FAILURE(start_all());
-    start_program();
-    writer_ = writer();
-    ASSERT_TRUE(is_heard(writer_)) << program_.output();
-    // It says each second that it is there.
-    ASSERT_TRUE(wait_until([this] {
-      return program_.output().find("droverd tells of the robot") != std::string::npos;
-    })) << program_.output();
-  }
+  void start_robot() { MovedFromRos2::start_robot(ros2::cmd_vel_kind(false)); }
   /// Until it moves.
   void drive_off() {
     say_for(writer_, 0, 0.8);
     ASSERT_TRUE(say_until(writer_, 0.4, [this] { return moves(); }))
         << drover({"status"}).text << program_.output();
   }
-  std::string status() { return drover({"status"}).text; }
-  /// No set point but 0 from then on.
-  void expect_rest_on_the_bus_from(double from_s) {
-    stop_daemon();
-    bool moved = false;
-    for (const SetPoint& point : set_points_on_the_bus()) {
-      moved = moved || point.velocity_turnps != 0;
-      if (point.time_s > from_s) {
-        ASSERT_EQ(point.velocity_turnps, 0) << point.time_s - from_s << " s later";
-      }
-    }
-    EXPECT_TRUE(moved) << "it drove before";
-  }
-
-  int domain_ = 100 + ::getpid() % 100;
-  Process program_;
-  dds_entity_t dds_ = 0;
-  dds_entity_t participant_ = 0;
-  dds_entity_t writer_ = 0;
 };
 
 TEST_F(DrivenByCmdVel, MovesAsToldAndStopsWhenItIsSilent) {
@@ -187,7 +121,7 @@ TEST_F(DrivenByCmdVel, IsStoppedByTheEmergencyStopWhateverIsSaid) {
 TEST_F(DrivenByCmdVel, IsMovedByNeitherOfTwoPrograms) {
   ASSERT_NO_FATAL_FAILURE(start_robot());
   ASSERT_NO_FATAL_FAILURE(drive_off());
-  const dds_entity_t other = writer();
+  const dds_entity_t other = writer(ros2::cmd_vel_kind(false));
   ASSERT_TRUE(is_heard(other));
   ASSERT_TRUE(say_until(writer_, 0.4, [&] {
     say(other, 0);

@@ -40,7 +40,7 @@ src/publish/status   drover/ json/ publish/names.h publish/rtk_navigation/spelli
 src/publish/status   publish/shown_json.h publish/status/
 src/publish/ros2     drover/ json/ text/ scene/sensor/near_things.h publish/names.h
 src/publish/ros2     publish/aimrt/messages.h publish/ros2/
-src/publish/aimrt    drover/ json/ text/ publish/arrival.h publish/command_service.h
+src/publish/aimrt    drover/ json/ text/ publish/arrival.h publish/actions.h
 src/publish/aimrt    publish/token_bucket.h publish/aimrt/
 src/runtime      drover/ runtime/ publish/ store/ json/ config/ link/ engine/ gateway/ scene/
 src/guard        drover/ guard/
@@ -51,7 +51,7 @@ src/cli          runtime/clock.h
 src/cli          engine/estimate/local_frame.h
 src/cli          config/load.h engine/config.h engine/base/kinematics.h engine/estimate/estimator.h
 src/ros2         drover/ ros2/ json/ config/config.h config/load.h link/unique_fd.h
-src/ros2         runtime/back_off.h runtime/clock.h
+src/ros2         runtime/back_off.h runtime/clock.h publish/token_bucket.h
 src/droverd.cpp  config/ runtime/
 sim/plant        drover/ sim/plant/
 sim/robot        drover/ link/ text/ sim/plant/ sim/robot/ config/register_map.h

@@ -17,8 +17,9 @@ constexpr double kSame_radps = 0.25;
 constexpr double kJump_rad = 0.2;
 constexpr double kSame_rad = 0.1;
 
-/// "JointCommandArray (json)", and the frame where there is one.
+/// "JointCommandArray (json)", and the frame where there is one; or the writer of DDS.
 std::string shown(const Writer& writer, bool with_frame) {
+  if (!writer.guid.empty()) return json::shown(writer.guid, 48);
   std::string text(type_name(Role::joint_command, writer.names));
   text += " (" + std::string(spelling(writer.content));
   if (with_frame) text += ", frame_id '" + json::shown(writer.frame_id, 12) + "'";
@@ -26,7 +27,8 @@ std::string shown(const Writer& writer, bool with_frame) {
 }
 
 std::string both(const Writer& owner, const Writer& other) {
-  const bool same_form = owner.names == other.names && owner.content == other.content;
+  const bool of_broker = owner.guid.empty() && other.guid.empty();
+  const bool same_form = of_broker && owner.names == other.names && owner.content == other.content;
   const bool same_frame = owner.frame_id == other.frame_id;
   if (!same_form || !same_frame) {
     return "two programs write joint commands: " + shown(owner, !same_frame) + " has the joints, " +
@@ -49,7 +51,9 @@ bool continues(std::uint64_t last, bool counts, std::uint64_t next, std::uint64_
 }  // namespace
 
 bool Writers::is_owner(const Writer& writer) const {
-  return owner_ && owner_->names == writer.names && owner_->content == writer.content &&
+  if (!owner_ || owner_->guid != writer.guid) return false;
+  if (!writer.guid.empty()) return true;
+  return owner_->names == writer.names && owner_->content == writer.content &&
          owner_->frame_id == writer.frame_id && (owner_->stamp_ns == 0) == (writer.stamp_ns == 0) &&
          continues(owner_->sequence, counts_, writer.sequence,
                    static_cast<std::uint64_t>(kMostMessages_Hz * to_s(silence_)));
@@ -66,7 +70,7 @@ Reason Writers::hindrance(const Writer& writer, bool rests, Time now) {
   if (!owner_) return {};
   if (is_owner(writer)) {
     // An old message after a newer one that was followed: one program sends in order.
-    const bool late = writer.stamp_ns < owner_->stamp_ns;
+    const bool late = writer.guid.empty() && writer.stamp_ns < owner_->stamp_ns;
     if (!late || !std::exchange(followed_since_late_, false) || oddities_.take(now)) return {};
     return refuse("two programs seem to write joint commands as " + shown(writer, false) +
                       ": their time stamps interleave, the older ones are refused",
@@ -107,7 +111,8 @@ Reason Writers::take(const Writer& writer, const JointTargets& targets, Time now
   // Two that began together count alike: each number comes twice, and not from one program.
   const bool again = goes_on && writer.sequence == owner_->sequence;
   if (again && writer.stamp_ns != owner_->stamp_ns) counted_twice_ = now;
-  const bool told_apart = writer.sequence != 0 && now - counted_twice_ > kShownFor;
+  const bool told_apart =
+      !writer.guid.empty() || (writer.sequence != 0 && now - counted_twice_ > kShownFor);
   counts_ = goes_on;
   owner_ = writer;
   heard_ = now;

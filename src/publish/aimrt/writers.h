@@ -1,8 +1,8 @@
 // Whose joint commands are followed when two programs write them at once.
 //
-// The broker does not tell who sent a message. What tells programs apart is in the message: the
-// family of names, how it is written, frame_id, whether it carries a time_stamp, and the
-// sequence_num, which only its own program counts on. The one that is followed keeps the joints
+// DDS tells who sent a message, the broker does not. What then tells programs apart is in the
+// message: the family of names, how it is written, frame_id, whether it carries a time_stamp, and
+// the sequence_num, which only its own program counts on. The one that is followed keeps the joints
 // until it is silent. What two programs without a count have in common is judged by what they do:
 // time stamps that interleave, velocities that jump to and fro.
 #pragma once
@@ -27,6 +27,7 @@ struct Writer {
   std::uint64_t stamp_ns = 0;  ///< 0: none
   std::uint64_t sequence = 0;  ///< 0: none
   std::string frame_id{};
+  std::string guid{};  ///< its writer of DDS, which no other program has; empty: of the broker
 };
 
 class Writers final {

@@ -253,6 +253,10 @@ TEST(ConfigurationChecks, RefuseInputsOfANetworkUnlessThatIsSaid) {
   EXPECT_NE(problems(text(R"("mode": "network", )" + drive)).find("whoever reaches"),
             std::string::npos);
   EXPECT_NE(problems(text(R"("inputs": {"cmd_vel": true})")), "") << "as what it comes is said";
+  const std::string joints = R"("inputs": {"joint_command": true})";
+  EXPECT_EQ(problems(text(joints)), "");
+  EXPECT_NE(problems(text(R"("mode": "network", )" + joints)).find("whoever reaches"),
+            std::string::npos);
 }
 
 TEST(ConfigurationChecks, ResolveNamesToNumbers) {

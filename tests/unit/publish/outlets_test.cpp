@@ -26,14 +26,15 @@ Snapshot standing() {
 
 class Outlets : public testing::Test {
  protected:
-  static aimrt::ChannelConfig channel() {
-    aimrt::ChannelConfig config;
+  static aimrt::JointCommandsConfig commands_config() {
+    aimrt::JointCommandsConfig config;
     config.rules.joints = {"left"};
     return config;
   }
   CommandService service_{{}, {}};
   RtkOutlet rtk_{{}, service_};
-  AimrtOutlet aimrt_{channel(), 50, true};
+  aimrt::JointCommands commands_{commands_config()};
+  AimrtOutlet aimrt_{{}, commands_, 50, true};
   CliOutlet cli_{service_, [](Time) { return std::string(R"({"robot":"field"})"); }};
   Actions actions_;
 
@@ -61,7 +62,7 @@ TEST_F(Outlets, WantTheirOwnTopicsOnly) {
 }
 
 TEST_F(Outlets, OfAimrtHearNothingWhereJointCommandsAreSwitchedOff) {
-  EXPECT_THAT(AimrtOutlet(channel(), 50, false).wants(), IsEmpty());
+  EXPECT_THAT(AimrtOutlet({}, commands_, 50, false).wants(), IsEmpty());
 }
 
 TEST_F(Outlets, HaveRatesOfTheirOwn) {
@@ -134,16 +135,11 @@ TEST_F(Outlets, OfTheCommandLineTakeAPersonsWordThatWhatWasLearnedIsForgotten) {
   EXPECT_EQ(std::count_if(actions_.begin(), actions_.end(), forgets), 1);
 }
 
-TEST_F(Outlets, AddTheirCountersToTheStatus) {
+TEST_F(Outlets, CountWhatTheyDoNotLookAt) {
   const auto topic = aimrt_.wants().front().name;
   for (int i = 0; i < 80; ++i) (void)aimrt_.on_message(topic, "x", {}, kMoment.now, actions_);
-  DaemonStatus status;
-  status.now = kMoment.now;
-  rtk_.count(status);
-  EXPECT_EQ(status.joint_commands_unread, 0U);
-  aimrt_.count(status);
-  EXPECT_GT(status.joint_commands_unread, 20U) << "of a flood most are not looked at";
-  EXPECT_TRUE(aimrt_.trouble(kMoment.now).empty());
+  EXPECT_GT(commands_.unread(), 20U) << "of a flood most are not looked at";
+  EXPECT_TRUE(commands_.rivals(kMoment.now).empty());
 }
 
 }  // namespace

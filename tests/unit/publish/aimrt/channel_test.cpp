@@ -22,8 +22,12 @@ constexpr Duration kWallMinusMonotonic = std::chrono::hours(400'000);
 class AnAimrtChannel : public testing::Test {
  protected:
   AnAimrtChannel() {
-    config_.rules.joints = {"left", "right"};
-    channel_.emplace(config_);
+    commands_config_.rules.joints = {"left", "right"};
+    make();
+  }
+  void make() {
+    commands_.emplace(commands_config_);
+    channel_.emplace(config_, *commands_);
   }
   void give(const std::string& payload, const Arrival& arrival = {},
             Names names = Names::document) {
@@ -51,6 +55,8 @@ class AnAimrtChannel : public testing::Test {
   }
 
   ChannelConfig config_;
+  JointCommandsConfig commands_config_;
+  std::optional<JointCommands> commands_;
   std::optional<Channel> channel_;
   Actions actions_;
   Time now_ = Time(from_s(1000));
@@ -193,7 +199,7 @@ std::array<double, 4> quaternion_in(const std::string& text) {
 // The sensor's yaw is half a turn off the robot's, give or take its noise.
 TEST_F(AnAimrtChannel, TurnsTheQuaternionWithoutAJumpThreeTimesRound) {
   config_.imu_state_wording.content = Content::json;
-  channel_.emplace(config_);
+  make();
   Snapshot snapshot;
   snapshot.imu.configured = true;
   snapshot.imu.health = SourceState::fresh;
@@ -237,8 +243,8 @@ TEST_F(AnAimrtChannel, StampsNoTwoJointStatesAlikeAndIsSilentWithoutANewCycle) {
 TEST_F(AnAimrtChannel, CountsWhatItDoesNotReadOfAFlood) {
   for (int i = 0; i < 1000; ++i) give(in_packet(joint_entry("left", 0, 1)));
   const auto told = commands<JointTargets>().size() + commands<JointTargetsRefused>().size();
-  EXPECT_GT(channel_->unread(), 900U);
-  EXPECT_EQ(told + channel_->unread(), 1000U);
+  EXPECT_GT(commands_->unread(), 900U);
+  EXPECT_EQ(told + commands_->unread(), 1000U);
 }
 
 TEST_F(AnAimrtChannel, PublishesTouchOnlyWhereAContactIsConfigured) {
@@ -304,7 +310,7 @@ TEST_F(AnAimrtChannel, CountsTheMessagesOfEachType) {
 
 TEST_F(AnAimrtChannel, ListensToTheConfiguredTopicUnderBothNames) {
   config_.joint_command = "/arm/joint command";
-  const Channel channel(config_);
+  const Channel channel(config_, *commands_);
   const std::string topic =
       "/channel/%2Farm%2Fjoint+command/pb%3Aaimrt.protocols.sensor.JointCommand";
   EXPECT_EQ(channel.command_topics(), (std::vector{topic, topic + "Array"}));
@@ -322,7 +328,7 @@ TEST_F(AnAimrtChannel, FollowsEitherFamilyWrittenInEitherWay) {
   for (const auto names : {Names::document, Names::aimrt_1x})
     for (const auto& payload : {json, pb}) {
       // Each begins anew: the one before is silent, and its stamps are old.
-      channel_.emplace(config_);
+      make();
       give(payload, {}, names);
       EXPECT_EQ(commands<JointTargets>().size(), ++followed) << last_refusal();
     }
@@ -333,7 +339,7 @@ TEST_F(AnAimrtChannel, HasOneLimitForAllNames) {
     give(in_packet(joint_entry("left", 0, 0)), {}, Names::document);
     give(in_packet(joint_entry("left", 0, 0)), {}, Names::aimrt_1x);
   }
-  EXPECT_GT(channel_->unread(), 1900U);
+  EXPECT_GT(commands_->unread(), 1900U);
 }
 
 TEST_F(AnAimrtChannel, FollowsOneOfTwoProgramsAndNamesBothInTheLog) {
@@ -346,11 +352,11 @@ TEST_F(AnAimrtChannel, FollowsOneOfTwoProgramsAndNamesBothInTheLog) {
   ASSERT_EQ(targets.size(), 100U);
   for (const auto& each : targets) EXPECT_EQ(each.joints[0].velocity_radps, 1.0);
   EXPECT_EQ(commands<JointTargetsRefused>().size(), 100U);
-  EXPECT_EQ(channel_->rivals_refused(), 100U);
+  EXPECT_EQ(commands_->rivals_refused(), 100U);
   const std::string told =
       "two programs write joint commands: JointCommand (pb) has the joints, JointCommandArray "
       "(pb) is refused";
-  EXPECT_EQ(channel_->rivals(now_), told);
+  EXPECT_EQ(commands_->rivals(now_), told);
   EXPECT_EQ(log_lines(), 1U);
   for (const auto& action : actions_)
     if (const auto* line = std::get_if<LogLine>(&action)) {
@@ -382,7 +388,7 @@ TEST_F(AnAimrtChannel, PublishesUnderTheNamesThatAreConfigured) {
   snapshot.line_configured[static_cast<std::size_t>(Line::bumper)] = true;
   config_.joint_state_wording.names = {Names::document, Names::aimrt_1x};
   config_.touch_state_wording.names = {Names::aimrt_1x};
-  Channel channel(config_);
+  Channel channel(config_, *commands_);
   const auto packets = channel.telemetry(snapshot, kWallMinusMonotonic);
   ASSERT_EQ(packets.size(), 3U);
   const std::string joints = "/channel/%2Fjoint_state/pb%3Aaimrt.protocols.sensor.JointState";
@@ -397,8 +403,8 @@ TEST_F(AnAimrtChannel, PublishesUnderTheNamesThatAreConfigured) {
 class AnAimrtChannelOfAnArm : public AnAimrtChannel {
  protected:
   AnAimrtChannelOfAnArm() {
-    config_.rules.joints = {{"left"}, {"right"}, {"elbow", JointFollows::impedance, 1}};
-    channel_.emplace(config_);
+    commands_config_.rules.joints = {{"left"}, {"right"}, {"elbow", JointFollows::impedance, 1}};
+    make();
   }
   void stamped(std::string_view joint, double velocity, int frame, std::uint64_t late_ns = 0) {
     const std::string header =
@@ -416,7 +422,7 @@ TEST_F(AnAimrtChannelOfAnArm, HearsAProgramForEach) {
   }
   EXPECT_EQ(commands<JointTargets>().size(), 40u);
   EXPECT_EQ(last_refusal(), "");
-  EXPECT_EQ(channel_->rivals(now_), "");
+  EXPECT_EQ(commands_->rivals(now_), "");
 }
 
 TEST_F(AnAimrtChannelOfAnArm, NamesTwoProgramsOfOneGroup) {
@@ -424,7 +430,7 @@ TEST_F(AnAimrtChannelOfAnArm, NamesTwoProgramsOfOneGroup) {
   now_ += std::chrono::milliseconds(10);
   stamped("elbow", 0, 0);
   EXPECT_NE(last_refusal().find("two programs write joint commands"), std::string::npos);
-  EXPECT_EQ(channel_->rivals_refused(), 1u);
+  EXPECT_EQ(commands_->rivals_refused(), 1u);
 }
 
 }  // namespace

@@ -117,7 +117,8 @@ TEST(AimrtJson, OfTouchIsWhatAimrtWrites) {
 TEST(AimrtJson, GoesOutInThePacketThatNamesIt) {
   ChannelConfig config;
   config.joint_state_wording.content = Content::json;
-  Channel channel(config);
+  JointCommands commands({});
+  Channel channel(config, commands);
   const auto packets =
       channel.telemetry(snapshot_with_axis(1, 2, 3), kStamping.wall_minus_monotonic);
   ASSERT_EQ(packets.size(), 1U);

@@ -48,7 +48,8 @@ std::string covariance(const std::string& name, const std::string& variance) {
 }
 
 TEST(AimrtPackets, AreReadByProtocWithTheDocumentsFieldNumbers) {
-  const auto packets = Channel({}).telemetry(full_snapshot(), Duration(1'000'000));
+  JointCommands commands({});
+  const auto packets = Channel({}, commands).telemetry(full_snapshot(), Duration(1'000'000));
   ASSERT_EQ(packets.size(), 3U);
   EXPECT_EQ(protoc_decoded("JointState", message_of_packet(packets[0].payload)),
             header("1000900") +
@@ -68,7 +69,8 @@ TEST(AimrtPackets, AreReadByProtocWithTheDocumentsFieldNumbers) {
 TEST(AimrtPackets, AreReadByProtocWithTheNamesOfAimrt1x) {
   ChannelConfig config;
   config.joint_state_wording.names = config.touch_state_wording.names = {Names::aimrt_1x};
-  const auto packets = Channel(config).telemetry(full_snapshot(), Duration(1'000'000));
+  JointCommands commands({});
+  const auto packets = Channel(config, commands).telemetry(full_snapshot(), Duration(1'000'000));
   ASSERT_EQ(packets.size(), 3U);
   EXPECT_EQ(protoc_decoded("JointStateArray", message_of_packet(packets[0].payload)),
             header("1000900") +

@@ -1,0 +1,102 @@
+#include "publish/aimrt/joint_commands.h"
+
+#include <algorithm>
+
+namespace drover::publish::aimrt {
+
+JointCommands::JointCommands(const JointCommandsConfig& config)
+    : rules_(config.rules),
+      command_bucket_(config.max_commands_Hz, config.command_burst),
+      slow_down_("slow down: " + command_bucket_.in_words("messages")),
+      flood_bucket_(1, 1),
+      log_bucket_(0.2, 3),
+      rivals_bucket_(0.2, 1) {
+  std::size_t groups = 1;
+  for (const JointRule& joint : rules_.joints) groups = std::max(groups, joint.group + 1);
+  groups_.assign(groups, Group{Writers(config.silence)});
+}
+
+std::string_view JointCommands::rivals(Time now) const {
+  for (const Group& group : groups_)
+    if (const auto text = group.writers.rivals(now); !text.empty()) return text;
+  return {};
+}
+
+std::uint64_t JointCommands::rivals_refused() const {
+  std::uint64_t refused = 0;
+  for (const Group& group : groups_) refused += group.writers.refused();
+  return refused;
+}
+
+/// By group, whether a joint of it is named; a message that names none is the base's.
+std::vector<bool> JointCommands::named(const JointCommandMessage& message) const {
+  std::vector<bool> groups(groups_.size());
+  for (const auto& entry : message.joints) {
+    const auto joint = find_joint(rules_, entry.name);
+    if (joint != rules_.joints.end()) groups[joint->group] = true;
+  }
+  if (std::find(groups.begin(), groups.end(), true) == groups.end()) groups[0] = true;
+  return groups;
+}
+
+Result<JointTargets, Reason> JointCommands::judged(const JointCommandHeard& heard, Time now,
+                                                   Duration wall) {
+  const auto& [message, writer] = heard;
+  const auto groups = named(message);
+  const bool base_rests =
+      std::all_of(message.joints.begin(), message.joints.end(), [this](const auto& entry) {
+        const auto joint = find_joint(rules_, entry.name);
+        return entry.velocity_radps == 0 || (joint != rules_.joints.end() && joint->group != 0);
+      });
+  std::uint64_t last_stamp_ns = 0;
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    if (!groups[i]) continue;
+    // Whoever takes joints outside the base over begins where they are, whatever he asks.
+    const bool rests = i != 0 || base_rests;
+    if (auto why = groups_[i].writers.hindrance(writer, rests, now); !why.empty()) return why;
+    last_stamp_ns = std::max(last_stamp_ns, groups_[i].last_stamp_ns);
+  }
+  auto targets = accept_joint_command(message, rules_, wall, last_stamp_ns);
+  if (!targets) return targets;
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    if (!groups[i]) continue;
+    if (message.stamp_ns != 0) groups_[i].last_stamp_ns = message.stamp_ns;
+    if (auto why = groups_[i].writers.take(writer, *targets, now); !why.empty()) return why;
+  }
+  return targets;
+}
+
+void JointCommands::take(RequestId::Source source, const Read& read, Time now, Duration wall,
+                         Actions& out) {
+  Reason reason;
+  if (!command_bucket_.take(now)) {
+    // The engine's ring is for others too: a stop must find room in it.
+    if (!flood_bucket_.take(now)) {
+      ++unread_;
+      return;
+    }
+    reason = Reason(slow_down_);
+  }
+  Command command{{source, ++commands_}, now, {}};
+  const auto rivals_before = rivals_refused();
+  if (reason.empty()) {
+    const auto heard = read();
+    const auto targets = heard ? judged(*heard, now, wall) : heard.error();
+    if (targets) {
+      command.body = *targets;
+    } else {
+      reason = targets.error();
+    }
+  }
+  if (!reason.empty()) {
+    command.body = JointTargetsRefused{reason};
+    const bool of_rivals = rivals_refused() != rivals_before;
+    if ((of_rivals ? rivals_bucket_ : log_bucket_).take(now)) {
+      out.push_back(
+          LogLine{Notice::Level::warning, "joint command refused: " + std::string(reason.view())});
+    }
+  }
+  out.push_back(command);
+}
+
+}  // namespace drover::publish::aimrt

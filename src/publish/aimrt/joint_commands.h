@@ -1,0 +1,71 @@
+// Joint commands, by whichever way they come: one limit, one owner of the joints of a group, and
+// what becomes of a message.
+//
+// Pure, as the command service: time is an argument, and what must be done is appended to actions.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "publish/actions.h"
+#include "publish/aimrt/joint_command.h"
+#include "publish/aimrt/writers.h"
+#include "publish/token_bucket.h"
+
+namespace drover::publish::aimrt {
+
+struct JointCommandsConfig {
+  JointCommandRules rules;
+  Duration silence = std::chrono::milliseconds(100);  ///< after which a stream has ended
+  double max_commands_Hz = 250;  ///< more are not looked at: 200 a second and what came late
+  double command_burst = 50;
+};
+
+/// A message that could be read, and who wrote it.
+struct JointCommandHeard {
+  JointCommandMessage message;
+  Writer writer;
+};
+
+class JointCommands final {
+ public:
+  /// Reads what came, or tells why it is no command. Not called for what nobody looks at.
+  using Read = std::function<Result<JointCommandHeard, Reason>()>;
+
+  explicit JointCommands(const JointCommandsConfig& config);
+
+  /// A message: a JointTargets or JointTargetsRefused for the engine, and now and then a line for
+  /// the log. `wall`: UTC now, since 1970.
+  void take(RequestId::Source source, const Read& read, Time now, Duration wall, Actions& out);
+  /// What is older, by its time stamp or by when it came to this computer, is refused.
+  Duration max_age() const { return rules_.max_age; }
+  /// Messages of a flood that nobody looked at, so far.
+  std::uint64_t unread() const { return unread_; }
+  /// Programs that write at once, and which of them is followed; empty when there is one or none.
+  std::string_view rivals(Time now) const;
+  /// Messages that were refused for that, so far.
+  std::uint64_t rivals_refused() const;
+
+ private:
+  Result<JointTargets, Reason> judged(const JointCommandHeard& heard, Time now, Duration wall);
+  std::vector<bool> named(const JointCommandMessage& message) const;
+
+  JointCommandRules rules_;
+  std::uint64_t commands_ = 0;
+  std::uint64_t unread_ = 0;
+  /// Whose commands the joints of a group follow; the base is the first.
+  struct Group {
+    Writers writers;
+    std::uint64_t last_stamp_ns = 0;
+  };
+  std::vector<Group> groups_;
+  TokenBucket command_bucket_;
+  std::string slow_down_;     ///< what is said when it is empty
+  TokenBucket flood_bucket_;  ///< a flood is told of, and the telling is no flood
+  TokenBucket log_bucket_;
+  TokenBucket rivals_bucket_;  ///< other refusals do not drown it
+};
+
+}  // namespace drover::publish::aimrt

@@ -1,0 +1,13 @@
+// Who wrote a sample, as `ros2 topic info -v` shows him.
+#pragma once
+
+#include <dds/dds.h>
+
+#include <string>
+
+namespace drover::ros2 {
+
+/// His GUID: sixteen bytes in hex, with dots between.
+std::string writer_name(dds_entity_t reader, dds_instance_handle_t writer);
+
+}  // namespace drover::ros2
