@@ -45,6 +45,7 @@ class MovedByJointCommands : public MovedFromRos2 {
   /// Until it moves; from rest again where something has stopped it meanwhile.
   void move_off() {
     for (int i = 0; i < 4; ++i) {
+      if (i > 0) (void)drover({"reset"});
       say_for(0, kRest_s);
       if (repeat_until([&] { say(writer_, 1); }, 20ms, [this] { return moves(); }, 5s)) return;
     }
