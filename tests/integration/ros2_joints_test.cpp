@@ -42,12 +42,13 @@ class MovedByJointCommands : public MovedFromRos2 {
     (void)say_until(radps, [end_s] { return now_s() > end_s; });
   }
   bool moves() { return true_speed_mps() > 0.1; }
-  /// Until it moves; from rest again where something has stopped it meanwhile.
+  /// Until it moves, after the slow first way; from rest again where something has stopped it
+  /// meanwhile.
   void move_off() {
     for (int i = 0; i < 4; ++i) {
       if (i > 0) (void)drover({"reset"});
       say_for(0, kRest_s);
-      if (repeat_until([&] { say(writer_, 1); }, 20ms, [this] { return moves(); }, 5s)) return;
+      if (repeat_until([&] { say(writer_, 1); }, 20ms, [this] { return moves(); }, 15s)) return;
     }
     FAIL() << status() << program_.output();
   }
