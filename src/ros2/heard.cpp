@@ -76,7 +76,10 @@ void Heard::close() {
 }
 
 TwistsHeard Heard::twists(Time now, Duration wall) {
-  return cmd_vel_ ? cmd_vel_->take(now, wall) : TwistsHeard{};
+  if (!cmd_vel_) return {};
+  auto heard = cmd_vel_->take(now, wall);
+  if (heard.failed) throw NoDomain("/cmd_vel cannot be read");
+  return heard;
 }
 
 bool Heard::stop_asked() {
@@ -87,6 +90,8 @@ bool Heard::stop_asked() {
   std::array<void*, kDepth> samples{};
   std::array<dds_sample_info_t, kDepth> infos{};
   const auto taken = dds_take(stop_, samples.data(), infos.data(), kDepth, kDepth);
+  if (taken < 0)
+    throw NoDomain(std::string("/e_stop cannot be read: ") + dds_strretcode(taken));
   for (std::int32_t i = 0; i < taken; ++i) {
     const auto* sample = static_cast<const std_msgs_msg_dds__Bool_*>(samples[i]);
     asked = asked || (infos[i].valid_data && sample->data_);

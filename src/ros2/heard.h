@@ -21,9 +21,10 @@ class Heard final {
 
   /// Readable when something came.
   int fd() const { return came_.get(); }
-  /// Takes all that came: whether one of it asks for an emergency stop.
+  /// Takes all that came: whether one of it asks for an emergency stop. Throws NoDomain when DDS
+  /// does not give it: nothing would tell of what comes then.
   bool stop_asked();
-  /// What is wanted of the base, if that is opened. `wall`: UTC now, since 1970.
+  /// What is wanted of the base, if that is opened. `wall`: UTC now, since 1970. Throws NoDomain.
   TwistsHeard twists(Time now, Duration wall);
 
  private:

@@ -285,7 +285,9 @@ RestState RestWatch::update(const RestInput& input) {
   on_slope_ = input.rolls_unpowered || (on_slope_ && goes_on);
   // Taken back, too, is a drive of several that is silent: only wheels that turn are caught.
   const bool caught = input.caught && (history_.turns() || !rims.heard);
-  may_roll_ = on_slope_ || caught || (may_roll_ && goes_on);
+  // The e-stop took its power while it drove: without a brake it rolls until friction stops it.
+  const bool coasts = goes_on && input.power_is_off;
+  may_roll_ = on_slope_ || caught || coasts || (may_roll_ && goes_on);
   if (state_ == RestState::not_stopping) {
     // What it rolled until it came to rest is no motion any more.
     if (due_ == kNever || input.now - due_ > kLookAgainAfterCut) {

@@ -192,6 +192,33 @@ TEST_F(ARobotThatShouldRest, IsNotCutForWheelsThatSlipAtAllowedSpeeds) {
   EXPECT_FALSE(cut_within_s(0.4)) << rig.why();
 }
 
+/// A base without a brake, and its e-stop is let go before it stands.
+TEST_F(ARobotThatShouldRest, IsNotCutWhileItRollsOutOfWhatTheEstopTookThePower) {
+  drive();
+  rig.lines[static_cast<std::size_t>(Line::estop)] = true;
+  double radps = 3;
+  for (int i = 0; i < 200 * 6; ++i) {
+    if (i == 200) rig.lines[static_cast<std::size_t>(Line::estop)] = false;
+    radps = std::max(0.0, radps - 0.6 * 0.005);
+    rig.disobeys = WheelSpeeds{radps, radps};
+    rig.tick();
+    ASSERT_THAT(told(), Not(HasSubstr("did not stop"))) << i;
+  }
+  rig.disobeys = {};
+  rig.run_s(3);
+  drive_again();
+}
+
+TEST_F(ARobotThatShouldRest, LosesItsPowerWhenItGoesOnAfterTheEstopWasLetGo) {
+  drive();
+  rig.lines[static_cast<std::size_t>(Line::estop)] = true;
+  rig.disobeys = kStraight;
+  rig.run_s(1);
+  rig.lines[static_cast<std::size_t>(Line::estop)] = false;
+  rig.run_s(4);
+  EXPECT_THAT(told(), HasSubstr("did not stop"));
+}
+
 TEST_F(ARobotThatShouldRest, StopsAsEverWhenAllIsWell) {
   drive();
   rig.command(CancelTask{});
