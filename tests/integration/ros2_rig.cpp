@@ -116,7 +116,7 @@ void Ros2Rig::beat() {
 }
 
 bool Ros2Rig::play_until(const std::function<bool()>& done) {
-  const auto until = runtime::monotonic_now() + 10s;
+  const auto until = runtime::monotonic_now() + 30s;
   while (!done()) {
     if (runtime::monotonic_now() > until) return false;
     beat();
