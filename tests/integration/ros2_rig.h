@@ -32,8 +32,8 @@ class Ros2Rig : public ::testing::Test {
   void start_program();
   void open_daemon();
   void close_daemon();
-  /// Plays droverd until `done`; false: not within thirty seconds. Fast DDS and Cyclone DDS take up to ten to
-  /// know of each other.
+  /// Plays droverd until `done`; false: not within thirty seconds. Fast DDS and Cyclone DDS take up
+  /// to ten to know of each other.
   bool play_until(const std::function<bool()>& done);
   void play_for(std::chrono::milliseconds time);
 
