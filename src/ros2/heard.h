@@ -8,6 +8,7 @@
 #include "ros2/cmd_vel.h"
 #include "ros2/domain.h"
 #include "ros2/topics.h"
+#include "ros2/unmet.h"
 
 namespace drover::ros2 {
 
@@ -24,18 +25,25 @@ class Heard final {
   /// Takes all that came: whether one of it asks for an emergency stop. Throws NoDomain when DDS
   /// does not give it: nothing would tell of what comes then.
   bool stop_asked();
+  /// Writers whose quality of service is another one.
+  void add_unmet(Unmet& unmet);
   /// What is wanted of the base, if that is opened. `wall`: UTC now, since 1970. Throws NoDomain.
   TwistsHeard twists(Time now, Duration wall);
 
  private:
   void close();
-  dds_entity_t open(dds_entity_t participant, const TopicKind& kind, std::int32_t depth);
+  dds_entity_t open(dds_entity_t participant, const TopicKind& kind, std::int32_t depth,
+                    dds_reliability_kind_t reliability);
+  bool stop_asked_of(dds_entity_t reader);
 
   link::UniqueFd came_;
   int fd_ = -1;            ///< its number, for the listener
   dds_entity_t stop_ = 0;  ///< 0: not opened
+  dds_entity_t sure_stop_ = 0;
   dds_entity_t twists_ = 0;
   std::optional<CmdVel> cmd_vel_;
+  std::uint32_t unmet_stops_ = 0;
+  std::uint32_t unmet_twists_ = 0;
 };
 
 }  // namespace drover::ros2

@@ -174,10 +174,10 @@ void Program::take(std::string_view line) {
   auto all = told->diagnostics;
   DiagnosticTold own{
       "drover-ros2",
-      readers_.incompatible > 0 ? 1 : 0,
-      readers_.incompatible > 0 ? "some readers ask for what is not offered" : "all is well",
+      readers_.unmet.count > 0 ? 1 : 0,
+      readers_.unmet.count > 0 ? "some programs want another quality of service" : "all is well",
       {{"readers", std::to_string(readers_.matched)},
-       {"incompatible", std::to_string(readers_.incompatible)},
+       {"incompatible", std::to_string(readers_.unmet.count)},
        {"not_sent", std::to_string(shown_->failed())}}};
   all.push_back(std::move(own));
   shown_->show_diagnostics(told->at_ns, all);
@@ -187,7 +187,8 @@ void Program::take(std::string_view line) {
 void Program::tell_users() {
   if (shown_) {
     readers_ = shown_->readers();
-    if (!readers_.news.empty()) say(Level::warning, readers_.news);
+    if (users_) users_->add_unmet(readers_.unmet);
+    for (const auto& news : readers_.unmet.news) say(Level::warning, news);
   }
   const Time now = runtime::monotonic_now();
   const bool hears = heard_ != kNever && now - heard_ < kSilent;
@@ -210,7 +211,7 @@ void Program::tell_droverd() {
   json::JsonText line;
   line.open('{').key("cmd").text("ros2_follow").key("mode").text(config_.ros2.mode);
   line.key("reason").text(problem_).key("readers").integer(readers_.matched);
-  line.key("incompatible").integer(readers_.incompatible).close('}');
+  line.key("incompatible").integer(readers_.unmet.count).close('}');
   (void)link_.send(line.take());  // the next beat says it again
 }
 
