@@ -85,12 +85,14 @@ void Ros2Outlet::cmd_vel(ClientId client, const json::Node& request, Time now, A
     return;
   }
   if (const auto why = text_member(request, "refused"); !why.empty())
-    return give(now, TwistRefused{Reason(json::shown(why, kMostText)), flag_member(request, "ends")});
+    return give(now,
+                TwistRefused{Reason(json::shown(why, kMostText)), flag_member(request, "ends")});
   const auto vx_mps = twist_number(request, "vx_mps");
   const auto wz_radps = twist_number(request, "wz_radps");
   const auto at_ns = count_of(request, "at_ns");
   if (!vx_mps || !wz_radps || at_ns <= 0) return refuse("vx_mps, wz_radps or at_ns is missing");
-  give(std::min(now, Time{Duration{at_ns}}), FollowTwist{{*vx_mps, *wz_radps}, flag_member(request, "after_motion")});
+  give(std::min(now, Time{Duration{at_ns}}),
+       FollowTwist{{*vx_mps, *wz_radps}, flag_member(request, "after_motion")});
 }
 
 void Ros2Outlet::count(DaemonStatus& status) const {

@@ -35,7 +35,7 @@ void CmdVel::hear(const void* sample, const dds_sample_info_t& info, Time now, D
   };
   if (rival != 0) {
     heard.rivals = true;
-    return refuse( "two programs write it, neither is followed: " + name_of(rival) + " and " +
+    return refuse("two programs write it, neither is followed: " + name_of(rival) + " and " +
                   name_of(info.publication_handle));
   }
   const Duration age = wall - Duration{info.source_timestamp};

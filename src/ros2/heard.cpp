@@ -22,12 +22,12 @@ void wake(dds_entity_t, void* came) {
   (void)!::write(*static_cast<const int*>(came), &one, sizeof one);
 }
 
-dds_entity_t make_reader(dds_entity_t participant, const TopicKind& kind, std::int32_t depth,
-                         dds_reliability_kind_t reliability) {
+/// Best effort matches both kinds of writers.
+dds_entity_t make_reader(dds_entity_t participant, const TopicKind& kind, std::int32_t depth) {
   const dds_entity_t topic = dds_create_topic(participant, kind.type, kind.name, nullptr, nullptr);
   if (topic < 0) return topic;
   dds_qos_t* qos = dds_create_qos();
-  dds_qset_reliability(qos, reliability, 0);
+  dds_qset_reliability(qos, DDS_RELIABILITY_BEST_EFFORT, 0);
   dds_qset_durability(qos, DDS_DURABILITY_VOLATILE);
   dds_qset_history(qos, DDS_HISTORY_KEEP_LAST, depth);
   const std::string hash = hash_user_data(kind.hash);
@@ -39,9 +39,8 @@ dds_entity_t make_reader(dds_entity_t participant, const TopicKind& kind, std::i
 
 }  // namespace
 
-dds_entity_t Heard::open(dds_entity_t participant, const TopicKind& kind, std::int32_t depth,
-                         dds_reliability_kind_t reliability) {
-  const dds_entity_t reader = make_reader(participant, kind, depth, reliability);
+dds_entity_t Heard::open(dds_entity_t participant, const TopicKind& kind, std::int32_t depth) {
+  const dds_entity_t reader = make_reader(participant, kind, depth);
   if (reader < 0)
     throw NoDomain(std::string(kind.name + 2) + " cannot be heard: " + dds_strretcode(reader));
   dds_listener_t* listener = dds_create_listener(&fd_);
@@ -55,15 +54,10 @@ dds_entity_t Heard::open(dds_entity_t participant, const TopicKind& kind, std::i
 Heard::Heard(dds_entity_t participant, const config::Ros2InputsConfig& inputs, Reach reach)
     : came_(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)), fd_(came_.get()) {
   try {
-    // Best effort matches both kinds of writers. Of a reliable one a stop is asked for again that
-    // was lost, or was written before this program knew its writer.
-    if (inputs.e_stop) {
-      stop_ = open(participant, stop_kind(), kDepth, DDS_RELIABILITY_BEST_EFFORT);
-      sure_stop_ = open(participant, stop_kind(), kDepth, DDS_RELIABILITY_RELIABLE);
-    }
+    if (inputs.e_stop) stop_ = open(participant, stop_kind(), kDepth);
     if (!inputs.may_drive()) return;
     const bool stamped = inputs.cmd_vel == "twist_stamped";
-    twists_ = open(participant, cmd_vel_kind(stamped), kTwists, DDS_RELIABILITY_BEST_EFFORT);
+    twists_ = open(participant, cmd_vel_kind(stamped), kTwists);
     cmd_vel_.emplace(twists_, stamped, reach == Reach::localhost);
   } catch (...) {
     close();
@@ -77,7 +71,7 @@ Heard::~Heard() {
 
 /// Waits for the listeners, which write to a descriptor of this object.
 void Heard::close() {
-  for (const dds_entity_t reader : {stop_, sure_stop_, twists_})
+  for (const dds_entity_t reader : {stop_, twists_})
     if (reader > 0) dds_delete(reader);
 }
 
@@ -96,23 +90,17 @@ void Heard::add_unmet(Unmet& unmet) {
 bool Heard::stop_asked() {
   std::uint64_t count = 0;
   (void)!::read(came_.get(), &count, sizeof count);
-  const bool asked = stop_asked_of(stop_);
-  return stop_asked_of(sure_stop_) || asked;
-}
-
-bool Heard::stop_asked_of(dds_entity_t reader) {
-  if (reader == 0) return false;
+  if (stop_ == 0) return false;
   bool asked = false;
   std::array<void*, kDepth> samples{};
   std::array<dds_sample_info_t, kDepth> infos{};
-  const auto taken = dds_take(reader, samples.data(), infos.data(), kDepth, kDepth);
-  if (taken < 0)
-    throw NoDomain(std::string("/e_stop cannot be read: ") + dds_strretcode(taken));
+  const auto taken = dds_take(stop_, samples.data(), infos.data(), kDepth, kDepth);
+  if (taken < 0) throw NoDomain(std::string("/e_stop cannot be read: ") + dds_strretcode(taken));
   for (std::int32_t i = 0; i < taken; ++i) {
     const auto* sample = static_cast<const std_msgs_msg_dds__Bool_*>(samples[i]);
     asked = asked || (infos[i].valid_data && sample->data_);
   }
-  if (taken > 0) dds_return_loan(reader, samples.data(), taken);
+  if (taken > 0) dds_return_loan(stop_, samples.data(), taken);
   return asked;
 }
 

@@ -32,14 +32,11 @@ class Heard final {
 
  private:
   void close();
-  dds_entity_t open(dds_entity_t participant, const TopicKind& kind, std::int32_t depth,
-                    dds_reliability_kind_t reliability);
-  bool stop_asked_of(dds_entity_t reader);
+  dds_entity_t open(dds_entity_t participant, const TopicKind& kind, std::int32_t depth);
 
   link::UniqueFd came_;
   int fd_ = -1;            ///< its number, for the listener
   dds_entity_t stop_ = 0;  ///< 0: not opened
-  dds_entity_t sure_stop_ = 0;
   dds_entity_t twists_ = 0;
   std::optional<CmdVel> cmd_vel_;
   std::uint32_t unmet_stops_ = 0;

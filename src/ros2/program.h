@@ -56,7 +56,7 @@ class Program final {
   Time heard_ = kNever;  ///< droverd's last line
   Time next_beat_ = kNever;
   AskedFor asked_;
-  Time stopped_ = kNever;  ///< the journal was told last that users asked for a stop
+  Time stopped_ = kNever;     ///< the journal was told last that users asked for a stop
   bool stop_waited_ = false;  ///< and that it could not be told to droverd
 };
 

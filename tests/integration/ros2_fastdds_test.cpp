@@ -337,25 +337,6 @@ TEST_F(FastDdsMayStop, StopsTheRobotByTrueAndDoesNothingByFalse) {
   }
 }
 
-TEST_F(FastDdsMayStop, LosesNoReliableStopForWhichThereWasNoRoom) {
-  ASSERT_NO_FATAL_FAILURE(start_all());
-  const auto flood = user_->writer<fast::Bool>("rt/e_stop", {.reliable = false});
-  const auto writer = user_->writer<fast::Bool>("rt/e_stop");
-  for (auto* one : {writer.get(), flood.get()}) {
-    const int before = stops_;
-    ASSERT_TRUE(say_until<fast::Bool>(*one, {true}, [&] { return stops_ > before; })) << log();
-    play_for(500ms);
-  }
-  const int before = stops_;
-  // More than a socket holds.
-  program_.signal(SIGSTOP);
-  for (int i = 0; i < 3000; ++i) ASSERT_TRUE(flood->write({false}));
-  ASSERT_TRUE(writer->write({true}));
-  EXPECT_EQ(stops_, before);
-  program_.signal(SIGCONT);
-  EXPECT_TRUE(play_until([&] { return stops_ > before; })) << log();
-}
-
 template <class M>
 class FastDdsMayDrive : public FastDds {
  protected:

@@ -192,19 +192,23 @@ TEST_F(ARobotThatShouldRest, IsNotCutForWheelsThatSlipAtAllowedSpeeds) {
   EXPECT_FALSE(cut_within_s(0.4)) << rig.why();
 }
 
-/// A base without a brake, and its e-stop is let go before it stands.
+/// A base without a brake, and its e-stop is let go before it stands: 0.15 m/s2, as hard tyres on
+/// concrete.
 TEST_F(ARobotThatShouldRest, IsNotCutWhileItRollsOutOfWhatTheEstopTookThePower) {
   drive();
-  rig.lines[static_cast<std::size_t>(Line::estop)] = true;
+  const auto feed = [this](bool power) {
+    for (auto& drive : rig.drives) drive.silent = !power;
+    rig.lines[static_cast<std::size_t>(Line::estop)] = !power;
+  };
   double radps = 3;
   for (int i = 0; i < 200 * 6; ++i) {
-    if (i == 200) rig.lines[static_cast<std::size_t>(Line::estop)] = false;
-    radps = std::max(0.0, radps - 0.6 * 0.005);
-    rig.disobeys = WheelSpeeds{radps, radps};
+    feed(i >= 300);
+    radps = std::max(0.0, radps - 0.9 * 0.005);
+    rig.carried = WheelSpeeds{radps, radps};
     rig.tick();
     ASSERT_THAT(told(), Not(HasSubstr("did not stop"))) << i;
   }
-  rig.disobeys = {};
+  rig.carried.reset();
   rig.run_s(3);
   drive_again();
 }

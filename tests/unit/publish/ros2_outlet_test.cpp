@@ -142,8 +142,8 @@ TEST_F(Ros2Twists, ThatWereRefusedAreToldWithTheirReason) {
 }
 
 TEST_F(Ros2Twists, CarryWhetherMotionWasBeforeThemAndWhetherARefusalEndsThem) {
-  const auto said = given(
-      R"({"cmd":"cmd_vel","vx_mps":0,"wz_radps":0,"after_motion":true,"at_ns":99900000000})");
+  const auto said =
+      given(R"({"cmd":"cmd_vel","vx_mps":0,"wz_radps":0,"after_motion":true,"at_ns":99900000000})");
   ASSERT_EQ(said.size(), 1U);
   EXPECT_TRUE(std::get<FollowTwist>(said[0].body).after_motion);
   EXPECT_FALSE(std::get<FollowTwist>(given(line()).at(0).body).after_motion);

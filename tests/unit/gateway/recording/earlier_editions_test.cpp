@@ -112,7 +112,9 @@ TEST(FifthEdition, KnewOfTwistsTheirSpeedsOnly) {
     command.body = body;
     std::vector<std::uint8_t> buffer(1024);
     ByteWriter out(buffer);
-    write_input({Time{std::chrono::seconds(8)}, CommandGiven{command}}, Time{std::chrono::seconds(7)}, out);
+    out.byte(static_cast<std::uint8_t>(InputBody(CommandGiven{}).index()));
+    write_input({Time{std::chrono::seconds(8)}, CommandGiven{command}},
+                Time{std::chrono::seconds(7)}, out);
     buffer.resize(out.written().size());
     return buffer;
   };
