@@ -106,10 +106,12 @@ struct DriveByHand {
 /// computer (Command::received) and is obeyed for 0.3 s. A stream begins with zero twists.
 struct FollowTwist {
   Twist twist;
+  bool after_motion = false;  ///< one before it, which was not handed on, was no zero
 };
 /// One that was not understood or not permitted, so that it is seen and counted.
 struct TwistRefused {
   Reason reason;
+  bool ends = false;  ///< nor is any other followed now: two programs write
 };
 
 struct Command {

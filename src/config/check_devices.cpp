@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <optional>
 #include <span>
 
 #include "config/check_subjects.h"
@@ -51,20 +52,22 @@ void addresses(Findings& found) {
 }
 
 /// The id of a DAMIAO motor's answers; left out it is 16 more than its own.
-int answers_with(const DeviceConfig& device) {
-  const int given = static_cast<int>(device.options.number("master_id"));
-  return given != 0 ? given : static_cast<int>(device.options.number("id")) + 0x10;
+std::optional<int> answers_with(const DeviceConfig& device) {
+  const auto& options = device.options;
+  if (!options.has("master_id") || !options.has("id")) return {};  // told where they are read
+  const int given = static_cast<int>(options.number("master_id"));
+  return given != 0 ? given : static_cast<int>(options.number("id")) + 0x10;
 }
 
 void answers(Findings& found) {
   std::map<std::pair<std::string, int>, std::string> first;
   for (const auto& device : found.config().devices) {
-    if (!device.options.has("master_id")) continue;
-    const int id = answers_with(device);
-    const auto [it, inserted] = first.emplace(std::pair(device.link, id), device_path(device));
+    const auto id = answers_with(device);
+    if (!id) continue;
+    const auto [it, inserted] = first.emplace(std::pair(device.link, *id), device_path(device));
     if (!inserted)
       found.add(device_path(device, "options.master_id"),
-                std::to_string(id) + " is what " + it->second + " answers with, on the same bus");
+                std::to_string(*id) + " is what " + it->second + " answers with, on the same bus");
   }
 }
 

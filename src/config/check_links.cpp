@@ -68,13 +68,14 @@ int usual_baud(const LinkConfig& link, Findings& found) {
 
 /// Speed and parity are of the lines that have them.
 void check_pace(LinkConfig& link, Findings& found) {
-  const auto refuse = [&](std::string_view key) {
+  const auto refuse = [&](std::string_view key, const char* instead = "leave it out") {
     if (found.given(link_path(link, key)))
-      found.add(link_path(link, key), "is of no use on " + std::string(words(link.wire)),
-                "leave it out");
+      found.add(link_path(link, key), "is of no use on " + std::string(words(link.wire)), instead);
   };
   if (link.wire != Wire::registers) refuse("parity");
-  if (link.wire == Wire::can || link.wire == Wire::levels) refuse("baud");
+  if (link.wire == Wire::can)
+    refuse("baud", "leave it out: BitRate= in /etc/systemd/network/80-can0.network is this one's");
+  if (link.wire == Wire::levels) refuse("baud");
   if (link.wire == Wire::bytes) {
     if (link.baud == 0) link.baud = usual_baud(link, found);
     check_baud(link, kSerialBauds, found);

@@ -24,6 +24,12 @@ inline std::string text_member(const json::Node& request, std::string_view key) 
   return node != nullptr && node->text() != nullptr ? *node->text() : std::string();
 }
 
+/// A member that is true.
+inline bool flag_member(const json::Node& request, std::string_view key) {
+  const auto* node = request.find(key);
+  return node != nullptr && node->boolean() != nullptr && *node->boolean();
+}
+
 /// A member; null what is not known.
 inline void number_or_null(json::JsonText& out, std::string_view name, std::optional<double> value,
                            int decimals) {

@@ -91,12 +91,14 @@ void Ros2Outlet::cmd_vel(ClientId client, const json::Node& request, Time now, A
     return;
   }
   if (const auto why = text_member(request, "refused"); !why.empty())
-    return give(now, TwistRefused{Reason(json::shown(why, kMostText))});
+    return give(now,
+                TwistRefused{Reason(json::shown(why, kMostText)), flag_member(request, "ends")});
   const auto vx_mps = twist_number(request, "vx_mps");
   const auto wz_radps = twist_number(request, "wz_radps");
   const auto at_ns = count_of(request, "at_ns");
   if (!vx_mps || !wz_radps || at_ns <= 0) return refuse("vx_mps, wz_radps or at_ns is missing");
-  give(std::min(now, Time{Duration{at_ns}}), FollowTwist{{*vx_mps, *wz_radps}});
+  give(std::min(now, Time{Duration{at_ns}}),
+       FollowTwist{{*vx_mps, *wz_radps}, flag_member(request, "after_motion")});
 }
 
 /// What drover-ros2 made of a message: its values as AimRT's JSON, by the reader of the broker's.

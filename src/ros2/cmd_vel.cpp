@@ -15,26 +15,26 @@ constexpr std::int32_t kAtOnce = 20;
 void CmdVel::hear(const void* sample, const dds_sample_info_t& info, Time now, Duration wall,
                   TwistsHeard& heard) {
   const auto rival = writers_.rival_of(info.publication_handle, now);
-  if (rival != 0) {
+  const auto refuse = [&heard](const std::string& why) {
     heard.twist.reset();
-    heard.refused = "two programs write it, neither is followed: " + writer_name(reader_, rival) +
-                    " and " + writer_name(reader_, info.publication_handle);
-    return;
+    heard.refused = why;
+  };
+  if (rival != 0) {
+    heard.rivals = true;
+    return refuse("two programs write it, neither is followed: " + writer_name(reader_, rival) + " and " +
+                  writer_name(reader_, info.publication_handle));
   }
   const Duration age = wall - Duration{info.source_timestamp};
-  if (one_clock_ && age > kOldestTwist) {
-    heard.refused = "a message came too late: it is " +
-                    std::to_string(age / std::chrono::milliseconds(1)) + " ms old";
-    return;
-  }
+  if (one_clock_ && age > kOldestTwist)
+    return refuse("a message came too late: it is " +
+                  std::to_string(age / std::chrono::milliseconds(1)) + " ms old");
   const auto& message =
       stamped_ ? static_cast<const geometry_msgs_msg_dds__TwistStamped_*>(sample)->twist_
                : *static_cast<const geometry_msgs_msg_dds__Twist_*>(sample);
   const auto twist = read_twist(message);
-  if (twist)
-    heard.twist = *twist;
-  else
-    heard.refused = twist.error();
+  if (!twist) return refuse(twist.error());
+  heard.twist = *twist;
+  heard.moved = heard.moved || !is_zero(*twist);
 }
 
 TwistsHeard CmdVel::take(Time now, Duration wall) {
@@ -44,6 +44,7 @@ TwistsHeard CmdVel::take(Time now, Duration wall) {
   const auto taken = dds_take(reader_, samples.data(), infos.data(), kAtOnce, kAtOnce);
   for (std::int32_t i = 0; i < taken; ++i)
     if (infos[i].valid_data) hear(samples[i], infos[i], now, wall, heard);
+  heard.failed = taken < 0;
   if (taken > 0) dds_return_loan(reader_, samples.data(), taken);
   return heard;
 }

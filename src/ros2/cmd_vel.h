@@ -3,22 +3,16 @@
 
 #include <dds/dds.h>
 
-#include <optional>
 #include <string>
 
-#include "drover/twist.h"
+#include "drover/time.h"
 #include "ros2/twist_writers.h"
+#include "ros2/twists_heard.h"
 
 namespace drover::ros2 {
 
 /// How old a message may be by the clock of this computer, which its writer shares.
 inline constexpr Duration kOldestTwist = std::chrono::milliseconds(300);
-
-/// What came since the last look.
-struct TwistsHeard {
-  std::optional<Twist> twist;  ///< the newest
-  std::string refused;         ///< why another one is not followed; empty: all are
-};
 
 class CmdVel final {
  public:

@@ -47,11 +47,13 @@ void DaemonLink::hear(const std::function<void(std::string_view)>& on_line) {
   if (in_.size() > kMostWaiting) lose("droverd sends a line without an end");
 }
 
-void DaemonLink::send(const std::string& line) {
-  if (!fd_) return;
+bool DaemonLink::send(const std::string& line) {
+  if (!fd_) return false;
   const std::string text = line + "\n";
   const auto n = ::send(fd_.get(), text.data(), text.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
-  if (n != static_cast<ssize_t>(text.size())) lose("droverd does not read");
+  if (n == static_cast<ssize_t>(text.size())) return true;
+  lose("droverd does not read");
+  return false;
 }
 
 void DaemonLink::lose(const std::string& why) {

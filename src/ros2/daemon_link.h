@@ -22,8 +22,11 @@ class DaemonLink final {
   int fd() const { return fd_.get(); }
   /// Each whole line that has come.
   void hear(const std::function<void(std::string_view)>& on_line);
-  /// What does not leave at once never leaves: droverd does not read, the link is made anew.
-  void send(const std::string& line);
+  /// What does not leave at once never leaves: droverd does not read, the link is made anew. False:
+  /// it has not left.
+  [[nodiscard]] bool send(const std::string& line);
+  /// Somebody needs it now: the next keep() does not wait.
+  void hurry() { retry_.try_now(); }
   /// Why there is none; empty: there is.
   const std::string& problem() const { return problem_; }
 

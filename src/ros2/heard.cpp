@@ -93,12 +93,22 @@ void Heard::close() {
 }
 
 TwistsHeard Heard::twists(Time now, Duration wall) {
-  return cmd_vel_ ? cmd_vel_->take(now, wall) : TwistsHeard{};
+  if (!cmd_vel_) return {};
+  auto heard = cmd_vel_->take(now, wall);
+  if (heard.failed) throw NoDomain("/cmd_vel cannot be read");
+  return heard;
+}
+
+void Heard::add_unmet(Unmet& unmet) {
+  if (stop_ > 0) add_unmet_writers(stop_, stop_kind().name + 3, unmet_stops_, unmet);
+  if (twists_ > 0) add_unmet_writers(twists_, cmd_vel_kind(false).name + 3, unmet_twists_, unmet);
+  if (joints_ > 0) add_unmet_writers(joints_, joint_command_kind().name + 3, unmet_joints_, unmet);
 }
 
 void Heard::joint_commands(Time now, Duration wall,
                            const std::function<void(const std::string&)>& send) {
-  if (joint_commands_) joint_commands_->take(now, wall, send);
+  if (joint_commands_ && !joint_commands_->take(now, wall, send))
+    throw NoDomain("/joint_command cannot be read");
 }
 
 bool Heard::stop_asked() {
@@ -109,6 +119,7 @@ bool Heard::stop_asked() {
   std::array<void*, kDepth> samples{};
   std::array<dds_sample_info_t, kDepth> infos{};
   const auto taken = dds_take(stop_, samples.data(), infos.data(), kDepth, kDepth);
+  if (taken < 0) throw NoDomain(std::string("/e_stop cannot be read: ") + dds_strretcode(taken));
   for (std::int32_t i = 0; i < taken; ++i) {
     const auto* sample = static_cast<const std_msgs_msg_dds__Bool_*>(samples[i]);
     asked = asked || (infos[i].valid_data && sample->data_);

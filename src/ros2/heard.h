@@ -9,6 +9,7 @@
 #include "ros2/domain.h"
 #include "ros2/joint_command_input.h"
 #include "ros2/topics.h"
+#include "ros2/unmet.h"
 
 namespace drover::ros2 {
 
@@ -22,9 +23,12 @@ class Heard final {
 
   /// Readable when something came.
   int fd() const { return came_.get(); }
-  /// Takes all that came: whether one of it asks for an emergency stop.
+  /// Takes all that came: whether one of it asks for an emergency stop. Throws NoDomain when DDS
+  /// does not give it: nothing would tell of what comes then.
   bool stop_asked();
-  /// What is wanted of the base, if that is opened. `wall`: UTC now, since 1970.
+  /// Writers whose quality of service is another one.
+  void add_unmet(Unmet& unmet);
+  /// What is wanted of the base, if that is opened. `wall`: UTC now, since 1970. Throws NoDomain.
   TwistsHeard twists(Time now, Duration wall);
   /// Lines of joint commands for droverd, likewise.
   void joint_commands(Time now, Duration wall, const std::function<void(const std::string&)>& send);
@@ -40,6 +44,9 @@ class Heard final {
   dds_entity_t joints_ = 0;
   std::optional<CmdVel> cmd_vel_;
   std::optional<JointCommandInput> joint_commands_;
+  std::uint32_t unmet_stops_ = 0;
+  std::uint32_t unmet_twists_ = 0;
+  std::uint32_t unmet_joints_ = 0;
 };
 
 }  // namespace drover::ros2

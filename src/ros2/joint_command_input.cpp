@@ -50,7 +50,7 @@ std::string JointCommandInput::line_of(const void* sample, const dds_sample_info
   return line.key("message").text(*message).close('}').take();
 }
 
-void JointCommandInput::take(Time now, Duration wall,
+bool JointCommandInput::take(Time now, Duration wall,
                              const std::function<void(const std::string&)>& send) {
   std::array<void*, kCommandsAtOnce> samples{};
   std::array<dds_sample_info_t, kCommandsAtOnce> infos{};
@@ -59,6 +59,7 @@ void JointCommandInput::take(Time now, Duration wall,
   for (std::int32_t i = 0; i < taken; ++i)
     if (infos[i].valid_data && pace_.take(now)) send(line_of(samples[i], infos[i], now, wall));
   if (taken > 0) dds_return_loan(reader_, samples.data(), taken);
+  return taken >= 0;
 }
 
 }  // namespace drover::ros2

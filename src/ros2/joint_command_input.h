@@ -27,7 +27,7 @@ class JointCommandInput final {
 
   /// Takes what came since the last look. Each may name other joints: none stands for another one.
   /// Of a flood most are not looked at. `wall`: UTC now, since 1970.
-  void take(Time now, Duration wall, const std::function<void(const std::string&)>& send);
+  [[nodiscard]] bool take(Time now, Duration wall, const std::function<void(const std::string&)>& send);
 
  private:
   std::string line_of(const void* sample, const dds_sample_info_t& info, Time now, Duration wall);

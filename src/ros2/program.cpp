@@ -17,9 +17,6 @@ using namespace std::chrono_literals;
 constexpr Duration kBeat = 1s;
 /// droverd sends at least once a second.
 constexpr Duration kSilent = 1500ms;
-constexpr Duration kStopsApart = 100ms;
-constexpr Duration kTwistsApart = 10ms;
-constexpr Duration kRefusalsApart = 100ms;
 
 Stamp_ns wall_now_ns() {
   return (runtime::monotonic_now().time_since_epoch() + runtime::wall_minus_monotonic()).count();
@@ -48,13 +45,13 @@ void Program::run(const std::atomic<bool>& stop) {
       next_beat_ = now + kBeat;
       beat(now);
     }
-    const Time next = asked_ ? std::min(next_beat_, handed_on_ + kTwistsApart) : next_beat_;
+    const Time next = std::min(next_beat_, asked_.due().value_or(next_beat_));
     const auto left = std::max(std::chrono::ceil<std::chrono::milliseconds>(next - now), 0ms);
     // A descriptor of -1 is passed over.
     std::array<pollfd, 2> ready{{{link_.fd(), POLLIN, 0}, {users_ ? users_->fd() : -1, POLLIN, 0}}};
     const int count = ::poll(ready.data(), ready.size(), static_cast<int>(left.count()));
     if (count > 0 && ready[1].revents != 0) hear_users(runtime::monotonic_now());
-    hand_on_twist(runtime::monotonic_now());
+    tell_asked(runtime::monotonic_now());
     if (count <= 0) continue;
     if (ready[0].revents != 0 && link_.connected())
       link_.hear([this](std::string_view line) { take(line); });
@@ -63,11 +60,15 @@ void Program::run(const std::atomic<bool>& stop) {
 
 void Program::beat(Time now) {
   keep_domain(now);
-  const bool was = link_.connected();
-  link_.keep(now);
-  if (!was && link_.connected()) connected_ = now;
+  connect(now);
   tell_users();
   tell_droverd();
+}
+
+void Program::connect(Time now) {
+  if (link_.connected()) return;
+  link_.keep(now);
+  if (link_.connected()) connected_ = now;
 }
 
 /// A network that comes later is another domain: interfaces are chosen when it is made.
@@ -102,11 +103,15 @@ void Program::make_domain(Time now) {
                               : ": programs on this computer see this robot"));
     say_who_may();
   } catch (const NoDomain& error) {
-    forget_domain();
-    retry_.tried(now);
-    if (problem_ != error.what()) say(Level::error, error.what());
-    problem_ = error.what();
+    lose_domain(error.what(), now);
   }
+}
+
+void Program::lose_domain(const std::string& why, Time now) {
+  forget_domain();
+  retry_.tried(now);
+  if (problem_ != why) say(Level::error, why);
+  problem_ = why;
 }
 
 void Program::say_who_may() const {
@@ -120,51 +125,39 @@ void Program::say_who_may() const {
 }
 
 void Program::forget_domain() {
-  asked_.reset();
+  asked_.forget_twists();
   users_.reset();
   shown_.reset();
   domain_.reset();
 }
 
 void Program::hear_users(Time now) {
-  hear_stop(now);  // before anything else
-  hear_twists(now);
-  users_->joint_commands(now, now.time_since_epoch() + runtime::wall_minus_monotonic(),
-                         [this](const std::string& line) { link_.send(line); });
+  try {
+    if (users_->stop_asked()) asked_.stop(now);  // before anything else
+    asked_.hear(users_->twists(now, now.time_since_epoch() + runtime::wall_minus_monotonic()), now);
+    users_->joint_commands(now, now.time_since_epoch() + runtime::wall_minus_monotonic(),
+                           [this](const std::string& line) { (void)link_.send(line); });
+  } catch (const NoDomain& error) {
+    lose_domain(error.what(), now);
+  }
 }
 
-/// The newest goes on, not faster than droverd takes them.
-void Program::hear_twists(Time now) {
-  const auto heard = users_->twists(now, now.time_since_epoch() + runtime::wall_minus_monotonic());
-  if (heard.twist) asked_ = Asked{*heard.twist, now};
-  if (heard.refused.empty() || (refused_ != kNever && now - refused_ < kRefusalsApart)) return;
-  refused_ = now;
-  json::JsonText line;
-  line.open('{').key("cmd").text("cmd_vel").key("refused").text(heard.refused).close('}');
-  link_.send(line.take());
-}
-
-void Program::hand_on_twist(Time now) {
-  if (!asked_ || (handed_on_ != kNever && now - handed_on_ < kTwistsApart)) return;
-  handed_on_ = now;
-  json::JsonText line;
-  line.open('{').key("cmd").text("cmd_vel").key("vx_mps").number(asked_->twist.vx_mps);
-  line.key("wz_radps").number(asked_->twist.wz_radps);
-  line.key("at_ns").integer(asked_->came.time_since_epoch().count()).close('}');
-  asked_.reset();
-  link_.send(line.take());
-}
-
-/// A stop is told at once; of more that come in rows ten a second.
-void Program::hear_stop(Time now) {
-  if (!users_->stop_asked()) return;
-  if (stopped_ != kNever && now - stopped_ < kStopsApart) return;
-  if (stopped_ == kNever || now - stopped_ > kBeat)
-    say(Level::warning, link_.connected()
-                            ? "an emergency stop was asked for on /e_stop"
-                            : "an emergency stop was asked for on /e_stop, and droverd is away");
+void Program::tell_asked(Time now) {
+  if (asked_.due().value_or(now + kBeat) > now) return;
+  const bool stop = asked_.stop_waits();
+  if (stop) {
+    link_.hurry();
+    connect(now);
+  }
+  asked_.tell(now, [this](const std::string& line) { return link_.send(line); });
+  if (!stop) return;
+  const bool waits = asked_.stop_waits();
+  if (waits == stop_waited_ && stopped_ != kNever && now - stopped_ <= kBeat) return;
+  say(Level::warning, waits ? "an emergency stop was asked for on /e_stop, and droverd is away: it "
+                              "is told as soon as it is back"
+                            : "an emergency stop was asked for on /e_stop");
   stopped_ = now;
-  link_.send(json::JsonText().open('{').key("cmd").text("stop").close('}').take());
+  stop_waited_ = waits;
 }
 
 void Program::take(std::string_view line) {
@@ -181,10 +174,10 @@ void Program::take(std::string_view line) {
   auto all = told->diagnostics;
   DiagnosticTold own{
       "drover-ros2",
-      readers_.incompatible > 0 ? 1 : 0,
-      readers_.incompatible > 0 ? "some readers ask for what is not offered" : "all is well",
+      readers_.unmet.count > 0 ? 1 : 0,
+      readers_.unmet.count > 0 ? "some programs want another quality of service" : "all is well",
       {{"readers", std::to_string(readers_.matched)},
-       {"incompatible", std::to_string(readers_.incompatible)},
+       {"incompatible", std::to_string(readers_.unmet.count)},
        {"not_sent", std::to_string(shown_->failed())}}};
   all.push_back(std::move(own));
   shown_->show_diagnostics(told->at_ns, all);
@@ -194,7 +187,8 @@ void Program::take(std::string_view line) {
 void Program::tell_users() {
   if (shown_) {
     readers_ = shown_->readers();
-    if (!readers_.news.empty()) say(Level::warning, readers_.news);
+    if (users_) users_->add_unmet(readers_.unmet);
+    for (const auto& news : readers_.unmet.news) say(Level::warning, news);
   }
   const Time now = runtime::monotonic_now();
   const bool hears = heard_ != kNever && now - heard_ < kSilent;
@@ -217,8 +211,8 @@ void Program::tell_droverd() {
   json::JsonText line;
   line.open('{').key("cmd").text("ros2_follow").key("mode").text(config_.ros2.mode);
   line.key("reason").text(problem_).key("readers").integer(readers_.matched);
-  line.key("incompatible").integer(readers_.incompatible).close('}');
-  link_.send(line.take());
+  line.key("incompatible").integer(readers_.unmet.count).close('}');
+  (void)link_.send(line.take());  // the next beat says it again
 }
 
 }  // namespace drover::ros2

@@ -3,12 +3,12 @@
 
 #include <atomic>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "config/config.h"
 #include "drover/time.h"
+#include "ros2/asked_for.h"
 #include "ros2/daemon_link.h"
 #include "ros2/domain.h"
 #include "ros2/heard.h"
@@ -29,11 +29,11 @@ class Program final {
   void keep_domain(Time now);
   void make_domain(Time now);
   void take(std::string_view line);
+  void connect(Time now);
   void hear_users(Time now);
-  void hear_stop(Time now);
-  void hear_twists(Time now);
-  void hand_on_twist(Time now);
+  void tell_asked(Time now);
   void say_who_may() const;
+  void lose_domain(const std::string& why, Time now);
   void forget_domain();
   void tell_droverd();
   void tell_users();
@@ -55,14 +55,9 @@ class Program final {
   Time connected_ = kNever;
   Time heard_ = kNever;  ///< droverd's last line
   Time next_beat_ = kNever;
-  Time stopped_ = kNever;  ///< last, as users asked
-  struct Asked {
-    Twist twist;
-    Time came = kNever;
-  };
-  std::optional<Asked> asked_;  ///< of the base, not handed on yet
-  Time handed_on_ = kNever;     ///< the last
-  Time refused_ = kNever;       ///< droverd was told last that one was refused
+  AskedFor asked_;
+  Time stopped_ = kNever;     ///< the journal was told last that users asked for a stop
+  bool stop_waited_ = false;  ///< and that it could not be told to droverd
 };
 
 }  // namespace drover::ros2

@@ -29,16 +29,6 @@ dds_qos_t* qos_of(const TopicKind& kind) {
   return qos;
 }
 
-std::string policy_name(std::uint32_t id) {
-  switch (id) {
-    case DDS_DURABILITY_QOS_POLICY_ID: return "durability";
-    case DDS_RELIABILITY_QOS_POLICY_ID: return "reliability";
-    case DDS_DEADLINE_QOS_POLICY_ID: return "deadline";
-    case DDS_LIVELINESS_QOS_POLICY_ID: return "liveliness";
-    default: return "policy " + std::to_string(id);
-  }
-}
-
 }  // namespace
 
 Shown::Shown(dds_entity_t participant, const Robot& robot, Stamp_ns at_ns)
@@ -109,13 +99,7 @@ void Shown::count(Writer& writer, Readers& readers) {
   dds_publication_matched_status_t matched{};
   if (dds_get_publication_matched_status(writer.entity, &matched) == DDS_RETCODE_OK)
     readers.matched += matched.current_count;
-  dds_offered_incompatible_qos_status_t refused{};
-  if (dds_get_offered_incompatible_qos_status(writer.entity, &refused) != DDS_RETCODE_OK) return;
-  readers.incompatible += refused.total_count;
-  if (refused.total_count > writer.incompatible)
-    readers.news = std::string("a reader of ") + (writer.topic + 2) + " asks for a " +
-                   policy_name(refused.last_policy_id) + " that is not offered, and gets nothing";
-  writer.incompatible = refused.total_count;
+  add_unmet_readers(writer.entity, writer.topic + 3, writer.unmet, readers.unmet);
 }
 
 Readers Shown::readers() {

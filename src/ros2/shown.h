@@ -10,6 +10,7 @@
 
 #include "ros2/convert.h"
 #include "ros2/topics.h"
+#include "ros2/unmet.h"
 
 namespace drover::ros2 {
 
@@ -28,8 +29,7 @@ struct Robot {
 /// How the readers are.
 struct Readers {
   std::int64_t matched = 0;
-  std::int64_t incompatible = 0;  ///< since the domain was made
-  std::string news;               ///< which one is new since last time; empty: none
+  Unmet unmet;
 };
 
 class Shown final {
@@ -48,7 +48,7 @@ class Shown final {
   struct Writer {
     const char* topic = "";
     dds_entity_t entity = 0;
-    std::uint32_t incompatible = 0;
+    std::uint32_t unmet = 0;
   };
   Writer make(const TopicKind& kind, const std::string& name);
   void count(Writer& writer, Readers& readers);

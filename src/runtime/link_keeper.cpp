@@ -108,7 +108,8 @@ void LinkKeeper::take_back_lost() {
     auto& slot = slots_[lost.slot];
     slot.open = false;
     slot.retry.try_now();
-    if (is_guarded(lost.slot)) guard_set_changed_ = true;
+    // The guard keeps its own way there: a set without this line would lack what it has to stop,
+    // and whatever else moves would stand until a person comes.
     if (is_guarded_tty(lost.slot)) forget_tty(lost.slot);
     if (lost.slot == kOutputsSlot) forget_relay();
     if (lost.reopen_baud > 0) slot.baud = lost.reopen_baud;

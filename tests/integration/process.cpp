@@ -29,6 +29,8 @@ Process::Process(const std::vector<std::string>& words, std::string log) : log_(
   ::dup2(in, STDIN_FILENO);
   ::dup2(out, STDOUT_FILENO);
   ::dup2(out, STDERR_FILENO);
+  // What else the test has open, sockets of its libraries, is no business of the program's.
+  ::close_range(STDERR_FILENO + 1, ~0U, 0);
   ::execv(arguments[0], arguments.data());
   ::_exit(127);
 }

@@ -54,7 +54,7 @@ void Ros2Rig::start_program() {
 
 void Ros2Rig::open_daemon() {
   outlet_ = std::make_unique<publish::Ros2Outlet>(
-      50, [this] { return std::vector<const scene::sensor::SeenTurn*>{&turn_}; });
+      50, [this] { return std::vector<const scene::sensor::SeenTurn*>{&turn_}; }, true);
   const auto path = folder_ / "drover.sock";
   std::filesystem::remove(path);
   listener_ = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
@@ -89,9 +89,11 @@ void Ros2Rig::hear() {
       ++stops_;
       continue;
     }
-    last_request_ = line;
+    if (line.find("ros2_follow") != std::string::npos) last_request_ = line;
     publish::Actions out;
     EXPECT_TRUE(outlet_->on_line(kClient, line, seen_.time, out)) << line;
+    for (const auto& action : out)
+      if (const auto* command = std::get_if<Command>(&action)) commands_.push_back(*command);
   }
 }
 
@@ -114,7 +116,7 @@ void Ros2Rig::beat() {
 }
 
 bool Ros2Rig::play_until(const std::function<bool()>& done) {
-  const auto until = runtime::monotonic_now() + 10s;
+  const auto until = runtime::monotonic_now() + 30s;
   while (!done()) {
     if (runtime::monotonic_now() > until) return false;
     beat();

@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "drover/command.h"
 #include "drover/snapshot.h"
 #include "integration/process.h"
 #include "integration/ros2_user.h"
@@ -31,7 +32,8 @@ class Ros2Rig : public ::testing::Test {
   void start_program();
   void open_daemon();
   void close_daemon();
-  /// Plays droverd until `done`; false: not within ten seconds.
+  /// Plays droverd until `done`; false: not within thirty seconds. Fast DDS and Cyclone DDS take up
+  /// to ten to know of each other.
   bool play_until(const std::function<bool()>& done);
   void play_for(std::chrono::milliseconds time);
 
@@ -58,10 +60,12 @@ class Ros2Rig : public ::testing::Test {
     return static_cast<const Message*>(sample);
   }
   std::string log() const { return program_.output(); }
+  int domain() const { return domain_; }
 
-  Snapshot seen_;             ///< what droverd sees, at its own time
-  std::string last_request_;  ///< of drover-ros2, to follow
-  int stops_ = 0;             ///< that it asked for
+  Snapshot seen_;                  ///< what droverd sees, at its own time
+  std::string last_request_;       ///< of drover-ros2, to follow
+  int stops_ = 0;                  ///< that it asked for
+  std::vector<Command> commands_;  ///< that it handed on, as droverd understands them
   Process program_;
   TempFolder own_folder_;
   std::filesystem::path folder_{own_folder_.path()};

@@ -30,6 +30,14 @@ void judge_rate(const std::string& type, double rate_Hz, double wanted_Hz, Time 
     add(problems, type + " at " + std::to_string(rate_Hz) + " Hz from " + seconds(begin));
 }
 
+/// What was ready to leave when droverd was stopped leaves when it goes on.
+void pass_over_what_waited(const Record& record, Time begin, Messages& list) {
+  constexpr Duration kAtOnce = 100us;
+  const auto woken = record.all("signal 18 to droverd");
+  if (std::find(woken.begin(), woken.end(), begin) == woken.end()) return;
+  if (!list.empty() && list.front()->time - begin < kAtOnce) list.erase(list.begin());
+}
+
 /// Between two messages no inertial sensor was heard, and the status says so.
 bool told_missing(const Record& record, Time begin, Time end) {
   return std::any_of(record.statuses.begin(), record.statuses.end(), [&](const Status& status) {
@@ -87,7 +95,8 @@ Problems check_aimrt_rates(const Record& record) {
   for (const auto& interval : alive(record)) {
     if (interval.end == Time::max() || interval.end - interval.begin < kLongEnough) continue;
     for (const std::string type : {".JointState", ".ImuState", ".TouchState"}) {
-      const auto list = messages(record, type, interval);
+      auto list = messages(record, type, interval);
+      pass_over_what_waited(record, interval.begin, list);
       if (type == ".TouchState" && !record.bumper) {
         if (!list.empty()) add(problems, type + " of a robot that has no contact");
         continue;

@@ -93,6 +93,26 @@ TEST(MissionAimrtRates, PermitAContactThatIsToldAtOnce) {
   EXPECT_THAT(check_aimrt_rates(sound.record), Not(IsEmpty()));
 }
 
+/// Whatever stands in a program that is stopped leaves in the instant in which it goes on.
+TEST(MissionAimrtRates, PassOverWhatWaitedWhileDroverdWasStoppedAndNothingElse) {
+  Sound sound;
+  auto& events = sound.record.events;
+  events.insert(events.begin() + 2,
+                {{at(150), "signal 19 to droverd"}, {at(390), "signal 18 to droverd"}});
+  for (const char* type : {"JointState", "ImuState", "TouchState"}) sound.drop(type, 150, 390);
+  auto& lines = sound.record.mqtt;
+  const auto next = std::find_if(lines.begin(), lines.end(), [](const auto& line) {
+    return line.time == at(400) && line.topic.ends_with("TouchState");
+  });
+  const MqttLine waited{at(390) + std::chrono::microseconds(50), next->topic, false, next->payload};
+  lines.insert(std::find_if(lines.begin(), lines.end(),
+                            [](const auto& line) { return line.time > at(390); }),
+               waited);
+  EXPECT_THAT(check_aimrt_rates(sound.record), IsEmpty());
+  sound.record.events.erase(sound.record.events.begin() + 2, sound.record.events.begin() + 4);
+  EXPECT_THAT(check_aimrt_rates(sound.record), Not(IsEmpty()));
+}
+
 TEST(MissionAimrtRates, AreGoodAsTheyShouldBe) {
   EXPECT_THAT(check_aimrt_rates(Sound().record), IsEmpty());
 }

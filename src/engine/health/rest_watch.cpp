@@ -67,6 +67,7 @@ bool RestWatch::due(const RestInput& input) {
   const double asked_mps = asked.fastest_mps;
   if (asked_mps != 0 && !input.caught) {
     ours_ = true;
+    coasts_ = false;
     const bool told = asked.ahead != 0 || asked.turn != 0;  // the end of a ramp counts as standing
     last_.direction = told ? asked.ahead : last_.direction;
     last_.turn = told ? asked.turn : last_.turn;
@@ -285,7 +286,8 @@ RestState RestWatch::update(const RestInput& input) {
   on_slope_ = input.rolls_unpowered || (on_slope_ && goes_on);
   // Taken back, too, is a drive of several that is silent: only wheels that turn are caught.
   const bool caught = input.caught && (history_.turns() || !rims.heard);
-  may_roll_ = on_slope_ || caught || (may_roll_ && goes_on);
+  coasts_ = state_ != RestState::resting && (coasts_ || input.power_is_off);
+  may_roll_ = on_slope_ || caught || coasts_ || (may_roll_ && goes_on);
   if (state_ == RestState::not_stopping) {
     // What it rolled until it came to rest is no motion any more.
     if (due_ == kNever || input.now - due_ > kLookAgainAfterCut) {

@@ -100,8 +100,9 @@ class RestWatch final {
   bool ours_ = false;        ///< we moved it since it rested last
   bool began_ = false;
   LastDrive last_;
-  bool on_slope_ = false;      ///< it could roll without power, since rest is due
-  bool may_roll_ = false;      ///< it could without power, or was caught, since rest is due
+  bool on_slope_ = false;  ///< it could roll without power, since rest is due
+  bool may_roll_ = false;  ///< it could without power, or was caught, since rest is due
+  bool coasts_ = false;    ///< the e-stop took its power while it moved: friction alone stops it
   bool hears_wheels_ = false;  ///< at least one, in the last cycle
   Time crept_at_ = kNever;     ///< silent, when the receiver last saw it go down slowly
   bool spared_ = false;        ///< silent on a slope: it stands, creeps, or may be caught yet

@@ -27,7 +27,7 @@ void JointStream::take(const JointTargets& targets, std::string_view busy, Time 
   JointVelocities wanted;
   for (const JointTarget& joint : targets.joints) {
     if (joint.axis >= kMaxAxes || !std::isfinite(joint.velocity_radps)) {
-      return reject("a joint or a velocity that cannot be", now);
+      return refuse("a joint or a velocity that cannot be", now);
     }
     wanted.resize(std::max(wanted.size(), std::size_t{joint.axis} + 1));
     wanted[joint.axis] = joint.velocity_radps;

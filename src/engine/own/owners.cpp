@@ -44,11 +44,16 @@ void Owners::take(const JointTargets& targets, Time now) {
 }
 
 void Owners::take(const FollowTwist& follow, Time received, Time now) {
-  if (!body_.pivots && is_turn(follow.twist)) return cmd_vel_.turn_away(kNoPivot, now);
+  if (!body_.pivots && is_turn(follow.twist)) return cmd_vel_.refuse(kNoPivot, now);
   Reason busy = stream_.following() ? Reason("joint commands drive the robot") : twists_busy_;
   if (busy.empty()) busy = latch_.hinders_joints();
   if (busy.empty() && !cmd_vel_.following()) busy = no_start_;
-  cmd_vel_.take(follow.twist, received, busy, now);
+  cmd_vel_.take(follow, received, busy, now);
+}
+
+void Owners::refuse(const TwistRefused& refused, Time now) {
+  if (refused.ends) cmd_vel_.end(refused.reason);
+  cmd_vel_.refuse(refused.reason, now);
 }
 
 double Owners::timeout_s(Owner owner) const {

@@ -54,9 +54,9 @@ class Owners final {
   Owners(const EngineConfig& config, Latch& latch);
 
   void take(const JointTargets& targets, Time now);
-  void refuse(const JointTargetsRefused& refused) { stream_.refuse(refused.reason); }
+  void refuse(const JointTargetsRefused& refused) { stream_.refuse_quietly(refused.reason); }
   void take(const FollowTwist& follow, Time received, Time now);
-  void refuse(const TwistRefused& refused, Time now) { cmd_vel_.turn_away(refused.reason, now); }
+  void refuse(const TwistRefused& refused, Time now);
   void find_heading(const RequestId& id, const Estimate& estimate, const HealthReport& health,
                     Time now, EventQueue& events);
   /// `proved`: wheels, gyro and receiver agree with each other.

@@ -69,11 +69,11 @@ bool Stream::follow(bool neutral, std::string_view busy, Time now) {
     if (neutral)
       last_ = now;
     else
-      reject(busy, now);
+      refuse(busy, now);
     return false;
   }
   if (!neutral && !may_move_ && !(following_ && from_rest)) {
-    reject(not_begun(now), now);
+    refuse(not_begun(now), now);
     return false;
   }
   may_move_ = may_move_ || !neutral;
@@ -87,13 +87,14 @@ bool Stream::follow(bool neutral, std::string_view busy, Time now) {
   return true;
 }
 
-void Stream::refuse(const Reason& why) {
+void Stream::refuse_quietly(const Reason& why) {
   ++refused_;
   reason_ = why;
+  zeros_since_ = kNever;  // it was no zero
 }
 
-void Stream::reject(const Reason& why, Time now) {
-  refuse(why);
+void Stream::refuse(const Reason& why, Time now) {
+  refuse_quietly(why);
   refused_at_ = now;
   news_ = text_of(words_.refused, why);
 }

@@ -22,7 +22,7 @@ struct StreamWords {
 class Stream {
  public:
   /// A message that was not permitted before it came here, which the journal knows already.
-  void refuse(const Reason& why);
+  void refuse_quietly(const Reason& why);
   /// Ends it for a cause that lies elsewhere.
   void end(std::string_view why);
   /// Ends it for what is in its way.
@@ -50,8 +50,8 @@ class Stream {
   /// A message that is sound; `neutral`: it asks for no motion. `busy`: why none can be followed
   /// now; empty: they can. False: it is not followed.
   bool follow(bool neutral, std::string_view busy, Time now);
-  /// One that is not; the journal is told.
-  void reject(const Reason& why, Time now);
+  /// One that is not sound: the journal is told, and what is followed goes on.
+  void refuse(const Reason& why, Time now);
 
  private:
   bool rested(Time now) const;
@@ -74,7 +74,7 @@ class Stream {
   std::uint64_t refused_ = 0;
   Reason reason_;
   Reason obstacle_;
-  Time refused_at_ = kNever;  ///< kNever also while one is followed
+  Time refused_at_ = kNever;  ///< since one was followed last
   Reason news_;               ///< not announced yet; the newest is told
   Reason told_;
   Time told_at_ = kNever;

@@ -19,13 +19,15 @@ constexpr StreamWords kTwistWords{
 
 TwistStream::TwistStream() : Stream(kTimeout, kTwistWords) {}
 
-void TwistStream::take(const Twist& twist, Time received, std::string_view busy, Time now) {
+void TwistStream::take(const FollowTwist& wanted, Time received, std::string_view busy, Time now) {
+  const Twist& twist = wanted.twist;
   if (!std::isfinite(twist.vx_mps) || !std::isfinite(twist.wz_radps))
-    return reject("a speed that cannot be", now);
+    return refuse("a speed that cannot be", now);
   const Time at = received == kNever ? now : std::min(received, now);
-  if (now - at > kTimeout) return reject("it came too late to be followed", now);
+  if (now - at > kTimeout) return refuse("it came too late to be followed", now);
   newest_ = std::max(newest_, at);  // none is heard before the one that came before it
-  if (follow(is_zero(twist), busy, newest_)) wanted_ = twist;
+  const bool neutral = is_zero(twist) && !wanted.after_motion;
+  if (follow(neutral, busy, newest_)) wanted_ = twist;
 }
 
 }  // namespace drover::engine

@@ -15,9 +15,8 @@ class TwistStream final : public Stream {
   TwistStream();
 
   /// `busy`: why it cannot be followed now; empty: it can.
-  void take(const Twist& twist, Time received, std::string_view busy, Time now);
-  /// One that its reader did not permit.
-  void turn_away(const Reason& why, Time now) { reject(why, now); }
+  void take(const FollowTwist& follow, Time received, std::string_view busy, Time now);
+  using Stream::refuse;
 
   bool wants_motion() const { return !is_zero(wanted()); }
   Twist wanted() const { return following() ? wanted_ : Twist{}; }

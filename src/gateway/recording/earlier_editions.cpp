@@ -1,6 +1,7 @@
 #include "gateway/recording/earlier_editions.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "gateway/recording/bytes.h"
 
@@ -66,6 +67,24 @@ std::vector<std::uint8_t> with_flags(std::span<const std::uint8_t> record, std::
   return today;
 }
 
+/// The body of the command that a record is; empty: it is none.
+std::optional<std::size_t> body_of(std::span<const std::uint8_t> record) {
+  ByteReader in(record);
+  const auto kind = in.byte();
+  (void)in.signed_number();  // time
+  (void)in.byte();           // whose request
+  (void)in.number();
+  (void)in.signed_number();  // when it came
+  const std::size_t body = in.byte();
+  if (kind != kind_now<CommandGiven>() || !in.good()) return {};
+  return body;
+}
+
+template <class Body>
+constexpr std::size_t body_now() {
+  return decltype(Command::body)(Body{}).index();
+}
+
 LinkId link_of(const Wiring& wiring, SlotKind kind) {
   const SlotId slot = slot_of(wiring, kind);
   return slot == kNowhere ? kNowhere : wiring.slots[slot].link;
@@ -124,6 +143,13 @@ std::vector<std::uint8_t> from_third_edition(std::span<const std::uint8_t> recor
 
 std::vector<std::uint8_t> from_fourth_edition(std::span<const std::uint8_t> record) {
   return with_flags(record, 1);
+}
+
+std::vector<std::uint8_t> from_fifth_edition(std::span<const std::uint8_t> record) {
+  std::vector<std::uint8_t> today(record.begin(), record.end());
+  const auto body = body_of(record);
+  if (body == body_now<FollowTwist>() || body == body_now<TwistRefused>()) today.push_back(0);
+  return today;
 }
 
 }  // namespace drover::gateway

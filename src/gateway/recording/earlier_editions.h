@@ -1,7 +1,8 @@
 // Recordings of earlier editions: their inputs, as they are written today. The first named one
 // receiver, one sensor, one battery and one chip by their kind and not by number; the first two did
 // not tell whether a robot that was remembered was at rest, the first three not whether a wheel of
-// it had run away, the first four not where it stood.
+// it had run away, the first four not where it stood; the first five knew no more of cmd_vel's
+// twists than their speeds.
 #pragma once
 
 #include <cstdint>
@@ -16,10 +17,11 @@ namespace drover::gateway {
 std::vector<std::uint8_t> from_first_edition(std::span<const std::uint8_t> record,
                                              const Wiring& wiring);
 
-/// The same of the second, the third and the fourth.
+/// The same of the later ones.
 std::vector<std::uint8_t> from_second_edition(std::span<const std::uint8_t> record);
 std::vector<std::uint8_t> from_third_edition(std::span<const std::uint8_t> record);
 std::vector<std::uint8_t> from_fourth_edition(std::span<const std::uint8_t> record);
+std::vector<std::uint8_t> from_fifth_edition(std::span<const std::uint8_t> record);
 
 /// The byte streams of an output in the first edition, in their order; kNowhere: not configured.
 std::vector<LinkId> streams_of_first_edition(const Wiring& wiring);

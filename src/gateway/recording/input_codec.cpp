@@ -304,16 +304,20 @@ void get(DriveByHand& drive, ByteReader& in) {
 void put(const FollowTwist& follow, ByteWriter& out) {
   out.real(follow.twist.vx_mps);
   out.real(follow.twist.wz_radps);
+  out.byte(follow.after_motion ? 1 : 0);
 }
 void get(FollowTwist& follow, ByteReader& in) {
   follow.twist.vx_mps = in.real();
   follow.twist.wz_radps = in.real();
+  follow.after_motion = get_flag(in);
 }
 void put(const TwistRefused& refused, ByteWriter& out) {
   out.text(refused.reason);
+  out.byte(refused.ends ? 1 : 0);
 }
 void get(TwistRefused& refused, ByteReader& in) {
   refused.reason.assign(in.text());
+  refused.ends = get_flag(in);
 }
 void put(const ReleaseHold& release, ByteWriter& out) {
   out.byte(release.on_slope ? 1 : 0);

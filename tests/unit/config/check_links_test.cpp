@@ -79,7 +79,8 @@ TEST(ConfigurationChecks, RefuseALinkThatNoDeviceHangsOn) {
 
 TEST(ConfigurationChecks, RefuseASpeedWhereALinkHasNone) {
   EXPECT_EQ(problems(with("{\"can\": \"can0\"}", "{\"can\": \"can0\", \"baud\": 500000}")),
-            "f:2:45: links.can0.baud: is of no use on a CAN bus (leave it out)\n");
+            "f:2:45: links.can0.baud: is of no use on a CAN bus (leave it out: BitRate= in "
+            "/etc/systemd/network/80-can0.network is this one's)\n");
   EXPECT_EQ(problems(with("115200", "115200, \"parity\": \"even\"")),
             "f:3:78: links.gnss.parity: is of no use on a serial line (leave it out)\n");
 }

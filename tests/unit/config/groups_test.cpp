@@ -146,6 +146,11 @@ TEST(Groups, RefuseMotorsThatAnswerAlike) {
       HasSubstr("devices.elbow.options.master_id: 18 is what devices.shoulder answers with"));
 }
 
+TEST(Groups, TellAMotorWithoutANumberThatItNeedsOne) {
+  for (const char* bad : {"{", "{\"id\": 17, ", "{\"id\": 300, ", "{\"id\": \"2\", "})
+    EXPECT_THAT(arm_problems("{\"id\": 3, ", bad), HasSubstr("devices.elbow.options")) << bad;
+}
+
 TEST(Groups, RefuseMotorsOnABusWithDrivesThatTheyWouldReprogram) {
   EXPECT_THAT(arm_problems("\"elbow\": {\"driver\": \"damiao\", \"link\": \"can1\"",
                            "\"elbow\": {\"driver\": \"damiao\", \"link\": \"can0\""),

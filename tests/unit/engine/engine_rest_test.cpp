@@ -192,6 +192,37 @@ TEST_F(ARobotThatShouldRest, IsNotCutForWheelsThatSlipAtAllowedSpeeds) {
   EXPECT_FALSE(cut_within_s(0.4)) << rig.why();
 }
 
+/// A base without a brake, and its e-stop is let go before it stands: 0.15 m/s2, as hard tyres on
+/// concrete.
+TEST_F(ARobotThatShouldRest, IsNotCutWhileItRollsOutOfWhatTheEstopTookThePower) {
+  drive();
+  const auto feed = [this](bool power) {
+    for (auto& drive : rig.drives) drive.silent = !power;
+    rig.lines[static_cast<std::size_t>(Line::estop)] = !power;
+  };
+  double radps = 3;
+  for (int i = 0; i < 200 * 6; ++i) {
+    feed(i >= 300);
+    radps = std::max(0.0, radps - 0.9 * 0.005);
+    rig.carried = WheelSpeeds{radps, radps};
+    rig.tick();
+    ASSERT_THAT(told(), Not(HasSubstr("did not stop"))) << i;
+  }
+  rig.carried.reset();
+  rig.run_s(3);
+  drive_again();
+}
+
+TEST_F(ARobotThatShouldRest, LosesItsPowerWhenItGoesOnAfterTheEstopWasLetGo) {
+  drive();
+  rig.lines[static_cast<std::size_t>(Line::estop)] = true;
+  rig.disobeys = kStraight;
+  rig.run_s(1);
+  rig.lines[static_cast<std::size_t>(Line::estop)] = false;
+  rig.run_s(4);
+  EXPECT_THAT(told(), HasSubstr("did not stop"));
+}
+
 TEST_F(ARobotThatShouldRest, StopsAsEverWhenAllIsWell) {
   drive();
   rig.command(CancelTask{});

@@ -64,7 +64,9 @@ struct OneOfEachInput {
     command(ForgetLearned{});
     command(DriveByHand{7, {0.3, -0.1}});
     command(FollowTwist{{0.3, -0.1}});
+    command(FollowTwist{{}, true});
     command(TwistRefused{"linear.y is 0.3"});
+    command(TwistRefused{"two programs write it", true});
     add(Tick{true, false});
     add(ProgramTrouble{"droverd ends"});
     add(Suspended{2.5});

@@ -141,6 +141,17 @@ TEST_F(Ros2Twists, ThatWereRefusedAreToldWithTheirReason) {
   EXPECT_EQ(std::get<TwistRefused>(commands[0].body).reason.view(), "linear.y is 0.3");
 }
 
+TEST_F(Ros2Twists, CarryWhetherMotionWasBeforeThemAndWhetherARefusalEndsThem) {
+  const auto said =
+      given(R"({"cmd":"cmd_vel","vx_mps":0,"wz_radps":0,"after_motion":true,"at_ns":99900000000})");
+  ASSERT_EQ(said.size(), 1U);
+  EXPECT_TRUE(std::get<FollowTwist>(said[0].body).after_motion);
+  EXPECT_FALSE(std::get<FollowTwist>(given(line()).at(0).body).after_motion);
+  const auto refused = given(R"({"cmd":"cmd_vel","refused":"two programs","ends":true})");
+  ASSERT_EQ(refused.size(), 1U);
+  EXPECT_TRUE(std::get<TwistRefused>(refused[0].body).ends);
+}
+
 TEST_F(Ros2Twists, AreRefusedWhereTheConfigurationDoesNotOpenThem) {
   EXPECT_THAT(ask(7, kNow, line()), HasSubstr("ros2.inputs.cmd_vel"));
 }

@@ -75,6 +75,44 @@ TEST_F(CmdVel, MovesNothingBeforeItSaidZeroForAWhile) {
   EXPECT_EQ(rig.fastest_command_radps(), 0) << "one zero is none";
   drive_by_twists();
 }
+/// "Nothing else": what was refused was no zero, whoever sent it.
+TEST_F(CmdVel, DoesNotBeginWithZerosBetweenMessagesThatAreRefused) {
+  rig.settle();
+  for (int i = 0; i < 20; ++i) {
+    say({});
+    rig.run_s(0.05);
+    if (i % 2 == 0)
+      say({NAN, 0});
+    else
+      rig.command(TwistRefused{"linear.y is 0.3"});
+  }
+  say({});
+  rig.run_s(0.05);
+  say_s(kAhead, 1);
+  EXPECT_EQ(rig.fastest_command_radps(), 0);
+  drive_by_twists();
+}
+TEST_F(CmdVel, DoesNotBeginWithZerosThatEachFollowedMotion) {
+  rig.settle();
+  for (int i = 0; i < 20; ++i) {
+    rig.command(FollowTwist{{}, true});
+    rig.run_s(0.05);
+  }
+  say_s(kAhead, 1);
+  EXPECT_EQ(rig.fastest_command_radps(), 0);
+  drive_by_twists();
+}
+TEST_F(CmdVel, EndsAtOnceWithItsReasonWhenTwoProgramsWrite) {
+  rig.settle();
+  drive_by_twists();
+  rig.command(TwistRefused{"two programs write it", true});
+  rig.run_s(0.02);
+  EXPECT_LT(speed_mps(), 0.4);
+  EXPECT_THAT(why(), HasSubstr("two programs write it"));
+  say_s(kAhead, 2);
+  EXPECT_EQ(rig.fastest_command_radps(), 0) << "it has to begin anew";
+  drive_by_twists();
+}
 TEST_F(CmdVel, ComesToRestInARampWhenItFallsSilentAndHasToBeginAnew) {
   rig.settle();
   drive_by_twists();

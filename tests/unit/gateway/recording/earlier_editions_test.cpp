@@ -106,6 +106,31 @@ TEST(FourthEdition, DidNotRememberWhereTheRobotStood) {
             "at 8.000000000 s: recalled: at rest held run away stopped at the robot: off");
 }
 
+TEST(FifthEdition, KnewOfTwistsTheirSpeedsOnly) {
+  const auto today = [](const decltype(Command::body)& body) {
+    Command command{{RequestId::Source::ros2, 7}, Time{std::chrono::seconds(5)}, {}};
+    command.body = body;
+    std::vector<std::uint8_t> buffer(1024);
+    ByteWriter out(buffer);
+    out.byte(static_cast<std::uint8_t>(InputBody(CommandGiven{}).index()));
+    write_input({Time{std::chrono::seconds(8)}, CommandGiven{command}},
+                Time{std::chrono::seconds(7)}, out);
+    buffer.resize(out.written().size());
+    return buffer;
+  };
+  for (const decltype(Command::body)& body :
+       {decltype(Command::body)(FollowTwist{{0.3, -0.1}}),
+        decltype(Command::body)(TwistRefused{"linear.y is 0.3"})}) {
+    auto record = today(body);
+    const auto whole = record;
+    record.pop_back();
+    EXPECT_EQ(from_fifth_edition(record), whole);
+  }
+  const auto stop = today(EngageStop{});
+  EXPECT_EQ(from_fifth_edition(stop), stop);
+  EXPECT_TRUE(from_fifth_edition({}).empty());
+}
+
 TEST_F(FirstEdition, HadTheSameOfAllElse) {
   EXPECT_EQ(meaning(12, {5}), "at 8.000000000 s: tick, guard alive, stopped at the guard");
   EXPECT_EQ(meaning(13, {2, 'n', 'o'}), "at 8.000000000 s: trouble of the daemon: no");

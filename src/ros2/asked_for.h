@@ -1,0 +1,46 @@
+// What ROS 2 users ask for, until droverd is told: a stop, twists, and what was refused of them.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "drover/time.h"
+#include "ros2/twists_heard.h"
+
+namespace drover::ros2 {
+
+/// A stop goes before everything else and is told again and again until it has left. Of twists the
+/// newest goes on, and what was refused, neither faster than droverd takes them. Pure.
+class AskedFor final {
+ public:
+  /// An emergency stop; of more that come in rows ten a second are told.
+  void stop(Time now);
+  void hear(const TwistsHeard& heard, Time now);
+  /// There is nobody any more who asked. A stop stays.
+  void forget_twists();
+
+  /// A stop has not left yet.
+  bool stop_waits() const { return stop_waits_; }
+  /// When tell() has something to send; none: it has nothing.
+  std::optional<Time> due() const;
+  /// Hands what is due to `send`, which says whether it has left.
+  void tell(Time now, const std::function<bool(const std::string&)>& send);
+
+ private:
+  struct Waiting {
+    Twist twist;
+    Time came = kNever;
+  };
+  bool stop_waits_ = false;
+  Time stop_tried_ = kNever;
+  Time stop_told_ = kNever;
+  std::optional<Waiting> twist_;
+  bool moved_ = false;  ///< one since the last that was handed on was no zero
+  Time handed_on_ = kNever;
+  std::string refused_;  ///< the newest reason, not told yet
+  bool rivals_ = false;
+  Time refused_told_ = kNever;
+};
+
+}  // namespace drover::ros2

@@ -1,0 +1,119 @@
+// What ROS 2 users ask for, and what droverd is told of it when.
+#include "ros2/asked_for.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace drover::ros2 {
+namespace {
+
+using namespace std::chrono_literals;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+constexpr Time kNow{100s};
+constexpr const char* kStop = R"({"cmd":"stop"})";
+
+class WhatUsersAskFor : public ::testing::Test {
+ protected:
+  std::vector<std::string> told(Time now, bool leaves = true) {
+    std::vector<std::string> lines;
+    asked.tell(now, [&](const std::string& line) {
+      lines.push_back(line);
+      return leaves;
+    });
+    return lines;
+  }
+  static TwistsHeard twist(double vx_mps) { return {Twist{vx_mps, 0}, vx_mps != 0, {}, {}, {}}; }
+  static TwistsHeard refusal(const std::string& why, bool rivals = false) {
+    return {{}, false, why, rivals, false};
+  }
+  AskedFor asked;
+};
+
+TEST_F(WhatUsersAskFor, AStopThatHasNotLeftIsToldAgainUntilItHas) {
+  asked.stop(kNow);
+  EXPECT_THAT(told(kNow, false), ElementsAre(kStop));
+  EXPECT_TRUE(asked.stop_waits());
+  EXPECT_EQ(asked.due(), kNow + 100ms);
+  EXPECT_TRUE(told(kNow + 50ms, false).empty());
+  for (int i = 1; i < 600; ++i) EXPECT_THAT(told(kNow + i * 100ms, false), ElementsAre(kStop));
+  EXPECT_THAT(told(kNow + 60s), ElementsAre(kStop));
+  EXPECT_FALSE(asked.stop_waits());
+  EXPECT_FALSE(asked.due());
+  EXPECT_TRUE(told(kNow + 70s).empty());
+}
+TEST_F(WhatUsersAskFor, AStopThatCouldNotLeaveIsNoReasonToPassTheNextOneOver) {
+  asked.stop(kNow);
+  (void)told(kNow, false);
+  asked.stop(kNow + 20ms);
+  EXPECT_THAT(told(kNow + 100ms), ElementsAre(kStop));
+}
+TEST_F(WhatUsersAskFor, OfStopsInARowTenASecondAreTold) {
+  std::size_t lines = 0;
+  for (int i = 0; i < 1000; ++i) {
+    asked.stop(kNow + i * 1ms);
+    lines += told(kNow + i * 1ms).size();
+  }
+  EXPECT_EQ(lines, 10U);
+}
+TEST_F(WhatUsersAskFor, AStopGoesBeforeTwists) {
+  asked.hear(twist(0.3), kNow);
+  asked.stop(kNow);
+  const auto lines = told(kNow);
+  ASSERT_EQ(lines.size(), 2U);
+  EXPECT_EQ(lines[0], kStop);
+}
+TEST_F(WhatUsersAskFor, AHundredTwistsASecondAreTheNewest) {
+  std::vector<std::string> lines;
+  for (int i = 0; i <= 1000; ++i) {
+    asked.hear(twist(i), kNow + i * 1ms);
+    for (auto& line : told(kNow + i * 1ms)) lines.push_back(line);
+  }
+  EXPECT_EQ(lines.size(), 101U);
+  EXPECT_THAT(lines.back(), HasSubstr(R"("vx_mps":1000)"));
+  EXPECT_THAT(lines.back(), HasSubstr(R"("at_ns":101000000000)"));
+}
+/// Or a program that drives on would be taken for one at rest.
+TEST_F(WhatUsersAskFor, AZeroThatFollowedMotionWithinOneLookSaysSo) {
+  asked.hear(twist(0), kNow);
+  EXPECT_THAT(told(kNow), ElementsAre(::testing::Not(HasSubstr("after_motion"))));
+  asked.hear(twist(0.3), kNow + 2ms);
+  asked.hear(twist(0), kNow + 4ms);
+  EXPECT_THAT(told(kNow + 10ms), ElementsAre(HasSubstr(R"("after_motion":true)")));
+  asked.hear({Twist{}, true, {}, {}, {}}, kNow + 15ms);
+  EXPECT_THAT(told(kNow + 20ms), ElementsAre(HasSubstr(R"("after_motion":true)")));
+  asked.hear(twist(0), kNow + 25ms);
+  EXPECT_THAT(told(kNow + 30ms), ElementsAre(::testing::Not(HasSubstr("after_motion"))));
+}
+TEST_F(WhatUsersAskFor, ATwistThatWaitsIsNotToldAfterARefusal) {
+  asked.hear(twist(0.1), kNow);
+  (void)told(kNow);
+  asked.hear(twist(0.3), kNow + 2ms);
+  asked.hear(refusal("two programs write it", true), kNow + 4ms);
+  EXPECT_THAT(told(kNow + 10ms),
+              ElementsAre(R"({"cmd":"cmd_vel","refused":"two programs write it","ends":true})"));
+}
+TEST_F(WhatUsersAskFor, OfRefusalsTenASecondAreToldTheNewest) {
+  std::vector<std::string> lines;
+  for (int i = 0; i < 1000; ++i) {
+    asked.hear(refusal("reason " + std::to_string(i)), kNow + i * 1ms);
+    for (auto& line : told(kNow + i * 1ms)) lines.push_back(line);
+  }
+  ASSERT_EQ(lines.size(), 10U);
+  EXPECT_THAT(lines.back(), HasSubstr("reason 900"));
+  EXPECT_EQ(asked.due(), kNow + 1000ms) << "the last one waits for its turn";
+  EXPECT_THAT(told(kNow + 1s), ElementsAre(HasSubstr("reason 999")));
+}
+TEST_F(WhatUsersAskFor, OfADomainThatIsGoneOnlyAStopIsLeft) {
+  asked.hear(twist(0.3), kNow);
+  asked.hear(refusal("linear.y is 0.3"), kNow);
+  asked.stop(kNow);
+  asked.forget_twists();
+  EXPECT_THAT(told(kNow), ElementsAre(kStop));
+}
+
+}  // namespace
+}  // namespace drover::ros2
