@@ -2,6 +2,7 @@
 // edges; debouncing is the line drivers' business, since 1.x has none.
 #include <gpiod.h>
 
+#include "link/line_number.h"
 #include "link/lines.h"
 
 namespace drover::link {
@@ -9,7 +10,8 @@ namespace drover::link {
 namespace {
 
 std::string missing_line(const LineSettings& settings, const std::string& line) {
-  return "gpio " + settings.chip + ": no line named \"" + line + "\"";
+  return "gpio " + settings.chip + ": no line " +
+         (line_number(line) ? line : "named \"" + line + "\"");
 }
 
 }  // namespace
@@ -86,6 +88,8 @@ Opened<LineLink> open_gpio_lines(const LineSettings& settings) {
   std::vector<gpiod_line*> lines;
   for (const auto& name : settings.lines) {
     gpiod_line* line = ::gpiod_chip_find_line(chip, name.c_str());
+    if (const auto number = line_number(name); line == nullptr && number)
+      line = ::gpiod_chip_get_line(chip, *number);
     if (line == nullptr) {
       opened.problem = missing_line(settings, name);
     } else if (::gpiod_line_request_both_edges_events(line, kConsumer) != 0 &&
@@ -218,7 +222,9 @@ Opened<LineLink> open_gpio_lines(const LineSettings& settings) {
   }
   std::vector<unsigned> offsets;
   for (const auto& name : settings.lines) {
-    const int offset = ::gpiod_chip_get_line_offset_from_name(chip, name.c_str());
+    int offset = ::gpiod_chip_get_line_offset_from_name(chip, name.c_str());
+    if (const auto number = line_number(name); offset < 0 && number)
+      offset = static_cast<int>(*number);
     if (offset < 0) {
       opened.problem = missing_line(settings, name);
       ::gpiod_chip_close(chip);

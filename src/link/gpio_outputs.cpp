@@ -10,6 +10,7 @@
 #include <cstring>
 #include <utility>
 
+#include "link/line_number.h"
 #include "link/lines.h"
 #include "link/outputs.h"
 
@@ -111,7 +112,7 @@ UniqueFd find_chip(const std::string& wanted) {
   return found;
 }
 
-/// Offset of the line with this name, or -1.
+/// Offset of the line with this name, or of this number; -1: there is none.
 int find_line(int chip, const std::string& name) {
   gpiochip_info info{};
   if (::ioctl(chip, GPIO_GET_CHIPINFO_IOCTL, &info) != 0) return -1;
@@ -121,7 +122,8 @@ int find_line(int chip, const std::string& name) {
     if (::ioctl(chip, GPIO_V2_GET_LINEINFO_IOCTL, &line) == 0 && name == line.name)
       return static_cast<int>(offset);
   }
-  return -1;
+  const auto number = line_number(name);
+  return number && *number < info.lines ? static_cast<int>(*number) : -1;
 }
 
 /// Requests these lines of the settings; an invalid one with the sentence in `problem`.
@@ -135,7 +137,8 @@ UniqueFd request_lines(int chip, const OutputSettings& settings,
     const auto& line = settings.lines[index];
     const int offset = find_line(chip, line.name);
     if (offset < 0) {
-      problem = "gpio " + settings.chip + ": no line named \"" + line.name + "\"";
+      problem = "gpio " + settings.chip + ": no line " +
+                (line_number(line.name) ? line.name : "named \"" + line.name + "\"");
       return {};
     }
     if (line.active_low) active_low |= std::uint64_t{1} << request.num_lines;

@@ -21,8 +21,8 @@ void CmdVel::hear(const void* sample, const dds_sample_info_t& info, Time now, D
   };
   if (rival != 0) {
     heard.rivals = true;
-    return refuse("two programs write it, neither is followed: " + writer_name(reader_, rival) + " and " +
-                  writer_name(reader_, info.publication_handle));
+    return refuse("two programs write it, neither is followed: " + writer_name(reader_, rival) +
+                  " and " + writer_name(reader_, info.publication_handle));
   }
   const Duration age = wall - Duration{info.source_timestamp};
   if (one_clock_ && age > kOldestTwist)

@@ -26,8 +26,9 @@ class JointCommandInput final {
   JointCommandInput(dds_entity_t reader, const JointCommandLimits& limits, bool one_clock);
 
   /// Takes what came since the last look. Each may name other joints: none stands for another one.
-  /// Of a flood most are not looked at. `wall`: UTC now, since 1970.
-  [[nodiscard]] bool take(Time now, Duration wall, const std::function<void(const std::string&)>& send);
+  /// Of a flood most are not looked at. `wall`: UTC now, since 1970. False: DDS gives nothing.
+  [[nodiscard]] bool take(Time now, Duration wall,
+                          const std::function<void(const std::string&)>& send);
 
  private:
   std::string line_of(const void* sample, const dds_sample_info_t& info, Time now, Duration wall);

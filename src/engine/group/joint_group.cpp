@@ -21,6 +21,14 @@ Reason of_joint(const Name& joint, const Reason& what) {
   return text;
 }
 
+/// Whoever makes the message: what cannot be would be in the set point for ever.
+bool is_sound(const JointTarget& target) {
+  const bool finite = std::isfinite(target.position_rad) && std::isfinite(target.velocity_radps) &&
+                      std::isfinite(target.effort_Nm) && std::isfinite(target.stiffness_Nmprad) &&
+                      std::isfinite(target.damping_Nmsprad);
+  return finite && target.stiffness_Nmprad >= 0 && target.damping_Nmsprad >= 0;
+}
+
 bool is_heard(const AxisSnapshot& axis, Time now, Duration stale) {
   return axis.health == SourceState::fresh && tells_motion(axis, now, stale) &&
          std::isfinite(axis.motion.position_rad);
@@ -35,6 +43,10 @@ JointGroup::JointGroup(const GroupConfig& config, Duration start_timeout)
 }
 
 void JointGroup::take(const JointTargets& targets, Time now) {
+  if (!std::all_of(targets.joints.begin(), targets.joints.end(), is_sound)) {
+    ++told_.refused;
+    return;
+  }
   bool mine = false;
   for (const JointTarget& target : targets.joints) {
     for (JointServo& joint : joints_) {

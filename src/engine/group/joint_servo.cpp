@@ -101,6 +101,7 @@ void JointServo::rest_as_ruled(const JointMeasured& measured, double dt_s) {
       return;
     case OnSilence::release:
       command_ = {AxisRequest::idle, 0, {}};
+      shaper_.take_over(measured);  // whoever commands it next begins where it has got to
       state_ = GroupState::released;
       return;
   }

@@ -25,11 +25,15 @@ struct ArmJoint {
   bool damps_while_arming = false;
   bool found_on = false;  ///< by a driver that has just begun
   bool clears = false;    ///< a fault, for who arms it
+  bool says_on = false;   ///< and that it runs, though it was let go
 
   void obey(const AxisCommand& command) {
     const bool armed = command.request == AxisRequest::run || command.request == AxisRequest::hold;
-    if (command.request == AxisRequest::idle && state == AxisState::running)
-      state = AxisState::idle;
+    if (command.request == AxisRequest::idle && state == AxisState::running) {
+      if (!says_on) state = AxisState::idle;
+      torque_Nm = 0;
+      return;
+    }
     // One that was on when its driver began is asked once more, and damps meanwhile.
     if (armed && state == AxisState::running && found_on) {
       found_on = false;

@@ -280,5 +280,45 @@ TEST_F(EngineGroupReleases, EachJointDoesAsItsRulesSay) {
   EXPECT_LT(arm[1].position_rad, 0.2);  // it sank
 }
 
+TEST_F(EngineGroupReleases, WhatWasLetGoBeginsWhereItIsThoughItsDriveSaysThatItRuns) {
+  settle();
+  arm[0].says_on = true;
+  send_s(4, 0.8);
+  run_s(2);
+  ASSERT_LT(arm[0].position_rad, -0.5);  // it fell
+  const AxisCommand& told = rig.out.axes[first];
+  for (int i = 0; told.request != AxisRequest::run; ++i) {
+    ASSERT_LT(i, 200);
+    send(0.8);
+    tick();
+  }
+  EXPECT_NEAR(told.impedance.position_rad, arm[0].position_rad, 0.05);
+  EXPECT_LT(told.impedance.stiffness_Nmprad, 6);
+}
+
+TEST_F(EngineGroup, TakesNoNumberThatCannotBeWhoeverSaysIt) {
+  settle();
+  send_s(3, 0.5);
+  const double before_rad = arm[0].position_rad;
+  for (int field = 0; field < 7; ++field) {
+    JointTarget bad{static_cast<AxisId>(first), 0, 0.5, 0, 60, 3};
+    std::array values{&bad.velocity_radps, &bad.position_rad, &bad.effort_Nm, &bad.stiffness_Nmprad,
+                      &bad.damping_Nmsprad};
+    if (field < 5)
+      *values[field] = std::nan("");
+    else
+      (field == 5 ? bad.stiffness_Nmprad : bad.damping_Nmsprad) = -1;
+    JointTargets targets;
+    (void)targets.joints.push_back(bad);
+    rig.command(targets);
+    send(0.5);
+    tick();
+  }
+  send_s(1, 0.5);
+  EXPECT_NEAR(arm[0].position_rad, before_rad, 0.01);
+  EXPECT_TRUE(std::isfinite(rig.out.axes[first].impedance.position_rad));
+  EXPECT_EQ(told().refused, 7U);
+}
+
 }  // namespace
 }  // namespace drover::engine
