@@ -33,7 +33,7 @@ void AskedFor::hear(const TwistsHeard& heard, Time now) {
   if (!heard.refused.empty()) {
     twist_.reset();
     refused_ = heard.refused;
-    rivals_ = heard.rivals;
+    rivals_ = rivals_ || heard.rivals;
   }
   moved_ = moved_ || heard.moved;
   if (heard.twist) twist_ = Waiting{*heard.twist, now};
@@ -68,6 +68,7 @@ void AskedFor::tell(Time now, const std::function<bool(const std::string&)>& sen
     auto line = cmd_vel_line();
     line.key("refused").text(refused_).key("ends").boolean(rivals_).close('}');
     refused_.clear();
+    rivals_ = false;
     (void)send(line.take());  // one of many: they are counted
   }
   if (twist_ && !too_soon(handed_on_, kTwistsApart, now)) {

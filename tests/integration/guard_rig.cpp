@@ -180,8 +180,8 @@ void GuardRig::start(const Start& how) {
     ::_exit(127);
   }
   if (!how.wait) return;
-  ASSERT_TRUE(wait_until([this] { return std::filesystem::exists(folder_ / "stop.sock"); }))
-      << output();
+  // Its file is there a moment before anybody may connect.
+  ASSERT_TRUE(wait_until([this] { return static_cast<bool>(to_stop_socket()); })) << output();
 }
 
 void GuardRig::kill() {
@@ -262,11 +262,17 @@ bool GuardRig::wait_until(const std::function<bool()>& done) {
   return false;
 }
 
-std::string GuardRig::at_stop_socket(const std::string& word) const {
-  const link::UniqueFd fd(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0));
+link::UniqueFd GuardRig::to_stop_socket() const {
+  link::UniqueFd fd(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0));
   const auto address = address_of(file("stop.sock"));
   if (::connect(fd.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0)
-    return "no answer";
+    fd.reset();
+  return fd;
+}
+
+std::string GuardRig::at_stop_socket(const std::string& word) const {
+  const link::UniqueFd fd = to_stop_socket();
+  if (!fd) return "no answer";
   const timeval patience{5, 0};
   ::setsockopt(fd.get(), SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
   if (::send(fd.get(), word.data(), word.size(), MSG_NOSIGNAL) < 0) return "no answer";

@@ -84,6 +84,9 @@ class GuardRig : public testing::Test {
   std::string file(const char* name) const { return (folder_ / name).string(); }
 
  private:
+  /// An own connection; none as long as nobody listens there.
+  link::UniqueFd to_stop_socket() const;
+
   std::filesystem::path folder_;
   pid_t pid_ = -1;
   std::unique_ptr<runtime::GuardMemory> memory_;

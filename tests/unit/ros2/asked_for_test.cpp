@@ -107,6 +107,15 @@ TEST_F(WhatUsersAskFor, OfRefusalsTenASecondAreToldTheNewest) {
   EXPECT_EQ(asked.due(), kNow + 1000ms) << "the last one waits for its turn";
   EXPECT_THAT(told(kNow + 1s), ElementsAre(HasSubstr("reason 999")));
 }
+TEST_F(WhatUsersAskFor, ARefusalThatFollowsDoesNotHideThatTwoProgramsWrite) {
+  asked.hear(refusal("linear.y is 0.3"), kNow);
+  (void)told(kNow);
+  asked.hear(refusal("two programs write it", true), kNow + 10ms);
+  asked.hear(refusal("linear.y is 0.4"), kNow + 20ms);
+  EXPECT_THAT(told(kNow + 100ms), ElementsAre(HasSubstr(R"("ends":true)")));
+  asked.hear(refusal("linear.y is 0.5"), kNow + 110ms);
+  EXPECT_THAT(told(kNow + 200ms), ElementsAre(HasSubstr(R"("ends":false)")));
+}
 TEST_F(WhatUsersAskFor, OfADomainThatIsGoneOnlyAStopIsLeft) {
   asked.hear(twist(0.3), kNow);
   asked.hear(refusal("linear.y is 0.3"), kNow);
