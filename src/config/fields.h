@@ -114,7 +114,7 @@ void visit(V& v, DeviceConfig& c) {
          "file of the device's registers: beside this file, or one of the installed maps");
   v.integer("unit", c.unit, Range{0, 247}, "Modbus unit; 0: the device's usual one");
   v.number("period_s", c.period_s, Range{0.2, 60}, "how often it is asked");
-  v.text("line", c.line, "name of the line on the chip; of one without a name its number, as gpioinfo shows it");
+  v.text("line", c.line, "name of the line on the chip, or its number where it has none");
   v.choice("is", c.is, {kLineKeys.begin(), kLineKeys.end()},
            "emergency stop, bumper, far zone (slows) or near zone (stops)");
   v.choice(
@@ -190,7 +190,8 @@ void visit(V& v, GroupNames& c) {
 
 template <class V>
 void visit(V& v, OutputConfig& c) {
-  v.text("line", c.name, "name of the line on the chip; of one without a name its number, as gpioinfo shows it", Presence::required);
+  v.text("line", c.name, "name of the line on the chip, or its number where it has none",
+         Presence::required);
   v.flag("active_low", c.active_low, "on is electrically low");
   c.configured = true;
 }

@@ -117,7 +117,7 @@ Result<aimrt::JointCommandHeard, Reason> Ros2Outlet::read_joint_command(const js
   }
   auto message = aimrt::decode_joint_command_json(text_member(request, "message"));
   if (!message) return message.error();
-  aimrt::JointCommandHeard heard{std::move(*message), {}};
+  aimrt::JointCommandHeard heard{*message, {}};
   heard.writer.stamp_ns = heard.message.stamp_ns;
   heard.writer.guid = writer;
   return heard;

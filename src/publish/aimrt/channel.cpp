@@ -39,7 +39,7 @@ Result<JointCommandHeard, Reason> read_packet(Names names, std::string_view payl
   auto message = decoded(*packet, names, *content);
   if (!message) return message.error();
   Writer writer{names, *content, message->stamp_ns, message->sequence, message->frame_id};
-  return JointCommandHeard{std::move(*message), std::move(writer)};
+  return JointCommandHeard{*message, std::move(writer)};
 }
 
 }  // namespace

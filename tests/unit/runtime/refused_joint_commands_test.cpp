@@ -199,7 +199,7 @@ const std::vector<Malformed>& malformed() {
 class RefusedJointCommands : public ::testing::Test {
  protected:
   RefusedJointCommands() {
-    outlets = make_outlets(config::load_text(kRobot).config, service, [](Time) { return ""s; });
+    outlets = make_outlets(config, service, commands, [](Time) { return ""s; });
     bench.cycles(400);
   }
   Duration wall() const { return kWall + bench.now.time_since_epoch(); }
@@ -277,7 +277,9 @@ class RefusedJointCommands : public ::testing::Test {
     }
   }
 
+  config::DroverConfig config = config::load_text(kRobot).config;
   publish::CommandService service{{}, {}};
+  publish::aimrt::JointCommands commands{joint_commands_config(config)};
   std::vector<std::unique_ptr<publish::Outlet>> outlets;
   gateway::ArmBench bench{kRobot, kElbow, "zlac8015d", kMotors};
   std::size_t moving = 0;
