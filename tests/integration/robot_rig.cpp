@@ -126,7 +126,7 @@ constexpr const char* kDroverFile = R"({
 })";
 
 std::string filled(std::string text, std::string_view mark, const std::string& value) {
-  for (auto at = text.find(mark); at != std::string::npos; at = text.find(mark, at))
+  for (auto at = text.find(mark); at != std::string::npos; at = text.find(mark, at + value.size()))
     text.replace(at, mark.size(), value);
   return text;
 }
@@ -234,18 +234,19 @@ void RobotRig::start_daemon(const std::string& first, std::vector<std::string> w
   daemon_ = Process(wrapper, log("droverd.log"));
 }
 
-void RobotRig::set_broker_host(const std::string& host) {
-  std::ifstream file(folder_ / "drover.json");
+void RobotRig::edit(const char* name, std::string_view from, const std::string& to) {
+  std::ifstream file(folder_ / name);
   const std::string text((std::istreambuf_iterator<char>(file)), {});
-  std::ofstream(folder_ / "drover.json")
-      << filled(text, R"("mqtt": {"port")", R"("mqtt": {"host": ")" + host + R"(", "port")");
+  ASSERT_NE(text.find(from), std::string::npos) << from;
+  std::ofstream(folder_ / name) << filled(text, from, to);
+}
+
+void RobotRig::set_broker_host(const std::string& host) {
+  edit("drover.json", R"("mqtt": {"port")", R"("mqtt": {"host": ")" + host + R"(", "port")");
 }
 
 void RobotRig::add_section(const std::string& section) {
-  std::ifstream file(folder_ / "drover.json");
-  std::string text((std::istreambuf_iterator<char>(file)), {});
-  text.insert(text.find(R"("mqtt": {)"), section + ", ");
-  std::ofstream(folder_ / "drover.json") << text;
+  edit("drover.json", R"("mqtt": {)", section + R"(, "mqtt": {)");
 }
 
 void RobotRig::start_all() {

@@ -53,6 +53,8 @@ class RobotRig : public testing::Test {
   void set_broker_host(const std::string& host);
   /// Into the configuration, like `"aimrt": {"commands": false}`: from the next start on.
   void add_section(const std::string& section);
+  /// Each `from` of sim.json or drover.json becomes `to`: from the next start on.
+  void edit(const char* name, std::string_view from, const std::string& to);
   /// All four, until the robot knows where it is.
   void start_all();
   /// Ends the gateway as systemd would and expects that it ends well.

@@ -132,17 +132,8 @@ void Ros2Rig::play_for(std::chrono::milliseconds time) {
 
 dds_entity_t Ros2Rig::reader(ros2::Topic topic, dds_reliability_kind_t reliability,
                              dds_durability_kind_t durability) {
-  const auto& kind = ros2::topic_kinds()[static_cast<std::size_t>(topic)];
-  const dds_entity_t named = dds_create_topic(participant_, kind.type, kind.name, nullptr, nullptr);
-  EXPECT_GT(named, 0);
-  dds_qos_t* qos = dds_create_qos();
-  dds_qset_reliability(qos, reliability, 0);
-  dds_qset_durability(qos, durability);
-  dds_qset_history(qos, DDS_HISTORY_KEEP_LAST, 10);
-  const dds_entity_t reader = dds_create_reader(participant_, named, qos, nullptr);
-  dds_delete_qos(qos);
-  EXPECT_GT(reader, 0);
-  return reader;
+  return make_reader(participant_, ros2::topic_kinds().at(static_cast<std::size_t>(topic)),
+                     reliability, durability);
 }
 
 void Ros2Rig::give_back() {

@@ -40,7 +40,6 @@ class Ros2Rig : public ::testing::Test {
   dds_entity_t stop_writer(dds_reliability_kind_t reliability) {
     return make_writer(participant_, ros2::stop_kind(), reliability);
   }
-  /// As rmw_cyclonedds makes it.
   dds_entity_t reader(ros2::Topic topic, dds_reliability_kind_t reliability,
                       dds_durability_kind_t durability = DDS_DURABILITY_VOLATILE);
   /// The newest sample, which is the caller's until the next call; nullptr: none.

@@ -22,4 +22,9 @@ std::string settings_of(User user);
 dds_entity_t make_writer(dds_entity_t participant, const ros2::TopicKind& kind,
                          dds_reliability_kind_t reliability);
 
+/// As rmw_cyclonedds makes it.
+dds_entity_t make_reader(dds_entity_t participant, const ros2::TopicKind& kind,
+                         dds_reliability_kind_t reliability,
+                         dds_durability_kind_t durability = DDS_DURABILITY_VOLATILE);
+
 }  // namespace drover::test
