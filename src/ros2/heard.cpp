@@ -24,12 +24,12 @@ void wake(dds_entity_t, void* came) {
   (void)!::write(*static_cast<const int*>(came), &one, sizeof one);
 }
 
-/// Best effort matches both kinds of writers.
-dds_entity_t make_reader(dds_entity_t participant, const TopicKind& kind, std::int32_t depth) {
+dds_entity_t make_reader(dds_entity_t participant, const TopicKind& kind, std::int32_t depth,
+                         dds_reliability_kind_t reliability) {
   const dds_entity_t topic = dds_create_topic(participant, kind.type, kind.name, nullptr, nullptr);
   if (topic < 0) return topic;
   dds_qos_t* qos = dds_create_qos();
-  dds_qset_reliability(qos, DDS_RELIABILITY_BEST_EFFORT, 0);
+  dds_qset_reliability(qos, reliability, 0);
   dds_qset_durability(qos, DDS_DURABILITY_VOLATILE);
   dds_qset_history(qos, DDS_HISTORY_KEEP_LAST, depth);
   const std::string hash = hash_user_data(kind.hash);
@@ -37,6 +37,21 @@ dds_entity_t make_reader(dds_entity_t participant, const TopicKind& kind, std::i
   const dds_entity_t reader = dds_create_reader(participant, topic, qos, nullptr);
   dds_delete_qos(qos);
   return reader;
+}
+
+/// Takes all that came; whether one of it is true.
+bool takes_true(dds_entity_t reader) {
+  bool is_true = false;
+  std::array<void*, kDepth> samples{};
+  std::array<dds_sample_info_t, kDepth> infos{};
+  const auto taken = dds_take(reader, samples.data(), infos.data(), kDepth, kDepth);
+  if (taken < 0) throw NoDomain(std::string("/e_stop cannot be read: ") + dds_strretcode(taken));
+  for (std::int32_t i = 0; i < taken; ++i) {
+    const auto* sample = static_cast<const std_msgs_msg_dds__Bool_*>(samples[i]);
+    is_true = is_true || (infos[i].valid_data && sample->data_);
+  }
+  if (taken > 0) dds_return_loan(reader, samples.data(), taken);
+  return is_true;
 }
 
 JointCommandLimits limits_of(const config::DroverConfig& config) {
@@ -49,8 +64,9 @@ JointCommandLimits limits_of(const config::DroverConfig& config) {
 
 }  // namespace
 
-dds_entity_t Heard::open(dds_entity_t participant, const TopicKind& kind, std::int32_t depth) {
-  const dds_entity_t reader = make_reader(participant, kind, depth);
+dds_entity_t Heard::open(dds_entity_t participant, const TopicKind& kind, std::int32_t depth,
+                         dds_reliability_kind_t reliability) {
+  const dds_entity_t reader = make_reader(participant, kind, depth, reliability);
   if (reader < 0)
     throw NoDomain(std::string(kind.name + 2) + " cannot be heard: " + dds_strretcode(reader));
   dds_listener_t* listener = dds_create_listener(&fd_);
@@ -66,7 +82,10 @@ Heard::Heard(dds_entity_t participant, const config::DroverConfig& config, Reach
   const auto& inputs = config.ros2.inputs;
   const bool one_clock = reach == Reach::localhost;
   try {
-    if (inputs.e_stop) stop_ = open(participant, stop_kind(), kDepth);
+    if (inputs.e_stop) {
+      stop_ = open(participant, stop_kind(), kDepth);
+      sure_stop_ = open(participant, stop_kind(), kDepth, DDS_RELIABILITY_RELIABLE);
+    }
     if (inputs.cmd_vel != "closed") {
       const bool stamped = inputs.cmd_vel == "twist_stamped";
       twists_ = open(participant, cmd_vel_kind(stamped), kTwists);
@@ -88,7 +107,7 @@ Heard::~Heard() {
 
 /// Waits for the listeners, which write to a descriptor of this object.
 void Heard::close() {
-  for (const dds_entity_t reader : {stop_, twists_, joints_})
+  for (const dds_entity_t reader : {stop_, sure_stop_, twists_, joints_})
     if (reader > 0) dds_delete(reader);
 }
 
@@ -114,17 +133,9 @@ void Heard::joint_commands(Time now, Duration wall,
 bool Heard::stop_asked() {
   std::uint64_t count = 0;
   (void)!::read(came_.get(), &count, sizeof count);
-  if (stop_ == 0) return false;
   bool asked = false;
-  std::array<void*, kDepth> samples{};
-  std::array<dds_sample_info_t, kDepth> infos{};
-  const auto taken = dds_take(stop_, samples.data(), infos.data(), kDepth, kDepth);
-  if (taken < 0) throw NoDomain(std::string("/e_stop cannot be read: ") + dds_strretcode(taken));
-  for (std::int32_t i = 0; i < taken; ++i) {
-    const auto* sample = static_cast<const std_msgs_msg_dds__Bool_*>(samples[i]);
-    asked = asked || (infos[i].valid_data && sample->data_);
-  }
-  if (taken > 0) dds_return_loan(stop_, samples.data(), taken);
+  for (const dds_entity_t reader : {stop_, sure_stop_})
+    if (reader > 0 && takes_true(reader)) asked = true;
   return asked;
 }
 

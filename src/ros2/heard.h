@@ -35,11 +35,15 @@ class Heard final {
 
  private:
   void close();
-  dds_entity_t open(dds_entity_t participant, const TopicKind& kind, std::int32_t depth);
+  /// Best effort matches both kinds of writers.
+  dds_entity_t open(dds_entity_t participant, const TopicKind& kind, std::int32_t depth,
+                    dds_reliability_kind_t reliability = DDS_RELIABILITY_BEST_EFFORT);
 
   link::UniqueFd came_;
   int fd_ = -1;            ///< its number, for the listener
   dds_entity_t stop_ = 0;  ///< 0: not opened
+  /// Once more: it asks a reliable writer again for what found no room while this program hung.
+  dds_entity_t sure_stop_ = 0;
   dds_entity_t twists_ = 0;
   dds_entity_t joints_ = 0;
   std::optional<CmdVel> cmd_vel_;

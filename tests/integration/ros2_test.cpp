@@ -141,6 +141,32 @@ TEST_F(Ros2Stop, StopsTheRobotByTrueAndDoesNothingByFalse) {
   EXPECT_THAT(log(), HasSubstr("an emergency stop was asked for on /e_stop"));
 }
 
+TEST_F(Ros2Stop, StopsByWhatFoundNoRoomWhileItHung) {
+  open_daemon();
+  start_program();
+  const dds_entity_t writer = stop_writer(DDS_RELIABILITY_RELIABLE);
+  const dds_entity_t other = stop_writer(DDS_RELIABILITY_BEST_EFFORT);
+  for (const dds_entity_t one : {writer, other})
+    ASSERT_TRUE(is_heard(one, [this] { play_for(100ms); })) << log();
+  const std_msgs_msg_dds__Bool_ stop{true};
+  const std_msgs_msg_dds__Bool_ nothing{false};
+  ASSERT_TRUE(play_until([&] {
+    dds_write(writer, &stop);
+    return stops_ > 0;
+  })) << log();
+  play_for(1s);
+  const int before = stops_;
+
+  program_.signal(SIGSTOP);
+  // More than its socket takes.
+  for (int i = 0; i < 20'000; ++i) dds_write(other, &nothing);
+  dds_write(writer, &stop);
+  play_for(300ms);
+  EXPECT_EQ(stops_, before);
+  program_.signal(SIGCONT);
+  EXPECT_TRUE(play_until([&] { return stops_ > before; })) << log();
+}
+
 TEST_F(Ros2, HearsNoStopUnlessThatIsOpened) {
   open_daemon();
   start_program();
