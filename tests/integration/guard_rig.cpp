@@ -204,9 +204,15 @@ runtime::GuardedLink GuardRig::can_link(const std::string& name, std::vector<uns
     throw std::runtime_error("no socket pair");
   std::erase_if(drives_, [&](const auto& one) { return one.first == name; });
   drives_.emplace_back(name, link::UniqueFd(ends[0]));
+  auto link = absent_link(name, std::move(addresses));
+  link.descriptor = link::UniqueFd(ends[1]);
+  return link;
+}
+
+runtime::GuardedLink GuardRig::absent_link(const std::string& name,
+                                           std::vector<unsigned> addresses) {
   runtime::GuardedLink link;
   link.name = name;
-  link.descriptor = link::UniqueFd(ends[1]);
   for (const auto address : addresses) {
     CanFrame frame;
     frame.id = address;
