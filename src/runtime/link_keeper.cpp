@@ -207,6 +207,7 @@ void LinkKeeper::try_open(std::size_t slot, Time now) {
   if (!handover.opened()) return failed(slot, problem, now);
   slots_[slot].open = true;
   slots_[slot].problem.clear();
+  slots_[slot].guard_lacks.clear();
   if (is_guarded(slot)) guard_set_changed_ = true;
   opened_.push_back(std::move(handover));
 }
@@ -214,6 +215,13 @@ void LinkKeeper::try_open(std::size_t slot, Time now) {
 void LinkKeeper::hand_on(Time now) {
   for (auto& handover : opened_) {
     const auto slot = handover.slot;
+    const std::string lacks = guard_.connected() ? slots_[slot].guard_lacks : std::string();
+    if (is_guarded(slot) && !lacks.empty()) {
+      slots_[slot].open = false;
+      if (is_guarded_tty(slot)) forget_tty(slot);
+      failed(slot, lacks, now);
+      continue;  // closes it with all the others
+    }
     if (is_guarded(slot) && guard_set_changed_)
       guard_equipped_.store(false, std::memory_order_relaxed);
     if (!arrivals_.push(std::move(handover))) {
@@ -250,7 +258,7 @@ void LinkKeeper::tell(std::size_t slot) {
 }
 
 /// How the guard stops what hangs on it, also while it is not there.
-GuardedLink LinkKeeper::guarded_link(std::size_t slot, std::string& missing) const {
+GuardedLink LinkKeeper::guarded_link(std::size_t slot) {
   GuardedLink link;
   link.name = wiring_.links[slot].name;
   link.kind = is_bus(slot) ? GuardLinkKind::can : GuardLinkKind::tty;
@@ -258,11 +266,11 @@ GuardedLink LinkKeeper::guarded_link(std::size_t slot, std::string& missing) con
     link.axes.push_back(guarded_axis(link.name, stop.recipe));
     link.axes.back().held_by_daemon = stop.held_by_daemon;
   }
-  if (slots_[slot].open) open_for_guard(slot, link, missing);
+  if (slots_[slot].open) open_for_guard(slot, link);
   return link;
 }
 
-void LinkKeeper::open_for_guard(std::size_t slot, GuardedLink& link, std::string& missing) const {
+void LinkKeeper::open_for_guard(std::size_t slot, GuardedLink& link) {
   std::string why;
   if (is_bus(slot)) {
     auto settings = can_settings(slot);
@@ -272,11 +280,31 @@ void LinkKeeper::open_for_guard(std::size_t slot, GuardedLink& link, std::string
     link.descriptor = link::UniqueFd(::fcntl(slots_[slot].tty.get(), F_DUPFD_CLOEXEC, 0));
     if (!link.descriptor) why = link.name;
   }
-  if (!link.descriptor) missing = "drover-guard cannot have its own way to " + why;
+  slots_[slot].guard_lacks =
+      link.descriptor ? "" : "drover-guard cannot have its own way to " + why;
+}
+
+bool LinkKeeper::is_new(std::size_t slot) const {
+  return std::any_of(opened_.begin(), opened_.end(),
+                     [slot](const LinkHandover& one) { return one.slot == slot; });
+}
+
+/// Said where it is closed again, and not at every try.
+bool LinkKeeper::refuses_new() const {
+  return std::any_of(opened_.begin(), opened_.end(), [this](const LinkHandover& one) {
+    return is_guarded(one.slot) && !slots_[one.slot].guard_lacks.empty();
+  });
+}
+
+std::string LinkKeeper::lacking() const {
+  for (std::size_t i = 0; i < wiring_.links.size(); ++i)
+    if (slots_[i].open && !(is_guarded(i) && is_new(i)) && !slots_[i].guard_lacks.empty())
+      return slots_[i].guard_lacks;
+  return {};
 }
 
 /// What it can reach now. It answers after it took, or refused, what it was handed before.
-void LinkKeeper::ask_guard(std::string& missing) {
+void LinkKeeper::ask_guard() {
   for (std::size_t i = 0; i < wiring_.links.size(); ++i) {
     if (!is_guarded(i)) continue;
     auto& slot = slots_[i];
@@ -285,7 +313,8 @@ void LinkKeeper::ask_guard(std::string& missing) {
     if (!guard_.connected()) return;
     // What it refused is told by itself, and keeps the robot from moving until a person resets it.
     const bool refused = guard_signs_.set_refused.load(std::memory_order_relaxed) != 0;
-    if (slot.open && !reaches && !refused) missing = "drover-guard did not take its way to " + name;
+    if (slot.open && !reaches && !refused && slot.guard_lacks.empty())
+      slot.guard_lacks = "drover-guard did not take its way to " + name;
     const bool was = std::exchange(slot.guard_reaches, reaches);
     if (!slot.open && reaches != was && !slot.problem.empty()) tell(i);
   }
@@ -299,7 +328,7 @@ std::string LinkKeeper::watched() const {
     if (!is_guarded(i)) continue;
     const auto& slot = slots_[i];
     const std::string name(wiring_.links[i].name);
-    if (slot.open)
+    if (slot.open && slot.guard_lacks.empty())
       there += (there.empty() ? "" : ", ") + name;
     else if (slot.guard_reaches)
       absent += "; " + name + " is not there, and it keeps the way there that it has";
@@ -316,25 +345,24 @@ void LinkKeeper::supply_guard(Time now) {
   if (supplied || !guard_slot_.retry.due(now)) return;
   if (!guard_.connected()) relay_given_ = false;
   std::vector<GuardedLink> links;
-  std::string missing;
   for (std::size_t i = 0; i < wiring_.links.size(); ++i) {
     if (!is_guarded(i) && !is_bus(i)) continue;
-    links.push_back(guarded_link(i, missing));
+    links.push_back(guarded_link(i));
   }
   std::string problem;
   // What there is goes over at once; what is missing keeps the robot from moving.
   bool handed_over = guard_.hand_over(links, problem);
   if (handed_over) {
-    ask_guard(missing);
-    problem = missing;
+    ask_guard();
+    problem = lacking();
     handed_over = guard_.connected();
     if (!handed_over) problem = "drover-guard does not answer";
   }
-  guard_equipped_.store(handed_over && missing.empty(), std::memory_order_relaxed);
-  if (handed_over && missing.empty()) {
+  guard_equipped_.store(problem.empty(), std::memory_order_relaxed);
+  if (problem.empty()) {
     guard_set_changed_ = false;
     guard_slot_ = {};
-    log(LogLevel::info, watched());
+    if (!refuses_new()) log(LogLevel::info, watched());
     return;
   }
   guard_slot_.retry.tried(now);

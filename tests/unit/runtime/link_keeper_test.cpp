@@ -16,7 +16,6 @@
 
 #include "config/load.h"
 #include "support/temp_folder.h"
-#include "support/wires.h"
 
 namespace drover::runtime {
 namespace {
@@ -43,6 +42,19 @@ std::string base_and_arm(const std::string& folder) {
   "accept": ["no_relay", "no_estop"]
 })";
 }
+
+/// A bus that takes as many connections as come.
+struct BusOfMany {
+  explicit BusOfMany(const std::string& path)
+      : listener(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0)) {
+    sockaddr_un address{};
+    address.sun_family = AF_UNIX;
+    path.copy(address.sun_path, sizeof address.sun_path - 1);
+    (void)::bind(listener.get(), reinterpret_cast<sockaddr*>(&address), sizeof address);
+    (void)::listen(listener.get(), 200);
+  }
+  link::UniqueFd listener;
+};
 
 /// What a set that was offered says.
 struct Offered {
@@ -79,6 +91,8 @@ class GuardDouble final {
     const std::lock_guard lock(mutex_);
     lost_ = link;
   }
+  /// As if another one began in its place.
+  void hang_up() { hangs_up_ = true; }
   /// While true it takes sets and answers nothing.
   std::atomic<bool> thinks{false};
 
@@ -86,7 +100,9 @@ class GuardDouble final {
   void serve() {
     while (!stop_) {
       std::array<pollfd, 2> fds{{{listener_.get(), POLLIN, 0}, {daemon_.get(), POLLIN, 0}}};
-      if (::poll(fds.data(), daemon_ ? 2 : 1, 10) <= 0) continue;
+      const bool nothing = ::poll(fds.data(), daemon_ ? 2 : 1, 10) <= 0;
+      if (hangs_up_.exchange(false)) daemon_.reset();
+      if (nothing || (fds[0].revents == 0 && !daemon_)) continue;
       if (fds[0].revents != 0)
         daemon_ = link::UniqueFd(::accept(listener_.get(), nullptr, nullptr));
       else
@@ -152,6 +168,7 @@ class GuardDouble final {
   std::set<std::string> reached_;
   Offered next_;
   std::vector<Offered> sets_;
+  std::atomic<bool> hangs_up_{false};
   std::atomic<bool> stop_{false};
   std::thread thread_;
 };
@@ -169,7 +186,7 @@ class LinkKeeperTest : public testing::Test {
     if (thread_.joinable()) thread_.join();
   }
   void plug(const std::string& bus) {
-    buses_[bus] = std::make_unique<test::Bus>(folder_.path() + "/" + bus);
+    buses_[bus] = std::make_unique<BusOfMany>(folder_.path() + "/" + bus);
   }
   void unplug(const std::string& bus) {
     buses_.erase(bus);
@@ -215,7 +232,7 @@ class LinkKeeperTest : public testing::Test {
   }
 
   test::TempFolder folder_;
-  std::map<std::string, std::unique_ptr<test::Bus>> buses_;
+  std::map<std::string, std::unique_ptr<BusOfMany>> buses_;
   GuardDouble guard_{folder_.path() + "/guard"};
   config::Loaded loaded_ =
       config::load_text(base_and_arm(folder_.path()), DROVER_SOURCE_DIR "/config/maps");
@@ -278,13 +295,28 @@ TEST_F(LinkKeeperTest, WhatTheGuardHasNotAnsweredForMayNotBeMoved) {
   EXPECT_TRUE(wait_until([this] { return keeper_.guard_equipped(); }));
 }
 
-TEST_F(LinkKeeperTest, ALinkThatTheGuardDidNotGetMayNotBeMoved) {
+TEST_F(LinkKeeperTest, ALinkThatTheGuardDidNotGetIsNotHandedOnAndTheOtherDrives) {
   guard_.lose("can1");
   start();
-  ASSERT_TRUE(wait_until([this] { return is_open(1); }));
-  EXPECT_FALSE(keeper_.guard_equipped());
+  ASSERT_TRUE(wait_until([this] {
+    return problems_[1].find("drover-guard did not take its way to can1") != std::string::npos;
+  }));
+  EXPECT_TRUE(is_open(0));
+  EXPECT_FALSE(is_open(1));
+  EXPECT_TRUE(keeper_.guard_equipped());
   guard_.lose("");
-  EXPECT_TRUE(wait_until([this] { return keeper_.guard_equipped(); })) << "it is offered again";
+  EXPECT_TRUE(wait_until([this] { return is_open(1); })) << "it is offered again";
+  EXPECT_TRUE(keeper_.guard_equipped());
+}
+
+TEST_F(LinkKeeperTest, ANewGuardThatDoesNotGetALinkOfTheControlThreadKeepsAllFromMoving) {
+  start();
+  ASSERT_TRUE(wait_until([this] { return is_open(0) && is_open(1); }));
+  guard_.lose("can1");
+  guard_.hang_up();
+  EXPECT_TRUE(wait_until([this] { return !keeper_.guard_equipped(); }));
+  guard_.lose("");
+  EXPECT_TRUE(wait_until([this] { return keeper_.guard_equipped(); }));
 }
 
 TEST_F(LinkKeeperTest, ALinkThatOpensWhileTheGuardIsAwayMayNotBeMoved) {
