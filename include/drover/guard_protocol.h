@@ -1,10 +1,10 @@
 // Between droverd and drover-guard: a SOCK_SEQPACKET socket for what changes seldom, and shared
 // memory for what changes each cycle. Plain data; no logic. src/guard/README.md tells it in words.
 //
-// Order: `hello` (with the shared memory's descriptor) begins a new stop set, then a `link` for
-// each line that a drive hangs on, the `axis`es, their `stop_message`s, then `watch` offers the
-// set: it becomes the one in force when it covers every axis of the one before. A changed link
-// means the whole set again. The other verbs may come at any time.
+// Order: `hello` (with the shared memory's descriptor) begins a new stop set, then a `link` or
+// `absent` for each line that a drive hangs on, the `axis`es, their `stop_message`s, then `watch`
+// offers the set: it becomes the one in force when it covers every axis of the one before. A
+// changed link means the whole set again. The other verbs may come at any time.
 #pragma once
 
 #include <array>
@@ -33,6 +33,8 @@ enum class GuardVerb : std::uint32_t {
   lend,        ///< asks for a duplicate of what is kept as `name`; the answer is `lend` with it,
                ///< or without when there is none
   let_go,      ///< closes what is kept as `name`: it is dead, or to be opened anew
+  absent,  ///< instead of `link`, the same without a descriptor: the line is not there just now.
+           ///< The guard goes on with its own way there, if it has one
 };
 
 enum class GuardLinkKind : std::uint32_t {

@@ -33,7 +33,8 @@ struct Answer {
   bool obeyed = false;
   bool heard = false;  ///< it answered
   bool limp = false;   ///< the guard leaves the drives alone: they were released, or have no power
-  std::string why = {};  ///< not obeyed: a sentence
+  std::int64_t unreached = 0;  ///< drives to which the guard never had a way
+  std::string why = {};        ///< not obeyed: a sentence
 };
 
 std::string guard_path(const StopPlaces& places) {
@@ -89,7 +90,11 @@ Answer tell_guard(const StopPlaces& places, std::string_view word) {
     return {.heard = true, .why = "drover-guard permits no motion, but knows no drives to stop"};
   const auto* may_hold = state->root.find("may_hold");
   const bool limp = may_hold != nullptr && !yes(*may_hold);
-  return {.obeyed = true, .heard = true, .limp = limp};
+  const auto* unreached = state->root.find("axes_never_reached");
+  return {.obeyed = true,
+          .heard = true,
+          .limp = limp,
+          .unreached = unreached != nullptr ? unreached->integer().value_or(0) : 0};
 }
 
 bool holds(const StopPlaces& places) {
@@ -190,6 +195,8 @@ int stop(const StopPlaces& places) {
   std::string words = "drover-guard and droverd stop the robot";
   if (!guard.obeyed) words = "droverd stops the robot; " + guard.why;
   if (!daemon.obeyed) words = "drover-guard stops the robot; " + daemon.why;
+  if (guard.unreached > 0 && !daemon.obeyed)
+    words += "; drives to which it never had a way: " + std::to_string(guard.unreached);
   if (!done) words = "nobody stops the robot: " + guard.why + "; " + daemon.why;
   // A latched stop commands nothing to drives that were let go: a robot that rolls rolls on.
   if (done && guard.limp)

@@ -157,11 +157,13 @@ std::string_view Guard::state() {
   const std::uint64_t unsaid = speech_.unsaid() + notify_.unsaid();
   state_text_.format(
       "{\"latched\":%s,\"latched_by_uid\":%u,\"holds\":%s,\"may_hold\":%s,\"axes\":%zu,"
+      "\"axes_never_reached\":%zu,"
       "\"in_command\":%s,\"droverd\":\"%s\",\"set_refused\":%s,\"unsent\":%llu,\"unsaid\":%llu}",
       kept.latched.load() != 0 ? "true" : "false", kept.latched_by_uid.load(),
       holding_ ? "true" : "false", may_hold() ? "true" : "false", set_.axes(),
-      !holding_ || set_.in_command(t) ? "true" : "false", daemon, offered_ ? "true" : "false",
-      static_cast<unsigned long long>(set_.unsent()), static_cast<unsigned long long>(unsaid));
+      set_.axes_never_reached(), !holding_ || set_.in_command(t) ? "true" : "false", daemon,
+      offered_ ? "true" : "false", static_cast<unsigned long long>(set_.unsent()),
+      static_cast<unsigned long long>(unsaid));
   return state_text_.view();
 }
 

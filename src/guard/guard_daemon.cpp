@@ -78,6 +78,7 @@ bool Guard::obey(const GuardMessage& message, int fd) {
   }
   if (fd >= 0) return false;  // the others bring nothing
   switch (message.verb) {
+    case GuardVerb::absent: return next_.add_link(message, -1);
     case GuardVerb::axis: return next_.add_axis(message);
     case GuardVerb::stop_message: return next_.add_message(message);
     case GuardVerb::watch: end_set(); return true;
@@ -110,12 +111,14 @@ void Guard::end_set() {
   offered_ = !next_.covers(set_);
   if (!offered_) return use_next();
   set_is_his_ = false;
+  publish();  // before he is answered anything that he asks next
   const auto lacks = next_.lacks(set_);
   speech_.say("drover-guard: a new stop set lacks %.*s: the old one stays until drover reset",
               static_cast<int>(lacks.size()), lacks.data());
 }
 
 void Guard::use_next() {
+  next_.inherit(set_);
   set_.swap(next_);
   next_.clear();
   offered_ = false;
@@ -124,6 +127,9 @@ void Guard::use_next() {
   act(now());
   publish();
   keep_.keep(set_, limit_ms_);
+  for (const auto link : set_.links_never_there())
+    speech_.say("drover-guard: %.*s is not there and never was: nothing on it can be stopped",
+                static_cast<int>(link.size()), link.data());
 }
 
 /// Who asks must have made us ready to stop all that he moves.

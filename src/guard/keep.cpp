@@ -64,6 +64,8 @@ void understand(const GuardMessage& message, std::vector<Kept>& kept, StopSet& s
   if (message.verb == GuardVerb::link) {
     const int fd = is_name(message.name) ? take(kept, link_name(message.name.data())) : -1;
     if (!set.add_link(message, fd) && fd >= 0) ::close(fd);
+  } else if (message.verb == GuardVerb::absent) {
+    set.add_link(message, -1);
   } else if (message.verb == GuardVerb::axis) {
     set.add_axis(message);
   } else if (message.verb == GuardVerb::stop_message) {

@@ -69,11 +69,14 @@ void StopSet::swap(StopSet& other) {
 bool StopSet::add_link(const GuardMessage& message, int fd) {
   if (message.index >= links_.size() || !is_name(message.name)) return false;
   if (message.kind != GuardLinkKind::can && message.kind != GuardLinkKind::tty) return false;
+  const bool absent = message.verb == GuardVerb::absent;
+  if (absent && fd >= 0) return false;
   auto& link = links_[message.index];
   if (link.name[0] != '\0') return false;
   link.fd = fd;
   link.kind = message.kind;
   link.name = message.name;
+  link.was_there = !absent;
   return true;
 }
 
@@ -103,11 +106,19 @@ bool StopSet::add_message(const GuardMessage& message) {
   return true;
 }
 
-bool StopSet::has(const Axis& axis) const {
+bool StopSet::is_same_line(const Link& a, const Link& b) {
+  return a.kind == b.kind && text(a.name) == text(b.name);
+}
+
+/// `held`: the link on which another set has this axis.
+bool StopSet::has(const Axis& axis, const Link& held) const {
   for (std::size_t i = 0; i < axis_count_; ++i) {
     if (text(axes_[i].name) != text(axis.name)) continue;
+    const Link& link = links_[axes_[i].link];
+    const bool absent = link.fd < 0 && !link.was_there;
+    const bool as_before = absent && (held.fd < 0 || is_same_line(link, held));
     const auto says_something = [i](const Message& m) { return m.axis == i; };
-    return links_[axes_[i].link].fd >= 0 &&
+    return (link.fd >= 0 || as_before) &&
            std::any_of(messages_.begin(),
                        messages_.begin() + static_cast<std::ptrdiff_t>(message_count_),
                        says_something);
@@ -115,14 +126,32 @@ bool StopSet::has(const Axis& axis) const {
   return false;
 }
 
-std::string_view StopSet::lacks(const StopSet& other) const {
-  for (std::size_t i = 0; i < other.axis_count_; ++i)
-    if (!has(other.axes_[i])) return text(other.axes_[i].name);
+std::string_view StopSet::lacks(const StopSet& held) const {
+  for (std::size_t i = 0; i < held.axis_count_; ++i)
+    if (!has(held.axes_[i], held.links_[held.axes_[i].link])) return text(held.axes_[i].name);
   return {};
 }
 
-bool StopSet::covers(const StopSet& other) const {
-  return lacks(other).empty();
+bool StopSet::covers(const StopSet& held) const {
+  return lacks(held).empty();
+}
+
+void StopSet::inherit(StopSet& held) {
+  for (auto& link : links_) {
+    if (link.was_there || !is_name(link.name)) continue;
+    for (auto& old : held.links_) {
+      if (!is_same_line(link, old)) continue;
+      const auto empty = link;
+      link = std::exchange(old, empty);  // with what it wrote in part
+      break;
+    }
+  }
+}
+
+std::size_t StopSet::axes() const {
+  const auto was_there = [this](const Axis& axis) { return links_[axis.link].was_there; };
+  return static_cast<std::size_t>(std::count_if(
+      axes_.begin(), axes_.begin() + static_cast<std::ptrdiff_t>(axis_count_), was_there));
 }
 
 void StopSet::begin_hold() {
@@ -139,6 +168,7 @@ void StopSet::begin_hold() {
 void StopSet::play(Time now, bool daemon_holds) {
   for (std::size_t i = 0; i < axis_count_; ++i) {
     auto& axis = axes_[i];
+    if (!links_[axis.link].was_there) continue;
     if (daemon_holds && axis.held_by_daemon) {
       axis.reached = now;
       continue;
@@ -161,9 +191,11 @@ void StopSet::play(Time now, bool daemon_holds) {
 }
 
 bool StopSet::in_command(Time now) const {
-  return std::all_of(
-      axes_.begin(), axes_.begin() + static_cast<std::ptrdiff_t>(axis_count_),
-      [now](const Axis& axis) { return now - axis.reached <= kForgivenPeriods * axis.period; });
+  return std::all_of(axes_.begin(), axes_.begin() + static_cast<std::ptrdiff_t>(axis_count_),
+                     [this, now](const Axis& axis) {
+                       return !links_[axis.link].was_there ||
+                              now - axis.reached <= kForgivenPeriods * axis.period;
+                     });
 }
 
 /// The lines that write.
@@ -221,11 +253,18 @@ std::vector<std::string_view> StopSet::links() const {
   return names;
 }
 
+std::vector<std::string_view> StopSet::links_never_there() const {
+  std::vector<std::string_view> names;
+  for (const auto& link : links_)
+    if (is_name(link.name) && !link.was_there) names.push_back(text(link.name));
+  return names;
+}
+
 void StopSet::tell(std::vector<GuardMessage>& words) const {
   for (std::size_t i = 0; i < links_.size(); ++i) {
     if (!is_name(links_[i].name)) continue;
     auto& word = words.emplace_back();
-    word.verb = GuardVerb::link;
+    word.verb = links_[i].was_there ? GuardVerb::link : GuardVerb::absent;
     word.index = static_cast<std::uint32_t>(i);
     word.kind = links_[i].kind;
     word.name = links_[i].name;

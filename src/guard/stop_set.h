@@ -26,25 +26,33 @@ class StopSet final {
   void swap(StopSet& other);
 
   // All false for what contradicts the set so far; then nothing has changed.
-  /// Takes ownership of `fd` when it returns true; -1: the link is known, and not there.
+  /// Takes ownership of `fd` when it returns true; -1: the link is known, and not there. The verb
+  /// `absent`: nobody opened it for this set; `link` without `fd`: it was there, and is lost.
   bool add_link(const GuardMessage& message, int fd);
   bool add_axis(const GuardMessage& message);
   bool add_message(const GuardMessage& message);
 
-  /// True when each axis of `other` is here as well, on a link with a descriptor.
-  bool covers(const StopSet& other) const;
-  /// The first axis of `other` that is not here; empty when there is none.
-  std::string_view lacks(const StopSet& other) const;
+  /// True when each axis of `held` is here as well, on a link with a descriptor, or on an absent
+  /// one to which inherit() brings the way of `held`, or to which `held` has none either.
+  bool covers(const StopSet& held) const;
+  /// The first axis of `held` that is not here; empty when there is none.
+  std::string_view lacks(const StopSet& held) const;
+  /// Takes the descriptors of absent links out of the set before this one.
+  void inherit(StopSet& held);
 
   /// A hold begins: all rounds from the first, at once; what waits in the lines is thrown away.
   void begin_hold();
   /// Sends what is due. What a full or dead link refuses is sent again when it is due next.
   /// `daemon_holds`: axes that only droverd can hold are its own.
   void play(Time now, bool daemon_holds = false);
-  /// Each axis was reached within its last five periods. True without any axis.
+  /// Each axis was reached within its last five periods. True without any axis. What hangs on a
+  /// link that never was there does not count: nobody can have moved it.
   bool in_command(Time now) const;
 
-  std::size_t axes() const { return axis_count_; }
+  /// Those on a link that is, or once was, there.
+  std::size_t axes() const;
+  /// The others: nobody can stop them, or has moved them.
+  std::size_t axes_never_reached() const { return axis_count_ - axes(); }
   std::size_t messages() const { return message_count_; }
   /// Messages that a link did not take.
   std::uint64_t unsent() const { return unsent_; }
@@ -52,6 +60,8 @@ class StopSet final {
   int descriptor(std::string_view link) const;
   /// The names of all links.
   std::vector<std::string_view> links() const;
+  /// Of those to which there never was a descriptor.
+  std::vector<std::string_view> links_never_there() const;
   /// Appends the messages that make this set, without `hello` and `watch`.
   void tell(std::vector<GuardMessage>& words) const;
   /// Closes it: it is dead, or somebody wants it for himself.
@@ -64,6 +74,7 @@ class StopSet final {
     int fd = -1;
     GuardLinkKind kind = GuardLinkKind::can;
     std::array<char, kGuardNameSize> name{};
+    bool was_there = false;  ///< it has a descriptor, or had one
     bool flushed = false;
     /// The rest of a packet that the line took in part: it goes first.
     std::array<std::uint8_t, kGuardMaxBytes> rest{};
@@ -85,7 +96,8 @@ class StopSet final {
     std::uint32_t size = 0;
     std::array<std::uint8_t, kGuardMaxBytes> bytes{};
   };
-  bool has(const Axis& axis) const;
+  bool has(const Axis& axis, const Link& held) const;
+  static bool is_same_line(const Link& a, const Link& b);
   static void close(Link& link);
   bool send(Link& link, const Message& message);
   bool write_packet(Link& link, const Message& message);

@@ -115,7 +115,7 @@ bool GuardClient::send(const GuardMessage& message, int descriptor) {
 
 bool GuardClient::send_link(std::uint32_t index, const GuardedLink& link) {
   GuardMessage message;
-  message.verb = GuardVerb::link;
+  message.verb = link.descriptor ? GuardVerb::link : GuardVerb::absent;
   message.index = index;
   message.kind = link.kind;
   return set_name(message, link.name) && send(message, link.descriptor.get());
@@ -150,7 +150,7 @@ bool GuardClient::hand_over(std::span<const GuardedLink> links, std::string& pro
   bool sent = send(hello, memory_.fd());
   std::uint32_t axes = 0;
   for (std::uint32_t i = 0; sent && i < links.size(); ++i) {
-    if (!links[i].descriptor) continue;
+    if (!links[i].descriptor && links[i].axes.empty()) continue;
     sent = send_link(i, links[i]);
     for (std::size_t k = 0; sent && k < links[i].axes.size(); ++k)
       sent = send_axis(axes++, i, links[i].axes[k]);

@@ -25,7 +25,7 @@ struct GuardedAxis {
 struct GuardedLink {
   std::string name;
   GuardLinkKind kind = GuardLinkKind::can;
-  link::UniqueFd descriptor;  ///< the guard's own; without one the link is left out
+  link::UniqueFd descriptor;  ///< the guard's own; without one it goes on with the one it has
   std::vector<GuardedAxis> axes;
 };
 

@@ -4,6 +4,7 @@
 #include <poll.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "runtime/clock.h"
 #include "runtime/log.h"
@@ -40,6 +41,7 @@ LinkKeeper::LinkKeeper(const config::DroverConfig& config, const Wiring& wiring,
     : config_(config),
       wiring_(wiring),
       duties_(std::move(duties)),
+      guard_signs_(memory.shared()),
       guard_(config.guard.socket, config.guard.limit_ms, memory) {
   for (std::size_t i = 0; i < wiring.links.size(); ++i) {
     slots_[i].used = wiring.links[i].wire != Wire::registers;
@@ -74,6 +76,7 @@ void LinkKeeper::run(const std::atomic<bool>& stop) {
     for (std::size_t i = 0; i < kLinkSlots; ++i)
       if (slots_[i].used && !slots_[i].open && slots_[i].retry.due(now)) try_open(i, now);
     supply_guard(now);
+    hand_on(now);  // only then: what the guard cannot stop is not to be moved
     supply_watchdog(now);
     supply_relay();
     if (hand_back_wanted_.exchange(false, std::memory_order_relaxed)) guard_.hand_back();
@@ -202,14 +205,37 @@ void LinkKeeper::try_open(std::size_t slot, Time now) {
   std::string problem;
   auto handover = open(slot, problem);
   if (!handover.opened()) return failed(slot, problem, now);
-  if (!arrivals_.push(std::move(handover))) return failed(slot, "the control thread is busy", now);
   slots_[slot].open = true;
   slots_[slot].problem.clear();
+  slots_[slot].guard_lacks.clear();
   if (is_guarded(slot)) guard_set_changed_ = true;
-  const auto name = slot == kOutputsSlot ? "gpio " + config_.outputs.chip + " (outputs)"
-                    : wiring_.links[slot].wire == Wire::levels ? "gpio " + settings_of(slot).gpio
-                                                               : config::address(settings_of(slot));
-  log(LogLevel::info, name + ": open");
+  opened_.push_back(std::move(handover));
+}
+
+void LinkKeeper::hand_on(Time now) {
+  for (auto& handover : opened_) {
+    const auto slot = handover.slot;
+    const std::string lacks = guard_.connected() ? slots_[slot].guard_lacks : std::string();
+    if (is_guarded(slot) && !lacks.empty()) {
+      slots_[slot].open = false;
+      if (is_guarded_tty(slot)) forget_tty(slot);
+      failed(slot, lacks, now);
+      continue;  // closes it with all the others
+    }
+    if (is_guarded(slot) && guard_set_changed_)
+      guard_equipped_.store(false, std::memory_order_relaxed);
+    if (!arrivals_.push(std::move(handover))) {
+      slots_[slot].open = false;
+      failed(slot, "the control thread is busy", now);
+      continue;
+    }
+    const bool levels = slot != kOutputsSlot && wiring_.links[slot].wire == Wire::levels;
+    const auto name = slot == kOutputsSlot ? "gpio " + config_.outputs.chip + " (outputs)"
+                      : levels             ? "gpio " + settings_of(slot).gpio
+                                           : config::address(settings_of(slot));
+    log(LogLevel::info, name + ": open");
+  }
+  opened_.clear();
 }
 
 void LinkKeeper::failed(std::size_t slot, const std::string& problem, Time now) {
@@ -218,32 +244,100 @@ void LinkKeeper::failed(std::size_t slot, const std::string& problem, Time now) 
   if (problem == s.problem) return;  // said once, not at every try
   s.problem = problem;
   log(LogLevel::warning, problem);
+  tell(slot);
+}
+
+/// Why there is no link, to the control thread.
+void LinkKeeper::tell(std::size_t slot) {
   LinkHandover report;
   report.slot = slot;
-  report.problem.assign(problem);
+  report.problem.assign(slots_[slot].problem + (slots_[slot].guard_reaches
+                                                    ? ""
+                                                    : "; drover-guard has no way there either"));
   (void)arrivals_.push(std::move(report));
 }
 
-/// What the guard needs of an open link.
-GuardedLink LinkKeeper::guarded_link(std::size_t slot, std::string& missing) const {
+/// How the guard stops what hangs on it, also while it is not there.
+GuardedLink LinkKeeper::guarded_link(std::size_t slot) {
   GuardedLink link;
   link.name = wiring_.links[slot].name;
+  link.kind = is_bus(slot) ? GuardLinkKind::can : GuardLinkKind::tty;
   for (const auto& stop : duties_[slot].stops) {
     link.axes.push_back(guarded_axis(link.name, stop.recipe));
     link.axes.back().held_by_daemon = stop.held_by_daemon;
   }
+  if (slots_[slot].open) open_for_guard(slot, link);
+  return link;
+}
+
+void LinkKeeper::open_for_guard(std::size_t slot, GuardedLink& link) {
   std::string why;
   if (is_bus(slot)) {
     auto settings = can_settings(slot);
     settings.hears = false;
     link.descriptor = link::open_can_descriptor(settings, why);
   } else {
-    link.kind = GuardLinkKind::tty;
     link.descriptor = link::UniqueFd(::fcntl(slots_[slot].tty.get(), F_DUPFD_CLOEXEC, 0));
     if (!link.descriptor) why = link.name;
   }
-  if (!link.descriptor) missing = "drover-guard cannot have its own way to " + why;
-  return link;
+  slots_[slot].guard_lacks =
+      link.descriptor ? "" : "drover-guard cannot have its own way to " + why;
+}
+
+bool LinkKeeper::is_new(std::size_t slot) const {
+  return std::any_of(opened_.begin(), opened_.end(),
+                     [slot](const LinkHandover& one) { return one.slot == slot; });
+}
+
+/// Said where it is closed again, and not at every try.
+bool LinkKeeper::refuses_new() const {
+  return std::any_of(opened_.begin(), opened_.end(), [this](const LinkHandover& one) {
+    return is_guarded(one.slot) && !slots_[one.slot].guard_lacks.empty();
+  });
+}
+
+std::string LinkKeeper::lacking() const {
+  for (std::size_t i = 0; i < wiring_.links.size(); ++i)
+    if (slots_[i].open && !(is_guarded(i) && is_new(i)) && !slots_[i].guard_lacks.empty())
+      return slots_[i].guard_lacks;
+  return {};
+}
+
+/// What it can reach now. It answers after it took, or refused, what it was handed before.
+void LinkKeeper::ask_guard() {
+  for (std::size_t i = 0; i < wiring_.links.size(); ++i) {
+    if (!is_guarded(i)) continue;
+    auto& slot = slots_[i];
+    const std::string name(wiring_.links[i].name);
+    const bool reaches = static_cast<bool>(guard_.borrow(name));
+    if (!guard_.connected()) return;
+    // What it refused is told by itself, and keeps the robot from moving until a person resets it.
+    const bool refused = guard_signs_.set_refused.load(std::memory_order_relaxed) != 0;
+    if (slot.open && !reaches && !refused && slot.guard_lacks.empty())
+      slot.guard_lacks = "drover-guard did not take its way to " + name;
+    const bool was = std::exchange(slot.guard_reaches, reaches);
+    if (!slot.open && reaches != was && !slot.problem.empty()) tell(i);
+  }
+}
+
+/// In words, by links.
+std::string LinkKeeper::watched() const {
+  std::string there;
+  std::string absent;
+  for (std::size_t i = 0; i < wiring_.links.size(); ++i) {
+    if (!is_guarded(i)) continue;
+    const auto& slot = slots_[i];
+    const std::string name(wiring_.links[i].name);
+    if (slot.open && slot.guard_lacks.empty())
+      there += (there.empty() ? "" : ", ") + name;
+    else if (slot.guard_reaches)
+      absent += "; " + name + " is not there, and it keeps the way there that it has";
+    else
+      absent += "; " + name + " is not there, and it has no way there: nothing on it may move";
+  }
+  return (there.empty() ? "drover-guard has no line yet on which to stop anything"
+                        : "drover-guard watches the drives (" + there + ")") +
+         absent;
 }
 
 void LinkKeeper::supply_guard(Time now) {
@@ -251,24 +345,24 @@ void LinkKeeper::supply_guard(Time now) {
   if (supplied || !guard_slot_.retry.due(now)) return;
   if (!guard_.connected()) relay_given_ = false;
   std::vector<GuardedLink> links;
-  std::string missing;
-  std::string watched;
   for (std::size_t i = 0; i < wiring_.links.size(); ++i) {
     if (!is_guarded(i) && !is_bus(i)) continue;
-    links.push_back(slots_[i].open ? guarded_link(i, missing) : GuardedLink{});
-    if (links.back().descriptor && is_guarded(i))
-      watched += (watched.empty() ? "" : ", ") + links.back().name;
+    links.push_back(guarded_link(i));
   }
   std::string problem;
   // What there is goes over at once; what is missing keeps the robot from moving.
-  const bool handed_over = guard_.hand_over(links, problem);
-  if (handed_over) problem = missing;
-  guard_equipped_.store(missing.empty(), std::memory_order_relaxed);
-  if (handed_over && missing.empty()) {
+  bool handed_over = guard_.hand_over(links, problem);
+  if (handed_over) {
+    ask_guard();
+    problem = lacking();
+    handed_over = guard_.connected();
+    if (!handed_over) problem = "drover-guard does not answer";
+  }
+  guard_equipped_.store(problem.empty(), std::memory_order_relaxed);
+  if (problem.empty()) {
     guard_set_changed_ = false;
     guard_slot_ = {};
-    log(LogLevel::info, watched.empty() ? "drover-guard has no line yet on which to stop anything"
-                                        : "drover-guard watches the drives (" + watched + ")");
+    if (!refuses_new()) log(LogLevel::info, watched());
     return;
   }
   guard_slot_.retry.tried(now);

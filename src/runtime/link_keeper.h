@@ -58,7 +58,8 @@ class LinkKeeper final {
   bool take(LinkHandover& arrived) { return arrivals_.pop(arrived); }
   /// False when the queue is full: keep it and try again next cycle.
   bool give_back(LinkHandover& lost);
-  /// False: the guard lacks a descriptor for a bus that is open, and cannot stop its drives.
+  /// False: the guard lacks a descriptor for a bus that is open, and cannot stop its drives. Where
+  /// it lacks it from the beginning, the control thread does not get that bus.
   bool guard_equipped() const { return guard_equipped_.load(std::memory_order_relaxed); }
   void request_hand_back() {
     hand_back_wanted_.store(true, std::memory_order_relaxed);
@@ -78,7 +79,9 @@ class LinkKeeper final {
     // A device that comes back is there within a second: the pause never grows beyond half of it.
     BackOff retry{std::chrono::milliseconds(50), std::chrono::milliseconds(500)};
     std::string problem;
-    int baud = 0;  ///< of a stream
+    int baud = 0;               ///< of a stream
+    bool guard_reaches = true;  ///< the guard has a way there, as it said last
+    std::string guard_lacks;    ///< why it could not have the way there of this opening
     /// Of a stream on which something moves: a duplicate of the open file, for the guard.
     link::UniqueFd tty;
   };
@@ -95,10 +98,19 @@ class LinkKeeper final {
   }
   void take_back_lost();
   void try_open(std::size_t slot, Time now);
+  void hand_on(Time now);
   LinkHandover open(std::size_t slot, std::string& problem);
   link::Opened<link::OutputLink> open_outputs();
   link::Opened<link::SerialLink> open_stream(std::size_t slot);
-  GuardedLink guarded_link(std::size_t slot, std::string& missing) const;
+  GuardedLink guarded_link(std::size_t slot);
+  void open_for_guard(std::size_t slot, GuardedLink& link);
+  void ask_guard();
+  /// The first of the links that the control thread has; empty: the guard lacks nothing of them.
+  std::string lacking() const;
+  bool is_new(std::size_t slot) const;
+  bool refuses_new() const;
+  std::string watched() const;
+  void tell(std::size_t slot);
   std::vector<std::string> line_names(std::size_t slot) const;
   link::CanSettings can_settings(std::size_t bus) const;
   void failed(std::size_t slot, const std::string& problem, Time now);
@@ -112,7 +124,9 @@ class LinkKeeper final {
   const config::DroverConfig& config_;
   const Wiring& wiring_;
   std::vector<gateway::LinkDuty> duties_;  ///< by the gateway's links
+  const GuardShared& guard_signs_;
   std::array<Slot, kLinkSlots> slots_{};
+  std::vector<LinkHandover> opened_;  ///< not with the control thread yet
   SpscRing<LinkHandover, 16> arrivals_;
   SpscRing<LinkHandover, 16> losses_;
   Wake wake_;

@@ -19,6 +19,8 @@
 namespace drover::test {
 namespace {
 
+using namespace std::chrono_literals;
+
 /// droverd with two drives on can0 and can1, and nothing else.
 constexpr const char* kDroverFile = R"({
   "paths": {"state": "@/state", "run": "@/run"},
@@ -45,10 +47,25 @@ class GuardInTheLab : public GuardRig {
       text.replace(at, 1, folder);
     std::ofstream(file("drover.json")) << text;
     std::filesystem::create_directories(folder + "/run");
-    daemon_ = Process({DROVERD_PROGRAM, "-c", file("drover.json")}, file("droverd.log"));
+    const auto log = file(("droverd.log" + std::to_string(++daemons_)).c_str());
+    daemon_ = Process({DROVERD_PROGRAM, "-c", file("drover.json")}, log);
     ASSERT_TRUE(wait_until([this] {
       return daemon_.output().find("drover-guard watches the drives") != std::string::npos;
     })) << daemon_.output();
+  }
+  void kill_daemon() { daemon_ = Process(); }
+  std::string daemon_output() const { return daemon_.output(); }
+  void ip(std::vector<std::string> words) {
+    words.insert(words.begin(), {"/usr/bin/env", "ip"});
+    EXPECT_EQ(Process(words, file("ip.log")).wait(10s), 0) << words.back();
+  }
+  /// Somebody sends frames there soon.
+  static bool is_stopped_on(const char* interface) {
+    const auto fd = can_socket(interface);
+    return wait_until([&] {
+      can_frame frame{};
+      return ::recv(fd.get(), &frame, sizeof frame, MSG_DONTWAIT) == sizeof frame;
+    });
   }
   /// Copies of all CAN sockets that the guard has.
   std::vector<link::UniqueFd> can_sockets_of_the_guard() const {
@@ -68,11 +85,7 @@ class GuardInTheLab : public GuardRig {
   }
   /// Somebody else's frames, with each kind of identifier that there is.
   static void talk_on(const char* interface) {
-    const link::UniqueFd fd(::socket(PF_CAN, SOCK_RAW | SOCK_CLOEXEC, CAN_RAW));
-    sockaddr_can address{};
-    address.can_family = AF_CAN;
-    address.can_ifindex = static_cast<int>(::if_nametoindex(interface));
-    ASSERT_EQ(::bind(fd.get(), reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
+    const auto fd = can_socket(interface);
     for (const canid_t id : {0x001U, 0x00DU, 0x123U | CAN_RTR_FLAG, 0x1F334455U | CAN_EFF_FLAG}) {
       can_frame frame{};
       frame.can_id = id;
@@ -81,7 +94,17 @@ class GuardInTheLab : public GuardRig {
   }
 
  private:
+  static link::UniqueFd can_socket(const char* interface) {
+    link::UniqueFd fd(::socket(PF_CAN, SOCK_RAW | SOCK_CLOEXEC, CAN_RAW));
+    sockaddr_can address{};
+    address.can_family = AF_CAN;
+    address.can_ifindex = static_cast<int>(::if_nametoindex(interface));
+    EXPECT_EQ(::bind(fd.get(), reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
+    return fd;
+  }
+
   Process daemon_;
+  int daemons_ = 0;
 };
 
 TEST_F(GuardInTheLab, HasCanSocketsWithAnEmptyFilterInWhichNothingPilesUp) {
@@ -105,6 +128,41 @@ TEST_F(GuardInTheLab, HasCanSocketsWithAnEmptyFilterInWhichNothingPilesUp) {
         << "a frame waits in it that nobody reads";
     EXPECT_EQ(errno, EAGAIN);
   }
+}
+
+TEST_F(GuardInTheLab, KeepsItsWayToAnInterfaceThatIsDownWhileDroverdIsBegunAnew) {
+  ASSERT_NE(::if_nametoindex("can1"), 0U) << "this test needs the lab: see lab_test.sh";
+  start();
+  ASSERT_NO_FATAL_FAILURE(start_daemon());
+  ip({"link", "set", "can1", "down"});
+  kill_daemon();
+  EXPECT_TRUE(is_stopped_on("can0"));
+  ASSERT_NO_FATAL_FAILURE(start_daemon());
+  EXPECT_NE(daemon_output().find("two is not there, and it keeps the way there that it has"),
+            std::string::npos)
+      << daemon_output();
+  EXPECT_NE(at_stop_socket("state").find("\"set_refused\":false"), std::string::npos);
+  kill_daemon();
+  EXPECT_TRUE(is_stopped_on("can0"));
+  ip({"link", "set", "can1", "up"});
+  EXPECT_TRUE(is_stopped_on("can1")) << "by a descriptor that no living droverd gave";
+}
+
+TEST_F(GuardInTheLab, StopsWhatIsOnAnInterfaceThatCameBackAsAnother) {
+  ASSERT_NE(::if_nametoindex("can1"), 0U) << "this test needs the lab: see lab_test.sh";
+  start();
+  ASSERT_NO_FATAL_FAILURE(start_daemon());
+  ip({"link", "del", "can1"});
+  kill_daemon();
+  ASSERT_NO_FATAL_FAILURE(start_daemon());
+  ip({"link", "add", "dev", "can1", "type", "vcan"});
+  ip({"link", "set", "can1", "up"});
+  EXPECT_TRUE(wait_until([this] {
+    return daemon_output().find("watches the drives (one, two)") != std::string::npos;
+  })) << daemon_output();
+  kill_daemon();
+  EXPECT_TRUE(is_stopped_on("can0"));
+  EXPECT_TRUE(is_stopped_on("can1"));
 }
 
 }  // namespace

@@ -93,6 +93,18 @@ TEST_F(GuardAndCommandLine, StopWorksWithoutDroverdAndSaysWhoObeyed) {
   EXPECT_THAT(frames("can0"), Not(IsEmpty()));
 }
 
+TEST_F(GuardAndCommandLine, StopSaysHowManyDrivesTheGuardNeverHadAWayTo) {
+  start();
+  std::vector<runtime::GuardedLink> links;
+  links.push_back(can_link("can0", {0x2D}));
+  links.push_back(absent_link("can1", {0x4D, 0x6D}));
+  hand_over(std::move(links));
+  beat(50ms);
+  const auto stopped = drover({"stop"});
+  EXPECT_EQ(stopped.code, 0) << stopped.text;
+  EXPECT_THAT(stopped.text, HasSubstr("drives to which it never had a way: 2"));
+}
+
 TEST_F(GuardAndCommandLine, StopDoesNotWaitLongForADroverdThatHangs) {
   start();
   supply();

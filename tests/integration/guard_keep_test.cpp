@@ -136,6 +136,37 @@ TEST_F(GuardKeeps, StoppingTheOtherBusWhenOneDescriptorWasLost) {
   EXPECT_TRUE(is_stopped("can1"));
 }
 
+TEST_F(GuardKeeps, TheWayToALinkThatWasAbsentSince) {
+  supply({"can0", "can1"});
+  ASSERT_TRUE(beat(10s, [&] { return manager().keeps("link.can1"); }));
+  new_daemon();
+  std::vector<runtime::GuardedLink> links;
+  links.push_back(can_link("can0", {0x2D}));
+  links.push_back(absent_link("can1", {0x2D}));
+  links.push_back(absent_link("can2", {0x2D}));
+  hand_over(std::move(links));
+  beat(300ms);  // all of it is there
+  client().disconnect();
+  kill();
+  (void)frames("can1");
+  start_again();
+  EXPECT_TRUE(is_stopped("can0"));
+  EXPECT_TRUE(is_stopped("can1"));
+  EXPECT_THAT(at_stop_socket("state"), HasSubstr("\"axes\":2,\"axes_never_reached\":1"));
+
+  new_daemon();
+  std::vector<runtime::GuardedLink> again;
+  again.push_back(absent_link("can0", {0x2D}));
+  again.push_back(absent_link("can1", {0x2D}));
+  again.push_back(absent_link("can2", {0x2D}));
+  hand_over(std::move(again));
+  EXPECT_TRUE(client().borrow("can0"));
+  EXPECT_TRUE(client().borrow("can1"));
+  EXPECT_FALSE(client().borrow("can2"));
+  EXPECT_EQ(shared().set_refused, 0U);
+  EXPECT_TRUE(is_stopped("can1"));
+}
+
 TEST_F(GuardKeeps, NothingOfALineThatIsLetGo) {
   supply({"can0", "can1"});
   ASSERT_TRUE(beat(10s, [&] { return manager().keeps("link.can1"); }));

@@ -198,15 +198,22 @@ int GuardRig::wait_for_end() {
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
-runtime::GuardedLink GuardRig::can_link(const std::string& name, std::vector<unsigned> addresses) {
+runtime::GuardedLink GuardRig::can_link(const std::string& name,
+                                        const std::vector<unsigned>& addresses) {
   std::array<int, 2> ends{};
   if (::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC | SOCK_NONBLOCK, 0, ends.data()) != 0)
     throw std::runtime_error("no socket pair");
   std::erase_if(drives_, [&](const auto& one) { return one.first == name; });
   drives_.emplace_back(name, link::UniqueFd(ends[0]));
+  auto link = absent_link(name, addresses);
+  link.descriptor = link::UniqueFd(ends[1]);
+  return link;
+}
+
+runtime::GuardedLink GuardRig::absent_link(const std::string& name,
+                                           const std::vector<unsigned>& addresses) {
   runtime::GuardedLink link;
   link.name = name;
-  link.descriptor = link::UniqueFd(ends[1]);
   for (const auto address : addresses) {
     CanFrame frame;
     frame.id = address;

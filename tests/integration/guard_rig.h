@@ -65,7 +65,10 @@ class GuardRig : public testing::Test {
   int wait_for_end();
 
   /// A CAN link with axes of these addresses; the drives' end is what `drives` reads.
-  runtime::GuardedLink can_link(const std::string& name, std::vector<unsigned> addresses);
+  runtime::GuardedLink can_link(const std::string& name, const std::vector<unsigned>& addresses);
+  /// The same link while it is not there: the drives' end stays as it is.
+  static runtime::GuardedLink absent_link(const std::string& name,
+                                          const std::vector<unsigned>& addresses);
   /// Frames that came at the drives' end of `name` since the last look.
   std::vector<unsigned> frames(const std::string& name);
   bool hand_over(std::vector<runtime::GuardedLink> links);

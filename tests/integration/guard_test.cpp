@@ -148,6 +148,73 @@ TEST_F(Guard, ASmallerSetDoesNotEndAHoldUntilAPersonResetsIt) {
   EXPECT_TRUE(is_left_alone("can1"));
 }
 
+TEST_F(Guard, AnAbsentLinkOfANewDaemonIsStoppedOnTheGuardsOwnWay) {
+  start();
+  std::vector<runtime::GuardedLink> links;
+  links.push_back(can_link("can0", {0x2D}));
+  links.push_back(can_link("can1", {0x4D}));
+  hand_over(std::move(links));
+  daemon_dies_after(50ms);
+  ASSERT_TRUE(is_stopped("can1", 0x4D));
+
+  new_daemon();
+  std::vector<runtime::GuardedLink> without;
+  without.push_back(can_link("can0", {0x2D}));
+  without.push_back(absent_link("can1", {0x4D}));
+  hand_over(std::move(without));
+  EXPECT_TRUE(is_stopped("can0", 0x2D)) << "with the new descriptor";
+  EXPECT_TRUE(is_stopped("can1", 0x4D)) << "with the old one";
+  EXPECT_TRUE(hand_back());
+  EXPECT_EQ(shared().set_refused, 0U);
+  EXPECT_TRUE(is_left_alone("can1"));
+
+  client().disconnect();
+  EXPECT_TRUE(is_stopped("can1", 0x4D));
+  new_daemon();
+  std::vector<runtime::GuardedLink> fresh;  // its adapter is back, as another interface
+  fresh.push_back(can_link("can0", {0x2D}));
+  fresh.push_back(can_link("can1", {0x4D}));
+  hand_over(std::move(fresh));
+  EXPECT_TRUE(is_stopped("can1", 0x4D)) << "at the drives' new end";
+}
+
+TEST_F(Guard, ALinkThatNeverWasThereIsToldAndHindersNobody) {
+  start();
+  std::vector<runtime::GuardedLink> links;
+  links.push_back(can_link("can0", {0x2D}));
+  links.push_back(absent_link("can1", {0x4D, 0x6D}));
+  hand_over(std::move(links));
+  EXPECT_FALSE(client().borrow("can1"));
+  EXPECT_TRUE(wait_until([this] {
+    return output().find("can1 is not there and never was") != std::string::npos;
+  })) << output();
+  EXPECT_THAT(at_stop_socket("state"), AllOf(HasSubstr("\"axes\":1,\"axes_never_reached\":2"),
+                                             HasSubstr("\"set_refused\":false")));
+  EXPECT_TRUE(hand_back());
+  client().disconnect();
+  EXPECT_TRUE(is_stopped("can0", 0x2D));
+  EXPECT_THAT(at_stop_socket("state"), HasSubstr("\"in_command\":true"));
+
+  new_daemon();
+  hand_over_one_drive();
+  EXPECT_TRUE(wait_until([this] { return output().find("lacks can1 04D") != std::string::npos; }))
+      << "once named it stays, until a person resets it: " << output();
+}
+
+TEST_F(Guard, SaysThatItRefusedASetBeforeItAnswersAnythingElse) {
+  start();
+  std::vector<runtime::GuardedLink> links;
+  links.push_back(can_link("can0", {0x2D}));
+  links.push_back(can_link("can1", {0x4D}));
+  hand_over(std::move(links));
+  for (int i = 0; i < 20; ++i) {
+    new_daemon();
+    hand_over_one_drive();
+    ASSERT_TRUE(client().borrow("can0"));
+    EXPECT_EQ(shared().set_refused, 1U) << i;
+  }
+}
+
 TEST_F(Guard, ASetThatCoversTheHeldOneReplacesItWithoutAGap) {
   start();
   hand_over_one_drive();

@@ -1,5 +1,7 @@
 // An arm beside the base, of wheels or a chassis that takes a twist: each is stopped by what is its
 // own, and by what is of all.
+#include <fstream>
+
 #include "mission/support.h"
 
 namespace drover::mission {
@@ -149,6 +151,104 @@ TEST_P(ArmKill, FallsWhenBothProgramsAreGone) {
   const Time lies = both + 1s;
   figure("fell", arm_at(log, kShoulder, both) - arm_at(log, kShoulder, lies), "rad");
   EXPECT_NEAR(arm_at(log, kShoulder, lies), -0.6, 0.03);
+}
+
+/// What `drover status --json` said, the only one that was asked in this mission.
+nlohmann::json asked_status(const Record& log) {
+  std::ifstream file(log.folder / "drover.log");
+  std::string line;
+  std::getline(file, line);
+  return nlohmann::json::parse(line).at("status");
+}
+
+/// Commands to the arm's motors, whoever sent them.
+std::size_t frames_to_the_arm(const Record& log, Time begin, Time end) {
+  return static_cast<std::size_t>(
+      std::count_if(log.can.begin(), log.can.end(), [&](const CanLine& line) {
+        return line.time >= begin && line.time <= end && line.bus == "can1" && line.frame.id >= 1 &&
+               line.frame.id <= 3;
+      }));
+}
+
+TEST(ScoutArmBus, TheBaseDrivesOnWhileTheArmsBusIsAway) {
+  const Record& log = record("scout_arm_bus");
+  const Time lost = log.event("event arm_lost#1");
+  expect_nav_stays(log, "NAV_RUN", lost, log.event("event both_lost#1"));
+  EXPECT_NEAR(speed_at(log, log.event("event arm_back#1")), 0.4, 0.02);
+}
+
+TEST(ScoutArmBus, TheArmIsRefusedMeanwhileAndThatIsTold) {
+  const Record& log = record("scout_arm_bus");
+  EXPECT_LT(strayed(log, 0, log.event("event arm_lost#1"), log.event("event follows#1")), 0.01);
+  const auto arm = asked_status(log).at("groups").at(0);
+  EXPECT_EQ(arm.at("reason"), "base_yaw: can1: no such CAN interface");
+  EXPECT_GT(arm.at("refused"), 0);
+}
+
+TEST(ScoutArmBus, TheArmFollowsAgainWhenItsBusIsBack) {
+  const Record& log = record("scout_arm_bus");
+  EXPECT_NEAR(arm_at(log, 0, log.event("event follows#1")), 0.5, 0.01);
+  EXPECT_NEAR(arm_at(log, 0, log.event("event follows#1") + 3s), 0, 0.01);
+}
+
+TEST(ScoutArmBus, OfBothBusesTheBasesMayComeBackAlone) {
+  const Record& log = record("scout_arm_bus");
+  const Time back = log.event("event base_back#1");
+  EXPECT_LT(speed_at(log, back), 0.01);
+  EXPECT_GT(log.answered("start_nav_success", 2), back);
+  EXPECT_NEAR(speed_at(log, log.event("event killed#1") - 50ms), 0.4, 0.02);
+}
+
+TEST(ScoutArmBus, TheGuardStopsTheBaseWhoseDroverdIsKilledThen) {
+  const Record& log = record("scout_arm_bus");
+  const Time killed = log.event("event killed#1");
+  const Time restarted = log.event("event restarted#1");
+  EXPECT_THAT(log.moving(killed + 100ms, restarted), testing::IsEmpty());
+  tell_way_to_rest(log, killed, restarted);
+  EXPECT_LT(roll(log, killed, restarted).way_m, 0.45);
+}
+
+TEST(ScoutArmBus, TheNextDroverdDrivesWithoutTheArmToTheGoal) {
+  const Record& log = record("scout_arm_bus");
+  EXPECT_LT(log.answered("start_nav_success", 3), log.event("event arm_back_at_last#1"));
+  expect_good_drive(log, 3);
+  EXPECT_NEAR(arm_at(log, 0, log.event("event follows_again#1") + 3s), 0.5, 0.01);
+}
+
+TEST(ScoutArmBus, TheGuardStopsTheArmOnTheInterfaceThatCameBack) {
+  const Record& log = record("scout_arm_bus");
+  const Time killed = log.event("event killed_at_last#1");
+  EXPECT_GT(frames_to_the_arm(log, killed + 100ms, killed + 1s), 30U);
+}
+
+TEST(ScoutArmBusLate, TheBaseDrivesWithoutTheArmAndSaysThatNobodyReachesIt) {
+  const Record& log = record("scout_arm_bus_late");
+  EXPECT_NEAR(speed_at(log, log.event("event raise#1")), 0.4, 0.02);
+  expect_nav_stays(log, "NAV_RUN", log.answered("start_nav_success"), log.event("event killed#1"));
+  const auto status = asked_status(log);
+  EXPECT_EQ(status.at("links").at(1).at("reason"),
+            "can1: no such CAN interface; drover-guard has no way there either");
+  EXPECT_GT(status.at("groups").at(0).at("refused"), 0);
+}
+
+TEST(ScoutArmBusLate, TheArmFollowsWhenItsBusCame) {
+  const Record& log = record("scout_arm_bus_late");
+  EXPECT_LT(strayed(log, kShoulder, log.event("event off#1"), log.event("event raise#1")), 0.01);
+  // It sags by its weight over its stiffness.
+  EXPECT_NEAR(arm_at(log, kShoulder, log.event("event killed#1")), 0.8, 0.05);
+}
+
+TEST(ScoutArmBusLate, TheGuardLetsItSinkSlowlyAndStopsTheBase) {
+  const Record& log = record("scout_arm_bus_late");
+  const Time killed = log.event("event killed#1");
+  const Time back = log.event("event restarted#1");
+  const double sank = arm_at(log, kShoulder, killed) - arm_at(log, kShoulder, back);
+  figure("sank before the next began", sank, "rad");
+  EXPECT_GT(sank, 0.1);
+  EXPECT_LT(sank, 0.6);  // as of scout_arm_kill
+  EXPECT_THAT(log.moving(killed + 100ms, back), testing::IsEmpty());
+  EXPECT_LT(roll(log, killed, back).way_m, 0.35);
+  expect_good_drive(log, 2);
 }
 
 std::string name_of(const testing::TestParamInfo<const char*>& one) {

@@ -155,9 +155,106 @@ TEST_F(GuardStopSet, IsCoveredOnlyByEachOfItsAxesWithADescriptorAndAMessage) {
   EXPECT_FALSE(other.covers(old)) << "it could not reach it";
 }
 
+/// A set of two buses with a drive each, with these descriptors; without one it is absent.
+void fill(StopSet& set, int can0, int can1) {
+  const auto verb = [](int fd) { return fd < 0 ? GuardVerb::absent : GuardVerb::link; };
+  ASSERT_TRUE(set.add_link(named(verb(can0), 0, "can0"), can0));
+  ASSERT_TRUE(set.add_link(named(verb(can1), 1, "can1"), can1));
+  ASSERT_TRUE(set.add_axis(axis(0, "can0 1")));
+  auto arm = axis(1, "can1 2");
+  arm.link = 1;
+  ASSERT_TRUE(set.add_axis(arm));
+  ASSERT_TRUE(set.add_message(stop(0, 0, '1')));
+  ASSERT_TRUE(set.add_message(stop(1, 0, '2')));
+}
+
+TEST_F(GuardStopSet, AnAbsentLinkHasTheWayOfTheSetBefore) {
+  StopSet held;
+  fill(held, ::dup(link()), link());
+  StopSet next;
+  fill(next, ::dup(link()), -1);
+  EXPECT_TRUE(next.covers(held));
+  EXPECT_EQ(next.axes(), 1U) << "before it inherits";
+  next.inherit(held);
+  EXPECT_EQ(next.descriptor("can1"), link()) << "its own, not another one";
+  EXPECT_EQ(next.axes(), 2U);
+  EXPECT_THAT(next.links_never_there(), testing::IsEmpty());
+  held.clear();
+  next.begin_hold();
+  next.play(kStart);
+  EXPECT_EQ(heard(), "12");
+}
+
+TEST_F(GuardStopSet, AFreshDescriptorIsTakenInPlaceOfTheOldOne) {
+  StopSet held;
+  fill(held, -1, ::dup(link()));
+  StopSet next;
+  fill(next, -1, link());
+  next.inherit(held);
+  EXPECT_EQ(next.descriptor("can1"), link());
+}
+
+TEST_F(GuardStopSet, WhatTwoSetsHaveNoWayToIsCovered) {
+  StopSet held;
+  fill(held, ::dup(link()), -1);
+  StopSet next;
+  fill(next, link(), -1);
+  EXPECT_TRUE(next.covers(held));
+  next.inherit(held);
+  EXPECT_THAT(next.links_never_there(), testing::ElementsAre("can1"));
+  EXPECT_EQ(next.axes_never_reached(), 1U);
+  StopSet silent;
+  ASSERT_TRUE(silent.add_link(named(GuardVerb::link, 0, "can0"), ::dup(link())));
+  ASSERT_TRUE(silent.add_axis(axis(0, "can0 1")));
+  ASSERT_TRUE(silent.add_message(stop(0, 0, '1')));
+  EXPECT_EQ(silent.lacks(held), "can1 2") << "it has to be named, though nobody reaches it";
+}
+
+TEST_F(GuardStopSet, AnotherLineOfTheSameNameIsNotInherited) {
+  StopSet held;
+  fill(held, ::dup(link()), link());
+  StopSet next;
+  ASSERT_TRUE(next.add_link(named(GuardVerb::absent, 0, "can0"), -1));
+  auto line = named(GuardVerb::absent, 1, "can1");
+  line.kind = GuardLinkKind::tty;
+  ASSERT_TRUE(next.add_link(line, -1));
+  ASSERT_TRUE(next.add_axis(axis(0, "can0 1")));
+  auto arm = axis(1, "can1 2");
+  arm.link = 1;
+  ASSERT_TRUE(next.add_axis(arm));
+  ASSERT_TRUE(next.add_message(stop(0, 0, '1')) && next.add_message(stop(1, 0, '2')));
+  EXPECT_EQ(next.lacks(held), "can1 2");
+}
+
+TEST_F(GuardStopSet, IsInCommandBesideALinkThatNeverWasThere) {
+  StopSet set;
+  fill(set, link(), -1);
+  set.begin_hold();
+  set.play(kStart);
+  EXPECT_EQ(heard(), "1");
+  EXPECT_TRUE(set.in_command(kStart)) << "nobody moved what nobody reached";
+  EXPECT_EQ(set.unsent(), 0U);
+}
+
+TEST_F(GuardStopSet, IsNotInCommandOfALinkThatWasThere) {
+  StopSet held;
+  fill(held, ::dup(link()), ::dup(link()));
+  ASSERT_TRUE(held.let_go("can1"));
+  StopSet next;
+  fill(next, link(), -1);
+  EXPECT_TRUE(next.covers(held)) << "as it was before";
+  next.inherit(held);
+  next.begin_hold();
+  next.play(kStart);
+  EXPECT_EQ(heard(), "1");
+  EXPECT_FALSE(next.in_command(kStart)) << "it may move still";
+  EXPECT_EQ(next.axes(), 2U);
+}
+
 TEST_F(GuardStopSet, RefusesWhatContradictsItself) {
   StopSet set;
   add_link(set);
+  EXPECT_FALSE(set.add_link(named(GuardVerb::absent, 1, "can1"), link())) << "absent, and there";
   auto endless = named(GuardVerb::link, 1, "x");
   endless.name.fill('x');
   EXPECT_FALSE(set.add_link(endless, -1)) << "a name without an end";
@@ -173,6 +270,16 @@ TEST_F(GuardStopSet, RefusesWhatContradictsItself) {
   auto long_one = stop(0, 0, '1');
   long_one.size = kGuardMaxBytes + 1;
   EXPECT_FALSE(set.add_message(long_one));
+}
+
+TEST_F(GuardStopSet, TellsWhichLinksNeverWereThere) {
+  StopSet set;
+  fill(set, link(), -1);
+  ASSERT_TRUE(set.let_go("can0"));
+  std::vector<GuardMessage> words;
+  set.tell(words);
+  EXPECT_EQ(words[0].verb, GuardVerb::link) << "it was there";
+  EXPECT_EQ(words[1].verb, GuardVerb::absent);
 }
 
 TEST_F(GuardStopSet, ReadsBackWhatItTells) {
