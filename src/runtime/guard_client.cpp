@@ -181,7 +181,8 @@ bool GuardClient::let_go(const std::string& name) {
 }
 
 link::UniqueFd GuardClient::borrow(const std::string& name) {
-  constexpr int kPatience_ms = 100;
+  // A busy machine holds it up for less; nothing else waits here but links that are to be opened.
+  constexpr int kPatience_ms = 500;
   GuardMessage message;
   message.verb = GuardVerb::lend;
   if (!connected() || !set_name(message, name) || !send(message)) return {};
