@@ -17,7 +17,14 @@ constexpr Duration kSettle = milliseconds(20);
 constexpr Duration kClearTime = milliseconds(250);
 constexpr double kSlow_radps = 0.1;
 constexpr Duration kIdleAtLast = milliseconds(1000);
-constexpr std::uint32_t kNodeBits = 0x7F;
+
+/// NMT, and all function codes that its node has: neither 0x000 + node nor 0x100 + node, which are
+/// free for devices that are no CANopen.
+std::array<FrameFilter, 5> all_of(std::uint8_t node) {
+  const std::uint32_t id = node;
+  return {FrameFilter{0x000}, FrameFilter{0x080 + id}, FrameFilter{0x180 + id},
+          FrameFilter{0x200 + id, 0x67F}, FrameFilter{0x400 + id, 0x47F}};
+}
 
 /// One controlword is for both wheels: what both ask for. While one is caught the other may be at
 /// rest already: it holds at zero, and the catch goes on.
@@ -61,7 +68,7 @@ StopRecipe recipe_of(std::uint8_t node) {
 Zlac8015dDriver::Zlac8015dDriver(const Settings& settings, std::array<AxisId, kWheels> axes)
     : settings_(settings),
       axes_(axes),
-      hears_{{{0x000, 0x7FF, false}, {settings.node, kNodeBits, false}}},
+      hears_(all_of(settings.node)),
       rules_(rules_of(settings)),
       steps_(steps_of(settings)),
       setup_(settings.node, {steps_.data(), steps_.size()}),

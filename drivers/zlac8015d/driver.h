@@ -76,7 +76,7 @@ class Zlac8015dDriver final : public Device, public FrameFace, public Actuator {
 
   Settings settings_;
   std::array<AxisId, kWheels> axes_;
-  std::array<FrameFilter, 2> hears_;
+  std::array<FrameFilter, 5> hears_;
   RuleList rules_;
   StepList steps_;
   canopen::SdoSetup setup_;

@@ -74,6 +74,8 @@ std::string map_file(const std::string& map, const fs::path& folder) {
     const auto of_the_clone = above / "config" / "maps" / map;
     if (fs::exists(of_the_clone)) return of_the_clone.string();
   }
+  if (const auto found = config::find_register_map(map, folder.string()); fs::exists(found))
+    return fs::absolute(found).string();
   return "";
 }
 

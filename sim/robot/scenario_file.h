@@ -20,7 +20,7 @@ nlohmann::json load_scenario_document(const std::string& file);
 void change_document(nlohmann::json& document, nlohmann::json change);
 
 /// A battery's register map: the file `map` below `folder`, or one of a clone's config/maps when
-/// `folder` is in a clone. Empty: neither; it may be an installed one.
+/// `folder` is in a clone, else what a configuration in `folder` means by it. Empty: none.
 std::string map_file(const std::string& map, const std::filesystem::path& folder);
 
 /// Why there is no such map, installed ones looked through too; empty: there is one.

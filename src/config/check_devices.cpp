@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <optional>
 #include <span>
 
 #include "config/check_subjects.h"
@@ -48,26 +47,6 @@ void addresses(Findings& found) {
         found.add(path,
                   "two devices have one address (" + address + "): the other is " + it->second);
     }
-  }
-}
-
-/// The id of a DAMIAO motor's answers; left out it is 16 more than its own.
-std::optional<int> answers_with(const DeviceConfig& device) {
-  const auto& options = device.options;
-  if (!options.has("master_id") || !options.has("id")) return {};  // told where they are read
-  const int given = static_cast<int>(options.number("master_id"));
-  return given != 0 ? given : static_cast<int>(options.number("id")) + 0x10;
-}
-
-void answers(Findings& found) {
-  std::map<std::pair<std::string, int>, std::string> first;
-  for (const auto& device : found.config().devices) {
-    const auto id = answers_with(device);
-    if (!id) continue;
-    const auto [it, inserted] = first.emplace(std::pair(device.link, *id), device_path(device));
-    if (!inserted)
-      found.add(device_path(device, "options.master_id"),
-                std::to_string(*id) + " is what " + it->second + " answers with, on the same bus");
   }
 }
 
@@ -141,7 +120,6 @@ void check_devices(Findings& found) {
   }
   check_roles(found);
   addresses(found);
-  answers(found);
   company_on_a_bus(found);
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "config/bus_ids.h"
 #include "config/check_subjects.h"
 #include "config/register_map.h"
 #include "config/taken.h"
@@ -257,9 +258,11 @@ void follow_baud_rates(Findings& found) {
 }
 
 void check_drivers(Findings& found) {
+  BusIds ids(found);
   for (auto& device : found.config().devices) {
     look_at_speed(device, found);
     const auto made = build(device, found);
+    ids.take(device, made);
     if (made.actuator == nullptr) continue;
     const SilenceBehaviour silence = made.actuator->silence();
     device.goes_on_in_silence = !silence.stops;

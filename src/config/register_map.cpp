@@ -193,23 +193,38 @@ LoadedMap load_register_map(const std::string& path) {
   return loaded;
 }
 
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Of the clone in which this program was built; empty when it is installed.
+fs::path maps_of_the_clone() {
+  std::error_code none;
+  const auto self = fs::read_symlink("/proc/self/exe", none);
+  for (auto above = self.parent_path(); above.has_relative_path(); above = above.parent_path())
+    if (fs::exists(above / "config" / "maps" / "register_map.schema.json", none))
+      return above / "config" / "maps";
+  return {};
+}
+
+}  // namespace
+
 std::string find_register_map(const std::string& map, const std::string& folder) {
-  namespace fs = std::filesystem;
   const fs::path beside = fs::path(folder) / map;  // an absolute path stays as it is
   std::error_code ignored;
-  if (!fs::exists(beside, ignored)) {
-    for (const auto* place : {"", "maps"}) {
-      const fs::path installed = fs::path(DROVER_DATA_FOLDER) / place / map;
-      if (fs::exists(installed, ignored)) return installed.string();
-    }
+  if (fs::exists(beside, ignored)) return beside.lexically_normal().string();
+  for (const auto* place : {"", "maps"}) {
+    const fs::path installed = fs::path(DROVER_DATA_FOLDER) / place / map;
+    if (fs::exists(installed, ignored)) return installed.string();
   }
+  const auto clone = maps_of_the_clone();
+  if (!clone.empty() && fs::exists(clone / map, ignored)) return (clone / map).string();
   return beside.lexically_normal().string();
 }
 
 namespace {
 
 std::vector<std::string> installed_maps() {
-  namespace fs = std::filesystem;
   std::vector<std::string> names;
   std::error_code ignored;
   for (const auto& entry : fs::directory_iterator(fs::path(DROVER_DATA_FOLDER) / "maps", ignored))
@@ -221,7 +236,6 @@ std::vector<std::string> installed_maps() {
 }  // namespace
 
 MissingMap missing_register_map(const std::string& map, const std::string& folder) {
-  namespace fs = std::filesystem;
   std::error_code ignored;
   if (fs::exists(find_register_map(map, folder), ignored)) return {};
   if (fs::path(map).is_absolute()) return {"there is no file \"" + map + "\"", ""};
@@ -229,8 +243,10 @@ MissingMap missing_register_map(const std::string& map, const std::string& folde
   auto hint = text::did_you_mean(fs::path(map).filename().string(), installed);
   if (hint.empty())
     for (const auto& name : installed) hint += (hint.empty() ? "installed are: " : ", ") + name;
+  const auto clone = maps_of_the_clone();
   return {"there is no \"" + map + "\" beside this file, nor among the installed maps in " +
-              std::string(DROVER_DATA_FOLDER) + "/maps",
+              std::string(DROVER_DATA_FOLDER) + "/maps" +
+              (clone.empty() ? "" : ", nor in " + clone.string()),
           hint.empty() ? "none are installed there" : hint};
 }
 

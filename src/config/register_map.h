@@ -20,8 +20,9 @@ LoadedMap parse_register_map(std::string_view text);
 /// Problems carry the file's name. A file that cannot be read is a problem without a place.
 LoadedMap load_register_map(const std::string& path);
 
-/// Where a configuration in `folder` means by `map`: an absolute path, a file below its folder, or
-/// else one of the installed maps. The first when none is there.
+/// Where a configuration in `folder` means by `map`: an absolute path, a file below its folder,
+/// else one of the installed maps, else, of a program that runs from a build, one of its clone's.
+/// The first when none is there.
 std::string find_register_map(const std::string& map, const std::string& folder);
 
 /// Why there is no such map, and what there is instead.

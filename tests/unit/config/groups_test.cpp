@@ -143,7 +143,8 @@ TEST(Groups, RefuseMotorsThatAnswerAlike) {
               HasSubstr("two devices have one address (can1, damiao id 2)"));
   EXPECT_THAT(
       arm_problems("{\"id\": 3", "{\"id\": 3, \"master_id\": 18"),
-      HasSubstr("devices.elbow.options.master_id: 18 is what devices.shoulder answers with"));
+      HasSubstr("devices.elbow.options.master_id: devices.elbow (damiao) and devices.shoulder "
+                "(damiao) both use the id 0x012 on \"can1\""));
 }
 
 TEST(Groups, TellAMotorWithoutANumberThatItNeedsOne) {

@@ -112,5 +112,12 @@ TEST(RegisterMapSchema, InTheFolderIsTheOneThatIsWritten) {
       << "write it anew: droverd --map-schema > config/maps/register_map.schema.json";
 }
 
+TEST(RegisterMapFile, OfTheCloneIsFoundByAProgramThatRunsFromABuildInIt) {
+  const auto elsewhere = std::filesystem::temp_directory_path();
+  EXPECT_TRUE(std::filesystem::exists(find_register_map("daly_d2.json", elsewhere.string())));
+  EXPECT_THAT(missing_register_map("daly.json", elsewhere.string()).message,
+              HasSubstr("config/maps"));
+}
+
 }  // namespace
 }  // namespace drover::config

@@ -1,0 +1,91 @@
+// Devices of one CAN bus that would take each other's frames for their own.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include "unit/config/config_text.h"
+
+namespace drover::config {
+namespace {
+
+using testing::AnyOf;
+using testing::HasSubstr;
+using testing::Not;
+
+const std::string kExamples = DROVER_SOURCE_DIR "/config/examples";
+
+/// Of the joint that a device "lift" moves.
+const std::string kLift = R"("arm": {"joints": {"lift": {"min_rad": -1, "max_rad": 1,
+  "max_velocity_radps": 1, "max_effort_Nm": 1}}}, )";
+
+/// The example `name` with `more` devices before its others. The group is refused when it has no
+/// device, which is another matter.
+std::string example_with(const std::string& name, const std::string& more) {
+  std::ifstream file(kExamples + "/" + name);
+  std::string text{std::istreambuf_iterator<char>(file), {}};
+  const auto put = [&text](const std::string& behind, const std::string& what) {
+    const auto at = text.find(behind);
+    ASSERT_NE(at, std::string::npos);
+    text.insert(at + behind.size(), what);
+  };
+  put("\"devices\": {", more + ", ");
+  put("\"imu\": {\"driver\": \"witmotion\",", " \"role\": \"steers\",");
+  put("\"groups\": {", kLift);
+  if (more.find("can9") != std::string::npos)
+    put("\"links\": {", "\"can9\": {\"can\": \"can9\"}, ");
+  return text;
+}
+
+/// A robot on a ZLAC8015D, node 1, on can0.
+std::string hubs_with(const std::string& more) {
+  return problems(example_with("two_hub_motors.json", more), kExamples);
+}
+
+std::string imu(const std::string& link, const std::string& frames, int node) {
+  return R"("tilt": {"driver": "hipnuc_can", "link": ")" + link +
+         R"(", "role": "told", "options": {"frames": ")" + frames + R"(", "node": )" +
+         std::to_string(node) + "}}";
+}
+
+TEST(BusIds, AreRefusedToTwoDriversOfOneNode) {
+  EXPECT_THAT(hubs_with(imu("can0", "canopen", 1)),
+              HasSubstr("devices.wheels.options.node: devices.wheels (zlac8015d) and devices.tilt "
+                        "(hipnuc_can) both use the id 0x181 on \"can0\""));
+}
+
+TEST(BusIds, AreFreeOnABusOfTheirOwnOfAnotherNodeAndOf29Bits) {
+  for (const auto& free :
+       {imu("can9", "canopen", 1), imu("can0", "canopen", 2), imu("can0", "j1939", 1)})
+    EXPECT_THAT(hubs_with(free), Not(AnyOf(HasSubstr("both use"), HasSubstr("devices.")))) << free;
+}
+
+std::string motor(const std::string& name, int id, int master_id) {
+  return "\"" + name +
+         R"(": {"driver": "damiao", "link": "can0", "accept": ["no_watchdog"], "options": )"
+         R"({"model": "DM4310", "id": )" +
+         std::to_string(id) + ", \"master_id\": " + std::to_string(master_id) + "}}";
+}
+
+TEST(BusIds, AreRefusedToAnAnswerUnderAnothersCommand) {
+  EXPECT_THAT(hubs_with(motor("lift", 3, 0x181)), HasSubstr("both use the id 0x181 on \"can0\""));
+  EXPECT_THAT(hubs_with(motor("lift", 3, 0x201)), HasSubstr("both use the id 0x201 on \"can0\""));
+}
+
+TEST(BusIds, OfAFamilyAreShared) {
+  const auto told = hubs_with(motor("lift", 3, 0x13) + ", " + motor("turn", 4, 0x14));
+  EXPECT_THAT(told, Not(HasSubstr("both use the id")));
+}
+
+TEST(BusIds, AreNotTakenByANodeThatIsNoneOfCanOpens) {
+  const std::string axis =
+      R"("lift": {"driver": "odrive", "link": "can0", "accept": ["no_watchdog"], "options": )"
+      R"({"node": )";
+  EXPECT_THAT(hubs_with(axis + "0}}"), Not(HasSubstr("both use the id")));
+  EXPECT_THAT(hubs_with(axis + "4}}"), HasSubstr("both use the id 0x081 on \"can0\""));
+}
+
+}  // namespace
+}  // namespace drover::config
