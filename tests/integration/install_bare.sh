@@ -65,6 +65,8 @@ for node in null zero full random urandom tty; do
 done
 mkdir "$root/dev/shm" "$root/dev/pts"
 chmod 1777 "$root/dev/shm"
+mount -t devpts -o newinstance,ptmxmode=0666,mode=0620 pts "$root/dev/pts"
+ln -s pts/ptmx "$root/dev/ptmx"
 ln -s /proc/self/fd "$root/dev/fd"
 for number in 0:stdin 1:stdout 2:stderr; do
   ln -s "fd/${number%:*}" "$root/dev/${number#*:}"
