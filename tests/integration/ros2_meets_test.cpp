@@ -1,10 +1,13 @@
 // Which ROS 2 programs on the robot's computer, which has a network, meet drover-ros2: its domain
 // as it makes it, and what else could have been chosen, beside each way they may be told.
+#include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
 
+#include <array>
 #include <iostream>
+#include <string>
 #include <thread>
 
 #include "integration/ros2_user.h"
