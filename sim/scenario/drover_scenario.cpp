@@ -107,6 +107,10 @@ void tell_ways_in(const drover::sim::Workplace& place) {
     std::printf("  %s ctl --run-dir %s truth\n", place.program("drover-sim").command[0].c_str(),
                 sim_folder.c_str());
   }
+  if (place.document().contains("/gateway/ros2"_json_pointer)) {
+    std::printf("  export ROS_LOCALHOST_ONLY=1 RMW_IMPLEMENTATION=rmw_cyclonedds_cpp\n");
+    std::printf("  ros2 topic echo /odom        with other settings: src/ros2/README.md\n");
+  }
   std::fflush(stdout);
 }
 

@@ -40,6 +40,7 @@ refuses_wrong_usage() {
     equal "$(status_of "$lab" --no-such-option -- true)" 2 &&
     equal "$(status_of "$lab" --seed x -- true)" 2 &&
     equal "$(status_of "$lab" --host-port 0 -- true)" 2 &&
+    equal "$(status_of "$lab" --real-time --second-port 0 -- true)" 2 &&
     equal "$(status_of "$lab" --can ethernet -- true)" 2
 }
 

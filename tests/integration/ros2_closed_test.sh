@@ -8,8 +8,11 @@ set -euo pipefail
 program=$1
 source=$2
 if [[ ${3:-} != --inside ]]; then
-  unshare -rn true 2> /dev/null || { echo "skip - no network namespaces can be made here"; exit 0; }
-  exec unshare -rn "$0" "$program" "$source" --inside
+  for enter in -n -rn; do
+    ! unshare "$enter" true 2> /dev/null || exec unshare "$enter" "$0" "$program" "$source" --inside
+  done
+  echo "not ok - no network namespaces can be made here"
+  exit 1
 fi
 
 folder=$(mktemp -d)

@@ -10,10 +10,11 @@
 
 namespace drover::test {
 
-/// How he was told to stay on this computer.
+/// Whether he was told to stay on this computer, and how.
 enum class User : std::uint8_t {
-  humble,  ///< ROS_LOCALHOST_ONLY=1: he uses lo
-  jazzy,   ///< ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST: he uses the network's address
+  humble,    ///< ROS_LOCALHOST_ONLY=1: he uses lo
+  jazzy,     ///< ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST: he uses the network's address
+  defaults,  ///< he was not: multicast in his network
 };
 
 /// Of his domain, as rmw_cyclonedds says it.

@@ -56,6 +56,7 @@ src/droverd.cpp  config/ runtime/
 sim/plant        drover/ sim/plant/
 sim/robot        drover/ link/ text/ sim/plant/ sim/robot/ config/register_map.h
 sim/scenario     drover/ link/ text/ sim/robot/ sim/scenario/
+sim/relay        link/unique_fd.h
 TABLE
 }
 

@@ -33,6 +33,8 @@ void set(Options& options, std::string_view key, const std::string& value) {
     options.cpu = std::stoi(value);
   else if (key == "host_port")
     options.host_port = std::stoi(value);
+  else if (key == "second_port")
+    options.second_port = std::stoi(value);
   else if (key == "real_time")
     options.real_time = value == "1";
   else if (key == "interactive")

@@ -10,13 +10,15 @@
 
 #include <array>
 #include <cstdint>
+#include <vector>
 
 namespace drover::lab {
 namespace {
 
 constexpr std::size_t kFrameMax = 65535;
 
-int free_port() {
+/// `other`: what is chosen already, and not yet in use.
+int free_port(int other = 0) {
   Fd fd(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
   sockaddr_in address{};
   address.sin_family = AF_INET;
@@ -26,15 +28,23 @@ int free_port() {
   if (::getsockname(fd.get(), reinterpret_cast<sockaddr*>(&address), &size) != 0) {
     fail("getsockname");
   }
-  return ntohs(address.sin_port);
+  const int port = ntohs(address.sin_port);
+  return port == other ? free_port(other) : port;  // this one is in use until then
+}
+
+std::string forward(int from, int to) {
+  return "127.0.0.1/" + std::to_string(from) + ":" + std::to_string(to);
 }
 
 }  // namespace
 
-NetRelay::NetRelay(Fd kernel, int port, const std::string& log_path)
-    : kernel_(std::move(kernel)), port_(port > 0 ? port : free_port()) {
+NetRelay::NetRelay(Fd kernel, int port, int second_port, const std::string& log_path)
+    : kernel_(std::move(kernel)),
+      port_(port > 0 ? port : free_port()),
+      second_port_(second_port == 0 ? free_port(port_) : second_port) {
   auto [ours, theirs] = make_socket_pair(SOCK_STREAM);
-  const std::string forward = "127.0.0.1/" + std::to_string(port_) + ":1883";
+  const std::string ports = forward(port_, 1883);
+  const std::string second = forward(second_port_, 1884);
   const std::string fd_text = std::to_string(theirs.get());
   const int log = ::open(log_path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
   pid_ = ::fork();
@@ -48,9 +58,11 @@ NetRelay::NetRelay(Fd kernel, int port, const std::string& log_path)
     ::fcntl(theirs.get(), F_SETFD, 0);
     ::dup2(log, 1);
     ::dup2(log, 2);
-    ::execlp("passt", "passt", "-f", "-1", "-F", fd_text.c_str(), "-t", forward.c_str(), "-u",
-             "none", "-4", "-a", "10.0.2.15", "-n", "24", "-g", "10.0.2.2", "--no-map-gw",
-             static_cast<char*>(nullptr));
+    std::vector<const char*> words{"passt", "-f", "-1", "-F", fd_text.c_str(), "-t", ports.c_str()};
+    if (second_port_ > 0) words.insert(words.end(), {"-t", second.c_str()});
+    words.insert(words.end(), {"-u", "none", "-4", "-a", "10.0.2.15", "-n", "24", "-g", "10.0.2.2",
+                               "--no-map-gw", nullptr});
+    ::execvp("passt", const_cast<char* const*>(words.data()));
     ::_exit(127);
   }
   ::close(log);

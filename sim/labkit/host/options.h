@@ -18,6 +18,7 @@ struct Options {
   double timeout_s = 0.0;  // wall clock, 0 = none
   int cpu = -1;            // host CPU, -1 = choose one no other lab uses
   int host_port = -1;      // -1 = no wire to the host, 0 = choose a free port
+  int second_port = -1;    // with host_port: -1 = none, 0 = choose a free one
   bool real_time = false;
   bool interactive = false;
   bool shell = false;

@@ -134,14 +134,20 @@ class Session final {
 
  private:
   void start_network() {
-    net_.emplace(std::move(ends_.net), options_.host_port, state_.file("passt.log"));
+    net_.emplace(std::move(ends_.net), options_.host_port, options_.second_port,
+                 state_.file("passt.log"));
     const std::string port = std::to_string(net_->port());
-    if (!options_.logs_dir.empty()) {
-      std::FILE* file = std::fopen((options_.logs_dir + "/host-port").c_str(), "w");
-      if (file) std::fprintf(file, "%s\n", port.c_str());
-      if (file) std::fclose(file);
-    }
+    leave_port("host-port", net_->port());
+    if (net_->second_port() > 0) leave_port("second-port", net_->second_port());
     std::fprintf(stderr, "broker: 127.0.0.1:%s\n", port.c_str());
+  }
+
+  /// Where the command and whoever called find it.
+  void leave_port(const std::string& name, int port) {
+    if (options_.logs_dir.empty()) return;
+    std::FILE* file = std::fopen((options_.logs_dir + "/" + name).c_str(), "w");
+    if (file) std::fprintf(file, "%d\n", port);
+    if (file) std::fclose(file);
   }
 
   void write_info() {
