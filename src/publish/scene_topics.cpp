@@ -118,7 +118,8 @@ void SceneTopics::follow(Waiting& waiting, Result<SceneMessages<Message>, scene:
   auto& messages = read.value().messages;
   waiting.is_list = read->is_list;
   if (messages.size() > 1)
-    gate_of({waiting.client}).messages.charge(kListShare * static_cast<double>(messages.size() - 1), now);
+    gate_of({waiting.client})
+        .messages.charge(kListShare * static_cast<double>(messages.size() - 1), now);
   ApplyMessages job{{}, waiting.arrived};
   for (auto& message : messages) {
     waiting.answers.push_back(answer_to(message));
@@ -209,8 +210,8 @@ void SceneTopics::note_unstored(Waiting& waiting, std::string_view why) {
 }
 
 /// In its place among the others, so that who counts answers is not led astray.
-void SceneTopics::refuse_flood(std::string_view topic, std::string_view why, Time now,
-                               Actions& out, const SceneSender& sender) {
+void SceneTopics::refuse_flood(std::string_view topic, std::string_view why, Time now, Actions& out,
+                               const SceneSender& sender) {
   Gate& gate = gate_of(sender);
   if (!gate.refusals.take(now)) {
     ++gate.unanswered;
@@ -227,8 +228,8 @@ void SceneTopics::answer_ros2(const Waiting& waiting, Actions& out) {
   for (const SceneAnswer& answer : waiting.answers) {
     ++(answer.refusal ? of_ros2_.refused : of_ros2_.done);
     if (answer.refusal) of_ros2_.refusal = refusal_in_words(answer);
-    out.emplace_back(Reply{waiting.client, R"({"scene_feedback":)" + scene_feedback_text(answer) +
-                                               "}"});
+    out.emplace_back(
+        Reply{waiting.client, R"({"scene_feedback":)" + scene_feedback_text(answer) + "}"});
   }
 }
 

@@ -1,5 +1,5 @@
-// Messages of the planning scene, on the broker's topics or by drover-ros2, and their answers in the
-// order in which they came.
+// Messages of the planning scene, on the broker's topics or by drover-ros2, and their answers in
+// the order in which they came.
 //
 // A message is parsed, then followed by the scene's thread, then stored; only then it is answered.
 // What the disk does not take is answered with a note, and counts all the same. Pure, as outlets

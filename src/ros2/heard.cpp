@@ -82,13 +82,13 @@ Heard::Heard(dds_entity_t participant, const config::DroverConfig& config, Reach
     }
     // An object that is lost is not seen, and nobody says it again: reliable writers only.
     if (inputs.collision_object) {
-      objects_ = open(participant, collision_object_kind(), kSceneMessages,
-                      DDS_RELIABILITY_RELIABLE);
+      objects_ =
+          open(participant, collision_object_kind(), kSceneMessages, DDS_RELIABILITY_RELIABLE);
       scene_objects_.emplace(objects_, SceneInput::Kind::objects, one_clock);
     }
     if (inputs.planning_constraints) {
-      constraints_ = open(participant, planning_constraints_kind(), kSceneMessages,
-                          DDS_RELIABILITY_RELIABLE);
+      constraints_ =
+          open(participant, planning_constraints_kind(), kSceneMessages, DDS_RELIABILITY_RELIABLE);
       scene_constraints_.emplace(constraints_, SceneInput::Kind::constraints, one_clock);
     }
   } catch (...) {
@@ -131,8 +131,7 @@ void Heard::joint_commands(Time now, Duration wall,
     throw NoDomain("/joint_command cannot be read");
 }
 
-void Heard::scene_messages(Time now, Duration wall,
-                           const std::function<void(std::string)>& give) {
+void Heard::scene_messages(Time now, Duration wall, const std::function<void(std::string)>& give) {
   for (auto* input : {&scene_objects_, &scene_constraints_}) {
     if (!*input) continue;
     const auto taken = (*input)->take(now, wall, give);

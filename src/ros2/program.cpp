@@ -127,8 +127,7 @@ void Program::say_who_may() const {
       reach_ == Reach::network ? "whoever reaches these networks" : "programs on this computer";
   const Level level = reach_ == Reach::network ? Level::warning : Level::info;
   if (inputs.may_move() || inputs.e_stop) {
-    const std::string what =
-        !inputs.may_move() ? "stop" : inputs.e_stop ? "move and stop" : "move";
+    const std::string what = !inputs.may_move() ? "stop" : inputs.e_stop ? "move and stop" : "move";
     say(level, who + " may " + what + " this robot");
   }
   if (inputs.may_change_scene())

@@ -82,14 +82,13 @@ Placed placed(SceneText& out, const PoseOnTheWire& pose) {
   finite("orientation.z", turn.z_);
   finite("orientation.w", turn.w_);
   Placed placed{{at.x_, at.y_, at.z_}, {turn.w_, turn.x_, turn.y_, turn.z_}};
-  const double length =
-      std::hypot(std::hypot(turn.w_, turn.x_), std::hypot(turn.y_, turn.z_));
+  const double length = std::hypot(std::hypot(turn.w_, turn.x_), std::hypot(turn.y_, turn.z_));
   if (length == 0) {
     placed.turn = {};
   } else if (!(std::abs(length - 1) <= kMostError)) {
-    out.refuse("has the length " + text::number_text(length) +
-                   ": a quaternion's must be 1, within 0.001",
-               "orientation");
+    out.refuse(
+        "has the length " + text::number_text(length) + ": a quaternion's must be 1, within 0.001",
+        "orientation");
   } else {
     placed.turn = normalised(placed.turn);
   }
@@ -155,22 +154,21 @@ void meshes(SceneText& out, const Meshes& all) {
 template <class Planes>
 void planes(SceneText& out, const Planes& all) {
   out.list("planes", all._length, [&](std::size_t i) {
-    out.object([&] {
-      out.list("coef", 4, [&](std::size_t c) { out.number(all._buffer[i].coef_[c]); });
-    });
+    out.object(
+        [&] { out.list("coef", 4, [&](std::size_t c) { out.number(all._buffer[i].coef_[c]); }); });
   });
 }
 
 void shapes(SceneText& out, const moveit_msgs_msg_dds__CollisionObject_& message) {
   std::optional<Placed> about;
-  if (!is_no_move(message.pose_))
-    out.pathed("pose", [&] { about = placed(out, message.pose_); });
-  const std::size_t poses_told = message.primitive_poses_._length + message.mesh_poses_._length +
-                                 message.plane_poses_._length;
+  if (!is_no_move(message.pose_)) out.pathed("pose", [&] { about = placed(out, message.pose_); });
+  const std::size_t poses_told =
+      message.primitive_poses_._length + message.mesh_poses_._length + message.plane_poses_._length;
   if (message.operation_ == kMove && poses_told == 0)
-    out.refuse("there is none: MOVE needs a pose for each shape here, the object's own is not "
-               "enough. ADD replaces it as a whole",
-               "primitive_poses");
+    out.refuse(
+        "there is none: MOVE needs a pose for each shape here, the object's own is not "
+        "enough. ADD replaces it as a whole",
+        "primitive_poses");
   primitives(out, message.primitives_);
   poses(out, "primitive_poses", message.primitive_poses_, message.primitives_._length, about);
   meshes(out, message.meshes_);

@@ -21,6 +21,7 @@ struct SceneRefusal {
 /// (a MOVE by the object's pose alone); everything else is droverd's to judge.
 Result<std::string, SceneRefusal> read_collision_object(
     const moveit_msgs_msg_dds__CollisionObject_& message);
-Result<std::string, SceneRefusal> read_constraints(const moveit_msgs_msg_dds__Constraints_& message);
+Result<std::string, SceneRefusal> read_constraints(
+    const moveit_msgs_msg_dds__Constraints_& message);
 
 }  // namespace drover::ros2

@@ -37,8 +37,7 @@ SceneInput::Taken SceneInput::take(Time now, Duration wall,
                                    const std::function<void(std::string)>& give) {
   std::array<void*, kScenesAtOnce> samples{};
   std::array<dds_sample_info_t, kScenesAtOnce> infos{};
-  const auto taken =
-      dds_take(reader_, samples.data(), infos.data(), kScenesAtOnce, kScenesAtOnce);
+  const auto taken = dds_take(reader_, samples.data(), infos.data(), kScenesAtOnce, kScenesAtOnce);
   for (std::int32_t i = 0; i < taken; ++i) {
     if (!infos[i].valid_data) continue;
     if (pace_.take(now))

@@ -37,11 +37,11 @@ std::string scene_line(std::string_view topic, std::string_view name,
   if (!message) return refused(topic, name, message.error(), said);
   auto line = begun(topic, said).key("message").text(*message).close('}').take();
   if (line.size() <= kMostSceneLine) return line;
-  return refused(topic, name,
-                 {"", "it is " + std::to_string(line.size()) + " bytes long on the way to droverd, " +
-                          std::to_string(kMostSceneLine) +
-                          " are taken: send an object in parts, with APPEND"},
-                 said);
+  return refused(
+      topic, name,
+      {"", "it is " + std::to_string(line.size()) + " bytes long on the way to droverd, " +
+               std::to_string(kMostSceneLine) + " are taken: send an object in parts, with APPEND"},
+      said);
 }
 
 SceneAnswerTold read_scene_answer(std::string_view line) {

@@ -23,7 +23,7 @@ std::string scene_line(std::string_view topic, std::string_view name,
 struct SceneAnswerTold {
   bool is_answer = false;
   bool refused = false;
-  std::string words;
+  std::string words{};
 };
 SceneAnswerTold read_scene_answer(std::string_view line);
 
