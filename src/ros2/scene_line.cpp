@@ -8,10 +8,10 @@
 namespace drover::ros2 {
 namespace {
 
-constexpr std::size_t kShownOfAName = 100;
+constexpr std::size_t kShownOfAThing = 100;
 constexpr std::string_view kAnswer = R"({"scene_feedback":)";
 
-std::string text(const json::Node& from, std::string_view key) {
+std::string part_of(const json::Node& from, std::string_view key) {
   const auto* node = from.find(key);
   return node == nullptr || node->text() == nullptr ? std::string() : *node->text();
 }
@@ -26,7 +26,7 @@ json::JsonText begun(std::string_view topic, Time said) {
 std::string refused(std::string_view topic, std::string_view name, const SceneRefusal& refusal,
                     Time said) {
   auto line = begun(topic, said);
-  line.key("name").text(json::shown(name, kShownOfAName)).key("path").text(refusal.path);
+  line.key("name").text(json::shown(name, kShownOfAThing)).key("path").text(refusal.path);
   return line.key("refused").text(refusal.why).close('}').take();
 }
 
@@ -50,15 +50,15 @@ SceneAnswerTold read_scene_answer(std::string_view line) {
   const auto document = json::parse(line, {.max_depth = 4});
   if (!document) return told;
   const auto& answer = *document->root.find("scene_feedback");
-  told.refused = text(answer, "result") == "refused";
-  const std::string path = text(answer, "path");
-  std::string what = told.refused ? (path.empty() ? "" : path + ": ") + text(answer, "reason") : "";
+  told.refused = part_of(answer, "result") == "refused";
+  const std::string path = part_of(answer, "path");
+  std::string what = told.refused ? (path.empty() ? "" : path + ": ") + part_of(answer, "reason") : "";
   if (const auto* notes = answer.find("notes"); notes != nullptr && notes->list() != nullptr)
     for (const auto& note : *notes->list())
       if (note.text() != nullptr) what += (what.empty() ? "" : "; ") + *note.text();
   if (what.empty()) return told;
-  const std::string name = text(answer, "id") + text(answer, "name");  // it has one of them
-  told.words = "/" + text(answer, "topic") + (name.empty() ? "" : " '" + name + "'") +
+  const std::string name = part_of(answer, "id") + part_of(answer, "name");  // it has one of them
+  told.words = "/" + part_of(answer, "topic") + (name.empty() ? "" : " '" + name + "'") +
                (told.refused ? " refused: " : ": ") + what;
   return told;
 }

@@ -140,7 +140,10 @@ TEST_F(Ros2Scene, OfAFloodIsBoundedAndTakesNothingFromTheBroker) {
   for (int i = 0; i < 1000; ++i) tell(line(ball("a")));
   EXPECT_THAT(jobs_, SizeIs(200));
   follow();
-  store();
+  for (int i = 0; i < 3; ++i) {  // saves are one at a time
+    store();
+    pass(1s);
+  }
   const auto told = replies();
   EXPECT_THAT(told, SizeIs(220)) << "ten refusals a second, twenty at once";
   EXPECT_THAT(told.back(), HasSubstr("slow down: 100 messages a second are taken"));
