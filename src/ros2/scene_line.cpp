@@ -52,7 +52,8 @@ SceneAnswerTold read_scene_answer(std::string_view line) {
   const auto& answer = *document->root.find("scene_feedback");
   told.refused = part_of(answer, "result") == "refused";
   const std::string path = part_of(answer, "path");
-  std::string what = told.refused ? (path.empty() ? "" : path + ": ") + part_of(answer, "reason") : "";
+  std::string what =
+      told.refused ? (path.empty() ? "" : path + ": ") + part_of(answer, "reason") : "";
   if (const auto* notes = answer.find("notes"); notes != nullptr && notes->list() != nullptr)
     for (const auto& note : *notes->list())
       if (note.text() != nullptr) what += (what.empty() ? "" : "; ") + *note.text();

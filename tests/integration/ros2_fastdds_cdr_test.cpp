@@ -36,7 +36,8 @@ class Filler {
     for (auto& one : list) fill(one);
   }
   void fill(fast::SolidPrimitive& primitive) {
-    std::apply([this](auto&... part) { (fill(part), ...); }, fast::SolidPrimitive::parts(primitive));
+    std::apply([this](auto&... part) { (fill(part), ...); },
+               fast::SolidPrimitive::parts(primitive));
     primitive.dimensions.resize(std::min<std::size_t>(length_, 3));
   }
   template <class T, std::size_t kSize>
