@@ -4,6 +4,7 @@
 #include <dds/dds.h>
 // Behind it:
 #include <dds/ddsi/ddsi_serdata.h>
+#include <moveit_msgs.h>
 #include <unistd.h>
 
 #include <algorithm>

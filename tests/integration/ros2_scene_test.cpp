@@ -1,4 +1,8 @@
 // A ROS 2 user who puts things around the robot: moveit_msgs by DDS, the field robot with a scene.
+#include <moveit_msgs.h>
+
+#include <cmath>
+
 #include "integration/ros2_drive_rig.h"
 #include "ros2/arena.h"
 
@@ -87,6 +91,7 @@ TEST_F(SceneOfARos2User, IsNotDrivenIntoItsObject) {
   ASSERT_TRUE(drive()) << status();
   put_box(objects, "crate", "base_link", 1.2);
   EXPECT_TRUE(repeat_until([&] { say(0.3); }, 50ms, [this] { return at_rest(); })) << status();
+  EXPECT_THAT(status(), HasSubstr("'crate'")) << "what it stands before";
   EXPECT_TRUE(shows("crate")) << program_.output();
 }
 
