@@ -115,9 +115,7 @@ class Ours {
   }
   static geometry_msgs_msg_dds__Pose_ of(const fast::Pose& m) {
     geometry_msgs_msg_dds__Pose_ o{};
-    o.position_.x_ = m.position.x;
-    o.position_.y_ = m.position.y;
-    o.position_.z_ = m.position.z;
+    o.position_ = {m.position.x, m.position.y, m.position.z};
     o.orientation_ = of(m.orientation);
     return o;
   }
