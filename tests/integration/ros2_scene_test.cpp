@@ -91,7 +91,7 @@ TEST_F(SceneOfARos2User, IsNotDrivenIntoItsObject) {
   ASSERT_TRUE(drive()) << status();
   put_box(objects, "crate", "base_link", 1.2);
   EXPECT_TRUE(repeat_until([&] { say(0.3); }, 50ms, [this] { return at_rest(); })) << status();
-  EXPECT_THAT(status(), HasSubstr("'crate'")) << "what it stands before";
+  EXPECT_THAT(status(), HasSubstr("crate is in the way")) << "what it stands before";
   EXPECT_TRUE(shows("crate")) << program_.output();
 }
 
