@@ -194,6 +194,13 @@ void show_ros2(std::string& out, const Node& ros2) {
   if (at(ros2, "incompatible").number().value_or(0) > 0)
     value += quantity(at(ros2, "incompatible"), "  %.0f ASK FOR ANOTHER QUALITY");
   line(out, "ros2", value);
+  const Node& scene = at(ros2, "scene");
+  const double refused = at(scene, "refused").number().value_or(0);
+  if (refused + at(scene, "done").number().value_or(0) == 0) return;
+  value = quantity(at(scene, "done"), "%.0f done");
+  if (refused > 0)
+    value += quantity(at(scene, "refused"), "  %.0f refused, last ") + text(at(scene, "refusal"));
+  line(out, "ros2 scene", value);
 }
 
 void show_devices(std::string& out, const Node& status) {

@@ -92,6 +92,10 @@ void check_ros2(Findings& found) {
   if (ros2.mode == "network" && ros2.inputs.any() && !ros2.network_inputs)
     found.add("ros2.inputs", "would be open to whoever reaches the robot's networks",
               "\"mode\": \"localhost\"; or \"network_inputs\": true, if that is meant");
+  if (ros2.inputs.may_change_scene() && !found.config().scene.configured)
+    found.add(ros2.inputs.collision_object ? "ros2.inputs.collision_object"
+                                           : "ros2.inputs.planning_constraints",
+              "is open, and there is no scene that it could go to", "a section \"scene\"");
 }
 
 }  // namespace drover::config

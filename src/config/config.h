@@ -148,10 +148,13 @@ struct Ros2InputsConfig {
   bool e_stop = false;  ///< true on /e_stop is an emergency stop
   /// What comes on /cmd_vel: "closed", "twist" or "twist_stamped".
   std::string cmd_vel = "closed";
-  bool joint_command = false;  ///< what comes on /joint_command is followed
+  bool joint_command = false;         ///< what comes on /joint_command is followed
+  bool collision_object = false;      ///< what comes on /collision_object is in the scene
+  bool planning_constraints = false;  ///< likewise on /planning_constraints
 
   bool may_move() const { return cmd_vel != "closed" || joint_command; }
-  bool any() const { return e_stop || may_move(); }
+  bool may_change_scene() const { return collision_object || planning_constraints; }
+  bool any() const { return e_stop || may_move() || may_change_scene(); }
 };
 
 /// What drover-ros2 shows to ROS 2 users, and to whom.

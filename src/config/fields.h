@@ -270,6 +270,10 @@ void visit(V& v, Ros2InputsConfig& c) {
            "drive by /cmd_vel, and as what it comes: geometry_msgs/Twist or TwistStamped");
   v.flag("joint_command", c.joint_command,
          "follow joint commands on /joint_command (aimrt_msgs/JointCommandArray)");
+  v.flag("collision_object", c.collision_object,
+         "objects around the robot come on /collision_object (moveit_msgs/CollisionObject)");
+  v.flag("planning_constraints", c.planning_constraints,
+         "constraints come on /planning_constraints (moveit_msgs/Constraints)");
 }
 
 template <class V>

@@ -10,8 +10,8 @@ namespace drover::publish {
 namespace {
 
 constexpr std::size_t kMostText = 200;
-/// A joint command as JSON in a text of JSON.
-constexpr std::size_t kMostBytes = 2 * aimrt::kMaxCommandBytes + 2048;
+/// The longest line of the socket: a joint command or an object as JSON in a text of JSON.
+constexpr std::size_t kMostBytes = std::size_t{64} * 1024;
 
 std::int64_t count_of(const json::Node& request, std::string_view key) {
   const auto* node = request.find(key);
@@ -38,7 +38,9 @@ bool Ros2Outlet::on_line(ClientId client, std::string_view line, Time now, Actio
   const auto names = [line](std::string_view word) {
     return line.find(word) != std::string_view::npos;
   };
-  if (!names("ros2_follow") && !names("cmd_vel") && !names("joint_command")) return false;
+  if (!names("ros2_follow") && !names("cmd_vel") && !names("joint_command") &&
+      !names("scene_message"))
+    return false;
   const auto document =
       json::parse(line, {.max_bytes = kMostBytes, .max_depth = 2, .max_values = 8});
   if (!document) return false;
@@ -49,6 +51,8 @@ bool Ros2Outlet::on_line(ClientId client, std::string_view line, Time now, Actio
     cmd_vel(client, document->root, now, out);
   else if (cmd == "joint_command")
     joint_command(client, document->root, now, out);
+  else if (cmd == "scene_message")
+    scene_message(client, document->root, now, out);
   else
     return false;
   return true;
@@ -82,7 +86,7 @@ void Ros2Outlet::cmd_vel(ClientId client, const json::Node& request, Time now, A
     command.body = std::move(body);
     out.emplace_back(std::move(command));
   };
-  if (!may_drive_) return refuse("cmd_vel is not opened: ros2.inputs.cmd_vel");
+  if (!inputs_.cmd_vel) return refuse("cmd_vel is not opened: ros2.inputs.cmd_vel");
   if (client != client_ || !follows(now)) return refuse("only drover-ros2 hands cmd_vel on");
   if (!twists_.take(now)) {
     // The engine's ring is for others too: a stop must find room in it.
@@ -109,10 +113,10 @@ Result<aimrt::JointCommandHeard, Reason> Ros2Outlet::read_joint_command(const js
   const auto writer = text_member(request, "writer");
   const Time came{Duration{count_of(request, "at_ns")}};
   if (writer.empty() || came <= Time{}) return Reason("its writer or at_ns is missing");
-  if (now - came > joint_commands_->max_age()) {
+  if (now - came > inputs_.joint_commands->max_age()) {
     Reason late;
     late.format("it waited for %.0f ms on this computer, %.0f ms are allowed",
-                1e3 * to_s(now - came), 1e3 * to_s(joint_commands_->max_age()));
+                1e3 * to_s(now - came), 1e3 * to_s(inputs_.joint_commands->max_age()));
     return late;
   }
   auto message = aimrt::decode_joint_command_json(text_member(request, "message"));
@@ -127,12 +131,46 @@ void Ros2Outlet::joint_command(ClientId client, const json::Node& request, Time 
   const auto refuse = [&](std::string_view why) {
     out.emplace_back(Reply{client, reply_line(false, why)});
   };
-  if (joint_commands_ == nullptr)
+  if (inputs_.joint_commands == nullptr)
     return refuse("joint_command is not opened: ros2.inputs.joint_command");
   if (client != client_ || !follows(now)) return refuse("only drover-ros2 hands joint commands on");
-  joint_commands_->take(
+  inputs_.joint_commands->take(
       RequestId::Source::ros2, [&] { return read_joint_command(request, now); }, now,
       now.time_since_epoch() + wall_minus_monotonic_, out);
+}
+
+/// A message of MQTT's form, or why drover-ros2 could not make one. Answered as SceneTopics does.
+void Ros2Outlet::scene_message(ClientId client, const json::Node& request, Time now, Actions& out) {
+  const auto refuse = [&](std::string_view why) {
+    out.emplace_back(Reply{client, reply_line(false, why)});
+  };
+  const auto topic = text_member(request, "topic");
+  const bool is_object = topic == kTopicCollisionObject;
+  if (!is_object && topic != kTopicPlanningConstraints)
+    return refuse("topic is neither collision_object nor planning_constraints");
+  if (inputs_.scene == nullptr ||
+      !(is_object ? inputs_.collision_object : inputs_.planning_constraints))
+    return refuse(topic + " is not opened: ros2.inputs." + topic);
+  if (client != client_ || !follows(now)) return refuse("only drover-ros2 hands the scene on");
+  const Time said = std::min(now, Time{Duration{count_of(request, "at_ns")}});
+  if (said <= Time{}) return refuse("at_ns is missing");
+  SceneSender sender{client, said};
+  if (auto why = text_member(request, "refused"); !why.empty()) {
+    (void)inputs_.scene->on_refused(topic, json::shown(text_member(request, "name"), kMostText),
+                                    {text_member(request, "path"), std::move(why)}, now, out,
+                                    sender);
+    return;
+  }
+  Arrival arrival{Retain::no, {}, now.time_since_epoch() + wall_minus_monotonic_};
+  std::string late;
+  if (now - said > kOldestScene) {
+    sender.said = now;  // its stamp is judged by when it came
+    late = "it was said " + std::to_string((now - said) / std::chrono::milliseconds(1)) + " ms ago";
+    arrival.late = late;
+  }
+  const auto message = text_member(request, "message");
+  if (message.empty()) return refuse("message is missing");
+  (void)inputs_.scene->on_message(topic, message, arrival, now, out, sender);
 }
 
 void Ros2Outlet::count(DaemonStatus& status) const {

@@ -12,10 +12,20 @@
 #include "publish/aimrt/joint_commands.h"
 #include "publish/outlet.h"
 #include "publish/ros2/line.h"
+#include "publish/scene_topics.h"
 #include "publish/token_bucket.h"
 #include "scene/sensor/near_things.h"
 
 namespace drover::publish {
+
+/// What the configuration opens to ROS 2 users. What is pointed to outlives the outlet.
+struct Ros2Inputs {
+  bool cmd_vel = false;
+  aimrt::JointCommands* joint_commands = nullptr;
+  SceneTopics* scene = nullptr;
+  bool collision_object = false;
+  bool planning_constraints = false;
+};
 
 /// One follows at a time. Who is silent for kLease, hung or gone, is sent nothing any more, and
 /// makes way for the next.
@@ -24,14 +34,12 @@ class Ros2Outlet final : public Outlet {
   static constexpr Duration kLease = std::chrono::seconds(3);
   using Turns = std::function<std::vector<const scene::sensor::SeenTurn*>()>;
 
-  /// `turns`: the scanners' latest ones. `may_drive`: the configuration opens cmd_vel.
-  /// `joint_commands` outlives it; nullptr: the configuration does not open them.
-  Ros2Outlet(double rate_Hz, Turns turns, bool may_drive = false,
-             aimrt::JointCommands* joint_commands = nullptr)
-      : period_(from_s(1 / rate_Hz)),
-        turns_(std::move(turns)),
-        may_drive_(may_drive),
-        joint_commands_(joint_commands) {}
+  /// How old a message of the scene may be that says "now".
+  static constexpr Duration kOldestScene = std::chrono::milliseconds(300);
+
+  /// `turns`: the scanners' latest ones.
+  Ros2Outlet(double rate_Hz, Turns turns, const Ros2Inputs& inputs = {})
+      : period_(from_s(1 / rate_Hz)), turns_(std::move(turns)), inputs_(inputs) {}
 
   Duration period() const override { return period_; }
   bool needs_broker() const override { return false; }
@@ -44,14 +52,14 @@ class Ros2Outlet final : public Outlet {
   void follow(ClientId client, const json::Node& request, Time now, Actions& out);
   void cmd_vel(ClientId client, const json::Node& request, Time now, Actions& out);
   void joint_command(ClientId client, const json::Node& request, Time now, Actions& out);
+  void scene_message(ClientId client, const json::Node& request, Time now, Actions& out);
   Result<aimrt::JointCommandHeard, Reason> read_joint_command(const json::Node& request,
                                                               Time now) const;
   bool follows(Time now) const { return heard_ != kNever && now - heard_ <= kLease; }
 
   Duration period_;
   Turns turns_;
-  bool may_drive_;
-  aimrt::JointCommands* joint_commands_;
+  Ros2Inputs inputs_;
   Duration wall_minus_monotonic_{};  ///< as of late
   ClientId client_ = 0;
   Time heard_ = kNever;

@@ -99,6 +99,11 @@ std::string_view SceneOutlet::trouble(Time) const {
 
 void SceneOutlet::count(DaemonStatus& status) const {
   status.scene_messages_unanswered = topics_.unanswered();
+  const SceneCounts& of_ros2 = topics_.of_ros2();
+  status.ros2.scene_done = of_ros2.done;
+  status.ros2.scene_refused = of_ros2.refused;
+  status.ros2.scene_unanswered = of_ros2.unanswered;
+  status.ros2.scene_refusal = of_ros2.refusal;
 }
 
 }  // namespace drover::publish

@@ -31,6 +31,9 @@ class SceneOutlet final : public Outlet {
   std::string_view trouble(Time now) const override;
   void count(DaemonStatus& status) const override;
 
+  /// Of drover-ros2, as SceneTopics.
+  SceneTopics& topics() { return topics_; }
+
   // What the others answer.
   void on_reply(SceneReply reply, Time now, Actions& out);
   void on_text(SceneTextReply reply, Time now, Actions& out);

@@ -21,25 +21,30 @@ std::string_view our_topic(std::string_view topic) {
 
 }  // namespace
 
+SceneTopics::Gate SceneTopics::gate_with(const SceneTopicLimits& limits) {
+  return {{limits.max_messages_Hz, limits.message_burst},
+          {limits.max_refusals_Hz, limits.refusal_burst}};
+}
+
 SceneTopics::SceneTopics(bool configured, JobNumbers& numbers, SceneSaver& saver,
                          const SceneTopicLimits& limits)
     : configured_(configured),
       numbers_(numbers),
       saver_(saver),
       limits_(limits),
-      bucket_(limits.max_messages_Hz, limits.message_burst),
-      refusals_(limits.max_refusals_Hz, limits.refusal_burst) {}
+      gates_{gate_with(limits), gate_with(limits)} {}
 
 bool SceneTopics::on_message(std::string_view name, std::string_view payload,
-                             const Arrival& arrival, Time now, Actions& out) {
+                             const Arrival& arrival, Time now, Actions& out,
+                             const SceneSender& sender) {
   const auto topic = our_topic(name);
   if (topic.empty()) return false;
   if (payload.empty()) return true;  // how a retained message is taken back: nobody asks
-  if (const auto why = untimely(now); !why.empty()) {
-    refuse_flood(topic, why, now, out);
+  if (const auto why = untimely(now, sender); !why.empty()) {
+    refuse_flood(topic, why, now, out, sender);
     return true;
   }
-  Waiting& waiting = expect(topic, arrival, now);
+  Waiting& waiting = expect(topic, arrival, now, sender);
   const bool is_unread = arrival.retain != Retain::no || payload.size() > SceneLimits{}.max_bytes;
   const bool is_short = payload.size() <= kShortPayloadBytes && parsing_ == 0;
   if (!is_unread && !is_short) {
@@ -56,22 +61,41 @@ bool SceneTopics::on_message(std::string_view name, std::string_view payload,
   return true;
 }
 
+bool SceneTopics::on_refused(std::string_view name, std::string_view id, scene::Refusal refusal,
+                             Time now, Actions& out, const SceneSender& sender) {
+  const auto topic = our_topic(name);
+  if (topic.empty()) return false;
+  if (const auto why = untimely(now, sender); !why.empty()) {
+    refuse_flood(topic, why, now, out, sender);
+    return true;
+  }
+  Waiting& waiting = expect(topic, {}, now, sender);
+  refuse(waiting, std::move(refusal.path), std::move(refusal.why));
+  waiting.answers.front().name = id;
+  answer(out);
+  return true;
+}
+
 /// Empty: it may be looked at.
-std::string SceneTopics::untimely(Time now) {
+std::string SceneTopics::untimely(Time now, const SceneSender& sender) {
   if (!configured_) return std::string(kNoScene);
-  if (!bucket_.take(now))
-    return "slow down, or send them as a list: " + bucket_.in_words("messages");
+  auto& messages = gate_of(sender).messages;
+  if (!messages.take(now))
+    return std::string("slow down") + (sender.client == 0 ? ", or send them as a list: " : ": ") +
+           messages.in_words("messages");
   if (waiting_.size() >= limits_.max_waiting)
     return "slow down: " + std::to_string(limits_.max_waiting) + " messages wait already";
   return {};
 }
 
-SceneTopics::Waiting& SceneTopics::expect(std::string_view topic, const Arrival& arrival,
-                                          Time now) {
+SceneTopics::Waiting& SceneTopics::expect(std::string_view topic, const Arrival& arrival, Time now,
+                                          const SceneSender& sender) {
   Waiting& waiting = waiting_.emplace_back();
   waiting.number = numbers_.next();
+  waiting.client = sender.client;
   waiting.topic = topic;
-  waiting.arrived = {now, arrival.wall - now.time_since_epoch(), std::string(arrival.late)};
+  waiting.arrived = {sender.said == kNever ? now : sender.said,
+                     arrival.wall - now.time_since_epoch(), std::string(arrival.late)};
   return waiting;
 }
 
@@ -94,7 +118,8 @@ void SceneTopics::follow(Waiting& waiting, Result<SceneMessages<Message>, scene:
   auto& messages = read.value().messages;
   waiting.is_list = read->is_list;
   if (messages.size() > 1)
-    bucket_.charge(kListShare * static_cast<double>(messages.size() - 1), now);
+    gate_of({waiting.client})
+        .messages.charge(kListShare * static_cast<double>(messages.size() - 1), now);
   ApplyMessages job{{}, waiting.arrived};
   for (auto& message : messages) {
     waiting.answers.push_back(answer_to(message));
@@ -185,20 +210,36 @@ void SceneTopics::note_unstored(Waiting& waiting, std::string_view why) {
 }
 
 /// In its place among the others, so that who counts answers is not led astray.
-void SceneTopics::refuse_flood(std::string_view topic, std::string_view why, Time now,
-                               Actions& out) {
-  if (!refusals_.take(now)) {
-    ++unanswered_;
+void SceneTopics::refuse_flood(std::string_view topic, std::string_view why, Time now, Actions& out,
+                               const SceneSender& sender) {
+  Gate& gate = gate_of(sender);
+  if (!gate.refusals.take(now)) {
+    ++gate.unanswered;
+    if (sender.client != 0) ++of_ros2_.unanswered;
     return;
   }
-  Waiting& waiting = expect(topic, {}, now);
+  Waiting& waiting = expect(topic, {}, now, sender);
   refuse(waiting, "", std::string(why));
   answer(out);
+}
+
+/// One by one, as ROS 2 says them.
+void SceneTopics::answer_ros2(const Waiting& waiting, Actions& out) {
+  for (const SceneAnswer& answer : waiting.answers) {
+    ++(answer.refusal ? of_ros2_.refused : of_ros2_.done);
+    if (answer.refusal) of_ros2_.refusal = refusal_in_words(answer);
+    out.emplace_back(
+        Reply{waiting.client, R"({"scene_feedback":)" + scene_feedback_text(answer) + "}"});
+  }
 }
 
 void SceneTopics::answer(Actions& out) {
   for (; !waiting_.empty() && waiting_.front().complete; waiting_.pop_front()) {
     const Waiting& first = waiting_.front();
+    if (first.client != 0) {
+      answer_ros2(first, out);
+      continue;
+    }
     if (!first.is_list && first.answers.empty()) continue;
     out.emplace_back(PublishText{kTopicSceneFeedback,
                                  first.is_list ? scene_feedback_text(first.answers)

@@ -17,6 +17,8 @@ constexpr std::int32_t kDepth = 100;
 constexpr std::int32_t kTwists = 20;
 /// Of joint commands each counts: two programs may write 200 a second for groups of their own.
 constexpr std::int32_t kJointCommands = 50;
+/// Of the planning scene as many as droverd takes at once and more.
+constexpr std::int32_t kSceneMessages = 250;
 
 /// A thread of DDS' own: it only wakes the loop.
 void wake(dds_entity_t, void* came) {
@@ -95,6 +97,17 @@ Heard::Heard(dds_entity_t participant, const config::DroverConfig& config, Reach
       joints_ = open(participant, joint_command_kind(), kJointCommands);
       joint_commands_.emplace(joints_, limits_of(config), one_clock);
     }
+    // An object that is lost is not seen, and nobody says it again: reliable writers only.
+    if (inputs.collision_object) {
+      objects_ =
+          open(participant, collision_object_kind(), kSceneMessages, DDS_RELIABILITY_RELIABLE);
+      scene_objects_.emplace(objects_, SceneInput::Kind::objects, one_clock);
+    }
+    if (inputs.planning_constraints) {
+      constraints_ =
+          open(participant, planning_constraints_kind(), kSceneMessages, DDS_RELIABILITY_RELIABLE);
+      scene_constraints_.emplace(constraints_, SceneInput::Kind::constraints, one_clock);
+    }
   } catch (...) {
     close();
     throw;
@@ -107,7 +120,7 @@ Heard::~Heard() {
 
 /// Waits for the listeners, which write to a descriptor of this object.
 void Heard::close() {
-  for (const dds_entity_t reader : {stop_, sure_stop_, twists_, joints_})
+  for (const dds_entity_t reader : {stop_, sure_stop_, twists_, joints_, objects_, constraints_})
     if (reader > 0) dds_delete(reader);
 }
 
@@ -122,12 +135,32 @@ void Heard::add_unmet(Unmet& unmet) {
   if (stop_ > 0) add_unmet_writers(stop_, stop_kind().name + 3, unmet_stops_, unmet);
   if (twists_ > 0) add_unmet_writers(twists_, cmd_vel_kind(false).name + 3, unmet_twists_, unmet);
   if (joints_ > 0) add_unmet_writers(joints_, joint_command_kind().name + 3, unmet_joints_, unmet);
+  if (objects_ > 0)
+    add_unmet_writers(objects_, collision_object_kind().name + 3, unmet_objects_, unmet);
+  if (constraints_ > 0)
+    add_unmet_writers(constraints_, planning_constraints_kind().name + 3, unmet_constraints_,
+                      unmet);
 }
 
 void Heard::joint_commands(Time now, Duration wall,
                            const std::function<void(const std::string&)>& send) {
   if (joint_commands_ && !joint_commands_->take(now, wall, send))
     throw NoDomain("/joint_command cannot be read");
+}
+
+void Heard::scene_messages(Time now, Duration wall, const std::function<void(std::string)>& give) {
+  for (auto* input : {&scene_objects_, &scene_constraints_}) {
+    if (!*input) continue;
+    const auto taken = (*input)->take(now, wall, give);
+    if (taken == SceneInput::Taken::failed)
+      throw NoDomain("the planning scene's messages cannot be read");
+    if (taken == SceneInput::Taken::some) wake(0, &fd_);  // after a look for stops
+  }
+}
+
+std::uint64_t Heard::scene_passed_over() const {
+  return (scene_objects_ ? scene_objects_->passed_over() : 0) +
+         (scene_constraints_ ? scene_constraints_->passed_over() : 0);
 }
 
 bool Heard::stop_asked() {

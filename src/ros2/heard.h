@@ -8,6 +8,7 @@
 #include "ros2/cmd_vel.h"
 #include "ros2/domain.h"
 #include "ros2/joint_command_input.h"
+#include "ros2/scene_input.h"
 #include "ros2/topics.h"
 #include "ros2/unmet.h"
 
@@ -32,10 +33,14 @@ class Heard final {
   TwistsHeard twists(Time now, Duration wall);
   /// Lines of joint commands for droverd, likewise.
   void joint_commands(Time now, Duration wall, const std::function<void(const std::string&)>& send);
+  /// Lines of the planning scene, likewise.
+  void scene_messages(Time now, Duration wall, const std::function<void(std::string)>& give);
+  /// Of a flood of these: not looked at.
+  std::uint64_t scene_passed_over() const;
 
  private:
   void close();
-  /// Best effort matches both kinds of writers.
+  /// Best effort matches both kinds of writers; of reliable ones nothing is lost.
   dds_entity_t open(dds_entity_t participant, const TopicKind& kind, std::int32_t depth,
                     dds_reliability_kind_t reliability = DDS_RELIABILITY_BEST_EFFORT);
 
@@ -46,11 +51,17 @@ class Heard final {
   dds_entity_t sure_stop_ = 0;
   dds_entity_t twists_ = 0;
   dds_entity_t joints_ = 0;
+  dds_entity_t objects_ = 0;
+  dds_entity_t constraints_ = 0;
   std::optional<CmdVel> cmd_vel_;
   std::optional<JointCommandInput> joint_commands_;
+  std::optional<SceneInput> scene_objects_;
+  std::optional<SceneInput> scene_constraints_;
   std::uint32_t unmet_stops_ = 0;
   std::uint32_t unmet_twists_ = 0;
   std::uint32_t unmet_joints_ = 0;
+  std::uint32_t unmet_objects_ = 0;
+  std::uint32_t unmet_constraints_ = 0;
 };
 
 }  // namespace drover::ros2

@@ -48,13 +48,17 @@ void Program::run(const std::atomic<bool>& stop) {
     const Time next = std::min(next_beat_, asked_.due().value_or(next_beat_));
     const auto left = std::max(std::chrono::ceil<std::chrono::milliseconds>(next - now), 0ms);
     // A descriptor of -1 is passed over.
-    std::array<pollfd, 2> ready{{{link_.fd(), POLLIN, 0}, {users_ ? users_->fd() : -1, POLLIN, 0}}};
+    const short link_events = scene_.waits() && follows_ ? POLLIN | POLLOUT : POLLIN;
+    std::array<pollfd, 2> ready{
+        {{link_.fd(), link_events, 0}, {users_ ? users_->fd() : -1, POLLIN, 0}}};
     const int count = ::poll(ready.data(), ready.size(), static_cast<int>(left.count()));
     if (count > 0 && ready[1].revents != 0) hear_users(runtime::monotonic_now());
     tell_asked(runtime::monotonic_now());
     if (count <= 0) continue;
     if (ready[0].revents != 0 && link_.connected())
       link_.hear([this](std::string_view line) { take(line); });
+    if ((ready[0].revents & POLLOUT) != 0)
+      scene_.send([this](const std::string& line) { return link_.send(line); });
   }
 }
 
@@ -63,11 +67,13 @@ void Program::beat(Time now) {
   connect(now);
   tell_users();
   tell_droverd();
+  scene_.beat(users_ ? users_->scene_passed_over() : 0);
 }
 
 void Program::connect(Time now) {
   if (link_.connected()) return;
   link_.keep(now);
+  follows_ = false;
   if (link_.connected()) connected_ = now;
 }
 
@@ -117,11 +123,15 @@ void Program::lose_domain(const std::string& why, Time now) {
 void Program::say_who_may() const {
   const auto& inputs = config_.ros2.inputs;
   if (!inputs.any()) return;
-  const std::string what = !inputs.may_move() ? "stop" : inputs.e_stop ? "move and stop" : "move";
-  const bool all = reach_ == Reach::network;
-  say(all ? Level::warning : Level::info,
-      std::string(all ? "whoever reaches these networks" : "programs on this computer") + " may " +
-          what + " this robot");
+  const std::string who =
+      reach_ == Reach::network ? "whoever reaches these networks" : "programs on this computer";
+  const Level level = reach_ == Reach::network ? Level::warning : Level::info;
+  if (inputs.may_move() || inputs.e_stop) {
+    const std::string what = !inputs.may_move() ? "stop" : inputs.e_stop ? "move and stop" : "move";
+    say(level, who + " may " + what + " this robot");
+  }
+  if (inputs.may_change_scene())
+    say(level, who + " may put things around this robot, and take them away");
 }
 
 void Program::forget_domain() {
@@ -137,6 +147,8 @@ void Program::hear_users(Time now) {
     asked_.hear(users_->twists(now, now.time_since_epoch() + runtime::wall_minus_monotonic()), now);
     users_->joint_commands(now, now.time_since_epoch() + runtime::wall_minus_monotonic(),
                            [this](const std::string& line) { (void)link_.send(line); });
+    users_->scene_messages(now, now.time_since_epoch() + runtime::wall_minus_monotonic(),
+                           [this](std::string line) { scene_.give(std::move(line)); });
   } catch (const NoDomain& error) {
     lose_domain(error.what(), now);
   }
@@ -161,6 +173,7 @@ void Program::tell_asked(Time now) {
 }
 
 void Program::take(std::string_view line) {
+  if (scene_.answered(line, runtime::monotonic_now())) return;
   const auto told = read_told(line);
   if (!told) {
     if (!told.error().reason.empty()) refusal_ = told.error().reason;
@@ -178,7 +191,8 @@ void Program::take(std::string_view line) {
       readers_.unmet.count > 0 ? "some programs want another quality of service" : "all is well",
       {{"readers", std::to_string(readers_.matched)},
        {"incompatible", std::to_string(readers_.unmet.count)},
-       {"not_sent", std::to_string(shown_->failed())}}};
+       {"not_sent", std::to_string(shown_->failed())},
+       {"scene_messages_lost", std::to_string(scene_.lost())}}};
   all.push_back(std::move(own));
   shown_->show_diagnostics(told->at_ns, all);
 }
@@ -212,7 +226,7 @@ void Program::tell_droverd() {
   line.open('{').key("cmd").text("ros2_follow").key("mode").text(config_.ros2.mode);
   line.key("reason").text(problem_).key("readers").integer(readers_.matched);
   line.key("incompatible").integer(readers_.unmet.count).close('}');
-  (void)link_.send(line.take());  // the next beat says it again
+  follows_ = link_.send(line.take());  // the next beat says it again
 }
 
 }  // namespace drover::ros2

@@ -13,6 +13,7 @@
 #include "ros2/domain.h"
 #include "ros2/heard.h"
 #include "ros2/robot.h"
+#include "ros2/scene_relay.h"
 #include "ros2/shown.h"
 
 namespace drover::ros2 {
@@ -56,6 +57,8 @@ class Program final {
   Time heard_ = kNever;  ///< droverd's last line
   Time next_beat_ = kNever;
   AskedFor asked_;
+  SceneRelay scene_;
+  bool follows_ = false;      ///< droverd was asked by this connection
   Time stopped_ = kNever;     ///< the journal was told last that users asked for a stop
   bool stop_waited_ = false;  ///< and that it could not be told to droverd
 };

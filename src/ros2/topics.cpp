@@ -1,5 +1,7 @@
 #include "ros2/topics.h"
 
+#include <moveit_msgs.h>
+
 namespace drover::ros2 {
 
 const std::array<TopicKind, kTopicCount>& topic_kinds() {
@@ -51,6 +53,18 @@ const TopicKind& cmd_vel_kind(bool stamped) {
 const TopicKind& joint_command_kind() {
   static const TopicKind kind{"rt/joint_command", &aimrt_msgs_msg_dds__JointCommandArray__desc,
                               "b54f1627593fe732147b3b50e8bea84cc65db662367463cf776d86e0fa133769"};
+  return kind;
+}
+
+const TopicKind& collision_object_kind() {
+  static const TopicKind kind{"rt/collision_object", &moveit_msgs_msg_dds__CollisionObject__desc,
+                              "74b0acd6d56be032bf4f764b2c2633f50588b5fb2bd71e97206c59052747cf7e"};
+  return kind;
+}
+
+const TopicKind& planning_constraints_kind() {
+  static const TopicKind kind{"rt/planning_constraints", &moveit_msgs_msg_dds__Constraints__desc,
+                              "71718200459ae8fecdc4f2c9631215f7eba5ff686c701a32e231ba8b11b3592b"};
   return kind;
 }
 

@@ -52,6 +52,10 @@ const TopicKind& cmd_vel_kind(bool stamped);
 /// aimrt_msgs/JointCommandArray, likewise.
 const TopicKind& joint_command_kind();
 
+/// moveit_msgs/CollisionObject and Constraints, likewise.
+const TopicKind& collision_object_kind();
+const TopicKind& planning_constraints_kind();
+
 /// What ROS 2 of Iron and later reads of an endpoint: "typehash=RIHS01_...;".
 std::string hash_user_data(const char* hash);
 

@@ -110,8 +110,10 @@ PublishLoop::PublishLoop(const config::DroverConfig& config, ControlExchange& co
             turns.push_back(&scanner->exchange.shown_turn.latest());
           return turns;
         },
-        config.ros2.inputs.cmd_vel != "closed",
-        config.ros2.inputs.joint_command ? &joint_commands_ : nullptr));
+        publish::Ros2Inputs{config.ros2.inputs.cmd_vel != "closed",
+                            config.ros2.inputs.joint_command ? &joint_commands_ : nullptr,
+                            &scene_outlet_->topics(), config.ros2.inputs.collision_object,
+                            config.ros2.inputs.planning_constraints}));
   for (auto& outlet : make_outlets(config, service_, joint_commands_,
                                    [this](Time now) { return status_text(now); }))
     add(std::move(outlet));

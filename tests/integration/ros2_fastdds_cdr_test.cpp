@@ -4,8 +4,10 @@
 #include <dds/dds.h>
 // Behind it:
 #include <dds/ddsi/ddsi_serdata.h>
+#include <moveit_msgs.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "integration/ros2_fastdds_bytes.h"
@@ -34,8 +36,13 @@ class Filler {
     list.resize(length_);
     for (auto& one : list) fill(one);
   }
-  template <std::size_t kSize>
-  void fill(std::array<double, kSize>& list) {
+  void fill(fast::SolidPrimitive& primitive) {
+    std::apply([this](auto&... part) { (fill(part), ...); },
+               fast::SolidPrimitive::parts(primitive));
+    primitive.dimensions.resize(std::min<std::size_t>(length_, 3));
+  }
+  template <class T, std::size_t kSize>
+  void fill(std::array<T, kSize>& list) {
     for (auto& one : list) fill(one);
   }
   void fill(std::string& text) {
@@ -106,12 +113,15 @@ class Ours {
     o.w_ = m.w;
     return o;
   }
+  static geometry_msgs_msg_dds__Pose_ of(const fast::Pose& m) {
+    geometry_msgs_msg_dds__Pose_ o{};
+    o.position_ = {m.position.x, m.position.y, m.position.z};
+    o.orientation_ = of(m.orientation);
+    return o;
+  }
   static geometry_msgs_msg_dds__PoseWithCovariance_ of(const fast::PoseWithCovariance& m) {
     geometry_msgs_msg_dds__PoseWithCovariance_ o{};
-    o.pose_.position_.x_ = m.pose.position.x;
-    o.pose_.position_.y_ = m.pose.position.y;
-    o.pose_.position_.z_ = m.pose.position.z;
-    o.pose_.orientation_ = of(m.pose.orientation);
+    o.pose_ = of(m.pose);
     copy(o.covariance_, m.covariance);
     return o;
   }
@@ -275,6 +285,114 @@ class Ours {
     list(o.states_, m.states);
     return o;
   }
+  geometry_msgs_msg_dds__PoseStamped_ of(const fast::PoseStamped& m) {
+    geometry_msgs_msg_dds__PoseStamped_ o{};
+    o.header_ = of(m.header);
+    o.pose_ = of(m.pose);
+    return o;
+  }
+  shape_msgs_msg_dds__SolidPrimitive_ of(const fast::SolidPrimitive& m) {
+    shape_msgs_msg_dds__SolidPrimitive_ o{};
+    o.type_ = m.type;
+    list(o.dimensions_, m.dimensions);
+    o.dimensions_._maximum = 3;
+    auto* point = arena_.fill(o.polygon_.points_, m.polygon.points.size());
+    for (const auto& from : m.polygon.points) {
+      point->x_ = from.x;
+      point->y_ = from.y;
+      (point++)->z_ = from.z;
+    }
+    return o;
+  }
+  shape_msgs_msg_dds__Mesh_ of(const fast::Mesh& m) {
+    shape_msgs_msg_dds__Mesh_ o{};
+    auto* triangle = arena_.fill(o.triangles_, m.triangles.size());
+    for (const auto& from : m.triangles) copy((triangle++)->vertex_indices_, from.vertex_indices);
+    auto* vertex = arena_.fill(o.vertices_, m.vertices.size());
+    for (const auto& from : m.vertices) {
+      vertex->x_ = from.x;
+      vertex->y_ = from.y;
+      (vertex++)->z_ = from.z;
+    }
+    return o;
+  }
+  static shape_msgs_msg_dds__Plane_ of(const fast::Plane& m) {
+    shape_msgs_msg_dds__Plane_ o{};
+    copy(o.coef_, m.coef);
+    return o;
+  }
+  moveit_msgs_msg_dds__CollisionObject_ of(const fast::CollisionObject& m) {
+    moveit_msgs_msg_dds__CollisionObject_ o{};
+    o.header_ = of(m.header);
+    o.pose_ = of(m.pose);
+    o.id_ = of(m.id);
+    o.type_.key_ = of(m.type.key);
+    o.type_.db_ = of(m.type.db);
+    list(o.primitives_, m.primitives);
+    list(o.primitive_poses_, m.primitive_poses);
+    list(o.meshes_, m.meshes);
+    list(o.mesh_poses_, m.mesh_poses);
+    list(o.planes_, m.planes);
+    list(o.plane_poses_, m.plane_poses);
+    list(o.subframe_names_, m.subframe_names);
+    list(o.subframe_poses_, m.subframe_poses);
+    o.operation_ = m.operation;
+    return o;
+  }
+  moveit_msgs_msg_dds__JointConstraint_ of(const fast::JointConstraint& m) {
+    moveit_msgs_msg_dds__JointConstraint_ o{};
+    o.joint_name_ = of(m.joint_name);
+    o.position_ = m.position;
+    o.tolerance_above_ = m.tolerance_above;
+    o.tolerance_below_ = m.tolerance_below;
+    o.weight_ = m.weight;
+    return o;
+  }
+  moveit_msgs_msg_dds__PositionConstraint_ of(const fast::PositionConstraint& m) {
+    moveit_msgs_msg_dds__PositionConstraint_ o{};
+    o.header_ = of(m.header);
+    o.link_name_ = of(m.link_name);
+    o.target_point_offset_ = of(m.target_point_offset);
+    list(o.constraint_region_.primitives_, m.constraint_region.primitives);
+    list(o.constraint_region_.primitive_poses_, m.constraint_region.primitive_poses);
+    list(o.constraint_region_.meshes_, m.constraint_region.meshes);
+    list(o.constraint_region_.mesh_poses_, m.constraint_region.mesh_poses);
+    o.weight_ = m.weight;
+    return o;
+  }
+  moveit_msgs_msg_dds__OrientationConstraint_ of(const fast::OrientationConstraint& m) {
+    moveit_msgs_msg_dds__OrientationConstraint_ o{};
+    o.header_ = of(m.header);
+    o.orientation_ = of(m.orientation);
+    o.link_name_ = of(m.link_name);
+    o.absolute_x_axis_tolerance_ = m.absolute_x_axis_tolerance;
+    o.absolute_y_axis_tolerance_ = m.absolute_y_axis_tolerance;
+    o.absolute_z_axis_tolerance_ = m.absolute_z_axis_tolerance;
+    o.parameterization_ = m.parameterization;
+    o.weight_ = m.weight;
+    return o;
+  }
+  moveit_msgs_msg_dds__VisibilityConstraint_ of(const fast::VisibilityConstraint& m) {
+    moveit_msgs_msg_dds__VisibilityConstraint_ o{};
+    o.target_radius_ = m.target_radius;
+    o.target_pose_ = of(m.target_pose);
+    o.cone_sides_ = m.cone_sides;
+    o.sensor_pose_ = of(m.sensor_pose);
+    o.max_view_angle_ = m.max_view_angle;
+    o.max_range_angle_ = m.max_range_angle;
+    o.sensor_view_direction_ = m.sensor_view_direction;
+    o.weight_ = m.weight;
+    return o;
+  }
+  moveit_msgs_msg_dds__Constraints_ of(const fast::Constraints& m) {
+    moveit_msgs_msg_dds__Constraints_ o{};
+    o.name_ = of(m.name);
+    list(o.joint_constraints_, m.joint_constraints);
+    list(o.position_constraints_, m.position_constraints);
+    list(o.orientation_constraints_, m.orientation_constraints);
+    list(o.visibility_constraints_, m.visibility_constraints);
+    return o;
+  }
 
  private:
   ros2::Arena arena_;
@@ -373,6 +491,8 @@ TEST_F(Cdr, OfEachTypeIsThatOfFastCdr) {
   expect_equal<fast::Bool>(ros2::stop_kind());
   expect_equal<fast::Twist>(ros2::cmd_vel_kind(false));
   expect_equal<fast::TwistStamped>(ros2::cmd_vel_kind(true));
+  expect_equal<fast::CollisionObject>(ros2::collision_object_kind());
+  expect_equal<fast::Constraints>(ros2::planning_constraints_kind());
 }
 
 }  // namespace

@@ -337,6 +337,37 @@ TEST_F(FastDdsMayStop, StopsTheRobotByTrueAndDoesNothingByFalse) {
   }
 }
 
+class FastDdsMayChangeTheScene : public FastDds {
+ protected:
+  FastDdsMayChangeTheScene()
+      : FastDds(R"(, "inputs": {"collision_object": true, "planning_constraints": true})") {}
+};
+
+TEST_F(FastDdsMayChangeTheScene, PutsObjectsAndConstraintsIntoIt) {
+  ASSERT_NO_FATAL_FAILURE(start_all());
+  const auto is_told = [this](std::string_view text) {
+    return last_scene_line_.find(text) != std::string::npos;
+  };
+  const auto objects = user_->writer<fast::CollisionObject>("rt/collision_object", {});
+  fast::CollisionObject crate;
+  crate.header.frame_id = "map";
+  crate.pose.position = {3, 0, 0};
+  crate.id = "crate";
+  crate.primitives = {{1, {0.5, 0.25, 2}, {}}};
+  ASSERT_TRUE(play_until([&] { return objects->readers() > 0; })) << log();
+  EXPECT_TRUE(say_until<fast::CollisionObject>(*objects, crate, [&] { return is_told("crate"); }))
+      << log();
+  EXPECT_TRUE(is_told(R"(\"dimensions\":[0.5,0.25,2])")) << last_scene_line_;
+  EXPECT_TRUE(is_told(R"(\"position\":{\"x\":3,)")) << last_scene_line_;
+  const auto sets = user_->writer<fast::Constraints>("rt/planning_constraints", {});
+  fast::Constraints row;
+  row.name = "row";
+  row.joint_constraints = {{"base/y", 1.5, 0.5, 0.25, 1}};
+  ASSERT_TRUE(play_until([&] { return sets->readers() > 0; })) << log();
+  EXPECT_TRUE(say_until<fast::Constraints>(*sets, row, [&] { return is_told("base/y"); })) << log();
+  EXPECT_TRUE(is_told(R"(\"tolerance_below\":0.25)")) << last_scene_line_;
+}
+
 template <class M>
 class FastDdsMayDrive : public FastDds {
  protected:

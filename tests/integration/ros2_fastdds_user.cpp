@@ -266,6 +266,8 @@ std::optional<M> from_cdr(const Bytes& bytes) {
   template std::optional<M> from_cdr(const Bytes&)
 DROVER_FAST_TYPE(BatteryState);
 DROVER_FAST_TYPE(Bool);
+DROVER_FAST_TYPE(CollisionObject);
+DROVER_FAST_TYPE(Constraints);
 DROVER_FAST_TYPE(DiagnosticArray);
 DROVER_FAST_TYPE(Imu);
 DROVER_FAST_TYPE(JointState);

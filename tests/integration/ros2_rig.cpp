@@ -54,7 +54,8 @@ void Ros2Rig::start_program() {
 
 void Ros2Rig::open_daemon() {
   outlet_ = std::make_unique<publish::Ros2Outlet>(
-      50, [this] { return std::vector<const scene::sensor::SeenTurn*>{&turn_}; }, true);
+      50, [this] { return std::vector<const scene::sensor::SeenTurn*>{&turn_}; },
+      publish::Ros2Inputs{.cmd_vel = true});
   const auto path = folder_ / "drover.sock";
   std::filesystem::remove(path);
   listener_ = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
@@ -90,6 +91,7 @@ void Ros2Rig::hear() {
       continue;
     }
     if (line.find("ros2_follow") != std::string::npos) last_request_ = line;
+    if (line.find("scene_message") != std::string::npos) last_scene_line_ = line;
     publish::Actions out;
     EXPECT_TRUE(outlet_->on_line(kClient, line, seen_.time, out)) << line;
     for (const auto& action : out)

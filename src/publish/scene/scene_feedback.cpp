@@ -59,6 +59,14 @@ SceneAnswer answer_to(std::string_view topic, scene::Refusal refusal) {
   return out;
 }
 
+std::string refusal_in_words(const SceneAnswer& answer) {
+  constexpr std::size_t kMostBytes = 300;
+  std::string words(answer.topic);
+  if (!answer.name.empty()) words += " '" + answer.name + "'";
+  if (!answer.refusal->path.empty()) words += ": " + json::shown(answer.refusal->path, kMostBytes);
+  return words + ": " + json::shown(answer.refusal->why, kMostBytes);
+}
+
 std::string scene_feedback_text(const SceneAnswer& answer) {
   json::JsonText out;
   scene_json::write_answer(out, answer);

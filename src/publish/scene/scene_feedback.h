@@ -30,6 +30,9 @@ SceneAnswer answer_to(const SceneMessage<scene::Constraints>& message);
 /// To a payload of which no message could be read.
 SceneAnswer answer_to(std::string_view topic, scene::Refusal refusal);
 
+/// Of one that is refused: "collision_object 'box1': primitives: why".
+std::string refusal_in_words(const SceneAnswer& answer);
+
 /// One object, or a list of them in the order of what is answered.
 std::string scene_feedback_text(const SceneAnswer& answer);
 std::string scene_feedback_text(std::span<const SceneAnswer> answers);

@@ -108,6 +108,11 @@ void daemon_part(JsonText& out, const Snapshot& s, const DaemonStatus& daemon) {
     out.key("reason").text(daemon.ros2.reason);
     out.key("readers").integer(daemon.ros2.readers);
     out.key("incompatible").integer(daemon.ros2.incompatible);
+    out.key("scene").open('{');
+    count(out, "done", daemon.ros2.scene_done);
+    count(out, "refused", daemon.ros2.scene_refused);
+    count(out, "unanswered", daemon.ros2.scene_unanswered);
+    out.key("refusal").text(daemon.ros2.scene_refusal).close('}');
     out.close('}');
   }
   out.key("storage").open('{');

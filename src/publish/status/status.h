@@ -17,6 +17,11 @@ struct Ros2Status {
   std::string reason;             ///< what is wrong with it; empty: nothing
   std::int64_t readers = 0;       ///< of its topics
   std::int64_t incompatible = 0;  ///< readers or writers that ask for another quality of service
+  // Messages of the planning scene by ROS 2 users:
+  std::uint64_t scene_done = 0;
+  std::uint64_t scene_refused = 0;
+  std::uint64_t scene_unanswered = 0;  ///< of a flood: neither
+  std::string scene_refusal;           ///< the last one, in words
 };
 
 /// What the snapshot does not know.

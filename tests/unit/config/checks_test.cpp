@@ -259,6 +259,17 @@ TEST(ConfigurationChecks, RefuseInputsOfANetworkUnlessThatIsSaid) {
             std::string::npos);
 }
 
+TEST(ConfigurationChecks, OpenTheSceneToRos2UsersWhereThereIsOne) {
+  const auto text = [](const std::string& members) {
+    return with("1883}", "1883},\n  \"ros2\": {\"inputs\": {" + members + "}}");
+  };
+  for (const std::string input : {"collision_object", "planning_constraints"}) {
+    EXPECT_NE(problems(text("\"" + input + "\": true")).find("ros2.inputs." + input),
+              std::string::npos);
+    EXPECT_EQ(problems(text("\"" + input + "\": false")), "");
+  }
+}
+
 TEST(ConfigurationChecks, ResolveNamesToNumbers) {
   const auto loaded = load_text(kGood);
   const auto& engine = loaded.config.engine;

@@ -58,7 +58,7 @@ class Ros2Joints : public testing::Test {
   static std::vector<const scene::sensor::SeenTurn*> no_turns() { return {}; }
   Time now_{100s};
   aimrt::JointCommands commands_{config()};
-  Ros2Outlet open_{50, no_turns, false, &commands_};
+  Ros2Outlet open_{50, no_turns, {.joint_commands = &commands_}};
   Ros2Outlet closed_{50, no_turns};
   JointTargets followed_;
 };

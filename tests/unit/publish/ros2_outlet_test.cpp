@@ -121,7 +121,8 @@ class Ros2Twists : public Ros2 {
     Actions out;
     EXPECT_TRUE(open_.on_line(7, kFollow, kNow, out));
   }
-  Ros2Outlet open_{50, [] { return std::vector<const scene::sensor::SeenTurn*>(); }, true};
+  Ros2Outlet open_{
+      50, [] { return std::vector<const scene::sensor::SeenTurn*>(); }, {.cmd_vel = true}};
 };
 
 TEST_F(Ros2Twists, GoToTheEngineWithTheInstantAtWhichTheyCame) {

@@ -39,6 +39,12 @@ class SceneOutletTest : public testing::Test {
     EXPECT_TRUE(outlet_->on_line(7, line, now_, actions_)) << line;
     sort_out();
   }
+  /// What another outlet does; its actions are sorted out with the scene's.
+  template <class Do>
+  void act(Do what) {
+    what(actions_);
+    sort_out();
+  }
   void pass(Duration time) {
     now_ += time;
     (void)outlet_->on_snapshot({}, {now_, kWall}, actions_);

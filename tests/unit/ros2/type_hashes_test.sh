@@ -16,6 +16,11 @@ description() {
       if (match(type, /^sequence<.*>$/)) {
         base = substr(type, 10, length(type) - 10)
         offset = 144
+        if (match(base, /,[0-9]+$/)) {
+          capacity = substr(base, RSTART + 1)
+          base = substr(base, 1, RSTART - 1)
+          offset = 96
+        }
       }
       if (match(name, /\[[0-9]+\]$/)) {
         capacity = substr(name, RSTART + 1, RLENGTH - 2)
@@ -32,6 +37,7 @@ description() {
       }
       # Of octets the one that ROS calls byte.
       if (owner == "diagnostic_msgs/msg/DiagnosticStatus" && name == "level") base = "byte"
+      if (owner == "moveit_msgs/msg/CollisionObject" && name == "operation") base = "byte"
       return sprintf("{\"name\": \"%s\", \"type\": {\"type_id\": %d, \"capacity\": %d, " \
                      "\"string_capacity\": 0, \"nested_type_name\": \"%s\"}}",
                      name, id[base] + offset, capacity, nested)
@@ -96,6 +102,8 @@ published() {
       echo e369d0f05a23ae52508854b66f6aa0437f3449d652e8cbf22d5abe85d020f087 ;;
     geometry_msgs/Twist)
       echo 9c45bf16fe0983d80e3cfe750d6835843d265a9a6c46bd2e609fcddde6fb8d2a ;;
+    geometry_msgs/PoseStamped)
+      echo 10f3786d7d40fd2b54367835614bff85d4ad3b5dab62bf8bca0cc232d73b4cd8 ;;
     geometry_msgs/TwistStamped)
       echo 5f0fcd4f81d5d06ad9b4c4c63e3ea51b82d6ae4d0558f1d475229b1121db6f64 ;;
   esac
@@ -108,7 +116,7 @@ judge() {
 
 for type in sensor_msgs/Imu sensor_msgs/JointState sensor_msgs/NavSatFix sensor_msgs/BatteryState \
   sensor_msgs/LaserScan nav_msgs/Odometry tf2_msgs/TFMessage geometry_msgs/Twist \
-  geometry_msgs/TwistStamped; do
+  geometry_msgs/TwistStamped geometry_msgs/PoseStamped; do
   judge "$type is hashed as ROS 2 does" "$(computed "$type")" "$(published "$type")"
 done
 # Each type that a topic has: "&sensor_msgs_msg_dds__Imu__desc," and its hash.
