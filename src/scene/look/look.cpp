@@ -147,8 +147,8 @@ void look_along(const Bodies& bodies, const LookSettings& settings, const Standp
   found.first.clear();
   if (!end.way.blocked) return;
   const double turned_rad = wrap_rad(end.way.pose.yaw_rad - from.pose.yaw_rad);
-  if (is_in_first_turn(from.twist, end.way.free_m))
-    found.first = in_turn_words(bodies, end, std::abs(turned_rad), from.twist.wz_radps > 0);
+  if (const double turn = in_first_turn(from.twist, track, end.way.free_m); turn != 0)
+    found.first = in_turn_words(bodies, end, std::abs(turned_rad), turn > 0);
   else
     found.first = in_words(bodies, end, "along the track");
 }
@@ -196,8 +196,13 @@ double looked_around_rad(bool left, std::span<const Step> track) {
   return sign * (turn_rad > 0 ? std::min(turn_rad + kTurnsOver_rad, kPi) : kPi);
 }
 
-bool is_in_first_turn(const Twist& twist, double free_m) {
-  return is_turn(twist) && free_m < kHere_m;
+double in_first_turn(const Twist& twist, std::span<const Step> track, double free_m) {
+  if (free_m >= kHere_m) return 0;
+  if (is_turn(twist)) return twist.wz_radps;
+  for (std::size_t i = 1; i < track.size() && track[i - 1].driven_m <= free_m; ++i)
+    if (track[i - 1].driven_m == free_m && track[i].driven_m == free_m)
+      return first_turn_rad(track);
+  return 0;
 }
 
 bool shorten(double& way, double& bare, double free) {

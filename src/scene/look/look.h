@@ -65,8 +65,9 @@ inline Clearance look(const Surroundings& around, const LookSettings& settings,
   return look(around, settings, from, track_way(settings, from));
 }
 
-/// What ends a track so near, while the robot turns, is in the way of the turn and not ahead.
-bool is_in_first_turn(const Twist& twist, double free_m);
+/// What ends a track so near, while the robot turns or comes to its corner, is in the way of the
+/// turn and not ahead: which way it turns, 0 when it is ahead.
+double in_first_turn(const Twist& twist, std::span<const Step> track, double free_m);
 
 /// Along the curve of a twist, at rest straight on: ahead, or the same curve back.
 std::vector<Step> curve_steps(const Pose2& from, const Twist& twist, bool back, double length_m,

@@ -58,9 +58,8 @@ void bound_track(Clearance& found, std::span<const Step> track, const EdgesToKee
   const auto edge =
       end_at_edge(found.along_m, found.bare.along_m, track, edges, &Edge::driven_m, margin_m);
   if (!edge) return;
-  if (is_in_first_turn(found.twist, edge->driven_m))
-    found.first = found.turn =
-        edge_in_turn(edge->which, edge->turned_rad, found.twist.wz_radps > 0);
+  if (const double turn = in_first_turn(found.twist, track, edge->driven_m); turn != 0)
+    found.first = found.turn = edge_in_turn(edge->which, edge->turned_rad, turn > 0);
   else
     found.first = edge_ahead(edge->which, "along the track", edge->driven_m);
 }

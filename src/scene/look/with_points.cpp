@@ -44,8 +44,8 @@ class NearPoints final {
   void bound_track(Clearance& found) const {
     const FreeWay way = first_contact(field_, slim_, track_);
     if (!way.blocked || !shorten(found.along_m, found.bare.along_m, way.free_m)) return;
-    if (is_in_first_turn(found.twist, way.free_m))
-      tell_turn(way, found.twist.wz_radps > 0, found);
+    if (const double turn = in_first_turn(found.twist, track_, way.free_m); turn != 0)
+      tell_turn(way, turn > 0, found);
     else
       found.first.format("%s something, %.2f m along the track", field_.name(way.object).c_str(),
                          way.free_m);

@@ -210,6 +210,25 @@ TEST_F(WithPoints, ATrackThatTurnsIntoSomethingEndsInThatTurn) {
   EXPECT_THAT(text(all.first), HasSubstr("in the way of the turn to the left"));
 }
 
+/// A corner 3 cm ahead, to which the robot still creeps.
+TEST_F(WithPoints, ATurnThatTheRobotComesToIsToldAsThatTurn) {
+  see(0.43, 0.5);
+  found.path = 3;
+  found.twist = {0.05, 0};
+  track = {{{0, 0, 0}, 0, 0}, {{0.03, 0, 0}, 0.03, 0}};
+  for (Step step : pivot_steps({0.03, 0, 0}, to_rad(80))) {
+    step.driven_m = 0.03;
+    track.push_back(step);
+  }
+  const Clearance all = result();
+  EXPECT_NEAR(all.along_m, 0.03, 1e-6);
+  EXPECT_THAT(text(all.first), HasSubstr("in the way of the turn to the left"));
+  // What stands right before it is ahead of the robot, corner or not.
+  points.clear();
+  see(0.57, 0);
+  EXPECT_THAT(text(result().first), HasSubstr("m along the track"));
+}
+
 TEST_F(WithPoints, ATwistThatIsNoNumberIsLeftToOthers) {
   see(0, 0.55);
   found.twist = {NAN, 0};
