@@ -9,8 +9,8 @@ patch_file=arch/x86/um/user-offsets.c
 patch_old='DEFINE_LONGS(HOST_FP_SIZE, 2696);'
 patch_new='DEFINE_LONGS(HOST_FP_SIZE, 12288);'
 
-# Makes it faster; a kernel without it serves as well.
-speed_patch=$lab_dir/floating_point.patch
+# Make it faster; a kernel without them serves as well.
+speed_patches=("$lab_dir"/{clock,floating_point}.patch)
 
 need_packages() {
   echo "sim/lab: this is missing; install it with" >&2
@@ -45,7 +45,7 @@ source_id() { stat -c '%n %s %Y' "$source_tar"; }
 ensure_kernel() {
   local config_key source_key
   config_key=$({
-    cat "$lab_dir/kernel.config" "$speed_patch"
+    cat "$lab_dir/kernel.config" "${speed_patches[@]}"
     echo "$patch_file$patch_old$patch_new"
   } | sha256sum)
   config_key=${config_key:0:12}
@@ -143,11 +143,14 @@ apply_patch() {
   grep -qF "$patch_old" $patch_file ||
     build_failed "patching (\"$patch_old\" is not in $patch_file of this source)"
   sed -i "s/$patch_old/$patch_new/" $patch_file
-  if patch -p1 -s --dry-run < "$speed_patch" >> "$log" 2>&1; then
-    patch -p1 -s < "$speed_patch"
-  else
-    say "${speed_patch##*/} does not fit this source: the lab will be slower"
-  fi
+  local speed_patch
+  for speed_patch in "${speed_patches[@]}"; do
+    if patch -p1 -s --dry-run < "$speed_patch" >> "$log" 2>&1; then
+      patch -p1 -s < "$speed_patch"
+    else
+      say "${speed_patch##*/} does not fit this source: the lab will be slower"
+    fi
+  done
 }
 
 configure() {

@@ -116,6 +116,28 @@ sleeps_in_virtual_time() {
     equal "${start_ns:0:9}" 176722560 && [[ $((SECONDS - wall_before)) -lt 60 ]]
 }
 
+# bash reads its clock without entering the kernel, date in a process of its own.
+shows_one_clock() {
+  equal "$("$lab" -- bash -c 'date -s @2000000000 > /dev/null; sleep 5; echo $EPOCHSECONDS; date +%s
+      sleep 0.25; b=${EPOCHREALTIME/./}; sleep 0.5; echo $(((${EPOCHREALTIME/./} - b) / 1000))')" \
+    $'2000000005\n2000000005\n500'
+}
+
+# A wait by looking: read -t 0 asks select.
+moves_the_clock_at_each_look() {
+  # shellcheck disable=SC2016
+  "$lab" --timeout 60 -- bash -c 'a=$EPOCHREALTIME; while [[ $EPOCHREALTIME == "$a" ]]; do
+    read -t 0 || :; done'
+}
+
+# Or a program that is built in another way, and makes other calls, goes through other times.
+takes_no_time_for_other_calls() {
+  # shellcheck disable=SC2016
+  equal "$("$lab" --timeout 60 -- bash -c 'printf . > /dev/null; a=$EPOCHREALTIME
+      for i in {1..100}; do printf . > /dev/null; umask 022; done
+      [[ $EPOCHREALTIME == "$a" ]] && echo none')" none
+}
+
 passes_can_frames() {
   equal "$("$lab" -- sh -c 'candump -n 2 can0 & p=$!; sleep 0.1
       cansend can0 123#11223344; cansend can0 1F334455#; wait $p')" \
@@ -269,6 +291,9 @@ check "exports the seed" exports_the_seed
 check "runs in the caller's folder" runs_in_the_callers_folder
 check "cannot write to the host" cannot_write_to_the_host
 check "sleeps in virtual time" sleeps_in_virtual_time
+check "shows one clock, also after it was set" shows_one_clock
+check "moves the clock whenever a program looks for input" moves_the_clock_at_each_look
+check "takes no time for other calls" takes_no_time_for_other_calls
 check "passes CAN frames" passes_can_frames
 check "passes CAN FD frames" passes_can_fd_frames
 check "makes no CAN when told" makes_no_can_when_told
