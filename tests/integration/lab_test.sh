@@ -300,7 +300,8 @@ check "makes no CAN when told" makes_no_can_when_told
 check "shows GPIO edges" shows_gpio_edges
 check "repeats itself to the byte" repeats_itself_to_the_byte
 check "keeps logs" keeps_logs
-check "gives the guard CAN sockets that hear nothing, and a way to an interface that was down" guards_real_can_interfaces
+check "gives the guard CAN sockets that hear nothing, and a way to what was down" \
+  guards_real_can_interfaces
 check "reaches a broker inside from the host" reaches_a_broker_inside
 check "lets a visitor in" lets_a_visitor_in
 check "lets several visitors in" lets_several_visitors_in
