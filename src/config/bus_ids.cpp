@@ -41,13 +41,13 @@ std::string hex(std::uint32_t id, bool extended) {
 
 /// The option that is this id, or else the one that its ids follow from.
 std::string path_of_id(const DeviceConfig& device, std::uint32_t id) {
-  const auto* const entry = find_driver(device.driver);
-  for (const auto& spec : entry->options)
-    if (spec.integer && device.options.number(spec.name) == id)
-      return device_path(device, "options." + std::string(spec.name));
-  for (const char* const key : {"node", "id"})
-    if (device.options.has(key)) return device_path(device, std::string("options.") + key);
-  return device_path(device);
+  std::string path = device_path(device);
+  for (const char* const key : {"master_id", "id", "node"}) {
+    if (!device.options.has(key)) continue;
+    path = device_path(device, std::string("options.") + key);
+    if (device.options.number(key) == id) break;
+  }
+  return path;
 }
 
 }  // namespace

@@ -142,7 +142,7 @@ void StopSet::inherit(StopSet& held) {
     for (auto& old : held.links_) {
       if (!is_same_line(link, old)) continue;
       const auto empty = link;
-      link = std::exchange(old, empty);  // with what it wrote in part
+      link = std::exchange(old, empty);
       break;
     }
   }

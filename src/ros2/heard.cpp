@@ -2,6 +2,7 @@
 
 #include <sys/eventfd.h>
 
+#include <algorithm>
 #include <array>
 #include <string>
 
@@ -26,10 +27,18 @@ void wake(dds_entity_t, void* came) {
   (void)!::write(*static_cast<const int*>(came), &one, sizeof one);
 }
 
+/// Of what comes on /e_stop only this is kept: nothing that follows a stop can push it out.
+bool is_stop(const void* sample, void*) {
+  return static_cast<const std_msgs_msg_dds__Bool_*>(sample)->data_;
+}
+
 dds_entity_t make_reader(dds_entity_t participant, const TopicKind& kind, std::int32_t depth,
                          dds_reliability_kind_t reliability) {
+  // Each reader has a topic entity of its own, and so a filter.
   const dds_entity_t topic = dds_create_topic(participant, kind.type, kind.name, nullptr, nullptr);
   if (topic < 0) return topic;
+  if (&kind == &stop_kind())
+    if (const auto set = dds_set_topic_filter_and_arg(topic, is_stop, nullptr); set < 0) return set;
   dds_qos_t* qos = dds_create_qos();
   dds_qset_reliability(qos, reliability, 0);
   dds_qset_durability(qos, DDS_DURABILITY_VOLATILE);
@@ -41,19 +50,20 @@ dds_entity_t make_reader(dds_entity_t participant, const TopicKind& kind, std::i
   return reader;
 }
 
-/// Takes all that came; whether one of it is true.
-bool takes_true(dds_entity_t reader) {
-  bool is_true = false;
+enum class Stop : std::uint8_t { no, asked, failed };
+
+/// Takes all that came.
+Stop take_stops(dds_entity_t reader) {
+  if (reader <= 0) return Stop::no;
   std::array<void*, kDepth> samples{};
   std::array<dds_sample_info_t, kDepth> infos{};
   const auto taken = dds_take(reader, samples.data(), infos.data(), kDepth, kDepth);
-  if (taken < 0) throw NoDomain(std::string("/e_stop cannot be read: ") + dds_strretcode(taken));
-  for (std::int32_t i = 0; i < taken; ++i) {
-    const auto* sample = static_cast<const std_msgs_msg_dds__Bool_*>(samples[i]);
-    is_true = is_true || (infos[i].valid_data && sample->data_);
-  }
+  if (taken < 0) return Stop::failed;
+  bool asked = false;
+  for (std::int32_t i = 0; i < taken; ++i)
+    asked = asked || (infos[i].valid_data && is_stop(samples[i], nullptr));
   if (taken > 0) dds_return_loan(reader, samples.data(), taken);
-  return is_true;
+  return asked ? Stop::asked : Stop::no;
 }
 
 JointCommandLimits limits_of(const config::DroverConfig& config) {
@@ -166,10 +176,14 @@ std::uint64_t Heard::scene_passed_over() const {
 bool Heard::stop_asked() {
   std::uint64_t count = 0;
   (void)!::read(came_.get(), &count, sizeof count);
-  bool asked = false;
-  for (const dds_entity_t reader : {stop_, sure_stop_})
-    if (reader > 0 && takes_true(reader)) asked = true;
-  return asked;
+  const std::array<Stop, 2> found{take_stops(stop_), take_stops(sure_stop_)};
+  const auto has = [&found](Stop what) {
+    return std::find(found.begin(), found.end(), what) != found.end();
+  };
+  // What one of them heard is not lost because the other one failed, which fails again.
+  if (has(Stop::asked)) return true;
+  if (has(Stop::failed)) throw NoDomain("/e_stop cannot be read");
+  return false;
 }
 
 }  // namespace drover::ros2

@@ -52,12 +52,14 @@ void Program::run(const std::atomic<bool>& stop) {
     std::array<pollfd, 2> ready{
         {{link_.fd(), link_events, 0}, {users_ ? users_->fd() : -1, POLLIN, 0}}};
     const int count = ::poll(ready.data(), ready.size(), static_cast<int>(left.count()));
+    // Who hung says first that it is there: what a stranger hands on is not looked at.
+    if (runtime::monotonic_now() >= next_beat_) continue;
     if (count > 0 && ready[1].revents != 0) hear_users(runtime::monotonic_now());
     tell_asked(runtime::monotonic_now());
     if (count <= 0) continue;
     if (ready[0].revents != 0 && link_.connected())
       link_.hear([this](std::string_view line) { take(line); });
-    if ((ready[0].revents & POLLOUT) != 0)
+    if ((ready[0].revents & POLLOUT) != 0 && follows_ && link_.connected())
       scene_.send([this](const std::string& line) { return link_.send(line); });
   }
 }
@@ -72,8 +74,9 @@ void Program::beat(Time now) {
 
 void Program::connect(Time now) {
   if (link_.connected()) return;
-  link_.keep(now);
   follows_ = false;
+  scene_.way_lost();
+  link_.keep(now);
   if (link_.connected()) connected_ = now;
 }
 
@@ -84,6 +87,7 @@ void Program::keep_domain(Time now) {
     // Twice the same: it is not just coming up.
     if (there == other_networks_) {
       say(Level::info, "the networks have changed: " + joined(there));
+      if (users_) hear_users(now);  // a stop that came
       forget_domain();
       retry_.try_now();
     }
@@ -176,10 +180,14 @@ void Program::take(std::string_view line) {
   if (scene_.answered(line, runtime::monotonic_now())) return;
   const auto told = read_told(line);
   if (!told) {
-    if (!told.error().reason.empty()) refusal_ = told.error().reason;
+    if (!told.error().reason.empty()) {
+      refusal_ = told.error().reason;
+      follows_ = false;
+    }
     return;
   }
   refusal_.clear();
+  follows_ = true;
   heard_ = runtime::monotonic_now();
   if (!shown_) return;
   shown_->show(*told);
@@ -226,7 +234,7 @@ void Program::tell_droverd() {
   line.open('{').key("cmd").text("ros2_follow").key("mode").text(config_.ros2.mode);
   line.key("reason").text(problem_).key("readers").integer(readers_.matched);
   line.key("incompatible").integer(readers_.unmet.count).close('}');
-  follows_ = link_.send(line.take());  // the next beat says it again
+  (void)link_.send(line.take());  // the next beat says it again
 }
 
 }  // namespace drover::ros2

@@ -58,7 +58,7 @@ class Program final {
   Time next_beat_ = kNever;
   AskedFor asked_;
   SceneRelay scene_;
-  bool follows_ = false;      ///< droverd was asked by this connection
+  bool follows_ = false;      ///< droverd tells the robot's state to this connection
   Time stopped_ = kNever;     ///< the journal was told last that users asked for a stop
   bool stop_waited_ = false;  ///< and that it could not be told to droverd
 };

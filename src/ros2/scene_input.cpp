@@ -23,7 +23,8 @@ std::string_view name_in(const char* name) {
 std::string SceneInput::line_of(const void* sample, const dds_sample_info_t& info, Time now,
                                 Duration wall) const {
   const Duration age = one_clock_ ? wall - Duration{info.source_timestamp} : Duration{};
-  const Time said = now - std::max(age, Duration{});
+  // A stamp before this computer's start, or none, is as old as can be told.
+  const Time said = std::max(now - std::max(age, Duration{}), Time{Duration{1}});
   if (kind_ == Kind::objects) {
     const auto& object = *static_cast<const moveit_msgs_msg_dds__CollisionObject_*>(sample);
     return scene_line("collision_object", name_in(object.id_), read_collision_object(object), said);

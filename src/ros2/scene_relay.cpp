@@ -12,11 +12,16 @@ void SceneRelay::give(std::string line) {
 
 /// What has not left is not said again: a part of it may have, and the way is made anew.
 void SceneRelay::send(const std::function<bool(const std::string&)>& send) {
-  if (!lines_.empty() && !send(lines_.pop())) ++lost_;
+  if (!lines_.empty()) ++(send(lines_.pop()) ? under_way_ : lost_);
+}
+
+void SceneRelay::way_lost() {
+  lost_ += std::exchange(under_way_, 0);
 }
 
 bool SceneRelay::answered(std::string_view line, Time now) {
   const auto told = read_scene_answer(line);
+  if (told.is_answer && under_way_ > 0) --under_way_;
   if (!told.words.empty() && journal_.take(now))
     say(told.refused ? Level::warning : Level::info, told.words);
   return told.is_answer;

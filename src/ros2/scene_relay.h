@@ -17,11 +17,13 @@ class SceneRelay final {
   /// Kept while droverd is away, too: it says how old a message may be.
   void give(std::string line);
   bool waits() const { return !lines_.empty(); }
-  /// The next one, when there is room for it on the way.
+  /// The next one, when there is room for it on the way, and droverd has told that it listens.
   void send(const std::function<bool(const std::string&)>& send);
   /// True: it was an answer to one of them. The journal has what was refused or taken otherwise
   /// than it was written: ten at once and one a second.
   bool answered(std::string_view line, Time now);
+  /// The way is lost: what was not answered yet is, too.
+  void way_lost();
   /// Once a second, with how many were not even looked at since the domain was made.
   void beat(std::uint64_t passed_over);
   /// Neither followed nor refused by droverd.
@@ -29,6 +31,7 @@ class SceneRelay final {
 
  private:
   SceneLines lines_;
+  std::uint64_t under_way_ = 0;  ///< sent, and not answered
   publish::TokenBucket journal_{1, 10};
   std::uint64_t lost_ = 0;
   std::uint64_t lost_said_ = 0;

@@ -206,7 +206,6 @@ void LinkKeeper::try_open(std::size_t slot, Time now) {
   auto handover = open(slot, problem);
   if (!handover.opened()) return failed(slot, problem, now);
   slots_[slot].open = true;
-  slots_[slot].problem.clear();
   slots_[slot].guard_lacks.clear();
   if (is_guarded(slot)) guard_set_changed_ = true;
   opened_.push_back(std::move(handover));
@@ -229,6 +228,7 @@ void LinkKeeper::hand_on(Time now) {
       failed(slot, "the control thread is busy", now);
       continue;
     }
+    slots_[slot].problem.clear();
     const bool levels = slot != kOutputsSlot && wiring_.links[slot].wire == Wire::levels;
     const auto name = slot == kOutputsSlot ? "gpio " + config_.outputs.chip + " (outputs)"
                       : levels             ? "gpio " + settings_of(slot).gpio

@@ -232,6 +232,23 @@ struct JointStateArray {
   std::vector<AimrtJoint> joints;
   static auto parts(auto& m) { return std::tie(m.header, m.joints); }
 };
+struct AimrtJointCommand {
+  std::string name;
+  double position = 0;
+  double velocity = 0;
+  double effort = 0;
+  double stiffness = 0;
+  double damping = 0;
+  static auto parts(auto& m) {
+    return std::tie(m.name, m.position, m.velocity, m.effort, m.stiffness, m.damping);
+  }
+};
+struct JointCommandArray {
+  static constexpr const char* kType = "aimrt_msgs::msg::dds_::JointCommandArray_";
+  MessageHeader header;
+  std::vector<AimrtJointCommand> joints;
+  static auto parts(auto& m) { return std::tie(m.header, m.joints); }
+};
 struct TouchSensorState {
   std::vector<std::int16_t> pressure;
   static auto parts(auto& m) { return std::tie(m.pressure); }

@@ -337,6 +337,29 @@ TEST_F(FastDdsMayStop, StopsTheRobotByTrueAndDoesNothingByFalse) {
   }
 }
 
+class FastDdsMayMoveJoints : public FastDds {
+ protected:
+  FastDdsMayMoveJoints() : FastDds(R"(, "inputs": {"joint_command": true})") {}
+};
+
+TEST_F(FastDdsMayMoveJoints, TellsThemWhereToGo) {
+  ASSERT_NO_FATAL_FAILURE(start_all());
+  for (const bool reliable : {true, false}) {
+    SCOPED_TRACE(reliable ? "reliable" : "best effort");
+    last_joint_line_.clear();
+    const auto writer =
+        user_->writer<fast::JointCommandArray>("rt/joint_command", {.reliable = reliable});
+    fast::JointCommandArray message;
+    message.joints = {{"left", 0.5, 1.5, -2.5, 40, 0.25}};
+    EXPECT_TRUE(say_until<fast::JointCommandArray>(*writer, message, [&] {
+      return last_joint_line_.find("left") != std::string::npos;
+    })) << log();
+    for (const char* part : {R"(\"velocity\":1.5)", R"(\"position\":0.5)", R"(\"effort\":-2.5)",
+                             R"(\"stiffness\":40)", R"(\"damping\":0.25)"})
+      EXPECT_THAT(last_joint_line_, HasSubstr(part));
+  }
+}
+
 class FastDdsMayChangeTheScene : public FastDds {
  protected:
   FastDdsMayChangeTheScene()

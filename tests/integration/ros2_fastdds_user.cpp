@@ -270,6 +270,7 @@ DROVER_FAST_TYPE(CollisionObject);
 DROVER_FAST_TYPE(Constraints);
 DROVER_FAST_TYPE(DiagnosticArray);
 DROVER_FAST_TYPE(Imu);
+DROVER_FAST_TYPE(JointCommandArray);
 DROVER_FAST_TYPE(JointState);
 DROVER_FAST_TYPE(JointStateArray);
 DROVER_FAST_TYPE(LaserScan);

@@ -91,6 +91,7 @@ void Ros2Rig::hear() {
       continue;
     }
     if (line.find("ros2_follow") != std::string::npos) last_request_ = line;
+    if (line.find(R"("cmd":"joint_command")") != std::string::npos) last_joint_line_ = line;
     if (line.find("scene_message") != std::string::npos) last_scene_line_ = line;
     publish::Actions out;
     EXPECT_TRUE(outlet_->on_line(kClient, line, seen_.time, out)) << line;

@@ -64,6 +64,7 @@ class Ros2Rig : public ::testing::Test {
   Snapshot seen_;                  ///< what droverd sees, at its own time
   std::string last_request_;       ///< of drover-ros2, to follow
   std::string last_scene_line_;    ///< likewise, of the planning scene
+  std::string last_joint_line_;    ///< likewise a joint command
   int stops_ = 0;                  ///< that it asked for
   std::vector<Command> commands_;  ///< that it handed on, as droverd understands them
   Process program_;

@@ -74,6 +74,23 @@ TEST_F(SceneOfARos2User, HasItsObjectsAndRefusesByField) {
   EXPECT_EQ(matched.current_count, 0U);
 }
 
+TEST_F(SceneOfARos2User, KeepsWhatIsSaidOnceWhileItsProgramIsNotFollowedYet) {
+  ASSERT_NO_FATAL_FAILURE(start_robot(ros2::collision_object_kind()));
+  const auto met = [this] {
+    dds_publication_matched_status_t matched{};
+    (void)dds_get_publication_matched_status(writer_, &matched);
+    return matched.total_count;
+  };
+  const auto before = met();
+  program_.signal(SIGKILL);
+  (void)program_.wait(5s);
+  start_program();
+  ASSERT_TRUE(wait_until([&] { return met() > before; })) << program_.output();
+  // droverd keeps to the one before it for three seconds.
+  put_box(writer_, "crate", "map", 3);
+  EXPECT_TRUE(wait_until([this] { return shows("crate"); })) << program_.output() << state();
+}
+
 TEST_F(SceneOfARos2User, IsNotDrivenIntoItsObject) {
   ASSERT_NO_FATAL_FAILURE(start_robot(ros2::cmd_vel_kind(false)));
   const dds_entity_t objects = writer(ros2::collision_object_kind());

@@ -167,6 +167,27 @@ TEST_F(Ros2Stop, StopsByWhatFoundNoRoomWhileItHung) {
   EXPECT_TRUE(play_until([&] { return stops_ > before; })) << log();
 }
 
+TEST_F(Ros2Stop, IsNotPushedOutByWhatFollowsIt) {
+  open_daemon();
+  start_program();
+  const dds_entity_t writer = stop_writer(DDS_RELIABILITY_RELIABLE);
+  ASSERT_TRUE(is_heard(writer, [this] { play_for(100ms); })) << log();
+  std_msgs_msg_dds__Bool_ message{true};
+  ASSERT_TRUE(play_until([&] {
+    dds_write(writer, &message);
+    return stops_ > 0;
+  })) << log();
+  play_for(1s);
+  const int before = stops_;
+
+  program_.signal(SIGSTOP);
+  dds_write(writer, &message);
+  message.data_ = false;
+  for (int i = 0; i < 500; ++i) dds_write(writer, &message);
+  program_.signal(SIGCONT);
+  EXPECT_TRUE(play_until([&] { return stops_ > before; })) << log();
+}
+
 TEST_F(Ros2, HearsNoStopUnlessThatIsOpened) {
   open_daemon();
   start_program();
