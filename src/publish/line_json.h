@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "json/json_text.h"
-#include "json/located_json.h"
+#include "json/members.h"
 
 namespace drover::publish {
 
@@ -18,17 +18,8 @@ inline std::string reply_line(bool ok, std::string_view text) {
   return reply.key(ok ? "note" : "reason").text(text).close('}').take();
 }
 
-/// A member that is a text; empty where there is none.
-inline std::string text_member(const json::Node& request, std::string_view key) {
-  const auto* node = request.find(key);
-  return node != nullptr && node->text() != nullptr ? *node->text() : std::string();
-}
-
-/// A member that is true.
-inline bool flag_member(const json::Node& request, std::string_view key) {
-  const auto* node = request.find(key);
-  return node != nullptr && node->boolean() != nullptr && *node->boolean();
-}
+using json::flag_member;
+using json::text_member;
 
 /// A member; null what is not known.
 inline void number_or_null(json::JsonText& out, std::string_view name, std::optional<double> value,

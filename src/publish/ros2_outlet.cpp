@@ -23,6 +23,12 @@ std::optional<double> twist_number(const json::Node& request, std::string_view k
   return node == nullptr ? std::nullopt : node->number();
 }
 
+auto refuser(ClientId client, Actions& out) {
+  return [client, &out](std::string_view why) {
+    out.emplace_back(Reply{client, reply_line(false, why)});
+  };
+}
+
 }  // namespace
 
 std::vector<OutMessage> Ros2Outlet::on_snapshot(const Snapshot& seen, const Moment& moment,
@@ -59,15 +65,9 @@ bool Ros2Outlet::on_line(ClientId client, std::string_view line, Time now, Actio
 }
 
 void Ros2Outlet::follow(ClientId client, const json::Node& request, Time now, Actions& out) {
-  if (!requests_.take(now)) {
-    out.emplace_back(
-        Reply{client, reply_line(false, "slow down: " + requests_.in_words("requests"))});
-    return;
-  }
-  if (client != client_ && follows(now)) {
-    out.emplace_back(Reply{client, reply_line(false, "another drover-ros2 shows this robot")});
-    return;
-  }
+  const auto refuse = refuser(client, out);
+  if (!requests_.take(now)) return refuse("slow down: " + requests_.in_words("requests"));
+  if (client != client_ && follows(now)) return refuse("another drover-ros2 shows this robot");
   if (client != client_) told_ = {};
   client_ = client;
   heard_ = now;
@@ -78,16 +78,14 @@ void Ros2Outlet::follow(ClientId client, const json::Node& request, Time now, Ac
 }
 
 void Ros2Outlet::cmd_vel(ClientId client, const json::Node& request, Time now, Actions& out) {
-  const auto refuse = [&](std::string_view why) {
-    out.emplace_back(Reply{client, reply_line(false, why)});
-  };
+  const auto refuse = refuser(client, out);
   const auto give = [&](Time received, auto body) {
     Command command{{RequestId::Source::ros2, ++twist_number_}, received, {}};
     command.body = std::move(body);
     out.emplace_back(std::move(command));
   };
   if (!inputs_.cmd_vel) return refuse("cmd_vel is not opened: ros2.inputs.cmd_vel");
-  if (client != client_ || !follows(now)) return refuse("only drover-ros2 hands cmd_vel on");
+  if (!hands_on(client, now)) return refuse("only drover-ros2 hands cmd_vel on");
   if (!twists_.take(now)) {
     // The engine's ring is for others too: a stop must find room in it.
     if (flood_.take(now))
@@ -128,12 +126,10 @@ Result<aimrt::JointCommandHeard, Reason> Ros2Outlet::read_joint_command(const js
 }
 
 void Ros2Outlet::joint_command(ClientId client, const json::Node& request, Time now, Actions& out) {
-  const auto refuse = [&](std::string_view why) {
-    out.emplace_back(Reply{client, reply_line(false, why)});
-  };
+  const auto refuse = refuser(client, out);
   if (inputs_.joint_commands == nullptr)
     return refuse("joint_command is not opened: ros2.inputs.joint_command");
-  if (client != client_ || !follows(now)) return refuse("only drover-ros2 hands joint commands on");
+  if (!hands_on(client, now)) return refuse("only drover-ros2 hands joint commands on");
   inputs_.joint_commands->take(
       RequestId::Source::ros2, [&] { return read_joint_command(request, now); }, now,
       now.time_since_epoch() + wall_minus_monotonic_, out);
@@ -141,9 +137,7 @@ void Ros2Outlet::joint_command(ClientId client, const json::Node& request, Time 
 
 /// A message of MQTT's form, or why drover-ros2 could not make one. Answered as SceneTopics does.
 void Ros2Outlet::scene_message(ClientId client, const json::Node& request, Time now, Actions& out) {
-  const auto refuse = [&](std::string_view why) {
-    out.emplace_back(Reply{client, reply_line(false, why)});
-  };
+  const auto refuse = refuser(client, out);
   const auto topic = text_member(request, "topic");
   const bool is_object = topic == kTopicCollisionObject;
   if (!is_object && topic != kTopicPlanningConstraints)
@@ -151,7 +145,7 @@ void Ros2Outlet::scene_message(ClientId client, const json::Node& request, Time 
   if (inputs_.scene == nullptr ||
       !(is_object ? inputs_.collision_object : inputs_.planning_constraints))
     return refuse(topic + " is not opened: ros2.inputs." + topic);
-  if (client != client_ || !follows(now)) return refuse("only drover-ros2 hands the scene on");
+  if (!hands_on(client, now)) return refuse("only drover-ros2 hands the scene on");
   const Time said = std::min(now, Time{Duration{count_of(request, "at_ns")}});
   if (said <= Time{}) return refuse("at_ns is missing");
   SceneSender sender{client, said};

@@ -56,6 +56,7 @@ class Ros2Outlet final : public Outlet {
   Result<aimrt::JointCommandHeard, Reason> read_joint_command(const json::Node& request,
                                                               Time now) const;
   bool follows(Time now) const { return heard_ != kNever && now - heard_ <= kLease; }
+  bool hands_on(ClientId client, Time now) const { return client == client_ && follows(now); }
 
   Duration period_;
   Turns turns_;

@@ -23,7 +23,8 @@ std::string_view our_topic(std::string_view topic) {
 
 SceneTopics::Gate SceneTopics::gate_with(const SceneTopicLimits& limits) {
   return {{limits.max_messages_Hz, limits.message_burst},
-          {limits.max_refusals_Hz, limits.refusal_burst}};
+          {limits.max_refusals_Hz, limits.refusal_burst},
+          {}};
 }
 
 SceneTopics::SceneTopics(bool configured, JobNumbers& numbers, SceneSaver& saver,
@@ -214,8 +215,7 @@ void SceneTopics::refuse_flood(std::string_view topic, std::string_view why, Tim
                                const SceneSender& sender) {
   Gate& gate = gate_of(sender);
   if (!gate.refusals.take(now)) {
-    ++gate.unanswered;
-    if (sender.client != 0) ++of_ros2_.unanswered;
+    ++gate.counts.unanswered;
     return;
   }
   Waiting& waiting = expect(topic, {}, now, sender);
@@ -225,9 +225,10 @@ void SceneTopics::refuse_flood(std::string_view topic, std::string_view why, Tim
 
 /// One by one, as ROS 2 says them.
 void SceneTopics::answer_ros2(const Waiting& waiting, Actions& out) {
+  SceneCounts& counts = gate_of({waiting.client}).counts;
   for (const SceneAnswer& answer : waiting.answers) {
-    ++(answer.refusal ? of_ros2_.refused : of_ros2_.done);
-    if (answer.refusal) of_ros2_.refusal = refusal_in_words(answer);
+    ++(answer.refusal ? counts.refused : counts.done);
+    if (answer.refusal) counts.refusal = refusal_in_words(answer);
     out.emplace_back(
         Reply{waiting.client, R"({"scene_feedback":)" + scene_feedback_text(answer) + "}"});
   }

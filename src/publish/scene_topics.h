@@ -39,7 +39,7 @@ struct SceneSender {
   Time said = kNever;   ///< kNever: when it came
 };
 
-/// What became of ROS 2 users' messages.
+/// What became of messages; of the broker's only `unanswered` is counted.
 struct SceneCounts {
   std::uint64_t done = 0;
   std::uint64_t refused = 0;
@@ -82,8 +82,8 @@ class SceneTopics final {
   void on_time(Time now, Actions& out);
 
   /// Of a flood by the broker: neither followed nor answered.
-  std::uint64_t unanswered() const { return gate_of({}).unanswered; }
-  const SceneCounts& of_ros2() const { return of_ros2_; }
+  std::uint64_t unanswered() const { return gates_[0].counts.unanswered; }
+  const SceneCounts& of_ros2() const { return gates_[1].counts; }
 
  private:
   /// What came as one payload.
@@ -104,14 +104,11 @@ class SceneTopics final {
   struct Gate {
     TokenBucket messages;
     TokenBucket refusals;
-    std::uint64_t unanswered = 0;
+    SceneCounts counts;
   };
 
   static Gate gate_with(const SceneTopicLimits& limits);
   Gate& gate_of(const SceneSender& sender) { return gates_[sender.client == 0 ? 0 : 1]; }
-  const Gate& gate_of(const SceneSender& sender) const {
-    return gates_[sender.client == 0 ? 0 : 1];
-  }
   std::string untimely(Time now, const SceneSender& sender);
   Waiting& expect(std::string_view topic, const Arrival& arrival, Time now,
                   const SceneSender& sender);
@@ -134,7 +131,6 @@ class SceneTopics final {
   std::array<Gate, 2> gates_;
   std::deque<Waiting> waiting_;
   std::size_t parsing_ = 0;  ///< elsewhere; what comes after them waits for them
-  SceneCounts of_ros2_;
 };
 
 }  // namespace drover::publish

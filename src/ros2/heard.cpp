@@ -7,6 +7,7 @@
 #include <string>
 
 #include "ros2/domain.h"
+#include "ros2/samples.h"
 #include "ros2/topics.h"
 
 namespace drover::ros2 {
@@ -55,14 +56,11 @@ enum class Stop : std::uint8_t { no, asked, failed };
 /// Takes all that came.
 Stop take_stops(dds_entity_t reader) {
   if (reader <= 0) return Stop::no;
-  std::array<void*, kDepth> samples{};
-  std::array<dds_sample_info_t, kDepth> infos{};
-  const auto taken = dds_take(reader, samples.data(), infos.data(), kDepth, kDepth);
-  if (taken < 0) return Stop::failed;
   bool asked = false;
-  for (std::int32_t i = 0; i < taken; ++i)
-    asked = asked || (infos[i].valid_data && is_stop(samples[i], nullptr));
-  if (taken > 0) dds_return_loan(reader, samples.data(), taken);
+  const auto look = [&asked](const void* sample, const dds_sample_info_t&) {
+    asked = asked || is_stop(sample, nullptr);
+  };
+  if (take_samples<kDepth>(reader, look) < 0) return Stop::failed;
   return asked ? Stop::asked : Stop::no;
 }
 
@@ -86,6 +84,7 @@ dds_entity_t Heard::open(dds_entity_t participant, const TopicKind& kind, std::i
   dds_set_listener(reader, listener);
   dds_delete_listener(listener);
   wake(reader, &fd_);  // what came before
+  readers_.push_back({reader, &kind});
   return reader;
 }
 
@@ -100,24 +99,21 @@ Heard::Heard(dds_entity_t participant, const config::DroverConfig& config, Reach
     }
     if (inputs.cmd_vel != "closed") {
       const bool stamped = inputs.cmd_vel == "twist_stamped";
-      twists_ = open(participant, cmd_vel_kind(stamped), kTwists);
-      cmd_vel_.emplace(twists_, stamped, one_clock);
+      cmd_vel_.emplace(open(participant, cmd_vel_kind(stamped), kTwists), stamped, one_clock);
     }
-    if (inputs.joint_command) {
-      joints_ = open(participant, joint_command_kind(), kJointCommands);
-      joint_commands_.emplace(joints_, limits_of(config), one_clock);
-    }
+    if (inputs.joint_command)
+      joint_commands_.emplace(open(participant, joint_command_kind(), kJointCommands),
+                              limits_of(config), one_clock);
     // An object that is lost is not seen, and nobody says it again: reliable writers only.
-    if (inputs.collision_object) {
-      objects_ =
-          open(participant, collision_object_kind(), kSceneMessages, DDS_RELIABILITY_RELIABLE);
-      scene_objects_.emplace(objects_, SceneInput::Kind::objects, one_clock);
-    }
-    if (inputs.planning_constraints) {
-      constraints_ =
-          open(participant, planning_constraints_kind(), kSceneMessages, DDS_RELIABILITY_RELIABLE);
-      scene_constraints_.emplace(constraints_, SceneInput::Kind::constraints, one_clock);
-    }
+    const auto open_scene = [&](const TopicKind& kind) {
+      return open(participant, kind, kSceneMessages, DDS_RELIABILITY_RELIABLE);
+    };
+    if (inputs.collision_object)
+      scene_objects_.emplace(open_scene(collision_object_kind()), SceneInput::Kind::objects,
+                             one_clock);
+    if (inputs.planning_constraints)
+      scene_constraints_.emplace(open_scene(planning_constraints_kind()),
+                                 SceneInput::Kind::constraints, one_clock);
   } catch (...) {
     close();
     throw;
@@ -130,8 +126,7 @@ Heard::~Heard() {
 
 /// Waits for the listeners, which write to a descriptor of this object.
 void Heard::close() {
-  for (const dds_entity_t reader : {stop_, sure_stop_, twists_, joints_, objects_, constraints_})
-    if (reader > 0) dds_delete(reader);
+  for (const Reader& reader : readers_) dds_delete(reader.entity);
 }
 
 TwistsHeard Heard::twists(Time now, Duration wall) {
@@ -142,14 +137,9 @@ TwistsHeard Heard::twists(Time now, Duration wall) {
 }
 
 void Heard::add_unmet(Unmet& unmet) {
-  if (stop_ > 0) add_unmet_writers(stop_, stop_kind().name + 3, unmet_stops_, unmet);
-  if (twists_ > 0) add_unmet_writers(twists_, cmd_vel_kind(false).name + 3, unmet_twists_, unmet);
-  if (joints_ > 0) add_unmet_writers(joints_, joint_command_kind().name + 3, unmet_joints_, unmet);
-  if (objects_ > 0)
-    add_unmet_writers(objects_, collision_object_kind().name + 3, unmet_objects_, unmet);
-  if (constraints_ > 0)
-    add_unmet_writers(constraints_, planning_constraints_kind().name + 3, unmet_constraints_,
-                      unmet);
+  for (Reader& reader : readers_)
+    if (reader.entity != sure_stop_)  // whom that one does not meet the other one does
+      add_unmet_writers(reader.entity, reader.kind->name + 3, reader.unmet, unmet);
 }
 
 void Heard::joint_commands(Time now, Duration wall,

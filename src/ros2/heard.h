@@ -3,6 +3,8 @@
 
 #include <dds/dds.h>
 
+#include <vector>
+
 #include "config/config.h"
 #include "link/unique_fd.h"
 #include "ros2/cmd_vel.h"
@@ -44,24 +46,22 @@ class Heard final {
   dds_entity_t open(dds_entity_t participant, const TopicKind& kind, std::int32_t depth,
                     dds_reliability_kind_t reliability = DDS_RELIABILITY_BEST_EFFORT);
 
+  struct Reader {
+    dds_entity_t entity = 0;
+    const TopicKind* kind = nullptr;
+    std::uint32_t unmet = 0;  ///< writers that were not met, as told last
+  };
+
   link::UniqueFd came_;
   int fd_ = -1;            ///< its number, for the listener
   dds_entity_t stop_ = 0;  ///< 0: not opened
   /// Once more: it asks a reliable writer again for what found no room while this program hung.
   dds_entity_t sure_stop_ = 0;
-  dds_entity_t twists_ = 0;
-  dds_entity_t joints_ = 0;
-  dds_entity_t objects_ = 0;
-  dds_entity_t constraints_ = 0;
+  std::vector<Reader> readers_;  ///< all of them
   std::optional<CmdVel> cmd_vel_;
   std::optional<JointCommandInput> joint_commands_;
   std::optional<SceneInput> scene_objects_;
   std::optional<SceneInput> scene_constraints_;
-  std::uint32_t unmet_stops_ = 0;
-  std::uint32_t unmet_twists_ = 0;
-  std::uint32_t unmet_joints_ = 0;
-  std::uint32_t unmet_objects_ = 0;
-  std::uint32_t unmet_constraints_ = 0;
 };
 
 }  // namespace drover::ros2

@@ -4,6 +4,7 @@
 
 #include "json/json_text.h"
 #include "ros2/read_joint_command.h"
+#include "ros2/samples.h"
 #include "ros2/writer_names.h"
 
 namespace drover::ros2 {
@@ -38,10 +39,8 @@ std::string JointCommandInput::line_of(const void* sample, const dds_sample_info
   const auto refused = [&line](std::string_view why) {
     return line.key("refused").text(why).close('}').take();
   };
-  const Duration age = wall - Duration{info.source_timestamp};
-  if (one_clock_ && age > limits_.oldest)
-    return refused("a message came too late: it is " +
-                   std::to_string(age / std::chrono::milliseconds(1)) + " ms old");
+  const auto late = one_clock_ ? too_late(info, wall, limits_.oldest) : std::string();
+  if (!late.empty()) return refused(late);
   const auto message = read_joint_command(
       *static_cast<const aimrt_msgs_msg_dds__JointCommandArray_*>(sample), limits_.joints);
   if (!message) return refused(message.error().view());
@@ -52,14 +51,10 @@ std::string JointCommandInput::line_of(const void* sample, const dds_sample_info
 
 bool JointCommandInput::take(Time now, Duration wall,
                              const std::function<void(const std::string&)>& send) {
-  std::array<void*, kCommandsAtOnce> samples{};
-  std::array<dds_sample_info_t, kCommandsAtOnce> infos{};
-  const auto taken =
-      dds_take(reader_, samples.data(), infos.data(), kCommandsAtOnce, kCommandsAtOnce);
-  for (std::int32_t i = 0; i < taken; ++i)
-    if (infos[i].valid_data && pace_.take(now)) send(line_of(samples[i], infos[i], now, wall));
-  if (taken > 0) dds_return_loan(reader_, samples.data(), taken);
-  return taken >= 0;
+  const auto look = [&](const void* sample, const dds_sample_info_t& info) {
+    if (pace_.take(now)) send(line_of(sample, info, now, wall));
+  };
+  return take_samples<kCommandsAtOnce>(reader_, look) >= 0;
 }
 
 }  // namespace drover::ros2

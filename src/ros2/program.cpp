@@ -148,11 +148,10 @@ void Program::forget_domain() {
 void Program::hear_users(Time now) {
   try {
     if (users_->stop_asked()) asked_.stop(now);  // before anything else
-    asked_.hear(users_->twists(now, now.time_since_epoch() + runtime::wall_minus_monotonic()), now);
-    users_->joint_commands(now, now.time_since_epoch() + runtime::wall_minus_monotonic(),
-                           [this](const std::string& line) { (void)link_.send(line); });
-    users_->scene_messages(now, now.time_since_epoch() + runtime::wall_minus_monotonic(),
-                           [this](std::string line) { scene_.give(std::move(line)); });
+    const Duration wall = now.time_since_epoch() + runtime::wall_minus_monotonic();
+    asked_.hear(users_->twists(now, wall), now);
+    users_->joint_commands(now, wall, [this](const std::string& line) { (void)link_.send(line); });
+    users_->scene_messages(now, wall, [this](std::string line) { scene_.give(std::move(line)); });
   } catch (const NoDomain& error) {
     lose_domain(error.what(), now);
   }

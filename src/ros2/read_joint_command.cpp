@@ -1,10 +1,10 @@
 #include "ros2/read_joint_command.h"
 
 #include <cmath>
-#include <string_view>
 
 #include "json/json_text.h"
 #include "json/located_json.h"
+#include "ros2/samples.h"
 
 namespace drover::ros2 {
 namespace {
@@ -13,10 +13,6 @@ namespace {
 constexpr std::size_t kLongestJointName = 255;
 constexpr std::size_t kShownOfAName = 40;
 constexpr std::uint32_t kWholeSecond_ns = 1'000'000'000;
-
-std::string_view text_of(const char* text) {
-  return text == nullptr ? std::string_view() : text;
-}
 
 /// As protobuf's JSON says what is no number.
 void value(json::JsonText& out, const char* name, double told) {

@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "json/located_json.h"
+#include "json/members.h"
 #include "ros2/told.h"
 
 namespace drover::ros2 {
@@ -22,14 +22,6 @@ Stamp_ns stamp(const Node& from, std::string_view key) {
   const Node* node = from.find(key);
   return node == nullptr ? 0 : node->integer().value_or(0);
 }
-std::string text(const Node& from, std::string_view key) {
-  const Node* node = from.find(key);
-  return node == nullptr || node->text() == nullptr ? std::string() : *node->text();
-}
-bool flag(const Node& from, std::string_view key) {
-  const Node* node = from.find(key);
-  return node != nullptr && node->boolean() != nullptr && *node->boolean();
-}
 const std::vector<Node>& list(const Node& from, std::string_view key) {
   const Node* node = from.find(key);
   return node == nullptr || node->list() == nullptr ? kNone : *node->list();
@@ -46,7 +38,7 @@ JointsTold joints(const Node& from) {
   JointsTold joints;
   joints.at_ns = stamp(from, "at_ns");
   for (const Node& one : list(from, "each"))
-    joints.each.push_back({text(one, "name"), number(one, "position_rad"),
+    joints.each.push_back({text_member(one, "name"), number(one, "position_rad"),
                            number(one, "velocity_radps"), number(one, "effort_Nm")});
   return joints;
 }
@@ -68,7 +60,7 @@ ImuTold imu(const Node& from) {
 FixTold fix(const Node& from) {
   FixTold fix;
   fix.at_ns = stamp(from, "at_ns");
-  fix.receiver = text(from, "receiver");
+  fix.receiver = text_member(from, "receiver");
   const auto quality = stamp(from, "quality");
   const bool known = quality >= 0 && quality <= static_cast<int>(FixQuality::simulator);
   fix.position.quality = known ? static_cast<FixQuality>(quality) : FixQuality::none;
@@ -101,13 +93,13 @@ OdometryTold odometry(const Node& from) {
 BatteryTold battery(const Node& from) {
   BatteryTold battery;
   battery.at_ns = stamp(from, "at_ns");
-  battery.heard = flag(from, "heard");
+  battery.heard = flag_member(from, "heard");
   battery.sample.voltage_V = number(from, "voltage_V");
   battery.sample.current_A = number(from, "current_A");
   battery.sample.soc_percent = number(from, "soc_percent");
   battery.sample.remaining_Ah = number(from, "remaining_Ah");
   battery.sample.temperature_degC = number(from, "temperature_degC");
-  const auto flow = text(from, "flow");
+  const auto flow = text_member(from, "flow");
   if (flow == "idle") battery.sample.flow = BatteryFlow::idle;
   if (flow == "charging") battery.sample.flow = BatteryFlow::charging;
   if (flow == "discharging") battery.sample.flow = BatteryFlow::discharging;
@@ -119,7 +111,7 @@ BatteryTold battery(const Node& from) {
 
 ScanTold scan(const Node& from) {
   ScanTold scan;
-  scan.name = text(from, "name");
+  scan.name = text_member(from, "name");
   scan.begin_ns = stamp(from, "begin_ns");
   scan.end_ns = stamp(from, "end_ns");
   scan.turn_Hz = number(from, "turn_Hz");
@@ -130,10 +122,12 @@ ScanTold scan(const Node& from) {
 }
 
 DiagnosticTold diagnostic(const Node& from) {
-  DiagnosticTold one{
-      text(from, "name"), static_cast<int>(stamp(from, "level")), text(from, "message"), {}};
+  DiagnosticTold one{text_member(from, "name"),
+                     static_cast<int>(stamp(from, "level")),
+                     text_member(from, "message"),
+                     {}};
   for (const Node& value : list(from, "values"))
-    one.values.emplace_back(text(value, "key"), text(value, "value"));
+    one.values.emplace_back(text_member(value, "key"), text_member(value, "value"));
   return one;
 }
 
@@ -143,7 +137,8 @@ Result<Told, NoTold> read_told(std::string_view line) {
   const auto document = json::parse(line, {.max_depth = 6});
   if (!document) return NoTold{"not understood: " + document.error().text()};
   const Node& root = document->root;
-  if (root.find("ok") != nullptr) return NoTold{flag(root, "ok") ? "" : text(root, "reason")};
+  if (root.find("ok") != nullptr)
+    return NoTold{flag_member(root, "ok") ? "" : text_member(root, "reason")};
   if (root.find("at_ns") == nullptr) return NoTold{"not understood: at_ns is missing"};
   Told told;
   told.at_ns = stamp(root, "at_ns");
@@ -159,7 +154,7 @@ Result<Told, NoTold> read_told(std::string_view line) {
   if (const Node* part = root.find("touch")) {
     told.touch.emplace().at_ns = stamp(*part, "at_ns");
     for (const Node& one : list(*part, "each"))
-      told.touch->each.push_back({text(one, "name"), flag(one, "touched")});
+      told.touch->each.push_back({text_member(one, "name"), flag_member(one, "touched")});
   }
   for (const Node& one : list(root, "scans")) told.scans.push_back(scan(one));
   for (const Node& one : list(root, "diagnostics")) told.diagnostics.push_back(diagnostic(one));

@@ -3,18 +3,13 @@
 #include <utility>
 
 #include "json/json_text.h"
-#include "json/located_json.h"
+#include "json/members.h"
 
 namespace drover::ros2 {
 namespace {
 
 constexpr std::size_t kShownOfAThing = 100;
 constexpr std::string_view kAnswer = R"({"scene_feedback":)";
-
-std::string part_of(const json::Node& from, std::string_view key) {
-  const auto* node = from.find(key);
-  return node == nullptr || node->text() == nullptr ? std::string() : *node->text();
-}
 
 json::JsonText begun(std::string_view topic, Time said) {
   json::JsonText line;
@@ -50,16 +45,17 @@ SceneAnswerTold read_scene_answer(std::string_view line) {
   const auto document = json::parse(line, {.max_depth = 4});
   if (!document) return told;
   const auto& answer = *document->root.find("scene_feedback");
-  told.refused = part_of(answer, "result") == "refused";
-  const std::string path = part_of(answer, "path");
+  told.refused = text_member(answer, "result") == "refused";
+  const std::string path = text_member(answer, "path");
   std::string what =
-      told.refused ? (path.empty() ? "" : path + ": ") + part_of(answer, "reason") : "";
+      told.refused ? (path.empty() ? "" : path + ": ") + text_member(answer, "reason") : "";
   if (const auto* notes = answer.find("notes"); notes != nullptr && notes->list() != nullptr)
     for (const auto& note : *notes->list())
       if (note.text() != nullptr) what += (what.empty() ? "" : "; ") + *note.text();
   if (what.empty()) return told;
-  const std::string name = part_of(answer, "id") + part_of(answer, "name");  // it has one of them
-  told.words = "/" + part_of(answer, "topic") + (name.empty() ? "" : " '" + name + "'") +
+  const std::string name =
+      text_member(answer, "id") + text_member(answer, "name");  // it has one of them
+  told.words = "/" + text_member(answer, "topic") + (name.empty() ? "" : " '" + name + "'") +
                (told.refused ? " refused: " : ": ") + what;
   return told;
 }

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "ros2/samples.h"
 #include "text/utf8.h"
 
 namespace drover::ros2 {
@@ -24,7 +25,7 @@ void SceneText::number(double value) {
 }
 
 void SceneText::text(std::string_view name, const char* value) {
-  const std::string_view told = value == nullptr ? std::string_view() : value;
+  const auto told = text_of(value);
   if (!is_utf8(told)) refuse("is no UTF-8", name);
   out_.key(name).text(told);
 }

@@ -3,7 +3,7 @@
 
 #include <moveit_msgs.h>
 
-#include "integration/ros2_fastdds_messages.h"
+#include "integration/ros2_fastdds_scene_messages.h"
 #include "ros2/arena.h"
 #include "ros2/topics.h"
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "integration/ros2_fastdds_messages.h"
+#include "integration/ros2_fastdds_scene_messages.h"
 
 namespace drover::test::fast {
 

@@ -105,11 +105,6 @@ TEST_F(Ros2, SeesTheRobotOnEveryTopicReliableAndBestEffort) {
   EXPECT_EQ(asked("incompatible"), 0);
 }
 
-class Ros2Stop : public Ros2 {
- protected:
-  Ros2Stop() : Ros2(User::humble, R"(, "inputs": {"e_stop": true})") {}
-};
-
 /// Whether somebody hears it, within two seconds.
 bool is_heard(dds_entity_t writer, const std::function<void()>& meanwhile) {
   dds_publication_matched_status_t matched{};
@@ -119,6 +114,24 @@ bool is_heard(dds_entity_t writer, const std::function<void()>& meanwhile) {
   }
   return matched.current_count > 0;
 }
+
+class Ros2Stop : public Ros2 {
+ protected:
+  Ros2Stop() : Ros2(User::humble, R"(, "inputs": {"e_stop": true})") {}
+  static void say(dds_entity_t by, bool stop) {
+    const std_msgs_msg_dds__Bool_ message{stop};
+    dds_write(by, &message);
+  }
+  /// Of one who is heard already: his stop was told.
+  void stop_by(dds_entity_t writer) {
+    ASSERT_TRUE(is_heard(writer, [this] { play_for(100ms); })) << log();
+    ASSERT_TRUE(play_until([&] {
+      say(writer, true);
+      return stops_ > 0;
+    })) << log();
+    play_for(1s);
+  }
+};
 
 TEST_F(Ros2Stop, StopsTheRobotByTrueAndDoesNothingByFalse) {
   open_daemon();
@@ -146,21 +159,14 @@ TEST_F(Ros2Stop, StopsByWhatFoundNoRoomWhileItHung) {
   start_program();
   const dds_entity_t writer = stop_writer(DDS_RELIABILITY_RELIABLE);
   const dds_entity_t other = stop_writer(DDS_RELIABILITY_BEST_EFFORT);
-  for (const dds_entity_t one : {writer, other})
-    ASSERT_TRUE(is_heard(one, [this] { play_for(100ms); })) << log();
-  const std_msgs_msg_dds__Bool_ stop{true};
-  const std_msgs_msg_dds__Bool_ nothing{false};
-  ASSERT_TRUE(play_until([&] {
-    dds_write(writer, &stop);
-    return stops_ > 0;
-  })) << log();
-  play_for(1s);
+  ASSERT_NO_FATAL_FAILURE(stop_by(writer));
+  ASSERT_TRUE(is_heard(other, [this] { play_for(100ms); })) << log();
   const int before = stops_;
 
   program_.signal(SIGSTOP);
   // More than its socket takes.
-  for (int i = 0; i < 20'000; ++i) dds_write(other, &nothing);
-  dds_write(writer, &stop);
+  for (int i = 0; i < 20'000; ++i) say(other, false);
+  say(writer, true);
   play_for(300ms);
   EXPECT_EQ(stops_, before);
   program_.signal(SIGCONT);
@@ -171,19 +177,12 @@ TEST_F(Ros2Stop, IsNotPushedOutByWhatFollowsIt) {
   open_daemon();
   start_program();
   const dds_entity_t writer = stop_writer(DDS_RELIABILITY_RELIABLE);
-  ASSERT_TRUE(is_heard(writer, [this] { play_for(100ms); })) << log();
-  std_msgs_msg_dds__Bool_ message{true};
-  ASSERT_TRUE(play_until([&] {
-    dds_write(writer, &message);
-    return stops_ > 0;
-  })) << log();
-  play_for(1s);
+  ASSERT_NO_FATAL_FAILURE(stop_by(writer));
   const int before = stops_;
 
   program_.signal(SIGSTOP);
-  dds_write(writer, &message);
-  message.data_ = false;
-  for (int i = 0; i < 500; ++i) dds_write(writer, &message);
+  say(writer, true);
+  for (int i = 0; i < 500; ++i) say(writer, false);
   program_.signal(SIGCONT);
   EXPECT_TRUE(play_until([&] { return stops_ > before; })) << log();
 }

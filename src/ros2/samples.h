@@ -1,0 +1,41 @@
+// What DDS has of a topic, sample by sample.
+#pragma once
+
+#include <dds/dds.h>
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "drover/time.h"
+
+namespace drover::ros2 {
+
+/// Shows `look` up to `kMost` of what has come, in its order. How many it took; negative: DDS gives
+/// nothing.
+template <std::int32_t kMost, class Look>
+[[nodiscard]] std::int32_t take_samples(dds_entity_t reader, const Look& look) {
+  std::array<void*, kMost> samples{};
+  std::array<dds_sample_info_t, kMost> infos{};
+  const auto taken = dds_take(reader, samples.data(), infos.data(), kMost, kMost);
+  for (std::int32_t i = 0; i < taken; ++i)
+    if (infos[i].valid_data) look(samples[i], infos[i]);
+  if (taken > 0) dds_return_loan(reader, samples.data(), taken);
+  return taken;
+}
+
+/// Why it is not of now, by its DDS time stamp; empty: it is. `wall`: UTC now, since 1970.
+inline std::string too_late(const dds_sample_info_t& info, Duration wall, Duration oldest) {
+  const Duration age = wall - Duration{info.source_timestamp};
+  if (age <= oldest) return {};
+  return "a message came too late: it is " + std::to_string(age / std::chrono::milliseconds(1)) +
+         " ms old";
+}
+
+/// A text that may be missing.
+inline std::string_view text_of(const char* text) {
+  return text == nullptr ? std::string_view() : text;
+}
+
+}  // namespace drover::ros2
