@@ -1,5 +1,6 @@
 // What droverd may ask of the guard.
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -26,6 +27,11 @@ GuardShared* map(int fd) {
   return memory == MAP_FAILED ? nullptr : static_cast<GuardShared*>(memory);
 }
 
+bool hung_up(int fd) {
+  pollfd fds{fd, 0, 0};
+  return ::poll(&fds, 1, 0) > 0 && (fds.revents & POLLHUP) != 0;
+}
+
 }  // namespace
 
 void Guard::accept_daemon() {
@@ -36,6 +42,9 @@ void Guard::accept_daemon() {
   if (!is_daemon)
     speech_.say("drover-guard: user %u is not droverd's and gets nothing",
                 static_cast<unsigned>(uid));
+  // A droverd that is started again may be here before the last words of the one before it are read.
+  if (is_daemon && daemon_ >= 0 && hung_up(daemon_))
+    while (daemon_ >= 0) receive();
   if (!is_daemon || daemon_ >= 0) {  // one daemon at a time; the first keeps the guard
     ::close(fd);
     return;

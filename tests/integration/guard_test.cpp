@@ -215,6 +215,20 @@ TEST_F(Guard, SaysThatItRefusedASetBeforeItAnswersAnythingElse) {
   }
 }
 
+TEST_F(Guard, HearsANewDaemonBeforeItHasReadTheLastWordsOfTheOld) {
+  start();
+  ASSERT_EQ(::kill(pid(), SIGSTOP), 0);
+  std::vector<runtime::GuardedLink> links;
+  links.push_back(can_link("can0", {0x2D}));
+  links.push_back(can_link("can1", {0x4D}));
+  hand_over(std::move(links));
+  new_daemon();
+  hand_over_one_drive();
+  ASSERT_EQ(::kill(pid(), SIGCONT), 0);
+  EXPECT_TRUE(client().borrow("can0"));
+  EXPECT_EQ(shared().set_refused, 1U) << "the old one's set counts, though he is gone";
+}
+
 TEST_F(Guard, ASetThatCoversTheHeldOneReplacesItWithoutAGap) {
   start();
   hand_over_one_drive();
