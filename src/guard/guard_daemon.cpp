@@ -42,7 +42,8 @@ void Guard::accept_daemon() {
   if (!is_daemon)
     speech_.say("drover-guard: user %u is not droverd's and gets nothing",
                 static_cast<unsigned>(uid));
-  // A droverd that is started again may be here before the last words of the one before it are read.
+  // A droverd that is started again may be here before the last words of the one before it are
+  // read.
   if (is_daemon && daemon_ >= 0 && hung_up(daemon_))
     while (daemon_ >= 0) receive();
   if (!is_daemon || daemon_ >= 0) {  // one daemon at a time; the first keeps the guard
