@@ -7,6 +7,7 @@
 #include "config/check_subjects.h"
 #include "config/taken.h"
 #include "drover/baud.h"
+#include "drover/guard_protocol.h"
 #include "text/suggestion.h"
 
 namespace drover::config {
@@ -154,12 +155,30 @@ void check_links(Findings& found) {
   check_addresses(found);
 }
 
+/// drover-guard has its own way to each link on which something moves.
+void check_guarded_links(Findings& found) {
+  const auto moves = [&found](const LinkConfig& link) {
+    return std::any_of(
+        found.config().devices.begin(), found.config().devices.end(), [&link](const auto& device) {
+          const auto* entry = find_driver(device.driver);
+          return device.link == link.name && entry != nullptr && !entry->channels.empty();
+        });
+  };
+  std::size_t guarded = 0;
+  for (const auto& link : found.config().links)
+    if (moves(link) && ++guarded == kGuardMaxLinks + 1)
+      found.add(link_path(link),
+                "is one link too many on which something moves: drover-guard stops " +
+                    std::to_string(kGuardMaxLinks));
+}
+
 void check_use_of_links(Findings& found) {
   const auto& config = found.config();
   if (found.has_problem("outputs.link")) return;
   for (const auto& device : config.devices)
     if (found.has_problem(device_path(device, "link"))) return;  // it may be meant
   if (config.devices.empty()) return;
+  check_guarded_links(found);
   for (const auto& link : config.links) {
     const bool used = config.outputs.link == link.name ||
                       std::any_of(config.devices.begin(), config.devices.end(),

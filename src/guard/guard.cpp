@@ -169,7 +169,10 @@ std::string_view Guard::state() {
 
 void Guard::take_over(std::vector<Kept> kept) {
   int memory = -1;
-  if (!keep_.restore(std::move(kept), set_, limit_ms_, memory)) return;
+  if (!keep_.restore(std::move(kept), set_, limit_ms_, memory)) {
+    keep_.keep(set_, limit_ms_);  // a stop may come before the first set
+    return;
+  }
   GuardMessage hello;
   hello.limit_ms = limit_ms_;
   if (memory >= 0 && begin_set(hello, memory)) use_memory(next_memory_, next_shared_);

@@ -68,8 +68,9 @@ class Guard final : public StopListener {
 
   StopSet set_;
   StopSet next_;
-  bool offered_ = false;     ///< `next_` is whole, and lacks axes of `set_`
-  bool set_is_his_ = false;  ///< `set_` is that of the daemon that is connected
+  bool next_is_his_ = false;  ///< what `next_` has was handed over by the daemon that is connected
+  bool offered_ = false;      ///< `next_` is whole, and lacks axes of `set_`
+  bool set_is_his_ = false;   ///< `set_` is that of the daemon that is connected
   std::uint32_t limit_ms_ = 50;
   std::uint32_t next_limit_ms_ = 50;
   Watch watch_;

@@ -27,6 +27,14 @@ GuardShared* map(int fd) {
   return memory == MAP_FAILED ? nullptr : static_cast<GuardShared*>(memory);
 }
 
+/// Two descriptors of one memory.
+bool is_same_file(int a, int b) {
+  struct stat first {};
+  struct stat second {};
+  return ::fstat(a, &first) == 0 && ::fstat(b, &second) == 0 && first.st_dev == second.st_dev &&
+         first.st_ino == second.st_ino;
+}
+
 bool hung_up(int fd) {
   pollfd fds{fd, 0, 0};
   return ::poll(&fds, 1, 0) > 0 && (fds.revents & POLLHUP) != 0;
@@ -63,13 +71,20 @@ void Guard::receive() {
   if (whole && obey(message, fd)) return;
   if (fd >= 0) ::close(fd);
   drop_daemon();  // acts at once, before the words
-  if (n > 0) speech_.say("drover-guard: a message was not understood");
+  const bool has_version = n >= static_cast<ssize_t>(sizeof message.version);
+  if (has_version && message.version != kGuardVersion)
+    speech_.say(
+        "drover-guard: droverd speaks version %u of the guard's protocol, and this is %u: "
+        "restart both, so that they are of one installation",
+        message.version, kGuardVersion);
+  else if (n > 0)
+    speech_.say("drover-guard: a message was not understood");
 }
 
 void Guard::drop_daemon() {
   ::close(daemon_);
   daemon_ = -1;
-  set_is_his_ = false;
+  set_is_his_ = next_is_his_ = false;
   watch_.lost();
   cycle(now());
 }
@@ -108,16 +123,20 @@ bool Guard::begin_set(const GuardMessage& hello, int memory) {
   next_shared_ = shared;
   next_memory_ = memory;
   next_limit_ms_ = hello.limit_ms;
-  next_.clear();
+  // What the daemon holds itself goes on in the line.
+  next_is_his_ ? next_.leave() : next_.clear();
+  next_is_his_ = daemon_ >= 0;
   offered_ = false;
   return true;
 }
 
 void Guard::end_set() {
+  const bool again = memory_ >= 0 && next_memory_ >= 0 && is_same_file(memory_, next_memory_);
   if (next_shared_ != nullptr)
     use_memory(std::exchange(next_memory_, -1), std::exchange(next_shared_, nullptr));
   limit_ms_ = next_limit_ms_;
-  watch_.begin(beats(), std::chrono::milliseconds(limit_ms_), now());
+  const auto limit = std::chrono::milliseconds(limit_ms_);
+  again ? watch_.begin_again(beats(), limit, now()) : watch_.begin(beats(), limit, now());
   offered_ = !next_.covers(set_);
   if (!offered_) return use_next();
   set_is_his_ = false;
@@ -128,12 +147,13 @@ void Guard::end_set() {
 }
 
 void Guard::use_next() {
+  if (holding_) next_.begin_hold();
   next_.inherit(set_);
+  next_.go_on_from(set_);
   set_.swap(next_);
   next_.clear();
   offered_ = false;
   set_is_his_ = true;
-  if (holding_) set_.begin_hold();
   act(now());
   publish();
   keep_.keep(set_, limit_ms_);
@@ -166,6 +186,7 @@ void Guard::lend(const GuardMessage& message) {
 bool Guard::let_go(const GuardMessage& message) {
   if (!is_name(message.name)) return false;
   if (relay_line_ >= 0 && message.name == relay_name_) ::close(std::exchange(relay_line_, -1));
+  (void)next_.let_go(message.name.data());  // of a set that was refused
   if (set_.let_go(message.name.data())) keep_.keep(set_, limit_ms_);
   return true;
 }

@@ -81,7 +81,7 @@ bool Keep::restore(std::vector<Kept> kept, StopSet& set, std::uint32_t& limit_ms
     map_state(::memfd_create("drover-guard-state", MFD_CLOEXEC | MFD_ALLOW_SEALING));
   const int recipe = take(kept, kRecipe);
   const auto words = read_recipe(recipe);
-  const bool understood = !words.empty() && words[0].version == kGuardVersion;
+  const bool understood = words.size() > 1 && words[0].version == kGuardVersion;
   // Links that are missing are left out: what is there goes on being stopped.
   for (std::size_t i = 1; understood && i < words.size(); ++i) understand(words[i], kept, set);
   if (understood) {
@@ -147,8 +147,9 @@ void Keep::step(const StopSet& set, int memory) {
 
 bool Keep::take_step(const std::string& step, const StopSet& set, int memory) {
   if (step.front() == '-') {
+    if (!notify_.forget(step.substr(1))) return false;  // again, in the next cycle
     std::erase(stored_, step.substr(1));
-    return notify_.forget(step.substr(1));
+    return true;
   }
   int fd = step == kState ? state_fd_ : step == kMemory ? memory : step == kRecipe ? recipe_ : -1;
   for (const auto link : set.links())

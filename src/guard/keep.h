@@ -29,7 +29,7 @@ class Keep final {
   explicit Keep(Notify& notify) : notify_(notify) {}
 
   /// What a guard before this one left. `limit_ms` and `memory` (a descriptor, -1: none) belong to
-  /// `set`. False when there was no whole set; then all three are as they were.
+  /// `set`. False when there was no whole set, or an empty one; then all three are as they were.
   bool restore(std::vector<Kept> kept, StopSet& set, std::uint32_t& limit_ms, int& memory);
   /// Never nullptr after restore(); without memory for it one that dies with the process.
   KeptState& state() { return *state_; }

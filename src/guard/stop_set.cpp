@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
 #include <termios.h>
 #include <unistd.h>
 
@@ -29,6 +30,13 @@ bool is_dead(int error) {
          error == ECONNRESET;
 }
 
+bool is_one_tty(int a, int b) {
+  struct stat first {};
+  struct stat second {};
+  return a >= 0 && b >= 0 && ::fstat(a, &first) == 0 && ::fstat(b, &second) == 0 &&
+         S_ISCHR(first.st_mode) && S_ISCHR(second.st_mode) && first.st_rdev == second.st_rdev;
+}
+
 /// The flag belongs to the file that both processes share: whoever cleared it must not hold us up.
 bool make_non_blocking(int fd) {
   const int flags = ::fcntl(fd, F_GETFL);
@@ -42,8 +50,13 @@ bool is_name(const std::array<char, kGuardNameSize>& name) {
 }
 
 void StopSet::clear() {
+  for (auto& link : links_) close(link);
+  leave();
+}
+
+void StopSet::leave() {
   for (auto& link : links_) {
-    close(link);
+    if (link.fd >= 0) ::close(link.fd);
     link = {};
   }
   axis_count_ = 0;
@@ -144,6 +157,18 @@ void StopSet::inherit(StopSet& held) {
       const auto empty = link;
       link = std::exchange(old, empty);
       break;
+    }
+  }
+}
+
+void StopSet::go_on_from(StopSet& held) {
+  for (auto& link : links_) {
+    for (auto& old : held.links_) {
+      if (link.kind != GuardLinkKind::tty || !is_one_tty(link.fd, old.fd)) continue;
+      link.flushed = old.flushed;
+      link.rest = old.rest;
+      link.rest_size = old.rest_size;
+      ::close(std::exchange(old.fd, -1));
     }
   }
 }

@@ -23,6 +23,8 @@ class StopSet final {
   StopSet& operator=(const StopSet&) = delete;
 
   void clear();
+  /// The same, but what waits in the lines is somebody else's, who has them open: it stays there.
+  void leave();
   void swap(StopSet& other);
 
   // All false for what contradicts the set so far; then nothing has changed.
@@ -39,6 +41,10 @@ class StopSet final {
   std::string_view lacks(const StopSet& held) const;
   /// Takes the descriptors of absent links out of the set before this one.
   void inherit(StopSet& held);
+
+  /// Of lines that `held` has open as well: a packet that it began is ended by this set, and what
+  /// waits there stays. `held` lets go of them.
+  void go_on_from(StopSet& held);
 
   /// A hold begins: all rounds from the first, at once; what waits in the lines is thrown away.
   void begin_hold();

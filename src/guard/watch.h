@@ -22,9 +22,15 @@ class Watch final {
     last_step_ = now;
     hear(now);
   }
-  /// The daemon's socket closed: it died, however politely. Or somebody stops it from outside: it
-  /// has to ask for the bus.
-  void lost() { holds_ = watching_; }
+  /// A set of the daemon whose beats are counted already: that it is offered is no beat.
+  void begin_again(std::uint64_t beats, Duration limit, Time now) {
+    if (!watching_ || beats != beats_) return begin(beats, limit, now);
+    deadline_ += limit - limit_;
+    limit_ = limit;
+  }
+  /// The daemon's socket closed: it died, however politely. Or somebody stops it from outside, also
+  /// before there is a set. It has to ask for the bus.
+  void lost() { holds_ = true; }
   /// The daemon asked for the bus. Refused while its heartbeat is late.
   void hand_back(Time now) {
     if (!late(now)) holds_ = false;

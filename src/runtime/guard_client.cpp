@@ -89,6 +89,7 @@ bool GuardClient::connect(std::string& problem) {
     return false;
   }
   socket_ = std::move(fd);
+  supplied_ = false;
   return true;
 }
 
@@ -149,16 +150,25 @@ bool GuardClient::hand_over(std::span<const GuardedLink> links, std::string& pro
   hello.limit_ms = static_cast<std::uint32_t>(limit_ms_);
   bool sent = send(hello, memory_.fd());
   std::uint32_t axes = 0;
+  std::string at = "the beginning";
   for (std::uint32_t i = 0; sent && i < links.size(); ++i) {
     if (!links[i].descriptor && links[i].axes.empty()) continue;
+    at = links[i].name;
     sent = send_link(i, links[i]);
-    for (std::size_t k = 0; sent && k < links[i].axes.size(); ++k)
+    for (std::size_t k = 0; sent && k < links[i].axes.size(); ++k) {
+      at = links[i].axes[k].name;
       sent = send_axis(axes++, i, links[i].axes[k]);
+    }
   }
   GuardMessage watch;
   watch.verb = GuardVerb::watch;
   sent = sent && send(watch);
-  if (!sent) problem = "drover-guard at " + path_ + " closed the connection";
+  supplied_ = sent;
+  // What a message has no room for is not sent, and the connection stands.
+  if (!sent)
+    problem = "drover-guard at " + path_ +
+              (connected() ? " cannot be told of " + at + ": its name or its stop is too long"
+                           : " does not take the stop set (at " + at + ")");
   return sent;
 }
 

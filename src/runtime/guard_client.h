@@ -60,7 +60,7 @@ class GuardClient final {
   bool hand_over(std::span<const GuardedLink> links, std::string& problem);
   bool hand_back();
   /// A duplicate of what the guard keeps as `name`; nothing when it keeps no such thing. Waits for
-  /// the answer a tenth of a second at most.
+  /// the answer half a second at most.
   link::UniqueFd borrow(const std::string& name);
   /// The guard closes what it keeps as `name`.
   bool let_go(const std::string& name);
@@ -72,6 +72,8 @@ class GuardClient final {
   int fd() const { return socket_.get(); }
   void disconnect() { socket_.reset(); }
   bool connected() const { return static_cast<bool>(socket_); }
+  /// A set was handed over on this connection.
+  bool supplied() const { return connected() && supplied_; }
 
  private:
   bool connect(std::string& problem);
@@ -83,6 +85,7 @@ class GuardClient final {
   int limit_ms_;
   const GuardMemory& memory_;
   link::UniqueFd socket_;
+  bool supplied_ = false;
 };
 
 }  // namespace drover::runtime

@@ -99,7 +99,7 @@ Duration LinkKeeper::until_next_try(Time now) const {
   Duration wait = std::chrono::seconds(1);
   for (const auto& slot : slots_)
     if (slot.used && !slot.open) wait = std::min(wait, slot.retry.next() - now);
-  if (guard_set_changed_ || !guard_.connected())
+  if (guard_set_changed_ || !guard_.supplied())
     wait = std::min(wait, guard_slot_.retry.next() - now);
   if (watchdog_.used) wait = std::min(wait, watchdog_try_ - now);
   return std::max(wait, Duration(std::chrono::milliseconds(1)));
@@ -341,14 +341,12 @@ std::string LinkKeeper::watched() const {
 }
 
 void LinkKeeper::supply_guard(Time now) {
-  const bool supplied = !guard_set_changed_ && guard_.connected();
+  const bool supplied = !guard_set_changed_ && guard_.supplied();
   if (supplied || !guard_slot_.retry.due(now)) return;
-  if (!guard_.connected()) relay_given_ = false;
+  if (!guard_.supplied()) relay_given_ = false;
   std::vector<GuardedLink> links;
-  for (std::size_t i = 0; i < wiring_.links.size(); ++i) {
-    if (!is_guarded(i) && !is_bus(i)) continue;
-    links.push_back(guarded_link(i));
-  }
+  for (std::size_t i = 0; i < wiring_.links.size(); ++i)
+    if (is_guarded(i)) links.push_back(guarded_link(i));
   std::string problem;
   // What there is goes over at once; what is missing keeps the robot from moving.
   bool handed_over = guard_.hand_over(links, problem);

@@ -2,6 +2,7 @@
 // kept.
 #include <gmock/gmock.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
 
 #include <array>
 #include <thread>
@@ -25,7 +26,17 @@ class GuardKeeps : public GuardRig {
     std::vector<runtime::GuardedLink> links;
     for (const auto& bus : buses) links.push_back(can_link(bus, {0x2D}));
     hand_over(std::move(links));
-    ASSERT_TRUE(beat(10s, [&] { return manager_.keeps("recipe"); }));
+    ASSERT_TRUE(beat(10s, [&] { return keeps_a_set(); }));
+  }
+  /// An empty one is kept from the guard's beginning.
+  bool keeps_a_set() {
+    for (const auto& one : manager_.kept()) {
+      struct stat info {};
+      if (one.name == "recipe" && ::fstat(one.fd.get(), &info) == 0 &&
+          info.st_size > static_cast<off_t>(sizeof(GuardMessage)))
+        return true;
+    }
+    return false;
   }
   void start_again() { start({.manager = &manager_}); }
   bool is_stopped(const std::string& link) {
@@ -86,6 +97,15 @@ TEST_F(GuardKeeps, AStopUntilItIsReset) {
   EXPECT_THAT(at_stop_socket("state"), HasSubstr("\"latched\":true"));
   beat(50ms);
   EXPECT_TRUE(is_stopped("can0"));
+}
+
+TEST_F(GuardKeeps, AStopThatCameBeforeAnySet) {
+  ASSERT_THAT(at_stop_socket("stop"), HasSubstr("\"latched\":true"));
+  ASSERT_TRUE(wait_until([this] { return manager().keeps("state"); }));
+  kill();
+  start_again();
+  EXPECT_THAT(at_stop_socket("state"), HasSubstr("\"latched\":true"));
+  EXPECT_THAT(output(), Not(HasSubstr("goes on with 0 axes")));
 }
 
 TEST_F(GuardKeeps, ThatAPersonReleasedTheDrives) {

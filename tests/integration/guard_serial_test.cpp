@@ -55,6 +55,26 @@ class GuardOnATty : public GuardRig {
     hand_over(std::move(links));
     EXPECT_FALSE(client().borrow("nothing")) << "an answer: all has arrived";
   }
+  /// A droverd that lives, until it goes out of scope.
+  std::jthread beating() {
+    return std::jthread([this](const std::stop_token& ended) {
+      while (!ended.stop_requested()) {
+        shared().daemon_beats.fetch_add(1);
+        std::this_thread::sleep_for(2ms);
+      }
+    });
+  }
+  /// More than a reader's buffer: the rest waits in the line, where a flush takes it.
+  static constexpr std::size_t kMuch = 8000;
+  void write_much() {
+    const std::string much(kMuch, 's');
+    ASSERT_EQ(::write(line().get(), much.data(), much.size()), static_cast<ssize_t>(much.size()));
+  }
+  /// Somebody has the drives' end open: else their end sees EIO.
+  bool is_open() const {
+    char byte = 0;
+    return ::read(device(), &byte, 1) >= 0 || errno != EIO;
+  }
   std::string read_some() {
     std::array<char, 32768> buffer{};
     const auto n = ::read(device_.get(), buffer.data(), buffer.size());
@@ -102,6 +122,42 @@ TEST_F(GuardOnATty, ThrowsAwayOnceWhatTheDeadDaemonLeftInTheLine) {
   EXPECT_THAT(heard, HasSubstr("<stop:0--><stop:1--><stop:2-->")) << "flushed once, not each time";
 }
 
+TEST_F(GuardOnATty, LeavesWhatALivingDaemonWroteInTheLineWhenASetIsOffered) {
+  const std::jthread alive = beating();
+  supply();
+  write_much();
+  supply();
+  EXPECT_EQ(read_for(100ms).size(), kMuch);
+}
+
+TEST_F(GuardOnATty, LeavesItAlsoWhenTheOfferedSetIsRefused) {
+  const std::jthread alive = beating();
+  supply();
+  std::vector<runtime::GuardedLink> other(1);
+  other[0].name = "another";
+  other[0].kind = GuardLinkKind::tty;
+  other[0].descriptor = link::UniqueFd(::fcntl(line().get(), F_DUPFD_CLOEXEC, 0));
+  ASSERT_TRUE(hand_over(std::move(other)));
+  EXPECT_FALSE(client().borrow("nothing"));
+  ASSERT_EQ(shared().set_refused, 1U);
+  write_much();
+  supply();
+  EXPECT_EQ(read_for(100ms).size(), kMuch);
+}
+
+TEST_F(GuardOnATty, GoesOnWithAPacketThatItHasBegunWhenASetTakesThePlaceOfTheOther) {
+  constexpr std::size_t kSize = 100;
+  supply(kSize, 10ms);
+  client().disconnect();
+  ASSERT_TRUE(wait_until([&] { return shared().unsent > 3; })) << "full, in the middle of a packet";
+  new_daemon();
+  supply(kSize, 10ms);
+  const std::string heard = read_for(300ms);
+  ASSERT_GT(heard.size(), 2 * kSize);
+  for (std::size_t at = 0; at + kSize <= heard.size(); at += kSize)
+    ASSERT_THAT(heard.substr(at, kSize), testing::MatchesRegex("<stop:[012]-+>")) << "at " << at;
+}
+
 TEST_F(GuardOnATty, WritesWholePacketsOnlyWhenTheLineWasFull) {
   constexpr std::size_t kSize = 100;
   supply(kSize, 10ms);
@@ -141,10 +197,17 @@ TEST_F(GuardOnATty, LendsTheLineToTheNextDroverd) {
 TEST_F(GuardOnATty, LetsGoOfALineWhenAskedSoThatItCanBeOpenedAnew) {
   supply();
   line().reset();
-  const auto is_open = [this] {  // a master sees EIO when nobody has the other side
-    char byte = 0;
-    return ::read(device(), &byte, 1) >= 0 || errno != EIO;
-  };
+  EXPECT_TRUE(is_open());
+  ASSERT_TRUE(client().let_go("motors"));
+  EXPECT_FALSE(client().borrow("motors"));
+  EXPECT_FALSE(is_open());
+}
+
+TEST_F(GuardOnATty, LetsGoOfALineOfASetThatItRefused) {
+  hand_over_one_drive();
+  supply();
+  ASSERT_EQ(shared().set_refused, 1U);
+  line().reset();
   EXPECT_TRUE(is_open());
   ASSERT_TRUE(client().let_go("motors"));
   EXPECT_FALSE(client().borrow("motors"));

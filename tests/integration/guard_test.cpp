@@ -229,6 +229,48 @@ TEST_F(Guard, HearsANewDaemonBeforeItHasReadTheLastWordsOfTheOld) {
   EXPECT_EQ(shared().set_refused, 1U) << "the old one's set counts, though he is gone";
 }
 
+TEST_F(Guard, ASetThatIsOfferedAgainAndAgainIsNoHeartbeat) {
+  start();
+  hand_over_one_drive();
+  ASSERT_TRUE(beat(10s, [this] { return shared().guard_beats > 0; }));
+  EXPECT_TRUE(wait_until([this] {
+    std::vector<runtime::GuardedLink> same;
+    same.push_back(can_link("can0", {0x2D}));
+    (void)hand_over(std::move(same));
+    return shared().guard_holds == 1;
+  }));
+}
+
+TEST_F(Guard, AStopBeforeTheFirstSetEndsWhenDroverdAsksForTheBusAfterTheReset) {
+  start();
+  ASSERT_THAT(at_stop_socket("stop"), HasSubstr("\"latched\":true"));
+  hand_over_one_drive();
+  ASSERT_TRUE(beat(10s, [this] { return shared().guard_holds == 1; }));
+  ASSERT_THAT(at_stop_socket("reset"), HasSubstr("\"latched\":false"));
+  (void)frames("can0");
+  beat(50ms);
+  EXPECT_EQ(shared().guard_holds, 1U);
+  EXPECT_TRUE(client().hand_back());
+  EXPECT_TRUE(beat(10s, [this] { return shared().guard_holds == 0; }));
+}
+
+TEST_F(Guard, TellsWhoSpeaksAnotherVersion) {
+  start();
+  const link::UniqueFd other(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0));
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  std::strcpy(address.sun_path, file("guard.sock").c_str());
+  ASSERT_EQ(::connect(other.get(), reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
+  GuardMessage message;
+  message.version = kGuardVersion + 1;
+  ASSERT_GT(::send(other.get(), &message, sizeof message, MSG_NOSIGNAL), 0);
+  EXPECT_TRUE(wait_until([this] {
+    return output().find("droverd speaks version " + std::to_string(kGuardVersion + 1)) !=
+           std::string::npos;
+  })) << output();
+  EXPECT_THAT(output(), HasSubstr("restart both"));
+}
+
 TEST_F(Guard, ASetThatCoversTheHeldOneReplacesItWithoutAGap) {
   start();
   hand_over_one_drive();

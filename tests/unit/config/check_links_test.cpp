@@ -11,6 +11,7 @@ namespace {
 using testing::AllOf;
 using testing::EndsWith;
 using testing::HasSubstr;
+using testing::Not;
 using testing::StartsWith;
 
 TEST(ConfigurationChecks, RefuseALinkThatDoesNotExist) {
@@ -18,6 +19,24 @@ TEST(ConfigurationChecks, RefuseALinkThatDoesNotExist) {
       problems(with("\"link\": \"can0\", \"options\": {\"node\": 2}",
                     "\"link\": \"cna0\", \"options\": {\"node\": 2}")),
       "f:6:43: devices.right.link: there is no link named \"cna0\" (did you mean \"can0\"?)\n");
+}
+
+TEST(ConfigurationChecks, RefuseMoreLinksOnWhichSomethingMovesThanTheGuardHasRoomFor) {
+  const auto with_arms = [](int count) {
+    std::string links = R"("base": {"serial": "/dev/drover/base", "baud": 115200})";
+    std::string devices = R"("base": {"driver": "gt01_serial", "link": "base"})";
+    for (int i = 0; i < count; ++i) {
+      const auto number = std::to_string(i);
+      links += R"(, "can)" + number + R"(": {"can": "can)" + number + R"("})";
+      devices += R"(, "j)" + number + R"(": {"driver": "damiao", "link": "can)" + number +
+                 R"(", "options": {"id": 1, "model": "DM4310"}})";
+    }
+    return problems("{\"links\": {" + links + "}, \"devices\": {" + devices + "}}");
+  };
+  EXPECT_THAT(with_arms(8),
+              HasSubstr("links.can7: is one link too many on which something moves: drover-guard "
+                        "stops 8"));
+  EXPECT_THAT(with_arms(7), Not(HasSubstr("drover-guard stops")));
 }
 
 TEST(ConfigurationChecks, RefuseASpeedThatNoLineHas) {

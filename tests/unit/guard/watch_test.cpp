@@ -53,6 +53,33 @@ TEST(GuardWatch, BeingHeldUpAgainAndAgainPutsTheHoldOffOnlyOnce) {
   EXPECT_TRUE(watch.step(7, kStart + 60ms));
 }
 
+TEST(GuardWatch, ASetThatIsOfferedAgainIsNoHeartbeat) {
+  Watch watch;
+  watch.begin(7, 50ms, kStart);
+  for (int i = 1; i <= 5; ++i) {
+    watch.begin_again(7, 50ms, kStart + i * 10ms);
+    EXPECT_FALSE(watch.step(7, kStart + i * 10ms));
+  }
+  watch.begin_again(7, 50ms, kStart + 60ms);
+  EXPECT_TRUE(watch.step(7, kStart + 60ms));
+  watch.begin_again(7, 50ms, kStart + 61ms);
+  watch.hand_back(kStart + 61ms);
+  EXPECT_TRUE(watch.step(7, kStart + 61ms)) << "what is late gets no bus";
+  watch.begin_again(8, 50ms, kStart + 62ms);
+  watch.hand_back(kStart + 62ms);
+  EXPECT_FALSE(watch.step(8, kStart + 62ms));
+}
+
+TEST(GuardWatch, AStopBeforeTheFirstSetHoldsUntilTheBusIsAskedFor) {
+  Watch watch;
+  watch.lost();
+  EXPECT_FALSE(watch.step(0, kStart)) << "there is nothing to hold yet";
+  watch.begin(7, 50ms, kStart);
+  EXPECT_TRUE(watch.step(8, kStart + 1ms));
+  watch.hand_back(kStart + 1ms);
+  EXPECT_FALSE(watch.step(8, kStart + 2ms));
+}
+
 TEST(GuardWatch, TakesTheBusAtOnceWhenTheDaemonDies) {
   Watch watch;
   watch.begin(7, 50ms, kStart);

@@ -25,10 +25,15 @@ using testing::ElementsAre;
 using testing::IsEmpty;
 
 /// A base on one bus and an arm on another.
-std::string base_and_arm(const std::string& folder) {
+enum class Relay : std::uint8_t { none, of_a_chip_that_is_not_there };
+
+std::string base_and_arm(const std::string& folder, Relay relay) {
+  const bool has_relay = relay != Relay::none;
   return R"({
-  "links": {"can0": {"can": "unix:)" +
-         folder + R"(/can0"}, "can1": {"can": "unix:)" + folder + R"(/can1"}},
+  "links": {)" +
+         std::string(has_relay ? R"("panel": {"gpio": "no_such_chip"}, )" : "") +
+         R"("can0": {"can": "unix:)" + folder + R"(/can0"}, "can1": {"can": "unix:)" + folder +
+         R"(/can1"}},
   "devices": {
     "chassis": {"driver": "agilex_v2", "link": "can0"},
     "turret": {"driver": "damiao", "link": "can1", "options": {"id": 1, "model": "DM4340"}}},
@@ -38,8 +43,11 @@ std::string base_and_arm(const std::string& folder) {
       "max_effort_Nm": 10, "stiffness_Nmprad": 80, "damping_Nmsprad": 3}}}},
   "guard": {"socket": ")" +
          folder + R"(/guard"},
-  "mqtt": {"enabled": false},
-  "accept": ["no_relay", "no_estop"]
+  "mqtt": {"enabled": false},)" +
+         (has_relay
+              ? R"("outputs": {"link": "panel", "enable_relay": {"line": "relay"}}, "accept": [)"
+              : R"("accept": ["no_relay", )") +
+         R"("no_estop"]
 })";
 }
 
@@ -175,7 +183,7 @@ class GuardDouble final {
 
 class LinkKeeperTest : public testing::Test {
  protected:
-  LinkKeeperTest() {
+  explicit LinkKeeperTest(Relay relay = Relay::none) : relay_(relay) {
     EXPECT_THAT(loaded_.problems, IsEmpty());
     plug("can0");
     plug("can1");
@@ -231,11 +239,12 @@ class LinkKeeperTest : public testing::Test {
     return sets() == before;
   }
 
+  Relay relay_;
   test::TempFolder folder_;
   std::map<std::string, std::unique_ptr<BusOfMany>> buses_;
   GuardDouble guard_{folder_.path() + "/guard"};
   config::Loaded loaded_ =
-      config::load_text(base_and_arm(folder_.path()), DROVER_SOURCE_DIR "/config/maps");
+      config::load_text(base_and_arm(folder_.path(), relay_), DROVER_SOURCE_DIR "/config/maps");
   Gateway gateway_{loaded_.config};
   GuardMemory memory_;
   LinkKeeper keeper_{loaded_.config, gateway_.wiring(), memory_, gateway_.duties()};
@@ -317,6 +326,22 @@ TEST_F(LinkKeeperTest, ANewGuardThatDoesNotGetALinkOfTheControlThreadKeepsAllFro
   EXPECT_TRUE(wait_until([this] { return !keeper_.guard_equipped(); }));
   guard_.lose("");
   EXPECT_TRUE(wait_until([this] { return keeper_.guard_equipped(); }));
+}
+
+class LinkKeeperWithARelay : public LinkKeeperTest {
+ protected:
+  LinkKeeperWithARelay() : LinkKeeperTest(Relay::of_a_chip_that_is_not_there) {}
+};
+
+/// Whoever looks for the relay's line connects as well.
+TEST_F(LinkKeeperWithARelay, AGuardThatHungIsGivenTheSetOnTheNextConnection) {
+  start();
+  ASSERT_TRUE(wait_until([this] { return is_open(0) && is_open(1) && sets() > 0; }));
+  const auto before = sets();
+  guard_.thinks = true;
+  for (int i = 0; i < 400; ++i, std::this_thread::sleep_for(5ms)) take();  // until it is given up
+  guard_.thinks = false;
+  EXPECT_TRUE(wait_until([&] { return sets() > before && keeper_.guard_equipped(); }));
 }
 
 TEST_F(LinkKeeperTest, ALinkThatOpensWhileTheGuardIsAwayMayNotBeMoved) {
