@@ -24,6 +24,9 @@ for program in "${programs[@]}"; do
 done
 expect "droverd.service reads /etc/drover/drover.json" \
   grep -q '^ExecStart=.*--config /etc/drover/drover.json$' "$units/droverd.service"
+[[ " ${programs[*]} " != *" drover-ros2 "* ]] ||
+  expect "a restart of droverd for a change restarts drover-ros2, which reads the same file" \
+    grep -q '^PartOf=droverd.service$' "$units/drover-ros2.service"
 expect "drover is installed" test -x "$folder/usr/bin/drover"
 # The configuration's own maps, as someone finds them who has copied it to /etc/drover.
 grep -o '"maps/[a-z0-9_]*.json"' "$folder/usr/share/drover/drover.json" | tr -d '"' | sort -u |
