@@ -243,6 +243,17 @@ double DamiaoDriver::setpoint_radps(const Message& message, std::size_t) const {
   return mit.velocity_radps * settings_.sign;
 }
 
+ImpedanceRange DamiaoDriver::impedance_range(std::size_t) const {
+  const double p_max_rad = settings_.ranges.p_max_rad;
+  const double zero_rad = settings_.zero_rad * settings_.sign;
+  return {.min_rad = -p_max_rad - zero_rad,
+          .max_rad = p_max_rad - zero_rad,
+          .velocity_radps = settings_.ranges.v_max_radps,
+          .effort_Nm = settings_.max_effort_Nm,
+          .stiffness_Nmprad = kStiffnessMax_Nmprad,
+          .damping_Nmsprad = kDampingMax_Nmsprad};
+}
+
 SilenceBehaviour DamiaoDriver::silence() const {
   SilenceBehaviour behaviour;
   behaviour.stops = settings_.timeout_ms > 0;

@@ -33,6 +33,7 @@ class DamiaoDriver final : public Device, public FrameFace, public Actuator {
   Effect effect(const Message& message, Time now) const override;
   /// Of what has neither stiffness nor effort; all else does not ask for a velocity alone.
   double setpoint_radps(const Message& message, std::size_t channel) const override;
+  ImpedanceRange impedance_range(std::size_t channel) const override;
   StopRecipe stop_recipe() const override { return recipe_; }
   SilenceBehaviour silence() const override;
 

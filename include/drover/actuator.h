@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <string_view>
 
@@ -47,6 +48,16 @@ struct Impedance {
   double effort_Nm = 0;
   double stiffness_Nmprad = 0;  ///< not negative; 0: the position has no weight
   double damping_Nmsprad = 0;   ///< not negative
+};
+
+/// What a drive with impedance can be told at all, at the joint; beyond, the value is cut off.
+struct ImpedanceRange {
+  double min_rad = -std::numeric_limits<double>::infinity();
+  double max_rad = std::numeric_limits<double>::infinity();
+  double velocity_radps = std::numeric_limits<double>::infinity();
+  double effort_Nm = std::numeric_limits<double>::infinity();
+  double stiffness_Nmprad = std::numeric_limits<double>::infinity();
+  double damping_Nmsprad = std::numeric_limits<double>::infinity();
 };
 
 /// What a joint is to do. Of a channel with impedance `velocity_radps` is a part of its law.
@@ -149,6 +160,8 @@ class Actuator {
   virtual Twist setpoint_twist(const Message&, std::size_t /*channel*/) const {
     return {kAbsent, kAbsent};
   }
+  /// Of a channel with impedance: what `--check` holds a joint's limits against.
+  virtual ImpedanceRange impedance_range(std::size_t /*channel*/) const { return {}; }
   /// The most that it sends in one cycle, reads with it: what is more would grow old in a queue.
   virtual std::size_t messages_per_cycle() const { return 2; }
   virtual StopRecipe stop_recipe() const = 0;

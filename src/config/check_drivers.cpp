@@ -52,6 +52,36 @@ void look_at_silence(const DeviceConfig& device, const Actuator& driver, Finding
             "set its watchdog, or \"accept\": [\"no_watchdog\"] when that is meant");
 }
 
+/// What a drive cuts off is no limit of its joint: often it is an angle in degrees.
+void look_at_range(const std::string& path, const engine::JointRules& joint,
+                   const ImpedanceRange& range, Findings& found) {
+  const auto beyond = [&](const char* key, double value, double least, double most,
+                          const char* unit) {
+    if (value >= least && value <= most) return;
+    found.add(path + "." + key, "is " + text::number_text(value) + " " + unit +
+                                    ", and its drive can be told " + text::number_text(least) +
+                                    " to " + text::number_text(most));
+  };
+  beyond("min_rad", joint.min_rad, range.min_rad, range.max_rad, "rad");
+  beyond("max_rad", joint.max_rad, range.min_rad, range.max_rad, "rad");
+  beyond("max_velocity_radps", joint.max_velocity_radps, 0, range.velocity_radps, "rad/s");
+  beyond("max_effort_Nm", joint.max_effort_Nm, 0, range.effort_Nm, "Nm");
+  beyond("stiffness_Nmprad", joint.stiffness_Nmprad, 0, range.stiffness_Nmprad, "Nm/rad");
+  beyond("damping_Nmsprad", joint.damping_Nmsprad, 0, range.damping_Nmsprad, "Nm s/rad");
+}
+
+void look_at_ranges(const DeviceConfig& device, const Actuator& driver, Findings& found) {
+  const auto& engine = found.config().engine;
+  for (const auto& group : engine.groups)
+    for (const auto& joint : group.joints) {
+      const auto place = static_cast<std::size_t>(joint.axis - device.first_axis);
+      if (joint.axis < device.first_axis || place >= device.joints.size()) continue;
+      look_at_range("groups." + std::string(group.name.view()) + ".joints." +
+                        std::string(engine.joints[joint.axis].view()),
+                    joint, driver.impedance_range(device.joints[place].channel_index), found);
+    }
+}
+
 /// A joint that carries a weight is held by its drive alone.
 void warn_of_weights(const DeviceConfig& device, const Actuator& driver, Findings& found) {
   const auto& engine = found.config().engine;
@@ -268,6 +298,7 @@ void check_drivers(Findings& found) {
     device.goes_on_in_silence = !silence.stops;
     if (silence.stops) device.stops_after_ms = static_cast<int>(to_s(silence.after) * 1000);
     look_at_silence(device, *made.actuator, found);
+    look_at_ranges(device, *made.actuator, found);
     warn_of_weights(device, *made.actuator, found);
   }
 }

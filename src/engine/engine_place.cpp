@@ -27,7 +27,7 @@ Reason Engine::Impl::poor_fix(Time now) const {
 
 void Engine::Impl::propose_origin(const RequestId& id, Time now) {
   const auto refuse = [&](const Reason& why) { events.push(now, CommandRefused{id, why}); };
-  if (navigator.active()) return refuse("a task runs");
+  if (navigator.active()) return refuse("a task runs: cancel it first");
   if (const Reason why = poor_fix(now); !why.empty()) return refuse(why);
   // Whoever counts from a place that is doubted has it for good.
   if (estimate.place_doubted) return refuse(estimate.reason);
@@ -40,7 +40,7 @@ void Engine::Impl::propose_origin(const RequestId& id, Time now) {
 
 void Engine::Impl::set_origin(const RequestId& id, const GeodeticPoint& origin, Time now) {
   if (navigator.active()) {
-    events.push(now, CommandRefused{id, "a task runs"});
+    events.push(now, CommandRefused{id, "a task runs: cancel it first"});
   } else if (!valid(origin)) {
     events.push(now, CommandRefused{id, "the origin is not a place on earth"});
   } else {
@@ -56,7 +56,7 @@ void Engine::Impl::set_origin(const RequestId& id, const GeodeticPoint& origin, 
 
 void Engine::Impl::accept_position(const RequestId& id, Time now) {
   const auto refuse = [&](const Reason& why) { events.push(now, CommandRefused{id, why}); };
-  if (navigator.active()) return refuse("a task runs");
+  if (navigator.active()) return refuse("a task runs: cancel it first");
   if (!owners.at_rest() || rest.moves(now)) return refuse("the robot moves");
   if (!estimator.has_origin()) return refuse("there is no origin");
   if (const Reason why = poor_fix(now); !why.empty()) return refuse(why);
@@ -71,7 +71,7 @@ void Engine::Impl::accept_position(const RequestId& id, Time now) {
 
 void Engine::Impl::forget_learned(const RequestId& id, Time now) {
   const auto refuse = [&](const Reason& why) { events.push(now, CommandRefused{id, why}); };
-  if (navigator.active()) return refuse("a task runs");
+  if (navigator.active()) return refuse("a task runs: cancel it first");
   if (!owners.at_rest() || rest.moves(now)) return refuse("the robot moves");
   // The place is found anew, and what it is compared with is forgotten: that must be in order now.
   if (const Reason why = poor_fix(now); !why.empty()) return refuse(why);

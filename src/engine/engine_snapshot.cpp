@@ -84,16 +84,17 @@ void Engine::Impl::tell_sender(Time now, Owner owner, const Stream& stream, Owne
 /// The first way: nothing is wrong, and the robot is slower than was asked for.
 void Engine::Impl::tell_first_way(Owner owner) {
   if (owner == Owner::nobody || owner == Owner::estop) return;
-  const bool by_joints = owner == Owner::joint_command;
+  const bool by_stream_of_joints = owner == Owner::joint_command;
   const bool by_hand = owner == Owner::manual && owners.hand_drives();
   const bool by_twist = owner == Owner::cmd_vel;
-  const Reason why = mechanics.slowly(by_joints || by_twist ? FirstWay::joints
-                                      : by_hand             ? FirstWay::hand
-                                                            : FirstWay::task);
+  const Reason why = mechanics.slowly(by_stream_of_joints || by_twist ? FirstWay::joints
+                                      : by_hand                       ? FirstWay::hand
+                                                                      : FirstWay::task);
   if (why.empty()) return;
   (void)snapshot.why.push_back(why);
   if (by_twist && snapshot.cmd_vel.reason.empty()) snapshot.cmd_vel.reason = why;
-  if (by_joints && snapshot.joint_command.reason.empty()) snapshot.joint_command.reason = why;
+  if (by_stream_of_joints && snapshot.joint_command.reason.empty())
+    snapshot.joint_command.reason = why;
 }
 
 void Engine::Impl::fill_snapshot(Time now, const Environment& environment, const LineTable& lines,

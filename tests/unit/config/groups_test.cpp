@@ -120,6 +120,14 @@ TEST(Groups, RefuseLimitsWithoutRoom) {
               HasSubstr("\"torque\" is not one of: impedance, position, velocity, effort"));
 }
 
+TEST(Groups, RefuseLimitsThatTheDriveCannotBeTold) {
+  EXPECT_THAT(arm_problems("\"min_rad\": -2.5", "\"min_rad\": -143"),
+              HasSubstr("groups.arm.joints.turret.min_rad: is -143 rad, and its drive can be told "
+                        "-12.5 to 12.5\n"));
+  EXPECT_THAT(arm_problems("\"max_effort_Nm\": 10,", "\"max_effort_Nm\": 1000,"),
+              HasSubstr("max_effort_Nm: is 1000 Nm, and its drive can be told 0 to "));
+}
+
 TEST(Groups, TellOfAWeightUntilItIsAccepted) {
   const auto loaded = load_text(arm_with("\"falls\"", ""), kFolder);
   ASSERT_THAT(loaded.problems, IsEmpty());

@@ -113,7 +113,7 @@ TEST_F(APersonWhoLooked, MovesNothing) {
 
 TEST_F(APersonWhoLooked, IsRefusedWhileATaskRunsOrTheRobotMoves) {
   drive();
-  expect_refused("a task runs");
+  expect_refused("a task runs: cancel it first");
   rig.command(CancelTask{});
   rig.tick();
   expect_refused("the robot moves");

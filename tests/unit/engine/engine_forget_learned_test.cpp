@@ -38,7 +38,7 @@ TEST_F(APersonWhoChangedAWheel, IsNotHeardWhileATaskRuns) {
   rig.settle();
   rig.start(path, 39, 0.5);
   rig.run_s(3);
-  expect_refused("a task runs");
+  expect_refused("a task runs: cancel it first");
 }
 
 TEST_F(APersonWhoChangedAWheel, IsNotHeardWhileItRollsOut) {

@@ -116,7 +116,7 @@ TEST_F(AnEngine, RefusesOriginsThatAreNoPlaceAndThoseDuringATask) {
   rig.command(ProposeOrigin{});
   rig.tick();
   EXPECT_EQ(rig.said<CommandRefused>().size(), 2U);
-  EXPECT_EQ(refusal(), "a task runs");
+  EXPECT_EQ(refusal(), "a task runs: cancel it first");
   EXPECT_EQ(rig.snapshot().nav.status, NavStatus::run);
 }
 
