@@ -19,8 +19,8 @@ constexpr std::int32_t kDepth = 100;
 constexpr std::int32_t kTwists = 20;
 /// Of joint commands each counts: two programs may write 200 a second for groups of their own.
 constexpr std::int32_t kJointCommands = 50;
-/// Of the planning scene as many as droverd takes at once and more.
-constexpr std::int32_t kSceneMessages = 250;
+/// Of the planning scene what comes before its listener is there: that one leaves nothing.
+constexpr std::int32_t kSceneMessages = 50;
 
 /// A thread of DDS' own: it only wakes the loop.
 void wake(dds_entity_t, void* came) {
@@ -74,21 +74,33 @@ JointCommandLimits limits_of(const config::DroverConfig& config) {
 
 }  // namespace
 
-dds_entity_t Heard::open(dds_entity_t participant, const TopicKind& kind, std::int32_t depth,
-                         dds_reliability_kind_t reliability) {
-  const dds_entity_t reader = make_reader(participant, kind, depth, reliability);
+dds_entity_t Heard::add(dds_entity_t reader, const TopicKind& kind, dds_on_data_available_fn came,
+                        void* of) {
   if (reader < 0)
     throw NoDomain(std::string(kind.name + 2) + " cannot be heard: " + dds_strretcode(reader));
-  dds_listener_t* listener = dds_create_listener(&fd_);
-  dds_lset_data_available(listener, wake);
+  readers_.push_back({reader, &kind});
+  dds_listener_t* listener = dds_create_listener(of);
+  dds_lset_data_available(listener, came);
   dds_set_listener(reader, listener);
   dds_delete_listener(listener);
-  wake(reader, &fd_);  // what came before
-  readers_.push_back({reader, &kind});
+  came(reader, of);  // what came before
   return reader;
 }
 
-Heard::Heard(dds_entity_t participant, const config::DroverConfig& config, Reach reach)
+dds_entity_t Heard::open(dds_entity_t participant, const TopicKind& kind, std::int32_t depth,
+                         dds_reliability_kind_t reliability) {
+  return add(make_reader(participant, kind, depth, reliability), kind, wake, &fd_);
+}
+
+void Heard::open_scene(dds_entity_t participant, const TopicKind& kind, SceneInput& input) {
+  const auto came = [](dds_entity_t reader, void* of) {
+    static_cast<SceneInput*>(of)->came(reader);
+  };
+  add(make_reader(participant, kind, kSceneMessages, DDS_RELIABILITY_RELIABLE), kind, came, &input);
+}
+
+Heard::Heard(dds_entity_t participant, const config::DroverConfig& config, Reach reach,
+             std::atomic<std::uint64_t>& scene_lost)
     : came_(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)), fd_(came_.get()) {
   const auto& inputs = config.ros2.inputs;
   const bool one_clock = reach == Reach::localhost;
@@ -104,16 +116,14 @@ Heard::Heard(dds_entity_t participant, const config::DroverConfig& config, Reach
     if (inputs.joint_command)
       joint_commands_.emplace(open(participant, joint_command_kind(), kJointCommands),
                               limits_of(config), one_clock);
-    // An object that is lost is not seen, and nobody says it again: reliable writers only.
-    const auto open_scene = [&](const TopicKind& kind) {
-      return open(participant, kind, kSceneMessages, DDS_RELIABILITY_RELIABLE);
-    };
+    const auto wake_up = [this] { wake(0, &fd_); };
+    using Kind = SceneInput::Kind;
     if (inputs.collision_object)
-      scene_objects_.emplace(open_scene(collision_object_kind()), SceneInput::Kind::objects,
-                             one_clock);
+      open_scene(participant, collision_object_kind(),
+                 scene_objects_.emplace(Kind::objects, one_clock, scene_lost, wake_up));
     if (inputs.planning_constraints)
-      scene_constraints_.emplace(open_scene(planning_constraints_kind()),
-                                 SceneInput::Kind::constraints, one_clock);
+      open_scene(participant, planning_constraints_kind(),
+                 scene_constraints_.emplace(Kind::constraints, one_clock, scene_lost, wake_up));
   } catch (...) {
     close();
     throw;
@@ -156,11 +166,6 @@ void Heard::scene_messages(Time now, Duration wall, const std::function<void(std
       throw NoDomain("the planning scene's messages cannot be read");
     if (taken == SceneInput::Taken::some) wake(0, &fd_);  // after a look for stops
   }
-}
-
-std::uint64_t Heard::scene_passed_over() const {
-  return (scene_objects_ ? scene_objects_->passed_over() : 0) +
-         (scene_constraints_ ? scene_constraints_->passed_over() : 0);
 }
 
 bool Heard::stop_asked() {

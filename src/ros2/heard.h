@@ -3,6 +3,7 @@
 
 #include <dds/dds.h>
 
+#include <atomic>
 #include <vector>
 
 #include "config/config.h"
@@ -18,8 +19,10 @@ namespace drover::ros2 {
 
 class Heard final {
  public:
-  /// Readers are the last that a domain gets: by then its sockets are closed. Throws NoDomain.
-  Heard(dds_entity_t participant, const config::DroverConfig& config, Reach reach);
+  /// Readers are the last that a domain gets: by then its sockets are closed. `scene_lost` is told
+  /// of each message of the planning scene that is never looked at. Throws NoDomain.
+  Heard(dds_entity_t participant, const config::DroverConfig& config, Reach reach,
+        std::atomic<std::uint64_t>& scene_lost);
   ~Heard();
   Heard(const Heard&) = delete;
   Heard& operator=(const Heard&) = delete;
@@ -37,14 +40,17 @@ class Heard final {
   void joint_commands(Time now, Duration wall, const std::function<void(const std::string&)>& send);
   /// Lines of the planning scene, likewise.
   void scene_messages(Time now, Duration wall, const std::function<void(std::string)>& give);
-  /// Of a flood of these: not looked at.
-  std::uint64_t scene_passed_over() const;
 
  private:
   void close();
   /// Best effort matches both kinds of writers; of reliable ones nothing is lost.
   dds_entity_t open(dds_entity_t participant, const TopicKind& kind, std::int32_t depth,
                     dds_reliability_kind_t reliability = DDS_RELIABILITY_BEST_EFFORT);
+  /// Only reliable ones: an object that is lost is not seen, and nobody says it again.
+  void open_scene(dds_entity_t participant, const TopicKind& kind, SceneInput& input);
+  /// `came` is told when something came, in a thread of DDS' own.
+  dds_entity_t add(dds_entity_t reader, const TopicKind& kind, dds_on_data_available_fn came,
+                   void* of);
 
   struct Reader {
     dds_entity_t entity = 0;

@@ -69,7 +69,7 @@ void Program::beat(Time now) {
   connect(now);
   tell_users();
   tell_droverd();
-  scene_.beat(users_ ? users_->scene_passed_over() : 0);
+  scene_.beat(scene_passed_over_);
 }
 
 void Program::connect(Time now) {
@@ -103,7 +103,7 @@ void Program::make_domain(Time now) {
   try {
     domain_ = std::make_unique<Domain>(config_.ros2.domain, reach_, !networks_.empty());
     shown_ = std::make_unique<Shown>(domain_->participant(), robot_, wall_now_ns());
-    users_ = std::make_unique<Heard>(domain_->participant(), config_, reach_);
+    users_ = std::make_unique<Heard>(domain_->participant(), config_, reach_, scene_passed_over_);
     readers_ = {};
     problem_.clear();
     retry_.succeeded();
@@ -147,7 +147,10 @@ void Program::forget_domain() {
 
 void Program::hear_users(Time now) {
   try {
-    if (users_->stop_asked()) asked_.stop(now);  // before anything else
+    if (users_->stop_asked()) {
+      asked_.stop(now);
+      tell_asked(now);  // before anything else: objects take their time
+    }
     const Duration wall = now.time_since_epoch() + runtime::wall_minus_monotonic();
     asked_.hear(users_->twists(now, wall), now);
     users_->joint_commands(now, wall, [this](const std::string& line) { (void)link_.send(line); });

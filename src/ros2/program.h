@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -43,6 +44,8 @@ class Program final {
   Reach reach_;
   Robot robot_;
   DaemonLink link_;
+  /// Messages of the planning scene that were never looked at.
+  std::atomic<std::uint64_t> scene_passed_over_{0};
   std::unique_ptr<Domain> domain_;
   std::unique_ptr<Shown> shown_;
   std::unique_ptr<Heard> users_;

@@ -28,7 +28,6 @@ bool SceneRelay::answered(std::string_view line, Time now) {
 }
 
 void SceneRelay::beat(std::uint64_t passed_over) {
-  if (passed_over < passed_over_) passed_over_ = 0;  // of a new domain
   lost_ += passed_over - std::exchange(passed_over_, passed_over);
   if (lost_ == lost_said_) return;
   say(Level::warning, std::to_string(lost_ - lost_said_) +

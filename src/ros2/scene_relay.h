@@ -24,7 +24,7 @@ class SceneRelay final {
   bool answered(std::string_view line, Time now);
   /// The way is lost: what was not answered yet is, too.
   void way_lost();
-  /// Once a second, with how many were not even looked at since the domain was made.
+  /// Once a second, with how many were not even looked at so far.
   void beat(std::uint64_t passed_over);
   /// Neither followed nor refused by droverd.
   std::uint64_t lost() const { return lost_; }

@@ -1,10 +1,7 @@
 // A ROS 2 user who puts things around the robot: moveit_msgs by DDS, the field robot with a scene.
-#include <moveit_msgs.h>
-
 #include <cmath>
 
-#include "integration/ros2_drive_rig.h"
-#include "ros2/arena.h"
+#include "integration/ros2_scene_rig.h"
 
 namespace drover::test {
 namespace {
@@ -14,39 +11,11 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
-constexpr const char* kAScene = R"("scene": {
-  "footprint": [{"x_m": 0.45, "y_m": 0.35}, {"x_m": -0.415, "y_m": 0.35},
-                {"x_m": -0.415, "y_m": -0.35}, {"x_m": 0.45, "y_m": -0.35}],
-  "ground_clearance_m": 0.05, "height_m": 1})";
-
-class SceneOfARos2User : public MovedFromRos2 {
+class SceneOfARos2User : public SceneFromRos2 {
  protected:
-  SceneOfARos2User() : MovedFromRos2(R"("collision_object": true, "cmd_vel": "twist")") {
-    add_section(kAScene);
-  }
-  /// A box of 0.4 x 2 x 1 m on the ground, `ahead_m` of the frame's origin.
-  void put_box(dds_entity_t by, const char* id, const char* frame, double ahead_m) {
-    ros2::Arena arena;
-    moveit_msgs_msg_dds__CollisionObject_ object{};
-    object.header_.frame_id_ = arena.text(frame);
-    object.pose_.position_ = {ahead_m, 0, 0.5};
-    object.pose_.orientation_.w_ = 1;
-    object.id_ = arena.text(id);
-    object.type_ = {arena.text(""), arena.text("")};
-    auto* box = arena.fill(object.primitives_, 1);
-    box->type_ = 1;
-    auto* size = arena.fill(box->dimensions_, 3);
-    size[0] = 0.4;
-    size[1] = 2;
-    size[2] = 1;
-    dds_write(by, &object);
-  }
-  bool shows(std::string_view text) {
-    return drover({"scene", "list"}).text.find(text) != std::string::npos;
-  }
-  std::string state() { return drover({"status", "--json"}).text; }
-  bool journal_has(std::string_view text) {
-    return program_.output().find(text) != std::string::npos;
+  SceneOfARos2User() : SceneFromRos2(R"("collision_object": true, "cmd_vel": "twist")") {}
+  bool shows_unmet(int count) {
+    return state().find("\"incompatible\":" + std::to_string(count)) != std::string::npos;
   }
 };
 
@@ -72,6 +41,20 @@ TEST_F(SceneOfARos2User, HasItsObjectsAndRefusesByField) {
   dds_publication_matched_status_t matched{};
   (void)dds_get_publication_matched_status(closed, &matched);
   EXPECT_EQ(matched.current_count, 0U);
+}
+
+TEST_F(SceneOfARos2User, IsNamedInTheJournalWhereHisWriterMayLoseAnObject) {
+  ASSERT_NO_FATAL_FAILURE(start_robot(ros2::collision_object_kind()));
+  const dds_entity_t unsure =
+      make_writer(participant_, ros2::collision_object_kind(), DDS_RELIABILITY_BEST_EFFORT);
+  EXPECT_TRUE(wait_until([this] {
+    return journal_has("a writer of /collision_object offers a reliability that is not asked for");
+  })) << program_.output();
+  EXPECT_TRUE(wait_until([this] { return shows_unmet(1); })) << state();
+  put_box(unsure, "crate", "map", 3);
+  put_box(writer_, "shed", "map", 4);
+  ASSERT_TRUE(wait_until([this] { return shows("shed"); })) << program_.output();
+  EXPECT_FALSE(shows("crate")) << "it is not heard";
 }
 
 TEST_F(SceneOfARos2User, KeepsWhatIsSaidOnceWhileItsProgramIsNotFollowedYet) {
@@ -112,11 +95,9 @@ TEST_F(SceneOfARos2User, IsNotDrivenIntoItsObject) {
   EXPECT_TRUE(shows("crate")) << program_.output();
 }
 
-class ConstraintsOfARos2User : public MovedFromRos2 {
+class ConstraintsOfARos2User : public SceneFromRos2 {
  protected:
-  ConstraintsOfARos2User() : MovedFromRos2(R"("planning_constraints": true)") {
-    add_section(kAScene);
-  }
+  ConstraintsOfARos2User() : SceneFromRos2(R"("planning_constraints": true)") {}
 };
 
 TEST_F(ConstraintsOfARos2User, AreInTheScene) {
