@@ -54,9 +54,10 @@ const OptionSpec kOptions[] = {
              "0: 16 more than `id`, as people set it. A motor as it is delivered may answer under "
              "0: set that first"},
     {.name = "model",
-     .default_value = std::string("DM4310"),
+     .default_value = std::string(),
+     .required = true,
      .choices = kModelNames,
-     .text = "gives the three ranges below, as the maker delivers it"},
+     .text = "which motor it is: gives the three ranges below, as the maker delivers it"},
     {.name = "p_max_rad",
      .default_value = 0.0,
      .min = 0,

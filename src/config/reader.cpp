@@ -19,6 +19,14 @@ std::string joined(const std::vector<std::string>& words) {
   return text;
 }
 
+/// What is said of an option that is missing.
+std::string what_it_is(const OptionSpec& spec) {
+  std::string text(spec.text);
+  if (!spec.choices.empty())
+    text += "; one of: " + joined({spec.choices.begin(), spec.choices.end()});
+  return text;
+}
+
 /// What to write instead, for the usual slips.
 std::string right_type(const json::Node& node, std::string_view key, std::string_view expected) {
   if (const auto* text = node.text(); text != nullptr) {
@@ -246,8 +254,8 @@ void Reader::options(std::string_view key, Options& into, const std::string& dri
   if (node.object() == nullptr) return wrong_type(node, key, "an object");
   Reader inner(node, path_of(key), problems_);
   for (const auto& spec : entry->options) {
-    const auto* value =
-        inner.find(spec.name, spec.required ? Presence::required : Presence::optional, spec.text);
+    const auto* value = spec.required ? inner.find(spec.name, Presence::required, what_it_is(spec))
+                                      : inner.find(spec.name, Presence::optional, spec.text);
     if (value != nullptr) inner.option(spec, *value, into);
   }
   inner.finish();

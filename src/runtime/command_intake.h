@@ -16,7 +16,8 @@ struct QueuedCommand {
   Command command;
   StopCounts before;
 };
-using CommandRing = SpscRing<QueuedCommand, 64>;
+/// Joint commands that were held up come at once by two ways: beside them there is room for others.
+using CommandRing = SpscRing<QueuedCommand, 128>;
 
 inline constexpr std::uint64_t kStopMark = std::uint64_t{1} << 62U;  // fits a signed one, too
 

@@ -45,7 +45,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   using namespace drover;
   fuzz::Input input({data, size});
   Options options(damiao::option_table());
-  options.set("id", 1.0).set("settle_s", 0.0);
+  options.set("id", 1.0).set("model", std::string("DM4310")).set("settle_s", 0.0);
   damiao::DamiaoDriver driver(damiao::read_settings(options), 0);
   Time now{std::chrono::seconds(1)};
   DriverOut out;

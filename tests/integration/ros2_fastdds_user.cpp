@@ -3,6 +3,7 @@
 
 #include <fastcdr/Cdr.h>
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
+#include <fastdds/rtps/transport/shared_mem/SharedMemTransportDescriptor.h>
 #include <fastrtps/utils/IPLocator.h>
 #include <fastdds/dds/domain/DomainParticipant.hpp>
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
@@ -169,9 +170,23 @@ class FastWriter final : public Writer<M> {
   dds::DataWriter* writer_;
 };
 
+/// rmw_fastrtps of Humble and ROS_LOCALHOST_ONLY=1: multicast, on loopback alone.
+void put_humble(dds::DomainParticipantQos& qos) {
+  qos.transport().use_builtin_transports = false;
+  const auto loopback = std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>();
+  loopback->interfaceWhiteList.emplace_back("127.0.0.1");
+  qos.transport().user_transports = {
+      loopback, std::make_shared<eprosima::fastdds::rtps::SharedMemTransportDescriptor>()};
+}
+
 /// rmw_fastrtps of Jazzy and ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST: no multicast is listened to,
-/// loopback is looked at.
+/// 32 programs are looked for on loopback.
 void put_jazzy(dds::DomainParticipantQos& qos) {
+  qos.transport().use_builtin_transports = false;
+  const auto udp = std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>();
+  udp->maxInitialPeersRange = 32;
+  qos.transport().user_transports = {
+      std::make_shared<eprosima::fastdds::rtps::SharedMemTransportDescriptor>(), udp};
   auto& builtin = qos.wire_protocol().builtin;
   builtin.metatrafficUnicastLocatorList.push_back(rtps::Locator_t());
   rtps::Locator_t peer;
@@ -205,6 +220,7 @@ User::User(int domain, Told told, const std::string& file) : parts_(std::make_un
   if (factory->load_profiles() != ReturnCode_t::RETCODE_OK)
     throw std::runtime_error("Fast DDS does not read " + file);
   auto qos = factory->get_default_participant_qos();
+  if (told == Told::by_humble) put_humble(qos);
   if (told == Told::by_jazzy) put_jazzy(qos);
   parts_->participant = factory->create_participant(static_cast<std::uint32_t>(domain), qos);
   if (parts_->participant == nullptr) throw std::runtime_error("no Fast DDS participant");

@@ -50,7 +50,9 @@ class Writer {
 
 /// How he was told to stay on this computer.
 enum class Told : std::uint8_t {
+  nothing,      ///< Fast DDS's defaults, which ROS 2 leaves as they are
   by_our_file,  ///< config/ros2/fastdds.xml
+  by_humble,    ///< ROS_LOCALHOST_ONLY=1, as rmw_fastrtps of Humble reads it
   by_jazzy,     ///< ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST, as rmw_fastrtps of Jazzy reads it
 };
 

@@ -9,6 +9,7 @@
 
 #include "drover/angle.h"
 #include "integration/ros2_drive_rig.h"
+#include "integration/ros2_places.h"
 #include "json/located_json.h"
 
 namespace drover::test {
@@ -21,30 +22,12 @@ constexpr double kRampFoot_m = 6;
 constexpr double kMetresPerDegree = 111'000;  // of latitude
 constexpr double kG_mps2 = 9.81;
 
-/// On the ground.
-struct Place {
-  double x_m = 0, y_m = 0, yaw_rad = 0;
-};
-/// `b`, which is told from `a`, as `a` is told.
-Place within(const Place& a, const Place& b) {
-  const double c = std::cos(a.yaw_rad);
-  const double s = std::sin(a.yaw_rad);
-  return {a.x_m + c * b.x_m - s * b.y_m, a.y_m + s * b.x_m + c * b.y_m,
-          wrap_rad(a.yaw_rad + b.yaw_rad)};
-}
-double yaw_of(const geometry_msgs_msg_dds__Quaternion_& q) {
-  return std::atan2(2 * (q.w_ * q.z_ + q.x_ * q.y_), 1 - 2 * (q.y_ * q.y_ + q.z_ * q.z_));
-}
 double pitch_of(const geometry_msgs_msg_dds__Quaternion_& q) {
   return std::asin(2 * (q.w_ * q.y_ - q.z_ * q.x_));
 }
 double norm_of(const geometry_msgs_msg_dds__Quaternion_& q) {
   return std::sqrt(q.x_ * q.x_ + q.y_ * q.y_ + q.z_ * q.z_ + q.w_ * q.w_);
 }
-double seconds_of(const std_msgs_msg_dds__Header_& header) {
-  return header.stamp_.sec_ + 1e-9 * header.stamp_.nanosec_;
-}
-
 /// What a navigation hears, and what it expects of each message.
 class Heard {
  public:
@@ -69,12 +52,12 @@ class Heard {
     });
   }
   bool complete() const { return base_in_map() && odometry && latitude_deg != 0 && imu_at_s > 0; }
-  std::optional<Place> base_in_map() const {
+  std::optional<GroundPlace> base_in_map() const {
     if (!odom_in_map || !base_in_odom) return std::nullopt;
     return within(*odom_in_map, *base_in_odom);
   }
 
-  std::optional<Place> odom_in_map, base_in_odom, odometry;
+  std::optional<GroundPlace> odom_in_map, base_in_odom, odometry;
   double vx_mps = 0, wz_radps = 0;
   double latitude_deg = 0, altitude_m = 0;
   double slowest_wheel_radps = 0;
@@ -89,13 +72,7 @@ class Heard {
   }
   template <class Message, class Look>
   void each(ros2::Topic topic, const Look& look) {
-    for (;;) {
-      void* sample = nullptr;
-      dds_sample_info_t info{};
-      if (dds_take(readers_.at(topic), &sample, &info, 1, 1) != 1) return;
-      if (info.valid_data) look(*static_cast<const Message*>(sample));
-      dds_return_loan(readers_.at(topic), &sample, 1);
-    }
+    take_each<Message>(readers_.at(topic), look);
   }
   void frames(const tf2_msgs_msg_dds__TFMessage_& message) {
     for (std::uint32_t i = 0; i < message.transforms_._length; ++i) {
@@ -104,7 +81,7 @@ class Heard {
       const std::string child(each.child_frame_id_);
       const auto& to = each.transform_;
       EXPECT_NEAR(norm_of(to.rotation_), 1, 1e-9);
-      const Place place{to.translation_.x_, to.translation_.y_, yaw_of(to.rotation_)};
+      const GroundPlace place = place_of(to);
       // REP 105: a tree, map above odom above base_link.
       if (child == "odom") EXPECT_EQ(parent, "map");
       if (child == "base_link") EXPECT_EQ(parent, "odom");
@@ -113,23 +90,11 @@ class Heard {
     }
   }
   void way(const nav_msgs_msg_dds__Odometry_& message) {
-    EXPECT_STREQ(message.header_.frame_id_, "odom");
-    EXPECT_STREQ(message.child_frame_id_, "base_link");
-    const auto& pose = message.pose_.pose_;
-    const Place now{pose.position_.x_, pose.position_.y_, yaw_of(pose.orientation_)};
-    const double at_s = seconds_of(message.header_);
-    if (odometry) {
-      // REP 105: it drifts, and never jumps.
-      const double since_s = at_s - odometry_at_s_;
-      EXPECT_GT(since_s, 0);
-      EXPECT_LT(std::hypot(now.x_m - odometry->x_m, now.y_m - odometry->y_m), 0.01 + 1.0 * since_s);
-      EXPECT_LT(std::abs(wrap_rad(now.yaw_rad - odometry->yaw_rad)), 0.02 + 1.5 * since_s);
-    }
-    odometry = now;
-    odometry_at_s_ = at_s;
+    odometry_.take(message);
+    odometry = odometry_.place;
     vx_mps = message.twist_.twist_.linear_.x_;
     wz_radps = message.twist_.twist_.angular_.z_;
-    ++odometry_count;
+    odometry_count = odometry_.count;
   }
   void inertia(const sensor_msgs_msg_dds__Imu_& message) {
     EXPECT_STREQ(message.header_.frame_id_, "base_link");
@@ -141,7 +106,7 @@ class Heard {
   }
 
   std::map<ros2::Topic, dds_entity_t> readers_;
-  double odometry_at_s_ = 0;
+  OdometryWay odometry_;
 };
 
 class NavigatedByRos2 : public MovedFromRos2 {
@@ -179,12 +144,12 @@ class NavigatedByRos2 : public MovedFromRos2 {
     double left_m = 0;
     ASSERT_TRUE(say_until(
         [&] {
-          const Place at = *heard_.base_in_map();
+          const GroundPlace at = *heard_.base_in_map();
           left_m = std::hypot(x_m - at.x_m, y_m - at.y_m);
           return left_m < 0.1;
         },
         [&] {
-          const Place at = *heard_.base_in_map();
+          const GroundPlace at = *heard_.base_in_map();
           const double aside_rad = wrap_rad(std::atan2(y_m - at.y_m, x_m - at.x_m) - at.yaw_rad);
           const double turn_radps = std::clamp(1.5 * aside_rad, -0.6, 0.6);
           const bool ahead = std::abs(aside_rad) < 0.3;
@@ -198,7 +163,7 @@ class NavigatedByRos2 : public MovedFromRos2 {
         << left_m << " m left; " << status() << program_.output();
     ASSERT_NO_FATAL_FAILURE(rest_for(1.5));
   }
-  Place truth() {
+  GroundPlace truth() {
     const auto told = json::parse(sim({"truth"}));
     const auto number = [&](const char* key) {
       const auto* node = told ? told->root.find(key) : nullptr;
@@ -216,10 +181,10 @@ TEST_F(NavigatedByRos2, TurnsLeftGoesNorthAndUpARampByFramesAndOdometry) {
   ASSERT_NO_FATAL_FAILURE(start_robot(ros2::cmd_vel_kind(true)));
   ASSERT_TRUE(say_until([this] { return heard_.complete(); }, [] {})) << program_.output();
   ASSERT_NO_FATAL_FAILURE(rest_for(1));
-  const Place begin = *heard_.base_in_map();
-  const Place true_begin = truth();
-  const auto by_truth = [&](const Place& now) {
-    const Place here = *heard_.base_in_map();
+  const GroundPlace begin = *heard_.base_in_map();
+  const GroundPlace true_begin = truth();
+  const auto by_truth = [&](const GroundPlace& now) {
+    const GroundPlace here = *heard_.base_in_map();
     EXPECT_NEAR(here.x_m - begin.x_m, now.x_m - true_begin.x_m, 0.1);
     EXPECT_NEAR(here.y_m - begin.y_m, now.y_m - true_begin.y_m, 0.1);
     EXPECT_NEAR(wrap_rad(here.yaw_rad - now.yaw_rad), 0, 0.1) << "0 is east, to the left is more";
@@ -229,7 +194,7 @@ TEST_F(NavigatedByRos2, TurnsLeftGoesNorthAndUpARampByFramesAndOdometry) {
   by_truth(truth());
   EXPECT_NEAR(yaw_of(heard_.attitude), 0, 0.1) << "REP 145: counter-clockwise from east";
   EXPECT_NEAR(heard_.acceleration_mps2.z_, kG_mps2, 0.2) << "REP 145: at rest up, not down";
-  const Place way_before = *heard_.odometry;
+  const GroundPlace way_before = *heard_.odometry;
   const double turned_before_rad = heard_.imu_turned_rad;
   const double latitude_before_deg = heard_.latitude_deg;
 
@@ -246,7 +211,7 @@ TEST_F(NavigatedByRos2, TurnsLeftGoesNorthAndUpARampByFramesAndOdometry) {
 
   // To the right, and up the ramp.
   ASSERT_NO_FATAL_FAILURE(go_to(begin.x_m + 5.5, begin.y_m + 3));
-  const Place there = truth();
+  const GroundPlace there = truth();
   by_truth(there);
   EXPECT_GT(there.x_m, kRampFoot_m + 1) << "it is on the ramp";
   EXPECT_NEAR(pitch_of(heard_.attitude), -kRamp_rad, 0.03) << "REP 103: nose up is less than 0";

@@ -6,14 +6,16 @@ namespace drover::publish::aimrt {
 
 JointCommands::JointCommands(const JointCommandsConfig& config)
     : rules_(config.rules),
-      command_bucket_(config.max_commands_Hz, config.command_burst),
-      slow_down_("slow down: " + command_bucket_.in_words("messages")),
-      flood_bucket_(1, 1),
-      log_bucket_(0.2, 3),
-      rivals_bucket_(0.2, 1) {
+      broker_{TokenBucket(config.max_commands_Hz, config.command_burst)},
+      ros2_(broker_),
+      slow_down_("slow down: " + broker_.commands.in_words("messages")) {
   std::size_t groups = 1;
   for (const JointRule& joint : rules_.joints) groups = std::max(groups, joint.group + 1);
   groups_.assign(groups, Group{Writers(config.silence)});
+}
+
+JointCommands::Way& JointCommands::way_of(RequestId::Source source) {
+  return source == RequestId::Source::ros2 ? ros2_ : broker_;
 }
 
 std::string_view JointCommands::rivals(Time now) const {
@@ -69,9 +71,10 @@ Result<JointTargets, Reason> JointCommands::judged(const JointCommandHeard& hear
 void JointCommands::take(RequestId::Source source, const Read& read, Time now, Duration wall,
                          Actions& out) {
   Reason reason;
-  if (!command_bucket_.take(now)) {
-    // The engine's ring is for others too: a stop must find room in it.
-    if (!flood_bucket_.take(now)) {
+  Way& way = way_of(source);
+  if (!way.commands.take(now)) {
+    // The engine's ring is for others too: a reset must find room in it.
+    if (!way.flood.take(now)) {
       ++unread_;
       return;
     }
@@ -91,7 +94,7 @@ void JointCommands::take(RequestId::Source source, const Read& read, Time now, D
   if (!reason.empty()) {
     command.body = JointTargetsRefused{reason};
     const bool of_rivals = rivals_refused() != rivals_before;
-    if ((of_rivals ? rivals_bucket_ : log_bucket_).take(now)) {
+    if ((of_rivals ? way.rivals : way.log).take(now)) {
       out.push_back(
           LogLine{Notice::Level::warning, "joint command refused: " + std::string(reason.view())});
     }

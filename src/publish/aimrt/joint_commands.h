@@ -1,5 +1,5 @@
-// Joint commands, by whichever way they come: one limit, one owner of the joints of a group, and
-// what becomes of a message.
+// Joint commands, by whichever way they come: one owner of the joints of a group, a limit of its
+// own for each way, and what becomes of a message.
 //
 // Pure, as the command service: time is an argument, and what must be done is appended to actions.
 #pragma once
@@ -19,7 +19,8 @@ namespace drover::publish::aimrt {
 struct JointCommandsConfig {
   JointCommandRules rules;
   Duration silence = std::chrono::milliseconds(100);  ///< after which a stream has ended
-  double max_commands_Hz = 250;  ///< more are not looked at: 200 a second and what came late
+  /// By each way, the broker and ROS 2: more are not looked at. 200 a second and what came late.
+  double max_commands_Hz = 250;
   double command_burst = 50;
 };
 
@@ -61,11 +62,18 @@ class JointCommands final {
     std::uint64_t last_stamp_ns = 0;
   };
   std::vector<Group> groups_;
-  TokenBucket command_bucket_;
-  std::string slow_down_;     ///< what is said when it is empty
-  TokenBucket flood_bucket_;  ///< a flood is told of, and the telling is no flood
-  TokenBucket log_bucket_;
-  TokenBucket rivals_bucket_;  ///< other refusals do not drown it
+  /// One way by which they come: a flood by it takes nothing of the other's.
+  struct Way {
+    TokenBucket commands;
+    TokenBucket flood{1, 1};  ///< a flood is told of, and the telling is no flood
+    TokenBucket log{0.2, 3};
+    TokenBucket rivals{0.2, 1};  ///< other refusals do not drown it
+  };
+  Way& way_of(RequestId::Source source);
+
+  Way broker_;
+  Way ros2_;
+  std::string slow_down_;  ///< what is said when the bucket of a way is empty
 };
 
 }  // namespace drover::publish::aimrt

@@ -160,6 +160,20 @@ TEST(Groups, TellAMotorWithoutANumberThatItNeedsOne) {
     EXPECT_THAT(arm_problems("{\"id\": 3, ", bad), HasSubstr("devices.elbow.options")) << bad;
 }
 
+TEST(Groups, TellAMotorWhoseModelIsNotToldWhichOnesThereAre) {
+  const auto told = arm_problems("{\"id\": 3, \"model\": \"DM4310\"", "{\"id\": 3");
+  EXPECT_THAT(told, HasSubstr("devices.elbow.options.model: is missing"));
+  EXPECT_THAT(told, HasSubstr("one of: DM4310, DM4310_48V, DM4340, "));
+}
+
+TEST(Groups, FollowAllFiveValuesAndHoldWhereNothingIsSaid) {
+  const auto loaded = load_text(arm_with("\"follows\": \"position\", ", ""), kFolder);
+  ASSERT_THAT(loaded.problems, IsEmpty());
+  const auto& turret = loaded.config.engine.groups[0].joints[0];
+  EXPECT_EQ(turret.follows, JointFollows::impedance);
+  EXPECT_EQ(turret.on_silence, engine::OnSilence::hold);
+}
+
 TEST(Groups, RefuseMotorsOnABusWithDrivesThatTheyWouldReprogram) {
   EXPECT_THAT(arm_problems("\"elbow\": {\"driver\": \"damiao\", \"link\": \"can1\"",
                            "\"elbow\": {\"driver\": \"damiao\", \"link\": \"can0\""),

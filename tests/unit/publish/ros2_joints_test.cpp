@@ -1,6 +1,9 @@
 // Joint commands of ROS 2 users, as drover-ros2 hands them on.
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <map>
+
 #include "json/json_text.h"
 #include "publish/ros2_outlet.h"
 
@@ -148,6 +151,90 @@ TEST_F(Ros2Joints, OfAFloodAreBoundedBeforeTheyReachTheEngine) {
   }
   EXPECT_LE(told, 51U);
   EXPECT_GT(commands_.unread(), 900U);
+}
+
+/// A good stream by one way for two seconds, a hundred a second, and a flood by the other.
+class JointFlood : public Ros2Joints {
+ protected:
+  using Source = RequestId::Source;
+
+  void write(Source source) {
+    if (source == Source::ros2) {
+      EXPECT_TRUE(open_.on_line(7, line(kWheels), now_, actions_));
+    } else {
+      aimrt::JointCommandHeard heard{{}, {}};
+      heard.message.joints.push_back({.name = "left"});
+      commands_.take(
+          source, [&] { return heard; }, now_, 0s, actions_);
+    }
+  }
+  void stream_beside_flood(Source good, Source flood) {
+    for (int i = 0; i < 20'000; ++i, now_ += 100us) {
+      if (i % 100 == 0) write(good);
+      write(flood);
+      take_actions();
+    }
+  }
+  void take_actions() {
+    for (const Action& action : actions_) {
+      if (const auto* command = std::get_if<Command>(&action)) {
+        ++(std::holds_alternative<JointTargets>(command->body) ? followed
+                                                               : refused)[command->id.source];
+      }
+    }
+    actions_.clear();
+  }
+  /// What of a message that is no command gets into the journal.
+  bool is_told(Source source) {
+    if (source == Source::ros2) {
+      EXPECT_TRUE(open_.on_line(7, line("no JSON"), now_, actions_));
+    } else {
+      commands_.take(
+          source, [] { return Reason("no packet"); }, now_, 0s, actions_);
+    }
+    return std::any_of(actions_.begin(), actions_.end(), [](const Action& action) {
+      return std::holds_alternative<LogLine>(action);
+    });
+  }
+
+  Actions actions_;
+  std::map<Source, int> followed, refused;
+};
+
+TEST_F(JointFlood, ByRos2TakesNothingOfTheBrokers) {
+  stream_beside_flood(Source::aimrt, Source::ros2);
+  EXPECT_EQ(followed[Source::aimrt], 200);
+  EXPECT_EQ(refused[Source::aimrt], 0);
+  EXPECT_EQ(followed[Source::ros2], 0) << "the first one has the joints";
+  EXPECT_GT(commands_.unread(), 19'000U);
+  EXPECT_TRUE(is_told(Source::aimrt));
+}
+
+TEST_F(JointFlood, ByTheBrokerTakesNothingOfRos2s) {
+  stream_beside_flood(Source::ros2, Source::aimrt);
+  EXPECT_EQ(followed[Source::ros2], 200);
+  EXPECT_EQ(refused[Source::ros2], 0);
+  EXPECT_EQ(followed[Source::aimrt], 0) << "the first one has the joints";
+  EXPECT_GT(commands_.unread(), 19'000U);
+  EXPECT_TRUE(is_told(Source::ros2));
+}
+
+TEST_F(JointFlood, ByBothWaysIsToldOfEach) {
+  for (int i = 0; i < 10'000; ++i, now_ += 100us) {
+    write(Source::ros2);
+    write(Source::aimrt);
+  }
+  std::map<Source, int> told;
+  for (const Action& action : actions_) {
+    const auto* command = std::get_if<Command>(&action);
+    const auto* body =
+        command == nullptr ? nullptr : std::get_if<JointTargetsRefused>(&command->body);
+    if (body != nullptr &&
+        body->reason.view() == "slow down: 250 messages a second are taken, and 50 at once")
+      ++told[command->id.source];
+  }
+  EXPECT_THAT(told, testing::UnorderedElementsAre(testing::Pair(Source::ros2, testing::Ge(1)),
+                                                  testing::Pair(Source::aimrt, testing::Ge(1))));
 }
 
 }  // namespace

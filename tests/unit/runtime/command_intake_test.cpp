@@ -5,6 +5,8 @@
 #include <string>
 #include <thread>
 
+#include "publish/aimrt/joint_commands.h"
+
 namespace drover::runtime {
 namespace {
 
@@ -45,6 +47,13 @@ TEST_F(CommandIntakeTest, HearsAStopWhileTheRingIsFull) {
   }
   stops_.ask_stop();
   EXPECT_EQ(cycle().back(), "stop");
+}
+
+TEST_F(CommandIntakeTest, HasRoomForAResetBesideTheBurstsOfBothWaysOfJointCommands) {
+  const auto bursts = 2 * static_cast<int>(publish::aimrt::JointCommandsConfig{}.command_burst);
+  for (int i = 0; i < bursts; ++i)
+    ASSERT_TRUE(ring_->push(QueuedCommand{{{}, {}, JointTargets{}}, {}})) << i;
+  EXPECT_TRUE(ring_->push(QueuedCommand{{{}, {}, ResetStop{}}, {}}));
 }
 
 TEST_F(CommandIntakeTest, TakesManyStopsOfOneCycleAsOne) {

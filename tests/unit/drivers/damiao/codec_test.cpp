@@ -109,7 +109,7 @@ TEST(DamiaoCodec, GivesBackWithinAStepWhatItPacked) {
 FrameEffect effect_of(const CanFrame& frame) {
   static const Settings settings = [] {
     Options options(option_table());
-    options.set("id", 1.0);
+    options.set("id", 1.0).set("model", std::string("DM4310"));
     return read_settings(options);
   }();
   return effect(frame, settings);

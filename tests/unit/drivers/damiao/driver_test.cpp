@@ -264,6 +264,7 @@ TEST(Damiao, RefusesIdsThatAreAnothersAndTimesThatAreTooShort) {
   EXPECT_TRUE(refusal("zero_rad", 13.0).starts_with("zero_rad: "));
   EXPECT_TRUE(refusal("max_effort_Nm", 11.0).starts_with("max_effort_Nm: "));
   EXPECT_EQ(refusal("master_id", 33.0), "");
+  EXPECT_TRUE(refusal("model", std::string()).starts_with("model must be \"DM4310\" or "));
 }
 
 }  // namespace
