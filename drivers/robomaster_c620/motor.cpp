@@ -91,14 +91,17 @@ void Motor::follow(double wanted_radps, Duration dt, Time now) {
   }
   ramp_to(std::clamp(wanted_radps, -settings_.max_radps, settings_.max_radps), dt);
   const double error_radps = ramped_radps_ - velocity_radps_;
-  const double proportional_Nm = settings_.velocity_gain_Nms_per_rad * error_radps;
+  // At rest the sum of errors alone would take a third of a second to overcome friction.
+  const double friction_Nm =
+      ramped_radps_ != 0 ? std::copysign(settings_.friction_Nm, ramped_radps_) : 0.0;
+  const double at_once_Nm = settings_.velocity_gain_Nms_per_rad * error_radps + friction_Nm;
   const double step_Nm = settings_.integrator_gain_Nm_per_rad * error_radps * to_s(dt);
   const double limit_Nm = this->limit_Nm();
-  const bool full = std::abs(proportional_Nm + integral_Nm_ + step_Nm) > limit_Nm;
-  const bool grows = (proportional_Nm + integral_Nm_) * step_Nm > 0;
+  const bool full = std::abs(at_once_Nm + integral_Nm_ + step_Nm) > limit_Nm;
+  const bool grows = (at_once_Nm + integral_Nm_) * step_Nm > 0;
   if (!full || !grows) integral_Nm_ += step_Nm;
   integral_Nm_ = std::clamp(integral_Nm_, -limit_Nm, limit_Nm);
-  counts_ = counts_of(proportional_Nm + integral_Nm_);
+  counts_ = counts_of(at_once_Nm + integral_Nm_);
 }
 
 void Motor::begin_braking(Time now) {

@@ -77,6 +77,12 @@ const OptionSpec kOptions[] = {
      .text =
          "the time after which the speed loop asks for as much again as its gain (s); and so how "
          "stiffly a wheel is kept at rest"},
+    {.name = "friction_A",
+     .default_value = 0.15,
+     .min = 0,
+     .max = 5,
+     .text = "asked for beside the speed loop, the way that a wheel shall turn: a little less than "
+             "what one needs to go on turning, or it creeps; an M3508 by itself 0.15"},
     {.name = "ramp_radps2",
      .default_value = 60.0,
      .min = 0.1,
@@ -132,6 +138,7 @@ Settings read_settings(const Options& options) {
   settings.velocity_gain_Nms_per_rad = checked.number("velocity_gain_Nms_per_rad");
   settings.integrator_gain_Nm_per_rad =
       settings.velocity_gain_Nms_per_rad / checked.number("integrator_s");
+  settings.friction_Nm = checked.number("friction_A") * settings.Nm_per_A;
   settings.ramp_radps2 = checked.number("ramp_radps2");
   settings.hot_degC = checked.number("hot_degC");
   settings.too_hot_degC = checked.number("too_hot_degC");

@@ -27,6 +27,7 @@ struct Settings {
   double max_radps = 0;
   double velocity_gain_Nms_per_rad = 0;
   double integrator_gain_Nm_per_rad = 0;
+  double friction_Nm = 0;
   double ramp_radps2 = 0;
   double hot_degC = 0;
   double too_hot_degC = 0;

@@ -57,8 +57,8 @@ TEST_F(RobomasterMotor, GoesOnFromWhereItWasAfterASilence) {
 TEST_F(RobomasterMotor, RampsToWhatItIsTold) {
   show(0);
   follow(10);
-  // 60 rad/s² for 5 ms: 0.3 rad/s of 10.
-  const double torque_Nm = (3 + 25 * 0.005) * 0.3;
+  // 60 rad/s² for 5 ms: 0.3 rad/s of 10. And friction at once: 0.15 A.
+  const double torque_Nm = (3 + 25 * 0.005) * 0.3 + 0.15 * settings.Nm_per_A;
   EXPECT_NEAR(motor.counts(), torque_Nm / settings.Nm_per_A * settings.counts_per_A, 2);
 }
 
