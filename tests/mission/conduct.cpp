@@ -20,8 +20,6 @@ using namespace std::chrono_literals;
 constexpr Duration kAnnounced = 100ms;
 // An AgileX gets zeros for so long before any motion (drivers/agilex_v2/README.md).
 constexpr Duration kZerosFirst = 200ms;
-// A current grows until it overcomes friction.
-constexpr Duration kOvercomes = 50ms;
 // From the highest speed to rest: 0.8 m/s at 0.8 m/s^2, the jerk limit's 0.4 s, and a margin.
 constexpr Duration kRamp = 1600ms;
 constexpr Duration kGuard = 100ms;
@@ -183,10 +181,7 @@ Problems check_motion(const Record& record, Holding holding) {
     if (!inside(permitted, one.time) && (holding == Holding::unmoved || !ramps.slows(one)))
       add(problems, seconds(one.time) + ": node " + std::to_string(one.wheel.node) +
                         " is told to move outside of any task and stream of joint commands");
-  const Duration begins = is_agilex(record.maker)             ? kZerosFirst
-                          : record.maker == Maker::robomaster ? kOvercomes
-                                                              : 0ms;
-  const Duration late = kAnnounced + begins;
+  const Duration late = kAnnounced + (is_agilex(record.maker) ? kZerosFirst : 0ms);
   for (const auto& one : record.feedback) {
     if (one.cmd != "start_nav_success") continue;
     Time begin = kNever;
