@@ -14,6 +14,7 @@
 #include "drivers/modbus_bms/entry.h"
 #include "drivers/nmea0183/entry.h"
 #include "drivers/odrive/entry.h"
+#include "drivers/robomaster_c620/entry.h"
 #include "drivers/witmotion/entry.h"
 #include "drivers/zlac8015d/entry.h"
 
@@ -22,9 +23,9 @@ namespace drover {
 std::span<const DriverEntry> driver_registry() {
   // Filled at the first call: the entries live in other files, whose order of start is not ours.
   static const std::array kTable{
-      kOdriveEntry,    kGpioLineEntry,     kNmea0183Entry, kModbusBmsEntry, kWitmotionEntry,
-      kZlac8015dEntry, kGt01SerialEntry,   kGt01CanEntry,  kAgilexV2Entry,  kHipnucCanEntry,
-      kLd06Entry,      kAgilexHunterEntry, kDamiaoEntry,
+      kOdriveEntry,    kGpioLineEntry,     kNmea0183Entry, kModbusBmsEntry,      kWitmotionEntry,
+      kZlac8015dEntry, kGt01SerialEntry,   kGt01CanEntry,  kAgilexV2Entry,       kHipnucCanEntry,
+      kLd06Entry,      kAgilexHunterEntry, kDamiaoEntry,   kRobomasterC620Entry,
   };
   return kTable;
 }

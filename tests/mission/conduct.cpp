@@ -7,6 +7,7 @@
 #include <cstdio>
 
 #include "mission/wire_damiao.h"
+#include "mission/wire_robomaster.h"
 #include "mission/wire_twist.h"
 #include "mission/wire_zlac8015d.h"
 
@@ -142,6 +143,7 @@ std::string judge(Maker maker, const CanFrame& frame) {
     case Maker::gt01_can: return gt01::forbidden(frame);
     case Maker::agilex_v2: return agilex_v2::forbidden(frame);
     case Maker::hunter: return hunter::forbidden(frame);
+    case Maker::robomaster: return robomaster::forbidden(frame);
     case Maker::gt01_serial: break;
   }
   return "it has no bus";

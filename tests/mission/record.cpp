@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "mission/robot.h"
+#include "mission/wire_robomaster.h"
 #include "mission/wire_twist.h"
 #include "mission/wire_zlac8015d.h"
 
@@ -108,6 +109,7 @@ void read_drives(const json& scenario, Record& record) {
       record.maker = Maker::zlac8015d;
       record.mps_per_turnps = kTurn * 0.085;
     }
+    if (driver == "robomaster_c620") record.maker = Maker::robomaster;
     const auto* const twist = std::find_if(std::begin(kTwistBases), std::end(kTwistBases),
                                            [&](const auto& base) { return driver == base.first; });
     if (twist != std::end(kTwistBases)) {
@@ -130,8 +132,20 @@ void add_twist(Time time, const TwistCommand& twist, Record& record) {
   }
 }
 
-void read_set_points(const CanLine& line, Record& record) {
+/// Which way they turn it is not asked: they turn the wheel, or they do not.
+void add_currents(Time time, const std::array<float, robomaster::kMotors>& drives_A,
+                  Record& record) {
+  constexpr float kNm_per_A = 0.3F;
+  for (std::uint8_t i = 0; i < drives_A.size(); ++i)
+    record.sent.push_back({time, {static_cast<std::uint8_t>(i + 1), 0, kNm_per_A * drives_A[i]}});
+}
+
+void read_set_points(const CanLine& line, robomaster::Bus& bus, Record& record) {
   if (record.has_arm && line.bus != "can0") return;  // an arm's
+  if (record.maker == Maker::robomaster) {
+    if (const auto drives_A = bus.drives_A(line.frame)) add_currents(line.time, *drives_A, record);
+    return;
+  }
   if (record.maker == Maker::hunter) {
     if (const auto twist = hunter::twist_command(line.frame)) add_twist(line.time, *twist, record);
   } else if (record.maker == Maker::gt01_can || record.maker == Maker::agilex_v2) {
@@ -154,9 +168,10 @@ Record read_record(const fs::path& folder, const json& scenario) {
   read_drives(scenario, record);
   record.bumper = scenario.value(json::json_pointer("/lines/bumper"), std::string()) != "unwired";
   const Earth earth(scenario);
+  robomaster::Bus bus;
   const auto read_can = [&](std::string_view line) {
     auto parsed = parse_can_line(line);
-    read_set_points(parsed, record);
+    read_set_points(parsed, bus, record);
     append(record.can, std::move(parsed));
   };
   if (scenario.contains("can")) each_line(folder / "can.log", read_can);  // it may have no bus

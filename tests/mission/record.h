@@ -40,7 +40,7 @@ struct Sent {
 };
 
 /// Whose drives they are.
-enum class Maker { odrive, zlac8015d, gt01_serial, gt01_can, agilex_v2, hunter };
+enum class Maker { odrive, zlac8015d, gt01_serial, gt01_can, agilex_v2, hunter, robomaster };
 
 struct Record {
   std::filesystem::path folder;
@@ -58,7 +58,8 @@ struct Record {
   std::vector<Status> statuses;
   std::vector<Feedback> feedback;
   /// Every set point on the wire, whoever sent it. Of a ZLAC8015D the wheels are nodes 1 and 2; of
-  /// a base that takes a twist its left and its right edge, in m/s.
+  /// RoboMaster motors what drives them is a torque; of a base that takes a twist its left and its
+  /// right edge, in m/s.
   std::vector<Sent> sent;
   std::vector<JointCommandLine> joint_commands;
   std::vector<Place> track;   ///< of the last save_trajectory, in the simulator's frame

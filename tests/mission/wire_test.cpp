@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "mission/log_lines.h"
+#include "mission/wire_robomaster.h"
 #include "mission/wire_twist.h"
 #include "mission/wire_zlac8015d.h"
 
@@ -165,6 +166,29 @@ TEST(MissionWire, ReadsTheCurveOfAHunter) {
   const auto back = hunter::twist_command(frame("111#FE0C0000000000C8"));
   EXPECT_NEAR(back->wz_radps, -0.1425, 1e-4);
   EXPECT_FALSE(hunter::twist_command(frame("111#00000000000000C8"))->moves());
+}
+
+TEST(MissionWire, KnowsWhatRobomasterMotorsMayBeTold) {
+  for (const char* text : {"700#0000000000000000", "1FF#0000000000000000", "200#00000000",
+                           "200#4001000000000000", "200#BFFF000000000000", "205#0000000000000000"})
+    EXPECT_FALSE(robomaster::forbidden(frame(text)).empty()) << text;
+  for (const char* text : {"200#0666F99A00000000", "200#4000C00000000000", "204#1000FE0C01F42A00"})
+    EXPECT_EQ(robomaster::forbidden(frame(text)), "") << text;
+  EXPECT_TRUE(robomaster::is_zero(frame("200#0000000000000000")));
+  EXPECT_FALSE(robomaster::is_zero(frame("200#0000000000000001")));
+}
+
+TEST(MissionWire, TellsACurrentThatDrivesAMotorFromOneThatBrakesIt) {
+  robomaster::Bus bus;
+  EXPECT_FALSE(bus.drives_A(frame("201#000001F400001900")));  // ahead
+  EXPECT_FALSE(bus.drives_A(frame("202#0000FE0C00001900")));  // back
+  // Along and against; at rest less than begins to turn it, and more.
+  const auto drives_A = bus.drives_A(frame("200#0666066601600400"));
+  ASSERT_TRUE(drives_A);
+  EXPECT_NEAR((*drives_A)[0], 2.0, 0.01);
+  EXPECT_EQ((*drives_A)[1], 0);
+  EXPECT_EQ((*drives_A)[2], 0);
+  EXPECT_NEAR((*drives_A)[3], 1.25, 0.01);
 }
 
 }  // namespace

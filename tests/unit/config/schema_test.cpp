@@ -157,6 +157,24 @@ TEST(Example, OfTwoHubMotorsIsOneDeviceWithTwoJoints) {
   EXPECT_EQ(config.engine.base.right.size(), 1U);
 }
 
+TEST(Example, OfFourRobomasterMotorsSaysThatNothingHoldsThemAndThatTheyGoOnInSilence) {
+  const auto folder = std::string(DROVER_SOURCE_DIR "/config/examples");
+  const auto text = read(folder + "/robomaster.json");
+  const auto loaded = load_text(text, folder);
+  EXPECT_THAT(loaded.problems, testing::IsEmpty());
+  EXPECT_THAT(loaded.warnings, testing::IsEmpty());
+  EXPECT_EQ(loaded.config.engine.joints.size(), 4U);
+  EXPECT_EQ(loaded.config.engine.base.hold, engine::HoldBy::level_ground_only);
+  auto unaccepted = text;
+  unaccepted.replace(unaccepted.find("\"no_watchdog\""), 13, "");
+  EXPECT_THAT(problems(unaccepted, folder),
+              testing::HasSubstr("keeps its last current for ever, for all that its maker says"));
+  auto without_gain = text;
+  without_gain.replace(without_gain.find("\"velocity_gain_Nms_per_rad\": 0.3"), 32,
+                       "\"integrator_s\": 0.12");
+  EXPECT_THAT(problems(without_gain, folder), testing::HasSubstr("velocity_gain_Nms_per_rad"));
+}
+
 TEST(Example, ExplainsEverySection) {
   const auto text = read(DROVER_SOURCE_DIR "/config/drover.json");
   const auto schema = Json::parse(schema_text());

@@ -105,7 +105,7 @@ TEST_P(AnyRobot, AllocatesNothingWhateverItsDevicesSay) {
 }
 INSTANTIATE_TEST_SUITE_P(OfTheExamples, AnyRobot,
                          testing::Values("field", "field_two_of_each", "two_wheels", "zlac8015d",
-                                         "gt01", "gt01_can", "agilex_v2", "hunter"),
+                                         "gt01", "gt01_can", "agilex_v2", "hunter", "robomaster"),
                          [](const auto& robot) { return std::string(robot.param); });
 
 TEST(RecordEncoder, AllocatesNothing) {

@@ -121,10 +121,9 @@ TEST_P(CanConformance, GoesStaleWhenItsDeviceFallsSilent) {
   EXPECT_FALSE(bench.device->health(bench.now).reason.empty());
   bench.run(milliseconds(400), kRun, 1.0);
   EXPECT_EQ(bench.status.state, AxisState::unknown);
-  bench.sent.clear();
+  bench.moving.clear();
   bench.run(milliseconds(100), kRun, 1.0);
-  for (const CanFrame& frame : bench.sent)
-    EXPECT_NE(bench.effect_of(frame), FrameEffect::motion) << describe(frame);
+  for (const CanFrame& frame : bench.moving) ADD_FAILURE() << describe(frame);
 }
 
 TEST_P(CanConformance, ArmsAfterAPowerCycleOnlyByANewRequest) {
@@ -134,12 +133,11 @@ TEST_P(CanConformance, ArmsAfterAPowerCycleOnlyByANewRequest) {
   bench.twin->set_power(false, bench.now);
   bench.run(milliseconds(600), kRun, 1.0);
   bench.twin->set_power(true, bench.now);
-  bench.sent.clear();
+  bench.moving.clear();
   bench.run(milliseconds(3000), kRun, 1.0);
   EXPECT_NE(bench.status.state, AxisState::running);
   EXPECT_EQ(bench.shaft.torque_Nm, 0.0);
-  for (const CanFrame& frame : bench.sent)
-    EXPECT_NE(bench.effect_of(frame), FrameEffect::motion) << describe(frame);
+  for (const CanFrame& frame : bench.moving) ADD_FAILURE() << describe(frame);
   bench.run(milliseconds(100), kRest);
   bench.run(milliseconds(2000), kRun, 1.0);
   EXPECT_EQ(bench.status.state, AxisState::running) << bench.status.reason.view();
@@ -152,10 +150,9 @@ TEST_P(CanConformance, ArmsAfterANewLinkOnlyByANewRequest) {
   bench.run(milliseconds(500), kRest);
   bench.run(milliseconds(1000), kRun, 1.0);
   bench.device->on_link_up(bench.now);
-  bench.sent.clear();
+  bench.moving.clear();
   bench.run(milliseconds(1000), kRun, 1.0);
-  for (const CanFrame& frame : bench.sent)
-    EXPECT_NE(bench.effect_of(frame), FrameEffect::motion) << describe(frame);
+  for (const CanFrame& frame : bench.moving) ADD_FAILURE() << describe(frame);
   bench.run(milliseconds(50), kRest);
   bench.run(milliseconds(1500), kRun, 1.0);
   EXPECT_EQ(bench.status.state, AxisState::running) << bench.status.reason.view();
@@ -198,13 +195,19 @@ TEST_P(CanConformance, SaysHowItStopsAndTheRecipeStopsIt) {
   bench.run(milliseconds(500), kRest);
   bench.run(milliseconds(2000), kRun, 3.0);
   ASSERT_NEAR(bench.shaft.velocity_radps, 3.0, 0.3);
-  const Duration by_recipe = play(bench, &recipe, milliseconds(1000));
-  EXPECT_LT(by_recipe, milliseconds(1000));
+  // What lets go is left to friction, and to nothing else.
+  const bool coasts = recipe.ends == StopEnds::coasts;
+  const Duration within = milliseconds(coasts ? 10000 : 1000);
+  const Duration by_recipe = play(bench, &recipe, within);
+  EXPECT_LT(by_recipe, within);
+  if (coasts) {
+    EXPECT_EQ(bench.shaft.torque_Nm, 0.0);
+  }
 
   CanBench alone(GetParam());
   alone.run(milliseconds(500), kRest);
   alone.run(milliseconds(2000), kRun, 3.0);
-  EXPECT_LT(by_recipe, play(alone, nullptr, milliseconds(2000))) << "it stops without the recipe";
+  EXPECT_LT(by_recipe, play(alone, nullptr, 2 * within)) << "it stops without the recipe";
   if (recipe.ends != StopEnds::holds) return;
   const double before_rad = bench.shaft.position_rad;
   bench.load_Nm = 4;
@@ -238,10 +241,9 @@ TEST_P(CanConformance, GoesStaleWhenOneOfTheFramesThatItNeedsCeases) {
     EXPECT_FALSE(bench.device->health(bench.now).reason.empty());
     EXPECT_NE(bench.status.state, AxisState::running);
     EXPECT_FALSE(bench.status.reason.empty());
-    bench.sent.clear();
+    bench.moving.clear();
     bench.run(milliseconds(100), kRun, 3.0);
-    for (const CanFrame& frame : bench.sent)
-      EXPECT_NE(bench.effect_of(frame), FrameEffect::motion) << describe(frame);
+    for (const CanFrame& frame : bench.moving) ADD_FAILURE() << describe(frame);
   }
 }
 

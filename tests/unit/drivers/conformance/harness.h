@@ -223,6 +223,7 @@ class CanBench {
   DriverOut out;
   TwinFrames twin_frames;
   std::vector<CanFrame> sent;
+  std::vector<CanFrame> moving;  ///< of those: motion, by what was known when they left
   AxisStatus status;
   AxisMotion motion;  ///< of the first channel
   std::array<AxisMotion, kMaxChannels> motions{};
@@ -265,6 +266,7 @@ class CanBench {
       off_list += on_list(actuator->rules(), frame) ? 0 : 1;
       const FrameEffect effect = effect_of(frame);
       forbidden += effect == FrameEffect::forbidden ? 1 : 0;
+      if (effect == FrameEffect::motion) moving.push_back(frame);
       motion_at_rest += effect == FrameEffect::motion && command.request != AxisRequest::run &&
                         command.request != AxisRequest::hold;
       send(frame);

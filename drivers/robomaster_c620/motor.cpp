@@ -1,0 +1,171 @@
+#include "drivers/robomaster_c620/motor.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "drover/measurement.h"
+
+namespace drover::robomaster {
+namespace {
+
+/// Slower than this it stands, and is kept where it is; or after so long, on a slope.
+constexpr double kStands_radps = 0.1;
+constexpr Duration kStandsAtLast = std::chrono::milliseconds(300);
+/// So far off nothing is done about it: else two wheels that stand would push each other.
+constexpr double kFree_rad = 0.003;
+/// Of its limit that a hot motor may still brake with.
+constexpr double kLeastShare = 0.3;
+/// Longer between two frames, and the turns between them are not counted.
+constexpr Duration kCounts = std::chrono::milliseconds(100);
+
+}  // namespace
+
+Motor::Motor(const Settings& settings, std::size_t channel)
+    : settings_(settings), sign_(settings.sign[channel]) {}
+
+/// The angle is of one turn: how many there were in between, the speed tells.
+void Motor::on_feedback(const Feedback& feedback, Time received) {
+  const bool counts = angle_known_ && received - last_ <= kCounts;
+  if (counts) {
+    const double mean_rpm = 0.5 * (feedback_.rpm + feedback.rpm);
+    const double expected_turns = mean_rpm / 60 * to_s(received - last_);
+    const double part_turns = (feedback.angle - feedback_.angle) / double{kAnglesPerTurn};
+    const double turns = part_turns + std::round(expected_turns - part_turns);
+    position_rad_ += turns * kTurn_rad * sign_ / settings_.gear_ratio;
+  } else if (anchored_) {
+    anchored_ = false;  // it may have been turned by hand
+  }
+  angle_known_ = true;
+  feedback_ = feedback;
+  last_ = received;
+  velocity_radps_ = feedback.rpm * kRadpsPerRpm * sign_ / settings_.gear_ratio;
+}
+
+void Motor::forget() {
+  last_ = kNever;
+  feedback_ = {};
+  angle_known_ = false;
+  velocity_radps_ = 0;
+  coast();
+}
+
+double Motor::effort_Nm() const {
+  return feedback_.current / settings_.counts_per_A * settings_.Nm_per_A * sign_;
+}
+
+double Motor::degC() const {
+  return feedback_.degC == 0 ? kAbsent : static_cast<double>(feedback_.degC);
+}
+
+bool Motor::too_hot() const {
+  return feedback_.degC >= settings_.too_hot_degC;
+}
+
+double Motor::limit_Nm() const {
+  const double over =
+      (feedback_.degC - settings_.hot_degC) / (settings_.too_hot_degC - settings_.hot_degC);
+  return settings_.limit_Nm * (1 - (1 - kLeastShare) * std::clamp(over, 0.0, 1.0));
+}
+
+/// Towards nothing: a brake that is rounded is no more than the brake.
+std::int16_t Motor::counts_of(double torque_Nm) const {
+  const double limit_Nm = this->limit_Nm();
+  const double counts = std::clamp(torque_Nm, -limit_Nm, limit_Nm) / settings_.Nm_per_A *
+                        settings_.counts_per_A * sign_;
+  return static_cast<std::int16_t>(
+      std::clamp(counts, -settings_.most_counts, settings_.most_counts));
+}
+
+void Motor::ramp_to(double wanted_radps, Duration dt) {
+  const double step_radps = settings_.ramp_radps2 * to_s(dt);
+  ramped_radps_ += std::clamp(wanted_radps - ramped_radps_, -step_radps, step_radps);
+}
+
+void Motor::follow(double wanted_radps, Duration dt, Time now) {
+  if (!heard_within(settings_.blind_after, now)) return coast();
+  if (loop_ != Loop::following) {
+    ramped_radps_ = velocity_radps_;
+    integral_Nm_ = spring_Nm();  // what holds it on a slope goes on to do so
+    anchored_ = false;
+    loop_ = Loop::following;
+  }
+  ramp_to(std::clamp(wanted_radps, -settings_.max_radps, settings_.max_radps), dt);
+  const double error_radps = ramped_radps_ - velocity_radps_;
+  // At rest the sum of errors alone would take a third of a second to overcome friction.
+  const double friction_Nm =
+      ramped_radps_ != 0 ? std::copysign(settings_.friction_Nm, ramped_radps_) : 0.0;
+  const double at_once_Nm = settings_.velocity_gain_Nms_per_rad * error_radps + friction_Nm;
+  const double step_Nm = settings_.integrator_gain_Nm_per_rad * error_radps * to_s(dt);
+  const double limit_Nm = this->limit_Nm();
+  const bool full = std::abs(at_once_Nm + integral_Nm_ + step_Nm) > limit_Nm;
+  const bool grows = (at_once_Nm + integral_Nm_) * step_Nm > 0;
+  if (!full || !grows) integral_Nm_ += step_Nm;
+  integral_Nm_ = std::clamp(integral_Nm_, -limit_Nm, limit_Nm);
+  counts_ = counts_of(at_once_Nm + integral_Nm_);
+}
+
+void Motor::begin_braking(Time now) {
+  loop_ = Loop::braking;
+  ramped_radps_ = velocity_radps_;
+  anchored_ = false;
+  asked_to_stand_ = now;
+}
+
+void Motor::brake(double slowest_radps, Duration dt, Time now) {
+  if (!heard_within(settings_.blind_after, now)) return coast();
+  if (loop_ != Loop::braking) begin_braking(now);
+  ramp_to(slowest_radps, dt);
+  // Not beyond what it does: then it would be driven.
+  const double most_radps = std::abs(velocity_radps_);
+  const bool along = ramped_radps_ * velocity_radps_ > 0;
+  ramped_radps_ = along ? std::clamp(ramped_radps_, -most_radps, most_radps) : 0.0;
+  if (slowest_radps != 0 || ramped_radps_ != 0) {
+    anchored_ = false;
+    asked_to_stand_ = now;
+  }
+  anchor(now);
+  counts_ = counts_of(brake_Nm());
+}
+
+/// Kept where it came to rest. What pushes harder than the limit takes that place along.
+void Motor::anchor(Time now) {
+  const bool stands = std::abs(velocity_radps_) < kStands_radps;
+  if (!anchored_ && (stands || now - asked_to_stand_ > kStandsAtLast) && ramped_radps_ == 0) {
+    anchored_ = true;
+    anchor_rad_ = position_rad_;
+  }
+  if (!anchored_) return;
+  const double most_rad = kFree_rad + limit_Nm() / settings_.integrator_gain_Nm_per_rad;
+  anchor_rad_ = std::clamp(anchor_rad_, position_rad_ - most_rad, position_rad_ + most_rad);
+}
+
+double Motor::spring_Nm() const {
+  if (!anchored_) return 0;
+  const double off_rad = position_rad_ - anchor_rad_;
+  const double counted_rad = std::max(std::abs(off_rad) - kFree_rad, 0.0);
+  return -std::copysign(counted_rad, off_rad) * settings_.integrator_gain_Nm_per_rad;
+}
+
+/// Against the turn, and against the way from where it stood: nothing else.
+double Motor::brake_Nm() const {
+  const double slower_radps = loop_ == Loop::braking ? ramped_radps_ : 0.0;
+  const double against_Nm = settings_.velocity_gain_Nms_per_rad * (slower_radps - velocity_radps_);
+  return (against_Nm * velocity_radps_ < 0 ? against_Nm : 0.0) + spring_Nm();
+}
+
+void Motor::coast() {
+  loop_ = Loop::coasting;
+  integral_Nm_ = 0;
+  ramped_radps_ = 0;
+  anchored_ = false;
+  counts_ = 0;
+}
+
+bool Motor::is_brake(std::int16_t counts, Time now) const {
+  if (counts == 0) return true;
+  if (!heard_within(settings_.blind_after, now)) return false;
+  const std::int16_t most = counts_of(brake_Nm());
+  return counts > 0 ? counts <= most : counts >= most;
+}
+
+}  // namespace drover::robomaster

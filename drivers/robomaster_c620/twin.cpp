@@ -1,0 +1,112 @@
+#include "drivers/robomaster_c620/twin.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "drivers/twin_states.h"
+
+namespace drover::robomaster {
+namespace {
+
+constexpr double kHot_degC = 95;
+
+}  // namespace
+
+RobomasterTwin::RobomasterTwin(const Settings& settings, const TwinSettings& twin)
+    : settings_(settings), twin_(twin) {
+  for (Unit& unit : units_) unit.degC = twin.ambient_degC;
+}
+
+void RobomasterTwin::boot(Time now) {
+  booted_ = true;
+  last_fed_ = next_ = now;
+  for (Unit& unit : units_) unit.current = 0;
+}
+
+void RobomasterTwin::set_power(bool on, Time now) {
+  if (on == powered_) return;
+  powered_ = on;
+  booted_ = false;
+  boot_at_ = on ? now + twin_.boot_time : kNever;
+}
+
+bool RobomasterTwin::set_fault(std::string_view name, Time) {
+  constexpr std::pair<std::string_view, bool Unit::*> kFaults[] = {
+      {"silent", &Unit::silent},
+      {"no_torque", &Unit::torn},
+      {"stuck_encoder", &Unit::stuck},
+      {"over_temperature", &Unit::hot}};
+  if (name.empty())
+    for (Unit& unit : units_) unit.silent = unit.torn = unit.stuck = unit.hot = false;
+  bool known = name.empty();
+  for (const auto& [fault, flag] : kFaults) {
+    if (name == fault)
+      for (Unit& unit : units_) unit.*flag = true;
+    const auto number = number_after(name, fault);
+    const double channel = number.value_or(0) - settings_.first_motor;
+    const bool one = number && channel >= 0 && channel < kMotors;
+    if (one) units_[static_cast<std::size_t>(channel)].*flag = true;
+    known = known || one || name == fault;
+  }
+  return known;
+}
+
+/// It takes what stands there, without any arming.
+void RobomasterTwin::on_frame(const CanFrame& frame, Time now, TwinFrames&) {
+  const auto currents = decode_currents(frame, settings_.command_id());
+  if (!booted_ || !currents) return;
+  last_fed_ = now;
+  const auto most = static_cast<std::int16_t>(settings_.most_counts);
+  for (std::size_t i = 0; i < kMotors; ++i)
+    units_[i].current = std::clamp((*currents)[i], static_cast<std::int16_t>(-most), most);
+}
+
+void RobomasterTwin::on_tick(Time now, std::span<Shaft> shafts, TwinFrames& out) {
+  const double dt_s = last_tick_ == kNever ? 0.0 : to_s(now - last_tick_);
+  last_tick_ = now;
+  if (powered_ && !booted_ && now >= (boot_at_ == kNever ? now : boot_at_)) boot(now);
+  if (twin_.silence > Duration{} && now - last_fed_ > twin_.silence)
+    for (Unit& unit : units_) unit.current = 0;
+  for (std::size_t i = 0; i < kMotors && i < shafts.size(); ++i) move(i, dt_s, shafts[i]);
+  if (!booted_ || now < next_) return;
+  // No more than one of each in a tick, however long that is.
+  next_ = std::max(next_ + twin_.period, now);
+  for (std::size_t i = 0; i < kMotors; ++i) tell(i, out);
+}
+
+void RobomasterTwin::move(std::size_t channel, double dt_s, Shaft& shaft) {
+  Unit& unit = units_[channel];
+  const double sign = settings_.sign[channel];
+  if (!unit.stuck) {
+    unit.angle_rad = shaft.position_rad * sign * settings_.gear_ratio;
+    unit.rotor_radps = shaft.velocity_radps * sign * settings_.gear_ratio;
+  } else {
+    unit.rotor_radps = 0;
+  }
+  unit.told_current = booted_ && !unit.torn ? unit.current : std::int16_t{0};
+  const double current_A = unit.told_current / settings_.counts_per_A;
+  shaft.torque_Nm = current_A * settings_.Nm_per_A * sign;
+  shaft.energized = booted_;
+  const double heats_W = current_A * current_A * twin_.winding_ohm;
+  const double cools_W = (unit.degC - twin_.ambient_degC) / twin_.thermal_resistance_KpW;
+  unit.degC += (heats_W - cools_W) / twin_.thermal_capacity_JpK * dt_s;
+}
+
+void RobomasterTwin::tell(std::size_t channel, TwinFrames& out) const {
+  const Unit& unit = units_[channel];
+  if (unit.silent) return;
+  Feedback feedback;
+  const double turns = unit.angle_rad / kTurn_rad;
+  const auto angle = static_cast<int>((turns - std::floor(turns)) * kAnglesPerTurn);
+  feedback.angle = static_cast<std::uint16_t>(std::min(angle, kAnglesPerTurn - 1));
+  constexpr double kMost_rpm = 32767;
+  feedback.rpm =
+      static_cast<std::int16_t>(std::clamp(unit.rotor_radps / kRadpsPerRpm, -kMost_rpm, kMost_rpm));
+  feedback.current = unit.told_current;
+  const double degC = unit.hot ? std::max(unit.degC, kHot_degC) : unit.degC;
+  if (twin_.tells_temperature)
+    feedback.degC = static_cast<std::uint8_t>(std::clamp(degC, 0.0, 255.0));
+  static_cast<void>(out.push_back(encode_feedback(settings_.motor(channel), feedback)));
+}
+
+}  // namespace drover::robomaster

@@ -1,0 +1,115 @@
+// Four motors that are told currents: the speed loop is the gateway's, and the guard's only stop is
+// no current.
+#include "mission/support.h"
+#include "mission/wire_robomaster.h"
+
+namespace drover::mission {
+namespace {
+
+TEST(Robomaster, IsDrivenToSuccessCloseToTheTrack) {
+  const Record& log = record("robomaster");
+  EXPECT_EQ(log.feedback_words(), kStarted);
+  expect_nav_stays(log, "NAV_RUN", log.answered("start_nav_success"),
+                   log.first_status("NAV_SUCCESS").time - 1ms);
+  expect_good_drive(log);
+}
+
+/// What does not leave lets the last current stand: they are told in every cycle.
+TEST(Robomaster, IsToldItsCurrentsInEveryCycle) {
+  const Record& log = record("robomaster");
+  Time before = kNever;
+  Duration longest{};
+  for (const CanLine& line : log.can) {
+    if (line.frame.id != 0x200) continue;
+    if (before != kNever) longest = std::max(longest, line.time - before);
+    before = line.time;
+  }
+  figure("longest between two commands", longest);
+  EXPECT_LE(longest, 15ms);
+}
+
+double turned_deg(const Record& log, Time begin) {
+  double most_rad = 0;
+  for (const auto& line : log.truth)
+    if (line.time > begin)
+      most_rad = std::max(
+          most_rad, std::abs(std::remainder(line.yaw_rad - log.truth_at(begin).yaw_rad, 2 * M_PI)));
+  return most_rad * 180 / M_PI;
+}
+
+/// A wheel that is kept where it stands is pulled back by less than friction, 0.13 Nm.
+std::vector<Sent> driven(const Record& log, Time begin) {
+  std::vector<Sent> found = log.moving(begin, Time::max());
+  std::erase_if(found, [](const Sent& one) { return std::abs(one.wheel.torque_Nm) < 0.1F; });
+  return found;
+}
+
+// The wheel that tells nothing gets no current, and the three others brake.
+TEST(RobomasterSilent, OfOneMotorBringsTheRobotToRest) {
+  const Record& log = record("robomaster_silent");
+  const Time silenced = log.event("event silenced#1");
+  ASSERT_TRUE(moved_until(log, silenced));
+  const auto last = driven(log, silenced);
+  figure("last motion after it", last.empty() ? Duration{} : last.back().time - silenced);
+  EXPECT_THAT(driven(log, silenced + 150ms), testing::IsEmpty());
+  tell_way_to_rest(log, silenced, log.truth.back().time - 10ms);
+  figure("turned", turned_deg(log, silenced), "degrees");
+  const Roll rolled = roll(log, silenced, log.truth.back().time - 10ms);
+  EXPECT_LT(rolled.way_m, 0.5);
+  EXPECT_LT(rolled.rest - silenced, 1500ms);
+  EXPECT_LT(turned_deg(log, silenced), 45);
+}
+
+TEST(RobomasterSilent, IsToldInWordsAndEndsTheTask) {
+  const Record& log = record("robomaster_silent");
+  const Time silenced = log.event("event silenced#1");
+  const auto& error = log.first_status("NAV_ERROR", silenced);
+  figure("told after", error.time - silenced);
+  EXPECT_LT(error.time - silenced, 400ms);
+  EXPECT_THAT(error.why, testing::HasSubstr("motor 3 (203) is silent"));
+}
+
+TEST(RobomasterSilent, GetsNoCurrentForTheWheelThatNobodySees) {
+  const Record& log = record("robomaster_silent");
+  const Time silenced = log.event("event silenced#1");
+  std::size_t looked = 0;
+  for (const CanLine& line : log.can) {
+    if (line.frame.id != 0x200 || line.time < silenced + 60ms) continue;
+    ++looked;
+    EXPECT_EQ(line.frame.data[4] * 256 + line.frame.data[5], 0) << "at " << seconds(line.time);
+  }
+  EXPECT_GT(looked, 0U);
+}
+
+TEST(RobomasterKill, IsLetCoastByTheGuardsZerosWithin100Milliseconds) {
+  const Record& log = record("robomaster_kill");
+  const Time killed = log.event("signal 9 to droverd");
+  const Time back = log.event("start droverd", 2);
+  ASSERT_TRUE(moved_until(log, killed)) << "it did not drive when the gateway went";
+  Time before = killed;
+  std::size_t zeros = 0;
+  for (const CanLine& line : log.can) {
+    // What lay in the queue when it died may still leave.
+    if (line.frame.id != 0x200 || line.time < killed + 10ms || line.time > back) continue;
+    EXPECT_TRUE(robomaster::is_zero(line.frame)) << "at " << seconds(line.time);
+    if (++zeros == 1) figure("the guard's first zero after it went", line.time - killed);
+    EXPECT_LE(line.time - before, zeros == 1 ? 100ms : 15ms) << "at " << seconds(line.time);
+    before = line.time;
+  }
+  EXPECT_LE(back - before, 15ms) << "the guard gave up";
+  // On level ground by friction alone: what a person who stands before it must reckon with.
+  const Roll rolled = roll(log, killed, back);
+  figure("way coasted", rolled.way_m, "m");
+  figure("time coasted", rolled.rest - killed);
+  EXPECT_LT(rolled.way_m, 1.5);
+}
+
+TEST(RobomasterKill, StaysStoppedUntilANewStartReachesTheGoal) {
+  const Record& log = record("robomaster_kill");
+  const Time back = log.event("start droverd", 2);
+  expect_rest_until_started(log, back);
+  expect_new_start_succeeds(log, back);
+}
+
+}  // namespace
+}  // namespace drover::mission

@@ -1,0 +1,172 @@
+// The speed loop of one motor by itself: bytes in, a current out.
+#include "drivers/robomaster_c620/motor.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace drover::robomaster {
+namespace {
+
+using std::chrono::milliseconds;
+
+Settings settings_with(double gain = 3) {
+  Options options(option_table());
+  options.set("velocity_gain_Nms_per_rad", gain);
+  return read_settings(options);
+}
+
+/// A motor that is told what it shows, 5 ms apart.
+class RobomasterMotor : public testing::Test {
+ protected:
+  void show(int rpm, std::uint16_t angle = 0, std::uint8_t degC = 25) {
+    now += milliseconds(5);
+    motor.on_feedback({angle, static_cast<std::int16_t>(rpm), 0, degC}, now);
+  }
+  void follow(double radps) { motor.follow(radps, milliseconds(5), now); }
+  void brake(double radps = 0) { motor.brake(radps, milliseconds(5), now); }
+  int limit_counts() const {
+    return static_cast<int>(settings.limit_Nm / settings.Nm_per_A * settings.counts_per_A);
+  }
+
+  const Settings settings = settings_with();
+  Motor motor{settings, 0};
+  Time now{std::chrono::seconds(1)};
+};
+
+TEST_F(RobomasterMotor, CountsTheTurnsOfItsRotorByTheSpeedThatItTells) {
+  // 9000 rpm are 1.5 turns in 10 ms: the angle alone would tell of half a turn.
+  show(9000);
+  now += milliseconds(5);
+  show(9000, 4096);
+  EXPECT_NEAR(motor.position_rad(), 1.5 * kTurn_rad / settings.gear_ratio, 1e-9);
+  now += milliseconds(5);
+  show(9000, 0);
+  EXPECT_NEAR(motor.position_rad(), 3 * kTurn_rad / settings.gear_ratio, 1e-9);
+}
+
+TEST_F(RobomasterMotor, GoesOnFromWhereItWasAfterASilence) {
+  show(0, 100);
+  show(0, 200);
+  const double before_rad = motor.position_rad();
+  now += milliseconds(500);
+  show(0, 5000);
+  EXPECT_EQ(motor.position_rad(), before_rad);
+}
+
+TEST_F(RobomasterMotor, RampsToWhatItIsTold) {
+  show(0);
+  follow(10);
+  // 60 rad/s² for 5 ms: 0.3 rad/s of 10. And friction at once: 0.15 A.
+  const double torque_Nm = (3 + 25 * 0.005) * 0.3 + 0.15 * settings.Nm_per_A;
+  EXPECT_NEAR(motor.counts(), torque_Nm / settings.Nm_per_A * settings.counts_per_A, 2);
+}
+
+TEST_F(RobomasterMotor, AsksForNoMoreThanItsLimitAndAddsNothingUpThere) {
+  for (int i = 0; i < 1000; ++i) {
+    show(0);
+    follow(20);  // it is blocked
+  }
+  EXPECT_EQ(motor.counts(), limit_counts());
+  // Free again, and as fast as it should be: it does not go on pushing for long.
+  int pushed = 0;
+  for (int i = 0; i < 100; ++i) {
+    show(static_cast<int>(25 / kRadpsPerRpm * settings.gear_ratio));
+    follow(20);
+    pushed += motor.counts() > 0 ? 1 : 0;
+  }
+  EXPECT_LT(pushed, 40) << "5 ms each";
+}
+
+TEST_F(RobomasterMotor, BrakesByARampAndNeverTheOtherWay) {
+  const int rpm = static_cast<int>(5 / kRadpsPerRpm * settings.gear_ratio);
+  show(rpm);
+  brake();
+  EXPECT_LT(motor.counts(), 0);
+  const int first = motor.counts();
+  show(rpm);
+  brake();
+  EXPECT_LT(motor.counts(), first) << "the ramp goes on";
+  show(0);
+  brake();
+  EXPECT_EQ(motor.counts(), 0) << "at rest there is nothing to brake";
+}
+
+TEST_F(RobomasterMotor, IsKeptWhereItCameToRest) {
+  show(0, 1000);
+  brake();
+  EXPECT_EQ(motor.counts(), 0);
+  show(60, 1000 + 4000);  // pushed ahead by half a turn of the rotor
+  brake();
+  EXPECT_LT(motor.counts(), 0);
+  show(0, 1000 + 4000);
+  brake();
+  EXPECT_LT(motor.counts(), 0) << "it stands, and not where it stood";
+}
+
+TEST_F(RobomasterMotor, CallsABrakeOnlyWhatIsNoMoreThanOne) {
+  const int rpm = static_cast<int>(1 / kRadpsPerRpm * settings.gear_ratio);
+  show(rpm);
+  brake();
+  show(rpm);
+  brake();
+  const std::int16_t brakes = motor.counts();
+  ASSERT_LT(brakes, 0);
+  EXPECT_TRUE(motor.is_brake(0, now));
+  EXPECT_TRUE(motor.is_brake(brakes, now));
+  EXPECT_TRUE(motor.is_brake(static_cast<std::int16_t>(brakes / 2), now));
+  EXPECT_FALSE(motor.is_brake(static_cast<std::int16_t>(brakes * 2), now)) << "it would turn back";
+  EXPECT_FALSE(motor.is_brake(1, now)) << "along";
+  const Time later = now + milliseconds(31);
+  EXPECT_FALSE(motor.is_brake(brakes, later)) << "nobody knows whether it turns";
+  EXPECT_TRUE(motor.is_brake(0, later));
+}
+
+TEST_F(RobomasterMotor, GetsNoCurrentWhileItTellsNothing) {
+  show(0);
+  follow(1);
+  ASSERT_GT(motor.counts(), 0);
+  now += milliseconds(31);
+  follow(1);
+  EXPECT_EQ(motor.counts(), 0);
+  show(100);
+  brake();
+  now += milliseconds(31);
+  brake();
+  EXPECT_EQ(motor.counts(), 0);
+}
+
+TEST_F(RobomasterMotor, GetsLessTheHotterItIs) {
+  const auto most_at = [this](std::uint8_t degC) {
+    for (int i = 0; i < 400; ++i) {
+      show(0, 0, degC);
+      follow(20);
+    }
+    return static_cast<int>(motor.counts());
+  };
+  EXPECT_EQ(most_at(69), limit_counts());
+  EXPECT_NEAR(most_at(80), limit_counts() * (1 - 0.7 * 10 / 15), 2);
+  EXPECT_NEAR(most_at(120), limit_counts() * 0.3, 2);
+  EXPECT_TRUE(motor.too_hot());
+}
+
+TEST(RobomasterSettings, RefusesWhatDoesNotFitTogether) {
+  const auto refusal = [](std::string_view name, double value) -> std::string {
+    Options options(option_table());
+    options.set("velocity_gain_Nms_per_rad", 0.3).set(name, value);
+    try {
+      static_cast<void>(read_settings(options));
+    } catch (const std::exception& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(refusal("current_limit_A", 20.5), "current_limit_A is more than full_scale_A");
+  EXPECT_EQ(refusal("hot_degC", 85), "hot_degC is not below too_hot_degC");
+  EXPECT_EQ(refusal("blind_s", 0.2), "blind_s is longer than stale_s");
+  EXPECT_EQ(refusal("stale_s", 0.4), "stale_s is longer than timeout_s");
+  EXPECT_EQ(refusal("current_limit_A", 20), "");
+}
+
+}  // namespace
+}  // namespace drover::robomaster
