@@ -1,6 +1,7 @@
 #include "ros2/asked_for.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "json/json_text.h"
 
@@ -39,6 +40,16 @@ void AskedFor::hear(const TwistsHeard& heard, Time now) {
   if (heard.twist) twist_ = Waiting{*heard.twist, now};
 }
 
+void AskedFor::answered() {
+  if (unanswered_ > 0) --unanswered_;
+}
+
+bool AskedFor::way_lost() {
+  if (std::exchange(unanswered_, 0) == 0) return false;
+  stop_waits_ = true;
+  return true;
+}
+
 void AskedFor::forget_twists() {
   twist_.reset();
   refused_.clear();
@@ -61,7 +72,10 @@ void AskedFor::tell(Time now, const std::function<bool(const std::string&)>& sen
   if (stop_waits_ && !too_soon(stop_tried_, kStopsApart, now)) {
     stop_tried_ = now;
     stop_waits_ = !send(json::JsonText().open('{').key("cmd").text("stop").close('}').take());
-    if (!stop_waits_) stop_told_ = now;
+    if (!stop_waits_) {
+      stop_told_ = now;
+      ++unanswered_;
+    }
   }
   if (!refused_.empty() && !too_soon(refused_told_, kRefusalsApart, now)) {
     refused_told_ = now;

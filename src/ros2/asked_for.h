@@ -10,13 +10,19 @@
 
 namespace drover::ros2 {
 
-/// A stop goes before everything else and is told again and again until it has left. Of twists the
+/// A stop goes before everything else, and is told again and again until it has left, and on each
+/// new way until droverd has answered. Of twists the
 /// newest goes on, and what was refused, neither faster than droverd takes them. Pure.
 class AskedFor final {
  public:
   /// An emergency stop; of more that come in rows ten a second are told.
   void stop(Time now);
   void hear(const TwistsHeard& heard, Time now);
+  /// droverd has done what a line asked for, which it says of stops only, in their order.
+  void answered();
+  /// The way to droverd is lost: a stop that it has not answered it may not have read. True: there
+  /// is one, and it is told again.
+  bool way_lost();
   /// There is nobody any more who asked. A stop stays.
   void forget_twists();
 
@@ -35,6 +41,7 @@ class AskedFor final {
   bool stop_waits_ = false;
   Time stop_tried_ = kNever;
   Time stop_told_ = kNever;
+  unsigned unanswered_ = 0;  ///< stops that have left
   std::optional<Waiting> twist_;
   bool moved_ = false;  ///< one since the last that was handed on was no zero
   Time handed_on_ = kNever;

@@ -41,6 +41,7 @@ Program::Program(const config::DroverConfig& config)
 void Program::run(const std::atomic<bool>& stop) {
   while (!stop.load(std::memory_order_relaxed)) {
     const Time now = runtime::monotonic_now();
+    if (!link_.connected()) way_lost();
     if (now >= next_beat_) {
       next_beat_ = now + kBeat;
       beat(now);
@@ -75,9 +76,16 @@ void Program::beat(Time now) {
 void Program::connect(Time now) {
   if (link_.connected()) return;
   follows_ = false;
-  scene_.way_lost();
+  way_lost();
   link_.keep(now);
   if (link_.connected()) connected_ = now;
+}
+
+void Program::way_lost() {
+  scene_.way_lost();
+  if (!asked_.way_lost()) return;
+  say(Level::warning,
+      "droverd was gone before it had answered an emergency stop: it is told again");
 }
 
 /// A network that comes later is another domain: interfaces are chosen when it is made.
@@ -179,6 +187,7 @@ void Program::take(std::string_view line) {
   if (scene_.answered(line, runtime::monotonic_now())) return;
   const auto told = read_told(line);
   if (!told) {
+    if (told.error().done) asked_.answered();
     if (!told.error().reason.empty()) {
       refusal_ = told.error().reason;
       follows_ = false;

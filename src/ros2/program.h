@@ -31,6 +31,7 @@ class Program final {
   void make_domain(Time now);
   void take(std::string_view line);
   void connect(Time now);
+  void way_lost();
   void hear_users(Time now);
   void tell_asked(Time now);
   void say_who_may() const;

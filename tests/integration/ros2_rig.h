@@ -66,6 +66,7 @@ class Ros2Rig : public ::testing::Test {
   std::string last_scene_line_;    ///< likewise, of the planning scene
   std::string last_joint_line_;    ///< likewise a joint command
   int stops_ = 0;                  ///< that it asked for
+  bool answers_stops_ = true;      ///< false: droverd has read them, no more
   std::vector<Command> commands_;  ///< that it handed on, as droverd understands them
   Process program_;
   TempFolder own_folder_;
@@ -74,6 +75,7 @@ class Ros2Rig : public ::testing::Test {
  private:
   void give_back();
   void hear();
+  void tell(const std::string& line) const;
   void beat();
 
   int domain_;

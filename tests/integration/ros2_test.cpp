@@ -173,6 +173,31 @@ TEST_F(Ros2Stop, StopsByWhatFoundNoRoomWhileItHung) {
   EXPECT_TRUE(play_until([&] { return stops_ > before; })) << log();
 }
 
+/// A droverd that hangs has it in its socket, where it dies with it.
+TEST_F(Ros2Stop, IsToldAgainWhereDroverdWasGoneBeforeItAnswered) {
+  open_daemon();
+  start_program();
+  const dds_entity_t writer = stop_writer(DDS_RELIABILITY_RELIABLE);
+  ASSERT_TRUE(is_heard(writer, [this] { play_for(100ms); })) << log();
+  answers_stops_ = false;
+  say(writer, true);
+  ASSERT_TRUE(play_until([this] { return stops_ == 1; })) << log();
+  play_for(1s);
+  EXPECT_EQ(stops_, 1);
+  close_daemon();
+  open_daemon();
+  answers_stops_ = true;
+  ASSERT_TRUE(play_until([this] { return stops_ == 2; })) << log();
+  EXPECT_THAT(log(), HasSubstr("droverd was gone before it had answered an emergency stop"));
+  play_for(500ms);
+  close_daemon();
+  open_daemon();
+  last_request_.clear();
+  ASSERT_TRUE(play_until([this] { return !last_request_.empty(); })) << log();
+  play_for(1s);
+  EXPECT_EQ(stops_, 2) << "it was answered";
+}
+
 TEST_F(Ros2Stop, IsNotPushedOutByWhatFollowsIt) {
   open_daemon();
   start_program();

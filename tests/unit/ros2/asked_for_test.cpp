@@ -51,6 +51,35 @@ TEST_F(WhatUsersAskFor, AStopThatCouldNotLeaveIsNoReasonToPassTheNextOneOver) {
   asked.stop(kNow + 20ms);
   EXPECT_THAT(told(kNow + 100ms), ElementsAre(kStop));
 }
+/// It may have been read by nobody: a kernel takes the line for a droverd that hangs.
+TEST_F(WhatUsersAskFor, AStopThatWasNotAnsweredIsToldAgainWhenTheWayIsLost) {
+  asked.stop(kNow);
+  EXPECT_THAT(told(kNow), ElementsAre(kStop));
+  EXPECT_TRUE(told(kNow + 10s).empty()) << "once on each way";
+  EXPECT_TRUE(asked.way_lost());
+  EXPECT_THAT(told(kNow + 20s, false), ElementsAre(kStop));
+  EXPECT_THAT(told(kNow + 21s), ElementsAre(kStop));
+  EXPECT_TRUE(asked.way_lost());
+  EXPECT_THAT(told(kNow + 22s), ElementsAre(kStop));
+  asked.answered();
+  EXPECT_FALSE(asked.way_lost());
+  EXPECT_FALSE(asked.due());
+  EXPECT_TRUE(told(kNow + 30s).empty());
+}
+TEST_F(WhatUsersAskFor, TheAnswerToAStopIsNoneToTheNextOne) {
+  for (const Duration at : {0ms, 200ms}) {
+    asked.stop(kNow + at);
+    EXPECT_THAT(told(kNow + at), ElementsAre(kStop));
+  }
+  asked.answered();
+  EXPECT_TRUE(asked.way_lost());
+  EXPECT_THAT(told(kNow + 1s), ElementsAre(kStop));
+  asked.answered();
+  asked.answered();  // to nothing of it
+  asked.stop(kNow + 2s);
+  EXPECT_THAT(told(kNow + 2s), ElementsAre(kStop));
+  EXPECT_TRUE(asked.way_lost());
+}
 TEST_F(WhatUsersAskFor, OfStopsInARowTenASecondAreTold) {
   std::size_t lines = 0;
   for (int i = 0; i < 1000; ++i) {
