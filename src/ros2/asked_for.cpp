@@ -26,10 +26,6 @@ json::JsonText cmd_vel_line() {
 
 }  // namespace
 
-void AskedFor::stop(Time now) {
-  if (!too_soon(stop_told_, kStopsApart, now)) stop_waits_ = true;
-}
-
 void AskedFor::hear(const TwistsHeard& heard, Time now) {
   if (!heard.refused.empty()) {
     twist_.reset();
@@ -56,6 +52,10 @@ void AskedFor::forget_twists() {
   moved_ = rivals_ = false;
 }
 
+bool AskedFor::stop_is_due(Time now) const {
+  return stop_waits_ && !too_soon(stop_tried_, kStopsApart, now);
+}
+
 std::optional<Time> AskedFor::due() const {
   std::optional<Time> first;
   const auto is_due = [&first](Time last, Duration apart) {
@@ -69,13 +69,10 @@ std::optional<Time> AskedFor::due() const {
 }
 
 void AskedFor::tell(Time now, const std::function<bool(const std::string&)>& send) {
-  if (stop_waits_ && !too_soon(stop_tried_, kStopsApart, now)) {
+  if (stop_is_due(now)) {
     stop_tried_ = now;
     stop_waits_ = !send(json::JsonText().open('{').key("cmd").text("stop").close('}').take());
-    if (!stop_waits_) {
-      stop_told_ = now;
-      ++unanswered_;
-    }
+    if (!stop_waits_) ++unanswered_;
   }
   if (!refused_.empty() && !too_soon(refused_told_, kRefusalsApart, now)) {
     refused_told_ = now;

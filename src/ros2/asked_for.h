@@ -15,8 +15,8 @@ namespace drover::ros2 {
 /// newest goes on, and what was refused, neither faster than droverd takes them. Pure.
 class AskedFor final {
  public:
-  /// An emergency stop; of more that come in rows ten a second are told.
-  void stop(Time now);
+  /// An emergency stop; of more that come in rows ten a second are told, and the last one.
+  void stop() { stop_waits_ = true; }
   void hear(const TwistsHeard& heard, Time now);
   /// droverd has done what a line asked for, which it says of stops only, in their order.
   void answered();
@@ -28,6 +28,8 @@ class AskedFor final {
 
   /// A stop has not left yet.
   bool stop_waits() const { return stop_waits_; }
+  /// And tell() tries it now.
+  bool stop_is_due(Time now) const;
   /// When tell() has something to send; none: it has nothing.
   std::optional<Time> due() const;
   /// Hands what is due to `send`, which says whether it has left.
@@ -40,7 +42,6 @@ class AskedFor final {
   };
   bool stop_waits_ = false;
   Time stop_tried_ = kNever;
-  Time stop_told_ = kNever;
   unsigned unanswered_ = 0;  ///< stops that have left
   std::optional<Waiting> twist_;
   bool moved_ = false;  ///< one since the last that was handed on was no zero

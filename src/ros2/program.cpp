@@ -155,7 +155,7 @@ void Program::forget_domain() {
 
 void Program::hear_users(Time now) {
   try {
-    if (users_->stop_asked()) asked_.stop(now);  // before anything else
+    if (users_->stop_asked()) asked_.stop();  // before anything else
     const Duration wall = now.time_since_epoch() + runtime::wall_minus_monotonic();
     asked_.hear(users_->twists(now, wall), now);
     users_->joint_commands(now, wall, [this](const std::string& line) { (void)link_.send(line); });
@@ -167,7 +167,7 @@ void Program::hear_users(Time now) {
 
 void Program::tell_asked(Time now) {
   if (asked_.due().value_or(now + kBeat) > now) return;
-  const bool stop = asked_.stop_waits();
+  const bool stop = asked_.stop_is_due(now);
   if (stop) {
     link_.hurry();
     connect(now);

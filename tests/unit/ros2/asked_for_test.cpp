@@ -34,7 +34,7 @@ class WhatUsersAskFor : public ::testing::Test {
 };
 
 TEST_F(WhatUsersAskFor, AStopThatHasNotLeftIsToldAgainUntilItHas) {
-  asked.stop(kNow);
+  asked.stop();
   EXPECT_THAT(told(kNow, false), ElementsAre(kStop));
   EXPECT_TRUE(asked.stop_waits());
   EXPECT_EQ(asked.due(), kNow + 100ms);
@@ -46,14 +46,14 @@ TEST_F(WhatUsersAskFor, AStopThatHasNotLeftIsToldAgainUntilItHas) {
   EXPECT_TRUE(told(kNow + 70s).empty());
 }
 TEST_F(WhatUsersAskFor, AStopThatCouldNotLeaveIsNoReasonToPassTheNextOneOver) {
-  asked.stop(kNow);
+  asked.stop();
   (void)told(kNow, false);
-  asked.stop(kNow + 20ms);
+  asked.stop();
   EXPECT_THAT(told(kNow + 100ms), ElementsAre(kStop));
 }
 /// It may have been read by nobody: a kernel takes the line for a droverd that hangs.
 TEST_F(WhatUsersAskFor, AStopThatWasNotAnsweredIsToldAgainWhenTheWayIsLost) {
-  asked.stop(kNow);
+  asked.stop();
   EXPECT_THAT(told(kNow), ElementsAre(kStop));
   EXPECT_TRUE(told(kNow + 10s).empty()) << "once on each way";
   EXPECT_TRUE(asked.way_lost());
@@ -68,7 +68,7 @@ TEST_F(WhatUsersAskFor, AStopThatWasNotAnsweredIsToldAgainWhenTheWayIsLost) {
 }
 TEST_F(WhatUsersAskFor, TheAnswerToAStopIsNoneToTheNextOne) {
   for (const Duration at : {0ms, 200ms}) {
-    asked.stop(kNow + at);
+    asked.stop();
     EXPECT_THAT(told(kNow + at), ElementsAre(kStop));
   }
   asked.answered();
@@ -76,21 +76,34 @@ TEST_F(WhatUsersAskFor, TheAnswerToAStopIsNoneToTheNextOne) {
   EXPECT_THAT(told(kNow + 1s), ElementsAre(kStop));
   asked.answered();
   asked.answered();  // to nothing of it
-  asked.stop(kNow + 2s);
+  asked.stop();
   EXPECT_THAT(told(kNow + 2s), ElementsAre(kStop));
   EXPECT_TRUE(asked.way_lost());
+}
+/// Between the two a person may have reset the first.
+TEST_F(WhatUsersAskFor, AStopSoonAfterOneThatWasToldIsToldInItsTurn) {
+  asked.stop();
+  EXPECT_THAT(told(kNow), ElementsAre(kStop));
+  asked.stop();
+  EXPECT_FALSE(asked.stop_is_due(kNow + 80ms)) << "nobody says that droverd is away";
+  EXPECT_TRUE(told(kNow + 80ms).empty());
+  EXPECT_TRUE(asked.stop_is_due(kNow + 100ms));
+  EXPECT_EQ(asked.due(), kNow + 100ms);
+  EXPECT_THAT(told(kNow + 100ms), ElementsAre(kStop));
+  EXPECT_FALSE(asked.due());
 }
 TEST_F(WhatUsersAskFor, OfStopsInARowTenASecondAreTold) {
   std::size_t lines = 0;
   for (int i = 0; i < 1000; ++i) {
-    asked.stop(kNow + i * 1ms);
+    asked.stop();
     lines += told(kNow + i * 1ms).size();
   }
   EXPECT_EQ(lines, 10U);
+  EXPECT_EQ(asked.due(), kNow + 1s) << "the last one waits for its turn";
 }
 TEST_F(WhatUsersAskFor, AStopGoesBeforeTwists) {
   asked.hear(twist(0.3), kNow);
-  asked.stop(kNow);
+  asked.stop();
   const auto lines = told(kNow);
   ASSERT_EQ(lines.size(), 2U);
   EXPECT_EQ(lines[0], kStop);
@@ -148,7 +161,7 @@ TEST_F(WhatUsersAskFor, ARefusalThatFollowsDoesNotHideThatTwoProgramsWrite) {
 TEST_F(WhatUsersAskFor, OfADomainThatIsGoneOnlyAStopIsLeft) {
   asked.hear(twist(0.3), kNow);
   asked.hear(refusal("linear.y is 0.3"), kNow);
-  asked.stop(kNow);
+  asked.stop();
   asked.forget_twists();
   EXPECT_THAT(told(kNow), ElementsAre(kStop));
 }
