@@ -1,11 +1,14 @@
 // drover-ros2 as it is shipped, between a droverd and a ROS 2 user on the same computer.
+#include <fcntl.h>
 #include <signal.h>
+#include <sys/stat.h>
 
 #include <cmath>
 
 #include "drover/angle.h"
 #include "integration/ros2_rig.h"
 #include "json/located_json.h"
+#include "link/unique_fd.h"
 
 namespace drover::test {
 namespace {
@@ -196,6 +199,25 @@ TEST_F(Ros2Stop, IsToldAgainWhereDroverdWasGoneBeforeItAnswered) {
   ASSERT_TRUE(play_until([this] { return !last_request_.empty(); })) << log();
   play_for(1s);
   EXPECT_EQ(stops_, 2) << "it was answered";
+}
+
+/// A journal that is stuck, or a terminal that was stopped by Ctrl-S.
+TEST_F(Ros2Stop, IsToldThoughNobodyReadsTheJournal) {
+  const auto journal = folder_ / "log";
+  ASSERT_EQ(::mkfifo(journal.c_str(), 0600), 0);
+  const link::UniqueFd nobody(::open(journal.c_str(), O_RDWR | O_CLOEXEC | O_NONBLOCK));
+  const std::string full(4096, 'x');
+  while (::write(nobody.get(), full.data(), full.size()) > 0) {
+  }
+  open_daemon();
+  start_program();
+  const dds_entity_t writer = stop_writer(DDS_RELIABILITY_RELIABLE);
+  EXPECT_TRUE(play_until([&] {
+    say(writer, true);
+    return stops_ > 1;
+  }));
+  program_.signal(SIGTERM);
+  EXPECT_EQ(program_.wait(5s), 0);
 }
 
 TEST_F(Ros2Stop, IsNotPushedOutByWhatFollowsIt) {
