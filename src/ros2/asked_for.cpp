@@ -26,14 +26,14 @@ json::JsonText cmd_vel_line() {
 
 }  // namespace
 
-void AskedFor::hear(const TwistsHeard& heard, Time now) {
+void AskedFor::hear(const TwistsHeard& heard) {
   if (!heard.refused.empty()) {
     twist_.reset();
     refused_ = heard.refused;
     rivals_ = rivals_ || heard.rivals;
   }
   moved_ = moved_ || heard.moved;
-  if (heard.twist) twist_ = Waiting{*heard.twist, now};
+  if (heard.twist) twist_ = Waiting{*heard.twist, heard.said};
 }
 
 void AskedFor::answered() {
@@ -87,7 +87,7 @@ void AskedFor::tell(Time now, const std::function<bool(const std::string&)>& sen
     auto line = cmd_vel_line();
     line.key("vx_mps").number(twist_->twist.vx_mps).key("wz_radps").number(twist_->twist.wz_radps);
     if (moved_ && is_zero(twist_->twist)) line.key("after_motion").boolean(true);
-    line.key("at_ns").integer(twist_->came.time_since_epoch().count()).close('}');
+    line.key("at_ns").integer(twist_->said.time_since_epoch().count()).close('}');
     twist_.reset();
     moved_ = false;
     (void)send(line.take());  // the next one says it again

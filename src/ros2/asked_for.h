@@ -17,7 +17,7 @@ class AskedFor final {
  public:
   /// An emergency stop; of more that come in rows ten a second are told, and the last one.
   void stop() { stop_waits_ = true; }
-  void hear(const TwistsHeard& heard, Time now);
+  void hear(const TwistsHeard& heard);
   /// droverd has done what a line asked for, which it says of stops only, in their order.
   void answered();
   /// The way to droverd is lost: a stop that it has not answered it may not have read. True: there
@@ -38,7 +38,7 @@ class AskedFor final {
  private:
   struct Waiting {
     Twist twist;
-    Time came = kNever;
+    Time said = kNever;
   };
   bool stop_waits_ = false;
   Time stop_tried_ = kNever;

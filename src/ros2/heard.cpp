@@ -9,6 +9,7 @@
 #include "ros2/domain.h"
 #include "ros2/samples.h"
 #include "ros2/topics.h"
+#include "runtime/clock.h"
 
 namespace drover::ros2 {
 namespace {
@@ -74,13 +75,25 @@ JointCommandLimits limits_of(const config::DroverConfig& config) {
 
 }  // namespace
 
+/// Likewise a thread of DDS' own.
+void Heard::wake_timed(dds_entity_t reader, void* timed) {
+  auto& wakes = *static_cast<TimedWake*>(timed);
+  wakes.arrivals.came(runtime::monotonic_now());
+  wake(reader, &wakes.fd);
+}
+
 dds_entity_t Heard::open(dds_entity_t participant, const TopicKind& kind, std::int32_t depth,
-                         dds_reliability_kind_t reliability) {
+                         dds_reliability_kind_t reliability, TimedWake* timed) {
   const dds_entity_t reader = make_reader(participant, kind, depth, reliability);
   if (reader < 0)
     throw NoDomain(std::string(kind.name + 2) + " cannot be heard: " + dds_strretcode(reader));
-  dds_listener_t* listener = dds_create_listener(&fd_);
-  dds_lset_data_available(listener, wake);
+  void* for_wake = &fd_;
+  if (timed != nullptr) {
+    timed->fd = fd_;
+    for_wake = timed;
+  }
+  dds_listener_t* listener = dds_create_listener(for_wake);
+  dds_lset_data_available(listener, timed != nullptr ? wake_timed : wake);
   dds_set_listener(reader, listener);
   dds_delete_listener(listener);
   wake(reader, &fd_);  // what came before
@@ -99,10 +112,13 @@ Heard::Heard(dds_entity_t participant, const config::DroverConfig& config, Reach
     }
     if (inputs.cmd_vel != "closed") {
       const bool stamped = inputs.cmd_vel == "twist_stamped";
-      cmd_vel_.emplace(open(participant, cmd_vel_kind(stamped), kTwists), stamped, one_clock);
+      cmd_vel_.emplace(open(participant, cmd_vel_kind(stamped), kTwists,
+                            DDS_RELIABILITY_BEST_EFFORT, &twist_wake_),
+                       stamped, one_clock);
     }
     if (inputs.joint_command)
-      joint_commands_.emplace(open(participant, joint_command_kind(), kJointCommands),
+      joint_commands_.emplace(open(participant, joint_command_kind(), kJointCommands,
+                                   DDS_RELIABILITY_BEST_EFFORT, &joint_wake_),
                               limits_of(config), one_clock);
     // An object that is lost is not seen, and nobody says it again: reliable writers only.
     const auto open_scene = [&](const TopicKind& kind) {
@@ -131,7 +147,7 @@ void Heard::close() {
 
 TwistsHeard Heard::twists(Time now, Duration wall) {
   if (!cmd_vel_) return {};
-  auto heard = cmd_vel_->take(now, wall);
+  auto heard = cmd_vel_->take(now, wall, twist_wake_.arrivals.look(now).newest);
   if (heard.failed) throw NoDomain("/cmd_vel cannot be read");
   return heard;
 }
@@ -144,7 +160,9 @@ void Heard::add_unmet(Unmet& unmet) {
 
 void Heard::joint_commands(Time now, Duration wall,
                            const std::function<void(const std::string&)>& send) {
-  if (joint_commands_ && !joint_commands_->take(now, wall, send))
+  if (!joint_commands_) return;
+  const Time came = joint_wake_.arrivals.look(now).oldest;
+  if (!joint_commands_->take(now, wall, came, send))
     throw NoDomain("/joint_command cannot be read");
 }
 

@@ -157,7 +157,7 @@ void Program::hear_users(Time now) {
   try {
     if (users_->stop_asked()) asked_.stop();  // before anything else
     const Duration wall = now.time_since_epoch() + runtime::wall_minus_monotonic();
-    asked_.hear(users_->twists(now, wall), now);
+    asked_.hear(users_->twists(now, wall));
     users_->joint_commands(now, wall, [this](const std::string& line) { (void)link_.send(line); });
     users_->scene_messages(now, wall, [this](std::string line) { scene_.give(std::move(line)); });
   } catch (const NoDomain& error) {

@@ -60,6 +60,7 @@ class Ros2Rig : public ::testing::Test {
   }
   std::string log() const { return program_.output(); }
   int domain() const { return domain_; }
+  dds_entity_t participant() const { return participant_; }
 
   Snapshot seen_;                  ///< what droverd sees, at its own time
   std::string last_request_;       ///< of drover-ros2, to follow

@@ -9,6 +9,7 @@
 #include "integration/ros2_rig.h"
 #include "json/located_json.h"
 #include "link/unique_fd.h"
+#include "runtime/clock.h"
 
 namespace drover::test {
 namespace {
@@ -240,6 +241,49 @@ TEST_F(Ros2, HearsNoStopUnlessThatIsOpened) {
   ASSERT_TRUE(play_until([this] { return log().find("tells of the robot") != std::string::npos; }))
       << log();
   EXPECT_FALSE(is_heard(stop_writer(DDS_RELIABILITY_RELIABLE), [this] { play_for(100ms); }));
+}
+
+class Ros2Moves : public Ros2 {
+ protected:
+  Ros2Moves() : Ros2(User::humble, R"(, "inputs": {"cmd_vel": "twist", "joint_command": true})") {}
+  dds_entity_t moving_writer(const ros2::TopicKind& kind) {
+    return make_writer(participant(), kind, DDS_RELIABILITY_RELIABLE);
+  }
+  static Duration now() { return runtime::monotonic_now().time_since_epoch(); }
+};
+
+/// A loop that was held up must not add what it was to how long the robot follows a message.
+TEST_F(Ros2Moves, ByWhatCountsFromWhenItWasSaid) {
+  open_daemon();
+  start_program();
+  const dds_entity_t twists = moving_writer(ros2::cmd_vel_kind(false));
+  const dds_entity_t joints = moving_writer(ros2::joint_command_kind());
+  const auto followed = [this] {
+    const FollowTwist* twist = nullptr;
+    for (const Command& command : commands_)
+      if (const auto* one = std::get_if<FollowTwist>(&command.body); one != nullptr) {
+        twist = one;
+        EXPECT_LT(command.received.time_since_epoch(), now() - 180ms);
+      }
+    return twist != nullptr;
+  };
+  EXPECT_TRUE(play_until([&] {
+    const geometry_msgs_msg_dds__Twist_ message{};
+    dds_write_ts(twists, &message, dds_time() - DDS_MSECS(180));
+    return followed();
+  })) << log();
+  const auto at = [this] {
+    const auto line = json::parse(last_joint_line_);
+    const auto* at_ns = line ? line->root.find("at_ns") : nullptr;
+    return at_ns == nullptr ? Duration{} : Duration{at_ns->integer().value_or(0)};
+  };
+  EXPECT_TRUE(play_until([&] {
+    aimrt_msgs_msg_dds__JointCommandArray_ message{};
+    message.header_.frame_id_ = const_cast<char*>("");
+    dds_write_ts(joints, &message, dds_time() - DDS_MSECS(180));
+    return at() > Duration{};
+  })) << log();
+  EXPECT_LT(at(), now() - 180ms);
 }
 
 class Ros2OfJazzy : public Ros2 {
