@@ -91,25 +91,20 @@ void Program::way_lost() {
 /// A network that comes later is another domain: interfaces are chosen when it is made.
 void Program::keep_domain(Time now) {
   auto there = networks();
-  if (domain_ && there != networks_) {
-    // Twice the same: it is not just coming up.
-    if (there == other_networks_) {
-      say(Level::info, "the networks have changed: " + joined(there));
-      if (users_) hear_users(now);  // a stop that came
-      forget_domain();
-      retry_.try_now();
-    }
-    other_networks_ = there;
+  if (domain_ && networks_.changed(there)) {
+    say(Level::info, "the networks have changed: " + joined(there));
+    if (users_) hear_users(now);  // a stop that came
+    forget_domain();
+    retry_.try_now();
   }
   if (domain_ || !retry_.due(now)) return;
-  networks_ = std::move(there);
-  other_networks_ = networks_;
+  networks_.use(std::move(there));
   make_domain(now);
 }
 
 void Program::make_domain(Time now) {
   try {
-    domain_ = std::make_unique<Domain>(config_.ros2.domain, reach_, !networks_.empty());
+    domain_ = std::make_unique<Domain>(config_.ros2.domain, reach_, !networks_.used().empty());
     shown_ = std::make_unique<Shown>(domain_->participant(), robot_, wall_now_ns());
     users_ = std::make_unique<Heard>(domain_->participant(), config_, reach_);
     readers_ = {};
@@ -117,7 +112,7 @@ void Program::make_domain(Time now) {
     retry_.succeeded();
     say(Level::info, "domain " + std::to_string(config_.ros2.domain) +
                          (reach_ == Reach::network
-                              ? ": whoever reaches " + joined(networks_) + " sees this robot"
+                              ? ": whoever reaches " + joined(networks_.used()) + " sees this robot"
                               : ": programs on this computer see this robot"));
     say_who_may();
   } catch (const NoDomain& error) {
