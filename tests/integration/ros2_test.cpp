@@ -320,6 +320,24 @@ TEST_F(Ros2, IsToldWhichReaderAsksForMoreThanIsOffered) {
   EXPECT_TRUE(play_until([this] { return asked("incompatible") == 1; })) << last_request_;
   EXPECT_THAT(log(), HasSubstr("a reader of /odom asks for a durability that is not offered"));
   EXPECT_EQ(newest<nav_msgs_msg_dds__Odometry_>(wrong), nullptr);
+  dds_delete(wrong);
+  EXPECT_TRUE(play_until([this] { return asked("incompatible") == 0; })) << "it is gone";
+}
+
+TEST_F(Ros2Stop, IsToldWhichWriterIsNotHeardUntilItIsGone) {
+  open_daemon();
+  start_program();
+  dds_qos_t* qos = dds_create_qos();
+  dds_qset_ownership(qos, DDS_OWNERSHIP_EXCLUSIVE);
+  const auto& kind = ros2::stop_kind();
+  const dds_entity_t topic =
+      dds_create_topic(participant(), kind.type, kind.name, nullptr, nullptr);
+  const dds_entity_t wrong = dds_create_writer(participant(), topic, qos, nullptr);
+  dds_delete_qos(qos);
+  ASSERT_GT(wrong, 0);
+  EXPECT_TRUE(play_until([this] { return asked("incompatible") == 1; })) << last_request_;
+  dds_delete(wrong);
+  EXPECT_TRUE(play_until([this] { return asked("incompatible") == 0; })) << "it is gone";
 }
 
 TEST_F(Ros2, SeesThatDroverdIsGoneAndThatItIsBack) {

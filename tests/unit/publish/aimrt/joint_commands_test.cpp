@@ -41,8 +41,7 @@ class JointsOfTwoGroups : public testing::Test {
 
 TEST_F(JointsOfTwoGroups, HaveNoNewOwnerInOneByAMessageThatTheOtherRefuses) {
   std::string last;
-  for (int i = 0; i < 20; ++i, now_ += 10ms)
-    last = say("arm", {at("elbow", i % 2 == 0 ? 0 : 1)});
+  for (int i = 0; i < 20; ++i, now_ += 10ms) last = say("arm", {at("elbow", i % 2 == 0 ? 0 : 1)});
   ASSERT_THAT(last, HasSubstr("jump to and fro"));
   EXPECT_THAT(say("arm", {at("left", 0), at("elbow", 0)}), HasSubstr("jump to and fro"));
   EXPECT_THAT(say("base", {at("left", 0)}), IsEmpty()) << "nobody was followed there";
