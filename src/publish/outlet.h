@@ -62,6 +62,8 @@ class Outlet {
                        Actions& /*out*/) {
     return false;
   }
+  /// A client of that socket is gone: no other one will have its number.
+  virtual void on_gone(ClientId /*client*/) {}
   /// Of a request that came in by a line. False: it was another one's.
   virtual bool on_answer(const Answer& /*answer*/, Actions& /*out*/) { return false; }
   /// Each of the engine's, in their order.

@@ -27,8 +27,8 @@ struct Ros2Inputs {
   bool planning_constraints = false;
 };
 
-/// One follows at a time. Who is silent for kLease, hung or gone, is sent nothing any more, and
-/// makes way for the next.
+/// One follows at a time. Who is gone, or silent for kLease as one that hangs, is sent nothing any
+/// more, and makes way for the next.
 class Ros2Outlet final : public Outlet {
  public:
   static constexpr Duration kLease = std::chrono::seconds(3);
@@ -46,6 +46,9 @@ class Ros2Outlet final : public Outlet {
   std::vector<OutMessage> on_snapshot(const Snapshot& seen, const Moment& moment,
                                       Actions& out) override;
   bool on_line(ClientId client, std::string_view line, Time now, Actions& out) override;
+  void on_gone(ClientId client) override {
+    if (client == client_) heard_ = kNever;
+  }
   void count(DaemonStatus& status) const override;
 
  private:

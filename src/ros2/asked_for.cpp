@@ -1,6 +1,7 @@
 #include "ros2/asked_for.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "json/json_text.h"
 
@@ -25,24 +26,34 @@ json::JsonText cmd_vel_line() {
 
 }  // namespace
 
-void AskedFor::stop(Time now) {
-  if (!too_soon(stop_told_, kStopsApart, now)) stop_waits_ = true;
-}
-
-void AskedFor::hear(const TwistsHeard& heard, Time now) {
+void AskedFor::hear(const TwistsHeard& heard) {
   if (!heard.refused.empty()) {
     twist_.reset();
     refused_ = heard.refused;
     rivals_ = rivals_ || heard.rivals;
   }
   moved_ = moved_ || heard.moved;
-  if (heard.twist) twist_ = Waiting{*heard.twist, now};
+  if (heard.twist) twist_ = Waiting{*heard.twist, heard.said};
+}
+
+void AskedFor::answered() {
+  if (unanswered_ > 0) --unanswered_;
+}
+
+bool AskedFor::way_lost() {
+  if (std::exchange(unanswered_, 0) == 0) return false;
+  stop_waits_ = true;
+  return true;
 }
 
 void AskedFor::forget_twists() {
   twist_.reset();
   refused_.clear();
   moved_ = rivals_ = false;
+}
+
+bool AskedFor::stop_is_due(Time now) const {
+  return stop_waits_ && !too_soon(stop_tried_, kStopsApart, now);
 }
 
 std::optional<Time> AskedFor::due() const {
@@ -58,10 +69,10 @@ std::optional<Time> AskedFor::due() const {
 }
 
 void AskedFor::tell(Time now, const std::function<bool(const std::string&)>& send) {
-  if (stop_waits_ && !too_soon(stop_tried_, kStopsApart, now)) {
+  if (stop_is_due(now)) {
     stop_tried_ = now;
     stop_waits_ = !send(json::JsonText().open('{').key("cmd").text("stop").close('}').take());
-    if (!stop_waits_) stop_told_ = now;
+    if (!stop_waits_) ++unanswered_;
   }
   if (!refused_.empty() && !too_soon(refused_told_, kRefusalsApart, now)) {
     refused_told_ = now;
@@ -76,7 +87,7 @@ void AskedFor::tell(Time now, const std::function<bool(const std::string&)>& sen
     auto line = cmd_vel_line();
     line.key("vx_mps").number(twist_->twist.vx_mps).key("wz_radps").number(twist_->twist.wz_radps);
     if (moved_ && is_zero(twist_->twist)) line.key("after_motion").boolean(true);
-    line.key("at_ns").integer(twist_->came.time_since_epoch().count()).close('}');
+    line.key("at_ns").integer(twist_->said.time_since_epoch().count()).close('}');
     twist_.reset();
     moved_ = false;
     (void)send(line.take());  // the next one says it again

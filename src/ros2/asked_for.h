@@ -10,18 +10,26 @@
 
 namespace drover::ros2 {
 
-/// A stop goes before everything else and is told again and again until it has left. Of twists the
+/// A stop goes before everything else, and is told again and again until it has left, and on each
+/// new way until droverd has answered. Of twists the
 /// newest goes on, and what was refused, neither faster than droverd takes them. Pure.
 class AskedFor final {
  public:
-  /// An emergency stop; of more that come in rows ten a second are told.
-  void stop(Time now);
-  void hear(const TwistsHeard& heard, Time now);
+  /// An emergency stop; of more that come in rows ten a second are told, and the last one.
+  void stop() { stop_waits_ = true; }
+  void hear(const TwistsHeard& heard);
+  /// droverd has done what a line asked for, which it says of stops only, in their order.
+  void answered();
+  /// The way to droverd is lost: a stop that it has not answered it may not have read. True: there
+  /// is one, and it is told again.
+  bool way_lost();
   /// There is nobody any more who asked. A stop stays.
   void forget_twists();
 
   /// A stop has not left yet.
   bool stop_waits() const { return stop_waits_; }
+  /// And tell() tries it now.
+  bool stop_is_due(Time now) const;
   /// When tell() has something to send; none: it has nothing.
   std::optional<Time> due() const;
   /// Hands what is due to `send`, which says whether it has left.
@@ -30,11 +38,11 @@ class AskedFor final {
  private:
   struct Waiting {
     Twist twist;
-    Time came = kNever;
+    Time said = kNever;
   };
   bool stop_waits_ = false;
   Time stop_tried_ = kNever;
-  Time stop_told_ = kNever;
+  unsigned unanswered_ = 0;  ///< stops that have left
   std::optional<Waiting> twist_;
   bool moved_ = false;  ///< one since the last that was handed on was no zero
   Time handed_on_ = kNever;

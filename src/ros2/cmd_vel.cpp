@@ -12,7 +12,7 @@ constexpr std::int32_t kAtOnce = 20;
 }  // namespace
 
 void CmdVel::hear(const void* sample, const dds_sample_info_t& info, Time now, Duration wall,
-                  TwistsHeard& heard) {
+                  Time came, TwistsHeard& heard) {
   const auto rival = writers_.rival_of(info.publication_handle, now);
   const auto refuse = [&heard](const std::string& why) {
     heard.twist.reset();
@@ -31,13 +31,15 @@ void CmdVel::hear(const void* sample, const dds_sample_info_t& info, Time now, D
   const auto twist = read_twist(message);
   if (!twist) return refuse(twist.error());
   heard.twist = *twist;
+  heard.said = one_clock_ ? said_at(info, now, wall) : came;
   heard.moved = heard.moved || !is_zero(*twist);
 }
 
-TwistsHeard CmdVel::take(Time now, Duration wall) {
+TwistsHeard CmdVel::take(Time now, Duration wall, Time came) {
   TwistsHeard heard;
-  const auto taken = take_samples<kAtOnce>(
-      reader_, [&](const void* sample, const auto& info) { hear(sample, info, now, wall, heard); });
+  const auto taken = take_samples<kAtOnce>(reader_, [&](const void* sample, const auto& info) {
+    hear(sample, info, now, wall, came, heard);
+  });
   heard.failed = taken < 0;
   return heard;
 }

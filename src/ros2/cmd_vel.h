@@ -21,11 +21,11 @@ class CmdVel final {
   CmdVel(dds_entity_t reader, bool stamped, bool one_clock)
       : reader_(reader), stamped_(stamped), one_clock_(one_clock) {}
 
-  /// `wall`: UTC now, since 1970.
-  TwistsHeard take(Time now, Duration wall);
+  /// `wall`: UTC now, since 1970. `came`: when the newest has, where clocks differ.
+  TwistsHeard take(Time now, Duration wall, Time came);
 
  private:
-  void hear(const void* sample, const dds_sample_info_t& info, Time now, Duration wall,
+  void hear(const void* sample, const dds_sample_info_t& info, Time now, Duration wall, Time came,
             TwistsHeard& heard);
 
   dds_entity_t reader_;

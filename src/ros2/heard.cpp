@@ -9,6 +9,7 @@
 #include "ros2/domain.h"
 #include "ros2/samples.h"
 #include "ros2/topics.h"
+#include "runtime/clock.h"
 
 namespace drover::ros2 {
 namespace {
@@ -74,6 +75,13 @@ JointCommandLimits limits_of(const config::DroverConfig& config) {
 
 }  // namespace
 
+/// Likewise a thread of DDS' own.
+void Heard::wake_timed(dds_entity_t reader, void* timed) {
+  auto& wakes = *static_cast<TimedWake*>(timed);
+  wakes.arrivals.came(runtime::monotonic_now());
+  wake(reader, &wakes.fd);
+}
+
 dds_entity_t Heard::add(dds_entity_t reader, const TopicKind& kind, dds_on_data_available_fn came,
                         void* of) {
   if (reader < 0)
@@ -88,8 +96,11 @@ dds_entity_t Heard::add(dds_entity_t reader, const TopicKind& kind, dds_on_data_
 }
 
 dds_entity_t Heard::open(dds_entity_t participant, const TopicKind& kind, std::int32_t depth,
-                         dds_reliability_kind_t reliability) {
-  return add(make_reader(participant, kind, depth, reliability), kind, wake, &fd_);
+                         dds_reliability_kind_t reliability, TimedWake* timed) {
+  const dds_entity_t reader = make_reader(participant, kind, depth, reliability);
+  if (timed == nullptr) return add(reader, kind, wake, &fd_);
+  timed->fd = fd_;
+  return add(reader, kind, wake_timed, timed);
 }
 
 void Heard::open_scene(dds_entity_t participant, const TopicKind& kind, SceneInput& input) {
@@ -111,10 +122,13 @@ Heard::Heard(dds_entity_t participant, const config::DroverConfig& config, Reach
     }
     if (inputs.cmd_vel != "closed") {
       const bool stamped = inputs.cmd_vel == "twist_stamped";
-      cmd_vel_.emplace(open(participant, cmd_vel_kind(stamped), kTwists), stamped, one_clock);
+      cmd_vel_.emplace(open(participant, cmd_vel_kind(stamped), kTwists,
+                            DDS_RELIABILITY_BEST_EFFORT, &twist_wake_),
+                       stamped, one_clock);
     }
     if (inputs.joint_command)
-      joint_commands_.emplace(open(participant, joint_command_kind(), kJointCommands),
+      joint_commands_.emplace(open(participant, joint_command_kind(), kJointCommands,
+                                   DDS_RELIABILITY_BEST_EFFORT, &joint_wake_),
                               limits_of(config), one_clock);
     const auto wake_up = [this] { wake(0, &fd_); };
     using Kind = SceneInput::Kind;
@@ -141,7 +155,7 @@ void Heard::close() {
 
 TwistsHeard Heard::twists(Time now, Duration wall) {
   if (!cmd_vel_) return {};
-  auto heard = cmd_vel_->take(now, wall);
+  auto heard = cmd_vel_->take(now, wall, twist_wake_.arrivals.look(now).newest);
   if (heard.failed) throw NoDomain("/cmd_vel cannot be read");
   return heard;
 }
@@ -154,7 +168,9 @@ void Heard::add_unmet(Unmet& unmet) {
 
 void Heard::joint_commands(Time now, Duration wall,
                            const std::function<void(const std::string&)>& send) {
-  if (joint_commands_ && !joint_commands_->take(now, wall, send))
+  if (!joint_commands_) return;
+  const Time came = joint_wake_.arrivals.look(now).oldest;
+  if (!joint_commands_->take(now, wall, came, send))
     throw NoDomain("/joint_command cannot be read");
 }
 

@@ -8,6 +8,7 @@
 
 #include "config/config.h"
 #include "link/unique_fd.h"
+#include "ros2/arrivals.h"
 #include "ros2/cmd_vel.h"
 #include "ros2/domain.h"
 #include "ros2/joint_command_input.h"
@@ -42,10 +43,17 @@ class Heard final {
   void scene_messages(Time now, Duration wall, const std::function<void(std::string)>& give);
 
  private:
+  /// For a listener that keeps when something came.
+  struct TimedWake {
+    int fd = -1;
+    Arrivals arrivals;
+  };
+  static void wake_timed(dds_entity_t reader, void* timed);
   void close();
   /// Best effort matches both kinds of writers; of reliable ones nothing is lost.
   dds_entity_t open(dds_entity_t participant, const TopicKind& kind, std::int32_t depth,
-                    dds_reliability_kind_t reliability = DDS_RELIABILITY_BEST_EFFORT);
+                    dds_reliability_kind_t reliability = DDS_RELIABILITY_BEST_EFFORT,
+                    TimedWake* timed = nullptr);
   /// Only reliable ones: an object that is lost is not seen, and nobody says it again.
   void open_scene(dds_entity_t participant, const TopicKind& kind, SceneInput& input);
   /// `came` is told when something came, in a thread of DDS' own.
@@ -63,6 +71,8 @@ class Heard final {
   dds_entity_t stop_ = 0;  ///< 0: not opened
   /// Once more: it asks a reliable writer again for what found no room while this program hung.
   dds_entity_t sure_stop_ = 0;
+  TimedWake twist_wake_;
+  TimedWake joint_wake_;
   std::vector<Reader> readers_;  ///< all of them
   std::optional<CmdVel> cmd_vel_;
   std::optional<JointCommandInput> joint_commands_;

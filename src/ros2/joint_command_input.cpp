@@ -32,7 +32,7 @@ const std::string& JointCommandInput::name_of(dds_instance_handle_t writer) {
   return name.name;
 }
 
-std::string JointCommandInput::line_of(const void* sample, const dds_sample_info_t& info, Time now,
+std::string JointCommandInput::line_of(const void* sample, const dds_sample_info_t& info, Time said,
                                        Duration wall) {
   json::JsonText line;
   line.open('{').key("cmd").text("joint_command");
@@ -45,14 +45,15 @@ std::string JointCommandInput::line_of(const void* sample, const dds_sample_info
       *static_cast<const aimrt_msgs_msg_dds__JointCommandArray_*>(sample), limits_.joints);
   if (!message) return refused(message.error().view());
   line.key("writer").text(name_of(info.publication_handle));
-  line.key("at_ns").integer(now.time_since_epoch().count());
+  line.key("at_ns").integer(said.time_since_epoch().count());
   return line.key("message").text(*message).close('}').take();
 }
 
-bool JointCommandInput::take(Time now, Duration wall,
+bool JointCommandInput::take(Time now, Duration wall, Time came,
                              const std::function<void(const std::string&)>& send) {
   const auto look = [&](const void* sample, const dds_sample_info_t& info) {
-    if (pace_.take(now)) send(line_of(sample, info, now, wall));
+    const Time said = one_clock_ ? said_at(info, now, wall) : came;
+    if (pace_.take(now)) send(line_of(sample, info, said, wall));
   };
   return take_samples<kCommandsAtOnce>(reader_, look) >= 0;
 }

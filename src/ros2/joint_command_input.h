@@ -26,12 +26,13 @@ class JointCommandInput final {
   JointCommandInput(dds_entity_t reader, const JointCommandLimits& limits, bool one_clock);
 
   /// Takes what came since the last look. Each may name other joints: none stands for another one.
-  /// Of a flood most are not looked at. `wall`: UTC now, since 1970. False: DDS gives nothing.
-  [[nodiscard]] bool take(Time now, Duration wall,
+  /// Of a flood most are not looked at. `wall`: UTC now, since 1970. `came`: when the first of them
+  /// has, where clocks differ. False: DDS gives nothing.
+  [[nodiscard]] bool take(Time now, Duration wall, Time came,
                           const std::function<void(const std::string&)>& send);
 
  private:
-  std::string line_of(const void* sample, const dds_sample_info_t& info, Time now, Duration wall);
+  std::string line_of(const void* sample, const dds_sample_info_t& info, Time said, Duration wall);
   const std::string& name_of(dds_instance_handle_t writer);
 
   struct Name {

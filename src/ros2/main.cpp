@@ -7,6 +7,7 @@
 
 #include "config/load.h"
 #include "ros2/program.h"
+#include "ros2/say.h"
 
 namespace {
 
@@ -52,10 +53,11 @@ int main(int argc, char** argv) {
   struct sigaction action {};
   action.sa_handler = on_signal;  // without SA_RESTART: poll returns
   for (const int signal : {SIGTERM, SIGINT}) ::sigaction(signal, &action, nullptr);
+  const drover::runtime::LogWriter log_writer;  // before any other thread: as droverd's
   try {
     drover::ros2::Program(loaded.config).run(stop_asked);
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "drover-ros2: %s\n", error.what());
+    drover::ros2::say(drover::ros2::Level::error, error.what());
     return 1;
   }
   return 0;

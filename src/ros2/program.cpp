@@ -41,6 +41,7 @@ Program::Program(const config::DroverConfig& config)
 void Program::run(const std::atomic<bool>& stop) {
   while (!stop.load(std::memory_order_relaxed)) {
     const Time now = runtime::monotonic_now();
+    if (!link_.connected()) way_lost();
     if (now >= next_beat_) {
       next_beat_ = now + kBeat;
       beat(now);
@@ -62,6 +63,10 @@ void Program::run(const std::atomic<bool>& stop) {
     if ((ready[0].revents & POLLOUT) != 0 && follows_ && link_.connected())
       scene_.send([this](const std::string& line) { return link_.send(line); });
   }
+  // A stop that came before the end was asked for goes on.
+  const Time now = runtime::monotonic_now();
+  if (users_) hear_users(now);
+  tell_asked(now);
 }
 
 void Program::beat(Time now) {
@@ -75,33 +80,35 @@ void Program::beat(Time now) {
 void Program::connect(Time now) {
   if (link_.connected()) return;
   follows_ = false;
-  scene_.way_lost();
+  way_lost();
   link_.keep(now);
   if (link_.connected()) connected_ = now;
+}
+
+void Program::way_lost() {
+  scene_.way_lost();
+  if (!asked_.way_lost()) return;
+  say(Level::warning,
+      "droverd was gone before it had answered an emergency stop: it is told again");
 }
 
 /// A network that comes later is another domain: interfaces are chosen when it is made.
 void Program::keep_domain(Time now) {
   auto there = networks();
-  if (domain_ && there != networks_) {
-    // Twice the same: it is not just coming up.
-    if (there == other_networks_) {
-      say(Level::info, "the networks have changed: " + joined(there));
-      if (users_) hear_users(now);  // a stop that came
-      forget_domain();
-      retry_.try_now();
-    }
-    other_networks_ = there;
+  if (domain_ && networks_.changed(there)) {
+    say(Level::info, "the networks have changed: " + joined(there));
+    if (users_) hear_users(now);  // a stop that came
+    forget_domain();
+    retry_.try_now();
   }
   if (domain_ || !retry_.due(now)) return;
-  networks_ = std::move(there);
-  other_networks_ = networks_;
+  networks_.use(std::move(there));
   make_domain(now);
 }
 
 void Program::make_domain(Time now) {
   try {
-    domain_ = std::make_unique<Domain>(config_.ros2.domain, reach_, !networks_.empty());
+    domain_ = std::make_unique<Domain>(config_.ros2.domain, reach_, !networks_.used().empty());
     shown_ = std::make_unique<Shown>(domain_->participant(), robot_, wall_now_ns());
     users_ = std::make_unique<Heard>(domain_->participant(), config_, reach_, scene_passed_over_);
     readers_ = {};
@@ -109,7 +116,7 @@ void Program::make_domain(Time now) {
     retry_.succeeded();
     say(Level::info, "domain " + std::to_string(config_.ros2.domain) +
                          (reach_ == Reach::network
-                              ? ": whoever reaches " + joined(networks_) + " sees this robot"
+                              ? ": whoever reaches " + joined(networks_.used()) + " sees this robot"
                               : ": programs on this computer see this robot"));
     say_who_may();
   } catch (const NoDomain& error) {
@@ -148,11 +155,11 @@ void Program::forget_domain() {
 void Program::hear_users(Time now) {
   try {
     if (users_->stop_asked()) {
-      asked_.stop(now);
+      asked_.stop();
       tell_asked(now);  // before anything else: objects take their time
     }
     const Duration wall = now.time_since_epoch() + runtime::wall_minus_monotonic();
-    asked_.hear(users_->twists(now, wall), now);
+    asked_.hear(users_->twists(now, wall));
     users_->joint_commands(now, wall, [this](const std::string& line) { (void)link_.send(line); });
     users_->scene_messages(now, wall, [this](std::string line) { scene_.give(std::move(line)); });
   } catch (const NoDomain& error) {
@@ -162,7 +169,7 @@ void Program::hear_users(Time now) {
 
 void Program::tell_asked(Time now) {
   if (asked_.due().value_or(now + kBeat) > now) return;
-  const bool stop = asked_.stop_waits();
+  const bool stop = asked_.stop_is_due(now);
   if (stop) {
     link_.hurry();
     connect(now);
@@ -182,6 +189,7 @@ void Program::take(std::string_view line) {
   if (scene_.answered(line, runtime::monotonic_now())) return;
   const auto told = read_told(line);
   if (!told) {
+    if (told.error().done) asked_.answered();
     if (!told.error().reason.empty()) {
       refusal_ = told.error().reason;
       follows_ = false;

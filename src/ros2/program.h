@@ -13,6 +13,7 @@
 #include "ros2/daemon_link.h"
 #include "ros2/domain.h"
 #include "ros2/heard.h"
+#include "ros2/networks_watch.h"
 #include "ros2/robot.h"
 #include "ros2/scene_relay.h"
 #include "ros2/shown.h"
@@ -32,6 +33,7 @@ class Program final {
   void make_domain(Time now);
   void take(std::string_view line);
   void connect(Time now);
+  void way_lost();
   void hear_users(Time now);
   void tell_asked(Time now);
   void say_who_may() const;
@@ -49,8 +51,7 @@ class Program final {
   std::unique_ptr<Domain> domain_;
   std::unique_ptr<Shown> shown_;
   std::unique_ptr<Heard> users_;
-  std::vector<std::string> networks_;        ///< for which the domain was made
-  std::vector<std::string> other_networks_;  ///< that were there at the last beat, if others
+  NetworksWatch networks_;
   runtime::BackOff retry_{std::chrono::seconds(1), std::chrono::seconds(60)};
   Readers readers_;
   std::string problem_;               ///< why there is no domain; empty: there is one

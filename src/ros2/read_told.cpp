@@ -138,7 +138,7 @@ Result<Told, NoTold> read_told(std::string_view line) {
   if (!document) return NoTold{"not understood: " + document.error().text()};
   const Node& root = document->root;
   if (root.find("ok") != nullptr)
-    return NoTold{flag_member(root, "ok") ? "" : text_member(root, "reason")};
+    return flag_member(root, "ok") ? NoTold{"", true} : NoTold{text_member(root, "reason")};
   if (root.find("at_ns") == nullptr) return NoTold{"not understood: at_ns is missing"};
   Told told;
   told.at_ns = stamp(root, "at_ns");

@@ -3,6 +3,7 @@
 
 #include <dds/dds.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <string>
@@ -25,8 +26,17 @@ template <std::int32_t kMost, class Look>
   return taken;
 }
 
+/// When it was said, by this computer's monotonic time; its writer shares the clock. `wall`: UTC at
+/// `now`, since 1970.
+inline Time said_at(const dds_sample_info_t& info, Time now, Duration wall) {
+  const Duration age = std::max(wall - Duration{info.source_timestamp}, Duration{});
+  // A stamp before this computer's start, or none, is as old as can be told.
+  return std::max(now - age, Time{Duration{1}});
+}
+
 /// Why it is not of now, by its DDS time stamp; empty: it is. `wall`: UTC now, since 1970.
 inline std::string too_late(const dds_sample_info_t& info, Duration wall, Duration oldest) {
+  if (info.source_timestamp <= 0) return "a message has no DDS time stamp";
   const Duration age = wall - Duration{info.source_timestamp};
   if (age <= oldest) return {};
   return "a message came too late: it is " + std::to_string(age / std::chrono::milliseconds(1)) +

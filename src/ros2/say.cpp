@@ -1,10 +1,8 @@
 #include "ros2/say.h"
 
 #include <dds/dds.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <string>
 
 #include "runtime/clock.h"
@@ -28,16 +26,6 @@ void take_line(void*, const dds_log_data_t* data) {
 }
 
 }  // namespace
-
-void say(Level level, std::string_view text) {
-  static const bool for_journal = std::getenv("JOURNAL_STREAM") != nullptr;
-  std::string line;
-  if (for_journal) line = "<" + std::to_string(static_cast<int>(level)) + ">";
-  if (!for_journal && level == Level::error) line = "error: ";
-  if (!for_journal && level == Level::warning) line = "warning: ";
-  line.append(text).push_back('\n');
-  (void)!::write(STDERR_FILENO, line.data(), line.size());
-}
 
 void take_over_dds_log() {
   dds_set_log_sink(take_line, nullptr);

@@ -3,12 +3,17 @@
 
 #include <string_view>
 
+#include "runtime/log.h"
+
 namespace drover::ros2 {
 
-enum class Level { error = 3, warning = 4, info = 6 };
+using Level = runtime::LogLevel;
 
-/// One line on standard error. Below systemd with the level that the journal understands.
-void say(Level level, std::string_view text);
+/// One line on standard error. Never waits while main's LogWriter lives: neither the loop, which
+/// relays a stop, nor a thread of DDS' is held up by a journal that nobody reads.
+inline void say(Level level, std::string_view text) {
+  runtime::log(level, text);
+}
 
 /// From here on the DDS library's lines go the same way, at most ten at once and one a second: what
 /// strangers send must not fill the journal.

@@ -122,6 +122,7 @@ struct Told {
 /// Why a line is none, or what droverd has against this program; empty: the answer to a request.
 struct NoTold {
   std::string reason;
+  bool done = false;  ///< what was asked for
 };
 
 /// Members that are not known are left out of account: droverd may be newer.

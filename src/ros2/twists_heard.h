@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "drover/time.h"
 #include "drover/twist.h"
 
 namespace drover::ros2 {
@@ -14,6 +15,7 @@ struct TwistsHeard {
   std::string refused;         ///< why another one is not followed; empty: all are
   bool rivals = false;         ///< because two programs write
   bool failed = false;         ///< DDS does not give what came
+  Time said = kNever;          ///< `twist`: or came, where clocks differ
 };
 
 }  // namespace drover::ros2

@@ -9,7 +9,7 @@ namespace drover::ros2 {
 std::string writer_name(dds_entity_t reader, dds_instance_handle_t writer) {
   const std::unique_ptr<dds_builtintopic_endpoint_t, void (*)(dds_builtintopic_endpoint_t*)> told(
       dds_get_matched_publication_data(reader, writer), dds_builtintopic_free_endpoint);
-  if (!told) return "one that is gone";
+  if (!told) return "one that is gone, number " + std::to_string(writer);
   std::string name;
   for (const auto byte : told->key.v) {
     std::array<char, 4> hex{};

@@ -90,6 +90,11 @@ void CliServer::accept() {
   clients_.emplace(id, Client{std::move(fd), {}, 0, {}});
 }
 
+void CliServer::let_go(ClientId id) {
+  clients_.erase(id);
+  if (on_gone_) on_gone_(id);
+}
+
 void CliServer::watch(ClientId id, bool writing) {
   epoll_event event{};
   event.events = writing ? EPOLLIN | EPOLLOUT : EPOLLIN;
@@ -111,7 +116,7 @@ void CliServer::read(ClientId id) {
   const auto n = ::recv(it->second.fd.get(), buffer.data(), buffer.size(), 0);
   if (n < 0 && (errno == EAGAIN || errno == EINTR)) return;
   if (n <= 0 || it->second.in.size() + static_cast<std::size_t>(n) > longest_request(id)) {
-    clients_.erase(it);
+    let_go(id);
     return;
   }
   it->second.in.append(buffer.data(), static_cast<std::size_t>(n));
@@ -134,7 +139,7 @@ void CliServer::reply(ClientId id, const std::string& text) {
   auto& out = it->second.out;
   // Who goes on asking and does not read is let go.
   if (out.size() > kMaxUnread || out.size() + text.size() >= kMaxWaiting) {
-    clients_.erase(it);
+    let_go(id);
     return;
   }
   out += text + "\n";
@@ -149,7 +154,7 @@ void CliServer::write(ClientId id) {
     const auto n = ::send(it->second.fd.get(), out.data(), out.size(), MSG_NOSIGNAL);
     if (n < 0 && errno == EINTR) continue;
     if (n < 0 && errno != EAGAIN) {
-      clients_.erase(it);
+      let_go(id);
       return;
     }
     if (n < 0) break;

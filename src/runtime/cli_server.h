@@ -9,6 +9,7 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "drover/time.h"
 #include "link/unique_fd.h"
@@ -29,6 +30,9 @@ class CliServer final {
   CliServer(const CliServer&) = delete;
   CliServer& operator=(const CliServer&) = delete;
 
+  /// Whom to tell of a client that is gone, or was let go.
+  void on_gone(std::function<void(ClientId)> tell) { on_gone_ = std::move(tell); }
+
   /// An epoll descriptor of its own: readable when on_ready() has something to do.
   int fd() const { return epoll_.get(); }
   void on_ready();
@@ -45,12 +49,14 @@ class CliServer final {
   void accept();
   void read(ClientId id);
   void write(ClientId id);
+  void let_go(ClientId id);
   void watch(ClientId id, bool writing);
   bool may_connect(int fd) const;
   std::size_t longest_request(ClientId id) const;
 
   std::string path_;
   OnRequest on_request_;
+  std::function<void(ClientId)> on_gone_;
   std::string_view long_line_;
   link::UniqueFd listener_;
   link::UniqueFd epoll_;

@@ -77,6 +77,9 @@ PublishLoop::PublishLoop(const config::DroverConfig& config, ControlExchange& co
       epoll_(::epoll_create1(EPOLL_CLOEXEC)),
       timer_(periodic_timer(kTenth)) {
   if (!epoll_) throw std::runtime_error("the publish thread's epoll cannot be made");
+  cli_.on_gone([this](publish::ClientId client) {
+    for (const auto& each : outlets_) each.outlet->on_gone(client);
+  });
   watch(timer_.get(), kTimer);
   watch(cli_.fd(), kCli);
   watch(control_.events_ready.fd(), kEvents);

@@ -84,7 +84,6 @@ TEST_F(DrivenByCmdVel, StopsWhenItsProgramIsKilledAndFollowsTheNextOneFromRest) 
   start_program();
   say_for(writer_, 0.4, 3);
   EXPECT_TRUE(at_rest());
-  // Another one shows this robot for three seconds still, as far as droverd knows.
   ASSERT_TRUE(wait_until([&] {
     say_for(writer_, 0, 1);
     return status().find("cmd_vel, stops") != std::string::npos;

@@ -88,6 +88,7 @@ void Ros2Rig::hear() {
     in_.erase(0, end + 1);
     if (line == R"({"cmd":"stop"})") {
       ++stops_;
+      if (answers_stops_) tell(R"({"ok":true,"note":""})");
       continue;
     }
     if (line.find("ros2_follow") != std::string::npos) last_request_ = line;
@@ -112,10 +113,12 @@ void Ros2Rig::beat() {
   if (client_ < 0) return;
   publish::Actions out;
   (void)outlet_->on_snapshot(seen_, {seen_.time, runtime::wall_minus_monotonic()}, out);
-  for (const auto& action : out) {
-    const std::string line = std::get<publish::Reply>(action).line + "\n";
-    (void)!::send(client_, line.data(), line.size(), MSG_NOSIGNAL);
-  }
+  for (const auto& action : out) tell(std::get<publish::Reply>(action).line);
+}
+
+void Ros2Rig::tell(const std::string& line) const {
+  const std::string text = line + "\n";
+  (void)!::send(client_, text.data(), text.size(), MSG_NOSIGNAL);
 }
 
 bool Ros2Rig::play_until(const std::function<bool()>& done) {

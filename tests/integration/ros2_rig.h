@@ -60,12 +60,14 @@ class Ros2Rig : public ::testing::Test {
   }
   std::string log() const { return program_.output(); }
   int domain() const { return domain_; }
+  dds_entity_t participant() const { return participant_; }
 
   Snapshot seen_;                  ///< what droverd sees, at its own time
   std::string last_request_;       ///< of drover-ros2, to follow
   std::string last_scene_line_;    ///< likewise, of the planning scene
   std::string last_joint_line_;    ///< likewise a joint command
   int stops_ = 0;                  ///< that it asked for
+  bool answers_stops_ = true;      ///< false: droverd has read them, no more
   std::vector<Command> commands_;  ///< that it handed on, as droverd understands them
   Process program_;
   TempFolder own_folder_;
@@ -74,6 +76,7 @@ class Ros2Rig : public ::testing::Test {
  private:
   void give_back();
   void hear();
+  void tell(const std::string& line) const;
   void beat();
 
   int domain_;

@@ -1,11 +1,15 @@
 // drover-ros2 as it is shipped, between a droverd and a ROS 2 user on the same computer.
+#include <fcntl.h>
 #include <signal.h>
+#include <sys/stat.h>
 
 #include <cmath>
 
 #include "drover/angle.h"
 #include "integration/ros2_rig.h"
 #include "json/located_json.h"
+#include "link/unique_fd.h"
+#include "runtime/clock.h"
 
 namespace drover::test {
 namespace {
@@ -173,6 +177,50 @@ TEST_F(Ros2Stop, StopsByWhatFoundNoRoomWhileItHung) {
   EXPECT_TRUE(play_until([&] { return stops_ > before; })) << log();
 }
 
+/// A droverd that hangs has it in its socket, where it dies with it.
+TEST_F(Ros2Stop, IsToldAgainWhereDroverdWasGoneBeforeItAnswered) {
+  open_daemon();
+  start_program();
+  const dds_entity_t writer = stop_writer(DDS_RELIABILITY_RELIABLE);
+  ASSERT_TRUE(is_heard(writer, [this] { play_for(100ms); })) << log();
+  answers_stops_ = false;
+  say(writer, true);
+  ASSERT_TRUE(play_until([this] { return stops_ == 1; })) << log();
+  play_for(1s);
+  EXPECT_EQ(stops_, 1);
+  close_daemon();
+  open_daemon();
+  answers_stops_ = true;
+  ASSERT_TRUE(play_until([this] { return stops_ == 2; })) << log();
+  EXPECT_THAT(log(), HasSubstr("droverd was gone before it had answered an emergency stop"));
+  play_for(500ms);
+  close_daemon();
+  open_daemon();
+  last_request_.clear();
+  ASSERT_TRUE(play_until([this] { return !last_request_.empty(); })) << log();
+  play_for(1s);
+  EXPECT_EQ(stops_, 2) << "it was answered";
+}
+
+/// A journal that is stuck, or a terminal that was stopped by Ctrl-S.
+TEST_F(Ros2Stop, IsToldThoughNobodyReadsTheJournal) {
+  const auto journal = folder_ / "log";
+  ASSERT_EQ(::mkfifo(journal.c_str(), 0600), 0);
+  const link::UniqueFd nobody(::open(journal.c_str(), O_RDWR | O_CLOEXEC | O_NONBLOCK));
+  const std::string full(4096, 'x');
+  while (::write(nobody.get(), full.data(), full.size()) > 0) {
+  }
+  open_daemon();
+  start_program();
+  const dds_entity_t writer = stop_writer(DDS_RELIABILITY_RELIABLE);
+  EXPECT_TRUE(play_until([&] {
+    say(writer, true);
+    return stops_ > 1;
+  }));
+  program_.signal(SIGTERM);
+  EXPECT_EQ(program_.wait(5s), 0);
+}
+
 TEST_F(Ros2Stop, IsNotPushedOutByWhatFollowsIt) {
   open_daemon();
   start_program();
@@ -193,6 +241,49 @@ TEST_F(Ros2, HearsNoStopUnlessThatIsOpened) {
   ASSERT_TRUE(play_until([this] { return log().find("tells of the robot") != std::string::npos; }))
       << log();
   EXPECT_FALSE(is_heard(stop_writer(DDS_RELIABILITY_RELIABLE), [this] { play_for(100ms); }));
+}
+
+class Ros2Moves : public Ros2 {
+ protected:
+  Ros2Moves() : Ros2(User::humble, R"(, "inputs": {"cmd_vel": "twist", "joint_command": true})") {}
+  dds_entity_t moving_writer(const ros2::TopicKind& kind) {
+    return make_writer(participant(), kind, DDS_RELIABILITY_RELIABLE);
+  }
+  static Duration now() { return runtime::monotonic_now().time_since_epoch(); }
+};
+
+/// A loop that was held up must not add what it was to how long the robot follows a message.
+TEST_F(Ros2Moves, ByWhatCountsFromWhenItWasSaid) {
+  open_daemon();
+  start_program();
+  const dds_entity_t twists = moving_writer(ros2::cmd_vel_kind(false));
+  const dds_entity_t joints = moving_writer(ros2::joint_command_kind());
+  const auto followed = [this] {
+    const FollowTwist* twist = nullptr;
+    for (const Command& command : commands_)
+      if (const auto* one = std::get_if<FollowTwist>(&command.body); one != nullptr) {
+        twist = one;
+        EXPECT_LT(command.received.time_since_epoch(), now() - 180ms);
+      }
+    return twist != nullptr;
+  };
+  EXPECT_TRUE(play_until([&] {
+    const geometry_msgs_msg_dds__Twist_ message{};
+    dds_write_ts(twists, &message, dds_time() - DDS_MSECS(180));
+    return followed();
+  })) << log();
+  const auto at = [this] {
+    const auto line = json::parse(last_joint_line_);
+    const auto* at_ns = line ? line->root.find("at_ns") : nullptr;
+    return at_ns == nullptr ? Duration{} : Duration{at_ns->integer().value_or(0)};
+  };
+  EXPECT_TRUE(play_until([&] {
+    aimrt_msgs_msg_dds__JointCommandArray_ message{};
+    message.header_.frame_id_ = const_cast<char*>("");
+    dds_write_ts(joints, &message, dds_time() - DDS_MSECS(180));
+    return at() > Duration{};
+  })) << log();
+  EXPECT_LT(at(), now() - 180ms);
 }
 
 class Ros2OfJazzy : public Ros2 {
@@ -229,6 +320,24 @@ TEST_F(Ros2, IsToldWhichReaderAsksForMoreThanIsOffered) {
   EXPECT_TRUE(play_until([this] { return asked("incompatible") == 1; })) << last_request_;
   EXPECT_THAT(log(), HasSubstr("a reader of /odom asks for a durability that is not offered"));
   EXPECT_EQ(newest<nav_msgs_msg_dds__Odometry_>(wrong), nullptr);
+  dds_delete(wrong);
+  EXPECT_TRUE(play_until([this] { return asked("incompatible") == 0; })) << "it is gone";
+}
+
+TEST_F(Ros2Stop, IsToldWhichWriterIsNotHeardUntilItIsGone) {
+  open_daemon();
+  start_program();
+  dds_qos_t* qos = dds_create_qos();
+  dds_qset_ownership(qos, DDS_OWNERSHIP_EXCLUSIVE);
+  const auto& kind = ros2::stop_kind();
+  const dds_entity_t topic =
+      dds_create_topic(participant(), kind.type, kind.name, nullptr, nullptr);
+  const dds_entity_t wrong = dds_create_writer(participant(), topic, qos, nullptr);
+  dds_delete_qos(qos);
+  ASSERT_GT(wrong, 0);
+  EXPECT_TRUE(play_until([this] { return asked("incompatible") == 1; })) << last_request_;
+  dds_delete(wrong);
+  EXPECT_TRUE(play_until([this] { return asked("incompatible") == 0; })) << "it is gone";
 }
 
 TEST_F(Ros2, SeesThatDroverdIsGoneAndThatItIsBack) {

@@ -51,7 +51,7 @@ src/cli          runtime/clock.h
 src/cli          engine/estimate/local_frame.h
 src/cli          config/load.h engine/config.h engine/base/kinematics.h engine/estimate/estimator.h
 src/ros2         drover/ ros2/ json/ config/config.h config/load.h link/unique_fd.h
-src/ros2         runtime/back_off.h runtime/clock.h publish/token_bucket.h text/
+src/ros2         runtime/back_off.h runtime/clock.h runtime/log.h publish/token_bucket.h text/
 src/droverd.cpp  config/ runtime/
 sim/plant        drover/ sim/plant/
 sim/robot        drover/ link/ text/ sim/plant/ sim/robot/ config/register_map.h

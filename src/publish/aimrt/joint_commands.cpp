@@ -41,6 +41,11 @@ std::vector<bool> JointCommands::named(const JointCommandMessage& message) const
   return groups;
 }
 
+void JointCommands::take(Group& group, const JointCommandHeard& heard, Time now) {
+  if (heard.message.stamp_ns != 0) group.last_stamp_ns = heard.message.stamp_ns;
+  group.writers.take(heard.writer, now);
+}
+
 Result<JointTargets, Reason> JointCommands::judged(const JointCommandHeard& heard, Time now,
                                                    Duration wall) {
   const auto& [message, writer] = heard;
@@ -60,11 +65,16 @@ Result<JointTargets, Reason> JointCommands::judged(const JointCommandHeard& hear
   }
   auto targets = accept_joint_command(message, rules_, wall, last_stamp_ns);
   if (!targets) return targets;
+  // All are asked before one takes it: what is refused leaves no other group with its program.
   for (std::size_t i = 0; i < groups.size(); ++i) {
     if (!groups[i]) continue;
-    if (message.stamp_ns != 0) groups_[i].last_stamp_ns = message.stamp_ns;
-    if (auto why = groups_[i].writers.take(writer, *targets, now); !why.empty()) return why;
+    if (auto why = groups_[i].writers.weigh(writer, *targets, now); !why.empty()) {
+      take(groups_[i], heard, now);  // there its program goes on, and nothing of it is followed
+      return why;
+    }
   }
+  for (std::size_t i = 0; i < groups.size(); ++i)
+    if (groups[i]) take(groups_[i], heard, now);
   return targets;
 }
 

@@ -50,17 +50,18 @@ class JointCommands final {
   std::uint64_t rivals_refused() const;
 
  private:
+  /// Whose commands the joints of a group follow; the base is the first.
+  struct Group {
+    Writers writers;
+    std::uint64_t last_stamp_ns = 0;
+  };
+  static void take(Group& group, const JointCommandHeard& heard, Time now);
   Result<JointTargets, Reason> judged(const JointCommandHeard& heard, Time now, Duration wall);
   std::vector<bool> named(const JointCommandMessage& message) const;
 
   JointCommandRules rules_;
   std::uint64_t commands_ = 0;
   std::uint64_t unread_ = 0;
-  /// Whose commands the joints of a group follow; the base is the first.
-  struct Group {
-    Writers writers;
-    std::uint64_t last_stamp_ns = 0;
-  };
   std::vector<Group> groups_;
   /// One way by which they come: a flood by it takes nothing of the other's.
   struct Way {

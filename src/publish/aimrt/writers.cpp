@@ -105,7 +105,7 @@ bool Writers::jumps_to_and_fro(const JointTargets& targets) {
   return jumps;
 }
 
-Reason Writers::take(const Writer& writer, const JointTargets& targets, Time now) {
+Reason Writers::weigh(const Writer& writer, const JointTargets& targets, Time now) {
   const bool goes_on = is_owner(writer);
   if (!goes_on || now - heard_ > silence_) before_.fill(std::nullopt);
   // Two that began together count alike: each number comes twice, and not from one program.
@@ -113,16 +113,19 @@ Reason Writers::take(const Writer& writer, const JointTargets& targets, Time now
   if (again && writer.stamp_ns != owner_->stamp_ns) counted_twice_ = now;
   const bool told_apart =
       !writer.guid.empty() || (writer.sequence != 0 && now - counted_twice_ > kShownFor);
-  counts_ = goes_on;
-  owner_ = writer;
-  heard_ = now;
-  followed_since_late_ = true;
   if (jumps_to_and_fro(targets) && !told_apart && !oddities_.take(now))
     mixed_until_ = now + kShownFor;
   if (now >= mixed_until_) return {};
   return refuse("two programs seem to write joint commands as " + shown(writer, false) +
                     ": the velocities jump to and fro, none is followed",
                 now);
+}
+
+void Writers::take(const Writer& writer, Time now) {
+  counts_ = is_owner(writer);
+  owner_ = writer;
+  heard_ = now;
+  followed_since_late_ = true;
 }
 
 std::string_view Writers::rivals(Time now) const {

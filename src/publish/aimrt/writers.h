@@ -39,8 +39,10 @@ class Writers final {
   /// velocities are 0, as at the beginning of a stream.
   Reason hindrance(const Writer& writer, bool rests, Time now);
   /// A message that is sound in all other respects. Why it is not followed all the same; empty: it
-  /// is, and its program has the joints.
-  Reason take(const Writer& writer, const JointTargets& targets, Time now);
+  /// may be.
+  Reason weigh(const Writer& writer, const JointTargets& targets, Time now);
+  /// Then: its program has the joints.
+  void take(const Writer& writer, Time now);
 
   /// Which programs write at once; empty when there was only one for the last second.
   std::string_view rivals(Time now) const;

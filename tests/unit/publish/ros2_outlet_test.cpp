@@ -81,6 +81,20 @@ TEST_F(Ros2, TellsOneAtATime) {
   EXPECT_THAT(told(kNow + 4s).at(0).line, HasSubstr("diagnostics")) << "all of it anew";
 }
 
+/// It may be the same program, whose line broke.
+TEST_F(Ros2, TellsTheNextOneAtOnceWhenTheFirstIsGone) {
+  EXPECT_EQ(ask(7, kNow), "");
+  outlet_.on_gone(8);
+  EXPECT_TRUE(status(kNow).ros2.connected);
+  outlet_.on_gone(7);
+  EXPECT_FALSE(status(kNow).ros2.connected);
+  EXPECT_THAT(told(kNow), IsEmpty());
+  EXPECT_EQ(ask(8, kNow + 10ms), "");
+  EXPECT_EQ(told(kNow + 10ms).at(0).client, 8U);
+  outlet_.on_gone(7);
+  EXPECT_TRUE(status(kNow + 10ms).ros2.connected);
+}
+
 TEST_F(Ros2, TellsWhoAsksTooOftenToSlowDown) {
   for (int i = 0; i < 20; ++i) EXPECT_EQ(ask(7, kNow), "");
   EXPECT_THAT(ask(7, kNow), HasSubstr("slow down"));

@@ -167,9 +167,11 @@ TEST(ReadTold, SaysWhatDroverdHasAgainstIt) {
   const auto refused = read_told(R"({"ok":false,"reason":"slow down"})");
   ASSERT_FALSE(refused.ok());
   EXPECT_EQ(refused.error().reason, "slow down");
+  EXPECT_FALSE(refused.error().done);
   const auto obeyed = read_told(R"({"ok":true,"note":"stopped"})");
   ASSERT_FALSE(obeyed.ok());
   EXPECT_EQ(obeyed.error().reason, "");
+  EXPECT_TRUE(obeyed.error().done);
   EXPECT_THAT(read_told("{").error().reason, HasSubstr("not understood"));
   EXPECT_THAT(read_told("{}").error().reason, HasSubstr("at_ns is missing"));
 }

@@ -64,6 +64,22 @@ class CliServerTest : public ::testing::Test {
   std::unique_ptr<CliServer> server_;
 };
 
+TEST_F(CliServerTest, TellsOfAClientThatIsGone) {
+  std::vector<CliServer::ClientId> gone;
+  server_->on_gone([&gone](CliServer::ClientId id) { gone.push_back(id); });
+  auto first = connect();
+  const auto second = connect();
+  work();
+  EXPECT_TRUE(gone.empty());
+  first.reset();
+  work();
+  ASSERT_EQ(gone.size(), 1U);
+  (void)!::send(second.get(), "a\n", 2, MSG_NOSIGNAL);
+  work();
+  EXPECT_EQ(read(second), "got a\n");
+  EXPECT_EQ(gone.size(), 1U);
+}
+
 TEST_F(CliServerTest, ClosesAClientWhoseRequestNeverEnds) {
   const auto client = connect();
   work();

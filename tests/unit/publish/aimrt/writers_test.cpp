@@ -19,7 +19,9 @@ class TwoPrograms : public testing::Test {
     if (!hindered.empty()) return std::string(hindered.view());
     JointTargets targets;
     (void)targets.joints.push_back({0, velocity_radps});
-    return std::string(writers_.take(writer, targets, now_).view());
+    auto why = std::string(writers_.weigh(writer, targets, now_).view());
+    writers_.take(writer, now_);
+    return why;
   }
   std::string rivals() const { return std::string(writers_.rivals(now_)); }
 

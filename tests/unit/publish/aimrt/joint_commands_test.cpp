@@ -1,0 +1,52 @@
+// Messages that name joints of more than one group: each group has an owner of its own.
+#include "publish/aimrt/joint_commands.h"
+
+#include <gmock/gmock.h>
+
+namespace drover::publish::aimrt {
+namespace {
+
+using namespace std::chrono_literals;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+class JointsOfTwoGroups : public testing::Test {
+ protected:
+  static JointCommandsConfig rules() {
+    JointCommandsConfig config;
+    config.rules.joints = {{"left"}, {"elbow", JointFollows::impedance, 1}};
+    return config;
+  }
+  static JointCommandEntry at(const char* joint, double position_rad) {
+    JointCommandEntry entry;
+    entry.name = joint;
+    entry.position_rad = position_rad;
+    return entry;
+  }
+  /// Why it is not followed; empty: it is.
+  std::string say(const std::string& frame, std::vector<JointCommandEntry> joints) {
+    JointCommandHeard heard{{0, 0, frame, std::move(joints)}, {}};
+    heard.writer.frame_id = frame;
+    Actions out;
+    commands_.take(
+        RequestId::Source::aimrt, [&] { return heard; }, now_, 0s, out);
+    const auto& body = std::get<Command>(out.back()).body;
+    const auto* refused = std::get_if<JointTargetsRefused>(&body);
+    return refused == nullptr ? "" : std::string(refused->reason.view());
+  }
+  JointCommands commands_{rules()};
+  Time now_{100s};
+};
+
+TEST_F(JointsOfTwoGroups, HaveNoNewOwnerInOneByAMessageThatTheOtherRefuses) {
+  std::string last;
+  for (int i = 0; i < 20; ++i, now_ += 10ms) last = say("arm", {at("elbow", i % 2 == 0 ? 0 : 1)});
+  ASSERT_THAT(last, HasSubstr("jump to and fro"));
+  EXPECT_THAT(say("arm", {at("left", 0), at("elbow", 0)}), HasSubstr("jump to and fro"));
+  EXPECT_THAT(say("base", {at("left", 0)}), IsEmpty()) << "nobody was followed there";
+  EXPECT_THAT(say("arm", {at("left", 0)}), HasSubstr("two programs write joint commands"));
+}
+
+}  // namespace
+}  // namespace drover::publish::aimrt
