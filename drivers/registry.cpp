@@ -5,6 +5,7 @@
 
 #include "drivers/agilex_v2/entry.h"
 #include "drivers/agilex_v2/hunter/entry.h"
+#include "drivers/cubemars_mit/entry.h"
 #include "drivers/damiao/entry.h"
 #include "drivers/gpio_line/entry.h"
 #include "drivers/gt01/can/entry.h"
@@ -22,9 +23,9 @@ namespace drover {
 std::span<const DriverEntry> driver_registry() {
   // Filled at the first call: the entries live in other files, whose order of start is not ours.
   static const std::array kTable{
-      kOdriveEntry,    kGpioLineEntry,     kNmea0183Entry, kModbusBmsEntry, kWitmotionEntry,
-      kZlac8015dEntry, kGt01SerialEntry,   kGt01CanEntry,  kAgilexV2Entry,  kHipnucCanEntry,
-      kLd06Entry,      kAgilexHunterEntry, kDamiaoEntry,
+      kOdriveEntry,    kGpioLineEntry,     kNmea0183Entry, kModbusBmsEntry,   kWitmotionEntry,
+      kZlac8015dEntry, kGt01SerialEntry,   kGt01CanEntry,  kAgilexV2Entry,    kHipnucCanEntry,
+      kLd06Entry,      kAgilexHunterEntry, kDamiaoEntry,   kCubemarsMitEntry,
   };
   return kTable;
 }
