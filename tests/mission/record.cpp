@@ -103,7 +103,8 @@ void read_drives(const json& scenario, Record& record) {
   record.mps_per_turnps = kTurn * kWheelRadius_m / kGear;
   for (const auto& drive : scenario.value("drives", json::array())) {
     const std::string driver = drive.value("driver", "");
-    record.has_arm = record.has_arm || driver == "damiao";
+    if (driver == "damiao") record.arm = ArmMaker::damiao;
+    if (driver == "cubemars_mit") record.arm = ArmMaker::cubemars_mit;
     if (driver == "zlac8015d") {
       record.maker = Maker::zlac8015d;
       record.mps_per_turnps = kTurn * 0.085;
@@ -131,7 +132,7 @@ void add_twist(Time time, const TwistCommand& twist, Record& record) {
 }
 
 void read_set_points(const CanLine& line, Record& record) {
-  if (record.has_arm && line.bus != "can0") return;  // an arm's
+  if (record.arm != ArmMaker::none && line.bus != "can0") return;  // an arm's
   if (record.maker == Maker::hunter) {
     if (const auto twist = hunter::twist_command(line.frame)) add_twist(line.time, *twist, record);
   } else if (record.maker == Maker::gt01_can || record.maker == Maker::agilex_v2) {
