@@ -49,7 +49,7 @@ bool CubemarsTwin::set_fault(std::string_view name, Time) {
     motor_.wrong_sign = true;
   } else if (name == "silent") {
     silent_ = true;
-  } else if (name == "leaves_motor_mode") {
+  } else if (name == "leaves_closed_loop") {
     on_ = false;
   } else {
     return false;

@@ -35,7 +35,7 @@ class CubemarsTwin final : public CanTwin {
   void set_power(bool on, Time now) override;
   /// Known: "over_temperature", "over_current", "over_voltage", "under_voltage", "encoder",
   /// "phase_imbalance" (off until cleared), "stuck_encoder", "wrong_sign", "silent" (sends nothing,
-  /// still obeys), "leaves_motor_mode" (once; no answer tells it).
+  /// still obeys), "leaves_closed_loop" (once; no answer tells it).
   bool set_fault(std::string_view name, Time now) override;
 
  private:

@@ -184,7 +184,7 @@ TEST(Cubemars, IsFoundAgainThoughItIsMuteWhileItIsOff) {
 TEST(Cubemars, DoesNotNoticeThatItLetGoByItself) {
   CanBench bench(subject());
   arm(bench);
-  ASSERT_TRUE(bench.twin->set_fault("leaves_motor_mode", bench.now));
+  ASSERT_TRUE(bench.twin->set_fault("leaves_closed_loop", bench.now));
   bench.sent.clear();
   bench.run(milliseconds(1000), AxisRequest::run, 1.0);
   EXPECT_EQ(bench.status.state, AxisState::running);
