@@ -5,6 +5,7 @@
 
 #include "drivers/agilex_v2/entry.h"
 #include "drivers/agilex_v2/hunter/entry.h"
+#include "drivers/cubemars_mit/entry.h"
 #include "drivers/damiao/entry.h"
 #include "drivers/gpio_line/entry.h"
 #include "drivers/gt01/can/entry.h"
@@ -25,7 +26,7 @@ std::span<const DriverEntry> driver_registry() {
   static const std::array kTable{
       kOdriveEntry,    kGpioLineEntry,     kNmea0183Entry, kModbusBmsEntry,      kWitmotionEntry,
       kZlac8015dEntry, kGt01SerialEntry,   kGt01CanEntry,  kAgilexV2Entry,       kHipnucCanEntry,
-      kLd06Entry,      kAgilexHunterEntry, kDamiaoEntry,   kRobomasterC620Entry,
+      kLd06Entry,      kAgilexHunterEntry, kDamiaoEntry,   kRobomasterC620Entry, kCubemarsMitEntry,
   };
   return kTable;
 }

@@ -9,44 +9,23 @@
 #include <cstdint>
 #include <optional>
 
+#include "drivers/mit/frame.h"
 #include "drover/can_frame.h"
 
 namespace drover::damiao {
 
-/// Ends of the symmetric ranges (PMAX, VMAX, TMAX) that fill a frame's fields.
-struct Ranges {
-  double p_max_rad = 12.5;
-  double v_max_radps = 30;
-  double t_max_Nm = 10;
-};
-inline constexpr double kStiffnessMax_Nmprad = 500;
-inline constexpr double kDampingMax_Nmsprad = 5;
-
-/// What an MIT frame says: torque = stiffness (position - p) + damping (velocity - v) + torque.
-struct MitCommand {
-  double position_rad = 0;
-  double velocity_radps = 0;
-  double stiffness_Nmprad = 0;
-  double damping_Nmsprad = 0;
-  double torque_Nm = 0;
-};
-
-/// Its fields as they stand in the frame.
-struct MitRaw {
-  std::uint16_t position = 0;  ///< 16 bits
-  std::uint16_t velocity = 0;  ///< 12 bits, as the others
-  std::uint16_t stiffness = 0;
-  std::uint16_t damping = 0;
-  std::uint16_t torque = 0;
-};
-
-/// The last byte of a frame that begins with seven FF.
-enum class Special : std::uint8_t {
-  clear_error = 0xFB,
-  enable = 0xFC,
-  disable = 0xFD,
-  set_zero = 0xFE,  ///< where it stands becomes its zero: never sent
-};
+using mit::decode_mit_raw;
+using mit::decode_special;
+using mit::encode_mit;
+using mit::encode_special;
+using mit::kDampingMax_Nmsprad;
+using mit::kStiffnessMax_Nmprad;
+using mit::MitCommand;
+using mit::MitRaw;
+using mit::only_damps;
+using mit::Ranges;
+using mit::scale;
+using mit::Special;
 
 enum class MotorStatus : std::uint8_t {
   disabled = 0,
@@ -98,23 +77,11 @@ struct RegisterReply {
   float as_float() const;
 };
 
-// To the motor. What is beyond a range stands at its end, what is no number at zero; stiffness and
-// damping stay one step below the end of theirs, or a frame with all at the end would be one of the
-// special ones.
-CanFrame encode_mit(std::uint8_t id, const MitCommand& command, const Ranges& ranges);
-CanFrame encode_special(std::uint8_t id, Special special);
+// To the motor, beside what MIT mode has.
 CanFrame encode_read(std::uint8_t id, std::uint8_t rid);
 CanFrame encode_write(std::uint8_t id, std::uint8_t rid, std::uint32_t raw);
 /// Asks for a feedback, and enables nothing.
 CanFrame encode_request(std::uint8_t id);
-
-// What was sent to it. A velocity or torque in the middle of its range is 0, not half a step less.
-std::optional<Special> decode_special(const CanFrame& frame, std::uint8_t id);
-/// Absent for a special frame.
-std::optional<MitRaw> decode_mit_raw(const CanFrame& frame, std::uint8_t id);
-MitCommand scale(const MitRaw& raw, const Ranges& ranges);
-/// Neither stiffness nor torque nor a speed: whatever its damping, it only brakes.
-bool only_damps(const MitRaw& raw);
 
 // From the motor, under its master id.
 /// A feedback may look like this one by chance: position and speed near the lower ends of their

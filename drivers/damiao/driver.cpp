@@ -1,7 +1,6 @@
 // The state machine: when a DAMIAO motor is asked, enabled, commanded and given up.
 #include "drivers/damiao/driver.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "drivers/damiao/rules.h"
@@ -17,26 +16,17 @@ constexpr Duration kSearch = milliseconds(100);
 constexpr double kSlow_radps = 0.1;
 constexpr Duration kIdleAtLast = milliseconds(1000);
 
-StopRecipe recipe_of(const CanFrame& damp) {
-  StopRecipe recipe;
-  StopRound round;
-  static_cast<void>(round.frames.push_back(damp));
-  static_cast<void>(recipe.rounds.push_back(round));
-  recipe.period = milliseconds(10);
-  // It holds only about a position, and who knows only the recipe knows none.
-  recipe.ends = StopEnds::damps;
-  return recipe;
-}
-
 }  // namespace
 
 DamiaoDriver::DamiaoDriver(const Settings& settings, AxisId axis)
     : settings_(settings),
+      joint_(settings.joint()),
+      packer_(joint_),
       axis_(axis),
       hears_{FrameFilter{settings.master_id}, FrameFilter{settings.id}, FrameFilter{kRequestId}},
       rules_(rules_of(settings)),
-      recipe_(recipe_of(settings.damp_frame())),
-      damp_(settings.damp_frame()),
+      recipe_(joint_.stop_recipe()),
+      damp_(joint_.damp_frame()),
       setup_(settings) {
   if (settings.timeout_ms > 0) {
     silence_text_.format("goes limp after %.3f s (its TIMEOUT, set and read back at each arming)",
@@ -75,35 +65,6 @@ void DamiaoDriver::start_arming(Time now, DriverOut& out) {
   // What is off may have lost its supply and what stands only in its memory.
   if (!feedback_.enabled() || !setup_.done()) setup_.begin();
   report_status(now, false, out);
-}
-
-double DamiaoDriver::clamped(double value, double limit) {
-  if (std::abs(value) <= limit) return value;
-  ++bad_setpoints_;
-  return std::copysign(limit, value);
-}
-
-/// What is no number, or a spring that pushes away, is not followed in any part.
-CanFrame DamiaoDriver::frame_of(const Setpoint& command) {
-  const Impedance& law = command.impedance;
-  const double all[] = {law.position_rad, command.velocity_radps, law.effort_Nm,
-                        law.stiffness_Nmprad, law.damping_Nmsprad};
-  if (!std::all_of(std::begin(all), std::end(all), [](double x) { return std::isfinite(x); }) ||
-      law.stiffness_Nmprad < 0 || law.damping_Nmsprad < 0) {
-    ++bad_setpoints_;
-    return damp_;
-  }
-  MitCommand mit;
-  // A position without weight may be anything.
-  const double position_rad = law.position_rad * settings_.sign + settings_.zero_rad;
-  if (law.stiffness_Nmprad > 0)
-    mit.position_rad = clamped(position_rad, settings_.ranges.p_max_rad);
-  mit.velocity_radps =
-      clamped(command.velocity_radps * settings_.sign, settings_.ranges.v_max_radps);
-  mit.torque_Nm = clamped(law.effort_Nm * settings_.sign, settings_.max_effort_Nm);
-  mit.stiffness_Nmprad = clamped(law.stiffness_Nmprad, kStiffnessMax_Nmprad);
-  mit.damping_Nmsprad = clamped(law.damping_Nmsprad, kDampingMax_Nmsprad);
-  return encode_mit(settings_.id, mit, settings_.ranges);
 }
 
 void DamiaoDriver::send_command(const CanFrame& frame, Time now, DriverOut& out) {
@@ -162,7 +123,7 @@ void DamiaoDriver::look_at_arming(Time now) {
 void DamiaoDriver::control(const Setpoint& command, Time now, DriverOut& out) {
   look_at_arming(now);
   switch (phase_) {
-    case Phase::running: send_command(frame_of(command), now, out); return;
+    case Phase::running: send_command(packer_.frame_of(command), now, out); return;
     case Phase::arming: arm(now, out); break;
     case Phase::idling: {
       const bool again = last_attempt_ == kNever || now - last_attempt_ >= kRetry;
@@ -236,22 +197,7 @@ Effect DamiaoDriver::effect(const Message& message, Time) const {
 
 double DamiaoDriver::setpoint_radps(const Message& message, std::size_t) const {
   if (message.frame() == nullptr) return kAbsent;
-  const auto raw = decode_mit_raw(*message.frame(), settings_.id);
-  if (!raw) return kAbsent;
-  const MitCommand mit = scale(*raw, settings_.ranges);
-  if (mit.stiffness_Nmprad != 0 || mit.torque_Nm != 0) return kAbsent;
-  return mit.velocity_radps * settings_.sign;
-}
-
-ImpedanceRange DamiaoDriver::impedance_range(std::size_t) const {
-  const double p_max_rad = settings_.ranges.p_max_rad;
-  const double zero_rad = settings_.zero_rad * settings_.sign;
-  return {.min_rad = -p_max_rad - zero_rad,
-          .max_rad = p_max_rad - zero_rad,
-          .velocity_radps = settings_.ranges.v_max_radps,
-          .effort_Nm = settings_.max_effort_Nm,
-          .stiffness_Nmprad = kStiffnessMax_Nmprad,
-          .damping_Nmsprad = kDampingMax_Nmsprad};
+  return joint_.setpoint_radps(*message.frame());
 }
 
 SilenceBehaviour DamiaoDriver::silence() const {

@@ -33,12 +33,12 @@ class DamiaoDriver final : public Device, public FrameFace, public Actuator {
   Effect effect(const Message& message, Time now) const override;
   /// Of what has neither stiffness nor effort; all else does not ask for a velocity alone.
   double setpoint_radps(const Message& message, std::size_t channel) const override;
-  ImpedanceRange impedance_range(std::size_t channel) const override;
+  ImpedanceRange impedance_range(std::size_t) const override { return joint_.range(); }
   StopRecipe stop_recipe() const override { return recipe_; }
   SilenceBehaviour silence() const override;
 
   /// Set points that were not numbers (sent as damping) or beyond a range (clamped).
-  std::uint64_t bad_setpoints() const { return bad_setpoints_; }
+  std::uint64_t bad_setpoints() const { return packer_.bad(); }
 
  private:
   enum class Phase : std::uint8_t {
@@ -71,10 +71,10 @@ class DamiaoDriver final : public Device, public FrameFace, public Actuator {
   void arm(Time now, DriverOut& out);
   void keep_alive(Time now, DriverOut& out);
   void send_command(const CanFrame& frame, Time now, DriverOut& out);
-  CanFrame frame_of(const Setpoint& command);
-  double clamped(double value, double limit);
 
   Settings settings_;
+  mit::Joint joint_;
+  mit::SetpointPacker packer_;
   AxisId axis_;
   std::array<FrameFilter, 3> hears_;
   std::array<FrameRule, 2> rules_;
@@ -104,7 +104,6 @@ class DamiaoDriver final : public Device, public FrameFace, public Actuator {
   Reason lock_reason_;
   Time last_sent_ = kNever;
   bool moving_ = false;  ///< the last command was no stop
-  std::uint64_t bad_setpoints_ = 0;
 
   ToldStatus told_;
 };

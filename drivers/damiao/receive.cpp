@@ -1,6 +1,4 @@
 // The receiving half of the driver: frames to measurements, status and health.
-#include <cmath>
-
 #include "drivers/damiao/driver.h"
 
 namespace drover::damiao {
@@ -78,12 +76,8 @@ void DamiaoDriver::on_feedback(const Feedback& feedback, Time received, DriverOu
   feedback_ = feedback;
   follow_feedback(received);
   report_status(received, false, out);
-  AxisMotion motion;
-  motion.axis = axis_;
-  motion.position_rad = (feedback.position_rad - settings_.zero_rad) * settings_.sign;
-  motion.velocity_radps = feedback.velocity_radps * settings_.sign;
-  motion.effort_Nm = feedback.torque_Nm * settings_.sign;
-  report_heard(motion, received, out);
+  const mit::Motion shaft{feedback.position_rad, feedback.velocity_radps, feedback.torque_Nm};
+  report_heard(joint_.motion_of(shaft, axis_), received, out);
   report_temperature(received, out);
 }
 
@@ -170,7 +164,7 @@ SourceHealth DamiaoDriver::health(Time now) const {
     health.reason.format("motor %u was never heard: its answers are expected under 0x%03X",
                          static_cast<unsigned>(settings_.id),
                          static_cast<unsigned>(settings_.master_id));
-  health.bad += bad_setpoints_;
+  health.bad += bad_setpoints();
   if (health.state == SourceState::fresh && foreign_.is_shown(now)) health.reason = foreign_.text();
   return health;
 }

@@ -31,19 +31,7 @@ std::array<FrameRule, 2> rules_of(const Settings& settings) {
 
 FrameEffect effect(const CanFrame& frame, const Settings& settings) {
   if (frame.is_plain() && frame.id == kRequestId) return effect_of_request(frame, settings);
-  if (const auto special = decode_special(frame, settings.id)) {
-    switch (*special) {
-      // It then follows the last MIT frame that it heard, and one that moves passes only when
-      // moving is permitted.
-      case Special::enable:
-      case Special::clear_error: return FrameEffect::harmless;
-      case Special::disable: return FrameEffect::stop;
-      case Special::set_zero: return FrameEffect::forbidden;
-    }
-  }
-  const auto raw = decode_mit_raw(frame, settings.id);
-  if (!raw) return FrameEffect::forbidden;
-  return only_damps(*raw) ? FrameEffect::stop : FrameEffect::motion;
+  return mit::effect(frame, settings.id);
 }
 
 }  // namespace drover::damiao

@@ -131,12 +131,6 @@ const Ranges& ranges_of(std::string_view model) {
 
 }  // namespace
 
-CanFrame Settings::damp_frame() const {
-  MitCommand damp;
-  damp.damping_Nmsprad = damping_Nmsprad;
-  return encode_mit(id, damp, ranges);
-}
-
 std::span<const OptionSpec> option_table() {
   return kOptions;
 }

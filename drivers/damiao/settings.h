@@ -4,6 +4,7 @@
 #include <span>
 
 #include "drivers/damiao/codec.h"
+#include "drivers/mit/joint.h"
 #include "drover/options.h"
 #include "drover/time.h"
 
@@ -24,8 +25,7 @@ struct Settings {
   Duration arming_timeout{};
 
   std::uint32_t timeout_raw() const { return timeout_ms * kTimeoutUnitsPerMs; }
-  /// What every stop of it is.
-  CanFrame damp_frame() const;
+  mit::Joint joint() const { return {id, ranges, sign, zero_rad, damping_Nmsprad, max_effort_Nm}; }
 };
 
 /// Throws std::runtime_error naming the option.

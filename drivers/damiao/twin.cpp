@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cmath>
 #include <utility>
 
 #include "drover/bytes.h"
@@ -22,7 +21,12 @@ constexpr std::array kOnce{
 }  // namespace
 
 DamiaoTwin::DamiaoTwin(const Settings& settings, const TwinSettings& twin)
-    : settings_(settings), twin_(twin) {}
+    : settings_(settings), twin_(twin) {
+  motor_.sign = settings.sign;
+  motor_.zero_rad = settings.zero_rad;
+  motor_.t_max_Nm = twin.ranges.t_max_Nm;
+  motor_.time_constant_s = twin.time_constant_s;
+}
 
 void DamiaoTwin::boot(Time now) {
   booted_ = true;
@@ -39,7 +43,7 @@ void DamiaoTwin::set_power(bool on, Time now) {
   booted_ = false;
   boot_at_ = on ? now + twin_.boot_time : kNever;
   status_ = MotorStatus::disabled;
-  torque_Nm_ = 0;
+  motor_.told.torque_Nm = 0;
 }
 
 void DamiaoTwin::fail(MotorStatus status) {
@@ -52,14 +56,14 @@ bool DamiaoTwin::set_fault(std::string_view name, Time) {
   if (once != kOnce.end()) {
     fail(once->second);
   } else if (name.empty()) {
-    hot_ = stuck_ = wrong_sign_ = silent_ = false;
+    hot_ = motor_.stuck = motor_.wrong_sign = silent_ = false;
   } else if (name == "over_temperature") {
     hot_ = true;
     fail(MotorStatus::rotor_hot);
   } else if (name == "stuck_encoder") {
-    stuck_ = true;
+    motor_.stuck = true;
   } else if (name == "wrong_sign") {
-    wrong_sign_ = true;
+    motor_.wrong_sign = true;
   } else if (name == "silent") {
     silent_ = true;
   } else if (name == "leaves_closed_loop") {
@@ -77,9 +81,9 @@ void DamiaoTwin::send(const CanFrame& frame, TwinFrames& out) const {
 void DamiaoTwin::send_feedback(TwinFrames& out) const {
   Feedback feedback;
   feedback.status = static_cast<std::uint8_t>(status_);
-  feedback.position_rad = measured_rad_;
-  feedback.velocity_radps = measured_radps_;
-  feedback.torque_Nm = torque_Nm_;
+  feedback.position_rad = motor_.told.position_rad;
+  feedback.velocity_radps = motor_.told.velocity_radps;
+  feedback.torque_Nm = motor_.told.torque_Nm;
   feedback.mos_degC = twin_.ambient_degC + 5;
   feedback.rotor_degC = hot_ ? 125 : twin_.ambient_degC + 3;
   send(encode_feedback(settings_.master_id, settings_.id, feedback, twin_.ranges), out);
@@ -156,31 +160,7 @@ void DamiaoTwin::on_tick(Time now, std::span<Shaft> shafts, TwinFrames&) {
   if (booted_ && status_ == MotorStatus::enabled && timeout_raw_ > 0 &&
       fed_ms * kTimeoutUnitsPerMs > timeout_raw_)
     fail(MotorStatus::lost_comm);
-  move(dt_s, shafts.front());
-}
-
-void DamiaoTwin::move(double dt_s, Shaft& shaft) {
-  const double sign = this->sign();
-  if (!stuck_) {
-    measured_rad_ = shaft.position_rad * sign + settings_.zero_rad;
-    measured_radps_ = shaft.velocity_radps * sign;
-  } else {
-    measured_radps_ = 0;
-  }
-  const bool on = booted_ && status_ == MotorStatus::enabled;
-  if (on) {
-    const double law_Nm = command_.stiffness_Nmprad * (command_.position_rad - measured_rad_) +
-                          command_.damping_Nmsprad * (command_.velocity_radps - measured_radps_) +
-                          command_.torque_Nm;
-    const double limit_Nm = twin_.ranges.t_max_Nm;
-    const double share =
-        twin_.time_constant_s > 0 ? 1 - std::exp(-dt_s / twin_.time_constant_s) : 1.0;
-    torque_Nm_ += (std::clamp(law_Nm, -limit_Nm, limit_Nm) - torque_Nm_) * share;
-  } else {
-    torque_Nm_ = 0;
-  }
-  shaft.torque_Nm = torque_Nm_ * sign;
-  shaft.energized = on;
+  motor_.move(dt_s, booted_ && status_ == MotorStatus::enabled, command_, shafts.front());
 }
 
 }  // namespace drover::damiao

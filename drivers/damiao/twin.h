@@ -6,6 +6,7 @@
 #pragma once
 
 #include "drivers/damiao/settings.h"
+#include "drivers/mit/twin_motor.h"
 #include "drover/twin.h"
 
 namespace drover::damiao {
@@ -36,7 +37,6 @@ class DamiaoTwin final : public CanTwin {
   bool set_fault(std::string_view name, Time now) override;
 
  private:
-  double sign() const { return wrong_sign_ ? -settings_.sign : settings_.sign; }
   void boot(Time now);
   void fail(MotorStatus status);
   void on_special(Special special, Time now);
@@ -45,7 +45,6 @@ class DamiaoTwin final : public CanTwin {
   std::uint32_t read(std::uint8_t rid) const;
   void send_feedback(TwinFrames& out) const;
   void send(const CanFrame& frame, TwinFrames& out) const;
-  void move(double dt_s, Shaft& shaft);
 
   Settings settings_;
   TwinSettings twin_;
@@ -60,14 +59,8 @@ class DamiaoTwin final : public CanTwin {
   std::uint32_t timeout_raw_ = 0;
   MitCommand command_;
 
-  // At the motor, as its encoder tells.
-  double measured_rad_ = 0;
-  double measured_radps_ = 0;
-  double torque_Nm_ = 0;
-
+  mit::TwinMotor motor_;
   bool hot_ = false;
-  bool stuck_ = false;
-  bool wrong_sign_ = false;
   bool silent_ = false;
 };
 

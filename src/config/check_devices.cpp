@@ -54,25 +54,37 @@ void addresses(Findings& found) {
 struct Enemies {
   std::string_view one;
   std::string_view other;
+  std::string_view with;  ///< the other, in words
   std::string_view why;
+  double master_id = -1;  ///< only when the one answers under this id
 };
 constexpr Enemies kEnemies[] = {
-    {"damiao", "odrive",
+    {"damiao", "odrive", "an odrive",
      "what reads its registers (0x7FF) is by its id an ODrive's broadcast to enter firmware "
      "update"},
+    {"cubemars_mit", "zlac8015d", "a zlac8015d",
+     "its answers under the master id 0 are by their id commands that start and reset CANopen "
+     "nodes",
+     0},
 };
+
+bool means_harm(const Enemies& enemies, const DeviceConfig& device) {
+  if (device.driver != enemies.one) return false;
+  return enemies.master_id < 0 || (device.options.has("master_id") &&
+                                   device.options.number("master_id") == enemies.master_id);
+}
 
 void company_on_a_bus(Findings& found) {
   const auto& devices = found.config().devices;
-  for (const auto& [one, other, why] : kEnemies)
+  for (const auto& enemies : kEnemies)
     for (const auto& device : devices)
-      if (device.driver == one &&
-          std::any_of(devices.begin(), devices.end(), [&, name = other](const auto& each) {
-            return each.driver == name && each.link == device.link;
+      if (means_harm(enemies, device) &&
+          std::any_of(devices.begin(), devices.end(), [&](const auto& each) {
+            return each.driver == enemies.other && each.link == device.link;
           }))
         found.add(device_path(device, "link"),
-                  "a " + std::string(one) + " shares no bus with an " + std::string(other) + ": " +
-                      std::string(why),
+                  "a " + std::string(enemies.one) + " shares no bus with " +
+                      std::string(enemies.with) + ": " + std::string(enemies.why),
                   "a bus of its own");
 }
 

@@ -229,8 +229,8 @@ rule_no_machine_paths() {
 
 # What several drivers share has a folder, too, and no line in the registry.
 rule_driver_folders() {
-  # canopen is shared; of gt01 there are only the codecs yet.
-  local folder shared=' canopen gt01 '
+  # canopen and mit are shared; of gt01 there are only the codecs yet.
+  local folder shared=' canopen gt01 mit '
   files | grep -oE '^drivers/[^/]+/' | sort -u | while read -r folder; do
     [[ -s ${folder}README.md ]] || echo "${folder}README.md:1: missing: source document and frames"
     # A driver without a codec has levels, not bytes.

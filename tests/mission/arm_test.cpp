@@ -254,7 +254,29 @@ TEST(ScoutArmBusLate, TheGuardLetsItSinkSlowlyAndStopsTheBase) {
 std::string name_of(const testing::TestParamInfo<const char*>& one) {
   return one.param;
 }
-INSTANTIATE_TEST_SUITE_P(Each, Arm, testing::Values("arm", "scout_arm"), name_of);
+// Its motors do not tell that they are on, and to ask them would drop what they carry.
+TEST(CubemarsArmKill, SinksAsSlowlyUnderTheNextDaemonAsUnderTheGuard) {
+  const Record& log = record("cubemars_arm_kill");
+  const Time killed = log.event("event killed#1");
+  EXPECT_NEAR(arm_at(log, kShoulder, killed), 1.0, 0.05);
+  double fastest = 0;
+  for (Time at = killed; at < log.event("event stopped#1") - 1s; at += 500ms)
+    fastest = std::max(fastest, 2 * strayed(log, kShoulder, at, at + 500ms));
+  figure("fastest of its shoulder", fastest, "rad/s");
+  EXPECT_LT(fastest, 0.9);  // 3.9 Nm at most, over 4.9 Nms/rad
+  EXPECT_GT(arm_at(log, kShoulder, log.event("event restarted#1") + 500ms), -0.5) << "it lies";
+  const auto lets_go = [&](const CanLine& line) {
+    return line.time >= killed && line.bus == "can1" && line.frame.data[0] == 0xFF &&
+           line.frame.data[7] == 0xFD;
+  };
+  EXPECT_EQ(std::count_if(log.can.begin(), log.can.end(), lets_go), 0);
+}
+
+TEST(CubemarsArmKill, TheBaseDrivesAnew) {
+  expect_good_drive(record("cubemars_arm_kill"), 2);
+}
+
+INSTANTIATE_TEST_SUITE_P(Each, Arm, testing::Values("arm", "scout_arm", "cubemars_arm"), name_of);
 INSTANTIATE_TEST_SUITE_P(Each, ArmKill, testing::Values("arm_kill", "scout_arm_kill"), name_of);
 
 }  // namespace

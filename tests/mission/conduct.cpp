@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "mission/wire_cubemars_mit.h"
 #include "mission/wire_damiao.h"
 #include "mission/wire_robomaster.h"
 #include "mission/wire_twist.h"
@@ -149,13 +150,17 @@ std::string judge(Maker maker, const CanFrame& frame) {
   return "it has no bus";
 }
 
+std::string judge(ArmMaker maker, const CanFrame& frame) {
+  return maker == ArmMaker::damiao ? damiao::forbidden(frame) : cubemars_mit::forbidden(frame);
+}
+
 Problems check_frames(const Record& record) {
   Problems problems;
   std::size_t number = 0;
   for (const auto& line : record.can) {
     ++number;
-    const bool of_arm = record.has_arm && line.bus == "can1";
-    const auto why = of_arm               ? damiao::forbidden(line.frame)
+    const bool of_arm = record.arm != ArmMaker::none && line.bus == "can1";
+    const auto why = of_arm               ? judge(record.arm, line.frame)
                      : line.bus == "can0" ? judge(record.maker, line.frame)
                                           : "no bus of this robot";
     if (!why.empty()) add(problems, "can.log:" + std::to_string(number) + ": " + why);

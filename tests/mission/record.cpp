@@ -104,7 +104,8 @@ void read_drives(const json& scenario, Record& record) {
   record.mps_per_turnps = kTurn * kWheelRadius_m / kGear;
   for (const auto& drive : scenario.value("drives", json::array())) {
     const std::string driver = drive.value("driver", "");
-    record.has_arm = record.has_arm || driver == "damiao";
+    if (driver == "damiao") record.arm = ArmMaker::damiao;
+    if (driver == "cubemars_mit") record.arm = ArmMaker::cubemars_mit;
     if (driver == "zlac8015d") {
       record.maker = Maker::zlac8015d;
       record.mps_per_turnps = kTurn * 0.085;
@@ -141,7 +142,7 @@ void add_currents(Time time, const std::array<float, robomaster::kMotors>& drive
 }
 
 void read_set_points(const CanLine& line, robomaster::Bus& bus, Record& record) {
-  if (record.has_arm && line.bus != "can0") return;  // an arm's
+  if (record.arm != ArmMaker::none && line.bus != "can0") return;  // an arm's
   if (record.maker == Maker::robomaster) {
     if (const auto drives_A = bus.drives_A(line.frame)) add_currents(line.time, *drives_A, record);
     return;

@@ -41,6 +41,8 @@ struct Sent {
 
 /// Whose drives they are.
 enum class Maker { odrive, zlac8015d, gt01_serial, gt01_can, agilex_v2, hunter, robomaster };
+/// And whose motors an arm on a bus of its own has.
+enum class ArmMaker { none, damiao, cubemars_mit };
 
 struct Record {
   std::filesystem::path folder;
@@ -52,7 +54,7 @@ struct Record {
   std::vector<MqttLine> mqtt;
   std::vector<EventLine> events;
   std::vector<TruthLine> truth;
-  bool has_arm = false;           ///< DAMIAO motors on a bus of their own
+  ArmMaker arm = ArmMaker::none;
   std::vector<LevelLine> levels;  ///< of the outputs, where the scenario records them
   // What the lines above mean:
   std::vector<Status> statuses;

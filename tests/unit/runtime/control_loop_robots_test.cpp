@@ -114,7 +114,7 @@ TEST_P(TheControlLoopOf, AllocatesNothingWhateverItsWiresSay) {
 INSTANTIATE_TEST_SUITE_P(Examples, TheControlLoopOf,
                          testing::Values("field_two_of_each", "zlac8015d", "gt01", "gt01_can",
                                          "agilex_v2", "hunter", "field_arm", "scout_arm",
-                                         "robomaster"),
+                                         "cubemars_arm", "robomaster"),
                          [](const auto& robot) { return std::string(robot.param); });
 
 }  // namespace

@@ -1,0 +1,52 @@
+// A joint that a motor in MIT mode turns: set points to frames, its answers to motion, and its
+// stop. What is no number, or beyond a range, is counted here.
+#pragma once
+
+#include "drivers/mit/frame.h"
+#include "drover/actuator.h"
+
+namespace drover::mit {
+
+/// How a motor's frames become a joint's, and the last limits of what is sent.
+struct Joint {
+  std::uint8_t id = 1;
+  Ranges ranges;
+  double sign = 1;             ///< -1: the motor turns against the joint
+  double zero_rad = 0;         ///< what the motor says where the joint is 0
+  double damping_Nmsprad = 1;  ///< of a stop
+  double max_effort_Nm = 0;
+  /// Speeds are rounded to the nearest step, not down: where a step of the range is wide.
+  bool nearest_speed = false;
+
+  /// What every stop of it is.
+  CanFrame damp_frame() const;
+  /// The same, played for ever: it does not hold.
+  StopRecipe stop_recipe() const;
+  /// What of a set point is not cut off.
+  ImpedanceRange range() const;
+  /// Of what has neither stiffness nor effort; all else does not ask for a velocity alone.
+  double setpoint_radps(const CanFrame& frame) const;
+  AxisMotion motion_of(const Motion& motion, AxisId axis) const;
+};
+
+/// What an MIT frame or a special one does; of the latter the disabling one is a stop.
+FrameEffect effect(const CanFrame& frame, std::uint8_t id);
+
+class SetpointPacker final {
+ public:
+  explicit SetpointPacker(const Joint& joint) : joint_(joint), damp_(joint.damp_frame()) {}
+
+  /// What is no number, or a spring that pushes away, is not followed in any part: it damps.
+  CanFrame frame_of(const Setpoint& command);
+  /// Set points that were not numbers, or beyond a range.
+  std::uint64_t bad() const { return bad_; }
+
+ private:
+  double clamped(double value, double limit);
+
+  Joint joint_;
+  CanFrame damp_;
+  std::uint64_t bad_ = 0;
+};
+
+}  // namespace drover::mit

@@ -1,0 +1,29 @@
+#include "drivers/mit/twin_motor.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace drover::mit {
+
+void TwinMotor::move(double dt_s, bool on, const MitCommand& command, Shaft& shaft) {
+  const double turns = wrong_sign ? -sign : sign;
+  if (!stuck) {
+    told.position_rad = shaft.position_rad * turns + zero_rad;
+    told.velocity_radps = shaft.velocity_radps * turns;
+  } else {
+    told.velocity_radps = 0;
+  }
+  if (on) {
+    const double law_Nm = command.stiffness_Nmprad * (command.position_rad - told.position_rad) +
+                          command.damping_Nmsprad * (command.velocity_radps - told.velocity_radps) +
+                          command.torque_Nm;
+    const double share = time_constant_s > 0 ? 1 - std::exp(-dt_s / time_constant_s) : 1.0;
+    told.torque_Nm += (std::clamp(law_Nm, -t_max_Nm, t_max_Nm) - told.torque_Nm) * share;
+  } else {
+    told.torque_Nm = 0;
+  }
+  shaft.torque_Nm = told.torque_Nm * turns;
+  shaft.energized = on;
+}
+
+}  // namespace drover::mit

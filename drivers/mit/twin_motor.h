@@ -1,0 +1,23 @@
+// The law of MIT mode on a simulated motor's shaft.
+#pragma once
+
+#include "drivers/mit/frame.h"
+#include "drover/twin.h"
+
+namespace drover::mit {
+
+struct TwinMotor {
+  double sign = 1;
+  double zero_rad = 0;
+  double t_max_Nm = 0;
+  double time_constant_s = 0;  ///< from wanted to actual torque
+  bool stuck = false;          ///< its encoder
+  bool wrong_sign = false;
+  /// At the motor, as its encoder tells.
+  Motion told;
+
+  /// With its power stage `on` it follows `command`, and so does the shaft; else both are free.
+  void move(double dt_s, bool on, const MitCommand& command, Shaft& shaft);
+};
+
+}  // namespace drover::mit
