@@ -70,34 +70,28 @@ void look_at_range(const std::string& path, const engine::JointRules& joint,
   beyond("damping_Nmsprad", joint.damping_Nmsprad, 0, range.damping_Nmsprad, "Nm s/rad");
 }
 
-void look_at_ranges(const DeviceConfig& device, const Actuator& driver, Findings& found) {
+/// A joint that carries a weight is held by its drive alone.
+void warn_of_weight(const std::string& path, const Actuator& driver, Findings& found) {
+  const char* const by_guard =
+      driver.stop_recipe().ends == StopEnds::holds ? "holds it" : "only lets it sink slowly";
+  found.warn(path,
+             "carries a weight: without power nothing holds it; when its line is cut its drive " +
+                 std::string(driver.silence().text) + "; when droverd dies drover-guard " +
+                 by_guard,
+             "falls", "a brake, a spring or a counterweight");
+}
+
+/// The joints of groups that the device moves.
+void look_at_joints(const DeviceConfig& device, const Actuator& driver, Findings& found) {
   const auto& engine = found.config().engine;
   for (const auto& group : engine.groups)
     for (const auto& joint : group.joints) {
       const auto place = static_cast<std::size_t>(joint.axis - device.first_axis);
       if (joint.axis < device.first_axis || place >= device.joints.size()) continue;
-      look_at_range("groups." + std::string(group.name.view()) + ".joints." +
-                        std::string(engine.joints[joint.axis].view()),
-                    joint, driver.impedance_range(device.joints[place].channel_index), found);
-    }
-}
-
-/// A joint that carries a weight is held by its drive alone.
-void warn_of_weights(const DeviceConfig& device, const Actuator& driver, Findings& found) {
-  const auto& engine = found.config().engine;
-  for (const auto& group : engine.groups)
-    for (const auto& joint : group.joints) {
-      const bool moved =
-          joint.axis >= device.first_axis && joint.axis < device.first_axis + device.joints.size();
-      if (!moved || !joint.carries_weight) continue;
-      const char* const by_guard =
-          driver.stop_recipe().ends == StopEnds::holds ? "holds it" : "only lets it sink slowly";
-      found.warn(
-          "groups." + std::string(group.name.view()) + ".joints." +
-              std::string(engine.joints[joint.axis].view()),
-          "carries a weight: without power nothing holds it; when its line is cut its drive " +
-              std::string(driver.silence().text) + "; when droverd dies drover-guard " + by_guard,
-          "falls", "a brake, a spring or a counterweight");
+      const auto path = "groups." + std::string(group.name.view()) + ".joints." +
+                        std::string(engine.joints[joint.axis].view());
+      look_at_range(path, joint, driver.impedance_range(device.joints[place].channel_index), found);
+      if (joint.carries_weight) warn_of_weight(path, driver, found);
     }
 }
 
@@ -298,8 +292,7 @@ void check_drivers(Findings& found) {
     device.goes_on_in_silence = !silence.stops;
     if (silence.stops) device.stops_after_ms = static_cast<int>(to_s(silence.after) * 1000);
     look_at_silence(device, *made.actuator, found);
-    look_at_ranges(device, *made.actuator, found);
-    warn_of_weights(device, *made.actuator, found);
+    look_at_joints(device, *made.actuator, found);
   }
 }
 

@@ -11,8 +11,8 @@
 namespace drover::ros2 {
 
 /// A stop goes before everything else, and is told again and again until it has left, and on each
-/// new way until droverd has answered. Of twists the
-/// newest goes on, and what was refused, neither faster than droverd takes them. Pure.
+/// new way until droverd has answered. Of twists the newest goes on, and what was refused, neither
+/// faster than droverd takes them. Pure.
 class AskedFor final {
  public:
   /// An emergency stop; of more that come in rows ten a second are told, and the last one.

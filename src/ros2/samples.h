@@ -26,12 +26,17 @@ template <std::int32_t kMost, class Look>
   return taken;
 }
 
-/// When it was said, by this computer's monotonic time; its writer shares the clock. `wall`: UTC at
-/// `now`, since 1970.
-inline Time said_at(const dds_sample_info_t& info, Time now, Duration wall) {
-  const Duration age = std::max(wall - Duration{info.source_timestamp}, Duration{});
+/// When it was said, by this computer's monotonic time, of its DDS time stamp `stamp`; its writer
+/// shares the clock. `wall`: UTC at `now`, since 1970.
+inline Time said_at(Duration stamp, Time now, Duration wall) {
+  const Duration age = std::max(wall - stamp, Duration{});
   // A stamp before this computer's start, or none, is as old as can be told.
   return std::max(now - age, Time{Duration{1}});
+}
+
+/// The same of a sample.
+inline Time said_at(const dds_sample_info_t& info, Time now, Duration wall) {
+  return said_at(Duration{info.source_timestamp}, now, wall);
 }
 
 /// Why it is not of now, by its DDS time stamp; empty: it is. `wall`: UTC now, since 1970.

@@ -2,8 +2,6 @@
 
 #include <moveit_msgs.h>
 
-#include <algorithm>
-
 #include "ros2/read_scene.h"
 #include "ros2/samples.h"
 #include "ros2/scene_line.h"
@@ -29,9 +27,7 @@ std::string read_wire(const ddsi_serdata& message, const dds_topic_descriptor_t&
 }  // namespace
 
 std::string SceneInput::line_of(const SceneQueue::Waiting& waiting, Time now, Duration wall) const {
-  const Duration age = one_clock_ ? wall - waiting.said : Duration{};
-  // A stamp before this computer's start, or none, is as old as can be told.
-  const Time said = std::max(now - std::max(age, Duration{}), Time{Duration{1}});
+  const Time said = one_clock_ ? said_at(waiting.said, now, wall) : now;
   if (kind_ == Kind::objects)
     return read_wire<moveit_msgs_msg_dds__CollisionObject_>(
         *waiting.message, moveit_msgs_msg_dds__CollisionObject__desc, [said](const auto& object) {
