@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <utility>
 
@@ -13,7 +14,8 @@ namespace drover::guard {
 
 namespace {
 
-constexpr const char* kRecipe = "recipe";
+/// Two names, in turn: the next set's words are there before those of the last one go.
+constexpr std::array<const char*, 2> kRecipes{"recipe", "recipe.2"};
 constexpr const char* kMemory = "memory";
 constexpr const char* kState = "state";
 constexpr int kWhole = F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_WRITE;
@@ -28,10 +30,11 @@ std::string link_name(std::string_view link) {
 }
 
 /// The set in words, in a file that nobody can change any more; -1 when there is no memory.
-int write_recipe(const StopSet& set, std::uint32_t limit_ms) {
+int write_recipe(const StopSet& set, std::uint32_t limit_ms, std::uint32_t edition) {
   std::vector<GuardMessage> words(1);
   words[0].verb = GuardVerb::hello;
   words[0].limit_ms = limit_ms;
+  words[0].index = edition;
   set.tell(words);
   const int fd = ::memfd_create("drover-guard-recipe", MFD_CLOEXEC | MFD_ALLOW_SEALING);
   const auto size = words.size() * sizeof(GuardMessage);
@@ -51,6 +54,23 @@ std::vector<GuardMessage> read_recipe(int fd) {
   const auto size = count * sizeof(GuardMessage);
   if (::pread(fd, words.data(), size, 0) != static_cast<ssize_t>(size)) return {};
   return words;
+}
+
+struct Recipe {
+  std::vector<GuardMessage> words;  ///< none: there is no whole one
+  std::size_t place = 1;            ///< of its name
+};
+
+/// The newer of the two that may be there.
+Recipe newest(const std::array<int, kRecipes.size()>& recipes) {
+  Recipe newest;
+  for (std::size_t i = 0; i < recipes.size(); ++i) {
+    auto words = read_recipe(recipes[i]);
+    if (words.empty() || words[0].version != kGuardVersion) continue;
+    if (newest.words.empty() || words[0].index > newest.words[0].index)
+      newest = {std::move(words), i};
+  }
+  return newest;
 }
 
 /// Takes the descriptor out of `kept`; -1 when there is none of this name.
@@ -77,11 +97,14 @@ void understand(const GuardMessage& message, std::vector<Kept>& kept, StopSet& s
 
 bool Keep::restore(std::vector<Kept> kept, StopSet& set, std::uint32_t& limit_ms, int& memory) {
   for (const auto& one : kept) stored_.push_back(one.name);
-  if (!map_state(take(kept, kState)))
+  state_stored_ = map_state(take(kept, kState));
+  if (!state_stored_)
     map_state(::memfd_create("drover-guard-state", MFD_CLOEXEC | MFD_ALLOW_SEALING));
-  const int recipe = take(kept, kRecipe);
-  const auto words = read_recipe(recipe);
-  const bool understood = words.size() > 1 && words[0].version == kGuardVersion;
+  const std::array<int, kRecipes.size()> recipes{take(kept, kRecipes[0]), take(kept, kRecipes[1])};
+  const auto [words, place] = newest(recipes);
+  const bool understood = words.size() > 1;
+  whole_ = place;
+  if (!words.empty()) edition_ = words[0].index;
   // Links that are missing are left out: what is there goes on being stopped.
   for (std::size_t i = 1; understood && i < words.size(); ++i) understand(words[i], kept, set);
   if (understood) {
@@ -90,7 +113,8 @@ bool Keep::restore(std::vector<Kept> kept, StopSet& set, std::uint32_t& limit_ms
   }
   for (const auto& one : kept)
     if (one.fd >= 0) ::close(one.fd);
-  if (recipe >= 0) ::close(recipe);
+  for (const int recipe : recipes)
+    if (recipe >= 0) ::close(recipe);
   return understood;
 }
 
@@ -125,11 +149,12 @@ bool Keep::map_state(int fd) {
 
 void Keep::keep(const StopSet& set, std::uint32_t limit_ms) {
   if (recipe_ >= 0) ::close(recipe_);
-  recipe_ = write_recipe(set, limit_ms);
+  recipe_ = write_recipe(set, limit_ms, ++edition_);
+  coming_ = 1 - whole_;
   steps_.clear();
   next_step_ = 0;
   for (const auto name : set.links()) steps_.push_back(link_name(name));
-  for (const char* name : {kState, kMemory, kRecipe}) steps_.emplace_back(name);
+  for (const char* name : {kState, kMemory, kRecipes[coming_]}) steps_.emplace_back(name);
   const auto names = steps_;
   for (const auto& name : stored_)
     if (std::find(names.begin(), names.end(), name) == names.end()) steps_.push_back('-' + name);
@@ -151,11 +176,24 @@ bool Keep::take_step(const std::string& step, const StopSet& set, int memory) {
     std::erase(stored_, step.substr(1));
     return true;
   }
-  int fd = step == kState ? state_fd_ : step == kMemory ? memory : step == kRecipe ? recipe_ : -1;
+  if (step == kState) {
+    if (!state_stored_) state_stored_ = store_anew(step, state_fd_);
+    return state_stored_;
+  }
+  if (step == kRecipes[coming_]) {
+    if (!store_anew(step, recipe_)) return false;
+    whole_ = coming_;
+    return true;
+  }
+  int fd = step == kMemory ? memory : -1;
   for (const auto link : set.links())
     if (step == link_name(link)) fd = set.descriptor(link);
-  // One after the other: a file that is kept already would not be taken under its name again.
-  return notify_.forget(step) && (fd < 0 || notify_.store(step, fd));
+  return store_anew(step, fd);
+}
+
+/// One after the other: a file that is kept already would not be taken under its name again.
+bool Keep::store_anew(const std::string& name, int fd) {
+  return notify_.forget(name) && (fd < 0 || notify_.store(name, fd));
 }
 
 }  // namespace drover::guard

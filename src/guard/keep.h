@@ -38,18 +38,24 @@ class Keep final {
   void keep(const StopSet& set, std::uint32_t limit_ms);
   /// Once a cycle, with what keep() was given. A few datagrams each time: their queue is short, and
   /// who reads it may be slow. At each moment there is a whole set, old, new or a mixture: a link's
-  /// old descriptor does as well. `memory` stays the caller's.
+  /// old descriptor does as well. Only a link that was opened anew is without its way between two
+  /// datagrams. `memory` stays the caller's.
   void step(const StopSet& set, int memory);
 
  private:
   bool map_state(int fd);
   bool take_step(const std::string& step, const StopSet& set, int memory);
+  bool store_anew(const std::string& name, int fd);
 
   Notify& notify_;
   KeptState own_{};
   KeptState* state_ = &own_;
   int state_fd_ = -1;
+  bool state_stored_ = false;  ///< it stays the same file
   int recipe_ = -1;
+  std::uint32_t edition_ = 0;        ///< of the recipe
+  std::size_t whole_ = 1;            ///< which of the recipe's two names has one that is kept
+  std::size_t coming_ = 0;           ///< and which the next one gets
   std::vector<std::string> stored_;  ///< names that are kept now, or may be
   std::vector<std::string> steps_;   ///< names to be stored anew, then "-name": to be forgotten
   std::size_t next_step_ = 0;
