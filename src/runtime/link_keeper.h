@@ -138,6 +138,7 @@ class LinkKeeper final {
   bool guard_set_changed_ = true;
   Slot watchdog_;               ///< of the line that the guard pulses
   Time watchdog_try_ = kNever;  ///< not before
+  std::string relay_name_;      ///< empty: there is none
   link::UniqueFd relay_;        ///< a duplicate of the enable relay's line handle, for the guard
   bool relay_given_ = false;
 };

@@ -93,7 +93,8 @@ TEST_F(ControlLoopTest, AllocatesNothingWhateverComes) {
     (void)exchange_.commands.push(QueuedCommand{{id, monotonic_now(), ProposeOrigin{}}, {}});
     if (i % 10 == 0) exchange_.stops.ask_stop();
     if (i % 10 == 5) exchange_.stops.ask_cancel();
-    scene_.clearance.back() = {static_cast<std::uint64_t>(i + 1), {.t = monotonic_now()}};
+    scene_.clearance.back() = {static_cast<std::uint64_t>(i + 1), {}};
+    scene_.clearance.back().clearance.t = monotonic_now();
     scene_.clearance.publish();
     wait_for_cycles(1);
   }

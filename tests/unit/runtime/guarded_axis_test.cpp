@@ -34,7 +34,7 @@ TEST(GuardedAxis, IsStoppedAtThePaceOfItsRecipe) {
 
 TEST(GuardedAxis, IsStoppedByEachRoundOfPacketsOnATty) {
   StopRecipe stop;
-  for (const std::uint8_t count : {0, 1}) {
+  for (const std::uint8_t count : {std::uint8_t{0}, std::uint8_t{1}}) {
     StopRound round;
     Packet packet;
     for (const std::uint8_t byte : {std::uint8_t{0x55}, count}) EXPECT_TRUE(packet.push_back(byte));

@@ -55,7 +55,9 @@ TEST(LateLooks, AreNotTakenBackForOneThatIsInTimeNowAndThen) {
   for (int i = 0; i < 10; ++i) {
     looks.look(110ms, 2);
     looks.look(30ms, 2);
-    if (i > 2) EXPECT_NE(looks.words(), "") << i;
+    if (i > 2) {
+      EXPECT_NE(looks.words(), "") << i;
+    }
   }
 }
 
