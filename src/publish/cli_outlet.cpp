@@ -15,6 +15,12 @@ std::string refusal(std::string_view reason) {
   return reply_line(false, reason);
 }
 
+std::string stop_refused_line(std::string_view reason) {
+  json::JsonText reply;
+  reply.open('{').key("ok").boolean(false).key("cmd").text("stop");
+  return reply.key("reason").text(reason).close('}').take();
+}
+
 double length_m(const store::Track& track) {
   double length = 0;
   for (std::size_t i = 1; i < track.points.size(); ++i)
@@ -79,7 +85,7 @@ bool CliOutlet::on_line(ClientId client, std::string_view line, Time now, Action
   }
   if (!command) return reply(at_once(cmd, name, now));
   const auto number = next_request_++;
-  waiting_[number] = client;
+  waiting_[number] = {client, cmd == "stop"};
   service_.on_cli(number, std::move(*command), now, out);
   return true;
 }
@@ -88,7 +94,10 @@ bool CliOutlet::on_answer(const Answer& answer, Actions& out) {
   if (answer.id.source != RequestId::Source::cli) return false;
   const auto waiting = waiting_.find(answer.id.number);
   if (waiting == waiting_.end()) return false;
-  out.emplace_back(Reply{waiting->second, reply_line(answer.ok, answer.text)});
+  const auto [client, stop] = waiting->second;
+  // Who hands on stops beside other requests has to know which was not obeyed.
+  out.emplace_back(Reply{client, stop && !answer.ok ? stop_refused_line(answer.text)
+                                                    : reply_line(answer.ok, answer.text)});
   waiting_.erase(waiting);
   return true;
 }

@@ -26,7 +26,11 @@ class CliOutlet final : public Outlet {
 
   CommandService& service_;
   std::function<std::string(Time)> status_;
-  std::map<std::uint64_t, ClientId> waiting_;  ///< request number → who asked
+  struct Asked {
+    ClientId client = 0;
+    bool stop = false;
+  };
+  std::map<std::uint64_t, Asked> waiting_;  ///< by the number of the request
   std::uint64_t next_request_ = 1;
 };
 

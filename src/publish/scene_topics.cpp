@@ -24,7 +24,8 @@ std::string_view our_topic(std::string_view topic) {
 SceneTopics::Gate SceneTopics::gate_with(const SceneTopicLimits& limits) {
   return {{limits.max_messages_Hz, limits.message_burst},
           {limits.max_refusals_Hz, limits.refusal_burst},
-          {}};
+          {},
+          0};
 }
 
 SceneTopics::SceneTopics(bool configured, JobNumbers& numbers, SceneSaver& saver,
@@ -80,11 +81,11 @@ bool SceneTopics::on_refused(std::string_view name, std::string_view id, scene::
 /// Empty: it may be looked at.
 std::string SceneTopics::untimely(Time now, const SceneSender& sender) {
   if (!configured_) return std::string(kNoScene);
-  auto& messages = gate_of(sender).messages;
-  if (!messages.take(now))
+  Gate& gate = gate_of(sender);
+  if (!gate.messages.take(now))
     return std::string("slow down") + (sender.client == 0 ? ", or send them as a list: " : ": ") +
-           messages.in_words("messages");
-  if (waiting_.size() >= limits_.max_waiting)
+           gate.messages.in_words("messages");
+  if (gate.waiting >= limits_.max_waiting)
     return "slow down: " + std::to_string(limits_.max_waiting) + " messages wait already";
   return {};
 }
@@ -92,6 +93,7 @@ std::string SceneTopics::untimely(Time now, const SceneSender& sender) {
 SceneTopics::Waiting& SceneTopics::expect(std::string_view topic, const Arrival& arrival, Time now,
                                           const SceneSender& sender) {
   Waiting& waiting = waiting_.emplace_back();
+  ++gate_of(sender).waiting;
   waiting.number = numbers_.next();
   waiting.client = sender.client;
   waiting.topic = topic;
@@ -237,6 +239,7 @@ void SceneTopics::answer_ros2(const Waiting& waiting, Actions& out) {
 void SceneTopics::answer(Actions& out) {
   for (; !waiting_.empty() && waiting_.front().complete; waiting_.pop_front()) {
     const Waiting& first = waiting_.front();
+    --gate_of({first.client}).waiting;
     if (first.client != 0) {
       answer_ros2(first, out);
       continue;

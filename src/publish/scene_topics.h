@@ -105,6 +105,7 @@ class SceneTopics final {
     TokenBucket messages;
     TokenBucket refusals;
     SceneCounts counts;
+    std::size_t waiting = 0;  ///< for the scene or the disk, or for those before them
   };
 
   static Gate gate_with(const SceneTopicLimits& limits);

@@ -40,6 +40,12 @@ void AskedFor::answered() {
   if (unanswered_ > 0) --unanswered_;
 }
 
+void AskedFor::stop_refused() {
+  answered();
+  stop_waits_ = true;
+  ++stops_refused_;
+}
+
 bool AskedFor::way_lost() {
   if (std::exchange(unanswered_, 0) == 0) return false;
   stop_waits_ = true;

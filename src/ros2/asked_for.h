@@ -1,6 +1,7 @@
 // What ROS 2 users ask for, until droverd is told: a stop, twists, and what was refused of them.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -20,6 +21,9 @@ class AskedFor final {
   void hear(const TwistsHeard& heard);
   /// droverd has done what a line asked for, which it says of stops only, in their order.
   void answered();
+  /// droverd could not do it: it is told again.
+  void stop_refused();
+  std::uint64_t stops_refused() const { return stops_refused_; }
   /// The way to droverd is lost: a stop that it has not answered it may not have read. True: there
   /// is one, and it is told again.
   bool way_lost();
@@ -43,6 +47,7 @@ class AskedFor final {
   bool stop_waits_ = false;
   Time stop_tried_ = kNever;
   unsigned unanswered_ = 0;  ///< stops that have left
+  std::uint64_t stops_refused_ = 0;
   std::optional<Waiting> twist_;
   bool moved_ = false;  ///< one since the last that was handed on was no zero
   Time handed_on_ = kNever;

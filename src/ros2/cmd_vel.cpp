@@ -1,5 +1,7 @@
 #include "ros2/cmd_vel.h"
 
+#include <algorithm>
+
 #include "ros2/read_twist.h"
 #include "ros2/samples.h"
 #include "ros2/writer_names.h"
@@ -20,8 +22,10 @@ void CmdVel::hear(const void* sample, const dds_sample_info_t& info, Time now, D
   };
   if (rival != 0) {
     heard.rivals = true;
-    return refuse("two programs write it, neither is followed: " + writer_name(reader_, rival) +
-                  " and " + writer_name(reader_, info.publication_handle));
+    // Whoever was last, in the same words: the journal has a row of them once.
+    const auto [first, second] = std::minmax(rival, info.publication_handle);
+    return refuse("two programs write it, neither is followed: " + writer_name(reader_, first) +
+                  " and " + writer_name(reader_, second));
   }
   const auto late = one_clock_ ? too_late(info, wall, kOldestTwist) : std::string();
   if (!late.empty()) return refuse(late);

@@ -48,11 +48,12 @@ struct RangeLimits {
   double min_m = 0;
   double max_m = 0;
 };
-/// Equal angles, as many as the turn has points. NaN where nothing is known (REP 117), which is not
+/// `angles` equal parts of the turn, the same in each whatever the scanner measured: who makes maps
+/// relies on it. The nearest of each; NaN where nothing is known (REP 117), which is not
 /// "free". The stamp is the middle of the turn and time_increment 0: a scanner may turn clockwise,
 /// which LaserScan has no word for.
 sensor_msgs_msg_dds__LaserScan_ laser_scan(const ScanTold& scan, const RangeLimits& limits,
-                                           Arena& arena);
+                                           std::size_t angles, Arena& arena);
 
 // convert_state.cpp:
 diagnostic_msgs_msg_dds__DiagnosticArray_ diagnostics(Stamp_ns at_ns, std::string_view robot,

@@ -25,7 +25,6 @@ constexpr std::uint8_t kHealthUnknown = 0;
 constexpr std::uint8_t kHealthGood = 1;
 constexpr std::uint8_t kUnspecifiedFailure = 5;
 
-constexpr std::size_t kFewestAngles = 8;
 constexpr float kNothingKnown = std::numeric_limits<float>::quiet_NaN();
 
 std::int8_t status_of(FixQuality quality) {
@@ -107,26 +106,25 @@ sensor_msgs_msg_dds__BatteryState_ battery_state(const BatteryTold& battery, Are
 }
 
 sensor_msgs_msg_dds__LaserScan_ laser_scan(const ScanTold& scan, const RangeLimits& limits,
-                                           Arena& arena) {
+                                           std::size_t angles, Arena& arena) {
   sensor_msgs_msg_dds__LaserScan_ message{};
   const Stamp_ns middle_ns = scan.begin_ns + (scan.end_ns - scan.begin_ns) / 2;
   message.header_ = {time_of(middle_ns), arena.text(scan.name)};
-  const std::size_t count = std::max(scan.points.size(), kFewestAngles);
-  const double part_rad = 2 * kPi / static_cast<double>(count);
+  const double part_rad = 2 * kPi / static_cast<double>(angles);
   message.angle_min_ = static_cast<float>(-kPi + part_rad / 2);
   message.angle_increment_ = static_cast<float>(part_rad);
   message.angle_max_ =
-      static_cast<float>(-kPi + part_rad / 2 + part_rad * static_cast<double>(count - 1));
+      static_cast<float>(-kPi + part_rad / 2 + part_rad * static_cast<double>(angles - 1));
   message.scan_time_ = static_cast<float>(scan.turn_Hz > 0 ? 1 / scan.turn_Hz : 0);
   message.range_min_ = static_cast<float>(limits.min_m);
   message.range_max_ = static_cast<float>(limits.max_m);
-  auto* ranges = arena.fill(message.ranges_, count);
-  auto* intensities = arena.fill(message.intensities_, count);
-  std::fill_n(ranges, count, kNothingKnown);
+  auto* ranges = arena.fill(message.ranges_, angles);
+  auto* intensities = arena.fill(message.intensities_, angles);
+  std::fill_n(ranges, angles, kNothingKnown);
   for (const ScanTold::Point& point : scan.points) {
     if (!(point.range_m > 0) || !std::isfinite(point.bearing_rad)) continue;
     const auto i = std::min(
-        static_cast<std::size_t>((wrap_rad(point.bearing_rad) + kPi) / part_rad), count - 1);
+        static_cast<std::size_t>((wrap_rad(point.bearing_rad) + kPi) / part_rad), angles - 1);
     const auto range = static_cast<float>(point.range_m);
     if (ranges[i] <= range) continue;  // of two the nearer one
     ranges[i] = range;

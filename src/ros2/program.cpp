@@ -185,11 +185,20 @@ void Program::tell_asked(Time now) {
   stop_waited_ = waits;
 }
 
+void Program::stop_refused(const std::string& why) {
+  asked_.stop_refused();
+  const Time now = runtime::monotonic_now();
+  if (refusal_said_ != kNever && now - refusal_said_ <= kBeat) return;
+  refusal_said_ = now;
+  say(Level::error, "droverd has not done an emergency stop, which is told again: " + why);
+}
+
 void Program::take(std::string_view line) {
   if (scene_.answered(line, runtime::monotonic_now())) return;
   const auto told = read_told(line);
   if (!told) {
     if (told.error().done) asked_.answered();
+    if (told.error().stop_refused) return stop_refused(told.error().reason);
     if (!told.error().reason.empty()) {
       refusal_ = told.error().reason;
       follows_ = false;
@@ -210,7 +219,8 @@ void Program::take(std::string_view line) {
       {{"readers", std::to_string(readers_.matched)},
        {"incompatible", std::to_string(readers_.unmet.count)},
        {"not_sent", std::to_string(shown_->failed())},
-       {"scene_messages_lost", std::to_string(scene_.lost())}}};
+       {"scene_messages_lost", std::to_string(scene_.lost())},
+       {"stops_refused", std::to_string(asked_.stops_refused())}}};
   all.push_back(std::move(own));
   shown_->show_diagnostics(told->at_ns, all);
 }

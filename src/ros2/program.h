@@ -32,6 +32,7 @@ class Program final {
   void keep_domain(Time now);
   void make_domain(Time now);
   void take(std::string_view line);
+  void stop_refused(const std::string& why);
   void connect(Time now);
   void way_lost();
   void hear_users(Time now);
@@ -62,9 +63,10 @@ class Program final {
   Time next_beat_ = kNever;
   AskedFor asked_;
   SceneRelay scene_;
-  bool follows_ = false;      ///< droverd tells the robot's state to this connection
-  Time stopped_ = kNever;     ///< the journal was told last that users asked for a stop
-  bool stop_waited_ = false;  ///< and that it could not be told to droverd
+  bool follows_ = false;        ///< droverd tells the robot's state to this connection
+  Time stopped_ = kNever;       ///< the journal was told last that users asked for a stop
+  Time refusal_said_ = kNever;  ///< likewise that droverd had not done one
+  bool stop_waited_ = false;    ///< and that it could not be told to droverd
 };
 
 }  // namespace drover::ros2

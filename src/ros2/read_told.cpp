@@ -138,7 +138,9 @@ Result<Told, NoTold> read_told(std::string_view line) {
   if (!document) return NoTold{"not understood: " + document.error().text()};
   const Node& root = document->root;
   if (root.find("ok") != nullptr)
-    return flag_member(root, "ok") ? NoTold{"", true} : NoTold{text_member(root, "reason")};
+    return flag_member(root, "ok")
+               ? NoTold{"", true, false}
+               : NoTold{text_member(root, "reason"), false, text_member(root, "cmd") == "stop"};
   if (root.find("at_ns") == nullptr) return NoTold{"not understood: at_ns is missing"};
   Told told;
   told.at_ns = stamp(root, "at_ns");

@@ -5,6 +5,9 @@
 namespace drover::ros2 {
 namespace {
 
+/// 0.8 degrees: the beams of a turn of an LD06 at the pace that it is made for.
+constexpr std::size_t kScanAngles = 450;
+
 double option_or(const Options& options, std::string_view name, double otherwise) {
   return options.has(name) ? options.number(name) : otherwise;
 }
@@ -16,7 +19,8 @@ ScannerFrame scanner_of(const config::DeviceConfig& device) {
   constexpr double kFar_m = 100;
   return {{device.name, mount.x_m, mount.y_m, mount.z_m, 0, 0, mount.yaw_rad},
           {option_or(device.options, "range_min_m", 0),
-           option_or(device.options, "range_max_m", kFar_m)}};
+           option_or(device.options, "range_max_m", kFar_m)},
+          kScanAngles};
 }
 
 }  // namespace

@@ -44,8 +44,9 @@ inline std::string too_late(const dds_sample_info_t& info, Duration wall, Durati
   if (info.source_timestamp <= 0) return "a message has no DDS time stamp";
   const Duration age = wall - Duration{info.source_timestamp};
   if (age <= oldest) return {};
-  return "a message came too late: it is " + std::to_string(age / std::chrono::milliseconds(1)) +
-         " ms old";
+  // The same words each time: the journal has a row of them once.
+  return "a message came too late: it is more than " +
+         std::to_string(oldest / std::chrono::milliseconds(1)) + " ms old";
 }
 
 /// A text that may be missing.

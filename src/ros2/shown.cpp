@@ -87,7 +87,7 @@ void Shown::show_scan(const ScanTold& scan) {
     if (scanner.frame.name != scan.name) continue;
     const auto more = more_scans_.find(scan.name);
     send(more == more_scans_.end() ? writer(Topic::scan) : more->second,
-         laser_scan(scan, scanner.limits, arena_));
+         laser_scan(scan, scanner.limits, scanner.angles, arena_));
   }
 }
 

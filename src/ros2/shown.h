@@ -17,6 +17,7 @@ namespace drover::ros2 {
 struct ScannerFrame {
   FixedFrame frame;
   RangeLimits limits;
+  std::size_t angles = 0;  ///< in each of its messages
 };
 
 /// What does not change while the robot runs.

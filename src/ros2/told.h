@@ -123,6 +123,7 @@ struct Told {
 struct NoTold {
   std::string reason;
   bool done = false;  ///< what was asked for
+  bool stop_refused = false;
 };
 
 /// Members that are not known are left out of account: droverd may be newer.

@@ -7,7 +7,10 @@
 
 namespace drover::ros2 {
 
-/// His GUID: sixteen bytes in hex, with dots between. Of one that is gone a name that no other one
+/// Sixteen bytes in hex, with dots between.
+std::string guid_text(const dds_guid_t& guid);
+
+/// His GUID. Of one that is gone a name that no other one
 /// has all the same: programs are told apart by it.
 std::string writer_name(dds_entity_t reader, dds_instance_handle_t writer);
 

@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 #include <sys/un.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
@@ -19,8 +20,9 @@ constexpr std::size_t kMaxRequest = 64 * 1024;
 constexpr std::size_t kMaxLongRequest = std::size_t{6} << 20;  // a file, escaped as JSON
 constexpr std::size_t kMaxWaiting = 64 * 1024 * 1024;          // a large track, shown
 constexpr std::size_t kMaxUnread = 1024 * 1024;                // before another reply is added
-constexpr std::size_t kMaxClients = 32;
 constexpr std::uint64_t kListenerTag = 0;
+constexpr int kAcceptedAtOnce = 16;  // then the others are looked at
+constexpr int kWaitOutside = 128;    // who finds no place there is turned away
 }  // namespace
 
 CliServer::CliServer(const std::string& path, OnRequest on_request, std::string_view long_line)
@@ -36,7 +38,7 @@ CliServer::CliServer(const std::string& path, OnRequest on_request, std::string_
   std::memcpy(address.sun_path, path.c_str(), path.size());
   ::unlink(path.c_str());  // the daemon's lock is held: a socket that lies here has no owner
   if (::bind(listener_.get(), reinterpret_cast<sockaddr*>(&address), sizeof address) != 0 ||
-      ::chmod(path.c_str(), 0660) != 0 || ::listen(listener_.get(), 8) != 0)
+      ::chmod(path.c_str(), 0660) != 0 || ::listen(listener_.get(), kWaitOutside) != 0)
     throw std::runtime_error(link::problem_text(path, "cannot listen", errno));
   epoll_event event{};
   event.events = EPOLLIN;
@@ -79,15 +81,50 @@ bool CliServer::may_connect(int fd) const {
   return false;
 }
 
+/// What one has sent already is read at once: a stop does not wait for its turn among others.
 void CliServer::accept() {
-  link::UniqueFd fd(::accept4(listener_.get(), nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK));
-  if (!fd || clients_.size() >= kMaxClients || !may_connect(fd.get())) return;
-  const auto id = next_id_++;
-  epoll_event event{};
-  event.events = EPOLLIN;
-  event.data.u64 = id;
-  ::epoll_ctl(epoll_.get(), EPOLL_CTL_ADD, fd.get(), &event);
-  clients_.emplace(id, Client{std::move(fd), {}, 0, {}});
+  for (int i = 0; i < kAcceptedAtOnce; ++i) {
+    link::UniqueFd fd(::accept4(listener_.get(), nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK));
+    if (!fd) return;
+    if (!may_connect(fd.get())) continue;
+    if (clients_.size() >= kMaxClients) make_room();
+    const auto id = next_id_++;
+    epoll_event event{};
+    event.events = EPOLLIN;
+    event.data.u64 = id;
+    ::epoll_ctl(epoll_.get(), EPOLL_CTL_ADD, fd.get(), &event);
+    clients_.emplace(id, Client{std::move(fd), {}, 0, {}, ++active_, false});
+    read(id);
+  }
+}
+
+/// Bytes without an end of a line keep nobody here: half a line can be held for ever.
+void CliServer::make_room() {
+  // A line that has come is done before its client goes, who is then not the one any more.
+  for (std::size_t i = 0; i < kMaxClients && clients_.size() >= kMaxClients; ++i) {
+    const auto id = idle_longest();
+    const auto before = clients_.at(id).active;
+    read(id);
+    const auto client = clients_.find(id);
+    if (client != clients_.end() && client->second.active == before) let_go(id);
+  }
+  if (clients_.size() >= kMaxClients) let_go(idle_longest());
+}
+
+/// Half of the places are kept for those who have asked something: however many connect and say
+/// nothing, who follows the robot or waits for an answer stays.
+CliServer::ClientId CliServer::idle_longest() const {
+  const auto silent = std::count_if(clients_.begin(), clients_.end(),
+                                    [](const auto& c) { return !c.second.asked; });
+  const bool of_those_who_asked = static_cast<std::size_t>(silent) <= kMaxClients / 2;
+  ClientId longest = 0;
+  std::uint64_t active = ~std::uint64_t{0};
+  for (const auto& [id, client] : clients_) {
+    if (client.asked != of_those_who_asked || client.active >= active) continue;
+    longest = id;
+    active = client.active;
+  }
+  return longest;
 }
 
 void CliServer::let_go(ClientId id) {
@@ -129,6 +166,8 @@ void CliServer::read(ClientId id) {
     if (end == std::string::npos) return;
     const std::string line = in.substr(0, end);
     in.erase(0, end + 1);
+    client->second.active = ++active_;
+    client->second.asked = true;
     on_request_(id, line);
   }
 }
@@ -143,6 +182,7 @@ void CliServer::reply(ClientId id, const std::string& text) {
     return;
   }
   out += text + "\n";
+  it->second.active = ++active_;
   write(id);
 }
 

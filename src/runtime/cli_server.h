@@ -1,7 +1,8 @@
 // The command line's socket: one JSON request a line, one JSON reply a line.
 //
-// Open to the daemon's own user, its group and root. A request is bounded in size and a client in
-// number, and nobody waits for a slow one: who goes on asking and does not read is let go.
+// Open to the daemon's own user, its group and root. A request is bounded in size and clients in
+// number: for one more, who has been idle longest makes room. Nobody waits for a slow one: who goes
+// on asking and does not read is let go.
 #pragma once
 
 #include <cstdint>
@@ -20,6 +21,7 @@ namespace drover::runtime {
 class CliServer final {
  public:
   using ClientId = publish::ClientId;
+  static constexpr std::size_t kMaxClients = 32;
   using OnRequest = std::function<void(ClientId, std::string_view line)>;
 
   /// Listens at `path` (mode 0660). A request that begins with `long_line` may be longer than
@@ -45,8 +47,12 @@ class CliServer final {
     std::string in;
     std::size_t searched = 0;  ///< so many bytes of `in` have no end of a line
     std::string out;
+    std::uint64_t active = 0;  ///< of all that was asked, answered or came, its last was this one
+    bool asked = false;        ///< a whole line has come
   };
   void accept();
+  void make_room();
+  ClientId idle_longest() const;
   void read(ClientId id);
   void write(ClientId id);
   void let_go(ClientId id);
@@ -62,6 +68,7 @@ class CliServer final {
   link::UniqueFd epoll_;
   std::map<ClientId, Client> clients_;
   ClientId next_id_ = 1;
+  std::uint64_t active_ = 0;
 };
 
 }  // namespace drover::runtime

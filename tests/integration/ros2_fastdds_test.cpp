@@ -261,8 +261,8 @@ TEST_F(FastDds, SeesSensorsAndHowTheyAre) {
     EXPECT_EQ(m.header.frame_id, "lidar");
     EXPECT_EQ(m.range_max, 12);
     EXPECT_FLOAT_EQ(m.scan_time, 0.1F);
-    ASSERT_EQ(m.ranges.size(), 8U);
-    ASSERT_EQ(m.intensities.size(), 8U);
+    ASSERT_EQ(m.ranges.size(), 450U);
+    ASSERT_EQ(m.intensities.size(), 450U);
     for (std::size_t i = 0; i < m.ranges.size(); ++i) {
       const double bearing_rad =
           m.angle_min + static_cast<double>(i) * static_cast<double>(m.angle_increment);

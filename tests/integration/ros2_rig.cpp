@@ -88,6 +88,11 @@ void Ros2Rig::hear() {
     in_.erase(0, end + 1);
     if (line == R"({"cmd":"stop"})") {
       ++stops_;
+      if (refused_stops_ > 0) {
+        --refused_stops_;
+        tell(R"({"ok":false,"cmd":"stop","reason":"the control loop has not answered"})");
+        continue;
+      }
       if (answers_stops_) tell(R"({"ok":true,"note":""})");
       continue;
     }

@@ -68,6 +68,7 @@ class Ros2Rig : public ::testing::Test {
   std::string last_joint_line_;    ///< likewise a joint command
   int stops_ = 0;                  ///< that it asked for
   bool answers_stops_ = true;      ///< false: droverd has read them, no more
+  int refused_stops_ = 0;          ///< so many of the next ones
   std::vector<Command> commands_;  ///< that it handed on, as droverd understands them
   Process program_;
   TempFolder own_folder_;

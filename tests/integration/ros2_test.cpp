@@ -9,6 +9,7 @@
 #include "integration/ros2_rig.h"
 #include "json/located_json.h"
 #include "link/unique_fd.h"
+#include "ros2/writer_names.h"
 #include "runtime/clock.h"
 
 namespace drover::test {
@@ -96,7 +97,7 @@ TEST_F(Ros2, SeesTheRobotOnEveryTopicReliableAndBestEffort) {
   expect<sensor_msgs_msg_dds__BatteryState_>(
       Topic::battery_state, [](const auto& m) { return m.current_ == -2 && m.present_; });
   expect<sensor_msgs_msg_dds__LaserScan_>(Topic::scan, [](const auto& m) {
-    return m.ranges_._length == 8 && m.range_max_ == 12 &&
+    return m.ranges_._length == 450 && m.range_max_ == 12 &&
            std::string_view(m.header_.frame_id_) == "lidar";
   });
   expect<diagnostic_msgs_msg_dds__DiagnosticArray_>(Topic::diagnostics, [](const auto& m) {
@@ -200,6 +201,21 @@ TEST_F(Ros2Stop, IsToldAgainWhereDroverdWasGoneBeforeItAnswered) {
   ASSERT_TRUE(play_until([this] { return !last_request_.empty(); })) << log();
   play_for(1s);
   EXPECT_EQ(stops_, 2) << "it was answered";
+}
+
+TEST_F(Ros2Stop, IsToldAgainAndSaidWhereDroverdHasNotDoneIt) {
+  open_daemon();
+  start_program();
+  const dds_entity_t writer = stop_writer(DDS_RELIABILITY_RELIABLE);
+  ASSERT_TRUE(is_heard(writer, [this] { play_for(100ms); })) << log();
+  refused_stops_ = 2;
+  say(writer, true);
+  ASSERT_TRUE(play_until([this] { return stops_ == 3; })) << log();
+  EXPECT_THAT(log(), HasSubstr("droverd has not done an emergency stop"));
+  EXPECT_THAT(log(), HasSubstr("the control loop has not answered"));
+  play_for(1s);
+  EXPECT_EQ(stops_, 3) << "it was done";
+  EXPECT_THAT(log(), testing::Not(HasSubstr("tells nothing"))) << "it follows on";
 }
 
 /// A journal that is stuck, or a terminal that was stopped by Ctrl-S.
@@ -336,6 +352,10 @@ TEST_F(Ros2Stop, IsToldWhichWriterIsNotHeardUntilItIsGone) {
   dds_delete_qos(qos);
   ASSERT_GT(wrong, 0);
   EXPECT_TRUE(play_until([this] { return asked("incompatible") == 1; })) << last_request_;
+  dds_guid_t guid{};
+  ASSERT_EQ(dds_get_guid(wrong, &guid), DDS_RETCODE_OK);
+  const auto named = "is not asked for, and is not heard: " + ros2::guid_text(guid);
+  EXPECT_TRUE(play_until([&] { return log().find(named) != std::string::npos; })) << named << log();
   dds_delete(wrong);
   EXPECT_TRUE(play_until([this] { return asked("incompatible") == 0; })) << "it is gone";
 }

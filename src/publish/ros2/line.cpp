@@ -22,9 +22,8 @@ class Line final {
  public:
   explicit Line(Duration wall) : wall_(wall) { out_.open('{'); }
 
-  void stamp(std::string_view name, Time time) {
-    out_.key(name).integer((time.time_since_epoch() + wall_).count());
-  }
+  void stamp(std::string_view name, Time time) { out_.key(name).integer(wall_ns(time)); }
+  std::int64_t wall_ns(Time time) const { return (time.time_since_epoch() + wall_).count(); }
   void number(std::string_view name, double value) {
     out_.key(name);
     number(value);
@@ -152,11 +151,12 @@ void battery(Line& line, const Snapshot& s, Told& told) {
   const bool again = told.battery_at == kNever || s.time - told.battery_at >= kSlowPeriod;
   if (heard ? pack.time <= told.battery && !again : !again) return;
   told.battery_at = s.time;
+  if (heard && pack.time != told.battery) told.battery_ns = line.wall_ns(pack.time);
   if (heard) told.battery = pack.time;
   const BatterySample none;
   const BatterySample& sample = heard ? pack.sample : none;
   line.out().key("battery").open('{');
-  line.stamp("at_ns", heard ? pack.time : s.time);
+  line.out().key("at_ns").integer(heard ? told.battery_ns : line.wall_ns(s.time));
   line.out().key("heard").boolean(heard);
   line.number("voltage_V", sample.voltage_V);
   line.number("current_A", sample.current_A);

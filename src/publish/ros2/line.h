@@ -2,6 +2,7 @@
 // snapshot has it, with full precision. What a topic makes of it is drover-ros2's.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <string>
 
@@ -17,6 +18,7 @@ struct Told {
   Time imu = kNever;
   Time fix = kNever;
   Time battery = kNever;
+  std::int64_t battery_ns = 0;  ///< its stamp: the same again, however the clocks drift
   Time odometry = kNever;
   Time battery_at = kNever;      ///< when it was told, also that it is silent
   Time diagnostics_at = kNever;  ///< likewise

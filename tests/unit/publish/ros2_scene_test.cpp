@@ -64,6 +64,30 @@ class Ros2Scene : public SceneOutletTest {
   std::unique_ptr<Ros2Outlet> ros2_;
 };
 
+/// A thousand wait for a scene that is behind: of the other way one is followed all the same.
+TEST_F(Ros2Scene, FindsRoomHoweverManyOfTheBrokerWait) {
+  for (int i = 0; i < 1100; ++i) {
+    hear(ball("b" + std::to_string(i)));
+    pass(20ms);
+  }
+  ASSERT_EQ(jobs_.size(), 1000U);
+  tell(R"({"cmd":"ros2_follow","mode":"localhost"})");
+  tell(line(ball("mine")));
+  EXPECT_EQ(jobs_.size(), 1001U);
+  EXPECT_EQ(counted().scene_refused, 0U);
+}
+
+TEST_F(Ros2Scene, TakesNoRoomOfTheBrokersHoweverManyWait) {
+  for (int i = 0; i < 1100; ++i) {
+    tell(line(ball("r" + std::to_string(i))));
+    pass(20ms);
+    if (i % 100 == 0) tell(R"({"cmd":"ros2_follow","mode":"localhost"})");
+  }
+  ASSERT_EQ(jobs_.size(), 1000U);
+  hear(ball("theirs"));
+  EXPECT_EQ(jobs_.size(), 1001U);
+}
+
 TEST_F(Ros2Scene, IsFollowedStoredAndAnsweredAsThatOfTheBroker) {
   tell(line(ball("a")));
   ASSERT_THAT(jobs_, SizeIs(1));

@@ -82,6 +82,20 @@ TEST_F(WhatUsersAskFor, TheAnswerToAStopIsNoneToTheNextOne) {
   EXPECT_THAT(told(kNow + 2s), ElementsAre(kStop));
   EXPECT_TRUE(asked.way_lost());
 }
+TEST_F(WhatUsersAskFor, AStopThatWasRefusedIsCountedAndToldAgainUntilItIsDone) {
+  asked.stop();
+  EXPECT_THAT(told(kNow), ElementsAre(kStop));
+  asked.stop_refused();
+  EXPECT_EQ(asked.stops_refused(), 1U);
+  EXPECT_EQ(asked.due(), kNow + 100ms);
+  EXPECT_THAT(told(kNow + 100ms), ElementsAre(kStop));
+  asked.stop_refused();
+  EXPECT_THAT(told(kNow + 200ms), ElementsAre(kStop));
+  asked.answered();
+  EXPECT_EQ(asked.stops_refused(), 2U);
+  EXPECT_FALSE(asked.due());
+  EXPECT_FALSE(asked.way_lost()) << "none is owed an answer";
+}
 /// Between the two a person may have reset the first.
 TEST_F(WhatUsersAskFor, AStopSoonAfterOneThatWasToldIsToldInItsTurn) {
   asked.stop();

@@ -209,7 +209,7 @@ TEST_F(Messages, OfAScanHaveTheNearestOfEachAngleAndNaNWhereNothingIsKnown) {
   told.points[3].range_m = 0;
   told.points[5].bearing_rad = told.points[4].bearing_rad + 0.01;
   told.points[5].range_m = 1;
-  const auto message = laser_scan(told, {0.05, 12}, arena);
+  const auto message = laser_scan(told, {0.05, 12}, 8, arena);
   EXPECT_STREQ(message.header_.frame_id_, "lidar");
   EXPECT_EQ(message.header_.stamp_.nanosec_, 300'000'000U) << "the middle of the turn";
   ASSERT_EQ(message.ranges_._length, 8U);
@@ -223,6 +223,28 @@ TEST_F(Messages, OfAScanHaveTheNearestOfEachAngleAndNaNWhereNothingIsKnown) {
   EXPECT_TRUE(std::isnan(message.ranges_._buffer[3])) << "nothing came back: not free";
   EXPECT_EQ(message.ranges_._buffer[4], 1.0F) << "the nearer of two";
   EXPECT_TRUE(std::isnan(message.ranges_._buffer[5]));
+}
+
+/// SLAM sets up its beams by the first scan and drops others.
+TEST_F(Messages, OfAScanHaveTheSameAnglesWhateverTheTurnHas) {
+  for (const int points : {0, 1, 7, 37, 40, 1000}) {
+    ScanTold told;
+    told.name = "lidar";
+    for (int i = 0; i < points; ++i)
+      told.points.push_back({-kPi + (i + 0.5) * 2 * kPi / points, 2.0 + i, 10});
+    const auto message = laser_scan(told, {0.05, 12}, 40, arena);
+    ASSERT_EQ(message.ranges_._length, 40U) << points;
+    ASSERT_EQ(message.intensities_._length, 40U) << points;
+    EXPECT_FLOAT_EQ(message.angle_increment_, static_cast<float>(2 * kPi / 40)) << points;
+    EXPECT_FLOAT_EQ(message.angle_min_, static_cast<float>(-kPi + kPi / 40)) << points;
+    EXPECT_FLOAT_EQ(message.angle_max_, static_cast<float>(kPi - kPi / 40)) << points;
+    int known = 0;
+    for (int i = 0; i < 40; ++i) known += std::isnan(message.ranges_._buffer[i]) ? 0 : 1;
+    EXPECT_EQ(known, std::min(points, 40));
+    if (points > 0) {
+      EXPECT_EQ(message.ranges_._buffer[20 / points], 2.0F) << points;
+    }
+  }
 }
 
 TEST_F(Messages, OfDiagnosticsNameTheRobot) {

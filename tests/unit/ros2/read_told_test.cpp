@@ -107,6 +107,11 @@ TEST_F(AToldRobot, TellsOfASilentBatteryThatItIsSilent) {
   EXPECT_EQ(heard.battery->sample.voltage_V, 25.9);
   EXPECT_EQ(heard.battery->sample.flow, BatteryFlow::discharging);
   EXPECT_FALSE(tell_after(20ms).battery) << "no new sample";
+  wall -= 128ns;  // two clocks that are read one after the other
+  const auto again = tell_after(2s);
+  ASSERT_TRUE(again.battery);
+  EXPECT_EQ(again.battery->at_ns, heard.battery->at_ns) << "of the same sample";
+  wall += 128ns;
   seen.battery.health = SourceState::stale;
   const Told silent = tell_after(1s);
   ASSERT_TRUE(silent.battery);
@@ -168,6 +173,10 @@ TEST(ReadTold, SaysWhatDroverdHasAgainstIt) {
   ASSERT_FALSE(refused.ok());
   EXPECT_EQ(refused.error().reason, "slow down");
   EXPECT_FALSE(refused.error().done);
+  EXPECT_FALSE(refused.error().stop_refused);
+  const auto stop = read_told(R"({"ok":false,"cmd":"stop","reason":"told the control loop"})");
+  EXPECT_TRUE(!stop.ok() && stop.error().stop_refused && !stop.error().done);
+  EXPECT_EQ(stop.error().reason, "told the control loop");
   const auto obeyed = read_told(R"({"ok":true,"note":"stopped"})");
   ASSERT_FALSE(obeyed.ok());
   EXPECT_EQ(obeyed.error().reason, "");

@@ -32,7 +32,7 @@ class AToldRobot : public ::testing::Test {
   }
 
   Told tell() {
-    const auto line = publish::ros2::state_line(seen, kWall, turns, told);
+    const auto line = publish::ros2::state_line(seen, wall, turns, told);
     const auto read = read_told(line);
     EXPECT_TRUE(read.ok()) << line;
     return read.ok() ? *read : Told{};
@@ -44,6 +44,7 @@ class AToldRobot : public ::testing::Test {
   }
 
   Snapshot seen;
+  Duration wall = kWall;
   std::vector<const scene::sensor::SeenTurn*> turns;
   publish::ros2::Told told;
 };

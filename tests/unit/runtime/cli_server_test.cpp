@@ -6,6 +6,7 @@
 #include <sys/socket.h>
 #include <sys/un.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
@@ -40,6 +41,18 @@ class CliServerTest : public ::testing::Test {
   void work() const {
     pollfd ready{server_->fd(), POLLIN, 0};
     while (::poll(&ready, 1, 20) == 1) server_->on_ready();
+  }
+  /// Likewise, without the wait.
+  void work_now() const {
+    pollfd ready{server_->fd(), POLLIN, 0};
+    while (::poll(&ready, 1, 0) == 1) server_->on_ready();
+  }
+  static bool is_open(const link::UniqueFd& fd) {
+    char byte = 0;
+    return ::recv(fd.get(), &byte, 1, MSG_PEEK | MSG_DONTWAIT) < 0 && errno == EAGAIN;
+  }
+  static std::size_t open_of(const std::vector<link::UniqueFd>& all) {
+    return static_cast<std::size_t>(std::count_if(all.begin(), all.end(), is_open));
   }
   /// As far as the other side takes it.
   static void send_all(const link::UniqueFd& fd, std::string_view text, CliServer& server) {
@@ -172,6 +185,97 @@ TEST_F(CliServerTest, LetsGoWhoAsksOnAndOnAndDoesNotRead) {
   EXPECT_EQ(heard.size(), large.size() + 1) << "who reads has all of it";
   for (int i = 0; i < 20; ++i) send_all(fd, "a\n", server);
   EXPECT_LE(asked, 5U);
+}
+
+TEST_F(CliServerTest, MakesRoomForOneMoreHoweverManySayNothing) {
+  std::vector<link::UniqueFd> idle;
+  for (int i = 0; i < 200; ++i) {
+    idle.push_back(connect());
+    work_now();
+  }
+  const auto newest = connect();
+  send_all(newest, "stop\n", *server_);
+  EXPECT_EQ(read(newest), "got stop\n");
+  EXPECT_EQ(open_of(idle), CliServer::kMaxClients - 1);
+}
+
+TEST_F(CliServerTest, WhoIsAnsweredAllTheTimeStaysWhileOthersSayNothing) {
+  const auto follower = connect();
+  send_all(follower, "follow\n", *server_);
+  ASSERT_EQ(read(follower), "got follow\n");
+  std::vector<link::UniqueFd> idle;
+  for (int i = 0; i < 200; ++i) {
+    idle.push_back(connect());
+    work_now();
+    if (i % 100 == 50) server_->reply(1, "told");  // seldom: others come much faster
+  }
+  EXPECT_EQ(read(follower), "told\ntold\n");
+  send_all(follower, "stop\n", *server_);
+  EXPECT_EQ(read(follower), "got stop\n");
+}
+
+TEST_F(CliServerTest, AByteNowAndThenAndHalfALineKeepNobodyElseOut) {
+  std::vector<link::UniqueFd> dribbling;
+  for (std::size_t i = 0; i < CliServer::kMaxClients; ++i) {
+    dribbling.push_back(connect());
+    send_all(dribbling.back(), i % 2 == 0 ? "x" : std::string(60'000, 'x'), *server_);
+  }
+  std::vector<link::UniqueFd> others;
+  for (int i = 0; i < 4; ++i) {
+    for (const auto& fd : dribbling) (void)::send(fd.get(), "x", 1, MSG_NOSIGNAL);
+    others.push_back(connect());
+    send_all(others.back(), "stop\n", *server_);
+    EXPECT_EQ(read(others.back()), "got stop\n");
+  }
+  EXPECT_EQ(open_of(others), others.size());
+}
+
+TEST_F(CliServerTest, WhoAskedBeforeMakesRoomForHimWhoAsksNow) {
+  std::vector<link::UniqueFd> asking;
+  for (std::size_t i = 0; i < CliServer::kMaxClients; ++i) {
+    asking.push_back(connect());
+    send_all(asking.back(), "status\n", *server_);
+  }
+  send_all(asking.front(), "status\n", *server_);  // the second has been idle longest now
+  const auto newest = connect();
+  send_all(newest, "stop\n", *server_);
+  EXPECT_EQ(read(newest), "got stop\n");
+  for (const auto& fd : asking) (void)read(fd);
+  EXPECT_TRUE(is_open(asking[0]));
+  EXPECT_FALSE(is_open(asking[1]));
+  EXPECT_TRUE(is_open(asking[2]));
+}
+
+TEST_F(CliServerTest, AFloodOfNewOnesPushesNobodyOutUnheard) {
+  std::vector<link::UniqueFd> all;
+  for (int i = 0; i < 8; ++i) {
+    // More than there is room for, before the server looks: his line lies between them.
+    for (int k = 0; k < 40; ++k) all.push_back(connect());
+    all.push_back(connect());
+    ASSERT_EQ(::send(all.back().get(), "stop\n", 5, MSG_NOSIGNAL), 5);
+    const auto stopping = all.size() - 1;
+    for (int k = 0; k < 40; ++k) all.push_back(connect());
+    work_now();
+    EXPECT_EQ(lines_.size(), static_cast<std::size_t>(i + 1));
+    EXPECT_EQ(read(all[stopping]), "got stop\n");
+  }
+}
+
+TEST_F(CliServerTest, WhatCameOfOneWhoHasToMakeRoomIsReadFirst) {
+  const auto first = connect();
+  work();
+  std::vector<link::UniqueFd> idle;
+  for (std::size_t i = 1; i < CliServer::kMaxClients; ++i) {
+    idle.push_back(connect());
+    work_now();
+  }
+  // Nobody looks between his line and those who come.
+  const auto late = connect();
+  ASSERT_EQ(::send(first.get(), "stop\n", 5, MSG_NOSIGNAL), 5);
+  work_now();
+  EXPECT_EQ(read(first), "got stop\n");
+  EXPECT_TRUE(is_open(first));
+  EXPECT_FALSE(is_open(idle.front()));
 }
 
 TEST_F(CliServerTest, IsOpenToItsUserAndGroupOnly) {
