@@ -83,10 +83,14 @@ class Heard {
       EXPECT_NEAR(norm_of(to.rotation_), 1, 1e-9);
       const GroundPlace place = place_of(to);
       // REP 105: a tree, map above odom above base_link.
-      if (child == "odom") EXPECT_EQ(parent, "map");
-      if (child == "base_link") EXPECT_EQ(parent, "odom");
-      if (child == "odom") odom_in_map = place;
-      if (child == "base_link") base_in_odom = place;
+      if (child == "odom") {
+        EXPECT_EQ(parent, "map");
+        odom_in_map = place;
+      }
+      if (child == "base_link") {
+        EXPECT_EQ(parent, "odom");
+        base_in_odom = place;
+      }
     }
   }
   void way(const nav_msgs_msg_dds__Odometry_& message) {

@@ -104,8 +104,9 @@ TEST_F(Outlets, OfTheCommandLineNameAStopThatWasNotDone) {
   EXPECT_EQ(reply_to(R"({"cmd":"stop"})"), "");
   Actions out;
   for (const Action& action : actions_)
-    if (const auto* stop = std::get_if<Command>(&action))
+    if (const auto* stop = std::get_if<Command>(&action)) {
       EXPECT_TRUE(cli_.on_answer({stop->id, false, "no answer"}, out));
+    }
   ASSERT_EQ(out.size(), 1U);
   EXPECT_EQ(std::get<Reply>(out.front()).line, R"({"ok":false,"cmd":"stop","reason":"no answer"})");
 }
