@@ -18,6 +18,7 @@ struct BaseWords {
   const char* wrong_way;     ///< about a way that others tell the other way round
   const char* short_way;     ///< about more than others tell
   const char* long_way;      ///< about less than others tell
+  const char* no_swing;      ///< about a turn that was asked for and did not happen
   const char* on_first_way;  ///< about what works against itself
 };
 
@@ -33,6 +34,7 @@ inline constexpr BaseWords kWheelWords{
     .wrong_way = "drives reversed, the heading turned round, or gear ratio wrong?",
     .short_way = "wheels slip, or gear ratio or wheel radius is wrong?",
     .long_way = "gear ratio or wheel radius is wrong?",
+    .no_swing = "do the wheels slip or work against each other, or is the gyro wrong?",
     .on_first_way = "sides swapped, or a wheel reversed?",
 };
 
@@ -48,6 +50,7 @@ inline constexpr BaseWords kTwistWords{
     .wrong_way = "is the sign of its speed right, or the heading turned round?",
     .short_way = "it slips, or the scale of its speed is wrong?",
     .long_way = "the scale of its speed is wrong?",
+    .no_swing = "does it turn as it is told to, and is the gyro right?",
     .on_first_way = "does it tell its turn the right way round?",
 };
 
