@@ -13,6 +13,7 @@ struct BaseWords {
   const char* turn_by;       ///< with who, before a speed
   const char* do_not_move;   ///< with who
   const char* by;            ///< whose account it is
+  const char* turned;        ///< likewise, before a turn
   const char* rolled;        ///< with who, before a way
   const char* wrong_turn;    ///< a question about a turn that others tell otherwise
   const char* wrong_way;     ///< about a way that others tell the other way round
@@ -29,6 +30,7 @@ inline constexpr BaseWords kWheelWords{
     .turn_by = "the wheels turn by",
     .do_not_move = "the wheels do not move",
     .by = "by its wheels",
+    .turned = "by its wheels it turned",
     .rolled = "the wheels rolled",
     .wrong_turn = "sides swapped, or a wheel reversed?",
     .wrong_way = "drives reversed, the heading turned round, or gear ratio wrong?",
@@ -45,6 +47,7 @@ inline constexpr BaseWords kTwistWords{
     .turn_by = "the base says",
     .do_not_move = "the base does not move",
     .by = "by its own word",
+    .turned = "by its own word it turned",
     .rolled = "by its own word it went",
     .wrong_turn = "is the sign or the scale of its turn right?",
     .wrong_way = "is the sign of its speed right, or the heading turned round?",

@@ -20,6 +20,7 @@ constexpr double kStill_s = 1.0;
 constexpr Duration kMarkEach = std::chrono::milliseconds(10);
 constexpr double kGyroStale_s = 0.1;
 constexpr double kHeadingStale_s = 0.5;
+constexpr double kMostDifference = 1.4;  // of a rim from the base, as a share of its speed
 // Soil turns a base by itself, and the yaw gain is known within a factor; a wrong sign is twice the
 // turn.
 const double kTurnMargin_rad = to_rad(4.0);
@@ -203,15 +204,18 @@ void MechanicsCheck::say_no_swing(bool by_gyro) {
                static_cast<int>(front.view().size()), front.view().data(),
                static_cast<int>(rear.view().size()), rear.view().data());
   }
-  fault_.format("asked to turn %+.0f degrees, by the %s it turned %+.0f: %.*s",
-                to_deg(swing_.asked_rad()), by_gyro ? "gyro" : "receiver", to_deg(seen_rad),
+  const bool slips = swing_.wheels_rad() != 0;
+  fault_.format("%s %+.0f degrees, by the %s %+.0f: %.*s", slips ? words_->turned : "asked to turn",
+                to_deg(slips ? swing_.wheels_rad() : swing_.asked_rad()),
+                by_gyro ? "gyro" : "receiver", to_deg(seen_rad),
                 static_cast<int>(why.view().size()), why.view().data());
 }
 
 /// Wheels of one axle that work against those of the other turn nothing, and their mean is what
 /// was asked for, or near to it: no comparison with it tells.
 void MechanicsCheck::watch_swing(const MechanicsInput& input) {
-  asked_rad_ += input.asked_radps * std::max(to_s(input.dt), 0.0);
+  const double told = input.yaw_slip_factor / config_.base.yaw_slip_factor;
+  asked_rad_ += input.asked_radps * told * std::max(to_s(input.dt), 0.0);
   const double turned = turned_rad(input);
   turn_known_ = turn_known_ || std::isfinite(turned);
   if (!guided_) return;
@@ -286,6 +290,7 @@ void MechanicsCheck::step(const MechanicsInput& input) {
   now_ = input.now;
   if (proved_) return;
   yaw_rad_ = input.yaw_rad;
+  yaw_slip_factor_ = input.yaw_slip_factor;
   const bool still = !input.commanded && input.fastest_mps < kStands_mps;
   if (!still) still_since_ = kNever;
   if (still && still_since_ == kNever) still_since_ = input.now;
@@ -348,7 +353,12 @@ Twist MechanicsCheck::guide(const Twist& wanted) {
   Twist twist = wanted;
   const double cap_mps = speed_cap_mps(FirstWay::hand);
   twist.vx_mps = std::clamp(wanted.vx_mps, -cap_mps, cap_mps);
-  twist.wz_radps = swing_.radpm() * std::abs(twist.vx_mps);
+  // What was learned of a turn that never came would ask for more and more.
+  const double half_m = config_.base.track_m / 2;
+  const double most =
+      std::max(kMostDifference, swing_.usual_radpm() * half_m * config_.base.yaw_slip_factor);
+  const double most_radpm = most / (half_m * std::max(yaw_slip_factor_, 0.1));
+  twist.wz_radps = std::clamp(swing_.radpm(), -most_radpm, most_radpm) * std::abs(twist.vx_mps);
   return twist;
 }
 

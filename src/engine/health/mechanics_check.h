@@ -23,6 +23,7 @@ struct MechanicsInput {
   double fastest_mps = 0;        ///< of its wheels on the ground, by that motion
   bool commanded = false;        ///< somebody moves the base
   double asked_radps = 0;        ///< how fast it is told to turn
+  double yaw_slip_factor = 1;    ///< as learned: what it is told is so much more
   double yaw_rad = kAbsent;      ///< of the base, absent while unknown
   bool gyro_zero_known = false;  ///< its bias was learned
 };
@@ -115,7 +116,8 @@ class MechanicsCheck final {
   Swing swing_;
   bool guided_ = false;      ///< the swing is asked for
   bool turn_known_ = false;  ///< somebody could tell of a swing
-  double asked_rad_ = 0;     ///< turn commanded, since the motion began
+  double asked_rad_ = 0;     ///< turn commanded, as its wheels would tell it
+  double yaw_slip_factor_ = 1;
   Mark last_;
   std::array<Mark, 128> marks_{};
   std::size_t next_mark_ = 0;

@@ -17,8 +17,8 @@ const double kSwing_rad = to_rad(5.0);
 constexpr double kSwingCurve = 0.8;  // of the tightest that a base that steers can drive
 // A gyro is right to a tenth of a degree over a swing, a receiver with two antennas to one.
 const double kSeen_rad = to_rad(3.0);
-constexpr double kMostMore = 2.0;  // the outer rim is no faster than twice the speed of the way
-constexpr double kLongest = 4.0;   // so many times the usual way, for each side
+constexpr double kMostMore = 2.0;
+constexpr double kLongest = 5.0;  // so many times the usual way, for each side
 // Drives that follow small set points badly show a quarter of what they are asked for at first.
 const double kMostAsked_rad = to_rad(24.0);
 const double kMostAskedOnCurves_rad = to_rad(15.0);
@@ -49,7 +49,7 @@ void Swing::begin() {
   from_ = {};
   beyond_m_ = 0;
   known_ = left_ = right_ = failed_ = false;
-  asked_rad_ = 0;
+  asked_rad_ = wheels_rad_ = 0;
   turned_rad_ = kAbsent;
 }
 
@@ -66,7 +66,11 @@ double Swing::least_m() const {
 
 double Swing::radpm() const {
   const double more = 1 + std::max(beyond_m_, 0.0) / (kSwingShare * first_m_);
-  return side() * std::min(more, most_more_) * kSwing_rad / (kSwingShare * first_m_);
+  return side() * std::min(more, most_more_) * usual_radpm();
+}
+
+double Swing::usual_radpm() const {
+  return kSwing_rad / (kSwingShare * first_m_);
 }
 
 bool Swing::happened() const {
@@ -93,7 +97,8 @@ void Swing::judge(const SwingInput& input) {
   const bool stays = asked_rad > most_asked_rad_ && turned_rad < kSeen_rad;
   if (!slips && !stays) return;
   failed_ = true;
-  asked_rad_ = side() * std::max(asked_rad, wheels_rad);
+  asked_rad_ = side() * asked_rad;
+  wheels_rad_ = slips ? side() * wheels_rad : 0;
   turned_rad_ = side() * turned_rad;
 }
 

@@ -11,7 +11,7 @@ namespace drover::engine {
 /// Since the motion began. Left is positive.
 struct SwingInput {
   double rolled_m = 0;
-  double asked_rad = 0;         ///< commanded
+  double asked_rad = 0;         ///< commanded; by the same account as the next one
   double wheels_rad = 0;        ///< by the base's own account
   double turned_rad = kAbsent;  ///< by the gyro, or else the receiver; absent: nobody knows
 };
@@ -32,14 +32,17 @@ class Swing final {
   void step(const SwingInput& input);
   /// What it asks for now, left positive, whichever way the robot rolls.
   double radpm() const;
+  /// Where the robot turns as it is asked to.
+  double usual_radpm() const;
   /// It was asked for to both sides, and straight again.
   bool is_over() const { return phase_ == Phase::over; }
   /// It was seen to turn to both sides; or nobody could see it.
   bool happened() const;
   /// So much was asked for, or said to have been turned by the base, and it was not seen.
   bool failed() const { return failed_; }
-  /// Of the side that failed: what was asked for, and what was seen.
+  /// Of the side that failed. What the base made of it is 0 where it made next to nothing.
   double asked_rad() const { return asked_rad_; }
+  double wheels_rad() const { return wheels_rad_; }
   double turned_rad() const { return turned_rad_; }
 
  private:
@@ -63,6 +66,7 @@ class Swing final {
   bool right_ = false;
   bool failed_ = false;
   double asked_rad_ = 0;
+  double wheels_rad_ = 0;
   double turned_rad_ = kAbsent;
 };
 
