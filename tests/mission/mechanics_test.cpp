@@ -66,7 +66,7 @@ TEST(AxleCrossed, StopsBeforeItsWheelsWorkAgainstEachOtherFast) {
 }
 
 /// Its drives follow a small difference of the sides badly, and its tyres take up some of it.
-TEST(FirstWay, TurnsARobotThatSkidsToBothSides) {
+TEST(StraightAndUturn, TurnsARobotThatSkidsToBothSidesOnItsFirstWay) {
   const Record& log = record("straight_and_uturn");
   const Time begin = log.answered("start_nav_success") - 1s;
   const auto from = log.truth_at(begin);

@@ -92,9 +92,10 @@ void Swing::judge(const SwingInput& input) {
   const double asked_rad = side() * (input.asked_rad - from_.asked_rad);
   const double wheels_rad = side() * (input.wheels_rad - from_.wheels_rad);
   const double turned_rad = side() * (input.turned_rad - from_.turned_rad);
-  if (turned_rad >= kSeen_rad) (phase_ == Phase::left ? left_ : right_) = true;
+  bool& seen = phase_ == Phase::left ? left_ : right_;
+  seen = seen || turned_rad >= kSeen_rad;
   const bool slips = wheels_rad > kByWheels_rad && turned_rad < least_share_ * wheels_rad;
-  const bool stays = asked_rad > most_asked_rad_ && turned_rad < kSeen_rad;
+  const bool stays = asked_rad > most_asked_rad_ && !seen;
   if (!slips && !stays) return;
   failed_ = true;
   asked_rad_ = side() * asked_rad;

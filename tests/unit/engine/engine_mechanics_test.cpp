@@ -35,9 +35,18 @@ class ARobotOnItsFirstWay : public ::testing::Test {
     EXPECT_EQ(rig.snapshot().nav.status, NavStatus::error);
     return last_m - before_m;
   }
-  std::string ended() const {
-    const auto ends = rig.said<TaskEnded>();
+  static std::string end_of(const EngineRig& one) {
+    const auto ends = one.said<TaskEnded>();
     return ends.empty() ? "" : std::string(ends[0].reason.view());
+  }
+  std::string ended() const { return end_of(rig); }
+  /// With what reason another one ends its task.
+  std::string ended_by_itself(EngineRig& other) const {
+    other.settle();
+    other.start(path, 40, 0.5);
+    for (int i = 0; i < 20 * 200 && other.snapshot().nav.status != NavStatus::error; ++i)
+      other.tick();
+    return end_of(other);
   }
 
   Path path = straight_path(20);
@@ -152,14 +161,8 @@ TEST_F(ARobotOnItsFirstWay, FindsThemWhereTheDrivesAreTooWeakToSlip) {
 
 TEST_F(ARobotOnItsFirstWay, FindsThemByTheReceiverWhereThereIsNoGyro) {
   EngineRig without{unproved()};
-  without.settle();
   without.mechanics.crossed = true;
-  without.start(path, 40, 0.5);
-  for (int i = 0; i < 20 * 200 && without.snapshot().nav.status != NavStatus::error; ++i)
-    without.tick();
-  const auto ends = without.said<TaskEnded>();
-  ASSERT_EQ(ends.size(), 1U);
-  EXPECT_THAT(std::string(ends[0].reason.view()), HasSubstr("by the receiver"));
+  EXPECT_THAT(ended_by_itself(without), HasSubstr("by the receiver"));
   EXPECT_LT(without.driven_m, 0.3);
 }
 
@@ -214,14 +217,8 @@ TEST_F(ARobotOnItsFirstWay, TellsAGyroThatTurnsTheOtherWayFromSwappedSides) {
 
 TEST_F(ARobotOnItsFirstWay, FindsSwappedSidesByTheReceiverWhereThereIsNoGyro) {
   EngineRig without{unproved()};
-  without.settle();
   without.mechanics.swapped = true;
-  without.start(path, 40, 0.5);
-  for (int i = 0; i < 20 * 200 && without.snapshot().nav.status != NavStatus::error; ++i)
-    without.tick();
-  const auto ends = without.said<TaskEnded>();
-  ASSERT_EQ(ends.size(), 1U);
-  EXPECT_THAT(std::string(ends[0].reason.view()), HasSubstr("by the receiver"));
+  EXPECT_THAT(ended_by_itself(without), HasSubstr("by the receiver"));
   EXPECT_LT(without.driven_m, 0.3);
 }
 
