@@ -108,6 +108,7 @@ void ModbusBmsDriver::judge_charger(BatterySample& sample, Time received) {
                             ? sample.flow == BatteryFlow::charging
                             : sample.current_A >= settings_.charger_current_A &&
                                   sample.flow != BatteryFlow::discharging;
+  sample.charges = charging || sample.charger_connected;
   if (!charging) {
     charging_since_ = kNever;
     return;

@@ -171,8 +171,8 @@ void describe(V& v, const ImuSample& sample) {
 template <class V>
 void describe(V& v, const BatterySample& sample) {
   const auto& [voltage_V, current_A, soc_percent, remaining_Ah, temperature_degC, mosfet_degC,
-               min_cell_V, max_cell_V, flow, charger_connected, alarm, alarm_bits, alarm_text] =
-      sample;
+               min_cell_V, max_cell_V, flow, charger_connected, charges, alarm, alarm_bits,
+               alarm_text] = sample;
   v.value("voltage_V", voltage_V, {.decimals = 2});
   v.value("current_A", current_A, {.decimals = 2});
   v.value("soc_percent", soc_percent, {.decimals = 1, .first = true});
@@ -183,6 +183,7 @@ void describe(V& v, const BatterySample& sample) {
   v.value("max_cell_V", max_cell_V, {.decimals = 3});
   v.value("flow", flow, {});
   v.value("charger_connected", charger_connected, {});
+  v.value("charges", charges, {});
   v.value("alarm", alarm);
   v.value("alarm_bits", alarm_bits);
   v.value("alarm_text", alarm_text, {.as = "alarm"});

@@ -157,6 +157,7 @@ struct BatterySample {
   double max_cell_V = kAbsent;
   BatteryFlow flow = BatteryFlow::unknown;
   bool charger_connected = false;
+  bool charges = false;  ///< as a charger does, for however short a time: braking does, too
   BatteryAlarm alarm = BatteryAlarm::none;
   std::uint64_t alarm_bits = 0;  ///< as the map numbers them; 0: none
   Reason alarm_text;             ///< the worst alarms in words; empty: none

@@ -79,6 +79,8 @@ Reason Engine::Impl::judge_motion(Time now, Duration dt, const LineTable& lines,
                   .body = estimate.body.twist,
                   .fastest_mps = estimate.fastest_mps,
                   .commanded = motion_asked,
+                  .asked_radps = motion_asked ? commanded.wz_radps : 0,
+                  .yaw_slip_factor = estimate.yaw_slip_factor,
                   .yaw_rad = estimate.has_heading ? estimate.pose.yaw_rad : kAbsent,
                   .gyro_zero_known = std::isfinite(estimate.gyro_bias_sigma_radps)});
   // What did not stop is latched, in words of its own, and "rests again" only when it does.

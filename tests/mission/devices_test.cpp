@@ -121,6 +121,17 @@ TEST(BatteryEmpty, EndsTheTaskInARampAndRefusesAStartWhileItCharges) {
   EXPECT_EQ(log.feedback.back().reason, "charging: unplug the charger first");
 }
 
+/// Its pack does not tell of a charger: the current does, which flows for a second then.
+TEST(ChargerPlugged, ASecondAndAHalfBeforeAStartIsSeenByItsCurrent) {
+  const Record& log = record("charger_plugged");
+  const Time refused = log.event("event too_soon#1");
+  EXPECT_LT(refused - log.event("sim battery charger plug"), 2s);
+  auto words = std::vector<std::string>{"save_trajectory_success", "start_task_failse"};
+  ASSERT_EQ(log.feedback_words(), words);
+  EXPECT_EQ(log.feedback.back().reason, "charging: unplug the charger first");
+  EXPECT_THAT(log.moving(), testing::IsEmpty());
+}
+
 TEST(BatteryLow, LetsTheTaskReachItsGoalAndNoOtherStart) {
   const Record& log = record("battery_low");
   const Time low = log.event("sim battery soc 15");

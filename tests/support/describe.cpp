@@ -162,6 +162,7 @@ struct Describe {
         .number("max_cell_V", m.max_cell_V)
         .word("flow", name(m.flow));
     if (m.charger_connected) line.word("charger", "true");
+    if (m.charges) line.word("charges", "true");
     if (!m.alarm_text.empty()) line.word("alarm", '"' + std::string(m.alarm_text.view()) + '"');
     return line.text();
   }

@@ -13,11 +13,13 @@ struct BaseWords {
   const char* turn_by;       ///< with who, before a speed
   const char* do_not_move;   ///< with who
   const char* by;            ///< whose account it is
+  const char* turned;        ///< likewise, before a turn
   const char* rolled;        ///< with who, before a way
   const char* wrong_turn;    ///< a question about a turn that others tell otherwise
   const char* wrong_way;     ///< about a way that others tell the other way round
   const char* short_way;     ///< about more than others tell
   const char* long_way;      ///< about less than others tell
+  const char* no_swing;      ///< about a turn that was asked for and did not happen
   const char* on_first_way;  ///< about what works against itself
 };
 
@@ -28,11 +30,13 @@ inline constexpr BaseWords kWheelWords{
     .turn_by = "the wheels turn by",
     .do_not_move = "the wheels do not move",
     .by = "by its wheels",
+    .turned = "by its wheels it turned",
     .rolled = "the wheels rolled",
     .wrong_turn = "sides swapped, or a wheel reversed?",
     .wrong_way = "drives reversed, the heading turned round, or gear ratio wrong?",
     .short_way = "wheels slip, or gear ratio or wheel radius is wrong?",
     .long_way = "gear ratio or wheel radius is wrong?",
+    .no_swing = "do the wheels slip or work against each other, or is the gyro wrong?",
     .on_first_way = "sides swapped, or a wheel reversed?",
 };
 
@@ -43,11 +47,13 @@ inline constexpr BaseWords kTwistWords{
     .turn_by = "the base says",
     .do_not_move = "the base does not move",
     .by = "by its own word",
+    .turned = "by its own word it turned",
     .rolled = "by its own word it went",
     .wrong_turn = "is the sign or the scale of its turn right?",
     .wrong_way = "is the sign of its speed right, or the heading turned round?",
     .short_way = "it slips, or the scale of its speed is wrong?",
     .long_way = "the scale of its speed is wrong?",
+    .no_swing = "does it turn as it is told to, and is the gyro right?",
     .on_first_way = "does it tell its turn the right way round?",
 };
 

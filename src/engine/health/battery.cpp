@@ -8,6 +8,10 @@ namespace {
 
 /// An alarm must stand in two samples: one may be torn inside the device.
 constexpr Duration kAlarmOn = std::chrono::milliseconds(500);
+/// A pack's current is a mean, and told late: until then it may be of a brake.
+constexpr Duration kStood = std::chrono::seconds(1);
+constexpr const char* kCharging = "charging: unplug the charger first";
+constexpr const char* kWasPlugged = "the charger was connected when the battery was last heard";
 
 }  // namespace
 
@@ -63,6 +67,11 @@ void BatteryMonitor::judge(Time now, const BatterySample& sample) {
   limit(too_hot_, sample.temperature_degC, is.too_hot);
   limit(apart_, sample.max_cell_V - sample.min_cell_V, is.apart);
   alarm_.update(true, is.alarm, now, kAlarmOn, hold);
+}
+
+void BatteryMonitor::judge_charger(Time at, const BatterySample& sample) {
+  const bool stood = moved_ == kNever || at - moved_ >= kStood;
+  if (stood || !sample.charges) charges_ = sample.charges;
 }
 
 /// Empty when it is neither.
@@ -121,8 +130,9 @@ Reason BatteryMonitor::held_hot(Time now, const BatterySample& sample) const {
 }
 
 const BatteryVerdict& BatteryMonitor::update(Time now, const BatterySnapshot& battery,
-                                             const SourceHealth& source) {
+                                             const SourceHealth& source, bool stands) {
   verdict_ = {};
+  if (!stands) moved_ = now;
   const bool old = battery.time != kNever && now - battery.time > from_s(config_.battery_stale_s);
   if (battery.time == kNever || source.state != SourceState::fresh || old) {
     const Reason& why = source.reason;
@@ -138,13 +148,14 @@ const BatteryVerdict& BatteryMonitor::update(Time now, const BatterySnapshot& ba
   if (battery.time != judged_) {
     judged_ = battery.time;
     judge(battery.time, sample);
+    judge_charger(battery.time, sample);
   }
   // What was last known of a limit stays true while nothing new is heard.
   if (sample.charger_connected) {
     if (old) {
-      verdict_.plugged = "the charger was connected when the battery was last heard";
+      verdict_.plugged = kWasPlugged;
     } else {
-      verdict_.charger = "charging: unplug the charger first";
+      verdict_.charger = kCharging;
     }
   }
   verdict_.critical = held_critical(now, sample);
@@ -152,6 +163,7 @@ const BatteryVerdict& BatteryMonitor::update(Time now, const BatterySnapshot& ba
   verdict_.present = empty_or_broken(sample, is);
   if (verdict_.present.empty() && is.low)
     verdict_.present = said(" low: %.0f %%", sample.soc_percent);
+  if (charges_) verdict_.present = old ? kWasPlugged : kCharging;
   const auto alarm = sample.alarm_text.view();
   verdict_.low = held_low(now, sample);
   if (sample.alarm == BatteryAlarm::warning) {

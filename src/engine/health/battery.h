@@ -21,14 +21,15 @@ struct BatteryVerdict {
 /// Limits count when a value was beyond them without a break for health.battery_hold_s, and no
 /// longer when it was back for as long: a sag under load is no empty battery. The first sample
 /// counts at once, so that no task starts on an empty one. A start is judged by the last value: a
-/// robot at rest has no sag.
+/// robot at rest has no sag, and what charges it then is a charger.
 class BatteryMonitor final {
  public:
   /// `name` begins its texts.
   explicit BatteryMonitor(const HealthConfig& config, const Name& name = "battery")
       : config_(config), name_(name) {}
-  const BatteryVerdict& update(Time now, const BatterySnapshot& battery,
-                               const SourceHealth& source);
+  /// `stands`: no wheel turns, and none gives back what braking is worth.
+  const BatteryVerdict& update(Time now, const BatterySnapshot& battery, const SourceHealth& source,
+                               bool stands = true);
 
  private:
   /// A limit with memory. A value that is not known changes nothing.
@@ -47,6 +48,7 @@ class BatteryMonitor final {
   };
 
   void judge(Time now, const BatterySample& sample);
+  void judge_charger(Time at, const BatterySample& sample);
   /// What is beyond its limit.
   struct Beyond {
     bool low = false;
@@ -79,6 +81,8 @@ class BatteryMonitor final {
   Limit apart_;
   Limit alarm_;
   Time judged_ = kNever;  ///< of the last sample
+  Time moved_ = kNever;   ///< when it was last seen to move
+  bool charges_ = false;  ///< at rest, by the last sample that was taken at rest
 };
 
 }  // namespace drover::engine

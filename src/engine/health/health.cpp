@@ -225,11 +225,12 @@ void HealthMonitor::look_at_position(const HealthInput& input) {
 void HealthMonitor::look_at_battery(const HealthInput& input) {
   if (!config_.battery_configured || input.sensors == nullptr) return;
   const auto samples = input.sensors->batteries();
+  const bool stands = input.estimate.fastest_mps <= kStands_mps;
   std::size_t counted = 0;
   std::size_t silent = 0;
   for (std::size_t i = 0; i < batteries_.size(); ++i) {
     const BatteryVerdict& verdict =
-        batteries_[i].update(input.now, samples[i], input.environment.battery[i]);
+        batteries_[i].update(input.now, samples[i], input.environment.battery[i], stands);
     if (!input.sensors->battery_counts(i)) continue;
     ++counted;
     silent += verdict.silent.empty() ? 0 : 1;

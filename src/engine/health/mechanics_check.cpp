@@ -19,11 +19,8 @@ constexpr double kSpeedUp_s = 1.0;  // a ratio of ten is ten times as fast
 constexpr double kStill_s = 1.0;
 constexpr Duration kMarkEach = std::chrono::milliseconds(10);
 constexpr double kGyroStale_s = 0.1;
-// Left, right, left again over this way: straight at both ends.
-const double kSwing_rad = to_rad(5.0);
-constexpr double kStraightShare = 1.0 / 12;
-constexpr double kSwingShare = 2.5 / 12;
-constexpr double kSwingCurve = 0.8;  // of the tightest that a base that steers can drive
+constexpr double kHeadingStale_s = 0.5;
+constexpr double kMostDifference = 1.4;  // of a rim from the base, as a share of its speed
 // Soil turns a base by itself, and the yaw gain is known within a factor; a wrong sign is twice the
 // turn.
 const double kTurnMargin_rad = to_rad(4.0);
@@ -47,18 +44,18 @@ MechanicsCheck::MechanicsCheck(const EngineConfig& config)
     : config_(config),
       words_(&words_of(kinematics_of(config.base))),
       proved_(!(config.navigate.first_way_m > 0)),
+      swing_(config.base, Swing::way_m(config.base, config.navigate.first_way_m)),
       antenna_(antenna_of(config.estimate, kMaxOfKind)) {
   // A base that steers needs a longer way for the same turns.
-  const BodyLimits body = limits(kinematics_of(config.base));
-  if (!body.pivots && config.navigate.first_way_m > 0)
-    config_.navigate.first_way_m = std::max(
-        config.navigate.first_way_m, kSwing_rad / (kSwingShare * kSwingCurve * body.most_radpm()));
+  config_.navigate.first_way_m = Swing::way_m(config.base, config.navigate.first_way_m);
 }
 
 void MechanicsCheck::begin() {
   moving_ = true;
   began_ = now_;
-  rolled_m_ = compared_m_ = 0;
+  rolled_m_ = compared_m_ = asked_rad_ = 0;
+  swing_.begin();
+  guided_ = turn_known_ = false;
   last_ = {};
   marks_.fill({});
   next_mark_ = 0;
@@ -155,13 +152,23 @@ void MechanicsCheck::say_turn(double by_gyro_rad, double by_wheels_rad) {
   }
 }
 
+bool MechanicsCheck::hears_gyro(const MechanicsInput& input) const {
+  return input.gyro_zero_known && gyro_at_ != kNever &&
+         std::abs(to_s(input.now - gyro_at_)) < kGyroStale_s;
+}
+
+double MechanicsCheck::turned_rad(const MechanicsInput& input) const {
+  if (hears_gyro(input)) return last_.gyro_rad;
+  const bool heading =
+      std::isfinite(heading_turn_rad_) && to_s(input.now - heading_at_) < kHeadingStale_s;
+  return heading ? heading_turn_rad_ : kAbsent;
+}
+
 void MechanicsCheck::compare_turn(const MechanicsInput& input) {
   const auto apart = [](double other_rad, double wheels_rad) {
     return std::abs(other_rad - wheels_rad) > kTurnMargin_rad + kTurnShare * std::abs(wheels_rad);
   };
-  const bool gyro = input.gyro_zero_known && gyro_at_ != kNever &&
-                    std::abs(to_s(input.now - gyro_at_)) < kGyroStale_s;
-  if (gyro) {
+  if (hears_gyro(input)) {
     if (apart(last_.gyro_rad, last_.turn_rad)) say_turn(last_.gyro_rad, last_.turn_rad);
     return;
   }
@@ -169,6 +176,51 @@ void MechanicsCheck::compare_turn(const MechanicsInput& input) {
   if (then == nullptr || !apart(heading_turn_rad_, then->turn_rad)) return;
   fault_.format("%s the robot turned %+.0f degrees, by the receiver %+.0f: %s", words_->by,
                 to_deg(then->turn_rad), to_deg(heading_turn_rad_), words_->wrong_turn);
+}
+
+void MechanicsCheck::say_no_swing(bool by_gyro) {
+  const double seen_rad = swing_.turned_rad();
+  if (by_gyro && std::isfinite(heading_turn_rad_) &&
+      std::abs(heading_turn_rad_ - last_.gyro_rad) > kTurnMargin_rad) {
+    say_turn(last_.gyro_rad, last_.turn_rad);
+    return;
+  }
+  const auto& left = config_.base.left;
+  const auto& right = config_.base.right;
+  Reason why = words_->no_swing;
+  if (left.size() == 2 && right.size() == 2) {
+    const auto name = [this](AxisId id) { return config_.joints[id].view(); };
+    const auto pair = [&](std::size_t i) {
+      FixedText<100> both;
+      const std::string_view l = name(left[i]);
+      const std::string_view r = name(right[i]);
+      both.format("%.*s/%.*s", static_cast<int>(l.size()), l.data(), static_cast<int>(r.size()),
+                  r.data());
+      return both;
+    };
+    const auto front = pair(0);
+    const auto rear = pair(1);
+    why.format("are the sides swapped on one axle (%.*s or %.*s)?",
+               static_cast<int>(front.view().size()), front.view().data(),
+               static_cast<int>(rear.view().size()), rear.view().data());
+  }
+  const bool slips = swing_.wheels_rad() != 0;
+  fault_.format("%s %+.0f degrees, by the %s %+.0f: %.*s", slips ? words_->turned : "asked to turn",
+                to_deg(slips ? swing_.wheels_rad() : swing_.asked_rad()),
+                by_gyro ? "gyro" : "receiver", to_deg(seen_rad),
+                static_cast<int>(why.view().size()), why.view().data());
+}
+
+/// Wheels of one axle that work against those of the other turn nothing, and their mean is what
+/// was asked for, or near to it: no comparison with it tells.
+void MechanicsCheck::watch_swing(const MechanicsInput& input) {
+  const double told = input.yaw_slip_factor / config_.base.yaw_slip_factor;
+  asked_rad_ += input.asked_radps * told * std::max(to_s(input.dt), 0.0);
+  const double turned = turned_rad(input);
+  turn_known_ = turn_known_ || std::isfinite(turned);
+  if (!guided_) return;
+  swing_.step({rolled_m_, asked_rad_, last_.turn_rad, turned});
+  if (swing_.failed()) say_no_swing(hears_gyro(input));
 }
 
 /// What comes at once is no ratio: another integer solution, or a shove, on which others look. Two
@@ -238,6 +290,7 @@ void MechanicsCheck::step(const MechanicsInput& input) {
   now_ = input.now;
   if (proved_) return;
   yaw_rad_ = input.yaw_rad;
+  yaw_slip_factor_ = input.yaw_slip_factor;
   const bool still = !input.commanded && input.fastest_mps < kStands_mps;
   if (!still) still_since_ = kNever;
   if (still && still_since_ == kNever) still_since_ = input.now;
@@ -256,14 +309,17 @@ void MechanicsCheck::step(const MechanicsInput& input) {
   last_.rolled_m = rolled_m_;
   remember(input.now);
   if (!fault_.empty() || was_past) return;
-  compare_turn(input);
+  watch_swing(input);
+  if (fault_.empty()) compare_turn(input);
   if (fresh_position_ && fault_.empty() && rest_.places >= kFewestPlaces) {
     if (const Mark* then = mark_at(position_at_); then != nullptr) compare_way(*then);
   }
   fresh_position_ = false;
   if (!fault_.empty() || !past_first_way()) return;
   went_first_ = true;
-  proved_ = odd_places_ == 0 && compared_m_ >= kComparedShare * config_.navigate.first_way_m;
+  const bool swung = !turn_known_ || (guided_ && swing_.happened());
+  proved_ =
+      swung && odd_places_ == 0 && compared_m_ >= kComparedShare * config_.navigate.first_way_m;
 }
 
 double MechanicsCheck::speed_cap_mps(FirstWay who) const {
@@ -283,24 +339,26 @@ Reason MechanicsCheck::slowly(FirstWay who) const {
     // Never "0.00 m are left".
     why.format("slowly: %s, gyro and receiver are compared on the first %g m, %.2f m are left",
                words_->wheels, first_m, std::max(left_m, 0.01));
+  } else if (guided_ && !swing_.is_over()) {
+    why = "slowly: it was not seen to turn to both sides yet";
   } else {
     why.format("slowly: %s, gyro and receiver could not be compared yet", words_->wheels);
   }
   return why;
 }
 
-Twist MechanicsCheck::guide(const Twist& wanted) const {
+Twist MechanicsCheck::guide(const Twist& wanted) {
   if (proved_ || past_first_way() || !(std::abs(wanted.vx_mps) > 0)) return wanted;
+  guided_ = true;
   Twist twist = wanted;
   const double cap_mps = speed_cap_mps(FirstWay::hand);
   twist.vx_mps = std::clamp(wanted.vx_mps, -cap_mps, cap_mps);
-  const double share = rolled_m_ / config_.navigate.first_way_m - kStraightShare;
-  double side = 0;  // which way the swing goes now
-  if (share >= 0 && share < 4 * kSwingShare) {
-    side = share < kSwingShare || share >= 3 * kSwingShare ? 1.0 : -1.0;
-  }
-  const double radpm = kSwing_rad / (kSwingShare * config_.navigate.first_way_m);
-  twist.wz_radps = side * radpm * std::abs(twist.vx_mps);
+  // What was learned of a turn that never came would ask for more and more.
+  const double half_m = config_.base.track_m / 2;
+  const double most =
+      std::max(kMostDifference, swing_.usual_radpm() * half_m * config_.base.yaw_slip_factor);
+  const double most_radpm = most / (half_m * std::max(yaw_slip_factor_, 0.1));
+  twist.wz_radps = std::clamp(swing_.radpm(), -most_radpm, most_radpm) * std::abs(twist.vx_mps);
   return twist;
 }
 

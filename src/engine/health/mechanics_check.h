@@ -10,6 +10,7 @@
 #include "drover/snapshot.h"
 #include "drover/twist.h"
 #include "engine/config.h"
+#include "engine/health/swing.h"
 
 namespace drover::engine {
 
@@ -21,6 +22,8 @@ struct MechanicsInput {
   Twist body;                    ///< as the base tells it
   double fastest_mps = 0;        ///< of its wheels on the ground, by that motion
   bool commanded = false;        ///< somebody moves the base
+  double asked_radps = 0;        ///< how fast it is told to turn
+  double yaw_slip_factor = 1;    ///< as learned: what it is told is so much more
   double yaw_rad = kAbsent;      ///< of the base, absent while unknown
   bool gyro_zero_known = false;  ///< its bias was learned
 };
@@ -58,11 +61,14 @@ class MechanicsCheck final {
   /// speed_cap_mps(). Empty: it is not.
   Reason slowly(FirstWay who) const;
   /// What is driven instead of `wanted`: the same way, with a little turn to each side.
-  Twist guide(const Twist& wanted) const;
+  Twist guide(const Twist& wanted);
 
  private:
-  /// Nothing more is compared in this motion: it went on for the first way.
-  bool past_first_way() const { return moving_ && rolled_m_ >= config_.navigate.first_way_m; }
+  /// Nothing more is compared in this motion: it went on for the first way, and has swung, where
+  /// it is this that steers.
+  bool past_first_way() const {
+    return moving_ && rolled_m_ >= config_.navigate.first_way_m && (!guided_ || swing_.is_over());
+  }
 
   /// Since the motion began.
   struct Mark {
@@ -86,7 +92,12 @@ class MechanicsCheck final {
   void begin();
   void remember(Time now);
   const Mark* mark_at(Time at) const;
+  bool hears_gyro(const MechanicsInput& input) const;
+  /// By the gyro, or else the receiver, since the motion began; absent: nobody knows.
+  double turned_rad(const MechanicsInput& input) const;
   void compare_turn(const MechanicsInput& input);
+  void watch_swing(const MechanicsInput& input);
+  void say_no_swing(bool by_gyro);
   void compare_way(const Mark& wheels);
   bool jumps(const PathPoint& way, const Mark& wheels, double sigma_m);
   void say_turn(double by_gyro_rad, double by_wheels_rad);
@@ -102,6 +113,11 @@ class MechanicsCheck final {
   double rolled_m_ = 0;      ///< in either direction
   double compared_m_ = 0;    ///< of that, until the receiver's last position that was compared
   bool went_first_ = false;  ///< a first way was gone to its end, compared or not
+  Swing swing_;
+  bool guided_ = false;      ///< the swing is asked for
+  bool turn_known_ = false;  ///< somebody could tell of a swing
+  double asked_rad_ = 0;     ///< turn commanded, as its wheels would tell it
+  double yaw_slip_factor_ = 1;
   Mark last_;
   std::array<Mark, 128> marks_{};
   std::size_t next_mark_ = 0;

@@ -34,6 +34,32 @@ TEST_F(AnEngineWithABattery, RefusesAStartWhileTheChargerIsConnected) {
   expect_no_motion_for_s(1);
 }
 
+TEST_F(AnEngineWithABattery, RefusesAStartAsSoonAsItChargesAtRestAndNotAfterItBraked) {
+  rig.settle();
+  sample.charges = true;
+  tell();
+  rig.tick();
+  rig.start(path, 40, 0.5);
+  rig.tick();
+  EXPECT_EQ(refusal(), "charging: unplug the charger first");
+  expect_no_motion_for_s(1);
+  sample.charges = false;
+  tell();
+  rig.tick();
+  rig.start(path, 40, 0.5);
+  rig.run_s(3);
+  ASSERT_GT(rig.fastest_command_radps(), 0) << rig.why();
+  sample.charges = true;
+  tell();
+  rig.run_s(1);
+  EXPECT_EQ(rig.snapshot().nav.status, NavStatus::run) << "a brake charges, too";
+  rig.command(CancelTask{});
+  rig.run_s(1.5);
+  rig.start(path, 40, 0.5);
+  rig.run_s(2);
+  EXPECT_GT(rig.fastest_command_radps(), 0) << rig.why();
+}
+
 TEST_F(AnEngineWithABattery, RefusesEveryMotionWhenItFellSilentAtTheCharger) {
   sample.charger_connected = true;
   tell();

@@ -35,9 +35,18 @@ class ARobotOnItsFirstWay : public ::testing::Test {
     EXPECT_EQ(rig.snapshot().nav.status, NavStatus::error);
     return last_m - before_m;
   }
-  std::string ended() const {
-    const auto ends = rig.said<TaskEnded>();
+  static std::string end_of(const EngineRig& one) {
+    const auto ends = one.said<TaskEnded>();
     return ends.empty() ? "" : std::string(ends[0].reason.view());
+  }
+  std::string ended() const { return end_of(rig); }
+  /// With what reason another one ends its task.
+  std::string ended_by_itself(EngineRig& other) const {
+    other.settle();
+    other.start(path, 40, 0.5);
+    for (int i = 0; i < 20 * 200 && other.snapshot().nav.status != NavStatus::error; ++i)
+      other.tick();
+    return end_of(other);
   }
 
   Path path = straight_path(20);
@@ -132,6 +141,68 @@ TEST_F(ARobotOnItsFirstWay, FindsAReversedWheel) {
   EXPECT_THAT(ended(), HasSubstr("wheel reversed"));
 }
 
+/// The mean of each side is as it should be, and its wheels work against each other.
+TEST_F(ARobotOnItsFirstWay, FindsSidesThatAreSwappedOnOneAxleAlone) {
+  rig.mechanics.crossed = true;
+  EXPECT_LT(stops_after_m(), 0.25);
+  EXPECT_THAT(ended(), HasSubstr("by the gyro +0: are the sides swapped on one axle "
+                                 "(front_left/front_right or rear_left/rear_right)?"));
+  EXPECT_FALSE(rig.out.remembered.mechanics_proved);
+}
+
+/// Its drives hold them so firmly that not even the wheels turn otherwise than ahead.
+TEST_F(ARobotOnItsFirstWay, FindsThemWhereTheDrivesAreTooWeakToSlip) {
+  rig.mechanics.crossed = true;
+  rig.mechanics.differs = 0.1;
+  EXPECT_LT(stops_after_m(), 0.3);
+  EXPECT_THAT(ended(), HasSubstr("asked to turn"));
+  EXPECT_THAT(ended(), HasSubstr("on one axle"));
+}
+
+TEST_F(ARobotOnItsFirstWay, FindsThemByTheReceiverWhereThereIsNoGyro) {
+  EngineRig without{unproved()};
+  without.mechanics.crossed = true;
+  EXPECT_THAT(ended_by_itself(without), HasSubstr("by the receiver"));
+  EXPECT_LT(without.driven_m, 0.3);
+}
+
+/// Small set points are followed badly, by drives that are healthy.
+TEST_F(ARobotOnItsFirstWay, SwingsUntilItWasSeenToTurnToBothSides) {
+  rig.mechanics.differs = 0.25;
+  double left_rad = 0;
+  double then_right_rad = 0;
+  while (!rig.out.remembered.mechanics_proved && rig.driven_m < 2) {
+    rig.tick();
+    ASSERT_EQ(rig.snapshot().nav.status, NavStatus::run) << ended();
+    const double yaw_rad = rig.plant.truth().yaw_rad;
+    left_rad = std::max(left_rad, yaw_rad);
+    then_right_rad = std::max(then_right_rad, left_rad - yaw_rad);
+    EXPECT_LT(rig.fastest_command_radps() * 0.165, 0.12);
+    EXPECT_LT(std::abs(rig.plant.truth().y_m), 0.05);
+  }
+  EXPECT_GT(to_deg(left_rad), 2.9);
+  EXPECT_GT(to_deg(then_right_rad), 2.9);
+  EXPECT_LT(rig.driven_m, 0.7);
+}
+
+TEST_F(ARobotOnItsFirstWay, SaysThatItWasNotSeenToTurnYet) {
+  rig.mechanics.differs = 0.25;
+  while (rig.driven_m < 0.35) rig.tick();
+  EXPECT_EQ(rig.why(), "slowly: it was not seen to turn to both sides yet");
+}
+
+TEST_F(ARobotOnItsFirstWay, ThatCannotTurnAtAllSaysSo) {
+  rig.mechanics.differs = 0;
+  EXPECT_LT(stops_after_m(), 0.3);
+  EXPECT_THAT(ended(), HasSubstr("asked to turn +24 degrees, by the gyro +0"));
+}
+
+TEST_F(ARobotOnItsFirstWay, TellsAGyroThatIsDeadFromWheelsThatDoNotTurnIt) {
+  rig.mechanics.gyro = 0;
+  EXPECT_LT(stops_after_m(), 0.2);
+  EXPECT_THAT(ended(), HasSubstr("is the IMU mounted as configured"));
+}
+
 TEST_F(ARobotOnItsFirstWay, FindsDrivesThatRunBackwards) {
   rig.mechanics.gear = -1;
   EXPECT_LT(stops_after_m(), 0.2);
@@ -146,14 +217,8 @@ TEST_F(ARobotOnItsFirstWay, TellsAGyroThatTurnsTheOtherWayFromSwappedSides) {
 
 TEST_F(ARobotOnItsFirstWay, FindsSwappedSidesByTheReceiverWhereThereIsNoGyro) {
   EngineRig without{unproved()};
-  without.settle();
   without.mechanics.swapped = true;
-  without.start(path, 40, 0.5);
-  for (int i = 0; i < 20 * 200 && without.snapshot().nav.status != NavStatus::error; ++i)
-    without.tick();
-  const auto ends = without.said<TaskEnded>();
-  ASSERT_EQ(ends.size(), 1U);
-  EXPECT_THAT(std::string(ends[0].reason.view()), HasSubstr("by the receiver"));
+  EXPECT_THAT(ended_by_itself(without), HasSubstr("by the receiver"));
   EXPECT_LT(without.driven_m, 0.3);
 }
 
@@ -211,6 +276,15 @@ TEST_F(JointCommandsOnAFirstWay, AreSlowOnceWhereNothingCanBeCompared) {
   stream_s(0, 4);
   stream_s(2, 2);
   EXPECT_NEAR(rig.fastest_command_radps(), 2, 1e-9) << reason();
+}
+
+TEST_F(JointCommandsOnAFirstWay, ThatTurnNothingProveNothing) {
+  rig.settle();
+  stream_s(0, 0.5);
+  for (int i = 0; i < 200 && rig.driven_m < 1; ++i) stream_s(2, 0.1);
+  ASSERT_GE(rig.driven_m, 1) << reason();
+  EXPECT_EQ(reason(), "");
+  EXPECT_FALSE(rig.out.remembered.mechanics_proved);
 }
 
 TEST_F(JointCommandsOnAFirstWay, FindARatioOfTwentyByAPositionEachSecond) {

@@ -142,7 +142,9 @@ class EngineRig {
   struct Mechanics {
     double gear = 1;        ///< the wheels turn so many times faster than the drives tell
     bool swapped = false;   ///< left and right
+    bool crossed = false;   ///< left and right of the rear axle alone: its wheels slip
     bool reversed = false;  ///< the left front wheel
+    double differs = 1;     ///< the sides follow so much of the difference that they are asked for
     double gyro = 1;        ///< it tells so many times the turn
   } mechanics;
   double jump_m = 0;           ///< of the reported position, east
@@ -231,10 +233,13 @@ class EngineRig {
       if (drives[i].state == AxisState::running) speed[i] = out.axes[i].velocity_radps;
     }
     if (blocked) speed = {};
+    const double mean_radps = 0.25 * (speed[0] + speed[1] + speed[2] + speed[3]);
+    for (double& radps : speed) radps = mean_radps + mechanics.differs * (radps - mean_radps);
     const double dt_s = to_s(kRigTick);
     std::array<double, 4> true_speed = speed;
     for (double& radps : true_speed) radps *= mechanics.gear;
     if (mechanics.reversed) true_speed[0] = -true_speed[0];
+    if (mechanics.crossed) std::swap(true_speed[2], true_speed[3]);
     WheelSpeeds sides{0.5 * (true_speed[0] + true_speed[2]), 0.5 * (true_speed[1] + true_speed[3])};
     if (mechanics.swapped) std::swap(sides.left_radps, sides.right_radps);
     if (disobeys && has_power()) sides = *disobeys;
@@ -249,7 +254,8 @@ class EngineRig {
       const double rim_mps = seen.vx_mps + (i % 2 == 0 ? -turn_mps : turn_mps);
       Drive& drive = drives[i];
       double radps = rim_mps / config.base.wheel_radius_m / mechanics.gear + drive.by_itself_radps;
-      if (mechanics.reversed) radps = speed[i];  // each wheel tells what it was asked
+      if (mechanics.reversed || mechanics.crossed)
+        radps = speed[i];  // each wheel tells what it was asked
       if (!drive.stuck) drive.position_rad += radps * dt_s;
       environment.axes[i].state = drive.silent ? SourceState::stale : SourceState::fresh;
       if (drive.silent) continue;

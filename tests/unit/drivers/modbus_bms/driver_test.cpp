@@ -95,6 +95,13 @@ TEST_F(ABmsDriver, TakesALastingChargingCurrentForAChargerAndABriefOneForBraking
   EXPECT_FALSE(give({480, 30000, 55, 0}).charger_connected);
 }
 
+TEST_F(ABmsDriver, TellsAtOnceThatItChargesAsAChargerDoes) {
+  EXPECT_FALSE(give({480, 30010, 55, 1}).charges) << "1 A";
+  EXPECT_TRUE(give({480, 30050, 55, 1}).charges);
+  EXPECT_FALSE(give({480, 30050, 55, 2}).charges) << "its state says otherwise";
+  EXPECT_FALSE(give({480, 29990, 55, 2}).charges);
+}
+
 TEST_F(ABmsDriver, NamesTheRegistersThatTheDeviceRefuses) {
   give({480, 30000, 55, 0});
   for (int i = 0; i < 2; ++i) driver->on_failure(0, RegisterFailure::refused, 2, now);

@@ -21,7 +21,8 @@ class ABatteryMonitor : public ::testing::Test {
     for (const Time end = now + time; now < end;) {
       battery.sample = sample;
       battery.time = now;
-      for (int i = 0; i < 5; ++i, now += 200ms) verdict = monitor.update(now, battery, source);
+      for (int i = 0; i < 5; ++i, now += 200ms)
+        verdict = monitor.update(now, battery, source, stands);
     }
   }
   std::string critical() const { return std::string(verdict.critical.view()); }
@@ -31,6 +32,7 @@ class ABatteryMonitor : public ::testing::Test {
   BatterySample sample;
   SourceHealth source;
   BatteryVerdict verdict;
+  bool stands = true;
   Time now{100s};
 };
 
@@ -175,6 +177,45 @@ TEST_F(ABatteryMonitor, KnowsTheChargerFromTheFirstWordToTheLast) {
   sample.charger_connected = false;
   run(1s);
   EXPECT_TRUE(verdict.charger.empty());
+}
+
+TEST_F(ABatteryMonitor, LetsNoTaskStartWhileItChargesAtRestForHoweverShortATime) {
+  run(2s);
+  sample.charges = true;
+  run(1s);
+  EXPECT_EQ(verdict.present, "charging: unplug the charger first");
+  EXPECT_TRUE(verdict.charger.empty()) << "what drives goes on";
+  sample.charges = false;
+  run(1s);
+  EXPECT_TRUE(verdict.present.empty());
+}
+
+TEST_F(ABatteryMonitor, TakesWhatABrakeGaveBackForNoCharger) {
+  run(2s);
+  stands = false;
+  sample.charges = true;
+  run(3s);
+  EXPECT_TRUE(verdict.present.empty());
+  // It stands now, and the last sample is of before, or of a mean that has some of it.
+  stands = true;
+  run(1s);
+  EXPECT_TRUE(verdict.present.empty());
+  sample.charges = false;
+  run(1s);
+  EXPECT_TRUE(verdict.present.empty());
+  // One that goes on at rest is a charger.
+  sample.charges = true;
+  run(1s);
+  EXPECT_FALSE(verdict.present.empty());
+}
+
+TEST_F(ABatteryMonitor, LetsNoTaskStartWhenItFellSilentWhileItCharged) {
+  run(2s);
+  sample.charges = true;
+  run(1s);
+  source.state = SourceState::stale;
+  verdict = monitor.update(now + 60s, battery, source);
+  EXPECT_EQ(verdict.present, "the charger was connected when the battery was last heard");
 }
 
 TEST_F(ABatteryMonitor, LetsNoTaskStartAtAPlugThatWasThereWhenItFellSilent) {
