@@ -65,6 +65,11 @@ void Reader::add(const json::Node& place, std::string path, std::string message,
       {place.line, place.column, std::move(path), std::move(message), std::move(suggestion), ""});
 }
 
+bool Reader::is_told(const std::string& path) const {
+  return std::any_of(problems_.begin(), problems_.end(),
+                     [&path](const auto& problem) { return problem.path == path; });
+}
+
 const json::Node* Reader::find(std::string_view key, Presence presence, std::string_view text) {
   known_.emplace_back(key);
   const auto* node = node_.find(key);
@@ -280,7 +285,7 @@ void Reader::key_of_kind(std::string_view key, bool has, bool needs, const std::
   if (!has || !needs) return;
   if (node == nullptr)
     add(node_, path_of(key), "is missing", whose + " needs it");
-  else if (node->text() != nullptr && node->text()->empty())
+  else if (node->text() != nullptr && node->text()->empty() && !is_told(path_of(key)))
     add(*node, path_of(key), "is empty");
 }
 

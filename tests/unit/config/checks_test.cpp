@@ -381,5 +381,49 @@ TEST(BitRates, AreSetByTheSystem) {
       testing::HasSubstr("links.can0.bitrate: is no known key (the system sets the bit rate"));
 }
 
+/// What stands in the place of a wrong value is not what somebody wrote: nothing is told of it.
+class AWrongValue : public testing::TestWithParam<std::array<const char*, 2>> {};
+
+TEST_P(AWrongValue, IsTheOnlyThingThatIsTold) {
+  const auto [piece, instead] = GetParam();
+  const auto told = problems(with(piece, instead));
+  EXPECT_EQ(std::count(told.begin(), told.end(), '\n'), 1) << told;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Somewhere, AWrongValue,
+    testing::Values(
+        std::array{R"("links": {"can0": {"can": "can0"},
+            "gnss": {"serial": "/dev/drover/gnss", "baud": 115200}, "panel": {"gpio": "chip0"}})",
+                   R"("links": 5)"},
+        std::array{R"({"driver": "nmea0183", "link": "gnss"})", R"("nmea0183")"},
+        std::array{R"({"driver": "odrive", "link": "can0", "options": {"node": 1},)"
+                   R"( "accept": ["no_watchdog"]})",
+                   "1"},
+        std::array{R"("is": "bumper")", R"("is": "")"},
+        std::array{R"({"link": "panel", "enable_relay": {"line": "r"}})", "true"},
+        std::array{R"("wheel_radius_m": 0.165)", R"("wheel_radius_m": "")"},
+        std::array{R"("left": ["left"])", R"("left": "")"},
+        std::array{R"("groups": {"base": {"kind": "skid_steer", "wheel_radius_m": 0.165, )"
+                   R"("track_m": 0.6, "left": ["left"], "right": ["right"], "hold": "brake"}})",
+                   R"("groups": 5)"},
+        std::array{R"("127.0.0.1", "port": 1883)", R"(5, "port": 0)"},
+        std::array{R"("127.0.0.1", "port": 1883)", R"("/run/mqtt", "port": 1.5)"},
+        std::array{R"("port": 1883)", R"("username": 5, "password_file": "/etc/p", "port": 1883)"},
+        // The link's key is the slip: on a serial line nobody has use of a parity.
+        std::array{R"("panel": {"gpio": "chip0"}},
+  "devices": {)",
+                   R"("panel": {"gpio": "chip0"}, "bms": {"serial": "/dev/b", "parity": "even"}},
+  "devices": {"battery": {"driver": "modbus_bms", "link": "bms", "map": "daly_d2.json"},)"}));
+
+TEST(ConfigurationChecks, SayThatABatteryHangsOnTheSamePortAsModbus) {
+  EXPECT_THAT(problems(with(R"("panel": {"gpio": "chip0"}},
+  "devices": {)",
+                            R"("panel": {"gpio": "chip0"}, "bms": {"serial": "/dev/b"}},
+  "devices": {"battery": {"driver": "modbus_bms", "link": "bms", "map": "daly_d2.json"},)")),
+              HasSubstr("devices.battery.link: \"bms\" is a serial line, but modbus_bms hangs on a "
+                        "Modbus line (links.bms: \"modbus\": \"/dev/b\" in place of \"serial\")"));
+}
+
 }  // namespace
 }  // namespace drover::config
