@@ -50,6 +50,15 @@ std::string counted(std::size_t n) {
   return text::counted(n, "entry", "entries");
 }
 
+/// People write what stands on the device.
+std::string driver_meant(const std::string& written, const std::vector<std::string>& drivers) {
+  const auto near = did_you_mean(written, drivers);
+  if (!near.empty()) return near;
+  if (const auto* entry = find_by_product(written))
+    return "\"" + std::string(entry->name) + "\" speaks with it: " + std::string(entry->summary);
+  return is_spoken_by_none(written) ? "no driver speaks with it" : "";
+}
+
 }  // namespace
 
 Reader::Reader(const json::Node& node, std::string path, std::vector<Problem>& problems)
@@ -192,7 +201,7 @@ void Reader::choice(std::string_view key, std::string& into,
   if (node == nullptr || problems_.size() != before) return;
   if (std::find(choices.begin(), choices.end(), value) == choices.end())
     return add(*node, path_of(key), "\"" + value + "\" is not one of: " + joined(choices),
-               did_you_mean(value, choices));
+               key == "driver" ? driver_meant(value, choices) : did_you_mean(value, choices));
   into = value;
 }
 

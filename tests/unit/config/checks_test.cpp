@@ -425,5 +425,28 @@ TEST(ConfigurationChecks, SayThatABatteryHangsOnTheSamePortAsModbus) {
                         "Modbus line (links.bms: \"modbus\": \"/dev/b\" in place of \"serial\")"));
 }
 
+TEST(ConfigurationChecks, SayWhichDriverSpeaksWithAProductOrThatNoneDoes) {
+  const auto told = [](const std::string& written) {
+    return problems(with("\"driver\": \"nmea0183\"", "\"driver\": \"" + written + "\""));
+  };
+  for (const auto* const receiver : {"um982", "UM-980", "zed-f9p", "u-blox"})
+    EXPECT_THAT(told(receiver), HasSubstr("(\"nmea0183\" speaks with it: GNSS receiver"))
+        << receiver;
+  EXPECT_THAT(told("daly"), HasSubstr("(\"modbus_bms\" speaks with it: battery management system "
+                                      "over Modbus, by a register map)"));
+  EXPECT_THAT(told("scout_mini"), HasSubstr("(\"agilex_v2\" speaks with it: AgileX Scout"));
+  EXPECT_THAT(told("hunter"), HasSubstr("(\"agilex_hunter\" speaks with it: AgileX Hunter"));
+  EXPECT_THAT(told("wt901c"), HasSubstr("(\"witmotion\" speaks with it"));
+  for (const auto* const unknown : {"bunker", "VESC"})
+    EXPECT_THAT(told(unknown), HasSubstr("(no driver speaks with it)")) << unknown;
+}
+
+/// Or one name would be two drivers'.
+TEST(ConfigurationChecks, FindEachProductAtTheDriverThatNamesIt) {
+  for (const auto& entry : driver_registry())
+    for (const auto product : entry.products)
+      EXPECT_EQ(find_by_product(product), find_driver(entry.name)) << product;
+}
+
 }  // namespace
 }  // namespace drover::config
