@@ -52,7 +52,7 @@ std::string counted(std::size_t n) {
 
 /// People write what stands on the device.
 std::string driver_meant(const std::string& written, const std::vector<std::string>& drivers) {
-  const auto near = did_you_mean(written, drivers);
+  auto near = did_you_mean(written, drivers);
   if (!near.empty()) return near;
   if (const auto* entry = find_by_product(written))
     return "\"" + std::string(entry->name) + "\" speaks with it: " + std::string(entry->summary);
