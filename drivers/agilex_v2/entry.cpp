@@ -17,6 +17,8 @@ std::unique_ptr<CanTwin> make_twin(const Options& options) {
   return std::make_unique<AgilexV2Twin>(options);
 }
 
+constexpr std::string_view kAgilexV2Products[] = {"scout"};
+
 }  // namespace
 
 const DriverEntry kAgilexV2Entry{
@@ -30,6 +32,7 @@ const DriverEntry kAgilexV2Entry{
     .twin_options = agilex_v2::twin_option_table(),
     .make_twin = make_twin,
     .summary = "AgileX Scout on CAN, protocol v2: a base that takes a twist",
+    .products = kAgilexV2Products,
     .twin_shafts = 2,
 };
 

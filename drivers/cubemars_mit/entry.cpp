@@ -51,6 +51,8 @@ std::unique_ptr<CanTwin> make_twin(const Options& options) {
   return std::make_unique<CubemarsTwin>(settings, read_twin_settings(options, settings));
 }
 
+constexpr std::string_view kCubemarsMitProducts[] = {"cubemars", "ak10", "ak60", "ak70", "ak80"};
+
 }  // namespace
 
 std::span<const OptionSpec> twin_option_table() {
@@ -87,6 +89,7 @@ const DriverEntry kCubemarsMitEntry = {
     .make_twin = cubemars_mit::make_twin,
     .summary =
         "CubeMars AK motor on CAN in MIT mode: position, velocity, effort, stiffness, damping",
+    .products = cubemars_mit::kCubemarsMitProducts,
 };
 
 }  // namespace drover

@@ -60,6 +60,8 @@ std::unique_ptr<CanTwin> make_twin(const Options& options) {
   return std::make_unique<DamiaoTwin>(settings, read_twin_settings(options, settings));
 }
 
+constexpr std::string_view kDamiaoProducts[] = {"dm4310", "dm4340", "dm6006", "dm8006", "dm8009"};
+
 }  // namespace
 
 std::span<const OptionSpec> twin_option_table() {
@@ -97,6 +99,7 @@ const DriverEntry kDamiaoEntry = {
     .twin_options = damiao::twin_option_table(),
     .make_twin = damiao::make_twin,
     .summary = "DAMIAO motor on CAN in MIT mode: position, velocity, effort, stiffness, damping",
+    .products = damiao::kDamiaoProducts,
 };
 
 }  // namespace drover

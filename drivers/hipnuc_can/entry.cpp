@@ -125,6 +125,8 @@ std::unique_ptr<CanImuTwin> make_twin(const Options& options, std::uint64_t seed
   return std::make_unique<HipnucCanTwin>(read_settings(options), own, seed);
 }
 
+constexpr std::string_view kHipnucCanProducts[] = {"hipnuc"};
+
 }  // namespace
 
 const DriverEntry kHipnucCanEntry{
@@ -137,6 +139,7 @@ const DriverEntry kHipnucCanEntry{
     .twin_options = kTwinOptions,
     .make_twin = MakeCanImuTwin{make_twin},
     .summary = "HiPNUC inertial sensor on CAN, frames after J1939 or CANopen",
+    .products = kHipnucCanProducts,
 };
 
 }  // namespace drover

@@ -19,6 +19,8 @@ std::unique_ptr<ScannerTwin> make_twin(const Options& options, std::uint64_t see
   return std::make_unique<Ld06Twin>(options.flag("upside_down"), seed);
 }
 
+constexpr std::string_view kLd06Products[] = {"ld19", "d300", "ldrobot"};
+
 }  // namespace
 }  // namespace ld06
 
@@ -33,6 +35,7 @@ const DriverEntry kLd06Entry = {
     .twin_options = {},
     .make_twin = ld06::make_twin,
     .summary = "LD06 and LD19, scanners of one level plane, 10 turns a second",
+    .products = ld06::kLd06Products,
 };
 
 }  // namespace drover

@@ -60,7 +60,10 @@ SourceHealth Ld06Driver::health(Time now) const {
   health.last_good = last_good_;
   health.good = good_;
   health.bad = bad_;
-  if (last_good_ != kNever && now - last_good_ <= settings_.stale) {
+  // A turn in which nothing is seen is told as that, however young the one before it is: the robot
+  // stops for it at once.
+  const bool heard = last_good_ != kNever && now - last_good_ <= settings_.stale;
+  if (heard && sees(watch_.condition())) {
     health.state = SourceState::fresh;
     explain_turn(watch_, settings_, health.reason);
   } else {

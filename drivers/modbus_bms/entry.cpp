@@ -70,6 +70,8 @@ std::unique_ptr<RegisterTwin> make_twin(const Options& options, const RegisterMa
   return std::make_unique<ModbusBmsTwin>(options, map);
 }
 
+constexpr std::string_view kModbusBmsProducts[] = {"daly", "jkbms", "jkpb"};
+
 }  // namespace
 
 Settings read_settings(const Options& options) {
@@ -97,6 +99,7 @@ const DriverEntry kModbusBmsEntry = {
     .twin_options = modbus_bms::kTwinOptions,
     .make_twin = modbus_bms::make_twin,
     .summary = "battery management system over Modbus, by a register map",
+    .products = modbus_bms::kModbusBmsProducts,
 };
 
 }  // namespace drover

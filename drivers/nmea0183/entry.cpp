@@ -123,6 +123,9 @@ std::unique_ptr<GnssTwin> make_twin(const Options& options, std::uint64_t seed) 
   return std::make_unique<Nmea0183Twin>(options, seed);
 }
 
+constexpr std::string_view kNmea0183Products[] = {"um980", "um982",   "unicore", "zedf9",
+                                                  "ublox", "trimble", "skytraq"};
+
 }  // namespace
 }  // namespace nmea0183
 
@@ -137,6 +140,7 @@ constinit const DriverEntry kNmea0183Entry{
     .twin_options = nmea0183::kTwinOptions,
     .make_twin = MakeGnssTwin{nmea0183::make_twin},
     .summary = "GNSS receiver with NMEA 0183: GGA, RMC, VTG, GST, HDT or THS",
+    .products = nmea0183::kNmea0183Products,
 };
 
 }  // namespace drover

@@ -50,6 +50,8 @@ std::unique_ptr<CanTwin> make_twin(const Options& options) {
   return std::make_unique<RobomasterTwin>(read_settings(options), read_twin_settings(options));
 }
 
+constexpr std::string_view kRobomasterC620Products[] = {"m3508", "m2006", "c610", "robomaster"};
+
 }  // namespace
 
 std::span<const OptionSpec> twin_option_table() {
@@ -83,6 +85,7 @@ const DriverEntry kRobomasterC620Entry = {
     .twin_options = robomaster::twin_option_table(),
     .make_twin = robomaster::make_twin,
     .summary = "RoboMaster C620 or C610, four motors told their currents, speed loop of its own",
+    .products = robomaster::kRobomasterC620Products,
 };
 
 }  // namespace drover

@@ -136,6 +136,9 @@ std::unique_ptr<ImuTwin> make_twin(const Options& options, std::uint64_t seed) {
   return std::make_unique<WitmotionTwin>(options, seed);
 }
 
+constexpr std::string_view kWitmotionProducts[] = {"wt901", "hwt905", "hwt906",
+                                                   "wt61",  "jy901",  "wtgahrs"};
+
 }  // namespace
 }  // namespace witmotion
 
@@ -152,6 +155,7 @@ constinit const DriverEntry kWitmotionEntry{
     .summary =
         "inertial sensor of WitMotion (WT901, HWT901, HWT905, JY901 and others) on a serial "
         "line",
+    .products = witmotion::kWitmotionProducts,
 };
 
 }  // namespace drover

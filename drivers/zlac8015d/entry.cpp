@@ -41,6 +41,8 @@ std::unique_ptr<CanTwin> make_twin(const Options& options) {
   return std::make_unique<Zlac8015dTwin>(read_settings(options), read_twin_settings(options));
 }
 
+constexpr std::string_view kZlac8015dProducts[] = {"zlac8015"};
+
 }  // namespace
 
 std::span<const OptionSpec> twin_option_table() {
@@ -70,6 +72,7 @@ const DriverEntry kZlac8015dEntry = {
     .twin_options = zlac8015d::twin_option_table(),
     .make_twin = zlac8015d::make_twin,
     .summary = "ZLAC8015D, two hub motors behind one CANopen node, velocity control",
+    .products = zlac8015d::kZlac8015dProducts,
 };
 
 }  // namespace drover

@@ -64,6 +64,8 @@ struct DriverEntry {
                MakeByteDriveTwin, MakeCanImuTwin, MakeScannerTwin>
       make_twin;
   std::string_view summary;  ///< one line for people
+  /// What people call its devices who do not know the driver's name: small letters and digits.
+  std::span<const std::string_view> products = {};
   /// Shafts that the simulated device turns, in the order of its README. 0: one for each channel.
   std::size_t twin_shafts = 0;
   /// What takes its twist steers: it turns on curves only, tells the angle of its wheels
@@ -81,5 +83,10 @@ std::span<const DriverEntry> driver_registry();
 const DriverEntry* find_driver(std::string_view name);
 /// The same, and nullptr when its device is something else.
 const DriverEntry* find_driver(std::string_view name, SlotKind kind);
+/// The driver that speaks with what somebody calls so: a product, or a maker ("ZED-F9P",
+/// "daly_bms"). nullptr: none is known to.
+const DriverEntry* find_by_product(std::string_view product);
+/// It is asked for now and then, and no driver speaks with it.
+bool is_spoken_by_none(std::string_view product);
 
 }  // namespace drover

@@ -215,17 +215,14 @@ int stop(const StopPlaces& places) {
 }
 
 int reset(const StopPlaces& places) {
-  // The guard first: droverd refuses while somebody else has the bus. It has latched the same stop,
-  // so that its own refusal still keeps the robot where it is.
-  const bool was_latched = guard_is_latched(places);
+  // droverd first: it knows whether the cause is over. What it refuses is refused, and the guard
+  // goes on holding; where it is not there the guard's stop can be ended all the same.
   const bool was_stopped = is_stopped(places);
-  auto guard = tell_guard(places, "reset");
-  if (guard.obeyed) wait_for_bus(places);
   const auto daemon = tell_daemon(places, "reset");
-  // What droverd refuses is refused: no half of the stop is over.
   const bool refused = daemon.heard && !daemon.obeyed;
-  if (refused && was_latched && guard.obeyed && tell_guard(places, "stop").obeyed)
-    guard = {.heard = true, .why = "stopped again: droverd refused"};
+  Answer guard{.heard = true, .why = "not asked: droverd refused"};
+  if (!refused) guard = tell_guard(places, "reset");
+  if (guard.obeyed) wait_for_bus(places);
   const bool done = daemon.obeyed && (guard.obeyed || !guard.heard);
   std::string words = was_stopped ? "the stop is over" : "no stop was latched";
   if (!guard.obeyed) words = (done ? words + "; " : "") + guard.why;

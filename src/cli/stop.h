@@ -14,8 +14,8 @@ struct StopPlaces {
 
 /// Done when either obeyed; says which did and why the other did not. Returns the exit code.
 int stop(const StopPlaces& places);
-/// Both latches end, the guard's first; droverd may refuse, and then keeps its own. Returns the
-/// exit code.
+/// Both latches end, droverd's first: what it refuses leaves both as they were. The guard's alone
+/// when droverd does not answer. Returns the exit code.
 int reset(const StopPlaces& places);
 
 }  // namespace drover::cli

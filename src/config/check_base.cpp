@@ -27,11 +27,14 @@ engine::BaseKind base_kind(std::string_view word) {
   return word == "differential" ? engine::BaseKind::differential : engine::BaseKind::skid_steer;
 }
 
-/// Whether it may be the joint of a device whose driver nobody knows.
-bool is_of_no_driver(const std::string& joint, const DroverConfig& config) {
-  return std::any_of(config.devices.begin(), config.devices.end(), [&](const auto& device) {
-    return device.name == joint && find_driver(device.driver) == nullptr;
-  });
+/// Whether it may be the joint of a device whose driver, or whose joints, nobody knows.
+bool is_told_of(const std::string& joint, Findings& found) {
+  const auto& devices = found.config().devices;
+  return found.is_wrong("devices") || found.is_wrong("devices." + joint) ||
+         std::any_of(devices.begin(), devices.end(), [&](const auto& device) {
+           const bool of_no_driver = device.name == joint && find_driver(device.driver) == nullptr;
+           return of_no_driver || found.is_wrong(device_path(device, "joints"));
+         });
 }
 
 bool is_told_twists(const DeviceConfig& device) {
@@ -45,7 +48,7 @@ void side(const std::string& path, const std::vector<std::string>& joints,
   for (const auto& joint : joints) {
     const auto it = std::find(known.begin(), known.end(), joint);
     if (it == known.end()) {
-      if (is_of_no_driver(joint, found.config())) continue;  // told already
+      if (is_told_of(joint, found)) continue;
       found.add(path, "no device has the joint \"" + joint + "\"",
                 text::did_you_mean(joint, known));
       continue;
@@ -92,6 +95,7 @@ void nothing_else_moves(const GroupNames& groups, Findings& found) {
     for (const auto& joint : device.joints) {
       if (among(base.left, joint.name) || among(base.right, joint.name)) continue;
       if (has_joint(groups.others, joint.name)) continue;
+      if (found.is_wrong("groups")) continue;
       found.add(device_path(device), "\"" + joint.name + "\" is of no group",
                 has_wheels ? "name it in groups.base.left or groups.base.right, or give it a group "
                              "of its own: groups.arm.joints"

@@ -30,8 +30,13 @@ void hang(DeviceConfig& device, std::map<std::string, std::string>& first, Findi
   const auto* entry = find_driver(device.driver);
   if (entry == nullptr) return;
   if (entry->wire == link->wire) return check_company(device, *link, first, found);
-  found.add(path, "\"" + link->name + "\" is " + std::string(words(link->wire)) + ", but " +
-                      device.driver + " hangs on " + std::string(words(entry->wire)));
+  const bool same_port = link->wire == Wire::bytes && entry->wire == Wire::registers;
+  found.add(path,
+            "\"" + link->name + "\" is " + std::string(words(link->wire)) + ", but " +
+                device.driver + " hangs on " + std::string(words(entry->wire)),
+            same_port
+                ? link_path(*link) + ": \"modbus\": \"" + link->serial + "\" in place of \"serial\""
+                : "");
 }
 
 void addresses(Findings& found) {
@@ -104,6 +109,7 @@ void name_channels(DeviceConfig& device, std::span<const Channel> channels, Find
     const auto it = std::find_if(channels.begin(), channels.end(),
                                  [&](const auto& each) { return each.name == joint.channel; });
     if (it == channels.end()) {
+      if (found.is_wrong(path + ".channel")) continue;
       const auto what = joint.channel.empty() ? "names no channel" : "there is no such channel";
       found.add(path + ".channel", what, "one of: " + names_of(channels));
       continue;

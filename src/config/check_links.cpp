@@ -67,13 +67,23 @@ int usual_baud(const LinkConfig& link, Findings& found) {
   return kUsualBaud;
 }
 
+bool is_meant_for_modbus(const LinkConfig& link, Findings& found) {
+  const auto& devices = found.config().devices;
+  return link.wire == Wire::bytes &&
+         std::any_of(devices.begin(), devices.end(), [&link](const auto& device) {
+           const auto* entry = find_driver(device.driver);
+           return device.link == link.name && entry != nullptr && entry->wire == Wire::registers;
+         });
+}
+
 /// Speed and parity are of the lines that have them.
 void check_pace(LinkConfig& link, Findings& found) {
   const auto refuse = [&](std::string_view key, const char* instead = "leave it out") {
     if (found.given(link_path(link, key)))
       found.add(link_path(link, key), "is of no use on " + std::string(words(link.wire)), instead);
   };
-  if (link.wire != Wire::registers) refuse("parity");
+  // Of a device that speaks Modbus the link's key is what is wrong.
+  if (link.wire != Wire::registers && !is_meant_for_modbus(link, found)) refuse("parity");
   if (link.wire == Wire::can)
     refuse("baud", "leave it out: BitRate= in /etc/systemd/network/80-can0.network is this one's");
   if (link.wire == Wire::levels) refuse("baud");
@@ -176,7 +186,8 @@ void check_use_of_links(Findings& found) {
   const auto& config = found.config();
   if (found.has_problem("outputs.link")) return;
   for (const auto& device : config.devices)
-    if (found.has_problem(device_path(device, "link"))) return;  // it may be meant
+    if (device.link.empty() || found.has_problem(device_path(device, "link")))
+      return;  // it may be meant
   if (config.devices.empty()) return;
   check_guarded_links(found);
   for (const auto& link : config.links) {
@@ -193,7 +204,7 @@ const LinkConfig* find_link(const std::string& name, const std::string& path, Fi
                                [&name](const auto& link) { return link.name == name; });
   if (it != links.end()) return &*it;
   const auto names = collect(links, [](const auto& link) { return link.name; });
-  if (!found.has_problem(path))
+  if (!found.has_problem(path) && !found.is_wrong("links"))
     found.add(path, "there is no link named \"" + name + "\"", text::did_you_mean(name, names));
   return nullptr;
 }

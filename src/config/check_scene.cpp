@@ -82,7 +82,8 @@ void find_left_out(const DroverConfig& config, Findings& found) {
               "corners are seen from base_link, the place that the robot turns about");
     return;
   }
-  if (found.has_problem("groups.base.track_m")) return;
+  for (const char* const of : {"groups", "groups.base", "groups.base.track_m"})
+    if (found.is_wrong(of)) return;
   const double wheel_m = config.engine.base.track_m / 2;
   const auto [right, left] = std::minmax_element(
       corners.begin(), corners.end(), [](const auto& a, const auto& b) { return a.y_m < b.y_m; });

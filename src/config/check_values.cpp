@@ -59,16 +59,22 @@ void check_host(const std::string& host, Findings& found) {
             name.empty() ? "a name like \"127.0.0.1\"" : "\"" + name + "\"; the port is mqtt.port");
 }
 
+void check_broker_port(Findings& found) {
+  if (found.is_wrong("mqtt.host")) return;
+  const bool is_path = found.config().mqtt.host.starts_with('/');
+  if (is_path && found.config().mqtt.port != 0 && !found.is_wrong("mqtt.port"))
+    found.add("mqtt.port", "must be 0 when mqtt.host is the path of a Unix socket");
+  if (!is_path && found.config().mqtt.port == 0 && !found.has_problem("mqtt.port"))
+    found.add("mqtt.port", "is 0, but mqtt.host is no path of a Unix socket", "1883 is usual");
+}
+
 }  // namespace
 
 void check_broker(Findings& found) {
   check_host(found.config().mqtt.host, found);
-  const bool is_path = found.config().mqtt.host.starts_with('/');
-  if (is_path && found.config().mqtt.port != 0)
-    found.add("mqtt.port", "must be 0 when mqtt.host is the path of a Unix socket");
-  if (!is_path && found.config().mqtt.port == 0 && !found.has_problem("mqtt.port"))
-    found.add("mqtt.port", "is 0, but mqtt.host is no path of a Unix socket", "1883 is usual");
-  if (!found.config().mqtt.password_file.empty() && found.config().mqtt.username.empty())
+  check_broker_port(found);
+  if (!found.config().mqtt.password_file.empty() && found.config().mqtt.username.empty() &&
+      !found.is_wrong("mqtt.username"))
     found.add("mqtt.password_file", "is given without mqtt.username");
 }
 

@@ -36,11 +36,18 @@ const json::Node& place(const json::Node& root, std::string_view& path) {
   return place(member->node, path);
 }
 
+/// What is left of a path leads into what has no such parts.
+bool is_of_another_kind(const json::Node& at, std::string_view rest) {
+  if (rest.empty()) return false;
+  return rest.front() == '[' ? at.list() == nullptr : at.object() == nullptr;
+}
+
 }  // namespace
 
 void Findings::add(std::string path, std::string message, std::string hint) {
   std::string_view rest = path;
   const auto& at = place(root_, rest);
+  if (is_of_another_kind(at, rest) && is_wrong(path.substr(0, path.size() - rest.size()))) return;
   loaded_.problems.push_back(
       {at.line, at.column, std::move(path), std::move(message), std::move(hint), ""});
 }
@@ -67,6 +74,11 @@ bool Findings::has_problem(std::string_view path) const {
     const auto rest = std::string_view(p.path).substr(path.size());
     return rest.empty() || rest.front() == '.' || rest.front() == '[';
   });
+}
+
+bool Findings::is_wrong(std::string_view path) const {
+  return std::any_of(loaded_.problems.begin(), loaded_.problems.end(),
+                     [path](const auto& problem) { return problem.path == path; });
 }
 
 std::string device_path(const DeviceConfig& device, std::string_view key) {

@@ -18,7 +18,8 @@ class Findings final {
   DroverConfig& config() { return loaded_.config; }
   Loaded& loaded() { return loaded_; }
 
-  /// `path` is like "devices.left.options.node".
+  /// `path` is like "devices.left.options.node". Of what should be in a value that is of another
+  /// kind nothing is told: what stands in its place is not what was written.
   void add(std::string path, std::string message, std::string hint = {});
   /// Not when a person accepted it by this word. `mend` is what may be done instead.
   void warn(const std::string& path, const std::string& message, const std::string& word,
@@ -27,6 +28,8 @@ class Findings final {
   bool given(std::string_view path) const;
   /// Whether something was found already at a path that begins so.
   bool has_problem(std::string_view path) const;
+  /// Whether something was found at this very path: the value there is not what was written.
+  bool is_wrong(std::string_view path) const;
 
  private:
   const json::Node& root_;

@@ -50,6 +50,15 @@ std::string counted(std::size_t n) {
   return text::counted(n, "entry", "entries");
 }
 
+/// People write what stands on the device.
+std::string driver_meant(const std::string& written, const std::vector<std::string>& drivers) {
+  auto near = did_you_mean(written, drivers);
+  if (!near.empty()) return near;
+  if (const auto* entry = find_by_product(written))
+    return "\"" + std::string(entry->name) + "\" speaks with it: " + std::string(entry->summary);
+  return is_spoken_by_none(written) ? "no driver speaks with it" : "";
+}
+
 }  // namespace
 
 Reader::Reader(const json::Node& node, std::string path, std::vector<Problem>& problems)
@@ -63,6 +72,11 @@ void Reader::add(const json::Node& place, std::string path, std::string message,
                  std::string suggestion) {
   problems_.push_back(
       {place.line, place.column, std::move(path), std::move(message), std::move(suggestion), ""});
+}
+
+bool Reader::is_told(const std::string& path) const {
+  return std::any_of(problems_.begin(), problems_.end(),
+                     [&path](const auto& problem) { return problem.path == path; });
 }
 
 const json::Node* Reader::find(std::string_view key, Presence presence, std::string_view text) {
@@ -187,7 +201,7 @@ void Reader::choice(std::string_view key, std::string& into,
   if (node == nullptr || problems_.size() != before) return;
   if (std::find(choices.begin(), choices.end(), value) == choices.end())
     return add(*node, path_of(key), "\"" + value + "\" is not one of: " + joined(choices),
-               did_you_mean(value, choices));
+               key == "driver" ? driver_meant(value, choices) : did_you_mean(value, choices));
   into = value;
 }
 
@@ -280,7 +294,7 @@ void Reader::key_of_kind(std::string_view key, bool has, bool needs, const std::
   if (!has || !needs) return;
   if (node == nullptr)
     add(node_, path_of(key), "is missing", whose + " needs it");
-  else if (node->text() != nullptr && node->text()->empty())
+  else if (node->text() != nullptr && node->text()->empty() && !is_told(path_of(key)))
     add(*node, path_of(key), "is empty");
 }
 

@@ -120,6 +120,7 @@ class Reader final {
   void check_alternatives();
   void add(const json::Node& place, std::string path, std::string message,
            std::string suggestion = {});
+  bool is_told(const std::string& path) const;
   void option(const OptionSpec& spec, const json::Node& node, Options& into);
   void key_of_kind(std::string_view key, bool has, bool needs, const std::string& whose);
 

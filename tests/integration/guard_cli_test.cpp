@@ -160,6 +160,7 @@ TEST_F(GuardAndCommandLine, ResetThatDroverdRefusesLeavesTheGuardsStopAsItWas) {
   EXPECT_EQ(reset.code, 1) << reset.text;
   EXPECT_THAT(reset.text, HasSubstr("refused: the e-stop is lost"));
   EXPECT_THAT(at_stop_socket("state"), HasSubstr("\"latched\":true"));
+  EXPECT_THAT(output(), Not(HasSubstr("reset"))) << "not even for a moment";
 }
 
 }  // namespace drover::test

@@ -8,6 +8,12 @@ folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 DESTDIR=$folder "$cmake" --install "$build" > "$folder/log" || { cat "$folder/log"; exit 1; }
 
+# Whoever reads it on the robot has no sources beside it.
+readme=$folder$(find "$folder" -path '*/share/drover/README.md' -printf '/%P\n')
+while read -r link; do
+  [[ -e $(dirname "$readme")/${link%%#*} ]] || { echo "$readme: a dead link: $link"; exit 1; }
+done < <(grep -o '](\([^)]*\))' "$readme" | sed 's/^](//; s/)$//' | grep -v '^#\|^https\?:')
+
 failed=0
 expect() {  # WHAT COMMAND...
   local what=$1

@@ -40,6 +40,8 @@ std::unique_ptr<CanTwin> make_hunter_twin(const Options& options) {
   return std::make_unique<HunterTwin>(options, read_steering(options));
 }
 
+constexpr std::string_view kAgilexV2HunterProducts[] = {"hunter"};
+
 }  // namespace
 }  // namespace agilex_v2
 
@@ -54,6 +56,7 @@ const DriverEntry kAgilexHunterEntry{
     .twin_options = agilex_v2::hunter_twin_option_table(),
     .make_twin = agilex_v2::make_hunter_twin,
     .summary = "AgileX Hunter 2 on CAN: a base that takes a twist, and steers",
+    .products = agilex_v2::kAgilexV2HunterProducts,
     .twin_shafts = agilex_v2::kHunterShafts,
     .steers = true,
 };

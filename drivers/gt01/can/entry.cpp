@@ -18,6 +18,8 @@ std::unique_ptr<CanTwin> make_twin(const Options& options) {
                                        read_chassis_settings(options));
 }
 
+constexpr std::string_view kGt01CanProducts[] = {"gt01"};
+
 }  // namespace
 }  // namespace gt01::can
 
@@ -32,6 +34,7 @@ const DriverEntry kGt01CanEntry = {
     .twin_options = gt01::chassis_option_table(),
     .make_twin = gt01::can::make_twin,
     .summary = "GT01 chassis, takes a twist on CAN, protocol 1.0",
+    .products = gt01::can::kGt01CanProducts,
     .twin_shafts = gt01::kTwinShafts,
 };
 

@@ -19,6 +19,8 @@ std::unique_ptr<ByteDriveTwin> make_twin(const Options& options) {
                                           read_chassis_settings(options));
 }
 
+constexpr std::string_view kGt01SerialProducts[] = {"searobot"};
+
 }  // namespace
 }  // namespace gt01::serial
 
@@ -34,6 +36,7 @@ const DriverEntry kGt01SerialEntry = {
     .twin_options = gt01::chassis_option_table(),
     .make_twin = gt01::serial::make_twin,
     .summary = "SeaRobot chassis (the GT01's sibling), takes a twist on RS-232, protocol 1.0.3",
+    .products = gt01::serial::kGt01SerialProducts,
     .twin_shafts = gt01::kTwinShafts,
 };
 

@@ -86,6 +86,9 @@ void ClearanceWatch::watch_constraints(Time now) {
     held_since_ = kNever;
   } else if (held_since_ == kNever) {
     held_since_ = now;
+    // Who took it away is not told that it does not hold.
+    if (!broken_.empty())
+      broken_.format("all constraints hold again, but not yet for %.1f s", config_.again_s);
   } else if (now - held_since_ >= from_s(config_.again_s)) {
     broken_.clear();
   }

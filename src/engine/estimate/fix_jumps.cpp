@@ -15,19 +15,20 @@ constexpr Duration kShownAfterShove = std::chrono::milliseconds(300);
 constexpr double kShoveGate = 3.0;  // sigmas
 constexpr double kReckoned = 0.02;  // of a longer way, by wheels and gyro
 constexpr double kReckonedWell_m = 0.1;
-// So many times fix_settle_s after it was found again a fix is what it will be.
+// A fix that was found again is what it will be so many times fix_settle_s later, and when so
+// little is left of the error that it had before.
 constexpr double kSettles = 3.0;
+constexpr double kFaded_m = 0.03;
 constexpr double kSlippedAside_m = 0.05;
 // Lost for so long it is found by another search of the receiver.
 constexpr Duration kAnotherFix = std::chrono::seconds(10);
 constexpr double kSways = 0.1;  // of the variance by tilt and timing: most of that stays the same
 
-/// A fix that was just found again, on a base that drives: it may be another integer solution, and
-/// whether it is shows when its filters have settled.
+/// A fix that was just found again: it may be another integer solution, and how far it is beside of
+/// where the base is taken to be shows when its filters have settled.
 bool settles(const State& state, const EstimateConfig& config) {
   const GnssTrack& gnss = state.gnss;
-  return state.standing_since == kNever && !state.way_unknown && gnss.believed != kNever &&
-         !has_settled(state, config);
+  return !state.way_unknown && gnss.believed != kNever && !has_settled(state, config);
 }
 
 /// What the sensor's way of a shove may be wrong by. Positions that are told late still show it for
@@ -90,8 +91,10 @@ bool is_elsewhere(const State& state, bool near) {
 }  // namespace
 
 bool has_settled(const State& state, const EstimateConfig& config) {
-  const Time improved = state.gnss.improved;
-  return improved == kNever || state.time - improved >= from_s(kSettles * config.fix_settle_s);
+  const GnssTrack& gnss = state.gnss;
+  if (gnss.improved == kNever) return true;
+  const double faded = std::log(gnss.old_sigma_m / kFaded_m);
+  return to_s(state.time - gnss.improved) >= std::max(kSettles, faded) * config.fix_settle_s;
 }
 
 bool found_again(const State& state) {
@@ -134,7 +137,8 @@ FixVerdict judge_jump(State& state, const FixBeside& fix, const EstimateConfig& 
     // It stepped back, and may have jumped elsewhere meanwhile.
     gnss.unconfirmed_m = std::max(gnss.unconfirmed_m, doubt_m(fix.offset, known_m));
   }
-  if (settles(state, config) && known_m < config.bound_run_m) return FixVerdict::waits;
+  const bool can_wait = known_m < config.bound_run_m || state.standing_since != kNever;
+  if (settles(state, config) && can_wait) return FixVerdict::waits;
   const bool again = found_again(state);
   const double white_m = config.gnss_white_share * fix.sigma_m;
   const double variance_m2 = square(white_m) + kSways * fix.sways_m2;

@@ -331,6 +331,7 @@ void apply(State& state, const AntennaPosition& measured, double speed_mps,
     if (!settled || (!fixed && state.gnss.dispute.holds())) return;
     if (fixed && found_again(state) && !state.way_unknown)
       state.gnss.unconfirmed_m = std::hypot(dx, dy);
+    if (fixed) state.gnss.believed = kNever;  // the next one is not found again, but the same
     state.gnss.replaced = state.time;
     state.gnss.replaced_m = std::hypot(dx, dy);
     state.gnss.guessed_m = tilted.guessed_m;

@@ -96,7 +96,7 @@ inline constexpr std::array<CauseRow, kCauseCount> kCauses{{
   {.cause = Cause::program, .ends_task = true, .of_all = true,
    .over = "droverd runs undisturbed again"},
   {.cause = Cause::near_zone,
-   .over = "near zone free"},
+   .over = "nothing is in the way any more"},
   {.cause = Cause::surroundings, .refuses_task = true, .ends_free_driving = true,
    .over = "what is around the robot is known again"},
   {.cause = Cause::constraint, .refuses_task = true, .ends_free_driving = true,

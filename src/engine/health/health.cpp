@@ -283,6 +283,8 @@ void HealthMonitor::conclude(bool power_cut) {
     const Reason& text = report_.text(row.cause);
     const bool silenced = row.cause == Cause::drive_silent && power_cut;
     first(report_.stop, row.stops && !silenced, text);
+    first(report_.stop_but_guard, row.stops && !silenced && row.cause != Cause::guard_has_bus,
+          text);
     first(report_.end_task, row.ends_task, text);
     first(report_.end_wait, row.ends_wait, text);
     first(report_.no_start, row.refuses_task, text);
@@ -307,6 +309,7 @@ const HealthReport& HealthMonitor::update(const HealthInput& input) {
   report_.estop = report_.near_zone = report_.in_the_way = report_.far_zone = false;
   report_.causes = 0;
   report_.stop.clear();
+  report_.stop_but_guard.clear();
   report_.end_task.clear();
   report_.end_wait.clear();
   report_.no_start.clear();

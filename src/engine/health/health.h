@@ -59,6 +59,8 @@ struct HealthReport {
   double budget_used = 1;  ///< of the permitted position error
   /// Nothing may move now and motion stops without a ramp: why. Empty when motion is possible.
   Reason stop;
+  /// The same without the guard's hold, which a reset here does not end.
+  Reason stop_but_guard;
   /// Which drive is not in closed loop, and its fault: stops a task that runs, while at rest arming
   /// may clear it. Empty when all run.
   Reason not_running;

@@ -61,7 +61,8 @@ Reason Latch::refuses(const ResetAsked& asked) const {
   // What does not hear its stop is cut in a moment, and must not have been reset before.
   if (!stop_.empty() && asked.turns) return "the robot still moves";
   if (!stop_.empty() && asked.health.holds(Cause::moved)) return asked.health.text(Cause::moved);
-  return asked.health.stop;
+  // The guard's hold is reset at the guard, after this: what is refused here stays held there.
+  return asked.health.stop_but_guard;
 }
 
 void Latch::recall(const Remembered& remembered) {

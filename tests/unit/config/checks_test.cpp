@@ -381,5 +381,72 @@ TEST(BitRates, AreSetByTheSystem) {
       testing::HasSubstr("links.can0.bitrate: is no known key (the system sets the bit rate"));
 }
 
+/// What stands in the place of a wrong value is not what somebody wrote: nothing is told of it.
+class AWrongValue : public testing::TestWithParam<std::array<const char*, 2>> {};
+
+TEST_P(AWrongValue, IsTheOnlyThingThatIsTold) {
+  const auto [piece, instead] = GetParam();
+  const auto told = problems(with(piece, instead));
+  EXPECT_EQ(std::count(told.begin(), told.end(), '\n'), 1) << told;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Somewhere, AWrongValue,
+    testing::Values(
+        std::array{R"("links": {"can0": {"can": "can0"},
+            "gnss": {"serial": "/dev/drover/gnss", "baud": 115200}, "panel": {"gpio": "chip0"}})",
+                   R"("links": 5)"},
+        std::array{R"({"driver": "nmea0183", "link": "gnss"})", R"("nmea0183")"},
+        std::array{R"({"driver": "odrive", "link": "can0", "options": {"node": 1},)"
+                   R"( "accept": ["no_watchdog"]})",
+                   "1"},
+        std::array{R"("is": "bumper")", R"("is": "")"},
+        std::array{R"({"link": "panel", "enable_relay": {"line": "r"}})", "true"},
+        std::array{R"("wheel_radius_m": 0.165)", R"("wheel_radius_m": "")"},
+        std::array{R"("left": ["left"])", R"("left": "")"},
+        std::array{R"("groups": {"base": {"kind": "skid_steer", "wheel_radius_m": 0.165, )"
+                   R"("track_m": 0.6, "left": ["left"], "right": ["right"], "hold": "brake"}})",
+                   R"("groups": 5)"},
+        std::array{R"("127.0.0.1", "port": 1883)", R"(5, "port": 0)"},
+        std::array{R"("127.0.0.1", "port": 1883)", R"("/run/mqtt", "port": 1.5)"},
+        std::array{R"("port": 1883)", R"("username": 5, "password_file": "/etc/p", "port": 1883)"},
+        // The link's key is the slip: on a serial line nobody has use of a parity.
+        std::array{R"("panel": {"gpio": "chip0"}},
+  "devices": {)",
+                   R"("panel": {"gpio": "chip0"}, "bms": {"serial": "/dev/b", "parity": "even"}},
+  "devices": {"battery": {"driver": "modbus_bms", "link": "bms", "map": "daly_d2.json"},)"}));
+
+TEST(ConfigurationChecks, SayThatABatteryHangsOnTheSamePortAsModbus) {
+  EXPECT_THAT(problems(with(R"("panel": {"gpio": "chip0"}},
+  "devices": {)",
+                            R"("panel": {"gpio": "chip0"}, "bms": {"serial": "/dev/b"}},
+  "devices": {"battery": {"driver": "modbus_bms", "link": "bms", "map": "daly_d2.json"},)")),
+              HasSubstr("devices.battery.link: \"bms\" is a serial line, but modbus_bms hangs on a "
+                        "Modbus line (links.bms: \"modbus\": \"/dev/b\" in place of \"serial\")"));
+}
+
+TEST(ConfigurationChecks, SayWhichDriverSpeaksWithAProductOrThatNoneDoes) {
+  const auto told = [](const std::string& written) {
+    return problems(with("\"driver\": \"nmea0183\"", "\"driver\": \"" + written + "\""));
+  };
+  for (const auto* const receiver : {"um982", "UM-980", "zed-f9p", "u-blox"})
+    EXPECT_THAT(told(receiver), HasSubstr("(\"nmea0183\" speaks with it: GNSS receiver"))
+        << receiver;
+  EXPECT_THAT(told("daly"), HasSubstr("(\"modbus_bms\" speaks with it: battery management system "
+                                      "over Modbus, by a register map)"));
+  EXPECT_THAT(told("scout_mini"), HasSubstr("(\"agilex_v2\" speaks with it: AgileX Scout"));
+  EXPECT_THAT(told("hunter"), HasSubstr("(\"agilex_hunter\" speaks with it: AgileX Hunter"));
+  EXPECT_THAT(told("wt901c"), HasSubstr("(\"witmotion\" speaks with it"));
+  for (const auto* const unknown : {"bunker", "VESC"})
+    EXPECT_THAT(told(unknown), HasSubstr("(no driver speaks with it)")) << unknown;
+}
+
+/// Or one name would be two drivers'.
+TEST(ConfigurationChecks, FindEachProductAtTheDriverThatNamesIt) {
+  for (const auto& entry : driver_registry())
+    for (const auto product : entry.products)
+      EXPECT_EQ(find_by_product(product), find_driver(entry.name)) << product;
+}
+
 }  // namespace
 }  // namespace drover::config

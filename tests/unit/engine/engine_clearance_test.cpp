@@ -350,5 +350,17 @@ TEST(WithoutSomebodyWhoLooks, ARobotThatNeedsNoneDrives) {
   EXPECT_GT(rig.plant.truth().x_m, 0.5);
 }
 
+/// It has no zones, and its journal speaks of none.
+TEST_F(InFrontOfAWall, SaysThatNothingIsInTheWayAnyMore) {
+  start();
+  wall_m = 2;
+  run_s(8);
+  ASSERT_TRUE(rig.snapshot().nav.obstacle) << rig.why();
+  wall_m = 100;
+  run_s(2);
+  EXPECT_TRUE(announced("nothing is in the way any more"));
+  EXPECT_FALSE(announced("near zone"));
+}
+
 }  // namespace
 }  // namespace drover::engine

@@ -52,6 +52,26 @@ TEST_F(InFrontOfAWall, StartsNothingWhereAConstraintIsBroken) {
   EXPECT_THAT(std::string(rig.snapshot().joint_command.reason.view()), HasSubstr("field_north"));
 }
 
+/// Who took it away is not told that it does not hold, but what he waits for.
+TEST_F(InFrontOfAWall, SaysOfAConstraintThatWasTakenAwayThatAllHoldAgain) {
+  broken = "the fence of field_north: 0.20 m outside";
+  run_s(0.5);
+  broken.clear();
+  run_s(0.3);
+  EXPECT_FALSE(told("field_north")) << rig.why();
+  EXPECT_TRUE(told("all constraints hold again, but not yet for 1.0 s")) << rig.why();
+  start();
+  run_s(0.1);
+  ASSERT_FALSE(rig.said<CommandRefused>().empty());
+  EXPECT_THAT(std::string(rig.said<CommandRefused>().back().reason.view()),
+              HasSubstr("all constraints hold again, but not yet for 1.0 s"));
+  run_s(0.8);
+  EXPECT_FALSE(told("constraints")) << rig.why();
+  start();
+  run_s(3);
+  EXPECT_GT(speed_mps(), 0.2) << rig.why();
+}
+
 TEST_F(InFrontOfAWall, EndsJointCommandsWhereAConstraintBreaks) {
   stream_s(0, 0.6);
   stream_s(2, 2);

@@ -205,6 +205,32 @@ TEST_F(AnEngine, StopsAtOnceWhenTheGuardTakesTheBus) {
   rig.guard_has_bus = false;
   expect_no_motion_for_s(3);
 }
+/// Asked first, it tells whether what it knows of is over; the guard's stop is reset at the guard.
+TEST_F(AnEngine, TakesAResetWhileTheGuardHoldsAndStaysHeld) {
+  drive();
+  rig.command(EngageStop{});
+  rig.guard_has_bus = true;
+  rig.run_s(3);
+  rig.command(ResetStop{});
+  rig.tick();
+  EXPECT_EQ(refusal(), "");
+  EXPECT_FALSE(rig.snapshot().stop_latched);
+  rig.start(path, 40, 0.5);
+  rig.tick();
+  EXPECT_EQ(refusal(), "the guard stopped the drives");
+  expect_no_motion_for_s(1);
+}
+TEST_F(AnEngine, RefusesAResetWhileTheGuardHoldsAndAButtonIsPressed) {
+  drive();
+  rig.command(EngageStop{});
+  rig.guard_has_bus = true;
+  rig.lines[static_cast<std::size_t>(Line::bumper)] = true;
+  rig.run_s(3);
+  rig.command(ResetStop{});
+  rig.tick();
+  EXPECT_EQ(refusal(), "bumper touched");
+  EXPECT_TRUE(rig.snapshot().stop_latched);
+}
 TEST_F(AnEngine, FailsWhenItPushesAgainstAWall) {
   drive();
   rig.blocked = true;

@@ -119,6 +119,21 @@ TEST_P(Ld06Troubles, MakeItStaleWithEverySectorUnknown) {
   }
 }
 
+/// The robot stops for the first turn in which nothing is seen, and nobody calls the scanner well
+/// meanwhile.
+TEST_P(Ld06Troubles, AreNeverFreshWithEverySectorUnknown) {
+  ScannerRig rig;
+  rig.run(5s);
+  ASSERT_TRUE(rig.twin.set_state(GetParam().state, rig.now));
+  for (int i = 0; i < 100; ++i) {
+    rig.run(10ms);
+    if (rig.unknown_sectors() == 24U) {
+      ASSERT_EQ(rig.health().state, SourceState::stale) << i;
+      ASSERT_NE(rig.why(), "");
+    }
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(
     Each, Ld06Troubles,
     ::testing::Values(Trouble{"covered", "lens is covered"}, Trouble{"dark", "nothing back"},

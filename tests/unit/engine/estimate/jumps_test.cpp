@@ -81,6 +81,76 @@ TEST(EstimateContradiction, IsNoneWithAPlaceThatNobodyKnewTheWayTo) {
   }
 }
 
+/// Where the fix was lost and found at rest its filters have to settle before it tells how far it
+/// is beside: what fades of the poor position before it is no other place.
+class AFixThatIsFoundAtRest : public testing::TestWithParam<FixQuality> {
+ protected:
+  AFixThatIsFoundAtRest() {
+    rig.world.imu = true;
+    rig.world.gst = true;
+    rig.stand(5);
+    rig.drive(0.5, 0.5, 5);
+    rig.world.quality = GetParam();
+  }
+  void find() {
+    rig.world.quality = FixQuality::rtk_fixed;
+    rig.forget();
+    rig.stand(10);
+  }
+  Rig rig;
+};
+
+TEST_P(AFixThatIsFoundAtRest, LeavesNothingInTheBoundThatOnlyFaded) {
+  for (const double fade_s : {0.3, 1.0}) {
+    rig.world.fade_s = fade_s;
+    rig.world.quality = GetParam();
+    rig.stand(60);
+    find();
+    EXPECT_LT(rig.last.error_bound_m, 0.25) << fade_s;
+    EXPECT_LT(rig.position_error_m(), 0.05) << fade_s;
+    EXPECT_EQ(rig.share_bound(), 1) << fade_s;
+  }
+}
+
+/// Without a position at all, too.
+TEST(EstimateContradiction, AFixThatIsFoundElsewhereAtRestStaysInTheBound) {
+  Rig rig;
+  rig.stand(5);
+  rig.drive(0.5, 0.5, 5);
+  rig.stand(1);
+  rig.world.position = false;
+  rig.stand(60);
+  rig.world.jump_x_m = 0.3;
+  rig.world.position = true;
+  rig.stand(100);
+  EXPECT_GT(rig.last.error_bound_m, 0.3);
+}
+
+/// Dead reckoning is worth less than a fix then, whatever that still has of its error.
+TEST_P(AFixThatIsFoundAtRest, TellsOfALongWayNoMoreThanThatWasUncertain) {
+  rig.world.fade_s = 0.3;
+  rig.drive(0.5, 0.5, 60);
+  rig.stand(1);
+  const double way_m = 2 * rig.last.predicted_error_m;
+  find();
+  EXPECT_LT(rig.last.error_bound_m, way_m + 0.2);
+  EXPECT_LT(rig.position_error_m(), 0.05);
+  EXPECT_EQ(rig.share_bound(), 1);
+}
+
+TEST_P(AFixThatIsFoundAtRest, ElsewhereIsInTheBound) {
+  rig.world.fade_s = 0.3;
+  rig.stand(60);
+  rig.world.jump_x_m = 0.3;
+  find();
+  rig.stand(100);
+  EXPECT_GT(rig.last.error_bound_m, 0.3);
+}
+
+INSTANTIATE_TEST_SUITE_P(After, AFixThatIsFoundAtRest,
+                         testing::Values(FixQuality::rtk_float, FixQuality::dgps,
+                                         FixQuality::single));
+
 TEST(EstimateContradiction, SingleOutliersAreNoDisagreement) {
   Rig rig;
   rig.stand(5);

@@ -103,9 +103,10 @@ TEST_F(ALatch, RefusesAResetWhileTheCausePersistsOrTheRobotMoves) {
   at_rest = false;
   EXPECT_EQ(refuses(), "the robot is still stopping");
   at_rest = true;
-  health.stop = "e-stop pressed";
+  health.stop = health.stop_but_guard = "e-stop pressed";
   EXPECT_EQ(refuses(), "e-stop pressed");
   health.stop.clear();
+  health.stop_but_guard.clear();
   task_active = true;
   EXPECT_EQ(refuses(), "a task runs: cancel it first");
   health.ready = false;
