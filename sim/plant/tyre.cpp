@@ -7,6 +7,8 @@
 namespace drover::sim {
 namespace {
 
+constexpr double kDragFull_mps = 0.02;  // below, a roller's drag fades
+
 void limit_length(double& x, double& y, double longest) {
   const double length = std::sqrt(x * x + y * y);
   if (length <= longest) return;
@@ -34,6 +36,18 @@ Tyre::Force Tyre::step(double slip_ahead_mps, double slip_left_mps, double roll_
   force.left_N = -config_.stiffness_Npm * bend_left_m_ - config_.damping_Nspm * slip_left_mps;
   limit_length(force.ahead_N, force.left_N, grip_N);
   return force;
+}
+
+Tyre::Force Tyre::step_roller(double axis_rad, double slip_ahead_mps, double slip_left_mps,
+                              double rim_mps, double load_N, double dt_s) {
+  const double c = std::cos(axis_rad);
+  const double s = std::sin(axis_rad);
+  const double grip_N =
+      step(slip_ahead_mps * c + slip_left_mps * s, 0, rim_mps, load_N, dt_s).ahead_N;
+  const double across_mps = slip_left_mps * c - slip_ahead_mps * s;
+  const double drag_N =
+      load_N > 0 ? -config_.roller_drag * load_N * std::tanh(across_mps / kDragFull_mps) : 0;
+  return {grip_N * c - drag_N * s, grip_N * s + drag_N * c};
 }
 
 }  // namespace drover::sim
