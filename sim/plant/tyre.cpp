@@ -2,12 +2,11 @@
 // tyre that stops sliding starts to spring back at once.
 #include "sim/plant/tyre.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace drover::sim {
 namespace {
-
-constexpr double kDragFull_mps = 0.02;  // below, a roller's drag fades
 
 void limit_length(double& x, double& y, double longest) {
   const double length = std::sqrt(x * x + y * y);
@@ -45,8 +44,13 @@ Tyre::Force Tyre::step_roller(double axis_rad, double slip_ahead_mps, double sli
   const double grip_N =
       step(slip_ahead_mps * c + slip_left_mps * s, 0, rim_mps, load_N, dt_s).ahead_N;
   const double across_mps = slip_left_mps * c - slip_ahead_mps * s;
+  // Dry friction of its bearing, which also holds it at rest.
+  const double most_N = config_.roller_drag * std::max(load_N, 0.0);
+  const double most_m = most_N / config_.stiffness_Npm;
+  bend_across_m_ = std::clamp(bend_across_m_ + across_mps * dt_s, -most_m, most_m);
   const double drag_N =
-      load_N > 0 ? -config_.roller_drag * load_N * std::tanh(across_mps / kDragFull_mps) : 0;
+      std::clamp(-config_.stiffness_Npm * bend_across_m_ - config_.damping_Nspm * across_mps,
+                 -most_N, most_N);
   return {grip_N * c - drag_N * s, grip_N * s + drag_N * c};
 }
 

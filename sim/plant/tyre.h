@@ -33,12 +33,13 @@ class Tyre {
   /// goes over to the next one, and how that shakes, is left out.
   Force step_roller(double axis_rad, double slip_ahead_mps, double slip_left_mps, double rim_mps,
                     double load_N, double dt_s);
-  void reset() { bend_ahead_m_ = bend_left_m_ = 0; }
+  void reset() { bend_ahead_m_ = bend_left_m_ = bend_across_m_ = 0; }
 
  private:
   TyreConfig config_;
   double bend_ahead_m_ = 0;
   double bend_left_m_ = 0;
+  double bend_across_m_ = 0;  ///< of a roller, about its axis
 };
 
 }  // namespace drover::sim
