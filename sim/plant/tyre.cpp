@@ -48,9 +48,8 @@ Tyre::Force Tyre::step_roller(double axis_rad, double slip_ahead_mps, double sli
   const double most_N = config_.roller_drag * std::max(load_N, 0.0);
   const double most_m = most_N / config_.stiffness_Npm;
   bend_across_m_ = std::clamp(bend_across_m_ + across_mps * dt_s, -most_m, most_m);
-  const double drag_N =
-      std::clamp(-config_.stiffness_Npm * bend_across_m_ - config_.damping_Nspm * across_mps,
-                 -most_N, most_N);
+  const double drag_N = std::clamp(
+      -config_.stiffness_Npm * bend_across_m_ - config_.damping_Nspm * across_mps, -most_N, most_N);
   return {grip_N * c - drag_N * s, grip_N * s + drag_N * c};
 }
 
