@@ -191,14 +191,16 @@ void describe(V& v, const BatterySample& sample) {
 
 template <class V>
 void describe(V& v, const Twist& twist) {
-  const auto& [vx_mps, wz_radps] = twist;
+  const auto& [vx_mps, wz_radps, vy_mps] = twist;
+  (void)vy_mps;  // what tells or takes a twist does not go sideways
   v.value("vx_mps", vx_mps, {.decimals = 3});
   v.value("wz_radps", wz_radps, {.decimals = 4});
 }
 
 template <class V>
 void describe(V& v, const BodyMotion& motion) {
-  const auto& [twist, vx_var, wz_var, known, standing, steering_rad] = motion;
+  const auto& [twist, vx_var, wz_var, vy_var, known, standing, steering_rad] = motion;
+  (void)vy_var;
   describe(v, twist);
   v.value("vx_var", vx_var);
   v.value("wz_var", wz_var);

@@ -8,13 +8,15 @@ namespace drover {
 
 template <class V>
 void describe(V& v, const Pose& pose) {
-  const auto& [time, x_m, y_m, yaw_rad, vx_mps, wz_radps, position_sigma_m, yaw_sigma_rad] = pose;
+  const auto& [time, x_m, y_m, yaw_rad, vx_mps, wz_radps, vy_mps, position_sigma_m, yaw_sigma_rad] =
+      pose;
   v.value("time", time);
   v.value("x_m", x_m, {.decimals = 2});
   v.value("y_m", y_m, {.decimals = 2});
   v.value("yaw_rad", yaw_rad, {.decimals = 4});
   v.value("vx_mps", vx_mps);  // people are shown the worst that anybody says: Snapshot
   v.value("wz_radps", wz_radps, {.decimals = 4});
+  v.value("vy_mps", vy_mps, {.decimals = 3});
   v.value("position_sigma_m", position_sigma_m, {.decimals = 3});
   v.value("yaw_sigma_rad", yaw_sigma_rad, {.decimals = 3});
 }

@@ -41,6 +41,7 @@ struct Pose {
   double yaw_rad = 0;  ///< counter-clockwise from east, [-pi, pi)
   double vx_mps = 0;
   double wz_radps = 0;
+  double vy_mps = 0;                  ///< to the left: of a base that goes sideways
   double position_sigma_m = kAbsent;  ///< one sigma, larger horizontal axis
   double yaw_sigma_rad = kAbsent;
 };
@@ -54,6 +55,7 @@ struct Odometry {
   double yaw_rad = 0;  ///< counter-clockwise from how it stood at first, [-pi, pi)
   double vx_mps = 0;   ///< in base_link, on the level
   double wz_radps = 0;
+  double vy_mps = 0;
   bool known = false;  ///< false: the base is silent, nobody knows how it moves
   // Variances since the beginning, m2 and rad2, and of the speeds.
   double x_var = 0;
@@ -64,6 +66,7 @@ struct Odometry {
   double yaw_var = 0;
   double vx_var = 0;
   double wz_var = 0;
+  double vy_var = 0;
 };
 
 /// What a device's driver says of itself: why it is not fresh or what is odd (empty when all is

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "drover/angle.h"
 #include "sim/plant/plant_impl.h"
 
 namespace drover::sim {
@@ -80,7 +81,9 @@ Plant::Plant(const std::string& world_file) : impl_(std::make_unique<Impl>()) {
   for (int i = 0; i < m.nu; ++i) {
     impl_->joint_ids.push_back(m.actuator_trnid[2 * i]);
     impl_->joints.push_back(name_of(m, mjOBJ_JOINT, m.actuator_trnid[2 * i]));
-    impl_->wheels.push_back({m.jnt_bodyid[m.actuator_trnid[2 * i]], -1, Tyre{}, 0});
+    const int hinge = m.actuator_trnid[2 * i];
+    const double roller_deg = m.nuser_jnt < 1 ? 0.0 : m.jnt_user[m.nuser_jnt * hinge];
+    impl_->wheels.push_back({m.jnt_bodyid[hinge], -1, Tyre{}, to_rad(roller_deg), 0});
     impl_->free_friction.push_back(impl_->friction(impl_->joint_ids.size() - 1));
   }
   for (int geom = 0; geom < m.ngeom; ++geom) {
@@ -181,10 +184,14 @@ void Plant::Impl::pull_tyre(Wheel& wheel) {
   std::array<mjtNum, 3> ground{};
   mju_scl3(ground.data(), slides.data(), std::abs(hub_mps));
   mju_addToScl3(ground.data(), ahead.data(), -wheel.slip * rolled_mps);
+  const double slip_ahead_mps = rim_mps - mju_dot3(ground.data(), ahead.data());
+  const double slip_left_mps =
+      mju_dot3(rim.data(), left.data()) - mju_dot3(ground.data(), left.data());
   const auto grip =
-      wheel.tyre.step(rim_mps - mju_dot3(ground.data(), ahead.data()),
-                      mju_dot3(rim.data(), left.data()) - mju_dot3(ground.data(), left.data()),
-                      hub_mps, load_N, m.opt.timestep);
+      wheel.roller_rad != 0
+          ? wheel.tyre.step_roller(wheel.roller_rad, slip_ahead_mps, slip_left_mps, rolled_mps,
+                                   load_N, m.opt.timestep)
+          : wheel.tyre.step(slip_ahead_mps, slip_left_mps, hub_mps, load_N, m.opt.timestep);
   mju_addToScl3(push, ahead.data(), grip.ahead_N);
   mju_addToScl3(push, left.data(), grip.left_N);
   mju_cross(push + 3, arm.data(), push);

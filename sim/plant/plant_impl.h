@@ -30,7 +30,8 @@ struct Wheel {
   int body = 0;
   int contact_geom = 0;  ///< -1: no wheel, but a joint of an arm
   Tyre tyre;
-  double slip = 0;  ///< share of the rolled way that the ground gives way
+  double roller_rad = 0;  ///< where its rollers' axes point, left of ahead; 0: it has none
+  double slip = 0;        ///< share of the rolled way that the ground gives way
 };
 
 // A shove under way: where it began, and what it works against.

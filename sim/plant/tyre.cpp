@@ -2,6 +2,7 @@
 // tyre that stops sliding starts to spring back at once.
 #include "sim/plant/tyre.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace drover::sim {
@@ -34,6 +35,22 @@ Tyre::Force Tyre::step(double slip_ahead_mps, double slip_left_mps, double roll_
   force.left_N = -config_.stiffness_Npm * bend_left_m_ - config_.damping_Nspm * slip_left_mps;
   limit_length(force.ahead_N, force.left_N, grip_N);
   return force;
+}
+
+Tyre::Force Tyre::step_roller(double axis_rad, double slip_ahead_mps, double slip_left_mps,
+                              double rim_mps, double load_N, double dt_s) {
+  const double c = std::cos(axis_rad);
+  const double s = std::sin(axis_rad);
+  const double grip_N =
+      step(slip_ahead_mps * c + slip_left_mps * s, 0, rim_mps, load_N, dt_s).ahead_N;
+  const double across_mps = slip_left_mps * c - slip_ahead_mps * s;
+  // Dry friction of its bearing, which also holds it at rest.
+  const double most_N = config_.roller_drag * std::max(load_N, 0.0);
+  const double most_m = most_N / config_.stiffness_Npm;
+  bend_across_m_ = std::clamp(bend_across_m_ + across_mps * dt_s, -most_m, most_m);
+  const double drag_N = std::clamp(
+      -config_.stiffness_Npm * bend_across_m_ - config_.damping_Nspm * across_mps, -most_N, most_N);
+  return {grip_N * c - drag_N * s, grip_N * s + drag_N * c};
 }
 
 }  // namespace drover::sim

@@ -12,6 +12,7 @@ struct TyreConfig {
   double stiffness_Npm = 30000;  ///< of the contact patch against the rim
   double damping_Nspm = 250;
   double relaxation_m = 0.05;  ///< rolled distance in which a bend fades to 1/e
+  double roller_drag = 0.03;   ///< of the load: what turns a roller about its own axis
 };
 
 class Tyre {
@@ -26,12 +27,19 @@ class Tyre {
   /// ground, `roll_mps` that of the hub ahead. Without load the bristles spring back.
   Force step(double slip_ahead_mps, double slip_left_mps, double roll_mps, double load_N,
              double dt_s);
-  void reset() { bend_ahead_m_ = bend_left_m_ = 0; }
+  /// The same of a wheel with rollers round it, whose axes lie `axis_rad` to the left of ahead
+  /// where they touch the ground: it grips along them, and rolls away across. `rim_mps`: of the
+  /// wheel. One roller is always in the middle of its width: how the touch wanders along it and
+  /// goes over to the next one, and how that shakes, is left out.
+  Force step_roller(double axis_rad, double slip_ahead_mps, double slip_left_mps, double rim_mps,
+                    double load_N, double dt_s);
+  void reset() { bend_ahead_m_ = bend_left_m_ = bend_across_m_ = 0; }
 
  private:
   TyreConfig config_;
   double bend_ahead_m_ = 0;
   double bend_left_m_ = 0;
+  double bend_across_m_ = 0;  ///< of a roller, about its axis
 };
 
 }  // namespace drover::sim

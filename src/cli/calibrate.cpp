@@ -37,6 +37,8 @@ int refuse(const CalibrateSettings& settings, const std::string& text) {
 
 int judge(const CalibrateSettings& settings, calibrate::Drive& drive,
           const config::Loaded& loaded) {
+  if (const auto why = rollers_of(loaded.config.engine.base); !why.empty())
+    return refuse(settings, why);
   cut(drive, settings.from_s, settings.to_s);
   const auto result = calibrate::calibrate(drive, configured_of(loaded.config.engine));
   if (!result.refused.empty()) return refuse(settings, result.refused);

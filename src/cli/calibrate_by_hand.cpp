@@ -186,7 +186,7 @@ int calibrate_by_hand(const DriveSettings& settings, const std::string& socket) 
     tell_failure(settings.json, "drover", problem);
     return kRefused;
   }
-  if (const auto why = too_tight_for(loaded.config.engine.base); !why.empty()) {
+  if (const auto why = not_calibrated(loaded.config.engine.base); !why.empty()) {
     tell_failure(settings.json, "drover", why);
     return kRefused;
   }

@@ -49,6 +49,12 @@ bool is_new(Time time, Time& last) {
 
 }  // namespace
 
+std::string rollers_of(const engine::BaseConfig& base) {
+  return base.kind == engine::BaseKind::mecanum
+             ? "track_m and wheelbase_m of a base on mecanum wheels act as one: measure them"
+             : "";
+}
+
 calibrate::Configured configured_of(const engine::EngineConfig& config) {
   calibrate::Configured configured;
   const bool twist = engine::takes_twist(config.base.kind);

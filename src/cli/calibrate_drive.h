@@ -12,6 +12,8 @@
 
 namespace drover::cli {
 
+/// Why driving tells nothing of its numbers; empty: it does.
+std::string rollers_of(const engine::BaseConfig& base);
 calibrate::Configured configured_of(const engine::EngineConfig& config);
 
 class DriveOfLog final {

@@ -29,7 +29,8 @@ calibrate::DriveLimits limits_of(const engine::EngineConfig& config) {
 }  // namespace
 
 /// One that steers drives wider ones than it is asked for, to what the area is measured by.
-std::string too_tight_for(const engine::BaseConfig& base) {
+std::string not_calibrated(const engine::BaseConfig& base) {
+  if (auto rollers = rollers_of(base); !rollers.empty()) return rollers;
   const double widest_m = calibrate::kWider * calibrate::kCircle_m;
   const double needs_m = engine::limits(engine::kinematics_of(base)).smallest_radius_m;
   if (needs_m <= widest_m) return {};

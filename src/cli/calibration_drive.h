@@ -13,8 +13,8 @@
 
 namespace drover::cli {
 
-/// Why this base cannot drive the circles; empty: it can.
-std::string too_tight_for(const engine::BaseConfig& base);
+/// Why this base cannot drive the circles, or they tell nothing of it; empty: it can.
+std::string not_calibrated(const engine::BaseConfig& base);
 
 class CalibrationDrive final {
  public:

@@ -1,5 +1,6 @@
 #include "cli/show.h"
 
+#include <cmath>
 #include <cstdio>
 
 #include "cli/layout.h"
@@ -69,6 +70,12 @@ std::string shown_yaw(const Node& pose) {
   return sigma_rad && *sigma_rad < kKnown_rad ? quantity(at(pose, "yaw_rad"), "%.3f rad") : "-";
 }
 
+/// To the left, of a base that goes there just now.
+std::string aside(const Node& pose) {
+  const double mps = at(pose, "vy_mps").number().value_or(0);
+  return std::abs(mps) < 0.005 ? "" : quantity(at(pose, "vy_mps"), "  aside %.2f m/s");
+}
+
 void show_place(std::string& out, const Node& status) {
   const auto& pose = at(status, "pose");
   // Before the first fix the pose counts from where droverd was started: that is no place.
@@ -81,7 +88,7 @@ void show_place(std::string& out, const Node& status) {
   }
   line(out, "speed",
        quantity(at(pose, "vx_mps"), "%.2f m/s") + "  " +
-           quantity(at(pose, "wz_radps"), "%.2f rad/s"));
+           quantity(at(pose, "wz_radps"), "%.2f rad/s") + aside(pose));
   const auto& gnss = at(status, "gnss");
   if (gnss.object() == nullptr) return;
   if (never_heard(gnss)) return line(out, "gnss", nothing_heard(gnss));

@@ -24,6 +24,7 @@ engine::HoldBy hold_by(std::string_view word) {
 engine::BaseKind base_kind(std::string_view word) {
   if (word == kTwistKind) return engine::BaseKind::twist;
   if (word == kAckermannKind) return engine::BaseKind::ackermann;
+  if (word == kMecanumKind) return engine::BaseKind::mecanum;
   return word == "differential" ? engine::BaseKind::differential : engine::BaseKind::skid_steer;
 }
 
@@ -108,11 +109,20 @@ void nothing_else_moves(const GroupNames& groups, Findings& found) {
   }
 }
 
+/// Which wheel is where decides what goes sideways.
+void four_corners(const BaseNames& base, Findings& found) {
+  for (const auto* side : {&base.left, &base.right})
+    if (!side->empty() && side->size() != 2)
+      found.add(side == &base.left ? "groups.base.left" : "groups.base.right",
+                "a mecanum base has two wheels on each side", "the front one, then the rear one");
+}
+
 void wheels(const BaseNames& base, Findings& found) {
   auto& resolved = found.config().engine.base;
   side("groups.base.left", base.left, resolved.left, found);
   side("groups.base.right", base.right, resolved.right, found);
   both_sides(base, found);
+  if (base.kind == kMecanumKind) four_corners(base, found);
   follow_velocities(base, found);
 }
 

@@ -251,23 +251,25 @@ struct BaseNames {
 
 /// As `kind` is written.
 inline constexpr std::string_view kBaseKinds[] = {"skid_steer", "differential", "twist",
-                                                  "ackermann"};
+                                                  "ackermann", "mecanum"};
 inline constexpr std::string_view kTwistKind = kBaseKinds[2];
 inline constexpr std::string_view kAckermannKind = kBaseKinds[3];
+inline constexpr std::string_view kMecanumKind = kBaseKinds[4];
 /// A device takes its twist.
 constexpr bool is_told_a_twist(std::string_view kind) {
   return kind == kTwistKind || kind == kAckermannKind;
 }
 
-/// A key that bases with wheels need, or those that take a twist, or of them those that steer; the
-/// others have no use for it.
+/// A key that bases with wheels need, or those that take a twist, or of them those that steer, or
+/// those of which the way between the axles counts; the others have no use for it.
 struct BaseKey {
-  enum class Of : std::uint8_t { wheels, twist, steering };
+  enum class Of : std::uint8_t { wheels, twist, steering, axles };
   std::string_view key;
   Of of = Of::wheels;
 
   constexpr bool is_of(std::string_view kind) const {
     if (of == Of::steering) return kind == kAckermannKind;
+    if (of == Of::axles) return kind == kAckermannKind || kind == kMecanumKind;
     return is_told_a_twist(kind) == (of == Of::twist);
   }
 };
@@ -275,7 +277,7 @@ inline constexpr BaseKey kBaseKeys[] = {{"wheel_radius_m", BaseKey::Of::wheels},
                                         {"left", BaseKey::Of::wheels},
                                         {"right", BaseKey::Of::wheels},
                                         {"device", BaseKey::Of::twist},
-                                        {"wheelbase_m", BaseKey::Of::steering},
+                                        {"wheelbase_m", BaseKey::Of::axles},
                                         {"max_steering_rad", BaseKey::Of::steering},
                                         {"steering_rate_radps", BaseKey::Of::steering}};
 
@@ -286,14 +288,14 @@ void visit(V& v, BaseNames& c) {
   v.choice("kind", c.kind, {std::begin(kBaseKinds), std::end(kBaseKinds)},
            "skid_steer: several wheels on a side; differential: one, which turns without skidding; "
            "twist: a device that is told how the whole base shall move; ackermann: likewise, and "
-           "it steers",
+           "it steers; mecanum: four wheels with rollers at 45 degrees, which go sideways, too",
            Presence::required);
   v.number("wheel_radius_m", c.base->wheel_radius_m, Range{0.01, 2}, "wheel radius",
            Presence::of_kind);
   v.number("track_m", c.base->track_m, Range{0.05, 5}, "between left and right wheels",
            Presence::required);
-  v.number("wheelbase_m", c.base->wheelbase_m, Range{0.2, 5}, "ackermann: between its axles",
-           Presence::of_kind);
+  v.number("wheelbase_m", c.base->wheelbase_m, Range{0.2, 5},
+           "ackermann and mecanum: between the axles", Presence::of_kind);
   v.number(
       "max_steering_rad", c.base->max_steering_rad, Range{0.1, 1},
       "ackermann: the most that its inner wheel is steered; less than it can, so that a little "
@@ -309,8 +311,10 @@ void visit(V& v, BaseNames& c) {
          "take the drives back after a restart or a dip of their supply; false on blocks");
   v.number("max_tilt_deg", c.base->max_tilt_deg, Range{1, 45},
            "level_ground_only: steeper ground refuses a start and ends a task");
-  v.names("left", c.left, kSideCount, "joints of the left side", Presence::of_kind);
-  v.names("right", c.right, kSideCount, "joints of the right side", Presence::of_kind);
+  v.names("left", c.left, kSideCount,
+          "joints of the left side; mecanum: the front wheel, then the rear one",
+          Presence::of_kind);
+  v.names("right", c.right, kSideCount, "joints of the right side, likewise", Presence::of_kind);
   v.text("device", c.device, "name of the device that takes the twist", Presence::of_kind);
   v.keys_of_base(c.kind);
 }

@@ -26,6 +26,7 @@ enum class BaseKind : std::uint8_t {
   differential,  ///< two wheels on one axle, which do not
   twist,         ///< a device that takes a twist and tells one: it has no joints
   ackermann,     ///< likewise, and it steers: it turns on a curve only
+  mecanum,       ///< four wheels with rollers round them, which go sideways, too
 };
 /// It is told how the whole of it shall move.
 constexpr bool takes_twist(BaseKind kind) {
@@ -39,9 +40,9 @@ inline constexpr std::size_t kMaxSide = kMaxAxes / 2;
 struct BaseConfig {
   BaseKind kind = BaseKind::skid_steer;
   double wheel_radius_m = 0.165;
-  double track_m = 0.60;  ///< between the centres of the left and right wheels
+  double track_m = 0.60;      ///< between the centres of the left and right wheels
+  double wheelbase_m = 0.65;  ///< between the axles, of a base that steers or goes sideways
   // Of a base that steers. The angle is that of the inner wheel, as makers tell it.
-  double wheelbase_m = 0.65;         ///< between its axles
   double max_steering_rad = 0.5;     ///< the most that is asked, so that a little is left
   double steering_rate_radps = 0.4;  ///< how fast its wheels are turned at least
   /// How much wider than `track_m` the base behaves when it turns, because wheels skid.
@@ -53,6 +54,7 @@ struct BaseConfig {
   /// With level_ground_only steeper ground refuses a start and ends a task. Wheels on firm ground
   /// roll by themselves from about this on: a twentieth of the weight is what rolling takes.
   double max_tilt_deg = 3.0;
+  // Of one that goes sideways the front wheel first.
   FixedVector<AxisId, kMaxSide> left;
   FixedVector<AxisId, kMaxSide> right;
 };

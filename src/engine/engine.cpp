@@ -160,6 +160,15 @@ void Engine::Impl::command_axes(const Motion& motion, EngineOutput& out) {
   }
 }
 
+/// Why nothing goes aside now; empty: it does.
+std::string_view Engine::Impl::no_sideways() const {
+  if (!limits(base).sideways) return "this base cannot go sideways";
+  if (config.clearance_required) return "nobody looks where it would go sideways";
+  if (!mechanics.proved())
+    return "this base goes sideways once wheels, gyro and receiver agreed on a first way ahead";
+  return {};
+}
+
 void Engine::Impl::start_task(const Command& command, const StartTask& task, Time now) {
   const RequestId& id = command.id;
   Reason why;
@@ -216,6 +225,9 @@ void Engine::Impl::reset_stop(const RequestId& id, Time now) {
 }
 
 Engine::Engine(const EngineConfig& config) {
+  const bool corners = config.base.left.size() == 2 && config.base.right.size() == 2;
+  if (config.base.kind == BaseKind::mecanum && !corners)
+    throw std::invalid_argument("a mecanum base has two wheels on each side");
   if (joints_needed(config.base) > config.joints.size())
     throw std::invalid_argument("the base names an axis that is not among the drives");
   const std::size_t of_base = config.joints.size() - joints_of_groups(config);
@@ -261,7 +273,7 @@ void Engine::on_command(const Command& command, Time now) {
   } else if (const auto* hand = std::get_if<DriveByHand>(&command.body)) {
     e.owners.drive_by_hand(command, *hand, e.health.report(), e.mechanics.proved(), now, e.events);
   } else if (const auto* follow = std::get_if<FollowTwist>(&command.body)) {
-    e.owners.take(*follow, command.received, now);
+    e.owners.take(*follow, command.received, e.no_sideways(), now);
   } else if (const auto* turned_away = std::get_if<TwistRefused>(&command.body)) {
     e.owners.refuse(*turned_away, now);
   } else if (const auto* release = std::get_if<ReleaseHold>(&command.body)) {
@@ -307,12 +319,13 @@ void Engine::step(Time now, const Environment& environment, EngineOutput& out) {
   if (e.navigator.active()) e.place.told();  // by the end of the task
   e.place_count.update(e.estimate, dt, e.place.jumped_at());
   const Pose& pose = e.estimate.pose;
-  e.clearance.update({now,
-                      {.twist = {pose.vx_mps, pose.wz_radps}, .known = e.estimate.body.known},
-                      e.navigator.path_number(),
-                      e.commanded,
-                      e.asked,
-                      e.by_joints ? e.half_track_m() : 0});
+  e.clearance.update(
+      {now,
+       {.twist = {pose.vx_mps, pose.wz_radps, pose.vy_mps}, .known = e.estimate.body.known},
+       e.navigator.path_number(),
+       e.commanded,
+       e.asked,
+       e.by_joints ? e.half_track_m() : 0});
   e.health.update({now, environment, axes, lines, e.estimate, e.estimator.has_origin(),
                    e.navigator.active(), e.latch.why(), &e.sensors, e.tilt.reason(), moved,
                    e.place.jumped(), e.latch.power_cut() && e.power.opened(), e.clearance.blocked(),
@@ -332,8 +345,8 @@ void Engine::step(Time now, const Environment& environment, EngineOutput& out) {
       {now, dt, e.estimate, e.health.report(), e.wheel_fault, e.wheel_reason, wanted, cap_mps,
        e.mechanics.speed_cap_mps(FirstWay::joints), e.mechanics.speed_cap_mps(FirstWay::hand),
        e.arming.hindrance(), stream, e.clearance.caps().ahead_mps,
-       e.clearance.rim_cap_mps(stream, e.config.base.track_m / 2), e.clearance.too_near(), by_twist,
-       e.steered_radpm()},
+       e.clearance.rim_cap_mps(stream, track_of_turn_m(e.base) / 2), e.clearance.too_near(),
+       by_twist, e.steered_radpm()},
       e.events);
   e.commanded =
       motion.joints ? twist_of(e.base, e.owners.joint_velocities_radps(), learned) : motion.twist;

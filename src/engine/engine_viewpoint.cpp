@@ -9,7 +9,7 @@ void Engine::Impl::fill_viewpoint() {
   view.t = estimate.pose.time;
   view.pose = estimate.pose;
   // The estimate goes on with a base that stands; what was seen must not be kept as if it did.
-  if (!estimate.body.known) view.pose.vx_mps = view.pose.wz_radps = kAbsent;
+  if (!estimate.body.known) view.pose.vx_mps = view.pose.wz_radps = view.pose.vy_mps = kAbsent;
   // Where the receiver contradicts the wheels, that counts too: a place that stands still while the
   // wheels turn may be a receiver that is stuck, and is none once it is told as that.
   view.pose.position_sigma_m = estimate.has_position && (!estimate.disagrees || estimate.disputed)

@@ -97,10 +97,17 @@ void Ros2Outlet::cmd_vel(ClientId client, const json::Node& request, Time now, A
                 TwistRefused{Reason(json::shown(why, kMostText)), flag_member(request, "ends")});
   const auto vx_mps = twist_number(request, "vx_mps");
   const auto wz_radps = twist_number(request, "wz_radps");
+  const auto vy_mps = twist_number(request, "vy_mps");
   const auto at_ns = count_of(request, "at_ns");
   if (!vx_mps || !wz_radps || at_ns <= 0) return refuse("vx_mps, wz_radps or at_ns is missing");
+  const double aside_mps = vy_mps.value_or(0);
+  if (aside_mps != 0 && !inputs_.sideways) {
+    Reason why;
+    why.format("linear.y is %g: this base cannot go sideways", aside_mps);
+    return give(now, TwistRefused{why});
+  }
   give(std::min(now, Time{Duration{at_ns}}),
-       FollowTwist{{*vx_mps, *wz_radps}, flag_member(request, "after_motion")});
+       FollowTwist{{*vx_mps, *wz_radps, aside_mps}, flag_member(request, "after_motion")});
 }
 
 /// What drover-ros2 made of a message: its values as AimRT's JSON, by the reader of the broker's.

@@ -21,6 +21,7 @@ namespace drover::publish {
 /// What the configuration opens to ROS 2 users. What is pointed to outlives the outlet.
 struct Ros2Inputs {
   bool cmd_vel = false;
+  bool sideways = false;  ///< the base can
   aimrt::JointCommands* joint_commands = nullptr;
   SceneTopics* scene = nullptr;
   bool collision_object = false;

@@ -92,6 +92,7 @@ void AskedFor::tell(Time now, const std::function<bool(const std::string&)>& sen
     handed_on_ = now;
     auto line = cmd_vel_line();
     line.key("vx_mps").number(twist_->twist.vx_mps).key("wz_radps").number(twist_->twist.wz_radps);
+    if (twist_->twist.vy_mps != 0) line.key("vy_mps").number(twist_->twist.vy_mps);
     if (moved_ && is_zero(twist_->twist)) line.key("after_motion").boolean(true);
     line.key("at_ns").integer(twist_->said.time_since_epoch().count()).close('}');
     twist_.reset();

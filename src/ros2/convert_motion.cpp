@@ -128,10 +128,10 @@ nav_msgs_msg_dds__Odometry_ odometry(const OdometryTold& way, Arena& arena) {
   put_both(pose, 0, 5, way.x_yaw_var);
   put_both(pose, 1, 5, way.y_yaw_var);
   for (const std::size_t i : {2U, 3U, 4U}) at(pose, i, i) = kUnknownVariance;
-  message.twist_.twist_ = {{way.vx_mps, 0, 0}, {0, 0, way.wz_radps}};
+  message.twist_.twist_ = {{way.vx_mps, way.vy_mps, 0}, {0, 0, way.wz_radps}};
   auto& twist = message.twist_.covariance_;
   at(twist, 0, 0) = way.vx_var;
-  at(twist, 1, 1) = kSteadyVariance;
+  at(twist, 1, 1) = std::max(way.vy_var, kSteadyVariance);
   at(twist, 5, 5) = way.wz_var;
   for (const std::size_t i : {2U, 3U, 4U}) at(twist, i, i) = kUnknownVariance;
   return message;

@@ -83,9 +83,10 @@ OdometryTold odometry(const Node& from) {
   way.yaw_rad = number_or_0(from, "yaw_rad");
   way.vx_mps = number_or_0(from, "vx_mps");
   way.wz_radps = number_or_0(from, "wz_radps");
+  way.vy_mps = number_or_0(from, "vy_mps");
   std::size_t i = 0;
   for (double* variance : {&way.x_var, &way.xy_var, &way.y_var, &way.x_yaw_var, &way.y_yaw_var,
-                           &way.yaw_var, &way.vx_var, &way.wz_var})
+                           &way.yaw_var, &way.vx_var, &way.wz_var, &way.vy_var})
     *variance = nth(variances, i++);
   return way;
 }

@@ -52,6 +52,7 @@ struct OdometryTold {
   double yaw_rad = 0;
   double vx_mps = 0;
   double wz_radps = 0;
+  double vy_mps = 0;
   double x_var = 0;
   double xy_var = 0;
   double y_var = 0;
@@ -60,6 +61,7 @@ struct OdometryTold {
   double yaw_var = 0;
   double vx_var = 0;
   double wz_var = 0;
+  double vy_var = 0;
 };
 
 /// Of the odometry's instant, in `map`.

@@ -114,6 +114,7 @@ PublishLoop::PublishLoop(const config::DroverConfig& config, ControlExchange& co
           return turns;
         },
         publish::Ros2Inputs{config.ros2.inputs.cmd_vel != "closed",
+                            config.engine.base.kind == engine::BaseKind::mecanum,
                             config.ros2.inputs.joint_command ? &joint_commands_ : nullptr,
                             &scene_outlet_->topics(), config.ros2.inputs.collision_object,
                             config.ros2.inputs.planning_constraints}));

@@ -34,15 +34,19 @@ class Plant2d final {
     for (double& n : noise_) n = normal();
   }
 
-  void step(const engine::WheelSpeeds& wheels, double dt_s) {
+  /// `aside_mps`: to the left, of rollers.
+  void step(const engine::WheelSpeeds& wheels, double dt_s, double aside_mps = 0) {
     const double blend = 1 - std::exp(-dt_s / config_.wheel_lag_s);
     left_mps_ += blend * (wheels.left_radps * base_.wheel_radius_m - left_mps_);
     right_mps_ += blend * (wheels.right_radps * base_.wheel_radius_m - right_mps_);
+    truth_.vy_mps += blend * (aside_mps - truth_.vy_mps);
     truth_.vx_mps = 0.5 * (left_mps_ + right_mps_);
-    truth_.wz_radps = (right_mps_ - left_mps_) / base_.track_m * (1 - config_.yaw_scrub);
+    truth_.wz_radps = (right_mps_ - left_mps_) / turn_track_m() * (1 - config_.yaw_scrub);
     const double middle_rad = truth_.yaw_rad + 0.5 * truth_.wz_radps * dt_s;
-    truth_.x_m += truth_.vx_mps * dt_s * std::cos(middle_rad);
-    truth_.y_m += truth_.vx_mps * dt_s * std::sin(middle_rad);
+    const double c = std::cos(middle_rad);
+    const double s = std::sin(middle_rad);
+    truth_.x_m += (truth_.vx_mps * c - truth_.vy_mps * s) * dt_s;
+    truth_.y_m += (truth_.vx_mps * s + truth_.vy_mps * c) * dt_s;
     truth_.yaw_rad = wrap_rad(truth_.yaw_rad + truth_.wz_radps * dt_s);
     const double keep = std::exp(-dt_s / config_.noise_time_s);
     for (double& n : noise_) n = keep * n + std::sqrt(1 - keep * keep) * normal();
@@ -57,6 +61,11 @@ class Plant2d final {
     pose.yaw_rad = wrap_rad(pose.yaw_rad + config_.yaw_noise_rad * noise_[2]);
     pose.wz_radps /= 1 - config_.yaw_scrub;
     return pose;
+  }
+
+  /// How far wheels are apart that turn it by their difference.
+  double turn_track_m() const {
+    return base_.track_m + (base_.kind == engine::BaseKind::mecanum ? base_.wheelbase_m : 0);
   }
 
  private:

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numbers>
 
 #include "engine/still.h"
 
@@ -62,15 +63,17 @@ Kinematics kinematics_of(const BaseConfig& base) {
     case BaseKind::ackermann:
       return Ackermann{edges(base.track_m), base.wheelbase_m, base.max_steering_rad,
                        base.steering_rate_radps};
+    case BaseKind::mecanum: return mecanum_of(base);
     case BaseKind::skid_steer: break;
   }
   return SkidSteer{sides_of(base)};
 }
 
 BodyLimits limits(const Kinematics& base) {
-  const auto* const steered = std::get_if<Ackermann>(&base);
-  if (steered == nullptr) return {};
   BodyLimits limits;
+  limits.sideways = std::holds_alternative<Mecanum>(base);
+  const auto* const steered = std::get_if<Ackermann>(&base);
+  if (steered == nullptr) return limits;
   limits.pivots = false;
   limits.smallest_radius_m =
       steered->sides.track_m / 2 + steered->wheelbase_m / std::tan(steered->max_steering_rad);
@@ -126,6 +129,8 @@ JointSet joints_of(const Kinematics& base) {
 
 JointVelocities setpoints(const Kinematics& base, const Twist& twist, const Learned& learned,
                           double max_rim_mps) {
+  if (const auto* const rollers = std::get_if<Mecanum>(&base))
+    return setpoints(*rollers, twist, learned.yaw_slip_factor, max_rim_mps);
   const TwoSides& sides = sides_of(base);
   Twist drivable = twist;
   if (const BodyLimits body = limits(base); !body.pivots && std::isfinite(twist.wz_radps)) {
@@ -154,13 +159,18 @@ Twist twist_of(const Kinematics& base, const JointVelocities& radps, const Learn
     return sum_radps * sides.wheel_radius_m / static_cast<double>(wheels.size());
   };
   if (sides.left.empty() || sides.right.empty()) return {};
-  return twist_from_wheels(sides, learned.yaw_slip_factor, mean_mps(sides.left),
-                           mean_mps(sides.right));
+  Twist twist = twist_from_wheels(sides, learned.yaw_slip_factor, mean_mps(sides.left),
+                                  mean_mps(sides.right));
+  if (const auto* const rollers = std::get_if<Mecanum>(&base))
+    twist.vy_mps = sideways_mps(*rollers, radps);
+  return twist;
 }
 
 BodyMotion body_motion(const Kinematics& base, const Told& told, Time at, Duration stale) {
   if (takes_twist(base))
     return at - told.body_at <= stale ? at_rest(base, told.body) : BodyMotion{};
+  if (const auto* const rollers = std::get_if<Mecanum>(&base))
+    return body_motion(*rollers, told.joints, at, stale);
   return body_motion(sides_of(base), told.joints, at, stale);
 }
 
@@ -198,12 +208,19 @@ TurnErrors turn_errors(const Kinematics& base) {
   return {pull_radpm, rolls_in_turns(base) ? kRollingShare : kSkiddingShare};
 }
 
+double track_of_turn_m(const Kinematics& base) {
+  return sides_of(base).track_m;
+}
+
 double fastest_mps(const Kinematics& base, const Twist& twist) {
-  return std::abs(twist.vx_mps) + sides_of(base).track_m / 2 * std::abs(twist.wz_radps);
+  return std::abs(twist.vx_mps) + sides_of(base).track_m / 2 * std::abs(twist.wz_radps) +
+         std::abs(twist.vy_mps);
 }
 
 double max_rim_mps(const Kinematics& base, const LimitsConfig& limits, const Learned& learned) {
-  return limits.max_speed_mps +
+  // Straight ahead rims are as fast as the base; in between ahead and aside two of them are faster.
+  const double share = std::holds_alternative<Mecanum>(base) ? std::numbers::sqrt2 : 1.0;
+  return share * limits.max_speed_mps +
          0.5 * sides_of(base).track_m * learned.yaw_slip_factor * limits.max_yaw_rate_radps;
 }
 

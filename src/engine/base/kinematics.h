@@ -6,6 +6,7 @@
 #include <limits>
 #include <variant>
 
+#include "engine/base/mecanum.h"
 #include "engine/base/two_sides.h"
 #include "engine/config.h"
 
@@ -33,7 +34,7 @@ struct Ackermann {
   double max_steering_rad = 0;     ///< of the inner wheel
   double steering_rate_radps = 0;  ///< at least
 };
-using Kinematics = std::variant<SkidSteer, Differential, TwistBase, Ackermann>;
+using Kinematics = std::variant<SkidSteer, Differential, TwistBase, Ackermann, Mecanum>;
 
 TwoSides sides_of(const BaseConfig& base);
 Kinematics kinematics_of(const BaseConfig& base);
@@ -41,6 +42,7 @@ Kinematics kinematics_of(const BaseConfig& base);
 /// What a base can drive at all.
 struct BodyLimits {
   bool pivots = true;            ///< it turns on the spot
+  bool sideways = false;         ///< it goes sideways
   double smallest_radius_m = 0;  ///< of the curve of base_link
   /// How fast the curvature changes; infinite: as fast as the speeds do.
   double curvature_rate_radpms = std::numeric_limits<double>::infinity();
@@ -76,9 +78,9 @@ struct Learned {
 using JointVelocities = FixedVector<double, kMaxAxes>;
 
 /// What the joints have to do for a twist of base_link. No rim is faster than `max_rim_mps`: all
-/// are scaled then, so that the curvature stays. One that steers turns on no tighter curve than it
-/// can, and at rest not at all. At rest when a number is not finite, or when the
-/// limit permits no motion.
+/// are scaled then, so that curvature and direction stay. One that steers turns on no tighter curve
+/// than it can, and at rest not at all. At rest when a number is not finite, or when the limit
+/// permits no motion.
 JointVelocities setpoints(const Kinematics& base, const Twist& twist, const Learned& learned,
                           double max_rim_mps);
 
@@ -90,7 +92,8 @@ Twist twist_of_edges(const Kinematics& base, const JointVelocities& mps);
 /// The most that joints at these velocities can make of the base: both numbers positive.
 Twist largest_twist(const Kinematics& base, const JointVelocities& radps, const Learned& learned);
 
-/// The twist that joints at these velocities make: of each side the mean.
+/// The twist that joints at these velocities make: of each side the mean; sideways what rollers
+/// make of the difference of front and rear.
 Twist twist_of(const Kinematics& base, const JointVelocities& radps, const Learned& learned);
 
 /// The last that a base told of its motion: by its joints, or by itself.
@@ -119,6 +122,9 @@ struct TurnErrors {
   double share = 0;       ///< of the turn, between a wide curve and a turn on the spot
 };
 TurnErrors turn_errors(const Kinematics& base);
+
+/// How far apart wheels of two sides would be that turned as fast as its own when it turns.
+double track_of_turn_m(const Kinematics& base);
 
 /// The fastest wheel on the ground in such a motion, m/s.
 double fastest_mps(const Kinematics& base, const Twist& twist);

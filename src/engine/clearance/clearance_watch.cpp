@@ -269,6 +269,7 @@ void ClearanceWatch::update(const ClearanceInput& input) {
 }
 
 Twist ClearanceWatch::limit(const Twist& asked) const {
+  if (required_ && asked.vy_mps != 0) return {};
   const auto share = [](double wanted, double cap) { return wanted > cap ? cap / wanted : 1.0; };
   double permitted =
       share(std::abs(asked.vx_mps), asked.vx_mps < 0 ? caps_.back_mps : caps_.ahead_mps);
@@ -278,10 +279,11 @@ Twist ClearanceWatch::limit(const Twist& asked) const {
         share(std::abs(asked.wz_radps), asked.wz_radps > 0 ? caps_.left_radps : caps_.right_radps));
   // What is no number is told as it is: the gate behind refuses it and says so.
   if (!(permitted < 1)) return asked;
-  return {asked.vx_mps * permitted, asked.wz_radps * permitted};
+  return {asked.vx_mps * permitted, asked.wz_radps * permitted, asked.vy_mps * permitted};
 }
 
 double ClearanceWatch::rim_cap_mps(const Twist& asked, double half_track_m) const {
+  if (required_ && goes_sideways(asked)) return 0;
   const double left_mps = caps_.left_radps * half_track_m;
   const double right_mps = caps_.right_radps * half_track_m;
   switch (way_of(asked)) {

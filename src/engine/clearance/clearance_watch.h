@@ -63,7 +63,8 @@ class ClearanceWatch final {
   bool too_near() const { return too_near_; }
   /// The last answer, as it came.
   const Clearance& found() const { return found_; }
-  /// The same curve, no faster than is permitted along it.
+  /// The same curve, no faster than is permitted along it. Aside nobody looks: what goes there is
+  /// not permitted at all.
   Twist limit(const Twist& asked) const;
   /// For whoever moves single wheels, which make `asked` of the base: the most of a rim,
   /// `half_track_m` beside the middle.

@@ -25,12 +25,13 @@ class WayMemory final {
  public:
   /// Once a cycle.
   void note(const BodyMotion& body, Time now) {
-    if (!body.known || !std::isfinite(body.twist.vx_mps + body.twist.wz_radps)) return forget();
+    const auto& [vx_mps, wz_radps, vy_mps] = body.twist;
+    if (!body.known || !std::isfinite(vx_mps + wz_radps + vy_mps)) return forget();
     if (last_ != kNever && now > last_) {
       const double dt_s = to_s(now - last_);
-      const double way_m = body.twist.vx_mps * dt_s;
-      const double turn_rad = body.twist.wz_radps * dt_s;
-      here_.driven_m += std::abs(way_m);
+      const double way_m = vx_mps * dt_s;
+      const double turn_rad = wz_radps * dt_s;
+      here_.driven_m += std::hypot(way_m, vy_mps * dt_s);
       here_.turned_rad += std::abs(turn_rad);
       here_.along_m += way_m;
       here_.yaw_rad += turn_rad;

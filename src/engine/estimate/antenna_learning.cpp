@@ -15,7 +15,7 @@ constexpr double kNoticed_m = 0.01;    // positions so far from the last ones ar
 
 }  // namespace
 
-void learn_fit(State& state, const AntennaPosition& raw, AntennaPoint point, double speed_mps,
+void learn_fit(State& state, const AntennaPosition& raw, AntennaPoint point, const Twist& twist,
                const EstimateConfig& config) {
   const bool told = state.heading.last != kNever && state.heading.jumps.running() == false;
   const TiltGuess tilt = guess_tilt(state.gyro);
@@ -28,8 +28,8 @@ void learn_fit(State& state, const AntennaPosition& raw, AntennaPoint point, dou
   point.x_m = raw.x_m;
   point.y_m = raw.y_m;
   point.yaw_rad = mean[kYaw];
-  point.vx_mps = mean[kScale] * speed_mps * std::cos(mean[kYaw]);
-  point.vy_mps = mean[kScale] * speed_mps * std::sin(mean[kYaw]);
+  point.vx_mps = mean[kScale] * twist.vx_mps * std::cos(mean[kYaw]);
+  point.vy_mps = mean[kScale] * twist.vx_mps * std::sin(mean[kYaw]);
   point.white_m = config.gnss_white_share * larger_sigma_m(raw);
   point.slow_m = larger_sigma_m(raw);
   state.fit.hear(point, config);
@@ -58,29 +58,35 @@ void correct_mounting(State& state, const LeverArm& arm, const EstimateConfig& c
   state.watch.turn_heading(mean[kYaw], turn_rad);
 }
 
-AntennaPosition in_time(const State& state, AntennaPosition position, double speed_mps) {
-  const double ahead_m = state.belief.mean[kScale] * speed_mps * state.late_s;
-  position.x_m += ahead_m * std::cos(state.belief.mean[kYaw]);
-  position.y_m += ahead_m * std::sin(state.belief.mean[kYaw]);
+AntennaPosition in_time(const State& state, AntennaPosition position, const Twist& twist) {
+  const double ahead_m = state.belief.mean[kScale] * twist.vx_mps * state.late_s;
+  const double left_m = state.belief.mean[kScale] * twist.vy_mps * state.late_s;
+  const double c = std::cos(state.belief.mean[kYaw]);
+  const double s = std::sin(state.belief.mean[kYaw]);
+  position.x_m += ahead_m * c - left_m * s;
+  position.y_m += ahead_m * s + left_m * c;
   return position;
 }
 
-void correct_lateness(State& state, double speed_mps) {
+void correct_lateness(State& state, const Twist& twist) {
   const double late_s = state.fit.late_used_s();
   const double more_s = late_s - state.late_s;
   if (std::abs(more_s) < kLateStep_s) return;
   state.late_s = late_s;
-  const double ahead_m = state.belief.mean[kScale] * speed_mps * more_s;
+  const double ahead_m = state.belief.mean[kScale] * twist.vx_mps * more_s;
+  const double left_m = state.belief.mean[kScale] * twist.vy_mps * more_s;
   const double c = std::cos(state.belief.mean[kYaw]);
   const double s = std::sin(state.belief.mean[kYaw]);
-  state.belief.mean[kX] += ahead_m * c;
-  state.belief.mean[kY] += ahead_m * s;
+  const double x_m = ahead_m * c - left_m * s;
+  const double y_m = ahead_m * s + left_m * c;
+  state.belief.mean[kX] += x_m;
+  state.belief.mean[kY] += y_m;
   Matrix& p = state.belief.covariance;
-  p[kX][kX] += square(ahead_m * c) / 4;
-  p[kY][kY] += square(ahead_m * s) / 4;
-  p[kX][kY] += square(ahead_m) * c * s / 4;
+  p[kX][kX] += square(x_m) / 4;
+  p[kY][kY] += square(y_m) / 4;
+  p[kX][kY] += x_m * y_m / 4;
   p[kY][kX] = p[kX][kY];
-  if (std::abs(ahead_m) > kNoticed_m) state.watch.pause();
+  if (std::hypot(ahead_m, left_m) > kNoticed_m) state.watch.pause();
 }
 
 }  // namespace drover::engine::estimate

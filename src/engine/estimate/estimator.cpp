@@ -34,6 +34,7 @@ BodyMotion level_motion(const State& state, BodyMotion motion, Duration imu_stal
   if (!state.gyro.fresh(state.time, imu_stale)) return motion;
   const double level = std::cos(state.gyro.pitch_rad);
   motion.twist.vx_mps *= level;
+  motion.twist.vy_mps *= std::cos(state.gyro.roll_rad);
   // A robot that tips over tells nothing of a turn about the vertical.
   if (level > kStands) motion.twist.wz_radps *= std::cos(state.gyro.roll_rad) / level;
   return motion;
@@ -192,17 +193,18 @@ Apart Estimator::apart(const GnssPosition& position, std::uint8_t receiver, Time
   const double age_s = to_s(pose.time - time);
   const double yaw_rad = pose.yaw_rad - pose.wz_radps * age_s;
   const double ahead_m = arm.ahead_m - pose.vx_mps * age_s;
+  const double left_m = arm.left_m - pose.vy_mps * age_s;
   const double c = std::cos(yaw_rad);
   const double s = std::sin(yaw_rad);
   apart.known = true;
-  apart.m = std::hypot(there.x_m - pose.x_m - ahead_m * c + arm.left_m * s,
-                       there.y_m - pose.y_m - ahead_m * s - arm.left_m * c);
+  apart.m = std::hypot(there.x_m - pose.x_m - ahead_m * c + left_m * s,
+                       there.y_m - pose.y_m - ahead_m * s - left_m * c);
   const double own_m = std::max(sigma_m(quality, position.sigma_east_m, config_),
                                 sigma_m(quality, position.sigma_north_m, config_));
   apart.permitted_m =
       config_.gate_sigma * std::hypot(std::hypot(own_m, tilted.guessed_m), pose.position_sigma_m,
                                       std::hypot(arm.ahead_m, arm.left_m) * pose.yaw_sigma_rad) +
-      std::abs(pose.vx_mps) * kInstant_s;
+      std::hypot(pose.vx_mps, pose.vy_mps) * kInstant_s;
   return apart;
 }
 
@@ -237,7 +239,10 @@ void Estimator::advance(State& state, Time to) const {
   while (state.time < to) {
     BodyMotion body = body_motion(base_, state.told, state.time, wheel_stale_);
     body = level_motion(state, body, imu_stale_);
-    if (!body.standing) body.vx_var += square(state.watch.slip_mps());
+    if (!body.standing) {
+      body.vx_var += square(state.watch.slip_mps());
+      if (goes_sideways(body.twist)) body.vy_var += square(state.watch.slip_mps());
+    }
     const GyroMotion gyro = motion_of(state.gyro, state.belief, body, state.time, config_);
     if (!body.standing || gyro.pushed) {
       state.standing_since = kNever;
@@ -270,7 +275,8 @@ void Estimator::reckon(State& state, const BodyMotion& body, const GyroMotion& g
           config_, gyro);
   if (state.has_heading && state.gyro.fresh(state.time, imu_stale_)) {
     const double turning_mps2 = body.twist.vx_mps * gyro.rate_radps;
-    const bool drives = body.known && !body.standing && !gyro.pushed;
+    // Who goes aside by himself is shoved by nobody, however that begins and ends.
+    const bool drives = body.known && !body.standing && !gyro.pushed && !goes_sideways(body.twist);
     follow(state.shove, belief, state.gyro.left_mps2 - turning_mps2, dt_s,
            drives && !state.gyro.rocks, state.time);
   }
@@ -295,17 +301,22 @@ void Estimator::reckon(State& state, const BodyMotion& body, const GyroMotion& g
   belief.mean[kX] -= crab_rad * north_m;
   belief.mean[kY] += crab_rad * east_m;
   const double way_m = belief.mean[kScale] * body.twist.vx_mps * dt_s;
+  const double in_all_m = std::hypot(way_m, belief.mean[kScale] * body.twist.vy_mps * dt_s);
   const double turn_rad =
       gyro.known ? belief.mean[kGyroScale] * (gyro.rate_radps - belief.mean[kGyroBias]) * dt_s
                  : belief.mean[kGain] * body.twist.wz_radps * dt_s;
   if (state.has_heading) {
-    state.fit.advance(east_m, north_m, std::abs(way_m), std::abs(turn_rad));
+    state.fit.advance(east_m, north_m, in_all_m, std::abs(turn_rad));
+    // How late positions are shows by the speed ahead alone.
+    if (goes_sideways(body.twist)) state.fit.pause();
     state.watch.advance({.east_m = east_m,
                          .north_m = north_m,
-                         .way_m = std::abs(way_m),
+                         .way_m = in_all_m,
                          .turn_rad = std::abs(turn_rad),
                          .slope_rad = slope_rad},
                         crab_rad);
+  } else if (goes_sideways(body.twist)) {
+    state.course = {};
   } else {
     state.course.advance(way_m, turn_rad);
   }
@@ -388,7 +399,7 @@ void Estimator::take(State& state, const Input& input) const {
     apply_heading(state, yaw_rad, config_);
   } else if (const auto* position = std::get_if<AntennaPosition>(&input)) {
     const BodyMotion body = body_motion(base_, state.told, state.time, wheel_stale_);
-    apply(state, *position, body.twist.vx_mps, config_);
+    apply(state, *position, body.twist, config_);
   }
   if (state.belief.finite()) return;
   State fresh = blank();

@@ -54,7 +54,8 @@ void Estimator::on_joint(const AxisMotion& motion, Time time) {
 void Estimator::on_body(const BodyMotion& body, Time time) {
   if (!takes_twist(base_)) return;
   const bool sane = fastest_mps(base_, body.twist) <= kFastestRim_mps && body.vx_var >= 0 &&
-                    body.wz_var >= 0 && std::isfinite(body.vx_var + body.wz_var);
+                    body.wz_var >= 0 && body.vy_var >= 0 &&
+                    std::isfinite(body.vx_var + body.wz_var + body.vy_var);
   if (!sane) {
     ++counters_.absurd;
     return;

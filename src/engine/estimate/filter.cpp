@@ -187,12 +187,15 @@ void predict(Belief& belief, const BodyMotion& body, double dt_s, bool heading_k
   }
   const double told_m = body.twist.vx_mps * dt_s;
   const double way_m = x[kScale] * body.twist.vx_mps * dt_s;
-  const double metres = std::abs(way_m);
+  const double told_left_m = body.twist.vy_mps * dt_s;
+  const double left_m = x[kScale] * told_left_m;
+  const double metres = std::hypot(way_m, left_m);
   const double way_variance = body.vx_var * kSpreadTime_s * dt_s;
+  const double left_variance = body.vy_var * kSpreadTime_s * dt_s;
 
   if (!heading_known) {
-    p[kX][kX] = square(std::sqrt(p[kX][kX]) + metres) + way_variance;
-    p[kY][kY] = square(std::sqrt(p[kY][kY]) + metres) + way_variance;
+    p[kX][kX] = square(std::sqrt(p[kX][kX]) + metres) + way_variance + left_variance;
+    p[kY][kY] = square(std::sqrt(p[kY][kY]) + metres) + way_variance + left_variance;
     return;
   }
   const Turn turn = gyro.known ? turn_of_gyro(belief, gyro, dt_s, config)
@@ -200,21 +203,29 @@ void predict(Belief& belief, const BodyMotion& body, double dt_s, bool heading_k
   const double middle_rad = x[kYaw] + turn.rad / 2;
   const double c = std::cos(middle_rad);
   const double s = std::sin(middle_rad);
-  x[kX] += way_m * c;
-  x[kY] += way_m * s;
+  const double dx_m = way_m * c - left_m * s;
+  const double dy_m = way_m * s + left_m * c;
+  x[kX] += dx_m;
+  x[kY] += dy_m;
 
   // x and y first: their derivatives use the yaw before the turn. That half a gyro's error of this
   // short step bends its chord is left out.
-  add_rows<3>(p, kX,
-              {{{kYaw, -way_m * s}, {kGain, -way_m * s * turn.by_gain / 2}, {kScale, told_m * c}}});
-  add_rows<3>(p, kY,
-              {{{kYaw, way_m * c}, {kGain, way_m * c * turn.by_gain / 2}, {kScale, told_m * s}}});
+  add_rows<3>(
+      p, kX,
+      {{{kYaw, -dy_m}, {kGain, -dy_m * turn.by_gain / 2}, {kScale, told_m * c - told_left_m * s}}});
+  add_rows<3>(
+      p, kY,
+      {{{kYaw, dx_m}, {kGain, dx_m * turn.by_gain / 2}, {kScale, told_m * s + told_left_m * c}}});
   apply_turn(belief, turn);
 
   const double radians = std::abs(turn.rad);
   const double shift = square(config.turning_shift_m) * radians + square(kStanding_m) * dt_s;
-  const double along = square(config.odometry_along_m) * metres + way_variance;
-  const double across = square(config.odometry_across_m) * metres;
+  const double ahead_metres = std::abs(way_m);
+  const double left_metres = std::abs(left_m);
+  const double along = square(config.odometry_along_m) * ahead_metres +
+                       square(config.odometry_across_m) * left_metres + way_variance;
+  const double across = square(config.odometry_across_m) * ahead_metres +
+                        square(config.odometry_along_m) * left_metres + left_variance;
   p[kX][kX] += along * c * c + across * s * s + shift;
   p[kY][kY] += along * s * s + across * c * c + shift;
   p[kX][kY] += (along - across) * c * s;

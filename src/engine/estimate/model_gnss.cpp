@@ -255,11 +255,11 @@ bool passes(const State& state, Expected expected, double dx_m, double dy_m, dou
 
 }  // namespace
 
-void apply(State& state, const AntennaPosition& measured, double speed_mps,
+void apply(State& state, const AntennaPosition& measured, const Twist& twist,
            const EstimateConfig& config) {
+  const double speed_mps = std::hypot(twist.vx_mps, twist.vy_mps);
   if (measured.receiver != state.gnss.receiver) hand_over(state, measured.receiver, config);
-  const AntennaPosition position =
-      in_time(state, follow_quality(state, measured, config), speed_mps);
+  const AntennaPosition position = in_time(state, follow_quality(state, measured, config), twist);
   Belief& belief = state.belief;
   const TiltedArm tilted = tilted_arm(state.gyro, antenna_of(config, state.gnss.receiver), config);
   find_heading(state, position, tilted.arm, config);
@@ -344,7 +344,7 @@ void apply(State& state, const AntennaPosition& measured, double speed_mps,
     state.way_unknown = false;
     state.gnss.fixed = state.time;
     const bool was_wrong = state.fit.arm_wrong();
-    learn_fit(state, measured, {.arm_x_m = arm_x, .arm_y_m = arm_y}, speed_mps, config);
+    learn_fit(state, measured, {.arm_x_m = arm_x, .arm_y_m = arm_y}, twist, config);
     if (state.fit.arm_wrong() != was_wrong) state.watch.pause();
     watch_drift(state.watch, state.mounting, belief, fix, state.time, ground_of(state, config),
                 config);
@@ -384,7 +384,7 @@ void apply(State& state, const AntennaPosition& measured, double speed_mps,
   belief.floor_variance(kX, floor);
   belief.floor_variance(kY, floor);
   correct_mounting(state, tilted.arm, config);
-  correct_lateness(state, speed_mps);
+  correct_lateness(state, twist);
 }
 
 }  // namespace drover::engine::estimate

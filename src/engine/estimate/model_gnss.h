@@ -34,7 +34,7 @@ double sigma_m(GnssClass quality, double gst_sigma_m, const EstimateConfig& conf
 LeverArm lever_arm(double roll_rad, double pitch_rad, const AntennaConfig& antenna);
 
 /// Applies the position to a state that stands at the position's own time.
-void apply(State& state, const AntennaPosition& measured, double speed_mps,
+void apply(State& state, const AntennaPosition& measured, const Twist& twist,
            const EstimateConfig& config);
 
 }  // namespace drover::engine::estimate

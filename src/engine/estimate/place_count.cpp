@@ -24,7 +24,7 @@ bool PlaceCount::jumped(const Estimate& estimate, Duration dt) const {
   const double dt_s = to_s(dt);
   const double way_m = std::hypot(pose.x_m - pose_.x_m, pose.y_m - pose_.y_m);
   const double turn_rad = std::abs(wrap_rad(pose.yaw_rad - pose_.yaw_rad));
-  const bool moved = way_m > kJump_m + std::abs(pose.vx_mps) * dt_s;
+  const bool moved = way_m > kJump_m + std::hypot(pose.vx_mps, pose.vy_mps) * dt_s;
   const bool turned = turn_rad > kJump_rad + std::abs(pose.wz_radps) * dt_s;
   return (has_position_ && moved) || (has_heading_ && turned);
 }

@@ -45,6 +45,7 @@ void Estimator::report(const State& state, Time now) {
   e.pose.y_m = belief.mean[kY];
   e.pose.yaw_rad = belief.mean[kYaw];
   e.pose.vx_mps = belief.mean[kScale] * body.twist.vx_mps;
+  e.pose.vy_mps = belief.mean[kScale] * body.twist.vy_mps;
   const GyroMotion gyro = motion_of(state.gyro, belief, body, now, config_);
   e.gyro_used = gyro.known || (body.standing && state.gyro.fresh(now, imu_stale_));
   e.pose.wz_radps = gyro.known
@@ -56,7 +57,8 @@ void Estimator::report(const State& state, Time now) {
 
   const HeadingDoubt doubt = doubt_of(state, config_);
   // Until it is known how late positions are, the place along the way is not well known.
-  const double late_m = e.pose.vx_mps * state.fit.late_sigma_s();
+  const double speed_mps = std::hypot(e.pose.vx_mps, e.pose.vy_mps);
+  const double late_m = speed_mps * state.fit.late_sigma_s();
   const double untold_m = state.gnss.told_sigma ? 0.0 : kUntold_m;
   const double tilt_m = state.gnss.guessed_m;
   const double two_sigma_m =
@@ -66,7 +68,7 @@ void Estimator::report(const State& state, Time now) {
   const double told_rad = std::hypot(two_sigma_rad / 2, state.mount_left_rad());
   e.pose.yaw_sigma_rad = state.has_heading ? told_rad : kAbsent;
   e.predicted_error_m = state.has_position ? two_sigma_m : kAbsent;
-  const double late_doubt_m = e.pose.vx_mps * state.fit.late_doubt_s();
+  const double late_doubt_m = speed_mps * state.fit.late_doubt_s();
   const double sure_m = kSure * std::hypot(std::hypot(doubt.two_sigma_m(belief), 2 * tilt_m),
                                            2 * late_doubt_m, 2 * untold_m);
   e.error_bound_m = state.has_position ? sure_m : kAbsent;

@@ -30,7 +30,7 @@ TargetGate::TargetGate(const LimitsConfig& limits, Duration max_age, const BodyL
 
 void TargetGate::reset() {
   twist_ = {};
-  acceleration_mps2_ = 0;
+  acceleration_mps2_ = aside_mps2_ = 0;
 }
 
 Twist TargetGate::choose(Time now, std::span<const Offer> offers) {
@@ -50,16 +50,21 @@ Twist TargetGate::choose(Time now, std::span<const Offer> offers) {
     refusal_ = TargetRefusal::stale;
     return {};
   }
-  if (!std::isfinite(best->target.vx_mps) || !std::isfinite(best->target.wz_radps)) {
+  const auto& [vx_mps, wz_radps, vy_mps] = best->target;
+  if (!std::isfinite(vx_mps) || !std::isfinite(wz_radps) || !std::isfinite(vy_mps)) {
     refusal_ = TargetRefusal::not_finite;
     ++not_finite_;
     return {};
   }
   refusal_ = TargetRefusal::none;
   if (!body_.pivots) return on_curve(best->target);
-  return {
-      std::clamp(best->target.vx_mps, -limits_.max_speed_mps, limits_.max_speed_mps),
-      std::clamp(best->target.wz_radps, -limits_.max_yaw_rate_radps, limits_.max_yaw_rate_radps)};
+  const double turn_radps =
+      std::clamp(wz_radps, -limits_.max_yaw_rate_radps, limits_.max_yaw_rate_radps);
+  if (!body_.sideways || vy_mps == 0)
+    return {std::clamp(vx_mps, -limits_.max_speed_mps, limits_.max_speed_mps), turn_radps};
+  const double speed_mps = std::hypot(vx_mps, vy_mps);
+  const double share = limits_.max_speed_mps / std::max(speed_mps, limits_.max_speed_mps);
+  return {share * vx_mps, turn_radps, share * vy_mps};
 }
 
 void TargetGate::find_wheels(double curvature_radpm) {
@@ -86,26 +91,38 @@ Twist TargetGate::on_curve(const Twist& wanted) {
   return {vx_mps, vx_mps * wanted_radpm_};
 }
 
-void TargetGate::follow(const Twist& target, double dt_s) {
+/// One of the two parts of a speed, which has a share of what both may accelerate by.
+void TargetGate::follow_way(double& mps, double& mps2, double target, double share,
+                            double dt_s) const {
   // The speed is taken as positive in the direction of present motion, so that slowing down and
   // speeding up have each their limit; through zero it goes in two steps.
-  const double sign = twist_.vx_mps < 0 || (twist_.vx_mps == 0 && target.vx_mps < 0) ? -1.0 : 1.0;
-  const double v_mps = sign * twist_.vx_mps;
-  const double target_mps = std::max(sign * target.vx_mps, 0.0);
+  const double sign = mps < 0 || (mps == 0 && target < 0) ? -1.0 : 1.0;
+  const double v_mps = sign * mps;
+  const double target_mps = std::max(sign * target, 0.0);
   const double change_mps = target_mps - v_mps;
-  const double limit_mps2 = change_mps > 0 ? limits_.acceleration_mps2 : limits_.deceleration_mps2;
+  const double limit_mps2 =
+      share * (change_mps > 0 ? limits_.acceleration_mps2 : limits_.deceleration_mps2);
   // Acceleration that can still be taken back in time, with the jerk there is.
-  const double j = limits_.jerk_mps3;
+  const double j = share * limits_.jerk_mps3;
   const double wanted_mps2 =
       std::copysign(std::min(limit_mps2, std::sqrt(2 * j * std::abs(change_mps))), change_mps);
   // What worked the other way ends at once: no more speed once less is wanted.
-  double a_mps2 = sign * acceleration_mps2_;
+  double a_mps2 = sign * mps2;
   if (a_mps2 * change_mps < 0) a_mps2 = 0;
   a_mps2 = approach(a_mps2, wanted_mps2, j * dt_s);
   const double next_mps = v_mps + a_mps2 * dt_s;
   const bool there = change_mps > 0 ? next_mps >= target_mps : next_mps <= target_mps;
-  twist_.vx_mps = sign * (there ? target_mps : next_mps);
-  acceleration_mps2_ = there ? 0 : sign * a_mps2;
+  mps = sign * (there ? target_mps : next_mps);
+  mps2 = there ? 0 : sign * a_mps2;
+}
+
+void TargetGate::follow(const Twist& target, double dt_s) {
+  const double ahead_mps = std::abs(target.vx_mps - twist_.vx_mps);
+  const double aside_mps = std::abs(target.vy_mps - twist_.vy_mps);
+  const double both_mps = std::hypot(ahead_mps, aside_mps);
+  const auto share = [&](double part_mps) { return both_mps > 0 ? part_mps / both_mps : 1.0; };
+  follow_way(twist_.vx_mps, acceleration_mps2_, target.vx_mps, share(ahead_mps), dt_s);
+  if (body_.sideways) follow_way(twist_.vy_mps, aside_mps2_, target.vy_mps, share(aside_mps), dt_s);
   if (!body_.pivots) {
     if (!is_zero(target))
       radpm_ = approach(radpm_, wanted_radpm_, body_.curvature_rate_radpms * dt_s);
@@ -117,15 +134,21 @@ void TargetGate::follow(const Twist& target, double dt_s) {
 }
 
 void TargetGate::ramp_down(double dt_s) {
-  const double before_mps = twist_.vx_mps;
-  twist_.vx_mps = approach(before_mps, 0, limits_.deceleration_mps2 * dt_s);
-  acceleration_mps2_ = 0;
+  const double before_mps = std::copysign(std::hypot(twist_.vx_mps, twist_.vy_mps), twist_.vx_mps);
+  const double now_mps = approach(before_mps, 0, limits_.deceleration_mps2 * dt_s);
+  acceleration_mps2_ = aside_mps2_ = 0;
+  if (twist_.vy_mps != 0) {
+    twist_.vx_mps *= now_mps / before_mps;
+    twist_.vy_mps *= now_mps / before_mps;
+  } else {
+    twist_.vx_mps = now_mps;
+  }
   if (!body_.pivots) {
     twist_.wz_radps = radpm_ * twist_.vx_mps;
     return;
   }
   // Turning ends with driving, so that the base stays on its curve.
-  const double kept = std::abs(before_mps) > 1e-3 ? twist_.vx_mps / before_mps : 0.0;
+  const double kept = std::abs(before_mps) > 1e-3 ? now_mps / before_mps : 0.0;
   twist_.wz_radps =
       approach(twist_.wz_radps, kept * twist_.wz_radps, limits_.yaw_acceleration_radps2 * dt_s);
 }

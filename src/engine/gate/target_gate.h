@@ -34,7 +34,8 @@ enum class TargetRefusal : std::uint8_t {
 };
 
 /// Limits of speed, acceleration and jerk between wishes and wheels. What is refused becomes a ramp
-/// to zero. Fails closed: without a fresh, finite wish of somebody the base comes to rest.
+/// to zero. Ahead and aside have one speed and one acceleration, which are bounded together. Fails
+/// closed: without a fresh, finite wish of somebody the base comes to rest.
 class TargetGate final {
  public:
   /// A wish older than `max_age` is not followed. Of a base that steers a twist is a speed and a
@@ -50,7 +51,7 @@ class TargetGate final {
   /// Where the wheels of a base that steers are found at rest, as the curve that they make.
   void find_wheels(double curvature_radpm);
 
-  bool at_rest() const { return twist_.vx_mps == 0 && twist_.wz_radps == 0; }
+  bool at_rest() const { return is_zero(twist_); }
   const Twist& twist() const { return twist_; }
   TargetRefusal refusal() const { return refusal_; }
   std::uint64_t not_finite() const { return not_finite_; }
@@ -59,6 +60,7 @@ class TargetGate final {
   Twist choose(Time now, std::span<const Offer> offers);
   Twist on_curve(const Twist& wanted);
   void follow(const Twist& target, double dt_s);
+  void follow_way(double& mps, double& mps2, double target_mps, double share, double dt_s) const;
   void ramp_down(double dt_s);
 
   LimitsConfig limits_;
@@ -68,6 +70,7 @@ class TargetGate final {
   double radpm_ = 0;         ///< likewise, as commanded
   Twist twist_;
   double acceleration_mps2_ = 0;
+  double aside_mps2_ = 0;  ///< likewise, to the left
   TargetRefusal refusal_ = TargetRefusal::nobody;
   std::uint64_t not_finite_ = 0;
 };

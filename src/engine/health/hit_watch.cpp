@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kLasting_s = 0.3;  // longer than a knock, shorter than a braking
 constexpr double kStale_s = 0.5;
-constexpr double kAlone_s = 0.015;  // a hit takes 10 to 50 ms
+constexpr double kAtOnce_s = 0.015;  // a hit takes 10 to 50 ms
 constexpr Duration kHeld = std::chrono::seconds(1);
 
 }  // namespace
@@ -27,7 +27,7 @@ void HitWatch::on_sample(const ImuSample& sample, Time at) {
   }
   const double knock_mps2 = std::hypot(force.x - lasting_x_mps2_, force.y - lasting_y_mps2_);
   const bool was_above = std::exchange(above_, knock_mps2 > limit_mps2_);
-  if (above_ && !was_above && dt_s < kAlone_s) return;
+  if (above_ && !was_above && dt_s < kAtOnce_s) return;
   if (above_) {
     // One hit rings for a while: told once, with its hardest.
     const bool same = hit_at_ != kNever && at - hit_at_ < kHeld;

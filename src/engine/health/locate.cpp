@@ -14,7 +14,7 @@ constexpr double kOnTheWay = 2;
 
 bool finite(const Pose& pose) {
   return std::isfinite(pose.x_m) && std::isfinite(pose.y_m) && std::isfinite(pose.yaw_rad) &&
-         std::isfinite(pose.vx_mps) && std::isfinite(pose.wz_radps);
+         std::isfinite(pose.vx_mps + pose.wz_radps + pose.vy_mps);
 }
 
 }  // namespace

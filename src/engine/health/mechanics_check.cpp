@@ -301,6 +301,8 @@ void MechanicsCheck::step(const MechanicsInput& input) {
   }
   if (!moving_ && input.commanded) begin();
   if (!moving_) return;
+  // By single joints: rollers slip, and no way aside is in the comparison.
+  if (goes_sideways(input.body)) rest_ = {};
   const double dt_s = std::max(to_s(input.dt), 0.0);
   last_.way_m += input.body.vx_mps * dt_s;
   last_.turn_rad += input.body.wz_radps / config_.base.yaw_slip_factor * dt_s;

@@ -115,8 +115,11 @@ void PlaceWatch::update(Time now, Duration dt, const Estimate& estimate, bool he
   if (!known_ || !stands_ || renewed) return begin_at(pose);
   if (estimate.body.known) {
     const double way_m = estimate.body.twist.vx_mps * std::max(to_s(dt), 0.0);
-    crept_x_m_ += way_m * std::cos(estimate.pose.yaw_rad);
-    crept_y_m_ += way_m * std::sin(estimate.pose.yaw_rad);
+    const double left_m = estimate.body.twist.vy_mps * std::max(to_s(dt), 0.0);
+    const double c = std::cos(estimate.pose.yaw_rad);
+    const double s = std::sin(estimate.pose.yaw_rad);
+    crept_x_m_ += way_m * c - left_m * s;
+    crept_y_m_ += way_m * s + left_m * c;
   }
   // What is suspected already is judged by who looks at it.
   const bool believed = !estimate.disagrees && estimate.looks.empty();

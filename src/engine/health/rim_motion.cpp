@@ -1,5 +1,6 @@
 #include "engine/health/rim_motion.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "engine/health/heard.h"
@@ -71,6 +72,8 @@ void RimReader::set_direction(RimMotion& rims, const Told& told, Time now) const
   if (!body.known) return;
   const double goes_mps = fastest_mps(base_, {body.twist.vx_mps, 0});
   const double turns_mps = fastest_mps(base_, {0, body.twist.wz_radps});
+  // Aside is neither ahead nor a turn, whatever little of those is in it.
+  if (fastest_mps(base_, {0, 0, body.twist.vy_mps}) > std::max(goes_mps, turns_mps)) return;
   if (goes_mps > kOnTheSpot * turns_mps) rims.ahead = std::copysign(1.0, body.twist.vx_mps);
   if (turns_mps > goes_mps) rims.turn = std::copysign(1.0, body.twist.wz_radps);
 }

@@ -325,7 +325,9 @@ void Navigator::watch_pauses(const NavInput& input, EventQueue& events) {
 }
 
 void Navigator::settle_at_goal(const NavInput& input, EventQueue& events) {
-  if (!input.at_rest || std::abs(input.estimate.pose.vx_mps) > kStands_mps) return;
+  if (!input.at_rest ||
+      std::hypot(input.estimate.pose.vx_mps, input.estimate.pose.vy_mps) > kStands_mps)
+    return;
   Reason text;
   text.format("%.2f m from point %llu", progress_.distance_to_goal_m, as_counted(target_));
   if (progress_.distance_to_goal_m <= config_.navigate.goal_tolerance_m) {

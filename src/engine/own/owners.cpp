@@ -14,11 +14,11 @@ constexpr const char* kByTask = "a task owns the drives";
 constexpr Duration kOldestTarget = std::chrono::milliseconds(100);
 
 /// The same curve, its fastest rim no faster than that.
-Twist slowed(const Twist& twist, double cap_mps, double track_m) {
-  const double rim_mps = std::abs(twist.vx_mps) + std::abs(twist.wz_radps) * track_m / 2;
+Twist slowed(const Kinematics& base, const Twist& twist, double cap_mps) {
+  const double rim_mps = fastest_mps(base, twist);
   if (!(rim_mps > cap_mps)) return twist;
   const double share = std::max(cap_mps, 0.0) / rim_mps;
-  return {share * twist.vx_mps, share * twist.wz_radps};
+  return {share * twist.vx_mps, share * twist.wz_radps, share * twist.vy_mps};
 }
 
 }  // namespace
@@ -26,7 +26,8 @@ Twist slowed(const Twist& twist, double cap_mps, double track_m) {
 Owners::Owners(const EngineConfig& config, Latch& latch)
     : config_(config),
       latch_(latch),
-      body_(limits(kinematics_of(config.base))),
+      base_(kinematics_of(config.base)),
+      body_(limits(base_)),
       twist_gate_(config.limits, kOldestTarget, body_),
       joint_gate_(config.base, config.limits),
       stream_(from_s(config.health.joint_command_timeout_s)),
@@ -43,7 +44,14 @@ void Owners::take(const JointTargets& targets, Time now) {
   stream_.take(targets, busy, now);
 }
 
-void Owners::take(const FollowTwist& follow, Time received, Time now) {
+void Owners::take(const FollowTwist& follow, Time received, std::string_view no_sideways,
+                  Time now) {
+  if (follow.twist.vy_mps != 0 && !no_sideways.empty()) {
+    Reason why;
+    why.format("linear.y is %g: %.*s", follow.twist.vy_mps, static_cast<int>(no_sideways.size()),
+               no_sideways.data());
+    return cmd_vel_.refuse(why, now);
+  }
   if (!body_.pivots && is_turn(follow.twist)) return cmd_vel_.refuse(kNoPivot, now);
   Reason busy = stream_.following() ? Reason("joint commands drive the robot") : twists_busy_;
   if (busy.empty()) busy = latch_.hinders_joints();
@@ -248,7 +256,7 @@ Owners::ByTwist Owners::watch_hand(const OwnInput& input, bool at_once, double c
   // joint commands that waits for a person since it was stopped.
   if (!hand_moved_) events.notice(input.now, Notice::Level::info, kByHand);
   hand_moved_ = true;
-  return {slowed(input.twist, cap_mps, config_.base.track_m)};
+  return {slowed(base_, input.twist, cap_mps)};
 }
 
 /// What ends cmd_vel, and how fast it is let go on.
@@ -271,8 +279,7 @@ Owners::ByTwist Owners::watch_cmd_vel(const OwnInput& input, bool at_once, doubl
     case Drives::lost: latch(input.health.not_running, false); return {{}, true};
   }
   // What it asked for before something ended it is not in `input.twist` any more.
-  return {is_zero(cmd_vel_.wanted()) ? Twist{}
-                                     : slowed(input.twist, cap_mps, config_.base.track_m)};
+  return {is_zero(cmd_vel_.wanted()) ? Twist{} : slowed(base_, input.twist, cap_mps)};
 }
 
 const Motion& Owners::step(const OwnInput& input, EventQueue& events) {

@@ -55,7 +55,8 @@ class Owners final {
 
   void take(const JointTargets& targets, Time now);
   void refuse(const JointTargetsRefused& refused) { stream_.refuse_quietly(refused.reason); }
-  void take(const FollowTwist& follow, Time received, Time now);
+  /// `no_sideways`: why nothing goes aside now; empty: it does.
+  void take(const FollowTwist& follow, Time received, std::string_view no_sideways, Time now);
   void refuse(const TwistRefused& refused, Time now);
   void find_heading(const RequestId& id, const Estimate& estimate, const HealthReport& health,
                     Time now, EventQueue& events);
@@ -102,6 +103,7 @@ class Owners final {
 
   EngineConfig config_;
   Latch& latch_;
+  Kinematics base_;
   BodyLimits body_;
   TargetGate twist_gate_;
   JointGate joint_gate_;

@@ -21,7 +21,7 @@ TwistStream::TwistStream() : Stream(kTimeout, kTwistWords) {}
 
 void TwistStream::take(const FollowTwist& wanted, Time received, std::string_view busy, Time now) {
   const Twist& twist = wanted.twist;
-  if (!std::isfinite(twist.vx_mps) || !std::isfinite(twist.wz_radps))
+  if (!std::isfinite(twist.vx_mps + twist.wz_radps + twist.vy_mps))
     return refuse("a speed that cannot be", now);
   const Time at = received == kNever ? now : std::min(received, now);
   if (now - at > kTimeout) return refuse("it came too late to be followed", now);

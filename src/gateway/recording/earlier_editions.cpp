@@ -152,4 +152,11 @@ std::vector<std::uint8_t> from_fifth_edition(std::span<const std::uint8_t> recor
   return today;
 }
 
+std::vector<std::uint8_t> from_sixth_edition(std::span<const std::uint8_t> record) {
+  std::vector<std::uint8_t> today(record.begin(), record.end());
+  // Nothing went sideways: a zero.
+  if (body_of(record) == body_now<FollowTwist>()) today.resize(today.size() + sizeof(double), 0);
+  return today;
+}
+
 }  // namespace drover::gateway

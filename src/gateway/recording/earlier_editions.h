@@ -2,7 +2,7 @@
 // receiver, one sensor, one battery and one chip by their kind and not by number; the first two did
 // not tell whether a robot that was remembered was at rest, the first three not whether a wheel of
 // it had run away, the first four not where it stood; the first five knew no more of cmd_vel's
-// twists than their speeds.
+// twists than their speeds, and the first six none to the side.
 #pragma once
 
 #include <cstdint>
@@ -22,6 +22,8 @@ std::vector<std::uint8_t> from_second_edition(std::span<const std::uint8_t> reco
 std::vector<std::uint8_t> from_third_edition(std::span<const std::uint8_t> record);
 std::vector<std::uint8_t> from_fourth_edition(std::span<const std::uint8_t> record);
 std::vector<std::uint8_t> from_fifth_edition(std::span<const std::uint8_t> record);
+/// Of all up to the sixth, after what is done for the one that it is of.
+std::vector<std::uint8_t> from_sixth_edition(std::span<const std::uint8_t> record);
 
 /// The byte streams of an output in the first edition, in their order; kNowhere: not configured.
 std::vector<LinkId> streams_of_first_edition(const Wiring& wiring);

@@ -305,11 +305,13 @@ void put(const FollowTwist& follow, ByteWriter& out) {
   out.real(follow.twist.vx_mps);
   out.real(follow.twist.wz_radps);
   out.byte(follow.after_motion ? 1 : 0);
+  out.real(follow.twist.vy_mps);
 }
 void get(FollowTwist& follow, ByteReader& in) {
   follow.twist.vx_mps = in.real();
   follow.twist.wz_radps = in.real();
   follow.after_motion = get_flag(in);
+  follow.twist.vy_mps = in.real();
 }
 void put(const TwistRefused& refused, ByteWriter& out) {
   out.text(refused.reason);

@@ -188,6 +188,7 @@ class Replay final {
     if (edition_ == 3) now.record = from_third_edition(record);
     if (edition_ == 4) now.record = from_fourth_edition(record);
     if (edition_ == 5) now.record = from_fifth_edition(record);
+    if (edition_ <= 6) now.record = from_sixth_edition(now.record);
     ByteReader in(now.record);
     now.kind = in.byte();
     const auto find = [this](std::uint64_t number) -> const Path* {

@@ -127,8 +127,9 @@ void places(Line& line, const Snapshot& s, Told& told) {
   line.number("yaw_rad", way.yaw_rad);
   line.number("vx_mps", way.vx_mps);
   line.number("wz_radps", way.wz_radps);
+  line.number("vy_mps", way.vy_mps);
   line.numbers("variances", {way.x_var, way.xy_var, way.y_var, way.x_yaw_var, way.y_yaw_var,
-                             way.yaw_var, way.vx_var, way.wz_var});
+                             way.yaw_var, way.vx_var, way.wz_var, way.vy_var});
   line.out().close('}');
   const Pose& pose = s.pose;
   const bool placed = s.origin_set && std::isfinite(pose.position_sigma_m) &&

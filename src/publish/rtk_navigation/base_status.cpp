@@ -168,7 +168,7 @@ std::string BaseStatus::text(const Snapshot& snapshot) {
                           config_.power == PowerUnit::percent ? kWholePercent : kElectric);
   out.key("robot_status").integer(robot_status(snapshot));
   out.key("vx").number(keep(vx_mps_, snapshot.worst_vx_mps), kSpeed);
-  out.key("vy").number(0);
+  out.key("vy").number(keep(vy_mps_, snapshot.pose.vy_mps), kSpeed);
   const bool angle = config_.vz == TurnShown::steering_angle;
   out.key("vz").number(keep(turn_, angle ? snapshot.base.steering_rad : snapshot.pose.wz_radps),
                        kSpeed);

@@ -69,6 +69,7 @@ class BaseStatus final {
   double y_m_ = 0;
   double yaw_rad_ = 0;
   double vx_mps_ = 0;
+  double vy_mps_ = 0;
   double turn_ = 0;
   double latitude_deg_ = 0;
   double longitude_deg_ = 0;

@@ -12,6 +12,7 @@ void forget_motion(Snapshot& s) {
   s.pose.vx_mps = kAbsent;
   s.worst_vx_mps = kAbsent;
   s.pose.wz_radps = kAbsent;
+  s.pose.vy_mps = kAbsent;
   s.pose.position_sigma_m = kAbsent;
   s.pose.yaw_sigma_rad = kAbsent;
   for (AxisSnapshot& axis : s.axes) {

@@ -244,13 +244,16 @@ TEST(CalibrationIntro, IsWhatTheReadmeShows) {
 
 TEST(CalibrationDrive, SaysThatItsCirclesAreTooTightForABaseThatSteers) {
   engine::BaseConfig base;
-  EXPECT_EQ(too_tight_for(base), "");
+  EXPECT_EQ(not_calibrated(base), "");
   base.kind = engine::BaseKind::ackermann;
   base.max_steering_rad = 0.55;
-  EXPECT_EQ(too_tight_for(base), "");
+  EXPECT_EQ(not_calibrated(base), "");
   base.wheelbase_m = 1.5;
-  EXPECT_NE(too_tight_for(base).find("this base needs 2.75 m"), std::string::npos)
-      << too_tight_for(base);
+  EXPECT_NE(not_calibrated(base).find("this base needs 2.75 m"), std::string::npos)
+      << not_calibrated(base);
+  base = {};
+  base.kind = engine::BaseKind::mecanum;
+  EXPECT_NE(not_calibrated(base).find("act as one: measure them"), std::string::npos);
 }
 
 }  // namespace

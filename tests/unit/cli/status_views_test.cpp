@@ -154,6 +154,7 @@ TEST_F(StatusViews, ShowLinesAndOutputs) {
 }
 
 TEST_F(StatusViews, ShowTheWholeInShort) {
+  EXPECT_EQ(show_status(status).find("aside"), std::string::npos) << "as most bases";
   expect(show_status(status), {"field", "e-stop pressed", "can0", "can0 is error-passive"});
   expect(
       show_status(status),
@@ -169,6 +170,13 @@ TEST_F(StatusViews, ShowTheScannerAmongTheSensors) {
   expect(show_status(status),
          {"scanner   lidar           10.0 turns/s  437 of 451 points seen  "
           "nearest 0.98 m, +90° left  fresh  0.06 s old  the scanner is blind in 2 of 24 sectors"});
+}
+
+TEST(StatusInShort, TellsAWayToTheSide) {
+  Snapshot s;
+  s.pose.vy_mps = -0.3;
+  const auto text = show_status(json::parse(publish::status_json(s, {}))->root);
+  EXPECT_NE(text.find("rad/s  aside -0.30 m/s\n"), std::string::npos) << text;
 }
 
 TEST(StatusInShort, SaysNothingOfTheSilenceOfATask) {

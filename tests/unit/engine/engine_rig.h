@@ -246,12 +246,15 @@ class EngineRig {
     if (carried) sides = *carried;
     const double before_x_m = plant.truth().x_m;
     const double before_y_m = plant.truth().y_m;
-    plant.step(sides, dt_s);
+    const bool rollers = config.base.kind == BaseKind::mecanum;
+    const double aside_radps = (true_speed[1] + true_speed[2] - true_speed[0] - true_speed[3]) / 4;
+    plant.step(sides, dt_s, rollers ? aside_radps * config.base.wheel_radius_m : 0);
     driven_m += std::hypot(plant.truth().x_m - before_x_m, plant.truth().y_m - before_y_m);
     const Pose seen = plant.estimate();
-    const double turn_mps = (mechanics.swapped ? -0.5 : 0.5) * config.base.track_m * seen.wz_radps;
+    const double turn_mps = (mechanics.swapped ? -0.5 : 0.5) * plant.turn_track_m() * seen.wz_radps;
     for (std::size_t i = 0; i < 4; ++i) {
-      const double rim_mps = seen.vx_mps + (i % 2 == 0 ? -turn_mps : turn_mps);
+      const double aside_mps = i == 1 || i == 2 ? seen.vy_mps : -seen.vy_mps;
+      const double rim_mps = seen.vx_mps + aside_mps + (i % 2 == 0 ? -turn_mps : turn_mps);
       Drive& drive = drives[i];
       double radps = rim_mps / config.base.wheel_radius_m / mechanics.gear + drive.by_itself_radps;
       if (mechanics.reversed || mechanics.crossed)

@@ -63,7 +63,7 @@ struct OneOfEachInput {
     command(AcceptPosition{});
     command(ForgetLearned{});
     command(DriveByHand{7, {0.3, -0.1}});
-    command(FollowTwist{{0.3, -0.1}});
+    command(FollowTwist{{0.3, -0.1, 0.2}});
     command(FollowTwist{{}, true});
     command(TwistRefused{"linear.y is 0.3"});
     command(TwistRefused{"two programs write it", true});

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 namespace drover::sim {
 namespace {
@@ -21,6 +22,25 @@ TEST(Tyre, HasNoGripWithoutLoad) {
   const auto force = tyre.step(1, 1, 1, 0, kDt_s);
   EXPECT_EQ(force.ahead_N, 0);
   EXPECT_EQ(force.left_N, 0);
+}
+
+TEST(Roller, GripsAlongItsAxisAndRollsAwayAcross) {
+  const double axis_rad = -std::numbers::pi / 4;
+  Tyre gripping;
+  Tyre rolling;
+  Tyre::Force along;
+  Tyre::Force across;
+  for (int i = 0; i < 4000; ++i) {
+    along = gripping.step_roller(axis_rad, 0.2, -0.2, 0, 100, kDt_s);
+    across = rolling.step_roller(axis_rad, 0.2, 0.2, 0, 100, kDt_s);
+  }
+  EXPECT_NEAR(along.ahead_N, -80 * std::sqrt(0.5), 1e-6);
+  EXPECT_NEAR(along.left_N, 80 * std::sqrt(0.5), 1e-6);
+  EXPECT_NEAR(across.ahead_N, -3 * std::sqrt(0.5), 1e-6) << "its drag, against the motion";
+  EXPECT_NEAR(across.left_N, -3 * std::sqrt(0.5), 1e-6);
+  const auto lifted = rolling.step_roller(axis_rad, 0.2, 0.2, 0, 0, kDt_s);
+  EXPECT_EQ(lifted.ahead_N, 0);
+  EXPECT_EQ(lifted.left_N, 0);
 }
 
 TEST(Tyre, NeverExceedsTheFrictionCircle) {

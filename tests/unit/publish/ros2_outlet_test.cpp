@@ -150,6 +150,25 @@ TEST_F(Ros2Twists, GoToTheEngineWithTheInstantAtWhichTheyCame) {
   EXPECT_EQ(given(line("200000000000")).at(0).received, kNow) << "none is of tomorrow";
 }
 
+TEST_F(Ros2Twists, ToTheSideAreForABaseThatCan) {
+  constexpr auto kAside =
+      R"({"cmd":"cmd_vel","vx_mps":0,"wz_radps":0,"vy_mps":0.3,"at_ns":99900000000})";
+  const auto refused = given(kAside);
+  ASSERT_EQ(refused.size(), 1U);
+  EXPECT_EQ(std::get<TwistRefused>(refused[0].body).reason.view(),
+            "linear.y is 0.3: this base cannot go sideways");
+  Ros2Outlet can{50,
+                 [] { return std::vector<const scene::sensor::SeenTurn*>(); },
+                 {.cmd_vel = true, .sideways = true}};
+  Actions out;
+  EXPECT_TRUE(can.on_line(7, kFollow, kNow, out));
+  out.clear();
+  EXPECT_TRUE(can.on_line(7, kAside, kNow, out));
+  ASSERT_EQ(out.size(), 1U);
+  const auto& command = std::get<Command>(out[0]);
+  EXPECT_EQ(std::get<FollowTwist>(command.body).twist.vy_mps, 0.3);
+}
+
 TEST_F(Ros2Twists, ThatWereRefusedAreToldWithTheirReason) {
   const auto commands = given(R"({"cmd":"cmd_vel","refused":"linear.y is 0.3"})");
   ASSERT_EQ(commands.size(), 1U);

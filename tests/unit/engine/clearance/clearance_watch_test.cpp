@@ -20,6 +20,14 @@ TEST_F(AClearance, PermitsWhatCanStopBeforeTheFirstThingEachWay) {
   EXPECT_GT(watch.caps().left_radps, 0.8);
 }
 
+TEST_F(AClearance, PermitsNothingAsideAsNobodyLooksThere) {
+  tick(30);
+  EXPECT_GT(watch.limit({0.3, 0}).vx_mps, 0.2);
+  EXPECT_TRUE(is_zero(watch.limit({0.3, 0, 0.1})));
+  EXPECT_TRUE(is_zero(watch.limit({0, 0, -0.1})));
+  EXPECT_EQ(watch.rim_cap_mps({0, 0, 0.1}, 0.3), 0);
+}
+
 TEST_F(AClearance, TakesOffWhatWasDrivenSince) {
   found.ahead_m = 1;
   input.commanded = {0.5, 0};

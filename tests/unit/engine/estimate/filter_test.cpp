@@ -41,6 +41,18 @@ TEST(Filter, DoesNotPredictBackwards) {
   EXPECT_EQ(belief.mean[kX], 1);
 }
 
+TEST(Filter, GoesToTheLeftAndIsLessSureOfIt) {
+  Belief belief = start();
+  const BodyMotion aside{.twist = {0, 0, 0.5}, .vy_var = 0.0025, .known = true};
+  for (int i = 0; i < 200; ++i) predict(belief, aside, 0.01, true, 0, 0, {});
+  EXPECT_NEAR(belief.mean[kX], 1 - std::sin(0.4), 1e-9);
+  EXPECT_NEAR(belief.mean[kY], 2 + std::cos(0.4), 1e-9);
+  Belief ahead = start();
+  for (int i = 0; i < 200; ++i) predict(ahead, moving_by(0.5, 0), 0.01, true, 0, 0, {});
+  EXPECT_GT(two_sigma_position_m(belief), 1.2 * two_sigma_position_m(ahead));
+  EXPECT_TRUE(belief.finite());
+}
+
 TEST(Filter, DrivesAnArcOfTheRightLength) {
   Belief belief = start();
   for (int i = 0; i < 1000; ++i) predict(belief, moving_by(0.5, 0.2 / 0.6), 0.01, true, 0, 0, {});

@@ -135,7 +135,7 @@ TEST(GnssModel, TurnsTheBaseTowardsAnAntennaThatIsAside) {
     state.belief.reset(kX, 0, 1e-3);  // the place is known, so only the yaw can be wrong
     state.belief.reset(kY, 0, 1e-3);
     // 0.1 rad to the left moves the antenna by (-0.04, +0.03).
-    apply(state, sideways ? fixed_at(0.3, 0.43) : fixed_at(0.26, 0.4), 0, config);
+    apply(state, sideways ? fixed_at(0.3, 0.43) : fixed_at(0.26, 0.4), {}, config);
     EXPECT_GT(state.belief.mean[kYaw], 0.02) << sideways;
     EXPECT_LT(state.belief.mean[kYaw], 0.1) << sideways;
   }
@@ -146,7 +146,7 @@ TEST(GnssModel, LearnsNothingFromHearingTheFirstPositionAgain) {
   State state;
   state.time = kStart;
   apply_heading(state, 0, config);
-  for (int i = 0; i < 20; ++i) apply(state, fixed_at(1, 2), 0, config);
+  for (int i = 0; i < 20; ++i) apply(state, fixed_at(1, 2), {}, config);
   EXPECT_TRUE(state.has_position);
   EXPECT_GE(std::sqrt(state.belief.covariance[kX][kX]), 0.0124);
   EXPECT_GE(std::sqrt(state.belief.covariance[kY][kY]), 0.0124);

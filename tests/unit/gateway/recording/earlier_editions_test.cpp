@@ -121,13 +121,18 @@ TEST(FifthEdition, KnewOfTwistsTheirSpeedsOnly) {
   for (const decltype(Command::body)& body :
        {decltype(Command::body)(FollowTwist{{0.3, -0.1}}),
         decltype(Command::body)(TwistRefused{"linear.y is 0.3"})}) {
-    auto record = today(body);
-    const auto whole = record;
-    record.pop_back();
-    EXPECT_EQ(from_fifth_edition(record), whole);
+    const auto whole = today(body);
+    const std::size_t aside = std::holds_alternative<FollowTwist>(body) ? sizeof(double) : 0;
+    // It knew neither what was before it nor of a way to the side.
+    const std::span fifth(whole.data(), whole.size() - aside - 1);
+    EXPECT_EQ(from_sixth_edition(from_fifth_edition(fifth)), whole);
+    const std::span sixth(whole.data(), whole.size() - aside);
+    EXPECT_EQ(from_sixth_edition(sixth), whole);
   }
   const auto stop = today(EngageStop{});
   EXPECT_EQ(from_fifth_edition(stop), stop);
+  EXPECT_EQ(from_sixth_edition(stop), stop);
+  EXPECT_TRUE(from_sixth_edition({}).empty());
   EXPECT_TRUE(from_fifth_edition({}).empty());
 }
 

@@ -299,6 +299,7 @@ TEST(BaseStatus, RoundsEachValueToItsUnit) {
   snapshot.pose.yaw_rad = 3.14159265358979;
   snapshot.pose.wz_radps = -0.00001;
   snapshot.worst_vx_mps = 0.49999999999;
+  snapshot.pose.vy_mps = -0.3000000001;
   const auto text = BaseStatus(RtkConfig{}).text(snapshot);
   const struct {
     const char* group;
@@ -315,6 +316,7 @@ TEST(BaseStatus, RoundsEachValueToItsUnit) {
                    {"pose", "yaw", "3.14159"},
                    {"robot", "power", "68"},
                    {"robot", "vx", "0.5"},
+                   {"robot", "vy", "-0.3"},
                    {"robot", "vz", "0"},
                    {"rtk", "angle", "270"},
                    {"rtk", "latitude", "23.1496524965"},

@@ -27,6 +27,7 @@ Snapshot driving() {
   s.pose.vx_mps = 0.5;
   s.worst_vx_mps = 0.5;
   s.pose.wz_radps = 0.1;
+  s.pose.vy_mps = 0.2;
   s.gnss.configured = true;
   s.gnss.health = SourceState::fresh;
   s.gnss.position.quality = FixQuality::rtk_fixed;
@@ -105,6 +106,7 @@ TEST(Seen, TellsTheCommandLineThatNothingIsFresh) {
   const auto text = status_json(as_seen(driving(), kTaken + 6s), {});
   EXPECT_THAT(text, Not(HasSubstr(R"("fresh")")));
   EXPECT_THAT(text, HasSubstr(R"("vx_mps":null)"));
+  EXPECT_THAT(text, HasSubstr(R"("vy_mps":null)"));
   EXPECT_THAT(text, HasSubstr("stood still for 6.0 s"));
 }
 

@@ -1,0 +1,154 @@
+// The engine with a base that goes sideways, too.
+#include <cmath>
+
+#include "engine_fixture.h"
+
+namespace drover::engine {
+namespace {
+
+EngineConfig on_rollers() {
+  EngineConfig config = rig_config();
+  config.base.kind = BaseKind::mecanum;
+  config.base.track_m = 0.44;
+  config.base.wheelbase_m = 0.36;
+  config.base.wheel_radius_m = 0.076;
+  config.estimate.gnss_late_sigma_s = 0;  // calibrated: only a way ahead shows it
+  return config;
+}
+
+class ARobotOnRollers : public ::testing::Test {
+ protected:
+  explicit ARobotOnRollers(const EngineConfig& config = on_rollers()) : rig(config) {
+    rig.imu = true;
+  }
+  void say_s(const Twist& twist, double seconds) {
+    for (int i = 0; i < static_cast<int>(seconds * 20 + 0.5); ++i) {
+      rig.command(FollowTwist{twist});
+      rig.run_s(0.05);
+      fastest_mps = std::max(fastest_mps, std::abs(rig.snapshot().pose.vy_mps));
+    }
+  }
+  const Pose& pose() const { return rig.snapshot().pose; }
+
+  EngineRig rig;
+  double fastest_mps = 0;
+};
+
+TEST_F(ARobotOnRollers, FollowsCmdVelToTheSide) {
+  rig.settle();
+  say_s({}, 0.5);
+  say_s({0, 0, 0.3}, 4);
+  EXPECT_EQ(rig.snapshot().nav.owner, Owner::cmd_vel) << rig.snapshot().cmd_vel.reason.view();
+  EXPECT_NEAR(pose().vy_mps, 0.3, 0.02);
+  EXPECT_NEAR(pose().vx_mps, 0, 0.02);
+  say_s({}, 2);
+  const Pose& truth = rig.plant.truth();
+  EXPECT_GT(truth.y_m, 0.8);
+  EXPECT_NEAR(truth.x_m, 0, 0.02);
+  EXPECT_NEAR(truth.yaw_rad, 0, 0.03);
+  EXPECT_NEAR(pose().y_m, truth.y_m, 0.05) << rig.why();
+  EXPECT_EQ(rig.why(), "");
+  const Odometry& way = rig.snapshot().odometry;
+  EXPECT_NEAR(way.y_m, truth.y_m, 0.05);
+  EXPECT_GT(way.y_var, way.x_var) << "rollers slip aside";
+}
+
+TEST_F(ARobotOnRollers, TakesALongWayToTheSideForNoDriftAndNoShove) {
+  rig.settle();
+  say_s({}, 0.5);
+  for (int i = 0; i < 6; ++i) {
+    say_s({0, 0, i % 2 == 0 ? 0.4 : -0.4}, 12);
+    ASSERT_EQ(rig.why(), "") << i;
+    ASSERT_EQ(rig.snapshot().nav.owner, Owner::cmd_vel) << rig.snapshot().cmd_vel.reason.view();
+  }
+  EXPECT_NEAR(fastest_mps, 0.4, 0.02);
+  EXPECT_NEAR(pose().y_m, rig.plant.truth().y_m, 0.05);
+}
+
+TEST_F(ARobotOnRollers, DrivesATaskAsOthersDo) {
+  const Path path = straight_path(6);
+  rig.settle();
+  rig.start(path, 12, 0.5);
+  rig.run_s(25);
+  EXPECT_EQ(rig.snapshot().nav.status, NavStatus::success) << rig.why();
+  EXPECT_NEAR(rig.plant.truth().x_m, 6, 0.15);
+}
+
+TEST_F(ARobotOnRollers, StopsWhereOneOfItsWheelsIsSilent) {
+  rig.settle();
+  say_s({}, 0.5);
+  say_s({0, 0, 0.3}, 3);
+  ASSERT_GT(pose().vy_mps, 0.2);
+  rig.drives[2].silent = true;
+  say_s({0, 0, 0.3}, 0.5);
+  EXPECT_EQ(rig.fastest_command_radps(), 0);
+  EXPECT_NE(rig.snapshot().nav.owner, Owner::cmd_vel);
+}
+
+TEST_F(ARobotOnRollers, GoesAsideNoFasterThanItsLimit) {
+  rig.settle();
+  say_s({}, 0.5);
+  say_s({2, 0, 2}, 5);
+  EXPECT_NEAR(std::hypot(pose().vx_mps, pose().vy_mps), rig.config.limits.max_speed_mps, 0.02);
+  EXPECT_NEAR(pose().vx_mps, pose().vy_mps, 0.02);
+}
+
+class ARobotOnRollersThatDidNotProveThem : public ARobotOnRollers {
+ protected:
+  static EngineConfig unproved() {
+    EngineConfig config = on_rollers();
+    config.navigate.first_way_m = 0.3;
+    return config;
+  }
+  ARobotOnRollersThatDidNotProveThem() : ARobotOnRollers(unproved()) {}
+};
+
+TEST_F(ARobotOnRollersThatDidNotProveThem, GoesAheadBeforeItGoesAside) {
+  rig.settle();
+  say_s({}, 0.5);
+  say_s({0, 0, 0.3}, 1);
+  EXPECT_EQ(fastest_mps, 0) << "it did not move";
+  EXPECT_THAT(std::string(rig.snapshot().cmd_vel.reason.view()),
+              ::testing::HasSubstr("linear.y is 0.3: this base goes sideways once"));
+  say_s({}, 0.5);
+  say_s({0.3, 0, 0}, 15);
+  say_s({}, 1);
+  say_s({0, 0, 0.3}, 3);
+  EXPECT_NEAR(pose().vy_mps, 0.3, 0.03) << rig.snapshot().cmd_vel.reason.view();
+}
+
+class ARobotOnRollersInAScene : public ARobotOnRollers {
+ protected:
+  static EngineConfig in_a_scene() {
+    EngineConfig config = on_rollers();
+    config.clearance_required = true;
+    return config;
+  }
+  ARobotOnRollersInAScene() : ARobotOnRollers(in_a_scene()) {}
+};
+
+TEST_F(ARobotOnRollersInAScene, GoesNowhereAsideAsNobodyLooksThere) {
+  rig.settle();
+  say_s({}, 0.5);
+  say_s({0, 0, 0.3}, 1);
+  EXPECT_EQ(fastest_mps, 0);
+  EXPECT_THAT(std::string(rig.snapshot().cmd_vel.reason.view()),
+              ::testing::HasSubstr("nobody looks where it would go sideways"));
+}
+
+class ARobotWithoutRollers : public ARobotOnRollers {
+ protected:
+  ARobotWithoutRollers() : ARobotOnRollers(rig_config()) {}
+};
+
+TEST_F(ARobotWithoutRollers, RefusesAWayToTheSide) {
+  rig.settle();
+  say_s({}, 0.5);
+  say_s({0.2, 0, 0.3}, 1);
+  EXPECT_EQ(rig.fastest_command_radps(), 0);
+  EXPECT_THAT(std::string(rig.snapshot().cmd_vel.reason.view()),
+              ::testing::HasSubstr("linear.y is 0.3: this base cannot go sideways"));
+}
+
+}  // namespace
+}  // namespace drover::engine
