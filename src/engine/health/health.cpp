@@ -6,6 +6,7 @@
 
 #include "engine/base/words.h"
 #include "engine/health/heard.h"
+#include "engine/still.h"
 
 namespace drover::engine {
 namespace {
