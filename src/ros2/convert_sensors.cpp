@@ -1,5 +1,8 @@
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
+#include <vector>
 
 #include "drover/angle.h"
 #include "ros2/convert.h"
@@ -62,6 +65,52 @@ std::uint8_t health_of(BatteryAlarm alarm) {
   return kHealthUnknown;
 }
 
+/// A beam that came back tells of the angle that is nearest to it; of two the nearer range. One
+/// that falls between two angles tells of the other one as well, where no beam fell: beams of a
+/// scanner stand as far apart as the angles do, and would leave a gap beside each two that share
+/// one.
+void fill_angles(const ScanTold& scan, double part_rad, std::span<float> ranges,
+                 float* intensities) {
+  constexpr float kNothingCameBack = -1;
+  constexpr double kBeside = 0.75;  // of the way from one angle to the next
+  const auto angles = static_cast<std::int64_t>(ranges.size());
+  const auto place = [&](std::int64_t i) {
+    return static_cast<std::size_t>((i + angles) % angles);
+  };
+  std::vector<float> beside(ranges.size(), kNothingKnown);
+  std::fill(ranges.begin(), ranges.end(), kNothingKnown);
+  const auto each = [&](const auto& take) {
+    for (const ScanTold::Point& point : scan.points) {
+      if (!std::isfinite(point.bearing_rad)) continue;
+      const double at = (wrap_rad(point.bearing_rad) + kPi) / part_rad;
+      const double nearest = std::round(at);
+      take(point, static_cast<std::int64_t>(nearest), at - nearest);
+    }
+  };
+  each([&](const ScanTold::Point& point, std::int64_t nearest, double) {
+    const std::size_t i = place(nearest);
+    const auto range = static_cast<float>(point.range_m);
+    if (!(range > 0)) {
+      if (std::isnan(ranges[i])) ranges[i] = kNothingCameBack;
+    } else if (!(ranges[i] > 0 && ranges[i] <= range)) {
+      ranges[i] = range;
+      intensities[i] = static_cast<float>(point.intensity);
+    }
+  });
+  each([&](const ScanTold::Point& point, std::int64_t nearest, double off) {
+    const std::size_t i = place(nearest + (off < 0 ? -1 : 1));
+    const auto range = static_cast<float>(point.range_m);
+    if (!(range > 0) || 1 - std::abs(off) > kBeside) return;
+    if (!std::isnan(ranges[i]) || beside[i] <= range) return;
+    beside[i] = range;
+    intensities[i] = static_cast<float>(point.intensity);
+  });
+  for (std::size_t i = 0; i < ranges.size(); ++i) {
+    if (std::isnan(ranges[i])) ranges[i] = beside[i];
+    if (ranges[i] == kNothingCameBack) ranges[i] = kNothingKnown;
+  }
+}
+
 }  // namespace
 
 sensor_msgs_msg_dds__NavSatFix_ nav_sat_fix(const FixTold& fix, Arena& arena) {
@@ -111,25 +160,15 @@ sensor_msgs_msg_dds__LaserScan_ laser_scan(const ScanTold& scan, const RangeLimi
   const Stamp_ns middle_ns = scan.begin_ns + (scan.end_ns - scan.begin_ns) / 2;
   message.header_ = {time_of(middle_ns), arena.text(scan.name)};
   const double part_rad = 2 * kPi / static_cast<double>(angles);
-  message.angle_min_ = static_cast<float>(-kPi + part_rad / 2);
+  message.angle_min_ = static_cast<float>(-kPi);
   message.angle_increment_ = static_cast<float>(part_rad);
-  message.angle_max_ =
-      static_cast<float>(-kPi + part_rad / 2 + part_rad * static_cast<double>(angles - 1));
+  message.angle_max_ = static_cast<float>(-kPi + part_rad * static_cast<double>(angles - 1));
   message.scan_time_ = static_cast<float>(scan.turn_Hz > 0 ? 1 / scan.turn_Hz : 0);
   message.range_min_ = static_cast<float>(limits.min_m);
   message.range_max_ = static_cast<float>(limits.max_m);
   auto* ranges = arena.fill(message.ranges_, angles);
   auto* intensities = arena.fill(message.intensities_, angles);
-  std::fill_n(ranges, angles, kNothingKnown);
-  for (const ScanTold::Point& point : scan.points) {
-    if (!(point.range_m > 0) || !std::isfinite(point.bearing_rad)) continue;
-    const auto i = std::min(
-        static_cast<std::size_t>((wrap_rad(point.bearing_rad) + kPi) / part_rad), angles - 1);
-    const auto range = static_cast<float>(point.range_m);
-    if (ranges[i] <= range) continue;  // of two the nearer one
-    ranges[i] = range;
-    intensities[i] = static_cast<float>(point.intensity);
-  }
+  fill_angles(scan, part_rad, {ranges, angles}, intensities);
   return message;
 }
 

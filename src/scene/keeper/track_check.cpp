@@ -13,8 +13,9 @@ constexpr double kPart_m = 20;  // some hundred poses
 constexpr double kNoWay_m = 1e-6;
 
 std::string way_end_words(const Sweeper& sweeper, const WayEnd& end) {
-  return sweeper.name(end) +
-         (end.way.at_start && end.way.free_m == 0 ? " is where the robot is" : " is in the way");
+  return sweeper.name(end) + (end.way.at_start && end.way.free_m == 0
+                                  ? " is where the robot is, or within its margin"
+                                  : " is in the way");
 }
 
 }  // namespace

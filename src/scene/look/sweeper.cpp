@@ -61,7 +61,7 @@ Reason in_the_way(const std::string& name, const char* where, double way_m) {
 Reason is_there(const std::string& name) {
   const std::string shown = shown_name(name);
   Reason words;
-  words.format("%s is where the robot is", shown.c_str());
+  words.format("%s is where the robot is, or within its margin", shown.c_str());
   return words;
 }
 

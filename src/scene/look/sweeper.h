@@ -44,7 +44,7 @@ Reason in_the_turn(const std::string& name, const char* is, double turn_rad, boo
 
 /// "box1 is in the way, 1.20 m ahead".
 Reason in_the_way(const std::string& name, const char* where, double way_m);
-/// "box1 is where the robot is".
+/// "box1 is where the robot is, or within its margin".
 Reason is_there(const std::string& name);
 
 }  // namespace drover::scene

@@ -205,7 +205,7 @@ TEST_F(Messages, OfAScanHaveTheNearestOfEachAngleAndNaNWhereNothingIsKnown) {
   told.begin_ns = kAt_ns;
   told.end_ns = kAt_ns + 100'000'000;
   told.turn_Hz = 10;
-  for (int i = 0; i < 8; ++i) told.points.push_back({-kPi + (i + 0.5) * kPi / 4, 2.0 + i, 10});
+  for (int i = 0; i < 8; ++i) told.points.push_back({-kPi + i * kPi / 4, 2.0 + i, 10});
   told.points[3].range_m = 0;
   told.points[5].bearing_rad = told.points[4].bearing_rad + 0.01;
   told.points[5].range_m = 1;
@@ -214,8 +214,8 @@ TEST_F(Messages, OfAScanHaveTheNearestOfEachAngleAndNaNWhereNothingIsKnown) {
   EXPECT_EQ(message.header_.stamp_.nanosec_, 300'000'000U) << "the middle of the turn";
   ASSERT_EQ(message.ranges_._length, 8U);
   ASSERT_EQ(message.intensities_._length, 8U);
-  EXPECT_FLOAT_EQ(message.angle_min_, static_cast<float>(-kPi * 7 / 8));
-  EXPECT_FLOAT_EQ(message.angle_max_, static_cast<float>(kPi * 7 / 8));
+  EXPECT_FLOAT_EQ(message.angle_min_, static_cast<float>(-kPi));
+  EXPECT_FLOAT_EQ(message.angle_max_, static_cast<float>(kPi * 3 / 4));
   EXPECT_NEAR(message.angle_min_ + 7 * message.angle_increment_, message.angle_max_, 1e-5);
   EXPECT_FLOAT_EQ(message.scan_time_, 0.1F);
   EXPECT_FLOAT_EQ(message.range_max_, 12.0F);
@@ -236,13 +236,38 @@ TEST_F(Messages, OfAScanHaveTheSameAnglesWhateverTheTurnHas) {
     ASSERT_EQ(message.ranges_._length, 40U) << points;
     ASSERT_EQ(message.intensities_._length, 40U) << points;
     EXPECT_FLOAT_EQ(message.angle_increment_, static_cast<float>(2 * kPi / 40)) << points;
-    EXPECT_FLOAT_EQ(message.angle_min_, static_cast<float>(-kPi + kPi / 40)) << points;
-    EXPECT_FLOAT_EQ(message.angle_max_, static_cast<float>(kPi - kPi / 40)) << points;
+    EXPECT_FLOAT_EQ(message.angle_min_, static_cast<float>(-kPi)) << points;
+    EXPECT_FLOAT_EQ(message.angle_max_, static_cast<float>(kPi - 2 * kPi / 40)) << points;
     int known = 0;
     for (int i = 0; i < 40; ++i) known += std::isnan(message.ranges_._buffer[i]) ? 0 : 1;
-    EXPECT_EQ(known, std::min(points, 40));
-    if (points > 0) {
-      EXPECT_EQ(message.ranges_._buffer[20 / points], 2.0F) << points;
+    EXPECT_GE(known, std::min(points, 40));
+    EXPECT_LE(known, 2 * points) << "one beside each";
+  }
+}
+
+/// A turn of a scanner has as many beams as the message has angles, wherever the first one falls.
+TEST_F(Messages, OfAScanHaveNoGapsBetweenItsBeams) {
+  for (const double first : {0.0, 0.2, 0.4999, 0.5, 0.5001, 0.9}) {
+    ScanTold told;
+    told.name = "lidar";
+    for (int i = 0; i < 450; ++i) {  // told with five decimals
+      const double bearing_rad = -kPi + (i + first) * 2 * kPi / 450;
+      told.points.push_back({std::round(bearing_rad * 1e5) / 1e5, 2.0 + i, 10});
+    }
+    told.points[100].range_m = 0;
+    const auto message = laser_scan(told, {0.05, 12}, 450, arena);
+    int unknown = 0;
+    for (int i = 0; i < 450; ++i) {
+      const float range = message.ranges_._buffer[i];
+      unknown += std::isnan(range) ? 1 : 0;
+      if (std::isnan(range)) continue;
+      const double off = std::remainder(range - 2.0 + first - i, 450);
+      EXPECT_LE(std::abs(off), 0.76) << i << " of " << first;
+      EXPECT_EQ(message.intensities_._buffer[i], 10.0F);
+    }
+    EXPECT_LE(unknown, 1) << first << ": only where nothing came back";
+    if (first < 0.25) {
+      EXPECT_TRUE(std::isnan(message.ranges_._buffer[100])) << "not free";
     }
   }
 }

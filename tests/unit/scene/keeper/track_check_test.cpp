@@ -52,7 +52,7 @@ TEST_F(AKeeper, NamesWhatIsWhereTheRobotIs) {
   const auto offence = check(path, 30);
   ASSERT_TRUE(offence);
   EXPECT_EQ(offence->way_m, 0);
-  EXPECT_EQ(offence->what, "box1 is where the robot is");
+  EXPECT_EQ(offence->what, "box1 is where the robot is, or within its margin");
 }
 
 TEST_F(AKeeper, LooksAlongATrackWithTheErrorsOfPlaceAndHeading) {

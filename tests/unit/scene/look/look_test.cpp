@@ -192,7 +192,7 @@ TEST_F(ALook, MovesNowhereFromWhereSomethingIsAlready) {
   EXPECT_EQ(found.back_m, 0);
   EXPECT_EQ(found.left_rad, 0);
   EXPECT_EQ(found.right_rad, 0);
-  EXPECT_EQ(text(found.first), "box1 is where the robot is");
+  EXPECT_EQ(text(found.first), "box1 is where the robot is, or within its margin");
 }
 
 TEST_F(ALook, SaysNothingWithoutAPosition) {
@@ -264,7 +264,7 @@ TEST_F(ALook, SaysHowFarADiscMayGoWithoutAHeading) {
     EXPECT_EQ(found.ahead_m, 0);
     EXPECT_EQ(found.left_rad, 0);
     EXPECT_EQ(found.right_rad, 0);
-    EXPECT_EQ(text(found.first), "near is where the robot is");
+    EXPECT_EQ(text(found.first), "near is where the robot is, or within its margin");
   }
 }
 
@@ -357,7 +357,7 @@ TEST_F(ALook, NamesWhatHindersTheTurnAtACornerOfItsTrack) {
 TEST_F(ALook, SaysOfATurnThatItStandsInSomething) {
   put("box1", -0.2, -0.2);
   from.twist = {0, 0.5};
-  EXPECT_EQ(text(look_now().turn), "box1 is where the robot is");
+  EXPECT_EQ(text(look_now().turn), "box1 is where the robot is, or within its margin");
 }
 
 /// The rear left corner comes there after more than the corner of the track turns.
