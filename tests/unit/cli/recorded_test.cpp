@@ -243,7 +243,7 @@ TEST(Recordings, OfABatteryAreDecodedWhicheverBlocksTheMasterRead) {
   EXPECT_EQ(shown.out,
             "       2  battery  soc 90.0 %  voltage 14.00 V  current 3.00 A  "
             "remaining 345.6 Ah  temperature 23.0 C  mosfet -  min cell 4.127 V  "
-            "max cell 4.157 V  flow idle  charger connected no  alarm -\n")
+            "max cell 4.157 V  flow idle  charger connected no  charges yes  alarm -\n")
       << shown.notes;
   EXPECT_EQ(shown.notes,
             "line 3: the function is neither 3 nor 4\nline 4: \"12345\" is no word\n"
