@@ -66,22 +66,25 @@ class PlaceByRos2 : public MovedFromRos2 {
     }
     ASSERT_EQ(said, "done\n") << status();
   }
-  /// A person believes the receiver, which is elsewhere: map moves to there, /odom does not.
-  void accept_and_see(double north_m) {
-    const GroundPlace odom = *odom_.place;
-    const GroundPlace pose = *rtk_pose_;
-    const GroundPlace in_map = *odom_in_map_;
+  struct Places {
+    GroundPlace odom, pose, odom_in_map;
+  };
+  Places now() const { return {*odom_.place, *rtk_pose_, *odom_in_map_}; }
+  /// A person believes the receiver, which is elsewhere: map moves to there, /odom does not. Found
+  /// again elsewhere it may be there before he does (seen on busy computers); it says so, and waits
+  /// for him all the same.
+  void accept_and_see(double north_m, const Places& before) {
     ASSERT_NO_FATAL_FAILURE(accept());
     ASSERT_TRUE(say_until(0,
                           [&] {
-                            return std::abs(rtk_pose_->y_m - pose.y_m - north_m) < 0.3 &&
-                                   apart_m(*odom_in_map_, in_map) > kJump_m / 2;
+                            return std::abs(rtk_pose_->y_m - before.pose.y_m - north_m) < 0.3 &&
+                                   apart_m(*odom_in_map_, before.odom_in_map) > kJump_m / 2;
                           }))
-        << rtk_pose_->y_m - pose.y_m << " m\n"
+        << rtk_pose_->y_m - before.pose.y_m << " m\n"
         << status();
     ASSERT_NO_FATAL_FAILURE(say_for(0, 1));
-    EXPECT_LT(apart_m(*odom_.place, odom), 0.05);
-    EXPECT_LT(std::abs(wrap_rad(odom_.place->yaw_rad - odom.yaw_rad)), 0.05);
+    EXPECT_LT(apart_m(*odom_.place, before.odom), 0.05);
+    EXPECT_LT(std::abs(wrap_rad(odom_.place->yaw_rad - before.odom.yaw_rad)), 0.05);
   }
 
   dds_entity_t reader(ros2::Topic topic) const {
@@ -105,14 +108,15 @@ TEST_F(PlaceByRos2, JumpsInTheMapOnlyWhenTheReceiverDoes) {
   ASSERT_NO_FATAL_FAILURE(receiver(kJumpNorth));
   ASSERT_NO_FATAL_FAILURE(drive(1));
   ASSERT_NO_FATAL_FAILURE(say_for(0, 2));
-  ASSERT_NO_FATAL_FAILURE(accept_and_see(kJump_m));
+  ASSERT_NO_FATAL_FAILURE(accept_and_see(kJump_m, now()));
 
+  const Places before = now();
   ASSERT_NO_FATAL_FAILURE(receiver("none"));
   ASSERT_NO_FATAL_FAILURE(say_for(0, 2));
   ASSERT_NO_FATAL_FAILURE(receiver("jump:0"));
   ASSERT_NO_FATAL_FAILURE(receiver("fix"));
   ASSERT_NO_FATAL_FAILURE(say_for(0, 2));
-  ASSERT_NO_FATAL_FAILURE(accept_and_see(-kJump_m));
+  ASSERT_NO_FATAL_FAILURE(accept_and_see(-kJump_m, before));
   EXPECT_GT(odom_.count, 200U);
 }
 
