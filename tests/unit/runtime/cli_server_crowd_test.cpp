@@ -152,21 +152,13 @@ TEST_F(CliServerCrowd, WhoWaitsForAnAnswerDoesNotMakeRoom) {
       itself->reply(id, "?");
   });
   itself = &server;
-  const auto connect_late = [&] {
-    sockaddr_un address{};
-    address.sun_family = AF_UNIX;
-    std::strcpy(address.sun_path, (folder_ + "/late.sock").c_str());
-    link::UniqueFd fd(::socket(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK, 0));
-    EXPECT_EQ(::connect(fd.get(), reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
-    return fd;
-  };
-  const auto resetting = connect_late();
+  const auto resetting = connect("/late.sock");
   say(resetting, "reset\n");
   server.on_ready();
   ASSERT_NE(waiting, 0U);
   std::vector<link::UniqueFd> all;
   for (int i = 0; i < 100; ++i) {
-    all.push_back(connect_late());
+    all.push_back(connect("/late.sock"));
     say(all.back(), "status\n");
     server.on_ready();
   }
@@ -184,11 +176,7 @@ TEST_F(CliServerCrowd, ALineKnowsWhichStopsWereAskedForBeforeItCame) {
   });
   itself = &server;
   server.stops_first([](std::string_view line) { return line == "stop"; }, stops_);
-  sockaddr_un address{};
-  address.sun_family = AF_UNIX;
-  std::strcpy(address.sun_path, (folder_ + "/order.sock").c_str());
-  link::UniqueFd fd(::socket(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK, 0));
-  ASSERT_EQ(::connect(fd.get(), reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
+  const auto fd = connect("/order.sock");
   say(fd, "early\nstop\nlate\n");
   pollfd ready{server.fd(), POLLIN, 0};
   while (::poll(&ready, 1, 20) == 1) server.on_ready();

@@ -35,10 +35,10 @@ class CliServerTest : public ::testing::Test {
     server_.reset();
     std::filesystem::remove_all(folder_);
   }
-  link::UniqueFd connect() const {
+  link::UniqueFd connect(const std::string& socket = "/drover.sock") const {
     sockaddr_un address{};
     address.sun_family = AF_UNIX;
-    std::strcpy(address.sun_path, (folder_ + "/drover.sock").c_str());
+    std::strcpy(address.sun_path, (folder_ + socket).c_str());
     link::UniqueFd fd(::socket(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK, 0));
     EXPECT_EQ(::connect(fd.get(), reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
     return fd;
