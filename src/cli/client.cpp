@@ -40,12 +40,26 @@ Connection::Connection(const std::string& socket_path, int patience_s)
     throw NoAnswer{why(path_, errno, patience_s_)};
 }
 
+/// A line that was not read to its end was not obeyed: then the system calls the end of the
+/// connection a reset.
+NoAnswer Connection::unanswered(int error) const {
+  if (error == ECONNRESET || error == EPIPE)
+    return {"droverd let this connection go, and has not read the request: try again"};
+  if (error == 0)
+    return {
+        "droverd closed the connection before it answered: it may have done it; see: drover "
+        "status",
+        true};
+  return {why(path_, error, patience_s_), true};
+}
+
 std::string Connection::ask(const std::string& request) {
   const std::string line = request + "\n";
   for (std::size_t sent = 0; sent < line.size();) {
     const auto n = ::send(fd_.get(), line.data() + sent, line.size() - sent, MSG_NOSIGNAL);
     if (n < 0 && errno == EINTR) continue;
-    if (n < 0) throw NoAnswer{why(path_, errno, patience_s_)};
+    if (n < 0 && errno == EAGAIN) throw NoAnswer{why(path_, errno, patience_s_)};
+    if (n < 0) throw unanswered(errno);
     sent += static_cast<std::size_t>(n);  // a large one goes in parts
   }
 
@@ -54,8 +68,7 @@ std::string Connection::ask(const std::string& request) {
   while (reply.empty() || reply.back() != '\n') {
     const auto n = ::recv(fd_.get(), buffer.data(), buffer.size(), 0);
     if (n < 0 && errno == EINTR) continue;
-    if (n < 0) throw NoAnswer{why(path_, errno, patience_s_)};
-    if (n == 0) throw NoAnswer{"droverd closed the connection"};
+    if (n <= 0) throw unanswered(n == 0 ? 0 : errno);
     reply.append(buffer.data(), static_cast<std::size_t>(n));
   }
   reply.pop_back();

@@ -8,9 +8,10 @@
 
 namespace drover::cli {
 
-/// The daemon could not be asked: the sentence says why.
+/// The daemon has not answered: the sentence says why.
 struct NoAnswer {
   std::string text;
+  bool asked = false;  ///< it may have done what was asked for
 };
 
 /// How long an answer that waits for the disk may take.
@@ -25,6 +26,8 @@ class Connection final {
   std::string ask(const std::string& request);
 
  private:
+  NoAnswer unanswered(int error) const;
+
   std::string path_;
   int patience_s_;
   link::UniqueFd fd_;

@@ -32,6 +32,7 @@ constexpr int kDaemonPatience_s = 1;
 struct Answer {
   bool obeyed = false;
   bool heard = false;  ///< it answered
+  bool maybe = false;  ///< it did not, but was asked
   bool limp = false;   ///< the guard leaves the drives alone: they were released, or have no power
   std::int64_t unreached = 0;  ///< drives to which the guard never had a way
   std::string why = {};        ///< not obeyed: a sentence
@@ -114,7 +115,7 @@ Answer tell_daemon(const StopPlaces& places, std::string_view cmd) {
             .why = reason != nullptr && reason->text() != nullptr ? *reason->text()
                                                                   : "droverd refused"};
   } catch (const NoAnswer& no) {
-    return {.why = no.text};
+    return {.maybe = no.asked, .why = no.text};
   }
 }
 
@@ -169,7 +170,7 @@ void print(const StopPlaces& places, bool done, const Answer& guard, const Answe
   } else if (done) {
     std::printf("done: %s\n", words.c_str());
   } else {
-    std::fprintf(stderr, "refused: %s\n", words.c_str());
+    std::fprintf(stderr, "%s: %s\n", daemon.maybe ? "not known" : "refused", words.c_str());
   }
 }
 
@@ -197,7 +198,9 @@ int stop(const StopPlaces& places) {
   if (!daemon.obeyed) words = "drover-guard stops the robot; " + daemon.why;
   if (guard.unreached > 0 && !daemon.obeyed)
     words += "; drives to which it never had a way: " + std::to_string(guard.unreached);
-  if (!done) words = "nobody stops the robot: " + guard.why + "; " + daemon.why;
+  if (!done)
+    words = (daemon.maybe ? "nobody says that the robot stops: " : "nobody stops the robot: ") +
+            guard.why + "; " + daemon.why;
   // A latched stop commands nothing to drives that were let go: a robot that rolls rolls on.
   if (done && guard.limp)
     words =
@@ -227,8 +230,10 @@ int reset(const StopPlaces& places) {
   std::string words = was_stopped ? "the stop is over" : "no stop was latched";
   if (!guard.obeyed) words = (done ? words + "; " : "") + guard.why;
   if (!daemon.obeyed)
-    words =
-        (guard.obeyed && !daemon.heard ? "only drover-guard's stop is over: " : "") + daemon.why;
+    words = (!guard.obeyed || daemon.heard ? ""
+             : daemon.maybe                ? "drover-guard's stop is over; "
+                                           : "only drover-guard's stop is over: ") +
+            daemon.why;
   print(places, done, guard, daemon, words);
   return done ? kDone : daemon.heard ? kRefused : kNoDaemon;
 }

@@ -11,6 +11,8 @@
 namespace drover::publish {
 namespace {
 
+constexpr json::Limits kLimits{.max_bytes = 64 * 1024, .max_depth = 4, .max_values = 64};
+
 std::string refusal(std::string_view reason) {
   return reply_line(false, reason);
 }
@@ -63,13 +65,42 @@ std::string cmd_problem(const json::Node& request) {
 
 }  // namespace
 
+bool is_stop_line(std::string_view line) {
+  const auto has = [line](std::string_view word) {
+    return line.find(word) != std::string_view::npos;
+  };
+  if (line.size() > kShortMessageBytes || (!has("\"stop\"") && !has("\"task_cancel\"")))
+    return false;
+  const auto document = json::parse(line, kLimits);
+  if (!document || document->root.object() == nullptr) return false;
+  const auto cmd = text_member(document->root, "cmd");
+  return cmd == "stop" || cmd == "task_cancel";
+}
+
+std::optional<CliOutlet::NamedStop> CliOutlet::named_stop(const json::Node& request) {
+  const auto from = text_member(request, "from");
+  const auto* number = request.find("number");
+  if (from.empty() || number == nullptr || !number->integer()) return std::nullopt;
+  return NamedStop{from, *number->integer()};
+}
+
+/// Its answer was lost with the connection. What was done is not done again: a person may have
+/// reset it meanwhile.
+bool CliOutlet::told_again(ClientId client, const NamedStop& stop, Actions& out) {
+  if (stop.from != last_stop_.from || stop.number != last_stop_.number) return false;
+  if (last_stop_.done)
+    out.emplace_back(Reply{client, reply_line(true, "it was done already")});
+  else
+    waiting_.at(last_stop_.request).client = client;
+  return true;
+}
+
 bool CliOutlet::on_line(ClientId client, std::string_view line, Time now, Actions& out) {
   const auto reply = [&](std::string text) {
     out.emplace_back(Reply{client, std::move(text)});
     return true;
   };
-  const auto document =
-      json::parse(line, {.max_bytes = 64 * 1024, .max_depth = 4, .max_values = 64});
+  const auto document = json::parse(line, kLimits);
   if (!document) return reply(refusal("not understood: " + document.error().text()));
   const json::Node& request = document->root;
   if (const auto problem = cmd_problem(request); !problem.empty()) return reply(refusal(problem));
@@ -84,7 +115,10 @@ bool CliOutlet::on_line(ClientId client, std::string_view line, Time now, Action
     command = StartTaskRequest{name, *id->integer(), *speed->number()};
   }
   if (!command) return reply(at_once(cmd, name, now));
+  const auto stop = cmd == "stop" ? named_stop(request) : std::nullopt;
+  if (stop && told_again(client, *stop, out)) return true;
   const auto number = next_request_++;
+  if (stop) last_stop_ = {stop->from, stop->number, number};
   waiting_[number] = {client, cmd == "stop"};
   service_.on_cli(number, std::move(*command), now, out);
   return true;
@@ -99,6 +133,11 @@ bool CliOutlet::on_answer(const Answer& answer, Actions& out) {
   out.emplace_back(Reply{client, stop && !answer.ok ? stop_refused_line(answer.text)
                                                     : reply_line(answer.ok, answer.text)});
   waiting_.erase(waiting);
+  // One that was refused is to be tried again.
+  if (answer.id.number == last_stop_.request) {
+    last_stop_.done = answer.ok;
+    if (!answer.ok) last_stop_ = {};
+  }
   return true;
 }
 

@@ -3,12 +3,19 @@
 
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
+#include <string_view>
 
+#include "json/located_json.h"
 #include "publish/command_service.h"
 #include "publish/outlet.h"
 
 namespace drover::publish {
+
+/// Whether a line asks for a stop, orderly or not, as drover and drover-ros2 write it: such a line
+/// waits for no other. Cheap for those that do not.
+bool is_stop_line(std::string_view line);
 
 /// Takes every line, also to refuse it: the last of the outlets.
 class CliOutlet final : public Outlet {
@@ -22,6 +29,15 @@ class CliOutlet final : public Outlet {
   bool on_answer(const Answer& answer, Actions& out) override;
 
  private:
+  /// A stop that tells whose it is and which one, of someone who may lose its answer.
+  struct NamedStop {
+    std::string from;
+    std::int64_t number = 0;
+    std::uint64_t request = 0;
+    bool done = false;
+  };
+  static std::optional<NamedStop> named_stop(const json::Node& request);
+  bool told_again(ClientId client, const NamedStop& stop, Actions& out);
   std::string at_once(std::string_view cmd, const std::string& name, Time now) const;
 
   CommandService& service_;
@@ -32,6 +48,7 @@ class CliOutlet final : public Outlet {
   };
   std::map<std::uint64_t, Asked> waiting_;  ///< by the number of the request
   std::uint64_t next_request_ = 1;
+  NamedStop last_stop_;
 };
 
 }  // namespace drover::publish

@@ -74,10 +74,17 @@ std::optional<Time> AskedFor::due() const {
   return first;
 }
 
+std::string AskedFor::stop_line() const {
+  json::JsonText line;
+  line.open('{').key("cmd").text("stop");
+  if (!name_.empty()) line.key("from").text(name_).key("number").integer(stop_number_);
+  return line.close('}').take();
+}
+
 void AskedFor::tell(Time now, const std::function<bool(const std::string&)>& send) {
   if (stop_is_due(now)) {
     stop_tried_ = now;
-    stop_waits_ = !send(json::JsonText().open('{').key("cmd").text("stop").close('}').take());
+    stop_waits_ = !send(stop_line());
     if (!stop_waits_) ++unanswered_;
   }
   if (!refused_.empty() && !too_soon(refused_told_, kRefusalsApart, now)) {

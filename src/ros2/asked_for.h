@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "drover/time.h"
 #include "ros2/twists_heard.h"
@@ -16,8 +17,15 @@ namespace drover::ros2 {
 /// faster than droverd takes them. Pure.
 class AskedFor final {
  public:
+  /// `name`: nobody else's, so that droverd does each stop once, however often it is told; empty:
+  /// it cannot know.
+  explicit AskedFor(std::string name = {}) : name_(std::move(name)) {}
+
   /// An emergency stop; of more that come in rows ten a second are told, and the last one.
-  void stop() { stop_waits_ = true; }
+  void stop() {
+    stop_waits_ = true;
+    ++stop_number_;
+  }
   void hear(const TwistsHeard& heard);
   /// droverd has done what a line asked for, which it says of stops only, in their order.
   void answered();
@@ -44,6 +52,10 @@ class AskedFor final {
     Twist twist;
     Time said = kNever;
   };
+  std::string stop_line() const;
+
+  std::string name_;
+  std::int64_t stop_number_ = 0;  ///< of the newest; one that is told again has its own again
   bool stop_waits_ = false;
   Time stop_tried_ = kNever;
   unsigned unanswered_ = 0;  ///< stops that have left

@@ -3,6 +3,7 @@
 #include <poll.h>
 
 #include <array>
+#include <random>
 
 #include "json/json_text.h"
 #include "ros2/networks.h"
@@ -22,6 +23,12 @@ Stamp_ns wall_now_ns() {
   return (runtime::monotonic_now().time_since_epoch() + runtime::wall_minus_monotonic()).count();
 }
 
+/// Nobody can guess it: stops of that name that were done are not done again.
+std::string random_name() {
+  std::random_device random;
+  return std::to_string(random()) + "-" + std::to_string(random()) + "-" + std::to_string(random());
+}
+
 std::string joined(const std::vector<std::string>& texts) {
   std::string all;
   for (const auto& text : texts) all += (all.empty() ? "" : ", ") + text;
@@ -34,7 +41,8 @@ Program::Program(const config::DroverConfig& config)
     : config_(config),
       reach_(config.ros2.mode == "network" ? Reach::network : Reach::localhost),
       robot_(robot_of(config)),
-      link_(config.paths.run + "/drover.sock") {
+      link_(config.paths.run + "/drover.sock"),
+      asked_(random_name()) {
   take_over_dds_log();
 }
 

@@ -7,6 +7,7 @@
 #include <array>
 #include <stdexcept>
 
+#include "publish/cli_outlet.h"
 #include "publish/ros2_outlet.h"
 #include "publish/status/seen.h"
 #include "runtime/clock.h"
@@ -77,6 +78,7 @@ PublishLoop::PublishLoop(const config::DroverConfig& config, ControlExchange& co
       epoll_(::epoll_create1(EPOLL_CLOEXEC)),
       timer_(periodic_timer(kTenth)) {
   if (!epoll_) throw std::runtime_error("the publish thread's epoll cannot be made");
+  cli_.stops_first(publish::is_stop_line, control_.stops);
   cli_.on_gone([this](publish::ClientId client) {
     for (const auto& each : outlets_) each.outlet->on_gone(client);
   });
@@ -285,9 +287,11 @@ std::string PublishLoop::status_text(Time now) {
 
 /// At once: a stop must not wait for what else woke the thread.
 void PublishLoop::on_line(publish::ClientId client, std::string_view line) {
+  before_ = cli_.before();
   for (const auto& each : outlets_)
     if (each.outlet->on_line(client, line, monotonic_now(), actions_)) break;
   carry_out(actions_);
+  before_.reset();
 }
 
 void PublishLoop::take_events() {

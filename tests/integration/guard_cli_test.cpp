@@ -150,6 +150,19 @@ TEST_F(GuardAndCommandLine, ResetSaysThatOnlyTheGuardHeardIt) {
   EXPECT_THAT(at_stop_socket("state"), HasSubstr("\"latched\":false"));
 }
 
+/// It may have been done: nobody refused.
+TEST_F(GuardAndCommandLine, ResetThatDroverdDoesNotAnswerIsNotToldAsRefused) {
+  start();
+  supply();
+  ASSERT_EQ(drover({"stop"}).code, 0);
+  const RefusingDaemon daemon(hung_daemon(), "");
+  const auto reset = drover({"reset"});
+  EXPECT_EQ(reset.code, 3) << reset.text;
+  EXPECT_THAT(reset.text, HasSubstr("not known: drover-guard's stop is over; droverd closed the "
+                                    "connection before it answered: it may have done it"));
+  EXPECT_THAT(reset.text, Not(HasSubstr("refused")));
+}
+
 /// droverd refuses while what stopped the robot persists: then nothing of the stop is over.
 TEST_F(GuardAndCommandLine, ResetThatDroverdRefusesLeavesTheGuardsStopAsItWas) {
   start();

@@ -111,6 +111,54 @@ TEST_F(Outlets, OfTheCommandLineNameAStopThatWasNotDone) {
   EXPECT_EQ(std::get<Reply>(out.front()).line, R"({"ok":false,"cmd":"stop","reason":"no answer"})");
 }
 
+/// drover-ros2 tells it again on a new connection, when the answer was lost with the old one.
+TEST_F(Outlets, OfTheCommandLineDoAStopOnceHoweverOftenItIsTold) {
+  constexpr auto kFirst = R"({"cmd":"stop","from":"1-2","number":1})";
+  const auto asked = [this] {
+    std::vector<RequestId> stops;
+    for (const Action& action : actions_)
+      if (const auto* stop = std::get_if<Command>(&action)) stops.push_back(stop->id);
+    return stops;
+  };
+  const auto answer = [this](RequestId id, bool ok) {
+    Actions out;
+    EXPECT_TRUE(cli_.on_answer({id, ok, ok ? "" : "no answer"}, out));
+    return out.empty() ? Reply{} : std::get<Reply>(out.front());
+  };
+  EXPECT_EQ(reply_to(kFirst), "");
+  const auto first = asked();
+  ASSERT_EQ(first.size(), 1U);
+  actions_.clear();
+  EXPECT_TRUE(cli_.on_line(8, kFirst, kMoment.now, actions_));
+  EXPECT_THAT(actions_, IsEmpty()) << "it is not done yet";
+  EXPECT_EQ(answer(first[0], true).client, 8U) << "who told it last hears of it";
+  EXPECT_THAT(reply_to(kFirst), testing::HasSubstr(R"("ok":true)"));
+  EXPECT_THAT(asked(), IsEmpty()) << "a person may have reset it";
+
+  EXPECT_EQ(reply_to(R"({"cmd":"stop","from":"1-2","number":2})"), "") << "another one";
+  ASSERT_EQ(asked().size(), 1U);
+  EXPECT_THAT(answer(asked()[0], false).line, testing::HasSubstr("no answer"));
+  EXPECT_EQ(reply_to(R"({"cmd":"stop","from":"1-2","number":2})"), "") << "it was refused";
+  EXPECT_EQ(asked().size(), 1U);
+  EXPECT_TRUE(answer(asked()[0], true).line.starts_with(R"({"ok":true)"));
+  EXPECT_EQ(reply_to(R"({"cmd":"stop","from":"3-4","number":2})"), "") << "another program's";
+  EXPECT_EQ(asked().size(), 1U);
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_EQ(reply_to(R"({"cmd":"stop"})"), "");
+    EXPECT_EQ(asked().size(), 1U) << "a person's is done each time";
+  }
+}
+
+TEST(LinesOfTheCommandLine, ThatStopAreKnown) {
+  EXPECT_TRUE(is_stop_line(R"({"cmd":"stop"})"));
+  EXPECT_TRUE(is_stop_line(R"({"cmd": "stop", "from":"1-2","number":1})"));
+  EXPECT_TRUE(is_stop_line(R"({"cmd":"task_cancel"})"));
+  for (const auto* other :
+       {R"({"cmd":"reset"})", R"({"cmd":"traj_show","name":"stop"})", R"("stop")", R"(["stop"])",
+        R"({"cmd":"status"})", R"({"cmd":"traj_show","name":"task_cancel"})", "{\"stop\"", ""})
+    EXPECT_FALSE(is_stop_line(other)) << other;
+}
+
 TEST_F(Outlets, OfTheCommandLineTellTheClientWhatBecameOfItsRequest) {
   EXPECT_EQ(reply_to(R"({"cmd":"task_cancel"})"), "") << "the engine has not decided yet";
   const Command* command = nullptr;

@@ -68,6 +68,21 @@ TEST_F(WhatUsersAskFor, AStopThatWasNotAnsweredIsToldAgainWhenTheWayIsLost) {
   EXPECT_FALSE(asked.due());
   EXPECT_TRUE(told(kNow + 30s).empty());
 }
+/// By its number droverd knows one that it has done; a person may have reset that.
+TEST_F(WhatUsersAskFor, AStopThatIsToldAgainHasItsOwnNumberAndANewOneTheNext) {
+  asked = AskedFor("1-2");
+  asked.stop();
+  constexpr const char* kFirst = R"({"cmd":"stop","from":"1-2","number":1})";
+  EXPECT_THAT(told(kNow), ElementsAre(kFirst));
+  EXPECT_TRUE(asked.way_lost());
+  EXPECT_THAT(told(kNow + 1s, false), ElementsAre(kFirst));
+  EXPECT_THAT(told(kNow + 2s), ElementsAre(kFirst));
+  asked.stop_refused();
+  EXPECT_THAT(told(kNow + 3s), ElementsAre(kFirst));
+  EXPECT_TRUE(asked.way_lost());
+  asked.stop();
+  EXPECT_THAT(told(kNow + 4s), ElementsAre(R"({"cmd":"stop","from":"1-2","number":2})"));
+}
 TEST_F(WhatUsersAskFor, TheAnswerToAStopIsNoneToTheNextOne) {
   for (const Duration at : {0ms, 200ms}) {
     asked.stop();
