@@ -35,10 +35,10 @@ std::optional<Network> chosen(const std::vector<Network>& there, std::string_vie
     return found == there.end() ? std::nullopt : std::optional(*found);
   };
   if (in_use && (wanted.empty() || in_use->name == wanted)) {
-    if (const auto still = first([&](const Network& one) { return one == *in_use; })) return still;
+    if (auto still = first([&](const Network& one) { return one == *in_use; })) return still;
   }
   if (!wanted.empty()) return first([&](const Network& one) { return one.name == wanted; });
-  if (const auto best = first([](const Network& one) { return one.multicast; })) return best;
+  if (auto best = first([](const Network& one) { return one.multicast; })) return best;
   return first([](const Network&) { return true; });
 }
 
