@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <ctime>
 
+#include "text/control.h"
 #include "text/number.h"
 
 namespace drover::cli {
@@ -17,7 +18,7 @@ const Node& at(const Node& node, std::string_view key) {
 }
 
 std::string text(const Node& node) {
-  if (const auto* value = node.text()) return *value;
+  if (const auto* value = node.text()) return text::harmless(*value);
   if (const auto* value = node.boolean()) return *value ? "yes" : "no";
   return "";
 }
@@ -68,7 +69,7 @@ const Node& entry(const Node& list, std::size_t i) {
 
 void line(std::string& out, std::string_view label, const std::string& value) {
   char head[32];
-  std::snprintf(head, sizeof head, "%-10.*s", static_cast<int>(label.size()), label.data());
+  std::snprintf(head, sizeof head, "%-9.*s ", static_cast<int>(label.size()), label.data());
   out += head + value + "\n";
 }
 

@@ -11,7 +11,7 @@ namespace drover::cli {
 
 /// A member; a node without a value where there is none.
 const json::Node& at(const json::Node& node, std::string_view key);
-/// A text as it is, a flag as "yes" or "no", anything else as nothing.
+/// A text as people may see it, a flag as "yes" or "no", anything else as nothing.
 std::string text(const json::Node& node);
 /// One number by a printf format such as "%.2f m"; "-" when it is absent.
 std::string quantity(const json::Node& node, const char* format);

@@ -21,7 +21,8 @@ Reply read_reply(std::string text) {
   answer.document = std::move(document.value());
   const auto& root = answer.document.root;
   answer.done = yes(at(root, "ok"));
-  answer.reason = at(root, "reason").text() != nullptr ? *at(root, "reason").text() : "no reason";
+  answer.reason =
+      at(root, "reason").text() != nullptr ? cli::text(at(root, "reason")) : "no reason";
   answer.note = cli::text(at(root, "note"));
   return answer;
 }

@@ -166,6 +166,7 @@ struct Ros2Config {
   double rate_Hz = 50;
   Ros2InputsConfig inputs;
   bool network_inputs = false;  ///< whoever reaches its networks may use them
+  std::string interface;        ///< the network that mode network uses; empty: the first
 };
 
 /// A point of the footprint in base_link.

@@ -285,6 +285,8 @@ void visit(V& v, Ros2Config& c) {
   v.object("inputs", c.inputs, "what is heard: each is closed until it is opened");
   v.flag("network_inputs", c.network_inputs,
          "with mode network: whoever reaches the robot's networks may use the inputs");
+  v.text("interface", c.interface,
+         "with mode network: the network that is used, wlan0 say; left out, the first");
   c.configured = true;
 }
 

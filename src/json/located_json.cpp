@@ -5,6 +5,7 @@
 #include <unordered_set>
 
 #include "json/slips.h"
+#include "text/control.h"
 #include "text/utf8.h"
 
 namespace drover::json {
@@ -261,12 +262,9 @@ std::string JsonError::text() const {
 }
 
 std::string shown(std::string_view text, std::size_t max_bytes) {
-  std::string out(text::beginning(text, max_bytes));
-  const bool whole = out.size() == text.size();
-  for (char& c : out) {
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = '?';
-  }
-  return whole ? out : out + "...";
+  const auto beginning = text::beginning(text, max_bytes);
+  auto out = text::harmless(beginning);
+  return beginning.size() == text.size() ? out : out + "...";
 }
 
 Result<Document, JsonError> parse(std::string_view text, const Limits& limits) {

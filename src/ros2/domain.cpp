@@ -33,21 +33,22 @@ std::string why(const char* what, dds_return_t code) {
 
 }  // namespace
 
-std::string domain_settings(Reach reach, bool networked) {
-  const bool local = reach == Reach::localhost;
+std::string domain_settings(Reach reach, const std::optional<Network>& network) {
+  const bool open = reach == Reach::network && network;
   std::string text = "<CycloneDDS><Domain id=\"any\"><General><Interfaces>";
   // Both: of programs that were told to stay on this computer some use lo, others their network's
-  // own address.
-  if (local || !networked) text += "<NetworkInterface name=\"lo\"/>";
-  if (networked) text += "<NetworkInterface autodetermine=\"true\"/>";
+  // own address. A loopback that took no multicast would end it on the network as well.
+  text += open ? "<NetworkInterface name=\"lo\" multicast=\"true\"/>"
+               : "<NetworkInterface name=\"lo\"/>";
+  if (network) text += "<NetworkInterface address=\"" + network->address + "\"/>";
   text += "</Interfaces>";
-  if (local || !networked) text += "<AllowMulticast>false</AllowMulticast>";
+  if (!open) text += "<AllowMulticast>false</AllowMulticast>";
   text +=
       "</General><Discovery><ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>" +
-      std::to_string(kMostParticipants) + "</MaxAutoParticipantIndex>";
-  if (local || !networked) text += "<Peers><Peer address=\"127.0.0.1\"/></Peers>";
-  text += "</Discovery><Internal><MaxSampleSize>" + std::string(kLargestSample) +
-          "</MaxSampleSize></Internal></Domain></CycloneDDS>";
+      std::to_string(kMostParticipants) +
+      "</MaxAutoParticipantIndex><Peers><Peer address=\"127.0.0.1\"/></Peers>"
+      "</Discovery><Internal><MaxSampleSize>" +
+      std::string(kLargestSample) + "</MaxSampleSize></Internal></Domain></CycloneDDS>";
   return text;
 }
 
@@ -69,10 +70,10 @@ std::size_t bind_to_loopback() {
   return bound;
 }
 
-Domain::Domain(int number, Reach reach, bool networked) {
+Domain::Domain(int number, Reach reach, const std::optional<Network>& network) {
   // A participant of a domain that could not be made would have the defaults: all networks.
   domain_ = dds_create_domain(static_cast<dds_domainid_t>(number),
-                              domain_settings(reach, networked).c_str());
+                              domain_settings(reach, network).c_str());
   if (domain_ < 0) throw NoDomain(why("the DDS domain cannot be made", domain_));
   dds_qos_t* qos = dds_create_qos();
   constexpr std::string_view kEnclave = "enclave=/;";

@@ -3,16 +3,19 @@
 
 #include <dds/dds.h>
 
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
+
+#include "ros2/networks.h"
 
 namespace drover::ros2 {
 
 /// Whom the domain meets.
 enum class Reach : std::uint8_t {
   localhost,  ///< programs on this computer: its sockets take nothing from a network
-  network,    ///< whoever reaches its networks
+  network,    ///< and whoever reaches its network
 };
 
 /// The domain cannot be made as it was asked for, so there is none.
@@ -20,14 +23,14 @@ struct NoDomain : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Cyclone DDS' configuration. `networked`: this computer has a network beside loopback.
-std::string domain_settings(Reach reach, bool networked);
+/// Cyclone DDS' configuration. `network`: the one that is used beside loopback.
+std::string domain_settings(Reach reach, const std::optional<Network>& network);
 
 class Domain final {
  public:
   /// Call it in a thread without real-time priority: those of DDS inherit it. Throws NoDomain, also
   /// when its sockets cannot be closed towards networks: nobody reads or writes then.
-  Domain(int number, Reach reach, bool networked);
+  Domain(int number, Reach reach, const std::optional<Network>& network);
   ~Domain();
   Domain(const Domain&) = delete;
   Domain& operator=(const Domain&) = delete;

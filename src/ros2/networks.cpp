@@ -10,8 +10,8 @@
 
 namespace drover::ros2 {
 
-std::vector<std::string> networks() {
-  std::vector<std::string> found;
+std::vector<Network> networks() {
+  std::vector<Network> found;
   ifaddrs* all = nullptr;
   if (::getifaddrs(&all) != 0) return found;
   for (const ifaddrs* one = all; one != nullptr; one = one->ifa_next) {
@@ -22,11 +22,33 @@ std::vector<std::string> networks() {
     std::array<char, INET_ADDRSTRLEN> text{};
     const auto* address = reinterpret_cast<const sockaddr_in*>(one->ifa_addr);
     ::inet_ntop(AF_INET, &address->sin_addr, text.data(), text.size());
-    found.push_back(std::string(one->ifa_name) + " " + text.data());
+    found.push_back({one->ifa_name, text.data(), (one->ifa_flags & IFF_MULTICAST) != 0});
   }
   ::freeifaddrs(all);
-  std::sort(found.begin(), found.end());
   return found;
+}
+
+std::optional<Network> chosen(const std::vector<Network>& there, std::string_view wanted,
+                              const std::optional<Network>& in_use) {
+  const auto first = [&](const auto& is_it) -> std::optional<Network> {
+    const auto found = std::find_if(there.begin(), there.end(), is_it);
+    return found == there.end() ? std::nullopt : std::optional(*found);
+  };
+  if (in_use && (wanted.empty() || in_use->name == wanted)) {
+    if (auto still = first([&](const Network& one) { return one == *in_use; })) return still;
+  }
+  if (!wanted.empty()) return first([&](const Network& one) { return one.name == wanted; });
+  if (auto best = first([](const Network& one) { return one.multicast; })) return best;
+  return first([](const Network&) { return true; });
+}
+
+std::string joined(const std::vector<Network>& networks) {
+  std::string all;
+  for (const auto& one : networks) {
+    if (!all.empty()) all += ", ";
+    all += one.name + " " + one.address;
+  }
+  return all.empty() ? "no network" : all;
 }
 
 }  // namespace drover::ros2

@@ -1,15 +1,16 @@
-// Whether this computer's networks are others than those for which the domain was made. Pure.
+// Whether this computer's networks are others than those that were told last. Pure.
 #pragma once
 
-#include <string>
 #include <utility>
 #include <vector>
+
+#include "ros2/networks.h"
 
 namespace drover::ros2 {
 
 class NetworksWatch final {
  public:
-  using Networks = std::vector<std::string>;
+  using Networks = std::vector<Network>;
 
   void use(Networks networks) { seen_ = used_ = std::move(networks); }
   const Networks& used() const { return used_; }

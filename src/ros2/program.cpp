@@ -29,12 +29,6 @@ std::string random_name() {
   return std::to_string(random()) + "-" + std::to_string(random()) + "-" + std::to_string(random());
 }
 
-std::string joined(const std::vector<std::string>& texts) {
-  std::string all;
-  for (const auto& text : texts) all += (all.empty() ? "" : ", ") + text;
-  return all.empty() ? "no network" : all;
-}
-
 }  // namespace
 
 Program::Program(const config::DroverConfig& config)
@@ -100,32 +94,39 @@ void Program::way_lost() {
       "droverd was gone before it had answered an emergency stop: it is told again");
 }
 
-/// A network that comes later is another domain: interfaces are chosen when it is made.
+/// In localhost it is the one whose address programs on this computer use.
+std::optional<Network> Program::choose(const std::vector<Network>& there) const {
+  return chosen(there, reach_ == Reach::network ? config_.ros2.interface : "", network_);
+}
+
+/// Another network is another domain: interfaces are chosen when it is made.
 void Program::keep_domain(Time now) {
   auto there = networks();
-  if (domain_ && networks_.changed(there)) {
-    say(Level::info, "the networks have changed: " + joined(there));
-    if (users_) hear_users(now);  // a stop that came
-    forget_domain();
-    retry_.try_now();
-  }
+  if (domain_ && networks_.changed(there)) networks_changed(there, now);
   if (domain_ || !retry_.due(now)) return;
+  network_ = choose(there);
   networks_.use(std::move(there));
   make_domain(now);
 }
 
+void Program::networks_changed(const std::vector<Network>& there, Time now) {
+  say(Level::info, "the networks have changed: " + joined(there));
+  networks_.use(there);
+  if (choose(there) == network_) return say_unused();
+  if (users_) hear_users(now);  // a stop that came
+  forget_domain();
+  retry_.try_now();
+}
+
 void Program::make_domain(Time now) {
   try {
-    domain_ = std::make_unique<Domain>(config_.ros2.domain, reach_, !networks_.used().empty());
+    domain_ = std::make_unique<Domain>(config_.ros2.domain, reach_, network_);
     shown_ = std::make_unique<Shown>(domain_->participant(), robot_, wall_now_ns());
     users_ = std::make_unique<Heard>(domain_->participant(), config_, reach_, scene_passed_over_);
     readers_ = {};
     problem_.clear();
     retry_.succeeded();
-    say(Level::info, "domain " + std::to_string(config_.ros2.domain) +
-                         (reach_ == Reach::network
-                              ? ": whoever reaches " + joined(networks_.used()) + " sees this robot"
-                              : ": programs on this computer see this robot"));
+    say_who_sees();
     say_who_may();
   } catch (const NoDomain& error) {
     lose_domain(error.what(), now);
@@ -139,12 +140,38 @@ void Program::lose_domain(const std::string& why, Time now) {
   problem_ = why;
 }
 
+void Program::say_who_sees() const {
+  const std::string domain = "domain " + std::to_string(config_.ros2.domain) + ": ";
+  const std::string here = "programs on this computer see this robot";
+  if (reach_ == Reach::localhost) return say(Level::info, domain + here);
+  const auto& wanted = config_.ros2.interface;
+  if (network_)
+    say(Level::info, domain + "whoever reaches " + joined({*network_}) +
+                         " sees this robot, and so do programs on this computer");
+  else if (wanted.empty())
+    say(Level::info, domain + "no network is there yet: " + here);
+  else
+    say(Level::warning,
+        domain + "the network of ros2.interface, " + wanted + ", is not there yet: " + here);
+  say_unused();
+}
+
+void Program::say_unused() const {
+  if (reach_ == Reach::localhost) return;
+  auto others = networks_.used();
+  std::erase(others, network_.value_or(Network{}));
+  if (!others.empty())
+    say(config_.ros2.interface.empty() ? Level::warning : Level::info,
+        "not used: " + joined(others) +
+            ": nobody there sees this robot or stops it; ros2.interface says which one is used");
+}
+
 void Program::say_who_may() const {
   const auto& inputs = config_.ros2.inputs;
   if (!inputs.any()) return;
-  const std::string who =
-      reach_ == Reach::network ? "whoever reaches these networks" : "programs on this computer";
-  const Level level = reach_ == Reach::network ? Level::warning : Level::info;
+  const bool open = reach_ == Reach::network && network_;
+  const std::string who = open ? "whoever reaches this network" : "programs on this computer";
+  const Level level = open ? Level::warning : Level::info;
   if (inputs.may_move() || inputs.e_stop) {
     const std::string what = !inputs.may_move() ? "stop" : inputs.e_stop ? "move and stop" : "move";
     say(level, who + " may " + what + " this robot");

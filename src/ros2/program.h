@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,8 @@ class Program final {
  private:
   void beat(Time now);
   void keep_domain(Time now);
+  void networks_changed(const std::vector<Network>& there, Time now);
+  std::optional<Network> choose(const std::vector<Network>& there) const;
   void make_domain(Time now);
   void take(std::string_view line);
   void stop_refused(const std::string& why);
@@ -37,6 +40,8 @@ class Program final {
   void way_lost();
   void hear_users(Time now);
   void tell_asked(Time now);
+  void say_who_sees() const;
+  void say_unused() const;
   void say_who_may() const;
   void lose_domain(const std::string& why, Time now);
   void forget_domain();
@@ -53,6 +58,7 @@ class Program final {
   std::unique_ptr<Shown> shown_;
   std::unique_ptr<Heard> users_;
   NetworksWatch networks_;
+  std::optional<Network> network_;  ///< that the domain uses beside loopback
   runtime::BackOff retry_{std::chrono::seconds(1), std::chrono::seconds(60)};
   Readers readers_;
   std::string problem_;               ///< why there is no domain; empty: there is one

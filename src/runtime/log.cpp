@@ -14,6 +14,7 @@
 #include <thread>
 
 #include "runtime/worker.h"
+#include "text/control.h"
 
 namespace drover::runtime {
 
@@ -31,7 +32,7 @@ std::string formatted(LogLevel level, std::string_view text) {
   if (for_journal) line = "<" + std::to_string(static_cast<int>(level)) + ">";
   if (!for_journal && level == LogLevel::error) line = "error: ";
   if (!for_journal && level == LogLevel::warning) line = "warning: ";
-  line.append(text).push_back('\n');
+  line.append(text::harmless(text)).push_back('\n');
   return line;
 }
 

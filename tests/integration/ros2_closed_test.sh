@@ -93,7 +93,7 @@ wait "$running" || true
 start network
 within 10 said network "whoever reaches wire 10.9.0.1 sees this robot"
 judge $? "in network it says who sees the robot"
-judge "$(said network "whoever reaches these networks may stop this robot"; echo $?)" \
+judge "$(said network "whoever reaches this network may stop this robot"; echo $?)" \
   "and who may stop it"
 heard=$(heard_ports | wc -l)
 judge "$([[ $heard -ge 2 ]]; echo $?)" "in network the other computer is heard, on $heard ports"

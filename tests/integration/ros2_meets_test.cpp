@@ -38,6 +38,8 @@ constexpr std::array kCases{
     Case{"LocalhostAndJazzy", Ours::shipped_localhost, User::jazzy, true},
     Case{"LocalhostAndDefaults", Ours::shipped_localhost, User::defaults, false},
     Case{"NetworkAndDefaults", Ours::shipped_network, User::defaults, true},
+    Case{"NetworkAndHumble", Ours::shipped_network, User::humble, true},
+    Case{"NetworkAndJazzy", Ours::shipped_network, User::jazzy, true},
     // Why loopback alone is not what is chosen, nor the network's interface alone.
     Case{"LoopbackOnlyAndHumble", Ours::loopback_only, User::humble, true},
     Case{"LoopbackOnlyAndJazzy", Ours::loopback_only, User::jazzy, false},

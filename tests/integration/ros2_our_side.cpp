@@ -35,7 +35,8 @@ dds_entity_t make(Ours ours) {
   if (ours == Ours::shipped_localhost || ours == Ours::shipped_network) {
     const auto reach =
         ours == Ours::shipped_network ? ros2::Reach::network : ros2::Reach::localhost;
-    static const ros2::Domain kShipped(kMeetingDomain, reach, !ros2::networks().empty());
+    static const ros2::Domain kShipped(kMeetingDomain, reach,
+                                       ros2::chosen(ros2::networks(), "", std::nullopt));
     return kShipped.participant();
   }
   const auto settings =

@@ -42,7 +42,7 @@ src/publish/ros2     drover/ json/ text/ scene/sensor/near_things.h publish/name
 src/publish/ros2     publish/aimrt/messages.h publish/ros2/
 src/publish/aimrt    drover/ json/ text/ publish/arrival.h publish/actions.h
 src/publish/aimrt    publish/token_bucket.h publish/aimrt/
-src/runtime      drover/ runtime/ publish/ store/ json/ config/ link/ engine/ gateway/ scene/
+src/runtime      drover/ runtime/ publish/ store/ json/ config/ link/ engine/ gateway/ scene/ text/
 src/guard        drover/ guard/
 src/cli          drover/ cli/ json/ text/ config/register_map.h config/fields_map.h
 src/cli          gateway/recording/replay.h link/unique_fd.h publish/names.h publish/shown_json.h

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "drover/fixed_text.h"
+#include "text/control.h"
 
 namespace drover::scene::words {
 
@@ -15,9 +16,7 @@ std::string number(double value, int decimals) {
 
 std::string quoted(std::string_view name) {
   FixedText<64> shown(name);
-  std::string out = "\"";
-  for (const char c : shown.view())
-    out += static_cast<unsigned char>(c) < 0x20 || c == 0x7F ? '?' : c;
+  std::string out = "\"" + text::harmless(shown.view());
   out += shown.view().size() < name.size() ? "...\"" : "\"";
   return out;
 }

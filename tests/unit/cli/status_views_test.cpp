@@ -217,6 +217,20 @@ TEST(StatusInShort, TellsWhetherTheRobotIsShownToRos2) {
   EXPECT_NE(shown().find("localhost  the DDS domain cannot be made"), std::string::npos);
 }
 
+TEST(StatusInShort, TellsWhatCameOfTheSceneFromRos2) {
+  publish::DaemonStatus daemon;
+  daemon.ros2 = {true, true, "localhost", "", 3, 0};
+  daemon.ros2.scene_done = 13;
+  daemon.ros2.scene_refused = 1;
+  daemon.ros2.scene_refusal = "collision_object 'no\u202Eabc\x1B[31m': id: is bad";
+  const auto document = json::parse(publish::status_json(full_snapshot(), daemon));
+  ASSERT_TRUE(document);
+  EXPECT_NE(show_status(document->root)
+                .find("\nros2 scene 13 done  1 refused, last collision_object 'no?abc?[31m': id"),
+            std::string::npos)
+      << "the label and the value are two words, and nothing turns the line or moves the terminal";
+}
+
 TEST(StatusInShort, CountsAnswersThatNobodyGot) {
   const auto shown = [](std::uint64_t lost) {
     publish::DaemonStatus daemon;

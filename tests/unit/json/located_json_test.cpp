@@ -206,6 +206,10 @@ TEST(LocatedJson, ShowsForeignTextOnOneShortLine) {
             "expected ']'");
   EXPECT_EQ(shown("园区01", 5), "园...");
   EXPECT_EQ(shown("园区01", 8), "园区01");
+  EXPECT_EQ(shown("no\u202E\u2066\u0085\x1B"
+                  "abc",
+                  40),
+            "no????abc");
 }
 
 TEST(JsonText, WritesNumbersThatReadBackToTheSameBits) {

@@ -6,8 +6,8 @@
 namespace drover::ros2 {
 namespace {
 
-const NetworksWatch::Networks kHome{"wlan0 10.0.0.2"};
-const NetworksWatch::Networks kOther{"wlan0 10.0.0.2", "usb0 10.1.0.2"};
+const NetworksWatch::Networks kHome{{"wlan0", "10.0.0.2"}};
+const NetworksWatch::Networks kOther{{"wlan0", "10.0.0.2"}, {"usb0", "10.1.0.2"}};
 
 TEST(NetworksWatch, SaysThatTheyHaveChangedWhenTheyAreTheSameTwice) {
   NetworksWatch watch;

@@ -74,6 +74,11 @@ TEST_F(LogTest, WritesEachLineWithItsLevel) {
   EXPECT_EQ(drain(), "one\nerror: two\n");
 }
 
+TEST_F(LogTest, WritesNothingOfAnothersTextThatForgesALineOrTurnsIt) {
+  log(LogLevel::info, "refused 'a\nerror: b\u202Ec\x1B[2J'");
+  EXPECT_EQ(drain(), "refused 'a?error: b?c?[2J'\n");
+}
+
 TEST_F(LogTest, NobodyWaitsForAReaderWhoStoppedReadingAndTheLostLinesAreTold) {
   fill_pipe();
   const LogWriter writer;
