@@ -9,6 +9,7 @@
 #include <fstream>
 #include <thread>
 
+#include "publish/cli_outlet.h"
 #include "runtime/clock.h"
 
 namespace drover::test {
@@ -86,7 +87,7 @@ void Ros2Rig::hear() {
   for (auto end = in_.find('\n'); end != std::string::npos; end = in_.find('\n')) {
     const std::string line = in_.substr(0, end);
     in_.erase(0, end + 1);
-    if (line == R"({"cmd":"stop"})") {
+    if (publish::is_stop_line(line)) {
       ++stops_;
       if (refused_stops_ > 0) {
         --refused_stops_;
