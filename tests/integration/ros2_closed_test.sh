@@ -7,39 +7,14 @@ set -euo pipefail
 
 program=$1
 source=$2
-if [[ ${3:-} != --inside ]]; then
-  for enter in -n -rn; do
-    ! unshare "$enter" true 2> /dev/null || exec unshare "$enter" "$0" "$program" "$source" --inside
-  done
-  echo "not ok - no network namespaces can be made here"
-  exit 1
-fi
-
-folder=$(mktemp -d)
-children=()
-finish() {
-  for child in "${children[@]}"; do kill "$child" 2> /dev/null || true; done
-  rm -rf "$folder"
-}
-trap finish EXIT
-
-failed=0
-judge() { if [[ $1 == 0 ]]; then echo "ok - $2"; else echo "not ok - $2"; failed=1; fi; }
+# shellcheck source=tests/integration/namespaces.sh
+. "$(dirname "$0")/namespaces.sh" "$@"
 
 configuration() {  # MODE
   local ros2="\"ros2\": {\"mode\": \"$1\", \"network_inputs\": true"
   ros2+=", \"inputs\": {\"e_stop\": true}}"
   local paths="\"paths\": {\"run\": \"$folder\", \"state\": \"$folder\"}"
   sed "0,/^{/s||{ $ros2, $paths,|" "$source/config/examples/two_hub_motors.json" > "$folder/$1.json"
-}
-
-within() {  # SECONDS COMMAND...
-  local until=$((SECONDS + $1))
-  shift
-  until "$@" 2> /dev/null; do
-    ((SECONDS < until)) || return 1
-    sleep 0.1
-  done
 }
 
 # The other computer.

@@ -7,34 +7,8 @@ set -euo pipefail
 program=$1
 visit=$2
 source=$3
-if [[ ${4:-} != --inside ]]; then
-  for enter in -n -rn; do
-    ! unshare "$enter" true 2> /dev/null ||
-      exec unshare "$enter" "$0" "$program" "$visit" "$source" --inside
-  done
-  echo "not ok - no network namespaces can be made here"
-  exit 1
-fi
-
-folder=$(mktemp -d)
-children=()
-finish() {
-  for child in "${children[@]}"; do kill "$child" 2> /dev/null || true; done
-  rm -rf "$folder"
-}
-trap finish EXIT
-
-failed=0
-judge() { if [[ $1 == 0 ]]; then echo "ok - $2"; else echo "not ok - $2"; failed=1; fi; }
-
-within() {  # SECONDS COMMAND...
-  local until=$((SECONDS + $1))
-  shift
-  until "$@" 2> /dev/null; do
-    ((SECONDS < until)) || return 1
-    sleep 0.1
-  done
-}
+# shellcheck source=tests/integration/namespaces.sh
+. "$(dirname "$0")/namespaces.sh" "$@"
 
 sleeps() { [[ $(< "/proc/$1/comm") == sleep ]]; }  # in the network of its own
 declare -A computer
