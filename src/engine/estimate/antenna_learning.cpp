@@ -13,6 +13,20 @@ constexpr double kLevel_rad = 0.035;   // steeper ground takes the base aside
 constexpr double kLateStep_s = 0.003;  // a smaller change is not worth it
 constexpr double kNoticed_m = 0.01;    // positions so far from the last ones are not compared
 
+/// What the base goes in so many seconds, as it is turned now.
+struct Way {
+  double x_m = 0;
+  double y_m = 0;
+  double metres = 0;
+};
+Way way_in(const State& state, const Twist& twist, double seconds) {
+  const double ahead_m = state.belief.mean[kScale] * twist.vx_mps * seconds;
+  const double left_m = state.belief.mean[kScale] * twist.vy_mps * seconds;
+  const double c = std::cos(state.belief.mean[kYaw]);
+  const double s = std::sin(state.belief.mean[kYaw]);
+  return {ahead_m * c - left_m * s, ahead_m * s + left_m * c, std::hypot(ahead_m, left_m)};
+}
+
 }  // namespace
 
 void learn_fit(State& state, const AntennaPosition& raw, AntennaPoint point, const Twist& twist,
@@ -59,12 +73,9 @@ void correct_mounting(State& state, const LeverArm& arm, const EstimateConfig& c
 }
 
 AntennaPosition in_time(const State& state, AntennaPosition position, const Twist& twist) {
-  const double ahead_m = state.belief.mean[kScale] * twist.vx_mps * state.late_s;
-  const double left_m = state.belief.mean[kScale] * twist.vy_mps * state.late_s;
-  const double c = std::cos(state.belief.mean[kYaw]);
-  const double s = std::sin(state.belief.mean[kYaw]);
-  position.x_m += ahead_m * c - left_m * s;
-  position.y_m += ahead_m * s + left_m * c;
+  const Way way = way_in(state, twist, state.late_s);
+  position.x_m += way.x_m;
+  position.y_m += way.y_m;
   return position;
 }
 
@@ -73,12 +84,7 @@ void correct_lateness(State& state, const Twist& twist) {
   const double more_s = late_s - state.late_s;
   if (std::abs(more_s) < kLateStep_s) return;
   state.late_s = late_s;
-  const double ahead_m = state.belief.mean[kScale] * twist.vx_mps * more_s;
-  const double left_m = state.belief.mean[kScale] * twist.vy_mps * more_s;
-  const double c = std::cos(state.belief.mean[kYaw]);
-  const double s = std::sin(state.belief.mean[kYaw]);
-  const double x_m = ahead_m * c - left_m * s;
-  const double y_m = ahead_m * s + left_m * c;
+  const auto [x_m, y_m, metres] = way_in(state, twist, more_s);
   state.belief.mean[kX] += x_m;
   state.belief.mean[kY] += y_m;
   Matrix& p = state.belief.covariance;
@@ -86,7 +92,7 @@ void correct_lateness(State& state, const Twist& twist) {
   p[kY][kY] += square(y_m) / 4;
   p[kX][kY] += x_m * y_m / 4;
   p[kY][kX] = p[kX][kY];
-  if (std::hypot(ahead_m, left_m) > kNoticed_m) state.watch.pause();
+  if (metres > kNoticed_m) state.watch.pause();
 }
 
 }  // namespace drover::engine::estimate
