@@ -90,26 +90,5 @@ TEST(MecanumSilent, OfOneMotorStopsTheRobot) {
   EXPECT_THAT(error.why, testing::HasSubstr("motor 3 (203) is silent"));
 }
 
-TEST(MecanumKill, IsLetCoastByTheGuard) {
-  const Record& log = record("mecanum_kill");
-  const Time killed = log.event("signal 9 to droverd");
-  const Time back = log.event("start droverd", 2);
-  ASSERT_TRUE(moved_until(log, killed)) << "it did not drive when the gateway went";
-  for (const CanLine& line : log.can) {
-    if (line.frame.id != 0x200 || line.time < killed + 10ms || line.time > back) continue;
-    EXPECT_TRUE(robomaster::is_zero(line.frame)) << "at " << seconds(line.time);
-  }
-  const Roll rolled = roll(log, killed, back);
-  figure("way coasted", rolled.way_m, "m");
-  EXPECT_LT(rolled.way_m, 1.5);
-}
-
-TEST(MecanumKill, StaysStoppedUntilANewStartReachesTheGoal) {
-  const Record& log = record("mecanum_kill");
-  const Time back = log.event("start droverd", 2);
-  expect_rest_until_started(log, back);
-  expect_new_start_succeeds(log, back);
-}
-
 }  // namespace
 }  // namespace drover::mission

@@ -81,8 +81,11 @@ TEST(RobomasterSilent, GetsNoCurrentForTheWheelThatNobodySees) {
   EXPECT_GT(looked, 0U);
 }
 
-TEST(RobomasterKill, IsLetCoastByTheGuardsZerosWithin100Milliseconds) {
-  const Record& log = record("robomaster_kill");
+/// On tyres, and on mecanum wheels.
+class RobomasterKill : public testing::TestWithParam<const char*> {};
+
+TEST_P(RobomasterKill, IsLetCoastByTheGuardsZerosWithin100Milliseconds) {
+  const Record& log = record(GetParam());
   const Time killed = log.event("signal 9 to droverd");
   const Time back = log.event("start droverd", 2);
   ASSERT_TRUE(moved_until(log, killed)) << "it did not drive when the gateway went";
@@ -104,12 +107,15 @@ TEST(RobomasterKill, IsLetCoastByTheGuardsZerosWithin100Milliseconds) {
   EXPECT_LT(rolled.way_m, 1.5);
 }
 
-TEST(RobomasterKill, StaysStoppedUntilANewStartReachesTheGoal) {
-  const Record& log = record("robomaster_kill");
+TEST_P(RobomasterKill, StaysStoppedUntilANewStartReachesTheGoal) {
+  const Record& log = record(GetParam());
   const Time back = log.event("start droverd", 2);
   expect_rest_until_started(log, back);
   expect_new_start_succeeds(log, back);
 }
+
+INSTANTIATE_TEST_SUITE_P(Each, RobomasterKill, testing::Values("robomaster_kill", "mecanum_kill"),
+                         [](const auto& one) { return std::string(one.param); });
 
 }  // namespace
 }  // namespace drover::mission
