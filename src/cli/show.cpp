@@ -196,8 +196,14 @@ void show_ros2(std::string& out, const Node& ros2) {
   if (ros2.object() == nullptr) return;
   if (!yes(at(ros2, "connected"))) return line(out, "ros2", "drover-ros2 does not ask");
   const auto reason = text(at(ros2, "reason"));
-  std::string value = text(at(ros2, "mode")) + "  ";
+  const auto mode = text(at(ros2, "mode"));
+  const auto network = text(at(ros2, "network"));
+  const auto unused = text(at(ros2, "unused"));
+  std::string value = mode + "  ";
+  if (mode == "network" && reason.empty())
+    value += (network.empty() ? "NONE IS THERE: this computer only" : network) + "  ";
   value += reason.empty() ? quantity(at(ros2, "readers"), "%.0f readers") : reason;
+  if (!unused.empty()) value += "  NOT ON " + unused;
   if (at(ros2, "incompatible").number().value_or(0) > 0)
     value += quantity(at(ros2, "incompatible"), "  %.0f ASK FOR ANOTHER QUALITY");
   line(out, "ros2", value);

@@ -72,6 +72,8 @@ void Ros2Outlet::follow(ClientId client, const json::Node& request, Time now, Ac
   client_ = client;
   heard_ = now;
   mode_ = json::shown(text_member(request, "mode"), kMostText);
+  network_ = json::shown(text_member(request, "network"), kMostText);
+  unused_ = json::shown(text_member(request, "unused"), kMostText);
   reason_ = json::shown(text_member(request, "reason"), kMostText);
   readers_ = count_of(request, "readers");
   incompatible_ = count_of(request, "incompatible");
@@ -179,6 +181,8 @@ void Ros2Outlet::count(DaemonStatus& status) const {
   status.ros2.connected = follows(status.now);
   if (!status.ros2.connected) return;
   status.ros2.mode = mode_;
+  status.ros2.network = network_;
+  status.ros2.unused = unused_;
   status.ros2.reason = reason_;
   status.ros2.readers = readers_;
   status.ros2.incompatible = incompatible_;

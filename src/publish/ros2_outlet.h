@@ -73,8 +73,11 @@ class Ros2Outlet final : public Outlet {
   TokenBucket flood_{1, 1};      ///< a flood is told of, and the telling is no flood
   std::uint64_t twist_number_ = 0;
   ros2::Told told_;
-  std::string mode_;    ///< as that program says
-  std::string reason_;  ///< likewise, what is wrong with it; empty: nothing
+  // As that program says:
+  std::string mode_;
+  std::string network_;  ///< that it uses
+  std::string unused_;   ///< networks
+  std::string reason_;   ///< what is wrong with it; empty: nothing
   std::int64_t readers_ = 0;
   std::int64_t incompatible_ = 0;
 };

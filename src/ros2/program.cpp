@@ -156,10 +156,16 @@ void Program::say_who_sees() const {
   say_unused();
 }
 
-void Program::say_unused() const {
-  if (reach_ == Reach::localhost) return;
+/// Where nobody sees this robot, though it is shown to a network.
+std::vector<Network> Program::unused() const {
+  if (reach_ == Reach::localhost) return {};
   auto others = networks_.used();
   std::erase(others, network_.value_or(Network{}));
+  return others;
+}
+
+void Program::say_unused() const {
+  const auto others = unused();
   if (!others.empty())
     say(config_.ros2.interface.empty() ? Level::warning : Level::info,
         "not used: " + joined(others) +
@@ -287,6 +293,11 @@ void Program::tell_users() {
 void Program::tell_droverd() {
   json::JsonText line;
   line.open('{').key("cmd").text("ros2_follow").key("mode").text(config_.ros2.mode);
+  // The domain's own: of a domain that could not be made no network is in use.
+  const bool open = domain_ && reach_ == Reach::network;
+  line.key("network").text(open && network_ ? joined({*network_}) : "");
+  const auto others = unused();
+  line.key("unused").text(open && !others.empty() ? joined(others) : "");
   line.key("reason").text(problem_).key("readers").integer(readers_.matched);
   line.key("incompatible").integer(readers_.unmet.count).close('}');
   (void)link_.send(line.take());  // the next beat says it again

@@ -42,6 +42,7 @@ class Program final {
   void tell_asked(Time now);
   void say_who_sees() const;
   void say_unused() const;
+  std::vector<Network> unused() const;
   void say_who_may() const;
   void lose_domain(const std::string& why, Time now);
   void forget_domain();

@@ -1,12 +1,15 @@
 #!/bin/bash
 # Which networks meet drover-ros2 in "network", where the robot has two: network namespaces with a
 # wire each play the computers behind them.
-#   ros2_networks_test.sh DROVER_ROS2 ROS2_VISIT SOURCE_FOLDER    prints "ok - " or "not ok - "
+#   ros2_networks_test.sh DROVER_ROS2 ROS2_VISIT DROVERD DROVER SOURCE_FOLDER
+# prints "ok - " or "not ok - "
 set -euo pipefail
 
 program=$1
 visit=$2
-source=$3
+droverd=$3
+drover=$4
+source=$5
 # shellcheck source=tests/integration/namespaces.sh
 . "$(dirname "$0")/namespaces.sh" "$@"
 
@@ -82,6 +85,21 @@ tells "when it goes that is said" \
   "the networks have changed: one 10.9.1.1$" 2
 judge "$([[ $(grep -c "domain 0: " "$folder/log") == 2 ]]; echo $?)" \
   "for its sake the domain is not made anew"
+
+# droverd hears of it: without drives and receiver, which it waits for.
+"$droverd" --config "$folder/drover.json" 2> "$folder/droverd.log" &
+children+=("$!")
+shows() { "$drover" --socket "$folder/drover.sock" status | grep -qE "^ros2 +network +$1\$"; }
+shown() {  # WHAT IS JUDGED, PATTERN
+  judge "$(within 20 shows "$2"; echo $?)" "drover status shows $1"
+}
+shown "the network in use" "one 10\.9\.1\.1 +0 readers"
+ip link set two up
+shown "one that is not used" "one 10\.9\.1\.1 +0 readers +NOT ON two 10\.9\.2\.1"
+ip link set one down
+ip link set two down
+shown "that none is there" "NONE IS THERE: this computer only +0 readers"
+ip link set one up
 end
 
 ip link set two up

@@ -105,6 +105,8 @@ void daemon_part(JsonText& out, const Snapshot& s, const DaemonStatus& daemon) {
     out.key("ros2").open('{');
     out.key("connected").boolean(daemon.ros2.connected);
     out.key("mode").text(daemon.ros2.mode);
+    out.key("network").text(daemon.ros2.network);
+    out.key("unused").text(daemon.ros2.unused);
     out.key("reason").text(daemon.ros2.reason);
     out.key("readers").integer(daemon.ros2.readers);
     out.key("incompatible").integer(daemon.ros2.incompatible);

@@ -14,6 +14,8 @@ struct Ros2Status {
   bool connected = false;  ///< it was heard lately
   // As it says:
   std::string mode;
+  std::string network;            ///< in use: interface and address; empty: none, or not this mode
+  std::string unused;             ///< networks where nobody sees the robot or stops it
   std::string reason;             ///< what is wrong with it; empty: nothing
   std::int64_t readers = 0;       ///< of its topics
   std::int64_t incompatible = 0;  ///< readers or writers that ask for another quality of service

@@ -209,7 +209,9 @@ TEST(StatusInShort, TellsWhetherTheRobotIsShownToRos2) {
   EXPECT_EQ(shown().find("ros2"), std::string::npos) << "it is not configured";
   daemon.ros2.configured = true;
   EXPECT_NE(shown().find("drover-ros2 does not ask"), std::string::npos);
-  daemon.ros2 = {true, true, "localhost", "", 3, 0};
+  daemon.ros2.connected = true;
+  daemon.ros2.mode = "localhost";
+  daemon.ros2.readers = 3;
   EXPECT_NE(shown().find("localhost  3 readers\n"), std::string::npos);
   daemon.ros2.incompatible = 2;
   EXPECT_NE(shown().find("3 readers  2 ASK FOR ANOTHER QUALITY"), std::string::npos);
@@ -217,9 +219,32 @@ TEST(StatusInShort, TellsWhetherTheRobotIsShownToRos2) {
   EXPECT_NE(shown().find("localhost  the DDS domain cannot be made"), std::string::npos);
 }
 
+TEST(StatusInShort, TellsOnWhichNetworkRos2SeesTheRobot) {
+  publish::DaemonStatus daemon;
+  const auto shown = [&daemon] {
+    const auto document = json::parse(publish::status_json(full_snapshot(), daemon));
+    return document ? show_status(document->root) : document.error().text();
+  };
+  daemon.ros2.configured = true;
+  daemon.ros2.connected = true;
+  daemon.ros2.mode = "network";
+  daemon.ros2.readers = 3;
+  EXPECT_THAT(shown(),
+              testing::HasSubstr("network  NONE IS THERE: this computer only  3 readers\n"));
+  daemon.ros2.network = "eth0 192.0.2.2";
+  EXPECT_THAT(shown(), testing::HasSubstr("network  eth0 192.0.2.2  3 readers\n"));
+  daemon.ros2.unused = "wlan0 192.0.2.130";
+  EXPECT_THAT(shown(),
+              testing::HasSubstr("network  eth0 192.0.2.2  3 readers  NOT ON wlan0 192.0.2.130\n"));
+  daemon.ros2.network.clear();
+  daemon.ros2.reason = "the DDS domain cannot be made";
+  EXPECT_THAT(shown(), testing::HasSubstr("network  the DDS domain cannot be made"));
+}
+
 TEST(StatusInShort, TellsWhatCameOfTheSceneFromRos2) {
   publish::DaemonStatus daemon;
-  daemon.ros2 = {true, true, "localhost", "", 3, 0};
+  daemon.ros2.configured = true;
+  daemon.ros2.connected = true;
   daemon.ros2.scene_done = 13;
   daemon.ros2.scene_refused = 1;
   daemon.ros2.scene_refusal = "collision_object 'no\u202Eabc\x1B[31m': id: is bad";

@@ -22,15 +22,15 @@ std::string unheard(const Snapshot& s) {
 
 TEST(UnheardDrives, AreNamed) {
   Snapshot s;
-  s.axes.push_back(axis("left", SourceState::fresh));
-  s.axes.push_back(axis("right", SourceState::stale));
-  s.axes.push_back(axis("third", SourceState::never_heard));
+  (void)s.axes.push_back(axis("left", SourceState::fresh));
+  (void)s.axes.push_back(axis("right", SourceState::stale));
+  (void)s.axes.push_back(axis("third", SourceState::never_heard));
   EXPECT_EQ(unheard(s), "right, third");
 }
 
 TEST(UnheardDrives, AreNoneWhileAllTalk) {
   Snapshot s;
-  s.axes.push_back(axis("left", SourceState::fresh));
+  (void)s.axes.push_back(axis("left", SourceState::fresh));
   s.base.configured = true;
   s.base.health = SourceState::fresh;
   EXPECT_EQ(unheard(s), "");
@@ -45,7 +45,7 @@ TEST(UnheardDrives, MayBeABaseThatTakesATwist) {
 
 TEST(UnheardDrives, AreNotMissedWhileTheirPowerIsOff) {
   Snapshot s;
-  s.axes.push_back(axis("left", SourceState::stale));
+  (void)s.axes.push_back(axis("left", SourceState::stale));
   s.output_configured[static_cast<std::size_t>(Output::enable_relay)] = true;
   EXPECT_EQ(unheard(s), "") << "the relay is open";
   s.output_on[static_cast<std::size_t>(Output::enable_relay)] = true;

@@ -106,9 +106,20 @@ TEST_F(Ros2, ShowsInTheStatusWhatTheProgramSays) {
   EXPECT_EQ(ask(7, kNow), "");
   EXPECT_TRUE(status(kNow).ros2.connected);
   EXPECT_EQ(status(kNow).ros2.mode, "localhost");
+  EXPECT_EQ(status(kNow).ros2.network, "");
   EXPECT_EQ(status(kNow).ros2.readers, 3);
   EXPECT_EQ(status(kNow).ros2.incompatible, 1);
   EXPECT_FALSE(status(kNow + 4s).ros2.connected);
+}
+
+TEST_F(Ros2, ShowsInTheStatusWhichNetworkIsUsed) {
+  Actions out;
+  (void)outlet_.on_line(
+      7,
+      R"({"cmd":"ros2_follow","mode":"network","network":"one 10.9.1.1","unused":"two 10.9.2.1"})",
+      kNow, out);
+  EXPECT_EQ(status(kNow).ros2.network, "one 10.9.1.1");
+  EXPECT_EQ(status(kNow).ros2.unused, "two 10.9.2.1");
 }
 
 class Ros2Twists : public Ros2 {
