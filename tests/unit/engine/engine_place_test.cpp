@@ -197,6 +197,75 @@ TEST_F(ARobotWhosePlaceChanges, IsNotToldToJumpWhenItsFixComesAndGoes) {
   expect_drives();
 }
 
+struct Loss {
+  FixQuality meanwhile = FixQuality::none;
+  double lost_s = 0;
+  double elsewhere_m = 0;
+  double burst_s =
+      0;  ///< a computer that was busy: the first positions come at once, so much later
+};
+
+class AFixFoundElsewhere : public ARobotWhosePlaceChanges,
+                           public testing::WithParamInterface<Loss> {
+ protected:
+  void lose_and_find_it() {
+    rig.settle();
+    rig.run_s(5);
+    rig.quality = GetParam().meanwhile;
+    rig.receiver_silent = GetParam().meanwhile == FixQuality::none;
+    rig.run_s(GetParam().lost_s);
+    rig.receiver_silent = false;
+    rig.receiver_late = GetParam().burst_s > 0;
+    rig.quality = FixQuality::rtk_fixed;
+    rig.jump_m = GetParam().elsewhere_m;
+    rig.run_s(GetParam().burst_s);
+    rig.receiver_late = false;
+  }
+  bool is_there() const {
+    return std::abs(rig.snapshot().pose.x_m - rig.plant.truth().x_m) > std::abs(rig.jump_m) / 2;
+  }
+  void press() {
+    rig.log.clear();
+    rig.start(path, 40, 0.5);
+  }
+};
+
+/// A person who presses start in each cycle finds none in which the other place is good and nobody
+/// was told of it.
+TEST_P(AFixFoundElsewhere, IsNotDrivenFromBeforeAPersonWasTold) {
+  lose_and_find_it();
+  for (int i = 0; i < 60 * 200 && !is_there(); ++i) rig.tick();
+  int cycles = 0;
+  for (; cycles < 9.9 * 200; ++cycles) {
+    press();
+    rig.tick();
+    ASSERT_TRUE(is_there());
+    ASSERT_EQ(rig.said<CommandAccepted>().size(), 0U) << cycles;
+    ASSERT_EQ(rig.fastest_command_radps(), 0) << cycles;
+  }
+  EXPECT_THAT(refusal(), HasSubstr("jumped by"));
+  rig.run_s(0.2);
+  expect_drives();
+}
+
+/// Nor is one that began before that.
+TEST_P(AFixFoundElsewhere, IsNotDrivenFromByATaskThatWasStartedJustBefore) {
+  lose_and_find_it();
+  for (int i = 0; i < 9 * 200; ++i) {
+    press();
+    rig.tick();
+    ASSERT_FALSE(is_there() && rig.fastest_command_radps() > 0) << i << ": " << rig.why();
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    AtRest, AFixFoundElsewhere,
+    testing::Values(Loss{FixQuality::none, 5, 3, 0}, Loss{FixQuality::none, 5, 3, 0.4},
+                    Loss{FixQuality::none, 70, 3, 0}, Loss{FixQuality::none, 70, -1.5, 0.4},
+                    Loss{FixQuality::rtk_float, 15, 3, 0}, Loss{FixQuality::rtk_float, 70, 3, 0.4},
+                    Loss{FixQuality::single, 15, 3, 0}, Loss{FixQuality::single, 70, -1.5, 0.4},
+                    Loss{FixQuality::rtk_float, 15, 0.6, 0.2}));
+
 TEST_F(ARobotWhosePlaceChanges, IsNotToldToJumpWhenItsOriginIsMoved) {
   rig.settle();
   rig.command(SetOrigin{{kRigOrigin.latitude_deg + 1e-4, kRigOrigin.longitude_deg, 500}});

@@ -121,7 +121,8 @@ class EngineRig {
   bool guard_alive = true;
   bool guard_has_bus = false;
   bool receiver_silent = false;
-  int receiver_ticks = 20;  ///< between two of its positions
+  bool receiver_late = false;  ///< what it says comes in one burst, when this ends
+  int receiver_ticks = 20;     ///< between two of its positions
   bool no_heading = false;
   bool blocked = false;
   FixQuality quality = FixQuality::rtk_fixed;
@@ -285,7 +286,8 @@ class EngineRig {
     environment.gnss[0].state = receiver_silent ? SourceState::stale : SourceState::fresh;
     if (!receiver_silent) environment.gnss[0].last_good = now;
     if (++ticks_ % static_cast<std::uint64_t>(receiver_ticks) == 0) read_receiver();
-    while (!fixes_.empty() && now - fixes_.front().time >= std::chrono::milliseconds(80)) {
+    while (!receiver_late && !fixes_.empty() &&
+           now - fixes_.front().time >= std::chrono::milliseconds(80)) {
       const Fix& fix = fixes_.front();
       if (!receiver_silent) {
         measure(fix.time, fix.position);
