@@ -124,6 +124,28 @@ TEST_F(APersonWhoLooked, IsRefusedWhileATaskRunsOrTheRobotMoves) {
   expect_refused("the robot moves");
 }
 
+/// As the README has it: drover task cancel, drover position accept, a new start.
+TEST_F(APersonWhoLooked, EndsATaskThatWaitsForItsPlaceFirst) {
+  path = straight_path(60);
+  rig.settle();
+  rig.start(path, 120, 0.5);
+  rig.run_s(20);
+  rig.aside_m = 0.6;
+  rig.run_s(6);
+  ASSERT_TRUE(rig.snapshot().nav.paused) << rig.why();
+  const double driven_m = rig.plant.truth().x_m;
+  expect_refused("a task runs: cancel it first");
+  rig.run_s(3);
+  EXPECT_TRUE(rig.snapshot().nav.paused) << rig.why();
+  rig.command(CancelTask{});
+  rig.run_s(1);
+  expect_accepted();
+  rig.run_s(2);
+  EXPECT_NEAR(rig.plant.truth().x_m, driven_m, 0.01) << "to accept moves nothing";
+  EXPECT_NEAR(rig.snapshot().pose.y_m, rig.aside_m + rig.plant.truth().y_m, 0.05);
+  expect_drives();
+}
+
 TEST_F(APersonWhoLooked, IsRefusedWithoutAFixToBelieve) {
   rig.run_s(1);
   expect_refused("there is no origin");
