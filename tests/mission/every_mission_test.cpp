@@ -111,12 +111,13 @@ INSTANTIATE_TEST_SUITE_P(
         "agilex_v2_imu_silent", "agilex_v2_kill", "arm", "arm_kill", "scout_arm", "scout_arm_kill",
         "scout_arm_bus", "scout_arm_bus_late", "cubemars_arm", "cubemars_arm_kill", "hunter",
         "hunter_kill", "hunter_stuck", "robomaster", "robomaster_silent", "robomaster_kill",
-        "mecanum", "mecanum_kill", "mecanum_sideways", "scene_backwards", "scene_box", "scene_near",
-        "scene_pole", "scene_person", "scene_refused", "scene_keep_out", "scene_keep_in",
-        "scene_beside", "scene_pivot", "scene_planes", "scene_mouth", "scene_wall_behind",
-        "scene_stamps", "scene_origin", "scene_constraint", "scene_reverse", "scene_edge",
-        "scene_heading", "scene_worker", "scene_restart", "lidar_box", "lidar_covered", "lidar_sun",
-        "lidar_frozen", "lidar_unplugged", "lidar_ramp", "lidar_pivot", "lidar_pivot_hidden"),
+        "mecanum", "mecanum_kill", "mecanum_sideways", "mecanum_sideways_kill", "scene_backwards",
+        "scene_box", "scene_near", "scene_pole", "scene_person", "scene_refused", "scene_keep_out",
+        "scene_keep_in", "scene_beside", "scene_pivot", "scene_planes", "scene_mouth",
+        "scene_wall_behind", "scene_stamps", "scene_origin", "scene_constraint", "scene_reverse",
+        "scene_edge", "scene_heading", "scene_worker", "scene_restart", "lidar_box",
+        "lidar_covered", "lidar_sun", "lidar_frozen", "lidar_unplugged", "lidar_ramp",
+        "lidar_pivot", "lidar_pivot_hidden"),
     [](const auto& one) { return std::string(one.param); });
 
 }  // namespace

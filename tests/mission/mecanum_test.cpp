@@ -74,6 +74,80 @@ TEST(MecanumSideways, GoesAslant) {
   EXPECT_LT(way.turned_deg, 3);
 }
 
+/// How it came to rest while it went to the side: by its places, 50 ms apart.
+struct AsideToRest {
+  Duration time{};
+  double left_m = 0;
+  double ahead_m = 0;
+  double turned_deg = 0;
+};
+
+AsideToRest aside_to_rest(const Record& log, Time begin, Time end) {
+  const auto from = log.truth_at(begin);
+  const auto to = log.truth_at(end);
+  AsideToRest found;
+  const double x_m = to.x_m - from.x_m;
+  const double y_m = to.y_m - from.y_m;
+  found.left_m = y_m * std::cos(from.yaw_rad) - x_m * std::sin(from.yaw_rad);
+  found.ahead_m = x_m * std::cos(from.yaw_rad) + y_m * std::sin(from.yaw_rad);
+  found.turned_deg = std::remainder(to.yaw_rad - from.yaw_rad, 2 * M_PI) * 180 / M_PI;
+  for (std::size_t i = 1; i < log.truth.size(); ++i) {
+    const auto& line = log.truth[i];
+    const auto& before = log.truth[i - 1];
+    const double way_m = std::hypot(line.x_m - before.x_m, line.y_m - before.y_m);
+    const bool moves =
+        way_m > 0.01 * std::chrono::duration<double>(line.time - before.time).count();
+    if (moves && line.time > begin && line.time <= end) found.time = line.time - begin;
+  }
+  figure("time to rest", found.time);
+  figure("to the left", found.left_m, "m");
+  figure("ahead", found.ahead_m, "m");
+  figure("turned", found.turned_deg, "degrees");
+  return found;
+}
+
+TEST(MecanumSidewaysSilent, OfOneMotorStopsTheRobot) {
+  const Record& log = record("mecanum_sideways_silent");
+  const Time silenced = log.event("event silenced#1");
+  ASSERT_TRUE(moved_until(log, silenced));
+  const AsideToRest rest = aside_to_rest(log, silenced, log.truth.back().time - 10ms);
+  // It is missed for 0.1 s; then three brake, from 0.27 m/s.
+  EXPECT_LT(rest.time, 1s);
+  EXPECT_LT(rest.left_m, 0.15);
+  EXPECT_NEAR(rest.ahead_m, 0, 0.05);
+  EXPECT_LT(std::abs(rest.turned_deg), 10);
+}
+
+// The stream goes on for seconds.
+TEST(MecanumSidewaysSilent, IsToldInWordsAndTheStreamMovesItNoMore) {
+  const Record& log = record("mecanum_sideways_silent");
+  const Time silenced = log.event("event silenced#1");
+  const auto told =
+      std::find_if(log.statuses.begin(), log.statuses.end(), [silenced](const Status& status) {
+        return status.time > silenced && status.why.find("is silent") != std::string::npos;
+      });
+  ASSERT_NE(told, log.statuses.end());
+  figure("told after", told->time - silenced);
+  EXPECT_LT(told->time - silenced, 400ms);
+  EXPECT_THAT(told->why, testing::HasSubstr("motor 3 (203) is silent"));
+  EXPECT_EQ(told->nav, "NAV_FREE") << "no task failed";
+  EXPECT_GT(log.event("event commands_end#2") - silenced, 2s);
+  const auto later = log.truth_at(silenced + 1s);
+  const auto& last = log.truth.back();
+  EXPECT_LT(std::hypot(last.x_m - later.x_m, last.y_m - later.y_m), 0.01);
+}
+
+TEST(MecanumSidewaysKill, LetsItCoastToTheSideWithoutATurn) {
+  const Record& log = record("mecanum_sideways_kill");
+  const Time killed = log.event("signal 9 to droverd");
+  const AsideToRest rest = aside_to_rest(log, killed, log.event("start droverd", 2));
+  // The rollers' bearings brake what goes aside: less far than ahead.
+  EXPECT_LT(rest.time, 1s);
+  EXPECT_LT(rest.left_m, 0.2);
+  EXPECT_NEAR(rest.ahead_m, 0, 0.05);
+  EXPECT_LT(std::abs(rest.turned_deg), 5);
+}
+
 // Not among those of which nothing may be told to move after a task: the wheels rest one by one,
 // and each is pulled back to where it did by more than these wheels' friction, by a millimetre or
 // two.
