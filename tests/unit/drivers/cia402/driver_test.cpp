@@ -182,6 +182,24 @@ TEST(Cia402, ReadsTheErrorWhenItsEmergencyMessageWasLost) {
   EXPECT_EQ(bench.status.error_code, 0x4210U);
 }
 
+TEST(Cia402, IsGivenUpWhenItsNodeDiesAndRunsAgainOnlyByANewRequest) {
+  Bench bench;
+  bench.arm();
+  bench.run(milliseconds(500), kRun, 2.0);
+  ASSERT_TRUE(bench.twin->set_fault("dead", bench.now));
+  bench.run(milliseconds(400), kRun, 2.0);
+  EXPECT_EQ(bench.status.state, AxisState::unknown);
+  EXPECT_EQ(bench.status.reason.view().substr(0, 13), "nothing heard");
+  bench.moving.clear();
+  ASSERT_TRUE(bench.twin->set_fault("", bench.now));
+  bench.run(milliseconds(1500), kRun, 2.0);
+  EXPECT_EQ(bench.status.state, AxisState::fault);
+  EXPECT_TRUE(bench.moving.empty());
+  bench.run(milliseconds(50), kRest);
+  bench.run(milliseconds(500), kRun, 0.0);
+  EXPECT_EQ(bench.status.state, AxisState::running) << bench.status.reason.view();
+}
+
 TEST(Cia402, SomebodyElsesCommandsAreAFaultAndTheGuardsAreNot) {
   for (const char* const frame :
        {"205#0F0064000000", "205#000000000000", "205#020000000000", "000#8000"}) {
