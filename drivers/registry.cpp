@@ -5,6 +5,7 @@
 
 #include "drivers/agilex_v2/entry.h"
 #include "drivers/agilex_v2/hunter/entry.h"
+#include "drivers/cia402/entry.h"
 #include "drivers/cubemars_mit/entry.h"
 #include "drivers/damiao/entry.h"
 #include "drivers/gpio_line/entry.h"
@@ -24,9 +25,10 @@ namespace drover {
 std::span<const DriverEntry> driver_registry() {
   // Filled at the first call: the entries live in other files, whose order of start is not ours.
   static const std::array kTable{
-      kOdriveEntry,    kGpioLineEntry,     kNmea0183Entry, kModbusBmsEntry,      kWitmotionEntry,
-      kZlac8015dEntry, kGt01SerialEntry,   kGt01CanEntry,  kAgilexV2Entry,       kHipnucCanEntry,
-      kLd06Entry,      kAgilexHunterEntry, kDamiaoEntry,   kRobomasterC620Entry, kCubemarsMitEntry,
+      kOdriveEntry,    kGpioLineEntry,       kNmea0183Entry,    kModbusBmsEntry,
+      kWitmotionEntry, kZlac8015dEntry,      kGt01SerialEntry,  kGt01CanEntry,
+      kAgilexV2Entry,  kHipnucCanEntry,      kLd06Entry,        kAgilexHunterEntry,
+      kDamiaoEntry,    kRobomasterC620Entry, kCubemarsMitEntry, kCia402Entry,
   };
   return kTable;
 }
