@@ -16,6 +16,9 @@ constexpr double kMoved_m = 0.1;
 const double kSwung_rad = to_rad(5.0);
 constexpr double kBetterKnown = 0.9;
 constexpr Duration kStable = std::chrono::seconds(10);
+// A busy computer hears nothing for so long, while the receiver may be believed elsewhere. Who is
+// pushed without power is silent for longer.
+constexpr Duration kHush = std::chrono::seconds(2);
 
 /// In steps that are not written anew in each cycle; upwards, and nothing of what is always there.
 std::uint16_t whole_cm(double away_m) {
@@ -101,6 +104,12 @@ void PlaceWatch::update(Time now, Duration dt, const Estimate& estimate, bool he
                         const GeodeticPoint& origin) {
   // What rolls out after an e-stop rolls unheard.
   stands_ = heard && estimate.fastest_mps <= kStands_mps;
+  // What stood before a moment of silence is compared after it with where it stood.
+  const bool hush = !heard && stood_ && now - heard_at_ <= kHush;
+  if (heard) {
+    heard_at_ = now;
+    stood_ = stands_;
+  }
   doubted_ = estimate.place_doubted || estimate.heading_doubted;
   doubt_cm_ = whole_cm(estimate.elsewhere_m);
   if (heard && !stands_) recalled_ = {};
@@ -112,6 +121,7 @@ void PlaceWatch::update(Time now, Duration dt, const Estimate& estimate, bool he
   Pose pose = estimate.pose;
   // What its wheels may have slipped before it came to rest without a fix is no jump, either.
   pose.position_sigma_m = std::hypot(pose.position_sigma_m, estimate.unseen_slip_m / 2);
+  if (known_ && hush && !renewed) return;
   if (!known_ || !stands_ || renewed) return begin_at(pose);
   if (estimate.body.known) {
     const double way_m = estimate.body.twist.vx_mps * std::max(to_s(dt), 0.0);

@@ -56,6 +56,8 @@ class PlaceWatch final {
   bool known_ = false;
   Time renewed_ = kNever;  ///< of two places the new one was believed last
   bool stands_ = false;
+  bool stood_ = false;      ///< when its wheels were heard last
+  Time heard_at_ = kNever;  ///< they were
   Places seen_;
   Places rested_;         ///< without what it crept: the nearer of the two counts
   double crept_x_m_ = 0;  ///< since it stands, by its wheels

@@ -71,6 +71,8 @@ class EngineRig {
     now += kRigTick;
     move();
     sense();
+    if (cycle_skipped) return;
+    hand_over();
     environment.guard_alive = guard_alive;
     environment.guard_has_bus = guard_has_bus;
     engine->step(now, environment, out);
@@ -148,9 +150,12 @@ class EngineRig {
     double differs = 1;     ///< the sides follow so much of the difference that they are asked for
     double gyro = 1;        ///< it tells so many times the turn
   } mechanics;
-  double jump_m = 0;           ///< of the reported position, east
-  double aside_m = 0;          ///< likewise, north
-  double heading_off_deg = 0;  ///< of the reported heading
+  bool cycle_skipped = false;    ///< what is measured waits for the next cycle
+  bool burst_backwards = false;  ///< it comes newest first
+  Duration wheels_late{};        ///< what the wheels tell comes so much late
+  double jump_m = 0;             ///< of the reported position, east
+  double aside_m = 0;            ///< likewise, north
+  double heading_off_deg = 0;    ///< of the reported heading
   Time now{std::chrono::seconds(10)};
   double driven_m = 0;  ///< true way of the base
 
@@ -336,11 +341,27 @@ class EngineRig {
     m.time = time;
     m.received = now;
     m.value = value;
+    if (cycle_skipped || !held_back_.empty()) return held_back_.push_back(m);
     engine->on_measurement(m);
+  }
+  /// What was held back comes in a burst; of the wheels only what is older than `wheels_late`.
+  void hand_over() {
+    std::deque<Measurement> later;
+    if (burst_backwards) std::reverse(held_back_.begin(), held_back_.end());
+    for (const Measurement& m : held_back_) {
+      const bool of_wheels = std::holds_alternative<AxisMotion>(m.value);
+      if (of_wheels && now - m.time < wheels_late) {
+        later.push_back(m);
+      } else {
+        engine->on_measurement(m);
+      }
+    }
+    held_back_ = later;
   }
 
   Estimator geo_;  ///< only its geodesy
   std::deque<Fix> fixes_;
+  std::deque<Measurement> held_back_;
   std::uint64_t ticks_ = 0;
 };
 
