@@ -6,6 +6,7 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include "integration/own_domain.h"
 #include "integration/robot_rig.h"
 #include "integration/ros2_user.h"
 #include "ros2/topics.h"
@@ -78,7 +79,8 @@ class MovedFromRos2 : public RobotRig {
     EXPECT_TRUE(moved) << "it moved before";
   }
 
-  int domain_ = 100 + ::getpid() % 100;
+  OwnDomain own_domain_;
+  int domain_ = own_domain_.number();
   Process program_;
   dds_entity_t dds_ = 0;
   dds_entity_t participant_ = 0;

@@ -4,11 +4,11 @@
 #include <dds/dds.h>
 // Behind it:
 #include <dds/ddsi/ddsi_serdata.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <limits>
 
+#include "integration/own_domain.h"
 #include "integration/ros2_fastdds_bytes.h"
 #include "integration/ros2_fastdds_ours.h"
 #include "integration/ros2_user.h"
@@ -75,7 +75,7 @@ Bytes bytes_of(const ddsi_serdata* data) {
 class Cdr : public ::testing::Test {
  protected:
   Cdr() {
-    const auto domain = static_cast<dds_domainid_t>(100 + ::getpid() % 100);
+    const auto domain = static_cast<dds_domainid_t>(own_domain_.number());
     dds_ = dds_create_domain(domain, settings_of(User::humble).c_str());
     participant_ = dds_create_participant(domain, nullptr, nullptr);
     EXPECT_GT(participant_, 0);
@@ -138,6 +138,7 @@ class Cdr : public ::testing::Test {
   }
 
  private:
+  OwnDomain own_domain_;
   dds_entity_t dds_ = 0;
   dds_entity_t participant_ = 0;
 };

@@ -329,6 +329,7 @@ TEST_F(FastDdsMayStop, StopsTheRobotByTrueAndDoesNothingByFalse) {
     SCOPED_TRACE(reliable ? "reliable" : "best effort");
     const auto writer = user_->writer<fast::Bool>("rt/e_stop", {.reliable = reliable});
     ASSERT_TRUE(play_until([&] { return writer->readers() > 0; })) << log();
+    play_for(1500ms);  // whatever was said before, more than once perhaps, is here
     const int before = stops_;
     ASSERT_TRUE(writer->write({false}));
     play_for(1500ms);  // until it is known on both sides

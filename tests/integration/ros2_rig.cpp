@@ -25,7 +25,7 @@ std::string text_of(const std::filesystem::path& path) {
 
 }  // namespace
 
-Ros2Rig::Ros2Rig(User user, const std::string& more) : domain_(100 + ::getpid() % 100) {
+Ros2Rig::Ros2Rig(User user, const std::string& more) {
   auto config = text_of(std::filesystem::path(DROVER_SOURCE_DIR) / "config/examples/lidar.json");
   const std::string sections = "{\n  \"ros2\": {\"domain\": " + std::to_string(domain_) + more +
                                "},\n  \"paths\": {\"run\": \"" + folder_.string() +

@@ -15,6 +15,7 @@
 
 #include "drover/command.h"
 #include "drover/snapshot.h"
+#include "integration/own_domain.h"
 #include "integration/process.h"
 #include "integration/ros2_user.h"
 #include "publish/ros2_outlet.h"
@@ -80,7 +81,8 @@ class Ros2Rig : public ::testing::Test {
   void tell(const std::string& line) const;
   void beat();
 
-  int domain_;
+  OwnDomain own_domain_;
+  int domain_ = own_domain_.number();
   dds_entity_t dds_ = 0;
   dds_entity_t participant_ = 0;
   dds_entity_t loan_of_ = 0;
