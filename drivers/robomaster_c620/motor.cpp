@@ -8,9 +8,11 @@
 namespace drover::robomaster {
 namespace {
 
-/// Slower than this it stands, and is kept where it is; or after so long, on a slope.
+/// Slower than this it stands, and is kept where it is.
 constexpr double kStands_radps = 0.1;
-constexpr Duration kStandsAtLast = std::chrono::milliseconds(300);
+/// So is one that gets no slower by a tenth for so long: a slope rolls it.
+constexpr Duration kGetsNoSlower = std::chrono::milliseconds(100);
+constexpr double kSlower = 0.9;
 /// So far off nothing is done about it: else two wheels that stand would push each other.
 constexpr double kFree_rad = 0.003;
 /// Of its limit that a hot motor may still brake with.
@@ -108,7 +110,8 @@ void Motor::begin_braking(Time now) {
   loop_ = Loop::braking;
   ramped_radps_ = velocity_radps_;
   anchored_ = false;
-  asked_to_stand_ = now;
+  slowest_radps_ = std::abs(velocity_radps_);
+  slower_at_ = now;
 }
 
 void Motor::brake(double slowest_radps, Duration dt, Time now) {
@@ -119,9 +122,11 @@ void Motor::brake(double slowest_radps, Duration dt, Time now) {
   const double most_radps = std::abs(velocity_radps_);
   const bool along = ramped_radps_ * velocity_radps_ > 0;
   ramped_radps_ = along ? std::clamp(ramped_radps_, -most_radps, most_radps) : 0.0;
-  if (slowest_radps != 0 || ramped_radps_ != 0) {
-    anchored_ = false;
-    asked_to_stand_ = now;
+  const bool slows = most_radps < kSlower * slowest_radps_;
+  if (slowest_radps != 0 || ramped_radps_ != 0) anchored_ = false;
+  if (slowest_radps != 0 || ramped_radps_ != 0 || slows) {
+    slowest_radps_ = most_radps;
+    slower_at_ = now;
   }
   anchor(now);
   counts_ = counts_of(brake_Nm());
@@ -130,7 +135,7 @@ void Motor::brake(double slowest_radps, Duration dt, Time now) {
 /// Kept where it came to rest. What pushes harder than the limit takes that place along.
 void Motor::anchor(Time now) {
   const bool stands = std::abs(velocity_radps_) < kStands_radps;
-  if (!anchored_ && (stands || now - asked_to_stand_ > kStandsAtLast) && ramped_radps_ == 0) {
+  if (!anchored_ && (stands || now - slower_at_ > kGetsNoSlower) && ramped_radps_ == 0) {
     anchored_ = true;
     anchor_rad_ = position_rad_;
   }

@@ -64,7 +64,8 @@ class Motor final {
   double integral_Nm_ = 0;
   bool anchored_ = false;  ///< kept at `anchor_rad_`
   double anchor_rad_ = 0;
-  Time asked_to_stand_ = kNever;
+  double slowest_radps_ = 0;  ///< since it was to stand, and when it got slower last
+  Time slower_at_ = kNever;
   std::int16_t counts_ = 0;
 };
 

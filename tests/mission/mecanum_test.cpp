@@ -148,9 +148,6 @@ TEST(MecanumSidewaysKill, LetsItCoastToTheSideWithoutATurn) {
   EXPECT_LT(std::abs(rest.turned_deg), 5);
 }
 
-// Not among those of which nothing may be told to move after a task: the wheels rest one by one,
-// and each is pulled back to where it did by more than these wheels' friction, by a millimetre or
-// two.
 TEST(MecanumSilent, OfOneMotorStopsTheRobot) {
   const Record& log = record("mecanum_silent");
   const Time silenced = log.event("event silenced#1");

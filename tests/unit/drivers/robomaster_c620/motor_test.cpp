@@ -104,6 +104,45 @@ TEST_F(RobomasterMotor, IsKeptWhereItCameToRest) {
   EXPECT_LT(motor.counts(), 0) << "it stands, and not where it stood";
 }
 
+TEST_F(RobomasterMotor, IsNotPulledBackToWhereItWasStillRolling) {
+  // It slows for half a second, until friction ends it: a heavy robot, and a soft loop.
+  double joint_rad = 0;
+  double radps = 1;
+  const auto show_joint = [&] {
+    const double rotor_turns = joint_rad * settings.gear_ratio / kTurn_rad;
+    const double part = rotor_turns - std::floor(rotor_turns);
+    show(static_cast<int>(std::lround(radps / kRadpsPerRpm * settings.gear_ratio)),
+         static_cast<std::uint16_t>(part * kAnglesPerTurn));
+  };
+  for (; radps > 0.09; radps *= 0.98) {
+    show_joint();
+    brake();
+    joint_rad += radps * 0.005;
+  }
+  radps = 0;
+  show_joint();
+  brake();
+  EXPECT_EQ(motor.counts(), 0)
+      << "it is kept where it rests, not where it was 0.3 s after the stop";
+}
+
+TEST_F(RobomasterMotor, IsKeptWhereASlopeRollsItSteadily) {
+  const int rpm = static_cast<int>(0.5 / kRadpsPerRpm * settings.gear_ratio);
+  std::uint16_t angle = 0;
+  const auto roll_for = [&](int cycles) {
+    for (int i = 0; i < cycles; ++i) {
+      angle = static_cast<std::uint16_t>(
+          (angle + static_cast<int>(rpm / 60.0 * 0.005 * kAnglesPerTurn)) % kAnglesPerTurn);
+      show(rpm, angle);
+      brake();
+    }
+    return static_cast<int>(motor.counts());
+  };
+  roll_for(40);  // the ramp is over
+  const int braked = roll_for(1);
+  EXPECT_LT(roll_for(100), braked) << "half a second later it pulls back, too";
+}
+
 TEST_F(RobomasterMotor, CallsABrakeOnlyWhatIsNoMoreThanOne) {
   const int rpm = static_cast<int>(1 / kRadpsPerRpm * settings.gear_ratio);
   show(rpm);
