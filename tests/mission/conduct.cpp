@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "mission/wire_cia402.h"
 #include "mission/wire_cubemars_mit.h"
 #include "mission/wire_damiao.h"
 #include "mission/wire_robomaster.h"
@@ -145,6 +146,7 @@ std::string judge(Maker maker, const CanFrame& frame) {
     case Maker::agilex_v2: return agilex_v2::forbidden(frame);
     case Maker::hunter: return hunter::forbidden(frame);
     case Maker::robomaster: return robomaster::forbidden(frame);
+    case Maker::cia402: return cia402::forbidden(frame);
     case Maker::gt01_serial: break;
   }
   return "it has no bus";

@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "mission/robot.h"
+#include "mission/wire_cia402.h"
 #include "mission/wire_robomaster.h"
 #include "mission/wire_twist.h"
 #include "mission/wire_zlac8015d.h"
@@ -110,6 +111,11 @@ void read_drives(const json& scenario, Record& record) {
       record.maker = Maker::zlac8015d;
       record.mps_per_turnps = kTurn * 0.085;
     }
+    if (driver == "cia402") {
+      constexpr double kMotorTurns = 25;
+      record.maker = Maker::cia402;
+      record.mps_per_turnps = kTurn * 0.085 / kMotorTurns;
+    }
     if (driver == "robomaster_c620") record.maker = Maker::robomaster;
     const auto* const twist = std::find_if(std::begin(kTwistBases), std::end(kTwistBases),
                                            [&](const auto& base) { return driver == base.first; });
@@ -153,8 +159,10 @@ void read_set_points(const CanLine& line, robomaster::Bus& bus, Record& record) 
     const auto twist = record.maker == Maker::gt01_can ? gt01::twist_command(line.frame)
                                                        : agilex_v2::twist_command(line.frame);
     if (twist) add_twist(line.time, *twist, record);
-  } else if (record.maker == Maker::odrive) {
-    if (const auto wheel = wheel_command(line.frame)) record.sent.push_back({line.time, *wheel});
+  } else if (record.maker == Maker::odrive || record.maker == Maker::cia402) {
+    const auto wheel = record.maker == Maker::odrive ? wheel_command(line.frame)
+                                                     : cia402::wheel_command(line.frame);
+    if (wheel) record.sent.push_back({line.time, *wheel});
   } else if (const auto targets = zlac8015d::targets_turnps(line.frame)) {
     for (std::uint8_t i = 0; i < targets->size(); ++i)
       record.sent.push_back({line.time, {static_cast<std::uint8_t>(i + 1), (*targets)[i], 0}});

@@ -40,7 +40,16 @@ struct Sent {
 };
 
 /// Whose drives they are.
-enum class Maker { odrive, zlac8015d, gt01_serial, gt01_can, agilex_v2, hunter, robomaster };
+enum class Maker {
+  odrive,
+  zlac8015d,
+  gt01_serial,
+  gt01_can,
+  agilex_v2,
+  hunter,
+  robomaster,
+  cia402
+};
 /// And whose motors an arm on a bus of its own has.
 enum class ArmMaker { none, damiao, cubemars_mit };
 

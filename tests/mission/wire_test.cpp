@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "mission/log_lines.h"
+#include "mission/wire_cia402.h"
 #include "mission/wire_robomaster.h"
 #include "mission/wire_twist.h"
 #include "mission/wire_zlac8015d.h"
@@ -99,6 +100,43 @@ TEST(MissionWire, ReadsBothWheelsOfAZlac8015dAsTheyDriveAhead) {
   EXPECT_FALSE((WheelCommand{1, (*zero)[1], 0}.moves()));
   EXPECT_TRUE(zlac8015d::is_zero_by_service(frame("601#23FF600200000000")));
   EXPECT_FALSE(zlac8015d::is_zero_by_service(frame("601#23FF600201000000")));
+}
+
+TEST(MissionWire, RefusesWhatADriveOfCia402MustNeverBeTold) {
+  for (const char* text : {
+           "000#8101",              // a reset of a node
+           "000#0100",              // a start of all nodes
+           "000#0103",              // of a node that is none of this robot's
+           "201#1F0000000000",      // a bit that means nothing here
+           "201#060064000000",      // a target for a drive that is off
+           "201#0F0064000000FF",    // something behind the target
+           "203#0F0064000000",      // another node
+           "601#2310100173617665",  // a save to flash
+           "601#23FF600064000000",  // a target that moves, past the gate of process data
+           "601#2B4060000F000000",  // a controlword beside the process data
+           "601#23A9600000000000",  // what the drive counts
+           "701#0500",
+           "77F#04",  // a gateway that stands
+           "281#R",
+       })
+    EXPECT_FALSE(cia402::forbidden(frame(text)).empty()) << text;
+}
+
+TEST(MissionWire, LetsThroughWhatADriveOfCia402SaysAndNeeds) {
+  for (const char* text : {"000#0102", "201#0F0064000000", "202#060000000000",
+                           "601#4041600000000000", "602#2B17100064000000", "601#23FF600000000000",
+                           "601#231A000102004160", "582#6000200000000000", "702#7F", "77F#05",
+                           "181#370200000000", "281#1AFCFFFF", "082#1042010000000000"})
+    EXPECT_EQ(cia402::forbidden(frame(text)), "") << text;
+}
+
+TEST(MissionWire, ReadsBothWheelsOfCia402AsTheyDriveAhead) {
+  EXPECT_EQ(cia402::wheel_command(frame("201#0F003C000000"))->velocity_turnps, 1.0F);
+  EXPECT_EQ(cia402::wheel_command(frame("202#0F00C4FFFFFF"))->velocity_turnps, 1.0F);
+  EXPECT_FALSE(cia402::wheel_command(frame("202#0F0000000000"))->moves());
+  EXPECT_FALSE(cia402::wheel_command(frame("301#0F003C000000")));
+  EXPECT_TRUE(cia402::is_zero_by_service(frame("602#23FF600000000000")));
+  EXPECT_FALSE(cia402::is_zero_by_service(frame("602#23FF600001000000")));
 }
 
 TEST(MissionWire, RefusesWhatAGt01OnCanMustNeverBeTold) {
