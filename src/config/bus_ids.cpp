@@ -16,7 +16,7 @@ std::uint32_t width(const FrameFilter& filter) {
   return filter.extended ? kExtendedBits : kStandardBits;
 }
 
-/// The lowest id that both mean and nobody shares.
+/// The lowest id that both mean and do not share.
 template <class IsShared>
 std::optional<std::uint32_t> common_id(const FrameFilter& a, const FrameFilter& b,
                                        const IsShared& is_shared) {
@@ -41,7 +41,11 @@ std::string hex(std::uint32_t id, bool extended) {
 
 /// The option that is this id, or else the one that its ids follow from.
 std::string path_of_id(const DeviceConfig& device, std::uint32_t id) {
+  constexpr std::uint32_t kHeartbeat = 0x700;
+  constexpr const char* kGateway = "gateway_node";
   std::string path = device_path(device);
+  if (device.options.has(kGateway) && kHeartbeat + device.options.number(kGateway) == id)
+    return device_path(device, std::string("options.") + kGateway);
   for (const char* const key : {"master_id", "id", "node"}) {
     if (!device.options.has(key)) continue;
     path = device_path(device, std::string("options.") + key);
@@ -77,7 +81,9 @@ void BusIds::compare(const User& first, const User& second) {
     const auto among = [id](const std::vector<std::uint32_t>& ids) {
       return std::find(ids.begin(), ids.end(), id) != ids.end();
     };
-    return among(first.shared) || among(second.shared);
+    // CANopen's network management, of 000, is read by who wants to.
+    return id == 0 ? among(first.shared) || among(second.shared)
+                   : among(first.shared) && among(second.shared);
   };
   for (const auto& one : first.ids) {
     for (const auto& other : second.ids) {

@@ -10,7 +10,7 @@
 namespace drover::config {
 
 /// By what drivers say of themselves: FrameFace::listens() and Actuator::rules(). An id that a rule
-/// calls shared belongs to nobody.
+/// calls shared belongs to nobody, as long as each who uses it calls it so.
 class BusIds final {
  public:
   explicit BusIds(Findings& found) : found_(found) {}

@@ -125,7 +125,7 @@ TEST(MissionWire, RefusesWhatADriveOfCia402MustNeverBeTold) {
 TEST(MissionWire, LetsThroughWhatADriveOfCia402SaysAndNeeds) {
   for (const char* text : {"000#0102", "201#0F0064000000", "202#060000000000",
                            "601#4041600000000000", "602#2B17100064000000", "601#23FF600000000000",
-                           "601#231A000102004160", "582#6000200000000000", "702#7F", "77F#05",
+                           "601#23001A0110004160", "582#6000200000000000", "702#7F", "77F#05",
                            "181#370200000000", "281#1AFCFFFF", "082#1042010000000000"})
     EXPECT_EQ(cia402::forbidden(frame(text)), "") << text;
 }

@@ -79,6 +79,28 @@ TEST(BusIds, OfAFamilyAreShared) {
   EXPECT_THAT(told, Not(HasSubstr("both use the id")));
 }
 
+/// Two nodes of CiA 402, 1 and 2, of which the second one is to hear the heartbeat of `gateway`.
+std::string nodes_with(int gateway) {
+  std::ifstream file(kExamples + "/cia402.json");
+  std::string text{std::istreambuf_iterator<char>(file), {}};
+  const std::string second = "\"node\": 2,";
+  text.insert(text.find(second) + second.size(),
+              " \"gateway_node\": " + std::to_string(gateway) + ",");
+  return problems(text, kExamples);
+}
+
+/// Else the heartbeat of the one feeds the other, which runs on when nobody tells it to any more.
+TEST(BusIds, AreRefusedToAGatewaysHeartbeatThatIsANodes) {
+  EXPECT_THAT(nodes_with(126), Not(HasSubstr("both use")));
+  EXPECT_THAT(nodes_with(1),
+              HasSubstr("devices.right_drive.options.gateway_node: devices.right_drive (cia402) "
+                        "and devices.left_drive (cia402) both use the id 0x701 on \"can0\""));
+  // Whichever of them comes first.
+  const auto lift = R"("lift": {"driver": "cia402", "link": "can0", "options": {"node": 5,)"
+                    R"( "velocity_units_per_rps": 60, "gear_ratio": 9, "gateway_node": 1}})";
+  EXPECT_THAT(hubs_with(lift), HasSubstr("both use the id 0x701 on \"can0\""));
+}
+
 TEST(BusIds, AreNotTakenByANodeThatIsNoneOfCanOpens) {
   const std::string axis =
       R"("lift": {"driver": "odrive", "link": "can0", "accept": ["no_watchdog"], "options": )"
