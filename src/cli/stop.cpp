@@ -1,11 +1,7 @@
 #include "cli/stop.h"
 
-#include <sys/socket.h>
-#include <sys/time.h>
-#include <sys/un.h>
 #include <unistd.h>
 
-#include <array>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -18,7 +14,7 @@
 #include "cli/unheard_drives.h"
 #include "json/json_text.h"
 #include "json/located_json.h"
-#include "link/unique_fd.h"
+#include "link/packet_question.h"
 
 namespace drover::cli {
 
@@ -26,7 +22,7 @@ namespace {
 
 /// Who stops a robot does not wait: the guard answers within one cycle of its own, droverd within
 /// a few of the control thread's.
-constexpr timeval kGuardPatience{0, 300'000};
+constexpr std::chrono::milliseconds kGuardPatience{300};
 constexpr int kDaemonPatience_s = 1;
 
 struct Answer {
@@ -54,26 +50,12 @@ std::string why_no_guard(const std::string& path, int error) {
 std::optional<json::Document> ask_guard(const StopPlaces& places, std::string_view word,
                                         std::string& problem) {
   const auto path = guard_path(places);
-  sockaddr_un address{};
-  address.sun_family = AF_UNIX;
-  if (path.size() >= sizeof address.sun_path) {
-    problem = path + ": the socket's path is too long";
+  const auto answer = link::ask_packet(path, word, kGuardPatience);
+  if (!answer) {
+    problem = why_no_guard(path, answer.error());
     return std::nullopt;
   }
-  std::memcpy(address.sun_path, path.c_str(), path.size());
-  const link::UniqueFd fd(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0));
-  ::setsockopt(fd.get(), SOL_SOCKET, SO_SNDTIMEO, &kGuardPatience, sizeof kGuardPatience);
-  ::setsockopt(fd.get(), SOL_SOCKET, SO_RCVTIMEO, &kGuardPatience, sizeof kGuardPatience);
-  std::array<char, 1024> bytes{};
-  ssize_t n = -1;
-  if (::connect(fd.get(), reinterpret_cast<sockaddr*>(&address), sizeof address) == 0 &&
-      ::send(fd.get(), word.data(), word.size(), MSG_NOSIGNAL) >= 0)
-    n = ::recv(fd.get(), bytes.data(), bytes.size(), 0);
-  if (n < 0) {
-    problem = why_no_guard(path, errno);
-    return std::nullopt;
-  }
-  auto state = json::parse(std::string_view(bytes.data(), static_cast<std::size_t>(n)));
+  auto state = json::parse(*answer);
   if (state.ok()) return std::move(state.value());
   problem = "drover-guard's answer is not understood";
   return std::nullopt;

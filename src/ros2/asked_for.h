@@ -35,6 +35,10 @@ class AskedFor final {
   /// The way to droverd is lost: a stop that it has not answered it may not have read. True: there
   /// is one, and it is told again.
   bool way_lost();
+  /// A stop that droverd has not answered, or that has not left.
+  bool stop_is_open() const { return stop_waits_ || unanswered_ > 0; }
+  /// There is no later: what waits to be told ten times a second is due now.
+  void hurry() { stop_tried_ = kNever; }
   /// There is nobody any more who asked. A stop stays.
   void forget_twists();
 

@@ -6,6 +6,7 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <utility>
 
 namespace drover::ros2 {
 
@@ -29,22 +30,33 @@ void DaemonLink::keep(Time now) {
   problem_.clear();
 }
 
-void DaemonLink::hear(const std::function<void(std::string_view)>& on_line) {
+bool DaemonLink::read() {
   std::array<char, 65536> block{};
   const auto n = ::recv(fd_.get(), block.data(), block.size(), MSG_DONTWAIT);
-  if (n < 0 && (errno == EAGAIN || errno == EINTR)) return;
-  if (n <= 0) return lose(n == 0 ? "droverd has closed the connection" : std::strerror(errno));
+  if (n < 0 && (errno == EAGAIN || errno == EINTR)) return false;
+  if (n <= 0) {
+    lose(n == 0 ? "droverd has closed the connection" : std::strerror(errno));
+    return false;
+  }
   retry_.succeeded();
   in_.append(block.data(), static_cast<std::size_t>(n));
+  return true;
+}
+
+void DaemonLink::hear(const std::function<void(std::string_view)>& on_line) {
+  if (fd_) (void)read();
+  const std::string came = std::exchange(in_, {});  // `on_line` may send, which reads
   std::size_t begin = 0;
   for (;;) {
-    const auto end = in_.find('\n', begin);
+    const auto end = came.find('\n', begin);
     if (end == std::string::npos) break;
-    on_line(std::string_view(in_).substr(begin, end - begin));
+    on_line(std::string_view(came).substr(begin, end - begin));
     begin = end + 1;
   }
-  in_.erase(0, begin);
-  if (in_.size() > kMostWaiting) lose("droverd sends a line without an end");
+  in_.insert(0, came, begin);
+  if (in_.size() <= kMostWaiting) return;
+  lose("droverd sends a line without an end");
+  in_.clear();
 }
 
 bool DaemonLink::send(const std::string& line) {
@@ -52,13 +64,15 @@ bool DaemonLink::send(const std::string& line) {
   const std::string text = line + "\n";
   const auto n = ::send(fd_.get(), text.data(), text.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
   if (n == static_cast<ssize_t>(text.size())) return true;
-  lose("droverd does not read");
+  // What it said before it went is heard all the same.
+  while (in_.size() <= kMostWaiting && read()) {
+  }
+  if (fd_) lose("droverd does not read");
   return false;
 }
 
 void DaemonLink::lose(const std::string& why) {
   fd_.reset();
-  in_.clear();
   problem_ = path_ + ": " + why;
 }
 

@@ -20,7 +20,7 @@ class DaemonLink final {
   bool connected() const { return static_cast<bool>(fd_); }
   /// Readable when lines came; -1: none.
   int fd() const { return fd_.get(); }
-  /// Each whole line that has come.
+  /// Each whole line that has come; of a way that is lost what came before.
   void hear(const std::function<void(std::string_view)>& on_line);
   /// What does not leave at once never leaves: droverd does not read, the link is made anew. False:
   /// it has not left.
@@ -31,6 +31,8 @@ class DaemonLink final {
   const std::string& problem() const { return problem_; }
 
  private:
+  /// False: nothing came, or the way is lost.
+  bool read();
   void lose(const std::string& why);
 
   std::string path_;

@@ -6,6 +6,8 @@
 #include <random>
 
 #include "json/json_text.h"
+#include "json/located_json.h"
+#include "link/packet_question.h"
 #include "ros2/networks.h"
 #include "ros2/say.h"
 #include "runtime/clock.h"
@@ -18,9 +20,24 @@ using namespace std::chrono_literals;
 constexpr Duration kBeat = 1s;
 /// droverd sends at least once a second.
 constexpr Duration kSilent = 1500ms;
+/// Of who ends, with droverd and with drover-guard.
+constexpr std::chrono::milliseconds kPatience = 300ms;
 
 Stamp_ns wall_now_ns() {
   return (runtime::monotonic_now().time_since_epoch() + runtime::wall_minus_monotonic()).count();
+}
+
+/// As drover-guard has it, unless it is told otherwise.
+std::string beside(const std::string& path, const char* name) {
+  return path.substr(0, path.rfind('/') + 1) + name;
+}
+
+bool guard_takes_stop(const std::string& path) {
+  const auto answer = link::ask_packet(path, "stop", kPatience);
+  if (!answer) return false;
+  const auto state = json::parse(*answer);
+  const auto* latched = state ? state->root.find("latched") : nullptr;
+  return latched != nullptr && latched->boolean() != nullptr && *latched->boolean();
 }
 
 /// Nobody can guess it: stops of that name that were done are not done again.
@@ -36,6 +53,7 @@ Program::Program(const config::DroverConfig& config)
       reach_(config.ros2.mode == "network" ? Reach::network : Reach::localhost),
       robot_(robot_of(config)),
       link_(config.paths.run + "/drover.sock"),
+      stop_socket_(beside(config.guard.socket, "stop.sock")),
       asked_(random_name()) {
   take_over_dds_log();
 }
@@ -65,10 +83,31 @@ void Program::run(const std::atomic<bool>& stop) {
     if ((ready[0].revents & POLLOUT) != 0 && follows_ && link_.connected())
       scene_.send([this](const std::string& line) { return link_.send(line); });
   }
-  // A stop that came before the end was asked for goes on.
+  hand_over_stop();
+}
+
+/// A stop that came before the end goes on: to droverd, or past one that hangs or is away to
+/// drover-guard, which keeps it for the next one. Who restarts a droverd that hangs ends this
+/// first.
+void Program::hand_over_stop() {
+  asked_.hurry();
   const Time now = runtime::monotonic_now();
   if (users_) hear_users(now);
   tell_asked(now);
+  while (asked_.stop_is_open() && link_.connected()) {
+    const auto left =
+        std::chrono::ceil<std::chrono::milliseconds>(now + kPatience - runtime::monotonic_now());
+    pollfd ready{link_.fd(), POLLIN, 0};
+    if (left <= 0ms || ::poll(&ready, 1, static_cast<int>(left.count())) == 0) break;
+    link_.hear([this](std::string_view line) { take(line); });
+  }
+  if (!asked_.stop_is_open()) return;
+  if (guard_takes_stop(stop_socket_))
+    return say(Level::warning,
+               "droverd has not answered an emergency stop: drover-guard has taken it");
+  say(Level::error,
+      "an emergency stop is lost: neither droverd nor drover-guard has taken it; "
+      "press the emergency stop");
 }
 
 void Program::beat(Time now) {
@@ -81,13 +120,14 @@ void Program::beat(Time now) {
 
 void Program::connect(Time now) {
   if (link_.connected()) return;
-  follows_ = false;
   way_lost();
   link_.keep(now);
   if (link_.connected()) connected_ = now;
 }
 
 void Program::way_lost() {
+  link_.hear([this](std::string_view line) { take(line); });  // what it said before it went
+  follows_ = false;
   scene_.way_lost();
   if (!asked_.way_lost()) return;
   say(Level::warning,

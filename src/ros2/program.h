@@ -38,6 +38,7 @@ class Program final {
   void stop_refused(const std::string& why);
   void connect(Time now);
   void way_lost();
+  void hand_over_stop();
   void hear_users(Time now);
   void tell_asked(Time now);
   void say_who_sees() const;
@@ -53,6 +54,7 @@ class Program final {
   Reach reach_;
   Robot robot_;
   DaemonLink link_;
+  std::string stop_socket_;  ///< drover-guard's
   /// Messages of the planning scene that were never looked at.
   std::atomic<std::uint64_t> scene_passed_over_{0};
   std::unique_ptr<Domain> domain_;

@@ -53,6 +53,20 @@ TEST_F(WhatUsersAskFor, AStopThatCouldNotLeaveIsNoReasonToPassTheNextOneOver) {
   asked.stop();
   EXPECT_THAT(told(kNow + 100ms), ElementsAre(kStop));
 }
+TEST_F(WhatUsersAskFor, AStopIsToldAtOnceWhereThereIsNoLater) {
+  asked.stop();
+  (void)told(kNow);
+  asked.answered();
+  EXPECT_FALSE(asked.stop_is_open());
+  asked.stop();
+  EXPECT_TRUE(told(kNow + 5ms).empty());
+  EXPECT_TRUE(asked.stop_is_open());
+  asked.hurry();
+  EXPECT_THAT(told(kNow + 5ms), ElementsAre(kStop));
+  EXPECT_TRUE(asked.stop_is_open()) << "it is not answered yet";
+  asked.answered();
+  EXPECT_FALSE(asked.stop_is_open());
+}
 /// It may have been read by nobody: a kernel takes the line for a droverd that hangs.
 TEST_F(WhatUsersAskFor, AStopThatWasNotAnsweredIsToldAgainWhenTheWayIsLost) {
   asked.stop();

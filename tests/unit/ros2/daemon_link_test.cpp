@@ -97,6 +97,33 @@ TEST_F(TheLineToDroverd, GivesUpALineWithoutAnEnd) {
   EXPECT_FALSE(line.connected());
   EXPECT_NE(line.problem().find("without an end"), std::string::npos);
 }
+TEST_F(TheLineToDroverd, HearsWhatDroverdSaidBeforeItWent) {
+  listen();
+  line.keep(now);
+  accept();
+  write("one\ntwo\nthr");
+  client.reset();
+  EXPECT_FALSE(line.send("{}")) << "it is the first to notice";
+  EXPECT_FALSE(line.connected());
+  EXPECT_EQ(heard(), (std::vector<std::string>{"one", "two"}));
+  line.keep(now += 10s);
+  accept();
+  write("four\n");
+  EXPECT_EQ(heard(), std::vector<std::string>{"four"}) << "half a line of another droverd";
+}
+TEST_F(TheLineToDroverd, MaySayMoreOnEachLineThatItHears) {
+  listen();
+  line.keep(now);
+  accept();
+  write("one\ntwo\n");
+  client.reset();
+  std::vector<std::string> lines;
+  line.hear([&](std::string_view text) {
+    lines.emplace_back(text);
+    (void)line.send("{}");
+  });
+  EXPECT_EQ(lines, (std::vector<std::string>{"one", "two"}));
+}
 TEST_F(TheLineToDroverd, IsGoneWhenDroverdClosesIt) {
   listen();
   line.keep(now);
