@@ -16,6 +16,14 @@ class AStopInItsHand : public MovedFromRos2 {
     const std_msgs_msg_dds__Bool_ message{true};
     dds_write(writer_, &message);
   }
+  /// And has told it, where somebody listens.
+  bool has_heard() {
+    return wait_until(
+        [this] {
+          return program_.output().find("an emergency stop was asked for") != std::string::npos;
+        },
+        5s);
+  }
   void kill_daemon() {
     daemon().signal(SIGKILL);
     ASSERT_TRUE(daemon().wait(5s));
@@ -39,7 +47,7 @@ TEST_F(AStopInItsHand, IsTakenByTheGuardWhileDroverdHangs) {
   ASSERT_NO_FATAL_FAILURE(start_robot(ros2::stop_kind()));
   daemon().signal(SIGSTOP);
   say_stop();
-  std::this_thread::sleep_for(200ms);  // it has left, and nobody reads it
+  ASSERT_TRUE(has_heard()) << program_.output();
   end_program();
   EXPECT_THAT(program_.output(), HasSubstr("drover-guard has taken it"));
   ASSERT_NO_FATAL_FAILURE(kill_daemon());
@@ -53,7 +61,7 @@ TEST_F(AStopInItsHand, IsTakenByTheGuardWhileDroverdIsAway) {
   ASSERT_NO_FATAL_FAILURE(start_robot(ros2::stop_kind()));
   ASSERT_NO_FATAL_FAILURE(kill_daemon());
   say_stop();
-  std::this_thread::sleep_for(200ms);
+  ASSERT_TRUE(has_heard()) << program_.output();
   end_program();
   expect_stopped_at_the_next_droverd();
 }
@@ -80,7 +88,7 @@ TEST_F(AStopInItsHand, IsLostWithAWordWhereNobodyTakesIt) {
   guard().signal(SIGKILL);
   ASSERT_TRUE(guard().wait(5s));
   say_stop();
-  std::this_thread::sleep_for(200ms);
+  ASSERT_TRUE(has_heard()) << program_.output();
   end_program();
   EXPECT_THAT(program_.output(), HasSubstr("an emergency stop is lost"));
 }
@@ -90,7 +98,7 @@ TEST_F(AStopInItsHand, IsNotToldAgainWhereItsAnswerWasNotReadYet) {
   ASSERT_NO_FATAL_FAILURE(start_robot(ros2::stop_kind()));
   daemon().signal(SIGSTOP);
   say_stop();
-  std::this_thread::sleep_for(100ms);  // it has left
+  ASSERT_TRUE(has_heard()) << program_.output();
   program_.signal(SIGSTOP);
   daemon().signal(SIGCONT);
   ASSERT_TRUE(wait_until([this] { return is_stopped(); }, 5s));
