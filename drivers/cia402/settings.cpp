@@ -13,6 +13,7 @@ namespace {
 
 constexpr std::string_view kProfile = "profile_velocity";
 constexpr std::string_view kModes[] = {kProfile, "cyclic_synchronous_velocity"};
+constexpr double kExampleRamp = 60000;  // for tests: it has to be told
 constexpr double kMostUnsigned = 4294967295.0;
 
 const OptionSpec kOptions[] = {
@@ -57,13 +58,17 @@ const OptionSpec kOptions[] = {
      .max = 10000,
      .text = "of the motor, object 6076; 6077 is told in its thousandths. 0: it is not asked for"},
     {.name = "acceleration",
-     .default_value = 0.0,
+     .default_value = kExampleRamp,
+     .required = true,
      .min = 0,
      .max = kMostUnsigned,
      .integer = true,
-     .text = "object 6083, in the drive's own unit; 0: as it is in the drive"},
+     .text =
+         "object 6083, in the drive's own unit, mostly that of 60FF a second; 0: as it is in the "
+         "drive. In profile_velocity the drive's ramps rule: they must be faster than limits"},
     {.name = "deceleration",
-     .default_value = 0.0,
+     .default_value = kExampleRamp,
+     .required = true,
      .min = 0,
      .max = kMostUnsigned,
      .integer = true,

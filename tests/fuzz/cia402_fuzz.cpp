@@ -41,6 +41,7 @@ Settings settings_of(std::uint8_t choice) {
   options.set("rated_torque_Nm", (choice & 4U) != 0 ? 2.0 : 0.0);
   options.set("gear_ratio", (choice & 2U) != 0 ? 1000.0 : 0.5);
   options.set("arming_timeout_s", 0.3);
+  options.set("acceleration", 0.0).set("deceleration", 0.0);
   return read_settings(options);
 }
 

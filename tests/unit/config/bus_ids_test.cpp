@@ -97,7 +97,8 @@ TEST(BusIds, AreRefusedToAGatewaysHeartbeatThatIsANodes) {
                         "and devices.left_drive (cia402) both use the id 0x701 on \"can0\""));
   // Whichever of them comes first.
   const auto lift = R"("lift": {"driver": "cia402", "link": "can0", "options": {"node": 5,)"
-                    R"( "velocity_units_per_rps": 60, "gear_ratio": 9, "gateway_node": 1}})";
+                    R"( "velocity_units_per_rps": 60, "gear_ratio": 9, "gateway_node": 1,)"
+                    R"( "acceleration": 0, "deceleration": 0}})";
   EXPECT_THAT(hubs_with(lift), HasSubstr("both use the id 0x701 on \"can0\""));
 }
 

@@ -18,6 +18,7 @@ constexpr auto kRest = AxisRequest::rest;
 Options options() {
   const DriverEntry* const entry = find_driver("cia402");
   Options all = test::example_options(*entry);
+  all.set("acceleration", 0.0).set("deceleration", 0.0);
   return all.set("node", 5.0).set("velocity_units_per_rps", 600.0).set("gear_ratio", 1.0);
 }
 
@@ -224,6 +225,19 @@ TEST(Cia402Options, AreRefusedByName) {
   EXPECT_EQ(refusal(options().set("velocity_units_per_rps", 1.0)).substr(0, 22),
             "velocity_units_per_rps");
   EXPECT_EQ(refusal(options().set("velocity_units_per_rps", 1e8)).substr(0, 7), "max_rpm");
+}
+
+/// One that ramps more slowly than the gateway looks like a robot that does not stop: its power is
+/// cut, and a person has to come.
+TEST(Cia402Options, AskForTheDrivesOwnRamps) {
+  for (const char* name : {"acceleration", "deceleration"}) {
+    Options told(option_table());
+    told.set("node", 5.0).set("velocity_units_per_rps", 600.0).set("gear_ratio", 1.0);
+    for (const char* other : {"acceleration", "deceleration"})
+      if (std::string_view(other) != name) told.set(other, 0.0);
+    EXPECT_THAT(refusal(told), testing::HasSubstr(name));
+    EXPECT_EQ(refusal(told.set(name, 0.0)), "");
+  }
 }
 
 }  // namespace

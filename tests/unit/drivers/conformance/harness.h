@@ -41,7 +41,10 @@ inline Options example_options(const DriverEntry& entry) {
   for (const auto table : {entry.options, entry.twin_options}) {
     for (const OptionSpec& spec : table) {
       OptionValue value = spec.default_value;
-      if (spec.required && spec.min < spec.max) value = std::min(spec.min + 3, spec.max);
+      const double* const number = std::get_if<double>(&value);
+      const bool is_example = number != nullptr && *number > spec.min;
+      if (spec.required && spec.min < spec.max && !is_example)
+        value = std::min(spec.min + 3, spec.max);
       if (spec.required && !spec.choices.empty()) value = std::string(spec.choices[0]);
       options.set(spec.name, value);
     }
