@@ -315,7 +315,8 @@ void Engine::step(Time now, const Environment& environment, EngineOutput& out) {
   const std::span<const AxisSnapshot> axes = e.axes;
   const Reason moved = e.judge_motion(now, dt, lines, environment);
   e.watch_tilt(now, environment.imu_configured);
-  e.place.update(now, dt, e.estimate, e.rest.hears_wheels(), e.estimator.origin());
+  e.place.update(now, dt, e.estimate, {e.rest.hears_wheels(), e.rest.misses_wheels()},
+                 e.estimator.origin());
   if (e.navigator.active()) e.place.told();  // by the end of the task
   e.place_count.update(e.estimate, dt, e.place.jumped_at());
   const Pose& pose = e.estimate.pose;

@@ -153,6 +153,9 @@ void Engine::Impl::fill_snapshot(Time now, const Environment& environment, const
   if (snapshot.stop_latched && !report.holds(Cause::latched) && report.stop.empty()) {
     (void)snapshot.why.push_back(latch.why());
   }
+  // Before "no heading yet", which asks for another search.
+  if (owner == Owner::nobody && !owners.no_heading().empty())
+    (void)snapshot.why.push_back(owners.no_heading());
   for (const Reason& reason : report.why) {
     if (!snapshot.why.push_back(reason)) break;
   }

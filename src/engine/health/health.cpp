@@ -291,8 +291,11 @@ void HealthMonitor::conclude(bool power_cut) {
     first(report_.no_start, row.refuses_task, text);
     first(report_.end_free_driving, row.ends_free_driving, text);
     first(report_.end_groups, row.of_all, text);
-    (void)report_.why.push_back(text);  // as many as find room: the cause is the first
+    if (!silenced) (void)report_.why.push_back(text);  // as many as find room: the cause first
   }
+  // Drives without power are silent because it was cut: no cause, and so the last.
+  if (power_cut && holds(Cause::drive_silent))
+    (void)report_.why.push_back(report_.text(Cause::drive_silent));
 }
 
 void HealthMonitor::look_at_surroundings(const HealthInput& input) {

@@ -100,8 +100,10 @@ RestPlace PlaceWatch::rest_place(const GeodeticPoint& origin) const {
           .origin_longitude_deg = origin.longitude_deg};
 }
 
-void PlaceWatch::update(Time now, Duration dt, const Estimate& estimate, bool heard,
+void PlaceWatch::update(Time now, Duration dt, const Estimate& estimate, WheelsHeard wheels,
                         const GeodeticPoint& origin) {
+  const bool heard = wheels.some;
+  missed_ = wheels.missed;
   // What rolls out after an e-stop rolls unheard.
   stands_ = heard && estimate.fastest_mps <= kStands_mps;
   // What stood before a moment of silence is compared after it with where it stood.
@@ -167,7 +169,9 @@ void PlaceWatch::tell(const Pose& pose) {
   const Pose rested = without_creep(pose);
   const Change last = lesser_way(change(seen_.at, pose), change(rested_.at, rested));
   const Change all = lesser_way(change(seen_.stood, pose), change(rested_.stood, rested));
-  const char* how = away_ ? "while droverd was not running" : "though no wheel turned";
+  const char* how = away_     ? "while droverd was not running"
+                    : missed_ ? "though no wheel that is heard turned"
+                              : "though no wheel turned";
   if (std::max(last.way_share, all.way_share) > std::max(last.turn_share, all.turn_share)) {
     jumped_.format("the position jumped by %.1f m %s", std::max(last.way_m, all.way_m), how);
   } else {

@@ -7,6 +7,12 @@
 
 namespace drover::engine {
 
+/// Of the base's wheels at least one is heard, at least one is not.
+struct WheelsHeard {
+  bool some = false;
+  bool missed = false;
+};
+
 /// The estimate places itself anew when the receiver insists while the wheels stand. A task that
 /// waits ends by that. Before the next start the new place has to have lasted for 10 s, and a
 /// person has to have been told: by the end of his task, or by a start that was refused.
@@ -14,9 +20,9 @@ class PlaceWatch final {
  public:
   explicit PlaceWatch(const EstimateConfig& config) : config_(config) {}
 
-  /// `heard`: wheels are. One that stands is enough: a base does not go without it.
-  /// What the wheels tell though it stands, creeping down a slope, is no jump.
-  void update(Time now, Duration dt, const Estimate& estimate, bool heard,
+  /// One wheel that stands is enough: a base does not go far without it. What the wheels tell
+  /// though it stands, creeping down a slope, is no jump.
+  void update(Time now, Duration dt, const Estimate& estimate, WheelsHeard wheels,
               const GeodeticPoint& origin);
   /// Where it stood when the program before this one ended. A wheel that turns before the place is
   /// known again, or another origin, makes that worthless.
@@ -56,6 +62,7 @@ class PlaceWatch final {
   bool known_ = false;
   Time renewed_ = kNever;  ///< of two places the new one was believed last
   bool stands_ = false;
+  bool missed_ = false;     ///< a wheel is not heard
   bool stood_ = false;      ///< when its wheels were heard last
   Time heard_at_ = kNever;  ///< they were
   Places seen_;

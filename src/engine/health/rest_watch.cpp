@@ -277,6 +277,7 @@ RestState RestWatch::update(const RestInput& input) {
     ours_ = last_.inherited = false;  // who lets go of the drives is going to push
   const RimMotion rims = rims_.told(input.axes, input.now);
   hears_wheels_ = rims.heard;
+  misses_wheels_ = rims.silent;
   watch_silence(input, rims);
   history_.note_turning(rims, input.now);
   const bool is_due = due(input);

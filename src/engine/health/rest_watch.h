@@ -60,6 +60,7 @@ class RestWatch final {
   /// Its wheels say that they do.
   bool turns() const { return history_.turns(); }
   bool hears_wheels() const { return hears_wheels_; }
+  bool misses_wheels() const { return misses_wheels_; }
   /// What is wrong, in words; empty when nothing is.
   const Reason& reason() const { return reason_; }
   /// A wheel turns now and nobody drove it, be it only an arming drive's swing: no moment to start.
@@ -104,10 +105,11 @@ class RestWatch final {
   bool may_roll_ = false;  ///< it could without power, or was caught, since rest is due
   bool coasts_ = false;    ///< the e-stop took its power while it moved: friction alone stops it
   bool hears_wheels_ = false;  ///< at least one, in the last cycle
-  Time crept_at_ = kNever;     ///< silent, when the receiver last saw it go down slowly
-  bool spared_ = false;        ///< silent on a slope: it stands, creeps, or may be caught yet
-  double expected_mps_ = 0;    ///< how fast it may still be
-  Time due_ = kNever;          ///< since when it should rest
+  bool misses_wheels_ = false;
+  Time crept_at_ = kNever;   ///< silent, when the receiver last saw it go down slowly
+  bool spared_ = false;      ///< silent on a slope: it stands, creeps, or may be caught yet
+  double expected_mps_ = 0;  ///< how fast it may still be
+  Time due_ = kNever;        ///< since when it should rest
   Time moves_since_ = kNever;
   Time alone_since_ = kNever;
   Time quiet_since_ = kNever;

@@ -27,6 +27,7 @@ void HeadingCreep::start(const RequestId& id, std::string_view hindrance, const 
     return refuse("the position is too uncertain to show a heading");
   }
   active_ = true;
+  failed_.clear();
   began_ = now;
   driven_m_ = 0;
   drives_.begin();
@@ -38,16 +39,17 @@ void HeadingCreep::start(const RequestId& id, std::string_view hindrance, const 
 void HeadingCreep::end(std::string_view why, Time now, EventQueue& events) {
   if (!active_) return;
   active_ = false;
-  Reason text;
-  text.format("no heading: %.*s", static_cast<int>(why.size()), why.data());
-  events.notice(now, Notice::Level::warning, text);
+  failed_.format("no heading: %.*s", static_cast<int>(why.size()), why.data());
+  events.notice(now, Notice::Level::warning, failed_);
 }
 
 Twist HeadingCreep::step(Time now, Duration dt, const Estimate& estimate,
                          const HealthReport& health, EventQueue& events) {
   lost_ = false;
+  const bool known = knows_heading(estimate);
+  if (known) failed_.clear();
   if (!active_) return {};
-  if (knows_heading(estimate)) {
+  if (known) {
     active_ = false;
     Reason text;
     text.format("heading found after %.1f m", driven_m_);

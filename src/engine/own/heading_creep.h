@@ -29,6 +29,8 @@ class HeadingCreep final {
   Twist step(Time now, Duration dt, const Estimate& estimate, const HealthReport& health,
              EventQueue& events);
   bool active() const { return active_; }
+  /// Why the last search ended without a heading, until there is one or it is looked for again.
+  const Reason& failed() const { return failed_; }
   /// It ended in this cycle because a drive that ran does no more.
   bool lost() const { return lost_; }
   /// Total time after which it gives up.
@@ -45,6 +47,7 @@ class HeadingCreep final {
   double good_rad_;  ///< two sigma of a heading that is found
   bool active_ = false;
   bool lost_ = false;
+  Reason failed_;
   ArmWait drives_;
   Time began_ = kNever;
   double driven_m_ = 0;

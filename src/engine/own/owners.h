@@ -82,6 +82,8 @@ class Owners final {
   const JointVelocities& stream_radps() const { return stream_.velocities_radps(); }
   const JointStream& stream() const { return stream_; }
   const TwistStream& cmd_vel() const { return cmd_vel_; }
+  /// Why the last search for a heading ended without one.
+  const Reason& no_heading() const { return creep_.failed(); }
   /// Silence after which that owner's motion ends, s; absent when there is no such time.
   double timeout_s(Owner owner) const;
 

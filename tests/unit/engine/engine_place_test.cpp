@@ -273,6 +273,15 @@ TEST_F(ARobotWhosePlaceChanges, IsNotToldToJumpWhenItsOriginIsMoved) {
   EXPECT_THAT(told(), ::testing::Not(HasSubstr("jumped")));
 }
 
+TEST_F(ARobotWhosePlaceChanges, IsToldOfTheWheelsThatAreHeardWhereOneIsNot) {
+  rig.settle();
+  rig.drives[1].silent = true;
+  rig.run_s(1);
+  rig.jump_m = 1;
+  rig.run_s(30);
+  EXPECT_THAT(told(), HasSubstr("though no wheel that is heard turned"));
+}
+
 TEST_F(ARobotWhosePlaceChanges, IsNotToldToJumpWhenItRollsOutUnheardAfterAnEstop) {
   drive();
   rig.lines[static_cast<std::size_t>(Line::estop)] = true;

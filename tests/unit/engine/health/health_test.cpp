@@ -188,6 +188,32 @@ TEST_F(AHealthMonitor, SaysThatNoDriveAnswersWhenAllAreSilent) {
   for (auto& axis : axes) axis.last_motion = now - std::chrono::milliseconds(500);
   expect_stop("no drive answers (wheel front_left: no feedback for 0.50 s)");
 }
+/// Its cause is told first: what cut the power silenced the drives.
+TEST_F(AHealthMonitor, TellsWhatCutThePowerBeforeTheDrivesThatAreSilentWithoutIt) {
+  for (auto& axis : axes) axis.last_motion = now - std::chrono::milliseconds(500);
+  latched = "the robot did not stop";
+  environment.gnss[0].state = SourceState::never_heard;
+  if (!monitor) monitor.emplace(config);
+  const auto whys = [&](bool power_cut) {
+    std::vector<std::string> all;
+    const HealthReport& report = monitor->update({.now = now,
+                                                  .environment = environment,
+                                                  .axes = axes,
+                                                  .lines = lines,
+                                                  .estimate = estimate,
+                                                  .has_origin = has_origin,
+                                                  .task_active = task,
+                                                  .latched = latched,
+                                                  .power_cut = power_cut});
+    for (const Reason& why : report.why) all.emplace_back(why.view());
+    return all;
+  };
+  const auto cut = whys(true);
+  ASSERT_GE(cut.size(), 3U);
+  EXPECT_EQ(cut.front(), "stopped: the robot did not stop");
+  EXPECT_THAT(cut.back(), HasSubstr("no drive answers"));
+  EXPECT_THAT(whys(false).front(), HasSubstr("no drive answers"));
+}
 TEST_F(AHealthMonitor, StopsWithoutDrives) {
   config.base.left.clear();
   config.base.right.clear();

@@ -43,6 +43,25 @@ TEST_F(AHeadingFound, IsTheSearchsOwnDoingToItsLastCentimetre) {
   EXPECT_EQ(askew.snapshot().nav.owner, Owner::nobody);
 }
 
+/// The reason is told for as long as there is no heading: else "no heading yet" asks to do the same
+/// again.
+TEST_F(AHeadingFound, IsTheEndOfTheReasonWhyThereWasNone) {
+  const auto has = [this](const char* text) { return askew.why().find(text) != std::string::npos; };
+  askew.settle();
+  askew.command(FindHeading{});
+  askew.run_s(2);
+  askew.lines[static_cast<std::size_t>(Line::zone_near)] = true;
+  askew.run_s(3);
+  ASSERT_EQ(askew.snapshot().nav.owner, Owner::nobody);
+  EXPECT_TRUE(has("no heading: obstacle")) << askew.why();
+  askew.lines[static_cast<std::size_t>(Line::zone_near)] = false;
+  askew.run_s(10);
+  EXPECT_EQ(askew.why().find("no heading: "), 0U) << askew.why();
+  creep();
+  askew.run_s(1);
+  EXPECT_FALSE(has("no heading")) << askew.why();
+}
+
 TEST_F(AHeadingFound, IsWhatAStartWaitsFor) {
   askew.settle();
   askew.start(path, 40, 0.5);
