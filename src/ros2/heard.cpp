@@ -2,8 +2,6 @@
 
 #include <sys/eventfd.h>
 
-#include <algorithm>
-#include <array>
 #include <string>
 
 #include "ros2/domain.h"
@@ -50,19 +48,6 @@ dds_entity_t make_reader(dds_entity_t participant, const TopicKind& kind, std::i
   const dds_entity_t reader = dds_create_reader(participant, topic, qos, nullptr);
   dds_delete_qos(qos);
   return reader;
-}
-
-enum class Stop : std::uint8_t { no, asked, failed };
-
-/// Takes all that came.
-Stop take_stops(dds_entity_t reader) {
-  if (reader <= 0) return Stop::no;
-  bool asked = false;
-  const auto look = [&asked](const void* sample, const dds_sample_info_t&) {
-    asked = asked || is_stop(sample, nullptr);
-  };
-  if (take_samples<kDepth>(reader, look) < 0) return Stop::failed;
-  return asked ? Stop::asked : Stop::no;
 }
 
 JointCommandLimits limits_of(const config::DroverConfig& config) {
@@ -184,16 +169,27 @@ void Heard::scene_messages(Time now, Duration wall, const std::function<void(std
   }
 }
 
+/// Takes all that came; false: DDS does not give it.
+bool Heard::take_stops(dds_entity_t reader, StopReader which, bool& asked) {
+  if (reader <= 0) return true;
+  const Time now = runtime::monotonic_now();
+  const auto look = [&](const void* sample, const dds_sample_info_t& info) {
+    if (!is_stop(sample, nullptr)) return;
+    const StopSample said{info.publication_handle, info.source_timestamp};
+    asked = stop_copies_.is_stop(which, said, now) || asked;
+  };
+  return take_samples<kDepth>(reader, look) >= 0;
+}
+
 bool Heard::stop_asked() {
   std::uint64_t count = 0;
   (void)!::read(came_.get(), &count, sizeof count);
-  const std::array<Stop, 2> found{take_stops(stop_), take_stops(sure_stop_)};
-  const auto has = [&found](Stop what) {
-    return std::find(found.begin(), found.end(), what) != found.end();
-  };
+  bool asked = false;
+  const bool one = take_stops(stop_, StopReader::any, asked);
+  const bool other = take_stops(sure_stop_, StopReader::sure, asked);
   // What one of them heard is not lost because the other one failed, which fails again.
-  if (has(Stop::asked)) return true;
-  if (has(Stop::failed)) throw NoDomain("/e_stop cannot be read");
+  if (asked) return true;
+  if (!one || !other) throw NoDomain("/e_stop cannot be read");
   return false;
 }
 

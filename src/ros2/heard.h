@@ -13,6 +13,7 @@
 #include "ros2/domain.h"
 #include "ros2/joint_command_input.h"
 #include "ros2/scene_input.h"
+#include "ros2/stop_copies.h"
 #include "ros2/topics.h"
 #include "ros2/unmet.h"
 
@@ -49,6 +50,7 @@ class Heard final {
     Arrivals arrivals;
   };
   static void wake_timed(dds_entity_t reader, void* timed);
+  bool take_stops(dds_entity_t reader, StopReader which, bool& asked);
   void close();
   /// Best effort matches both kinds of writers; of reliable ones nothing is lost.
   dds_entity_t open(dds_entity_t participant, const TopicKind& kind, std::int32_t depth,
@@ -71,6 +73,7 @@ class Heard final {
   dds_entity_t stop_ = 0;  ///< 0: not opened
   /// Once more: it asks a reliable writer again for what found no room while this program hung.
   dds_entity_t sure_stop_ = 0;
+  StopCopies stop_copies_;
   TimedWake twist_wake_;
   TimedWake joint_wake_;
   std::vector<Reader> readers_;  ///< all of them

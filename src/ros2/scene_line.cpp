@@ -25,6 +25,11 @@ std::string refused(std::string_view topic, std::string_view name, const SceneRe
   return line.key("refused").text(refusal.why).close('}').take();
 }
 
+std::string_view advice(std::string_view topic) {
+  return topic == "collision_object" ? ": send an object in parts, with APPEND"
+                                     : ": take fewer constraints, or simpler regions";
+}
+
 }  // namespace
 
 std::string scene_line(std::string_view topic, std::string_view name,
@@ -35,7 +40,7 @@ std::string scene_line(std::string_view topic, std::string_view name,
   return refused(
       topic, name,
       {"", "it is " + std::to_string(line.size()) + " bytes long on the way to droverd, " +
-               std::to_string(kMostSceneLine) + " are taken: send an object in parts, with APPEND"},
+               std::to_string(kMostSceneLine) + " are taken" + std::string(advice(topic))},
       said);
 }
 

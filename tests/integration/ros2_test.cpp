@@ -159,6 +159,21 @@ TEST_F(Ros2Stop, StopsTheRobotByTrueAndDoesNothingByFalse) {
   EXPECT_THAT(log(), HasSubstr("an emergency stop was asked for on /e_stop"));
 }
 
+/// Two readers hear it. Whoever resets the first stop is not stopped by its copy.
+TEST_F(Ros2Stop, IsOneStopOfEachTrueThatAReliableWriterSays) {
+  open_daemon();
+  start_program();
+  const dds_entity_t writer = stop_writer(DDS_RELIABILITY_RELIABLE);
+  ASSERT_NO_FATAL_FAILURE(stop_by(writer));
+  play_for(1500ms);  // what was said more than once is here
+  for (int i = 0; i < 10; ++i) {
+    const int before = stops_;
+    say(writer, true);
+    play_for(300ms);
+    EXPECT_EQ(stops_, before + 1) << i;
+  }
+}
+
 TEST_F(Ros2Stop, StopsByWhatFoundNoRoomWhileItHung) {
   open_daemon();
   start_program();

@@ -47,6 +47,8 @@ TEST(SceneLine, IsNeverLongerThanDroverdTakes) {
     EXPECT_LE(line.size(), kMostSceneLine);
   EXPECT_THAT(line_of(longest), AllOf(HasSubstr("60000 are taken"), HasSubstr("with APPEND"),
                                       HasSubstr(R"("name":"box1")")));
+  EXPECT_THAT(scene_line("planning_constraints", "row", longest, kSaid),
+              AllOf(HasSubstr("60000 are taken: take fewer"), Not(HasSubstr("APPEND"))));
   EXPECT_THAT(line_of(std::string(1000, 'x')), Not(HasSubstr("refused")));
 }
 
