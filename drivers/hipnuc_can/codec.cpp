@@ -18,6 +18,7 @@ constexpr double kTemperatureUnit_degC = 0.01;
 /// A parameter group's number stands in bits 8 to 23, the sender in the last byte; bits 26 to 28
 /// are the priority, which a tool may have changed.
 constexpr std::uint32_t kAllButPriority = 0x03FFFFFF;
+constexpr std::uint32_t kHeartbeat = 0x700;
 constexpr std::uint32_t kPriority3 = 0x0C000000;
 
 struct Layout {
@@ -85,8 +86,8 @@ std::uint32_t id_of(const Address& address, Content content) {
   return 0;
 }
 
-FixedVector<FrameFilter, 4> filters_of(const Address& address) {
-  FixedVector<FrameFilter, 4> filters;
+FixedVector<FrameFilter, 5> filters_of(const Address& address) {
+  FixedVector<FrameFilter, 5> filters;
   const bool extended = address.dialect == Dialect::j1939;
   for (const Layout& layout : kLayouts) {
     if (!extended && layout.canopen_base == 0) continue;
@@ -94,6 +95,8 @@ FixedVector<FrameFilter, 4> filters_of(const Address& address) {
                              .mask = extended ? kAllButPriority : 0x7FFU,
                              .extended = extended});
   }
+  // Its heartbeat says nothing that is needed, but the id is its own: nobody else may say it.
+  if (!extended) (void)filters.push_back({.id = kHeartbeat + address.node});
   return filters;
 }
 

@@ -25,7 +25,7 @@ struct Address {
 };
 
 /// Frames of this sensor that are read.
-FixedVector<FrameFilter, 4> filters_of(const Address& address);
+FixedVector<FrameFilter, 5> filters_of(const Address& address);
 /// Absent: not this sensor's.
 std::optional<Content> content_of(const Address& address, const CanFrame& frame);
 /// Without what only a controller puts there: priority 3, as the maker's examples.

@@ -42,7 +42,7 @@ class HipnucCanDriver final : public Device, public FrameFace {
   void report_pair(Time received, DriverOut& out);
 
   Settings settings_;
-  FixedVector<FrameFilter, 4> listens_;
+  FixedVector<FrameFilter, 5> listens_;
   Half acceleration_;
   Half rates_;
   Quaternion orientation_;

@@ -80,9 +80,13 @@ TEST(BusIds, OfAFamilyAreShared) {
 }
 
 /// Two nodes of CiA 402, 1 and 2, of which the second one is to hear the heartbeat of `gateway`.
-std::string nodes_with(int gateway) {
+std::string nodes_with(int gateway, const std::string& more = "") {
   std::ifstream file(kExamples + "/cia402.json");
   std::string text{std::istreambuf_iterator<char>(file), {}};
+  const std::string devices = "\"devices\": {";
+  text.insert(text.find(devices) + devices.size(), more);
+  const std::string witmotion = "\"driver\": \"witmotion\",";
+  text.insert(text.find(witmotion) + witmotion.size(), " \"role\": \"steers\",");
   const std::string second = "\"node\": 2,";
   text.insert(text.find(second) + second.size(),
               " \"gateway_node\": " + std::to_string(gateway) + ",");
@@ -95,7 +99,9 @@ TEST(BusIds, AreRefusedToAGatewaysHeartbeatThatIsANodes) {
   EXPECT_THAT(nodes_with(1),
               HasSubstr("devices.right_drive.options.gateway_node: devices.right_drive (cia402) "
                         "and devices.left_drive (cia402) both use the id 0x701 on \"can0\""));
-  // Whichever of them comes first.
+  // Of a sensor, too; and whichever of them comes first.
+  EXPECT_THAT(nodes_with(8, imu("can0", "canopen", 8) + ", "),
+              HasSubstr("both use the id 0x708 on \"can0\""));
   const auto lift = R"("lift": {"driver": "cia402", "link": "can0", "options": {"node": 5,)"
                     R"( "velocity_units_per_rps": 60, "gear_ratio": 9, "gateway_node": 1,)"
                     R"( "acceleration": 0, "deceleration": 0}})";
