@@ -77,7 +77,7 @@ TEST_F(AStopInItsHand, IsToldThoughTheOneBeforeWasToldThisMoment) {
   }
   ASSERT_EQ(drover({"reset"}).code, 0);
   say_stop();
-  std::this_thread::sleep_for(4ms);
+  std::this_thread::sleep_for(20ms);  // it has come
   end_program();
   EXPECT_TRUE(wait_until([this] { return is_stopped(); }, 5s));
 }
