@@ -56,11 +56,16 @@ void Findings::warn(const std::string& path, const std::string& message, const s
                     const std::string& mend) {
   const auto& accepted = loaded_.config.accept;
   if (std::find(accepted.begin(), accepted.end(), word) != accepted.end()) return;
+  hint_at(path, message,
+          (mend.empty() ? "" : mend + ", or ") + "\"accept\": [\"" + word +
+              "\"] at the top of the file when that is meant");
+}
+
+void Findings::hint_at(const std::string& path, const std::string& message,
+                       const std::string& mend) {
   std::string_view rest = path;
   const auto& at = place(root_, rest);
-  const auto hint = (mend.empty() ? "" : mend + ", or ") + "\"accept\": [\"" + word +
-                    "\"] at the top of the file when that is meant";
-  loaded_.warnings.push_back({at.line, at.column, path, message, hint, ""});
+  loaded_.warnings.push_back({at.line, at.column, path, message, mend, ""});
 }
 
 bool Findings::given(std::string_view path) const {

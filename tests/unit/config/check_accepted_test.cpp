@@ -193,5 +193,49 @@ TEST(Warnings, TellOfAnAntennaFarFromItsBase) {
   EXPECT_EQ(at(R"("antenna_x_m": -5)", R"("far_antenna")"), "");
 }
 
+TEST(Warnings, TellOfMechanicsThatNobodyLooksAtUnlessThatIsAccepted) {
+  const auto first_way = [](const std::string& way_m, const std::string& words) {
+    return warnings("{\"accept\": [" + words + "], \"navigate\": {\"first_way_m\": " + way_m +
+                    "}," + std::string(kGood).substr(1));
+  };
+  EXPECT_EQ(first_way("0.3", ""), "");
+  EXPECT_THAT(first_way("0", ""),
+              HasSubstr("navigate.first_way_m: is 0: nothing looks whether wheels, gyro and "
+                        "receiver agree before it drives fast, so a wrong unit, gear or side is "
+                        "not noticed (0.3 is usual, or \"accept\": [\"no_first_way\"]"));
+  EXPECT_EQ(first_way("0", R"("no_first_way")"), "");
+}
+
+TEST(Warnings, TellOfADriveWhoseSilenceIsNoticedLateUnlessThatIsAccepted) {
+  const auto stale = [](const std::string& all_s, const std::string& own_s,
+                        const std::string& words) {
+    return warnings(
+        "{\"accept\": [" + words + "], \"health\": {\"drive_stale_s\": " + all_s + "}," +
+        with(R"("options": {"node": 1})", R"("options": {"node": 1, "stale_s": )" + own_s + "}")
+            .substr(1));
+  };
+  EXPECT_EQ(stale("0.5", "2", ""), "") << "the shorter one acts";
+  EXPECT_EQ(stale("2", "0.5", ""), "");
+  EXPECT_THAT(stale("2", "0.6", ""),
+              HasSubstr("health.drive_stale_s: is 2, and devices.left.options.stale_s is 0.6: the "
+                        "robot drives on for 0.6 s when the drive is silent; up to 0.5 s is usual "
+                        "(a shorter one of the two, or \"accept\": [\"late_silence\"]"));
+  EXPECT_EQ(stale("2", "0.6", R"("late_silence")"), "");
+}
+
+TEST(Warnings, TellOfASlopeThatIsAllowedAndStopsAllTheSame) {
+  const auto allowed = [](const char* hold, const std::string& most_deg) {
+    const auto text = with(R"("hold": "brake")", "\"hold\": \"" + std::string(hold) +
+                                                     "\", \"max_tilt_deg\": " + most_deg);
+    return warnings(R"({"accept": ["no_tilt"],)" + text.substr(1));
+  };
+  EXPECT_EQ(allowed("level_ground_only", "25"), "");
+  EXPECT_THAT(
+      allowed("level_ground_only", "30"),
+      HasSubstr("groups.base.max_tilt_deg: is 30, but health.tilt_limit_deg stops the robot "
+                "at 25 already (25 or less)"));
+  EXPECT_EQ(allowed("brake", "30"), "") << "is of no use there";
+}
+
 }  // namespace
 }  // namespace drover::config
