@@ -76,6 +76,19 @@ void warn_of_slow_watchdogs(Findings& found) {
   }
 }
 
+/// What holds the line at "released" with the wire off is not the button.
+void warn_of_open_estop(Findings& found) {
+  for (const auto& device : found.config().devices) {
+    if (device.kind != SlotKind::line || line_of(device) != Line::estop) continue;
+    if (!device.options.has("active_level") || device.options.text("active_level") == "low")
+      continue;
+    found.warn(device_path(device, "options.active_level"),
+               "is high: when its wire breaks it reads as released, and the button stops nothing",
+               "estop_not_fail_safe",
+               "a normally closed contact that feeds the line high, and \"low\"");
+  }
+}
+
 void warn_of_no_first_way(Findings& found) {
   if (found.config().engine.navigate.first_way_m > 0 || found.has_problem("navigate")) return;
   found.warn(
@@ -146,6 +159,7 @@ void warn_of_risks(Findings& found) {
     found.warn("devices",
                "there is no e-stop line: only the broker and the command line can stop it",
                "no_estop");
+  warn_of_open_estop(found);
   const auto& devices = found.config().devices;
   const bool has_imu = std::any_of(devices.begin(), devices.end(),
                                    [](const auto& device) { return device.kind == SlotKind::imu; });

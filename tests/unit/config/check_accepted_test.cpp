@@ -237,5 +237,23 @@ TEST(Warnings, TellOfASlopeThatIsAllowedAndStopsAllTheSame) {
   EXPECT_EQ(allowed("brake", "30"), "") << "is of no use there";
 }
 
+TEST(Warnings, TellOfAnEmergencyStopWhoseBrokenWireReadsAsReleased) {
+  const auto active = [](const char* line, const std::string& level, const std::string& words) {
+    const auto plain = std::string("\"is\": \"") + line + "\"";
+    return warnings(
+        "{\"accept\": [" + words + "]," +
+        with(plain, plain + R"(, "options": {"active_level": ")" + level + "\"}").substr(1));
+  };
+  EXPECT_EQ(active("estop", "low", ""), "");
+  EXPECT_THAT(
+      active("estop", "high", ""),
+      HasSubstr("f:8:111: devices.estop.options.active_level: is high: when its wire breaks "
+                "it reads as released, and the button stops nothing (a normally closed "
+                "contact that feeds the line high, and \"low\", or \"accept\": "
+                "[\"estop_not_fail_safe\"]"));
+  EXPECT_EQ(active("estop", "high", R"("estop_not_fail_safe")"), "");
+  EXPECT_EQ(active("bumper", "high", ""), "");
+}
+
 }  // namespace
 }  // namespace drover::config
