@@ -255,5 +255,34 @@ TEST(Warnings, TellOfAnEmergencyStopWhoseBrokenWireReadsAsReleased) {
   EXPECT_EQ(active("bumper", "high", ""), "");
 }
 
+TEST(Warnings, TellOfWheelsOfOneBaseThatAreToldInDifferentUnits) {
+  const auto two = [](const std::string& right) {
+    return std::string(R"({"links": {"can0": {"can": "can0"}, "panel": {"gpio": "g"}},
+      "devices": {
+        "l": {"driver": "cia402", "link": "can0", "joints": {"left": {"channel": "motor"}},
+              "options": {"node": 1, "velocity_units_per_rps": 60, "gear_ratio": 25}},
+        "r": {"driver": "cia402", "link": "can0", "joints": {"right": {"channel": "motor"}},
+              "options": {"node": 2, )") +
+           right + R"(}},
+        "estop": {"driver": "gpio_line", "link": "panel", "line": "a", "is": "estop"}},
+      "groups": {"base": {"kind": "differential", "left": ["left"], "right": ["right"],
+                          "track_m": 0.5, "wheel_radius_m": 0.1, "hold": "brake"}},
+      "outputs": {"link": "panel", "enable_relay": {"line": "r"}},
+      "limits": {"max_speed_mps": 0.8}, "accept": ["slow_chassis"]})";
+  };
+  const auto told = [&](const std::string& right) {
+    EXPECT_EQ(problems(two(right)), "");
+    return warnings(two(right));
+  };
+  EXPECT_EQ(told(R"("velocity_units_per_rps": 60, "gear_ratio": 25, "reversed": true)"), "");
+  EXPECT_EQ(told(R"("velocity_units_per_rps": 600, "gear_ratio": 25)"),
+            "f:6:64: devices.r.options.velocity_units_per_rps: is 600, but 60 in "
+            "devices.l.options.velocity_units_per_rps: the wheels of one base are told in "
+            "different units; is that meant?\n");
+  EXPECT_EQ(told(R"("velocity_units_per_rps": 60, "gear_ratio": 5)"),
+            "f:6:82: devices.r.options.gear_ratio: is 5, but 25 in devices.l.options.gear_ratio: "
+            "the wheels of one base have different gears; is that meant?\n");
+}
+
 }  // namespace
 }  // namespace drover::config
