@@ -186,6 +186,11 @@ TEST(RegisterMapSchema, InTheFolderIsTheOneThatIsWritten) {
       << "write it anew: droverd --map-schema > config/maps/register_map.schema.json";
 }
 
+TEST(RegisterMapSchema, TellsWhichCurrentChargesAndWhatAChargerIs) {
+  EXPECT_THAT(register_map_schema_text(), HasSubstr("current: positive while the pack charges"));
+  EXPECT_THAT(register_map_schema_text(), HasSubstr("charger: any raw value but 0 means"));
+}
+
 TEST(RegisterMapFile, OfTheCloneIsFoundByAProgramThatRunsFromABuildInIt) {
   const auto elsewhere = std::filesystem::temp_directory_path();
   EXPECT_TRUE(std::filesystem::exists(find_register_map("daly_d2.json", elsewhere.string())));
