@@ -54,8 +54,7 @@ void Findings::add(std::string path, std::string message, std::string hint) {
 
 void Findings::warn(const std::string& path, const std::string& message, const std::string& word,
                     const std::string& mend) {
-  const auto& accepted = loaded_.config.accept;
-  if (std::find(accepted.begin(), accepted.end(), word) != accepted.end()) return;
+  if (accepts(word)) return;
   hint_at(path, message,
           (mend.empty() ? "" : mend + ", or ") + "\"accept\": [\"" + word +
               "\"] at the top of the file when that is meant");
@@ -66,6 +65,11 @@ void Findings::hint_at(const std::string& path, const std::string& message,
   std::string_view rest = path;
   const auto& at = place(root_, rest);
   loaded_.warnings.push_back({at.line, at.column, path, message, mend, ""});
+}
+
+bool Findings::accepts(const std::string& word) const {
+  const auto& accepted = loaded_.config.accept;
+  return std::find(accepted.begin(), accepted.end(), word) != accepted.end();
 }
 
 bool Findings::given(std::string_view path) const {

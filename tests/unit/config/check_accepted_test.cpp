@@ -284,5 +284,37 @@ TEST(Warnings, TellOfWheelsOfOneBaseThatAreToldInDifferentUnits) {
             "the wheels of one base have different gears; is that meant?\n");
 }
 
+TEST(Warnings, TellOfABrokerThatTheServiceDoesNotReach) {
+  const auto at = [](const std::string& mqtt, const std::string& words) {
+    return warnings("{\"accept\": [" + words + "]," +
+                    with(R"("host": "127.0.0.1", "port": 1883)", mqtt).substr(1));
+  };
+  for (const auto* here : {R"("host": "127.0.1.1", "port": 1883)", R"("host": "::1", "port": 1883)",
+                           R"("host": "localhost", "port": 1883)",
+                           R"("host": "/run/mosquitto/drover.sock", "port": 0)",
+                           R"("host": "192.168.1.7", "port": 1883, "enabled": false)"})
+    EXPECT_EQ(at(here, ""), "") << here;
+  EXPECT_THAT(at(R"("host": "192.168.1.7", "port": 1883)", ""),
+              HasSubstr("f:13:20: mqtt.host: \"192.168.1.7\" is not this computer, and "
+                        "droverd.service speaks with no other one: it never connects "
+                        "(IPAddressAllow=192.168.1.7 under [Service] by \"systemctl edit "
+                        "droverd\"; when that is done, \"accept\": [\"remote_broker\"] at the top "
+                        "of the file)"));
+  EXPECT_THAT(at(R"("host": "broker.lan", "port": 1883)", ""),
+              HasSubstr("(its address in place of its name, and IPAddressAllow= with that address "
+                        "under [Service] by"));
+  EXPECT_EQ(at(R"("host": "192.168.1.7", "port": 1883)", R"("remote_broker")"), "");
+}
+
+TEST(Warnings, AreEachAcceptedByTheWordThatTheyTell) {
+  for (const auto* word : {"no_estop", "slow_guard", "no_tilt", "no_soc", "no_relay", "short_look",
+                           "slow_chassis", "far_antenna", "slow_watchdog", "no_guard", "falls",
+                           "no_first_way", "late_silence", "estop_not_fail_safe", "remote_broker"})
+    EXPECT_EQ(
+        problems("{\"accept\": [\"" + std::string(word) + "\"]," + std::string(kGood).substr(1)),
+        "")
+        << word;
+}
+
 }  // namespace
 }  // namespace drover::config
