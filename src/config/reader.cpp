@@ -355,6 +355,21 @@ std::string comes_otherwise(std::string_view path) {
 
 }  // namespace
 
+namespace {
+
+/// A height above the ground is a z here.
+std::string key_meant(const std::string& written, const std::vector<std::string>& known) {
+  constexpr std::string_view kHeight = "height";
+  const auto at = written.find(kHeight);
+  if (at == std::string::npos) return did_you_mean(written, known);
+  auto as_z = written;
+  as_z.replace(at, kHeight.size(), "z");
+  const auto near = text::nearest(as_z, known);
+  return near.starts_with(as_z) ? did_you_mean(as_z, known) : did_you_mean(written, known);
+}
+
+}  // namespace
+
 void Reader::finish() {
   check_alternatives();
   for (const auto& member : *node_.object()) {
@@ -362,7 +377,7 @@ void Reader::finish() {
     if (path_.empty() && member.key == "$schema") continue;  // for the editor
     const auto otherwise = comes_otherwise(path_of(member.key));
     problems_.push_back({member.line, member.column, path_of(member.key), "is no known key",
-                         otherwise.empty() ? did_you_mean(member.key, known_) : otherwise, ""});
+                         otherwise.empty() ? key_meant(member.key, known_) : otherwise, ""});
   }
 }
 
