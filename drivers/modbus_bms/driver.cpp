@@ -130,8 +130,9 @@ void ModbusBmsDriver::on_failure(std::size_t block, RegisterFailure failure, int
     case RegisterFailure::refused: {
       const auto text = exception_text(exception);
       const RegisterBlock& asked = blocks_[std::min(block, blocks_.size() - 1)];
-      failure_.format("refuses %u registers from 0x%04X: exception %d, %.*s", asked.count,
-                      asked.address, exception, static_cast<int>(text.size()), text.data());
+      failure_.format("refuses %u register%s from %u (0x%04X): exception %d, %.*s", asked.count,
+                      asked.count == 1 ? "" : "s", asked.address, asked.address, exception,
+                      static_cast<int>(text.size()), text.data());
       break;
     }
   }

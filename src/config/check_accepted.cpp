@@ -11,8 +11,9 @@ namespace {
 
 const std::vector<std::string> kOfADrive{"no_watchdog"};
 const std::vector<std::string> kAtTheTop{
-    "no_estop",     "slow_guard",  "no_tilt",       "no_soc",   "no_relay", "short_look",
-    "slow_chassis", "far_antenna", "slow_watchdog", "no_guard", "falls"};
+    "no_estop",     "slow_guard",          "no_tilt",       "no_soc",   "no_relay", "short_look",
+    "slow_chassis", "far_antenna",         "slow_watchdog", "no_guard", "falls",    "no_first_way",
+    "late_silence", "estop_not_fail_safe", "remote_broker"};
 
 bool is_one_of(const std::vector<std::string>& words, const std::string& word) {
   return std::find(words.begin(), words.end(), word) != words.end();
@@ -75,6 +76,59 @@ void warn_of_slow_watchdogs(Findings& found) {
   }
 }
 
+/// What holds the line at "released" with the wire off is not the button.
+void warn_of_open_estop(Findings& found) {
+  for (const auto& device : found.config().devices) {
+    if (device.kind != SlotKind::line || line_of(device) != Line::estop) continue;
+    if (!device.options.has("active_level") || device.options.text("active_level") == "low")
+      continue;
+    found.warn(device_path(device, "options.active_level"),
+               "is high: when its wire breaks it reads as released, and the button stops nothing",
+               "estop_not_fail_safe",
+               "a normally closed contact that feeds the line high, and \"low\"");
+  }
+}
+
+void warn_of_no_first_way(Findings& found) {
+  if (found.config().engine.navigate.first_way_m > 0 || found.has_problem("navigate")) return;
+  found.warn(
+      "navigate.first_way_m",
+      "is 0: nothing looks whether wheels, gyro and receiver agree before it drives fast, so "
+      "a wrong unit, gear or side is not noticed",
+      "no_first_way", "0.3 is usual");
+}
+
+/// Whichever is shorter acts: the driver's own, or the one of all drives.
+void warn_of_late_silence(Findings& found) {
+  constexpr double kLate_s = 0.5;
+  const double all_s = found.config().engine.health.drive_stale_s;
+  for (const auto& device : found.config().devices) {
+    if (device.kind != SlotKind::drive || !device.options.has("stale_s")) continue;
+    const double own_s = device.options.number("stale_s");
+    if (std::min(all_s, own_s) <= kLate_s) continue;
+    return found.warn("health.drive_stale_s",
+                      "is " + text::number_text(all_s) + ", and " +
+                          device_path(device, "options.stale_s") + " is " +
+                          text::number_text(own_s) + ": the robot drives on for " +
+                          text::number_text(std::min(all_s, own_s)) +
+                          " s when the drive is silent; up to 0.5 s is usual",
+                      "late_silence", "a shorter one of the two");
+  }
+}
+
+/// Where the ground is steeper than the robot may be tilted, that it is tilted stops it first.
+void warn_of_idle_tilt(Findings& found) {
+  const auto& engine = found.config().engine;
+  const double limit_deg = engine.health.tilt_limit_deg;
+  if (engine.base.hold != engine::HoldBy::level_ground_only) return;
+  if (engine.base.max_tilt_deg <= limit_deg) return;
+  found.hint_at("groups.base.max_tilt_deg",
+                "is " + text::number_text(engine.base.max_tilt_deg) +
+                    ", but health.tilt_limit_deg stops the robot at " +
+                    text::number_text(limit_deg) + " already",
+                text::number_text(limit_deg) + " or less");
+}
+
 /// In centimetres, say.
 void warn_of_far_antenna(Findings& found) {
   const auto& config = found.config();
@@ -105,6 +159,7 @@ void warn_of_risks(Findings& found) {
     found.warn("devices",
                "there is no e-stop line: only the broker and the command line can stop it",
                "no_estop");
+  warn_of_open_estop(found);
   const auto& devices = found.config().devices;
   const bool has_imu = std::any_of(devices.begin(), devices.end(),
                                    [](const auto& device) { return device.kind == SlotKind::imu; });
@@ -136,6 +191,9 @@ void warn_of_risks(Findings& found) {
                    " ms when droverd dies; up to 200 ms is usual",
                "slow_guard");
   warn_of_slow_watchdogs(found);
+  warn_of_no_first_way(found);
+  warn_of_late_silence(found);
+  warn_of_idle_tilt(found);
   warn_of_far_antenna(found);
   warn_of_slow_chassis(found);
   warn_of_short_look(found);

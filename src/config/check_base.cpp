@@ -117,6 +117,44 @@ void four_corners(const BaseNames& base, Findings& found) {
                 "a mecanum base has two wheels on each side", "the front one, then the rear one");
 }
 
+/// What one turn a second of a wheel is to its drive.
+bool is_of_units(std::string_view option) {
+  return option == "gear_ratio" || option.find("units") != option.npos;
+}
+
+/// Of two drives of one kind: one turns faster than the other by what differs.
+void same_units(const DeviceConfig& first, const DeviceConfig& other, Findings& found) {
+  for (const auto& [key, value] : other.options.all()) {
+    if (!is_of_units(key) || !std::holds_alternative<double>(value)) continue;
+    if (!first.options.has(key) || first.options.all().at(key) == value) continue;
+    const auto path = "options." + key;
+    found.hint_at(
+        device_path(other, path),
+        "is " + text::number_text(other.options.number(key)) + ", but " +
+            text::number_text(first.options.number(key)) + " in " + device_path(first, path) +
+            ": the wheels of one base " +
+            (key == "gear_ratio" ? "have different gears" : "are told in different units") +
+            "; is that meant?",
+        "");
+  }
+}
+
+void alike(const BaseNames& base, Findings& found) {
+  std::vector<const DeviceConfig*> of_wheels;
+  for (const auto& device : found.config().devices)
+    for (const auto& joint : device.joints)
+      for (const auto* side : {&base.left, &base.right})
+        if (std::find(side->begin(), side->end(), joint.name) != side->end() &&
+            (of_wheels.empty() || of_wheels.back() != &device))
+          of_wheels.push_back(&device);
+  for (const auto* device : of_wheels) {
+    const auto first = std::find_if(of_wheels.begin(), of_wheels.end(), [&](const auto* each) {
+      return each->driver == device->driver;
+    });
+    if (*first != device) same_units(**first, *device, found);
+  }
+}
+
 void wheels(const BaseNames& base, Findings& found) {
   auto& resolved = found.config().engine.base;
   side("groups.base.left", base.left, resolved.left, found);
@@ -124,6 +162,7 @@ void wheels(const BaseNames& base, Findings& found) {
   both_sides(base, found);
   if (base.kind == kMecanumKind) four_corners(base, found);
   follow_velocities(base, found);
+  alike(base, found);
 }
 
 /// What is told twice, once to who drives and once to who speaks to the device.

@@ -170,6 +170,7 @@ class Maps final {
     if (!loaded.problems.empty())
       found_.add(path, "is no good register map", "see its own problems");
     for (auto& problem : loaded.problems) found_.loaded().problems.push_back(std::move(problem));
+    for (auto& warning : loaded.warnings) found_.loaded().warnings.push_back(std::move(warning));
     names_.push_back(device.map);
     return maps_.emplace_back(std::move(loaded.map));
   }

@@ -68,6 +68,34 @@ void check_broker_port(Findings& found) {
     found.add("mqtt.port", "is 0, but mqtt.host is no path of a Unix socket", "1883 is usual");
 }
 
+/// As the service's IPAddressAllow=localhost has it.
+bool is_this_computer(const std::string& host) {
+  return host.starts_with('/') || host.starts_with("127.") || host == "::1" || host == "localhost";
+}
+
+bool is_address(const std::string& host) {
+  return host.find(':') != std::string::npos ||
+         host.find_first_not_of("0123456789.") == std::string::npos;
+}
+
+/// The file is good, and yet nothing would ever come of it: the service is kept to this computer.
+void warn_of_remote_broker(Findings& found) {
+  const auto& mqtt = found.config().mqtt;
+  if (!mqtt.enabled || is_this_computer(mqtt.host) || found.has_problem("mqtt")) return;
+  if (found.accepts("remote_broker")) return;
+  const std::string allow = is_address(mqtt.host)
+                                ? "IPAddressAllow=" + mqtt.host
+                                : "its address in place of its name, and IPAddressAllow= with that "
+                                  "address";
+  found.hint_at("mqtt.host",
+                "\"" + mqtt.host +
+                    "\" is not this computer, and droverd.service speaks with no other one: it "
+                    "never connects",
+                allow +
+                    " under [Service] by \"systemctl edit droverd\"; when that is done, "
+                    "\"accept\": [\"remote_broker\"] at the top of the file");
+}
+
 }  // namespace
 
 void check_broker(Findings& found) {
@@ -76,6 +104,7 @@ void check_broker(Findings& found) {
   if (!found.config().mqtt.password_file.empty() && found.config().mqtt.username.empty() &&
       !found.is_wrong("mqtt.username"))
     found.add("mqtt.password_file", "is given without mqtt.username");
+  warn_of_remote_broker(found);
 }
 
 void check_channel(Findings& found) {

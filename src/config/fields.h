@@ -368,7 +368,7 @@ void visit(V& v, DroverConfig& c, GroupNames& groups) {
   v.object("ros2", c.ros2, "drover-ros2: left out, it shows nothing");
   v.object("scene", c.scene, "what is around the robot: left out, nothing of it is looked at");
   v.names(
-      "accept", c.accept, Count{0, 11},
+      "accept", c.accept, Count{0, 15},
       "no_estop: there is no e-stop line; slow_guard: guard.limit_ms is above 200; no_tilt: "
       "nothing tells how steep the ground is; no_soc: no battery tells its charge; no_relay: "
       "nothing takes the power from drives that do not stop; short_look: the scene, or a lidar's "
@@ -377,7 +377,10 @@ void visit(V& v, DroverConfig& c, GroupNames& groups) {
       "it is farther from base_link than three tracks; slow_watchdog: a drive goes on for more "
       "than a second when its line is cut; "
       "no_guard: it drives without drover-guard; falls: a joint that carries a weight sinks or "
-      "falls without power; that is known");
+      "falls without power; no_first_way: navigate.first_way_m is 0; late_silence: a drive is "
+      "silent for more than half a second before the robot stops; estop_not_fail_safe: a broken "
+      "wire of the e-stop reads as released; remote_broker: mqtt.host is another computer, which "
+      "droverd.service was allowed to reach; that is known");
 }
 
 }  // namespace drover::config

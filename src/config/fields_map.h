@@ -64,8 +64,12 @@ inline constexpr std::size_t kMostMapFields = 64;
 
 template <class V>
 void visit(V& v, MapField& c) {
-  v.choice("field", c.field, kMapFields, "what it means; several entries may fill one field",
-           Presence::required);
+  v.choice(
+      "field", c.field, kMapFields,
+      "what it means; several entries may fill one field. current: positive while the pack charges "
+      "(of a device that counts the other way: its option current_sign); charger: any raw value "
+      "but 0 means that a charger is connected",
+      Presence::required);
   v.address("address", c.address, "register, as sent on the wire (from 0): 40 or \"0x28\"",
             Presence::required);
   v.integer("function", c.function, Range{0, 4}, "3 holding or 4 input registers; 0: the map's");

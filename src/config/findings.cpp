@@ -54,13 +54,22 @@ void Findings::add(std::string path, std::string message, std::string hint) {
 
 void Findings::warn(const std::string& path, const std::string& message, const std::string& word,
                     const std::string& mend) {
-  const auto& accepted = loaded_.config.accept;
-  if (std::find(accepted.begin(), accepted.end(), word) != accepted.end()) return;
+  if (accepts(word)) return;
+  hint_at(path, message,
+          (mend.empty() ? "" : mend + ", or ") + "\"accept\": [\"" + word +
+              "\"] at the top of the file when that is meant");
+}
+
+void Findings::hint_at(const std::string& path, const std::string& message,
+                       const std::string& mend) {
   std::string_view rest = path;
   const auto& at = place(root_, rest);
-  const auto hint = (mend.empty() ? "" : mend + ", or ") + "\"accept\": [\"" + word +
-                    "\"] at the top of the file when that is meant";
-  loaded_.warnings.push_back({at.line, at.column, path, message, hint, ""});
+  loaded_.warnings.push_back({at.line, at.column, path, message, mend, ""});
+}
+
+bool Findings::accepts(const std::string& word) const {
+  const auto& accepted = loaded_.config.accept;
+  return std::find(accepted.begin(), accepted.end(), word) != accepted.end();
 }
 
 bool Findings::given(std::string_view path) const {

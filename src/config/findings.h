@@ -24,6 +24,10 @@ class Findings final {
   /// Not when a person accepted it by this word. `mend` is what may be done instead.
   void warn(const std::string& path, const std::string& message, const std::string& word,
             const std::string& mend = {});
+  /// A warning that needs no word: what is written runs, but hardly means what it says.
+  void hint_at(const std::string& path, const std::string& message, const std::string& mend);
+  /// Whether a person accepted it by this word at the top of the file.
+  bool accepts(const std::string& word) const;
   /// Whether the text says anything of this key.
   bool given(std::string_view path) const;
   /// Whether something was found already at a path that begins so.

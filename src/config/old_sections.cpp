@@ -233,8 +233,8 @@ OldSections find_old_sections(const json::Node& root) {
   if (root.object() == nullptr) return old;
   const auto tell = [&old](const json::Member& member, const std::string& path,
                            const std::string& now) {
-    old.problems.push_back({member.line, member.column, path, "is no key any more",
-                            "it belongs to " + now + ": the new text stands below", ""});
+    old.problems.push_back(
+        {member.line, member.column, path, "is no key any more", "it belongs to " + now, ""});
   };
   for (const auto& member : *root.object()) {
     for (const auto& key : kOldKeys)
@@ -246,6 +246,8 @@ OldSections find_old_sections(const json::Node& root) {
   if (old.problems.empty()) return old;
   for (const auto& section : Translator(root).sections())
     old.sections += (old.sections.empty() ? "" : ",\n") + section;
+  if (!old.sections.empty())
+    for (auto& problem : old.problems) problem.suggestion += ": the new text stands below";
   return old;
 }
 

@@ -94,6 +94,15 @@ void Reader::wrong_type(const json::Node& node, std::string_view key, std::strin
       right_type(node, key, expected));
 }
 
+void Reader::no_text(const json::Node& node, std::string_view key,
+                     const std::vector<std::string>& choices) {
+  const bool is_choice = node.number() && std::find(choices.begin(), choices.end(),
+                                                    number_text(*node.number())) != choices.end();
+  if (choices.empty() || is_choice || node.is_null()) return wrong_type(node, key, "a text");
+  add(node, path_of(key), "is " + std::string(node.kind()) + ", but a text is expected",
+      "one of: " + joined(choices));
+}
+
 void Reader::check_count(const json::Node& node, std::string_view key, Count count) {
   const auto size = node.list() != nullptr ? node.list()->size() : node.object()->size();
   if (size < count.min)
@@ -144,10 +153,12 @@ std::string unit_of(std::string_view key) {
 
 }  // namespace
 
-void Reader::out_of_range(const json::Node& node, std::string_view key, Range range) {
+void Reader::out_of_range(const json::Node& node, std::string_view key, Range range,
+                          std::string_view what) {
   add(node, path_of(key),
       "is " + number_text(*node.number()) + ", but must be between " + number_text(range.min) +
-          " and " + number_text(range.max) + unit_of(key));
+          " and " + number_text(range.max) + unit_of(key),
+      std::string(what));
 }
 
 void Reader::number(std::string_view key, double& into, Range range, std::string_view text,
@@ -196,8 +207,12 @@ void Reader::choice(std::string_view key, std::string& into,
                     Presence presence) {
   std::string value = into;
   const auto before = problems_.size();
-  text(key, value, what, presence);
   const auto* node = node_.find(key);
+  if (node != nullptr && node->text() == nullptr) {
+    known_.emplace_back(key);
+    return no_text(*node, key, choices);
+  }
+  text(key, value, what, presence);
   if (node == nullptr || problems_.size() != before) return;
   if (std::find(choices.begin(), choices.end(), value) == choices.end())
     return add(*node, path_of(key), "\"" + value + "\" is not one of: " + joined(choices),
@@ -307,11 +322,11 @@ void Reader::option(const OptionSpec& spec, const json::Node& node, Options& int
     if (!node.number()) return wrong_type(node, spec.name, "a number");
     const double number = *node.number();
     if (spec.min < spec.max && (number < spec.min || number > spec.max))
-      return out_of_range(node, spec.name, {spec.min, spec.max});
+      return out_of_range(node, spec.name, {spec.min, spec.max}, spec.text);
     into.set(spec.name, number);
   } else {
-    if (node.text() == nullptr) return wrong_type(node, spec.name, "a text");
     const std::vector<std::string> choices(spec.choices.begin(), spec.choices.end());
+    if (node.text() == nullptr) return no_text(node, spec.name, choices);
     const auto& value = *node.text();
     if (!choices.empty() && std::find(choices.begin(), choices.end(), value) == choices.end())
       return add(node, path_of(spec.name), "\"" + value + "\" is not one of: " + joined(choices),
@@ -340,6 +355,21 @@ std::string comes_otherwise(std::string_view path) {
 
 }  // namespace
 
+namespace {
+
+/// A height above the ground is a z here.
+std::string key_meant(const std::string& written, const std::vector<std::string>& known) {
+  constexpr std::string_view kHeight = "height";
+  const auto at = written.find(kHeight);
+  if (at == std::string::npos) return did_you_mean(written, known);
+  auto as_z = written;
+  as_z.replace(at, kHeight.size(), "z");
+  const auto near = text::nearest(as_z, known);
+  return near.starts_with(as_z) ? did_you_mean(as_z, known) : did_you_mean(written, known);
+}
+
+}  // namespace
+
 void Reader::finish() {
   check_alternatives();
   for (const auto& member : *node_.object()) {
@@ -347,7 +377,7 @@ void Reader::finish() {
     if (path_.empty() && member.key == "$schema") continue;  // for the editor
     const auto otherwise = comes_otherwise(path_of(member.key));
     problems_.push_back({member.line, member.column, path_of(member.key), "is no known key",
-                         otherwise.empty() ? did_you_mean(member.key, known_) : otherwise, ""});
+                         otherwise.empty() ? key_meant(member.key, known_) : otherwise, ""});
   }
 }
 

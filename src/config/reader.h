@@ -113,7 +113,11 @@ class Reader final {
   const json::Node* find(std::string_view key, Presence presence, std::string_view text);
   std::string path_of(std::string_view key) const;
   void wrong_type(const json::Node& node, std::string_view key, std::string_view expected);
-  void out_of_range(const json::Node& node, std::string_view key, Range range);
+  /// Where one of the choices was expected.
+  void no_text(const json::Node& node, std::string_view key,
+               const std::vector<std::string>& choices);
+  void out_of_range(const json::Node& node, std::string_view key, Range range,
+                    std::string_view what = {});
   /// Of a list or an object.
   void check_count(const json::Node& node, std::string_view key, Count count);
   void check_name(const json::Member& member, const std::string& path);

@@ -7,6 +7,7 @@
 
 #include "config/fields_map.h"
 #include "config/reader.h"
+#include "config/register_conflicts.h"
 #include "text/suggestion.h"
 
 namespace drover::config {
@@ -73,18 +74,52 @@ class Converter final {
           {function("alarms", i, alarm.function), static_cast<std::uint16_t>(alarm.address),
            static_cast<std::uint8_t>(alarm.bit), alarm.level == "critical", alarm.text});
     }
+    for (const auto& finding : register_conflicts(file_, map))
+      loaded_.problems.push_back(problem(finding));
+    addresses();
   }
 
  private:
+  const json::Node& item(const char* list, std::size_t index) const {
+    return (*root_.find(list)->list())[index];
+  }
+
+  Problem problem(const MapFinding& finding) const {
+    const auto& entry = item(finding.list, finding.index);
+    const auto* value = entry.find(finding.key);
+    const auto& at = value != nullptr ? *value : entry;
+    return {at.line,
+            at.column,
+            std::string(finding.list) + "[" + std::to_string(finding.index) + "]." + finding.key,
+            finding.message,
+            finding.hint,
+            ""};
+  }
+
   void add(const char* list, std::size_t index, const char* key, std::string message,
            std::string hint = {}) {
-    const auto* items = root_.find(list);
-    const auto& item = (*items->list())[index];
-    const auto* value = item.find(key);
-    const auto& at = value != nullptr ? *value : item;
-    loaded_.problems.push_back({at.line, at.column,
-                                std::string(list) + "[" + std::to_string(index) + "]." + key,
-                                std::move(message), std::move(hint), ""});
+    loaded_.problems.push_back(problem({list, index, key, std::move(message), std::move(hint)}));
+  }
+
+  /// Who writes an address in hexadecimal has it from the wire.
+  void addresses() {
+    struct Place {
+      const char* list;
+      std::size_t index;
+      int address;
+    };
+    std::vector<Place> suspects;
+    const auto look_at = [&](const char* list, const auto& entries) {
+      for (std::size_t i = 0; i < entries.size(); ++i)
+        if (is_as_in_sheets(entries[i].address) && item(list, i).find("address")->number())
+          suspects.push_back({list, i, entries[i].address});
+    };
+    look_at("fields", file_.fields);
+    look_at("alarms", file_.alarms);
+    if (suspects.empty()) return;
+    const Place& first = suspects.front();
+    loaded_.warnings.push_back(
+        problem(as_in_sheets(first.list, first.index, first.address, suspects.size() - 1)));
   }
 
   std::uint8_t function(const char* list, std::size_t index, int own) {
@@ -190,6 +225,7 @@ LoadedMap load_register_map(const std::string& path) {
     loaded = parse_register_map(text);
   }
   for (auto& problem : loaded.problems) problem.file = path;
+  for (auto& warning : loaded.warnings) warning.file = path;
   return loaded;
 }
 

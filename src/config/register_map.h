@@ -14,6 +14,7 @@ struct LoadedMap {
   RegisterMap map;   ///< to be used only when there are no problems
   std::string text;  ///< as it was read
   std::vector<Problem> problems;
+  std::vector<Problem> warnings;  ///< what it says is good, but hardly meant
 };
 
 LoadedMap parse_register_map(std::string_view text);

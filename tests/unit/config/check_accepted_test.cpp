@@ -193,5 +193,128 @@ TEST(Warnings, TellOfAnAntennaFarFromItsBase) {
   EXPECT_EQ(at(R"("antenna_x_m": -5)", R"("far_antenna")"), "");
 }
 
+TEST(Warnings, TellOfMechanicsThatNobodyLooksAtUnlessThatIsAccepted) {
+  const auto first_way = [](const std::string& way_m, const std::string& words) {
+    return warnings("{\"accept\": [" + words + "], \"navigate\": {\"first_way_m\": " + way_m +
+                    "}," + std::string(kGood).substr(1));
+  };
+  EXPECT_EQ(first_way("0.3", ""), "");
+  EXPECT_THAT(first_way("0", ""),
+              HasSubstr("navigate.first_way_m: is 0: nothing looks whether wheels, gyro and "
+                        "receiver agree before it drives fast, so a wrong unit, gear or side is "
+                        "not noticed (0.3 is usual, or \"accept\": [\"no_first_way\"]"));
+  EXPECT_EQ(first_way("0", R"("no_first_way")"), "");
+}
+
+TEST(Warnings, TellOfADriveWhoseSilenceIsNoticedLateUnlessThatIsAccepted) {
+  const auto stale = [](const std::string& all_s, const std::string& own_s,
+                        const std::string& words) {
+    return warnings(
+        "{\"accept\": [" + words + "], \"health\": {\"drive_stale_s\": " + all_s + "}," +
+        with(R"("options": {"node": 1})", R"("options": {"node": 1, "stale_s": )" + own_s + "}")
+            .substr(1));
+  };
+  EXPECT_EQ(stale("0.5", "2", ""), "") << "the shorter one acts";
+  EXPECT_EQ(stale("2", "0.5", ""), "");
+  EXPECT_THAT(stale("2", "0.6", ""),
+              HasSubstr("health.drive_stale_s: is 2, and devices.left.options.stale_s is 0.6: the "
+                        "robot drives on for 0.6 s when the drive is silent; up to 0.5 s is usual "
+                        "(a shorter one of the two, or \"accept\": [\"late_silence\"]"));
+  EXPECT_EQ(stale("2", "0.6", R"("late_silence")"), "");
+}
+
+TEST(Warnings, TellOfASlopeThatIsAllowedAndStopsAllTheSame) {
+  const auto allowed = [](const char* hold, const std::string& most_deg) {
+    const auto text = with(R"("hold": "brake")", "\"hold\": \"" + std::string(hold) +
+                                                     "\", \"max_tilt_deg\": " + most_deg);
+    return warnings(R"({"accept": ["no_tilt"],)" + text.substr(1));
+  };
+  EXPECT_EQ(allowed("level_ground_only", "25"), "");
+  EXPECT_THAT(
+      allowed("level_ground_only", "30"),
+      HasSubstr("groups.base.max_tilt_deg: is 30, but health.tilt_limit_deg stops the robot "
+                "at 25 already (25 or less)"));
+  EXPECT_EQ(allowed("brake", "30"), "") << "is of no use there";
+}
+
+TEST(Warnings, TellOfAnEmergencyStopWhoseBrokenWireReadsAsReleased) {
+  const auto active = [](const char* line, const std::string& level, const std::string& words) {
+    const auto plain = std::string("\"is\": \"") + line + "\"";
+    return warnings(
+        "{\"accept\": [" + words + "]," +
+        with(plain, plain + R"(, "options": {"active_level": ")" + level + "\"}").substr(1));
+  };
+  EXPECT_EQ(active("estop", "low", ""), "");
+  EXPECT_THAT(
+      active("estop", "high", ""),
+      HasSubstr("f:8:111: devices.estop.options.active_level: is high: when its wire breaks "
+                "it reads as released, and the button stops nothing (a normally closed "
+                "contact that feeds the line high, and \"low\", or \"accept\": "
+                "[\"estop_not_fail_safe\"]"));
+  EXPECT_EQ(active("estop", "high", R"("estop_not_fail_safe")"), "");
+  EXPECT_EQ(active("bumper", "high", ""), "");
+}
+
+TEST(Warnings, TellOfWheelsOfOneBaseThatAreToldInDifferentUnits) {
+  const auto two = [](const std::string& right) {
+    return std::string(R"({"links": {"can0": {"can": "can0"}, "panel": {"gpio": "g"}},
+      "devices": {
+        "l": {"driver": "cia402", "link": "can0", "joints": {"left": {"channel": "motor"}},
+              "options": {"node": 1, "velocity_units_per_rps": 60, "gear_ratio": 25}},
+        "r": {"driver": "cia402", "link": "can0", "joints": {"right": {"channel": "motor"}},
+              "options": {"node": 2, )") +
+           right + R"(}},
+        "estop": {"driver": "gpio_line", "link": "panel", "line": "a", "is": "estop"}},
+      "groups": {"base": {"kind": "differential", "left": ["left"], "right": ["right"],
+                          "track_m": 0.5, "wheel_radius_m": 0.1, "hold": "brake"}},
+      "outputs": {"link": "panel", "enable_relay": {"line": "r"}},
+      "limits": {"max_speed_mps": 0.8}, "accept": ["slow_chassis"]})";
+  };
+  const auto told = [&](const std::string& right) {
+    EXPECT_EQ(problems(two(right)), "");
+    return warnings(two(right));
+  };
+  EXPECT_EQ(told(R"("velocity_units_per_rps": 60, "gear_ratio": 25, "reversed": true)"), "");
+  EXPECT_EQ(told(R"("velocity_units_per_rps": 600, "gear_ratio": 25)"),
+            "f:6:64: devices.r.options.velocity_units_per_rps: is 600, but 60 in "
+            "devices.l.options.velocity_units_per_rps: the wheels of one base are told in "
+            "different units; is that meant?\n");
+  EXPECT_EQ(told(R"("velocity_units_per_rps": 60, "gear_ratio": 5)"),
+            "f:6:82: devices.r.options.gear_ratio: is 5, but 25 in devices.l.options.gear_ratio: "
+            "the wheels of one base have different gears; is that meant?\n");
+}
+
+TEST(Warnings, TellOfABrokerThatTheServiceDoesNotReach) {
+  const auto at = [](const std::string& mqtt, const std::string& words) {
+    return warnings("{\"accept\": [" + words + "]," +
+                    with(R"("host": "127.0.0.1", "port": 1883)", mqtt).substr(1));
+  };
+  for (const auto* here : {R"("host": "127.0.1.1", "port": 1883)", R"("host": "::1", "port": 1883)",
+                           R"("host": "localhost", "port": 1883)",
+                           R"("host": "/run/mosquitto/drover.sock", "port": 0)",
+                           R"("host": "192.168.1.7", "port": 1883, "enabled": false)"})
+    EXPECT_EQ(at(here, ""), "") << here;
+  EXPECT_THAT(at(R"("host": "192.168.1.7", "port": 1883)", ""),
+              HasSubstr("f:13:20: mqtt.host: \"192.168.1.7\" is not this computer, and "
+                        "droverd.service speaks with no other one: it never connects "
+                        "(IPAddressAllow=192.168.1.7 under [Service] by \"systemctl edit "
+                        "droverd\"; when that is done, \"accept\": [\"remote_broker\"] at the top "
+                        "of the file)"));
+  EXPECT_THAT(at(R"("host": "broker.lan", "port": 1883)", ""),
+              HasSubstr("(its address in place of its name, and IPAddressAllow= with that address "
+                        "under [Service] by"));
+  EXPECT_EQ(at(R"("host": "192.168.1.7", "port": 1883)", R"("remote_broker")"), "");
+}
+
+TEST(Warnings, AreEachAcceptedByTheWordThatTheyTell) {
+  for (const auto* word : {"no_estop", "slow_guard", "no_tilt", "no_soc", "no_relay", "short_look",
+                           "slow_chassis", "far_antenna", "slow_watchdog", "no_guard", "falls",
+                           "no_first_way", "late_silence", "estop_not_fail_safe", "remote_broker"})
+    EXPECT_EQ(
+        problems("{\"accept\": [\"" + std::string(word) + "\"]," + std::string(kGood).substr(1)),
+        "")
+        << word;
+}
+
 }  // namespace
 }  // namespace drover::config

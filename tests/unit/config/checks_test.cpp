@@ -152,12 +152,30 @@ TEST(ConfigurationChecks, RefuseAChoiceThatDoesNotExist) {
               HasSubstr("devices.right.options.firmware: \"0.5\" is not one of: 0.6, 0.5.6"));
 }
 
+TEST(ConfigurationChecks, ListTheChoicesWhereSomethingElseThanATextStands) {
+  EXPECT_EQ(
+      problems(with("\"node\": 2", "\"node\": 2, \"firmware\": 3")),
+      "f:6:86: devices.right.options.firmware: is an integer, but a text is expected (one of: "
+      "0.6, 0.5.6)\n");
+  EXPECT_EQ(problems(with("\"node\": 2", "\"node\": 2, \"firmware\": 0.6")),
+            "f:6:86: devices.right.options.firmware: is a number, but a text is expected (write it "
+            "in quotes)\n");
+  EXPECT_THAT(problems(with("\"node\": 2", "\"node\": 2, \"firmware\": null")),
+              HasSubstr("leave the key out for its default"));
+  EXPECT_THAT(problems(with("\"skid_steer\"", "3")),
+              HasSubstr("groups.base.kind: is an integer, but a text is expected (one of: "
+                        "skid_steer, differential, "));
+}
+
 TEST(ConfigurationChecks, RefuseOptionsOfTheDriver) {
   EXPECT_EQ(problems(with("\"node\": 2", "\"node\": 2.5")),
             "f:6:71: devices.right.options.node: is a number, but a whole number is expected"
             " (write it without a fraction)\n");
-  EXPECT_EQ(problems(with("\"node\": 2", "\"node\": 63")),
-            "f:6:71: devices.right.options.node: is 63, but must be between 0 and 62\n");
+  EXPECT_EQ(
+      problems(with("\"node\": 2", "\"node\": 63")),
+      "f:6:71: devices.right.options.node: is 63, but must be between 0 and 62 (node id of the "
+      "axis on the bus, 0 to 62 (63 is the broadcast))\n")
+      << "what it is says what was meant by the number";
   EXPECT_EQ(
       problems(with("\"node\": 2", "\"node\": 2, \"reversed\": 1")),
       "f:6:86: devices.right.options.reversed: is an integer, but true or false is expected\n");

@@ -29,6 +29,19 @@ TEST(Configuration, RecognisesAWrongOrForgottenUnit) {
         << slip;
 }
 
+TEST(Suggestions, TakeAHeightForAZ) {
+  const auto told = [](const char* key) {
+    return problems(
+        with("\"limits\"", "\"estimate\": {\"" + std::string(key) + "\": 0.5}, \"limits\""));
+  };
+  EXPECT_THAT(
+      told("antenna_height_m"),
+      HasSubstr("estimate.antenna_height_m: is no known key (did you mean \"antenna_z_m\"?)"));
+  EXPECT_THAT(told("antenna_height"), HasSubstr("did you mean \"antenna_z_m\"?"));
+  EXPECT_THAT(problems(with("\"limits\"", "\"scene\": {\"heigth_m\": 1}, \"limits\"")),
+              HasSubstr("did you mean \"height_m\"?"));
+}
+
 TEST(Configuration, SuggestsNothingForAKeyThatResemblesNone) {
   EXPECT_EQ(problems(with("max_speed_mps", "zzzzzz")), "f:12:14: limits.zzzzzz: is no known key\n");
   EXPECT_EQ(problems(with("max_speed_mps", "")), "f:12:14: limits.: is no known key\n");

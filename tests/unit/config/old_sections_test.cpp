@@ -83,6 +83,14 @@ std::string meaning(const Loaded& loaded) {
   return fuzz::dump(loaded.config, [](bool holds) { EXPECT_TRUE(holds); });
 }
 
+TEST(OldSections, OfWhichNothingIsLeftPointAtNoNewText) {
+  const auto loaded = load_text(R"({"drives": []})");
+  EXPECT_EQ(loaded.new_sections, "");
+  ASSERT_EQ(loaded.problems.size(), 1U);
+  EXPECT_EQ(loaded.problems[0].text("f"),
+            "f:1:2: drives: is no key any more (it belongs to \"devices\")");
+}
+
 TEST(OldSections, AreEachToldAtTheirPlace) {
   const auto told = problems(kOld);
   EXPECT_THAT(told, HasSubstr("f:2:3: buses: is no key any more (it belongs to \"links\": the new "

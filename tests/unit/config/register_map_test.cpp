@@ -68,6 +68,80 @@ TEST(RegisterMapFile, TellsWhatIsWrongWithItsPlace) {
   EXPECT_THAT(map_problems("[]"), HasSubstr("m:1:1: an object is expected"));
 }
 
+std::string map_of(const std::string& fields, const std::string& more = "") {
+  return R"({"name": "test", "source": "nobody",
+"fields": [
+)" + fields +
+         "]" + more + "}";
+}
+
+TEST(RegisterMapFile, HasOneMeaningForEachRegister) {
+  EXPECT_EQ(map_problems(map_of(R"({"field": "voltage", "address": 40, "type": "u32"},
+{"field": "current", "address": 41, "type": "i16"})")),
+            "m:4:33: fields[1].address: \"current\" takes register 41, which is a part of "
+            "\"voltage\" (fields[0]: u32 at 40)\n");
+  EXPECT_EQ(map_problems(map_of(R"({"field": "voltage", "address": 40},
+{"field": "soc", "address": 40})")),
+            "m:4:29: fields[1].address: \"soc\" takes register 40, which is a part of "
+            "\"voltage\" (fields[0]: u16 at 40)\n");
+  EXPECT_EQ(map_problems(map_of(R"({"field": "soc", "address": 44},
+{"field": "temperature", "address": 40, "count": 8})")),
+            "m:4:37: fields[1].address: \"temperature\" takes register 44, which is a part of "
+            "\"soc\" (fields[0]: u16 at 44)\n");
+  EXPECT_EQ(map_problems(map_of(R"({"field": "soc", "address": 40, "type": "u8_high"},
+{"field": "temperature", "address": 40, "type": "u8_low"},
+{"field": "current", "address": 40, "function": 4})")),
+            "")
+      << "two halves, and a register of another table";
+  EXPECT_EQ(map_problems(map_of(R"({"field": "lowest_cell", "address": 0, "count": 8},
+{"field": "highest_cell", "address": 0, "count": 8},
+{"field": "state", "address": 9, "states": ["idle", "charging"]},
+{"field": "charger", "address": 9})")),
+            "")
+      << "two things that one value tells";
+}
+
+TEST(RegisterMapFile, CountsTheBytesWhereItsAddressesDo) {
+  const auto bytes = R"(, "stride": 2)";
+  EXPECT_EQ(map_problems(map_of(R"({"field": "voltage", "address": 40, "type": "u32"},
+{"field": "current", "address": 44, "type": "i16"})",
+                                bytes)),
+            "");
+  EXPECT_THAT(map_problems(map_of(R"({"field": "voltage", "address": 40, "type": "u32"},
+{"field": "current", "address": 42, "type": "i16"})",
+                                  bytes)),
+              HasSubstr("\"current\" takes register 42, which is a part of \"voltage\""));
+}
+
+TEST(RegisterMapFile, HasOneTextForEachAlarmBit) {
+  EXPECT_EQ(map_problems(map_of(R"({"field": "soc", "address": 1})",
+                                R"(, "alarms": [{"address": 60, "bit": 3, "text": "hot"},
+{"address": 60, "bit": 4, "text": "cold"},
+{"address": 60, "bit": 3, "text": "empty"}])")),
+            "m:5:24: alarms[2].bit: \"empty\" is bit 3 of register 60, which is \"hot\" "
+            "(alarms[0]) already\n");
+}
+
+TEST(RegisterMapFile, WarnsOfAddressesAsSheetsCountThem) {
+  const auto map_warnings = [](const std::string& text) {
+    std::string all;
+    for (const auto& warning : parse_register_map(text).warnings) all += warning.text("m") + "\n";
+    return all;
+  };
+  EXPECT_EQ(map_warnings(std::string(kGoodMap)), "");
+  EXPECT_EQ(map_warnings(map_of(R"({"field": "voltage", "address": 40001},
+{"field": "soc", "address": 40003})",
+                                R"(, "alarms": [{"address": 40010, "bit": 1, "text": "hot"}])")),
+            "m:3:33: fields[0].address: is 40001, and 2 others are alike: a map counts from 0, as "
+            "on the wire; what a sheet calls 40001 is most often register 0 of function 3 (of a "
+            "device that really has register 40001: \"0x9C41\")\n");
+  EXPECT_THAT(map_warnings(map_of(R"({"field": "voltage", "address": 30011})")),
+              HasSubstr("fields[0].address: is 30011: a map counts from 0, as on the wire; what a "
+                        "sheet calls 30011 is most often register 10 of function 4"));
+  EXPECT_EQ(map_warnings(map_of(R"({"field": "voltage", "address": "0x9C41"})")), "");
+  EXPECT_EQ(map_warnings(map_of(R"({"field": "voltage", "address": 50000})")), "");
+}
+
 TEST(RegisterMapFile, MeansWhatItSays) {
   EXPECT_EQ(map_problems(kGoodMap), "");
   const auto map = parse_register_map(kGoodMap).map;
@@ -110,6 +184,11 @@ TEST(RegisterMapSchema, InTheFolderIsTheOneThatIsWritten) {
   EXPECT_TRUE(content(DROVER_SOURCE_DIR "/config/maps/register_map.schema.json") ==
               register_map_schema_text())
       << "write it anew: droverd --map-schema > config/maps/register_map.schema.json";
+}
+
+TEST(RegisterMapSchema, TellsWhichCurrentChargesAndWhatAChargerIs) {
+  EXPECT_THAT(register_map_schema_text(), HasSubstr("current: positive while the pack charges"));
+  EXPECT_THAT(register_map_schema_text(), HasSubstr("charger: any raw value but 0 means"));
 }
 
 TEST(RegisterMapFile, OfTheCloneIsFoundByAProgramThatRunsFromABuildInIt) {

@@ -105,7 +105,14 @@ TEST_F(ABmsDriver, TellsAtOnceThatItChargesAsAChargerDoes) {
 TEST_F(ABmsDriver, NamesTheRegistersThatTheDeviceRefuses) {
   give({480, 30000, 55, 0});
   for (int i = 0; i < 2; ++i) driver->on_failure(0, RegisterFailure::refused, 2, now);
-  EXPECT_EQ(reason(), "refuses 4 registers from 0x0000: exception 2, illegal address");
+  EXPECT_EQ(reason(), "refuses 4 registers from 0 (0x0000): exception 2, illegal address");
+}
+
+TEST_F(ABmsDriver, NamesARefusedRegisterAsAMapDoes) {
+  map.fields = {field(BatteryField::soc_percent, 40041, 1, 0, 0, 100)};
+  give({55});
+  for (int i = 0; i < 2; ++i) driver->on_failure(0, RegisterFailure::refused, 2, now);
+  EXPECT_EQ(reason(), "refuses 1 register from 40041 (0x9C69): exception 2, illegal address");
 }
 
 TEST_F(ABmsDriver, RefusesAMapThatAsksForNothing) {
