@@ -291,7 +291,7 @@ void HealthMonitor::conclude(bool power_cut) {
     first(report_.no_start, row.refuses_task, text);
     first(report_.end_free_driving, row.ends_free_driving, text);
     first(report_.end_groups, row.of_all, text);
-    (void)report_.why.push_back(text);  // as many as find room: the cause is the first
+    if (!report_.why.push_back(text)) ++report_.why_untold;  // the cause is the first
   }
 }
 
@@ -318,6 +318,7 @@ const HealthReport& HealthMonitor::update(const HealthInput& input) {
   report_.end_groups.clear();
   report_.not_running.clear();
   report_.why.clear();
+  report_.why_untold = 0;
   look_at_lines(input);
   look_at_guard(input.environment);
   look_at_drives(input);

@@ -1,6 +1,7 @@
 // A snapshot as a view may show it now: what is old is not shown as the present.
 #pragma once
 
+#include <string>
 #include <string_view>
 
 #include "drover/snapshot.h"
@@ -16,11 +17,15 @@ inline constexpr Duration kSnapshotLimit = std::chrono::milliseconds(250);
 /// stay. One that was never written comes back as it is.
 Snapshot as_seen(const Snapshot& snapshot, Time now, Duration limit = kSnapshotLimit);
 
-/// Puts a reason after all others of `why`; nothing when there is no room, or when it is
+/// Puts a reason after all others of `why`, only counted when there is no room; nothing when it is
 /// told already.
 void tell_last(Snapshot& snapshot, std::string_view reason);
 
-/// Puts a reason before all others of `why`; the last one makes room when there is none.
+/// Puts a reason before all others of `why`; the last one makes room when there is none, and is
+/// counted.
 void tell_first(Snapshot& snapshot, std::string_view reason);
+
+/// "3 more": of reasons that found no room in `why`; empty when all did.
+std::string more_reasons(const Snapshot& snapshot);
 
 }  // namespace drover::publish

@@ -4,6 +4,7 @@
 #include "json/json_text.h"
 #include "publish/names.h"
 #include "publish/shown_json.h"
+#include "publish/status/seen.h"
 
 namespace drover::publish {
 
@@ -146,6 +147,7 @@ std::string status_json(const Snapshot& s, const DaemonStatus& daemon) {
   out.key("hold").text(word(s.hold));
   out.key("why").open('[');
   for (const auto& reason : s.why) out.text(reason.view());
+  if (const auto more = more_reasons(s); !more.empty()) out.text("and " + more);
   out.close(']');
   object(out, "nav", s.nav, s.time);
   cmd_vel(out, s);

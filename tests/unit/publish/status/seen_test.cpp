@@ -121,5 +121,19 @@ TEST(AReasonToldLast, StandsBehindTheOthersAndDrivesNoneOut) {
   EXPECT_EQ(snapshot.why[0], "first");
 }
 
+TEST(ReasonsWithoutRoom, AreCountedInAllThatShowsWhy) {
+  Snapshot snapshot = driving();
+  EXPECT_EQ(more_reasons(snapshot), "");
+  EXPECT_THAT(status_json(snapshot, {}), Not(HasSubstr(" more\"")));
+  for (int i = 0; i < 9; ++i) tell_last(snapshot, "reason " + std::to_string(i));
+  EXPECT_EQ(more_reasons(snapshot), "2 more");
+  tell_first(snapshot, "the very first");
+  EXPECT_THAT(status_json(snapshot, {}), HasSubstr(R"("reason 5","and 3 more"])"));
+  BaseStatus writer({});
+  EXPECT_THAT(writer.text(snapshot), HasSubstr(R"("reason 5","and 3 more"])"));
+  const auto later = as_seen(snapshot, kTaken + 2300ms);
+  EXPECT_EQ(more_reasons(later), "4 more") << "the control thread that stands still is the first";
+}
+
 }  // namespace
 }  // namespace drover::publish
