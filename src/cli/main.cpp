@@ -145,6 +145,10 @@ void print_version(const Settings& settings) {
   }
 }
 
+/// A configuration that was refused is the most frequent reason for no droverd.
+constexpr const char* kLookWhy =
+    "; see why: journalctl -u droverd; droverd --check /etc/drover/drover.json";
+
 /// The library reads hexadecimals and takes "nan" for a speed: what drives the robot is a plain
 /// number.
 std::string not_a_plain_number(const std::string& text) {
@@ -284,7 +288,7 @@ int main(int argc, char** argv) {
     drover::cli::tell_failure(json, "drover", wrong.what());
     return kUsage;
   } catch (const drover::cli::NoAnswer& no) {
-    drover::cli::tell_failure(json, "drover", no.text);
+    drover::cli::tell_failure(json, "drover", no.text + (no.absent ? kLookWhy : ""));
     return kNoDaemon;
   }
   // A script that writes to a full disk must not take nothing for an answer.

@@ -67,6 +67,9 @@ expect "also alone" 0 out 'Examples:' help
 expect "the value of --socket is no verb" 3 err 'other.sock' --socket "$work/other.sock" status
 
 expect "without droverd the reason is told" 3 err "no-daemon.sock" status
+expect "and where to look why it does not run" 3 err \
+  'journalctl -u droverd; droverd --check /etc/drover/drover.json' status
+expect "also to programs" 3 out 'journalctl -u droverd' traj list --json
 expect "and to a program as JSON" 3 out '{"ok":false,"reason":"' status --json
 [[ ! -s $work/err ]]
 verdict $? "and nothing else is said then"
