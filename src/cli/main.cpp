@@ -174,6 +174,7 @@ int main(int argc, char** argv) {
   CLI::App app{"drover: ask and command droverd"};
   app.set_version_flag("--version", DROVER_VERSION);
   app.require_subcommand(1);
+  app.fallthrough();  // the options of all verbs may stand behind the verb, too
   app.add_option("--socket", s.socket, "droverd's socket")
       ->capture_default_str()
       ->envname("DROVER_SOCKET");
@@ -275,12 +276,18 @@ int main(int argc, char** argv) {
   const auto arguments = std::span<const char* const>(words).subspan(1);
   const bool json = std::count(arguments.begin(), arguments.end(), std::string_view("--json")) > 0;
   if (const auto wrong = drover::cli::unknown_verb(app, arguments); !wrong.empty()) {
-    drover::cli::tell_failure(json, "drover", wrong);
+    const auto option = drover::cli::unknown_option(app, arguments);
+    drover::cli::tell_failure(json, "drover", option.empty() ? wrong : option);
     return kUsage;
   }
   try {
     app.parse(static_cast<int>(words.size()), words.data());
   } catch (const CLI::ParseError& error) {
+    const auto option = drover::cli::unknown_option(app, arguments);
+    if (error.get_exit_code() != 0 && !option.empty()) {
+      drover::cli::tell_failure(json, "drover", option);
+      return kUsage;
+    }
     if (error.get_exit_code() == 0 || !json) return app.exit(error) == 0 ? kDone : kUsage;
     drover::cli::tell_failure(json, "drover", error.what());
     return kUsage;

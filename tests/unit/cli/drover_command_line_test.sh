@@ -65,6 +65,28 @@ expect "a verb of a verb is told with the first one" 2 err 'did you mean "task c
 expect "help is a verb, too" 0 out 'drover stop' help stop
 expect "also alone" 0 out 'Examples:' help
 expect "the value of --socket is no verb" 3 err 'other.sock' --socket "$work/other.sock" status
+for verb in status 'traj list' stop version; do
+  status=3 file=err
+  [[ $verb == version ]] && status=0 file=out
+  # shellcheck disable=SC2086
+  expect "--socket stands behind $verb, too" $status $file 'other.sock' \
+    $verb --socket "$work/other.sock"
+done
+expect "also between two verbs" 3 err 'other.sock' traj --socket "$work/other.sock" list
+expect "its value is no verb there, either" 2 err 'no verb "traj lsit"' traj --socket list lsit
+expect "a second verb is still refused" 2 err 'not expected: stop' status stop
+expect "what is no option is answered with the one that may be meant" 2 err \
+  'no option "--sped" of "task start"; did you mean "--speed"?' task start x --id 1 --sped 0.5
+expect "also before what is missing" 2 err 'did you mean "--id"?' task start x --idd 1
+expect "and with a value behind it" 2 err 'did you mean "--file"?' gnss --fil=x
+expect "one of all verbs, too" 2 err 'did you mean "--socket"?' status --sockt x
+expect "one before the verb" 2 err 'no option "--sockt"; did you mean "--socket"?' --sockt x status
+expect "one that is like none is named" 2 err 'no option "--frobnicate" of "status"' \
+  status --frobnicate
+expect "to programs as JSON" 2 out '{"ok":false,"reason":"no option' status --json --wach
+expect "a value may begin with dashes" 2 err '"--wach" is no number' \
+  task start x --id 1 --speed --wach
+expect "which is told of the right place" 3 err 'no-daemon.sock' traj show -- --x
 
 expect "without droverd the reason is told" 3 err "no-daemon.sock" status
 expect "and where to look why it does not run" 3 err \
