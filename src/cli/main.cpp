@@ -3,8 +3,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <span>
@@ -19,6 +17,7 @@
 #include "cli/exit_codes.h"
 #include "cli/failure.h"
 #include "cli/learned.h"
+#include "cli/number_checks.h"
 #include "cli/option_texts.h"
 #include "cli/replay.h"
 #include "cli/reply.h"
@@ -149,16 +148,6 @@ void print_version(const Settings& settings) {
 constexpr const char* kLookWhy =
     "; see why: journalctl -u droverd; droverd --check /etc/drover/drover.json";
 
-/// The library reads hexadecimals and takes "nan" for a speed: what drives the robot is a plain
-/// number.
-std::string not_a_plain_number(const std::string& text) {
-  double value = 0;
-  const auto* end = text.data() + text.size();
-  const auto read = std::from_chars(text.data(), end, value);
-  const bool plain = read.ec == std::errc() && read.ptr == end && std::isfinite(value);
-  return plain ? "" : "\"" + text + "\" is no number";
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -221,10 +210,10 @@ int main(int argc, char** argv) {
   start->add_option("name", s.name, "track")->required();
   start->add_option("--id", s.id, "number of the point to stop at")
       ->required()
-      ->check(CLI::Range(std::int64_t{0}, std::int64_t{UINT32_MAX}));
+      ->transform(drover::cli::whole_number(0, UINT32_MAX));
   start->add_option("--speed", s.speed_mps, "m/s")
       ->capture_default_str()
-      ->check(CLI::Validator(not_a_plain_number, "", "a number"));
+      ->check(drover::cli::plain_number());
   start->add_flag("--json", s.json, "one JSON object");
   start->callback([&] { code = start_task(s); });
   auto* cancel = task->add_subcommand("cancel", "stop");

@@ -158,8 +158,24 @@ expect "a log needs the configuration of its robot" 2 err "--config" calibrate -
 expect "and one of both is needed" 2 err "--in or --recording" calibrate --config "$robot"
 expect "what to drive is in the help" 0 out "a left and a right circle" calibrate --help
 expect "a verb that gives up what is stored is not guessed" 2 err "there are " scene accept
-expect "a point's number is one that there can be" 2 err "id" \
+expect "a point's number is one that there can be" 2 err \
+  '--id: 99999999999999999999 is not between 0 and 4294967295' \
   task start x --id 99999999999999999999
+expect "and a number" 2 err '--id: "x" is no number' task start x --id x
+expect "a whole one" 2 err '--id: "1.5" is no whole number' task start x --id 1.5
+expect "as plain as a speed" 2 err '--id: "0x10" is no number' task start x --id 0x10
+expect "and none below zero" 2 err '--id: -1 is not between' task start x --id -1
+printf '(1.000000) can0 141#0000000008000100\n' > "$work/node10.log"
+expect "a node is counted in tens" 0 out 'node 10 ' \
+  can --file "$work/node10.log" --driver odrive --node 010
+expect "and is a number" 2 err '--node: "x" is no number' \
+  can --file "$work/node10.log" --driver odrive --node x
+expect "so are seconds" 2 err '--from: -1 is less than 0' calibrate --from -1
+expect "and a rate" 2 err '--rate: 0 is not between 0.01 and 200' estimate --rate 0
+expect "a report's number is not another one than was typed" 2 err \
+  'number: 99999999999999999999 is not between 1 and 9223372036854775807' \
+  report 99999999999999999999
+expect "nor is a word one" 2 err 'number: "x" is no number' report x
 expect "the version is told to programs, too" 0 out '{"ok":true,"drover":"' version --json
 # Root may look into any folder: somebody else asks then.
 as_a_user=()
