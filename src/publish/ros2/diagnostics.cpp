@@ -4,7 +4,6 @@
 #include <string>
 
 #include "publish/names.h"
-#include "publish/status/seen.h"
 #include "text/number.h"
 
 namespace drover::publish::ros2 {

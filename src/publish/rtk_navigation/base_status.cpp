@@ -8,7 +8,6 @@
 #include "json/json_text.h"
 #include "publish/names.h"
 #include "publish/rtk_navigation/spelling.h"
-#include "publish/status/seen.h"
 
 namespace drover::publish {
 namespace {

@@ -43,10 +43,6 @@ void tell_last(Snapshot& snapshot, std::string_view reason) {
   snapshot.tell_why(words);
 }
 
-std::string more_reasons(const Snapshot& snapshot) {
-  return snapshot.why_untold == 0 ? "" : std::to_string(snapshot.why_untold) + " more";
-}
-
 Snapshot as_seen(const Snapshot& snapshot, Time now, Duration limit) {
   Snapshot seen = snapshot;
   const bool fresh = snapshot.time == kNever || now - snapshot.time <= limit;

@@ -1,7 +1,6 @@
 // A snapshot as a view may show it now: what is old is not shown as the present.
 #pragma once
 
-#include <string>
 #include <string_view>
 
 #include "drover/snapshot.h"
@@ -24,8 +23,5 @@ void tell_last(Snapshot& snapshot, std::string_view reason);
 /// Puts a reason before all others of `why`; the last one makes room when there is none, and is
 /// counted.
 void tell_first(Snapshot& snapshot, std::string_view reason);
-
-/// "3 more": of reasons that found no room in `why`; empty when all did.
-std::string more_reasons(const Snapshot& snapshot);
 
 }  // namespace drover::publish

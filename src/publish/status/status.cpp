@@ -4,7 +4,6 @@
 #include "json/json_text.h"
 #include "publish/names.h"
 #include "publish/shown_json.h"
-#include "publish/status/seen.h"
 
 namespace drover::publish {
 

@@ -5,6 +5,7 @@
 
 #include "json/located_json.h"
 #include "publish/aimrt/messages.h"
+#include "publish/names.h"
 #include "publish/rtk_navigation/base_status.h"
 #include "publish/status/status.h"
 
