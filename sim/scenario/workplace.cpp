@@ -241,7 +241,7 @@ void Workplace::write_files(const ordered_json& config) {
   write_file(private_folder_ + "/mosquitto.conf", broker.str());
 }
 
-Program Workplace::program(const std::string& name, const std::string& words) const {
+Program Workplace::program(const std::string& name, const std::vector<std::string>& words) const {
   const auto broker = name == "mosquitto";
   if (name == "udevd") return {name, {kUdevd}};
   auto path = find_program(settings_.program_folder, name);
@@ -267,8 +267,7 @@ Program Workplace::program(const std::string& name, const std::string& words) co
   }
   if (name == "drover") {
     add({"--socket", daemon_socket()});
-    std::istringstream stream(words);
-    for (std::string word; stream >> word;) add({word});
+    for (const auto& word : words) add({word});
   }
   return program;
 }

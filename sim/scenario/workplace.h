@@ -41,7 +41,7 @@ class Workplace {
   /// scenario names (player.udev_rules).
   bool has_udev() const { return !udev_rules_.empty(); }
   /// mosquitto, udevd, drover-sim, drover-guard, droverd, or drover with `words` as its arguments.
-  Program program(const std::string& name, const std::string& words = {}) const;
+  Program program(const std::string& name, const std::vector<std::string>& words = {}) const;
 
  private:
   // The gateway's configuration keeps the order of its tables.

@@ -135,6 +135,23 @@ TEST(AMission, ReadsStepsWithTheirActions) {
   EXPECT_EQ(stream.lasts, std::chrono::seconds(2));
 }
 
+TEST(AMission, ReadsACommandLineOfWordsThatMayHaveBlanks) {
+  auto with = document();
+  with["mission"]["steps"] = json::parse(R"([{"do": [{"cli": " task  cancel "},
+    {"cli": ["task", "start", "row 7", "--id", 5, "--speed", {"from": 0.2, "to": 0.4}]}]}])");
+  draw_mission(with, 1);
+  const auto actions = read_mission(with).steps.at(0).actions;
+  using Words = std::vector<std::string>;
+  EXPECT_EQ(actions[0].words, (Words{"task", "cancel"}));
+  ASSERT_EQ(actions[1].words.size(), 7U);
+  EXPECT_EQ(actions[1].words[2], "row 7");
+  EXPECT_EQ(actions[1].words[4], "5");
+  EXPECT_EQ(shown_words({"traj", "show", "row 7", ""}), "traj show 'row 7' ''");
+  expect_refused(R"([{"do": {"cli": ["stop", true]}}])",
+                 "steps[0].do.cli: must be words and numbers");
+  expect_refused(R"([{"do": {"cli": 5}}])", "steps[0].do.cli");
+}
+
 TEST(SetMember, ChangesOneMemberAndRefusesWhatIsNoAssignment) {
   auto changed = document();
   set_member(changed, "mission.speed_mps=0.3");
