@@ -258,7 +258,7 @@ void Player::collect_children() {
     if (!asked || !clean) {
       broken_ = ended.name + " ended " + how_it_ended(ended.status);
       const auto said = last_line(workplace_.log_folder() + "/" + ended.name + ".log");
-      if (!said.empty()) broken_ += ": " + said;
+      if (!said.empty()) broken_ += ": " + workplace_.as_written(said);
     }
     if (asked) happened("exit_" + ended.name);
     if (ended.name == kCommandLine && !calls_.empty()) {
