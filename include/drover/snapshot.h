@@ -310,10 +310,16 @@ struct Snapshot {
   GeodeticPoint origin;
   /// Why the robot does not move, or may not: the first is the cause. Empty when all is well.
   FixedVector<Reason, 8> why;
+  std::uint32_t why_untold = 0;  ///< how many more there are, for which `why` had no room
   CycleStats cycle;
   EstimatorCounters estimator;
   LearnedValues learned;
   std::uint64_t notices_dropped = 0;  ///< events that found the engine's queue full
+
+  /// The next reason of `why`; counted where there is no room.
+  void tell_why(const Reason& reason) {
+    if (!why.push_back(reason)) ++why_untold;
+  }
 };
 
 }  // namespace drover

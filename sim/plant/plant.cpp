@@ -1,6 +1,7 @@
 // Loading and stepping. Names are looked up once; a step allocates nothing.
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <stdexcept>
 
 #include "drover/angle.h"
@@ -63,6 +64,8 @@ bool Plant::Impl::set_mocap(std::string_view name, double x_m, double y_m, doubl
 
 Plant::Plant(const std::string& world_file) : impl_(std::make_unique<Impl>()) {
   mju_user_error = throw_error;
+  if (!std::filesystem::exists(world_file))
+    throw std::runtime_error(world_file + ": there is no such world");
   std::array<char, 1000> error{};
   impl_->model.reset(mj_loadXML(world_file.c_str(), nullptr, error.data(), error.size()));
   if (!impl_->model) throw std::runtime_error(world_file + ": " + error.data());

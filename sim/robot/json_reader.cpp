@@ -43,6 +43,7 @@ JsonReader::JsonReader(const nlohmann::json& object, std::string path)
 }
 
 std::string JsonReader::place(std::string_view key) const {
+  if (key.empty()) return path_.empty() ? "the scenario" : path_;  // of the object itself
   return path_.empty() ? std::string(key) : path_ + "." + std::string(key);
 }
 

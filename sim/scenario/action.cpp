@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <csignal>
+#include <sstream>
 
 namespace drover::sim {
 namespace {
@@ -64,17 +65,28 @@ CommandStreamSpec read_stream(JsonReader reader, const json& raw) {
   return stream;
 }
 
-/// A text, or a list of words and numbers: a number that was drawn can stand there.
-std::string command_text(JsonReader& reader, const json& raw, std::string_view key) {
+/// A list of words and numbers: a number that was drawn can stand there. Of a text its words.
+std::vector<std::string> command_words(JsonReader& reader, const json& raw, std::string_view key) {
   const auto& value = raw.at(std::string(key));
-  if (!value.is_array()) return reader.text(key);
+  std::vector<std::string> words;
+  if (!value.is_array()) {
+    std::istringstream text(reader.text(key));
+    for (std::string word; text >> word;) words.push_back(word);
+    return words;
+  }
   reader.ignore(key);
-  std::string text;
   for (const auto& word : value) {
     if (!word.is_string() && !word.is_number()) reader.fail(key, "must be words and numbers");
-    text += text.empty() ? "" : " ";
-    text += word.is_string() ? word.get<std::string>() : word.dump();
+    words.push_back(word.is_string() ? word.get<std::string>() : word.dump());
   }
+  return words;
+}
+
+/// The same in one line; a text as it stands there.
+std::string command_text(JsonReader& reader, const json& raw, std::string_view key) {
+  if (!raw.at(std::string(key)).is_array()) return reader.text(key);
+  std::string text;
+  for (const auto& word : command_words(reader, raw, key)) text += (text.empty() ? "" : " ") + word;
   return text;
 }
 
@@ -95,6 +107,15 @@ std::size_t read_id(JsonReader& reader, std::string_view key) {
   const double id = reader.number(key);
   if (!(id >= 1 && id <= 1e6 && id == std::floor(id))) reader.fail(key, "must be from 1 up");
   return static_cast<std::size_t>(id);
+}
+
+std::string shown_words(const std::vector<std::string>& words) {
+  std::string text;
+  for (const auto& word : words) {
+    const bool plain = !word.empty() && word.find_first_of(" \t") == std::string::npos;
+    text += (text.empty() ? "" : " ") + (plain ? word : "'" + word + "'");
+  }
+  return text;
 }
 
 Action read_action(JsonReader& reader, const json& raw) {
@@ -126,7 +147,8 @@ Action read_action(JsonReader& reader, const json& raw) {
     if (task.has("speed_mps")) action.speed_mps = task.number("speed_mps");
     task.done();
   } else if (reader.has("cli")) {
-    action = {Kind::cli, reader.text("cli")};
+    action.kind = Kind::cli;
+    action.words = command_words(reader, raw, "cli");
   } else if (reader.has("joint_commands")) {
     action.kind = Kind::joint_commands;
     action.stream = read_stream(reader.object("joint_commands"), raw.at("joint_commands"));

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "sim/robot/json_reader.h"
 #include "sim/scenario/command_stream.h"
@@ -35,8 +36,9 @@ struct Action {
     zone
   };
   Kind kind = Kind::sim;
-  std::string text{};   ///< command, name of the program, payload, or arguments
-  std::string topic{};  ///< publish
+  std::string text{};                ///< command, name of the program, or payload
+  std::vector<std::string> words{};  ///< cli: the arguments
+  std::string topic{};               ///< publish
   bool retain = false;
   int signal = 0;
   std::string thread{};             ///< freeze
@@ -49,6 +51,8 @@ struct Action {
   std::optional<double> stamped_s_ago{};  ///< publish: each header's stamp is made so old
 };
 
+/// As a person types them: `traj show 'row 7'`.
+std::string shown_words(const std::vector<std::string>& words);
 /// Of a point of the track, from 1 up. Throws std::runtime_error naming the key.
 std::size_t read_id(JsonReader& reader, std::string_view key);
 /// `raw` is what the reader reads; messages go out as they stand there. Throws std::runtime_error

@@ -170,7 +170,7 @@ void Player::wait_for(const std::string& what, const std::function<bool()>& is_t
   }
 }
 
-void Player::start(const std::string& name, const std::string& words) {
+void Player::start(const std::string& name, const std::vector<std::string>& words) {
   if (!going()) return;
   if (name == kCommandLine && children_.runs(name)) {
     calls_.push_back(words);  // one after the other, as a person types them
@@ -178,7 +178,7 @@ void Player::start(const std::string& name, const std::string& words) {
   }
   const auto problem = children_.start(workplace_.program(name, words));
   killed_.erase(name);
-  tell("start " + name + (words.empty() ? "" : " " + words) +
+  tell("start " + name + (words.empty() ? "" : " " + shown_words(words)) +
        (problem.empty() ? "" : ": " + problem));
   if (!problem.empty()) broken_ = problem;
 }
@@ -258,11 +258,11 @@ void Player::collect_children() {
     if (!asked || !clean) {
       broken_ = ended.name + " ended " + how_it_ended(ended.status);
       const auto said = last_line(workplace_.log_folder() + "/" + ended.name + ".log");
-      if (!said.empty()) broken_ += ": " + said;
+      if (!said.empty()) broken_ += ": " + workplace_.as_written(said);
     }
     if (asked) happened("exit_" + ended.name);
     if (ended.name == kCommandLine && !calls_.empty()) {
-      const std::string words = std::move(calls_.front());
+      const auto words = std::move(calls_.front());
       calls_.pop_front();
       start(kCommandLine, words);
     }

@@ -58,7 +58,7 @@ class Player {
   bool going() const { return !interrupted_ && broken_.empty(); }
   void boot();
   void wait_for(const std::string& what, const std::function<bool()>& is_there);
-  void start(const std::string& name, const std::string& words = {});
+  void start(const std::string& name, const std::vector<std::string>& words = {});
   void end_program(const std::string& name);
   bool turn(Time until);
   void poll_once(Duration wait);
@@ -97,9 +97,9 @@ class Player {
   Waits waits_;
   std::optional<OperatorClient> client_;
   bool was_subscribed_ = false;
-  std::deque<std::string> calls_;  // of the command line, that wait for the one before
-  std::set<std::string> killed_;   // whose end was asked for
-  std::string broken_;             // what ended by itself
+  std::deque<std::vector<std::string>> calls_;  // of the command line, that wait for the one before
+  std::set<std::string> killed_;                // whose end was asked for
+  std::string broken_;                          // what ended by itself
   Result result_;
   Time boot_{};
   Time end_ = Time::max();

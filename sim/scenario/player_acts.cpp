@@ -54,7 +54,7 @@ void Player::act(const Action& action, Time now) {
       return publish("mqtt_control", R"({"cmd_type":"task_control","cmd":"cancel_task"})");
     case Kind::save: return save_track();
     case Kind::start_task: return start_task(action);
-    case Kind::cli: return start("drover", action.text);
+    case Kind::cli: return start("drover", action.words);
     case Kind::joint_commands:
       tell("joint commands for " + std::to_string(to_s(action.stream.lasts)) + " s");
       return commands_.begin(action.stream, now);

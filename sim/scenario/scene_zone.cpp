@@ -50,10 +50,10 @@ std::string geojson(const ZoneSpec& zone, const Origin& origin) {
   return feature.dump(1) + "\n";
 }
 
-std::string zone_words(const ZoneSpec& zone, const std::string& file) {
-  if (zone.deleted) return "zone delete " + zone.name;
-  return "zone import " + file + (zone.keep_in ? " --keep-in" : " --keep-out") + " --name " +
-         zone.name + " --yes";
+std::vector<std::string> zone_words(const ZoneSpec& zone, const std::string& file) {
+  if (zone.deleted) return {"zone", "delete", zone.name};
+  return {"zone",   "import",  file,   zone.keep_in ? "--keep-in" : "--keep-out",
+          "--name", zone.name, "--yes"};
 }
 
 }  // namespace drover::sim

@@ -26,6 +26,6 @@ ZoneSpec read_zone(JsonReader reader, const nlohmann::json& raw);
 /// GeoJSON: where it is on the earth.
 std::string geojson(const ZoneSpec& zone, const Origin& origin);
 /// The arguments of `drover`; `file` holds geojson().
-std::string zone_words(const ZoneSpec& zone, const std::string& file);
+std::vector<std::string> zone_words(const ZoneSpec& zone, const std::string& file);
 
 }  // namespace drover::sim

@@ -25,6 +25,10 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using nlohmann::ordered_json;
 
+/// What programs append to, and what they write for some robots only.
+constexpr const char* kOldLogs[] = {"mosquitto.log",    "udevd.log",   "drover-sim.log",
+                                    "drover-guard.log", "droverd.log", "drover.log",
+                                    "objects.log",      "lines.log"};
 constexpr const char* kUdevd = "/lib/systemd/systemd-udevd";
 
 std::string temporary_folder() {
@@ -95,12 +99,15 @@ bool is_kind(const ordered_json& device, SlotKind kind) {
 }
 
 /// droverd's configuration stands beside the robot: field.json, field.drover.json.
-ordered_json read_config(const std::string& scenario_file) {
+std::string config_file_of(const std::string& scenario_file) {
   auto robot = robot_file_of(scenario_file);
   if (robot.empty())
     throw std::runtime_error(scenario_file +
                              ": robot: is missing; it names the gateway's file too");
-  const auto file = fs::path(robot).replace_extension(".drover.json").string();
+  return fs::path(robot).replace_extension(".drover.json").string();
+}
+
+ordered_json read_config(const std::string& file) {
   std::ifstream stream(file);
   if (!stream) throw std::runtime_error(file + ": cannot open");
   auto config = ordered_json::parse(stream, nullptr, false, true);
@@ -111,7 +118,9 @@ ordered_json read_config(const std::string& scenario_file) {
 }
 
 /// What this scenario's gateway is told otherwise than the robot's: a wrong gear ratio, say.
-void change_gateway(ordered_json& config, const json& change, const std::string& scenario_file) {
+/// Its maps stand beside the robot's, in `folder`.
+void change_gateway(ordered_json& config, const json& change, const fs::path& folder,
+                    const std::string& scenario_file) {
   if (!change.is_object()) throw std::runtime_error(scenario_file + ": gateway: must be an object");
   if (change.contains("devices"))
     for (const auto& [name, ignored] : change["devices"].items())
@@ -119,6 +128,34 @@ void change_gateway(ordered_json& config, const json& change, const std::string&
         throw std::runtime_error(scenario_file + ": gateway.devices." + name +
                                  ": there is no such device to change");
   config.merge_patch(ordered_json(change));
+  for (auto& [name, device] : config["devices"].items())
+    make_map_absolute(device, folder, scenario_file + ": gateway.devices." + name);
+}
+
+/// Else its logs would go on, and a recording would stand beside its own.
+void forget_earlier_run(const std::string& log_folder) {
+  std::vector<fs::path> old;
+  for (const auto& entry : fs::directory_iterator(log_folder)) {
+    const auto name = entry.path().filename().string();
+    const bool is_log =
+        std::find(std::begin(kOldLogs), std::end(kOldLogs), name) != std::end(kOldLogs);
+    if (is_log || name.starts_with("droverd.rec")) old.push_back(entry.path());
+  }
+  for (const auto& file : old) fs::remove(file);
+}
+
+/// `text` with `name` in the place of `file`, and without line and column of it.
+std::string renamed(std::string text, const std::string& file, const std::string& name) {
+  for (auto at = text.find(file); at != std::string::npos; at = text.find(file, at + name.size())) {
+    auto end = at + file.size();
+    const auto number = [&text](std::size_t from) {
+      const auto after = text.find_first_not_of("0123456789", from + 1);
+      return from < text.size() && text[from] == ':' && after != from + 1 ? after : from;
+    };
+    end = number(number(end));
+    text.replace(at, std::min(end, text.size()) - at, name);
+  }
+  return text;
 }
 
 bool lab_in_real_time() {
@@ -152,9 +189,12 @@ Workplace::Workplace(const WorkplaceSettings& settings)
       make_map_absolute(device, folder, file + ": more." + name);
   if (log_folder_.empty()) log_folder_ = private_folder_ + "/log";
   fs::create_directories(log_folder_);
-  auto config = read_config(settings.scenario_file);
+  forget_earlier_run(log_folder_);
+  config_file_ = config_file_of(settings.scenario_file);
+  auto config = read_config(config_file_);
   if (document_.contains("gateway"))
-    change_gateway(config, document_["gateway"], settings.scenario_file);
+    change_gateway(config, document_["gateway"], fs::absolute(config_file_).parent_path(),
+                   settings.scenario_file);
   if (settings.native) make_native(config);
   if ((settings.native || lab_in_real_time()) && !settings.own_ages) widen_ages(config);
   if (document_.value("/gnss/port"_json_pointer, "").starts_with("usb:")) prepare_udev(config);
@@ -241,7 +281,12 @@ void Workplace::write_files(const ordered_json& config) {
   write_file(private_folder_ + "/mosquitto.conf", broker.str());
 }
 
-Program Workplace::program(const std::string& name, const std::string& words) const {
+std::string Workplace::as_written(const std::string& text) const {
+  const auto of_scenario = renamed(text, private_file("scenario.json"), settings_.scenario_file);
+  return renamed(of_scenario, private_file("drover.json"), config_file_);
+}
+
+Program Workplace::program(const std::string& name, const std::vector<std::string>& words) const {
   const auto broker = name == "mosquitto";
   if (name == "udevd") return {name, {kUdevd}};
   auto path = find_program(settings_.program_folder, name);
@@ -255,20 +300,19 @@ Program Workplace::program(const std::string& name, const std::string& words) co
   auto add = [&program](std::initializer_list<std::string> more) {
     program.command.insert(program.command.end(), more);
   };
-  if (broker) add({"-c", private_folder_ + "/mosquitto.conf"});
+  if (broker) add({"-c", private_file("mosquitto.conf")});
   if (name == "drover-guard") add({"--socket", guard_socket_});
   // A restarted one records beside it: droverd.rec.1, ...
   if (name == "droverd")
-    add({"-c", private_folder_ + "/drover.json", "--record", log_folder_ + "/droverd.rec"});
+    add({"-c", private_file("drover.json"), "--record", log_folder_ + "/droverd.rec"});
   if (name == "drover-sim") {
-    add({"--scenario", private_folder_ + "/scenario.json", "--seed", std::to_string(settings_.seed),
+    add({"--scenario", private_file("scenario.json"), "--seed", std::to_string(settings_.seed),
          "--run-dir", sim_folder_, "--log-dir", log_folder_});
     if (settings_.native) add({"--can-transport", "unix", "--lines", "files"});
   }
   if (name == "drover") {
     add({"--socket", daemon_socket()});
-    std::istringstream stream(words);
-    for (std::string word; stream >> word;) add({word});
+    for (const auto& word : words) add({word});
   }
   return program;
 }

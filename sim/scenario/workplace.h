@@ -40,8 +40,13 @@ class Workplace {
   /// Whether devices come and go on USB: then udevd gives them their names, by the rules that the
   /// scenario names (player.udev_rules).
   bool has_udev() const { return !udev_rules_.empty(); }
+  /// What the programs read: made of the scenario's files, and gone at the end.
+  std::string private_file(const std::string& name) const { return private_folder_ + "/" + name; }
+  /// What a program said, with the scenario's and the gateway's own file in the place of what was
+  /// made of them, which is gone when somebody looks. Lines and columns of that are left out.
+  std::string as_written(const std::string& text) const;
   /// mosquitto, udevd, drover-sim, drover-guard, droverd, or drover with `words` as its arguments.
-  Program program(const std::string& name, const std::string& words = {}) const;
+  Program program(const std::string& name, const std::vector<std::string>& words = {}) const;
 
  private:
   // The gateway's configuration keeps the order of its tables.
@@ -57,7 +62,8 @@ class Workplace {
   std::string daemon_folder_ = "/run/drover";
   std::string guard_socket_;
   std::string log_folder_;
-  std::string udev_rules_;  ///< empty: none
+  std::string config_file_;  ///< the gateway's, beside the robot
+  std::string udev_rules_;   ///< empty: none
   int port_ = 1883;
 };
 

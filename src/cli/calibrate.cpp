@@ -13,6 +13,7 @@
 #include "cli/exit_codes.h"
 #include "cli/failure.h"
 #include "cli/mapped_file.h"
+#include "cli/number_checks.h"
 #include "cli/show_calibration.h"
 #include "config/load.h"
 #include "gateway/recording/replay.h"
@@ -112,9 +113,9 @@ void add_calibrate_command(CLI::App& app, const std::string& socket, int& code) 
       ->needs(config)
       ->excludes(recording);
   command->add_option("--from", settings->from_s, "s after its begin: what is before is left out")
-      ->check(CLI::NonNegativeNumber);
+      ->check(plain_number(0));
   command->add_option("--to", settings->to_s, "s after its begin: what is after is left out")
-      ->check(CLI::NonNegativeNumber);
+      ->check(plain_number(0));
   command->add_flag("--json", settings->json, "one JSON object");
   command->footer(
       "The drive, on level ground with an RTK fix: stand for 6 s; straight on, 0.3 and 0.7 m/s in\n"

@@ -23,6 +23,10 @@ std::string why(const std::string& path, int error, int patience_s) {
   return path + ": " + std::strerror(error);
 }
 
+NoAnswer unreached(const std::string& path, int error, int patience_s) {
+  return {.text = why(path, error, patience_s), .absent = error == ENOENT || error == ECONNREFUSED};
+}
+
 }  // namespace
 
 Connection::Connection(const std::string& socket_path, int patience_s)
@@ -37,7 +41,7 @@ Connection::Connection(const std::string& socket_path, int patience_s)
   ::setsockopt(fd_.get(), SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
   ::setsockopt(fd_.get(), SOL_SOCKET, SO_SNDTIMEO, &patience, sizeof patience);  // connect, too
   if (::connect(fd_.get(), reinterpret_cast<sockaddr*>(&address), sizeof address) != 0)
-    throw NoAnswer{why(path_, errno, patience_s_)};
+    throw unreached(path_, errno, patience_s_);
 }
 
 /// A line that was not read to its end was not obeyed: then the system calls the end of the

@@ -11,7 +11,8 @@ namespace drover::cli {
 /// The daemon has not answered: the sentence says why.
 struct NoAnswer {
   std::string text;
-  bool asked = false;  ///< it may have done what was asked for
+  bool asked = false;   ///< it may have done what was asked for
+  bool absent = false;  ///< nobody listens there
 };
 
 /// How long an answer that waits for the disk may take.

@@ -9,6 +9,7 @@
 #include "cli/exit_codes.h"
 #include "cli/failure.h"
 #include "cli/live.h"
+#include "cli/number_checks.h"
 #include "cli/option_texts.h"
 #include "cli/recorded.h"
 
@@ -85,7 +86,8 @@ void add_device_commands(CLI::App& app, const std::string& socket, int& code) {
       sub->add_option("--map", command->recording.map,
                       "file of a recording's registers: a path or one of the installed maps");
     if (texts.name == "can") {
-      sub->add_option("--node", command->recording.nodes, "node id of a drive, several if needed");
+      sub->add_option("--node", command->recording.nodes, "node id of a drive, several if needed")
+          ->transform(whole_number(0, INT32_MAX));
       sub->add_option("--bus", command->recording.bus, "of a recording: only this one");
     }
     sub->callback([command, view, &socket, &code] {

@@ -13,6 +13,7 @@
 #include "cli/exit_codes.h"
 #include "cli/failure.h"
 #include "cli/mapped_file.h"
+#include "cli/number_checks.h"
 #include "cli/pose_file.h"
 #include "cli/pose_table.h"
 #include "config/load.h"
@@ -123,7 +124,7 @@ void add_estimate_command(CLI::App& app, int& code) {
   command->add_option("--out", settings->out, "file; else standard output");
   command->add_option("--rate", settings->rate_Hz, "poses in a second")
       ->capture_default_str()
-      ->check(CLI::Range(0.01, 200.0));
+      ->check(plain_number(0.01, 200));
   command
       ->add_option("--origin", settings->origin,
                    "of x and y: latitude longitude [altitude], degrees, m; else the first position")

@@ -3,8 +3,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <span>
@@ -19,6 +17,7 @@
 #include "cli/exit_codes.h"
 #include "cli/failure.h"
 #include "cli/learned.h"
+#include "cli/number_checks.h"
 #include "cli/option_texts.h"
 #include "cli/replay.h"
 #include "cli/reply.h"
@@ -145,15 +144,9 @@ void print_version(const Settings& settings) {
   }
 }
 
-/// The library reads hexadecimals and takes "nan" for a speed: what drives the robot is a plain
-/// number.
-std::string not_a_plain_number(const std::string& text) {
-  double value = 0;
-  const auto* end = text.data() + text.size();
-  const auto read = std::from_chars(text.data(), end, value);
-  const bool plain = read.ec == std::errc() && read.ptr == end && std::isfinite(value);
-  return plain ? "" : "\"" + text + "\" is no number";
-}
+/// A configuration that was refused is the most frequent reason for no droverd.
+constexpr const char* kLookWhy =
+    "; see why: journalctl -u droverd; droverd --check /etc/drover/drover.json";
 
 }  // namespace
 
@@ -170,6 +163,7 @@ int main(int argc, char** argv) {
   CLI::App app{"drover: ask and command droverd"};
   app.set_version_flag("--version", DROVER_VERSION);
   app.require_subcommand(1);
+  app.fallthrough();  // the options of all verbs may stand behind the verb, too
   app.add_option("--socket", s.socket, "droverd's socket")
       ->capture_default_str()
       ->envname("DROVER_SOCKET");
@@ -216,10 +210,10 @@ int main(int argc, char** argv) {
   start->add_option("name", s.name, "track")->required();
   start->add_option("--id", s.id, "number of the point to stop at")
       ->required()
-      ->check(CLI::Range(std::int64_t{0}, std::int64_t{UINT32_MAX}));
+      ->transform(drover::cli::whole_number(0, UINT32_MAX));
   start->add_option("--speed", s.speed_mps, "m/s")
       ->capture_default_str()
-      ->check(CLI::Validator(not_a_plain_number, "", "a number"));
+      ->check(drover::cli::plain_number());
   start->add_flag("--json", s.json, "one JSON object");
   start->callback([&] { code = start_task(s); });
   auto* cancel = task->add_subcommand("cancel", "stop");
@@ -271,12 +265,18 @@ int main(int argc, char** argv) {
   const auto arguments = std::span<const char* const>(words).subspan(1);
   const bool json = std::count(arguments.begin(), arguments.end(), std::string_view("--json")) > 0;
   if (const auto wrong = drover::cli::unknown_verb(app, arguments); !wrong.empty()) {
-    drover::cli::tell_failure(json, "drover", wrong);
+    const auto option = drover::cli::unknown_option(app, arguments);
+    drover::cli::tell_failure(json, "drover", option.empty() ? wrong : option);
     return kUsage;
   }
   try {
     app.parse(static_cast<int>(words.size()), words.data());
   } catch (const CLI::ParseError& error) {
+    const auto option = drover::cli::unknown_option(app, arguments);
+    if (error.get_exit_code() != 0 && !option.empty()) {
+      drover::cli::tell_failure(json, "drover", option);
+      return kUsage;
+    }
     if (error.get_exit_code() == 0 || !json) return app.exit(error) == 0 ? kDone : kUsage;
     drover::cli::tell_failure(json, "drover", error.what());
     return kUsage;
@@ -284,7 +284,7 @@ int main(int argc, char** argv) {
     drover::cli::tell_failure(json, "drover", wrong.what());
     return kUsage;
   } catch (const drover::cli::NoAnswer& no) {
-    drover::cli::tell_failure(json, "drover", no.text);
+    drover::cli::tell_failure(json, "drover", no.text + (no.absent ? kLookWhy : ""));
     return kNoDaemon;
   }
   // A script that writes to a full disk must not take nothing for an answer.

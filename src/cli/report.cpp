@@ -8,6 +8,7 @@
 #include "cli/client.h"
 #include "cli/exit_codes.h"
 #include "cli/failure.h"
+#include "cli/number_checks.h"
 #include "cli/reply.h"
 #include "cli/report_svg.h"
 #include "cli/show_report.h"
@@ -67,7 +68,7 @@ void add_report_command(CLI::App& app, const std::string& socket, int& code) {
   auto* command = app.add_subcommand(
       "report", "what became of a task: cross-track, speed, fix quality, pauses");
   auto* number = command->add_option("number", settings->number, "of the report; else the last");
-  number->check(CLI::Range(std::int64_t{1}, INT64_MAX));
+  number->transform(whole_number(1, INT64_MAX));
   auto* list = command->add_flag("--list", settings->list, "all that are kept, the newest first");
   list->excludes(number);
   command->add_flag("--json", settings->json, "one JSON object, with the way that was driven");

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cctype>
 #include <string_view>
 #include <vector>
 
@@ -166,21 +167,82 @@ std::string hint_for(const CLI::App& app, const CLI::App& level, const std::stri
   return acts_on_the_robot(best) && !slip ? "" : text::did_you_mean(word, names);
 }
 
+std::vector<std::string> names_of(const std::vector<const CLI::App*>& verbs) {
+  std::vector<std::string> names;
+  names.reserve(verbs.size());
+  for (const auto* verb : verbs) names.push_back(verb->get_name());
+  return names;
+}
+
+/// "--file" of "--file=x", and "-j" of "-json"; empty of what is no option: "-" and "-3" are
+/// values.
+std::string option_name(const std::string& word) {
+  if (word.starts_with("--")) return word.substr(0, word.find('='));
+  const bool is_short =
+      word.size() > 1 && word[0] == '-' && std::isalpha(static_cast<unsigned char>(word[1])) != 0;
+  return is_short ? word.substr(0, 2) : "";
+}
+
+/// An option of the verb, or of one that stands above it.
+const CLI::Option* option_of(const CLI::App& verb, const std::string& name) {
+  if (name.empty()) return nullptr;
+  for (const auto* level = &verb; level != nullptr; level = level->get_parent())
+    if (const auto* option = level->get_option_no_throw(name)) return option;
+  return nullptr;
+}
+
+bool takes_next_word(const CLI::Option* option, const std::string& word) {
+  return option != nullptr && option->get_items_expected_max() > 0 &&
+         word.find('=') == std::string::npos;
+}
+
+std::string no_option(const CLI::App& verb, const std::string& above, const std::string& word) {
+  std::vector<std::string> names;
+  for (const auto* level = &verb; level != nullptr; level = level->get_parent())
+    for (const auto* option : level->get_options())
+      for (const auto& name : option->get_lnames()) names.push_back(name);
+  const auto written = word.substr(0, word.find('='));
+  const auto best = text::nearest(written.substr(written.find_first_not_of('-')), names);
+  const auto of = above.empty() ? "" : " of \"" + above.substr(0, above.size() - 1) + '"';
+  return "no option \"" + written + '"' + of +
+         (best.empty() ? "; see: drover " + above + "--help"
+                       : "; did you mean \"--" + best + "\"?");
+}
+
 }  // namespace
+
+std::string unknown_option(const CLI::App& app, std::span<const char* const> arguments) {
+  const CLI::App* level = &app;
+  std::string above;
+  for (std::size_t i = 0; i < arguments.size(); ++i) {
+    const std::string word = arguments[i];
+    if (word == "--") return {};  // what follows are values
+    const auto name = option_name(word);
+    const auto* option = option_of(*level, name);
+    if (takes_next_word(option, word)) ++i;
+    if (!name.empty() && option == nullptr) return no_option(*level, above, word);
+    const auto verbs = level->get_subcommands({});
+    if (!name.empty() || verbs.empty()) continue;
+    const auto found = std::find_if(verbs.begin(), verbs.end(), [&word](const CLI::App* verb) {
+      return verb->get_name() == word;
+    });
+    if (found == verbs.end()) return {};
+    above += word + " ";
+    level = *found;
+  }
+  return {};
+}
 
 std::string unknown_verb(const CLI::App& app, std::span<const char* const> arguments) {
   const CLI::App* level = &app;
   std::string above;
   for (std::size_t i = 0; i < arguments.size(); ++i) {
     const std::string word = arguments[i];
-    const auto* option = level->get_option_no_throw(word);
-    if (option != nullptr && option->get_items_expected_max() > 0) ++i;  // its value is no verb
+    if (takes_next_word(option_of(*level, option_name(word)), word)) ++i;  // its value is no verb
     if (word.empty() || word.front() == '-') continue;
     const auto verbs = level->get_subcommands({});
     if (verbs.empty()) return {};
-    std::vector<std::string> names;
-    names.reserve(verbs.size());
-    for (const auto* verb : verbs) names.push_back(verb->get_name());
+    const auto names = names_of(verbs);
     const auto found = std::find(names.begin(), names.end(), word);
     if (found == names.end()) {
       const auto hint = hint_for(app, *level, word, names);

@@ -1,4 +1,5 @@
-// The verbs of the command line as a whole: examples for each, and what to say of an unknown one.
+// The verbs of the command line as a whole: examples for each, and what to say of an unknown one,
+// or of an unknown option.
 #pragma once
 
 #include <span>
@@ -12,6 +13,10 @@ namespace drover::cli {
 
 /// Ends the help of each verb with command lines of its own.
 void add_examples(CLI::App& app);
+
+/// The first option of a command line that its verb does not know, and what may be meant; empty
+/// when all are known. It looks as far as the verbs are known.
+std::string unknown_option(const CLI::App& app, std::span<const char* const> arguments);
 
 /// What is wrong with the verbs of a command line, and what may be meant; empty when they are known
 /// or none is given.

@@ -70,7 +70,8 @@ void Engine::Impl::tell_sender(Time now, Owner owner, const Stream& stream, Owne
   if (!to_him || !stream.refuses(now)) return;
   const auto tell = [this](const Reason& what) {
     const auto& why = snapshot.why;
-    if (std::find(why.begin(), why.end(), what) == why.end()) (void)snapshot.why.push_back(what);
+    const bool told = std::find(why.begin(), why.end(), what) != why.end();
+    if (!told && !health.report().gives(what)) snapshot.tell_why(what);
   };
   // What is in the way still is told with its newest distance.
   if (!stream.obstacle().empty()) {
@@ -91,7 +92,7 @@ void Engine::Impl::tell_first_way(Owner owner) {
                                       : by_hand                       ? FirstWay::hand
                                                                       : FirstWay::task);
   if (why.empty()) return;
-  (void)snapshot.why.push_back(why);
+  snapshot.tell_why(why);
   if (by_twist && snapshot.cmd_vel.reason.empty()) snapshot.cmd_vel.reason = why;
   if (by_stream_of_joints && snapshot.joint_command.reason.empty())
     snapshot.joint_command.reason = why;
@@ -149,23 +150,22 @@ void Engine::Impl::fill_snapshot(Time now, const Environment& environment, const
   snapshot.guard_alive = environment.guard_alive;
   snapshot.guard_has_bus = environment.guard_has_bus;
   snapshot.why.clear();
+  snapshot.why_untold = 0;
   // Latched in this very cycle by what is no lasting cause: health will tell from the next on.
   if (snapshot.stop_latched && !report.holds(Cause::latched) && report.stop.empty()) {
-    (void)snapshot.why.push_back(latch.why());
+    snapshot.tell_why(latch.why());
   }
   // Before "no heading yet", which asks for another search.
   if (owner == Owner::nobody && !owners.no_heading().empty())
-    (void)snapshot.why.push_back(owners.no_heading());
-  for (const Reason& reason : report.why) {
-    if (!snapshot.why.push_back(reason)) break;
-  }
-  if (const Reason waits = navigator.waits_for(report); !waits.empty())
-    (void)snapshot.why.push_back(waits);
-  if (latch.power_cut()) (void)snapshot.why.push_back("the drives have no power: drover reset");
+    snapshot.tell_why(owners.no_heading());
+  for (const Reason& reason : report.why) snapshot.tell_why(reason);
+  snapshot.why_untold += report.why_untold;
+  if (const Reason waits = navigator.waits_for(report); !waits.empty()) snapshot.tell_why(waits);
+  if (latch.power_cut()) snapshot.tell_why("the drives have no power: drover reset");
   if (arming.state() == HoldState::lost) {
-    (void)snapshot.why.push_back("the drives let go and are not held: drover hold");
+    snapshot.tell_why("the drives let go and are not held: drover hold");
   } else if (const Reason why = arming.hindrance(); !why.empty()) {
-    (void)snapshot.why.push_back(why);
+    snapshot.tell_why(why);
   }
   tell_sender(now, owner, owners.cmd_vel(), Owner::cmd_vel);
   tell_sender(now, owner, owners.stream(), Owner::joint_command);

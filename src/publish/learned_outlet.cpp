@@ -57,12 +57,19 @@ void write(json::JsonText& out, const ShownValue& value, int decimals) {
 
 constexpr const char* kMadeUp = "made up for";
 constexpr const char* kInBound = "only in the error bound: correct the configuration";
+constexpr const char* kAsConfigured = "as configured";
 constexpr double kTwoSigma = 2;
+
+/// As far as its digits are shown: nothing was learned yet, or nothing else.
+bool is_as_configured(const ShownValue& shown, int decimals) {
+  return std::abs(shown.fits - shown.configured) * std::pow(10, decimals) < 0.5;
+}
 
 void write_values(json::JsonText& out, const LearnedValues& learned, const LearnedBeside& beside) {
   const auto add = [&out](const LearnedValue& value, ShownValue shown, int decimals, double scale) {
     if (!value.known()) return;
     shown.interval = kTwoSigma * value.sigma * scale;
+    if (is_as_configured(shown, decimals)) shown.used = kAsConfigured;
     write(out, shown, decimals);
   };
   const double offset_deg = beside.heading_baseline_offset_deg;

@@ -1,6 +1,7 @@
 // The words for states, as the command line and the status object spell them.
 #pragma once
 
+#include <string>
 #include <string_view>
 
 #include "drover/snapshot.h"
@@ -130,6 +131,11 @@ constexpr std::string_view word(FixQuality quality) {
     case FixQuality::simulator: return "simulator";
   }
   return "?";
+}
+
+/// "3 more": of reasons that found no room in `why`; empty when all did.
+inline std::string more_reasons(const Snapshot& snapshot) {
+  return snapshot.why_untold == 0 ? "" : std::to_string(snapshot.why_untold) + " more";
 }
 
 }  // namespace drover::publish

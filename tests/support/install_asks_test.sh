@@ -36,6 +36,17 @@ expect 'without a terminal .ci/install asks nobody and installs nothing' 4 no \
   "$repo/.ci/install" build
 grep -q 'start again with -y' "$work/out" || { echo 'not ok - it says what to do'; failed=1; }
 expect 'with -y it installs' 0 yes "$repo/.ci/install" -y build
+expect 'also all that the tests are run with' 0 yes \
+  "$repo/.ci/install" -y build sim tests lint lab bench
+expect 'asked for help it tells what there is, and installs nothing' 0 no "$repo/.ci/install" --help
+while read -r section; do
+  grep -q "^  $section " "$work/out" || { echo "not ok - it tells of $section"; failed=1; }
+done < <(sed -n 's/^\[\(.*\)\]$/\1/p' "$repo/.ci/packages")
+expect 'a section that there is not is refused' 2 no "$repo/.ci/install" nonsense
+grep -q 'no section "nonsense"' "$work/out" || { echo 'not ok - and named'; failed=1; }
+expect 'beside one that there is, too' 2 no "$repo/.ci/install" -y build nonsense
+expect 'so is an option' 2 no "$repo/.ci/install" --yes build
+expect 'and nothing at all' 2 no "$repo/.ci/install"
 expect 'so does sim/demo: it ends before it builds' 4 no "$repo/sim/demo"
 
 exit "$failed"

@@ -279,6 +279,9 @@ void HealthMonitor::conclude(bool power_cut) {
   const auto first = [](Reason& out, bool does, const Reason& text) {
     if (does && out.empty()) out = text;
   };
+  const auto tell = [this](const Reason& text) {
+    if (!report_.why.push_back(text)) ++report_.why_untold;  // the cause is the first
+  };
   for (const CauseRow& row : kCauses) {
     if (!holds(row.cause)) continue;
     const Reason& text = report_.text(row.cause);
@@ -291,11 +294,10 @@ void HealthMonitor::conclude(bool power_cut) {
     first(report_.no_start, row.refuses_task, text);
     first(report_.end_free_driving, row.ends_free_driving, text);
     first(report_.end_groups, row.of_all, text);
-    if (!silenced) (void)report_.why.push_back(text);  // as many as find room: the cause first
+    if (!silenced) tell(text);
   }
   // Drives without power are silent because it was cut: no cause, and so the last.
-  if (power_cut && holds(Cause::drive_silent))
-    (void)report_.why.push_back(report_.text(Cause::drive_silent));
+  if (power_cut && holds(Cause::drive_silent)) tell(report_.text(Cause::drive_silent));
 }
 
 void HealthMonitor::look_at_surroundings(const HealthInput& input) {
@@ -321,6 +323,7 @@ const HealthReport& HealthMonitor::update(const HealthInput& input) {
   report_.end_groups.clear();
   report_.not_running.clear();
   report_.why.clear();
+  report_.why_untold = 0;
   look_at_lines(input);
   look_at_guard(input.environment);
   look_at_drives(input);

@@ -72,6 +72,7 @@ struct HealthReport {
   Reason end_free_driving;
   Reason end_groups;  ///< of all of the robot, so that joints outside the base follow nobody
   FixedVector<Reason, 8> why;             ///< the cause first
+  std::uint32_t why_untold = 0;           ///< causes that found no room there
   std::uint32_t causes = 0;               ///< bits by Cause
   std::array<Reason, kCauseCount> texts;  ///< by Cause, for causes that hold
 
@@ -80,6 +81,12 @@ struct HealthReport {
   bool nothing_moves() const { return !stop.empty() || holds(Cause::drive_fault); }
   bool holds_any(std::uint32_t bits) const { return (causes & bits) != 0; }
   const Reason& text(Cause cause) const { return texts[static_cast<std::size_t>(cause)]; }
+  /// `what` is the text of a cause that holds, whether `why` had room for it or not.
+  bool gives(const Reason& what) const {
+    for (std::size_t i = 0; i < kCauseCount; ++i)
+      if (holds(static_cast<Cause>(i)) && texts[i] == what) return true;
+    return false;
+  }
   /// Why nothing may begin to move, whoever asks, or go on; empty: it may.
   Reason hinders_all() const {
     if (!ready) return kJustStarted;

@@ -22,12 +22,13 @@ void visit_fields(V& v, const Snapshot& snapshot) {
   const auto& [time, pose, odometry, worst_vx_mps, nav, gnss, imu, battery, sensors, scanners,
                cmd_vel, joint_command, axes, groups, base, clearance, line_active, line_health,
                line_configured, line_source, output_configured, output_on, links, stop_latched,
-               hold, guard_alive, guard_has_bus, origin_set, origin, why, cycle, estimator, learned,
-               notices_dropped] = snapshot;
+               hold, guard_alive, guard_has_bus, origin_set, origin, why, why_untold, cycle,
+               estimator, learned, notices_dropped] = snapshot;
   (void)odometry;  // nobody decides by it
   (void)links;     // those two are the loop's
   (void)cycle;
-  (void)scanners;  // and the gateway hears none
+  (void)scanners;    // and the gateway hears none
+  (void)why_untold;  // recordings of before it hold none
   v.value("time", time);
   v.inside("pose", [&v, &part = pose] { describe(v, part); });
   v.value("worst_vx_mps", worst_vx_mps);

@@ -57,6 +57,7 @@ void robot(Statuses& out, const Snapshot& s) {
                                                                          : kWarning;
   out.begin("robot", level, s.why.empty() ? "all is well" : s.why[0].view());
   for (std::size_t i = 1; i < s.why.size(); ++i) out.value("and", s.why[i].view());
+  if (const auto more = more_reasons(s); !more.empty()) out.value("and", more);
   out.value("navigation", word(s.nav.status));
   out.value("place", word(s.nav.locate));
   out.value("owner", word(s.nav.owner));

@@ -156,6 +156,7 @@ std::string BaseStatus::text(const Snapshot& snapshot) {
     out.key("error_bound_m").number(nav.error_bound_m, kBound_m);
   out.key("why").open('[');
   for (const drover::Reason& reason : snapshot.why) out.text(reason.view());
+  if (const auto more = more_reasons(snapshot); !more.empty()) out.text("and " + more);
   out.close(']').close('}');
 
   out.key("pose").open('{');

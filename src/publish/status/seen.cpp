@@ -32,15 +32,15 @@ void forget_motion(Snapshot& s) {
 void tell_first(Snapshot& snapshot, std::string_view reason) {
   const auto others = snapshot.why;
   snapshot.why.clear();
-  bool room = snapshot.why.push_back(drover::Reason(reason));
-  for (const drover::Reason& other : others) room = room && snapshot.why.push_back(other);
+  snapshot.tell_why(drover::Reason(reason));
+  for (const drover::Reason& other : others) snapshot.tell_why(other);
 }
 
 void tell_last(Snapshot& snapshot, std::string_view reason) {
   const drover::Reason words(reason);
   for (const drover::Reason& told : snapshot.why)
     if (told == words) return;
-  (void)snapshot.why.push_back(words);
+  snapshot.tell_why(words);
 }
 
 Snapshot as_seen(const Snapshot& snapshot, Time now, Duration limit) {

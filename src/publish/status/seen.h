@@ -16,11 +16,12 @@ inline constexpr Duration kSnapshotLimit = std::chrono::milliseconds(250);
 /// stay. One that was never written comes back as it is.
 Snapshot as_seen(const Snapshot& snapshot, Time now, Duration limit = kSnapshotLimit);
 
-/// Puts a reason after all others of `why`; nothing when there is no room, or when it is
+/// Puts a reason after all others of `why`, only counted when there is no room; nothing when it is
 /// told already.
 void tell_last(Snapshot& snapshot, std::string_view reason);
 
-/// Puts a reason before all others of `why`; the last one makes room when there is none.
+/// Puts a reason before all others of `why`; the last one makes room when there is none, and is
+/// counted.
 void tell_first(Snapshot& snapshot, std::string_view reason);
 
 }  // namespace drover::publish

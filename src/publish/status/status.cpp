@@ -146,6 +146,7 @@ std::string status_json(const Snapshot& s, const DaemonStatus& daemon) {
   out.key("hold").text(word(s.hold));
   out.key("why").open('[');
   for (const auto& reason : s.why) out.text(reason.view());
+  if (const auto more = more_reasons(s); !more.empty()) out.text("and " + more);
   out.close(']');
   object(out, "nav", s.nav, s.time);
   cmd_vel(out, s);

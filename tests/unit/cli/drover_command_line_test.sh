@@ -65,8 +65,33 @@ expect "a verb of a verb is told with the first one" 2 err 'did you mean "task c
 expect "help is a verb, too" 0 out 'drover stop' help stop
 expect "also alone" 0 out 'Examples:' help
 expect "the value of --socket is no verb" 3 err 'other.sock' --socket "$work/other.sock" status
+for verb in status 'traj list' stop version; do
+  status=3 file=err
+  [[ $verb == version ]] && status=0 file=out
+  # shellcheck disable=SC2086
+  expect "--socket stands behind $verb, too" $status $file 'other.sock' \
+    $verb --socket "$work/other.sock"
+done
+expect "also between two verbs" 3 err 'other.sock' traj --socket "$work/other.sock" list
+expect "its value is no verb there, either" 2 err 'no verb "traj lsit"' traj --socket list lsit
+expect "a second verb is still refused" 2 err 'not expected: stop' status stop
+expect "what is no option is answered with the one that may be meant" 2 err \
+  'no option "--sped" of "task start"; did you mean "--speed"?' task start x --id 1 --sped 0.5
+expect "also before what is missing" 2 err 'did you mean "--id"?' task start x --idd 1
+expect "and with a value behind it" 2 err 'did you mean "--file"?' gnss --fil=x
+expect "one of all verbs, too" 2 err 'did you mean "--socket"?' status --sockt x
+expect "one before the verb" 2 err 'no option "--sockt"; did you mean "--socket"?' --sockt x status
+expect "one that is like none is named" 2 err 'no option "--frobnicate" of "status"' \
+  status --frobnicate
+expect "to programs as JSON" 2 out '{"ok":false,"reason":"no option' status --json --wach
+expect "a value may begin with dashes" 2 err '"--wach" is no number' \
+  task start x --id 1 --speed --wach
+expect "which is told of the right place" 3 err 'no-daemon.sock' traj show -- --x
 
 expect "without droverd the reason is told" 3 err "no-daemon.sock" status
+expect "and where to look why it does not run" 3 err \
+  'journalctl -u droverd; droverd --check /etc/drover/drover.json' status
+expect "also to programs" 3 out 'journalctl -u droverd' traj list --json
 expect "and to a program as JSON" 3 out '{"ok":false,"reason":"' status --json
 [[ ! -s $work/err ]]
 verdict $? "and nothing else is said then"
@@ -133,8 +158,24 @@ expect "a log needs the configuration of its robot" 2 err "--config" calibrate -
 expect "and one of both is needed" 2 err "--in or --recording" calibrate --config "$robot"
 expect "what to drive is in the help" 0 out "a left and a right circle" calibrate --help
 expect "a verb that gives up what is stored is not guessed" 2 err "there are " scene accept
-expect "a point's number is one that there can be" 2 err "id" \
+expect "a point's number is one that there can be" 2 err \
+  '--id: 99999999999999999999 is not between 0 and 4294967295' \
   task start x --id 99999999999999999999
+expect "and a number" 2 err '--id: "x" is no number' task start x --id x
+expect "a whole one" 2 err '--id: "1.5" is no whole number' task start x --id 1.5
+expect "as plain as a speed" 2 err '--id: "0x10" is no number' task start x --id 0x10
+expect "and none below zero" 2 err '--id: -1 is not between' task start x --id -1
+printf '(1.000000) can0 141#0000000008000100\n' > "$work/node10.log"
+expect "a node is counted in tens" 0 out 'node 10 ' \
+  can --file "$work/node10.log" --driver odrive --node 010
+expect "and is a number" 2 err '--node: "x" is no number' \
+  can --file "$work/node10.log" --driver odrive --node x
+expect "so are seconds" 2 err '--from: -1 is less than 0' calibrate --from -1
+expect "and a rate" 2 err '--rate: 0 is not between 0.01 and 200' estimate --rate 0
+expect "a report's number is not another one than was typed" 2 err \
+  'number: 99999999999999999999 is not between 1 and 9223372036854775807' \
+  report 99999999999999999999
+expect "nor is a word one" 2 err 'number: "x" is no number' report x
 expect "the version is told to programs, too" 0 out '{"ok":true,"drover":"' version --json
 # Root may look into any folder: somebody else asks then.
 as_a_user=()

@@ -21,6 +21,15 @@ namespace {
 constexpr double kRadius_m = 0.165;
 constexpr double kTrack_m = 0.60;
 
+TEST(AWorld, IsNamedWhenThereIsNone) {
+  try {
+    const Plant plant("/nowhere/yard.xml");
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    EXPECT_STREQ(error.what(), "/nowhere/yard.xml: there is no such world");
+  }
+}
+
 /// A plant with a plain velocity PI on each wheel, limited to 40 Nm.
 class Driven {
  public:

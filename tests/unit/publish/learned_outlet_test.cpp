@@ -239,6 +239,20 @@ TEST_F(LearnedOutletTest, ShowsWhatTheConfigurationShouldSay) {
   EXPECT_THAT(line, Not(HasSubstr("gyro scale")));
 }
 
+/// A slip factor that is configured well is known before the first metre.
+TEST_F(LearnedOutletTest, MakesNothingUpForWhatIsAsConfigured) {
+  values().turn_gain = {1 / 1.2, 0.02};
+  values().wheel_scale = {1.00005, 0.004};
+  look();
+  EXPECT_THAT(answer(),
+              HasSubstr(R"("name":"yaw_slip_factor","unit":"","configured":1.2,"fits":1.2,)"
+                        R"("interval":0.058,"used":"as configured"})"));
+  EXPECT_THAT(answer(), HasSubstr(R"("fits":0.165,"interval":0.0013,"used":"as configured"})"));
+  values().turn_gain = {1 / 1.21, 0.02};
+  look();
+  EXPECT_THAT(answer(), HasSubstr(R"("fits":1.21,"interval":0.059,"used":"made up for"})"));
+}
+
 TEST_F(LearnedOutletTest, HearsNoOtherLine) {
   EXPECT_FALSE(outlet_.on_line(7, R"({"cmd":"status"})", now_, actions_));
   EXPECT_FALSE(outlet_.on_line(7, "nonsense", now_, actions_));

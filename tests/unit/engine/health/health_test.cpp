@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <bit>
+
 #include "engine/health/announcer.h"
 
 namespace drover::engine {
@@ -262,6 +264,34 @@ TEST_F(AHealthMonitor, TellsWhyThereIsNoPosition) {
   estimate.has_heading = false;
   EXPECT_EQ(first_why(), "no heading yet (with one antenna: drover heading find)");
 }
+TEST_F(AHealthMonitor, CountsTheCausesThatFindNoRoom) {
+  environment.imu_configured = true;
+  environment.guard_alive = false;
+  environment.axes[0].state = SourceState::stale;
+  environment.axes[1].reason = "odd";
+  environment.gnss[0].state = SourceState::stale;
+  environment.program = "the publish thread stands still";
+  environment.foreign = "somebody else commands the drives";
+  environment.bus = "can0: error passive";
+  estimate.notice = "the wheels and the gyro differ";
+  latched = "it was pushed";
+  for (const Line each : {Line::estop, Line::bumper, Line::zone_near, Line::zone_far})
+    activate(each);
+  const HealthReport& report = update();
+  const auto causes = static_cast<std::size_t>(std::popcount(report.causes));
+  ASSERT_GT(causes, report.why.capacity());
+  EXPECT_TRUE(report.why.full());
+  EXPECT_EQ(report.why_untold, causes - report.why.size());
+  EXPECT_TRUE(report.gives(report.why[0]));
+  EXPECT_FALSE(report.gives("nothing of that"));
+  for (const Line each : {Line::estop, Line::bumper, Line::zone_near, Line::zone_far})
+    lines.active[static_cast<std::size_t>(each)] = false;
+  environment.foreign.clear();
+  environment.program.clear();
+  latched.clear();
+  EXPECT_EQ(update().why_untold, 0U);
+}
+
 TEST_F(AHealthMonitor, SeesBothZones) {
   activate(Line::zone_far);
   EXPECT_TRUE(update().far_zone);

@@ -5,6 +5,7 @@
 
 #include "json/located_json.h"
 #include "publish/aimrt/messages.h"
+#include "publish/names.h"
 #include "publish/rtk_navigation/base_status.h"
 #include "publish/status/status.h"
 
@@ -119,6 +120,20 @@ TEST(AReasonToldLast, StandsBehindTheOthersAndDrivesNoneOut) {
   EXPECT_EQ(snapshot.why[1], "last");
   for (int i = 0; i < 20; ++i) tell_last(snapshot, "more " + std::to_string(i));
   EXPECT_EQ(snapshot.why[0], "first");
+}
+
+TEST(ReasonsWithoutRoom, AreCountedInAllThatShowsWhy) {
+  Snapshot snapshot = driving();
+  EXPECT_EQ(more_reasons(snapshot), "");
+  EXPECT_THAT(status_json(snapshot, {}), Not(HasSubstr(" more\"")));
+  for (int i = 0; i < 9; ++i) tell_last(snapshot, "reason " + std::to_string(i));
+  EXPECT_EQ(more_reasons(snapshot), "2 more");
+  tell_first(snapshot, "the very first");
+  EXPECT_THAT(status_json(snapshot, {}), HasSubstr(R"("reason 5","and 3 more"])"));
+  BaseStatus writer({});
+  EXPECT_THAT(writer.text(snapshot), HasSubstr(R"("reason 5","and 3 more"])"));
+  const auto later = as_seen(snapshot, kTaken + 2300ms);
+  EXPECT_EQ(more_reasons(later), "4 more") << "the control thread that stands still is the first";
 }
 
 }  // namespace

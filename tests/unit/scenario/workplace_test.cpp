@@ -1,0 +1,92 @@
+// What a scenario is played with: its gateway's configuration, and a folder for its logs.
+#include "sim/scenario/workplace.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+
+#include "support/temp_folder.h"
+
+namespace drover::sim {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using testing::HasSubstr;
+using testing::Not;
+
+class AWorkplace : public ::testing::Test {
+ protected:
+  AWorkplace() {
+    write("robots/it.json", json{{"world", "yard.xml"}, {"origin", json::object()}});
+    write("robots/it.drover.json",
+          json{{"devices", {{"battery", {{"driver", "modbus_bms"}, {"map", "mine.json"}}}}}});
+    write("robots/mine.json", json::object());
+    write("robots/other.json", json::object());
+    scenario_ = {{"robot", "../robots/it.json"}};
+  }
+  void write(const std::string& name, const json& document) {
+    fs::create_directories((fs::path(folder_.path()) / name).parent_path());
+    std::ofstream(folder_.path() + "/" + name) << document.dump(1);
+  }
+  Workplace made() {
+    write("scenarios/it.json", scenario_);
+    WorkplaceSettings settings;
+    settings.scenario_file = folder_.path() + "/scenarios/it.json";
+    settings.log_folder = log_;
+    settings.native = true;
+    return Workplace(settings);
+  }
+  json gateway() const { return json::parse(std::ifstream(log_ + "/drover.json")); }
+  std::string in_robots(const std::string& name) const {
+    return fs::weakly_canonical(folder_.path() + "/robots/" + name).string();
+  }
+
+  test::TempFolder folder_;
+  std::string log_ = folder_.path() + "/log";
+  json scenario_;
+};
+
+TEST_F(AWorkplace, LooksForAnotherMapOfTheGatewayBesideTheRobotsFile) {
+  (void)made();
+  EXPECT_EQ(gateway()["devices"]["battery"]["map"], in_robots("mine.json"));
+  scenario_["gateway"]["devices"]["battery"]["map"] = "other.json";
+  (void)made();
+  EXPECT_EQ(gateway()["devices"]["battery"]["map"], in_robots("other.json"));
+  scenario_["gateway"]["devices"]["battery"]["map"] = "third.json";
+  try {
+    (void)made();
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("it.json: gateway.devices.battery.map: "));
+    EXPECT_THAT(error.what(), Not(HasSubstr("drover-scenario-")));
+  }
+}
+
+TEST_F(AWorkplace, BeginsItsLogsAnew) {
+  fs::create_directories(log_);
+  for (const char* name :
+       {"droverd.log", "drover.log", "objects.log", "droverd.rec", "droverd.rec.1", "mine.log"})
+    std::ofstream(log_ + "/" + name) << "of an earlier run\n";
+  (void)made();
+  for (const char* name :
+       {"droverd.log", "drover.log", "objects.log", "droverd.rec", "droverd.rec.1"})
+    EXPECT_FALSE(fs::exists(log_ + "/" + name)) << name;
+  EXPECT_TRUE(fs::exists(log_ + "/mine.log")) << "what it does not write is not its own";
+}
+
+TEST_F(AWorkplace, NamesTheFilesThatAPersonWrote) {
+  const auto place = made();
+  const auto command = place.private_file("scenario.json");
+  EXPECT_EQ(place.as_written(command + ": drives[0].joint: is missing"),
+            folder_.path() + "/scenarios/it.json: drives[0].joint: is missing");
+  EXPECT_EQ(place.as_written("x " + place.private_file("drover.json") + ":12:5: no such key"),
+            "x " + in_robots("it.drover.json") + ": no such key");
+  EXPECT_EQ(place.as_written("can0: down"), "can0: down");
+}
+
+}  // namespace
+}  // namespace drover::sim
