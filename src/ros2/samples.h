@@ -26,9 +26,14 @@ template <std::int32_t kMost, class Look>
   return taken;
 }
 
+/// Said so much later than now, by one clock: that was set back since, and how long ago it was said
+/// nobody knows. Less is how two threads read a clock.
+constexpr Duration kAhead = std::chrono::milliseconds(100);
+
 /// When it was said, by this computer's monotonic time, of its DDS time stamp `stamp`; its writer
 /// shares the clock. `wall`: UTC at `now`, since 1970.
 inline Time said_at(Duration stamp, Time now, Duration wall) {
+  if (stamp - wall > kAhead) return Time{Duration{1}};
   const Duration age = std::max(wall - stamp, Duration{});
   // A stamp before this computer's start, or none, is as old as can be told.
   return std::max(now - age, Time{Duration{1}});
@@ -43,6 +48,8 @@ inline Time said_at(const dds_sample_info_t& info, Time now, Duration wall) {
 inline std::string too_late(const dds_sample_info_t& info, Duration wall, Duration oldest) {
   if (info.source_timestamp <= 0) return "a message has no DDS time stamp";
   const Duration age = wall - Duration{info.source_timestamp};
+  if (-age > kAhead)
+    return "a message is from after now: the clock was set back, or its DDS time stamp is wrong";
   if (age <= oldest) return {};
   // The same words each time: the journal has a row of them once.
   return "a message came too late: it is more than " +

@@ -1,6 +1,6 @@
 // What ROS 2 users do to drover-ros2 is nothing to droverd: a reliable reader that hangs, a
-// drover-ros2 that is killed again and again, a flood of messages of 200 000 joints. A task is
-// driven meanwhile; period of the set points on the bus, late ticks and memory are printed.
+// drover-ros2 that hangs or is killed again and again, a flood of messages of 200 000 joints. A task
+// is driven meanwhile; period of the set points on the bus, late ticks and memory are printed.
 #include <algorithm>
 #include <cstdio>
 #include <fstream>
@@ -95,6 +95,9 @@ TEST_F(BesideRos2, DrivesAsWithoutItWhateverItsUsersDo) {
   reader.signal(SIGSTOP);
   ASSERT_NO_FATAL_FAILURE(play("a reliable reader hangs", [] {}));
   reader.signal(SIGCONT);
+  program_.signal(SIGSTOP);
+  ASSERT_NO_FATAL_FAILURE(play("drover-ros2 hangs", [] {}));
+  program_.signal(SIGCONT);
   ASSERT_NO_FATAL_FAILURE(play("killed again and again", [this] {
     program_.signal(SIGKILL);
     (void)program_.wait(5s);

@@ -15,10 +15,10 @@ namespace drover::test {
 
 class MovedFromRos2 : public RobotRig {
  protected:
-  /// `inputs`: members of ros2.inputs.
-  explicit MovedFromRos2(const std::string& inputs) {
+  /// `inputs`: members of ros2.inputs; `more`: of ros2, each with a comma before it.
+  explicit MovedFromRos2(const std::string& inputs, const std::string& more = "") {
     add_section("\"ros2\": {\"domain\": " + std::to_string(domain_) + ", \"inputs\": {" + inputs +
-                "}}");
+                "}" + more + "}");
     dds_ =
         dds_create_domain(static_cast<dds_domainid_t>(domain_), settings_of(User::humble).c_str());
     participant_ = dds_create_participant(static_cast<dds_domainid_t>(domain_), nullptr, nullptr);

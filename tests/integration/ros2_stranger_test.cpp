@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <future>
 #include <iostream>
 #include <thread>
@@ -25,9 +26,9 @@ using namespace std::chrono_literals;
 constexpr int kAttempts = 100;
 constexpr std::array<std::uint8_t, 8> kTrue{0, 1, 0, 0, 1, 0, 0, 0};
 
-/// Everything that this thread starts believes that its sockets are bound to a device, and they are
-/// not.
-void forgo_binding() {
+/// Of everything that this thread starts no socket is bound to a device. `error`: as it is told of
+/// that; 0: it believes that they are.
+void forgo_binding(std::uint32_t error = 0) {
   constexpr auto kArgument = static_cast<std::uint32_t>(offsetof(seccomp_data, args));
   std::array<sock_filter, 8> rules{{
       BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(seccomp_data, nr)),
@@ -36,7 +37,7 @@ void forgo_binding() {
       BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, SOL_SOCKET, 0, 3),
       BPF_STMT(BPF_LD | BPF_W | BPF_ABS, kArgument + 16),
       BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, SO_BINDTODEVICE, 0, 1),
-      BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ERRNO),  // error 0: done
+      BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ERRNO | error),
       BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ALLOW),
   }};
   const sock_fprog program{rules.size(), rules.data()};
@@ -154,6 +155,33 @@ TEST_F(Ros2Stranger, IsHeardInEachWayWhereNoSocketIsBound) {
     std::cout << kAttempts << " attempts " << way.name << ": " << count << " stops\n";
     EXPECT_GT(count, 0) << way.name << "\n" << log();
   }
+  end.set_value();
+  starter.join();
+}
+
+TEST_F(Ros2Stranger, FindsNothingOpenWhereTheSocketsCannotBeBound) {
+  std::promise<void> end;
+  std::promise<void> started;
+  std::thread starter([&] {
+    forgo_binding(EPERM);
+    start_program();
+    started.set_value();
+    end.get_future().wait();
+  });
+  started.get_future().wait();
+  open_daemon();
+  const dds_entity_t known = stop_writer(DDS_RELIABILITY_BEST_EFFORT);
+  EXPECT_TRUE(play_until([this] {
+    return log().find("cannot be closed to networks: Operation not permitted") != std::string::npos;
+  })) << log();
+  EXPECT_TRUE(play_until([this] {
+    return last_request_.find("cannot be closed to networks") != std::string::npos;
+  })) << "drover status does not say why";
+  play_for(3s);
+  dds_publication_matched_status_t matched{};
+  (void)dds_get_publication_matched_status(known, &matched);
+  EXPECT_EQ(matched.total_count, 0U) << "it is heard all the same";
+  EXPECT_THAT(log(), testing::Not(testing::HasSubstr("see this robot")));
   end.set_value();
   starter.join();
 }

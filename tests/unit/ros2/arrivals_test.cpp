@@ -35,10 +35,28 @@ TEST(ASample, WasSaidAsLongAgoAsItsTimeStampIsOld) {
   dds_sample_info_t info{};
   info.source_timestamp = (kUtc - 200ms) / 1ns;
   EXPECT_EQ(said_at(info, kLook, kUtc), kLook - 200ms);
+  info.source_timestamp = (kUtc + 50ms) / 1ns;
+  EXPECT_EQ(said_at(info, kLook, kUtc), kLook) << "another thread read the clock";
   info.source_timestamp = (kUtc + 1s) / 1ns;
-  EXPECT_EQ(said_at(info, kLook, kUtc), kLook) << "a clock that was set meanwhile";
+  EXPECT_EQ(said_at(info, kLook, kUtc), Time{1ns}) << "the clock was set back: nobody knows";
   info.source_timestamp = 0;
   EXPECT_EQ(said_at(info, kLook, kUtc), Time{1ns});
+}
+
+/// What waited while a program hung and the clock was set back is not of now.
+TEST(ASample, IsNotOfNowWhereItIsOldOrFromAfterNow) {
+  constexpr Duration kUtc = std::chrono::hours(500'000);
+  const auto why = [kUtc](Duration stamp) {
+    dds_sample_info_t info{};
+    info.source_timestamp = stamp / 1ns;
+    return too_late(info, kUtc, 300ms);
+  };
+  EXPECT_EQ(why(kUtc - 300ms), "");
+  EXPECT_EQ(why(kUtc + 100ms), "");
+  EXPECT_NE(why(kUtc - 301ms).find("too late"), std::string::npos);
+  EXPECT_NE(why(kUtc + 101ms).find("set back"), std::string::npos);
+  EXPECT_NE(why(kUtc + std::chrono::hours(24)).find("set back"), std::string::npos);
+  EXPECT_NE(why(Duration{}).find("no DDS time stamp"), std::string::npos);
 }
 
 }  // namespace
