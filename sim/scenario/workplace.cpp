@@ -223,6 +223,8 @@ void Workplace::make_native(ordered_json& config) {
       if (link.contains(port))
         link[port] = sim_folder_ + "/" + fs::path(link.value(port, "")).filename().string();
   }
+  for (auto& [name, device] : config["devices"].items())
+    if (is_kind(device, SlotKind::line)) device["line"] = device.value("is", "");  // as its file
   if (config.contains("outputs")) {
     fs::create_directories(sim_folder_ + "/outputs");
     config["links"]["outputs"] = {{"gpio", "files:" + sim_folder_ + "/outputs"}};

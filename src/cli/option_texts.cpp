@@ -44,9 +44,10 @@ Options options_from(std::span<const OptionSpec> specs, const std::vector<std::s
     if (equals == std::string::npos) throw WrongUsage("option " + name + ": no =VALUE");
     options.set(name, taken_as(*spec, text.substr(equals + 1)));
   }
+  std::string missing;
   for (const auto& spec : specs)
-    if (!options.has(spec.name))
-      throw WrongUsage("the driver needs --option " + std::string(spec.name) + "=VALUE");
+    if (!options.has(spec.name)) missing += " --option " + std::string(spec.name) + "=VALUE";
+  if (!missing.empty()) throw WrongUsage("the driver needs" + missing);
   return options;
 }
 

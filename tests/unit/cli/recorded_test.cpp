@@ -54,6 +54,9 @@ TEST(Recordings, RefuseWhatNoDriverCanRead) {
   EXPECT_EQ(usage_error("bms", {.driver = "modbus_bms"}),
             "--map is missing: the file of the registers");
   EXPECT_EQ(usage_error("can", {.driver = "odrive"}), "the driver needs --option node=VALUE");
+  EXPECT_EQ(usage_error("can", {.driver = "cia402"}),
+            "the driver needs --option node=VALUE --option velocity_units_per_rps=VALUE "
+            "--option gear_ratio=VALUE");
   EXPECT_EQ(usage_error("can", {.nodes = {3}}), "--node and --option need --driver");
 }
 

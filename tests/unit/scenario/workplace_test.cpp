@@ -66,6 +66,15 @@ TEST_F(AWorkplace, LooksForAnotherMapOfTheGatewayBesideTheRobotsFile) {
   }
 }
 
+/// On a chip a line may have a number. The simulator's files have names.
+TEST_F(AWorkplace, FindsALineByItsNameWhereLinesAreFiles) {
+  scenario_["gateway"] = json::parse(R"({"links": {"panel": {"gpio": "drover-sim"}}})");
+  write("robots/it.drover.json", json::parse(R"({"devices": {
+    "button": {"driver": "gpio_line", "link": "panel", "line": "0", "is": "estop"}}})"));
+  (void)made();
+  EXPECT_EQ(gateway()["devices"]["button"]["line"], "estop");
+}
+
 TEST_F(AWorkplace, BeginsItsLogsAnew) {
   fs::create_directories(log_);
   for (const char* name :
