@@ -56,7 +56,7 @@ TEST(Recordings, RefuseWhatNoDriverCanRead) {
   EXPECT_EQ(usage_error("can", {.driver = "odrive"}), "the driver needs --option node=VALUE");
   EXPECT_EQ(usage_error("can", {.driver = "cia402"}),
             "the driver needs --option node=VALUE --option velocity_units_per_rps=VALUE "
-            "--option gear_ratio=VALUE");
+            "--option gear_ratio=VALUE --option acceleration=VALUE --option deceleration=VALUE");
   EXPECT_EQ(usage_error("can", {.nodes = {3}}), "--node and --option need --driver");
 }
 

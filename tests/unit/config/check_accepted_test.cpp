@@ -260,10 +260,11 @@ TEST(Warnings, TellOfWheelsOfOneBaseThatAreToldInDifferentUnits) {
     return std::string(R"({"links": {"can0": {"can": "can0"}, "panel": {"gpio": "g"}},
       "devices": {
         "l": {"driver": "cia402", "link": "can0", "joints": {"left": {"channel": "motor"}},
-              "options": {"node": 1, "velocity_units_per_rps": 60, "gear_ratio": 25}},
+              "options": {"node": 1, "velocity_units_per_rps": 60, "gear_ratio": 25,
+                          "acceleration": 0, "deceleration": 0}},
         "r": {"driver": "cia402", "link": "can0", "joints": {"right": {"channel": "motor"}},
               "options": {"node": 2, )") +
-           right + R"(}},
+           right + R"(, "acceleration": 0, "deceleration": 0}},
         "estop": {"driver": "gpio_line", "link": "panel", "line": "a", "is": "estop"}},
       "groups": {"base": {"kind": "differential", "left": ["left"], "right": ["right"],
                           "track_m": 0.5, "wheel_radius_m": 0.1, "hold": "brake"}},
@@ -276,11 +277,11 @@ TEST(Warnings, TellOfWheelsOfOneBaseThatAreToldInDifferentUnits) {
   };
   EXPECT_EQ(told(R"("velocity_units_per_rps": 60, "gear_ratio": 25, "reversed": true)"), "");
   EXPECT_EQ(told(R"("velocity_units_per_rps": 600, "gear_ratio": 25)"),
-            "f:6:64: devices.r.options.velocity_units_per_rps: is 600, but 60 in "
+            "f:7:64: devices.r.options.velocity_units_per_rps: is 600, but 60 in "
             "devices.l.options.velocity_units_per_rps: the wheels of one base are told in "
             "different units; is that meant?\n");
   EXPECT_EQ(told(R"("velocity_units_per_rps": 60, "gear_ratio": 5)"),
-            "f:6:82: devices.r.options.gear_ratio: is 5, but 25 in devices.l.options.gear_ratio: "
+            "f:7:82: devices.r.options.gear_ratio: is 5, but 25 in devices.l.options.gear_ratio: "
             "the wheels of one base have different gears; is that meant?\n");
 }
 
