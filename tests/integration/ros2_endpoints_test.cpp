@@ -1,0 +1,87 @@
+// What drover-ros2's writers and readers are and tell of themselves on the wire, and what they
+// leave alone.
+#include <algorithm>
+
+#include "integration/ros2_rig.h"
+#include "ros2/samples.h"
+
+namespace drover::test {
+namespace {
+
+constexpr std::int32_t kAtOnce = 32;
+
+class Ros2Endpoints : public Ros2Rig {
+ protected:
+  explicit Ros2Endpoints(const std::string& cmd_vel = "twist")
+      : Ros2Rig(User::humble, R"(, "inputs": {"e_stop": true, "cmd_vel": ")" + cmd_vel +
+                                  R"(", "joint_command": true, "collision_object": true,
+                                  "planning_constraints": true})") {}
+
+  static std::string line(std::string_view topic, std::string_view type,
+                          std::string_view user_data) {
+    return std::string(topic) + " " + std::string(type) + " " + std::string(user_data);
+  }
+  /// As REP 2016 has it in the user data.
+  static std::string line(const ros2::TopicKind& kind) {
+    return line(kind.name, kind.type->m_typename,
+                "typehash=RIHS01_" + std::string(kind.hash) + ";");
+  }
+  /// Of all that are there by `others`, DDS' topic of all writers or of all readers; the user has
+  /// none.
+  std::vector<std::string> told_by(dds_entity_t others) const {
+    std::vector<std::string> lines;
+    const auto look = [&lines](const void* sample, const dds_sample_info_t&) {
+      const auto& other = *static_cast<const dds_builtintopic_endpoint_t*>(sample);
+      if (std::string_view(other.topic_name).starts_with("DCPS")) return;  // the one that looks
+      void* told = nullptr;
+      std::size_t size = 0;
+      (void)dds_qget_userdata(other.qos, &told, &size);
+      lines.push_back(
+          line(other.topic_name, other.type_name, {static_cast<const char*>(told), size}));
+      dds_free(told);
+    };
+    const dds_entity_t all = dds_create_reader(participant(), others, nullptr, nullptr);
+    while (ros2::take_samples<kAtOnce>(all, look) == kAtOnce) {
+    }
+    dds_delete(all);
+    std::sort(lines.begin(), lines.end());
+    return lines;
+  }
+  void expect_hashes(const ros2::TopicKind& cmd_vel) {
+    std::vector<std::string> written;
+    for (const auto& kind : ros2::topic_kinds()) written.push_back(line(kind));
+    std::sort(written.begin(), written.end());
+    // The stop is heard by two.
+    std::vector<std::string> heard{line(ros2::stop_kind()),
+                                   line(ros2::stop_kind()),
+                                   line(cmd_vel),
+                                   line(ros2::joint_command_kind()),
+                                   line(ros2::collision_object_kind()),
+                                   line(ros2::planning_constraints_kind())};
+    std::sort(heard.begin(), heard.end());
+    open_daemon();
+    start_program();
+    (void)play_until([&] {
+      return told_by(DDS_BUILTIN_TOPIC_DCPSPUBLICATION).size() >= written.size() &&
+             told_by(DDS_BUILTIN_TOPIC_DCPSSUBSCRIPTION).size() >= heard.size();
+    });
+    EXPECT_EQ(told_by(DDS_BUILTIN_TOPIC_DCPSPUBLICATION), written) << log();
+    EXPECT_EQ(told_by(DDS_BUILTIN_TOPIC_DCPSSUBSCRIPTION), heard) << log();
+  }
+};
+
+TEST_F(Ros2Endpoints, EachTellTheHashOfTheirType) {
+  expect_hashes(ros2::cmd_vel_kind(false));
+}
+
+class Ros2StampedEndpoints : public Ros2Endpoints {
+ protected:
+  Ros2StampedEndpoints() : Ros2Endpoints("twist_stamped") {}
+};
+
+TEST_F(Ros2StampedEndpoints, EachTellTheHashOfTheirType) {
+  expect_hashes(ros2::cmd_vel_kind(true));
+}
+
+}  // namespace
+}  // namespace drover::test
