@@ -1,12 +1,19 @@
 // What drover-ros2's writers and readers are and tell of themselves on the wire, and what they
 // leave alone.
+#include <moveit_msgs.h>
+
 #include <algorithm>
 
 #include "integration/ros2_rig.h"
+#include "ros2/arena.h"
 #include "ros2/samples.h"
 
 namespace drover::test {
 namespace {
+
+using testing::ContainsRegex;
+using testing::HasSubstr;
+using testing::Not;
 
 constexpr std::int32_t kAtOnce = 32;
 
@@ -81,6 +88,68 @@ class Ros2StampedEndpoints : public Ros2Endpoints {
 
 TEST_F(Ros2StampedEndpoints, EachTellTheHashOfTheirType) {
   expect_hashes(ros2::cmd_vel_kind(true));
+}
+
+class Ros2Large : public Ros2Endpoints {
+ protected:
+  /// A command of so many joints, and a name to know it by.
+  static void command(dds_entity_t by, std::size_t joints, const char* name) {
+    ros2::Arena arena;
+    aimrt_msgs_msg_dds__JointCommandArray_ message{};
+    message.header_.frame_id_ = arena.text("");
+    auto* all = arena.fill(message.joints_, joints);
+    for (std::size_t i = 0; i < joints; ++i) all[i].name_ = arena.text(name);
+    EXPECT_EQ(dds_write(by, &message), DDS_RETCODE_OK);
+  }
+  /// An object of the map, and nothing of it.
+  static void object(dds_entity_t by, std::string_view id) {
+    ros2::Arena arena;
+    moveit_msgs_msg_dds__CollisionObject_ message{};
+    message.header_.frame_id_ = arena.text("map");
+    message.pose_.orientation_.w_ = 1;
+    message.id_ = arena.text(id);
+    message.type_ = {arena.text(""), arena.text("")};
+    EXPECT_EQ(dds_write(by, &message), DDS_RETCODE_OK);
+  }
+  /// Says it until droverd is told of it.
+  void expect_told(const std::string& line, std::string_view name,
+                   const std::function<void()>& say) {
+    EXPECT_TRUE(play_until([&] {
+      say();
+      return line.find(name) != std::string::npos;
+    })) << log();
+  }
+  /// The line that the journal has of it.
+  void expect_dropped(const std::string& topic) {
+    EXPECT_TRUE(play_until([&] { return log().find("oversize") != std::string::npos; })) << log();
+    EXPECT_THAT(log(), ContainsRegex("warning: DDS: dropping oversize \\([0-9]+ > 65536\\) "
+                                     "sample [0-9]+ from remote writer [0-9a-f:]+ " +
+                                     topic));
+  }
+};
+
+TEST_F(Ros2Large, CommandsAreDroppedAndTheJournalSaysSo) {
+  open_daemon();
+  start_program();
+  const dds_entity_t writer =
+      make_writer(participant(), ros2::joint_command_kind(), DDS_RELIABILITY_RELIABLE);
+  expect_told(last_joint_line_, "before", [&] { command(writer, 1, "before"); });
+  EXPECT_THAT(log(), Not(HasSubstr("oversize")));
+  command(writer, 2000, "large");
+  expect_dropped("rt/joint_command/");
+  expect_told(last_joint_line_, "after", [&] { command(writer, 1, "after"); });
+}
+
+TEST_F(Ros2Large, ObjectsAreDroppedAndTheJournalSaysSo) {
+  open_daemon();
+  start_program();
+  const dds_entity_t writer =
+      make_writer(participant(), ros2::collision_object_kind(), DDS_RELIABILITY_RELIABLE);
+  expect_told(last_scene_line_, "before", [&] { object(writer, "before"); });
+  EXPECT_THAT(log(), Not(HasSubstr("oversize")));
+  object(writer, std::string(66'000, 'x'));
+  expect_dropped("rt/collision_object/");
+  expect_told(last_scene_line_, "after", [&] { object(writer, "after"); });
 }
 
 }  // namespace
