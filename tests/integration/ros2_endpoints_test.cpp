@@ -3,7 +3,10 @@
 #include <moveit_msgs.h>
 
 #include <algorithm>
+#include <cmath>
+#include <fstream>
 
+#include "integration/ros2_places.h"
 #include "integration/ros2_rig.h"
 #include "ros2/arena.h"
 #include "ros2/samples.h"
@@ -88,6 +91,58 @@ class Ros2StampedEndpoints : public Ros2Endpoints {
 
 TEST_F(Ros2StampedEndpoints, EachTellTheHashOfTheirType) {
   expect_hashes(ros2::cmd_vel_kind(true));
+}
+
+/// A second scanner, behind, and behind the first one in the configuration.
+class Ros2TwoScanners : public Ros2Rig {
+ protected:
+  Ros2TwoScanners() {
+    edit("\"lidar\": {\"serial\"", "\"rear\": {\"serial\": \"/dev/drover/rear\"}, ");
+    edit("\"estop\": {", R"("rear": {"driver": "ld06", "link": "rear", "options": {
+      "mount_x_m": -0.3, "mount_y_m": 0.1, "mount_z_m": 0.25, "mount_yaw_deg": 180}}, )");
+    turns_.push_back(turns_[0]);
+    turns_[1].device = "rear";
+    turns_[1].scan.points.clear();
+    (void)turns_[1].scan.points.push_back({0.5, 1.5, 9});
+  }
+  /// Puts `more` before the first `where` of its configuration.
+  void edit(std::string_view where, const std::string& more) const {
+    const auto path = folder_ / "drover.json";
+    std::ifstream file(path);
+    std::string config(std::istreambuf_iterator<char>(file), {});
+    ASSERT_NE(config.find(where), std::string::npos) << where;
+    config.insert(config.find(where), more);
+    std::ofstream(path) << config;
+  }
+  static float nearest(const sensor_msgs_msg_dds__LaserScan_& scan) {
+    float least = INFINITY;
+    for (std::uint32_t i = 0; i < scan.ranges_._length; ++i)
+      least = std::fmin(least, scan.ranges_._buffer[i]);
+    return least;
+  }
+  /// Each message on `topic` is of `scanner`, which sees one thing so far away.
+  void expect_scans(const char* topic, const std::string& scanner, float range_m) {
+    ros2::TopicKind kind = ros2::topic_kinds().at(static_cast<std::size_t>(ros2::Topic::scan));
+    kind.name = topic;
+    const dds_entity_t from = make_reader(participant(), kind, DDS_RELIABILITY_RELIABLE);
+    int count = 0;
+    EXPECT_TRUE(play_until([&] {
+      take_each<sensor_msgs_msg_dds__LaserScan_>(from, [&](const auto& scan) {
+        EXPECT_EQ(scan.header_.frame_id_, scanner) << topic;
+        EXPECT_FLOAT_EQ(nearest(scan), range_m) << topic;
+        ++count;
+      });
+      return count >= 20;
+    })) << topic
+        << log();
+  }
+};
+
+TEST_F(Ros2TwoScanners, HaveATopicEach) {
+  open_daemon();
+  start_program();
+  expect_scans("rt/scan", "lidar", 2.5F);
+  expect_scans("rt/rear/scan", "rear", 1.5F);
 }
 
 class Ros2Large : public Ros2Endpoints {
