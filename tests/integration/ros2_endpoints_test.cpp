@@ -156,7 +156,7 @@ class Ros2Large : public Ros2Endpoints {
     for (std::size_t i = 0; i < joints; ++i) all[i].name_ = arena.text(name);
     EXPECT_EQ(dds_write(by, &message), DDS_RETCODE_OK);
   }
-  /// An object of the map, and nothing of it.
+  /// An object of the map, without a shape.
   static void object(dds_entity_t by, std::string_view id) {
     ros2::Arena arena;
     moveit_msgs_msg_dds__CollisionObject_ message{};
@@ -208,4 +208,43 @@ TEST_F(Ros2Large, ObjectsAreDroppedAndTheJournalSaysSo) {
 }
 
 }  // namespace
+class Ros2Latched : public Ros2Large {
+ protected:
+  dds_entity_t latched_writer(const ros2::TopicKind& kind) const {
+    const dds_entity_t topic =
+        dds_create_topic(participant(), kind.type, kind.name, nullptr, nullptr);
+    dds_qos_t* qos = dds_create_qos();
+    dds_qset_reliability(qos, DDS_RELIABILITY_RELIABLE, 0);
+    dds_qset_durability(qos, DDS_DURABILITY_TRANSIENT_LOCAL);
+    const dds_entity_t writer = dds_create_writer(participant(), topic, qos, nullptr);
+    dds_delete_qos(qos);
+    EXPECT_GT(writer, 0);
+    return writer;
+  }
+};
+
+TEST_F(Ros2Latched, ObjectsOfBeforeAreNotAskedFor) {
+  const auto& kind = ros2::collision_object_kind();
+  const dds_entity_t writer = latched_writer(kind);
+  object(writer, "before");
+  // Who asks gets it.
+  const dds_entity_t asks =
+      make_reader(participant(), kind, DDS_RELIABILITY_RELIABLE, DDS_DURABILITY_TRANSIENT_LOCAL);
+  const auto* kept = newest<moveit_msgs_msg_dds__CollisionObject_>(asks);
+  ASSERT_NE(kept, nullptr);
+  EXPECT_STREQ(kept->id_, "before");
+
+  open_daemon();
+  start_program();
+  ASSERT_TRUE(play_until([&] {
+    dds_publication_matched_status_t matched{};
+    (void)dds_get_publication_matched_status(writer, &matched);
+    return matched.current_count > 0 && log().find("tells of the robot") != std::string::npos;
+  })) << log();
+  play_for(std::chrono::seconds(2));
+  EXPECT_EQ(last_scene_line_, "");
+  expect_told(last_scene_line_, "after", [&] { object(writer, "after"); });
+}
+
+// namespace
 }  // namespace drover::test
