@@ -5,8 +5,8 @@
 set -euo pipefail
 cd "$1"
 
-# description PACKAGE/NAME: the type's description with all that it reaches, as it is hashed. String,
-# which no topic has, is beside them: its hash is the best known one.
+# description PACKAGE/NAME: the type's description with all that it reaches, as it is hashed.
+# String, which no topic has, is beside them: its hash is the best known one.
 description() {
   awk -v wanted="$1" '
     function primitive(type) { return type in id }
