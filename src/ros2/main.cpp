@@ -35,8 +35,8 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.set_version_flag("--version", DROVER_VERSION);
   app.footer(
-      "Exit codes: 0 ended as asked, or the configuration wants nothing shown; 2 wrong arguments "
-      "or configuration.");
+      "Exit codes: 0 ended as asked, or the configuration wants nothing shown; "
+      "1 it could not go on and says why; 2 wrong arguments or configuration.");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

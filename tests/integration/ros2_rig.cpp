@@ -36,9 +36,10 @@ Ros2Rig::Ros2Rig(User user, const std::string& more) {
   EXPECT_GT(dds_, 0);
   participant_ = dds_create_participant(static_cast<dds_domainid_t>(domain_), nullptr, nullptr);
   EXPECT_GT(participant_, 0);
-  turn_.device = "lidar";
-  turn_.scan.turn_Hz = 10;
-  (void)turn_.scan.points.push_back({0.5, 2.5, 9});
+  turns_.resize(1);
+  turns_[0].device = "lidar";
+  turns_[0].scan.turn_Hz = 10;
+  (void)turns_[0].scan.points.push_back({0.5, 2.5, 9});
 }
 
 Ros2Rig::~Ros2Rig() {
@@ -55,7 +56,12 @@ void Ros2Rig::start_program() {
 
 void Ros2Rig::open_daemon() {
   outlet_ = std::make_unique<publish::Ros2Outlet>(
-      50, [this] { return std::vector<const scene::sensor::SeenTurn*>{&turn_}; },
+      50,
+      [this] {
+        std::vector<const scene::sensor::SeenTurn*> seen;
+        for (const auto& turn : turns_) seen.push_back(&turn);
+        return seen;
+      },
       publish::Ros2Inputs{.cmd_vel = true});
   const auto path = folder_ / "drover.sock";
   std::filesystem::remove(path);
@@ -113,8 +119,10 @@ void Ros2Rig::beat() {
   seen_.imu.time = seen_.gnss.position_time = seen_.odometry.time = seen_.pose.time = seen_.time;
   seen_.battery.time = seen_.time;
   for (AxisSnapshot& axis : seen_.axes) axis.last_motion = seen_.time;
-  turn_.scan.begin = seen_.time - 100ms;
-  turn_.scan.end = seen_.time;
+  for (auto& turn : turns_) {
+    turn.scan.begin = seen_.time - 100ms;
+    turn.scan.end = seen_.time;
+  }
   hear();
   if (client_ < 0) return;
   publish::Actions out;

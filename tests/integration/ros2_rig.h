@@ -71,6 +71,8 @@ class Ros2Rig : public ::testing::Test {
   bool answers_stops_ = true;      ///< false: droverd has read them, no more
   int refused_stops_ = 0;          ///< so many of the next ones
   std::vector<Command> commands_;  ///< that it handed on, as droverd understands them
+  /// Of each scanner, "lidar" first.
+  std::vector<scene::sensor::SeenTurn> turns_;
   Process program_;
   TempFolder own_folder_;
   std::filesystem::path folder_{own_folder_.path()};
@@ -90,7 +92,6 @@ class Ros2Rig : public ::testing::Test {
   int listener_ = -1;
   int client_ = -1;
   std::string in_;
-  scene::sensor::SeenTurn turn_;
   std::unique_ptr<publish::Ros2Outlet> outlet_;
 };
 
