@@ -21,6 +21,7 @@ constexpr double kRamp_rad = 0.148889947609;  // sim/worlds/field.xml: up from x
 constexpr double kRampFoot_m = 6;
 constexpr double kMetresPerDegree = 111'000;  // of latitude
 constexpr double kG_mps2 = 9.81;
+constexpr double kTurn_radps = 0.6;
 
 double pitch_of(const geometry_msgs_msg_dds__Quaternion_& q) {
   return std::asin(2 * (q.w_ * q.y_ - q.z_ * q.x_));
@@ -43,6 +44,7 @@ class Heard {
     each<sensor_msgs_msg_dds__Imu_>(ros2::Topic::imu, [this](const auto& m) { inertia(m); });
     each<sensor_msgs_msg_dds__NavSatFix_>(ros2::Topic::fix, [this](const auto& m) {
       latitude_deg = m.latitude_;
+      longitude_deg = m.longitude_;
       altitude_m = m.altitude_;
     });
     each<sensor_msgs_msg_dds__JointState_>(ros2::Topic::joint_states, [this](const auto& m) {
@@ -58,8 +60,9 @@ class Heard {
   }
 
   std::optional<GroundPlace> odom_in_map, base_in_odom, odometry;
-  double vx_mps = 0, wz_radps = 0;
-  double latitude_deg = 0, altitude_m = 0;
+  double vx_mps = 0;
+  double least_wz_radps = 0, most_wz_radps = 0;  ///< of /odom, since somebody began anew with 0
+  double latitude_deg = 0, longitude_deg = 0, altitude_m = 0;
   double slowest_wheel_radps = 0;
   double imu_at_s = 0, imu_turned_rad = 0;  ///< by its rates alone
   geometry_msgs_msg_dds__Quaternion_ attitude{};
@@ -97,7 +100,9 @@ class Heard {
     odometry_.take(message);
     odometry = odometry_.place;
     vx_mps = message.twist_.twist_.linear_.x_;
-    wz_radps = message.twist_.twist_.angular_.z_;
+    const double wz_radps = message.twist_.twist_.angular_.z_;
+    least_wz_radps = std::min(least_wz_radps, wz_radps);
+    most_wz_radps = std::max(most_wz_radps, wz_radps);
     odometry_count = odometry_.count;
   }
   void inertia(const sensor_msgs_msg_dds__Imu_& message) {
@@ -155,7 +160,7 @@ class NavigatedByRos2 : public MovedFromRos2 {
         [&] {
           const GroundPlace at = *heard_.base_in_map();
           const double aside_rad = wrap_rad(std::atan2(y_m - at.y_m, x_m - at.x_m) - at.yaw_rad);
-          const double turn_radps = std::clamp(1.5 * aside_rad, -0.6, 0.6);
+          const double turn_radps = std::clamp(1.5 * aside_rad, -kTurn_radps, kTurn_radps);
           const bool ahead = std::abs(aside_rad) < 0.3;
           say(ahead ? std::clamp(left_m, 0.2, 0.5) : 0, turn_radps);
           if (ahead && heard_.vx_mps > 0.3) {
@@ -166,6 +171,16 @@ class NavigatedByRos2 : public MovedFromRos2 {
         }))
         << left_m << " m left; " << status() << program_.output();
     ASSERT_NO_FATAL_FAILURE(rest_for(1.5));
+  }
+  /// The same where the way begins with a turn to one side; to the other side it is only corrected.
+  /// REP 103: to the left is more than 0.
+  void go_to_and_turn(double x_m, double y_m, bool left) {
+    heard_.least_wz_radps = heard_.most_wz_radps = 0;
+    ASSERT_NO_FATAL_FAILURE(go_to(x_m, y_m));
+    const double there_radps = left ? heard_.most_wz_radps : -heard_.least_wz_radps;
+    const double back_radps = left ? -heard_.least_wz_radps : heard_.most_wz_radps;
+    EXPECT_NEAR(there_radps, kTurn_radps, 0.2) << "of /odom";
+    EXPECT_LT(back_radps, 0.3) << "of /odom";
   }
   GroundPlace truth() {
     const auto told = json::parse(sim({"truth"}));
@@ -194,8 +209,13 @@ TEST_F(NavigatedByRos2, TurnsLeftGoesNorthAndUpARampByFramesAndOdometry) {
     EXPECT_NEAR(wrap_rad(here.yaw_rad - now.yaw_rad), 0, 0.1) << "0 is east, to the left is more";
   };
 
+  const double longitude_before_deg = heard_.longitude_deg;
   ASSERT_NO_FATAL_FAILURE(go_to(begin.x_m + 1, begin.y_m));
-  by_truth(truth());
+  const GroundPlace east = truth();
+  by_truth(east);
+  const double metres_per_degree_east = kMetresPerDegree * std::cos(to_rad(heard_.latitude_deg));
+  EXPECT_NEAR((heard_.longitude_deg - longitude_before_deg) * metres_per_degree_east,
+              east.x_m - true_begin.x_m, 0.1);
   EXPECT_NEAR(yaw_of(heard_.attitude), 0, 0.1) << "REP 145: counter-clockwise from east";
   EXPECT_NEAR(heard_.acceleration_mps2.z_, kG_mps2, 0.2) << "REP 145: at rest up, not down";
   const GroundPlace way_before = *heard_.odometry;
@@ -203,7 +223,7 @@ TEST_F(NavigatedByRos2, TurnsLeftGoesNorthAndUpARampByFramesAndOdometry) {
   const double latitude_before_deg = heard_.latitude_deg;
 
   // A quarter to the left, and north.
-  ASSERT_NO_FATAL_FAILURE(go_to(begin.x_m + 1, begin.y_m + 3));
+  ASSERT_NO_FATAL_FAILURE(go_to_and_turn(begin.x_m + 1, begin.y_m + 3, true));
   by_truth(truth());
   EXPECT_NEAR(heard_.base_in_map()->yaw_rad, kPi / 2, 0.15);
   EXPECT_NEAR(wrap_rad(heard_.odometry->yaw_rad - way_before.yaw_rad), kPi / 2, 0.25);
@@ -214,7 +234,7 @@ TEST_F(NavigatedByRos2, TurnsLeftGoesNorthAndUpARampByFramesAndOdometry) {
   const double level_m = heard_.altitude_m;
 
   // To the right, and up the ramp.
-  ASSERT_NO_FATAL_FAILURE(go_to(begin.x_m + 5.5, begin.y_m + 3));
+  ASSERT_NO_FATAL_FAILURE(go_to_and_turn(begin.x_m + 5.5, begin.y_m + 3, false));
   const GroundPlace there = truth();
   by_truth(there);
   EXPECT_GT(there.x_m, kRampFoot_m + 1) << "it is on the ramp";
