@@ -19,7 +19,7 @@ int parse_signal(JsonReader& reader) {
 }
 
 std::string program(JsonReader& reader, std::string_view key) {
-  const auto name = reader.text(key);
+  auto name = reader.text(key);
   for (const auto known : kPrograms)
     if (name == known) return name;
   reader.fail(key, "must be one of mosquitto, drover-sim, drover-guard, droverd");
