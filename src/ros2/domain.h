@@ -42,9 +42,9 @@ class Domain final {
   dds_entity_t participant_ = 0;
 };
 
-/// Binds each internet datagram socket of this process to the loopback device, whatever its
-/// address: what comes over a network finds none. Returns how many there were. Throws NoDomain when
-/// one cannot be bound.
-std::size_t bind_to_loopback();
+/// Closes each internet datagram socket of this process to networks: it takes what came over the
+/// loopback device, whatever address that was sent to, and sends nothing over another one. Returns
+/// how many there were. Throws NoDomain when one cannot be closed.
+std::size_t close_to_networks();
 
 }  // namespace drover::ros2

@@ -31,8 +31,8 @@ said() { [[ $(grep -c "$1" "$folder/log" || true) -ge ${2:-1} ]]; }
 tells() {  # WHAT IS JUDGED, LINE [TIMES]: soon
   judge "$(within 10 said "${@:2}"; echo $?)" "$1"
 }
-start() {  # MORE
-  local ros2="\"ros2\": {\"mode\": \"network\", \"network_inputs\": true$1"
+start() {  # MORE [MODE]
+  local ros2="\"ros2\": {\"mode\": \"${2:-network}\", \"network_inputs\": true$1"
   ros2+=", \"inputs\": {\"e_stop\": true}}"
   local paths="\"paths\": {\"run\": \"$folder\", \"state\": \"$folder\"}"
   sed "0,/^{/s||{ $ros2, $paths,|" "$source/config/examples/two_hub_motors.json" \
@@ -47,13 +47,16 @@ end() {
   wait "$running" || true
 }
 
+visits() {  # WHERE USER SECONDS: a program that sees the robot and says stop
+  local run=("$visit" "$2" "$3")
+  [[ $1 == here ]] || run=(nsenter -n -t "${computer[$1]}" "${run[@]}")
+  "${run[@]}" 2> /dev/null
+}
 # Who sees the robot is also heard, and nobody else is.
 meets() {  # CONFIGURATION WHERE USER SECONDS
   start "$1"
-  local run=("$visit" "$3" "$4") seen=0
-  [[ $2 == here ]] || run=(nsenter -n -t "${computer[$2]}" "${run[@]}")
-  "${run[@]}" 2> /dev/null || seen=1
-  local heard=0
+  local seen=0 heard=0
+  visits "${@:2}" || seen=1
   within 1 said "an emergency stop was asked for" || heard=1
   end
   [[ $seen$heard == 00 ]] && return 0
@@ -122,5 +125,17 @@ connect three 3
 ip link set three up
 tells "and used when it comes" \
   "domain 0: whoever reaches three 10.9.3.1 sees this robot"
+visits three defaults 20 && within 1 said "an emergency stop was asked for"
+judge $? "and a program there sees the robot and stops it"
+end
+
+# In localhost a network that appears later is one that programs here may be told to use.
+for name in one two three; do ip link set "$name" down; done
+start "" localhost
+ip link set one up
+tells "in localhost, too, a network that appears later is picked up" \
+  "the networks have changed: one 10.9.1.1"
+visits here jazzy 20 && within 1 said "an emergency stop was asked for"
+judge $? "and a program here that is told to stay here as Jazzy does sees the robot and stops it"
 end
 exit "$failed"

@@ -30,6 +30,11 @@ std::string interface_settings(const char* which) {
          "</Domain></CycloneDDS>";
 }
 
+/// Of all sockets: those that are none refuse it.
+void bind_to_loopback() {
+  for (int fd = 0; fd < 256; ++fd) ::setsockopt(fd, SOL_SOCKET, SO_BINDTODEVICE, "lo", 2);
+}
+
 /// Our participant, which lives as long as this process.
 dds_entity_t make(Ours ours) {
   if (ours == Ours::shipped_localhost || ours == Ours::shipped_network) {
@@ -44,7 +49,7 @@ dds_entity_t make(Ours ours) {
   if (dds_create_domain(kMeetingDomain, settings.c_str()) < 0)
     throw std::runtime_error("no domain");
   const dds_entity_t participant = dds_create_participant(kMeetingDomain, nullptr, nullptr);
-  if (ours == Ours::automatic_bound) (void)ros2::bind_to_loopback();
+  if (ours == Ours::automatic_bound) bind_to_loopback();
   return participant;
 }
 

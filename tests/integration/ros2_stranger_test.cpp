@@ -1,6 +1,6 @@
 // One on another computer who never hears an answer, but knows what DDS says on the wire, tries to
-// stop the robot. As it is shipped drover-ros2 hears nothing of it; without the one call that binds
-// its sockets to loopback it does.
+// stop the robot. As it is shipped drover-ros2 hears nothing of it; without the call that closes
+// its sockets to networks it does.
 #include <linux/filter.h>
 #include <linux/seccomp.h>
 #include <sys/prctl.h>
@@ -26,17 +26,19 @@ using namespace std::chrono_literals;
 constexpr int kAttempts = 100;
 constexpr std::array<std::uint8_t, 8> kTrue{0, 1, 0, 0, 1, 0, 0, 0};
 
-/// Of everything that this thread starts no socket is bound to a device. `error`: as it is told of
-/// that; 0: it believes that they are.
-void forgo_binding(std::uint32_t error = 0) {
+/// Of everything that this thread starts no socket is closed, by a filter or by a device. `error`:
+/// as it is told of that; 0: it believes that they are.
+void forgo_closing(std::uint32_t error = 0) {
   constexpr auto kArgument = static_cast<std::uint32_t>(offsetof(seccomp_data, args));
-  std::array<sock_filter, 8> rules{{
+  std::array<sock_filter, 10> rules{{
       BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(seccomp_data, nr)),
-      BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, SYS_setsockopt, 0, 5),
+      BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, SYS_setsockopt, 0, 7),
       BPF_STMT(BPF_LD | BPF_W | BPF_ABS, kArgument + 8),  // the lower half, little endian
-      BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, SOL_SOCKET, 0, 3),
+      BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, SOL_SOCKET, 0, 5),
       BPF_STMT(BPF_LD | BPF_W | BPF_ABS, kArgument + 16),
-      BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, SO_BINDTODEVICE, 0, 1),
+      BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, SO_BINDTODEVICE, 2, 0),
+      BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, SO_ATTACH_FILTER, 1, 0),
+      BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, SO_LOCK_FILTER, 0, 1),
       BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ERRNO | error),
       BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ALLOW),
   }};
@@ -138,12 +140,12 @@ TEST_F(Ros2Stranger, IsNotHeardInLocalhostInAnyWay) {
 }
 
 // Else the test above would show nothing.
-TEST_F(Ros2Stranger, IsHeardInEachWayWhereNoSocketIsBound) {
+TEST_F(Ros2Stranger, IsHeardInEachWayWhereNoSocketIsClosed) {
   std::promise<void> end;
   std::promise<void> started;
   // It lives as long as drover-ros2, which ends with whoever started it.
   std::thread starter([&] {
-    forgo_binding();
+    forgo_closing();
     start_program();
     started.set_value();
     end.get_future().wait();
@@ -159,11 +161,11 @@ TEST_F(Ros2Stranger, IsHeardInEachWayWhereNoSocketIsBound) {
   starter.join();
 }
 
-TEST_F(Ros2Stranger, FindsNothingOpenWhereTheSocketsCannotBeBound) {
+TEST_F(Ros2Stranger, FindsNothingOpenWhereTheSocketsCannotBeClosed) {
   std::promise<void> end;
   std::promise<void> started;
   std::thread starter([&] {
-    forgo_binding(EPERM);
+    forgo_closing(EPERM);
     start_program();
     started.set_value();
     end.get_future().wait();
