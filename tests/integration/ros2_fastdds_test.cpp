@@ -338,6 +338,28 @@ TEST_F(FastDdsMayStop, StopsTheRobotByTrueAndDoesNothingByFalse) {
   }
 }
 
+/// Who sees the robot is heard, too, whichever of this computer's addresses he sends to.
+class FastDdsToldToStay : public FastDds, public testing::WithParamInterface<fast::Told> {
+ protected:
+  FastDdsToldToStay() : FastDds(R"(, "inputs": {"e_stop": true})", GetParam()) {}
+};
+
+TEST_P(FastDdsToldToStay, StopsTheRobot) {
+  ASSERT_NO_FATAL_FAILURE(start_all());
+  const auto writer = user_->writer<fast::Bool>("rt/e_stop", {.reliable = true});
+  ASSERT_TRUE(play_until([&] { return writer->readers() > 0; })) << log();
+  EXPECT_TRUE(say_until<fast::Bool>(*writer, {true}, [&] { return stops_ > 0; })) << log();
+}
+
+INSTANTIATE_TEST_SUITE_P(Each, FastDdsToldToStay,
+                         testing::Values(fast::Told::by_our_file, fast::Told::by_humble,
+                                         fast::Told::by_jazzy),
+                         [](const auto& one) {
+                           return one.param == fast::Told::by_our_file ? "ByOurFile"
+                                  : one.param == fast::Told::by_humble ? "ByHumble"
+                                                                       : "ByJazzy";
+                         });
+
 class FastDdsMayMoveJoints : public FastDds {
  protected:
   FastDdsMayMoveJoints() : FastDds(R"(, "inputs": {"joint_command": true})") {}
