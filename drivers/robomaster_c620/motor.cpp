@@ -122,9 +122,9 @@ void Motor::brake(double slowest_radps, Duration dt, Time now) {
   const double most_radps = std::abs(velocity_radps_);
   const bool along = ramped_radps_ * velocity_radps_ > 0;
   ramped_radps_ = along ? std::clamp(ramped_radps_, -most_radps, most_radps) : 0.0;
-  const bool slows = most_radps < kSlower * slowest_radps_;
-  if (slowest_radps != 0 || ramped_radps_ != 0) anchored_ = false;
-  if (slowest_radps != 0 || ramped_radps_ != 0 || slows) {
+  const bool ramps = slowest_radps != 0 || ramped_radps_ != 0;
+  if (ramps) anchored_ = false;
+  if (ramps || most_radps < kSlower * slowest_radps_) {
     slowest_radps_ = most_radps;
     slower_at_ = now;
   }

@@ -178,16 +178,7 @@ TEST(KillOnRamp, IsStoppedByTheGuardWithin100Milliseconds) {
 }
 
 TEST(KillOnRamp, HoldsTheRobotOnTheSlope) {
-  const Record& log = record("kill_on_ramp");
-  const Time killed = log.event("signal 9 to droverd");
-  const Time back = log.event("start droverd", 2);
-  ASSERT_GT(log.truth_at(killed).z_m - log.truth.front().z_m, 0.1) << "it is not on the ramp";
-  // It still rolls ahead when the kill comes.
-  const auto [ahead_m, back_m] = ahead_and_back_m(log, killed, back);
-  figure("rolled on", ahead_m, "m");
-  figure("rolled back", back_m, "m");
-  EXPECT_LE(back_m, 0.05);
-  EXPECT_LE(ahead_m, 0.30);
+  expect_held_on_the_ramp(record("kill_on_ramp"));
 }
 
 TEST(KillOnRamp, TellsTheTruthAfterTheRestartAndStaysStopped) {

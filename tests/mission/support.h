@@ -136,6 +136,18 @@ inline bool moved_until(const Record& log, Time time) {
   return !log.moving(time - 100ms, time).empty();
 }
 
+/// droverd was killed on the ramp, and the guard held the robot there until the next one came.
+inline void expect_held_on_the_ramp(const Record& log) {
+  const Time killed = log.event("signal 9 to droverd");
+  ASSERT_GT(log.truth_at(killed).z_m - log.truth.front().z_m, 0.1) << "it is not on the ramp";
+  // It still rolls ahead when the kill comes.
+  const auto [ahead_m, back_m] = ahead_and_back_m(log, killed, log.event("start droverd", 2));
+  figure("rolled on", ahead_m, "m");
+  figure("rolled back", back_m, "m");
+  EXPECT_LE(back_m, 0.05);
+  EXPECT_LE(ahead_m, 0.30);
+}
+
 /// The second start was accepted after `gone` ended, and it reached the goal.
 inline void expect_new_start_succeeds(const Record& log, Time gone) {
   auto twice = kStarted;

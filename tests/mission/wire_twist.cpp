@@ -1,22 +1,17 @@
 #include "mission/wire_twist.h"
 
-#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <fstream>
-#include <iterator>
 #include <sstream>
+
+#include "mission/wire_bytes.h"
 
 namespace drover::mission {
 namespace {
 
 bool plain(const CanFrame& frame) {
   return !frame.extended && !frame.remote && !frame.error && !frame.fd;
-}
-
-template <class List>
-bool has(const List& list, std::uint32_t value) {
-  return std::find(std::begin(list), std::end(list), value) != std::end(list);
 }
 
 double thousandths(unsigned high, unsigned low) {

@@ -1,6 +1,6 @@
 #include "mission/wire_zlac8015d.h"
 
-#include <algorithm>
+#include "mission/wire_bytes.h"
 
 namespace drover::mission::zlac8015d {
 namespace {
@@ -12,17 +12,6 @@ constexpr std::uint32_t kAnswer = 0x581;
 constexpr std::uint32_t kRequest = 0x601;
 constexpr std::uint32_t kHeartbeat = 0x701;
 constexpr float kStepsPerTurnps = 10 * 60;  // tenths of a turn a minute
-
-std::uint32_t number(const CanFrame& frame, std::size_t at, std::size_t size) {
-  std::uint32_t value = 0;
-  for (std::size_t i = size; i > 0; --i) value = value << 8U | frame.data[at + i - 1];
-  return value;
-}
-
-template <class List>
-bool has(const List& list, std::uint32_t value) {
-  return std::find(std::begin(list), std::end(list), value) != std::end(list);
-}
 
 /// Written before anything turns: nothing of the flash, of the node or of the origin.
 std::string judge_request(const CanFrame& frame) {

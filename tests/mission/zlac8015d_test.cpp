@@ -34,14 +34,7 @@ TEST(Zlac8015dKillOnRamp, IsStoppedByTheGuardWithin100Milliseconds) {
 }
 
 TEST(Zlac8015dKillOnRamp, HoldsTheRobotOnTheSlope) {
-  const Record& log = record("zlac8015d_kill_on_ramp");
-  const Time killed = log.event("signal 9 to droverd");
-  ASSERT_GT(log.truth_at(killed).z_m - log.truth.front().z_m, 0.1) << "it is not on the ramp";
-  const auto [ahead_m, back_m] = ahead_and_back_m(log, killed, log.event("start droverd", 2));
-  figure("rolled on", ahead_m, "m");
-  figure("rolled back", back_m, "m");
-  EXPECT_LE(back_m, 0.05);
-  EXPECT_LE(ahead_m, 0.30);
+  expect_held_on_the_ramp(record("zlac8015d_kill_on_ramp"));
 }
 
 TEST(Zlac8015dKillOnRamp, StaysStoppedUntilANewStartReachesTheGoal) {
