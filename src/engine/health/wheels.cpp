@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kJudgedShare = 0.05;  // of the highest speed
 constexpr double kFollows = 0.2;       // of the commanded way
+constexpr double kTurns = 0.03;        // of it: more is no noise of an encoder
 constexpr double kWindow_s = 0.1;      // ways are compared over this long
 // At the rim. A base that turned on the spot has its tyres wound up against the ground: turned the
 // other way they unwind first, and a slow wheel stands or goes back meanwhile.
@@ -60,18 +61,19 @@ void WheelMonitor::watch(Wheel& wheel, const AxisSnapshot& axis, Time now, Durat
     wheel.commanded_rad = 0;
     wheel.moved_rad = 0;
     wheel.mark = now;
-    wheel.owed_rad = 0;
+    wheel.owed_rad = wheel.made_rad = 0;
     wheel.window = now;
     return;
   }
   wheel.commanded_rad += std::abs(command_radps) * to_s(dt);
   wheel.owed_rad += std::abs(command_radps) * to_s(dt);
   wheel.moved_rad += forwards ? step_rad : -step_rad;
+  wheel.made_rad += forwards ? step_rad : -step_rad;
   if (now - wheel.window < from_s(kWindow_s)) return;
   // Each window for itself: a wheel that stood for a moment has nothing to make up for.
   if (wheel.moved_rad >= kFollows * wheel.commanded_rad) {
     wheel.mark = now;
-    wheel.owed_rad = 0;
+    wheel.owed_rad = wheel.made_rad = 0;
   }
   wheel.commanded_rad = 0;
   wheel.moved_rad = 0;
@@ -135,6 +137,26 @@ void WheelMonitor::tell_runaway(const AxisSnapshot& axis) {
   }
 }
 
+/// Wheels that turn, but by another measure than they are told by, look blocked, too.
+void WheelMonitor::tell_blocked(Duration since) {
+  double owed_rad = 0;
+  double made_rad = 0;
+  for (const Wheel& wheel : wheels_) {
+    if (!wheel.active) continue;
+    owed_rad += wheel.owed_rad;
+    made_rad += wheel.made_rad;
+  }
+  const double share = owed_rad > 0 ? made_rad / owed_rad : 0.0;
+  if (std::abs(share) < kTurns) {
+    reason_.format("blocked: %s for %.1f s", words_of(base_).do_not_move, to_s(since));
+  } else {
+    reason_.format(
+        "blocked: %s made %+.0f %% of what was commanded for %.1f s: is the load too "
+        "heavy, or are a drive's units or its direction wrong?",
+        words_of(base_).wheels, 100 * share, to_s(since));
+  }
+}
+
 WheelFault WheelMonitor::update(Time now, Duration dt, std::span<const AxisSnapshot> axes) {
   reason_.clear();
   const AxisSnapshot* behind = nullptr;
@@ -159,7 +181,7 @@ WheelFault WheelMonitor::update(Time now, Duration dt, std::span<const AxisSnaps
   }
   if (judged == 0) return WheelFault::none;
   if (shortest >= from_s(config_.navigate.blocked_timeout_s)) {
-    reason_.format("blocked: %s for %.1f s", words_of(base_).do_not_move, to_s(shortest));
+    tell_blocked(shortest);
     return WheelFault::blocked;
   }
   // Only beside one that does follow now; when all stand, the robot is about to be blocked.

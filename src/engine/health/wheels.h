@@ -45,6 +45,7 @@ class WheelMonitor final {
     Time window = kNever;    ///< when this window began
     Time mark = kNever;      ///< when it was last seen to follow
     double owed_rad = 0;     ///< commanded since then
+    double made_rad = 0;     ///< moved since then, in the commanded direction
     bool judged = false;     ///< heard, and in closed loop, in the cycle before
     double reach_radps = 0;  ///< how fast the commands of late may have made it
     double began_radps = 0;  ///< its reach when it was first seen, or caught
@@ -57,6 +58,7 @@ class WheelMonitor final {
   void follow_command(Wheel& wheel, const AxisSnapshot& axis, Time now, Duration dt) const;
   bool runs_away(Wheel& wheel, const AxisSnapshot& axis, Time now, Duration dt) const;
   void tell_runaway(const AxisSnapshot& axis);
+  void tell_blocked(Duration since);
 
   EngineConfig config_;
   Kinematics base_;

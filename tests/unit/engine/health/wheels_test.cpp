@@ -131,7 +131,17 @@ TEST_F(AWheelMonitor, FindsThatAllWheelsAreBlockedAfterTheTimeOut) {
   run_s(1, {1, 1, 1, 1});
   EXPECT_NEAR(run_s(5, {0, 0, 0, 0}), 2.0, 0.1);
   EXPECT_EQ(fault, WheelFault::blocked);
-  EXPECT_THAT(reason(), HasSubstr("blocked"));
+  EXPECT_THAT(reason(), HasSubstr("blocked: the wheels do not move for"));
+}
+TEST_F(AWheelMonitor, SaysOfWheelsThatTurnByAnotherMeasureThatTheyDo) {
+  command(3);
+  EXPECT_NEAR(run_s(5, {0.125, 0.125, 0.125, 0.125}), 2.0, 0.1);
+  EXPECT_THAT(reason(), HasSubstr("the wheels made +12 % of what was commanded for 2.0 s"));
+  EXPECT_THAT(reason(), HasSubstr("units or its direction"));
+  monitor.reset();
+  run_s(1, {1, 1, 1, 1});
+  EXPECT_NEAR(run_s(5, {-1, -1, -1, -1}), 2.0, 0.1);
+  EXPECT_THAT(reason(), HasSubstr("made -100 %"));
 }
 TEST_F(AWheelMonitor, FindsBlockedWheelsAlsoAtTheStartOfAMotion) {
   command(-1);
