@@ -12,21 +12,6 @@ TEST(Hunter, IsDrivenToSuccessCloseToTheTrack) {
   expect_drive_on_a_chassis("hunter");
 }
 
-/// The same line at the same speed: a straight, a U-turn of 1.5 m radius and the way back.
-TEST(Hunter, KeepsItsTrackAsTheFieldRobotDoes) {
-  const auto rms_m = [](const std::string& name) {
-    const Record& log = record(name);
-    return drive_figures(log, log.answered("start_nav_success"),
-                         log.first_status("NAV_SUCCESS").time)
-        .rms_m;
-  };
-  const double ours_m = rms_m("hunter");
-  const double field_m = rms_m("straight_and_uturn");
-  figure("cross-track RMS", ours_m, "m");
-  figure("the field robot's", field_m, "m");
-  EXPECT_LE(ours_m, 1.3 * field_m);
-}
-
 TEST(Hunter, IsToldItsAngleWithinItsRangeAndItsBrakeAtTheRightTimes) {
   const Record& log = record("hunter");
   Time released = kNever;
