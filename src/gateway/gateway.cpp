@@ -42,8 +42,11 @@ Gateway::Gateway(const config::DroverConfig& config)
       listeners_.emplace_back();
       for (const SlotId id : link.slots) {
         const Made& made = wiring_.slots[id].made;
-        listeners_.back().add(id, made.frames->listens());
-        if (made.actuator != nullptr) frame_gate_.add(i, *made.actuator);
+        const Actuator* const actuator = made.actuator;
+        listeners_.back().add(
+            id, made.frames->listens(),
+            actuator != nullptr ? actuator->rules() : std::span<const FrameRule>());
+        if (actuator != nullptr) frame_gate_.add(i, *actuator);
       }
     } else if (link.wire == Wire::bytes) {
       StreamOutput waiting{static_cast<LinkId>(i), {}, 0, false};

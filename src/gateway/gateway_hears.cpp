@@ -13,9 +13,9 @@ void Gateway::on(const FrameHeard& heard, Time received) {
   if (!is_bus(bus)) return;
   buses_[bus].on_frame(frame, received);
   if (frame.error) return;
-  listeners_[bus].each(frame, [&, &frame = frame](SlotId id) {
-    Slot& slot = wiring_.slots[id];
-    if (slot.made.actuator != nullptr) notice_foreign(slot, frame, received);
+  listeners_[bus].each(frame, [&, &frame = frame](Listener listener) {
+    Slot& slot = wiring_.slots[listener.slot];
+    if (listener.sends) notice_foreign(slot, frame, received);
     slot.made.frames->on_frame(frame, received, scratch_);
     take(slot, received);
   });

@@ -9,18 +9,25 @@ bool Listeners::matches(std::span<const FrameFilter> filters, const CanFrame& fr
                      [&](const FrameFilter& filter) { return filter.matches(frame); });
 }
 
-void Listeners::add(SlotId slot, std::span<const FrameFilter> filters) {
-  all_.emplace_back(slot, std::vector(filters.begin(), filters.end()));
-  if (std::any_of(filters.begin(), filters.end(),
-                  [](const FrameFilter& filter) { return filter.extended; }))
-    extended_.push_back(all_.back());
+void Listeners::add(SlotId slot, std::span<const FrameFilter> filters,
+                    std::span<const FrameRule> rules) {
+  all_.push_back({slot, {filters.begin(), filters.end()}, {rules.begin(), rules.end()}});
+  const auto of_long_ids = [](const auto& item) { return item.extended; };
+  if (std::any_of(filters.begin(), filters.end(), of_long_ids)) {
+    const bool sends = std::any_of(rules.begin(), rules.end(), of_long_ids);
+    extended_.emplace_back(Listener{slot, sends}, all_.back().filters);
+  }
   standard_.clear();
   for (std::uint32_t id = 0; id < kStandardIds; ++id) {
     begin_[id] = static_cast<std::uint32_t>(standard_.size());
     CanFrame frame;
     frame.id = id;
-    for (const auto& [who, wants] : all_)
-      if (matches(wants, frame)) standard_.push_back(who);
+    const auto of_this_id = [id](const FrameRule& rule) { return !rule.extended && rule.id == id; };
+    for (const Device& device : all_) {
+      if (!matches(device.filters, frame)) continue;
+      const bool sends = std::any_of(device.rules.begin(), device.rules.end(), of_this_id);
+      standard_.push_back({device.slot, sends});
+    }
   }
   begin_[kStandardIds] = static_cast<std::uint32_t>(standard_.size());
 }

@@ -7,21 +7,30 @@
 #include <utility>
 #include <vector>
 
+#include "drover/actuator.h"
 #include "drover/driver.h"
 #include "gateway/input.h"
 
 namespace drover::gateway {
 
-/// Built at the start from what each device `listens` to.
+/// One of those who hear a frame.
+struct Listener {
+  SlotId slot = 0;
+  bool sends = false;  ///< it may be told such a frame: who sends one is somebody else
+};
+
+/// Built at the start from what each device `listens` to, and what it may be told.
 class Listeners final {
  public:
-  void add(SlotId slot, std::span<const FrameFilter> filters);
-  /// Calls `tell(slot)` once for each that listens to the frame, in the order in which they came.
+  void add(SlotId slot, std::span<const FrameFilter> filters,
+           std::span<const FrameRule> rules = {});
+  /// Calls `tell(listener)` once for each that listens to the frame, in the order in which they
+  /// came.
   template <class Tell>
   void each(const CanFrame& frame, const Tell& tell) const {
     if (frame.extended) {
-      for (const auto& [slot, filters] : extended_)
-        if (matches(filters, frame)) tell(slot);
+      for (const auto& [listener, filters] : extended_)
+        if (matches(filters, frame)) tell(listener);
     } else if (frame.id < kStandardIds) {
       for (std::size_t i = begin_[frame.id]; i < begin_[frame.id + 1]; ++i) tell(standard_[i]);
     }
@@ -31,11 +40,16 @@ class Listeners final {
   static constexpr std::size_t kStandardIds = 0x800;
   static bool matches(std::span<const FrameFilter> filters, const CanFrame& frame);
 
-  std::vector<std::pair<SlotId, std::vector<FrameFilter>>> all_;
-  std::vector<std::pair<SlotId, std::vector<FrameFilter>>> extended_;
+  struct Device {
+    SlotId slot = 0;
+    std::vector<FrameFilter> filters;
+    std::vector<FrameRule> rules;
+  };
+  std::vector<Device> all_;
+  std::vector<std::pair<Listener, std::vector<FrameFilter>>> extended_;
   /// Those of id i stand in `standard_` from begin_[i] to begin_[i + 1].
   std::array<std::uint32_t, kStandardIds + 1> begin_{};
-  std::vector<SlotId> standard_;
+  std::vector<Listener> standard_;
 };
 
 }  // namespace drover::gateway

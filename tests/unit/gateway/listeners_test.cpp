@@ -13,7 +13,7 @@ using ::testing::IsEmpty;
 
 std::vector<int> who_hears(const Listeners& listeners, const CanFrame& frame) {
   std::vector<int> slots;
-  listeners.each(frame, [&](SlotId slot) { slots.push_back(slot); });
+  listeners.each(frame, [&](Listener listener) { slots.push_back(listener.slot); });
   return slots;
 }
 
@@ -67,6 +67,27 @@ TEST(Listeners, HearNothingUnderAnIdThatNoFrameHas) {
   EXPECT_THAT(who_hears(listeners, make_frame(0xFFFFFFFF, {})), IsEmpty());
 }
 
+TEST(Listeners, KnowWhichFramesTheyAreToldThemselves) {
+  Listeners listeners;
+  const FrameFilter node{0x020, 0x7E0, false};
+  const FrameFilter long_node{0x18FF0000, 0x1FFF0000, true};
+  const FrameRule told[] = {{.id = 0x02D}, {.id = 0x02E, .extended = true}};
+  listeners.add(1, {&node, 1}, told);
+  listeners.add(2, {&long_node, 1}, told);
+  listeners.add(3, {&long_node, 1}, {told, 1});
+  const auto who_sends = [&](const CanFrame& frame) {
+    std::vector<int> slots;
+    listeners.each(frame, [&](Listener l) {
+      if (l.sends) slots.push_back(l.slot);
+    });
+    return slots;
+  };
+  EXPECT_THAT(who_sends(make_frame(0x02D, {})), ElementsAre(1));
+  EXPECT_THAT(who_sends(make_frame(0x029, {})), IsEmpty());
+  EXPECT_THAT(who_sends(make_frame(0x02E, {})), IsEmpty()) << "told to it with a long id only";
+  EXPECT_THAT(who_sends(extended(0x18FF0012)), ElementsAre(2)) << "which of its ids is looked at";
+}
+
 TEST(Listeners, AllocateNothingForAFrame) {
   Listeners listeners;
   const FrameFilter one{0x020, 0x7E0, false};
@@ -74,7 +95,7 @@ TEST(Listeners, AllocateNothingForAFrame) {
   const CanFrame frame = make_frame(0x029, {});
   int told = 0;
   const test::AllocationCounter counter;
-  listeners.each(frame, [&](SlotId) { ++told; });
+  listeners.each(frame, [&](Listener) { ++told; });
   EXPECT_EQ(counter.count(), 0U);
   EXPECT_EQ(told, 1);
 }
