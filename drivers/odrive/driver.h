@@ -71,6 +71,15 @@ class OdriveDriver final : public Device, public FrameFace, public Actuator {
 
   Settings settings_;
   AxisId axis_;
+
+  // What the drive said. What each of its frames changes lies together: of many drives no more than
+  // that has to stay in the cache.
+  Heard heard_;  ///< alive: its heartbeat
+  Time last_estimates_ = kNever;
+  double velocity_radps_ = 0;
+  double effort_Nm_ = kAbsent;
+  Time effort_at_ = kNever;
+
   FrameFilter hears_;  ///< all of its node
   RuleList rules_;
   StopRecipe recipe_;
@@ -78,14 +87,8 @@ class OdriveDriver final : public Device, public FrameFace, public Actuator {
   Poller poller_;
   WatchdogSetup watchdog_;
 
-  // What the drive said.
-  Heard heard_;  ///< alive: its heartbeat
-  Time last_estimates_ = kNever;
   Heartbeat heartbeat_;
   ErrorReport errors_;
-  double velocity_radps_ = 0;
-  double effort_Nm_ = kAbsent;
-  Time effort_at_ = kNever;
   ForeignCommand foreign_;
 
   // What is wanted of it.

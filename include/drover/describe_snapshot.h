@@ -107,8 +107,9 @@ void describe(V& v, const GeodeticPoint& point) {
 
 template <class V>
 void describe(V& v, const AxisSnapshot& it) {
-  const auto& [joint, group, motion, state, fault, lapsed, powered, commanded_velocity_radps,
-               inverter_degC, motor_degC, bus_V, bus_A, health, source, last_motion] = it;
+  const auto& [motion, last_motion, joint, group, state, fault, lapsed, powered,
+               commanded_velocity_radps, inverter_degC, motor_degC, bus_V, bus_A, health, source] =
+      it;
   v.value("joint", joint, {});
   v.value("group", group);  // people are shown its name
   v.inside("motion", [&v, &part = motion] { describe(v, part); });

@@ -88,9 +88,10 @@ struct EstimatorCounters {
 };
 
 struct AxisSnapshot {
+  AxisMotion motion;
+  Time last_motion = kNever;
   Name joint;
   std::uint8_t group = 0;  ///< 0: the base; else 1 + the number in Snapshot::groups
-  AxisMotion motion;
   AxisState state = AxisState::unknown;
   Reason fault;
   bool lapsed = false;   ///< that fault is only a want of set points or of supply
@@ -102,7 +103,6 @@ struct AxisSnapshot {
   double bus_A = kAbsent;
   SourceState health = SourceState::never_heard;
   SourceSnapshot source;  ///< samples: motions
-  Time last_motion = kNever;
 };
 
 /// A base that takes a twist, as its device tells of itself. It has no axes.

@@ -17,19 +17,22 @@ void Listeners::add(SlotId slot, std::span<const FrameFilter> filters,
     const bool sends = std::any_of(rules.begin(), rules.end(), of_long_ids);
     extended_.emplace_back(Listener{slot, sends}, all_.back().filters);
   }
-  standard_.clear();
+  others_.clear();
   for (std::uint32_t id = 0; id < kStandardIds; ++id) {
-    begin_[id] = static_cast<std::uint32_t>(standard_.size());
+    Those& those = standard_[id];
+    those = {{}, 0, static_cast<std::uint32_t>(others_.size())};
     CanFrame frame;
     frame.id = id;
     const auto of_this_id = [id](const FrameRule& rule) { return !rule.extended && rule.id == id; };
     for (const Device& device : all_) {
       if (!matches(device.filters, frame)) continue;
       const bool sends = std::any_of(device.rules.begin(), device.rules.end(), of_this_id);
-      standard_.push_back({device.slot, sends});
+      if (those.count++ == 0)
+        those.first = {device.slot, sends};
+      else
+        others_.push_back({device.slot, sends});
     }
   }
-  begin_[kStandardIds] = static_cast<std::uint32_t>(standard_.size());
 }
 
 }  // namespace drover::gateway

@@ -32,7 +32,9 @@ class Listeners final {
       for (const auto& [listener, filters] : extended_)
         if (matches(filters, frame)) tell(listener);
     } else if (frame.id < kStandardIds) {
-      for (std::size_t i = begin_[frame.id]; i < begin_[frame.id + 1]; ++i) tell(standard_[i]);
+      const Those& those = standard_[frame.id];
+      if (those.count > 0) tell(those.first);
+      for (std::size_t i = 1; i < those.count; ++i) tell(others_[those.others + i - 1U]);
     }
   }
 
@@ -47,9 +49,14 @@ class Listeners final {
   };
   std::vector<Device> all_;
   std::vector<std::pair<Listener, std::vector<FrameFilter>>> extended_;
-  /// Those of id i stand in `standard_` from begin_[i] to begin_[i + 1].
-  std::array<std::uint32_t, kStandardIds + 1> begin_{};
-  std::vector<Listener> standard_;
+  /// Those of an id: mostly there is one, who is found where his id is.
+  struct Those {
+    Listener first;
+    std::uint8_t count = 0;
+    std::uint32_t others = 0;  ///< where the others begin in `others_`
+  };
+  std::array<Those, kStandardIds> standard_{};
+  std::vector<Listener> others_;
 };
 
 }  // namespace drover::gateway

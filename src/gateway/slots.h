@@ -26,12 +26,14 @@ struct Slot {
   /// Who asks it: the control thread with all that it hears, or a thread that polls it slowly.
   enum class Thread : std::uint8_t { control, slow };
 
-  Name name;
-  SlotKind kind = SlotKind::drive;
+  // What every message touches lies together: of many devices it all stays in the cache.
+  Made made;
+  std::uint64_t overflows = 0;  ///< what it said and found no room
+  LinkId link = 0;
   std::uint8_t source =
       0;  ///< of receivers, inertial sensors and batteries: its number of its kind
-  Made made;
-  LinkId link = 0;
+  SlotKind kind = SlotKind::drive;
+  Name name;
   Thread thread = Thread::control;
   /// Of what moves something: its joints, by channel. What takes the base's twist is
   /// kBaseAxis.
@@ -41,8 +43,7 @@ struct Slot {
   SourceHealth health;       ///< as of the last cycle
   /// Where the engine looks for it.
   FixedVector<SourceHealth*, kMaxChannels> tells_health;
-  std::size_t place = 0;        ///< in the configuration's table
-  std::uint64_t overflows = 0;  ///< what it said and found no room
+  std::size_t place = 0;  ///< in the configuration's table
 };
 
 /// Links and slots by their numbers, which follow the order of the configuration's tables; but the
