@@ -55,9 +55,10 @@ TEST(RobomasterSilent, OfOneMotorBringsTheRobotToRest) {
   tell_way_to_rest(log, silenced, log.truth.back().time - 10ms);
   figure("turned", turned_deg(log, silenced), "degrees");
   const Roll rolled = roll(log, silenced, log.truth.back().time - 10ms);
-  EXPECT_LT(rolled.way_m, 0.5);
-  EXPECT_LT(rolled.rest - silenced, 1500ms);
-  EXPECT_LT(turned_deg(log, silenced), 45);
+  // The driver's README has half of these.
+  EXPECT_LT(rolled.way_m, 0.35);
+  EXPECT_LT(rolled.rest - silenced, 1000ms);
+  EXPECT_LT(turned_deg(log, silenced), 15);
 }
 
 TEST(RobomasterSilent, IsToldInWordsAndEndsTheTask) {
@@ -79,6 +80,58 @@ TEST(RobomasterSilent, GetsNoCurrentForTheWheelThatNobodySees) {
     EXPECT_EQ(line.frame.data[4] * 256 + line.frame.data[5], 0) << "at " << seconds(line.time);
   }
   EXPECT_GT(looked, 0U);
+}
+
+/// The speed loop is the gateway's: a wheel that seems to stand is asked for ever more.
+TEST(RobomasterStuck, IsFoundBeforeTheWheelThatSeemsToStandTurnsTheRobotFar) {
+  const Record& log = record("robomaster_stuck");
+  const Time stuck = log.event("event stuck#1");
+  ASSERT_TRUE(moved_until(log, stuck));
+  const auto& error = log.first_status("NAV_ERROR", stuck);
+  figure("told after", error.time - stuck);
+  EXPECT_THAT(error.why, testing::HasSubstr("wheel rear_left does not follow its command"));
+  EXPECT_LT(error.time - stuck, 1s);
+  const Time end = log.truth.back().time - 10ms;
+  tell_way_to_rest(log, stuck, end);
+  EXPECT_LT(roll(log, stuck, end).way_m, 0.7);
+  EXPECT_LT(roll(log, stuck, end).rest - stuck, 1500ms);
+  // Of 0.6: what its README says.
+  EXPECT_LT(roll(log, stuck, end).fastest_mps, 1.0);
+  const double beside_m = drive_figures(log, log.answered("start_nav_success"), end).max_m;
+  figure("beside its track, at most", beside_m, "m");
+  EXPECT_LT(beside_m, 0.15);
+}
+
+/// Nobody sees what they do: no current, and all four coast.
+TEST(RobomasterMute, CoastsToRestAndNeedsAPersonBeforeItIsStartedAgain) {
+  const Record& log = record("robomaster_mute");
+  const Time mute = log.event("event mute#1");
+  const Time heard = log.event("event heard#1");
+  ASSERT_TRUE(moved_until(log, mute));
+  EXPECT_THAT(log.first_status("NAV_ERROR", mute).why,
+              testing::HasSubstr("nothing heard of any motor"));
+  for (const CanLine& line : log.can) {
+    if (line.frame.id != 0x200 || line.time < mute + 100ms || line.time > heard) continue;
+    EXPECT_TRUE(robomaster::is_zero(line.frame)) << "at " << seconds(line.time);
+  }
+  tell_way_to_rest(log, mute, heard);
+  EXPECT_LT(roll(log, mute, heard).way_m, 0.9);
+  EXPECT_LT(roll(log, mute, heard).rest - mute, 2600ms);
+  EXPECT_THAT(driven(log, heard),
+              testing::Each(testing::Field(&Sent::time, testing::Gt(log.event("event again#1")))));
+}
+
+/// It is rolled by the three others, and tells so.
+TEST(RobomasterMute, StopsOnItsTrackWhenAMotorGetsNoCurrent) {
+  const Record& log = record("robomaster_mute");
+  const Time torn = log.event("event torn#1");
+  const auto& error = log.first_status("NAV_ERROR", torn);
+  figure("told after", error.time - torn);
+  EXPECT_THAT(error.why, testing::HasSubstr("wheel rear_left"));
+  const double beside_m = drive_figures(log, log.event("event again#1"), Time::max()).max_m;
+  figure("beside its track, at most", beside_m, "m");
+  EXPECT_LT(beside_m, 0.1);
+  EXPECT_LT(std::abs(log.truth.back().vx_mps), 0.01);
 }
 
 /// On tyres, and on mecanum wheels, ahead and to the side.
@@ -104,7 +157,9 @@ TEST_P(RobomasterKill, IsLetCoastByTheGuardsZerosWithin100Milliseconds) {
   const Roll rolled = roll(log, killed, back);
   figure("way coasted", rolled.way_m, "m");
   if (rolled.rest > killed) figure("time coasted ahead", rolled.rest - killed);
-  EXPECT_LT(rolled.way_m, 1.5);
+  // The driver's README has 0.43 m in 1.7 s.
+  EXPECT_LT(rolled.way_m, 0.65);
+  EXPECT_LT(rolled.rest - killed, 2500ms);
 }
 
 TEST_P(RobomasterKill, StaysStoppedUntilItIsStarted) {
