@@ -302,6 +302,8 @@ check "repeats itself to the byte" repeats_itself_to_the_byte
 check "keeps logs" keeps_logs
 check "gives the guard CAN sockets that hear nothing, and a way to what was down" \
   guards_real_can_interfaces
+check "loses no frame of a bus at saturation, on the way to the engine neither" \
+  "$root/tests/bench/bus" --check --build "$build"
 check "reaches a broker inside from the host" reaches_a_broker_inside
 check "lets a visitor in" lets_a_visitor_in
 check "lets several visitors in" lets_several_visitors_in
