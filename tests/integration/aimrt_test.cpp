@@ -119,6 +119,56 @@ TEST_F(AimrtChannel, FollowsAStreamOfCommandsUntilItFallsSilent) {
   EXPECT_EQ(status_text("nav", "status"), "NAV_FREE");
 }
 
+/// What is refused neither moves anything nor disturbs the stream that it comes in between.
+TEST_F(AimrtChannel, GoesOnWithItsStreamAmidBadCommands) {
+  ASSERT_NO_FATAL_FAILURE(start_all());
+  const std::string start("\x02pb\0", 4);
+  const auto encoded = [&](std::string_view text) {
+    return start + protoc_encoded("JointCommand", text);
+  };
+  const std::string fast = R"(joints { name: "front_left" velocity: 9 } )";
+  const std::vector<std::string> bad{
+      encoded(fast + R"(joints { name: "wing" velocity: 9 })"),
+      encoded(fast + fast),
+      encoded(fast + R"(joints { velocity: 9 })"),
+      encoded(R"(joints { name: "front_left" velocity: nan })"),
+      encoded(R"(joints { name: "front_left" velocity: inf })"),
+      encoded(R"(joints { name: "front_left" velocity: 1e30 })"),
+      encoded(R"(joints { name: "front_left" velocity: 9 stiffness: 3 })"),
+      encoded(R"(joints { name: "front_left" velocity: 9 damping: -1 })"),
+      in_protobuf("9").substr(0, 40),
+      start + "\xff\xff\xff\xff",
+      "\x02pb",
+      "",
+      std::string(20'000, 'x'),
+  };
+  const auto rest = in_protobuf("0");
+  const auto slow = in_protobuf("1");
+  const double begun_s = now_s();
+  std::size_t sent = 0;
+  const auto stream = [&] {
+    const bool begins = now_s() < begun_s + 2.5;
+    client().publish(kCommand, begins ? rest : slow);
+    if (!begins) client().publish(kCommand, bad[sent++ % bad.size()]);
+  };
+  EXPECT_TRUE(wait_until([&] {
+    stream();
+    return true_speed_mps() > 0.1 && sent > 2 * bad.size();
+  })) << daemon().output();
+  const double drove_from_s = now_s();
+  double slowest_mps = 1;
+  (void)wait_until([&] {
+    stream();
+    slowest_mps = std::min(slowest_mps, true_speed_mps());
+    return now_s() > drove_from_s + 2;
+  });
+  EXPECT_GT(slowest_mps, 0.05) << "a bad command ended the stream";
+  EXPECT_TRUE(wait_until([this] { return at_rest(); })) << "nobody commands any more";
+  stop_daemon();
+  for (const auto& point : set_points_on_the_bus())
+    ASSERT_LT(std::abs(point.velocity_turnps), 1.01 / (2 * M_PI)) << "1 rad/s of a wheel, never 9";
+}
+
 TEST_F(AimrtChannel, SpeaksWithProgramsOfAimrt1x) {
   add_section(R"("aimrt": {"joint_state_names": "both", "joint_state_content": "json",
                            "touch_state_names": "aimrt_1x"})");
