@@ -2,6 +2,7 @@
 // own, and by what is of all.
 #include <fstream>
 
+#include "mission/arm_wire.h"
 #include "mission/support.h"
 
 namespace drover::mission {
@@ -34,6 +35,12 @@ double speed_at(const Record& log, Time time) {
 
 class Arm : public testing::TestWithParam<const char*> {};
 class ArmKill : public testing::TestWithParam<const char*> {};
+/// All missions of an arm of DAMIAO motors.
+class ArmWires : public testing::TestWithParam<const char*> {};
+
+TEST_P(ArmWires, HaveNoStepInWhatTheirMotorsAreTold) {
+  EXPECT_THAT(check_arm_steps(record(GetParam()), read_arm_bounds(GetParam())), testing::IsEmpty());
+}
 
 TEST_P(Arm, FollowsWhileTheBaseDrives) {
   const Record& log = record(GetParam());
@@ -144,6 +151,13 @@ TEST_P(ArmKill, IsHeldByDroverStop) {
   EXPECT_LT(strayed(log, kShoulder, stopped - 500ms, log.event("event both#1")), 0.02);
 }
 
+TEST_P(ArmKill, TheGuardOnlyDampsIt) {
+  const Record& log = record(GetParam());
+  EXPECT_THAT(check_arm_only_damped(log, log.event("event killed#1") + 100ms,
+                                    log.event("event restarted#1")),
+              testing::IsEmpty());
+}
+
 // What no software holds, and the README says so.
 TEST_P(ArmKill, FallsWhenBothProgramsAreGone) {
   const Record& log = record(GetParam());
@@ -219,6 +233,7 @@ TEST(ScoutArmBus, TheGuardStopsTheArmOnTheInterfaceThatCameBack) {
   const Record& log = record("scout_arm_bus");
   const Time killed = log.event("event killed_at_last#1");
   EXPECT_GT(frames_to_the_arm(log, killed + 100ms, killed + 1s), 30U);
+  EXPECT_THAT(check_arm_only_damped(log, killed + 100ms, killed + 900ms), testing::IsEmpty());
 }
 
 TEST(ScoutArmBusLate, TheBaseDrivesWithoutTheArmAndSaysThatNobodyReachesIt) {
@@ -246,6 +261,7 @@ TEST(ScoutArmBusLate, TheGuardLetsItSinkSlowlyAndStopsTheBase) {
   figure("sank before the next began", sank, "rad");
   EXPECT_GT(sank, 0.1);
   EXPECT_LT(sank, 0.6);  // as of scout_arm_kill
+  EXPECT_THAT(check_arm_only_damped(log, killed + 100ms, back), testing::IsEmpty());
   EXPECT_THAT(log.moving(killed + 100ms, back), testing::IsEmpty());
   EXPECT_LT(roll(log, killed, back).way_m, 0.35);
   expect_good_drive(log, 2);
@@ -277,6 +293,10 @@ TEST(CubemarsArmKill, TheBaseDrivesAnew) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Each, Arm, testing::Values("arm", "scout_arm", "cubemars_arm"), name_of);
+INSTANTIATE_TEST_SUITE_P(Each, ArmWires,
+                         testing::Values("arm", "arm_kill", "scout_arm", "scout_arm_kill",
+                                         "scout_arm_bus", "scout_arm_bus_late"),
+                         name_of);
 INSTANTIATE_TEST_SUITE_P(Each, ArmKill, testing::Values("arm_kill", "scout_arm_kill"), name_of);
 
 }  // namespace
