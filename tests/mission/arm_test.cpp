@@ -1,37 +1,10 @@
 // An arm beside the base, of wheels or a chassis that takes a twist: each is stopped by what is its
 // own, and by what is of all.
-#include <fstream>
-
+#include "mission/arm_motion.h"
 #include "mission/arm_wire.h"
-#include "mission/support.h"
 
 namespace drover::mission {
 namespace {
-
-constexpr std::size_t kShoulder = 1;
-constexpr std::size_t kElbow = 2;
-
-double arm_at(const Record& log, std::size_t joint, Time time) {
-  const auto after = std::find_if(log.truth.begin(), log.truth.end(),
-                                  [time](const TruthLine& line) { return line.time >= time; });
-  if (after == log.truth.end()) throw std::runtime_error("no true motion then");
-  return after->arm_rad.at(joint);
-}
-
-/// How far a joint moved from where it was at `begin`.
-double strayed(const Record& log, std::size_t joint, Time begin, Time end) {
-  const double from = arm_at(log, joint, begin);
-  double most = 0;
-  for (const TruthLine& line : log.truth)
-    if (line.time >= begin && line.time <= end)
-      most = std::max(most, std::abs(line.arm_rad.at(joint) - from));
-  return most;
-}
-
-/// The highest commanded speed of the wheels then, m/s.
-double speed_at(const Record& log, Time time) {
-  return std::abs(log.truth_at(time).vx_mps);
-}
 
 class Arm : public testing::TestWithParam<const char*> {};
 class ArmKill : public testing::TestWithParam<const char*> {};
@@ -167,14 +140,6 @@ TEST_P(ArmKill, FallsWhenBothProgramsAreGone) {
   EXPECT_NEAR(arm_at(log, kShoulder, lies), -0.6, 0.03);
 }
 
-/// What `drover status --json` said, the only one that was asked in this mission.
-nlohmann::json asked_status(const Record& log) {
-  std::ifstream file(log.folder / "drover.log");
-  std::string line;
-  std::getline(file, line);
-  return nlohmann::json::parse(line).at("status");
-}
-
 /// Commands to the arm's motors, whoever sent them.
 std::size_t frames_to_the_arm(const Record& log, Time begin, Time end) {
   return static_cast<std::size_t>(
@@ -295,7 +260,8 @@ TEST(CubemarsArmKill, TheBaseDrivesAnew) {
 INSTANTIATE_TEST_SUITE_P(Each, Arm, testing::Values("arm", "scout_arm", "cubemars_arm"), name_of);
 INSTANTIATE_TEST_SUITE_P(Each, ArmWires,
                          testing::Values("arm", "arm_kill", "scout_arm", "scout_arm_kill",
-                                         "scout_arm_bus", "scout_arm_bus_late"),
+                                         "scout_arm_bus", "scout_arm_bus_late", "arm_faults",
+                                         "arm_hung"),
                          name_of);
 INSTANTIATE_TEST_SUITE_P(Each, ArmKill, testing::Values("arm_kill", "scout_arm_kill"), name_of);
 

@@ -19,8 +19,9 @@ constexpr Duration kCycle = 5ms;
 constexpr double kStep_rad = damiao::kLeast_rad + 1e-5;
 /// Where a joint is: it may have moved a bit since it told, and both are cut off.
 constexpr double kSame_rad = 0.001;
-/// What a motor makes of a set point that is somewhere else, but means the same.
-constexpr double kSame_Nm = 0.15;
+/// What a motor makes of a set point that is somewhere else, but means the same. Of a joint that
+/// moves, what was measured is a cycle old.
+constexpr double kSame_Nm = 0.3;
 /// The motors' time-out is 100 ms.
 constexpr Duration kFed = 50ms;
 
