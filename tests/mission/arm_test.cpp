@@ -25,21 +25,38 @@ TEST_P(Arm, FollowsWhileTheBaseDrives) {
   EXPECT_GT(speed_at(log, raised), 0.04);
 }
 
-TEST_P(Arm, StepsOfPositionAreMadeByItsLimits) {
-  const Record& log = record(GetParam());
-  const Time begin = log.event("event raise#1");
+/// The fastest of the three, from one line of the true motion to the next.
+double fastest_radps(const Record& log, Time begin, Time end) {
   double fastest = 0;
   for (std::size_t i = 1; i < log.truth.size(); ++i) {
     const TruthLine& line = log.truth[i];
-    if (line.time < begin || line.time > begin + 4s) continue;
+    if (line.time < begin || line.time > end) continue;
     const double dt_s = to_s(line.time - log.truth[i - 1].time);
     for (std::size_t joint = 0; joint < 3; ++joint)
       fastest = std::max(
           fastest, std::abs(line.arm_rad.at(joint) - log.truth[i - 1].arm_rad.at(joint)) / dt_s);
   }
-  figure("fastest of its joints", fastest, "rad/s");
-  EXPECT_GT(fastest, 0.9);
-  EXPECT_LT(fastest, 1.3);  // 1.0 asked; weight and stiffness add theirs
+  return fastest;
+}
+
+// Its limit is 1 rad/s, and that is how fast its set point moves (ArmWires). The joint is a mass on
+// the spring and damper that the command asks for: 80 Nm/rad and 3 Nms/rad make a damping ratio of
+// 0.4 of the 0.15 kgm2 of the base's joint. It lags behind while its set point gathers speed, makes
+// that up, and is faster for so long; most so the shoulder, which leaves its stop only when
+// stiffness times the distance carries 3.5 Nm. Then it has the set point's speed.
+TEST_P(Arm, StepsOfPositionAreMadeByItsLimits) {
+  const Record& log = record(GetParam());
+  const Time begin = log.event("event raise#1");
+  const double gathers = fastest_radps(log, begin, begin + 1s);
+  const double then = fastest_radps(log, begin + 1050ms, begin + 4s);
+  figure("fastest of its joints, which leave their stops", gathers, "rad/s");
+  figure("fastest of its joints then", then, "rad/s");
+  EXPECT_LT(gathers, 1.3);
+  EXPECT_GT(then, 0.9);
+  EXPECT_LT(then, 1.06);
+  const Time lift = log.event("event lift#1");
+  EXPECT_LT(fastest_radps(log, lift, lift + 700ms), 1.25) << "where it was held";
+  EXPECT_LT(fastest_radps(log, lift + 700ms, lift + 4s), 1.06);
 }
 
 // 5 N down at the tip: torque by lever, angle by stiffness; what the weight changes with it is less
@@ -79,6 +96,19 @@ TEST_P(Arm, AnEstopStopsBothAndTheArmIsHeld) {
   EXPECT_LT(speed_at(log, pressed + 1500ms), 0.01);
   for (std::size_t joint = 0; joint < 3; ++joint)
     EXPECT_LT(strayed(log, joint, pressed + 200ms, log.event("event again#1")), 0.02) << joint;
+}
+
+TEST_P(Arm, FollowsAgainAfterTheFaultAndAfterTheEstop) {
+  const Record& log = record(GetParam());
+  const Time lowered = log.event("event pressed#1") - 100ms;
+  EXPECT_NEAR(arm_at(log, kBaseYaw, lowered), -0.5, 0.01);
+  EXPECT_NEAR(arm_at(log, kShoulder, lowered), 0.4 - 3.4 / 100, 0.01);
+  EXPECT_NEAR(arm_at(log, kElbow, lowered), 0.2 - 0.5 / 50, 0.01);
+  // The e-stop ended that stream, which went on; a new one is followed.
+  const Time lifted = log.event("event lift#1") + 3900ms;
+  EXPECT_NEAR(arm_at(log, kBaseYaw, lifted), 0.3, 0.01);
+  EXPECT_NEAR(arm_at(log, kShoulder, lifted), 1.0 - 2 / 100., 0.01);
+  EXPECT_NEAR(arm_at(log, kElbow, lifted), 0.5, 0.01);
 }
 
 TEST_P(Arm, TheTaskEndsAtItsGoal) {
