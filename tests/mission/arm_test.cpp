@@ -291,7 +291,8 @@ INSTANTIATE_TEST_SUITE_P(Each, Arm, testing::Values("arm", "scout_arm", "cubemar
 INSTANTIATE_TEST_SUITE_P(Each, ArmWires,
                          testing::Values("arm", "arm_kill", "scout_arm", "scout_arm_kill",
                                          "scout_arm_bus", "scout_arm_bus_late", "arm_faults",
-                                         "arm_hung"),
+                                         "arm_hung", "arm_sinks", "arm_holds", "arm_steps",
+                                         "arm_push"),
                          name_of);
 INSTANTIATE_TEST_SUITE_P(Each, ArmKill, testing::Values("arm_kill", "scout_arm_kill"), name_of);
 
