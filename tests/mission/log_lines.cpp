@@ -137,8 +137,11 @@ TruthColumns::TruthColumns(std::string_view header) {
   }
   // Behind the supply come the joints of an arm.
   const auto supply = std::find(names.begin(), names.end(), "supply");
-  for (auto at = supply; at != names.end(); ++at)
-    if (at->ends_with("_rad")) arm_.push_back(static_cast<std::size_t>(at - names.begin()));
+  for (auto at = supply; at != names.end(); ++at) {
+    const auto column = static_cast<std::size_t>(at - names.begin());
+    if (at->ends_with("_rad")) arm_.push_back(column);
+    if (at->ends_with("_Nm")) arm_torques_.push_back(column);
+  }
 }
 
 TruthLine TruthColumns::parse(std::string_view line) const {
@@ -157,9 +160,12 @@ TruthLine TruthColumns::parse(std::string_view line) const {
                   values[5],
                   values[6],
                   values[7],
+                  {},
                   {}};
   for (const std::size_t column : arm_)
     truth.arm_rad.push_back(number<double>(cells[column], line));
+  for (const std::size_t column : arm_torques_)
+    truth.arm_Nm.push_back(number<double>(cells[column], line));
   return truth;
 }
 

@@ -43,7 +43,9 @@ struct TruthLine {
   double vx_mps = 0;
   double free_ahead_m = 0;
   double wz_radps = 0;
-  std::vector<double> arm_rad;  ///< of its joints outside the base, in the world's order
+  // Of its joints outside the base, in the world's order.
+  std::vector<double> arm_rad;
+  std::vector<double> arm_Nm;  ///< that its motors give
 };
 
 /// "(12.345678901) can0 00D#00000000", as `candump -L` writes it but with nanoseconds.
@@ -65,6 +67,7 @@ class TruthColumns final {
  private:
   std::vector<std::size_t> columns_;
   std::vector<std::size_t> arm_;
+  std::vector<std::size_t> arm_torques_;
   std::size_t count_ = 0;
 };
 

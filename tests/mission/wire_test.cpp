@@ -5,6 +5,7 @@
 
 #include "mission/log_lines.h"
 #include "mission/wire_cia402.h"
+#include "mission/wire_damiao.h"
 #include "mission/wire_robomaster.h"
 #include "mission/wire_twist.h"
 #include "mission/wire_zlac8015d.h"
@@ -227,6 +228,38 @@ TEST(MissionWire, TellsACurrentThatDrivesAMotorFromOneThatBrakesIt) {
   EXPECT_EQ((*drives_A)[1], 0);
   EXPECT_EQ((*drives_A)[2], 0);
   EXPECT_NEAR((*drives_A)[3], 1.25, 0.01);
+}
+
+TEST(MissionWire, ReadsWhatADamiaoIsToldAndTells) {
+  const auto told = damiao::set_point(frame("003#8A3C7FF0A31997FF"));
+  ASSERT_TRUE(told);
+  EXPECT_EQ(told->joint, 2U);
+  EXPECT_NEAR(told->position_rad, 1, damiao::kLeast_rad);
+  EXPECT_EQ(told->velocity_radps, 0);
+  EXPECT_NEAR(told->stiffness, 20, damiao::kLeast_Nmprad);
+  EXPECT_NEAR(told->damping, 0.5, 0.002);
+  EXPECT_EQ(told->torque_Nm, 0);
+  EXPECT_FALSE(told->only_damps());
+  EXPECT_NEAR(damiao::set_point(frame("003#7FFF8CC0003337FF"))->velocity_radps, 3, 0.015);
+  const auto most = damiao::set_point(frame("001#FFFFFFF000000FFF"));
+  EXPECT_NEAR(most->velocity_radps, 10, 1e-9);
+  EXPECT_NEAR(most->torque_Nm, 28, 1e-9);
+  const auto answer = damiao::answer(frame("013#138A3C8886CC231E"));
+  ASSERT_TRUE(answer);
+  EXPECT_EQ(answer->status, 1);
+  EXPECT_NEAR(answer->position_rad, 0.99966, 1e-5);
+  EXPECT_NEAR(answer->velocity_radps, 2, 1e-3);
+  EXPECT_NEAR(answer->torque_Nm, -1.5018, 1e-4);
+}
+
+TEST(MissionWire, TakesNoWordToADamiaoForASetPointNorARegisterForAnAnswer) {
+  EXPECT_TRUE(damiao::set_point(frame("001#7FFF7FF0003337FF"))->only_damps());
+  EXPECT_FALSE(damiao::set_point(frame("001#7FFF7FF0000007FF"))->only_damps()) << "it is limp";
+  EXPECT_FALSE(damiao::set_point(frame("001#7FFF7FF000333800"))->only_damps()) << "a torque";
+  for (const char* text : {"001#FFFFFFFFFFFFFFFC", "004#7FFF7FF0003337FF", "001#7FFF7FF0"})
+    EXPECT_FALSE(damiao::set_point(frame(text))) << text;
+  for (const char* text : {"011#0100331500004841", "014#117FFF7FF7FF1E1C"})
+    EXPECT_FALSE(damiao::answer(frame(text))) << text;
 }
 
 }  // namespace

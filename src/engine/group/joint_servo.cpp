@@ -39,13 +39,14 @@ void JointServo::take(const JointTarget& target, Time now) {
 }
 
 void JointServo::end(const Reason& why) {
-  const bool asked = follows_ || arming_since_ != kNever;
-  if (asked) {
+  // A drive that was found running is armed without anybody's command: there is nothing to end.
+  const bool sent_once = heard_ != kNever;
+  if (sent_once && (follows_ || arming_since_ != kNever)) {
     reason_ = why;
     by_itself_ = false;
   }
   // Also a row that is only beginning: it was sent by somebody who did not know.
-  waits_ = waits_ || asked || heard_ != kNever;
+  waits_ = waits_ || sent_once;
   follows_ = false;
   arming_since_ = kNever;
 }

@@ -138,6 +138,46 @@ TEST(Groups, TellOfAWeightUntilItIsAccepted) {
   EXPECT_THAT(loaded.warnings[0].text("f"), HasSubstr("drover-guard only lets it sink slowly"));
 }
 
+const std::string kShoulder = R"("options": {"id": 2, "model": "DM4340", )"
+                              R"("damping_Nmsprad": 4.9})";
+
+/// Of its shoulder, and what stands behind its options.
+std::string with_time_out(const std::string& timeout_ms, const std::string& more = "") {
+  return arm_with(kShoulder + "}", kShoulder.substr(0, kShoulder.size() - 1) +
+                                       ", \"timeout_ms\": " + timeout_ms + "}" + more + "}");
+}
+
+TEST(Groups, RefuseAMotorWithoutATimeOutUntilThatIsAccepted) {
+  const auto refused = problems(with_time_out("0"), kFolder);
+  EXPECT_THAT(refused,
+              HasSubstr("devices.shoulder.options: follows its last command for ever: the motor's "
+                        "TIMEOUT is 0 (set its watchdog, or \"accept\": [\"no_watchdog\"] when "
+                        "that is meant)"));
+  EXPECT_EQ(refused.find("elbow"), std::string::npos) << refused;
+  EXPECT_THAT(problems(with_time_out("0", ", \"accept\": [\"no_watchdog\"]"), kFolder), IsEmpty());
+  EXPECT_THAT(problems(with_time_out("100"), kFolder), IsEmpty());
+}
+
+TEST(Groups, TellWhatAWeightDoesWhoseMotorHasNoTimeOut) {
+  auto text = with_time_out("0", ", \"accept\": [\"no_watchdog\"]");
+  const auto falls = text.find("\"falls\"");
+  ASSERT_NE(falls, std::string::npos);
+  const auto loaded = load_text(text.replace(falls, 7, ""), kFolder);
+  ASSERT_THAT(loaded.problems, IsEmpty());
+  ASSERT_EQ(loaded.warnings.size(), 3u);
+  EXPECT_THAT(loaded.warnings[0].text("f"),
+              HasSubstr("groups.arm.joints.shoulder: carries a weight: without power nothing holds "
+                        "it; when its line is cut its drive follows its last command for ever: the "
+                        "motor's TIMEOUT is 0; when droverd dies drover-guard only lets it sink "
+                        "slowly"));
+  EXPECT_THAT(loaded.warnings[1].text("f"), HasSubstr("elbow: carries a weight: without power "
+                                                      "nothing holds it; when its line is cut its "
+                                                      "drive goes limp after 0.100 s"));
+  EXPECT_THAT(loaded.warnings[2].text("f"),
+              HasSubstr("devices.shoulder.accept: it goes on for ever when its line is cut; there "
+                        "is no outputs.enable_relay"));
+}
+
 TEST(Groups, AreFourAtTheMost) {
   std::string more;
   for (const char* name : {"b", "c", "d", "e"})

@@ -216,6 +216,43 @@ TEST_F(EngineGroup, WhatIsFoundRunningIsHeldAfterARestart) {
   EXPECT_NEAR(arm[0].position_rad, held, 0.001);
 }
 
+// Just after a start nothing may move yet; nobody was stopped by that who had not begun.
+TEST_F(EngineGroup, WhatIsFoundRunningFollowsTheFirstStreamAfterARestart) {
+  for (ArmJoint& joint : arm) {
+    joint.state = AxisState::running;
+    joint.found_on = joint.damps_while_arming = true;
+    joint.damps_Nmsprad = 5;
+    joint.arms_in = 20;
+    joint.position_rad = 0.7;
+  }
+  rig.guard_has_bus = true;
+  run_s(0.1);
+  rig.guard_has_bus = false;
+  settle();
+  EXPECT_EQ(told().state, GroupState::holding);
+  EXPECT_EQ(reason(), "");
+  send_s(4, 0.2);
+  EXPECT_EQ(told().state, GroupState::following);
+  EXPECT_NEAR(arm[0].position_rad, 0.2, 0.05);
+}
+
+// And who had begun does not know of it.
+TEST_F(EngineGroup, AStreamThatGoesOnOverARestartWaitsUntilItPaused) {
+  for (ArmJoint& joint : arm) {
+    joint.state = AxisState::running;
+    joint.damps_Nmsprad = 5;
+    joint.position_rad = 0.7;
+  }
+  rig.guard_has_bus = true;
+  send_s(0.1, 0.2);
+  rig.guard_has_bus = false;
+  send_s(4, 0.2);
+  EXPECT_EQ(told().state, GroupState::holding);
+  run_s(1.1);
+  send_s(4, 0.2);
+  EXPECT_EQ(told().state, GroupState::following);
+}
+
 TEST_F(EngineGroup, WhatTheGuardLetSinkIsHeldWhereItIsGivenBack) {
   settle();
   send_s(4, 0.4);

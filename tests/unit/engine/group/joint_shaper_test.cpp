@@ -197,6 +197,44 @@ TEST(JointShaper, HoldKeepsThePlaceWithAllThatCarriedIt) {
   EXPECT_NEAR(joint.position_rad, rested, 0.002);
 }
 
+/// Which a push cannot be told from: it stays in the effort. README.md says so.
+TEST(JointShaper, HoldTakesAPushForAWeightAndMovesByItsShareWhenItIsLetGo) {
+  JointShaper shaper(rules_of(JointFollows::impedance));
+  ArmJoint joint;
+  joint.state = AxisState::running;
+  joint.weight_Nm = 0;
+  const auto cycles = [&](int count, bool follows) {
+    for (int i = 0; i < count; ++i) {
+      const JointMeasured measured{joint.position_rad, joint.velocity_radps, joint.torque_Nm};
+      follows ? shaper.follow(at(0), measured, kCycle_s) : shaper.hold(measured, kCycle_s);
+      joint.obey({AxisRequest::run, shaper.velocity_radps(), shaper.impedance()});
+      for (int k = 0; k < 5; ++k) joint.step(kCycle_s / 5);
+    }
+  };
+  shaper.take_over({});
+  joint.push_Nm = 1.6;
+  cycles(800, true);
+  const double pushed = joint.position_rad;
+  EXPECT_NEAR(pushed, 1.6 / 40, 0.002);
+  cycles(2000, false);
+  EXPECT_NEAR(joint.position_rad, pushed, 0.001);
+  joint.push_Nm = 0;
+  cycles(1000, false);
+  EXPECT_NEAR(joint.position_rad, pushed - 1.6 / 40, 0.002);
+  const double rests = joint.position_rad;
+  cycles(2000, false);
+  EXPECT_NEAR(joint.position_rad, rests, 0.001);
+}
+
+TEST(JointShaper, HoldCarriesNoMoreThanTheLimitOfEffort) {
+  JointShaper shaper(rules_of(JointFollows::impedance));
+  shaper.take_over({0.3, 0});
+  for (int i = 0; i < 200; ++i) {
+    shaper.hold({0.3, 0, -9}, kCycle_s);
+    EXPECT_EQ(shaper.impedance().effort_Nm, -4);
+  }
+}
+
 TEST(JointShaper, HoldBrakesAMovementByItsLimit) {
   JointShaper shaper(rules_of(JointFollows::velocity));
   shaper.take_over({0, 0});
