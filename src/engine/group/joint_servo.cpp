@@ -47,6 +47,8 @@ void JointServo::end(const Reason& why) {
   // Also a row that is only beginning: it was sent by somebody who did not know.
   waits_ = waits_ || asked || heard_ != kNever;
   follows_ = false;
+  // A stop holds whatever is still held by somebody, and arms nothing that was let go.
+  ceased_ = lets_go();
   arming_since_ = kNever;
 }
 
@@ -62,7 +64,9 @@ void JointServo::fail(const Input& input, const char* otherwise) {
 void JointServo::judge_stream(const Input& input) {
   if (!input.hindrance.empty()) end(input.hindrance);
   if (!sent(input.now)) return cease(input.now);
+  const bool followed = follows_;
   follows_ = input.hindrance.empty() && !waits_ && steady(input.now);
+  ceased_ = !follows_ && (ceased_ || followed);
   if (!input.hindrance.empty()) {
     reason_ = input.hindrance;
     by_itself_ = false;
@@ -78,7 +82,7 @@ void JointServo::judge_stream(const Input& input) {
 void JointServo::cease(Time now) {
   if (follows_) {
     reason_ = "its commands have ceased";
-    by_itself_ = true;
+    by_itself_ = ceased_ = true;
   }
   if (heard_ != kNever && now - heard_ >= kPause) {
     waits_ = false;
@@ -89,8 +93,9 @@ void JointServo::cease(Time now) {
   arming_since_ = kNever;
 }
 
-void JointServo::rest_as_ruled(const JointMeasured& measured, double dt_s) {
-  switch (rules_.on_silence) {
+/// Nobody's commands are followed.
+void JointServo::rest(const JointMeasured& measured, double dt_s) {
+  switch (ceased_ ? rules_.on_silence : OnSilence::hold) {
     case OnSilence::hold:
       shaper_.hold(measured, dt_s);
       state_ = GroupState::holding;
@@ -123,7 +128,7 @@ void JointServo::run(const Input& input) {
     shaper_.hold(measured, dt_s);
     state_ = GroupState::arming;
   } else {
-    rest_as_ruled(measured, dt_s);
+    rest(measured, dt_s);
   }
   command_.velocity_radps = shaper_.velocity_radps();
   command_.impedance = shaper_.impedance();

@@ -138,6 +138,21 @@ TEST(Groups, TellOfAWeightUntilItIsAccepted) {
   EXPECT_THAT(loaded.warnings[0].text("f"), HasSubstr("drover-guard only lets it sink slowly"));
 }
 
+TEST(Groups, RefuseToLetAWeightFallUntilItIsAccepted) {
+  const std::string elbow = "\"on_silence\": \"hold\"";
+  EXPECT_THAT(arm_problems(elbow, "\"on_silence\": \"release\""),
+              HasSubstr("groups.arm.joints.elbow.on_silence: is release, and the joint carries a "
+                        "weight, which falls when its commands cease (hold, or damp, or "
+                        "\"accept\": [\"lets_fall\"] at the top of the file when that is meant)"));
+  EXPECT_EQ(arm_problems(elbow, "\"on_silence\": \"damp\""), "");
+  auto accepted = arm_with(elbow, "\"on_silence\": \"release\"");
+  accepted.replace(accepted.find("\"falls\""), 7, "\"falls\", \"lets_fall\"");
+  EXPECT_EQ(problems(accepted, kFolder), "");
+  EXPECT_EQ(arm_problems("\"follows\": \"position\", ",
+                         "\"follows\": \"position\", \"on_silence\": \"release\", "),
+            "");  // the turret carries none
+}
+
 TEST(Groups, AreFourAtTheMost) {
   std::string more;
   for (const char* name : {"b", "c", "d", "e"})
