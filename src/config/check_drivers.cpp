@@ -81,16 +81,17 @@ void warn_of_weight(const std::string& path, const Actuator& driver, Findings& f
              "falls", "a brake, a spring or a counterweight");
 }
 
-/// The joints of groups that the device moves.
+/// The joints of groups that the device moves; fills in what can be told to them.
 void look_at_joints(const DeviceConfig& device, const Actuator& driver, Findings& found) {
-  const auto& engine = found.config().engine;
-  for (const auto& group : engine.groups)
-    for (const auto& joint : group.joints) {
+  auto& engine = found.config().engine;
+  for (auto& group : engine.groups)
+    for (auto& joint : group.joints) {
       const auto place = static_cast<std::size_t>(joint.axis - device.first_axis);
       if (joint.axis < device.first_axis || place >= device.joints.size()) continue;
       const auto path = "groups." + std::string(group.name.view()) + ".joints." +
                         std::string(engine.joints[joint.axis].view());
-      look_at_range(path, joint, driver.impedance_range(device.joints[place].channel_index), found);
+      joint.drive = driver.impedance_range(device.joints[place].channel_index);
+      look_at_range(path, joint, joint.drive, found);
       if (joint.carries_weight) warn_of_weight(path, driver, found);
     }
 }

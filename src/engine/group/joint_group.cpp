@@ -21,6 +21,24 @@ Reason of_joint(const Name& joint, const Reason& what) {
   return text;
 }
 
+void append(Reason& text, std::string_view more) {
+  text.format("%.*s%.*s", width(text), text.view().data(), width(more), more.data());
+}
+
+/// "elbow (position, effort)".
+Reason limits_of(const Name& joint, JointValues limited) {
+  Reason text = joint.view();
+  std::string_view before = " (";
+  for (std::size_t i = 0; i < kJointValueWords.size(); ++i) {
+    if ((limited & bit(static_cast<JointValue>(i))) == 0) continue;
+    append(text, before);
+    append(text, kJointValueWords[i]);
+    before = ", ";
+  }
+  append(text, ")");
+  return text;
+}
+
 /// Whoever makes the message: what cannot be would be in the set point for ever.
 bool is_sound(const JointTarget& target) {
   const bool finite = std::isfinite(target.position_rad) && std::isfinite(target.velocity_radps) &&
@@ -104,7 +122,7 @@ void JointGroup::step(const Input& input, std::span<AxisCommand> commands, std::
     commands[axis] = joint.command();
     may_move[axis] = joint.may_move();
     told_.state = std::min(told_.state, joint.state());
-    limited = limited || joint.limited();
+    limited = limited || joint.limited() != 0;
   }
   told_.reason = hindrance;
   for (std::size_t i = 0; told_.reason.empty() && i < joints_.size(); ++i)
@@ -132,9 +150,33 @@ void JointGroup::tell(const Input& input, const Reason& lost, bool limited, Even
   if (!lost.empty()) warn("joint commands ended: ", lost);
   if (!limited || (limited_told_ != kNever && input.now - limited_told_ < kBetweenLimits)) return;
   limited_told_ = input.now;
-  const auto first = std::find_if(joints_.begin(), joints_.end(),
-                                  [](const JointServo& joint) { return joint.limited(); });
-  warn("more was asked than the limits allow of ", input.axes[first->rules().axis].joint);
+  constexpr std::string_view kWhat = "more was asked than the limits allow: ";
+  const auto begins = told_.name.view().size() + std::string_view(": ").size() + kWhat.size();
+  warn(kWhat.data(), all_limited(input.axes, Reason::capacity() - begins));
+}
+
+/// With what was asked of each; those that have no room are counted.
+Reason JointGroup::all_limited(std::span<const AxisSnapshot> axes, std::size_t room) const {
+  constexpr std::string_view kLongest = " and 15 more";
+  Reason text;
+  auto left = std::count_if(joints_.begin(), joints_.end(),
+                            [](const JointServo& joint) { return joint.limited() != 0; });
+  for (const JointServo& joint : joints_) {
+    if (joint.limited() == 0) continue;
+    const Reason next = limits_of(axes[joint.rules().axis].joint, joint.limited());
+    const auto needs = text.view().size() + std::string_view(", ").size() + next.view().size() +
+                       (left > 1 ? kLongest.size() : 0);
+    if (!text.empty() && needs > room) {
+      Reason others;
+      others.format(" and %ld more", static_cast<long>(left));
+      append(text, others);
+      return text;
+    }
+    append(text, text.empty() ? "" : ", ");
+    append(text, next);
+    --left;
+  }
+  return text;
 }
 
 }  // namespace drover::engine

@@ -39,6 +39,7 @@ class JointGroup final {
   Reason trouble(const Input& input) const;
   void count(bool limited);
   void tell(const Input& input, const Reason& lost, bool limited, EventQueue& events);
+  Reason all_limited(std::span<const AxisSnapshot> axes, std::size_t room) const;
 
   Duration start_timeout_;
   std::vector<JointServo> joints_;  ///< made once

@@ -41,7 +41,8 @@ class JointServo final {
   bool asked(Time now) const { return steady(now); }
   bool following() const { return state_ == GroupState::following; }
   GroupState state() const { return state_; }
-  bool limited() const { return following() && shaper_.limited(); }
+  /// What of its command was beyond a limit.
+  JointValues limited() const { return following() ? shaper_.limited() : JointValues{}; }
   /// Why it does not follow what is sent, or why it ended; empty: it does, or nothing is.
   const Reason& reason() const { return reason_; }
   /// That reason lies in this joint, whose name is not in it.

@@ -128,6 +128,15 @@ TEST(Groups, RefuseLimitsThatTheDriveCannotBeTold) {
               HasSubstr("max_effort_Nm: is 1000 Nm, and its drive can be told 0 to "));
 }
 
+TEST(Groups, KnowWhatTheirDrivesCanBeTold) {
+  const auto loaded = load_text(example(), kFolder);
+  ASSERT_THAT(loaded.problems, IsEmpty());
+  for (const auto& joint : loaded.config.engine.groups[0].joints) {
+    EXPECT_EQ(joint.drive.stiffness_Nmprad, 500);
+    EXPECT_EQ(joint.drive.damping_Nmsprad, 5);
+  }
+}
+
 TEST(Groups, TellOfAWeightUntilItIsAccepted) {
   const auto loaded = load_text(arm_with("\"falls\"", ""), kFolder);
   ASSERT_THAT(loaded.problems, IsEmpty());

@@ -246,6 +246,23 @@ TEST_F(EngineGroup, ALimitIsToldOnceASecond) {
   EXPECT_LT(arm[0].position_rad, 1.5);
 }
 
+/// Each joint with each value.
+TEST_F(EngineGroup, ALimitIsToldWithWhatWasAskedOfWhom) {
+  settle();
+  for (int i = 0; i < 300; ++i) {
+    JointTargets targets;
+    (void)targets.joints.push_back({static_cast<AxisId>(first), 0, 9, 50, 60, 3});
+    (void)targets.joints.push_back({static_cast<AxisId>(first + 1), -7, -1.4, 0, 60, 3});
+    rig.command(targets);
+    tick();
+  }
+  const auto all = rig.said<Notice>();
+  ASSERT_FALSE(all.empty());
+  EXPECT_EQ(all.back().text,
+            "arm: more was asked than the limits allow: shoulder (position, effort), elbow "
+            "(velocity)");
+}
+
 TEST_F(EngineGroup, TooSlowAStreamIsToldSo) {
   settle();
   for (int i = 0; i < 10; ++i) {
