@@ -60,7 +60,7 @@ JointGroup::JointGroup(const GroupConfig& config, Duration start_timeout)
   for (const JointRules& rules : config.joints) joints_.emplace_back(rules);
 }
 
-void JointGroup::take(const JointTargets& targets, Time now) {
+void JointGroup::take(const JointTargets& targets, RequestId::Source source, Time now) {
   if (!std::all_of(targets.joints.begin(), targets.joints.end(), is_sound)) {
     ++told_.refused;
     return;
@@ -73,7 +73,9 @@ void JointGroup::take(const JointTargets& targets, Time now) {
       mine = true;
     }
   }
-  waiting_ += mine ? 1 : 0;
+  if (!mine) return;
+  ++waiting_;
+  sender_ = source == RequestId::Source::ros2 ? GroupOwner::ros2 : GroupOwner::broker;
 }
 
 void JointGroup::end(const Reason& why) {
@@ -124,6 +126,7 @@ void JointGroup::step(const Input& input, std::span<AxisCommand> commands, std::
     told_.state = std::min(told_.state, joint.state());
     limited = limited || joint.limited() != 0;
   }
+  told_.owner = owner(input.estop);
   told_.reason = hindrance;
   for (std::size_t i = 0; told_.reason.empty() && i < joints_.size(); ++i)
     if (const Reason& why = joints_[i].reason(); !why.empty())
@@ -131,6 +134,13 @@ void JointGroup::step(const Input& input, std::span<AxisCommand> commands, std::
           joints_[i].by_itself() ? of_joint(input.axes[joints_[i].rules().axis].joint, why) : why;
   count(limited);
   tell(input, lost, limited, events);
+}
+
+GroupOwner JointGroup::owner(bool estop) const {
+  if (estop) return GroupOwner::estop;
+  const bool owned = std::any_of(joints_.begin(), joints_.end(),
+                                 [](const JointServo& joint) { return joint.follows(); });
+  return owned ? sender_ : GroupOwner::nobody;
 }
 
 void JointGroup::count(bool limited) {

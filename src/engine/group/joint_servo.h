@@ -39,6 +39,8 @@ class JointServo final {
 
   /// A row of commands asks for it, whether it may be followed or not.
   bool asked(Time now) const { return steady(now); }
+  /// Somebody's commands, or its drive is armed for them.
+  bool follows() const { return follows_; }
   bool following() const { return state_ == GroupState::following; }
   GroupState state() const { return state_; }
   /// What of its command was beyond a limit.

@@ -275,6 +275,28 @@ TEST_F(EngineGroup, TooSlowAStreamIsToldSo) {
   EXPECT_THAT(reason(), HasSubstr("150 ms apart, 100 ms are allowed"));
 }
 
+TEST_F(EngineGroup, TellsWhoseCommandsItFollows) {
+  settle();
+  EXPECT_EQ(told().owner, GroupOwner::nobody);
+  send_s(0.2, 0.4);
+  EXPECT_EQ(told().owner, GroupOwner::nobody);  // it may be a burst
+  send_s(0.2, 0.4);
+  EXPECT_EQ(told().owner, GroupOwner::broker);
+  EXPECT_EQ(rig.snapshot().nav.owner, Owner::nobody);
+  run_s(1);
+  EXPECT_EQ(told().owner, GroupOwner::nobody);
+  source = RequestId::Source::ros2;
+  send_s(1, 0.4);
+  EXPECT_EQ(told().owner, GroupOwner::ros2);
+  rig.command(CancelTask{});
+  send_s(0.1, 0.4);
+  EXPECT_EQ(told().owner, GroupOwner::nobody);
+  rig.lines[static_cast<std::size_t>(Line::estop)] = true;
+  send_s(0.5, 0.4);
+  EXPECT_EQ(told().owner, GroupOwner::estop);
+  EXPECT_EQ(rig.snapshot().nav.owner, Owner::estop);
+}
+
 class EngineGroupReleases : public EngineGroup {
  protected:
   EngineGroupReleases() : EngineGroup(released()) {}

@@ -32,7 +32,7 @@ TEST(ManyLimits, AreToldAsFarAsThereIsRoomAndTheOthersCounted) {
       axis.last_motion = now;
       (void)targets.joints.push_back({static_cast<AxisId>(targets.joints.size()), 0, 99, 0, 20, 1});
     }
-    group.take(targets, now);
+    group.take(targets, RequestId::Source::aimrt, now);
     group.step({now, std::chrono::milliseconds(5), axes, std::chrono::milliseconds(100), nothing},
                commands, may_move, events);
   }
