@@ -127,8 +127,9 @@ void describe(V& v, const AxisSnapshot& it) {
 
 template <class V>
 void describe(V& v, const GroupSnapshot& group) {
-  const auto& [name, state, accepted, refused, limited, reason] = group;
+  const auto& [name, owner, state, accepted, refused, limited, reason] = group;
   v.value("name", name, {});
+  v.value("owner", owner, {});
   v.value("state", state, {});
   v.value("accepted", accepted, {});
   v.value("refused", refused, {});

@@ -208,9 +208,18 @@ enum class GroupState : std::uint8_t {
   idle,       ///< the power stages are off
 };
 
+/// Whose commands they follow, highest rank first.
+enum class GroupOwner : std::uint8_t {
+  estop,   ///< nobody's, as long as it is pressed
+  broker,  ///< a program's, over the broker
+  ros2,    ///< a program's, over ROS 2
+  nobody,
+};
+
 /// Joints outside the base that belong together.
 struct GroupSnapshot {
   Name name;
+  GroupOwner owner = GroupOwner::nobody;
   GroupState state = GroupState::idle;
   std::uint64_t accepted = 0;  ///< messages that were followed
   std::uint64_t refused = 0;

@@ -171,6 +171,8 @@ void show_groups(std::string& out, const Node& status) {
   if (groups == nullptr) return;
   for (const auto& group : *groups) {
     std::string value = text(at(group, "state"));
+    const auto owner = text(at(group, "owner"));
+    if (owner != "nobody" && !owner.empty()) value += "  owner " + owner;
     if (const auto why = text(at(group, "reason")); !why.empty()) value += "  " + why;
     line(out, text(at(group, "name")), value);
   }

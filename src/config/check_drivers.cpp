@@ -81,16 +81,34 @@ void warn_of_weight(const std::string& path, const Actuator& driver, Findings& f
              "falls", "a brake, a spring or a counterweight");
 }
 
-/// The joints of groups that the device moves.
+/// Wheels that the guard lets roll, on ground where a task may end. Whether it is told.
+bool warn_of_rolling(const DeviceConfig& device, const Actuator& driver, Findings& found) {
+  constexpr const char* kPath = "groups.base.max_tilt_deg";
+  constexpr double kLevel_deg = 3;
+  const auto& base = found.config().engine.base;
+  const bool of_base = driver.channels()[0].mode != ChannelMode::impedance;
+  if (!of_base || driver.stop_recipe().ends != StopEnds::coasts) return false;
+  if (base.hold != engine::HoldBy::level_ground_only || base.max_tilt_deg <= kLevel_deg)
+    return false;
+  found.warn(kPath,
+             "is " + text::number_text(base.max_tilt_deg) +
+                 ": where it may stand when droverd dies drover-guard can only let the wheels of " +
+                 device_path(device) + " coast, and it rolls",
+             "rolls", "3 or less, or a brake and \"hold\": \"brake\"");
+  return true;
+}
+
+/// The joints of groups that the device moves; fills in what can be told to them.
 void look_at_joints(const DeviceConfig& device, const Actuator& driver, Findings& found) {
-  const auto& engine = found.config().engine;
-  for (const auto& group : engine.groups)
-    for (const auto& joint : group.joints) {
+  auto& engine = found.config().engine;
+  for (auto& group : engine.groups)
+    for (auto& joint : group.joints) {
       const auto place = static_cast<std::size_t>(joint.axis - device.first_axis);
       if (joint.axis < device.first_axis || place >= device.joints.size()) continue;
       const auto path = "groups." + std::string(group.name.view()) + ".joints." +
                         std::string(engine.joints[joint.axis].view());
-      look_at_range(path, joint, driver.impedance_range(device.joints[place].channel_index), found);
+      joint.drive = driver.impedance_range(device.joints[place].channel_index);
+      look_at_range(path, joint, joint.drive, found);
       if (joint.carries_weight) warn_of_weight(path, driver, found);
     }
 }
@@ -284,6 +302,7 @@ void follow_baud_rates(Findings& found) {
 
 void check_drivers(Findings& found) {
   BusIds ids(found);
+  bool rolls = false;  // told of the first
   for (auto& device : found.config().devices) {
     look_at_speed(device, found);
     const auto made = build(device, found);
@@ -294,6 +313,7 @@ void check_drivers(Findings& found) {
     if (silence.stops) device.stops_after_ms = static_cast<int>(to_s(silence.after) * 1000);
     look_at_silence(device, *made.actuator, found);
     look_at_joints(device, *made.actuator, found);
+    if (!rolls) rolls = warn_of_rolling(device, *made.actuator, found);
   }
 }
 

@@ -36,6 +36,16 @@ void limits(const std::string& path, const engine::JointRules& rules, Findings& 
             "the joint moves between the two");
 }
 
+/// The end of a stream is no stop, and so nothing holds it then.
+void no_falling(const std::string& path, const engine::JointRules& rules, Findings& found) {
+  if (!rules.carries_weight || rules.on_silence != engine::OnSilence::release) return;
+  if (found.accepts("lets_fall")) return;
+  found.add(
+      path + ".on_silence",
+      "is release, and the joint carries a weight, which falls when its commands cease",
+      "hold, or damp, or \"accept\": [\"lets_fall\"] at the top of the file when that is meant");
+}
+
 /// What is fed, armed and stopped together has one owner.
 void whole_device(const std::string& path, const JointGroup& group, const DeviceConfig& device,
                   Findings& found) {
@@ -76,6 +86,7 @@ void joint(const std::string& path, const JointGroup& group, const GroupJoint& g
   rules.axis = static_cast<AxisId>(moved.device->first_axis + moved.joint);
   rules.follows = by_word<JointFollows>(kFollowsWords, given.follows);
   rules.on_silence = by_word<engine::OnSilence>(kSilenceWords, given.on_silence);
+  no_falling(path, rules, found);
   (void)into.joints.push_back(rules);  // too many are told by the reader
 }
 

@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "drover/actuator.h"
 #include "drover/command.h"
 #include "drover/fixed_text.h"
 #include "drover/fixed_vector.h"
@@ -82,6 +83,7 @@ struct JointRules {
   double timeout_s = 0.1;  ///< longer without a command: they have ceased
   OnSilence on_silence = OnSilence::hold;
   bool carries_weight = false;  ///< without power it sinks or falls
+  ImpedanceRange drive;         ///< what its drive can be told at all
 };
 
 inline constexpr std::size_t kMaxOfGroup = 16;

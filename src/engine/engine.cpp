@@ -265,7 +265,7 @@ void Engine::on_command(const Command& command, Time now) {
   } else if (const auto* origin = std::get_if<SetOrigin>(&command.body)) {
     e.set_origin(id, origin->origin, now);
   } else if (const auto* targets = std::get_if<JointTargets>(&command.body)) {
-    e.take_joints(*targets, now);
+    e.take_joints(*targets, id.source, now);
   } else if (const auto* refused = std::get_if<JointTargetsRefused>(&command.body)) {
     e.owners.refuse(*refused);
   } else if (std::holds_alternative<FindHeading>(command.body)) {

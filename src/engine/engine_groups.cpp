@@ -20,8 +20,8 @@ void Engine::Impl::make_groups() {
 }
 
 /// Each part of a message is for whose joints it names, and leaves the others as they are.
-void Engine::Impl::take_joints(const JointTargets& targets, Time now) {
-  for (JointGroup& group : groups) group.take(targets, now);
+void Engine::Impl::take_joints(const JointTargets& targets, RequestId::Source source, Time now) {
+  for (JointGroup& group : groups) group.take(targets, source, now);
   JointTargets of_base;
   for (const JointTarget& target : targets.joints)
     if (target.axis >= snapshot.axes.size() || snapshot.axes[target.axis].group == 0)
@@ -52,7 +52,8 @@ void Engine::Impl::step_groups(Time now, Duration dt, const Environment& environ
                     {snapshot.axes.data(), snapshot.axes.size()},
                     from_s(config.health.drive_stale_s),
                     hindrance,
-                    environment.guard_has_bus && !environment.guard_latched},
+                    environment.guard_has_bus && !environment.guard_latched,
+                    report.estop},
                    out.axes, out.joint_may_move, events);
     snapshot.groups[i] = groups[i].snapshot();
   }

@@ -58,7 +58,7 @@ struct Engine::Impl {
   void command_axes(const Motion& motion, EngineOutput& out);
   void take_body(const BodyMotion& body, Time time);
   void command_base(EngineOutput& out);
-  void take_joints(const JointTargets& targets, Time now);
+  void take_joints(const JointTargets& targets, RequestId::Source source, Time now);
   void end_groups(const Reason& why);
   void step_groups(Time now, Duration dt, const Environment& environment, EngineOutput& out);
   /// Of the curve that the wheels of a base that steers make; not a number: it tells nothing of it.

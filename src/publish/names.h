@@ -89,6 +89,16 @@ constexpr std::string_view word(GroupState state) {
   return "?";
 }
 
+constexpr std::string_view word(GroupOwner owner) {
+  switch (owner) {
+    case GroupOwner::estop: return "estop";
+    case GroupOwner::broker: return "broker";
+    case GroupOwner::ros2: return "ros2";
+    case GroupOwner::nobody: return "nobody";
+  }
+  return "?";
+}
+
 constexpr std::string_view word(Line line) {
   switch (line) {
     case Line::estop: return "estop";

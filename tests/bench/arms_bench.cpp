@@ -3,10 +3,11 @@
 // second. Each motor is told its set point in each cycle, and answers: more than a bus of 1 Mbit/s
 // carries (seven do); a socket has no such limit.
 //
-//   bench_arms SECONDS       prints "tick_ns longest_ns overruns ticks allocations": CPU time of
-//                            the control thread for a tick, its longest step (wall), ticks that
-//                            came too late in the time that was measured, and how many there were;
-//                            how often the thread allocated in all its life
+//   bench_arms SECONDS       prints "tick_ns longest_ns overruns ticks allocations thrown": CPU
+//                            time of the control thread for a tick, its longest step (wall), ticks
+//                            that came too late in the time that was measured, and how many there
+//                            were, of all runs; how often the thread allocated in all its life;
+//                            how many runs were thrown away, as an arm did not follow at their end
 //   bench_arms --configuration   prints the robot's configuration, for droverd --check
 #include <cmath>
 #include <cstdio>
@@ -117,9 +118,16 @@ void command(runtime::ControlExchange& exchange, Time now, std::uint64_t number)
   (void)exchange.commands.push(runtime::QueuedCommand{{id, now, targets}, {}});
 }
 
+/// Of all runs, also those that were thrown away.
+struct Ticks {
+  std::uint64_t late = 0;
+  std::uint64_t all = 0;
+  int thrown = 0;  ///< runs
+};
+
 /// The exit status; nothing when an arm does not follow at the end: a machine that stood still for
-/// a motor's time-out is no measurement.
-std::optional<int> run(double seconds) {
+/// a motor's time-out is no measurement of what a tick costs. Its late ticks count.
+std::optional<int> run(double seconds, Ticks& ticks) {
   const test::TempFolder folder;
   const auto buses = bench::make_buses(folder.path(), kArms);
   Motors motors(buses);
@@ -135,16 +143,19 @@ std::optional<int> run(double seconds) {
   const bench::Spent spent = robot.measure(seconds, buses, say);
   const Snapshot seen = robot.seen();
   const auto allocations = robot.end();
+  ticks.late += spent.overruns;
+  ticks.all += spent.ticks;
   for (const GroupSnapshot& group : seen.groups) {
     if (group.state == GroupState::following) continue;
     std::cerr << group.name.view() << " does not follow: " << group.reason.view() << '\n';
+    ++ticks.thrown;
     return std::nullopt;
   }
-  std::printf("%.0f %lld %llu %llu %llu\n", spent.tick_ns,
+  std::printf("%.0f %lld %llu %llu %llu %d\n", spent.tick_ns,
               static_cast<long long>(seen.cycle.longest_step.count()),
-              static_cast<unsigned long long>(spent.overruns),
-              static_cast<unsigned long long>(spent.ticks),
-              static_cast<unsigned long long>(allocations));
+              static_cast<unsigned long long>(ticks.late),
+              static_cast<unsigned long long>(ticks.all),
+              static_cast<unsigned long long>(allocations), ticks.thrown);
   return allocations == 0 && seen.axes.size() == kJoints ? 0 : 1;
 }
 
@@ -159,7 +170,8 @@ int main(int argc, char** argv) {
     std::cout << configuration({}) << '\n';
     return 0;
   }
+  Ticks ticks;
   for (int attempt = 0; attempt < 5; ++attempt)
-    if (const auto status = run(std::stod(argv[1]))) return *status;
+    if (const auto status = run(std::stod(argv[1]), ticks)) return *status;
   return 1;
 }

@@ -21,6 +21,24 @@ Reason of_joint(const Name& joint, const Reason& what) {
   return text;
 }
 
+void append(Reason& text, std::string_view more) {
+  text.format("%.*s%.*s", width(text), text.view().data(), width(more), more.data());
+}
+
+/// "elbow (position, effort)".
+Reason limits_of(const Name& joint, JointValues limited) {
+  Reason text = joint.view();
+  std::string_view before = " (";
+  for (std::size_t i = 0; i < kJointValueWords.size(); ++i) {
+    if ((limited & bit(static_cast<JointValue>(i))) == 0) continue;
+    append(text, before);
+    append(text, kJointValueWords[i]);
+    before = ", ";
+  }
+  append(text, ")");
+  return text;
+}
+
 /// Whoever makes the message: what cannot be would be in the set point for ever.
 bool is_sound(const JointTarget& target) {
   const bool finite = std::isfinite(target.position_rad) && std::isfinite(target.velocity_radps) &&
@@ -42,7 +60,7 @@ JointGroup::JointGroup(const GroupConfig& config, Duration start_timeout)
   for (const JointRules& rules : config.joints) joints_.emplace_back(rules);
 }
 
-void JointGroup::take(const JointTargets& targets, Time now) {
+void JointGroup::take(const JointTargets& targets, RequestId::Source source, Time now) {
   if (!std::all_of(targets.joints.begin(), targets.joints.end(), is_sound)) {
     ++told_.refused;
     return;
@@ -55,7 +73,9 @@ void JointGroup::take(const JointTargets& targets, Time now) {
       mine = true;
     }
   }
-  waiting_ += mine ? 1 : 0;
+  if (!mine) return;
+  ++waiting_;
+  sender_ = source == RequestId::Source::ros2 ? GroupOwner::ros2 : GroupOwner::broker;
 }
 
 void JointGroup::end(const Reason& why) {
@@ -104,8 +124,9 @@ void JointGroup::step(const Input& input, std::span<AxisCommand> commands, std::
     commands[axis] = joint.command();
     may_move[axis] = joint.may_move();
     told_.state = std::min(told_.state, joint.state());
-    limited = limited || joint.limited();
+    limited = limited || joint.limited() != 0;
   }
+  told_.owner = owner(input.estop);
   told_.reason = hindrance;
   for (std::size_t i = 0; told_.reason.empty() && i < joints_.size(); ++i)
     if (const Reason& why = joints_[i].reason(); !why.empty())
@@ -113,6 +134,13 @@ void JointGroup::step(const Input& input, std::span<AxisCommand> commands, std::
           joints_[i].by_itself() ? of_joint(input.axes[joints_[i].rules().axis].joint, why) : why;
   count(limited);
   tell(input, lost, limited, events);
+}
+
+GroupOwner JointGroup::owner(bool estop) const {
+  if (estop) return GroupOwner::estop;
+  const bool owned = std::any_of(joints_.begin(), joints_.end(),
+                                 [](const JointServo& joint) { return joint.follows(); });
+  return owned ? sender_ : GroupOwner::nobody;
 }
 
 void JointGroup::count(bool limited) {
@@ -132,9 +160,33 @@ void JointGroup::tell(const Input& input, const Reason& lost, bool limited, Even
   if (!lost.empty()) warn("joint commands ended: ", lost);
   if (!limited || (limited_told_ != kNever && input.now - limited_told_ < kBetweenLimits)) return;
   limited_told_ = input.now;
-  const auto first = std::find_if(joints_.begin(), joints_.end(),
-                                  [](const JointServo& joint) { return joint.limited(); });
-  warn("more was asked than the limits allow of ", input.axes[first->rules().axis].joint);
+  constexpr std::string_view kWhat = "more was asked than the limits allow: ";
+  const auto begins = told_.name.view().size() + std::string_view(": ").size() + kWhat.size();
+  warn(kWhat.data(), all_limited(input.axes, Reason::capacity() - begins));
+}
+
+/// With what was asked of each; those that have no room are counted.
+Reason JointGroup::all_limited(std::span<const AxisSnapshot> axes, std::size_t room) const {
+  constexpr std::string_view kLongest = " and 15 more";
+  Reason text;
+  auto left = std::count_if(joints_.begin(), joints_.end(),
+                            [](const JointServo& joint) { return joint.limited() != 0; });
+  for (const JointServo& joint : joints_) {
+    if (joint.limited() == 0) continue;
+    const Reason next = limits_of(axes[joint.rules().axis].joint, joint.limited());
+    const auto needs = text.view().size() + std::string_view(", ").size() + next.view().size() +
+                       (left > 1 ? kLongest.size() : 0);
+    if (!text.empty() && needs > room) {
+      Reason others;
+      others.format(" and %ld more", static_cast<long>(left));
+      append(text, others);
+      return text;
+    }
+    append(text, text.empty() ? "" : ", ");
+    append(text, next);
+    --left;
+  }
+  return text;
 }
 
 }  // namespace drover::engine

@@ -17,7 +17,7 @@ class JointGroup final {
   JointGroup(const GroupConfig& config, Duration start_timeout);
 
   /// The joints of the message that are its own; others are somebody else's.
-  void take(const JointTargets& targets, Time now);
+  void take(const JointTargets& targets, RequestId::Source source, Time now);
   /// A person's word, or a stop: what it follows ends.
   void end(const Reason& why);
 
@@ -28,6 +28,7 @@ class JointGroup final {
     Duration stale{};                    ///< what was measured longer ago says nothing
     const Reason& hindrance;             ///< as JointServo::Input
     bool blocked = false;                ///< likewise
+    bool estop = false;                  ///< it is over all
   };
   /// One cycle: writes the commands of its joints, by AxisId, and which of them may be moved.
   void step(const Input& input, std::span<AxisCommand> commands, std::span<bool> may_move,
@@ -38,12 +39,15 @@ class JointGroup final {
  private:
   Reason trouble(const Input& input) const;
   void count(bool limited);
+  GroupOwner owner(bool estop) const;
   void tell(const Input& input, const Reason& lost, bool limited, EventQueue& events);
+  Reason all_limited(std::span<const AxisSnapshot> axes, std::size_t room) const;
 
   Duration start_timeout_;
   std::vector<JointServo> joints_;  ///< made once
   GroupSnapshot told_;
-  std::uint64_t waiting_ = 0;  ///< messages since the last cycle
+  GroupOwner sender_ = GroupOwner::nobody;  ///< of the last message
+  std::uint64_t waiting_ = 0;               ///< messages since the last cycle
   Time limited_told_ = kNever;
 };
 

@@ -48,6 +48,8 @@ void JointServo::end(const Reason& why) {
   // Also a row that is only beginning: it was sent by somebody who did not know.
   waits_ = waits_ || sent_once;
   follows_ = false;
+  // A stop holds whatever is still held by somebody, and arms nothing that was let go.
+  ceased_ = lets_go();
   arming_since_ = kNever;
 }
 
@@ -63,7 +65,9 @@ void JointServo::fail(const Input& input, const char* otherwise) {
 void JointServo::judge_stream(const Input& input) {
   if (!input.hindrance.empty()) end(input.hindrance);
   if (!sent(input.now)) return cease(input.now);
+  const bool followed = follows_;
   follows_ = input.hindrance.empty() && !waits_ && steady(input.now);
+  ceased_ = !follows_ && (ceased_ || followed);
   if (!input.hindrance.empty()) {
     reason_ = input.hindrance;
     by_itself_ = false;
@@ -79,7 +83,7 @@ void JointServo::judge_stream(const Input& input) {
 void JointServo::cease(Time now) {
   if (follows_) {
     reason_ = "its commands have ceased";
-    by_itself_ = true;
+    by_itself_ = ceased_ = true;
   }
   if (heard_ != kNever && now - heard_ >= kPause) {
     waits_ = false;
@@ -90,8 +94,9 @@ void JointServo::cease(Time now) {
   arming_since_ = kNever;
 }
 
-void JointServo::rest_as_ruled(const JointMeasured& measured, double dt_s) {
-  switch (rules_.on_silence) {
+/// Nobody's commands are followed.
+void JointServo::rest(const JointMeasured& measured, double dt_s) {
+  switch (ceased_ ? rules_.on_silence : OnSilence::hold) {
     case OnSilence::hold:
       shaper_.hold(measured, dt_s);
       state_ = GroupState::holding;
@@ -124,7 +129,7 @@ void JointServo::run(const Input& input) {
     shaper_.hold(measured, dt_s);
     state_ = GroupState::arming;
   } else {
-    rest_as_ruled(measured, dt_s);
+    rest(measured, dt_s);
   }
   command_.velocity_radps = shaper_.velocity_radps();
   command_.impedance = shaper_.impedance();

@@ -9,8 +9,9 @@ namespace drover::engine {
 /// Arms by a stream of commands alone, and only after that was heard for a while without a gap:
 /// what comes in a burst after a line or a program hung is none. What stopped a stream once waits
 /// until its commands have ceased for a second, so that a program which does not know of a stop
-/// does not drive on when its cause is gone. A drive that runs and follows nobody holds, damps or
-/// is let go, as its rules say; one that was found so, too. Pure.
+/// does not drive on when its cause is gone. A drive that runs and follows nobody holds, also one
+/// that was found so; where its commands have ceased, and nothing stopped it, it damps or is let go
+/// if its rules say so. Pure.
 class JointServo final {
  public:
   struct Input {
@@ -38,9 +39,12 @@ class JointServo final {
 
   /// A row of commands asks for it, whether it may be followed or not.
   bool asked(Time now) const { return steady(now); }
+  /// Somebody's commands, or its drive is armed for them.
+  bool follows() const { return follows_; }
   bool following() const { return state_ == GroupState::following; }
   GroupState state() const { return state_; }
-  bool limited() const { return following() && shaper_.limited(); }
+  /// What of its command was beyond a limit.
+  JointValues limited() const { return following() ? shaper_.limited() : JointValues{}; }
   /// Why it does not follow what is sent, or why it ended; empty: it does, or nothing is.
   const Reason& reason() const { return reason_; }
   /// That reason lies in this joint, whose name is not in it.
@@ -56,8 +60,9 @@ class JointServo final {
   bool steady(Time now) const;
   void judge_stream(const Input& input);
   void cease(Time now);
+  bool lets_go() const { return ceased_ && rules_.on_silence == OnSilence::release; }
   void run(const Input& input);
-  void rest_as_ruled(const JointMeasured& measured, double dt_s);
+  void rest(const JointMeasured& measured, double dt_s);
   void arm(const Input& input);
   void fail(const Input& input, const char* otherwise);
 
@@ -70,6 +75,7 @@ class JointServo final {
   bool waits_ = false;          ///< for a pause: it was stopped
   bool engaged_ = false;        ///< its drive runs, and the shaper knows of it
   bool follows_ = false;        ///< this cycle
+  bool ceased_ = false;         ///< what it followed last was silent; nothing stopped it
   Time arming_since_ = kNever;
   GroupState state_ = GroupState::idle;
   Reason reason_;

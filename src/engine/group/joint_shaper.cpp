@@ -17,10 +17,18 @@ constexpr double kRisen = 0.9;  // of the stiffness
 
 }  // namespace
 
-double JointShaper::within(double value, double low, double high) {
+double JointShaper::within(JointValue what, double value, double low, double high) {
   const double bounded = std::clamp(value, low, high);
-  limited_ = limited_ || bounded != value;
+  if (bounded != value) limited_ |= bit(what);
   return bounded;
+}
+
+/// What the distance makes of stiffness is an effort like any other.
+double JointShaper::nearer(double position_rad, const JointMeasured& measured) {
+  if (stiffness_ <= 0) return position_rad;
+  const double farthest_rad = rules_.max_effort_Nm / stiffness_;
+  return within(JointValue::effort, position_rad, measured.position_rad - farthest_rad,
+                measured.position_rad + farthest_rad);
 }
 
 void JointShaper::take_over(const JointMeasured& measured) {
@@ -28,7 +36,8 @@ void JointShaper::take_over(const JointMeasured& measured) {
   velocity_radps_ = 0;
   stiffness_ = effort_Nm_ = 0;
   damping_ = rules_.damping_Nmsprad;
-  holds_ = limited_ = risen_ = false;
+  holds_ = risen_ = false;
+  limited_ = 0;
   tell(0, measured);
 }
 
@@ -64,24 +73,21 @@ void JointShaper::approach_position(double wanted_rad, double wanted_radps, doub
   velocity_radps_ = wanted_radps;
 }
 
-/// What the distance makes of stiffness is an effort like any other.
 void JointShaper::tell(double velocity_radps, const JointMeasured& measured) {
   told_velocity_radps_ = velocity_radps;
-  told_ = {position_rad_, effort_Nm_, stiffness_, damping_};
-  if (stiffness_ <= 0) return;
-  const double farthest_rad = rules_.max_effort_Nm / stiffness_;
-  told_.position_rad = measured.position_rad + std::clamp(position_rad_ - measured.position_rad,
-                                                          -farthest_rad, farthest_rad);
+  told_ = {nearer(position_rad_, measured), effort_Nm_, stiffness_, damping_};
 }
 
 void JointShaper::follow_position(const JointTarget& target, double stiffness, double damping,
                                   const JointMeasured& measured, double dt_s) {
-  const double wanted_rad = within(target.position_rad, rules_.min_rad, rules_.max_rad);
-  double wanted_radps =
-      within(target.velocity_radps, -rules_.max_velocity_radps, rules_.max_velocity_radps);
+  const double wanted_rad =
+      within(JointValue::position, target.position_rad, rules_.min_rad, rules_.max_rad);
+  double wanted_radps = within(JointValue::velocity, target.velocity_radps,
+                               -rules_.max_velocity_radps, rules_.max_velocity_radps);
   // Into a limit there is no speed.
   if (wanted_rad != target.position_rad) wanted_radps = 0;
-  const double effort = within(target.effort_Nm, -rules_.max_effort_Nm, rules_.max_effort_Nm);
+  const double effort =
+      within(JointValue::effort, target.effort_Nm, -rules_.max_effort_Nm, rules_.max_effort_Nm);
   approach_gains(stiffness, damping, effort, dt_s);
   if (stiffness == 0 && stiffness_ == 0) {
     // The position has no weight: whoever gives it one again begins where the joint is.
@@ -99,21 +105,17 @@ void JointShaper::follow_position(const JointTarget& target, double stiffness, d
 
 void JointShaper::follow_velocity(const JointTarget& target, const JointMeasured& measured,
                                   double dt_s) {
-  double wanted =
-      within(target.velocity_radps, -rules_.max_velocity_radps, rules_.max_velocity_radps);
+  double wanted = within(JointValue::velocity, target.velocity_radps, -rules_.max_velocity_radps,
+                         rules_.max_velocity_radps);
   const double end_rad = wanted > 0 ? rules_.max_rad : rules_.min_rad;
   const double left_rad =
       std::max(wanted > 0 ? end_rad - position_rad_ : position_rad_ - end_rad, 0.0);
   const double stops_from = std::sqrt(2 * kBrakesWith * rules_.max_acceleration_radps2 * left_rad);
-  wanted = within(wanted, -stops_from, stops_from);
+  wanted = within(JointValue::position, wanted, -stops_from, stops_from);
   approach_gains(rules_.stiffness_Nmprad, rules_.damping_Nmsprad, 0, dt_s);
   approach_velocity(wanted, dt_s);
   // What is blocked is not pushed harder for ever.
-  if (stiffness_ > 0) {
-    const double farthest_rad = rules_.max_effort_Nm / stiffness_;
-    position_rad_ = std::clamp(position_rad_, measured.position_rad - farthest_rad,
-                               measured.position_rad + farthest_rad);
-  }
+  position_rad_ = nearer(position_rad_, measured);
   tell(velocity_radps_, measured);
 }
 
@@ -123,26 +125,33 @@ void JointShaper::follow_effort(const JointTarget& target, const JointMeasured& 
   const double end_rad = std::clamp(measured.position_rad, rules_.min_rad, rules_.max_rad);
   const bool beyond = end_rad != measured.position_rad;
   const bool fast = std::abs(measured.velocity_radps) > rules_.max_velocity_radps;
-  double effort = within(target.effort_Nm, -rules_.max_effort_Nm, rules_.max_effort_Nm);
+  double effort =
+      within(JointValue::effort, target.effort_Nm, -rules_.max_effort_Nm, rules_.max_effort_Nm);
   const bool outwards = effort * (measured.position_rad - end_rad) > 0;
   const bool faster = fast && effort * measured.velocity_radps > 0;
   if (outwards || faster) effort = 0;
-  limited_ = limited_ || outwards || faster;
+  if (outwards) limited_ |= bit(JointValue::position);
+  if (faster) limited_ |= bit(JointValue::velocity);
   position_rad_ = end_rad;
   velocity_radps_ = 0;
-  const double damping = beyond || fast ? std::max(target.damping_Nmsprad, rules_.damping_Nmsprad)
-                                        : target.damping_Nmsprad;
+  const double asked =
+      within(JointValue::damping, target.damping_Nmsprad, 0, rules_.drive.damping_Nmsprad);
+  const double damping = beyond || fast ? std::max(asked, rules_.damping_Nmsprad) : asked;
   approach_gains(beyond ? rules_.stiffness_Nmprad : 0, damping, effort, dt_s);
   if (beyond || fast) damping_ = damping;
   tell(0, measured);
 }
 
 void JointShaper::follow(const JointTarget& target, const JointMeasured& measured, double dt_s) {
-  holds_ = limited_ = false;
+  holds_ = false;
+  limited_ = 0;
   switch (rules_.follows) {
     case JointFollows::impedance:
-      return follow_position(target, target.stiffness_Nmprad, target.damping_Nmsprad, measured,
-                             dt_s);
+      return follow_position(
+          target,
+          within(JointValue::stiffness, target.stiffness_Nmprad, 0, rules_.drive.stiffness_Nmprad),
+          within(JointValue::damping, target.damping_Nmsprad, 0, rules_.drive.damping_Nmsprad),
+          measured, dt_s);
     case JointFollows::position:
       return follow_position(target, rules_.stiffness_Nmprad, rules_.damping_Nmsprad, measured,
                              dt_s);
@@ -152,7 +161,7 @@ void JointShaper::follow(const JointTarget& target, const JointMeasured& measure
 }
 
 void JointShaper::hold(const JointMeasured& measured, double dt_s) {
-  limited_ = false;
+  limited_ = 0;
   if (!holds_) {
     holds_ = true;
     // In a movement it is not torn to a stop. What sinks without stiffness only damps already.
@@ -173,7 +182,8 @@ void JointShaper::hold(const JointMeasured& measured, double dt_s) {
 }
 
 void JointShaper::damp(const JointMeasured& measured, double dt_s) {
-  holds_ = limited_ = false;
+  holds_ = false;
+  limited_ = 0;
   approach_gains(0, rules_.damping_Nmsprad, 0, dt_s);
   approach_velocity(0, dt_s);
   if (stiffness_ <= 0) position_rad_ = measured.position_rad;

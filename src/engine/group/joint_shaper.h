@@ -1,6 +1,10 @@
 // The set point of one joint outside the base: what was asked for, without a step in it.
 #pragma once
 
+#include <array>
+#include <cstdint>
+#include <string_view>
+
 #include "drover/actuator.h"
 #include "drover/command.h"
 #include "drover/measurement.h"
@@ -14,6 +18,16 @@ struct JointMeasured {
   double velocity_radps = 0;
   double effort_Nm = kAbsent;  ///< that the drive gives
 };
+
+/// What a message asks of a joint, in its order.
+enum class JointValue : std::uint8_t { position, velocity, effort, stiffness, damping };
+inline constexpr std::array<std::string_view, 5> kJointValueWords{"position", "velocity", "effort",
+                                                                  "stiffness", "damping"};
+/// A bit for each.
+using JointValues = std::uint8_t;
+constexpr JointValues bit(JointValue value) {
+  return static_cast<JointValues>(1U << static_cast<unsigned>(value));
+}
 
 /// Begins without stiffness where the joint is. From then on the position moves by the joint's
 /// limits of velocity and acceleration, stiffness, damping and effort rise and fall within
@@ -37,11 +51,12 @@ class JointShaper final {
 
   double velocity_radps() const { return told_velocity_radps_; }
   const Impedance& impedance() const { return told_; }
-  /// In the last cycle of following something was beyond the joint's limits.
-  bool limited() const { return limited_; }
+  /// What was beyond the joint's limits in the last cycle of following, or its drive's.
+  JointValues limited() const { return limited_; }
 
  private:
-  double within(double value, double low, double high);
+  double within(JointValue what, double value, double low, double high);
+  double nearer(double position_rad, const JointMeasured& measured);
   void approach_gains(double stiffness, double damping, double effort, double dt_s);
   void approach_position(double wanted_rad, double wanted_radps, double fastest_radps, double dt_s);
   void approach_velocity(double wanted_radps, double dt_s);
@@ -60,7 +75,7 @@ class JointShaper final {
   bool risen_ = false;  ///< the stiffness has come up once
   bool holds_ = false;
   double carried_Nm_ = 0;  ///< while it holds
-  bool limited_ = false;
+  JointValues limited_ = 0;
   double told_velocity_radps_ = 0;
   Impedance told_;
 };

@@ -166,6 +166,25 @@ TEST_F(StatusViews, ShowTheWholeInShort) {
   EXPECT_DOUBLE_EQ(nav.find("owner_timeout_s")->number().value_or(0), 0.1);
 }
 
+TEST(StatusInShort, TellsWhoseCommandsAnArmFollows) {
+  Snapshot s;
+  GroupSnapshot arm;
+  arm.name = "arm";
+  arm.owner = GroupOwner::ros2;
+  arm.state = GroupState::following;
+  ASSERT_TRUE(s.groups.push_back(arm));
+  arm.name = "mast";
+  arm.owner = GroupOwner::nobody;
+  arm.state = GroupState::holding;
+  arm.reason = "its commands have ceased";
+  ASSERT_TRUE(s.groups.push_back(arm));
+  const auto parsed = json::parse(publish::status_json(s, {}));
+  const auto shown = show_status(parsed->root);
+  EXPECT_NE(shown.find("arm       following  owner ros2\n"), std::string::npos) << shown;
+  EXPECT_NE(shown.find("mast      holding  its commands have ceased\n"), std::string::npos);
+  EXPECT_EQ(*parsed->root.find("groups")->list()->at(1).find("owner")->text(), "nobody");
+}
+
 TEST_F(StatusViews, ShowTheScannerAmongTheSensors) {
   expect(show_status(status),
          {"scanner   lidar           10.0 turns/s  437 of 451 points seen  "

@@ -177,8 +177,8 @@ TEST(Fields, OfTheBaseAreAllKeys) {
 }
 
 TEST(Fields, OfAJointOutsideTheBaseAreAllKeys) {
-  // All but its axis, which is a name, and its rules, which are no key themselves.
-  EXPECT_EQ(key_count<GroupJoint>(), field_count<engine::JointRules>() - 1);
+  // All but its axis, which is a name, and what its drive can be told, which its driver says.
+  EXPECT_EQ(key_count<GroupJoint>(), field_count<engine::JointRules>() - 2);
   expect_complete<JointGroup>(1);  // name
 }
 

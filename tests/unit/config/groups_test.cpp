@@ -128,6 +128,15 @@ TEST(Groups, RefuseLimitsThatTheDriveCannotBeTold) {
               HasSubstr("max_effort_Nm: is 1000 Nm, and its drive can be told 0 to "));
 }
 
+TEST(Groups, KnowWhatTheirDrivesCanBeTold) {
+  const auto loaded = load_text(example(), kFolder);
+  ASSERT_THAT(loaded.problems, IsEmpty());
+  for (const auto& joint : loaded.config.engine.groups[0].joints) {
+    EXPECT_EQ(joint.drive.stiffness_Nmprad, 500);
+    EXPECT_EQ(joint.drive.damping_Nmsprad, 5);
+  }
+}
+
 TEST(Groups, TellOfAWeightUntilItIsAccepted) {
   const auto loaded = load_text(arm_with("\"falls\"", ""), kFolder);
   ASSERT_THAT(loaded.problems, IsEmpty());
@@ -176,6 +185,21 @@ TEST(Groups, TellWhatAWeightDoesWhoseMotorHasNoTimeOut) {
   EXPECT_THAT(loaded.warnings[2].text("f"),
               HasSubstr("devices.shoulder.accept: it goes on for ever when its line is cut; there "
                         "is no outputs.enable_relay"));
+}
+
+TEST(Groups, RefuseToLetAWeightFallUntilItIsAccepted) {
+  const std::string elbow = "\"on_silence\": \"hold\"";
+  EXPECT_THAT(arm_problems(elbow, "\"on_silence\": \"release\""),
+              HasSubstr("groups.arm.joints.elbow.on_silence: is release, and the joint carries a "
+                        "weight, which falls when its commands cease (hold, or damp, or "
+                        "\"accept\": [\"lets_fall\"] at the top of the file when that is meant)"));
+  EXPECT_EQ(arm_problems(elbow, "\"on_silence\": \"damp\""), "");
+  auto accepted = arm_with(elbow, "\"on_silence\": \"release\"");
+  accepted.replace(accepted.find("\"falls\""), 7, "\"falls\", \"lets_fall\"");
+  EXPECT_EQ(problems(accepted, kFolder), "");
+  EXPECT_EQ(arm_problems("\"follows\": \"position\", ",
+                         "\"follows\": \"position\", \"on_silence\": \"release\", "),
+            "");  // the turret carries none
 }
 
 TEST(Groups, AreFourAtTheMost) {

@@ -175,6 +175,28 @@ TEST(Example, OfFourRobomasterMotorsSaysThatNothingHoldsThemAndThatTheyGoOnInSil
   EXPECT_THAT(problems(without_gain, folder), testing::HasSubstr("velocity_gain_Nms_per_rad"));
 }
 
+TEST(Example, OfFourRobomasterMotorsIsToldOfGroundOnWhichItWouldRoll) {
+  const auto folder = std::string(DROVER_SOURCE_DIR "/config/examples");
+  const auto with = [&](const std::string& hold, const std::string& accept) {
+    auto text = read(folder + "/robomaster.json");
+    const std::string level = R"("hold": "level_ground_only")";
+    text.replace(text.find(level), level.size(), "\"hold\": \"" + hold + "\"");
+    const std::string flat = R"("max_tilt_deg": 3)";
+    text.replace(text.find(flat), flat.size(), R"("max_tilt_deg": 8)");
+    text.insert(text.find("\n  \"links\""), "\n  \"accept\": [" + accept + "],");
+    const auto loaded = load_text(text, folder);
+    EXPECT_THAT(loaded.problems, testing::IsEmpty());
+    std::string told;
+    for (const auto& warning : loaded.warnings) told += warning.text("f") + '\n';
+    return told;
+  };
+  EXPECT_THAT(with("level_ground_only", ""),
+              testing::HasSubstr("groups.base.max_tilt_deg: is 8: where it may stand when droverd "
+                                 "dies drover-guard can only let the wheels of "));
+  EXPECT_EQ(with("level_ground_only", "\"rolls\""), "");
+  EXPECT_EQ(with("brake", ""), "");
+}
+
 TEST(Example, ExplainsEverySection) {
   const auto text = read(DROVER_SOURCE_DIR "/config/drover.json");
   const auto schema = Json::parse(schema_text());

@@ -59,8 +59,9 @@ class EngineRig {
     double position_rad = 0;
   };
 
-  void command(const decltype(Command::body)& body) {
-    engine->on_command({{RequestId::Source::mqtt, ++asked}, now, body}, now);
+  void command(const decltype(Command::body)& body,
+               RequestId::Source source = RequestId::Source::mqtt) {
+    engine->on_command({{source, ++asked}, now, body}, now);
   }
   void start(const Path& path, std::uint32_t target, double speed_mps) {
     command(StartTask{&path, target, speed_mps});

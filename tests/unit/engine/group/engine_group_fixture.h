@@ -65,7 +65,7 @@ class EngineGroup : public ::testing::Test {
     for (std::size_t i = 0; i < arm.size(); ++i)
       (void)targets.joints.push_back(
           {static_cast<AxisId>(first + i), 0, position_rad, 0, stiffness, 3});
-    rig.command(targets);
+    rig.command(targets, source);
   }
   void run_s(double seconds) {
     for (int i = 0; i < static_cast<int>(seconds * 200 + 0.5); ++i) tick();
@@ -83,7 +83,8 @@ class EngineGroup : public ::testing::Test {
   const std::size_t first;  ///< of its axes
   std::array<ArmJoint, kArmNames.size()> arm;
   std::array<bool, kArmNames.size()> silent{};
-  bool guards = false;  ///< the guard commands the drives
+  RequestId::Source source = RequestId::Source::aimrt;  ///< of what is sent
+  bool guards = false;                                  ///< the guard commands the drives
 
  private:
   template <class Value>

@@ -283,6 +283,23 @@ TEST_F(EngineGroup, ALimitIsToldOnceASecond) {
   EXPECT_LT(arm[0].position_rad, 1.5);
 }
 
+/// Each joint with each value.
+TEST_F(EngineGroup, ALimitIsToldWithWhatWasAskedOfWhom) {
+  settle();
+  for (int i = 0; i < 300; ++i) {
+    JointTargets targets;
+    (void)targets.joints.push_back({static_cast<AxisId>(first), 0, 9, 50, 60, 3});
+    (void)targets.joints.push_back({static_cast<AxisId>(first + 1), -7, -1.4, 0, 60, 3});
+    rig.command(targets);
+    tick();
+  }
+  const auto all = rig.said<Notice>();
+  ASSERT_FALSE(all.empty());
+  EXPECT_EQ(all.back().text,
+            "arm: more was asked than the limits allow: shoulder (position, effort), elbow "
+            "(velocity)");
+}
+
 TEST_F(EngineGroup, TooSlowAStreamIsToldSo) {
   settle();
   for (int i = 0; i < 10; ++i) {
@@ -293,6 +310,28 @@ TEST_F(EngineGroup, TooSlowAStreamIsToldSo) {
   send(0.3);
   tick();
   EXPECT_THAT(reason(), HasSubstr("150 ms apart, 100 ms are allowed"));
+}
+
+TEST_F(EngineGroup, TellsWhoseCommandsItFollows) {
+  settle();
+  EXPECT_EQ(told().owner, GroupOwner::nobody);
+  send_s(0.2, 0.4);
+  EXPECT_EQ(told().owner, GroupOwner::nobody);  // it may be a burst
+  send_s(0.2, 0.4);
+  EXPECT_EQ(told().owner, GroupOwner::broker);
+  EXPECT_EQ(rig.snapshot().nav.owner, Owner::nobody);
+  run_s(1);
+  EXPECT_EQ(told().owner, GroupOwner::nobody);
+  source = RequestId::Source::ros2;
+  send_s(1, 0.4);
+  EXPECT_EQ(told().owner, GroupOwner::ros2);
+  rig.command(CancelTask{});
+  send_s(0.1, 0.4);
+  EXPECT_EQ(told().owner, GroupOwner::nobody);
+  rig.lines[static_cast<std::size_t>(Line::estop)] = true;
+  send_s(0.5, 0.4);
+  EXPECT_EQ(told().owner, GroupOwner::estop);
+  EXPECT_EQ(rig.snapshot().nav.owner, Owner::estop);
 }
 
 class EngineGroupReleases : public EngineGroup {

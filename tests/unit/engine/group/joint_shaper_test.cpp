@@ -107,18 +107,53 @@ TEST(JointShaper, WhatStiffnessMakesOfADistanceStaysBelowTheLimitOfEffort) {
     const Impedance& told = shaper.impedance();
     EXPECT_LE(told.stiffness_Nmprad * told.position_rad, 4 + 1e-9);
   }
+  EXPECT_EQ(shaper.limited(), bit(JointValue::effort));
+}
+
+TEST(JointShaper, WhatItsDriveCannotBeToldIsClampedAndTold) {
+  JointRules rules = rules_of(JointFollows::impedance);
+  rules.drive.stiffness_Nmprad = 500;
+  rules.drive.damping_Nmsprad = 5;
+  JointShaper shaper(rules);
+  shaper.take_over({0, 0});
+  for (int i = 0; i < 200; ++i) shaper.follow(at(0, 900, 8), {0, 0}, kCycle_s);
+  EXPECT_EQ(shaper.limited(), bit(JointValue::stiffness) | bit(JointValue::damping));
+  EXPECT_NEAR(shaper.impedance().stiffness_Nmprad, 500, 1e-9);
+  EXPECT_NEAR(shaper.impedance().damping_Nmsprad, 5, 1e-9);
+  shaper.follow(at(0, 500, 5), {0, 0}, kCycle_s);
+  EXPECT_EQ(shaper.limited(), 0);
+}
+
+TEST(JointShaper, AnEffortIsDampedByWhatItsDriveCanBeTold) {
+  JointRules rules = rules_of(JointFollows::effort);
+  rules.drive.damping_Nmsprad = 5;
+  JointShaper shaper(rules);
+  shaper.take_over({0, 0});
+  for (int i = 0; i < 200; ++i) shaper.follow(at(0, 0, 8), {0, 0}, kCycle_s);
+  EXPECT_EQ(shaper.limited(), bit(JointValue::damping));
+  EXPECT_NEAR(shaper.impedance().damping_Nmsprad, 5, 1e-9);
+}
+
+TEST(JointShaper, WhatBlocksAVelocityIsTold) {
+  JointShaper shaper(rules_of(JointFollows::velocity));
+  JointTarget turns;
+  turns.velocity_radps = 0.5;
+  shaper.take_over({0, 0});
+  for (int i = 0; i < 400; ++i) shaper.follow(turns, {0, 0}, kCycle_s);
+  EXPECT_EQ(shaper.limited(), bit(JointValue::effort));
 }
 
 TEST(JointShaper, BeyondItsLimitsIsClampedAndTold) {
   JointShaper shaper(rules_of(JointFollows::impedance));
   shaper.take_over({0, 0});
   for (int i = 0; i < 800; ++i) shaper.follow(at(7), {1.4, 0}, kCycle_s);
-  EXPECT_TRUE(shaper.limited());
+  EXPECT_EQ(shaper.limited(), bit(JointValue::position));
   EXPECT_NEAR(shaper.impedance().position_rad, 1.5, 1e-6);
   JointTarget hard = at(0);
   hard.effort_Nm = -50;
   for (int i = 0; i < 400; ++i) shaper.follow(hard, {0, 0}, kCycle_s);
   EXPECT_NEAR(shaper.impedance().effort_Nm, -4, 1e-9);
+  EXPECT_EQ(shaper.limited(), bit(JointValue::effort));
   shaper.follow(at(0), {0, 0}, kCycle_s);
   EXPECT_FALSE(shaper.limited());
 }
