@@ -76,7 +76,8 @@ Zlac8015dDriver::Zlac8015dDriver(const Settings& settings, std::array<AxisId, kW
   no_status_.format("no status (%03X)", static_cast<unsigned>(id_of(Cob::status, settings.node)));
   if (settings.silence_ms > 0) {
     silence_text_.format(
-        "stops and holds after %.3f s (its time-out, set and read back at each start)",
+        "%s after %.3f s (its time-out, set and read back at each start)",
+        settings.silence_holds ? "stops and holds" : "lets go, as far as is known,",
         settings.silence_ms / 1000.0);
   } else {
     silence_text_ = "keeps its last velocity for ever: silence_ms is 0";
@@ -294,7 +295,8 @@ SilenceBehaviour Zlac8015dDriver::silence() const {
   behaviour.stops = settings_.silence_ms > 0;
   behaviour.after = milliseconds(settings_.silence_ms);
   behaviour.text = silence_text_.view();
-  behaviour.ends = StopEnds::holds;
+  behaviour.ends = settings_.silence_holds ? StopEnds::holds : StopEnds::coasts;
+  behaviour.assumed = !settings_.silence_holds;
   return behaviour;
 }
 
