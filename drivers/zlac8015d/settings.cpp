@@ -54,8 +54,9 @@ const OptionSpec kOptions[] = {
              "then it keeps its last speed for ever"},
     {.name = "silence_holds",
      .default_value = false,
-     .text = "a drive whose time-out fired holds on a slope. The maker does not say: try it. false: "
-             "it lets go of its wheels"},
+     .text =
+         "a drive whose time-out fired holds on a slope. The maker does not say: try it. false: "
+         "it lets go of its wheels"},
     {.name = "heartbeat_ms",
      .default_value = 100.0,
      .min = 20,

@@ -216,7 +216,8 @@ void Zlac8015dTwin::on_nmt(std::uint8_t command) {
   }
 }
 
-/// The worse of two readings, unless it is said to hold: both wheels are let go of, without an error.
+/// The worse of two readings, unless it is said to hold: both wheels are let go of, without an
+/// error.
 void Zlac8015dTwin::time_out() {
   for (Wheel& wheel : wheels_) {
     wheel.target = 0;

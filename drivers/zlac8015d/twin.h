@@ -1,9 +1,9 @@
 // A simulated ZLAC8015D: a CANopen node with its dictionary, and two motors on their shafts.
 //
 // It starts pre-operational, off and with the maker's defaults, maps its process data as it is
-// told, and refuses objects that it does not have. Its time-out lets go of the wheels: one drive was
-// seen to stop and stay enabled, but no maker says so (`silence_holds`). Only targets feed it, the
-// least that may be.
+// told, and refuses objects that it does not have. Its time-out lets go of the wheels: one drive
+// was seen to stop and stay enabled, but no maker says so (`silence_holds`). Only targets feed it,
+// the least that may be.
 #pragma once
 
 #include "drivers/canopen/nmt.h"

@@ -35,10 +35,10 @@ void look_at_guard(const DeviceConfig& device, const SilenceBehaviour& silence, 
   if (silence.ends == StopEnds::holds) return;
   const char* const ends = silence.ends == StopEnds::coasts ? "lets go" : "only brakes";
   const auto path = device_path(device, "options");
-  const auto what = "the drive " + std::string(ends) +
-                    " before drover-guard takes over when droverd dies: " +
-                    std::string(silence.text) + ", and the guard needs up to " +
-                    std::to_string(guard.limit_ms + kGuardsCycles_ms) + " ms";
+  const auto what =
+      "the drive " + std::string(ends) +
+      " before drover-guard takes over when droverd dies: " + std::string(silence.text) +
+      ", and the guard needs up to " + std::to_string(guard.limit_ms + kGuardsCycles_ms) + " ms";
   const std::string advice = "a longer time-out of the drive, or a smaller guard.limit_ms";
   // One that may hold after all is nobody's mistake.
   if (silence.assumed)

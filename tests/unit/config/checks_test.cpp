@@ -349,9 +349,9 @@ TEST(ConfigurationChecks, AllowADriveThatHoldsBeforeTheGuardTakesOver) {
   const auto wheels = [](const std::string& options) {
     std::string text(kGood);
     const auto from = text.find("    \"left\": {");
-    return text.replace(from, text.find("    \"gnss\": {", from) - from,
-                        R"("wheels": {"driver": "zlac8015d", "link": "can0", "options": {)" +
-                            options + R"(},
+    return text.replace(
+        from, text.find("    \"gnss\": {", from) - from,
+        R"("wheels": {"driver": "zlac8015d", "link": "can0", "options": {)" + options + R"(},
     "joints": {"left": {"channel": "left"}, "right": {"channel": "right"}}},
 )");
   };

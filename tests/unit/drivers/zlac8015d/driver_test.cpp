@@ -198,11 +198,37 @@ TEST(Zlac8015d, HoldsBothWheelsWhenTargetsCeaseWhereAPersonTriedIt) {
   }
 }
 
+/// The set-up takes half a second, in which a drive that holds the robot is not to let go.
+TEST(Zlac8015d, HoldsOnWhileItIsSetUpAnew) {
+  for (const double silence_ms : {30.0, 100.0, 200.0}) {
+    test::Subject subject = Bench::subject();
+    subject.options.set("silence_ms", silence_ms);
+    test::CanBench bench(subject);
+    bench.run(milliseconds(1500), kRest);
+    bench.run(milliseconds(500), kRun, 0.0);
+    bench.run(milliseconds(100), kRest);
+    bench.load_Nm = 4;
+    bench.run(milliseconds(500), kRest);
+    const double held_rad = bench.shafts[kLeft].position_rad;
+    bench.device->on_link_up(bench.now);
+    bench.sent.clear();
+    for (int i = 0; i < 400; ++i) {
+      bench.step({kRest, 0});
+      ASSERT_TRUE(bench.shafts[kLeft].energized) << silence_ms << " ms, cycle " << i;
+    }
+    EXPECT_EQ(bench.device->health(bench.now).state, SourceState::fresh);
+    EXPECT_NEAR(bench.shafts[kLeft].position_rad, held_rad, 0.02);
+  }
+}
+
 /// Let go while its gateway lives: it has to be asked anew, as after any other loss of its power.
 TEST(Zlac8015d, IsGivenUpWhenItsTimeOutFiresWhileItRuns) {
-  Bench bench;
-  bench.arm();
-  bench.run(milliseconds(1000), kRun, 3.0);
+  test::Subject patient = Bench::subject();
+  patient.options.set("heartbeat_timeout_s", 1.0);
+  test::CanBench bench(patient);
+  bench.run(milliseconds(800), kRest);
+  bench.run(milliseconds(1500), kRun, 3.0);
+  ASSERT_EQ(bench.status.state, AxisState::running) << bench.status.reason.view();
   bench.driver_alive = false;
   for (int i = 0; i < 60; ++i) bench.step({kRun, 3.0});
   bench.driver_alive = true;
