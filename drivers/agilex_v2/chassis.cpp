@@ -11,7 +11,7 @@ constexpr double kGearDrag_Nms_per_rad = 1;
 
 bool set_chassis_fault(std::string_view name, const LowBattery& low, SystemState& state,
                        bool& silent) {
-  const bool was_remote = state.mode == Mode::remote;
+  const bool was_taken = state.mode == Mode::remote || state.mode == Mode::serial;
   if (name == "silent") {
     silent = true;
   } else if (name == "estop") {
@@ -25,7 +25,7 @@ bool set_chassis_fault(std::string_view name, const LowBattery& low, SystemState
     state.error = low.error;
   } else if (name.empty()) {
     silent = false;
-    state = {.mode = was_remote ? Mode::standby : state.mode,
+    state = {.mode = was_taken ? Mode::standby : state.mode,
              .battery_V = kFull_V,
              .brake_locked = state.brake_locked};
   } else {

@@ -22,20 +22,20 @@ constexpr Duration kAskBrakeEach = milliseconds(200);
 /// A brake that does not tell that it is locked keeps nobody in command for longer.
 constexpr Duration kBrakeTakes = milliseconds(600);
 
-StopRecipe zeros() {
+StopRecipe zeros(bool hold) {
   StopRecipe recipe;
   recipe.rounds.resize(1);
   recipe.rounds[0].frames.resize(1);
   recipe.rounds[0].frames[0] = motion_command({});
   recipe.period = milliseconds(20);
-  recipe.ends = StopEnds::damps;  // that zero holds on a slope is nowhere said
+  recipe.ends = hold ? StopEnds::holds : StopEnds::damps;
   return recipe;
 }
 
 }  // namespace
 
-AgilexV2Driver::AgilexV2Driver(AxisId axis, std::optional<Steering> steering)
-    : axis_(axis), steering_(steering), recipe_(zeros()) {}
+AgilexV2Driver::AgilexV2Driver(AxisId axis, std::optional<Steering> steering, bool zero_holds)
+    : axis_(axis), steering_(steering), recipe_(zeros(zero_holds)) {}
 
 void AgilexV2Driver::on_link_up(Time) {
   state_known_ = false;
@@ -169,7 +169,7 @@ SilenceBehaviour AgilexV2Driver::silence() const {
   return {.stops = true,
           .after = milliseconds(500),
           .text = "drives at zero speed after 0.5 s (communication protection)",
-          .ends = StopEnds::damps};
+          .ends = recipe_.ends};  // what it does at zero
 }
 
 }  // namespace drover::agilex_v2

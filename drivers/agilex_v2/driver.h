@@ -19,7 +19,9 @@ inline constexpr std::array kChannels{Channel{"base", ChannelMode::twist}};
 class AgilexV2Driver final : public Device, public FrameFace, public Actuator {
  public:
   /// With `steering` it is a Hunter: it turns on curves only, and has a parking brake.
-  explicit AgilexV2Driver(AxisId axis, std::optional<Steering> steering = {});
+  /// `zero_holds`: told zero, or in silence, it holds on a slope.
+  explicit AgilexV2Driver(AxisId axis, std::optional<Steering> steering = {},
+                          bool zero_holds = false);
 
   void on_link_up(Time now) override;
   void on_tick(Time now, DriverOut& out) override;

@@ -9,8 +9,9 @@ namespace {
 using agilex_v2::AgilexV2Driver;
 using agilex_v2::AgilexV2Twin;
 
-Made make(const Options&, const MakeContext& context) {
-  return make_device<AgilexV2Driver>(context.axis(0));
+Made make(const Options& options, const MakeContext& context) {
+  return make_device<AgilexV2Driver>(context.axis(0), std::optional<agilex_v2::Steering>(),
+                                     options.flag("zero_holds"));
 }
 
 std::unique_ptr<CanTwin> make_twin(const Options& options) {
@@ -24,7 +25,7 @@ constexpr std::string_view kAgilexV2Products[] = {"scout"};
 const DriverEntry kAgilexV2Entry{
     .name = "agilex_v2",
     .folder = "agilex_v2",
-    .options = {},
+    .options = agilex_v2::option_table(),
     .kind = SlotKind::drive,
     .wire = Wire::can,
     .channels = agilex_v2::kChannels,

@@ -5,7 +5,7 @@
 
 namespace drover::agilex_v2 {
 
-/// Turns at its speed, with a memory of how much torque that takes, so that it holds on a slope.
+/// Turns at its speed, with a memory of how much torque that takes: with it, it holds on a slope.
 struct Servo {
   double integral_Nm_per_rad = 30;
   double proportional_Nms_per_rad = 6;

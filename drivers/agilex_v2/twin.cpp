@@ -7,6 +7,14 @@ namespace {
 
 constexpr LowBattery kNearlyEmpty{22.4, 0x0200};
 
+constexpr std::array kOptions{
+    OptionSpec{.name = "zero_holds",
+               .default_value = false,
+               .text =
+                   "a chassis that is told zero, or nothing, holds on a slope. Users say so, the "
+                   "maker does not: try it. false: it brakes, and creeps"},
+};
+
 constexpr std::array kTwinOptions{
     OptionSpec{.name = "wheel_radius_m",
                .default_value = 0.165,
@@ -28,6 +36,10 @@ constexpr std::array kTwinOptions{
 
 }  // namespace
 
+std::span<const OptionSpec> option_table() {
+  return kOptions;
+}
+
 std::span<const OptionSpec> twin_option_table() {
   return kTwinOptions;
 }
@@ -35,7 +47,8 @@ std::span<const OptionSpec> twin_option_table() {
 AgilexV2Twin::AgilexV2Twin(const Options& options)
     : wheel_radius_m_(options.number("wheel_radius_m")),
       track_m_(options.number("track_m")),
-      max_torque_Nm_(options.number("max_torque_Nm")) {
+      max_torque_Nm_(options.number("max_torque_Nm")),
+      zero_holds_(options.flag("zero_holds")) {
   state_.battery_V = kFull_V;
 }
 
@@ -48,6 +61,10 @@ void AgilexV2Twin::set_power(bool on, Time now) {
 }
 
 bool AgilexV2Twin::set_fault(std::string_view name, Time) {
+  if (name == "serial") {
+    state_.mode = Mode::serial;
+    return true;
+  }
   return set_chassis_fault(name, kNearlyEmpty, state_, silent_);
 }
 
@@ -57,7 +74,8 @@ bool AgilexV2Twin::awake(Time now) const {
 
 void AgilexV2Twin::on_frame(const CanFrame& frame, Time now, TwinFrames&) {
   if (!awake(now) || !frame.is_plain()) return;
-  if (const auto mode = read_mode_command(frame); mode && state_.mode != Mode::remote) {
+  const bool taken = state_.mode == Mode::remote || state_.mode == Mode::serial;
+  if (const auto mode = read_mode_command(frame); mode && !taken) {
     if (*mode != state_.mode) last_asked_ = kNever;
     state_.mode = *mode;
   }
@@ -70,8 +88,9 @@ void AgilexV2Twin::on_frame(const CanFrame& frame, Time now, TwinFrames&) {
 void AgilexV2Twin::on_tick(Time now, std::span<Shaft> shafts, TwinFrames& out) {
   const double dt_s = last_tick_ == kNever ? 0 : to_s(now - last_tick_);
   last_tick_ = now;
-  // What standby does with the motors nobody wrote down: here it lets go, the worse of both.
-  const bool drives = awake(now) && state_.mode != Mode::standby;
+  // What standby, an emergency stop and an exception do with the motors nobody wrote down: here
+  // they let go, the worse of both.
+  const bool drives = awake(now) && state_.mode != Mode::standby && state_.vehicle == Vehicle::well;
   if (drives) {
     turn(shafts, obeyed(now), dt_s);
   } else {
@@ -82,7 +101,7 @@ void AgilexV2Twin::on_tick(Time now, std::span<Shaft> shafts, TwinFrames& out) {
 
 Twist AgilexV2Twin::obeyed(Time now) const {
   const bool fed = now - last_asked_ <= kProtection;
-  if (state_.mode != Mode::can || state_.vehicle != Vehicle::well || !fed) return {};
+  if (state_.mode != Mode::can || !fed) return {};
   return asked_;
 }
 
@@ -91,6 +110,8 @@ void AgilexV2Twin::turn(std::span<Shaft> shafts, const Twist& twist, double dt_s
     const double side = i == 0 ? -1 : 1;
     const double asked_radps =
         (twist.vx_mps + side * twist.wz_radps * track_m_ / 2) / wheel_radius_m_;
+    // It remembers nothing at zero: then it gives way to a load.
+    if (asked_radps == 0 && !zero_holds_) servos_[i].effort_Nm = 0;
     shafts[i].torque_Nm =
         servos_[i].torque_Nm(asked_radps - shafts[i].velocity_radps, dt_s, max_torque_Nm_);
     shafts[i].energized = true;

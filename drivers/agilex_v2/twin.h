@@ -10,6 +10,8 @@
 
 namespace drover::agilex_v2 {
 
+/// Of the driver: the simulated one has them, too.
+std::span<const OptionSpec> option_table();
 std::span<const OptionSpec> twin_option_table();
 
 class AgilexV2Twin final : public CanTwin {
@@ -17,7 +19,8 @@ class AgilexV2Twin final : public CanTwin {
   explicit AgilexV2Twin(const Options& options);
 
   void set_power(bool on, Time now) override;
-  /// "silent", "estop", "exception", "remote" (a person takes it over), "low_battery".
+  /// "silent", "estop", "exception", "remote" (a person takes it over), "serial" (somebody commands
+  /// it on its other line), "low_battery".
   bool set_fault(std::string_view name, Time now) override;
   void on_frame(const CanFrame& frame, Time now, TwinFrames& out) override;
   void on_tick(Time now, std::span<Shaft> shafts, TwinFrames& out) override;
@@ -31,6 +34,7 @@ class AgilexV2Twin final : public CanTwin {
   double wheel_radius_m_;
   double track_m_;
   double max_torque_Nm_;
+  bool zero_holds_;
 
   bool powered_ = true;
   bool silent_ = false;

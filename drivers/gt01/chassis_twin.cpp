@@ -106,6 +106,7 @@ bool ChassisModel::set_fault(std::string_view name) {
       {"bumper", &ChassisFaults::bumper},
       {"remote", &ChassisFaults::remote},
       {"over_current", &ChassisFaults::over_current},
+      {"docking", &ChassisFaults::docking},
   };
   if (name.empty()) {
     faults_ = {};
@@ -130,7 +131,8 @@ bool ChassisModel::stopped() const {
 
 Twist ChassisModel::target(Time now) const {
   const bool late = settings_.silence > Duration{} && now - last_twist_ > settings_.silence;
-  if (!hosted_ || late || stopped() || rests_first_ || faults_.remote) return {};
+  const bool others = faults_.remote || faults_.docking;
+  if (!hosted_ || late || stopped() || rests_first_ || others) return {};
   return {twist_.vx_mps * settings_.speed_scale, twist_.wz_radps * settings_.turn_scale};
 }
 

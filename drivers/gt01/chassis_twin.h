@@ -43,6 +43,7 @@ struct ChassisFaults {
   bool bumper = false;
   bool remote = false;  ///< somebody drives it by its remote control
   bool over_current = false;
+  bool docking = false;  ///< it drives to its charger by itself: it hears no host
   bool operator==(const ChassisFaults&) const = default;
 };
 
@@ -61,7 +62,7 @@ class ChassisModel final {
   bool tells() const { return up_ && !faults_.silent; }
   const ChassisFaults& faults() const { return faults_; }
   /// Somebody commands it, and it obeys.
-  bool obeys_host() const { return hosted_ && !faults_.remote; }
+  bool obeys_host() const { return hosted_ && !faults_.remote && !faults_.docking; }
   double left_mps() const { return told_mps_[0]; }
   double right_mps() const { return told_mps_[1]; }
   Twist twist() const;  ///< as it tells it

@@ -71,12 +71,14 @@ Zlac8015dDriver::Zlac8015dDriver(const Settings& settings, std::array<AxisId, kW
       hears_(all_of(settings.node)),
       rules_(rules_of(settings)),
       steps_(steps_of(settings)),
+      fed_steps_(fed_steps_of(settings)),
       setup_(settings.node, {steps_.data(), steps_.size()}),
       recipe_(recipe_of(settings.node)) {
   no_status_.format("no status (%03X)", static_cast<unsigned>(id_of(Cob::status, settings.node)));
   if (settings.silence_ms > 0) {
     silence_text_.format(
-        "stops and holds after %.3f s (its time-out, set and read back at each start)",
+        "%s after %.3f s (its time-out, set and read back at each start)",
+        settings.silence_holds ? "stops and holds" : "lets go, as far as is known,",
         settings.silence_ms / 1000.0);
   } else {
     silence_text_ = "keeps its last velocity for ever: silence_ms is 0";
@@ -98,8 +100,11 @@ void Zlac8015dDriver::lock(std::string_view why) {
   lock_reason_.assign(why);
 }
 
-/// Whatever was known may be of before a loss of its power.
-void Zlac8015dDriver::begin_setup(Time now) {
+/// Whatever was known may be of before a loss of its power. One that just booted holds nothing; any
+/// other may.
+void Zlac8015dDriver::begin_setup(bool booted, Time now) {
+  const StepList& steps = booted ? steps_ : fed_steps_;
+  setup_ = canopen::SdoSetup(settings_.node, {steps.data(), steps.size()});
   link_ = Link::setting_up;
   link_since_ = now;
   setup_.begin();
@@ -120,7 +125,7 @@ void Zlac8015dDriver::keep_link(Time now, DriverOut& out) {
   if (phase_ == Phase::running && lacks_status(settings_.heartbeat_timeout, now))
     lock(silent_text(no_status_.view(), settings_.heartbeat_timeout).view());
   if (link_ == Link::setting_up && setup_.failed() && now - link_since_ > kSetUpAgain)
-    begin_setup(now);
+    begin_setup(false, now);
   switch (link_) {
     case Link::silent:
       // It may have been started long ago and say nothing unless it is asked.
@@ -135,6 +140,8 @@ void Zlac8015dDriver::keep_link(Time now, DriverOut& out) {
       next_question_ = now;
       return;
     case Link::starting:
+      // What it holds it goes on holding: from here on by process data, as soon as it takes that.
+      send_targets({}, now, false, out);
       if (now < next_question_) return;
       next_question_ = now + kAskEach;
       if (const auto start = canopen::encode_nmt(canopen::NmtCommand::operational, settings_.node))
@@ -294,7 +301,8 @@ SilenceBehaviour Zlac8015dDriver::silence() const {
   behaviour.stops = settings_.silence_ms > 0;
   behaviour.after = milliseconds(settings_.silence_ms);
   behaviour.text = silence_text_.view();
-  behaviour.ends = StopEnds::holds;
+  behaviour.ends = settings_.silence_holds ? StopEnds::holds : StopEnds::coasts;
+  behaviour.assumed = !settings_.silence_holds;
   return behaviour;
 }
 

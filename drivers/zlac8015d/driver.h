@@ -62,7 +62,7 @@ class Zlac8015dDriver final : public Device, public FrameFace, public Actuator {
   bool lacks_status(Duration limit, Time now) const;
   bool attempts_to_run() const { return phase_ == Phase::arming || phase_ == Phase::running; }
   void lock(std::string_view why);
-  void begin_setup(Time now);
+  void begin_setup(bool booted, Time now);
   void keep_link(Time now, DriverOut& out);
   void take(AxisRequest request, Time now);
   void start_arming(Time now);
@@ -79,6 +79,7 @@ class Zlac8015dDriver final : public Device, public FrameFace, public Actuator {
   std::array<FrameFilter, 5> hears_;
   RuleList rules_;
   StepList steps_;
+  StepList fed_steps_;
   canopen::SdoSetup setup_;
   StopRecipe recipe_;
   Reason silence_text_;

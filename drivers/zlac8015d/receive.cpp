@@ -57,7 +57,7 @@ bool Zlac8015dDriver::on_reply(const CanFrame& frame, Time received, DriverOut& 
   if (frame.id == id_of(Cob::sdo_answer, settings_.node)) {
     if (!canopen::decode_sdo_answer(frame, settings_.node)) return false;
     heard_.last_alive = received;
-    if (link_ == Link::silent) begin_setup(received);
+    if (link_ == Link::silent) begin_setup(false, received);
     if (link_ == Link::setting_up)
       if (const auto next = setup_.on_frame(frame, received)) out.send(*next);
     return true;
@@ -96,7 +96,7 @@ void Zlac8015dDriver::on_heartbeat(canopen::NodeState state, Time received) {
   heard_.last_alive = received;
   const bool booted = state == canopen::NodeState::boot_up;
   if (booted && attempts_to_run()) lock("the drive was restarted while armed");
-  if (booted || link_ == Link::silent) return begin_setup(received);
+  if (booted || link_ == Link::silent) return begin_setup(booted, received);
   const bool operational = state == canopen::NodeState::operational;
   if (link_ == Link::starting && operational) link_ = Link::ready;
   if (link_ == Link::ready && !operational) {

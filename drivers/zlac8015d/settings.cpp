@@ -52,6 +52,11 @@ const OptionSpec kOptions[] = {
      .integer = true,
      .text = "object 2000, the drive's own time-out without commands; set and read back. 0: none, "
              "then it keeps its last speed for ever"},
+    {.name = "silence_holds",
+     .default_value = false,
+     .text =
+         "a drive whose time-out fired holds on a slope. The maker does not say: try it. false: "
+         "it lets go of its wheels"},
     {.name = "heartbeat_ms",
      .default_value = 100.0,
      .min = 20,
@@ -113,6 +118,7 @@ Settings read_settings(const Options& options) {
   settings.max_rpm = checked.number("max_rpm");
   settings.steps_per_rpm = static_cast<int>(checked.number("steps_per_rpm"));
   settings.silence_ms = word("silence_ms");
+  settings.silence_holds = options.flag("silence_holds");
   settings.heartbeat_ms = word("heartbeat_ms");
   settings.acceleration_ms = word("acceleration_ms");
   settings.deceleration_ms = word("deceleration_ms");

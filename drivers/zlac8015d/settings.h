@@ -19,6 +19,7 @@ struct Settings {
   double max_rpm = 300;           ///< of the motor
   int steps_per_rpm = 10;         ///< of a target
   std::uint16_t silence_ms = 200;
+  bool silence_holds = false;  ///< after that; not written, a drive has no object for it
   std::uint16_t heartbeat_ms = 100;
   std::uint16_t acceleration_ms = 100;
   std::uint16_t deceleration_ms = 100;

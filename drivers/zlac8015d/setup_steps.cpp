@@ -1,5 +1,7 @@
 #include "drivers/zlac8015d/setup_steps.h"
 
+#include <algorithm>
+
 #include "drivers/canopen/pdo.h"
 
 namespace drover::zlac8015d {
@@ -23,6 +25,15 @@ canopen::Pdo pdo(PdoDirection direction, std::uint8_t number,
   }
   for (const auto& object : objects) static_cast<void>(made.objects.push_back(object));
   return made;
+}
+
+/// After how many steps the time-out is fed: each is written and read back, a cycle of 5 ms for
+/// either.
+std::size_t steps_between_feeds(const Settings& settings) {
+  constexpr int kStep_ms = 10;
+  constexpr int kMost = 6;
+  const int half_ms = settings.silence_ms / 2;
+  return static_cast<std::size_t>(std::clamp(half_ms / kStep_ms, 1, kMost));
 }
 
 }  // namespace
@@ -58,6 +69,20 @@ StepList steps_of(const Settings& settings) {
   for (const auto& each : pdos)
     for (const auto& step : canopen::steps_of(each, settings.node))
       static_cast<void>(steps.push_back(step));
+  return steps;
+}
+
+StepList fed_steps_of(const Settings& settings) {
+  const StepList objects = steps_of(settings);
+  const std::size_t each = steps_between_feeds(settings);
+  StepList steps;
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    static_cast<void>(steps.push_back(objects[i]));
+    if ((i + 1) % each != 0 && i + 1 != objects.size()) continue;
+    static_cast<void>(steps.push_back({.object = {canopen::kTargetVelocity, kSubs[i / each % 2]},
+                                       .value = canopen::i32(0),
+                                       .read_back = false}));
+  }
   return steps;
 }
 

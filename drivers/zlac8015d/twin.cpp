@@ -216,13 +216,22 @@ void Zlac8015dTwin::on_nmt(std::uint8_t command) {
   }
 }
 
+/// The worse of two readings, unless it is said to hold: both wheels are let go of, without an
+/// error.
+void Zlac8015dTwin::time_out() {
+  for (Wheel& wheel : wheels_) {
+    wheel.target = 0;
+    if (!settings_.silence_holds && wheel.drive != DriveState::fault)
+      wheel.drive = DriveState::switch_on_disabled;
+  }
+}
+
 void Zlac8015dTwin::on_tick(Time now, std::span<Shaft> shafts, TwinFrames& out) {
   const double dt_s = last_tick_ == kNever ? 0.0 : to_s(now - last_tick_);
   last_tick_ = now;
   if (powered_ && !booted_ && now >= (boot_at_ == kNever ? now : boot_at_)) boot(now, out);
   const auto silence = std::chrono::milliseconds(stored(kSilenceTime, 0));
-  if (booted_ && silence.count() > 0 && now - last_fed_ > silence)
-    for (Wheel& wheel : wheels_) wheel.target = 0;
+  if (booted_ && silence.count() > 0 && now - last_fed_ > silence) time_out();
   move(dt_s, shafts);
   if (booted_) send_cyclic(now, out);
 }

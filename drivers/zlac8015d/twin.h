@@ -1,8 +1,9 @@
 // A simulated ZLAC8015D: a CANopen node with its dictionary, and two motors on their shafts.
 //
 // It starts pre-operational, off and with the maker's defaults, maps its process data as it is
-// told, and refuses objects that it does not have. Its time-out stops the wheels, and they stay
-// enabled: so it was measured. Only targets feed it, the least that may be.
+// told, and refuses objects that it does not have. Its time-out lets go of the wheels: one drive
+// was seen to stop and stay enabled, but no maker says so (`silence_holds`). Only targets feed it,
+// the least that may be.
 #pragma once
 
 #include "drivers/canopen/nmt.h"
@@ -67,6 +68,7 @@ class Zlac8015dTwin final : public CanTwin {
   std::uint32_t stored(std::uint16_t index, std::uint8_t sub) const;
   std::uint8_t mapped_count(std::uint16_t mapping) const;
   void on_controlword(std::uint16_t word);
+  void time_out();
   void fail(std::size_t wheel, std::uint16_t error);
   void send_cyclic(Time now, TwinFrames& out);
   void move(double dt_s, std::span<Shaft> shafts);

@@ -136,6 +136,7 @@ struct SilenceBehaviour {
   Duration after{};                  ///< that time-out
   std::string_view text;             ///< for operators: "disarms after 0.1 s (watchdog)"
   StopEnds ends = StopEnds::coasts;  ///< how that stop ends
+  bool assumed = false;              ///< the maker does not say how: the worse was taken
 };
 
 /// One or more channels behind one address.

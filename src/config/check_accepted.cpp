@@ -10,10 +10,15 @@ namespace drover::config {
 namespace {
 
 const std::vector<std::string> kOfADrive{"no_watchdog"};
-const std::vector<std::string> kAtTheTop{
-    "no_estop",     "slow_guard",          "no_tilt",       "no_soc",    "no_relay", "short_look",
-    "slow_chassis", "far_antenna",         "slow_watchdog", "no_guard",  "falls",    "no_first_way",
-    "late_silence", "estop_not_fail_safe", "remote_broker", "lets_fall", "rolls"};
+const std::vector<std::string> kAtTheTop{"no_estop",      "slow_guard",
+                                         "no_tilt",       "no_soc",
+                                         "no_relay",      "short_look",
+                                         "slow_chassis",  "far_antenna",
+                                         "slow_watchdog", "no_guard",
+                                         "falls",         "no_first_way",
+                                         "late_silence",  "estop_not_fail_safe",
+                                         "remote_broker", "lets_fall",
+                                         "rolls",         "early_time_out"};
 
 bool is_one_of(const std::vector<std::string>& words, const std::string& word) {
   return std::find(words.begin(), words.end(), word) != words.end();

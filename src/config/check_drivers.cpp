@@ -34,12 +34,17 @@ void look_at_guard(const DeviceConfig& device, const SilenceBehaviour& silence, 
   if (!guard.required || !silence.stops || silence.after > takes_over) return;
   if (silence.ends == StopEnds::holds) return;
   const char* const ends = silence.ends == StopEnds::coasts ? "lets go" : "only brakes";
-  found.add(device_path(device, "options"),
-            "the drive " + std::string(ends) +
-                " before drover-guard takes over when droverd dies: " + std::string(silence.text) +
-                ", and the guard needs up to " + std::to_string(guard.limit_ms + kGuardsCycles_ms) +
-                " ms",
-            "a longer time-out of the drive, or a smaller guard.limit_ms");
+  const auto path = device_path(device, "options");
+  const auto what =
+      "the drive " + std::string(ends) +
+      " before drover-guard takes over when droverd dies: " + std::string(silence.text) +
+      ", and the guard needs up to " + std::to_string(guard.limit_ms + kGuardsCycles_ms) + " ms";
+  const std::string advice = "a longer time-out of the drive, or a smaller guard.limit_ms";
+  // One that may hold after all is nobody's mistake.
+  if (silence.assumed)
+    return found.warn(path, what, "early_time_out",
+                      advice + ", or the option that says that it holds when you tried it");
+  found.add(path, what, advice);
 }
 
 /// A drive that nothing stops when the bus is cut is refused, unless a person says that it is so.

@@ -368,7 +368,7 @@ void visit(V& v, DroverConfig& c, GroupNames& groups) {
   v.object("ros2", c.ros2, "drover-ros2: left out, it shows nothing");
   v.object("scene", c.scene, "what is around the robot: left out, nothing of it is looked at");
   v.names(
-      "accept", c.accept, Count{0, 17},
+      "accept", c.accept, Count{0, 18},
       "no_estop: there is no e-stop line; slow_guard: guard.limit_ms is above 200; no_tilt: "
       "nothing tells how steep the ground is; no_soc: no battery tells its charge; no_relay: "
       "nothing takes the power from drives that do not stop; short_look: the scene, or a lidar's "
@@ -381,9 +381,10 @@ void visit(V& v, DroverConfig& c, GroupNames& groups) {
       "silent for more than half a second before the robot stops; estop_not_fail_safe: a broken "
       "wire of the e-stop reads as released; remote_broker: mqtt.host is another computer, which "
       "droverd.service was allowed to reach; lets_fall: a joint that carries a weight is let go "
-      "when "
-      "its commands cease; rolls: groups.base.max_tilt_deg is above 3, and drover-guard lets the "
-      "wheels coast; that is known");
+      "when its commands cease; rolls: groups.base.max_tilt_deg is above 3, and drover-guard lets "
+      "the "
+      "wheels coast; early_time_out: a drive of which nobody says that it holds then stops by "
+      "itself before the guard does; that is known");
 }
 
 }  // namespace drover::config

@@ -26,11 +26,16 @@ std::vector<std::uint8_t> bytes(std::string_view text) {
 
 class GuardOnATty : public GuardRig {
  protected:
-  GuardOnATty() : device_(::posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC)) {
+  GuardOnATty() {
+    plug_in();
+    start();
+  }
+  /// A terminal of its own.
+  void plug_in() {
+    device_ = link::UniqueFd(::posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
     ::grantpt(device_.get());
     ::unlockpt(device_.get());
     open_line();
-    start();
   }
   void open_line() {
     line_ = link::UniqueFd(
@@ -42,16 +47,41 @@ class GuardOnATty : public GuardRig {
   }
   /// Three rounds with a counter in them.
   void supply(std::size_t packet_size = 10, std::chrono::milliseconds period = 20ms) {
-    std::vector<runtime::GuardedLink> links(1);
-    links[0].name = "motors";
-    links[0].kind = GuardLinkKind::tty;
-    links[0].descriptor = link::UniqueFd(::fcntl(line_.get(), F_DUPFD_CLOEXEC, 0));
+    std::vector<runtime::GuardedLink> links;
+    links.push_back(tty_link(packet_size, period));
+    take(std::move(links));
+  }
+  /// Both wires in one set, the terminal first or last.
+  void supply_with_a_bus(bool tty_first) {
+    std::vector<runtime::GuardedLink> links;
+    if (tty_first) links.push_back(tty_link(100, 10ms));
+    links.push_back(can_link("can0", {0x2D}));
+    if (!tty_first) links.push_back(tty_link(100, 10ms));
+    take(std::move(links));
+  }
+  /// Frames come there now, not only before.
+  bool bus_is_stopped() {
+    (void)frames("can0");
+    std::size_t came = 0;
+    return wait_until([&] {
+      came += frames("can0").size();
+      return came > 10;
+    });
+  }
+  runtime::GuardedLink tty_link(std::size_t packet_size, std::chrono::milliseconds period) {
+    runtime::GuardedLink link;
+    link.name = "motors";
+    link.kind = GuardLinkKind::tty;
+    link.descriptor = link::UniqueFd(::fcntl(line_.get(), F_DUPFD_CLOEXEC, 0));
     runtime::GuardedAxis axis;
     axis.name = "motors 1";
     axis.period = period;
     for (const char* head : {"<stop:0", "<stop:1", "<stop:2"})
       axis.rounds.push_back({bytes(head + std::string(packet_size - 8, '-') + ">")});
-    links[0].axes.push_back(axis);
+    link.axes.push_back(axis);
+    return link;
+  }
+  void take(std::vector<runtime::GuardedLink> links) {
     hand_over(std::move(links));
     EXPECT_FALSE(client().borrow("nothing")) << "an answer: all has arrived";
   }
@@ -179,6 +209,56 @@ TEST_F(GuardOnATty, IsNotHeldUpWhenSomebodyMadeTheLineBlocking) {
   client().disconnect();
   ::fcntl(line().get(), F_SETFL, ::fcntl(line().get(), F_GETFL) & ~O_NONBLOCK);
   ASSERT_TRUE(wait_until([&] { return shared().unsent > 3; })) << "full, and it goes on";
+}
+
+TEST_F(GuardOnATty, IsStoppedTogetherWithTheBusOfTheSameSet) {
+  for (const bool tty_first : {true, false}) {
+    new_daemon();
+    supply_with_a_bus(tty_first);
+    client().disconnect();
+    EXPECT_TRUE(bus_is_stopped());
+    EXPECT_THAT(read_for(50ms), HasSubstr("<stop:"));
+  }
+}
+
+TEST_F(GuardOnATty, DoesNotHoldUpTheBusWhenItTakesNothingMore) {
+  for (const bool tty_first : {true, false}) {
+    new_daemon();
+    supply_with_a_bus(tty_first);
+    const std::uint64_t before = shared().unsent;
+    client().disconnect();
+    ASSERT_TRUE(wait_until([&] {
+      (void)frames("can0");
+      return shared().unsent > before + 3;
+    })) << "it is full, and the bus is not";
+    EXPECT_TRUE(bus_is_stopped());
+    EXPECT_THAT(read_for(50ms), HasSubstr("<stop:")) << "read again it goes on";
+  }
+}
+
+TEST_F(GuardOnATty, LeavesTheBusStoppedWhenItsCableIsTorn) {
+  for (const bool before_the_kill : {true, false}) {
+    plug_in();
+    new_daemon();
+    supply_with_a_bus(true);
+    if (before_the_kill) hang_up();
+    client().disconnect();
+    EXPECT_TRUE(bus_is_stopped());
+    hang_up();
+    EXPECT_TRUE(bus_is_stopped());
+  }
+}
+
+TEST_F(GuardOnATty, IsStoppedWhileTheBusOfTheSameSetTakesNothing) {
+  supply_with_a_bus(false);
+  client().disconnect();
+  std::string heard;
+  // Nobody reads the bus: it is full.
+  ASSERT_TRUE(wait_until([&] {
+    heard += read_some();
+    return shared().unsent > 3;
+  }));
+  EXPECT_THAT(read_for(200ms), HasSubstr("<stop:"));
 }
 
 TEST_F(GuardOnATty, LendsTheLineToTheNextDroverd) {

@@ -108,6 +108,8 @@ INSTANTIATE_TEST_SUITE_P(
         "zlac8015d_over_current", "zlac8015d_torn_motor", "zlac8015d_dip_on_ramp", "cia402",
         "cia402_kill_on_ramp", "cia402_dead", "one_of_each_dies", "gt01", "gt01_can", "gt01_kill",
         "gt01_can_kill", "gt01_torn", "gt01_rest_on_ramp", "gt01_deaf_on_ramp",
+        "zlac8015d_alone_on_ramp", "gt01_alone_on_ramp", "gt01_can_alone_on_ramp",
+        "agilex_v2_faults", "agilex_v2_estop_on_ramp", "agilex_v2_alone_on_ramp",
         "gt01_pushed_over_restart", "agilex_v2", "agilex_v2_imu_silent", "agilex_v2_kill", "arm",
         "arm_faults", "arm_hung", "arm_sinks", "arm_holds", "arm_steps", "arm_push", "arm_kill",
         "scout_arm", "scout_arm_kill", "scout_arm_bus", "scout_arm_bus_late", "cubemars_arm",

@@ -37,6 +37,15 @@ TEST(Zlac8015dKillOnRamp, HoldsTheRobotOnTheSlope) {
   expect_held_on_the_ramp(record("zlac8015d_kill_on_ramp"));
 }
 
+// Its set-up takes longer than its time-out.
+TEST(Zlac8015dKillOnRamp, IsHeldWhileTheNextProgramSetsItUp) {
+  const Record& log = record("zlac8015d_kill_on_ramp");
+  const Time back = log.event("start droverd", 2);
+  const Roll held = roll(log, back, next_start(log, back) - kEstop);
+  figure("way while it is set up", held.way_m, "m");
+  EXPECT_LT(held.way_m, 0.01);
+}
+
 TEST(Zlac8015dKillOnRamp, StaysStoppedUntilANewStartReachesTheGoal) {
   const Record& log = record("zlac8015d_kill_on_ramp");
   const Time back = log.event("start droverd", 2);
@@ -55,7 +64,13 @@ TEST(Zlac8015dOverCurrent, OfOneMotorStopsBothAtOnce) {
   const double turned_rad =
       std::abs(std::remainder(log.truth.back().yaw_rad - log.truth_at(faulted).yaw_rad, 2 * M_PI));
   figure("turned around the wheel that holds", turned_rad * 180 / M_PI, "degrees");
-  tell_way_to_rest(log, faulted, log.truth.back().time - 10ms);
+  // README of the driver: by 135 degrees, for 2.8 s, from 0.6 m/s.
+  EXPECT_LT(turned_rad * 180 / M_PI, 160);
+  const Time end = log.truth.back().time - 10ms;
+  tell_way_to_rest(log, faulted, end);
+  EXPECT_LT(roll(log, faulted, end).rest - faulted, 3500ms);
+  // Around the wheel that holds, whose distance from the middle is half a track.
+  EXPECT_LT(roll(log, faulted, end).way_m, 0.5);
   EXPECT_NEAR(log.truth.back().vx_mps, 0, 0.01);
 }
 
@@ -86,6 +101,9 @@ TEST(Zlac8015dTornMotor, OfWhichTheDriveSaysNothingIsToldAndLeavesTheRobotOnItsT
                    std::abs(std::remainder(line.yaw_rad - log.truth_at(torn).yaw_rad, 2 * M_PI)));
   figure("turned", turned_rad * 180 / M_PI, "degrees");
   EXPECT_LT(turned_rad * 180 / M_PI, 30);
+  const double beside_m = drive_figures(log, torn, log.truth.back().time).max_m;
+  figure("beside its track", beside_m, "m");
+  EXPECT_LT(beside_m, 0.2);
   EXPECT_NEAR(log.truth.back().vx_mps, 0, 0.01);
 }
 

@@ -41,7 +41,9 @@ CanFrame Gt01CanTwin::state() const {
   CanFrame frame;
   frame.id = 0x20;
   frame.len = 8;
-  const Mode mode = faults.remote ? Mode::remote : chassis_.obeys_host() ? Mode::host : Mode::idle;
+  Mode mode = chassis_.obeys_host() ? Mode::host : Mode::idle;
+  if (faults.docking) mode = Mode::docking;
+  if (faults.remote) mode = Mode::remote;
   frame.data[0] = static_cast<std::uint8_t>(mode);
   frame.data[1] = kBatteryPercent;
   store_le(frame.data, 2, kVoltage_dV);

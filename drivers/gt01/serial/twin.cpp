@@ -19,6 +19,7 @@ std::uint16_t status_of(const ChassisFaults& faults) {
   if (faults.soft_estop) bits |= status::kSoftEstop;
   if (faults.bumper) bits |= status::kFrontBumper;
   if (faults.over_current) bits |= status::kFrontLeftError;
+  if (faults.docking) bits |= status::kDockingOn;
   return static_cast<std::uint16_t>(bits);
 }
 

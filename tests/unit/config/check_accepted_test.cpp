@@ -308,9 +308,10 @@ TEST(Warnings, TellOfABrokerThatTheServiceDoesNotReach) {
 }
 
 TEST(Warnings, AreEachAcceptedByTheWordThatTheyTell) {
-  for (const auto* word : {"no_estop", "slow_guard", "no_tilt", "no_soc", "no_relay", "short_look",
-                           "slow_chassis", "far_antenna", "slow_watchdog", "no_guard", "falls",
-                           "no_first_way", "late_silence", "estop_not_fail_safe", "remote_broker"})
+  for (const auto* word :
+       {"no_estop", "slow_guard", "no_tilt", "no_soc", "no_relay", "short_look", "slow_chassis",
+        "far_antenna", "slow_watchdog", "no_guard", "falls", "no_first_way", "late_silence",
+        "estop_not_fail_safe", "remote_broker", "early_time_out"})
     EXPECT_EQ(
         problems("{\"accept\": [\"" + std::string(word) + "\"]," + std::string(kGood).substr(1)),
         "")

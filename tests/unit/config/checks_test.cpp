@@ -344,15 +344,27 @@ TEST(ConfigurationChecks, RefuseADriveThatLetsGoBeforeTheGuardTakesOver) {
   EXPECT_EQ(problems(alone), "");
 }
 
-// It is at rest before the guard speaks, and holds there.
+// It is at rest before the guard speaks, and holds there: of that somebody's word is needed.
 TEST(ConfigurationChecks, AllowADriveThatHoldsBeforeTheGuardTakesOver) {
-  std::string text(kGood);
-  const auto from = text.find("    \"left\": {");
-  text.replace(from, text.find("    \"gnss\": {", from) - from,
-               R"("wheels": {"driver": "zlac8015d", "link": "can0", "options": {"silence_ms": 40},
+  const auto wheels = [](const std::string& options) {
+    std::string text(kGood);
+    const auto from = text.find("    \"left\": {");
+    return text.replace(
+        from, text.find("    \"gnss\": {", from) - from,
+        R"("wheels": {"driver": "zlac8015d", "link": "can0", "options": {)" + options + R"(},
     "joints": {"left": {"channel": "left"}, "right": {"channel": "right"}}},
 )");
-  EXPECT_EQ(problems(text), "");
+  };
+  const auto holds = wheels(R"("silence_ms": 40, "silence_holds": true)");
+  EXPECT_EQ(problems(holds), "");
+  EXPECT_EQ(warnings(holds), "");
+  const auto nobody_knows = wheels(R"("silence_ms": 40)");
+  EXPECT_EQ(problems(nobody_knows), "");
+  EXPECT_THAT(warnings(nobody_knows),
+              HasSubstr("devices.wheels.options: the drive lets go before drover-guard takes over "
+                        "when droverd dies: lets go, as far as is known, after 0.040 s"));
+  EXPECT_EQ(warnings("{\"accept\": [\"early_time_out\"]," + nobody_knows.substr(1)), "");
+  EXPECT_EQ(warnings(wheels(R"("silence_ms": 200)")), "");
 }
 
 TEST(Configuration, LooksAtADriveThoughOneWithALongerNumberIsWrong) {

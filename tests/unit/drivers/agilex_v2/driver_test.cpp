@@ -14,6 +14,9 @@ constexpr auto kRest = AxisRequest::rest;
 
 /// 10 ms cycles; its shafts turn as they are pushed.
 struct Bench {
+  explicit Bench(bool zero_holds = false)
+      : driver(0, {}, zero_holds),
+        twin(Options(twin_option_table()).set("zero_holds", zero_holds)) {}
   void run(Duration time, AxisRequest request, const Twist& twist = {}) {
     for (const Time end = now + time; now < end;) cycle({request, 0, twist});
   }
@@ -39,7 +42,7 @@ struct Bench {
     now += milliseconds(10);
     TwinFrames frames;
     twin.on_tick(now, shafts, frames);
-    for (Shaft& shaft : shafts) shaft.velocity_radps += 0.02 * shaft.torque_Nm;
+    for (Shaft& shaft : shafts) shaft.velocity_radps += 0.02 * (shaft.torque_Nm + load_Nm);
     DriverOut out;
     for (const CanFrame& frame : frames) driver.on_frame(frame, now, out);
     return out;
@@ -52,9 +55,10 @@ struct Bench {
   }
   std::string_view reason() const { return status.reason.view(); }
 
-  AgilexV2Driver driver{0};
-  AgilexV2Twin twin{Options(twin_option_table())};
+  AgilexV2Driver driver;
+  AgilexV2Twin twin;
   std::array<Shaft, 2> shafts{};
+  double load_Nm = 0;  ///< on each, as of a slope
   Time now{std::chrono::seconds(1)};
   AxisStatus status;
   BodyMotion motion;
@@ -140,11 +144,78 @@ TEST(AgilexV2, DoesNotGoOnWhenItsEmergencyStopIsReleased) {
   bench.twin.set_fault("estop", bench.now);
   bench.run(milliseconds(1000), kRun, {0.5, 0});
   EXPECT_EQ(bench.status.state, AxisState::fault);
-  EXPECT_TRUE(bench.motion.standing);
+  EXPECT_EQ(bench.reason(), "the chassis' emergency stop is pressed");
+  EXPECT_FALSE(bench.shafts[0].energized) << "it is taken to let go";
+  bench.run(milliseconds(3000), kRun, {0.5, 0});
+  EXPECT_TRUE(bench.motion.standing) << "it rolled out";
   bench.twin.set_fault("", bench.now);
   bench.moved = 0;
   bench.run(milliseconds(2000), kRun, {0.5, 0});
   EXPECT_EQ(bench.moved, 0) << "though it stayed in CAN mode";
+}
+
+TEST(AgilexV2, IsAFaultWhenTheChassisReportsAnException) {
+  Bench bench;
+  bench.drive();
+  bench.twin.set_fault("exception", bench.now);
+  bench.run(milliseconds(200), kRun, {0.5, 0});
+  EXPECT_EQ(bench.status.state, AxisState::fault);
+  EXPECT_FALSE(bench.status.powered);
+  EXPECT_EQ(bench.reason(), "the chassis reports a fault, error 0000");
+  bench.moved = 0;
+  bench.run(milliseconds(1000), kRun, {0.5, 0});
+  bench.twin.set_fault("", bench.now);
+  bench.run(milliseconds(2000), kRun, {0.5, 0});
+  EXPECT_EQ(bench.moved, 0) << "it goes on by a new request only";
+  bench.run(milliseconds(50), kRest);
+  bench.run(milliseconds(2000), kRun, {0.5, 0});
+  EXPECT_NEAR(bench.motion.twist.vx_mps, 0.5, 0.02);
+}
+
+/// It may move, and it is given back to who asks anew.
+TEST(AgilexV2, IsAFaultWhileSomebodyCommandsItsSerialLine) {
+  Bench bench;
+  bench.drive();
+  ASSERT_TRUE(bench.twin.set_fault("serial", bench.now));
+  bench.run(milliseconds(200), kRun, {0.5, 0});
+  EXPECT_EQ(bench.status.state, AxisState::fault);
+  EXPECT_TRUE(bench.status.powered);
+  EXPECT_EQ(bench.reason(), "the chassis is commanded over its serial line: unplug that");
+  bench.moved = 0;
+  bench.run(milliseconds(1000), kRun, {0.5, 0});
+  bench.twin.set_fault("", bench.now);
+  bench.run(milliseconds(2000), kRun, {0.5, 0});
+  EXPECT_EQ(bench.moved, 0) << "it goes on by a new request only";
+  bench.run(milliseconds(50), kRest);
+  bench.run(milliseconds(2000), kRun, {0.5, 0});
+  EXPECT_NEAR(bench.motion.twist.vx_mps, 0.5, 0.02);
+}
+
+/// In 0x211 the first byte is the vehicle's state, the second its mode: 2 is an exception, and the
+/// serial line.
+TEST(AgilexV2, ReadsAnExceptionAndTheModeOfTheSerialLine) {
+  const auto state = read_system_state(make_frame(kSystemStateId, {2, 2, 1, 9, 0, 0, 0, 0}));
+  ASSERT_TRUE(state);
+  EXPECT_EQ(state->vehicle, Vehicle::exception);
+  EXPECT_EQ(state->mode, Mode::serial);
+  EXPECT_FALSE(read_system_state(make_frame(kSystemStateId, {3, 1, 1, 9, 0, 0, 0, 0})));
+  EXPECT_FALSE(read_system_state(make_frame(kSystemStateId, {0, 4, 1, 9, 0, 0, 0, 0})));
+}
+
+/// The maker does not say that its zero holds: the simulated one creeps, unless somebody tried it.
+TEST(AgilexV2, CreepsAtZeroUnlessItIsSaidToHold) {
+  for (const bool holds : {false, true}) {
+    Bench bench(holds);
+    EXPECT_EQ(bench.driver.stop_recipe().ends, holds ? StopEnds::holds : StopEnds::damps);
+    EXPECT_EQ(bench.driver.silence().ends, holds ? StopEnds::holds : StopEnds::damps);
+    bench.drive();
+    bench.load_Nm = 3;
+    bench.run(milliseconds(4000), kRun);
+    EXPECT_EQ(bench.motion.standing, holds);
+    for (int i = 0; i < 200; ++i) bench.hear();  // silence
+    EXPECT_TRUE(bench.shafts[0].energized);
+    EXPECT_NEAR(bench.shafts[0].velocity_radps, holds ? 0 : 0.48, 0.02);
+  }
 }
 
 /// A base that stayed in its mode would follow the first command after the gap.

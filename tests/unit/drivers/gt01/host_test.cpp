@@ -89,6 +89,39 @@ TEST_P(AChassis, IsGivenUpWhenItsRemoteControlTakesItOver) {
   EXPECT_LT(bench.fastest_radps(), 0.05) << "given back it remembers no twist";
 }
 
+/// Who sends it to its charger has it: what was asked is over, and comes back by a new request
+/// only.
+TEST_P(AChassis, IsGivenUpWhenItDocksByItself) {
+  drive();
+  ASSERT_TRUE(bench.set_fault("docking"));
+  bench.run(milliseconds(100), kRun, {0.5, 0});
+  EXPECT_EQ(bench.status.state, AxisState::fault);
+  EXPECT_EQ(reason(), "the chassis docks by itself: end it with its own tool");
+  expect_told_nothing_that_moves();
+  bench.set_fault("");
+  bench.run(milliseconds(1500), kRun, {0.5, 0});
+  EXPECT_EQ(bench.status.state, AxisState::fault) << "whoever asked has not asked anew";
+  EXPECT_LT(bench.fastest_radps(), 0.05);
+  bench.run(milliseconds(50), kRest);
+  bench.run(milliseconds(2000), kRun, {0.5, 0});
+  EXPECT_NEAR(bench.motion.twist.vx_mps, 0.5, 0.04);
+}
+
+/// Frozen at rest its speeds say that it does not obey, though it drives: it is told zero.
+TEST_P(AChassis, IsStoppedWhenTheSpeedsThatItTellsFreezeAtRest) {
+  bench.run(milliseconds(1500), kRest);
+  ASSERT_TRUE(bench.set_fault("stuck_encoder"));
+  bench.run(milliseconds(300), kRun, {0.5, 0});
+  EXPECT_GT(bench.fastest_radps(), 1) << "it drives: this proves nothing";
+  EXPECT_EQ(bench.motion.twist.vx_mps, 0);
+  bench.run(milliseconds(900), kRun, {0.5, 0});
+  EXPECT_EQ(bench.status.state, AxisState::fault);
+  EXPECT_THAT(reason(), HasSubstr("not in command"));
+  expect_told_nothing_that_moves();
+  bench.run(milliseconds(500), kRun, {0.5, 0});
+  EXPECT_LT(bench.fastest_radps(), 0.05);
+}
+
 TEST_P(AChassis, IsNotInCommandWhenItIsToldToMoveAndStands) {
   bench.run(milliseconds(1500), kRest);
   bench.set_fault("deaf");

@@ -156,14 +156,88 @@ TEST(Zlac8015d, ForgetsItsTargetsAndItsStatusWhenItAnswersAfterASilence) {
   EXPECT_EQ(bench.effect_of(parse_frame("201#0F00")), FrameEffect::harmless);
 }
 
-TEST(Zlac8015d, StopsByItselfWhenTargetsCease) {
-  Bench bench;
-  bench.arm();
-  bench.run(milliseconds(1000), kRun, 3.0);
+/// Driven, then left alone under a load as of a slope.
+template <class AnyBench>
+void leave_alone(AnyBench& bench) {
+  bench.run(milliseconds(800), kRest);
+  bench.run(milliseconds(1500), kRun, 3.0);
+  ASSERT_NEAR(bench.shafts[kLeft].velocity_radps, 3.0, 0.1);
   bench.driver_alive = false;
+  bench.load_Nm = 4;
   for (int i = 0; i < 400; ++i) bench.step({kRun, 3.0});
-  EXPECT_NEAR(bench.shafts[kLeft].velocity_radps, 0, 0.02);
-  EXPECT_NEAR(bench.shafts[kRight].velocity_radps, 0, 0.02);
+}
+
+/// The maker does not say whether it holds: the simulated one is no better than the worse reading.
+TEST(Zlac8015d, LetsGoOfBothWheelsWhenTargetsCease) {
+  Bench bench;
+  leave_alone(bench);
+  const SilenceBehaviour silence = bench.actuator->silence();
+  EXPECT_EQ(silence.ends, StopEnds::coasts);
+  EXPECT_TRUE(silence.assumed);
+  EXPECT_EQ(silence.text,
+            "lets go, as far as is known, after 0.200 s (its time-out, set and read back at each "
+            "start)");
+  for (const Shaft& shaft : bench.shafts) {
+    EXPECT_FALSE(shaft.energized);
+    EXPECT_EQ(shaft.torque_Nm, 0);
+  }
+}
+
+TEST(Zlac8015d, HoldsBothWheelsWhenTargetsCeaseWhereAPersonTriedIt) {
+  test::Subject tried = Bench::subject();
+  tried.options.set("silence_holds", true);
+  test::CanBench bench(tried);
+  leave_alone(bench);
+  const SilenceBehaviour silence = bench.actuator->silence();
+  EXPECT_EQ(silence.ends, StopEnds::holds);
+  EXPECT_FALSE(silence.assumed);
+  EXPECT_EQ(silence.text.substr(0, 15), "stops and holds");
+  for (const Shaft& shaft : bench.shafts) {
+    EXPECT_TRUE(shaft.energized);
+    EXPECT_NEAR(shaft.velocity_radps, 0, 0.02);
+  }
+}
+
+/// The set-up takes half a second, in which a drive that holds the robot is not to let go.
+TEST(Zlac8015d, HoldsOnWhileItIsSetUpAnew) {
+  for (const double silence_ms : {30.0, 100.0, 200.0}) {
+    test::Subject subject = Bench::subject();
+    subject.options.set("silence_ms", silence_ms);
+    test::CanBench bench(subject);
+    bench.run(milliseconds(1500), kRest);
+    bench.run(milliseconds(500), kRun, 0.0);
+    bench.run(milliseconds(100), kRest);
+    bench.load_Nm = 4;
+    bench.run(milliseconds(500), kRest);
+    const double held_rad = bench.shafts[kLeft].position_rad;
+    bench.device->on_link_up(bench.now);
+    bench.sent.clear();
+    for (int i = 0; i < 400; ++i) {
+      bench.step({kRest, 0});
+      ASSERT_TRUE(bench.shafts[kLeft].energized) << silence_ms << " ms, cycle " << i;
+    }
+    EXPECT_EQ(bench.device->health(bench.now).state, SourceState::fresh);
+    EXPECT_NEAR(bench.shafts[kLeft].position_rad, held_rad, 0.02);
+  }
+}
+
+/// Let go while its gateway lives: it has to be asked anew, as after any other loss of its power.
+TEST(Zlac8015d, IsGivenUpWhenItsTimeOutFiresWhileItRuns) {
+  test::Subject patient = Bench::subject();
+  patient.options.set("heartbeat_timeout_s", 1.0);
+  test::CanBench bench(patient);
+  bench.run(milliseconds(800), kRest);
+  bench.run(milliseconds(1500), kRun, 3.0);
+  ASSERT_EQ(bench.status.state, AxisState::running) << bench.status.reason.view();
+  bench.driver_alive = false;
+  for (int i = 0; i < 60; ++i) bench.step({kRun, 3.0});
+  bench.driver_alive = true;
+  bench.run(milliseconds(50), kRun, 3.0);
+  EXPECT_EQ(bench.status.state, AxisState::fault);
+  EXPECT_EQ(bench.status.reason, "is no longer enabled");
+  bench.run(milliseconds(20), kRest);
+  bench.run(milliseconds(1000), kRun, 3.0);
+  EXPECT_EQ(bench.status.state, AxisState::running) << bench.status.reason.view();
 }
 
 /// The other one has its power still, and would go on.
