@@ -117,6 +117,7 @@ class Crawler final : public Device, public ByteFace, public Actuator {
 
  private:
   void take(const Said& said, Time at, DriverOut& out) {
+    if (said.what == kGreets) out.send(packet(kDrive));
     if (said.what < kIsIdle || said.what > kFault) return;
     heard_ = at;
     AxisStatus status;
