@@ -17,7 +17,8 @@ std::string with_arms(const std::string& first, const std::string& second) {
   const std::string devices = R"("devices": {)";
   text.insert(text.find(devices) + devices.size(), R"(
     "elbows": {"driver": "elbow_pair", "link": "can0",
-               "joints": {"left_elbow": {"channel": "first"}, "right_elbow": {"channel": "second"}}},)");
+               "joints": {"left_elbow": {"channel": "first"},
+                          "right_elbow": {"channel": "second"}}},)");
   const std::string groups = R"("groups": {)";
   std::string arms = "\"left\": {\"joints\": {" + joint(first);
   arms += (second.empty() ? ", " : "}}, \"right\": {\"joints\": {");
