@@ -8,7 +8,7 @@
 #include <span>
 
 #include "drivers/agilex_v2/codec.h"
-#include "drivers/agilex_v2/hunter/steering.h"
+#include "drivers/agilex_v2/steering.h"
 #include "drivers/drives.h"
 #include "drover/driver.h"
 

@@ -15,7 +15,7 @@
 
 namespace drover::gt01 {
 
-inline constexpr Channel kChannels[] = {{"base", ChannelMode::twist, true}};
+inline constexpr Channel kChannels[] = {{"base", ChannelMode::twist}};
 
 /// What a chassis said last of itself.
 struct Condition {

@@ -12,10 +12,10 @@
 
 namespace drover::robomaster {
 
-inline constexpr Channel kChannels[kMotors] = {{"1", ChannelMode::velocity, false},
-                                               {"2", ChannelMode::velocity, false},
-                                               {"3", ChannelMode::velocity, false},
-                                               {"4", ChannelMode::velocity, false}};
+inline constexpr Channel kChannels[kMotors] = {{"1", ChannelMode::velocity},
+                                               {"2", ChannelMode::velocity},
+                                               {"3", ChannelMode::velocity},
+                                               {"4", ChannelMode::velocity}};
 
 class RobomasterDriver final : public Device, public FrameFace, public Actuator {
  public:

@@ -14,8 +14,8 @@
 
 namespace drover::zlac8015d {
 
-inline constexpr Channel kChannels[] = {{"left", ChannelMode::velocity, false},
-                                        {"right", ChannelMode::velocity, false}};
+inline constexpr Channel kChannels[] = {{"left", ChannelMode::velocity},
+                                        {"right", ChannelMode::velocity}};
 
 class Zlac8015dDriver final : public Device, public FrameFace, public Actuator {
  public:

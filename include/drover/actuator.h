@@ -22,12 +22,11 @@ inline constexpr std::size_t kMaxChannels = 16;
 /// that a JointCommand has: place, speed and effort, and how stiffly they are kept.
 enum class ChannelMode : std::uint8_t { velocity, twist, impedance };
 
-/// One thing that a device moves.
+/// One thing that a device moves. What one device moves is armed, fed and stopped together: it
+/// belongs to one group.
 struct Channel {
   std::string_view name;  ///< within the device: "left", "1", "base"
   ChannelMode mode = ChannelMode::velocity;
-  /// False: it arms and stops only together with the device's other channels.
-  bool alone = true;
 };
 
 /// What the gateway wants of a joint, or of a base.

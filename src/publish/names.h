@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "drover/snapshot.h"
-#include "publish/rtk_navigation/spelling.h"
+#include "publish/spelling.h"
 
 namespace drover::publish {
 

@@ -3,18 +3,28 @@
 # in $notes is shown, a line in $skips says that a rule could not be checked.
 # shellcheck shell=bash disable=SC2154
 
-# Who may include whom: room, then the prefixes it may include ("<...>" are rule_headers'). A room
-# may have several lines; a folder in it with lines of its own is a room for itself.
+# Who may include whom: room, then the prefixes it may include ("<...>" are rule_headers'). Each
+# folder of sources is a room, with lines of its own or those of a pattern. ./ is the room itself,
+# ../ the folder that it is in.
 includes_of_rooms() {
   cat << 'TABLE'
 include/drover   drover/
 drivers          drover/ drivers/
+drivers/*        drover/ ./ drivers/checked_options.h drivers/drives.h drivers/noise.h
+drivers/*        drivers/thousandths.h drivers/twin_states.h drivers/canopen/ drivers/mit/
+drivers/*/*      drover/ ./ ../ drivers/checked_options.h drivers/drives.h drivers/noise.h
+drivers/*/*      drivers/thousandths.h drivers/twin_states.h drivers/canopen/ drivers/mit/
+drivers/canopen  drover/ ./
+drivers/mit      drover/ ./
 src/engine       drover/ engine/
 src/engine/clearance drover/ engine/config.h engine/clearance/
 src/engine/estimate  drover/ engine/config.h engine/still.h engine/base/ engine/estimate/
 src/engine/signals   drover/ engine/config.h engine/signals/
+src/engine/sensors   drover/ engine/config.h engine/environment.h engine/estimate/ engine/sensors/
 src/engine/base      drover/ engine/config.h engine/still.h engine/base/
 src/engine/gate      drover/ engine/config.h engine/base/ engine/gate/
+src/engine/group     drover/ engine/config.h engine/event_queue.h
+src/engine/group     engine/gate/ engine/health/ engine/group/
 src/engine/health    drover/ engine/config.h engine/environment.h engine/event_queue.h
 src/engine/health    engine/still.h engine/base/ engine/estimate/ engine/health/ engine/sensors/
 src/engine/navigate  drover/ engine/config.h engine/event_queue.h engine/still.h
@@ -22,8 +32,14 @@ src/engine/navigate  engine/base/ engine/gate/ engine/health/ engine/navigate/ t
 src/engine/own       drover/ engine/config.h engine/event_queue.h engine/still.h
 src/engine/own       engine/base/ engine/gate/ engine/health/ engine/navigate/ engine/own/
 src/link         drover/ link/
-src/scene        drover/ scene/ text/ track/
-src/scene/zone   drover/ json/ text/ scene/
+src/scene/message    drover/ text/ scene/message/
+src/scene/plane      drover/ track/ scene/message/ scene/plane/
+src/scene/sensor     drover/ scene/plane/ scene/sensor/
+src/scene/world      drover/ text/ scene/message/ scene/plane/ scene/world/
+src/scene/zone       drover/ json/ text/ scene/message/ scene/plane/ scene/world/ scene/zone/
+src/scene/constraint drover/ scene/message/ scene/plane/ scene/world/ scene/constraint/
+src/scene/look       drover/ scene/plane/ scene/sensor/ scene/constraint/ scene/look/
+src/scene/keeper     drover/ text/ track/ scene/
 src/json         drover/ json/ text/
 src/text         drover/ text/
 src/track        drover/ track/
@@ -31,13 +47,15 @@ src/calibrate    drover/ calibrate/
 src/store        drover/ store/ json/ track/
 src/config       drover/ config/ json/ text/ engine/config.h engine/clearance/stop_chain.h
 src/gateway      drover/ gateway/ config/ engine/
+src/gateway/recording drover/ config/ gateway/
 src/publish      drover/ publish/ scene/ store/ json/ text/
 src/publish/rtk_navigation  drover/ store/ json/ text/ publish/arrival.h publish/names.h
-src/publish/rtk_navigation  publish/rtk_navigation/
+src/publish/rtk_navigation  publish/spelling.h publish/rtk_navigation/
 src/publish/scene    drover/ json/ scene/ publish/arrival.h publish/names.h publish/shown_json.h
 src/publish/scene    publish/token_bucket.h publish/scene/ text/
-src/publish/status   drover/ json/ publish/names.h publish/rtk_navigation/spelling.h
-src/publish/status   publish/shown_json.h publish/status/
+src/publish/report   drover/ store/ publish/command_service.h publish/line_json.h publish/names.h
+src/publish/report   publish/report/
+src/publish/status   drover/ json/ publish/names.h publish/shown_json.h publish/status/
 src/publish/ros2     drover/ json/ text/ scene/sensor/near_things.h publish/names.h
 src/publish/ros2     publish/aimrt/messages.h publish/ros2/
 src/publish/aimrt    drover/ json/ text/ publish/arrival.h publish/actions.h
@@ -64,34 +82,112 @@ TABLE
 
 sources() { files | grep -E '\.(h|cpp)$' | grep -E "^($1)" || true; }
 
+sources_in_rooms() { sources 'include/|drivers/|src/|sim/' | grep -v '^sim/labkit/'; }
+
 rule_include_directions() {
-  local rooms
-  rooms=$(includes_of_rooms)
-  sources 'include/|drivers/|src/|sim/' | grep -v '^sim/labkit/' | while read -r file; do
-    awk -v file="$file" -v rooms="$rooms" '
-      BEGIN {
-        n = split(rooms, lines, "\n")
-        for (i = 1; i <= n; ++i) {
-          m = split(lines[i], w, / +/)
-          if (file == w[1] || index(file, w[1] "/") == 1) {
-            if (length(w[1]) < length(room)) continue
-            if (w[1] != room) delete allowed
-            room = w[1]
-            for (j = 2; j <= m; ++j) allowed[w[j]] = 1
-          }
-        }
-        if (room == "") print file ":1: this folder is no room of the table in tests/lint/rules.sh"
+  sources_in_rooms | xargs -r -d '\n' awk -v rooms="$(includes_of_rooms)" '
+    # A file may be a room; else its folder is, by its own name or as the pattern says.
+    function room_of(file, folder, room, pattern) {
+      if (file in allowed) return file
+      if (folder in allowed) return folder
+      for (room in allowed) {
+        pattern = room
+        if (gsub(/\*/, "[^/]+", pattern) && folder ~ "^" pattern "$") return room
       }
-      room != "" && /^ *# *include *"/ {
-        split($0, part, "\"")
-        good = 0
-        for (prefix in allowed) {
-          whole = prefix ~ /\.h$/
-          if (whole ? part[2] == prefix : index(part[2], prefix) == 1) good = 1
-        }
-        if (!good) print file ":" NR ": " room " may not include \"" part[2] "\""
-      }' "$file"
-  done
+      return ""
+    }
+    BEGIN {
+      n = split(rooms, lines, "\n")
+      for (i = 1; i <= n; ++i) {
+        room = lines[i]
+        sub(/ .*/, "", room)
+        allowed[room] = allowed[room] substr(lines[i], length(room) + 1)
+      }
+    }
+    FNR == 1 {
+      folder = parent = FILENAME
+      sub(/\/[^\/]*$/, "", folder)
+      parent = folder
+      sub(/[^\/]*$/, "", parent)
+      room = room_of(FILENAME, folder)
+      if (room == "")
+        print FILENAME ":1: this folder is no room of the table in tests/lint/rules.sh"
+      n = split(allowed[room], prefixes, " ")
+      for (i = 1; i <= n; ++i) {
+        if (prefixes[i] == "./") prefixes[i] = folder "/"
+        if (prefixes[i] == "../") prefixes[i] = parent
+      }
+    }
+    room != "" && /^ *# *include *"/ {
+      split($0, part, "\"")
+      for (i = 1; i <= n; ++i) {
+        if (prefixes[i] ~ /\.h$/ ? part[2] == prefixes[i] : index(part[2], prefixes[i]) == 1) next
+      }
+      print FILENAME ":" FNR ": " folder " may not include \"" part[2] "\""
+    }'
+}
+
+# No arrow between rooms runs back, by whatever way. A room with rooms below it (src/engine) holds
+# both what those share and what puts them together: there each header with its .cpp is looked at
+# by itself, and a circle among them alone is their own affair.
+rule_include_circles() {
+  local names
+  mapfile -t names < <(sources_in_rooms)
+  [[ ${#names[@]} -gt 0 ]] || return 0
+  awk '
+    function folder_of(path) { sub(/\/[^\/]*$/, "", path); return path }
+    function node_of(path) {
+      if (!(folder_of(path) in holds_rooms)) return folder_of(path)
+      sub(/\.[a-z]+$/, "", path)
+      return path
+    }
+    function find_file(name, here) {
+      if (("include/" name) in there) return "include/" name
+      if (("src/" name) in there) return "src/" name
+      if (name in there) return name
+      return (here "/" name) in there ? here "/" name : ""
+    }
+    # Everything that is reached from a node, breadth first.
+    function reach_from(start, queue, first, last, i, m, next_ones) {
+      queue[last = 1] = start
+      for (first = 1; first <= last; ++first) {
+        m = split(arrows[queue[first]], next_ones, " ")
+        for (i = 1; i <= m; ++i)
+          if (!((start, next_ones[i]) in reached)) {
+            reached[start, next_ones[i]] = 1
+            queue[++last] = next_ones[i]
+          }
+      }
+      known[start] = 1
+    }
+    BEGIN {
+      for (i = 1; i < ARGC; ++i) {
+        there[ARGV[i]] = 1
+        above = folder_of(ARGV[i])
+        while (above ~ /\//) holds_rooms[above = folder_of(above)] = 1
+      }
+    }
+    /^ *# *include *"/ {
+      split($0, part, "\"")
+      target = find_file(part[2], folder_of(FILENAME))
+      if (target == "") next
+      from = node_of(FILENAME)
+      to = node_of(target)
+      if (from == to) next
+      if (!((from, to) in arrow)) arrows[from] = arrows[from] " " to
+      arrow[from, to] = 1
+      if (folder_of(FILENAME) == folder_of(target)) next
+      place[++count] = FILENAME ":" FNR
+      from_of[count] = from
+      to_of[count] = to
+    }
+    END {
+      for (i = 1; i <= count; ++i) {
+        if (!(to_of[i] in known)) reach_from(to_of[i])
+        if ((to_of[i], from_of[i]) in reached)
+          print place[i] ": " from_of[i] " includes " to_of[i] ", from which one comes back to it"
+      }
+    }' "${names[@]}"
 }
 
 # The rooms without I/O know the standard library only; the engine also GeographicLib.
@@ -231,16 +327,24 @@ rule_no_machine_paths() {
 
 # What several drivers share has a folder, too, and no line in the registry.
 rule_driver_folders() {
-  # canopen and mit are shared; of gt01 there are only the codecs yet.
-  local folder shared=' canopen gt01 mit '
+  local folder entry name shared=' canopen mit ' table=drivers/registry.cpp
   files | grep -oE '^drivers/[^/]+/' | sort -u | while read -r folder; do
     [[ -s ${folder}README.md ]] || echo "${folder}README.md:1: missing: source document and frames"
-    # A driver without a codec has levels, not bytes.
-    [[ ! -e ${folder}codec.h ]] || grep -q "^${folder}golden/" <<< "$(files)" ||
-      echo "${folder}golden:1: missing: captured or documented bytes"
-    [[ $shared != *" $(basename "$folder") "* ]] || continue
-    grep -q "$(basename "$folder")" drivers/registry.cpp 2> /dev/null ||
-      echo "drivers/registry.cpp:1: no line for $folder"
+    [[ $shared == *" $(basename "$folder") "* ]] ||
+      grep -qE "^$folder(.*/)?entry\.h$" <<< "$(files)" ||
+      echo "${folder}entry.h:1: missing: what the registry includes"
+  done
+  # A driver without a codec has levels, not bytes.
+  files | grep -E '^drivers/.*/codec\.h$' | while read -r entry; do
+    grep -q "^${entry%codec.h}golden/" <<< "$(files)" ||
+      echo "${entry%codec.h}golden:1: missing: captured or documented bytes"
+  done
+  files | grep -E '^drivers/.*/entry\.h$' | while read -r entry; do
+    grep -qF "#include \"$entry\"" "$table" 2> /dev/null ||
+      echo "$table:1: no line for ${entry%entry.h}"
+    name=$(sed -n 's/^extern const DriverEntry \(\w*\);$/\1/p' "$entry")
+    [[ -n $name ]] || echo "$entry:1: declares no DriverEntry"
+    grep -qE "^ +(.* )?$name," "$table" 2> /dev/null || echo "$table:1: $name is not in its table"
   done
 }
 

@@ -11,6 +11,7 @@
 #include "drivers/odrive/entry.h"
 #include "drivers/witmotion/entry.h"
 #include "drover/bytes.h"
+#include "support/elbow_pair.h"
 
 namespace drover::test {
 
@@ -57,7 +58,7 @@ namespace {
 
 using namespace crawler;
 
-constexpr Channel kBase{"base", ChannelMode::twist, true};
+constexpr Channel kBase{"base", ChannelMode::twist};
 constexpr Duration kStale = std::chrono::milliseconds(200);
 
 class Crawler final : public Device, public ByteFace, public Actuator {
@@ -117,6 +118,7 @@ class Crawler final : public Device, public ByteFace, public Actuator {
 
  private:
   void take(const Said& said, Time at, DriverOut& out) {
+    if (said.what == kGreets) out.send(packet(kDrive));
     if (said.what < kIsIdle || said.what > kFault) return;
     heard_ = at;
     AxisStatus status;
@@ -170,8 +172,9 @@ const DriverEntry kCrawlerEntry{.name = "crawler",
 namespace drover {
 
 std::span<const DriverEntry> driver_registry() {
-  static const std::array kTable{kOdriveEntry,    kGpioLineEntry,  kNmea0183Entry,
-                                 kModbusBmsEntry, kWitmotionEntry, test::kCrawlerEntry};
+  static const std::array kTable{kOdriveEntry,         kGpioLineEntry,  kNmea0183Entry,
+                                 kModbusBmsEntry,      kWitmotionEntry, test::kCrawlerEntry,
+                                 test::kElbowPairEntry};
   return kTable;
 }
 

@@ -4,8 +4,8 @@
 #include <array>
 
 #include "drivers/agilex_v2/codec.h"
-#include "drivers/agilex_v2/hunter/steering.h"
 #include "drivers/agilex_v2/servo.h"
+#include "drivers/agilex_v2/steering.h"
 #include "drover/options.h"
 #include "drover/twin.h"
 

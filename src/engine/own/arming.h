@@ -1,4 +1,5 @@
-// Which drives are armed, held, let go or left as they are: decided here, and nowhere else.
+// Which drives of the base are armed, held, let go or left as they are: decided here, and nowhere
+// else. Joints outside it are armed by their group, by rules of their own (group/joint_servo.h).
 #pragma once
 
 #include <array>

@@ -287,11 +287,22 @@ class Replay final {
                                    [link](const auto& stream) { return stream.link == link; });
       const StreamOutput stream = it == streams.end() ? StreamOutput{} : *it;
       const std::string name(link == kNowhere ? "nobody" : gateway_->wiring().links[link].name);
-      compare_lists("bytes for " + name, {text_of(in.blob())},
-                    {text_of(std::span<const std::uint8_t>(stream.bytes))});
+      compare_bytes("bytes for " + name, in.blob(), stream.bytes);
       compare_lists("speed for " + name, {std::to_string(in.number())},
                     {std::to_string(stream.reopen_baud)});
     }
+  }
+
+  /// Shown from where they differ: the text of many bytes leaves the last ones out.
+  void compare_bytes(const std::string& what, std::span<const std::uint8_t> recorded,
+                     std::span<const std::uint8_t> replayed) {
+    const auto apart = std::ranges::mismatch(recorded, replayed).in1 - recorded.begin();
+    const auto same = static_cast<std::size_t>(apart);
+    if (same == recorded.size() && same == replayed.size()) return;
+    const auto shown = [same](std::span<const std::uint8_t> bytes) {
+      return same == bytes.size() ? "none" : text_of(bytes.subspan(same));
+    };
+    differs(what + "[" + std::to_string(same) + "]", shown(recorded), shown(replayed));
   }
 
   void compare_lists(const std::string& what, const std::vector<std::string>& recorded,

@@ -7,7 +7,7 @@
 #include "drover/angle.h"
 #include "json/json_text.h"
 #include "publish/names.h"
-#include "publish/rtk_navigation/spelling.h"
+#include "publish/spelling.h"
 
 namespace drover::publish {
 namespace {

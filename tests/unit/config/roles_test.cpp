@@ -133,5 +133,50 @@ TEST(Roles, TwoMapsAreReadAgainFromTheirTexts) {
   EXPECT_EQ(again.config.devices.size(), first.config.devices.size());
 }
 
+/// So many of each kind; the first of each steers, the others are only told.
+std::string so_many(int of_each) {
+  std::string links = "\"panel\": {\"gpio\": \"chip0\"}, \"bms\": {\"modbus\": \"/dev/bms\"}";
+  std::string devices;
+  const auto device = [&](const std::string& name, const std::string& what, int i) {
+    devices +=
+        "\"" + name + "\": {" + what + ", \"role\": \"" + (i == 1 ? "steers" : "told") + "\"},\n";
+  };
+  for (int i = 1; i <= of_each; ++i) {
+    const std::string number = std::to_string(i);
+    if (i > 1) links += ", \"gnss" + number + "\": {\"serial\": \"/dev/gnss" + number + "\"}";
+    links += ", \"imu" + number + "\": {\"serial\": \"/dev/imu" + number + "\"}";
+    device("gnss" + number,
+           "\"driver\": \"nmea0183\", \"link\": \"gnss" + (i > 1 ? number : "") + "\"", i);
+    device("imu" + number, "\"driver\": \"witmotion\", \"link\": \"imu" + number + "\"", i);
+    device("pack" + number,
+           "\"driver\": \"modbus_bms\", \"link\": \"bms\", \"map\": \"daly_d2.json\", \"unit\": " +
+               std::to_string(210 + i),
+           i);
+  }
+  std::string text = with("\"panel\": {\"gpio\": \"chip0\"}", links);
+  const std::string first = "\"gnss\": {\"driver\": \"nmea0183\", \"link\": \"gnss\"},";
+  return text.replace(text.find(first), first.size(), devices);
+}
+
+TEST(Roles, ThereMayBeThreeAndFourOfAKind) {
+  for (const int count : {3, 4}) {
+    const auto loaded = load_text(so_many(count), kMaps);
+    ASSERT_THAT(loaded.problems, IsEmpty()) << loaded.problems.front().text("f");
+    const auto& engine = loaded.config.engine;
+    for (const auto* list : {&engine.receivers, &engine.imus, &engine.batteries}) {
+      ASSERT_EQ(list->size(), static_cast<std::size_t>(count));
+      EXPECT_EQ((*list)[0].role, Role::steers);
+      EXPECT_EQ((*list)[list->size() - 1].role, Role::told);
+    }
+  }
+}
+
+TEST(Roles, AFifthOfAKindIsOneTooMany) {
+  const std::string told = problems(so_many(5), kMaps);
+  EXPECT_THAT(told, HasSubstr("devices.gnss5: is one receiver too many: there may be 4\n"));
+  EXPECT_THAT(told, HasSubstr("devices.imu5: is one inertial sensor too many: there may be 4\n"));
+  EXPECT_THAT(told, HasSubstr("devices.pack5: is one battery too many: there may be 4\n"));
+}
+
 }  // namespace
 }  // namespace drover::config

@@ -5,6 +5,7 @@
 #include "one_of_each_input.h"
 #include "recorded_run.h"
 #include "support/allocation_counter.h"
+#include "support/simulated_robots.h"
 
 namespace drover::gateway {
 namespace {
@@ -81,11 +82,10 @@ class Chatter final {
   std::uint64_t asked_ = 0;
 };
 
-class AnyRobot : public testing::TestWithParam<const char*> {};
+class AnyRobot : public testing::TestWithParam<std::string> {};
 
 TEST_P(AnyRobot, AllocatesNothingWhateverItsDevicesSay) {
-  const auto loaded = config::load_file(std::string(DROVER_SOURCE_DIR "/sim/robots/") + GetParam() +
-                                        ".drover.json");
+  const auto loaded = config::load_file(test::robot_file(GetParam(), ".drover.json"));
   ASSERT_TRUE(loaded.problems.empty());
   Gateway gateway(loaded.config);
   Chatter chatter(gateway);
@@ -103,10 +103,8 @@ TEST_P(AnyRobot, AllocatesNothingWhateverItsDevicesSay) {
   EXPECT_EQ(counter.count(), 0U);
   EXPECT_GT(bytes, 0U);
 }
-INSTANTIATE_TEST_SUITE_P(OfTheExamples, AnyRobot,
-                         testing::Values("field", "field_two_of_each", "two_wheels", "zlac8015d",
-                                         "gt01", "gt01_can", "agilex_v2", "hunter", "robomaster"),
-                         [](const auto& robot) { return std::string(robot.param); });
+INSTANTIATE_TEST_SUITE_P(OfTheSimulator, AnyRobot, testing::ValuesIn(test::simulated_robots()),
+                         [](const auto& robot) { return robot.param; });
 
 TEST(RecordEncoder, AllocatesNothing) {
   Gateway gateway(load_robot().config);

@@ -2,12 +2,18 @@
 // lines, told what to do by joint commands; and its recording, written as the daemon would.
 #pragma once
 
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
 #include <functional>
 #include <string>
 #include <vector>
 
 #include "config/load.h"
 #include "gateway/recording/encoder.h"
+#include "gateway/recording/replay.h"
+#include "gateway/recording/text.h"
 #include "support/describe.h"
 #include "support/small_robot.h"
 
@@ -50,6 +56,79 @@ class Recording final {
  private:
   std::vector<std::uint8_t> bytes_;
 };
+
+/// A recording in which one bit of one cycle's output is not as it was.
+class PlantedRecording final {
+ public:
+  /// What of a cycle's output is changed, as the record has it; empty: not in this cycle. The
+  /// change is in its last byte, in the first cycle that has something.
+  using Piece = std::function<std::vector<std::uint8_t>(const CycleOutput&)>;
+
+  PlantedRecording(const config::Loaded& loaded, const Gateway& gateway, Piece piece = {})
+      : piece_(std::move(piece)), recording_(loaded, gateway) {}
+  void path(const Path& path) { recording_.add(written(path)); }
+  void input(const Input& input) { recording_.add(encoder_.input(input)); }
+  void output(const Gateway& gateway) {
+    ++cycles_;
+    const auto output = encoder_.output(gateway);
+    std::vector<std::uint8_t> record(output.begin(), output.end());
+    const auto piece = cycle_ != 0 || !piece_ ? decltype(record)() : piece_(gateway.output());
+    if (!piece.empty()) {
+      const auto at = std::find_end(record.begin(), record.end(), piece.begin(), piece.end());
+      if (at == record.end()) throw std::logic_error("it is not in the record");
+      at[static_cast<std::ptrdiff_t>(piece.size()) - 1] ^= 1U;
+      cycle_ = cycles_;
+    }
+    recording_.add(record);
+  }
+  void end() { recording_.add(RecordKind::end); }
+
+  const std::vector<std::uint8_t>& bytes() const { return recording_.bytes(); }
+  std::uint64_t cycle() const { return cycle_; }  ///< of the change, from 1; 0: there was none
+  std::uint64_t cycles() const { return cycles_; }
+
+ private:
+  Piece piece_;
+  Recording recording_;
+  RecordEncoder encoder_;
+  std::uint64_t cycles_ = 0;
+  std::uint64_t cycle_ = 0;
+};
+
+/// What leaves on a line, where it is at least so long.
+inline PlantedRecording::Piece bytes_of(std::size_t size) {
+  return [size](const CycleOutput& cycle) {
+    std::vector<std::uint8_t> piece;
+    for (const StreamOutput& stream : cycle.streams)
+      if (stream.bytes.size() >= size) piece.assign(stream.bytes.begin(), stream.bytes.end());
+    return piece;
+  };
+}
+
+/// What is told.
+template <class Kind>
+PlantedRecording::Piece an_event() {
+  return [](const CycleOutput& cycle) {
+    std::vector<std::uint8_t> piece;
+    for (const Event& event : cycle.engine.events) {
+      if (!std::holds_alternative<Kind>(event.body)) continue;
+      const Line line = text_of(event);
+      piece.assign(line.view().begin(), line.view().end());
+    }
+    return piece;
+  };
+}
+
+/// Of what the snapshot shows nothing differs: only what left, or was told, does.
+inline void expect_found_only_in(const PlantedRecording& recording, const char* what) {
+  ASSERT_GT(recording.cycle(), 0U) << "nothing of the kind was recorded";
+  const auto it = replay(recording.bytes());
+  ASSERT_EQ(it.verdict, Replayed::Verdict::differs) << it.note;
+  EXPECT_EQ(it.difference.cycle, recording.cycle());
+  EXPECT_THAT(it.difference.what, ::testing::StartsWith(what));
+  EXPECT_NE(it.difference.recorded, it.difference.replayed);
+  EXPECT_EQ(it.difference.more, 0U);
+}
 
 /// The inputs of a run. Bytes are owned here.
 class RobotRun final {

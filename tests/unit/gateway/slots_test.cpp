@@ -8,8 +8,11 @@
 namespace drover::gateway {
 namespace {
 
+using ::testing::AllOf;
+using ::testing::AnyOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 TEST(Wiring, HasTheBusesFirstAndAPlaceForEachDevice) {
   engine::Environment environment;
@@ -86,6 +89,65 @@ TEST(Wiring, RefusesADriverOfAnotherKindNamingItsPlace) {
   } catch (const std::runtime_error& error) {
     EXPECT_THAT(error.what(), HasSubstr("devices.right: no driver \"nmea0183\" of this kind"));
   }
+}
+
+/// The e-stop hangs on a chip of its own, the bumper stays on the first one.
+class TwoChips : public ::testing::Test {
+ protected:
+  static std::string text() {
+    auto text = changed(robot_configuration(), R"("panel": {"gpio": "chip0"})",
+                        R"("panel": {"gpio": "chip0"}, "cab": {"gpio": "chip1"})");
+    return changed(text, R"("link": "panel", "line": "a", "is": "estop")",
+                   R"("link": "cab", "line": "a", "is": "estop")");
+  }
+  TwoChips() : gateway(load_robot(text()).config) {}
+  LinkId link(const char* name) const {
+    for (std::size_t i = 0; i < gateway.wiring().links.size(); ++i)
+      if (gateway.wiring().links[i].name == name) return static_cast<LinkId>(i);
+    throw std::logic_error(name);
+  }
+  void cycle(bool estop_high, bool bumper_high) {
+    now += std::chrono::milliseconds(5);
+    for (const auto& [chip, high] : {std::pair{"cab", estop_high}, {"panel", bumper_high}}) {
+      LevelsRead read;
+      read.link = link(chip);
+      (void)read.levels.push_back(high);
+      gateway.apply({now, read});
+    }
+    gateway.apply({now, Tick{true, false}});
+  }
+  std::string why() const {
+    std::string all;
+    for (const Reason& reason : gateway.snapshot().why) all += std::string(reason.view()) + "; ";
+    return all;
+  }
+
+  Time now{std::chrono::seconds(100)};
+  Gateway gateway;
+};
+
+TEST_F(TwoChips, AreBothRead) {
+  const auto cycles = [this](bool estop_high, bool bumper_high) {
+    for (int i = 0; i < 20; ++i) cycle(estop_high, bumper_high);
+    return why();
+  };
+  EXPECT_THAT(cycles(true, true), Not(AnyOf(HasSubstr("e-stop"), HasSubstr("bumper"))));
+  EXPECT_THAT(cycles(false, true), AllOf(HasSubstr("e-stop"), Not(HasSubstr("bumper"))));
+  EXPECT_THAT(cycles(true, false), HasSubstr("bumper touched"));
+}
+
+TEST_F(TwoChips, AreLostEachByItself) {
+  cycle(true, true);
+  for (int i = 0; i < 400; ++i) {
+    now += std::chrono::milliseconds(5);
+    LevelsRead read;
+    read.link = link("panel");
+    (void)read.levels.push_back(true);
+    gateway.apply({now, read});
+    gateway.apply({now, Tick{true, false}});
+  }
+  EXPECT_THAT(why(), HasSubstr("line e-stop")) << "its chip says nothing any more";
+  EXPECT_THAT(why(), Not(HasSubstr("line bumper")));
 }
 
 }  // namespace

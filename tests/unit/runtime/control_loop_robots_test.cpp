@@ -1,4 +1,5 @@
-// The control loop of each example robot, over sockets and terminals: it allocates nothing.
+// The control loop of each robot of the simulator, over sockets and terminals: it allocates
+// nothing.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -9,6 +10,7 @@
 #include "runtime/clock.h"
 #include "runtime/control_loop.h"
 #include "support/allocation_counter.h"
+#include "support/simulated_robots.h"
 #include "support/temp_folder.h"
 #include "support/wires.h"
 
@@ -20,8 +22,7 @@ using namespace std::chrono_literals;
 /// The wires of a robot: its configuration with their near ends in place of its own.
 struct Wires {
   explicit Wires(const std::string& robot) {
-    const std::string file = std::string(DROVER_SOURCE_DIR "/sim/robots/") + robot + ".drover.json";
-    std::ifstream in(file);
+    std::ifstream in(test::robot_file(robot, ".drover.json"));
     std::stringstream all;
     all << in.rdbuf();
     text = all.str();
@@ -54,7 +55,7 @@ struct Wires {
   std::string text;
 };
 
-class TheControlLoopOf : public testing::TestWithParam<const char*> {};
+class TheControlLoopOf : public testing::TestWithParam<std::string> {};
 
 TEST_P(TheControlLoopOf, AllocatesNothingWhateverItsWiresSay) {
   Wires wires(GetParam());
@@ -111,11 +112,9 @@ TEST_P(TheControlLoopOf, AllocatesNothingWhateverItsWiresSay) {
   EXPECT_TRUE(connected) << "its buses are not opened";
   EXPECT_EQ(allocations, 0U);
 }
-INSTANTIATE_TEST_SUITE_P(Examples, TheControlLoopOf,
-                         testing::Values("field_two_of_each", "zlac8015d", "gt01", "gt01_can",
-                                         "agilex_v2", "hunter", "field_arm", "scout_arm",
-                                         "cubemars_arm", "robomaster"),
-                         [](const auto& robot) { return std::string(robot.param); });
+INSTANTIATE_TEST_SUITE_P(OfTheSimulator, TheControlLoopOf,
+                         testing::ValuesIn(test::simulated_robots()),
+                         [](const auto& robot) { return robot.param; });
 
 }  // namespace
 }  // namespace drover::runtime

@@ -11,6 +11,7 @@
 #include "publish/rtk_navigation/base_status.h"
 #include "publish/status/status.h"
 #include "support/crawler.h"
+#include "unit/gateway/recorded_run.h"
 
 namespace drover::gateway {
 namespace {
@@ -187,6 +188,27 @@ TEST(ATwistBaseInTheStatus, StandsInPlaceOfAxes) {
   const auto* base = status->root.find("base");
   EXPECT_EQ(*base->find("state")->text(), "running");
   EXPECT_EQ(*base->find("health")->text(), "fresh");
+}
+
+TEST(ATwistBaseAtTheGateway, IsReplayedToTheLastOfManyBytes) {
+  const auto loaded = config::load_text(test::kCrawlerRobot);
+  Gateway gateway(loaded.config);
+  PlantedRecording recording(loaded, gateway, bytes_of(200));
+  Time now{100s};
+  const auto apply = [&](const InputBody& body) {
+    recording.input({now, body});
+    gateway.apply({now, body});
+  };
+  apply(LinkUp{0});
+  for (int cycle = 0; cycle < 10; ++cycle) {
+    now += 5ms;
+    const Packet greets = test::crawler::packet(test::crawler::kGreets);
+    for (int i = 0; i < 30; ++i) apply(BytesHeard{0, {greets.data(), greets.size()}});
+    apply(Tick{true, false});
+    recording.output(gateway);
+  }
+  recording.end();
+  expect_found_only_in(recording, "bytes for chassis[");
 }
 
 }  // namespace

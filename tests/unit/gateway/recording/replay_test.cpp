@@ -107,6 +107,42 @@ TEST(Replay, FindsInputsThatChangedPlaces) {
   EXPECT_EQ(it.difference.cycle, cycle);
 }
 
+PlantedRecording planted(const RobotRun& run, PlantedRecording::Piece piece) {
+  const auto loaded = load_robot();
+  Gateway gateway(loaded.config);
+  PlantedRecording recording(loaded, gateway, std::move(piece));
+  for (const auto& input : run.inputs) {
+    recording.input(input);
+    gateway.apply(input);
+    if (std::holds_alternative<Tick>(input.body)) recording.output(gateway);
+  }
+  recording.end();
+  return recording;
+}
+
+TEST(Replay, FindsWhatDiffersInAFrameOnly) {
+  const auto speed_of_the_right = [](const CycleOutput& cycle) {
+    std::vector<std::uint8_t> piece(32);
+    ByteWriter out(piece);
+    for (const CanFrame& frame : cycle.frames[0])
+      if (frame.id == (2U << 5U | 0x0DU) && frame.data[3] != 0) write_frame(frame, out);
+    piece.resize(out.written().size());
+    return piece;
+  };
+  expect_found_only_in(planted(a_run(), speed_of_the_right), "frames of bus 0[");
+}
+
+TEST(Replay, FindsWhatDiffersInAnEventOnly) {
+  RobotRun run = a_run();
+  run.command(EngageStop{});
+  run.cycle();
+  expect_found_only_in(planted(run, an_event<CommandAccepted>()), "events[");
+}
+
+TEST(Replay, FindsWhatDiffersInBytesOnly) {
+  expect_found_only_in(planted(a_run(), bytes_of(3)), "bytes for imu[");
+}
+
 TEST(Replay, KnowsAPathByItsNumber) {
   RobotRun run = a_run();
   Path path;

@@ -1,5 +1,5 @@
 // How a Hunter's wheels are steered: the angle of the inner one.
-#include "drivers/agilex_v2/hunter/steering.h"
+#include "drivers/agilex_v2/steering.h"
 
 #include <algorithm>
 #include <cmath>
