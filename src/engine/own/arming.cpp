@@ -23,8 +23,8 @@ void Arming::recall(const Remembered& remembered) {
 
 Reason Arming::hindrance() const {
   if (released_) return "the drives are released: drover hold";
-  // Drives that are not heard have a reason of their own.
-  if (state_ == HoldState::catching && heard_)
+  // Drives that are not heard, or have failed, have a reason of their own.
+  if (state_ == HoldState::catching && heard_ && !failed_)
     return "the drives are being taken back to hold the robot";
   return {};
 }
@@ -71,8 +71,12 @@ bool Arming::estop(const ArmingInput& input) {
 /// Whether the drives hold, since when they do not, and what ended the holding for good.
 void Arming::keep_time(const ArmingInput& input, EventQueue& events) {
   heard_ = true;
-  for (std::size_t i = 0; i < input.axes.size(); ++i)
-    heard_ = heard_ && (!driven_[i] || take_back_.heard(input.now, input.axes[i]));
+  failed_ = false;
+  for (std::size_t i = 0; i < input.axes.size(); ++i) {
+    if (!driven_[i]) continue;
+    heard_ = heard_ && take_back_.heard(input.now, input.axes[i]);
+    failed_ = failed_ || take_back_.failed(input.axes[i]);
+  }
   if (input.driven && input.health.drives_running) {
     armed_ = true;  // a person started it, and that is the arming
     released_ = false;

@@ -27,7 +27,8 @@ Reason check_arm(const HealthReport& health, const Latch& latch, bool driven) {
   if (latch.ran_away()) return "a wheel ran away: drover reset";
   if (health.holds(Cause::foreign)) return health.text(Cause::foreign);
   if (driven) return "the robot is being driven, and holds when it stops";
-  if (!health.drives_ok) return health.text(Cause::drive_silent);
+  if (health.holds(Cause::drive_silent)) return health.text(Cause::drive_silent);
+  if (!health.drives_ok) return health.text(Cause::drive_fault);
   return {};
 }
 

@@ -52,7 +52,8 @@ bool TakeBack::others_hold(const TakeBackInput& input) const {
 
 void TakeBack::begin(const TakeBackInput& input, const AxisSnapshot& axis, Catch& it) const {
   const bool waits = input.guard_has_bus && input.now - input.since < kGuardPatience;
-  const bool off = axis.state == AxisState::idle || (axis.state == AxisState::fault && axis.lapsed);
+  const bool off =
+      axis.state == AxisState::idle || (axis.state == AxisState::fault && !failed(axis));
   if (waits || !off || input.now < it.next || !heard(input.now, axis)) return;
   it.active = true;
   it.since = input.now;

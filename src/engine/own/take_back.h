@@ -30,6 +30,10 @@ class TakeBack final {
   AxisCommand command(AxisId id) const;
   /// This drive talks, and its driver is content.
   bool heard(Time now, const AxisSnapshot& axis) const;
+  /// This drive has a fault of its own: it is not taken back, whoever starts arms it anew.
+  static bool failed(const AxisSnapshot& axis) {
+    return axis.state == AxisState::fault && !axis.lapsed;
+  }
 
  private:
   /// One attempt to take an axis back.

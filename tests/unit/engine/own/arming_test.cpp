@@ -302,6 +302,29 @@ TEST_F(Holding, SaysThatTheEmergencyStopsLineCannotBeReadWhenThatIsWhyItIsRefuse
   EXPECT_EQ(check_arm(health, Latch(), false), "the e-stop is pressed");
 }
 
+TEST_F(Holding, SaysOfADriveThatFailedItsFaultNotWhatWasSilentBefore) {
+  health.estop_known = true;
+  health.drives_ok = false;
+  health.texts[static_cast<std::size_t>(Cause::drive_silent)] = "wheel a: silent, long ago";
+  health.texts[static_cast<std::size_t>(Cause::drive_fault)] = "wheel b: over current";
+  health.causes = 1U << static_cast<unsigned>(Cause::drive_fault);
+  EXPECT_EQ(check_arm(health, Latch(), false), "wheel b: over current");
+  health.causes |= 1U << static_cast<unsigned>(Cause::drive_silent);
+  EXPECT_EQ(check_arm(health, Latch(), false), "wheel a: silent, long ago");
+}
+
+TEST_F(Holding, DoesNotSayThatItTakesBackADriveThatFailed) {
+  drive_and_stop();
+  axes[2].state = AxisState::fault;
+  run_s(0.2);
+  EXPECT_EQ(hold.command(2).request, AxisRequest::rest) << "it is not taken back";
+  EXPECT_EQ(hold.hindrance(), "") << "who starts arms it anew";
+  axes[2].lapsed = true;
+  tick();
+  EXPECT_EQ(hold.command(2).request, AxisRequest::hold);
+  EXPECT_EQ(hold.hindrance(), "the drives are being taken back to hold the robot");
+}
+
 /// The e-stop's line tells nothing until its contact has held for a while.
 class HoldingAfterARestart : public Holding {
  protected:
