@@ -138,6 +138,8 @@ class EngineRig {
   std::optional<WheelSpeeds> disobeys;
   /// A base that takes a twist tells this speed, whatever it does.
   std::optional<double> tells_mps;
+  double tells_share = 1;         ///< or so many times its speed
+  double tells_turn_share = 1;    ///< and its turn
   double steering_rad = kAbsent;  ///< of a base that steers
   bool steering_stuck = false;
   /// The base is moved so, with power or without.
@@ -225,6 +227,8 @@ class EngineRig {
     if (device.silent) return;
     const Pose seen = plant.estimate();
     Twist told = device.stuck ? Twist{} : Twist{seen.vx_mps, seen.wz_radps};
+    told.vx_mps *= tells_share;
+    told.wz_radps *= tells_turn_share;
     if (tells_mps) told.vx_mps = *tells_mps;
     measure(now, BodyMotion{.twist = told, .known = true, .steering_rad = steering_rad});
     measure(now, AxisStatus{kBaseAxis, device.state, 0,
