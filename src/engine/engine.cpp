@@ -336,7 +336,8 @@ void Engine::step(Time now, const Environment& environment, EngineOutput& out) {
   const double cap_mps = e.mechanics.speed_cap_mps(FirstWay::task);
   NavOutput wanted = e.navigator.step(
       {now, dt, e.estimate, e.health.report(), e.wheel_fault, e.wheel_reason, e.owners.at_rest(),
-       e.owners.refusal(), cap_mps, e.clearance.caps().along_mps, e.clearance.unasked()},
+       e.owners.refusal(), cap_mps, e.clearance.caps().along_mps, e.clearance.unasked(),
+       e.no_sideways().empty()},
       e.events);
   wanted.target = e.clearance.limit(e.mechanics.guide(wanted.target));
   const Learned learned{e.estimate.yaw_slip_factor};

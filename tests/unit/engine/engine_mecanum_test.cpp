@@ -18,7 +18,8 @@ EngineConfig on_rollers() {
 
 class ARobotOnRollers : public ::testing::Test {
  protected:
-  explicit ARobotOnRollers(const EngineConfig& config = on_rollers()) : rig(config) {
+  explicit ARobotOnRollers(const EngineConfig& config = on_rollers(), double y_m = 0)
+      : rig(config, 0, y_m) {
     rig.imu = true;
   }
   void say_s(const Twist& twist, double seconds) {
@@ -72,6 +73,67 @@ TEST_F(ARobotOnRollers, DrivesATaskAsOthersDo) {
   rig.run_s(25);
   EXPECT_EQ(rig.snapshot().nav.status, NavStatus::success) << rig.why();
   EXPECT_NEAR(rig.plant.truth().x_m, 6, 0.15);
+}
+
+class ARobotOnRollersBesideItsTrack : public ARobotOnRollers {
+ protected:
+  static constexpr double kBeside_m = 0.06;
+  explicit ARobotOnRollersBesideItsTrack(const EngineConfig& config = on_rollers())
+      : ARobotOnRollers(config, kBeside_m) {}
+  void drive() {
+    rig.settle();
+    rig.start(path, 12, 0.5);
+    for (int i = 0; i < 25 * 200; ++i) {
+      rig.tick();
+      turned_rad = std::max(turned_rad, std::abs(rig.plant.truth().yaw_rad));
+      aside_mps = std::max(aside_mps, std::abs(rig.plant.truth().vy_mps));
+      least_m = std::min(least_m, rig.plant.truth().y_m);
+    }
+    EXPECT_EQ(rig.snapshot().nav.status, NavStatus::success) << rig.why();
+    EXPECT_NEAR(rig.plant.truth().y_m, 0, 0.03);
+  }
+
+  const Path path = straight_path(6);
+  double turned_rad = 0;
+  double aside_mps = 0;
+  double least_m = kBeside_m;
+};
+
+TEST_F(ARobotOnRollersBesideItsTrack, ComesBackToItAsideInATask) {
+  drive();
+  EXPECT_GT(aside_mps, 0.03);
+  EXPECT_LT(aside_mps, 0.16);
+  EXPECT_LT(turned_rad, to_rad(2.5));
+  EXPECT_GT(least_m, -0.03);
+  for (const Notice& notice : rig.said<Notice>())
+    EXPECT_NE(notice.level, Notice::Level::error) << notice.text.view();
+}
+
+class ARobotOnRollersBesideItsTrackUnproved : public ARobotOnRollersBesideItsTrack {
+ protected:
+  static EngineConfig unproved() {
+    EngineConfig config = on_rollers();
+    config.navigate.first_way_m = 0.3;
+    return config;
+  }
+  ARobotOnRollersBesideItsTrackUnproved() : ARobotOnRollersBesideItsTrack(unproved()) {}
+};
+
+TEST_F(ARobotOnRollersBesideItsTrackUnproved, GoesAsideOnlyBehindTheFirstWay) {
+  rig.settle();
+  rig.start(path, 12, 0.5);
+  double early_mps = 0;
+  while (rig.plant.truth().x_m < 0.25) {
+    rig.tick();
+    early_mps = std::max(early_mps, std::abs(rig.plant.truth().vy_mps));
+  }
+  EXPECT_LT(early_mps, 1e-9);
+  for (int i = 0; i < 25 * 200; ++i) {
+    rig.tick();
+    aside_mps = std::max(aside_mps, std::abs(rig.plant.truth().vy_mps));
+  }
+  EXPECT_GT(aside_mps, 0.01);
+  EXPECT_EQ(rig.snapshot().nav.status, NavStatus::success) << rig.why();
 }
 
 TEST_F(ARobotOnRollers, StopsWhereOneOfItsWheelsIsSilent) {
