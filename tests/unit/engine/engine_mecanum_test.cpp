@@ -198,6 +198,78 @@ TEST_F(ARobotOnRollersInAScene, GoesNowhereAsideAsNobodyLooksThere) {
               ::testing::HasSubstr("nobody looks where it would go sideways"));
 }
 
+/// A wall to its left, and somebody who looks to the sides.
+class ARobotOnRollersBesideAWall : public ARobotOnRollers {
+ protected:
+  static constexpr double kWall_m = 1.2;
+  static EngineConfig looking_aside() {
+    EngineConfig config = on_rollers();
+    config.clearance_required = config.clearance_aside = true;
+    return config;
+  }
+  ARobotOnRollersBesideAWall() : ARobotOnRollers(looking_aside()) {}
+  void settle() {
+    rig.tick();
+    rig.set_origin();
+    go_s({}, 3);
+  }
+  void go_s(const Twist& twist, double seconds) {
+    for (int i = 0; i < static_cast<int>(seconds * 200 + 0.5); ++i) {
+      if (i % 10 == 0) {
+        rig.command(FollowTwist{twist});
+        look();
+      }
+      rig.tick();
+      const Pose& truth = rig.plant.truth();
+      if (std::abs(truth.vy_mps) > 0.05) aslant_mps = std::max(aslant_mps, std::abs(truth.vx_mps));
+    }
+  }
+  void look() {
+    Clearance found;
+    found.t = rig.now - std::chrono::milliseconds(35);
+    found.twist = rig.engine->viewpoint().asked;
+    found.ahead_m = found.back_m = found.aside_right_m = 3;
+    found.left_rad = found.right_rad = 3;
+    found.aside_left_m = std::max(0.0, kWall_m - rig.plant.truth().y_m);
+    found.bare.aside_left_m = found.aside_left_m;
+    found.first.format("box1 is in the way, %.2f m to the left", found.aside_left_m);
+    rig.engine->on_clearance(found);
+  }
+  std::string cmd_vel() const { return std::string(rig.snapshot().cmd_vel.reason.view()); }
+
+  double aslant_mps = 0;  ///< ahead, while it went aside
+};
+
+TEST_F(ARobotOnRollersBesideAWall, StopsBeforeItAndMayLeaveIt) {
+  settle();
+  go_s({0, 0, 0.4}, 10);
+  const double stands_m = rig.plant.truth().y_m;
+  EXPECT_GT(stands_m, 0.8) << cmd_vel();
+  EXPECT_LT(stands_m, kWall_m);
+  EXPECT_EQ(rig.fastest_command_radps(), 0);
+  std::string told;
+  for (const Notice& notice : rig.said<Notice>()) told += std::string(notice.text.view()) + "\n";
+  EXPECT_THAT(told, ::testing::HasSubstr("box1 is in the way"));
+  go_s({}, 1);
+  go_s({0, 0, -0.4}, 3);
+  EXPECT_LT(rig.plant.truth().y_m, stands_m - 0.5) << cmd_vel();
+}
+
+TEST_F(ARobotOnRollersBesideAWall, GoesAsideAloneOrAheadAlone) {
+  settle();
+  go_s({0.3, 0, 0.2}, 1);
+  EXPECT_EQ(rig.fastest_command_radps(), 0);
+  EXPECT_THAT(cmd_vel(), ::testing::HasSubstr("aslant"));
+  go_s({}, 0.5);
+  go_s({0.4, 0, 0}, 3);
+  EXPECT_GT(rig.plant.truth().vx_mps, 0.3) << cmd_vel();
+  go_s({0, 0, -0.3}, 4);
+  EXPECT_NEAR(rig.plant.truth().vy_mps, -0.3, 0.03) << cmd_vel();
+  go_s({0.4, 0, 0}, 3);
+  EXPECT_GT(rig.plant.truth().vx_mps, 0.3) << cmd_vel();
+  EXPECT_LT(aslant_mps, 0.05) << "one ends before the other begins";
+}
+
 class ARobotWithoutRollers : public ARobotOnRollers {
  protected:
   ARobotWithoutRollers() : ARobotOnRollers(rig_config()) {}
