@@ -17,6 +17,8 @@ struct BareWays {
   double back_m = 0;
   double left_rad = 0;
   double right_rad = 0;
+  double aside_left_m = 0;
+  double aside_right_m = 0;
 };
 
 /// Made outside the control thread, of objects, zones, constraints and the points of obstacle
@@ -33,6 +35,8 @@ struct Clearance {
   double back_m = 0;
   double left_rad = 0;  ///< turning on the spot, counter-clockwise
   double right_rad = 0;
+  double aside_left_m = 0;  ///< straight to the side, the heading kept; of a base that goes so
+  double aside_right_m = 0;
   /// The same by the margin alone. An error of the position that grows in one moment takes a way
   /// away in which nothing came nearer: what is truly near is judged by these, where they are more.
   BareWays bare;

@@ -22,6 +22,10 @@ void finish_engine(DroverConfig& c) {
   for (std::size_t i = 0; i < kOutputCount; ++i)
     c.engine.output_configured[i] = c.outputs.output[i].configured;
   c.engine.clearance_required = c.scene.configured;
+  // What no scanner sees bounds nothing, and not all of them see both sides.
+  c.engine.clearance_aside = c.scene.configured &&
+                             c.engine.base.kind == engine::BaseKind::mecanum &&
+                             first(c, SlotKind::scanner) == nullptr;
   c.engine.clearance = c.scene.clearance;
 }
 

@@ -253,6 +253,7 @@ struct EngineConfig {
   HealthConfig health;
   ClearanceConfig clearance;
   bool clearance_required = false;  ///< somebody looks around, and nothing moves without his word
+  bool clearance_aside = false;     ///< and to the sides, so that a base may go there that can
   /// Names, by AxisId: those of the base come first.
   FixedVector<Name, kMaxAxes> joints;
   FixedVector<GroupConfig, kMaxGroups> groups;         ///< beside the base

@@ -33,7 +33,8 @@ Engine::Impl::Impl(const EngineConfig& c)
       tilt(c.health),
       hit(c.health),
       mechanics(c),
-      clearance(c.clearance, c.limits, c.clearance_required, limits(base).pivots),
+      clearance(c.clearance, c.limits, c.clearance_required, limits(base).pivots,
+                limits(base).sideways && c.clearance_aside),
       navigator(c, latch),
       owners(c, latch),
       arming(c) {
@@ -160,15 +161,6 @@ void Engine::Impl::command_axes(const Motion& motion, EngineOutput& out) {
   }
 }
 
-/// Why nothing goes aside now; empty: it does.
-std::string_view Engine::Impl::no_sideways() const {
-  if (!limits(base).sideways) return "this base cannot go sideways";
-  if (config.clearance_required) return "nobody looks where it would go sideways";
-  if (!mechanics.proved())
-    return "this base goes sideways once wheels, gyro and receiver agreed on a first way ahead";
-  return {};
-}
-
 void Engine::Impl::start_task(const Command& command, const StartTask& task, Time now) {
   const RequestId& id = command.id;
   Reason why;
@@ -273,7 +265,7 @@ void Engine::on_command(const Command& command, Time now) {
   } else if (const auto* hand = std::get_if<DriveByHand>(&command.body)) {
     e.owners.drive_by_hand(command, *hand, e.health.report(), e.mechanics.proved(), now, e.events);
   } else if (const auto* follow = std::get_if<FollowTwist>(&command.body)) {
-    e.owners.take(*follow, command.received, e.no_sideways(), now);
+    e.owners.take(*follow, command.received, e.no_sideways(follow->twist), now);
   } else if (const auto* turned_away = std::get_if<TwistRefused>(&command.body)) {
     e.owners.refuse(*turned_away, now);
   } else if (const auto* release = std::get_if<ReleaseHold>(&command.body)) {
@@ -336,7 +328,8 @@ void Engine::step(Time now, const Environment& environment, EngineOutput& out) {
   const double cap_mps = e.mechanics.speed_cap_mps(FirstWay::task);
   NavOutput wanted = e.navigator.step(
       {now, dt, e.estimate, e.health.report(), e.wheel_fault, e.wheel_reason, e.owners.at_rest(),
-       e.owners.refusal(), cap_mps, e.clearance.caps().along_mps, e.clearance.unasked()},
+       e.owners.refusal(), cap_mps, e.clearance.caps().along_mps, e.clearance.unasked(),
+       !e.config.clearance_required && e.no_sideways({}).empty()},
       e.events);
   wanted.target = e.clearance.limit(e.mechanics.guide(wanted.target));
   const Learned learned{e.estimate.yaw_slip_factor};

@@ -69,7 +69,7 @@ struct Engine::Impl {
   double tilt_deg() const;
   /// As the base turns: its track is wider than it is.
   double half_track_m() const { return track_of_turn_m(base) / 2 * estimate.yaw_slip_factor; }
-  std::string_view no_sideways() const;
+  std::string_view no_sideways(const Twist& twist) const;
   void watch_tilt(Time now, bool has_imu);
   void watch_imu(const ImuSample& sample, Time at);
   void choose_sensors(Time now, const Environment& environment);

@@ -46,6 +46,18 @@ void Engine::Impl::watch_imu(const ImuSample& sample, Time at) {
   mechanics.on_turn(turn_radps, at);
 }
 
+/// Why nothing goes aside so now; empty: it does.
+std::string_view Engine::Impl::no_sideways(const Twist& twist) const {
+  if (!limits(base).sideways) return "this base cannot go sideways";
+  if (config.clearance_required && !config.clearance_aside)
+    return "nobody looks where it would go sideways";
+  if (config.clearance_required && (drives(twist) || std::abs(twist.wz_radps) > kTurns_radps))
+    return "nobody looks where it would go aslant: it goes sideways alone";
+  if (!mechanics.proved())
+    return "this base goes sideways once wheels, gyro and receiver agreed on a first way ahead";
+  return {};
+}
+
 /// Whether the base rests when it should; what moves it without a command, in words.
 Reason Engine::Impl::judge_motion(Time now, Duration dt, const LineTable& lines,
                                   const Environment& environment) {

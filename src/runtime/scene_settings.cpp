@@ -63,6 +63,7 @@ scene::KeeperSettings keeper_settings(const config::DroverConfig& config) {
   settings.look.margin_m = std::max(scene.margin_m, 2 * scene.clearance.beside_m);
   settings.look.ahead_m = scene.ahead_m;
   settings.look.along_m = scene.along_m;
+  settings.look.aside = config.engine.clearance_aside;
   settings.heights = heights_of(scene);
   settings.robot = robot_of(scene);
   for (const auto& joint : config.engine.joints) settings.joints.emplace_back(joint.view());

@@ -120,7 +120,7 @@ INSTANTIATE_TEST_SUITE_P(
         "scene_box", "scene_near", "scene_pole", "scene_person", "scene_refused", "scene_keep_out",
         "scene_keep_in", "scene_beside", "scene_pivot", "scene_planes", "scene_mouth",
         "scene_wall_behind", "scene_stamps", "scene_origin", "scene_constraint", "scene_reverse",
-        "scene_edge", "scene_heading", "scene_worker", "scene_restart", "lidar_box",
+        "scene_aside", "scene_edge", "scene_heading", "scene_worker", "scene_restart", "lidar_box",
         "lidar_covered", "lidar_sun", "lidar_frozen", "lidar_unplugged", "lidar_ramp",
         "lidar_pivot", "lidar_pivot_hidden"),
     [](const auto& one) { return std::string(one.param); });

@@ -1,4 +1,8 @@
 // Four mecanum wheels: a task, a way to the side, and what stops them.
+#include <fstream>
+#include <iterator>
+
+#include "mission/scene_support.h"
 #include "mission/support.h"
 #include "mission/wire_robomaster.h"
 
@@ -146,6 +150,27 @@ TEST(MecanumSidewaysKill, LetsItCoastToTheSideWithoutATurn) {
   EXPECT_LT(rest.left_m, 0.2);
   EXPECT_NEAR(rest.ahead_m, 0, 0.05);
   EXPECT_LT(std::abs(rest.turned_deg), 5);
+}
+
+TEST(SceneAside, StopsJointCommandsBeforeABoxAndLetsThemLeave) {
+  const SceneLog& scene = scene_log("scene_aside");
+  const Record& log = *scene.record;
+  const Time left = log.event("event left#1");
+  const Time over = log.event("event commands_end#2");
+  const double stands_m = scene.pose_at(over).y_m;
+  EXPECT_GT(stands_m, scene.pose_at(left).y_m + 0.5) << "it did not go aside";
+  const double gap_m = scene.gap_at(over, "crate");
+  figure("stands before it", gap_m, "m");
+  EXPECT_GT(gap_m, 0);
+  EXPECT_LE(gap_m, kFarFrom_m);
+  EXPECT_THAT(log.moving(over - 1s, over), testing::IsEmpty());
+  std::ifstream stream(log.folder / "droverd.log");
+  const std::string journal{std::istreambuf_iterator<char>(stream), {}};
+  EXPECT_THAT(journal, testing::HasSubstr("joint commands ended: crate is in the way"));
+  EXPECT_THAT(journal, testing::HasSubstr("to the left"));
+  const double away_m = scene.pose_at(log.event("event commands_end#4")).y_m;
+  figure("leaves it by", stands_m - away_m, "m");
+  EXPECT_LT(away_m, stands_m - 0.5);
 }
 
 TEST(MecanumSilent, OfOneMotorStopsTheRobot) {

@@ -42,7 +42,7 @@ INSTANTIATE_TEST_SUITE_P(Each, EveryScene,
                                          "scene_planes", "scene_mouth", "scene_wall_behind",
                                          "scene_stamps", "scene_origin", "scene_constraint",
                                          "scene_reverse", "scene_edge", "scene_heading",
-                                         "scene_worker", "scene_restart"),
+                                         "scene_worker", "scene_restart", "scene_aside"),
                          [](const auto& one) { return std::string(one.param); });
 
 }  // namespace

@@ -21,17 +21,18 @@ double curvature_radpm(const Twist& twist) {
 }  // namespace
 
 ClearanceWatch::ClearanceWatch(const ClearanceConfig& config, const LimitsConfig& limits,
-                               bool required, bool pivots)
+                               bool required, bool pivots, bool sideways)
     : config_(config),
       limits_(limits),
       required_(required),
       pivots_(pivots),
+      sideways_(sideways),
       straight_{config.reaction_s, kGentle * limits.deceleration_mps2},
       straight_firm_{config.reaction_s, kFirm * limits.deceleration_mps2},
       straight_full_{config.reaction_s, limits.deceleration_mps2},
       turning_{config.reaction_s, kGentle * limits.yaw_acceleration_radps2},
       turning_full_{config.reaction_s, limits.yaw_acceleration_radps2} {
-  if (!required) caps_ = {kFree, kFree, kFree, kFree, kFree};
+  if (!required) caps_ = {kFree, kFree, kFree, kFree, kFree, kFree, kFree};
 }
 
 void ClearanceWatch::on_clearance(const Clearance& found) {
@@ -205,8 +206,36 @@ double ClearanceWatch::turn_cap(Way which, const ClearanceInput& input, const Wa
   return gate.closed || !here ? 0 : permitted_speed(way.left, way.brakes);
 }
 
+/// Likewise, and for how it stood there.
+double ClearanceWatch::aside_cap(Way which, const ClearanceInput& input, const WaySince& since) {
+  if (!sideways_) return 0;
+  const bool left = which == kAsideLeft;
+  const double moves_mps = left ? input.commanded.vy_mps : -input.commanded.vy_mps;
+  const Stretch way{(left ? found_.aside_left_m : found_.aside_right_m) - since.driven_m,
+                    (left ? found_.bare.aside_left_m : found_.bare.aside_right_m) - since.driven_m,
+                    std::max(moves_mps, 0.0),
+                    straight_,
+                    limits_.min_speed_mps,
+                    config_.again_m};
+  Gate& gate = gates_[which];
+  judge(gate, way, straight_full_, input.now);
+  const double off_m = std::abs(since.along_m) + since.turned_rad * config_.reach_m;
+  const bool here = off_m <= config_.beside_m;
+  return gate.closed || !here ? 0 : permitted_speed(way.left, way.brakes);
+}
+
+/// `aside`: part of what is asked for leads there.
+bool ClearanceWatch::leads_aslant(const Twist& asked, bool aside) const {
+  const auto goes_elsewhere = [](const Twist& twist) {
+    return drives(twist) || std::abs(twist.wz_radps) > kTurns_radps;
+  };
+  if (!aside) return goes_sideways(commanded_);
+  return !sideways_ || goes_elsewhere(asked) || goes_elsewhere(commanded_);
+}
+
 ClearanceWatch::Way ClearanceWatch::way_of(const Twist& twist) {
   if (drives(twist)) return twist.vx_mps < 0 ? kBack : kAhead;
+  if (goes_sideways(twist)) return twist.vy_mps > 0 ? kAsideLeft : kAsideRight;
   if (std::abs(twist.wz_radps) > kTurns_radps) return twist.wz_radps > 0 ? kLeft : kRight;
   return kNone;
 }
@@ -220,7 +249,8 @@ bool ClearanceWatch::is_blocked(const ClearanceInput& input) const {
   if (input.path != 0) return closed(kAlong) || (way != kNone && closed(way));
   if (way != kNone) return closed(way);
   const bool turns = pivots_ && !(closed(kLeft) && closed(kRight));
-  return closed(kAhead) && closed(kBack) && !turns;
+  const bool aside = sideways_ && !(closed(kAsideLeft) && closed(kAsideRight));
+  return closed(kAhead) && closed(kBack) && !turns && !aside;
 }
 
 /// In words: of a turn what hinders it, not what is ahead. What was in the way is the reason until
@@ -242,6 +272,7 @@ Reason ClearanceWatch::blocked_by(const ClearanceInput& input) const {
 void ClearanceWatch::update(const ClearanceInput& input) {
   if (!required_) return;
   ways_.note(input.body, input.now);
+  commanded_ = input.commanded;
   if (found_.t > input.now) found_ = {};  // or it would keep all right ones out until then
   const WaySince since = ways_.since(found_.t);
   caps_ = {};
@@ -260,16 +291,20 @@ void ClearanceWatch::update(const ClearanceInput& input) {
   // A late answer permits nothing either, but it is no obstacle that came: all stays as it was.
   if (input.now - found_.t > from_s(config_.max_age_s)) return;
   const double agreed = agreed_m(input, since);
-  const ClearanceCaps caps{along_cap(input, since), straight_cap(kAhead, input, since, agreed),
-                           straight_cap(kBack, input, since, agreed), turn_cap(kLeft, input, since),
-                           turn_cap(kRight, input, since)};
+  const ClearanceCaps caps{along_cap(input, since),
+                           straight_cap(kAhead, input, since, agreed),
+                           straight_cap(kBack, input, since, agreed),
+                           turn_cap(kLeft, input, since),
+                           turn_cap(kRight, input, since),
+                           aside_cap(kAsideLeft, input, since),
+                           aside_cap(kAsideRight, input, since)};
   blocked_ = is_blocked(input) ? blocked_by(input) : Reason();
   const bool waits = input.path != 0 && !blocked_.empty();
   if (broken_.empty() && !waits) caps_ = caps;
 }
 
 Twist ClearanceWatch::limit(const Twist& asked) const {
-  if (required_ && asked.vy_mps != 0) return {};
+  if (required_ && leads_aslant(asked, asked.vy_mps != 0)) return {};
   const auto share = [](double wanted, double cap) { return wanted > cap ? cap / wanted : 1.0; };
   double permitted =
       share(std::abs(asked.vx_mps), asked.vx_mps < 0 ? caps_.back_mps : caps_.ahead_mps);
@@ -277,13 +312,17 @@ Twist ClearanceWatch::limit(const Twist& asked) const {
     permitted = std::min(
         permitted,
         share(std::abs(asked.wz_radps), asked.wz_radps > 0 ? caps_.left_radps : caps_.right_radps));
+  if (asked.vy_mps != 0)
+    permitted =
+        std::min(permitted, share(std::abs(asked.vy_mps),
+                                  asked.vy_mps > 0 ? caps_.aside_left_mps : caps_.aside_right_mps));
   // What is no number is told as it is: the gate behind refuses it and says so.
   if (!(permitted < 1)) return asked;
   return {asked.vx_mps * permitted, asked.wz_radps * permitted, asked.vy_mps * permitted};
 }
 
 double ClearanceWatch::rim_cap_mps(const Twist& asked, double half_track_m) const {
-  if (required_ && goes_sideways(asked)) return 0;
+  if (required_ && leads_aslant(asked, goes_sideways(asked))) return 0;
   const double left_mps = caps_.left_radps * half_track_m;
   const double right_mps = caps_.right_radps * half_track_m;
   switch (way_of(asked)) {
@@ -291,6 +330,8 @@ double ClearanceWatch::rim_cap_mps(const Twist& asked, double half_track_m) cons
     case kBack: return caps_.back_mps;
     case kLeft: return left_mps;
     case kRight: return right_mps;
+    case kAsideLeft: return caps_.aside_left_mps;
+    case kAsideRight: return caps_.aside_right_mps;
     default: break;  // wheels against each other: whatever it makes of the base
   }
   return std::min({caps_.ahead_mps, caps_.back_mps, left_mps, right_mps});

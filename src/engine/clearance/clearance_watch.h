@@ -30,6 +30,8 @@ struct ClearanceCaps {
   double back_mps = 0;
   double left_radps = 0;
   double right_radps = 0;
+  double aside_left_mps = 0;
+  double aside_right_mps = 0;
 };
 
 /// Fails closed: what is old, or about another path, permits nothing; on another curve than was
@@ -39,9 +41,10 @@ struct ClearanceCaps {
 class ClearanceWatch final {
  public:
   /// Not `required`: nobody looks around, and everything is permitted.
-  /// One that does not `pivot` has no way to leave but ahead and back.
+  /// One that does not `pivot` has no way to leave but ahead and back; one that goes `sideways`,
+  /// and somebody looks there, has two more.
   ClearanceWatch(const ClearanceConfig& config, const LimitsConfig& limits, bool required,
-                 bool pivots = true);
+                 bool pivots = true, bool sideways = false);
 
   /// The newest one; an older one than it changes nothing.
   void on_clearance(const Clearance& found);
@@ -63,15 +66,25 @@ class ClearanceWatch final {
   bool too_near() const { return too_near_; }
   /// The last answer, as it came.
   const Clearance& found() const { return found_; }
-  /// The same curve, no faster than is permitted along it. Aside nobody looks: what goes there is
-  /// not permitted at all.
+  /// The same curve, no faster than is permitted along it. To the side alone, or not to the side:
+  /// nobody looked where both together lead to, and one has to end before the other begins.
   Twist limit(const Twist& asked) const;
   /// For whoever moves single wheels, which make `asked` of the base: the most of a rim,
   /// `half_track_m` beside the middle.
   double rim_cap_mps(const Twist& asked, double half_track_m) const;
 
  private:
-  enum Way : std::uint8_t { kAlong, kAhead, kBack, kLeft, kRight, kWays, kNone = kWays };
+  enum Way : std::uint8_t {
+    kAlong,
+    kAhead,
+    kBack,
+    kLeft,
+    kRight,
+    kAsideLeft,
+    kAsideRight,
+    kWays,
+    kNone = kWays
+  };
   /// Whether something is in a way, or was until a while ago.
   struct Gate {
     bool closed = false;
@@ -98,6 +111,8 @@ class ClearanceWatch final {
   double along_cap(const ClearanceInput& input, const WaySince& since);
   double straight_cap(Way way, const ClearanceInput& input, const WaySince& since, double agreed_m);
   double turn_cap(Way way, const ClearanceInput& input, const WaySince& since);
+  double aside_cap(Way way, const ClearanceInput& input, const WaySince& since);
+  bool leads_aslant(const Twist& asked, bool aside) const;
   bool is_blocked(const ClearanceInput& input) const;
   Reason blocked_by(const ClearanceInput& input) const;
   void forget_freedom();
@@ -106,6 +121,8 @@ class ClearanceWatch final {
   LimitsConfig limits_;
   bool required_;
   bool pivots_;
+  bool sideways_;
+  Twist commanded_;  ///< in the last cycle
   // What is seen from afar is come to gently, on a curve that the gates' limited jerk can follow;
   // what appears nearer is braked for with all that a ramp to zero has.
   StopChain straight_;

@@ -364,7 +364,8 @@ double Navigator::speed_cap_mps(const NavInput& input) const {
 /// At rest only, before what is in its way: where its track goes from here is looked at then, too.
 Twist Navigator::asked(const NavInput& input) {
   if (lost_.holds() || stopping_at_goal_) return {};
-  return tracker_.follow(input.estimate.pose, progress_, speed_cap_mps(input), input.dt);
+  return tracker_.follow(input.estimate.pose, progress_, speed_cap_mps(input), input.dt,
+                         input.may_go_aside);
 }
 
 NavOutput Navigator::run(const NavInput& input, EventQueue& events) {
@@ -392,7 +393,8 @@ NavOutput Navigator::run(const NavInput& input, EventQueue& events) {
   }
   if (!(input.along_cap_mps > 0)) return {{}, true, Stop::controlled, asked(input)};
   const double cap_mps = std::min(speed_cap_mps(input), input.along_cap_mps);
-  const Twist target = tracker_.follow(input.estimate.pose, progress_, cap_mps, input.dt);
+  const Twist target =
+      tracker_.follow(input.estimate.pose, progress_, cap_mps, input.dt, input.may_go_aside);
   return {target, true, Stop::none, target};
 }
 

@@ -24,6 +24,7 @@ struct NavInput {
   double speed_cap_mps = 1e9;                   ///< of the first way after the start
   double along_cap_mps = 1e9;                   ///< of what is free along the track
   Reason unasked{};                             ///< as ClearanceWatch::unasked
+  bool may_go_aside = false;                    ///< one that can
 };
 
 struct NavOutput {

@@ -26,12 +26,39 @@ constexpr double kApproach_rad = 1.0;    // steepest way back to the line
 constexpr double kSteeringShare = 0.7;   // of its rate, of a base that steers: the rest is feedback
 constexpr double kSlowestTurned = 0.25;  // of the speed, when a base that steers is badly turned
 constexpr double kTurnedBack = 0.7;      // of the offset in which it can be turned along the line
+// Of a base that goes sideways: of an offset this much is turned out, which is little more than
+// what a position is uncertain by; as much more is gone out sideways, and the rest is turned out.
+constexpr double kTurnedOut_m = 0.005;
+constexpr double kGoneOut_m = 0.15;
+constexpr double kGoneOut_ps = 2.0;      // of that
+constexpr double kAsideShare = 0.3;      // of the speed, at the most
+constexpr double kMostAside_mps = 0.15;  // and in any case
 
 Vector place(const Pose& pose) {
   return {pose.x_m, pose.y_m};
 }
 double direction_rad(Vector v) {
   return std::atan2(v.y, v.x);
+}
+
+/// What of an offset is gone out sideways.
+double gone_out_m(double offset_m) {
+  return std::copysign(std::clamp(std::abs(offset_m) - kTurnedOut_m, 0.0, kGoneOut_m), offset_m);
+}
+
+/// To the left. What is as slow as what goes aside by itself is none.
+double aside_mps(double out_m, double heading_rad, double vx_mps) {
+  const double most_mps = std::min(kAsideShare * vx_mps, kMostAside_mps);
+  const double across = std::max(std::cos(heading_rad), 0.0);
+  const double vy_mps = std::clamp(-kGoneOut_ps * out_m * across, -most_mps, most_mps);
+  return std::abs(vy_mps) > kDrives_mps ? vy_mps : 0.0;
+}
+
+/// As fast in its direction as it was ahead: so no wheel is faster than it may be.
+Twist aslant(double vx_mps, double wz_radps, double vy_mps) {
+  if (vy_mps == 0) return {vx_mps, wz_radps};
+  const double share = vx_mps / std::hypot(vx_mps, vy_mps);
+  return {share * vx_mps, wz_radps, share * vy_mps};
 }
 
 bool usable(const Pose& pose) {
@@ -93,11 +120,12 @@ Pose Tracker::as_driven(const Pose& pose) const {
   Pose turned = pose;
   turned.yaw_rad = wrap_rad(pose.yaw_rad + kPi);
   turned.vx_mps = -pose.vx_mps;
+  turned.vy_mps = -pose.vy_mps;
   return turned;
 }
 
 Twist Tracker::as_told(const Twist& twist) const {
-  return backwards_ ? Twist{-twist.vx_mps, twist.wz_radps} : twist;
+  return backwards_ ? Twist{-twist.vx_mps, twist.wz_radps, 0 - twist.vy_mps} : twist;
 }
 
 void Tracker::end() {
@@ -169,7 +197,8 @@ TrackProgress Tracker::locate(const Pose& seen) {
   return progress;
 }
 
-Twist Tracker::follow(const Pose& seen, const TrackProgress&, double speed_cap_mps, Duration dt) {
+Twist Tracker::follow(const Pose& seen, const TrackProgress&, double speed_cap_mps, Duration dt,
+                      bool may_go_aside) {
   double cap_mps = std::min({speed_mps_, speed_cap_mps, limits_.max_speed_mps});
   if (backwards_) cap_mps = std::min(cap_mps, config_.backwards_speed_mps);
   if (!active_ || !usable(seen) || !(speed_cap_mps > 0) || !(cap_mps > 0)) return {};
@@ -179,8 +208,8 @@ Twist Tracker::follow(const Pose& seen, const TrackProgress&, double speed_cap_m
   const double left_m = leg_.last_m - s_m_;
   if (phase_ == Phase::halt && left_m > config_.goal_tolerance_m) phase_ = Phase::follow;
   if (left_m <= stop_distance_m(pose.vx_mps)) phase_ = Phase::halt;
-  if (phase_ == Phase::follow) return as_told(steer(pose, cap_mps, dt));
-  if (is_last_leg() || std::abs(pose.vx_mps) > kStands_mps) return {};
+  if (phase_ == Phase::follow) return as_told(steer(pose, cap_mps, dt, may_go_aside));
+  if (is_last_leg() || std::hypot(pose.vx_mps, pose.vy_mps) > kStands_mps) return {};
   if (!body_.pivots) {
     begin_next_leg();
     return {};
@@ -280,7 +309,7 @@ double Tracker::back_to_line_rad(double offset_m, double damping, double stiffne
   return std::clamp(back_rad, -most_rad, most_rad);
 }
 
-Twist Tracker::steer(const Pose& pose, double cap_mps, Duration dt) {
+Twist Tracker::steer(const Pose& pose, double cap_mps, Duration dt, bool may_go_aside) {
   constexpr double kDamping = 2.4;      // of the heading, over the look-ahead
   constexpr double kStiffness = 2.0;    // of the offset, over its square
   constexpr double kTurning_mps = 0.2;  // heading is corrected as if at least so fast
@@ -288,8 +317,9 @@ Twist Tracker::steer(const Pose& pose, double cap_mps, Duration dt) {
   // The drives answer late: steer for where the base will be then.
   const double lag_s = config_.drive_lag_s;
   const double turned_rad = pose.yaw_rad + 0.5 * pose.wz_radps * lag_s;
-  const Vector at =
-      place(pose) + pose.vx_mps * lag_s * Vector{std::cos(turned_rad), std::sin(turned_rad)};
+  const Vector ahead{std::cos(turned_rad), std::sin(turned_rad)};
+  Vector at = place(pose) + pose.vx_mps * lag_s * ahead;
+  if (body_.sideways) at = at + pose.vy_mps * lag_s * Vector{-ahead.y, ahead.x};
   const LineFoot foot = find_foot(route_, leg_, station_, s_m_ + pose.vx_mps * lag_s, at, 2);
   const double s_m = foot.s_m;
   const Reference& line = foot.line;
@@ -308,7 +338,8 @@ Twist Tracker::steer(const Pose& pose, double cap_mps, Duration dt) {
   const double lookahead_m = std::max(config_.lookahead_s * rolling_mps, config_.min_lookahead_m);
   const double damping = kDamping / lookahead_m;
   const double stiffness = kStiffness / (lookahead_m * lookahead_m);
-  const double back_rad = back_to_line_rad(offset_m, damping, stiffness);
+  const double out_m = body_.sideways && may_go_aside ? gone_out_m(offset_m) : 0.0;
+  const double back_rad = back_to_line_rad(offset_m - out_m, damping, stiffness);
   const double off_rad = wrap_rad(heading_rad - back_rad);
   const double correction_radpm = -damping * off_rad;
 
@@ -338,7 +369,7 @@ Twist Tracker::steer(const Pose& pose, double cap_mps, Duration dt) {
     vx_mps *= limits_.max_yaw_rate_radps / std::abs(wz_radps);
     wz_radps = std::copysign(limits_.max_yaw_rate_radps, wz_radps);
   }
-  return {vx_mps, wz_radps};
+  return aslant(vx_mps, wz_radps, aside_mps(out_m, heading_rad, vx_mps));
 }
 
 }  // namespace drover::engine

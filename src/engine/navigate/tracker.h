@@ -38,7 +38,8 @@ using track::check_path;
 /// offset and heading. Where the track has a true corner it stops, turns on the spot and goes on.
 /// Where it says so (Path::backwards) it is driven backwards: as if the robot looked the other way.
 /// A base that cannot turn on the spot drives on from a corner as it stands there: only one where
-/// it goes on the other way is for it (find_tight).
+/// it goes on the other way is for it (find_tight). One that goes sideways comes back to a line
+/// close by so, and keeps its heading along it.
 class Tracker final {
  public:
   Tracker(const NavigateConfig& config, const LimitsConfig& limits, const BodyLimits& body = {});
@@ -56,8 +57,10 @@ class Tracker final {
   TrackProgress locate(const Pose& pose);
   /// The twist wanted now. `speed_cap_mps` is the least of all caps in force (far zone, error
   /// budget); 0 gives a twist of zero. Speed is shaped only by the path (curvature, end);
-  /// acceleration and jerk are the gate's.
-  Twist follow(const Pose& pose, const TrackProgress& progress, double speed_cap_mps, Duration dt);
+  /// acceleration and jerk are the gate's. `may_go_aside`: a base that goes sideways does so now;
+  /// else it turns back to its line, as others do.
+  Twist follow(const Pose& pose, const TrackProgress& progress, double speed_cap_mps, Duration dt,
+               bool may_go_aside = false);
 
  private:
   enum class Phase : std::uint8_t { follow, halt, pivot };
@@ -73,7 +76,7 @@ class Tracker final {
   Twist pivot(const Pose& pose);
   void begin_next_leg();
   double back_to_line_rad(double offset_m, double damping, double stiffness) const;
-  Twist steer(const Pose& pose, double cap_mps, Duration dt);
+  Twist steer(const Pose& pose, double cap_mps, Duration dt, bool may_go_aside);
 
   NavigateConfig config_;
   LimitsConfig limits_;

@@ -159,4 +159,13 @@ std::vector<std::uint8_t> from_sixth_edition(std::span<const std::uint8_t> recor
   return today;
 }
 
+std::vector<std::uint8_t> from_seventh_edition(std::span<const std::uint8_t> record) {
+  constexpr std::size_t kAside = 5;  // numbers
+  std::vector<std::uint8_t> today(record.begin(), record.end());
+  // Nobody looked to the sides: zeros.
+  if (!today.empty() && today.front() == kind_now<ClearanceFound>())
+    today.resize(today.size() + kAside * sizeof(double), 0);
+  return today;
+}
+
 }  // namespace drover::gateway

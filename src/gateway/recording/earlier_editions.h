@@ -24,6 +24,7 @@ std::vector<std::uint8_t> from_fourth_edition(std::span<const std::uint8_t> reco
 std::vector<std::uint8_t> from_fifth_edition(std::span<const std::uint8_t> record);
 /// Of all up to the sixth, after what is done for the one that it is of.
 std::vector<std::uint8_t> from_sixth_edition(std::span<const std::uint8_t> record);
+std::vector<std::uint8_t> from_seventh_edition(std::span<const std::uint8_t> record);
 
 /// The byte streams of an output in the first edition, in their order; kNowhere: not configured.
 std::vector<LinkId> streams_of_first_edition(const Wiring& wiring);

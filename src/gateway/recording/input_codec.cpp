@@ -220,8 +220,8 @@ void get(OutputsUp& up, ByteReader& in) {
 }
 
 void put(const ClearanceFound& found, ByteWriter& out) {
-  const auto& [t, scene, path, twist, along_m, ahead_m, back_m, left_rad, right_rad, bare, first,
-               turn, unknown, broken] = found.clearance;
+  const auto& [t, scene, path, twist, along_m, ahead_m, back_m, left_rad, right_rad, aside_left_m,
+               aside_right_m, bare, first, turn, unknown, broken] = found.clearance;
   // Of no time: that permits nothing, and has to stay so.
   out.byte(t == kNever ? 0 : 1);
   out.signed_number(std::max(t, Time{}).time_since_epoch().count());
@@ -235,10 +235,13 @@ void put(const ClearanceFound& found, ByteWriter& out) {
   out.text(turn);
   out.text(unknown);
   out.text(broken);
+  for (const double value :
+       {twist.vy_mps, aside_left_m, aside_right_m, bare.aside_left_m, bare.aside_right_m})
+    out.real(value);
 }
 void get(ClearanceFound& found, ByteReader& in) {
-  auto& [t, scene, path, twist, along_m, ahead_m, back_m, left_rad, right_rad, bare, first, turn,
-         unknown, broken] = found.clearance;
+  auto& [t, scene, path, twist, along_m, ahead_m, back_m, left_rad, right_rad, aside_left_m,
+         aside_right_m, bare, first, turn, unknown, broken] = found.clearance;
   const bool timed = get_flag(in);
   t = get_time(Time{}, in);
   if (!timed) t = kNever;
@@ -252,6 +255,9 @@ void get(ClearanceFound& found, ByteReader& in) {
   turn.assign(in.text());
   unknown.assign(in.text());
   broken.assign(in.text());
+  for (double* value :
+       {&twist.vy_mps, &aside_left_m, &aside_right_m, &bare.aside_left_m, &bare.aside_right_m})
+    *value = in.real();
 }
 
 void put(const LearnedRecalled& recalled, ByteWriter& out) {

@@ -154,6 +154,9 @@ std::string words(const ClearanceFound& found, const Wiring&) {
                      way(clearance.back_m, bare.back_m, "m") + ", left " +
                      way(clearance.left_rad, bare.left_rad, "rad") + ", right " +
                      way(clearance.right_rad, bare.right_rad, "rad");
+  if (bare.aside_left_m > 0 || bare.aside_right_m > 0)
+    text += ", to the side: left " + way(clearance.aside_left_m, bare.aside_left_m, "m") +
+            ", right " + way(clearance.aside_right_m, bare.aside_right_m, "m");
   if (!clearance.first.empty()) text += ", " + std::string(clearance.first);
   if (!clearance.turn.empty()) text += ", turning " + std::string(clearance.turn);
   if (!clearance.unknown.empty()) text += ", not known: " + std::string(clearance.unknown);

@@ -23,8 +23,9 @@ constexpr double kAtCorner_m = 0.05;
 
 /// What it does; at rest what it is asked to do.
 Twist looked_along(const Viewpoint& from) {
-  return drives(from.commanded) || !std::isfinite(from.commanded.vx_mps) ? from.commanded
-                                                                         : from.asked;
+  const bool goes = drives(from.commanded) || goes_sideways(from.commanded) ||
+                    !std::isfinite(from.commanded.vx_mps);
+  return goes ? from.commanded : from.asked;
 }
 
 /// Ahead, as it is or is told to be.
@@ -167,7 +168,8 @@ void Keeper::see(const Viewpoint& from) {
   if (!impl.viewpoint || impl.viewpoint->place != from.place) impl.poses.clear();
   impl.move_map(from);
   impl.viewpoint = from;
-  impl.own_way.note(from.t, {from.pose.vx_mps, from.pose.wz_radps}, fastest_mps(from));
+  impl.own_way.note(from.t, {from.pose.vx_mps, from.pose.wz_radps, from.pose.vy_mps},
+                    fastest_mps(from));
   const double sigma_m = impl.position_sigma_m();
   const Pose2 pose = impl.pose();
   if (position_problem(pose, sigma_m).empty())

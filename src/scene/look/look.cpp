@@ -58,7 +58,7 @@ double turn_rad(const FreeWay& way) {
 /// Why nothing can be said; empty: something can.
 Reason find_unknown(const Surroundings& around, const Standpoint& from) {
   if (!around.problem.empty()) return around.problem;
-  if (!std::isfinite(from.twist.vx_mps + from.twist.wz_radps))
+  if (!std::isfinite(from.twist.vx_mps + from.twist.wz_radps + from.twist.vy_mps))
     return "how the robot moves is not known";
   if (around.is_empty()) return {};
   if (Reason problem = position_problem(from.pose, from.position_sigma_m); !problem.empty())
@@ -83,7 +83,9 @@ void look_at_nothing(const LookSettings& settings, const Standpoint& from, Clear
   found.ahead_m = found.back_m = settings.ahead_m;
   found.left_rad = found.right_rad = kFree;
   if (from.path != 0) found.along_m = is_whole(settings, from) ? kFree : settings.along_m;
-  found.bare = {found.along_m, found.ahead_m, found.back_m, found.left_rad, found.right_rad};
+  if (settings.aside) found.aside_left_m = found.aside_right_m = settings.ahead_m;
+  found.bare = {found.along_m,   found.ahead_m,      found.back_m,       found.left_rad,
+                found.right_rad, found.aside_left_m, found.aside_right_m};
 }
 
 void look_any_way(const Surroundings& around, const LookSettings& settings, const Standpoint& from,
@@ -99,6 +101,10 @@ void look_any_way(const Surroundings& around, const LookSettings& settings, cons
   const FreeDisc bare = disc.blocked ? disc_of(0) : disc;
   const double bare_rad = bare.free ? kFree : 0;
   found.bare = {0, bare.free_m, bare.free_m, bare_rad, bare_rad};
+  if (settings.aside) {
+    found.aside_left_m = found.aside_right_m = disc.free_m;
+    found.bare.aside_left_m = found.bare.aside_right_m = bare.free_m;
+  }
   if (disc.blocked)
     found.first = disc.free ? in_the_way(disc.name, "away", disc.free_m) : is_there(disc.name);
 }
@@ -114,6 +120,17 @@ Reason in_turn_words(const Bodies& bodies, const WayEnd& end, double turn_rad, b
   return in_the_turn(bodies.name(end), "is", turn_rad, left);
 }
 
+void look_aside(const Bodies& bodies, const LookSettings& settings, const Standpoint& from,
+                Clearance& found) {
+  for (const bool to_left : {true, false}) {
+    const auto [end, bare] = bodies.sweep(aside_way(settings, from, to_left, bodies.stride_m()));
+    (to_left ? found.aside_left_m : found.aside_right_m) = end.way.free_m;
+    (to_left ? found.bare.aside_left_m : found.bare.aside_right_m) = bare.free_m;
+    if (end.way.blocked && asks_aside(from.twist, to_left))
+      found.first = in_words(bodies, end, to_left ? "to the left" : "to the right");
+  }
+}
+
 void look_around(const Bodies& bodies, const LookSettings& settings, const Standpoint& from,
                  std::span<const Step> track, Clearance& found) {
   const double stride_m = bodies.stride_m();
@@ -126,6 +143,7 @@ void look_around(const Bodies& bodies, const LookSettings& settings, const Stand
   found.left_rad = turn_rad(left.end.way);
   found.right_rad = turn_rad(right.end.way);
   found.bare = {0, ahead.bare.free_m, back.bare.free_m, turn_rad(left.bare), turn_rad(right.bare)};
+  if (settings.aside) look_aside(bodies, settings, from, found);
   if (is_turn(from.twist)) {
     const bool to_left = from.twist.wz_radps > 0;
     const WayEnd& end = to_left ? left.end : right.end;
@@ -134,6 +152,7 @@ void look_around(const Bodies& bodies, const LookSettings& settings, const Stand
     return;
   }
   const bool backwards = from.twist.vx_mps < 0;
+  if (!asks_straight(from.twist, backwards)) return;
   const WayEnd& end = backwards ? back.end : ahead.end;
   if (end.way.blocked) found.first = in_words(bodies, end, backwards ? "back" : "ahead");
 }
@@ -169,6 +188,19 @@ std::vector<Step> curve_way(const LookSettings& settings, const Standpoint& from
   if (from.path != 0) return steps;
   const double aside = thrown_aside(settings, from.yaw_sigma_rad);
   for (Step& step : steps) step.off_m = aside * step.driven_m;
+  return steps;
+}
+
+std::vector<Step> aside_way(const LookSettings& settings, const Standpoint& from, bool left,
+                            double stride_m) {
+  Pose2 across = from.pose;
+  across.yaw_rad += left ? kPi / 2 : -kPi / 2;
+  auto steps = twist_steps(across, 1, 0, settings.ahead_m, stride_m);
+  const double off = thrown_aside(settings, from.yaw_sigma_rad);
+  for (Step& step : steps) {
+    step.pose.yaw_rad = from.pose.yaw_rad;
+    step.off_m = off * step.driven_m;
+  }
   return steps;
 }
 

@@ -21,6 +21,7 @@ struct LookSettings {
   double sigmas = 2;              ///< of position and heading, around that
   double ahead_m = 3;             ///< how far to look along the curve, each way
   double along_m = 10;            ///< and along the track
+  bool aside = false;             ///< it goes sideways, too: as far to each side as ahead
   Steering steering;
 };
 
@@ -76,6 +77,17 @@ std::vector<Step> curve_steps(const Pose2& from, const Twist& twist, bool back, 
 /// does on its line, it comes off by as much of its way as it looks otherwise than it believes.
 std::vector<Step> curve_way(const LookSettings& settings, const Standpoint& from, bool back,
                             double stride_m);
+
+/// Straight to the side with the same heading, likewise; of a robot that goes so.
+std::vector<Step> aside_way(const LookSettings& settings, const Standpoint& from, bool left,
+                            double stride_m);
+/// The way that it goes, or would go.
+inline bool asks_aside(const Twist& twist, bool left) {
+  return !drives(twist) && goes_sideways(twist) && left == (twist.vy_mps > 0);
+}
+inline bool asks_straight(const Twist& twist, bool back) {
+  return !is_turn(twist) && (drives(twist) || !goes_sideways(twist)) && back == (twist.vx_mps < 0);
+}
 
 /// No more is free than this, by the margin alone neither; true: the way had been longer.
 bool shorten(double& way, double& bare, double free);

@@ -69,8 +69,17 @@ void bound_way(bool back, Clearance& found, std::span<const Step> steps, const E
   double& way_m = back ? found.back_m : found.ahead_m;
   double& bare_m = back ? found.bare.back_m : found.bare.ahead_m;
   const auto edge = end_at_edge(way_m, bare_m, steps, edges, &Edge::driven_m, margin_m);
-  const bool asked = !is_turn(found.twist) && back == (found.twist.vx_mps < 0);
-  if (edge && asked) found.first = edge_ahead(edge->which, back ? "back" : "ahead", edge->driven_m);
+  if (edge && asks_straight(found.twist, back))
+    found.first = edge_ahead(edge->which, back ? "back" : "ahead", edge->driven_m);
+}
+
+void bound_aside(bool left, Clearance& found, std::span<const Step> steps, const EdgesToKeep& edges,
+                 double margin_m) {
+  double& way_m = left ? found.aside_left_m : found.aside_right_m;
+  double& bare_m = left ? found.bare.aside_left_m : found.bare.aside_right_m;
+  const auto edge = end_at_edge(way_m, bare_m, steps, edges, &Edge::driven_m, margin_m);
+  if (edge && asks_aside(found.twist, left))
+    found.first = edge_ahead(edge->which, left ? "to the left" : "to the right", edge->driven_m);
 }
 
 void bound_turn(bool left, Clearance& found, const Pose2& from, const EdgesToKeep& edges) {
@@ -94,8 +103,9 @@ Clearance bound_any_way(Clearance found, const Edges& edges, const LookSettings&
   const double left_m = left_before(edge->driven_m, settings.margin_m);
   if (left_m < std::max(found.ahead_m, found.back_m))
     found.first = edge_ahead(edge->which, "away", edge->driven_m);
-  for (double* const way_m :
-       {&found.ahead_m, &found.back_m, &found.bare.ahead_m, &found.bare.back_m})
+  for (double* const way_m : {&found.ahead_m, &found.back_m, &found.aside_left_m,
+                              &found.aside_right_m, &found.bare.ahead_m, &found.bare.back_m,
+                              &found.bare.aside_left_m, &found.bare.aside_right_m})
     *way_m = std::min(*way_m, left_m);
   return found;
 }
@@ -114,7 +124,11 @@ Clearance with_edges(Clearance found, const EdgesToKeep& edges, const LookSettin
   const double stride = stride_m(body_of(settings, from.position_sigma_m, from.yaw_sigma_rad));
   for (const bool back : {false, true})
     bound_way(back, found, curve_way(settings, from, back, stride), edges, settings.margin_m);
-  for (const bool left : {true, false}) bound_turn(left, found, from.pose, edges);
+  for (const bool left : {true, false}) {
+    bound_turn(left, found, from.pose, edges);
+    if (!settings.aside) continue;
+    bound_aside(left, found, aside_way(settings, from, left, stride), edges, settings.margin_m);
+  }
   return found;
 }
 

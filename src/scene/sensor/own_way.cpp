@@ -12,8 +12,10 @@ namespace {
 Pose2 moved_on(const Pose2& from, const Twist& before, const Twist& after, double dt_s) {
   const double way_m = 0.5 * (before.vx_mps + after.vx_mps) * dt_s;
   const double turn_rad = 0.5 * (before.wz_radps + after.wz_radps) * dt_s;
+  const double left_m = 0.5 * (before.vy_mps + after.vy_mps) * dt_s;
   const Point2 ahead = direction(from.yaw_rad + 0.5 * turn_rad);
-  return {from.x_m + way_m * ahead.x_m, from.y_m + way_m * ahead.y_m, from.yaw_rad + turn_rad};
+  return {from.x_m + way_m * ahead.x_m - left_m * ahead.y_m,
+          from.y_m + way_m * ahead.y_m + left_m * ahead.x_m, from.yaw_rad + turn_rad};
 }
 
 }  // namespace
@@ -24,7 +26,7 @@ void OwnWay::forget() {
 }
 
 void OwnWay::note(Time t, const Twist& moves, double fastest_mps) {
-  if (!std::isfinite(moves.vx_mps + moves.wz_radps + fastest_mps)) return forget();
+  if (!std::isfinite(moves.vx_mps + moves.wz_radps + moves.vy_mps + fastest_mps)) return forget();
   fastest_mps = std::max({fastest_mps, moves.vx_mps, 0.0});
   if (!marks_.empty() && (t < marks_.back().t || t - marks_.back().t > kPause)) forget();
   if (marks_.empty()) {

@@ -48,6 +48,29 @@ TEST(ABaseOnMecanumWheels, NamesItsFrontWheelsFirst) {
   EXPECT_EQ(loaded.config.engine.joints[base.right[1]].view(), "rr");
 }
 
+TEST(ABaseOnMecanumWheels, GoesAsideInASceneUnlessScannersLookAround) {
+  EXPECT_FALSE(load_text(kOnRollers).config.engine.clearance_aside);
+  constexpr const char* kOutputs = R"("outputs": {)";
+  const std::string in_a_scene = rollers_with(kOutputs, R"("scene": {"height_m": 1,
+      "footprint": [{"x_m": 0.45, "y_m": 0.35}, {"x_m": -0.4, "y_m": 0.35},
+                    {"x_m": -0.4, "y_m": -0.35}, {"x_m": 0.45, "y_m": -0.35}]},
+    "outputs": {)");
+  EXPECT_EQ(findings(in_a_scene), "");
+  EXPECT_TRUE(load_text(in_a_scene).config.engine.clearance_aside);
+  std::string with_lidar = in_a_scene;
+  const auto add = [&with_lidar](const std::string& before, const std::string& what) {
+    const auto at = with_lidar.find(before);
+    ASSERT_NE(at, std::string::npos);
+    with_lidar.insert(at, what);
+  };
+  add(R"("panel": {"gpio")", R"("lidar": {"serial": "/dev/drover/lidar"}, )");
+  add(R"("estop": {"driver")", R"("lidar": {"driver": "ld06", "link": "lidar", "options":
+      {"mount_x_m": 0.4, "mount_y_m": 0, "mount_z_m": 0.35, "mount_yaw_deg": 0}}, )");
+  EXPECT_EQ(findings(with_lidar), "");
+  EXPECT_TRUE(load_text(with_lidar).config.engine.clearance_required);
+  EXPECT_FALSE(load_text(with_lidar).config.engine.clearance_aside);
+}
+
 TEST(ABaseOnMecanumWheels, NeedsItsWheelbase) {
   EXPECT_THAT(findings(rollers_with(R"("wheelbase_m": 0.36, )", "")),
               HasSubstr("groups.base.wheelbase_m: is missing"));

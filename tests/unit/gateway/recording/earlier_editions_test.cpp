@@ -136,6 +136,21 @@ TEST(FifthEdition, KnewOfTwistsTheirSpeedsOnly) {
   EXPECT_TRUE(from_fifth_edition({}).empty());
 }
 
+TEST(SeventhEdition, KnewOfNobodyWhoLookedToTheSides) {
+  Clearance found;
+  found.ahead_m = 2;
+  found.broken = "constraint yard does not hold";
+  std::vector<std::uint8_t> whole(1024);
+  ByteWriter out(whole);
+  out.byte(static_cast<std::uint8_t>(InputBody(ClearanceFound{}).index()));
+  write_input({Time{std::chrono::seconds(8)}, ClearanceFound{found}}, Time{std::chrono::seconds(7)},
+              out);
+  whole.resize(out.written().size());
+  const std::span seventh(whole.data(), whole.size() - 5 * sizeof(double));
+  EXPECT_EQ(from_seventh_edition(seventh), whole);
+  EXPECT_TRUE(from_seventh_edition({}).empty());
+}
+
 TEST_F(FirstEdition, HadTheSameOfAllElse) {
   EXPECT_EQ(meaning(12, {5}), "at 8.000000000 s: tick, guard alive, stopped at the guard");
   EXPECT_EQ(meaning(13, {2, 'n', 'o'}), "at 8.000000000 s: trouble of the daemon: no");

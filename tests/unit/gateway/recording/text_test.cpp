@@ -34,6 +34,18 @@ TEST(ATextOfAClearance, TellsEachWayAndWhatTheMarginAloneLeavesOfIt) {
   EXPECT_THAT(text, HasSubstr("turning box2"));
 }
 
+TEST(ATextOfAClearance, TellsTheSidesWhereSomebodyLookedThere) {
+  Clearance found;
+  EXPECT_THAT(text_of(Input{Time{}, ClearanceFound{found}}, kAnyWiring),
+              testing::Not(HasSubstr("to the side")));
+  found.aside_left_m = 1;
+  found.aside_right_m = 2;
+  found.bare.aside_left_m = 1.1;
+  found.bare.aside_right_m = 2.1;
+  EXPECT_THAT(text_of(Input{Time{}, ClearanceFound{found}}, kAnyWiring),
+              HasSubstr("to the side: left 1.000000 (1.100000) m, right 2.000000 (2.100000) m"));
+}
+
 TEST(ATextOfAClearance, SaysThatNobodyLookedYet) {
   EXPECT_THAT(text_of(Input{Time{}, ClearanceFound{}}, kAnyWiring), HasSubstr("of no time"));
 }

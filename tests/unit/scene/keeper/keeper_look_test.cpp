@@ -194,6 +194,27 @@ TEST_F(AKeeper, EndsAWayBeforeTheEdgeOfAConstraint) {
   EXPECT_DOUBLE_EQ(look().ahead_m, 3);
 }
 
+class AKeeperOfARobotThatGoesAside : public AKeeper {
+ protected:
+  static KeeperSettings aside() {
+    KeeperSettings settings = keeper_settings();
+    settings.look.aside = true;
+    return settings;
+  }
+  AKeeperOfARobotThatGoesAside() : AKeeper(aside()) {}
+};
+
+TEST_F(AKeeperOfARobotThatGoesAside, EndsAWayToTheSideBeforeTheEdgeOfAConstraint) {
+  ASSERT_EQ(apply(fence(2)), "done");
+  EXPECT_NEAR(look().aside_left_m, 1.9, 0.005);
+  EXPECT_NEAR(look().aside_right_m, 1.9, 0.005);
+  EXPECT_THAT(text(look().first), HasSubstr("2.00 m ahead"));
+  from.asked = {0, 0, 0.3};
+  EXPECT_THAT(text(look().first), HasSubstr("2.00 m to the left"));
+  from.commanded = {0, 0, -0.3};
+  EXPECT_THAT(text(look().first), HasSubstr("2.00 m to the right"));
+}
+
 TEST_F(AKeeper, ComesNoFartherThanTheEdgeAndMayGoBack) {
   ASSERT_EQ(apply(fence(2)), "done");
   double before_m = 3;

@@ -75,6 +75,47 @@ TEST_F(ALook, TakesFootprintMarginAndTwiceThePositionsSigmaOffTheWay) {
   EXPECT_THAT(text(found.first), HasSubstr("ahead"));
 }
 
+TEST_F(ALook, LooksToTheSidesForARobotThatGoesThere) {
+  put("box1", 0, 1.5);
+  EXPECT_EQ(look_now().aside_left_m, 0) << "of another one nobody needs it";
+  settings.aside = true;
+  from.position_sigma_m = 0.05;
+  from.twist = {0, 0, 0.3};
+  const Clearance found = look_now();
+  EXPECT_NEAR(found.aside_left_m, 1.4 - 0.35 - 0.1 - 0.1, kResolution_m + 1e-9);
+  EXPECT_NEAR(found.bare.aside_left_m, 1.4 - 0.35 - 0.1, kResolution_m + 1e-9);
+  EXPECT_DOUBLE_EQ(found.aside_right_m, settings.ahead_m);
+  EXPECT_THAT(text(found.first), HasSubstr("box1 is in the way, 0.8"));
+  EXPECT_THAT(text(found.first), HasSubstr("to the left"));
+  from.twist = {0, 0, -0.3};
+  EXPECT_EQ(text(look_now().first), "");
+}
+
+TEST_F(ALook, ToTheSideKeepsTheHeading) {
+  settings.aside = true;
+  from.pose.yaw_rad = kPi / 2;  // its left is west
+  put("west", -1.5, 0);
+  EXPECT_NEAR(look_now().aside_left_m, 1.4 - 0.35 - 0.1, kResolution_m + 1e-9);
+  put("beside", -1.5, 0.68);  // its front is 0.5 m north, with 0.1 m of margin
+  put("west", 5, 5);
+  EXPECT_LT(look_now().aside_left_m, 1.4 - 0.35);
+  put("beside", -1.5, 0.75);
+  EXPECT_DOUBLE_EQ(look_now().aside_left_m, settings.ahead_m);
+  from.yaw_sigma_rad = 0.03;
+  EXPECT_LT(look_now().aside_left_m, 1.4 - 0.35) << "a heading that is off leads into it";
+}
+
+TEST_F(ALook, ToTheSidesWithNothingAroundSeesAsFarAsItWasAskedTo) {
+  settings.aside = true;
+  EXPECT_DOUBLE_EQ(look_now().aside_left_m, settings.ahead_m);
+  EXPECT_DOUBLE_EQ(look_now().bare.aside_right_m, settings.ahead_m);
+  put("box1", 2, 0);
+  from.pose.yaw_rad = from.yaw_sigma_rad = NAN;
+  const Clearance any = look_now();
+  EXPECT_GT(any.aside_left_m, 0);
+  EXPECT_EQ(any.aside_left_m, any.ahead_m) << "it may look any way";
+}
+
 TEST_F(ALook, TakesTwiceTheHeadingsSigmaTimesItsReachOffTheWay) {
   put("box1", 2, 0);
   const double reach_m = std::hypot(0.5, 0.35);

@@ -33,6 +33,13 @@ TEST(OwnWay, IsDrivenOnArcs) {
   EXPECT_NEAR(way.pose(kBegin + 512ms)->yaw_rad, turn_radps * 0.512, 1e-9) << "between two notes";
 }
 
+TEST(OwnWay, LeadsAside) {
+  OwnWay way;
+  const Time end = go(way, kBegin, 1s, {0, 0, 0.4});
+  EXPECT_NEAR(way.pose(end)->x_m, 0, 1e-9);
+  EXPECT_NEAR(way.pose(end)->y_m, 0.4, 1e-9);
+}
+
 TEST(OwnWay, IsKnownForTwoSecondsAndAMomentAhead) {
   OwnWay way;
   const Time end = go(way, kBegin, 4s, {0.5, 0});
