@@ -89,19 +89,28 @@ void RobomasterDriver::take(AxisRequest request, Time now) {
   lock_reason_.clear();
 }
 
+Reason RobomasterDriver::fault_of(std::size_t channel) const {
+  const Motor& motor = motors_[channel];
+  const Reason name = name_of(channel);
+  const auto size = static_cast<int>(name.view().size());
+  Reason why;
+  if (motor.too_hot())
+    why.format("%.*s is too hot: %.0f °C", size, name.view().data(), motor.degC());
+  if (motor.is_stuck())
+    why.format(
+        "%.*s tells the same angle however hard it is pushed: its sensor, or its wheel, is stuck",
+        size, name.view().data());
+  return why;
+}
+
 /// What they told means for what is under way.
 void RobomasterDriver::look_at_motors(Time now) {
   const Reason silent = silence_of_any(settings_.stale_after, now);
   doubtful_ = doubtful_ || !silent.empty();
   if (!attempts_to_run()) return;
   if (!silent.empty()) return lock(silent);
-  for (std::size_t i = 0; i < kMotors; ++i) {
-    if (!motors_[i].too_hot()) continue;
-    Reason why;
-    why.format("%.*s is too hot: %.0f °C", static_cast<int>(name_of(i).view().size()),
-               name_of(i).view().data(), motors_[i].degC());
-    return lock(why);
-  }
+  for (std::size_t i = 0; i < kMotors; ++i)
+    if (const Reason fault = fault_of(i); !fault.empty()) return lock(fault);
   if (foreign_.is_shown(now)) return lock(foreign_.text());
   if (phase_ == Phase::arming && oldest() > phase_since_) {
     phase_ = Phase::running;

@@ -62,6 +62,7 @@ class RobomasterDriver final : public Device, public FrameFace, public Actuator 
   void start_arming(Time now);
   void take(AxisRequest request, Time now);
   void look_at_motors(Time now);
+  Reason fault_of(std::size_t channel) const;
   bool all_slow() const;
   void let_go_after(Duration limit, Time now);
   void control(std::span<const Setpoint> wanted, Time now, DriverOut& out);

@@ -17,6 +17,11 @@ constexpr double kSlower = 0.9;
 constexpr double kFree_rad = 0.003;
 /// Of its limit that a hot motor may still brake with.
 constexpr double kLeastShare = 0.3;
+/// So much of its limit, or five times its running friction, turns the rotor by some of the 8192
+/// parts of a turn, in gear and tyre if nowhere else: who tells none for so long is stuck.
+constexpr double kPushes = 0.15;
+constexpr double kPushesFrictions = 5;
+constexpr Duration kStuck = std::chrono::milliseconds(150);
 /// Longer between two frames, and the turns between them are not counted.
 constexpr Duration kCounts = std::chrono::milliseconds(100);
 
@@ -37,6 +42,10 @@ void Motor::on_feedback(const Feedback& feedback, Time received) {
   } else if (anchored_) {
     anchored_ = false;  // it may have been turned by hand
   }
+  if (!counts || feedback.angle != feedback_.angle) {
+    turned_at_ = received;
+    stuck_ = false;
+  }
   angle_known_ = true;
   feedback_ = feedback;
   last_ = received;
@@ -46,8 +55,9 @@ void Motor::on_feedback(const Feedback& feedback, Time received) {
 void Motor::forget() {
   last_ = kNever;
   feedback_ = {};
-  angle_known_ = false;
+  angle_known_ = stuck_ = false;
   velocity_radps_ = 0;
+  pushed_since_ = kNever;
   coast();
 }
 
@@ -83,7 +93,21 @@ void Motor::ramp_to(double wanted_radps, Duration dt) {
   ramped_radps_ += std::clamp(wanted_radps - ramped_radps_, -step_radps, step_radps);
 }
 
+void Motor::watch_angle(Time now) {
+  const double told_Nm = std::abs(counts_) / settings_.counts_per_A * settings_.Nm_per_A;
+  const double hard_Nm =
+      std::max(kPushes * settings_.limit_Nm, kPushesFrictions * settings_.friction_Nm);
+  if (told_Nm < hard_Nm || loop_ != Loop::following) {
+    pushed_since_ = kNever;
+  } else if (pushed_since_ == kNever) {
+    pushed_since_ = now;
+  } else if (now - pushed_since_ > kStuck && now - turned_at_ > kStuck) {
+    stuck_ = true;
+  }
+}
+
 void Motor::follow(double wanted_radps, Duration dt, Time now) {
+  watch_angle(now);
   if (!heard_within(settings_.blind_after, now)) return coast();
   if (loop_ != Loop::following) {
     ramped_radps_ = velocity_radps_;

@@ -23,6 +23,8 @@ class Motor final {
   /// Of the motor; absent where it is not told.
   double degC() const;
   bool too_hot() const;
+  /// It is pushed hard and tells the same angle for ever: nobody sees what it does.
+  bool is_stuck() const { return stuck_; }
 
   /// The current that makes it follow: PI, with a ramp, and what is more than the limit is not
   /// added up.
@@ -46,6 +48,7 @@ class Motor final {
   void begin_braking(Time now);
   void anchor(Time now);
   void ramp_to(double wanted_radps, Duration dt);
+  void watch_angle(Time now);
   std::int16_t counts_of(double torque_Nm) const;
 
   const Settings& settings_;
@@ -57,6 +60,9 @@ class Motor final {
   bool angle_known_ = false;
   double position_rad_ = 0;
   double velocity_radps_ = 0;
+  Time turned_at_ = kNever;     ///< when its angle was another one last
+  Time pushed_since_ = kNever;  ///< hard, without a pause
+  bool stuck_ = false;
 
   // The loop.
   Loop loop_ = Loop::coasting;

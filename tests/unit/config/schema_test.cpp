@@ -171,7 +171,7 @@ TEST(Example, OfFourRobomasterMotorsSaysThatNothingHoldsThemAndThatTheyGoOnInSil
               testing::HasSubstr("keeps its last current for ever, for all that its maker says"));
   auto without_gain = text;
   without_gain.replace(without_gain.find("\"velocity_gain_Nms_per_rad\": 0.3"), 32,
-                       "\"integrator_s\": 0.12");
+                       "\"ramp_radps2\": 60");
   EXPECT_THAT(problems(without_gain, folder), testing::HasSubstr("velocity_gain_Nms_per_rad"));
 }
 

@@ -181,6 +181,22 @@ TEST(Robomaster, GivesUpWhenAMotorIsTooHotAndStartsWhenItIsCooler) {
   EXPECT_EQ(bench.status.state, AxisState::running);
 }
 
+TEST(Robomaster, GivesUpWhenAMotorSeemsToStandHoweverHardItIsPushed) {
+  CanBench bench(subject());
+  drive(bench);
+  bench.twin->set_fault("stuck_encoder:2", bench.now);
+  bench.run(milliseconds(250), AxisRequest::run, 3.0);
+  EXPECT_EQ(bench.status.state, AxisState::fault);
+  EXPECT_EQ(bench.status.reason.view(),
+            "motor 2 (202) tells the same angle however hard it is pushed: its sensor, or its "
+            "wheel, is stuck");
+  EXPECT_EQ(last_of(bench)[1], 0) << "nobody sees what a current does to it";
+  bench.twin->set_fault("", bench.now);
+  bench.run(milliseconds(100), AxisRequest::rest);
+  bench.run(milliseconds(500), AxisRequest::run, 3.0);
+  EXPECT_EQ(bench.status.state, AxisState::running);
+}
+
 TEST(Robomaster, StopsWhenSomebodyElseCommandsIt) {
   CanBench bench(subject());
   drive(bench);

@@ -78,6 +78,38 @@ TEST_F(RobomasterMotor, AsksForNoMoreThanItsLimitAndAddsNothingUpThere) {
   EXPECT_LT(pushed, 40) << "5 ms each";
 }
 
+TEST_F(RobomasterMotor, IsStuckWhenItTellsTheSameAngleHoweverHardItIsPushed) {
+  int cycles = 0;
+  for (; cycles < 100 && !motor.is_stuck(); ++cycles) {
+    show(0, 77);
+    follow(9);
+  }
+  EXPECT_GT(cycles, 30) << "a wheel has a moment to break away";
+  EXPECT_LT(cycles, 45) << "5 ms each";
+  show(0, 78);
+  EXPECT_FALSE(motor.is_stuck());
+}
+
+TEST_F(RobomasterMotor, IsNotStuckWhileItIsPushedLittleOrStandsOrGivesByAPartOfATurn) {
+  for (int i = 0; i < 400; ++i) {
+    show(0, 77);
+    follow(0.004);
+    ASSERT_FALSE(motor.is_stuck()) << "it is hardly pushed";
+    if (motor.counts() > 300) break;
+  }
+  motor.coast();
+  for (int i = 0; i < 400; ++i) {
+    show(0, 77);
+    brake();
+    ASSERT_FALSE(motor.is_stuck()) << "it is to stand";
+  }
+  for (int i = 0; i < 400; ++i) {
+    show(0, static_cast<std::uint16_t>(77 + i / 20 % 2));
+    follow(9);
+    ASSERT_FALSE(motor.is_stuck()) << "a wheel that is blocked";
+  }
+}
+
 TEST_F(RobomasterMotor, BrakesByARampAndNeverTheOtherWay) {
   const int rpm = static_cast<int>(5 / kRadpsPerRpm * settings.gear_ratio);
   show(rpm);
