@@ -23,9 +23,11 @@ void Arming::recall(const Remembered& remembered) {
 
 Reason Arming::hindrance() const {
   if (released_) return "the drives are released: drover hold";
-  // Drives that are not heard, or have failed, have a reason of their own.
-  if (state_ == HoldState::catching && heard_ && !failed_)
-    return "the drives are being taken back to hold the robot";
+  // Drives that are not heard have a reason of their own.
+  if (state_ == HoldState::catching && heard_) {
+    return failed_ ? "a drive has failed: for 10 s it is waited whether it can hold again"
+                   : "the drives are being taken back to hold the robot";
+  }
   return {};
 }
 

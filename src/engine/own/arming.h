@@ -79,7 +79,7 @@ class Arming final {
   bool released_ = false;
   bool gave_up_ = false;
   bool heard_ = false;          ///< all drives of the base are, now
-  bool failed_ = false;         ///< one of them has, and is not taken back
+  bool failed_ = false;         ///< one of them has, and is not taken back as it is
   bool lines_awaited_ = false;  ///< it held before a restart
   bool lines_known_ = false;
   Time begun_ = kNever;

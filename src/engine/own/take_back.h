@@ -30,7 +30,7 @@ class TakeBack final {
   AxisCommand command(AxisId id) const;
   /// This drive talks, and its driver is content.
   bool heard(Time now, const AxisSnapshot& axis) const;
-  /// This drive has a fault of its own: it is not taken back, whoever starts arms it anew.
+  /// This drive has a fault of its own: it is not taken back as long as it has.
   static bool failed(const AxisSnapshot& axis) {
     return axis.state == AxisState::fault && !axis.lapsed;
   }

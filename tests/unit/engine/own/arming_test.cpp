@@ -318,7 +318,8 @@ TEST_F(Holding, DoesNotSayThatItTakesBackADriveThatFailed) {
   axes[2].state = AxisState::fault;
   run_s(0.2);
   EXPECT_EQ(hold.command(2).request, AxisRequest::rest) << "it is not taken back";
-  EXPECT_EQ(hold.hindrance(), "") << "who starts arms it anew";
+  EXPECT_EQ(hold.hindrance(),
+            "a drive has failed: for 10 s it is waited whether it can hold again");
   axes[2].lapsed = true;
   tick();
   EXPECT_EQ(hold.command(2).request, AxisRequest::hold);
