@@ -13,7 +13,6 @@ constexpr double kSame_rad = 1e-6;
 /// Of the fastest braking: the rest is for the cycle.
 constexpr double kBrakesWith = 0.8;
 constexpr double kMoves_radps = 0.05;
-constexpr double kRisen = 0.9;  // of the stiffness
 
 }  // namespace
 
@@ -36,7 +35,7 @@ void JointShaper::take_over(const JointMeasured& measured) {
   velocity_radps_ = 0;
   stiffness_ = effort_Nm_ = 0;
   damping_ = rules_.damping_Nmsprad;
-  holds_ = risen_ = false;
+  holds_ = false;
   limited_ = 0;
   tell(0, measured);
 }
@@ -78,6 +77,15 @@ void JointShaper::tell(double velocity_radps, const JointMeasured& measured) {
   told_ = {nearer(position_rad_, measured), effort_Nm_, stiffness_, damping_};
 }
 
+/// A distance that came about under less stiffness would be torn shut by more: the position is
+/// drawn to the joint, and goes on from there by the joint's limits.
+void JointShaper::keep_torque(double stiffness_before, const JointMeasured& measured) {
+  if (stiffness_ <= stiffness_before) return;
+  const double gave_Nm = stiffness_before * (position_rad_ - measured.position_rad);
+  position_rad_ = measured.position_rad +
+                  std::clamp(gave_Nm, -rules_.max_effort_Nm, rules_.max_effort_Nm) / stiffness_;
+}
+
 void JointShaper::follow_position(const JointTarget& target, double stiffness, double damping,
                                   const JointMeasured& measured, double dt_s) {
   const double wanted_rad =
@@ -88,16 +96,16 @@ void JointShaper::follow_position(const JointTarget& target, double stiffness, d
   if (wanted_rad != target.position_rad) wanted_radps = 0;
   const double effort =
       within(JointValue::effort, target.effort_Nm, -rules_.max_effort_Nm, rules_.max_effort_Nm);
+  const double stiffness_before = stiffness_;
   approach_gains(stiffness, damping, effort, dt_s);
   if (stiffness == 0 && stiffness_ == 0) {
     // The position has no weight: whoever gives it one again begins where the joint is.
     approach_velocity(wanted_radps, dt_s);
     position_rad_ = measured.position_rad;
-    risen_ = false;
   } else {
+    keep_torque(stiffness_before, measured);
     // What nothing draws along yet would have to catch up, faster than it may be.
-    risen_ = risen_ || stiffness_ >= kRisen * stiffness;
-    const double share = risen_ ? 1.0 : stiffness_ / stiffness;
+    const double share = stiffness > stiffness_ ? stiffness_ / stiffness : 1.0;
     approach_position(wanted_rad, wanted_radps, share * rules_.max_velocity_radps, dt_s);
   }
   tell(velocity_radps_, measured);

@@ -57,6 +57,7 @@ class JointShaper final {
  private:
   double within(JointValue what, double value, double low, double high);
   double nearer(double position_rad, const JointMeasured& measured);
+  void keep_torque(double stiffness_before, const JointMeasured& measured);
   void approach_gains(double stiffness, double damping, double effort, double dt_s);
   void approach_position(double wanted_rad, double wanted_radps, double fastest_radps, double dt_s);
   void approach_velocity(double wanted_radps, double dt_s);
@@ -72,7 +73,6 @@ class JointShaper final {
   double stiffness_ = 0;
   double damping_ = 0;
   double effort_Nm_ = 0;
-  bool risen_ = false;  ///< the stiffness has come up once
   bool holds_ = false;
   double carried_Nm_ = 0;  ///< while it holds
   JointValues limited_ = 0;

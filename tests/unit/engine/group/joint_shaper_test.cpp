@@ -124,6 +124,83 @@ TEST(JointShaper, WhatItsDriveCannotBeToldIsClampedAndTold) {
   EXPECT_EQ(shaper.limited(), 0);
 }
 
+/// What the drive makes of it, with the joint where it was measured.
+double torque_of(const JointShaper& shaper, const JointMeasured& measured) {
+  const Impedance& law = shaper.impedance();
+  return law.stiffness_Nmprad * (law.position_rad - measured.position_rad) +
+         law.damping_Nmsprad * (shaper.velocity_radps() - measured.velocity_radps) + law.effort_Nm;
+}
+
+/// An arm that sank while its stiffness was next to nothing, and gets it back.
+TEST(JointShaper, WhatSankUnderLittleStiffnessComesBackAsFastAsItMay) {
+  JointRules rules = rules_of(JointFollows::impedance);
+  rules.max_effort_Nm = 10;
+  JointShaper shaper(rules);
+  ArmJoint joint;
+  joint.state = AxisState::running;
+  double torque = 0;
+  double worst_Nm = 0;
+  double fastest_radps = 0;
+  const auto cycles = [&](int count, double stiffness) {
+    worst_Nm = fastest_radps = 0;
+    for (int i = 0; i < count; ++i) {
+      const JointMeasured measured{joint.position_rad, joint.velocity_radps, joint.torque_Nm};
+      shaper.follow(at(0.5, stiffness, 2), measured, kCycle_s);
+      if (i > 0) worst_Nm = std::max(worst_Nm, std::abs(torque_of(shaper, measured) - torque));
+      joint.obey({AxisRequest::run, shaper.velocity_radps(), shaper.impedance()});
+      torque = joint.torque_Nm;
+      for (int k = 0; k < 5; ++k) joint.step(kCycle_s / 5);
+      torque = torque_of(shaper, {joint.position_rad, joint.velocity_radps});
+      fastest_radps = std::max(fastest_radps, joint.velocity_radps);
+    }
+  };
+  shaper.take_over({});
+  cycles(1000, 60);
+  EXPECT_NEAR(joint.position_rad, 0.48, 0.01);
+  cycles(1200, 0.2);
+  ASSERT_LT(joint.position_rad, -1);  // it hangs
+  cycles(1000, 60);
+  EXPECT_LT(fastest_radps, 1.2);
+  EXPECT_LT(worst_Nm, 0.5);
+  EXPECT_NEAR(joint.position_rad, 0.48, 0.01);
+}
+
+TEST(JointShaper, WhereStiffnessGrowsTheTorqueOfItsDistanceStays) {
+  JointShaper shaper(rules_of(JointFollows::impedance));
+  shaper.take_over({0, 0});
+  const JointMeasured pushed{0.1, 0};  // off 0, where it is told to be
+  for (int i = 0; i < 400; ++i) shaper.follow(at(0, 20), {0, 0}, kCycle_s);
+  shaper.follow(at(0, 20), pushed, kCycle_s);
+  EXPECT_NEAR(torque_of(shaper, pushed), -2, 1e-6);
+  double before_Nm = -2;
+  for (int i = 0; i < 100; ++i) {
+    shaper.follow(at(0, 30), pushed, kCycle_s);
+    EXPECT_LT(std::abs(torque_of(shaper, pushed) - before_Nm), 0.2) << i;
+    before_Nm = torque_of(shaper, pushed);
+  }
+  EXPECT_NEAR(before_Nm, -3, 0.01);
+}
+
+TEST(JointShaper, AStiffnessBeyondItsDriveTakesItsTimeToo) {
+  JointRules rules = rules_of(JointFollows::impedance);
+  rules.drive.stiffness_Nmprad = 500;
+  JointShaper shaper(rules);
+  shaper.take_over({0, 0});
+  for (int i = 0; i < 200; ++i) shaper.follow(at(0, 0.2), {0, 0}, kCycle_s);
+  double before = shaper.impedance().stiffness_Nmprad;
+  for (int i = 0; i < 200; ++i) {
+    shaper.follow(at(0, 99999), {0, 0}, kCycle_s);
+    const double now = shaper.impedance().stiffness_Nmprad;
+    EXPECT_LE(now - before, 500 * 0.01 + 1e-9) << i;
+    before = now;
+  }
+  EXPECT_EQ(before, 500);
+  EXPECT_EQ(shaper.limited(), bit(JointValue::stiffness));
+  // At rest lower than it is told, all its effort draws it: not what is left of a huge stiffness.
+  for (int i = 0; i < 600; ++i) shaper.follow(at(0, 99999), {-0.5, 0}, kCycle_s);
+  EXPECT_NEAR(torque_of(shaper, {-0.5, 0}), 4, 1e-6);
+}
+
 TEST(JointShaper, AnEffortIsDampedByWhatItsDriveCanBeTold) {
   JointRules rules = rules_of(JointFollows::effort);
   rules.drive.damping_Nmsprad = 5;
