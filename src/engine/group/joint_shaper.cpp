@@ -168,6 +168,16 @@ void JointShaper::follow(const JointTarget& target, const JointMeasured& measure
   }
 }
 
+/// Of an effort as holding begins. What no weight needs was told by somebody, or is a push, and
+/// would press for ever against what is in its way; so would what presses out of the joint's
+/// limits.
+double JointShaper::kept(double effort_Nm, const JointMeasured& measured) const {
+  if (!rules_.carries_weight) return 0;
+  if (measured.position_rad >= rules_.max_rad) effort_Nm = std::min(effort_Nm, 0.0);
+  if (measured.position_rad <= rules_.min_rad) effort_Nm = std::max(effort_Nm, 0.0);
+  return effort_Nm;
+}
+
 void JointShaper::hold(const JointMeasured& measured, double dt_s) {
   limited_ = 0;
   if (!holds_) {
@@ -181,7 +191,8 @@ void JointShaper::hold(const JointMeasured& measured, double dt_s) {
     const double gives = stiffness_ * (told_.position_rad - measured.position_rad) +
                          damping_ * (told_velocity_radps_ - measured.velocity_radps) + effort_Nm_;
     const double carries = std::isfinite(measured.effort_Nm) ? measured.effort_Nm : gives;
-    carried_Nm_ = effort_Nm_ = std::clamp(carries, -rules_.max_effort_Nm, rules_.max_effort_Nm);
+    effort_Nm_ = std::clamp(carries, -rules_.max_effort_Nm, rules_.max_effort_Nm);
+    carried_Nm_ = kept(effort_Nm_, measured);
     position_rad_ = measured.position_rad;
   }
   approach_gains(rules_.stiffness_Nmprad, rules_.damping_Nmsprad, carried_Nm_, dt_s);

@@ -43,7 +43,7 @@ class JointShaper final {
 
   /// One cycle of following.
   void follow(const JointTarget& target, const JointMeasured& measured, double dt_s);
-  /// One cycle of keeping the place where it was when this began; what carried the joint then
+  /// One cycle of keeping the place where it was when this began; what carried a weight then
   /// carries it on.
   void hold(const JointMeasured& measured, double dt_s);
   /// One cycle of damping alone.
@@ -65,6 +65,7 @@ class JointShaper final {
                        const JointMeasured& measured, double dt_s);
   void follow_velocity(const JointTarget& target, const JointMeasured& measured, double dt_s);
   void follow_effort(const JointTarget& target, const JointMeasured& measured, double dt_s);
+  double kept(double effort_Nm, const JointMeasured& measured) const;
   void tell(double velocity_radps, const JointMeasured& measured);
 
   JointRules rules_;

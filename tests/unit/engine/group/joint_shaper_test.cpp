@@ -27,6 +27,11 @@ JointRules rules_of(JointFollows follows) {
   return rules;
 }
 
+JointRules carries(JointRules rules) {
+  rules.carries_weight = true;
+  return rules;
+}
+
 JointTarget at(double position_rad, double stiffness = 40, double damping = 2) {
   JointTarget target;
   target.position_rad = position_rad;
@@ -284,7 +289,7 @@ TEST(JointShaper, AnEffortAloneMovesNoFasterThanIsAllowedAndNotBeyondTheEnd) {
 
 /// A bar that its own effort carries, level; then the commands cease.
 TEST(JointShaper, HoldKeepsThePlaceWithAllThatCarriedIt) {
-  JointShaper shaper(rules_of(JointFollows::impedance));
+  JointShaper shaper(carries(rules_of(JointFollows::impedance)));
   ArmJoint joint;
   joint.state = AxisState::running;
   const auto cycle = [&] {
@@ -311,7 +316,7 @@ TEST(JointShaper, HoldKeepsThePlaceWithAllThatCarriedIt) {
 
 /// Which a push cannot be told from: it stays in the effort. README.md says so.
 TEST(JointShaper, HoldTakesAPushForAWeightAndMovesByItsShareWhenItIsLetGo) {
-  JointShaper shaper(rules_of(JointFollows::impedance));
+  JointShaper shaper(carries(rules_of(JointFollows::impedance)));
   ArmJoint joint;
   joint.state = AxisState::running;
   joint.weight_Nm = 0;
@@ -339,11 +344,44 @@ TEST(JointShaper, HoldTakesAPushForAWeightAndMovesByItsShareWhenItIsLetGo) {
 }
 
 TEST(JointShaper, HoldCarriesNoMoreThanTheLimitOfEffort) {
-  JointShaper shaper(rules_of(JointFollows::impedance));
+  JointShaper shaper(carries(rules_of(JointFollows::impedance)));
   shaper.take_over({0.3, 0});
   for (int i = 0; i < 200; ++i) {
     shaper.hold({0.3, 0, -9}, kCycle_s);
     EXPECT_EQ(shaper.impedance().effort_Nm, -4);
+  }
+}
+
+/// It was told, or somebody pushed: no weight needs it.
+TEST(JointShaper, HoldKeepsNoEffortWhereNoWeightIsCarried) {
+  JointShaper shaper(rules_of(JointFollows::effort));
+  JointTarget presses = at(0, 0, 1);
+  presses.effort_Nm = 3;
+  shaper.take_over({});
+  const JointMeasured blocked{0.3, 0, 3};  // by something in its way
+  for (int i = 0; i < 200; ++i) shaper.follow(presses, blocked, kCycle_s);
+  EXPECT_NEAR(shaper.impedance().effort_Nm, 3, 1e-9);
+  double before_Nm = 3;
+  for (int i = 0; i < 100; ++i) {
+    shaper.hold(blocked, kCycle_s);
+    EXPECT_LT(std::abs(torque_of(shaper, blocked) - before_Nm), 0.1) << i;
+    before_Nm = torque_of(shaper, blocked);
+  }
+  EXPECT_EQ(before_Nm, 0);
+  EXPECT_EQ(shaper.impedance().position_rad, 0.3);
+}
+
+/// An arm that lies on its stop is not pressed against it, and one that is drawn off it is kept.
+TEST(JointShaper, HoldPressesNothingFartherOutOfItsLimits) {
+  for (const double effort : {-3.0, 3.0}) {
+    JointShaper below(carries(rules_of(JointFollows::impedance)));
+    below.take_over({-1.02, 0});
+    for (int i = 0; i < 200; ++i) below.hold({-1.02, 0, effort}, kCycle_s);
+    EXPECT_EQ(below.impedance().effort_Nm, std::max(effort, 0.0));
+    JointShaper above(carries(rules_of(JointFollows::impedance)));
+    above.take_over({1.5, 0});
+    for (int i = 0; i < 200; ++i) above.hold({1.5, 0, effort}, kCycle_s);
+    EXPECT_EQ(above.impedance().effort_Nm, std::min(effort, 0.0));
   }
 }
 
@@ -368,7 +406,7 @@ TEST(JointShaper, HoldBrakesAMovementByItsLimit) {
 }
 
 TEST(JointShaper, WhatSinksIsCaughtWhereItIs) {
-  JointShaper shaper(rules_of(JointFollows::impedance));
+  JointShaper shaper(carries(rules_of(JointFollows::impedance)));
   ArmJoint joint;
   joint.state = AxisState::running;
   joint.damps_Nmsprad = 2;
