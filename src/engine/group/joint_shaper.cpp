@@ -13,6 +13,8 @@ constexpr double kSame_rad = 1e-6;
 /// Of the fastest braking: the rest is for the cycle.
 constexpr double kBrakesWith = 0.8;
 constexpr double kMoves_radps = 0.05;
+/// Times as fast as an effort rises that is asked for: what falls sinks meanwhile.
+constexpr double kCatches = 5;
 
 }  // namespace
 
@@ -40,10 +42,15 @@ void JointShaper::take_over(const JointMeasured& measured) {
   tell(0, measured);
 }
 
+/// The share of the time of rising that a cycle is.
+double JointShaper::risen(double dt_s) const {
+  return rules_.rise_s > 0 ? std::min(dt_s / rules_.rise_s, 1.0) : 1.0;
+}
+
 /// Each comes up within the time of rising, and goes down so, too: a joint that has a weight would
 /// fall otherwise.
 void JointShaper::approach_gains(double stiffness, double damping, double effort, double dt_s) {
-  const double share = rules_.rise_s > 0 ? std::min(dt_s / rules_.rise_s, 1.0) : 1.0;
+  const double share = risen(dt_s);
   const double stiffest = std::max({stiffness, stiffness_, rules_.stiffness_Nmprad});
   const double most_damped = std::max({damping, damping_, rules_.damping_Nmsprad});
   stiffness_ = approach(stiffness_, stiffness, share * stiffest);
@@ -188,13 +195,22 @@ void JointShaper::hold(const JointMeasured& measured, double dt_s) {
                                          rules_.max_velocity_radps)
                             : 0;
     // All that the drive gives now; of what sinks slowly the damping is its weight.
-    const double gives = stiffness_ * (told_.position_rad - measured.position_rad) +
-                         damping_ * (told_velocity_radps_ - measured.velocity_radps) + effort_Nm_;
-    const double carries = std::isfinite(measured.effort_Nm) ? measured.effort_Nm : gives;
-    effort_Nm_ = std::clamp(carries, -rules_.max_effort_Nm, rules_.max_effort_Nm);
-    carried_Nm_ = kept(effort_Nm_, measured);
+    const double damps = damping_ * (told_velocity_radps_ - measured.velocity_radps);
+    const double gives =
+        stiffness_ * (told_.position_rad - measured.position_rad) + damps + effort_Nm_;
+    const double carries =
+        std::clamp(std::isfinite(measured.effort_Nm) ? measured.effort_Nm : gives,
+                   -rules_.max_effort_Nm, rules_.max_effort_Nm);
+    carried_Nm_ = kept(carries, measured);
+    // What the damping goes on giving is not given twice.
+    const double still_damps = damping_ * (velocity_radps_ - measured.velocity_radps);
+    effort_Nm_ = std::clamp(carries - still_damps, std::min(carries, 0.0), std::max(carries, 0.0));
     position_rad_ = measured.position_rad;
   }
+  // A weight is taken up sooner than an effort is let go.
+  if (std::abs(effort_Nm_) < std::abs(carried_Nm_))
+    effort_Nm_ =
+        approach(effort_Nm_, carried_Nm_, (kCatches - 1) * risen(dt_s) * rules_.max_effort_Nm);
   approach_gains(rules_.stiffness_Nmprad, rules_.damping_Nmsprad, carried_Nm_, dt_s);
   approach_velocity(0, dt_s);
   tell(velocity_radps_, measured);

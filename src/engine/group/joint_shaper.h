@@ -57,6 +57,7 @@ class JointShaper final {
  private:
   double within(JointValue what, double value, double low, double high);
   double nearer(double position_rad, const JointMeasured& measured);
+  double risen(double dt_s) const;
   void keep_torque(double stiffness_before, const JointMeasured& measured);
   void approach_gains(double stiffness, double damping, double effort, double dt_s);
   void approach_position(double wanted_rad, double wanted_radps, double fastest_radps, double dt_s);

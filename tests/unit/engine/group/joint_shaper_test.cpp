@@ -385,6 +385,23 @@ TEST(JointShaper, HoldPressesNothingFartherOutOfItsLimits) {
   }
 }
 
+/// Its drive damps until the very cycle, and gives by that what the weight needs.
+TEST(JointShaper, WhatFellIsCaughtWithoutAStepOfTorque) {
+  JointShaper shaper(carries(rules_of(JointFollows::impedance)));
+  JointMeasured measured{0.2, -0.8, 1.6};
+  shaper.take_over(measured);
+  double before_Nm = 1.6;
+  int cycles = 0;
+  for (int i = 0; i < 40; ++i) {
+    shaper.hold(measured, kCycle_s);
+    EXPECT_LT(torque_of(shaper, measured) - before_Nm, 0.25) << i;
+    before_Nm = torque_of(shaper, measured);
+    if (cycles == 0 && shaper.impedance().effort_Nm > 1.6 - 1e-9) cycles = i + 1;
+  }
+  EXPECT_GT(cycles, 4);
+  EXPECT_LE(cycles, 10);
+}
+
 TEST(JointShaper, HoldBrakesAMovementByItsLimit) {
   JointShaper shaper(rules_of(JointFollows::velocity));
   shaper.take_over({0, 0});
