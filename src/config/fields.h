@@ -167,7 +167,8 @@ void visit(V& v, GroupJoint& c) {
   v.choice("on_silence", c.on_silence, {kSilenceWords.begin(), kSilenceWords.end()},
            "when commands cease (a stop always holds): hold where it is, damp (it sinks slowly), "
            "release (the drive lets go)");
-  v.flag("carries_weight", r.carries_weight, "without power it sinks or falls");
+  v.flag("carries_weight", r.carries_weight,
+         "without power it sinks or falls; held, it keeps the effort that carried it");
 }
 
 template <class V>

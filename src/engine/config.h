@@ -82,7 +82,7 @@ struct JointRules {
   double rise_s = 0.5;     ///< in which stiffness and effort come up from nothing
   double timeout_s = 0.1;  ///< longer without a command: they have ceased
   OnSilence on_silence = OnSilence::hold;
-  bool carries_weight = false;  ///< without power it sinks or falls
+  bool carries_weight = false;  ///< without power it falls; held, it keeps its effort
   ImpedanceRange drive;         ///< what its drive can be told at all
 };
 

@@ -13,7 +13,8 @@ constexpr double kSame_rad = 1e-6;
 /// Of the fastest braking: the rest is for the cycle.
 constexpr double kBrakesWith = 0.8;
 constexpr double kMoves_radps = 0.05;
-constexpr double kRisen = 0.9;  // of the stiffness
+/// Times as fast as an effort rises that is asked for: what falls sinks meanwhile.
+constexpr double kCatches = 5;
 
 }  // namespace
 
@@ -36,15 +37,20 @@ void JointShaper::take_over(const JointMeasured& measured) {
   velocity_radps_ = 0;
   stiffness_ = effort_Nm_ = 0;
   damping_ = rules_.damping_Nmsprad;
-  holds_ = risen_ = false;
+  holds_ = false;
   limited_ = 0;
   tell(0, measured);
+}
+
+/// The share of the time of rising that a cycle is.
+double JointShaper::risen(double dt_s) const {
+  return rules_.rise_s > 0 ? std::min(dt_s / rules_.rise_s, 1.0) : 1.0;
 }
 
 /// Each comes up within the time of rising, and goes down so, too: a joint that has a weight would
 /// fall otherwise.
 void JointShaper::approach_gains(double stiffness, double damping, double effort, double dt_s) {
-  const double share = rules_.rise_s > 0 ? std::min(dt_s / rules_.rise_s, 1.0) : 1.0;
+  const double share = risen(dt_s);
   const double stiffest = std::max({stiffness, stiffness_, rules_.stiffness_Nmprad});
   const double most_damped = std::max({damping, damping_, rules_.damping_Nmsprad});
   stiffness_ = approach(stiffness_, stiffness, share * stiffest);
@@ -78,6 +84,15 @@ void JointShaper::tell(double velocity_radps, const JointMeasured& measured) {
   told_ = {nearer(position_rad_, measured), effort_Nm_, stiffness_, damping_};
 }
 
+/// A distance that came about under less stiffness would be torn shut by more: the position is
+/// drawn to the joint, and goes on from there by the joint's limits.
+void JointShaper::keep_torque(double stiffness_before, const JointMeasured& measured) {
+  if (stiffness_ <= stiffness_before) return;
+  const double gave_Nm = stiffness_before * (position_rad_ - measured.position_rad);
+  position_rad_ = measured.position_rad +
+                  std::clamp(gave_Nm, -rules_.max_effort_Nm, rules_.max_effort_Nm) / stiffness_;
+}
+
 void JointShaper::follow_position(const JointTarget& target, double stiffness, double damping,
                                   const JointMeasured& measured, double dt_s) {
   const double wanted_rad =
@@ -88,16 +103,16 @@ void JointShaper::follow_position(const JointTarget& target, double stiffness, d
   if (wanted_rad != target.position_rad) wanted_radps = 0;
   const double effort =
       within(JointValue::effort, target.effort_Nm, -rules_.max_effort_Nm, rules_.max_effort_Nm);
+  const double stiffness_before = stiffness_;
   approach_gains(stiffness, damping, effort, dt_s);
   if (stiffness == 0 && stiffness_ == 0) {
     // The position has no weight: whoever gives it one again begins where the joint is.
     approach_velocity(wanted_radps, dt_s);
     position_rad_ = measured.position_rad;
-    risen_ = false;
   } else {
+    keep_torque(stiffness_before, measured);
     // What nothing draws along yet would have to catch up, faster than it may be.
-    risen_ = risen_ || stiffness_ >= kRisen * stiffness;
-    const double share = risen_ ? 1.0 : stiffness_ / stiffness;
+    const double share = stiffness > stiffness_ ? stiffness_ / stiffness : 1.0;
     approach_position(wanted_rad, wanted_radps, share * rules_.max_velocity_radps, dt_s);
   }
   tell(velocity_radps_, measured);
@@ -160,6 +175,16 @@ void JointShaper::follow(const JointTarget& target, const JointMeasured& measure
   }
 }
 
+/// Of an effort as holding begins. What no weight needs was told by somebody, or is a push, and
+/// would press for ever against what is in its way; so would what presses out of the joint's
+/// limits.
+double JointShaper::kept(double effort_Nm, const JointMeasured& measured) const {
+  if (!rules_.carries_weight) return 0;
+  if (measured.position_rad >= rules_.max_rad) effort_Nm = std::min(effort_Nm, 0.0);
+  if (measured.position_rad <= rules_.min_rad) effort_Nm = std::max(effort_Nm, 0.0);
+  return effort_Nm;
+}
+
 void JointShaper::hold(const JointMeasured& measured, double dt_s) {
   limited_ = 0;
   if (!holds_) {
@@ -170,12 +195,22 @@ void JointShaper::hold(const JointMeasured& measured, double dt_s) {
                                          rules_.max_velocity_radps)
                             : 0;
     // All that the drive gives now; of what sinks slowly the damping is its weight.
-    const double gives = stiffness_ * (told_.position_rad - measured.position_rad) +
-                         damping_ * (told_velocity_radps_ - measured.velocity_radps) + effort_Nm_;
-    const double carries = std::isfinite(measured.effort_Nm) ? measured.effort_Nm : gives;
-    carried_Nm_ = effort_Nm_ = std::clamp(carries, -rules_.max_effort_Nm, rules_.max_effort_Nm);
+    const double damps = damping_ * (told_velocity_radps_ - measured.velocity_radps);
+    const double gives =
+        stiffness_ * (told_.position_rad - measured.position_rad) + damps + effort_Nm_;
+    const double carries =
+        std::clamp(std::isfinite(measured.effort_Nm) ? measured.effort_Nm : gives,
+                   -rules_.max_effort_Nm, rules_.max_effort_Nm);
+    carried_Nm_ = kept(carries, measured);
+    // What the damping goes on giving is not given twice.
+    const double still_damps = damping_ * (velocity_radps_ - measured.velocity_radps);
+    effort_Nm_ = std::clamp(carries - still_damps, std::min(carries, 0.0), std::max(carries, 0.0));
     position_rad_ = measured.position_rad;
   }
+  // A weight is taken up sooner than an effort is let go.
+  if (std::abs(effort_Nm_) < std::abs(carried_Nm_))
+    effort_Nm_ =
+        approach(effort_Nm_, carried_Nm_, (kCatches - 1) * risen(dt_s) * rules_.max_effort_Nm);
   approach_gains(rules_.stiffness_Nmprad, rules_.damping_Nmsprad, carried_Nm_, dt_s);
   approach_velocity(0, dt_s);
   tell(velocity_radps_, measured);

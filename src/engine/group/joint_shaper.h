@@ -43,7 +43,7 @@ class JointShaper final {
 
   /// One cycle of following.
   void follow(const JointTarget& target, const JointMeasured& measured, double dt_s);
-  /// One cycle of keeping the place where it was when this began; what carried the joint then
+  /// One cycle of keeping the place where it was when this began; what carried a weight then
   /// carries it on.
   void hold(const JointMeasured& measured, double dt_s);
   /// One cycle of damping alone.
@@ -57,6 +57,8 @@ class JointShaper final {
  private:
   double within(JointValue what, double value, double low, double high);
   double nearer(double position_rad, const JointMeasured& measured);
+  double risen(double dt_s) const;
+  void keep_torque(double stiffness_before, const JointMeasured& measured);
   void approach_gains(double stiffness, double damping, double effort, double dt_s);
   void approach_position(double wanted_rad, double wanted_radps, double fastest_radps, double dt_s);
   void approach_velocity(double wanted_radps, double dt_s);
@@ -64,6 +66,7 @@ class JointShaper final {
                        const JointMeasured& measured, double dt_s);
   void follow_velocity(const JointTarget& target, const JointMeasured& measured, double dt_s);
   void follow_effort(const JointTarget& target, const JointMeasured& measured, double dt_s);
+  double kept(double effort_Nm, const JointMeasured& measured) const;
   void tell(double velocity_radps, const JointMeasured& measured);
 
   JointRules rules_;
@@ -72,7 +75,6 @@ class JointShaper final {
   double stiffness_ = 0;
   double damping_ = 0;
   double effort_Nm_ = 0;
-  bool risen_ = false;  ///< the stiffness has come up once
   bool holds_ = false;
   double carried_Nm_ = 0;  ///< while it holds
   JointValues limited_ = 0;

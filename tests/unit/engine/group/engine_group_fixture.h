@@ -26,6 +26,7 @@ inline EngineConfig arm_config(EngineConfig config = rig_config()) {
     rules.max_effort_Nm = 6;
     rules.stiffness_Nmprad = 60;
     rules.damping_Nmsprad = 3;
+    rules.carries_weight = true;
     (void)arm.joints.push_back(rules);
   }
   (void)config.groups.push_back(arm);

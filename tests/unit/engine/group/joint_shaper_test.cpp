@@ -7,33 +7,10 @@
 #include <cmath>
 
 #include "unit/engine/group/arm_joint.h"
+#include "unit/engine/group/shaped_joint.h"
 
 namespace drover::engine {
 namespace {
-
-constexpr double kCycle_s = 0.005;
-
-JointRules rules_of(JointFollows follows) {
-  JointRules rules;
-  rules.follows = follows;
-  rules.min_rad = -1;
-  rules.max_rad = 1.5;
-  rules.max_velocity_radps = 1;
-  rules.max_acceleration_radps2 = 5;
-  rules.max_effort_Nm = 4;
-  rules.stiffness_Nmprad = 40;
-  rules.damping_Nmsprad = 2;
-  rules.rise_s = 0.5;
-  return rules;
-}
-
-JointTarget at(double position_rad, double stiffness = 40, double damping = 2) {
-  JointTarget target;
-  target.position_rad = position_rad;
-  target.stiffness_Nmprad = stiffness;
-  target.damping_Nmsprad = damping;
-  return target;
-}
 
 TEST(JointShaper, BeginsWithoutStiffnessWhereTheJointIs) {
   JointShaper shaper(rules_of(JointFollows::impedance));
@@ -124,6 +101,76 @@ TEST(JointShaper, WhatItsDriveCannotBeToldIsClampedAndTold) {
   EXPECT_EQ(shaper.limited(), 0);
 }
 
+/// An arm that sank while its stiffness was next to nothing, and gets it back.
+TEST(JointShaper, WhatSankUnderLittleStiffnessComesBackAsFastAsItMay) {
+  JointRules rules = rules_of(JointFollows::impedance);
+  rules.max_effort_Nm = 10;
+  JointShaper shaper(rules);
+  ArmJoint joint;
+  joint.state = AxisState::running;
+  double torque = 0;
+  double worst_Nm = 0;
+  double fastest_radps = 0;
+  const auto cycles = [&](int count, double stiffness) {
+    worst_Nm = fastest_radps = 0;
+    for (int i = 0; i < count; ++i) {
+      const JointMeasured measured{joint.position_rad, joint.velocity_radps, joint.torque_Nm};
+      shaper.follow(at(0.5, stiffness, 2), measured, kCycle_s);
+      if (i > 0) worst_Nm = std::max(worst_Nm, std::abs(torque_of(shaper, measured) - torque));
+      joint.obey({AxisRequest::run, shaper.velocity_radps(), shaper.impedance()});
+      torque = joint.torque_Nm;
+      for (int k = 0; k < 5; ++k) joint.step(kCycle_s / 5);
+      torque = torque_of(shaper, {joint.position_rad, joint.velocity_radps});
+      fastest_radps = std::max(fastest_radps, joint.velocity_radps);
+    }
+  };
+  shaper.take_over({});
+  cycles(1000, 60);
+  EXPECT_NEAR(joint.position_rad, 0.48, 0.01);
+  cycles(1200, 0.2);
+  ASSERT_LT(joint.position_rad, -1);  // it hangs
+  cycles(1000, 60);
+  EXPECT_LT(fastest_radps, 1.2);
+  EXPECT_LT(worst_Nm, 0.5);
+  EXPECT_NEAR(joint.position_rad, 0.48, 0.01);
+}
+
+TEST(JointShaper, WhereStiffnessGrowsTheTorqueOfItsDistanceStays) {
+  JointShaper shaper(rules_of(JointFollows::impedance));
+  shaper.take_over({0, 0});
+  const JointMeasured pushed{0.1, 0};  // off 0, where it is told to be
+  for (int i = 0; i < 400; ++i) shaper.follow(at(0, 20), {0, 0}, kCycle_s);
+  shaper.follow(at(0, 20), pushed, kCycle_s);
+  EXPECT_NEAR(torque_of(shaper, pushed), -2, 1e-6);
+  double before_Nm = -2;
+  for (int i = 0; i < 100; ++i) {
+    shaper.follow(at(0, 30), pushed, kCycle_s);
+    EXPECT_LT(std::abs(torque_of(shaper, pushed) - before_Nm), 0.2) << i;
+    before_Nm = torque_of(shaper, pushed);
+  }
+  EXPECT_NEAR(before_Nm, -3, 0.01);
+}
+
+TEST(JointShaper, AStiffnessBeyondItsDriveTakesItsTimeToo) {
+  JointRules rules = rules_of(JointFollows::impedance);
+  rules.drive.stiffness_Nmprad = 500;
+  JointShaper shaper(rules);
+  shaper.take_over({0, 0});
+  for (int i = 0; i < 200; ++i) shaper.follow(at(0, 0.2), {0, 0}, kCycle_s);
+  double before = shaper.impedance().stiffness_Nmprad;
+  for (int i = 0; i < 200; ++i) {
+    shaper.follow(at(0, 99999), {0, 0}, kCycle_s);
+    const double now = shaper.impedance().stiffness_Nmprad;
+    EXPECT_LE(now - before, 500 * 0.01 + 1e-9) << i;
+    before = now;
+  }
+  EXPECT_EQ(before, 500);
+  EXPECT_EQ(shaper.limited(), bit(JointValue::stiffness));
+  // At rest lower than it is told, all its effort draws it: not what is left of a huge stiffness.
+  for (int i = 0; i < 600; ++i) shaper.follow(at(0, 99999), {-0.5, 0}, kCycle_s);
+  EXPECT_NEAR(torque_of(shaper, {-0.5, 0}), 4, 1e-6);
+}
+
 TEST(JointShaper, AnEffortIsDampedByWhatItsDriveCanBeTold) {
   JointRules rules = rules_of(JointFollows::effort);
   rules.drive.damping_Nmsprad = 5;
@@ -203,129 +250,6 @@ TEST(JointShaper, AnEffortAloneMovesNoFasterThanIsAllowedAndNotBeyondTheEnd) {
   EXPECT_LT(fastest, 1.5);
   EXPECT_GT(farthest, 1.4);
   EXPECT_LT(farthest, 1.75);
-}
-
-/// A bar that its own effort carries, level; then the commands cease.
-TEST(JointShaper, HoldKeepsThePlaceWithAllThatCarriedIt) {
-  JointShaper shaper(rules_of(JointFollows::impedance));
-  ArmJoint joint;
-  joint.state = AxisState::running;
-  const auto cycle = [&] {
-    joint.obey({AxisRequest::run, shaper.velocity_radps(), shaper.impedance()});
-    for (int k = 0; k < 5; ++k) joint.step(kCycle_s / 5);
-  };
-  const auto measured = [&] { return JointMeasured{joint.position_rad, joint.velocity_radps}; };
-  shaper.take_over(measured());
-  for (int i = 0; i < 1000; ++i) {
-    shaper.follow(at(0, 20), measured(), kCycle_s);
-    cycle();
-  }
-  const double rested = joint.position_rad;
-  EXPECT_NEAR(rested, -1.5 / 20, 0.01);  // it sags by weight over stiffness
-  double torque = joint.torque_Nm;
-  for (int i = 0; i < 2000; ++i) {
-    shaper.hold(measured(), kCycle_s);
-    cycle();
-    EXPECT_NEAR(joint.torque_Nm, torque, 0.1) << i;
-    torque = joint.torque_Nm;
-  }
-  EXPECT_NEAR(joint.position_rad, rested, 0.002);
-}
-
-/// Which a push cannot be told from: it stays in the effort. README.md says so.
-TEST(JointShaper, HoldTakesAPushForAWeightAndMovesByItsShareWhenItIsLetGo) {
-  JointShaper shaper(rules_of(JointFollows::impedance));
-  ArmJoint joint;
-  joint.state = AxisState::running;
-  joint.weight_Nm = 0;
-  const auto cycles = [&](int count, bool follows) {
-    for (int i = 0; i < count; ++i) {
-      const JointMeasured measured{joint.position_rad, joint.velocity_radps, joint.torque_Nm};
-      follows ? shaper.follow(at(0), measured, kCycle_s) : shaper.hold(measured, kCycle_s);
-      joint.obey({AxisRequest::run, shaper.velocity_radps(), shaper.impedance()});
-      for (int k = 0; k < 5; ++k) joint.step(kCycle_s / 5);
-    }
-  };
-  shaper.take_over({});
-  joint.push_Nm = 1.6;
-  cycles(800, true);
-  const double pushed = joint.position_rad;
-  EXPECT_NEAR(pushed, 1.6 / 40, 0.002);
-  cycles(2000, false);
-  EXPECT_NEAR(joint.position_rad, pushed, 0.001);
-  joint.push_Nm = 0;
-  cycles(1000, false);
-  EXPECT_NEAR(joint.position_rad, pushed - 1.6 / 40, 0.002);
-  const double rests = joint.position_rad;
-  cycles(2000, false);
-  EXPECT_NEAR(joint.position_rad, rests, 0.001);
-}
-
-TEST(JointShaper, HoldCarriesNoMoreThanTheLimitOfEffort) {
-  JointShaper shaper(rules_of(JointFollows::impedance));
-  shaper.take_over({0.3, 0});
-  for (int i = 0; i < 200; ++i) {
-    shaper.hold({0.3, 0, -9}, kCycle_s);
-    EXPECT_EQ(shaper.impedance().effort_Nm, -4);
-  }
-}
-
-TEST(JointShaper, HoldBrakesAMovementByItsLimit) {
-  JointShaper shaper(rules_of(JointFollows::velocity));
-  shaper.take_over({0, 0});
-  JointTarget target;
-  target.velocity_radps = 1;
-  double measured = 0;
-  for (int i = 0; i < 200; ++i) {
-    shaper.follow(target, {measured, shaper.velocity_radps()}, kCycle_s);
-    measured = shaper.impedance().position_rad;
-  }
-  double before = shaper.velocity_radps();
-  for (int i = 0; i < 100; ++i) {
-    shaper.hold({measured, before}, kCycle_s);
-    EXPECT_LE(std::abs(shaper.velocity_radps() - before), 5 * kCycle_s + 1e-9);
-    before = shaper.velocity_radps();
-    measured = shaper.impedance().position_rad;
-  }
-  EXPECT_EQ(before, 0);
-}
-
-TEST(JointShaper, WhatSinksIsCaughtWhereItIs) {
-  JointShaper shaper(rules_of(JointFollows::impedance));
-  ArmJoint joint;
-  joint.state = AxisState::running;
-  joint.damps_Nmsprad = 2;
-  for (int i = 0; i < 100; ++i) {
-    joint.obey({});
-    for (int k = 0; k < 5; ++k) joint.step(kCycle_s / 5);
-  }
-  const double caught = joint.position_rad;
-  ASSERT_LT(joint.velocity_radps, -0.5);
-  shaper.take_over({joint.position_rad, joint.velocity_radps});
-  double lowest = caught;
-  for (int i = 0; i < 600; ++i) {
-    shaper.hold({joint.position_rad, joint.velocity_radps}, kCycle_s);
-    joint.obey({AxisRequest::run, shaper.velocity_radps(), shaper.impedance()});
-    for (int k = 0; k < 5; ++k) joint.step(kCycle_s / 5);
-    lowest = std::min(lowest, joint.position_rad);
-  }
-  EXPECT_GT(lowest, caught - 0.15);
-  EXPECT_LT(joint.position_rad, caught + 0.005);
-  EXPECT_GT(joint.position_rad, caught - 0.03);
-}
-
-TEST(JointShaper, DampLetsItSinkSlowly) {
-  JointShaper shaper(rules_of(JointFollows::impedance));
-  ArmJoint joint;
-  joint.state = AxisState::running;
-  shaper.take_over({0, 0});
-  for (int i = 0; i < 400; ++i) {
-    shaper.damp({joint.position_rad, joint.velocity_radps}, kCycle_s);
-    joint.obey({AxisRequest::run, shaper.velocity_radps(), shaper.impedance()});
-    for (int k = 0; k < 5; ++k) joint.step(kCycle_s / 5);
-  }
-  EXPECT_LT(joint.position_rad, -0.3);
-  EXPECT_NEAR(joint.velocity_radps, -1.5 * std::cos(joint.position_rad) / 2.05, 0.1);
 }
 
 }  // namespace
