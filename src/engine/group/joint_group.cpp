@@ -63,6 +63,7 @@ JointGroup::JointGroup(const GroupConfig& config, Duration start_timeout)
 void JointGroup::take(const JointTargets& targets, RequestId::Source source, Time now) {
   if (!std::all_of(targets.joints.begin(), targets.joints.end(), is_sound)) {
     ++told_.refused;
+    refuse(now);
     return;
   }
   bool mine = false;
@@ -76,6 +77,10 @@ void JointGroup::take(const JointTargets& targets, RequestId::Source source, Tim
   if (!mine) return;
   ++waiting_;
   sender_ = source == RequestId::Source::ros2 ? GroupOwner::ros2 : GroupOwner::broker;
+}
+
+void JointGroup::refuse(Time now) {
+  for (JointServo& joint : joints_) joint.refuse(now);
 }
 
 void JointGroup::end(const Reason& why) {

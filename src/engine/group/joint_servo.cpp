@@ -12,6 +12,8 @@ using namespace std::chrono_literals;
 constexpr Duration kSteadyFor = 300ms;
 /// Whoever was stopped has to be silent for so long before he begins again.
 constexpr Duration kPause = 1s;
+constexpr const char* kNoPause =
+    "it was stopped, and its commands did not pause for a second since";
 
 JointMeasured measured_by(const AxisSnapshot& axis) {
   const double velocity = axis.motion.velocity_radps;
@@ -29,18 +31,18 @@ bool JointServo::steady(Time now) const {
 }
 
 void JointServo::take(const JointTarget& target, Time now) {
-  if (heard_ != kNever && now - heard_ >= kPause) waits_ = false;
+  if (said_ != kNever && now - said_ >= kPause) waits_ = false;
   if (!sent(now)) {
     gap_ = heard_ == kNever || now - heard_ >= kPause ? Duration{} : now - heard_;
     steady_since_ = now;
   }
-  heard_ = now;
+  heard_ = said_ = now;
   target_ = target;
 }
 
 void JointServo::end(const Reason& why) {
   // A drive that was found running is armed without anybody's command: there is nothing to end.
-  const bool sent_once = heard_ != kNever;
+  const bool sent_once = said_ != kNever;
   if (sent_once && (follows_ || arming_since_ != kNever)) {
     reason_ = why;
     by_itself_ = false;
@@ -76,7 +78,10 @@ void JointServo::judge_stream(const Input& input) {
     reason_.format("its commands come %.0f ms apart, %.0f ms are allowed", 1e3 * to_s(gap_),
                    1e3 * rules_.timeout_s);
   } else if (!waits_) {
-    reason_.clear();  // of what waits it is told on what stopped it
+    reason_.clear();
+  } else if (reason_.empty()) {  // else it is told on what stopped it
+    by_itself_ = true;
+    reason_ = kNoPause;
   }
 }
 
@@ -86,7 +91,6 @@ void JointServo::cease(Time now) {
     by_itself_ = ceased_ = true;
   }
   if (heard_ != kNever && now - heard_ >= kPause) {
-    waits_ = false;
     gap_ = {};
     reason_.clear();
   }

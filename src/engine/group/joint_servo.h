@@ -9,9 +9,11 @@ namespace drover::engine {
 /// Arms by a stream of commands alone, and only after that was heard for a while without a gap:
 /// what comes in a burst after a line or a program hung is none. What stopped a stream once waits
 /// until its commands have ceased for a second, so that a program which does not know of a stop
-/// does not drive on when its cause is gone. A drive that runs and follows nobody holds, also one
-/// that was found so; where its commands have ceased, and nothing stopped it, it damps or is let go
-/// if its rules say so. Pure.
+/// does not drive on when its cause is gone. What is refused is a command for that: it was sent.
+/// So the next command that is taken shows the pause, not the silence itself: what a broker that
+/// hangs holds back comes, and is refused, when it goes on. A drive that runs and follows nobody
+/// holds, also one that was found so; where its commands have ceased, and nothing stopped it, it
+/// damps or is let go if its rules say so. Pure.
 class JointServo final {
  public:
   struct Input {
@@ -30,6 +32,8 @@ class JointServo final {
 
   /// A command that is sound; whether it is followed is decided by step().
   void take(const JointTarget& target, Time now);
+  /// One that was refused, and may have been its: nobody pauses who sends it.
+  void refuse(Time now) { said_ = now; }
   /// What it follows ends for a cause that lies elsewhere.
   void end(const Reason& why);
 
@@ -70,6 +74,7 @@ class JointServo final {
   JointShaper shaper_;
   JointTarget target_;
   Time heard_ = kNever;         ///< the last command
+  Time said_ = kNever;          ///< likewise, or one that was refused
   Time steady_since_ = kNever;  ///< of a row without a gap
   Duration gap_{};              ///< before the last command, when it was too long
   bool waits_ = false;          ///< for a pause: it was stopped
