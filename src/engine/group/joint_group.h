@@ -40,6 +40,8 @@ class JointGroup final {
 
  private:
   Reason trouble(const Input& input) const;
+  void tell_lost(const AxisSnapshot& axis, const JointServo& joint, Time now,
+                 EventQueue& events) const;
   void count(bool limited);
   GroupOwner owner(bool estop) const;
   void tell(const Input& input, const Reason& lost, bool limited, EventQueue& events);

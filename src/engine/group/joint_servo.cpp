@@ -12,6 +12,7 @@ using namespace std::chrono_literals;
 constexpr Duration kSteadyFor = 300ms;
 /// Whoever was stopped has to be silent for so long before he begins again.
 constexpr Duration kPause = 1s;
+constexpr const char* kNoLoop = "its drive is not in closed loop";
 constexpr const char* kNoPause =
     "it was stopped, and its commands did not pause for a second since";
 
@@ -143,7 +144,7 @@ void JointServo::run(const Input& input) {
 void JointServo::arm(const Input& input) {
   // A drive that was found running may want to be asked first.
   const bool taken_over = engaged_ && input.axis.state == AxisState::arming;
-  if (engaged_ && follows_ && !taken_over) fail(input, "its drive is not in closed loop");
+  if (engaged_ && follows_ && !taken_over) fail(input, kNoLoop);
   engaged_ = taken_over;
   if (follows_ && arming_since_ != kNever && input.now - arming_since_ > input.start_timeout)
     fail(input, "its drive does not come into closed loop");
@@ -157,10 +158,23 @@ void JointServo::arm(const Input& input) {
   state_ = GroupState::arming;
 }
 
+/// What its drive held, and nobody let go, is held by nobody until it runs again. What the guard
+/// has is the guard's to tell.
+void JointServo::watch_drive(const Input& input) {
+  const bool runs = input.heard && input.axis.state == AxisState::running;
+  const bool asked_first = input.heard && input.axis.state == AxisState::arming;
+  if (runs) return lost_.clear();
+  const bool held = engaged_ && !asked_first && !input.blocked && !lets_go();
+  if (!held && lost_.empty()) return;
+  lost_ = input.axis.fault.empty() ? input.axis.source.reason : input.axis.fault;
+  if (lost_.empty()) lost_ = input.heard ? kNoLoop : "its drive is silent";
+}
+
 void JointServo::step(const Input& input) {
   command_ = {};
   failed_ = false;
   judge_stream(input);
+  watch_drive(input);
   if (!input.heard) {
     // Blind, it is told to damp, should it still hear: its last word would stand otherwise.
     engaged_ = false;

@@ -49,10 +49,14 @@ class JointServo final {
   GroupState state() const { return state_; }
   /// What of its command was beyond a limit.
   JointValues limited() const { return following() ? shaper_.limited() : JointValues{}; }
-  /// Why it does not follow what is sent, or why it ended; empty: it does, or nothing is.
-  const Reason& reason() const { return reason_; }
+  /// Why it does not follow what is sent, or why it ended, or why nobody holds what was held;
+  /// empty: it does, or nothing is.
+  const Reason& reason() const { return tells_lost() ? lost_ : reason_; }
   /// That reason lies in this joint, whose name is not in it.
-  bool by_itself() const { return by_itself_; }
+  bool by_itself() const { return by_itself_ || tells_lost(); }
+  /// Why its drive does not hold it any more, though nobody let it go; empty: it does, or never
+  /// did.
+  const Reason& lost() const { return lost_; }
   /// Its drive ended it, or did not come into closed loop, in this cycle.
   bool failed() const { return failed_; }
   /// It may be moved: its drive is told more than to damp.
@@ -64,6 +68,8 @@ class JointServo final {
   bool steady(Time now) const;
   void judge_stream(const Input& input);
   void cease(Time now);
+  bool tells_lost() const { return reason_.empty() && !follows_; }
+  void watch_drive(const Input& input);
   bool lets_go() const { return ceased_ && rules_.on_silence == OnSilence::release; }
   void run(const Input& input);
   void rest(const JointMeasured& measured, double dt_s);
@@ -85,6 +91,7 @@ class JointServo final {
   GroupState state_ = GroupState::idle;
   Reason reason_;
   bool by_itself_ = true;
+  Reason lost_;
   bool failed_ = false;
   AxisCommand command_;
 };
