@@ -118,6 +118,15 @@ void JointServo::rest(const JointMeasured& measured, double dt_s) {
   }
 }
 
+/// Of what was told last: it is ended where that drives the joint beyond its limits.
+void JointServo::watch_joint(const JointMeasured& measured, double dt_s) {
+  if (!follows_ || !following()) return watch_.begin();
+  const Reason why = watch_.look(measured, shaper_.impedance(), shaper_.velocity_radps(), dt_s);
+  if (why.empty()) return;
+  end(why);
+  failed_ = by_itself_ = true;
+}
+
 /// Its drive runs, and tells where the joint is.
 void JointServo::run(const Input& input) {
   const JointMeasured measured = measured_by(input.axis);
@@ -126,6 +135,7 @@ void JointServo::run(const Input& input) {
   // What is held elsewhere goes on from where it is given back.
   if (!engaged_ || input.blocked) shaper_.take_over(measured);
   engaged_ = true;
+  watch_joint(measured, dt_s);
   command_.request = AxisRequest::run;
   if (follows_ && (input.ready || following())) {
     shaper_.follow(target_, measured, dt_s);

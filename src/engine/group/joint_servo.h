@@ -3,6 +3,7 @@
 
 #include "drover/snapshot.h"
 #include "engine/group/joint_shaper.h"
+#include "engine/group/joint_watch.h"
 
 namespace drover::engine {
 
@@ -28,7 +29,7 @@ class JointServo final {
     bool ready = true;         ///< the drives of all that are commanded with it run
   };
 
-  explicit JointServo(const JointRules& rules) : rules_(rules), shaper_(rules) {}
+  explicit JointServo(const JointRules& rules) : rules_(rules), shaper_(rules), watch_(rules) {}
 
   /// A command that is sound; whether it is followed is decided by step().
   void take(const JointTarget& target, Time now);
@@ -57,7 +58,8 @@ class JointServo final {
   /// Why its drive does not hold it any more, though nobody let it go; empty: it does, or never
   /// did.
   const Reason& lost() const { return lost_; }
-  /// Its drive ended it, or did not come into closed loop, in this cycle.
+  /// Its drive ended it, or did not come into closed loop, or drove it beyond its limits, in this
+  /// cycle.
   bool failed() const { return failed_; }
   /// It may be moved: its drive is told more than to damp.
   bool may_move() const { return command_.request == AxisRequest::run; }
@@ -75,9 +77,11 @@ class JointServo final {
   void rest(const JointMeasured& measured, double dt_s);
   void arm(const Input& input);
   void fail(const Input& input, const char* otherwise);
+  void watch_joint(const JointMeasured& measured, double dt_s);
 
   JointRules rules_;
   JointShaper shaper_;
+  JointWatch watch_;
   JointTarget target_;
   Time heard_ = kNever;         ///< the last command
   Time said_ = kNever;          ///< likewise, or one that was refused
