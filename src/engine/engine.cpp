@@ -260,6 +260,7 @@ void Engine::on_command(const Command& command, Time now) {
     e.take_joints(*targets, id.source, now);
   } else if (const auto* refused = std::get_if<JointTargetsRefused>(&command.body)) {
     e.owners.refuse(*refused);
+    for (JointGroup& group : e.groups) group.refuse(now);
   } else if (std::holds_alternative<FindHeading>(command.body)) {
     e.owners.find_heading(id, e.estimate, e.health.report(), now, e.events);
   } else if (const auto* hand = std::get_if<DriveByHand>(&command.body)) {

@@ -63,6 +63,7 @@ JointGroup::JointGroup(const GroupConfig& config, Duration start_timeout)
 void JointGroup::take(const JointTargets& targets, RequestId::Source source, Time now) {
   if (!std::all_of(targets.joints.begin(), targets.joints.end(), is_sound)) {
     ++told_.refused;
+    refuse(now);
     return;
   }
   bool mine = false;
@@ -76,6 +77,10 @@ void JointGroup::take(const JointTargets& targets, RequestId::Source source, Tim
   if (!mine) return;
   ++waiting_;
   sender_ = source == RequestId::Source::ros2 ? GroupOwner::ros2 : GroupOwner::broker;
+}
+
+void JointGroup::refuse(Time now) {
+  for (JointServo& joint : joints_) joint.refuse(now);
 }
 
 void JointGroup::end(const Reason& why) {
@@ -109,11 +114,15 @@ void JointGroup::step(const Input& input, std::span<AxisCommand> commands, std::
   for (JointServo& joint : joints_) {
     const AxisSnapshot& axis = input.axes[joint.rules().axis];
     const bool followed = joint.following();
+    const bool was_well = joint.lost().empty();
     joint.step({input.now, input.dt, axis, is_heard(axis, input.now, input.stale), hindrance,
                 start_timeout_, input.blocked, ready});
     const bool stopped = followed && !joint.following() && !hindrance.empty();
     if (lost.empty() && stopped) lost = hindrance;
     if (lost.empty() && joint.failed()) lost = of_joint(axis.joint, joint.reason());
+    // Of one that followed it is told as the end of its commands.
+    const bool told = followed && input.hindrance.empty();
+    if (was_well && !told && !joint.lost().empty()) tell_lost(axis, joint, input.now, events);
   }
   // Together, or none: what one cannot do any more the others do not go on with.
   if (!lost.empty()) end(lost);
@@ -134,6 +143,15 @@ void JointGroup::step(const Input& input, std::span<AxisCommand> commands, std::
           joints_[i].by_itself() ? of_joint(input.axes[joints_[i].rules().axis].joint, why) : why;
   count(limited);
   tell(input, lost, limited, events);
+}
+
+void JointGroup::tell_lost(const AxisSnapshot& axis, const JointServo& joint, Time now,
+                           EventQueue& events) const {
+  Reason text;
+  text.format("%.*s: %.*s is not held any more: %.*s", width(told_.name), told_.name.view().data(),
+              width(axis.joint), axis.joint.view().data(), width(joint.lost()),
+              joint.lost().view().data());
+  events.notice(now, Notice::Level::error, text);
 }
 
 GroupOwner JointGroup::owner(bool estop) const {

@@ -18,6 +18,8 @@ class JointGroup final {
 
   /// The joints of the message that are its own; others are somebody else's.
   void take(const JointTargets& targets, RequestId::Source source, Time now);
+  /// A command that was refused before anybody looked whose joints it names.
+  void refuse(Time now);
   /// A person's word, or a stop: what it follows ends.
   void end(const Reason& why);
 
@@ -38,6 +40,8 @@ class JointGroup final {
 
  private:
   Reason trouble(const Input& input) const;
+  void tell_lost(const AxisSnapshot& axis, const JointServo& joint, Time now,
+                 EventQueue& events) const;
   void count(bool limited);
   GroupOwner owner(bool estop) const;
   void tell(const Input& input, const Reason& lost, bool limited, EventQueue& events);

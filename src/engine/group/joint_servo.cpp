@@ -12,6 +12,9 @@ using namespace std::chrono_literals;
 constexpr Duration kSteadyFor = 300ms;
 /// Whoever was stopped has to be silent for so long before he begins again.
 constexpr Duration kPause = 1s;
+constexpr const char* kNoLoop = "its drive is not in closed loop";
+constexpr const char* kNoPause =
+    "it was stopped, and its commands did not pause for a second since";
 
 JointMeasured measured_by(const AxisSnapshot& axis) {
   const double velocity = axis.motion.velocity_radps;
@@ -29,18 +32,18 @@ bool JointServo::steady(Time now) const {
 }
 
 void JointServo::take(const JointTarget& target, Time now) {
-  if (heard_ != kNever && now - heard_ >= kPause) waits_ = false;
+  if (said_ != kNever && now - said_ >= kPause) waits_ = false;
   if (!sent(now)) {
     gap_ = heard_ == kNever || now - heard_ >= kPause ? Duration{} : now - heard_;
     steady_since_ = now;
   }
-  heard_ = now;
+  heard_ = said_ = now;
   target_ = target;
 }
 
 void JointServo::end(const Reason& why) {
   // A drive that was found running is armed without anybody's command: there is nothing to end.
-  const bool sent_once = heard_ != kNever;
+  const bool sent_once = said_ != kNever;
   if (sent_once && (follows_ || arming_since_ != kNever)) {
     reason_ = why;
     by_itself_ = false;
@@ -76,7 +79,10 @@ void JointServo::judge_stream(const Input& input) {
     reason_.format("its commands come %.0f ms apart, %.0f ms are allowed", 1e3 * to_s(gap_),
                    1e3 * rules_.timeout_s);
   } else if (!waits_) {
-    reason_.clear();  // of what waits it is told on what stopped it
+    reason_.clear();
+  } else if (reason_.empty()) {  // else it is told on what stopped it
+    by_itself_ = true;
+    reason_ = kNoPause;
   }
 }
 
@@ -86,7 +92,6 @@ void JointServo::cease(Time now) {
     by_itself_ = ceased_ = true;
   }
   if (heard_ != kNever && now - heard_ >= kPause) {
-    waits_ = false;
     gap_ = {};
     reason_.clear();
   }
@@ -113,6 +118,15 @@ void JointServo::rest(const JointMeasured& measured, double dt_s) {
   }
 }
 
+/// Of what was told last: it is ended where that drives the joint beyond its limits.
+void JointServo::watch_joint(const JointMeasured& measured, double dt_s) {
+  if (!follows_ || !following()) return watch_.begin();
+  const Reason why = watch_.look(measured, shaper_.impedance(), shaper_.velocity_radps(), dt_s);
+  if (why.empty()) return;
+  end(why);
+  failed_ = by_itself_ = true;
+}
+
 /// Its drive runs, and tells where the joint is.
 void JointServo::run(const Input& input) {
   const JointMeasured measured = measured_by(input.axis);
@@ -121,6 +135,7 @@ void JointServo::run(const Input& input) {
   // What is held elsewhere goes on from where it is given back.
   if (!engaged_ || input.blocked) shaper_.take_over(measured);
   engaged_ = true;
+  watch_joint(measured, dt_s);
   command_.request = AxisRequest::run;
   if (follows_ && (input.ready || following())) {
     shaper_.follow(target_, measured, dt_s);
@@ -139,7 +154,7 @@ void JointServo::run(const Input& input) {
 void JointServo::arm(const Input& input) {
   // A drive that was found running may want to be asked first.
   const bool taken_over = engaged_ && input.axis.state == AxisState::arming;
-  if (engaged_ && follows_ && !taken_over) fail(input, "its drive is not in closed loop");
+  if (engaged_ && follows_ && !taken_over) fail(input, kNoLoop);
   engaged_ = taken_over;
   if (follows_ && arming_since_ != kNever && input.now - arming_since_ > input.start_timeout)
     fail(input, "its drive does not come into closed loop");
@@ -153,10 +168,23 @@ void JointServo::arm(const Input& input) {
   state_ = GroupState::arming;
 }
 
+/// What its drive held, and nobody let go, is held by nobody until it runs again. What the guard
+/// has is the guard's to tell.
+void JointServo::watch_drive(const Input& input) {
+  const bool runs = input.heard && input.axis.state == AxisState::running;
+  const bool asked_first = input.heard && input.axis.state == AxisState::arming;
+  if (runs) return lost_.clear();
+  const bool held = engaged_ && !asked_first && !input.blocked && !lets_go();
+  if (!held && lost_.empty()) return;
+  lost_ = input.axis.fault.empty() ? input.axis.source.reason : input.axis.fault;
+  if (lost_.empty()) lost_ = input.heard ? kNoLoop : "its drive is silent";
+}
+
 void JointServo::step(const Input& input) {
   command_ = {};
   failed_ = false;
   judge_stream(input);
+  watch_drive(input);
   if (!input.heard) {
     // Blind, it is told to damp, should it still hear: its last word would stand otherwise.
     engaged_ = false;

@@ -3,15 +3,18 @@
 
 #include "drover/snapshot.h"
 #include "engine/group/joint_shaper.h"
+#include "engine/group/joint_watch.h"
 
 namespace drover::engine {
 
 /// Arms by a stream of commands alone, and only after that was heard for a while without a gap:
 /// what comes in a burst after a line or a program hung is none. What stopped a stream once waits
 /// until its commands have ceased for a second, so that a program which does not know of a stop
-/// does not drive on when its cause is gone. A drive that runs and follows nobody holds, also one
-/// that was found so; where its commands have ceased, and nothing stopped it, it damps or is let go
-/// if its rules say so. Pure.
+/// does not drive on when its cause is gone. What is refused is a command for that: it was sent.
+/// So the next command that is taken shows the pause, not the silence itself: what a broker that
+/// hangs holds back comes, and is refused, when it goes on. A drive that runs and follows nobody
+/// holds, also one that was found so; where its commands have ceased, and nothing stopped it, it
+/// damps or is let go if its rules say so. Pure.
 class JointServo final {
  public:
   struct Input {
@@ -26,10 +29,12 @@ class JointServo final {
     bool ready = true;         ///< the drives of all that are commanded with it run
   };
 
-  explicit JointServo(const JointRules& rules) : rules_(rules), shaper_(rules) {}
+  explicit JointServo(const JointRules& rules) : rules_(rules), shaper_(rules), watch_(rules) {}
 
   /// A command that is sound; whether it is followed is decided by step().
   void take(const JointTarget& target, Time now);
+  /// One that was refused, and may have been its: nobody pauses who sends it.
+  void refuse(Time now) { said_ = now; }
   /// What it follows ends for a cause that lies elsewhere.
   void end(const Reason& why);
 
@@ -45,11 +50,16 @@ class JointServo final {
   GroupState state() const { return state_; }
   /// What of its command was beyond a limit.
   JointValues limited() const { return following() ? shaper_.limited() : JointValues{}; }
-  /// Why it does not follow what is sent, or why it ended; empty: it does, or nothing is.
-  const Reason& reason() const { return reason_; }
+  /// Why it does not follow what is sent, or why it ended, or why nobody holds what was held;
+  /// empty: it does, or nothing is.
+  const Reason& reason() const { return tells_lost() ? lost_ : reason_; }
   /// That reason lies in this joint, whose name is not in it.
-  bool by_itself() const { return by_itself_; }
-  /// Its drive ended it, or did not come into closed loop, in this cycle.
+  bool by_itself() const { return by_itself_ || tells_lost(); }
+  /// Why its drive does not hold it any more, though nobody let it go; empty: it does, or never
+  /// did.
+  const Reason& lost() const { return lost_; }
+  /// Its drive ended it, or did not come into closed loop, or drove it beyond its limits, in this
+  /// cycle.
   bool failed() const { return failed_; }
   /// It may be moved: its drive is told more than to damp.
   bool may_move() const { return command_.request == AxisRequest::run; }
@@ -60,16 +70,21 @@ class JointServo final {
   bool steady(Time now) const;
   void judge_stream(const Input& input);
   void cease(Time now);
+  bool tells_lost() const { return reason_.empty() && !follows_; }
+  void watch_drive(const Input& input);
   bool lets_go() const { return ceased_ && rules_.on_silence == OnSilence::release; }
   void run(const Input& input);
   void rest(const JointMeasured& measured, double dt_s);
   void arm(const Input& input);
   void fail(const Input& input, const char* otherwise);
+  void watch_joint(const JointMeasured& measured, double dt_s);
 
   JointRules rules_;
   JointShaper shaper_;
+  JointWatch watch_;
   JointTarget target_;
   Time heard_ = kNever;         ///< the last command
+  Time said_ = kNever;          ///< likewise, or one that was refused
   Time steady_since_ = kNever;  ///< of a row without a gap
   Duration gap_{};              ///< before the last command, when it was too long
   bool waits_ = false;          ///< for a pause: it was stopped
@@ -80,6 +95,7 @@ class JointServo final {
   GroupState state_ = GroupState::idle;
   Reason reason_;
   bool by_itself_ = true;
+  Reason lost_;
   bool failed_ = false;
   AxisCommand command_;
 };
