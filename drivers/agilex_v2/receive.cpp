@@ -152,6 +152,7 @@ AxisStatus AgilexV2Driver::status(Time now) const {
   status.error_code = state_.error;
   status.state = AxisState::fault;
   if (state_.vehicle == Vehicle::estop) {
+    status.stops_all = true;
     status.reason = "the chassis' emergency stop is pressed";
   } else if (state_.vehicle == Vehicle::exception) {
     const std::string_view text = error_text(state_.error, model());

@@ -249,6 +249,7 @@ AxisStatus Host::status(Time now) const {
     status.state = AxisState::fault;
     status.reason = why.empty() ? lock_reason_ : why;
     status.powered = condition_.powered;
+    status.stops_all = condition_.stops_all;
   } else if (phase_ == Phase::arming) {
     status.state = AxisState::arming;
   } else {

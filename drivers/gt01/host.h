@@ -25,6 +25,7 @@ struct Condition {
   std::uint64_t bits = 0;  ///< of what is wrong, as it sent them
   Reason trouble;          ///< what is wrong, or who else has it; empty: nothing
   bool powered = true;     ///< of a trouble: its motors still have power
+  bool stops_all = false;  ///< an emergency stop or a bumper is among it
 };
 
 /// What its wire calls what it tells, for operators.

@@ -79,13 +79,14 @@ void describe(V& v, const AxisMotion& motion) {
 
 template <class V>
 void describe(V& v, const AxisStatus& status) {
-  const auto& [axis, state, error_code, reason, lapsed, powered] = status;
+  const auto& [axis, state, error_code, reason, lapsed, powered, stops_all] = status;
   v.value("axis", axis);
   v.value("state", state, {});
   v.value("error_code", error_code, {.hexadecimal = true});
   v.value("fault", reason, {});
   v.value("lapsed", lapsed);
   v.value("powered", powered);
+  v.value("stops_all", stops_all);
 }
 
 template <class V>

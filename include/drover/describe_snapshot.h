@@ -107,7 +107,7 @@ void describe(V& v, const GeodeticPoint& point) {
 
 template <class V>
 void describe(V& v, const AxisSnapshot& it) {
-  const auto& [motion, last_motion, joint, group, state, fault, lapsed, powered,
+  const auto& [motion, last_motion, joint, group, state, fault, lapsed, powered, stops_all,
                commanded_velocity_radps, inverter_degC, motor_degC, bus_V, bus_A, health, source] =
       it;
   v.value("joint", joint, {});
@@ -117,6 +117,7 @@ void describe(V& v, const AxisSnapshot& it) {
   v.value("fault", fault, {});
   v.value("lapsed", lapsed);
   v.value("powered", powered);
+  v.value("stops_all", stops_all);
   v.value("commanded_velocity_radps", commanded_velocity_radps, {.decimals = 4});
   describe(v, AxisTemperature{0, inverter_degC, motor_degC});
   describe(v, AxisSupply{0, bus_V, bus_A});

@@ -44,6 +44,9 @@ struct AxisStatus {
   bool lapsed = false;
   /// Of a fault: the power stage is still on. The motor drives or brakes, and gives energy back.
   bool powered = false;
+  /// Of a fault: a person stopped the base at the base, by its own emergency stop or bumper. That
+  /// is meant for all of the robot.
+  bool stops_all = false;
 };
 
 struct AxisTemperature {

@@ -95,6 +95,7 @@ void Engine::Impl::take(const Measurement& m) {
       one.fault = status->reason;
       one.lapsed = status->lapsed;
       one.powered = status->powered;
+      one.stops_all = status->stops_all;
     }
   } else if (const auto* temperature = std::get_if<AxisTemperature>(&m.value)) {
     AxisSnapshot* axis = axis_of(temperature->axis);

@@ -127,6 +127,7 @@ void Gt01CanDriver::tell_condition(Time received, DriverOut& out) {
                    static_cast<std::uint64_t>(motor_faults_.right) << 32U;
   condition.trouble = trouble_of(*state_, motor_faults_);
   condition.powered = (state_->status & status::kHardEstop) == 0;
+  condition.stops_all = !text_of_status(state_->status).empty();
   host_.on_condition(condition, received, out);
 }
 

@@ -18,6 +18,8 @@ struct Trouble {
   std::uint16_t bit;
   std::string_view text;
 };
+constexpr std::uint16_t kStopsAll = status::kHardEstop | status::kRemoteEstop | status::kSoftEstop |
+                                    status::kFrontBumper | status::kRearBumper;
 /// The first that is set is told: what a person has done comes before what the drives say.
 constexpr Trouble kTroubles[] = {
     {status::kHardEstop, words::kHardEstop},
@@ -44,6 +46,7 @@ Condition condition_of(const Upload& upload, Time received) {
                    [&](const Trouble& each) { return (upload.status & each.bit) != 0; });
   if (found != std::end(kTroubles)) condition.trouble.assign(found->text);
   condition.powered = (upload.status & status::kHardEstop) == 0;
+  condition.stops_all = (upload.status & kStopsAll) != 0;
   return condition;
 }
 

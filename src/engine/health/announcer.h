@@ -14,7 +14,7 @@ class Announcer final {
 
  private:
   Time begun_ = kNever;
-  std::uint32_t told_ = 0;  ///< bits by Cause
+  std::uint64_t told_ = 0;  ///< bits by Cause
   std::array<Time, kCauseCount> told_at_ = [] {
     std::array<Time, kCauseCount> times{};
     times.fill(kNever);

@@ -14,8 +14,9 @@ enum class Cause : std::uint8_t {
   line_lost,
   guard_has_bus,
   bumper,
-  hit,   ///< an acceleration that no drive gives
-  tilt,  ///< tilted beyond the limit, or gravity on the wrong axis
+  base_stop,  ///< by the base's own button or bumper, as its device tells
+  hit,        ///< an acceleration that no drive gives
+  tilt,       ///< tilted beyond the limit, or gravity on the wrong axis
   drive_silent,
   guard_silent,
   drive_fault,
@@ -72,6 +73,9 @@ inline constexpr std::array<CauseRow, kCauseCount> kCauses{{
   {.cause = Cause::bumper, .stops = true, .by_people = true, .of_all = true,
    .severe = true,
    .over = "bumper free"},
+  {.cause = Cause::base_stop, .stops = true, .by_people = true, .of_all = true,
+   .severe = true,
+   .over = "the base's own emergency stop is released"},
   {.cause = Cause::hit, .stops = true, .by_people = true, .of_all = true,
    .severe = true,
    .over = "nothing hits the robot any more"},
@@ -138,14 +142,14 @@ consteval bool in_their_order() {
   return true;
 }
 static_assert(in_their_order());
-static_assert(kCauseCount <= 32, "HealthReport has a bit for each");
+static_assert(kCauseCount <= 64, "HealthReport has a bit for each");
 
-constexpr std::uint32_t bit(Cause cause) {
-  return std::uint32_t{1} << static_cast<unsigned>(cause);
+constexpr std::uint64_t bit(Cause cause) {
+  return std::uint64_t{1} << static_cast<unsigned>(cause);
 }
 
-inline constexpr std::uint32_t kByPeople = [] {
-  std::uint32_t bits = 0;
+inline constexpr std::uint64_t kByPeople = [] {
+  std::uint64_t bits = 0;
   for (const CauseRow& row : kCauses)
     if (row.by_people) bits |= bit(row.cause);
   return bits;

@@ -133,7 +133,7 @@ void HealthMonitor::look_at_drives(const HealthInput& input) {
       hold(Cause::drive_silent, text);
     } else if (axis.state == AxisState::fault) {
       put(text, joint, axis.fault.empty() ? std::string_view("fault") : axis.fault.view());
-      hold(Cause::drive_fault, text);
+      hold(axis.stops_all ? Cause::base_stop : Cause::drive_fault, text);
     }
     report_.drives_ok = report_.drives_ok && text.empty();
     if (!text.empty() || axis.state != AxisState::running) {

@@ -73,13 +73,13 @@ struct HealthReport {
   Reason end_groups;  ///< of all of the robot, so that joints outside the base follow nobody
   FixedVector<Reason, 8> why;             ///< the cause first
   std::uint32_t why_untold = 0;           ///< causes that found no room there
-  std::uint32_t causes = 0;               ///< bits by Cause
+  std::uint64_t causes = 0;               ///< bits by Cause
   std::array<Reason, kCauseCount> texts;  ///< by Cause, for causes that hold
 
   bool holds(Cause cause) const { return (causes & bit(cause)) != 0; }
   /// Nothing could be commanded to move, whoever asks; a start may clear a drive's fault first.
   bool nothing_moves() const { return !stop.empty() || holds(Cause::drive_fault); }
-  bool holds_any(std::uint32_t bits) const { return (causes & bits) != 0; }
+  bool holds_any(std::uint64_t bits) const { return (causes & bits) != 0; }
   const Reason& text(Cause cause) const { return texts[static_cast<std::size_t>(cause)]; }
   /// `what` is the text of a cause that holds, whether `why` had room for it or not.
   bool gives(const Reason& what) const {

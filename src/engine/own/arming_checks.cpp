@@ -28,6 +28,7 @@ Reason check_arm(const HealthReport& health, const Latch& latch, bool driven) {
   if (health.holds(Cause::foreign)) return health.text(Cause::foreign);
   if (driven) return "the robot is being driven, and holds when it stops";
   if (health.holds(Cause::drive_silent)) return health.text(Cause::drive_silent);
+  if (health.holds(Cause::base_stop)) return health.text(Cause::base_stop);
   if (!health.drives_ok) return health.text(Cause::drive_fault);
   return {};
 }

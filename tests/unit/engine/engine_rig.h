@@ -52,6 +52,7 @@ class EngineRig {
     bool stuck = false;    ///< feedback stands still
     bool fault = false;
     bool lapsed = false;         ///< that fault is only a want of set points
+    bool stops_all = false;      ///< that fault is a person's stop
     double by_itself_radps = 0;  ///< the wheel turns so much faster than it is told to
     AxisState state = AxisState::idle;
     AxisRequest asked = AxisRequest::rest;  ///< in the cycle before
@@ -212,6 +213,17 @@ class EngineRig {
     return {v_mps, v_mps * std::tan(steering_rad) / wheelbase_m};
   }
 
+  static AxisStatus status_of(AxisId axis, const Drive& drive) {
+    AxisStatus status;
+    status.axis = axis;
+    status.state = drive.state;
+    if (drive.fault)
+      status.reason = drive.stops_all ? "its emergency stop is pressed" : "over temperature";
+    status.lapsed = drive.lapsed;
+    status.stops_all = drive.stops_all;
+    return status;
+  }
+
   /// The device of a base that takes a twist does what the last cycle asked, and tells its motion.
   void move_base() {
     Drive& device = drives[0];
@@ -231,8 +243,7 @@ class EngineRig {
     told.wz_radps *= tells_turn_share;
     if (tells_mps) told.vx_mps = *tells_mps;
     measure(now, BodyMotion{.twist = told, .known = true, .steering_rad = steering_rad});
-    measure(now, AxisStatus{kBaseAxis, device.state, 0,
-                            device.fault ? Reason("over temperature") : Reason(), device.lapsed});
+    measure(now, status_of(kBaseAxis, device));
   }
 
   /// The drives do what the last cycle asked, the plant turns it into motion.
@@ -278,8 +289,7 @@ class EngineRig {
       motion.position_rad = drive.position_rad;
       motion.velocity_radps = drive.stuck ? 0 : radps;
       measure(now, motion);
-      measure(now, AxisStatus{static_cast<AxisId>(i), drive.state, 0,
-                              drive.fault ? Reason("over temperature") : Reason(), drive.lapsed});
+      measure(now, status_of(static_cast<AxisId>(i), drive));
     }
   }
 

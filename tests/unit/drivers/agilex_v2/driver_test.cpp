@@ -145,6 +145,7 @@ TEST(AgilexV2, DoesNotGoOnWhenItsEmergencyStopIsReleased) {
   bench.run(milliseconds(1000), kRun, {0.5, 0});
   EXPECT_EQ(bench.status.state, AxisState::fault);
   EXPECT_EQ(bench.reason(), "the chassis' emergency stop is pressed");
+  EXPECT_TRUE(bench.status.stops_all);
   EXPECT_FALSE(bench.shafts[0].energized) << "it is taken to let go";
   bench.run(milliseconds(3000), kRun, {0.5, 0});
   EXPECT_TRUE(bench.motion.standing) << "it rolled out";
@@ -152,6 +153,7 @@ TEST(AgilexV2, DoesNotGoOnWhenItsEmergencyStopIsReleased) {
   bench.moved = 0;
   bench.run(milliseconds(2000), kRun, {0.5, 0});
   EXPECT_EQ(bench.moved, 0) << "though it stayed in CAN mode";
+  EXPECT_FALSE(bench.status.stops_all);
 }
 
 TEST(AgilexV2, IsAFaultWhenTheChassisReportsAnException) {

@@ -107,6 +107,19 @@ TEST(Hunter, IsReleasedBeforeItMovesAndLockedBeforeItIsLetGo) {
   EXPECT_EQ(bench.status.state, AxisState::idle);
 }
 
+TEST(Hunter, TellsItsEmergencyStopAsOneOfAllOfTheRobot) {
+  HunterBench bench;
+  bench.run(milliseconds(1000), kStand);
+  bench.run(milliseconds(2500), kDrive, {0.5, 0});
+  ASSERT_TRUE(bench.twin.set_fault("exception", bench.now));
+  bench.run(milliseconds(500), kDrive, {0.5, 0});
+  EXPECT_EQ(bench.status.state, AxisState::fault);
+  EXPECT_FALSE(bench.status.stops_all);
+  ASSERT_TRUE(bench.twin.set_fault("estop", bench.now));
+  bench.run(milliseconds(500), kDrive, {0.5, 0});
+  EXPECT_TRUE(bench.status.stops_all);
+}
+
 TEST(Hunter, IsNotLockedWhileItStillRolls) {
   HunterBench bench;
   bench.run(milliseconds(1000), kStand);

@@ -69,10 +69,12 @@ TEST_P(AChassis, StandsAfterAStopOfItsOwnUntilANewRequest) {
     bench.run(milliseconds(100), kRun, {0.5, 0});
     EXPECT_EQ(bench.status.state, AxisState::fault);
     EXPECT_THAT(reason(), HasSubstr(words));
+    EXPECT_TRUE(bench.status.stops_all);
     expect_told_nothing_that_moves();
     bench.set_fault("");
     bench.run(milliseconds(3000), kRun, {0.5, 0});
     EXPECT_EQ(bench.status.state, AxisState::fault) << "whoever asked has not asked anew";
+    EXPECT_FALSE(bench.status.stops_all) << "nobody presses it any more";
     EXPECT_LT(bench.fastest_radps(), 0.05);
   }
 }
@@ -83,6 +85,7 @@ TEST_P(AChassis, IsGivenUpWhenItsRemoteControlTakesItOver) {
   bench.run(milliseconds(1500), kRun, {0.5, 0});
   EXPECT_EQ(bench.status.state, AxisState::fault);
   EXPECT_THAT(reason(), HasSubstr("the remote control has"));
+  EXPECT_FALSE(bench.status.stops_all);
   expect_told_nothing_that_moves();
   bench.set_fault("");
   bench.run(milliseconds(1000), kRun, {0.5, 0});

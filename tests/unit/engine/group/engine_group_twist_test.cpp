@@ -104,6 +104,36 @@ TEST_F(EngineGroupBesideATwist, AnEstopStopsBothAndTheArmIsHeld) {
   EXPECT_FALSE(rig.out.motion_permitted);
 }
 
+/// Who presses the button that is nearest does not ask whose it is.
+TEST_F(EngineGroupBesideATwist, TheBasesOwnEstopStopsBothAndTheArmIsHeld) {
+  drive();
+  send_s(3, 0.4);
+  rig.drives[0].fault = rig.drives[0].stops_all = true;
+  send_s(1, 1.0);
+  EXPECT_EQ(rig.out.base.twist.vx_mps, 0);
+  EXPECT_EQ(rig.snapshot().nav.status, NavStatus::error);
+  EXPECT_THAT(rig.why(), HasSubstr("its emergency stop is pressed"));
+  EXPECT_EQ(told().state, GroupState::holding);
+  EXPECT_NEAR(arm[0].position_rad, 0.4, 0.05);
+  rig.drives[0].fault = rig.drives[0].stops_all = false;
+  send_s(2, 1.0);
+  EXPECT_EQ(told().state, GroupState::holding) << "the same stream, which never paused";
+  EXPECT_NEAR(arm[0].position_rad, 0.4, 0.05);
+  rig.run_s(1.5);
+  send_s(3, 0.6);
+  EXPECT_EQ(told().state, GroupState::following) << reason();
+  EXPECT_NE(rig.snapshot().nav.status, NavStatus::run) << "that needs a new start";
+}
+
+TEST_F(EngineGroupBesideATwist, NoStreamForTheArmBeginsUnderTheBasesOwnEstop) {
+  settle();
+  rig.drives[0].fault = rig.drives[0].stops_all = true;
+  rig.run_s(1);
+  send_s(3, 0.4);
+  EXPECT_NE(told().state, GroupState::following);
+  EXPECT_THAT(reason(), HasSubstr("its emergency stop is pressed"));
+}
+
 /// A ramp of the base to rest is none of a joint's.
 TEST_F(EngineGroupBesideATwist, ABaseThatIsCaughtSlowsNoJoint) {
   drive();

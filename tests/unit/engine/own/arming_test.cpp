@@ -313,6 +313,14 @@ TEST_F(Holding, SaysOfADriveThatFailedItsFaultNotWhatWasSilentBefore) {
   EXPECT_EQ(check_arm(health, Latch(), false), "wheel a: silent, long ago");
 }
 
+TEST_F(Holding, SaysThatTheBasesOwnEstopIsPressed) {
+  health.estop_known = true;
+  health.drives_ok = false;
+  health.texts[static_cast<std::size_t>(Cause::base_stop)] = "the base: its e-stop is pressed";
+  health.causes = bit(Cause::base_stop);
+  EXPECT_EQ(check_arm(health, Latch(), false), "the base: its e-stop is pressed");
+}
+
 TEST_F(Holding, DoesNotSayThatItTakesBackADriveThatFailed) {
   drive_and_stop();
   axes[2].state = AxisState::fault;
