@@ -116,7 +116,8 @@ Time ControlLoop::cycle(Time begin, std::uint64_t late) {
 
   const bool guard_alive = guard_watch_.alive(begin) && keeper_.guard_equipped() &&
                            guard_.shared().set_refused.load(std::memory_order_relaxed) == 0;
-  apply(begin, gateway::Tick{guard_alive, guard_watch_.holds(begin), guard_watch_.latched()});
+  apply(begin,
+        gateway::Tick{guard_alive, guard_watch_.holds(begin), guard_watch_.leaves_the_rest()});
   // Before the events go: who hears that a path is released may delete it.
   if (exchange_.recorder != nullptr) exchange_.recorder->output(gateway_);
   show_scene();
@@ -209,7 +210,8 @@ GuardSigns ControlLoop::guard_signs() const {
   const auto& shared = guard_.shared();
   return {shared.guard_beats.load(std::memory_order_acquire),
           shared.guard_holds.load(std::memory_order_acquire) != 0,
-          shared.guard_latched.load(std::memory_order_acquire) != 0};
+          shared.guard_latched.load(std::memory_order_acquire) != 0,
+          shared.set_refused.load(std::memory_order_relaxed) != 0};
 }
 
 void ControlLoop::watch_guard(Time now) {

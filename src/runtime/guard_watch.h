@@ -11,8 +11,9 @@ namespace drover::runtime {
 /// What the guard writes into the shared memory.
 struct GuardSigns {
   std::uint64_t beats = 0;
-  bool holds = false;    ///< it sends the stop frames itself
-  bool latched = false;  ///< `drover stop` reached it
+  bool holds = false;        ///< it sends the stop frames itself
+  bool latched = false;      ///< `drover stop` reached it
+  bool set_refused = false;  ///< it keeps the stop set that it has: this program's lacks axes
 };
 
 class GuardWatch final {
@@ -38,6 +39,7 @@ class GuardWatch final {
     holds_ = signs.holds;
     const bool newly_latched = signs.latched && !latched_;
     latched_ = signs.latched;
+    set_refused_ = signs.set_refused;
     return newly_latched;
   }
   bool alive(Time now) const { return heard_ + silent_after_ > now; }
@@ -48,6 +50,9 @@ class GuardWatch final {
     return signs.holds && (signs.beats != beats_ || alive(now));
   }
   bool latched() const { return latched_; }
+  /// By a stop from outside the guard leaves what only a program can hold to the one whose stop set
+  /// it has: what it keeps of another it plays whole, and two would write.
+  bool leaves_the_rest() const { return latched_ && !set_refused_; }
 
   /// True when the bus is to be asked back now; `calm`: no task, and the program is well.
   bool ask_back(bool calm, bool rolls, Time now) {
@@ -66,6 +71,7 @@ class GuardWatch final {
   Time asked_ = kNever;
   bool holds_ = false;
   bool latched_ = false;
+  bool set_refused_ = false;
 };
 
 }  // namespace drover::runtime

@@ -262,6 +262,39 @@ TEST(ScoutArmBusLate, TheGuardLetsItSinkSlowlyAndStopsTheBase) {
   expect_good_drive(log, 2);
 }
 
+// The button that is nearest may be the chassis'.
+TEST(ScoutArmEstop, TheChassisOwnEstopStopsTheArmAndTheTask) {
+  const Record& log = record("scout_arm_estop");
+  const Time pressed = log.event("event pressed#1");
+  EXPECT_GT(strayed(log, 0, pressed - 300ms, pressed), 0.2) << "it does not move";
+  const auto& error = log.first_status("NAV_ERROR", pressed);
+  EXPECT_LT(error.time - pressed, 500ms);
+  EXPECT_THAT(error.why, testing::HasSubstr("the chassis' emergency stop is pressed"));
+  // Braked by the limit of acceleration, from 1 rad/s; then it rests.
+  const double braked = strayed(log, 0, pressed, pressed + 1s);
+  figure("its first joint moved on", braked, "rad");
+  EXPECT_LT(braked, 0.4);
+  for (const std::size_t joint : {std::size_t{0}, kShoulder, kElbow})
+    EXPECT_LT(strayed(log, joint, pressed + 1s, log.event("event begun#1")), 0.03) << joint;
+}
+
+TEST(ScoutArmEstop, NoStreamBeginsWhileItIsPressedNorGoesOnWhenItIsReleased) {
+  const Record& log = record("scout_arm_estop");
+  const Time begun = log.event("event begun#1");
+  ASSERT_GT(begun + 5s - log.event("event released#1"), 2s) << "the stream goes on after it";
+  for (const std::size_t joint : {std::size_t{0}, kShoulder, kElbow})
+    EXPECT_LT(strayed(log, joint, begun, log.event("event again#1")), 0.03) << joint;
+  const auto arm = asked_status(log).at("groups").at(0);
+  EXPECT_EQ(arm.at("reason"), "the base: the chassis' emergency stop is pressed");
+  EXPECT_GT(arm.at("refused"), 0);
+}
+
+TEST(ScoutArmEstop, ANewStreamAndANewStartAreFollowedThen) {
+  const Record& log = record("scout_arm_estop");
+  EXPECT_NEAR(arm_at(log, 0, log.event("event lower#1") + 3s), 0.3, 0.02);
+  expect_good_drive(log, 2);
+}
+
 std::string name_of(const testing::TestParamInfo<const char*>& one) {
   return one.param;
 }
@@ -290,9 +323,9 @@ TEST(CubemarsArmKill, TheBaseDrivesAnew) {
 INSTANTIATE_TEST_SUITE_P(Each, Arm, testing::Values("arm", "scout_arm", "cubemars_arm"), name_of);
 INSTANTIATE_TEST_SUITE_P(Each, ArmWires,
                          testing::Values("arm", "arm_kill", "scout_arm", "scout_arm_kill",
-                                         "scout_arm_bus", "scout_arm_bus_late", "arm_faults",
-                                         "arm_hung", "arm_sinks", "arm_holds", "arm_steps",
-                                         "arm_push"),
+                                         "scout_arm_bus", "scout_arm_bus_late", "scout_arm_estop",
+                                         "arm_faults", "arm_hung", "arm_sinks", "arm_holds",
+                                         "arm_steps", "arm_push"),
                          name_of);
 INSTANTIATE_TEST_SUITE_P(Each, ArmKill, testing::Values("arm_kill", "scout_arm_kill"), name_of);
 

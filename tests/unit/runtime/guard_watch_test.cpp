@@ -98,5 +98,19 @@ TEST_F(AGuardWatch, LeavesTheBusToAGuardThatIsLatchedAndTellsOfTheLatchOnce) {
   EXPECT_TRUE(pass(10ms));
 }
 
+/// One that keeps the stop set of the program before plays all of that, and two would write.
+TEST_F(AGuardWatch, IsLeftWhatOnlyThisProgramHoldsByALatchedGuardThatTookItsStopSet) {
+  signs.holds = true;
+  (void)watch.update(signs, now);
+  EXPECT_FALSE(watch.leaves_the_rest()) << "its heartbeat was late: the guard has every axis";
+  signs.latched = true;
+  (void)watch.update(signs, now);
+  EXPECT_TRUE(watch.leaves_the_rest());
+  signs.set_refused = true;
+  (void)watch.update(signs, now);
+  EXPECT_FALSE(watch.leaves_the_rest());
+  EXPECT_TRUE(watch.latched());
+}
+
 }  // namespace
 }  // namespace drover::runtime

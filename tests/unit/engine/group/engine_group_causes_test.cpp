@@ -36,6 +36,8 @@ const Trouble kTroubles[] = {
     {"e-stop", "e-stop pressed", true, [](auto& rig, bool on) { line(rig, Line::estop, on); }},
     {"a lost line", "e-stop", true, [](auto& rig, bool on) { rig.line_lost[0] = on; }},
     {"bumper", "bumper touched", true, [](auto& rig, bool on) { line(rig, Line::bumper, on); }},
+    {"the base's own e-stop", "its emergency stop is pressed", true,
+     [](auto& rig, bool on) { rig.drives[2].fault = rig.drives[2].stops_all = on; }},
     {"a hit", "the robot was hit", true,
      [](auto& rig, bool on) { rig.gravity_mps2.y = on ? -24 : 0; }},
     {"tilt", "tilted", true,
