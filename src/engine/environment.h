@@ -15,6 +15,7 @@ struct Environment {
   bool guard_alive = false;
   bool guard_has_bus = false;  ///< the guard sends stop frames; ours are blocked until hand-back
   bool guard_latched = false;  ///< somebody stopped the robot at the guard, until a reset there
+  bool guard_refuses_set = false;  ///< it keeps the stop set of another configuration, until then
   /// The drives had power when the outputs were opened: another program kept the enable relay.
   bool relay_found_closed = false;
   /// Health of each drive, by AxisId, as its driver judges it.

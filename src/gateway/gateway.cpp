@@ -179,13 +179,15 @@ void Gateway::on(const Tick& tick, Time now) {
   look_at_buses(now);
   look_at_lost_lines();
   tell_health();
-  foreign_.update(now, tick.guard_has_bus || (guard_required_ && !tick.guard_alive));
+  const bool guards = tick.guard_alive && !tick.guard_refuses_set;
+  foreign_.update(now, tick.guard_has_bus || (guard_required_ && !guards));
   environment_.foreign = foreign_.reason();
   environment_.slept = slept_;
   if (now - woke_ > kSleptTold) slept_.clear();
   environment_.guard_alive = tick.guard_alive;
   environment_.guard_has_bus = tick.guard_has_bus;
   environment_.guard_latched = tick.guard_latched;
+  environment_.guard_refuses_set = tick.guard_refuses_set;
 
   engine_.step(now, environment_, cycle_.engine);
   motion_permitted_ = cycle_.engine.motion_permitted;

@@ -108,6 +108,8 @@ struct Tick {
   bool guard_alive = false;
   bool guard_has_bus = false;  ///< it sends stop frames; ours are blocked until hand-back
   bool guard_latched = false;  ///< somebody stopped the robot at the guard, until a reset there
+  /// It keeps the stop set of another configuration, and takes this one's with a reset there.
+  bool guard_refuses_set = false;
 };
 
 /// The order is the recording's: a new one goes to the end.

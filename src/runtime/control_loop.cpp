@@ -114,10 +114,9 @@ Time ControlLoop::cycle(Time begin, std::uint64_t late) {
   watch_program(begin);
   take_commands(begin);
 
-  const bool guard_alive = guard_watch_.alive(begin) && keeper_.guard_equipped() &&
-                           guard_.shared().set_refused.load(std::memory_order_relaxed) == 0;
-  apply(begin,
-        gateway::Tick{guard_alive, guard_watch_.holds(begin), guard_watch_.leaves_the_rest()});
+  const bool guard_alive = guard_watch_.alive(begin) && keeper_.guard_equipped();
+  apply(begin, gateway::Tick{guard_alive, guard_watch_.holds(begin), guard_watch_.leaves_the_rest(),
+                             guard_watch_.refuses_set()});
   // Before the events go: who hears that a path is released may delete it.
   if (exchange_.recorder != nullptr) exchange_.recorder->output(gateway_);
   show_scene();

@@ -50,6 +50,8 @@ class GuardWatch final {
     return signs.holds && (signs.beats != beats_ || alive(now));
   }
   bool latched() const { return latched_; }
+  /// It keeps the stop set of another program, until it is reset.
+  bool refuses_set() const { return set_refused_; }
   /// By a stop from outside the guard leaves what only a program can hold to the one whose stop set
   /// it has: what it keeps of another it plays whole, and two would write.
   bool leaves_the_rest() const { return latched_ && !set_refused_; }

@@ -6,6 +6,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
@@ -13,6 +15,28 @@
 #include <utility>
 
 namespace drover::test {
+namespace {
+
+/// As its stat tells: what stands behind the name in brackets, which may be any.
+bool stands(const std::filesystem::path& thread) {
+  std::ifstream file(thread / "stat");
+  std::string text;
+  std::getline(file, text);
+  const auto name_end = text.rfind(')');
+  const char state =
+      name_end == std::string::npos ? 'X' : text[std::min(name_end + 2, text.size())];
+  return state == 'T' || state == 'X' || state == 'Z';
+}
+
+bool all_stand(pid_t process) {
+  std::error_code gone;
+  const auto folder = "/proc/" + std::to_string(process) + "/task";
+  const std::filesystem::directory_iterator threads(folder, gone);
+  return gone || std::all_of(begin(threads), end(threads),
+                             [](const auto& thread) { return stands(thread.path()); });
+}
+
+}  // namespace
 
 Process::Process(const std::vector<std::string>& words, std::string log) : log_(std::move(log)) {
   std::vector<char*> arguments;
@@ -64,7 +88,10 @@ bool Process::running() {
 }
 
 void Process::signal(int number) const {
-  if (pid_ > 0 && !status_) ::kill(pid_, number);
+  if (pid_ <= 0 || status_) return;
+  ::kill(pid_, number);
+  for (int i = 0; number == SIGSTOP && i < 1000 && !all_stand(pid_); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
 }
 
 std::optional<int> Process::wait(std::chrono::milliseconds deadline) {

@@ -21,6 +21,7 @@ class Process final {
 
   bool running();
   pid_t pid() const { return pid_; }
+  /// After SIGSTOP it returns when each of its threads stands: until then one may still work.
   void signal(int number) const;
   /// Exit status, or 128 and the signal's number; nothing when it still runs at the deadline.
   std::optional<int> wait(std::chrono::milliseconds deadline);

@@ -157,8 +157,13 @@ void HealthMonitor::look_at_drives(const HealthInput& input) {
 
 void HealthMonitor::look_at_guard(const Environment& environment) {
   const bool silent = config_.health.guard_required && !environment.guard_alive;
-  report_.guard_ok = !silent && !environment.guard_has_bus && !environment.guard_latched;
-  if (environment.guard_latched) {
+  const bool refuses = config_.health.guard_required && environment.guard_refuses_set;
+  report_.guard_ok =
+      !silent && !refuses && !environment.guard_has_bus && !environment.guard_latched;
+  if (refuses) {
+    hold(Cause::guard_has_bus,
+         "drover-guard keeps the stop set of another configuration, until drover reset");
+  } else if (environment.guard_latched) {
     hold(Cause::guard_has_bus, "stopped by drover stop at the guard, until drover reset");
   } else if (environment.guard_has_bus) {
     hold(Cause::guard_has_bus, "the guard stopped the drives");

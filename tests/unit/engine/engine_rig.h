@@ -77,6 +77,7 @@ class EngineRig {
     hand_over();
     environment.guard_alive = guard_alive;
     environment.guard_has_bus = guard_has_bus;
+    environment.guard_refuses_set = guard_refuses_set;
     engine->step(now, environment, out);
     log.insert(log.end(), out.events.begin(), out.events.end());
   }
@@ -124,6 +125,7 @@ class EngineRig {
   std::array<bool, kLineCount> line_unknown{};  ///< nothing was ever heard of it
   bool guard_alive = true;
   bool guard_has_bus = false;
+  bool guard_refuses_set = false;
   bool receiver_silent = false;
   bool receiver_late = false;  ///< what it says comes in one burst, when this ends
   int receiver_ticks = 20;     ///< between two of its positions

@@ -220,6 +220,19 @@ TEST_F(AnEngine, TakesAResetWhileTheGuardHoldsAndStaysHeld) {
   EXPECT_EQ(refusal(), "the guard stopped the drives");
   expect_no_motion_for_s(1);
 }
+TEST_F(AnEngine, TakesAResetWhileTheGuardKeepsAnotherConfigurationsStopSet) {
+  rig.command(EngageStop{});
+  rig.guard_has_bus = rig.guard_refuses_set = true;
+  rig.run_s(3);
+  rig.command(ResetStop{});
+  rig.tick();
+  EXPECT_EQ(refusal(), "") << "there is no other way out";
+  rig.start(path, 40, 0.5);
+  rig.tick();
+  EXPECT_EQ(refusal(),
+            "drover-guard keeps the stop set of another configuration, until drover reset");
+  expect_no_motion_for_s(1);
+}
 TEST_F(AnEngine, RefusesAResetWhileTheGuardHoldsAndAButtonIsPressed) {
   drive();
   rig.command(EngageStop{});

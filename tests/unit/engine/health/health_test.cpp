@@ -146,6 +146,18 @@ TEST_F(AHealthMonitor, StopsWhileTheGuardHasTheBus) {
   expect_stop("the guard stopped the drives");
   EXPECT_FALSE(update().guard_ok);
 }
+TEST_F(AHealthMonitor, StopsWhileTheGuardKeepsAnotherConfigurationsStopSetAndIsToldHowThatEnds) {
+  environment.guard_has_bus = environment.guard_latched = environment.guard_refuses_set = true;
+  expect_stop("drover-guard keeps the stop set of another configuration, until drover reset");
+  EXPECT_FALSE(update().guard_ok);
+  EXPECT_EQ(update().stop_but_guard, "") << "or its reset would be refused for it";
+  environment = {};
+  environment.guard_alive = environment.guard_refuses_set = true;
+  EXPECT_NE(update().stop, "") << "it would stop what that one had";
+  config.health.guard_required = false;
+  monitor.reset();
+  EXPECT_EQ(update().stop.view().find("stop set"), std::string_view::npos);
+}
 TEST_F(AHealthMonitor, StopsWithoutAGuardUnlessNoneIsRequired) {
   environment.guard_alive = false;
   expect_stop("the guard does not answer");
