@@ -11,7 +11,7 @@ constexpr double kGearDrag_Nms_per_rad = 1;
 
 bool set_chassis_fault(std::string_view name, const LowBattery& low, SystemState& state,
                        bool& silent) {
-  const bool was_taken = state.mode == Mode::remote || state.mode == Mode::serial;
+  const bool was_taken = is_taken(state.mode);
   if (name == "silent") {
     silent = true;
   } else if (name == "estop") {

@@ -25,6 +25,10 @@ enum class Model : std::uint8_t { scout, hunter };
 
 /// As a Scout numbers them; on other chassis only 1 means the same.
 enum class Mode : std::uint8_t { standby = 0, can = 1, serial = 2, remote = 3 };
+/// Somebody else commands it: what the bus asks for changes nothing.
+constexpr bool is_taken(Mode mode) {
+  return mode == Mode::serial || mode == Mode::remote;
+}
 
 struct SystemState {
   Vehicle vehicle = Vehicle::well;

@@ -74,8 +74,7 @@ bool AgilexV2Twin::awake(Time now) const {
 
 void AgilexV2Twin::on_frame(const CanFrame& frame, Time now, TwinFrames&) {
   if (!awake(now) || !frame.is_plain()) return;
-  const bool taken = state_.mode == Mode::remote || state_.mode == Mode::serial;
-  if (const auto mode = read_mode_command(frame); mode && !taken) {
+  if (const auto mode = read_mode_command(frame); mode && !is_taken(state_.mode)) {
     if (*mode != state_.mode) last_asked_ = kNever;
     state_.mode = *mode;
   }

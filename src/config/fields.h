@@ -383,8 +383,7 @@ void visit(V& v, DroverConfig& c, GroupNames& groups) {
       "wire of the e-stop reads as released; remote_broker: mqtt.host is another computer, which "
       "droverd.service was allowed to reach; lets_fall: a joint that carries a weight is let go "
       "when its commands cease; rolls: groups.base.max_tilt_deg is above 3, and drover-guard lets "
-      "the "
-      "wheels coast; early_time_out: a drive of which nobody says that it holds then stops by "
+      "the wheels coast; early_time_out: a drive of which nobody says that it holds then stops by "
       "itself before the guard does; that is known");
 }
 

@@ -64,22 +64,26 @@ void bound_track(Clearance& found, std::span<const Step> track, const EdgesToKee
     found.first = edge_ahead(edge->which, "along the track", edge->driven_m);
 }
 
-void bound_way(bool back, Clearance& found, std::span<const Step> steps, const EdgesToKeep& edges,
-               double margin_m) {
-  double& way_m = back ? found.back_m : found.ahead_m;
-  double& bare_m = back ? found.bare.back_m : found.bare.ahead_m;
+/// `asked`: it goes there, or would.
+void bound_way(double& way_m, double& bare_m, bool asked, const char* where, Clearance& found,
+               std::span<const Step> steps, const EdgesToKeep& edges, double margin_m) {
   const auto edge = end_at_edge(way_m, bare_m, steps, edges, &Edge::driven_m, margin_m);
-  if (edge && asks_straight(found.twist, back))
-    found.first = edge_ahead(edge->which, back ? "back" : "ahead", edge->driven_m);
+  if (edge && asked) found.first = edge_ahead(edge->which, where, edge->driven_m);
+}
+
+void bound_straight(bool back, Clearance& found, std::span<const Step> steps,
+                    const EdgesToKeep& edges, double margin_m) {
+  bound_way(back ? found.back_m : found.ahead_m, back ? found.bare.back_m : found.bare.ahead_m,
+            asks_straight(found.twist, back), back ? "back" : "ahead", found, steps, edges,
+            margin_m);
 }
 
 void bound_aside(bool left, Clearance& found, std::span<const Step> steps, const EdgesToKeep& edges,
                  double margin_m) {
-  double& way_m = left ? found.aside_left_m : found.aside_right_m;
-  double& bare_m = left ? found.bare.aside_left_m : found.bare.aside_right_m;
-  const auto edge = end_at_edge(way_m, bare_m, steps, edges, &Edge::driven_m, margin_m);
-  if (edge && asks_aside(found.twist, left))
-    found.first = edge_ahead(edge->which, left ? "to the left" : "to the right", edge->driven_m);
+  bound_way(left ? found.aside_left_m : found.aside_right_m,
+            left ? found.bare.aside_left_m : found.bare.aside_right_m,
+            asks_aside(found.twist, left), left ? "to the left" : "to the right", found, steps,
+            edges, margin_m);
 }
 
 void bound_turn(bool left, Clearance& found, const Pose2& from, const EdgesToKeep& edges) {
@@ -123,7 +127,7 @@ Clearance with_edges(Clearance found, const EdgesToKeep& edges, const LookSettin
     return bound_any_way(found, edges.all, settings, from);
   const double stride = stride_m(body_of(settings, from.position_sigma_m, from.yaw_sigma_rad));
   for (const bool back : {false, true})
-    bound_way(back, found, curve_way(settings, from, back, stride), edges, settings.margin_m);
+    bound_straight(back, found, curve_way(settings, from, back, stride), edges, settings.margin_m);
   for (const bool left : {true, false}) {
     bound_turn(left, found, from.pose, edges);
     if (!settings.aside) continue;
