@@ -50,16 +50,17 @@ bool is_at(const std::string& path, int fd) {
 
 }  // namespace
 
+int read_serial(int fd, std::span<std::uint8_t> buffer, std::size_t& size) {
+  const auto n = ::read(fd, buffer.data(), buffer.size());
+  size = n > 0 ? static_cast<std::size_t>(n) : 0;
+  if (n > 0) return 0;
+  if (n < 0 && (errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR)) return 0;
+  return n < 0 ? errno : EIO;
+}
+
 bool SerialLink::read(std::span<std::uint8_t> buffer, std::size_t& size) {
-  size = 0;
-  const auto n = ::read(fd_.get(), buffer.data(), buffer.size());
-  if (n > 0) {
-    size = static_cast<std::size_t>(n);
-    return true;
-  }
-  if (n < 0 && (errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR)) return true;
-  error_ = n < 0 ? errno : EIO;
-  return false;
+  error_ = read_serial(fd_.get(), buffer, size);
+  return error_ == 0;
 }
 
 bool SerialLink::write(std::span<const std::uint8_t> bytes, std::size_t& taken) {

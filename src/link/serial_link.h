@@ -19,8 +19,8 @@ class SerialLink final {
  public:
   explicit SerialLink(UniqueFd fd) : fd_(std::move(fd)) {}
 
-  /// Reads what waits, at most `buffer`. `size` 0: nothing. False when the line hung up: close it
-  /// at once, otherwise the device comes back under another name.
+  /// As `read_serial`. False when the line hung up: close it at once, otherwise the device comes
+  /// back under another name.
   [[nodiscard]] bool read(std::span<std::uint8_t> buffer, std::size_t& size);
   /// Writes what the line takes; the rest is dropped. False when the line hung up.
   [[nodiscard]] bool write(std::span<const std::uint8_t> bytes, std::size_t& taken);
@@ -34,6 +34,10 @@ class SerialLink final {
   UniqueFd fd_;
   int error_ = 0;
 };
+
+/// Reads what waits on a line that may be somebody else's, at most `buffer`; `size` 0: nothing.
+/// Returns 0, or an errno when the line hung up.
+int read_serial(int fd, std::span<std::uint8_t> buffer, std::size_t& size);
 
 /// Raw before the first read (a fresh line echoes and would feed the receiver its own words),
 /// exclusive, without control of a modem's lines on close.

@@ -19,11 +19,12 @@ constexpr double kRolls_mps = 0.02;
 }  // namespace
 
 ControlLoop::ControlLoop(const config::DroverConfig& config, Gateway& gateway, LinkKeeper& keeper,
-                         const GuardMemory& guard, ControlExchange& exchange, KeepsOver keeps,
-                         std::span<const std::unique_ptr<SlowLink>> slow)
+                         SerialLoop& serial, const GuardMemory& guard, ControlExchange& exchange,
+                         KeepsOver keeps, std::span<const std::unique_ptr<SlowLink>> slow)
     : config_(config),
       gateway_(gateway),
       keeper_(keeper),
+      serial_(serial),
       guard_(guard),
       exchange_(exchange),
       keeps_(keeps),
@@ -42,7 +43,7 @@ ControlLoop::ControlLoop(const config::DroverConfig& config, Gateway& gateway, L
   if (std::find(outputs.begin(), outputs.end(), true) != outputs.end())
     link_state_[kOutputsSlot].name = "outputs";
   for (auto& state : link_state_) state.reason = "not opened yet";
-  wait_.reserve(links.size() * (1 + link::kMaxLines));
+  wait_.reserve(1 + links.size() * link::kMaxLines);
 }
 
 /// The wait ends at the tick's time or with bytes and edges, which are worth a wake-up at once. Of
@@ -68,11 +69,10 @@ void ControlLoop::run(const std::atomic<bool>& stop) {
 }
 
 Time ControlLoop::wait(Duration longest) {
-  wait_.clear();
+  wait_.assign(1, {serial_.ready_fd(), POLLIN, 0});
   for (const auto& link : open_) {
-    if (link.serial) wait_.push_back({link.serial->fd(), POLLIN, 0});
-    if (link.lines)
-      for (const int fd : link.lines->edge_fds()) wait_.push_back({fd, POLLIN, 0});
+    if (!link.lines) continue;
+    for (const int fd : link.lines->edge_fds()) wait_.push_back({fd, POLLIN, 0});
   }
   const timespec time{static_cast<time_t>(longest / 1s), static_cast<long>((longest % 1s).count())};
   const int ready = ::ppoll(wait_.data(), wait_.size(), &time, nullptr);
@@ -84,18 +84,16 @@ Time ControlLoop::wait(Duration longest) {
 /// In the order in which `wait` put them down: what is lost here is not looked for again.
 void ControlLoop::hear_ready(Time now) {
   auto fd = wait_.cbegin();
+  if ((fd++)->revents != 0) hear_streams(now);
   for (std::size_t i = 0; i < open_.size(); ++i) {
-    if (open_[i].serial) {
-      if ((fd++)->revents != 0) read_stream(i, now);
-    } else if (open_[i].lines) {
-      const auto end = fd + static_cast<std::ptrdiff_t>(open_[i].lines->edge_fds().size());
-      const bool edges = std::any_of(fd, end, [](const pollfd& each) { return each.revents != 0; });
-      fd = end;
-      if (!edges) continue;
-      std::array<bool, link::kMaxLines> edged{};
-      open_[i].lines->drain_edges(edged);
-      read_lines(i, now, edged);
-    }
+    if (!open_[i].lines) continue;
+    const auto end = fd + static_cast<std::ptrdiff_t>(open_[i].lines->edge_fds().size());
+    const bool edges = std::any_of(fd, end, [](const pollfd& each) { return each.revents != 0; });
+    fd = end;
+    if (!edges) continue;
+    std::array<bool, link::kMaxLines> edged{};
+    open_[i].lines->drain_edges(edged);
+    read_lines(i, now, edged);
   }
 }
 

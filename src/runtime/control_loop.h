@@ -1,5 +1,6 @@
-// The control thread: a tick drains CAN, reads lines, steps the gateway and sends; serial
-// bytes and edges wake it at once. After start it takes no lock, allocates nothing, logs nothing.
+// The control thread: a tick drains CAN, reads lines, steps the gateway and sends; what the serial
+// thread heard and edges wake it at once. After start it takes no lock, allocates nothing, logs
+// nothing.
 #pragma once
 
 #include <poll.h>
@@ -19,6 +20,7 @@
 #include "runtime/program_watch.h"
 #include "runtime/recorder.h"
 #include "runtime/robot_memory.h"
+#include "runtime/serial_loop.h"
 #include "runtime/storage_loop.h"
 
 namespace drover::runtime {
@@ -32,8 +34,8 @@ struct KeepsOver {
 class ControlLoop final {
  public:
   ControlLoop(const config::DroverConfig& config, Gateway& gateway, LinkKeeper& keeper,
-              const GuardMemory& guard, ControlExchange& exchange, KeepsOver keeps,
-              std::span<const std::unique_ptr<SlowLink>> slow = {});
+              SerialLoop& serial, const GuardMemory& guard, ControlExchange& exchange,
+              KeepsOver keeps, std::span<const std::unique_ptr<SlowLink>> slow = {});
   /// Before `run`: what the program before this one left.
   void recall(const Remembered& remembered);
   void recall(const LearnedValues& learned);
@@ -53,7 +55,8 @@ class ControlLoop final {
   void lose(std::size_t slot, int error, Time now);
   Time wait(Duration longest);
   void hear_ready(Time now);
-  void read_stream(std::size_t link, Time now);
+  void hear_streams(Time now);
+  void give_back(LinkHandover& dead);
   void serve_stream(const StreamOutput& out, Time now);
   void read_lines(std::size_t link, Time now, const std::array<bool, link::kMaxLines>& edged = {});
   void apply_levels(std::size_t link, const std::array<bool, link::kMaxLines>& levels, Time now);
@@ -80,6 +83,7 @@ class ControlLoop final {
   const config::DroverConfig& config_;
   Gateway& gateway_;
   LinkKeeper& keeper_;
+  SerialLoop& serial_;
   const GuardMemory& guard_;
   ControlExchange& exchange_;
   KeepsOver keeps_;
@@ -111,6 +115,7 @@ class ControlLoop final {
   double last_vx_mps_ = 0;       ///< of the base, when somebody knew it
   Duration asleep_{};            ///< since the computer booted
   link::FrameBatch batch_;
+  HeardBytes heard_;
 };
 
 }  // namespace drover::runtime

@@ -24,7 +24,7 @@ constexpr Duration kWriteOutputsEach = 100ms;
 
 void ControlLoop::take_links(Time now) {
   for (auto& dead : going_back_)
-    if (dead.opened()) (void)keeper_.give_back(dead);
+    if (dead.opened()) give_back(dead);
   LinkHandover arrived;
   while (keeper_.take(arrived)) {
     const auto slot = arrived.slot;
@@ -47,6 +47,8 @@ void ControlLoop::take_links(Time now) {
     open_[slot].can = std::move(arrived.can);
     open_[slot].serial = std::move(arrived.serial);
     open_[slot].lines = std::move(arrived.lines);
+    if (const auto& line = open_[slot]; line.serial)
+      serial_.listen(slot, line.serial->fd(), line.baud);
     // Lines tell by their levels that they are there.
     if (wire_of(slot) != Wire::levels) apply(now, gateway::LinkUp{link});
   }
@@ -79,19 +81,27 @@ void ControlLoop::lose(std::size_t slot, int error, Time now) {
     const auto why = wire_of(slot) == Wire::levels ? Reason() : dead.problem;
     if (!comes_back) apply(now, gateway::LinkLost{static_cast<LinkId>(slot), why});
   }
+  give_back(dead);
+}
+
+/// Closing a line that the serial thread still reads would let it read another one. What cannot go
+/// yet is tried again in the next cycle.
+void ControlLoop::give_back(LinkHandover& dead) {
+  if (dead.serial && !serial_.leave(dead.slot)) return;
   (void)keeper_.give_back(dead);
 }
 
-void ControlLoop::read_stream(std::size_t link, Time now) {
-  auto& [can, serial, lines, baud, untaken] = open_[link];
-  std::array<std::uint8_t, 1024> buffer{};
-  std::size_t size = 0;
-  if (!serial->read(buffer, size)) return lose(link, serial->error(), now);
-  if (size == 0) return;
-  link_state_[link].received += size;
-  // The first byte came in before the last one: take the wire's time off.
-  const Duration wire = from_s(10.0 * static_cast<double>(size - 1) / baud);
-  apply(now - wire, gateway::BytesHeard{static_cast<LinkId>(link), {buffer.data(), size}});
+void ControlLoop::hear_streams(Time now) {
+  serial_.clear_ready();
+  for (std::size_t link = 0; link < open_.size(); ++link) {
+    while (open_[link].serial && serial_.take(link, heard_)) {
+      link_state_[link].received += heard_.size;
+      if (heard_.error != 0)
+        lose(link, heard_.error, now);
+      else
+        apply(heard_.first, gateway::BytesHeard{static_cast<LinkId>(link), heard_.view()});
+    }
+  }
 }
 
 void ControlLoop::serve_stream(const StreamOutput& out, Time now) {

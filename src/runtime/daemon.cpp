@@ -23,6 +23,7 @@
 #include "runtime/realtime.h"
 #include "runtime/scan_loop.h"
 #include "runtime/scene_loop.h"
+#include "runtime/serial_loop.h"
 #include "runtime/stop_listener.h"
 #include "runtime/storage_loop.h"
 #include "runtime/supervisor.h"
@@ -81,14 +82,15 @@ class Daemon final {
         storage_(files_, config.paths.state, config.paths.run),
         gateway_(config),
         keeper_(config, gateway_.wiring(), guard_, gateway_.duties()),
+        serial_(gateway_.wiring()),
         slow_(slow_links(config, gateway_.wiring())),
         scanners_(scan_links(config)),
         stored_(storage_.load(scene_age(config.scene))),
         learned_(of_this_robot(config, stored_)),
         memory_(config.paths.run, boot_id(), texts.configuration, stored_.report),
         on_disk_(stored_.stop),
-        control_(config, gateway_, keeper_, guard_, control_exchange_, {memory_, storage_exchange_},
-                 slow_),
+        control_(config, gateway_, keeper_, serial_, guard_, control_exchange_,
+                 {memory_, storage_exchange_}, slow_),
         parser_(publish::ControlLimits{}),
         scene_(config.scene.configured ? std::make_unique<Scene>(config, stored_, scanners_)
                                        : nullptr),
@@ -127,6 +129,7 @@ class Daemon final {
       scene.emplace("scene", [this] { scene_->loop.run(stop_publish_); });
       scene_parser.emplace("scene parser", [this] { scene_->parser.run(stop_publish_); });
     }
+    Worker serial("serial", [this] { run_serial(); });
     Worker control("control", [this] { run_control(); });
     Worker publish("publish", [this] { publish_.run(stop_publish_); });
     std::optional<Worker> stops;
@@ -157,6 +160,9 @@ class Daemon final {
     // From here on the guard sees no heartbeat, if it still does: it keeps the drives at rest.
     stop_control_ = true;
     join(control, 1s);
+    stop_serial_ = true;
+    serial_.wake();
+    join(serial, 1s);
     for (const auto& worker : slow) join(*worker, BatteryLoop::kLongestTurn);
     stop_recorder_ = true;
     if (recorder_) recorder_->wake();
@@ -208,6 +214,12 @@ class Daemon final {
     control_.run(stop_control_);
   }
 
+  /// What it waits with keeps the control thread waiting. Whether it may come first, that one says.
+  void run_serial() {
+    if (config_.control.realtime) (void)become_real_time(config_.control.priority);
+    serial_.run(stop_serial_);
+  }
+
   /// Each with its own limit. Of what persons say, the publish thread hears most: the robot is to
   /// stop within a second of its last turn.
   void watch_threads() {
@@ -225,6 +237,8 @@ class Daemon final {
                          &scene_->parser.turns(), SceneParserLoop::kLongestTurn});
     }
     supervisor_.watch({"droverd's link thread stands still", &keeper_.turns(), 5s});
+    supervisor_.watch(
+        {"droverd's serial thread stands still", &serial_.turns(), SerialLoop::kLongestTurn});
     for (const auto& link : slow_)
       supervisor_.watch({"droverd's battery thread stands still", &link->loop->turns(),
                          BatteryLoop::kLongestTurn});
@@ -290,6 +304,7 @@ class Daemon final {
   Gateway gateway_;
   GuardMemory guard_;
   LinkKeeper keeper_;
+  SerialLoop serial_;
   ControlExchange control_exchange_;
   StorageExchange storage_exchange_;
   const std::vector<std::unique_ptr<SlowLink>> slow_;  ///< Modbus lines
@@ -312,6 +327,7 @@ class Daemon final {
   Time next_feed_ = kNever;
   std::atomic<bool> stop_control_{false};
   std::atomic<bool> stop_publish_{false};
+  std::atomic<bool> stop_serial_{false};
   std::atomic<bool> stop_battery_{false};
   std::atomic<bool> stop_scanners_{false};
   std::atomic<bool> stop_keeper_{false};

@@ -49,9 +49,12 @@ class RunningRobot final {
       : loaded_(config::load_text(configuration)),
         gateway_((refuse_problems(loaded_), loaded_.config)),
         keeper_(loaded_.config, gateway_.wiring(), guard_, gateway_.duties()),
+        serial_(gateway_.wiring()),
         memory_(folder, "a boot", loaded_.text, report_),
-        control_(loaded_.config, gateway_, keeper_, guard_, *exchange_, {memory_, *storage_}),
+        control_(loaded_.config, gateway_, keeper_, serial_, guard_, *exchange_,
+                 {memory_, *storage_}),
         keeps_([this] { keeper_.run(stop_); }),
+        hears_([this] { serial_.run(stop_); }),
         controls_([this] {
           number_ = ::gettid();
           const test::AllocationCounter counter;
@@ -98,6 +101,7 @@ class RunningRobot final {
     stop_ = true;
     keeper_.wake();
     controls_.join();
+    hears_.join();
     keeps_.join();
     return allocations_;
   }
@@ -119,6 +123,7 @@ class RunningRobot final {
   gateway::Gateway gateway_;
   const runtime::GuardMemory guard_;
   runtime::LinkKeeper keeper_;
+  runtime::SerialLoop serial_;
   std::unique_ptr<runtime::ControlExchange> exchange_ =
       std::make_unique<runtime::ControlExchange>();
   std::unique_ptr<runtime::StorageExchange> storage_ = std::make_unique<runtime::StorageExchange>();
@@ -131,6 +136,7 @@ class RunningRobot final {
   std::chrono::steady_clock::time_point next_{};
   bool heard_ = false;
   std::thread keeps_;
+  std::thread hears_;
   std::thread controls_;
 };
 

@@ -68,6 +68,8 @@ class Tty final {
   }
   std::string path() const { return ::ptsname(fd_.get()); }
   void say(std::string_view text) const { (void)!::write(fd_.get(), text.data(), text.size()); }
+  void hang_up() { fd_.reset(); }
+  int fd() const { return fd_.get(); }
 
  private:
   link::UniqueFd fd_;

@@ -68,10 +68,12 @@ TEST_P(TheControlLoopOf, AllocatesNothingWhateverItsWiresSay) {
   const auto storage = std::make_unique<StorageExchange>();
   std::vector<std::string> report;
   RobotMemory memory(wires.folder.path(), "a boot", loaded.text, report);
-  ControlLoop control(loaded.config, gateway, keeper, guard, *exchange, {memory, *storage});
+  SerialLoop serial(gateway.wiring());
+  ControlLoop control(loaded.config, gateway, keeper, serial, guard, *exchange, {memory, *storage});
   std::atomic<bool> stop{false};
   std::uint64_t allocations = 1;
   std::thread keeps([&] { keeper.run(stop); });
+  std::thread hears([&] { serial.run(stop); });
   std::thread controls([&] {
     const test::AllocationCounter counter;
     control.run(stop);
@@ -108,6 +110,7 @@ TEST_P(TheControlLoopOf, AllocatesNothingWhateverItsWiresSay) {
   stop = true;
   keeper.wake();
   controls.join();
+  hears.join();
   keeps.join();
   EXPECT_TRUE(connected) << "its buses are not opened";
   EXPECT_EQ(allocations, 0U);

@@ -9,6 +9,7 @@
 #include "support/allocation_counter.h"
 #include "support/small_robot.h"
 #include "support/temp_folder.h"
+#include "support/terminal_touches.h"
 #include "support/wires.h"
 
 namespace drover::runtime {
@@ -27,6 +28,7 @@ class ControlLoopTest : public testing::Test {
     stop_ = true;
     keeper_.wake();
     control_thread_.join();
+    serial_thread_.join();
     keeper_thread_.join();
   }
   std::string configuration() const {
@@ -64,16 +66,22 @@ class ControlLoopTest : public testing::Test {
   std::unique_ptr<StorageExchange> storage_ = std::make_unique<StorageExchange>();
   std::vector<std::string> report_;
   RobotMemory memory_{folder_.path(), "a boot", loaded_.text, report_};
-  ControlLoop control_{loaded_.config, gateway_, keeper_, guard_, exchange_, {memory_, *storage_}};
+  SerialLoop serial_{gateway_.wiring()};
+  ControlLoop control_{loaded_.config,      gateway_, keeper_, serial_, guard_, exchange_,
+                       {memory_, *storage_}};
   std::atomic<bool> stop_{false};
   std::atomic<std::uint64_t> allocations_{0};
+  std::atomic<std::uint64_t> touches_{0};
   SceneSight scene_;
   bool has_scene_ = (exchange_.scene = &scene_) != nullptr;  // before the thread begins
   std::thread keeper_thread_{[this] { keeper_.run(stop_); }};
+  std::thread serial_thread_{[this] { serial_.run(stop_); }};
   std::thread control_thread_{[this] {
     const test::AllocationCounter counter;
+    const test::TerminalTouches touches;
     control_.run(stop_);
     allocations_ = counter.count();
+    touches_ = touches.count();
   }};
 };
 
@@ -111,6 +119,31 @@ TEST_F(ControlLoopTest, AllocatesNothingWhateverComes) {
   keeper_.wake();
   control_thread_.join();
   EXPECT_EQ(allocations_, 0U);
+  control_thread_ = std::thread([] {});
+}
+
+/// In the kernel that would wait for a worker, which may wait for others.
+TEST_F(ControlLoopTest, AsksNoTerminal) {
+  const auto received = [this] {
+    for (const auto& link : exchange_.snapshot.latest().links)
+      if (link.name.view() == "gnss") return link.received;
+    return std::uint64_t{0};
+  };
+  const test::TerminalTouches own;
+  std::array<std::uint8_t, 1> byte{};
+  std::size_t size = 0;
+  (void)link::read_serial(receiver_.fd(), byte, size);
+  EXPECT_EQ(own.count(), 1U) << "nothing is counted";
+  EXPECT_TRUE(wait_until([&] {
+    receiver_.say("$GNGGA,noise\r\n");
+    return received() > 100;
+  }));
+  receiver_.hang_up();
+  wait_for_cycles(20);
+  stop_ = true;
+  keeper_.wake();
+  control_thread_.join();
+  EXPECT_EQ(touches_, 0U);
   control_thread_ = std::thread([] {});
 }
 

@@ -1,0 +1,115 @@
+#include "runtime/serial_loop.h"
+
+#include <algorithm>
+
+#include "drover/driver.h"
+#include "link/serial_link.h"
+#include "runtime/clock.h"
+
+namespace drover::runtime {
+
+namespace {
+
+using namespace std::chrono_literals;
+
+/// Who looks so often and finds nothing knows of what comes next that it is no older.
+constexpr Duration kLookEach = 50ms;
+/// More than that late, it stood still.
+constexpr Duration kLate = 20ms;
+
+}  // namespace
+
+Time first_came_in(const Listened& listened) {
+  const auto& [began, ended, size, byte_time] = listened;
+  const auto before_last = static_cast<std::int64_t>(size) - 1;
+  const Time from_wire = ended - byte_time * std::max<std::int64_t>(before_last, 0);
+  const bool stood = ended - began > kLookEach + kLate;
+  return stood ? std::min(began, from_wire) : from_wire;
+}
+
+SerialLoop::SerialLoop(const gateway::Wiring& wiring) {
+  for (const auto& link : wiring.links)
+    lines_.push_back(link.wire == Wire::bytes ? std::make_unique<Line>() : nullptr);
+  wait_.reserve(1 + lines_.size());
+}
+
+void SerialLoop::listen(std::size_t link, int fd, int baud) {
+  auto& line = *lines_[link];
+  for (HeardBytes old; line.heard.pop(old);) {
+  }
+  line.baud.store(baud, std::memory_order_relaxed);
+  line.wanted.store(fd, std::memory_order_release);
+  wake_.notify();
+}
+
+bool SerialLoop::leave(std::size_t link) {
+  auto& line = *lines_[link];
+  if (line.wanted.exchange(-1, std::memory_order_release) >= 0) wake_.notify();
+  return line.held.load(std::memory_order_acquire) < 0;
+}
+
+bool SerialLoop::take(std::size_t link, HeardBytes& heard) {
+  return lines_[link]->heard.pop(heard);
+}
+
+void SerialLoop::run(const std::atomic<bool>& stop) {
+  began_ = monotonic_now();
+  while (!stop.load(std::memory_order_relaxed)) {
+    take_orders();
+    wait();
+    turns_.fetch_add(1, std::memory_order_relaxed);
+  }
+  for (const auto& line : lines_)
+    if (line) line->held.store(-1, std::memory_order_release);
+}
+
+void SerialLoop::take_orders() {
+  for (const auto& line : lines_) {
+    if (!line) continue;
+    const int wanted = line->wanted.load(std::memory_order_acquire);
+    if (wanted == line->held.load(std::memory_order_relaxed)) continue;
+    line->waits = false;
+    line->dead = false;
+    line->held.store(wanted, std::memory_order_release);
+  }
+}
+
+/// A line for whose words there is no room keeps them.
+void SerialLoop::wait() {
+  wait_.assign(1, {wake_.fd(), POLLIN, 0});
+  for (const auto& line : lines_) {
+    if (!line) continue;
+    if (line->waits) line->waits = !told(*line);
+    if (is_read(*line)) wait_.push_back({line->held.load(std::memory_order_relaxed), POLLIN, 0});
+  }
+  const timespec longest{0, static_cast<long>(kLookEach.count())};
+  const int ready = ::ppoll(wait_.data(), wait_.size(), &longest, nullptr);
+  const Time ended = monotonic_now();
+  if (ready > 0) {
+    if (wait_.front().revents != 0) wake_.clear();
+    auto fd = wait_.cbegin() + 1;
+    for (const auto& line : lines_)
+      if (line && is_read(*line) && (fd++)->revents != 0) hear(*line, ended);
+  }
+  began_ = ended;
+}
+
+void SerialLoop::hear(Line& line, Time ended) {
+  auto& heard = line.untold;
+  std::size_t size = 0;
+  heard.error = link::read_serial(line.held.load(std::memory_order_relaxed), heard.bytes, size);
+  heard.size = static_cast<std::uint16_t>(size);
+  if (size == 0 && heard.error == 0) return;
+  const int baud = line.baud.load(std::memory_order_relaxed);
+  heard.first = first_came_in({began_, ended, size, from_s(kBitsPerByte / baud)});
+  line.dead = heard.error != 0;
+  line.waits = !told(line);
+}
+
+bool SerialLoop::told(Line& line) {
+  if (!line.heard.push(line.untold)) return false;
+  ready_.notify();
+  return true;
+}
+
+}  // namespace drover::runtime
