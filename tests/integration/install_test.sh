@@ -45,4 +45,9 @@ for file in lib/udev/rules.d/70-drover.rules lib/sysusers.d/drover.conf lib/tmpf
   expect "$file is installed" test -e "$folder/usr/$file"
 done
 expect "/etc is left alone" test ! -e "$folder/etc"
+# Some of it has the name of its source, which a build beside that would write over.
+mkdir "$folder/sources"
+cp "$(dirname "$0")/../../CMakeLists.txt" "$folder/sources"
+said=$("$cmake" -B "$folder/sources" -S "$folder/sources" 2>&1 || true)
+expect "a build in the sources' own folder is refused" grep -q 'a folder of its own' <<< "$said"
 exit $failed
