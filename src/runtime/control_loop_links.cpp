@@ -91,17 +91,23 @@ void ControlLoop::give_back(LinkHandover& dead) {
   (void)keeper_.give_back(dead);
 }
 
+/// No more at once than a line has room for: one that babbles must not hold the cycle for ever.
 void ControlLoop::hear_streams(Time now) {
   serial_.clear_ready();
+  bool more = false;
   for (std::size_t link = 0; link < open_.size(); ++link) {
-    while (open_[link].serial && serial_.take(link, heard_)) {
+    std::size_t taken = 0;
+    for (; open_[link].serial && taken < SerialLoop::kRoom; ++taken) {
+      if (!serial_.take(link, heard_)) break;
       link_state_[link].received += heard_.size;
       if (heard_.error != 0)
         lose(link, heard_.error, now);
       else
         apply(heard_.first, gateway::BytesHeard{static_cast<LinkId>(link), heard_.view()});
     }
+    more |= taken == SerialLoop::kRoom;
   }
+  if (more) serial_.go_on();
 }
 
 void ControlLoop::serve_stream(const StreamOutput& out, Time now) {

@@ -19,12 +19,15 @@ constexpr Duration kLate = 20ms;
 
 }  // namespace
 
+bool stood(const Listened& listened) {
+  return listened.ended - listened.began > kLookEach + kLate;
+}
+
 Time first_came_in(const Listened& listened) {
   const auto& [began, ended, size, byte_time] = listened;
   const auto before_last = static_cast<std::int64_t>(size) - 1;
   const Time from_wire = ended - byte_time * std::max<std::int64_t>(before_last, 0);
-  const bool stood = ended - began > kLookEach + kLate;
-  return stood ? std::min(began, from_wire) : from_wire;
+  return stood(listened) ? std::min(began, from_wire) : from_wire;
 }
 
 SerialLoop::SerialLoop(const gateway::Wiring& wiring) {
@@ -37,15 +40,16 @@ void SerialLoop::listen(std::size_t link, int fd, int baud) {
   auto& line = *lines_[link];
   for (HeardBytes old; line.heard.pop(old);) {
   }
-  line.baud.store(baud, std::memory_order_relaxed);
-  line.wanted.store(fd, std::memory_order_release);
+  line.fd = fd;
+  line.baud = baud;
+  line.hold.lend();
   wake_.notify();
 }
 
 bool SerialLoop::leave(std::size_t link) {
-  auto& line = *lines_[link];
-  if (line.wanted.exchange(-1, std::memory_order_release) >= 0) wake_.notify();
-  return line.held.load(std::memory_order_acquire) < 0;
+  if (lines_[link]->hold.take_back()) return true;
+  wake_.notify();
+  return false;
 }
 
 bool SerialLoop::take(std::size_t link, HeardBytes& heard) {
@@ -60,48 +64,60 @@ void SerialLoop::run(const std::atomic<bool>& stop) {
     turns_.fetch_add(1, std::memory_order_relaxed);
   }
   for (const auto& line : lines_)
-    if (line) line->held.store(-1, std::memory_order_release);
+    if (line && line->hold.holds()) line->hold.let_go();
 }
 
 void SerialLoop::take_orders() {
   for (const auto& line : lines_) {
     if (!line) continue;
-    const int wanted = line->wanted.load(std::memory_order_acquire);
-    if (wanted == line->held.load(std::memory_order_relaxed)) continue;
-    line->waits = false;
-    line->dead = false;
-    line->held.store(wanted, std::memory_order_release);
+    line->hold.obey();
+    if (!line->hold.begin()) continue;
+    line->waits = line->dead = line->behind = false;
+    line->empty_at = began_;
   }
 }
 
-/// A line for whose words there is no room keeps them.
+/// A line for whose words there is no room keeps them. Whether one that is behind has more is asked
+/// at once: else nobody would know what of the next came meanwhile.
 void SerialLoop::wait() {
   wait_.assign(1, {wake_.fd(), POLLIN, 0});
+  timespec longest{0, static_cast<long>(kLookEach.count())};
   for (const auto& line : lines_) {
     if (!line) continue;
     if (line->waits) line->waits = !told(*line);
-    if (is_read(*line)) wait_.push_back({line->held.load(std::memory_order_relaxed), POLLIN, 0});
+    if (!is_read(*line)) continue;
+    wait_.push_back({line->fd, POLLIN, 0});
+    if (line->behind) longest = {};
   }
-  const timespec longest{0, static_cast<long>(kLookEach.count())};
   const int ready = ::ppoll(wait_.data(), wait_.size(), &longest, nullptr);
   const Time ended = monotonic_now();
-  if (ready > 0) {
-    if (wait_.front().revents != 0) wake_.clear();
-    auto fd = wait_.cbegin() + 1;
-    for (const auto& line : lines_)
-      if (line && is_read(*line) && (fd++)->revents != 0) hear(*line, ended);
+  if (ready > 0 && wait_.front().revents != 0) wake_.clear();
+  auto fd = wait_.cbegin() + 1;
+  for (const auto& line : lines_) {
+    if (!line || !is_read(*line)) continue;
+    if (ready > 0 && (fd++)->revents != 0)
+      hear(*line, ended);
+    else if (!stood({began_, ended}))
+      found_empty(*line, ended);
   }
   began_ = ended;
+}
+
+void SerialLoop::found_empty(Line& line, Time at) {
+  line.empty_at = at;
+  line.behind = false;
 }
 
 void SerialLoop::hear(Line& line, Time ended) {
   auto& heard = line.untold;
   std::size_t size = 0;
-  heard.error = link::read_serial(line.held.load(std::memory_order_relaxed), heard.bytes, size);
+  heard.error = link::read_serial(line.fd, heard.bytes, size);
   heard.size = static_cast<std::uint16_t>(size);
   if (size == 0 && heard.error == 0) return;
-  const int baud = line.baud.load(std::memory_order_relaxed);
-  heard.first = first_came_in({began_, ended, size, from_s(kBitsPerByte / baud)});
+  const Listened listened{line.empty_at, ended, size, from_s(kBitsPerByte / line.baud)};
+  heard.first = first_came_in(listened);
+  line.behind = stood(listened);  // and then what is left is as old
+  if (!line.behind) line.empty_at = ended;
   line.dead = heard.error != 0;
   line.waits = !told(line);
 }

@@ -16,6 +16,7 @@
 #include "drover/spsc_ring.h"
 #include "drover/time.h"
 #include "gateway/slots.h"
+#include "runtime/line_hold.h"
 #include "runtime/wake.h"
 
 namespace drover::runtime {
@@ -29,15 +30,17 @@ struct HeardBytes {
   std::span<const std::uint8_t> view() const { return {bytes.data(), size}; }
 };
 
-/// A thread's wait for bytes, and how many it then found.
+/// A wait for bytes, and how many it then found.
 struct Listened {
-  Time began = kNever;
+  Time began = kNever;  ///< nothing had come until then
   Time ended = kNever;
   std::size_t size = 0;
   Duration byte_time{};  ///< on the wire
 };
-/// When the first of the bytes came in. Who stood still does not know for how long they waited: as
-/// early as it can have been, so that nothing old is taken for young.
+/// Nobody looked for so long that nobody knows how long the bytes waited.
+bool stood(const Listened& listened);
+/// When the first of the bytes came in; after a stand as early as it can have been, so that nothing
+/// old is taken for young.
 Time first_came_in(const Listened& listened);
 
 class SerialLoop final {
@@ -55,6 +58,12 @@ class SerialLoop final {
   /// Is readable when there is something to take.
   int ready_fd() const { return ready_.fd(); }
   void clear_ready() const { ready_.clear(); }
+  /// A line has room for so much that was not taken. Who took it all lets the line go on.
+  static constexpr std::size_t kRoom = 16;
+  void go_on() const {
+    ready_.notify();
+    wake_.notify();
+  }
 
   // Its own thread:
   void run(const std::atomic<bool>& stop);
@@ -67,23 +76,24 @@ class SerialLoop final {
 
  private:
   struct Line {
-    std::atomic<int> wanted{-1};  ///< control → serial: what to read; -1: nothing
-    std::atomic<int> held{-1};    ///< serial → control: what it does read
-    std::atomic<int> baud{1};     ///< control → serial, before `wanted`
-    SpscRing<HeardBytes, 16> heard;
+    LineHold hold;
+    int fd = -1;  ///< this and the next are the control thread's while nobody holds the line
+    int baud = 1;
+    SpscRing<HeardBytes, kRoom> heard;
     // Of the thread:
     HeardBytes untold;  ///< for which there was no room
     bool waits = false;
     bool dead = false;
+    Time empty_at = kNever;  ///< as far as anybody knows nothing had come until then
+    bool behind = false;     ///< there may be more of what came while nobody looked
   };
   void take_orders();
   void wait();
   void hear(Line& line, Time ended);
+  static void found_empty(Line& line, Time at);
   /// False: what was heard has to wait for room.
   bool told(Line& line);
-  static bool is_read(const Line& line) {
-    return line.held.load(std::memory_order_relaxed) >= 0 && !line.dead && !line.waits;
-  }
+  static bool is_read(const Line& line) { return line.hold.holds() && !line.dead && !line.waits; }
 
   std::vector<std::unique_ptr<Line>> lines_;  ///< by the gateway's links; nullptr: of another wire
   std::vector<pollfd> wait_;

@@ -31,6 +31,8 @@ TEST(FirstByte, IsAsOldAsItCanBeWhenTheThreadStood) {
   EXPECT_EQ(first_came_in({now - 12s, now, 21, 100us}), now - 12s);
   EXPECT_EQ(first_came_in({now - 80ms, now, 1001, 100us}), now - 100ms)
       << "more than came since it looked";
+  EXPECT_FALSE(stood({now - 50ms, now}));
+  EXPECT_TRUE(stood({now - 80ms, now}));
 }
 
 class SerialLoopTest : public testing::Test {
@@ -149,6 +151,56 @@ TEST_F(SerialLoopTest, LosesNothingWhileNobodyTakes) {
     std::this_thread::sleep_for(2ms);  // each its own read: more than there is room for
   }
   EXPECT_EQ(hear(said.size()), said);
+}
+
+/// A second read of them says nothing of their age, and nor does another line's.
+TEST_F(SerialLoopTest, TellsNothingOldAsYoungWhenNobodyTookForLong) {
+  listen();
+  for (std::size_t i = 0; i <= SerialLoop::kRoom; ++i) {
+    const auto turns = loop_->turns().load();
+    device_.say("x");
+    ASSERT_TRUE(wait_until([&] { return loop_->turns() > turns; }));
+  }
+  device_.say(std::string(3000, 'o'));
+  const Time said = monotonic_now();
+  std::this_thread::sleep_for(300ms);
+  std::size_t old = 0;
+  Time before = kNever;
+  EXPECT_TRUE(wait_until([&] {
+    while (loop_->take(kLink, heard_)) {
+      EXPECT_GE(heard_.first, before) << "after " << old;
+      before = heard_.first;
+      if (heard_.view().back() != 'o') continue;
+      EXPECT_LE(heard_.first, said) << "after " << old;
+      old += heard_.size;
+    }
+    return old >= 3000;
+  }));
+  // Young again.
+  const Time now = monotonic_now();
+  EXPECT_TRUE(wait_until([&] { return monotonic_now() > now + 10ms; }));
+  device_.say("young");
+  EXPECT_EQ(hear(5), "young");
+  EXPECT_GE(heard_.first, now);
+}
+
+TEST_F(SerialLoopTest, GoesOnAndTellsOfTheRestWhenThereIsRoomAgain) {
+  listen();
+  for (std::size_t i = 0; i <= SerialLoop::kRoom; ++i) {
+    const auto turns = loop_->turns().load();
+    device_.say("x");
+    ASSERT_TRUE(wait_until([&] { return loop_->turns() > turns; }));
+  }
+  loop_->clear_ready();
+  for (std::size_t i = 0; i < SerialLoop::kRoom; ++i) ASSERT_TRUE(loop_->take(kLink, heard_));
+  const auto is_ready = [this] {
+    pollfd fd{loop_->ready_fd(), POLLIN, 0};
+    return ::poll(&fd, 1, 0) == 1;
+  };
+  loop_->clear_ready();
+  loop_->go_on();
+  EXPECT_TRUE(is_ready());
+  EXPECT_EQ(hear(1), "x");
 }
 
 TEST_F(SerialLoopTest, LivesWithoutALineAndTouchesNoneOnceItEnded) {
