@@ -160,13 +160,14 @@ class Daemon final {
     // From here on the guard sees no heartbeat, if it still does: it keeps the drives at rest.
     stop_control_ = true;
     join(control, 1s);
-    stop_serial_ = true;
-    serial_.wake();
-    join(serial, 1s);
     for (const auto& worker : slow) join(*worker, BatteryLoop::kLongestTurn);
     stop_recorder_ = true;
     if (recorder_) recorder_->wake();
     if (recorder) join(*recorder, 1s);
+    // A line that lets nobody go ends the daemon here: the recording has its end already.
+    stop_serial_ = true;
+    serial_.wake();
+    join(serial, 1s);
     stop_keeper_ = true;
     keeper_.wake();
     join(keeper, 1s);
