@@ -14,20 +14,20 @@ using namespace std::chrono_literals;
 
 /// Who looks so often and finds nothing knows of what comes next that it is no older.
 constexpr Duration kLookEach = 50ms;
-/// More than that late, it stood still.
-constexpr Duration kLate = 20ms;
+/// What may have waited for longer has no time that anybody could give it: told at the time of the
+/// read it would be taken for young, told as old as it can be for a position of before it was
+/// measured.
+constexpr Duration kTooLong = 250ms;
 
 }  // namespace
 
-bool stood(const Listened& listened) {
-  return listened.ended - listened.began > kLookEach + kLate;
+bool too_old(const Listened& listened) {
+  return listened.ended - listened.began > kTooLong;
 }
 
 Time first_came_in(const Listened& listened) {
-  const auto& [began, ended, size, byte_time] = listened;
-  const auto before_last = static_cast<std::int64_t>(size) - 1;
-  const Time from_wire = ended - byte_time * std::max<std::int64_t>(before_last, 0);
-  return stood(listened) ? std::min(began, from_wire) : from_wire;
+  const auto before_last = static_cast<std::int64_t>(listened.size) - 1;
+  return listened.ended - listened.byte_time * std::max<std::int64_t>(before_last, 0);
 }
 
 SerialLoop::SerialLoop(const gateway::Wiring& wiring) {
@@ -97,7 +97,7 @@ void SerialLoop::wait() {
     if (!line || !is_read(*line)) continue;
     if (ready > 0 && (fd++)->revents != 0)
       hear(*line, ended);
-    else if (!stood({began_, ended}))
+    else if (!too_old({began_, ended}))
       found_empty(*line, ended);
   }
   began_ = ended;
@@ -112,12 +112,13 @@ void SerialLoop::hear(Line& line, Time ended) {
   auto& heard = line.untold;
   std::size_t size = 0;
   heard.error = link::read_serial(line.fd, heard.bytes, size);
-  heard.size = static_cast<std::uint16_t>(size);
   if (size == 0 && heard.error == 0) return;
   const Listened listened{line.empty_at, ended, size, from_s(kBitsPerByte / line.baud)};
   heard.first = first_came_in(listened);
-  line.behind = stood(listened);  // and then what is left is as old
+  line.behind = too_old(listened);  // and then what is left is as old
   if (!line.behind) line.empty_at = ended;
+  heard.size = static_cast<std::uint16_t>(line.behind ? 0 : size);
+  heard.thrown_away = static_cast<std::uint16_t>(line.behind ? size : 0);
   line.dead = heard.error != 0;
   line.waits = !told(line);
 }

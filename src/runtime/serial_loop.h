@@ -26,6 +26,7 @@ struct HeardBytes {
   Time first = kNever;  ///< when the first of the bytes came in
   int error = 0;        ///< an errno: the line is dead, and nothing more comes
   std::uint16_t size = 0;
+  std::uint16_t thrown_away = 0;  ///< so many were too old
   std::array<std::uint8_t, 1024> bytes{};
   std::span<const std::uint8_t> view() const { return {bytes.data(), size}; }
 };
@@ -37,10 +38,9 @@ struct Listened {
   std::size_t size = 0;
   Duration byte_time{};  ///< on the wire
 };
-/// Nobody looked for so long that nobody knows how long the bytes waited.
-bool stood(const Listened& listened);
-/// When the first of the bytes came in; after a stand as early as it can have been, so that nothing
-/// old is taken for young.
+/// Nobody looked for so long that nobody knows when the bytes came in: they are thrown away.
+bool too_old(const Listened& listened);
+/// When the first of the bytes came in, the last one just now.
 Time first_came_in(const Listened& listened);
 
 class SerialLoop final {
