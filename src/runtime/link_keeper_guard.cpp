@@ -2,6 +2,8 @@
 #include <fcntl.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <utility>
 
 #include "runtime/link_keeper.h"
@@ -160,9 +162,12 @@ void LinkKeeper::supply_watchdog(Time now) {
     watchdog_.problem.clear();
     log(LogLevel::info, "drover-guard pulses the hardware watchdog's line");
   } else if (!opened.link && !watchdog_.open && opened.problem != watchdog_.problem) {
-    // Once the guard has it, it is busy: that is as it should be.
     watchdog_.problem = opened.problem;
-    log(LogLevel::warning, opened.problem);
+    // The guard may have it from the droverd before this one.
+    const bool busy = opened.problem.ends_with(std::strerror(EBUSY));
+    log(busy ? LogLevel::info : LogLevel::warning,
+        "outputs.watchdog: " + opened.problem +
+            (busy ? ", as it is while drover-guard pulses it for the droverd before this one" : ""));
   }
 }
 

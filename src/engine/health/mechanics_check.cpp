@@ -339,7 +339,7 @@ Reason MechanicsCheck::slowly(FirstWay who) const {
   const double left_m = first_m - rolled_m_;
   if (left_m > 0) {
     // Never "0.00 m are left".
-    why.format("slowly: %s, gyro and receiver are compared on the first %g m, %.2f m are left",
+    why.format("slowly: %s, gyro and receiver are compared on the first %.3g m, %.2f m are left",
                words_->wheels, first_m, std::max(left_m, 0.01));
   } else if (guided_ && !swing_.is_over()) {
     why = "slowly: it was not seen to turn to both sides yet";
