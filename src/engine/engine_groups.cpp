@@ -52,7 +52,7 @@ void Engine::Impl::step_groups(Time now, Duration dt, const Environment& environ
                     {snapshot.axes.data(), snapshot.axes.size()},
                     from_s(config.health.drive_stale_s),
                     hindrance,
-                    environment.guard_has_bus && !environment.guard_latched,
+                    environment.guard_has_bus && !environment.guard_leaves_the_rest(),
                     report.estop},
                    out.axes, out.joint_may_move, events);
     snapshot.groups[i] = groups[i].snapshot();

@@ -146,7 +146,8 @@ engine::Permission Gateway::permission(const Slot& slot) {
     (void)slowing_.push_back(slowing);
   }
   // By a stop from outside the guard has the base; what only this gateway can hold it holds on.
-  const bool guarded = guard_has_bus_ && (slot.of_base || !guard_latched_);
+  const bool guarded =
+      environment_.guard_has_bus && (slot.of_base || !environment_.guard_leaves_the_rest());
   return {motion, guarded, {slowing_.data(), slowing_.size()}};
 }
 
@@ -191,8 +192,6 @@ void Gateway::on(const Tick& tick, Time now) {
 
   engine_.step(now, environment_, cycle_.engine);
   motion_permitted_ = cycle_.engine.motion_permitted;
-  guard_has_bus_ = tick.guard_has_bus;
-  guard_latched_ = tick.guard_latched;
   command_actuators(now);
   hand_out();
 }
@@ -271,7 +270,7 @@ void Gateway::hand_out() {
   for (std::size_t i = 0; i < streams_.size(); ++i) {
     StreamOutput& waiting = streams_[i].waiting;
     // The guard writes whole packets there; even a stop of ours could fall into one of them.
-    if (waiting.moves && guard_has_bus_) waiting.bytes.clear();
+    if (waiting.moves && environment_.guard_has_bus) waiting.bytes.clear();
     cycle_.streams[i] = waiting;
     waiting = {waiting.link, {}, 0, waiting.moves};
   }

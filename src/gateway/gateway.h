@@ -151,8 +151,6 @@ class Gateway final {
   Reason slept_;  ///< told for a moment after waking
   bool guard_required_;
   bool motion_permitted_ = false;
-  bool guard_has_bus_ = false;
-  bool guard_latched_ = false;  ///< by a stop from outside, at the guard
 };
 
 }  // namespace drover::gateway

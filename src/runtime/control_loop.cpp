@@ -113,7 +113,7 @@ Time ControlLoop::cycle(Time begin, std::uint64_t late) {
   take_commands(begin);
 
   const bool guard_alive = guard_watch_.alive(begin) && keeper_.guard_equipped();
-  apply(begin, gateway::Tick{guard_alive, guard_watch_.holds(begin), guard_watch_.leaves_the_rest(),
+  apply(begin, gateway::Tick{guard_alive, guard_watch_.holds(begin), guard_watch_.latched(),
                              guard_watch_.refuses_set()});
   // Before the events go: who hears that a path is released may delete it.
   if (exchange_.recorder != nullptr) exchange_.recorder->output(gateway_);

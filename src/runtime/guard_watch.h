@@ -52,9 +52,6 @@ class GuardWatch final {
   bool latched() const { return latched_; }
   /// It keeps the stop set of another program, until it is reset.
   bool refuses_set() const { return set_refused_; }
-  /// By a stop from outside the guard leaves what only a program can hold to the one whose stop set
-  /// it has: what it keeps of another it plays whole, and two would write.
-  bool leaves_the_rest() const { return latched_ && !set_refused_; }
 
   /// True when the bus is to be asked back now; `calm`: no task, and the program is well.
   bool ask_back(bool calm, bool rolls, Time now) {

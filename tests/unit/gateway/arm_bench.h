@@ -53,7 +53,7 @@ class ArmBench {
     lines.link = 2;
     (void)lines.levels.push_back(!estop);
     gateway.apply({now, lines});
-    gateway.apply({now, Tick{true, guard_has_bus, guard_latched}});
+    gateway.apply({now, Tick{true, guard_has_bus, guard_latched, guard_refuses_set}});
     allocations += counter.count();
   }
   void cycles(int count) {
@@ -83,6 +83,7 @@ class ArmBench {
   bool estop = false;
   bool guard_has_bus = false;
   bool guard_latched = false;
+  bool guard_refuses_set = false;
   std::uint64_t requests = 0;
   std::uint64_t allocations = 0;
 

@@ -55,6 +55,18 @@ TEST(AnArmAtTheGateway, IsHeldByItAfterAStopFromOutsideAndNotWhenTheGuardHasAll)
   EXPECT_GT(bench.gateway.refused(1), before);
 }
 
+/// That set is another program's, whose axes the guard plays all: two would write.
+TEST(AnArmAtTheGateway, IsLeftToALatchedGuardThatKeepsAnotherStopSet) {
+  ArmBench bench(kArm, kElbow);
+  bench.cycles(400);
+  bench.follow(600, 0.5);
+  bench.guard_has_bus = bench.guard_latched = bench.guard_refuses_set = true;
+  const auto before = bench.gateway.refused(1);
+  bench.cycles(100);
+  EXPECT_GT(bench.gateway.refused(1), before);
+  EXPECT_TRUE(bench.to_arm().empty());
+}
+
 TEST(AnArmAtTheGateway, TellsTheGuardWhatItCannotHold) {
   const ArmBench bench(kArm, kElbow);
   const auto duties = bench.gateway.duties();

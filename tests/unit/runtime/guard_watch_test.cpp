@@ -98,18 +98,16 @@ TEST_F(AGuardWatch, LeavesTheBusToAGuardThatIsLatchedAndTellsOfTheLatchOnce) {
   EXPECT_TRUE(pass(10ms));
 }
 
-/// One that keeps the stop set of the program before plays all of that, and two would write.
-TEST_F(AGuardWatch, IsLeftWhatOnlyThisProgramHoldsByALatchedGuardThatTookItsStopSet) {
+TEST_F(AGuardWatch, TellsOfALatchAndOfAStopSetThatTheGuardDidNotTake) {
   signs.holds = true;
   (void)watch.update(signs, now);
-  EXPECT_FALSE(watch.leaves_the_rest()) << "its heartbeat was late: the guard has every axis";
+  EXPECT_FALSE(watch.latched());
+  EXPECT_FALSE(watch.refuses_set());
   signs.latched = true;
-  (void)watch.update(signs, now);
-  EXPECT_TRUE(watch.leaves_the_rest());
   signs.set_refused = true;
   (void)watch.update(signs, now);
-  EXPECT_FALSE(watch.leaves_the_rest());
   EXPECT_TRUE(watch.latched());
+  EXPECT_TRUE(watch.refuses_set());
 }
 
 }  // namespace

@@ -158,6 +158,11 @@ TEST_F(AHealthMonitor, StopsWhileTheGuardKeepsAnotherConfigurationsStopSetAndIsT
   monitor.reset();
   EXPECT_EQ(update().stop.view().find("stop set"), std::string_view::npos);
 }
+TEST_F(AHealthMonitor, TellsOfAStopAtAGuardThatItDoesNotNeedWhateverThatOneKeeps) {
+  config.health.guard_required = false;
+  environment.guard_has_bus = environment.guard_latched = environment.guard_refuses_set = true;
+  expect_stop("stopped by drover stop at the guard, until drover reset");
+}
 TEST_F(AHealthMonitor, StopsWithoutAGuardUnlessNoneIsRequired) {
   environment.guard_alive = false;
   expect_stop("the guard does not answer");
