@@ -38,8 +38,6 @@ class JointShaper final {
 
   /// The drive runs from now on, or again: nothing is remembered.
   void take_over(const JointMeasured& measured);
-  /// A command begins: whatever holds the joint goes on from here.
-  void begin() { holds_ = false; }
 
   /// One cycle of following.
   void follow(const JointTarget& target, const JointMeasured& measured, double dt_s);

@@ -112,13 +112,7 @@ TEST_F(EngineGroupStop, LeavesAsItIsWhatWasNeverArmed) {
 
 /// The guard had it, or droverd began anew: that was a stop, too.
 TEST_F(EngineGroupStop, WhatIsFoundRunningIsHeld) {
-  for (ArmJoint& joint : arm) {
-    joint.state = AxisState::running;
-    joint.found_on = joint.damps_while_arming = true;
-    joint.damps_Nmsprad = 5;
-    joint.arms_in = 20;
-    joint.position_rad = 0.7;
-  }
+  find_running(0.7);
   settle();
   run_s(5);
   expect_held(arm[0].position_rad, "found");
