@@ -1,4 +1,7 @@
 // What holds in every mission.
+#include <fstream>
+#include <iterator>
+
 #include "mission/support.h"
 #include "support/protoc.h"
 
@@ -48,6 +51,13 @@ TEST_P(EveryMission, NeverMovesFartherFromTheTruthThanTheBound) {
 
 TEST_P(EveryMission, TellsItsStatusInTheDocumentsWords) {
   EXPECT_THAT(check_form(log()), IsEmpty());
+}
+
+/// Nobody else is there: what is busy is with drover-guard, where it belongs.
+TEST_P(EveryMission, WarnsOfNoLineThatTheGuardHas) {
+  std::ifstream stream(log().folder / "droverd.log");
+  const std::string told{std::istreambuf_iterator<char>(stream), {}};
+  EXPECT_THAT(told, testing::Not(testing::ContainsRegex("(warning|error): .*resource busy")));
 }
 
 TEST_P(EveryMission, TellsItsStatusTenTimesASecond) {
