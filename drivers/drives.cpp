@@ -9,7 +9,7 @@ constexpr Duration kForeignShown = std::chrono::milliseconds(1000);
 
 }  // namespace
 
-bool ToldStatus::is_due(const AxisStatus& current, bool always) {
+bool ToldStatus::is_due(const StatusInWords& current, bool always) {
   const bool changed = !told_once_ || current.state != told_.state ||
                        current.error_code != told_.error_code || current.lapsed != told_.lapsed ||
                        current.powered != told_.powered || !(current.reason == told_.reason);

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string_view>
+#include <variant>
 
 #include "drover/actuator.h"
 #include "drover/driver.h"
@@ -24,14 +25,24 @@ void report_heard(const T& value, Time received, DriverOut& out) {
   out.report(received, received, value);
 }
 
-/// A status is told when it changed, and whenever it is asked for.
+/// A status with its words: decoded, empty when there is no error.
+struct StatusInWords : AxisStatus {
+  Reason reason;
+};
+
+/// A status is told when it changed, and whenever it is asked for. Its words stay here until the
+/// next one is told.
 class ToldStatus final {
  public:
   /// True when this one is to be told now; of whose axis it is does not count.
-  bool is_due(const AxisStatus& current, bool always);
+  bool is_due(const StatusInWords& current, bool always);
+  /// For Device::words, of a device that tells one status, of all its axes.
+  Reason words(const Measurement& reported) const {
+    return std::holds_alternative<AxisStatus>(reported.value) ? told_.reason : Reason();
+  }
 
  private:
-  AxisStatus told_;
+  StatusInWords told_;
   bool told_once_ = false;
 };
 

@@ -26,6 +26,7 @@ class AgilexV2Driver final : public Device, public FrameFace, public Actuator {
   void on_link_up(Time now) override;
   void on_tick(Time now, DriverOut& out) override;
   SourceHealth health(Time now) const override;
+  Reason words(const Measurement& reported) const override { return told_.words(reported); }
 
   void on_frame(const CanFrame& frame, Time received, DriverOut& out) override;
   std::span<const FrameFilter> listens() const override;
@@ -42,7 +43,7 @@ class AgilexV2Driver final : public Device, public FrameFace, public Actuator {
   bool ever_heard() const { return last_state_ != kNever || last_motion_ != kNever; }
   bool talks(Time now) const { return missing(now).empty(); }
   std::string_view missing(Time now) const;
-  AxisStatus status(Time now) const;
+  StatusInWords status(Time now) const;
   AxisState mode_state() const;
   Model model() const { return steering_ ? Model::hunter : Model::scout; }
   std::optional<Twist> read_twist(const CanFrame& frame) const;

@@ -114,8 +114,8 @@ void AgilexV2Driver::hear_motion(const CanFrame& frame, Time received, DriverOut
 }
 
 void AgilexV2Driver::on_tick(Time now, DriverOut& out) {
-  const AxisStatus current = status(now);
-  if (told_.is_due(current, false)) report_heard(current, now, out);
+  const StatusInWords current = status(now);
+  if (told_.is_due(current, false)) report_heard<AxisStatus>(current, now, out);
   if (motion_told_ && now - last_motion_ > kMotionStale) {
     motion_told_ = false;
     out.report({now, now, BodyMotion{}});
@@ -141,8 +141,8 @@ AxisState AgilexV2Driver::mode_state() const {
   return wanted && !held_off_ ? AxisState::arming : AxisState::idle;
 }
 
-AxisStatus AgilexV2Driver::status(Time now) const {
-  AxisStatus status;
+StatusInWords AgilexV2Driver::status(Time now) const {
+  StatusInWords status;
   status.axis = axis_;
   if (!state_known_ || !talks(now)) {
     status.reason = "the chassis was never heard";

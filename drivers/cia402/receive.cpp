@@ -128,8 +128,8 @@ void Cia402Driver::on_status(const Status& status, Time received, DriverOut& out
   report_heard(motion, received, out);
 }
 
-AxisStatus Cia402Driver::status(Time now) const {
-  AxisStatus status;
+StatusInWords Cia402Driver::status(Time now) const {
+  StatusInWords status;
   if (heard_.last_alive == kNever) {
     status.reason = "the node was not heard yet";
     return status;
@@ -166,9 +166,9 @@ AxisStatus Cia402Driver::status(Time now) const {
 }
 
 void Cia402Driver::report_status(Time now, bool always, DriverOut& out) {
-  AxisStatus current = status(now);
+  StatusInWords current = status(now);
   current.axis = axis_;
-  if (told_.is_due(current, always)) report_heard(current, now, out);
+  if (told_.is_due(current, always)) report_heard<AxisStatus>(current, now, out);
 }
 
 SourceHealth Cia402Driver::health(Time now) const {

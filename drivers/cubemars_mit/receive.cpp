@@ -81,8 +81,8 @@ void CubemarsDriver::follow_feedback(Time now) {
   }
 }
 
-AxisStatus CubemarsDriver::status(Time now) const {
-  AxisStatus status;
+StatusInWords CubemarsDriver::status(Time now) const {
+  StatusInWords status;
   status.axis = axis_;
   if (heard_.last_alive == kNever) {
     status.reason = "no answer yet";
@@ -113,7 +113,7 @@ AxisStatus CubemarsDriver::status(Time now) const {
   return status;
 }
 
-AxisStatus CubemarsDriver::fault_status(AxisStatus status) const {
+StatusInWords CubemarsDriver::fault_status(StatusInWords status) const {
   status.state = AxisState::fault;
   status.powered = power_ != Power::off;
   status.lapsed = feedback_.error == static_cast<std::uint8_t>(MotorError::under_voltage);
@@ -126,8 +126,8 @@ AxisStatus CubemarsDriver::fault_status(AxisStatus status) const {
 }
 
 void CubemarsDriver::report_status(Time now, DriverOut& out) {
-  const AxisStatus current = status(now);
-  if (told_.is_due(current, false)) report_heard(current, now, out);
+  const StatusInWords current = status(now);
+  if (told_.is_due(current, false)) report_heard<AxisStatus>(current, now, out);
 }
 
 SourceHealth CubemarsDriver::health(Time now) const {

@@ -27,6 +27,7 @@ class DamiaoDriver final : public Device, public FrameFace, public Actuator {
   void on_setpoints(std::span<const Setpoint> wanted, Time now, DriverOut& out) override;
   void on_link_up(Time now) override;
   SourceHealth health(Time now) const override;
+  Reason words(const Measurement& reported) const override { return told_.words(reported); }
   std::span<const FrameFilter> listens() const override { return hears_; }
   std::span<const Channel> channels() const override { return kChannels; }
   std::span<const FrameRule> rules() const override { return rules_; }
@@ -56,8 +57,8 @@ class DamiaoDriver final : public Device, public FrameFace, public Actuator {
   void on_feedback(const Feedback& feedback, Time received, DriverOut& out);
   void follow_feedback(Time now);
   void report_temperature(Time received, DriverOut& out);
-  AxisStatus status(Time now) const;
-  AxisStatus fault_status(AxisStatus status) const;
+  StatusInWords status(Time now) const;
+  StatusInWords fault_status(StatusInWords status) const;
   void report_status(Time now, bool always, DriverOut& out);
 
   // driver.cpp

@@ -104,8 +104,8 @@ void DamiaoDriver::follow_feedback(Time now) {
   }
 }
 
-AxisStatus DamiaoDriver::status(Time now) const {
-  AxisStatus status;
+StatusInWords DamiaoDriver::status(Time now) const {
+  StatusInWords status;
   status.axis = axis_;
   if (heard_.last_alive == kNever) {
     status.reason = "no answer yet";
@@ -137,7 +137,7 @@ AxisStatus DamiaoDriver::status(Time now) const {
   return status;
 }
 
-AxisStatus DamiaoDriver::fault_status(AxisStatus status) const {
+StatusInWords DamiaoDriver::fault_status(StatusInWords status) const {
   constexpr auto kUnderVoltage = static_cast<std::uint8_t>(MotorStatus::under_voltage);
   status.state = AxisState::fault;
   status.powered = feedback_.enabled();
@@ -153,9 +153,9 @@ AxisStatus DamiaoDriver::fault_status(AxisStatus status) const {
 }
 
 void DamiaoDriver::report_status(Time now, bool always, DriverOut& out) {
-  const AxisStatus current = status(now);
+  const StatusInWords current = status(now);
   if (!told_.is_due(current, always)) return;
-  report_heard(current, now, out);
+  report_heard<AxisStatus>(current, now, out);
 }
 
 SourceHealth DamiaoDriver::health(Time now) const {

@@ -228,8 +228,8 @@ Reason Host::trouble(Time now) const {
   return {};
 }
 
-AxisStatus Host::status(Time now) const {
-  AxisStatus status;
+StatusInWords Host::status(Time now) const {
+  StatusInWords status;
   status.axis = axis_;
   if (heard_.last_alive == kNever) {
     status.reason = "the chassis was not heard yet";
@@ -259,8 +259,8 @@ AxisStatus Host::status(Time now) const {
 }
 
 void Host::report_status(Time now, DriverOut& out) {
-  const AxisStatus current = status(now);
-  if (told_.is_due(current, false)) report_heard(current, now, out);
+  const StatusInWords current = status(now);
+  if (told_.is_due(current, false)) report_heard<AxisStatus>(current, now, out);
 }
 
 SourceHealth Host::health(Time now) const {

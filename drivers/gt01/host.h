@@ -54,6 +54,7 @@ class Host final {
   std::optional<Twist> on_tick(Time now);
   void report_status(Time now, DriverOut& out);
   SourceHealth health(Time now) const;
+  Reason words(const Measurement& reported) const { return told_.words(reported); }
 
   /// From the wire's numbers to true ones.
   Twist true_of(const Twist& told) const;
@@ -78,7 +79,7 @@ class Host final {
   Twist told_of(const Twist& wanted);
   double clamped(double value, double most);
   Reason trouble(Time now) const;
-  AxisStatus status(Time now) const;
+  StatusInWords status(Time now) const;
 
   Settings settings_;
   AxisId axis_;

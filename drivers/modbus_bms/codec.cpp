@@ -67,18 +67,13 @@ class Decoder {
   }
 
   void alarms() {
-    bool told_critical = false;
-    for (const bool critical : {true, false}) {
-      for (std::size_t i = 0; i < map_.alarms.size() && i < kMaxRegisterAlarms; ++i) {
-        const RegisterAlarm& alarm = map_.alarms[i];
-        if (alarm.critical != critical) continue;
-        const std::uint16_t* word = find(map_, runs_, alarm.function, alarm.address);
-        if (word == nullptr || (*word >> alarm.bit & 1U) == 0) continue;
-        told_critical = told_critical || critical;
-        out_.sample.alarm = told_critical ? BatteryAlarm::critical : BatteryAlarm::warning;
-        out_.sample.alarm_bits |= std::uint64_t{1} << i;
-        append(alarm.text);
-      }
+    for (std::size_t i = 0; i < map_.alarms.size() && i < kMaxRegisterAlarms; ++i) {
+      const RegisterAlarm& alarm = map_.alarms[i];
+      const std::uint16_t* word = find(map_, runs_, alarm.function, alarm.address);
+      if (word == nullptr || (*word >> alarm.bit & 1U) == 0) continue;
+      const BatteryAlarm says = alarm.critical ? BatteryAlarm::critical : BatteryAlarm::warning;
+      out_.sample.alarm = std::max(out_.sample.alarm, says);
+      out_.sample.alarm_bits |= std::uint64_t{1} << i;
     }
   }
 
@@ -125,19 +120,27 @@ class Decoder {
                        value, unit.empty() ? "" : " ", static_cast<int>(unit.size()), unit.data());
   }
 
-  void append(std::string_view text) {
-    const Reason before = out_.sample.alarm_text;
-    const auto size = [](std::string_view view) { return static_cast<int>(view.size()); };
-    out_.sample.alarm_text.format("%.*s%s%.*s", size(before), before.view().data(),
-                                  before.empty() ? "" : ", ", size(text), text.data());
-  }
-
   const RegisterMap& map_;
   std::span<const Run> runs_;
   Decoded& out_;
 };
 
 }  // namespace
+
+Reason alarm_words(const RegisterMap& map, std::uint64_t alarm_bits) {
+  Reason words;
+  const auto size = [](std::string_view view) { return static_cast<int>(view.size()); };
+  for (const bool critical : {true, false}) {
+    for (std::size_t i = 0; i < map.alarms.size() && i < kMaxRegisterAlarms; ++i) {
+      const RegisterAlarm& alarm = map.alarms[i];
+      if (alarm.critical != critical || (alarm_bits >> i & 1U) == 0) continue;
+      const Reason before = words;
+      words.format("%.*s%s%.*s", size(before), before.view().data(), before.empty() ? "" : ", ",
+                   size(alarm.text), alarm.text.data());
+    }
+  }
+  return words;
+}
 
 const std::uint16_t* find(const RegisterMap& map, std::span<const Run> runs, std::uint8_t function,
                           std::uint16_t address) {

@@ -26,6 +26,9 @@ struct Decoded {
 /// Fields whose registers are not in `runs` stay absent.
 Decoded decode(const RegisterMap& map, std::span<const Run> runs);
 
+/// Alarms in words, what is critical first; empty: none.
+Reason alarm_words(const RegisterMap& map, std::uint64_t alarm_bits);
+
 /// The register at `address`; nullptr when it was not read.
 const std::uint16_t* find(const RegisterMap& map, std::span<const Run> runs, std::uint8_t function,
                           std::uint16_t address);

@@ -143,6 +143,11 @@ void ModbusBmsDriver::on_link_up(Time /*now*/) {
   charging_since_ = kNever;
 }
 
+Reason ModbusBmsDriver::words(const Measurement& reported) const {
+  const auto* const sample = std::get_if<BatterySample>(&reported.value);
+  return sample != nullptr ? alarm_words(map_, sample->alarm_bits) : Reason();
+}
+
 SourceHealth ModbusBmsDriver::health(Time now) const {
   SourceHealth health;
   health.last_good = last_good_;

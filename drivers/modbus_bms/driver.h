@@ -34,6 +34,7 @@ class ModbusBmsDriver final : public Device, public RegisterFace {
   void on_link_up(Time now) override;
   void on_tick(Time, DriverOut&) override {}
   SourceHealth health(Time now) const override;
+  Reason words(const Measurement& reported) const override;
 
  private:
   void complete(Time received, DriverOut& out);

@@ -24,6 +24,7 @@ class OdriveDriver final : public Device, public FrameFace, public Actuator {
   void on_setpoints(std::span<const Setpoint> wanted, Time now, DriverOut& out) override;
   void on_link_up(Time now) override;
   SourceHealth health(Time now) const override;
+  Reason words(const Measurement& reported) const override { return told_.words(reported); }
   std::span<const FrameFilter> listens() const override { return {&hears_, 1}; }
   std::span<const Channel> channels() const override { return kChannels; }
   std::span<const FrameRule> rules() const override { return rules_; }
@@ -52,7 +53,7 @@ class OdriveDriver final : public Device, public FrameFace, public Actuator {
   bool on_estimates(const CanFrame& frame, Time received, DriverOut& out);
   bool on_errors(std::uint8_t command, const CanFrame& frame);
   bool on_effort(const CanFrame& frame, double Nm_per_unit, Time received);
-  AxisStatus status(Time now) const;
+  StatusInWords status(Time now) const;
   bool only_unfed() const;
   void report_status(Time now, bool always, DriverOut& out);
 

@@ -172,8 +172,8 @@ bool OdriveDriver::on_effort(const CanFrame& frame, double Nm_per_unit, Time rec
   return true;
 }
 
-AxisStatus OdriveDriver::status(Time now) const {
-  AxisStatus status;
+StatusInWords OdriveDriver::status(Time now) const {
+  StatusInWords status;
   status.axis = axis_;
   if (heard_.last_alive == kNever) {
     status.reason = "no heartbeat yet";
@@ -239,9 +239,9 @@ bool OdriveDriver::only_unfed() const {
 }
 
 void OdriveDriver::report_status(Time now, bool always, DriverOut& out) {
-  const AxisStatus current = status(now);
+  const StatusInWords current = status(now);
   if (!told_.is_due(current, always)) return;
-  report_heard(current, now, out);
+  report_heard<AxisStatus>(current, now, out);
 }
 
 SourceHealth OdriveDriver::health(Time now) const {

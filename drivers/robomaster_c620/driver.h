@@ -27,6 +27,7 @@ class RobomasterDriver final : public Device, public FrameFace, public Actuator 
   void on_link_up(Time now) override;
   void on_tick(Time now, DriverOut& out) override;
   SourceHealth health(Time now) const override;
+  Reason words(const Measurement& reported) const override;
   void on_frame(const CanFrame& frame, Time received, DriverOut& out) override;
   std::span<const FrameFilter> listens() const override { return hears_; }
   std::span<const Channel> channels() const override { return kChannels; }
@@ -49,7 +50,7 @@ class RobomasterDriver final : public Device, public FrameFace, public Actuator 
   // receive.cpp
   void on_foreign(const CanFrame& frame, Time received);
   void report_motor(std::size_t channel, Time received, DriverOut& out);
-  AxisStatus status(std::size_t channel, Time now) const;
+  StatusInWords status(std::size_t channel, Time now) const;
   void report_status(Time now, bool always, DriverOut& out);
   Time oldest() const;
   Reason name_of(std::size_t channel) const;

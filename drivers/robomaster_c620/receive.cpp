@@ -77,8 +77,8 @@ Reason RobomasterDriver::silence_of_any(Duration limit, Time now) const {
 }
 
 /// What is known of one motor; they run together, or not at all.
-AxisStatus RobomasterDriver::status(std::size_t channel, Time now) const {
-  AxisStatus status;
+StatusInWords RobomasterDriver::status(std::size_t channel, Time now) const {
+  StatusInWords status;
   status.axis = axes_[channel];
   if (!motors_[channel].heard_within(settings_.silent_after, now)) {
     const bool never = motors_[channel].last() == kNever;
@@ -103,9 +103,16 @@ AxisStatus RobomasterDriver::status(std::size_t channel, Time now) const {
 
 void RobomasterDriver::report_status(Time now, bool always, DriverOut& out) {
   for (std::size_t i = 0; i < kMotors; ++i) {
-    const AxisStatus current = status(i, now);
-    if (told_[i].status.is_due(current, always)) report_heard(current, now, out);
+    const StatusInWords current = status(i, now);
+    if (told_[i].status.is_due(current, always)) report_heard<AxisStatus>(current, now, out);
   }
+}
+
+Reason RobomasterDriver::words(const Measurement& reported) const {
+  const auto* const status = std::get_if<AxisStatus>(&reported.value);
+  for (std::size_t i = 0; status != nullptr && i < kMotors; ++i)
+    if (axes_[i] == status->axis) return told_[i].status.words(reported);
+  return {};
 }
 
 SourceHealth RobomasterDriver::health(Time now) const {

@@ -24,6 +24,7 @@ class Zlac8015dDriver final : public Device, public FrameFace, public Actuator {
   void on_link_up(Time now) override;
   void on_tick(Time now, DriverOut& out) override;
   SourceHealth health(Time now) const override;
+  Reason words(const Measurement& reported) const override { return told_.words(reported); }
   void on_frame(const CanFrame& frame, Time received, DriverOut& out) override;
   std::span<const FrameFilter> listens() const override { return hears_; }
   std::span<const Channel> channels() const override { return kChannels; }
@@ -52,7 +53,7 @@ class Zlac8015dDriver final : public Device, public FrameFace, public Actuator {
   void on_heartbeat(canopen::NodeState state, Time received);
   void on_status(const Status& status, Time received);
   void report_motion(const Pair& speeds, Time received, DriverOut& out);
-  AxisStatus status(Time now) const;
+  StatusInWords status(Time now) const;
   AxisState state_of_drive() const;
   Reason fault_text() const;
   void report_status(Time now, bool always, DriverOut& out);

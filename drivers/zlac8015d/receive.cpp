@@ -145,8 +145,8 @@ Reason Zlac8015dDriver::fault_text() const {
 }
 
 /// Of both wheels: one controlword is for both.
-AxisStatus Zlac8015dDriver::status(Time now) const {
-  AxisStatus status;
+StatusInWords Zlac8015dDriver::status(Time now) const {
+  StatusInWords status;
   if (heard_.last_alive == kNever) {
     status.reason = "the node was not heard yet";
     return status;
@@ -188,11 +188,11 @@ AxisStatus Zlac8015dDriver::status(Time now) const {
 }
 
 void Zlac8015dDriver::report_status(Time now, bool always, DriverOut& out) {
-  AxisStatus current = status(now);
+  StatusInWords current = status(now);
   if (!told_.is_due(current, always)) return;
   for (const AxisId axis : axes_) {
     current.axis = axis;
-    report_heard(current, now, out);
+    report_heard<AxisStatus>(current, now, out);
   }
 }
 

@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "drover/fixed_text.h"
 #include "drover/measurement.h"
 
 namespace drover {
@@ -79,11 +80,10 @@ void describe(V& v, const AxisMotion& motion) {
 
 template <class V>
 void describe(V& v, const AxisStatus& status) {
-  const auto& [axis, state, error_code, reason, lapsed, powered, stops_all] = status;
+  const auto& [axis, state, error_code, lapsed, powered, stops_all] = status;
   v.value("axis", axis);
   v.value("state", state, {});
   v.value("error_code", error_code, {.hexadecimal = true});
-  v.value("fault", reason, {});
   v.value("lapsed", lapsed);
   v.value("powered", powered);
   v.value("stops_all", stops_all);
@@ -172,8 +172,8 @@ void describe(V& v, const ImuSample& sample) {
 template <class V>
 void describe(V& v, const BatterySample& sample) {
   const auto& [voltage_V, current_A, soc_percent, remaining_Ah, temperature_degC, mosfet_degC,
-               min_cell_V, max_cell_V, flow, charger_connected, charges, alarm, alarm_bits,
-               alarm_text] = sample;
+               min_cell_V, max_cell_V, flow, charger_connected, charges, alarm, alarm_bits] =
+      sample;
   v.value("voltage_V", voltage_V, {.decimals = 2});
   v.value("current_A", current_A, {.decimals = 2});
   v.value("soc_percent", soc_percent, {.decimals = 1, .first = true});
@@ -187,8 +187,19 @@ void describe(V& v, const BatterySample& sample) {
   v.value("charges", charges, {});
   v.value("alarm", alarm);
   v.value("alarm_bits", alarm_bits);
-  v.value("alarm_text", alarm_text, {.as = "alarm"});
 }
+
+/// What its device says of it in words, behind it.
+template <class V>
+void describe_words(V& v, const AxisStatus&, const Reason& words) {
+  v.value("fault", words, {});
+}
+template <class V>
+void describe_words(V& v, const BatterySample&, const Reason& words) {
+  v.value("alarm_text", words, {.as = "alarm"});
+}
+template <class V, class T>
+void describe_words(V&, const T&, const Reason&) {}
 
 template <class V>
 void describe(V& v, const Twist& twist) {

@@ -196,17 +196,20 @@ void describe(V& v, const ImuSnapshot& imu) {
 
 template <class V>
 void describe(V& v, const BatterySnapshot& battery) {
-  const auto& [configured, health, source, time, sample] = battery;
+  const auto& [configured, health, source, time, sample, alarms] = battery;
   v.value("configured", configured);
   v.value("health", health, {});
   v.inside("source", [&v, &part = source] { describe(v, part); });
   v.value("time", time, {.decimals = 3, .as = "age_s"});
-  describe_measured(v, "sample", time, [&v, &part = sample] { describe(v, part); });
+  describe_measured(v, "sample", time, [&v, &part = sample, &words = alarms] {
+    describe(v, part);
+    describe_words(v, part, words);
+  });
 }
 
 template <class V>
 void describe(V& v, const SensorSnapshot& sensor) {
-  const auto& [kind, name, role, in_use, health, source, time, last] = sensor;
+  const auto& [kind, name, role, in_use, health, source, time, last, alarms] = sensor;
   v.value("kind", kind, {});
   v.value("name", name, {});
   v.value("role", role, {});
@@ -218,7 +221,10 @@ void describe(V& v, const SensorSnapshot& sensor) {
   if (const auto* position = std::get_if<GnssPosition>(&last))
     describe_measured(v, "position", time, [&v, position] { describe(v, *position); });
   if (const auto* sample = std::get_if<BatterySample>(&last))
-    describe_measured(v, "battery", time, [&v, sample] { describe(v, *sample); });
+    describe_measured(v, "battery", time, [&v, sample, &words = alarms] {
+      describe(v, *sample);
+      describe_words(v, *sample, words);
+    });
 }
 
 template <class V>

@@ -40,6 +40,9 @@ class Device {
   /// Once a control cycle; an actuator's comes after Actuator::on_setpoints.
   virtual void on_tick(Time now, DriverOut& out) = 0;
   virtual SourceHealth health(Time now) const = 0;
+  /// What it reported in the last call, in words: why an axis is as it is, what alarms a battery
+  /// has. Of several statuses of an axis those of the last. Empty: nothing to say.
+  virtual Reason words(const Measurement& /*reported*/) const { return {}; }
 };
 
 /// Frames that a device wants to hear: those whose id is `id` in the bits of `mask`.

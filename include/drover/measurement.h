@@ -1,11 +1,11 @@
-// What drivers report: one typed value with the instant at which it was true.
+// What drivers report: one typed value with the instant at which it was true. Its words stay in the
+// device (Device::words).
 #pragma once
 
 #include <cstdint>
 #include <limits>
 #include <variant>
 
-#include "drover/fixed_text.h"
 #include "drover/time.h"
 #include "drover/twist.h"
 
@@ -32,14 +32,13 @@ enum class AxisState : std::uint8_t {
   idle,     ///< power stage off: the axis may coast
   arming,   ///< on its way to `running`
   running,  ///< closed loop: obeys set points, holds at zero
-  fault,    ///< the drive reports an error; `reason` decodes it
+  fault,    ///< the drive reports an error; its device says in words which
 };
 
 struct AxisStatus {
   AxisId axis = 0;
   AxisState state = AxisState::unknown;
   std::uint64_t error_code = 0;  ///< as the drive sent it
-  Reason reason;                 ///< decoded text, empty when there is no error
   /// A fault that says only that nobody fed the drive, or that its supply dipped: it is sound.
   bool lapsed = false;
   /// Of a fault: the power stage is still on. The motor drives or brakes, and gives energy back.
@@ -163,7 +162,6 @@ struct BatterySample {
   bool charges = false;  ///< as a charger does, for however short a time: braking does, too
   BatteryAlarm alarm = BatteryAlarm::none;
   std::uint64_t alarm_bits = 0;  ///< as the map numbers them; 0: none
-  Reason alarm_text;             ///< the worst alarms in words; empty: none
 };
 
 struct Measurement {
@@ -176,5 +174,14 @@ struct Measurement {
   /// the configuration. The gateway's to set.
   std::uint8_t source = 0;
 };
+// One is made and read for each frame, most of them a few numbers. A text among its values would
+// double what each of them takes of the cache.
+static_assert(sizeof(Measurement) <= 32 + sizeof(ImuSample), "texts stay in the device");
+
+/// Whether there may be words for it.
+inline bool has_words(const Measurement& measurement) {
+  return std::holds_alternative<AxisStatus>(measurement.value) ||
+         std::holds_alternative<BatterySample>(measurement.value);
+}
 
 }  // namespace drover

@@ -167,6 +167,7 @@ struct SensorSnapshot {
   SourceSnapshot source;  ///< samples: positions, samples of the inertial sensor, answers
   Time time = kNever;     ///< of the last one
   std::variant<std::monostate, GnssPosition, BatterySample> last;
+  Reason alarms;  ///< of a battery, in words; empty: none
 };
 
 /// A scanner, as its own thread tells of it.
@@ -189,6 +190,7 @@ struct BatterySnapshot {
   SourceSnapshot source;
   Time time = kNever;
   BatterySample sample;  ///< the last one
+  Reason alarms;         ///< the worst of them in words; empty: none
 };
 
 /// A stream that a program drives by: of joint commands, or of twists.

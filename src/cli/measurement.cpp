@@ -18,22 +18,34 @@ class MeasurementJson final : public publish::ShownJson {
   }
 };
 
+template <class V>
+void describe_all(V& v, const Measurement& measurement, const Reason& words) {
+  std::visit(
+      [&](const auto& value) {
+        describe(v, value);
+        describe_words(v, value, words);
+      },
+      measurement.value);
+}
+
 }  // namespace
 
 std::string_view kind_of(const Measurement& measurement) {
   return std::visit(KindOfMeasurement{}, measurement.value);
 }
 
-std::string measurement_text(const Measurement& measurement, const Place& place) {
+std::string measurement_text(const Measurement& measurement, const Reason& words,
+                             const Place& place) {
   ShownText out;
-  std::visit([&](const auto& value) { describe(out, value); }, measurement.value);
+  describe_all(out, measurement, words);
   std::string head = fixed(place.value, place.decimals);
   if (head.size() < 8) head.insert(0, 8 - head.size(), ' ');
   if (!place.who.empty()) head += "  " + place.who;
   return head + "  " + std::string(kind_of(measurement)) + out.take();
 }
 
-std::string measurement_json(const Measurement& measurement, const Place& place) {
+std::string measurement_json(const Measurement& measurement, const Reason& words,
+                             const Place& place) {
   json::JsonText out;
   out.open('{').key("ok").boolean(true).key(place.key);
   if (place.decimals == 0) {
@@ -44,7 +56,7 @@ std::string measurement_json(const Measurement& measurement, const Place& place)
   if (!place.who.empty()) out.key("device").text(place.who);
   out.key("kind").text(kind_of(measurement));
   MeasurementJson members(out);
-  std::visit([&](const auto& value) { describe(members, value); }, measurement.value);
+  describe_all(members, measurement, words);
   out.close('}');
   return out.take();
 }

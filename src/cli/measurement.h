@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "drover/fixed_text.h"
 #include "drover/measurement.h"
 
 namespace drover::cli {
@@ -19,9 +20,12 @@ struct Place {
 /// "axis_motion", "gnss_position", ...; empty for an empty measurement.
 std::string_view kind_of(const Measurement& measurement);
 
+/// `words`: what its device says of it.
 /// "     12  gnss_position  latitude 42.833333333 deg  ..."; absent values are "-".
-std::string measurement_text(const Measurement& measurement, const Place& place);
+std::string measurement_text(const Measurement& measurement, const Reason& words,
+                             const Place& place);
 /// The same as one JSON object; absent values are null.
-std::string measurement_json(const Measurement& measurement, const Place& place);
+std::string measurement_json(const Measurement& measurement, const Reason& words,
+                             const Place& place);
 
 }  // namespace drover::cli

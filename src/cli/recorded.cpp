@@ -36,10 +36,13 @@ class Printer final {
   Printer(const Recording& recording, std::ostream& out, std::ostream& notes)
       : json_(recording.json), out_(out), notes_(notes) {}
 
-  void print(const DriverOut& from, const Place& place) {
-    for (const auto& m : from.measurements) {
+  /// What `device` said in the last call.
+  void print(const DriverOut& said, const Device& device, const Place& place) {
+    for (const auto& m : said.measurements) {
       ++measurements_;
-      out_ << (json_ ? measurement_json(m, place) : measurement_text(m, place)) << '\n';
+      const Reason words = device.words(m);
+      out_ << (json_ ? measurement_json(m, words, place) : measurement_text(m, words, place))
+           << '\n';
     }
   }
   void problem(std::size_t number, const std::string& text) {
@@ -110,7 +113,7 @@ int show_bytes(SlotKind kind, std::istream& in, const Recording& recording, std:
   for (int c = in.get(); c != std::istream::traits_type::eof(); c = in.get()) {
     const auto byte = static_cast<std::uint8_t>(c);
     driver.bytes->on_bytes({&byte, 1}, now, said);
-    printer.print(said, {"byte", static_cast<double>(++offset), 0, ""});
+    printer.print(said, *driver.device, {"byte", static_cast<double>(++offset), 0, ""});
     said.clear();
     now += byte_time;
   }
@@ -176,7 +179,7 @@ int show_frames(std::istream& in, const Recording& recording, std::ostream& out,
     for (const auto& node : nodes) {
       if (!begun) node.made.device->on_link_up(last);
       if (!logged->frame.error) node.made.frames->on_frame(logged->frame, last, said);
-      printer.print(said, {"t_s", stamp_s, 6, node.name});
+      printer.print(said, *node.made.device, {"t_s", stamp_s, 6, node.name});
       said.clear();
     }
     begun = true;
@@ -225,8 +228,8 @@ int show_registers(std::istream& in, const Recording& recording, std::ostream& o
   const auto show_round = [&](const RegisterImage& round, std::size_t where) {
     if (round.empty()) return;
     now += kRound;
-    decoder.decode(round, now, said);
-    printer.print(said, {"line", static_cast<double>(where), 0, ""});
+    if (const Device* const device = decoder.decode(round, now, said))
+      printer.print(said, *device, {"line", static_cast<double>(where), 0, ""});
     said.clear();
   };
   while (std::getline(in, line)) {

@@ -45,14 +45,15 @@ RegisterMap part_of(const RegisterMap& map, const RegisterImage& image) {
 RoundDecoder::RoundDecoder(Make make, const RegisterMap& map)
     : make_(std::move(make)), map_(map), seen_(map.fields.size()) {}
 
-void RoundDecoder::decode(const RegisterImage& image, Time now, DriverOut& out) {
+const Device* RoundDecoder::decode(const RegisterImage& image, Time now, DriverOut& out) {
   Held kept;
   for (std::size_t i = 0; i < map_.fields.size(); ++i) {
     kept.push_back(held(map_, map_.fields[i], image));
     if (kept.back() > 0) seen_[i] = true;
   }
   for (const auto& alarm : map_.alarms) kept.push_back(has(image, alarm.function, alarm.address));
-  if (std::all_of(kept.begin(), kept.end(), [](std::size_t count) { return count == 0; })) return;
+  if (std::all_of(kept.begin(), kept.end(), [](std::size_t count) { return count == 0; }))
+    return nullptr;
   auto& driver = drivers_[kept];
   if (!driver.device) {
     driver = make_(part_of(map_, image));
@@ -69,6 +70,7 @@ void RoundDecoder::decode(const RegisterImage& image, Time now, DriverOut& out) 
     }
     driver.registers->on_registers(b, words, now, out);
   }
+  return last_;
 }
 
 std::string RoundDecoder::missing() const {

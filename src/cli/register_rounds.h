@@ -22,8 +22,8 @@ class RoundDecoder final {
   using Make = std::function<Made(const RegisterMap&)>;
   RoundDecoder(Make make, const RegisterMap& map);
 
-  /// What a round that holds nothing of the map says: nothing.
-  void decode(const RegisterImage& image, Time now, DriverOut& out);
+  /// By the device that it returns; nullptr: a round that holds nothing of the map.
+  const Device* decode(const RegisterImage& image, Time now, DriverOut& out);
   /// Values of the map that no round held: "soc (0x12A6), temperature (0x129C)"; empty: none.
   std::string missing() const;
   std::uint64_t bad(Time now) const;

@@ -89,10 +89,8 @@ void Engine::Impl::take(const Measurement& m) {
   } else if (const auto* status = std::get_if<AxisStatus>(&m.value)) {
     AxisSnapshot* axis = axis_of(status->axis);
     if (axis == nullptr) return;
-    // One device moves both edges.
-    for (AxisSnapshot& one : status->axis == kBaseAxis ? axes : std::span(axis, 1)) {
+    for (AxisSnapshot& one : axes_of(*status, *axis)) {
       one.state = status->state;
-      one.fault = status->reason;
       one.lapsed = status->lapsed;
       one.powered = status->powered;
       one.stops_all = status->stops_all;
@@ -138,6 +136,19 @@ void Engine::Impl::take(const Measurement& m) {
     level[index] = line->active;
     pulse[index] = pulse[index] || line->active;
   }
+}
+
+void Engine::Impl::take_words(const Measurement& m, std::string_view words) {
+  sensors.take_words(m, words);
+  const auto* const status = std::get_if<AxisStatus>(&m.value);
+  AxisSnapshot* const axis = status != nullptr ? axis_of(status->axis) : nullptr;
+  if (axis == nullptr) return;
+  for (AxisSnapshot& one : axes_of(*status, *axis)) one.fault.assign(words);
+}
+
+/// One device moves both edges of a base.
+std::span<AxisSnapshot> Engine::Impl::axes_of(const AxisStatus& status, AxisSnapshot& axis) const {
+  return status.axis == kBaseAxis ? axes : std::span(&axis, 1);
 }
 
 void Engine::Impl::look_at(AxisSnapshot& axis, const SourceHealth& driver, Time now) {
@@ -237,6 +248,10 @@ Engine::~Engine() = default;
 
 void Engine::on_measurement(const Measurement& measurement) {
   impl_->take(measurement);
+}
+
+void Engine::on_words(const Measurement& measurement, std::string_view words) {
+  impl_->take_words(measurement, words);
 }
 
 void Engine::on_command(const Command& command, Time now) {

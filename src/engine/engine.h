@@ -58,6 +58,8 @@ class Engine final {
   /// Likewise, of the robot.
   void recall(const LearnedValues& learned);
   void on_measurement(const Measurement& measurement);
+  /// After it: what its device says of it in words.
+  void on_words(const Measurement& measurement, std::string_view words);
   void on_command(const Command& command, Time now);
   /// Somebody looked around. Without EngineConfig::clearance_required it changes nothing.
   void on_clearance(const Clearance& found);

@@ -38,6 +38,8 @@ struct Engine::Impl {
   explicit Impl(const EngineConfig& c);
 
   void take(const Measurement& m);
+  void take_words(const Measurement& m, std::string_view words);
+  std::span<AxisSnapshot> axes_of(const AxisStatus& status, AxisSnapshot& axis) const;
   void count(const Measurement& m);
   /// Of the base or of a group; nullptr: there is none of that number. kBaseAxis: the first edge.
   AxisSnapshot* axis_of(AxisId id);

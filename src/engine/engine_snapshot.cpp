@@ -32,6 +32,7 @@ void Engine::Impl::fill_sources(const Environment& environment) {
   snapshot.imu.source.samples = sensors.samples(SensorKind::imu, sensors.imu());
   snapshot.battery.source.samples = sensors.samples(SensorKind::battery, battery);
   snapshot.battery.sample = sensors.batteries()[battery].sample;
+  snapshot.battery.alarms = sensors.batteries()[battery].alarms;
   snapshot.battery.time = sensors.batteries()[battery].time;
   sensors.fill(snapshot, environment);
   for (std::size_t i = 0; i < snapshot.axes.size(); ++i)

@@ -71,6 +71,7 @@ void Gateway::take(Slot& slot, Time now) {
   for (auto& measurement : scratch_.measurements) {
     measurement.source = slot.source;
     engine_.on_measurement(measurement);
+    if (has_words(measurement)) take_words(*slot.made.device, measurement);
   }
   slot.overflows += scratch_.overflows;
   if (is_bus(slot.link)) {
@@ -79,6 +80,11 @@ void Gateway::take(Slot& slot, Time now) {
     write(slot, now);
   }
   scratch_.clear();
+}
+
+/// Apart: a frame that brings numbers needs no room for a text.
+[[gnu::noinline]] void Gateway::take_words(const Device& device, const Measurement& measurement) {
+  engine_.on_words(measurement, device.words(measurement));
 }
 
 /// What a device wants to send goes through the frame gate, and nowhere around it.

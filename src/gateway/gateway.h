@@ -125,6 +125,7 @@ class Gateway final {
   void command_actuators(Time now);
   void hand_out();
   void take(Slot& slot, Time now);
+  void take_words(const Device& device, const Measurement& measurement);
   void send(Slot& slot, Time now);
   void write(Slot& slot, Time now);
   engine::Permission permission(const Slot& slot);

@@ -200,8 +200,7 @@ class FieldWorld final {
       environment_.axes[i].state = SourceState::fresh;
       measure(now_, motion);
       measure(now_,
-              AxisStatus{static_cast<AxisId>(i), running_ ? AxisState::running : AxisState::idle, 0,
-                         Reason(), false});
+              AxisStatus{static_cast<AxisId>(i), running_ ? AxisState::running : AxisState::idle});
     }
   }
 

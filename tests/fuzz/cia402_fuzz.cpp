@@ -116,7 +116,7 @@ class Bench {
       const auto& status = std::get<AxisStatus>(m.value);
       require(status.axis == 0);
       require(status.state != AxisState::arming || runs_);
-      require(status.state != AxisState::fault || !status.reason.empty());
+      require(status.state != AxisState::fault || !driver_.words(m).empty());
     }
   }
 

@@ -91,13 +91,13 @@ class Bench {
     require(std::abs(asked.vx_mps) <= kMax_mps * (1 + 1e-6));
     require(std::abs(asked.wz_radps) <= kMax_radps * (1 + 1e-6));
   }
-  static void check(const Measurement& m) {
+  void check(const Measurement& m) const {
     if (const auto* motion = std::get_if<BodyMotion>(&m.value)) {
       require(std::isfinite(motion->twist.vx_mps) && std::isfinite(motion->twist.wz_radps));
       require(motion->vx_var > 0 && motion->wz_var > 0);
     } else if (const auto* status = std::get_if<AxisStatus>(&m.value)) {
       require(status->axis == 0);
-      require(status->state != AxisState::fault || !status->reason.empty());
+      require(status->state != AxisState::fault || !made_.device->words(m).empty());
     } else {
       require(std::get<AxisSupply>(m.value).bus_V >= 0);
     }

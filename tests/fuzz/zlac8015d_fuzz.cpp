@@ -113,7 +113,7 @@ class Bench {
       const auto& status = std::get<AxisStatus>(m.value);
       require(status.axis < kWheels);
       require(status.state != AxisState::arming || runs_);
-      require(status.state != AxisState::fault || !status.reason.empty());
+      require(status.state != AxisState::fault || !driver_.words(m).empty());
     }
   }
 

@@ -77,6 +77,11 @@ class Crawler final : public Device, public ByteFace, public Actuator {
     if (health.state == SourceState::stale) health.reason = "the crawler is silent";
     return health;
   }
+  Reason words(const Measurement& reported) const override {
+    const auto* const status = std::get_if<AxisStatus>(&reported.value);
+    const bool fault = status != nullptr && status->state == AxisState::fault;
+    return fault ? "a stone in the track" : "";
+  }
   void on_bytes(std::span<const std::uint8_t> bytes, Time first_byte, DriverOut& out) override {
     for (const auto byte : bytes) {
       std::rotate(window_.begin(), window_.begin() + 1, window_.end());
@@ -126,7 +131,6 @@ class Crawler final : public Device, public ByteFace, public Actuator {
     status.state = said.what == kRuns     ? AxisState::running
                    : said.what == kIsIdle ? AxisState::idle
                                           : AxisState::fault;
-    if (status.state == AxisState::fault) status.reason = "a stone in the track";
     out.report({at, at, status});
     BodyMotion motion;
     motion.twist = said.twist;

@@ -83,8 +83,7 @@ struct Describe {
       std::snprintf(buffer, sizeof buffer, "0x%llx", static_cast<unsigned long long>(m.error_code));
       line.word("error_code", buffer);
     }
-    if (!m.reason.empty()) line.word("reason", '"' + std::string(m.reason.view()) + '"');
-    return line.text();
+    return with_words(line, "reason");
   }
   std::string operator()(const AxisTemperature& m) const {
     return Line("axis_temperature")
@@ -163,8 +162,7 @@ struct Describe {
         .word("flow", name(m.flow));
     if (m.charger_connected) line.word("charger", "true");
     if (m.charges) line.word("charges", "true");
-    if (!m.alarm_text.empty()) line.word("alarm", '"' + std::string(m.alarm_text.view()) + '"');
-    return line.text();
+    return with_words(line, "alarm");
   }
   std::string operator()(const BodyMotion& m) const {
     return Line("body_motion")
@@ -175,6 +173,12 @@ struct Describe {
         .number("steering_rad", m.steering_rad)
         .text();
   }
+
+  std::string with_words(Line& line, const char* key) const {
+    if (!words.empty()) line.word(key, '"' + std::string(words.view()) + '"');
+    return line.text();
+  }
+  const Reason& words;
 };
 
 int nibble(char c) {
@@ -186,17 +190,26 @@ int nibble(char c) {
 
 }  // namespace
 
-std::string describe(const Measurement& measurement) {
-  return std::visit(Describe{}, measurement.value);
+std::string describe(const Measurement& measurement, const Reason& words) {
+  return std::visit(Describe{words}, measurement.value);
 }
 
-std::string describe(const DriverOut& out) {
+std::string describe(const DriverOut& out, const Device& device) {
   std::string text;
   for (const Measurement& m : out.measurements) {
     if (!text.empty()) text += "; ";
-    text += describe(m);
+    text += describe(m, device.words(m));
   }
   return text.empty() ? "nothing" : text;
+}
+
+std::string describe(const DriverOut& out) {
+  struct : Device {
+    void on_link_up(Time) override {}
+    void on_tick(Time, DriverOut&) override {}
+    SourceHealth health(Time) const override { return {}; }
+  } silent;
+  return describe(out, silent);
 }
 
 std::string describe(const CanFrame& frame) {

@@ -17,6 +17,7 @@ class Gt01CanDriver final : public Device, public FrameFace, public Actuator {
   void on_link_up(Time now) override;
   void on_tick(Time now, DriverOut& out) override;
   SourceHealth health(Time now) const override { return host_.health(now); }
+  Reason words(const Measurement& reported) const override { return host_.words(reported); }
   void on_frame(const CanFrame& frame, Time received, DriverOut& out) override;
   std::span<const FrameFilter> listens() const override;
   std::span<const Channel> channels() const override { return kChannels; }

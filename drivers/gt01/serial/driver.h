@@ -15,6 +15,7 @@ class Gt01SerialDriver final : public Device, public ByteFace, public Actuator {
   void on_link_up(Time now) override;
   void on_tick(Time now, DriverOut& out) override;
   SourceHealth health(Time now) const override { return host_.health(now); }
+  Reason words(const Measurement& reported) const override { return host_.words(reported); }
   void on_bytes(std::span<const std::uint8_t> bytes, Time first_byte, DriverOut& out) override;
   std::span<const Channel> channels() const override { return kChannels; }
   void on_setpoints(std::span<const Setpoint> wanted, Time now, DriverOut& out) override;

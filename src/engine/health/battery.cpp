@@ -75,9 +75,10 @@ void BatteryMonitor::judge_charger(Time at, const BatterySample& sample) {
 }
 
 /// Empty when it is neither.
-Reason BatteryMonitor::empty_or_broken(const BatterySample& sample, const Beyond& beyond) const {
+Reason BatteryMonitor::empty_or_broken(const BatterySnapshot& battery, const Beyond& beyond) const {
   Reason why;
-  const auto alarm = sample.alarm_text.view();
+  const BatterySample& sample = battery.sample;
+  const auto alarm = battery.alarms.view();
   if (beyond.critical) {
     why = said(" empty: %.0f %%, at least %.0f %% are needed", sample.soc_percent,
                config_.battery_critical_percent);
@@ -98,14 +99,15 @@ Reason BatteryMonitor::past(const Limit& limit, const char* what, Time now, doub
   return said(" %s until %.0f s ago, %.0f %s now", what, limit.back_s(now), value, unit);
 }
 
-Reason BatteryMonitor::held_critical(Time now, const BatterySample& sample) const {
+Reason BatteryMonitor::held_critical(Time now, const BatterySnapshot& battery) const {
+  const BatterySample& sample = battery.sample;
   const auto beyond = [](const Limit& limit) { return limit.holds() && !limit.is_past(); };
   const double soc_percent = sample.soc_percent;
   if (beyond(critical_) && std::isnan(soc_percent)) return said(" empty when its charge was told");
-  const Reason is = empty_or_broken(sample, {.critical = beyond(critical_),
-                                             .too_hot = beyond(too_hot_),
-                                             .apart = beyond(apart_),
-                                             .alarm = beyond(alarm_)});
+  const Reason is = empty_or_broken(battery, {.critical = beyond(critical_),
+                                              .too_hot = beyond(too_hot_),
+                                              .apart = beyond(apart_),
+                                              .alarm = beyond(alarm_)});
   if (!is.empty()) return is;
   if (critical_.holds()) return past(critical_, "was empty", now, soc_percent, "%");
   if (alarm_.holds()) return said(" had an alarm until %.0f s ago", alarm_.back_s(now));
@@ -158,13 +160,13 @@ const BatteryVerdict& BatteryMonitor::update(Time now, const BatterySnapshot& ba
       verdict_.charger = kCharging;
     }
   }
-  verdict_.critical = held_critical(now, sample);
+  verdict_.critical = held_critical(now, battery);
   const Beyond is = beyond(sample);
-  verdict_.present = empty_or_broken(sample, is);
+  verdict_.present = empty_or_broken(battery, is);
   if (verdict_.present.empty() && is.low)
     verdict_.present = said(" low: %.0f %%", sample.soc_percent);
   if (charges_) verdict_.present = old ? kWasPlugged : kCharging;
-  const auto alarm = sample.alarm_text.view();
+  const auto alarm = battery.alarms.view();
   verdict_.low = held_low(now, sample);
   if (sample.alarm == BatteryAlarm::warning) {
     verdict_.warning = said(": %.*s", static_cast<int>(alarm.size()), alarm.data());

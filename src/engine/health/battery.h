@@ -59,9 +59,9 @@ class BatteryMonitor final {
     bool alarm = false;
   };
   Beyond beyond(const BatterySample& sample) const;
-  Reason empty_or_broken(const BatterySample& sample, const Beyond& beyond) const;
+  Reason empty_or_broken(const BatterySnapshot& battery, const Beyond& beyond) const;
   /// Of limits that hold: what is so, or was until a moment ago.
-  Reason held_critical(Time now, const BatterySample& sample) const;
+  Reason held_critical(Time now, const BatterySnapshot& battery) const;
   Reason held_low(Time now, const BatterySample& sample) const;
   Reason held_hot(Time now, const BatterySample& sample) const;
   /// "battery was low until 4 s ago, 80 % now"

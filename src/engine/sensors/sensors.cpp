@@ -83,6 +83,13 @@ bool Sensors::take(const Measurement& m, const Estimator& estimator) {
   return true;
 }
 
+/// Of a sample that came too late to count its words do not count, either.
+void Sensors::take_words(const Measurement& m, std::string_view words) {
+  if (!std::holds_alternative<BatterySample>(m.value) || m.source >= kMaxOfKind) return;
+  BatterySnapshot& battery = batteries_[m.source];
+  if (m.time == battery.time) battery.alarms.assign(words);
+}
+
 /// Both tell of the same base: they tilt and turn alike.
 void Sensors::compare_imus(Time now, const Estimator& estimator) {
   const auto& used = estimator.imu(imu());
@@ -215,6 +222,7 @@ void Sensors::fill(Snapshot& snapshot, const Environment& environment) const {
         it.in_use = battery_counts_[i];
         it.time = batteries_[i].time;
         it.last = batteries_[i].sample;
+        it.alarms = batteries_[i].alarms;
       });
 }
 

@@ -24,6 +24,8 @@ class Sensors final {
 
   /// Remembers it. False: the robot does not go by who said it.
   bool take(const Measurement& measurement, const Estimator& estimator);
+  /// After it.
+  void take_words(const Measurement& measurement, std::string_view words);
   /// Before the estimate's step. `stands`: nobody drives and no wheel turns.
   HandOver update(Time now, const Environment& environment, const Estimator& estimator,
                   bool stands);

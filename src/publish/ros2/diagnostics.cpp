@@ -105,7 +105,7 @@ void sensors(Statuses& out, const Snapshot& s) {
       out.value("soc_percent", pack->soc_percent);
       out.value("min_cell_V", pack->min_cell_V);
       out.value("max_cell_V", pack->max_cell_V);
-      if (!pack->alarm_text.empty()) out.value("alarm", pack->alarm_text.view());
+      if (!sensor.alarms.empty()) out.value("alarm", sensor.alarms.view());
     }
     out.end();
   }

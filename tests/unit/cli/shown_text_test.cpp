@@ -71,8 +71,8 @@ TEST(ShownValues, AreTheSameInARecordingAndLive) {
   position.latitude_deg = 42.5;
   position.hdop = 0.71;
   measured.value = position;
-  const auto recorded = measurement_text(measured, {"byte", 1, 0, ""});
-  const auto live = parsed(measurement_json(measured, {"byte", 1, 0, ""}));
+  const auto recorded = measurement_text(measured, {}, {"byte", 1, 0, ""});
+  const auto live = parsed(measurement_json(measured, {}, {"byte", 1, 0, ""}));
   for (const auto* name : {"latitude_deg", "hdop", "satellites", "correction_age_s"})
     EXPECT_THAT(recorded, testing::HasSubstr(said(live, name))) << name;
 }

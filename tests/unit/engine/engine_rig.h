@@ -219,10 +219,9 @@ class EngineRig {
     AxisStatus status;
     status.axis = axis;
     status.state = drive.state;
-    if (drive.fault)
-      status.reason = drive.stops_all ? "its emergency stop is pressed" : "over temperature";
     status.lapsed = drive.lapsed;
     status.stops_all = drive.stops_all;
+    status.error_code = drive.fault ? 1 : 0;
     return status;
   }
 
@@ -352,6 +351,12 @@ class EngineRig {
     fixes_.push_back(fix);
   }
 
+  /// As the drive's device would say it.
+  static const char* words_of(const Measurement& m) {
+    const auto* const status = std::get_if<AxisStatus>(&m.value);
+    if (status == nullptr || status->error_code == 0) return "";
+    return status->stops_all ? "its emergency stop is pressed" : "over temperature";
+  }
   template <class Value>
   void measure(Time time, const Value& value) {
     Measurement m;
@@ -360,6 +365,7 @@ class EngineRig {
     m.value = value;
     if (cycle_skipped || !held_back_.empty()) return held_back_.push_back(m);
     engine->on_measurement(m);
+    engine->on_words(m, words_of(m));
   }
   /// What was held back comes in a burst; of the wheels only what is older than `wheels_late`.
   void hand_over() {
@@ -371,6 +377,7 @@ class EngineRig {
         later.push_back(m);
       } else {
         engine->on_measurement(m);
+        engine->on_words(m, words_of(m));
       }
     }
     held_back_ = later;

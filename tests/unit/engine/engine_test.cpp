@@ -369,8 +369,9 @@ TEST_F(AnEngine, IgnoresMeasurementsOfThingsItDoesNotHave) {
   m.time = m.received = rig.now;
   m.value = AxisMotion{15, 1, 1, 1};
   rig.engine->on_measurement(m);
-  m.value = AxisStatus{200, AxisState::fault, 1, "x"};
+  m.value = AxisStatus{200, AxisState::fault, 1};
   rig.engine->on_measurement(m);
+  rig.engine->on_words(m, "x");
   m.value = AxisTemperature{99, 1, 1};
   rig.engine->on_measurement(m);
   m.value = AxisSupply{99, 1, 1};

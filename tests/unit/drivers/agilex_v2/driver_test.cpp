@@ -25,7 +25,8 @@ struct Bench {
     driver.on_setpoints({&setpoint, 1}, now, out);
     driver.on_tick(now, out);
     for (const Measurement& each : out.measurements) {
-      if (const auto* value = std::get_if<AxisStatus>(&each.value)) status = *value;
+      if (const auto* value = std::get_if<AxisStatus>(&each.value))
+        status = {*value, driver.words(each)};
       if (const auto* value = std::get_if<BodyMotion>(&each.value)) motion = *value;
       if (const auto* value = std::get_if<AxisSupply>(&each.value)) supply = *value;
     }
@@ -60,7 +61,7 @@ struct Bench {
   std::array<Shaft, 2> shafts{};
   double load_Nm = 0;  ///< on each, as of a slope
   Time now{std::chrono::seconds(1)};
-  AxisStatus status;
+  StatusInWords status;
   BodyMotion motion;
   AxisSupply supply;
   CanFrame last;

@@ -35,7 +35,8 @@ struct HunterBench {
     driver.on_setpoints({&setpoint, 1}, now, out);
     driver.on_tick(now, out);
     for (const Measurement& each : out.measurements) {
-      if (const auto* value = std::get_if<AxisStatus>(&each.value)) status = *value;
+      if (const auto* value = std::get_if<AxisStatus>(&each.value))
+        status = {*value, driver.words(each)};
       if (const auto* value = std::get_if<BodyMotion>(&each.value)) motion = *value;
     }
     TwinFrames frames;
@@ -68,7 +69,7 @@ struct HunterBench {
   HunterTwin twin{options(), Steering{}};
   std::array<Shaft, 4> shafts{};
   Time now{std::chrono::seconds(1)};
-  AxisStatus status;
+  StatusInWords status;
   BodyMotion motion;
   std::vector<CanFrame> sent;
 };

@@ -23,6 +23,7 @@ class ByteConformance : public ::testing::TestWithParam<Subject> {
     const Time start{std::chrono::seconds(10)};
     driver.device->on_link_up(start);
     std::string text;
+    Reason words;
     DriverOut out;
     for (std::size_t at = 0; at < bytes.size();) {
       const std::size_t size = std::min(next_size(), bytes.size() - at);
@@ -31,9 +32,13 @@ class ByteConformance : public ::testing::TestWithParam<Subject> {
                              out);
       EXPECT_EQ(out.overflows, 0U);
       if (!out.measurements.empty()) text += describe(out) + "; ";
+      // Of what was told in one call only the last has its words.
+      for (const Measurement& m : out.measurements)
+        if (has_words(m)) words = driver.device->words(m);
       at += size;
     }
     const SourceHealth health = driver.device->health(start);
+    text += std::string(words.view()) + ' ';
     return text + std::to_string(health.good) + "/" + std::to_string(health.bad);
   }
 };

@@ -382,7 +382,7 @@ TEST_P(CanConformance, GivesTheSameForTheSame) {
     bench.run(milliseconds(300), kRest);
     for (int i = 0; i < 400; ++i) {
       bench.step(bench.wish(kRun, 0.01 * i));
-      text += describe(bench.out);
+      text += describe(bench.out, *bench.made.device);
       for (const CanFrame& frame : bench.out.frames) text += describe(frame);
     }
   }

@@ -37,6 +37,7 @@ class AnyDevice {
     return one.is_frame ? made_.frames != nullptr : made_.bytes != nullptr;
   }
   SourceHealth health(Time now) const { return made_.device->health(now); }
+  const Device& device() const { return *made_.device; }
 
  private:
   const DriverEntry& entry_;
@@ -50,7 +51,7 @@ std::string outcome(const GoldenCase& one, AnyDevice& driver, Time now) {
   const SourceHealth before = driver.health(now);
   driver.give(one, now, out);
   const SourceHealth after = driver.health(now);
-  const std::string text = describe(out);
+  const std::string text = describe(out, driver.device());
   if (text != "nothing") return after.bad > before.bad ? text + " and bad" : text;
   if (after.bad > before.bad) return "bad";
   // A case may say "nothing" of what is ignored too; "ignored" is the stricter word.

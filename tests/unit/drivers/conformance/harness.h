@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "drivers/drives.h"
 #include "drover/registry.h"
 #include "support/allocation_counter.h"
 #include "support/golden.h"
@@ -227,7 +228,7 @@ class CanBench {
   TwinFrames twin_frames;
   std::vector<CanFrame> sent;
   std::vector<CanFrame> moving;  ///< of those: motion, by what was known when they left
-  AxisStatus status;
+  StatusInWords status;
   AxisMotion motion;  ///< of the first channel
   std::array<AxisMotion, kMaxChannels> motions{};
   int off_list = 0;
@@ -252,7 +253,8 @@ class CanBench {
   }
   void note() {
     for (const Measurement& m : out.measurements) {
-      if (const auto* value = std::get_if<AxisStatus>(&m.value)) status = *value;
+      if (const auto* value = std::get_if<AxisStatus>(&m.value))
+        status = {*value, made.device->words(m)};
       if (const auto* value = std::get_if<AxisMotion>(&m.value)) {
         motions[value->axis] = *value;
         if (value->axis == 0) motion = *value;

@@ -111,7 +111,7 @@ class TwistBench {
   Time now{std::chrono::seconds(1)};
   DriverOut out;
   std::vector<Sent> sent;
-  AxisStatus status;
+  StatusInWords status;
   BodyMotion motion;
   int motions = 0;
   int off_list = 0;
@@ -161,7 +161,8 @@ class TwistBench {
   void note() {
     overflows += out.overflows;
     for (const Measurement& m : out.measurements) {
-      if (const auto* value = std::get_if<AxisStatus>(&m.value)) status = *value;
+      if (const auto* value = std::get_if<AxisStatus>(&m.value))
+        status = {*value, made.device->words(m)};
       if (const auto* value = std::get_if<BodyMotion>(&m.value)) motion = *value, ++motions;
     }
   }

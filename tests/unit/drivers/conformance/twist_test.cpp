@@ -345,7 +345,7 @@ TEST_P(TwistConformance, GivesTheSameForTheSame) {
     bench.run(milliseconds(2000), kRest);
     for (int i = 0; i < 400; ++i) {
       bench.step({kRun, 0, {0.001 * i, -0.001 * i}});
-      text += describe(bench.out);
+      text += describe(bench.out, *bench.made.device);
     }
     for (const Sent& one : bench.sent) text += text_of(one);
   }

@@ -73,7 +73,7 @@ class Bench {
   OdriveDriver driver;
   DriverOut out;
   std::vector<std::string> sent;
-  AxisStatus status;
+  StatusInWords status;
   int statuses = 0;
   int since_beat = 0;
 
@@ -82,7 +82,7 @@ class Bench {
     for (const CanFrame& frame : out.frames) sent.push_back(describe(frame));
     for (const Measurement& m : out.measurements) {
       if (const auto* value = std::get_if<AxisStatus>(&m.value)) {
-        status = *value;
+        status = {*value, driver.words(m)};
         ++statuses;
       }
     }

@@ -49,8 +49,8 @@ class EngineGroup : public ::testing::Test {
       rig.environment.axes[axis].state = silent[i] ? SourceState::stale : SourceState::fresh;
       if (silent[i]) continue;
       measure(told, AxisMotion{axis, arm[i].position_rad, arm[i].velocity_radps, arm[i].torque_Nm});
-      measure(told, AxisStatus{axis, arm[i].state, 0,
-                               arm[i].state == AxisState::fault ? Reason("too hot") : Reason()});
+      measure(told, AxisStatus{axis, arm[i].state},
+              arm[i].state == AxisState::fault ? "too hot" : "");
     }
     rig.tick();
   }
@@ -99,11 +99,12 @@ class EngineGroup : public ::testing::Test {
 
  private:
   template <class Value>
-  void measure(Time time, const Value& value) {
+  void measure(Time time, const Value& value, const char* words = "") {
     Measurement m;
     m.time = m.received = time;
     m.value = value;
     rig.engine->on_measurement(m);
+    rig.engine->on_words(m, words);
   }
 };
 

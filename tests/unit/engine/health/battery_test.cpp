@@ -119,10 +119,10 @@ TEST_F(ABatteryMonitor, SaysOfCellsAndAnAlarmThatAreHeldOnWhenItWasSo) {
   EXPECT_EQ(critical(), "battery cells were too far apart until 4 s ago, 3.30 V to 3.31 V now");
   run(20s);
   sample.alarm = BatteryAlarm::critical;
-  sample.alarm_text = "short circuit";
+  battery.alarms = "short circuit";
   run(2s);
   sample.alarm = BatteryAlarm::none;
-  sample.alarm_text = "";
+  battery.alarms = "";
   run(4s);
   EXPECT_EQ(critical(), "battery had an alarm until 4 s ago");
   sample.temperature_degC = 55;
@@ -158,11 +158,11 @@ TEST_F(ABatteryMonitor, TellsHotAndEndsTasksWhenTooHotOrCellsAreApart) {
 TEST_F(ABatteryMonitor, BelievesACriticalAlarmWithTheSecondSampleAndAWarningAtOnce) {
   run(1s);
   sample.alarm = BatteryAlarm::warning;
-  sample.alarm_text = "cells apart";
+  battery.alarms = "cells apart";
   run(1s);
   EXPECT_EQ(verdict.warning, "battery: cells apart");
   sample.alarm = BatteryAlarm::critical;
-  sample.alarm_text = "short circuit";
+  battery.alarms = "short circuit";
   run(1s);
   EXPECT_EQ(critical(), "");
   run(1s);
