@@ -32,7 +32,7 @@ Way way_in(const State& state, const Twist& twist, double seconds) {
 void learn_fit(State& state, const AntennaPosition& raw, AntennaPoint point, const Twist& twist,
                const EstimateConfig& config) {
   const bool told = state.heading.last != kNever && state.heading.jumps.running() == false;
-  const TiltGuess tilt = guess_tilt(state.gyro);
+  const TiltGuess tilt = guess_tilt(state.gyro, state.belief.mean[kYaw]);
   const bool level = std::hypot(tilt.roll_rad, tilt.pitch_rad) < kLevel_rad;
   const bool sure = told && level && !state.watch.slipping() && !state.watch.looks() &&
                     !state.watch.drifted && !state.shove.holds();

@@ -15,9 +15,13 @@ struct TiltGuess {
   double sigma_rad = 0;  ///< of either, beside what the sensor errs by; 0: it is heard
 };
 
-/// While the sensor is silent the last tilt, which the base drives away from. Level and known where
-/// there never was a sensor.
-TiltGuess guess_tilt(const GyroTrack& gyro);
+/// While the sensor is silent the last tilt, on ground which the base turns on and drives away
+/// from. Level and known where there never was a sensor.
+TiltGuess guess_tilt(const GyroTrack& gyro, double yaw_rad);
+
+/// How far the antenna may be from over a level base where no sensor ever told how it is tilted,
+/// as a sigma, m. For people: the place is used as if the ground were level.
+double unmeasured_sigma_m(const GyroTrack& gyro, const AntennaConfig& antenna);
 
 struct TiltedArm {
   LeverArm arm;
@@ -25,7 +29,7 @@ struct TiltedArm {
   double guessed_m = 0;    ///< sigma of it while that is silent, m; not white: it stays
 };
 
-TiltedArm tilted_arm(const GyroTrack& gyro, const AntennaConfig& antenna,
+TiltedArm tilted_arm(const GyroTrack& gyro, double yaw_rad, const AntennaConfig& antenna,
                      const EstimateConfig& config);
 
 }  // namespace drover::engine::estimate

@@ -24,6 +24,8 @@ constexpr std::size_t kOutward =
 constexpr double kInstant_s = 0.05;  // how well the instants of two receivers are known
 constexpr double kStands = 0.5;      // cosine of a pitch of 60 degrees
 constexpr double kHeadingGap_s = 1.5;
+// Somebody pushes it, or its wheels are not heard: so fast it comes to other ground.
+constexpr double kMovedUnheard_mps = 0.5;
 // No place changes these.
 constexpr std::array<std::size_t, 4> kCarried{kGain, kScale, kGyroBias, kGyroScale};
 
@@ -187,8 +189,8 @@ Apart Estimator::apart(const GnssPosition& position, std::uint8_t receiver, Time
       frame_.local({.latitude_deg = position.latitude_deg,
                     .longitude_deg = position.longitude_deg,
                     .altitude_m = position.altitude_msl_m + position.undulation_m});
-  const TiltedArm tilted =
-      tilted_arm(history_.before(history_.dirty()).gyro, antenna_of(config_, receiver), config_);
+  const TiltedArm tilted = tilted_arm(history_.before(history_.dirty()).gyro, pose.yaw_rad,
+                                      antenna_of(config_, receiver), config_);
   const LeverArm& arm = tilted.arm;
   const double age_s = to_s(pose.time - time);
   const double yaw_rad = pose.yaw_rad - pose.wz_radps * age_s;
@@ -254,8 +256,7 @@ void Estimator::advance(State& state, Time to) const {
                   next_stale(state.gyro, state.time, imu_stale_)});
     const double dt_s = to_s(until - state.time);
     reckon(state, body, gyro, dt_s);
-    if (!state.gyro.fresh(state.time, imu_stale_) && state.standing_since == kNever)
-      state.gyro.tilt_unseen_s += dt_s;
+    count_unseen_tilt(state, body, dt_s);
     state.time = until;
     follow_turn(state.gyro, state.belief, body, state.time, dt_s, config_, turn_errors(base_));
     if (state.belief.covariance[kYaw][kYaw] > kLostYaw_rad * kLostYaw_rad) {
@@ -263,6 +264,18 @@ void Estimator::advance(State& state, Time to) const {
       state.belief.reset(kYaw, state.belief.mean[kYaw], kLostYaw_rad);
     }
   }
+}
+
+/// How far the ground may have changed since the sensor of the tilt was heard. It may have been
+/// silent for the moment in which it is still taken as fresh.
+void Estimator::count_unseen_tilt(State& state, const BodyMotion& body, double dt_s) const {
+  if (state.standing_since != kNever) return;
+  GyroTrack& gyro = state.gyro;
+  const double mps = body.known ? fastest_mps(base_, body.twist) : 0.0;
+  gyro.tilt_unseen_m += (std::isfinite(mps) && mps > 0 ? mps : kMovedUnheard_mps) * dt_s;
+  if (gyro.fresh(state.time, imu_stale_)) return;
+  gyro.tilt_guessed = true;
+  gyro.tilt_unseen_s += dt_s;
 }
 
 /// Predicts, and tells those who compare the way with the receiver's.
@@ -356,7 +369,9 @@ void Estimator::take_rates(State& state, const MotionInput& input) const {
     gyro.roll_rad = input.turn->roll_rad;
     gyro.pitch_rad = input.turn->pitch_rad;
     gyro.tilt_known = true;
-    gyro.tilt_unseen_s = 0;
+    gyro.tilt_yaw_rad = state.belief.mean[kYaw];
+    gyro.tilt_unseen_m = gyro.tilt_unseen_s = 0;
+    gyro.tilt_guessed = false;
   }
   gyro.left_mps2 = input.turn->left_mps2;
   gyro.rocks = input.turn->rocks;

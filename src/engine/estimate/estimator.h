@@ -166,6 +166,7 @@ class Estimator final {
               double dt_s) const;
   void take(estimate::State& state, const estimate::Input& input) const;
   double in_time(estimate::State& state, double told_rad) const;
+  void count_unseen_tilt(estimate::State& state, const BodyMotion& body, double dt_s) const;
   void take_rates(estimate::State& state, const estimate::MotionInput& input) const;
   void hand_over_gyro(estimate::State& state, const estimate::TurnRate& turn) const;
   estimate::State blank() const;

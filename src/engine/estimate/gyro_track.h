@@ -27,9 +27,12 @@ struct GyroTrack {
   Time at = kNever;         ///< when it was measured; kNever: none that can be used
   double roll_rad = 0;
   double pitch_rad = 0;
-  bool tilt_known = false;   ///< roll and pitch were measured once
-  double tilt_unseen_s = 0;  ///< and so long ago, silence at rest not counted
-  double left_mps2 = 0;      ///< of the base, without gravity
+  bool tilt_known = false;    ///< roll and pitch were measured once,
+  double tilt_yaw_rad = 0;    ///< with this heading,
+  double tilt_unseen_m = 0;   ///< so many metres of the rims ago,
+  double tilt_unseen_s = 0;   ///< and so long, silence at rest not counted
+  bool tilt_guessed = false;  ///< the sensor is silent since
+  double left_mps2 = 0;       ///< of the base, without gravity
   bool rocks = false;
 
   // The slice of time that is being summed up.

@@ -261,7 +261,8 @@ void apply(State& state, const AntennaPosition& measured, const Twist& twist,
   if (measured.receiver != state.gnss.receiver) hand_over(state, measured.receiver, config);
   const AntennaPosition position = in_time(state, follow_quality(state, measured, config), twist);
   Belief& belief = state.belief;
-  const TiltedArm tilted = tilted_arm(state.gyro, antenna_of(config, state.gnss.receiver), config);
+  const TiltedArm tilted =
+      tilted_arm(state.gyro, belief.mean[kYaw], antenna_of(config, state.gnss.receiver), config);
   find_heading(state, position, tilted.arm, config);
   const double c = std::cos(belief.mean[kYaw]);
   const double s = std::sin(belief.mean[kYaw]);
@@ -353,10 +354,15 @@ void apply(State& state, const AntennaPosition& measured, const Twist& twist,
   const double scale_most = state.watch.slipping() ? 0.0 : kScalePerMetre * scale_way_m;
   state.gnss.corrected_way_m = 0;
   rest_on(state, position, config);
-  const double left = std::max(left_after(belief, row_x, kX, variance_x),
-                               left_after(belief, row_y, kY, variance_y));
-  // Another tilt than was guessed is another one with the next position, too.
-  state.gnss.guessed_m = left * state.gnss.guessed_m + (1 - left) * tilted.guessed_m;
+  const double left_x = left_after(belief, row_x, kX, variance_x);
+  const double left_y = left_after(belief, row_y, kY, variance_y);
+  const double left = std::max(left_x, left_y);
+  // Another tilt than was guessed is another one with the next position, too. Along the way, where
+  // wheels may slip, positions are followed sooner than across.
+  const auto guessed_m = [&](double share) {
+    return share * state.gnss.guessed_m + (1 - share) * tilted.guessed_m;
+  };
+  state.gnss.guessed_m = std::max(guessed_m(left_x), guessed_m(left_y));
   if (fixed) {
     state.unseen.keep(has_settled(state, config) ? std::min(left, kLagsBehind) : left);
   }

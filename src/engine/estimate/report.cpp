@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "drover/angle.h"
+#include "engine/estimate/antenna_tilt.h"
 #include "engine/estimate/estimator.h"
 #include "engine/estimate/reach.h"
 
@@ -69,7 +70,10 @@ void Estimator::report(const State& state, Time now) {
   e.pose.yaw_sigma_rad = state.has_heading ? told_rad : kAbsent;
   e.predicted_error_m = state.has_position ? two_sigma_m : kAbsent;
   const double late_doubt_m = speed_mps * state.fit.late_doubt_s();
-  const double sure_m = kSure * std::hypot(std::hypot(doubt.two_sigma_m(belief), 2 * tilt_m),
+  const double unmeasured_m =
+      unmeasured_sigma_m(state.gyro, antenna_of(config_, state.gnss.receiver));
+  const double sure_m = kSure * std::hypot(std::hypot(doubt.two_sigma_m(belief),
+                                                      2 * std::hypot(tilt_m, unmeasured_m)),
                                            2 * late_doubt_m, 2 * untold_m);
   e.error_bound_m = state.has_position ? sure_m : kAbsent;
   e.yaw_error_rad = state.has_heading ? two_sigma_rad : kAbsent;
