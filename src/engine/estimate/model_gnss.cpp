@@ -20,6 +20,8 @@ constexpr double kLagsBehind = 0.5;
 // A fix that was found again is where dead reckoning is.
 constexpr double kNearGate = 3.0;  // sigmas
 constexpr double kGoesBeside = 0.25;
+// Positions of a receiver that tells any are not farther apart.
+constexpr Duration kNextFix = std::chrono::milliseconds(1200);
 // The wheel scale changes by no more than this share in a metre: what changes it faster is slip.
 constexpr double kScalePerMetre = 0.002;
 
@@ -227,6 +229,28 @@ double left_after(const Belief& belief, const Vector& row, std::size_t axis, dou
   return 1 - std::clamp(share, 0.0, 1.0);
 }
 
+/// There were fixes until the place began to be another one.
+bool goes_on_coming(const State& state) {
+  const GnssTrack& gnss = state.gnss;
+  if (gnss.believed == kNever) return false;
+  const Time other = gnss.jumps.running() ? gnss.jumps.since() : state.time;
+  return other - gnss.believed <= kNextFix;
+}
+
+/// A fix that is believed, so far beside where the base was when its wheels fell silent: somebody
+/// pushed it there, or the receiver is elsewhere. From one fix to the next nobody pushes it far;
+/// what was lost meanwhile is like any place that a base at rest is found at.
+void doubt_way(State& state, double beside_m) {
+  GnssTrack& gnss = state.gnss;
+  if (gnss.believed == kNever || beside_m < kSameFix_m) return;
+  if (goes_on_coming(state)) {
+    gnss.unconfirmed_m = std::max(gnss.unconfirmed_m, beside_m);
+  } else {
+    gnss.replaced = state.time;
+    gnss.replaced_m = beside_m;
+  }
+}
+
 /// Of what lies between a position and what is expected of it, m2.
 struct Expected {
   double xx = 0;
@@ -330,7 +354,7 @@ void apply(State& state, const AntennaPosition& measured, const Twist& twist,
     const bool settled = refuse(state, position, {dx, dy}, larger_sigma_m(position), fixed, config);
     // Which of two places is right is no question for a poor position.
     if (!settled || (!fixed && state.gnss.dispute.holds())) return;
-    if (fixed && found_again(state) && !state.way_unknown)
+    if (fixed && (state.way_unknown ? goes_on_coming(state) : found_again(state)))
       state.gnss.unconfirmed_m = std::hypot(dx, dy);
     if (fixed) state.gnss.believed = kNever;  // the next one is not found again, but the same
     state.gnss.replaced = state.time;
@@ -339,6 +363,7 @@ void apply(State& state, const AntennaPosition& measured, const Twist& twist,
     place_anew(state, position, {arm_x, arm_y}, place_variance);
     return;
   }
+  if (fixed && state.way_unknown) doubt_way(state, std::hypot(dx, dy));
   state.gnss.jumps.accepted();
   if (fixed) {
     state.gnss.believed = state.time;

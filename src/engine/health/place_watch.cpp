@@ -19,6 +19,10 @@ constexpr Duration kStable = std::chrono::seconds(10);
 // A busy computer hears nothing for so long, while the receiver may be believed elsewhere. Who is
 // pushed without power is silent for longer.
 constexpr Duration kHush = std::chrono::seconds(2);
+// From one fix to the next, when these are not longer apart than those of any receiver.
+constexpr double kPushed_mps = 1.0;
+constexpr double kPushed_radps = 1.0;
+constexpr Duration kNextFix = std::chrono::milliseconds(1200);
 
 /// In steps that are not written anew in each cycle; upwards, and nothing of what is always there.
 std::uint16_t whole_cm(double away_m) {
@@ -123,6 +127,16 @@ void PlaceWatch::update(Time now, Duration dt, const Estimate& estimate, WheelsH
   Pose pose = estimate.pose;
   // What its wheels may have slipped before it came to rest without a fix is no jump, either.
   pose.position_sigma_m = std::hypot(pose.position_sigma_m, estimate.unseen_slip_m / 2);
+  const bool well = !estimate.disagrees && estimate.looks.empty() &&
+                    estimate.predicted_error_m <= config_.bound_run_m;
+  if (renewed || !known_ || (heard && !stands_)) {
+    unheard_ = false;
+    followed_at_ = well ? now : kNever;
+    followed_ = pose;
+  } else if (well) {
+    follow(now, pose, heard);
+  }
+  unheard_ = unheard_ || !heard;
   if (known_ && hush && !renewed) return;
   if (!known_ || !stands_ || renewed) return begin_at(pose);
   if (estimate.body.known) {
@@ -162,6 +176,34 @@ void PlaceWatch::compare(Time now, const Pose& pose) {
   if (!jumped) return;
   seen_.began = pose;
   rested_.began = rested;
+}
+
+/// A pose that is well known. Between fixes nothing is known of who may be pushed.
+void PlaceWatch::follow(Time now, const Pose& pose, bool heard) {
+  const bool looks_back = (unheard_ || !heard) && followed_at_ != kNever;
+  const bool fix = pose.position_sigma_m < sigma_m_;  // or a heading, which tells as much
+  sigma_m_ = pose.position_sigma_m;
+  if (looks_back && !fix) return;
+  const Change since = change(followed_, pose);
+  const Duration gap = now - followed_at_;
+  const double pushed_s = looks_back && gap <= kNextFix ? to_s(gap) : 0.0;
+  const double more_m = since.way_m - kPushed_mps * pushed_s;
+  const double more_rad = since.turn_rad - kPushed_radps * pushed_s;
+  const bool jumped =
+      more_m * since.way_share > since.way_m || more_rad * since.turn_share > since.turn_rad;
+  if (looks_back && jumped && !doubted_before_) {
+    if (since.way_share > since.turn_share) {
+      jumped_.format("the position jumped by %.1f m while no wheel was heard", since.way_m);
+    } else {
+      jumped_.format("the heading jumped by %.0f degrees while no wheel was heard",
+                     to_deg(since.turn_rad));
+    }
+    jumped_at_ = now;
+    told_ = false;
+  }
+  followed_ = pose;
+  followed_at_ = now;
+  if (heard) unheard_ = false;
 }
 
 /// Who was carried went through many places: what counts is how far in all. Who came back was away.

@@ -15,7 +15,9 @@ struct WheelsHeard {
 
 /// The estimate places itself anew when the receiver insists while the wheels stand. A task that
 /// waits ends by that. Before the next start the new place has to have lasted for 10 s, and a
-/// person has to have been told: by the end of his task, or by a start that was refused.
+/// person has to have been told: by the end of his task, or by a start that was refused. While no
+/// wheel is heard it may be pushed: then it jumps when it goes faster from one fix to the next than
+/// anybody pushes, or is elsewhere when there are fixes again.
 class PlaceWatch final {
  public:
   explicit PlaceWatch(const EstimateConfig& config) : config_(config) {}
@@ -54,6 +56,7 @@ class PlaceWatch final {
   void begin_where_it_stood(const GeodeticPoint& origin);
   Pose without_creep(Pose pose) const;
   void compare(Time now, const Pose& pose);
+  void follow(Time now, const Pose& pose, bool heard);
   void tell(const Pose& pose);
 
   EstimateConfig config_;
@@ -65,6 +68,12 @@ class PlaceWatch final {
   bool missed_ = false;     ///< a wheel is not heard
   bool stood_ = false;      ///< when its wheels were heard last
   Time heard_at_ = kNever;  ///< they were
+  /// They were not since, and the place was not well known since they are again: who pushes it is
+  /// seen by the receiver only.
+  bool unheard_ = false;
+  Pose followed_;  ///< where it was last, well known
+  Time followed_at_ = kNever;
+  double sigma_m_ = 0;  ///< of the last cycle in which it was
   Places seen_;
   Places rested_;         ///< without what it crept: the nearer of the two counts
   double crept_x_m_ = 0;  ///< since it stands, by its wheels

@@ -296,5 +296,102 @@ TEST_F(ARobotWhosePlaceChanges, IsNotToldToJumpWhenItRollsOutUnheardAfterAnEstop
   EXPECT_THAT(told(), ::testing::Not(HasSubstr("jumped")));
 }
 
+struct Silence {
+  double for_s = 3;             ///< of all wheels, which stand
+  double jump_m = 3;            ///< of the receiver meanwhile
+  bool lost_meanwhile = false;  ///< it gives no fix until it is elsewhere
+  bool imu = false;
+};
+
+/// A cable that is loose, drives that begin anew: nobody hears whether the base is pushed, and the
+/// receiver is elsewhere after it.
+class WheelsSilentWhileTheReceiverJumps : public ARobotWhosePlaceChanges,
+                                          public testing::WithParamInterface<Silence> {
+ protected:
+  void fall_silent() {
+    rig.imu = GetParam().imu;
+    rig.settle();
+    rig.run_s(2);
+    for (auto& drive : rig.drives) drive.silent = true;
+    if (GetParam().lost_meanwhile) rig.quality = FixQuality::none;
+    rig.run_s(GetParam().for_s / 2);
+    rig.quality = FixQuality::rtk_fixed;
+    rig.jump_m = GetParam().jump_m;
+    rig.run_s(GetParam().for_s / 2);
+    for (auto& drive : rig.drives) drive.silent = false;
+  }
+  void expect_in_the_bound_for_s(double seconds) {
+    for (int i = 0; i < seconds * 200; ++i) {
+      rig.tick();
+      const double error_m = std::hypot(rig.snapshot().pose.x_m - rig.plant.truth().x_m,
+                                        rig.snapshot().pose.y_m - rig.plant.truth().y_m);
+      const double bound_m = rig.snapshot().nav.error_bound_m;
+      ASSERT_TRUE(!std::isfinite(bound_m) || error_m <= bound_m)
+          << i / 200.0 << " s: " << error_m << " m off, told " << bound_m;
+    }
+  }
+};
+
+TEST_P(WheelsSilentWhileTheReceiverJumps, IsNotDrivenFromBeforeAPersonWasTold) {
+  fall_silent();
+  bool told = false;
+  for (int i = 0; i < 9 * 200 && !told; ++i) {
+    rig.log.clear();
+    rig.start(path, 40, 0.5);
+    rig.tick();
+    ASSERT_EQ(rig.said<CommandAccepted>().size(), 0U) << i;
+    ASSERT_EQ(rig.fastest_command_radps(), 0) << i;
+    const auto refused = rig.said<CommandRefused>();
+    told = !refused.empty() && refusal().find("look where it stands") != std::string::npos;
+  }
+  EXPECT_TRUE(told) << refusal();
+  EXPECT_THAT(refusal(), HasSubstr("jumped by"));
+  rig.run_s(11);
+  expect_drives();
+}
+
+/// As long as nobody was told to look: what was lost meanwhile is in it for a minute.
+TEST_P(WheelsSilentWhileTheReceiverJumps, HasTheOtherPlaceInItsBound) {
+  fall_silent();
+  expect_in_the_bound_for_s(GetParam().lost_meanwhile ? 59 - GetParam().for_s / 2 : 120);
+}
+
+INSTANTIATE_TEST_SUITE_P(AtRest, WheelsSilentWhileTheReceiverJumps,
+                         testing::Values(Silence{3, 3}, Silence{3, -0.6},
+                                         Silence{3, 3, false, true}, Silence{6, 3, true},
+                                         Silence{30, 3}, Silence{30, -1.5, true}, Silence{30, 0.6},
+                                         Silence{30, 0.3, true}, Silence{40, 3, true, true}));
+
+/// Less than anybody pushes it from one fix to the next.
+class WheelsSilentWhileTheReceiverJumpsALittle : public WheelsSilentWhileTheReceiverJumps {};
+
+TEST_P(WheelsSilentWhileTheReceiverJumpsALittle, AndHasTheOtherPlaceInItsBound) {
+  fall_silent();
+  expect_in_the_bound_for_s(120);
+}
+
+INSTANTIATE_TEST_SUITE_P(AtRest, WheelsSilentWhileTheReceiverJumpsALittle,
+                         testing::Values(Silence{3, 0.1}, Silence{3, 0.2}, Silence{3, 0.3},
+                                         Silence{30, -0.2}, Silence{3, 0.15, false, true}));
+
+/// Without power it is pushed by hand, which the receiver follows.
+TEST_F(ARobotWhosePlaceChanges, IsStartedAtOnceWhenItWasPushedUnheardWithinSightOfTheReceiver) {
+  rig.settle();
+  rig.run_s(2);
+  for (auto& drive : rig.drives) drive.silent = true;
+  rig.run_s(3);
+  for (const double radps : {2.0, 5.0, 9.0, 5.0, 2.0}) {
+    rig.carried = WheelSpeeds{radps, radps};
+    rig.run_s(1);
+  }
+  rig.carried.reset();
+  rig.run_s(3);
+  for (auto& drive : rig.drives) drive.silent = false;
+  rig.run_s(5);
+  EXPECT_THAT(told(), ::testing::Not(HasSubstr("jumped")));
+  EXPECT_LT(rig.snapshot().nav.error_bound_m, 0.4);
+  expect_drives();
+}
+
 }  // namespace
 }  // namespace drover::engine
