@@ -21,12 +21,14 @@ Time TimeAnchor::due(Duration utc_of_day, Time first_byte) {
   } else {
     const auto drift = Duration(static_cast<Duration::rep>(
         static_cast<double>(std::max(elapsed, Duration::zero()).count()) * kMaxDrift));
-    due_ = std::min(first_byte, due_ + step + drift);
+    const Time predicted = due_ + step + drift;
+    const bool backlog = elapsed + kJitter < step;
+    due_ = backlog ? predicted : std::min(first_byte, predicted);
   }
   valid_ = true;
   utc_of_day_ = utc_of_day;
   first_byte_ = first_byte;
-  return due_;
+  return std::min(first_byte, due_);
 }
 
 }  // namespace drover::nmea0183

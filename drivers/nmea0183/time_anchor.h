@@ -9,8 +9,13 @@ namespace drover::nmea0183 {
 /// line, an adapter's latency timer, a scheduler). The earliest arrival, relative to UTC, is the
 /// one that was held up least: later epochs are placed by it. What is held up for good, such as a
 /// receiver that lags by a second, thereby gets an honest, old time.
+///
+/// What comes faster one after the other than the receiver counts was held up together, and its
+/// reader may know no more than when that began: it shows no earlier arrival.
 class TimeAnchor final {
  public:
+  /// Arrivals of what was not held up jitter by less.
+  static constexpr Duration kJitter = std::chrono::milliseconds(20);
   /// The clocks of receiver and computer may drift apart by this much.
   static constexpr double kMaxDrift = 500e-6;
   /// After such a silence the receiver may have been restarted: UTC is placed anew.
