@@ -27,9 +27,9 @@ struct Environment {
   /// A drive keeps its last command when it is no longer reached.
   bool drives_on_in_silence = false;
   bool stop_creeps = false;  ///< a drive that is told to stand only brakes: on a slope it creeps
-  Reason slept;              ///< the computer was suspended: a task ends; empty when it was not
-  Reason foreign;            ///< who else commands the drives; empty when nobody does
-  Reason bus;                ///< what is wrong with a CAN bus; empty when all is well
+  Reason slept;    ///< the computer, or droverd stood still: a task ends; empty when neither did
+  Reason foreign;  ///< who else commands the drives; empty when nobody does
+  Reason bus;      ///< what is wrong with a CAN bus; empty when all is well
   /// A part of the daemon hangs, or it is about to end: motion ends with a ramp. Empty: all is
   /// well.
   Reason program;

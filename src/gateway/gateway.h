@@ -102,6 +102,7 @@ class Gateway final {
   void on(const LinkLost& lost, Time now);
   void on(const FramesSent& counts, Time now);
   void on(const Suspended& slept, Time now);
+  void on(const HeldUp& held_up, Time now);
   void notice_foreign(const Slot& slot, const CanFrame& frame, Time received);
   bool is_bus(std::size_t link) const { return link < buses_.size(); }
   bool is_line_of_bytes(std::size_t link) const {

@@ -106,4 +106,9 @@ void Gateway::on(const Suspended& slept, Time now) {
   slept_.format("the computer slept for %.1f s", slept.lasted_s);
 }
 
+void Gateway::on(const HeldUp& held_up, Time now) {
+  woke_ = now;
+  slept_.format("droverd stood still for %.2f s, and nobody steered meanwhile", held_up.lasted_s);
+}
+
 }  // namespace drover::gateway

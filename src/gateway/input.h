@@ -103,6 +103,11 @@ struct OutputsUp {
 struct ClearanceFound {
   Clearance clearance;
 };
+/// The control thread stood still for so long while the robot moved, as long as the guard gives it,
+/// or longer: whatever moves comes to rest. What is heard meanwhile has its own time.
+struct HeldUp {
+  double lasted_s = 0;
+};
 /// One control cycle: afterwards the gateway's output is that cycle's.
 struct Tick {
   bool guard_alive = false;
@@ -113,9 +118,10 @@ struct Tick {
 };
 
 /// The order is the recording's: a new one goes to the end.
-using InputBody = std::variant<FrameHeard, BytesHeard, LevelsRead, RegistersRead, RegistersFailed,
-                               LinkUp, LinkLost, FramesSent, CommandGiven, Tick, ProgramTrouble,
-                               Suspended, Recalled, OutputsUp, ClearanceFound, LearnedRecalled>;
+using InputBody =
+    std::variant<FrameHeard, BytesHeard, LevelsRead, RegistersRead, RegistersFailed, LinkUp,
+                 LinkLost, FramesSent, CommandGiven, Tick, ProgramTrouble, Suspended, Recalled,
+                 OutputsUp, ClearanceFound, LearnedRecalled, HeldUp>;
 
 struct Input {
   Time time = kNever;

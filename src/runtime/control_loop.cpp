@@ -31,7 +31,8 @@ ControlLoop::ControlLoop(const config::DroverConfig& config, Gateway& gateway, L
       slow_(slow),
       tick_(from_s(1 / config.control.tick_Hz)),
       open_(gateway.wiring().links.size()),
-      guard_watch_(std::chrono::milliseconds(config.guard.limit_ms)) {
+      guard_watch_(std::chrono::milliseconds(config.guard.limit_ms)),
+      hold_ups_(std::chrono::milliseconds(config.guard.limit_ms)) {
   const auto& links = gateway.wiring().links;
   for (std::size_t i = 0; i < links.size(); ++i) {
     if (links[i].wire == Wire::registers) continue;  // the thread that polls it tells of it
@@ -101,7 +102,7 @@ void ControlLoop::hear_ready(Time now) {
 Time ControlLoop::cycle(Time begin, std::uint64_t late) {
   ++stats_.cycles;
   stats_.overruns += late;
-  watch_sleep(begin);
+  watch_hold_ups(begin);
   take_links(begin);
   drain_can(begin);
   for (std::size_t link = 0; link < open_.size(); ++link)
@@ -195,12 +196,27 @@ void ControlLoop::watch_program(Time now) {
 }
 
 /// The monotonic clock stands still while the computer sleeps: all that was heard looks young.
-void ControlLoop::watch_sleep(Time now) {
-  constexpr Duration kSleep = 1s;
-  const Duration asleep = asleep_since_boot();
-  const Duration slept = asleep - asleep_;
-  asleep_ = asleep;
-  if (stats_.cycles > 1 && slept > kSleep) apply(now, gateway::Suspended{to_s(slept)});
+void ControlLoop::watch_hold_ups(Time now) {
+  const auto& groups = gateway_.snapshot().groups;
+  const bool joints = std::any_of(groups.begin(), groups.end(), [](const GroupSnapshot& group) {
+    return group.state == GroupState::following;
+  });
+  const bool moved = joints || !exchange_.at_rest.load(std::memory_order_relaxed);
+  const HoldUp found = hold_ups_.update(now, asleep_since_boot(), moved);
+  if (found.kind == HoldUp::Kind::slept) apply(now, gateway::Suspended{to_s(found.lasted)});
+  if (found.kind == HoldUp::Kind::stops) apply(now, gateway::HeldUp{to_s(found.lasted)});
+  if (found.kind == HoldUp::Kind::told) tell_hold_up(found.lasted, now);
+}
+
+/// It changes nothing, so it is no input.
+void ControlLoop::tell_hold_up(Duration lasted, Time now) {
+  Notice notice{Notice::Level::warning, {}};
+  notice.text.format(
+      "droverd stood still for %.0f ms while the robot moved, and nobody steered meanwhile: this "
+      "computer is too busy, or was paused",
+      1e3 * to_s(lasted));
+  if (!exchange_.events.push(Event{now, notice})) exchange_.lost_events.fetch_add(1);
+  exchange_.events_ready.notify();
 }
 
 GuardSigns ControlLoop::guard_signs() const {

@@ -16,6 +16,7 @@
 #include "runtime/control_exchange.h"
 #include "runtime/guard_client.h"
 #include "runtime/guard_watch.h"
+#include "runtime/hold_ups.h"
 #include "runtime/link_keeper.h"
 #include "runtime/program_watch.h"
 #include "runtime/recorder.h"
@@ -65,7 +66,8 @@ class ControlLoop final {
   Time cycle(Time begin, std::uint64_t late);
   void take_commands(Time now);
   void watch_program(Time now);
-  void watch_sleep(Time now);
+  void watch_hold_ups(Time now);
+  void tell_hold_up(Duration lasted, Time now);
   bool still_may_leave(Time decided) const;
   void send(std::size_t bus, std::span<const CanFrame> frames, Time decided);
   GuardSigns guard_signs() const;
@@ -110,11 +112,11 @@ class ControlLoop final {
   Duration wall_minus_monotonic_{};
   CycleStats stats_;
   GuardWatch guard_watch_;
+  HoldUps hold_ups_;
   CommandIntake intake_;
   ProgramWatch program_;
   std::uint64_t clearance_ = 0;  ///< number of the last one
   double last_vx_mps_ = 0;       ///< of the base, when somebody knew it
-  Duration asleep_{};            ///< since the computer booted
   link::FrameBatch batch_;
   HeardBytes heard_;
 };

@@ -31,9 +31,14 @@ class GuardWatch final {
 
   /// Each cycle. True when the guard was told to stop and this program was not yet.
   bool update(const GuardSigns& signs, Time now) {
+    const bool held_up = updated_ != kNever && now - updated_ > kCycles;
+    updated_ = now;
     if (signs.beats != beats_) {
       beats_ = signs.beats;
       heard_ = now;
+      graced_ = kNever;
+    } else if (held_up && graced_ == kNever && heard_ != kNever) {
+      graced_ = now;
     }
     if (signs.holds && !holds_) held_since_ = now;
     holds_ = signs.holds;
@@ -42,12 +47,16 @@ class GuardWatch final {
     set_refused_ = signs.set_refused;
     return newly_latched;
   }
-  bool alive(Time now) const { return heard_ + silent_after_ > now; }
+  /// Who was held up himself may have been so together with the guard, which has to be heard in
+  /// three of its cycles then.
+  bool alive(Time now) const {
+    return heard_recently(now) || (graced_ != kNever && now - graced_ < kCycles);
+  }
   /// A guard that is gone sends nothing more, whatever it wrote last: then the drives are ours.
-  bool holds(Time now) const { return holds_ && alive(now); }
+  bool holds(Time now) const { return holds_ && heard_recently(now); }
   /// The same by what it writes at this moment: one that was frozen and goes on is back.
   bool holds(const GuardSigns& signs, Time now) const {
-    return signs.holds && (signs.beats != beats_ || alive(now));
+    return signs.holds && (signs.beats != beats_ || heard_recently(now));
   }
   bool latched() const { return latched_; }
   /// It keeps the stop set of another program, until it is reset.
@@ -63,9 +72,13 @@ class GuardWatch final {
   }
 
  private:
+  bool heard_recently(Time now) const { return heard_ + silent_after_ > now; }
+
   Duration silent_after_;
   std::uint64_t beats_ = 0;
   Time heard_ = kNever;
+  Time updated_ = kNever;
+  Time graced_ = kNever;  ///< once for each silence
   Time held_since_ = kNever;
   Time asked_ = kNever;
   bool holds_ = false;

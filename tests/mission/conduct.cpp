@@ -45,6 +45,14 @@ Time asked(const Record& record, Time answered) {
   return time;
 }
 
+/// Together with the guard, which then stops nothing: droverd has to, as soon as it goes on.
+bool hung_with_guard(const Record& record, Time stopped) {
+  const auto times = record.all("signal 19 to drover-guard");
+  return std::any_of(times.begin(), times.end(), [stopped](Time time) {
+    return time >= stopped - 5ms && time <= stopped + 5ms;
+  });
+}
+
 /// The last instant at which the task may still move the wheels.
 Time last_motion(const Record& record, Time answered) {
   Time end = Time::max();
@@ -60,7 +68,8 @@ Time last_motion(const Record& record, Time answered) {
   }
   for (const auto* text : {"signal 9 to droverd", "signal 19 to droverd"})
     for (const Time killed : record.all(text))
-      if (killed > answered) end = std::min(end, killed + kGuard);
+      if (killed > answered && !hung_with_guard(record, killed))
+        end = std::min(end, killed + kGuard);
   return end;
 }
 

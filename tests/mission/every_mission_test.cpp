@@ -126,7 +126,7 @@ INSTANTIATE_TEST_SUITE_P(
         "cubemars_arm", "cubemars_arm_kill", "hunter", "hunter_kill", "hunter_stuck",
         "hunter_backs", "hunter_kill_in_bend", "hunter_unfed", "robomaster_stuck",
         "robomaster_mute", "robomaster", "robomaster_silent", "robomaster_kill", "mecanum",
-        "mecanum_silent", "mecanum_kill", "mecanum_sideways", "mecanum_sideways_kill",
+        "mecanum_silent", "mecanum_kill", "both_hang", "mecanum_sideways", "mecanum_sideways_kill",
         "mecanum_sideways_silent", "scene_backwards", "scene_box", "scene_near", "scene_pole",
         "scene_person", "scene_refused", "scene_keep_out", "scene_keep_in", "scene_beside",
         "scene_pivot", "scene_planes", "scene_mouth", "scene_wall_behind", "scene_stamps",

@@ -164,6 +164,13 @@ void get(Suspended& slept, ByteReader& in) {
   slept.lasted_s = in.real();
 }
 
+void put(const HeldUp& held_up, ByteWriter& out) {
+  out.real(held_up.lasted_s);
+}
+void get(HeldUp& held_up, ByteReader& in) {
+  held_up.lasted_s = in.real();
+}
+
 // Of the place where it rests; recordings from before doubts were kept have none.
 constexpr std::uint8_t kPlaceKnown = 1;
 constexpr std::uint8_t kPlaceDoubted = 2;

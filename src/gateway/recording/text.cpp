@@ -113,6 +113,9 @@ std::string words(const ProgramTrouble& trouble, const Wiring&) {
 std::string words(const Suspended& slept, const Wiring&) {
   return "the computer slept for " + std::to_string(slept.lasted_s) + " s";
 }
+std::string words(const HeldUp& held_up, const Wiring&) {
+  return "droverd stood still for " + std::to_string(held_up.lasted_s) + " s";
+}
 std::string words(const Recalled& recalled, const Wiring&) {
   const auto& [stop, stop_at_robot, power_cut, holding, released, task, proved, joints_wait,
                at_rest, ran_away, place] = recalled.remembered;

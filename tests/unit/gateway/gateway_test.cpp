@@ -194,6 +194,17 @@ TEST(Gateway, TrustsNothingThatWasHeardBeforeTheComputerSlept) {
   EXPECT_FALSE(bench.told("no drive answers"));
 }
 
+TEST(Gateway, TellsThatItWasHeldUpItselfAndGoesOnBelievingWhatItHears) {
+  Bench bench;
+  bench.apply(HeldUp{0.31});
+  bench.apply(Tick{true, false});
+  EXPECT_TRUE(bench.told("droverd stood still for 0.31 s"));
+  EXPECT_FALSE(bench.told("no drive answers"));
+  EXPECT_FALSE(bench.told("line e-stop"));
+  for (int i = 0; i < 300; ++i) bench.cycle();
+  EXPECT_FALSE(bench.told("stood still"));
+}
+
 TEST(Gateway, TakesTheGuardsZerosForTheGuards) {
   Bench bench;
   for (int i = 0; i < 200; ++i) {

@@ -96,6 +96,7 @@ struct OneOfEachInput {
                         "blind",
                         "the fence of field_north"}});
     add(ClearanceFound{});
+    add(HeldUp{0.31});
     add(LinkLost{0, "can0: lost (No such device)"});
     add(Tick{false, true, true});
   }

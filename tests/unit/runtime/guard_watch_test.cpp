@@ -46,6 +46,30 @@ TEST_F(AGuardWatch, GivesTheGuardWhatItGivesTheDaemonAndThreeCyclesMore) {
   EXPECT_TRUE(watch.alive(now));
 }
 
+/// Both stood still together: the guard is given what it gives droverd then.
+TEST_F(AGuardWatch, JudgesNoGuardWhileItWasHeldUpItself) {
+  pass(20ms);
+  now += 300ms;
+  (void)watch.update(signs, now);
+  EXPECT_TRUE(watch.alive(now));
+  guard_lives = false;
+  pass(25ms);
+  EXPECT_TRUE(watch.alive(now));
+  pass(5ms);
+  EXPECT_FALSE(watch.alive(now));
+  now += 300ms;
+  (void)watch.update(signs, now);
+  EXPECT_FALSE(watch.alive(now)) << "once for each silence";
+}
+
+TEST_F(AGuardWatch, DoesNotTakeAGuardThatDiedMeanwhileForOneThatHolds) {
+  signs.holds = true;
+  pass(20ms);
+  now += 300ms;
+  (void)watch.update(signs, now);
+  EXPECT_FALSE(watch.holds(now)) << "the drives are its own at once";
+}
+
 TEST_F(AGuardWatch, DoesNotBelieveForEverThatADeadGuardHoldsTheBus) {
   guard_lives = false;
   signs.holds = true;
