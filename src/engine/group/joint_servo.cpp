@@ -127,6 +127,31 @@ void JointServo::watch_joint(const JointMeasured& measured, double dt_s) {
   failed_ = by_itself_ = true;
 }
 
+/// What its drive measures is not believed, until somebody begins anew.
+void JointServo::ask_trust(const Input& input, const JointMeasured& measured, double dt_s) {
+  const bool fresh = input.axis.last_motion != measured_;
+  measured_ = input.axis.last_motion;
+  if (follows_) told_trust_ = Trust::whole;
+  if (told_trust_ == Trust::damps && trust_.runs_on(measured)) told_trust_ = Trust::let_go;
+  if (told_trust_ != Trust::whole || input.blocked) return;
+  const Reason why =
+      trust_.look(measured, fresh, shaper_.impedance(), shaper_.velocity_radps(), dt_s);
+  if (why.empty()) return;
+  end(why);
+  reason_ = why;
+  failed_ = by_itself_ = true;
+  told_trust_ = Trust::damps;
+}
+
+/// Damped, which is no torque where its encoder stands; what damping drives on is let go.
+void JointServo::do_without(const JointMeasured& measured, double dt_s) {
+  shaper_.damp(measured, dt_s);
+  state_ = GroupState::damping;
+  if (told_trust_ == Trust::damps) return;
+  command_.request = AxisRequest::idle;
+  state_ = GroupState::released;
+}
+
 /// Its drive runs, and tells where the joint is.
 void JointServo::run(const Input& input) {
   const JointMeasured measured = measured_by(input.axis);
@@ -134,10 +159,14 @@ void JointServo::run(const Input& input) {
   arming_since_ = kNever;
   // What is held elsewhere goes on from where it is given back.
   if (!engaged_ || input.blocked) shaper_.take_over(measured);
+  if (!engaged_) trust_.begin();
   engaged_ = true;
   watch_joint(measured, dt_s);
+  ask_trust(input, measured, dt_s);
   command_.request = AxisRequest::run;
-  if (follows_ && (input.ready || following())) {
+  if (told_trust_ != Trust::whole) {
+    do_without(measured, dt_s);
+  } else if (follows_ && (input.ready || following())) {
     shaper_.follow(target_, measured, dt_s);
     state_ = GroupState::following;
   } else if (follows_) {
@@ -174,7 +203,8 @@ void JointServo::watch_drive(const Input& input) {
   const bool runs = input.heard && input.axis.state == AxisState::running;
   const bool asked_first = input.heard && input.axis.state == AxisState::arming;
   if (runs) return lost_.clear();
-  const bool held = engaged_ && !asked_first && !input.blocked && !lets_go();
+  const bool let_go = lets_go() || told_trust_ == Trust::let_go;
+  const bool held = engaged_ && !asked_first && !input.blocked && !let_go;
   if (!held && lost_.empty()) return;
   lost_ = input.axis.fault.empty() ? input.axis.source.reason : input.axis.fault;
   if (lost_.empty()) lost_ = input.heard ? kNoLoop : "its drive is silent";

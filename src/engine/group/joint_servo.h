@@ -3,6 +3,7 @@
 
 #include "drover/snapshot.h"
 #include "engine/group/joint_shaper.h"
+#include "engine/group/joint_trust.h"
 #include "engine/group/joint_watch.h"
 
 namespace drover::engine {
@@ -29,7 +30,8 @@ class JointServo final {
     bool ready = true;         ///< the drives of all that are commanded with it run
   };
 
-  explicit JointServo(const JointRules& rules) : rules_(rules), shaper_(rules), watch_(rules) {}
+  explicit JointServo(const JointRules& rules)
+      : rules_(rules), shaper_(rules), watch_(rules), trust_(rules) {}
 
   /// A command that is sound; whether it is followed is decided by step().
   void take(const JointTarget& target, Time now);
@@ -78,10 +80,15 @@ class JointServo final {
   void arm(const Input& input);
   void fail(const Input& input, const char* otherwise);
   void watch_joint(const JointMeasured& measured, double dt_s);
+  void ask_trust(const Input& input, const JointMeasured& measured, double dt_s);
+  void do_without(const JointMeasured& measured, double dt_s);
 
   JointRules rules_;
   JointShaper shaper_;
   JointWatch watch_;
+  JointTrust trust_;
+  Time measured_ = kNever;  ///< what it was asked for last
+  enum class Trust : std::uint8_t { whole, damps, let_go } told_trust_ = Trust::whole;
   JointTarget target_;
   Time heard_ = kNever;         ///< the last command
   Time said_ = kNever;          ///< likewise, or one that was refused

@@ -16,9 +16,15 @@ struct ArmJoint {
   double friction_Nms = 0.05;
   double damps_Nmsprad = 1;  ///< of its drive, told to rest
 
+  bool wrong_way = false;  ///< its drive's torque
+  bool stands = false;     ///< its encoder: its drive measures no motion any more
+  bool rests = false;      ///< nothing of it moves, whatever its drive does
+  double stop_rad = 10;    ///< an end that gives way a little
+
   double position_rad = 0;
   double velocity_radps = 0;
   double torque_Nm = 0;  ///< of its drive
+  double stood_rad = 0;
   AxisState state = AxisState::idle;
   int arming = 0;
   int arms_in = 3;  ///< cycles
@@ -26,6 +32,13 @@ struct ArmJoint {
   bool found_on = false;  ///< by a driver that has just begun
   bool clears = false;    ///< a fault, for who arms it
   bool says_on = false;   ///< and that it runs, though it was let go
+
+  /// As its drive measures.
+  double told_rad() {
+    if (!stands) stood_rad = position_rad;
+    return stood_rad;
+  }
+  double told_radps() const { return stands ? 0 : velocity_radps; }
 
   void obey(const AxisCommand& command) {
     const bool armed = command.request == AxisRequest::run || command.request == AxisRequest::hold;
@@ -49,15 +62,19 @@ struct ArmJoint {
         state == AxisState::arming && damps_while_arming ? -damps_Nmsprad * velocity_radps : 0;
     if (state != AxisState::running) return;
     const Impedance& law = command.impedance;
-    torque_Nm = armed ? law.stiffness_Nmprad * (law.position_rad - position_rad) +
-                            law.damping_Nmsprad * (command.velocity_radps - velocity_radps) +
+    torque_Nm = armed ? law.stiffness_Nmprad * (law.position_rad - told_rad()) +
+                            law.damping_Nmsprad * (command.velocity_radps - told_radps()) +
                             law.effort_Nm
-                      : -damps_Nmsprad * velocity_radps;
+                      : -damps_Nmsprad * told_radps();
   }
 
   void step(double dt_s) {
     const double pull_Nm = -weight_Nm * std::cos(position_rad) - friction_Nms * velocity_radps;
-    velocity_radps += (torque_Nm + pull_Nm + push_Nm) / inertia_kgm2 * dt_s;
+    const double given_Nm = wrong_way ? -torque_Nm : torque_Nm;
+    const double stop_Nm =
+        position_rad > stop_rad ? 3000 * (stop_rad - position_rad) - 10 * velocity_radps : 0;
+    velocity_radps += (given_Nm + pull_Nm + push_Nm + stop_Nm) / inertia_kgm2 * dt_s;
+    if (rests) velocity_radps = 0;
     position_rad += velocity_radps * dt_s;
   }
 };

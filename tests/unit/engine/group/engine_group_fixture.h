@@ -48,7 +48,7 @@ class EngineGroup : public ::testing::Test {
       for (int k = 0; k < 5; ++k) arm[i].step(to_s(kRigTick) / 5);
       rig.environment.axes[axis].state = silent[i] ? SourceState::stale : SourceState::fresh;
       if (silent[i]) continue;
-      measure(told, AxisMotion{axis, arm[i].position_rad, arm[i].velocity_radps, arm[i].torque_Nm});
+      measure(told, AxisMotion{axis, arm[i].told_rad(), arm[i].told_radps(), arm[i].torque_Nm});
       measure(told, AxisStatus{axis, arm[i].state},
               arm[i].state == AxisState::fault ? "too hot" : "");
     }

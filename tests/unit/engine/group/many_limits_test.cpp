@@ -28,7 +28,8 @@ TEST(ManyLimits, AreToldAsFarAsThereIsRoomAndTheOthersCounted) {
     now += std::chrono::milliseconds(5);
     JointTargets targets;
     for (AxisSnapshot& axis : axes) {
-      axis.motion.position_rad = axis.motion.velocity_radps = 0;
+      axis.motion.position_rad = i % 2 * 0.0004;  // a bit of a living encoder
+      axis.motion.velocity_radps = 0;
       axis.last_motion = now;
       (void)targets.joints.push_back({static_cast<AxisId>(targets.joints.size()), 0, 99, 0, 20, 1});
     }

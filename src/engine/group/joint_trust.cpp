@@ -1,0 +1,99 @@
+// Whether what a joint's drive measures can be believed.
+#include "engine/group/joint_trust.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace drover::engine {
+namespace {
+
+// Of its largest effort:
+constexpr double kPushes = 0.1;   ///< less may be friction, or its neighbours' motion
+constexpr double kCarries = 0.8;  ///< so much against a weight, and no weight gets faster
+constexpr double kChanged = 0.3;  ///< so much more or less turns what is there by some bits
+constexpr double kProved_rad = 0.1;
+constexpr double kBeside = 0.5;  ///< of its set point's speed
+constexpr double kAgainst_rad = 0.03;
+constexpr double kFlees_radps = 0.2;
+constexpr double kSlower = 0.9;  ///< than it was: who brakes
+constexpr double kFaster = 1.3;  ///< than when that began: nobody brakes it
+constexpr double kStands_s = 0.05;
+constexpr double kRunsOn_radps = 0.5;
+
+}  // namespace
+
+JointTrust::JointTrust(const JointRules& rules) : rules_(rules) {}
+
+Reason JointTrust::look(const JointMeasured& measured, bool fresh, const Impedance& told,
+                        double velocity_radps, double dt_s) {
+  if (!fresh) return {};
+  // Who leads a joint by hand that is only damped goes against its damping.
+  const double wanted_Nm = told.effort_Nm + told.damping_Nmsprad * velocity_radps +
+                           told.stiffness_Nmprad * (told.position_rad - measured.position_rad);
+  const double gives_Nm = wanted_Nm - told.damping_Nmsprad * measured.velocity_radps;
+  follow(measured, velocity_radps, dt_s);
+  const Reason wrong = look_at_sign(measured, wanted_Nm, gives_Nm, dt_s);
+  return wrong.empty() ? look_at_encoder(measured, gives_Nm, dt_s) : wrong;
+}
+
+/// What goes with its set point is held to it by a drive that turns the right way.
+void JointTrust::follow(const JointMeasured& measured, double velocity_radps, double dt_s) {
+  const double set_radps = std::abs(velocity_radps);
+  const bool with = std::abs(measured.velocity_radps - velocity_radps) < kBeside * set_radps;
+  if (with) with_rad_ += set_radps * dt_s;
+}
+
+/// Of a drive of the wrong sign each law is one that flees: the farther it is the harder and
+/// faster. What is braked, or caught, goes against its torque as well, and gets slower.
+Reason JointTrust::look_at_sign(const JointMeasured& measured, double wanted_Nm, double gives_Nm,
+                                double dt_s) {
+  if (with_rad_ > kProved_rad) return {};
+  const double speed_radps = std::abs(measured.velocity_radps);
+  const double way = std::copysign(1.0, measured.velocity_radps);
+  const bool pushed = !rules_.carries_weight && way * wanted_Nm < -kPushes * rules_.max_effort_Nm;
+  const bool held = way * gives_Nm < -kCarries * rules_.max_effort_Nm;
+  const bool against = (pushed || held) && speed_radps > kFlees_radps;
+  if (!against || speed_radps < kSlower * fastest_radps_) {
+    against_rad_ = fastest_radps_ = 0;
+    return {};
+  }
+  if (against_rad_ == 0) began_radps_ = speed_radps;
+  against_rad_ += speed_radps * dt_s;
+  fastest_radps_ = std::max(fastest_radps_, speed_radps);
+  Reason why;
+  if (against_rad_ > kAgainst_rad && speed_radps > kFaster * began_radps_)
+    why.format(
+        "it turns by %.1f rad/s against %.1f Nm, ever faster: its drive turns the wrong way, or "
+        "it is pushed",
+        measured.velocity_radps, gives_Nm);
+  return why;
+}
+
+/// What is there gives way by some bits when it is pressed harder, also at a stop or in a brake.
+Reason JointTrust::look_at_encoder(const JointMeasured& measured, double gives_Nm, double dt_s) {
+  // Equal to the bit is meant.
+  if (!(measured.position_rad == stands_rad_) || measured.velocity_radps != 0) {
+    stands_rad_ = measured.position_rad;
+    least_Nm_ = most_Nm_ = gives_Nm;
+    stands_s_ = 0;
+    return {};
+  }
+  least_Nm_ = std::min(least_Nm_, gives_Nm);
+  most_Nm_ = std::max(most_Nm_, gives_Nm);
+  const double changed_Nm = most_Nm_ - least_Nm_;
+  stands_s_ += changed_Nm > kChanged * rules_.max_effort_Nm ? dt_s : 0;
+  Reason why;
+  if (stands_s_ > kStands_s)
+    why.format(
+        "it stands to the bit while its torque changed by %.1f Nm: its encoder stands still, or "
+        "it is blocked",
+        changed_Nm);
+  return why;
+}
+
+bool JointTrust::runs_on(const JointMeasured& measured) const {
+  const double speed_radps = std::abs(measured.velocity_radps);
+  return fastest_radps_ > 0 && speed_radps > fastest_radps_ + kRunsOn_radps;
+}
+
+}  // namespace drover::engine

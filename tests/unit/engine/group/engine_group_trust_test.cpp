@@ -1,0 +1,123 @@
+// What a joint's drive measures cannot be believed: its torque goes the wrong way, or its encoder
+// stands still.
+#include <gmock/gmock.h>
+
+#include "unit/engine/group/engine_group_fixture.h"
+
+namespace drover::engine {
+namespace {
+
+using ::testing::HasSubstr;
+
+class EngineGroupTrust : public EngineGroup {
+ protected:
+  EngineGroupTrust() {
+    for (ArmJoint& joint : arm) joint.weight_Nm = 0;
+  }
+  void watch_s(double seconds, double position_rad, double stiffness = 60) {
+    for (int i = 0; i < static_cast<int>(seconds * 200 + 0.5); ++i) {
+      if (i % 2 == 0) send(position_rad, stiffness);
+      tick();
+      for (ArmJoint& joint : arm) {
+        fastest_radps = std::max(fastest_radps, std::abs(joint.velocity_radps));
+        hardest_Nm = std::max(hardest_Nm, std::abs(joint.torque_Nm));
+      }
+    }
+  }
+  int said(const char* words) {
+    int times = 0;
+    for (const Notice& notice : rig.said<Notice>())
+      if (notice.text.view().find(words) != std::string_view::npos) ++times;
+    return times;
+  }
+
+  double fastest_radps = 0;
+  double hardest_Nm = 0;
+};
+
+TEST_F(EngineGroupTrust, FindsADriveThatTurnsItTheWrongWayAndLetsThatOneGo) {
+  arm[1].wrong_way = true;
+  settle();
+  const double began_rad = arm[1].position_rad;
+  watch_s(1.5, -1);
+  EXPECT_EQ(said("elbow: it turns by "), 1);
+  EXPECT_EQ(said("its drive turns the wrong way, or it is pushed"), 1);
+  EXPECT_NE(told().state, GroupState::following);
+  EXPECT_EQ(arm[1].torque_Nm, 0) << "it is let go";
+  EXPECT_EQ(arm[0].state, AxisState::running) << "its neighbour is held";
+  EXPECT_LT(fastest_radps, 8);
+  std::printf("  went %.2f rad, at most %.1f rad/s\n", arm[1].position_rad - began_rad,
+              fastest_radps);
+  const double rest_rad = arm[1].position_rad;
+  watch_s(2, -1);
+  EXPECT_EQ(arm[1].torque_Nm, 0) << "its commands did not pause";
+  EXPECT_LT(std::abs(arm[1].position_rad - rest_rad), 4);
+}
+
+TEST_F(EngineGroupTrust, FindsAnEncoderThatStandsInMotion) {
+  settle();
+  watch_s(1.5, -1);
+  ASSERT_EQ(told().state, GroupState::following) << reason();
+  fastest_radps = hardest_Nm = 0;
+  arm[1].stands = true;
+  watch_s(1, 0.5);
+  EXPECT_THAT(reason(), HasSubstr("elbow: it stands to the bit"));
+  EXPECT_EQ(said("its encoder stands still, or it is blocked"), 1);
+  EXPECT_EQ(arm[1].torque_Nm, 0) << "no torque is made of what it does not measure";
+  EXPECT_LT(hardest_Nm, 6.1);
+  std::printf("  at most %.1f Nm, %.1f rad/s\n", hardest_Nm, fastest_radps);
+  // Who begins anew is told anew.
+  run_s(1.2);
+  watch_s(1.5, 0);
+  EXPECT_EQ(said("its encoder stands still, or it is blocked"), 2);
+}
+
+TEST_F(EngineGroupTrust, BelievesAWeightThatIsHeldWhereNothingMoves) {
+  arm[0].weight_Nm = 3;
+  settle();
+  watch_s(4, 0);
+  ASSERT_EQ(told().state, GroupState::following) << reason();
+  arm[0].rests = true;  // by a brake: nothing of it moves
+  watch_s(10, 0);
+  EXPECT_EQ(told().state, GroupState::following) << reason();
+}
+
+TEST_F(EngineGroupTrust, BelievesAJointThatIsPressedOnItsStop) {
+  settle();
+  watch_s(3, -1);
+  arm[1].stop_rad = -0.9;  // it gives way, by little
+  watch_s(4, -0.85);
+  EXPECT_EQ(told().state, GroupState::following) << reason();
+  EXPECT_GT(arm[1].position_rad, -0.91);
+  watch_s(2, -1.2);
+  EXPECT_EQ(told().state, GroupState::following) << reason();
+}
+
+/// Against what a joint that went its way before is told: somebody pushes.
+TEST_F(EngineGroupTrust, BelievesAJointThatSomebodyPushes) {
+  settle();
+  watch_s(2, -1);
+  watch_s(2, -0.5, 10);
+  for (const double push_Nm : {5.0, -5.0, 8.0}) {
+    arm[0].push_Nm = push_Nm;
+    watch_s(0.4, -0.5, 10);
+    arm[0].push_Nm = 0;
+    watch_s(1.5, -0.5, 10);
+    EXPECT_EQ(told().state, GroupState::following) << reason();
+  }
+}
+
+/// Also from its first moment on: with little stiffness, and with a weight that it cannot lift.
+TEST_F(EngineGroupTrust, BelievesAWeightThatSinks) {
+  arm[0].weight_Nm = 4;
+  arm[0].position_rad = 1.2;
+  settle();
+  arm[0].position_rad = 1.2;
+  arm[0].velocity_radps = 0;
+  watch_s(2, 1.2, 4);
+  EXPECT_EQ(said("the wrong way"), 0);
+  EXPECT_EQ(told().state, GroupState::following) << reason();
+}
+
+}  // namespace
+}  // namespace drover::engine
