@@ -72,7 +72,7 @@ class SerialLoop final {
   const std::atomic<std::uint64_t>& turns() const { return turns_; }
 
   /// So long a thread may stand whose lines nobody may need. What hangs on them is too old before.
-  static constexpr Duration kLongestTurn = std::chrono::seconds(5);
+  static constexpr Duration kLongestTurn = std::chrono::seconds(20);
 
  private:
   struct Line {
