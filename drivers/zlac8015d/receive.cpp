@@ -166,7 +166,8 @@ StatusInWords Zlac8015dDriver::status(Time now) const {
   status.powered = known && is_powered(status_);
   const Reason text = known ? fault_text() : Reason();
   const bool failed = known && state_of_drive() == AxisState::fault && phase_ != Phase::arming;
-  if (fault_ || foreign_.is_shown(now) || failed) {
+  status.stops_all = known && external_estop(status_);
+  if (fault_ || foreign_.is_shown(now) || failed || status.stops_all) {
     status.state = AxisState::fault;
     if (!fault_ && foreign_.is_shown(now)) {
       status.reason = foreign_.text();

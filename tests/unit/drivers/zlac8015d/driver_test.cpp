@@ -241,6 +241,24 @@ TEST(Zlac8015d, IsGivenUpWhenItsTimeOutFiresWhileItRuns) {
 }
 
 /// The other one has its power still, and would go on.
+/// Who presses the button that is nearest means all of the robot, an arm as well.
+TEST(Zlac8015d, TellsTheStopOnItsConnectorAsAStopOfAllOfTheRobot) {
+  for (const bool runs : {true, false}) {
+    Bench bench;
+    if (runs)
+      bench.arm();
+    else
+      bench.run(milliseconds(800), kRest);
+    EXPECT_FALSE(bench.status.stops_all);
+    bench.inject(parse_frame("181#4080408000000000"));
+    EXPECT_TRUE(bench.status.stops_all);
+    EXPECT_EQ(bench.status.state, AxisState::fault);
+    EXPECT_NE(bench.status.reason.view().find("emergency stop input is active"),
+              std::string_view::npos)
+        << bench.status.reason.view();
+  }
+}
+
 TEST(Zlac8015d, AFaultOfOneWheelStopsBoth) {
   for (const auto& [fault, text] : {std::pair{"over_temperature", "motor too hot"},
                                     {"over_current", "over-current"},
