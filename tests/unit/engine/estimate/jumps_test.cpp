@@ -67,6 +67,9 @@ TEST(EstimateContradiction, APoorPositionMovesNothingWhileADisputeHolds) {
 TEST(EstimateContradiction, IsNoneWithAPlaceThatNobodyKnewTheWayTo) {
   for (const double rolled_m : {0.0, 0.2, 2.0}) {
     Rig rig;
+    LearnedValues learned;  // it never turns, and knows where its antenna is all the same
+    learned.antenna_ahead_m = learned.antenna_left_m = {0, 0.01};
+    rig.estimator.recall(learned);
     rig.stand(5);
     rig.drive(0.5, 0.5, 5);
     rig.world.wheels = rig.world.position = rig.world.heading = false;
