@@ -29,6 +29,8 @@ using nlohmann::ordered_json;
 constexpr const char* kOldLogs[] = {"mosquitto.log",    "udevd.log",   "drover-sim.log",
                                     "drover-guard.log", "droverd.log", "drover.log",
                                     "objects.log",      "lines.log"};
+/// Sooner than a chassis stops by itself whose time-out nobody can change (0.5 s).
+constexpr int kWideGuard_ms = 400;
 constexpr const char* kUdevd = "/lib/systemd/systemd-udevd";
 
 std::string temporary_folder() {
@@ -73,13 +75,14 @@ struct WideOption {
 const WideOption kTimeOuts[] = {
     {SlotKind::drive, "watchdog_timeout_s", 2},
     {SlotKind::drive, "silence_ms", 2000},
+    {SlotKind::drive, "timeout_ms", 2000},
 };
 /// Of the gateway's drivers.
 const WideOption kAges[] = {
     {SlotKind::drive, "stale_s", 1},  {SlotKind::drive, "heartbeat_timeout_s", 1},
-    {SlotKind::drive, "gone_s", 1},   {SlotKind::gnss, "stale_s", 2},
-    {SlotKind::imu, "stale_s", 2},    {SlotKind::line, "stale_s", 0.5},
-    {SlotKind::scanner, "stale_s", 2}};
+    {SlotKind::drive, "gone_s", 1},   {SlotKind::drive, "timeout_s", 2},
+    {SlotKind::gnss, "stale_s", 2},   {SlotKind::imu, "stale_s", 2},
+    {SlotKind::line, "stale_s", 0.5}, {SlotKind::scanner, "stale_s", 2}};
 
 /// Those that the device's driver has.
 template <class Json>
@@ -247,7 +250,7 @@ void Workplace::widen_ages(ordered_json& config) {
   config["health"].update(
       {{"drive_stale_s", 1}, {"gnss_stale_s", 2}, {"imu_stale_s", 2}, {"line_stale_s", 0.5}});
   config["estimate"].update({{"wheel_stale_s", 0.5}, {"imu_stale_s", 0.5}});
-  config["guard"]["limit_ms"] = 500;
+  config["guard"]["limit_ms"] = kWideGuard_ms;
 }
 
 /// A udevd of our own would rename the host's devices: only the lab has none.

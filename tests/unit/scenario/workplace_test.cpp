@@ -4,10 +4,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
 
+#include "config/load.h"
+#include "sim/robot/scenario.h"
 #include "support/temp_folder.h"
 
 namespace drover::sim {
@@ -95,6 +98,44 @@ TEST_F(AWorkplace, NamesTheFilesThatAPersonWrote) {
   EXPECT_EQ(place.as_written("x " + place.private_file("drover.json") + ":12:5: no such key"),
             "x " + in_robots("it.drover.json") + ": no such key");
   EXPECT_EQ(place.as_written("can0: down"), "can0: down");
+}
+
+/// In real time ages are wider, the guard's too: what no longer fits together then refuses to
+/// start.
+TEST(AShippedScenario, IsGoodAsItIsPlayedInRealTime) {
+  std::size_t played = 0;
+  for (const auto& entry : fs::directory_iterator(DROVER_SOURCE_DIR "/sim/scenarios")) {
+    const auto file = entry.path().string();
+    if (entry.path().extension() != ".json") continue;
+    if (file.ends_with("/receiver_renamed.json")) continue;  // a USB device needs the lab
+    test::TempFolder logs;
+    WorkplaceSettings settings;
+    settings.scenario_file = file;
+    settings.log_folder = logs.path();
+    settings.native = true;
+    const Workplace place(settings);
+    const auto loaded = config::load_file(place.private_file("drover.json"));
+    for (const auto& problem : loaded.problems) ADD_FAILURE() << file << ": " << problem.text("f");
+    EXPECT_NO_THROW((void)load_scenario(place.private_file("scenario.json"))) << file;
+    ++played;
+  }
+  EXPECT_GT(played, 100u);
+}
+
+/// The time-out of a CubeMars motor is nobody's but its own: the twin has the same.
+TEST(AShippedScenario, GivesTheMotorsOfAnArmTheTimeThatItsGuardHas) {
+  test::TempFolder logs;
+  WorkplaceSettings settings;
+  settings.scenario_file = DROVER_SOURCE_DIR "/sim/scenarios/cubemars_arm.json";
+  settings.log_folder = logs.path();
+  settings.native = true;
+  const Workplace place(settings);
+  const auto config = json::parse(std::ifstream(place.private_file("drover.json")));
+  EXPECT_EQ(config["devices"]["elbow"]["options"]["timeout_ms"], 2000);
+  const auto drives = place.document()["drives"];
+  EXPECT_TRUE(std::any_of(drives.begin(), drives.end(), [](const auto& drive) {
+    return drive.value("joint", "") == "elbow" && drive["options"]["timeout_ms"] == 2000;
+  }));
 }
 
 }  // namespace
