@@ -109,7 +109,8 @@ Plant::Plant(const std::string& world_file) : impl_(std::make_unique<Impl>()) {
     drives = true;
     if (impl_->wheels[i].contact_geom < 0)
       throw std::runtime_error(world_file + ": the wheel of joint '" + impl_->joints[i] +
-                               "' has no sphere with contype 1 that touches the ground");
+                               "' has no sphere with contype 1 that touches the ground; when it is "
+                               "a joint of an arm, its motor is of group 1");
   }
   if (!drives) throw std::runtime_error(world_file + ": no motor turns a wheel");
   if (impl_->boxes.size() > kMaxBoxes)

@@ -297,13 +297,7 @@ void Player::happened(const std::string& event) {
   const Time t = now();
   const auto count = story_.happened(event, t);
   tell("event " + event + "#" + std::to_string(count));
-  if (event == "start_nav") {
-    if (result_.begin == kNever) result_.begin = t;
-  }
-  if (event == "nav_success" || event == "nav_error") {
-    result_.end = t;
-    result_.status = report_.nav_status();
-  }
+  result_.happened(event, report_.nav_status(), t);
   if (mission_.automatic && event == "ready" && count == 1) save_track();
   if (mission_.automatic && (event == "saved" || event == "ready")) look_whether_ready();
   look_for_end(event);

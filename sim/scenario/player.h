@@ -14,6 +14,7 @@
 #include "sim/scenario/operator_client.h"
 #include "sim/scenario/robot_report.h"
 #include "sim/scenario/story.h"
+#include "sim/scenario/task_result.h"
 #include "sim/scenario/view.h"
 #include "sim/scenario/waits.h"
 #include "sim/scenario/workplace.h"
@@ -40,13 +41,7 @@ class Player {
   /// Ends every program. False: one did not end cleanly.
   bool finish();
 
-  struct Result {
-    std::size_t target_id = 0;  ///< of the last start, from 1
-    Time begin = kNever;        ///< the first start_nav
-    Time end = kNever;          ///< the last nav_success or nav_error
-    std::string status{};
-  };
-  const Result& result() const { return result_; }
+  const TaskResult& result() const { return result_; }
   /// When it waited on its way.
   const std::vector<Waits::Wait>& waits() const { return waits_.all(); }
   /// What broke, empty when nothing did.
@@ -100,7 +95,7 @@ class Player {
   std::deque<std::vector<std::string>> calls_;  // of the command line, that wait for the one before
   std::set<std::string> killed_;                // whose end was asked for
   std::string broken_;                          // what ended by itself
-  Result result_;
+  TaskResult result_;
   Time boot_{};
   Time end_ = Time::max();
   Time next_second_{};

@@ -220,7 +220,8 @@ void Workplace::make_native(ordered_json& config) {
   const auto run = private_folder_ + "/run";
   config["paths"] = {{"run", run}, {"state", private_folder_ + "/state"}};
   for (auto& [name, link] : config["links"].items()) {
-    if (link.contains("can")) link["can"] = "unix:" + sim_folder_ + "/" + name + ".sock";
+    if (link.contains("can"))  // the simulator's bus, whatever its link is called
+      link["can"] = "unix:" + sim_folder_ + "/" + link.value("can", name) + ".sock";
     if (link.contains("gpio")) link["gpio"] = "files:" + sim_folder_ + "/lines";
     for (const char* port : {"serial", "modbus"})
       if (link.contains(port))

@@ -265,7 +265,8 @@ TEST(Plant, NamesTheWheelThatTouchesNoGround) {
     <joint name="wheel" axis="0 1 0"/><geom type="sphere" size="0.1" mass="1" contype="0"
     conaffinity="0"/></body>)",
                                 "")),
-            ": the wheel of joint 'wheel' has no sphere with contype 1 that touches the ground");
+            ": the wheel of joint 'wheel' has no sphere with contype 1 that touches the ground; "
+            "when it is a joint of an arm, its motor is of group 1");
 }
 
 TEST(Plant, SeesAnObstacleComeAndGo) {

@@ -78,6 +78,13 @@ TEST_F(AWorkplace, FindsALineByItsNameWhereLinesAreFiles) {
   EXPECT_EQ(gateway()["devices"]["button"]["line"], "estop");
 }
 
+TEST_F(AWorkplace, FindsABusByItsInterfaceWhateverItsLinkIsCalled) {
+  scenario_["gateway"] = json::parse(R"({"links": {"base_can": {"can": "can1"}}})");
+  (void)made();
+  const std::string socket = gateway()["links"]["base_can"]["can"];
+  EXPECT_TRUE(socket.starts_with("unix:") && socket.ends_with("/sim/can1.sock")) << socket;
+}
+
 TEST_F(AWorkplace, BeginsItsLogsAnew) {
   fs::create_directories(log_);
   for (const char* name :
