@@ -125,7 +125,7 @@ std::unique_ptr<CanImuTwin> make_twin(const Options& options, std::uint64_t seed
   return std::make_unique<HipnucCanTwin>(read_settings(options), own, seed);
 }
 
-constexpr std::string_view kHipnucCanProducts[] = {"hipnuc"};
+constexpr std::string_view kHipnucCanProducts[] = {"hipnuc", "hi12", "hi13", "hi14", "ch10"};
 
 }  // namespace
 

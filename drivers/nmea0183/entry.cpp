@@ -124,7 +124,7 @@ std::unique_ptr<GnssTwin> make_twin(const Options& options, std::uint64_t seed) 
 }
 
 constexpr std::string_view kNmea0183Products[] = {"um980", "um982",   "unicore", "zedf9",
-                                                  "ublox", "trimble", "skytraq"};
+                                                  "ublox", "trimble", "skytraq", "rtk"};
 
 }  // namespace
 }  // namespace nmea0183

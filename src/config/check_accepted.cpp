@@ -18,7 +18,8 @@ const std::vector<std::string> kAtTheTop{"no_estop",      "slow_guard",
                                          "falls",         "no_first_way",
                                          "late_silence",  "estop_not_fail_safe",
                                          "remote_broker", "lets_fall",
-                                         "rolls",         "early_time_out"};
+                                         "rolls",         "early_time_out",
+                                         "swings",        "mixed_bus"};
 
 bool is_one_of(const std::vector<std::string>& words, const std::string& word) {
   return std::find(words.begin(), words.end(), word) != words.end();
@@ -160,15 +161,19 @@ void check_accepted(Findings& found) {
 }
 
 void warn_of_risks(Findings& found) {
-  if (!found.config().engine.line_configured[static_cast<std::size_t>(Line::estop)])
+  const auto& devices = found.config().devices;
+  // One that is misspelt may be what is missed.
+  const bool all_known = std::all_of(devices.begin(), devices.end(), [&](const auto& device) {
+    return find_driver(device.driver) != nullptr && !found.has_problem(device_path(device, "is"));
+  });
+  if (all_known && !found.config().engine.line_configured[static_cast<std::size_t>(Line::estop)])
     found.warn("devices",
                "there is no e-stop line: only the broker and the command line can stop it",
                "no_estop");
   warn_of_open_estop(found);
-  const auto& devices = found.config().devices;
   const bool has_imu = std::any_of(devices.begin(), devices.end(),
                                    [](const auto& device) { return device.kind == SlotKind::imu; });
-  if (!has_imu && found.config().engine.base.hold == engine::HoldBy::level_ground_only)
+  if (all_known && !has_imu && found.config().engine.base.hold == engine::HoldBy::level_ground_only)
     found.warn("groups.base.hold",
                "without an inertial sensor nothing tells how steep the ground is: max_tilt_deg "
                "stops nothing",

@@ -63,9 +63,11 @@ void look_at_range(const std::string& path, const engine::JointRules& joint,
   const auto beyond = [&](const char* key, double value, double least, double most,
                           const char* unit) {
     if (value >= least && value <= most) return;
-    found.add(path + "." + key, "is " + text::number_text(value) + " " + unit +
-                                    ", and its drive can be told " + text::number_text(least) +
-                                    " to " + text::number_text(most));
+    const bool is_angle = std::string_view(unit).starts_with("rad");
+    found.add(path + "." + key,
+              "is " + text::number_text(value) + " " + unit + ", and its drive can be told " +
+                  text::number_text(least) + " to " + text::number_text(most),
+              is_angle ? "are these degrees? One is 0.01745 rad" : "");
   };
   beyond("min_rad", joint.min_rad, range.min_rad, range.max_rad, "rad");
   beyond("max_rad", joint.max_rad, range.min_rad, range.max_rad, "rad");
@@ -75,14 +77,30 @@ void look_at_range(const std::string& path, const engine::JointRules& joint,
   beyond("damping_Nmsprad", joint.damping_Nmsprad, 0, range.damping_Nmsprad, "Nm s/rad");
 }
 
+/// What drover-guard does with a weight. How heavy it is nobody says, only what may carry it.
+std::string by_guard(const DeviceConfig& device, const engine::JointRules& joint,
+                     const Actuator& driver) {
+  constexpr std::string_view kDamping = "damping_Nmsprad";
+  if (driver.stop_recipe().ends == StopEnds::holds) return "holds it";
+  const double damping = device.options.has(kDamping) ? device.options.number(kDamping) : 0;
+  if (damping <= 0) return "lets it fall";
+  const auto two_digits = [](double value) {
+    const double step = std::pow(10, std::floor(std::log10(value)) - 1);
+    return text::number_text(std::round(value / step) * step);
+  };
+  return "only damps it: it comes down at " + two_digits(1 / damping) +
+         " rad/s for each Nm of its weight, so with max_effort_Nm at " +
+         two_digits(joint.max_effort_Nm / damping) + " rad/s (" + device_path(device, "options.") +
+         std::string(kDamping) + " is " + text::number_text(damping) + ")";
+}
+
 /// A joint that carries a weight is held by its drive alone.
-void warn_of_weight(const std::string& path, const Actuator& driver, Findings& found) {
-  const char* const by_guard =
-      driver.stop_recipe().ends == StopEnds::holds ? "holds it" : "only lets it sink slowly";
+void warn_of_weight(const std::string& path, const DeviceConfig& device,
+                    const engine::JointRules& joint, const Actuator& driver, Findings& found) {
   found.warn(path,
              "carries a weight: without power nothing holds it; when its line is cut its drive " +
                  std::string(driver.silence().text) + "; when droverd dies drover-guard " +
-                 by_guard,
+                 by_guard(device, joint, driver),
              "falls", "a brake, a spring or a counterweight");
 }
 
@@ -114,7 +132,7 @@ void look_at_joints(const DeviceConfig& device, const Actuator& driver, Findings
                         std::string(engine.joints[joint.axis].view());
       joint.drive = driver.impedance_range(device.joints[place].channel_index);
       look_at_range(path, joint, joint.drive, found);
-      if (joint.carries_weight) warn_of_weight(path, driver, found);
+      if (joint.carries_weight) warn_of_weight(path, device, joint, driver, found);
     }
 }
 

@@ -46,6 +46,46 @@ void no_falling(const std::string& path, const engine::JointRules& rules, Findin
       "hold, or damp, or \"accept\": [\"lets_fall\"] at the top of the file when that is meant");
 }
 
+/// Held is a joint also at every stop, whatever on_silence says.
+void able_to_hold(const std::string& path, const engine::JointRules& rules, Findings& found) {
+  // In arms that hold it is some hundredths of a second; with less they swing for seconds.
+  constexpr double kLeastDamping_s = 0.002;
+  const double damping = rules.damping_Nmsprad;
+  if (found.is_wrong(path + ".stiffness_Nmprad") || found.is_wrong(path + ".damping_Nmsprad"))
+    return;
+  const bool has_to = rules.carries_weight || rules.on_silence == engine::OnSilence::hold;
+  if (rules.stiffness_Nmprad == 0 && has_to)
+    found.add(path + ".stiffness_Nmprad",
+              std::string("is 0, so nothing keeps the joint in its place when it is held: at "
+                          "every stop") +
+                  (rules.on_silence == engine::OnSilence::hold
+                       ? ", and when its commands cease (on_silence is hold)"
+                       : ""),
+              rules.carries_weight ? "one at which its weight sags little"
+                                   : "a stiffness, or \"on_silence\": \"damp\"");
+  if (damping == 0)
+    return found.add(path + ".damping_Nmsprad",
+                     "is 0: held, the joint swings about, and nothing damps it",
+                     "a few hundredths of its stiffness");
+  const double least = kLeastDamping_s * rules.stiffness_Nmprad;
+  if (damping < least)
+    found.warn(path + ".damping_Nmsprad",
+               "is " + text::number_text(damping) + ", with a stiffness of " +
+                   text::number_text(rules.stiffness_Nmprad) +
+                   " Nm/rad: held, the joint swings for long",
+               "swings", text::number_text(least) + " or more");
+}
+
+/// Whether it falls, and keeps its effort when it is held, nobody else knows.
+void ask_for_weight(const std::string& path, Findings& found) {
+  const auto key = path + ".carries_weight";
+  if (found.given(key)) return;
+  found.hint_at(path,
+                "does not say whether it carries a weight, which falls without power, and sags "
+                "where it is held unless this is told",
+                "\"carries_weight\": true, or false when nothing pulls at it");
+}
+
 /// What is fed, armed and stopped together has one owner.
 void whole_device(const std::string& path, const JointGroup& group, const DeviceConfig& device,
                   Findings& found) {
@@ -87,6 +127,8 @@ void joint(const std::string& path, const JointGroup& group, const GroupJoint& g
   rules.follows = by_word<JointFollows>(kFollowsWords, given.follows);
   rules.on_silence = by_word<engine::OnSilence>(kSilenceWords, given.on_silence);
   no_falling(path, rules, found);
+  able_to_hold(path, rules, found);
+  ask_for_weight(path, found);
   (void)into.joints.push_back(rules);  // too many are told by the reader
 }
 

@@ -90,7 +90,7 @@ void visit(V& v, LinkConfig& c) {
   v.text("modbus", c.modbus, "serial line, or tcp:ADDRESS:PORT with an IPv4 address",
          Presence::alternative);
   v.text("gpio", c.gpio, "label or name of a GPIO chip, or files:DIRECTORY", Presence::alternative);
-  v.integer("baud", c.baud, Range{0, 921600},
+  v.integer("baud", c.baud, Range{0, 10000000},
             "of a serial line; 0: as its device usually has it, mostly 115200; on modbus as its "
             "map says");
   v.choice("parity", c.parity, {"none", "even", "odd"}, "of a serial line with modbus");
@@ -167,8 +167,10 @@ void visit(V& v, GroupJoint& c) {
   v.choice("on_silence", c.on_silence, {kSilenceWords.begin(), kSilenceWords.end()},
            "when commands cease (a stop always holds): hold where it is, damp (it sinks slowly), "
            "release (the drive lets go)");
-  v.flag("carries_weight", r.carries_weight,
-         "without power it sinks or falls; held, it keeps the effort that carried it");
+  v.flag(
+      "carries_weight", r.carries_weight,
+      "without power it sinks or falls; held, it keeps the effort that carried it. To be said of "
+      "each joint");
 }
 
 template <class V>
@@ -369,7 +371,7 @@ void visit(V& v, DroverConfig& c, GroupNames& groups) {
   v.object("ros2", c.ros2, "drover-ros2: left out, it shows nothing");
   v.object("scene", c.scene, "what is around the robot: left out, nothing of it is looked at");
   v.names(
-      "accept", c.accept, Count{0, 18},
+      "accept", c.accept, Count{0, 20},
       "no_estop: there is no e-stop line; slow_guard: guard.limit_ms is above 200; no_tilt: "
       "nothing tells how steep the ground is; no_soc: no battery tells its charge; no_relay: "
       "nothing takes the power from drives that do not stop; short_look: the scene, or a lidar's "
@@ -384,7 +386,9 @@ void visit(V& v, DroverConfig& c, GroupNames& groups) {
       "droverd.service was allowed to reach; lets_fall: a joint that carries a weight is let go "
       "when its commands cease; rolls: groups.base.max_tilt_deg is above 3, and drover-guard lets "
       "the wheels coast; early_time_out: a drive of which nobody says that it holds then stops by "
-      "itself before the guard does; that is known");
+      "itself before the guard does; swings: a joint is damped little where it is held; mixed_bus: "
+      "motors that answer under 0 as they are delivered share a bus with CANopen drives; that is "
+      "known");
 }
 
 }  // namespace drover::config

@@ -3,6 +3,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "config/key_hint.h"
 #include "text/number.h"
 #include "text/suggestion.h"
 
@@ -274,6 +275,7 @@ void Reader::options(std::string_view key, Options& into, const std::string& dri
   const auto* entry = find_driver(driver);
   if (entry == nullptr) return;
   into = Options(entry->options);
+  options_ = entry->options;
   static const json::Node kEmpty{std::vector<json::Member>{}, 0, 0};
   const auto* given = node_.find(key);
   json::Node none = kEmpty;
@@ -308,7 +310,9 @@ void Reader::key_of_kind(std::string_view key, bool has, bool needs, const std::
   if (!has && node != nullptr) add(*node, path_of(key), "is of no use to " + whose, "leave it out");
   if (!has || !needs) return;
   if (node == nullptr)
-    add(node_, path_of(key), "is missing", whose + " needs it");
+    add(node_, path_of(key), "is missing",
+        whose + " needs it" +
+            (key == "is" ? "; one of: " + joined({kLineKeys.begin(), kLineKeys.end()}) : ""));
   else if (node->text() != nullptr && node->text()->empty() && !is_told(path_of(key)))
     add(*node, path_of(key), "is empty");
 }
@@ -335,49 +339,14 @@ void Reader::option(const OptionSpec& spec, const json::Node& node, Options& int
   }
 }
 
-namespace {
-
-/// What people look for in the file and comes another way; empty: nothing of that.
-std::string comes_otherwise(std::string_view path) {
-  for (const auto* const fence : {"scene.fence", "scene.fences", "scene.zone", "scene.zones",
-                                  "scene.keep_in", "scene.keep_out"})
-    if (path == fence)
-      return "zones are imported: drover zone import FILE --keep-in, or --keep-out";
-  if (path.starts_with("links.") &&
-      (path.ends_with(".bitrate") || path.ends_with(".bit_rate") || path.ends_with(".speed")))
-    return "the system sets the bit rate of a CAN bus (80-can0.network, config/README.md); a "
-           "serial "
-           "line's is \"baud\"";
-  if (path == "scene.object" || path == "scene.objects")
-    return "objects come as messages of the topic collision_object";
-  return "";
-}
-
-}  // namespace
-
-namespace {
-
-/// A height above the ground is a z here.
-std::string key_meant(const std::string& written, const std::vector<std::string>& known) {
-  constexpr std::string_view kHeight = "height";
-  const auto at = written.find(kHeight);
-  if (at == std::string::npos) return did_you_mean(written, known);
-  auto as_z = written;
-  as_z.replace(at, kHeight.size(), "z");
-  const auto near = text::nearest(as_z, known);
-  return near.starts_with(as_z) ? did_you_mean(as_z, known) : did_you_mean(written, known);
-}
-
-}  // namespace
-
 void Reader::finish() {
   check_alternatives();
   for (const auto& member : *node_.object()) {
     if (std::find(known_.begin(), known_.end(), member.key) != known_.end()) continue;
     if (path_.empty() && member.key == "$schema") continue;  // for the editor
-    const auto otherwise = comes_otherwise(path_of(member.key));
-    problems_.push_back({member.line, member.column, path_of(member.key), "is no known key",
-                         otherwise.empty() ? key_meant(member.key, known_) : otherwise, ""});
+    const auto path = path_of(member.key);
+    problems_.push_back({member.line, member.column, path, "is no known key",
+                         key_hint(path, member.key, known_, options_), ""});
   }
 }
 

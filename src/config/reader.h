@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -74,6 +75,9 @@ class Reader final {
              Presence presence = Presence::optional) {
     const auto* node = find(key, presence, text);
     if (node == nullptr) return;
+    if (node->list() != nullptr)
+      return add(*node, path_of(key), "is a list, but an object is expected",
+                 "each entry by its name: {\"NAME\": {...}}");
     if (node->object() == nullptr) return wrong_type(*node, key, "an object");
     check_count(*node, key, count);
     for (const auto& member : *node->object()) row(member, path_of(key) + "." + member.key, into);
@@ -133,6 +137,7 @@ class Reader final {
   std::vector<Problem>& problems_;
   std::vector<std::string> known_;
   std::vector<std::string> alternatives_;
+  std::span<const OptionSpec> options_;  ///< of the device's driver, which stand one level deeper
 };
 
 }  // namespace drover::config

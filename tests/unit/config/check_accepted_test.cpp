@@ -307,11 +307,24 @@ TEST(Warnings, TellOfABrokerThatTheServiceDoesNotReach) {
   EXPECT_EQ(at(R"("host": "192.168.1.7", "port": 1883)", R"("remote_broker")"), "");
 }
 
+/// The one that is misspelt may be it.
+TEST(Warnings, MissNoDeviceWhileTheDriverOfOneIsNotKnown) {
+  const auto text = with("\"driver\": \"gpio_line\", \"link\": \"panel\", \"line\": \"a\"",
+                         "\"driver\": \"gpio_lime\", \"link\": \"panel\", \"line\": \"a\"");
+  EXPECT_THAT(problems(text), HasSubstr("devices.estop.driver: "));
+  EXPECT_THAT(warnings(text), testing::Not(HasSubstr("there is no e-stop line")));
+}
+
+TEST(Warnings, TellWhatALineMayBeThatSaysNothingOfIt) {
+  EXPECT_THAT(problems(with(", \"is\": \"bumper\"", "")),
+              HasSubstr("devices.bumper.is: is missing (gpio_line needs it; one of: estop, "));
+}
+
 TEST(Warnings, AreEachAcceptedByTheWordThatTheyTell) {
   for (const auto* word :
        {"no_estop", "slow_guard", "no_tilt", "no_soc", "no_relay", "short_look", "slow_chassis",
         "far_antenna", "slow_watchdog", "no_guard", "falls", "no_first_way", "late_silence",
-        "estop_not_fail_safe", "remote_broker", "early_time_out"})
+        "estop_not_fail_safe", "remote_broker", "early_time_out", "swings", "mixed_bus"})
     EXPECT_EQ(
         problems("{\"accept\": [\"" + std::string(word) + "\"]," + std::string(kGood).substr(1)),
         "")

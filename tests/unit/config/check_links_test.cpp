@@ -97,6 +97,9 @@ TEST(ConfigurationChecks, RefuseALinkThatNoDeviceHangsOn) {
 }
 
 TEST(ConfigurationChecks, RefuseASpeedWhereALinkHasNone) {
+  EXPECT_EQ(problems(with("{\"can\": \"can0\"}", "{\"can\": \"can0\", \"baud\": 1000000}"))
+                .find("must be between"),
+            std::string::npos);
   EXPECT_EQ(problems(with("{\"can\": \"can0\"}", "{\"can\": \"can0\", \"baud\": 500000}")),
             "f:2:45: links.can0.baud: is of no use on a CAN bus (leave it out: BitRate= in "
             "/etc/systemd/network/80-can0.network is this one's)\n");

@@ -102,6 +102,10 @@ TEST(ConfigurationChecks, SayWhichDriverSpeaksWithAProductOrThatNoneDoes) {
                                       "over Modbus, by a register map)"));
   EXPECT_THAT(told("scout_mini"), HasSubstr("(\"agilex_v2\" speaks with it: AgileX Scout"));
   EXPECT_THAT(told("hunter"), HasSubstr("(\"agilex_hunter\" speaks with it: AgileX Hunter"));
+  for (const auto* const motor : {"DM-J4340", "DM4310"})
+    EXPECT_THAT(told(motor), HasSubstr("(\"damiao\" speaks with it")) << motor;
+  for (const auto* const imu : {"hi12", "HI14", "ch104"})
+    EXPECT_THAT(told(imu), HasSubstr("(\"hipnuc_can\" speaks with it")) << imu;
   EXPECT_THAT(told("wt901c"), HasSubstr("(\"witmotion\" speaks with it"));
   for (const auto* const unknown : {"bunker", "VESC"})
     EXPECT_THAT(told(unknown), HasSubstr("(no driver speaks with it)")) << unknown;

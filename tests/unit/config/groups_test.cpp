@@ -123,7 +123,7 @@ TEST(Groups, RefuseLimitsWithoutRoom) {
 TEST(Groups, RefuseLimitsThatTheDriveCannotBeTold) {
   EXPECT_THAT(arm_problems("\"min_rad\": -2.5", "\"min_rad\": -143"),
               HasSubstr("groups.arm.joints.turret.min_rad: is -143 rad, and its drive can be told "
-                        "-12.5 to 12.5\n"));
+                        "-12.5 to 12.5 (are these degrees? One is 0.01745 rad)\n"));
   EXPECT_THAT(arm_problems("\"max_effort_Nm\": 10,", "\"max_effort_Nm\": 1000,"),
               HasSubstr("max_effort_Nm: is 1000 Nm, and its drive can be told 0 to "));
 }
@@ -144,7 +144,11 @@ TEST(Groups, TellOfAWeightUntilItIsAccepted) {
   EXPECT_THAT(loaded.warnings[0].text("f"),
               HasSubstr("groups.arm.joints.shoulder: carries a weight: without power nothing holds "
                         "it; when its line is cut its drive goes limp after 0.100 s"));
-  EXPECT_THAT(loaded.warnings[0].text("f"), HasSubstr("drover-guard only lets it sink slowly"));
+  // By what drover-guard has, which is the device's, not the joint's.
+  EXPECT_THAT(loaded.warnings[0].text("f"),
+              HasSubstr("when droverd dies drover-guard only damps it: it comes down at 0.2 rad/s "
+                        "for each Nm of its weight, so with max_effort_Nm at 4.1 rad/s "
+                        "(devices.shoulder.options.damping_Nmsprad is 4.9)"));
 }
 
 const std::string kShoulder = R"("options": {"id": 2, "model": "DM4340", )"
@@ -177,8 +181,7 @@ TEST(Groups, TellWhatAWeightDoesWhoseMotorHasNoTimeOut) {
   EXPECT_THAT(loaded.warnings[0].text("f"),
               HasSubstr("groups.arm.joints.shoulder: carries a weight: without power nothing holds "
                         "it; when its line is cut its drive follows its last command for ever: the "
-                        "motor's TIMEOUT is 0; when droverd dies drover-guard only lets it sink "
-                        "slowly"));
+                        "motor's TIMEOUT is 0; when droverd dies drover-guard only damps it"));
   EXPECT_THAT(loaded.warnings[1].text("f"), HasSubstr("elbow: carries a weight: without power "
                                                       "nothing holds it; when its line is cut its "
                                                       "drive goes limp after 0.100 s"));
@@ -236,6 +239,147 @@ TEST(Groups, FollowAllFiveValuesAndHoldWhereNothingIsSaid) {
   const auto& turret = loaded.config.engine.groups[0].joints[0];
   EXPECT_EQ(turret.follows, JointFollows::impedance);
   EXPECT_EQ(turret.on_silence, engine::OnSilence::hold);
+}
+
+std::string arm_warnings(const std::string& piece, const std::string& replacement) {
+  std::string all;
+  const auto loaded = load_text(arm_with(piece, replacement), kFolder);
+  for (const auto& warning : loaded.warnings) all += warning.text("f") + "\n";
+  return all;
+}
+
+TEST(Groups, TellHowFastAWeightComesDownThatIsHardlyDamped) {
+  auto text = arm_with("\"model\": \"DM4310\", \"damping_Nmsprad\": 3",
+                       "\"model\": \"DM4310\", \"damping_Nmsprad\": 0.01");
+  const auto loaded = load_text(text.replace(text.find("\"falls\""), 7, ""), kFolder);
+  ASSERT_EQ(loaded.warnings.size(), 2u);
+  EXPECT_THAT(loaded.warnings[1].text("f"), HasSubstr("it comes down at 100 rad/s for each Nm"));
+}
+
+TEST(Groups, RefuseAJointThatNothingHolds) {
+  const auto elbow = [](const std::string& gains) {
+    return arm_problems("\"stiffness_Nmprad\": 60, \"damping_Nmsprad\": 2", gains);
+  };
+  EXPECT_THAT(elbow(R"("stiffness_Nmprad": 0, "damping_Nmsprad": 2)"),
+              HasSubstr("groups.arm.joints.elbow.stiffness_Nmprad: is 0, so nothing keeps the "
+                        "joint in its place when it is held: at every stop, and when its commands "
+                        "cease (on_silence is hold)"));
+  EXPECT_THAT(elbow(R"("stiffness_Nmprad": 60, "damping_Nmsprad": 0)"),
+              HasSubstr("groups.arm.joints.elbow.damping_Nmsprad: is 0: held, the joint swings"));
+  EXPECT_EQ(elbow(R"("stiffness_Nmprad": 60, "damping_Nmsprad": 0.5)"), "");
+}
+
+TEST(Groups, RefuseAWeightWithoutStiffnessWhateverItDoesInSilence) {
+  const std::string gains = "\"stiffness_Nmprad\": 60, \"damping_Nmsprad\": 2, ";
+  const auto told = arm_problems(gains + "\"on_silence\": \"hold\"",
+                                 "\"stiffness_Nmprad\": 0, \"damping_Nmsprad\": 2, "
+                                 "\"on_silence\": \"damp\"");
+  EXPECT_THAT(told, HasSubstr("elbow.stiffness_Nmprad: is 0, so nothing keeps the joint in its "
+                              "place when it is held: at every stop ("));
+}
+
+/// It is damped then, which is what was written.
+TEST(Groups, LetAJointWithoutAWeightHaveNoStiffnessWhereItIsToDamp) {
+  EXPECT_EQ(arm_problems("\"stiffness_Nmprad\": 80, \"damping_Nmsprad\": 3",
+                         "\"stiffness_Nmprad\": 0, \"damping_Nmsprad\": 3, "
+                         "\"on_silence\": \"damp\""),
+            "");
+}
+
+TEST(Groups, TellOfAJointThatSwingsWhereItIsHeldUntilItIsAccepted) {
+  const std::string gains = "\"stiffness_Nmprad\": 60, \"damping_Nmsprad\": 2";
+  const std::string weak = "\"stiffness_Nmprad\": 500, \"damping_Nmsprad\": 0.01";
+  EXPECT_THAT(arm_warnings(gains, weak),
+              HasSubstr("groups.arm.joints.elbow.damping_Nmsprad: is 0.01, with a stiffness of 500 "
+                        "Nm/rad: held, the joint swings for long (1 or more, or \"accept\": "
+                        "[\"swings\"]"));
+  auto accepted = arm_with(gains, weak);
+  accepted.replace(accepted.find("\"falls\""), 7, "\"falls\", \"swings\"");
+  EXPECT_THAT(load_text(accepted, kFolder).warnings, IsEmpty());
+}
+
+TEST(Groups, AskOfEachJointWhetherItCarriesAWeight) {
+  EXPECT_THAT(arm_warnings(", \"carries_weight\": true},", "},"),
+              HasSubstr("groups.arm.joints.shoulder: does not say whether it carries a weight, "
+                        "which falls without power, and sags where it is held unless this is told "
+                        "(\"carries_weight\": true, or false when nothing pulls at it)"));
+  EXPECT_EQ(arm_warnings(", \"carries_weight\": false},", ", \"carries_weight\": false },"), "");
+}
+
+TEST(Groups, TellWhatAMasterIdOf0Means) {
+  EXPECT_THAT(arm_warnings("{\"id\": 3, ", "{\"id\": 3, \"master_id\": 0, "),
+              HasSubstr("devices.elbow.options.master_id: is 0, which means 16 more than id: a "
+                        "motor that answers under 0, as it may be delivered, is not heard"));
+  EXPECT_EQ(arm_warnings("{\"id\": 3, ", "{\"id\": 3, \"master_id\": 19, "), "");
+}
+
+/// The example with its wheels' drives speaking CANopen, and its elbow on their bus.
+std::string beside_canopen(const std::string& master_id, const std::string& accept = "") {
+  auto text = arm_with(
+      "\"elbow\": {\"driver\": \"damiao\", \"link\": \"can1\",\n      "
+      "\"options\": {\"id\": 3, ",
+      "\"elbow\": {\"driver\": \"damiao\", \"link\": \"can0\",\n      "
+      "\"options\": {\"id\": 3, " +
+          master_id);
+  for (const char* node : {"0", "1"}) {
+    const auto wheel =
+        "\"driver\": \"odrive\", \"link\": \"can0\", \"options\": {\"node\": " + std::string(node) +
+        ", \"watchdog_timeout_s\": 0.1}";
+    const auto at = text.find(wheel);
+    EXPECT_NE(at, std::string::npos);
+    text.replace(at, wheel.size(),
+                 "\"driver\": \"cia402\", \"link\": \"can0\", \"options\": {\"node\": 1" +
+                     std::string(node) + "}");
+  }
+  return text.replace(text.find("\"falls\""), 7, "\"falls\"" + accept);
+}
+
+TEST(Groups, TellOfMotorsOnABusWithCanopenDrivesUntilThatIsAccepted) {
+  const auto told = [](const std::string& text) {
+    std::string all;
+    for (const auto& warning : load_text(text, kFolder).warnings) all += warning.text("f") + "\n";
+    return all;
+  };
+  EXPECT_THAT(told(beside_canopen("")),
+              HasSubstr("devices.elbow.link: shares \"can0\" with devices.left (cia402): a motor "
+                        "that answers under 0, as it may be delivered, sends by this id commands "
+                        "that start and reset CANopen nodes"));
+  EXPECT_EQ(told(beside_canopen("", ", \"mixed_bus\"")).find("shares"), std::string::npos);
+  EXPECT_THAT(problems(beside_canopen("\"master_id\": 0, "), kFolder),
+              HasSubstr("devices.elbow.link: a damiao shares no bus with a cia402 when it answers "
+                        "under the master id 0"));
+  EXPECT_THAT(problems(beside_canopen("\"master_id\": 19, "), kFolder),
+              testing::Not(HasSubstr("shares no bus")));
+}
+
+TEST(Groups, TellWhereAKeyBelongsThatStandsInTheWrongPlace) {
+  EXPECT_THAT(arm_problems("\"link\": \"can1\", \"options\": {\"id\": 1, ",
+                           "\"link\": \"can1\", \"id\": 1, \"options\": {"),
+              HasSubstr("devices.turret.id: is no known key (it belongs into \"options\")"));
+  EXPECT_THAT(
+      arm_problems("\"link\": \"can1\", \"options\": {\"id\": 1, ",
+                   "\"link\": \"can1\", \"options\": {\"carries_weight\": true, \"id\": 1, "),
+      HasSubstr("carries_weight: is no known key (it belongs into groups.NAME.joints)"));
+  EXPECT_THAT(
+      arm_problems("\"on_silence\": \"hold\"", "\"reversed\": true"),
+      HasSubstr("elbow.reversed: is no known key (it belongs into the options of the device)"));
+  EXPECT_THAT(arm_problems("\"on_silence\": \"hold\"", "\"accept\": [\"falls\"]"),
+              HasSubstr("(it belongs into the device, or to the top of the file)"));
+}
+
+TEST(Groups, TellHowJointsAreWrittenThatStandInAList) {
+  EXPECT_THAT(
+      arm_problems("\"arm\": {\"joints\"", "\"mast\": {\"joints\": []}, \"arm\": {\"joints\""),
+      HasSubstr("groups.mast.joints: is a list, but an object is expected (each entry by its "
+                "name: {\"NAME\": {...}})"));
+}
+
+TEST(Groups, TellWhatAKeyOfOthersIsHere) {
+  EXPECT_THAT(arm_problems("\"min_rad\": -2.5", "\"min_deg\": -90"),
+              HasSubstr("turret.min_deg: is no known key (\"min_rad\" is in radians: one degree is "
+                        "0.01745)"));
+  EXPECT_THAT(arm_problems("\"stiffness_Nmprad\": 80", "\"kp\": 80"),
+              HasSubstr("turret.kp: is no known key (did you mean \"stiffness_Nmprad\"?)"));
 }
 
 TEST(Groups, RefuseMotorsOnABusWithDrivesThatTheyWouldReprogram) {
