@@ -4,6 +4,12 @@
 #include "engine/engine_impl.h"
 
 namespace drover::engine {
+namespace {
+
+/// Somebody is beside it, with his hands on it.
+constexpr const char* kReleased = "the robot is released, to be pushed by hand: drover hold";
+
+}  // namespace
 
 AxisSnapshot* Engine::Impl::axis_of(AxisId id) {
   if (id == kBaseAxis) return takes_twist(base) ? axes.data() : nullptr;
@@ -45,7 +51,9 @@ void Engine::Impl::step_groups(Time now, Duration dt, const Environment& environ
   const HealthReport& report = health.report();
   const Reason hindrance = !report.ready                ? Reason(kJustStarted)
                            : !report.end_groups.empty() ? report.end_groups
-                                                        : latch.stop();
+                           : !latch.stop().empty()      ? latch.stop()
+                           : arming.released()          ? Reason(kReleased)
+                                                        : Reason();
   for (std::size_t i = 0; i < groups.size(); ++i) {
     groups[i].step({now,
                     dt,

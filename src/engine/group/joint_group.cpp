@@ -4,25 +4,18 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/group/group_words.h"
 #include "engine/health/heard.h"
+#include "engine/reason_text.h"
 
 namespace drover::engine {
 namespace {
 
 constexpr Duration kBetweenLimits = std::chrono::seconds(1);
+constexpr Duration kBetweenFound = std::chrono::seconds(1);
 
 int width(std::string_view text) {
   return static_cast<int>(text.size());
-}
-
-Reason of_joint(const Name& joint, const Reason& what) {
-  Reason text;
-  text.format("%.*s: %.*s", width(joint), joint.view().data(), width(what), what.view().data());
-  return text;
-}
-
-void append(Reason& text, std::string_view more) {
-  text.format("%.*s%.*s", width(text), text.view().data(), width(more), more.data());
 }
 
 /// "elbow (position, effort)".
@@ -55,7 +48,7 @@ bool is_heard(const AxisSnapshot& axis, Time now, Duration stale) {
 }  // namespace
 
 JointGroup::JointGroup(const GroupConfig& config, Duration start_timeout)
-    : start_timeout_(start_timeout) {
+    : start_timeout_(start_timeout), notices_(config.joints.size()) {
   told_.name = config.name;
   for (const JointRules& rules : config.joints) joints_.emplace_back(rules);
 }
@@ -94,12 +87,9 @@ Reason JointGroup::trouble(const Input& input) const {
                                    [](const JointServo& joint) { return joint.following(); });
   for (const JointServo& joint : joints_) {
     const AxisSnapshot& axis = input.axes[joint.rules().axis];
-    if (!is_heard(axis, input.now, input.stale)) {
-      const Reason& said = axis.source.reason;
-      return of_joint(axis.joint, said.empty() ? Reason("its drive is silent") : said);
-    }
-    if (follows && axis.state == AxisState::fault && !axis.lapsed)
-      return of_joint(axis.joint, axis.fault);
+    const bool heard = is_heard(axis, input.now, input.stale);
+    const Reason why = heard && !follows ? Reason() : trouble_of(axis, heard);
+    if (!why.empty()) return of_joint(axis.joint, why);
   }
   return {};
 }
@@ -136,13 +126,64 @@ void JointGroup::step(const Input& input, std::span<AxisCommand> commands, std::
     limited = limited || joint.limited() != 0;
   }
   told_.owner = owner(input.estop);
-  told_.reason = hindrance;
-  for (std::size_t i = 0; told_.reason.empty() && i < joints_.size(); ++i)
-    if (const Reason& why = joints_[i].reason(); !why.empty())
-      told_.reason =
-          joints_[i].by_itself() ? of_joint(input.axes[joints_[i].rules().axis].joint, why) : why;
+  told_.reason = why_not(input, hindrance);
   count(limited);
+  const bool off = told_.state == GroupState::idle || told_.state == GroupState::arming;
+  if (told_.reason.empty() && off) told_.reason = not_running(joints_, input.axes, told_.state);
   tell(input, lost, limited, events);
+  tell_drives(input, events);
+  tell_found(input, events);
+  tell_pause(hindrance.empty() && awaits_pause(joints_), input.now, events);
+}
+
+/// Why it does not follow, and who is held by nobody any more.
+Reason JointGroup::why_not(const Input& input, const Reason& hindrance) const {
+  Reason why = hindrance.empty() ? pause_first(joints_, input.axes) : hindrance;
+  for (std::size_t i = 0; why.empty() && i < joints_.size(); ++i)
+    if (const Reason& said = joints_[i].reason(); !said.empty())
+      why =
+          joints_[i].by_itself() ? of_joint(input.axes[joints_[i].rules().axis].joint, said) : said;
+  return with_lost(joints_, input.axes, why);
+}
+
+void JointGroup::notice(Time now, Notice::Level level, const char* what, std::string_view why,
+                        EventQueue& events) const {
+  Reason text;
+  text.format("%.*s: %s%.*s", width(told_.name), told_.name.view().data(), what, width(why),
+              why.data());
+  events.notice(now, level, text);
+}
+
+/// What ended its commands, or left a joint without hold, is told as that.
+void JointGroup::tell_drives(const Input& input, EventQueue& events) {
+  for (std::size_t i = 0; i < joints_.size(); ++i) {
+    const AxisSnapshot& axis = input.axes[joints_[i].rules().axis];
+    const Reason why = trouble_of(axis, is_heard(axis, input.now, input.stale));
+    const Reason named = why.empty() ? why : of_joint(axis.joint, why);
+    notices_.update(input.now, i, told_.name, axis.joint, named, !joints_[i].lost().empty(),
+                    events);
+  }
+}
+
+/// After a restart, or a drive was gone for a moment: until now somebody else had it, or nobody.
+void JointGroup::tell_found(const Input& input, EventQueue& events) {
+  for (const JointServo& joint : joints_) found_running_ = found_running_ || joint.found_running();
+  if (told_.state == GroupState::following) found_running_ = false;
+  const bool held = told_.state == GroupState::holding || told_.state == GroupState::damping;
+  if (!found_running_ || !held || input.blocked) return;
+  found_running_ = false;
+  if (found_told_ != kNever && input.now - found_told_ < kBetweenFound) return;
+  found_told_ = input.now;
+  notice(input.now, Notice::Level::info, "its drives were found running: held where it is", {},
+         events);
+}
+
+/// Once: who goes on sending may do so for hours. What stopped it was told when it did.
+void JointGroup::tell_pause(bool awaited, Time now, EventQueue& events) {
+  if (told_.state == GroupState::following) pause_told_ = false;
+  if (!awaited || pause_told_) return;
+  pause_told_ = true;
+  notice(now, Notice::Level::warning, kPauseFirst, {}, events);
 }
 
 void JointGroup::tell_lost(const AxisSnapshot& axis, const JointServo& joint, Time now,
@@ -170,10 +211,7 @@ void JointGroup::count(bool limited) {
 
 void JointGroup::tell(const Input& input, const Reason& lost, bool limited, EventQueue& events) {
   const auto warn = [&](const char* what, std::string_view why) {
-    Reason text;
-    text.format("%.*s: %s%.*s", width(told_.name), told_.name.view().data(), what, width(why),
-                why.data());
-    events.notice(input.now, Notice::Level::warning, text);
+    notice(input.now, Notice::Level::warning, what, why, events);
   };
   if (!lost.empty()) warn("joint commands ended: ", lost);
   if (!limited || (limited_told_ != kNever && input.now - limited_told_ < kBetweenLimits)) return;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/event_queue.h"
+#include "engine/group/joint_notices.h"
 #include "engine/group/joint_servo.h"
 
 namespace drover::engine {
@@ -44,15 +45,25 @@ class JointGroup final {
                  EventQueue& events) const;
   void count(bool limited);
   GroupOwner owner(bool estop) const;
+  Reason why_not(const Input& input, const Reason& hindrance) const;
+  void tell_drives(const Input& input, EventQueue& events);
+  void tell_found(const Input& input, EventQueue& events);
+  void tell_pause(bool awaited, Time now, EventQueue& events);
+  void notice(Time now, Notice::Level level, const char* what, std::string_view why,
+              EventQueue& events) const;
   void tell(const Input& input, const Reason& lost, bool limited, EventQueue& events);
   Reason all_limited(std::span<const AxisSnapshot> axes, std::size_t room) const;
 
   Duration start_timeout_;
   std::vector<JointServo> joints_;  ///< made once
+  JointNotices notices_;
   GroupSnapshot told_;
   GroupOwner sender_ = GroupOwner::nobody;  ///< of the last message
   std::uint64_t waiting_ = 0;               ///< messages since the last cycle
   Time limited_told_ = kNever;
+  bool pause_told_ = false;     ///< since it followed last
+  bool found_running_ = false;  ///< and that is not told yet
+  Time found_told_ = kNever;
 };
 
 }  // namespace drover::engine

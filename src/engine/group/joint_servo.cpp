@@ -13,8 +13,6 @@ constexpr Duration kSteadyFor = 300ms;
 /// Whoever was stopped has to be silent for so long before he begins again.
 constexpr Duration kPause = 1s;
 constexpr const char* kNoLoop = "its drive is not in closed loop";
-constexpr const char* kNoPause =
-    "it was stopped, and its commands did not pause for a second since";
 
 JointMeasured measured_by(const AxisSnapshot& axis) {
   const double velocity = axis.motion.velocity_radps;
@@ -66,6 +64,7 @@ void JointServo::fail(const Input& input, const char* otherwise) {
 
 /// Whether what is sent is followed in this cycle, and why not.
 void JointServo::judge_stream(const Input& input) {
+  awaits_pause_ = false;
   if (!input.hindrance.empty()) end(input.hindrance);
   if (!sent(input.now)) return cease(input.now);
   const bool followed = follows_;
@@ -78,11 +77,10 @@ void JointServo::judge_stream(const Input& input) {
     by_itself_ = true;
     reason_.format("its commands come %.0f ms apart, %.0f ms are allowed", 1e3 * to_s(gap_),
                    1e3 * rules_.timeout_s);
-  } else if (!waits_) {
+  } else if (waits_) {
+    awaits_pause_ = true;  // and what stopped it is told on
+  } else {
     reason_.clear();
-  } else if (reason_.empty()) {  // else it is told on what stopped it
-    by_itself_ = true;
-    reason_ = kNoPause;
   }
 }
 
@@ -160,6 +158,7 @@ void JointServo::run(const Input& input) {
   // What is held elsewhere goes on from where it is given back.
   if (!engaged_ || input.blocked) shaper_.take_over(measured);
   if (!engaged_) trust_.begin();
+  found_ = !engaged_ && !follows_;
   engaged_ = true;
   watch_joint(measured, dt_s);
   ask_trust(input, measured, dt_s);
@@ -212,7 +211,7 @@ void JointServo::watch_drive(const Input& input) {
 
 void JointServo::step(const Input& input) {
   command_ = {};
-  failed_ = false;
+  failed_ = found_ = false;
   judge_stream(input);
   watch_drive(input);
   if (!input.heard) {

@@ -48,6 +48,10 @@ class JointServo final {
   bool asked(Time now) const { return steady(now); }
   /// Somebody's commands, or its drive is armed for them.
   bool follows() const { return follows_; }
+  /// Nothing hinders what is sent any more, but it did not pause since it was stopped.
+  bool awaits_pause() const { return awaits_pause_; }
+  /// In this cycle its drive was found running, and nobody had armed it.
+  bool found_running() const { return found_; }
   bool following() const { return state_ == GroupState::following; }
   GroupState state() const { return state_; }
   /// What of its command was beyond a limit.
@@ -57,6 +61,9 @@ class JointServo final {
   const Reason& reason() const { return tells_lost() ? lost_ : reason_; }
   /// That reason lies in this joint, whose name is not in it.
   bool by_itself() const { return by_itself_ || tells_lost(); }
+  /// What stopped it; empty: it is long ago, or nothing did.
+  const Reason& stopped_by() const { return reason_; }
+  bool stopped_by_itself() const { return by_itself_; }
   /// Why its drive does not hold it any more, though nobody let it go; empty: it does, or never
   /// did.
   const Reason& lost() const { return lost_; }
@@ -95,6 +102,8 @@ class JointServo final {
   Time steady_since_ = kNever;  ///< of a row without a gap
   Duration gap_{};              ///< before the last command, when it was too long
   bool waits_ = false;          ///< for a pause: it was stopped
+  bool awaits_pause_ = false;   ///< this cycle
+  bool found_ = false;          ///< likewise
   bool engaged_ = false;        ///< its drive runs, and the shaper knows of it
   bool follows_ = false;        ///< this cycle
   bool ceased_ = false;         ///< what it followed last was silent; nothing stopped it

@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "engine/reason_text.h"
+
 namespace drover::engine {
 namespace {
 
@@ -47,11 +49,14 @@ void Arming::release(const RequestId& id, const ReleaseHold& release, const Reas
   gave_up_ = false;
   forfeit();
   // What a chassis that takes a twist does then is its own.
-  if (takes_twist(config_.base.kind))
-    return events.push(now, CommandAccepted{id,
-                                            "nothing is commanded any more, and it can roll; a "
-                                            "chassis that does not let go is pushed switched off"});
-  events.push(now, CommandAccepted{id, "the drives let go: the robot can be pushed, and can roll"});
+  Reason note = takes_twist(config_.base.kind)
+                    ? "nothing is commanded any more, and it can roll; a chassis that does not let "
+                      "go is pushed switched off"
+                    : "the drives let go: the robot can be pushed, and can roll";
+  // An arm that falls is a danger to who pushes, and one that moves, too.
+  if (joints_of_groups(config_) > 0)
+    append(note, "; its other joints follow nobody, what runs is held");
+  events.push(now, CommandAccepted{id, note});
 }
 
 void Arming::arm(const RequestId& id, const Reason& hindrance, Time now, EventQueue& events) {

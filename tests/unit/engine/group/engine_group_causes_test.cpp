@@ -136,7 +136,7 @@ TEST_F(EngineTwoGroups, AFaultOfOneLeavesTheOther) {
   ASSERT_EQ(mast().state, GroupState::following);
   arm[0].state = AxisState::fault;
   send_s(3, 0.8);
-  EXPECT_EQ(reason(), "shoulder: too hot");
+  EXPECT_THAT(reason(), HasSubstr("stopped by shoulder: too hot"));
   EXPECT_NE(told().state, GroupState::following);
   EXPECT_EQ(mast().state, GroupState::following);
   EXPECT_EQ(mast().reason, "");

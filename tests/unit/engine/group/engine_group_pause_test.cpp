@@ -46,7 +46,7 @@ TEST_F(EngineGroupPause, IsNoneWhileABrokerHangs) {
   refuse_s(1);
   send_s(0.1, 0.4);
   EXPECT_EQ(reason(),
-            "shoulder: it was stopped, and its commands did not pause for a second since");
+            "pause your commands for a second, then send again: it was stopped");
   expect_waits("e-stop");
 }
 
