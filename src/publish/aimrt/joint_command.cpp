@@ -22,6 +22,22 @@ double ms(std::uint64_t ns) {
   return static_cast<double>(ns) * 1e-6;
 }
 
+/// What it would be if it were of today, though it should be nanoseconds; nullptr: none of these.
+const char* other_unit(std::uint64_t stamp, std::uint64_t now_ns) {
+  struct Unit {
+    const char* name;
+    std::uint64_t ns;
+  };
+  constexpr std::uint64_t kDay_ns = 86'400'000'000'000;
+  for (const Unit& unit : {Unit{"seconds", 1'000'000'000}, Unit{"milliseconds", 1'000'000},
+                           Unit{"microseconds", 1'000}}) {
+    if (stamp > UINT64_MAX / unit.ns) continue;
+    const std::uint64_t meant_ns = stamp * unit.ns;
+    if (std::max(meant_ns, now_ns) - std::min(meant_ns, now_ns) < kDay_ns) return unit.name;
+  }
+  return nullptr;
+}
+
 /// Why the stamp is not believed; empty when it is.
 Reason stamp_problem(std::uint64_t stamp_ns, Duration max_age, Duration wall,
                      std::uint64_t last_stamp_ns) {
@@ -30,7 +46,13 @@ Reason stamp_problem(std::uint64_t stamp_ns, Duration max_age, Duration wall,
   const auto now_ns = static_cast<std::uint64_t>(std::max<Duration::rep>(wall.count(), 0));
   const auto latest_ns = now_ns + static_cast<std::uint64_t>(kMaxAhead.count());
   const auto max_age_ns = static_cast<std::uint64_t>(max_age.count());
-  if (now_ns > stamp_ns && now_ns - stamp_ns > max_age_ns) {
+  // A clock at 1970 makes a day of every number.
+  const bool dated = now_ns > 365 * std::uint64_t{86'400'000'000'000};
+  const char* const unit = dated ? other_unit(stamp_ns, now_ns) : nullptr;
+  if (unit != nullptr) {
+    reason.format("time_stamp %llu is in %s: nanoseconds since 1970 are wanted",
+                  static_cast<unsigned long long>(stamp_ns), unit);
+  } else if (now_ns > stamp_ns && now_ns - stamp_ns > max_age_ns) {
     reason.format("time_stamp is %.0f ms old, %.0f ms are allowed", ms(now_ns - stamp_ns),
                   ms(max_age_ns));
   } else if (stamp_ns > latest_ns) {

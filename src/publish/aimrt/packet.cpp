@@ -36,6 +36,8 @@ std::string_view text(PacketError error) {
     case PacketError::no_content_type: return "the packet ends inside its content type";
     case PacketError::no_context: return "the packet has no number of context pairs";
     case PacketError::bad_context: return "the packet ends inside its context";
+    case PacketError::bare_json:
+      return "JSON without AimRT's packet: the bytes 04 6a 73 6f 6e 00 are missing before it";
   }
   return "";
 }
@@ -56,6 +58,8 @@ std::string encode_packet(std::string_view message, Content content) {
 }
 
 Result<Packet, PacketError> decode_packet(std::string_view payload) {
+  // As a length it would be a content type of 123 bytes, which nobody has.
+  if (payload.substr(0, 1) == "{") return PacketError::bare_json;
   auto rest = payload;
   Packet packet;
   const auto content_type = take_text(rest, 1);

@@ -24,7 +24,12 @@ struct Packet {
   std::string_view message;
 };
 
-enum class PacketError : std::uint8_t { no_content_type, no_context, bad_context };
+enum class PacketError : std::uint8_t {
+  no_content_type,
+  no_context,
+  bad_context,
+  bare_json,  ///< the message is there, and nothing before it
+};
 std::string_view text(PacketError error);
 
 /// A packet without context around a message.

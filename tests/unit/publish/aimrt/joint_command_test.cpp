@@ -52,6 +52,20 @@ TEST(AimrtJointCommand, RefusesAMessageThatIsTooLongToLookAt) {
   EXPECT_FALSE(decode_joint_command(padding(kMaxCommandBytes)));
 }
 
+TEST(AimrtJointCommand, NamesTheUnitOfAStampThatIsNoneOfNanoseconds) {
+  const auto said = [](std::uint64_t time_stamp) {
+    return refusal(stamp(time_stamp) + joint_entry("left", 0, 1));
+  };
+  EXPECT_EQ(said(kNow_ns / 1'000'000'000),
+            "time_stamp 1700000000 is in seconds: nanoseconds since 1970 are wanted");
+  EXPECT_EQ(said(kNow_ns / kMs - 3'600'000),
+            "time_stamp 1699996400000 is in milliseconds: nanoseconds since 1970 are wanted");
+  EXPECT_EQ(said(kNow_ns / 1000 + 7),
+            "time_stamp 1700000000000007 is in microseconds: nanoseconds since 1970 are wanted");
+  EXPECT_EQ(said(1234), "time_stamp is 1700000000000 ms old, 250 ms are allowed");
+  EXPECT_EQ(said(kNow_ns), "accepted");
+}
+
 TEST(AimrtJointCommand, RefusesTheWholeMessageAndNamesJointAndField) {
   const std::string good = joint_entry("left", 0, 1);
   EXPECT_EQ(refusal(""), "it names no joint");

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
+
+#include "publish/aimrt/joint_command.h"
 #include "publish/aimrt/topic.h"
 #include "tests/unit/publish/aimrt/wire.h"
 
@@ -23,6 +26,17 @@ TEST(AimrtPacket, SaysWhereItEnds) {
   EXPECT_EQ(decode_packet(hex("03 70 62")).error(), PacketError::no_content_type);
   EXPECT_EQ(decode_packet(hex("02 70 62")).error(), PacketError::no_context);
   EXPECT_EQ(decode_packet(hex("02 70 62 01")).error(), PacketError::bad_context);
+}
+
+TEST(AimrtPacket, SaysWhatIsMissingBeforeBareJson) {
+  const std::string bare = R"({"header":{},"joints":[{"name":"shoulder"}]})";
+  ASSERT_EQ(decode_packet(bare).error(), PacketError::bare_json);
+  EXPECT_EQ(decode_packet(bare + std::string(200, ' ')).error(), PacketError::bare_json);
+  const std::string_view said = text(PacketError::bare_json);
+  const auto from = said.find("04 6a");
+  ASSERT_NE(from, std::string_view::npos) << said;
+  const std::string missing = hex(said.substr(from, std::string_view("04 6a 73 6f 6e 00").size()));
+  EXPECT_EQ(missing + bare, encode_packet(bare, Content::json));
 }
 
 TEST(AimrtPacket, RefusesAContextLongerThanThePacket) {
@@ -57,6 +71,36 @@ TEST(AimrtPacket, IsWrittenWithoutContext) {
 
 TEST(AimrtPacket, TellsThatItsMessageIsJson) {
   EXPECT_EQ(encode_packet("{}", Content::json), hex("04 6a 73 6f 6e 00 7b 7d"));
+}
+
+/// Of the lines between ``` and ``` the bytes, which end at two blanks; behind them are words.
+std::string bytes_of_readme() {
+  std::ifstream file(std::string(DROVER_SOURCE_DIR) + "/src/publish/README.md");
+  std::string digits;
+  bool inside = false;
+  for (std::string line; std::getline(file, line);) {
+    if (line.starts_with("```"))
+      inside = line == "```text";
+    else if (inside)
+      digits += line.substr(0, line.find("  "));
+  }
+  return hex(digits);
+}
+
+TEST(AimrtPacket, IsTheReadmesJointCommand) {
+  const std::string readme = bytes_of_readme();
+  EXPECT_EQ(readme, encode_packet(test::bytes_field(
+                        2, test::bytes_field(1, "elbow") + test::double_field(2, 0.5) +
+                               test::double_field(5, 40) + test::double_field(6, 1.5))));
+  const auto packet = decode_packet(readme);
+  ASSERT_TRUE(packet.ok());
+  const auto command = decode_joint_command(packet->message);
+  ASSERT_TRUE(command);
+  ASSERT_EQ(command->joints.size(), 1U);
+  EXPECT_EQ(command->joints[0].name, "elbow");
+  EXPECT_EQ(command->joints[0].position_rad, 0.5);
+  EXPECT_EQ(command->joints[0].stiffness, 40);
+  EXPECT_EQ(command->joints[0].damping, 1.5);
 }
 
 TEST(AimrtTopic, IsTheDocumentsExample) {
