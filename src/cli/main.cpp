@@ -246,7 +246,9 @@ int main(int argc, char** argv) {
   reset->callback([&] { code = drover::cli::reset({s.socket, s.stop_socket, s.json}); });
   bool on_slope = false;
   auto* release = app.add_subcommand(
-      "release", "let the drives go, so that the robot can be pushed; until `drover hold`");
+      "release",
+      "let the drives of the base go, so that the robot can be pushed; until `drover hold`. An arm "
+      "is held meanwhile, where its drives run, and follows nobody");
   release->add_flag("--on-slope", on_slope, "though it may roll: you hold it");
   release->add_flag("--json", s.json, "one JSON object");
   release->footer("Examples:\n  drover release\n  drover release --on-slope");

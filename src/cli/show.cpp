@@ -1,5 +1,6 @@
 #include "cli/show.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -60,7 +61,7 @@ void show_stream(std::string& out, const char* name, const Node& stream) {
   if (some("unread")) value += quantity(at(stream, "unread"), ", %.0f of a flood not read");
   if (some("of_rivals")) value += quantity(at(stream, "of_rivals"), ", %.0f of a second program");
   const auto reason = text(at(stream, "reason"));
-  line(out, name, reason.empty() ? value : value + ": " + reason);
+  line(out, name, reason.empty() ? value : value + ", last: " + reason);
 }
 
 /// A yaw that nobody knows yet is no number.
@@ -146,11 +147,19 @@ void show_others(std::string& out, const Node& status) {
   out += show_scanners(status);
 }
 
+/// Wide enough for the longest, and a blank.
+std::size_t column(const std::vector<Node>& rows, const char* key, std::size_t least) {
+  std::size_t width = least;
+  for (const auto& row : rows) width = std::max(width, text(at(row, key)).size() + 1);
+  return width;
+}
+
 void show_axes(std::string& out, const Node& status) {
   const auto* axes = at(status, "axes").list();
   if (axes == nullptr) return;
+  const std::size_t width = column(*axes, "joint", 14);
   for (const auto& axis : *axes) {
-    std::string value = padded(text(at(axis, "joint")), 14);
+    std::string value = padded(text(at(axis, "joint")), width);
     if (never_heard(axis)) {
       value += nothing_heard(axis);
     } else {
@@ -173,6 +182,12 @@ void show_groups(std::string& out, const Node& status) {
     std::string value = text(at(group, "state"));
     const auto owner = text(at(group, "owner"));
     if (owner != "nobody" && !owner.empty()) value += "  owner " + owner;
+    const auto some = [&](const char* key) { return at(group, key).number().value_or(0) > 0; };
+    if (some("accepted") || some("refused"))
+      value += quantity(at(group, "accepted"), "  %.0f followed") +
+               quantity(at(group, "refused"), ", %.0f refused");
+    if (some("limited"))
+      value += quantity(at(group, "limited"), ", held by a limit in %.0f cycles");
     if (const auto why = text(at(group, "reason")); !why.empty()) value += "  " + why;
     line(out, text(at(group, "name")), value);
   }
@@ -230,8 +245,9 @@ void show_devices(std::string& out, const Node& status) {
     line(out, "lines", value);
   }
   if (const auto* links = at(status, "links").list()) {
+    const std::size_t width = column(*links, "name", 8);
     for (const auto& link : *links) {
-      std::string value = padded(text(at(link, "name")), 8);
+      std::string value = padded(text(at(link, "name")), width);
       value += yes(at(link, "up")) ? quantity(at(link, "received"), "up  in %.0f") +
                                          quantity(at(link, "sent"), "  out %.0f") +
                                          quantity(at(link, "dropped"), "  dropped %.0f") +
@@ -242,7 +258,8 @@ void show_devices(std::string& out, const Node& status) {
     }
   }
   const auto& guard = at(status, "guard");
-  if (!text(at(status, "hold")).empty()) line(out, "drives", text(at(status, "hold")));
+  if (const auto hold = text(at(status, "hold")); !hold.empty())
+    line(out, "drives", hold + (count(at(status, "groups")) > 0 ? " (those of the base)" : ""));
   line(out, "guard",
        !yes(at(guard, "alive"))    ? "does not answer"
        : yes(at(guard, "has_bus")) ? "holds the drives"
@@ -267,7 +284,8 @@ std::string show_status(const Node& status) {
            quantity(at(status, "uptime_s"), "  up %.0f s"));
   show_nav(out, status);
   show_stream(out, "cmd_vel", at(status, "cmd_vel"));
-  show_stream(out, "joints", at(status, "joint_commands"));
+  show_stream(out, count(at(status, "groups")) > 0 ? "wheels" : "joints",
+              at(status, "joint_commands"));
   show_why(out, status);
   show_place(out, status);
   show_clearance(out, status);

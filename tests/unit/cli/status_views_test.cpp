@@ -159,8 +159,8 @@ TEST_F(StatusViews, ShowTheWholeInShort) {
   expect(
       show_status(status),
       {"owner     joint_command, stops 0.1 s after its last message",
-       "joints    heard, 120 followed, 3 refused, 40 of a flood not read, 7 of a second program: "
-       "joint 'wing': there is no such joint"});
+       "joints    heard, 120 followed, 3 refused, 40 of a flood not read, 7 of a second program, "
+       "last: joint 'wing': there is no such joint"});
   const auto& nav = *status.find("nav");
   EXPECT_EQ(*nav.find("owner")->text(), "joint_command");
   EXPECT_DOUBLE_EQ(nav.find("owner_timeout_s")->number().value_or(0), 0.1);
@@ -183,6 +183,36 @@ TEST(StatusInShort, TellsWhoseCommandsAnArmFollows) {
   EXPECT_NE(shown.find("arm       following  owner ros2\n"), std::string::npos) << shown;
   EXPECT_NE(shown.find("mast      holding  its commands have ceased\n"), std::string::npos);
   EXPECT_EQ(*parsed->root.find("groups")->list()->at(1).find("owner")->text(), "nobody");
+}
+
+/// Of a robot with an arm: what is of the wheels says so, and what a limit held back is told.
+TEST(StatusInShort, TellsAnArmsCommandsApartFromTheWheels) {
+  Snapshot s;
+  GroupSnapshot arm;
+  arm.name = "arm";
+  arm.owner = GroupOwner::broker;
+  arm.state = GroupState::following;
+  arm.accepted = 321;
+  arm.refused = 4;
+  ASSERT_TRUE(s.groups.push_back(arm));
+  arm.name = "mast";
+  arm.limited = 45;
+  ASSERT_TRUE(s.groups.push_back(arm));
+  s.joint_command.refused = 147;
+  s.joint_command.reason = "too old";
+  LinkSnapshot link;
+  link.name = "base_can";
+  ASSERT_TRUE(s.links.push_back(link));
+  link.name = "can_of_the_arm";
+  ASSERT_TRUE(s.links.push_back(link));
+  const auto shown = show_status(json::parse(publish::status_json(s, {}))->root);
+  for (const char* const has : {"arm       following  owner broker  321 followed, 4 refused\n",
+                                "mast      following  owner broker  321 followed, 4 refused, held "
+                                "by a limit in 45 cycles\n",
+                                "wheels    silent, 0 followed, 147 refused, last: too old\n",
+                                "drives    not held (those of the base)\n",
+                                "links     base_can       down", "          can_of_the_arm down"})
+    EXPECT_NE(shown.find(has), std::string::npos) << has << "\n" << shown;
 }
 
 TEST_F(StatusViews, ShowTheScannerAmongTheSensors) {
