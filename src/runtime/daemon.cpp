@@ -17,6 +17,7 @@
 #include "runtime/battery_loop.h"
 #include "runtime/clock.h"
 #include "runtime/control_loop.h"
+#include "runtime/farewell.h"
 #include "runtime/learned_subject.h"
 #include "runtime/log.h"
 #include "runtime/publish_loop.h"
@@ -280,6 +281,7 @@ class Daemon final {
   void come_to_rest() {
     control_exchange_.stops.ask_cancel();
     control_exchange_.trouble.store("droverd ends", std::memory_order_release);
+    for (const std::string& sinks : what_sinks(config_.engine)) log(LogLevel::warning, sinks);
     for (int i = 0; i < 70; ++i) {
       control_exchange_.looks.fetch_add(1, std::memory_order_relaxed);
       std::this_thread::sleep_for(50ms);  // the first one lets the control thread hear of it
