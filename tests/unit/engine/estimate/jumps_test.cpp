@@ -6,6 +6,13 @@
 namespace drover::engine::estimate {
 namespace {
 
+/// It never turns here, and knows where its antenna is all the same.
+LearnedValues known_arm() {
+  LearnedValues learned;
+  learned.antenna_ahead_m = learned.antenna_left_m = {0, 0.01};
+  return learned;
+}
+
 class EstimateJumps : public testing::TestWithParam<double> {};
 
 TEST_P(EstimateJumps, AreNotFollowedWhileDriving) {
@@ -67,9 +74,7 @@ TEST(EstimateContradiction, APoorPositionMovesNothingWhileADisputeHolds) {
 TEST(EstimateContradiction, IsNoneWithAPlaceThatNobodyKnewTheWayTo) {
   for (const double rolled_m : {0.0, 0.2, 2.0}) {
     Rig rig;
-    LearnedValues learned;  // it never turns, and knows where its antenna is all the same
-    learned.antenna_ahead_m = learned.antenna_left_m = {0, 0.01};
-    rig.estimator.recall(learned);
+    rig.estimator.recall(known_arm());
     rig.stand(5);
     rig.drive(0.5, 0.5, 5);
     rig.world.wheels = rig.world.position = rig.world.heading = false;
@@ -89,6 +94,7 @@ TEST(EstimateContradiction, IsNoneWithAPlaceThatNobodyKnewTheWayTo) {
 class AFixThatIsFoundAtRest : public testing::TestWithParam<FixQuality> {
  protected:
   AFixThatIsFoundAtRest() {
+    rig.estimator.recall(known_arm());
     rig.world.imu = true;
     rig.world.gst = true;
     rig.stand(5);
