@@ -21,13 +21,18 @@ class TimeAnchor final {
   /// After such a silence the receiver may have been restarted: UTC is placed anew.
   static constexpr Duration kMaxGap = std::chrono::seconds(10);
 
-  /// When the first byte of the epoch of `utc_of_day` was due; never later than `first_byte`.
+  /// So many epochs at their pace, and what comes in a backlog is placed by them.
+  static constexpr int kSure = 5;
+
+  /// When the first byte of the epoch of `utc_of_day` was due; later than `first_byte` only of a
+  /// backlog, whose reader may say when that began.
   /// UTC that runs backwards (a leap second, a corrected leap count) is placed anew.
   Time due(Duration utc_of_day, Time first_byte);
   void reset() { valid_ = false; }
 
  private:
   bool valid_ = false;
+  int paced_ = 0;
   Duration utc_of_day_{};
   Time first_byte_ = kNever;
   Time due_ = kNever;
