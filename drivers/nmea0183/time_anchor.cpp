@@ -16,23 +16,17 @@ Duration step_of_day(Duration from, Duration to) {
 Time TimeAnchor::due(Duration utc_of_day, Time first_byte) {
   const Duration step = step_of_day(utc_of_day_, utc_of_day);
   const Duration elapsed = first_byte - first_byte_;
-  bool known = false;
   if (!valid_ || step < Duration::zero() || elapsed > kMaxGap) {
     due_ = first_byte;
-    paced_ = 0;
   } else {
     const auto drift = Duration(static_cast<Duration::rep>(
         static_cast<double>(std::max(elapsed, Duration::zero()).count()) * kMaxDrift));
-    const Time predicted = due_ + step + drift;
-    const bool backlog = elapsed + kJitter < step;
-    due_ = backlog ? predicted : std::min(first_byte, predicted);
-    paced_ = backlog ? paced_ : paced_ + 1;
-    known = backlog && paced_ >= kSure;
+    due_ = std::min(first_byte, due_ + step + drift);
   }
   valid_ = true;
   utc_of_day_ = utc_of_day;
   first_byte_ = first_byte;
-  return known ? due_ : std::min(first_byte, due_);
+  return due_;
 }
 
 }  // namespace drover::nmea0183

@@ -9,30 +9,20 @@ namespace drover::nmea0183 {
 /// line, an adapter's latency timer, a scheduler). The earliest arrival, relative to UTC, is the
 /// one that was held up least: later epochs are placed by it. What is held up for good, such as a
 /// receiver that lags by a second, thereby gets an honest, old time.
-///
-/// What comes faster one after the other than the receiver counts was held up together, and its
-/// reader may know no more than when that began: it shows no earlier arrival.
 class TimeAnchor final {
  public:
-  /// Arrivals of what was not held up jitter by less.
-  static constexpr Duration kJitter = std::chrono::milliseconds(20);
   /// The clocks of receiver and computer may drift apart by this much.
   static constexpr double kMaxDrift = 500e-6;
   /// After such a silence the receiver may have been restarted: UTC is placed anew.
   static constexpr Duration kMaxGap = std::chrono::seconds(10);
 
-  /// So many epochs at their pace, and what comes in a backlog is placed by them.
-  static constexpr int kSure = 5;
-
-  /// When the first byte of the epoch of `utc_of_day` was due; later than `first_byte` only of a
-  /// backlog, whose reader may say when that began.
+  /// When the first byte of the epoch of `utc_of_day` was due; never later than `first_byte`.
   /// UTC that runs backwards (a leap second, a corrected leap count) is placed anew.
   Time due(Duration utc_of_day, Time first_byte);
   void reset() { valid_ = false; }
 
  private:
   bool valid_ = false;
-  int paced_ = 0;
   Duration utc_of_day_{};
   Time first_byte_ = kNever;
   Time due_ = kNever;

@@ -76,30 +76,6 @@ TEST(NmeaTimeAnchor, CrossesMidnight) {
   EXPECT_EQ(step_of_day(0h, 24h - 100ms), -100ms);
 }
 
-/// What lay in a line while its reader stood still comes at once, and its first byte may have come
-/// when that began: the reader says so. What is behind it did not.
-TEST(NmeaTimeAnchor, TakesABacklogForNoFastLine) {
-  TimeAnchor anchor;
-  for (int i = 0; i <= 10; ++i) anchor.due(10h + i * 100ms, at(i * 100ms));
-  for (int i = 11; i <= 14; ++i) {
-    const Time said = at(1005ms + i * 1ms);
-    const Time due = anchor.due(10h + i * 100ms, said);
-    EXPECT_NEAR(to_s(due - at(i * 100ms)), 0, 1e-3) << "epoch " << i << ", as it truly came";
-  }
-  for (int i = 15; i <= 20; ++i) {
-    const Time due = anchor.due(10h + i * 100ms, at(i * 100ms));
-    EXPECT_EQ(due, at(i * 100ms)) << "epoch " << i;
-  }
-}
-
-TEST(NmeaTimeAnchor, FindsAfterABacklogAtItsBeginWhenEpochsTrulyCome) {
-  TimeAnchor anchor;
-  for (int i = 0; i < 5; ++i) anchor.due(10h + i * 100ms, at(400ms + i * 1ms));
-  anchor.due(10h + 500ms, at(500ms));
-  EXPECT_EQ(anchor.due(10h + 600ms, at(600ms)), at(600ms));
-  EXPECT_LE(anchor.due(10h + 700ms, at(750ms)), at(701ms));
-}
-
 TEST(NmeaTimeAnchor, ForgetsOnReset) {
   TimeAnchor anchor;
   anchor.due(10h, at(0ms));
