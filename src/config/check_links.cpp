@@ -116,6 +116,11 @@ void check_interface(const LinkConfig& link, Findings& found) {
                      "\"" + link.can + "\" is no name of an interface: they have no slash",
                      name.empty() ? "a name like \"can0\"" : "did you mean \"" + name + "\"?");
   }
+  if (link.can.find_first_of(" \t:") != std::string::npos)
+    return found.add(
+        link_path(link, "can"),
+        "\"" + link.can + "\" is no name of an interface: they have neither spaces nor colons",
+        "a name like \"can0\", as \"ip link\" tells it");
   if (link.can.size() <= kLongestInterface) return;
   found.add(link_path(link, "can"), "\"" + link.can +
                                         "\" is no name of an interface: they have up to " +

@@ -44,6 +44,7 @@ void check_broker(Findings& found);
 void check_channel(Findings& found);
 /// Inputs that whoever reaches the robot's networks could use.
 void check_ros2(Findings& found);
+void warn_of_deaf_arms(Findings& found);
 /// What the robot covers, and its frames; turns the footprint counter-clockwise.
 void check_scene(Findings& found);
 void warn_of_short_look(Findings& found);

@@ -122,6 +122,20 @@ void check_channel(Findings& found) {
   }
 }
 
+/// Joints outside the base do nothing but what they are told.
+void warn_of_deaf_arms(Findings& found) {
+  const auto& config = found.config();
+  const bool over_mqtt = config.aimrt.enabled && config.aimrt.commands;
+  const bool over_ros2 =
+      config.ros2.configured && config.ros2.mode != "off" && config.ros2.inputs.joint_command;
+  if (config.engine.groups.empty() || over_mqtt || over_ros2) return;
+  found.hint_at("groups." + std::string(config.engine.groups[0].name.view()),
+                std::string("nobody can move it: aimrt.") +
+                    (config.aimrt.enabled ? "commands" : "enabled") +
+                    " is false, and ros2.inputs.joint_command is closed",
+                "one of the two");
+}
+
 void check_ros2(Findings& found) {
   const auto& ros2 = found.config().ros2;
   if (ros2.mode == "network" && ros2.inputs.any() && !ros2.network_inputs)

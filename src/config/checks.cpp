@@ -46,6 +46,7 @@ void check_and_resolve(const json::Node& root, const GroupNames& groups, const s
   check_broker(found);
   check_channel(found);
   check_ros2(found);
+  warn_of_deaf_arms(found);
   check_scene(found);
   check_scanners(found);
   check_batteries(folder, found);

@@ -68,6 +68,12 @@ TEST(ConfigurationChecks, RefuseAnInterfaceThatTheKernelCannotName) {
   EXPECT_EQ(problems(with("{\"can\": \"can0\"}", "{\"can\": \"unix:/tmp/can0\"}")), "");
 }
 
+TEST(ConfigurationChecks, RefuseAnInterfaceWithASpace) {
+  EXPECT_THAT(problems(with("{\"can\": \"can0\"}", "{\"can\": \"CAN 1\"}")),
+              testing::HasSubstr("links.can0.can: \"CAN 1\" is no name of an interface: they have "
+                                 "neither spaces nor colons"));
+}
+
 TEST(ConfigurationChecks, RefuseALinkOfTheWrongWire) {
   EXPECT_EQ(
       problems(with("\"link\": \"can0\", \"options\": {\"node\": 2}",

@@ -306,6 +306,20 @@ TEST(Groups, AskOfEachJointWhetherItCarriesAWeight) {
   EXPECT_EQ(arm_warnings(", \"carries_weight\": false},", ", \"carries_weight\": false },"), "");
 }
 
+TEST(Groups, TellOfAnArmThatNobodyCanMove) {
+  const auto with_section = [](const std::string& section) {
+    return arm_warnings("\"groups\": {", section + ", \"groups\": {");
+  };
+  EXPECT_THAT(with_section(R"("aimrt": {"commands": false})"),
+              HasSubstr("groups.arm: nobody can move it: aimrt.commands is false, and "
+                        "ros2.inputs.joint_command is closed"));
+  EXPECT_THAT(with_section(R"("aimrt": {"enabled": false})"), HasSubstr("aimrt.enabled is false"));
+  EXPECT_EQ(with_section(R"("aimrt": {"commands": false}, "ros2": {"inputs":)"
+                         R"( {"joint_command": true}})"),
+            "");
+  EXPECT_EQ(with_section(R"("aimrt": {"commands": true})"), "");
+}
+
 TEST(Groups, TellWhatAMasterIdOf0Means) {
   EXPECT_THAT(arm_warnings("{\"id\": 3, ", "{\"id\": 3, \"master_id\": 0, "),
               HasSubstr("devices.elbow.options.master_id: is 0, which means 16 more than id: a "
