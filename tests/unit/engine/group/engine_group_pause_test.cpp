@@ -45,8 +45,7 @@ TEST_F(EngineGroupPause, IsNoneWhileABrokerHangs) {
   run_s(1.4);
   refuse_s(1);
   send_s(0.1, 0.4);
-  EXPECT_EQ(reason(),
-            "pause your commands for a second, then send again: it was stopped");
+  EXPECT_EQ(reason(), "pause your commands for a second, then send again: it was stopped");
   expect_waits("e-stop");
 }
 
