@@ -29,7 +29,8 @@ src/engine/health    drover/ engine/config.h engine/environment.h engine/event_q
 src/engine/health    engine/still.h engine/base/ engine/estimate/ engine/health/ engine/sensors/
 src/engine/navigate  drover/ engine/config.h engine/event_queue.h engine/still.h
 src/engine/navigate  engine/base/ engine/gate/ engine/health/ engine/navigate/ track/
-src/engine/own       drover/ engine/config.h engine/event_queue.h engine/reason_text.h engine/still.h
+src/engine/own       drover/ engine/config.h engine/event_queue.h engine/still.h
+src/engine/own       engine/reason_text.h
 src/engine/own       engine/base/ engine/gate/ engine/health/ engine/navigate/ engine/own/
 src/link         drover/ link/
 src/scene/message    drover/ text/ scene/message/
