@@ -167,7 +167,8 @@ void LinkKeeper::supply_watchdog(Time now) {
     const bool busy = opened.problem.ends_with(std::strerror(EBUSY));
     log(busy ? LogLevel::info : LogLevel::warning,
         "outputs.watchdog: " + opened.problem +
-            (busy ? ", as it is while drover-guard pulses it for the droverd before this one" : ""));
+            (busy ? ", as it is while drover-guard pulses it for the droverd before this one"
+                  : ""));
   }
 }
 
