@@ -138,6 +138,8 @@ void JointGroup::step(const Input& input, std::span<AxisCommand> commands, std::
 
 /// Why it does not follow, and who is held by nobody any more.
 Reason JointGroup::why_not(const Input& input, const Reason& hindrance) const {
+  // A trouble of its own names a drive already, as it is now.
+  if (input.hindrance.empty() && !hindrance.empty()) return hindrance;
   Reason why = hindrance.empty() ? pause_first(joints_, input.axes) : hindrance;
   for (std::size_t i = 0; why.empty() && i < joints_.size(); ++i)
     if (const Reason& said = joints_[i].reason(); !said.empty())
