@@ -57,7 +57,7 @@ TEST_P(EveryMission, TellsItsStatusInTheDocumentsWords) {
 TEST_P(EveryMission, WarnsOfNoLineThatTheGuardHas) {
   std::ifstream stream(log().folder / "droverd.log");
   const std::string told{std::istreambuf_iterator<char>(stream), {}};
-  EXPECT_THAT(told, testing::Not(testing::ContainsRegex("(warning|error): .*resource busy")));
+  EXPECT_THAT(told, testing::Not(testing::ContainsRegex("(warning|error): [^\n]*resource busy")));
 }
 
 TEST_P(EveryMission, TellsItsStatusTenTimesASecond) {
