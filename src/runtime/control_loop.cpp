@@ -255,8 +255,7 @@ Time ControlLoop::publish(Time now) {
     }
     if (slot < open_.size() && wire_of(slot) == Wire::bytes) {
       const auto link = static_cast<LinkId>(slot);
-      state.dropped =
-          gateway_.bytes_dropped(link) + open_[slot].bytes_untaken + open_[slot].bytes_too_old;
+      state.dropped = gateway_.bytes_dropped(link) + open_[slot].bytes_untaken;
       state.refused = gateway_.refused(link);
     }
     (void)snapshot.links.push_back(state);

@@ -98,7 +98,6 @@ class ControlLoop final {
     std::unique_ptr<link::LineLink> lines;
     int baud = 0;
     std::uint64_t bytes_untaken = 0;  ///< the line had no room for them
-    std::uint64_t bytes_too_old = 0;  ///< nobody read them for too long
   };
   std::vector<Open> open_;    ///< by the gateway's numbers
   std::vector<pollfd> wait_;  ///< room for all that wakes

@@ -100,10 +100,9 @@ void ControlLoop::hear_streams(Time now) {
     for (; open_[link].serial && taken < SerialLoop::kRoom; ++taken) {
       if (!serial_.take(link, heard_)) break;
       link_state_[link].received += heard_.size;
-      open_[link].bytes_too_old += heard_.thrown_away;
       if (heard_.error != 0)
         lose(link, heard_.error, now);
-      else if (heard_.size > 0)
+      else
         apply(heard_.first, gateway::BytesHeard{static_cast<LinkId>(link), heard_.view()});
     }
     more |= taken == SerialLoop::kRoom;

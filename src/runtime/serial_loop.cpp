@@ -12,22 +12,14 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// Who looks so often and finds nothing knows of what comes next that it is no older.
+/// Its turns are counted: so often it takes one at the least.
 constexpr Duration kLookEach = 50ms;
-/// What may have waited for longer has no time that anybody could give it: told at the time of the
-/// read it would be taken for young, told as old as it can be for a position of before it was
-/// measured.
-constexpr Duration kTooLong = 250ms;
 
 }  // namespace
 
-bool too_old(const Listened& listened) {
-  return listened.ended - listened.began > kTooLong;
-}
-
-Time first_came_in(const Listened& listened) {
-  const auto before_last = static_cast<std::int64_t>(listened.size) - 1;
-  return listened.ended - listened.byte_time * std::max<std::int64_t>(before_last, 0);
+Time first_came_in(Time last, std::size_t size, Duration byte_time) {
+  const auto before_last = static_cast<std::int64_t>(size) - 1;
+  return last - byte_time * std::max<std::int64_t>(before_last, 0);
 }
 
 SerialLoop::SerialLoop(const gateway::Wiring& wiring) {
@@ -57,7 +49,6 @@ bool SerialLoop::take(std::size_t link, HeardBytes& heard) {
 }
 
 void SerialLoop::run(const std::atomic<bool>& stop) {
-  began_ = monotonic_now();
   while (!stop.load(std::memory_order_relaxed)) {
     take_orders();
     wait();
@@ -72,53 +63,35 @@ void SerialLoop::take_orders() {
     if (!line) continue;
     line->hold.obey();
     if (!line->hold.begin()) continue;
-    line->waits = line->dead = line->behind = false;
-    line->empty_at = began_;
+    line->waits = line->dead = false;
   }
 }
 
-/// A line for whose words there is no room keeps them. Whether one that is behind has more is asked
-/// at once: else nobody would know what of the next came meanwhile.
+/// A line for whose words there is no room keeps them.
 void SerialLoop::wait() {
   wait_.assign(1, {wake_.fd(), POLLIN, 0});
-  timespec longest{0, static_cast<long>(kLookEach.count())};
   for (const auto& line : lines_) {
     if (!line) continue;
     if (line->waits) line->waits = !told(*line);
-    if (!is_read(*line)) continue;
-    wait_.push_back({line->fd, POLLIN, 0});
-    if (line->behind) longest = {};
+    if (is_read(*line)) wait_.push_back({line->fd, POLLIN, 0});
   }
+  const timespec longest{0, static_cast<long>(kLookEach.count())};
   const int ready = ::ppoll(wait_.data(), wait_.size(), &longest, nullptr);
-  const Time ended = monotonic_now();
-  if (ready > 0 && wait_.front().revents != 0) wake_.clear();
+  const Time now = monotonic_now();
+  if (ready <= 0) return;
+  if (wait_.front().revents != 0) wake_.clear();
   auto fd = wait_.cbegin() + 1;
-  for (const auto& line : lines_) {
-    if (!line || !is_read(*line)) continue;
-    if (ready > 0 && (fd++)->revents != 0)
-      hear(*line, ended);
-    else if (!too_old({began_, ended}))
-      found_empty(*line, ended);
-  }
-  began_ = ended;
+  for (const auto& line : lines_)
+    if (line && is_read(*line) && (fd++)->revents != 0) hear(*line, now);
 }
 
-void SerialLoop::found_empty(Line& line, Time at) {
-  line.empty_at = at;
-  line.behind = false;
-}
-
-void SerialLoop::hear(Line& line, Time ended) {
+void SerialLoop::hear(Line& line, Time now) {
   auto& heard = line.untold;
   std::size_t size = 0;
   heard.error = link::read_serial(line.fd, heard.bytes, size);
   if (size == 0 && heard.error == 0) return;
-  const Listened listened{line.empty_at, ended, size, from_s(kBitsPerByte / line.baud)};
-  heard.first = first_came_in(listened);
-  line.behind = too_old(listened);  // and then what is left is as old
-  if (!line.behind) line.empty_at = ended;
-  heard.size = static_cast<std::uint16_t>(line.behind ? 0 : size);
-  heard.thrown_away = static_cast<std::uint16_t>(line.behind ? size : 0);
+  heard.size = static_cast<std::uint16_t>(size);
+  heard.first = first_came_in(now, size, from_s(kBitsPerByte / line.baud));
   line.dead = heard.error != 0;
   line.waits = !told(line);
 }

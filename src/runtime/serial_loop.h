@@ -26,22 +26,16 @@ struct HeardBytes {
   Time first = kNever;  ///< when the first of the bytes came in
   int error = 0;        ///< an errno: the line is dead, and nothing more comes
   std::uint16_t size = 0;
-  std::uint16_t thrown_away = 0;  ///< so many were too old
   std::array<std::uint8_t, 1024> bytes{};
   std::span<const std::uint8_t> view() const { return {bytes.data(), size}; }
 };
 
-/// A wait for bytes, and how many it then found.
-struct Listened {
-  Time began = kNever;  ///< nothing had come until then
-  Time ended = kNever;
-  std::size_t size = 0;
-  Duration byte_time{};  ///< on the wire
-};
-/// Nobody looked for so long that nobody knows when the bytes came in: they are thrown away.
-bool too_old(const Listened& listened);
-/// When the first of the bytes came in, the last one just now.
-Time first_came_in(const Listened& listened);
+/// When the first of some bytes came in, the last of which did at `last`. What lay in a line for
+/// long, because nobody read it, has no time that anybody could give it, and gets that of its read:
+/// who knows the time of day in it (a receiver's sentences) sees by itself that it is late. Told as
+/// old as it can be it would be taken for a faster line, thrown away the robot would miss where it
+/// went.
+Time first_came_in(Time last, std::size_t size, Duration byte_time);
 
 class SerialLoop final {
  public:
@@ -84,20 +78,16 @@ class SerialLoop final {
     HeardBytes untold;  ///< for which there was no room
     bool waits = false;
     bool dead = false;
-    Time empty_at = kNever;  ///< as far as anybody knows nothing had come until then
-    bool behind = false;     ///< there may be more of what came while nobody looked
   };
   void take_orders();
   void wait();
-  void hear(Line& line, Time ended);
-  static void found_empty(Line& line, Time at);
+  void hear(Line& line, Time now);
   /// False: what was heard has to wait for room.
   bool told(Line& line);
   static bool is_read(const Line& line) { return line.hold.holds() && !line.dead && !line.waits; }
 
   std::vector<std::unique_ptr<Line>> lines_;  ///< by the gateway's links; nullptr: of another wire
   std::vector<pollfd> wait_;
-  Time began_ = kNever;
   Wake ready_;
   Wake wake_;
   std::atomic<std::uint64_t> turns_{0};
