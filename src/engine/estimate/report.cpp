@@ -29,15 +29,6 @@ constexpr double kCertainScale = 4.0;
 // A receiver that does not tell how well it knows (GST) may be as bad as this beside its class.
 constexpr double kUntold_m = 0.019;
 
-/// Where the antenna is on the base shows when that turns, and until it did it may be measured
-/// wrong: two sigma of it, and half of what was found so far, since that is doubled. What is
-/// certain is told, and comes on top.
-double arm_doubt_m(const State& state) {
-  const bool learns = state.heading.last != kNever;
-  if (!learns || state.fit.arm_wrong()) return 0;
-  return 2 * state.fit.arm_sigma_m() + std::hypot(state.fit.ahead_m(), state.fit.left_m()) / 2;
-}
-
 HeadingDoubt doubt_of(const State& state, const EstimateConfig& config) {
   return {state.mount_sigma_rad(config), state.reckoned.east_m, state.reckoned.north_m};
 }
@@ -81,10 +72,9 @@ void Estimator::report(const State& state, Time now) {
   const double late_doubt_m = speed_mps * state.fit.late_doubt_s();
   const double unmeasured_m =
       unmeasured_sigma_m(state.gyro, antenna_of(config_, state.gnss.receiver));
-  const double sure_m =
-      kSure *
-      std::hypot(std::hypot(doubt.two_sigma_m(belief), 2 * std::hypot(tilt_m, unmeasured_m)),
-                 2 * late_doubt_m, std::hypot(2 * untold_m, arm_doubt_m(state)));
+  const double sure_m = kSure * std::hypot(std::hypot(doubt.two_sigma_m(belief),
+                                                      2 * std::hypot(tilt_m, unmeasured_m)),
+                                           2 * late_doubt_m, 2 * untold_m);
   e.error_bound_m = state.has_position ? sure_m : kAbsent;
   e.yaw_error_rad = state.has_heading ? two_sigma_rad : kAbsent;
 

@@ -389,7 +389,7 @@ TEST_F(ARobotWhosePlaceChanges, IsStartedAtOnceWhenItWasPushedUnheardWithinSight
   for (auto& drive : rig.drives) drive.silent = false;
   rig.run_s(5);
   EXPECT_THAT(told(), ::testing::Not(HasSubstr("jumped")));
-  EXPECT_LT(rig.snapshot().nav.error_bound_m, 0.6);  // 0.4 of it where its antenna may be
+  EXPECT_LT(rig.snapshot().nav.error_bound_m, 0.4);
   expect_drives();
 }
 

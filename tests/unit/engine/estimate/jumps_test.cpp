@@ -6,13 +6,6 @@
 namespace drover::engine::estimate {
 namespace {
 
-/// It never turns here, and knows where its antenna is all the same.
-LearnedValues known_arm() {
-  LearnedValues learned;
-  learned.antenna_ahead_m = learned.antenna_left_m = {0, 0.01};
-  return learned;
-}
-
 class EstimateJumps : public testing::TestWithParam<double> {};
 
 TEST_P(EstimateJumps, AreNotFollowedWhileDriving) {
@@ -74,7 +67,6 @@ TEST(EstimateContradiction, APoorPositionMovesNothingWhileADisputeHolds) {
 TEST(EstimateContradiction, IsNoneWithAPlaceThatNobodyKnewTheWayTo) {
   for (const double rolled_m : {0.0, 0.2, 2.0}) {
     Rig rig;
-    rig.estimator.recall(known_arm());
     rig.stand(5);
     rig.drive(0.5, 0.5, 5);
     rig.world.wheels = rig.world.position = rig.world.heading = false;
@@ -94,7 +86,6 @@ TEST(EstimateContradiction, IsNoneWithAPlaceThatNobodyKnewTheWayTo) {
 class AFixThatIsFoundAtRest : public testing::TestWithParam<FixQuality> {
  protected:
   AFixThatIsFoundAtRest() {
-    rig.estimator.recall(known_arm());
     rig.world.imu = true;
     rig.world.gst = true;
     rig.stand(5);

@@ -210,15 +210,13 @@ TEST_F(LearnedBefore, ALineThatWasCalibratedIsLeftAsItIs) {
 }
 
 TEST_F(LearnedBefore, ADelayNeedsNoChangeOfSpeedAnyMore) {
-  LearnedValues arm;  // which shows in turns, is known either way
-  arm.antenna_ahead_m = arm.antenna_left_m = {0, 0.01};
-  LearnedValues learned = arm;
+  LearnedValues learned;
   learned.late_s = {0.2, 0.01};
   for (const bool recalls : {false, true}) {
     Rig rig(6);
     rig.world.noise = 0;
     rig.world.latency_s = rig.world.stamp_error_s = 0.2;
-    rig.estimator.recall(recalls ? learned : arm);
+    if (recalls) rig.estimator.recall(learned);
     settle(rig);
     rig.drive(0.5, 0.5, 1);
     EXPECT_LT(rig.position_error_m(), 0.03);
