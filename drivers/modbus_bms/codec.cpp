@@ -129,14 +129,12 @@ class Decoder {
 
 Reason alarm_words(const RegisterMap& map, std::uint64_t alarm_bits) {
   Reason words;
-  const auto size = [](std::string_view view) { return static_cast<int>(view.size()); };
   for (const bool critical : {true, false}) {
     for (std::size_t i = 0; i < map.alarms.size() && i < kMaxRegisterAlarms; ++i) {
       const RegisterAlarm& alarm = map.alarms[i];
       if (alarm.critical != critical || (alarm_bits >> i & 1U) == 0) continue;
-      const Reason before = words;
-      words.format("%.*s%s%.*s", size(before), before.view().data(), before.empty() ? "" : ", ",
-                   size(alarm.text), alarm.text.data());
+      if (!words.empty()) words.append(", ");
+      words.append(alarm.text);
     }
   }
   return words;

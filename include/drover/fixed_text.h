@@ -20,11 +20,17 @@ class FixedText {
 
   /// Copies; what does not fit is cut at a UTF-8 character boundary.
   void assign(std::string_view text) {
-    size_ = text.size() < N ? text.size() : N;
-    if (size_ < text.size()) {
-      while (size_ > 0 && (static_cast<unsigned char>(text[size_]) & 0xC0U) == 0x80U) --size_;
+    size_ = 0;
+    append(text);
+  }
+  /// Behind what there is, likewise.
+  void append(std::string_view text) {
+    std::size_t fits = std::min(text.size(), N - size_);
+    if (fits < text.size()) {
+      while (fits > 0 && (static_cast<unsigned char>(text[fits]) & 0xC0U) == 0x80U) --fits;
     }
-    std::copy_n(text.data(), size_, chars_.data());
+    std::copy_n(text.data(), fits, chars_.data() + size_);
+    size_ += fits;
   }
   /// printf into the text; cut when it does not fit. glibc's vsnprintf does not allocate for these.
   [[gnu::format(printf, 2, 3)]] void format(const char* pattern, ...) {

@@ -23,14 +23,13 @@ src/engine/signals   drover/ engine/config.h engine/signals/
 src/engine/sensors   drover/ engine/config.h engine/environment.h engine/estimate/ engine/sensors/
 src/engine/base      drover/ engine/config.h engine/still.h engine/base/
 src/engine/gate      drover/ engine/config.h engine/base/ engine/gate/
-src/engine/group     drover/ engine/config.h engine/event_queue.h engine/reason_text.h
+src/engine/group     drover/ engine/config.h engine/event_queue.h
 src/engine/group     engine/gate/ engine/health/ engine/group/
 src/engine/health    drover/ engine/config.h engine/environment.h engine/event_queue.h
 src/engine/health    engine/still.h engine/base/ engine/estimate/ engine/health/ engine/sensors/
 src/engine/navigate  drover/ engine/config.h engine/event_queue.h engine/still.h
 src/engine/navigate  engine/base/ engine/gate/ engine/health/ engine/navigate/ track/
 src/engine/own       drover/ engine/config.h engine/event_queue.h engine/still.h
-src/engine/own       engine/reason_text.h
 src/engine/own       engine/base/ engine/gate/ engine/health/ engine/navigate/ engine/own/
 src/link         drover/ link/
 src/scene/message    drover/ text/ scene/message/

@@ -3,14 +3,12 @@
 
 #include <algorithm>
 
-#include "engine/reason_text.h"
-
 namespace drover::engine {
 
 Reason of_joint(const Name& joint, const Reason& what) {
   Reason text = joint.view();
-  append(text, ": ");
-  append(text, what);
+  text.append(": ");
+  text.append(what);
   return text;
 }
 
@@ -38,8 +36,8 @@ Reason pause_first(std::span<const JointServo> joints, std::span<const AxisSnaps
   }
   Reason text = kPauseFirst;
   if (cause.empty()) return text;
-  append(text, " by ");
-  append(text, cause);
+  text.append(" by ");
+  text.append(cause);
   return text;
 }
 
@@ -50,15 +48,15 @@ Reason with_lost(std::span<const JointServo> joints, std::span<const AxisSnapsho
   for (const JointServo& joint : joints) {
     if (joint.lost().empty()) continue;
     if (why.view().find(joint.lost().view()) != std::string_view::npos) continue;
-    if (first != nullptr) append(text, ", ");
-    append(text, axes[joint.rules().axis].joint);
+    if (first != nullptr) text.append(", ");
+    text.append(axes[joint.rules().axis].joint);
     if (first == nullptr) first = &joint.lost();
   }
   if (first == nullptr) return why;
-  append(text, ": not held by anybody: ");
-  append(text, *first);
-  if (!why.empty()) append(text, "; ");
-  append(text, why);
+  text.append(": not held by anybody: ");
+  text.append(*first);
+  if (!why.empty()) text.append("; ");
+  text.append(why);
   return text;
 }
 

@@ -6,7 +6,6 @@
 
 #include "engine/group/group_words.h"
 #include "engine/health/heard.h"
-#include "engine/reason_text.h"
 
 namespace drover::engine {
 namespace {
@@ -24,11 +23,11 @@ Reason limits_of(const Name& joint, JointValues limited) {
   std::string_view before = " (";
   for (std::size_t i = 0; i < kJointValueWords.size(); ++i) {
     if ((limited & bit(static_cast<JointValue>(i))) == 0) continue;
-    append(text, before);
-    append(text, kJointValueWords[i]);
+    text.append(before);
+    text.append(kJointValueWords[i]);
     before = ", ";
   }
-  append(text, ")");
+  text.append(")");
   return text;
 }
 
@@ -237,11 +236,11 @@ Reason JointGroup::all_limited(std::span<const AxisSnapshot> axes, std::size_t r
     if (!text.empty() && needs > room) {
       Reason others;
       others.format(" and %ld more", static_cast<long>(left));
-      append(text, others);
+      text.append(others);
       return text;
     }
-    append(text, text.empty() ? "" : ", ");
-    append(text, next);
+    text.append(text.empty() ? "" : ", ");
+    text.append(next);
     --left;
   }
   return text;

@@ -1,8 +1,6 @@
 // Tells the journal of drives of a group that are not heard, or have a fault.
 #include "engine/group/joint_notices.h"
 
-#include "engine/reason_text.h"
-
 namespace drover::engine {
 namespace {
 
@@ -23,9 +21,9 @@ void JointNotices::update(Time now, std::size_t joint, const Name& group, const 
   if (holds) one.told_at = now;
   if (holds && said) return;
   Reason text = group.view();
-  append(text, ": ");
-  append(text, holds ? trouble.view() : name.view());
-  if (!holds) append(text, " answers, and has no fault");
+  text.append(": ");
+  text.append(holds ? trouble.view() : name.view());
+  if (!holds) text.append(" answers, and has no fault");
   events.notice(now, holds ? Notice::Level::warning : Notice::Level::info, text);
 }
 

@@ -43,9 +43,8 @@ double speed_sigma_mps(FixQuality quality) {
 void append(Reason& text, const char* format, double value) {
   Reason part;
   part.format(format, value);
-  const Reason before = text;
-  text.format("%.*s%s%.*s", static_cast<int>(before.view().size()), before.view().data(),
-              before.empty() ? "" : ", ", static_cast<int>(part.view().size()), part.view().data());
+  if (!text.empty()) text.append(", ");
+  text.append(part);
 }
 
 }  // namespace

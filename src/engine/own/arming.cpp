@@ -3,8 +3,6 @@
 
 #include <cmath>
 
-#include "engine/reason_text.h"
-
 namespace drover::engine {
 namespace {
 
@@ -55,7 +53,7 @@ void Arming::release(const RequestId& id, const ReleaseHold& release, const Reas
                     : "the drives let go: the robot can be pushed, and can roll";
   // An arm that falls is a danger to who pushes, and one that moves, too.
   if (joints_of_groups(config_) > 0)
-    append(note, "; its other joints follow nobody, what runs is held");
+    note.append("; its other joints follow nobody, what runs is held");
   events.push(now, CommandAccepted{id, note});
 }
 

@@ -20,6 +20,17 @@ TEST(FixedText, IsCutAtACharacterNotInsideOne) {
   EXPECT_EQ(text.view(), "园");
 }
 
+TEST(FixedText, AppendsAsMuchAsFits) {
+  FixedText<8> text("abc");
+  text.append("de");
+  EXPECT_EQ(text, "abcde");
+  text.append("x园");  // the character needs three bytes, and two are left
+  EXPECT_EQ(text, "abcdex");
+  text.append("");
+  text.append("1234");
+  EXPECT_EQ(text, "abcdex12");
+}
+
 TEST(FixedText, FormatsWithinItsSize) {
   FixedText<8> text;
   text.format("%s %d", "abc", 123456);
