@@ -103,8 +103,8 @@ struct OutputsUp {
 struct ClearanceFound {
   Clearance clearance;
 };
-/// The control thread stood still for so long while the robot moved, as long as the guard gives it,
-/// or longer: whatever moves comes to rest. What is heard meanwhile has its own time.
+/// The control thread stood still while the robot moved, for so long that a guard which lived would
+/// have taken the drives: whatever moves comes to rest. What is heard meanwhile has its own time.
 struct HeldUp {
   double lasted_s = 0;
 };
