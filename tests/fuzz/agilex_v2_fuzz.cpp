@@ -3,8 +3,7 @@
 #include <cstdlib>
 
 #include "drivers/agilex_v2/driver.h"
-#include "tests/fuzz/input.h"
-#include "tests/fuzz/on_list.h"
+#include "tests/fuzz/drive_actuator.h"
 
 namespace drover {
 namespace {
@@ -13,6 +12,10 @@ constexpr std::array<std::uint32_t, 7> kIds{0x111, 0x151, 0x211, 0x221, 0x421, 0
 
 double part_of(std::uint8_t byte) {
   return byte == 0xFF ? kAbsent : (byte - 127) * 0.01;
+}
+
+Setpoint read_setpoint(fuzz::Input& input, std::uint8_t what) {
+  return {static_cast<AxisRequest>(what % 4), 0, {part_of(input.byte()), part_of(input.byte())}};
 }
 
 void judge(const agilex_v2::AgilexV2Driver& driver, const Setpoint& setpoint, Time now,
@@ -35,24 +38,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const bool hunter = input.byte() % 2 != 0;
   agilex_v2::AgilexV2Driver driver(
       0, hunter ? std::optional(agilex_v2::Steering{}) : std::optional<agilex_v2::Steering>());
-  Time now{std::chrono::seconds(1)};
-  DriverOut out;
-  while (input.more()) {
-    out.clear();
-    now += std::chrono::milliseconds(input.byte());
-    const std::uint8_t what = input.byte();
-    if (what < 0x80) {
-      driver.on_frame(fuzz::read_frame(input, kIds[what % kIds.size()]), now, out);
-    } else if (what == 0xFF) {
-      driver.on_link_up(now);
-    } else {
-      const Setpoint setpoint{
-          static_cast<AxisRequest>(what % 4), 0, {part_of(input.byte()), part_of(input.byte())}};
-      driver.on_setpoints({&setpoint, 1}, now, out);
-      driver.on_tick(now, out);
-      judge(driver, setpoint, now, out);
-    }
-    (void)driver.health(now);
-  }
+  fuzz::drive_actuator(driver, kIds, input, read_setpoint, judge);
   return 0;
 }

@@ -7,8 +7,7 @@
 #include <cstdlib>
 
 #include "drivers/mit/frame.h"
-#include "tests/fuzz/input.h"
-#include "tests/fuzz/on_list.h"
+#include "tests/fuzz/drive_actuator.h"
 
 namespace drover::fuzz {
 
@@ -40,24 +39,7 @@ void judge_mit(const Driver& driver, const Setpoint& setpoint, Time now, const D
 
 template <class Driver>
 void drive_mit(Driver& driver, const std::array<std::uint32_t, 4>& ids, Input& input) {
-  Time now{std::chrono::seconds(1)};
-  DriverOut out;
-  while (input.more()) {
-    out.clear();
-    now += std::chrono::milliseconds(input.byte());
-    const std::uint8_t what = input.byte();
-    if (what < 0x80) {
-      driver.on_frame(read_frame(input, ids[what % ids.size()]), now, out);
-    } else if (what == 0xFF) {
-      driver.on_link_up(now);
-    } else {
-      const Setpoint setpoint = read_mit_setpoint(input, what);
-      driver.on_setpoints({&setpoint, 1}, now, out);
-      driver.on_tick(now, out);
-      judge_mit(driver, setpoint, now, out);
-    }
-    (void)driver.health(now);
-  }
+  drive_actuator(driver, ids, input, read_mit_setpoint, judge_mit<Driver>);
 }
 
 }  // namespace drover::fuzz

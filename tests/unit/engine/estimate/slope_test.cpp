@@ -66,6 +66,14 @@ class EstimateHangsOnASlope : public testing::TestWithParam<double> {
     rig.stand(5);
     rig.drive(0.5, 0.5, 20);
   }
+  /// Five metres over level ground, likewise.
+  static void come_along(Rig& rig) {
+    rig.yaw_rad = 0;
+    rig.world.imu = true;
+    rig.stand(5);
+    rig.drive(0.5, 0.5, 10);
+    rig.forget();
+  }
 };
 
 TEST_P(EstimateHangsOnASlope, AndDisputesNothing) {
@@ -90,11 +98,7 @@ TEST_P(EstimateHangsOnASlope, AndDisputesNothing) {
 TEST_P(EstimateHangsOnASlope, ThatBeginsMeanwhileAndDisputesNothing) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     Rig rig(seed, with_mast());
-    rig.yaw_rad = 0;
-    rig.world.imu = true;
-    rig.stand(5);
-    rig.drive(0.5, 0.5, 10);
-    rig.forget();
+    come_along(rig);
     rig.world.imu = false;
     rig.drive(0.5, 0.5, 0.15);
     for (int i = 1; i <= 10; ++i) {
@@ -153,11 +157,7 @@ TEST_P(EstimateHangsOnASlope, ThatBeginsMeanwhileAndStandsOnItInsideItsBound) {
     for (const double way_m : {0.3, 0.5, 1.0}) {
       for (std::uint64_t seed = 1; seed <= 10; ++seed) {
         Rig rig(seed, with_mast());
-        rig.yaw_rad = 0;
-        rig.world.imu = true;
-        rig.stand(5);
-        rig.drive(0.5, 0.5, 10);
-        rig.forget();
+        come_along(rig);
         rig.world.imu = false;
         for (int i = 1; i <= 20; ++i) {
           rig.world.slope_rad = to_rad(kSteepest_deg) * std::min(1.0, way_m * i / 20 / kBase_m);
