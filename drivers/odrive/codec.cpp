@@ -96,7 +96,7 @@ std::optional<std::uint32_t> decode_u32_error_0_5(const CanFrame& frame) {
   return read_u32(frame, 0);
 }
 
-std::optional<FloatPair> decode_floats(const CanFrame& frame) {
+[[gnu::hot]] std::optional<FloatPair> decode_floats(const CanFrame& frame) {
   if (frame.remote || frame.len != 8) return {};
   return FloatPair{load_le_float(frame.data, 0), load_le_float(frame.data, 4)};
 }

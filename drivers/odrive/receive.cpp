@@ -30,7 +30,7 @@ bool is_master_command(std::uint8_t command, Firmware firmware) {
 
 }  // namespace
 
-void OdriveDriver::on_frame(const CanFrame& frame, Time received, DriverOut& out) {
+[[gnu::hot]] void OdriveDriver::on_frame(const CanFrame& frame, Time received, DriverOut& out) {
   if (!belongs_to(frame, settings_.node) || frame.remote) return;
   const std::uint8_t command = command_of(frame.id);
   if (is_master_command(command, settings_.firmware)) {
@@ -51,8 +51,8 @@ void OdriveDriver::on_foreign(const CanFrame& frame, Time received) {
 }
 
 /// False when the frame is not as documented; frames that nobody asked for are fine.
-bool OdriveDriver::on_reply(std::uint8_t command, const CanFrame& frame, Time received,
-                            DriverOut& out) {
+[[gnu::hot]] bool OdriveDriver::on_reply(std::uint8_t command, const CanFrame& frame, Time received,
+                                         DriverOut& out) {
   const bool v0_6 = settings_.firmware == Firmware::v0_6;
   bool understood = false;
   switch (command) {
@@ -126,7 +126,7 @@ bool OdriveDriver::on_heartbeat(const CanFrame& frame, Time received, DriverOut&
   return true;
 }
 
-bool OdriveDriver::on_estimates(const CanFrame& frame, Time received, DriverOut& out) {
+[[gnu::hot]] bool OdriveDriver::on_estimates(const CanFrame& frame, Time received, DriverOut& out) {
   const auto pair = decode_floats(frame);
   if (!pair || !std::isfinite(pair->first) || !std::isfinite(pair->second)) return false;
   const double rad_per_turn = 2 * std::numbers::pi * settings_.sign / settings_.gear_ratio;

@@ -1,6 +1,8 @@
 // Numbers in bytes, in either order. Callers have checked that the bytes are there.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <concepts>
 #include <cstddef>
@@ -16,11 +18,10 @@ static_assert(sizeof(float) == 4 && std::numeric_limits<float>::is_iec559);
 /// The number of type T whose first byte is `bytes[at]`, lowest byte first.
 template <std::integral T>
 constexpr T load_le(std::span<const std::uint8_t> bytes, std::size_t at = 0) {
-  std::make_unsigned_t<T> value = 0;
-  for (std::size_t i = sizeof(T); i-- > 0;)
-    value = static_cast<std::make_unsigned_t<T>>(static_cast<std::uint64_t>(value) << 8U |
-                                                 bytes[at + i]);
-  return static_cast<T>(value);
+  std::array<std::uint8_t, sizeof(T)> own{};
+  std::copy_n(bytes.subspan(at, sizeof(T)).data(), sizeof(T), own.data());
+  if constexpr (std::endian::native == std::endian::big) std::reverse(own.begin(), own.end());
+  return std::bit_cast<T>(own);
 }
 
 /// Highest byte first.

@@ -58,7 +58,7 @@ Engine::Impl::Impl(const EngineConfig& c)
   snapshot.output_configured = config.output_configured;
 }
 
-void Engine::Impl::count(const Measurement& m) {
+[[gnu::hot]] void Engine::Impl::count(const Measurement& m) {
   if (const auto* motion = std::get_if<AxisMotion>(&m.value)) {
     if (AxisSnapshot* const axis = axis_of(motion->axis)) ++axis->source.samples;
   } else if (const auto* line = std::get_if<LineState>(&m.value)) {
@@ -67,7 +67,7 @@ void Engine::Impl::count(const Measurement& m) {
   }
 }
 
-void Engine::Impl::take(const Measurement& m) {
+[[gnu::hot]] void Engine::Impl::take(const Measurement& m) {
   count(m);
   const bool in_use = sensors.take(m, estimator);
   // What a stuck or silent sensor's driver still hands on is not believed. Of those that are not in
@@ -246,7 +246,7 @@ Engine::Engine(const EngineConfig& config) {
 
 Engine::~Engine() = default;
 
-void Engine::on_measurement(const Measurement& measurement) {
+[[gnu::hot]] void Engine::on_measurement(const Measurement& measurement) {
   impl_->take(measurement);
 }
 

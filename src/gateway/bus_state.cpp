@@ -8,7 +8,7 @@ void BusState::on_up() {
   jammed_since_ = kNever;
 }
 
-void BusState::on_frame(const CanFrame& frame, Time received) {
+[[gnu::hot]] void BusState::on_frame(const CanFrame& frame, Time received) {
   if (frame.error) {
     condition_.on_error_frame(frame, received);
   } else {

@@ -43,7 +43,7 @@ void CanCondition::on_error_frame(const CanFrame& frame, Time received) {
   }
 }
 
-void CanCondition::on_frame(Time received) {
+[[gnu::hot]] void CanCondition::on_frame(Time received) {
   last_frame_ = received;
   if (state_ == State::off) enter(State::active);
 }

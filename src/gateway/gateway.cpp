@@ -62,12 +62,12 @@ Gateway::Gateway(const config::DroverConfig& config)
   }
 }
 
-void Gateway::apply(const Input& input) {
+[[gnu::hot]] void Gateway::apply(const Input& input) {
   std::visit([&](const auto& body) { on(body, input.time); }, input.body);
 }
 
 /// What the device said in the last call.
-void Gateway::take(Slot& slot, Time now) {
+[[gnu::hot]] void Gateway::take(Slot& slot, Time now) {
   for (auto& measurement : scratch_.measurements) {
     measurement.source = slot.source;
     engine_.on_measurement(measurement);
@@ -88,7 +88,7 @@ void Gateway::take(Slot& slot, Time now) {
 }
 
 /// What a device wants to send goes through the frame gate, and nowhere around it.
-void Gateway::send(Slot& slot, Time now) {
+[[gnu::hot]] void Gateway::send(Slot& slot, Time now) {
   if (scratch_.frames.empty()) return;
   if (slot.made.actuator == nullptr) {
     without_rules_[slot.link] += scratch_.frames.size();

@@ -48,7 +48,7 @@ CanLink::CanLink(UniqueFd fd) : fd_(std::move(fd)), buffers_(std::make_unique<Bu
 
 CanLink::~CanLink() = default;
 
-bool CanLink::receive(const StampWindow& window, FrameBatch& batch) {
+[[gnu::hot]] bool CanLink::receive(const StampWindow& window, FrameBatch& batch) {
   batch.clear();
   auto& b = *buffers_;
   b.make_ready();

@@ -124,7 +124,7 @@ BENCHMARK(receive_whole)->UseManualTime()->Iterations(kRounds);
 
 /// At 8000 frames a second, drained on the tick: what a tick brings, after a tick of rest.
 constexpr std::size_t kPaced = 40;
-constexpr int kPacedRounds = 100;
+constexpr int kPacedRounds = 20;
 
 template <class Work>
 void each_tick(benchmark::State& state, Robot& robot, const Bus& bus, const Work& work) {

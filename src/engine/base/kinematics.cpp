@@ -90,7 +90,7 @@ double curvature_radpm(double wheelbase_m, double steering_rad) {
   return std::tan(steering_rad) / wheelbase_m;
 }
 
-bool takes_twist(const Kinematics& base) {
+[[gnu::hot]] bool takes_twist(const Kinematics& base) {
   return std::holds_alternative<TwistBase>(base) || std::holds_alternative<Ackermann>(base);
 }
 
@@ -183,7 +183,7 @@ Time next_stale(const Told& told, Time at, Duration stale) {
   return next;
 }
 
-double rim_mps(const Kinematics& base, double radps) {
+[[gnu::hot]] double rim_mps(const Kinematics& base, double radps) {
   return radps * sides_of(base).wheel_radius_m;
 }
 

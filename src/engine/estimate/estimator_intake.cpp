@@ -16,7 +16,7 @@ constexpr double kFarthest_m = 100000.0;  // from the origin: another place, not
 
 }  // namespace
 
-void Estimator::on_measurement(const Measurement& measurement) {
+[[gnu::hot]] void Estimator::on_measurement(const Measurement& measurement) {
   if (measurement.time == kNever) return;
   // Nothing is true later than it was heard.
   const Time time = measurement.received == kNever
@@ -36,7 +36,7 @@ void Estimator::on_measurement(const Measurement& measurement) {
   }
 }
 
-void Estimator::on_joint(const AxisMotion& motion, Time time) {
+[[gnu::hot]] void Estimator::on_joint(const AxisMotion& motion, Time time) {
   if (takes_twist(base_) || motion.axis >= joint_count_ || !joints_[motion.axis]) return;
   if (!(std::abs(rim_mps(base_, motion.velocity_radps)) <= kFastestRim_mps)) {
     ++counters_.absurd;
@@ -84,7 +84,7 @@ void Estimator::on_imu(const ImuSample& sample, std::uint8_t source, Time time) 
 
 /// To what is known of a slot so far; in its place, because every frame of every joint does it.
 template <class Edit>
-void Estimator::edit_slot(Time slot, const Edit& edit) {
+[[gnu::hot]] void Estimator::edit_slot(Time slot, const Edit& edit) {
   const std::size_t i = history_.find(slot, 0);
   if (i < history_.size()) {
     edit(*std::get_if<MotionInput>(&history_.at(i).input));
@@ -130,7 +130,7 @@ void Estimator::on_heading(const GnssHeading& heading, std::uint8_t receiver, Ti
                         receiver});
 }
 
-bool Estimator::too_old(Time time) {
+[[gnu::hot]] bool Estimator::too_old(Time time) {
   const bool old = time < history_.base().time || time < now_ - max_delay_;
   counters_.late += old ? 1 : 0;
   return old;

@@ -51,7 +51,7 @@ Sensors::Sensors(const EngineConfig& config)
   imu_at_.fill(kNever);
 }
 
-bool Sensors::take(const Measurement& m, const Estimator& estimator) {
+[[gnu::hot]] bool Sensors::take(const Measurement& m, const Estimator& estimator) {
   if (!is_of_a_sensor(m)) return true;  // there may be more drives than sensors of a kind
   const std::size_t source = m.source;
   if (source >= kMaxOfKind) return false;
