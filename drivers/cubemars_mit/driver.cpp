@@ -15,8 +15,6 @@ constexpr Duration kSearch = milliseconds(100);
 constexpr Duration kListen = milliseconds(200);
 /// A motor that is silent for so long has lost its supply, or let down what it carried.
 constexpr Duration kGivenUp = milliseconds(3000);
-constexpr double kSlow_radps = 0.1;
-constexpr Duration kIdleAtLast = milliseconds(1000);
 
 }  // namespace
 
@@ -139,8 +137,9 @@ void CubemarsDriver::control(const Setpoint& command, Time now, DriverOut& out) 
     case Phase::arming: arm(now, out); return;
     case Phase::idling: {
       const bool may_be_on = power_ == Power::unknown || power_ == Power::on;
-      const bool slow = !silent(now) && std::abs(feedback_.motion.velocity_radps) < kSlow_radps;
-      if (may_be_on && (slow || now - phase_since_ > kIdleAtLast)) let_go(now);
+      const bool due =
+          letting_go_.is_due(silent(now) ? kAbsent : feedback_.motion.velocity_radps, now);
+      if (may_be_on && due) let_go(now);
       break;
     }
     case Phase::resting:
@@ -163,6 +162,7 @@ void CubemarsDriver::take(const Setpoint& command, Time now, DriverOut& out) {
   if (changed && !arms(request_)) {
     phase_ = request_ == AxisRequest::idle ? Phase::idling : Phase::resting;
     phase_since_ = now;
+    letting_go_.begin(now);
     if (was) {
       fault_ = false;
       lock_reason_.clear();

@@ -99,6 +99,7 @@ class CubemarsDriver final : public Device, public FrameFace, public Actuator {
   AxisRequest request_ = AxisRequest::rest;
   bool commanded_ = false;  ///< since the last tick
   Time phase_since_ = kNever;
+  mit::LettingGo letting_go_;
   int attempts_ = 0;  ///< to enable it
   Time last_attempt_ = kNever;
   bool fault_ = false;  ///< `lock_reason_` says which

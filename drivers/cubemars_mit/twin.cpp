@@ -42,11 +42,13 @@ bool CubemarsTwin::set_fault(std::string_view name, Time) {
     on_ = false;
   } else if (name.empty()) {
     error_ = MotorError::none;
-    motor_.stuck = motor_.wrong_sign = silent_ = false;
+    motor_.stuck = motor_.wrong_sign = motor_.torque_reversed = silent_ = false;
   } else if (name == "stuck_encoder") {
     motor_.stuck = true;
   } else if (name == "wrong_sign") {
     motor_.wrong_sign = true;
+  } else if (name == "torque_reversed") {
+    motor_.torque_reversed = true;
   } else if (name == "silent") {
     silent_ = true;
   } else if (name == "leaves_closed_loop") {

@@ -34,8 +34,9 @@ class CubemarsTwin final : public CanTwin {
   void on_tick(Time now, std::span<Shaft> shafts, TwinFrames& out) override;
   void set_power(bool on, Time now) override;
   /// Known: "over_temperature", "over_current", "over_voltage", "under_voltage", "encoder",
-  /// "phase_imbalance" (off until cleared), "stuck_encoder", "wrong_sign", "silent" (sends nothing,
-  /// still obeys), "leaves_closed_loop" (once; no answer tells it).
+  /// "phase_imbalance" (off until cleared), "stuck_encoder", "wrong_sign" (torque and encoder),
+  /// "torque_reversed" (the torque alone), "silent" (sends nothing, still obeys),
+  /// "leaves_closed_loop" (once; no answer tells it).
   bool set_fault(std::string_view name, Time now) override;
 
  private:

@@ -13,8 +13,6 @@ constexpr Duration kRetry = milliseconds(100);
 constexpr Duration kPoll = milliseconds(10);
 /// Of a motor that was never heard: perhaps nobody is on the bus, and nothing is acknowledged.
 constexpr Duration kSearch = milliseconds(100);
-constexpr double kSlow_radps = 0.1;
-constexpr Duration kIdleAtLast = milliseconds(1000);
 
 }  // namespace
 
@@ -127,9 +125,8 @@ void DamiaoDriver::control(const Setpoint& command, Time now, DriverOut& out) {
     case Phase::arming: arm(now, out); break;
     case Phase::idling: {
       const bool again = last_attempt_ == kNever || now - last_attempt_ >= kRetry;
-      const bool slow = std::abs(feedback_.velocity_radps) < kSlow_radps;
-      if (!silent(now) && feedback_.enabled() && again &&
-          (slow || now - phase_since_ > kIdleAtLast)) {
+      const bool due = letting_go_.is_due(feedback_.velocity_radps, now);
+      if (!silent(now) && feedback_.enabled() && again && due) {
         last_attempt_ = last_sent_ = now;
         out.send(encode_special(settings_.id, Special::disable));
         break;
@@ -157,6 +154,7 @@ void DamiaoDriver::take(const Setpoint& command, Time now, DriverOut& out) {
   if (changed && !arms(request_)) {
     phase_ = request_ == AxisRequest::idle ? Phase::idling : Phase::resting;
     phase_since_ = now;
+    letting_go_.begin(now);
     last_attempt_ = kNever;
     if (was) {
       fault_ = false;

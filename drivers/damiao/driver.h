@@ -98,6 +98,7 @@ class DamiaoDriver final : public Device, public FrameFace, public Actuator {
   bool commanded_ = false;  ///< since the last tick
   std::size_t before_ = 0;  ///< frames of others in this cycle's output
   Time phase_since_ = kNever;
+  mit::LettingGo letting_go_;
   Time first_attempt_ = kNever;
   Time last_attempt_ = kNever;
   Time cleared_at_ = kNever;  ///< errors, for this request

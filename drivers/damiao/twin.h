@@ -32,8 +32,9 @@ class DamiaoTwin final : public CanTwin {
   void on_tick(Time now, std::span<Shaft> shafts, TwinFrames& out) override;
   void set_power(bool on, Time now) override;
   /// Known: "over_temperature" (stays hot until cleared), "over_current", "over_voltage",
-  /// "under_voltage", "overload", "lost_comm" (once each), "stuck_encoder", "wrong_sign",
-  /// "silent" (sends nothing, still obeys), "leaves_closed_loop" (once, without an error).
+  /// "under_voltage", "overload", "lost_comm" (once each), "stuck_encoder", "wrong_sign" (torque
+  /// and encoder), "torque_reversed" (the torque alone), "silent" (sends nothing, still obeys),
+  /// "leaves_closed_loop" (once, without an error).
   bool set_fault(std::string_view name, Time now) override;
 
  private:

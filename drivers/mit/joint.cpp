@@ -2,8 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace drover::mit {
+namespace {
+
+constexpr double kSlow_radps = 0.1;
+constexpr double kFaster_radps = 0.3;
+constexpr Duration kAtLast = std::chrono::milliseconds(1000);
+
+}  // namespace
 
 CanFrame Joint::damp_frame() const {
   MitCommand damp;
@@ -90,6 +98,18 @@ CanFrame SetpointPacker::frame_of(const Setpoint& command) {
   mit.stiffness_Nmprad = clamped(law.stiffness_Nmprad, kStiffnessMax_Nmprad);
   mit.damping_Nmsprad = clamped(law.damping_Nmsprad, kDampingMax_Nmsprad);
   return encode_mit(joint_.id, mit, joint_.ranges);
+}
+
+void LettingGo::begin(Time now) {
+  since_ = now;
+  slowest_radps_ = std::numeric_limits<double>::infinity();
+}
+
+bool LettingGo::is_due(double velocity_radps, Time now) {
+  const double speed_radps = std::abs(velocity_radps);
+  slowest_radps_ = std::min(slowest_radps_, speed_radps);
+  return speed_radps < kSlow_radps || speed_radps > slowest_radps_ + kFaster_radps ||
+         now - since_ > kAtLast;
 }
 
 }  // namespace drover::mit

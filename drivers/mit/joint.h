@@ -49,4 +49,17 @@ class SetpointPacker final {
   std::uint64_t bad_ = 0;
 };
 
+/// A motor that is to be let go damps first, for as long as that brakes its joint.
+class LettingGo final {
+ public:
+  void begin(Time now);
+  /// It is slow, or had its time, or gets faster: what its damping does not brake, or drives on as
+  /// in a motor that turns the wrong way, is let go at once. Without a speed the time alone counts.
+  bool is_due(double velocity_radps, Time now);
+
+ private:
+  Time since_ = kNever;
+  double slowest_radps_ = 0;
+};
+
 }  // namespace drover::mit

@@ -22,7 +22,7 @@ void TwinMotor::move(double dt_s, bool on, const MitCommand& command, Shaft& sha
   } else {
     told.torque_Nm = 0;
   }
-  shaft.torque_Nm = told.torque_Nm * turns;
+  shaft.torque_Nm = told.torque_Nm * (torque_reversed ? -turns : turns);
   shaft.energized = on;
 }
 

@@ -10,9 +10,10 @@ struct TwinMotor {
   double sign = 1;
   double zero_rad = 0;
   double t_max_Nm = 0;
-  double time_constant_s = 0;  ///< from wanted to actual torque
-  bool stuck = false;          ///< its encoder
-  bool wrong_sign = false;
+  double time_constant_s = 0;    ///< from wanted to actual torque
+  bool stuck = false;            ///< its encoder
+  bool wrong_sign = false;       ///< encoder and torque both: it believes itself right
+  bool torque_reversed = false;  ///< its torque alone, against what it is told and what it tells
   /// At the motor, as its encoder tells.
   Motion told;
 

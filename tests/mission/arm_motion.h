@@ -37,12 +37,14 @@ inline double speed_at(const Record& log, Time time) {
   return std::abs(log.truth_at(time).vx_mps);
 }
 
-/// What `drover status --json` said, the only one that was asked in this mission.
-inline nlohmann::json asked_status(const Record& log) {
+/// What `drover status --json` said when it was asked for the n-th time in this mission.
+inline nlohmann::json asked_status(const Record& log, std::size_t n = 1) {
   std::ifstream file(log.folder / "drover.log");
-  std::string line;
-  std::getline(file, line);
-  return nlohmann::json::parse(line).at("status");
+  for (std::string line; std::getline(file, line);) {
+    const auto said = nlohmann::json::parse(line, nullptr, false);
+    if (said.is_object() && said.contains("status") && --n == 0) return said.at("status");
+  }
+  throw std::runtime_error("drover status --json did not answer so often");
 }
 
 }  // namespace drover::mission

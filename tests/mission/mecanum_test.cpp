@@ -186,5 +186,43 @@ TEST(MecanumSilent, OfOneMotorStopsTheRobot) {
   EXPECT_THAT(error.why, testing::HasSubstr("motor 3 (203) is silent"));
 }
 
+/// What brakes are the two others, on one diagonal: their rollers let it roll along the other.
+TEST(MecanumTornStuck, StopsAndSaysWhatIsStuck) {
+  const Record& log = record("mecanum_torn_stuck");
+  const Time broken = log.event("event broken#1");
+  ASSERT_TRUE(moved_until(log, broken));
+  const auto& error = log.first_status("NAV_ERROR", broken);
+  figure("told after", error.time - broken);
+  EXPECT_LT(error.time - broken, 600ms);
+  EXPECT_THAT(error.why, testing::HasSubstr("motor 2 (202) tells the same angle however hard it"));
+  const Time again = log.event("event again#1");
+  tell_way_to_rest(log, broken, again);
+  const Roll rolled = roll(log, broken, again);
+  EXPECT_LT(rolled.way_m, 0.9);
+  EXPECT_LT(rolled.rest - broken, 2600ms);
+  EXPECT_LT(rolled.fastest_mps, 0.88) << "of 0.6";
+}
+
+/// It did not stop as it should.
+TEST(MecanumTornStuck, IsNotMovedBeforeAPersonResetsTheStop) {
+  const Record& log = record("mecanum_torn_stuck");
+  const Time again = log.event("event again#1");
+  const Time once_more = log.event("event once_more#1");
+  EXPECT_LT(roll(log, again, once_more).way_m, 0.005);
+  EXPECT_THAT(log.moving(again, once_more), testing::IsEmpty());
+  EXPECT_GT(log.answered("start_task_failse"), again);
+}
+
+/// Both are still broken.
+TEST(MecanumTornStuck, EndsTheNextStartWhereItBegan) {
+  const Record& log = record("mecanum_torn_stuck");
+  const Time once_more = log.event("event once_more#1");
+  EXPECT_GT(log.answered("start_task_success", 2), once_more);
+  const Roll rolled = roll(log, once_more, log.truth.back().time - 10ms);
+  figure("way of the new start", rolled.way_m, "m");
+  EXPECT_LT(rolled.way_m, 0.1);
+  EXPECT_EQ(log.statuses.back().nav, "NAV_ERROR");
+}
+
 }  // namespace
 }  // namespace drover::mission

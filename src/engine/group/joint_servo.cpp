@@ -141,9 +141,10 @@ void JointServo::ask_trust(const Input& input, const JointMeasured& measured, do
   told_trust_ = Trust::damps;
 }
 
-/// Damped, which is no torque where its encoder stands; what damping drives on is let go.
-void JointServo::do_without(const JointMeasured& measured, double dt_s) {
-  shaper_.damp(measured, dt_s);
+/// Damped, which is no torque where its encoder stands; what damping drives on is let go. At once:
+/// what it was told was made of what is not so, and would drive it on while it goes down.
+void JointServo::do_without(const JointMeasured& measured) {
+  shaper_.take_over(measured);
   state_ = GroupState::damping;
   if (told_trust_ == Trust::damps) return;
   command_.request = AxisRequest::idle;
@@ -164,7 +165,7 @@ void JointServo::run(const Input& input) {
   ask_trust(input, measured, dt_s);
   command_.request = AxisRequest::run;
   if (told_trust_ != Trust::whole) {
-    do_without(measured, dt_s);
+    do_without(measured);
   } else if (follows_ && (input.ready || following())) {
     shaper_.follow(target_, measured, dt_s);
     state_ = GroupState::following;

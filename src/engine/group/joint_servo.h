@@ -88,7 +88,7 @@ class JointServo final {
   void fail(const Input& input, const char* otherwise);
   void watch_joint(const JointMeasured& measured, double dt_s);
   void ask_trust(const Input& input, const JointMeasured& measured, double dt_s);
-  void do_without(const JointMeasured& measured, double dt_s);
+  void do_without(const JointMeasured& measured);
 
   JointRules rules_;
   JointShaper shaper_;

@@ -19,6 +19,11 @@ constexpr double kSlower = 0.9;  ///< than it was: who brakes
 constexpr double kFaster = 1.3;  ///< than when that began: nobody brakes it
 constexpr double kStands_s = 0.05;
 constexpr double kRunsOn_radps = 0.5;
+// What was so fast a moment ago does not stand so still so soon, whatever it ran into:
+constexpr double kTurned_radps = 0.3;
+constexpr double kBrakes_s = 0.02;  ///< or what its acceleration makes in this, where that is more
+constexpr double kStill_s = 0.014;
+constexpr double kSoon_s = 0.03;
 
 }  // namespace
 
@@ -26,6 +31,7 @@ JointTrust::JointTrust(const JointRules& rules) : rules_(rules) {}
 
 Reason JointTrust::look(const JointMeasured& measured, bool fresh, const Impedance& told,
                         double velocity_radps, double dt_s) {
+  moved_s_ += dt_s;
   if (!fresh) return {};
   // Who leads a joint by hand that is only damped goes against its damping.
   const double wanted_Nm = told.effort_Nm + told.damping_Nmsprad * velocity_radps +
@@ -69,15 +75,39 @@ Reason JointTrust::look_at_sign(const JointMeasured& measured, double wanted_Nm,
   return why;
 }
 
+/// What turned stands to the bit all at once: its law drives it on, and its damping holds it no
+/// more, so that nobody waits until the torque has grown.
+Reason JointTrust::look_at_motion(const JointMeasured& measured, double dt_s) {
+  const double least_radps = std::max(kTurned_radps, kBrakes_s * rules_.max_acceleration_radps2);
+  if (std::abs(measured.velocity_radps) > least_radps) {
+    moved_radps_ = measured.velocity_radps;
+    moved_s_ = 0;
+  }
+  still_s_ = stands(measured) ? still_s_ + dt_s : 0;
+  Reason why;
+  if (std::isfinite(moved_radps_) && moved_s_ < kSoon_s && still_s_ > kStill_s)
+    why.format(
+        "it turned by %.1f rad/s, and stood to the bit at once: its encoder stands still, or it "
+        "is blocked",
+        moved_radps_);
+  return why;
+}
+
+/// Equal to the bit is meant.
+bool JointTrust::stands(const JointMeasured& measured) const {
+  return measured.position_rad == stands_rad_ && measured.velocity_radps == 0;
+}
+
 /// What is there gives way by some bits when it is pressed harder, also at a stop or in a brake.
 Reason JointTrust::look_at_encoder(const JointMeasured& measured, double gives_Nm, double dt_s) {
-  // Equal to the bit is meant.
-  if (!(measured.position_rad == stands_rad_) || measured.velocity_radps != 0) {
+  const Reason stopped = look_at_motion(measured, dt_s);
+  if (!stands(measured)) {
     stands_rad_ = measured.position_rad;
     least_Nm_ = most_Nm_ = gives_Nm;
     stands_s_ = 0;
     return {};
   }
+  if (!stopped.empty()) return stopped;
   least_Nm_ = std::min(least_Nm_, gives_Nm);
   most_Nm_ = std::max(most_Nm_, gives_Nm);
   const double changed_Nm = most_Nm_ - least_Nm_;

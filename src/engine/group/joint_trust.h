@@ -30,6 +30,8 @@ class JointTrust final {
   Reason look_at_sign(const JointMeasured& measured, double wanted_Nm, double gives_Nm,
                       double dt_s);
   Reason look_at_encoder(const JointMeasured& measured, double gives_Nm, double dt_s);
+  bool stands(const JointMeasured& measured) const;
+  Reason look_at_motion(const JointMeasured& measured, double dt_s);
 
   JointRules rules_;
   double with_rad_ = 0;     ///< it went with its set point
@@ -39,7 +41,10 @@ class JointTrust final {
   double stands_rad_ = kAbsent;  ///< to the bit
   double least_Nm_ = 0;          ///< told since
   double most_Nm_ = 0;
-  double stands_s_ = 0;  ///< though what was told changed by much
+  double stands_s_ = 0;           ///< though what was told changed by much
+  double moved_radps_ = kAbsent;  ///< when it was fast last
+  double moved_s_ = 0;            ///< so long ago
+  double still_s_ = 0;            ///< to the bit
 };
 
 }  // namespace drover::engine

@@ -79,6 +79,31 @@ TEST_P(Impedances, DampsAtRest) {
   EXPECT_EQ(bench.motion_at_rest, 0);
 }
 
+/// A motor that turns against what it is told drives on what it damps.
+TEST_P(Impedances, LetsGoAtOnceOfWhatItsDampingMakesFaster) {
+  CanBench bench(GetParam());
+  arm(bench);
+  bench.run(milliseconds(1000), AxisRequest::run, 1.0);
+  ASSERT_NEAR(bench.shaft.velocity_radps, 1.0, 0.1);
+  ASSERT_TRUE(bench.twin->set_fault("torque_reversed", bench.now));
+  double fastest_radps = 0;
+  for (int i = 0; i < 400; ++i) {
+    bench.run(milliseconds(5), AxisRequest::idle);
+    fastest_radps = std::max(fastest_radps, std::abs(bench.shaft.velocity_radps));
+  }
+  EXPECT_LT(fastest_radps, 2.0);
+  EXPECT_FALSE(bench.shaft.energized && bench.shaft.torque_Nm != 0);
+}
+
+TEST_P(Impedances, DampsWhatItIsToLetGoUntilItIsSlow) {
+  CanBench bench(GetParam());
+  arm(bench);
+  bench.run(milliseconds(1000), AxisRequest::run, 3.0);
+  ASSERT_GT(bench.shaft.velocity_radps, 2.5);
+  bench.run(milliseconds(300), AxisRequest::idle);
+  EXPECT_LT(bench.shaft.velocity_radps, 0.3) << "limp, it would be at 2.7";
+}
+
 /// Whatever it is told then: it follows from when it says that it runs.
 TEST_P(Impedances, DoesNotMoveWhileItIsArmed) {
   CanBench bench(GetParam());

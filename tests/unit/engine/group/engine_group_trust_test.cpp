@@ -72,6 +72,61 @@ TEST_F(EngineGroupTrust, FindsAnEncoderThatStandsInMotion) {
   EXPECT_EQ(said("its encoder stands still, or it is blocked"), 2);
 }
 
+/// What it was told was made of a place that is not so, and would drive it on.
+TEST_F(EngineGroupTrust, DropsAtOnceWhatItWasToldWhenItsEncoderStands) {
+  settle();
+  watch_s(1.5, -1);
+  arm[1].stands = true;
+  for (int i = 0; i < 200 && said("its encoder stands still") == 0; ++i) watch_s(0.005, 0.5);
+  ASSERT_EQ(said("its encoder stands still"), 1);
+  ASSERT_GT(hardest_Nm, 1);
+  tick();
+  EXPECT_EQ(arm[1].torque_Nm, 0);
+  EXPECT_NE(arm[0].torque_Nm, 0) << "its neighbour is held";
+}
+
+/// Nothing that turns stands to the bit from one moment to the next: nobody waits there until the
+/// torque has grown, which makes it fast.
+TEST_F(EngineGroupTrust, FindsAnEncoderThatStandsInMotionBeforeItsJointIsFast) {
+  settle();
+  watch_s(1.5, -1);
+  watch_s(0.7, 0.5);
+  ASSERT_GT(arm[1].velocity_radps, 0.5);
+  arm[1].stands = true;
+  fastest_radps = 0;
+  watch_s(1, 0.5);
+  EXPECT_EQ(said("stood to the bit at once: its encoder stands still"), 1) << reason();
+  std::printf("  at most %.1f rad/s\n", fastest_radps);
+  EXPECT_LT(fastest_radps, 2);
+}
+
+TEST_F(EngineGroupTrust, BelievesAJointThatRunsIntoItsStop) {
+  settle();
+  watch_s(1.5, -1);
+  arm[1].stop_rad = -0.5;
+  watch_s(0.2, 0);
+  watch_s(0.3, 0);
+  EXPECT_GT(arm[1].position_rad, -0.6);
+  for (int i = 0; i < 10; ++i) {
+    watch_s(1, -0.9);
+    watch_s(0.05 * i, -0.4);
+    watch_s(0.6, -0.45);
+    EXPECT_EQ(told().state, GroupState::following) << i << ": " << reason();
+  }
+}
+
+/// Damping drives that on, too: it is told so no longer than it takes to see.
+TEST_F(EngineGroupTrust, DropsAtOnceWhatItWasToldWhenItTurnsTheWrongWay) {
+  arm[1].wrong_way = true;
+  settle();
+  for (int i = 0; i < 400 && said("its drive turns the wrong way") == 0; ++i) watch_s(0.005, -1);
+  ASSERT_EQ(said("its drive turns the wrong way"), 1);
+  tick();
+  const Impedance& told = rig.out.axes[first + 1].impedance;
+  EXPECT_EQ(told.stiffness_Nmprad, 0);
+  EXPECT_EQ(told.effort_Nm, 0);
+}
+
 TEST_F(EngineGroupTrust, BelievesAWeightThatIsHeldWhereNothingMoves) {
   arm[0].weight_Nm = 3;
   settle();
