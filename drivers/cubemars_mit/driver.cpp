@@ -1,8 +1,6 @@
 // The state machine: when a CubeMars motor is looked for, enabled, commanded and given up.
 #include "drivers/cubemars_mit/driver.h"
 
-#include <cmath>
-
 namespace drover::cubemars_mit {
 namespace {
 

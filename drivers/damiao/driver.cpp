@@ -1,8 +1,6 @@
 // The state machine: when a DAMIAO motor is asked, enabled, commanded and given up.
 #include "drivers/damiao/driver.h"
 
-#include <cmath>
-
 #include "drivers/damiao/rules.h"
 
 namespace drover::damiao {

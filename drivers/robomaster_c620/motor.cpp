@@ -22,6 +22,8 @@ constexpr double kLeastShare = 0.3;
 constexpr double kPushes = 0.15;
 constexpr double kPushesFrictions = 5;
 constexpr Duration kStuck = std::chrono::milliseconds(150);
+/// A motor with a current has at least this share of what turns it at all.
+constexpr double kHasNone = 0.5;
 /// Longer between two frames, and the turns between them are not counted.
 constexpr Duration kCounts = std::chrono::milliseconds(100);
 
@@ -48,6 +50,7 @@ void Motor::on_feedback(const Feedback& feedback, Time received) {
   }
   angle_known_ = true;
   feedback_ = feedback;
+  tells_current_ = tells_current_ || has_current();
   last_ = received;
   velocity_radps_ = feedback.rpm * kRadpsPerRpm * sign_ / settings_.gear_ratio;
 }
@@ -55,9 +58,9 @@ void Motor::on_feedback(const Feedback& feedback, Time received) {
 void Motor::forget() {
   last_ = kNever;
   feedback_ = {};
-  angle_known_ = stuck_ = false;
+  angle_known_ = stuck_ = torn_ = tells_current_ = false;
   velocity_radps_ = 0;
-  pushed_since_ = kNever;
+  pushed_since_ = without_since_ = kNever;
   coast();
 }
 
@@ -93,11 +96,15 @@ void Motor::ramp_to(double wanted_radps, Duration dt) {
   ramped_radps_ += std::clamp(wanted_radps - ramped_radps_, -step_radps, step_radps);
 }
 
-void Motor::watch_angle(Time now) {
+/// It is told so much that something must be seen of it.
+bool Motor::is_pushed() const {
   const double told_Nm = std::abs(counts_) / settings_.counts_per_A * settings_.Nm_per_A;
-  const double hard_Nm =
-      std::max(kPushes * settings_.limit_Nm, kPushesFrictions * settings_.friction_Nm);
-  if (told_Nm < hard_Nm || loop_ != Loop::following) {
+  return told_Nm >=
+         std::max(kPushes * settings_.limit_Nm, kPushesFrictions * settings_.friction_Nm);
+}
+
+void Motor::watch_angle(Time now) {
+  if (!is_pushed() || loop_ != Loop::following) {
     pushed_since_ = kNever;
   } else if (pushed_since_ == kNever) {
     pushed_since_ = now;
@@ -106,8 +113,25 @@ void Motor::watch_angle(Time now) {
   }
 }
 
+bool Motor::has_current() const {
+  return std::abs(effort_Nm()) > kHasNone * settings_.friction_Nm;
+}
+
+/// A line of it is torn. One that never told a current may be of those that tell none.
+void Motor::watch_current(Time now) {
+  if (!is_pushed() || has_current() || !tells_current_) {
+    without_since_ = kNever;
+  } else if (without_since_ == kNever) {
+    without_since_ = now;
+  } else if (now - without_since_ > kStuck) {
+    torn_ = true;
+  }
+}
+
 void Motor::follow(double wanted_radps, Duration dt, Time now) {
   watch_angle(now);
+  torn_ = false;
+  without_since_ = kNever;
   if (!heard_within(settings_.blind_after, now)) return coast();
   if (loop_ != Loop::following) {
     ramped_radps_ = velocity_radps_;
@@ -140,6 +164,9 @@ void Motor::begin_braking(Time now) {
 
 void Motor::brake(double slowest_radps, Duration dt, Time now) {
   if (!heard_within(settings_.blind_after, now)) return coast();
+  watch_current(now);
+  // What stood there would turn it as soon as its line has contact again.
+  if (torn_) return coast();
   if (loop_ != Loop::braking) begin_braking(now);
   ramp_to(slowest_radps, dt);
   // Not beyond what it does: then it would be driven.

@@ -48,7 +48,10 @@ class Motor final {
   void begin_braking(Time now);
   void anchor(Time now);
   void ramp_to(double wanted_radps, Duration dt);
+  bool is_pushed() const;
+  bool has_current() const;
   void watch_angle(Time now);
+  void watch_current(Time now);
   std::int16_t counts_of(double torque_Nm) const;
 
   const Settings& settings_;
@@ -63,6 +66,9 @@ class Motor final {
   Time turned_at_ = kNever;     ///< when its angle was another one last
   Time pushed_since_ = kNever;  ///< hard, without a pause
   bool stuck_ = false;
+  bool tells_current_ = false;   ///< it has told one
+  Time without_since_ = kNever;  ///< pushed hard, and tells that it has none
+  bool torn_ = false;            ///< so long that it is told none until it is to follow
 
   // The loop.
   Loop loop_ = Loop::coasting;

@@ -127,13 +127,13 @@ void JointServo::watch_joint(const JointMeasured& measured, double dt_s) {
 
 /// What its drive measures is not believed, until somebody begins anew.
 void JointServo::ask_trust(const Input& input, const JointMeasured& measured, double dt_s) {
-  const bool fresh = input.axis.last_motion != measured_;
+  const double since_s = measured_ == kNever ? 0 : to_s(input.axis.last_motion - measured_);
   measured_ = input.axis.last_motion;
   if (follows_) told_trust_ = Trust::whole;
   if (told_trust_ == Trust::damps && trust_.runs_on(measured)) told_trust_ = Trust::let_go;
-  if (told_trust_ != Trust::whole || input.blocked) return;
+  if (told_trust_ != Trust::whole || input.blocked) return trust_.look_away();
   const Reason why =
-      trust_.look(measured, fresh, shaper_.impedance(), shaper_.velocity_radps(), dt_s);
+      trust_.look(measured, since_s, shaper_.impedance(), shaper_.velocity_radps(), dt_s);
   if (why.empty()) return;
   end(why);
   reason_ = why;

@@ -29,17 +29,17 @@ constexpr double kSoon_s = 0.03;
 
 JointTrust::JointTrust(const JointRules& rules) : rules_(rules) {}
 
-Reason JointTrust::look(const JointMeasured& measured, bool fresh, const Impedance& told,
+Reason JointTrust::look(const JointMeasured& measured, double since_s, const Impedance& told,
                         double velocity_radps, double dt_s) {
-  moved_s_ += dt_s;
-  if (!fresh) return {};
+  if (!(since_s > 0)) return {};
   // Who leads a joint by hand that is only damped goes against its damping.
   const double wanted_Nm = told.effort_Nm + told.damping_Nmsprad * velocity_radps +
                            told.stiffness_Nmprad * (told.position_rad - measured.position_rad);
   const double gives_Nm = wanted_Nm - told.damping_Nmsprad * measured.velocity_radps;
   follow(measured, velocity_radps, dt_s);
-  const Reason wrong = look_at_sign(measured, wanted_Nm, gives_Nm, dt_s);
-  return wrong.empty() ? look_at_encoder(measured, gives_Nm, dt_s) : wrong;
+  Reason why = look_at_sign(measured, wanted_Nm, gives_Nm, dt_s);
+  if (why.empty()) why = look_at_motion(measured, since_s);
+  return why.empty() ? look_at_encoder(measured, gives_Nm, dt_s) : why;
 }
 
 /// What goes with its set point is held to it by a drive that turns the right way.
@@ -77,13 +77,14 @@ Reason JointTrust::look_at_sign(const JointMeasured& measured, double wanted_Nm,
 
 /// What turned stands to the bit all at once: its law drives it on, and its damping holds it no
 /// more, so that nobody waits until the torque has grown.
-Reason JointTrust::look_at_motion(const JointMeasured& measured, double dt_s) {
+Reason JointTrust::look_at_motion(const JointMeasured& measured, double since_s) {
   const double least_radps = std::max(kTurned_radps, kBrakes_s * rules_.max_acceleration_radps2);
+  moved_s_ += since_s;
   if (std::abs(measured.velocity_radps) > least_radps) {
     moved_radps_ = measured.velocity_radps;
     moved_s_ = 0;
   }
-  still_s_ = stands(measured) ? still_s_ + dt_s : 0;
+  still_s_ = stands(measured) ? still_s_ + since_s : 0;
   Reason why;
   if (std::isfinite(moved_radps_) && moved_s_ < kSoon_s && still_s_ > kStill_s)
     why.format(
@@ -100,14 +101,12 @@ bool JointTrust::stands(const JointMeasured& measured) const {
 
 /// What is there gives way by some bits when it is pressed harder, also at a stop or in a brake.
 Reason JointTrust::look_at_encoder(const JointMeasured& measured, double gives_Nm, double dt_s) {
-  const Reason stopped = look_at_motion(measured, dt_s);
   if (!stands(measured)) {
     stands_rad_ = measured.position_rad;
     least_Nm_ = most_Nm_ = gives_Nm;
     stands_s_ = 0;
     return {};
   }
-  if (!stopped.empty()) return stopped;
   least_Nm_ = std::min(least_Nm_, gives_Nm);
   most_Nm_ = std::max(most_Nm_, gives_Nm);
   const double changed_Nm = most_Nm_ - least_Nm_;

@@ -18,10 +18,12 @@ class JointTrust final {
 
   /// Its drive came into closed loop: nothing is known.
   void begin() { *this = JointTrust(rules_); }
-  /// One cycle after `told`, at `velocity_radps`, was told; `fresh`: it measured anew since the
-  /// last one. Why it is not believed; empty: it is.
-  Reason look(const JointMeasured& measured, bool fresh, const Impedance& told,
+  /// One cycle after `told`, at `velocity_radps`, was told; `since_s`: from the measurement before
+  /// to this one; 0: it is the same. Why it is not believed; empty: it is.
+  Reason look(const JointMeasured& measured, double since_s, const Impedance& told,
               double velocity_radps, double dt_s);
+  /// Somebody else has it, or it is not believed anyhow.
+  void look_away() { moved_radps_ = kAbsent; }
   /// After that, told to damp: it gets faster the way it went.
   bool runs_on(const JointMeasured& measured) const;
 
@@ -31,7 +33,7 @@ class JointTrust final {
                       double dt_s);
   Reason look_at_encoder(const JointMeasured& measured, double gives_Nm, double dt_s);
   bool stands(const JointMeasured& measured) const;
-  Reason look_at_motion(const JointMeasured& measured, double dt_s);
+  Reason look_at_motion(const JointMeasured& measured, double since_s);
 
   JointRules rules_;
   double with_rad_ = 0;     ///< it went with its set point

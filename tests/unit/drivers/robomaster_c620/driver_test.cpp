@@ -197,6 +197,26 @@ TEST(Robomaster, GivesUpWhenAMotorSeemsToStandHoweverHardItIsPushed) {
   EXPECT_EQ(bench.status.state, AxisState::running);
 }
 
+/// A line that has contact again would turn the wheel by all that stood there.
+TEST(Robomaster, TellsNoCurrentToAMotorAtRestThatHasNone) {
+  CanBench bench(subject());
+  drive(bench);
+  bench.twin->set_fault("no_torque:2", bench.now);
+  bench.run(milliseconds(1000), AxisRequest::rest);
+  bench.load_Nm = 1;
+  bench.run(milliseconds(1000), AxisRequest::rest);
+  EXPECT_GT(bench.shafts[1].velocity_radps, 1) << "nothing holds it";
+  EXPECT_EQ(last_of(bench)[1], 0);
+  EXPECT_NE(last_of(bench)[0], 0) << "the others are held";
+  EXPECT_NEAR(bench.shafts[0].velocity_radps, 0, 0.05);
+  // Who begins anew is told anew.
+  bench.twin->set_fault("", bench.now);
+  bench.run(milliseconds(500), AxisRequest::run, 3.0);
+  EXPECT_NEAR(bench.shafts[1].velocity_radps, 3, 0.3);
+  bench.run(milliseconds(1500), AxisRequest::rest);
+  EXPECT_NEAR(bench.shafts[1].velocity_radps, 0, 0.05);
+}
+
 TEST(Robomaster, StopsWhenSomebodyElseCommandsIt) {
   CanBench bench(subject());
   drive(bench);

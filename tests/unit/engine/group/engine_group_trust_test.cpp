@@ -24,6 +24,11 @@ class EngineGroupTrust : public EngineGroup {
       }
     }
   }
+  void comes_to_rest() {
+    arm[1].rests = true;
+    arm[1].velocity_radps = 0;
+    arm[1].position_rad += 0.1;
+  }
   int said(const char* words) {
     int times = 0;
     for (const Notice& notice : rig.said<Notice>())
@@ -98,6 +103,32 @@ TEST_F(EngineGroupTrust, FindsAnEncoderThatStandsInMotionBeforeItsJointIsFast) {
   EXPECT_EQ(said("stood to the bit at once: its encoder stands still"), 1) << reason();
   std::printf("  at most %.1f rad/s\n", fastest_radps);
   EXPECT_LT(fastest_radps, 2);
+}
+
+/// Nobody looked meanwhile: it had its time to come to rest.
+TEST_F(EngineGroupTrust, BelievesAJointThatTheGuardBroughtToRest) {
+  settle();
+  watch_s(1.5, -1);
+  watch_s(0.7, 0.5);
+  ASSERT_GT(arm[1].velocity_radps, 0.5) << reason();
+  rig.guard_has_bus = guards = true;
+  tick();
+  comes_to_rest();
+  run_s(0.5);
+  rig.guard_has_bus = guards = false;
+  run_s(0.5);
+  EXPECT_EQ(said("its encoder stands still"), 0) << reason();
+}
+
+TEST_F(EngineGroupTrust, BelievesAJointThatCameToRestWhileNoCycleWasRun) {
+  settle();
+  watch_s(1.5, -1);
+  watch_s(0.7, 0.5);
+  ASSERT_GT(arm[1].velocity_radps, 0.5) << reason();
+  comes_to_rest();
+  rig.now += std::chrono::seconds(1);
+  run_s(0.5);
+  EXPECT_EQ(said("its encoder stands still"), 0) << reason();
 }
 
 TEST_F(EngineGroupTrust, BelievesAJointThatRunsIntoItsStop) {
