@@ -68,12 +68,16 @@ void Guard::cycle(Time t) {
 void Guard::act(Time t) {
   const bool was_holding = holding_;
   holding_ = watch_.step(beats(), t) || keep_.state().latched.load() != 0;
-  const bool plays = holding_ && may_hold();
   if (holding_ && !was_holding) set_.begin_hold();
   // A stop from outside: what droverd can hold, and the recipe cannot, it holds while it lives.
   const bool daemon_holds = keep_.state().latched.load() != 0 && set_is_his_ && daemon_ >= 0 &&
                             beats() > 0 && !watch_.late(t);
-  if (plays) set_.play(t, daemon_holds);
+  // A base that was let go stays so, and an arm beside it, under which somebody may be, does not
+  // fall.
+  const bool all = may_hold();
+  const bool plays = holding_ && (all || !daemon_holds);
+  using Whose = StopSet::Whose;
+  if (plays) set_.play(t, !all ? Whose::daemons : daemon_holds ? Whose::not_daemons : Whose::all);
   // Drives that nobody can stop are the hardware watchdog's.
   if (!plays || set_.in_command(t)) pulse();
 }

@@ -190,11 +190,12 @@ void StopSet::begin_hold() {
   }
 }
 
-void StopSet::play(Time now, bool daemon_holds) {
+void StopSet::play(Time now, Whose whose) {
   for (std::size_t i = 0; i < axis_count_; ++i) {
     auto& axis = axes_[i];
     if (!links_[axis.link].was_there) continue;
-    if (daemon_holds && axis.held_by_daemon) {
+    const Whose others = axis.held_by_daemon ? Whose::not_daemons : Whose::daemons;
+    if (whose == others) {
       axis.reached = now;
       continue;
     }

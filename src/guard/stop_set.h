@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <string_view>
 #include <vector>
 
@@ -48,9 +49,14 @@ class StopSet final {
 
   /// A hold begins: all rounds from the first, at once; what waits in the lines is thrown away.
   void begin_hold();
+  /// Some axes only droverd can hold: those of an arm.
+  enum class Whose : std::uint8_t {
+    all,
+    not_daemons,  ///< those it holds, now
+    daemons,      ///< and no others: those were released, or have no power
+  };
   /// Sends what is due. What a full or dead link refuses is sent again when it is due next.
-  /// `daemon_holds`: axes that only droverd can hold are its own.
-  void play(Time now, bool daemon_holds = false);
+  void play(Time now, Whose whose = Whose::all);
   /// Each axis was reached within its last five periods. True without any axis. What hangs on a
   /// link that never was there does not count: nobody can have moved it.
   bool in_command(Time now) const;

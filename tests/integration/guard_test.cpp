@@ -393,6 +393,24 @@ TEST_F(Guard, SendsNothingToDrivesThatAPersonReleased) {
   EXPECT_THAT(frames("can0"), IsEmpty());
 }
 
+/// An arm was not let go with the base: it would fall on who pushes.
+TEST_F(Guard, DampsWhatOnlyTheDaemonHeldThoughAPersonReleasedTheBase) {
+  for (const auto word : {GuardMayHold::released, GuardMayHold::cut}) {
+    kill();
+    new_daemon();
+    start();
+    std::vector<runtime::GuardedLink> links;
+    links.push_back(can_link("can0", {0x2D}));
+    links.push_back(can_link("can1", {0x01}));
+    links.back().axes[0].held_by_daemon = true;
+    hand_over(std::move(links));
+    shared().may_hold = word;
+    daemon_dies_after(50ms);
+    EXPECT_TRUE(wait_until([&] { return !frames("can1").empty(); }));
+    EXPECT_THAT(frames("can0"), IsEmpty());
+  }
+}
+
 TEST_F(Guard, SendsNothingToDrivesWhosePowerTheDaemonCut) {
   start();
   hand_over_one_drive();

@@ -113,12 +113,28 @@ TEST_F(GuardStopSet, LeavesToTheDaemonWhatOnlyThatCanHold) {
   ASSERT_TRUE(set.add_axis(axis(0, "can0 02D")) && set.add_axis(arm));
   ASSERT_TRUE(set.add_message(stop(0, 0, 'w')) && set.add_message(stop(1, 0, 'a')));
   set.begin_hold();
-  set.play(kStart, true);
+  set.play(kStart, StopSet::Whose::not_daemons);
   EXPECT_EQ(heard(), "w");
   EXPECT_TRUE(set.in_command(kStart));
-  set.play(kStart + 10ms, true);
+  set.play(kStart + 10ms, StopSet::Whose::not_daemons);
   EXPECT_EQ(heard(), "w");
   set.play(kStart + 20ms);  // it is late
+  EXPECT_EQ(heard(), "wa");
+}
+
+/// A person released the base; nobody let go of the arm.
+TEST_F(GuardStopSet, PlaysWhatOnlyTheDaemonCanHoldThoughTheOthersWereReleased) {
+  StopSet set;
+  add_link(set);
+  auto arm = axis(1, "can0 001");
+  arm.held_by_daemon = 1;
+  ASSERT_TRUE(set.add_axis(axis(0, "can0 02D")) && set.add_axis(arm));
+  ASSERT_TRUE(set.add_message(stop(0, 0, 'w')) && set.add_message(stop(1, 0, 'a')));
+  set.begin_hold();
+  set.play(kStart, StopSet::Whose::daemons);
+  EXPECT_EQ(heard(), "a");
+  EXPECT_TRUE(set.in_command(kStart));
+  set.play(kStart + 10ms);  // held again
   EXPECT_EQ(heard(), "wa");
 }
 
