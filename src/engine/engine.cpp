@@ -352,6 +352,7 @@ void Engine::step(Time now, const Environment& environment, EngineOutput& out) {
   const Learned learned{e.estimate.yaw_slip_factor};
   const Twist stream = twist_of(e.base, e.owners.stream_radps(), learned);
   const Twist by_twist = e.clearance.limit(e.mechanics.guide(e.owners.by_twist()));
+  if (!environment.slept.empty()) e.owners.slow_to(e.estimate.body);
   const Motion& motion = e.owners.step(
       {now, dt, e.estimate, e.health.report(), e.wheel_fault, e.wheel_reason, wanted, cap_mps,
        e.mechanics.speed_cap_mps(FirstWay::joints), e.mechanics.speed_cap_mps(FirstWay::hand),

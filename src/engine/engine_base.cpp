@@ -3,17 +3,9 @@
 #include <cmath>
 
 #include "engine/engine_impl.h"
+#include "engine/gate/approach.h"
 
 namespace drover::engine {
-namespace {
-
-/// Nearer to rest, or as it is.
-double no_more_than(double wanted, double measured) {
-  return std::copysign(std::min(std::abs(wanted), wanted * measured > 0 ? std::abs(measured) : 0.0),
-                       wanted);
-}
-
-}  // namespace
 
 void Engine::Impl::take_body(const BodyMotion& body, Time time) {
   const bool sane = std::isfinite(body.twist.vx_mps) && std::isfinite(body.twist.wz_radps);

@@ -67,6 +67,12 @@ Twist TargetGate::choose(Time now, std::span<const Offer> offers) {
   return {share * vx_mps, turn_radps, share * vy_mps};
 }
 
+void TargetGate::slow_to(const Twist& measured) {
+  twist_.vx_mps = no_more_than(twist_.vx_mps, measured.vx_mps);
+  twist_.vy_mps = no_more_than(twist_.vy_mps, measured.vy_mps);
+  twist_.wz_radps = no_more_than(twist_.wz_radps, measured.wz_radps);
+}
+
 void TargetGate::find_wheels(double curvature_radpm) {
   if (!at_rest() || !std::isfinite(curvature_radpm)) return;
   radpm_ = std::clamp(curvature_radpm, -body_.most_radpm(), body_.most_radpm());

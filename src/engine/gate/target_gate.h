@@ -48,6 +48,8 @@ class TargetGate final {
   const Twist& step(Time now, Duration dt, std::span<const Offer> offers, Stop stop);
   /// Forgets all motion: on arming and after an immediate stop.
   void reset();
+  /// Goes on no faster than the base does, in each part: it may have stopped by itself meanwhile.
+  void slow_to(const Twist& measured);
   /// Where the wheels of a base that steers are found at rest, as the curve that they make.
   void find_wheels(double curvature_radpm);
 

@@ -73,6 +73,10 @@ class Owners final {
   /// A task begins: forget old motion.
   void on_task_started();
 
+  /// Nobody steered for a while: what came to rest by itself meanwhile is not moved by a ramp.
+  void slow_to(const BodyMotion& measured) {
+    if (measured.known) twist_gate_.slow_to(measured.twist);
+  }
   const Motion& step(const OwnInput& input, EventQueue& events);
 
   bool at_rest() const { return twist_gate_.at_rest() && joint_gate_.at_rest(); }

@@ -29,6 +29,36 @@ TEST_F(ABaseThatTakesATwist, ShowsAndCommandsNoJoint) {
   }
 }
 
+/// Nobody fed it while the computer was paused, and it came to rest by itself.
+TEST_F(ABaseThatTakesATwist, WhichStoppedWhileDroverdStoodStillIsNotMovedByTheRampToRest) {
+  drive();
+  rig.blocked = true;
+  rig.run_s(0.6);
+  rig.blocked = false;
+  ASSERT_LT(std::abs(rig.snapshot().pose.vx_mps), 0.01);
+  ASSERT_GT(rig.out.base.twist.vx_mps, 0.4) << "a ramp from there would move it";
+  rig.environment.slept = "droverd stood still for 1.00 s, and nobody steered meanwhile";
+  for (int i = 0; i < 200; ++i) {
+    rig.tick();
+    EXPECT_LT(std::abs(rig.out.base.twist.vx_mps), 0.02) << i;
+  }
+  rig.environment.slept.clear();
+  rig.run_s(1);
+  EXPECT_TRUE(at_rest());
+  EXPECT_EQ(rig.snapshot().nav.status, NavStatus::error);
+}
+
+/// And what rolls on comes to rest by a ramp.
+TEST_F(ABaseThatTakesATwist, WhichRollsOnWhileDroverdStoodStillIsBroughtToRestByARamp) {
+  drive();
+  rig.environment.slept = "droverd stood still for 0.31 s, and nobody steered meanwhile";
+  rig.tick();
+  rig.tick();
+  EXPECT_GT(rig.out.base.twist.vx_mps, 0.4);
+  rig.run_s(1);
+  EXPECT_TRUE(at_rest());
+}
+
 TEST_F(ABaseThatTakesATwist, StandsAtOnceWhenItsDeviceIsSilent) {
   drive();
   rig.drives[0].silent = true;
