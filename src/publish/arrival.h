@@ -21,12 +21,19 @@ inline constexpr std::string_view kTooMuchUnread =
 inline constexpr std::size_t kMostUnread = 64;
 inline constexpr std::size_t kMostUnreadBytes = std::size_t{8} << 20;
 
+/// So long after a way to those who write was opened nobody's joint commands are followed. A stream
+/// that was there before shows by that: it is refused, and has to pause.
+inline constexpr Duration kJustCame = std::chrono::milliseconds(300);
+inline constexpr const char* kJustCameWords =
+    "droverd has only just come, and nobody's commands are followed yet";
+
 struct Arrival {
   Retain retain = Retain::no;
   /// Why nothing that comes now may begin a motion: the broker holds messages back. Empty: it is
   /// prompt.
   std::string_view late{};
   Duration wall{};  ///< UTC at which it came, since 1970
+  bool just_connected = false;  ///< this program, to the broker
 };
 
 }  // namespace drover::publish

@@ -69,6 +69,7 @@ void Ros2Outlet::follow(ClientId client, const json::Node& request, Time now, Ac
   if (!requests_.take(now)) return refuse("slow down: " + requests_.in_words("requests"));
   if (client != client_ && follows(now)) return refuse("another drover-ros2 shows this robot");
   if (client != client_) told_ = {};
+  if (client != client_ || !follows(now)) since_ = now;
   client_ = client;
   heard_ = now;
   mode_ = json::shown(text_member(request, "mode"), kMostText);
@@ -117,6 +118,7 @@ Result<aimrt::JointCommandHeard, Reason> Ros2Outlet::read_joint_command(const js
                                                                         Time now) const {
   if (const auto why = text_member(request, "refused"); !why.empty())
     return Reason(json::shown(why, kMostText));
+  if (now - since_ < kJustCame) return Reason(kJustCameWords);
   const auto writer = text_member(request, "writer");
   const Time came{Duration{count_of(request, "at_ns")}};
   if (writer.empty() || came <= Time{}) return Reason("its writer or at_ns is missing");

@@ -68,6 +68,7 @@ class Ros2Outlet final : public Outlet {
   Duration wall_minus_monotonic_{};  ///< as of late
   ClientId client_ = 0;
   Time heard_ = kNever;
+  Time since_ = kNever;  ///< it follows without a gap
   TokenBucket requests_{20, 20};
   TokenBucket twists_{150, 50};  ///< drover-ros2 hands on a hundred a second
   TokenBucket flood_{1, 1};      ///< a flood is told of, and the telling is no flood

@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "drover/time.h"
+#include "publish/arrival.h"
 
 namespace drover::runtime {
 
@@ -28,6 +29,10 @@ class BrokerDelay final {
     if (connected_ != kNever || now - asked > kLimit) last_late_ = now;
     connected_ = now;
     next_ = now;
+  }
+  /// Who writes now may have done so before, and not know that this program is another one.
+  bool just_connected(Time now) const {
+    return connected_ != kNever && now - connected_ < publish::kJustCame;
   }
   /// Whether to send a message now that measures. More than ten that wait measure nothing more.
   bool due(Time now) const { return now >= next_ && waiting_.size() < 10; }

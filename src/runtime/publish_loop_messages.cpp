@@ -31,7 +31,8 @@ void PublishLoop::on_message(const MqttMessage& message) {
   carry_out(actions_);
   const Time now = monotonic_now();
   publish::Arrival arrival{message.retain, broker_->late(now),
-                           now.time_since_epoch() + wall_minus_monotonic()};
+                           now.time_since_epoch() + wall_minus_monotonic(),
+                           broker_->just_connected(now)};
   if (message.topic == publish::kTopicControl) {
     on_control(message.payload, arrival, now);
     return;

@@ -36,7 +36,12 @@ class JointServo final {
   /// A command that is sound; whether it is followed is decided by step().
   void take(const JointTarget& target, Time now);
   /// One that was refused, and may have been its: nobody pauses who sends it.
-  void refuse(Time now) { said_ = now; }
+  /// Before any was taken it came from who did not hear that this program began, and that its drive
+  /// was found running.
+  void refuse(Time now) {
+    said_ = now;
+    waits_ = waits_ || (engaged_ && heard_ == kNever);
+  }
   /// What it follows ends for a cause that lies elsewhere.
   void end(const Reason& why);
 

@@ -28,6 +28,7 @@ Result<JointCommandHeard, Reason> read_packet(Names names, std::string_view payl
   // Old by its nature, whatever its stamp.
   if (arrival.retain != Retain::no) return Reason("a retained message is never followed");
   if (!arrival.late.empty()) return Reason(arrival.late);
+  if (arrival.just_connected) return Reason(kJustCameWords);
   if (payload.size() > kMaxCommandBytes) return Reason("the packet is longer than 16 KiB");
   const auto packet = decode_packet(payload);
   if (!packet) return Reason(text(packet.error()));

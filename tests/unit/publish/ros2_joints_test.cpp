@@ -23,6 +23,7 @@ class Ros2Joints : public testing::Test {
     Actions out;
     EXPECT_TRUE(open_.on_line(7, kTheyFollow, now_, out));
     EXPECT_TRUE(closed_.on_line(7, kTheyFollow, now_, out));
+    now_ += kJustCame;
   }
   static aimrt::JointCommandsConfig config() {
     aimrt::JointCommandsConfig config;
@@ -72,6 +73,21 @@ TEST_F(Ros2Joints, GoToTheEngineAsThoseOfTheBroker) {
   EXPECT_EQ(followed_.joints[0].axis, 2U);
   EXPECT_EQ(followed_.joints[0].position_rad, 0.5);
   EXPECT_EQ(followed_.joints[0].stiffness_Nmprad, 20);
+}
+
+/// A stream that was there before droverd: refused, it has to pause.
+TEST_F(Ros2Joints, AreRefusedForAMomentWhenTheirProgramHasJustCome) {
+  now_ += Ros2Outlet::kLease + 1ms;
+  Actions out;
+  EXPECT_TRUE(open_.on_line(7, kTheyFollow, now_, out));
+  EXPECT_EQ(refusal(line(kWheels)), kJustCameWords);
+  now_ += kJustCame;
+  EXPECT_EQ(refusal(line(kWheels)), "");
+  EXPECT_TRUE(open_.on_line(7, kTheyFollow, now_, out));
+  EXPECT_EQ(refusal(line(kWheels)), "") << "it was here";
+  open_.on_gone(7);
+  EXPECT_TRUE(open_.on_line(8, kTheyFollow, now_, out));
+  EXPECT_EQ(reply(open_, 7), R"({"ok":false,"reason":"only drover-ros2 hands joint commands on"})");
 }
 
 TEST_F(Ros2Joints, AreRefusedByJointAndField) {

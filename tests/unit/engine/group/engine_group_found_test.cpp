@@ -47,6 +47,29 @@ TEST_F(EngineGroup, AStreamThatGoesOnOverARestartWaitsUntilItPaused) {
   EXPECT_EQ(told().state, GroupState::following);
 }
 
+/// Also where it comes to this program late: by a broker that was away, or by drover-ros2, which
+/// looks for droverd once a second.
+TEST_F(EngineGroup, AStreamThatGoesOnOverARestartWaitsThoughItsWayComesLate) {
+  find_running(0.7);
+  rig.guard_has_bus = true;
+  run_s(0.1);
+  rig.guard_has_bus = false;
+  settle();
+  ASSERT_EQ(told().state, GroupState::holding);
+  for (int i = 0; i < 60; ++i) {
+    if (i % 2 == 0) rig.command(JointTargetsRefused{"droverd has only just come"}, source);
+    tick();
+  }
+  const double held = arm[0].position_rad;
+  send_s(4, 0.2);
+  EXPECT_EQ(told().state, GroupState::holding);
+  EXPECT_NEAR(arm[0].position_rad, held, 0.01);
+  EXPECT_NE(reason(), "");
+  run_s(1.1);
+  send_s(4, 0.2);
+  EXPECT_EQ(told().state, GroupState::following) << reason();
+}
+
 TEST_F(EngineGroup, WhatTheGuardLetSinkIsHeldWhereItIsGivenBack) {
   settle();
   send_s(4, 0.4);

@@ -68,6 +68,15 @@ TEST_F(AnAimrtChannel, NeverFollowsARetainedMessage) {
   EXPECT_TRUE(commands<JointTargets>().empty());
 }
 
+/// A stream that was there before this program: refused, it has to pause.
+TEST_F(AnAimrtChannel, FollowsNobodyWhileItHasOnlyJustCome) {
+  give(in_packet(joint_entry("left", 0, 0)), {.just_connected = true});
+  EXPECT_EQ(last_refusal(), kJustCameWords);
+  EXPECT_TRUE(commands<JointTargets>().empty());
+  give(in_packet(joint_entry("left", 0, 0)));
+  EXPECT_EQ(commands<JointTargets>().size(), 1U);
+}
+
 TEST_F(AnAimrtChannel, RefusesWhatIsNoPacketOfACommand) {
   give("");
   EXPECT_EQ(last_refusal(), "the packet ends inside its content type");
