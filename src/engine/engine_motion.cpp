@@ -108,15 +108,15 @@ void Engine::Impl::watch_wheels(Time now, Duration dt) {
     rest.expect_stop(now);
   }
   steering.update(now, dt, motion_asked ? sent : Twist{}, steering_rad);
-  if (wheel_fault == WheelFault::none && !steering.reason().empty()) {
-    wheel_fault = WheelFault::not_following;
-    wheel_reason = steering.reason();
-  }
   // Wheels that work against each other stand before gyro or receiver can tell.
   if (wheel_fault == WheelFault::not_following && !mechanics.proved()) {
     const std::string_view what = wheels.reason();
     wheel_reason.format("%.*s on the first way: %s", static_cast<int>(what.size()), what.data(),
                         words_of(base).on_first_way);
+  }
+  if (wheel_fault == WheelFault::none && !steering.reason().empty()) {
+    wheel_fault = WheelFault::not_following;
+    wheel_reason = steering.reason();
   }
   if (wheel_fault == WheelFault::none && !mechanics.fault().empty()) {
     wheel_fault = WheelFault::disagrees;

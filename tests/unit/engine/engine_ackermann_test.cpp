@@ -231,5 +231,16 @@ TEST_F(ARobotThatSteersOnItsFirstWay, TurnsToBothSidesOnACurve) {
   EXPECT_TRUE(rig.out.remembered.mechanics_proved);
 }
 
+TEST_F(ARobotThatSteersOnItsFirstWay, IsFoundNotToSteerAndSaysSo) {
+  rig.steering_stuck = true;
+  rig.run_s(10);
+  EXPECT_EQ(rig.snapshot().nav.status, NavStatus::error);
+  const auto ends = rig.said<TaskEnded>();
+  ASSERT_FALSE(ends.empty());
+  EXPECT_THAT(std::string(ends[0].reason.view()),
+              ::testing::StartsWith("the steering does not follow: told"));
+  EXPECT_THAT(std::string(ends[0].reason.view()), ::testing::Not(HasSubstr("first way")));
+}
+
 }  // namespace
 }  // namespace drover::engine
