@@ -66,9 +66,10 @@ static_assert(std::is_trivially_copyable_v<GuardMessage>);
 /// What the guard may do with drives that nobody commands. Odd values, so that a broken daemon does
 /// not free the drives by chance: whatever is neither of the two others means `hold`.
 enum class GuardMayHold : std::uint32_t {
-  hold = 0,               ///< play the stop recipe
-  released = 0x52454C45,  ///< a person released the drives: send nothing
-  cut = 0x43555452,  ///< droverd cut the drives' power, a person has to reset that: send nothing
+  hold = 0,  ///< play the stop recipe
+  // To others than those `held_by_daemon`: send nothing.
+  released = 0x52454C45,  ///< a person released the drives
+  cut = 0x43555452,       ///< droverd cut the drives' power, a person has to reset that
 };
 
 /// Made by droverd, sealed against shrinking, mapped by both.

@@ -32,7 +32,7 @@ struct Arrival {
   /// Why nothing that comes now may begin a motion: the broker holds messages back. Empty: it is
   /// prompt.
   std::string_view late{};
-  Duration wall{};  ///< UTC at which it came, since 1970
+  Duration wall{};              ///< UTC at which it came, since 1970
   bool just_connected = false;  ///< this program, to the broker
 };
 
