@@ -1,5 +1,6 @@
 // What becomes of a task when something ordinary goes wrong: rows of seeded drives of the whole
 // engine in the field of field_world.h. For people: `bench_events --help`.
+#include <array>
 #include <cstdio>
 #include <cstring>
 #include <functional>
@@ -58,6 +59,32 @@ Change stepped(double step_m) {
     p.step_s = while_s(share, 10);
     p.step_m = step_m;
     p.step_rad = 2 * kPi * share * 7;
+  };
+}
+
+/// Another draw of a row.
+double another(double share, double times) {
+  return times * share - std::floor(times * share);
+}
+
+/// No RTK fix for so long, as receivers lose it: a float all the time, no position, or that and a
+/// float of 3 s at its end. The antenna line is known to every second robot.
+void lose_fix(FieldPlan& p, Config& c, double share, std::uint64_t seed, double for_s) {
+  const Span lost = while_s(share, for_s);
+  const double float_s = seed % 3 == 0 ? for_s : seed % 3 == 1 ? 0 : 3;
+  p.outage_s = {lost.from, lost.to - float_s};
+  p.float_s = {lost.to - float_s, lost.to};
+  if (seed % 2 == 0) c.estimate.heading_mount_sigma_deg = 0.1;
+}
+
+/// Found again 0.35, 0.5 or 0.7 m beside, any direction, for 20 to 60 s or for good.
+Change found_wrong(double lost_s, bool stays) {
+  return [=](FieldPlan& p, Config& c, double share, std::uint64_t seed) {
+    lose_fix(p, c, share, seed, lost_s);
+    const double from_s = while_s(share, lost_s).to;
+    p.step_s = {from_s, stays ? INFINITY : from_s + 20 + 40 * another(share, 13)};
+    p.step_m = std::array{0.35, 0.5, 0.7}[seed / 3 % 3];
+    p.step_rad = 2 * kPi * another(share, 7);
   };
 }
 
@@ -126,6 +153,18 @@ const std::vector<Row>& all_rows() {
          p.step_rad = 2 * kPi * share * 7;
        },
        2, 20, Must::be_true},
+      {"found_right", "no RTK fix for 10 to 40 s, then a right one",
+       [](Plan& p, Config& c, double share, std::uint64_t seed) {
+         lose_fix(p, c, share, seed, 10 + 30 * another(share, 11));
+       }},
+      {"wrong_10", "no RTK fix for 10 s, then one 0.35 to 0.7 m beside for 20 to 60 s",
+       found_wrong(10, false), 2, 20, Must::be_true},
+      {"wrong_20", "the same after 20 s", found_wrong(20, false), 2, 20, Must::be_true},
+      {"wrong_40", "the same after 40 s", found_wrong(40, false), 2, 20, Must::be_true},
+      {"wrong_stays_10", "no RTK fix for 10 s, then for good one 0.35 to 0.7 m beside",
+       found_wrong(10, true), 2, 20, Must::be_true},
+      {"wrong_stays_20", "the same after 20 s", found_wrong(20, true), 2, 20, Must::be_true},
+      {"wrong_stays_40", "the same after 40 s", found_wrong(40, true), 2, 20, Must::be_true},
       {"slip_30_1mps", "slip of 30 % for 2 s, at 1 m/s",
        [](Plan& p, Config& c, double share, std::uint64_t seed) {
          slip(0.30)(p, c, share, seed);

@@ -20,6 +20,8 @@ constexpr double kReckonedWell_m = 0.1;
 constexpr double kSettles = 3.0;
 constexpr double kFaded_m = 0.03;
 constexpr double kSlippedAside_m = 0.05;
+// What PlaceWatch takes for slip of a shorter way is no more than for a jump.
+constexpr double kDroveOn_m = 0.25;
 // Lost for so long it is found by another search of the receiver.
 constexpr Duration kAnotherFix = std::chrono::seconds(10);
 constexpr double kSways = 0.1;  // of the variance by tilt and timing: most of that stays the same
@@ -82,10 +84,12 @@ double doubt_m(const Dispute::Offset& beside, double two_sigma_m) {
   return beside.m() < kSameFix_m ? 0.0 : beside.m() + two_sigma_m;
 }
 
-/// The same of a fix that was found again: beside of where wheels and gyro have it.
+/// The same of a fix that was found again: beside of where wheels and gyro have it. Who stands, but
+/// drove on without one, is found as he would be driving; who stood all the while may have been
+/// carried, which PlaceWatch sees.
 bool is_elsewhere(const State& state, bool near) {
-  const bool drives = state.standing_since == kNever && !state.way_unknown;
-  return drives && !near && !state.shove.holds();
+  const bool drove = state.standing_since == kNever || state.unseen.way_m > kDroveOn_m;
+  return drove && !state.way_unknown && !near && !state.shove.holds();
 }
 
 }  // namespace

@@ -150,6 +150,23 @@ TEST(AFixThatIsFoundElsewhere, StaysInTheBoundWhenItIsLostForAMoment) {
   }
 }
 
+/// 70 cm off in any direction after a loss for which the task had to wait.
+TEST(AFixThatIsFoundElsewhere, AfterAPauseForItTakesNothingOutOfTheCorridorOrTheBound) {
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    FieldPlan plan;
+    plan.gst = seed % 2 == 0;
+    plan.outage_s = {15, seed % 4 < 2 ? 45.0 : 42.0};
+    plan.float_s = {plan.outage_s.to, 45};
+    plan.step_s = {45, seed % 2 == 0 ? INFINITY : 75};
+    plan.step_m = 0.7;
+    plan.step_rad = kPi / 4 * static_cast<double>(seed);
+    FieldWorld world(field_config(), plan, seed);
+    const Judgement end = world.drive(field_rows(2, 20), 300);
+    EXPECT_EQ(end.outside_s, 0) << seed << ": " << end.worst_outside_m;
+    EXPECT_EQ(end.beyond_s, 0) << seed;
+  }
+}
+
 /// What they lost on the straight is beside the track in the turn behind it.
 TEST(WheelsThatSlipInAnOutage, TakeNothingOutOfTheCorridorInTheNextTurn) {
   double driven_m = 0;

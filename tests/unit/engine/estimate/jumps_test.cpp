@@ -151,6 +151,72 @@ INSTANTIATE_TEST_SUITE_P(After, AFixThatIsFoundAtRest,
                          testing::Values(FixQuality::rtk_float, FixQuality::dgps,
                                          FixQuality::single));
 
+struct Beside {
+  double m = 0;        ///< to the east
+  double yaw_rad = 0;  ///< where it drives
+};
+
+/// It drove on without one until it had to wait: that it stands now is no word for where it is
+/// found.
+class AFixThatIsFoundAfterAWay : public testing::TestWithParam<std::tuple<FixQuality, Beside>> {
+ protected:
+  AFixThatIsFoundAfterAWay() {
+    rig.world.imu = true;
+    rig.world.gst = true;
+    rig.yaw_rad = beside().yaw_rad;
+    rig.stand(5);
+    rig.drive(0.5, 0.5, 20);
+    lose();
+    rig.drive(0.5, 0.5, 10);
+    rig.stand(5);
+  }
+  static Beside beside() { return std::get<1>(GetParam()); }
+  void lose() {
+    const FixQuality meanwhile = std::get<0>(GetParam());
+    rig.world.position = meanwhile != FixQuality::none;
+    rig.world.quality = meanwhile;
+  }
+  void find(double beside_m) {
+    rig.world.position = true;
+    rig.world.quality = FixQuality::rtk_fixed;
+    rig.world.jump_x_m = beside_m;
+  }
+  Rig rig;
+};
+
+TEST_P(AFixThatIsFoundAfterAWay, BesideDeadReckoningIsNotBelieved) {
+  find(beside().m);
+  rig.forget();
+  rig.stand(55);
+  EXPECT_TRUE(rig.last.disputed) << rig.last.reason.view();
+  EXPECT_LT(rig.max_m(), 0.25);
+  EXPECT_GT(rig.last.predicted_error_m, std::abs(beside().m) - 0.2);
+  EXPECT_EQ(rig.share_bound(), 1);
+}
+
+TEST_P(AFixThatIsFoundAfterAWay, IsBelievedWhenItStepsToDeadReckoning) {
+  find(beside().m);
+  rig.stand(20);
+  ASSERT_TRUE(rig.last.disputed) << rig.last.reason.view();
+  find(0);
+  rig.stand(5);
+  EXPECT_FALSE(rig.last.disagrees) << rig.last.reason.view();
+  EXPECT_LT(rig.position_error_m(), 0.05);
+}
+
+TEST_P(AFixThatIsFoundAfterAWay, WhereDeadReckoningIsIsBelievedAtOnce) {
+  find(0);
+  rig.stand(5);
+  EXPECT_FALSE(rig.last.disagrees) << rig.last.reason.view();
+  EXPECT_LT(rig.position_error_m(), 0.05);
+}
+
+INSTANTIATE_TEST_SUITE_P(After, AFixThatIsFoundAfterAWay,
+                         testing::Combine(testing::Values(FixQuality::none, FixQuality::rtk_float),
+                                          testing::Values(Beside{0.5, kPi / 2},
+                                                          Beside{0.7, kPi / 2}, Beside{0.7, 0},
+                                                          Beside{0.7, kPi})));
+
 TEST(EstimateContradiction, SingleOutliersAreNoDisagreement) {
   Rig rig;
   rig.stand(5);
