@@ -118,7 +118,8 @@ bool slipped_meanwhile(const State& state, const Dispute::Offset& beside,
   const double aside_m = std::abs(beside.left_m(yaw_rad));
   return behind_m >= -share * state.unseen.against_m(yaw_rad) - known_m &&
          behind_m <= share * state.unseen.in_m(yaw_rad) + known_m &&
-         aside_m <= share * state.unseen.aside_m(yaw_rad) + known_m;
+         aside_m <= share * state.unseen.aside_m(yaw_rad) + known_m &&
+         state.unseen.slips_to(beside.east_m, beside.north_m, share, known_m);
 }
 
 FixVerdict judge_jump(State& state, const FixBeside& fix, const EstimateConfig& config) {

@@ -36,6 +36,26 @@ TEST(UnseenWay, KeepsAShareOfWhatCameSince) {
   way.keep(0);
   EXPECT_EQ(way.way_m, 0);
   EXPECT_EQ(way.in_m(0), 0);
+  EXPECT_FALSE(way.slips_to(-0.1, 0, 1, 0.01));
+}
+
+/// Ten metres and the beginning of a turn to the left: it is behind on either of both, or on both,
+/// and not ahead of where it turned to.
+TEST(UnseenWay, TellsWhereWhoSlippedMayBe) {
+  UnseenWay way;
+  for (int i = 0; i < 100; ++i) way.advance(0.1, 0);
+  for (int i = 0; i < 13; ++i) way.advance(0.1 * std::cos(0.07 * i), 0.1 * std::sin(0.07 * i));
+  const auto slips_to = [&](double east_m, double north_m) {
+    return way.slips_to(east_m, north_m, 0.4, 0.1);
+  };
+  EXPECT_TRUE(slips_to(0, 0));
+  EXPECT_TRUE(slips_to(-3, 0));
+  EXPECT_TRUE(slips_to(-3, -0.2));
+  EXPECT_FALSE(slips_to(-6, 0));
+  EXPECT_FALSE(slips_to(0, 0.5));
+  EXPECT_FALSE(slips_to(-0.5, 0.5));
+  EXPECT_FALSE(slips_to(0.5, 0));
+  EXPECT_FALSE(slips_to(0, -0.5));
 }
 
 }  // namespace
