@@ -88,7 +88,9 @@ double doubt_m(const Dispute::Offset& beside, double two_sigma_m) {
 /// drove on without one, is found as he would be driving; who stood all the while may have been
 /// carried, which PlaceWatch sees.
 bool is_elsewhere(const State& state, bool near) {
-  const bool drove = state.standing_since == kNever || state.unseen.way_m > kDroveOn_m;
+  const bool judged = state.watch.looks() || state.watch.drifted;  // by how it goes on at rest
+  const bool drove_on = state.unseen.way_m > kDroveOn_m && !judged;
+  const bool drove = state.standing_since == kNever || drove_on;
   return drove && !state.way_unknown && !near && !state.shove.holds();
 }
 

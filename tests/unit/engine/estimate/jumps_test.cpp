@@ -194,6 +194,17 @@ TEST_P(AFixThatIsFoundAfterAWay, BesideDeadReckoningIsNotBelieved) {
   EXPECT_EQ(rig.share_bound(), 1);
 }
 
+/// Slip leads back along the way; nothing leads so far ahead or aside of it.
+TEST_P(AFixThatIsFoundAfterAWay, IsBelievedAfterAMinuteWhereSlipExplainsIt) {
+  find(beside().m);
+  rig.forget();
+  rig.stand(75);
+  const bool slipped = beside().yaw_rad == kPi;
+  EXPECT_EQ(rig.last.disputed, !slipped) << rig.last.reason.view();
+  EXPECT_EQ(rig.position_error_m() > 0.5, slipped);
+  EXPECT_EQ(rig.share_bound(), 1) << "the other place is in it";
+}
+
 TEST_P(AFixThatIsFoundAfterAWay, IsBelievedWhenItStepsToDeadReckoning) {
   find(beside().m);
   rig.stand(20);
