@@ -157,7 +157,7 @@ TEST(AFixThatIsFoundElsewhere, AfterAPauseForItTakesNothingOutOfTheCorridorOrThe
     plan.gst = seed % 2 == 0;
     plan.outage_s = {15, seed % 4 < 2 ? 45.0 : 42.0};
     plan.float_s = {plan.outage_s.to, 45};
-    plan.step_s = {45, seed % 2 == 0 ? 75 : 90};  // no minute, after which it may be believed
+    plan.step_s = {45, seed % 2 == 0 ? 75.0 : 90.0};  // no minute, after which it may be believed
     plan.step_m = 0.7;
     plan.step_rad = kPi / 4 * static_cast<double>(seed);
     FieldWorld world(field_config(), plan, seed);
