@@ -24,12 +24,21 @@ double JointShaper::within(JointValue what, double value, double low, double hig
   return bounded;
 }
 
-/// What the distance makes of stiffness is an effort like any other.
-double JointShaper::nearer(double position_rad, const JointMeasured& measured) {
+/// What damping makes of a speed that the joint has not come to yet drives it. What damping brakes
+/// does not.
+double JointShaper::speeds_up_Nm(double velocity_radps, const JointMeasured& measured) const {
+  const double missing_radps = velocity_radps - measured.velocity_radps;
+  return damping_ *
+         std::clamp(missing_radps, std::min(velocity_radps, 0.0), std::max(velocity_radps, 0.0));
+}
+
+/// What the distance makes of stiffness is an effort like any other, beside those that drive the
+/// joint already.
+double JointShaper::nearer(double position_rad, double besides_Nm, const JointMeasured& measured) {
   if (stiffness_ <= 0) return position_rad;
-  const double farthest_rad = rules_.max_effort_Nm / stiffness_;
-  return within(JointValue::effort, position_rad, measured.position_rad - farthest_rad,
-                measured.position_rad + farthest_rad);
+  return within(JointValue::effort, position_rad,
+                measured.position_rad - (rules_.max_effort_Nm + besides_Nm) / stiffness_,
+                measured.position_rad + (rules_.max_effort_Nm - besides_Nm) / stiffness_);
 }
 
 void JointShaper::take_over(const JointMeasured& measured) {
@@ -79,9 +88,13 @@ void JointShaper::approach_position(double wanted_rad, double wanted_radps, doub
   velocity_radps_ = wanted_radps;
 }
 
+/// All that drives the joint together stays within its limit of effort.
 void JointShaper::tell(double velocity_radps, const JointMeasured& measured) {
   told_velocity_radps_ = velocity_radps;
-  told_ = {nearer(position_rad_, measured), effort_Nm_, stiffness_, damping_};
+  const double speeds_up = speeds_up_Nm(velocity_radps, measured);
+  const double effort = within(JointValue::effort, effort_Nm_, -rules_.max_effort_Nm - speeds_up,
+                               rules_.max_effort_Nm - speeds_up);
+  told_ = {nearer(position_rad_, effort + speeds_up, measured), effort, stiffness_, damping_};
 }
 
 /// A distance that came about under less stiffness would be torn shut by more: the position is
@@ -130,7 +143,7 @@ void JointShaper::follow_velocity(const JointTarget& target, const JointMeasured
   approach_gains(rules_.stiffness_Nmprad, rules_.damping_Nmsprad, 0, dt_s);
   approach_velocity(wanted, dt_s);
   // What is blocked is not pushed harder for ever.
-  position_rad_ = nearer(position_rad_, measured);
+  position_rad_ = nearer(position_rad_, speeds_up_Nm(velocity_radps_, measured), measured);
   tell(velocity_radps_, measured);
 }
 
@@ -197,7 +210,7 @@ void JointShaper::hold(const JointMeasured& measured, double dt_s) {
     // All that the drive gives now; of what sinks slowly the damping is its weight.
     const double damps = damping_ * (told_velocity_radps_ - measured.velocity_radps);
     const double gives =
-        stiffness_ * (told_.position_rad - measured.position_rad) + damps + effort_Nm_;
+        stiffness_ * (told_.position_rad - measured.position_rad) + damps + told_.effort_Nm;
     const double carries =
         std::clamp(std::isfinite(measured.effort_Nm) ? measured.effort_Nm : gives,
                    -rules_.max_effort_Nm, rules_.max_effort_Nm);

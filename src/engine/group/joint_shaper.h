@@ -31,7 +31,8 @@ constexpr JointValues bit(JointValue value) {
 
 /// Begins without stiffness where the joint is. From then on the position moves by the joint's
 /// limits of velocity and acceleration, stiffness, damping and effort rise and fall within
-/// `rise_s`, and what stiffness makes of a distance stays below the limit of effort. Pure.
+/// `rise_s`, and what drives the joint together (an effort, stiffness by a distance, damping by a
+/// speed that it has not come to yet) stays within the limit of effort. Pure.
 class JointShaper final {
  public:
   explicit JointShaper(const JointRules& rules) : rules_(rules) {}
@@ -54,7 +55,8 @@ class JointShaper final {
 
  private:
   double within(JointValue what, double value, double low, double high);
-  double nearer(double position_rad, const JointMeasured& measured);
+  double speeds_up_Nm(double velocity_radps, const JointMeasured& measured) const;
+  double nearer(double position_rad, double besides_Nm, const JointMeasured& measured);
   double risen(double dt_s) const;
   void keep_torque(double stiffness_before, const JointMeasured& measured);
   void approach_gains(double stiffness, double damping, double effort, double dt_s);

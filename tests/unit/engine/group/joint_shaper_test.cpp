@@ -87,6 +87,33 @@ TEST(JointShaper, WhatStiffnessMakesOfADistanceStaysBelowTheLimitOfEffort) {
   EXPECT_EQ(shaper.limited(), bit(JointValue::effort));
 }
 
+TEST(JointShaper, StiffnessSpeedAndEffortTogetherStayBelowTheLimitOfEffort) {
+  for (const double sign : {-1.0, 1.0}) {
+    JointShaper shaper(rules_of(JointFollows::impedance));
+    const JointMeasured blocked{0, 0};
+    shaper.take_over(blocked);
+    JointTarget target = at(sign);
+    target.effort_Nm = 3 * sign;
+    target.velocity_radps = 0.8 * sign;
+    for (int i = 0; i < 600; ++i) {
+      shaper.follow(target, blocked, kCycle_s);
+      ASSERT_LE(torque_of(shaper, blocked) * sign, 4 + 1e-9) << i;
+    }
+    EXPECT_NEAR(torque_of(shaper, blocked) * sign, 4, 0.01);
+    EXPECT_EQ(shaper.limited(), bit(JointValue::effort));
+  }
+}
+
+/// What is braked is braked by all that its damping gives, beside all that its stiffness may.
+TEST(JointShaper, ALimitOfEffortTakesNothingFromWhatBrakes) {
+  JointShaper shaper(rules_of(JointFollows::impedance));
+  shaper.take_over({0, 0});
+  for (int i = 0; i < 600; ++i) shaper.follow(at(1), {0, 0}, kCycle_s);
+  const JointMeasured pushed{0, -1.5};
+  shaper.follow(at(1), pushed, kCycle_s);
+  EXPECT_NEAR(torque_of(shaper, pushed), 4 + 2 * 1.5, 0.01);
+}
+
 TEST(JointShaper, WhatItsDriveCannotBeToldIsClampedAndTold) {
   JointRules rules = rules_of(JointFollows::impedance);
   rules.drive.stiffness_Nmprad = 500;
