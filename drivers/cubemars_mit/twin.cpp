@@ -42,19 +42,14 @@ bool CubemarsTwin::set_fault(std::string_view name, Time) {
     on_ = false;
   } else if (name.empty()) {
     error_ = MotorError::none;
-    motor_.stuck = motor_.wrong_sign = motor_.torque_reversed = silent_ = false;
-  } else if (name == "stuck_encoder") {
-    motor_.stuck = true;
-  } else if (name == "wrong_sign") {
-    motor_.wrong_sign = true;
-  } else if (name == "torque_reversed") {
-    motor_.torque_reversed = true;
+    motor_.mend();
+    silent_ = false;
   } else if (name == "silent") {
     silent_ = true;
   } else if (name == "leaves_closed_loop") {
     on_ = false;
   } else {
-    return false;
+    return motor_.set_fault(name);
   }
   return true;
 }

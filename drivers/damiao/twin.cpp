@@ -56,22 +56,17 @@ bool DamiaoTwin::set_fault(std::string_view name, Time) {
   if (once != kOnce.end()) {
     fail(once->second);
   } else if (name.empty()) {
-    hot_ = motor_.stuck = motor_.wrong_sign = motor_.torque_reversed = silent_ = false;
+    motor_.mend();
+    hot_ = silent_ = false;
   } else if (name == "over_temperature") {
     hot_ = true;
     fail(MotorStatus::rotor_hot);
-  } else if (name == "stuck_encoder") {
-    motor_.stuck = true;
-  } else if (name == "wrong_sign") {
-    motor_.wrong_sign = true;
-  } else if (name == "torque_reversed") {
-    motor_.torque_reversed = true;
   } else if (name == "silent") {
     silent_ = true;
   } else if (name == "leaves_closed_loop") {
     fail(MotorStatus::disabled);
   } else {
-    return false;
+    return motor_.set_fault(name);
   }
   return true;
 }

@@ -26,4 +26,17 @@ void TwinMotor::move(double dt_s, bool on, const MitCommand& command, Shaft& sha
   shaft.energized = on;
 }
 
+bool TwinMotor::set_fault(std::string_view name) {
+  if (name == "stuck_encoder") {
+    stuck = true;
+  } else if (name == "wrong_sign") {
+    wrong_sign = true;
+  } else if (name == "torque_reversed") {
+    torque_reversed = true;
+  } else {
+    return false;
+  }
+  return true;
+}
+
 }  // namespace drover::mit

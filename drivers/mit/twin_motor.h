@@ -1,6 +1,8 @@
 // The law of MIT mode on a simulated motor's shaft.
 #pragma once
 
+#include <string_view>
+
 #include "drivers/mit/frame.h"
 #include "drover/twin.h"
 
@@ -17,6 +19,9 @@ struct TwinMotor {
   /// At the motor, as its encoder tells.
   Motion told;
 
+  /// Known: "stuck_encoder", "wrong_sign", "torque_reversed". False: it is none of a motor's.
+  bool set_fault(std::string_view name);
+  void mend() { stuck = wrong_sign = torque_reversed = false; }
   /// With its power stage `on` it follows `command`, and so does the shaft; else both are free.
   void move(double dt_s, bool on, const MitCommand& command, Shaft& shaft);
 };

@@ -27,6 +27,13 @@ constexpr double kHasNone = 0.5;
 /// Longer between two frames, and the turns between them are not counted.
 constexpr Duration kCounts = std::chrono::milliseconds(100);
 
+/// Whether it has been so for long; `since` is when that began.
+bool lasts(bool is_so, Time& since, Time now) {
+  if (!is_so) since = kNever;
+  if (is_so && since == kNever) since = now;
+  return is_so && now - since > kStuck;
+}
+
 }  // namespace
 
 Motor::Motor(const Settings& settings, std::size_t channel)
@@ -104,13 +111,8 @@ bool Motor::is_pushed() const {
 }
 
 void Motor::watch_angle(Time now) {
-  if (!is_pushed() || loop_ != Loop::following) {
-    pushed_since_ = kNever;
-  } else if (pushed_since_ == kNever) {
-    pushed_since_ = now;
-  } else if (now - pushed_since_ > kStuck && now - turned_at_ > kStuck) {
-    stuck_ = true;
-  }
+  const bool pushed = is_pushed() && loop_ == Loop::following;
+  if (lasts(pushed, pushed_since_, now) && now - turned_at_ > kStuck) stuck_ = true;
 }
 
 bool Motor::has_current() const {
@@ -119,13 +121,8 @@ bool Motor::has_current() const {
 
 /// A line of it is torn. One that never told a current may be of those that tell none.
 void Motor::watch_current(Time now) {
-  if (!is_pushed() || has_current() || !tells_current_) {
-    without_since_ = kNever;
-  } else if (without_since_ == kNever) {
-    without_since_ = now;
-  } else if (now - without_since_ > kStuck) {
-    torn_ = true;
-  }
+  const bool without = is_pushed() && !has_current() && tells_current_;
+  if (lasts(without, without_since_, now)) torn_ = true;
 }
 
 void Motor::follow(double wanted_radps, Duration dt, Time now) {

@@ -76,8 +76,10 @@ void Guard::act(Time t) {
   // fall.
   const bool all = may_hold();
   const bool plays = holding_ && (all || !daemon_holds);
-  using Whose = StopSet::Whose;
-  if (plays) set_.play(t, !all ? Whose::daemons : daemon_holds ? Whose::not_daemons : Whose::all);
+  auto whose = StopSet::Whose::all;
+  if (!all) whose = StopSet::Whose::daemons;
+  if (daemon_holds) whose = StopSet::Whose::not_daemons;
+  if (plays) set_.play(t, whose);
   // Drives that nobody can stop are the hardware watchdog's.
   if (!plays || set_.in_command(t)) pulse();
 }

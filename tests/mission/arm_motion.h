@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "mission/arm_wire.h"
 #include "mission/support.h"
 
 namespace drover::mission {
@@ -35,6 +36,15 @@ inline double strayed(const Record& log, std::size_t joint, Time begin, Time end
 /// How fast the base moves then, m/s.
 inline double speed_at(const Record& log, Time time) {
   return std::abs(log.truth_at(time).vx_mps);
+}
+
+/// From `begin` to `end` a motor is told to keep a place, more than so many times.
+inline void expect_stiff(const Record& log, std::size_t joint, Time begin, Time end,
+                         std::size_t times = 50) {
+  const auto told = arm_set_points(log, joint, begin, end);
+  EXPECT_GT(told.size(), times) << joint;
+  for (const ArmSetPoint& one : told)
+    ASSERT_GT(one.told.stiffness, 0) << "joint " << joint << " at " << seconds(one.time);
 }
 
 /// What `drover status --json` said when it was asked for the n-th time in this mission.

@@ -1,7 +1,5 @@
 // A person releases a robot with an arm, to push it: the base rolls, the arm is held, and nobody
 // moves it.
-#include <iterator>
-
 #include "mission/arm_motion.h"
 #include "mission/arm_wire.h"
 
@@ -15,15 +13,11 @@ struct ArmRelease : testing::Test {
   const Record& log = record("arm_release");
 
   Time step(const std::string& name) const { return log.event("event " + name + "#1"); }
-  std::string said(const char* file) const {
-    std::ifstream stream(log.folder / file);
-    return {std::istreambuf_iterator<char>(stream), {}};
-  }
   double way_m(Time begin, Time end) const { return roll(log, begin, end).way_m; }
 };
 
 TEST_F(ArmRelease, IsRefusedWhileATaskDrives) {
-  EXPECT_THAT(said("drover.log"), HasSubstr("refused: the robot is being driven"));
+  EXPECT_THAT(said(log, "drover.log"), HasSubstr("refused: the robot is being driven"));
   EXPECT_GT(speed_at(log, step("cancelled")), 0.3);
 }
 
@@ -45,10 +39,7 @@ TEST_F(ArmRelease, HoldsTheArmThatMovedAndFollowsNobodyMeanwhile) {
   EXPECT_LT(strayed(log, kBaseYaw, released, released + 1s), 0.3);
   for (std::size_t joint = 0; joint < damiao::kMotors; ++joint) {
     EXPECT_LT(strayed(log, joint, released + 1s, held), 0.03) << joint;
-    const auto told = arm_set_points(log, joint, released, held);
-    EXPECT_GT(told.size(), 500U) << joint;
-    for (const ArmSetPoint& one : told)
-      ASSERT_GT(one.told.stiffness, 0) << "joint " << joint << " at " << seconds(one.time);
+    expect_stiff(log, joint, released, held, 500);
   }
 }
 
@@ -58,7 +49,8 @@ TEST_F(ArmRelease, SaysSo) {
   const auto arm = status.at("groups").at(0);
   EXPECT_EQ(arm.at("reason"), "the robot is released, to be pushed by hand: drover hold");
   EXPECT_GT(arm.at("refused"), 0);
-  EXPECT_THAT(said("drover.log"), HasSubstr("its other joints follow nobody, what runs is held"));
+  EXPECT_THAT(said(log, "drover.log"),
+              HasSubstr("its other joints follow nobody, what runs is held"));
 }
 
 TEST_F(ArmRelease, AfterHoldThePushDoesNotMoveIt) {

@@ -32,13 +32,6 @@ struct ArmTrust : testing::Test {
     }
     return fastest;
   }
-  /// From `begin` to `end` a motor is told to keep a place.
-  void expect_stiff(std::size_t joint, Time begin, Time end) const {
-    const auto told = arm_set_points(log, joint, begin, end);
-    EXPECT_GT(told.size(), 50U) << joint;
-    for (const ArmSetPoint& one : told)
-      ASSERT_GT(one.told.stiffness, 0) << "joint " << joint << " at " << seconds(one.time);
-  }
   /// When it is told for the first time to let go, by its id and FF seven times, FD.
   Time let_go(std::size_t joint, Time begin) const {
     for (const CanLine& line : log.can)
@@ -72,8 +65,8 @@ TEST_F(ArmTrust, TheOthersHoldThenAndItIsToldInWords) {
   const Time mended = step("mended");
   EXPECT_LT(strayed(log, kShoulder, begun, mended), 0.03);
   EXPECT_LT(strayed(log, kElbow, begun, mended), 0.02);
-  expect_stiff(kShoulder, begun, mended);
-  expect_stiff(kElbow, begun, mended);
+  expect_stiff(log, kShoulder, begun, mended);
+  expect_stiff(log, kElbow, begun, mended);
   const auto arm = asked_status(log).at("groups").at(0);
   EXPECT_THAT(arm.at("reason").get<std::string>(), HasSubstr("base_yaw: it turns by"));
   EXPECT_THAT(arm.at("reason").get<std::string>(), HasSubstr("its drive turns the wrong way"));
@@ -110,8 +103,8 @@ TEST_F(ArmTrust, NoTorqueIsMadeOfAnEncoderThatStands) {
 TEST_F(ArmTrust, TheOthersHoldThatToo) {
   const Time stuck = step("stuck");
   const Time turns = step("turns_again");
-  expect_stiff(kBaseYaw, stuck, turns);
-  expect_stiff(kShoulder, stuck, turns);
+  expect_stiff(log, kBaseYaw, stuck, turns);
+  expect_stiff(log, kShoulder, stuck, turns);
   // What turns is braked by its limit of acceleration.
   EXPECT_LT(strayed(log, kBaseYaw, stuck + 250ms, turns), 0.25);
   EXPECT_LT(strayed(log, kBaseYaw, stuck + 1s, turns), 0.02);

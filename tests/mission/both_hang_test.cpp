@@ -1,7 +1,5 @@
 // droverd and drover-guard stand still together while the robot drives: nobody is there who could
 // stop it, and its motors go on by the last current that they were told.
-#include <fstream>
-#include <iterator>
 #include <string>
 
 #include "mission/support.h"
@@ -13,8 +11,7 @@ constexpr const char* kName = "both_hang";
 
 /// What droverd wrote into its log.
 std::string journal(const Record& log) {
-  std::ifstream stream(log.folder / "droverd.log");
-  return {std::istreambuf_iterator<char>(stream), {}};
+  return said(log, "droverd.log");
 }
 
 TEST(BothHang, ForLessThanTheGuardsLimitAndItsCyclesIsToldAndNoMore) {

@@ -1,8 +1,6 @@
 // Missions in which inertial sensor, battery or receiver fail: what is told, and that it goes on.
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 
 #include "mission/support.h"
 
@@ -214,8 +212,7 @@ bool fixed(const Status& status) {
 
 TEST(ReceiverRenamed, IsHeardAgainUnderEachNameByTheSameProcess) {
   const Record& log = record("receiver_renamed");
-  std::ifstream stream(log.folder / "drover-sim.log");
-  const std::string told{std::istreambuf_iterator<char>(stream), {}};
+  const std::string told = said(log, "drover-sim.log");
   EXPECT_THAT(told, testing::HasSubstr("unplugged from /dev/ttyACM0\nunplugged from /dev/ttyACM1"));
   EXPECT_EQ(log.all("start droverd").size(), 1U);
   for (const std::size_t n : {1U, 2U}) {

@@ -1,6 +1,4 @@
 // What holds in every mission.
-#include <fstream>
-#include <iterator>
 
 #include "mission/support.h"
 #include "support/protoc.h"
@@ -55,8 +53,7 @@ TEST_P(EveryMission, TellsItsStatusInTheDocumentsWords) {
 
 /// Nobody else is there: what is busy is with drover-guard, where it belongs.
 TEST_P(EveryMission, WarnsOfNoLineThatTheGuardHas) {
-  std::ifstream stream(log().folder / "droverd.log");
-  const std::string told{std::istreambuf_iterator<char>(stream), {}};
+  const std::string told = said(log(), "droverd.log");
   EXPECT_THAT(told, testing::Not(testing::ContainsRegex("(warning|error): [^\n]*resource busy")));
 }
 

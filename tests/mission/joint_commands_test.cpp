@@ -1,8 +1,6 @@
 // Streams of joint commands: what moves while one lives, and what does not because of a bad one.
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 
 #include "mission/robot.h"
 #include "mission/support.h"
@@ -25,10 +23,7 @@ struct JointCommands : testing::Test {
   const Record& log = record("joint_commands");
 
   Time step(const std::string& name) const { return log.event("event " + name + "#1"); }
-  std::string journal() const {
-    std::ifstream stream(log.folder / "droverd.log");
-    return {std::istreambuf_iterator<char>(stream), {}};
-  }
+  std::string journal() const { return said(log, "droverd.log"); }
   /// The last message of the stream that lives at `time`.
   Time last_of_stream(Time time) const {
     for (const auto& stream : streams(log.joint_commands))

@@ -1,6 +1,4 @@
 // A stream of joint commands that drives at a box: the shipped limits hold for it as for a task.
-#include <fstream>
-#include <iterator>
 
 #include "mission/robot.h"
 #include "mission/support.h"
@@ -75,8 +73,7 @@ TEST_F(JointObstacle, InTheNearZoneItStopsAndTheBumperNeverTouches) {
 }
 
 TEST_F(JointObstacle, TheOperatorIsToldWhy) {
-  std::ifstream stream(log.folder / "droverd.log");
-  const std::string told{std::istreambuf_iterator<char>(stream), {}};
+  const std::string told = said(log, "droverd.log");
   EXPECT_THAT(told, testing::HasSubstr("joint commands ended: obstacle in the near zone"));
   EXPECT_TRUE(log.statuses.back().obstacle);
   for (const auto& status : log.statuses)

@@ -1,6 +1,4 @@
 // Four mecanum wheels: a task, a way to the side, and what stops them.
-#include <fstream>
-#include <iterator>
 
 #include "mission/scene_support.h"
 #include "mission/support.h"
@@ -164,8 +162,7 @@ TEST(SceneAside, StopsJointCommandsBeforeABoxAndLetsThemLeave) {
   EXPECT_GT(gap_m, 0);
   EXPECT_LE(gap_m, kFarFrom_m);
   EXPECT_THAT(log.moving(over - 1s, over), testing::IsEmpty());
-  std::ifstream stream(log.folder / "droverd.log");
-  const std::string journal{std::istreambuf_iterator<char>(stream), {}};
+  const std::string journal = said(log, "droverd.log");
   EXPECT_THAT(journal, testing::HasSubstr("joint commands ended: crate is in the way"));
   EXPECT_THAT(journal, testing::HasSubstr("to the left"));
   const double away_m = scene.pose_at(log.event("event commands_end#4")).y_m;

@@ -1,7 +1,5 @@
 // Missions that record the outputs' wires: enable relay, lamp, buzzer, the hardware watchdog's
 // line.
-#include <fstream>
-#include <iterator>
 
 #include "mission/support.h"
 
@@ -223,8 +221,7 @@ TEST(ChipReplugged, IsPickedUpAgainByTheSameProcesses) {
   expect_warning_before_motion(log, start);
   EXPECT_LT(drive_figures(log, start, log.first_status("NAV_SUCCESS", start).time).goal_m, 0.10);
 
-  std::ifstream stream(log.folder / "droverd.log");
-  const std::string told{std::istreambuf_iterator<char>(stream), {}};
+  const std::string told = said(log, "droverd.log");
   for (const char* text : {"error: lines: lost (", "error: outputs: lost (",
                            "warning: gpio drover-sim: no chip with this label or name"})
     EXPECT_THAT(told, testing::HasSubstr(text));

@@ -1,17 +1,10 @@
 // What is kept: constraints while they hold, fences when the origin moves, all of it over a
 // restart; and the search for the heading beside a fence.
-#include <fstream>
-#include <iterator>
 
 #include "mission/scene_support.h"
 
 namespace drover::mission {
 namespace {
-
-std::string said(const Record& log, const char* file) {
-  std::ifstream stream(log.folder / file);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
 
 TEST(SceneOrigin, TheFenceAndTheBoxStayWhereTheyAre) {
   const SceneLog& scene = scene_log("scene_origin");

@@ -1,7 +1,5 @@
 // What comes into the way while the robot drives: it stops before it, says what it is, and goes on
 // when that is gone.
-#include <fstream>
-#include <iterator>
 
 #include "drover/angle.h"
 #include "mission/scene_support.h"
@@ -110,8 +108,7 @@ TEST(SceneReverse, StopsJointCommandsThatDriveBackIntoABox) {
   EXPECT_LE(gap_m, kFarFrom_m);
   // The stream goes on asking.
   EXPECT_THAT(log.moving(over - 1s, Time::max()), testing::IsEmpty());
-  std::ifstream stream(log.folder / "droverd.log");
-  const std::string journal{std::istreambuf_iterator<char>(stream), {}};
+  const std::string journal = said(log, "droverd.log");
   EXPECT_THAT(journal, testing::HasSubstr("joint commands ended: "));
   EXPECT_THAT(journal, testing::HasSubstr("crate"));
 }
@@ -129,8 +126,7 @@ TEST(SceneEdge, StopsJointCommandsBeforeItAndLetsThemLeave) {
   EXPECT_GT(stands_m, kEdgeX_m);
   EXPECT_LE(stands_m, kEdgeX_m + kFarFrom_m);
   EXPECT_THAT(log.moving(over - 1s, over), testing::IsEmpty());
-  std::ifstream stream(log.folder / "droverd.log");
-  const std::string journal{std::istreambuf_iterator<char>(stream), {}};
+  const std::string journal = said(log, "droverd.log");
   EXPECT_THAT(journal, testing::HasSubstr("joint commands ended: the edge of constraint yard"));
   EXPECT_EQ(journal.find("outside of its region"), std::string::npos) << "it was broken";
   // Nobody had to push it or to take the constraint away.

@@ -6,7 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <fstream>
+#include <iterator>
 #include <ostream>
+#include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "mission/conduct.h"
@@ -27,6 +31,13 @@ inline void figure(const char* what, double value, const char* unit) {
 }
 inline void figure(const char* what, Duration value) {
   figure(what, to_s(value), "s");
+}
+
+/// All that stands in a file of the mission's logs.
+inline std::string said(const Record& log, const char* file) {
+  std::ifstream stream(log.folder / file);
+  if (!stream) throw std::runtime_error((log.folder / file).string() + " is missing");
+  return {std::istreambuf_iterator<char>(stream), {}};
 }
 
 /// How the robot rolled between two instants.

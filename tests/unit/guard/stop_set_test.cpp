@@ -51,6 +51,15 @@ class GuardStopSet : public testing::Test {
   void add_link(StopSet& set) {
     EXPECT_TRUE(set.add_link(named(GuardVerb::link, 0, "can0"), link_));
   }
+  /// A hold of a wheel, "w", and of an arm that only droverd can hold, "a", begins.
+  void hold_wheel_and_arm(StopSet& set) {
+    add_link(set);
+    auto arm = axis(1, "can0 001");
+    arm.held_by_daemon = 1;
+    EXPECT_TRUE(set.add_axis(axis(0, "can0 02D")) && set.add_axis(arm));
+    EXPECT_TRUE(set.add_message(stop(0, 0, 'w')) && set.add_message(stop(1, 0, 'a')));
+    set.begin_hold();
+  }
   /// What the drives got since the last look.
   std::string heard() const {
     std::string all;
@@ -107,12 +116,7 @@ TEST_F(GuardStopSet, BeginsAHoldWithTheFirstRoundAtOnce) {
 
 TEST_F(GuardStopSet, LeavesToTheDaemonWhatOnlyThatCanHold) {
   StopSet set;
-  add_link(set);
-  auto arm = axis(1, "can0 001");
-  arm.held_by_daemon = 1;
-  ASSERT_TRUE(set.add_axis(axis(0, "can0 02D")) && set.add_axis(arm));
-  ASSERT_TRUE(set.add_message(stop(0, 0, 'w')) && set.add_message(stop(1, 0, 'a')));
-  set.begin_hold();
+  hold_wheel_and_arm(set);
   set.play(kStart, StopSet::Whose::not_daemons);
   EXPECT_EQ(heard(), "w");
   EXPECT_TRUE(set.in_command(kStart));
@@ -125,12 +129,7 @@ TEST_F(GuardStopSet, LeavesToTheDaemonWhatOnlyThatCanHold) {
 /// A person released the base; nobody let go of the arm.
 TEST_F(GuardStopSet, PlaysWhatOnlyTheDaemonCanHoldThoughTheOthersWereReleased) {
   StopSet set;
-  add_link(set);
-  auto arm = axis(1, "can0 001");
-  arm.held_by_daemon = 1;
-  ASSERT_TRUE(set.add_axis(axis(0, "can0 02D")) && set.add_axis(arm));
-  ASSERT_TRUE(set.add_message(stop(0, 0, 'w')) && set.add_message(stop(1, 0, 'a')));
-  set.begin_hold();
+  hold_wheel_and_arm(set);
   set.play(kStart, StopSet::Whose::daemons);
   EXPECT_EQ(heard(), "a");
   EXPECT_TRUE(set.in_command(kStart));
