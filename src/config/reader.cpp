@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "config/key_hint.h"
+#include "text/control.h"
 #include "text/number.h"
 #include "text/suggestion.h"
 
@@ -119,10 +120,9 @@ void Reader::check_name(const json::Member& member, const std::string& path) {
   const auto told = [&](const char* message) {
     problems_.push_back({member.line, member.column, path, message, "", ""});
   };
-  const auto is_control = [](unsigned char c) { return c < 0x20 || c == 0x7F; };
   if (name.empty()) {
     told("the name is empty");
-  } else if (std::any_of(name.begin(), name.end(), is_control)) {
+  } else if (text::has_control(name)) {
     told("the name holds a control character");
   } else if (Name(name).view() != name) {
     told("the name is too long");

@@ -130,6 +130,10 @@ TEST(ConfigurationChecks, RefuseANameThatCannotBeOne) {
             "f:6:5: devices." + longest + "x: the name is too long\n");
   EXPECT_EQ(problems(named("")), "f:6:5: devices.: the name is empty\n");
   EXPECT_EQ(problems(named("a\\u0007")), "f:6:5: devices.a?: the name holds a control character\n");
+  for (const char* const turns : {"a\\u0085", "a\\u202E"})
+    EXPECT_THAT(problems(named(turns)),
+                HasSubstr("devices.a?: the name holds a control character\n"))
+        << turns;
 }
 
 TEST(ConfigurationChecks, FindThePlaceOfANameWithADot) {
