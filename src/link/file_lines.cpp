@@ -15,8 +15,9 @@ class FileLines final : public LineLink {
   bool read(std::array<bool, kMaxLines>& levels) override {
     for (std::size_t i = 0; i < files_.size(); ++i) {
       char level = 0;
-      if (::pread(files_[i].get(), &level, 1, 0) != 1) {
-        error_ = errno != 0 ? errno : ENODATA;
+      const auto n = ::pread(files_[i].get(), &level, 1, 0);
+      if (n != 1) {
+        error_ = n < 0 ? errno : ENODATA;
         return false;
       }
       levels[i] = level == '1';

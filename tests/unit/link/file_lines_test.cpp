@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <cerrno>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -48,7 +49,9 @@ TEST(FileLines, AnEmptiedFileIsALostLine) {
   ASSERT_NE(opened.link, nullptr) << opened.problem;
   std::filesystem::resize_file(folder.path + "/estop", 0);
   std::array<bool, kMaxLines> levels{};
+  errno = EAGAIN;  // of whatever this thread did before: an end of file sets none
   EXPECT_FALSE(opened.link->read(levels));
+  EXPECT_EQ(opened.link->error(), ENODATA);
 }
 
 TEST(OpenLines, NamesTheChipThatIsMissing) {
