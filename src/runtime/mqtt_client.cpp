@@ -282,12 +282,11 @@ void MqttClient::connect(Time now) {
 }
 
 bool MqttClient::publish_latest(const char* topic, const std::string& payload) {
-  if (!connected_ || wants_write()) {
-    ++dropped_;
-    return false;
-  }
-  return ::mosquitto_publish(client_, nullptr, topic, static_cast<int>(payload.size()),
-                             payload.data(), 0, false) == MOSQ_ERR_SUCCESS;
+  const bool taken = connected_ && !wants_write() &&
+                     ::mosquitto_publish(client_, nullptr, topic, static_cast<int>(payload.size()),
+                                         payload.data(), 0, false) == MOSQ_ERR_SUCCESS;
+  if (!taken) ++dropped_;
+  return taken;
 }
 
 std::string_view MqttClient::publish(const char* topic, const std::string& payload, bool retained) {

@@ -70,6 +70,7 @@ class MqttClient final {
   std::string_view publish(const char* topic, const std::string& payload, bool retained = false);
   /// Of the answers that are not acknowledged.
   std::size_t bytes_under_way() const { return bytes_under_way_; }
+  /// Telemetry that was not handed over, and answers for which there was no place.
   std::uint64_t dropped() const { return dropped_; }
   /// Why nothing that comes now may begin a motion; empty when the broker is prompt.
   std::string_view late(Time now) const { return delay_.late(now); }

@@ -199,6 +199,17 @@ TEST_F(MqttClientTest, TellsAtOnceWhatTheBrokerWouldNotTake) {
   EXPECT_EQ(client_->publish("feedback", "{}"), "");
 }
 
+TEST_F(MqttClientTest, CountsTelemetryThatTheBrokerWouldNotTakeAsDropped) {
+  make();
+  ASSERT_TRUE(wait_for_connect(5));
+  broker_.accept_small_packets();
+  ASSERT_TRUE(turn_until([&] { return client_->connected() && !client_->wants_write(); }));
+  EXPECT_FALSE(client_->publish_latest("base_status", std::string(100, ' ')));
+  EXPECT_EQ(client_->dropped(), 1U);
+  EXPECT_TRUE(client_->publish_latest("base_status", "{}"));
+  EXPECT_EQ(client_->dropped(), 1U);
+}
+
 TEST_F(MqttClientTest, KnowsHowMuchOfItsAnswersIsStillOnItsWay) {
   connect();
   turn_promptly(100ms);
