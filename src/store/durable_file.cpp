@@ -14,6 +14,7 @@ namespace drover::store {
 namespace {
 
 constexpr std::string_view kFooter = "\n}\n";
+constexpr const char* kAsideEnding = ".bad";
 
 std::string header(std::string_view format, int version, std::uint64_t sum) {
   char digits[17] = {};
@@ -131,14 +132,27 @@ Result<std::string, Failure> quarantine(Files& files, const std::string& folder,
   std::vector<std::string> taken;
   if (const int e = files.list(folder, taken); e != 0)
     return Failure{failure_text("list", folder, e)};
-  std::string aside = name + ".bad";
+  std::string aside = name + kAsideEnding;
   for (int i = 2; std::find(taken.begin(), taken.end(), aside) != taken.end(); ++i) {
-    aside = name + ".bad" + std::to_string(i);
+    aside = name + kAsideEnding + std::to_string(i);
   }
   if (const int e = files.rename(folder + "/" + name, folder + "/" + aside); e != 0) {
     return Failure{failure_text("rename", folder + "/" + name, e)};
   }
   return aside;
+}
+
+std::string put_aside(Files& files, const std::string& folder, const std::string& name) {
+  const auto aside = quarantine(files, folder, name);
+  return aside.ok() ? "kept as " + *aside : aside.error().text;
+}
+
+bool lies_aside(Files& files, const std::string& folder, const std::string& name) {
+  std::vector<std::string> names;
+  if (files.list(folder, names) != 0) return false;
+  return std::any_of(names.begin(), names.end(), [&](const std::string& each) {
+    return each.starts_with(name + kAsideEnding);
+  });
 }
 
 }  // namespace drover::store

@@ -49,6 +49,10 @@ std::string foreign_text(const std::string& folder, const std::string& name);
 /// @return the new name
 Result<std::string, Failure> quarantine(Files& files, const std::string& folder,
                                         const std::string& name);
+/// The same, in words: "kept as NAME.bad", or why not even that.
+std::string put_aside(Files& files, const std::string& folder, const std::string& name);
+/// One of this name was put aside, and lies there still.
+bool lies_aside(Files& files, const std::string& folder, const std::string& name);
 
 /// Temporary files carry this ending; one that is found at start was never acknowledged.
 inline constexpr std::string_view kTemporaryEnding = ".tmp";

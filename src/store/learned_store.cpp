@@ -91,9 +91,8 @@ std::optional<KeptLearned> LearnedStore::load(std::vector<std::string>& report) 
   } else {
     what = body.error().text;
   }
-  const auto aside = quarantine(files_, folder_, kLearnedFile);
   report.push_back(path + " " + what + ": the robot learns anew; " +
-                   (aside.ok() ? "kept as " + *aside : aside.error().text));
+                   put_aside(files_, folder_, kLearnedFile));
   return std::nullopt;
 }
 

@@ -132,14 +132,6 @@ std::optional<Failure> save_named_texts(Files& files, const std::string& folder,
   return write_durably(files, folder, std::string(file.file), *content);
 }
 
-bool has_damaged_before(Files& files, const std::string& folder, const NamedTextsFile& file) {
-  std::vector<std::string> names;
-  if (files.list(folder, names) != 0) return false;
-  const std::string begin = std::string(file.file) + ".bad";
-  return std::any_of(names.begin(), names.end(),
-                     [&](const std::string& name) { return name.starts_with(begin); });
-}
-
 void remove_leftovers(Files& files, const std::string& folder, const NamedTextsFile& file) {
   std::vector<std::string> names;
   if (files.list(folder, names) != 0) return;

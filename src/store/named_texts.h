@@ -54,9 +54,6 @@ std::optional<Failure> save_named_texts(Files& files, const std::string& folder,
                                         const NamedTextsFile& file,
                                         const std::vector<NamedText>& texts);
 
-/// One was put aside (`<file>.bad`).
-bool has_damaged_before(Files& files, const std::string& folder, const NamedTextsFile& file);
-
 /// What interrupted saves of it have left; nothing of that was acknowledged.
 void remove_leftovers(Files& files, const std::string& folder, const NamedTextsFile& file);
 

@@ -1,7 +1,6 @@
 // The origin of the map frame on disk: it survives a restart.
 #include "store/origin_store.h"
 
-#include <algorithm>
 #include <cerrno>
 #include <cmath>
 
@@ -56,7 +55,7 @@ std::optional<GeodeticPoint> OriginStore::load(std::vector<std::string>& report)
   std::string content;
   problem_.clear();
   if (const int e = files_.read(path, 65536, content); e == ENOENT) {
-    if (damaged_before()) {
+    if (lies_aside(files_, folder_, kOriginFile)) {  // and nobody has given another since
       problem_ = kGone;
       report.push_back(gone_text(folder_, kOriginFile));
     } else if (was_kept(files_, folder_, kOriginFile)) {
@@ -84,19 +83,8 @@ std::optional<GeodeticPoint> OriginStore::load(std::vector<std::string>& report)
     what = body.error().text;
   }
   problem_ = kDamaged;
-  const auto aside = quarantine(files_, folder_, kOriginFile);
-  report.push_back(path + " " + what + "; " +
-                   (aside.ok() ? "kept as " + *aside : aside.error().text));
+  report.push_back(path + " " + what + "; " + put_aside(files_, folder_, kOriginFile));
   return std::nullopt;
-}
-
-/// One that was put aside, and nobody has given another since.
-bool OriginStore::damaged_before() {
-  std::vector<std::string> names;
-  if (files_.list(folder_, names) != 0) return false;
-  return std::any_of(names.begin(), names.end(), [](const std::string& name) {
-    return name.starts_with(kOriginFile + ".bad");
-  });
 }
 
 std::optional<Failure> OriginStore::save(const GeodeticPoint& origin) {

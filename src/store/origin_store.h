@@ -33,8 +33,6 @@ class OriginStore final {
   std::optional<Failure> save(const GeodeticPoint& origin);
 
  private:
-  bool damaged_before();
-
   Files& files_;
   std::string folder_;
   std::string problem_;

@@ -50,9 +50,7 @@ std::vector<NamedText> SceneStore::load(double wall_s, std::optional<double> max
   }
   if (!found.problem.empty()) {
     problem_ = "the stored scene is lost: " + found.problem;
-    const auto aside = quarantine(files_, folder_, kScene);
-    report.push_back(found.problem + "; " +
-                     (aside.ok() ? "kept as " + *aside : aside.error().text));
+    report.push_back(found.problem + "; " + put_aside(files_, folder_, kScene));
     return {};
   }
   auto& texts = found.texts;
@@ -60,7 +58,7 @@ std::vector<NamedText> SceneStore::load(double wall_s, std::optional<double> max
   if (loss != texts.end()) {
     problem_ = loss->text;
     texts.erase(loss);
-  } else if (!found.is_there && has_damaged_before(files_, folder_, kSceneFile)) {
+  } else if (!found.is_there && lies_aside(files_, folder_, kScene)) {
     problem_ = "the stored scene is lost: " + gone_text(folder_, kScene);
     report.push_back(problem_);
   } else if (!found.is_there && was_kept(files_, folder_, kScene)) {

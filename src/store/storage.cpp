@@ -2,6 +2,7 @@
 #include "store/storage.h"
 
 #include <stdexcept>
+#include <type_traits>
 #include <utility>
 
 #include "store/kept_marks.h"
@@ -32,19 +33,36 @@ std::vector<NamedText> written(const std::vector<SceneText>& texts) {
   return all;
 }
 
+template <class Job, class... Jobs>
+constexpr bool is_one_of = (std::is_same_v<Job, Jobs> || ...);
+
+/// One function for each kind of job. A kind that has none does not compile: there is no rest,
+/// which could be a deletion.
+template <class... Functions>
+struct ForEach : Functions... {
+  using Functions::operator()...;
+};
+template <class... Functions>
+ForEach(Functions...) -> ForEach<Functions...>;
+
 }  // namespace
 
 StoredFor stored_for(const StorageJob& job) {
-  const bool of_reports = std::holds_alternative<SaveReport>(job.what) ||
-                          std::holds_alternative<ListReports>(job.what) ||
-                          std::holds_alternative<ReadReport>(job.what);
-  if (of_reports) return StoredFor::reports;
-  if (std::holds_alternative<SaveLearned>(job.what)) return StoredFor::learned;
-  const bool of_scene =
-      std::holds_alternative<SaveScene>(job.what) || std::holds_alternative<AcceptLoss>(job.what) ||
-      std::holds_alternative<SaveZone>(job.what) || std::holds_alternative<DeleteZone>(job.what) ||
-      std::holds_alternative<ForgetUnreadableZones>(job.what);
-  return of_scene ? StoredFor::scene : StoredFor::tracks;
+  return std::visit(
+      []<class Job>(const Job&) {
+        if constexpr (is_one_of<Job, SaveReport, ListReports, ReadReport>) {
+          return StoredFor::reports;
+        } else if constexpr (is_one_of<Job, SaveLearned>) {
+          return StoredFor::learned;
+        } else if constexpr (is_one_of<Job, SaveScene, AcceptLoss, SaveZone, DeleteZone,
+                                       ForgetUnreadableZones>) {
+          return StoredFor::scene;
+        } else {
+          static_assert(is_one_of<Job, SaveTrack, DeleteTrack, DeleteAllTracks, SaveOrigin>);
+          return StoredFor::tracks;
+        }
+      },
+      job.what);
 }
 
 Storage::Storage(Files& files, const std::string& folder, const std::string& run_folder)
@@ -79,37 +97,34 @@ StorageReply Storage::run(StorageJob job) {
   StorageReply reply;
   reply.id = job.id;
   reply.whose = stored_for(job);
-  std::optional<Failure> failure;
-  if (auto* save = std::get_if<SaveTrack>(&job.what)) {
-    failure = tracks_.save(save->track);
-    reply.track = std::move(save->track);
-  } else if (const auto* one = std::get_if<DeleteTrack>(&job.what)) {
-    failure = tracks_.remove(one->name);
-  } else if (const auto* origin = std::get_if<SaveOrigin>(&job.what)) {
-    failure = origin_.save(origin->origin);
-  } else if (const auto* scene = std::get_if<SaveScene>(&job.what)) {
-    failure = scene_.save(written(scene->texts));
-  } else if (const auto* loss = std::get_if<AcceptLoss>(&job.what)) {
-    failure = scene_.accept_loss(written(loss->texts));
-  } else if (auto* zone = std::get_if<SaveZone>(&job.what)) {
-    failure = zones_.save(zone->name, std::move(zone->text), zone->wall_s);
-  } else if (const auto* gone = std::get_if<DeleteZone>(&job.what)) {
-    failure = zones_.remove(gone->name);
-  } else if (std::holds_alternative<ForgetUnreadableZones>(job.what)) {
-    failure = zones_.forget_unreadable();
-  } else if (const auto* report = std::get_if<SaveReport>(&job.what)) {
-    failure = reports_.save(report->texts);
-  } else if (std::holds_alternative<ListReports>(job.what)) {
-    reply.reports = reports_.list();
-  } else if (const auto* learned = std::get_if<SaveLearned>(&job.what)) {
-    failure = learned_.save(learned->kept);
-  } else if (const auto* wanted = std::get_if<ReadReport>(&job.what)) {
-    auto found = reports_.read(wanted->number);
-    if (found.ok()) reply.reports.push_back(std::move(found.value()));
-    if (!found.ok()) failure = found.error();
-  } else {
-    failure = tracks_.remove_all(reply.removed);
-  }
+  const std::optional<Failure> failure = std::visit(
+      ForEach{
+          [&](SaveTrack& save) {
+            auto failed = tracks_.save(save.track);
+            reply.track = std::move(save.track);
+            return failed;
+          },
+          [&](DeleteTrack& one) { return tracks_.remove(one.name); },
+          [&](DeleteAllTracks&) { return tracks_.remove_all(reply.removed); },
+          [&](SaveOrigin& save) { return origin_.save(save.origin); },
+          [&](SaveScene& save) { return scene_.save(written(save.texts)); },
+          [&](AcceptLoss& loss) { return scene_.accept_loss(written(loss.texts)); },
+          [&](SaveZone& zone) { return zones_.save(zone.name, std::move(zone.text), zone.wall_s); },
+          [&](DeleteZone& zone) { return zones_.remove(zone.name); },
+          [&](ForgetUnreadableZones&) { return zones_.forget_unreadable(); },
+          [&](SaveReport& report) { return reports_.save(report.texts); },
+          [&](ListReports&) -> std::optional<Failure> {
+            reply.reports = reports_.list();
+            return std::nullopt;
+          },
+          [&](ReadReport& wanted) -> std::optional<Failure> {
+            auto found = reports_.read(wanted.number);
+            if (!found.ok()) return found.error();
+            reply.reports.push_back(std::move(found.value()));
+            return std::nullopt;
+          },
+          [&](SaveLearned& learned) { return learned_.save(learned.kept); }},
+      job.what);
   reply.ok = !failure;
   if (failure) reply.reason = failure->text;
   return reply;

@@ -21,10 +21,8 @@ std::vector<Track> TrackStore::load(std::vector<std::string>& report) {
   }
   // The order of a folder is chance; which of two files wins must not be.
   std::sort(names.begin(), names.end());
-  const auto put_aside = [&](const std::string& file, const std::string& what) {
-    const auto aside = quarantine(files_, folder_, file);
-    report.push_back(path(file) + " " + what + "; " +
-                     (aside.ok() ? "kept as " + *aside : aside.error().text));
+  const auto refuse = [&](const std::string& file, const std::string& what) {
+    report.push_back(path(file) + " " + what + "; " + put_aside(files_, folder_, file));
   };
   for (const std::string& file : names) {
     if (file.ends_with(kTemporaryEnding)) {
@@ -40,7 +38,7 @@ std::vector<Track> TrackStore::load(std::vector<std::string>& report) {
     if (const int e = files_.read(path(file), kMaxTrackFileBytes, content); e != 0) {
       // Only a file that can never be a track is put aside; a read error may pass.
       if (e == EFBIG || e == EINVAL || e == ELOOP) {
-        put_aside(file, e == EFBIG ? "is too large for a track" : "is no regular file");
+        refuse(file, e == EFBIG ? "is too large for a track" : "is no regular file");
       } else {
         report.push_back(failure_text("read", path(file), e));
         unread_files_.push_back(file);
@@ -50,9 +48,9 @@ std::vector<Track> TrackStore::load(std::vector<std::string>& report) {
     auto track = decode_track(content);
     const std::size_t bytes = track.ok() ? list_bytes(*track) : 0;
     if (!track.ok()) {
-      put_aside(file, track.error().text);
+      refuse(file, track.error().text);
     } else if (entries_.contains(track->name)) {
-      put_aside(file, "has the name of another track");
+      refuse(file, "has the name of another track");
     } else if (bytes_ + bytes > kMaxListBytes) {
       unread_files_.push_back(file);
     } else {
