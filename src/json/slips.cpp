@@ -1,9 +1,9 @@
 #include "json/slips.h"
 
 #include <algorithm>
-#include <cctype>
 
 #include "json/located_json.h"
+#include "text/letters.h"
 
 namespace drover::json {
 namespace {
@@ -13,18 +13,13 @@ bool is_digit(char c) {
 }
 
 bool is_word_char(char c) {
-  return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-' || c == '/';
-}
-
-std::string lower(std::string_view word) {
-  std::string low(word);
-  for (char& c : low) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return low;
+  const char small = text::small_letter(c);
+  return (small >= 'a' && small <= 'z') || is_digit(c) || c == '_' || c == '-' || c == '/';
 }
 
 /// A word without quotes.
 std::string slip_of_word(std::string_view word) {
-  const auto low = lower(word);
+  const auto low = text::in_small_letters(word);
   if (low == "nan" || low == "infinity" || low == "inf") return "a number is expected";
   if (low == "none" || low == "nil") return "it is written null";
   for (const std::string_view known : {"true", "false", "null"})

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <string>
 #include <string_view>
 
 namespace drover::text {
@@ -12,6 +13,12 @@ constexpr char small_letter(char c) {
 
 constexpr bool same_letter(char a, char b) {
   return small_letter(a) == small_letter(b);
+}
+
+inline std::string in_small_letters(std::string_view word) {
+  std::string small(word);
+  std::transform(small.begin(), small.end(), small.begin(), small_letter);
+  return small;
 }
 
 inline bool equal_but_for_case(std::string_view a, std::string_view b) {

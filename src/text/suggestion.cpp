@@ -1,18 +1,12 @@
 #include "text/suggestion.h"
 
 #include <algorithm>
-#include <cctype>
 #include <numeric>
+
+#include "text/letters.h"
 
 namespace drover::text {
 namespace {
-
-/// Device names stand in capitals on their labels.
-std::string lower(std::string_view word) {
-  std::string low(word);
-  for (char& c : low) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return low;
-}
 
 /// Edits (insert, delete, replace) that make one word of the other.
 std::size_t distance(std::string_view a, std::string_view b) {
@@ -33,12 +27,12 @@ std::size_t distance(std::string_view a, std::string_view b) {
 }  // namespace
 
 std::string nearest(std::string_view word, const std::vector<std::string>& candidates) {
-  const auto meant = lower(word);
+  const auto meant = in_small_letters(word);  // device names stand in capitals on their labels
   std::string best;
   std::size_t least = std::max<std::size_t>(word.size() / 2, 2) + 1;
   for (const auto& candidate : candidates) {
     // "max_speed" for "max_speed_mps" is the usual slip: a forgotten unit.
-    const auto written = lower(candidate);
+    const auto written = in_small_letters(candidate);
     const bool begun = meant.size() >= 2 && written.starts_with(meant);
     const auto edits = begun ? std::size_t{written != meant} : distance(meant, written);
     if (edits < least) {
