@@ -7,15 +7,6 @@
 
 namespace drover::link {
 
-namespace {
-
-std::string missing_line(const LineSettings& settings, const std::string& line) {
-  return "gpio " + settings.chip + ": no line " +
-         (line_number(line) ? line : "named \"" + line + "\"");
-}
-
-}  // namespace
-
 #ifndef DROVER_GPIOD_2
 
 namespace {
@@ -82,7 +73,7 @@ Opened<LineLink> open_gpio_lines(const LineSettings& settings) {
   gpiod_chip* chip = ::gpiod_chip_open_by_label(settings.chip.c_str());
   if (chip == nullptr) chip = ::gpiod_chip_open_lookup(settings.chip.c_str());
   if (chip == nullptr) {
-    opened.problem = "gpio " + settings.chip + ": no chip with this label or name";
+    opened.problem = no_chip(settings.chip);
     return opened;
   }
   std::vector<gpiod_line*> lines;
@@ -91,7 +82,7 @@ Opened<LineLink> open_gpio_lines(const LineSettings& settings) {
     if (const auto number = line_number(name); line == nullptr && number)
       line = ::gpiod_chip_get_line(chip, *number);
     if (line == nullptr) {
-      opened.problem = missing_line(settings, name);
+      opened.problem = no_line(settings.chip, name);
     } else if (::gpiod_line_request_both_edges_events(line, kConsumer) != 0 &&
                ::gpiod_line_request_input(line, kConsumer) != 0) {
       opened.problem = problem_text("gpio " + settings.chip + " line " + name, "cannot use", errno);
@@ -217,7 +208,7 @@ Opened<LineLink> open_gpio_lines(const LineSettings& settings) {
   Opened<LineLink> opened;
   gpiod_chip* chip = find_chip(settings.chip);
   if (chip == nullptr) {
-    opened.problem = "gpio " + settings.chip + ": no chip with this label or name";
+    opened.problem = no_chip(settings.chip);
     return opened;
   }
   std::vector<unsigned> offsets;
@@ -226,7 +217,7 @@ Opened<LineLink> open_gpio_lines(const LineSettings& settings) {
     if (const auto number = line_number(name); offset < 0 && number)
       offset = static_cast<int>(*number);
     if (offset < 0) {
-      opened.problem = missing_line(settings, name);
+      opened.problem = no_line(settings.chip, name);
       ::gpiod_chip_close(chip);
       return opened;
     }

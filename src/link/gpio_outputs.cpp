@@ -137,8 +137,7 @@ UniqueFd request_lines(int chip, const OutputSettings& settings,
     const auto& line = settings.lines[index];
     const int offset = find_line(chip, line.name);
     if (offset < 0) {
-      problem = "gpio " + settings.chip + ": no line " +
-                (line_number(line.name) ? line.name : "named \"" + line.name + "\"");
+      problem = no_line(settings.chip, line.name);
       return {};
     }
     if (line.active_low) active_low |= std::uint64_t{1} << request.num_lines;
@@ -164,7 +163,7 @@ Opened<OutputLink> open_gpio(const OutputSettings& settings, UniqueFd kept) {
   Opened<OutputLink> opened;
   const UniqueFd chip = find_chip(settings.chip);
   if (!chip) {
-    opened.problem = "gpio " + settings.chip + ": no chip with this label or name";
+    opened.problem = no_chip(settings.chip);
     return opened;
   }
   Handle own;

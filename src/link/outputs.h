@@ -11,8 +11,6 @@
 
 namespace drover::link {
 
-inline constexpr std::size_t kMaxOutputs = 8;
-
 struct OutputLine {
   std::string name;  ///< on the chip
   bool active_low = false;
