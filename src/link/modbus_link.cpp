@@ -104,44 +104,58 @@ FoundAnswer ModbusLink::look(const ModbusUnit& unit, const RegisterBlock& block)
               : find_rtu_answer(bytes_, unit.address, block);
 }
 
-ModbusResult ModbusLink::read(const ModbusUnit& unit, const RegisterBlock& block,
-                              std::span<std::uint16_t> words) {
-  const ModbusResult gone{false, RegisterFailure::link, 0};
-  if (words.size() != block.count || block.count < 1 || block.count > 125)
-    return {false, RegisterFailure::damaged, 0};
+bool ModbusLink::ask(const ModbusUnit& unit, const RegisterBlock& block) {
   bytes_.clear();
   if (!tcp_) ::tcflush(fd_, TCIOFLUSH);
   ++counters_.requests;
   ++transaction_;
-  const Time begin = now_();
-  const Time deadline = begin + std::min(from_s(unit.reply_s), kLongestReply);
-  const bool sent = tcp_ ? send(tcp_read_request(transaction_, unit.address, block))
-                         : send(rtu_read_request(unit.address, block));
-  if (!sent) return gone;
+  return tcp_ ? send(tcp_read_request(transaction_, unit.address, block))
+              : send(rtu_read_request(unit.address, block));
+}
+
+std::optional<FoundAnswer> ModbusLink::await(const ModbusUnit& unit, const RegisterBlock& block,
+                                             Time now, Time deadline) {
   FoundAnswer found;
-  for (Time now = begin; now < deadline; now = now_()) {
+  for (; now < deadline; now = now_()) {
     const Duration left = deadline - now;
     const timespec wait{static_cast<time_t>(left / 1s), static_cast<long>((left % 1s).count())};
     pollfd line{fd_, POLLIN, 0};
     const int n = ::ppoll(&line, 1, &wait, nullptr);
     if (n == 0) break;
     if (n < 0) continue;  // a signal
-    if (!receive()) return gone;
+    if (!receive()) return std::nullopt;
     found = look(unit, block);
     if (found.answer == Answer::good || found.answer == Answer::exception) break;
     if (tcp_ && found.answer == Answer::damaged) break;
   }
-  counters_.echoes += found.echoes;
-  const ModbusResult result = finish(found, words);
-  const bool answered = result.good || result.failure == RegisterFailure::refused;
+  return found;
+}
+
+void ModbusLink::note_spoken(const ModbusUnit& unit, bool answered) {
   unanswered_ = answered ? 0 : unanswered_ + 1;
   used_ = now_();
   Owed& owed = owed_[unit.address];
   owed = {answered ? 0 : owed.unanswered + 1, kNever};
   // Over TCP a late answer has another transaction: nothing to wait for.
   if (!answered && !tcp_) owed.until = used_ + settle(owed.unanswered);
+}
+
+ModbusResult ModbusLink::read(const ModbusUnit& unit, const RegisterBlock& block,
+                              std::span<std::uint16_t> words) {
+  const ModbusResult gone{false, RegisterFailure::link, 0};
+  if (words.size() != block.count || block.count < 1 || block.count > 125)
+    return {false, RegisterFailure::damaged, 0};
+  const Time begin = now_();
+  const Time deadline = begin + std::min(from_s(unit.reply_s), kLongestReply);
+  if (!ask(unit, block)) return gone;
+  const auto found = await(unit, block, begin, deadline);
+  if (!found) return gone;
+  counters_.echoes += found->echoes;
+  const ModbusResult result = finish(*found, words);
+  const bool answered = result.good || result.failure == RegisterFailure::refused;
+  note_spoken(unit, answered);
   // What is left of a broken frame has no end on a stream.
-  const bool lost_step = found.answer == Answer::damaged || found.answer == Answer::incomplete;
+  const bool lost_step = found->answer == Answer::damaged || found->answer == Answer::incomplete;
   if (tcp_ && !answered && (lost_step || unanswered_ >= kTcpMostUnanswered)) {
     error_ = ETIMEDOUT;
     return gone;

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -81,6 +82,13 @@ class ModbusLink final {
   bool send(std::span<const std::uint8_t> bytes);
   /// Appends what is there; false: the line is gone.
   bool receive();
+  /// Sends the request; false: the line is gone.
+  bool ask(const ModbusUnit& unit, const RegisterBlock& block);
+  /// What came until `deadline`; nothing: the line is gone.
+  std::optional<FoundAnswer> await(const ModbusUnit& unit, const RegisterBlock& block, Time now,
+                                   Time deadline);
+  /// When who may be asked again.
+  void note_spoken(const ModbusUnit& unit, bool answered);
   ModbusResult finish(const FoundAnswer& found, std::span<std::uint16_t> words);
   FoundAnswer look(const ModbusUnit& unit, const RegisterBlock& block) const;
   /// Late answers to requests that were given up.
