@@ -3,8 +3,8 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cstdint>
 #include <cstdio>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -17,7 +17,6 @@
 #include "cli/exit_codes.h"
 #include "cli/failure.h"
 #include "cli/learned.h"
-#include "cli/number_checks.h"
 #include "cli/option_texts.h"
 #include "cli/replay.h"
 #include "cli/reply.h"
@@ -25,6 +24,7 @@
 #include "cli/scene.h"
 #include "cli/show.h"
 #include "cli/stop.h"
+#include "cli/tracks.h"
 #include "cli/verbs.h"
 #include "cli/zone.h"
 #include "json/json_text.h"
@@ -34,7 +34,6 @@ namespace {
 using drover::json::JsonText;
 using drover::json::Node;
 
-using drover::cli::named_request;
 using drover::cli::read_reply;
 using drover::cli::request;
 using drover::cli::tell;
@@ -49,18 +48,14 @@ struct Settings {
   std::string stop_socket;
   bool json = false;
   bool watch = false;
-  std::string name;
-  std::int64_t id = 1;
-  double speed_mps = 0.5;
+  bool on_slope = false;
 };
 
 /// Asks, prints the member `wanted` of the answer, or why it was refused.
 int run(const Settings& settings, const std::string& question, std::string_view wanted = {},
         std::string (*show)(const Node&) = nullptr) {
   const auto answer = read_reply(drover::cli::ask(settings.socket, question));
-  const auto* value = answer.document.root.find(wanted);
-  if (show == nullptr || value == nullptr) return tell(answer, settings.json);
-  return tell(answer, settings.json, [&](const Node&) { return show(*value); });
+  return drover::cli::tell_member(answer, settings.json, wanted, show);
 }
 
 std::string release_request(bool on_slope) {
@@ -72,22 +67,6 @@ std::string release_request(bool on_slope) {
       .boolean(on_slope)
       .close('}')
       .take();
-}
-
-std::string start_request(const Settings& s) {
-  JsonText out;
-  out.open('{').key("cmd").text("task_start").key("name").text(s.name);
-  out.key("id").integer(s.id).key("speed").number(s.speed_mps).close('}');
-  return out.take();
-}
-
-/// The reason of a slip in the name is the broker's as well; here a person can look.
-int start_task(const Settings& settings) {
-  const auto answer = read_reply(drover::cli::ask(settings.socket, start_request(settings)));
-  const int code = tell(answer, settings.json);
-  if (!settings.json && answer.reason.starts_with("there is no track of this name"))
-    std::fputs("the tracks that there are: drover traj list\n", stderr);
-  return code;
 }
 
 int status(const Settings& settings) {
@@ -148,19 +127,7 @@ void print_version(const Settings& settings) {
 constexpr const char* kLookWhy =
     "; see why: journalctl -u droverd; droverd --check /etc/drover/drover.json";
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  // `drover help stop` is what people type first.
-  std::vector<char*> words(argv, argv + argc);
-  static char as_option[] = "--help";
-  if (argc > 1 && std::string_view(argv[1]) == "help") {
-    words.erase(words.begin() + 1);
-    words.push_back(as_option);
-  }
-  Settings s;
-  int code = kDone;
-  CLI::App app{"drover: ask and command droverd"};
+void add_common_options(CLI::App& app, Settings& s) {
   app.set_version_flag("--version", DROVER_VERSION);
   app.require_subcommand(1);
   app.fallthrough();  // the options of all verbs may stand behind the verb, too
@@ -180,50 +147,16 @@ int main(int argc, char** argv) {
       "  drover traj list\n"
       "  drover task start 'row 7' --id 57 --speed 0.5\n"
       "  drover task cancel");
+}
 
+void add_status_command(CLI::App& app, Settings& s, int& code) {
   auto* status_command = app.add_subcommand("status", "what the robot does, and why it does not");
   status_command->add_flag("--json", s.json, "one JSON object");
   status_command->add_flag("--watch", s.watch, "again and again");
   status_command->callback([&] { code = status(s); });
+}
 
-  drover::cli::add_device_commands(app, s.socket, code);
-  drover::cli::add_replay_command(app, code);
-  drover::cli::add_estimate_command(app, code);
-  drover::cli::add_calibrate_command(app, s.socket, code);
-
-  auto* traj = app.add_subcommand("traj", "saved tracks")->require_subcommand(1);
-  auto* list = traj->add_subcommand("list", "name, points and length of each");
-  list->add_flag("--json", s.json, "one JSON object");
-  list->callback([&] { code = run(s, request("traj_list"), "tracks", drover::cli::show_tracks); });
-  auto* show = traj->add_subcommand("show", "the points of a track");
-  show->add_option("name", s.name, "track")->required();
-  show->add_flag("--json", s.json, "one JSON object");
-  show->callback(
-      [&] { code = run(s, named_request("traj_show", s.name), "track", drover::cli::show_track); });
-  auto* remove = traj->add_subcommand("delete", "delete a track");
-  remove->add_option("name", s.name, "track")->required();
-  remove->add_flag("--json", s.json, "one JSON object");
-  remove->callback([&] { code = run(s, named_request("traj_delete", s.name)); });
-
-  auto* task = app.add_subcommand("task", "drive a track")->require_subcommand(1);
-  auto* start = task->add_subcommand("start", "drive along a track to one of its points");
-  start->add_option("name", s.name, "track")->required();
-  start->add_option("--id", s.id, "number of the point to stop at")
-      ->required()
-      ->transform(drover::cli::whole_number(0, UINT32_MAX));
-  start->add_option("--speed", s.speed_mps, "m/s")
-      ->capture_default_str()
-      ->check(drover::cli::plain_number());
-  start->add_flag("--json", s.json, "one JSON object");
-  start->callback([&] { code = start_task(s); });
-  auto* cancel = task->add_subcommand("cancel", "stop");
-  cancel->add_flag("--json", s.json, "one JSON object");
-  cancel->callback([&] { code = run(s, request("task_cancel")); });
-
-  drover::cli::add_report_command(app, s.socket, code);
-  drover::cli::add_scene_commands(app, s.socket, code);
-  drover::cli::add_zone_commands(app, s.socket, code);
-
+void add_place_commands(CLI::App& app, Settings& s, int& code) {
   auto* heading = app.add_subcommand("heading", "direction of the robot")->require_subcommand(1);
   auto* find = heading->add_subcommand(
       "find", "DRIVES a short way straight ahead, so that one antenna shows the heading");
@@ -235,35 +168,54 @@ int main(int argc, char** argv) {
       "accept", "believe the receiver: you see the robot stand where the map shows it");
   accept->add_flag("--json", s.json, "one JSON object");
   accept->callback([&] { code = run(s, request("position_accept")); });
+}
 
-  drover::cli::add_learned_commands(app, s.socket, code);
-
+void add_stop_commands(CLI::App& app, Settings& s, int& code) {
   auto* stop = app.add_subcommand("stop", "emergency stop: zero at once, until `drover reset`");
   stop->add_flag("--json", s.json, "one JSON object");
   stop->callback([&] { code = drover::cli::stop({s.socket, s.stop_socket, s.json}); });
   auto* reset = app.add_subcommand("reset", "clear a latched software stop; never starts motion");
   reset->add_flag("--json", s.json, "one JSON object");
   reset->callback([&] { code = drover::cli::reset({s.socket, s.stop_socket, s.json}); });
-  bool on_slope = false;
+}
+
+void add_release_commands(CLI::App& app, Settings& s, int& code) {
   auto* release = app.add_subcommand(
       "release",
       "let the drives of the base go, so that the robot can be pushed; until `drover hold`. An arm "
       "is held meanwhile, where its drives run, and follows nobody");
-  release->add_flag("--on-slope", on_slope, "though it may roll: you hold it");
+  release->add_flag("--on-slope", s.on_slope, "though it may roll: you hold it");
   release->add_flag("--json", s.json, "one JSON object");
   release->footer("Examples:\n  drover release\n  drover release --on-slope");
-  release->callback([&] { code = run(s, release_request(on_slope)); });
+  release->callback([&] { code = run(s, release_request(s.on_slope)); });
   auto* hold =
       app.add_subcommand("hold", "take the drives into closed loop: it stands where it is");
   hold->add_flag("--json", s.json, "one JSON object");
   hold->footer("Examples:\n  drover hold");
   hold->callback([&] { code = run(s, request("hold")); });
+}
+
+void add_version_command(CLI::App& app, Settings& s) {
   auto* version = app.add_subcommand("version", "versions of drover and droverd");
   version->add_flag("--json", s.json, "one JSON object");
   version->callback([&] { print_version(s); });
+}
 
-  drover::cli::add_examples(app);
-  // What cannot be parsed has not set s.json yet.
+/// `drover help stop` is what people type first.
+std::vector<char*> words_of(int argc, char** argv) {
+  std::vector<char*> words(argv, argv + argc);
+  static char as_option[] = "--help";
+  if (argc > 1 && std::string_view(argv[1]) == "help") {
+    words.erase(words.begin() + 1);
+    words.push_back(as_option);
+  }
+  return words;
+}
+
+/// Parses, which carries the verb out. Nothing: it was; else why not is told, and this is the exit
+/// code.
+std::optional<int> parse(CLI::App& app, std::vector<char*>& words) {
+  // What cannot be parsed has set no option yet.
   const auto arguments = std::span<const char* const>(words).subspan(1);
   const bool json = std::count(arguments.begin(), arguments.end(), std::string_view("--json")) > 0;
   if (const auto wrong = drover::cli::unknown_verb(app, arguments); !wrong.empty()) {
@@ -289,6 +241,35 @@ int main(int argc, char** argv) {
     drover::cli::tell_failure(json, "drover", no.text + (no.absent ? kLookWhy : ""));
     return kNoDaemon;
   }
+  return std::nullopt;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  auto words = words_of(argc, argv);
+  Settings s;
+  int code = kDone;
+  CLI::App app{"drover: ask and command droverd"};
+  add_common_options(app, s);
+  // In the order in which --help shows them.
+  add_status_command(app, s, code);
+  drover::cli::add_device_commands(app, s.socket, code);
+  drover::cli::add_replay_command(app, code);
+  drover::cli::add_estimate_command(app, code);
+  drover::cli::add_calibrate_command(app, s.socket, code);
+  drover::cli::add_track_commands(app, s.socket, code);
+  drover::cli::add_task_commands(app, s.socket, code);
+  drover::cli::add_report_command(app, s.socket, code);
+  drover::cli::add_scene_commands(app, s.socket, code);
+  drover::cli::add_zone_commands(app, s.socket, code);
+  add_place_commands(app, s, code);
+  drover::cli::add_learned_commands(app, s.socket, code);
+  add_stop_commands(app, s, code);
+  add_release_commands(app, s, code);
+  add_version_command(app, s);
+  drover::cli::add_examples(app);
+  if (const auto failed = parse(app, words)) return *failed;
   // A script that writes to a full disk must not take nothing for an answer.
   if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
     std::fprintf(stderr, "drover: cannot write to standard output\n");

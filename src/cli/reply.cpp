@@ -41,6 +41,12 @@ int tell(const Reply& answer, bool json, const Show& show) {
   return code;
 }
 
+int tell_member(const Reply& answer, bool json, std::string_view wanted, const Show& show) {
+  const auto* member = answer.document.root.find(wanted);
+  if (!show || member == nullptr) return tell(answer, json);
+  return tell(answer, json, [&](const json::Node&) { return show(*member); });
+}
+
 std::string request(std::string_view cmd) {
   return json::JsonText().open('{').key("cmd").text(cmd).close('}').take();
 }

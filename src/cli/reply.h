@@ -26,6 +26,10 @@ using Show = std::function<std::string(const json::Node&)>;
 /// programs the answer itself. The exit code.
 int tell(const Reply& answer, bool json, const Show& show = nullptr);
 
+/// The same, but `show` makes it of this member of the answer. Without one it is told that it is
+/// done.
+int tell_member(const Reply& answer, bool json, std::string_view wanted, const Show& show);
+
 /// {"cmd":CMD} and {"cmd":CMD,"name":NAME}.
 std::string request(std::string_view cmd);
 std::string named_request(std::string_view cmd, const std::string& name);
