@@ -2,7 +2,6 @@
 
 #include <sys/epoll.h>
 #include <sys/socket.h>
-#include <sys/un.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -11,18 +10,17 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "link/unix_address.h"
+
 namespace drover::sim {
 namespace {
 
 constexpr std::size_t kMaxClients = 16;
 
 sockaddr_un address_of(const std::string& path) {
-  sockaddr_un address{};
-  address.sun_family = AF_UNIX;
-  if (path.size() >= sizeof address.sun_path)
-    throw std::runtime_error(path + ": the socket's path is too long");
-  std::copy(path.begin(), path.end(), address.sun_path);
-  return address;
+  const auto address = link::unix_address(path);
+  if (!address) throw std::runtime_error(path + ": the socket's path is too long");
+  return *address;
 }
 
 }  // namespace

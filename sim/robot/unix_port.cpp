@@ -1,7 +1,6 @@
 // A CAN bus made of a listening SOCK_SEQPACKET socket: each message is a `struct can_frame` (or
 // `canfd_frame`), and every client hears every other.
 #include <sys/socket.h>
-#include <sys/un.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -9,6 +8,7 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "link/unix_address.h"
 #include "sim/robot/can_port.h"
 
 namespace drover::sim {
@@ -19,14 +19,11 @@ constexpr std::size_t kMaxClients = 8;
 class UnixPort final : public CanPort {
  public:
   explicit UnixPort(std::string path) : path_(std::move(path)) {
-    sockaddr_un address{};
-    address.sun_family = AF_UNIX;
-    if (path_.size() >= sizeof address.sun_path)
-      throw std::runtime_error(path_ + ": the socket's path is too long");
-    std::copy(path_.begin(), path_.end(), address.sun_path);
+    const auto address = link::unix_address(path_);
+    if (!address) throw std::runtime_error(path_ + ": the socket's path is too long");
     ::unlink(path_.c_str());
     listen_ = link::UniqueFd(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
-    if (::bind(listen_.get(), reinterpret_cast<sockaddr*>(&address), sizeof address) != 0 ||
+    if (::bind(listen_.get(), reinterpret_cast<const sockaddr*>(&*address), sizeof *address) != 0 ||
         ::listen(listen_.get(), 4) != 0)
       throw std::runtime_error(path_ + ": cannot listen: " + std::strerror(errno));
   }

@@ -1,23 +1,21 @@
 #include "sim/scenario/status_client.h"
 
 #include <sys/socket.h>
-#include <sys/un.h>
 
 #include <array>
 #include <cerrno>
-#include <cstring>
+
+#include "link/unix_address.h"
 
 namespace drover::sim {
 
 void StatusClient::ask() {
   if (fd_) return;
-  sockaddr_un address{};
-  address.sun_family = AF_UNIX;
-  if (path_.size() >= sizeof address.sun_path) return;
-  std::memcpy(address.sun_path, path_.c_str(), path_.size());
+  const auto address = link::unix_address(path_);
+  if (!address) return;
   link::UniqueFd fd(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
   constexpr std::string_view kQuestion = "{\"cmd\":\"status\"}\n";
-  if (::connect(fd.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0 ||
+  if (::connect(fd.get(), reinterpret_cast<const sockaddr*>(&*address), sizeof *address) != 0 ||
       ::send(fd.get(), kQuestion.data(), kQuestion.size(), MSG_NOSIGNAL) < 0) {
     status_ = nullptr;
     return;

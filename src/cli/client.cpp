@@ -2,11 +2,12 @@
 
 #include <sys/socket.h>
 #include <sys/time.h>
-#include <sys/un.h>
 
 #include <array>
 #include <cerrno>
 #include <cstring>
+
+#include "link/unix_address.h"
 
 namespace drover::cli {
 
@@ -31,16 +32,13 @@ NoAnswer unreached(const std::string& path, int error, int patience_s) {
 
 Connection::Connection(const std::string& socket_path, int patience_s)
     : path_(socket_path), patience_s_(patience_s) {
-  sockaddr_un address{};
-  address.sun_family = AF_UNIX;
-  if (path_.size() >= sizeof address.sun_path)
-    throw NoAnswer{path_ + ": the socket's path is too long"};
-  std::memcpy(address.sun_path, path_.c_str(), path_.size());
+  const auto address = link::unix_address(path_);
+  if (!address) throw NoAnswer{path_ + ": the socket's path is too long"};
   fd_ = link::UniqueFd(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0));
   const timeval patience{patience_s, 0};
   ::setsockopt(fd_.get(), SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
   ::setsockopt(fd_.get(), SOL_SOCKET, SO_SNDTIMEO, &patience, sizeof patience);  // connect, too
-  if (::connect(fd_.get(), reinterpret_cast<sockaddr*>(&address), sizeof address) != 0)
+  if (::connect(fd_.get(), reinterpret_cast<const sockaddr*>(&*address), sizeof *address) != 0)
     throw unreached(path_, errno, patience_s_);
 }
 

@@ -6,9 +6,10 @@
 #include <net/if.h>
 #include <sys/ioctl.h>
 #include <sys/socket.h>
-#include <sys/un.h>
 
 #include <algorithm>
+
+#include "link/unix_address.h"
 
 namespace drover::link {
 
@@ -22,15 +23,14 @@ bool set_option(int fd, int level, int name, const T& value) {
 }
 
 UniqueFd open_unix(const std::string& path, std::string& problem) {
-  sockaddr_un address{};
-  address.sun_family = AF_UNIX;
-  if (path.size() >= sizeof address.sun_path) {
+  const auto address = unix_address(path);
+  if (!address) {
     problem = path + ": the socket's path is too long";
     return {};
   }
-  std::copy(path.begin(), path.end(), address.sun_path);
   UniqueFd fd(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
-  if (!fd || ::connect(fd.get(), reinterpret_cast<sockaddr*>(&address), sizeof address) != 0) {
+  if (!fd ||
+      ::connect(fd.get(), reinterpret_cast<const sockaddr*>(&*address), sizeof *address) != 0) {
     problem = problem_text(path, "cannot connect", errno);
     return {};
   }

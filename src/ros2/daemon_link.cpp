@@ -1,12 +1,13 @@
 #include "ros2/daemon_link.h"
 
 #include <sys/socket.h>
-#include <sys/un.h>
 
 #include <array>
 #include <cerrno>
 #include <cstring>
 #include <utility>
+
+#include "link/unix_address.h"
 
 namespace drover::ros2 {
 
@@ -18,12 +19,11 @@ constexpr std::size_t kMostWaiting = 1024 * 1024;
 void DaemonLink::keep(Time now) {
   if (fd_ || !retry_.due(now)) return;
   retry_.tried(now);
-  sockaddr_un address{};
-  address.sun_family = AF_UNIX;
-  if (path_.size() >= sizeof address.sun_path) return lose("the path is too long");
-  std::memcpy(address.sun_path, path_.c_str(), path_.size());
+  const auto address = link::unix_address(path_);
+  if (!address) return lose("the path is too long");
   link::UniqueFd fd(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
-  if (!fd || ::connect(fd.get(), reinterpret_cast<sockaddr*>(&address), sizeof address) != 0)
+  if (!fd ||
+      ::connect(fd.get(), reinterpret_cast<const sockaddr*>(&*address), sizeof *address) != 0)
     return lose(std::strerror(errno));
   fd_ = std::move(fd);
   in_.clear();

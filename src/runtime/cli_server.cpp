@@ -3,16 +3,15 @@
 #include <sys/epoll.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
-#include <sys/un.h>
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <cstring>
 #include <stdexcept>
 #include <tuple>
 
 #include "link/opened.h"
+#include "link/unix_address.h"
 
 namespace drover::runtime {
 
@@ -42,13 +41,10 @@ CliServer::CliServer(const std::string& path, OnRequest on_request, std::string_
       long_line_(long_line),
       listener_(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0)),
       epoll_(::epoll_create1(EPOLL_CLOEXEC)) {
-  sockaddr_un address{};
-  address.sun_family = AF_UNIX;
-  if (path.size() >= sizeof address.sun_path)
-    throw std::runtime_error(path + ": the socket's path is too long");
-  std::memcpy(address.sun_path, path.c_str(), path.size());
+  const auto address = link::unix_address(path);
+  if (!address) throw std::runtime_error(path + ": the socket's path is too long");
   ::unlink(path.c_str());  // the daemon's lock is held: a socket that lies here has no owner
-  if (::bind(listener_.get(), reinterpret_cast<sockaddr*>(&address), sizeof address) != 0 ||
+  if (::bind(listener_.get(), reinterpret_cast<const sockaddr*>(&*address), sizeof *address) != 0 ||
       ::chmod(path.c_str(), 0660) != 0 || ::listen(listener_.get(), kWaitOutside) != 0)
     throw std::runtime_error(link::problem_text(path, "cannot listen", errno));
   watch_for_input(epoll_.get(), listener_.get(), kListenerTag);

@@ -4,7 +4,6 @@
 #include <poll.h>
 #include <sys/mman.h>
 #include <sys/socket.h>
-#include <sys/un.h>
 
 #include <algorithm>
 #include <array>
@@ -16,6 +15,7 @@
 
 #include "link/can_wire.h"
 #include "link/opened.h"
+#include "link/unix_address.h"
 
 namespace drover::runtime {
 
@@ -75,16 +75,15 @@ GuardClient::GuardClient(std::string socket_path, int limit_ms, const GuardMemor
     : path_(std::move(socket_path)), limit_ms_(limit_ms), memory_(memory) {}
 
 bool GuardClient::connect(std::string& problem) {
-  sockaddr_un address{};
-  address.sun_family = AF_UNIX;
-  if (path_.size() >= sizeof address.sun_path) {
+  const auto address = link::unix_address(path_);
+  if (!address) {
     problem = "guard.socket: the path is too long: " + path_;
     return false;
   }
-  std::memcpy(address.sun_path, path_.c_str(), path_.size());
   // A guard that is stopped must not hold up who supplies it.
   link::UniqueFd fd(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
-  if (!fd || ::connect(fd.get(), reinterpret_cast<sockaddr*>(&address), sizeof address) != 0) {
+  if (!fd ||
+      ::connect(fd.get(), reinterpret_cast<const sockaddr*>(&*address), sizeof *address) != 0) {
     problem = link::problem_text("drover-guard at " + path_, "cannot connect", errno);
     return false;
   }

@@ -64,13 +64,13 @@ src/runtime      drover/ runtime/ publish/ store/ json/ config/ link/ engine/ ga
 src/guard        drover/ guard/
 src/cli          drover/ cli/ json/ text/ config/register_map.h config/fields_map.h
 src/cli          gateway/recording/replay.h link/unique_fd.h publish/names.h publish/shown_json.h
-src/cli          link/packet_question.h
+src/cli          link/packet_question.h link/unix_address.h
 src/cli          scene/zone/ scene/message/shapes.h calibrate/calibrate.h calibrate/recipe.h
 src/cli          runtime/clock.h
 src/cli          engine/estimate/local_frame.h
 src/cli          config/load.h engine/config.h engine/base/kinematics.h engine/estimate/estimator.h
 src/ros2         drover/ ros2/ json/ config/config.h config/load.h link/unique_fd.h
-src/ros2         link/packet_question.h
+src/ros2         link/packet_question.h link/unix_address.h
 src/ros2         runtime/back_off.h runtime/clock.h runtime/log.h publish/token_bucket.h text/
 src/droverd.cpp  config/ runtime/
 sim/plant        drover/ sim/plant/
