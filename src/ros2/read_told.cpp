@@ -18,9 +18,12 @@ double number_or_0(const Node& from, std::string_view key) {
   const double value = number(from, key);
   return std::isfinite(value) ? value : 0;
 }
-Stamp_ns stamp(const Node& from, std::string_view key) {
+std::int64_t integer_or_0(const Node& from, std::string_view key) {
   const Node* node = from.find(key);
   return node == nullptr ? 0 : node->integer().value_or(0);
+}
+Stamp_ns stamp(const Node& from, std::string_view key) {
+  return integer_or_0(from, key);
 }
 const std::vector<Node>& list(const Node& from, std::string_view key) {
   const Node* node = from.find(key);
@@ -61,7 +64,7 @@ FixTold fix(const Node& from) {
   FixTold fix;
   fix.at_ns = stamp(from, "at_ns");
   fix.receiver = text_member(from, "receiver");
-  const auto quality = stamp(from, "quality");
+  const auto quality = integer_or_0(from, "quality");
   const bool known = quality >= 0 && quality <= static_cast<int>(FixQuality::simulator);
   fix.position.quality = known ? static_cast<FixQuality>(quality) : FixQuality::none;
   fix.position.latitude_deg = number(from, "latitude_deg");
@@ -104,7 +107,7 @@ BatteryTold battery(const Node& from) {
   if (flow == "idle") battery.sample.flow = BatteryFlow::idle;
   if (flow == "charging") battery.sample.flow = BatteryFlow::charging;
   if (flow == "discharging") battery.sample.flow = BatteryFlow::discharging;
-  const auto alarm = stamp(from, "alarm");
+  const auto alarm = integer_or_0(from, "alarm");
   if (alarm == 1) battery.sample.alarm = BatteryAlarm::warning;
   if (alarm == 2) battery.sample.alarm = BatteryAlarm::critical;
   return battery;
@@ -124,7 +127,7 @@ ScanTold scan(const Node& from) {
 
 DiagnosticTold diagnostic(const Node& from) {
   DiagnosticTold one{text_member(from, "name"),
-                     static_cast<int>(stamp(from, "level")),
+                     static_cast<int>(integer_or_0(from, "level")),
                      text_member(from, "message"),
                      {}};
   for (const Node& value : list(from, "values"))
