@@ -65,6 +65,10 @@ sigset_t end_signals() {
 }
 
 constexpr Duration kFeedEach = 200ms;  // of systemd's watchdog, which has 1 s
+/// For the stop at the end: longer than a base on a slope is given to begin again after a dip of
+/// its supply.
+constexpr Duration kLongestEnd = 3500ms;
+static_assert(kLongestEnd > ProgramWatch::kLongestStop);
 
 class Daemon final {
  public:
@@ -109,32 +113,8 @@ class Daemon final {
       control_.recall(learned_->values);
       log(LogLevel::info, "what the robot has learned of itself is used: drover learned show");
     }
-    Worker keeper("links", [this] { keeper_.run(stop_keeper_); });
-    Worker storage("storage",
-                   [this] { run_storage(storage_, storage_exchange_, on_disk_, stop_publish_); });
-    std::vector<std::unique_ptr<Worker>> slow;
-    for (const auto& link : slow_)
-      slow.push_back(std::make_unique<Worker>(
-          "battery", [this, loop = link->loop.get()] { loop->run(stop_battery_); }));
-    for (const auto& scanner : scanners_)
-      slow.push_back(std::make_unique<Worker>(
-          "scanner", [this, loop = scanner->loop.get()] { loop->run(stop_scanners_); }));
-    std::optional<Worker> recorder;
-    if (recorder_) {
-      log(LogLevel::info, "records to " + recorder_->file());
-      recorder.emplace("recorder", [this] { recorder_->run(stop_recorder_); });
-    }
-    Worker parser("parser", [this] { parser_.run(stop_publish_); });
-    std::optional<Worker> scene, scene_parser;
-    if (scene_) {
-      scene.emplace("scene", [this] { scene_->loop.run(stop_publish_); });
-      scene_parser.emplace("scene parser", [this] { scene_->parser.run(stop_publish_); });
-    }
-    Worker serial("serial", [this] { run_serial(); });
-    Worker control("control", [this] { run_control(); });
-    Worker publish("publish", [this] { publish_.run(stop_publish_); });
-    std::optional<Worker> stops;
-    if (stop_listener_) stops.emplace("stops", [this] { stop_listener_->run(stop_publish_); });
+    Threads threads;
+    begin(threads);
     ready_told_ = systemd_.tell("READY=1");
     log(LogLevel::info, "droverd " DROVER_VERSION " runs");
     for (const auto& caution : gateway_.cautions()) log(LogLevel::warning, caution);
@@ -142,36 +122,7 @@ class Daemon final {
     wait_for_end();
     (void)systemd_.tell("STOPPING=1");
     come_to_rest();
-    stop_battery_ = true;
-    for (const auto& link : slow_) link->loop->wake();
-    stop_scanners_ = true;
-    for (const auto& scanner : scanners_) scanner->loop->wake();
-    stop_publish_ = true;
-    publish_.wake();
-    storage_exchange_.jobs_ready.notify();
-    parser_.wake();
-    if (stop_listener_) stop_listener_->wake();
-    if (scene_) scene_->parser.wake();
-    join(publish, 1s);
-    if (stops) join(*stops, 1s);
-    join(storage, 1s);
-    join(parser, 1s);
-    if (scene) join(*scene, 1s);
-    if (scene_parser) join(*scene_parser, 1s);
-    // From here on the guard sees no heartbeat, if it still does: it keeps the drives at rest.
-    stop_control_ = true;
-    join(control, 1s);
-    for (const auto& worker : slow) join(*worker, BatteryLoop::kLongestTurn);
-    stop_recorder_ = true;
-    if (recorder_) recorder_->wake();
-    if (recorder) join(*recorder, 1s);
-    // A line that lets nobody go ends the daemon here: the recording has its end already.
-    stop_serial_ = true;
-    serial_.wake();
-    join(serial, 1s);
-    stop_keeper_ = true;
-    keeper_.wake();
-    join(keeper, 1s);
+    end(threads);
   }
 
  private:
@@ -185,6 +136,75 @@ class Daemon final {
     SceneParserLoop parser;
     SceneLoop loop;
   };
+
+  struct Threads {
+    std::optional<Worker> keeper, storage, parser, serial, control, publish;
+    std::vector<std::unique_ptr<Worker>> batteries, scanners;
+    std::optional<Worker> recorder;             ///< none: nothing is recorded
+    std::optional<Worker> scene, scene_parser;  ///< none: the robot has no scene
+    std::optional<Worker> stops;                ///< none: without a broker
+  };
+
+  /// Whoever is asked begins before who asks.
+  void begin(Threads& of) {
+    of.keeper.emplace("links", [this] { keeper_.run(stop_keeper_); });
+    of.storage.emplace(
+        "storage", [this] { run_storage(storage_, storage_exchange_, on_disk_, stop_publish_); });
+    for (const auto& link : slow_)
+      of.batteries.push_back(std::make_unique<Worker>(
+          "battery", [this, loop = link->loop.get()] { loop->run(stop_battery_); }));
+    for (const auto& scanner : scanners_)
+      of.scanners.push_back(std::make_unique<Worker>(
+          "scanner", [this, loop = scanner->loop.get()] { loop->run(stop_scanners_); }));
+    if (recorder_) {
+      log(LogLevel::info, "records to " + recorder_->file());
+      of.recorder.emplace("recorder", [this] { recorder_->run(stop_recorder_); });
+    }
+    of.parser.emplace("parser", [this] { parser_.run(stop_publish_); });
+    if (scene_) {
+      of.scene.emplace("scene", [this] { scene_->loop.run(stop_publish_); });
+      of.scene_parser.emplace("scene parser", [this] { scene_->parser.run(stop_publish_); });
+    }
+    of.serial.emplace("serial", [this] { run_serial(); });
+    of.control.emplace("control", [this] { run_control(); });
+    of.publish.emplace("publish", [this] { publish_.run(stop_publish_); });
+    if (stop_listener_) of.stops.emplace("stops", [this] { stop_listener_->run(stop_publish_); });
+  }
+
+  /// Nobody commands any more, then nobody steers; the way to the drives goes last.
+  void end(Threads& of) {
+    stop_battery_ = true;
+    for (const auto& link : slow_) link->loop->wake();
+    stop_scanners_ = true;
+    for (const auto& scanner : scanners_) scanner->loop->wake();
+    stop_publish_ = true;
+    publish_.wake();
+    storage_exchange_.jobs_ready.notify();
+    parser_.wake();
+    if (stop_listener_) stop_listener_->wake();
+    if (scene_) scene_->parser.wake();
+    join(*of.publish, 1s);
+    if (of.stops) join(*of.stops, 1s);
+    join(*of.storage, 1s);
+    join(*of.parser, 1s);
+    if (of.scene) join(*of.scene, 1s);
+    if (of.scene_parser) join(*of.scene_parser, 1s);
+    // From here on the guard sees no heartbeat, if it still does: it keeps the drives at rest.
+    stop_control_ = true;
+    join(*of.control, 1s);
+    for (const auto& battery : of.batteries) join(*battery, BatteryLoop::kLongestTurn);
+    for (const auto& scanner : of.scanners) join(*scanner, ScanLoop::kLongestTurn);
+    stop_recorder_ = true;
+    if (recorder_) recorder_->wake();
+    if (of.recorder) join(*of.recorder, 1s);
+    // A line that lets nobody go ends the daemon here: the recording has its end already.
+    stop_serial_ = true;
+    serial_.wake();
+    join(*of.serial, 1s);
+    stop_keeper_ = true;
+    keeper_.wake();
+    join(*of.keeper, 1s);
+  }
 
   static std::optional<store::SceneAge> scene_age(const config::SceneConfig& scene) {
     if (!scene.configured) return std::nullopt;
@@ -276,15 +296,15 @@ class Daemon final {
     (void)systemd_.tell("WATCHDOG=1");
   }
 
-  /// A controlled stop: as the operator's cancel, with at most two seconds.
-  /// Longer than a base on a slope is given to begin again after a dip of its supply.
+  /// A controlled stop, as the operator's cancel.
   void come_to_rest() {
+    constexpr Duration kLook = 50ms;
     control_exchange_.stops.ask_cancel();
     control_exchange_.trouble.store("droverd ends", std::memory_order_release);
     for (const std::string& sinks : what_sinks(config_.engine)) log(LogLevel::warning, sinks);
-    for (int i = 0; i < 70; ++i) {
+    for (Duration waited{}; waited < kLongestEnd; waited += kLook) {
       control_exchange_.looks.fetch_add(1, std::memory_order_relaxed);
-      std::this_thread::sleep_for(50ms);  // the first one lets the control thread hear of it
+      std::this_thread::sleep_for(kLook);  // the first one lets the control thread hear of it
       if (rests()) return log(LogLevel::info, "the robot is at rest");
     }
     log(LogLevel::error, "the robot is not at rest: the guard goes on stopping it");
