@@ -152,7 +152,8 @@ void PublishLoop::watch(int fd, std::uint64_t tag) {
   epoll_event event{};
   event.events = EPOLLIN;
   event.data.u64 = tag;
-  ::epoll_ctl(epoll_.get(), EPOLL_CTL_ADD, fd, &event);
+  if (::epoll_ctl(epoll_.get(), EPOLL_CTL_ADD, fd, &event) != 0)
+    throw std::runtime_error("the publish thread cannot wait for what it has to hear");
 }
 
 /// A new connection may have the old one's descriptor number, hence their count.
