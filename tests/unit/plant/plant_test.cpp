@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
@@ -336,14 +335,6 @@ TEST(Plant, GivesTheSameBitsAfterItIsPutBack) {
   robot.drive(0.3, 0.5, 3);
   EXPECT_EQ(first.x_m, robot.plant.pose().x_m);
   EXPECT_EQ(first.yaw_rad, robot.plant.pose().yaw_rad);
-}
-
-TEST(Plant, PrintsHowMuchFasterThanRealTimeItRuns) {
-  Driven robot;
-  const auto begin = std::chrono::steady_clock::now();
-  robot.drive(0.5, 0.6, 30);
-  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
-  std::printf("%.0f times real time\n", 30 / took.count());
 }
 
 }  // namespace
