@@ -12,6 +12,7 @@
 #include <memory>
 #include <optional>
 #include <random>
+#include <utility>
 
 #include "bench/field_judge.h"
 #include "bench/field_plan.h"
@@ -37,6 +38,9 @@ class FieldWorld final {
 
   /// Each tick: what is published, the truth, s since the start (below 0 before it).
   using Watch = std::function<void(const Snapshot&, const Pose&, double)>;
+
+  /// Each measurement, before the engine hears it.
+  void listen(std::function<void(const Measurement&)> heard) { listen_ = std::move(heard); }
 
   /// Stands for a while, starts, and drives until the task ends or `limit_s` is over.
   Judgement drive(const Path& path, double limit_s, const Watch& watch = {}) {
@@ -296,6 +300,7 @@ class FieldWorld final {
     m.time = time;
     m.received = now_;
     m.value = value;
+    if (listen_) listen_(m);
     engine_->on_measurement(m);
   }
 
@@ -340,6 +345,7 @@ class FieldWorld final {
   std::deque<Fix> fixes_;
   std::deque<double> headings_;
   Watch watch_;
+  std::function<void(const Measurement&)> listen_;
   std::optional<FieldJudge> judge_;
 };
 
