@@ -15,7 +15,7 @@ printf '#!/bin/sh\ncat "%s"\n' "$folder/told" > "$folder/mosquitto_sub"
 printf '#!/bin/sh\ncat > "%s"\n' "$folder/saved" > "$folder/mosquitto_pub"
 chmod +x "$folder/mosquitto_sub" "$folder/mosquitto_pub"
 
-# Ten a second at 0.4 m/s: straight, round a corner on the spot, straight, a bend of 0.6 m, straight;
+# Ten a second at 0.4 m/s: straight, a corner on the spot, straight, a bend of 0.6 m, straight;
 # it ends somewhere. At two places it has no fix or no place.
 awk 'BEGIN {
   drive(4, 0); drive(0, 1.5707963); drive(3, 0); drive(1.8849556, 3.1415927); drive(2.07, 0)
