@@ -35,14 +35,16 @@ enum UsualState : std::size_t {
 /// What a user sets to his robot. These are what `bench_estimators --tune` finds.
 struct UsualTuning {
   // Process noise, a second.
-  double place_m2 = 1e-6;
-  double heading_rad2 = 1e-6;
-  double speed_m2ps2 = 0.1;
-  double rate_rad2ps2 = 1;
+  double place_m2 = 1e-3;
+  double heading_rad2 = 1e-4;
+  double speed_m2ps2 = 1;
+  double rate_rad2ps2 = 0.1;
   double acceleration_m2ps4 = 1;
   double gnss_scale = 1;         ///< times what is told of a position
   double wheel_yaw_radps = 0.1;  ///< one sigma of the wheels' turn
-  double gate_sigma = 5;         ///< beyond that distance (Mahalanobis) nothing is taken
+  /// Beyond that distance (Mahalanobis) nothing is taken. Any gate that was tried makes it worse:
+  /// it believes itself more than it may, and keeps off what would put it right after a slip.
+  double gate_sigma = 1e6;
 };
 
 using UsualMatrix = SquareMatrix<kUsualStates>;

@@ -18,8 +18,8 @@ UsualTuning tuned(UsualTuning best, const Error& error) {
   const std::vector<Choice> choices{
       {&UsualTuning::gate_sigma, {3, 5, 8, 1e6}},
       {&UsualTuning::gnss_scale, {1, 2, 4}},
-      {&UsualTuning::heading_rad2, {1e-7, 1e-6, 1e-5}},
-      {&UsualTuning::place_m2, {1e-6, 1e-5, 1e-4}},
+      {&UsualTuning::heading_rad2, {1e-7, 1e-6, 1e-5, 1e-4}},
+      {&UsualTuning::place_m2, {1e-6, 1e-5, 1e-4, 1e-3}},
       {&UsualTuning::speed_m2ps2, {0.01, 0.1, 1}},
       {&UsualTuning::rate_rad2ps2, {0.1, 1, 10}},
       {&UsualTuning::acceleration_m2ps4, {0.1, 1}},
