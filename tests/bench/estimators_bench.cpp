@@ -398,8 +398,9 @@ Drives the engine over the field of bench_events, N times (20) from SEED (1) on,
 measured to two estimates, open loop: Drover's, and a filter of the usual shape of robot
 localisation (tests/bench/usual_filter.h): 15 states and a model of constant acceleration, fed with
 the wheels' twist and the inertial sensor at 100 Hz, positions moved to the base by the attitude of
-the moment, and headings, each gated; what comes late goes where it belongs. Its settings are those
-that --tune finds to err least on these drives with seeds from 1001 on.
+the moment, and headings, each gated (Mahalanobis); what comes late goes where it belongs. Its
+settings are those that --tune finds to err least on these drives with seeds from 1001 on, which is
+without a gate: it keeps off what would put the filter right after a slip.
 Printed are for each of both the median over the seeds (least, most) of: the error of the place
 (rms, 95th percentile, maximum), the mean published sigma, the error of the heading (rms), the share
 of the time inside two and three published sigma, and the seconds that it moved beyond its own bound
