@@ -41,5 +41,21 @@ TEST(BeyondItsBound, IsNothingAtRestOrWithoutABound) {
   EXPECT_EQ(beyond_bound(record).moved_s, 0);
 }
 
+TEST(StoodInATask, IsWhatItStoodForAReasonWhileTheTaskRan) {
+  Record record;
+  record.truth = {true_at(0, 0, 0), true_at(2, 0, 0)};
+  for (int i = 0; i < 10; ++i) {
+    Status status = told_at(0.1 * i, 0, 0.1);
+    status.nav = i < 8 ? "NAV_RUN" : "NAV_ERROR";
+    status.why = i == 1 || i == 2 || i == 5 || i > 7 ? "stands and looks" : "";
+    record.statuses.push_back(status);
+  }
+  const Stood stood = stood_in_task(record);
+  EXPECT_NEAR(stood.for_s, 0.3, 1e-9);
+  EXPECT_EQ(stood.times, 2);
+  record.truth = {true_at(0, 0, 0.5), true_at(2, 1, 0.5)};
+  EXPECT_EQ(stood_in_task(record).times, 0) << "it drives";
+}
+
 }  // namespace
 }  // namespace drover::mission

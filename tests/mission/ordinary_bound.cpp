@@ -31,6 +31,8 @@ int main(int argc, char** argv) {
   }
   try {
     const auto record = drover::mission::read_record(argv[1], played(argv[1]));
+    const auto stood = drover::mission::stood_in_task(record);
+    std::printf("stood %.1f s in %d pauses, ", stood.for_s, stood.times);
     const auto beyond = drover::mission::beyond_bound(record);
     std::printf("outside %.1f s", beyond.moved_s);
     if (beyond.moved_s > 0) std::printf(" (by %.0f mm)", 1e3 * beyond.worst_m);
