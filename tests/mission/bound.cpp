@@ -41,14 +41,21 @@ BeyondBound beyond_bound(const Record& record) {
 
 Stood stood_in_task(const Record& record) {
   Stood stood;
+  bool moved = false;  // in this task: before that it only begins
   bool stands = false;
   for (std::size_t i = 0; i + 1 < record.statuses.size(); ++i) {
     const Status& status = record.statuses[i];
     const bool stood_before = stands;
-    stands = status.nav == "NAV_RUN" && !status.why.empty() && within(record, status.time);
-    if (!stands) continue;
+    stands = false;
+    if (status.nav != "NAV_RUN" || !within(record, status.time)) {
+      moved = false;
+      continue;
+    }
     const TruthLine truth = record.truth_at(status.time);
-    stands = std::abs(truth.vx_mps) <= kMoves_mps && std::abs(truth.wz_radps) <= kTurns_radps;
+    const bool moves =
+        std::abs(truth.vx_mps) > kMoves_mps || std::abs(truth.wz_radps) > kTurns_radps;
+    moved = moved || moves;
+    stands = moved && !moves && !status.why.empty();
     if (!stands) continue;
     stood.for_s += until_next_s(record, i);
     stood.times += stood_before ? 0 : 1;

@@ -19,7 +19,7 @@ struct Stood {
   int times = 0;
 };
 
-/// While a task ran: its base stood and turned no more, and `nav.why` said something.
+/// While a task ran and had moved: its base stood and turned no more, and `nav.why` said something.
 Stood stood_in_task(const Record& record);
 
 }  // namespace drover::mission

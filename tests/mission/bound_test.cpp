@@ -43,7 +43,7 @@ TEST(BeyondItsBound, IsNothingAtRestOrWithoutABound) {
 
 TEST(StoodInATask, IsWhatItStoodForAReasonWhileTheTaskRan) {
   Record record;
-  record.truth = {true_at(0, 0, 0), true_at(2, 0, 0)};
+  record.truth = {true_at(0, 0, 1), true_at(0.05, 0, 1), true_at(0.06, 0, 0), true_at(2, 0, 0)};
   for (int i = 0; i < 10; ++i) {
     Status status = told_at(0.1 * i, 0, 0.1);
     status.nav = i < 8 ? "NAV_RUN" : "NAV_ERROR";
@@ -53,6 +53,8 @@ TEST(StoodInATask, IsWhatItStoodForAReasonWhileTheTaskRan) {
   const Stood stood = stood_in_task(record);
   EXPECT_NEAR(stood.for_s, 0.3, 1e-9);
   EXPECT_EQ(stood.times, 2);
+  record.truth.front().vx_mps = record.truth[1].vx_mps = 0;
+  EXPECT_EQ(stood_in_task(record).times, 0) << "it never moved";
   record.truth = {true_at(0, 0, 0.5), true_at(2, 1, 0.5)};
   EXPECT_EQ(stood_in_task(record).times, 0) << "it drives";
 }
