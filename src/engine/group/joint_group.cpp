@@ -67,6 +67,8 @@ void JointGroup::take(const JointTargets& targets, RequestId::Source source, Tim
     }
   }
   if (!mine) return;
+  // Who names joints in turn pauses for none of them.
+  for (JointServo& joint : joints_) joint.overhear(now);
   ++waiting_;
   sender_ = source == RequestId::Source::ros2 ? GroupOwner::ros2 : GroupOwner::broker;
 }

@@ -29,13 +29,18 @@ bool JointServo::steady(Time now) const {
   return sent(now) && now - steady_since_ >= std::max(kSteadyFor, from_s(rules_.timeout_s));
 }
 
-void JointServo::take(const JointTarget& target, Time now) {
+void JointServo::overhear(Time now) {
   if (said_ != kNever && now - said_ >= kPause) waits_ = false;
+  said_ = now;
+}
+
+void JointServo::take(const JointTarget& target, Time now) {
+  overhear(now);
   if (!sent(now)) {
     gap_ = heard_ == kNever || now - heard_ >= kPause ? Duration{} : now - heard_;
     steady_since_ = now;
   }
-  heard_ = said_ = now;
+  heard_ = now;
   target_ = target;
 }
 

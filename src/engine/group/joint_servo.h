@@ -42,6 +42,8 @@ class JointServo final {
     said_ = now;
     waits_ = waits_ || (engaged_ && heard_ == kNever);
   }
+  /// One that names others of its group: nobody pauses who sends it.
+  void overhear(Time now);
   /// What it follows ends for a cause that lies elsewhere.
   void end(const Reason& why);
 

@@ -18,6 +18,16 @@ class EngineGroupPause : public EngineGroup {
       tick();
     }
   }
+  /// A stream that names this joint alone.
+  void send_one_s(std::size_t joint, double seconds, double position_rad) {
+    for (int i = 0; i < static_cast<int>(seconds * 200 + 0.5); ++i) {
+      JointTargets targets;
+      (void)targets.joints.push_back(
+          {static_cast<AxisId>(first + joint), 0, position_rad, 0, 60, 3});
+      if (i % 2 == 0) rig.command(targets, source);
+      tick();
+    }
+  }
   void estop(bool pressed) { rig.lines[static_cast<std::size_t>(Line::estop)] = pressed; }
   /// It goes on as before, and nothing moves; after a pause it is followed.
   void expect_waits(const char* why) {
@@ -100,6 +110,39 @@ TEST_F(EngineGroupPause, IsNoneWhileNoNumberIsSound) {
     run_s(0.01);
   }
   expect_waits("cancelled");
+}
+
+/// A program that names its joints in turn names each after seconds in which it named others.
+TEST_F(EngineGroupPause, IsNoneWhileOthersOfTheGroupAreNamed) {
+  settle();
+  send_s(3, 0.4);
+  send_one_s(0, 1.5, 0.4);
+  estop(true);
+  send_one_s(0, 0.3, 0.4);
+  estop(false);
+  const std::array was{arm[0].position_rad, arm[1].position_rad};
+  for (int i = 0; i < 3; ++i) {
+    send_one_s(1, 1.5, 1.2);
+    send_one_s(0, 1.5, 1.2);
+  }
+  EXPECT_EQ(told().state, GroupState::holding);
+  EXPECT_EQ(reason(), "pause your commands for a second, then send again: it was stopped");
+  for (std::size_t i = 0; i < arm.size(); ++i) EXPECT_NEAR(arm[i].position_rad, was[i], 0.02) << i;
+  expect_waits("in turn");
+}
+
+/// Nor is it one that a joint was not named yet when all were stopped.
+TEST_F(EngineGroupPause, IsAskedForJointsThatAreNamedOnlyLater) {
+  settle();
+  send_one_s(0, 2, 0.4);
+  estop(true);
+  send_one_s(0, 0.3, 0.4);
+  estop(false);
+  send_one_s(0, 0.5, 0.4);
+  const double was = arm[1].position_rad;
+  send_one_s(1, 3, 1.2);
+  EXPECT_NE(told().state, GroupState::following) << reason();
+  EXPECT_NEAR(arm[1].position_rad, was, 0.02);
 }
 
 /// Nobody was stopped: a hiccup of the broker costs what it lasts.
