@@ -41,6 +41,24 @@ std::vector<bool> JointCommands::named(const JointCommandMessage& message) const
   return groups;
 }
 
+/// What the message tells the joints of a group: of the base, that those it does not name rest.
+/// Others are left as they are.
+JointTargets JointCommands::told(std::size_t group, const JointTargets& targets) const {
+  JointTargets told;
+  for (std::size_t axis = 0; axis < rules_.joints.size(); ++axis) {
+    if (rules_.joints[axis].group != group) continue;
+    const auto named = std::find_if(
+        targets.joints.begin(), targets.joints.end(),
+        [axis](const JointTarget& target) { return std::size_t{target.axis} == axis; });
+    // No more than the robot's joints: it fits.
+    if (named != targets.joints.end())
+      (void)told.joints.push_back(*named);
+    else if (group == 0)
+      (void)told.joints.push_back({static_cast<AxisId>(axis)});
+  }
+  return told;
+}
+
 void JointCommands::take(Group& group, const JointCommandHeard& heard, Time now) {
   if (heard.message.stamp_ns != 0) group.last_stamp_ns = heard.message.stamp_ns;
   group.writers.take(heard.writer, now);
@@ -68,7 +86,7 @@ Result<JointTargets, Reason> JointCommands::judged(const JointCommandHeard& hear
   // All are asked before one takes it: what is refused leaves no other group with its program.
   for (std::size_t i = 0; i < groups.size(); ++i) {
     if (!groups[i]) continue;
-    if (auto why = groups_[i].writers.weigh(writer, *targets, now); !why.empty()) {
+    if (auto why = groups_[i].writers.weigh(writer, told(i, *targets), now); !why.empty()) {
       take(groups_[i], heard, now);  // there its program goes on, and nothing of it is followed
       return why;
     }

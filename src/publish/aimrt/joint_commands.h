@@ -58,6 +58,7 @@ class JointCommands final {
   static void take(Group& group, const JointCommandHeard& heard, Time now);
   Result<JointTargets, Reason> judged(const JointCommandHeard& heard, Time now, Duration wall);
   std::vector<bool> named(const JointCommandMessage& message) const;
+  JointTargets told(std::size_t group, const JointTargets& targets) const;
 
   JointCommandRules rules_;
   std::uint64_t commands_ = 0;

@@ -82,32 +82,31 @@ Reason Writers::hindrance(const Writer& writer, bool rests, Time now) {
   return {};
 }
 
-/// Up and down again within three messages: two programs by turns, one of which may be at rest.
+/// Up and down again within three messages: two programs by turns, one of which may be at rest. Of
+/// a joint that a message does not name it says nothing.
 bool Writers::jumps_to_and_fro(const JointTargets& targets) {
-  Asks now{};
-  for (const auto& joint : targets.joints)
-    now[joint.axis] = {joint.velocity_radps, joint.position_rad};
-  const auto apart = [&now](const std::optional<Asks>& then, std::size_t axis, double radps,
-                            double rad) {
-    return then && (std::abs((*then)[axis].velocity_radps - now[axis].velocity_radps) >= radps ||
-                    std::abs((*then)[axis].position_rad - now[axis].position_rad) >= rad);
+  const auto apart = [](const std::optional<Asked>& then, const Asked& now, double radps,
+                        double rad) {
+    return then && (std::abs(then->velocity_radps - now.velocity_radps) >= radps ||
+                    std::abs(then->position_rad - now.position_rad) >= rad);
   };
-  const auto near = [&](const std::optional<Asks>& then, std::size_t axis) {
-    return then && !apart(then, axis, kSame_radps, kSame_rad);
+  const auto near = [&](const std::optional<Asked>& then, const Asked& now) {
+    return then && !apart(then, now, kSame_radps, kSame_rad);
   };
   bool jumps = false;
-  for (std::size_t axis = 0; axis < now.size(); ++axis) {
-    const bool jump = apart(before_[0], axis, kJump_radps, kJump_rad);
-    jumps = jumps || (jump && (near(before_[1], axis) || near(before_[2], axis)));
+  for (const auto& joint : targets.joints) {
+    const Asked now{joint.velocity_radps, joint.position_rad};
+    Asks& before = before_[joint.axis];
+    const bool jump = apart(before[0], now, kJump_radps, kJump_rad);
+    jumps = jumps || (jump && (near(before[1], now) || near(before[2], now)));
+    before = {now, before[0], before[1]};
   }
-  std::rotate(before_.begin(), before_.end() - 1, before_.end());
-  before_[0] = now;
   return jumps;
 }
 
 Reason Writers::weigh(const Writer& writer, const JointTargets& targets, Time now) {
   const bool goes_on = is_owner(writer);
-  if (!goes_on || now - heard_ > silence_) before_.fill(std::nullopt);
+  if (!goes_on || now - heard_ > silence_) before_.fill({});
   // Two that began together count alike: each number comes twice, and not from one program.
   const bool again = goes_on && writer.sequence == owner_->sequence;
   if (again && writer.stamp_ns != owner_->stamp_ns) counted_twice_ = now;

@@ -38,8 +38,8 @@ class Writers final {
   /// Why a message of `writer` is not followed; empty: nothing here hinders it. `rests`: all its
   /// velocities are 0, as at the beginning of a stream.
   Reason hindrance(const Writer& writer, bool rests, Time now);
-  /// A message that is sound in all other respects. Why it is not followed all the same; empty: it
-  /// may be.
+  /// A message that is sound in all other respects, of the joints that it tells something. Why it
+  /// is not followed all the same; empty: it may be.
   Reason weigh(const Writer& writer, const JointTargets& targets, Time now);
   /// Then: its program has the joints.
   void take(const Writer& writer, Time now);
@@ -54,7 +54,7 @@ class Writers final {
     double velocity_radps = 0;
     double position_rad = 0;
   };
-  using Asks = std::array<Asked, kMaxAxes>;
+  using Asks = std::array<std::optional<Asked>, 3>;  ///< the newest first
 
   bool is_owner(const Writer& writer) const;
   bool jumps_to_and_fro(const JointTargets& targets);
@@ -66,7 +66,7 @@ class Writers final {
   Time heard_ = kNever;
   Time counted_twice_ = kNever;  ///< a number with two time stamps
   bool followed_since_late_ = false;
-  std::array<std::optional<Asks>, 3> before_;  ///< the newest first
+  std::array<Asks, kMaxAxes> before_;  ///< by axis
   /// One program alone is odd now and then, two are all the time.
   TokenBucket oddities_{3, 5};
   std::string text_;

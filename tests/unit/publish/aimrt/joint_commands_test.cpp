@@ -15,7 +15,10 @@ class JointsOfTwoGroups : public testing::Test {
  protected:
   static JointCommandsConfig rules() {
     JointCommandsConfig config;
-    config.rules.joints = {{"left"}, {"elbow", JointFollows::impedance, 1}};
+    config.rules.joints = {{"left"},
+                           {"right"},
+                           {"elbow", JointFollows::impedance, 1},
+                           {"wrist", JointFollows::impedance, 1}};
     return config;
   }
   static JointCommandEntry at(const char* joint, double position_rad) {
@@ -46,6 +49,38 @@ TEST_F(JointsOfTwoGroups, HaveNoNewOwnerInOneByAMessageThatTheOtherRefuses) {
   EXPECT_THAT(say("arm", {at("left", 0), at("elbow", 0)}), HasSubstr("jump to and fro"));
   EXPECT_THAT(say("base", {at("left", 0)}), IsEmpty()) << "nobody was followed there";
   EXPECT_THAT(say("arm", {at("left", 0)}), HasSubstr("two programs write joint commands"));
+}
+
+/// What a message does not name is left as it is, and was not told to go to 0.
+TEST_F(JointsOfTwoGroups, ThatOneProgramNamesInTurnAreFollowed) {
+  for (int i = 0; i < 50; ++i, now_ += 10ms) {
+    EXPECT_THAT(say("", {at("elbow", 0.8)}), IsEmpty()) << i;
+    EXPECT_THAT(say("", {at("wrist", -1)}), IsEmpty()) << i;
+  }
+}
+
+/// Its wheels are no business of the arm's, which it names more often.
+TEST_F(JointsOfTwoGroups, ThatOneProgramNamesUnlikeOftenAreFollowed) {
+  auto left = at("left", 0);
+  EXPECT_THAT(say("", {left}), IsEmpty());
+  left.velocity_radps = 3;
+  for (int i = 0; i < 50; ++i, now_ += 10ms) {
+    EXPECT_THAT(say("", {left, at("elbow", 0.8)}), IsEmpty()) << i;
+    EXPECT_THAT(say("", {at("elbow", 0.8)}), IsEmpty()) << i;
+  }
+}
+
+/// Wheels that a message does not name come to rest: who names one alone stops the other.
+TEST_F(JointsOfTwoGroups, OfTheBaseThatAreNotNamedAreToldToRest) {
+  const auto turns = [](const char* joint) {
+    JointCommandEntry entry;
+    entry.name = joint;
+    entry.velocity_radps = 3;
+    return entry;
+  };
+  std::string last = say("", {at("left", 0)});
+  for (int i = 0; i < 20; ++i, now_ += 10ms) last = say("", {turns(i % 2 == 0 ? "left" : "right")});
+  EXPECT_THAT(last, HasSubstr("jump to and fro"));
 }
 
 }  // namespace
