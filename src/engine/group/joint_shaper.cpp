@@ -160,14 +160,21 @@ void JointShaper::follow_effort(const JointTarget& target, const JointMeasured& 
   if (outwards || faster) effort = 0;
   if (outwards) limited_ |= bit(JointValue::position);
   if (faster) limited_ |= bit(JointValue::velocity);
-  position_rad_ = end_rad;
-  velocity_radps_ = 0;
   const double asked =
       within(JointValue::damping, target.damping_Nmsprad, 0, rules_.drive.damping_Nmsprad);
   const double damping = beyond || fast ? std::max(asked, rules_.damping_Nmsprad) : asked;
+  const double stiffness_before = stiffness_;
   approach_gains(beyond ? rules_.stiffness_Nmprad : 0, damping, effort, dt_s);
   if (beyond || fast) damping_ = damping;
-  tell(0, measured);
+  if (beyond) {
+    // What hangs far out comes back no faster than it may turn.
+    keep_torque(stiffness_before, measured);
+    approach_position(end_rad, 0, rules_.max_velocity_radps, dt_s);
+  } else {
+    position_rad_ = measured.position_rad;
+    velocity_radps_ = 0;
+  }
+  tell(velocity_radps_, measured);
 }
 
 void JointShaper::follow(const JointTarget& target, const JointMeasured& measured, double dt_s) {

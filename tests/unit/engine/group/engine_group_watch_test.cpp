@@ -10,6 +10,7 @@ using ::testing::HasSubstr;
 
 class EngineGroupWatch : public EngineGroup {
  protected:
+  explicit EngineGroupWatch(const EngineConfig& config = arm_config()) : EngineGroup(config) {}
   /// The shoulder alone.
   void ask_s(double seconds, const JointTarget& target) {
     for (int i = 0; i < static_cast<int>(seconds * 200 + 0.5); ++i) {
@@ -121,6 +122,32 @@ TEST_F(EngineGroupWatch, IsNotForWhatComesBackFromBeyondItsEnd) {
   ask_s(4, target(1, 0, -0.5, 60, 3));
   EXPECT_EQ(told().state, GroupState::following) << reason();
   EXPECT_NEAR(arm[0].position_rad, 1, 0.05);
+}
+
+/// As an arm hangs, or was led by hand while nobody held it.
+EngineConfig effort_config() {
+  EngineConfig config = arm_config();
+  for (JointRules& rules : config.groups[0].joints) {
+    rules.follows = JointFollows::effort;
+    rules.min_rad = -0.5;
+    rules.max_effort_Nm = 20;
+    rules.stiffness_Nmprad = 150;
+  }
+  return config;
+}
+
+class EngineGroupEffort : public EngineGroupWatch {
+ protected:
+  EngineGroupEffort() : EngineGroupWatch(effort_config()) {}
+};
+
+TEST_F(EngineGroupEffort, BringsItBackFromBeyondItsEndNoFasterThanItMayTurn) {
+  settle();
+  ASSERT_LT(arm[0].position_rad, -1.3);
+  ask_s(3, target(0, 0, 0, 0, 1));
+  EXPECT_EQ(told().state, GroupState::following) << reason();
+  EXPECT_NEAR(arm[0].position_rad, -0.5, 0.03);
+  EXPECT_LT(fastest_radps, 1.25);
 }
 
 }  // namespace
