@@ -24,6 +24,8 @@ constexpr double kTurned_radps = 0.3;
 constexpr double kBrakes_s = 0.02;  ///< or what its acceleration makes in this, where that is more
 constexpr double kStill_s = 0.014;
 constexpr double kSoon_s = 0.03;
+/// Who told nothing for so long heard nothing either.
+constexpr double kHeldUp_s = 0.03;
 
 }  // namespace
 
@@ -39,7 +41,12 @@ Reason JointTrust::look(const JointMeasured& measured, double since_s, const Imp
   follow(measured, velocity_radps, dt_s);
   Reason why = look_at_sign(measured, wanted_Nm, gives_Nm, dt_s);
   if (why.empty()) why = look_at_motion(measured, since_s);
-  return why.empty() ? look_at_encoder(measured, gives_Nm, dt_s) : why;
+  if (!why.empty()) return why;
+  if (since_s <= kHeldUp_s) return look_at_encoder(measured, gives_Nm, dt_s);
+  // What it was told meanwhile it never gave.
+  stands_rad_ = kAbsent;
+  stands_s_ = 0;
+  return {};
 }
 
 /// What goes with its set point is held to it by a drive that turns the right way.

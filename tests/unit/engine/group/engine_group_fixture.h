@@ -44,10 +44,10 @@ class EngineGroup : public ::testing::Test {
     const Time told = rig.now + kRigTick;
     for (std::size_t i = 0; i < arm.size(); ++i) {
       const auto axis = static_cast<AxisId>(first + i);
-      arm[i].obey(guards ? AxisCommand{} : rig.out.axes[axis]);
+      if (!deaf) arm[i].obey(guards ? AxisCommand{} : rig.out.axes[axis]);
       for (int k = 0; k < 5; ++k) arm[i].step(to_s(kRigTick) / 5);
       rig.environment.axes[axis].state = silent[i] ? SourceState::stale : SourceState::fresh;
-      if (silent[i]) continue;
+      if (silent[i] || mute) continue;
       measure(told, AxisMotion{axis, arm[i].told_rad(), arm[i].told_radps(), arm[i].torque_Nm});
       measure(told, AxisStatus{axis, arm[i].state},
               arm[i].state == AxisState::fault ? "too hot" : "");
@@ -96,6 +96,8 @@ class EngineGroup : public ::testing::Test {
   std::array<bool, kArmNames.size()> silent{};
   RequestId::Source source = RequestId::Source::aimrt;  ///< of what is sent
   bool guards = false;                                  ///< the guard commands the drives
+  bool deaf = false;  ///< what the drives are told waits on their line
+  bool mute = false;  ///< and so does what they tell, not long enough to be missed
 
  private:
   template <class Value>

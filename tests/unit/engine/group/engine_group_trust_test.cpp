@@ -11,7 +11,7 @@ using ::testing::HasSubstr;
 
 class EngineGroupTrust : public EngineGroup {
  protected:
-  EngineGroupTrust() {
+  explicit EngineGroupTrust(const EngineConfig& config = arm_config()) : EngineGroup(config) {
     for (ArmJoint& joint : arm) joint.weight_Nm = 0;
   }
   void watch_s(double seconds, double position_rad, double stiffness = 60) {
@@ -129,6 +129,38 @@ TEST_F(EngineGroupTrust, BelievesAJointThatCameToRestWhileNoCycleWasRun) {
   rig.now += std::chrono::seconds(1);
   run_s(0.5);
   EXPECT_EQ(said("its encoder stands still"), 0) << reason();
+}
+
+/// Of which no effort is kept.
+class EngineGroupOfLightJoints : public EngineGroupTrust {
+ protected:
+  EngineGroupOfLightJoints() : EngineGroupTrust(light_config()) {}
+  static EngineConfig light_config() {
+    EngineConfig config = arm_config();
+    for (JointRules& rules : config.groups[0].joints) rules.carries_weight = false;
+    return config;
+  }
+};
+
+/// What it was told meanwhile it did not hear: that was not the torque it stands against.
+TEST_F(EngineGroupOfLightJoints, BelievesAJointThatCameToRestWhileItsLineWasHeldUp) {
+  settle();
+  watch_s(1, -1.45);
+  watch_s(0.5, 0.5);
+  ASSERT_EQ(told().state, GroupState::following) << reason();
+  ASSERT_GT(arm[1].velocity_radps, 0.5);
+  deaf = mute = true;
+  watch_s(0.09, 0.5);
+  arm[1].rests = true;
+  arm[1].velocity_radps = 0;
+  mute = false;
+  rig.command(CancelTask{});
+  tick();
+  deaf = false;
+  run_s(1);
+  EXPECT_EQ(said("stands to the bit"), 0);
+  EXPECT_EQ(said("stood to the bit"), 0);
+  EXPECT_EQ(told().state, GroupState::holding) << reason();
 }
 
 TEST_F(EngineGroupTrust, BelievesAJointThatRunsIntoItsStop) {
