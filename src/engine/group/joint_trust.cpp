@@ -24,6 +24,8 @@ constexpr double kTurned_radps = 0.3;
 constexpr double kBrakes_s = 0.02;  ///< or what its acceleration makes in this, where that is more
 constexpr double kStill_s = 0.014;
 constexpr double kSoon_s = 0.03;
+constexpr double kLastStep = 1e-5;  ///< of a range: less than its drive can tell
+constexpr double kApart_rad = 0.02;
 /// Who told nothing for so long heard nothing either.
 constexpr double kHeldUp_s = 0.03;
 
@@ -38,6 +40,7 @@ Reason JointTrust::look(const JointMeasured& measured, double since_s, const Imp
   const double wanted_Nm = told.effort_Nm + told.damping_Nmsprad * velocity_radps +
                            told.stiffness_Nmprad * (told.position_rad - measured.position_rad);
   const double gives_Nm = wanted_Nm - told.damping_Nmsprad * measured.velocity_radps;
+  if (const Reason beyond = look_at_range(measured); !beyond.empty()) return beyond;
   follow(measured, velocity_radps, dt_s);
   Reason why = look_at_sign(measured, wanted_Nm, gives_Nm, dt_s);
   if (why.empty()) why = look_at_motion(measured, since_s);
@@ -47,6 +50,24 @@ Reason JointTrust::look(const JointMeasured& measured, double since_s, const Imp
   stands_rad_ = kAbsent;
   stands_s_ = 0;
   return {};
+}
+
+/// A drive tells the end of its range of all that lies beyond it, too, and keeps its own law about
+/// where the joint truly is. A limit that stands there itself says that nothing does.
+Reason JointTrust::look_at_range(const JointMeasured& measured) const {
+  const double low_rad = rules_.drive.min_rad;
+  const double high_rad = rules_.drive.max_rad;
+  const double step_rad = kLastStep * (high_rad - low_rad);
+  Reason why;
+  if (!std::isfinite(step_rad)) return why;
+  const bool low =
+      low_rad < rules_.min_rad - kApart_rad && measured.position_rad < low_rad + step_rad;
+  const bool high =
+      high_rad > rules_.max_rad + kApart_rad && measured.position_rad > high_rad - step_rad;
+  if (low || high)
+    why.format("its drive tells the end of its range, %.2f rad: where it is is not known",
+               measured.position_rad);
+  return why;
 }
 
 /// What goes with its set point is held to it by a drive that turns the right way.

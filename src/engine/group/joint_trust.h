@@ -32,6 +32,7 @@ class JointTrust final {
   Reason look_at_sign(const JointMeasured& measured, double wanted_Nm, double gives_Nm,
                       double dt_s);
   Reason look_at_encoder(const JointMeasured& measured, double gives_Nm, double dt_s);
+  Reason look_at_range(const JointMeasured& measured) const;
   bool stands(const JointMeasured& measured) const;
   Reason look_at_motion(const JointMeasured& measured, double since_s);
 

@@ -1,6 +1,7 @@
 // A joint with a weight behind a drive that keeps an impedance law, for tests of what commands it.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "drover/actuator.h"
@@ -16,10 +17,11 @@ struct ArmJoint {
   double friction_Nms = 0.05;
   double damps_Nmsprad = 1;  ///< of its drive, told to rest
 
-  bool wrong_way = false;  ///< its drive's torque
-  bool stands = false;     ///< its encoder: its drive measures no motion any more
-  bool rests = false;      ///< nothing of it moves, whatever its drive does
-  double stop_rad = 10;    ///< an end that gives way a little
+  bool wrong_way = false;   ///< its drive's torque
+  bool stands = false;      ///< its encoder: its drive measures no motion any more
+  double least_rad = -1e9;  ///< that it can tell
+  bool rests = false;       ///< nothing of it moves, whatever its drive does
+  double stop_rad = 10;     ///< an end that gives way a little
 
   double position_rad = 0;
   double velocity_radps = 0;
@@ -35,9 +37,11 @@ struct ArmJoint {
 
   /// As its drive measures.
   double told_rad() {
-    if (!stands) stood_rad = position_rad;
+    if (!stands) stood_rad = std::max(position_rad, least_rad);
     return stood_rad;
   }
+  /// As its own law has it.
+  double is_rad() { return stands ? stood_rad : position_rad; }
   double told_radps() const { return stands ? 0 : velocity_radps; }
 
   void obey(const AxisCommand& command) {
@@ -62,7 +66,7 @@ struct ArmJoint {
         state == AxisState::arming && damps_while_arming ? -damps_Nmsprad * velocity_radps : 0;
     if (state != AxisState::running) return;
     const Impedance& law = command.impedance;
-    torque_Nm = armed ? law.stiffness_Nmprad * (law.position_rad - told_rad()) +
+    torque_Nm = armed ? law.stiffness_Nmprad * (law.position_rad - is_rad()) +
                             law.damping_Nmsprad * (command.velocity_radps - told_radps()) +
                             law.effort_Nm
                       : -damps_Nmsprad * told_radps();

@@ -163,6 +163,38 @@ TEST_F(EngineGroupOfLightJoints, BelievesAJointThatCameToRestWhileItsLineWasHeld
   EXPECT_EQ(told().state, GroupState::holding) << reason();
 }
 
+/// Its drive tells positions within a range alone, and at its end those beyond it, too.
+class EngineGroupOfSmallRanges : public EngineGroupTrust {
+ protected:
+  EngineGroupOfSmallRanges() : EngineGroupTrust(small_config()) {}
+  static EngineConfig small_config() {
+    EngineConfig config = arm_config();
+    for (JointRules& rules : config.groups[0].joints) {
+      rules.min_rad = -1.6;
+      rules.max_rad = 1.5;
+      rules.drive.min_rad = -1.7;
+      rules.drive.max_rad = 1.7;
+    }
+    return config;
+  }
+};
+
+TEST_F(EngineGroupOfSmallRanges, DoNotHoldOrMoveAJointWhereNobodyKnowsWhereItIs) {
+  arm[1].least_rad = -1.7;
+  arm[1].position_rad = -2.5;  // somebody turned it there
+  settle();
+  watch_s(2, -1);
+  EXPECT_LT(fastest_radps, 0.1);
+  EXPECT_LT(hardest_Nm, 1) << "its neighbour begins, and is held";
+  EXPECT_NE(told().state, GroupState::following);
+  EXPECT_THAT(reason(), HasSubstr("elbow: its drive tells the end of its range, -1.70 rad"));
+  run_s(1.2);
+  arm[1].position_rad = -1.5;
+  watch_s(2, -1);
+  EXPECT_EQ(told().state, GroupState::following) << reason();
+  EXPECT_NEAR(arm[1].position_rad, -1, 0.05);
+}
+
 TEST_F(EngineGroupTrust, BelievesAJointThatRunsIntoItsStop) {
   settle();
   watch_s(1.5, -1);
